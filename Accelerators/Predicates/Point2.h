@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPoint2_h
+#define tippPoint2_h
+
+namespace tipp
+{
+
+struct Point2
+{
+  double x;
+  double y;
+};
+
+inline bool operator==(Point2 a, Point2 b)
+{
+  return a.x == b.x && a.y == b.y;
+}
+
+// The order that every tie rule of the project stands on.
+inline bool lexicographicLess(Point2 a, Point2 b)
+{
+  return a.x < b.x || (a.x == b.x && a.y < b.y);
+}
+
+} // namespace tipp
+
+#endif

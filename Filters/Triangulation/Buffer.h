@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippBuffer_h
+#define tippBuffer_h
+
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+#include <sys/mman.h>
+
+namespace tipp
+{
+
+/// An uninitialised array whose memory can be handed over (free() releases it). Large ones ask
+/// for huge pages: first touch of 4 KiB pages would cost more than writing them.
+template <typename T>
+class Buffer
+{
+public:
+  Buffer() = default;
+  explicit Buffer(std::size_t size)
+    : Data(allocate(size))
+    , Size(size)
+  {
+  }
+
+  T* data() { return this->Data.get(); }
+  const T* data() const { return this->Data.get(); }
+  std::size_t size() const { return this->Size; }
+  bool empty() const { return this->Size == 0; }
+  T& operator[](std::size_t i) { return this->Data.get()[i]; }
+  const T& operator[](std::size_t i) const { return this->Data.get()[i]; }
+  T* begin() { return this->data(); }
+  T* end() { return this->data() + this->Size; }
+  const T* begin() const { return this->data(); }
+  const T* end() const { return this->data() + this->Size; }
+
+  /// Keeps the first `size` elements.
+  void truncate(std::size_t size) { this->Size = size; }
+
+  /// The caller owns the memory and frees it with free().
+  T* release()
+  {
+    this->Size = 0;
+    return this->Data.release();
+  }
+
+private:
+  struct Free
+  {
+    void operator()(T* memory) const { std::free(memory); }
+  };
+
+  static T* allocate(std::size_t size)
+  {
+    constexpr std::size_t hugePage = std::size_t(1) << 21;
+    if (size == 0)
+    {
+      return nullptr;
+    }
+    const std::size_t bytes = size * sizeof(T);
+    if (bytes < 4 * hugePage)
+    {
+      void* memory = std::malloc(bytes);
+      return memory ? static_cast<T*>(memory) : throw std::bad_alloc();
+    }
+    void* memory = nullptr;
+    if (posix_memalign(&memory, hugePage, bytes) != 0)
+    {
+      throw std::bad_alloc();
+    }
+    madvise(memory, bytes, MADV_HUGEPAGE);
+    return static_cast<T*>(memory);
+  }
+
+  std::unique_ptr<T, Free> Data;
+  std::size_t Size = 0;
+};
+
+} // namespace tipp
+
+#endif

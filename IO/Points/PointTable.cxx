@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Points/PointTable.h"
+
+namespace tipp
+{
+
+std::size_t PointTable::size() const
+{
+  return this->xy.size() / 2;
+}
+
+} // namespace tipp
