@@ -14,7 +14,7 @@ using Vector = Random::Pair;
 constexpr double extent = 40;       // degrees across
 constexpr double continent = 8;     // radius of the largest shoreline, degrees
 constexpr double roughness = 0.2;   // standard deviation of a midpoint's displacement / edge length
-constexpr double unevenness = 0.38; // an edge's points are split between its halves 0.5 +- this
+constexpr double unevenness = 0.32; // an edge's points are split between its halves 0.5 +- this
 constexpr int continents = 6;
 constexpr int corners = 6; // of a shoreline before it is subdivided
 
