@@ -2,6 +2,7 @@
 #include "Meshes/ReadMesh.h"
 
 #include "Adcirc/AdcircGrid.h"
+#include "Files/Extension.h"
 #include "Files/IOError.h"
 #include "Npy/NpyFile.h"
 #include "Points/DataSetPoints.h"

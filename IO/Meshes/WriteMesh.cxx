@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes/WriteMesh.h"
 
+#include "Files/Extension.h"
 #include "Files/IOError.h"
 #include "Files/PendingFile.h"
 #include "Meshes/MeshDataSet.h"
 #include "Npy/NpyFile.h"
 #include "Vtk/ErrorKeeper.h"
-#include "Vtk/ReadDataSet.h"
 
 #include "vtkNew.h"
 #include "vtkPolyData.h"

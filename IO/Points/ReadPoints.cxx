@@ -2,6 +2,7 @@
 #include "Points/ReadPoints.h"
 
 #include "Adcirc/AdcircGrid.h"
+#include "Files/Extension.h"
 #include "Files/IOError.h"
 #include "Points/DataSetPoints.h"
 #include "Points/NpyPoints.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Vtk/ReadDataSet.h"
 
+#include "Files/Extension.h"
 #include "Files/IOError.h"
 #include "Vtk/ErrorKeeper.h"
 
@@ -23,7 +24,6 @@
 #include "vtkXMLUnstructuredGridReader.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <map>
 #include <type_traits>
@@ -82,16 +82,6 @@ const std::map<std::string, ReadFunction>& readFunctions()
 }
 
 } // namespace
-
-std::string extensionOf(const std::string& path)
-{
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(),
-    extension.end(),
-    extension.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 bool isVtkFile(const std::string& path)
 {

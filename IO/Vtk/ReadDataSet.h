@@ -19,9 +19,6 @@ VTKTIPPIO_EXPORT bool isVtkFile(const std::string& path);
 /// Reads a data set with VTK's readers; throws IOError with VTK's own words if they fail.
 VTKTIPPIO_EXPORT vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path);
 
-/// In lower case with its dot, as ".vtp"; empty if there is none.
-std::string extensionOf(const std::string& path);
-
 } // namespace tipp
 
 #endif
