@@ -72,7 +72,7 @@ void setPoints(const PointTable& table,
   if (!representatives.empty())
   {
     const auto array = borrow<vtkTypeInt64Array>(representatives.data(), representatives.size());
-    array->SetName("Representative");
+    array->SetName("RepresentativePointId");
     data->GetPointData()->AddArray(array);
   }
 }

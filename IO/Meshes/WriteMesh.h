@@ -16,7 +16,7 @@ namespace tipp
 
 struct MeshOptions
 {
-  /// One id a point, written as the point array "Representative"; empty: no such array.
+  /// One id a point, written as the point array "RepresentativePointId"; empty: no such array.
   std::vector<std::int64_t> Representatives;
   /// Asked when all is written under a temporary name; true drops it.
   std::function<bool()> Aborted;
