@@ -15,7 +15,7 @@ slow=no
 large=no
 
 usage() {
-  sed -n 's/^# \{0,1\}//; 2,4p' "$0" | tail -n +2 >&2
+  sed -n 's/^# \{0,1\}//; 3,5p' "$0" >&2
   exit 2
 }
 
