@@ -13,10 +13,7 @@ namespace test
 struct Box
 {
   double XMin, YMin, XMax, YMax;
-  bool holds(double x, double y) const
-  {
-    return XMin <= x && x <= XMax && YMin <= y && y <= YMax;
-  }
+  bool holds(double x, double y) const { return XMin <= x && x <= XMax && YMin <= y && y <= YMax; }
 };
 
 /// In rational arithmetic: the sign of |centre - p|^2 - radius^2 for the circle through the

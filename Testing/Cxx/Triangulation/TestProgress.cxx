@@ -58,14 +58,14 @@ TEST_P(Abort, EndsTheRunEarlyWithoutTriangles)
   EXPECT_LE(calls, 4) << "the run was told to end and asked again";
 }
 
-INSTANTIATE_TEST_SUITE_P(Runs, Abort,
-  testing::Combine(
-    testing::Values(Schedule::Stages, Schedule::Dynamic), testing::Values(1, 2, 4)),
+INSTANTIATE_TEST_SUITE_P(Runs,
+  Abort,
+  testing::Combine(testing::Values(Schedule::Stages, Schedule::Dynamic), testing::Values(1, 2, 4)),
   [](const auto& info)
   {
     const auto [schedule, threads] = info.param;
     return std::string(schedule == Schedule::Stages ? "Stages" : "Dynamic") +
-      std::to_string(threads);
+           std::to_string(threads);
   });
 
 TEST(Abort, AtOnceIsHeard)
