@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Comparison.h"
 
+#include <algorithm>
 #include <atomic>
 
 namespace
@@ -58,17 +59,18 @@ TEST_P(Abort, EndsTheRunEarlyWithoutTriangles)
   EXPECT_LE(calls, 4) << "the run was told to end and asked again";
 }
 
-INSTANTIATE_TEST_SUITE_P(Runs,
-  Abort,
-  testing::Combine(testing::Values(Schedule::Stages, Schedule::Dynamic), testing::Values(1, 2, 4)),
-  [](const auto& info)
-  {
-    const auto [schedule, threads] = info.param;
-    return std::string(schedule == Schedule::Stages ? "Stages" : "Dynamic") +
-           std::to_string(threads);
-  });
+std::string nameOf(const testing::TestParamInfo<Abort::ParamType>& info)
+{
+  const auto [schedule, threads] = info.param;
+  return (schedule == Schedule::Stages ? "Stages" : "Dynamic") + std::to_string(threads);
+}
 
-TEST(Abort, AtOnceIsHeard)
+INSTANTIATE_TEST_SUITE_P(Runs, Abort,
+  testing::Combine(
+    testing::Values(Schedule::Stages, Schedule::Dynamic), testing::Values(1, 2, 4)),
+  nameOf);
+
+TEST(AbortedRun, AtOnceIsHeard)
 {
   const Coordinates xy = makePointSet("uniform", 50000);
   TriangulationOptions options = withPartitions();
@@ -76,7 +78,7 @@ TEST(Abort, AtOnceIsHeard)
   EXPECT_TRUE(triangulate(view(xy), options).Aborted);
 }
 
-TEST(Abort, LeavesTheNextRunAlone)
+TEST(AbortedRun, LeavesTheNextRunAlone)
 {
   const Coordinates xy = makePointSet("uniform", 5000);
   TriangulationOptions options = withPartitions();

@@ -27,7 +27,7 @@ class FewPoints : public testing::TestWithParam<int>
 TEST_P(FewPoints, AreTriangulatedAsByCgal)
 {
   // On a 4 x 4 lattice: with duplicates, ties and collinear points.
-  std::mt19937_64 random(std::uint64_t(GetParam()));
+  std::mt19937_64 random(static_cast<std::uint64_t>(GetParam()));
   for (int draw = 0; draw < 200; ++draw)
   {
     Coordinates xy;

@@ -2,6 +2,8 @@
 // Points where they lie: single precision, and coordinates that are not side by side.
 #include "Comparison.h"
 
+#include <cmath>
+
 namespace
 {
 
