@@ -14,8 +14,8 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter)
 
-SIZE = 640  # pixels of one square view
-CLOSE_UP_POINTS = 2500
+SIZE = 560  # pixels of one square view
+CLOSE_UP_POINTS = 4000
 DARK = (0.03, 0.05, 0.12)
 
 
@@ -34,30 +34,30 @@ def longest_edges(xy, triangles):
     return np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
 
 
-def colours(low, high):
-    """Dark blue for long edges over green to pale yellow for short ones."""
+def colours(half):
+    """Dark blue for edges a third of a view long, over green to pale yellow for a pixel or two."""
     stops = np.array([(1.0, 0.98, 0.75), (0.55, 0.85, 0.35), (0.05, 0.55, 0.50),
                       (0.07, 0.28, 0.48), (0.06, 0.12, 0.28)])
     table = vtkLookupTable()
     table.SetNumberOfTableValues(256)
-    table.SetTableRange(low, high)
+    table.SetTableRange(np.log10(2 * half / SIZE), np.log10(2 * half / 3))
     for i, place in enumerate(np.linspace(0, len(stops) - 1, 256)):
         rgb = [np.interp(place, range(len(stops)), stops[:, k]) for k in range(3)]
         table.SetTableValue(i, *rgb, 1.0)
     return table
 
 
-def view(mesh, table, centre, half, left, edges):
+def view(mesh, centre, half, left, edges):
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(mesh)
-    mapper.SetLookupTable(table)
+    mapper.SetLookupTable(colours(half))
     mapper.UseLookupTableScalarRangeOn()
     actor = vtkActor()
     actor.SetMapper(mapper)
     actor.GetProperty().LightingOff()
     if edges:
         actor.GetProperty().EdgeVisibilityOn()
-        actor.GetProperty().SetEdgeColor(*DARK)
+        actor.GetProperty().SetEdgeColor(0.35, 0.62, 0.62)
     renderer = vtkRenderer()
     renderer.SetViewport(left, 0.0, left + 0.5, 1.0)
     renderer.SetBackground(*DARK)
@@ -90,7 +90,6 @@ def main():
     triangles = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
     lengths = np.log10(longest_edges(xy, triangles))
     mesh.GetCellData().SetScalars(numpy_to_vtk(lengths, deep=True))
-    table = colours(*np.percentile(lengths, (2, 99.5)))
 
     low, high = xy.min(axis=0), xy.max(axis=0)
     centre, half = close_up(xy)
@@ -98,8 +97,8 @@ def main():
     window.SetOffScreenRendering(1)
     window.SetSize(2 * SIZE, SIZE)
     window.SetMultiSamples(8)
-    window.AddRenderer(view(mesh, table, (low + high) / 2, (high - low).max() / 2, 0.0, False))
-    window.AddRenderer(view(mesh, table, centre, half, 0.5, True))
+    window.AddRenderer(view(mesh, (low + high) / 2, 0.52 * (high - low).max(), 0.0, False))
+    window.AddRenderer(view(mesh, centre, half, 0.5, True))
     window.Render()
 
     image = vtkWindowToImageFilter()
