@@ -16,3 +16,7 @@ install(
   FILES "${CMAKE_BINARY_DIR}/TIPPConfig.cmake" "${CMAKE_BINARY_DIR}/TIPPConfigVersion.cmake"
   DESTINATION "${tipp_package_destination}")
 install(FILES LICENSE CITATION.cff DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+
+file(RELATIVE_PATH tipp_tool_to_libraries
+  "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
+set_target_properties(tipp PROPERTIES INSTALL_RPATH "$ORIGIN/${tipp_tool_to_libraries}")
