@@ -11,6 +11,7 @@ endif ()
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR}")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
+
 option(TIPP_WARNINGS_AS_ERRORS "Treat the compiler's warnings as errors" OFF)
 set(TIPP_SANITIZE "" CACHE STRING "Sanitizers to build with, as for -fsanitize=")
 
