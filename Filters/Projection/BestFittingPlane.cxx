@@ -20,6 +20,20 @@ bool isFinite(const double p[3])
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }
 
+bool isFinite(vtkPoints* points)
+{
+  bool finite = true;
+  const vtkIdType count = points->GetNumberOfPoints();
+#pragma omp parallel for reduction(&& : finite)
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    double p[3];
+    points->GetPoint(i, p);
+    finite = finite && isFinite(p);
+  }
+  return finite;
+}
+
 vtkSmartPointer<vtkPoints> finitePoints(vtkPoints* points)
 {
   auto finite = vtkSmartPointer<vtkPoints>::New();
@@ -44,18 +58,15 @@ vtkSmartPointer<vtkTransform> bestFittingPlane(vtkPoints* points)
   {
     return nullptr;
   }
+  vtkSmartPointer<vtkPoints> finite = isFinite(points) ? points : finitePoints(points);
+  if (finite->GetNumberOfPoints() == 0)
+  {
+    return nullptr;
+  }
   double origin[3];
   double normal[3];
-  vtkPlane::ComputeBestFittingPlane(points, origin, normal);
-  if (!isFinite(origin) || !isFinite(normal))
-  {
-    const vtkSmartPointer<vtkPoints> finite = finitePoints(points);
-    if (finite->GetNumberOfPoints() == 0)
-    {
-      return nullptr;
-    }
-    vtkPlane::ComputeBestFittingPlane(finite, origin, normal);
-  }
+  vtkPlane::ComputeBestFittingPlane(finite, origin, normal);
+
   const double up[3] = { 0, 0, 1 };
   double axis[3];
   vtkMath::Cross(normal, up, axis);
