@@ -85,7 +85,7 @@ struct Counterexample
   Box Q{ -0.1, -0.82, 0.1, -0.62 };
 };
 
-TEST(Independence, NoCommonDiskIsNotEnough)
+TEST(ConflictRule, NoCommonDiskIsNotEnough)
 {
   const Counterexample example;
   const Triangles mesh = delaunay(example.XY, example.Inserted);
@@ -104,7 +104,7 @@ TEST(Independence, NoCommonDiskIsNotEnough)
   EXPECT_EQ(1u, edgesOf(delaunay(example.XY, both)).count(edge));
 }
 
-TEST(Independence, ACommonEdgeShowsTheConflict)
+TEST(ConflictRule, ACommonEdgeShowsTheConflict)
 {
   const Counterexample example;
   const Triangles mesh = delaunay(example.XY, example.Inserted);
@@ -121,47 +121,111 @@ Box randomBox(std::mt19937_64& random)
   return { x, y, x + 0.02 + 0.18 * unit(), y + 0.02 + 0.18 * unit() };
 }
 
-/// `count` points on a lattice of `steps` x `steps` in the box, none of them there before.
-Ids addPoints(Coordinates& xy, const Box& box, std::mt19937_64& random, int count)
+/// An initial mesh, two boxes, and the points of each.
+struct Draw
 {
-  Ids ids;
-  for (int i = 0; i < count; ++i)
+  Coordinates XY;
+  Ids Inserted;
+  Box Boxes[2];
+  Ids Points[2];
+
+  std::int64_t add(double x, double y)
   {
-    const double x = box.XMin + (box.XMax - box.XMin) * double(random() >> 11) * 0x1p-53;
-    const double y = box.YMin + (box.YMax - box.YMin) * double(random() >> 11) * 0x1p-53;
-    ids.push_back(std::int64_t(xy.size() / 2));
-    xy.insert(xy.end(), { x, y });
+    this->XY.insert(this->XY.end(), { x, y });
+    return std::int64_t(this->XY.size() / 2) - 1;
   }
-  return ids;
+};
+
+Draw drawUniform(std::mt19937_64& random)
+{
+  Draw draw;
+  const Scene scene = makeScene("uniform", 60, 1, 1, 0.5, random());
+  draw.XY = scene.XY;
+  draw.Inserted = scene.initialMesh();
+  for (int i = 0; i < 2; ++i)
+  {
+    const Box box = draw.Boxes[i] = randomBox(random);
+    for (int n = 0; n < 12; ++n)
+    {
+      const double x = box.XMin + (box.XMax - box.XMin) * double(random() >> 11) * 0x1p-53;
+      const double y = box.YMin + (box.YMax - box.YMin) * double(random() >> 11) * 0x1p-53;
+      draw.Points[i].push_back(draw.add(x, y));
+    }
+  }
+  return draw;
 }
 
-TEST(Independence, PartitionsWithoutACommonEdgeCommute)
+/// Co-circular points everywhere, and disks that touch boxes.
+Draw drawLattice(std::mt19937_64& random)
+{
+  Draw draw;
+  std::set<std::pair<int, int>> used;
+  const auto add = [&](Ids& ids, int x, int y)
+  {
+    if (used.emplace(x, y).second)
+    {
+      ids.push_back(draw.add(x, y));
+    }
+  };
+  for (const int x : { -7, 19 })
+  {
+    add(draw.Inserted, x, -7);
+    add(draw.Inserted, x, 19);
+  }
+  for (int n = 0; n < 55; ++n)
+  {
+    const int x = int(random() % 13);
+    add(draw.Inserted, x, int(random() % 13));
+  }
+  for (int i = 0; i < 2; ++i)
+  {
+    const int x = int(random() % 11);
+    const int y = int(random() % 11);
+    draw.Boxes[i] = { double(x), double(y), double(x + 2), double(y + 1) };
+    for (int n = 0; n < 6; ++n)
+    {
+      add(draw.Points[i], x + n % 3, y + n / 3);
+    }
+  }
+  return draw;
+}
+
+using Drawing = Draw (*)(std::mt19937_64&);
+
+class Independence : public testing::TestWithParam<Drawing>
+{
+};
+
+TEST_P(Independence, PartitionsWithoutACommonEdgeCommute)
 {
   std::mt19937_64 random(11);
   int pairs = 0;
-  for (int draw = 0; draw < 400; ++draw)
+  for (int n = 0; n < 600; ++n)
   {
-    Scene scene = makeScene("uniform", 60, 1, 1, 0.5, std::uint64_t(draw));
-    const Box boxes[2] = { randomBox(random), randomBox(random) };
-    const Ids inserted = scene.initialMesh();
-    const Triangles mesh = delaunay(scene.XY, inserted);
-    if (shareAnEdge(belonging(scene.XY, mesh, boxes[0]), belonging(scene.XY, mesh, boxes[1])))
+    const Draw draw = GetParam()(random);
+    const Triangles mesh = delaunay(draw.XY, draw.Inserted);
+    if (shareAnEdge(
+          belonging(draw.XY, mesh, draw.Boxes[0]), belonging(draw.XY, mesh, draw.Boxes[1])))
     {
       continue;
     }
     ++pairs;
-    const Ids points[2] = { addPoints(scene.XY, boxes[0], random, 12),
-      addPoints(scene.XY, boxes[1], random, 12) };
-    const Triangles both = delaunay(scene.XY, together(together(inserted, points[0]), points[1]));
+    const Ids all = together(together(draw.Inserted, draw.Points[0]), draw.Points[1]);
+    const Triangles both = delaunay(draw.XY, all);
     for (int i = 0; i < 2; ++i)
     {
-      const Triangles alone = delaunay(scene.XY, together(inserted, points[i]));
+      const Triangles alone = delaunay(draw.XY, together(draw.Inserted, draw.Points[i]));
       ASSERT_TRUE(sameTriangles(
-        scene.XY, belonging(scene.XY, both, boxes[i]), belonging(scene.XY, alone, boxes[i])))
-        << "draw " << draw;
+        draw.XY, belonging(draw.XY, both, draw.Boxes[i]), belonging(draw.XY, alone, draw.Boxes[i])))
+        << "draw " << n;
     }
   }
   EXPECT_GT(pairs, 100) << "too few independent pairs to say anything";
 }
+
+INSTANTIATE_TEST_SUITE_P(Meshes,
+  Independence,
+  testing::Values(drawUniform, drawLattice),
+  [](const auto& info) { return info.index == 0 ? "Uniform" : "Lattice"; });
 
 } // namespace

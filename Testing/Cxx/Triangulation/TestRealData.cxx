@@ -37,9 +37,8 @@ TEST(RealData, TheNodesOfEC95dGiveItsMeshBack)
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
   const AdcircMesh mesh = readAdcirc(path);
   const Triangles triangles = trianglesOf(triangulate(view(mesh.Nodes), twoThreads()));
-  // 2 n - 2 - h: as doubles 36 of the 31,435 nodes lie on the hull's border, one of them amid a side.
-  // (Of the four nodes at 60.041 W, which are collinear as decimals, one falls inside by rounding.
-  // A triangulation with 62,833 triangles has a clockwise or an empty one there.)
+  // 2 n - 2 - h: as doubles, 36 of the 31,435 nodes lie on the hull's border, one of them amid a
+  // side. (With 62,833 triangles, one would be without area.)
   EXPECT_EQ(62832u, triangles.size());
   // One element at the open boundary is not Delaunay.
   EXPECT_EQ(std::vector<std::size_t>{ 58167 }, lackingElements(mesh, triangles));
