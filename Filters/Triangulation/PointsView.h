@@ -36,7 +36,34 @@ public:
                          : Point2{ this->Floats[at], this->Floats[at + 1] };
   }
 
+  /// visit(index, point) for begin <= index < end, in order.
+  template <typename Visit>
+  void forEach(std::size_t begin, std::size_t end, Visit&& visit) const
+  {
+    if (this->Doubles)
+    {
+      scan(this->Doubles, this->Stride, begin, end, visit);
+    }
+    else
+    {
+      scan(this->Floats, this->Stride, begin, end, visit);
+    }
+  }
+
 private:
+  template <typename Scalar, typename Visit>
+  static void scan(const Scalar* scalars,
+    std::size_t stride,
+    std::size_t begin,
+    std::size_t end,
+    Visit& visit)
+  {
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      visit(i, Point2{ scalars[i * stride], scalars[i * stride + 1] });
+    }
+  }
+
   const double* Doubles = nullptr;
   const float* Floats = nullptr;
   std::size_t Count = 0;

@@ -1,56 +1,272 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation/Triangulate.h"
 
-#include <CGAL/Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include "Triangulation/DegenerateInput.h"
+#include "Triangulation/HullRepair.h"
+#include "Triangulation/InitialMesh.h"
+#include "Triangulation/Master.h"
+#include "Triangulation/PointBuckets.h"
+#include "Triangulation/Stopwatch.h"
+#include "Triangulation/TriangleSink.h"
+#include "Triangulation/Worker.h"
 
-#include <cmath>
+#include <omp.h>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace tipp
 {
-
-Triangulation triangulate(PointsView points, const TriangulationOptions&)
+namespace
 {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using Vertex = CGAL::Triangulation_vertex_base_with_info_2<PointId, Kernel>;
-  using Structure = CGAL::Triangulation_data_structure_2<Vertex>;
-  using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, Structure>;
 
-  Triangulation result;
-  Delaunay mesh;
-  for (std::size_t i = 0; i < points.size(); ++i)
+template <typename Id>
+Buffer<Id>& idsOf(Triangulation& result);
+template <>
+Buffer<std::int32_t>& idsOf(Triangulation& result)
+{
+  return result.Ids32;
+}
+template <>
+Buffer<std::int64_t>& idsOf(Triangulation& result)
+{
+  return result.Ids64;
+}
+
+/// One run of the algorithm, step by step.
+template <typename Id>
+class Run
+{
+public:
+  Run(PointsView points, const TriangulationOptions& options, Triangulation& result)
+    : Points(points)
+    , Options(options)
+    , Result(result)
+    , Threads(result.Statistics.Threads)
   {
-    const Point2 p = points[i];
-    if (!std::isfinite(p.x) || !std::isfinite(p.y))
-    {
-      result.Rejected.push_back(PointId(i));
-      continue;
-    }
-    const std::size_t before = mesh.number_of_vertices();
-    auto v = mesh.insert(Kernel::Point_2(p.x, p.y));
-    if (mesh.number_of_vertices() == before)
-    {
-      result.Duplicates.push_back({ PointId(i), v->info() });
-      continue;
-    }
-    v->info() = PointId(i);
   }
-  if (mesh.dimension() < 2)
+
+  void run(const Tiling& tiling)
   {
+    this->Result.Statistics.Partitions = tiling.size();
+    this->Buckets = bucketPoints<Id>(this->Points, tiling, this->Threads);
+    this->checkSizes();
+    this->endPhase("bucketing");
+    const std::vector<SeamVertex> artificial = makeArtificialPoints(tiling);
+    if (tiling.size() == 1 || artificial.empty())
+    {
+      this->triangulateAlone(tiling);
+      return;
+    }
+    std::vector<SeamVertex> initial =
+      chooseInitialPoints(tiling, this->Buckets, initialPointsPerPartition());
+    this->Result.Statistics.InitialPoints = std::int64_t(initial.size());
+    initial.insert(initial.end(), artificial.begin(), artificial.end());
+    Master master(this->Options.Order,
+      tiling.size(),
+      this->partitionsWithPoints(tiling),
+      triangulateVertices(tiling, initial, this->Threads));
+    this->endPhase("initial mesh");
+    this->work(tiling, master, artificial);
+  }
+
+private:
+  void checkSizes() const
+  {
+    constexpr std::size_t most =
+      100'000'000; // of the kernel's 32-bit half-edges, with room to spare
+    for (std::size_t p = 0; p + 1 < this->Buckets.Starts.size(); ++p)
+    {
+      const std::size_t count = this->Buckets.count(static_cast<PartitionIndex>(p));
+      if (count > most)
+      {
+        throw std::length_error("Partition " + std::to_string(p) + " would hold " +
+                                std::to_string(count) + " points, more than " +
+                                std::to_string(most) + "; use more partitions.");
+      }
+    }
+  }
+
+  int initialPointsPerPartition() const
+  {
+    constexpr int chosen = 8;
+    return this->Options.InitialPointsPerPartition > 0 ? this->Options.InitialPointsPerPartition
+                                                       : chosen;
+  }
+
+  std::vector<PartitionIndex> partitionsWithPoints(const Tiling& tiling) const
+  {
+    std::vector<PartitionIndex> partitions;
+    for (PartitionIndex p = 0; p < tiling.size(); ++p)
+    {
+      if (this->Buckets.count(p) > 0)
+      {
+        partitions.push_back(p);
+      }
+    }
+    return partitions;
+  }
+
+  void endPhase(const char* name)
+  {
+    this->Result.Statistics.Phases.push_back({ name, this->Watch.restart() });
+  }
+
+  bool report(double fraction)
+  {
+    return !this->Options.Progress || this->Options.Progress(fraction);
+  }
+
+  /// All points at once: no partitions, no artificial points.
+  void triangulateAlone(const Tiling& tiling)
+  {
+    this->Buckets.Starts = { 0, this->Buckets.Points.size() };
+    this->checkSizes();
+    TriangleSink<Id> sink(this->Buckets.Starts);
+    Worker<Id> worker(tiling, this->Buckets);
+    worker.triangulateAlone(sink.interior(0));
+    sink.setInteriorCount(0, worker.interiorCount());
+    this->Result.Duplicates = worker.duplicates();
+    this->Result.Statistics.WorkerVertices = std::int64_t(worker.vertexCount());
+    this->endPhase("workers");
+    this->finish(sink, {});
+  }
+
+  void work(const Tiling& tiling, Master& master, const std::vector<SeamVertex>& artificial)
+  {
+    TriangleSink<Id> sink(this->Buckets.Starts);
+#pragma omp parallel num_threads(this->Threads)
+    {
+      try
+      {
+        this->workAsOneThread(tiling, master, sink);
+      }
+      catch (...)
+      {
+        master.stop(std::current_exception());
+      }
+    }
+    if (master.failure())
+    {
+      std::rethrow_exception(master.failure());
+    }
+    TriangulationStatistics& statistics = this->Result.Statistics;
+    this->endPhase("workers");
+    statistics.Phases.push_back({ "master, within workers", master.Seconds });
+    statistics.Stages = std::move(master.Stages);
+    statistics.WorkerVertices = std::int64_t(master.WorkerVertices);
+    this->Result.Aborted = master.isStopped();
+    if (this->Result.Aborted)
+    {
+      return;
+    }
+    removeArtificialPoints(master.Final, artificial);
+    this->endPhase("hull");
+    this->Result.Duplicates = std::move(master.Duplicates);
+    this->finish(sink, master.Final);
+  }
+
+  void workAsOneThread(const Tiling& tiling, Master& master, TriangleSink<Id>& sink)
+  {
+    Worker<Id> worker(tiling, this->Buckets);
+    std::vector<SeamTriangle> belonging;
+    for (;;)
+    {
+      const PartitionIndex partition = master.acquire(belonging);
+      if (partition < 0)
+      {
+        return;
+      }
+      worker.triangulate(partition, belonging, sink.interior(partition));
+      sink.setInteriorCount(partition, worker.interiorCount());
+      master.complete(partition, worker.seams(), worker.duplicates(), worker.vertexCount());
+      const std::size_t done = this->PointsDone += this->Buckets.count(partition);
+      // Only the caller's own thread reports.
+      if (omp_get_thread_num() == 0 &&
+          !this->report(double(done) / double(this->Buckets.Points.size())))
+      {
+        master.stop();
+      }
+    }
+  }
+
+  void finish(TriangleSink<Id>& sink, const std::vector<SeamTriangle>& seams)
+  {
+    Buffer<Id> ids = sink.assemble(seams, this->Threads);
+    preferLowestIds(ids, this->Result.Duplicates, this->Threads);
+    idsOf<Id>(this->Result) = std::move(ids);
+    this->endPhase("output");
+    this->report(1);
+  }
+
+  PointsView Points;
+  const TriangulationOptions& Options;
+  Triangulation& Result;
+  const int Threads;
+  PointBuckets<Id> Buckets;
+  std::atomic<std::size_t> PointsDone{ 0 };
+  Stopwatch Watch;
+};
+
+/// Partitions of the size that workers are fastest at, but enough of them for all threads.
+int choosePartitionCount(std::size_t points, int threads)
+{
+  constexpr std::size_t alone = 4096;
+  constexpr std::size_t smallest = 1024;
+  constexpr std::size_t best = 16384;
+  constexpr std::size_t perThread = 32;
+  if (points <= alone || (threads == 1 && points <= 4 * best))
+  {
+    return 1;
+  }
+  const std::size_t count = std::max(
+    points / best, std::min(perThread * static_cast<std::size_t>(threads), points / smallest));
+  return static_cast<int>(std::min(count, std::size_t(1) << 26));
+}
+
+Tiling makeTiling(PointsView points,
+  const Box2& domain,
+  const TriangulationOptions& options,
+  int threads)
+{
+  if (options.Columns > 0 && options.Rows > 0)
+  {
+    return Tiling::grid(domain, options.Columns, options.Rows);
+  }
+  const int count = choosePartitionCount(points.size(), threads);
+  constexpr std::size_t samplesPerPartition = 64;
+  return Tiling::balanced(
+    domain, samplePoints(points, samplesPerPartition * static_cast<std::size_t>(count)), count);
+}
+
+} // namespace
+
+Triangulation triangulate(PointsView points, const TriangulationOptions& options)
+{
+  Triangulation result;
+  TriangulationStatistics& statistics = result.Statistics;
+  statistics.Threads = options.Threads > 0 ? options.Threads : omp_get_max_threads();
+  Stopwatch watch;
+  PointSurvey survey = surveyPoints(points, statistics.Threads);
+  result.Rejected = std::move(survey.Rejected);
+  if (areCollinear(points))
+  {
+    result.Duplicates = sortOutDuplicates(points);
     return result;
   }
-  result.Ids32 = Buffer<std::int32_t>(3 * mesh.number_of_faces());
-  std::size_t at = 0;
-  for (auto face = mesh.finite_faces_begin(); face != mesh.finite_faces_end(); ++face)
+  const Tiling tiling = makeTiling(points, survey.Bounds, options, statistics.Threads);
+  statistics.Phases.push_back({ "survey and tiling", watch.seconds() });
+  if (points.size() <= std::size_t(std::numeric_limits<std::int32_t>::max()))
   {
-    for (int i = 0; i < 3; ++i)
-    {
-      result.Ids32[at++] = std::int32_t(face->vertex(i)->info());
-    }
+    Run<std::int32_t>(points, options, result).run(tiling);
   }
-  result.Statistics.Partitions = 1;
-  result.Statistics.Threads = 1;
+  else
+  {
+    Run<std::int64_t>(points, options, result).run(tiling);
+  }
   return result;
 }
 

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippBitSpan_h
+#define tippBitSpan_h
+
+#include "Predicates/ExactDifference.h"
+
+#include <cstdint>
+#include <cstring>
+
+namespace tipp
+{
+
+/// The lowest and the highest binary digit that any of a set of doubles has.
+/// With n = bits() and scale(), every one of them times scale() is an integer below 2^n in
+/// magnitude.
+class BitSpan
+{
+public:
+  void include(double value)
+  {
+    std::uint64_t pattern;
+    std::memcpy(&pattern, &value, sizeof pattern);
+    const int exponent = static_cast<int>(pattern >> 52) & 0x7ff;
+    // The implicit bit stops the count at 52 for powers of two.
+    const std::uint64_t mantissa = pattern | (std::uint64_t{ 1 } << 52);
+    int low = exponent + __builtin_ctzll(mantissa);
+    // Zero has no digit. Denormals get a position below all others: they have no scale.
+    low = exponent != 0 ? low : (value != 0.0 ? Denormal : None);
+    this->Low = low < this->Low ? low : this->Low;
+    this->High = exponent > this->High ? exponent : this->High;
+  }
+
+  /// Whether all digits lie within `count` places and can be scaled to integers without rounding.
+  bool fits(int count) const { return this->bits() <= count && this->scalable(); }
+
+  /// Digits from the lowest to the highest place; not positive if all values are zero.
+  int bits() const { return this->High + 53 - this->Low; }
+
+  /// False with denormals, and where the scale would not be a normal number.
+  bool scalable() const
+  {
+    return this->Low == None || (this->Low >= LowestPlace && this->High < 2046);
+  }
+
+  /// The power of two that makes integers of the values; scalable() must hold.
+  double scale() const
+  {
+    // The lowest place is 2^(Low - 1075); the exponent field of its reciprocal is 2098 - Low.
+    const int field = this->Low == None ? 1023 : 2098 - this->Low;
+    const std::uint64_t pattern = static_cast<std::uint64_t>(field) << 52;
+    double result;
+    std::memcpy(&result, &pattern, sizeof result);
+    return result;
+  }
+
+private:
+  static constexpr int None = 1 << 20;
+  static constexpr int Denormal = -(1 << 20);
+  static constexpr int LowestPlace = 52; // field 2046, the largest power of two
+
+  int Low = None;
+  int High = 0;
+};
+
+/// The difference in units of 1/scale, as an integer. Exact when scale comes from a BitSpan that
+/// has both parts of the difference and spans at most 63 bits.
+inline std::int64_t scaledToInteger(ExactDifference difference, double scale)
+{
+  return static_cast<std::int64_t>(difference.head * scale) +
+         static_cast<std::int64_t>(difference.tail * scale);
+}
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Predicates/Circumdisk.h"
+
+#include "Predicates/CommonExponent.h"
+
+#include <cmath>
+#include <limits>
+
+// With u = b - a, v = c - a, d = u x v > 0 and w = (vy |u|^2 - uy |v|^2, ux |v|^2 - vx |u|^2), the
+// centre is a + w / 2d and the radius |w| / 2d.
+namespace tipp
+{
+namespace
+{
+
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+constexpr double Epsilon = 0x1p-53;
+
+// Whether squares and cubes of the edges neither overflow nor lose digits that count: see below.
+bool edgesInRange(Point2 u, Point2 v)
+{
+  const double longest =
+    std::max({ std::fabs(u.x), std::fabs(u.y), std::fabs(v.x), std::fabs(v.y) });
+  return longest >= 1e-70 && longest <= 1e70;
+}
+
+Box2 widened(Point2 centre, double x, double y)
+{
+  return { centre.x - x, centre.y - y, centre.x + x, centre.y + y };
+}
+
+// The triangle and the box over one power of two; a box bound that is infinite is replaced by zero
+// and must not be asked for.
+struct ExactCircumdisk
+{
+  ExactCircumdisk(Point2 a, Point2 b, Point2 c, const Box2& box)
+  {
+    const auto finite = [](double bound) { return std::isfinite(bound) ? bound : 0.0; };
+    const auto n = toCommonExponent<10>({ a.x,
+      a.y,
+      b.x,
+      b.y,
+      c.x,
+      c.y,
+      finite(box.xmin),
+      finite(box.ymin),
+      finite(box.xmax),
+      finite(box.ymax) });
+    const mpz_class ux = n[2] - n[0];
+    const mpz_class uy = n[3] - n[1];
+    const mpz_class vx = n[4] - n[0];
+    const mpz_class vy = n[5] - n[1];
+    const mpz_class u2 = ux * ux + uy * uy;
+    const mpz_class v2 = vx * vx + vy * vy;
+    const mpz_class d2 = 2 * (ux * vy - uy * vx);
+    const mpz_class wx = vy * u2 - uy * v2;
+    const mpz_class wy = ux * v2 - vx * u2;
+    this->Square = wx * wx + wy * wy;
+    this->Left = wx - d2 * (n[6] - n[0]);
+    this->Bottom = wy - d2 * (n[7] - n[1]);
+    this->Right = d2 * (n[8] - n[0]) - wx;
+    this->Top = d2 * (n[9] - n[1]) - wy;
+  }
+
+  // All of these times 2d. How far the centre is inside of each side of the box:
+  mpz_class Left;
+  mpz_class Bottom;
+  mpz_class Right;
+  mpz_class Top;
+  // And the squared radius, times 4d^2.
+  mpz_class Square;
+};
+
+} // namespace
+
+Circumdisk::Circumdisk(Point2 a, Point2 b, Point2 c)
+  : A(a)
+  , B(b)
+  , C(c)
+{
+  if (!this->computeIntervals())
+  {
+    this->leaveOpen();
+  }
+}
+
+// Error bounds, e = Epsilon, hats for computed values, D = |ux vy| + |uy vx|.
+// d: |d^ - d| <= 4 e D (Shewchuk 1997: 3 e D and second order). With D <= 2^48 d^, 1 / d <= (4/3) /
+// d^. w: an entry is two products of a rounded difference and a sum of squares of such: relative
+// errors
+//    1 + 4, the product's 1 and the difference's 1: |w^ - w| <= 8 e W, W the sum of the magnitudes.
+// q = w / 2d: |q^ - q| <= (4/3) (8 e W + |w^| 4 e D / d^) / 2d^ + 2 e |q^|, |w^| <= (1 + e) W
+//    <= e (16 + 6 D / d^) W / 2d^.
+// Underflow: with the longest entry s of u and v in 1e-70..1e70 and d^ >= 1e-150, sums of products
+// are
+//    off by 2e70 * 2^-1074, so w by 1e-250, d by 1e-322 and q by 1e-99 (or 1e-170 q): below e r,
+//    since the longest edge is at least s and at most 2 r. That is one of the 24 e r below.
+// c = a + q: three roundings in a + q, c -+ E and Outer: 4 e |c|.
+// r = |q^|: off by Ex + Ey, 3 e r of its own rounding; e r each for r -+ E, its square's, Inner's
+// and
+//    Outer's; in meets() a squared distance is off by 5 e, its root by 2.5 e: together less than 16
+//    e r.
+bool Circumdisk::computeIntervals()
+{
+  const Point2 u = { this->B.x - this->A.x, this->B.y - this->A.y };
+  const Point2 v = { this->C.x - this->A.x, this->C.y - this->A.y };
+  const double left = u.x * v.y;
+  const double right = u.y * v.x;
+  const double d = left - right;
+  const double permanent = std::fabs(left) + std::fabs(right);
+  if (!edgesInRange(u, v) || !(d >= 1e-150) || !(permanent <= 0x1p48 * d))
+  {
+    return false;
+  }
+  const double u2 = u.x * u.x + u.y * u.y;
+  const double v2 = v.x * v.x + v.y * v.y;
+  const double half = 0.5 / d;
+  const double x = (v.y * u2 - u.y * v2) * half;
+  const double y = (u.x * v2 - v.x * u2) * half;
+  const double error = Epsilon * (16.0 + 12.0 * permanent * half) * half;
+  const double xError = error * (std::fabs(v.y) * u2 + std::fabs(u.y) * v2);
+  const double yError = error * (std::fabs(u.x) * v2 + std::fabs(v.x) * u2);
+  const double radius = std::sqrt(x * x + y * y);
+  const double radiusError = xError + yError + 24.0 * Epsilon * radius;
+  // Squares of the radius and of distances like it stay finite; also false for NaN.
+  if (!(radius + radiusError <= 1e150))
+  {
+    return false;
+  }
+  const Point2 centre = { this->A.x + x, this->A.y + y };
+  this->Centre = widened(centre,
+    xError + Epsilon * (4.0 * std::fabs(centre.x) + radius),
+    yError + Epsilon * (4.0 * std::fabs(centre.y) + radius));
+  const double largest = radius + radiusError;
+  const double smallest = std::max(0.0, radius - radiusError);
+  this->LargestSquare = largest * largest;
+  this->SmallestSquare = smallest * smallest;
+  this->Outer = { this->Centre.xmin - largest,
+    this->Centre.ymin - largest,
+    this->Centre.xmax + largest,
+    this->Centre.ymax + largest };
+  this->Inner = { this->Centre.xmax - smallest,
+    this->Centre.ymax - smallest,
+    this->Centre.xmin + smallest,
+    this->Centre.ymin + smallest };
+  return true;
+}
+
+// Intervals that answer nothing, so that every question goes to exact arithmetic.
+void Circumdisk::leaveOpen()
+{
+  this->Centre = { -Infinity, -Infinity, Infinity, Infinity };
+  this->Outer = this->Centre;
+  this->Inner = { Infinity, Infinity, -Infinity, -Infinity };
+  this->LargestSquare = Infinity;
+  this->SmallestSquare = -1.0;
+}
+
+bool Circumdisk::meetsExactly(const Box2& box) const
+{
+  const ExactCircumdisk disk(this->A, this->B, this->C, box);
+  mpz_class distance = 0;
+  const auto addGap = [&distance](const mpz_class& depth, double bound)
+  {
+    // At most one side of an axis has the centre beyond it.
+    if (std::isfinite(bound) && depth < 0)
+    {
+      distance += depth * depth;
+    }
+  };
+  addGap(disk.Left, box.xmin);
+  addGap(disk.Right, box.xmax);
+  addGap(disk.Bottom, box.ymin);
+  addGap(disk.Top, box.ymax);
+  return distance <= disk.Square;
+}
+
+bool Circumdisk::liesInsideExactly(const Box2& box) const
+{
+  const ExactCircumdisk disk(this->A, this->B, this->C, box);
+  const auto deepEnough = [&disk](const mpz_class& depth, double bound)
+  { return !std::isfinite(bound) || (depth >= 0 && depth * depth >= disk.Square); };
+  return deepEnough(disk.Left, box.xmin) && deepEnough(disk.Right, box.xmax) &&
+         deepEnough(disk.Bottom, box.ymin) && deepEnough(disk.Top, box.ymax);
+}
+
+} // namespace tipp

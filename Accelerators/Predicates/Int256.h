@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippInt256_h
+#define tippInt256_h
+
+#include "Predicates/Int128.h"
+
+#include <cstdint>
+
+namespace tipp
+{
+
+/// A two's complement integer of 256 bits: just enough of one for the sign of a sum of products.
+/// Sums wrap modulo 2^256, so partial sums may exceed the range as long as the last one does not.
+class Int256
+{
+public:
+  Int256() = default;
+
+  /// The full product, exact for every pair of operands.
+  static Int256 product(Int128 a, Int128 b)
+  {
+    const UInt128 ua = static_cast<UInt128>(a);
+    const UInt128 ub = static_cast<UInt128>(b);
+    Int256 result = unsignedProduct(ua, ub);
+    // Read as unsigned, a negative operand is 2^128 too large: take the other one off the top half.
+    result.High -= (a < 0 ? ub : 0) + (b < 0 ? ua : 0);
+    return result;
+  }
+
+  Int256& operator+=(const Int256& other)
+  {
+    this->Low += other.Low;
+    this->High += other.High + (this->Low < other.Low ? 1 : 0);
+    return *this;
+  }
+
+  /// -1, 0 or +1.
+  int sign() const
+  {
+    if (static_cast<Int128>(this->High) < 0)
+    {
+      return -1;
+    }
+    return (this->High | this->Low) != 0 ? 1 : 0;
+  }
+
+private:
+  static Int256 unsignedProduct(UInt128 a, UInt128 b)
+  {
+    const std::uint64_t a0 = static_cast<std::uint64_t>(a);
+    const std::uint64_t a1 = static_cast<std::uint64_t>(a >> 64);
+    const std::uint64_t b0 = static_cast<std::uint64_t>(b);
+    const std::uint64_t b1 = static_cast<std::uint64_t>(b >> 64);
+    const UInt128 low = static_cast<UInt128>(a0) * b0;
+    // (2^64 - 1)^2 + 2^64 - 1 < 2^128: neither of these sums wraps.
+    const UInt128 cross = static_cast<UInt128>(a1) * b0 + (low >> 64);
+    const UInt128 middle = static_cast<UInt128>(a0) * b1 + static_cast<std::uint64_t>(cross);
+    Int256 result;
+    result.Low = (middle << 64) | static_cast<std::uint64_t>(low);
+    result.High = static_cast<UInt128>(a1) * b1 + (cross >> 64) + (middle >> 64);
+    return result;
+  }
+
+  UInt128 Low = 0;
+  UInt128 High = 0;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Kernel/DelaunayKernel.h"
+
+#include "Predicates/InCircle.h"
+#include "Predicates/Orientation.h"
+
+#include <cmath>
+#include <limits>
+
+namespace tipp
+{
+namespace
+{
+
+// Filters on the original doubles, for vectors from the inserted point p (see Predicates/ for the
+// bounds' proofs). The absolute terms cover underflow; overflow and NaN, which stands for the
+// vertex at infinity, fail every comparison and so go to the exact path.
+constexpr double TurnBound = 3.3306690738754716e-16;
+constexpr double CircleBound = 3.4 * 1.1102230246251565e-16;
+constexpr double UnderflowBound = 1e-300;
+
+} // namespace
+
+DelaunayKernel::DelaunayKernel()
+  : Cavity(64)
+  , Ring(64)
+  , Stack(64)
+{
+  this->clear();
+}
+
+void DelaunayKernel::clear()
+{
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  this->Mesh.clear();
+  this->Points.assign(1, Point2{ nan, nan });
+  this->Places.assign(1, 0);
+  this->Duplicates.clear();
+  this->PlaceEnd = 0;
+  this->Pending = 1;
+  this->Recent = 0;
+  this->GridIsCurrent = false;
+}
+
+bool DelaunayKernel::isInfinite(Index triangle) const
+{
+  const Index* v = this->Mesh.slots() + triangle;
+  return v[0] == Infinite || v[1] == Infinite || v[2] == Infinite;
+}
+
+void DelaunayKernel::insert(const Point2* points, std::size_t count)
+{
+  const std::vector<std::uint32_t>& order = this->Order.compute(points, count);
+  const Index first = this->vertexEnd();
+  this->Points.resize(this->Points.size() + count);
+  this->Places.resize(this->Places.size() + count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    this->Points[first + i] = points[order[i]];
+    this->Places[first + i] = this->PlaceEnd + order[i];
+  }
+  this->PlaceEnd += static_cast<std::uint32_t>(count);
+  this->GridIsCurrent = false;
+
+  // Euler: n vertices and the infinite one have 2 n - 2 triangles.
+  this->Mesh.reserve(2 * this->Points.size());
+  if (!this->hasTriangles() && !this->makeFirstTriangle(this->Pending))
+  {
+    return;
+  }
+  for (Index vertex = this->Pending; vertex < this->vertexEnd(); ++vertex)
+  {
+    const Index next = vertex + 1 < this->vertexEnd() ? vertex + 1 : vertex;
+    this->insertVertex(vertex, this->Points[next]);
+  }
+  this->Pending = this->vertexEnd();
+}
+
+/// Finds three points that are not collinear, moves them to the front and makes their triangle and
+/// its three infinite neighbours.
+bool DelaunayKernel::makeFirstTriangle(Index first)
+{
+  const Index end = this->vertexEnd();
+  const auto moveTo = [this](Index place, Index from)
+  {
+    std::swap(this->Points[place], this->Points[from]);
+    std::swap(this->Places[place], this->Places[from]);
+  };
+  Index second = first + 1;
+  while (second < end && this->Points[second] == this->Points[first])
+  {
+    ++second;
+  }
+  Index third = second + 1;
+  int turn = 0;
+  for (; third < end; ++third)
+  {
+    turn = this->exactOrientation(this->Points[first], this->Points[second], this->Points[third]);
+    if (turn != 0)
+    {
+      break;
+    }
+  }
+  if (third >= end)
+  {
+    return false;
+  }
+  moveTo(first + 1, second);
+  moveTo(first + 2, third);
+  this->Pending = first + 3;
+
+  const Index a = first;
+  const Index b = turn > 0 ? first + 1 : first + 2;
+  const Index c = turn > 0 ? first + 2 : first + 1;
+  Index* slot = this->Mesh.slots();
+  const Index corners[4][3] = {
+    { a, b, c }, { Infinite, c, b }, { Infinite, a, c }, { Infinite, b, a }
+  };
+  for (Index t = 0; t < 4; ++t)
+  {
+    for (Index i = 0; i < 3; ++i)
+    {
+      slot[8 * t + i] = corners[t][i];
+    }
+  }
+  for (Index i = 0; i < 3; ++i)
+  {
+    this->Mesh.link(i, 8 * (i + 1));
+    // Edge (Infinite, w) of infinite triangle i + 1 = (Infinite, w, u) is edge (w, Infinite) of the
+    // one whose last corner is w, the next.
+    this->Mesh.link(8 * (i + 1) + 2, 8 * ((i + 1) % 3 + 1) + 1);
+  }
+  this->Mesh.setEnd(32);
+  this->Recent = 0;
+  return true;
+}
+
+void DelaunayKernel::insertVertex(Index vertex, Point2 next)
+{
+  const Point2 p = this->Points[vertex];
+  const Index triangle = this->walk(p);
+  const Index equal = this->equalVertex(triangle, p);
+  if (equal != Infinite)
+  {
+    this->Duplicates.push_back({ this->Places[vertex], equal });
+    return;
+  }
+  this->openCavity(triangle, p);
+  this->fillCavity(vertex, { next.x - p.x, next.y - p.y });
+}
+
+inline DelaunayKernel::Direction DelaunayKernel::directionTo(Index vertex, Point2 p) const
+{
+  const Point2 v = this->Points[vertex];
+  return { v.x - p.x, v.y - p.y };
+}
+
+/// The orientation of (a, b, p), a and b given by their directions from p too.
+inline int DelaunayKernel::turn(const Direction& a,
+  const Direction& b,
+  Index ia,
+  Index ib,
+  Point2 p)
+{
+  const double left = a.X * b.Y;
+  const double right = a.Y * b.X;
+  const double det = left - right;
+  const double bound = TurnBound * (std::fabs(left) + std::fabs(right)) + UnderflowBound;
+  if (det > bound)
+  {
+    return 1;
+  }
+  if (-det > bound)
+  {
+    return -1;
+  }
+  return this->exactOrientation(this->Points[ia], this->Points[ib], p);
+}
+
+/// Walks from the last insertion to a triangle that holds p, or to the infinite triangle at a hull
+/// edge that p lies outside of. In a Delaunay triangulation such a walk ends (Devillers et al.).
+DelaunayKernel::Index DelaunayKernel::walk(Point2 p)
+{
+  const Index* slot = this->Mesh.slots();
+  Index t = this->Recent;
+  Direction a = this->directionTo(slot[t], p);
+  Direction b = this->directionTo(slot[t + 1], p);
+  const Direction c = this->directionTo(slot[t + 2], p);
+  Index h;
+  if (this->turn(a, b, slot[t], slot[t + 1], p) < 0)
+  {
+    h = slot[t + 2 + 4];
+  }
+  else if (this->turn(b, c, slot[t + 1], slot[t + 2], p) < 0)
+  {
+    h = slot[t + 0 + 4];
+    a = b;
+    b = c;
+  }
+  else if (this->turn(c, a, slot[t + 2], slot[t], p) < 0)
+  {
+    h = slot[t + 1 + 4];
+    b = a;
+    a = c;
+  }
+  else
+  {
+    return t;
+  }
+  for (;;)
+  {
+    // The edge crossed goes from a to b seen from where we came; behind it is the apex d.
+    const Index id = slot[h];
+    if (id == Infinite)
+    {
+      return HalfEdgeMesh::triangleOf(h);
+    }
+    const Index toA = HalfEdgeMesh::previous(h);
+    const Index toB = HalfEdgeMesh::next(h);
+    const Direction d = this->directionTo(id, p);
+    if (this->turn(a, d, slot[toA], id, p) < 0)
+    {
+      b = d;
+      h = slot[toB + 4];
+    }
+    else if (this->turn(d, b, id, slot[toB], p) < 0)
+    {
+      a = d;
+      h = slot[toA + 4];
+    }
+    else
+    {
+      return HalfEdgeMesh::triangleOf(h);
+    }
+  }
+}
+
+DelaunayKernel::Index DelaunayKernel::equalVertex(Index triangle, Point2 p) const
+{
+  for (Index i = 0; i < 3; ++i)
+  {
+    const Index v = this->Mesh.vertex(triangle + i);
+    if (this->Points[v] == p)
+    {
+      return v;
+    }
+  }
+  return Infinite;
+}
+
+/// Collects the triangles in conflict with p and, counter-clockwise, the edges around them. The
+/// cavity has no vertex inside, so its dual is a tree: no triangle is met twice, no marks are
+/// needed, and depth-first order is the order around the ring.
+void DelaunayKernel::openCavity(Index triangle, Point2 p)
+{
+  const Index* const slot = this->Mesh.slots();
+  const Point2* const points = this->Points.data();
+  Index* cavity = this->Cavity.data();
+  RingEdge* ring = this->Ring.data();
+  BorderEdge* stack = this->Stack.data();
+  std::size_t cavitySize = 0;
+  std::size_t ringSize = 0;
+  std::size_t stackSize = 0;
+
+  const Direction a = this->directionTo(slot[triangle], p);
+  const Direction b = this->directionTo(slot[triangle + 1], p);
+  const Direction c = this->directionTo(slot[triangle + 2], p);
+  const double al = a.lift();
+  const double bl = b.lift();
+  const double cl = c.lift();
+  cavity[cavitySize++] = triangle;
+  stack[stackSize++] = { slot[triangle + 1 + 4], c, a, cl, al, c.X * a.Y - c.Y * a.X };
+  stack[stackSize++] = { slot[triangle + 0 + 4], b, c, bl, cl, b.X * c.Y - b.Y * c.X };
+  BorderEdge edge = { slot[triangle + 2 + 4], a, b, al, bl, a.X * b.Y - a.Y * b.X };
+  for (;;)
+  {
+    // Behind the edge is the triangle (b, a, d); only d is new.
+    const Index h = edge.Outer;
+    const Index toA = HalfEdgeMesh::previous(h);
+    const Index toB = HalfEdgeMesh::next(h);
+    const Point2 apex = points[slot[h]];
+    const Direction d = { apex.x - p.x, apex.y - p.y };
+    const double dl = d.lift();
+    const double bd = edge.B.X * d.Y - edge.B.Y * d.X;
+    const double da = d.X * edge.A.Y - d.Y * edge.A.X;
+    const double det = edge.Bl * da + edge.Al * bd + dl * edge.Cross;
+    const double lifts = edge.Al + edge.Bl + dl;
+    const double bound = CircleBound * lifts * lifts + UnderflowBound;
+    bool inside = -det > bound;
+    if (__builtin_expect(!inside && !(det > bound), 0))
+    {
+      inside = this->isInConflict(HalfEdgeMesh::triangleOf(h), p);
+    }
+    if (inside)
+    {
+      if (__builtin_expect(cavitySize + 3 >= this->Cavity.size(), 0))
+      {
+        this->Cavity.resize(2 * this->Cavity.size());
+        this->Ring.resize(2 * this->Ring.size());
+        this->Stack.resize(2 * this->Stack.size());
+        cavity = this->Cavity.data();
+        ring = this->Ring.data();
+        stack = this->Stack.data();
+      }
+      cavity[cavitySize++] = HalfEdgeMesh::triangleOf(h);
+      stack[stackSize++] = { slot[toA + 4], d, edge.B, dl, edge.Bl, -bd };
+      edge.Outer = slot[toB + 4];
+      edge.B = d;
+      edge.Bl = dl;
+      edge.Cross = -da;
+      continue;
+    }
+    ring[ringSize++] = { h, slot[toA], edge.A };
+    if (stackSize == 0)
+    {
+      break;
+    }
+    edge = stack[--stackSize];
+  }
+  this->CavitySize = cavitySize;
+  this->RingSize = ringSize;
+}
+
+/// Joins the vertex to every edge of the ring, in the places of the destroyed triangles and two
+/// new ones. The next walk starts in the new triangle that lies towards the next point.
+void DelaunayKernel::fillCavity(Index vertex, Direction toNext)
+{
+  Index* const slot = this->Mesh.slots();
+  Index* const cavity = this->Cavity.data();
+  RingEdge* const ring = this->Ring.data();
+  const std::size_t count = this->RingSize;
+  const Index end = this->Mesh.end();
+  cavity[count - 2] = end;
+  cavity[count - 1] = end + 8;
+  this->Mesh.setEnd(end + 16);
+
+  const auto isLeftOf = [toNext](const RingEdge& edge)
+  { return edge.ToStart.X * toNext.Y - edge.ToStart.Y * toNext.X >= 0; };
+  ring[count] = ring[0];
+  Index before = cavity[count - 1];
+  Index recent = cavity[0];
+  bool left = isLeftOf(ring[0]);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const Index t = cavity[i];
+    const Index outer = ring[i].Outer;
+    const bool leftOfStop = isLeftOf(ring[i + 1]);
+    recent = left && !leftOfStop ? t : recent;
+    left = leftOfStop;
+    slot[t] = vertex;
+    slot[t + 1] = ring[i].Start;
+    slot[t + 2] = ring[i + 1].Start;
+    slot[t + 4] = outer;
+    slot[outer + 4] = t;
+    slot[t + 2 + 4] = before + 1;
+    slot[before + 1 + 4] = t + 2;
+    before = t;
+  }
+  for (std::size_t i = 0; slot[recent + 1] == Infinite || slot[recent + 2] == Infinite; ++i)
+  {
+    recent = cavity[i];
+  }
+  this->Recent = recent;
+}
+
+/// The exact answer where the filter has none.
+bool DelaunayKernel::isInConflict(Index triangle, Point2 p)
+{
+  const Index* v = this->Mesh.slots() + triangle;
+  for (Index i = 0; i < 3; ++i)
+  {
+    if (v[i] == Infinite)
+    {
+      return this->isInConflictWithInfinite(triangle + i, p);
+    }
+  }
+  const Point2 a = this->Points[v[0]];
+  const Point2 b = this->Points[v[1]];
+  const Point2 c = this->Points[v[2]];
+  const int side = this->grid().inCircle(a, b, c, p);
+  return side != 0 ? side > 0 : tieIsInside(a, b, c, p);
+}
+
+/// The circumdisk of an infinite triangle is the open half-plane beyond its hull edge, and the open
+/// edge itself.
+bool DelaunayKernel::isInConflictWithInfinite(Index infiniteSlot, Point2 p)
+{
+  const Point2 u = this->Points[this->Mesh.vertex(HalfEdgeMesh::next(infiniteSlot))];
+  const Point2 w = this->Points[this->Mesh.vertex(HalfEdgeMesh::previous(infiniteSlot))];
+  const int side = this->exactOrientation(u, w, p);
+  if (side != 0)
+  {
+    return side > 0;
+  }
+  return lexicographicLess(u, w) ? lexicographicLess(u, p) && lexicographicLess(p, w)
+                                 : lexicographicLess(w, p) && lexicographicLess(p, u);
+}
+
+int DelaunayKernel::exactOrientation(Point2 a, Point2 b, Point2 c)
+{
+  return this->grid().orientation(a, b, c);
+}
+
+const CoordinateGrid& DelaunayKernel::grid()
+{
+  if (!this->GridIsCurrent)
+  {
+    this->Grid.analyse(this->Points.data() + 1, this->Points.size() - 1);
+    this->GridIsCurrent = true;
+  }
+  return this->Grid;
+}
+
+} // namespace tipp

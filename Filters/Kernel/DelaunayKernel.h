@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippDelaunayKernel_h
+#define tippDelaunayKernel_h
+
+#include "Kernel/HalfEdgeMesh.h"
+#include "Kernel/InsertionOrder.h"
+#include "Predicates/CoordinateGrid.h"
+#include "Predicates/Point2.h"
+#include "vtkTIPPFiltersModule.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+/// One box's Delaunay triangulation: incremental insertion (Bowyer 1981, Watson 1981) in biased
+/// randomised rounds, with a vertex at infinity, exact predicates, and ties broken by the points'
+/// lexicographic order (Lemma 4). Single-threaded; meant to be used again for many boxes.
+///
+/// Points come in batches. A batch's triangles that no later batch destroys keep their places, so
+/// that their order does not depend on the later batches.
+class VTKTIPPFILTERS_EXPORT DelaunayKernel
+{
+public:
+  using Index = HalfEdgeMesh::Index;
+  static constexpr Index Infinite = 0;
+
+  struct Duplicate
+  {
+    std::uint32_t Point; ///< its place in the order of insert()
+    Index Vertex;        ///< the vertex that stands for it
+  };
+
+  DelaunayKernel();
+
+  void clear();
+  void insert(const Point2* points, std::size_t count);
+
+  /// False as long as all points are collinear: then there are no triangles.
+  bool hasTriangles() const { return this->Mesh.end() > 0; }
+
+  /// All triangles, those at the infinite vertex too.
+  const HalfEdgeMesh& mesh() const { return this->Mesh; }
+  bool isInfinite(Index triangle) const;
+  Point2 point(Index vertex) const { return this->Points[vertex]; }
+
+  /// The place of a vertex's point, counted over all points inserted since clear().
+  std::uint32_t place(Index vertex) const { return this->Places[vertex]; }
+  Index vertexEnd() const { return static_cast<Index>(this->Points.size()); }
+
+  const std::vector<Duplicate>& duplicates() const { return this->Duplicates; }
+
+private:
+  /// A vertex as seen from the point p that is being inserted.
+  struct Direction
+  {
+    double X;
+    double Y;
+    double lift() const { return this->X * this->X + this->Y * this->Y; }
+  };
+  /// An edge, from A to B, of a triangle that holds p or is in conflict with it, counter-clockwise.
+  struct BorderEdge
+  {
+    Index Outer; ///< the half-edge on the edge's other side
+    Direction A;
+    Direction B;
+    double Al; ///< lifts
+    double Bl;
+    double Cross; ///< A x B
+  };
+  /// An edge around the cavity, as soon as it is known to be one.
+  struct RingEdge
+  {
+    Index Outer;
+    Index Start;
+    Direction ToStart;
+  };
+  bool makeFirstTriangle(Index firstVertex);
+  void insertVertex(Index vertex, Point2 next);
+
+  Direction directionTo(Index vertex, Point2 p) const;
+  int turn(const Direction& a, const Direction& b, Index ia, Index ib, Point2 p);
+  Index walk(Point2 p);
+  Index equalVertex(Index triangle, Point2 p) const;
+  void openCavity(Index triangle, Point2 p);
+  void fillCavity(Index vertex, Direction toNext);
+  bool isInConflict(Index triangle, Point2 p);
+  bool isInConflictWithInfinite(Index infiniteSlot, Point2 p);
+  int exactOrientation(Point2 a, Point2 b, Point2 c);
+  const CoordinateGrid& grid();
+
+  HalfEdgeMesh Mesh;
+  std::vector<Point2> Points;
+  std::vector<std::uint32_t> Places;
+  std::vector<Duplicate> Duplicates;
+  std::uint32_t PlaceEnd = 0;
+  Index Pending = 1; ///< vertices from here on wait for a point off the line of all before
+  Index Recent = 0;  ///< a triangle near the last insertion
+  InsertionOrder Order;
+
+  std::vector<Index> Cavity;
+  std::vector<RingEdge> Ring;
+  std::vector<BorderEdge> Stack;
+  std::size_t CavitySize = 0;
+  std::size_t RingSize = 0;
+
+  CoordinateGrid Grid;
+  bool GridIsCurrent = false;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippHalfEdgeMesh_h
+#define tippHalfEdgeMesh_h
+
+#include "Triangulation/Buffer.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+namespace tipp
+{
+
+/// Triangles of 32 bytes in one array: slots 0..2 hold the vertices, counter-clockwise, and slots
+/// 4..6 the neighbours. A half-edge is named by the slot of the vertex opposite to it, h = 8 t + i,
+/// and slot h + 4 holds its twin, so that the neighbour's apex is one load away.
+class HalfEdgeMesh
+{
+public:
+  using Index = std::int32_t;
+
+  static Index triangleOf(Index h) { return h & ~7; }
+  static Index next(Index h) { return (h & 3) == 2 ? h - 2 : h + 1; }
+  static Index previous(Index h) { return (h & 3) == 0 ? h + 2 : h - 1; }
+
+  Index vertex(Index h) const { return this->Slots[h]; }
+  Index twin(Index h) const { return this->Slots[h + 4]; }
+
+  Index* slots() { return this->Slots.data(); }
+  const Index* slots() const { return this->Slots.data(); }
+
+  /// The end of the triangles, as the name (8 t) that the next one gets.
+  Index end() const { return this->End; }
+  void setEnd(Index end) { this->End = end; }
+
+  void clear() { this->End = 0; }
+
+  /// Room for so many triangles in all; the names of those there stay.
+  void reserve(std::size_t triangles)
+  {
+    if (8 * triangles <= this->Slots.size())
+    {
+      return;
+    }
+    Buffer<Index> larger(8 * triangles + triangles);
+    std::copy(this->Slots.begin(), this->Slots.begin() + this->End, larger.begin());
+    this->Slots = std::move(larger);
+  }
+
+  void link(Index h, Index g)
+  {
+    this->Slots[h + 4] = g;
+    this->Slots[g + 4] = h;
+  }
+
+private:
+  Buffer<Index> Slots;
+  Index End = 0;
+};
+
+} // namespace tipp
+
+#endif

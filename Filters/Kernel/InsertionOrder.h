@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippInsertionOrder_h
+#define tippInsertionOrder_h
+
+#include "Predicates/Point2.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+/// The order in which a box's points are inserted: biased randomised rounds (Amenta, Choi, Rote
+/// 2003), each along a Hilbert curve. One point in eight goes to an earlier round than the last.
+/// Depends on coordinates and positions in the array alone.
+class InsertionOrder
+{
+public:
+  /// The permutation: entry k is the index of the point to insert k-th. Valid until the next call.
+  const std::vector<std::uint32_t>& compute(const Point2* points, std::size_t count);
+
+private:
+  struct Entry
+  {
+    std::uint32_t Key;
+    std::uint32_t Index;
+  };
+  void computeKeys(const Point2* points, std::size_t count);
+  void sortByKey();
+
+  std::vector<Entry> Entries;
+  std::vector<Entry> Scratch;
+  std::vector<std::uint32_t> Order;
+};
+
+} // namespace tipp
+
+#endif

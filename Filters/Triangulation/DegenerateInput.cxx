@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Triangulation/DegenerateInput.h"
+
+#include "Predicates/Orientation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tipp
+{
+namespace
+{
+
+bool isFinite(Point2 p)
+{
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
+
+} // namespace
+
+bool areCollinear(PointsView points)
+{
+  std::size_t found = 0; // distinct points, at most two
+  Point2 line[2]{};
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const Point2 p = points[i];
+    if (!isFinite(p) || (found > 0 && p == line[0]))
+    {
+      continue;
+    }
+    if (found < 2)
+    {
+      line[found++] = p;
+    }
+    else if (orientation(line[0], line[1], p) != 0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::vector<Duplicate> sortOutDuplicates(PointsView points)
+{
+  std::vector<PointId> order;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    if (isFinite(points[i]))
+    {
+      order.push_back(static_cast<PointId>(i));
+    }
+  }
+  const auto place = [&points](PointId id) { return points[static_cast<std::size_t>(id)]; };
+  std::sort(order.begin(),
+    order.end(),
+    [&place](PointId a, PointId b)
+    {
+      const Point2 p = place(a);
+      const Point2 q = place(b);
+      return p == q ? a < b : lexicographicLess(p, q);
+    });
+  std::vector<Duplicate> duplicates;
+  PointId first = 0; // of the points at one place
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    if (i == 0 || !(place(order[i]) == place(order[i - 1])))
+    {
+      first = order[i];
+    }
+    else
+    {
+      duplicates.push_back({ order[i], first });
+    }
+  }
+  std::sort(duplicates.begin(),
+    duplicates.end(),
+    [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
+  return duplicates;
+}
+
+} // namespace tipp

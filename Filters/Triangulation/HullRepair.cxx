@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Triangulation/HullRepair.h"
+
+#include "Kernel/DelaunayKernel.h"
+#include "Predicates/CircumdiskBox.h"
+#include "Predicates/InCircle.h"
+
+#include <algorithm>
+
+namespace tipp
+{
+namespace
+{
+
+bool hasArtificialVertex(const SeamTriangle& triangle)
+{
+  return std::any_of(
+    triangle.begin(), triangle.end(), [](const SeamVertex& v) { return v.isArtificial(); });
+}
+
+std::vector<SeamVertex> trueVertices(std::vector<SeamTriangle>::const_iterator begin,
+  std::vector<SeamTriangle>::const_iterator end)
+{
+  std::vector<SeamVertex> vertices;
+  for (auto triangle = begin; triangle != end; ++triangle)
+  {
+    std::copy_if(triangle->begin(),
+      triangle->end(),
+      std::back_inserter(vertices),
+      [](const SeamVertex& v) { return !v.isArtificial(); });
+  }
+  const auto less = [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; };
+  const auto equal = [](const SeamVertex& a, const SeamVertex& b) { return a.Id == b.Id; };
+  std::sort(vertices.begin(), vertices.end(), less);
+  vertices.erase(std::unique(vertices.begin(), vertices.end(), equal), vertices.end());
+  return vertices;
+}
+
+bool contains(const Box2& box, Point2 p)
+{
+  return box.xmin <= p.x && p.x <= box.xmax && box.ymin <= p.y && p.y <= box.ymax;
+}
+
+} // namespace
+
+void removeArtificialPoints(std::vector<SeamTriangle>& final,
+  const std::vector<SeamVertex>& artificial)
+{
+  const auto firstRemoved = std::partition(final.begin(),
+    final.end(),
+    [](const SeamTriangle& triangle) { return !hasArtificialVertex(triangle); });
+  const std::vector<SeamVertex> rim = trueVertices(firstRemoved, final.end());
+  final.erase(firstRemoved, final.end());
+
+  std::vector<Point2> points;
+  for (const SeamVertex& v : rim)
+  {
+    points.push_back(v.Place);
+  }
+  DelaunayKernel kernel;
+  kernel.insert(points.data(), points.size());
+  for (DelaunayKernel::Index t = 0; t < kernel.mesh().end(); t += 8)
+  {
+    if (kernel.isInfinite(t))
+    {
+      continue;
+    }
+    const DelaunayKernel::Index* v = kernel.mesh().slots() + t;
+    const SeamTriangle triangle = {
+      rim[kernel.place(v[0])], rim[kernel.place(v[1])], rim[kernel.place(v[2])]
+    };
+    const Point2 a = triangle[0].Place;
+    const Point2 b = triangle[1].Place;
+    const Point2 c = triangle[2].Place;
+    const Box2 bounds = Circumdisk(a, b, c).bounds();
+    if (std::any_of(artificial.begin(),
+          artificial.end(),
+          [&](const SeamVertex& z)
+          { return contains(bounds, z.Place) && inCirclePerturbed(a, b, c, z.Place); }))
+    {
+      final.push_back(triangle);
+    }
+  }
+}
+
+} // namespace tipp

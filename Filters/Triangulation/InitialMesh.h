@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippInitialMesh_h
+#define tippInitialMesh_h
+
+#include "Triangulation/PointBuckets.h"
+#include "Triangulation/SeamMesh.h"
+
+#include <vector>
+
+namespace tipp
+{
+
+/// Artificial points at the corners of a rectangle around the domain and along its edges (chapter
+/// 2.4.1), as far from the domain and from each other as partitions are wide. Their ids are -1, -2
+/// and so on. Empty if the domain reaches too far for doubles to enclose it.
+std::vector<SeamVertex> makeArtificialPoints(const Tiling& tiling);
+
+/// Equally many points of each partition, evenly spaced in the input's order.
+template <typename Id>
+std::vector<SeamVertex> chooseInitialPoints(const Tiling& tiling,
+  const PointBuckets<Id>& buckets,
+  int perPartition);
+
+/// The Delaunay triangulation of vertices, with the partitions each triangle belongs to.
+SeamTriangles triangulateVertices(const Tiling& tiling,
+  const std::vector<SeamVertex>& vertices,
+  int threads);
+
+extern template std::vector<SeamVertex> chooseInitialPoints(const Tiling&,
+  const PointBuckets<std::int32_t>&,
+  int);
+extern template std::vector<SeamVertex> chooseInitialPoints(const Tiling&,
+  const PointBuckets<std::int64_t>&,
+  int);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Triangulation/PointBuckets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr std::uint32_t NoPartition = std::numeric_limits<std::uint32_t>::max();
+
+bool isFinite(Point2 p)
+{
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
+
+/// The share of n items that is the part's, of so many parts.
+std::pair<std::size_t, std::size_t> share(std::size_t n, int part, int parts)
+{
+  return { n / std::size_t(parts) * std::size_t(part) +
+             std::min(n % std::size_t(parts), std::size_t(part)),
+    n / std::size_t(parts) * std::size_t(part + 1) +
+      std::min(n % std::size_t(parts), std::size_t(part + 1)) };
+}
+
+struct PartSurvey
+{
+  Box2 Bounds{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+  std::vector<std::int64_t> Rejected;
+
+  void add(std::size_t id, Point2 p)
+  {
+    if (!isFinite(p))
+    {
+      this->Rejected.push_back(static_cast<std::int64_t>(id));
+      return;
+    }
+    this->Bounds.xmin = std::min(this->Bounds.xmin, p.x);
+    this->Bounds.ymin = std::min(this->Bounds.ymin, p.y);
+    this->Bounds.xmax = std::max(this->Bounds.xmax, p.x);
+    this->Bounds.ymax = std::max(this->Bounds.ymax, p.y);
+  }
+};
+
+} // namespace
+
+PointSurvey surveyPoints(PointsView points, int threads)
+{
+  std::vector<PartSurvey> parts(static_cast<std::size_t>(threads));
+#pragma omp parallel for num_threads(threads) schedule(static, 1)
+  for (int part = 0; part < threads; ++part)
+  {
+    const auto [begin, end] = share(points.size(), part, threads);
+    PartSurvey survey;
+    points.forEach(begin, end, [&survey](std::size_t id, Point2 p) { survey.add(id, p); });
+    parts[std::size_t(part)] = std::move(survey);
+  }
+  PointSurvey all;
+  all.Bounds = PartSurvey().Bounds;
+  for (const PartSurvey& part : parts)
+  {
+    all.Bounds.xmin = std::min(all.Bounds.xmin, part.Bounds.xmin);
+    all.Bounds.ymin = std::min(all.Bounds.ymin, part.Bounds.ymin);
+    all.Bounds.xmax = std::max(all.Bounds.xmax, part.Bounds.xmax);
+    all.Bounds.ymax = std::max(all.Bounds.ymax, part.Bounds.ymax);
+    all.Rejected.insert(all.Rejected.end(), part.Rejected.begin(), part.Rejected.end());
+  }
+  return all;
+}
+
+std::vector<Point2> samplePoints(PointsView points, std::size_t count)
+{
+  std::vector<Point2> sample;
+  sample.reserve(count);
+  const double step = std::max(1.0, double(points.size()) / double(count));
+  for (double at = step / 2; at < double(points.size()); at += step)
+  {
+    const Point2 p = points[static_cast<std::size_t>(at)];
+    if (isFinite(p))
+    {
+      sample.push_back(p);
+    }
+  }
+  return sample;
+}
+
+template <typename Id>
+PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threads)
+{
+  const std::size_t partitions = static_cast<std::size_t>(tiling.size());
+  Buffer<std::uint32_t> labels(points.size());
+  std::vector<std::vector<std::size_t>> places(
+    static_cast<std::size_t>(threads), std::vector<std::size_t>(partitions, 0));
+#pragma omp parallel for num_threads(threads) schedule(static, 1)
+  for (int part = 0; part < threads; ++part)
+  {
+    const auto [begin, end] = share(points.size(), part, threads);
+    std::vector<std::size_t>& counts = places[std::size_t(part)];
+    points.forEach(begin,
+      end,
+      [&](std::size_t id, Point2 p)
+      {
+        labels[id] = NoPartition;
+        if (isFinite(p))
+        {
+          labels[id] = static_cast<std::uint32_t>(tiling.locate(p));
+          ++counts[labels[id]];
+        }
+      });
+  }
+
+  PointBuckets<Id> buckets;
+  std::size_t sum = 0;
+  for (std::size_t partition = 0; partition < partitions; ++partition)
+  {
+    buckets.Starts.push_back(sum);
+    for (std::vector<std::size_t>& place : places)
+    {
+      const std::size_t count = place[partition];
+      place[partition] = sum;
+      sum += count;
+    }
+  }
+  buckets.Starts.push_back(sum);
+  buckets.Points = Buffer<Point2>(sum);
+  buckets.Ids = Buffer<Id>(sum);
+
+#pragma omp parallel for num_threads(threads) schedule(static, 1)
+  for (int part = 0; part < threads; ++part)
+  {
+    const auto [begin, end] = share(points.size(), part, threads);
+    std::vector<std::size_t>& place = places[std::size_t(part)];
+    points.forEach(begin,
+      end,
+      [&](std::size_t id, Point2 p)
+      {
+        if (labels[id] != NoPartition)
+        {
+          const std::size_t at = place[labels[id]]++;
+          buckets.Points[at] = p;
+          buckets.Ids[at] = static_cast<Id>(id);
+        }
+      });
+  }
+  return buckets;
+}
+
+template PointBuckets<std::int32_t> bucketPoints(PointsView, const Tiling&, int);
+template PointBuckets<std::int64_t> bucketPoints(PointsView, const Tiling&, int);
+
+} // namespace tipp

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Triangulation/TriangleSink.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace tipp
+{
+
+template <typename Id>
+TriangleSink<Id>::TriangleSink(const std::vector<std::size_t>& starts)
+  : Starts(starts)
+  , InteriorCounts(starts.size() - 1, 0)
+  , Ids(6 * starts.back())
+{
+}
+
+template <typename Id>
+std::vector<typename TriangleSink<Id>::Corners> TriangleSink<Id>::sortSeams(
+  const std::vector<SeamTriangle>& seams,
+  int threads) const
+{
+  const std::size_t partitions = this->InteriorCounts.size();
+  const auto lowest = [](const SeamTriangle& triangle)
+  {
+    return std::min_element(triangle.begin(),
+      triangle.end(),
+      [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; });
+  };
+  std::vector<std::size_t> places(partitions + 1, 0);
+  for (const SeamTriangle& triangle : seams)
+  {
+    ++places[std::size_t(lowest(triangle)->partition()) + 1];
+  }
+  for (std::size_t p = 0; p < partitions; ++p)
+  {
+    places[p + 1] += places[p];
+  }
+  const std::vector<std::size_t> begins = places;
+  std::vector<Corners> sorted(seams.size());
+  for (const SeamTriangle& triangle : seams)
+  {
+    const auto first = static_cast<std::size_t>(lowest(triangle) - triangle.begin());
+    Corners& corners = sorted[places[std::size_t(triangle[first].partition())]++];
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      corners[i] = static_cast<Id>(triangle[(first + i) % 3].Id);
+    }
+  }
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 16)
+  for (std::size_t p = 0; p < partitions; ++p)
+  {
+    std::sort(
+      sorted.begin() + std::ptrdiff_t(begins[p]), sorted.begin() + std::ptrdiff_t(begins[p + 1]));
+  }
+  return sorted;
+}
+
+template <typename Id>
+void TriangleSink<Id>::copyTriangle(std::size_t to, const Id* corners)
+{
+  std::copy(corners, corners + 3, this->Ids.data() + 3 * to);
+}
+
+template <typename Id>
+Buffer<Id> TriangleSink<Id>::assemble(const std::vector<SeamTriangle>& seams, int threads)
+{
+  const std::vector<Corners> sorted = this->sortSeams(seams, threads);
+  std::size_t total = sorted.size();
+  for (const std::size_t count : this->InteriorCounts)
+  {
+    total += count;
+  }
+
+  // Interior triangles that lie beyond the end, last partition first, fill what the seams leave.
+  std::size_t donor = this->InteriorCounts.size();
+  std::size_t donorAt = 0;
+  std::size_t donorBegin = 0;
+  const auto nextBeyond = [&]()
+  {
+    while (donorAt == donorBegin)
+    {
+      --donor;
+      const std::size_t begin = 2 * this->Starts[donor];
+      donorAt = begin + this->InteriorCounts[donor];
+      donorBegin = std::min(std::max(begin, total), donorAt);
+    }
+    return this->Ids.data() + 3 * --donorAt;
+  };
+  auto seam = sorted.begin();
+  for (std::size_t p = 0; p < this->InteriorCounts.size(); ++p)
+  {
+    const std::size_t gapEnd = std::min(2 * this->Starts[p + 1], total);
+    for (std::size_t at = 2 * this->Starts[p] + this->InteriorCounts[p]; at < gapEnd; ++at)
+    {
+      if (seam != sorted.end())
+      {
+        this->copyTriangle(at, (seam++)->data());
+      }
+      else
+      {
+        this->copyTriangle(at, nextBeyond());
+      }
+    }
+  }
+  this->Ids.truncate(3 * total);
+  return std::move(this->Ids);
+}
+
+template <typename Id>
+void preferLowestIds(Buffer<Id>& ids, std::vector<Duplicate>& duplicates, int threads)
+{
+  std::unordered_map<PointId, PointId> lowest;
+  for (const Duplicate& duplicate : duplicates)
+  {
+    if (duplicate.Point < duplicate.Representative)
+    {
+      PointId& id = lowest.emplace(duplicate.Representative, duplicate.Point).first->second;
+      id = std::min(id, duplicate.Point);
+    }
+  }
+  if (!lowest.empty())
+  {
+    for (Duplicate& duplicate : duplicates)
+    {
+      const auto it = lowest.find(duplicate.Representative);
+      if (it != lowest.end())
+      {
+        duplicate = { duplicate.Point == it->second ? it->first : duplicate.Point, it->second };
+      }
+    }
+    const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(ids.size());
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::ptrdiff_t i = 0; i < end; ++i)
+    {
+      const auto it = lowest.find(ids[std::size_t(i)]);
+      if (it != lowest.end())
+      {
+        ids[std::size_t(i)] = static_cast<Id>(it->second);
+      }
+    }
+  }
+  std::sort(duplicates.begin(),
+    duplicates.end(),
+    [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
+}
+
+template class TriangleSink<std::int32_t>;
+template class TriangleSink<std::int64_t>;
+template void preferLowestIds(Buffer<std::int32_t>&, std::vector<Duplicate>&, int);
+template void preferLowestIds(Buffer<std::int64_t>&, std::vector<Duplicate>&, int);
+
+} // namespace tipp

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Triangulation/Worker.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tipp
+{
+namespace
+{
+
+/// The disks inside this closed box do not touch the closed boxes around it.
+Box2 openBox(const Box2& box)
+{
+  return { std::nextafter(box.xmin, HUGE_VAL),
+    std::nextafter(box.ymin, HUGE_VAL),
+    std::nextafter(box.xmax, -HUGE_VAL),
+    std::nextafter(box.ymax, -HUGE_VAL) };
+}
+
+} // namespace
+
+template <typename Id>
+Worker<Id>::Worker(const Tiling& tiling, PointBuckets<Id>& buckets)
+  : Boxes(tiling)
+  , Buckets(buckets)
+{
+}
+
+template <typename Id>
+void Worker<Id>::triangulate(PartitionIndex partition,
+  const std::vector<SeamTriangle>& belonging,
+  Id* interior)
+{
+  this->collectVertices(partition, belonging);
+  this->Kernel.clear();
+  // The own points first: their interior triangles then do not depend on the foreign ones.
+  this->Kernel.insert(
+    this->Buckets.Points.data() + this->Buckets.start(partition), this->Buckets.count(partition));
+  this->Kernel.insert(this->ForeignPoints.data(), this->ForeignPoints.size());
+  this->VertexCount = static_cast<std::size_t>(this->Kernel.vertexEnd()) - 1;
+  this->resolveDuplicates(partition);
+  this->findSeams(partition);
+  this->writeInterior(partition, interior);
+}
+
+template <typename Id>
+void Worker<Id>::triangulateAlone(Id* triangles)
+{
+  this->Kernel.clear();
+  this->Kernel.insert(this->Buckets.Points.data(), this->Buckets.count(0));
+  this->VertexCount = static_cast<std::size_t>(this->Kernel.vertexEnd()) - 1;
+  this->resolveDuplicates(0);
+  this->IsSeam.resize(static_cast<std::size_t>(this->Kernel.mesh().end() / 8));
+  for (std::size_t t = 0; t < this->IsSeam.size(); ++t)
+  {
+    this->IsSeam[t] = this->Kernel.isInfinite(static_cast<DelaunayKernel::Index>(8 * t));
+  }
+  this->writeInterior(0, triangles);
+}
+
+template <typename Id>
+void Worker<Id>::collectVertices(PartitionIndex partition,
+  const std::vector<SeamTriangle>& belonging)
+{
+  this->Foreign.clear();
+  this->ForeignPoints.clear();
+  this->KnownIds.clear();
+  std::size_t size = 64;
+  while (size < 4 * belonging.size())
+  {
+    size *= 2;
+  }
+  constexpr std::uint32_t empty = ~0U;
+  this->HashTable.assign(size, empty);
+  for (const SeamTriangle& triangle : belonging)
+  {
+    for (const SeamVertex& v : triangle)
+    {
+      if (v.partition() == partition && !v.isArtificial())
+      {
+        this->KnownIds.push_back(v.Id);
+        continue;
+      }
+      std::size_t at = (std::uint64_t(v.Id) * 0x9e3779b97f4a7c15U) >> 32;
+      for (at &= size - 1; this->HashTable[at] != empty; at = (at + 1) & (size - 1))
+      {
+        if (this->Foreign[this->HashTable[at]].Id == v.Id)
+        {
+          break;
+        }
+      }
+      if (this->HashTable[at] == empty)
+      {
+        this->HashTable[at] = static_cast<std::uint32_t>(this->Foreign.size());
+        this->Foreign.push_back(v);
+        this->ForeignPoints.push_back(v.Place);
+      }
+    }
+  }
+  std::sort(this->KnownIds.begin(), this->KnownIds.end());
+}
+
+template <typename Id>
+void Worker<Id>::resolveDuplicates(PartitionIndex partition)
+{
+  this->Duplicates.clear();
+  Id* ids = this->Buckets.Ids.data() + this->Buckets.start(partition);
+  const auto isKnown = [this](Id id)
+  { return std::binary_search(this->KnownIds.begin(), this->KnownIds.end(), std::int64_t(id)); };
+  const auto& found = this->Kernel.duplicates();
+  for (const DelaunayKernel::Duplicate& duplicate : found)
+  {
+    Id& id = ids[duplicate.Point];
+    Id& representative = ids[this->Kernel.place(duplicate.Vertex)];
+    if (isKnown(id) || (id < representative && !isKnown(representative)))
+    {
+      std::swap(id, representative);
+    }
+  }
+  for (const DelaunayKernel::Duplicate& duplicate : found)
+  {
+    this->Duplicates.push_back({ ids[duplicate.Point], ids[this->Kernel.place(duplicate.Vertex)] });
+  }
+}
+
+template <typename Id>
+SeamVertex Worker<Id>::vertex(PartitionIndex partition, DelaunayKernel::Index v) const
+{
+  const std::size_t place = this->Kernel.place(v);
+  const std::size_t own = this->Buckets.count(partition);
+  if (place >= own)
+  {
+    return this->Foreign[place - own];
+  }
+  return makeSeamVertex(this->Boxes,
+    partition,
+    this->Kernel.point(v),
+    this->Buckets.Ids[this->Buckets.start(partition) + place]);
+}
+
+/// Walks over the triangles whose circumdisk is not inside the partition. They are connected: each
+/// point outside has a cavity that is, and a path outside from point to point changes the cavity
+/// by one neighbour at a time. So only the seam and one row of interior triangles are looked at.
+template <typename Id>
+void Worker<Id>::findSeams(PartitionIndex partition)
+{
+  const HalfEdgeMesh& mesh = this->Kernel.mesh();
+  const Box2& box = this->Boxes.box(partition);
+  const Box2 open = openBox(box);
+  this->Seams.clear();
+  this->IsSeam.assign(static_cast<std::size_t>(mesh.end() / 8), 0);
+  DelaunayKernel::Index start = 0;
+  while (!this->Kernel.isInfinite(start))
+  {
+    start += 8;
+  }
+  this->Stack.assign(1, start);
+  this->IsSeam[std::size_t(start / 8)] = 1;
+  while (!this->Stack.empty())
+  {
+    const DelaunayKernel::Index t = this->Stack.back();
+    this->Stack.pop_back();
+    for (DelaunayKernel::Index i = 0; i < 3; ++i)
+    {
+      const DelaunayKernel::Index neighbour = HalfEdgeMesh::triangleOf(mesh.twin(t + i));
+      char& isSeam = this->IsSeam[std::size_t(neighbour / 8)];
+      if (isSeam)
+      {
+        continue;
+      }
+      if (!this->Kernel.isInfinite(neighbour))
+      {
+        const DelaunayKernel::Index* v = mesh.slots() + neighbour;
+        const Circumdisk disk(
+          this->Kernel.point(v[0]), this->Kernel.point(v[1]), this->Kernel.point(v[2]));
+        if (disk.inside(open))
+        {
+          continue;
+        }
+        if (disk.meets(box))
+        {
+          this->Seams.add(this->Boxes,
+            { this->vertex(partition, v[0]),
+              this->vertex(partition, v[1]),
+              this->vertex(partition, v[2]) },
+            disk);
+        }
+      }
+      isSeam = 1;
+      this->Stack.push_back(neighbour);
+    }
+  }
+}
+
+template <typename Id>
+void Worker<Id>::writeInterior(PartitionIndex partition, Id* interior)
+{
+  const DelaunayKernel::Index* slots = this->Kernel.mesh().slots();
+  const Id* ids = this->Buckets.Ids.data() + this->Buckets.start(partition);
+  Id* out = interior;
+  for (std::size_t t = 0; t < this->IsSeam.size(); ++t)
+  {
+    if (!this->IsSeam[t])
+    {
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        *out++ = ids[this->Kernel.place(slots[8 * t + i])];
+      }
+    }
+  }
+  this->InteriorCount = static_cast<std::size_t>(out - interior) / 3;
+}
+
+template class Worker<std::int32_t>;
+template class Worker<std::int64_t>;
+
+} // namespace tipp

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippWorker_h
+#define tippWorker_h
+
+#include "Kernel/DelaunayKernel.h"
+#include "Triangulation/PointBuckets.h"
+#include "Triangulation/SeamMesh.h"
+#include "Triangulation/Triangulate.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+/// Triangulates one partition at a time (Lemma 1): its points, and the vertices of the triangles
+/// that belong to it. Keeps its memory from one partition to the next.
+template <typename Id>
+class Worker
+{
+public:
+  Worker(const Tiling& tiling, PointBuckets<Id>& buckets);
+
+  /// Writes the ids of the partition's interior triangles, whose order and number depend on its own
+  /// points alone, and keeps the others whose circumdisk meets the partition.
+  void triangulate(PartitionIndex partition,
+    const std::vector<SeamTriangle>& belonging,
+    Id* interior);
+
+  /// The only partition: all triangles are interior.
+  void triangulateAlone(Id* triangles);
+
+  std::size_t interiorCount() const { return this->InteriorCount; }
+  const SeamTriangles& seams() const { return this->Seams; }
+
+  /// Points of the partition at the place of another. The representative is the lowest id, unless
+  /// it is an initial point, which other partitions know already.
+  const std::vector<Duplicate>& duplicates() const { return this->Duplicates; }
+  std::size_t vertexCount() const { return this->VertexCount; }
+
+private:
+  /// Vertices that came with the triangles: those of other partitions, and the partition's own.
+  void collectVertices(PartitionIndex partition, const std::vector<SeamTriangle>& belonging);
+  void resolveDuplicates(PartitionIndex partition);
+  void findSeams(PartitionIndex partition);
+  void writeInterior(PartitionIndex partition, Id* interior);
+  SeamVertex vertex(PartitionIndex partition, DelaunayKernel::Index v) const;
+
+  const Tiling& Boxes;
+  PointBuckets<Id>& Buckets;
+  DelaunayKernel Kernel;
+  std::vector<SeamVertex> Foreign;
+  std::vector<Point2> ForeignPoints;
+  std::vector<std::int64_t> KnownIds; ///< of own points that other partitions know; sorted
+  std::vector<std::uint32_t> HashTable;
+  std::vector<char> IsSeam; ///< of each triangle of the kernel: not interior
+  std::vector<DelaunayKernel::Index> Stack;
+  SeamTriangles Seams;
+  std::vector<Duplicate> Duplicates;
+  std::size_t InteriorCount = 0;
+  std::size_t VertexCount = 0;
+};
+
+extern template class Worker<std::int32_t>;
+extern template class Worker<std::int64_t>;
+
+} // namespace tipp
+
+#endif

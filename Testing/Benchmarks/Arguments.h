@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippBenchmarkArguments_h
+#define tippBenchmarkArguments_h
+
+#include "Triangulation/Triangulate.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+namespace benchmark
+{
+
+struct Arguments
+{
+  struct Input
+  {
+    std::string Name; ///< of a point set, or of a .npy file
+    std::size_t Count;
+  };
+  std::vector<Input> Inputs;
+  std::vector<int> Threads{ 1, 2 };
+  std::vector<std::string> Peers{ "cgal" };
+  TriangulationOptions Options;
+  std::uint64_t Seed = 1;
+  int Repeat = 3;
+  bool Phases = false;
+
+  bool hasPeer(const std::string& name) const;
+};
+
+/// The text of --help.
+std::string usage();
+/// Throws std::invalid_argument with one sentence for anything that is not understood.
+Arguments parseArguments(int argc, char** argv);
+
+} // namespace benchmark
+} // namespace tipp
+
+#endif

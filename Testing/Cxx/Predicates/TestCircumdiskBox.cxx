@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Predicates/CircumdiskBox.h"
+
+#include "ExactOracle.h"
+#include "NearDegenerate.h"
+
+#include "Predicates/Orientation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace
+{
+
+using tipp::Box2;
+using tipp::Point2;
+
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+// The disk of radius 5 around the origin.
+const Point2 A{ 5, 0 };
+const Point2 B{ -3, 4 };
+const Point2 C{ 0, -5 };
+
+double above(double value)
+{
+  return std::nextafter(value, Infinity);
+}
+
+double below(double value)
+{
+  return std::nextafter(value, -Infinity);
+}
+
+struct Counts
+{
+  int meets[2] = { 0, 0 };
+  int inside[2] = { 0, 0 };
+};
+
+// Boxes around the disk's own corners, its bounds and random places, each side nudged.
+Box2 drawBox(NearDegenerate& draw, const NearDegenerate::Points& q, const Box2& bounds)
+{
+  const auto x = [&]() -> double
+  {
+    const double choices[] = { q[0].x,
+      q[1].x,
+      q[2].x,
+      q[3].x,
+      bounds.xmin,
+      bounds.xmax,
+      q[draw.integer(0, 3)].x + (q[0].x - q[1].x) * draw.real(-2, 2),
+      -Infinity,
+      Infinity };
+    return choices[draw.integer(0, 8)];
+  };
+  const auto y = [&]() -> double
+  {
+    const double choices[] = { q[0].y,
+      q[1].y,
+      q[2].y,
+      q[3].y,
+      bounds.ymin,
+      bounds.ymax,
+      q[draw.integer(0, 3)].y + (q[0].y - q[1].y) * draw.real(-2, 2),
+      -Infinity,
+      Infinity };
+    return choices[draw.integer(0, 8)];
+  };
+  const Point2 one = draw.nudged({ x(), y() });
+  const Point2 two = draw.nudged({ x(), y() });
+  return {
+    std::min(one.x, two.x), std::min(one.y, two.y), std::max(one.x, two.x), std::max(one.y, two.y)
+  };
+}
+
+template <typename Draw>
+Counts compareWithRationals(NearDegenerate& draw, int count, Draw drawPoints)
+{
+  Counts counts;
+  for (int i = 0; i < count && !testing::Test::HasFailure(); ++i)
+  {
+    NearDegenerate::Points q = drawPoints();
+    const int turn = tipp::orientation(q[0], q[1], q[2]);
+    if (turn < 0)
+    {
+      std::swap(q[0], q[1]);
+    }
+    if (turn == 0)
+    {
+      continue;
+    }
+    const tipp::Circumdisk disk(q[0], q[1], q[2]);
+    const oracle::Disk exact(q[0], q[1], q[2]);
+    EXPECT_TRUE(exact.inside(disk.bounds())) << testing::PrintToString(q);
+    for (int j = 0; j < 4; ++j)
+    {
+      const Box2 box = drawBox(draw, q, disk.bounds());
+      // A box beyond all numbers is no box.
+      if (box.xmin == Infinity || box.ymin == Infinity || box.xmax == -Infinity ||
+          box.ymax == -Infinity)
+      {
+        continue;
+      }
+      const bool meets = exact.meets(box);
+      const bool inside = exact.inside(box);
+      EXPECT_EQ(meets, disk.meets(box)) << testing::PrintToString(q) << testing::PrintToString(box);
+      EXPECT_EQ(inside, disk.inside(box))
+        << testing::PrintToString(q) << testing::PrintToString(box);
+      ++counts.meets[meets ? 1 : 0];
+      ++counts.inside[inside ? 1 : 0];
+    }
+  }
+  return counts;
+}
+
+void expectAllAnswers(const Counts& counts)
+{
+  EXPECT_GT(counts.meets[0], 0);
+  EXPECT_GT(counts.meets[1], 0);
+  EXPECT_GT(counts.inside[0], 0);
+  EXPECT_GT(counts.inside[1], 0);
+}
+
+} // namespace
+
+TEST(CircumdiskBox, TouchingASideCountsAsMeeting)
+{
+  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { 5, -1, 9, 1 }));
+  EXPECT_FALSE(tipp::circumdiskMeetsBox(A, B, C, { above(5), -1, 9, 1 }));
+  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { -1, -9, 1, -5 }));
+  EXPECT_FALSE(tipp::circumdiskMeetsBox(A, B, C, { -1, -9, 1, below(-5) }));
+}
+
+TEST(CircumdiskBox, TouchingACornerCountsAsMeeting)
+{
+  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { 3, 4, 9, 9 }));
+  EXPECT_FALSE(tipp::circumdiskMeetsBox(A, B, C, { above(3), 4, 9, 9 }));
+  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { -9, -9, -4, -3 }));
+  EXPECT_FALSE(tipp::circumdiskMeetsBox(A, B, C, { -9, -9, -4, below(-3) }));
+}
+
+TEST(CircumdiskBox, TouchingFromInsideCountsAsInside)
+{
+  EXPECT_TRUE(tipp::circumdiskInsideBox(A, B, C, { -5, -5, 5, 5 }));
+  EXPECT_FALSE(tipp::circumdiskInsideBox(A, B, C, { above(-5), -5, 5, 5 }));
+  EXPECT_FALSE(tipp::circumdiskInsideBox(A, B, C, { -5, above(-5), 5, 5 }));
+  EXPECT_FALSE(tipp::circumdiskInsideBox(A, B, C, { -5, -5, below(5), 5 }));
+  EXPECT_FALSE(tipp::circumdiskInsideBox(A, B, C, { -5, -5, 5, below(5) }));
+}
+
+TEST(CircumdiskBox, ABoxWithinTheDiskAndADiskWithinTheBoxMeet)
+{
+  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { -1, -1, 1, 1 }));
+  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { 0.5, 0.5, 0.5, 0.5 }));
+  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { -100, -100, 100, 100 }));
+}
+
+TEST(CircumdiskBox, UnboundedBoxes)
+{
+  EXPECT_TRUE(tipp::circumdiskInsideBox(A, B, C, { -Infinity, -Infinity, Infinity, Infinity }));
+  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { -Infinity, -Infinity, Infinity, Infinity }));
+  EXPECT_TRUE(tipp::circumdiskInsideBox(A, B, C, { -5, -Infinity, Infinity, Infinity }));
+  EXPECT_FALSE(tipp::circumdiskInsideBox(A, B, C, { above(-5), -Infinity, Infinity, Infinity }));
+  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { 5, -Infinity, Infinity, Infinity }));
+  EXPECT_FALSE(tipp::circumdiskMeetsBox(A, B, C, { above(5), -Infinity, Infinity, Infinity }));
+  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { -Infinity, 4, -3, Infinity }));
+  EXPECT_FALSE(tipp::circumdiskMeetsBox(A, B, C, { -Infinity, above(4), -3, Infinity }));
+}
+
+TEST(CircumdiskBox, BoundsAreTightForOrdinaryTriangles)
+{
+  const Box2 bounds = tipp::Circumdisk(A, B, C).bounds();
+  EXPECT_NEAR(-5, bounds.xmin, 1e-13);
+  EXPECT_NEAR(-5, bounds.ymin, 1e-13);
+  EXPECT_NEAR(5, bounds.xmax, 1e-13);
+  EXPECT_NEAR(5, bounds.ymax, 1e-13);
+}
+
+TEST(CircumdiskBox, BoundsAreInfiniteWhereDoublesCannotTell)
+{
+  const Box2 bounds = tipp::Circumdisk({ 0, 0 }, { 1e-200, 0 }, { 0, 1e-200 }).bounds();
+  EXPECT_EQ(-Infinity, bounds.xmin);
+  EXPECT_EQ(Infinity, bounds.ymax);
+}
+
+TEST(CircumdiskBox, ExactForLatticeTriangles)
+{
+  NearDegenerate draw(1);
+  expectAllAnswers(compareWithRationals(draw,
+    10000,
+    [&] {
+      return draw.lattice(9, 1.0, { -4, 100 });
+    }));
+  expectAllAnswers(compareWithRationals(draw,
+    10000,
+    [&] {
+      return draw.lattice(9, 0.1, { 0, 0 });
+    }));
+}
+
+TEST(CircumdiskBox, ExactForBoxesWithCornersByTheCircle)
+{
+  NearDegenerate draw(2);
+  expectAllAnswers(compareWithRationals(draw,
+    10000,
+    [&] {
+      return draw.cocircular(0.1, { 0.5, -1 });
+    }));
+  expectAllAnswers(compareWithRationals(draw, 5000, [&] { return draw.unitCircle(); }));
+}
+
+TEST(CircumdiskBox, ExactForSliversWithEnormousDisks)
+{
+  NearDegenerate draw(3);
+  expectAllAnswers(compareWithRationals(draw,
+    10000,
+    [&] {
+      return draw.collinear(0.1, { 0.3, -0.7 });
+    }));
+  expectAllAnswers(compareWithRationals(draw,
+    10000,
+    [&] {
+      return draw.collinear(1e-6, { 1e3, 7 });
+    }));
+}
+
+TEST(CircumdiskBox, ExactBeyondTheRangeOfTheFilter)
+{
+  NearDegenerate draw(4);
+  for (const int exponent : { -1035, -500, -240, -225, 225, 500, 1000 })
+  {
+    compareWithRationals(draw,
+      1000,
+      [&] {
+        return scaled(draw.cocircular(0.1, { 0.5, -1 }), exponent);
+      });
+  }
+}
+
+TEST(CircumdiskBox, ExactForMixedExponents)
+{
+  NearDegenerate draw(5);
+  compareWithRationals(draw, 1000, [&] { return draw.mixedExponents(-1030, 990); });
+  compareWithRationals(draw, 5000, [&] { return draw.mixedExponents(-30, 30); });
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Predicates/Int256.h"
+
+#include <gtest/gtest.h>
+
+#include <gmpxx.h>
+
+#include <random>
+
+namespace
+{
+
+using tipp::Int128;
+using tipp::Int256;
+using tipp::UInt128;
+
+const Int128 Largest = static_cast<Int128>(~UInt128{ 0 } >> 1);
+const Int128 Smallest = -Largest - 1;
+
+mpz_class toGmp(Int128 value)
+{
+  mpz_class result(static_cast<long>(value >> 64));
+  result <<= 64;
+  return result + static_cast<unsigned long>(value);
+}
+
+// Random digits, then as many of them as a random length.
+Int128 draw(std::mt19937_64& engine)
+{
+  const UInt128 digits = (static_cast<UInt128>(engine()) << 64) | engine();
+  return static_cast<Int128>(digits) >> (engine() % 128);
+}
+
+} // namespace
+
+TEST(Int256, SignOfProductsAtTheEndsOfTheRange)
+{
+  EXPECT_EQ(1, Int256::product(Largest, Largest).sign());
+  EXPECT_EQ(1, Int256::product(Smallest, Smallest).sign());
+  EXPECT_EQ(-1, Int256::product(Smallest, Largest).sign());
+  EXPECT_EQ(-1, Int256::product(-1, 1).sign());
+  EXPECT_EQ(0, Int256::product(0, Smallest).sign());
+}
+
+TEST(Int256, SignOfASumOfProductsAgreesWithGmp)
+{
+  std::mt19937_64 engine(1);
+  for (int i = 0; i < 100000; ++i)
+  {
+    // Below 2^126, so that the sum of four products fits.
+    Int128 v[8];
+    for (Int128& value : v)
+    {
+      value = draw(engine) / 2;
+    }
+    // A near cancellation: the last product repeats the first one with the opposite sign, but
+    // for 1.
+    v[6] = -v[0];
+    v[7] = v[1] + (i % 3 - 1);
+    Int256 sum = Int256::product(v[0], v[1]);
+    mpz_class expected = toGmp(v[0]) * toGmp(v[1]);
+    const int first = i % 2 == 0 ? 2 : 6;
+    for (int j = first; j < 8; j += 2)
+    {
+      sum += Int256::product(v[j], v[j + 1]);
+      expected += toGmp(v[j]) * toGmp(v[j + 1]);
+    }
+    ASSERT_EQ(sgn(expected), sum.sign());
+  }
+}
