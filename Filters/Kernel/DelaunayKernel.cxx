@@ -156,14 +156,14 @@ bool DelaunayKernel::makeFirstTriangle(Index first)
 void DelaunayKernel::insertVertex(Index vertex, Point2 next)
 {
   const Point2 p = this->Points[vertex];
-  const Index triangle = this->walk(p);
-  const Index equal = this->equalVertex(triangle, p);
-  if (equal != Infinite)
+  const Location location = this->locate(p);
+  const Index equal = this->equalVertex(location, p);
+  if (__builtin_expect(equal != Infinite, 0))
   {
     this->Duplicates.push_back({ this->Places[vertex], equal });
     return;
   }
-  this->openCavity(triangle, p);
+  this->openCavity(location, p);
   this->fillCavity(vertex, p, next);
 }
 
@@ -173,91 +173,118 @@ inline DelaunayKernel::Direction DelaunayKernel::directionTo(Index vertex, Point
   return { v.x - p.x, v.y - p.y };
 }
 
-/// The orientation of (a, b, p), a and b given by their directions from p too.
-inline int DelaunayKernel::turn(const Direction& a,
+/// Whether p lies to the right of the line from a to b, which are given as seen from p too.
+inline bool DelaunayKernel::isRightOf(const Direction& a,
   const Direction& b,
+  double& cross,
   Index ia,
   Index ib,
   Point2 p)
 {
   const double left = a.X * b.Y;
   const double right = a.Y * b.X;
-  const double det = left - right;
+  cross = left - right;
   const double bound = TurnBound * (std::fabs(left) + std::fabs(right)) + UnderflowBound;
-  if (det > bound)
+  if (cross > bound)
   {
-    return 1;
+    return false;
   }
-  if (-det > bound)
+  if (__builtin_expect(-cross > bound, 1))
   {
-    return -1;
+    return true;
   }
-  return this->exactOrientation(this->Points[ia], this->Points[ib], p);
+  return this->exactOrientation(this->Points[ia], this->Points[ib], p) < 0;
+}
+
+DelaunayKernel::Location DelaunayKernel::seenFrom(Point2 p, Index triangle) const
+{
+  const Index* v = this->Mesh.slots() + triangle;
+  const Direction a = this->directionTo(v[0], p);
+  const Direction b = this->directionTo(v[1], p);
+  const Direction c = this->directionTo(v[2], p);
+  return { triangle,
+    { a, b, c },
+    { a.X * b.Y - a.Y * b.X, b.X * c.Y - b.Y * c.X, c.X * a.Y - c.Y * a.X },
+    { v[2 + 4], v[0 + 4], v[1 + 4] } };
 }
 
 /// Walks from the last insertion to a triangle that holds p, or to the infinite triangle at a hull
 /// edge that p lies outside of. In a Delaunay triangulation such a walk ends (Devillers et al.).
-DelaunayKernel::Index DelaunayKernel::walk(Point2 p)
+DelaunayKernel::Location DelaunayKernel::locate(Point2 p)
 {
-  const Index* slot = this->Mesh.slots();
-  Index t = this->Recent;
-  Direction a = this->directionTo(slot[t], p);
-  Direction b = this->directionTo(slot[t + 1], p);
-  const Direction c = this->directionTo(slot[t + 2], p);
+  const Index* const slot = this->Mesh.slots();
+  Location at = this->seenFrom(p, this->Recent);
+  const Index* const v = slot + at.Triangle;
+  Direction a;
+  Direction b;
+  double ab;
   Index h;
-  if (this->turn(a, b, slot[t], slot[t + 1], p) < 0)
+  if (this->isRightOf(at.Corner[1], at.Corner[2], ab, v[1], v[2], p))
   {
-    h = slot[t + 2 + 4];
+    a = at.Corner[1];
+    b = at.Corner[2];
+    h = at.Outer[1];
   }
-  else if (this->turn(b, c, slot[t + 1], slot[t + 2], p) < 0)
+  else if (this->isRightOf(at.Corner[0], at.Corner[1], ab, v[0], v[1], p))
   {
-    h = slot[t + 0 + 4];
-    a = b;
-    b = c;
+    a = at.Corner[0];
+    b = at.Corner[1];
+    h = at.Outer[0];
   }
-  else if (this->turn(c, a, slot[t + 2], slot[t], p) < 0)
+  else if (this->isRightOf(at.Corner[2], at.Corner[0], ab, v[2], v[0], p))
   {
-    h = slot[t + 1 + 4];
-    b = a;
-    a = c;
+    a = at.Corner[2];
+    b = at.Corner[0];
+    h = at.Outer[2];
   }
   else
   {
-    return t;
+    return at;
   }
   for (;;)
   {
-    // The edge crossed goes from a to b seen from where we came; behind it is the apex d.
+    // p lies right of the edge from a to b; behind it is the triangle (a, d, b).
     const Index id = slot[h];
-    if (id == Infinite)
+    if (__builtin_expect(id == Infinite, 0))
     {
-      return HalfEdgeMesh::triangleOf(h);
+      return this->seenFrom(p, HalfEdgeMesh::triangleOf(h));
     }
     const Index toA = HalfEdgeMesh::previous(h);
     const Index toB = HalfEdgeMesh::next(h);
     const Direction d = this->directionTo(id, p);
-    if (this->turn(a, d, slot[toA], id, p) < 0)
+    double ad;
+    double db;
+    if (this->isRightOf(a, d, ad, slot[toA], id, p))
     {
       b = d;
+      ab = ad;
       h = slot[toB + 4];
     }
-    else if (this->turn(d, b, id, slot[toB], p) < 0)
+    else if (this->isRightOf(d, b, db, id, slot[toB], p))
     {
       a = d;
+      ab = db;
       h = slot[toA + 4];
     }
     else
     {
-      return HalfEdgeMesh::triangleOf(h);
+      return { HalfEdgeMesh::triangleOf(h),
+        { a, d, b },
+        { ad, db, -ab },
+        { slot[toB + 4], slot[toA + 4], slot[h + 4] } };
     }
   }
 }
 
-DelaunayKernel::Index DelaunayKernel::equalVertex(Index triangle, Point2 p) const
+inline DelaunayKernel::Index DelaunayKernel::equalVertex(const Location& at, Point2 p) const
 {
+  if (__builtin_expect((at.Cross[0] != 0) & (at.Cross[1] != 0) & (at.Cross[2] != 0), 1))
+  {
+    return Infinite;
+  }
   for (Index i = 0; i < 3; ++i)
   {
-    const Index v = this->Mesh.vertex(triangle + i);
+    const Index v = this->Mesh.vertex(at.Triangle + i);
     if (this->Points[v] == p)
     {
       return v;
@@ -299,7 +326,7 @@ inline unsigned DelaunayKernel::testPair(const EdgePair& pair, Point2 p, ApexPai
 /// Collects the triangles in conflict with p and, counter-clockwise, the edges around them. The
 /// cavity has no vertex inside, so its dual is a tree: no triangle is met twice, no marks are
 /// needed, and depth-first order is the order around the ring.
-void DelaunayKernel::openCavity(Index triangle, Point2 p)
+void DelaunayKernel::openCavity(const Location& at, Point2 p)
 {
   const Index* const slot = this->Mesh.slots();
   Index* cavity = this->Cavity.data();
@@ -349,26 +376,26 @@ void DelaunayKernel::openCavity(Index triangle, Point2 p)
       { slot[HalfEdgeMesh::next(e.Outer[1]) + 4], slot[HalfEdgeMesh::previous(e.Outer[1]) + 4] } };
   };
 
-  const Direction a = this->directionTo(slot[triangle], p);
-  const Direction b = this->directionTo(slot[triangle + 1], p);
-  const Direction c = this->directionTo(slot[triangle + 2], p);
+  const Direction a = at.Corner[0];
+  const Direction b = at.Corner[1];
+  const Direction c = at.Corner[2];
   const double al = a.lift();
   const double bl = b.lift();
   const double cl = c.lift();
-  cavity[cavitySize++] = triangle;
+  cavity[cavitySize++] = at.Triangle;
   EdgePair edges{ Pair{ a.X, b.X },
     Pair{ a.Y, b.Y },
     Pair{ al, bl },
     Pair{ b.X, c.X },
     Pair{ b.Y, c.Y },
     Pair{ bl, cl },
-    Pair{ a.X * b.Y - a.Y * b.X, b.X * c.Y - b.Y * c.X },
-    { slot[triangle + 2 + 4], slot[triangle + 0 + 4] } };
+    Pair{ at.Cross[0], at.Cross[1] },
+    { at.Outer[0], at.Outer[1] } };
   ApexPair apex;
   {
     // The third edge, in both lanes.
-    const double ca = c.X * a.Y - c.Y * a.X;
-    const Index outer = slot[triangle + 1 + 4];
+    const double ca = at.Cross[2];
+    const Index outer = at.Outer[2];
     const EdgePair last{ Pair{ c.X, c.X },
       Pair{ c.Y, c.Y },
       Pair{ cl, cl },

@@ -60,6 +60,15 @@ private:
     double Y;
     double lift() const { return this->X * this->X + this->Y * this->Y; }
   };
+  /// The triangle that holds p, or an infinite one in conflict with it, as seen from p. Edge i goes
+  /// from corner i to the next.
+  struct Location
+  {
+    Index Triangle;
+    Direction Corner[3];
+    double Cross[3]; ///< of each edge's ends
+    Index Outer[3];
+  };
   /// Two edges side by side, (first, second) in every pair, counter-clockwise around p.
   using Pair = double __attribute__((vector_size(16)));
   struct EdgePair
@@ -99,10 +108,16 @@ private:
   void insertVertex(Index vertex, Point2 next);
 
   Direction directionTo(Index vertex, Point2 p) const;
-  int turn(const Direction& a, const Direction& b, Index ia, Index ib, Point2 p);
-  Index walk(Point2 p);
-  Index equalVertex(Index triangle, Point2 p) const;
-  void openCavity(Index triangle, Point2 p);
+  bool isRightOf(const Direction& a,
+    const Direction& b,
+    double& cross,
+    Index ia,
+    Index ib,
+    Point2 p);
+  Location locate(Point2 p);
+  Location seenFrom(Point2 p, Index triangle) const;
+  Index equalVertex(const Location& location, Point2 p) const;
+  void openCavity(const Location& location, Point2 p);
   unsigned testPair(const EdgePair& pair, Point2 p, ApexPair& apex);
   void fillCavity(Index vertex, Point2 p, Point2 next);
   bool isInConflict(Index triangle, Point2 p);

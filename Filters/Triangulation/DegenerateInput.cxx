@@ -18,6 +18,32 @@ bool isFinite(Point2 p)
 
 } // namespace
 
+PointsView withModerateMagnitude(PointsView points, const Box2& bounds)
+{
+  // Determinants have degree four in the coordinates, and errors reach 53 bits further down.
+  constexpr int moderate = 200;
+  constexpr int largestShift = 1000;
+  const double largest = std::max({ std::fabs(bounds.xmin),
+    std::fabs(bounds.xmax),
+    std::fabs(bounds.ymin),
+    std::fabs(bounds.ymax) });
+  if (largest == 0 || std::abs(std::ilogb(largest)) <= moderate)
+  {
+    return points;
+  }
+  const double factor =
+    std::ldexp(1.0, std::clamp(-std::ilogb(largest), -largestShift, largestShift));
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const Point2 p = points[i];
+    if (isFinite(p) && (p.x * factor / factor != p.x || p.y * factor / factor != p.y))
+    {
+      return points;
+    }
+  }
+  return points.scaled(factor);
+}
+
 bool areCollinear(PointsView points)
 {
   std::size_t found = 0; // distinct points, at most two

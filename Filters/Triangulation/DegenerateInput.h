@@ -2,6 +2,7 @@
 #ifndef tippDegenerateInput_h
 #define tippDegenerateInput_h
 
+#include "Predicates/Box2.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Triangulate.h"
 
@@ -9,6 +10,11 @@
 
 namespace tipp
 {
+
+/// Very small or very large coordinates, products of which would under- or overflow, times a power
+/// of two that brings them near 1: exact, and the filters work again. The points as they are where
+/// that would lose digits (a wide range of magnitudes) or is not needed.
+PointsView withModerateMagnitude(PointsView points, const Box2& bounds);
 
 /// True if the finite points lie on one line, or there are fewer than three. Looks at no more
 /// points than it needs.

@@ -9,7 +9,8 @@
 namespace tipp
 {
 
-/// Points where they lie in memory: x and y are the first two of every `stride` scalars.
+/// Points where they lie in memory: x and y are the first two of every `stride` scalars, times a
+/// factor.
 class PointsView
 {
 public:
@@ -28,12 +29,22 @@ public:
   }
 
   std::size_t size() const { return this->Count; }
+  double factor() const { return this->Factor; }
 
   Point2 operator[](std::size_t i) const
   {
     const std::size_t at = i * this->Stride;
-    return this->Doubles ? Point2{ this->Doubles[at], this->Doubles[at + 1] }
-                         : Point2{ this->Floats[at], this->Floats[at + 1] };
+    return this->Doubles
+             ? Point2{ this->Doubles[at] * this->Factor, this->Doubles[at + 1] * this->Factor }
+             : Point2{ this->Floats[at] * this->Factor, this->Floats[at + 1] * this->Factor };
+  }
+
+  /// The same points times a factor; exact if it is a power of two and nothing under- or overflows.
+  PointsView scaled(double factor) const
+  {
+    PointsView view = *this;
+    view.Factor *= factor;
+    return view;
   }
 
   /// visit(index, point) for begin <= index < end, in order.
@@ -42,25 +53,23 @@ public:
   {
     if (this->Doubles)
     {
-      scan(this->Doubles, this->Stride, begin, end, visit);
+      this->scan(this->Doubles, begin, end, visit);
     }
     else
     {
-      scan(this->Floats, this->Stride, begin, end, visit);
+      this->scan(this->Floats, begin, end, visit);
     }
   }
 
 private:
   template <typename Scalar, typename Visit>
-  static void scan(const Scalar* scalars,
-    std::size_t stride,
-    std::size_t begin,
-    std::size_t end,
-    Visit& visit)
+  void scan(const Scalar* scalars, std::size_t begin, std::size_t end, Visit& visit) const
   {
+    const std::size_t stride = this->Stride;
+    const double factor = this->Factor;
     for (std::size_t i = begin; i < end; ++i)
     {
-      visit(i, Point2{ scalars[i * stride], scalars[i * stride + 1] });
+      visit(i, Point2{ scalars[i * stride] * factor, scalars[i * stride + 1] * factor });
     }
   }
 
@@ -68,6 +77,7 @@ private:
   const float* Floats = nullptr;
   std::size_t Count = 0;
   std::size_t Stride = 2;
+  double Factor = 1;
 };
 
 } // namespace tipp

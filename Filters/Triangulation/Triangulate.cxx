@@ -36,6 +36,13 @@ Buffer<std::int64_t>& idsOf(Triangulation& result)
   return result.Ids64;
 }
 
+/// Waking a thread costs more than a short pass.
+int threadsForPass(std::size_t points, int threads)
+{
+  constexpr std::size_t shortest = 32768;
+  return static_cast<int>(std::min(static_cast<std::size_t>(threads), 1 + points / shortest));
+}
+
 /// One run of the algorithm, step by step.
 template <typename Id>
 class Run
@@ -46,13 +53,14 @@ public:
     , Options(options)
     , Result(result)
     , Threads(result.Statistics.Threads)
+    , PassThreads(threadsForPass(points.size(), result.Statistics.Threads))
   {
   }
 
   void run(const Tiling& tiling)
   {
     this->Result.Statistics.Partitions = tiling.size();
-    this->Buckets = bucketPoints<Id>(this->Points, tiling, this->Threads);
+    this->Buckets = bucketPoints<Id>(this->Points, tiling, this->PassThreads);
     this->checkSizes();
     this->endPhase("bucketing");
     const std::vector<SeamVertex> artificial = makeArtificialPoints(tiling);
@@ -68,7 +76,7 @@ public:
     Master master(this->Options.Order,
       tiling.size(),
       this->partitionsWithPoints(tiling),
-      triangulateVertices(tiling, initial, this->Threads));
+      triangulateVertices(tiling, initial, this->PassThreads));
     this->endPhase("initial mesh");
     this->work(tiling, master, artificial);
   }
@@ -195,8 +203,8 @@ private:
 
   void finish(TriangleSink<Id>& sink, const std::vector<SeamTriangle>& seams)
   {
-    Buffer<Id> ids = sink.assemble(seams, this->Threads);
-    preferLowestIds(ids, this->Result.Duplicates, this->Threads);
+    Buffer<Id> ids = sink.assemble(seams, this->PassThreads);
+    preferLowestIds(ids, this->Result.Duplicates, this->PassThreads);
     idsOf<Id>(this->Result) = std::move(ids);
     this->endPhase("output");
     this->report(1);
@@ -206,6 +214,7 @@ private:
   const TriangulationOptions& Options;
   Triangulation& Result;
   const int Threads;
+  const int PassThreads; ///< for passes over all points
   PointBuckets<Id> Buckets;
   std::atomic<std::size_t> PointsDone{ 0 };
   Stopwatch Watch;
@@ -244,18 +253,24 @@ Tiling makeTiling(PointsView points,
 
 } // namespace
 
-Triangulation triangulate(PointsView points, const TriangulationOptions& options)
+Triangulation triangulate(PointsView input, const TriangulationOptions& options)
 {
   Triangulation result;
   TriangulationStatistics& statistics = result.Statistics;
   statistics.Threads = options.Threads > 0 ? options.Threads : omp_get_max_threads();
   Stopwatch watch;
-  PointSurvey survey = surveyPoints(points, statistics.Threads);
+  const int passThreads = threadsForPass(input.size(), statistics.Threads);
+  PointSurvey survey = surveyPoints(input, passThreads);
   result.Rejected = std::move(survey.Rejected);
-  if (areCollinear(points))
+  if (areCollinear(input))
   {
-    result.Duplicates = sortOutDuplicates(points);
+    result.Duplicates = sortOutDuplicates(input);
     return result;
+  }
+  const PointsView points = withModerateMagnitude(input, survey.Bounds);
+  if (points.factor() != 1)
+  {
+    survey = surveyPoints(points, passThreads);
   }
   const Tiling tiling = makeTiling(points, survey.Bounds, options, statistics.Threads);
   statistics.Phases.push_back({ "survey and tiling", watch.seconds() });
