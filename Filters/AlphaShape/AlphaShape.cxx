@@ -32,7 +32,7 @@ double squaredCircumradius(const double a[3], const double b[3], const double c[
   vtkMath::Cross(ab, ac, normal);
   // r = |ab| |bc| |ca| / (4 area), and the normal is twice the area long.
   return vtkMath::Distance2BetweenPoints(a, b) * vtkMath::Distance2BetweenPoints(b, c) *
-         vtkMath::Distance2BetweenPoints(c, a) / (4 * vtkMath::Dot(normal, normal));
+    vtkMath::Distance2BetweenPoints(c, a) / (4 * vtkMath::Dot(normal, normal));
 }
 
 template <typename Id>
@@ -69,10 +69,8 @@ std::vector<char> smallTriangles(const Buffer<Id>& triangles, vtkPoints* points,
 }
 
 template <typename Id>
-std::vector<Edge<Id>> shortEdgesOfDropped(const Buffer<Id>& triangles,
-  const std::vector<char>& kept,
-  vtkPoints* points,
-  double alpha)
+std::vector<Edge<Id>> shortEdgesOfDropped(
+  const Buffer<Id>& triangles, const std::vector<char>& kept, vtkPoints* points, double alpha)
 {
   std::vector<Edge<Id>> edges;
   for (std::size_t t = 0; t < kept.size(); ++t)
@@ -159,10 +157,8 @@ Buffer<Id> uncovered(const std::vector<char>& covered)
 } // namespace
 
 template <typename Id>
-AlphaShape<Id> alphaShape(const Buffer<Id>& triangles,
-  vtkPoints* points,
-  double alpha,
-  std::vector<char> covered)
+AlphaShape<Id> alphaShape(
+  const Buffer<Id>& triangles, vtkPoints* points, double alpha, std::vector<char> covered)
 {
   const std::vector<char> kept = smallTriangles(triangles, points, alpha);
   AlphaShape<Id> shape;
@@ -179,13 +175,9 @@ AlphaShape<Id> alphaShape(const Buffer<Id>& triangles,
   return shape;
 }
 
-template AlphaShape<std::int32_t> alphaShape(const Buffer<std::int32_t>&,
-  vtkPoints*,
-  double,
-  std::vector<char>);
-template AlphaShape<std::int64_t> alphaShape(const Buffer<std::int64_t>&,
-  vtkPoints*,
-  double,
-  std::vector<char>);
+template AlphaShape<std::int32_t> alphaShape(
+  const Buffer<std::int32_t>&, vtkPoints*, double, std::vector<char>);
+template AlphaShape<std::int64_t> alphaShape(
+  const Buffer<std::int64_t>&, vtkPoints*, double, std::vector<char>);
 
 } // namespace tipp

@@ -23,19 +23,13 @@ struct AlphaShape
 /// `covered` has one entry for each point, not 0 for those that can be no vertex (duplicates and
 /// rejected points). A triangle without area in space counts as infinitely large.
 template <typename Id>
-AlphaShape<Id> alphaShape(const Buffer<Id>& triangles,
-  vtkPoints* points,
-  double alpha,
-  std::vector<char> covered);
+AlphaShape<Id> alphaShape(
+  const Buffer<Id>& triangles, vtkPoints* points, double alpha, std::vector<char> covered);
 
-extern template AlphaShape<std::int32_t> alphaShape(const Buffer<std::int32_t>&,
-  vtkPoints*,
-  double,
-  std::vector<char>);
-extern template AlphaShape<std::int64_t> alphaShape(const Buffer<std::int64_t>&,
-  vtkPoints*,
-  double,
-  std::vector<char>);
+extern template AlphaShape<std::int32_t> alphaShape(
+  const Buffer<std::int32_t>&, vtkPoints*, double, std::vector<char>);
+extern template AlphaShape<std::int64_t> alphaShape(
+  const Buffer<std::int64_t>&, vtkPoints*, double, std::vector<char>);
 
 } // namespace tipp
 

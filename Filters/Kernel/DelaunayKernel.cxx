@@ -131,9 +131,8 @@ bool DelaunayKernel::makeFirstTriangle(Index first)
   const Index b = turn > 0 ? first + 1 : first + 2;
   const Index c = turn > 0 ? first + 2 : first + 1;
   Index* slot = this->Mesh.slots();
-  const Index corners[4][3] = {
-    { a, b, c }, { Infinite, c, b }, { Infinite, a, c }, { Infinite, b, a }
-  };
+  const Index corners[4][3] = { { a, b, c }, { Infinite, c, b }, { Infinite, a, c },
+    { Infinite, b, a } };
   for (Index t = 0; t < 4; ++t)
   {
     for (Index i = 0; i < 3; ++i)
@@ -174,12 +173,8 @@ inline DelaunayKernel::Direction DelaunayKernel::directionTo(Index vertex, Point
 }
 
 /// Whether p lies to the right of the line from a to b, which are given as seen from p too.
-inline bool DelaunayKernel::isRightOf(const Direction& a,
-  const Direction& b,
-  double& cross,
-  Index ia,
-  Index ib,
-  Point2 p)
+inline bool DelaunayKernel::isRightOf(
+  const Direction& a, const Direction& b, double& cross, Index ia, Index ib, Point2 p)
 {
   const double left = a.X * b.Y;
   const double right = a.Y * b.X;
@@ -202,8 +197,7 @@ DelaunayKernel::Location DelaunayKernel::seenFrom(Point2 p, Index triangle) cons
   const Direction a = this->directionTo(v[0], p);
   const Direction b = this->directionTo(v[1], p);
   const Direction c = this->directionTo(v[2], p);
-  return { triangle,
-    { a, b, c },
+  return { triangle, { a, b, c },
     { a.X * b.Y - a.Y * b.X, b.X * c.Y - b.Y * c.X, c.X * a.Y - c.Y * a.X },
     { v[2 + 4], v[0 + 4], v[1 + 4] } };
 }
@@ -268,9 +262,7 @@ DelaunayKernel::Location DelaunayKernel::locate(Point2 p)
     }
     else
     {
-      return { HalfEdgeMesh::triangleOf(h),
-        { a, d, b },
-        { ad, db, -ab },
+      return { HalfEdgeMesh::triangleOf(h), { a, d, b }, { ad, db, -ab },
         { slot[toB + 4], slot[toA + 4], slot[h + 4] } };
     }
   }
@@ -314,7 +306,7 @@ inline unsigned DelaunayKernel::testPair(const EdgePair& pair, Point2 p, ApexPai
     for (unsigned i = 0; i < 2; ++i)
     {
       if (!((inside | outside) >> i & 1) &&
-          this->isInConflict(HalfEdgeMesh::triangleOf(pair.Outer[i]), p))
+        this->isInConflict(HalfEdgeMesh::triangleOf(pair.Outer[i]), p))
       {
         inside |= 1U << i;
       }
@@ -355,23 +347,15 @@ void DelaunayKernel::openCavity(const Location& at, Point2 p)
   // The two edges behind a pair's edge whose triangle is in conflict.
   const auto first = [slot](const EdgePair& e, const ApexPair& v)
   {
-    return EdgePair{ low(e.StartX, v.X),
-      low(e.StartY, v.Y),
-      low(e.StartLift, v.Lift),
-      low(v.X, e.StopX),
-      low(v.Y, e.StopY),
-      low(v.Lift, e.StopLift),
+    return EdgePair{ low(e.StartX, v.X), low(e.StartY, v.Y), low(e.StartLift, v.Lift),
+      low(v.X, e.StopX), low(v.Y, e.StopY), low(v.Lift, e.StopLift),
       low(v.StartCross, -v.StopCross),
       { slot[HalfEdgeMesh::next(e.Outer[0]) + 4], slot[HalfEdgeMesh::previous(e.Outer[0]) + 4] } };
   };
   const auto second = [slot](const EdgePair& e, const ApexPair& v)
   {
-    return EdgePair{ high(e.StartX, v.X),
-      high(e.StartY, v.Y),
-      high(e.StartLift, v.Lift),
-      high(v.X, e.StopX),
-      high(v.Y, e.StopY),
-      high(v.Lift, e.StopLift),
+    return EdgePair{ high(e.StartX, v.X), high(e.StartY, v.Y), high(e.StartLift, v.Lift),
+      high(v.X, e.StopX), high(v.Y, e.StopY), high(v.Lift, e.StopLift),
       high(v.StartCross, -v.StopCross),
       { slot[HalfEdgeMesh::next(e.Outer[1]) + 4], slot[HalfEdgeMesh::previous(e.Outer[1]) + 4] } };
   };
@@ -383,27 +367,16 @@ void DelaunayKernel::openCavity(const Location& at, Point2 p)
   const double bl = b.lift();
   const double cl = c.lift();
   cavity[cavitySize++] = at.Triangle;
-  EdgePair edges{ Pair{ a.X, b.X },
-    Pair{ a.Y, b.Y },
-    Pair{ al, bl },
-    Pair{ b.X, c.X },
-    Pair{ b.Y, c.Y },
-    Pair{ bl, cl },
-    Pair{ at.Cross[0], at.Cross[1] },
+  EdgePair edges{ Pair{ a.X, b.X }, Pair{ a.Y, b.Y }, Pair{ al, bl }, Pair{ b.X, c.X },
+    Pair{ b.Y, c.Y }, Pair{ bl, cl }, Pair{ at.Cross[0], at.Cross[1] },
     { at.Outer[0], at.Outer[1] } };
   ApexPair apex;
   {
     // The third edge, in both lanes.
     const double ca = at.Cross[2];
     const Index outer = at.Outer[2];
-    const EdgePair last{ Pair{ c.X, c.X },
-      Pair{ c.Y, c.Y },
-      Pair{ cl, cl },
-      Pair{ a.X, a.X },
-      Pair{ a.Y, a.Y },
-      Pair{ al, al },
-      Pair{ ca, ca },
-      { outer, outer } };
+    const EdgePair last{ Pair{ c.X, c.X }, Pair{ c.Y, c.Y }, Pair{ cl, cl }, Pair{ a.X, a.X },
+      Pair{ a.Y, a.Y }, Pair{ al, al }, Pair{ ca, ca }, { outer, outer } };
     if (this->testPair(last, p, apex) & 1)
     {
       enter(outer);

@@ -108,12 +108,8 @@ private:
   void insertVertex(Index vertex, Point2 next);
 
   Direction directionTo(Index vertex, Point2 p) const;
-  bool isRightOf(const Direction& a,
-    const Direction& b,
-    double& cross,
-    Index ia,
-    Index ib,
-    Point2 p);
+  bool isRightOf(
+    const Direction& a, const Direction& b, double& cross, Index ia, Index ib, Point2 p);
   Location locate(Point2 p);
   Location seenFrom(Point2 p, Index triangle) const;
   Index equalVertex(const Location& location, Point2 p) const;

@@ -108,7 +108,7 @@ private:
   bool isClose(PointId k, Point2 p) const
   {
     return std::hypot(p.x - this->Coordinates[2 * k], p.y - this->Coordinates[2 * k + 1]) <=
-           this->Distance;
+      this->Distance;
   }
 
   double Distance;
@@ -121,9 +121,8 @@ private:
 
 } // namespace
 
-MergedPoints mergeClosePoints(PointsView points,
-  double distance,
-  const std::function<bool(double)>& progress)
+MergedPoints mergeClosePoints(
+  PointsView points, double distance, const std::function<bool(double)>& progress)
 {
   constexpr std::size_t reportEvery = 1 << 16;
   const std::size_t count = points.size();

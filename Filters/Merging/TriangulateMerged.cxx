@@ -44,9 +44,8 @@ void renumber(Triangulation& result, const Buffer<PointId>& originals)
 
 } // namespace
 
-Triangulation triangulateMerged(PointsView points,
-  double distance,
-  const TriangulationOptions& options)
+Triangulation triangulateMerged(
+  PointsView points, double distance, const TriangulationOptions& options)
 {
   constexpr double mergingShare = 0.2; // of the reported progress
   TriangulationOptions scaled = options;

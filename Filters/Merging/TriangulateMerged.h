@@ -20,14 +20,12 @@ struct MergedPoints
 
 /// One pass over a hash grid; `progress`, if any, may end it with false. The result depends on
 /// the points and their order alone.
-VTKTIPPFILTERS_EXPORT MergedPoints mergeClosePoints(PointsView points,
-  double distance,
-  const std::function<bool(double)>& progress = {});
+VTKTIPPFILTERS_EXPORT MergedPoints mergeClosePoints(
+  PointsView points, double distance, const std::function<bool(double)>& progress = {});
 
 /// triangulate() of the points that mergeClosePoints() keeps, in the ids of `points`.
-VTKTIPPFILTERS_EXPORT Triangulation triangulateMerged(PointsView points,
-  double distance,
-  const TriangulationOptions& options = {});
+VTKTIPPFILTERS_EXPORT Triangulation triangulateMerged(
+  PointsView points, double distance, const TriangulationOptions& options = {});
 
 } // namespace tipp
 

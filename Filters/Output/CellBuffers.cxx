@@ -67,13 +67,12 @@ vtkSmartPointer<vtkCellArray> makeCells(Buffer<Value> ids, int cellSize)
 
 } // namespace
 
-vtkSmartPointer<vtkCellArray> takeCells(Buffer<std::int32_t> ids,
-  int cellSize,
-  std::int64_t largestOffset32)
+vtkSmartPointer<vtkCellArray> takeCells(
+  Buffer<std::int32_t> ids, int cellSize, std::int64_t largestOffset32)
 {
   return std::int64_t(ids.size()) > largestOffset32
-           ? makeCells<vtkTypeInt64Array>(widened(ids), cellSize)
-           : makeCells<vtkTypeInt32Array>(std::move(ids), cellSize);
+    ? makeCells<vtkTypeInt64Array>(widened(ids), cellSize)
+    : makeCells<vtkTypeInt32Array>(std::move(ids), cellSize);
 }
 
 vtkSmartPointer<vtkCellArray> takeCells(Buffer<std::int64_t> ids, int cellSize)

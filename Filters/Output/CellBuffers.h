@@ -19,10 +19,9 @@ namespace tipp
 /// cells unless the last offset exceeds `largestOffset32`, for VTK stores ids and offsets in one
 /// type; they are copied into 64 bits then.
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkCellArray> takeCells(Buffer<std::int32_t> ids,
-  int cellSize,
-  std::int64_t largestOffset32 = std::numeric_limits<std::int32_t>::max());
-VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkCellArray> takeCells(Buffer<std::int64_t> ids,
-  int cellSize);
+  int cellSize, std::int64_t largestOffset32 = std::numeric_limits<std::int32_t>::max());
+VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkCellArray> takeCells(
+  Buffer<std::int64_t> ids, int cellSize);
 
 } // namespace tipp
 

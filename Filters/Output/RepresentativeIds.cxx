@@ -6,8 +6,8 @@
 namespace tipp
 {
 
-vtkSmartPointer<vtkIdTypeArray> representativeIds(const Triangulation& triangulation,
-  std::int64_t points)
+vtkSmartPointer<vtkIdTypeArray> representativeIds(
+  const Triangulation& triangulation, std::int64_t points)
 {
   Buffer<vtkIdType> ids{ std::size_t(points) };
 #pragma omp parallel for

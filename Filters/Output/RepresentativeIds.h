@@ -13,8 +13,8 @@ namespace tipp
 
 /// For each point the id of the point that stands for it: its own, for a duplicate its
 /// representative's, for a rejected point -1.
-vtkSmartPointer<vtkIdTypeArray> representativeIds(const Triangulation& triangulation,
-  std::int64_t points);
+vtkSmartPointer<vtkIdTypeArray> representativeIds(
+  const Triangulation& triangulation, std::int64_t points);
 
 } // namespace tipp
 

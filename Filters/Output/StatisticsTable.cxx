@@ -58,10 +58,8 @@ void addPhases(const std::vector<TriangulationStatistics::Phase>& phases, vtkFie
 
 } // namespace
 
-void fillStatisticsTable(const Triangulation& triangulation,
-  std::int64_t points,
-  std::int64_t triangles,
-  vtkTable* table)
+void fillStatisticsTable(
+  const Triangulation& triangulation, std::int64_t points, std::int64_t triangles, vtkTable* table)
 {
   const TriangulationStatistics& statistics = triangulation.Statistics;
   addStages(statistics.Stages, table);

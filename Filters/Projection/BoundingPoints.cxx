@@ -27,10 +27,8 @@ vtkSmartPointer<vtkPoints> appendBoundingPoints(vtkPoints* points, double offset
   for (int i = 0; i < boundingPoints; ++i)
   {
     const double angle = 2 * vtkMath::Pi() * i / boundingPoints;
-    scalars->SetTuple3(count + i,
-      bounds.center(0) + radius * std::cos(angle),
-      bounds.center(1) + radius * std::sin(angle),
-      bounds.center(2));
+    scalars->SetTuple3(count + i, bounds.center(0) + radius * std::cos(angle),
+      bounds.center(1) + radius * std::sin(angle), bounds.center(2));
   }
   auto extended = vtkSmartPointer<vtkPoints>::New();
   extended->SetData(scalars);

@@ -41,7 +41,7 @@ ProjectedPoints::ProjectedPoints(vtkPoints* points, vtkAbstractTransform* toPlan
     this->Scalars = inPlane->GetData();
   }
   if (viewInPlace<double>(this->Scalars, this->View) ||
-      viewInPlace<float>(this->Scalars, this->View))
+    viewInPlace<float>(this->Scalars, this->View))
   {
     return;
   }

@@ -23,10 +23,8 @@ PointsView withModerateMagnitude(PointsView points, const Box2& bounds)
   // Determinants have degree four in the coordinates, and errors reach 53 bits further down.
   constexpr int moderate = 200;
   constexpr int largestShift = 1000;
-  const double largest = std::max({ std::fabs(bounds.xmin),
-    std::fabs(bounds.xmax),
-    std::fabs(bounds.ymin),
-    std::fabs(bounds.ymax) });
+  const double largest = std::max({ std::fabs(bounds.xmin), std::fabs(bounds.xmax),
+    std::fabs(bounds.ymin), std::fabs(bounds.ymax) });
   if (largest == 0 || std::abs(std::ilogb(largest)) <= moderate)
   {
     return points;
@@ -78,8 +76,7 @@ std::vector<Duplicate> sortOutDuplicates(PointsView points)
     }
   }
   const auto place = [&points](PointId id) { return points[static_cast<std::size_t>(id)]; };
-  std::sort(order.begin(),
-    order.end(),
+  std::sort(order.begin(), order.end(),
     [&place](PointId a, PointId b)
     {
       const Point2 p = place(a);
@@ -99,8 +96,7 @@ std::vector<Duplicate> sortOutDuplicates(PointsView points)
       duplicates.push_back({ order[i], first });
     }
   }
-  std::sort(duplicates.begin(),
-    duplicates.end(),
+  std::sort(duplicates.begin(), duplicates.end(),
     [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
   return duplicates;
 }

@@ -18,15 +18,13 @@ bool hasArtificialVertex(const SeamTriangle& triangle)
     triangle.begin(), triangle.end(), [](const SeamVertex& v) { return v.isArtificial(); });
 }
 
-std::vector<SeamVertex> trueVertices(std::vector<SeamTriangle>::const_iterator begin,
-  std::vector<SeamTriangle>::const_iterator end)
+std::vector<SeamVertex> trueVertices(
+  std::vector<SeamTriangle>::const_iterator begin, std::vector<SeamTriangle>::const_iterator end)
 {
   std::vector<SeamVertex> vertices;
   for (auto triangle = begin; triangle != end; ++triangle)
   {
-    std::copy_if(triangle->begin(),
-      triangle->end(),
-      std::back_inserter(vertices),
+    std::copy_if(triangle->begin(), triangle->end(), std::back_inserter(vertices),
       [](const SeamVertex& v) { return !v.isArtificial(); });
   }
   const auto less = [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; };
@@ -43,11 +41,10 @@ bool contains(const Box2& box, Point2 p)
 
 } // namespace
 
-void removeArtificialPoints(std::vector<SeamTriangle>& final,
-  const std::vector<SeamVertex>& artificial)
+void removeArtificialPoints(
+  std::vector<SeamTriangle>& final, const std::vector<SeamVertex>& artificial)
 {
-  const auto firstRemoved = std::partition(final.begin(),
-    final.end(),
+  const auto firstRemoved = std::partition(final.begin(), final.end(),
     [](const SeamTriangle& triangle) { return !hasArtificialVertex(triangle); });
   const std::vector<SeamVertex> rim = trueVertices(firstRemoved, final.end());
   final.erase(firstRemoved, final.end());
@@ -66,15 +63,13 @@ void removeArtificialPoints(std::vector<SeamTriangle>& final,
       continue;
     }
     const DelaunayKernel::Index* v = kernel.mesh().slots() + t;
-    const SeamTriangle triangle = {
-      rim[kernel.place(v[0])], rim[kernel.place(v[1])], rim[kernel.place(v[2])]
-    };
+    const SeamTriangle triangle = { rim[kernel.place(v[0])], rim[kernel.place(v[1])],
+      rim[kernel.place(v[2])] };
     const Point2 a = triangle[0].Place;
     const Point2 b = triangle[1].Place;
     const Point2 c = triangle[2].Place;
     const Box2 bounds = Circumdisk(a, b, c).bounds();
-    if (std::any_of(artificial.begin(),
-          artificial.end(),
+    if (std::any_of(artificial.begin(), artificial.end(),
           [&](const SeamVertex& z)
           { return contains(bounds, z.Place) && inCirclePerturbed(a, b, c, z.Place); }))
     {

@@ -12,8 +12,8 @@ namespace tipp
 /// Removes the artificial points (Lemma 3): the triangles at them are replaced by those triangles
 /// of the Delaunay triangulation of their true vertices that an artificial point is in conflict
 /// with.
-void removeArtificialPoints(std::vector<SeamTriangle>& final,
-  const std::vector<SeamVertex>& artificial);
+void removeArtificialPoints(
+  std::vector<SeamTriangle>& final, const std::vector<SeamVertex>& artificial);
 
 } // namespace tipp
 

@@ -18,8 +18,7 @@ IndependentPartitions::IndependentPartitions(SeamMesh& mesh, std::vector<Partiti
 bool IndependentPartitions::isIndependentOfActive(PartitionIndex partition)
 {
   const std::vector<std::uint32_t>& reach = this->Mesh.reach(partition);
-  return std::none_of(reach.begin(),
-    reach.end(),
+  return std::none_of(reach.begin(), reach.end(),
     [this](std::uint32_t label) { return this->LabelIsActive[label] != 0; });
 }
 
@@ -89,8 +88,7 @@ std::vector<PartitionIndex> IndependentPartitions::nextStage()
   const std::vector<std::size_t> conflicts = this->countConflicts();
   std::vector<std::size_t> order(this->Unfinished.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
-  std::stable_sort(order.begin(),
-    order.end(),
+  std::stable_sort(order.begin(), order.end(),
     [&conflicts](std::size_t a, std::size_t b) { return conflicts[a] < conflicts[b]; });
 
   std::vector<PartitionIndex> stage;

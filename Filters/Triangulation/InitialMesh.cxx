@@ -45,10 +45,8 @@ std::vector<SeamVertex> makeArtificialPoints(const Tiling& tiling)
 {
   const double margin = meanLongSide(tiling);
   const Box2& domain = tiling.domain();
-  const Box2 frame = { outward(domain.xmin, -1, margin),
-    outward(domain.ymin, -1, margin),
-    outward(domain.xmax, 1, margin),
-    outward(domain.ymax, 1, margin) };
+  const Box2 frame = { outward(domain.xmin, -1, margin), outward(domain.ymin, -1, margin),
+    outward(domain.xmax, 1, margin), outward(domain.ymax, 1, margin) };
   const double width = frame.xmax - frame.xmin;
   const double height = frame.ymax - frame.ymin;
   std::vector<SeamVertex> vertices;
@@ -80,9 +78,8 @@ std::vector<SeamVertex> makeArtificialPoints(const Tiling& tiling)
 }
 
 template <typename Id>
-std::vector<SeamVertex> chooseInitialPoints(const Tiling& tiling,
-  const PointBuckets<Id>& buckets,
-  int perPartition)
+std::vector<SeamVertex> chooseInitialPoints(
+  const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition)
 {
   std::vector<SeamVertex> vertices;
   for (PartitionIndex p = 0; p < tiling.size(); ++p)
@@ -98,9 +95,8 @@ std::vector<SeamVertex> chooseInitialPoints(const Tiling& tiling,
   return vertices;
 }
 
-SeamTriangles triangulateVertices(const Tiling& tiling,
-  const std::vector<SeamVertex>& vertices,
-  int threads)
+SeamTriangles triangulateVertices(
+  const Tiling& tiling, const std::vector<SeamVertex>& vertices, int threads)
 {
   std::vector<Point2> points;
   points.reserve(vertices.size());
@@ -125,9 +121,8 @@ SeamTriangles triangulateVertices(const Tiling& tiling,
         continue;
       }
       const DelaunayKernel::Index* v = mesh.slots() + 8 * t;
-      const SeamTriangle triangle = {
-        vertices[kernel.place(v[0])], vertices[kernel.place(v[1])], vertices[kernel.place(v[2])]
-      };
+      const SeamTriangle triangle = { vertices[kernel.place(v[0])], vertices[kernel.place(v[1])],
+        vertices[kernel.place(v[2])] };
       parts[std::size_t(part)].add(
         tiling, triangle, Circumdisk(triangle[0].Place, triangle[1].Place, triangle[2].Place));
     }
@@ -140,11 +135,9 @@ SeamTriangles triangulateVertices(const Tiling& tiling,
   return all;
 }
 
-template std::vector<SeamVertex> chooseInitialPoints(const Tiling&,
-  const PointBuckets<std::int32_t>&,
-  int);
-template std::vector<SeamVertex> chooseInitialPoints(const Tiling&,
-  const PointBuckets<std::int64_t>&,
-  int);
+template std::vector<SeamVertex> chooseInitialPoints(
+  const Tiling&, const PointBuckets<std::int32_t>&, int);
+template std::vector<SeamVertex> chooseInitialPoints(
+  const Tiling&, const PointBuckets<std::int64_t>&, int);
 
 } // namespace tipp

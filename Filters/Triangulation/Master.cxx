@@ -28,10 +28,8 @@ SeamMesh makeMesh(PartitionIndex partitions, const std::vector<PartitionIndex>& 
 
 } // namespace
 
-Master::Master(Schedule schedule,
-  PartitionIndex partitions,
-  const std::vector<PartitionIndex>& withPoints,
-  const SeamTriangles& initialMesh)
+Master::Master(Schedule schedule, PartitionIndex partitions,
+  const std::vector<PartitionIndex>& withPoints, const SeamTriangles& initialMesh)
   : Order(schedule)
   , Mesh(makeMesh(partitions, withPoints))
   , Waiting(this->Mesh, withPoints)
@@ -89,10 +87,8 @@ PartitionIndex Master::acquire(std::vector<SeamTriangle>& belonging)
   }
 }
 
-void Master::complete(PartitionIndex partition,
-  const SeamTriangles& seams,
-  const std::vector<Duplicate>& duplicates,
-  std::size_t workerVertices)
+void Master::complete(PartitionIndex partition, const SeamTriangles& seams,
+  const std::vector<Duplicate>& duplicates, std::size_t workerVertices)
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
   const Stopwatch watch;

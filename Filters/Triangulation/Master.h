@@ -20,19 +20,15 @@ class Master
 {
 public:
   /// Partitions without points are finished from the start.
-  Master(Schedule schedule,
-    PartitionIndex partitions,
-    const std::vector<PartitionIndex>& withPoints,
-    const SeamTriangles& initialMesh);
+  Master(Schedule schedule, PartitionIndex partitions,
+    const std::vector<PartitionIndex>& withPoints, const SeamTriangles& initialMesh);
 
   /// A partition to triangulate and the triangles that belong to it; waits for one. -1 if there is
   /// nothing left to do, or the run is stopped.
   PartitionIndex acquire(std::vector<SeamTriangle>& belonging);
 
-  void complete(PartitionIndex partition,
-    const SeamTriangles& seams,
-    const std::vector<Duplicate>& duplicates,
-    std::size_t workerVertices);
+  void complete(PartitionIndex partition, const SeamTriangles& seams,
+    const std::vector<Duplicate>& duplicates, std::size_t workerVertices);
 
   /// No further partition is handed out.
   void stop(std::exception_ptr reason = nullptr);

@@ -21,7 +21,7 @@ bool isFinite(Point2 p)
 std::pair<std::size_t, std::size_t> share(std::size_t n, int part, int parts)
 {
   return { n / std::size_t(parts) * std::size_t(part) +
-             std::min(n % std::size_t(parts), std::size_t(part)),
+      std::min(n % std::size_t(parts), std::size_t(part)),
     n / std::size_t(parts) * std::size_t(part + 1) +
       std::min(n % std::size_t(parts), std::size_t(part + 1)) };
 }
@@ -99,8 +99,7 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
   {
     const auto [begin, end] = share(points.size(), part, threads);
     std::vector<std::size_t>& counts = places[std::size_t(part)];
-    points.forEach(begin,
-      end,
+    points.forEach(begin, end,
       [&](std::size_t id, Point2 p)
       {
         labels[id] = NoPartition;
@@ -133,8 +132,7 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
   {
     const auto [begin, end] = share(points.size(), part, threads);
     std::vector<std::size_t>& place = places[std::size_t(part)];
-    points.forEach(begin,
-      end,
+    points.forEach(begin, end,
       [&](std::size_t id, Point2 p)
       {
         if (labels[id] != NoPartition)

@@ -35,8 +35,8 @@ public:
   {
     const std::size_t at = i * this->Stride;
     return this->Doubles
-             ? Point2{ this->Doubles[at] * this->Factor, this->Doubles[at + 1] * this->Factor }
-             : Point2{ this->Floats[at] * this->Factor, this->Floats[at + 1] * this->Factor };
+      ? Point2{ this->Doubles[at] * this->Factor, this->Doubles[at + 1] * this->Factor }
+      : Point2{ this->Floats[at] * this->Factor, this->Floats[at + 1] * this->Factor };
   }
 
   /// The same points times a factor; exact if it is a power of two and nothing under- or overflows.

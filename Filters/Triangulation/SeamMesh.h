@@ -26,10 +26,8 @@ struct SeamVertex
   bool isArtificial() const { return this->Id < 0; }
 };
 
-SeamVertex makeSeamVertex(const Tiling& tiling,
-  PartitionIndex partition,
-  Point2 p,
-  std::int64_t id);
+SeamVertex makeSeamVertex(
+  const Tiling& tiling, PartitionIndex partition, Point2 p, std::int64_t id);
 
 using SeamTriangle = std::array<SeamVertex, 3>;
 

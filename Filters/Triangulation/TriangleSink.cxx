@@ -17,14 +17,12 @@ TriangleSink<Id>::TriangleSink(const std::vector<std::size_t>& starts)
 
 template <typename Id>
 std::vector<typename TriangleSink<Id>::Corners> TriangleSink<Id>::sortSeams(
-  const std::vector<SeamTriangle>& seams,
-  int threads) const
+  const std::vector<SeamTriangle>& seams, int threads) const
 {
   const std::size_t partitions = this->InteriorCounts.size();
   const auto lowest = [](const SeamTriangle& triangle)
   {
-    return std::min_element(triangle.begin(),
-      triangle.end(),
+    return std::min_element(triangle.begin(), triangle.end(),
       [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; });
   };
   std::vector<std::size_t> places(partitions + 1, 0);
@@ -140,8 +138,7 @@ void preferLowestIds(Buffer<Id>& ids, std::vector<Duplicate>& duplicates, int th
       }
     }
   }
-  std::sort(duplicates.begin(),
-    duplicates.end(),
+  std::sort(duplicates.begin(), duplicates.end(),
     [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
 }
 

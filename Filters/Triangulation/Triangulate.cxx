@@ -43,6 +43,15 @@ int threadsForPass(std::size_t points, int threads)
   return static_cast<int>(std::min(static_cast<std::size_t>(threads), 1 + points / shortest));
 }
 
+/// Circumdisks that meet many partitions each (points on a circle, a parabola, a line and one
+/// beside it) would bring nearly all vertices to every worker. Ordinary points give 2 to 3, by
+/// measurement.
+bool partitionsPay(const SeamTriangles& initialMesh)
+{
+  constexpr std::size_t most = 6;
+  return initialMesh.Met.size() <= most * initialMesh.Triangles.size();
+}
+
 /// One run of the algorithm, step by step.
 template <typename Id>
 class Run
@@ -73,10 +82,15 @@ public:
       chooseInitialPoints(tiling, this->Buckets, initialPointsPerPartition());
     this->Result.Statistics.InitialPoints = std::int64_t(initial.size());
     initial.insert(initial.end(), artificial.begin(), artificial.end());
-    Master master(this->Options.Order,
-      tiling.size(),
-      this->partitionsWithPoints(tiling),
-      triangulateVertices(tiling, initial, this->PassThreads));
+    const SeamTriangles initialMesh = triangulateVertices(tiling, initial, this->PassThreads);
+    if (!this->hasGrid() && !partitionsPay(initialMesh))
+    {
+      this->Result.Statistics.Partitions = 1;
+      this->triangulateAlone(tiling);
+      return;
+    }
+    Master master(
+      this->Options.Order, tiling.size(), this->partitionsWithPoints(tiling), initialMesh);
     this->endPhase("initial mesh");
     this->work(tiling, master, artificial);
   }
@@ -92,11 +106,13 @@ private:
       if (count > most)
       {
         throw std::length_error("Partition " + std::to_string(p) + " would hold " +
-                                std::to_string(count) + " points, more than " +
-                                std::to_string(most) + "; use more partitions.");
+          std::to_string(count) + " points, more than " + std::to_string(most) +
+          "; use more partitions.");
       }
     }
   }
+
+  bool hasGrid() const { return this->Options.Columns > 0 && this->Options.Rows > 0; }
 
   int initialPointsPerPartition() const
   {
@@ -194,7 +210,7 @@ private:
       const std::size_t done = this->PointsDone += this->Buckets.count(partition);
       // Only the caller's own thread reports.
       if (omp_get_thread_num() == 0 &&
-          !this->report(double(done) / double(this->Buckets.Points.size())))
+        !this->report(double(done) / double(this->Buckets.Points.size())))
       {
         master.stop();
       }
@@ -236,10 +252,8 @@ int choosePartitionCount(std::size_t points, int threads)
   return static_cast<int>(std::min(count, std::size_t(1) << 26));
 }
 
-Tiling makeTiling(PointsView points,
-  const Box2& domain,
-  const TriangulationOptions& options,
-  int threads)
+Tiling makeTiling(
+  PointsView points, const Box2& domain, const TriangulationOptions& options, int threads)
 {
   if (options.Columns > 0 && options.Rows > 0)
   {

@@ -75,8 +75,8 @@ struct Triangulation
 /// The Delaunay triangulation of the distinct finite points, ties broken by their lexicographic
 /// order: the same set of triangles for every option, and CGAL's. No triangles if there are fewer
 /// than three distinct points or all are collinear.
-VTKTIPPFILTERS_EXPORT Triangulation triangulate(PointsView points,
-  const TriangulationOptions& options = {});
+VTKTIPPFILTERS_EXPORT Triangulation triangulate(
+  PointsView points, const TriangulationOptions& options = {});
 
 } // namespace tipp
 

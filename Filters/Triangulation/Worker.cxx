@@ -12,10 +12,8 @@ namespace
 /// The disks inside this closed box do not touch the closed boxes around it.
 Box2 openBox(const Box2& box)
 {
-  return { std::nextafter(box.xmin, HUGE_VAL),
-    std::nextafter(box.ymin, HUGE_VAL),
-    std::nextafter(box.xmax, -HUGE_VAL),
-    std::nextafter(box.ymax, -HUGE_VAL) };
+  return { std::nextafter(box.xmin, HUGE_VAL), std::nextafter(box.ymin, HUGE_VAL),
+    std::nextafter(box.xmax, -HUGE_VAL), std::nextafter(box.ymax, -HUGE_VAL) };
 }
 
 } // namespace
@@ -28,9 +26,8 @@ Worker<Id>::Worker(const Tiling& tiling, PointBuckets<Id>& buckets)
 }
 
 template <typename Id>
-void Worker<Id>::triangulate(PartitionIndex partition,
-  const std::vector<SeamTriangle>& belonging,
-  Id* interior)
+void Worker<Id>::triangulate(
+  PartitionIndex partition, const std::vector<SeamTriangle>& belonging, Id* interior)
 {
   this->collectVertices(partition, belonging);
   this->Kernel.clear();
@@ -60,8 +57,8 @@ void Worker<Id>::triangulateAlone(Id* triangles)
 }
 
 template <typename Id>
-void Worker<Id>::collectVertices(PartitionIndex partition,
-  const std::vector<SeamTriangle>& belonging)
+void Worker<Id>::collectVertices(
+  PartitionIndex partition, const std::vector<SeamTriangle>& belonging)
 {
   this->Foreign.clear();
   this->ForeignPoints.clear();
@@ -133,9 +130,7 @@ SeamVertex Worker<Id>::vertex(PartitionIndex partition, DelaunayKernel::Index v)
   {
     return this->Foreign[place - own];
   }
-  return makeSeamVertex(this->Boxes,
-    partition,
-    this->Kernel.point(v),
+  return makeSeamVertex(this->Boxes, partition, this->Kernel.point(v),
     this->Buckets.Ids[this->Buckets.start(partition) + place]);
 }
 
@@ -181,8 +176,7 @@ void Worker<Id>::findSeams(PartitionIndex partition)
         if (disk.meets(box))
         {
           this->Seams.add(this->Boxes,
-            { this->vertex(partition, v[0]),
-              this->vertex(partition, v[1]),
+            { this->vertex(partition, v[0]), this->vertex(partition, v[1]),
               this->vertex(partition, v[2]) },
             disk);
         }

@@ -23,9 +23,8 @@ public:
 
   /// Writes the ids of the partition's interior triangles, whose order and number depend on its own
   /// points alone, and keeps the others whose circumdisk meets the partition.
-  void triangulate(PartitionIndex partition,
-    const std::vector<SeamTriangle>& belonging,
-    Id* interior);
+  void triangulate(
+    PartitionIndex partition, const std::vector<SeamTriangle>& belonging, Id* interior);
 
   /// The only partition: all triangles are interior.
   void triangulateAlone(Id* triangles);
