@@ -6,6 +6,8 @@
 
 #include <exception>
 #include <new>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -15,7 +17,13 @@ std::string describeMisuse(const CLI::App* app, const CLI::Error& error)
 {
   const auto chosen = app->get_subcommands();
   const std::string command = chosen.empty() ? "tipp" : "tipp " + chosen.front()->get_name();
-  return fmt::format("{}: {}; see '{} --help'.\n", command, error.what(), command);
+  std::string problem = error.what();
+  if (chosen.empty())
+  {
+    const std::vector<std::string> words = app->remaining();
+    problem = words.empty() ? "a command is required" : "there is no '" + words.front() + "'";
+  }
+  return fmt::format("{}: {}; see '{} --help'.\n", command, problem, command);
 }
 
 int run(int argc, char** argv)
@@ -25,7 +33,7 @@ int run(int argc, char** argv)
   app.set_version_flag("--version", "tipp " TIPP_VERSION);
   app.require_subcommand(1);
   app.failure_message(describeMisuse);
-  app.footer("\n'tipp COMMAND --help' tells a command's options, units and examples.");
+  app.footer("'tipp COMMAND --help' tells a command's options, units and examples.\n");
   tipp::addDelaunayCommand(app, exitCode);
   tipp::addPointsCommand(app, exitCode);
   tipp::addCheckCommand(app, exitCode);
