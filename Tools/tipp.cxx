@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "vtkLogger.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -52,6 +54,8 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+  // What VTK's readers have to say comes in our own sentence.
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   try
   {
     return run(argc, argv);

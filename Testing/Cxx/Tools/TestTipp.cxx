@@ -134,6 +134,9 @@ class TippFailure
 const Misuse failures[] = {
   { "MissingInput", { "delaunay", "absent.npy", "-o", "out.npy" }, "absent.npy: cannot be opened" },
   { "InputOfUnknownKind", { "delaunay", "absent.las", "-o", "out.npy" }, "absent.las: has no ext" },
+  { "BrokenVtkFile", { "delaunay", "broken.vtp", "-o", "out.npy" }, "syntax error" },
+  { "BrokenLegacyFile", { "delaunay", "broken.vtk", "-o", "out.npy" }, "Unrecognized file type" },
+  { "BrokenPlyFile", { "delaunay", "broken.ply", "-o", "out.npy" }, "PLY" },
   { "MissingOutputFolder", { "delaunay", "points.npy", "-o", "absent/out.npy" }, "its folder" },
   { "MissingStatisticsFolder",
     { "delaunay", "points.npy", "-o", "out.npy", "--stats", "absent/s.json" },
@@ -215,6 +218,10 @@ INSTANTIATE_TEST_SUITE_P(Tools,
 TEST_P(TippFailure, IsOneSentenceAndExitCode1)
 {
   this->writePoints();
+  for (const char* name : { "broken.vtp", "broken.vtk", "broken.ply" })
+  {
+    this->Folder.file(name, "garbage\n");
+  }
   expectSentence(this->run(GetParam().Arguments), 1, GetParam().Answer);
   EXPECT_FALSE(this->exists("out.npy"));
 }
