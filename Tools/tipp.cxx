@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "vtkLogger.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <exception>
 #include <new>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -15,7 +19,13 @@ std::string describeMisuse(const CLI::App* app, const CLI::Error& error)
 {
   const auto chosen = app->get_subcommands();
   const std::string command = chosen.empty() ? "tipp" : "tipp " + chosen.front()->get_name();
-  return fmt::format("{}: {}; see '{} --help'.\n", command, error.what(), command);
+  std::string problem = error.what();
+  if (chosen.empty())
+  {
+    const std::vector<std::string> words = app->remaining();
+    problem = words.empty() ? "a command is required" : "there is no '" + words.front() + "'";
+  }
+  return fmt::format("{}: {}; see '{} --help'.\n", command, problem, command);
 }
 
 int run(int argc, char** argv)
@@ -25,7 +35,7 @@ int run(int argc, char** argv)
   app.set_version_flag("--version", "tipp " TIPP_VERSION);
   app.require_subcommand(1);
   app.failure_message(describeMisuse);
-  app.footer("\n'tipp COMMAND --help' tells a command's options, units and examples.");
+  app.footer("'tipp COMMAND --help' tells a command's options, units and examples.\n");
   tipp::addDelaunayCommand(app, exitCode);
   tipp::addPointsCommand(app, exitCode);
   tipp::addCheckCommand(app, exitCode);
@@ -44,6 +54,8 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+  // What VTK's readers have to say comes in our own sentence.
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   try
   {
     return run(argc, argv);

@@ -56,7 +56,8 @@ private:
     splitFields(line, ' ', this->Row);
     if (this->Row.size() < fields)
     {
-      this->fail(std::string("has too few numbers for ") + what + "; is it an ADCIRC grid?");
+      this->fail(
+        std::string("has too few numbers for ") + what + "; check that it is an ADCIRC grid.");
     }
   }
 

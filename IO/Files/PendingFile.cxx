@@ -31,6 +31,10 @@ PendingFile::PendingFile(const std::string& path)
   {
     throw IOError(path, "its folder does not exist; create it or name another.");
   }
+  if (access(folder.c_str(), W_OK) != 0)
+  {
+    throw IOError(path, "its folder cannot be written to; change its permissions or name another.");
+  }
   this->Path = target.string();
   const std::string name = "." + target.filename().string() + "." + std::to_string(getpid());
   this->Temporary = (folder / (name + ".tmp")).string();

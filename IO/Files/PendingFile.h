@@ -15,7 +15,8 @@ namespace tipp
 class VTKTIPPIO_EXPORT PendingFile
 {
 public:
-  /// Throws IOError if the path's folder is missing or the path is not an ordinary file.
+  /// Throws IOError if the path's folder is missing or closed to us or the path is not an ordinary
+  /// file.
   explicit PendingFile(const std::string& path);
   ~PendingFile();
   PendingFile(const PendingFile&) = delete;

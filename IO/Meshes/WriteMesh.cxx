@@ -61,7 +61,7 @@ bool writeXml(const std::string& path, vtkDataSet* data, const MeshOptions& opti
   writer->EncodeAppendedDataOff();
   writer->SetCompressorTypeToNone();
   writer->SetHeaderTypeToUInt64();
-  if (writer->Write() == 0 || !errors->Message.empty())
+  if (writer->Write() == 0 || errors->HasError)
   {
     throw IOError(path, "cannot be written; check the disk's space and the folder's permissions.");
   }

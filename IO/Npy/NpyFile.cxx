@@ -144,7 +144,8 @@ NpyReader::NpyReader(const std::string& path)
 
 void NpyReader::read(void* to, std::size_t bytes)
 {
-  if (std::fread(to, 1, bytes, this->File.get()) != bytes)
+  // An empty array may have no memory at all.
+  if (bytes != 0 && std::fread(to, 1, bytes, this->File.get()) != bytes)
   {
     throw IOError(this->Path, "cannot be read to its end; check the disk and copy it again.");
   }
@@ -179,7 +180,7 @@ NpyWriter::NpyWriter(const std::string& path,
 
 void NpyWriter::write(const void* from, std::size_t bytes)
 {
-  if (std::fwrite(from, 1, bytes, this->File.get()) != bytes)
+  if (bytes != 0 && std::fwrite(from, 1, bytes, this->File.get()) != bytes)
   {
     throw IOError(this->Path, std::string("cannot be written (") + std::strerror(errno) + ").");
   }

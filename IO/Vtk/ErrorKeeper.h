@@ -9,20 +9,23 @@
 namespace tipp
 {
 
-/// Observes ErrorEvent: keeps the first error's text instead of printing it.
+/// Observes ErrorEvent and WarningEvent: keeps the first text, which tells most, instead of
+/// printing it.
 class ErrorKeeper : public vtkCommand
 {
 public:
   static ErrorKeeper* New() { return new ErrorKeeper; }
 
-  void Execute(vtkObject*, unsigned long, void* text) override
+  void Execute(vtkObject*, unsigned long event, void* text) override
   {
-    if (this->Message.empty())
+    this->HasError = this->HasError || event == vtkCommand::ErrorEvent;
+    if (this->Message.empty() && text)
     {
-      this->Message = text ? static_cast<const char*>(text) : "unknown error";
+      this->Message = static_cast<const char*>(text);
     }
   }
 
+  bool HasError = false;
   std::string Message;
 };
 

@@ -39,6 +39,10 @@ std::string lastSentence(const std::string& message)
   const std::size_t colon = message.find("): ");
   std::string text = colon == std::string::npos ? message : message.substr(colon + 3);
   text.erase(std::find(text.begin(), text.end(), '\n'), text.end());
+  while (!text.empty() && (text.back() == '.' || text.back() == ' '))
+  {
+    text.pop_back();
+  }
   return text;
 }
 
@@ -49,6 +53,7 @@ vtkSmartPointer<vtkDataSet> readWith(const std::string& path, ErrorKeeper* error
 {
   vtkNew<Reader> reader;
   reader->AddObserver(vtkCommand::ErrorEvent, errors);
+  reader->AddObserver(vtkCommand::WarningEvent, errors);
   reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
   if constexpr (std::is_base_of_v<vtkXMLReader, Reader>)
   {
@@ -101,11 +106,12 @@ vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path)
     throw IOError(path, "is of a kind that VTK's readers here do not know.");
   }
   const vtkSmartPointer<vtkDataSet> data = read->second(path, errors);
-  if (!errors->Message.empty() || !data)
+  if (errors->HasError || !data)
   {
+    const std::string reason =
+      errors->Message.empty() ? "no data set in it" : lastSentence(errors->Message);
     throw IOError(path,
-      "cannot be read as a VTK file (" +
-        (data || !errors->Message.empty() ? lastSentence(errors->Message) : "no data set in it") +
+      "cannot be read as a VTK file (" + reason +
         "); check that it is whole and that its extension is right.");
   }
   return data;

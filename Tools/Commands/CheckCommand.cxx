@@ -16,8 +16,8 @@ namespace tipp
 namespace
 {
 
-constexpr const char* footer = R"(
-Exact, and without a triangulation of its own: every edge in at most two
+constexpr const char* footer =
+  R"(Exact, and without a triangulation of its own: every edge in at most two
 triangles, all triangles counter-clockwise, every interior edge locally
 Delaunay, the boundary one convex chain, the number of triangles Euler's, every
 distinct point a vertex. Exit code 0: no fault, 1: faults or a file that cannot
@@ -26,7 +26,8 @@ be read, 2: wrong usage.
 Examples:
   tipp check points.npy triangles.npy
   tipp check survey.csv --x easting --y northing mesh.vtp --tie-rule
-  tipp check fort.14 fort.14 --boundary-free)";
+  tipp check fort.14 fort.14 --boundary-free
+)";
 
 struct CheckArguments
 {

@@ -25,8 +25,8 @@ namespace tipp
 namespace
 {
 
-constexpr const char* footer = R"(
-INPUT   .npy (n x 2 or n x 3, float64 or float32); .csv, .txt, .xyz (one point a
+constexpr const char* footer =
+  R"(INPUT   .npy (n x 2 or n x 3, float64 or float32); .csv, .txt, .xyz (one point a
         line, columns parted by comma, semicolon, tab or blanks; a line of names
         or of the count is found); .14, .grd (ADCIRC); any VTK file.
 OUTPUT  .vtp, .vtu (all points with their data, a column named z as third
@@ -40,7 +40,8 @@ triangulation alone; memory is in millions of bytes.
 Examples:
   tipp delaunay points.npy -o triangles.npy
   tipp delaunay survey.csv --x easting --y northing -o survey.vtp --threads 4
-  tipp delaunay fort.14 -o mesh.vtu --partitions 8x8 --stats run.json)";
+  tipp delaunay fort.14 -o mesh.vtu --partitions 8x8 --stats run.json
+)";
 
 struct DelaunayArguments
 {
@@ -264,7 +265,8 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
   addTuning(*command, *arguments);
   command->add_flag("--map-duplicates",
     arguments->MapDuplicates,
-    "Add the point array RepresentativePointId to .vtp or .vtu: the id of the vertex that stands for a "
+    "Add the point array RepresentativePointId to .vtp or .vtu: the id of the vertex that stands "
+    "for a "
     "point, -1 for points that are not finite");
   command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
   command->footer(footer);

@@ -15,8 +15,7 @@ namespace tipp
 namespace
 {
 
-constexpr const char* footer = R"(
-Distributions:
+constexpr const char* footer = R"(Distributions:
   uniform    independent and uniform in the unit square
   clustered  100 Gaussian clusters in it, standard deviations 1e-5 to 1e-2
   kuzmin     Kuzmin's disk: dense at the centre, unbounded
@@ -26,7 +25,8 @@ Distributions:
   collinear  exactly on a line, in random order
 
 Example:
-  tipp points --distribution coast --count 1000000 --seed 7 -o coast.npy)";
+  tipp points --distribution coast --count 1000000 --seed 7 -o coast.npy
+)";
 
 struct PointsArguments
 {
@@ -62,6 +62,7 @@ void addPointsCommand(CLI::App& app, int& exitCode)
     ->required()
     ->check(CLI::Range(std::int64_t(0), std::int64_t(1) << 40));
   command->add_option("--seed", arguments->Seed, "Another number gives other points")
+    ->check(CLI::NonNegativeNumber)
     ->capture_default_str();
   command->add_option("-o,--output", arguments->Output, "The .npy file to write")
     ->required()

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <ostream>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -64,6 +65,12 @@ struct Checksum
   const char* Name;
   XXH64_hash_t Value;
 };
+
+// CTest's names of the tests.
+std::ostream& operator<<(std::ostream& stream, const Checksum& checksum)
+{
+  return stream << checksum.Name;
+}
 
 class EveryDistribution : public testing::TestWithParam<Checksum>
 {

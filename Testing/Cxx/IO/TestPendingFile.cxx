@@ -3,6 +3,8 @@
 #include "Files/PendingFile.h"
 #include "TemporaryFolder.h"
 
+#include <unistd.h>
+
 namespace
 {
 
@@ -60,6 +62,19 @@ TEST_F(PendingFiles, MissingFolderIsReported)
 {
   const std::string path = this->Folder.path("absent/result");
   tipp::test::expectIOError(path, "folder does not exist", [&]() { PendingFile{ path }; });
+}
+
+TEST_F(PendingFiles, FolderWithoutPermissionIsReported)
+{
+  if (geteuid() == 0)
+  {
+    GTEST_SKIP() << "root may write everywhere";
+  }
+  const std::string folder = this->Folder.path("closed");
+  std::filesystem::create_directory(folder);
+  std::filesystem::permissions(folder, std::filesystem::perms::owner_read);
+  const std::string path = folder + "/result";
+  tipp::test::expectIOError(path, "cannot be written to", [&]() { PendingFile{ path }; });
 }
 
 TEST_F(PendingFiles, FolderOrDeviceIsNoFile)

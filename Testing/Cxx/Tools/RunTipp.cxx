@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RunTipp.h"
+
+#include <csignal>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace tipp
+{
+namespace test
+{
+namespace
+{
+
+// In the child: only calls that are safe after fork().
+[[noreturn]] void execute(const char* folder, char* const* arguments, int terminal)
+{
+  const int mode = O_WRONLY | O_CREAT | O_TRUNC;
+  if (chdir(folder) == 0 && dup2(open(".out", mode, 0600), STDOUT_FILENO) >= 0 &&
+      dup2(terminal >= 0 ? terminal : open(".err", mode, 0600), STDERR_FILENO) >= 0)
+  {
+    execv(TIPP_EXECUTABLE, arguments);
+  }
+  _exit(99);
+}
+
+} // namespace
+
+TippProcess::TippProcess(const TemporaryFolder& folder,
+  const std::vector<std::string>& arguments,
+  int terminal)
+  : Folder(folder)
+{
+  std::vector<std::string> words{ "tipp" };
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  for (std::string& word : words)
+  {
+    pointers.push_back(word.data());
+  }
+  pointers.push_back(nullptr);
+  const std::string where = folder.path("");
+  this->Process = fork();
+  if (this->Process < 0)
+  {
+    throw std::runtime_error("no process");
+  }
+  if (this->Process == 0)
+  {
+    execute(where.c_str(), pointers.data(), terminal);
+  }
+}
+
+void TippProcess::interrupt() const
+{
+  kill(this->Process, SIGINT);
+}
+
+Outcome TippProcess::wait() const
+{
+  int status = 0;
+  waitpid(this->Process, &status, 0);
+  return { WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status),
+    contentOf(this->Folder.path(".out")),
+    contentOf(this->Folder.path(".err")) };
+}
+
+Outcome runTipp(const TemporaryFolder& folder, const std::vector<std::string>& arguments)
+{
+  return TippProcess(folder, arguments).wait();
+}
+
+} // namespace test
+} // namespace tipp

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippRunTipp_h
+#define tippRunTipp_h
+
+#include "TemporaryFolder.h"
+
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace tipp
+{
+namespace test
+{
+
+struct Outcome
+{
+  int ExitCode; ///< or minus the signal that ended it
+  std::string Out;
+  std::string Err;
+};
+
+/// The command-line tool as a process of its own, in a folder of its own.
+class TippProcess
+{
+public:
+  /// `terminal` is a file descriptor for stderr, or -1 for a file.
+  TippProcess(const TemporaryFolder& folder,
+    const std::vector<std::string>& arguments,
+    int terminal = -1);
+
+  void interrupt() const;
+  Outcome wait() const;
+
+private:
+  const TemporaryFolder& Folder;
+  pid_t Process;
+};
+
+Outcome runTipp(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
+
+} // namespace test
+} // namespace tipp
+
+#endif
