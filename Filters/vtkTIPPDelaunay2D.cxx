@@ -197,7 +197,7 @@ bool vtkTIPPDelaunay2D::Execute(vtkPointSet* input, vtkPolyData* output, vtkTabl
     output->GetPointData()->AddArray(tipp::representativeIds(triangulation, numberOfPoints));
   }
   this->SetCells(triangulation, output);
-  triangulation.Statistics.Phases.push_back({ "output", watch.seconds() });
+  triangulation.Statistics.Phases.push_back({ "VTK output", watch.seconds() });
   tipp::fillStatisticsTable(triangulation, numberOfPoints, vtkIdType(triangles), statistics);
   return true;
 }
