@@ -25,6 +25,8 @@
 #include "vtkTable.h"
 #include "vtkTransform.h"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <atomic>
 #include <thread>
@@ -65,6 +67,24 @@ private:
   std::atomic<bool> Stopped{ false };
 };
 
+/// The calling thread's OpenMP regions have so many threads while this object lives; 0 changes
+/// nothing.
+class ThreadLimit
+{
+public:
+  explicit ThreadLimit(int threads)
+    : Before(omp_get_max_threads())
+  {
+    omp_set_num_threads(threads > 0 ? threads : this->Before);
+  }
+  ~ThreadLimit() { omp_set_num_threads(this->Before); }
+  ThreadLimit(const ThreadLimit&) = delete;
+  void operator=(const ThreadLimit&) = delete;
+
+private:
+  int Before;
+};
+
 std::vector<char> coveredPoints(const tipp::Triangulation& triangulation, vtkIdType points)
 {
   std::vector<char> covered(std::size_t(points), 0);
@@ -88,7 +108,7 @@ vtkTIPPDelaunay2D::vtkTIPPDelaunay2D()
 
 vtkTIPPDelaunay2D::~vtkTIPPDelaunay2D()
 {
-  this->SetTransform(nullptr);
+  this->vtkTIPPDelaunay2D::SetTransform(nullptr);
 }
 
 vtkTable* vtkTIPPDelaunay2D::GetStatistics()
@@ -131,6 +151,7 @@ int vtkTIPPDelaunay2D::RequestData(vtkInformation*,
   vtkPointSet* input = vtkPointSet::GetData(inputVector[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
   vtkTable* statistics = vtkTable::GetData(outputVector, 1);
+  const ThreadLimit limit(this->NumberOfThreads);
   try
   {
     return this->Execute(input, output, statistics) ? 1 : 0;
@@ -197,7 +218,7 @@ bool vtkTIPPDelaunay2D::Execute(vtkPointSet* input, vtkPolyData* output, vtkTabl
     output->GetPointData()->AddArray(tipp::representativeIds(triangulation, numberOfPoints));
   }
   this->SetCells(triangulation, output);
-  triangulation.Statistics.Phases.push_back({ "output", watch.seconds() });
+  triangulation.Statistics.Phases.push_back({ "VTK output", watch.seconds() });
   tipp::fillStatisticsTable(triangulation, numberOfPoints, vtkIdType(triangles), statistics);
   return true;
 }
@@ -219,9 +240,16 @@ tipp::Triangulation vtkTIPPDelaunay2D::Triangulate(vtkPoints* points, vtkAbstrac
   options.Threads = this->NumberOfThreads;
   options.Progress = [&monitor](double fraction) { return monitor(fraction); };
 
-  tipp::Triangulation triangulation =
-    distance > 0 ? tipp::triangulateMerged(projected.view(), distance, options)
-                 : tipp::triangulate(projected.view(), options);
+  tipp::Triangulation triangulation;
+  triangulation.Aborted = !monitor(0);
+  if (triangulation.Aborted)
+  {
+    return triangulation;
+  }
+  triangulation = distance > 0 ? tipp::triangulateMerged(projected.view(), distance, options)
+                               : tipp::triangulate(projected.view(), options);
+  // One partition alone is triangulated without a report.
+  triangulation.Aborted = triangulation.Aborted || !monitor(1);
   auto& phases = triangulation.Statistics.Phases;
   phases.insert(phases.begin(), { "projection", projectionSeconds });
   return triangulation;

@@ -10,7 +10,9 @@
 #include "vtkTrivialProducer.h"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
+#include <algorithm>
 #include <new>
 #include <sstream>
 #include <stdexcept>
@@ -133,28 +135,40 @@ TEST(Delaunay2DRun, ProgressGrowsToOneInTheCallersThread)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetInputData(dataset(randomPoints(50000)));
-  delaunay->SetTolerance(1e-7);
+  delaunay->SetNumberOfPartitions(8, 8);
+  delaunay->SetNumberOfThreads(3);
   ProgressListener progress(delaunay);
   delaunay->Update();
-  ASSERT_GE(progress.Heard.size(), 2u);
+  EXPECT_TRUE(std::any_of(progress.Heard.begin(),
+    progress.Heard.end(),
+    [](double fraction) { return fraction > 0.1 && fraction < 0.9; }));
   EXPECT_TRUE(std::is_sorted(progress.Heard.begin(), progress.Heard.end()));
   EXPECT_EQ(1, progress.Heard.back());
   EXPECT_FALSE(progress.OtherThread);
 }
 
-TEST(Delaunay2DRun, AbortLeavesBothOutputsEmpty)
+TEST(Delaunay2DRun, AbortInMidRunLeavesBothOutputsEmpty)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetInputData(dataset(randomPoints(50000)));
-  delaunay->SetTolerance(1e-7);
-  {
-    ProgressListener progress(delaunay, 0);
-    delaunay->Update();
-    delaunay->RemoveAllObservers();
-  }
+  delaunay->SetNumberOfPartitions(8, 8);
+  ProgressListener progress(delaunay, 0.2);
+  delaunay->Update();
+  EXPECT_GT(progress.Heard.back(), 0.1);
+  EXPECT_LT(progress.Heard.back(), 1);
   EXPECT_EQ(0, delaunay->GetOutput()->GetNumberOfPoints());
   EXPECT_EQ(0, delaunay->GetOutput()->GetNumberOfCells());
   EXPECT_EQ(0, delaunay->GetStatistics()->GetNumberOfColumns());
+}
+
+TEST(Delaunay2DRun, AbortWhileMergingLeavesTheOutputEmpty)
+{
+  vtkNew<vtkTIPPDelaunay2D> delaunay;
+  delaunay->SetInputData(dataset(randomPoints(500)));
+  delaunay->SetTolerance(1e-7);
+  ProgressListener progress(delaunay, 0);
+  delaunay->Update();
+  EXPECT_EQ(0, delaunay->GetOutput()->GetNumberOfPoints());
 }
 
 TEST(Delaunay2DRun, RunAfterAnAbortIsWhole)
@@ -162,7 +176,7 @@ TEST(Delaunay2DRun, RunAfterAnAbortIsWhole)
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetInputData(dataset(randomPoints(1000)));
   const Cells expected = trianglesOf(delaunay);
-  delaunay->SetTolerance(1e-9);
+  delaunay->Modified();
   {
     ProgressListener progress(delaunay, 0);
     delaunay->Update();
@@ -171,6 +185,16 @@ TEST(Delaunay2DRun, RunAfterAnAbortIsWhole)
   ASSERT_EQ(0, delaunay->GetOutput()->GetNumberOfCells());
   delaunay->Modified();
   EXPECT_EQ(expected, trianglesOf(delaunay));
+}
+
+TEST(Delaunay2DRun, NumberOfThreadsIsNotLeftToTheCaller)
+{
+  const int before = omp_get_max_threads();
+  vtkNew<vtkTIPPDelaunay2D> delaunay;
+  delaunay->SetInputData(dataset(randomPoints(1000)));
+  delaunay->SetNumberOfThreads(before + 3);
+  delaunay->Update();
+  EXPECT_EQ(before, omp_get_max_threads());
 }
 
 TEST(Delaunay2DRun, LackOfMemoryIsAnError)
