@@ -10,6 +10,8 @@ vtk_module_scan(
   WANT_BY_DEFAULT ON
   HIDE_MODULES_FROM_CACHE ON)
 
+# The libraries find each other wherever the installed tree is moved to.
+set(CMAKE_INSTALL_RPATH "$ORIGIN")
 vtk_module_build(
   MODULES ${tipp_modules}
   PACKAGE TIPP
@@ -19,4 +21,5 @@ vtk_module_build(
   CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/TIPP"
   LIBRARY_NAME_SUFFIX ""
   VERSION "${PROJECT_VERSION}"
-  SOVERSION "0")
+  SOVERSION "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
+unset(CMAKE_INSTALL_RPATH)

@@ -1,5 +1,60 @@
 // SPDX-License-Identifier: BSD-3-Clause
-int main()
+#include "Commands/Commands.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+
+namespace
 {
-  return 0;
+
+// One sentence instead of CLI11's two lines.
+std::string describeMisuse(const CLI::App* app, const CLI::Error& error)
+{
+  const auto chosen = app->get_subcommands();
+  const std::string command = chosen.empty() ? "tipp" : "tipp " + chosen.front()->get_name();
+  return fmt::format("{}: {}; see '{} --help'.\n", command, error.what(), command);
+}
+
+int run(int argc, char** argv)
+{
+  int exitCode = tipp::Success;
+  CLI::App app("Exact 2D Delaunay triangulation of large point sets, in parallel", "tipp");
+  app.set_version_flag("--version", "tipp " TIPP_VERSION);
+  app.require_subcommand(1);
+  app.failure_message(describeMisuse);
+  app.footer("\n'tipp COMMAND --help' tells a command's options, units and examples.");
+  tipp::addDelaunayCommand(app, exitCode);
+  tipp::addPointsCommand(app, exitCode);
+  tipp::addCheckCommand(app, exitCode);
+  try
+  {
+    app.parse(argc, argv);
+  }
+  catch (const CLI::ParseError& error)
+  {
+    return app.exit(error) == 0 ? tipp::Success : tipp::Usage;
+  }
+  return exitCode;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  try
+  {
+    return run(argc, argv);
+  }
+  catch (const std::bad_alloc&)
+  {
+    fmt::print(stderr, "tipp: there is not enough memory for this input.\n");
+  }
+  catch (const std::exception& error)
+  {
+    fmt::print(stderr, "tipp: {}\n", error.what());
+  }
+  return tipp::Failure;
 }

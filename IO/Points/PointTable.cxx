@@ -6,7 +6,7 @@ namespace tipp
 
 std::size_t PointTable::size() const
 {
-  return this->xy.size() / 2;
+  return this->XY.size() / 2;
 }
 
 } // namespace tipp

@@ -11,17 +11,17 @@
 namespace tipp
 {
 
-/// Points as a file gives them: x and y interleaved, and any further columns by name.
+/// Points as a file gives them: x and y interleaved, and the further numeric columns by name.
 struct PointTable
 {
   struct Column
   {
-    std::string name;
-    std::vector<double> values;
+    std::string Name;
+    std::vector<double> Values; ///< one a point
   };
 
-  std::vector<double> xy;
-  std::vector<Column> columns;
+  std::vector<double> XY;
+  std::vector<Column> Columns;
 
   VTKTIPPIO_EXPORT std::size_t size() const;
 };

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTIPPDelaunay2D.h"
+
+#include "AlphaShape/AlphaShape.h"
+#include "Compatibility.h"
+#include "Merging/TriangulateMerged.h"
+#include "Output/CellBuffers.h"
+#include "Output/RepresentativeIds.h"
+#include "Output/StatisticsTable.h"
+#include "Projection/BestFittingPlane.h"
+#include "Projection/BoundingPoints.h"
+#include "Projection/FiniteBounds.h"
+#include "Projection/ProjectedPoints.h"
+
+#include "vtkAbstractTransform.h"
+#include "vtkCellArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+#include "vtkTransform.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+vtkStandardNewMacro(vtkTIPPDelaunay2D);
+vtkCxxSetObjectMacro(vtkTIPPDelaunay2D, Transform, vtkAbstractTransform);
+
+namespace
+{
+
+/// Passes progress on to an algorithm and the wish to stop back, from any thread; observers hear
+/// of it in the thread that made this object only.
+class Monitor
+{
+public:
+  explicit Monitor(vtkAlgorithm* algorithm)
+    : Algorithm(algorithm)
+    , Owner(std::this_thread::get_id())
+  {
+  }
+
+  bool operator()(double fraction)
+  {
+    constexpr double share = 0.95; // the rest is for making the output
+    if (std::this_thread::get_id() == this->Owner)
+    {
+      this->Done = std::max(this->Done, share * fraction);
+      this->Algorithm->UpdateProgress(this->Done);
+      this->Stopped = tipp::abortRequested(this->Algorithm);
+    }
+    return !this->Stopped;
+  }
+
+private:
+  vtkAlgorithm* Algorithm;
+  std::thread::id Owner;
+  double Done = 0;
+  std::atomic<bool> Stopped{ false };
+};
+
+class StopWatch
+{
+public:
+  double seconds() const
+  {
+    return std::chrono::duration<double>(Clock::now() - this->Start).count();
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point Start = Clock::now();
+};
+
+std::vector<char> coveredPoints(const tipp::Triangulation& triangulation, vtkIdType points)
+{
+  std::vector<char> covered(std::size_t(points), 0);
+  for (const tipp::Duplicate& duplicate : triangulation.Duplicates)
+  {
+    covered[std::size_t(duplicate.Point)] = 1;
+  }
+  for (tipp::PointId rejected : triangulation.Rejected)
+  {
+    covered[std::size_t(rejected)] = 1;
+  }
+  return covered;
+}
+
+} // namespace
+
+vtkTIPPDelaunay2D::vtkTIPPDelaunay2D()
+{
+  this->SetNumberOfOutputPorts(2);
+}
+
+vtkTIPPDelaunay2D::~vtkTIPPDelaunay2D()
+{
+  this->SetTransform(nullptr);
+}
+
+vtkTable* vtkTIPPDelaunay2D::GetStatistics()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+vtkMTimeType vtkTIPPDelaunay2D::GetMTime()
+{
+  const vtkMTimeType own = this->Superclass::GetMTime();
+  return this->Transform ? std::max(own, this->Transform->GetMTime()) : own;
+}
+
+int vtkTIPPDelaunay2D::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  return 1;
+}
+
+int vtkTIPPDelaunay2D::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkPolyData" : "vtkTable");
+  return 1;
+}
+
+vtkAbstractTransform* vtkTIPPDelaunay2D::ComputeBestFittingPlane(vtkPointSet* input)
+{
+  const auto transform = tipp::bestFittingPlane(input ? input->GetPoints() : nullptr);
+  if (transform)
+  {
+    transform->Register(nullptr);
+  }
+  return transform;
+}
+
+int vtkTIPPDelaunay2D::RequestData(vtkInformation*,
+  vtkInformationVector** inputVector,
+  vtkInformationVector* outputVector)
+{
+  vtkPointSet* input = vtkPointSet::GetData(inputVector[0]);
+  vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
+  vtkTable* statistics = vtkTable::GetData(outputVector, 1);
+  try
+  {
+    return this->Execute(input, output, statistics) ? 1 : 0;
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorMacro("Not enough memory to triangulate "
+                  << input->GetNumberOfPoints()
+                  << " points: use a machine with more, or fewer points.");
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro("Triangulating " << input->GetNumberOfPoints() << " points: " << error.what());
+  }
+  output->Initialize();
+  statistics->Initialize();
+  return 0;
+}
+
+bool vtkTIPPDelaunay2D::Execute(vtkPointSet* input, vtkPolyData* output, vtkTable* statistics)
+{
+  this->NumberOfDuplicatePoints = 0;
+  this->NumberOfRejectedPoints = 0;
+  vtkSmartPointer<vtkPoints> points = input->GetPoints();
+  vtkSmartPointer<vtkAbstractTransform> toPlane = this->Transform;
+  if (this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE)
+  {
+    toPlane = tipp::bestFittingPlane(points);
+  }
+  else if (this->ProjectionPlaneMode == VTK_SET_TRANSFORM_PLANE && !toPlane)
+  {
+    vtkErrorMacro("ProjectionPlaneMode is VTK_SET_TRANSFORM_PLANE, but there is no Transform: call "
+                  "SetTransform, or choose another mode.");
+    return false;
+  }
+  if (this->BoundingTriangulation && toPlane)
+  {
+    vtkWarningMacro("No BoundingTriangulation: only the x-y plane has one, without a transform.");
+  }
+  const bool bounding = this->BoundingTriangulation && !toPlane && points;
+  if (bounding)
+  {
+    points = tipp::appendBoundingPoints(points, this->Offset);
+  }
+
+  tipp::Triangulation triangulation = this->Triangulate(points, toPlane);
+  if (triangulation.Aborted)
+  {
+    return true;
+  }
+  const vtkIdType numberOfPoints = points ? points->GetNumberOfPoints() : 0;
+  this->Report(triangulation, numberOfPoints);
+
+  const StopWatch watch;
+  const std::size_t triangles = triangulation.triangleCount();
+  output->SetPoints(points);
+  if (!bounding)
+  {
+    output->GetPointData()->PassData(input->GetPointData());
+  }
+  if (this->GenerateRepresentativeIds &&
+      (this->NumberOfDuplicatePoints > 0 || this->NumberOfRejectedPoints > 0))
+  {
+    output->GetPointData()->AddArray(tipp::representativeIds(triangulation, numberOfPoints));
+  }
+  this->SetCells(triangulation, output);
+  triangulation.Statistics.Phases.push_back({ "output", watch.seconds() });
+  tipp::fillStatisticsTable(triangulation, numberOfPoints, vtkIdType(triangles), statistics);
+  return true;
+}
+
+tipp::Triangulation vtkTIPPDelaunay2D::Triangulate(vtkPoints* points, vtkAbstractTransform* toPlane)
+{
+  const StopWatch watch;
+  const tipp::ProjectedPoints projected(points, toPlane);
+  const double distance =
+    this->Tolerance > 0 ? this->Tolerance * tipp::finiteBounds(points).diagonal() : 0;
+  const double projectionSeconds = watch.seconds();
+
+  Monitor monitor(this);
+  tipp::TriangulationOptions options;
+  options.Columns = this->NumberOfPartitions[0];
+  options.Rows = this->NumberOfPartitions[1];
+  options.InitialPointsPerPartition = this->InitialPointsPerPartition;
+  options.Order = this->Schedule == STAGES ? tipp::Schedule::Stages : tipp::Schedule::Dynamic;
+  options.Threads = this->NumberOfThreads;
+  options.Progress = [&monitor](double fraction) { return monitor(fraction); };
+
+  tipp::Triangulation triangulation =
+    distance > 0 ? tipp::triangulateMerged(projected.view(), distance, options)
+                 : tipp::triangulate(projected.view(), options);
+  auto& phases = triangulation.Statistics.Phases;
+  phases.insert(phases.begin(), { "projection", projectionSeconds });
+  return triangulation;
+}
+
+void vtkTIPPDelaunay2D::Report(const tipp::Triangulation& triangulation, vtkIdType numberOfPoints)
+{
+  this->NumberOfDuplicatePoints = vtkIdType(triangulation.Duplicates.size());
+  this->NumberOfRejectedPoints = vtkIdType(triangulation.Rejected.size());
+  if (this->NumberOfRejectedPoints > 0)
+  {
+    vtkWarningMacro(
+      << this->NumberOfRejectedPoints << " of " << numberOfPoints
+      << " points have a NaN or infinite coordinate and are in no triangle; the first "
+         "is point "
+      << triangulation.Rejected.front() << ".");
+  }
+  if (triangulation.triangleCount() == 0)
+  {
+    const vtkIdType distinct =
+      numberOfPoints - this->NumberOfDuplicatePoints - this->NumberOfRejectedPoints;
+    vtkWarningMacro("No triangles: of "
+                    << numberOfPoints << " points, " << distinct << " are finite and distinct"
+                    << (distinct < 3 ? ", and it takes three." : ", and all are on one line."));
+  }
+}
+
+void vtkTIPPDelaunay2D::SetCells(tipp::Triangulation& triangulation, vtkPolyData* output) const
+{
+  auto setCells = [&](auto& ids)
+  {
+    if (this->Alpha == 0)
+    {
+      output->SetPolys(tipp::takeCells(std::move(ids), 3));
+      return;
+    }
+    auto shape = tipp::alphaShape(ids,
+      output->GetPoints(),
+      this->Alpha,
+      coveredPoints(triangulation, output->GetNumberOfPoints()));
+    if (this->AlphaTris)
+    {
+      output->SetPolys(tipp::takeCells(std::move(shape.Triangles), 3));
+    }
+    if (this->AlphaLines)
+    {
+      output->SetLines(tipp::takeCells(std::move(shape.Lines), 2));
+    }
+    if (this->AlphaVerts)
+    {
+      output->SetVerts(tipp::takeCells(std::move(shape.Vertices), 1));
+    }
+  };
+  if (triangulation.Ids64.empty())
+  {
+    setCells(triangulation.Ids32);
+  }
+  else
+  {
+    setCells(triangulation.Ids64);
+  }
+}
+
+void vtkTIPPDelaunay2D::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const char* modes[] = { "XY Plane", "Transform Plane", "Best Fitting Plane" };
+  auto onOff = [](vtkTypeBool flag) { return flag ? "On\n" : "Off\n"; };
+  os << indent << "Alpha: " << this->Alpha << "\n";
+  os << indent << "AlphaTris: " << onOff(this->AlphaTris);
+  os << indent << "AlphaLines: " << onOff(this->AlphaLines);
+  os << indent << "AlphaVerts: " << onOff(this->AlphaVerts);
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "Offset: " << this->Offset << "\n";
+  os << indent << "BoundingTriangulation: " << onOff(this->BoundingTriangulation);
+  os << indent << "ProjectionPlaneMode: " << modes[this->ProjectionPlaneMode] << "\n";
+  os << indent << "Transform: " << (this->Transform ? "specified\n" : "none\n");
+  os << indent << "GenerateRepresentativeIds: " << onOff(this->GenerateRepresentativeIds);
+  os << indent << "NumberOfPartitions: " << this->NumberOfPartitions[0] << " x "
+     << this->NumberOfPartitions[1] << "\n";
+  os << indent << "InitialPointsPerPartition: " << this->InitialPointsPerPartition << "\n";
+  os << indent << "Schedule: " << (this->Schedule == STAGES ? "Stages\n" : "Dynamic\n");
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "NumberOfDuplicatePoints: " << this->NumberOfDuplicatePoints << "\n";
+  os << indent << "NumberOfRejectedPoints: " << this->NumberOfRejectedPoints << "\n";
+}

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTIPPDelaunay2D
+ * @brief   exact 2D Delaunay triangulation of many points, in parallel
+ *
+ * vtkTIPPDelaunay2D triangulates the points of any vtkPointSet in a plane: the x-y plane (z is
+ * ignored, but kept), the plane that Transform takes them to, or the plane that fits them best. It
+ * stands in for vtkDelaunay2D: same property names, same meanings, same numeric values.
+ *
+ * The result is exact. All predicates are evaluated without rounding error, the border is the
+ * convex hull, every distinct point is a vertex, and every triangle is counter-clockwise in the
+ * plane. Where four or more points lie on one circle, the choice between the possible
+ * triangulations depends on the coordinates alone, so that the set of triangles is the same for
+ * every order of the points, NumberOfPartitions, Schedule and NumberOfThreads.
+ *
+ * Output port 0 is a vtkPolyData with the input's own vtkPoints (the same object, in the same order
+ * and precision, with all point data) and triangles of their ids. Points that are in no triangle
+ * stay in the output. The ids take 32 bits each where they fit.
+ *
+ * Points at the same place are merged into the one of lowest id. Points with a NaN or infinite
+ * coordinate in the plane are rejected, with one warning. If there is a merged or rejected
+ * point, the output has the point array "RepresentativePointId" (see GenerateRepresentativeIds).
+ * Fewer than three distinct points, or points all on one line, make an output without triangles
+ * and a warning.
+ *
+ * Output port 1, also GetStatistics(), is a vtkTable about the run. It has a row for each stage,
+ * with the columns
+ * - Stage: 0, 1, ...
+ * - ActivePartitions: the partitions triangulated in this stage
+ * - MeshTriangles: the unfinished triangles in memory when the stage began
+ *
+ * and as field data, one value each, Points, Triangles (before Alpha), DuplicatePoints,
+ * RejectedPoints, Partitions, InitialPoints, WorkerVertices (vertices triangulated by all workers
+ * together) and Threads, and of one length PhaseName and PhaseSeconds (wall-clock seconds).
+ * In Python, with the filter `f`:
+ * @code{.py}
+ * from vtkmodules.numpy_interface.dataset_adapter import WrapDataObject
+ * table = WrapDataObject(f.GetStatistics())
+ * pandas.DataFrame({name: table.RowData[name] for name in table.RowData.keys()})
+ * @endcode
+ *
+ * An aborted run leaves both outputs empty. A failed one (out of memory, Transform missing) is
+ * reported as an error and leaves them empty too.
+ *
+ * What vtkDelaunay2D has and this filter has not: a second input with constraining edges and
+ * polygons (SetSourceData, SetSourceConnection).
+ *
+ * What differs: Tolerance is 0 by default. A transform set while ProjectionPlaneMode is
+ * VTK_BEST_FITTING_PLANE is ignored, not used instead of the plane. VTK_SET_TRANSFORM_PLANE
+ * without a transform is an error. With Alpha, merged and rejected points are no vertices.
+ *
+ * Related publication: *Efficient Generating and Processing of Large-Scale Unstructured Meshes*,
+ * dissertation, University of Mississippi, chapter 2 (Triangulation of Independent Partitions in
+ * Parallel).
+ *
+ * @sa
+ * vtkDelaunay2D
+ */
+
+#ifndef vtkTIPPDelaunay2D_h
+#define vtkTIPPDelaunay2D_h
+
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkTIPPFiltersModule.h" // For export macro
+
+class vtkAbstractTransform;
+class vtkPoints;
+class vtkPointSet;
+class vtkTable;
+
+namespace tipp
+{
+struct Triangulation;
+}
+
+// vtkDelaunay2D.h defines the same.
+#define VTK_DELAUNAY_XY_PLANE 0
+#define VTK_SET_TRANSFORM_PLANE 1
+#define VTK_BEST_FITTING_PLANE 2
+
+class VTKTIPPFILTERS_EXPORT vtkTIPPDelaunay2D : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkTIPPDelaunay2D* New();
+  vtkTypeMacro(vtkTIPPDelaunay2D, vtkPolyDataAlgorithm)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * How partitions are handed to threads.
+   */
+  enum ScheduleType
+  {
+    STAGES = 0, ///< a barrier after each set of independent partitions
+    DYNAMIC = 1 ///< a partition starts as soon as it is independent of all active ones
+  };
+
+  ///@{
+  /**
+   * A radius, in the units of the points, that cells of the output must not exceed; 0 (the
+   * default) outputs all triangles and nothing else. With any other value the output has
+   * the triangles of at most this circumradius, the edges of the other triangles that are at most
+   * twice as long and in no such triangle as lines, and the remaining points as vertices. Lengths
+   * are those of the points in space, not in the plane.
+   */
+  vtkSetClampMacro(Alpha, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Alpha, double);
+  ///@}
+
+  ///@{
+  /**
+   * Which cells are output while Alpha is not 0. They do not change what the others are. All are
+   * on by default.
+   */
+  vtkSetMacro(AlphaTris, vtkTypeBool);
+  vtkGetMacro(AlphaTris, vtkTypeBool);
+  vtkBooleanMacro(AlphaTris, vtkTypeBool);
+  vtkSetMacro(AlphaLines, vtkTypeBool);
+  vtkGetMacro(AlphaLines, vtkTypeBool);
+  vtkBooleanMacro(AlphaLines, vtkTypeBool);
+  vtkSetMacro(AlphaVerts, vtkTypeBool);
+  vtkGetMacro(AlphaVerts, vtkTypeBool);
+  vtkBooleanMacro(AlphaVerts, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * A point no farther, in the plane, from a kept point of lower id is merged into it; as a
+   * fraction of the diagonal of the points' bounding box. 0 (the default) merges points at the
+   * same place only. Other values cost a serial pass over the points.
+   */
+  vtkSetClampMacro(Tolerance, double, 0.0, 1.0);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * The radius of the circle of the BoundingTriangulation's points, as a multiple of the diagonal
+   * of the points' bounding box. 1 by default. Without BoundingTriangulation it plays no part: the
+   * border is the convex hull in any case.
+   */
+  vtkSetClampMacro(Offset, double, 0.75, VTK_DOUBLE_MAX);
+  vtkGetMacro(Offset, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether eight points on a circle around all others are triangulated with them. The output
+   * has its own double-precision points then, the eight after the input's, and, for want of values
+   * at the eight, none of the input's point data. Only the x-y plane has them; together with a
+   * transform or the best fitting plane they are left out with a warning. Off by default.
+   */
+  vtkSetMacro(BoundingTriangulation, vtkTypeBool);
+  vtkGetMacro(BoundingTriangulation, vtkTypeBool);
+  vtkBooleanMacro(BoundingTriangulation, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Takes the points to where their x and y are triangulated; the output has them where they were.
+   * Any transform will do, also one that is not linear or has no inverse. None by default.
+   */
+  virtual void SetTransform(vtkAbstractTransform*);
+  vtkGetObjectMacro(Transform, vtkAbstractTransform);
+  ///@}
+
+  ///@{
+  /**
+   * The plane of the triangulation. VTK_DELAUNAY_XY_PLANE (the default): x and y of the points, or
+   * of what Transform makes of them if there is one. VTK_SET_TRANSFORM_PLANE: the same, but it is
+   * an error if there is no Transform. VTK_BEST_FITTING_PLANE: see ComputeBestFittingPlane.
+   */
+  vtkSetClampMacro(ProjectionPlaneMode, int, VTK_DELAUNAY_XY_PLANE, VTK_BEST_FITTING_PLANE);
+  vtkGetMacro(ProjectionPlaneMode, int);
+  ///@}
+
+  /**
+   * The transform that moves the plane which fits the points best (in the least-squares sense) to
+   * the plane z = 0 and their centroid to the origin. Points with a NaN or infinite coordinate do
+   * not count. Null if there are no others. The caller owns it.
+   */
+  VTK_NEWINSTANCE
+  static vtkAbstractTransform* ComputeBestFittingPlane(vtkPointSet* input);
+
+  ///@{
+  /**
+   * Whether an output with merged or rejected points gets the point array "RepresentativePointId"
+   * (vtkIdTypeArray): for each point the id of the point that stands for it, which is its own id,
+   * or for a merged point that of the point it was merged into, or -1 for a rejected point. On
+   * by default; without such points there never is the array.
+   */
+  vtkSetMacro(GenerateRepresentativeIds, vtkTypeBool);
+  vtkGetMacro(GenerateRepresentativeIds, vtkTypeBool);
+  vtkBooleanMacro(GenerateRepresentativeIds, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Columns and rows of a grid of partitions over the points. If either is 0 (the default), a
+   * tiling is chosen for the points.
+   */
+  vtkSetVector2Macro(NumberOfPartitions, int);
+  vtkGetVector2Macro(NumberOfPartitions, int);
+  ///@}
+
+  ///@{
+  /**
+   * The points of each partition that the initial mesh is made of. 0 (the default) chooses.
+   */
+  vtkSetClampMacro(InitialPointsPerPartition, int, 0, VTK_INT_MAX);
+  vtkGetMacro(InitialPointsPerPartition, int);
+  ///@}
+
+  ///@{
+  /**
+   * A ScheduleType; DYNAMIC by default.
+   */
+  vtkSetClampMacro(Schedule, int, STAGES, DYNAMIC);
+  vtkGetMacro(Schedule, int);
+  void SetScheduleToStages() { this->SetSchedule(STAGES); }
+  void SetScheduleToDynamic() { this->SetSchedule(DYNAMIC); }
+  ///@}
+
+  ///@{
+  /**
+   * The OpenMP threads to use. 0 (the default) leaves it to OpenMP: OMP_NUM_THREADS, or all cores.
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * Of the last run: the points merged into another one, and the points rejected.
+   */
+  vtkGetMacro(NumberOfDuplicatePoints, vtkIdType);
+  vtkGetMacro(NumberOfRejectedPoints, vtkIdType);
+  ///@}
+
+  /**
+   * Output port 1.
+   */
+  vtkTable* GetStatistics();
+
+  /**
+   * Also that of the Transform.
+   */
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkTIPPDelaunay2D();
+  ~vtkTIPPDelaunay2D() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+  double Alpha = 0;
+  vtkTypeBool AlphaTris = 1;
+  vtkTypeBool AlphaLines = 1;
+  vtkTypeBool AlphaVerts = 1;
+  double Tolerance = 0;
+  double Offset = 1;
+  vtkTypeBool BoundingTriangulation = 0;
+  vtkAbstractTransform* Transform = nullptr;
+  int ProjectionPlaneMode = VTK_DELAUNAY_XY_PLANE;
+  vtkTypeBool GenerateRepresentativeIds = 1;
+  int NumberOfPartitions[2] = { 0, 0 };
+  int InitialPointsPerPartition = 0;
+  int Schedule = DYNAMIC;
+  int NumberOfThreads = 0;
+  vtkIdType NumberOfDuplicatePoints = 0;
+  vtkIdType NumberOfRejectedPoints = 0;
+
+private:
+  vtkTIPPDelaunay2D(const vtkTIPPDelaunay2D&) = delete;
+  void operator=(const vtkTIPPDelaunay2D&) = delete;
+
+  bool Execute(vtkPointSet* input, vtkPolyData* output, vtkTable* statistics);
+  tipp::Triangulation Triangulate(vtkPoints* points, vtkAbstractTransform* toPlane);
+  void Report(const tipp::Triangulation& triangulation, vtkIdType numberOfPoints);
+  void SetCells(tipp::Triangulation& triangulation, vtkPolyData* output) const;
+};
+
+#endif

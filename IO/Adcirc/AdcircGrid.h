@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippAdcircGrid_h
+#define tippAdcircGrid_h
+
+#include "vtkTIPPIOModule.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// Nodes and triangles of an ADCIRC grid (fort.14, https://adcirc.org): a title; the numbers of
+/// elements and nodes; a line `id x y depth` a node; a line `id 3 a b c` an element. The boundary
+/// lists after them are not read.
+struct AdcircGrid
+{
+  std::vector<double> XY;
+  std::vector<double> Depth;           ///< below the datum, positive downwards
+  std::vector<std::int64_t> Triangles; ///< three indices into the nodes, counted from 0
+};
+
+/// Throws IOError.
+VTKTIPPIO_EXPORT AdcircGrid readAdcircGrid(const std::string& path);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Files/IOError.h"
+
+namespace tipp
+{
+
+IOError::IOError(const std::string& path, const std::string& problem)
+  : std::runtime_error(path + ": " + problem)
+{
+}
+
+IOError::IOError(const std::string& path, std::int64_t line, const std::string& problem)
+  : std::runtime_error(path + ", line " + std::to_string(line) + ": " + problem)
+{
+}
+
+IOError::~IOError() = default;
+
+} // namespace tipp

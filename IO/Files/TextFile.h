@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippTextFile_h
+#define tippTextFile_h
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tipp
+{
+
+/// The whole of a text file; a pipe will do. Throws IOError if it cannot be read or is not text.
+std::string readTextFile(const std::string& path);
+
+/// Lines of a text, without their ends (\n or \r\n) and without a byte order mark.
+class LineReader
+{
+public:
+  explicit LineReader(std::string_view text);
+
+  bool next(std::string_view& line);
+  std::int64_t lineNumber() const { return this->Number; }
+
+  /// No more lines than this are left.
+  std::int64_t remainingLines() const;
+
+private:
+  std::string_view Rest;
+  std::int64_t Number = 0;
+};
+
+/// A whole field as a number, blanks and quotes around it aside.
+bool parseNumber(std::string_view field, double& value);
+bool parseInteger(std::string_view field, std::int64_t& value);
+
+/// Splits a line at a delimiter, or at any run of blanks if the delimiter is a space. A field in
+/// double quotes may hold the delimiter.
+void splitFields(std::string_view line, char delimiter, std::vector<std::string_view>& fields);
+
+/// Without blanks and one pair of quotes around it.
+std::string_view trimField(std::string_view field);
+
+} // namespace tipp
+
+#endif

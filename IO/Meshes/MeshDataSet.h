@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippMeshDataSet_h
+#define tippMeshDataSet_h
+
+#include "Meshes/TrianglesView.h"
+#include "Points/PointTable.h"
+
+#include "vtkSmartPointer.h"
+
+#include <cstdint>
+#include <vector>
+
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+namespace tipp
+{
+
+/// Data sets over the caller's memory (only the coordinates and the cells' offsets are copies):
+/// they must not outlive it, and are for writers, which do not change it. A column named z is the
+/// third coordinate, the others are point data; `representatives` may be empty.
+vtkSmartPointer<vtkPolyData> makePolyData(const PointTable& points,
+  TrianglesView triangles,
+  const std::vector<std::int64_t>& representatives);
+vtkSmartPointer<vtkUnstructuredGrid> makeUnstructuredGrid(const PointTable& points,
+  TrianglesView triangles,
+  const std::vector<std::int64_t>& representatives);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Meshes/WriteMesh.h"
+
+#include "Files/Extension.h"
+#include "Files/IOError.h"
+#include "Files/PendingFile.h"
+#include "Meshes/MeshDataSet.h"
+#include "Npy/NpyFile.h"
+#include "Vtk/ErrorKeeper.h"
+
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkXMLPolyDataWriter.h"
+#include "vtkXMLUnstructuredGridWriter.h"
+
+#include <algorithm>
+
+namespace tipp
+{
+namespace
+{
+
+bool isAborted(const MeshOptions& options)
+{
+  return options.Aborted && options.Aborted();
+}
+
+bool writeNpy(const std::string& path, TrianglesView triangles, const MeshOptions& options)
+{
+  NpyWriter writer(path, "<i8", std::int64_t(triangles.size()), 3);
+  constexpr std::size_t chunkSize = 1 << 15;
+  std::vector<std::int64_t> chunk(3 * std::min(chunkSize, triangles.size()));
+  for (std::size_t first = 0; first < triangles.size(); first += chunkSize)
+  {
+    const std::size_t size = std::min(chunkSize, triangles.size() - first);
+    for (std::size_t i = 0; i < 3 * size; ++i)
+    {
+      chunk[i] = triangles.id(first + i / 3, int(i % 3));
+    }
+    writer.write(chunk.data(), 3 * size * sizeof(std::int64_t));
+  }
+  if (isAborted(options))
+  {
+    return false;
+  }
+  writer.close();
+  return true;
+}
+
+template <typename Writer>
+bool writeXml(const std::string& path, vtkDataSet* data, const MeshOptions& options)
+{
+  PendingFile pending(path);
+  vtkNew<Writer> writer;
+  vtkNew<ErrorKeeper> errors;
+  writer->AddObserver(vtkCommand::ErrorEvent, errors);
+  writer->SetFileName(pending.temporaryPath().c_str());
+  writer->SetInputData(data);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToNone();
+  writer->SetHeaderTypeToUInt64();
+  if (writer->Write() == 0 || !errors->Message.empty())
+  {
+    throw IOError(path, "cannot be written; check the disk's space and the folder's permissions.");
+  }
+  if (isAborted(options))
+  {
+    return false;
+  }
+  pending.commit();
+  return true;
+}
+
+} // namespace
+
+bool isMeshFile(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  return extension == ".npy" || extension == ".vtp" || extension == ".vtu";
+}
+
+bool writeMesh(const std::string& path,
+  const PointTable& points,
+  TrianglesView triangles,
+  const MeshOptions& options)
+{
+  const std::string extension = extensionOf(path);
+  if (extension == ".npy")
+  {
+    return writeNpy(path, triangles, options);
+  }
+  if (extension == ".vtp")
+  {
+    const auto data = makePolyData(points, triangles, options.Representatives);
+    return writeXml<vtkXMLPolyDataWriter>(path, data, options);
+  }
+  if (extension == ".vtu")
+  {
+    const auto data = makeUnstructuredGrid(points, triangles, options.Representatives);
+    return writeXml<vtkXMLUnstructuredGridWriter>(path, data, options);
+  }
+  throw IOError(path, "has no extension that tells a kind of mesh file; use .npy, .vtp or .vtu.");
+}
+
+} // namespace tipp

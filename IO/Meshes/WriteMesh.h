@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippWriteMesh_h
+#define tippWriteMesh_h
+
+#include "Meshes/TrianglesView.h"
+#include "Points/PointTable.h"
+#include "vtkTIPPIOModule.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+struct MeshOptions
+{
+  /// One id a point, written as the point array "RepresentativePointId"; empty: no such array.
+  std::vector<std::int64_t> Representatives;
+  /// Asked when all is written under a temporary name; true drops it.
+  std::function<bool()> Aborted;
+};
+
+/// Whether writeMesh knows the extension.
+VTKTIPPIO_EXPORT bool isMeshFile(const std::string& path);
+
+/// Writes triangles by the path's extension: .npy (m x 3 int64 point ids; points are not written),
+/// .vtp or .vtu (appended raw binary: all points, the column named z as third coordinate or else 0,
+/// the other columns as point data). The file appears whole or not at all: false if Aborted said
+/// so; throws IOError.
+VTKTIPPIO_EXPORT bool writeMesh(const std::string& path,
+  const PointTable& points,
+  TrianglesView triangles,
+  const MeshOptions& options = {});
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippNpyFile_h
+#define tippNpyFile_h
+
+#include "Files/PendingFile.h"
+#include "vtkTIPPIOModule.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+struct CloseFile
+{
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using FileHandle = std::unique_ptr<std::FILE, CloseFile>;
+
+/// Reads a table of numbers from NumPy's .npy format, versions 1 to 3
+/// (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html): rows x columns,
+/// little-endian, C order. The header is checked whole and against the file's size before any
+/// memory is taken.
+class VTKTIPPIO_EXPORT NpyReader
+{
+public:
+  enum class Type
+  {
+    Float32,
+    Float64,
+    Int32,
+    Int64,
+    UInt32,
+    UInt64
+  };
+
+  /// Throws IOError for anything but such a table.
+  explicit NpyReader(const std::string& path);
+
+  Type type() const { return this->Scalar; }
+  bool isFloat() const { return this->Scalar == Type::Float32 || this->Scalar == Type::Float64; }
+  std::int64_t rows() const { return this->Rows; }
+  std::int64_t columns() const { return this->Columns; }
+
+  /// The next bytes of the data; throws IOError.
+  void read(void* to, std::size_t bytes);
+
+private:
+  std::string Path;
+  FileHandle File;
+  Type Scalar = Type::Float64;
+  std::int64_t Rows = 0;
+  std::int64_t Columns = 0;
+};
+
+/// Writes such a table; the file appears when close() has been called.
+class VTKTIPPIO_EXPORT NpyWriter
+{
+public:
+  /// `descr` is NumPy's name of the scalar type, as "<f8". Throws IOError.
+  NpyWriter(const std::string& path,
+    const std::string& descr,
+    std::int64_t rows,
+    std::int64_t columns);
+
+  void write(const void* from, std::size_t bytes);
+  void close();
+
+private:
+  std::string Path;
+  PendingFile Pending;
+  FileHandle File;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippTextPoints_h
+#define tippTextPoints_h
+
+#include "Points/ReadPoints.h"
+
+namespace tipp
+{
+
+/// Points from text, one a line; the delimiter (semicolon, comma, tab or blanks) and a line of
+/// names or a line with nothing but the count are found. Lines that are empty or start with # do
+/// not count. A further column is kept if all its values are numbers or missing (then NaN); without
+/// names the first is z and the others column<number>.
+PointTable readTextPoints(const std::string& path, const PointOptions& options);
+
+} // namespace tipp
+
+#endif

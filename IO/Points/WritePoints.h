@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippWritePoints_h
+#define tippWritePoints_h
+
+#include "vtkTIPPIOModule.h"
+
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// Writes x and y interleaved as an .npy file of n x 2 float64. Throws IOError.
+VTKTIPPIO_EXPORT void writePoints(const std::string& path, const std::vector<double>& xy);
+
+} // namespace tipp
+
+#endif

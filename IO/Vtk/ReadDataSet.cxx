@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Vtk/ReadDataSet.h"
+
+#include "Files/Extension.h"
+#include "Files/IOError.h"
+#include "Vtk/ErrorKeeper.h"
+
+#include "vtkDataSet.h"
+#include "vtkDataSetReader.h"
+#include "vtkExecutive.h"
+#include "vtkNew.h"
+#include "vtkOBJReader.h"
+#include "vtkPLYReader.h"
+#include "vtkSTLReader.h"
+#include "vtkXMLImageDataReader.h"
+#include "vtkXMLPImageDataReader.h"
+#include "vtkXMLPPolyDataReader.h"
+#include "vtkXMLPRectilinearGridReader.h"
+#include "vtkXMLPStructuredGridReader.h"
+#include "vtkXMLPUnstructuredGridReader.h"
+#include "vtkXMLPolyDataReader.h"
+#include "vtkXMLRectilinearGridReader.h"
+#include "vtkXMLStructuredGridReader.h"
+#include "vtkXMLUnstructuredGridReader.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <type_traits>
+
+namespace tipp
+{
+namespace
+{
+
+// VTK's texts are "ERROR: In file, line n\nclass (address): what went wrong\n\n".
+std::string lastSentence(const std::string& message)
+{
+  const std::size_t colon = message.find("): ");
+  std::string text = colon == std::string::npos ? message : message.substr(colon + 3);
+  text.erase(std::find(text.begin(), text.end(), '\n'), text.end());
+  return text;
+}
+
+using ReadFunction = vtkSmartPointer<vtkDataSet> (*)(const std::string&, ErrorKeeper*);
+
+template <typename Reader>
+vtkSmartPointer<vtkDataSet> readWith(const std::string& path, ErrorKeeper* errors)
+{
+  vtkNew<Reader> reader;
+  reader->AddObserver(vtkCommand::ErrorEvent, errors);
+  reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
+  if constexpr (std::is_base_of_v<vtkXMLReader, Reader>)
+  {
+    reader->SetReaderErrorObserver(errors);
+    reader->SetParserErrorObserver(errors);
+  }
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  return vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
+}
+
+const std::map<std::string, ReadFunction>& readFunctions()
+{
+  static const std::map<std::string, ReadFunction> functions = {
+    { ".obj", readWith<vtkOBJReader> },
+    { ".ply", readWith<vtkPLYReader> },
+    { ".pvti", readWith<vtkXMLPImageDataReader> },
+    { ".pvtp", readWith<vtkXMLPPolyDataReader> },
+    { ".pvtr", readWith<vtkXMLPRectilinearGridReader> },
+    { ".pvts", readWith<vtkXMLPStructuredGridReader> },
+    { ".pvtu", readWith<vtkXMLPUnstructuredGridReader> },
+    { ".stl", readWith<vtkSTLReader> },
+    { ".vti", readWith<vtkXMLImageDataReader> },
+    { ".vtk", readWith<vtkDataSetReader> },
+    { ".vtp", readWith<vtkXMLPolyDataReader> },
+    { ".vtr", readWith<vtkXMLRectilinearGridReader> },
+    { ".vts", readWith<vtkXMLStructuredGridReader> },
+    { ".vtu", readWith<vtkXMLUnstructuredGridReader> },
+  };
+  return functions;
+}
+
+} // namespace
+
+bool isVtkFile(const std::string& path)
+{
+  return readFunctions().count(extensionOf(path)) != 0;
+}
+
+vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path)
+{
+  if (!std::filesystem::is_regular_file(path))
+  {
+    throw IOError(path, "is not a file that can be read; check the name.");
+  }
+  vtkNew<ErrorKeeper> errors;
+  const auto read = readFunctions().find(extensionOf(path));
+  if (read == readFunctions().end())
+  {
+    throw IOError(path, "is of a kind that VTK's readers here do not know.");
+  }
+  const vtkSmartPointer<vtkDataSet> data = read->second(path, errors);
+  if (!errors->Message.empty() || !data)
+  {
+    throw IOError(path,
+      "cannot be read as a VTK file (" +
+        (data || !errors->Message.empty() ? lastSentence(errors->Message) : "no data set in it") +
+        "); check that it is whole and that its extension is right.");
+  }
+  return data;
+}
+
+} // namespace tipp

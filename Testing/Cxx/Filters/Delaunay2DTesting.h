@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef Delaunay2DTesting_h
+#define Delaunay2DTesting_h
+
+// What the tests of vtkTIPPDelaunay2D share.
+
+#include "vtkTIPPDelaunay2D.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkCellArray.h"
+#include "vtkCommand.h"
+#include "vtkExecutive.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace testing_delaunay
+{
+
+struct Point
+{
+  double X, Y, Z;
+};
+
+inline vtkSmartPointer<vtkPolyData> dataset(const std::vector<Point>& points,
+  int dataType = VTK_DOUBLE)
+{
+  vtkNew<vtkPoints> vtk;
+  vtk->SetDataType(dataType);
+  for (const Point& p : points)
+  {
+    vtk->InsertNextPoint(p.X, p.Y, p.Z);
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(vtk);
+  return data;
+}
+
+/// Points in the unit cube, in general position in every coordinate plane.
+inline std::vector<Point> randomPoints(int count, unsigned seed = 1)
+{
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<Point> points(static_cast<std::size_t>(count));
+  for (Point& p : points)
+  {
+    p = { uniform(generator), uniform(generator), uniform(generator) };
+  }
+  return points;
+}
+
+using Cells = std::multiset<std::vector<vtkIdType>>;
+
+/// Cells as sorted point ids, to compare them whatever their order.
+inline Cells cellsOf(vtkCellArray* cells)
+{
+  Cells result;
+  vtkIdType size;
+  const vtkIdType* ids;
+  for (cells->InitTraversal(); cells->GetNextCell(size, ids);)
+  {
+    std::vector<vtkIdType> cell(ids, ids + size);
+    std::sort(cell.begin(), cell.end());
+    result.insert(cell);
+  }
+  return result;
+}
+
+/// Counts an algorithm's warnings and errors in place of printing them.
+class Messages
+{
+public:
+  explicit Messages(vtkObject* subject)
+  {
+    subject->AddObserver(vtkCommand::WarningEvent, this, &Messages::hearWarning);
+    subject->AddObserver(vtkCommand::ErrorEvent, this, &Messages::hearError);
+  }
+
+  std::vector<std::string> Warnings;
+  std::vector<std::string> Errors;
+
+private:
+  void hearWarning(vtkObject*, unsigned long, void* text)
+  {
+    this->Warnings.emplace_back(static_cast<const char*>(text));
+  }
+  void hearError(vtkObject*, unsigned long, void* text)
+  {
+    this->Errors.emplace_back(static_cast<const char*>(text));
+  }
+};
+
+/// An algorithm's triangles.
+inline Cells trianglesOf(vtkPolyDataAlgorithm* algorithm)
+{
+  algorithm->Update();
+  return cellsOf(algorithm->GetOutput()->GetPolys());
+}
+
+} // namespace testing_delaunay
+
+#endif

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Renders a triangulated terrain, lit and with its edges, and compares the picture with a baseline.
+// Arguments: [FILE of a count and lines 'x y z'] -V BASELINE -T FOLDER. Without a FILE the terrain
+// is a formula on scattered points. Exit code 125: FILE is not there.
+#include "vtkTIPPDelaunay2D.h"
+
+#include "vtkActor.h"
+#include "vtkCamera.h"
+#include "vtkElevationFilter.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkTesting.h"
+
+#include <cmath>
+#include <fstream>
+#include <iostream>
+
+namespace
+{
+
+constexpr int skipped = 125;
+
+/// The digits of i in a base, mirrored at the point: scattered evenly in [0, 1), without a pattern.
+double radicalInverse(int i, int base)
+{
+  double result = 0;
+  for (double digit = 1.0 / base; i > 0; i /= base, digit /= base)
+  {
+    result += digit * (i % base);
+  }
+  return result;
+}
+
+void analyticTerrain(vtkPoints* points)
+{
+  constexpr int count = 1500;
+  for (int i = 1; i <= count; ++i)
+  {
+    const double x = radicalInverse(i, 2);
+    const double y = radicalInverse(i, 3);
+    const double hill = 0.3 * std::exp(-20 * (std::pow(x - 0.35, 2) + std::pow(y - 0.6, 2)));
+    points->InsertNextPoint(x, y, hill + 0.04 * std::sin(9 * x) * std::cos(7 * y));
+  }
+}
+
+bool readTerrain(const char* path, vtkPoints* points)
+{
+  std::ifstream file(path);
+  int count = 0;
+  file >> count;
+  double x, y, z;
+  while (file >> x >> y >> z)
+  {
+    points->InsertNextPoint(x, y, z);
+  }
+  return count > 0 && points->GetNumberOfPoints() == count;
+}
+
+vtkSmartPointer<vtkActor> terrainActor(vtkPoints* points)
+{
+  vtkNew<vtkPolyData> input;
+  input->SetPoints(points);
+  vtkNew<vtkTIPPDelaunay2D> delaunay;
+  delaunay->SetInputData(input);
+  vtkNew<vtkElevationFilter> elevation;
+  elevation->SetInputConnection(delaunay->GetOutputPort());
+  elevation->SetLowPoint(0, 0, points->GetBounds()[4]);
+  elevation->SetHighPoint(0, 0, points->GetBounds()[5]);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(elevation->GetOutputPort());
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetInterpolationToFlat();
+  actor->GetProperty()->EdgeVisibilityOn();
+  return actor;
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  if (argc < 2 || argv[1][0] == '-')
+  {
+    analyticTerrain(points);
+  }
+  else if (!std::ifstream(argv[1]))
+  {
+    std::cout << "Skipped: there is no file " << argv[1] << "\n";
+    return skipped;
+  }
+  else if (!readTerrain(argv[1], points))
+  {
+    std::cerr << argv[1] << ": not a count and as many lines of x, y and z\n";
+    return 1;
+  }
+
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1, 1, 1);
+  renderer->AddActor(terrainActor(points));
+  vtkNew<vtkRenderWindow> window;
+  window->SetMultiSamples(0);
+  window->SetSize(400, 400);
+  window->AddRenderer(renderer);
+  renderer->ResetCamera();
+  renderer->GetActiveCamera()->Elevation(-35);
+  renderer->ResetCamera();
+  renderer->GetActiveCamera()->Zoom(1.3);
+  renderer->ResetCameraClippingRange();
+  window->Render();
+
+  vtkNew<vtkTesting> test;
+  test->AddArguments(argc, argv);
+  test->SetRenderWindow(window);
+  constexpr double largestDifference = 10;
+  return test->RegressionTest(largestDifference) == vtkTesting::PASSED ? 0 : 1;
+}

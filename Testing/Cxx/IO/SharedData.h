@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippSharedData_h
+#define tippSharedData_h
+
+#include <filesystem>
+
+/// The path of a real data file; the test is skipped where there is none.
+#define TIPP_REQUIRE_DATA(path, name)                                                              \
+  const std::string path = std::string(TIPP_SHARED_DATA) + "/" + (name);                           \
+  if (!std::filesystem::exists(path))                                                              \
+  {                                                                                                \
+    GTEST_SKIP() << "there is no " << path << "; name the data's folder by -DTIPP_SHARED_DATA=";   \
+  }
+
+#endif

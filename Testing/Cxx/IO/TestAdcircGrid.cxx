@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Adcirc/AdcircGrid.h"
+#include "ExpectIOError.h"
+#include "Meshes/ReadMesh.h"
+#include "Points/ReadPoints.h"
+#include "SharedData.h"
+#include "TemporaryFolder.h"
+
+namespace
+{
+
+using Ids = std::vector<std::int64_t>;
+
+class AdcircGrid : public testing::Test
+{
+protected:
+  std::string file(const std::string& content) const
+  {
+    return this->Folder.file("fort.14", content);
+  }
+
+  void expectError(const std::string& content, const std::string& words) const
+  {
+    const std::string path = this->file(content);
+    tipp::test::expectIOError(path, words, [&]() { tipp::readAdcircGrid(path); });
+  }
+
+  const tipp::test::TemporaryFolder Folder;
+  const std::string Nodes = "1 0 0 5.5\n2 1 0 -1\n3 0 1 2\n";
+};
+
+} // namespace
+
+TEST_F(AdcircGrid, NodesDepthsAndTrianglesAreRead)
+{
+  const std::string path =
+    this->file("title\n1 3 ! numbers\n" + this->Nodes + "1 3 1 2 3\n0 = open boundaries\n");
+  const tipp::PointTable points = tipp::readPoints(path);
+  EXPECT_EQ((std::vector<double>{ 0, 0, 1, 0, 0, 1 }), points.XY);
+  ASSERT_EQ(1U, points.Columns.size());
+  EXPECT_EQ("depth", points.Columns[0].Name);
+  EXPECT_EQ((std::vector<double>{ 5.5, -1, 2 }), points.Columns[0].Values);
+  const tipp::TriangleMesh mesh = tipp::readMesh(path);
+  EXPECT_EQ((Ids{ 0, 1, 2 }), mesh.Triangles);
+  EXPECT_EQ(points.XY, mesh.XY);
+}
+
+TEST_F(AdcircGrid, NodeNumbersMayHaveGapsAndAnyOrder)
+{
+  const std::string path = this->file("\n1 3\n70 0 0 0\n-2 1 0 0\n9 0 1 0\n1 3 -2 9 70\n");
+  EXPECT_EQ((Ids{ 1, 2, 0 }), tipp::readMesh(path).Triangles);
+}
+
+TEST_F(AdcircGrid, RealGridIsWhole)
+{
+  TIPP_REQUIRE_DATA(path, "adcirc/ec95d/ec95d.grd");
+  const tipp::AdcircGrid grid = tipp::readAdcircGrid(path);
+  EXPECT_EQ(2U * 31435U, grid.XY.size());
+  EXPECT_EQ(3U * 58369U, grid.Triangles.size());
+}
+
+TEST_F(AdcircGrid, CountsThatTheFileCannotHoldAreReported)
+{
+  const std::string words = "lines follow";
+  this->expectError("title\n1 -3\n" + this->Nodes, words);
+  this->expectError("title\n-1 3\n" + this->Nodes, words);
+  this->expectError("title\n1 9223372036854775807\n" + this->Nodes, words);
+  this->expectError("title\n9223372036854775807 9223372036854775807\n" + this->Nodes, words);
+  this->expectError("title\n1 99999999999999999999\n" + this->Nodes, "is not an integer");
+}
+
+TEST_F(AdcircGrid, EveryTruncationOfTheLinesIsReported)
+{
+  const std::string whole = "title\n1 3\n" + this->Nodes + "1 3 1 2 3";
+  for (std::size_t end = whole.find('\n'); end != std::string::npos;
+       end = whole.find('\n', end + 1))
+  {
+    const std::string path = this->file(whole.substr(0, end + 1));
+    EXPECT_THROW(tipp::readAdcircGrid(path), tipp::IOError) << end;
+  }
+  EXPECT_THROW(tipp::readAdcircGrid(this->file("")), tipp::IOError);
+}
+
+TEST_F(AdcircGrid, TextWhereNumbersBelongIsReportedWithItsLine)
+{
+  this->expectError("title\nmany nodes\n", "line 2: 'many' is not an integer");
+  this->expectError("title\n0 1\n1 zero 0 0\n", "line 3: 'zero' is not a number");
+  this->expectError("title\n0 1\n1 0 0\n", "line 3: has too few numbers for a node");
+}
+
+TEST_F(AdcircGrid, ElementsThatAreNoTrianglesOfNodesAreReported)
+{
+  this->expectError("title\n1 3\n" + this->Nodes + "1 4 1 2 3 1\n", "not a triangle");
+  this->expectError("title\n1 3\n" + this->Nodes + "1 3 1 2 4\n", "names node 4");
+  this->expectError("title\n0 2\n1 0 0 0\n1 1 0 0\n", "node 1 is given twice");
+}
+
+TEST_F(AdcircGrid, ColumnsCannotBeChosen)
+{
+  const std::string path = this->file("title\n0 3\n" + this->Nodes);
+  tipp::test::expectIOError(path,
+    "fixed coordinates",
+    [&]() {
+      tipp::readPoints(path, { "x", "y" });
+    });
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ExpectIOError.h"
+#include "Files/PendingFile.h"
+#include "TemporaryFolder.h"
+
+namespace
+{
+
+using tipp::PendingFile;
+using tipp::test::contentOf;
+
+class PendingFiles : public testing::Test
+{
+protected:
+  static void write(const std::string& path, const std::string& content)
+  {
+    std::ofstream(path) << content;
+  }
+
+  const tipp::test::TemporaryFolder Folder;
+  const std::string Path = Folder.path("result");
+};
+
+} // namespace
+
+TEST_F(PendingFiles, AppearsWhenCommitted)
+{
+  PendingFile pending(this->Path);
+  write(pending.temporaryPath(), "new");
+  EXPECT_FALSE(std::filesystem::exists(this->Path));
+  pending.commit();
+  EXPECT_EQ("new", contentOf(this->Path));
+  EXPECT_EQ(1U, this->Folder.fileCount());
+}
+
+TEST_F(PendingFiles, WithoutCommitTheOldFileStays)
+{
+  write(this->Path, "old");
+  {
+    const PendingFile pending(this->Path);
+    write(pending.temporaryPath(), "half");
+  }
+  EXPECT_EQ("old", contentOf(this->Path));
+  EXPECT_EQ(1U, this->Folder.fileCount());
+}
+
+TEST_F(PendingFiles, LinkIsFollowed)
+{
+  write(this->Path, "old");
+  const std::string link = this->Folder.path("link");
+  std::filesystem::create_symlink(this->Path, link);
+  PendingFile pending(link);
+  write(pending.temporaryPath(), "new");
+  pending.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ("new", contentOf(this->Path));
+}
+
+TEST_F(PendingFiles, MissingFolderIsReported)
+{
+  const std::string path = this->Folder.path("absent/result");
+  tipp::test::expectIOError(path, "folder does not exist", [&]() { PendingFile{ path }; });
+}
+
+TEST_F(PendingFiles, FolderOrDeviceIsNoFile)
+{
+  const std::string folder = this->Folder.path("");
+  tipp::test::expectIOError(folder, "not an ordinary file", [&]() { PendingFile{ folder }; });
+  tipp::test::expectIOError(
+    "/dev/null", "not an ordinary file", []() { PendingFile{ "/dev/null" }; });
+}
+
+TEST_F(PendingFiles, PathWithoutAFolderIsInTheCurrentOne)
+{
+  const PendingFile pending("result");
+  EXPECT_EQ(0U, pending.temporaryPath().find("./.result."));
+}

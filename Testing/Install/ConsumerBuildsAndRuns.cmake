@@ -1,0 +1,11 @@
+# Builds the example project against the package in PREFIX and runs its program.
+file(REMOVE_RECURSE "${WORK}")
+foreach (command IN ITEMS
+    "-S;${SOURCE};-B;${WORK};-DCMAKE_PREFIX_PATH=${PREFIX};-DCMAKE_CXX_COMPILER=${CXX}"
+    "--build;${WORK}")
+  execute_process(COMMAND "${CMAKE_COMMAND}" ${command} COMMAND_ERROR_IS_FATAL ANY)
+endforeach ()
+execute_process(COMMAND "${WORK}/triangulate" OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+if (NOT output MATCHES "^1[0-9][0-9][0-9][0-9][0-9] triangles")
+  message(FATAL_ERROR "100000 points give nearly 200000 triangles, not: ${output}")
+endif ()

@@ -1,0 +1,10 @@
+# The core's headers are internal: only those of VTK classes and modules are installed.
+file(GLOB_RECURSE headers RELATIVE "${PREFIX}/include" "${PREFIX}/include/*")
+if (NOT "tipp/vtkTIPPDelaunay2D.h" IN_LIST headers)
+  message(FATAL_ERROR "vtkTIPPDelaunay2D.h is not installed.")
+endif ()
+foreach (header IN LISTS headers)
+  if (NOT header MATCHES "^tipp/vtk[A-Za-z0-9]+\\.h$")
+    message(FATAL_ERROR "Installed, but no header of a VTK class: ${header}")
+  endif ()
+endforeach ()

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Adds to one variable from many threads without an order: a data race.
+#include <cstdio>
+
+int main()
+{
+  long sum = 0;
+#pragma omp parallel for num_threads(4)
+  for (int i = 0; i < 1000; ++i)
+  {
+    sum += i;
+  }
+  std::printf("%ld\n", sum);
+  return 0;
+}

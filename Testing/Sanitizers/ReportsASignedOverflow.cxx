@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Adds to the largest int.
+#include <limits>
+
+int main(int argc, char**)
+{
+  const int sum = std::numeric_limits<int>::max() + argc;
+  return sum < 0 ? 1 : 0;
+}

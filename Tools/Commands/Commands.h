@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippCommands_h
+#define tippCommands_h
+
+namespace CLI
+{
+class App;
+}
+
+namespace tipp
+{
+
+/// Exit codes of every command; usage errors are found while the command line is parsed.
+enum ExitCode
+{
+  Success = 0,
+  Failure = 1,
+  Usage = 2
+};
+
+/// Each adds its subcommand, which leaves its exit code in `exitCode` when it has run; IOError and
+/// std::bad_alloc may come out of it.
+void addCheckCommand(CLI::App& app, int& exitCode);
+void addDelaunayCommand(CLI::App& app, int& exitCode);
+void addPointsCommand(CLI::App& app, int& exitCode);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/Commands.h"
+
+#include "Distributions/GeneratePoints.h"
+#include "Files/Extension.h"
+#include "Points/WritePoints.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr const char* footer = R"(
+Distributions:
+  uniform    independent and uniform in the unit square
+  clustered  100 Gaussian clusters in it, standard deviations 1e-5 to 1e-2
+  kuzmin     Kuzmin's disk: dense at the centre, unbounded
+  lattice    integer points row by row, ceil(sqrt(N)) a row
+  coast      fractal shorelines in degrees, 6 decimals, in polyline order
+  circle     random points of the unit circle
+  collinear  exactly on a line, in random order
+
+Example:
+  tipp points --distribution coast --count 1000000 --seed 7 -o coast.npy)";
+
+struct PointsArguments
+{
+  std::string Distribution;
+  std::int64_t Count = 0;
+  std::uint64_t Seed = 1;
+  std::string Output;
+};
+
+void runPoints(const PointsArguments& arguments)
+{
+  const Distribution distribution = *distributionFromName(arguments.Distribution);
+  writePoints(arguments.Output, generatePoints(distribution, arguments.Count, arguments.Seed));
+  fmt::print("{} {} points, seed {}, in {}\n",
+    arguments.Count,
+    arguments.Distribution,
+    arguments.Seed,
+    arguments.Output);
+}
+
+} // namespace
+
+void addPointsCommand(CLI::App& app, int& exitCode)
+{
+  auto arguments = std::make_shared<PointsArguments>();
+  CLI::App* const command = app.add_subcommand("points",
+    "Writes points of a known distribution as an .npy file (N x 2 float64), the same on every "
+    "machine");
+  command->add_option("--distribution", arguments->Distribution, "Which, see below")
+    ->required()
+    ->check(CLI::IsMember(distributionNames()));
+  command->add_option("--count", arguments->Count, "Number of points")
+    ->required()
+    ->check(CLI::Range(std::int64_t(0), std::int64_t(1) << 40));
+  command->add_option("--seed", arguments->Seed, "Another number gives other points")
+    ->capture_default_str();
+  command->add_option("-o,--output", arguments->Output, "The .npy file to write")
+    ->required()
+    ->check([](const std::string& path)
+      { return extensionOf(path) == ".npy" ? "" : "'" + path + "' does not end in .npy"; });
+  command->footer(footer);
+  command->callback(
+    [arguments, &exitCode]()
+    {
+      runPoints(*arguments);
+      exitCode = Success;
+    });
+}
+
+} // namespace tipp

@@ -1,0 +1,17 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# Configures and builds one preset of CMakePresets.json: sh Utilities/build.sh [PRESET], 'default' if none is named.
+set -eu
+
+preset=${1:-default}
+top=$(cd "$(dirname "$0")/.." && pwd)
+sh "$top/Utilities/install-packages.sh"
+cd "$top"
+
+# A compiler cache, where there is one, makes the second build quick.
+if command -v ccache > /dev/null; then
+  export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+fi
+
+cmake --preset "$preset" --log-level=WARNING
+cmake --build --preset "$preset"

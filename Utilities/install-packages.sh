@@ -1,0 +1,38 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs the packages of a list that this machine lacks; touches nothing when none is missing.
+#   sh Utilities/install-packages.sh [LIST]      (LIST: packages.txt beside this script, if none is named)
+set -eu
+
+list=${1:-$(dirname "$0")/packages.txt}
+
+if ! command -v dpkg-query > /dev/null; then
+  echo "This is not a Debian system: nothing installed; it needs what $list names." >&2
+  exit 0
+fi
+
+missing=""
+for package in $(sed 's/#.*//' "$list"); do
+  case $(dpkg-query --show --showformat='${Status}' "$package" 2> /dev/null || true) in
+    *" installed") ;;
+    *) missing="$missing $package" ;;
+  esac
+done
+[ -n "$missing" ] || exit 0
+
+if [ "$(id -u)" -eq 0 ]; then
+  as_root=""
+elif command -v sudo > /dev/null; then
+  as_root=sudo
+else
+  echo "Packages are missing and there is no sudo; as root, run: apt-get install$missing" >&2
+  exit 1
+fi
+
+echo "Installing:$missing"
+if ! { $as_root apt-get update -q &&
+  $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends \
+    -o DPkg::Lock::Timeout=300 $missing; }; then
+  echo "apt-get could not install:$missing. Its message above says why; install them and try again." >&2
+  exit 1
+fi

@@ -1,0 +1,47 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# Builds and passes every check, or the ones named: sh Utilities/test.sh [STEP...]
+# Steps: format build tidy asan tsan tests. Each ends with one line; the first failure stops the run.
+set -eu
+
+top=$(cd "$(dirname "$0")/.." && pwd)
+cd "$top"
+sh Utilities/install-packages.sh
+
+sources() { git ls-files '*.cxx' '*.h'; }
+
+check_format() { sources | xargs clang-format --dry-run -Werror; }
+
+check_build() { sh Utilities/build.sh default; }
+
+# The libraries and the tool; the tests are checked by passing.
+check_tidy() {
+  run-clang-tidy -quiet -p build -j "$(nproc)" "^$top/(Accelerators|IO|Filters|Tools)/.*\.cxx$" \
+    > build/clang-tidy.log 2>&1 || { grep -E 'error:|warning:' build/clang-tidy.log; return 1; }
+}
+
+check_sanitizer() { sh Utilities/build.sh "$1" && ctest --preset "$1"; }
+check_asan() { check_sanitizer asan; }
+check_tsan() { check_sanitizer tsan; }
+
+# Tests that render need a display.
+check_tests() { xvfb-run -a ctest --preset default; }
+
+for step in ${*:-format build tidy asan tsan tests}; do
+  case $step in
+    format | build | tidy | asan | tsan | tests) ;;
+    *)
+      echo "Unknown step '$step'; the steps are: format build tidy asan tsan tests." >&2
+      exit 2
+      ;;
+  esac
+  begin=$(date +%s)
+  status=0
+  "check_$step" || status=$?
+  seconds=$(($(date +%s) - begin))
+  if [ "$status" -ne 0 ]; then
+    echo "test.sh: $step FAILED after $seconds s"
+    exit 1
+  fi
+  echo "test.sh: $step passed in $seconds s"
+done
