@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 
 set(tipp_package_destination "${CMAKE_INSTALL_LIBDIR}/cmake/TIPP")
 string(REPLACE "TIPP::" "" tipp_components "${tipp_modules}")
-string(REPLACE ";" " " tipp_components "${tipp_components}")
+string(REPLACE ";" ", " tipp_components "${tipp_components}")
 string(REPLACE ";" " " tipp_vtk_components "${TIPP_VTK_COMPONENTS}")
 
 configure_package_config_file(

@@ -11,6 +11,7 @@
 #include "Projection/BoundingPoints.h"
 #include "Projection/FiniteBounds.h"
 #include "Projection/ProjectedPoints.h"
+#include "Triangulation/Stopwatch.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkCellArray.h"
@@ -26,7 +27,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <thread>
 
 vtkStandardNewMacro(vtkTIPPDelaunay2D);
@@ -63,19 +63,6 @@ private:
   std::thread::id Owner;
   double Done = 0;
   std::atomic<bool> Stopped{ false };
-};
-
-class StopWatch
-{
-public:
-  double seconds() const
-  {
-    return std::chrono::duration<double>(Clock::now() - this->Start).count();
-  }
-
-private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point Start = Clock::now();
 };
 
 std::vector<char> coveredPoints(const tipp::Triangulation& triangulation, vtkIdType points)
@@ -197,7 +184,7 @@ bool vtkTIPPDelaunay2D::Execute(vtkPointSet* input, vtkPolyData* output, vtkTabl
   const vtkIdType numberOfPoints = points ? points->GetNumberOfPoints() : 0;
   this->Report(triangulation, numberOfPoints);
 
-  const StopWatch watch;
+  const tipp::Stopwatch watch;
   const std::size_t triangles = triangulation.triangleCount();
   output->SetPoints(points);
   if (!bounding)
@@ -217,7 +204,7 @@ bool vtkTIPPDelaunay2D::Execute(vtkPointSet* input, vtkPolyData* output, vtkTabl
 
 tipp::Triangulation vtkTIPPDelaunay2D::Triangulate(vtkPoints* points, vtkAbstractTransform* toPlane)
 {
-  const StopWatch watch;
+  const tipp::Stopwatch watch;
   const tipp::ProjectedPoints projected(points, toPlane);
   const double distance =
     this->Tolerance > 0 ? this->Tolerance * tipp::finiteBounds(points).diagonal() : 0;

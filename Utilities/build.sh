@@ -1,9 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Configures and builds one preset of CMakePresets.json: sh Utilities/build.sh [PRESET], 'default' if none is named.
+# Configures and builds a preset of CMakePresets.json:
+#   sh Utilities/build.sh [PRESET [OPTION...]]      (PRESET: default, if none is named; OPTIONs: cmake --build's)
 set -eu
 
 preset=${1:-default}
+[ $# -eq 0 ] || shift
 top=$(cd "$(dirname "$0")/.." && pwd)
 sh "$top/Utilities/install-packages.sh"
 cd "$top"
@@ -14,4 +16,4 @@ if command -v ccache > /dev/null; then
 fi
 
 cmake --preset "$preset" --log-level=WARNING
-cmake --build --preset "$preset"
+cmake --build --preset "$preset" "$@"

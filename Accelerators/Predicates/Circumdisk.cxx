@@ -16,12 +16,9 @@ namespace
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 constexpr double Epsilon = 0x1p-53;
 
-// Whether squares and cubes of the edges neither overflow nor lose digits that count: see below.
-bool edgesInRange(Point2 u, Point2 v)
+double longestEntry(Point2 u, Point2 v)
 {
-  const double longest =
-    std::max({ std::fabs(u.x), std::fabs(u.y), std::fabs(v.x), std::fabs(v.y) });
-  return longest >= 1e-70 && longest <= 1e70;
+  return std::max({ std::fabs(u.x), std::fabs(u.y), std::fabs(v.x), std::fabs(v.y) });
 }
 
 Box2 widened(Point2 centre, double x, double y)
@@ -84,22 +81,26 @@ Circumdisk::Circumdisk(Point2 a, Point2 b, Point2 c)
   }
 }
 
-// Error bounds, e = Epsilon, hats for computed values, D = |ux vy| + |uy vx|.
-// d: |d^ - d| <= 4 e D (Shewchuk 1997: 3 e D and second order). With D <= 2^48 d^, 1 / d <= (4/3) /
-// d^. w: an entry is two products of a rounded difference and a sum of squares of such: relative
-// errors
-//    1 + 4, the product's 1 and the difference's 1: |w^ - w| <= 8 e W, W the sum of the magnitudes.
-// q = w / 2d: |q^ - q| <= (4/3) (8 e W + |w^| 4 e D / d^) / 2d^ + 2 e |q^|, |w^| <= (1 + e) W
-//    <= e (16 + 6 D / d^) W / 2d^.
-// Underflow: with the longest entry s of u and v in 1e-70..1e70 and d^ >= 1e-150, sums of products
-// are
-//    off by 2e70 * 2^-1074, so w by 1e-250, d by 1e-322 and q by 1e-99 (or 1e-170 q): below e r,
-//    since the longest edge is at least s and at most 2 r. That is one of the 24 e r below.
-// c = a + q: three roundings in a + q, c -+ E and Outer: 4 e |c|.
-// r = |q^|: off by Ex + Ey, 3 e r of its own rounding; e r each for r -+ E, its square's, Inner's
-// and
-//    Outer's; in meets() a squared distance is off by 5 e, its root by 2.5 e: together less than 16
-//    e r.
+// Error bounds, with e = Epsilon, ^ for computed values, D = |ux vy| + |uy vx|.
+//
+// d: |d^ - d| <= 4 e D (Shewchuk 1997: 3 e D and second order). D <= 2^48 d^ makes 1/d <= (4/3)/d^.
+//
+// w: an entry is two products of a rounded difference (1 e) and a sum of squares of such (4 e); the
+// product and the last difference round too: |w^ - w| <= 8 e W, W the sum of the magnitudes.
+//
+// q = w / 2d: |q^ - q| <= (4/3) (8 e W + |w^| 4 e D / d^) / 2d^ + 2 e |q^|, with |w^| <= (1 + e) W:
+// at most e (16 + 6 D / d^) W / 2d^. This is xError, yError.
+//
+// Underflow: let s be the longest entry of u and v. s <= 1e70, and d^ >= 1e-150 makes s > 1e-76.
+// Products and sums are off by 2e70 * 2^-1074, so w by 1e-250, d by 1e-322, q by 1e-99 or 1e-170 q:
+// below e r, for the longest edge is at least s and at most 2 r.
+//
+// Centre a + q: rounded in a + q, in the interval's ends and in Outer and Inner: 4 e |c|, and that
+// e r.
+//
+// Radius |q^|: off by xError + yError; its own rounding is 3 e r; e r each for the interval's ends,
+// their squares, Outer and Inner; in meets() a squared distance is off by 5 e, its root by 2.5 e.
+// With underflow less than 16 e r; 24 e r are given.
 bool Circumdisk::computeIntervals()
 {
   const Point2 u = { this->B.x - this->A.x, this->B.y - this->A.y };
@@ -108,7 +109,7 @@ bool Circumdisk::computeIntervals()
   const double right = u.y * v.x;
   const double d = left - right;
   const double permanent = std::fabs(left) + std::fabs(right);
-  if (!edgesInRange(u, v) || !(d >= 1e-150) || !(permanent <= 0x1p48 * d))
+  if (!(longestEntry(u, v) <= 1e70) || !(d >= 1e-150) || !(permanent <= 0x1p48 * d))
   {
     return false;
   }

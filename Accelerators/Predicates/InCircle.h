@@ -38,10 +38,11 @@ inline InCircleValue inCircleValue(Point2 a, Point2 b, Point2 c, Point2 p)
 // lift(a) (|bx cy| + |cx by|) and its like. By Cauchy-Schwarz |bx cy| + |cx by| <= |b| |c|
 // <= (lift b + lift c) / 2, so P <= ab + bc + ca in lifts <= S^2 / 3 for their sum S. The third of
 // 10 e is 3.3334 e; 3.4 e leaves 2 % for the rounding of S and of this product.
-// Underflow: lifts and crosses are off by at most u = 2^-1074, the determinant by less than 2 u S +
-// 2 u. For S > 1 the spare 0.06 e S^2 is more; otherwise, and where S^2 itself underflows, 1e-300
-// is. Overflow: every partial sum of the determinant is at most S^2 / 3, so S * S is infinite
-// first.
+//
+// Underflow: lifts and crosses are off by at most u = 2^-1074, the determinant by at most 2 u S + 2
+// u. For S > 1 the spare 0.06 e S^2 is more; otherwise, and where S^2 underflows, 1e-300 is.
+//
+// Overflow: every partial sum of the determinant is at most S^2 / 3, so S * S is infinite first.
 inline double inCircleErrorBound(double lifts)
 {
   constexpr double relative = 3.4 * 0x1p-53;

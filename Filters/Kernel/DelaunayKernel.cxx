@@ -19,6 +19,24 @@ constexpr double TurnBound = 3.3306690738754716e-16;
 constexpr double CircleBound = 3.4 * 1.1102230246251565e-16;
 constexpr double UnderflowBound = 1e-300;
 
+using Pair = double __attribute__((vector_size(16)));
+using Mask = long long __attribute__((vector_size(16)));
+
+inline unsigned bitsOf(Mask mask)
+{
+  return static_cast<unsigned>(mask[0] & 1) | static_cast<unsigned>(mask[1] & 2);
+}
+
+inline Pair low(Pair a, Pair b)
+{
+  return __builtin_shufflevector(a, b, 0, 2);
+}
+
+inline Pair high(Pair a, Pair b)
+{
+  return __builtin_shufflevector(a, b, 1, 3);
+}
+
 } // namespace
 
 DelaunayKernel::DelaunayKernel()
@@ -146,7 +164,7 @@ void DelaunayKernel::insertVertex(Index vertex, Point2 next)
     return;
   }
   this->openCavity(triangle, p);
-  this->fillCavity(vertex, { next.x - p.x, next.y - p.y });
+  this->fillCavity(vertex, p, next);
 }
 
 inline DelaunayKernel::Direction DelaunayKernel::directionTo(Index vertex, Point2 p) const
@@ -248,19 +266,88 @@ DelaunayKernel::Index DelaunayKernel::equalVertex(Index triangle, Point2 p) cons
   return Infinite;
 }
 
+inline unsigned DelaunayKernel::testPair(const EdgePair& pair, Point2 p, ApexPair& apex)
+{
+  const Index* const slot = this->Mesh.slots();
+  const Point2 first = this->Points[slot[pair.Outer[0]]];
+  const Point2 second = this->Points[slot[pair.Outer[1]]];
+  apex.X = Pair{ first.x, second.x } - p.x;
+  apex.Y = Pair{ first.y, second.y } - p.y;
+  apex.Lift = apex.X * apex.X + apex.Y * apex.Y;
+  apex.StartCross = pair.StartX * apex.Y - pair.StartY * apex.X;
+  apex.StopCross = pair.StopX * apex.Y - pair.StopY * apex.X;
+  const Pair det =
+    pair.StopLift * apex.StartCross - pair.StartLift * apex.StopCross - apex.Lift * pair.Cross;
+  const Pair lifts = pair.StartLift + pair.StopLift + apex.Lift;
+  const Pair bound = CircleBound * (lifts * lifts) + UnderflowBound;
+  unsigned inside = bitsOf(det > bound);
+  const unsigned outside = bitsOf(-det > bound);
+  if (__builtin_expect((inside | outside) != 3, 0))
+  {
+    for (unsigned i = 0; i < 2; ++i)
+    {
+      if (!((inside | outside) >> i & 1) &&
+          this->isInConflict(HalfEdgeMesh::triangleOf(pair.Outer[i]), p))
+      {
+        inside |= 1U << i;
+      }
+    }
+  }
+  return inside;
+}
+
 /// Collects the triangles in conflict with p and, counter-clockwise, the edges around them. The
 /// cavity has no vertex inside, so its dual is a tree: no triangle is met twice, no marks are
 /// needed, and depth-first order is the order around the ring.
 void DelaunayKernel::openCavity(Index triangle, Point2 p)
 {
   const Index* const slot = this->Mesh.slots();
-  const Point2* const points = this->Points.data();
   Index* cavity = this->Cavity.data();
   RingEdge* ring = this->Ring.data();
-  BorderEdge* stack = this->Stack.data();
+  Deferred* stack = this->Stack.data();
   std::size_t cavitySize = 0;
   std::size_t ringSize = 0;
   std::size_t stackSize = 0;
+
+  const auto emit = [&](Index outer) {
+    ring[ringSize++] = { outer, slot[HalfEdgeMesh::previous(outer)] };
+  };
+  const auto enter = [&](Index outer)
+  {
+    if (__builtin_expect(cavitySize + 3 >= this->Cavity.size(), 0))
+    {
+      this->Cavity.resize(2 * this->Cavity.size());
+      this->Ring.resize(2 * this->Ring.size());
+      this->Stack.resize(2 * this->Stack.size());
+      cavity = this->Cavity.data();
+      ring = this->Ring.data();
+      stack = this->Stack.data();
+    }
+    cavity[cavitySize++] = HalfEdgeMesh::triangleOf(outer);
+  };
+  // The two edges behind a pair's edge whose triangle is in conflict.
+  const auto first = [slot](const EdgePair& e, const ApexPair& v)
+  {
+    return EdgePair{ low(e.StartX, v.X),
+      low(e.StartY, v.Y),
+      low(e.StartLift, v.Lift),
+      low(v.X, e.StopX),
+      low(v.Y, e.StopY),
+      low(v.Lift, e.StopLift),
+      low(v.StartCross, -v.StopCross),
+      { slot[HalfEdgeMesh::next(e.Outer[0]) + 4], slot[HalfEdgeMesh::previous(e.Outer[0]) + 4] } };
+  };
+  const auto second = [slot](const EdgePair& e, const ApexPair& v)
+  {
+    return EdgePair{ high(e.StartX, v.X),
+      high(e.StartY, v.Y),
+      high(e.StartLift, v.Lift),
+      high(v.X, e.StopX),
+      high(v.Y, e.StopY),
+      high(v.Lift, e.StopLift),
+      high(v.StartCross, -v.StopCross),
+      { slot[HalfEdgeMesh::next(e.Outer[1]) + 4], slot[HalfEdgeMesh::previous(e.Outer[1]) + 4] } };
+  };
 
   const Direction a = this->directionTo(slot[triangle], p);
   const Direction b = this->directionTo(slot[triangle + 1], p);
@@ -269,53 +356,74 @@ void DelaunayKernel::openCavity(Index triangle, Point2 p)
   const double bl = b.lift();
   const double cl = c.lift();
   cavity[cavitySize++] = triangle;
-  stack[stackSize++] = { slot[triangle + 1 + 4], c, a, cl, al, c.X * a.Y - c.Y * a.X };
-  stack[stackSize++] = { slot[triangle + 0 + 4], b, c, bl, cl, b.X * c.Y - b.Y * c.X };
-  BorderEdge edge = { slot[triangle + 2 + 4], a, b, al, bl, a.X * b.Y - a.Y * b.X };
+  EdgePair edges{ Pair{ a.X, b.X },
+    Pair{ a.Y, b.Y },
+    Pair{ al, bl },
+    Pair{ b.X, c.X },
+    Pair{ b.Y, c.Y },
+    Pair{ bl, cl },
+    Pair{ a.X * b.Y - a.Y * b.X, b.X * c.Y - b.Y * c.X },
+    { slot[triangle + 2 + 4], slot[triangle + 0 + 4] } };
+  ApexPair apex;
+  {
+    // The third edge, in both lanes.
+    const double ca = c.X * a.Y - c.Y * a.X;
+    const Index outer = slot[triangle + 1 + 4];
+    const EdgePair last{ Pair{ c.X, c.X },
+      Pair{ c.Y, c.Y },
+      Pair{ cl, cl },
+      Pair{ a.X, a.X },
+      Pair{ a.Y, a.Y },
+      Pair{ al, al },
+      Pair{ ca, ca },
+      { outer, outer } };
+    if (this->testPair(last, p, apex) & 1)
+    {
+      enter(outer);
+      stack[stackSize++] = { first(last, apex), true };
+    }
+    else
+    {
+      stack[stackSize].Edges.Outer[0] = outer;
+      stack[stackSize++].IsPair = false;
+    }
+  }
   for (;;)
   {
-    // Behind the edge is the triangle (b, a, d); only d is new.
-    const Index h = edge.Outer;
-    const Index toA = HalfEdgeMesh::previous(h);
-    const Index toB = HalfEdgeMesh::next(h);
-    const Point2 apex = points[slot[h]];
-    const Direction d = { apex.x - p.x, apex.y - p.y };
-    const double dl = d.lift();
-    const double bd = edge.B.X * d.Y - edge.B.Y * d.X;
-    const double da = d.X * edge.A.Y - d.Y * edge.A.X;
-    const double det = edge.Bl * da + edge.Al * bd + dl * edge.Cross;
-    const double lifts = edge.Al + edge.Bl + dl;
-    const double bound = CircleBound * lifts * lifts + UnderflowBound;
-    bool inside = -det > bound;
-    if (__builtin_expect(!inside && !(det > bound), 0))
+    const unsigned inside = this->testPair(edges, p, apex);
+    if (inside & 1)
     {
-      inside = this->isInConflict(HalfEdgeMesh::triangleOf(h), p);
-    }
-    if (inside)
-    {
-      if (__builtin_expect(cavitySize + 3 >= this->Cavity.size(), 0))
+      enter(edges.Outer[0]);
+      if (inside & 2)
       {
-        this->Cavity.resize(2 * this->Cavity.size());
-        this->Ring.resize(2 * this->Ring.size());
-        this->Stack.resize(2 * this->Stack.size());
-        cavity = this->Cavity.data();
-        ring = this->Ring.data();
-        stack = this->Stack.data();
+        enter(edges.Outer[1]);
+        stack[stackSize++] = { second(edges, apex), true };
       }
-      cavity[cavitySize++] = HalfEdgeMesh::triangleOf(h);
-      stack[stackSize++] = { slot[toA + 4], d, edge.B, dl, edge.Bl, -bd };
-      edge.Outer = slot[toB + 4];
-      edge.B = d;
-      edge.Bl = dl;
-      edge.Cross = -da;
+      else
+      {
+        stack[stackSize].Edges.Outer[0] = edges.Outer[1];
+        stack[stackSize++].IsPair = false;
+      }
+      edges = first(edges, apex);
       continue;
     }
-    ring[ringSize++] = { h, slot[toA], edge.A };
+    emit(edges.Outer[0]);
+    if (inside & 2)
+    {
+      enter(edges.Outer[1]);
+      edges = second(edges, apex);
+      continue;
+    }
+    emit(edges.Outer[1]);
+    while (stackSize > 0 && !stack[stackSize - 1].IsPair)
+    {
+      emit(stack[--stackSize].Edges.Outer[0]);
+    }
     if (stackSize == 0)
     {
       break;
     }
-    edge = stack[--stackSize];
+    edges = stack[--stackSize].Edges;
   }
   this->CavitySize = cavitySize;
   this->RingSize = ringSize;
@@ -323,7 +431,7 @@ void DelaunayKernel::openCavity(Index triangle, Point2 p)
 
 /// Joins the vertex to every edge of the ring, in the places of the destroyed triangles and two
 /// new ones. The next walk starts in the new triangle that lies towards the next point.
-void DelaunayKernel::fillCavity(Index vertex, Direction toNext)
+void DelaunayKernel::fillCavity(Index vertex, Point2 p, Point2 next)
 {
   Index* const slot = this->Mesh.slots();
   Index* const cavity = this->Cavity.data();
@@ -334,27 +442,34 @@ void DelaunayKernel::fillCavity(Index vertex, Direction toNext)
   cavity[count - 1] = end + 8;
   this->Mesh.setEnd(end + 16);
 
-  const auto isLeftOf = [toNext](const RingEdge& edge)
-  { return edge.ToStart.X * toNext.Y - edge.ToStart.Y * toNext.X >= 0; };
+  const Direction toNext = { next.x - p.x, next.y - p.y };
+  const auto isLeftOf = [&](Index v)
+  {
+    const Direction d = this->directionTo(v, p);
+    return d.X * toNext.Y - d.Y * toNext.X >= 0;
+  };
   ring[count] = ring[0];
   Index before = cavity[count - 1];
   Index recent = cavity[0];
-  bool left = isLeftOf(ring[0]);
+  Index start = ring[0].Start;
+  bool left = isLeftOf(start);
   for (std::size_t i = 0; i < count; ++i)
   {
     const Index t = cavity[i];
     const Index outer = ring[i].Outer;
-    const bool leftOfStop = isLeftOf(ring[i + 1]);
-    recent = left && !leftOfStop ? t : recent;
+    const Index stop = ring[i + 1].Start;
+    const bool leftOfStop = isLeftOf(stop);
+    recent = left & !leftOfStop ? t : recent;
     left = leftOfStop;
     slot[t] = vertex;
-    slot[t + 1] = ring[i].Start;
-    slot[t + 2] = ring[i + 1].Start;
+    slot[t + 1] = start;
+    slot[t + 2] = stop;
     slot[t + 4] = outer;
     slot[outer + 4] = t;
     slot[t + 2 + 4] = before + 1;
     slot[before + 1 + 4] = t + 2;
     before = t;
+    start = stop;
   }
   for (std::size_t i = 0; slot[recent + 1] == Infinite || slot[recent + 2] == Infinite; ++i)
   {

@@ -60,23 +60,41 @@ private:
     double Y;
     double lift() const { return this->X * this->X + this->Y * this->Y; }
   };
-  /// An edge, from A to B, of a triangle that holds p or is in conflict with it, counter-clockwise.
-  struct BorderEdge
+  /// Two edges side by side, (first, second) in every pair, counter-clockwise around p.
+  using Pair = double __attribute__((vector_size(16)));
+  struct EdgePair
   {
-    Index Outer; ///< the half-edge on the edge's other side
-    Direction A;
-    Direction B;
-    double Al; ///< lifts
-    double Bl;
-    double Cross; ///< A x B
+    Pair StartX; ///< from p
+    Pair StartY;
+    Pair StartLift;
+    Pair StopX;
+    Pair StopY;
+    Pair StopLift;
+    Pair Cross;     ///< start x stop
+    Index Outer[2]; ///< the half-edges on their other sides
   };
-  /// An edge around the cavity, as soon as it is known to be one.
+  /// The apexes of the triangles behind a pair.
+  struct ApexPair
+  {
+    Pair X;
+    Pair Y;
+    Pair Lift;
+    Pair StartCross; ///< start x apex
+    Pair StopCross;
+  };
+  /// An edge around the cavity.
   struct RingEdge
   {
     Index Outer;
     Index Start;
-    Direction ToStart;
   };
+  /// What is left to do while the cavity grows: another pair, or an edge of the ring.
+  struct Deferred
+  {
+    EdgePair Edges;
+    bool IsPair;
+  };
+
   bool makeFirstTriangle(Index firstVertex);
   void insertVertex(Index vertex, Point2 next);
 
@@ -85,7 +103,8 @@ private:
   Index walk(Point2 p);
   Index equalVertex(Index triangle, Point2 p) const;
   void openCavity(Index triangle, Point2 p);
-  void fillCavity(Index vertex, Direction toNext);
+  unsigned testPair(const EdgePair& pair, Point2 p, ApexPair& apex);
+  void fillCavity(Index vertex, Point2 p, Point2 next);
   bool isInConflict(Index triangle, Point2 p);
   bool isInConflictWithInfinite(Index infiniteSlot, Point2 p);
   int exactOrientation(Point2 a, Point2 b, Point2 c);
@@ -102,7 +121,7 @@ private:
 
   std::vector<Index> Cavity;
   std::vector<RingEdge> Ring;
-  std::vector<BorderEdge> Stack;
+  std::vector<Deferred> Stack;
   std::size_t CavitySize = 0;
   std::size_t RingSize = 0;
 

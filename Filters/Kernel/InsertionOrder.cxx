@@ -10,10 +10,12 @@ namespace
 {
 
 constexpr unsigned LevelsPerStep = 4;
-constexpr unsigned Steps = 3;
+constexpr unsigned Steps = 4;
 constexpr unsigned Levels = LevelsPerStep * Steps;
 constexpr unsigned KeyBits = 2 * Levels;
-constexpr unsigned RoundBits = 3;
+constexpr unsigned RoundBits = 4;
+constexpr unsigned IndexBits = 28;
+static_assert(RoundBits + KeyBits + IndexBits == 64, "an entry is one word");
 
 /// Four levels of the Hilbert curve at once: (state, four bits of x, four bits of y) to eight bits
 /// of key and the next state. A state says whether x and y are exchanged and complemented; the
@@ -53,9 +55,9 @@ struct HilbertTable
 
 constexpr HilbertTable Hilbert;
 
-std::uint32_t hilbertKey(std::uint32_t x, std::uint32_t y)
+std::uint64_t hilbertKey(std::uint32_t x, std::uint32_t y)
 {
-  std::uint32_t key = 0;
+  std::uint64_t key = 0;
   unsigned state = 0;
   for (unsigned step = Steps; step-- > 0;)
   {
@@ -114,8 +116,8 @@ void InsertionOrder::computeKeys(const Point2* points, std::size_t count)
     const std::uint32_t x = quantise(points[i].x - low.x, scale);
     const std::uint32_t y = quantise(points[i].y - low.y, scale);
     const unsigned earlier = static_cast<unsigned>(__builtin_ctzll(mix(i) | (1ULL << 63))) / 3;
-    const std::uint32_t round = lastRound - std::min(earlier, lastRound);
-    this->Entries[i] = { round << KeyBits | hilbertKey(x, y), static_cast<std::uint32_t>(i) };
+    const std::uint64_t round = lastRound - std::min(earlier, lastRound);
+    this->Entries[i] = (round << KeyBits | hilbertKey(x, y)) << IndexBits | i;
   }
 }
 
@@ -127,11 +129,11 @@ void InsertionOrder::sortByKey()
   static_assert(passes * digitBits == KeyBits + RoundBits, "the passes cover the key");
 
   std::array<std::array<std::uint32_t, digits>, passes> starts{};
-  for (const Entry& entry : this->Entries)
+  for (const std::uint64_t entry : this->Entries)
   {
     for (unsigned pass = 0; pass < passes; ++pass)
     {
-      ++starts[pass][(entry.Key >> (pass * digitBits)) & (digits - 1)];
+      ++starts[pass][(entry >> (IndexBits + pass * digitBits)) & (digits - 1)];
     }
   }
   for (unsigned pass = 0; pass < passes; ++pass)
@@ -143,9 +145,10 @@ void InsertionOrder::sortByKey()
       start = sum;
       sum += size;
     }
-    for (const Entry& entry : this->Entries)
+    for (const std::uint64_t entry : this->Entries)
     {
-      this->Scratch[starts[pass][(entry.Key >> (pass * digitBits)) & (digits - 1)]++] = entry;
+      this->Scratch[starts[pass][(entry >> (IndexBits + pass * digitBits)) & (digits - 1)]++] =
+        entry;
     }
     this->Entries.swap(this->Scratch);
   }
@@ -163,7 +166,7 @@ const std::vector<std::uint32_t>& InsertionOrder::compute(const Point2* points, 
   }
   for (std::size_t i = 0; i < count; ++i)
   {
-    this->Order[i] = this->Entries[i].Index;
+    this->Order[i] = static_cast<std::uint32_t>(this->Entries[i] & ((1U << IndexBits) - 1));
   }
   return this->Order;
 }

@@ -21,16 +21,11 @@ public:
   const std::vector<std::uint32_t>& compute(const Point2* points, std::size_t count);
 
 private:
-  struct Entry
-  {
-    std::uint32_t Key;
-    std::uint32_t Index;
-  };
   void computeKeys(const Point2* points, std::size_t count);
   void sortByKey();
 
-  std::vector<Entry> Entries;
-  std::vector<Entry> Scratch;
+  std::vector<std::uint64_t> Entries; ///< round, key and index, from the highest bits down
+  std::vector<std::uint64_t> Scratch;
   std::vector<std::uint32_t> Order;
 };
 

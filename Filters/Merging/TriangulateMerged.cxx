@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Merging/TriangulateMerged.h"
 
+#include "Triangulation/Stopwatch.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -55,6 +57,7 @@ Triangulation triangulateMerged(PointsView points,
     mergingProgress = [&report](double f) { return report(mergingShare * f); };
     scaled.Progress = [&report](double f) { return report(mergingShare + (1 - mergingShare) * f); };
   }
+  const Stopwatch watch;
   MergedPoints merged = mergeClosePoints(points, distance, mergingProgress);
   Triangulation result;
   if (merged.Aborted)
@@ -62,11 +65,14 @@ Triangulation triangulateMerged(PointsView points,
     result.Aborted = true;
     return result;
   }
+  const double mergingSeconds = watch.seconds();
   result = triangulate(PointsView(merged.Coordinates.data(), merged.Ids.size(), 2), scaled);
   if (result.triangleCount() > 0)
   {
     renumber(result, merged.Ids);
   }
+  auto& phases = result.Statistics.Phases;
+  phases.insert(phases.begin(), { "merging", mergingSeconds });
   result.Duplicates = std::move(merged.Duplicates);
   result.Rejected = std::move(merged.Rejected);
   return result;

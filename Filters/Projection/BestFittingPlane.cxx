@@ -58,7 +58,11 @@ vtkSmartPointer<vtkTransform> bestFittingPlane(vtkPoints* points)
   {
     return nullptr;
   }
-  vtkSmartPointer<vtkPoints> finite = isFinite(points) ? points : finitePoints(points);
+  vtkSmartPointer<vtkPoints> finite = points;
+  if (!isFinite(points))
+  {
+    finite = finitePoints(points);
+  }
   if (finite->GetNumberOfPoints() == 0)
   {
     return nullptr;

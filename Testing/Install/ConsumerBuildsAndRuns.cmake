@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.22)
 # Builds the example project against the package in PREFIX and runs its program.
 file(REMOVE_RECURSE "${WORK}")
 foreach (command IN ITEMS

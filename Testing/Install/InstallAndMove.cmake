@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.22)
 # Installs into PREFIX-first, then renames it to PREFIX: nothing installed may name its first place.
 file(REMOVE_RECURSE "${PREFIX}" "${PREFIX}-first")
 execute_process(

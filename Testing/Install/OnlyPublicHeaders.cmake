@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.22)
 # The core's headers are internal: only those of VTK classes and modules are installed.
 file(GLOB_RECURSE headers RELATIVE "${PREFIX}/include" "${PREFIX}/include/*")
 if (NOT "tipp/vtkTIPPDelaunay2D.h" IN_LIST headers)

@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.22)
 # A project that asks for REQUEST must fail to configure, with MESSAGE among its words.
 file(REMOVE_RECURSE "${WORK}")
 file(WRITE "${WORK}/CMakeLists.txt"

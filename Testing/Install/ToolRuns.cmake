@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.22)
 # The installed tool finds its libraries beside it, with no help from the environment.
 set(tool "${PREFIX}/bin/tipp")
 execute_process(COMMAND "${CMAKE_COMMAND}" -E env --unset=LD_LIBRARY_PATH

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Renders a triangulated terrain, lit and with its edges, and compares the picture with a baseline.
+// Renders a triangulated terrain, lit, seen from above, and compares the picture with a baseline.
 // Arguments: [FILE of a count and lines 'x y z'] -V BASELINE -T FOLDER. Without a FILE the terrain
 // is a formula on scattered points. Exit code 125: FILE is not there.
 #include "vtkTIPPDelaunay2D.h"
@@ -7,6 +7,7 @@
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkElevationFilter.h"
+#include "vtkLookupTable.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -71,12 +72,17 @@ vtkSmartPointer<vtkActor> terrainActor(vtkPoints* points)
   elevation->SetInputConnection(delaunay->GetOutputPort());
   elevation->SetLowPoint(0, 0, points->GetBounds()[4]);
   elevation->SetHighPoint(0, 0, points->GetBounds()[5]);
+  vtkNew<vtkLookupTable> blueToRed;
+  blueToRed->SetHueRange(0.667, 0);
   vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetLookupTable(blueToRed);
   mapper->SetInputConnection(elevation->GetOutputPort());
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   actor->GetProperty()->SetInterpolationToFlat();
-  actor->GetProperty()->EdgeVisibilityOn();
+  actor->GetProperty()->BackfaceCullingOn(); // a clockwise triangle is a hole
+  constexpr vtkIdType mostWithEdges = 5000;  // more would be all edges
+  actor->GetProperty()->SetEdgeVisibility(points->GetNumberOfPoints() <= mostWithEdges);
   return actor;
 }
 
@@ -106,7 +112,7 @@ int main(int argc, char* argv[])
   renderer->AddActor(terrainActor(points));
   vtkNew<vtkRenderWindow> window;
   window->SetMultiSamples(0);
-  window->SetSize(400, 400);
+  window->SetSize(300, 300);
   window->AddRenderer(renderer);
   renderer->ResetCamera();
   renderer->GetActiveCamera()->Elevation(-35);

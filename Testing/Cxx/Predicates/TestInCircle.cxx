@@ -122,6 +122,15 @@ TEST(InCircle, ExactWhereTheDeterminantOverflows)
   }
 }
 
+TEST(InCircle, ExactWhereOneTermOverflowsAndItsOppositesDoNot)
+{
+  NearDegenerate draw(9);
+  expectAllAnswers(compareWithRationals(60000,
+    [&] {
+      return scaled(draw.cocircular(draw.real(0.5, 1), { 0, 0 }), draw.integer(249, 255));
+    }));
+}
+
 TEST(InCircle, ExactForMixedExponents)
 {
   NearDegenerate draw(8);
