@@ -62,7 +62,7 @@ fi
 run() { "$build/bin/benchmarkDelaunay" --repeat "$repeat" "$@"; }
 
 echo "== Large inputs, points in memory to triangles in memory"
-run --phases --input uniform:1e7 --input clustered:1e7 --input "$inputs/coast.npy" \
+run --phases --peers cgal,filter --input uniform:1e7 --input clustered:1e7 --input "$inputs/coast.npy" \
   --input lattice:9e6
 echo "== Further inputs"
 run --input lattice-jittered:9e6 --input uniform:1e6

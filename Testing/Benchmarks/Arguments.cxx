@@ -42,9 +42,9 @@ std::vector<std::string> toPeers(const std::string& text)
   const std::vector<std::string> peers = text == "none" ? std::vector<std::string>{} : split(text);
   for (const std::string& peer : peers)
   {
-    if (peer != "cgal" && peer != "vtk")
+    if (peer != "cgal" && peer != "filter" && peer != "vtk")
     {
-      throw std::invalid_argument("no peer is called '" + peer + "'; known are cgal and vtk");
+      throw std::invalid_argument("no peer is called '" + peer + "'; there are cgal, filter, vtk");
     }
   }
   return peers;
@@ -129,7 +129,8 @@ std::string usage()
                      "  --count N             points of an input that names no count (1000000)\n"
                      "  --threads 1,2         our own runs\n"
                      "  --repeat R            runs of each; the fastest counts (3)\n"
-                     "  --peers cgal,vtk      or none (cgal)\n"
+                     "  --peers P,P...        cgal, filter (vtkTIPPDelaunay2D), vtk "
+                     "(vtkDelaunay2D), or none (cgal)\n"
                      "  --partitions CxR      or auto (auto)\n"
                      "  --initial-points N    per partition (chosen)\n"
                      "  --schedule S          stages or dynamic (dynamic)\n"

@@ -2,8 +2,8 @@
 // Triangulation beside its peers: the same points, from memory to memory, taking turns.
 #include "Arguments.h"
 #include "Measure.h"
-#include "Npy.h"
 #include "PointSets.h"
+#include "Points/ReadPoints.h"
 
 #include <cstdio>
 #include <stdexcept>
@@ -28,7 +28,7 @@ bool endsWith(const std::string& text, const std::string& end)
 
 std::vector<double> load(const Arguments::Input& input, std::uint64_t seed)
 {
-  return endsWith(input.Name, ".npy") ? readNpy(input.Name)
+  return endsWith(input.Name, ".npy") ? tipp::readPoints(input.Name).XY
                                       : tipp::test::makePointSet(input.Name, input.Count, seed);
 }
 
@@ -49,9 +49,12 @@ std::vector<Contender> contenders(const Arguments& arguments, const std::vector<
   {
     tipp::TriangulationOptions options = arguments.Options;
     options.Threads = threads;
-    all.push_back({ "TIPP, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads"),
-      [&xy, options] { return runCore(xy, options); },
-      {} });
+    const std::string suffix = std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+    all.push_back({ "TIPP, " + suffix, [&xy, options] { return runCore(xy, options); }, {} });
+    if (arguments.hasPeer("filter"))
+    {
+      all.push_back({ "filter, " + suffix, [&xy, options] { return runFilter(xy, options); }, {} });
+    }
   }
   if (arguments.hasPeer("vtk"))
   {

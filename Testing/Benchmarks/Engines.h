@@ -35,6 +35,8 @@ private:
 
 /// tipp::triangulate.
 Run runCore(const std::vector<double>& xy, const TriangulationOptions& options);
+/// vtkTIPPDelaunay2D from a vtkPolyData to a vtkPolyData.
+Run runFilter(const std::vector<double>& xy, const TriangulationOptions& options);
 /// CGAL's Delaunay_triangulation_2, EPICK, range insert, one thread, without ids.
 Run runCgal(const std::vector<double>& xy);
 /// vtkDelaunay2D with its defaults.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointSets.h"
 
+#include "Distributions/GeneratePoints.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -68,42 +70,6 @@ Coordinates uniform(std::size_t count, Random random)
     });
 }
 
-/// A hundred Gaussians, sigma log-uniform in [1e-5, 1e-2].
-Coordinates clustered(std::size_t count, Random random)
-{
-  struct Cluster
-  {
-    double X, Y, Sigma;
-  };
-  std::vector<Cluster> clusters(100);
-  for (Cluster& c : clusters)
-  {
-    c.X = random.unit();
-    c.Y = random.unit();
-    c.Sigma = std::pow(10, random.between(-5, -2));
-  }
-  return repeat(count,
-    [&](Coordinates& xy, std::size_t)
-    {
-      const Cluster& c = clusters[random.below(clusters.size())];
-      const double x = c.X + c.Sigma * random.normal();
-      add(xy, x, c.Y + c.Sigma * random.normal());
-    });
-}
-
-/// Kuzmin's disk: mass within radius r is 1 - 1 / sqrt(1 + r^2).
-Coordinates kuzmin(std::size_t count, Random random)
-{
-  return repeat(count,
-    [&](Coordinates& xy, std::size_t)
-    {
-      const double rest = 1 - random.between(0, 0.999);
-      const double radius = std::sqrt(1 / (rest * rest) - 1);
-      const double angle = 2 * Pi * random.unit();
-      add(xy, radius * std::cos(angle), radius * std::sin(angle));
-    });
-}
-
 /// Square lattice, shuffled: neighbours in space are none in the input's order.
 Coordinates lattice(std::size_t count, double step, double jitter, Random random)
 {
@@ -132,16 +98,6 @@ Coordinates jittered(std::size_t count, Random random)
     {
       const double x = double(i % side) + random.between(-0.3, 0.3);
       add(xy, x, double(i / side) + random.between(-0.3, 0.3));
-    });
-}
-
-Coordinates circle(std::size_t count, Random random)
-{
-  return repeat(count,
-    [&](Coordinates& xy, std::size_t)
-    {
-      const double angle = 2 * Pi * random.unit();
-      add(xy, std::cos(angle), std::sin(angle));
     });
 }
 
@@ -316,15 +272,11 @@ using Maker = Coordinates (*)(std::size_t, Random);
 const std::map<std::string, Maker>& makers()
 {
   static const std::map<std::string, Maker> table = {
-    { "uniform", uniform },
-    { "clustered", clustered },
-    { "kuzmin", kuzmin },
-    { "lattice", [](std::size_t n, Random r) { return lattice(n, 1, 0, r); } },
+    { "lattice-shuffled", [](std::size_t n, Random r) { return lattice(n, 1, 0, r); } },
     { "lattice-tenths", [](std::size_t n, Random r) { return lattice(n, 0.1, 0, r); } },
     { "lattice-jittered", jittered },
-    { "circle", circle },
     { "cocircular", cocircular },
-    { "collinear", [](std::size_t n, Random) { return line(n, 1, 2); } },
+    { "collinear-in-order", [](std::size_t n, Random) { return line(n, 1, 2); } },
     { "collinear-and-one", collinearAndOne },
     { "survey-lines", surveyLines },
     { "all-equal", [](std::size_t n, Random) { return line(n, 0, 0); } },
@@ -349,6 +301,10 @@ const std::map<std::string, Maker>& makers()
 
 Coordinates makePointSet(const std::string& name, std::size_t count, std::uint64_t seed)
 {
+  if (const auto distribution = distributionFromName(name))
+  {
+    return generatePoints(*distribution, std::int64_t(count), seed);
+  }
   const auto found = makers().find(name);
   if (found == makers().end())
   {
@@ -359,7 +315,7 @@ Coordinates makePointSet(const std::string& name, std::size_t count, std::uint64
 
 std::vector<std::string> pointSetNames()
 {
-  std::vector<std::string> names;
+  std::vector<std::string> names = distributionNames();
   for (const auto& entry : makers())
   {
     names.push_back(entry.first);

@@ -63,6 +63,8 @@ const PointSet pointSets[] = { { "uniform", 5000 },
   { "clustered", 5000 },
   { "kuzmin", 5000 },
   { "lattice", 4900 },
+  { "lattice-shuffled", 4900 },
+  { "coast", 5000 },
   { "lattice-tenths", 4900 },
   { "lattice-jittered", 4900 },
   { "circle", 1500 },
@@ -119,7 +121,7 @@ TEST_P(ManyPoints, AutomaticPartitionsGiveCgalsTriangles)
 
 INSTANTIATE_TEST_SUITE_P(PointSets,
   ManyPoints,
-  testing::Values("uniform", "clustered", "kuzmin", "lattice", "duplicates", "sorted"),
+  testing::Values("uniform", "clustered", "kuzmin", "coast", "lattice", "duplicates", "sorted"),
   [](const auto& info) { return info.param; });
 
 } // namespace

@@ -140,7 +140,7 @@ TEST(SmallInputs, CopiesOfOnePointAreAllDuplicatesOfTheFirst)
 
 TEST(SmallInputs, CollinearDuplicatesAreReported)
 {
-  Coordinates xy = makePointSet("collinear", 100);
+  Coordinates xy = makePointSet("collinear-in-order", 100);
   const Coordinates first(xy);
   xy.insert(xy.end(), first.begin(), first.end());
   EXPECT_TRUE(matches(xy, triangulate(view(xy)), reference(xy)));
