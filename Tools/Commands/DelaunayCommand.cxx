@@ -264,7 +264,8 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
   addTuning(*command, *arguments);
   command->add_flag("--map-duplicates",
     arguments->MapDuplicates,
-    "Add the point array RepresentativePointId to .vtp or .vtu: the id of the vertex that stands for a "
+    "Add the point array RepresentativePointId to .vtp or .vtu: the id of the vertex that stands "
+    "for a "
     "point, -1 for points that are not finite");
   command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
   command->footer(footer);
