@@ -459,7 +459,7 @@ void DelaunayKernel::fillCavity(Index vertex, Point2 p, Point2 next)
     const Index outer = ring[i].Outer;
     const Index stop = ring[i + 1].Start;
     const bool leftOfStop = isLeftOf(stop);
-    recent = left & !leftOfStop ? t : recent;
+    recent = (left && !leftOfStop) ? t : recent;
     left = leftOfStop;
     slot[t] = vertex;
     slot[t + 1] = start;
