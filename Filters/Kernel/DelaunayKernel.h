@@ -138,6 +138,7 @@ private:
 
   CoordinateGrid Grid;
   bool GridIsCurrent = false;
+  std::size_t TurnFailures = 0; ///< of the filter, since the batch began
 };
 
 } // namespace tipp
