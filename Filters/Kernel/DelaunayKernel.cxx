@@ -88,8 +88,7 @@ void DelaunayKernel::insert(const Point2* points, std::size_t count)
   }
   for (Index vertex = this->Pending; vertex < this->vertexEnd(); ++vertex)
   {
-    const Index next = vertex + 1 < this->vertexEnd() ? vertex + 1 : vertex;
-    this->insertVertex(vertex, this->Points[next]);
+    this->insertVertex(vertex);
   }
   this->Pending = this->vertexEnd();
 }
@@ -152,7 +151,7 @@ bool DelaunayKernel::makeFirstTriangle(Index first)
   return true;
 }
 
-void DelaunayKernel::insertVertex(Index vertex, Point2 next)
+void DelaunayKernel::insertVertex(Index vertex)
 {
   const Point2 p = this->Points[vertex];
   const Location location = this->locate(p);
@@ -163,7 +162,7 @@ void DelaunayKernel::insertVertex(Index vertex, Point2 next)
     return;
   }
   this->openCavity(location, p);
-  this->fillCavity(vertex, p, next);
+  this->fillCavity(vertex);
 }
 
 inline DelaunayKernel::Direction DelaunayKernel::directionTo(Index vertex, Point2 p) const
@@ -430,8 +429,8 @@ void DelaunayKernel::openCavity(const Location& at, Point2 p)
 }
 
 /// Joins the vertex to every edge of the ring, in the places of the destroyed triangles and two
-/// new ones. The next walk starts in the new triangle that lies towards the next point.
-void DelaunayKernel::fillCavity(Index vertex, Point2 p, Point2 next)
+/// new ones.
+void DelaunayKernel::fillCavity(Index vertex)
 {
   Index* const slot = this->Mesh.slots();
   Index* const cavity = this->Cavity.data();
@@ -442,25 +441,14 @@ void DelaunayKernel::fillCavity(Index vertex, Point2 p, Point2 next)
   cavity[count - 1] = end + 8;
   this->Mesh.setEnd(end + 16);
 
-  const Direction toNext = { next.x - p.x, next.y - p.y };
-  const auto isLeftOf = [&](Index v)
-  {
-    const Direction d = this->directionTo(v, p);
-    return d.X * toNext.Y - d.Y * toNext.X >= 0;
-  };
   ring[count] = ring[0];
   Index before = cavity[count - 1];
-  Index recent = cavity[0];
   Index start = ring[0].Start;
-  bool left = isLeftOf(start);
   for (std::size_t i = 0; i < count; ++i)
   {
     const Index t = cavity[i];
     const Index outer = ring[i].Outer;
     const Index stop = ring[i + 1].Start;
-    const bool leftOfStop = isLeftOf(stop);
-    recent = left & !leftOfStop ? t : recent;
-    left = leftOfStop;
     slot[t] = vertex;
     slot[t + 1] = start;
     slot[t + 2] = stop;
@@ -471,11 +459,12 @@ void DelaunayKernel::fillCavity(Index vertex, Point2 p, Point2 next)
     before = t;
     start = stop;
   }
-  for (std::size_t i = 0; slot[recent + 1] == Infinite || slot[recent + 2] == Infinite; ++i)
+  std::size_t finite = 0;
+  while (slot[cavity[finite] + 1] == Infinite || slot[cavity[finite] + 2] == Infinite)
   {
-    recent = cavity[i];
+    ++finite;
   }
-  this->Recent = recent;
+  this->Recent = cavity[finite];
 }
 
 /// The exact answer where the filter has none.

@@ -105,7 +105,7 @@ private:
   };
 
   bool makeFirstTriangle(Index firstVertex);
-  void insertVertex(Index vertex, Point2 next);
+  void insertVertex(Index vertex);
 
   Direction directionTo(Index vertex, Point2 p) const;
   bool isRightOf(
@@ -115,7 +115,7 @@ private:
   Index equalVertex(const Location& location, Point2 p) const;
   void openCavity(const Location& location, Point2 p);
   unsigned testPair(const EdgePair& pair, Point2 p, ApexPair& apex);
-  void fillCavity(Index vertex, Point2 p, Point2 next);
+  void fillCavity(Index vertex);
   bool isInConflict(Index triangle, Point2 p);
   bool isInConflictWithInfinite(Index infiniteSlot, Point2 p);
   int exactOrientation(Point2 a, Point2 b, Point2 c);

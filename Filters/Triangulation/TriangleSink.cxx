@@ -127,14 +127,22 @@ void preferLowestIds(Buffer<Id>& ids, std::vector<Duplicate>& duplicates, int th
         duplicate = { duplicate.Point == it->second ? it->first : duplicate.Point, it->second };
       }
     }
+    // Few ids change: a small table, which stays in the cache, keeps most from being looked up.
+    constexpr std::size_t tableSize = 1 << 14;
+    std::vector<char> mayChange(tableSize, 0);
+    for (const auto& change : lowest)
+    {
+      mayChange[std::size_t(change.first) % tableSize] = 1;
+    }
     const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(ids.size());
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::ptrdiff_t i = 0; i < end; ++i)
     {
-      const auto it = lowest.find(ids[std::size_t(i)]);
-      if (it != lowest.end())
+      Id& id = ids[std::size_t(i)];
+      if (mayChange[std::size_t(id) % tableSize])
       {
-        ids[std::size_t(i)] = static_cast<Id>(it->second);
+        const auto it = lowest.find(id);
+        id = it != lowest.end() ? static_cast<Id>(it->second) : id;
       }
     }
   }
