@@ -111,9 +111,8 @@ std::vector<double> generateCollinear(std::int64_t count, Random& random)
 
 } // namespace
 
-std::vector<double> generatePoints(Distribution distribution,
-  std::int64_t count,
-  std::uint64_t seed)
+std::vector<double> generatePoints(
+  Distribution distribution, std::int64_t count, std::uint64_t seed)
 {
   if (count < 0 || count > std::int64_t(1) << 40)
   {
