@@ -244,7 +244,7 @@ int choosePartitionCount(std::size_t points, int threads)
 {
   constexpr std::size_t alone = 4096;
   constexpr std::size_t smallest = 1024;
-  constexpr std::size_t best = 16384;
+  constexpr std::size_t best = 32768;
   constexpr std::size_t perThread = 32;
   if (points <= alone || (threads == 1 && points <= 4 * best))
   {
