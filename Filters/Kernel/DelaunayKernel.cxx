@@ -7,6 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 namespace tipp
 {
 namespace
@@ -22,9 +26,19 @@ constexpr double UnderflowBound = 1e-300;
 using Pair = double __attribute__((vector_size(16)));
 using Mask = long long __attribute__((vector_size(16)));
 
+inline Pair magnitude(Pair a)
+{
+  return reinterpret_cast<Pair>(reinterpret_cast<Mask>(a) & 0x7fffffffffffffffLL);
+}
+
+/// Bit 0 for the first lane, bit 1 for the second.
 inline unsigned bitsOf(Mask mask)
 {
+#ifdef __SSE2__
+  return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(mask)));
+#else
   return static_cast<unsigned>(mask[0] & 1) | static_cast<unsigned>(mask[1] & 2);
+#endif
 }
 
 inline Pair low(Pair a, Pair b)
@@ -79,6 +93,7 @@ void DelaunayKernel::insert(const Point2* points, std::size_t count)
   }
   this->PlaceEnd += static_cast<std::uint32_t>(count);
   this->GridIsCurrent = false;
+  this->TurnFailures = 0;
 
   // Euler: n vertices and the infinite one have 2 n - 2 triangles.
   this->Mesh.reserve(2 * this->Points.size());
@@ -112,7 +127,7 @@ bool DelaunayKernel::makeFirstTriangle(Index first)
   int turn = 0;
   for (; third < end; ++third)
   {
-    turn = this->exactOrientation(this->Points[first], this->Points[second], this->Points[third]);
+    turn = orientation(this->Points[first], this->Points[second], this->Points[third]);
     if (turn != 0)
     {
       break;
@@ -171,25 +186,6 @@ inline DelaunayKernel::Direction DelaunayKernel::directionTo(Index vertex, Point
   return { v.x - p.x, v.y - p.y };
 }
 
-/// Whether p lies to the right of the line from a to b, which are given as seen from p too.
-inline bool DelaunayKernel::isRightOf(
-  const Direction& a, const Direction& b, double& cross, Index ia, Index ib, Point2 p)
-{
-  const double left = a.X * b.Y;
-  const double right = a.Y * b.X;
-  cross = left - right;
-  const double bound = TurnBound * (std::fabs(left) + std::fabs(right)) + UnderflowBound;
-  if (cross > bound)
-  {
-    return false;
-  }
-  if (__builtin_expect(-cross > bound, 1))
-  {
-    return true;
-  }
-  return this->exactOrientation(this->Points[ia], this->Points[ib], p) < 0;
-}
-
 DelaunayKernel::Location DelaunayKernel::seenFrom(Point2 p, Index triangle) const
 {
   const Index* v = this->Mesh.slots() + triangle;
@@ -206,37 +202,20 @@ DelaunayKernel::Location DelaunayKernel::seenFrom(Point2 p, Index triangle) cons
 DelaunayKernel::Location DelaunayKernel::locate(Point2 p)
 {
   const Index* const slot = this->Mesh.slots();
-  Location at = this->seenFrom(p, this->Recent);
-  const Index* const v = slot + at.Triangle;
-  Direction a;
-  Direction b;
-  double ab;
-  Index h;
-  if (this->isRightOf(at.Corner[1], at.Corner[2], ab, v[1], v[2], p))
+  // p does not lie to the left of the edge from a to b; behind it is the triangle (a, d, b).
+  Index h = this->Recent;
+  Direction a = this->directionTo(slot[HalfEdgeMesh::previous(h)], p);
+  Direction b = this->directionTo(slot[HalfEdgeMesh::next(h)], p);
+  double ab = a.X * b.Y - a.Y * b.X;
+  if (orientation(this->Points[slot[HalfEdgeMesh::previous(h)]],
+        this->Points[slot[HalfEdgeMesh::next(h)]], p) > 0)
   {
-    a = at.Corner[1];
-    b = at.Corner[2];
-    h = at.Outer[1];
-  }
-  else if (this->isRightOf(at.Corner[0], at.Corner[1], ab, v[0], v[1], p))
-  {
-    a = at.Corner[0];
-    b = at.Corner[1];
-    h = at.Outer[0];
-  }
-  else if (this->isRightOf(at.Corner[2], at.Corner[0], ab, v[2], v[0], p))
-  {
-    a = at.Corner[2];
-    b = at.Corner[0];
-    h = at.Outer[2];
-  }
-  else
-  {
-    return at;
+    h = slot[h + 4];
+    std::swap(a, b);
+    ab = -ab;
   }
   for (;;)
   {
-    // p lies right of the edge from a to b; behind it is the triangle (a, d, b).
     const Index id = slot[h];
     if (__builtin_expect(id == Infinite, 0))
     {
@@ -245,23 +224,35 @@ DelaunayKernel::Location DelaunayKernel::locate(Point2 p)
     const Index toA = HalfEdgeMesh::previous(h);
     const Index toB = HalfEdgeMesh::next(h);
     const Direction d = this->directionTo(id, p);
-    double ad;
-    double db;
-    if (this->isRightOf(a, d, ad, slot[toA], id, p))
+    const Pair left = Pair{ a.X, d.X } * Pair{ d.Y, b.Y };
+    const Pair right = Pair{ a.Y, d.Y } * Pair{ d.X, b.X };
+    const Pair cross = left - right; // a x d, d x b
+    const Pair bound = TurnBound * (magnitude(left) + magnitude(right)) + UnderflowBound;
+    unsigned isRight = bitsOf(-cross > bound);
+    const unsigned undecided = ~(isRight | bitsOf(cross > bound));
+    if (__builtin_expect(undecided & 1, 0))
+    {
+      isRight |= this->exactOrientation(this->Points[slot[toA]], this->Points[id], p) < 0 ? 1U : 0U;
+    }
+    if (__builtin_expect(undecided & 2, 0))
+    {
+      isRight |= this->exactOrientation(this->Points[id], this->Points[slot[toB]], p) < 0 ? 2U : 0U;
+    }
+    if (isRight & 1)
     {
       b = d;
-      ab = ad;
+      ab = cross[0];
       h = slot[toB + 4];
     }
-    else if (this->isRightOf(d, b, db, id, slot[toB], p))
+    else if (isRight & 2)
     {
       a = d;
-      ab = db;
+      ab = cross[1];
       h = slot[toA + 4];
     }
     else
     {
-      return { HalfEdgeMesh::triangleOf(h), { a, d, b }, { ad, db, -ab },
+      return { HalfEdgeMesh::triangleOf(h), { a, d, b }, { cross[0], cross[1], -ab },
         { slot[toB + 4], slot[toA + 4], slot[h + 4] } };
     }
   }
@@ -287,8 +278,8 @@ inline DelaunayKernel::Index DelaunayKernel::equalVertex(const Location& at, Poi
 inline unsigned DelaunayKernel::testPair(const EdgePair& pair, Point2 p, ApexPair& apex)
 {
   const Index* const slot = this->Mesh.slots();
-  const Point2 first = this->Points[slot[pair.Outer[0]]];
-  const Point2 second = this->Points[slot[pair.Outer[1]]];
+  const Point2 first = this->Points[slot[pair.FirstOuter]];
+  const Point2 second = this->Points[slot[pair.SecondOuter]];
   apex.X = Pair{ first.x, second.x } - p.x;
   apex.Y = Pair{ first.y, second.y } - p.y;
   apex.Lift = apex.X * apex.X + apex.Y * apex.Y;
@@ -300,16 +291,14 @@ inline unsigned DelaunayKernel::testPair(const EdgePair& pair, Point2 p, ApexPai
   const Pair bound = CircleBound * (lifts * lifts) + UnderflowBound;
   unsigned inside = bitsOf(det > bound);
   const unsigned outside = bitsOf(-det > bound);
-  if (__builtin_expect((inside | outside) != 3, 0))
+  const unsigned undecided = ~(inside | outside);
+  if (__builtin_expect(undecided & 1, 0))
   {
-    for (unsigned i = 0; i < 2; ++i)
-    {
-      if (!((inside | outside) >> i & 1) &&
-        this->isInConflict(HalfEdgeMesh::triangleOf(pair.Outer[i]), p))
-      {
-        inside |= 1U << i;
-      }
-    }
+    inside |= this->isInConflict(HalfEdgeMesh::triangleOf(pair.FirstOuter), p) ? 1U : 0U;
+  }
+  if (__builtin_expect(undecided & 2, 0))
+  {
+    inside |= this->isInConflict(HalfEdgeMesh::triangleOf(pair.SecondOuter), p) ? 2U : 0U;
   }
   return inside;
 }
@@ -349,14 +338,14 @@ void DelaunayKernel::openCavity(const Location& at, Point2 p)
     return EdgePair{ low(e.StartX, v.X), low(e.StartY, v.Y), low(e.StartLift, v.Lift),
       low(v.X, e.StopX), low(v.Y, e.StopY), low(v.Lift, e.StopLift),
       low(v.StartCross, -v.StopCross),
-      { slot[HalfEdgeMesh::next(e.Outer[0]) + 4], slot[HalfEdgeMesh::previous(e.Outer[0]) + 4] } };
+      slot[HalfEdgeMesh::next(e.FirstOuter) + 4], slot[HalfEdgeMesh::previous(e.FirstOuter) + 4] };
   };
   const auto second = [slot](const EdgePair& e, const ApexPair& v)
   {
     return EdgePair{ high(e.StartX, v.X), high(e.StartY, v.Y), high(e.StartLift, v.Lift),
       high(v.X, e.StopX), high(v.Y, e.StopY), high(v.Lift, e.StopLift),
       high(v.StartCross, -v.StopCross),
-      { slot[HalfEdgeMesh::next(e.Outer[1]) + 4], slot[HalfEdgeMesh::previous(e.Outer[1]) + 4] } };
+      slot[HalfEdgeMesh::next(e.SecondOuter) + 4], slot[HalfEdgeMesh::previous(e.SecondOuter) + 4] };
   };
 
   const Direction a = at.Corner[0];
@@ -368,14 +357,14 @@ void DelaunayKernel::openCavity(const Location& at, Point2 p)
   cavity[cavitySize++] = at.Triangle;
   EdgePair edges{ Pair{ a.X, b.X }, Pair{ a.Y, b.Y }, Pair{ al, bl }, Pair{ b.X, c.X },
     Pair{ b.Y, c.Y }, Pair{ bl, cl }, Pair{ at.Cross[0], at.Cross[1] },
-    { at.Outer[0], at.Outer[1] } };
+    at.Outer[0], at.Outer[1] };
   ApexPair apex;
   {
     // The third edge, in both lanes.
     const double ca = at.Cross[2];
     const Index outer = at.Outer[2];
     const EdgePair last{ Pair{ c.X, c.X }, Pair{ c.Y, c.Y }, Pair{ cl, cl }, Pair{ a.X, a.X },
-      Pair{ a.Y, a.Y }, Pair{ al, al }, Pair{ ca, ca }, { outer, outer } };
+      Pair{ a.Y, a.Y }, Pair{ al, al }, Pair{ ca, ca }, outer, outer };
     if (this->testPair(last, p, apex) & 1)
     {
       enter(outer);
@@ -383,7 +372,7 @@ void DelaunayKernel::openCavity(const Location& at, Point2 p)
     }
     else
     {
-      stack[stackSize].Edges.Outer[0] = outer;
+      stack[stackSize].Edges.FirstOuter = outer;
       stack[stackSize++].IsPair = false;
     }
   }
@@ -392,31 +381,31 @@ void DelaunayKernel::openCavity(const Location& at, Point2 p)
     const unsigned inside = this->testPair(edges, p, apex);
     if (inside & 1)
     {
-      enter(edges.Outer[0]);
+      enter(edges.FirstOuter);
       if (inside & 2)
       {
-        enter(edges.Outer[1]);
+        enter(edges.SecondOuter);
         stack[stackSize++] = { second(edges, apex), true };
       }
       else
       {
-        stack[stackSize].Edges.Outer[0] = edges.Outer[1];
+        stack[stackSize].Edges.FirstOuter = edges.SecondOuter;
         stack[stackSize++].IsPair = false;
       }
       edges = first(edges, apex);
       continue;
     }
-    emit(edges.Outer[0]);
+    emit(edges.FirstOuter);
     if (inside & 2)
     {
-      enter(edges.Outer[1]);
+      enter(edges.SecondOuter);
       edges = second(edges, apex);
       continue;
     }
-    emit(edges.Outer[1]);
+    emit(edges.SecondOuter);
     while (stackSize > 0 && !stack[stackSize - 1].IsPair)
     {
-      emit(stack[--stackSize].Edges.Outer[0]);
+      emit(stack[--stackSize].Edges.FirstOuter);
     }
     if (stackSize == 0)
     {
@@ -491,7 +480,7 @@ bool DelaunayKernel::isInConflictWithInfinite(Index infiniteSlot, Point2 p)
 {
   const Point2 u = this->Points[this->Mesh.vertex(HalfEdgeMesh::next(infiniteSlot))];
   const Point2 w = this->Points[this->Mesh.vertex(HalfEdgeMesh::previous(infiniteSlot))];
-  const int side = this->exactOrientation(u, w, p);
+  const int side = orientation(u, w, p);
   if (side != 0)
   {
     return side > 0;
@@ -502,7 +491,9 @@ bool DelaunayKernel::isInConflictWithInfinite(Index infiniteSlot, Point2 p)
 
 int DelaunayKernel::exactOrientation(Point2 a, Point2 b, Point2 c)
 {
-  return this->grid().orientation(a, b, c);
+  // Some failures come with any input; the grid pays where there are many.
+  constexpr std::size_t few = 32;
+  return ++this->TurnFailures > few ? this->grid().orientation(a, b, c) : orientationExact(a, b, c);
 }
 
 const CoordinateGrid& DelaunayKernel::grid()

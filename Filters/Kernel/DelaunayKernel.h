@@ -79,8 +79,10 @@ private:
     Pair StopX;
     Pair StopY;
     Pair StopLift;
-    Pair Cross;     ///< start x stop
-    Index Outer[2]; ///< the half-edges on their other sides
+    Pair Cross; ///< start x stop
+    // The half-edges on their other sides; no array, which would keep all this out of registers.
+    Index FirstOuter;
+    Index SecondOuter;
   };
   /// The apexes of the triangles behind a pair.
   struct ApexPair
@@ -108,8 +110,6 @@ private:
   void insertVertex(Index vertex);
 
   Direction directionTo(Index vertex, Point2 p) const;
-  bool isRightOf(
-    const Direction& a, const Direction& b, double& cross, Index ia, Index ib, Point2 p);
   Location locate(Point2 p);
   Location seenFrom(Point2 p, Index triangle) const;
   Index equalVertex(const Location& location, Point2 p) const;
@@ -138,6 +138,7 @@ private:
 
   CoordinateGrid Grid;
   bool GridIsCurrent = false;
+  std::size_t TurnFailures = 0; ///< of the filter, since the batch began
 };
 
 } // namespace tipp

@@ -20,8 +20,10 @@ public:
   using Index = std::int32_t;
 
   static Index triangleOf(Index h) { return h & ~7; }
-  static Index next(Index h) { return (h & 3) == 2 ? h - 2 : h + 1; }
-  static Index previous(Index h) { return (h & 3) == 0 ? h + 2 : h - 1; }
+
+  // Which slot an edge has is unpredictable, so there is no branch here.
+  static Index next(Index h) { return h + 1 - 3 * (h >> 1 & 1); }
+  static Index previous(Index h) { return h - 1 + (((h & 3) - 1) >> 31 & 3); }
 
   Index vertex(Index h) const { return this->Slots[h]; }
   Index twin(Index h) const { return this->Slots[h + 4]; }

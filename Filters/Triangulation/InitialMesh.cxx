@@ -79,7 +79,7 @@ std::vector<SeamVertex> makeArtificialPoints(const Tiling& tiling)
 
 template <typename Id>
 std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition)
+  const Tiling& tiling, PointBuckets<Id>& buckets, int perPartition)
 {
   std::vector<SeamVertex> vertices;
   for (PartitionIndex p = 0; p < tiling.size(); ++p)
@@ -88,8 +88,8 @@ std::vector<SeamVertex> chooseInitialPoints(
     const std::size_t chosen = std::min(count, static_cast<std::size_t>(perPartition));
     for (std::size_t i = 0; i < chosen; ++i)
     {
-      const std::size_t at = buckets.start(p) + (2 * i + 1) * count / (2 * chosen);
-      vertices.push_back(makeSeamVertex(tiling, p, buckets.Points[at], buckets.Ids[at]));
+      const std::size_t at = (2 * i + 1) * count / (2 * chosen);
+      vertices.push_back(makeSeamVertex(tiling, p, buckets.points(p)[at], buckets.ids(p)[at]));
     }
   }
   return vertices;
@@ -136,8 +136,8 @@ SeamTriangles triangulateVertices(
 }
 
 template std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling&, const PointBuckets<std::int32_t>&, int);
+  const Tiling&, PointBuckets<std::int32_t>&, int);
 template std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling&, const PointBuckets<std::int64_t>&, int);
+  const Tiling&, PointBuckets<std::int64_t>&, int);
 
 } // namespace tipp

@@ -18,16 +18,16 @@ std::vector<SeamVertex> makeArtificialPoints(const Tiling& tiling);
 /// Equally many points of each partition, evenly spaced in the input's order.
 template <typename Id>
 std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition);
+  const Tiling& tiling, PointBuckets<Id>& buckets, int perPartition);
 
 /// The Delaunay triangulation of vertices, with the partitions each triangle belongs to.
 SeamTriangles triangulateVertices(
   const Tiling& tiling, const std::vector<SeamVertex>& vertices, int threads);
 
 extern template std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling&, const PointBuckets<std::int32_t>&, int);
+  const Tiling&, PointBuckets<std::int32_t>&, int);
 extern template std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling&, const PointBuckets<std::int64_t>&, int);
+  const Tiling&, PointBuckets<std::int64_t>&, int);
 
 } // namespace tipp
 

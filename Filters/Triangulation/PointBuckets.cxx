@@ -2,6 +2,7 @@
 #include "Triangulation/PointBuckets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -87,6 +88,62 @@ std::vector<Point2> samplePoints(PointsView points, std::size_t count)
   return sample;
 }
 
+namespace
+{
+
+/// Finds partitions for many points at a time, so that their searches overlap.
+class Labeller
+{
+public:
+  Labeller(const Tiling& tiling, std::uint32_t* labels, std::vector<std::size_t>& counts)
+    : Boxes(tiling)
+    , Labels(labels)
+    , Counts(counts)
+  {
+  }
+
+  void add(std::size_t id, Point2 p)
+  {
+    this->Points[this->Size] = p;
+    if (++this->Size == this->Points.size())
+    {
+      this->flush(id + 1);
+    }
+  }
+
+  /// The last points' ids end at `end`.
+  void flush(std::size_t end)
+  {
+    std::uint32_t* labels = this->Labels + end - this->Size;
+    this->Boxes.locate(this->Points.data(), this->Size, labels);
+    for (std::size_t i = 0; i < this->Size; ++i)
+    {
+      labels[i] = isFinite(this->Points[i]) ? labels[i] : NoPartition;
+      if (labels[i] != NoPartition)
+      {
+        ++this->Counts[labels[i]];
+      }
+    }
+    this->Size = 0;
+  }
+
+private:
+  const Tiling& Boxes;
+  std::uint32_t* Labels;
+  std::vector<std::size_t>& Counts;
+  std::array<Point2, 64> Points;
+  std::size_t Size = 0;
+};
+
+} // namespace
+
+template <typename Id>
+PointBuckets<Id>::PointBuckets(std::vector<std::size_t> starts)
+  : Starts(std::move(starts))
+  , Memory(6 * this->Starts.back())
+{
+}
+
 template <typename Id>
 PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threads)
 {
@@ -98,54 +155,57 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
   for (int part = 0; part < threads; ++part)
   {
     const auto [begin, end] = share(points.size(), part, threads);
-    std::vector<std::size_t>& counts = places[std::size_t(part)];
-    points.forEach(begin, end,
-      [&](std::size_t id, Point2 p)
-      {
-        labels[id] = NoPartition;
-        if (isFinite(p))
-        {
-          labels[id] = static_cast<std::uint32_t>(tiling.locate(p));
-          ++counts[labels[id]];
-        }
-      });
+    Labeller labeller(tiling, labels.data(), places[std::size_t(part)]);
+    points.forEach(begin, end, [&labeller](std::size_t id, Point2 p) { labeller.add(id, p); });
+    labeller.flush(end);
   }
 
-  PointBuckets<Id> buckets;
-  std::size_t sum = 0;
+  // From here on places are those of each part's next point within its partition.
+  std::vector<std::size_t> starts = { 0 };
   for (std::size_t partition = 0; partition < partitions; ++partition)
   {
-    buckets.Starts.push_back(sum);
+    std::size_t sum = 0;
     for (std::vector<std::size_t>& place : places)
     {
       const std::size_t count = place[partition];
       place[partition] = sum;
       sum += count;
     }
+    starts.push_back(starts.back() + sum);
   }
-  buckets.Starts.push_back(sum);
-  buckets.Points = Buffer<Point2>(sum);
-  buckets.Ids = Buffer<Id>(sum);
 
+  PointBuckets<Id> buckets(std::move(starts));
 #pragma omp parallel for num_threads(threads) schedule(static, 1)
   for (int part = 0; part < threads; ++part)
   {
+    struct Cursor
+    {
+      Point2* Point;
+      Id* PointId;
+    };
+    std::vector<Cursor> cursors;
+    for (PartitionIndex p = 0; p < tiling.size(); ++p)
+    {
+      const std::size_t place = places[std::size_t(part)][std::size_t(p)];
+      cursors.push_back({ buckets.points(p) + place, buckets.ids(p) + place });
+    }
     const auto [begin, end] = share(points.size(), part, threads);
-    std::vector<std::size_t>& place = places[std::size_t(part)];
     points.forEach(begin, end,
       [&](std::size_t id, Point2 p)
       {
         if (labels[id] != NoPartition)
         {
-          const std::size_t at = place[labels[id]]++;
-          buckets.Points[at] = p;
-          buckets.Ids[at] = static_cast<Id>(id);
+          Cursor& cursor = cursors[labels[id]];
+          *cursor.Point++ = p;
+          *cursor.PointId++ = static_cast<Id>(id);
         }
       });
   }
   return buckets;
 }
 
+template class PointBuckets<std::int32_t>;
+template class PointBuckets<std::int64_t>;
 template PointBuckets<std::int32_t> bucketPoints(PointsView, const Tiling&, int);
 template PointBuckets<std::int64_t> bucketPoints(PointsView, const Tiling&, int);
 

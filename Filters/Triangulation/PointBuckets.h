@@ -24,24 +24,41 @@ PointSurvey surveyPoints(PointsView points, int threads);
 /// Evenly spaced finite points, about `count`.
 std::vector<Point2> samplePoints(PointsView points, std::size_t count);
 
-/// The finite points and their ids, partition by partition, in the input's order within each.
+/// The finite points and their ids, partition by partition, in the input's order within each; and
+/// in the same memory, once a partition's points are no longer needed, its triangles. There is room
+/// for two triangles a point, more than a planar triangulation has (Euler).
 template <typename Id>
-struct PointBuckets
+class PointBuckets
 {
-  Buffer<Point2> Points;
-  Buffer<Id> Ids;
-  std::vector<std::size_t> Starts; ///< of each partition, and the end
+public:
+  PointBuckets() = default;
+  /// Starts: of each partition, counted in points, and the end.
+  explicit PointBuckets(std::vector<std::size_t> starts);
 
+  PartitionIndex partitions() const { return static_cast<PartitionIndex>(this->Starts.size() - 1); }
   std::size_t start(PartitionIndex p) const { return this->Starts[std::size_t(p)]; }
-  std::size_t count(PartitionIndex p) const
-  {
-    return this->Starts[std::size_t(p) + 1] - this->Starts[std::size_t(p)];
-  }
+  std::size_t count(PartitionIndex p) const { return this->start(p + 1) - this->start(p); }
+  std::size_t size() const { return this->Starts.back(); }
+
+  Point2* points(PartitionIndex p) { return reinterpret_cast<Point2*>(this->triangles(p)); }
+  Id* ids(PartitionIndex p) { return reinterpret_cast<Id*>(this->points(p) + this->count(p)); }
+  Id* triangles(PartitionIndex p) { return this->Memory.data() + 6 * this->start(p); }
+
+  /// All partitions' triangles, with gaps between them.
+  Buffer<Id> release() { return std::move(this->Memory); }
+
+private:
+  static_assert(sizeof(Point2) + sizeof(Id) <= 6 * sizeof(Id), "the points fit");
+
+  std::vector<std::size_t> Starts = { 0 };
+  Buffer<Id> Memory;
 };
 
 template <typename Id>
 PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threads);
 
+extern template class PointBuckets<std::int32_t>;
+extern template class PointBuckets<std::int64_t>;
 extern template PointBuckets<std::int32_t> bucketPoints(PointsView, const Tiling&, int);
 extern template PointBuckets<std::int64_t> bucketPoints(PointsView, const Tiling&, int);
 

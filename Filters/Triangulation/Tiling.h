@@ -32,16 +32,14 @@ public:
   const Box2& box(PartitionIndex i) const { return this->Boxes[static_cast<std::size_t>(i)]; }
   const Box2& domain() const { return this->Domain; }
 
+  /// The partitions of many points.
+  void locate(const Point2* points, std::size_t count, std::uint32_t* partitions) const;
+
   PartitionIndex locate(Point2 p) const
   {
-    const double coordinates[2] = { p.x, p.y };
-    std::int32_t at = this->Root;
-    while (at >= 0)
-    {
-      const Cut& cut = this->Cuts[static_cast<std::size_t>(at)];
-      at = cut.Below[coordinates[cut.Axis] >= cut.At];
-    }
-    return ~at;
+    std::uint32_t partition;
+    this->locate(&p, 1, &partition);
+    return static_cast<PartitionIndex>(partition);
   }
 
   /// visit(partition) for every box that the closed disk meets.
@@ -53,45 +51,50 @@ public:
     const double high[2] = { bounds.xmax, bounds.ymax };
     std::array<std::int32_t, MaximumDepth> pending;
     std::size_t size = 0;
-    pending[size++] = this->Root;
+    pending[size++] = 0;
     while (size > 0)
     {
-      std::int32_t at = pending[--size];
-      while (at >= 0)
+      const Node* node = &this->node(pending[--size]);
+      while (!node->isBox())
       {
-        const Cut& cut = this->Cuts[static_cast<std::size_t>(at)];
-        const bool below = low[cut.Axis] <= cut.At;
-        const bool above = high[cut.Axis] >= cut.At;
+        const bool below = low[node->Axis] <= node->At;
+        const bool above = high[node->Axis] >= node->At;
         if (below && above)
         {
-          pending[size++] = cut.Below[1];
+          pending[size++] = node->Child[1];
         }
-        at = cut.Below[!below];
+        node = &this->node(node->Child[!below]);
       }
-      if (disk.meets(this->box(~at)))
+      if (disk.meets(this->box(node->Partition)))
       {
-        visit(~at);
+        visit(node->Partition);
       }
     }
   }
 
 private:
-  struct Cut
+  /// A cut, or a box; a box is its own child, so that searches of any length can go on.
+  struct Node
   {
     double At;
     std::int32_t Axis;
-    std::int32_t Below[2]; ///< a cut, or ~partition
+    std::int32_t Child[2]; ///< below the cut, and from it on
+    PartitionIndex Partition;
+
+    bool isBox() const { return this->Partition >= 0; }
   };
   // Every cut halves the number of boxes, which fits 31 bits.
   static constexpr std::size_t MaximumDepth = 64;
 
-  std::int32_t cutGrid(const Box2& box, int columns, int rows);
-  std::int32_t cutSample(const Box2& box, Point2* begin, Point2* end, int count);
-  std::int32_t addBox(const Box2& box);
+  std::int32_t cutGrid(const Box2& box, int columns, int rows, std::size_t depth);
+  std::int32_t cutSample(const Box2& box, Point2* begin, Point2* end, int count, std::size_t depth);
+  std::int32_t addBox(const Box2& box, std::size_t depth);
+  std::int32_t addCut(int axis, double at);
+  const Node& node(std::int32_t i) const { return this->Nodes[static_cast<std::size_t>(i)]; }
 
   Box2 Domain{};
-  std::int32_t Root = 0;
-  std::vector<Cut> Cuts;
+  std::size_t Depth = 0;   ///< most cuts between the root and a box
+  std::vector<Node> Nodes; ///< the first is the root
   std::vector<Box2> Boxes;
 };
 

@@ -8,10 +8,9 @@ namespace tipp
 {
 
 template <typename Id>
-TriangleSink<Id>::TriangleSink(const std::vector<std::size_t>& starts)
-  : Starts(starts)
-  , InteriorCounts(starts.size() - 1, 0)
-  , Ids(6 * starts.back())
+TriangleSink<Id>::TriangleSink(PointBuckets<Id>& buckets)
+  : Buckets(buckets)
+  , InteriorCounts(static_cast<std::size_t>(buckets.partitions()), 0)
 {
 }
 
@@ -55,12 +54,6 @@ std::vector<typename TriangleSink<Id>::Corners> TriangleSink<Id>::sortSeams(
 }
 
 template <typename Id>
-void TriangleSink<Id>::copyTriangle(std::size_t to, const Id* corners)
-{
-  std::copy(corners, corners + 3, this->Ids.data() + 3 * to);
-}
-
-template <typename Id>
 Buffer<Id> TriangleSink<Id>::assemble(const std::vector<SeamTriangle>& seams, int threads)
 {
   const std::vector<Corners> sorted = this->sortSeams(seams, threads);
@@ -70,6 +63,9 @@ Buffer<Id> TriangleSink<Id>::assemble(const std::vector<SeamTriangle>& seams, in
     total += count;
   }
 
+  Buffer<Id> ids = this->Buckets.release();
+  const auto copyTriangle = [&ids](std::size_t to, const Id* corners)
+  { std::copy(corners, corners + 3, ids.data() + 3 * to); };
   // Interior triangles that lie beyond the end, last partition first, fill what the seams leave.
   std::size_t donor = this->InteriorCounts.size();
   std::size_t donorAt = 0;
@@ -79,30 +75,24 @@ Buffer<Id> TriangleSink<Id>::assemble(const std::vector<SeamTriangle>& seams, in
     while (donorAt == donorBegin)
     {
       --donor;
-      const std::size_t begin = 2 * this->Starts[donor];
+      const std::size_t begin = 2 * this->Buckets.start(static_cast<PartitionIndex>(donor));
       donorAt = begin + this->InteriorCounts[donor];
       donorBegin = std::min(std::max(begin, total), donorAt);
     }
-    return this->Ids.data() + 3 * --donorAt;
+    return ids.data() + 3 * --donorAt;
   };
   auto seam = sorted.begin();
-  for (std::size_t p = 0; p < this->InteriorCounts.size(); ++p)
+  for (PartitionIndex p = 0; p < this->Buckets.partitions(); ++p)
   {
-    const std::size_t gapEnd = std::min(2 * this->Starts[p + 1], total);
-    for (std::size_t at = 2 * this->Starts[p] + this->InteriorCounts[p]; at < gapEnd; ++at)
+    const std::size_t gap = 2 * this->Buckets.start(p) + this->InteriorCounts[std::size_t(p)];
+    const std::size_t gapEnd = std::min(2 * this->Buckets.start(p + 1), total);
+    for (std::size_t at = gap; at < gapEnd; ++at)
     {
-      if (seam != sorted.end())
-      {
-        this->copyTriangle(at, (seam++)->data());
-      }
-      else
-      {
-        this->copyTriangle(at, nextBeyond());
-      }
+      copyTriangle(at, seam != sorted.end() ? (seam++)->data() : nextBeyond());
     }
   }
-  this->Ids.truncate(3 * total);
-  return std::move(this->Ids);
+  ids.truncate(3 * total);
+  return ids;
 }
 
 template <typename Id>

@@ -3,6 +3,7 @@
 #define tippTriangleSink_h
 
 #include "Triangulation/Buffer.h"
+#include "Triangulation/PointBuckets.h"
 #include "Triangulation/SeamMesh.h"
 #include "Triangulation/Triangulate.h"
 
@@ -12,33 +13,29 @@
 namespace tipp
 {
 
-/// The final triangles, written once and in place. Each partition has room for two triangles a
-/// point, which its interior triangles cannot fill (Euler); the seams' triangles go to the gaps.
-/// The order depends on the points and the partitions alone, not on the schedule.
+/// The final triangles in a row: the partitions' interior triangles where they were written, and
+/// the seams' in the gaps. The order depends on the points and the partitions alone, not on the
+/// schedule.
 template <typename Id>
 class TriangleSink
 {
 public:
-  /// Starts: of each partition's points, and the end.
-  explicit TriangleSink(const std::vector<std::size_t>& starts);
+  explicit TriangleSink(PointBuckets<Id>& buckets);
 
-  Id* interior(PartitionIndex p) { return this->Ids.data() + 6 * this->Starts[std::size_t(p)]; }
   void setInteriorCount(PartitionIndex p, std::size_t count)
   {
     this->InteriorCounts[std::size_t(p)] = count;
   }
 
-  /// All triangles in a row. The seams' vertices must be true points.
+  /// Takes the buckets' memory. The seams' vertices must be true points.
   Buffer<Id> assemble(const std::vector<SeamTriangle>& seams, int threads);
 
 private:
   using Corners = std::array<Id, 3>;
   std::vector<Corners> sortSeams(const std::vector<SeamTriangle>& seams, int threads) const;
-  void copyTriangle(std::size_t to, const Id* corners);
 
-  std::vector<std::size_t> Starts;
+  PointBuckets<Id>& Buckets;
   std::vector<std::size_t> InteriorCounts;
-  Buffer<Id> Ids;
 };
 
 /// Exchanges ids in finished triangles: for each duplicate that is lower than the point which

@@ -85,7 +85,6 @@ public:
     const SeamTriangles initialMesh = triangulateVertices(tiling, initial, this->PassThreads);
     if (!this->hasGrid() && !partitionsPay(initialMesh))
     {
-      this->Result.Statistics.Partitions = 1;
       this->triangulateAlone(tiling);
       return;
     }
@@ -100,9 +99,9 @@ private:
   {
     constexpr std::size_t most =
       100'000'000; // of the kernel's 32-bit half-edges, with room to spare
-    for (std::size_t p = 0; p + 1 < this->Buckets.Starts.size(); ++p)
+    for (PartitionIndex p = 0; p < this->Buckets.partitions(); ++p)
     {
-      const std::size_t count = this->Buckets.count(static_cast<PartitionIndex>(p));
+      const std::size_t count = this->Buckets.count(p);
       if (count > most)
       {
         throw std::length_error("Partition " + std::to_string(p) + " would hold " +
@@ -147,11 +146,16 @@ private:
   /// All points at once: no partitions, no artificial points.
   void triangulateAlone(const Tiling& tiling)
   {
-    this->Buckets.Starts = { 0, this->Buckets.Points.size() };
-    this->checkSizes();
-    TriangleSink<Id> sink(this->Buckets.Starts);
+    if (tiling.size() > 1)
+    {
+      this->Buckets =
+        bucketPoints<Id>(this->Points, Tiling::grid(tiling.domain(), 1, 1), this->PassThreads);
+      this->checkSizes();
+    }
+    this->Result.Statistics.Partitions = 1;
+    TriangleSink<Id> sink(this->Buckets);
     Worker<Id> worker(tiling, this->Buckets);
-    worker.triangulateAlone(sink.interior(0));
+    worker.triangulateAlone();
     sink.setInteriorCount(0, worker.interiorCount());
     this->Result.Duplicates = worker.duplicates();
     this->Result.Statistics.WorkerVertices = std::int64_t(worker.vertexCount());
@@ -161,7 +165,7 @@ private:
 
   void work(const Tiling& tiling, Master& master, const std::vector<SeamVertex>& artificial)
   {
-    TriangleSink<Id> sink(this->Buckets.Starts);
+    TriangleSink<Id> sink(this->Buckets);
 #pragma omp parallel num_threads(this->Threads)
     {
       try
@@ -204,13 +208,12 @@ private:
       {
         return;
       }
-      worker.triangulate(partition, belonging, sink.interior(partition));
+      worker.triangulate(partition, belonging);
       sink.setInteriorCount(partition, worker.interiorCount());
       master.complete(partition, worker.seams(), worker.duplicates(), worker.vertexCount());
       const std::size_t done = this->PointsDone += this->Buckets.count(partition);
       // Only the caller's own thread reports.
-      if (omp_get_thread_num() == 0 &&
-        !this->report(double(done) / double(this->Buckets.Points.size())))
+      if (omp_get_thread_num() == 0 && !this->report(double(done) / double(this->Buckets.size())))
       {
         master.stop();
       }

@@ -26,34 +26,42 @@ Worker<Id>::Worker(const Tiling& tiling, PointBuckets<Id>& buckets)
 }
 
 template <typename Id>
-void Worker<Id>::triangulate(
-  PartitionIndex partition, const std::vector<SeamTriangle>& belonging, Id* interior)
+void Worker<Id>::triangulate(PartitionIndex partition, const std::vector<SeamTriangle>& belonging)
 {
   this->collectVertices(partition, belonging);
+  this->takeIds(partition);
   this->Kernel.clear();
   // The own points first: their interior triangles then do not depend on the foreign ones.
-  this->Kernel.insert(
-    this->Buckets.Points.data() + this->Buckets.start(partition), this->Buckets.count(partition));
+  this->Kernel.insert(this->Buckets.points(partition), this->Buckets.count(partition));
   this->Kernel.insert(this->ForeignPoints.data(), this->ForeignPoints.size());
   this->VertexCount = static_cast<std::size_t>(this->Kernel.vertexEnd()) - 1;
-  this->resolveDuplicates(partition);
+  this->resolveDuplicates();
   this->findSeams(partition);
-  this->writeInterior(partition, interior);
+  this->writeInterior(partition);
 }
 
 template <typename Id>
-void Worker<Id>::triangulateAlone(Id* triangles)
+void Worker<Id>::triangulateAlone()
 {
+  this->KnownIds.clear();
+  this->takeIds(0);
   this->Kernel.clear();
-  this->Kernel.insert(this->Buckets.Points.data(), this->Buckets.count(0));
+  this->Kernel.insert(this->Buckets.points(0), this->Buckets.count(0));
   this->VertexCount = static_cast<std::size_t>(this->Kernel.vertexEnd()) - 1;
-  this->resolveDuplicates(0);
+  this->resolveDuplicates();
   this->IsSeam.resize(static_cast<std::size_t>(this->Kernel.mesh().end() / 8));
   for (std::size_t t = 0; t < this->IsSeam.size(); ++t)
   {
     this->IsSeam[t] = this->Kernel.isInfinite(static_cast<DelaunayKernel::Index>(8 * t));
   }
-  this->writeInterior(0, triangles);
+  this->writeInterior(0);
+}
+
+template <typename Id>
+void Worker<Id>::takeIds(PartitionIndex partition)
+{
+  const Id* ids = this->Buckets.ids(partition);
+  this->Ids.assign(ids, ids + this->Buckets.count(partition));
 }
 
 template <typename Id>
@@ -99,10 +107,10 @@ void Worker<Id>::collectVertices(
 }
 
 template <typename Id>
-void Worker<Id>::resolveDuplicates(PartitionIndex partition)
+void Worker<Id>::resolveDuplicates()
 {
   this->Duplicates.clear();
-  Id* ids = this->Buckets.Ids.data() + this->Buckets.start(partition);
+  Id* ids = this->Ids.data();
   const auto isKnown = [this](Id id)
   { return std::binary_search(this->KnownIds.begin(), this->KnownIds.end(), std::int64_t(id)); };
   const auto& found = this->Kernel.duplicates();
@@ -125,13 +133,12 @@ template <typename Id>
 SeamVertex Worker<Id>::vertex(PartitionIndex partition, DelaunayKernel::Index v) const
 {
   const std::size_t place = this->Kernel.place(v);
-  const std::size_t own = this->Buckets.count(partition);
+  const std::size_t own = this->Ids.size();
   if (place >= own)
   {
     return this->Foreign[place - own];
   }
-  return makeSeamVertex(this->Boxes, partition, this->Kernel.point(v),
-    this->Buckets.Ids[this->Buckets.start(partition) + place]);
+  return makeSeamVertex(this->Boxes, partition, this->Kernel.point(v), this->Ids[place]);
 }
 
 /// Walks over the triangles whose circumdisk is not inside the partition. They are connected: each
@@ -188,10 +195,11 @@ void Worker<Id>::findSeams(PartitionIndex partition)
 }
 
 template <typename Id>
-void Worker<Id>::writeInterior(PartitionIndex partition, Id* interior)
+void Worker<Id>::writeInterior(PartitionIndex partition)
 {
   const DelaunayKernel::Index* slots = this->Kernel.mesh().slots();
-  const Id* ids = this->Buckets.Ids.data() + this->Buckets.start(partition);
+  const Id* ids = this->Ids.data();
+  Id* const interior = this->Buckets.triangles(partition);
   Id* out = interior;
   for (std::size_t t = 0; t < this->IsSeam.size(); ++t)
   {

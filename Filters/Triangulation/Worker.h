@@ -21,13 +21,12 @@ class Worker
 public:
   Worker(const Tiling& tiling, PointBuckets<Id>& buckets);
 
-  /// Writes the ids of the partition's interior triangles, whose order and number depend on its own
-  /// points alone, and keeps the others whose circumdisk meets the partition.
-  void triangulate(
-    PartitionIndex partition, const std::vector<SeamTriangle>& belonging, Id* interior);
+  /// Writes the partition's interior triangles, whose order and number depend on its own points
+  /// alone, over its points, and keeps the others whose circumdisk meets the partition.
+  void triangulate(PartitionIndex partition, const std::vector<SeamTriangle>& belonging);
 
-  /// The only partition: all triangles are interior.
-  void triangulateAlone(Id* triangles);
+  /// The only partition, number 0: all triangles are interior.
+  void triangulateAlone();
 
   std::size_t interiorCount() const { return this->InteriorCount; }
   const SeamTriangles& seams() const { return this->Seams; }
@@ -40,14 +39,16 @@ public:
 private:
   /// Vertices that came with the triangles: those of other partitions, and the partition's own.
   void collectVertices(PartitionIndex partition, const std::vector<SeamTriangle>& belonging);
-  void resolveDuplicates(PartitionIndex partition);
+  void takeIds(PartitionIndex partition);
+  void resolveDuplicates();
   void findSeams(PartitionIndex partition);
-  void writeInterior(PartitionIndex partition, Id* interior);
+  void writeInterior(PartitionIndex partition);
   SeamVertex vertex(PartitionIndex partition, DelaunayKernel::Index v) const;
 
   const Tiling& Boxes;
   PointBuckets<Id>& Buckets;
   DelaunayKernel Kernel;
+  std::vector<Id> Ids; ///< of the partition's own points
   std::vector<SeamVertex> Foreign;
   std::vector<Point2> ForeignPoints;
   std::vector<std::int64_t> KnownIds; ///< of own points that other partitions know; sorted

@@ -65,8 +65,8 @@ void setPartitions(const std::string& text, TriangulationOptions& options)
 {
   char rest = 0;
   if (text != "auto" &&
-      (std::sscanf(text.c_str(), "%dx%d%c", &options.Columns, &options.Rows, &rest) != 2 ||
-        options.Columns < 1 || options.Rows < 1))
+    (std::sscanf(text.c_str(), "%dx%d%c", &options.Columns, &options.Rows, &rest) != 2 ||
+      options.Columns < 1 || options.Rows < 1))
   {
     throw std::invalid_argument("'" + text + "' is no grid of partitions; write auto or 8x8");
   }
@@ -125,18 +125,22 @@ bool Arguments::hasPeer(const std::string& name) const
 
 std::string usage()
 {
-  std::string text = "usage: benchmarkDelaunay --input NAME[:COUNT]|FILE.npy [--input ...]\n"
-                     "  --count N             points of an input that names no count (1000000)\n"
-                     "  --threads 1,2         our own runs\n"
-                     "  --repeat R            runs of each; the fastest counts (3)\n"
-                     "  --peers P,P...        cgal, filter (vtkTIPPDelaunay2D), vtk "
-                     "(vtkDelaunay2D), or none (cgal)\n"
-                     "  --partitions CxR      or auto (auto)\n"
-                     "  --initial-points N    per partition (chosen)\n"
-                     "  --schedule S          stages or dynamic (dynamic)\n"
-                     "  --seed S              of the inputs made here (1)\n"
-                     "  --phases              our phases' seconds and stages below each line\n"
-                     "inputs:";
+  std::string text =
+    "usage: benchmarkDelaunay --input NAME[:COUNT]|FILE.npy [--input ...]\n"
+    "  --count N             points of an input that names no count (1000000)\n"
+    "  --threads 1,2         our own runs\n"
+    "  --repeat R            runs of each; the fastest counts (3)\n"
+    "  --peers P,P...        cgal, filter (vtkTIPPDelaunay2D), vtk "
+    "(vtkDelaunay2D), or none (cgal)\n"
+    "  --partitions CxR      or auto (auto)\n"
+    "  --initial-points N    per partition (chosen)\n"
+    "  --schedule S          stages or dynamic (dynamic)\n"
+    "  --seed S              of the inputs made here (1)\n"
+    "  --phases              our phases' seconds and stages below each line\n"
+    "Columns: 'faster' and 'same' (the set of triangles) are against the first line of an input;\n"
+    "'own MB' is the peak besides what was in memory before the call; 'vertices' are those of all\n"
+    "workers for each point; 'boxes' are the partitions.\n"
+    "inputs:";
   for (const std::string& name : test::pointSetNames())
   {
     text += " " + name;

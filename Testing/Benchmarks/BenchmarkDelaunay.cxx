@@ -63,19 +63,14 @@ std::vector<Contender> contenders(const Arguments& arguments, const std::vector<
   return all;
 }
 
-void printPhases(const tipp::TriangulationStatistics& statistics)
+/// Shares are of the whole run's time; a phase may lie within another.
+void printPhases(const Run& run)
 {
-  double total = 0;
+  const tipp::TriangulationStatistics& statistics = run.Statistics;
   for (const auto& phase : statistics.Phases)
   {
-    total += phase.Seconds;
-  }
-  for (const auto& phase : statistics.Phases)
-  {
-    std::printf("    %-40s %9.4f s %6.2f %%\n",
-      phase.Name.c_str(),
-      phase.Seconds,
-      100 * phase.Seconds / total);
+    std::printf("    %-40s %9.4f s %6.2f %%\n", phase.Name.c_str(), phase.Seconds,
+      100 * phase.Seconds / run.Seconds);
   }
   std::int64_t largest = 0;
   for (const auto& stage : statistics.Stages)
@@ -83,42 +78,30 @@ void printPhases(const tipp::TriangulationStatistics& statistics)
     largest = std::max(largest, stage.MeshTriangles);
   }
   std::printf("    %zu stages, at most %lld unfinished triangles; %lld initial points\n",
-    statistics.Stages.size(),
-    (long long)largest,
-    (long long)statistics.InitialPoints);
+    statistics.Stages.size(), (long long)largest, (long long)statistics.InitialPoints);
 }
 
 /// Ratios are against the first contender; 'same' compares sets of triangles with it.
-void print(const std::string& input,
-  std::size_t count,
-  const Contender& one,
-  const Contender& first,
-  bool phases)
+void print(const std::string& input, std::size_t count, const Contender& one,
+  const Contender& first, bool phases)
 {
   const Measurement& m = one.Best;
   const auto& statistics = m.Result.Statistics;
   const bool same = m.Result.Checksum == first.Best.Result.Checksum &&
-                    m.Result.Triangles == first.Best.Result.Triangles;
-  std::printf("%-18s %10zu  %-16s %9.4f %8.1f %7.3g  %-4s %8.0f %8.0f",
-    label(input).c_str(),
-    count,
-    one.Name.c_str(),
-    m.Result.Seconds,
-    1e9 * m.Result.Seconds / double(count),
-    first.Best.Result.Seconds / m.Result.Seconds,
-    same ? "yes" : "NO",
-    m.PeakMegabytes,
+    m.Result.Triangles == first.Best.Result.Triangles;
+  std::printf("%-18s %10zu  %-16s %9.4f %8.1f %7.3g  %-4s %8.0f %8.0f", label(input).c_str(), count,
+    one.Name.c_str(), m.Result.Seconds, 1e9 * m.Result.Seconds / double(count),
+    first.Best.Result.Seconds / m.Result.Seconds, same ? "yes" : "NO", m.PeakMegabytes,
     m.OwnMegabytes);
   if (statistics.Partitions > 0)
   {
-    std::printf(" %8.3f %7lld",
-      double(statistics.WorkerVertices) / double(count),
+    std::printf(" %8.3f %7lld", double(statistics.WorkerVertices) / double(count),
       (long long)statistics.Partitions);
   }
   std::printf("\n");
   if (phases && !statistics.Phases.empty())
   {
-    printPhases(statistics);
+    printPhases(m.Result);
   }
   std::fflush(stdout);
 }
@@ -157,18 +140,8 @@ int main(int argc, char** argv)
       std::fputs(usage().c_str(), stdout);
       return 0;
     }
-    std::printf("%-18s %10s  %-16s %9s %8s %7s  %-4s %8s %8s %8s %7s\n",
-      "input",
-      "points",
-      "engine",
-      "seconds",
-      "ns/point",
-      "faster",
-      "same",
-      "peak MB",
-      "own MB",
-      "vertices",
-      "boxes");
+    std::printf("%-18s %10s  %-16s %9s %8s %7s  %-4s %8s %8s %8s %7s\n", "input", "points",
+      "engine", "seconds", "ns/point", "faster", "same", "peak MB", "own MB", "vertices", "boxes");
     for (const Arguments::Input& input : arguments.Inputs)
     {
       compare(arguments, input);

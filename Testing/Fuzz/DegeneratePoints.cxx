@@ -23,9 +23,8 @@ double unit(Engine& random)
 /// One of many scales; the last are denormal, and so large that squares overflow.
 double drawScale(Engine& random)
 {
-  const double scales[] = {
-    1, 1, 1, 0.1, 1.0 / 3, 1e-3, 1e7, 1e12, 0x1p-1074, 1e-310, 1e-300, 1e-160, 1e150, 1e300
-  };
+  const double scales[] = { 1, 1, 1, 0.1, 1.0 / 3, 1e-3, 1e7, 1e12, 0x1p-1074, 1e-310, 1e-300,
+    1e-160, 1e150, 1e300 };
   return scales[below(random, 14)];
 }
 

@@ -41,11 +41,8 @@ bool passes(std::uint64_t seed, std::uint64_t number)
     return true;
   }
   std::printf("case %llu of seed %llu, %s, %d initial points a partition: %s\n",
-    (unsigned long long)number,
-    (unsigned long long)seed,
-    describe(options).c_str(),
-    options.InitialPointsPerPartition,
-    outcome.message());
+    (unsigned long long)number, (unsigned long long)seed, describe(options).c_str(),
+    options.InitialPointsPerPartition, outcome.message());
   for (std::size_t i = 0; i < xy.size(); i += 2)
   {
     std::printf("  %a, %a, // %zu: %.17g %.17g\n", xy[i], xy[i + 1], i / 2, xy[i], xy[i + 1]);
@@ -98,9 +95,7 @@ int main(int argc, char** argv)
   {
     failures += passes(seed, cases) ? 0 : 1;
   }
-  std::printf("%llu cases of seed %llu, %llu failures\n",
-    (unsigned long long)cases,
-    (unsigned long long)seed,
-    (unsigned long long)failures);
+  std::printf("%llu cases of seed %llu, %llu failures\n", (unsigned long long)cases,
+    (unsigned long long)seed, (unsigned long long)failures);
   return failures == 0 ? 0 : 1;
 }

@@ -25,10 +25,8 @@ std::string tell(const Coordinates& xy, const Triangle& triangle)
 }
 
 /// The first triangle of `these` that `those` lacks.
-testing::AssertionResult allIn(const Coordinates& xy,
-  const Triangles& these,
-  const Triangles& those,
-  const std::string& what)
+testing::AssertionResult allIn(
+  const Coordinates& xy, const Triangles& these, const Triangles& those, const std::string& what)
 {
   Triangles surplus;
   std::set_difference(
@@ -38,8 +36,8 @@ testing::AssertionResult allIn(const Coordinates& xy,
     return testing::AssertionSuccess();
   }
   return testing::AssertionFailure()
-         << surplus.size() << " of " << these.size() << " triangles are " << what << ", first"
-         << tell(xy, surplus.front());
+    << surplus.size() << " of " << these.size() << " triangles are " << what << ", first"
+    << tell(xy, surplus.front());
 }
 
 /// What Reference::Representative would be for the result; -2 for a point told of twice.
@@ -66,9 +64,8 @@ Ids account(const Triangulation& result, std::size_t count)
 bool ascending(const Triangulation& result)
 {
   return std::is_sorted(result.Rejected.begin(), result.Rejected.end()) &&
-         std::is_sorted(result.Duplicates.begin(),
-           result.Duplicates.end(),
-           [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
+    std::is_sorted(result.Duplicates.begin(), result.Duplicates.end(),
+      [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
 }
 
 } // namespace
@@ -91,9 +88,8 @@ Triangles trianglesOf(const Triangulation& result)
   return sorted(std::move(triangles));
 }
 
-testing::AssertionResult sameTriangles(const Coordinates& xy,
-  const Triangles& actual,
-  const Triangles& expected)
+testing::AssertionResult sameTriangles(
+  const Coordinates& xy, const Triangles& actual, const Triangles& expected)
 {
   const auto missing = allIn(xy, expected, actual, "missing");
   if (!missing)
@@ -109,9 +105,8 @@ testing::AssertionResult sameTriangles(const Coordinates& xy,
   return testing::AssertionFailure() << "a triangle is there twice:" << tell(xy, *twice);
 }
 
-testing::AssertionResult matches(const Coordinates& xy,
-  const Triangulation& result,
-  const Reference& expected)
+testing::AssertionResult matches(
+  const Coordinates& xy, const Triangulation& result, const Reference& expected)
 {
   if (result.Aborted)
   {
@@ -124,8 +119,8 @@ testing::AssertionResult matches(const Coordinates& xy,
   {
     const auto id = wrong - stands.begin();
     return testing::AssertionFailure()
-           << "point " << id << " is said to be represented by " << *wrong << ", should be by "
-           << expected.Representative[std::size_t(id)] << " (-1 rejected, -2 told of twice)";
+      << "point " << id << " is said to be represented by " << *wrong << ", should be by "
+      << expected.Representative[std::size_t(id)] << " (-1 rejected, -2 told of twice)";
   }
   if (!ascending(result))
   {
@@ -137,10 +132,9 @@ testing::AssertionResult matches(const Coordinates& xy,
 std::string describe(const TriangulationOptions& options)
 {
   return std::to_string(options.Threads) + " threads, " +
-         (options.Columns == 0
-             ? std::string("automatic")
-             : std::to_string(options.Columns) + "x" + std::to_string(options.Rows)) +
-         " partitions, " + (options.Order == Schedule::Stages ? "stages" : "dynamic");
+    (options.Columns == 0 ? std::string("automatic")
+                          : std::to_string(options.Columns) + "x" + std::to_string(options.Rows)) +
+    " partitions, " + (options.Order == Schedule::Stages ? "stages" : "dynamic");
 }
 
 } // namespace test

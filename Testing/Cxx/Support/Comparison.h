@@ -20,14 +20,12 @@ Triangles trianglesOf(const Triangulation& result);
 
 /// Is the result the reference: the same triangles, and every point accounted for? Tells the first
 /// difference with its coordinates.
-testing::AssertionResult matches(const Coordinates& xy,
-  const Triangulation& result,
-  const Reference& expected);
+testing::AssertionResult matches(
+  const Coordinates& xy, const Triangulation& result, const Reference& expected);
 
 /// Are the two sorted sets of triangles the same? Tells the first difference with its coordinates.
-testing::AssertionResult sameTriangles(const Coordinates& xy,
-  const Triangles& actual,
-  const Triangles& expected);
+testing::AssertionResult sameTriangles(
+  const Coordinates& xy, const Triangles& actual, const Triangles& expected);
 
 /// "2 threads, 8x8 partitions, stages".
 std::string describe(const TriangulationOptions& options);

@@ -30,10 +30,9 @@ Kernel::Point_2 point(const Coordinates& xy, std::int64_t id)
 bool collinear(const Coordinates& xy, const Ids& ids)
 {
   return ids.size() < 3 ||
-         std::all_of(ids.begin() + 2,
-           ids.end(),
-           [&](std::int64_t id)
-           { return CGAL::collinear(point(xy, ids[0]), point(xy, ids[1]), point(xy, id)); });
+    std::all_of(ids.begin() + 2, ids.end(),
+      [&](std::int64_t id)
+      { return CGAL::collinear(point(xy, ids[0]), point(xy, ids[1]), point(xy, id)); });
 }
 
 Ids representatives(const Coordinates& xy)
@@ -49,8 +48,7 @@ Ids representatives(const Coordinates& xy)
   }
   const auto place = [&](std::int64_t id)
   { return std::make_tuple(xy[std::size_t(2 * id)], xy[std::size_t(2 * id + 1)]); };
-  std::stable_sort(byPlace.begin(),
-    byPlace.end(),
+  std::stable_sort(byPlace.begin(), byPlace.end(),
     [&](std::int64_t a, std::int64_t b) { return place(a) < place(b); });
   std::int64_t first = 0;
   for (std::size_t i = 0; i < byPlace.size(); ++i)

@@ -30,7 +30,7 @@ Rational area(const Coordinates& xy, const Triangle& t)
   const Rational x = coordinate(xy, t[0], 0);
   const Rational y = coordinate(xy, t[0], 1);
   return (coordinate(xy, t[1], 0) - x) * (coordinate(xy, t[2], 1) - y) -
-         (coordinate(xy, t[1], 1) - y) * (coordinate(xy, t[2], 0) - x);
+    (coordinate(xy, t[1], 1) - y) * (coordinate(xy, t[2], 0) - x);
 }
 
 /// The centre solves |c - a| = |c - b| = |c - d|, two linear equations in c - a (Cramer's rule).
@@ -81,9 +81,7 @@ int orientationOf(const Coordinates& xy, const Triangle& triangle)
 Triangles belonging(const Coordinates& xy, const Triangles& triangles, const Box& box)
 {
   Triangles result;
-  std::copy_if(triangles.begin(),
-    triangles.end(),
-    std::back_inserter(result),
+  std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(result),
     [&](const Triangle& t) { return diskMeetsBox(xy, t, box); });
   return result;
 }

@@ -194,6 +194,17 @@ Coordinates denormal(std::size_t count, Random random)
     });
 }
 
+/// Differences of these overflow.
+Coordinates largestDoubles(std::size_t count, Random random)
+{
+  Coordinates xy = placed(count, random, 2, -1);
+  for (double& c : xy)
+  {
+    c *= 1.7e308;
+  }
+  return xy;
+}
+
 /// 1e12 plus a few of the smallest possible steps.
 Coordinates tinySteps(std::size_t count, Random random)
 {
@@ -285,6 +296,7 @@ const std::map<std::string, Maker>& makers()
     { "tiny-1e-300", [](std::size_t n, Random r) { return placed(n, r, 1e-300, 0); } },
     { "denormal", denormal },
     { "huge-1e300", [](std::size_t n, Random r) { return placed(n, r, 2e300, -1e300); } },
+    { "largest-doubles", largestDoubles },
     { "steps-at-1e12", tinySteps },
     { "negative", [](std::size_t n, Random r) { return placed(n, r, 10, -200); } },
     { "one-far-away", oneFarAway },

@@ -73,11 +73,8 @@ AdcircMesh readAdcirc(const std::string& path)
   return mesh;
 }
 
-Coordinates readCompressedTable(const std::string& path,
-  char separator,
-  bool header,
-  std::size_t x,
-  std::size_t y)
+Coordinates readCompressedTable(
+  const std::string& path, char separator, bool header, std::size_t x, std::size_t y)
 {
   std::istringstream text(decompressed(path));
   std::string line;

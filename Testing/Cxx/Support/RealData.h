@@ -25,11 +25,8 @@ struct AdcircMesh
 AdcircMesh readAdcirc(const std::string& path);
 
 /// Two columns, counted from 0, of an .xz-compressed table. Throws std::runtime_error.
-Coordinates readCompressedTable(const std::string& path,
-  char separator,
-  bool header,
-  std::size_t x,
-  std::size_t y);
+Coordinates readCompressedTable(
+  const std::string& path, char separator, bool header, std::size_t x, std::size_t y);
 
 } // namespace test
 } // namespace tipp

@@ -59,12 +59,8 @@ inline Ids verticesOf(const Triangles& triangles)
 
 /// `side` x `side` partitions over the points of a set, every `every`-th of which is initial.
 /// `margin`: of the artificial points, in lengths of the domain.
-inline Scene makeScene(const std::string& set,
-  std::size_t count,
-  int side,
-  std::size_t every,
-  double margin,
-  std::uint64_t seed)
+inline Scene makeScene(const std::string& set, std::size_t count, int side, std::size_t every,
+  double margin, std::uint64_t seed)
 {
   const Coordinates points = makePointSet(set, count, seed);
   Box domain{ points[0], points[1], points[0], points[1] };
@@ -92,22 +88,23 @@ inline Scene makeScene(const std::string& set,
   }
   scene.Artificial = std::int64_t(scene.XY.size() / 2);
   scene.XY.insert(scene.XY.end(), points.begin(), points.end());
-  const auto cut = [&](double low, double length, int i)
-  { return i == side ? low + length : low + i * length / side; };
+  // The last cut is the domain's end itself: sums would round.
+  const auto cut = [&](double low, double high, int at)
+  { return at == side ? high : low + at * (high - low) / side; };
   for (int i = 0; i < side * side; ++i)
   {
-    scene.Partitions.push_back({ cut(domain.XMin, w, i % side),
-      cut(domain.YMin, h, i / side),
-      cut(domain.XMin, w, i % side + 1),
-      cut(domain.YMin, h, i / side + 1) });
+    const int column = i % side;
+    const int row = i / side;
+    scene.Partitions.push_back(
+      { cut(domain.XMin, domain.XMax, column), cut(domain.YMin, domain.YMax, row),
+        cut(domain.XMin, domain.XMax, column + 1), cut(domain.YMin, domain.YMax, row + 1) });
   }
   scene.Points.resize(scene.Partitions.size());
   for (std::size_t i = 0; i < points.size() / 2; ++i)
   {
     const auto id = scene.Artificial + std::int64_t(i);
     // A point on a shared border belongs to the first of its partitions.
-    const auto owner = std::find_if(scene.Partitions.begin(),
-      scene.Partitions.end(),
+    const auto owner = std::find_if(scene.Partitions.begin(), scene.Partitions.end(),
       [&](const Box& box) { return box.holds(points[2 * i], points[2 * i + 1]); });
     Ids& ids =
       i % every == 0 ? scene.Initial : scene.Points[std::size_t(owner - scene.Partitions.begin())];

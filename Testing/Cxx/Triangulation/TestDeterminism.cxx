@@ -17,7 +17,7 @@ class Determinism : public testing::TestWithParam<Schedule>
 bool sameOrder(const Triangulation& a, const Triangulation& b)
 {
   return std::equal(a.Ids32.begin(), a.Ids32.end(), b.Ids32.begin(), b.Ids32.end()) &&
-         std::equal(a.Ids64.begin(), a.Ids64.end(), b.Ids64.begin(), b.Ids64.end());
+    std::equal(a.Ids64.begin(), a.Ids64.end(), b.Ids64.begin(), b.Ids64.end());
 }
 
 TEST_P(Determinism, TheOrderOfTrianglesIsThatOfTheOptions)
@@ -39,8 +39,7 @@ TEST_P(Determinism, TheOrderOfTrianglesIsThatOfTheOptions)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Schedules,
-  Determinism,
+INSTANTIATE_TEST_SUITE_P(Schedules, Determinism,
   testing::Values(Schedule::Stages, Schedule::Dynamic),
   [](const auto& info) { return info.param == Schedule::Stages ? "Stages" : "Dynamic"; });
 

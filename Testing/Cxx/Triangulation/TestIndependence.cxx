@@ -50,34 +50,8 @@ bool shareAnEdge(const Triangles& p, const Triangles& q)
 /// The ids 0 and 1 are a and b, 2 and 3 the apexes of their triangles; the last two are x and y.
 struct Counterexample
 {
-  Coordinates XY{ -1,
-    0,
-    1,
-    0,
-    0.5,
-    1.5,
-    0.5,
-    -1.5,
-    -0.5,
-    1.75,
-    -0.5,
-    -1.75,
-    2,
-    0,
-    -2,
-    0,
-    8,
-    8,
-    -8,
-    8,
-    -8,
-    -8,
-    8,
-    -8,
-    0,
-    0.63,
-    0,
-    -0.63 };
+  Coordinates XY{ -1, 0, 1, 0, 0.5, 1.5, 0.5, -1.5, -0.5, 1.75, -0.5, -1.75, 2, 0, -2, 0, 8, 8, -8,
+    8, -8, -8, 8, -8, 0, 0.63, 0, -0.63 };
   Ids Inserted{ 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 };
   std::int64_t X = 12;
   std::int64_t Y = 13;
@@ -223,9 +197,7 @@ TEST_P(Independence, PartitionsWithoutACommonEdgeCommute)
   EXPECT_GT(pairs, 100) << "too few independent pairs to say anything";
 }
 
-INSTANTIATE_TEST_SUITE_P(Meshes,
-  Independence,
-  testing::Values(drawUniform, drawLattice),
+INSTANTIATE_TEST_SUITE_P(Meshes, Independence, testing::Values(drawUniform, drawLattice),
   [](const auto& info) { return info.index == 0 ? "Uniform" : "Lattice"; });
 
 } // namespace

@@ -90,8 +90,7 @@ TEST_P(Lemma, Final_ATriangleThatMeetsNoUnfinishedPartitionStays)
     const Triangles mesh = delaunay(scene.XY, inserted);
     for (const Triangle& t : mesh)
     {
-      if (std::none_of(scene.Partitions.begin() + std::ptrdiff_t(done) + 1,
-            scene.Partitions.end(),
+      if (std::none_of(scene.Partitions.begin() + std::ptrdiff_t(done) + 1, scene.Partitions.end(),
             [&](const Box& box) { return diskMeetsBox(scene.XY, t, box); }))
       {
         ASSERT_TRUE(std::binary_search(last.begin(), last.end(), t)) << "after partition " << done;
@@ -141,17 +140,11 @@ TEST_P(Lemma, Hull_NeighboursOfArtificialPointsRepairIt)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(PointSets,
-  Lemma,
-  testing::Values(Case{ "uniform", 300, 4 },
-    Case{ "uniform", 600, 2 },
-    Case{ "clustered", 300, 4 },
-    Case{ "kuzmin", 300, 3 },
-    Case{ "lattice-shuffled", 225, 4 },
-    Case{ "lattice-shuffled", 289, 4 },
-    Case{ "lattice-tenths", 225, 3 },
-    Case{ "cocircular", 150, 3 },
-    Case{ "survey-lines", 200, 3 }),
+INSTANTIATE_TEST_SUITE_P(PointSets, Lemma,
+  testing::Values(Case{ "uniform", 300, 4 }, Case{ "uniform", 600, 2 }, Case{ "clustered", 300, 4 },
+    Case{ "kuzmin", 300, 3 }, Case{ "lattice-shuffled", 225, 4 },
+    Case{ "lattice-shuffled", 289, 4 }, Case{ "lattice-tenths", 225, 3 },
+    Case{ "cocircular", 150, 3 }, Case{ "survey-lines", 200, 3 }),
   [](const auto& info)
   {
     std::string name = info.param.Set + std::to_string(info.param.Count);

@@ -65,8 +65,7 @@ std::string nameOf(const testing::TestParamInfo<Abort::ParamType>& info)
   return (schedule == Schedule::Stages ? "Stages" : "Dynamic") + std::to_string(threads);
 }
 
-INSTANTIATE_TEST_SUITE_P(Runs,
-  Abort,
+INSTANTIATE_TEST_SUITE_P(Runs, Abort,
   testing::Combine(testing::Values(Schedule::Stages, Schedule::Dynamic), testing::Values(1, 2, 4)),
   nameOf);
 

@@ -71,13 +71,9 @@ TEST_P(AdcircNodes, AreTriangulatedAsByCgal)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Meshes,
-  AdcircNodes,
-  testing::Values("ec95d/ec95d.grd",
-    "internal_overflow/internal_overflow.grd",
-    "apes/fort.14",
-    "shinnecock/fort.14",
-    "global/fort.14"),
+INSTANTIATE_TEST_SUITE_P(Meshes, AdcircNodes,
+  testing::Values("ec95d/ec95d.grd", "internal_overflow/internal_overflow.grd", "apes/fort.14",
+    "shinnecock/fort.14", "global/fort.14"),
   [](const auto& info)
   {
     std::string name = info.param.substr(0, info.param.find('/'));
@@ -106,8 +102,7 @@ TEST_P(Survey, IsTriangulatedAsByCgal)
   EXPECT_TRUE(matches(xy, triangulate(view(xy), twoThreads()), reference(xy)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Tables,
-  Survey,
+INSTANTIATE_TEST_SUITE_P(Tables, Survey,
   testing::Values(Table{ "magnetic", "points/osborne-magnetic.csv.xz", ',', true, 1, 2 },
     Table{ "gravity", "points/southern-africa-gravity.csv.xz", ',', true, 0, 1 },
     Table{ "shores", "coast/gshhg-2.3.7-full-ec95d-box.lonlat.txt.xz", ' ', false, 0, 1 }),

@@ -41,9 +41,7 @@ TEST_P(FewPoints, AreTriangulatedAsByCgal)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Points,
-  FewPoints,
-  testing::Range(0, 11),
+INSTANTIATE_TEST_SUITE_P(Points, FewPoints, testing::Range(0, 11),
   [](const auto& info) { return std::to_string(info.param); });
 
 TEST(SmallInputs, AViewOfNothingHasNoTriangles)
@@ -116,13 +114,9 @@ TEST_P(Flat, AHundredThousandCollinearPointsHaveNoTriangles)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Lines,
-  Flat,
-  testing::Values(std::make_tuple(1.0, 0.0),
-    std::make_tuple(0.0, 1.0),
-    std::make_tuple(1.0, 3.0),
-    std::make_tuple(-0.5, 0.25),
-    std::make_tuple(0.0, 4.9406564584124654e-324)),
+INSTANTIATE_TEST_SUITE_P(Lines, Flat,
+  testing::Values(std::make_tuple(1.0, 0.0), std::make_tuple(0.0, 1.0), std::make_tuple(1.0, 3.0),
+    std::make_tuple(-0.5, 0.25), std::make_tuple(0.0, 4.9406564584124654e-324)),
   [](const auto& info) { return std::to_string(info.index); });
 
 TEST(SmallInputs, CopiesOfOnePointAreAllDuplicatesOfTheFirst)

@@ -10,9 +10,8 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-TriangulationStatistics statisticsOf(const std::string& set,
-  std::size_t count,
-  const TriangulationOptions& options)
+TriangulationStatistics statisticsOf(
+  const std::string& set, std::size_t count, const TriangulationOptions& options)
 {
   const Coordinates xy = makePointSet(set, count);
   return triangulate(view(xy), options).Statistics;
