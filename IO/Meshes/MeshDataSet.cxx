@@ -41,9 +41,8 @@ const PointTable::Column* findZ(const PointTable& points)
   return nullptr;
 }
 
-void setPoints(const PointTable& table,
-  const std::vector<std::int64_t>& representatives,
-  vtkPointSet* data)
+void setPoints(
+  const PointTable& table, const std::vector<std::int64_t>& representatives, vtkPointSet* data)
 {
   const std::size_t count = table.size();
   const PointTable::Column* const z = findZ(table);
@@ -81,7 +80,7 @@ template <typename Array, typename Id>
 vtkSmartPointer<vtkCellArray> makeCells(const Id* ids, std::size_t triangles)
 {
   vtkNew<Array> offsets;
-  offsets->SetNumberOfValues(vtkIdType(triangles + 1));
+  offsets->SetNumberOfValues(vtkIdType(triangles) + 1);
   for (std::size_t i = 0; i <= triangles; ++i)
   {
     offsets->SetValue(vtkIdType(i), Id(3 * i));
@@ -116,8 +115,7 @@ vtkSmartPointer<vtkCellArray> makeCells(TrianglesView triangles)
 
 } // namespace
 
-vtkSmartPointer<vtkPolyData> makePolyData(const PointTable& points,
-  TrianglesView triangles,
+vtkSmartPointer<vtkPolyData> makePolyData(const PointTable& points, TrianglesView triangles,
   const std::vector<std::int64_t>& representatives)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
@@ -127,8 +125,7 @@ vtkSmartPointer<vtkPolyData> makePolyData(const PointTable& points,
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> makeUnstructuredGrid(const PointTable& points,
-  TrianglesView triangles,
-  const std::vector<std::int64_t>& representatives)
+  TrianglesView triangles, const std::vector<std::int64_t>& representatives)
 {
   auto data = vtkSmartPointer<vtkUnstructuredGrid>::New();
   setPoints(points, representatives, data);
