@@ -144,9 +144,8 @@ vtkAbstractTransform* vtkTIPPDelaunay2D::ComputeBestFittingPlane(vtkPointSet* in
   return transform;
 }
 
-int vtkTIPPDelaunay2D::RequestData(vtkInformation*,
-  vtkInformationVector** inputVector,
-  vtkInformationVector* outputVector)
+int vtkTIPPDelaunay2D::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPointSet* input = vtkPointSet::GetData(inputVector[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
@@ -159,8 +158,7 @@ int vtkTIPPDelaunay2D::RequestData(vtkInformation*,
   catch (const std::bad_alloc&)
   {
     vtkErrorMacro("Not enough memory to triangulate "
-                  << input->GetNumberOfPoints()
-                  << " points: use a machine with more, or fewer points.");
+      << input->GetNumberOfPoints() << " points: use a machine with more, or fewer points.");
   }
   catch (const std::exception& error)
   {
@@ -213,7 +211,7 @@ bool vtkTIPPDelaunay2D::Execute(vtkPointSet* input, vtkPolyData* output, vtkTabl
     output->GetPointData()->PassData(input->GetPointData());
   }
   if (this->GenerateRepresentativeIds &&
-      (this->NumberOfDuplicatePoints > 0 || this->NumberOfRejectedPoints > 0))
+    (this->NumberOfDuplicatePoints > 0 || this->NumberOfRejectedPoints > 0))
   {
     output->GetPointData()->AddArray(tipp::representativeIds(triangulation, numberOfPoints));
   }
@@ -272,8 +270,8 @@ void vtkTIPPDelaunay2D::Report(const tipp::Triangulation& triangulation, vtkIdTy
     const vtkIdType distinct =
       numberOfPoints - this->NumberOfDuplicatePoints - this->NumberOfRejectedPoints;
     vtkWarningMacro("No triangles: of "
-                    << numberOfPoints << " points, " << distinct << " are finite and distinct"
-                    << (distinct < 3 ? ", and it takes three." : ", and all are on one line."));
+      << numberOfPoints << " points, " << distinct << " are finite and distinct"
+      << (distinct < 3 ? ", and it takes three." : ", and all are on one line."));
   }
 }
 
@@ -286,9 +284,7 @@ void vtkTIPPDelaunay2D::SetCells(tipp::Triangulation& triangulation, vtkPolyData
       output->SetPolys(tipp::takeCells(std::move(ids), 3));
       return;
     }
-    auto shape = tipp::alphaShape(ids,
-      output->GetPoints(),
-      this->Alpha,
+    auto shape = tipp::alphaShape(ids, output->GetPoints(), this->Alpha,
       coveredPoints(triangulation, output->GetNumberOfPoints()));
     if (this->AlphaTris)
     {

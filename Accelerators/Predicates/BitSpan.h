@@ -67,7 +67,7 @@ private:
 inline std::int64_t scaledToInteger(ExactDifference difference, double scale)
 {
   return static_cast<std::int64_t>(difference.head * scale) +
-         static_cast<std::int64_t>(difference.tail * scale);
+    static_cast<std::int64_t>(difference.tail * scale);
 }
 
 } // namespace tipp

@@ -33,16 +33,8 @@ struct ExactCircumdisk
   ExactCircumdisk(Point2 a, Point2 b, Point2 c, const Box2& box)
   {
     const auto finite = [](double bound) { return std::isfinite(bound) ? bound : 0.0; };
-    const auto n = toCommonExponent<10>({ a.x,
-      a.y,
-      b.x,
-      b.y,
-      c.x,
-      c.y,
-      finite(box.xmin),
-      finite(box.ymin),
-      finite(box.xmax),
-      finite(box.ymax) });
+    const auto n = toCommonExponent<10>({ a.x, a.y, b.x, b.y, c.x, c.y, finite(box.xmin),
+      finite(box.ymin), finite(box.xmax), finite(box.ymax) });
     const mpz_class ux = n[2] - n[0];
     const mpz_class uy = n[3] - n[1];
     const mpz_class vx = n[4] - n[0];
@@ -129,21 +121,16 @@ bool Circumdisk::computeIntervals()
     return false;
   }
   const Point2 centre = { this->A.x + x, this->A.y + y };
-  this->Centre = widened(centre,
-    xError + Epsilon * (4.0 * std::fabs(centre.x) + radius),
+  this->Centre = widened(centre, xError + Epsilon * (4.0 * std::fabs(centre.x) + radius),
     yError + Epsilon * (4.0 * std::fabs(centre.y) + radius));
   const double largest = radius + radiusError;
   const double smallest = std::max(0.0, radius - radiusError);
   this->LargestSquare = largest * largest;
   this->SmallestSquare = smallest * smallest;
-  this->Outer = { this->Centre.xmin - largest,
-    this->Centre.ymin - largest,
-    this->Centre.xmax + largest,
-    this->Centre.ymax + largest };
-  this->Inner = { this->Centre.xmax - smallest,
-    this->Centre.ymax - smallest,
-    this->Centre.xmin + smallest,
-    this->Centre.ymin + smallest };
+  this->Outer = { this->Centre.xmin - largest, this->Centre.ymin - largest,
+    this->Centre.xmax + largest, this->Centre.ymax + largest };
+  this->Inner = { this->Centre.xmax - smallest, this->Centre.ymax - smallest,
+    this->Centre.xmin + smallest, this->Centre.ymin + smallest };
   return true;
 }
 
@@ -182,7 +169,7 @@ bool Circumdisk::liesInsideExactly(const Box2& box) const
   const auto deepEnough = [&disk](const mpz_class& depth, double bound)
   { return !std::isfinite(bound) || (depth >= 0 && depth * depth >= disk.Square); };
   return deepEnough(disk.Left, box.xmin) && deepEnough(disk.Right, box.xmax) &&
-         deepEnough(disk.Bottom, box.ymin) && deepEnough(disk.Top, box.ymax);
+    deepEnough(disk.Bottom, box.ymin) && deepEnough(disk.Top, box.ymax);
 }
 
 } // namespace tipp

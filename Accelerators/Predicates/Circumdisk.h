@@ -40,12 +40,12 @@ public:
   bool inside(const Box2& box) const
   {
     if (box.xmin <= this->Outer.xmin && this->Outer.xmax <= box.xmax &&
-        box.ymin <= this->Outer.ymin && this->Outer.ymax <= box.ymax)
+      box.ymin <= this->Outer.ymin && this->Outer.ymax <= box.ymax)
     {
       return true;
     }
     const bool reachesOut = this->Inner.xmin < box.xmin || box.xmax < this->Inner.xmax ||
-                            this->Inner.ymin < box.ymin || box.ymax < this->Inner.ymax;
+      this->Inner.ymin < box.ymin || box.ymax < this->Inner.ymax;
     return !reachesOut && this->liesInsideExactly(box);
   }
 

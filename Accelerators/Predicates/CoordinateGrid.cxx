@@ -57,7 +57,7 @@ Exactness modeOf(double size, double scale)
   const double units = size * scale;
   const double unit = 1.0 / scale;
   if (units < std::ldexp(1.0, DoublesDigits) && unit >= SmallestUnitForDoubles &&
-      unit <= LargestUnitForDoubles)
+    unit <= LargestUnitForDoubles)
   {
     return Exactness::Doubles;
   }
@@ -82,12 +82,8 @@ std::int64_t longUnits(double x, double y, double scale)
 template <typename ToUnits>
 InCircleIntegers integersOf(Point2 a, Point2 b, Point2 c, Point2 p, double scale, ToUnits toUnits)
 {
-  return { toUnits(a.x, p.x, scale),
-    toUnits(a.y, p.y, scale),
-    toUnits(b.x, p.x, scale),
-    toUnits(b.y, p.y, scale),
-    toUnits(c.x, p.x, scale),
-    toUnits(c.y, p.y, scale) };
+  return { toUnits(a.x, p.x, scale), toUnits(a.y, p.y, scale), toUnits(b.x, p.x, scale),
+    toUnits(b.y, p.y, scale), toUnits(c.x, p.x, scale), toUnits(c.y, p.y, scale) };
 }
 
 } // namespace
@@ -135,15 +131,11 @@ int CoordinateGrid::orientation(Point2 a, Point2 b, Point2 c) const
     case Exactness::Doubles:
       return signOf((a.x - c.x) * (b.y - c.y) - (a.y - c.y) * (b.x - c.x));
     case Exactness::Int128:
-      return orientationSign31(units(a.x, c.x, scale),
-        units(a.y, c.y, scale),
-        units(b.x, c.x, scale),
-        units(b.y, c.y, scale));
+      return orientationSign31(units(a.x, c.x, scale), units(a.y, c.y, scale),
+        units(b.x, c.x, scale), units(b.y, c.y, scale));
     case Exactness::Int256:
-      return orientationSign63(longUnits(a.x, c.x, scale),
-        longUnits(a.y, c.y, scale),
-        longUnits(b.x, c.x, scale),
-        longUnits(b.y, c.y, scale));
+      return orientationSign63(longUnits(a.x, c.x, scale), longUnits(a.y, c.y, scale),
+        longUnits(b.x, c.x, scale), longUnits(b.y, c.y, scale));
     case Exactness::General:
       break;
   }

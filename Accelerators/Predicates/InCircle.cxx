@@ -21,8 +21,7 @@ int inCircleAnyLength(Point2 a, Point2 b, Point2 c, Point2 p)
   const mpz_class cx = v[4] - v[6];
   const mpz_class cy = v[5] - v[7];
   const mpz_class determinant = (ax * ax + ay * ay) * (bx * cy - by * cx) +
-                                (bx * bx + by * by) * (cx * ay - cy * ax) +
-                                (cx * cx + cy * cy) * (ax * by - ay * bx);
+    (bx * bx + by * by) * (cx * ay - cy * ax) + (cx * cx + cy * cy) * (ax * by - ay * bx);
   return sgn(determinant);
 }
 
@@ -30,11 +29,8 @@ int inCircleAnyLength(Point2 a, Point2 b, Point2 c, Point2 p)
 
 int inCircleExact(Point2 a, Point2 b, Point2 c, Point2 p)
 {
-  const ExactDifference differences[6] = { exactDifference(a.x, p.x),
-    exactDifference(a.y, p.y),
-    exactDifference(b.x, p.x),
-    exactDifference(b.y, p.y),
-    exactDifference(c.x, p.x),
+  const ExactDifference differences[6] = { exactDifference(a.x, p.x), exactDifference(a.y, p.y),
+    exactDifference(b.x, p.x), exactDifference(b.y, p.y), exactDifference(c.x, p.x),
     exactDifference(c.y, p.y) };
   BitSpan span;
   for (const ExactDifference& difference : differences)
@@ -48,10 +44,8 @@ int inCircleExact(Point2 a, Point2 b, Point2 c, Point2 p)
   }
   const double scale = span.scale();
   const InCircleIntegers integers = { scaledToInteger(differences[0], scale),
-    scaledToInteger(differences[1], scale),
-    scaledToInteger(differences[2], scale),
-    scaledToInteger(differences[3], scale),
-    scaledToInteger(differences[4], scale),
+    scaledToInteger(differences[1], scale), scaledToInteger(differences[2], scale),
+    scaledToInteger(differences[3], scale), scaledToInteger(differences[4], scale),
     scaledToInteger(differences[5], scale) };
   return span.fits(31) ? inCircleSign31(integers) : inCircleSign63(integers);
 }

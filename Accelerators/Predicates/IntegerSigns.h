@@ -50,8 +50,7 @@ inline int inCircleSign31(const InCircleIntegers& d)
   const auto term = [](std::int64_t x, std::int64_t y, std::int64_t cross)
   { return static_cast<UInt128>(static_cast<Int128>(x * x + y * y) * cross); };
   const UInt128 sum = term(d.ax, d.ay, d.bx * d.cy - d.by * d.cx) +
-                      term(d.bx, d.by, d.cx * d.ay - d.cy * d.ax) +
-                      term(d.cx, d.cy, d.ax * d.by - d.ay * d.bx);
+    term(d.bx, d.by, d.cx * d.ay - d.cy * d.ax) + term(d.cx, d.cy, d.ax * d.by - d.ay * d.bx);
   return signOf(static_cast<Int128>(sum));
 }
 

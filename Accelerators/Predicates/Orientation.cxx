@@ -44,10 +44,8 @@ int orientationExact(Point2 a, Point2 b, Point2 c)
   {
     return orientationAnyLength(a, b, c);
   }
-  return orientationSign63(scaledToInteger(ux, x.scale()),
-    scaledToInteger(uy, y.scale()),
-    scaledToInteger(vx, x.scale()),
-    scaledToInteger(vy, y.scale()));
+  return orientationSign63(scaledToInteger(ux, x.scale()), scaledToInteger(uy, y.scale()),
+    scaledToInteger(vx, x.scale()), scaledToInteger(vy, y.scale()));
 }
 
 } // namespace tipp

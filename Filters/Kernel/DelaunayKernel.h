@@ -2,9 +2,10 @@
 #ifndef tippDelaunayKernel_h
 #define tippDelaunayKernel_h
 
+#include "Kernel/Cavity.h"
 #include "Kernel/HalfEdgeMesh.h"
 #include "Kernel/InsertionOrder.h"
-#include "Predicates/CoordinateGrid.h"
+#include "Kernel/KernelPredicates.h"
 #include "Predicates/Point2.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -25,7 +26,7 @@ class VTKTIPPFILTERS_EXPORT DelaunayKernel
 {
 public:
   using Index = HalfEdgeMesh::Index;
-  static constexpr Index Infinite = 0;
+  static constexpr Index Infinite = InfiniteVertex;
 
   struct Duplicate
   {
@@ -34,6 +35,8 @@ public:
   };
 
   DelaunayKernel();
+  DelaunayKernel(const DelaunayKernel&) = delete;
+  DelaunayKernel& operator=(const DelaunayKernel&) = delete;
 
   void clear();
   void insert(const Point2* points, std::size_t count);
@@ -53,73 +56,9 @@ public:
   const std::vector<Duplicate>& duplicates() const { return this->Duplicates; }
 
 private:
-  /// A vertex as seen from the point p that is being inserted.
-  struct Direction
-  {
-    double X;
-    double Y;
-    double lift() const { return this->X * this->X + this->Y * this->Y; }
-  };
-  /// The triangle that holds p, or an infinite one in conflict with it, as seen from p. Edge i goes
-  /// from corner i to the next.
-  struct Location
-  {
-    Index Triangle;
-    Direction Corner[3];
-    double Cross[3]; ///< of each edge's ends
-    Index Outer[3];
-  };
-  /// Two edges side by side, (first, second) in every pair, counter-clockwise around p.
-  using Pair = double __attribute__((vector_size(16)));
-  struct EdgePair
-  {
-    Pair StartX; ///< from p
-    Pair StartY;
-    Pair StartLift;
-    Pair StopX;
-    Pair StopY;
-    Pair StopLift;
-    Pair Cross; ///< start x stop
-    // The half-edges on their other sides; no array, which would keep all this out of registers.
-    Index FirstOuter;
-    Index SecondOuter;
-  };
-  /// The apexes of the triangles behind a pair.
-  struct ApexPair
-  {
-    Pair X;
-    Pair Y;
-    Pair Lift;
-    Pair StartCross; ///< start x apex
-    Pair StopCross;
-  };
-  /// An edge around the cavity.
-  struct RingEdge
-  {
-    Index Outer;
-    Index Start;
-  };
-  /// What is left to do while the cavity grows: another pair, or an edge of the ring.
-  struct Deferred
-  {
-    EdgePair Edges;
-    bool IsPair;
-  };
-
   bool makeFirstTriangle(Index firstVertex);
   void insertVertex(Index vertex);
-
-  Direction directionTo(Index vertex, Point2 p) const;
-  Location locate(Point2 p);
-  Location seenFrom(Point2 p, Index triangle) const;
   Index equalVertex(const Location& location, Point2 p) const;
-  void openCavity(const Location& location, Point2 p);
-  unsigned testPair(const EdgePair& pair, Point2 p, ApexPair& apex);
-  void fillCavity(Index vertex);
-  bool isInConflict(Index triangle, Point2 p);
-  bool isInConflictWithInfinite(Index infiniteSlot, Point2 p);
-  int exactOrientation(Point2 a, Point2 b, Point2 c);
-  const CoordinateGrid& grid();
 
   HalfEdgeMesh Mesh;
   std::vector<Point2> Points;
@@ -127,18 +66,10 @@ private:
   std::vector<Duplicate> Duplicates;
   std::uint32_t PlaceEnd = 0;
   Index Pending = 1; ///< vertices from here on wait for a point off the line of all before
-  Index Recent = 0;  ///< a triangle near the last insertion
+  Index Recent = 0;  ///< a finite triangle near the last insertion
   InsertionOrder Order;
-
-  std::vector<Index> Cavity;
-  std::vector<RingEdge> Ring;
-  std::vector<Deferred> Stack;
-  std::size_t CavitySize = 0;
-  std::size_t RingSize = 0;
-
-  CoordinateGrid Grid;
-  bool GridIsCurrent = false;
-  std::size_t TurnFailures = 0; ///< of the filter, since the batch began
+  KernelPredicates Predicates;
+  Cavity Opened;
 };
 
 } // namespace tipp

@@ -32,8 +32,8 @@ public:
     if (elements < 0 || nodes < 0 || elements > lines || nodes > lines - elements)
     {
       this->fail("announces " + std::to_string(elements) + " elements and " +
-                 std::to_string(nodes) + " nodes, but " + std::to_string(lines) +
-                 " lines follow; copy the file again or correct the numbers.");
+        std::to_string(nodes) + " nodes, but " + std::to_string(lines) +
+        " lines follow; copy the file again or correct the numbers.");
     }
     this->readNodes(nodes);
     this->readElements(elements);

@@ -74,9 +74,8 @@ private:
     const double r = this->radius(size);
     // A hexagon whose corners move at random.
     constexpr double h = 0.86602540378443865;
-    constexpr Vector hexagon[corners] = {
-      { 1, 0 }, { 0.5, h }, { -0.5, h }, { -1, 0 }, { -0.5, -h }, { 0.5, -h }
-    };
+    constexpr Vector hexagon[corners] = { { 1, 0 }, { 0.5, h }, { -0.5, h }, { -1, 0 },
+      { -0.5, -h }, { 0.5, -h } };
     Vector ring[corners];
     for (int i = 0; i < corners; ++i)
     {

@@ -40,9 +40,8 @@ enum class Distribution
 
 /// `count` points, x and y interleaved: for one seed the same numbers on every platform. Throws
 /// std::invalid_argument if count is negative or above 2^40 (coordinates would no longer be exact).
-VTKTIPPIO_EXPORT std::vector<double> generatePoints(Distribution distribution,
-  std::int64_t count,
-  std::uint64_t seed);
+VTKTIPPIO_EXPORT std::vector<double> generatePoints(
+  Distribution distribution, std::int64_t count, std::uint64_t seed);
 
 /// In lower case, as on the command line.
 VTKTIPPIO_EXPORT std::string distributionName(Distribution distribution);

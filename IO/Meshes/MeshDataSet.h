@@ -19,12 +19,10 @@ namespace tipp
 /// Data sets over the caller's memory (only the coordinates and the cells' offsets are copies):
 /// they must not outlive it, and are for writers, which do not change it. A column named z is the
 /// third coordinate, the others are point data; `representatives` may be empty.
-vtkSmartPointer<vtkPolyData> makePolyData(const PointTable& points,
-  TrianglesView triangles,
+vtkSmartPointer<vtkPolyData> makePolyData(const PointTable& points, TrianglesView triangles,
   const std::vector<std::int64_t>& representatives);
 vtkSmartPointer<vtkUnstructuredGrid> makeUnstructuredGrid(const PointTable& points,
-  TrianglesView triangles,
-  const std::vector<std::int64_t>& representatives);
+  TrianglesView triangles, const std::vector<std::int64_t>& representatives);
 
 } // namespace tipp
 

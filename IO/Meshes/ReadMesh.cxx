@@ -30,10 +30,8 @@ void readIds(NpyReader& reader, std::vector<std::int64_t>& ids)
   {
     const std::size_t size = std::min(chunkSize, ids.size() - first);
     reader.read(chunk.data(), size * sizeof(Id));
-    std::transform(chunk.begin(),
-      chunk.begin() + std::ptrdiff_t(size),
-      ids.begin() + std::ptrdiff_t(first),
-      [](Id id) { return std::int64_t(id); });
+    std::transform(chunk.begin(), chunk.begin() + std::ptrdiff_t(size),
+      ids.begin() + std::ptrdiff_t(first), [](Id id) { return std::int64_t(id); });
   }
 }
 

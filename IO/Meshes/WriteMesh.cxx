@@ -81,9 +81,7 @@ bool isMeshFile(const std::string& path)
   return extension == ".npy" || extension == ".vtp" || extension == ".vtu";
 }
 
-bool writeMesh(const std::string& path,
-  const PointTable& points,
-  TrianglesView triangles,
+bool writeMesh(const std::string& path, const PointTable& points, TrianglesView triangles,
   const MeshOptions& options)
 {
   const std::string extension = extensionOf(path);

@@ -29,10 +29,8 @@ VTKTIPPIO_EXPORT bool isMeshFile(const std::string& path);
 /// .vtp or .vtu (appended raw binary: all points, the column named z as third coordinate or else 0,
 /// the other columns as point data). The file appears whole or not at all: false if Aborted said
 /// so; throws IOError.
-VTKTIPPIO_EXPORT bool writeMesh(const std::string& path,
-  const PointTable& points,
-  TrianglesView triangles,
-  const MeshOptions& options = {});
+VTKTIPPIO_EXPORT bool writeMesh(const std::string& path, const PointTable& points,
+  TrianglesView triangles, const MeshOptions& options = {});
 
 } // namespace tipp
 

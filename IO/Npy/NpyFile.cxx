@@ -51,7 +51,7 @@ std::string readHeaderText(std::FILE* file, const std::string& path)
 {
   unsigned char start[12];
   const bool known = std::fread(start, 1, 10, file) == 10 &&
-                     std::memcmp(start, magic, magicSize) == 0 && start[6] >= 1 && start[6] <= 3;
+    std::memcmp(start, magic, magicSize) == 0 && start[6] >= 1 && start[6] <= 3;
   if (!known)
   {
     throw IOError(path, "is not an .npy file of version 1 to 3; save it with numpy.save.");
@@ -89,14 +89,12 @@ const ScalarType& findScalarType(const std::string& descr, const std::string& pa
       "'; save it as little-endian float64, float32 or integers of 32 or 64 bits.");
 }
 
-void checkFileSize(std::FILE* file,
-  const std::string& path,
-  const NpyHeader& header,
-  std::int64_t scalarSize)
+void checkFileSize(
+  std::FILE* file, const std::string& path, const NpyHeader& header, std::int64_t scalarSize)
 {
   std::int64_t expected = 0;
   const bool overflow = __builtin_mul_overflow(header.Shape[0], header.Shape[1], &expected) ||
-                        __builtin_mul_overflow(expected, scalarSize, &expected);
+    __builtin_mul_overflow(expected, scalarSize, &expected);
   struct stat status = {};
   if (fstat(fileno(file), &status) != 0 || !S_ISREG(status.st_mode))
   {
@@ -151,10 +149,8 @@ void NpyReader::read(void* to, std::size_t bytes)
   }
 }
 
-NpyWriter::NpyWriter(const std::string& path,
-  const std::string& descr,
-  std::int64_t rows,
-  std::int64_t columns)
+NpyWriter::NpyWriter(
+  const std::string& path, const std::string& descr, std::int64_t rows, std::int64_t columns)
   : Path(path)
   , Pending(path)
   , File(std::fopen(this->Pending.temporaryPath().c_str(), "wb"))
@@ -164,14 +160,12 @@ NpyWriter::NpyWriter(const std::string& path,
     throw IOError(path, std::string("cannot be written (") + std::strerror(errno) + ").");
   }
   std::string text = "{'descr': '" + descr + "', 'fortran_order': False, 'shape': (" +
-                     std::to_string(rows) + ", " + std::to_string(columns) + "), }";
+    std::to_string(rows) + ", " + std::to_string(columns) + "), }";
   // The data start at a multiple of 64 bytes; the header ends with a newline.
   const std::size_t prefix = magicSize + 4;
   text.append(63 - (prefix + text.size()) % 64, ' ');
   text += '\n';
-  const unsigned char start[4] = { 1,
-    0,
-    static_cast<unsigned char>(text.size() & 0xff),
+  const unsigned char start[4] = { 1, 0, static_cast<unsigned char>(text.size() & 0xff),
     static_cast<unsigned char>(text.size() >> 8) };
   this->write(magic, magicSize);
   this->write(start, sizeof(start));

@@ -61,10 +61,8 @@ class VTKTIPPIO_EXPORT NpyWriter
 {
 public:
   /// `descr` is NumPy's name of the scalar type, as "<f8". Throws IOError.
-  NpyWriter(const std::string& path,
-    const std::string& descr,
-    std::int64_t rows,
-    std::int64_t columns);
+  NpyWriter(
+    const std::string& path, const std::string& descr, std::int64_t rows, std::int64_t columns);
 
   void write(const void* from, std::size_t bytes);
   void close();

@@ -116,8 +116,7 @@ std::optional<NpyHeader> parseNpyHeader(std::string_view text)
     {
       return std::nullopt;
     }
-    const bool good =
-      (key == "descr" && !descr && (descr = scanner.takeString(header.Descr))) ||
+    const bool good = (key == "descr" && !descr && (descr = scanner.takeString(header.Descr))) ||
       (key == "fortran_order" && !order && (order = scanner.takeBool(header.FortranOrder))) ||
       (key == "shape" && !shape && (shape = scanner.takeShape(header.Shape)));
     if (!good || (!scanner.take(",") && !scanner.take("}")))

@@ -16,17 +16,12 @@ namespace
 {
 
 constexpr std::array<std::pair<const char*, const char*>, 6> usualNames = { { { "x", "y" },
-  { "lon", "lat" },
-  { "longitude", "latitude" },
-  { "easting", "northing" },
-  { "lng", "lat" },
+  { "lon", "lat" }, { "longitude", "latitude" }, { "easting", "northing" }, { "lng", "lat" },
   { "long", "lat" } } };
 
 std::string lowerCase(std::string text)
 {
-  std::transform(text.begin(),
-    text.end(),
-    text.begin(),
+  std::transform(text.begin(), text.end(), text.begin(),
     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
@@ -47,10 +42,8 @@ std::string listed(const std::vector<std::string>& names, std::size_t count)
   return names.empty() ? "0 to " + std::to_string(count - 1) : list;
 }
 
-std::size_t resolve(const std::string& path,
-  const std::string& wanted,
-  const std::vector<std::string>& names,
-  std::size_t count)
+std::size_t resolve(const std::string& path, const std::string& wanted,
+  const std::vector<std::string>& names, std::size_t count)
 {
   if (const auto named = find(names, wanted))
   {
@@ -68,10 +61,8 @@ std::size_t resolve(const std::string& path,
 
 } // namespace
 
-ColumnChoice chooseColumns(const std::string& path,
-  const std::vector<std::string>& names,
-  std::size_t count,
-  const PointOptions& options)
+ColumnChoice chooseColumns(const std::string& path, const std::vector<std::string>& names,
+  std::size_t count, const PointOptions& options)
 {
   if (count < 2)
   {

@@ -19,10 +19,8 @@ struct ColumnChoice
 
 /// Finds x and y among a file's columns; `names` is empty or as long as `count`. Throws IOError if
 /// there are fewer than two columns or the options ask for one that is not there.
-ColumnChoice chooseColumns(const std::string& path,
-  const std::vector<std::string>& names,
-  std::size_t count,
-  const PointOptions& options);
+ColumnChoice chooseColumns(const std::string& path, const std::vector<std::string>& names,
+  std::size_t count, const PointOptions& options);
 
 } // namespace tipp
 

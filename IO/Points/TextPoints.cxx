@@ -136,8 +136,7 @@ private:
   bool startsWithNames() const
   {
     double value;
-    return std::count_if(this->Row.begin(),
-             this->Row.end(),
+    return std::count_if(this->Row.begin(), this->Row.end(),
              [&](std::string_view field) { return parseNumber(field, value); }) < 2;
   }
 
@@ -169,8 +168,7 @@ private:
     this->split();
     if (this->Row.size() != this->Width)
     {
-      throw IOError(this->Path,
-        this->Lines.lineNumber(),
+      throw IOError(this->Path, this->Lines.lineNumber(),
         "has " + std::to_string(this->Row.size()) + " columns where the first point has " +
           std::to_string(this->Width) + "; correct or remove the line.");
     }
@@ -188,8 +186,7 @@ private:
     if (!parseNumber(this->Row[index], value))
     {
       constexpr std::size_t shown = 40;
-      throw IOError(this->Path,
-        this->Lines.lineNumber(),
+      throw IOError(this->Path, this->Lines.lineNumber(),
         "'" + std::string(trimField(this->Row[index]).substr(0, shown)) +
           "' is not a number; correct the line or choose other columns for x and y.");
     }

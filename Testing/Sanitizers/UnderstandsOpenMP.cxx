@@ -77,7 +77,7 @@ int main()
       reduced += shared.Claims[i];
     }
     if (shared.Sum != Size * (Size - 1L) / 2 || shared.Visits != Size || shared.Locked != Size ||
-        reduced != Size || shared.Values[0] != 1)
+      reduced != Size || shared.Values[0] != 1)
     {
       return EXIT_FAILURE;
     }

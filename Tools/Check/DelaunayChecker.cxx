@@ -23,8 +23,7 @@ template <typename Index>
 class Checker
 {
 public:
-  Checker(const std::vector<double>& xy,
-    const std::vector<std::int64_t>& triangles,
+  Checker(const std::vector<double>& xy, const std::vector<std::int64_t>& triangles,
     const CheckOptions& options)
     : XY(xy)
     , Ids(triangles)
@@ -127,8 +126,7 @@ private:
         points.push_back({ this->at(id), this->Used[std::size_t(id)] });
       }
     }
-    std::sort(points.begin(),
-      points.end(),
+    std::sort(points.begin(), points.end(),
       [](const Placed& a, const Placed& b) { return check::isBefore(a.At, b.At); });
     bool collinear = true;
     for (std::size_t first = 0, last = 0; first < points.size(); first = last)
@@ -291,8 +289,7 @@ std::vector<std::string> CheckReport::faults() const
   return lines;
 }
 
-CheckReport checkDelaunay(const std::vector<double>& xy,
-  const std::vector<std::int64_t>& triangles,
+CheckReport checkDelaunay(const std::vector<double>& xy, const std::vector<std::int64_t>& triangles,
   const CheckOptions& options)
 {
   constexpr std::size_t limit = std::numeric_limits<std::uint32_t>::max();

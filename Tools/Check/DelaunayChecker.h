@@ -49,8 +49,7 @@ struct CheckReport
 /// Delaunay counter-clockwise triangles that meet edge to edge within one convex chain are that
 /// (Delaunay's lemma). Ties may be broken either way unless asked for. Points that are fewer than
 /// three or collinear have no triangles.
-CheckReport checkDelaunay(const std::vector<double>& xy,
-  const std::vector<std::int64_t>& triangles,
+CheckReport checkDelaunay(const std::vector<double>& xy, const std::vector<std::int64_t>& triangles,
   const CheckOptions& options = {});
 
 } // namespace tipp

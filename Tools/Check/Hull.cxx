@@ -47,7 +47,7 @@ public:
     } while (edge != this->Edges.data() && length < this->Edges.size());
     const bool closed = edge == this->Edges.data();
     return faults + (closed ? this->rest(length) : std::int64_t(this->Edges.size())) +
-           (minima == 1 ? 0 : 1);
+      (minima == 1 ? 0 : 1);
   }
 
 private:
@@ -67,10 +67,9 @@ private:
   // Null if none or several start there.
   const DirectedEdge* edgeFrom(std::int64_t id) const
   {
-    const auto [first, last] = std::equal_range(this->Edges.begin(),
-      this->Edges.end(),
-      DirectedEdge{ id, 0 },
-      [](const DirectedEdge& a, const DirectedEdge& b) { return a.From < b.From; });
+    const auto [first, last] =
+      std::equal_range(this->Edges.begin(), this->Edges.end(), DirectedEdge{ id, 0 },
+        [](const DirectedEdge& a, const DirectedEdge& b) { return a.From < b.From; });
     return last - first == 1 ? &*first : nullptr;
   }
 
@@ -82,8 +81,7 @@ private:
 
 std::int64_t countHullFaults(const std::vector<double>& xy, std::vector<DirectedEdge>& edges)
 {
-  std::sort(edges.begin(),
-    edges.end(),
+  std::sort(edges.begin(), edges.end(),
     [](const DirectedEdge& a, const DirectedEdge& b)
     { return a.From < b.From || (a.From == b.From && a.To < b.To); });
   return edges.empty() ? 0 : Chain(xy, edges).countFaults();

@@ -44,18 +44,15 @@ bool isSame(double a, double b)
 }
 
 // A mesh that brings its own points must bring these.
-void requireSamePoints(const CheckArguments& arguments,
-  const std::vector<double>& xy,
-  const std::vector<double>& own)
+void requireSamePoints(
+  const CheckArguments& arguments, const std::vector<double>& xy, const std::vector<double>& own)
 {
   if (!own.empty() && !std::equal(xy.begin(), xy.end(), own.begin(), own.end(), isSame))
   {
     throw IOError(arguments.Mesh,
       fmt::format("its {} points are not the {} points of {}; check it against the points that it "
                   "was made from.",
-        own.size() / 2,
-        xy.size() / 2,
-        arguments.Points));
+        own.size() / 2, xy.size() / 2, arguments.Points));
   }
 }
 
@@ -67,11 +64,7 @@ int runCheck(const CheckArguments& arguments)
   mesh.XY = {};
   const CheckReport report = checkDelaunay(points.XY, mesh.Triangles, arguments.Options);
   fmt::print("{} points ({} distinct), {} triangles, {} boundary edges, {} co-circular ties: {}\n",
-    report.Points,
-    report.DistinctPoints,
-    report.Triangles,
-    report.BoundaryEdges,
-    report.Ties,
+    report.Points, report.DistinctPoints, report.Triangles, report.BoundaryEdges, report.Ties,
     report.isCorrect() ? "correct" : "FAULTY");
   for (const std::string& fault : report.faults())
   {
@@ -95,12 +88,10 @@ void addCheckCommand(CLI::App& app, int& exitCode)
     ->required();
   command->add_option("--x", arguments->Columns.X, "Column of x: a name, or a number from 0");
   command->add_option("--y", arguments->Columns.Y, "Column of y: a name, or a number from 0");
-  command->add_flag("--tie-rule",
-    arguments->Options.TieRule,
+  command->add_flag("--tie-rule", arguments->Options.TieRule,
     "Also check that ties between co-circular points are broken by the lexicographic order of the "
     "points, which makes the triangulation unique");
-  command->add_flag("--boundary-free",
-    arguments->Options.BoundaryFree,
+  command->add_flag("--boundary-free", arguments->Options.BoundaryFree,
     "The mesh has a boundary of its own: do not check the hull and Euler's count");
   command->footer(footer);
   command->callback([arguments, &exitCode]() { exitCode = runCheck(*arguments); });

@@ -79,7 +79,7 @@ std::optional<Grid> parseGrid(const std::string& text)
   }
   const auto rows = std::from_chars(columns.ptr + 1, end, grid.Rows);
   const bool good = rows.ec == std::errc() && rows.ptr == end && grid.Columns >= 1 &&
-                    grid.Columns <= limit && grid.Rows >= 1 && grid.Rows <= limit;
+    grid.Columns <= limit && grid.Rows >= 1 && grid.Rows <= limit;
   return good ? std::make_optional(grid) : std::nullopt;
 }
 
@@ -143,9 +143,8 @@ std::vector<std::int64_t> representatives(const Triangulation& result, std::size
   return ids;
 }
 
-bool writeResult(const DelaunayArguments& arguments,
-  const PointTable& points,
-  const Triangulation& result)
+bool writeResult(
+  const DelaunayArguments& arguments, const PointTable& points, const Triangulation& result)
 {
   MeshOptions options;
   options.Aborted = isInterrupted;
@@ -220,8 +219,8 @@ std::string checkOutput(const std::string& path)
 std::string checkPartitions(const std::string& text)
 {
   return parseGrid(text)
-           ? ""
-           : "'" + text + "' is neither auto nor COLUMNSxROWS of 1 to 10000 each, as 8x8";
+    ? ""
+    : "'" + text + "' is neither auto nor COLUMNSxROWS of 1 to 10000 each, as 8x8";
 }
 
 void addTuning(CLI::App& command, DelaunayArguments& arguments)
@@ -230,20 +229,17 @@ void addTuning(CLI::App& command, DelaunayArguments& arguments)
     ->check(CLI::Range(0, 4096))
     ->capture_default_str();
   command
-    .add_option("--partitions",
-      arguments.Partitions,
+    .add_option("--partitions", arguments.Partitions,
       "Columns and rows of partitions, as 8x8, or auto: chosen for the points")
     ->check(checkPartitions)
     ->capture_default_str();
   command
-    .add_option("--schedule",
-      arguments.Order,
+    .add_option("--schedule", arguments.Order,
       "stages: independent partitions together, then the next; dynamic: each as soon as it can")
     ->check(CLI::IsMember({ "stages", "dynamic" }))
     ->capture_default_str();
   command
-    .add_option("--initial-points",
-      arguments.InitialPoints,
+    .add_option("--initial-points", arguments.InitialPoints,
       "Points of each partition in the initial mesh; 0: chosen")
     ->check(CLI::Range(0, 1000000))
     ->capture_default_str();
@@ -263,8 +259,7 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
   command->add_option("--x", arguments->Columns.X, "Column of x: a name, or a number from 0");
   command->add_option("--y", arguments->Columns.Y, "Column of y: a name, or a number from 0");
   addTuning(*command, *arguments);
-  command->add_flag("--map-duplicates",
-    arguments->MapDuplicates,
+  command->add_flag("--map-duplicates", arguments->MapDuplicates,
     "Add the point array RepresentativePointId to .vtp or .vtu: the id of the vertex that stands "
     "for a "
     "point, -1 for points that are not finite");

@@ -36,13 +36,8 @@ std::string summarize(const DelaunayRun& run, const Triangulation& result)
     result.Rejected.empty() ? "" : fmt::format(", {} rejected", result.Rejected.size());
   return fmt::format("{} points, {} triangles, {} duplicates{}, {:.3f} s, {:.0f} points/s, peak "
                      "memory {:.0f} MB",
-    run.Points,
-    result.triangleCount(),
-    result.Duplicates.size(),
-    rejected,
-    run.TriangulateSeconds,
-    pointsPerSecond(run),
-    double(peakMemoryBytes()) / 1e6);
+    run.Points, result.triangleCount(), result.Duplicates.size(), rejected, run.TriangulateSeconds,
+    pointsPerSecond(run), double(peakMemoryBytes()) / 1e6);
 }
 
 void writeStatistics(const std::string& path, const DelaunayRun& run, const Triangulation& result)

@@ -40,11 +40,8 @@ void runPoints(const PointsArguments& arguments)
 {
   const Distribution distribution = *distributionFromName(arguments.Distribution);
   writePoints(arguments.Output, generatePoints(distribution, arguments.Count, arguments.Seed));
-  fmt::print("{} {} points, seed {}, in {}\n",
-    arguments.Count,
-    arguments.Distribution,
-    arguments.Seed,
-    arguments.Output);
+  fmt::print("{} {} points, seed {}, in {}\n", arguments.Count, arguments.Distribution,
+    arguments.Seed, arguments.Output);
 }
 
 } // namespace

@@ -30,8 +30,8 @@ struct Point
   double X, Y, Z;
 };
 
-inline vtkSmartPointer<vtkPolyData> dataset(const std::vector<Point>& points,
-  int dataType = VTK_DOUBLE)
+inline vtkSmartPointer<vtkPolyData> dataset(
+  const std::vector<Point>& points, int dataType = VTK_DOUBLE)
 {
   vtkNew<vtkPoints> vtk;
   vtk->SetDataType(dataType);

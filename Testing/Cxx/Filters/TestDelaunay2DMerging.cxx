@@ -19,9 +19,9 @@ std::vector<vtkIdType> representativesOf(vtkTIPPDelaunay2D* delaunay)
 {
   vtkDataArray* array = delaunay->GetOutput()->GetPointData()->GetArray("RepresentativePointId");
   auto ids = vtkIdTypeArray::SafeDownCast(array);
-  return ids ? std::vector<vtkIdType>(
-                 ids->GetPointer(0), ids->GetPointer(0) + ids->GetNumberOfTuples())
-             : std::vector<vtkIdType>{};
+  return ids
+    ? std::vector<vtkIdType>(ids->GetPointer(0), ids->GetPointer(0) + ids->GetNumberOfTuples())
+    : std::vector<vtkIdType>{};
 }
 
 void expectNoTrianglesAndOneWarning(const std::vector<Point>& points)
@@ -88,12 +88,8 @@ TEST(Delaunay2DMerging, PointsThatAreNotFiniteAreRejectedWithOneWarning)
   const double nan = std::nan("");
   const double infinity = std::numeric_limits<double>::infinity();
   vtkNew<vtkTIPPDelaunay2D> delaunay;
-  delaunay->SetInputData(dataset({ { nan, 0, 0 },
-    { 0, 0, 0 },
-    { 1, 0, 0 },
-    { 0, infinity, 0 },
-    { 0, 1, 0 },
-    { -infinity, nan, 0 } }));
+  delaunay->SetInputData(dataset({ { nan, 0, 0 }, { 0, 0, 0 }, { 1, 0, 0 }, { 0, infinity, 0 },
+    { 0, 1, 0 }, { -infinity, nan, 0 } }));
   Messages messages(delaunay);
   EXPECT_EQ((Cells{ { 1, 2, 4 } }), trianglesOf(delaunay));
   EXPECT_EQ(3, delaunay->GetNumberOfRejectedPoints());

@@ -27,11 +27,8 @@ std::vector<Point> slope()
   return points;
 }
 
-void transformPlane(vtkPolyData* input,
-  vtkAbstractTransform* transform,
-  Cells& expected,
-  Cells& actual,
-  int mode = VTK_SET_TRANSFORM_PLANE)
+void transformPlane(vtkPolyData* input, vtkAbstractTransform* transform, Cells& expected,
+  Cells& actual, int mode = VTK_SET_TRANSFORM_PLANE)
 {
   vtkNew<vtkDelaunay2D> reference;
   reference->SetInputData(input);
@@ -54,7 +51,7 @@ double matrixDifference(vtkAbstractTransform* a, vtkAbstractTransform* b)
   {
     difference = std::max(difference,
       std::fabs(vtkTransform::SafeDownCast(a)->GetMatrix()->GetElement(i / 4, i % 4) -
-                vtkTransform::SafeDownCast(b)->GetMatrix()->GetElement(i / 4, i % 4)));
+        vtkTransform::SafeDownCast(b)->GetMatrix()->GetElement(i / 4, i % 4)));
   }
   return difference;
 }

@@ -139,8 +139,7 @@ TEST(Delaunay2DRun, ProgressGrowsToOneInTheCallersThread)
   delaunay->SetNumberOfThreads(3);
   ProgressListener progress(delaunay);
   delaunay->Update();
-  EXPECT_TRUE(std::any_of(progress.Heard.begin(),
-    progress.Heard.end(),
+  EXPECT_TRUE(std::any_of(progress.Heard.begin(), progress.Heard.end(),
     [](double fraction) { return fraction > 0.1 && fraction < 0.9; }));
   EXPECT_TRUE(std::is_sorted(progress.Heard.begin(), progress.Heard.end()));
   EXPECT_EQ(1, progress.Heard.back());
@@ -297,21 +296,10 @@ TEST(Delaunay2DRun, PrintTellsEveryProperty)
   std::ostringstream text;
   delaunay->Print(text);
   EXPECT_NE(std::string::npos, text.str().find("NumberOfPartitions: 6 x 5"));
-  for (const char* name : { "Alpha:",
-         "AlphaTris:",
-         "AlphaLines:",
-         "AlphaVerts:",
-         "Tolerance:",
-         "Offset:",
-         "BoundingTriangulation:",
-         "ProjectionPlaneMode:",
-         "Transform:",
-         "GenerateRepresentativeIds:",
-         "InitialPointsPerPartition:",
-         "Schedule:",
-         "NumberOfThreads:",
-         "NumberOfDuplicatePoints:",
-         "NumberOfRejectedPoints:" })
+  for (const char* name : { "Alpha:", "AlphaTris:", "AlphaLines:", "AlphaVerts:", "Tolerance:",
+         "Offset:", "BoundingTriangulation:", "ProjectionPlaneMode:", "Transform:",
+         "GenerateRepresentativeIds:", "InitialPointsPerPartition:", "Schedule:",
+         "NumberOfThreads:", "NumberOfDuplicatePoints:", "NumberOfRejectedPoints:" })
   {
     EXPECT_NE(std::string::npos, text.str().find(name)) << name;
   }

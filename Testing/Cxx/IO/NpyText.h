@@ -15,7 +15,7 @@ inline std::string npyBytes(const std::string& header, const std::string& data)
 {
   const std::string text = header + "\n";
   return std::string("\x93NUMPY\x01") + std::string(1, '\0') + char(text.size() & 0xff) +
-         char(text.size() >> 8) + text + data;
+    char(text.size() >> 8) + text + data;
 }
 
 template <typename Value>

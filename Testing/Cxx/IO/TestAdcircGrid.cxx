@@ -98,8 +98,7 @@ TEST_F(AdcircGrid, ElementsThatAreNoTrianglesOfNodesAreReported)
 TEST_F(AdcircGrid, ColumnsCannotBeChosen)
 {
   const std::string path = this->file("title\n0 3\n" + this->Nodes);
-  tipp::test::expectIOError(path,
-    "fixed coordinates",
+  tipp::test::expectIOError(path, "fixed coordinates",
     [&]() {
       tipp::readPoints(path, { "x", "y" });
     });

@@ -128,10 +128,8 @@ TEST_F(DataSetPoints, BrokenFilesAreReportedOnce)
   const std::string whole = this->Folder.path("whole.vtp");
   write<vtkXMLPolyDataWriter>(whole, triangle());
   const std::string content = tipp::test::contentOf(whole);
-  for (const std::string& broken : { std::string(),
-         std::string("garbage"),
-         content.substr(0, content.size() / 3),
-         content.substr(0, 20) })
+  for (const std::string& broken : { std::string(), std::string("garbage"),
+         content.substr(0, content.size() / 3), content.substr(0, 20) })
   {
     const std::string path = this->Folder.file("broken.vtp", broken);
     tipp::test::expectIOError(path, "VTK", [&]() { readPoints(path); });

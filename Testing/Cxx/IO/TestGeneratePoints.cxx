@@ -109,15 +109,11 @@ TEST_P(EveryDistribution, NameLeadsBackToIt)
   EXPECT_EQ(GetParam().Name, tipp::distributionName(this->distribution()));
 }
 
-INSTANTIATE_TEST_SUITE_P(GeneratePoints,
-  EveryDistribution,
+INSTANTIATE_TEST_SUITE_P(GeneratePoints, EveryDistribution,
   testing::Values(Checksum{ "uniform", 0xde25ea7aeb4185ae },
-    Checksum{ "clustered", 0xeb7d3693abc3e7ee },
-    Checksum{ "kuzmin", 0x72ce177a413e5370 },
-    Checksum{ "lattice", 0x2abe99114a35848d },
-    Checksum{ "coast", 0x23fc7f9049d8ba12 },
-    Checksum{ "circle", 0xd29e196bac8980b6 },
-    Checksum{ "collinear", 0xd478fcba3f7273ad }),
+    Checksum{ "clustered", 0xeb7d3693abc3e7ee }, Checksum{ "kuzmin", 0x72ce177a413e5370 },
+    Checksum{ "lattice", 0x2abe99114a35848d }, Checksum{ "coast", 0x23fc7f9049d8ba12 },
+    Checksum{ "circle", 0xd29e196bac8980b6 }, Checksum{ "collinear", 0xd478fcba3f7273ad }),
   [](const auto& info) { return std::string(info.param.Name); });
 
 TEST(GeneratePoints, UniformFillsTheUnitSquareEvenly)

@@ -89,8 +89,7 @@ TEST_P(EveryMeshFormat, LinkToADeviceIsReported)
     path, "not an ordinary file", [&]() { tipp::writeMesh(path, this->Points, this->view32()); });
 }
 
-INSTANTIATE_TEST_SUITE_P(MeshFiles,
-  EveryMeshFormat,
+INSTANTIATE_TEST_SUITE_P(MeshFiles, EveryMeshFormat,
   testing::Values("mesh.npy", "mesh.vtp", "mesh.vtu"),
   [](const auto& info) { return std::string(info.param).substr(5); });
 

@@ -38,12 +38,8 @@ protected:
 
 TEST_F(NpyPoints, WrittenPointsComeBackBitForBit)
 {
-  const std::vector<double> xy{ 0.1,
-    -1e300,
-    std::numeric_limits<double>::denorm_min(),
-    -0.0,
-    std::numeric_limits<double>::infinity(),
-    1 / 3.0 };
+  const std::vector<double> xy{ 0.1, -1e300, std::numeric_limits<double>::denorm_min(), -0.0,
+    std::numeric_limits<double>::infinity(), 1 / 3.0 };
   const std::string path = this->Folder.path("points.npy");
   tipp::writePoints(path, xy);
   EXPECT_EQ(xy, readPoints(path).XY);
@@ -201,11 +197,7 @@ TEST_F(NpyPoints, HugeCountsTakeNoMemory)
 
 TEST_F(NpyPoints, HeadersThatAreNoPlainDictionaryAreReported)
 {
-  for (const char* header : { "",
-         "{",
-         "{}",
-         "[]",
-         "{'descr': '<f8'}",
+  for (const char* header : { "", "{", "{}", "[]", "{'descr': '<f8'}",
          "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2), 'more': 1}",
          "{'descr': [('x', '<f8')], 'fortran_order': False, 'shape': (2, 2), }",
          "{'descr': '<f8', 'descr': '<f8', 'shape': (2, 2), }",

@@ -21,8 +21,7 @@ protected:
     return readPoints(this->Folder.file("points.csv", content), options);
   }
 
-  void expectError(const std::string& content,
-    const std::string& words,
+  void expectError(const std::string& content, const std::string& words,
     const tipp::PointOptions& options = {}) const
   {
     const std::string path = this->Folder.file("points.csv", content);

@@ -49,7 +49,7 @@ bool fits(const Rational& centre, const Rational& square, double low, double hig
   const auto deep = [&square](const Rational& depth)
   { return CGAL::sign(depth) != CGAL::NEGATIVE && depth * depth >= square; };
   return (std::isinf(low) || deep(centre - Rational(low))) &&
-         (std::isinf(high) || deep(Rational(high) - centre));
+    (std::isinf(high) || deep(Rational(high) - centre));
 }
 
 } // namespace
@@ -57,14 +57,14 @@ bool fits(const Rational& centre, const Rational& square, double low, double hig
 bool Disk::meets(const tipp::Box2& box) const
 {
   return squaredGap(this->Centre.x(), box.xmin, box.xmax) +
-           squaredGap(this->Centre.y(), box.ymin, box.ymax) <=
-         this->Square;
+    squaredGap(this->Centre.y(), box.ymin, box.ymax) <=
+    this->Square;
 }
 
 bool Disk::inside(const tipp::Box2& box) const
 {
   return fits(this->Centre.x(), this->Square, box.xmin, box.xmax) &&
-         fits(this->Centre.y(), this->Square, box.ymin, box.ymax);
+    fits(this->Centre.y(), this->Square, box.ymin, box.ymax);
 }
 
 } // namespace oracle

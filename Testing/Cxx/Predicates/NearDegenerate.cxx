@@ -43,16 +43,8 @@ NearDegenerate::Points NearDegenerate::lattice(int size, double step, tipp::Poin
 NearDegenerate::Points NearDegenerate::cocircular(double step, tipp::Point2 offset)
 {
   // Integer points at distance 5, 25 or 65 from a node, with their mirror images.
-  static const int legs[][2] = { { 3, 4 },
-    { 5, 0 },
-    { 7, 24 },
-    { 15, 20 },
-    { 25, 0 },
-    { 16, 63 },
-    { 25, 60 },
-    { 33, 56 },
-    { 39, 52 },
-    { 65, 0 } };
+  static const int legs[][2] = { { 3, 4 }, { 5, 0 }, { 7, 24 }, { 15, 20 }, { 25, 0 }, { 16, 63 },
+    { 25, 60 }, { 33, 56 }, { 39, 52 }, { 65, 0 } };
   static const int first[] = { 0, 2, 5 };
   static const int last[] = { 1, 4, 9 };
   const int circle = this->integer(0, 2);

@@ -47,35 +47,20 @@ Box2 drawBox(NearDegenerate& draw, const NearDegenerate::Points& q, const Box2& 
 {
   const auto x = [&]() -> double
   {
-    const double choices[] = { q[0].x,
-      q[1].x,
-      q[2].x,
-      q[3].x,
-      bounds.xmin,
-      bounds.xmax,
-      q[draw.integer(0, 3)].x + (q[0].x - q[1].x) * draw.real(-2, 2),
-      -Infinity,
-      Infinity };
+    const double choices[] = { q[0].x, q[1].x, q[2].x, q[3].x, bounds.xmin, bounds.xmax,
+      q[draw.integer(0, 3)].x + (q[0].x - q[1].x) * draw.real(-2, 2), -Infinity, Infinity };
     return choices[draw.integer(0, 8)];
   };
   const auto y = [&]() -> double
   {
-    const double choices[] = { q[0].y,
-      q[1].y,
-      q[2].y,
-      q[3].y,
-      bounds.ymin,
-      bounds.ymax,
-      q[draw.integer(0, 3)].y + (q[0].y - q[1].y) * draw.real(-2, 2),
-      -Infinity,
-      Infinity };
+    const double choices[] = { q[0].y, q[1].y, q[2].y, q[3].y, bounds.ymin, bounds.ymax,
+      q[draw.integer(0, 3)].y + (q[0].y - q[1].y) * draw.real(-2, 2), -Infinity, Infinity };
     return choices[draw.integer(0, 8)];
   };
   const Point2 one = draw.nudged({ x(), y() });
   const Point2 two = draw.nudged({ x(), y() });
-  return {
-    std::min(one.x, two.x), std::min(one.y, two.y), std::max(one.x, two.x), std::max(one.y, two.y)
-  };
+  return { std::min(one.x, two.x), std::min(one.y, two.y), std::max(one.x, two.x),
+    std::max(one.y, two.y) };
 }
 
 template <typename Draw>
@@ -102,7 +87,7 @@ Counts compareWithRationals(NearDegenerate& draw, int count, Draw drawPoints)
       const Box2 box = drawBox(draw, q, disk.bounds());
       // A box beyond all numbers is no box.
       if (box.xmin == Infinity || box.ymin == Infinity || box.xmax == -Infinity ||
-          box.ymax == -Infinity)
+        box.ymax == -Infinity)
       {
         continue;
       }
@@ -191,13 +176,11 @@ TEST(CircumdiskBox, BoundsAreInfiniteWhereDoublesCannotTell)
 TEST(CircumdiskBox, ExactForLatticeTriangles)
 {
   NearDegenerate draw(1);
-  expectAllAnswers(compareWithRationals(draw,
-    10000,
+  expectAllAnswers(compareWithRationals(draw, 10000,
     [&] {
       return draw.lattice(9, 1.0, { -4, 100 });
     }));
-  expectAllAnswers(compareWithRationals(draw,
-    10000,
+  expectAllAnswers(compareWithRationals(draw, 10000,
     [&] {
       return draw.lattice(9, 0.1, { 0, 0 });
     }));
@@ -206,8 +189,7 @@ TEST(CircumdiskBox, ExactForLatticeTriangles)
 TEST(CircumdiskBox, ExactForBoxesWithCornersByTheCircle)
 {
   NearDegenerate draw(2);
-  expectAllAnswers(compareWithRationals(draw,
-    10000,
+  expectAllAnswers(compareWithRationals(draw, 10000,
     [&] {
       return draw.cocircular(0.1, { 0.5, -1 });
     }));
@@ -217,13 +199,11 @@ TEST(CircumdiskBox, ExactForBoxesWithCornersByTheCircle)
 TEST(CircumdiskBox, ExactForSliversWithEnormousDisks)
 {
   NearDegenerate draw(3);
-  expectAllAnswers(compareWithRationals(draw,
-    10000,
+  expectAllAnswers(compareWithRationals(draw, 10000,
     [&] {
       return draw.collinear(0.1, { 0.3, -0.7 });
     }));
-  expectAllAnswers(compareWithRationals(draw,
-    10000,
+  expectAllAnswers(compareWithRationals(draw, 10000,
     [&] {
       return draw.collinear(1e-6, { 1e3, 7 });
     }));
@@ -234,8 +214,7 @@ TEST(CircumdiskBox, ExactBeyondTheRangeOfTheFilter)
   NearDegenerate draw(4);
   for (const int exponent : { -1035, -500, -240, -225, 225, 500, 1000 })
   {
-    compareWithRationals(draw,
-      1000,
+    compareWithRationals(draw, 1000,
       [&] {
         return scaled(draw.cocircular(0.1, { 0.5, -1 }), exponent);
       });

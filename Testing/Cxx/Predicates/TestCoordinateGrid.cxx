@@ -29,14 +29,8 @@ std::vector<Point2> pointsSpanning(int bits, int exponent, Point2 offset, unsign
     return { offset.x + std::ldexp(static_cast<double>(x), exponent),
       offset.y + std::ldexp(static_cast<double>(y), exponent) };
   };
-  std::vector<Point2> points = { place(0, 0),
-    place(side, 0),
-    place(side, side),
-    place(0, side),
-    place(1, 0),
-    place(side, 1),
-    place(side - 1, side),
-    place(side / 2, side / 2) };
+  std::vector<Point2> points = { place(0, 0), place(side, 0), place(side, side), place(0, side),
+    place(1, 0), place(side, 1), place(side - 1, side), place(side / 2, side / 2) };
   for (int i = 0; i < 40; ++i)
   {
     points.push_back(place(draw.bits(bits), draw.bits(bits)));
@@ -81,17 +75,8 @@ std::vector<Point2> withTails(int bits)
 {
   const double far = std::ldexp(1.0, bits - 1);
   const double below = std::nextafter(std::ldexp(1.0, bits), 0);
-  return { { 0, 0 },
-    { far, 1 },
-    { 1, far },
-    { below, below },
-    { 0, below },
-    { below, 0 },
-    { 3, 5 },
-    { far, far },
-    { 1, 0 },
-    { 0, 1 },
-    { 7, below } };
+  return { { 0, 0 }, { far, 1 }, { 1, far }, { below, below }, { 0, below }, { below, 0 }, { 3, 5 },
+    { far, far }, { 1, 0 }, { 0, 1 }, { 7, below } };
 }
 
 } // namespace
@@ -157,26 +142,12 @@ TEST(CoordinateGrid, DenormalsAndOverflowingDifferencesAreGeneral)
 {
   const double tiny = std::numeric_limits<double>::denorm_min();
   const double huge = std::numeric_limits<double>::max();
-  expectModeAndExact({ { 0, 0 },
-                       { tiny, 0 },
-                       { tiny, tiny },
-                       { 0, tiny },
-                       { 0, 3 * tiny },
-                       { 5 * tiny, 0 },
-                       { tiny, 2 * tiny },
-                       { 0, 2 * tiny } },
-    Exactness::General,
-    1000);
-  expectModeAndExact({ { -huge, 0 },
-                       { huge, 0 },
-                       { 0, huge },
-                       { 0, -huge },
-                       { 0, 1 },
-                       { huge, huge },
-                       { -huge, huge },
-                       { 1, 0 } },
-    Exactness::General,
-    1000);
+  expectModeAndExact({ { 0, 0 }, { tiny, 0 }, { tiny, tiny }, { 0, tiny }, { 0, 3 * tiny },
+                       { 5 * tiny, 0 }, { tiny, 2 * tiny }, { 0, 2 * tiny } },
+    Exactness::General, 1000);
+  expectModeAndExact({ { -huge, 0 }, { huge, 0 }, { 0, huge }, { 0, -huge }, { 0, 1 },
+                       { huge, huge }, { -huge, huge }, { 1, 0 } },
+    Exactness::General, 1000);
 }
 
 TEST(CoordinateGrid, OnePointAndEqualPointsAreDoubles)

@@ -20,7 +20,7 @@ namespace
 {
   const int mode = O_WRONLY | O_CREAT | O_TRUNC;
   if (chdir(folder) == 0 && dup2(open(".out", mode, 0600), STDOUT_FILENO) >= 0 &&
-      dup2(terminal >= 0 ? terminal : open(".err", mode, 0600), STDERR_FILENO) >= 0)
+    dup2(terminal >= 0 ? terminal : open(".err", mode, 0600), STDERR_FILENO) >= 0)
   {
     execv(TIPP_EXECUTABLE, arguments);
   }
@@ -29,9 +29,8 @@ namespace
 
 } // namespace
 
-TippProcess::TippProcess(const TemporaryFolder& folder,
-  const std::vector<std::string>& arguments,
-  int terminal)
+TippProcess::TippProcess(
+  const TemporaryFolder& folder, const std::vector<std::string>& arguments, int terminal)
   : Folder(folder)
 {
   std::vector<std::string> words{ "tipp" };
@@ -64,8 +63,7 @@ Outcome TippProcess::wait() const
   int status = 0;
   waitpid(this->Process, &status, 0);
   return { WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status),
-    contentOf(this->Folder.path(".out")),
-    contentOf(this->Folder.path(".err")) };
+    contentOf(this->Folder.path(".out")), contentOf(this->Folder.path(".err")) };
 }
 
 Outcome runTipp(const TemporaryFolder& folder, const std::vector<std::string>& arguments)

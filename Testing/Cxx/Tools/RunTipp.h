@@ -26,9 +26,8 @@ class TippProcess
 {
 public:
   /// `terminal` is a file descriptor for stderr, or -1 for a file.
-  TippProcess(const TemporaryFolder& folder,
-    const std::vector<std::string>& arguments,
-    int terminal = -1);
+  TippProcess(
+    const TemporaryFolder& folder, const std::vector<std::string>& arguments, int terminal = -1);
 
   void interrupt() const;
   Outcome wait() const;

@@ -76,7 +76,7 @@ protected:
   {
     const double* const p = this->XY.data();
     return (p[2 * b] - p[2 * a]) * (p[2 * c + 1] - p[2 * a + 1]) >
-           (p[2 * b + 1] - p[2 * a + 1]) * (p[2 * c] - p[2 * a]);
+      (p[2 * b + 1] - p[2 * a + 1]) * (p[2 * c] - p[2 * a]);
   }
 
   void replace(std::int64_t a, std::int64_t b, std::int64_t c, const Ids& by)
@@ -161,10 +161,8 @@ TEST_P(CorrectTriangulation, HasNoFault)
   EXPECT_EQ(3000, report.Points);
 }
 
-INSTANTIATE_TEST_SUITE_P(DelaunayChecker,
-  CorrectTriangulation,
-  testing::ValuesIn(tipp::distributionNames()),
-  [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(DelaunayChecker, CorrectTriangulation,
+  testing::ValuesIn(tipp::distributionNames()), [](const auto& info) { return info.param; });
 
 TEST_F(Spoiled, NotAtAllIsCorrect)
 {
@@ -277,11 +275,8 @@ TEST_F(Spoiled, PointsThatAreNotFiniteNeedNoTriangle)
 TEST_F(Spoiled, IdsThatAreNoPointAreReported)
 {
   this->XY.insert(this->XY.end(), { std::nan(""), 0.5 });
-  for (const std::int64_t id : { std::int64_t(-1),
-         std::int64_t(501),
-         std::int64_t(500),
-         std::numeric_limits<std::int64_t>::max(),
-         std::numeric_limits<std::int64_t>::min() })
+  for (const std::int64_t id : { std::int64_t(-1), std::int64_t(501), std::int64_t(500),
+         std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min() })
   {
     const std::int64_t before = this->Triangles[4];
     this->Triangles[4] = id;
@@ -347,11 +342,8 @@ TEST(DelaunayChecker, CoordinatesAreNotTooSmallOrLarge)
 
 TEST(DelaunayChecker, NoTrianglesAreRightForCollinearPoints)
 {
-  for (const Coordinates& xy : { Coordinates{},
-         Coordinates{ 1, 2 },
-         Coordinates{ 1, 2, 3, 4 },
-         Coordinates{ 1, 2, 1, 2, 1, 2 },
-         Coordinates{ 0, 0, 3, 3, 1, 1, 2, 2 } })
+  for (const Coordinates& xy : { Coordinates{}, Coordinates{ 1, 2 }, Coordinates{ 1, 2, 3, 4 },
+         Coordinates{ 1, 2, 1, 2, 1, 2 }, Coordinates{ 0, 0, 3, 3, 1, 1, 2, 2 } })
   {
     EXPECT_TRUE(checkDelaunay(xy, {}).isCorrect());
   }
@@ -383,8 +375,7 @@ TEST(DelaunayChecker, MeshesOfKnownFaultsHaveThem)
   };
   for (const Known& known : { Known{ "adcirc/ec95d/ec95d.grd", 0 },
          Known{ "adcirc/internal_overflow/internal_overflow.grd", 0 },
-         Known{ "adcirc/shinnecock/fort.14", 8 },
-         Known{ "adcirc/apes/fort.14", 235 } })
+         Known{ "adcirc/shinnecock/fort.14", 8 }, Known{ "adcirc/apes/fort.14", 235 } })
   {
     TIPP_REQUIRE_DATA(path, known.Name);
     const tipp::AdcircGrid grid = tipp::readAdcircGrid(path);

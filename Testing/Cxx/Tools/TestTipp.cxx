@@ -92,35 +92,26 @@ const Misuse misuses[] = {
   { "NoOutput", { "delaunay", "points.npy" }, "--output" },
   { "OutputOfUnknownKind", { "delaunay", "points.npy", "-o", "a.stl" }, "'a.stl' does not end" },
   { "PartitionsOfNoGrid", { "delaunay", "points.npy", "-o", "a.npy", "--partitions", "4" }, "8x8" },
-  { "PartitionsOfZero",
-    { "delaunay", "points.npy", "-o", "a.npy", "--partitions", "0x4" },
+  { "PartitionsOfZero", { "delaunay", "points.npy", "-o", "a.npy", "--partitions", "0x4" },
     "'0x4' is neither" },
   { "PartitionsBeyondInt",
-    { "delaunay", "points.npy", "-o", "a.npy", "--partitions", "99999999999x1" },
-    "is neither" },
-  { "UnknownSchedule",
-    { "delaunay", "points.npy", "-o", "a.npy", "--schedule", "eager" },
+    { "delaunay", "points.npy", "-o", "a.npy", "--partitions", "99999999999x1" }, "is neither" },
+  { "UnknownSchedule", { "delaunay", "points.npy", "-o", "a.npy", "--schedule", "eager" },
     "eager" },
-  { "NegativeThreads",
-    { "delaunay", "points.npy", "-o", "a.npy", "--threads", "-1" },
+  { "NegativeThreads", { "delaunay", "points.npy", "-o", "a.npy", "--threads", "-1" },
     "--threads" },
-  { "WordyInitialPoints",
-    { "delaunay", "points.npy", "-o", "a.npy", "--initial-points", "few" },
+  { "WordyInitialPoints", { "delaunay", "points.npy", "-o", "a.npy", "--initial-points", "few" },
     "few" },
-  { "MapOfDuplicatesInNpy",
-    { "delaunay", "points.npy", "-o", "a.npy", "--map-duplicates" },
+  { "MapOfDuplicatesInNpy", { "delaunay", "points.npy", "-o", "a.npy", "--map-duplicates" },
     ".vtp or .vtu" },
-  { "UnknownDistribution",
-    { "points", "--distribution", "flat", "--count", "1", "-o", "a.npy" },
+  { "UnknownDistribution", { "points", "--distribution", "flat", "--count", "1", "-o", "a.npy" },
     "flat" },
-  { "NegativeCount",
-    { "points", "--distribution", "coast", "--count", "-1", "-o", "a.npy" },
+  { "NegativeCount", { "points", "--distribution", "coast", "--count", "-1", "-o", "a.npy" },
     "--count" },
   { "NegativeSeed",
     { "points", "--distribution", "coast", "--count", "1", "--seed", "-1", "-o", "a.npy" },
     "--seed" },
-  { "PointsNotInNpy",
-    { "points", "--distribution", "coast", "--count", "1", "-o", "a.csv" },
+  { "PointsNotInNpy", { "points", "--distribution", "coast", "--count", "1", "-o", "a.csv" },
     "'a.csv' does not end in .npy" },
   { "CheckOfPointsAlone", { "check", "points.npy" }, "mesh" },
 };
@@ -139,14 +130,11 @@ const Misuse failures[] = {
   { "BrokenPlyFile", { "delaunay", "broken.ply", "-o", "out.npy" }, "PLY" },
   { "MissingOutputFolder", { "delaunay", "points.npy", "-o", "absent/out.npy" }, "its folder" },
   { "MissingStatisticsFolder",
-    { "delaunay", "points.npy", "-o", "out.npy", "--stats", "absent/s.json" },
-    "its folder" },
-  { "MissingColumn",
-    { "delaunay", "points.npy", "-o", "out.npy", "--x", "east" },
+    { "delaunay", "points.npy", "-o", "out.npy", "--stats", "absent/s.json" }, "its folder" },
+  { "MissingColumn", { "delaunay", "points.npy", "-o", "out.npy", "--x", "east" },
     "no column 'east'" },
   { "GeneratedIntoNoFolder",
-    { "points", "--distribution", "coast", "--count", "1", "-o", "absent/a.npy" },
-    "its folder" },
+    { "points", "--distribution", "coast", "--count", "1", "-o", "absent/a.npy" }, "its folder" },
   { "CheckOfMissingMesh", { "check", "points.npy", "absent.npy" }, "absent.npy: cannot be opened" },
 };
 
@@ -179,16 +167,8 @@ TEST_F(Tipp, HelpOfACommandNamesItsOptionsAndAnExample)
 {
   const std::pair<const char*, Words> commands[] = {
     { "delaunay",
-      { "--output",
-        "--threads",
-        "--partitions",
-        "--schedule",
-        "--initial-points",
-        "--x",
-        "--y",
-        "--map-duplicates",
-        "--stats",
-        "Examples:" } },
+      { "--output", "--threads", "--partitions", "--schedule", "--initial-points", "--x", "--y",
+        "--map-duplicates", "--stats", "Examples:" } },
     { "points", { "--distribution", "--count", "--seed", "--output", "Example:" } },
     { "check", { "--x", "--y", "--tie-rule", "--boundary-free", "Examples:" } },
   };
@@ -210,9 +190,7 @@ TEST_P(TippMisuse, IsOneSentenceAndExitCode2)
   EXPECT_FALSE(this->exists("a.npy"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Tools,
-  TippMisuse,
-  testing::ValuesIn(misuses),
+INSTANTIATE_TEST_SUITE_P(Tools, TippMisuse, testing::ValuesIn(misuses),
   [](const auto& info) { return std::string(info.param.Name); });
 
 TEST_P(TippFailure, IsOneSentenceAndExitCode1)
@@ -226,9 +204,7 @@ TEST_P(TippFailure, IsOneSentenceAndExitCode1)
   EXPECT_FALSE(this->exists("out.npy"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Tools,
-  TippFailure,
-  testing::ValuesIn(failures),
+INSTANTIATE_TEST_SUITE_P(Tools, TippFailure, testing::ValuesIn(failures),
   [](const auto& info) { return std::string(info.param.Name); });
 
 TEST_F(Tipp, PointsAreThoseOfTheDistribution)
@@ -279,14 +255,10 @@ TEST_P(TippTuning, DoesNotChangeTheTriangles)
   EXPECT_EQ(this->triangles("plain.npy"), this->triangles("tuned.npy"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Tools,
-  TippTuning,
-  testing::Values(Words{ "--threads", "1" },
-    Words{ "--threads", "3" },
-    Words{ "--partitions", "auto" },
-    Words{ "--partitions", "3x2" },
-    Words{ "--schedule", "stages" },
-    Words{ "--schedule", "dynamic", "--partitions", "4x4" },
+INSTANTIATE_TEST_SUITE_P(Tools, TippTuning,
+  testing::Values(Words{ "--threads", "1" }, Words{ "--threads", "3" },
+    Words{ "--partitions", "auto" }, Words{ "--partitions", "3x2" },
+    Words{ "--schedule", "stages" }, Words{ "--schedule", "dynamic", "--partitions", "4x4" },
     Words{ "--initial-points", "5" }));
 
 TEST_F(Tipp, ColumnsAreChosen)

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippLanes_h
+#define tippLanes_h
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+namespace tipp
+{
+
+/// Two doubles side by side.
+using Pair = double __attribute__((vector_size(16)));
+using PairMask = long long __attribute__((vector_size(16)));
+
+inline Pair magnitude(Pair a)
+{
+  return reinterpret_cast<Pair>(reinterpret_cast<PairMask>(a) & 0x7fffffffffffffffLL);
+}
+
+/// Bit 0 for the first lane, bit 1 for the second.
+inline unsigned bitsOf(PairMask mask)
+{
+#ifdef __SSE2__
+  return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(mask)));
+#else
+  return static_cast<unsigned>(mask[0] & 1) | static_cast<unsigned>(mask[1] & 2);
+#endif
+}
+
+/// The first lanes of both, and the second.
+inline Pair low(Pair a, Pair b)
+{
+  return __builtin_shufflevector(a, b, 0, 2);
+}
+inline Pair high(Pair a, Pair b)
+{
+  return __builtin_shufflevector(a, b, 1, 3);
+}
+
+} // namespace tipp
+
+#endif
