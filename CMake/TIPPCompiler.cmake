@@ -24,6 +24,19 @@ endif ()
 
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 
+# ThreadSanitizer learns of OpenMP's barriers from LLVM's tool Archer, which the run time of OpenMP
+# loads if the program's run path leads to it; without it every parallel loop is reported.
+if (TIPP_SANITIZE MATCHES "thread")
+  get_filename_component(tipp_openmp_directory "${OpenMP_omp_LIBRARY}" DIRECTORY)
+  find_library(TIPP_ARCHER_LIBRARY archer HINTS "${tipp_openmp_directory}" NO_DEFAULT_PATH)
+  if (NOT TIPP_ARCHER_LIBRARY)
+    message(FATAL_ERROR "ThreadSanitizer needs clang and its OpenMP library with libarcher.so: "
+      "use the preset tsan and install libomp-dev.")
+  endif ()
+  get_filename_component(tipp_archer_directory "${TIPP_ARCHER_LIBRARY}" DIRECTORY)
+  list(APPEND CMAKE_BUILD_RPATH "${tipp_archer_directory}")
+endif ()
+
 # Our own targets only: VTK's generated wrappers do not compile without warnings.
 function (tipp_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic)

@@ -50,6 +50,7 @@ void removeArtificialPoints(
   final.erase(firstRemoved, final.end());
 
   std::vector<Point2> points;
+  points.reserve(rim.size());
   for (const SeamVertex& v : rim)
   {
     points.push_back(v.Place);

@@ -102,7 +102,7 @@ void Master::complete(PartitionIndex partition, const SeamTriangles& seams,
   this->Changed.notify_all();
 }
 
-void Master::stop(std::exception_ptr reason)
+void Master::stop(const std::exception_ptr& reason)
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
   this->Stopped = true;

@@ -31,7 +31,7 @@ public:
     const std::vector<Duplicate>& duplicates, std::size_t workerVertices);
 
   /// No further partition is handed out.
-  void stop(std::exception_ptr reason = nullptr);
+  void stop(const std::exception_ptr& reason = nullptr);
 
   bool isStopped() const { return this->Stopped; }
   std::exception_ptr failure() const { return this->Failure; }

@@ -46,6 +46,13 @@ struct PartSurvey
   }
 };
 
+PartSurvey surveyPart(PointsView points, std::size_t begin, std::size_t end)
+{
+  PartSurvey survey;
+  points.forEach(begin, end, [&survey](std::size_t id, Point2 p) { survey.add(id, p); });
+  return survey;
+}
+
 } // namespace
 
 PointSurvey surveyPoints(PointsView points, int threads)
@@ -55,9 +62,7 @@ PointSurvey surveyPoints(PointsView points, int threads)
   for (int part = 0; part < threads; ++part)
   {
     const auto [begin, end] = share(points.size(), part, threads);
-    PartSurvey survey;
-    points.forEach(begin, end, [&survey](std::size_t id, Point2 p) { survey.add(id, p); });
-    parts[std::size_t(part)] = std::move(survey);
+    parts[std::size_t(part)] = surveyPart(points, begin, end);
   }
   PointSurvey all;
   all.Bounds = PartSurvey().Bounds;
@@ -77,9 +82,10 @@ std::vector<Point2> samplePoints(PointsView points, std::size_t count)
   std::vector<Point2> sample;
   sample.reserve(count);
   const double step = std::max(1.0, double(points.size()) / double(count));
-  for (double at = step / 2; at < double(points.size()); at += step)
+  const std::size_t samples = std::min(count, points.size());
+  for (std::size_t i = 0; i < samples; ++i)
   {
-    const Point2 p = points[static_cast<std::size_t>(at)];
+    const Point2 p = points[static_cast<std::size_t>((double(i) + 0.5) * step)];
     if (isFinite(p))
     {
       sample.push_back(p);

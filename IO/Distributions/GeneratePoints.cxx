@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -87,8 +88,10 @@ std::vector<double> generateLattice(std::int64_t count)
     ++width;
   }
   return fill(count,
-    [&](std::int64_t i) {
-      return Random::Pair{ double(i % width), double(i / width) };
+    [&](std::int64_t i)
+    {
+      const std::int64_t row = i / width;
+      return Random::Pair{ double(i % width), double(row) };
     });
 }
 
@@ -164,6 +167,7 @@ std::optional<Distribution> distributionFromName(std::string_view name)
 std::vector<std::string> distributionNames()
 {
   std::vector<std::string> names;
+  names.reserve(std::size(table));
   for (const Named& entry : table)
   {
     names.emplace_back(entry.Name);

@@ -80,7 +80,7 @@ template <typename Array, typename Id>
 vtkSmartPointer<vtkCellArray> makeCells(const Id* ids, std::size_t triangles)
 {
   vtkNew<Array> offsets;
-  offsets->SetNumberOfValues(vtkIdType(triangles + 1));
+  offsets->SetNumberOfValues(vtkIdType(triangles) + 1);
   for (std::size_t i = 0; i <= triangles; ++i)
   {
     offsets->SetValue(vtkIdType(i), Id(3 * i));

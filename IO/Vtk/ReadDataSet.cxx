@@ -105,7 +105,7 @@ vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path)
   {
     throw IOError(path, "is of a kind that VTK's readers here do not know.");
   }
-  const vtkSmartPointer<vtkDataSet> data = read->second(path, errors);
+  vtkSmartPointer<vtkDataSet> data = read->second(path, errors);
   if (errors->HasError || !data)
   {
     const std::string reason =
