@@ -242,11 +242,11 @@ private:
 /// Partitions of the size that workers are fastest at, but enough of them for all threads.
 int choosePartitionCount(std::size_t points, int threads)
 {
-  constexpr std::size_t alone = 4096;
-  constexpr std::size_t smallest = 1024;
+  constexpr std::size_t alone = 32768;
+  constexpr std::size_t smallest = 4096;
   constexpr std::size_t best = 32768;
-  constexpr std::size_t perThread = 32;
-  if (points <= alone || (threads == 1 && points <= 4 * best))
+  constexpr std::size_t perThread = 8;
+  if (points <= (threads == 1 ? 4 * best : alone))
   {
     return 1;
   }
