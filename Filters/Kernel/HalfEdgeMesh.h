@@ -44,7 +44,8 @@ public:
     {
       return;
     }
-    Buffer<Index> larger(8 * triangles + triangles);
+    const std::size_t slack = this->End > 0 ? triangles : 0;
+    Buffer<Index> larger(8 * triangles + slack);
     std::copy(this->Slots.begin(), this->Slots.begin() + this->End, larger.begin());
     this->Slots = std::move(larger);
   }
