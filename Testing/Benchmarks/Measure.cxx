@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -86,6 +87,25 @@ bool unpack(const std::string& packed, Measurement& m)
   return bool(text);
 }
 
+/// The fastest of as many runs as fit in a tenth of a second: one short run alone would measure the
+/// first touch of memory and code more than the work.
+Run fastestOfShort(const std::function<Run()>& work)
+{
+  constexpr double enough = 0.1;
+  Run fastest = work();
+  double spent = fastest.Seconds;
+  for (int runs = 1; runs < 100 && spent < enough; ++runs)
+  {
+    Run run = work();
+    spent += run.Seconds;
+    if (run.Seconds < fastest.Seconds)
+    {
+      fastest = std::move(run);
+    }
+  }
+  return fastest;
+}
+
 [[noreturn]] void workInChild(const std::function<Run()>& work, int out)
 {
   int status = 1;
@@ -94,7 +114,7 @@ bool unpack(const std::string& packed, Measurement& m)
     Measurement m;
     // The maximum of a forked process starts at what it shares with its parent.
     const double before = residentMegabytes();
-    m.Result = work();
+    m.Result = fastestOfShort(work);
     m.PeakMegabytes = peakMegabytes();
     m.OwnMegabytes = m.PeakMegabytes - before;
     const std::string packed = pack(m);

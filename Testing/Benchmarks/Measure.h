@@ -19,6 +19,7 @@ struct Measurement
 };
 
 /// Runs `work` in a process of its own: every figure is its own, caches and allocators start equal.
+/// Short work is done several times there, and the fastest counts.
 /// The calling process must not have started threads. Throws std::runtime_error if the work fails.
 Measurement measure(const std::function<Run()>& work);
 
