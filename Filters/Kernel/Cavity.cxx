@@ -37,12 +37,24 @@ public:
   void run(const Location& at)
   {
     this->Triangles[this->TriangleCount++] = at.Triangle;
-    this->deferLastEdge(at);
+    // All three edges are tested before the first branch.
+    const EdgePair last = this->lastEdge(at);
+    ApexPair lastApex;
+    const unsigned lastInside = this->test(last, lastApex);
     EdgePair edges = this->firstEdges(at);
     ApexPair apex;
-    for (;;)
+    unsigned inside = this->test(edges, apex);
+    if (lastInside & 1)
     {
-      const unsigned inside = this->test(edges, apex);
+      this->enter(last.FirstOuter);
+      this->Stack[this->StackSize++] = { this->behindFirst(last, lastApex), true };
+    }
+    else
+    {
+      this->defer(last.FirstOuter);
+    }
+    for (;; inside = this->test(edges, apex))
+    {
       if (inside & 1)
       {
         this->enter(edges.FirstOuter);
@@ -122,8 +134,8 @@ private:
       at.Outer[1] };
   }
 
-  /// The first triangle's third edge, in both lanes.
-  void deferLastEdge(const Location& at)
+  /// The third edge, in both lanes.
+  static EdgePair lastEdge(const Location& at)
   {
     const Direction c = at.Corner[2];
     const Direction a = at.Corner[0];
@@ -131,18 +143,8 @@ private:
     const double al = a.lift();
     const double ca = at.Cross[2];
     const Index outer = at.Outer[2];
-    const EdgePair edge = { Pair{ c.X, c.X }, Pair{ c.Y, c.Y }, Pair{ cl, cl }, Pair{ a.X, a.X },
-      Pair{ a.Y, a.Y }, Pair{ al, al }, Pair{ ca, ca }, outer, outer };
-    ApexPair apex;
-    if (this->test(edge, apex) & 1)
-    {
-      this->enter(outer);
-      this->Stack[this->StackSize++] = { this->behindFirst(edge, apex), true };
-    }
-    else
-    {
-      this->defer(outer);
-    }
+    return { Pair{ c.X, c.X }, Pair{ c.Y, c.Y }, Pair{ cl, cl }, Pair{ a.X, a.X }, Pair{ a.Y, a.Y },
+      Pair{ al, al }, Pair{ ca, ca }, outer, outer };
   }
 
   /// Bit i: the triangle behind edge i is in conflict with p. Of the in-circle determinant's terms

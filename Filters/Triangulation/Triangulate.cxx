@@ -244,9 +244,9 @@ int choosePartitionCount(std::size_t points, int threads)
 {
   constexpr std::size_t alone = 32768;
   constexpr std::size_t smallest = 4096;
-  constexpr std::size_t best = 32768;
+  constexpr std::size_t best = 49152;
   constexpr std::size_t perThread = 8;
-  if (points <= (threads == 1 ? 4 * best : alone))
+  if (points <= (threads == 1 ? 2 * best : alone))
   {
     return 1;
   }
