@@ -135,7 +135,8 @@ void DelaunayKernel::insertVertex(Index vertex)
 /// The triangle's vertex at p, or the infinite one.
 DelaunayKernel::Index DelaunayKernel::equalVertex(const Location& at, Point2 p) const
 {
-  if (__builtin_expect(at.Cross[0] != 0 && at.Cross[1] != 0 && at.Cross[2] != 0, 1))
+  // At a corner two of them are zero, or NaN where the triangle's extent overflows.
+  if (__builtin_expect(at.Cross[0] > 0 && at.Cross[1] > 0 && at.Cross[2] > 0, 1))
   {
     return Infinite;
   }

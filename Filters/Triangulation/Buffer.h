@@ -3,9 +3,11 @@
 #define tippBuffer_h
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <utility>
 
 #include <sys/mman.h>
 
@@ -23,6 +25,17 @@ public:
     : Data(allocate(size))
     , Size(size)
   {
+  }
+  Buffer(Buffer&& other) noexcept
+    : Data(std::move(other.Data))
+    , Size(std::exchange(other.Size, 0))
+  {
+  }
+  Buffer& operator=(Buffer&& other) noexcept
+  {
+    this->Data = std::move(other.Data);
+    this->Size = std::exchange(other.Size, 0);
+    return *this;
   }
 
   T* data() { return this->Data.get(); }
@@ -58,6 +71,10 @@ private:
     if (size == 0)
     {
       return nullptr;
+    }
+    if (size > PTRDIFF_MAX / sizeof(T))
+    {
+      throw std::bad_alloc();
     }
     const std::size_t bytes = size * sizeof(T);
     if (bytes < 4 * hugePage)

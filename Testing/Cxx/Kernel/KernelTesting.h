@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippKernelTesting_h
+#define tippKernelTesting_h
+
+#include "Comparison.h"
+
+#include "Kernel/DelaunayKernel.h"
+#include "Predicates/InCircle.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+namespace test
+{
+
+inline std::vector<Point2> asPoints(const Coordinates& xy)
+{
+  std::vector<Point2> points;
+  for (std::size_t i = 0; i + 1 < xy.size(); i += 2)
+  {
+    points.push_back({ xy[i], xy[i + 1] });
+  }
+  return points;
+}
+
+inline Coordinates asCoordinates(const std::vector<Point2>& points)
+{
+  Coordinates xy;
+  for (const Point2 p : points)
+  {
+    xy.insert(xy.end(), { p.x, p.y });
+  }
+  return xy;
+}
+
+inline std::vector<Point2> pointSet(
+  const std::string& name, std::size_t count, std::uint64_t seed = 1)
+{
+  return asPoints(makePointSet(name, count, seed));
+}
+
+inline void insert(DelaunayKernel& kernel, const std::vector<Point2>& points)
+{
+  kernel.insert(points.data(), points.size());
+}
+
+/// The finite triangles by the places of their points.
+inline Triangles finiteTriangles(const DelaunayKernel& kernel)
+{
+  Triangles triangles;
+  for (DelaunayKernel::Index t = 0; t < kernel.mesh().end(); t += 8)
+  {
+    if (!kernel.isInfinite(t))
+    {
+      const auto place = [&](DelaunayKernel::Index i)
+      { return std::int64_t(kernel.place(kernel.mesh().vertex(t + i))); };
+      triangles.push_back(canonical(place(0), place(1), place(2)));
+    }
+  }
+  return sorted(std::move(triangles));
+}
+
+/// Which of the points inserted stands for each, as the kernel tells.
+inline Ids representatives(const DelaunayKernel& kernel)
+{
+  Ids ids;
+  for (DelaunayKernel::Index v = 1; v < kernel.vertexEnd(); ++v)
+  {
+    ids.push_back(v - 1);
+  }
+  for (const DelaunayKernel::Duplicate& duplicate : kernel.duplicates())
+  {
+    ids[duplicate.Point] = std::int64_t(kernel.place(duplicate.Vertex));
+  }
+  return ids;
+}
+
+/// Are the kernel's triangles those of CGAL, and every duplicate sent to a vertex at its place? For
+/// points inserted in one or more batches.
+inline testing::AssertionResult isDelaunay(
+  const DelaunayKernel& kernel, const std::vector<Point2>& points)
+{
+  const Ids standsFor = representatives(kernel);
+  Ids vertices;
+  for (std::size_t i = 0; i < standsFor.size(); ++i)
+  {
+    if (!(points[i] == points[std::size_t(standsFor[i])]))
+    {
+      return testing::AssertionFailure() << "point " << i << " stands for one elsewhere";
+    }
+    if (standsFor[i] == std::int64_t(i))
+    {
+      vertices.push_back(std::int64_t(i));
+    }
+  }
+  const Coordinates xy = asCoordinates(points);
+  return sameTriangles(xy, finiteTriangles(kernel), delaunay(xy, vertices));
+}
+
+} // namespace test
+} // namespace tipp
+
+#endif

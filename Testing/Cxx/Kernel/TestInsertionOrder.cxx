@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "KernelTesting.h"
+
+#include "Kernel/InsertionOrder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+
+using Order = std::vector<std::uint32_t>;
+
+Order orderOf(const std::vector<Point2>& points)
+{
+  return InsertionOrder().compute(points.data(), points.size());
+}
+
+testing::AssertionResult isPermutation(Order order, std::size_t count)
+{
+  Order identity(count);
+  std::iota(identity.begin(), identity.end(), 0U);
+  std::sort(order.begin(), order.end());
+  return order == identity
+    ? testing::AssertionSuccess()
+    : testing::AssertionFailure() << "not a permutation of " << count << " indices";
+}
+
+/// The way from each point of [begin, end) to the next.
+double wayLength(const std::vector<Point2>& points, const Order& order, std::size_t begin)
+{
+  double sum = 0;
+  for (std::size_t i = begin + 1; i < order.size(); ++i)
+  {
+    const Point2 p = points[order[i - 1]];
+    const Point2 q = points[order[i]];
+    sum += std::hypot(q.x - p.x, q.y - p.y);
+  }
+  return sum;
+}
+
+TEST(InsertionOrder, NamesEveryPointOnce)
+{
+  for (const std::size_t count : { 2, 3, 255, 256, 257, 5000 })
+  {
+    EXPECT_TRUE(isPermutation(orderOf(pointSet("uniform", count)), count));
+  }
+}
+
+TEST(InsertionOrder, IsTheSameForTheSamePoints)
+{
+  const std::vector<Point2> points = pointSet("clustered", 5000);
+  InsertionOrder used;
+  used.compute(pointSet("uniform", 700).data(), 700);
+  EXPECT_EQ(orderOf(points), used.compute(points.data(), points.size()));
+}
+
+/// Which round a point belongs to depends on its position alone, and the last round is the largest.
+TEST(InsertionOrder, AnEarlierRoundHoldsAboutOnePointInEight)
+{
+  const std::size_t count = 80000;
+  const std::vector<Point2> points = pointSet("uniform", count);
+  const Order order = orderOf(points);
+  // The last round is one walk along the curve, whose steps are short. A round's first step leads
+  // back from the curve's end to its start.
+  std::size_t lastBegin = 0;
+  for (std::size_t i = 1; i < count; ++i)
+  {
+    const Point2 p = points[order[i - 1]];
+    const Point2 q = points[order[i]];
+    lastBegin = std::hypot(q.x - p.x, q.y - p.y) > 0.5 ? i : lastBegin;
+  }
+  EXPECT_GT(lastBegin, count / 8 - count / 100);
+  EXPECT_LT(lastBegin, count / 8 + count / 100);
+}
+
+TEST(InsertionOrder, NeighboursInARoundAreNearInThePlane)
+{
+  const std::size_t count = 20000;
+  const std::vector<Point2> points = pointSet("uniform", count);
+  Order random(count);
+  std::iota(random.begin(), random.end(), 0U);
+  EXPECT_LT(20 * wayLength(points, orderOf(points), 0), wayLength(points, random, 0));
+}
+
+/// Rounds that followed the input would not be random for sorted input.
+TEST(InsertionOrder, TheFirstPointsAreSpreadOverSortedInput)
+{
+  const std::size_t count = 20000;
+  std::vector<Point2> points = pointSet("uniform", count);
+  std::sort(points.begin(), points.end(), lexicographicLess);
+  const Order order = orderOf(points);
+  std::size_t low = 0;
+  for (std::size_t i = 0; i < count / 8; ++i)
+  {
+    low += order[i] < count / 2;
+  }
+  EXPECT_GT(low, count / 20);
+  EXPECT_LT(low, count / 8 - count / 20);
+}
+
+TEST(InsertionOrder, PointsAtOnePlaceAllComeUp)
+{
+  EXPECT_TRUE(isPermutation(orderOf(std::vector<Point2>(1000, { 3, -4 })), 1000));
+}
+
+TEST(InsertionOrder, PointsOnAnAxisAllComeUp)
+{
+  std::vector<Point2> points;
+  for (int i = 0; i < 1000; ++i)
+  {
+    points.push_back({ 0, double(i % 400) });
+  }
+  EXPECT_TRUE(isPermutation(orderOf(points), 1000));
+}
+
+TEST(InsertionOrder, AnExtentBeyondDoublesIsNoProblem)
+{
+  std::vector<Point2> points;
+  for (int i = 0; i < 300; ++i)
+  {
+    points.push_back({ i % 2 ? 1.7e308 : -1.7e308, double(i) });
+  }
+  EXPECT_TRUE(isPermutation(orderOf(points), 300));
+}
+
+TEST(InsertionOrder, TheSmallestExtentIsNoProblem)
+{
+  std::vector<Point2> points;
+  for (int i = 0; i < 300; ++i)
+  {
+    points.push_back({ i % 2 * 4.9406564584124654e-324, 0 });
+  }
+  EXPECT_TRUE(isPermutation(orderOf(points), 300));
+}
+
+TEST(InsertionOrder, OnePointIsTheFirst)
+{
+  EXPECT_EQ(Order{ 0 }, orderOf({ { 7, 8 } }));
+}
+
+TEST(InsertionOrder, NoPointsHaveAnEmptyOrder)
+{
+  InsertionOrder order;
+  order.compute(pointSet("uniform", 10).data(), 10);
+  EXPECT_TRUE(order.compute(nullptr, 0).empty());
+}
+
+} // namespace

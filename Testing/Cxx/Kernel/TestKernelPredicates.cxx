@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "KernelTesting.h"
+
+#include "Kernel/KernelPredicates.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+using Index = HalfEdgeMesh::Index;
+
+std::vector<Point2> withInfinite(const std::vector<Point2>& points)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Point2> all{ { nan, nan } };
+  all.insert(all.end(), points.begin(), points.end());
+  return all;
+}
+
+/// Vertices 1 and 2 are (0, 0) and (4, 0); the hull lies above, so that the infinite triangle's
+/// edge leads from 2 to 1.
+class InfiniteTriangle : public testing::Test
+{
+public:
+  bool conflicts(Point2 p)
+  {
+    bool first = true;
+    bool result = false;
+    // The infinite vertex may have any slot.
+    for (const auto& corners : std::vector<std::array<Index, 3>>{
+           { InfiniteVertex, 2, 1 }, { 1, InfiniteVertex, 2 }, { 2, 1, InfiniteVertex } })
+    {
+      const bool now = this->Predicates.isInConflict(corners.data(), p);
+      EXPECT_TRUE(first || now == result);
+      result = now;
+      first = false;
+    }
+    return result;
+  }
+
+  std::vector<Point2> Points = withInfinite({ { 0, 0 }, { 4, 0 }, { 1, 3 } });
+  KernelPredicates Predicates{ Points };
+};
+
+TEST_F(InfiniteTriangle, HoldsTheHalfPlaneBeyondItsEdge)
+{
+  EXPECT_TRUE(this->conflicts({ 2, -1 }));
+  EXPECT_TRUE(this->conflicts({ 1e9, -1e-300 }));
+}
+
+TEST_F(InfiniteTriangle, DoesNotHoldTheHullsSide)
+{
+  EXPECT_FALSE(this->conflicts({ 2, 1 }));
+  EXPECT_FALSE(this->conflicts({ -1e9, 4.9406564584124654e-324 }));
+}
+
+TEST_F(InfiniteTriangle, HoldsItsOpenEdge)
+{
+  EXPECT_TRUE(this->conflicts({ 2, 0 }));
+  EXPECT_TRUE(this->conflicts({ 4.9406564584124654e-324, 0 }));
+}
+
+TEST_F(InfiniteTriangle, DoesNotHoldItsEdgesEnds)
+{
+  EXPECT_FALSE(this->conflicts({ 0, 0 }));
+  EXPECT_FALSE(this->conflicts({ 4, 0 }));
+}
+
+TEST_F(InfiniteTriangle, DoesNotHoldTheLineBeyondItsEdge)
+{
+  EXPECT_FALSE(this->conflicts({ 5, 0 }));
+  EXPECT_FALSE(this->conflicts({ -1, 0 }));
+}
+
+TEST(KernelPredicates, AFiniteTrianglesDiskIsExactWithTiesBroken)
+{
+  const std::vector<Point2> points =
+    withInfinite({ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 }, { 0.5, std::nextafter(1.2, 2) } });
+  KernelPredicates predicates(points);
+  const Index lower[] = { 1, 2, 3 };
+  const Index other[] = { 2, 3, 4 };
+  // Four corners of a square: one diagonal or the other.
+  EXPECT_EQ(inCirclePerturbed(points[1], points[2], points[3], points[4]),
+    predicates.isInConflict(lower, points[4]));
+  EXPECT_EQ(inCirclePerturbed(points[2], points[3], points[4], points[1]),
+    predicates.isInConflict(other, points[1]));
+  EXPECT_FALSE(predicates.isInConflict(lower, points[1]));
+}
+
+/// The first answers come from another arithmetic than later ones.
+TEST(KernelPredicates, TheThousandthTurnIsAsExactAsTheFirst)
+{
+  std::mt19937_64 random(3);
+  std::vector<Point2> points;
+  for (int i = 0; i < 1000; ++i)
+  {
+    const double x = 1 + double(random() % 1000) * 0x1p-52;
+    points.push_back({ x, x + double(random() % 3) * 0x1p-52 });
+  }
+  points = withInfinite(points);
+  KernelPredicates predicates(points);
+  for (Index i = 1; i + 2 < Index(points.size()); ++i)
+  {
+    const Point2 p = points[std::size_t(i + 2)];
+    ASSERT_EQ(orientationExact(points[std::size_t(i)], points[std::size_t(i + 1)], p),
+      predicates.orientation(i, i + 1, p));
+  }
+}
+
+/// Points that the earlier ones' common grid does not hold.
+TEST(KernelPredicates, PointsAddedLaterAreSeenAfterARestart)
+{
+  std::vector<Point2> points = withInfinite({ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } });
+  KernelPredicates predicates(points);
+  const Index corners[] = { 1, 2, 3 };
+  predicates.isInConflict(corners, points[4]);
+  for (int i = 0; i < 40; ++i)
+  {
+    predicates.orientation(1, 2, points[3]);
+  }
+  points.push_back({ 0x1p-60, 1 });
+  points.push_back({ -0x1p-60, 1 });
+  points.push_back({ 0x1p-60, 0x1p-60 });
+  predicates.restart();
+  EXPECT_TRUE(predicates.isInConflict(corners, points[5]));
+  EXPECT_FALSE(predicates.isInConflict(corners, points[6]));
+  for (int i = 0; i < 40; ++i)
+  {
+    EXPECT_EQ(0, predicates.orientation(1, 3, points[7]));
+    EXPECT_EQ(1, predicates.orientation(1, 2, points[7]));
+  }
+}
+
+} // namespace

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippScheduleTesting_h
+#define tippScheduleTesting_h
+
+#include "Comparison.h"
+
+#include "Predicates/InCircle.h"
+#include "Triangulation/PointBuckets.h"
+#include "Triangulation/SeamMesh.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tipp
+{
+namespace test
+{
+
+inline std::vector<Point2> asPoints(const Coordinates& xy)
+{
+  std::vector<Point2> points;
+  for (std::size_t i = 0; i + 1 < xy.size(); i += 2)
+  {
+    points.push_back({ xy[i], xy[i + 1] });
+  }
+  return points;
+}
+
+inline bool holds(const Box2& box, Point2 p)
+{
+  return box.xmin <= p.x && p.x <= box.xmax && box.ymin <= p.y && p.y <= box.ymax;
+}
+
+inline Box2 boundsOf(const Coordinates& xy)
+{
+  return surveyPoints(view(xy), 1).Bounds;
+}
+
+/// A triangle of the seam whose vertices lie in the partitions named, and that belongs to others.
+/// Only labels matter where nothing is triangulated.
+inline SeamTriangle seamTriangle(
+  std::int64_t id, std::uint32_t labelA, std::uint32_t labelB, std::uint32_t labelC)
+{
+  return { SeamVertex{ { 0, 0 }, id, labelA }, SeamVertex{ { 1, 0 }, id + 1, labelB },
+    SeamVertex{ { 0, 1 }, id + 2, labelC } };
+}
+
+/// Triangles with the partitions that they belong to.
+inline SeamTriangles seamTriangles(
+  const std::vector<std::pair<SeamTriangle, std::vector<PartitionIndex>>>& list)
+{
+  SeamTriangles all;
+  for (const auto& entry : list)
+  {
+    all.Triangles.push_back(entry.first);
+    all.Met.insert(all.Met.end(), entry.second.begin(), entry.second.end());
+    all.MetEnds.push_back(all.Met.size());
+  }
+  return all;
+}
+
+inline Triangles idsOf(const std::vector<SeamTriangle>& seams)
+{
+  Triangles triangles;
+  for (const SeamTriangle& t : seams)
+  {
+    triangles.push_back(canonical(t[0].Id, t[1].Id, t[2].Id));
+  }
+  return sorted(std::move(triangles));
+}
+
+} // namespace test
+} // namespace tipp
+
+#endif

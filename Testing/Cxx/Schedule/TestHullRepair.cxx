@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "InitialScene.h"
+
+#include "Triangulation/HullRepair.h"
+
+#include <algorithm>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+
+/// All points and the artificial ones of a tiling, triangulated at once. Small partitions bring
+/// artificial points close to the hull.
+struct Enclosed
+{
+  Enclosed(const Coordinates& xy, int side)
+    : Boxes(Tiling::grid(boundsOf(xy), side, side))
+    , Artificial(makeArtificialPoints(this->Boxes))
+  {
+    std::vector<SeamVertex> vertices = this->Artificial;
+    const std::vector<Point2> points = asPoints(xy);
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      vertices.push_back(
+        makeSeamVertex(this->Boxes, this->Boxes.locate(points[i]), points[i], std::int64_t(i)));
+    }
+    this->Final = triangulateVertices(this->Boxes, vertices, 1).Triangles;
+  }
+
+  Tiling Boxes;
+  std::vector<SeamVertex> Artificial;
+  std::vector<SeamTriangle> Final;
+};
+
+testing::AssertionResult isRepaired(const Coordinates& xy, int side)
+{
+  Enclosed scene(xy, side);
+  removeArtificialPoints(scene.Final, scene.Artificial);
+  return sameTriangles(xy, idsOf(scene.Final), reference(xy).Mesh);
+}
+
+class HullOf : public testing::TestWithParam<std::string>
+{
+};
+
+TEST_P(HullOf, IsCgalsOnceArtificialPointsAreGone)
+{
+  const Coordinates xy = makePointSet(GetParam(), 300);
+  for (const int side : { 1, 3, 20, 100 })
+  {
+    EXPECT_TRUE(isRepaired(xy, side)) << side << " x " << side << " partitions";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(PointSets, HullOf,
+  testing::Values("uniform", "clustered", "lattice-shuffled", "lattice-tenths", "cocircular",
+    "collinear-and-one", "survey-lines", "steps-at-1e12", "one-far-away", "two-clusters",
+    "parabola", "spiral"),
+  [](const auto& info)
+  {
+    std::string name = info.param;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+  });
+
+TEST(HullRepair, ThreePointsKeepTheirTriangle)
+{
+  for (const int side : { 1, 4, 64 })
+  {
+    EXPECT_TRUE(isRepaired({ 0, 0, 1, 0, 0.5, 1e-6 }, side));
+  }
+}
+
+/// None of its triangles was there while artificial points were.
+TEST(HullRepair, AFlatHullIsFilled)
+{
+  Coordinates xy{ 0, 0, 1, 0 };
+  for (int i = 1; i < 50; ++i)
+  {
+    const double x = i / 50.0;
+    xy.insert(xy.end(), { x, 1e-9 * x * (1 - x) });
+  }
+  EXPECT_TRUE(isRepaired(xy, 64));
+}
+
+TEST(HullRepair, CollinearPointsAreLeftWithoutTriangles)
+{
+  Coordinates xy;
+  for (int i = 0; i < 20; ++i)
+  {
+    xy.insert(xy.end(), { double(i), 2.0 * i });
+  }
+  Enclosed scene(xy, 3);
+  ASSERT_FALSE(scene.Final.empty());
+  removeArtificialPoints(scene.Final, scene.Artificial);
+  EXPECT_TRUE(scene.Final.empty());
+}
+
+TEST(HullRepair, TrianglesOfTruePointsStay)
+{
+  Enclosed scene(makePointSet("uniform", 300), 4);
+  Triangles before;
+  for (const SeamTriangle& t : scene.Final)
+  {
+    if (!t[0].isArtificial() && !t[1].isArtificial() && !t[2].isArtificial())
+    {
+      before.push_back(canonical(t[0].Id, t[1].Id, t[2].Id));
+    }
+  }
+  std::sort(before.begin(), before.end());
+  removeArtificialPoints(scene.Final, scene.Artificial);
+  const Triangles after = idsOf(scene.Final);
+  EXPECT_TRUE(std::includes(after.begin(), after.end(), before.begin(), before.end()));
+}
+
+/// Cut off from the artificial points, as where a run has no triangles at them.
+TEST(HullRepair, WithoutTrianglesAtArtificialPointsNothingChanges)
+{
+  std::vector<SeamTriangle> final{ seamTriangle(1, 0, 0, 0), seamTriangle(4, 0, 0, 0) };
+  removeArtificialPoints(final, { SeamVertex{ { 9, 9 }, -1, 0 } });
+  EXPECT_EQ(2U, final.size());
+}
+
+} // namespace

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "InitialScene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+
+Box2 boundsOf(const std::vector<SeamVertex>& vertices)
+{
+  Coordinates xy;
+  for (const SeamVertex& v : vertices)
+  {
+    xy.insert(xy.end(), { v.Place.x, v.Place.y });
+  }
+  return test::boundsOf(xy);
+}
+
+const Box2 Domains[] = { { 0, 0, 1, 1 }, { -5, 3, 900, 4 },
+  { 1e12, 1e12, 1e12 + 0x1p-12, 1e12 + 1 }, { 1e12, -1e12, 1e12 + 0x1p-13, -1e12 + 0x1p-13 },
+  { 0, 0, 1e-300, 1e-300 }, { 0, 0, 0, 1 }, { -1e300, -1e300, 1e300, 1e300 },
+  { 0, 0, 4.9406564584124654e-324, 4.9406564584124654e-324 } };
+
+TEST(ArtificialPoints, EncloseTheDomainStrictly)
+{
+  for (const Box2& domain : Domains)
+  {
+    for (const int side : { 1, 2, 16 })
+    {
+      const Box2 frame = boundsOf(makeArtificialPoints(Tiling::grid(domain, side, side)));
+      EXPECT_LT(frame.xmin, domain.xmin);
+      EXPECT_LT(frame.ymin, domain.ymin);
+      EXPECT_GT(frame.xmax, domain.xmax);
+      EXPECT_GT(frame.ymax, domain.ymax);
+    }
+  }
+}
+
+/// So that their convex hull is the rectangle.
+TEST(ArtificialPoints, StandAtTheRectanglesCorners)
+{
+  for (const Box2& domain : Domains)
+  {
+    const std::vector<SeamVertex> points = makeArtificialPoints(Tiling::grid(domain, 4, 4));
+    const Box2 frame = boundsOf(points);
+    for (const Point2 corner : { Point2{ frame.xmin, frame.ymin }, Point2{ frame.xmax, frame.ymin },
+           Point2{ frame.xmin, frame.ymax }, Point2{ frame.xmax, frame.ymax } })
+    {
+      EXPECT_TRUE(std::any_of(
+        points.begin(), points.end(), [&](const SeamVertex& v) { return v.Place == corner; }));
+    }
+  }
+}
+
+TEST(ArtificialPoints, NoneIsInsideTheRectangle)
+{
+  for (const Box2& domain : Domains)
+  {
+    const std::vector<SeamVertex> points = makeArtificialPoints(Tiling::grid(domain, 4, 4));
+    const Box2 frame = boundsOf(points);
+    for (const SeamVertex& v : points)
+    {
+      EXPECT_TRUE(v.Place.x == frame.xmin || v.Place.x == frame.xmax || v.Place.y == frame.ymin ||
+        v.Place.y == frame.ymax);
+    }
+  }
+}
+
+TEST(ArtificialPoints, IdsAreNegativeAndUnique)
+{
+  for (const Box2& domain : Domains)
+  {
+    const std::vector<SeamVertex> points = makeArtificialPoints(Tiling::grid(domain, 8, 8));
+    std::set<std::int64_t> ids;
+    for (const SeamVertex& v : points)
+    {
+      EXPECT_TRUE(v.isArtificial());
+      ids.insert(v.Id);
+    }
+    EXPECT_EQ(points.size(), ids.size());
+    EXPECT_EQ(-1, *ids.rbegin());
+  }
+}
+
+TEST(ArtificialPoints, StandAsFarApartAsPartitionsAreWide)
+{
+  const std::vector<SeamVertex> points = makeArtificialPoints(Tiling::grid({ 0, 0, 8, 8 }, 8, 8));
+  // A square of side 10 with points one apart.
+  EXPECT_EQ(40U, points.size());
+}
+
+TEST(ArtificialPoints, ThereAreNoneWhereDoublesEnd)
+{
+  EXPECT_TRUE(
+    makeArtificialPoints(Tiling::grid({ -1.7e308, -1.7e308, 1.7e308, 1.7e308 }, 4, 4)).empty());
+}
+
+template <typename Id>
+class InitialPoints : public testing::Test
+{
+};
+
+using IdTypes = testing::Types<std::int32_t, std::int64_t>;
+TYPED_TEST_SUITE(InitialPoints, IdTypes);
+
+/// 100 points in the left half, 3 in the upper right quarter, and none in the lower one.
+Coordinates unevenPoints()
+{
+  Coordinates xy;
+  for (int i = 0; i < 100; ++i)
+  {
+    xy.insert(xy.end(), { 0.01 + 0.004 * i, i % 2 ? 0.25 : 0.75 });
+  }
+  xy.insert(xy.end(), { 0.6, 0.6, 0.7, 0.9, 0.8, 0.7 });
+  return xy;
+}
+
+TYPED_TEST(InitialPoints, AreEquallyManyAPartitionAndFewerWhereThereAreFewer)
+{
+  const Coordinates xy = unevenPoints();
+  const Tiling tiling = Tiling::grid({ 0, 0, 1, 1 }, 2, 2);
+  auto buckets = bucketPoints<TypeParam>(view(xy), tiling, 1);
+  std::vector<int> counts(4, 0);
+  for (const SeamVertex& v : chooseInitialPoints(tiling, buckets, 8))
+  {
+    ++counts[std::size_t(v.partition())];
+  }
+  EXPECT_EQ(8, counts[std::size_t(tiling.locate({ 0.2, 0.25 }))]);
+  EXPECT_EQ(8, counts[std::size_t(tiling.locate({ 0.2, 0.75 }))]);
+  EXPECT_EQ(3, counts[std::size_t(tiling.locate({ 0.7, 0.7 }))]);
+  EXPECT_EQ(0, counts[std::size_t(tiling.locate({ 0.7, 0.2 }))]);
+}
+
+TYPED_TEST(InitialPoints, AreInputPointsEachChosenOnce)
+{
+  const Coordinates xy = unevenPoints();
+  const std::vector<Point2> points = asPoints(xy);
+  const Tiling tiling = Tiling::grid({ 0, 0, 1, 1 }, 2, 2);
+  auto buckets = bucketPoints<TypeParam>(view(xy), tiling, 1);
+  for (const int perPartition : { 1, 7, 49, 50, 1000 })
+  {
+    std::set<std::int64_t> ids;
+    for (const SeamVertex& v : chooseInitialPoints(tiling, buckets, perPartition))
+    {
+      ASSERT_LE(0, v.Id);
+      EXPECT_EQ(points[std::size_t(v.Id)], v.Place);
+      EXPECT_EQ(tiling.locate(v.Place), v.partition());
+      EXPECT_TRUE(ids.insert(v.Id).second);
+    }
+    EXPECT_EQ(std::size_t(2 * std::min(perPartition, 50) + std::min(perPartition, 3)), ids.size());
+  }
+}
+
+TYPED_TEST(InitialPoints, AreSpreadOverTheInputsOrder)
+{
+  const Coordinates xy = unevenPoints();
+  const Tiling tiling = Tiling::grid({ 0, 0, 1, 1 }, 2, 1);
+  auto buckets = bucketPoints<TypeParam>(view(xy), tiling, 1);
+  const std::vector<SeamVertex> chosen = chooseInitialPoints(tiling, buckets, 4);
+  for (std::int64_t i = 0; i < 4; ++i)
+  {
+    EXPECT_EQ(12 + 25 * i, chosen[std::size_t(i)].Id);
+  }
+}
+
+TEST(InitialMesh, IsTheDelaunayTriangulationOfItsVertices)
+{
+  const InitialScene scene("clustered", 2000, 5, 5);
+  Coordinates xy;
+  Ids all;
+  for (const SeamVertex& v : scene.Vertices)
+  {
+    all.push_back(std::int64_t(xy.size() / 2));
+    xy.insert(xy.end(), { v.Place.x, v.Place.y });
+  }
+  std::vector<SeamVertex> numbered = scene.Vertices;
+  for (std::size_t i = 0; i < numbered.size(); ++i)
+  {
+    numbered[i].Id = std::int64_t(i);
+  }
+  for (const int threads : { 1, 2, 5 })
+  {
+    EXPECT_TRUE(sameTriangles(
+      xy, idsOf(triangulateVertices(scene.Boxes, numbered, threads).Triangles), delaunay(xy, all)));
+  }
+}
+
+TEST(InitialMesh, IsInTheSameOrderForAnyNumberOfThreads)
+{
+  const InitialScene scene("uniform", 1000, 4, 4);
+  const SeamTriangles more = triangulateVertices(scene.Boxes, scene.Vertices, 3);
+  EXPECT_EQ(scene.Mesh.Met, more.Met);
+  EXPECT_EQ(scene.Mesh.MetEnds, more.MetEnds);
+  ASSERT_EQ(scene.Mesh.Triangles.size(), more.Triangles.size());
+  for (std::size_t i = 0; i < more.Triangles.size(); ++i)
+  {
+    EXPECT_EQ(scene.Mesh.Triangles[i][0].Id, more.Triangles[i][0].Id);
+  }
+}
+
+/// Otherwise a partition's worker would begin without vertices around.
+TEST(InitialMesh, EveryPartitionHasTrianglesThatBelongToIt)
+{
+  const InitialScene scene("one-far-away", 500, 6, 6);
+  for (PartitionIndex p = 0; p < scene.Boxes.size(); ++p)
+  {
+    EXPECT_EQ(
+      1, std::min<std::ptrdiff_t>(1, std::count(scene.Mesh.Met.begin(), scene.Mesh.Met.end(), p)))
+      << "partition " << p;
+  }
+}
+
+TEST(InitialMesh, InitialPointsAtOnePlaceAreOneVertex)
+{
+  const Tiling tiling = Tiling::grid({ 0, 0, 1, 1 }, 2, 2);
+  std::vector<SeamVertex> vertices = makeArtificialPoints(tiling);
+  const std::size_t artificial = vertices.size();
+  for (std::int64_t id = 0; id < 5; ++id)
+  {
+    vertices.push_back(makeSeamVertex(tiling, 0, { 0.2, 0.3 }, id));
+  }
+  std::set<std::int64_t> used;
+  for (const SeamTriangle& t : triangulateVertices(tiling, vertices, 1).Triangles)
+  {
+    used.insert({ t[0].Id, t[1].Id, t[2].Id });
+  }
+  EXPECT_EQ(artificial + 1, used.size());
+}
+
+} // namespace

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "InitialScene.h"
+
+#include "ExactDisk.h"
+#include "Triangulation/Worker.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+
+using Interior = std::vector<std::int32_t>;
+
+Interior interiorOf(
+  PointBuckets<std::int32_t>& buckets, PartitionIndex p, const Worker<std::int32_t>& worker)
+{
+  const std::int32_t* const ids = buckets.triangles(p);
+  return Interior(ids, ids + 3 * worker.interiorCount());
+}
+
+/// Partitions that workers take one after the other.
+class WorkerRun
+{
+public:
+  WorkerRun(const std::string& set, std::size_t count, int side)
+    : Scene(set, count, side, side)
+    , Mesh(this->Scene.Boxes.size())
+    , Work(this->Scene.Boxes, this->Scene.Buckets)
+    , XY(this->Scene.XY)
+
+  {
+    this->Mesh.add(this->Scene.Mesh, this->Final);
+    // Artificial points come after the true ones, so that both are named by their place.
+    for (const SeamVertex& v : this->Scene.Artificial)
+    {
+      this->Inserted.push_back(std::int64_t(this->XY.size() / 2));
+      this->XY.insert(this->XY.end(), { v.Place.x, v.Place.y });
+    }
+    for (const SeamVertex& v : this->Scene.Vertices)
+    {
+      if (!v.isArtificial())
+      {
+        this->Inserted.push_back(v.Id);
+      }
+    }
+  }
+
+  PartitionIndex partitions() const { return this->Scene.Boxes.size(); }
+
+  Interior triangulate(PartitionIndex p)
+  {
+    const std::int32_t* const ids = this->Scene.Buckets.ids(p);
+    this->Inserted.insert(this->Inserted.end(), ids, ids + this->Scene.Buckets.count(p));
+    std::sort(this->Inserted.begin(), this->Inserted.end());
+    this->Inserted.erase(
+      std::unique(this->Inserted.begin(), this->Inserted.end()), this->Inserted.end());
+    std::vector<SeamTriangle> belonging;
+    this->Mesh.gather(p, belonging);
+    this->Work.triangulate(p, belonging);
+    this->Mesh.finish(p);
+    this->Mesh.add(this->Work.seams(), this->Final);
+    return interiorOf(this->Scene.Buckets, p, this->Work);
+  }
+
+  std::int64_t idIn(const SeamVertex& v) const
+  {
+    return v.isArtificial() ? std::int64_t(this->Scene.XY.size() / 2) - 1 - v.Id : v.Id;
+  }
+
+  /// The last partition's interior triangles and the seams, by places in XY.
+  Triangles made(const Interior& interior) const
+  {
+    Triangles all = this->inXY(this->Work.seams().Triangles);
+    for (std::size_t i = 0; i < interior.size(); i += 3)
+    {
+      all.push_back(canonical(interior[i], interior[i + 1], interior[i + 2]));
+    }
+    return sorted(std::move(all));
+  }
+
+  Triangles inXY(const std::vector<SeamTriangle>& seams) const
+  {
+    Triangles all;
+    for (const SeamTriangle& t : seams)
+    {
+      all.push_back(canonical(this->idIn(t[0]), this->idIn(t[1]), this->idIn(t[2])));
+    }
+    return all;
+  }
+
+  InitialScene Scene;
+  SeamMesh Mesh;
+  Worker<std::int32_t> Work;
+  std::vector<SeamTriangle> Final;
+  Coordinates XY;
+  Ids Inserted;
+};
+
+class WorkerOn : public testing::TestWithParam<std::string>
+{
+};
+
+/// Lemma 1.
+TEST_P(WorkerOn, MakesTheTrianglesThatBelongToItsPartition)
+{
+  WorkerRun run(GetParam(), 250, 3);
+  for (PartitionIndex p = 0; p < run.partitions(); ++p)
+  {
+    const Triangles made = run.made(run.triangulate(p));
+    const Box2& box = run.Scene.Boxes.box(p);
+    ASSERT_TRUE(sameTriangles(run.XY, made,
+      belonging(
+        run.XY, delaunay(run.XY, run.Inserted), { box.xmin, box.ymin, box.xmax, box.ymax })))
+      << "partition " << p;
+  }
+}
+
+/// Lemma 2: what is final when all are through is the triangulation, without a gap.
+TEST_P(WorkerOn, InteriorTrianglesAndFinalSeamsAreTheTriangulation)
+{
+  WorkerRun run(GetParam(), 800, 4);
+  Triangles all;
+  for (PartitionIndex p = 0; p < run.partitions(); ++p)
+  {
+    const Interior interior = run.triangulate(p);
+    for (std::size_t i = 0; i < interior.size(); i += 3)
+    {
+      all.push_back(canonical(interior[i], interior[i + 1], interior[i + 2]));
+    }
+  }
+  const Triangles seams = run.inXY(run.Final);
+  all.insert(all.end(), seams.begin(), seams.end());
+  EXPECT_EQ(0U, run.Mesh.size());
+  EXPECT_TRUE(sameTriangles(run.XY, sorted(std::move(all)), delaunay(run.XY, run.Inserted)));
+}
+
+/// Whatever belongs: first, last or between, a partition's interior is the same, in the same order.
+TEST_P(WorkerOn, InteriorTrianglesDoNotDependOnTheSchedule)
+{
+  std::vector<std::vector<Interior>> runs;
+  for (int schedule = 0; schedule < 3; ++schedule)
+  {
+    WorkerRun run(GetParam(), 1500, 3);
+    std::vector<PartitionIndex> order(std::size_t(run.partitions()));
+    std::iota(order.begin(), order.end(), 0);
+    if (schedule > 0)
+    {
+      std::reverse(order.begin(), order.end());
+      std::rotate(order.begin(), order.begin() + 4 * (schedule - 1), order.end());
+    }
+    std::vector<Interior> interiors(order.size());
+    for (const PartitionIndex p : order)
+    {
+      interiors[std::size_t(p)] = run.triangulate(p);
+    }
+    runs.push_back(interiors);
+  }
+  EXPECT_EQ(runs[0], runs[1]);
+  EXPECT_EQ(runs[0], runs[2]);
+}
+
+/// They are nobody else's: the disk lies inside the partition.
+TEST_P(WorkerOn, InteriorTrianglesBelongToNoOtherPartition)
+{
+  WorkerRun run(GetParam(), 1000, 3);
+  for (PartitionIndex p = 0; p < run.partitions(); ++p)
+  {
+    const Interior interior = run.triangulate(p);
+    const std::vector<Point2> points = asPoints(run.XY);
+    for (std::size_t i = 0; i < interior.size(); i += 3)
+    {
+      const Circumdisk disk(points[std::size_t(interior[i])], points[std::size_t(interior[i + 1])],
+        points[std::size_t(interior[i + 2])]);
+      std::vector<PartitionIndex> met;
+      run.Scene.Boxes.visitMet(disk, [&](PartitionIndex q) { met.push_back(q); });
+      ASSERT_EQ(std::vector<PartitionIndex>{ p }, met);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(PointSets, WorkerOn,
+  testing::Values("uniform", "clustered", "lattice-shuffled", "lattice-tenths", "survey-lines"),
+  [](const auto& info)
+  {
+    std::string name = info.param;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+  });
+
+TEST(Worker, CountsItsOwnPointsAndTheVerticesAround)
+{
+  WorkerRun run("uniform", 500, 2);
+  std::vector<SeamTriangle> belonging;
+  run.Mesh.gather(0, belonging);
+  Ids foreign;
+  for (const SeamTriangle& t : belonging)
+  {
+    for (const SeamVertex& v : t)
+    {
+      if (v.isArtificial() || v.partition() != 0)
+      {
+        foreign.push_back(v.Id);
+      }
+    }
+  }
+  std::sort(foreign.begin(), foreign.end());
+  foreign.erase(std::unique(foreign.begin(), foreign.end()), foreign.end());
+  run.triangulate(0);
+  EXPECT_EQ(run.Scene.Buckets.count(0) + foreign.size(), run.Work.vertexCount());
+}
+
+TEST(Worker, AloneMakesAllTriangles)
+{
+  const Coordinates xy = makePointSet("duplicates", 600);
+  const Tiling tiling = Tiling::grid(boundsOf(xy), 1, 1);
+  auto buckets = bucketPoints<std::int64_t>(view(xy), tiling, 1);
+  Worker<std::int64_t> worker(tiling, buckets);
+  worker.triangulateAlone();
+  Triangles made;
+  const std::int64_t* const ids = buckets.triangles(0);
+  for (std::size_t i = 0; i < 3 * worker.interiorCount(); i += 3)
+  {
+    made.push_back(canonical(ids[i], ids[i + 1], ids[i + 2]));
+  }
+  EXPECT_TRUE(sameTriangles(xy, sorted(std::move(made)), reference(xy).Mesh));
+}
+
+TEST(Worker, AloneTheLowestIdStandsForItsDuplicates)
+{
+  const Coordinates xy = makePointSet("duplicates", 600);
+  const Tiling tiling = Tiling::grid(boundsOf(xy), 1, 1);
+  auto buckets = bucketPoints<std::int32_t>(view(xy), tiling, 1);
+  Worker<std::int32_t> worker(tiling, buckets);
+  worker.triangulateAlone();
+  ASSERT_FALSE(worker.duplicates().empty());
+  const Ids expected = reference(xy).Representative;
+  for (const Duplicate& duplicate : worker.duplicates())
+  {
+    EXPECT_EQ(expected[std::size_t(duplicate.Point)], duplicate.Representative);
+  }
+}
+
+/// Others already hold triangles at it.
+TEST(Worker, AnInitialPointStandsForLowerDuplicates)
+{
+  const Coordinates xy{ 0.1, 0.1, 0.3, 0.2, 0.3, 0.2, 0.3, 0.2, 0.9, 0.3, 0.4, 0.9, 0.8, 0.8 };
+  const Tiling tiling = Tiling::grid({ 0, 0, 1, 1 }, 2, 2);
+  const PartitionIndex p = tiling.locate({ 0.3, 0.2 });
+  for (const std::int64_t known : { 1, 2, 3 })
+  {
+    auto buckets = bucketPoints<std::int32_t>(view(xy), tiling, 1);
+    std::vector<SeamVertex> vertices = makeArtificialPoints(tiling);
+    vertices.push_back(makeSeamVertex(tiling, p, { 0.3, 0.2 }, known));
+    SeamMesh mesh(tiling.size());
+    std::vector<SeamTriangle> seams;
+    mesh.add(triangulateVertices(tiling, vertices, 1), seams);
+    mesh.gather(p, seams);
+    Worker<std::int32_t> worker(tiling, buckets);
+    worker.triangulate(p, seams);
+    ASSERT_EQ(2U, worker.duplicates().size());
+    for (const Duplicate& duplicate : worker.duplicates())
+    {
+      EXPECT_EQ(known, duplicate.Representative);
+      EXPECT_NE(known, duplicate.Point);
+    }
+  }
+}
+
+} // namespace
