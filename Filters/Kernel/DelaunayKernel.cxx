@@ -3,6 +3,7 @@
 
 #include "Predicates/Orientation.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace tipp
@@ -32,7 +33,7 @@ bool DelaunayKernel::isInfinite(Index triangle) const
   return v[0] == Infinite || v[1] == Infinite || v[2] == Infinite;
 }
 
-void DelaunayKernel::insert(const Point2* points, std::size_t count)
+bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monitor& proceed)
 {
   const std::vector<std::uint32_t>& order = this->Order.compute(points, count);
   const Index first = this->vertexEnd();
@@ -50,13 +51,23 @@ void DelaunayKernel::insert(const Point2* points, std::size_t count)
   this->Mesh.reserve(2 * this->Points.size());
   if (!this->hasTriangles() && !this->makeFirstTriangle(this->Pending))
   {
-    return;
+    return true;
   }
-  for (Index vertex = this->Pending; vertex < this->vertexEnd(); ++vertex)
+  constexpr Index stride = 1 << 16;
+  while (this->Pending < this->vertexEnd())
   {
-    this->insertVertex(vertex);
+    const Index end = std::min(this->vertexEnd(), this->Pending + stride);
+    for (Index vertex = this->Pending; vertex < end; ++vertex)
+    {
+      this->insertVertex(vertex);
+    }
+    this->Pending = end;
+    if (end < this->vertexEnd() && proceed && !proceed(static_cast<std::size_t>(end) - 1))
+    {
+      return false;
+    }
   }
-  this->Pending = this->vertexEnd();
+  return true;
 }
 
 /// Finds three points that are not collinear, moves them to the front and makes their triangle and

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace tipp
@@ -39,7 +40,12 @@ public:
   DelaunayKernel& operator=(const DelaunayKernel&) = delete;
 
   void clear();
-  void insert(const Point2* points, std::size_t count);
+
+  /// Asked now and then with the number of points inserted so far; false ends the insertion.
+  using Monitor = std::function<bool(std::size_t)>;
+
+  /// False if the monitor ended it: then only clear() makes sense.
+  bool insert(const Point2* points, std::size_t count, const Monitor& proceed = {});
 
   /// False as long as all points are collinear: then there are no triangles.
   bool hasTriangles() const { return this->Mesh.end() > 0; }

@@ -13,8 +13,8 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 
@@ -155,7 +155,13 @@ private:
     this->Result.Statistics.Partitions = 1;
     TriangleSink<Id> sink(this->Buckets);
     Worker<Id> worker(tiling, this->Buckets);
-    worker.triangulateAlone();
+    const double all = double(this->Buckets.size());
+    this->Result.Aborted = !worker.triangulateAlone(
+      [this, all](std::size_t inserted) { return this->report(double(inserted) / all); });
+    if (this->Result.Aborted)
+    {
+      return;
+    }
     sink.setInteriorCount(0, worker.interiorCount());
     this->Result.Duplicates = worker.duplicates();
     this->Result.Statistics.WorkerVertices = std::int64_t(worker.vertexCount());
@@ -211,13 +217,21 @@ private:
       worker.triangulate(partition, belonging);
       sink.setInteriorCount(partition, worker.interiorCount());
       master.complete(partition, worker.seams(), worker.duplicates(), worker.vertexCount());
-      const std::size_t done = this->PointsDone += this->Buckets.count(partition);
-      // Only the caller's own thread reports.
-      if (omp_get_thread_num() == 0 && !this->report(double(done) / double(this->Buckets.size())))
+      if (!this->reportFinished(this->Buckets.count(partition)))
       {
         master.stop();
       }
     }
+  }
+
+  /// Threads report one at a time, so that the fraction rises; none after one was told to stop.
+  bool reportFinished(std::size_t points)
+  {
+    const std::lock_guard<std::mutex> lock(this->ReportMutex);
+    this->PointsDone += points;
+    this->Stopped =
+      this->Stopped || !this->report(double(this->PointsDone) / double(this->Buckets.size()));
+    return !this->Stopped;
   }
 
   void finish(TriangleSink<Id>& sink, const std::vector<SeamTriangle>& seams)
@@ -235,7 +249,9 @@ private:
   const int Threads;
   const int PassThreads; ///< for passes over all points
   PointBuckets<Id> Buckets;
-  std::atomic<std::size_t> PointsDone{ 0 };
+  std::mutex ReportMutex;
+  std::size_t PointsDone = 0;
+  bool Stopped = false;
   Stopwatch Watch;
 };
 

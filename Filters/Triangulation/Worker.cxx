@@ -41,12 +41,15 @@ void Worker<Id>::triangulate(PartitionIndex partition, const std::vector<SeamTri
 }
 
 template <typename Id>
-void Worker<Id>::triangulateAlone()
+bool Worker<Id>::triangulateAlone(const DelaunayKernel::Monitor& proceed)
 {
   this->KnownIds.clear();
   this->takeIds(0);
   this->Kernel.clear();
-  this->Kernel.insert(this->Buckets.points(0), this->Buckets.count(0));
+  if (!this->Kernel.insert(this->Buckets.points(0), this->Buckets.count(0), proceed))
+  {
+    return false;
+  }
   this->VertexCount = static_cast<std::size_t>(this->Kernel.vertexEnd()) - 1;
   this->resolveDuplicates();
   this->IsSeam.resize(static_cast<std::size_t>(this->Kernel.mesh().end() / 8));
@@ -55,6 +58,7 @@ void Worker<Id>::triangulateAlone()
     this->IsSeam[t] = this->Kernel.isInfinite(static_cast<DelaunayKernel::Index>(8 * t));
   }
   this->writeInterior(0);
+  return true;
 }
 
 template <typename Id>

@@ -25,8 +25,8 @@ public:
   /// alone, over its points, and keeps the others whose circumdisk meets the partition.
   void triangulate(PartitionIndex partition, const std::vector<SeamTriangle>& belonging);
 
-  /// The only partition, number 0: all triangles are interior.
-  void triangulateAlone();
+  /// The only partition, number 0: all triangles are interior. False if the monitor ended it.
+  bool triangulateAlone(const DelaunayKernel::Monitor& proceed);
 
   std::size_t interiorCount() const { return this->InteriorCount; }
   const SeamTriangles& seams() const { return this->Seams; }

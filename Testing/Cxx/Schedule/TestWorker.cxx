@@ -219,7 +219,7 @@ TEST(Worker, AloneMakesAllTriangles)
   const Tiling tiling = Tiling::grid(boundsOf(xy), 1, 1);
   auto buckets = bucketPoints<std::int64_t>(view(xy), tiling, 1);
   Worker<std::int64_t> worker(tiling, buckets);
-  worker.triangulateAlone();
+  ASSERT_TRUE(worker.triangulateAlone({}));
   Triangles made;
   const std::int64_t* const ids = buckets.triangles(0);
   for (std::size_t i = 0; i < 3 * worker.interiorCount(); i += 3)
@@ -235,7 +235,7 @@ TEST(Worker, AloneTheLowestIdStandsForItsDuplicates)
   const Tiling tiling = Tiling::grid(boundsOf(xy), 1, 1);
   auto buckets = bucketPoints<std::int32_t>(view(xy), tiling, 1);
   Worker<std::int32_t> worker(tiling, buckets);
-  worker.triangulateAlone();
+  ASSERT_TRUE(worker.triangulateAlone({}));
   ASSERT_FALSE(worker.duplicates().empty());
   const Ids expected = reference(xy).Representative;
   for (const Duplicate& duplicate : worker.duplicates())

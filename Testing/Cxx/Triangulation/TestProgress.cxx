@@ -69,6 +69,20 @@ INSTANTIATE_TEST_SUITE_P(Runs, Abort,
   testing::Combine(testing::Values(Schedule::Stages, Schedule::Dynamic), testing::Values(1, 2, 4)),
   nameOf);
 
+TEST(AbortedRun, OnePartitionAloneIsEndedEarlyToo)
+{
+  const Coordinates xy = makePointSet("uniform", 200000);
+  TriangulationOptions options;
+  options.Columns = 1;
+  options.Rows = 1;
+  int calls = 0;
+  options.Progress = [&](double) { return ++calls < 2; };
+  const Triangulation result = triangulate(view(xy), options);
+  EXPECT_TRUE(result.Aborted);
+  EXPECT_EQ(0u, result.triangleCount());
+  EXPECT_EQ(2, calls);
+}
+
 TEST(AbortedRun, AtOnceIsHeard)
 {
   const Coordinates xy = makePointSet("uniform", 50000);
