@@ -253,6 +253,19 @@ TEST(KernelBatches, ALatticeInAnyOrderIsTheSame)
   }
 }
 
+/// Arithmetic that is exact for the lattice alone is not for what follows.
+TEST(KernelBatches, PointsJustOffALatticeAreSeparatedFromIt)
+{
+  const Points lattice = pointSet("lattice-shuffled", 100);
+  Points beside;
+  for (std::size_t i = 0; i < lattice.size(); i += 3)
+  {
+    const double hair = std::ldexp(i % 2 ? 1.0 : -1.0, -52);
+    beside.push_back({ lattice[i].x * (1 + hair), lattice[i].y * (1 - hair) });
+  }
+  EXPECT_TRUE(batchesAreDelaunay({ lattice, beside }));
+}
+
 TEST(KernelBatches, PointsAFractionOfAnUlpOffALineAreTriangulated)
 {
   Points points;

@@ -17,6 +17,17 @@ namespace tipp
 namespace test
 {
 
+/// What parts that depend on the size of ids are tested with.
+using IdTypes = testing::Types<std::int32_t, std::int64_t>;
+struct IdNames
+{
+  template <typename Id>
+  static std::string GetName(int)
+  {
+    return "Int" + std::to_string(8 * sizeof(Id));
+  }
+};
+
 inline std::vector<Point2> asPoints(const Coordinates& xy)
 {
   std::vector<Point2> points;

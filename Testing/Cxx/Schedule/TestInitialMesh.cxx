@@ -105,8 +105,7 @@ class InitialPoints : public testing::Test
 {
 };
 
-using IdTypes = testing::Types<std::int32_t, std::int64_t>;
-TYPED_TEST_SUITE(InitialPoints, IdTypes);
+TYPED_TEST_SUITE(InitialPoints, IdTypes, IdNames);
 
 /// 100 points in the left half, 3 in the upper right quarter, and none in the lower one.
 Coordinates unevenPoints()

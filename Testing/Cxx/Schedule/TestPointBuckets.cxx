@@ -15,9 +15,7 @@ class BucketsOf : public testing::Test
 {
 };
 
-/// By the type of their ids.
-using IdTypes = testing::Types<std::int32_t, std::int64_t>;
-TYPED_TEST_SUITE(BucketsOf, IdTypes);
+TYPED_TEST_SUITE(BucketsOf, IdTypes, IdNames);
 
 /// Points of the unit square, some of which are not finite: a number that no batch divides.
 Coordinates pointsWithHoles()

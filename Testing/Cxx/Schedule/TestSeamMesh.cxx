@@ -2,6 +2,9 @@
 #include "ScheduleTesting.h"
 
 #include <algorithm>
+#include <numeric>
+#include <random>
+#include <set>
 
 namespace
 {
@@ -141,6 +144,145 @@ TEST_F(SeamMeshOfFour, ASlotUsedAgainHoldsItsNewTriangle)
   EXPECT_EQ(idsOf({ this->B }), this->gathered(1));
   EXPECT_EQ(idsOf({ this->C }), this->gathered(2));
   EXPECT_EQ(2U, this->Mesh.size());
+}
+
+/// The same in the simplest way: all triangles ever added.
+class Model
+{
+public:
+  void add(const SeamTriangle& triangle, const std::set<PartitionIndex>& met)
+  {
+    this->All.push_back({ triangle, met });
+  }
+
+  void finish(PartitionIndex p)
+  {
+    this->Finished.insert(p);
+    this->All.erase(std::remove_if(this->All.begin(), this->All.end(),
+                      [p](const Member& m) { return m.Met.count(p) > 0; }),
+      this->All.end());
+  }
+
+  bool isFinal(const std::set<PartitionIndex>& met) const
+  {
+    return std::includes(this->Finished.begin(), this->Finished.end(), met.begin(), met.end());
+  }
+
+  std::vector<SeamTriangle> belonging(PartitionIndex p) const
+  {
+    std::vector<SeamTriangle> triangles;
+    for (const Member& m : this->All)
+    {
+      if (m.Met.count(p) > 0)
+      {
+        triangles.push_back(m.Corners);
+      }
+    }
+    return triangles;
+  }
+
+  std::size_t size() const { return this->All.size(); }
+
+private:
+  struct Member
+  {
+    SeamTriangle Corners;
+    std::set<PartitionIndex> Met;
+  };
+  std::vector<Member> All;
+  std::set<PartitionIndex> Finished;
+};
+
+/// Slots are used again hundreds of times here.
+class SeamMeshBesideAModel : public testing::Test
+{
+public:
+  static constexpr PartitionIndex Partitions = 30;
+
+  /// Some triangles, each of a few partitions side by side.
+  void addSome()
+  {
+    for (int i = 0; i < 40; ++i)
+    {
+      std::set<PartitionIndex> met;
+      const auto first = PartitionIndex(this->Random() % Partitions);
+      for (PartitionIndex p = first; p < std::min(Partitions, first + 1 + i % 4); ++p)
+      {
+        met.insert(p);
+      }
+      const auto label = [this] { return std::uint32_t(this->Random() % (4 * Partitions)); };
+      const SeamTriangle t = seamTriangle(this->NextId += 3, label(), label(), label());
+      this->Mesh.add(
+        seamTriangles({ { t, std::vector<PartitionIndex>(met.begin(), met.end()) } }), this->Final);
+      if (this->Expected.isFinal(met))
+      {
+        this->ExpectedFinal.push_back(t);
+      }
+      else
+      {
+        this->Expected.add(t, met);
+      }
+    }
+  }
+
+  /// All partitions, one after the other.
+  template <typename Check>
+  void run(Check&& check)
+  {
+    std::vector<PartitionIndex> order(static_cast<std::size_t>(Partitions));
+    std::iota(order.begin(), order.end(), 0);
+    std::shuffle(order.begin(), order.end(), this->Random);
+    this->addSome();
+    for (std::size_t i = 0; i < order.size(); ++i)
+    {
+      this->Mesh.finish(order[i]);
+      this->Expected.finish(order[i]);
+      this->addSome();
+      for (std::size_t j = i + 1; j < order.size(); ++j)
+      {
+        check(order[j]);
+      }
+    }
+  }
+
+  SeamMesh Mesh{ Partitions };
+  Model Expected;
+  std::vector<SeamTriangle> Final;
+  std::vector<SeamTriangle> ExpectedFinal;
+  std::mt19937_64 Random{ 4 };
+  std::int64_t NextId = 0;
+};
+
+TEST_F(SeamMeshBesideAModel, GathersTheSameTriangles)
+{
+  std::vector<SeamTriangle> gathered;
+  this->run(
+    [&](PartitionIndex p)
+    {
+      this->Mesh.reach(p); // which drops superseded entries
+      this->Mesh.gather(p, gathered);
+      ASSERT_EQ(idsOf(this->Expected.belonging(p)), idsOf(gathered));
+      ASSERT_EQ(this->Expected.size(), this->Mesh.size());
+    });
+  EXPECT_EQ(idsOf(this->ExpectedFinal), idsOf(this->Final));
+  EXPECT_EQ(0U, this->Mesh.size());
+}
+
+/// A label too many makes a partition wait; one too few would let conflicting ones be active.
+TEST_F(SeamMeshBesideAModel, ReachMissesNoLabel)
+{
+  this->run(
+    [&](PartitionIndex p)
+    {
+      const Labels reach = this->Mesh.reach(p);
+      const std::set<std::uint32_t> labels(reach.begin(), reach.end());
+      ASSERT_EQ(labels.size(), reach.size()) << "a label is named twice";
+      for (const SeamTriangle& t : this->Expected.belonging(p))
+      {
+        ASSERT_TRUE(
+          labels.count(t[0].Label) && labels.count(t[1].Label) && labels.count(t[2].Label));
+      }
+    });
 }
 
 TEST(SeamTriangles, AppendingKeepsWhatEachTriangleMeets)

@@ -93,9 +93,13 @@ TEST(Tiling, EveryPointIsInTheClosedBoxItIsFoundIn)
 
 TEST(Tiling, ManyPointsAreFoundWhereEachIsAlone)
 {
-  const std::vector<Point2> points = somePoints(100);
-  // Boxes at different depths.
-  const Tiling tiling = Tiling::grid({ 0, 0, 1, 1 }, 5, 3);
+  // Boxes at different depths; half of the points lie on cuts.
+  const Tiling tiling = Tiling::grid({ 0, 0, 5, 3 }, 5, 3);
+  std::vector<Point2> points;
+  for (int i = 0; i < 100; ++i)
+  {
+    points.push_back({ i * 7 % 21 / 4.0, i * 5 % 13 / 4.0 });
+  }
   for (const std::size_t count : { 0, 1, 7, 8, 9, 15, 16, 17, 99, 100 })
   {
     std::vector<std::uint32_t> found(count + 1, 12345);

@@ -75,8 +75,7 @@ class SinkOf
 {
 };
 
-using IdTypes = testing::Types<std::int32_t, std::int64_t>;
-TYPED_TEST_SUITE(SinkOf, IdTypes);
+TYPED_TEST_SUITE(SinkOf, IdTypes, IdNames);
 
 TYPED_TEST(SinkOf, InteriorTrianglesAndSeamsAreAllThere)
 {
