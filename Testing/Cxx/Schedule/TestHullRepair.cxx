@@ -4,6 +4,7 @@
 #include "Triangulation/HullRepair.h"
 
 #include <algorithm>
+#include <random>
 
 namespace
 {
@@ -83,6 +84,25 @@ TEST(HullRepair, AFlatHullIsFilled)
     xy.insert(xy.end(), { x, 1e-9 * x * (1 - x) });
   }
   EXPECT_TRUE(isRepaired(xy, 64));
+}
+
+/// Few points of a lattice that the artificial points continue: many circles of true points go
+/// through these.
+TEST(HullRepair, ArtificialPointsOnACircleAreDecidedByTheTieRule)
+{
+  std::mt19937_64 random(6);
+  for (int draw = 0; draw < 100; ++draw)
+  {
+    Coordinates xy{ 0, 0, 4, double(random() % 5), double(random() % 5), 4 };
+    for (int i = 0; i < 25; ++i)
+    {
+      if (random() % 4 == 0)
+      {
+        xy.insert(xy.end(), { double(i % 5), double(i / 5) });
+      }
+    }
+    ASSERT_TRUE(isRepaired(xy, 4)) << "draw " << draw;
+  }
 }
 
 TEST(HullRepair, CollinearPointsAreLeftWithoutTriangles)

@@ -41,6 +41,20 @@ TEST_P(MasterOf, EveryPartitionIsHandedOutOnce)
   EXPECT_EQ(scene.partitionsWithPoints(), taken);
 }
 
+TEST_P(MasterOf, IndependentPartitionsAreHandedOutTogether)
+{
+  Master master(GetParam(), 3, { 0, 1, 2 },
+    seamTriangles({ { seamTriangle(1, 0, 0, 1), { 0 } }, { seamTriangle(4, 4, 4, 5), { 1 } } }));
+  std::vector<SeamTriangle> belonging;
+  Partitions taken;
+  for (int i = 0; i < 3; ++i)
+  {
+    taken.push_back(master.acquire(belonging));
+  }
+  std::sort(taken.begin(), taken.end());
+  EXPECT_EQ((Partitions{ 0, 1, 2 }), taken);
+}
+
 TEST_P(MasterOf, ThreeThreadsShareThePartitions)
 {
   const InitialScene scene("uniform", 3000, 8, 8);

@@ -213,6 +213,39 @@ TEST(Worker, CountsItsOwnPointsAndTheVerticesAround)
   EXPECT_EQ(run.Scene.Buckets.count(0) + foreign.size(), run.Work.vertexCount());
 }
 
+/// Three points on a circle in the middle of 3 x 3 partitions, about the middle plus (dx, dy).
+/// Tells how many triangles are interior to its partition, which is 4 wide.
+std::size_t interiorCountWithCircle(double dx, double dy, double radius)
+{
+  const double x = 6 + dx;
+  const double y = 6 + dy;
+  const Coordinates xy{ 0, 0, 12, 0, 12, 12, 0, 12, x + radius, y, x - radius, y, x, y + radius };
+  const Tiling tiling = Tiling::grid({ 0, 0, 12, 12 }, 3, 3);
+  const PartitionIndex middle = tiling.locate({ 6, 6 });
+  auto buckets = bucketPoints<std::int32_t>(view(xy), tiling, 1);
+  SeamMesh mesh(tiling.size());
+  std::vector<SeamTriangle> seams;
+  mesh.add(triangulateVertices(tiling, makeArtificialPoints(tiling), 1), seams);
+  mesh.gather(middle, seams);
+  Worker<std::int32_t> worker(tiling, buckets);
+  worker.triangulate(middle, seams);
+  return worker.interiorCount();
+}
+
+TEST(Worker, ADiskInsideThePartitionIsInterior)
+{
+  EXPECT_EQ(1U, interiorCountWithCircle(0, 0, 1));
+}
+
+/// It touches the neighbour, which is closed: a point there might lie on it.
+TEST(Worker, ADiskThatTouchesTheBorderFromInsideIsNotInterior)
+{
+  EXPECT_EQ(0U, interiorCountWithCircle(-1, 0, 1));
+  EXPECT_EQ(0U, interiorCountWithCircle(1, 0, 1));
+  EXPECT_EQ(0U, interiorCountWithCircle(0, -1, 1));
+  EXPECT_EQ(0U, interiorCountWithCircle(0, 1, 1));
+}
+
 TEST(Worker, AloneMakesAllTriangles)
 {
   const Coordinates xy = makePointSet("duplicates", 600);
