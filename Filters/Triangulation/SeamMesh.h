@@ -66,7 +66,8 @@ public:
 
   bool isFinished(PartitionIndex p) const { return this->Finished[std::size_t(p)]; }
 
-  /// The labels of the vertices of the partition's triangles, each once.
+  /// The labels of the vertices of the partition's triangles, each once; and perhaps of some that
+  /// were superseded since triangles were last added to it.
   const std::vector<std::uint32_t>& reach(PartitionIndex partition);
 
   PartitionIndex partitions() const { return static_cast<PartitionIndex>(this->Members.size()); }

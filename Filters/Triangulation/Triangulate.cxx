@@ -48,7 +48,7 @@ int threadsForPass(std::size_t points, int threads)
 /// measurement.
 bool partitionsPay(const SeamTriangles& initialMesh)
 {
-  constexpr std::size_t most = 6;
+  constexpr std::size_t most = 4;
   return initialMesh.Met.size() <= most * initialMesh.Triangles.size();
 }
 
@@ -262,7 +262,7 @@ int choosePartitionCount(std::size_t points, int threads)
   constexpr std::size_t smallest = 4096;
   constexpr std::size_t best = 49152;
   constexpr std::size_t perThread = 8;
-  if (points <= (threads == 1 ? 2 * best : alone))
+  if (points <= (threads == 1 ? 3 * best : alone))
   {
     return 1;
   }
