@@ -36,7 +36,6 @@ while [ $# -gt 0 ]; do
 done
 
 sh "$top/Utilities/install-packages.sh"
-sh "$top/Utilities/install-packages.sh" "$top/Testing/Benchmarks/packages.txt"
 cd "$top"
 cmake --preset default -B "$build" --log-level=WARNING \
   -DTIPP_BUILD_BENCHMARKS=ON -DTIPP_BUILD_TESTING=OFF -DTIPP_WRAP_PYTHON=OFF

@@ -1,10 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the packages of a list that this machine lacks; touches nothing when none is missing.
-#   sh Utilities/install-packages.sh [LIST]      (LIST: packages.txt beside this script, if none is named)
+# Installs what this machine lacks of packages.txt beside this script; touches nothing when none is missing.
 set -eu
 
-list=${1:-$(dirname "$0")/packages.txt}
+list=$(dirname "$0")/packages.txt
 
 if ! command -v dpkg-query > /dev/null; then
   echo "This is not a Debian system: nothing installed; it needs what $list names." >&2
