@@ -1,84 +1,34 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds and runs a benchmark: sh Utilities/benchmark.sh delaunay [--slow] [--large] [--repeat R]
-#   --slow   vtkDelaunay2D on the million survey points too (minutes)
-#   --large  50 million points too (about 8 GB)
+# Builds and runs a benchmark: sh Utilities/benchmark.sh NAME [OPTION...]
+# NAME is a script in Utilities/benchmarks, whose first lines tell its options.
 set -eu
 
 top=$(cd "$(dirname "$0")/.." && pwd)
 build=$top/build-benchmark
 inputs=$build/inputs
 data=${TIPP_SHARED_DATA:-$top/../shared/data}
-survey=$data/points/osborne-magnetic.csv.xz
-repeat=3
-slow=no
-large=no
 
 usage() {
-  sed -n 's/^# \{0,1\}//; 3,5p' "$0" >&2
+  sed -n 's/^# \{0,1\}//; 3,4p' "$0" >&2
+  for script in "$top"/Utilities/benchmarks/*.sh; do
+    sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$script" >&2
+  done
   exit 2
 }
 
-[ "${1:-}" = delaunay ] || usage
+name=${1:-}
+[ -n "$name" ] && [ -f "$top/Utilities/benchmarks/$name.sh" ] || usage
 shift
-while [ $# -gt 0 ]; do
-  case $1 in
-    --slow) slow=yes ;;
-    --large) large=yes ;;
-    --repeat)
-      [ $# -gt 1 ] || usage
-      repeat=$2
-      shift
-      ;;
-    *) usage ;;
-  esac
-  shift
-done
 
-sh "$top/Utilities/install-packages.sh"
-cd "$top"
-cmake --preset default -B "$build" --log-level=WARNING \
-  -DTIPP_BUILD_BENCHMARKS=ON -DTIPP_BUILD_TESTING=OFF -DTIPP_WRAP_PYTHON=OFF
-cmake --build "$build" --target benchmarkDelaunay
-
-# An input is made once; an unfinished file never counts as made.
-make_input() { # NAME COMMAND...
-  name=$1
-  shift
-  [ -f "$inputs/$name.npy" ] && return
-  "$@" "$inputs/unfinished.npy"
-  mv "$inputs/unfinished.npy" "$inputs/$name.npy"
+# Builds the named programs for measuring.
+build_targets() {
+  sh "$top/Utilities/install-packages.sh"
+  cmake --preset default -B "$build" --log-level=WARNING \
+    -DTIPP_BUILD_BENCHMARKS=ON -DTIPP_BUILD_TESTING=OFF -DTIPP_WRAP_PYTHON=OFF
+  cmake --build "$build" --target "$@"
 }
+
+cd "$top"
 mkdir -p "$inputs"
-make_input coast /usr/bin/python3 Testing/Benchmarks/gshhg-to-npy.py \
-  /usr/share/gmt-gshhg/binned_GSHHS_f.nc
-if [ -f "$survey" ]; then
-  make_input osborne /usr/bin/python3 Testing/Benchmarks/csv-to-npy.py "$survey"
-else
-  echo "benchmark.sh: no $survey: the survey points are left out; name the data by TIPP_SHARED_DATA." >&2
-fi
-
-run() { "$build/bin/benchmarkDelaunay" --repeat "$repeat" "$@"; }
-
-echo "== Large inputs, points in memory to triangles in memory"
-run --phases --peers cgal,filter --input uniform:1e7 --input clustered:1e7 --input "$inputs/coast.npy" \
-  --input lattice:9e6
-echo "== Further inputs"
-run --input lattice-jittered:9e6 --input uniform:1e6
-[ ! -f "$inputs/osborne.npy" ] || run --input "$inputs/osborne.npy"
-echo "== Small inputs"
-run --repeat 15 --input uniform:1e5 --input uniform:1e4
-echo "== One box"
-run --repeat 15 --threads 1 --partitions 1x1 --input uniform:1e4
-echo "== Inputs that are hard on schedules and searches"
-run --peers none --input collinear:1e6 --input collinear-and-one:1e6 --input circle:1e6 \
-  --input spiral:1e6 --input parabola:1e6 --input two-clusters:1e6 --input one-far-away:1e6 \
-  --input sorted:1e6
-echo "== vtkDelaunay2D"
-run --repeat 1 --peers cgal,vtk --input uniform:1e5
-[ $slow = no ] || [ ! -f "$inputs/osborne.npy" ] ||
-  run --repeat 1 --peers cgal,vtk --input "$inputs/osborne.npy"
-if [ $large = yes ]; then
-  echo "== Cost per point at 50 million"
-  run --repeat 1 --peers none --input uniform:1e7 --input uniform:5e7
-fi
+. "$top/Utilities/benchmarks/$name.sh"

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// main() of a test program that runs on several ranks: every rank runs every test, and the program
+// fails if a test fails on any rank. The global controller is VTK's MPI controller.
+#include "vtkMPIController.h"
+#include "vtkNew.h"
+
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+namespace
+{
+
+/// Ranks other than the first only speak of failures.
+void silenceSuccesses()
+{
+  testing::TestEventListeners& listeners = testing::UnitTest::GetInstance()->listeners();
+  class FailuresOnly : public testing::EmptyTestEventListener
+  {
+    void OnTestPartResult(const testing::TestPartResult& result) override
+    {
+      if (result.failed())
+      {
+        std::fprintf(stderr, "%s:%d: %s\n", result.file_name() ? result.file_name() : "?",
+          result.line_number(), result.message());
+      }
+    }
+  };
+  delete listeners.Release(listeners.default_result_printer());
+  listeners.Append(new FailuresOnly);
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  // FUNNELED: OpenMP threads beside a main thread that alone speaks MPI.
+  int provided = MPI_THREAD_SINGLE;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  testing::InitGoogleTest(&argc, argv);
+  int failedAnywhere = 1;
+  {
+    vtkNew<vtkMPIController> controller;
+    controller->Initialize(&argc, &argv, 1);
+    vtkMultiProcessController::SetGlobalController(controller);
+    if (controller->GetLocalProcessId() != 0)
+    {
+      silenceSuccesses();
+    }
+    const int failed = RUN_ALL_TESTS();
+    controller->AllReduce(&failed, &failedAnywhere, 1, vtkCommunicator::MAX_OP);
+    vtkMultiProcessController::SetGlobalController(nullptr);
+    controller->Finalize(1);
+  }
+  MPI_Finalize();
+  return failedAnywhere;
+}

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# delaunay [--slow] [--large] [--repeat R]
+#   --slow   vtkDelaunay2D on the million survey points too (minutes)
+#   --large  50 million points too (about 8 GB)
+survey=$data/points/osborne-magnetic.csv.xz
+repeat=3
+slow=no
+large=no
+
+while [ $# -gt 0 ]; do
+  case $1 in
+    --slow) slow=yes ;;
+    --large) large=yes ;;
+    --repeat)
+      [ $# -gt 1 ] || usage
+      repeat=$2
+      shift
+      ;;
+    *) usage ;;
+  esac
+  shift
+done
+
+build_targets benchmarkDelaunay
+
+# An input is made once; an unfinished file never counts as made.
+make_input() { # NAME COMMAND...
+  name=$1
+  shift
+  [ -f "$inputs/$name.npy" ] && return
+  "$@" "$inputs/unfinished.npy"
+  mv "$inputs/unfinished.npy" "$inputs/$name.npy"
+}
+make_input coast /usr/bin/python3 Testing/Benchmarks/gshhg-to-npy.py \
+  /usr/share/gmt-gshhg/binned_GSHHS_f.nc
+if [ -f "$survey" ]; then
+  make_input osborne /usr/bin/python3 Testing/Benchmarks/csv-to-npy.py "$survey"
+else
+  echo "benchmark.sh: no $survey: the survey points are left out; name the data by TIPP_SHARED_DATA." >&2
+fi
+
+run() { "$build/bin/benchmarkDelaunay" --repeat "$repeat" "$@"; }
+
+echo "== Large inputs, points in memory to triangles in memory"
+run --phases --peers cgal,filter --input uniform:1e7 --input clustered:1e7 --input "$inputs/coast.npy" \
+  --input lattice:9e6
+echo "== Further inputs"
+run --input lattice-jittered:9e6 --input uniform:1e6
+[ ! -f "$inputs/osborne.npy" ] || run --input "$inputs/osborne.npy"
+echo "== Small inputs"
+run --repeat 15 --input uniform:1e5 --input uniform:1e4
+echo "== One box"
+run --repeat 15 --threads 1 --partitions 1x1 --input uniform:1e4
+echo "== Inputs that are hard on schedules and searches"
+run --peers none --input collinear:1e6 --input collinear-and-one:1e6 --input circle:1e6 \
+  --input spiral:1e6 --input parabola:1e6 --input two-clusters:1e6 --input one-far-away:1e6 \
+  --input sorted:1e6
+echo "== vtkDelaunay2D"
+run --repeat 1 --peers cgal,vtk --input uniform:1e5
+[ $slow = no ] || [ ! -f "$inputs/osborne.npy" ] ||
+  run --repeat 1 --peers cgal,vtk --input "$inputs/osborne.npy"
+if [ $large = yes ]; then
+  echo "== Cost per point at 50 million"
+  run --repeat 1 --peers none --input uniform:1e7 --input uniform:5e7
+fi
