@@ -4,6 +4,7 @@
 
 #include "Kernel/Cavity.h"
 #include "Kernel/HalfEdgeMesh.h"
+#include "Kernel/Insertion.h"
 #include "Kernel/InsertionOrder.h"
 #include "Kernel/KernelPredicates.h"
 #include "Predicates/Point2.h"
@@ -35,7 +36,7 @@ public:
     Index Vertex;        ///< the vertex that stands for it
   };
 
-  DelaunayKernel();
+  explicit DelaunayKernel(Instructions instructions = Instructions::Best);
   DelaunayKernel(const DelaunayKernel&) = delete;
   DelaunayKernel& operator=(const DelaunayKernel&) = delete;
 
@@ -63,8 +64,7 @@ public:
 
 private:
   bool makeFirstTriangle(Index firstVertex);
-  void insertVertex(Index vertex);
-  Index equalVertex(const Location& location, Point2 p) const;
+  void insertVertices(Index first, Index end);
 
   HalfEdgeMesh Mesh;
   std::vector<Point2> Points;
@@ -76,6 +76,8 @@ private:
   InsertionOrder Order;
   KernelPredicates Predicates;
   Cavity Opened;
+  std::vector<InsertionScene::Coincidence> Coincidences; ///< of the vertices inserted last
+  const InsertVertices Insertion;
 };
 
 } // namespace tipp

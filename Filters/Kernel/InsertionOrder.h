@@ -22,6 +22,7 @@ public:
 
 private:
   void computeKeys(const Point2* points, std::size_t count);
+  template <unsigned passes>
   void sortByKey();
 
   std::vector<std::uint64_t> Entries; ///< round, key and index, from the highest bits down
