@@ -28,6 +28,12 @@ void DelaunayKernel::clear()
   this->Recent = 0;
 }
 
+std::size_t DelaunayKernel::bytes() const
+{
+  return this->Mesh.bytes() + this->Order.bytes() + this->Points.capacity() * sizeof(Point2) +
+    this->Places.capacity() * sizeof(std::uint32_t);
+}
+
 bool DelaunayKernel::isInfinite(Index triangle) const
 {
   const Index* v = this->Mesh.slots() + triangle;

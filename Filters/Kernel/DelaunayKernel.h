@@ -42,6 +42,9 @@ public:
 
   void clear();
 
+  /// The memory that its points and triangles take, most of what it keeps.
+  std::size_t bytes() const;
+
   /// Asked now and then with the number of points inserted so far; false ends the insertion.
   using Monitor = std::function<bool(std::size_t)>;
 
