@@ -22,6 +22,7 @@ template <typename Id>
 Worker<Id>::Worker(const Tiling& tiling, PointBuckets<Id>& buckets)
   : Boxes(tiling)
   , Buckets(buckets)
+  , Kernel(*this->Pooled)
 {
 }
 

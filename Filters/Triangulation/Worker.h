@@ -2,7 +2,7 @@
 #ifndef tippWorker_h
 #define tippWorker_h
 
-#include "Kernel/DelaunayKernel.h"
+#include "Kernel/KernelPool.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/SeamMesh.h"
 #include "Triangulation/Triangulate.h"
@@ -47,7 +47,8 @@ private:
 
   const Tiling& Boxes;
   PointBuckets<Id>& Buckets;
-  DelaunayKernel Kernel;
+  PooledKernel Pooled;
+  DelaunayKernel& Kernel;
   std::vector<Id> Ids; ///< of the partition's own points
   std::vector<SeamVertex> Foreign;
   std::vector<Point2> ForeignPoints;

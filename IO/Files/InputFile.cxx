@@ -27,7 +27,9 @@ InputFile::InputFile(const std::string& path)
   if (fstat(this->Descriptor, &status) != 0 || !S_ISREG(status.st_mode))
   {
     close(this->Descriptor);
-    throw IOError(path, "is not an ordinary file; copy it to one.");
+    throw IOError(path,
+      S_ISDIR(status.st_mode) ? "is a folder, not a file; name a file in it."
+                              : "is not an ordinary file; copy it to one.");
   }
   this->Size = std::uint64_t(status.st_size);
 }
