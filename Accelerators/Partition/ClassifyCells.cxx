@@ -2,6 +2,7 @@
 #include "Partition/ClassifyCells.h"
 
 #include "Partition/CellShape.h"
+#include "Partition/ClassifyOnDevice.h"
 #include "Partition/ClassifyOnThreads.h"
 
 namespace tipp
@@ -11,7 +12,9 @@ Membership classifyCells(
   const CellsView& cells, const BoxTiling& tiling, const ClassifyOptions& options)
 {
   const CellShape shape(cells, tiling.dimension());
-  return classifyOnThreads(cells, tiling, shape, options.Threads);
+  ComputeDevice* device = ComputeDevice::open(options.Device);
+  return device != nullptr ? classifyOnDevice(*device, cells, tiling, shape, options.DeviceMemory)
+                           : classifyOnThreads(cells, tiling, shape, options.Threads);
 }
 
 } // namespace tipp

@@ -6,6 +6,7 @@
 #include <omp.h>
 
 #include <atomic>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -39,7 +40,19 @@ public:
 #pragma omp parallel for num_threads(this->Threads) schedule(dynamic, 1)
     for (std::int64_t block = 0; block < blocks; ++block)
     {
-      this->classify(static_cast<std::size_t>(block));
+      // No exception may leave a parallel loop.
+      try
+      {
+        this->classify(static_cast<std::size_t>(block));
+      }
+      catch (const std::bad_alloc&)
+      {
+        this->OutOfMemory = true;
+      }
+    }
+    if (this->OutOfMemory.load())
+    {
+      throw std::bad_alloc();
     }
     if (this->Homeless.load() < this->Count)
     {
@@ -163,6 +176,7 @@ private:
   int Threads;
   std::vector<std::vector<std::int32_t>> Borrowers;
   Membership Result;
+  std::atomic<bool> OutOfMemory{ false };
   std::atomic<std::size_t> Homeless{ static_cast<std::size_t>(-1) };
 };
 
