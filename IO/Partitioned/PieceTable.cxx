@@ -200,14 +200,14 @@ std::vector<std::uint64_t> packTable(const PieceTable& table)
   std::vector<std::uint64_t> words{ table.HeaderBytes, table.HeaderChecksum };
   packGroups(table.PointGroups, words);
   packGroups(table.CellGroups, words);
-  packBorrowed(table.BorrowedPoints, words);
-  packBorrowed(table.BorrowedCells, words);
   words.push_back(table.Offsets.size());
   for (std::size_t a = 0; a < table.Offsets.size(); ++a)
   {
     words.push_back(table.Offsets[a]);
     words.insert(words.end(), table.Checksums[a].begin(), table.Checksums[a].end());
   }
+  packBorrowed(table.BorrowedPoints, words);
+  packBorrowed(table.BorrowedCells, words);
   return words;
 }
 
@@ -222,9 +222,9 @@ PieceTable readPieceTable(const PartitionedMesh& mesh, std::size_t piece)
   table.HeaderChecksum = in.word();
   table.PointGroups = takeGroups(in, pieces, self, summary.Points);
   table.CellGroups = takeGroups(in, pieces, self, summary.Cells);
+  takeArrays(in, mesh, summary, table);
   table.BorrowedPoints = takeBorrowed(in, pieces, self);
   table.BorrowedCells = takeBorrowed(in, pieces, self);
-  takeArrays(in, mesh, summary, table);
   in.requireEnd();
   return table;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/Spill.h"
 
+#include "Threads/ParallelFor.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -35,28 +37,13 @@ void Spill::write(
     }
   }
   const std::size_t parts = rows.size() < (std::size_t(1) << 20) ? 1 : std::size_t(threads);
-  std::vector<std::exception_ptr> failures(parts);
-#pragma omp parallel for num_threads(threads) schedule(static, 1) if (parts > 1)
-  for (std::size_t part = 0; part < parts; ++part)
-  {
-    try
+  parallelFor(std::int64_t(parts), threads,
+    [&](std::int64_t part)
     {
-      const std::size_t from = rows.size() * part / parts;
-      const std::size_t to = rows.size() * (part + 1) / parts;
+      const std::size_t from = rows.size() * std::size_t(part) / parts;
+      const std::size_t to = rows.size() * (std::size_t(part) + 1) / parts;
       this->Out.write(this->Written + from, rows.data() + from, to - from);
-    }
-    catch (...)
-    {
-      failures[part] = std::current_exception();
-    }
-  }
-  for (const std::exception_ptr& failure : failures)
-  {
-    if (failure)
-    {
-      std::rethrow_exception(failure);
-    }
-  }
+    });
   this->Written += rows.size();
 }
 
