@@ -38,6 +38,7 @@ int run(int argc, char** argv)
   app.footer("'tipp COMMAND --help' tells a command's options, units and examples.\n");
   tipp::addDelaunayCommand(app, exitCode);
   tipp::addPointsCommand(app, exitCode);
+  tipp::addPartitionCommand(app, exitCode);
   tipp::addCheckCommand(app, exitCode);
   try
   {
