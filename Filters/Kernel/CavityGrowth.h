@@ -149,21 +149,29 @@ private:
     apex.Y = Pair{ first.y, second.y } - this->P.y;
     apex.Lift = apex.X * apex.X + apex.Y * apex.Y;
     apex.StartCross = pair.StartX * apex.Y - pair.StartY * apex.X;
-    apex.StopCross = pair.StopX * apex.Y - pair.StopY * apex.X;
+    apex.CrossStop = pair.StopY * apex.X - pair.StopX * apex.Y;
     const Pair det =
-      pair.StopLift * apex.StartCross - pair.StartLift * apex.StopCross - apex.Lift * pair.Cross;
+      pair.StopLift * apex.StartCross + pair.StartLift * apex.CrossStop - apex.Lift * pair.Cross;
     const Pair lifts = pair.StartLift + pair.StopLift + apex.Lift;
     const Pair bound = CircleFilterBound * (lifts * lifts) + UnderflowBound;
-    unsigned inside = bitsOf(det > bound);
-    const unsigned outside = bitsOf(-det > bound);
-    const unsigned undecided = ~(inside | outside);
-    if (__builtin_expect(undecided & 1, 0))
+    const unsigned decided = bitsOf(magnitude(det) > bound);
+    if (__builtin_expect(decided != 3, 0))
     {
-      inside |= this->isInConflict(pair.FirstOuter) ? 1U : 0U;
+      return this->testExactly(pair.FirstOuter, pair.SecondOuter, decided, ~signsOf(det) & decided);
     }
-    if (__builtin_expect(undecided & 2, 0))
+    return ~signsOf(det);
+  }
+
+  [[gnu::noinline]] unsigned testExactly(
+    Index first, Index second, unsigned decided, unsigned inside)
+  {
+    if (!(decided & 1))
     {
-      inside |= this->isInConflict(pair.SecondOuter) ? 2U : 0U;
+      inside |= this->isInConflict(first) ? 1U : 0U;
+    }
+    if (!(decided & 2))
+    {
+      inside |= this->isInConflict(second) ? 2U : 0U;
     }
     return inside;
   }
@@ -177,7 +185,7 @@ private:
   EdgePair behindFirst(const EdgePair& e, const ApexPair& v) const
   {
     return { low(e.StartX, v.X), low(e.StartY, v.Y), low(e.StartLift, v.Lift), low(v.X, e.StopX),
-      low(v.Y, e.StopY), low(v.Lift, e.StopLift), low(v.StartCross, -v.StopCross),
+      low(v.Y, e.StopY), low(v.Lift, e.StopLift), low(v.StartCross, v.CrossStop),
       this->Slot[HalfEdgeMesh::next(e.FirstOuter) + 4],
       this->Slot[HalfEdgeMesh::previous(e.FirstOuter) + 4] };
   }
@@ -185,7 +193,7 @@ private:
   {
     return { high(e.StartX, v.X), high(e.StartY, v.Y), high(e.StartLift, v.Lift),
       high(v.X, e.StopX), high(v.Y, e.StopY), high(v.Lift, e.StopLift),
-      high(v.StartCross, -v.StopCross), this->Slot[HalfEdgeMesh::next(e.SecondOuter) + 4],
+      high(v.StartCross, v.CrossStop), this->Slot[HalfEdgeMesh::next(e.SecondOuter) + 4],
       this->Slot[HalfEdgeMesh::previous(e.SecondOuter) + 4] };
   }
 

@@ -81,15 +81,18 @@ inline Location locate(const HalfEdgeMesh& mesh, const Point2* points, KernelPre
     const Pair right = Pair{ a.Y, d.Y } * Pair{ d.X, b.X };
     const Pair cross = left - right; // a x d, d x b
     const Pair bound = TurnFilterBound * (magnitude(left) + magnitude(right)) + UnderflowBound;
-    unsigned isRight = bitsOf(-cross > bound);
-    const unsigned undecided = ~(isRight | bitsOf(cross > bound));
-    if (__builtin_expect(undecided & 1, 0))
+    unsigned isRight = signsOf(cross);
+    const unsigned decided = bitsOf(magnitude(cross) > bound);
+    if (__builtin_expect(decided != 3, 0))
     {
-      isRight |= predicates.orientation(slot[toA], id, p) < 0 ? 1U : 0U;
-    }
-    if (__builtin_expect(undecided & 2, 0))
-    {
-      isRight |= predicates.orientation(id, slot[toB], p) < 0 ? 2U : 0U;
+      if (!(decided & 1))
+      {
+        isRight = (isRight & 2) | (predicates.orientation(slot[toA], id, p) < 0 ? 1U : 0U);
+      }
+      if (!(decided & 2))
+      {
+        isRight = (isRight & 1) | (predicates.orientation(id, slot[toB], p) < 0 ? 2U : 0U);
+      }
     }
     if (isRight & 1)
     {

@@ -50,6 +50,7 @@ private:
   PooledKernel Pooled;
   DelaunayKernel& Kernel;
   std::vector<Id> Ids; ///< of the partition's own points
+  std::vector<Id> VertexIds;
   std::vector<SeamVertex> Foreign;
   std::vector<Point2> ForeignPoints;
   std::vector<std::int64_t> KnownIds; ///< of own points that other partitions know; sorted

@@ -2,11 +2,14 @@
 // Direct Load with a fine bitmap: what is active is known for about 1,024 vertices rather than for
 // M, so that a chunk whose vertices lie together reads little else; active runs that are near each
 // other are read at once, and packed up to M vertices a pass.
+#include "Loading/IdGroups.h"
 #include "Loading/Loaders.h"
 #include "Loading/Runs.h"
 #include "Loading/ScatterRange.h"
 
 #include <algorithm>
+#include <limits>
+#include <stdexcept>
 
 namespace tipp
 {
@@ -41,6 +44,11 @@ public:
       return;
     }
     this->Counts.UsefulBytes += std::int64_t(count * this->Files.recordBytes());
+    constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
+    if (count > most)
+    {
+      throw std::length_error("a chunk of 2^32 vertex ids or more is asked for");
+    }
     // Few ids far apart are sorted: a bit for each block would be more work, and blocks too coarse.
     constexpr std::int64_t sparse = 128;
     const bool sorted = std::int64_t(count) < (range.High - range.Low) / sparse;
@@ -66,83 +74,88 @@ private:
     const std::size_t blocks = std::size_t((range.High - range.Low) >> shift) + 1;
     const std::vector<char> active = markActive(ids, count, range.Low, blocks, this->Threads,
       [shift](std::uint64_t id) { return id >> shift; });
-    std::vector<Run> runs = runsOfBlocks(active, block, range.Low, range.High, this->Gap);
-    const std::vector<std::size_t> groups = groupRuns(runs, this->M, block, range.Low);
-    // Where each block's first tuple is packed.
+    RunPlan plan(
+      runsOfBlocks(active, block, range.Low, range.High, this->Gap), this->M, block, range.Low);
+    // Of each block: where it is packed, and in which group.
     std::vector<std::uint64_t> starts(blocks);
-    for (std::size_t group = 0; group + 1 < groups.size(); ++group)
+    std::vector<std::uint32_t> groups(blocks);
+    for (std::size_t i = 0; i < plan.Runs.size(); ++i)
     {
-      const Run* const begin = runs.data() + groups[group];
-      const Run* const end = runs.data() + groups[group + 1];
-      const std::int64_t skipped = (begin->First - range.Low) >> shift;
-      std::int64_t packed = 0;
-      for (const Run* run = begin; run != end; ++run)
+      const Run& run = plan.Runs[i];
+      for (std::int64_t at = 0; at < run.Size; at += block)
       {
-        for (std::int64_t at = 0; at < run->Size; at += block)
-        {
-          const std::int64_t index = ((run->First + at - range.Low) >> shift) - skipped;
-          starts[std::size_t(index)] = std::uint64_t(packed + at);
-        }
-        packed += run->Size;
+        const auto index = std::size_t((run.First + at - range.Low) >> shift);
+        starts[index] = plan.Packed[i] + std::uint64_t(at);
+        groups[index] = plan.GroupOf[i];
       }
-      this->loadGroup({ ids, count, begin->First, end[-1].First + end[-1].Size - begin->First },
-        begin, end, out,
-        [&starts, shift, mask = std::uint64_t(block - 1)](std::uint64_t id)
-        { return starts[id >> shift] + (id & mask); });
     }
+    this->loadPlan(
+      { ids, count, range.Low, range.High - range.Low + 1 }, plan, out,
+      [&](std::uint64_t id) { return std::size_t(groups[id >> shift]); },
+      [&, mask = std::uint64_t(block - 1)](std::uint64_t id)
+      { return starts[id >> shift] + (id & mask); });
   }
 
   void loadSorted(
     const std::int64_t* ids, std::size_t count, const IdRange& range, void* const* out)
   {
-    std::vector<Run> runs = runsOfIds(ids, count, this->Gap);
-    const std::vector<std::size_t> groups = groupRuns(runs, this->M, 1, range.Low);
-    std::vector<std::uint64_t> firsts;
-    std::vector<std::uint64_t> starts;
-    for (std::size_t group = 0; group + 1 < groups.size(); ++group)
+    const RunPlan plan(runsOfIds(ids, count, this->Gap), this->M, 1, range.Low);
+    const auto runOf = [&](std::uint64_t id)
     {
-      const Run* const begin = runs.data() + groups[group];
-      const Run* const end = runs.data() + groups[group + 1];
-      firsts.clear();
-      starts.clear();
-      std::uint64_t packed = 0;
-      for (const Run* run = begin; run != end; ++run)
+      const auto after =
+        std::upper_bound(plan.Runs.begin(), plan.Runs.end(), range.Low + std::int64_t(id),
+          [](std::int64_t value, const Run& run) { return value < run.First; });
+      return std::size_t(after - plan.Runs.begin()) - 1;
+    };
+    this->loadPlan(
+      { ids, count, range.Low, range.High - range.Low + 1 }, plan, out,
+      [&](std::uint64_t id) { return std::size_t(plan.GroupOf[runOf(id)]); },
+      [&](std::uint64_t id)
       {
-        firsts.push_back(std::uint64_t(run->First - begin->First));
-        starts.push_back(packed);
-        packed += std::uint64_t(run->Size);
-      }
-      this->loadGroup({ ids, count, begin->First, end[-1].First + end[-1].Size - begin->First },
-        begin, end, out,
-        [&firsts, &starts](std::uint64_t id)
-        {
-          const auto run = std::upper_bound(firsts.begin(), firsts.end(), id) - 1;
-          return starts[std::size_t(run - firsts.begin())] + (id - *run);
-        });
+        const std::size_t run = runOf(id);
+        return plan.Packed[run] + (id - std::uint64_t(plan.Runs[run].First - range.Low));
+      });
+  }
+
+  /// `groupOf` and `place` tell for an id, less the least of all, in which group and where in the
+  /// buffers it is.
+  template <typename Group, typename Place>
+  void loadPlan(const WantedTuples& wanted, const RunPlan& plan, void* const* out,
+    const Group& groupOf, const Place& place)
+  {
+    if (plan.groups() == 1)
+    {
+      this->readGroup(plan, 0);
+      scatterRange(wanted, this->Files, this->Buffers, out, this->Threads, place);
+      return;
+    }
+    const IdGroups sorted =
+      groupIds(wanted.Ids, wanted.Count, wanted.First, plan.groups(), this->Threads, groupOf);
+    for (std::size_t group = 0; group < plan.groups(); ++group)
+    {
+      this->readGroup(plan, group);
+      scatterPlaces(wanted, sorted.Places.data() + sorted.Starts[group],
+        sorted.Starts[group + 1] - sorted.Starts[group], this->Files, this->Buffers, out,
+        this->Threads, place);
     }
   }
 
-  template <typename Place>
-  void loadGroup(const WantedTuples& wanted, const Run* begin, const Run* end, void* const* out,
-    const Place& place)
+  void readGroup(const RunPlan& plan, std::size_t group)
   {
-    std::int64_t packed = 0;
-    for (const Run* run = begin; run != end; ++run)
-    {
-      packed += run->Size;
-    }
-    this->Buffers.resize(this->Files, packed);
+    const std::size_t begin = plan.Starts[group];
+    const std::size_t end = plan.Starts[group + 1];
+    this->Buffers.resize(this->Files, std::int64_t(plan.Packed[end - 1]) + plan.Runs[end - 1].Size);
     for (std::size_t a = 0; a < this->Files.count(); ++a)
     {
-      std::size_t at = 0;
-      for (const Run* run = begin; run != end; ++run)
+      const std::size_t bytes = this->Files.tupleBytes(a);
+      for (std::size_t i = begin; i < end; ++i)
       {
-        this->Files.read(a, run->First, run->Size, this->Buffers.data(a) + at, this->Counts);
-        at += std::size_t(run->Size) * this->Files.tupleBytes(a);
+        const Run& run = plan.Runs[i];
+        char* const to = this->Buffers.data(a) + plan.Packed[i] * bytes;
+        this->Files.read(a, run.First, run.Size, to, this->Counts);
       }
     }
     ++this->Counts.Passes;
-    scatterRange(wanted, this->Files, this->Buffers, out, this->Threads, place);
   }
 
   ArrayFiles Files;

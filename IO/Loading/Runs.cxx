@@ -82,4 +82,20 @@ std::vector<std::size_t> groupRuns(
   return starts;
 }
 
+RunPlan::RunPlan(std::vector<Run> runs, std::int64_t m, std::int64_t block, std::int64_t low)
+  : Runs(std::move(runs))
+  , Starts(groupRuns(this->Runs, m, block, low))
+{
+  for (std::size_t group = 0; group < this->groups(); ++group)
+  {
+    std::uint64_t packed = 0;
+    for (std::size_t i = this->Starts[group]; i < this->Starts[group + 1]; ++i)
+    {
+      this->Packed.push_back(packed);
+      this->GroupOf.push_back(std::uint32_t(group));
+      packed += std::uint64_t(this->Runs[i].Size);
+    }
+  }
+}
+
 } // namespace tipp

@@ -29,6 +29,19 @@ std::vector<Run> runsOfIds(const std::int64_t* ids, std::size_t count, std::int6
 std::vector<std::size_t> groupRuns(
   std::vector<Run>& runs, std::int64_t m, std::int64_t block, std::int64_t low);
 
+/// Runs in groups, and where each run is packed in its group's buffer.
+struct RunPlan
+{
+  RunPlan(std::vector<Run> runs, std::int64_t m, std::int64_t block, std::int64_t low);
+
+  std::size_t groups() const { return this->Starts.size() - 1; }
+
+  std::vector<tipp::Run> Runs;
+  std::vector<std::size_t> Starts;    ///< of the groups, and the number of runs
+  std::vector<std::uint64_t> Packed;  ///< of each run
+  std::vector<std::uint32_t> GroupOf; ///< of each run
+};
+
 } // namespace tipp
 
 #endif

@@ -21,35 +21,48 @@ struct WantedTuples
   std::int64_t Size;
 };
 
+constexpr std::size_t scatterBlock = 2048;
+
+/// Places of tuples in the buffers and in the chunk, for a few tuples at a time.
+struct TuplePlaces
+{
+  std::array<std::uint64_t, scatterBlock> Sources;
+  std::array<std::uint64_t, scatterBlock> Targets;
+
+  void copy(
+    std::size_t count, const ArrayFiles& files, TupleBuffers& buffers, void* const* out) const
+  {
+    for (std::size_t a = 0; a < files.count(); ++a)
+    {
+      scatterTuples(buffers.data(a), this->Sources.data(), static_cast<char*>(out[a]),
+        this->Targets.data(), count, files.tupleBytes(a));
+    }
+  }
+};
+
 /// One thread's part of scatterRange: ids from `begin` on up to `end`.
 template <typename Place>
 void scatterPart(const WantedTuples& wanted, std::size_t begin, std::size_t end,
   const ArrayFiles& files, TupleBuffers& buffers, void* const* out, const Place& place)
 {
-  constexpr std::size_t block = 2048;
-  std::array<std::uint64_t, block> sources;
-  std::array<std::uint64_t, block> targets;
-  for (std::size_t first = begin; first < end; first += block)
+  TuplePlaces places;
+  for (std::size_t first = begin; first < end; first += scatterBlock)
   {
-    const std::size_t last = std::min(first + block, end);
+    const std::size_t last = std::min(first + scatterBlock, end);
     std::size_t found = 0;
     for (std::size_t i = first; i < last; ++i)
     {
       // Without a branch, which would be taken at random: an id that is not wanted is written over.
       const auto relative = std::uint64_t(wanted.Ids[i]) - std::uint64_t(wanted.First);
-      sources[found] = relative;
-      targets[found] = i;
+      places.Sources[found] = relative;
+      places.Targets[found] = i;
       found += relative < std::uint64_t(wanted.Size) ? 1 : 0;
     }
     for (std::size_t i = 0; i < found; ++i)
     {
-      sources[i] = place(sources[i]);
+      places.Sources[i] = place(places.Sources[i]);
     }
-    for (std::size_t a = 0; a < files.count(); ++a)
-    {
-      scatterTuples(buffers.data(a), sources.data(), static_cast<char*>(out[a]), targets.data(),
-        found, files.tupleBytes(a));
-    }
+    places.copy(found, files, buffers, out);
   }
 }
 
@@ -65,6 +78,30 @@ void scatterRange(const WantedTuples& wanted, const ArrayFiles& files, TupleBuff
     {
       const std::size_t begin = std::size_t(i) * share;
       scatterPart(wanted, begin, std::min(begin + share, wanted.Count), files, buffers, out, place);
+    });
+}
+
+/// The same for the ids at some places of the chunk, which are known to be in the buffers.
+template <typename Place>
+void scatterPlaces(const WantedTuples& wanted, const std::uint32_t* at, std::size_t count,
+  const ArrayFiles& files, TupleBuffers& buffers, void* const* out, int threads, const Place& place)
+{
+  constexpr std::size_t share = 1 << 16;
+  parallelFor(std::int64_t((count + share - 1) / share), threads,
+    [&](std::int64_t part)
+    {
+      const std::size_t end = std::min((std::size_t(part) + 1) * share, count);
+      TuplePlaces places;
+      for (std::size_t first = std::size_t(part) * share; first < end; first += scatterBlock)
+      {
+        const std::size_t size = std::min(scatterBlock, end - first);
+        for (std::size_t i = 0; i < size; ++i)
+        {
+          places.Targets[i] = at[first + i];
+          places.Sources[i] = place(std::uint64_t(wanted.Ids[at[first + i]] - wanted.First));
+        }
+        places.copy(size, files, buffers, out);
+      }
     });
 }
 
