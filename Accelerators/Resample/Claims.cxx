@@ -274,7 +274,8 @@ private:
         for (const Touch& touch : touches)
         {
           const CellKey key = OverlapWalk<Access>::keyOf(access, touch.Cell);
-          candidates.push_back({ touch.Sample, withRank(key, this->rank(access, touch)), touch.Cell });
+          candidates.push_back(
+            { touch.Sample, withRank(key, this->rank(access, touch)), touch.Cell });
         }
         std::sort(candidates.begin(), candidates.end(),
           [](const Candidate& a, const Candidate& b)

@@ -23,6 +23,8 @@ struct InterpolationOptions
   bool FillUnclaimed = true;
   /// The cell of the attributes' arrays that each simplex is a part of; null: it is one itself.
   const std::int64_t* Parents = nullptr;
+  /// One a sample, set to 1 where a cell claims it, and with FillUnclaimed to 0 elsewhere; or null.
+  unsigned char* Valid = nullptr;
   Report Progress;
 };
 
