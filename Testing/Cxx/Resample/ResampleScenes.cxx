@@ -44,7 +44,8 @@ Scene Scene::shuffled(unsigned seed) const
   std::vector<std::vector<std::int64_t>> cells;
   for (std::size_t i = 0; i < this->Ids.size(); i += corners)
   {
-    cells.emplace_back(this->Ids.begin() + std::ptrdiff_t(i), this->Ids.begin() + std::ptrdiff_t(i + corners));
+    cells.emplace_back(
+      this->Ids.begin() + std::ptrdiff_t(i), this->Ids.begin() + std::ptrdiff_t(i + corners));
     std::shuffle(cells.back().begin(), cells.back().end(), random);
   }
   std::shuffle(cells.begin(), cells.end(), random);
@@ -64,7 +65,8 @@ namespace
 /// greatest.
 void addCube(Scene& scene, int steps, std::array<int, 3> at)
 {
-  std::vector<int> axes = scene.Dimension == 2 ? std::vector<int>{ 0, 1 } : std::vector<int>{ 0, 1, 2 };
+  std::vector<int> axes =
+    scene.Dimension == 2 ? std::vector<int>{ 0, 1 } : std::vector<int>{ 0, 1, 2 };
   const int stride = steps + 1;
   do
   {
