@@ -135,6 +135,7 @@ void ComputeDevice::read(const cl::Buffer& buffer, void* data, std::size_t bytes
 
 AcceleratorError ComputeDevice::failure(const cl::Error& error) const
 {
+  clFinish(this->Queue());
   return AcceleratorError("The OpenCL device '" + this->Description.Name +
     "' failed: " + meaningOf(error.err()) + " (" + error.what() + ").");
 }

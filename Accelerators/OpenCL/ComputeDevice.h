@@ -58,7 +58,8 @@ public:
   /// Copies from the device and waits until it is done.
   void read(const cl::Buffer& buffer, void* data, std::size_t bytes) const;
 
-  /// Calls `work` and makes an AcceleratorError of what OpenCL throws.
+  /// Calls `work` and makes an AcceleratorError of what OpenCL throws, once the queue is empty:
+  /// then nothing uses the caller's memory any more.
   template <typename Work>
   auto run(Work&& work) const -> decltype(work())
   {
