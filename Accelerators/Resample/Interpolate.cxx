@@ -146,11 +146,13 @@ void fillNull(const Attribute& attribute, const std::int32_t* claims, bool claim
 
 template <typename Access>
 void fillBlock(const SampleRuns<Access>& runs, const std::vector<Attribute>& attributes,
-  std::int64_t first, const std::int64_t* parents)
+  std::int64_t first, const InterpolationOptions& options)
 {
   for (const Attribute& attribute : attributes)
   {
-    if (!attribute.Values)
+    const bool interpolated = !attribute.OfCells &&
+      (attribute.Type == Scalar::Float32 || attribute.Type == Scalar::Float64);
+    if (!attribute.Values || (interpolated && options.SkipInterpolated))
     {
       continue;
     }
@@ -158,7 +160,7 @@ void fillBlock(const SampleRuns<Access>& runs, const std::vector<Attribute>& att
       [&](auto type)
       {
         BlockFiller<Access, decltype(type)> filler(attribute, runs, first);
-        attribute.OfCells ? filler.fromCells(parents) : filler.fromPoints();
+        attribute.OfCells ? filler.fromCells(options.Parents) : filler.fromPoints();
       });
   }
 }
@@ -195,14 +197,20 @@ bool interpolate(const SimplexMesh& mesh, const Lattice& lattice, const std::int
     [&](const auto& access)
     {
       using Runs = SampleRuns<std::decay_t<decltype(access)>>;
+      const bool needsWeights = !options.SkipInterpolated ||
+        std::any_of(attributes.begin(), attributes.end(),
+          [](const Attribute& attribute) { return !attribute.OfCells; });
       std::vector<Runs> blocks(std::size_t(options.Threads), Runs(mesh, axes));
       completed = forChunks(axes.samples(), Runs::BlockSize, options.Threads, options.Progress,
         [&](std::int64_t begin, std::int64_t end, int thread)
         {
           Runs& runs = blocks[std::size_t(thread)];
           runs.find(claims, begin, int(end - begin));
-          runs.weigh();
-          fillBlock(runs, attributes, begin, options.Parents);
+          if (needsWeights)
+          {
+            runs.weigh();
+          }
+          fillBlock(runs, attributes, begin, options);
           fillRest(attributes, claims, begin, end, options);
         });
     });

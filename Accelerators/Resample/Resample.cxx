@@ -2,8 +2,10 @@
 #include "Resample/Resample.h"
 
 #include "Resample/CellVisitor.h"
+#include "Resample/ResampleOnDevice.h"
 
 #include <chrono>
+#include <utility>
 
 namespace tipp
 {
@@ -35,42 +37,122 @@ Report part(const Report& report, double begin, double end)
   return [&report, begin, end](double done) { return report(begin + done * (end - begin)); };
 }
 
-ResampleResult resampleOpenMP(const SimplexMesh& mesh, const Lattice& lattice,
-  const std::vector<Attribute>& attributes, const ResampleOptions& options)
+/// Fewer cells and samples together are done before a device has its data.
+constexpr std::int64_t worthATransfer = 1000000;
+
+class Resampler
 {
-  ResampleResult result;
-  result.Device = "OpenMP";
-  Clock clock;
-  Claims claims = claimSamples(mesh, lattice, options.Threads, part(options.Progress, 0, 0.7));
-  result.Statistics = claims.Statistics;
-  result.Aborted = claims.Aborted;
-  if (!result.Aborted && options.Keys)
+public:
+  Resampler(const SimplexMesh& mesh, const Lattice& lattice,
+    const std::vector<Attribute>& attributes, const ResampleOptions& options)
+    : Mesh(mesh)
+    , Grid(lattice)
+    , Attributes(attributes)
+    , Options(options)
+    , Samples(LatticeAxes(mesh, lattice).samples())
   {
-    const std::int64_t samples = LatticeAxes(mesh, lattice).samples();
-    mergeClaims(mesh, claims, samples, options.Threads, options.Keys);
   }
-  result.ClaimSeconds = clock.seconds();
-  if (result.Aborted)
+
+  ResampleResult run()
   {
-    return result;
+    this->tryDevice([&] { this->open(); });
+    Clock clock;
+    Claims claims = this->claim();
+    this->Result.Statistics = claims.Statistics;
+    this->Result.Aborted = claims.Aborted;
+    if (!claims.Aborted && this->Options.Keys)
+    {
+      mergeClaims(this->Mesh, claims, this->Samples, this->Options.Threads, this->Options.Keys);
+    }
+    this->Result.ClaimSeconds = clock.seconds();
+    if (!claims.Aborted)
+    {
+      this->fill(claims.Cells.get());
+      this->Result.InterpolationSeconds = clock.seconds();
+    }
+    this->Result.Device = this->Device ? this->Device->description().Name : "OpenMP";
+    return this->Result;
   }
-  InterpolationOptions interpolation;
-  interpolation.Threads = options.Threads;
-  interpolation.FillUnclaimed = !options.Keys;
-  interpolation.Parents = options.Parents;
-  interpolation.Valid = options.Valid;
-  interpolation.Progress = part(options.Progress, 0.7, 1);
-  result.Aborted = !interpolate(mesh, lattice, claims.Cells.get(), attributes, interpolation);
-  result.InterpolationSeconds = clock.seconds();
-  return result;
-}
+
+private:
+  void open()
+  {
+    const bool small = this->Mesh.Cells + this->Samples < worthATransfer;
+    if (this->Options.Device.Kind != tipp::Device::Auto || !small)
+    {
+      this->Device = ComputeDevice::open(this->Options.Device);
+    }
+  }
+
+  /// If the device fails, it is not asked again.
+  template <typename Work>
+  void tryDevice(const Work& work)
+  {
+    try
+    {
+      work();
+    }
+    catch (const AcceleratorError& error)
+    {
+      this->Device = nullptr;
+      this->Result.Warning = std::string(error.what()) + " OpenMP does it instead.";
+    }
+  }
+
+  Claims claim()
+  {
+    const Report report = part(this->Options.Progress, 0, 0.7);
+    Claims claims;
+    if (this->Device)
+    {
+      this->tryDevice(
+        [&]
+        {
+          claims = claimOnDevice(*this->Device, this->Mesh, this->Grid, this->Options.Threads,
+            this->Options.DeviceMemory, report);
+        });
+    }
+    return this->Device ? std::move(claims)
+                        : claimSamples(this->Mesh, this->Grid, this->Options.Threads, report);
+  }
+
+  void fill(const std::int32_t* claims)
+  {
+    if (this->Device)
+    {
+      this->tryDevice(
+        [&]
+        {
+          interpolateOnDevice(*this->Device, this->Mesh, this->Grid, claims, this->Attributes,
+            this->Options.DeviceMemory);
+        });
+    }
+    InterpolationOptions interpolation;
+    interpolation.Threads = this->Options.Threads;
+    interpolation.FillUnclaimed = !this->Options.Keys;
+    interpolation.SkipInterpolated = this->Device != nullptr;
+    interpolation.Parents = this->Options.Parents;
+    interpolation.Valid = this->Options.Valid;
+    interpolation.Progress = part(this->Options.Progress, 0.7, 1);
+    this->Result.Aborted =
+      !interpolate(this->Mesh, this->Grid, claims, this->Attributes, interpolation);
+  }
+
+  const SimplexMesh& Mesh;
+  const Lattice& Grid;
+  const std::vector<Attribute>& Attributes;
+  const ResampleOptions& Options;
+  std::int64_t Samples;
+  ComputeDevice* Device = nullptr;
+  ResampleResult Result;
+};
 
 } // namespace
 
 ResampleResult resample(const SimplexMesh& mesh, const Lattice& lattice,
   const std::vector<Attribute>& attributes, const ResampleOptions& options)
 {
-  return resampleOpenMP(mesh, lattice, attributes, options);
+  return Resampler(mesh, lattice, attributes, options).run();
 }
 
 } // namespace tipp

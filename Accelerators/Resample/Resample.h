@@ -13,6 +13,7 @@ namespace tipp
 struct ResampleOptions
 {
   DeviceChoice Device = { tipp::Device::OpenMP, -1, "" };
+  std::uint64_t DeviceMemory = 0; ///< bytes of an OpenCL device to use; 0: half of them
   int Threads = 1;
   /// One a sample, of the cells that answer so far (noCellKey: none): the mesh is a part of a
   /// whole, and only adds what has lower keys. Null: it is all there is, and samples that it does

@@ -173,6 +173,7 @@ void finish(Simplices& simplices, int dimension, const SimplexParts& parts)
   SimplexMesh& mesh = simplices.Mesh;
   mesh.Dimension = dimension;
   mesh.Points = parts.Coordinates->GetVoidPointer(0);
+  mesh.PointCount = parts.Coordinates->GetNumberOfTuples();
   mesh.Float = parts.Coordinates->GetDataType() == VTK_FLOAT;
   if (!simplices.Ids.empty())
   {

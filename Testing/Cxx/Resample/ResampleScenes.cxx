@@ -33,6 +33,7 @@ tipp::SimplexMesh Scene::mesh() const
   mesh.Ids = this->Ids.data();
   mesh.Wide = true;
   mesh.Cells = this->cells();
+  mesh.PointCount = std::int64_t(this->Points.size()) / 3;
   mesh.Dimension = this->Dimension;
   return mesh;
 }
