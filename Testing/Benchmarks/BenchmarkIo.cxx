@@ -74,9 +74,15 @@ int main(int argc, char** argv)
       benchmarkLoaders(arguments);
       return 0;
     }
+    if (subject == "classify" && arguments.Meshes.size() == 1)
+    {
+      benchmarkClassify(arguments);
+      return 0;
+    }
     std::fputs(
       "usage: benchmarkIo loaders [--repeat R] [--threads T] [--parts P,P...] [--chunks C,C...] "
       "RANDOM-MESH LOCAL-MESH\n"
+      "       benchmarkIo classify [--repeat R] [--threads T] MESH\n"
       "M is the number of vertices over P; chunks are in cells.\n",
       stderr);
     return 2;

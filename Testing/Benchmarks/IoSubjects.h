@@ -25,6 +25,9 @@ struct IoArguments
 /// order.
 void benchmarkLoaders(const IoArguments& arguments);
 
+/// Classification of a chunk of cells, on OpenMP threads and on an OpenCL device, tiling by tiling.
+void benchmarkClassify(const IoArguments& arguments);
+
 } // namespace benchmark
 } // namespace tipp
 

@@ -35,3 +35,6 @@ make_mesh local /usr/bin/python3 Testing/Benchmarks/hilbert-order.py "$inputs/ra
 echo "== Loading vertices: loaders over M and chunk size"
 "$build/bin/benchmarkIo" loaders --repeat "$repeat" \
   "$inputs/random-$points" "$inputs/local-$points"
+
+echo "== Classification of cells: OpenMP threads and OpenCL"
+"$build/bin/benchmarkIo" classify --repeat "$repeat" "$inputs/random-$points"
