@@ -158,7 +158,7 @@ void expectRightClassification(const CellSet& cells, std::size_t step)
 
 } // namespace
 
-TEST(RealMeshes, TheBracketsTetrahedra)
+TEST(ClassifyRealMeshes, TheBracketsTetrahedra)
 {
   TIPP_REQUIRE_REAL_DATA(path, "tets/bracket_appended_compressed.vtu");
   const CellSet cells = readTetrahedra(path);
@@ -166,7 +166,7 @@ TEST(RealMeshes, TheBracketsTetrahedra)
   expectRightClassification(cells, 100);
 }
 
-TEST(RealMeshes, TheAneurysmsTetrahedra)
+TEST(ClassifyRealMeshes, TheAneurysmsTetrahedra)
 {
   TIPP_REQUIRE_REAL_DATA(path, "tets/aneurysm.xml.gz");
   const CellSet cells = readDolfin(path);
@@ -174,7 +174,7 @@ TEST(RealMeshes, TheAneurysmsTetrahedra)
   expectRightClassification(cells, 50);
 }
 
-TEST(RealMeshes, TheEastCoastsTriangles)
+TEST(ClassifyRealMeshes, TheEastCoastsTriangles)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
   const CellSet cells = readTriangles(path);
