@@ -7,15 +7,22 @@
 
 #include <string>
 
+class vtkDataSet;
 class vtkMultiProcessController;
 
 namespace tipp
 {
 
-/// partitionMesh for a flat mesh, or for any file of VTK's that readDataSet knows, which the first
-/// rank reads and lays down as a flat mesh beside the output for as long as the run lasts. Throws
-/// IOError, on all ranks if on one.
+/// partitionMesh for a flat mesh, or for any file that readDataSet knows, which the first rank
+/// reads. Throws IOError, on all ranks if on one.
 VTKTIPPIO_EXPORT PartitionStatistics partitionInput(const std::string& input,
+  const std::string& output, const PartitionOptions& options,
+  vtkMultiProcessController* controller = nullptr);
+
+/// partitionMesh for the first rank's data set (null on the others), which is laid down as a flat
+/// mesh beside the output for as long as the run lasts; `name` is for errors. Cells other than
+/// triangles and tetrahedra are cut into these.
+VTKTIPPIO_EXPORT PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
   const std::string& output, const PartitionOptions& options,
   vtkMultiProcessController* controller = nullptr);
 

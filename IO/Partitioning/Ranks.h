@@ -22,6 +22,8 @@ public:
   {
   }
 
+  /// Null for one alone.
+  vtkMultiProcessController* controller() const { return this->Controller; }
   int count() const;
   int rank() const;
   bool isFirst() const { return this->rank() == 0; }

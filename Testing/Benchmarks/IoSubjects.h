@@ -26,6 +26,16 @@ struct IoArguments
 /// order.
 void benchmarkLoaders(const IoArguments& arguments);
 
+/// Classification of a chunk of cells, on OpenMP threads and on an OpenCL device, tiling by tiling.
+void benchmarkClassify(const IoArguments& arguments);
+
+/// Reading a partitioned mesh, the second, beside VTK's reader on one .vtu, the first.
+void benchmarkReading(const IoArguments& arguments);
+
+/// Reading a piece with its borrowed cells: by reference, of the first mesh, and duplicated, of the
+/// second.
+void benchmarkBorrowing(const IoArguments& arguments);
+
 } // namespace benchmark
 } // namespace tipp
 

@@ -82,8 +82,7 @@ std::string checkTiling(const std::string& text)
 {
   return TilingChoice::parse(text)
     ? ""
-    : "'" + text +
-      "' is neither grid:COLUMNSxROWS[xLAYERS] of 1 to 10000 each nor quadtree:CELLS";
+    : "'" + text + "' is neither grid:COLUMNSxROWS[xLAYERS] of 1 to 10000 each nor quadtree:CELLS";
 }
 
 PartitionOptions makeOptions(
@@ -162,7 +161,7 @@ void addPartitionCommand(CLI::App& app, int& exitCode)
   command
     ->add_option("--tiling", arguments->Tiling,
       "grid:COLUMNSxROWS[xLAYERS], or quadtree:CELLS (octree:CELLS): partitions that meet at most "
-      "so many cells")
+      "so many cells no longer than themselves")
     ->check(checkTiling)
     ->capture_default_str();
   command
