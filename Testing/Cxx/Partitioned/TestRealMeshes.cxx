@@ -29,7 +29,7 @@ void expectSame(const std::string& flat, const std::string& output, const std::s
   const FlatMesh source = openFlatMesh(flat);
   PartitionOptions options;
   options.Tiling = *TilingChoice::parse(tiling);
-  options.MemoryLimit = 1 << 20;
+  options.MemoryLimit = 1 << 24;
   partitionMesh(source, output, options);
   const PartitionedMesh mesh = openPartitionedMesh(output);
   const std::size_t corners = std::size_t(source.CellSize);
