@@ -315,6 +315,10 @@ int vtkRangeResampleFilter::RequestUpdateExtent(
   const int size = ranks ? ranks->GetNumberOfProcesses() : 1;
   const int piece = this->Current ? this->Current->piece() : 0;
   inInfo->Remove(Pipeline::UPDATE_EXTENT());
+  if (inInfo->Has(Pipeline::WHOLE_EXTENT())) // a structured grid
+  {
+    inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
+  }
   inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), rank * count + piece);
   inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), size * count);
   inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);

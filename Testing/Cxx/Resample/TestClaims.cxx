@@ -165,14 +165,14 @@ TEST(Claims, ShareOutACellOfManySamples)
   Scene scene;
   scene.Points = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
   scene.Ids = { 0, 1, 2 };
-  const tipp::Lattice lattice = latticeOf(2, 1001, 0, 1);
+  const tipp::Lattice lattice = latticeOf(2, 1025, 0, 1);
   const tipp::Claims claims = tipp::claimSamples(scene.mesh(), lattice, 3);
   std::int64_t claimed = 0;
   for (std::int64_t i = 0; i < lattice.samples(); ++i)
   {
     claimed += claims.Cells[std::size_t(i)] == 0;
   }
-  EXPECT_EQ(claimed, 1001 * 1002 / 2);
+  EXPECT_EQ(claimed, 1025 * 1026 / 2);
 }
 
 TEST(Claims, LeaveOutCellsWithoutAreaAndCoordinatesThatAreNotFinite)

@@ -92,6 +92,8 @@ TEST(RangeResampleArrays, AreAsVtkProbeFilterHasThem)
   vtkNew<vtkProbeFilter> probe;
   probe->SetInputData(image);
   probe->SetSourceData(grid);
+  probe->ComputeToleranceOff();
+  probe->SetTolerance(1e-13);
   probe->Update();
   for (const char* name : { "linear", "vector", "cell", "vtkValidPointMask" })
   {
@@ -100,7 +102,7 @@ TEST(RangeResampleArrays, AreAsVtkProbeFilterHasThem)
     ASSERT_EQ(ours->GetNumberOfTuples(), theirs->GetNumberOfTuples());
     for (vtkIdType i = 0; i < ours->GetNumberOfTuples(); ++i)
     {
-      ASSERT_NEAR(ours->GetTuple(i)[0], theirs->GetTuple(i)[0], 1e-5) << name << " " << i;
+      ASSERT_NEAR(ours->GetTuple(i)[0], theirs->GetTuple(i)[0], 1e-4) << name << " " << i;
     }
   }
 }

@@ -24,6 +24,7 @@ class CubeGrid
 public:
   CubeGrid()
   {
+    this->Points->SetDataTypeToDouble();
     std::mt19937 random(2);
     std::uniform_real_distribution<double> offset(-0.1, 0.1);
     for (int z = 0; z < 3; ++z)
@@ -54,6 +55,19 @@ public:
   void add(int type, const std::vector<vtkIdType>& ids)
   {
     this->Grid->InsertNextCell(type, vtkIdType(ids.size()), ids.data());
+  }
+
+  vtkIdType addCentre(const std::vector<vtkIdType>& corners)
+  {
+    double centre[3] = { 0, 0, 0 };
+    for (const vtkIdType corner : corners)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        centre[axis] += this->Points->GetPoint(corner)[axis] / double(corners.size());
+      }
+    }
+    return this->Points->InsertNextPoint(centre);
   }
 
   vtkUnstructuredGrid* finish()
@@ -118,15 +132,19 @@ TEST(RangeResampleCells, WedgesLeaveNoHoles)
     }));
 }
 
-TEST(RangeResampleCells, PyramidsOfACubeLeaveNoHoles)
+TEST(RangeResampleCells, PyramidsLeaveNoHoles)
 {
   CubeGrid cubes;
   expectFilled(sampleCubes(cubes,
     [&](const auto& c)
     {
-      cubes.add(VTK_PYRAMID, { c[1], c[2], c[6], c[5], c[0] });
-      cubes.add(VTK_PYRAMID, { c[3], c[7], c[6], c[2], c[0] });
-      cubes.add(VTK_PYRAMID, { c[4], c[5], c[6], c[7], c[0] });
+      const vtkIdType apex = cubes.addCentre(c);
+      const int faces[6][4] = { { 0, 4, 7, 3 }, { 1, 2, 6, 5 }, { 0, 1, 5, 4 }, { 3, 7, 6, 2 },
+        { 0, 3, 2, 1 }, { 4, 5, 6, 7 } };
+      for (const auto& face : faces)
+      {
+        cubes.add(VTK_PYRAMID, { c[face[0]], c[face[1]], c[face[2]], c[face[3]], apex });
+      }
     }));
 }
 
@@ -168,6 +186,7 @@ TEST(RangeResampleCells, QuadsPolygonsAndStripsAreSampled)
 {
   vtkNew<vtkPolyData> surface;
   vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
   vtkNew<vtkDoubleArray> linear;
   linear->SetName("linear");
   for (int y = 0; y < 4; ++y)
@@ -200,6 +219,7 @@ TEST(RangeResampleCells, ReflexQuadsAreCutInside)
 {
   vtkNew<vtkUnstructuredGrid> grid;
   vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
   // An arrow head whose notch is at (0.5, 0.5).
   points->InsertNextPoint(0, 0, 0);
   points->InsertNextPoint(1, 0.5, 0);

@@ -20,7 +20,7 @@ public:
   void Execute(vtkObject*, unsigned long, void* text) override
   {
     ++this->Count;
-    this->Text = static_cast<const char*>(text);
+    this->Text = this->Text.empty() ? static_cast<const char*>(text) : this->Text; // the first
   }
   int Count = 0;
   std::string Text;
@@ -164,6 +164,7 @@ TEST(RangeResampleRange, SubExtentsArePartsOfTheWhole)
   vtkNew<vtkImageData> whole;
   whole->DeepCopy(filter->GetOutput());
   const int extent[6] = { 3, 12, 5, 19, 0, 0 };
+  filter->Modified();
   filter->UpdateExtent(extent);
   vtkImageData* const part = filter->GetOutput();
   EXPECT_EQ(part->GetNumberOfPoints(), 150);
@@ -184,6 +185,7 @@ TEST(RangeResampleRange, PiecesTileTheWhole)
   vtkIdType samples = 0;
   for (int piece = 0; piece < 4; ++piece)
   {
+    filter->Modified();
     filter->UpdatePiece(piece, 4, 0);
     samples += filter->GetOutput()->GetNumberOfCells();
   }
