@@ -2,7 +2,9 @@
 #ifndef tippNpyFile_h
 #define tippNpyFile_h
 
+#include "Files/InputFile.h"
 #include "Files/PendingFile.h"
+#include "Npy/NpyHeader.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstdint>
@@ -49,20 +51,20 @@ public:
   void read(void* to, std::size_t bytes);
 
 private:
-  std::string Path;
-  FileHandle File;
+  InputFile File;
+  std::uint64_t Offset = 0;
   Type Scalar = Type::Float64;
   std::int64_t Rows = 0;
   std::int64_t Columns = 0;
 };
 
-/// Writes such a table; the file appears when close() has been called.
+/// Writes such an array, of any shape; the file appears when close() has been called.
 class VTKTIPPIO_EXPORT NpyWriter
 {
 public:
   /// `descr` is NumPy's name of the scalar type, as "<f8". Throws IOError.
   NpyWriter(
-    const std::string& path, const std::string& descr, std::int64_t rows, std::int64_t columns);
+    const std::string& path, const std::string& descr, const std::vector<std::int64_t>& shape);
 
   void write(const void* from, std::size_t bytes);
   void close();

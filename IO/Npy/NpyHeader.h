@@ -11,6 +11,8 @@
 namespace tipp
 {
 
+class InputFile;
+
 /// The dictionary at the start of an .npy file.
 struct NpyHeader
 {
@@ -22,6 +24,12 @@ struct NpyHeader
 /// Nothing if the text is not such a dictionary with exactly the three keys and plain values, no
 /// extent of the shape being negative.
 std::optional<NpyHeader> parseNpyHeader(std::string_view text);
+
+/// Reads the dictionary of a file of version 1 to 3 and tells where its data start; throws IOError.
+NpyHeader readNpyHeader(const InputFile& file, std::uint64_t& dataOffset);
+
+/// All that stands before the data of a file of version 1, which start at a multiple of 64 bytes.
+std::string npyFileStart(const std::string& descr, const std::vector<std::int64_t>& shape);
 
 } // namespace tipp
 

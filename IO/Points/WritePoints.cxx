@@ -8,7 +8,7 @@ namespace tipp
 
 void writePoints(const std::string& path, const std::vector<double>& xy)
 {
-  NpyWriter writer(path, "<f8", std::int64_t(xy.size() / 2), 2);
+  NpyWriter writer(path, "<f8", { std::int64_t(xy.size() / 2), 2 });
   writer.write(xy.data(), xy.size() * sizeof(double));
   writer.close();
 }

@@ -125,7 +125,7 @@ TEST_F(NpyPoints, FolderIsNotAFile)
 {
   const std::string path = this->Folder.path("folder.npy");
   std::filesystem::create_directory(path);
-  this->expectError(path, "not an .npy file");
+  this->expectError(path, "is a folder");
 }
 
 TEST_F(NpyPoints, TruncatedDataAreReported)

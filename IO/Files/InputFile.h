@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippInputFile_h
+#define tippInputFile_h
+
+#include "vtkTIPPIOModule.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace tipp
+{
+
+/// An ordinary file open for reads at any place, from any number of threads at once.
+class VTKTIPPIO_EXPORT InputFile
+{
+public:
+  /// Throws IOError if it cannot be opened or is not an ordinary file.
+  explicit InputFile(const std::string& path);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  const std::string& path() const { return this->Path; }
+  int descriptor() const { return this->Descriptor; }
+  /// In bytes, when it was opened.
+  std::uint64_t size() const { return this->Size; }
+
+  /// Exactly these bytes; throws IOError if the file ends before.
+  void read(std::uint64_t offset, void* to, std::size_t bytes) const;
+
+private:
+  std::string Path;
+  int Descriptor;
+  std::uint64_t Size = 0;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Flat/FlattenAdcirc.h"
+
+#include "Adcirc/AdcircGrid.h"
+#include "Adcirc/AdcircValues.h"
+#include "Files/IOError.h"
+
+#include <filesystem>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+FlatArray floats(std::string name, std::vector<double> values, int components, std::int64_t tuples)
+{
+  const auto kept = std::make_shared<std::vector<double>>(std::move(values));
+  return { std::move(name), Scalar::Float64, components, tuples, 0, kept->data(), kept };
+}
+
+/// ADCIRC's own names, fort.63 and the like, mean something with their number only.
+std::string nameOf(const std::string& path)
+{
+  const std::filesystem::path file(path);
+  return file.stem() == "fort" ? file.filename().string() : file.stem().string();
+}
+
+void addValues(const std::string& path, FlatContent& content)
+{
+  AdcircValues values = readAdcircValues(path);
+  const std::int64_t nodes = content.Points.Tuples;
+  if (values.Nodes != nodes)
+  {
+    throw IOError(path,
+      "gives values at " + std::to_string(values.Nodes) + " nodes, but the grid has " +
+        std::to_string(nodes) + "; name the grid that it belongs to.");
+  }
+  FlatArray array = floats(nameOf(path), std::move(values.Values), values.Components, nodes);
+  if (values.Times.size() > 1)
+  {
+    if (!content.Times.empty() && content.Times != values.Times)
+    {
+      throw IOError(path, "has other times than the file before it; flatten them one by one.");
+    }
+    content.Times = std::move(values.Times);
+    array.Steps = std::int64_t(content.Times.size());
+  }
+  content.PointData.push_back(std::move(array));
+}
+
+} // namespace
+
+FlatContent flattenAdcirc(const std::string& grid, const std::vector<std::string>& values)
+{
+  AdcircGrid read = readAdcircGrid(grid);
+  FlatContent content;
+  content.Cells = std::move(read.Triangles);
+  const auto nodes = std::int64_t(read.Depth.size());
+  content.Points = floats("points", std::move(read.XY), 2, nodes);
+  content.PointData.push_back(floats("depth", std::move(read.Depth), 1, nodes));
+  for (const std::string& path : values)
+  {
+    addValues(path, content);
+  }
+  return content;
+}
+
+} // namespace tipp

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Flat/FlattenDataSet.h"
+
+#include "Flat/Simplices.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <cstring>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr const char* parentName = "vtkOriginalCellIds";
+
+Scalar integerOf(int bytes, bool isSigned)
+{
+  switch (bytes)
+  {
+    case 1:
+      return isSigned ? Scalar::Int8 : Scalar::UInt8;
+    case 2:
+      return isSigned ? Scalar::Int16 : Scalar::UInt16;
+    case 4:
+      return isSigned ? Scalar::Int32 : Scalar::UInt32;
+    default:
+      return isSigned ? Scalar::Int64 : Scalar::UInt64;
+  }
+}
+
+Scalar scalarOf(vtkDataArray* array)
+{
+  const int type = array->GetDataType();
+  if (type == VTK_FLOAT || type == VTK_DOUBLE)
+  {
+    return type == VTK_FLOAT ? Scalar::Float32 : Scalar::Float64;
+  }
+  return integerOf(array->GetDataTypeSize(), array->GetDataTypeMin() < 0);
+}
+
+/// The array, or a copy whose values lie one after the other, in bytes for single bits.
+vtkSmartPointer<vtkDataArray> plain(vtkDataArray* array)
+{
+  const bool bits = array->GetDataType() == VTK_BIT;
+  if (!bits && array->HasStandardMemoryLayout())
+  {
+    return array;
+  }
+  auto copy = vtkSmartPointer<vtkDataArray>::Take(
+    vtkDataArray::CreateDataArray(bits ? VTK_UNSIGNED_CHAR : array->GetDataType()));
+  copy->DeepCopy(array);
+  copy->SetName(array->GetName());
+  return copy;
+}
+
+FlatArray flatArray(vtkDataArray* from)
+{
+  // Shared, so that copies of the array hold one reference together.
+  const auto kept = std::make_shared<vtkSmartPointer<vtkDataArray>>(plain(from));
+  vtkDataArray* const array = *kept;
+  FlatArray flat;
+  flat.Name = array->GetName() ? array->GetName() : "";
+  flat.Type = scalarOf(array);
+  flat.Components = array->GetNumberOfComponents();
+  flat.Tuples = array->GetNumberOfTuples();
+  flat.Values = array->GetVoidPointer(0);
+  flat.Owner = kept;
+  return flat;
+}
+
+/// The tuples of the parents, one after the other.
+FlatArray gathered(const FlatArray& all, const std::vector<std::int64_t>& parents)
+{
+  FlatArray some = all;
+  const std::size_t bytes = std::size_t(all.Components) * scalarSize(all.Type);
+  const auto values = std::make_shared<std::vector<char>>(parents.size() * bytes);
+  const auto* const from = static_cast<const char*>(all.Values);
+  for (std::size_t i = 0; i < parents.size(); ++i)
+  {
+    std::memcpy(values->data() + i * bytes, from + std::size_t(parents[i]) * bytes, bytes);
+  }
+  some.Tuples = std::int64_t(parents.size());
+  some.Values = values->data();
+  some.Owner = values;
+  return some;
+}
+
+FlatArray pointsOf(vtkDataSet* data)
+{
+  auto* const set = vtkPointSet::SafeDownCast(data);
+  if (set && set->GetPoints())
+  {
+    const int type = set->GetPoints()->GetDataType();
+    if (type == VTK_FLOAT || type == VTK_DOUBLE)
+    {
+      return flatArray(set->GetPoints()->GetData());
+    }
+  }
+  vtkNew<vtkDoubleArray> points;
+  points->SetNumberOfComponents(3);
+  points->SetNumberOfTuples(data->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    data->GetPoint(i, points->GetPointer(3 * i));
+  }
+  return flatArray(points);
+}
+
+std::vector<FlatArray> arraysOf(vtkDataSetAttributes* attributes, std::vector<std::string>& leftOut)
+{
+  std::vector<FlatArray> arrays;
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* const array = attributes->GetArray(i);
+    const char* const name = attributes->GetAbstractArray(i)->GetName();
+    if (!array || array->GetNumberOfComponents() < 1)
+    {
+      leftOut.emplace_back(name ? name : "");
+      continue;
+    }
+    arrays.push_back(flatArray(array));
+    if (arrays.back().Name.empty())
+    {
+      arrays.back().Name = "array_" + std::to_string(i);
+    }
+  }
+  return arrays;
+}
+
+FlatArray parentArray(std::vector<std::int64_t> parents)
+{
+  const auto values = std::make_shared<std::vector<std::int64_t>>(std::move(parents));
+  const auto count = std::int64_t(values->size());
+  return { parentName, Scalar::Int64, 1, count, 0, values->data(), values };
+}
+
+} // namespace
+
+Flattened flattenDataSet(vtkDataSet* data, const std::string& path)
+{
+  Simplices simplices = simplicesOf(data, path);
+  Flattened flattened;
+  flattened.Cut = std::move(simplices.Cut);
+  flattened.LeftOut = std::move(simplices.LeftOut);
+  FlatContent& content = flattened.Content;
+  content.CellSize = simplices.CellSize;
+  content.Cells = std::move(simplices.Ids);
+  content.Points = pointsOf(data);
+  content.PointData = arraysOf(data->GetPointData(), flattened.ArraysLeftOut);
+  content.CellData = arraysOf(data->GetCellData(), flattened.ArraysLeftOut);
+  const bool changed = !flattened.Cut.empty() || !flattened.LeftOut.empty();
+  bool named = false;
+  for (FlatArray& array : content.CellData)
+  {
+    array = changed ? gathered(array, simplices.Parents) : array;
+    named = named || array.Name == parentName;
+  }
+  // Ids that the input brings tell of an earlier cut, and stay.
+  if (changed && !named)
+  {
+    content.CellData.push_back(parentArray(std::move(simplices.Parents)));
+  }
+  return flattened;
+}
+
+} // namespace tipp

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Flat/RawArray.h"
+
+namespace tipp
+{
+namespace
+{
+
+struct ScalarFacts
+{
+  std::size_t Size;
+  const char* Name;
+  const char* Descr;
+};
+
+// In the order of Scalar.
+constexpr ScalarFacts facts[] = {
+  { 1, "Int8", "|i1" },
+  { 1, "UInt8", "|u1" },
+  { 2, "Int16", "<i2" },
+  { 2, "UInt16", "<u2" },
+  { 4, "Int32", "<i4" },
+  { 4, "UInt32", "<u4" },
+  { 8, "Int64", "<i8" },
+  { 8, "UInt64", "<u8" },
+  { 4, "Float32", "<f4" },
+  { 8, "Float64", "<f8" },
+};
+
+} // namespace
+
+std::size_t scalarSize(Scalar type)
+{
+  return facts[int(type)].Size;
+}
+
+const char* scalarName(Scalar type)
+{
+  return facts[int(type)].Name;
+}
+
+const char* scalarDescr(Scalar type)
+{
+  return facts[int(type)].Descr;
+}
+
+} // namespace tipp

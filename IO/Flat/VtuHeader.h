@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippVtuHeader_h
+#define tippVtuHeader_h
+
+#include "Flat/RawArray.h"
+
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+class InputFile;
+
+/// What the XML part of a .vtu file with appended raw data says. Arrays are in place: their counts
+/// are checked against the file's size and against the counts of bytes before the data.
+struct VtuHeader
+{
+  std::int64_t Points = 0;
+  std::int64_t Cells = 0;
+  std::vector<RawArray> PointData;
+  std::vector<RawArray> CellData;
+  RawArray Coordinates;
+  RawArray Connectivity; ///< its Tuples follow from its count of bytes
+  RawArray Offsets;
+  RawArray Types;
+};
+
+/// Throws IOError for anything but one piece of appended, raw, uncompressed, little-endian data.
+VtuHeader readVtuHeader(const InputFile& file);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Direct Load: Algorithm 4 of the dissertation "Efficient Generating and Processing of Large-Scale
+// Unstructured Meshes".
+#include "Loading/Divisor.h"
+#include "Loading/Loaders.h"
+#include "Loading/ScatterRange.h"
+
+#include <algorithm>
+
+namespace tipp
+{
+namespace
+{
+
+class DirectLoader : public VertexLoader
+{
+public:
+  DirectLoader(ArrayFiles files, std::int64_t m, int threads)
+    : Files(std::move(files))
+    , M(m)
+    , Threads(threads)
+  {
+  }
+
+  void load(const std::int64_t* ids, std::size_t count, void* const* out) override
+  {
+    const IdRange range = this->Files.range(ids, count, this->Threads);
+    if (count == 0)
+    {
+      return;
+    }
+    this->Counts.UsefulBytes += std::int64_t(count * this->Files.recordBytes());
+    const std::int64_t chunkRange = range.High - range.Low + 1;
+    if (chunkRange <= this->M)
+    {
+      this->loadSegment({ ids, count, range.Low, chunkRange }, out);
+      return;
+    }
+    const std::vector<char> active = this->findActive(ids, count, range);
+    for (std::size_t segment = 0; segment < active.size(); ++segment)
+    {
+      if (active[segment] != 0)
+      {
+        const std::int64_t first = range.Low + std::int64_t(segment) * this->M;
+        const std::int64_t size = std::min(this->M, range.High + 1 - first);
+        this->loadSegment({ ids, count, first, size }, out);
+      }
+    }
+  }
+
+  const LoadCounters& counters() const override { return this->Counts; }
+  Loader kind() const override { return Loader::Direct; }
+
+private:
+  void loadSegment(const WantedTuples& wanted, void* const* out)
+  {
+    this->Buffers.resize(this->Files, wanted.Size);
+    for (std::size_t a = 0; a < this->Files.count(); ++a)
+    {
+      this->Files.read(a, wanted.First, wanted.Size, this->Buffers.data(a), this->Counts);
+    }
+    ++this->Counts.Passes;
+    scatterRange(
+      wanted, this->Files, this->Buffers, out, this->Threads, [](std::uint64_t id) { return id; });
+  }
+
+  /// The bitmap: an element a segment of M vertices.
+  std::vector<char> findActive(
+    const std::int64_t* ids, std::size_t count, const IdRange& range) const
+  {
+    const std::size_t segments = std::size_t((range.High - range.Low) / this->M) + 1;
+    const Divisor m(std::uint64_t(this->M));
+    return markActive(ids, count, range.Low, segments, this->Threads,
+      [m](std::uint64_t id) { return m.quotient(id); });
+  }
+
+  ArrayFiles Files;
+  std::int64_t M;
+  int Threads;
+  LoadCounters Counts;
+  TupleBuffers Buffers;
+};
+
+} // namespace
+
+std::unique_ptr<VertexLoader> makeDirectLoader(ArrayFiles files, std::int64_t m, int threads)
+{
+  return std::make_unique<DirectLoader>(std::move(files), m, threads);
+}
+
+} // namespace tipp

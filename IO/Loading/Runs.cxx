@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Loading/Runs.h"
+
+#include <algorithm>
+
+namespace tipp
+{
+namespace
+{
+
+void append(std::vector<Run>& runs, const Run& run, std::int64_t gap)
+{
+  if (!runs.empty() && run.First - (runs.back().First + runs.back().Size) < gap)
+  {
+    runs.back().Size = run.First + run.Size - runs.back().First;
+  }
+  else
+  {
+    runs.push_back(run);
+  }
+}
+
+} // namespace
+
+std::vector<Run> runsOfBlocks(const std::vector<char>& active, std::int64_t block, std::int64_t low,
+  std::int64_t high, std::int64_t gap)
+{
+  std::vector<Run> runs;
+  for (std::size_t i = 0; i < active.size(); ++i)
+  {
+    if (active[i] != 0)
+    {
+      const std::int64_t first = low + std::int64_t(i) * block;
+      append(runs, { first, std::min(block, high + 1 - first) }, std::max<std::int64_t>(gap, 1));
+    }
+  }
+  return runs;
+}
+
+std::vector<Run> runsOfIds(const std::int64_t* ids, std::size_t count, std::int64_t gap)
+{
+  std::vector<std::int64_t> sorted(ids, ids + count);
+  std::sort(sorted.begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  std::vector<Run> runs;
+  for (const std::int64_t id : sorted)
+  {
+    append(runs, { id, 1 }, std::max<std::int64_t>(gap, 1));
+  }
+  return runs;
+}
+
+std::vector<std::size_t> groupRuns(
+  std::vector<Run>& runs, std::int64_t m, std::int64_t block, std::int64_t low)
+{
+  std::vector<Run> cut;
+  std::vector<std::size_t> starts{ 0 };
+  std::int64_t room = m;
+  for (Run run : runs)
+  {
+    while (run.Size > room)
+    {
+      // A whole number of blocks, and not a sliver of a run.
+      const std::int64_t end = run.First + room - (run.First + room - low) % block;
+      const std::int64_t size = end - run.First;
+      if (size > 0)
+      {
+        cut.push_back({ run.First, size });
+        run = { end, run.Size - size };
+      }
+      if (cut.size() > starts.back())
+      {
+        starts.push_back(cut.size());
+      }
+      room = m;
+    }
+    cut.push_back(run);
+    room -= run.Size;
+  }
+  starts.push_back(cut.size());
+  runs = std::move(cut);
+  return starts;
+}
+
+RunPlan::RunPlan(std::vector<Run> runs, std::int64_t m, std::int64_t block, std::int64_t low)
+  : Runs(std::move(runs))
+  , Starts(groupRuns(this->Runs, m, block, low))
+{
+  for (std::size_t group = 0; group < this->groups(); ++group)
+  {
+    std::uint64_t packed = 0;
+    for (std::size_t i = this->Starts[group]; i < this->Starts[group + 1]; ++i)
+    {
+      this->Packed.push_back(packed);
+      this->GroupOf.push_back(std::uint32_t(group));
+      packed += std::uint64_t(this->Runs[i].Size);
+    }
+  }
+}
+
+} // namespace tipp

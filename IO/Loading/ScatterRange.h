@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippScatterRange_h
+#define tippScatterRange_h
+
+#include "Loading/ArrayFiles.h"
+#include "Loading/CopyTuples.h"
+#include "Threads/ParallelFor.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tipp
+{
+
+/// The ids of a chunk that lie in First ... First + Size - 1.
+struct WantedTuples
+{
+  const std::int64_t* Ids;
+  std::size_t Count;
+  std::int64_t First;
+  std::int64_t Size;
+};
+
+constexpr std::size_t scatterBlock = 2048;
+
+/// Places of tuples in the buffers and in the chunk, for a few tuples at a time.
+struct TuplePlaces
+{
+  std::array<std::uint64_t, scatterBlock> Sources;
+  std::array<std::uint64_t, scatterBlock> Targets;
+
+  void copy(
+    std::size_t count, const ArrayFiles& files, TupleBuffers& buffers, void* const* out) const
+  {
+    for (std::size_t a = 0; a < files.count(); ++a)
+    {
+      scatterTuples(buffers.data(a), this->Sources.data(), static_cast<char*>(out[a]),
+        this->Targets.data(), count, files.tupleBytes(a));
+    }
+  }
+};
+
+/// One thread's part of scatterRange: ids from `begin` on up to `end`.
+template <typename Place>
+void scatterPart(const WantedTuples& wanted, std::size_t begin, std::size_t end,
+  const ArrayFiles& files, TupleBuffers& buffers, void* const* out, const Place& place)
+{
+  TuplePlaces places;
+  for (std::size_t first = begin; first < end; first += scatterBlock)
+  {
+    const std::size_t last = std::min(first + scatterBlock, end);
+    std::size_t found = 0;
+    for (std::size_t i = first; i < last; ++i)
+    {
+      // Without a branch, which would be taken at random: an id that is not wanted is written over.
+      const auto relative = std::uint64_t(wanted.Ids[i]) - std::uint64_t(wanted.First);
+      places.Sources[found] = relative;
+      places.Targets[found] = i;
+      found += relative < std::uint64_t(wanted.Size) ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < found; ++i)
+    {
+      places.Sources[i] = place(places.Sources[i]);
+    }
+    places.copy(found, files, buffers, out);
+  }
+}
+
+/// Copies the wanted tuples from the buffers to their places in the chunk. place(id - First) is
+/// where in the buffers an id's tuple lies.
+template <typename Place>
+void scatterRange(const WantedTuples& wanted, const ArrayFiles& files, TupleBuffers& buffers,
+  void* const* out, int threads, const Place& place)
+{
+  constexpr std::size_t share = 1 << 17;
+  parallelFor(std::int64_t((wanted.Count + share - 1) / share), threads,
+    [&](std::int64_t i)
+    {
+      const std::size_t begin = std::size_t(i) * share;
+      scatterPart(wanted, begin, std::min(begin + share, wanted.Count), files, buffers, out, place);
+    });
+}
+
+/// The same for the ids at some places of the chunk, which are known to be in the buffers.
+template <typename Place>
+void scatterPlaces(const WantedTuples& wanted, const std::uint32_t* at, std::size_t count,
+  const ArrayFiles& files, TupleBuffers& buffers, void* const* out, int threads, const Place& place)
+{
+  constexpr std::size_t share = 1 << 16;
+  parallelFor(std::int64_t((count + share - 1) / share), threads,
+    [&](std::int64_t part)
+    {
+      const std::size_t end = std::min((std::size_t(part) + 1) * share, count);
+      TuplePlaces places;
+      for (std::size_t first = std::size_t(part) * share; first < end; first += scatterBlock)
+      {
+        const std::size_t size = std::min(scatterBlock, end - first);
+        for (std::size_t i = 0; i < size; ++i)
+        {
+          places.Targets[i] = at[first + i];
+          places.Sources[i] = place(std::uint64_t(wanted.Ids[at[first + i]] - wanted.First));
+        }
+        places.copy(size, files, buffers, out);
+      }
+    });
+}
+
+/// An element a segment: whether an id lies in it. segment(id - low) tells which.
+template <typename Segment>
+std::vector<char> markActive(const std::int64_t* ids, std::size_t count, std::int64_t low,
+  std::size_t segments, int threads, const Segment& segment)
+{
+  constexpr std::size_t least = 1 << 16;
+  // Each thread marks its own, so that there is nothing to wait for.
+  const std::size_t shares =
+    std::max<std::size_t>(std::min(std::size_t(threadCount(threads)), count / least), 1);
+  std::vector<std::vector<char>> marks(shares);
+  parallelFor(std::int64_t(shares), threads,
+    [&](std::int64_t share)
+    {
+      std::vector<char> own(segments, 0);
+      const std::size_t end = count * std::size_t(share + 1) / shares;
+      for (std::size_t i = count * std::size_t(share) / shares; i < end; ++i)
+      {
+        own[segment(std::uint64_t(ids[i] - low))] = 1;
+      }
+      marks[std::size_t(share)] = std::move(own);
+    });
+  for (std::size_t share = 1; share < shares; ++share)
+  {
+    std::transform(marks[0].begin(), marks[0].end(), marks[share].begin(), marks[0].begin(),
+      [](char a, char b) { return char(a | b); });
+  }
+  return std::move(marks[0]);
+}
+
+} // namespace tipp
+
+#endif

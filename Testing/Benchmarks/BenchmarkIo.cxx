@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Input and output beside their peers, a subject a file.
+#include "IoSubjects.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <sstream>
+#include <stdexcept>
+
+namespace
+{
+
+using namespace tipp::benchmark;
+
+int toCount(const std::string& text)
+{
+  char* end = nullptr;
+  const long value = std::strtol(text.c_str(), &end, 10);
+  if (text.empty() || *end != 0 || value < 1 || value > 1000000000)
+  {
+    throw std::invalid_argument("'" + text + "' is no count");
+  }
+  return int(value);
+}
+
+std::vector<std::int64_t> toCounts(const std::string& text)
+{
+  std::vector<std::int64_t> counts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');)
+  {
+    counts.push_back(toCount(part));
+  }
+  return counts;
+}
+
+IoArguments parse(int argc, char** argv)
+{
+  IoArguments arguments;
+  for (int i = 2; i < argc; ++i)
+  {
+    const std::string word = argv[i];
+    if (word.rfind("--", 0) != 0)
+    {
+      arguments.Meshes.push_back(word);
+    }
+    else if (i + 1 < argc && (word == "--repeat" || word == "--threads"))
+    {
+      (word == "--repeat" ? arguments.Repeat : arguments.Threads) = toCount(argv[++i]);
+    }
+    else if (i + 1 < argc && (word == "--parts" || word == "--chunks"))
+    {
+      (word == "--parts" ? arguments.Parts : arguments.Chunks) = toCounts(argv[++i]);
+    }
+    else
+    {
+      throw std::invalid_argument("'" + word + "' is not understood");
+    }
+  }
+  return arguments;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  try
+  {
+    const std::string subject = argc > 1 ? argv[1] : "";
+    const IoArguments arguments = parse(argc, argv);
+    if (subject == "loaders" && arguments.Meshes.size() == 2)
+    {
+      benchmarkLoaders(arguments);
+      return 0;
+    }
+    std::fputs(
+      "usage: benchmarkIo loaders [--repeat R] [--threads T] [--parts P,P...] [--chunks C,C...] "
+      "RANDOM-MESH LOCAL-MESH\n"
+      "M is the number of vertices over P; chunks are in cells.\n",
+      stderr);
+    return 2;
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "benchmarkIo: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IoSubjects.h"
+
+#include "Flat/CellReader.h"
+#include "Flat/FlatMesh.h"
+#include "Loading/VertexLoader.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace tipp
+{
+namespace benchmark
+{
+namespace
+{
+
+/// The file system forgets the file, so that the next read comes from the disk.
+void dropFromCache(const std::string& path)
+{
+  const int file = open(path.c_str(), O_RDONLY);
+  const bool done =
+    file >= 0 && fdatasync(file) == 0 && posix_fadvise(file, 0, 0, POSIX_FADV_DONTNEED) == 0;
+  close(file);
+  if (!done)
+  {
+    throw std::runtime_error("the cached pages of " + path + " could not be dropped");
+  }
+}
+
+struct Column
+{
+  const char* Name;
+  Loader Kind;
+  std::int64_t Blocks;
+  bool WithinM; ///< its memory is limited to M vertices
+};
+
+constexpr std::int64_t fewBlocks = 512;
+constexpr std::int64_t manyBlocks = 262144;
+
+const Column columns[] = {
+  { "direct", Loader::Direct, 0, true },
+  { "fine", Loader::Fine, 0, true },
+  { "LRU 512", Loader::Lru, fewBlocks, true },
+  { "LRU 256K", Loader::Lru, manyBlocks, true },
+  { "auto, M", Loader::Auto, 0, true },
+  { "mmap", Loader::Mmap, 0, false },
+  { "auto", Loader::Auto, 0, false },
+};
+constexpr std::size_t columnCount = sizeof(columns) / sizeof(columns[0]);
+
+/// Of these cells' vertices the LRU cache is measured: minutes a run are enough.
+constexpr std::int64_t lruCells = 1000000;
+
+class Mesh
+{
+public:
+  Mesh(const std::string& path, const char* order)
+    : Order(order)
+    , Flat(openFlatMesh(path))
+  {
+    CellReader(this->Flat).next(this->Flat.Cells.Tuples, this->Ids);
+    dropFromCache(this->Flat.Cells.Path);
+  }
+
+  const char* Order;
+  FlatMesh Flat;
+  std::vector<std::int64_t> Ids;
+};
+
+struct Row
+{
+  const Mesh* Source;
+  bool Cold;
+  std::int64_t Parts; ///< M is the number of vertices over this
+  std::int64_t Chunk; ///< in cells
+  double MicrosecondsACell[columnCount];
+  LoadCounters Counters[columnCount];
+};
+
+class LoaderBenchmark
+{
+public:
+  explicit LoaderBenchmark(const IoArguments& arguments)
+    : Arguments(arguments)
+  {
+  }
+
+  /// Microseconds a cell of the fastest of several runs.
+  double measure(const Row& row, const Column& column, LoadCounters& counters)
+  {
+    const bool lru = column.Kind == Loader::Lru;
+    const auto cells = std::int64_t(row.Source->Ids.size()) / row.Source->Flat.CellSize;
+    const std::int64_t measured = lru ? std::min(lruCells, cells) : cells;
+    double best = 0;
+    for (int i = 0; i < (lru ? 1 : this->Arguments.Repeat); ++i)
+    {
+      const double seconds = this->run(row, column, measured, counters);
+      best = i == 0 ? seconds : std::min(best, seconds);
+    }
+    return 1e6 * best / double(measured);
+  }
+
+private:
+  double run(const Row& row, const Column& column, std::int64_t cells, LoadCounters& counters)
+  {
+    const FlatMesh& mesh = row.Source->Flat;
+    LoaderOptions options;
+    options.Kind = column.Kind;
+    options.Blocks = std::max<std::int64_t>(column.Blocks, 1);
+    options.Threads = this->Arguments.Threads;
+    options.M = std::max<std::int64_t>(mesh.Points.Tuples / row.Parts, 1);
+    if (column.WithinM)
+    {
+      options.MemoryLimit = std::uint64_t(options.M) * mesh.Points.tupleBytes();
+    }
+    const std::int64_t chunk = std::min(row.Chunk, cells);
+    this->Out.resize(std::size_t(chunk * mesh.CellSize) * mesh.Points.tupleBytes());
+    if (row.Cold)
+    {
+      dropFromCache(mesh.Points.Path);
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const auto loader = makeVertexLoader({ mesh.Points }, options);
+    void* const out[] = { this->Out.data() };
+    for (std::int64_t first = 0; first < cells; first += chunk)
+    {
+      loader->load(row.Source->Ids.data() + first * mesh.CellSize,
+        std::size_t(std::min(chunk, cells - first) * mesh.CellSize), out);
+    }
+    counters = loader->counters();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  const IoArguments& Arguments;
+  std::vector<char> Out;
+};
+
+void printHeader()
+{
+  std::printf(
+    "Microseconds a cell. 'LRU' is measured on the first %lld cells; 'auto, M' may use the "
+    "memory of M vertices, 'auto' 512 MiB.\n%-7s %-5s %6s %9s",
+    (long long)lruCells, "order", "cache", "M", "chunk");
+  for (const Column& column : columns)
+  {
+    std::printf(" %9s", column.Name);
+  }
+  std::printf(" | %9s %9s %9s %9s\n", "reads", "MB", "passes", "misses");
+}
+
+/// Counters: those of Direct Load but for the misses.
+void print(const Row& row)
+{
+  std::printf("%-7s %-5s n/%-4lld %9lld", row.Source->Order, row.Cold ? "cold" : "warm",
+    (long long)row.Parts, (long long)row.Chunk);
+  for (const double microseconds : row.MicrosecondsACell)
+  {
+    std::printf(" %9.4f", microseconds);
+  }
+  const LoadCounters& direct = row.Counters[0];
+  std::printf(" | %9lld %9.1f %9lld %9lld\n", (long long)direct.Reads, 1e-6 * double(direct.Bytes),
+    (long long)direct.Passes, (long long)row.Counters[3].CacheMisses);
+  std::fflush(stdout);
+}
+
+void printDirectAgainstLru(const std::vector<Row>& rows)
+{
+  for (const Row& row : rows)
+  {
+    if (row.Parts == 8 && row.Chunk == 4000000 && row.Source == rows.front().Source)
+    {
+      const double lru = std::min(row.MicrosecondsACell[2], row.MicrosecondsACell[3]);
+      std::printf("Direct Load against the better LRU, M = n/8, chunks of 4M cells, random, %s: "
+                  "%.1fx less time\n",
+        row.Cold ? "cold" : "warm", lru / row.MicrosecondsACell[0]);
+    }
+  }
+}
+
+void printFineAgainstDirect(const std::vector<Row>& rows, const Mesh& mesh)
+{
+  double least = 0;
+  double most = 0;
+  int count = 0;
+  for (const Row& row : rows)
+  {
+    if (row.Source == &mesh)
+    {
+      const double ratio = row.MicrosecondsACell[0] / row.MicrosecondsACell[1];
+      least = count == 0 ? ratio : std::min(least, ratio);
+      most = std::max(most, ratio);
+      ++count;
+    }
+  }
+  std::printf("Fine against Algorithm 4, %s order: %.2fx to %.1fx as fast over %d rows\n",
+    mesh.Order, least, most, count);
+}
+
+/// The worst row of one automatic choice against the loaders that may do the same.
+void printAuto(const std::vector<Row>& rows, std::size_t automatic, std::size_t candidates)
+{
+  double worst = 0;
+  const Row* at = nullptr;
+  for (const Row& row : rows)
+  {
+    double best = row.MicrosecondsACell[0];
+    for (std::size_t column = 1; column < candidates; ++column)
+    {
+      const bool other = column != automatic && columns[column].Kind != Loader::Auto;
+      best = other ? std::min(best, row.MicrosecondsACell[column]) : best;
+    }
+    const double ratio = row.MicrosecondsACell[automatic] / best;
+    if (ratio > worst)
+    {
+      worst = ratio;
+      at = &row;
+    }
+  }
+  std::printf("'%s' against the best %s: at worst %.2fx the time (%s, %s, n/%lld, %lld)\n",
+    columns[automatic].Name, candidates > 5 ? "of all" : "of those within M", worst,
+    at->Source->Order, at->Cold ? "cold" : "warm", (long long)at->Parts, (long long)at->Chunk);
+}
+
+} // namespace
+
+void benchmarkLoaders(const IoArguments& arguments)
+{
+  const Mesh meshes[] = { { arguments.Meshes[0], "random" }, { arguments.Meshes[1], "local" } };
+  LoaderBenchmark benchmark(arguments);
+  std::vector<Row> rows;
+  printHeader();
+  for (const Mesh& mesh : meshes)
+  {
+    for (const bool cold : { false, true })
+    {
+      for (const std::int64_t parts : arguments.Parts)
+      {
+        // A cache does not know of chunks: it is measured once.
+        std::map<const char*, std::pair<double, LoadCounters>> lru;
+        for (const std::int64_t chunk : arguments.Chunks)
+        {
+          Row row{ &mesh, cold, parts, chunk, {}, {} };
+          for (std::size_t i = 0; i < columnCount; ++i)
+          {
+            const Column& column = columns[i];
+            auto& [microseconds, counters] = lru[column.Name];
+            if (column.Kind != Loader::Lru || microseconds == 0)
+            {
+              microseconds = benchmark.measure(row, column, counters);
+            }
+            row.MicrosecondsACell[i] = microseconds;
+            row.Counters[i] = counters;
+          }
+          print(row);
+          rows.push_back(row);
+        }
+      }
+    }
+  }
+  printDirectAgainstLru(rows);
+  printFineAgainstDirect(rows, meshes[0]);
+  printFineAgainstDirect(rows, meshes[1]);
+  printAuto(rows, 4, 5);
+  printAuto(rows, 6, 7);
+}
+
+} // namespace benchmark
+} // namespace tipp

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippIoSubjects_h
+#define tippIoSubjects_h
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+namespace benchmark
+{
+
+struct IoArguments
+{
+  std::vector<std::string> Meshes; ///< flat meshes
+  int Repeat = 3;
+  int Threads = 2;
+  std::vector<std::int64_t> Parts{ 64, 8, 1 };                ///< M is n over these
+  std::vector<std::int64_t> Chunks{ 65536, 524288, 4000000 }; ///< in cells
+};
+
+/// Loading the vertices of all cells, loader by loader, over M, chunk size and the state of the
+/// file system's cache. Vertices of the first mesh are in random order, of the second in local
+/// order.
+void benchmarkLoaders(const IoArguments& arguments);
+
+} // namespace benchmark
+} // namespace tipp
+
+#endif

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Flat/CellReader.h"
+
+#include "ExpectIOError.h"
+#include "FlatTesting.h"
+
+#include <random>
+#include <stdexcept>
+
+namespace
+{
+
+using Ids = std::vector<std::int64_t>;
+using tipp::CellReader;
+using tipp::test::expectIOError;
+
+class Cells : public testing::TestWithParam<const char*>
+{
+protected:
+  tipp::FlatMesh open(const Ids& ids, std::int64_t points) const
+  {
+    const std::string shape = "(" + std::to_string(ids.size() / 3) + ", 3)";
+    if (std::string(GetParam()) == "<i4")
+    {
+      this->Maker.write(
+        "cells.npy", "<i4", shape, std::vector<std::int32_t>(ids.begin(), ids.end()));
+    }
+    else
+    {
+      this->Maker.write("cells.npy", "<i8", shape, ids);
+    }
+    this->Maker.write("points.npy", "<f4", "(" + std::to_string(points) + ", 3)",
+      std::vector<float>(std::size_t(points) * 3));
+    return tipp::openFlatMesh(this->Maker.path());
+  }
+
+  static Ids randomIds(std::size_t cells, std::int64_t points)
+  {
+    std::mt19937_64 random(5);
+    Ids ids(3 * cells);
+    for (std::int64_t& id : ids)
+    {
+      id = std::int64_t(random() % std::uint64_t(points));
+    }
+    return ids;
+  }
+
+  const tipp::test::FlatFolderMaker Maker;
+};
+
+} // namespace
+
+TEST_P(Cells, ComeInChunksOfAnySize)
+{
+  const Ids ids = randomIds(1000, 77);
+  const tipp::FlatMesh mesh = this->open(ids, 77);
+  for (const std::int64_t chunk : { 1, 7, 999, 1000, 1 << 20 })
+  {
+    CellReader reader(mesh);
+    Ids part;
+    Ids all;
+    while (reader.next(chunk, part))
+    {
+      EXPECT_EQ(std::int64_t(all.size()), 3 * reader.firstCell());
+      EXPECT_LE(part.size(), 3 * std::size_t(chunk));
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    EXPECT_EQ(ids, all) << chunk;
+  }
+}
+
+TEST_P(Cells, OfARangeAreThoseOfTheWhole)
+{
+  const Ids ids = randomIds(1000, 77);
+  CellReader reader(this->open(ids, 77), 300, 310);
+  Ids part;
+  ASSERT_TRUE(reader.next(100, part));
+  EXPECT_EQ(Ids(ids.begin() + 900, ids.begin() + 930), part);
+  EXPECT_FALSE(reader.next(100, part));
+}
+
+TEST_P(Cells, AreTheSameForAnyNumberOfThreads)
+{
+  const Ids ids = randomIds(200000, 5000);
+  const tipp::FlatMesh mesh = this->open(ids, 5000);
+  for (const int threads : { 1, 2, 5 })
+  {
+    Ids all;
+    CellReader(mesh, 0, -1, threads).next(200000, all);
+    EXPECT_EQ(ids, all) << threads;
+  }
+}
+
+TEST_P(Cells, WithABadIdAreRefusedAndTheFirstOfThemIsNamed)
+{
+  for (const std::int64_t bad : { std::int64_t(77), std::int64_t(-1) })
+  {
+    Ids ids = randomIds(300000, 77);
+    ids[3 * 200000 + 1] = bad;
+    ids[3 * 299999] = bad;
+    const tipp::FlatMesh mesh = this->open(ids, 77);
+    for (const int threads : { 1, 4 })
+    {
+      CellReader reader(mesh, 0, -1, threads);
+      Ids part;
+      expectIOError(this->Maker.path("cells.npy"),
+        "cell 200000 the vertex id " + std::to_string(bad), [&] { reader.next(300000, part); });
+    }
+  }
+}
+
+TEST_P(Cells, BeyondTheMeshAreNoChunk)
+{
+  const tipp::FlatMesh mesh = this->open(randomIds(10, 7), 7);
+  EXPECT_THROW(CellReader(mesh, 0, 11), std::out_of_range);
+  EXPECT_THROW(CellReader(mesh, 5, 4), std::out_of_range);
+  EXPECT_THROW(CellReader(mesh, -1, 4), std::out_of_range);
+  Ids ids(30);
+  EXPECT_THROW(CellReader(mesh).read(9, 2, ids.data()), std::out_of_range);
+}
+
+TEST_P(Cells, NoneGiveNoChunk)
+{
+  CellReader reader(this->open({}, 0));
+  Ids part;
+  EXPECT_FALSE(reader.next(10, part));
+}
+
+INSTANTIATE_TEST_SUITE_P(Ids, Cells, testing::Values("<i4", "<i8"),
+  [](const auto& info) { return std::string(info.param) == "<i4" ? "Of32Bits" : "Of64Bits"; });

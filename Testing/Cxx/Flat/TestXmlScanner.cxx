@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Flat/XmlScanner.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using Tag = tipp::XmlScanner::Tag;
+
+/// Tags as "+name", "-name" and "=name"; "!" at the end of a text that is not well formed.
+std::string outline(const std::string& text)
+{
+  tipp::XmlScanner scanner(text);
+  std::string found;
+  for (Tag tag; scanner.next(tag);)
+  {
+    found += (tag.What == Tag::Open ? '+' : tag.What == Tag::Close ? '-' : '=') + tag.Name;
+  }
+  return found + (scanner.failed() ? "!" : "");
+}
+
+} // namespace
+
+TEST(XmlScanner, NamesTagsInOrder)
+{
+  EXPECT_EQ("+a=b-a", outline("<a> text <b/> more </a>"));
+}
+
+TEST(XmlScanner, PassesOverCommentsAndInstructions)
+{
+  EXPECT_EQ("+a-a", outline("<?xml version=\"1.0\"?><!-- <b> --><a><!----></a>"));
+}
+
+TEST(XmlScanner, DecodesAttributes)
+{
+  tipp::XmlScanner scanner("<a one='1' two = \"&lt;&amp;&gt; '\" three=''>");
+  Tag tag;
+  ASSERT_TRUE(scanner.next(tag));
+  EXPECT_EQ("1", *tag.find("one"));
+  EXPECT_EQ("<&> '", *tag.find("two"));
+  EXPECT_EQ("", *tag.find("three"));
+  EXPECT_EQ(nullptr, tag.find("four"));
+}
+
+TEST(XmlScanner, StopsWhereTheTextIsNotWellFormed)
+{
+  for (const char* text : { "<", "<a", "<a b", "<a b=", "<a b=c>", "<a b='c>", "<a b='1' b='2'>",
+         "<!-- open", "<?open", "</a b='1'>", "<a/", "< a>", "</>" })
+  {
+    const std::string found = outline(text);
+    EXPECT_EQ('!', found.back()) << text;
+  }
+}

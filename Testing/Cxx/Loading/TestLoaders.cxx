@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Loading/VertexLoader.h"
+
+#include "ExpectIOError.h"
+#include "TemporaryFolder.h"
+
+#include <algorithm>
+#include <numeric>
+#include <ostream>
+#include <random>
+#include <stdexcept>
+
+namespace
+{
+
+using tipp::Loader;
+using tipp::LoaderOptions;
+using tipp::makeVertexLoader;
+using tipp::RawArray;
+using tipp::Scalar;
+using Ids = std::vector<std::int64_t>;
+
+constexpr std::int64_t tuples = 5000;
+
+/// Three arrays in two files, each tuple telling its own id.
+class Source
+{
+public:
+  Source()
+  {
+    std::string one(11, '!');
+    std::string two;
+    for (std::int64_t id = 0; id < tuples; ++id)
+    {
+      const double xyz[3] = { double(id), id + 0.25, id + 0.5 };
+      one.append(reinterpret_cast<const char*>(xyz), sizeof(xyz));
+      const auto low = std::uint8_t(id * 7);
+      two += char(low);
+    }
+    const std::uint64_t wide = one.size();
+    for (std::int64_t id = 0; id < tuples; ++id)
+    {
+      for (int i = 0; i < 5; ++i)
+      {
+        const auto value = std::int16_t(id + i);
+        one.append(reinterpret_cast<const char*>(&value), sizeof(value));
+      }
+    }
+    const std::string first = this->Folder.file("one", one);
+    const std::string second = this->Folder.file("two", two);
+    this->Arrays = { { "xyz", first, 11, Scalar::Float64, 3, tuples },
+      { "low", second, 0, Scalar::UInt8, 1, tuples },
+      { "wide", first, wide, Scalar::Int16, 5, tuples } };
+  }
+
+  std::vector<RawArray> Arrays;
+  tipp::test::TemporaryFolder Folder;
+};
+
+const Source& source()
+{
+  static const Source made;
+  return made;
+}
+
+/// Loads ids in chunks and compares each tuple with what its id demands.
+void expectRight(tipp::VertexLoader& loader, const Ids& ids, std::size_t chunk)
+{
+  for (std::size_t first = 0; first < ids.size(); first += chunk)
+  {
+    const std::size_t size = std::min(chunk, ids.size() - first);
+    std::vector<double> xyz(3 * size, -1);
+    std::vector<std::uint8_t> low(size, 77);
+    std::vector<std::int16_t> wide(5 * size, -1);
+    void* const out[] = { xyz.data(), low.data(), wide.data() };
+    loader.load(ids.data() + first, size, out);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      const std::int64_t id = ids[first + i];
+      ASSERT_EQ(double(id), xyz[3 * i]);
+      ASSERT_EQ(id + 0.5, xyz[3 * i + 2]);
+      ASSERT_EQ(std::uint8_t(id * 7), low[i]);
+      ASSERT_EQ(std::int16_t(id), wide[5 * i]);
+      ASSERT_EQ(std::int16_t(id + 4), wide[5 * i + 4]);
+    }
+  }
+}
+
+/// Ids of many patterns: random, ascending, the same, both ends, clusters far apart.
+std::vector<Ids> patterns()
+{
+  std::mt19937_64 random(11);
+  std::vector<Ids> all(5, Ids(3000));
+  for (std::size_t i = 0; i < 3000; ++i)
+  {
+    all[0][i] = std::int64_t(random() % tuples);
+    all[1][i] = std::int64_t(i);
+    all[2][i] = 1234;
+    all[3][i] = i % 2 ? 0 : tuples - 1;
+    all[4][i] = std::int64_t(i % 3 * 2400 + random() % 20);
+  }
+  return all;
+}
+
+struct Case
+{
+  Loader Kind;
+  std::int64_t M;
+};
+
+std::ostream& operator<<(std::ostream& stream, const Case& one)
+{
+  return stream << tipp::loaderName(one.Kind) << "M" << one.M;
+}
+
+class Loaders : public testing::TestWithParam<Case>
+{
+};
+
+std::vector<Case> cases()
+{
+  std::vector<Case> all;
+  for (const Loader kind :
+    { Loader::Direct, Loader::Fine, Loader::Lru, Loader::Mmap, Loader::Auto })
+  {
+    // 1 vertex a segment, sizes around a power of two, half, all but one, all, more than all.
+    for (const std::int64_t m : { 1, 2, 7, 100, 1023, 1024, 1025, 2500, 4999, 5000, 100000, 0 })
+    {
+      all.push_back({ kind, m });
+    }
+  }
+  return all;
+}
+
+} // namespace
+
+TEST_P(Loaders, GiveEveryTupleForAnyChunk)
+{
+  for (const Ids& ids : patterns())
+  {
+    for (const std::size_t chunk : { 1, 3, 64, 1000, 3000 })
+    {
+      LoaderOptions options;
+      options.Kind = GetParam().Kind;
+      options.M = GetParam().M;
+      options.Blocks = 16;
+      const auto loader = makeVertexLoader(source().Arrays, options);
+      const Ids part(ids.begin(), ids.begin() + std::ptrdiff_t(std::min(3000UL, 40 * chunk)));
+      expectRight(*loader, part, chunk);
+    }
+  }
+}
+
+TEST_P(Loaders, RefuseIdsThatAreNoTuples)
+{
+  LoaderOptions options;
+  options.Kind = GetParam().Kind;
+  options.M = GetParam().M;
+  const auto loader = makeVertexLoader({ source().Arrays[0] }, options);
+  std::vector<double> xyz(6);
+  void* const out[] = { xyz.data() };
+  for (const std::int64_t bad : { std::int64_t(-1), tuples, std::int64_t(1) << 62 })
+  {
+    const Ids ids{ 3, bad };
+    tipp::test::expectIOError(source().Arrays[0].Path, "has no vertex " + std::to_string(bad),
+      [&] { loader->load(ids.data(), 2, out); });
+  }
+}
+
+TEST_P(Loaders, DoNothingForNoIds)
+{
+  LoaderOptions options;
+  options.Kind = GetParam().Kind;
+  options.M = GetParam().M;
+  const auto loader = makeVertexLoader(source().Arrays, options);
+  void* const out[] = { nullptr, nullptr, nullptr };
+  loader->load(nullptr, 0, out);
+  EXPECT_EQ(0, loader->counters().Reads);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, Loaders, testing::ValuesIn(cases()),
+  [](const auto& info) { return testing::PrintToString(info.param); });
+
+TEST(Loader, GivesTheSameWithAnyNumberOfThreads)
+{
+  std::mt19937_64 random(2);
+  Ids ids(400000);
+  std::generate(ids.begin(), ids.end(), [&] { return std::int64_t(random() % tuples); });
+  for (const Loader kind : { Loader::Direct, Loader::Fine, Loader::Mmap })
+  {
+    for (const int threads : { 1, 2, 3 })
+    {
+      LoaderOptions options;
+      options.Kind = kind;
+      options.M = 1500;
+      options.Threads = threads;
+      expectRight(*makeVertexLoader(source().Arrays, options), ids, ids.size());
+    }
+  }
+}
+
+TEST(DirectLoader, ReadsEachActiveSegmentOnce)
+{
+  LoaderOptions options;
+  options.Kind = Loader::Direct;
+  options.M = 1000;
+  const auto loader = makeVertexLoader({ source().Arrays[0] }, options);
+  std::vector<double> xyz(3 * 4);
+  void* const out[] = { xyz.data() };
+  // From 100 on: segments 0, 3 and 4 of five; the last ends with the range.
+  const Ids ids{ 100, 4500, 3200, 150 };
+  loader->load(ids.data(), ids.size(), out);
+  EXPECT_EQ(3, loader->counters().Reads);
+  EXPECT_EQ(3, loader->counters().Passes);
+  EXPECT_EQ((1000 + 1000 + 401) * 24, loader->counters().Bytes);
+  EXPECT_EQ(4 * 24, loader->counters().UsefulBytes);
+}
+
+TEST(DirectLoader, ReadsTheRangeAloneWhereItFits)
+{
+  LoaderOptions options;
+  options.Kind = Loader::Direct;
+  options.M = 1000;
+  const auto loader = makeVertexLoader({ source().Arrays[0] }, options);
+  std::vector<double> xyz(3 * 2);
+  void* const out[] = { xyz.data() };
+  const Ids ids{ 1999, 1000 };
+  loader->load(ids.data(), ids.size(), out);
+  EXPECT_EQ(1, loader->counters().Reads);
+  EXPECT_EQ(1000 * 24, loader->counters().Bytes);
+}
+
+TEST(FineLoader, ReadsLittleBesideWhatIsAsked)
+{
+  LoaderOptions options;
+  options.Kind = Loader::Fine;
+  options.M = 3000;
+  const auto loader = makeVertexLoader({ source().Arrays[0] }, options);
+  std::vector<double> xyz(3 * 2);
+  void* const out[] = { xyz.data() };
+  const Ids ids{ 0, 4999 };
+  loader->load(ids.data(), ids.size(), out);
+  EXPECT_EQ(2, loader->counters().Reads);
+  EXPECT_EQ(1, loader->counters().Passes);
+  EXPECT_EQ(2 * 24, loader->counters().Bytes);
+}
+
+TEST(LruLoader, CountsAMissForEachBlockThatItReads)
+{
+  LoaderOptions options;
+  options.Kind = Loader::Lru;
+  options.M = 1000;
+  options.Blocks = 10;
+  const auto loader = makeVertexLoader(source().Arrays, options);
+  std::vector<double> xyz(3 * 4);
+  std::vector<std::uint8_t> low(4);
+  std::vector<std::int16_t> wide(5 * 4);
+  void* const out[] = { xyz.data(), low.data(), wide.data() };
+  const Ids ids{ 5, 450, 99, 401 };
+  loader->load(ids.data(), ids.size(), out);
+  EXPECT_EQ(2, loader->counters().CacheMisses);
+  EXPECT_EQ(3 * 2, loader->counters().Reads);
+  EXPECT_EQ(2 * 100 * (24 + 1 + 10), loader->counters().Bytes);
+}
+
+TEST(AutoLoader, MapsWhatFitsIntoHalfTheMemory)
+{
+  LoaderOptions options;
+  options.MemoryLimit = 2 * 24 * tuples;
+  EXPECT_EQ(Loader::Mmap, makeVertexLoader({ source().Arrays[0] }, options)->kind());
+  options.MemoryLimit -= 2 * 24;
+  EXPECT_EQ(Loader::Fine, makeVertexLoader({ source().Arrays[0] }, options)->kind());
+}
+
+TEST(MakeVertexLoader, RefusesAnArrayThatItsFileDoesNotHold)
+{
+  for (const auto& change :
+    std::vector<RawArray>{ { "low", source().Arrays[1].Path, 1, Scalar::UInt8, 1, tuples },
+      { "low", source().Arrays[1].Path, 0, Scalar::UInt16, 1, tuples },
+      { "low", source().Arrays[1].Path, ~std::uint64_t(0), Scalar::UInt8, 1, tuples },
+      { "low", source().Arrays[1].Path, 0, Scalar::UInt8, 1, std::int64_t(1) << 62 },
+      { "low", source().Arrays[1].Path, 0, Scalar::Float64, 4, std::int64_t(1) << 60 },
+      { "low", source().Arrays[1].Path, 0, Scalar::UInt8, 1, -1 } })
+  {
+    tipp::test::expectIOError(change.Path, "does not hold", [&] { makeVertexLoader({ change }); });
+  }
+}
+
+TEST(MakeVertexLoader, RefusesArraysThatDiffer)
+{
+  RawArray shorter = source().Arrays[1];
+  --shorter.Tuples;
+  EXPECT_THROW(makeVertexLoader({ source().Arrays[0], shorter }), std::invalid_argument);
+}
+
+TEST(MakeVertexLoader, NamesTheFileThatIsCutOffBehindItsBack)
+{
+  const tipp::test::TemporaryFolder folder;
+  const std::string path = folder.file("data", std::string(8000, 'x'));
+  const RawArray array{ "x", path, 0, Scalar::Float64, 1, 1000 };
+  for (const Loader kind : { Loader::Direct, Loader::Fine, Loader::Lru })
+  {
+    std::ofstream(path) << std::string(8000, 'x');
+    LoaderOptions options;
+    options.Kind = kind;
+    const auto loader = makeVertexLoader({ array }, options);
+    std::filesystem::resize_file(path, 4000);
+    std::vector<double> x(1);
+    void* const out[] = { x.data() };
+    const Ids ids{ 900 };
+    tipp::test::expectIOError(path, "ends at byte", [&] { loader->load(ids.data(), 1, out); });
+  }
+}
+
+TEST(LoaderNames, ComeBack)
+{
+  for (const Loader kind :
+    { Loader::Auto, Loader::Direct, Loader::Fine, Loader::Lru, Loader::Mmap })
+  {
+    EXPECT_EQ(kind, tipp::loaderFromName(tipp::loaderName(kind)));
+  }
+  EXPECT_THROW(tipp::loaderFromName("quick"), std::invalid_argument);
+}

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/Commands.h"
+
+#include "Console/Interrupt.h"
+#include "Files/Extension.h"
+#include "Files/PendingFolder.h"
+#include "Flat/FlattenAdcirc.h"
+#include "Flat/FlattenDataSet.h"
+#include "Flat/WriteFlatMesh.h"
+#include "Vtk/ReadDataSet.h"
+
+#include "vtkDataSet.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+#include <vector>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr const char* footer =
+  R"(INPUT   any VTK file, which is read into memory, or an ADCIRC grid (.14, .grd).
+FOLDER  cells.npy, points.npy, point_data/NAME.npy, cell_data/NAME.npy and, for
+        values that vary in time, time.npy. It must not exist yet.
+
+Cells other than triangles and tetrahedra are cut into these; what is cut and
+what is left out (cells of a lower dimension, ghost cells, arrays of strings) is
+told. A .vtu file with appended, raw, uncompressed triangles or tetrahedra needs
+no flattening: it is read in place.
+
+Examples:
+  tipp flatten bracket.vtu -o bracket
+  tipp flatten fort.14 -o surge --values fort.63 --values maxele.63
+)";
+
+struct FlattenArguments
+{
+  std::string Input;
+  std::string Output;
+  std::vector<std::string> Values;
+};
+
+bool isAdcircGrid(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  return extension == ".14" || extension == ".grd";
+}
+
+void reportCut(const FlattenArguments& arguments, const Flattened& flattened)
+{
+  for (const auto& [name, count] : flattened.Cut)
+  {
+    fmt::print("{} cells {} were cut.\n", count, name);
+  }
+  for (const auto& [name, count] : flattened.LeftOut)
+  {
+    fmt::print(stderr, "tipp: warning: {}: {} of {} left out.\n", arguments.Input, count, name);
+  }
+  for (const std::string& name : flattened.ArraysLeftOut)
+  {
+    fmt::print(
+      stderr, "tipp: warning: {}: array '{}' holds no numbers, left out.\n", arguments.Input, name);
+  }
+}
+
+bool writeContent(const FlattenArguments& arguments, const FlatContent& content)
+{
+  if (!writeFlatMesh(arguments.Output, content, isInterrupted))
+  {
+    fmt::print(stderr, "tipp: interrupted; nothing was written.\n");
+    return false;
+  }
+  fmt::print("{} {}, {} points, {} arrays{} in {}\n",
+    content.Cells.size() / std::size_t(content.CellSize),
+    content.CellSize == 3 ? "triangles" : "tetrahedra", content.Points.Tuples,
+    content.PointData.size() + content.CellData.size(),
+    content.Times.empty() ? "" : fmt::format(", {} steps", content.Times.size()), arguments.Output);
+  return true;
+}
+
+int runFlatten(const FlattenArguments& arguments)
+{
+  watchForInterrupt();
+  {
+    // Before the work rather than after it.
+    const PendingFolder writable(arguments.Output);
+  }
+  if (isAdcircGrid(arguments.Input))
+  {
+    const FlatContent content = flattenAdcirc(arguments.Input, arguments.Values);
+    return writeContent(arguments, content) ? Success : interruptedExitCode;
+  }
+  const vtkSmartPointer<vtkDataSet> data = readDataSet(arguments.Input);
+  const Flattened flattened = flattenDataSet(data, arguments.Input);
+  if (!writeContent(arguments, flattened.Content))
+  {
+    return interruptedExitCode;
+  }
+  reportCut(arguments, flattened);
+  return Success;
+}
+
+} // namespace
+
+void addFlattenCommand(CLI::App& app, int& exitCode)
+{
+  auto arguments = std::make_shared<FlattenArguments>();
+  CLI::App* const command = app.add_subcommand(
+    "flatten", "Writes a mesh as a folder of .npy arrays: triangles or tetrahedra, as they lie");
+  command->add_option("input", arguments->Input, "The mesh")->required();
+  command->add_option("-o,--output", arguments->Output, "The folder to write")->required();
+  command->add_option("--values", arguments->Values,
+    "ADCIRC output at the nodes in ASCII (fort.63, maxele.63 ...), with an ADCIRC grid");
+  command->footer(footer);
+  command->callback(
+    [arguments, &exitCode]()
+    {
+      if (!arguments->Values.empty() && !isAdcircGrid(arguments->Input))
+      {
+        throw CLI::ValidationError("--values goes with an ADCIRC grid (.14, .grd)");
+      }
+      exitCode = runFlatten(*arguments);
+    });
+}
+
+} // namespace tipp
