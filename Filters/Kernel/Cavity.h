@@ -51,7 +51,7 @@ private:
     Pair Y;
     Pair Lift;
     Pair StartCross; ///< start x apex
-    Pair StopCross;
+    Pair CrossStop;  ///< apex x stop
   };
   struct RingEdge
   {

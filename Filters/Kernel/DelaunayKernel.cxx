@@ -9,8 +9,9 @@
 namespace tipp
 {
 
-DelaunayKernel::DelaunayKernel()
+DelaunayKernel::DelaunayKernel(Instructions instructions)
   : Predicates(this->Points)
+  , Insertion(chooseInsertion(instructions))
 {
   this->clear();
 }
@@ -25,6 +26,12 @@ void DelaunayKernel::clear()
   this->PlaceEnd = 0;
   this->Pending = 1;
   this->Recent = 0;
+}
+
+std::size_t DelaunayKernel::bytes() const
+{
+  return this->Mesh.bytes() + this->Order.bytes() + this->Points.capacity() * sizeof(Point2) +
+    this->Places.capacity() * sizeof(std::uint32_t);
 }
 
 bool DelaunayKernel::isInfinite(Index triangle) const
@@ -57,10 +64,7 @@ bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monit
   while (this->Pending < this->vertexEnd())
   {
     const Index end = std::min(this->vertexEnd(), this->Pending + stride);
-    for (Index vertex = this->Pending; vertex < end; ++vertex)
-    {
-      this->insertVertex(vertex);
-    }
+    this->insertVertices(this->Pending, end);
     this->Pending = end;
     if (end < this->vertexEnd() && proceed && !proceed(static_cast<std::size_t>(end) - 1))
     {
@@ -128,38 +132,16 @@ bool DelaunayKernel::makeFirstTriangle(Index first)
   return true;
 }
 
-void DelaunayKernel::insertVertex(Index vertex)
+void DelaunayKernel::insertVertices(Index first, Index end)
 {
-  const Point2 p = this->Points[std::size_t(vertex)];
-  const Location location =
-    locate(this->Mesh, this->Points.data(), this->Predicates, this->Recent, p);
-  const Index equal = this->equalVertex(location, p);
-  if (__builtin_expect(equal != Infinite, 0))
+  this->Coincidences.clear();
+  this->Insertion({ this->Mesh, this->Points.data(), this->Predicates, this->Opened, this->Recent,
+                    this->Coincidences },
+    first, end);
+  for (const InsertionScene::Coincidence& found : this->Coincidences)
   {
-    this->Duplicates.push_back({ this->Places[std::size_t(vertex)], equal });
-    return;
+    this->Duplicates.push_back({ this->Places[std::size_t(found.Vertex)], found.Representative });
   }
-  this->Opened.open(this->Mesh, this->Points.data(), this->Predicates, location, p);
-  this->Recent = this->Opened.fill(this->Mesh, vertex);
-}
-
-/// The triangle's vertex at p, or the infinite one.
-DelaunayKernel::Index DelaunayKernel::equalVertex(const Location& at, Point2 p) const
-{
-  // At a corner two of them are zero, or NaN where the triangle's extent overflows.
-  if (__builtin_expect(at.Cross[0] > 0 && at.Cross[1] > 0 && at.Cross[2] > 0, 1))
-  {
-    return Infinite;
-  }
-  for (Index i = 0; i < 3; ++i)
-  {
-    const Index v = this->Mesh.vertex(at.Triangle + i);
-    if (this->Points[std::size_t(v)] == p)
-    {
-      return v;
-    }
-  }
-  return Infinite;
 }
 
 } // namespace tipp

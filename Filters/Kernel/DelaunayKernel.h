@@ -4,6 +4,7 @@
 
 #include "Kernel/Cavity.h"
 #include "Kernel/HalfEdgeMesh.h"
+#include "Kernel/Insertion.h"
 #include "Kernel/InsertionOrder.h"
 #include "Kernel/KernelPredicates.h"
 #include "Predicates/Point2.h"
@@ -35,11 +36,14 @@ public:
     Index Vertex;        ///< the vertex that stands for it
   };
 
-  DelaunayKernel();
+  explicit DelaunayKernel(Instructions instructions = Instructions::Best);
   DelaunayKernel(const DelaunayKernel&) = delete;
   DelaunayKernel& operator=(const DelaunayKernel&) = delete;
 
   void clear();
+
+  /// The memory that its points and triangles take, most of what it keeps.
+  std::size_t bytes() const;
 
   /// Asked now and then with the number of points inserted so far; false ends the insertion.
   using Monitor = std::function<bool(std::size_t)>;
@@ -63,8 +67,7 @@ public:
 
 private:
   bool makeFirstTriangle(Index firstVertex);
-  void insertVertex(Index vertex);
-  Index equalVertex(const Location& location, Point2 p) const;
+  void insertVertices(Index first, Index end);
 
   HalfEdgeMesh Mesh;
   std::vector<Point2> Points;
@@ -76,6 +79,8 @@ private:
   InsertionOrder Order;
   KernelPredicates Predicates;
   Cavity Opened;
+  std::vector<InsertionScene::Coincidence> Coincidences; ///< of the vertices inserted last
+  const InsertVertices Insertion;
 };
 
 } // namespace tipp

@@ -37,6 +37,8 @@ public:
 
   void clear() { this->End = 0; }
 
+  std::size_t bytes() const { return this->Slots.size() * sizeof(Index); }
+
   /// Room for so many triangles in all; the names of those there stay.
   void reserve(std::size_t triangles)
   {

@@ -121,11 +121,11 @@ void InsertionOrder::computeKeys(const Point2* points, std::size_t count)
   }
 }
 
+template <unsigned passes>
 void InsertionOrder::sortByKey()
 {
-  constexpr unsigned digitBits = 9;
+  constexpr unsigned digitBits = (KeyBits + RoundBits) / passes;
   constexpr unsigned digits = 1U << digitBits;
-  constexpr unsigned passes = (KeyBits + RoundBits) / digitBits;
   static_assert(passes * digitBits == KeyBits + RoundBits, "the passes cover the key");
 
   std::array<std::array<std::uint32_t, digits>, passes> starts{};
@@ -162,7 +162,9 @@ const std::vector<std::uint32_t>& InsertionOrder::compute(const Point2* points, 
   if (count > 0)
   {
     this->computeKeys(points, count);
-    this->sortByKey();
+    // Large digits need fewer passes, but their counters would cost more than a few points.
+    constexpr std::size_t many = 8192;
+    count < many ? this->sortByKey<4>() : this->sortByKey<3>();
   }
   for (std::size_t i = 0; i < count; ++i)
   {

@@ -20,8 +20,15 @@ public:
   /// The permutation: entry k is the index of the point to insert k-th. Valid until the next call.
   const std::vector<std::uint32_t>& compute(const Point2* points, std::size_t count);
 
+  std::size_t bytes() const
+  {
+    return 2 * this->Entries.capacity() * sizeof(std::uint64_t) +
+      this->Order.capacity() * sizeof(std::uint32_t);
+  }
+
 private:
   void computeKeys(const Point2* points, std::size_t count);
+  template <unsigned passes>
   void sortByKey();
 
   std::vector<std::uint64_t> Entries; ///< round, key and index, from the highest bits down

@@ -28,6 +28,16 @@ inline unsigned bitsOf(PairMask mask)
 #endif
 }
 
+/// The same for the lanes that are negative; any bit for one that is NaN.
+inline unsigned signsOf(Pair a)
+{
+#ifdef __SSE2__
+  return static_cast<unsigned>(_mm_movemask_pd(a));
+#else
+  return bitsOf(reinterpret_cast<PairMask>(a) >> 63);
+#endif
+}
+
 /// The first lanes of both, and the second.
 inline Pair low(Pair a, Pair b)
 {

@@ -22,6 +22,7 @@ template <typename Id>
 Worker<Id>::Worker(const Tiling& tiling, PointBuckets<Id>& buckets)
   : Boxes(tiling)
   , Buckets(buckets)
+  , Kernel(*this->Pooled)
 {
 }
 
@@ -201,8 +202,16 @@ void Worker<Id>::findSeams(PartitionIndex partition)
 template <typename Id>
 void Worker<Id>::writeInterior(PartitionIndex partition)
 {
+  // Each vertex has six triangles or so, next to one another; its point is anywhere.
+  const std::size_t own = this->Ids.size();
+  this->VertexIds.resize(static_cast<std::size_t>(this->Kernel.vertexEnd()));
+  for (std::size_t v = 1; v < this->VertexIds.size(); ++v)
+  {
+    const std::size_t place = this->Kernel.place(static_cast<DelaunayKernel::Index>(v));
+    this->VertexIds[v] = place < own ? this->Ids[place] : Id(-1);
+  }
   const DelaunayKernel::Index* slots = this->Kernel.mesh().slots();
-  const Id* ids = this->Ids.data();
+  const Id* ids = this->VertexIds.data();
   Id* const interior = this->Buckets.triangles(partition);
   Id* out = interior;
   for (std::size_t t = 0; t < this->IsSeam.size(); ++t)
@@ -211,7 +220,7 @@ void Worker<Id>::writeInterior(PartitionIndex partition)
     {
       for (std::size_t i = 0; i < 3; ++i)
       {
-        *out++ = ids[this->Kernel.place(slots[8 * t + i])];
+        *out++ = ids[slots[8 * t + i]];
       }
     }
   }

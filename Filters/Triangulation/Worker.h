@@ -2,7 +2,7 @@
 #ifndef tippWorker_h
 #define tippWorker_h
 
-#include "Kernel/DelaunayKernel.h"
+#include "Kernel/KernelPool.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/SeamMesh.h"
 #include "Triangulation/Triangulate.h"
@@ -47,8 +47,10 @@ private:
 
   const Tiling& Boxes;
   PointBuckets<Id>& Buckets;
-  DelaunayKernel Kernel;
+  PooledKernel Pooled;
+  DelaunayKernel& Kernel;
   std::vector<Id> Ids; ///< of the partition's own points
+  std::vector<Id> VertexIds;
   std::vector<SeamVertex> Foreign;
   std::vector<Point2> ForeignPoints;
   std::vector<std::int64_t> KnownIds; ///< of own points that other partitions know; sorted

@@ -4,6 +4,11 @@
 namespace tipp
 {
 
+IOError::IOError(const std::string& sentence)
+  : std::runtime_error(sentence)
+{
+}
+
 IOError::IOError(const std::string& path, const std::string& problem)
   : std::runtime_error(path + ": " + problem)
 {

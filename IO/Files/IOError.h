@@ -16,6 +16,7 @@ namespace tipp
 class VTKTIPPIO_EXPORT IOError : public std::runtime_error
 {
 public:
+  explicit IOError(const std::string& sentence);
   IOError(const std::string& path, const std::string& problem);
   IOError(const std::string& path, std::int64_t line, const std::string& problem);
   ~IOError() override;

@@ -45,7 +45,7 @@ double wayLength(const std::vector<Point2>& points, const Order& order, std::siz
 
 TEST(InsertionOrder, NamesEveryPointOnce)
 {
-  for (const std::size_t count : { 2, 3, 255, 256, 257, 5000 })
+  for (const std::size_t count : { 2, 3, 255, 256, 257, 5000, 8191, 8192 })
   {
     EXPECT_TRUE(isPermutation(orderOf(pointSet("uniform", count)), count));
   }

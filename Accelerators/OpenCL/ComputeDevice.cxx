@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OpenCL/ComputeDevice.h"
+
+#include "OpenCL/Drivers.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+// What users meet; the specification's other codes tell of faults in a program.
+std::string meaningOf(cl_int code)
+{
+  switch (code)
+  {
+    case CL_DEVICE_NOT_AVAILABLE:
+      return "the device is not available";
+    case CL_COMPILER_NOT_AVAILABLE:
+      return "the driver has no compiler";
+    case CL_MEM_OBJECT_ALLOCATION_FAILURE:
+    case CL_OUT_OF_RESOURCES:
+      return "the device has not enough memory";
+    case CL_OUT_OF_HOST_MEMORY:
+      return "the driver has not enough memory";
+    case CL_BUILD_PROGRAM_FAILURE:
+      return "the driver cannot compile the kernels";
+    default:
+      return "error " + std::to_string(code);
+  }
+}
+
+std::string firstLine(const std::string& text)
+{
+  const std::size_t begin = text.find_first_not_of(" \t\n");
+  return begin == std::string::npos ? "" : text.substr(begin, text.find('\n', begin) - begin);
+}
+
+} // namespace
+
+ComputeDevice* ComputeDevice::open(const DeviceChoice& choice)
+{
+  if (choice.Kind == tipp::Device::OpenMP)
+  {
+    return nullptr;
+  }
+  const std::optional<DeviceDescription> description = chooseDevice(choice, listDevices());
+  if (!description)
+  {
+    return nullptr;
+  }
+  try
+  {
+    return &drivers().open(description->Index);
+  }
+  catch (const cl::Error& error)
+  {
+    throw AcceleratorError("The OpenCL device '" + description->Name +
+      "' cannot be used: " + meaningOf(error.err()) + " (" + error.what() + ").");
+  }
+}
+
+ComputeDevice::ComputeDevice(DeviceDescription description, const cl::Device& device)
+  : Description(std::move(description))
+  , Device(device)
+  , Context(device)
+  , Queue(this->Context, device)
+  , SharesHostMemory(device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() == CL_TRUE)
+{
+}
+
+cl::Kernel ComputeDevice::kernel(const KernelSource& source, const char* name)
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  auto found = this->Programs.find(source.Name);
+  if (found == this->Programs.end())
+  {
+    found = this->Programs.emplace(source.Name, this->build(source)).first;
+  }
+  return this->run([&] { return cl::Kernel(found->second, name); });
+}
+
+cl::Program ComputeDevice::build(const KernelSource& source) const
+{
+  return this->run(
+    [&]
+    {
+      cl::Program program(this->Context, std::string(source.Text));
+      try
+      {
+        program.build({ this->Device }, "-cl-std=CL1.2");
+      }
+      catch (const cl::BuildError& error)
+      {
+        const auto logs = error.getBuildLog();
+        throw AcceleratorError("The OpenCL driver of '" + this->Description.Name +
+          "' cannot compile the kernels of " + source.Name + ": " +
+          (logs.empty() ? meaningOf(error.err()) : firstLine(logs.front().second)));
+      }
+      return program;
+    });
+}
+
+cl::Buffer ComputeDevice::input(const void* data, std::size_t bytes) const
+{
+  if (bytes == 0)
+  {
+    return this->room(0);
+  }
+  const cl_mem_flags placing = this->SharesHostMemory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
+  return this->run(
+    [&]
+    {
+      // The flag promises that nothing is written.
+      return cl::Buffer(this->Context, CL_MEM_READ_ONLY | placing, bytes, const_cast<void*>(data));
+    });
+}
+
+cl::Buffer ComputeDevice::room(std::size_t bytes) const
+{
+  return this->run(
+    [&] { return cl::Buffer(this->Context, CL_MEM_READ_WRITE, std::max<std::size_t>(bytes, 1)); });
+}
+
+void ComputeDevice::read(const cl::Buffer& buffer, void* data, std::size_t bytes) const
+{
+  if (bytes != 0)
+  {
+    this->run([&] { this->Queue.enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, data); });
+  }
+}
+
+AcceleratorError ComputeDevice::failure(const cl::Error& error) const
+{
+  clFinish(this->Queue());
+  return AcceleratorError("The OpenCL device '" + this->Description.Name +
+    "' failed: " + meaningOf(error.err()) + " (" + error.what() + ").");
+}
+
+} // namespace tipp

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OpenCL/DeviceList.h"
+
+#include "OpenCL/AcceleratorError.h"
+#include "OpenCL/Drivers.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace tipp
+{
+namespace
+{
+
+std::string lower(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::string namesOf(const std::vector<DeviceDescription>& devices)
+{
+  std::string names;
+  for (const DeviceDescription& device : devices)
+  {
+    names += (names.empty() ? "" : ", ") + std::to_string(device.Index) + " '" + device.Name + "'";
+  }
+  return names;
+}
+
+[[noreturn]] void failMissing(
+  const std::string& wanted, const std::vector<DeviceDescription>& devices)
+{
+  throw AcceleratorError(
+    "There is no OpenCL device " + wanted + "; there are: " + namesOf(devices) + ".");
+}
+
+const DeviceDescription& deviceNamed(
+  const std::string& name, const std::vector<DeviceDescription>& devices)
+{
+  const std::string wanted = lower(name);
+  const DeviceDescription* found = nullptr;
+  for (const DeviceDescription& device : devices)
+  {
+    if (lower(device.Name).find(wanted) == std::string::npos)
+    {
+      continue;
+    }
+    // Of several devices with such a name the first that is of use here.
+    if (found == nullptr || (!found->Double && device.Double))
+    {
+      found = &device;
+    }
+  }
+  if (found == nullptr)
+  {
+    failMissing("named '" + name + "'", devices);
+  }
+  return *found;
+}
+
+const DeviceDescription* firstWithDouble(
+  const std::vector<DeviceDescription>& devices, bool gpuOnly)
+{
+  const auto found = std::find_if(devices.begin(), devices.end(),
+    [gpuOnly](const DeviceDescription& device)
+    { return device.Double && (!gpuOnly || device.Type == DeviceType::Gpu); });
+  return found == devices.end() ? nullptr : &*found;
+}
+
+const DeviceDescription& deviceOf(
+  const DeviceChoice& choice, const std::vector<DeviceDescription>& devices)
+{
+  if (choice.Index >= 0)
+  {
+    if (static_cast<std::size_t>(choice.Index) >= devices.size())
+    {
+      failMissing(std::to_string(choice.Index), devices);
+    }
+    return devices[static_cast<std::size_t>(choice.Index)];
+  }
+  if (!choice.Name.empty())
+  {
+    return deviceNamed(choice.Name, devices);
+  }
+  const DeviceDescription* gpu = firstWithDouble(devices, true);
+  const DeviceDescription* any = gpu != nullptr ? gpu : firstWithDouble(devices, false);
+  return any != nullptr ? *any : devices.front();
+}
+
+} // namespace
+
+const std::vector<DeviceDescription>& listDevices()
+{
+  return drivers().descriptions();
+}
+
+std::optional<DeviceDescription> chooseDevice(
+  const DeviceChoice& choice, const std::vector<DeviceDescription>& devices)
+{
+  if (choice.Kind == Device::OpenMP)
+  {
+    return std::nullopt;
+  }
+  if (choice.Kind == Device::Auto)
+  {
+    const DeviceDescription* gpu = firstWithDouble(devices, true);
+    return gpu != nullptr ? std::optional<DeviceDescription>(*gpu) : std::nullopt;
+  }
+  if (devices.empty())
+  {
+    throw AcceleratorError("This machine has no OpenCL device: install the device's OpenCL driver "
+                           "(pocl-opencl-icd makes one of the processor), or use OpenMP.");
+  }
+  const DeviceDescription& device = deviceOf(choice, devices);
+  if (!device.Double)
+  {
+    throw AcceleratorError("The OpenCL device '" + device.Name +
+      "' has no double precision, which exact results need; choose another one, or OpenMP.");
+  }
+  return device;
+}
+
+} // namespace tipp

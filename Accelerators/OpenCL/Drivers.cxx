@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OpenCL/Drivers.h"
+
+namespace tipp
+{
+namespace
+{
+
+std::string trimmed(const std::string& text)
+{
+  const std::string spaces(" \t\n\0", 4);
+  const std::size_t first = text.find_first_not_of(spaces);
+  const std::size_t last = text.find_last_not_of(spaces);
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+DeviceType typeOf(const cl::Device& device)
+{
+  const cl_device_type type = device.getInfo<CL_DEVICE_TYPE>();
+  if ((type & CL_DEVICE_TYPE_GPU) != 0)
+  {
+    return DeviceType::Gpu;
+  }
+  return (type & CL_DEVICE_TYPE_CPU) != 0 ? DeviceType::Cpu : DeviceType::Other;
+}
+
+DeviceDescription describe(const cl::Platform& platform, const cl::Device& device)
+{
+  DeviceDescription description;
+  description.Name = trimmed(device.getInfo<CL_DEVICE_NAME>());
+  description.Platform = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
+  description.Type = typeOf(device);
+  description.Memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+  description.LargestBuffer = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  description.Double = device.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() != 0;
+  return description;
+}
+
+std::vector<cl::Platform> platforms()
+{
+  std::vector<cl::Platform> result;
+  try
+  {
+    cl::Platform::get(&result);
+  }
+  catch (const cl::Error&)
+  {
+    // What the loader answers where no driver is installed.
+    result.clear();
+  }
+  return result;
+}
+
+std::vector<cl::Device> devicesOf(const cl::Platform& platform)
+{
+  std::vector<cl::Device> result;
+  try
+  {
+    platform.getDevices(CL_DEVICE_TYPE_ALL, &result);
+  }
+  catch (const cl::Error&)
+  {
+    // A driver without its device, as on a machine whose card was taken out.
+    result.clear();
+  }
+  return result;
+}
+
+} // namespace
+
+Drivers::Drivers()
+{
+  for (const cl::Platform& platform : platforms())
+  {
+    for (const cl::Device& device : devicesOf(platform))
+    {
+      try
+      {
+        DeviceDescription description = describe(platform, device);
+        description.Index = static_cast<int>(this->Devices.size());
+        this->Descriptions.push_back(description);
+        this->Devices.push_back(device);
+      }
+      catch (const cl::Error&)
+      {
+        // A device that cannot even be described is not offered.
+        continue;
+      }
+    }
+  }
+  this->Opened.resize(this->Devices.size());
+}
+
+ComputeDevice& Drivers::open(int index)
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  const auto place = static_cast<std::size_t>(index);
+  std::unique_ptr<ComputeDevice>& opened = this->Opened.at(place);
+  if (!opened)
+  {
+    opened = std::make_unique<ComputeDevice>(this->Descriptions[place], this->Devices[place]);
+  }
+  return *opened;
+}
+
+Drivers& drivers()
+{
+  // Never destroyed: at the end of the process the drivers' own libraries may be gone already.
+  static Drivers* const instance = new Drivers;
+  return *instance;
+}
+
+} // namespace tipp

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippForChunks_h
+#define tippForChunks_h
+
+#include <omp.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <functional>
+
+namespace tipp
+{
+
+/// Asked now and then by the calling thread with the fraction done; false stops the work.
+using Report = std::function<bool(double)>;
+
+/// Calls body(begin, end, thread) for pieces of 0..count of at most `chunk`, each piece once, by as
+/// many threads, whichever is free. Throws the first exception of a body. False if `report` stopped
+/// it.
+template <typename Body>
+bool forChunks(
+  std::int64_t count, std::int64_t chunk, int threads, const Report& report, const Body& body)
+{
+  std::atomic<std::int64_t> next{ 0 };
+  std::atomic<bool> stopped{ false };
+  bool wanted = true;
+  std::exception_ptr error;
+#pragma omp parallel num_threads(threads) if (count > chunk)
+  {
+    const int thread = omp_get_thread_num();
+    while (!stopped.load(std::memory_order_relaxed))
+    {
+      const std::int64_t begin = next.fetch_add(chunk, std::memory_order_relaxed);
+      if (begin >= count)
+      {
+        break;
+      }
+      try
+      {
+        if (thread == 0 && report && !report(double(begin) / double(count)))
+        {
+          wanted = false;
+          stopped = true;
+          break;
+        }
+        body(begin, std::min(begin + chunk, count), thread);
+      }
+      catch (...)
+      {
+#pragma omp critical(tippForChunks)
+        error = error ? error : std::current_exception();
+        stopped = true;
+      }
+    }
+  }
+  if (error)
+  {
+    std::rethrow_exception(error);
+  }
+  return wanted;
+}
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippBoxTiling_h
+#define tippBoxTiling_h
+
+#include "Predicates/Box3.h"
+#include "vtkTIPPAcceleratorsModule.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+/// A tiling of a closed domain by closed boxes, which share their borders: a regular grid, or the
+/// leaves of a quadtree or octree. Held as flat arrays, so that a device can have them too.
+///
+/// Boxes are numbered from 0: in a grid x fastest, in a tree along the Morton curve (a node's lower
+/// half before its upper half, x fastest). An axis along which the domain has no extent is not cut.
+class VTKTIPPACCELERATORS_EXPORT BoxTiling
+{
+public:
+  /// A tree is no deeper than this: its smallest boxes are 2^-24 of the domain long.
+  static constexpr int MaxDepth = 24;
+
+  /// nx x ny (x nz) boxes of equal size. Throws AcceleratorError if the domain is not finite or
+  /// turned inside out, a number is not positive, or there are 2^31 boxes or more.
+  static BoxTiling grid(int dimension, const Box3& domain, const std::array<int, 3>& boxes);
+
+  /// The leaves of a tree whose nodes are cut in the middle of every axis of some extent.
+  /// firstChild has an entry for each node, the root first: -1 for a leaf, else the index of the
+  /// first of childCount() successive children, which is larger than the node's own. Throws
+  /// AcceleratorError for a domain as above or nodes that are no such tree.
+  static BoxTiling tree(
+    int dimension, const Box3& domain, const std::vector<std::int32_t>& firstChild);
+
+  /// Children of a node of such a tree: 2 for each axis with some extent.
+  static int childCount(int dimension, const Box3& domain);
+
+  /// The `which`-th child of a node that takes up `box`.
+  static Box3 childBox(int dimension, const Box3& domain, const Box3& box, int which);
+
+  int dimension() const { return this->Dimension; }
+  const Box3& domain() const { return this->Domain; }
+  std::int64_t count() const { return static_cast<std::int64_t>(this->Boxes.size()); }
+  const Box3& box(std::int64_t id) const { return this->Boxes[static_cast<std::size_t>(id)]; }
+  bool isGrid() const { return this->Children.empty(); }
+
+  /// Calls visit(id) for each box that the given closed box meets, with rising ids.
+  template <typename Visit>
+  void forEachMeeting(const Box3& box, Visit&& visit) const
+  {
+    if (this->isGrid())
+    {
+      this->visitGrid(box, visit);
+    }
+    else
+    {
+      this->visitTree(box, visit);
+    }
+  }
+
+  /// @name The flat arrays
+  ///@{
+  /// Of a grid: boxes along each axis, and their n + 1 borders, axis after axis.
+  const std::array<int, 3>& counts() const { return this->Counts; }
+  const std::vector<double>& cuts() const { return this->Cuts; }
+  /// Of a tree, by node: the first child, or -1 - id for a leaf; and three cuts.
+  const std::vector<std::int32_t>& children() const { return this->Children; }
+  const std::vector<double>& middles() const { return this->Middles; }
+  /// The axes that a tree cuts, bit by bit.
+  int axes() const { return this->Axes; }
+  ///@}
+
+private:
+  struct Range
+  {
+    int First;
+    int Last;
+  };
+
+  BoxTiling(int dimension, const Box3& domain);
+  void cutAxis(std::size_t axis);
+  void makeGridBoxes();
+  void makeTree(const std::vector<std::int32_t>& firstChild);
+
+  // Boxes along an axis that [low, high] meets; empty (First > Last) outside the domain.
+  Range rangeAlong(std::size_t axis, double low, double high) const
+  {
+    const double* cuts = this->Cuts.data() + this->CutStart[axis];
+    const int n = this->Counts[axis];
+    // The first box that ends at low or later; the last that begins at high or earlier.
+    const auto first = std::lower_bound(cuts + 1, cuts + n + 1, low) - (cuts + 1);
+    const auto last = std::upper_bound(cuts, cuts + n, high) - cuts - 1;
+    return { static_cast<int>(first), static_cast<int>(last) };
+  }
+
+  template <typename Visit>
+  void visitGrid(const Box3& box, Visit&& visit) const
+  {
+    const Range x = this->rangeAlong(0, box.Min[0], box.Max[0]);
+    const Range y = this->rangeAlong(1, box.Min[1], box.Max[1]);
+    const Range z = this->rangeAlong(2, box.Min[2], box.Max[2]);
+    for (int k = z.First; k <= z.Last; ++k)
+    {
+      for (int j = y.First; j <= y.Last; ++j)
+      {
+        for (int i = x.First; i <= x.Last; ++i)
+        {
+          visit(static_cast<std::int32_t>(i + this->Counts[0] * (j + this->Counts[1] * k)));
+        }
+      }
+    }
+  }
+
+  template <typename Visit>
+  void visitTree(const Box3& box, Visit&& visit) const
+  {
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(this->Dimension); ++axis)
+    {
+      if (box.Min[axis] > this->Domain.Max[axis] || box.Max[axis] < this->Domain.Min[axis])
+      {
+        return;
+      }
+    }
+    // A node leaves at most 7 siblings for later on each level.
+    std::array<std::int32_t, 7 * MaxDepth + 1> stack;
+    std::size_t size = 0;
+    stack[size++] = 0;
+    while (size > 0)
+    {
+      const std::int32_t node = stack[--size];
+      const std::int32_t child = this->Children[static_cast<std::size_t>(node)];
+      if (child < 0)
+      {
+        visit(-1 - child);
+        continue;
+      }
+      // Pushed with falling numbers, so that they come back with rising ones.
+      for (int which = this->ChildCount - 1; which >= 0; --which)
+      {
+        if (this->childMeets(node, which, box))
+        {
+          stack[size++] = child + which;
+        }
+      }
+    }
+  }
+
+  // Within a node that the box meets, only the cuts matter.
+  bool childMeets(std::int32_t node, int which, const Box3& box) const
+  {
+    const double* middle = this->Middles.data() + 3 * static_cast<std::size_t>(node);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      if ((this->Axes >> axis & 1) != 0)
+      {
+        const bool upper = (which & 1) != 0;
+        which >>= 1;
+        if (upper ? box.Max[axis] < middle[axis] : box.Min[axis] > middle[axis])
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  int Dimension;
+  Box3 Domain;
+  std::vector<Box3> Boxes;
+  std::array<int, 3> Counts = { 1, 1, 1 };
+  std::array<std::size_t, 3> CutStart = {};
+  std::vector<double> Cuts;
+  std::vector<std::int32_t> Children;
+  std::vector<double> Middles;
+  int Axes = 0;
+  int ChildCount = 1;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partition/ClassifyOnDevice.h"
+
+#include "Partition/Classify.cl.h"
+#include "Partition/ClassifyOnThreads.h"
+
+#include <cmath>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+// The verdicts of Classify.cl.
+enum Verdict : std::uint8_t
+{
+  Apart = 0,
+  Meet = 1,
+  Undecided = 2
+};
+
+// Work items in a group. Counts are rounded up to whole groups: some drivers choose groups of one
+// for a prime number.
+constexpr std::size_t GroupSize = 64;
+
+// Bytes on the device for a candidate (its id, its cell, its verdict) and for a cell that has some
+// (its number, where its candidates begin).
+constexpr std::uint64_t BytesPerCandidate = 4 + 4 + 1;
+constexpr std::uint64_t BytesPerListedCell = 4 + 8;
+
+template <typename Value>
+cl::Buffer inputOf(const ComputeDevice& device, const std::vector<Value>& values)
+{
+  return device.input(values.data(), values.size() * sizeof(Value));
+}
+
+template <typename... Arguments>
+void runKernel(
+  const ComputeDevice& device, cl::Kernel kernel, std::size_t count, const Arguments&... arguments)
+{
+  device.run(
+    [&]
+    {
+      cl_uint index = 0;
+      (kernel.setArg(index++, arguments), ...);
+      const std::size_t rounded = (count + GroupSize - 1) / GroupSize * GroupSize;
+      device.queue().enqueueNDRangeKernel(
+        kernel, cl::NullRange, cl::NDRange(rounded), cl::NDRange(GroupSize));
+    });
+}
+
+// A tiling's flat arrays on the device.
+struct DeviceTiling
+{
+  DeviceTiling(const ComputeDevice& device, const BoxTiling& tiling)
+    : Dimension(tiling.dimension())
+    , Axes(tiling.axes())
+    , Children(tiling.isGrid() ? 0 : BoxTiling::childCount(tiling.dimension(), tiling.domain()))
+    , Counts(tiling.counts())
+    , Cuts(inputOf(device, tiling.cuts()))
+    , Nodes(inputOf(device, tiling.children()))
+    , Middles(inputOf(device, tiling.middles()))
+    , Domain(device.input(&tiling.domain(), sizeof(Box3)))
+    , Boxes(device.input(&tiling.box(0), static_cast<std::size_t>(tiling.count()) * sizeof(Box3)))
+  {
+  }
+
+  int Dimension;
+  int Axes;
+  int Children;
+  std::array<int, 3> Counts;
+  cl::Buffer Cuts;
+  cl::Buffer Nodes;
+  cl::Buffer Middles;
+  cl::Buffer Domain;
+  cl::Buffer Boxes;
+};
+
+static_assert(sizeof(Box3) == 6 * sizeof(double), "Classify.cl reads boxes as six doubles");
+
+// Cells that must be tested, and where each one's candidates begin.
+struct Listed
+{
+  std::vector<cl_uint> Cells;
+  std::vector<cl_ulong> Starts = { 0 };
+
+  void add(std::size_t cell, std::uint64_t candidates)
+  {
+    this->Cells.push_back(static_cast<cl_uint>(cell));
+    this->Starts.push_back(this->Starts.back() + candidates);
+  }
+  void clear()
+  {
+    this->Cells.clear();
+    this->Starts.resize(1);
+  }
+  std::uint64_t candidates() const { return this->Starts.back(); }
+};
+
+class DeviceClassification
+{
+public:
+  DeviceClassification(ComputeDevice& device, const CellsView& cells, const BoxTiling& tiling,
+    const CellShape& shape, std::uint64_t memory)
+    : Device(device)
+    , Cells(cells)
+    , Tiling(tiling)
+    , Shape(shape)
+    , Arrays(device, tiling)
+  {
+    const DeviceDescription& description = device.description();
+    const std::uint64_t all = memory != 0 ? memory : description.Memory / 2;
+    // One half for the cells, one for their candidates; no buffer is larger than either.
+    this->Room = std::min(all / 2, description.LargestBuffer);
+    this->CellBytes = sizeof(double) * static_cast<std::size_t>(cells.Corners * cells.Dimension);
+    const std::uint64_t most = this->Room / (this->CellBytes + 8);
+    this->PieceSize =
+      static_cast<std::size_t>(std::min<std::uint64_t>(std::max<std::uint64_t>(most, 1), 1u << 30));
+    this->Result.Owner.resize(cells.Cells);
+    this->Result.BorrowerStart.resize(cells.Cells + 1);
+  }
+
+  Membership run()
+  {
+    for (std::size_t first = 0; first < this->Cells.Cells; first += this->PieceSize)
+    {
+      this->classifyPiece(first, std::min(this->PieceSize, this->Cells.Cells - first));
+    }
+    return std::move(this->Result);
+  }
+
+private:
+  void classifyPiece(std::size_t first, std::size_t count)
+  {
+    this->Coordinates = this->Device.input(this->Shape.cell(first), count * this->CellBytes);
+    this->countCandidates(first, count);
+    // Where cells without a test stand, their borrowers' place depends on those before them: cells
+    // are finished in order.
+    std::size_t finished = 0;
+    Listed listed;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const int n = this->Counts[i];
+      if (n == 0)
+      {
+        // Unless one before it has no place either.
+        this->testListed(first, listed);
+        this->finish(first, finished, i, listed);
+        failForCell(this->Shape, first + i);
+      }
+      if (n == 1)
+      {
+        continue;
+      }
+      const auto candidates = static_cast<std::uint64_t>(std::abs(n));
+      const auto bytes = [&](std::uint64_t more, std::size_t moreCells)
+      {
+        return (listed.candidates() + more) * BytesPerCandidate +
+          (listed.Cells.size() + moreCells) * BytesPerListedCell;
+      };
+      if (bytes(candidates, 1) > this->Room && !listed.Cells.empty())
+      {
+        this->testListed(first, listed);
+        finished = this->finish(first, finished, i, listed);
+      }
+      listed.add(i, candidates);
+    }
+    this->testListed(first, listed);
+    this->finish(first, finished, count, listed);
+  }
+
+  void countCandidates(std::size_t first, std::size_t count)
+  {
+    const DeviceTiling& t = this->Arrays;
+    const std::size_t bytes = count * sizeof(cl_int);
+    const cl::Buffer counts = this->Device.room(bytes);
+    const cl::Buffer owners = this->Device.room(bytes);
+    runKernel(this->Device, this->Device.kernel(ClassifyKernels, "countCandidates"), count,
+      t.Dimension, t.Axes, t.Children, t.Counts[0], t.Counts[1], t.Counts[2], t.Cuts, t.Nodes,
+      t.Middles, t.Domain, this->Coordinates, this->Cells.Corners, this->Cells.Dimension,
+      static_cast<cl_uint>(count), counts, owners);
+    this->Counts.resize(count);
+    this->Device.read(counts, this->Counts.data(), bytes);
+    this->Device.read(owners, this->Result.Owner.data() + first, bytes);
+  }
+
+  // Fills Ids and Verdicts with the listed cells' candidates.
+  void testListed(std::size_t first, const Listed& listed)
+  {
+    const auto candidates = static_cast<std::size_t>(listed.candidates());
+    this->Ids.resize(candidates);
+    this->Verdicts.assign(candidates, Undecided);
+    if (candidates == 0)
+    {
+      return;
+    }
+    if (candidates * BytesPerCandidate > this->Room)
+    {
+      // A single cell with more candidates than the device has room for.
+      this->listHere(first + listed.Cells[0]);
+      return;
+    }
+    const DeviceTiling& t = this->Arrays;
+    const cl::Buffer cells = inputOf(this->Device, listed.Cells);
+    const cl::Buffer starts = inputOf(this->Device, listed.Starts);
+    const cl::Buffer ids = this->Device.room(candidates * sizeof(cl_int));
+    const cl::Buffer idCells = this->Device.room(candidates * sizeof(cl_uint));
+    const cl::Buffer verdicts = this->Device.room(candidates);
+    runKernel(this->Device, this->Device.kernel(ClassifyKernels, "listCandidates"),
+      listed.Cells.size(), t.Dimension, t.Axes, t.Children, t.Counts[0], t.Counts[1], t.Counts[2],
+      t.Cuts, t.Nodes, t.Middles, t.Domain, this->Coordinates, this->Cells.Corners,
+      this->Cells.Dimension, static_cast<cl_uint>(listed.Cells.size()), cells, starts, ids,
+      idCells);
+    runKernel(this->Device, this->Device.kernel(ClassifyKernels, "testCandidates"), candidates,
+      t.Dimension, t.Boxes, this->Coordinates, this->Cells.Corners, this->Cells.Dimension,
+      static_cast<cl_ulong>(candidates), ids, idCells, verdicts);
+    this->Device.read(ids, this->Ids.data(), candidates * sizeof(cl_int));
+    this->Device.read(verdicts, this->Verdicts.data(), candidates);
+  }
+
+  void listHere(std::size_t cell)
+  {
+    Box3 bounds;
+    this->Shape.bounds(this->Shape.cell(cell), bounds);
+    std::size_t i = 0;
+    this->Tiling.forEachMeeting(bounds, [&](std::int32_t id) { this->Ids[i++] = id; });
+  }
+
+  // Owners and borrowers of the piece's cells from `begin` to `end`; empties the list.
+  std::size_t finish(std::size_t first, std::size_t begin, std::size_t end, Listed& listed)
+  {
+    std::size_t next = 0;
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      if (next < listed.Cells.size() && listed.Cells[next] == i)
+      {
+        this->decide(first + i, static_cast<std::size_t>(listed.Starts[next]),
+          static_cast<std::size_t>(listed.Starts[next + 1]));
+        ++next;
+      }
+      this->Result.BorrowerStart[first + i + 1] =
+        static_cast<std::int64_t>(this->Result.Borrowers.size());
+    }
+    listed.clear();
+    return end;
+  }
+
+  void decide(std::size_t cell, std::size_t begin, std::size_t end)
+  {
+    std::int32_t owner = -1;
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      const std::int32_t id = this->Ids[i];
+      if (this->Verdicts[i] == Apart ||
+        (this->Verdicts[i] == Undecided &&
+          !this->Shape.meets(this->Shape.cell(cell), this->Tiling.box(id))))
+      {
+        continue;
+      }
+      if (owner < 0)
+      {
+        owner = id;
+      }
+      else
+      {
+        this->Result.Borrowers.push_back(id);
+      }
+    }
+    if (owner < 0)
+    {
+      failForCell(this->Shape, cell);
+    }
+    this->Result.Owner[cell] = owner;
+  }
+
+  ComputeDevice& Device;
+  const CellsView& Cells;
+  const BoxTiling& Tiling;
+  const CellShape& Shape;
+  DeviceTiling Arrays;
+  std::uint64_t Room;
+  std::size_t CellBytes;
+  std::size_t PieceSize;
+  cl::Buffer Coordinates;
+  std::vector<cl_int> Counts;
+  std::vector<cl_int> Ids;
+  std::vector<std::uint8_t> Verdicts;
+  Membership Result;
+};
+
+} // namespace
+
+Membership classifyOnDevice(ComputeDevice& device, const CellsView& cells, const BoxTiling& tiling,
+  const CellShape& shape, std::uint64_t memory)
+{
+  return DeviceClassification(device, cells, tiling, shape, memory).run();
+}
+
+} // namespace tipp

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippClassifyOnDevice_h
+#define tippClassifyOnDevice_h
+
+#include "OpenCL/ComputeDevice.h"
+#include "Partition/CellShape.h"
+
+namespace tipp
+{
+
+/// classifyCells() on an OpenCL device, in pieces that need at most `memory` bytes of it beside the
+/// tiling (0: half of what it has). What the device cannot decide is decided here.
+Membership classifyOnDevice(ComputeDevice& device, const CellsView& cells, const BoxTiling& tiling,
+  const CellShape& shape, std::uint64_t memory);
+
+} // namespace tipp
+
+#endif

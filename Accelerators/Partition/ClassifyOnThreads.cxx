@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partition/ClassifyOnThreads.h"
+
+#include "OpenCL/AcceleratorError.h"
+
+#include <omp.h>
+
+#include <atomic>
+#include <new>
+#include <string>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr std::size_t BlockSize = 16384;
+
+// Cells are taken in blocks; a block's borrowers wait in a buffer of its own until it is known
+// where they belong.
+class BlockwiseClassification
+{
+public:
+  BlockwiseClassification(
+    const CellsView& cells, const BoxTiling& tiling, const CellShape& shape, int threads)
+    : Count(cells.Cells)
+    , Tiling(tiling)
+    , Shape(shape)
+    , Threads(threads > 0 ? threads : omp_get_max_threads())
+    , Borrowers((cells.Cells + BlockSize - 1) / BlockSize)
+  {
+    this->Result.Owner.resize(cells.Cells);
+    this->Result.BorrowerStart.resize(cells.Cells + 1);
+  }
+
+  Membership run()
+  {
+    const auto blocks = static_cast<std::int64_t>(this->Borrowers.size());
+#pragma omp parallel for num_threads(this->Threads) schedule(dynamic, 1)
+    for (std::int64_t block = 0; block < blocks; ++block)
+    {
+      // No exception may leave a parallel loop.
+      try
+      {
+        this->classify(static_cast<std::size_t>(block));
+      }
+      catch (const std::bad_alloc&)
+      {
+        this->OutOfMemory = true;
+      }
+    }
+    if (this->OutOfMemory.load())
+    {
+      throw std::bad_alloc();
+    }
+    if (this->Homeless.load() < this->Count)
+    {
+      failForCell(this->Shape, this->Homeless.load());
+    }
+    this->gather();
+    return std::move(this->Result);
+  }
+
+private:
+  // Fills Owner, Borrowers[block], and in BorrowerStart the ends counted from the block's begin.
+  void classify(std::size_t block)
+  {
+    std::vector<std::int32_t>& borrowers = this->Borrowers[block];
+    const std::size_t end = std::min(this->Count, (block + 1) * BlockSize);
+    for (std::size_t i = block * BlockSize; i < end; ++i)
+    {
+      this->Result.Owner[i] = this->classifyCell(i, borrowers);
+      this->Result.BorrowerStart[i + 1] = static_cast<std::int64_t>(borrowers.size());
+    }
+  }
+
+  std::int32_t classifyCell(std::size_t index, std::vector<std::int32_t>& borrowers)
+  {
+    const double* cell = this->Shape.cell(index);
+    Box3 bounds;
+    std::int32_t owner = -1;
+    if (this->Shape.bounds(cell, bounds))
+    {
+      std::int32_t only = -1;
+      int candidates = 0;
+      this->Tiling.forEachMeeting(bounds,
+        [&](std::int32_t id)
+        {
+          only = id;
+          ++candidates;
+        });
+      // A cell with one candidate is met by it if it lies in the domain at all; the domain's border
+      // is where a bounding box may reach further than its cell.
+      if (candidates == 1 && this->inDomain(bounds))
+      {
+        return only;
+      }
+      owner = this->decide(cell, bounds, borrowers);
+    }
+    if (owner < 0)
+    {
+      this->reportHomeless(index);
+    }
+    return owner;
+  }
+
+  bool inDomain(const Box3& bounds) const
+  {
+    const Box3& domain = this->Tiling.domain();
+    bool inside = true;
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(this->Tiling.dimension()); ++axis)
+    {
+      inside =
+        inside && domain.Min[axis] <= bounds.Min[axis] && bounds.Max[axis] <= domain.Max[axis];
+    }
+    return inside;
+  }
+
+  std::int32_t decide(const double* cell, const Box3& bounds, std::vector<std::int32_t>& borrowers)
+  {
+    std::int32_t owner = -1;
+    this->Tiling.forEachMeeting(bounds,
+      [&](std::int32_t id)
+      {
+        if (!this->Shape.meets(cell, this->Tiling.box(id)))
+        {
+          return;
+        }
+        if (owner < 0)
+        {
+          owner = id;
+        }
+        else
+        {
+          borrowers.push_back(id);
+        }
+      });
+    return owner;
+  }
+
+  void reportHomeless(std::size_t index)
+  {
+    std::size_t first = this->Homeless.load();
+    while (index < first && !this->Homeless.compare_exchange_weak(first, index))
+    {
+    }
+  }
+
+  void gather()
+  {
+    const std::size_t blocks = this->Borrowers.size();
+    std::vector<std::int64_t> starts(blocks + 1, 0);
+    for (std::size_t block = 0; block < blocks; ++block)
+    {
+      starts[block + 1] = starts[block] + static_cast<std::int64_t>(this->Borrowers[block].size());
+    }
+    this->Result.Borrowers.resize(static_cast<std::size_t>(starts[blocks]));
+#pragma omp parallel for num_threads(this->Threads) schedule(static)
+    for (std::int64_t b = 0; b < static_cast<std::int64_t>(blocks); ++b)
+    {
+      const auto block = static_cast<std::size_t>(b);
+      const std::size_t end = std::min(this->Count, (block + 1) * BlockSize);
+      for (std::size_t i = block * BlockSize; i < end; ++i)
+      {
+        this->Result.BorrowerStart[i + 1] += starts[block];
+      }
+      std::copy(this->Borrowers[block].begin(), this->Borrowers[block].end(),
+        this->Result.Borrowers.begin() + starts[block]);
+    }
+  }
+
+  std::size_t Count;
+  const BoxTiling& Tiling;
+  const CellShape& Shape;
+  int Threads;
+  std::vector<std::vector<std::int32_t>> Borrowers;
+  Membership Result;
+  std::atomic<bool> OutOfMemory{ false };
+  std::atomic<std::size_t> Homeless{ static_cast<std::size_t>(-1) };
+};
+
+} // namespace
+
+void failForCell(const CellShape& shape, std::size_t cell)
+{
+  Box3 bounds;
+  const bool finite = shape.bounds(shape.cell(cell), bounds);
+  throw AcceleratorError("Cell " + std::to_string(cell) +
+    (finite ? " lies outside the domain that is partitioned."
+            : " has a corner whose coordinates are not finite."));
+}
+
+Membership classifyOnThreads(
+  const CellsView& cells, const BoxTiling& tiling, const CellShape& shape, int threads)
+{
+  return BlockwiseClassification(cells, tiling, shape, threads).run();
+}
+
+} // namespace tipp

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippCellKey_h
+#define tippCellKey_h
+
+#include "Predicates/Point3.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+namespace tipp
+{
+
+/// Of the cells that contain a sample, the one with the lowest key answers it. A key's highest four
+/// bits are the cell's moveRank() there; the others are a hash of its corners' coordinates, so that
+/// cells that overlap are told apart alike whatever their order, ids and pieces are. Equal keys are
+/// copies of one cell.
+using CellKey = std::uint64_t;
+
+constexpr CellKey noCellKey = ~CellKey(0);
+
+inline std::uint64_t scramble(std::uint64_t x)
+{
+  // The finaliser of SplitMix64: Steele, Lea, Flood, Fast Splittable Pseudorandom Number
+  // Generators, 2014.
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+/// The key of a cell with rank 0; its corners may come in any order.
+template <int Corners>
+CellKey cellKey(const Point3 (&corners)[Corners])
+{
+  Point3 sorted[Corners];
+  std::copy(corners, corners + Corners, sorted);
+  std::sort(sorted, sorted + Corners, [](Point3 a, Point3 b) { return lexicographicLess(a, b); });
+  std::uint64_t hash = 0;
+  for (const Point3& corner : sorted)
+  {
+    for (const double coordinate : { corner.x, corner.y, corner.z })
+    {
+      const double value = coordinate + 0.0; // -0 becomes 0
+      std::uint64_t bits;
+      std::memcpy(&bits, &value, sizeof bits);
+      hash = scramble(hash + 0x9e3779b97f4a7c15u + bits);
+    }
+  }
+  return hash >> 4;
+}
+
+inline CellKey withRank(CellKey key, int rank)
+{
+  return (key << 4 >> 4) | (CellKey(rank) << 60);
+}
+
+} // namespace tipp
+
+#endif

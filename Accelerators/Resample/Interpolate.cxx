@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Resample/Interpolate.h"
+
+#include "Resample/SampleRuns.h"
+#include "Resample/ToScalar.h"
+
+#include <algorithm>
+
+namespace tipp
+{
+namespace
+{
+
+/// Fills one attribute's samples of a block.
+template <typename Access, typename T>
+class BlockFiller
+{
+public:
+  using Runs = SampleRuns<Access>;
+  using Run = typename Runs::Run;
+  static constexpr int D = Access::Dimension;
+
+  BlockFiller(const Attribute& attribute, const Runs& runs, std::int64_t first)
+    : Values(static_cast<const T*>(attribute.Values))
+    , Samples(static_cast<T*>(attribute.Samples) + first * attribute.Components)
+    , Components(attribute.Components)
+    , Block(runs)
+  {
+  }
+
+  void fromPoints()
+  {
+    constexpr std::size_t ahead = 8;
+    const std::vector<Run>& runs = this->Block.runs();
+    for (std::size_t i = 0; i < runs.size(); ++i)
+    {
+      if (i + ahead < runs.size())
+      {
+        for (const std::int64_t id : runs[i + ahead].Corners)
+        {
+          __builtin_prefetch(this->Values + id * this->Components);
+        }
+      }
+      if constexpr (std::is_floating_point_v<T>)
+      {
+        this->interpolate(runs[i]);
+      }
+      else
+      {
+        this->takeNearest(runs[i]);
+      }
+    }
+  }
+
+  void fromCells(const std::int64_t* parents)
+  {
+    for (const Run& run : this->Block.runs())
+    {
+      const std::int64_t cell = parents ? parents[run.Cell] : run.Cell;
+      const T* const from = this->Values + cell * this->Components;
+      for (int j = run.Begin; j < run.Begin + run.Count; ++j)
+      {
+        std::copy(from, from + this->Components, this->Samples + std::int64_t(j) * this->Components);
+      }
+    }
+  }
+
+private:
+  void interpolate(const Run& run)
+  {
+    const int end = run.Begin + run.Count;
+    for (int component = 0; component < this->Components; ++component)
+    {
+      const T* const values = this->Values + component;
+      T* const samples = this->Samples + component;
+      const double first = double(values[run.Corners[0] * this->Components]);
+      double steps[D];
+      const double* weights[D];
+      for (int i = 0; i < D; ++i)
+      {
+        steps[i] = double(values[run.Corners[i + 1] * this->Components]) - first;
+        weights[i] = this->Block.weights(i);
+      }
+      for (int j = run.Begin; j < end; ++j)
+      {
+        double sum = weights[0][j] * steps[0];
+        for (int i = 1; i < D; ++i)
+        {
+          sum += weights[i][j] * steps[i];
+        }
+        samples[std::int64_t(j) * this->Components] = T(first + sum);
+      }
+    }
+  }
+
+  void takeNearest(const Run& run)
+  {
+    for (int j = run.Begin; j < run.Begin + run.Count; ++j)
+    {
+      double rest = 1;
+      for (int i = 0; i < D; ++i)
+      {
+        rest -= this->Block.weights(i)[j];
+      }
+      int nearest = 0;
+      for (int i = 0; i < D; ++i)
+      {
+        if (this->Block.weights(i)[j] > rest)
+        {
+          rest = this->Block.weights(i)[j];
+          nearest = i + 1;
+        }
+      }
+      const T* const from = this->Values + run.Corners[nearest] * this->Components;
+      std::copy(from, from + this->Components, this->Samples + std::int64_t(j) * this->Components);
+    }
+  }
+
+  const T* Values;
+  T* Samples;
+  int Components;
+  const Runs& Block;
+};
+
+void fillUnclaimed(
+  const Attribute& attribute, const std::int32_t* claims, std::int64_t first, std::int64_t end)
+{
+  withScalar(attribute.Type,
+    [&](auto type)
+    {
+      using T = decltype(type);
+      const T null = toScalar<T>(attribute.NullValue);
+      const int components = attribute.Components;
+      T* const samples = static_cast<T*>(attribute.Samples);
+      for (std::int64_t i = first; i < end; ++i)
+      {
+        if (claims[i] < 0)
+        {
+          std::fill(samples + i * components, samples + (i + 1) * components, null);
+        }
+      }
+    });
+}
+
+template <typename Access>
+void fillBlock(const SampleRuns<Access>& runs, const std::vector<Attribute>& attributes,
+  std::int64_t first, const std::int64_t* parents)
+{
+  for (const Attribute& attribute : attributes)
+  {
+    withScalar(attribute.Type,
+      [&](auto type)
+      {
+        BlockFiller<Access, decltype(type)> filler(attribute, runs, first);
+        attribute.OfCells ? filler.fromCells(parents) : filler.fromPoints();
+      });
+  }
+}
+
+} // namespace
+
+bool interpolate(const SimplexMesh& mesh, const Lattice& lattice, const std::int32_t* claims,
+  const std::vector<Attribute>& attributes, const InterpolationOptions& options)
+{
+  const LatticeAxes axes(mesh, lattice);
+  bool completed = false;
+  withAccess(mesh,
+    [&](const auto& access)
+    {
+      using Runs = SampleRuns<std::decay_t<decltype(access)>>;
+      std::vector<Runs> blocks(std::size_t(options.Threads), Runs(mesh, axes));
+      completed = forChunks(axes.samples(), Runs::BlockSize, options.Threads, options.Progress,
+        [&](std::int64_t begin, std::int64_t end, int thread)
+        {
+          Runs& runs = blocks[std::size_t(thread)];
+          runs.find(claims, begin, int(end - begin));
+          runs.weigh();
+          fillBlock(runs, attributes, begin, options.Parents);
+          for (const Attribute& attribute : attributes)
+          {
+            if (options.FillUnclaimed)
+            {
+              fillUnclaimed(attribute, claims, begin, end);
+            }
+          }
+        });
+    });
+  return completed;
+}
+
+void mergeClaims(
+  const SimplexMesh& mesh, Claims& claims, std::int64_t samples, int threads, CellKey* keys)
+{
+  withAccess(mesh,
+    [&](const auto& access)
+    {
+      using Access = std::decay_t<decltype(access)>;
+      forChunks(samples, 1 << 14, threads, {},
+        [&](std::int64_t begin, std::int64_t end, int)
+        {
+          auto border = std::lower_bound(claims.Border.begin(), claims.Border.end(), begin,
+            [](const BorderClaim& claim, std::int64_t sample) { return claim.Sample < sample; });
+          std::int32_t known = -1;
+          CellKey key = noCellKey;
+          for (std::int64_t i = begin; i < end; ++i)
+          {
+            std::int32_t& cell = claims.Cells[std::size_t(i)];
+            if (cell < 0)
+            {
+              continue;
+            }
+            if (cell != known)
+            {
+              Point3 corners[Access::Corners];
+              for (int corner = 0; corner < Access::Corners; ++corner)
+              {
+                corners[corner] = access.point(access.ids(cell)[corner]);
+              }
+              key = cellKey(corners);
+              known = cell;
+            }
+            CellKey mine = key;
+            if (border != claims.Border.end() && border->Sample == i)
+            {
+              mine = withRank(key, border->Rank);
+              ++border;
+            }
+            mine < keys[i] ? void(keys[i] = mine) : void(cell = -1);
+          }
+        });
+    });
+}
+
+} // namespace tipp

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippInterpolate_h
+#define tippInterpolate_h
+
+#include "Parallel/ForChunks.h"
+#include "Resample/Attribute.h"
+#include "Resample/CellKey.h"
+#include "Resample/Claims.h"
+#include "Resample/Lattice.h"
+#include "Resample/SimplexMesh.h"
+#include "vtkTIPPAcceleratorsModule.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+struct InterpolationOptions
+{
+  int Threads = 1;
+  /// Whether samples that no cell claims get the NullValue; else they keep what they have.
+  bool FillUnclaimed = true;
+  /// The cell of the attributes' arrays that each simplex is a part of; null: it is one itself.
+  const std::int64_t* Parents = nullptr;
+  Report Progress;
+};
+
+/// Fills the attributes' samples. Floating-point numbers of points are interpolated linearly in
+/// double precision; whole numbers are taken from the corner of largest weight; numbers of cells
+/// from the cell. The weights are evaluated with the corners in the lexicographic order of their
+/// coordinates, so that the same cell gives the same bits however it is stored. False if Progress
+/// stopped it.
+VTKTIPPACCELERATORS_EXPORT bool interpolate(const SimplexMesh& mesh, const Lattice& lattice,
+  const std::int32_t* claims, const std::vector<Attribute>& attributes,
+  const InterpolationOptions& options);
+
+/// Lowers `keys` to those of the claims, and takes back the claims that are not below what they
+/// find: then other parts of a mesh can add their samples to the same arrays, in any order.
+VTKTIPPACCELERATORS_EXPORT void mergeClaims(
+  const SimplexMesh& mesh, Claims& claims, std::int64_t samples, int threads, CellKey* keys);
+
+} // namespace tipp
+
+#endif

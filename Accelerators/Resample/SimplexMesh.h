@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippSimplexMesh_h
+#define tippSimplexMesh_h
+
+#include "Predicates/Point2.h"
+#include "Predicates/Point3.h"
+
+#include <cstdint>
+#include <type_traits>
+
+namespace tipp
+{
+
+/// Triangles or tetrahedra where they lie in memory.
+struct SimplexMesh
+{
+  const void* Points = nullptr; ///< x, y, z in a row
+  bool Float = false;           ///< Points are float32, else float64
+  const void* Ids = nullptr;    ///< three or four point ids a cell
+  bool Wide = false;            ///< Ids are int64, else int32
+  std::int64_t Cells = 0;
+  const unsigned char* Hidden = nullptr; ///< a cell with other than 0 answers nothing; may be null
+  /// 3 for tetrahedra. 2 for triangles, of which the two coordinates along Axes count.
+  int Dimension = 2;
+  int Axes[2] = { 0, 1 };
+};
+
+/// Access to a SimplexMesh's cells, its types being known.
+template <int D, typename Scalar, typename Id>
+class SimplexAccess
+{
+public:
+  static constexpr int Dimension = D;
+  static constexpr int Corners = D + 1;
+
+  explicit SimplexAccess(const SimplexMesh& mesh)
+    : Points(static_cast<const Scalar*>(mesh.Points))
+    , Ids(static_cast<const Id*>(mesh.Ids))
+    , U(mesh.Axes[0])
+    , V(mesh.Axes[1])
+  {
+  }
+
+  const Id* ids(std::int64_t cell) const { return this->Ids + cell * Corners; }
+
+  [[gnu::always_inline]] void corners(std::int64_t cell, Point2 (&corners)[3]) const
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const Scalar* p = this->Points + 3 * std::int64_t(this->ids(cell)[i]);
+      corners[i] = { double(p[this->U]), double(p[this->V]) };
+    }
+  }
+  [[gnu::always_inline]] void corners(std::int64_t cell, Point3 (&corners)[4]) const
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      corners[i] = this->point(this->ids(cell)[i]);
+    }
+  }
+
+  Point3 point(std::int64_t id) const
+  {
+    const Scalar* p = this->Points + 3 * id;
+    return { double(p[0]), double(p[1]), double(p[2]) };
+  }
+
+  /// Asks for a cell's points, whose places in memory need not follow any order.
+  void prefetch(std::int64_t cell) const
+  {
+    for (int i = 0; i < Corners; ++i)
+    {
+      __builtin_prefetch(this->Points + 3 * std::int64_t(this->ids(cell)[i]));
+    }
+  }
+
+private:
+  const Scalar* Points;
+  const Id* Ids;
+  int U;
+  int V;
+};
+
+/// Calls work(access) with the SimplexAccess of the mesh's types.
+template <typename Work>
+void withAccess(const SimplexMesh& mesh, const Work& work)
+{
+  const auto withIds = [&](auto dimension, auto scalar)
+  {
+    constexpr int d = decltype(dimension)::value;
+    using Scalar = decltype(scalar);
+    mesh.Wide ? work(SimplexAccess<d, Scalar, std::int64_t>(mesh))
+              : work(SimplexAccess<d, Scalar, std::int32_t>(mesh));
+  };
+  const auto withScalar = [&](auto dimension)
+  { mesh.Float ? withIds(dimension, float()) : withIds(dimension, double()); };
+  mesh.Dimension == 2 ? withScalar(std::integral_constant<int, 2>())
+                      : withScalar(std::integral_constant<int, 3>());
+}
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippTetrahedronRows_h
+#define tippTetrahedronRows_h
+
+#include "Predicates/Orientation.h"
+#include "Predicates/Orientation3.h"
+#include "Resample/LatticeAxis.h"
+
+#include <utility>
+
+namespace tipp
+{
+
+/// The samples of a lattice that a tetrahedron answers after the move by (e, e^2, e^3).
+///
+/// A row along x crosses the planes of the four faces. The samples strictly before a plane are
+/// counted by evaluating the crossing, and where rounding could change the count, by an exact
+/// predicate: see TriangleRows.
+class TetrahedronRows
+{
+public:
+  TetrahedronRows(const LatticeAxis& x, const LatticeAxis& y, const LatticeAxis& z)
+    : X(x)
+    , Y(y)
+    , Z(z)
+  {
+  }
+
+  /// Whether the tetrahedron's box has a sample and the tetrahedron is finite and has a volume.
+  [[gnu::always_inline]] bool set(const Point3 (&corners)[4])
+  {
+    const Point3& a = corners[0];
+    const Point3& b = corners[1];
+    const Point3& c = corners[2];
+    const Point3& d = corners[3];
+    const double left = least(a.x, b.x, c.x, d.x);
+    const double right = most(a.x, b.x, c.x, d.x);
+    this->Reach = std::max(-left, right);
+    this->Columns = this->X.range(left, right, this->X.error(this->Reach));
+    const double front = least(a.y, b.y, c.y, d.y);
+    const double back = most(a.y, b.y, c.y, d.y);
+    this->Rows = this->Y.range(front, back, this->Y.error(std::max(-front, back)));
+    const double low = least(a.z, b.z, c.z, d.z);
+    const double high = most(a.z, b.z, c.z, d.z);
+    this->Layers = this->Z.range(low, high, this->Z.error(std::max(-low, high)));
+    if (this->Columns.empty() | this->Rows.empty() | this->Layers.empty())
+    {
+      return false;
+    }
+    return this->setFaces(corners, right - left, back - front, high - low);
+  }
+
+  IndexRange columns() const { return this->Columns; }
+  IndexRange rows() const { return this->Rows; }
+  IndexRange layers() const { return this->Layers; }
+
+  [[gnu::always_inline]] RowSpan span(int row, int layer) const
+  {
+    const double y = this->Y[row];
+    const double z = this->Z[layer];
+    RowSpan span{ this->Columns.Begin, this->Columns.End, this->Columns.End };
+    for (const Face& face : this->Faces)
+    {
+      const double place = this->X.clamp(
+        face.Place - (face.PerY * (y - face.A.y) + face.PerZ * (z - face.A.z)));
+      if (LatticeAxis::certain(place, face.Error))
+      {
+        const int count = int(place);
+        if (face.Direction > 0)
+        {
+          span.Begin = std::max(span.Begin, count);
+        }
+        else
+        {
+          span.End = std::min(span.End, count);
+          span.ClosedEnd = std::min(span.ClosedEnd, count);
+        }
+      }
+      else
+      {
+        this->exactSpan(face, y, z, place, span);
+      }
+      if (span.Begin >= span.ClosedEnd)
+      {
+        break;
+      }
+    }
+    return span;
+  }
+
+  std::int64_t exactTests() const { return this->ExactTests; }
+
+private:
+  /// A plane; a, b, c turn counter-clockwise seen from inside.
+  struct Face
+  {
+    Point3 A;
+    Point3 B;
+    Point3 C;
+    double Place; ///< where on the row through A the plane is crossed, in steps
+    double PerY;  ///< and how many steps before that for each unit of y and z
+    double PerZ;
+    double Error;
+    int Direction; ///< sign of the inner normal's x
+  };
+
+  static double least(double a, double b, double c, double d)
+  {
+    return std::min(std::min(a, b), std::min(c, d));
+  }
+  static double most(double a, double b, double c, double d)
+  {
+    return std::max(std::max(a, b), std::max(c, d));
+  }
+
+  static bool finite(Point3 p)
+  {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  }
+
+  bool setFaces(const Point3 (&corners)[4], double width, double depth, double height)
+  {
+    Point3 a = corners[0];
+    Point3 b = corners[1];
+    const Point3 c = corners[2];
+    const Point3 d = corners[3];
+    if (!finite(a) || !finite(b) || !finite(c) || !finite(d))
+    {
+      return false;
+    }
+    const int side = orientation3(a, b, c, d);
+    if (side == 0)
+    {
+      return false;
+    }
+    if (side < 0)
+    {
+      std::swap(a, b);
+    }
+    this->setFace(0, b, d, c, width, depth, height);
+    this->setFace(1, a, c, d, width, depth, height);
+    this->setFace(2, a, d, b, width, depth, height);
+    this->setFace(3, a, b, c, width, depth, height);
+    return true;
+  }
+
+  void setFace(
+    int i, Point3 a, Point3 b, Point3 c, double width, double depth, double height)
+  {
+    // Within the cell's box every product of a plane's equation is at most twice the box's volume;
+    // less than 32 roundings of those are made, and 64 are allowed for.
+    constexpr double roundings = 7.1054273576010019e-15; // 2^-47
+    constexpr double smallest = 1e-280;                  // keeps clear of underflow
+    Face& face = this->Faces[i];
+    face.A = a;
+    face.B = b;
+    face.C = c;
+    const double ux = b.x - a.x;
+    const double uy = b.y - a.y;
+    const double uz = b.z - a.z;
+    const double vx = c.x - a.x;
+    const double vy = c.y - a.y;
+    const double vz = c.z - a.z;
+    const double nx = uy * vz - uz * vy;
+    const double ny = uz * vx - ux * vz;
+    const double nz = ux * vy - uy * vx;
+    const double scale = this->X.inverse() / nx;
+    face.Place = (a.x - this->X.origin()) * this->X.inverse() - this->X.firstIndex() + 1;
+    face.PerY = ny * scale;
+    face.PerZ = nz * scale;
+    if (std::fabs(nx) > roundings * depth * height + smallest)
+    {
+      face.Direction = nx > 0 ? 1 : -1;
+      face.Error = this->X.error(this->Reach) +
+        (roundings * width * depth * height + smallest) * std::fabs(scale);
+      face.Error = std::isfinite(face.Error + face.PerY + face.PerZ) ? face.Error : HUGE_VAL;
+    }
+    else
+    {
+      face.Direction = orientation({ a.y, a.z }, { b.y, b.z }, { c.y, c.z });
+      face.Error = HUGE_VAL;
+    }
+  }
+
+  [[gnu::noinline]] void exactSpan(const Face& face, double y, double z, double place, RowSpan& span) const
+  {
+    if (face.Direction == 0)
+    {
+      this->levelSpan(face, y, z, span);
+      return;
+    }
+    // Inner samples have a positive sign: before a face that looks forward they have a negative
+    // one.
+    const auto before = [&](int i)
+    {
+      ++this->ExactTests;
+      return -face.Direction * orientation3(face.A, face.B, face.C, { this->X[i], y, z });
+    };
+    int count = int(place);
+    int withOn = count;
+    const int doubtful = LatticeAxis::doubtful(place);
+    if (!(face.Error < 0.5))
+    {
+      count = this->Columns.firstWhereNot([&](int i) { return before(i) > 0; });
+      withOn = this->Columns.firstWhereNot([&](int i) { return before(i) >= 0; });
+    }
+    else if (doubtful >= 0 && doubtful < this->X.size())
+    {
+      const int side = before(doubtful);
+      count = side > 0 ? doubtful + 1 : doubtful;
+      withOn = side >= 0 ? doubtful + 1 : doubtful;
+    }
+    if (face.Direction > 0)
+    {
+      span.Begin = std::max(span.Begin, count);
+    }
+    else
+    {
+      span.End = std::min(span.End, count);
+      span.ClosedEnd = std::min(span.ClosedEnd, withOn);
+    }
+  }
+
+  /// A face along x: all samples of the row are on the same side.
+  void levelSpan(const Face& face, double y, double z, RowSpan& span) const
+  {
+    ++this->ExactTests;
+    const int side = orientation3(face.A, face.B, face.C, { face.A.x, y, z });
+    // The move goes along y, then along z.
+    const int ny = side == 0 ? orientation({ face.A.z, face.A.x }, { face.B.z, face.B.x },
+                                 { face.C.z, face.C.x })
+                             : 0;
+    const int nz = side == 0 && ny == 0 ? orientation({ face.A.x, face.A.y },
+                                            { face.B.x, face.B.y }, { face.C.x, face.C.y })
+                                        : 0;
+    if (side < 0)
+    {
+      span.End = span.ClosedEnd = span.Begin;
+    }
+    else if (side == 0 && (ny < 0 || (ny == 0 && nz < 0)))
+    {
+      span.End = this->Columns.Begin; // none, wherever the other faces let it begin
+    }
+  }
+
+  const LatticeAxis& X;
+  const LatticeAxis& Y;
+  const LatticeAxis& Z;
+  Face Faces[4];
+  double Reach;
+  IndexRange Columns;
+  IndexRange Rows;
+  IndexRange Layers;
+  mutable std::int64_t ExactTests = 0;
+};
+
+} // namespace tipp
+
+#endif

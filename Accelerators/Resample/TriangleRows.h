@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippTriangleRows_h
+#define tippTriangleRows_h
+
+#include "Predicates/Orientation.h"
+#include "Resample/LatticeAxis.h"
+
+namespace tipp
+{
+
+/// The samples of a plane lattice that a triangle answers after the move by (e, e^2).
+///
+/// A row crosses two edges. The samples strictly to the left of an edge are counted by evaluating
+/// the crossing; where rounding could change the count, the one sample in doubt is decided by an
+/// exact predicate. Both triangles at an edge count the same samples, so one of them answers each.
+///
+/// The common path is written without branches that depend on the triangle's shape: half of them
+/// would be mispredicted.
+class TriangleRows
+{
+public:
+  TriangleRows(const LatticeAxis& u, const LatticeAxis& v)
+    : U(u)
+    , V(v)
+  {
+  }
+
+  /// Whether the triangle's box has a sample and the triangle is finite and has an area.
+  [[gnu::always_inline]] bool set(const Point2 (&p)[3])
+  {
+    const double left = std::min(std::min(p[0].x, p[1].x), p[2].x);
+    const double right = std::max(std::max(p[0].x, p[1].x), p[2].x);
+    this->Error = this->U.error(std::max(-left, right));
+    this->Columns = this->U.range(left, right, this->Error);
+    if (this->Columns.empty())
+    {
+      return false;
+    }
+    const int lowest = lowestOf(p);
+    const int highest = highestOf(p);
+    const double low = p[lowest].y;
+    const double high = p[highest].y;
+    this->Rows = this->V.range(low, high, this->V.error(std::max(-low, high)));
+    return !this->Rows.empty() && this->setEdges(p[lowest], p[3 - lowest - highest], p[highest]);
+  }
+
+  IndexRange columns() const { return this->Columns; }
+  IndexRange rows() const { return this->Rows; }
+  /// As if the plane were the only layer of a lattice in space.
+  static IndexRange layers() { return { 0, 1 }; }
+
+  [[gnu::always_inline]] RowSpan span(int row, int) const
+  {
+    const double y = this->V[row];
+    const Edge& edge = this->Short[y >= this->Middle];
+    const double atLong = this->place(this->Long, y);
+    const double atShort = this->place(edge, y);
+    if (LatticeAxis::certain(atLong, this->Error) & LatticeAxis::certain(atShort, this->Error) &
+      (y < this->Long.High.y))
+    {
+      const int toLong = int(atLong);
+      const int toShort = int(atShort);
+      const int end = this->LongIsLeft ? toShort : toLong;
+      return { this->LongIsLeft ? toLong : toShort, end, end };
+    }
+    return this->exactSpan(edge, y, atLong, atShort);
+  }
+
+  /// Exact tests so far.
+  std::int64_t exactTests() const { return this->ExactTests; }
+
+private:
+  /// Low.y < High.y.
+  struct Edge
+  {
+    Point2 Low;
+    Point2 High;
+    double Slope;
+  };
+
+  static Edge edge(Point2 low, Point2 high)
+  {
+    return { low, high, (high.x - low.x) / (high.y - low.y) };
+  }
+
+  static int lowestOf(const Point2 (&p)[3])
+  {
+    const int lower = p[1].y < p[0].y;
+    return p[2].y < p[lower].y ? 2 : lower;
+  }
+  /// Another than lowestOf().
+  static int highestOf(const Point2 (&p)[3])
+  {
+    const int upper = p[1].y >= p[0].y;
+    return p[2].y >= p[upper].y ? 2 : upper;
+  }
+
+  [[gnu::always_inline]] bool setEdges(Point2 a, Point2 b, Point2 c)
+  {
+    // An infinite coordinate, or NaN, makes NaN of this; so does the overflow of a difference.
+    const double width = (b.x - a.x) + (c.x - a.x) + (c.y - a.y);
+    const int side = width - width == 0 || finite(a, b, c) ? orientation(a, c, b) : 0;
+    this->LongIsLeft = side < 0;
+    this->Middle = b.y;
+    this->Long = edge(a, c);
+    this->Short[0] = edge(a, b); // not asked for if level: no row is below b then
+    this->Short[1] = edge(b, c); // likewise
+    // Without an overflow a slope is at most the quotient of the largest and the smallest step.
+    if (!(std::fabs(this->Long.Slope) + this->slopeInUse(0) + this->slopeInUse(1) < HUGE_VAL))
+    {
+      this->Error = HUGE_VAL;
+    }
+    return side != 0;
+  }
+
+  double slopeInUse(int i) const
+  {
+    const Edge& edge = this->Short[i];
+    return edge.Low.y < edge.High.y ? std::fabs(edge.Slope) : 0;
+  }
+
+  static bool finite(Point2 a, Point2 b, Point2 c)
+  {
+    return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(b.x) && std::isfinite(b.y) &&
+      std::isfinite(c.x) && std::isfinite(c.y);
+  }
+
+  double place(const Edge& edge, double y) const
+  {
+    return this->U.place(edge.Low.x + (y - edge.Low.y) * edge.Slope);
+  }
+
+  [[gnu::noinline]] RowSpan exactSpan(
+    const Edge& edge, double y, double atLong, double atShort) const
+  {
+    if (y >= this->Long.High.y)
+    {
+      return this->top();
+    }
+    int withLong;
+    int withShort;
+    const int toLong = this->countLeft(this->Long, y, atLong, withLong);
+    const int toShort = this->countLeft(edge, y, atShort, withShort);
+    return this->LongIsLeft ? RowSpan{ toLong, toShort, withShort }
+                            : RowSpan{ toShort, toLong, withLong };
+  }
+
+  /// The highest row, at the height of the highest corner, is outside after the move.
+  RowSpan top() const
+  {
+    const Point2 c = this->Long.High;
+    const Point2 b = this->Short[1].Low;
+    const double other = b.y < c.y ? c.x : b.x;
+    const IndexRange touched =
+      this->U.range(std::min(c.x, other), std::max(c.x, other), this->Error);
+    return { touched.Begin, touched.Begin, touched.End };
+  }
+
+  /// The number of samples of the row y left of the edge, and with those on it.
+  int countLeft(const Edge& edge, double y, double place, int& withOn) const
+  {
+    if (LatticeAxis::certain(place, this->Error))
+    {
+      return withOn = int(place);
+    }
+    const auto side = [&](int i)
+    {
+      ++this->ExactTests;
+      return orientation(edge.Low, edge.High, { this->U[i], y });
+    };
+    if (!(this->Error < 0.5))
+    {
+      withOn = this->Columns.firstWhereNot([&](int i) { return side(i) >= 0; });
+      return this->Columns.firstWhereNot([&](int i) { return side(i) > 0; });
+    }
+    const int i = LatticeAxis::doubtful(place);
+    if (i < 0 || i >= this->U.size())
+    {
+      return withOn = int(place);
+    }
+    const int turn = side(i);
+    withOn = turn >= 0 ? i + 1 : i;
+    return turn > 0 ? i + 1 : i;
+  }
+
+  const LatticeAxis& U;
+  const LatticeAxis& V;
+  Edge Long;
+  Edge Short[2]; ///< below and above the middle corner
+  double Middle;
+  double Error;
+  bool LongIsLeft;
+  IndexRange Columns;
+  IndexRange Rows;
+  mutable std::int64_t ExactTests = 0;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,18 @@
+# tipp_embed_kernels(<target> <file.cl>...)
+# Makes the text of each .cl file part of a target: Folder/Name.cl becomes the header Folder/Name.cl.h
+# in the build tree, which defines `const KernelSource NameKernels` (OpenCL/ComputeDevice.h).
+set(tipp_embed_kernel_script "${CMAKE_CURRENT_LIST_DIR}/EmbedKernel.cmake")
+
+function (tipp_embed_kernels target)
+  foreach (file IN LISTS ARGN)
+    set(source "${CMAKE_CURRENT_SOURCE_DIR}/${file}")
+    set(header "${CMAKE_CURRENT_BINARY_DIR}/${file}.h")
+    add_custom_command(OUTPUT "${header}"
+      COMMAND "${CMAKE_COMMAND}" "-DSOURCE=${source}" "-DHEADER=${header}"
+        -P "${tipp_embed_kernel_script}"
+      DEPENDS "${source}" "${tipp_embed_kernel_script}"
+      COMMENT "Embedding ${file}"
+      VERBATIM)
+    target_sources(${target} PRIVATE "${header}")
+  endforeach ()
+endfunction ()

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Files/OutputFile.h"
+
+#include "Files/IOError.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace tipp
+{
+namespace
+{
+
+[[noreturn]] void failToWrite(const std::string& path)
+{
+  const char* const advice =
+    errno == ENOSPC || errno == EDQUOT ? "; free space on its disk or name another." : ".";
+  throw IOError(path, std::string("cannot be written (") + std::strerror(errno) + ")" + advice);
+}
+
+} // namespace
+
+OutputFile::OutputFile(const std::string& path, int flags)
+  : Path(path)
+  , Descriptor(open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666))
+{
+  if (this->Descriptor < 0)
+  {
+    failToWrite(path);
+  }
+}
+
+OutputFile::OutputFile(const std::string& path)
+  : OutputFile(path, O_CREAT | O_TRUNC)
+{
+}
+
+OutputFile OutputFile::shared(const std::string& path)
+{
+  return { path, 0 };
+}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+  : Path(std::move(other.Path))
+  , Descriptor(other.Descriptor)
+{
+  other.Descriptor = -1;
+}
+
+OutputFile::~OutputFile()
+{
+  if (this->Descriptor >= 0)
+  {
+    close(this->Descriptor);
+  }
+}
+
+void OutputFile::write(std::uint64_t offset, const void* from, std::size_t bytes) const
+{
+  // One call of the system moves less than 2 GiB.
+  constexpr std::size_t most = std::size_t(1) << 30;
+  const char* at = static_cast<const char*>(from);
+  while (bytes > 0)
+  {
+    const ssize_t done = pwrite(this->Descriptor, at, std::min(bytes, most), off_t(offset));
+    if (done < 0 && errno == EINTR)
+    {
+      continue;
+    }
+    if (done < 0)
+    {
+      failToWrite(this->Path);
+    }
+    at += done;
+    offset += std::uint64_t(done);
+    bytes -= std::size_t(done);
+  }
+}
+
+void OutputFile::startWriteback() const
+{
+  // A hint: syncToDisk() waits for it and reports what fails.
+  static_cast<void>(sync_file_range(this->Descriptor, 0, 0, SYNC_FILE_RANGE_WRITE));
+}
+
+void syncToDisk(const std::string& path)
+{
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0 || fsync(descriptor) != 0)
+  {
+    const int reason = errno;
+    if (descriptor >= 0)
+    {
+      close(descriptor);
+    }
+    errno = reason;
+    failToWrite(path);
+  }
+  close(descriptor);
+}
+
+void writeWholeFile(const std::string& path, const std::string& content)
+{
+  {
+    const OutputFile file(path);
+    file.write(0, content.data(), content.size());
+  }
+  syncToDisk(path);
+}
+
+} // namespace tipp

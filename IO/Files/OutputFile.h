@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippOutputFile_h
+#define tippOutputFile_h
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace tipp
+{
+
+/// A new file open for writes at any place, from any number of threads at once.
+class OutputFile
+{
+public:
+  /// Throws IOError if it cannot be made.
+  explicit OutputFile(const std::string& path);
+  /// Opens one that is there already, which other processes may write to as well.
+  static OutputFile shared(const std::string& path);
+  ~OutputFile();
+  OutputFile(OutputFile&& other) noexcept;
+  OutputFile& operator=(OutputFile&&) = delete;
+
+  const std::string& path() const { return this->Path; }
+  /// Throws IOError, as for a full disk.
+  void write(std::uint64_t offset, const void* from, std::size_t bytes) const;
+  /// Has the system begin to write what it holds back.
+  void startWriteback() const;
+
+private:
+  OutputFile(const std::string& path, int flags);
+
+  std::string Path;
+  int Descriptor;
+};
+
+/// Returns when a file or folder is safe on its disk; throws IOError.
+void syncToDisk(const std::string& path);
+
+/// Writes a whole file and returns when it is safe; throws IOError.
+void writeWholeFile(const std::string& path, const std::string& content);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioned/Checksum.h"
+
+// All of it in this file alone, so that nothing is linked.
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <charconv>
+
+namespace tipp
+{
+
+struct Checksum::State
+{
+  XXH3_state_t Of;
+};
+
+std::uint64_t checksumOf(const void* data, std::size_t bytes)
+{
+  return XXH3_64bits(data, bytes);
+}
+
+Checksum::Checksum()
+  : Progress(std::make_unique<State>())
+{
+  XXH3_64bits_reset(&this->Progress->Of);
+}
+
+Checksum::~Checksum() = default;
+Checksum::Checksum(Checksum&&) noexcept = default;
+Checksum& Checksum::operator=(Checksum&&) noexcept = default;
+
+void Checksum::add(const void* data, std::size_t bytes)
+{
+  XXH3_64bits_update(&this->Progress->Of, data, bytes);
+}
+
+std::uint64_t Checksum::finish()
+{
+  const std::uint64_t value = XXH3_64bits_digest(&this->Progress->Of);
+  XXH3_64bits_reset(&this->Progress->Of);
+  return value;
+}
+
+std::string checksumText(std::uint64_t checksum)
+{
+  std::string text(16, '0');
+  for (std::size_t i = text.size(); i > 0; checksum >>= 4)
+  {
+    text[--i] = "0123456789abcdef"[checksum & 15];
+  }
+  return text;
+}
+
+bool parseChecksum(const std::string& text, std::uint64_t& checksum)
+{
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, checksum, 16);
+  return text.size() == 16 && stop == end && error == std::errc();
+}
+
+} // namespace tipp

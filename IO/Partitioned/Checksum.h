@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippChecksum_h
+#define tippChecksum_h
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace tipp
+{
+
+/// XXH3 with 64 bits and no seed (https://github.com/Cyan4973/xxHash).
+std::uint64_t checksumOf(const void* data, std::size_t bytes);
+
+/// The same of bytes that come one part after the other.
+class Checksum
+{
+public:
+  Checksum();
+  ~Checksum();
+  Checksum(Checksum&&) noexcept;
+  Checksum& operator=(Checksum&&) noexcept;
+
+  void add(const void* data, std::size_t bytes);
+  /// Of all since the last call, and starts again.
+  std::uint64_t finish();
+
+private:
+  struct State;
+  std::unique_ptr<State> Progress;
+};
+
+/// 16 hexadecimal digits, and back; false for anything else.
+std::string checksumText(std::uint64_t checksum);
+bool parseChecksum(const std::string& text, std::uint64_t& checksum);
+
+} // namespace tipp
+
+#endif

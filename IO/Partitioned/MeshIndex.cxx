@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioned/MeshIndex.h"
+
+#include "Files/IOError.h"
+#include "Partitioned/Checksum.h"
+#include "Partitioned/PieceLayout.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* formatName = "TIPP partitioned mesh";
+constexpr int formatVersion = 1;
+constexpr std::int64_t mostPieces = 1 << 24;
+// The text's last line but one; its checksum is of all before the comma.
+constexpr const char* checksumStart = ",\n\"xxh3\": \"";
+constexpr const char* checksumEnd = "\"\n}\n";
+
+Json packBounds(const Bounds& bounds)
+{
+  return bounds[0] <= bounds[1] ? Json(bounds) : Json::array();
+}
+
+Json packPiece(const PieceSummary& piece)
+{
+  return { { "box", packBounds(piece.Box) }, { "extent", packBounds(piece.Extent) },
+    { "points", piece.Points }, { "cells", piece.Cells }, { "borrowed_cells", piece.BorrowedCells },
+    { "ghost_points", piece.GhostPoints }, { "bytes", piece.FileBytes },
+    { "table", { piece.TableOffset, piece.TableBytes } },
+    { "table_xxh3", checksumText(piece.TableChecksum) } };
+}
+
+Json packArray(const StoredArray& array)
+{
+  return { { "name", array.Name }, { "of", array.OfPoints ? "points" : "cells" },
+    { "type", scalarName(array.Type) }, { "components", array.Components },
+    { "step", array.Step } };
+}
+
+/// Takes fields out of an index; each error names the field.
+class Fields
+{
+public:
+  Fields(const Json& json, const std::string& path, std::string where)
+    : Object(json)
+    , Path(path)
+    , Where(std::move(where))
+  {
+    this->require(json.is_object(), "is no object");
+  }
+
+  [[noreturn]] void fail(const std::string& problem) const
+  {
+    throw IOError(this->Path,
+      (this->Where.empty() ? "the index" : this->Where) + " " + problem +
+        "; copy or make the mesh again.");
+  }
+
+  void require(bool holds, const std::string& problem) const
+  {
+    if (!holds)
+    {
+      this->fail(problem);
+    }
+  }
+
+  const Json& get(const char* name) const
+  {
+    const auto found = this->Object.find(name);
+    this->require(found != this->Object.end(), std::string("has no ") + name);
+    return *found;
+  }
+
+  std::int64_t integer(const char* name, std::int64_t least, std::int64_t most) const
+  {
+    const std::optional<std::int64_t> value = integerOf(this->get(name));
+    this->require(value && *value >= least && *value <= most, std::string("has a wrong ") + name);
+    return *value;
+  }
+
+  std::string text(const char* name) const
+  {
+    const Json& value = this->get(name);
+    this->require(value.is_string(), std::string("has a wrong ") + name);
+    return value.get<std::string>();
+  }
+
+  const Json& list(const char* name) const
+  {
+    const Json& value = this->get(name);
+    this->require(value.is_array(), std::string("has a wrong ") + name);
+    return value;
+  }
+
+  /// An empty list is what holds nothing.
+  Bounds bounds(const char* name) const
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const Json& value = this->list(name);
+    Bounds result{ infinity, -infinity, infinity, -infinity, infinity, -infinity };
+    this->require(value.empty() || value.size() == 6, std::string("has a wrong ") + name);
+    for (std::size_t i = 0; i < value.size(); ++i)
+    {
+      this->require(value[i].is_number(), std::string("has a wrong ") + name);
+      result[i] = value[i].get<double>();
+      const bool good =
+        std::isfinite(result[i]) && (i % 2 == 0 || result[i - 1] <= result[i]);
+      this->require(good, std::string("has a wrong ") + name);
+    }
+    return result;
+  }
+
+  static std::optional<std::int64_t> integerOf(const Json& value)
+  {
+    if (value.is_number_unsigned() &&
+      value.get<std::uint64_t>() > std::uint64_t(std::numeric_limits<std::int64_t>::max()))
+    {
+      return std::nullopt;
+    }
+    return value.is_number_integer() ? std::make_optional(value.get<std::int64_t>())
+                                     : std::nullopt;
+  }
+
+private:
+  const Json& Object;
+  const std::string& Path;
+  std::string Where;
+};
+
+Scalar parseScalar(const Fields& fields)
+{
+  const std::string name = fields.text("type");
+  for (int i = 0; i <= int(Scalar::Float64); ++i)
+  {
+    if (name == scalarName(Scalar(i)))
+    {
+      return Scalar(i);
+    }
+  }
+  fields.fail("has a wrong type");
+}
+
+StoredArray parseArray(const Fields& fields, std::size_t steps)
+{
+  StoredArray array;
+  array.Name = fields.text("name");
+  const std::string of = fields.text("of");
+  fields.require(of == "points" || of == "cells", "is neither of points nor of cells");
+  array.OfPoints = of == "points";
+  array.Type = parseScalar(fields);
+  array.Components = int(fields.integer("components", 1, 1 << 20));
+  array.Step = int(fields.integer("step", -1, std::int64_t(steps) - 1));
+  return array;
+}
+
+PieceSummary parsePiece(const Fields& fields, const PartitionedMesh& mesh)
+{
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  PieceSummary piece;
+  piece.Box = fields.bounds("box");
+  piece.Extent = fields.bounds("extent");
+  piece.Points = fields.integer("points", 0, mesh.Points);
+  piece.Cells = fields.integer("cells", 0, mesh.Cells);
+  piece.BorrowedCells = fields.integer("borrowed_cells", 0, mesh.Cells);
+  piece.GhostPoints = fields.integer("ghost_points", 0, mesh.Duplicated ? mesh.Points : 0);
+  piece.FileBytes = std::uint64_t(fields.integer("bytes", 0, most));
+  const Json& table = fields.list("table");
+  fields.require(table.size() == 2, "has a wrong table");
+  const std::optional<std::int64_t> offset = Fields::integerOf(table[0]);
+  const std::optional<std::int64_t> bytes = Fields::integerOf(table[1]);
+  fields.require(offset && bytes && *offset >= 0 && *bytes >= 0 && *bytes % 8 == 0 &&
+      *bytes <= most - *offset,
+    "has a wrong table");
+  piece.TableOffset = std::uint64_t(*offset);
+  piece.TableBytes = std::uint64_t(*bytes);
+  fields.require(
+    parseChecksum(fields.text("table_xxh3"), piece.TableChecksum), "has a wrong table_xxh3");
+  return piece;
+}
+
+void parseTimes(const Fields& fields, PartitionedMesh& mesh)
+{
+  for (const Json& time : fields.list("times"))
+  {
+    fields.require(time.is_number() && std::isfinite(time.get<double>()), "has wrong times");
+    mesh.Times.push_back(time.get<double>());
+  }
+}
+
+void parseArrays(const Fields& fields, const std::string& path, PartitionedMesh& mesh)
+{
+  std::set<std::tuple<bool, std::string, int>> names;
+  for (const Json& json : fields.list("arrays"))
+  {
+    const std::string where = "array " + std::to_string(mesh.Arrays.size());
+    StoredArray array = parseArray(Fields(json, path, where), mesh.Times.size());
+    const bool isNew = names.emplace(array.OfPoints, array.Name, array.Step).second &&
+      (array.Step < 0 || names.count({ array.OfPoints, array.Name, -1 }) == 0);
+    fields.require(isNew, "has two arrays named " + array.Name);
+    const bool ordered =
+      mesh.Arrays.empty() || mesh.Arrays.back().OfPoints || !array.OfPoints;
+    fields.require(ordered, "has arrays of points after those of cells");
+    mesh.Arrays.push_back(std::move(array));
+  }
+}
+
+void parsePieces(const Fields& fields, const std::string& path, PartitionedMesh& mesh)
+{
+  const Json& list = fields.list("pieces");
+  fields.require(std::int64_t(list.size()) <= mostPieces, "has too many pieces");
+  std::int64_t cells = 0;
+  for (const Json& json : list)
+  {
+    const std::string where = "piece " + std::to_string(mesh.Pieces.size());
+    mesh.Pieces.push_back(parsePiece(Fields(json, path, where), mesh));
+    fields.require(mesh.Pieces.back().Cells <= mesh.Cells - cells, "has wrong counts of cells");
+    cells += mesh.Pieces.back().Cells;
+  }
+  fields.require(cells == mesh.Cells, "has wrong counts of cells");
+}
+
+Json parseJson(const std::string& text, const std::string& path)
+{
+  const std::string end = checksumEnd;
+  const std::size_t tail = std::string(checksumStart).size() + 16 + end.size();
+  const bool ends =
+    text.size() > tail && text.compare(text.size() - end.size(), end.size(), end) == 0;
+  std::uint64_t checksum = 0;
+  if (!ends ||
+    text.compare(text.size() - tail, std::string(checksumStart).size(), checksumStart) != 0 ||
+    !parseChecksum(text.substr(text.size() - end.size() - 16, 16), checksum))
+  {
+    throw IOError(
+      path, "is not the whole index of a partitioned mesh; copy or make the mesh again.");
+  }
+  if (checksumOf(text.data(), text.size() - tail) != checksum)
+  {
+    throw IOError(path, "does not have the checksum it names; copy or make the mesh again.");
+  }
+  Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded())
+  {
+    throw IOError(path, "is not JSON; copy or make the mesh again.");
+  }
+  return json;
+}
+
+} // namespace
+
+std::string indexText(const PartitionedMesh& mesh)
+{
+  Json json = {
+    { "format", formatName },
+    { "version", formatVersion },
+    { "cell_type", mesh.CellSize == 3 ? "triangle" : "tetrahedron" },
+    { "point_type", scalarName(mesh.PointType) },
+    { "borrowers", mesh.Duplicated ? "duplicate" : "reference" },
+    { "points", mesh.Points },
+    { "cells", mesh.Cells },
+    { "domain", packBounds(mesh.Domain) },
+    { "tiling", mesh.Tiling },
+    { "times", mesh.Times },
+    { "tables_bytes", 0 },
+    { "arrays", Json::array() },
+    { "pieces", Json::array() },
+  };
+  std::uint64_t tables = 0;
+  for (const PieceSummary& piece : mesh.Pieces)
+  {
+    json["pieces"].push_back(packPiece(piece));
+    tables += piece.TableBytes;
+  }
+  json["tables_bytes"] = tables;
+  const std::string pvtu = pvtuText(mesh);
+  json["pvtu_bytes"] = pvtu.size();
+  json["pvtu_xxh3"] = checksumText(checksumOf(pvtu.data(), pvtu.size()));
+  for (const StoredArray& array : mesh.Arrays)
+  {
+    json["arrays"].push_back(packArray(array));
+  }
+  // One line a field, and one a piece.
+  std::string text = "{";
+  for (const auto& [name, value] : json.items())
+  {
+    text += (text.size() > 1 ? ",\n" : "\n") + Json(name).dump() + ": ";
+    if (value.is_array() && !value.empty() && value[0].is_object())
+    {
+      for (std::size_t i = 0; i < value.size(); ++i)
+      {
+        text += (i == 0 ? "[\n  " : ",\n  ") +
+          value[i].dump(-1, ' ', false, Json::error_handler_t::replace);
+      }
+      text += "\n]";
+    }
+    else
+    {
+      text += value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    }
+  }
+  const std::string checksum = checksumText(checksumOf(text.data(), text.size()));
+  return text + checksumStart + checksum + checksumEnd;
+}
+
+PartitionedMesh parseIndex(const std::string& text, const std::string& path)
+{
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max() / 64;
+  const Json json = parseJson(text, path);
+  const Fields fields(json, path, "");
+  fields.require(fields.text("format") == formatName, "is not one of a partitioned mesh");
+  if (fields.integer("version", 1, most) != formatVersion)
+  {
+    throw IOError(path,
+      "is of version " + std::to_string(fields.integer("version", 1, most)) +
+        ", and this program reads version 1; use a newer one.");
+  }
+  PartitionedMesh mesh;
+  const std::string cellType = fields.text("cell_type");
+  fields.require(cellType == "triangle" || cellType == "tetrahedron", "has a wrong cell_type");
+  mesh.CellSize = cellType == "triangle" ? 3 : 4;
+  const std::string pointType = fields.text("point_type");
+  fields.require(pointType == "Float64" || pointType == "Float32", "has a wrong point_type");
+  mesh.PointType = pointType == "Float64" ? Scalar::Float64 : Scalar::Float32;
+  const std::string borrowers = fields.text("borrowers");
+  fields.require(
+    borrowers == "duplicate" || borrowers == "reference", "has a wrong value of borrowers");
+  mesh.Duplicated = borrowers == "duplicate";
+  mesh.Points = fields.integer("points", 0, most);
+  mesh.Cells = fields.integer("cells", 0, most);
+  mesh.Domain = fields.bounds("domain");
+  mesh.Tiling = fields.text("tiling");
+  parseTimes(fields, mesh);
+  parseArrays(fields, path, mesh);
+  parsePieces(fields, path, mesh);
+  return mesh;
+}
+
+} // namespace tipp

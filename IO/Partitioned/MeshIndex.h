@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippMeshIndex_h
+#define tippMeshIndex_h
+
+#include "Partitioned/PartitionedMesh.h"
+#include "vtkTIPPIOModule.h"
+
+#include <cstdint>
+#include <string>
+
+namespace tipp
+{
+
+/// index.json's text, its checksum included.
+VTKTIPPIO_EXPORT std::string indexText(const PartitionedMesh& mesh);
+
+/// Reads such a text; `path` is the index's, for errors. Checks all that needs no other file and
+/// throws IOError. PartitionedMesh::Path is left empty.
+VTKTIPPIO_EXPORT PartitionedMesh parseIndex(const std::string& text, const std::string& path);
+
+} // namespace tipp
+
+#endif

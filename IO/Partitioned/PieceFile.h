@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPieceFile_h
+#define tippPieceFile_h
+
+#include "Files/InputFile.h"
+#include "Partitioned/PartitionedMesh.h"
+#include "Partitioned/PieceLayout.h"
+#include "Partitioned/PieceTable.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+/// What reading a piece took.
+struct ReadCounters
+{
+  std::int64_t Reads = 0;
+  std::int64_t Bytes = 0;
+};
+
+/// A piece's file, open to be read part by part.
+class PieceFile
+{
+public:
+  /// Reads its table and checks the file's header; throws IOError.
+  PieceFile(const PartitionedMesh& mesh, std::size_t number, ReadCounters& counters);
+
+  const PieceSummary& summary() const { return this->Summary; }
+  const PieceTable& table() const { return this->Table; }
+  const std::vector<PieceArray>& arrays() const { return this->Arrays; }
+  /// The first tuple of each part of the arrays of points, or of cells; one more at the end.
+  const std::vector<std::int64_t>& partStarts(bool ofPoints) const
+  {
+    return ofPoints ? this->PointParts : this->CellParts;
+  }
+
+  /// The number of the array with a role other than data.
+  std::size_t find(PieceRole role) const;
+  /// The number of the array of an attribute of the mesh.
+  std::size_t findAttribute(std::size_t attribute) const;
+
+  /// Reads the parts from `first` to before `end` of an array in one go and checks their
+  /// checksums; throws IOError.
+  void read(std::size_t array, std::size_t first, std::size_t end, void* to) const;
+
+  [[noreturn]] void fail(const std::string& problem) const;
+
+private:
+  void checkHeader() const;
+
+  const PieceSummary& Summary;
+  std::size_t Number;
+  InputFile File;
+  PieceTable Table;
+  std::vector<PieceArray> Arrays;
+  std::vector<std::int64_t> PointParts;
+  std::vector<std::int64_t> CellParts;
+  ReadCounters& Counters;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioned/PieceGrid.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <cstring>
+
+namespace tipp
+{
+namespace
+{
+
+int vtkTypeOf(Scalar type)
+{
+  constexpr int types[] = { VTK_TYPE_INT8, VTK_TYPE_UINT8, VTK_TYPE_INT16, VTK_TYPE_UINT16,
+    VTK_TYPE_INT32, VTK_TYPE_UINT32, VTK_TYPE_INT64, VTK_TYPE_UINT64, VTK_TYPE_FLOAT32,
+    VTK_TYPE_FLOAT64 };
+  return types[int(type)];
+}
+
+/// An array that takes over the buffer.
+vtkSmartPointer<vtkDataArray> takeOver(
+  RawBuffer&& buffer, vtkSmartPointer<vtkDataArray> array, int components, std::int64_t tuples)
+{
+  array->SetNumberOfComponents(components);
+  array->SetVoidArray(
+    buffer.release(), vtkIdType(tuples) * components, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
+  return array;
+}
+
+vtkSmartPointer<vtkDataArray> takeOver(
+  RawBuffer&& buffer, Scalar type, int components, std::int64_t tuples)
+{
+  auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(vtkTypeOf(type)));
+  return takeOver(std::move(buffer), array, components, tuples);
+}
+
+void setIds(RawBuffer&& buffer, std::int64_t tuples, const char* name, vtkDataSetAttributes* data)
+{
+  static_assert(sizeof(vtkIdType) == 8);
+  const auto ids =
+    takeOver(std::move(buffer), vtkSmartPointer<vtkIdTypeArray>::New(), 1, tuples);
+  ids->SetName(name);
+  data->SetGlobalIds(ids);
+}
+
+void addGhosts(RawBuffer&& buffer, std::int64_t tuples, vtkDataSetAttributes* data)
+{
+  const auto ghosts =
+    takeOver(std::move(buffer), vtkSmartPointer<vtkUnsignedCharArray>::New(), 1, tuples);
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  data->AddArray(ghosts);
+}
+
+template <typename Array>
+vtkSmartPointer<vtkCellArray> makeCells(Piece& piece)
+{
+  const vtkIdType corners = piece.CellSize;
+  vtkNew<Array> offsets;
+  offsets->SetNumberOfValues(piece.Cells + 1);
+  for (vtkIdType i = 0; i <= piece.Cells; ++i)
+  {
+    offsets->SetValue(i, typename Array::ValueType(i * corners));
+  }
+  const auto connectivity = takeOver(std::move(piece.Connectivity),
+    vtkSmartPointer<Array>::New(), 1, piece.Cells * corners);
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(offsets.Get(), Array::SafeDownCast(connectivity));
+  return cells;
+}
+
+void addCellGhosts(const Piece& piece, vtkDataSetAttributes* data)
+{
+  if (piece.Cells == piece.OwnedCells)
+  {
+    return;
+  }
+  RawBuffer ghosts{ std::size_t(piece.Cells) };
+  std::memset(ghosts.data(), 0, std::size_t(piece.OwnedCells));
+  std::memset(ghosts.data() + piece.OwnedCells, vtkDataSetAttributes::DUPLICATECELL,
+    std::size_t(piece.Cells - piece.OwnedCells));
+  addGhosts(std::move(ghosts), piece.Cells, data);
+}
+
+} // namespace
+
+vtkSmartPointer<vtkUnstructuredGrid> makeGrid(Piece&& piece)
+{
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  points->SetData(takeOver(std::move(piece.Coordinates), piece.PointType, 3, piece.Points));
+  grid->SetPoints(points);
+  setIds(std::move(piece.PointIds), piece.Points, pointIdsName, grid->GetPointData());
+  addGhosts(std::move(piece.PointGhosts), piece.Points, grid->GetPointData());
+  grid->SetCells(piece.CellSize == 3 ? VTK_TRIANGLE : VTK_TETRA,
+    piece.WideIds ? makeCells<vtkTypeInt64Array>(piece) : makeCells<vtkTypeInt32Array>(piece));
+  setIds(std::move(piece.CellIds), piece.Cells, cellIdsName, grid->GetCellData());
+  addCellGhosts(piece, grid->GetCellData());
+  for (Piece::Attribute& attribute : piece.Attributes)
+  {
+    const StoredArray& description = attribute.Description;
+    const auto array = takeOver(std::move(attribute.Values), description.Type,
+      description.Components, description.OfPoints ? piece.Points : piece.Cells);
+    array->SetName(description.Name.c_str());
+    vtkFieldData* const data = description.OfPoints
+      ? static_cast<vtkFieldData*>(grid->GetPointData())
+      : static_cast<vtkFieldData*>(grid->GetCellData());
+    data->AddArray(array);
+  }
+  return grid;
+}
+
+} // namespace tipp

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioned/PieceLayout.h"
+
+#include <cstdio>
+#include <limits>
+
+namespace tipp
+{
+
+const char* const pointIdsName = "GlobalPointIds";
+const char* const cellIdsName = "GlobalCellIds";
+const char* const ghostsName = "vtkGhostType";
+const char* const pieceFooter = "\n  </AppendedData>\n</VTKFile>\n";
+
+namespace
+{
+
+constexpr const char* fileStart = "<?xml version=\"1.0\"?>\n<VTKFile type=\"%TYPE\" version=\"1.0\" "
+                                  "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
+
+std::string startOf(const std::string& type)
+{
+  std::string text = fileStart;
+  return text.replace(text.find("%TYPE"), 5, type);
+}
+
+std::string escaped(const std::string& text)
+{
+  std::string out;
+  for (const char c : text)
+  {
+    if (c == '&' || c == '<' || c == '>' || c == '"' || static_cast<unsigned char>(c) < 0x20)
+    {
+      out += "&#" + std::to_string(int(static_cast<unsigned char>(c))) + ";";
+    }
+    else
+    {
+      out += c;
+    }
+  }
+  return out;
+}
+
+std::string timesAttribute(const PartitionedMesh& mesh)
+{
+  if (mesh.Times.empty())
+  {
+    return "";
+  }
+  std::string text = " TimeValues=\"";
+  for (std::size_t i = 0; i < mesh.Times.size(); ++i)
+  {
+    char number[32];
+    std::snprintf(number, sizeof(number), i == 0 ? "%.17g" : " %.17g", mesh.Times[i]);
+    text += number;
+  }
+  return text + "\"";
+}
+
+/// What describes an array alike in a piece and in the .pvtu.
+std::string describe(const PieceArray& array)
+{
+  // VTK knows of no tuples in the connectivity.
+  const int components = array.Role == PieceRole::Connectivity ? 1 : array.Components;
+  std::string text = std::string(" type=\"") + scalarName(array.Type) + "\" Name=\"" +
+    escaped(array.Name) + "\" NumberOfComponents=\"" + std::to_string(components) + "\"";
+  // VTK takes global ids from arrays of its own type of ids alone.
+  const bool ids = array.Role == PieceRole::PointIds || array.Role == PieceRole::CellIds;
+  return ids ? text + " IdType=\"1\"" : text;
+}
+
+std::string section(const std::string& name, const std::vector<std::string>& arrays)
+{
+  const std::string indent = "      ";
+  std::string attributes;
+  if (name == "PointData" || name == "PPointData")
+  {
+    attributes = std::string(" GlobalIds=\"") + pointIdsName + "\"";
+  }
+  if (name == "CellData" || name == "PCellData")
+  {
+    attributes = std::string(" GlobalIds=\"") + cellIdsName + "\"";
+  }
+  std::string text = indent + "<" + name + attributes + ">\n";
+  for (const std::string& array : arrays)
+  {
+    text += indent + "  " + array;
+  }
+  return text + indent + "</" + name + ">\n";
+}
+
+bool isIn(const std::string& name, PieceRole role)
+{
+  switch (role)
+  {
+    case PieceRole::Points:
+      return name == "Points";
+    case PieceRole::PointIds:
+    case PieceRole::PointGhosts:
+    case PieceRole::PointData:
+      return name == "PointData";
+    case PieceRole::Connectivity:
+    case PieceRole::Offsets:
+    case PieceRole::Types:
+      return name == "Cells";
+    default:
+      return name == "CellData";
+  }
+}
+
+std::string pieceSections(const PieceLayout& layout)
+{
+  std::string text;
+  for (const std::string name : { "Points", "PointData", "Cells", "CellData" })
+  {
+    std::vector<std::string> lines;
+    for (std::size_t a = 0; a < layout.Arrays.size(); ++a)
+    {
+      const PieceArray& array = layout.Arrays[a];
+      if (isIn(name, array.Role))
+      {
+        const std::string step =
+          array.Step < 0 ? "" : " TimeStep=\"" + std::to_string(array.Step) + "\"";
+        lines.push_back("<DataArray" + describe(array) + step + " format=\"appended\" offset=\"" +
+          std::to_string(layout.Offsets[a] - 8) + "\"/>\n");
+      }
+    }
+    text += section(name, lines);
+  }
+  return text;
+}
+
+} // namespace
+
+bool hasWideIds(const PartitionedMesh& mesh, const PieceSummary& piece)
+{
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+  const std::int64_t cells = piece.Cells + (mesh.Duplicated ? piece.BorrowedCells : 0);
+  return piece.Points + piece.GhostPoints > most || cells > most / mesh.CellSize;
+}
+
+std::vector<PieceArray> pieceArrays(const PartitionedMesh& mesh, const PieceSummary& piece)
+{
+  const Scalar local = hasWideIds(mesh, piece) ? Scalar::Int64 : Scalar::Int32;
+  std::vector<PieceArray> arrays{
+    { PieceRole::Points, "Points", mesh.PointType, 3, -1, -1 },
+    { PieceRole::PointIds, pointIdsName, Scalar::Int64, 1, -1, -1 },
+    { PieceRole::PointGhosts, ghostsName, Scalar::UInt8, 1, -1, -1 },
+  };
+  const auto addData = [&](bool ofPoints)
+  {
+    for (std::size_t i = 0; i < mesh.Arrays.size(); ++i)
+    {
+      const StoredArray& data = mesh.Arrays[i];
+      if (data.OfPoints == ofPoints)
+      {
+        arrays.push_back({ ofPoints ? PieceRole::PointData : PieceRole::CellData, data.Name,
+          data.Type, data.Components, data.Step, std::int64_t(i) });
+      }
+    }
+  };
+  addData(true);
+  arrays.push_back({ PieceRole::Connectivity, "connectivity", local, mesh.CellSize, -1, -1 });
+  arrays.push_back({ PieceRole::Offsets, "offsets", local, 1, -1, -1 });
+  arrays.push_back({ PieceRole::Types, "types", Scalar::UInt8, 1, -1, -1 });
+  arrays.push_back({ PieceRole::CellIds, cellIdsName, Scalar::Int64, 1, -1, -1 });
+  if (mesh.Duplicated)
+  {
+    arrays.push_back({ PieceRole::CellGhosts, ghostsName, Scalar::UInt8, 1, -1, -1 });
+  }
+  addData(false);
+  return arrays;
+}
+
+std::int64_t storedTuples(
+  const PartitionedMesh& mesh, const PieceSummary& piece, const PieceArray& array)
+{
+  if (array.ofPoints())
+  {
+    return piece.Points + piece.GhostPoints;
+  }
+  return piece.Cells + (mesh.Duplicated ? piece.BorrowedCells : 0);
+}
+
+PieceLayout layOutPiece(
+  const PartitionedMesh& mesh, std::size_t number, const PieceSummary& piece)
+{
+  PieceLayout layout;
+  layout.Arrays = pieceArrays(mesh, piece);
+  // Each array begins at a multiple of 8 after its size; first as seen from the appended data.
+  std::uint64_t at = 0;
+  for (const PieceArray& array : layout.Arrays)
+  {
+    at += 8;
+    layout.Offsets.push_back(at);
+    layout.End = at + std::uint64_t(storedTuples(mesh, piece, array)) * array.tupleBytes();
+    at = (layout.End + 7) / 8 * 8;
+  }
+  const std::int64_t cells = piece.Cells + (mesh.Duplicated ? piece.BorrowedCells : 0);
+  std::string& header = layout.Header;
+  header = startOf("UnstructuredGrid");
+  header += "  <!-- Piece " + std::to_string(number) + " of " +
+    std::to_string(mesh.Pieces.size()) + " of a partitioned mesh; ../index.json tells more. -->\n";
+  header += "  <UnstructuredGrid" + timesAttribute(mesh) + ">\n    <Piece NumberOfPoints=\"" +
+    std::to_string(piece.Points + piece.GhostPoints) + "\" NumberOfCells=\"" +
+    std::to_string(cells) + "\">\n";
+  header += pieceSections(layout);
+  header += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n";
+  // The data begin after the underscore, at a multiple of 8.
+  header.append(7 - header.size() % 8, ' ');
+  header += '_';
+  for (std::uint64_t& offset : layout.Offsets)
+  {
+    offset += header.size();
+  }
+  layout.End += header.size();
+  return layout;
+}
+
+std::string pvtuText(const PartitionedMesh& mesh)
+{
+  std::string text = startOf("PUnstructuredGrid");
+  text += "  <PUnstructuredGrid GhostLevel=\"" + std::string(mesh.Duplicated ? "1" : "0") + "\">\n";
+  const std::vector<PieceArray> arrays = pieceArrays(mesh, PieceSummary());
+  for (const std::string name : { "Points", "PointData", "CellData" })
+  {
+    std::vector<std::string> lines;
+    for (const PieceArray& array : arrays)
+    {
+      if (isIn(name, array.Role) && array.Step <= 0)
+      {
+        lines.push_back("<PDataArray" + describe(array) + "/>\n");
+      }
+    }
+    text += section("P" + name, lines);
+  }
+  for (std::size_t i = 0; i < mesh.Pieces.size(); ++i)
+  {
+    text += "    <Piece Source=\"" + pieceName(i) + "\"/>\n";
+  }
+  return text + "  </PUnstructuredGrid>\n</VTKFile>\n";
+}
+
+} // namespace tipp

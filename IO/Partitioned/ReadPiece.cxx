@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioned/ReadPiece.h"
+
+#include "Partitioned/BorrowedByReference.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+namespace tipp
+{
+namespace
+{
+
+bool isWanted(const PartitionedMesh& mesh, const PieceOptions& options, std::size_t attribute)
+{
+  const int step = mesh.Arrays[attribute].Step;
+  return (options.Wanted.empty() || options.Wanted[attribute]) &&
+    (step < 0 || step == options.Step);
+}
+
+/// Reads what the piece's own file has of one array; the rest of the buffer is left alone.
+RawBuffer readOwn(
+  const PieceFile& file, std::size_t array, std::int64_t stored, std::int64_t tuples)
+{
+  const PieceArray& description = file.arrays()[array];
+  RawBuffer buffer(std::size_t(tuples) * description.tupleBytes());
+  const std::vector<std::int64_t>& starts = file.partStarts(description.ofPoints());
+  // Parts that come last may be empty.
+  std::size_t end = starts.size() - 1;
+  while (end > 0 && starts[end] > stored)
+  {
+    --end;
+  }
+  file.read(array, 0, end, buffer.data());
+  return buffer;
+}
+
+template <typename Id>
+bool areBelow(const Id* ids, std::size_t count, std::int64_t limit)
+{
+  using Unsigned = std::make_unsigned_t<Id>;
+  Unsigned greatest = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    greatest = std::max(greatest, Unsigned(ids[i]));
+  }
+  return count == 0 || std::uint64_t(greatest) < std::uint64_t(limit);
+}
+
+void requireLocalIds(const PieceFile& file, const Piece& piece, std::int64_t cells)
+{
+  const std::size_t count = std::size_t(cells) * std::size_t(piece.CellSize);
+  const bool good = piece.WideIds
+    ? areBelow(piece.Connectivity.as<std::int64_t>(), count, piece.Points)
+    : areBelow(piece.Connectivity.as<std::int32_t>(), count, piece.Points);
+  if (!good)
+  {
+    file.fail("has cells with points that it does not have");
+  }
+}
+
+/// 32 bits in the file and 64 wanted, as borrowed cells made the piece grow.
+void widen(Piece& piece, std::int64_t cells)
+{
+  const std::size_t count = std::size_t(cells) * std::size_t(piece.CellSize);
+  RawBuffer wide(std::size_t(piece.Cells) * std::size_t(piece.CellSize) * 8);
+  std::copy_n(piece.Connectivity.as<std::int32_t>(), count, wide.as<std::int64_t>());
+  piece.Connectivity = std::move(wide);
+}
+
+void readCells(const PartitionedMesh& mesh, const PieceFile& file, std::int64_t stored,
+  Piece& piece)
+{
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+  const bool wideInFile = hasWideIds(mesh, file.summary());
+  piece.Connectivity = readOwn(file, file.find(PieceRole::Connectivity), stored,
+    piece.Cells);
+  piece.WideIds =
+    wideInFile || piece.Points > most || piece.Cells > most / piece.CellSize;
+  if (piece.WideIds && !wideInFile)
+  {
+    widen(piece, stored);
+  }
+  requireLocalIds(file, piece, stored);
+  piece.CellIds = readOwn(file, file.find(PieceRole::CellIds), stored, piece.Cells);
+}
+
+void readAttributes(const PartitionedMesh& mesh, const PieceOptions& options,
+  const PieceFile& file, std::int64_t storedPoints, std::int64_t storedCells, Piece& piece)
+{
+  for (std::size_t i = 0; i < mesh.Arrays.size(); ++i)
+  {
+    if (isWanted(mesh, options, i))
+    {
+      const bool ofPoints = mesh.Arrays[i].OfPoints;
+      RawBuffer values = readOwn(file, file.findAttribute(i),
+        ofPoints ? storedPoints : storedCells, ofPoints ? piece.Points : piece.Cells);
+      piece.Attributes.push_back({ mesh.Arrays[i], std::move(values) });
+    }
+  }
+}
+
+} // namespace
+
+Piece readPiece(const PartitionedMesh& mesh, std::size_t number, const PieceOptions& options)
+{
+  Piece piece;
+  const PieceFile file(mesh, number, piece.Counters);
+  const PieceSummary& summary = file.summary();
+  const bool whole = options.Borrowed && mesh.Duplicated;
+  const std::int64_t storedPoints = summary.Points + (whole ? summary.GhostPoints : 0);
+  const std::int64_t storedCells = summary.Cells + (whole ? summary.BorrowedCells : 0);
+  piece.CellSize = mesh.CellSize;
+  piece.PointType = mesh.PointType;
+  piece.OwnedPoints = summary.Points;
+  piece.OwnedCells = summary.Cells;
+
+  std::optional<BorrowedByReference> borrowed;
+  if (options.Borrowed && !mesh.Duplicated)
+  {
+    RawBuffer ids = readOwn(file, file.find(PieceRole::PointIds), storedPoints, storedPoints);
+    borrowed.emplace(mesh, file, ids.as<std::int64_t>(), piece.Counters);
+    piece.Points = storedPoints + borrowed->pointCount();
+    piece.Cells = storedCells + borrowed->cellCount();
+    piece.PointIds = RawBuffer(std::size_t(piece.Points) * 8);
+    std::memcpy(piece.PointIds.data(), ids.data(), ids.size());
+  }
+  else
+  {
+    piece.Points = storedPoints;
+    piece.Cells = storedCells;
+    piece.PointIds = readOwn(file, file.find(PieceRole::PointIds), storedPoints, storedPoints);
+  }
+  piece.Coordinates = readOwn(file, file.find(PieceRole::Points), storedPoints, piece.Points);
+  piece.PointGhosts = readOwn(file, file.find(PieceRole::PointGhosts), storedPoints, piece.Points);
+  readCells(mesh, file, storedCells, piece);
+  readAttributes(mesh, options, file, storedPoints, storedCells, piece);
+  if (borrowed)
+  {
+    borrowed->fill(piece);
+  }
+  return piece;
+}
+
+} // namespace tipp

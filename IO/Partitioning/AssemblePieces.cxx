@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioning/AssemblePieces.h"
+
+#include "Files/OutputFile.h"
+#include "Partitioned/Checksum.h"
+#include "Partitioned/MeshIndex.h"
+#include "Partitioning/PartitionRun.h"
+#include "Partitioning/PieceAssembly.h"
+#include "Threads/ParallelFor.h"
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// What the first rank learns of a piece.
+struct FinishedPiece
+{
+  PieceSummary Summary;
+  PieceTable Table;
+};
+
+/// Contiguous runs of pieces of about equal weight; [first, last) of this rank.
+std::pair<std::size_t, std::size_t> shareOfPieces(const PartitionRun& run)
+{
+  std::vector<double> ends;
+  double sum = 0;
+  for (std::size_t piece = 0; piece < run.pieces(); ++piece)
+  {
+    sum += 1 + double(run.Cells->rows(piece)) + double(run.Points->rows(piece));
+    ends.push_back(sum);
+  }
+  const auto startOf = [&](int rank)
+  {
+    const double before = sum * rank / run.Team.count();
+    return std::size_t(std::upper_bound(ends.begin(), ends.end(), before) - ends.begin());
+  };
+  const int rank = run.Team.rank();
+  return { rank == 0 ? 0 : startOf(rank),
+    rank + 1 == run.Team.count() ? run.pieces() : startOf(rank + 1) };
+}
+
+std::size_t bufferBytes(const PartitionRun& run)
+{
+  const std::size_t columns = run.Result.Arrays.size() + 8;
+  const std::size_t share =
+    std::size_t(run.Options.MemoryLimit / 8) / (columns * std::size_t(run.Threads));
+  return std::clamp<std::size_t>(share, std::size_t(1) << 14, std::size_t(1) << 19);
+}
+
+std::vector<FinishedPiece> assembleShare(PartitionRun& run)
+{
+  const auto [first, last] = shareOfPieces(run);
+  // The heaviest first, so that threads end together.
+  std::vector<std::size_t> order(last - first);
+  std::iota(order.begin(), order.end(), first);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b)
+    { return run.Cells->rows(a) > run.Cells->rows(b); });
+  std::vector<FinishedPiece> finished(order.size());
+  std::atomic<std::size_t> done{ 0 };
+  // Progress is for the calling thread alone, which waits; it hears of every stretch.
+  const std::size_t stretch = std::max<std::size_t>(std::size_t(run.Threads), order.size() / 16);
+  for (std::size_t at = 0; at < order.size(); at += stretch)
+  {
+    const std::size_t count = std::min(stretch, order.size() - at);
+    parallelFor(std::int64_t(count), run.Threads,
+      [&, at, first = first](std::int64_t i)
+      {
+        const std::size_t piece = order[at + std::size_t(i)];
+        PieceAssembly assembly(run, piece, bufferBytes(run));
+        assembly.assemble();
+        finished[piece - first] = { assembly.summary(), assembly.table() };
+        ++done;
+      });
+    run.report(0.7 + 0.25 * double(done) / double(order.size()));
+  }
+  return finished;
+}
+
+/// A finished piece on its way to the other ranks.
+void pack(const FinishedPiece& piece, std::string& bytes)
+{
+  const auto append = [&](const void* from, std::size_t count)
+  { bytes.append(static_cast<const char*>(from), count); };
+  const auto appendGroups = [&](const std::vector<LentGroup>& groups)
+  {
+    const std::uint64_t count = groups.size();
+    append(&count, 8);
+    for (const LentGroup& group : groups)
+    {
+      const std::uint64_t head[2] = { std::uint64_t(group.Count), group.To.size() };
+      append(head, 16);
+      append(group.To.data(), group.To.size() * 4);
+    }
+  };
+  append(&piece.Summary, sizeof(PieceSummary));
+  appendGroups(piece.Table.PointGroups);
+  appendGroups(piece.Table.CellGroups);
+  const std::uint64_t sizes[3] = { piece.Table.HeaderBytes, piece.Table.HeaderChecksum,
+    piece.Table.Offsets.size() };
+  append(sizes, 24);
+  append(piece.Table.Offsets.data(), piece.Table.Offsets.size() * 8);
+  for (const std::vector<std::uint64_t>& checksums : piece.Table.Checksums)
+  {
+    const std::uint64_t count = checksums.size();
+    append(&count, 8);
+    append(checksums.data(), checksums.size() * 8);
+  }
+}
+
+/// Takes pieces out of what pack() has made in this very program.
+class Unpacker
+{
+public:
+  explicit Unpacker(const std::string& bytes)
+    : Bytes(bytes)
+  {
+  }
+
+  bool atEnd() const { return this->At == this->Bytes.size(); }
+
+  FinishedPiece take()
+  {
+    FinishedPiece piece;
+    this->copy(&piece.Summary, sizeof(PieceSummary));
+    piece.Table.PointGroups = this->groups();
+    piece.Table.CellGroups = this->groups();
+    std::uint64_t sizes[3];
+    this->copy(sizes, 24);
+    piece.Table.HeaderBytes = sizes[0];
+    piece.Table.HeaderChecksum = sizes[1];
+    piece.Table.Offsets.resize(sizes[2]);
+    this->copy(piece.Table.Offsets.data(), sizes[2] * 8);
+    piece.Table.Checksums.resize(sizes[2]);
+    for (std::vector<std::uint64_t>& checksums : piece.Table.Checksums)
+    {
+      checksums.resize(this->word());
+      this->copy(checksums.data(), checksums.size() * 8);
+    }
+    return piece;
+  }
+
+private:
+  void copy(void* to, std::size_t count)
+  {
+    this->Bytes.copy(static_cast<char*>(to), count, this->At);
+    this->At += count;
+  }
+
+  std::uint64_t word()
+  {
+    std::uint64_t value = 0;
+    this->copy(&value, 8);
+    return value;
+  }
+
+  std::vector<LentGroup> groups()
+  {
+    std::vector<LentGroup> groups(this->word());
+    for (LentGroup& group : groups)
+    {
+      group.Count = std::int64_t(this->word());
+      group.To.resize(this->word());
+      this->copy(group.To.data(), group.To.size() * 4);
+    }
+    return groups;
+  }
+
+  const std::string& Bytes;
+  std::size_t At = 0;
+};
+
+/// Tells each piece what the others lend it.
+void addBorrowed(std::vector<FinishedPiece>& pieces, bool duplicated)
+{
+  const auto eachGroup = [&](std::size_t owner, const std::vector<LentGroup>& groups,
+                           const auto& take)
+  {
+    for (std::size_t g = 0; g < groups.size(); ++g)
+    {
+      for (const std::int32_t to : groups[g].To)
+      {
+        take(pieces[std::size_t(to)],
+          BorrowedGroup{ std::int32_t(owner), std::int32_t(g) }, groups[g].Count);
+      }
+    }
+  };
+  for (std::size_t owner = 0; owner < pieces.size(); ++owner)
+  {
+    eachGroup(owner, pieces[owner].Table.PointGroups,
+      [](FinishedPiece& piece, BorrowedGroup group, std::int64_t)
+      { piece.Table.BorrowedPoints.push_back(group); });
+    eachGroup(owner, pieces[owner].Table.CellGroups,
+      [duplicated](FinishedPiece& piece, BorrowedGroup group, std::int64_t count)
+      {
+        piece.Table.BorrowedCells.push_back(group);
+        piece.Summary.BorrowedCells += duplicated ? 0 : count;
+      });
+  }
+}
+
+/// Writes what describes the pieces, on the first rank.
+void describePieces(PartitionRun& run, std::vector<FinishedPiece>& pieces)
+{
+  PartitionedMesh& mesh = run.Result;
+  addBorrowed(pieces, mesh.Duplicated);
+  std::string tables;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    const std::vector<std::uint64_t> table = packTable(pieces[i].Table);
+    PieceSummary& summary = pieces[i].Summary;
+    summary.TableOffset = tables.size();
+    summary.TableBytes = table.size() * 8;
+    summary.TableChecksum = checksumOf(table.data(), table.size() * 8);
+    tables.append(reinterpret_cast<const char*>(table.data()), table.size() * 8);
+    mesh.Pieces[i] = summary;
+    run.Statistics.MeshBytes += summary.FileBytes;
+  }
+  const std::string index = indexText(mesh);
+  const std::string pvtu = pvtuText(mesh);
+  run.Statistics.MeshBytes += tables.size() + pvtu.size() + index.size();
+  writeWholeFile(mesh.tablesPath(), tables);
+  writeWholeFile(mesh.pvtuPath(), pvtu);
+  syncToDisk(mesh.Path + "/pieces");
+  syncToDisk(mesh.Path);
+  writeWholeFile(mesh.indexPath(), index);
+}
+
+} // namespace
+
+void assemblePieces(PartitionRun& run)
+{
+  std::string mine;
+  run.Team.attempt(
+    [&]
+    {
+      for (const FinishedPiece& piece : assembleShare(run))
+      {
+        pack(piece, mine);
+      }
+    });
+  const std::vector<std::string> all = run.Team.gather(mine);
+  run.Team.attempt(
+    [&]
+    {
+      // The system has been writing since the first piece was complete.
+      const auto [first, last] = shareOfPieces(run);
+      for (std::size_t piece = first; piece < last; ++piece)
+      {
+        syncToDisk(run.Result.piecePath(piece));
+      }
+    });
+  run.Team.attempt(
+    [&]
+    {
+      std::vector<FinishedPiece> pieces;
+      for (const std::string& bytes : all)
+      {
+        for (Unpacker unpacker(bytes); !unpacker.atEnd();)
+        {
+          pieces.push_back(unpacker.take());
+        }
+      }
+      if (run.Team.isFirst())
+      {
+        describePieces(run, pieces);
+      }
+    });
+}
+
+} // namespace tipp

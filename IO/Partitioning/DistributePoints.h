@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippDistributePoints_h
+#define tippDistributePoints_h
+
+namespace tipp
+{
+
+struct PartitionRun;
+
+/// Reads this rank's share of the points in one pass and spills each to its home and to the other
+/// pieces that need it. A call of all ranks. Throws IOError.
+void distributePoints(PartitionRun& run);
+
+} // namespace tipp
+
+#endif

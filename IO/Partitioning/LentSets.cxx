@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioning/LentSets.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace tipp
+{
+
+int LentSets::number(const std::vector<std::int32_t>& set)
+{
+  const auto [found, isNew] = this->Numbers.emplace(set, int(this->Sets.size()));
+  if (isNew)
+  {
+    this->Sets.push_back(&found->first);
+  }
+  return found->second;
+}
+
+int LentSets::unite(int a, int b)
+{
+  if (a == b || a < 0 || b < 0)
+  {
+    return std::max(a, b);
+  }
+  const auto [found, isNew] = this->Unions.emplace(std::minmax(a, b), -1);
+  if (isNew)
+  {
+    std::vector<std::int32_t> both;
+    std::set_union(this->set(a).begin(), this->set(a).end(), this->set(b).begin(),
+      this->set(b).end(), std::back_inserter(both));
+    found->second = this->number(both);
+  }
+  return found->second;
+}
+
+std::vector<int> LentSets::places() const
+{
+  std::vector<int> places(this->Sets.size());
+  int place = 0;
+  for (const auto& [set, number] : this->Numbers)
+  {
+    places[std::size_t(number)] = place++;
+  }
+  return places;
+}
+
+} // namespace tipp

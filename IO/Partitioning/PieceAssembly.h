@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPieceAssembly_h
+#define tippPieceAssembly_h
+
+#include "Partitioned/IdMap.h"
+#include "Partitioned/PieceTable.h"
+#include "Partitioned/PieceWriter.h"
+#include "Partitioning/LentSets.h"
+#include "Partitioning/PartitionRun.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace tipp
+{
+
+/// Writes one piece's file from what has been spilled for it. In memory are only its points' ids,
+/// its lent and borrowed cells and their points; all else streams through.
+class PieceAssembly
+{
+public:
+  PieceAssembly(const PartitionRun& run, std::size_t piece, std::size_t bufferBytes)
+    : Run(run)
+    , Piece(piece)
+    , BufferBytes(bufferBytes)
+    , Corners(static_cast<std::size_t>(run.Rows.Corners))
+  {
+  }
+
+  /// Throws IOError. Afterwards summary() and table() are complete but for what it borrows.
+  void assemble();
+
+  const PieceSummary& summary() const { return this->Summary; }
+  const PieceTable& table() const { return this->Table; }
+
+private:
+  using RowPointers = std::vector<const char*>;
+
+  void takePointIds();
+  void takeSharedCells();
+  void lendPoints();
+  void orderPoints();
+  void countCells();
+  void writePoints();
+  void writeCells();
+  void appendPoints(const RowPointers& rows);
+  void appendPointArray(const RowPointers& rows, const PieceArray& array, char* to) const;
+  void extendBounds(const RowPointers& rows);
+  void appendCells(const RowPointers& rows, bool ghosts);
+  void appendCellArray(const RowPointers& rows, const PieceArray& array, bool ghosts, char* to);
+  template <typename Id>
+  void appendLocalIds(const RowPointers& rows, const PieceArray& array, char* to);
+  void appendInBlocks(const RowPointers& rows, bool ofPoints, bool ghosts);
+  std::size_t partOf(std::size_t point) const;
+  std::size_t dataOffset(const PieceArray& array) const;
+
+  const PartitionRun& Run;
+  std::size_t Piece;
+  std::size_t BufferBytes;
+  std::size_t Corners;
+  PieceSummary Summary;
+  PieceTable Table;
+  std::vector<std::int64_t> PointIds; ///< global, ascending
+  std::vector<std::uint8_t> PointFlags;
+  std::vector<char> SharedRows;
+  std::vector<int> CellSets; ///< of each shared cell
+  LentSets Sets;
+  std::vector<int> PointSets; ///< of each point, or -1
+  std::vector<int> PointGroupOf; ///< of each set: its place among the points' groups, or -1
+  std::vector<std::int64_t> Places; ///< of each point in the piece
+  IdMap Local;
+  std::optional<PieceWriter> Writer;
+  std::int64_t CellsWritten = 0;
+};
+
+} // namespace tipp
+
+#endif

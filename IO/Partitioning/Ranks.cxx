@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioning/Ranks.h"
+
+#include "Files/IOError.h"
+
+#include "vtkCommunicator.h"
+#include "vtkMultiProcessController.h"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <numeric>
+
+namespace tipp
+{
+namespace
+{
+
+// One message of VTK's holds at most 2^31 - 1 values.
+constexpr std::size_t mostAtOnce = std::size_t(1) << 30;
+
+void broadcastBytes(vtkMultiProcessController* controller, std::string& bytes, int from)
+{
+  for (std::size_t at = 0; at < bytes.size(); at += mostAtOnce)
+  {
+    controller->Broadcast(
+      bytes.data() + at, vtkIdType(std::min(mostAtOnce, bytes.size() - at)), from);
+  }
+}
+
+/// Sized alike everywhere; then its bytes are `from`'s.
+void broadcastText(vtkMultiProcessController* controller, std::string& text, int from)
+{
+  vtkTypeInt64 size = vtkTypeInt64(text.size());
+  controller->Broadcast(&size, 1, from);
+  text.resize(std::size_t(size));
+  broadcastBytes(controller, text, from);
+}
+
+} // namespace
+
+int Ranks::count() const
+{
+  return this->Controller ? this->Controller->GetNumberOfProcesses() : 1;
+}
+
+int Ranks::rank() const
+{
+  return this->Controller ? this->Controller->GetLocalProcessId() : 0;
+}
+
+std::pair<std::int64_t, std::int64_t> Ranks::shareOf(std::int64_t count) const
+{
+  const std::int64_t each = count / this->count();
+  const std::int64_t rest = count % this->count();
+  const auto startOf = [&](std::int64_t rank) { return rank * each + std::min(rank, rest); };
+  return { startOf(this->rank()), startOf(this->rank() + 1) };
+}
+
+void Ranks::attempt(const std::function<void()>& work) const
+{
+  if (this->count() == 1)
+  {
+    work();
+    return;
+  }
+  std::string problem;
+  int failed = this->count();
+  try
+  {
+    work();
+  }
+  catch (const std::bad_alloc&)
+  {
+    problem = "there is not enough memory on rank " + std::to_string(this->rank()) +
+      "; give less to --memory or use fewer ranks on a machine.";
+    failed = this->rank();
+  }
+  catch (const std::exception& error)
+  {
+    problem = error.what();
+    failed = this->rank();
+  }
+  int first = 0;
+  this->Controller->AllReduce(&failed, &first, 1, vtkCommunicator::MIN_OP);
+  if (first < this->count())
+  {
+    broadcastText(this->Controller, problem, first);
+    throw IOError(problem);
+  }
+}
+
+std::string Ranks::broadcast(const std::string& bytes) const
+{
+  std::string all = bytes;
+  if (this->count() > 1)
+  {
+    broadcastText(this->Controller, all, 0);
+  }
+  return all;
+}
+
+std::vector<std::string> Ranks::gather(const std::string& bytes) const
+{
+  std::vector<std::string> all(std::size_t(this->count()));
+  all[std::size_t(this->rank())] = bytes;
+  for (int from = 0; this->count() > 1 && from < this->count(); ++from)
+  {
+    broadcastText(this->Controller, all[std::size_t(from)], from);
+  }
+  return all;
+}
+
+std::vector<double> Ranks::minimum(const std::vector<double>& values) const
+{
+  std::vector<double> all = values;
+  if (this->count() > 1)
+  {
+    this->Controller->AllReduce(
+      values.data(), all.data(), vtkIdType(values.size()), vtkCommunicator::MIN_OP);
+  }
+  return all;
+}
+
+std::vector<std::int64_t> Ranks::sum(const std::vector<std::int64_t>& values) const
+{
+  std::vector<vtkTypeInt64> mine(values.begin(), values.end());
+  std::vector<vtkTypeInt64> all = mine;
+  if (this->count() > 1)
+  {
+    this->Controller->AllReduce(
+      mine.data(), all.data(), vtkIdType(mine.size()), vtkCommunicator::SUM_OP);
+  }
+  return { all.begin(), all.end() };
+}
+
+} // namespace tipp

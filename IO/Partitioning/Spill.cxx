@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioning/Spill.h"
+
+#include "Threads/ParallelFor.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace tipp
+{
+
+std::string Spill::fileOf(const std::string& path, int rank)
+{
+  return path + "." + std::to_string(rank);
+}
+
+Spill::Spill(
+  const std::string& path, const Ranks& ranks, std::size_t keys, std::size_t rowBytes)
+  : Path(path)
+  , Keys(keys)
+  , RowBytes(rowBytes)
+  , Out(fileOf(path, ranks.rank()))
+{
+}
+
+void Spill::write(
+  const std::vector<char>& rows, const std::vector<std::int64_t>& starts, int threads)
+{
+  for (std::size_t key = 0; key < this->Keys; ++key)
+  {
+    // Longer runs than a field holds become several.
+    constexpr std::int64_t most = std::int64_t(1) << 31;
+    for (std::int64_t row = starts[key]; row < starts[key + 1]; row += most)
+    {
+      this->Mine.push_back({ this->Written + std::uint64_t(row) * this->RowBytes,
+        std::uint32_t(std::min(most, starts[key + 1] - row)), std::uint32_t(key) });
+    }
+  }
+  const std::size_t parts = rows.size() < (std::size_t(1) << 20) ? 1 : std::size_t(threads);
+  parallelFor(std::int64_t(parts), threads,
+    [&](std::int64_t part)
+    {
+      const std::size_t from = rows.size() * std::size_t(part) / parts;
+      const std::size_t to = rows.size() * (std::size_t(part) + 1) / parts;
+      this->Out.write(this->Written + from, rows.data() + from, to - from);
+    });
+  this->Written += rows.size();
+}
+
+void Spill::exchange(const Ranks& ranks)
+{
+  const std::string mine(
+    reinterpret_cast<const char*>(this->Mine.data()), this->Mine.size() * sizeof(Extent));
+  std::vector<Extent>().swap(this->Mine);
+  const std::vector<std::string> all = ranks.gather(mine);
+  std::vector<Extent> extents;
+  this->Rows.assign(this->Keys, 0);
+  this->Starts.assign(this->Keys + 1, 0);
+  const auto eachExtent = [&](const auto& take)
+  {
+    for (std::size_t rank = 0; rank < all.size(); ++rank)
+    {
+      for (std::size_t at = 0; at < all[rank].size(); at += sizeof(Extent))
+      {
+        Extent extent;
+        std::memcpy(&extent, all[rank].data() + at, sizeof(Extent));
+        take(extent, std::uint32_t(rank));
+      }
+    }
+  };
+  eachExtent(
+    [&](const Extent& extent, std::uint32_t)
+    {
+      this->Rows[extent.Key] += extent.Rows;
+      ++this->Starts[extent.Key + 1];
+    });
+  for (std::size_t key = 0; key < this->Keys; ++key)
+  {
+    this->Starts[key + 1] += this->Starts[key];
+  }
+  this->Sorted.resize(this->Starts.back());
+  std::vector<std::size_t> places(this->Starts.begin(), this->Starts.end() - 1);
+  eachExtent(
+    [&](const Extent& extent, std::uint32_t rank)
+    { this->Sorted[places[extent.Key]++] = { extent.Offset, extent.Rows, rank }; });
+  for (int rank = 0; rank < ranks.count(); ++rank)
+  {
+    this->Files.emplace_back(fileOf(this->Path, rank));
+  }
+}
+
+void Spill::read(std::size_t key, std::size_t most,
+  const std::function<void(const char*, std::size_t)>& take) const
+{
+  std::vector<char> block;
+  std::size_t held = 0;
+  const std::size_t room = std::min(most, std::size_t(this->Rows[key]));
+  block.resize(room * this->RowBytes);
+  for (std::size_t i = this->Starts[key]; i < this->Starts[key + 1]; ++i)
+  {
+    Extent extent = this->Sorted[i];
+    while (extent.Rows > 0)
+    {
+      const std::size_t rows = std::min<std::size_t>(extent.Rows, room - held);
+      this->Files[extent.Key].read(
+        extent.Offset, block.data() + held * this->RowBytes, rows * this->RowBytes);
+      held += rows;
+      extent.Rows -= std::uint32_t(rows);
+      extent.Offset += rows * this->RowBytes;
+      if (held == room)
+      {
+        take(block.data(), held);
+        held = 0;
+      }
+    }
+  }
+  if (held > 0)
+  {
+    take(block.data(), held);
+  }
+}
+
+std::vector<char> Spill::readAll(std::size_t key) const
+{
+  std::vector<char> rows;
+  rows.reserve(std::size_t(this->Rows[key]) * this->RowBytes);
+  this->read(key, std::size_t(1) << 16,
+    [&](const char* block, std::size_t count)
+    { rows.insert(rows.end(), block, block + count * this->RowBytes); });
+  return rows;
+}
+
+} // namespace tipp

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippSpill_h
+#define tippSpill_h
+
+#include "Files/InputFile.h"
+#include "Files/OutputFile.h"
+#include "Partitioning/Ranks.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// Rows of equal size on their way from chunks of a mesh to the pieces: a distribution sort by a
+/// key through a file of each rank. Within a key the rows stay in the order of their chunks, and of
+/// ranks.
+class Spill
+{
+public:
+  /// `keys`: the number of keys. Makes the rank's file, "PATH.RANK"; throws IOError.
+  Spill(const std::string& path, const Ranks& ranks, std::size_t keys, std::size_t rowBytes);
+
+  std::size_t rowBytes() const { return this->RowBytes; }
+  std::uint64_t bytes() const { return this->Written; }
+
+  /// Adds a chunk: key of each of `count` items, or -1 to leave it out; fill(item, to) writes the
+  /// item's row. Both are called by several threads. Throws IOError.
+  template <typename Key, typename Fill>
+  void add(std::size_t count, int threads, const Key& keyOf, const Fill& fill);
+
+  /// After all chunks: has every rank know all rows. A call of all ranks.
+  void exchange(const Ranks& ranks);
+
+  std::int64_t rows(std::size_t key) const { return this->Rows[key]; }
+  /// Gives the key's rows, a block of at most `most` at a time, in order.
+  void read(std::size_t key, std::size_t most,
+    const std::function<void(const char* rows, std::size_t count)>& take) const;
+  std::vector<char> readAll(std::size_t key) const;
+
+private:
+  struct Extent
+  {
+    std::uint64_t Offset;
+    std::uint32_t Rows;
+    std::uint32_t Key; ///< then, by key: the file
+  };
+
+  void write(const std::vector<char>& rows, const std::vector<std::int64_t>& starts, int threads);
+  static std::string fileOf(const std::string& path, int rank);
+
+  std::string Path;
+  std::size_t Keys;
+  std::size_t RowBytes;
+  OutputFile Out;
+  std::uint64_t Written = 0;
+  std::vector<Extent> Mine;
+  std::vector<Extent> Sorted;
+  std::vector<std::size_t> Starts; ///< of each key's in Sorted
+  std::vector<std::int64_t> Rows;
+  std::deque<InputFile> Files;
+};
+
+template <typename Key, typename Fill>
+void Spill::add(std::size_t count, int threads, const Key& keyOf, const Fill& fill)
+{
+  // A counting sort: each thread counts, then places, one stretch of the items.
+  const std::size_t stretches = std::size_t(threads);
+  std::vector<std::vector<std::int64_t>> places(
+    stretches, std::vector<std::int64_t>(this->Keys, 0));
+  const auto stretchOf = [&](std::size_t i) { return count * i / stretches; };
+#pragma omp parallel for num_threads(threads) schedule(static, 1)
+  for (std::size_t s = 0; s < stretches; ++s)
+  {
+    std::vector<std::int64_t>& mine = places[s];
+    for (std::size_t i = stretchOf(s); i < stretchOf(s + 1); ++i)
+    {
+      const std::int64_t key = keyOf(i);
+      if (key >= 0)
+      {
+        ++mine[std::size_t(key)];
+      }
+    }
+  }
+  std::vector<std::int64_t> starts{ 0 };
+  std::int64_t total = 0;
+  for (std::size_t key = 0; key < this->Keys; ++key)
+  {
+    for (std::vector<std::int64_t>& mine : places)
+    {
+      const std::int64_t here = mine[key];
+      mine[key] = total;
+      total += here;
+    }
+    starts.push_back(total);
+  }
+  std::vector<char> rows(std::size_t(total) * this->RowBytes);
+#pragma omp parallel for num_threads(threads) schedule(static, 1)
+  for (std::size_t s = 0; s < stretches; ++s)
+  {
+    std::vector<std::int64_t>& mine = places[s];
+    for (std::size_t i = stretchOf(s); i < stretchOf(s + 1); ++i)
+    {
+      const std::int64_t key = keyOf(i);
+      if (key >= 0)
+      {
+        fill(i, rows.data() + std::size_t(mine[std::size_t(key)]++) * this->RowBytes);
+      }
+    }
+  }
+  this->write(rows, starts, threads);
+}
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippTilingChoice_h
+#define tippTilingChoice_h
+
+#include "vtkTIPPIOModule.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace tipp
+{
+
+/// How the domain is cut into partitions.
+struct TilingChoice
+{
+  /// Of a regular grid.
+  std::array<int, 3> Boxes{ 4, 4, 1 };
+  /// Not 0: a quadtree, or octree, whose leaves meet no more cells than this.
+  std::int64_t Threshold = 0;
+
+  /// "grid:4x4", "grid:4x4x2", "quadtree:100000" or "octree:100000"; nothing for any other text.
+  VTKTIPPIO_EXPORT static std::optional<TilingChoice> parse(const std::string& text);
+  VTKTIPPIO_EXPORT std::string text(int dimension) const;
+};
+
+} // namespace tipp
+
+#endif

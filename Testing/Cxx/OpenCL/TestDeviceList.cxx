@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OpenCL/DeviceList.h"
+
+#include "ExpectAcceleratorError.h"
+
+#include <gtest/gtest.h>
+
+using tipp::chooseDevice;
+using tipp::Device;
+using tipp::DeviceChoice;
+using tipp::DeviceDescription;
+using tipp::DeviceType;
+
+namespace
+{
+
+DeviceDescription device(int index, const char* name, DeviceType type, bool hasDouble)
+{
+  DeviceDescription description;
+  description.Index = index;
+  description.Name = name;
+  description.Type = type;
+  description.Double = hasDouble;
+  return description;
+}
+
+std::vector<DeviceDescription> someDevices()
+{
+  return { device(0, "Small Processor", DeviceType::Cpu, false),
+    device(1, "Large Processor", DeviceType::Cpu, true),
+    device(2, "Phone GPU", DeviceType::Gpu, false),
+    device(3, "Desktop GPU", DeviceType::Gpu, true) };
+}
+
+DeviceChoice openCl(int index, const char* name)
+{
+  DeviceChoice choice;
+  choice.Kind = Device::OpenCL;
+  choice.Index = index;
+  choice.Name = name;
+  return choice;
+}
+
+int chosen(const DeviceChoice& choice, const std::vector<DeviceDescription>& devices)
+{
+  const auto found = chooseDevice(choice, devices);
+  return found ? found->Index : -1;
+}
+
+} // namespace
+
+TEST(DeviceList, AutoTakesTheFirstGpuWithDoublePrecision)
+{
+  EXPECT_EQ(chosen({}, someDevices()), 3);
+}
+
+TEST(DeviceList, AutoIsOpenMPWithoutSuchAGpu)
+{
+  EXPECT_EQ(chosen({}, {}), -1);
+  EXPECT_EQ(chosen({}, { device(0, "Processor", DeviceType::Cpu, true) }), -1);
+  EXPECT_EQ(chosen({}, { device(0, "GPU", DeviceType::Gpu, false) }), -1);
+}
+
+TEST(DeviceList, OpenMPNeedsNoDevice)
+{
+  DeviceChoice choice;
+  choice.Kind = Device::OpenMP;
+  EXPECT_EQ(chosen(choice, someDevices()), -1);
+}
+
+TEST(DeviceList, OpenCLAlonePrefersAGpuAndTakesAnyDeviceWithDoublePrecision)
+{
+  EXPECT_EQ(chosen(openCl(-1, ""), someDevices()), 3);
+  EXPECT_EQ(chosen(openCl(-1, ""), { device(0, "Processor", DeviceType::Cpu, true) }), 0);
+}
+
+TEST(DeviceList, ADeviceIsChosenByItsIndex)
+{
+  EXPECT_EQ(chosen(openCl(1, ""), someDevices()), 1);
+}
+
+TEST(DeviceList, ADeviceIsChosenByAPartOfItsNameInAnyCase)
+{
+  EXPECT_EQ(chosen(openCl(-1, "large proc"), someDevices()), 1);
+  EXPECT_EQ(chosen(openCl(-1, "DESKTOP"), someDevices()), 3);
+}
+
+TEST(DeviceList, OfSeveralDevicesOfANameTheFirstWithDoublePrecisionIsTaken)
+{
+  EXPECT_EQ(chosen(openCl(-1, "processor"), someDevices()), 1);
+  EXPECT_EQ(chosen(openCl(-1, "gpu"), someDevices()), 3);
+}
+
+TEST(DeviceList, AMissingDeviceIsAnErrorThatNamesTheOthers)
+{
+  expectAcceleratorError([] { chooseDevice(openCl(4, ""), someDevices()); },
+    "There is no OpenCL device 4; there are: 0 'Small Processor', 1 'Large Processor'");
+  expectAcceleratorError([] { chooseDevice(openCl(-1, "Quantum"), someDevices()); },
+    "There is no OpenCL device named 'Quantum'; there are: 0 'Small Processor'");
+}
+
+TEST(DeviceList, ADeviceWithoutDoublePrecisionIsAnError)
+{
+  expectAcceleratorError(
+    [] { chooseDevice(openCl(2, ""), someDevices()); }, "'Phone GPU' has no double precision");
+  expectAcceleratorError([]
+    { chooseDevice(openCl(-1, ""), { device(0, "Toy", DeviceType::Cpu, false) }); },
+    "'Toy' has no double precision");
+}
+
+TEST(DeviceList, AMachineWithoutDevicesIsAnErrorThatSaysWhatToInstall)
+{
+  expectAcceleratorError(
+    [] { chooseDevice(openCl(-1, ""), {}); }, "This machine has no OpenCL device");
+}

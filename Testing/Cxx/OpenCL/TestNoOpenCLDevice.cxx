@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Run with OCL_ICD_VENDORS=/nonexistent, which makes this a machine without an OpenCL driver.
+#include "OpenCL/ComputeDevice.h"
+
+#include "ExpectAcceleratorError.h"
+
+#include <gtest/gtest.h>
+
+TEST(NoOpenCLDevice, TheListIsEmpty)
+{
+  EXPECT_TRUE(tipp::listDevices().empty());
+}
+
+TEST(NoOpenCLDevice, AutoIsOpenMP)
+{
+  EXPECT_EQ(tipp::ComputeDevice::open({}), nullptr);
+}
+
+TEST(NoOpenCLDevice, AskingForOneIsAnError)
+{
+  expectAcceleratorError([] { tipp::ComputeDevice::open(tipp::parseDeviceChoice("opencl")); },
+    "This machine has no OpenCL device: install");
+}

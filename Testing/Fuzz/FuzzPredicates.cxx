@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws quadruples of points that are degenerate or an ulp beside it, and compares every predicate
+// that has an answer for them with rational arithmetic.
+#include "ExactOracle.h"
+#include "NearDegenerate.h"
+
+#include "Predicates/CoordinateGrid.h"
+#include "Predicates/InCircle.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+namespace
+{
+
+using Points = NearDegenerate::Points;
+
+tipp::Point2 drawOffset(NearDegenerate& draw)
+{
+  const tipp::Point2 offsets[] = { { 0, 0 }, { 0.3, -7 }, { -1e5, 3e5 }, { 1e3, 1e-3 },
+    { -3, 1e6 } };
+  return offsets[draw.integer(0, 4)];
+}
+
+Points drawQuadruple(NearDegenerate& draw)
+{
+  const double steps[] = { 1.0, 0.1, 1e-9 };
+  const double step = steps[draw.integer(0, 2)];
+  switch (draw.integer(0, 9))
+  {
+    case 0:
+    case 1:
+      return draw.lattice(draw.integer(3, 9), step, drawOffset(draw));
+    case 2:
+    case 3:
+      return draw.cocircular(step, drawOffset(draw));
+    case 4:
+    case 5:
+      return draw.collinear(step, drawOffset(draw));
+    case 6:
+      return scaled(draw.cocircular(0.1, { 0.3, 0 }), draw.integer(-1060, 1017));
+    case 7:
+      return scaled(draw.collinear(0.1, { 0.3, 0 }), draw.integer(-1060, 1014));
+    case 8:
+      return draw.unitCircle();
+    default:
+      // Rationals of thousands of bits are slow: one in fifty.
+      return draw.integer(0, 49) == 0 ? draw.mixedExponents(-1030, 1000)
+                                      : draw.mixedExponents(-40, 40);
+  }
+}
+
+bool agree(Points q)
+{
+  const int turn = oracle::orientation(q[0], q[1], q[2]);
+  tipp::CoordinateGrid grid;
+  grid.analyse(q.data(), q.size());
+  if (tipp::orientation(q[0], q[1], q[2]) != turn ||
+    tipp::orientationExact(q[0], q[1], q[2]) != turn ||
+    tipp::orientation(q[2], q[1], q[0]) != -turn || grid.orientation(q[0], q[1], q[2]) != turn)
+  {
+    return false;
+  }
+  if (turn == 0)
+  {
+    return true;
+  }
+  if (turn < 0)
+  {
+    std::swap(q[0], q[1]);
+  }
+  const int side = oracle::inCircle(q[0], q[1], q[2], q[3]);
+  return tipp::inCircle(q[0], q[1], q[2], q[3]) == side &&
+    tipp::inCircleExact(q[0], q[1], q[2], q[3]) == side &&
+    grid.inCircle(q[0], q[1], q[2], q[3]) == side;
+}
+
+int usage()
+{
+  std::fputs("usage: fuzzPredicates [--quadruples N] [--seed S]\n", stderr);
+  return 2;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  long quadruples = 1000000;
+  unsigned seed = 1;
+  for (int i = 1; i < argc; i += 2)
+  {
+    char* end = nullptr;
+    const long value = i + 1 < argc ? std::strtol(argv[i + 1], &end, 10) : -1;
+    if (value < 0 || *end != 0)
+    {
+      return usage();
+    }
+    if (std::strcmp(argv[i], "--quadruples") == 0)
+    {
+      quadruples = value;
+    }
+    else if (std::strcmp(argv[i], "--seed") == 0)
+    {
+      seed = static_cast<unsigned>(value);
+    }
+    else
+    {
+      return usage();
+    }
+  }
+  NearDegenerate draw(seed);
+  long failures = 0;
+  for (long i = 0; i < quadruples && failures < 10; ++i)
+  {
+    const Points q = drawQuadruple(draw);
+    if (!agree(q))
+    {
+      ++failures;
+      std::printf("quadruple %ld of seed %u:\n", i, seed);
+      for (const tipp::Point2 p : q)
+      {
+        std::printf("  %a, %a\n", p.x, p.y);
+      }
+    }
+  }
+  std::printf("%ld quadruples of seed %u, %ld failures\n", quadruples, seed, failures);
+  return failures == 0 ? 0 : 1;
+}
