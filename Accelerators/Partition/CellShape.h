@@ -4,6 +4,7 @@
 
 #include "Partition/ClassifyCells.h"
 #include "Predicates/CellBox.h"
+#include "vtkTIPPAcceleratorsModule.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,7 @@ namespace tipp
 {
 
 /// Bounds of cells and exact tests of them against boxes, in the plane or in space.
-class CellShape
+class VTKTIPPACCELERATORS_EXPORT CellShape
 {
 public:
   /// Throws AcceleratorError if the tiling's and the cells' dimensions do not go together.

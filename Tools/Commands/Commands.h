@@ -23,6 +23,7 @@ enum ExitCode
 void addCheckCommand(CLI::App& app, int& exitCode);
 void addDelaunayCommand(CLI::App& app, int& exitCode);
 void addFlattenCommand(CLI::App& app, int& exitCode);
+void addPartitionCommand(CLI::App& app, int& exitCode);
 void addPointsCommand(CLI::App& app, int& exitCode);
 
 } // namespace tipp

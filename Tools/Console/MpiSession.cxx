@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Console/MpiSession.h"
+
+#include "vtkMPIController.h"
+#include "vtkMultiProcessController.h"
+
+#include <mpi.h>
+
+#include <cstdlib>
+
+namespace tipp
+{
+namespace
+{
+
+// MPI_Init() of a process that nobody has started as a rank costs time and can fail for want of a
+// network; so it is left out there.
+bool isStartedAsRank()
+{
+  for (const char* const name : { "OMPI_COMM_WORLD_SIZE", "PMI_RANK", "PMI_SIZE", "PMIX_RANK" })
+  {
+    if (std::getenv(name))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+} // namespace
+
+MpiSession::MpiSession()
+{
+  if (!isStartedAsRank())
+  {
+    return;
+  }
+  // FUNNELED: threads beside a main thread that alone speaks MPI.
+  int provided = MPI_THREAD_SINGLE;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+  this->Controller = vtkMPIController::New();
+  this->Controller->Initialize(nullptr, nullptr, 1);
+  vtkMultiProcessController::SetGlobalController(this->Controller);
+}
+
+MpiSession::~MpiSession()
+{
+  if (this->Controller)
+  {
+    vtkMultiProcessController::SetGlobalController(nullptr);
+    this->Controller->Finalize(1);
+    this->Controller->Delete();
+    MPI_Finalize();
+  }
+}
+
+vtkMultiProcessController* MpiSession::controller() const
+{
+  return this->Controller;
+}
+
+bool MpiSession::isFirst() const
+{
+  return !this->Controller || this->Controller->GetLocalProcessId() == 0;
+}
+
+} // namespace tipp

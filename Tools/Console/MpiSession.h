@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippMpiSession_h
+#define tippMpiSession_h
+
+class vtkMPIController;
+class vtkMultiProcessController;
+
+namespace tipp
+{
+
+/// MPI while this lives, if mpirun or a batch system has started the process; else nothing.
+class MpiSession
+{
+public:
+  MpiSession();
+  ~MpiSession();
+  MpiSession(const MpiSession&) = delete;
+  MpiSession& operator=(const MpiSession&) = delete;
+
+  /// Null for a process alone.
+  vtkMultiProcessController* controller() const;
+  /// Of all ranks, the one that speaks.
+  bool isFirst() const;
+
+private:
+  vtkMPIController* Controller = nullptr;
+};
+
+} // namespace tipp
+
+#endif
