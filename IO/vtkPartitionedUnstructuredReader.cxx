@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Flat/FlatMesh.h"
 #include "Partitioned/PieceGrid.h"
+#include "Partitioning/AssignPieces.h"
 #include "Reading/AssemblePiece.h"
 #include "Reading/PieceCache.h"
 #include "Reading/PieceSource.h"
@@ -262,7 +263,7 @@ struct Request
     {
       some.push_back(weights[number]);
     }
-    const std::vector<std::size_t> starts = tipp::runsByWeight(some, this->Pieces);
+    const std::vector<std::size_t> starts = tipp::assignPieces(some, this->Pieces);
     const auto first = numbers.begin() + std::ptrdiff_t(starts[std::size_t(this->Piece)]);
     const auto last = numbers.begin() + std::ptrdiff_t(starts[std::size_t(this->Piece) + 1]);
     return { first, last };

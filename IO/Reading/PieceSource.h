@@ -52,10 +52,6 @@ protected:
 std::unique_ptr<PieceSource> openPieceSource(
   const std::string& path, const SourceOptions& options = {});
 
-/// Cuts pieces 0 ... into runs of successive ones with weights as equal as they can be: the first
-/// piece of each run, and the number of pieces. Runs may be empty.
-std::vector<std::size_t> runsByWeight(const std::vector<std::int64_t>& weights, int runs);
-
 } // namespace tipp
 
 #endif
