@@ -2,9 +2,9 @@
 #include "vtkTIPPDelaunay2D.h"
 
 #include "AlphaShape/AlphaShape.h"
-#include "Compatibility.h"
 #include "Merging/TriangulateMerged.h"
 #include "Output/CellBuffers.h"
+#include "Output/Monitor.h"
 #include "Output/RepresentativeIds.h"
 #include "Output/StatisticsTable.h"
 #include "Projection/BestFittingPlane.h"
@@ -28,44 +28,12 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <atomic>
-#include <thread>
 
 vtkStandardNewMacro(vtkTIPPDelaunay2D);
 vtkCxxSetObjectMacro(vtkTIPPDelaunay2D, Transform, vtkAbstractTransform);
 
 namespace
 {
-
-/// Passes progress on to an algorithm and the wish to stop back, from any thread; observers hear
-/// of it in the thread that made this object only.
-class Monitor
-{
-public:
-  explicit Monitor(vtkAlgorithm* algorithm)
-    : Algorithm(algorithm)
-    , Owner(std::this_thread::get_id())
-  {
-  }
-
-  bool operator()(double fraction)
-  {
-    constexpr double share = 0.95; // the rest is for making the output
-    if (std::this_thread::get_id() == this->Owner)
-    {
-      this->Done = std::max(this->Done, share * fraction);
-      this->Algorithm->UpdateProgress(this->Done);
-      this->Stopped = tipp::abortRequested(this->Algorithm);
-    }
-    return !this->Stopped;
-  }
-
-private:
-  vtkAlgorithm* Algorithm;
-  std::thread::id Owner;
-  double Done = 0;
-  std::atomic<bool> Stopped{ false };
-};
 
 /// The calling thread's OpenMP regions have so many threads while this object lives; 0 changes
 /// nothing.
@@ -229,7 +197,7 @@ tipp::Triangulation vtkTIPPDelaunay2D::Triangulate(vtkPoints* points, vtkAbstrac
     this->Tolerance > 0 ? this->Tolerance * tipp::finiteBounds(points).diagonal() : 0;
   const double projectionSeconds = watch.seconds();
 
-  Monitor monitor(this);
+  tipp::Monitor monitor(this);
   tipp::TriangulationOptions options;
   options.Columns = this->NumberOfPartitions[0];
   options.Rows = this->NumberOfPartitions[1];

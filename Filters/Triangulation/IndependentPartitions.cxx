@@ -7,12 +7,20 @@
 namespace tipp
 {
 
-IndependentPartitions::IndependentPartitions(SeamMesh& mesh, std::vector<PartitionIndex> unfinished)
+IndependentPartitions::IndependentPartitions(ReachSource& mesh,
+  const std::vector<PartitionIndex>& unfinished, const std::vector<std::int32_t>& homes)
   : Mesh(mesh)
-  , Unfinished(std::move(unfinished))
+  , Unfinished(1)
+  , Left(unfinished.size())
   , LabelIsActive(mesh.labelEnd(), 0)
   , ActiveReach(static_cast<std::size_t>(mesh.partitions()))
 {
+  for (const PartitionIndex p : unfinished)
+  {
+    const std::size_t home = homes.empty() ? 0 : std::size_t(homes[std::size_t(p)]);
+    this->Unfinished.resize(std::max(this->Unfinished.size(), home + 1));
+    this->Unfinished[home].push_back(p);
+  }
 }
 
 bool IndependentPartitions::isIndependentOfActive(PartitionIndex partition)
@@ -40,38 +48,45 @@ void IndependentPartitions::deactivate(PartitionIndex partition)
   this->ActiveReach[std::size_t(partition)].clear();
 }
 
-PartitionIndex IndependentPartitions::activateNext()
+PartitionIndex IndependentPartitions::activateNext(std::int32_t home)
 {
-  for (auto it = this->Unfinished.begin(); it != this->Unfinished.end(); ++it)
+  if (std::size_t(home) >= this->Unfinished.size())
+  {
+    return -1;
+  }
+  std::vector<PartitionIndex>& unfinished = this->Unfinished[std::size_t(home)];
+  for (auto it = unfinished.begin(); it != unfinished.end(); ++it)
   {
     const PartitionIndex partition = *it;
     if (this->isIndependentOfActive(partition))
     {
       this->activate(partition);
-      this->Unfinished.erase(it);
+      unfinished.erase(it);
+      --this->Left;
       return partition;
     }
   }
   return -1;
 }
 
-/// How many other unfinished partitions each unfinished one conflicts with.
-std::vector<std::size_t> IndependentPartitions::countConflicts()
+/// How many others of these partitions each of them conflicts with.
+std::vector<std::size_t> IndependentPartitions::countConflicts(
+  const std::vector<PartitionIndex>& partitions)
 {
-  std::vector<std::vector<std::uint32_t>> sharers(this->Mesh.labelEnd()); // by place in Unfinished
-  for (std::uint32_t i = 0; i < this->Unfinished.size(); ++i)
+  std::vector<std::vector<std::uint32_t>> sharers(this->Mesh.labelEnd()); // by place in partitions
+  for (std::uint32_t i = 0; i < partitions.size(); ++i)
   {
-    for (const std::uint32_t label : this->Mesh.reach(this->Unfinished[i]))
+    for (const std::uint32_t label : this->Mesh.reach(partitions[i]))
     {
       sharers[label].push_back(i);
     }
   }
-  std::vector<std::size_t> conflicts(this->Unfinished.size(), 0);
-  std::vector<std::uint32_t> seenBy(this->Unfinished.size(), ~0U);
-  for (std::uint32_t i = 0; i < this->Unfinished.size(); ++i)
+  std::vector<std::size_t> conflicts(partitions.size(), 0);
+  std::vector<std::uint32_t> seenBy(partitions.size(), ~0U);
+  for (std::uint32_t i = 0; i < partitions.size(); ++i)
   {
     seenBy[i] = i;
-    for (const std::uint32_t label : this->Mesh.reach(this->Unfinished[i]))
+    for (const std::uint32_t label : this->Mesh.reach(partitions[i]))
     {
       for (const std::uint32_t other : sharers[label])
       {
@@ -85,32 +100,35 @@ std::vector<std::size_t> IndependentPartitions::countConflicts()
 
 std::vector<PartitionIndex> IndependentPartitions::nextStage()
 {
-  const std::vector<std::size_t> conflicts = this->countConflicts();
-  std::vector<std::size_t> order(this->Unfinished.size());
+  std::vector<PartitionIndex> unfinished;
+  for (const std::vector<PartitionIndex>& ofHome : this->Unfinished)
+  {
+    unfinished.insert(unfinished.end(), ofHome.begin(), ofHome.end());
+  }
+  const std::vector<std::size_t> conflicts = this->countConflicts(unfinished);
+  std::vector<std::size_t> order(unfinished.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::stable_sort(order.begin(), order.end(),
     [&conflicts](std::size_t a, std::size_t b) { return conflicts[a] < conflicts[b]; });
 
   std::vector<PartitionIndex> stage;
-  std::vector<char> isChosen(this->Unfinished.size(), 0);
+  std::vector<char> isChosen(static_cast<std::size_t>(this->Mesh.partitions()), 0);
   for (const std::size_t i : order)
   {
-    if (this->isIndependentOfActive(this->Unfinished[i]))
+    if (this->isIndependentOfActive(unfinished[i]))
     {
-      this->activate(this->Unfinished[i]);
-      stage.push_back(this->Unfinished[i]);
-      isChosen[i] = 1;
+      this->activate(unfinished[i]);
+      stage.push_back(unfinished[i]);
+      isChosen[std::size_t(unfinished[i])] = 1;
     }
   }
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < this->Unfinished.size(); ++i)
+  for (std::vector<PartitionIndex>& ofHome : this->Unfinished)
   {
-    if (!isChosen[i])
-    {
-      this->Unfinished[kept++] = this->Unfinished[i];
-    }
+    ofHome.erase(std::remove_if(ofHome.begin(), ofHome.end(),
+                   [&isChosen](PartitionIndex p) { return isChosen[std::size_t(p)] != 0; }),
+      ofHome.end());
   }
-  this->Unfinished.resize(kept);
+  this->Left -= stage.size();
   return stage;
 }
 

@@ -21,25 +21,28 @@ namespace tipp
 class IndependentPartitions
 {
 public:
-  /// The partitions that have something to triangulate.
-  IndependentPartitions(SeamMesh& mesh, std::vector<PartitionIndex> unfinished);
+  /// The partitions that have something to triangulate. Homes: of each partition of the mesh, the
+  /// workers who alone may have it; none: all may have all.
+  IndependentPartitions(ReachSource& mesh, const std::vector<PartitionIndex>& unfinished,
+    const std::vector<std::int32_t>& homes = {});
 
   /// A maximal set of independent partitions, those with the fewest conflicts first (Algorithm 2).
   std::vector<PartitionIndex> nextStage();
 
   /// A partition independent of all active ones, or -1. It is active from now on.
-  PartitionIndex activateNext();
+  PartitionIndex activateNext(std::int32_t home = 0);
   void deactivate(PartitionIndex partition);
 
-  bool isEmpty() const { return this->Unfinished.empty(); }
+  bool isEmpty() const { return this->Left == 0; }
 
 private:
   bool isIndependentOfActive(PartitionIndex partition);
   void activate(PartitionIndex partition);
-  std::vector<std::size_t> countConflicts();
+  std::vector<std::size_t> countConflicts(const std::vector<PartitionIndex>& partitions);
 
-  SeamMesh& Mesh;
-  std::vector<PartitionIndex> Unfinished; ///< neither active nor finished
+  ReachSource& Mesh;
+  std::vector<std::vector<PartitionIndex>> Unfinished; ///< neither active nor finished, by home
+  std::size_t Left;                                    ///< of them all
   std::vector<char> LabelIsActive;
   std::vector<std::vector<std::uint32_t>> ActiveReach; ///< of each active partition
 };

@@ -144,9 +144,9 @@ private:
 } // namespace
 
 template <typename Id>
-PointBuckets<Id>::PointBuckets(std::vector<std::size_t> starts)
+PointBuckets<Id>::PointBuckets(std::vector<std::size_t> starts, std::size_t more)
   : Starts(std::move(starts))
-  , Memory(6 * this->Starts.back())
+  , Memory(6 * this->Starts.back() + 3 * more)
 {
 }
 

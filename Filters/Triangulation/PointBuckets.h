@@ -32,8 +32,9 @@ class PointBuckets
 {
 public:
   PointBuckets() = default;
-  /// Starts: of each partition, counted in points, and the end.
-  explicit PointBuckets(std::vector<std::size_t> starts);
+  /// Starts: of each partition, counted in points, and the end. More: room for so many triangles
+  /// after the last partition's.
+  explicit PointBuckets(std::vector<std::size_t> starts, std::size_t more = 0);
 
   PartitionIndex partitions() const { return static_cast<PartitionIndex>(this->Starts.size() - 1); }
   std::size_t start(PartitionIndex p) const { return this->Starts[std::size_t(p)]; }

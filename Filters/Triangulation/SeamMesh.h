@@ -48,9 +48,23 @@ struct SeamTriangles
   const PartitionIndex* metEnd(std::size_t i) const { return this->Met.data() + this->MetEnds[i]; }
 };
 
+/// What independence is decided on.
+class ReachSource
+{
+public:
+  virtual ~ReachSource() = default;
+
+  /// The labels of the vertices of the partition's triangles, each once; and perhaps of some that
+  /// were superseded since triangles were last added to it.
+  virtual const std::vector<std::uint32_t>& reach(PartitionIndex partition) = 0;
+
+  virtual PartitionIndex partitions() const = 0;
+  std::size_t labelEnd() const { return 4 * static_cast<std::size_t>(this->partitions()); }
+};
+
 /// The part of the global mesh that is not final: every triangle with a circumdisk that meets an
 /// unfinished partition. The master's data; not thread-safe.
-class SeamMesh
+class SeamMesh : public ReachSource
 {
 public:
   explicit SeamMesh(PartitionIndex partitions);
@@ -66,12 +80,12 @@ public:
 
   bool isFinished(PartitionIndex p) const { return this->Finished[std::size_t(p)]; }
 
-  /// The labels of the vertices of the partition's triangles, each once; and perhaps of some that
-  /// were superseded since triangles were last added to it.
-  const std::vector<std::uint32_t>& reach(PartitionIndex partition);
+  const std::vector<std::uint32_t>& reach(PartitionIndex partition) override;
 
-  PartitionIndex partitions() const { return static_cast<PartitionIndex>(this->Members.size()); }
-  std::size_t labelEnd() const { return this->LabelSeen.size(); }
+  PartitionIndex partitions() const override
+  {
+    return static_cast<PartitionIndex>(this->Members.size());
+  }
 
   /// Unfinished triangles in memory.
   std::size_t size() const { return this->Live; }

@@ -28,6 +28,18 @@ public:
   /// About `count` boxes that hold equally many of the sample's points.
   static Tiling balanced(const Box2& domain, std::vector<Point2> sample, int count);
 
+  /// Each box replaced by the boxes of a tiling of it, in order.
+  Tiling refined(const std::vector<Tiling>& inner) const;
+
+  /// A tiling of a box inside the domain, and after its boxes, at most four more around them.
+  static Tiling around(const Box2& domain, const Tiling& inner);
+
+  ///@{
+  /// As bytes, to send to another rank.
+  std::vector<char> save() const;
+  static Tiling load(const std::vector<char>& bytes);
+  ///@}
+
   PartitionIndex size() const { return static_cast<PartitionIndex>(this->Boxes.size()); }
   const Box2& box(PartitionIndex i) const { return this->Boxes[static_cast<std::size_t>(i)]; }
   const Box2& domain() const { return this->Domain; }
@@ -90,6 +102,10 @@ private:
   std::int32_t cutSample(const Box2& box, Point2* begin, Point2* end, int count, std::size_t depth);
   std::int32_t addBox(const Box2& box, std::size_t depth);
   std::int32_t addCut(int axis, double at);
+  template <typename MakeBox>
+  std::int32_t addTree(
+    const Tiling& tree, std::int32_t from, std::size_t depth, const MakeBox& makeBox);
+  std::int32_t placeBox(const Box2& box, PartitionIndex partition, std::size_t depth);
   const Node& node(std::int32_t i) const { return this->Nodes[static_cast<std::size_t>(i)]; }
 
   Box2 Domain{};

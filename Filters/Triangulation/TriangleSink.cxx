@@ -63,7 +63,14 @@ Buffer<Id> TriangleSink<Id>::assemble(const std::vector<SeamTriangle>& seams, in
     total += count;
   }
 
+  const std::size_t room = 2 * this->Buckets.size();
   Buffer<Id> ids = this->Buckets.release();
+  if (3 * total > ids.size())
+  {
+    Buffer<Id> larger(3 * total);
+    std::copy(ids.begin(), ids.begin() + 3 * room, larger.begin());
+    ids = std::move(larger);
+  }
   const auto copyTriangle = [&ids](std::size_t to, const Id* corners)
   { std::copy(corners, corners + 3, ids.data() + 3 * to); };
   // Interior triangles that lie beyond the end, last partition first, fill what the seams leave.
@@ -90,6 +97,10 @@ Buffer<Id> TriangleSink<Id>::assemble(const std::vector<SeamTriangle>& seams, in
     {
       copyTriangle(at, seam != sorted.end() ? (seam++)->data() : nextBeyond());
     }
+  }
+  for (std::size_t at = room; at < total; ++at)
+  {
+    copyTriangle(at, (seam++)->data());
   }
   ids.truncate(3 * total);
   return ids;

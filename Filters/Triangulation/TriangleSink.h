@@ -27,7 +27,8 @@ public:
     this->InteriorCounts[std::size_t(p)] = count;
   }
 
-  /// Takes the buckets' memory. The seams' vertices must be true points.
+  /// Takes the buckets' memory. The seams' vertices must be true points; some may be points that
+  /// are not in the buckets, so that there can be more than two triangles a point.
   Buffer<Id> assemble(const std::vector<SeamTriangle>& seams, int threads);
 
 private:

@@ -19,26 +19,50 @@ Box2 openBox(const Box2& box)
 } // namespace
 
 template <typename Id>
-Worker<Id>::Worker(const Tiling& tiling, PointBuckets<Id>& buckets)
-  : Boxes(tiling)
+Worker<Id>::Worker(const Tiling& tiling, PointBuckets<Id>& buckets, std::int64_t firstId)
+  : Boxes(&tiling)
   , Buckets(buckets)
+  , FirstId(firstId)
   , Kernel(*this->Pooled)
 {
 }
 
 template <typename Id>
+void Worker<Id>::setTiling(const Tiling& tiling, PartitionIndex firstBucket)
+{
+  this->Boxes = &tiling;
+  this->FirstBucket = firstBucket;
+}
+
+template <typename Id>
 void Worker<Id>::triangulate(PartitionIndex partition, const std::vector<SeamTriangle>& belonging)
 {
-  this->collectVertices(partition, belonging);
-  this->takeIds(partition);
+  static_assert(sizeof(SeamTriangle) == 3 * sizeof(SeamVertex), "corners lie in a row");
+  this->collectVertices(
+    partition, belonging.empty() ? nullptr : belonging.front().data(), 3 * belonging.size());
+  this->triangulateCollected(partition);
+}
+
+template <typename Id>
+void Worker<Id>::triangulate(PartitionIndex partition, const std::vector<SeamVertex>& vertices)
+{
+  this->collectVertices(partition, vertices.data(), vertices.size());
+  this->triangulateCollected(partition);
+}
+
+template <typename Id>
+void Worker<Id>::triangulateCollected(PartitionIndex partition)
+{
+  const PartitionIndex bucket = this->bucket(partition);
+  this->takeIds(bucket);
   this->Kernel.clear();
   // The own points first: their interior triangles then do not depend on the foreign ones.
-  this->Kernel.insert(this->Buckets.points(partition), this->Buckets.count(partition));
+  this->Kernel.insert(this->Buckets.points(bucket), this->Buckets.count(bucket));
   this->Kernel.insert(this->ForeignPoints.data(), this->ForeignPoints.size());
   this->VertexCount = static_cast<std::size_t>(this->Kernel.vertexEnd()) - 1;
   this->resolveDuplicates();
   this->findSeams(partition);
-  this->writeInterior(partition);
+  this->writeInterior(bucket);
 }
 
 template <typename Id>
@@ -63,49 +87,47 @@ bool Worker<Id>::triangulateAlone(const DelaunayKernel::Monitor& proceed)
 }
 
 template <typename Id>
-void Worker<Id>::takeIds(PartitionIndex partition)
+void Worker<Id>::takeIds(PartitionIndex bucket)
 {
-  const Id* ids = this->Buckets.ids(partition);
-  this->Ids.assign(ids, ids + this->Buckets.count(partition));
+  const Id* ids = this->Buckets.ids(bucket);
+  this->Ids.assign(ids, ids + this->Buckets.count(bucket));
 }
 
 template <typename Id>
 void Worker<Id>::collectVertices(
-  PartitionIndex partition, const std::vector<SeamTriangle>& belonging)
+  PartitionIndex partition, const SeamVertex* vertices, std::size_t count)
 {
   this->Foreign.clear();
   this->ForeignPoints.clear();
   this->KnownIds.clear();
   std::size_t size = 64;
-  while (size < 4 * belonging.size())
+  while (3 * size < 4 * count)
   {
     size *= 2;
   }
   constexpr std::uint32_t empty = ~0U;
   this->HashTable.assign(size, empty);
-  for (const SeamTriangle& triangle : belonging)
+  for (const SeamVertex* at = vertices; at != vertices + count; ++at)
   {
-    for (const SeamVertex& v : triangle)
+    const SeamVertex& v = *at;
+    if (v.partition() == partition && !v.isArtificial())
     {
-      if (v.partition() == partition && !v.isArtificial())
+      this->KnownIds.push_back(v.Id - this->FirstId);
+      continue;
+    }
+    std::size_t place = (std::uint64_t(v.Id) * 0x9e3779b97f4a7c15U) >> 32;
+    for (place &= size - 1; this->HashTable[place] != empty; place = (place + 1) & (size - 1))
+    {
+      if (this->Foreign[this->HashTable[place]].Id == v.Id)
       {
-        this->KnownIds.push_back(v.Id);
-        continue;
+        break;
       }
-      std::size_t at = (std::uint64_t(v.Id) * 0x9e3779b97f4a7c15U) >> 32;
-      for (at &= size - 1; this->HashTable[at] != empty; at = (at + 1) & (size - 1))
-      {
-        if (this->Foreign[this->HashTable[at]].Id == v.Id)
-        {
-          break;
-        }
-      }
-      if (this->HashTable[at] == empty)
-      {
-        this->HashTable[at] = static_cast<std::uint32_t>(this->Foreign.size());
-        this->Foreign.push_back(v);
-        this->ForeignPoints.push_back(v.Place);
-      }
+    }
+    if (this->HashTable[place] == empty)
+    {
+      this->HashTable[place] = static_cast<std::uint32_t>(this->Foreign.size());
+      this->Foreign.push_back(v);
+      this->ForeignPoints.push_back(v.Place);
     }
   }
   std::sort(this->KnownIds.begin(), this->KnownIds.end());
@@ -130,7 +152,8 @@ void Worker<Id>::resolveDuplicates()
   }
   for (const DelaunayKernel::Duplicate& duplicate : found)
   {
-    this->Duplicates.push_back({ ids[duplicate.Point], ids[this->Kernel.place(duplicate.Vertex)] });
+    this->Duplicates.push_back({ this->FirstId + ids[duplicate.Point],
+      this->FirstId + ids[this->Kernel.place(duplicate.Vertex)] });
   }
 }
 
@@ -143,7 +166,8 @@ SeamVertex Worker<Id>::vertex(PartitionIndex partition, DelaunayKernel::Index v)
   {
     return this->Foreign[place - own];
   }
-  return makeSeamVertex(this->Boxes, partition, this->Kernel.point(v), this->Ids[place]);
+  return makeSeamVertex(
+    *this->Boxes, partition, this->Kernel.point(v), this->FirstId + this->Ids[place]);
 }
 
 /// Walks over the triangles whose circumdisk is not inside the partition. They are connected: each
@@ -153,7 +177,7 @@ template <typename Id>
 void Worker<Id>::findSeams(PartitionIndex partition)
 {
   const HalfEdgeMesh& mesh = this->Kernel.mesh();
-  const Box2& box = this->Boxes.box(partition);
+  const Box2& box = this->Boxes->box(partition);
   const Box2 open = openBox(box);
   this->Seams.clear();
   this->IsSeam.assign(static_cast<std::size_t>(mesh.end() / 8), 0);
@@ -187,7 +211,7 @@ void Worker<Id>::findSeams(PartitionIndex partition)
         }
         if (disk.meets(box))
         {
-          this->Seams.add(this->Boxes,
+          this->Seams.add(*this->Boxes,
             { this->vertex(partition, v[0]), this->vertex(partition, v[1]),
               this->vertex(partition, v[2]) },
             disk);
@@ -200,7 +224,7 @@ void Worker<Id>::findSeams(PartitionIndex partition)
 }
 
 template <typename Id>
-void Worker<Id>::writeInterior(PartitionIndex partition)
+void Worker<Id>::writeInterior(PartitionIndex bucket)
 {
   // Each vertex has six triangles or so, next to one another; its point is anywhere.
   const std::size_t own = this->Ids.size();
@@ -212,7 +236,7 @@ void Worker<Id>::writeInterior(PartitionIndex partition)
   }
   const DelaunayKernel::Index* slots = this->Kernel.mesh().slots();
   const Id* ids = this->VertexIds.data();
-  Id* const interior = this->Buckets.triangles(partition);
+  Id* const interior = this->Buckets.triangles(bucket);
   Id* out = interior;
   for (std::size_t t = 0; t < this->IsSeam.size(); ++t)
   {

@@ -19,11 +19,18 @@ template <typename Id>
 class Worker
 {
 public:
-  Worker(const Tiling& tiling, PointBuckets<Id>& buckets);
+  /// The buckets' ids are counted from a first id on: seams and duplicates have it added.
+  Worker(const Tiling& tiling, PointBuckets<Id>& buckets, std::int64_t firstId = 0);
+
+  /// From now on partitions are those of another tiling, the first of which has this bucket.
+  void setTiling(const Tiling& tiling, PartitionIndex firstBucket);
 
   /// Writes the partition's interior triangles, whose order and number depend on its own points
   /// alone, over its points, and keeps the others whose circumdisk meets the partition.
   void triangulate(PartitionIndex partition, const std::vector<SeamTriangle>& belonging);
+
+  /// The same, of the vertices of the triangles that belong to it; some perhaps more than once.
+  void triangulate(PartitionIndex partition, const std::vector<SeamVertex>& vertices);
 
   /// The only partition, number 0: all triangles are interior. False if the monitor ended it.
   bool triangulateAlone(const DelaunayKernel::Monitor& proceed);
@@ -38,15 +45,19 @@ public:
 
 private:
   /// Vertices that came with the triangles: those of other partitions, and the partition's own.
-  void collectVertices(PartitionIndex partition, const std::vector<SeamTriangle>& belonging);
-  void takeIds(PartitionIndex partition);
+  void collectVertices(PartitionIndex partition, const SeamVertex* vertices, std::size_t count);
+  void triangulateCollected(PartitionIndex partition);
+  PartitionIndex bucket(PartitionIndex partition) const { return this->FirstBucket + partition; }
+  void takeIds(PartitionIndex bucket);
   void resolveDuplicates();
   void findSeams(PartitionIndex partition);
-  void writeInterior(PartitionIndex partition);
+  void writeInterior(PartitionIndex bucket);
   SeamVertex vertex(PartitionIndex partition, DelaunayKernel::Index v) const;
 
-  const Tiling& Boxes;
+  const Tiling* Boxes;
   PointBuckets<Id>& Buckets;
+  const std::int64_t FirstId;
+  PartitionIndex FirstBucket = 0;
   PooledKernel Pooled;
   DelaunayKernel& Kernel;
   std::vector<Id> Ids; ///< of the partition's own points

@@ -82,6 +82,13 @@ NpyReader::NpyReader(const std::string& path)
   this->Columns = header.Shape[1];
 }
 
+void NpyReader::skipRows(std::int64_t rows)
+{
+  const bool isWide =
+    this->Scalar == Type::Float64 || this->Scalar == Type::Int64 || this->Scalar == Type::UInt64;
+  this->Offset += std::uint64_t(rows) * std::uint64_t(this->Columns) * (isWide ? 8 : 4);
+}
+
 void NpyReader::read(void* to, std::size_t bytes)
 {
   this->File.read(this->Offset, to, bytes);

@@ -47,6 +47,9 @@ public:
   std::int64_t rows() const { return this->Rows; }
   std::int64_t columns() const { return this->Columns; }
 
+  /// Leaves out the next rows; throws IOError.
+  void skipRows(std::int64_t rows);
+
   /// The next bytes of the data; throws IOError.
   void read(void* to, std::size_t bytes);
 

@@ -13,10 +13,10 @@ namespace
 {
 
 template <typename Scalar>
-void readRows(NpyReader& reader, const ColumnChoice& choice, PointTable& table)
+void readRows(
+  NpyReader& reader, const ColumnChoice& choice, std::size_t rows, PointTable& table)
 {
   constexpr std::size_t chunkRows = 1 << 15;
-  const auto rows = std::size_t(reader.rows());
   const auto columns = std::size_t(reader.columns());
   const std::size_t further = 3 - choice.X - choice.Y; // only used with three columns
   std::vector<Scalar> chunk(columns * std::min(chunkRows, rows));
@@ -39,7 +39,8 @@ void readRows(NpyReader& reader, const ColumnChoice& choice, PointTable& table)
 
 } // namespace
 
-PointTable readNpyPoints(const std::string& path, const PointOptions& options)
+PointTable readNpyPoints(
+  const std::string& path, const PointOptions& options, int part, int parts)
 {
   NpyReader reader(path);
   if ((reader.columns() != 2 && reader.columns() != 3) || !reader.isFloat())
@@ -50,12 +51,16 @@ PointTable readNpyPoints(const std::string& path, const PointOptions& options)
   names.resize(std::size_t(reader.columns()));
   const ColumnChoice choice = chooseColumns(path, names, names.size(), options);
 
+  const auto rowBefore = [&](int p)
+  { return reader.rows() / parts * p + reader.rows() % parts * p / parts; };
+  const auto rows = std::size_t(rowBefore(part + 1) - rowBefore(part));
+  reader.skipRows(rowBefore(part));
   PointTable table;
-  table.XY.resize(2 * std::size_t(reader.rows()));
+  table.XY.resize(2 * rows);
   if (names.size() == 3)
   {
     table.Columns.push_back(
-      { names[3 - choice.X - choice.Y], std::vector<double>(std::size_t(reader.rows())) });
+      { names[3 - choice.X - choice.Y], std::vector<double>(rows) });
   }
   const bool asStored =
     reader.type() == NpyReader::Type::Float64 && names.size() == 2 && choice.X == 0;
@@ -65,11 +70,11 @@ PointTable readNpyPoints(const std::string& path, const PointOptions& options)
   }
   else if (reader.type() == NpyReader::Type::Float64)
   {
-    readRows<double>(reader, choice, table);
+    readRows<double>(reader, choice, rows, table);
   }
   else
   {
-    readRows<float>(reader, choice, table);
+    readRows<float>(reader, choice, rows, table);
   }
   return table;
 }

@@ -8,7 +8,9 @@ namespace tipp
 {
 
 /// Points from an .npy table of two or three columns, named x, y and z.
-PointTable readNpyPoints(const std::string& path, const PointOptions& options);
+/// Of its rows, the share that is the part's of so many parts.
+PointTable readNpyPoints(
+  const std::string& path, const PointOptions& options, int part = 0, int parts = 1);
 
 } // namespace tipp
 

@@ -57,4 +57,14 @@ PointTable readPoints(const std::string& path, const PointOptions& options)
   return readFixedColumns(path);
 }
 
+PointTable readPointsShare(
+  const std::string& path, const PointOptions& options, int part, int parts)
+{
+  if (extensionOf(path) == ".npy")
+  {
+    return readNpyPoints(path, options, part, parts);
+  }
+  return part == 0 ? readPoints(path, options) : PointTable();
+}
+
 } // namespace tipp

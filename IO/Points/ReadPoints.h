@@ -26,6 +26,11 @@ struct PointOptions
 /// one-component point data). Throws IOError.
 VTKTIPPIO_EXPORT PointTable readPoints(const std::string& path, const PointOptions& options = {});
 
+/// A part's share of a file's points, of so many parts: consecutive points where a file can be read
+/// from its middle (.npy), else all for part 0 and none for the others. Throws IOError.
+VTKTIPPIO_EXPORT PointTable readPointsShare(
+  const std::string& path, const PointOptions& options, int part, int parts);
+
 } // namespace tipp
 
 #endif

@@ -25,6 +25,7 @@ void addDelaunayCommand(CLI::App& app, int& exitCode);
 void addFlattenCommand(CLI::App& app, int& exitCode);
 void addPartitionCommand(CLI::App& app, int& exitCode);
 void addPointsCommand(CLI::App& app, int& exitCode);
+void addResampleCommand(CLI::App& app, int& exitCode);
 
 } // namespace tipp
 

@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Commands/DelaunayArguments.h"
+#include "Commands/DelaunayOnRanks.h"
+#include "Commands/DelaunayOutput.h"
 #include "Commands/DelaunayStatistics.h"
 #include "Console/Interrupt.h"
+#include "Console/MpiSession.h"
 #include "Console/ProgressBar.h"
 #include "Files/Extension.h"
-#include "Files/PendingFile.h"
-#include "Meshes/WriteMesh.h"
-#include "Points/ReadPoints.h"
 #include "Triangulation/Triangulate.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <charconv>
 #include <chrono>
-#include <map>
 #include <memory>
-#include <numeric>
-#include <optional>
 
 namespace tipp
 {
@@ -33,6 +30,10 @@ OUTPUT  .vtp, .vtu (all points with their data, a column named z as third
         coordinate) or .npy (m x 3 int64: point ids, counted from 0,
         counter-clockwise).
 
+Under mpirun the points are spread over the ranks, each with its threads; the
+first rank writes the output. --masters, --major, --minor and --groups choose how
+the ranks share the work.
+
 Duplicates are merged, points that are not finite are left out. Ctrl-C ends the
 run with exit code 130 and no output. Seconds in the summary are those of the
 triangulation alone; memory is in millions of bytes.
@@ -41,47 +42,8 @@ Examples:
   tipp delaunay points.npy -o triangles.npy
   tipp delaunay survey.csv --x easting --y northing -o survey.vtp --threads 4
   tipp delaunay fort.14 -o mesh.vtu --partitions 8x8 --stats run.json
+  mpirun -np 4 tipp delaunay points.npy -o triangles.npy --masters multi --major 4x4
 )";
-
-struct DelaunayArguments
-{
-  std::string Input;
-  std::string Output;
-  PointOptions Columns;
-  int Threads = 0;
-  std::string Partitions = "auto";
-  std::string Order = "dynamic";
-  int InitialPoints = 0;
-  bool MapDuplicates = false;
-  std::string Statistics;
-};
-
-struct Grid
-{
-  int Columns = 0;
-  int Rows = 0;
-};
-
-// "auto" is a grid of no columns and rows.
-std::optional<Grid> parseGrid(const std::string& text)
-{
-  if (text == "auto")
-  {
-    return Grid{};
-  }
-  constexpr int limit = 10000;
-  Grid grid;
-  const char* const end = text.data() + text.size();
-  const auto columns = std::from_chars(text.data(), end, grid.Columns);
-  if (columns.ec != std::errc() || columns.ptr == end || *columns.ptr != 'x')
-  {
-    return std::nullopt;
-  }
-  const auto rows = std::from_chars(columns.ptr + 1, end, grid.Rows);
-  const bool good = rows.ec == std::errc() && rows.ptr == end && grid.Columns >= 1 &&
-    grid.Columns <= limit && grid.Rows >= 1 && grid.Rows <= limit;
-  return good ? std::make_optional(grid) : std::nullopt;
-}
 
 class Stopwatch
 {
@@ -101,12 +63,12 @@ private:
 
 TriangulationOptions makeOptions(const DelaunayArguments& arguments, ProgressBar& bar)
 {
-  const Grid grid = *parseGrid(arguments.Partitions);
+  const GridSize grid = *parseGrid(arguments.Partitions);
   TriangulationOptions options;
   options.Columns = grid.Columns;
   options.Rows = grid.Rows;
   options.InitialPointsPerPartition = arguments.InitialPoints;
-  options.Order = arguments.Order == "stages" ? Schedule::Stages : Schedule::Dynamic;
+  options.Order = arguments.Order == "dynamic" ? Schedule::Dynamic : Schedule::Stages;
   options.Threads = arguments.Threads;
   options.Progress = [&bar](double fraction)
   {
@@ -122,68 +84,20 @@ Triangulation triangulatePoints(const DelaunayArguments& arguments, const PointT
   return triangulate(PointsView(points.XY.data(), points.size(), 2), makeOptions(arguments, bar));
 }
 
-TrianglesView viewOf(const Triangulation& result)
-{
-  return result.Ids64.empty() ? TrianglesView(result.Ids32.data(), result.triangleCount())
-                              : TrianglesView(result.Ids64.data(), result.triangleCount());
-}
-
-std::vector<std::int64_t> representatives(const Triangulation& result, std::size_t points)
-{
-  std::vector<std::int64_t> ids(points);
-  std::iota(ids.begin(), ids.end(), std::int64_t(0));
-  for (const Duplicate& duplicate : result.Duplicates)
-  {
-    ids[std::size_t(duplicate.Point)] = duplicate.Representative;
-  }
-  for (const PointId rejected : result.Rejected)
-  {
-    ids[std::size_t(rejected)] = -1;
-  }
-  return ids;
-}
-
-bool writeResult(
-  const DelaunayArguments& arguments, const PointTable& points, const Triangulation& result)
-{
-  MeshOptions options;
-  options.Aborted = isInterrupted;
-  if (arguments.MapDuplicates)
-  {
-    options.Representatives = representatives(result, points.size());
-  }
-  return writeMesh(arguments.Output, points, viewOf(result), options);
-}
-
-// Before hours of work rather than after them.
-void requireWritable(const DelaunayArguments& arguments)
-{
-  const PendingFile output(arguments.Output);
-  if (!arguments.Statistics.empty())
-  {
-    const PendingFile statistics(arguments.Statistics);
-  }
-}
-
-int reportInterrupt()
-{
-  fmt::print(stderr, "tipp: interrupted; nothing was written.\n");
-  return interruptedExitCode;
-}
-
 int runDelaunay(const DelaunayArguments& arguments)
 {
   watchForInterrupt();
+  const MpiSession session;
+  if (session.controller() || arguments.isForRanks())
+  {
+    return runDelaunayOnRanks(arguments, session.controller());
+  }
   requireWritable(arguments);
   DelaunayRun run;
   run.Input = arguments.Input;
   run.Output = arguments.Output;
   Stopwatch watch;
-  PointTable points = readPoints(arguments.Input, arguments.Columns);
-  if (extensionOf(arguments.Output) == ".npy")
-  {
-    points.Columns.clear(); // only .vtp and .vtu keep them
-  }
+  const PointTable points = readPointsFor(arguments);
   run.Points = std::int64_t(points.size());
   run.ReadSeconds = watch.seconds();
   if (isInterrupted())
@@ -202,12 +116,7 @@ int runDelaunay(const DelaunayArguments& arguments)
     writeStatistics(arguments.Statistics, run, result);
   }
   fmt::print("{}\n", summarize(run, result));
-  if (result.triangleCount() == 0)
-  {
-    fmt::print(stderr,
-      "tipp: warning: no triangles, since there are fewer than three distinct points or all lie on "
-      "one line.\n");
-  }
+  warnOfNoTriangles(result);
   return Success;
 }
 
@@ -223,6 +132,12 @@ std::string checkPartitions(const std::string& text)
     : "'" + text + "' is neither auto nor COLUMNSxROWS of 1 to 10000 each, as 8x8";
 }
 
+std::string checkMinor(const std::string& text)
+{
+  return parseMinor(text) ? ""
+                          : "'" + text + "' is none of auto, COLUMNSxROWS, auto:T and tree:T";
+}
+
 void addTuning(CLI::App& command, DelaunayArguments& arguments)
 {
   command.add_option("--threads", arguments.Threads, "Number of threads; 0: OpenMP's choice")
@@ -235,8 +150,30 @@ void addTuning(CLI::App& command, DelaunayArguments& arguments)
     ->capture_default_str();
   command
     .add_option("--schedule", arguments.Order,
-      "stages: independent partitions together, then the next; dynamic: each as soon as it can")
-    ->check(CLI::IsMember({ "stages", "dynamic" }))
+      "stages: independent partitions together, then the next; dynamic: each as soon as it can; "
+      "producer-consumer: stages without a barrier after each shift of the ranks")
+    ->check(CLI::IsMember({ "stages", "producer-consumer", "dynamic" }))
+    ->capture_default_str();
+  command
+    .add_option("--masters", arguments.Masters,
+      "single: one master hands out all partitions; multi: sub-masters, a major partition each")
+    ->check(CLI::IsMember({ "auto", "single", "multi" }))
+    ->capture_default_str();
+  command
+    .add_option("--major", arguments.Major,
+      "Columns and rows of major partitions, as 4x4, or auto: boxes of equally many points")
+    ->check(checkPartitions)
+    ->capture_default_str();
+  command
+    .add_option("--minor", arguments.Minor,
+      "Partitions of each major one: columns and rows, as 8x8; auto:T: a square grid of about T "
+      "points each; tree:T: boxes of equally many points, about T; auto: tree, T chosen")
+    ->check(checkMinor)
+    ->capture_default_str();
+  command
+    .add_option("--groups", arguments.Groups,
+      "Partitions and ranks are shared out by points (proportional) or by number (equal)")
+    ->check(CLI::IsMember({ "proportional", "equal" }))
     ->capture_default_str();
   command
     .add_option("--initial-points", arguments.InitialPoints,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/DelaunayStatistics.h"
 
+#include "Commands/RankStatistics.h"
+
 #include "Files/IOError.h"
 #include "Files/PendingFile.h"
 
@@ -26,6 +28,34 @@ std::int64_t peakMemoryBytes()
 double pointsPerSecond(const DelaunayRun& run)
 {
   return run.TriangulateSeconds > 0 ? double(run.Points) / run.TriangulateSeconds : 0;
+}
+
+void writeJson(const std::string& path, const nlohmann::ordered_json& json)
+{
+  PendingFile pending(path);
+  std::ofstream file(pending.temporaryPath());
+  // File names need not be UTF-8.
+  file << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  file.close();
+  if (!file)
+  {
+    throw IOError(path, "cannot be written; check the disk's space and the folder's permissions.");
+  }
+  pending.commit();
+}
+
+nlohmann::ordered_json describeRun(const DelaunayRun& run)
+{
+  return {
+    { "input", run.Input },
+    { "output", run.Output },
+    { "points", run.Points },
+    { "read_seconds", run.ReadSeconds },
+    { "triangulate_seconds", run.TriangulateSeconds },
+    { "write_seconds", run.WriteSeconds },
+    { "points_per_second", pointsPerSecond(run) },
+    { "peak_memory_bytes", peakMemoryBytes() },
+  };
 }
 
 } // namespace
@@ -71,16 +101,25 @@ void writeStatistics(const std::string& path, const DelaunayRun& run, const Tria
     json["stages"].push_back({ { "active_partitions", stage.ActivePartitions },
       { "mesh_triangles", stage.MeshTriangles } });
   }
-  PendingFile pending(path);
-  std::ofstream file(pending.temporaryPath());
-  // File names need not be UTF-8.
-  file << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
-  file.close();
-  if (!file)
-  {
-    throw IOError(path, "cannot be written; check the disk's space and the folder's permissions.");
-  }
-  pending.commit();
+  writeJson(path, json);
+}
+
+std::string summarize(
+  const DelaunayRun& run, const Triangulation& all, const DistributedStatistics& statistics)
+{
+  return fmt::format("{}, {} ranks of {} threads", summarize(run, all), statistics.Ranks.size(),
+    statistics.ThreadsPerRank);
+}
+
+void writeStatistics(
+  const std::string& path, const DelaunayRun& run, const DistributedTriangulation& result)
+{
+  nlohmann::ordered_json json = describeRun(run);
+  json["triangles"] = result.AllTriangles;
+  json["duplicates"] = result.AllDuplicates;
+  json["rejected"] = result.AllRejected;
+  json.update(describe(result.Statistics));
+  writeJson(path, json);
 }
 
 } // namespace tipp

@@ -2,6 +2,7 @@
 #ifndef tippDelaunayStatistics_h
 #define tippDelaunayStatistics_h
 
+#include "Distributed/DistributedTriangulation.h"
 #include "Triangulation/Triangulate.h"
 
 #include <cstdint>
@@ -27,6 +28,14 @@ std::string summarize(const DelaunayRun& run, const Triangulation& result);
 
 /// The same and all of TriangulationStatistics as a JSON file; throws IOError.
 void writeStatistics(const std::string& path, const DelaunayRun& run, const Triangulation& result);
+
+///@{
+/// The same of a run on ranks.
+std::string summarize(
+  const DelaunayRun& run, const Triangulation& all, const DistributedStatistics& statistics);
+void writeStatistics(
+  const std::string& path, const DelaunayRun& run, const DistributedTriangulation& result);
+///@}
 
 } // namespace tipp
 

@@ -36,6 +36,9 @@ echo "== Loading vertices: loaders over M and chunk size"
 "$build/bin/benchmarkIo" loaders --repeat "$repeat" \
   "$inputs/random-$points" "$inputs/local-$points"
 
+echo "== Classification of cells: OpenMP threads and OpenCL"
+"$build/bin/benchmarkIo" classify --repeat "$repeat" "$inputs/random-$points"
+
 mesh=$inputs/random-$points
 vtu=$inputs/random-$points.vtu
 [ -f "$vtu" ] || /usr/bin/python3 Testing/Benchmarks/flat-to-vtu.py "$mesh" "$vtu"

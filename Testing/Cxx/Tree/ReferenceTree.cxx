@@ -81,10 +81,10 @@ private:
 
   double length(std::size_t cell) const
   {
-    CellSet alone = this->Cells;
     const auto stride = static_cast<std::size_t>(this->Cells.Dimension * this->Cells.Corners);
     const auto begin = this->Cells.Coordinates.begin() + static_cast<std::ptrdiff_t>(cell * stride);
-    alone.Coordinates.assign(begin, begin + static_cast<std::ptrdiff_t>(stride));
+    const CellSet alone = { this->Cells.Dimension, this->Cells.Corners,
+      { begin, begin + static_cast<std::ptrdiff_t>(stride) } };
     return longest(alone.bounds());
   }
 

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/Collection.h"
+
+#include "Triangulation/TriangleSink.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <stdexcept>
+
+namespace tipp
+{
+namespace
+{
+
+std::size_t ownerOf(std::int64_t id, const std::vector<std::int64_t>& firstIds)
+{
+  const auto next = std::upper_bound(firstIds.begin(), firstIds.end(), id);
+  if (next == firstIds.begin() || next == firstIds.end())
+  {
+    throw std::runtime_error("A triangle from another rank is damaged: it has no such vertex.");
+  }
+  return std::size_t(next - firstIds.begin()) - 1;
+}
+
+/// Each triangle to the rank that owns its vertex of lowest id.
+std::vector<IdTriangle> bringHome(Postbox& ranks, const std::vector<IdTriangle>& triangles,
+  const std::vector<std::int64_t>& firstIds)
+{
+  std::vector<std::vector<IdTriangle>> sorted(static_cast<std::size_t>(ranks.size()));
+  for (const IdTriangle& triangle : triangles)
+  {
+    sorted[ownerOf(*std::min_element(triangle.begin(), triangle.end()), firstIds)].push_back(
+      triangle);
+  }
+  std::vector<Bytes> messages;
+  for (const std::vector<IdTriangle>& toRank : sorted)
+  {
+    ByteWriter writer;
+    writer.array(toRank);
+    messages.push_back(writer.take());
+  }
+  std::vector<IdTriangle> home;
+  for (const Bytes& message : ranks.allToAll(std::move(messages)))
+  {
+    const auto received = ByteReader(message).array<IdTriangle>();
+    home.insert(home.end(), received.begin(), received.end());
+  }
+  return home;
+}
+
+std::vector<std::int64_t> foreignIds(
+  const std::vector<IdTriangle>& triangles, std::int64_t firstOwn, std::int64_t endOwn)
+{
+  std::vector<std::int64_t> ids;
+  for (const IdTriangle& triangle : triangles)
+  {
+    std::copy_if(triangle.begin(), triangle.end(), std::back_inserter(ids),
+      [&](std::int64_t id) { return id < firstOwn || id >= endOwn; });
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+/// Asks the owners for the points named, by ascending id.
+PointTuples fetch(Postbox& ranks, const std::vector<std::int64_t>& ids,
+  const std::vector<std::int64_t>& firstIds, const PointTuples& own, std::size_t rowSize)
+{
+  std::vector<Bytes> requests;
+  auto begin = ids.begin();
+  for (int rank = 0; rank < ranks.size(); ++rank)
+  {
+    const auto end = std::lower_bound(begin, ids.end(), firstIds[std::size_t(rank) + 1]);
+    ByteWriter writer;
+    writer.array(std::vector<std::int64_t>(begin, end));
+    requests.push_back(writer.take());
+    begin = end;
+  }
+  std::vector<Bytes> answers;
+  const std::int64_t firstOwn = firstIds[std::size_t(ranks.rank())];
+  for (const Bytes& request : ranks.allToAll(std::move(requests)))
+  {
+    ByteWriter writer;
+    for (const std::int64_t id : ByteReader(request).array<std::int64_t>())
+    {
+      const std::size_t at = std::size_t(id - firstOwn);
+      if (at >= own.size())
+      {
+        throw std::runtime_error("Another rank asks for a point that is not here.");
+      }
+      writer.value(own.Places[at]);
+      writer.value(own.GlobalIds[at]);
+      writer.raw(own.Rows.data() + at * rowSize, rowSize);
+    }
+    answers.push_back(writer.take());
+  }
+  PointTuples fetched;
+  fetched.Places = Buffer<Point2>(ids.size());
+  fetched.GlobalIds = Buffer<PointId>(ids.size());
+  fetched.Rows = Buffer<char>(ids.size() * rowSize);
+  std::size_t at = 0;
+  for (const Bytes& answer : ranks.allToAll(std::move(answers)))
+  {
+    for (ByteReader reader(answer); reader.left() > 0 && at < ids.size(); ++at)
+    {
+      fetched.Places[at] = reader.value<Point2>();
+      fetched.GlobalIds[at] = reader.value<PointId>();
+      const char* row = reader.raw(rowSize);
+      std::copy(row, row + rowSize, fetched.Rows.data() + at * rowSize);
+    }
+  }
+  return fetched;
+}
+
+/// The same triangles by places in Owned and Foreign, with labels that tell the sink their leaf.
+std::vector<SeamTriangle> localised(const std::vector<IdTriangle>& triangles,
+  const std::vector<std::int64_t>& foreign, std::int64_t firstOwn, const Buffer<Point2>& places,
+  const Tiling& leaves)
+{
+  std::vector<SeamTriangle> local;
+  local.reserve(triangles.size());
+  const std::int64_t own = std::int64_t(places.size());
+  for (const IdTriangle& triangle : triangles)
+  {
+    SeamTriangle made{};
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const std::int64_t at = triangle[i] - firstOwn;
+      if (at >= 0 && at < own)
+      {
+        const auto leaf = static_cast<std::uint32_t>(leaves.locate(places[std::size_t(at)]));
+        made[i] = { {}, at, 4 * leaf };
+      }
+      else
+      {
+        const auto place = std::lower_bound(foreign.begin(), foreign.end(), triangle[i]);
+        made[i] = { {}, own + (place - foreign.begin()), 0 };
+      }
+    }
+    local.push_back(made);
+  }
+  return local;
+}
+
+} // namespace
+
+void preferLowestGlobalIds(
+  PointTuples& points, std::int64_t firstId, std::vector<Duplicate>& duplicates)
+{
+  const std::size_t rowSize = points.size() > 0 ? points.Rows.size() / points.size() : 0;
+  std::map<std::size_t, std::size_t> lowest; // by representative: the point of lowest global id
+  for (const Duplicate& duplicate : duplicates)
+  {
+    const std::size_t representative = std::size_t(duplicate.Representative - firstId);
+    const std::size_t point = std::size_t(duplicate.Point - firstId);
+    std::size_t& best = lowest.emplace(representative, representative).first->second;
+    best = points.GlobalIds[point] < points.GlobalIds[best] ? point : best;
+  }
+  for (const auto& [representative, best] : lowest)
+  {
+    if (representative != best)
+    {
+      std::swap(points.GlobalIds[representative], points.GlobalIds[best]);
+      char* rows = points.Rows.data();
+      std::swap_ranges(rows + representative * rowSize, rows + (representative + 1) * rowSize,
+        rows + best * rowSize);
+    }
+  }
+  for (Duplicate& duplicate : duplicates)
+  {
+    duplicate = { points.GlobalIds[std::size_t(duplicate.Point - firstId)],
+      points.GlobalIds[std::size_t(duplicate.Representative - firstId)] };
+  }
+  std::sort(duplicates.begin(), duplicates.end(),
+    [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
+}
+
+template <typename Id>
+void collect(Postbox& ranks, OwnedPoints<Id>& points, const std::vector<IdTriangle>& kept,
+  const std::vector<std::size_t>& interiorCounts, std::vector<Duplicate> duplicates,
+  const Tiling& leaves, int threads, DistributedTriangulation& result)
+{
+  const std::size_t rowSize = points.size() > 0 ? points.Rows.size() / points.size() : 0;
+  const std::int64_t firstOwn = points.FirstIds[std::size_t(ranks.rank())];
+  result.FirstIds = points.FirstIds;
+  const std::vector<IdTriangle> seams = bringHome(ranks, kept, points.FirstIds);
+  result.ForeignIds = foreignIds(seams, firstOwn, firstOwn + std::int64_t(points.size()));
+
+  TriangleSink<Id> sink(points.Buckets);
+  for (std::size_t leaf = 0; leaf < interiorCounts.size(); ++leaf)
+  {
+    sink.setInteriorCount(static_cast<PartitionIndex>(leaf), interiorCounts[leaf]);
+  }
+  Buffer<Id> ids = sink.assemble(
+    localised(seams, result.ForeignIds, firstOwn, points.Places, leaves), threads);
+  if constexpr (sizeof(Id) == 4)
+  {
+    result.Ids32 = std::move(ids);
+  }
+  else
+  {
+    result.Ids64 = std::move(ids);
+  }
+
+  result.Owned.Places = std::move(points.Places);
+  result.Owned.GlobalIds = std::move(points.GlobalIds);
+  result.Owned.Rows = std::move(points.Rows);
+  preferLowestGlobalIds(result.Owned, firstOwn, duplicates);
+  result.Duplicates = std::move(duplicates);
+  result.Foreign = fetch(ranks, result.ForeignIds, points.FirstIds, result.Owned, rowSize);
+}
+
+template void collect(Postbox&, OwnedPoints<std::int32_t>&, const std::vector<IdTriangle>&,
+  const std::vector<std::size_t>&, std::vector<Duplicate>, const Tiling&, int,
+  DistributedTriangulation&);
+template void collect(Postbox&, OwnedPoints<std::int64_t>&, const std::vector<IdTriangle>&,
+  const std::vector<std::size_t>&, std::vector<Duplicate>, const Tiling&, int,
+  DistributedTriangulation&);
+
+} // namespace tipp

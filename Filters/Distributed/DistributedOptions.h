@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippDistributedOptions_h
+#define tippDistributedOptions_h
+
+#include <cstdint>
+#include <functional>
+
+namespace tipp
+{
+
+enum class Masters
+{
+  Auto,
+  Single, ///< one master hands out all partitions (Algorithm 1)
+  Multi   ///< a master hands major partitions to sub-masters (Algorithm 3)
+};
+
+/// How a domain or a major partition is cut into (minor) partitions.
+enum class Division
+{
+  Tree,      ///< boxes that hold equally many points
+  Threshold, ///< m x m boxes with m = sqrt(N / T) for N points (equation 3.1)
+  Grid       ///< the same columns and rows everywhere
+};
+
+enum class GroupSizes
+{
+  Proportional, ///< ranks and partitions are shared out by points (equation 3.2)
+  Equal         ///< by number
+};
+
+enum class RankSchedule
+{
+  Stages,           ///< shifts of independent partitions, a barrier after each (Algorithm 1)
+  ProducerConsumer, ///< a worker that is done asks for more; a barrier after each stage
+  Dynamic           ///< no barrier
+};
+
+struct GridSize
+{
+  int Columns = 0;
+  int Rows = 0;
+  bool isGiven() const { return this->Columns > 0 && this->Rows > 0; }
+  int size() const { return this->Columns * this->Rows; }
+};
+
+struct DistributedOptions
+{
+  Masters Design = Masters::Auto;
+  GridSize Major;                      ///< not given: a tree of a chosen number of boxes
+  Division MinorDivision = Division::Tree;
+  GridSize Minor;                      ///< for Division::Grid; with one master, the partitions
+  std::int64_t Threshold = 0;          ///< T, points a minor partition; 0: chosen
+  GroupSizes Groups = GroupSizes::Proportional;
+  RankSchedule Order = RankSchedule::Dynamic;
+  int InitialPointsPerPartition = 0; ///< 0: chosen
+  int Threads = 0;                   ///< of each rank; 0: OpenMP's choice
+  /// Told this rank's finished fraction now and then; false ends the run on all ranks.
+  std::function<bool(double)> Progress;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/DistributedTriangulation.h"
+
+#include "Distributed/Collection.h"
+#include "Distributed/Plan.h"
+#include "Distributed/RankRun.h"
+#include "Distributed/Survey.h"
+#include "Triangulation/DegenerateInput.h"
+#include "Triangulation/Stopwatch.h"
+#include "Triangulation/Worker.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace tipp
+{
+namespace
+{
+
+/// The first rank's plan, to all.
+Plan broadcastPlan(Postbox& ranks, const Plan& plan)
+{
+  ByteWriter writer;
+  if (ranks.rank() == 0)
+  {
+    plan.write(writer);
+  }
+  const Bytes bytes = ranks.broadcast(writer.take());
+  ByteReader reader(bytes);
+  return Plan::read(reader);
+}
+
+/// One rank's run of the algorithm, step by step.
+class DistributedRun
+{
+public:
+  DistributedRun(Postbox& ranks, const RankPoints& points, const DistributedOptions& options,
+    DistributedTriangulation& result)
+    : Ranks(ranks)
+    , Input(points)
+    , Options(options)
+    , Result(result)
+    , Threads(options.Threads > 0 ? options.Threads : omp_get_max_threads())
+  {
+    this->Input.FirstId = 0;
+  }
+
+  void run()
+  {
+    const Stopwatch watch;
+    this->numberPoints();
+    const Survey survey = surveyRanks(this->Ranks, this->Input.Points, this->Threads);
+    this->Input.Points = survey.Points;
+    this->Figures.InputPoints = std::int64_t(this->Input.Points.size());
+    for (const std::int64_t i : survey.Rejected)
+    {
+      this->Result.Rejected.push_back(this->Input.globalId(std::size_t(i)));
+    }
+    if (survey.IsCollinear)
+    {
+      this->sortOutOnly(survey.Bounds);
+    }
+    else
+    {
+      this->triangulate(survey);
+    }
+    this->restoreMagnitude(survey.Points.factor());
+    this->Figures.TotalSeconds = watch.seconds();
+    this->finish();
+  }
+
+private:
+  void numberPoints()
+  {
+    std::vector<std::int64_t> counts(static_cast<std::size_t>(this->Ranks.size()), 0);
+    counts[std::size_t(this->Ranks.rank())] = std::int64_t(this->Input.Points.size());
+    this->Ranks.sum(counts);
+    this->Input.FirstId =
+      std::accumulate(counts.begin(), counts.begin() + this->Ranks.rank(), std::int64_t(0));
+    this->Result.AllPoints = std::accumulate(counts.begin(), counts.end(), std::int64_t(0));
+  }
+
+  PlanInput planInput(const Survey& survey)
+  {
+    PlanInput input;
+    input.Domain = survey.Bounds;
+    input.Points = this->Result.AllPoints;
+    input.Ranks = this->Ranks.size();
+    input.Threads = this->Ranks.size() * this->Threads;
+    input.Sample = gatherSample(this->Ranks, this->Input.Points, this->Result.AllPoints,
+      wantedSample(input.Points, this->Options, input.Threads));
+    return input;
+  }
+
+  void triangulate(const Survey& survey)
+  {
+    const Stopwatch watch;
+    const PlanInput input = this->planInput(survey);
+    const bool first = this->Ranks.rank() == 0;
+    Plan plan = broadcastPlan(this->Ranks, first ? divide(input, this->Options) : Plan());
+    const PointExchange exchange(this->Input, plan.Leaves, this->Threads);
+    std::vector<std::int64_t> counts = exchange.counts();
+    this->Ranks.sum(counts);
+    if (!plan.IsAlone)
+    {
+      if (first)
+      {
+        assign(plan, input, counts, this->Options);
+      }
+      plan = broadcastPlan(this->Ranks, plan);
+    }
+    this->LocalCount = 0;
+    for (std::size_t leaf = 0; leaf < counts.size(); ++leaf)
+    {
+      this->LocalCount += plan.Owners[leaf] == this->Ranks.rank() ? counts[leaf] : 0;
+    }
+    // Room for the points of other ranks.
+    const bool fits = this->LocalCount < std::numeric_limits<std::int32_t>::max() / 2;
+    const bool done = fits ? this->triangulate<std::int32_t>(plan, exchange, counts, watch)
+                           : this->triangulate<std::int64_t>(plan, exchange, counts, watch);
+    if (!done)
+    {
+      this->triangulateAlone(survey.Bounds, watch);
+    }
+  }
+
+  /// False if partitions do not pay: nothing has been triangulated then.
+  template <typename Id>
+  bool triangulate(const Plan& plan, const PointExchange& exchange,
+    const std::vector<std::int64_t>& counts, const Stopwatch& watch)
+  {
+    OwnedPoints<Id> points = exchange.exchange<Id>(this->Ranks, plan.Owners);
+    this->Figures.ExchangeSeconds = watch.seconds();
+    this->Figures.OwnedPoints = std::int64_t(points.size());
+    if (plan.IsAlone)
+    {
+      this->triangulateOnFirst(points, plan.Leaves);
+      return true;
+    }
+    RankRun<Id> run(this->Ranks, plan, points, counts, this->Options, this->Threads);
+    run.Statistics = this->Figures;
+    run.run();
+    if (!run.PartitionsPay)
+    {
+      return false;
+    }
+    this->Figures = run.Statistics;
+    this->Masters = std::move(run.Masters);
+    this->Result.Statistics.Partitions = plan.Leaves.size();
+    this->Result.Statistics.MajorPartitions =
+      plan.Areas.front().hasLeaves() ? 0 : plan.Areas.front().Inner;
+    const Stopwatch collecting;
+    collect(this->Ranks, points, run.Kept, run.InteriorCounts, std::move(run.Duplicates),
+      plan.Leaves, this->Threads, this->Result);
+    this->Figures.CollectSeconds = collecting.seconds();
+    return true;
+  }
+
+  void triangulateAlone(const Box2& domain, const Stopwatch& watch)
+  {
+    const Plan plan = planAlone(domain);
+    const PointExchange exchange(this->Input, plan.Leaves, this->Threads);
+    OwnedPoints<std::int32_t> points = exchange.exchange<std::int32_t>(this->Ranks, plan.Owners);
+    this->Figures.ExchangeSeconds = watch.seconds();
+    this->Figures.OwnedPoints = std::int64_t(points.size());
+    this->triangulateOnFirst(points, plan.Leaves);
+  }
+
+  /// The first rank has all points.
+  template <typename Id>
+  void triangulateOnFirst(OwnedPoints<Id>& points, const Tiling& leaves)
+  {
+    const Stopwatch watch;
+    std::vector<std::size_t> interiorCounts(1, 0);
+    std::vector<Duplicate> duplicates;
+    if (points.size() > 0)
+    {
+      Worker<Id> worker(leaves, points.Buckets);
+      const double all = double(points.size());
+      const auto& progress = this->Options.Progress;
+      const bool done = worker.triangulateAlone(
+        [&](std::size_t inserted) { return !progress || progress(double(inserted) / all); });
+      if (!done)
+      {
+        throw RankFailure(this->Ranks.rank(), true, "The run was stopped.");
+      }
+      interiorCounts[0] = worker.interiorCount();
+      duplicates = worker.duplicates();
+      this->Figures.WorkerVertices = std::int64_t(worker.vertexCount());
+      this->Figures.Partitions = 1;
+    }
+    this->Figures.ComputeSeconds = watch.seconds();
+    this->Result.Statistics.Partitions = 1;
+    collect(this->Ranks, points, {}, interiorCounts, std::move(duplicates), leaves, this->Threads,
+      this->Result);
+  }
+
+  /// No triangles: only the duplicates are found.
+  void sortOutOnly(const Box2& bounds)
+  {
+    const Plan plan = planAlone(bounds);
+    const PointExchange exchange(this->Input, plan.Leaves, this->Threads);
+    OwnedPoints<std::int64_t> points = exchange.exchange<std::int64_t>(this->Ranks, plan.Owners);
+    const Point2* places = points.Places.data();
+    std::vector<Duplicate> duplicates =
+      sortOutDuplicates(PointsView(points.size() > 0 ? &places->x : nullptr, points.size(), 2));
+    collect(this->Ranks, points, {}, std::vector<std::size_t>(1, 0), std::move(duplicates),
+      plan.Leaves, this->Threads, this->Result);
+  }
+
+  void restoreMagnitude(double factor)
+  {
+    if (factor != 1)
+    {
+      for (Buffer<Point2>* places : { &this->Result.Owned.Places, &this->Result.Foreign.Places })
+      {
+        std::transform(places->begin(), places->end(), places->begin(),
+          [factor](Point2 p) { return Point2{ p.x / factor, p.y / factor }; });
+      }
+    }
+  }
+
+  void finish()
+  {
+    std::vector<std::int64_t> triangles(static_cast<std::size_t>(this->Ranks.size()) + 2, 0);
+    triangles[std::size_t(this->Ranks.rank())] = std::int64_t(this->Result.triangleCount());
+    triangles[triangles.size() - 2] = std::int64_t(this->Result.Duplicates.size());
+    triangles.back() = std::int64_t(this->Result.Rejected.size());
+    this->Ranks.sum(triangles);
+    const auto end = triangles.end() - 2;
+    this->Result.FirstTriangle = std::accumulate(
+      triangles.begin(), triangles.begin() + this->Ranks.rank(), std::int64_t(0));
+    this->Result.AllTriangles = std::accumulate(triangles.begin(), end, std::int64_t(0));
+    this->Result.AllDuplicates = *end;
+    this->Result.AllRejected = triangles.back();
+    this->Figures.Triangles = std::int64_t(this->Result.triangleCount());
+    this->Figures.SendSeconds = this->Ranks.sendingSeconds();
+    DistributedStatistics& statistics = this->Result.Statistics;
+    const std::int64_t partitions = statistics.Partitions;
+    const std::int64_t majors = statistics.MajorPartitions;
+    statistics = gatherStatistics(this->Ranks, this->Figures, this->Masters);
+    statistics.Partitions = partitions;
+    statistics.MajorPartitions = majors;
+    statistics.ThreadsPerRank = this->Threads;
+  }
+
+  Postbox& Ranks;
+  RankPoints Input;
+  const DistributedOptions& Options;
+  DistributedTriangulation& Result;
+  const int Threads;
+  std::int64_t LocalCount = 0;
+  RankStatistics Figures;
+  std::vector<MasterStatistics> Masters;
+};
+
+} // namespace
+
+DistributedTriangulation triangulateDistributed(
+  Postbox& ranks, const RankPoints& points, const DistributedOptions& options)
+{
+  DistributedTriangulation result;
+  try
+  {
+    ranks.together([&]() { DistributedRun(ranks, points, options, result).run(); });
+  }
+  catch (const RankFailure& failure)
+  {
+    if (!failure.Aborted)
+    {
+      throw;
+    }
+    result = DistributedTriangulation();
+    result.Aborted = true;
+  }
+  return result;
+}
+
+} // namespace tipp

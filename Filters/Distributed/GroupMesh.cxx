@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/GroupMesh.h"
+
+#include <algorithm>
+
+namespace tipp
+{
+
+GroupMesh::GroupMesh(PartitionIndex partitions, const std::vector<PartitionIndex>& withPoints)
+  : Members(static_cast<std::size_t>(partitions))
+  , Finished(static_cast<std::size_t>(partitions), 1)
+  , LabelSeen(4 * static_cast<std::size_t>(partitions), 0)
+{
+  for (const PartitionIndex p : withPoints)
+  {
+    this->Finished[std::size_t(p)] = 0;
+  }
+}
+
+GroupMesh::Final GroupMesh::add(SeamGroups added)
+{
+  const auto piece = std::make_shared<Piece>();
+  piece->Groups = std::make_shared<const SeamGroups>(std::move(added));
+  const SeamGroups& groups = *piece->Groups;
+  piece->Alive.assign(groups.size(), 0);
+  Final final{ piece->Groups, {} };
+  for (std::uint32_t g = 0; g < groups.size(); ++g)
+  {
+    for (const PartitionIndex p : groups.met(g))
+    {
+      if (!this->Finished[std::size_t(p)])
+      {
+        Membership& members = this->Members[std::size_t(p)];
+        members.References.push_back({ piece, g });
+        members.ReachIsCurrent = false;
+        piece->Alive[g] = 1;
+      }
+    }
+    if (piece->Alive[g])
+    {
+      this->Live += groups.triangles(g).size();
+    }
+    else
+    {
+      final.Indices.push_back(g);
+    }
+  }
+  return final;
+}
+
+void GroupMesh::finish(PartitionIndex partition)
+{
+  Membership& members = this->Members[std::size_t(partition)];
+  for (const Reference& reference : members.References)
+  {
+    if (reference.isAlive())
+    {
+      reference.Of->Alive[reference.Group] = 0;
+      this->Live -= reference.Of->Groups->triangles(reference.Group).size();
+    }
+  }
+  members = Membership();
+  this->Finished[std::size_t(partition)] = 1;
+}
+
+void GroupMesh::gather(PartitionIndex partition, std::vector<PlainVertex>& vertices) const
+{
+  vertices.clear();
+  for (const Reference& reference : this->Members[std::size_t(partition)].References)
+  {
+    if (reference.isAlive())
+    {
+      const auto added = reference.Of->Groups->vertices(reference.Group);
+      vertices.insert(vertices.end(), added.begin(), added.end());
+    }
+  }
+}
+
+const std::vector<std::uint32_t>& GroupMesh::reach(PartitionIndex partition)
+{
+  Membership& members = this->Members[std::size_t(partition)];
+  if (members.ReachIsCurrent)
+  {
+    return members.Reach;
+  }
+  members.ReachIsCurrent = true;
+  members.Reach.clear();
+  ++this->Epoch;
+  members.References.erase(std::remove_if(members.References.begin(), members.References.end(),
+                             [](const Reference& reference) { return !reference.isAlive(); }),
+    members.References.end());
+  for (const Reference& reference : members.References)
+  {
+    for (const std::uint32_t label : reference.Of->Groups->labels(reference.Group))
+    {
+      if (this->LabelSeen[label] != this->Epoch)
+      {
+        this->LabelSeen[label] = this->Epoch;
+        members.Reach.push_back(label);
+      }
+    }
+  }
+  return members.Reach;
+}
+
+} // namespace tipp

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippGroupMesh_h
+#define tippGroupMesh_h
+
+#include "Distributed/SeamGroups.h"
+
+#include <memory>
+#include <vector>
+
+namespace tipp
+{
+
+/// A master's mesh: the groups of triangles whose circumdisks meet an unfinished partition. What
+/// SeamMesh is to threads, but its unit is the group, as it came from a worker.
+class GroupMesh : public ReachSource
+{
+public:
+  /// Partitions without points are finished from the start.
+  GroupMesh(PartitionIndex partitions, const std::vector<PartitionIndex>& withPoints);
+
+  /// Groups whose partitions are all finished, and what holds them.
+  struct Final
+  {
+    std::shared_ptr<const SeamGroups> Groups;
+    std::vector<std::uint32_t> Indices;
+  };
+
+  /// Takes groups in, and tells those that are final.
+  Final add(SeamGroups groups);
+
+  /// The partition's triangles are superseded by its worker's, which are to be added next.
+  void finish(PartitionIndex partition);
+
+  /// The vertices of the partition's triangles; one may come once for each of its groups.
+  void gather(PartitionIndex partition, std::vector<PlainVertex>& vertices) const;
+
+  const std::vector<std::uint32_t>& reach(PartitionIndex partition) override;
+  PartitionIndex partitions() const override
+  {
+    return static_cast<PartitionIndex>(this->Members.size());
+  }
+
+  /// Triangles that are not final.
+  std::size_t size() const { return this->Live; }
+
+private:
+  struct Piece
+  {
+    std::shared_ptr<const SeamGroups> Groups;
+    std::vector<char> Alive; ///< of each group
+  };
+  struct Reference
+  {
+    std::shared_ptr<Piece> Of;
+    std::uint32_t Group;
+    bool isAlive() const { return this->Of->Alive[this->Group] != 0; }
+  };
+  struct Membership
+  {
+    std::vector<Reference> References; ///< some of which may be superseded
+    std::vector<std::uint32_t> Reach;
+    bool ReachIsCurrent = false;
+  };
+
+  std::vector<Membership> Members;
+  std::vector<char> Finished;
+  std::vector<std::uint64_t> LabelSeen; ///< the epoch in which reach() last met each label
+  std::uint64_t Epoch = 0;
+  std::size_t Live = 0;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/MajorStages.h"
+
+#include "Triangulation/IndependentPartitions.h"
+#include "Triangulation/InitialMesh.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace tipp
+{
+namespace
+{
+
+using Ranks = std::vector<std::int32_t>;
+
+/// Of each major partition some points of the sample.
+std::vector<SeamVertex> chooseVertices(const Tiling& majors, const std::vector<Point2>& sample)
+{
+  constexpr int perMajor = 8;
+  std::vector<int> taken(static_cast<std::size_t>(majors.size()), 0);
+  std::vector<SeamVertex> vertices;
+  for (const Point2& p : sample)
+  {
+    const PartitionIndex major = majors.locate(p);
+    if (taken[std::size_t(major)]++ < perMajor)
+    {
+      vertices.push_back(makeSeamVertex(majors, major, p, std::int64_t(vertices.size())));
+    }
+  }
+  return vertices;
+}
+
+/// So many of the ranks to each, at least one, in proportion to the weights: largest remainders.
+std::vector<std::size_t> groupSizes(const std::vector<double>& weights, std::size_t ranks)
+{
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  std::vector<std::size_t> sizes(weights.size(), 1);
+  std::size_t left = ranks - weights.size();
+  while (left > 0)
+  {
+    std::size_t neediest = 0;
+    double most = -1e300;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+    {
+      const double missing = weights[i] / total * double(ranks) - double(sizes[i]);
+      if (missing > most)
+      {
+        most = missing;
+        neediest = i;
+      }
+    }
+    ++sizes[neediest];
+    --left;
+  }
+  return sizes;
+}
+
+} // namespace
+
+std::vector<std::vector<PartitionIndex>> predictStages(const Tiling& majors,
+  const std::vector<Point2>& sample, const std::vector<std::int64_t>& majorCounts)
+{
+  std::vector<PartitionIndex> withPoints;
+  for (PartitionIndex p = 0; p < majors.size(); ++p)
+  {
+    if (majorCounts[std::size_t(p)] > 0)
+    {
+      withPoints.push_back(p);
+    }
+  }
+  std::vector<SeamVertex> vertices = chooseVertices(majors, sample);
+  const std::vector<SeamVertex> artificial = makeArtificialPoints(majors);
+  vertices.insert(vertices.end(), artificial.begin(), artificial.end());
+  SeamMesh mesh(majors.size());
+  std::vector<SeamTriangle> final;
+  mesh.add(triangulateVertices(majors, vertices, 1), final);
+  IndependentPartitions waiting(mesh, withPoints);
+  std::vector<std::vector<PartitionIndex>> stages;
+  while (!waiting.isEmpty())
+  {
+    stages.push_back(waiting.nextStage());
+    for (const PartitionIndex p : stages.back())
+    {
+      waiting.deactivate(p);
+    }
+  }
+  return stages;
+}
+
+std::vector<Ranks> formGroups(const std::vector<std::vector<PartitionIndex>>& stages,
+  const std::vector<std::int64_t>& majorCounts, const Ranks& ranks,
+  const DistributedOptions& options)
+{
+  const bool equal = options.Groups == GroupSizes::Equal;
+  std::vector<Ranks> groups(majorCounts.size(), Ranks{ ranks.front() });
+  std::vector<double> load(ranks.size(), 0);
+  for (const std::vector<PartitionIndex>& active : stages)
+  {
+    std::vector<PartitionIndex> stage = active;
+    const auto count = [&](PartitionIndex p) { return majorCounts[std::size_t(p)]; };
+    if (stage.size() >= ranks.size())
+    {
+      std::sort(stage.begin(), stage.end());
+      if (!equal)
+      {
+        std::stable_sort(stage.begin(), stage.end(),
+          [&](PartitionIndex a, PartitionIndex b) { return count(a) > count(b); });
+      }
+      for (std::size_t i = 0; i < stage.size(); ++i)
+      {
+        const std::size_t rank = equal
+          ? i * ranks.size() / stage.size()
+          : std::size_t(std::min_element(load.begin(), load.end()) - load.begin());
+        groups[std::size_t(stage[i])] = { ranks[rank] };
+        load[rank] += double(count(stage[i]));
+      }
+      continue;
+    }
+    std::vector<double> weights;
+    for (const PartitionIndex p : stage)
+    {
+      weights.push_back(equal ? 1.0 : double(count(p)));
+    }
+    const std::vector<std::size_t> sizes = groupSizes(weights, ranks.size());
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < stage.size(); ++i)
+    {
+      Ranks& group = groups[std::size_t(stage[i])];
+      group.assign(ranks.begin() + std::ptrdiff_t(next),
+        ranks.begin() + std::ptrdiff_t(next + sizes[i]));
+      for (std::size_t k = 0; k < sizes[i]; ++k)
+      {
+        load[next + k] += double(count(stage[i])) / double(sizes[i]);
+      }
+      next += sizes[i];
+    }
+  }
+  return groups;
+}
+
+} // namespace tipp

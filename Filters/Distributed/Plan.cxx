@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/Plan.h"
+
+#include "Distributed/MajorStages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr std::int64_t BestPoints = 49152; // of a partition: workers are fastest with
+constexpr std::size_t SamplesPerPartition = 64;
+
+/// Enough ranks for one master to be a bottleneck.
+bool wantsManyMasters(const DistributedOptions& options, int ranks)
+{
+  constexpr int manyRanks = 16;
+  return options.Design == Masters::Multi ||
+    (options.Design == Masters::Auto && (options.Major.isGiven() || ranks >= manyRanks));
+}
+
+std::int64_t threshold(std::int64_t points, const DistributedOptions& options, int threads)
+{
+  constexpr std::int64_t smallest = 4096;
+  constexpr std::int64_t perThread = 8;
+  if (options.Threshold > 0)
+  {
+    return options.Threshold;
+  }
+  return std::clamp(points / (perThread * threads), smallest, BestPoints);
+}
+
+int partsFor(double points, std::int64_t perPart)
+{
+  constexpr double most = 1 << 24;
+  return static_cast<int>(std::clamp(std::ceil(points / double(perPart)), 1.0, most));
+}
+
+/// One box's partitions; `points` of the domain's lie in it.
+Tiling divideBox(const Box2& box, std::vector<Point2> sample, double points, std::int64_t perPart,
+  const DistributedOptions& options)
+{
+  if (options.MinorDivision == Division::Grid && options.Minor.isGiven())
+  {
+    return Tiling::grid(box, options.Minor.Columns, options.Minor.Rows);
+  }
+  if (options.MinorDivision == Division::Threshold)
+  {
+    constexpr double most = 4096;
+    const int side = int(std::clamp(std::ceil(std::sqrt(points / double(perPart))), 1.0, most));
+    return Tiling::grid(box, side, side);
+  }
+  return Tiling::balanced(box, std::move(sample), partsFor(points, perPart));
+}
+
+/// Groups of some ranks each, several major partitions to a group.
+int chooseMajors(int ranks)
+{
+  constexpr int fewest = 16;
+  return std::max(fewest, 2 * ranks);
+}
+
+std::vector<std::vector<Point2>> samplesByBox(const Tiling& tiling, const std::vector<Point2>& all)
+{
+  std::vector<std::vector<Point2>> samples(static_cast<std::size_t>(tiling.size()));
+  for (const Point2& p : all)
+  {
+    samples[std::size_t(tiling.locate(p))].push_back(p);
+  }
+  return samples;
+}
+
+/// Consecutive shares of the weights, as equal as they go: the part that each item belongs to.
+std::vector<std::int32_t> shareOut(const std::vector<double>& weights, std::size_t parts)
+{
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  std::vector<std::int32_t> shares;
+  double before = 0;
+  for (const double weight : weights)
+  {
+    const double middle = before + weight / 2;
+    const double part = total > 0 ? middle / total * double(parts) : 0;
+    shares.push_back(std::min(std::int32_t(part), std::int32_t(parts) - 1));
+    before += weight;
+  }
+  return shares;
+}
+
+/// What a partition counts when they are shared out.
+std::vector<double> weightsOf(
+  const std::int64_t* begin, const std::int64_t* end, const DistributedOptions& options)
+{
+  std::vector<double> weights;
+  for (const std::int64_t* count = begin; count != end; ++count)
+  {
+    weights.push_back(options.Groups == GroupSizes::Equal ? 1.0 : double(*count));
+  }
+  return weights;
+}
+
+void writeArea(const Area& area, ByteWriter& writer)
+{
+  writer.array(area.Boxes.save());
+  writer.value(area.Inner);
+  writer.value(area.FirstLeaf);
+  writer.array(area.Children);
+  writer.value(std::uint64_t(area.Homes.size()));
+  for (const auto& home : area.Homes)
+  {
+    writer.array(home);
+  }
+  writer.array(area.HomeOf);
+  writer.value(area.Lead);
+}
+
+Area readArea(ByteReader& reader)
+{
+  Area area;
+  area.Boxes = Tiling::load(reader.array<char>());
+  area.Inner = reader.value<PartitionIndex>();
+  area.FirstLeaf = reader.value<PartitionIndex>();
+  reader.array(area.Children);
+  for (std::uint64_t homes = reader.value<std::uint64_t>(); homes > 0; --homes)
+  {
+    area.Homes.push_back(reader.array<std::int32_t>());
+  }
+  reader.array(area.HomeOf);
+  area.Lead = reader.value<std::int32_t>();
+  return area;
+}
+
+/// The leaves of an area, shared out to a group of ranks.
+void assignLeaves(Plan& plan, Area& area, const std::vector<std::int32_t>& group,
+  const std::vector<std::int64_t>& leafCounts, const DistributedOptions& options)
+{
+  const std::int64_t* counts = leafCounts.data() + area.FirstLeaf;
+  area.HomeOf = shareOut(weightsOf(counts, counts + area.Inner, options), group.size());
+  area.Homes.clear();
+  for (const std::int32_t rank : group)
+  {
+    area.Homes.push_back({ rank });
+  }
+  area.Lead = group.front();
+  for (PartitionIndex p = 0; p < area.Inner; ++p)
+  {
+    plan.Owners[std::size_t(area.FirstLeaf + p)] = group[std::size_t(area.HomeOf[std::size_t(p)])];
+  }
+}
+
+} // namespace
+
+void Plan::write(ByteWriter& writer) const
+{
+  writer.value(std::uint64_t(this->Areas.size()));
+  for (const Area& area : this->Areas)
+  {
+    writeArea(area, writer);
+  }
+  writer.array(this->Leaves.save());
+  writer.array(this->Owners);
+  writer.value(char(this->IsAlone));
+}
+
+Plan Plan::read(ByteReader& reader)
+{
+  Plan plan;
+  for (std::uint64_t areas = reader.value<std::uint64_t>(); areas > 0; --areas)
+  {
+    plan.Areas.push_back(readArea(reader));
+  }
+  plan.Leaves = Tiling::load(reader.array<char>());
+  reader.array(plan.Owners);
+  plan.IsAlone = reader.value<char>() != 0;
+  return plan;
+}
+
+std::size_t wantedSample(std::int64_t points, const DistributedOptions& options, int threads)
+{
+  const std::int64_t perPart = threshold(points, options, threads);
+  const std::size_t parts = std::size_t(partsFor(double(points), perPart));
+  return SamplesPerPartition *
+    std::clamp(std::max(parts, std::size_t(options.Major.size())), std::size_t(16),
+      std::size_t(1) << 16);
+}
+
+Plan planAlone(const Box2& domain)
+{
+  Plan plan;
+  plan.IsAlone = true;
+  plan.Leaves = Tiling::grid(domain, 1, 1);
+  plan.Owners = { 0 };
+  Area top;
+  top.Boxes = plan.Leaves;
+  top.Inner = 1;
+  top.Homes = { { 0 } };
+  top.HomeOf = { 0 };
+  plan.Areas.push_back(top);
+  return plan;
+}
+
+Plan divide(const PlanInput& input, const DistributedOptions& options)
+{
+  constexpr std::int64_t alone = 4096;
+  const bool gridded =
+    options.Major.isGiven() || options.Minor.isGiven() || options.Threshold > 0;
+  if (input.Points <= alone && !gridded)
+  {
+    return planAlone(input.Domain);
+  }
+  const std::int64_t perPart = threshold(input.Points, options, input.Threads);
+  Plan plan;
+  plan.Areas.resize(1);
+  Area& top = plan.Areas.front();
+  if (!wantsManyMasters(options, input.Ranks))
+  {
+    top.Boxes =
+      divideBox(input.Domain, input.Sample, double(input.Points), perPart, options);
+    top.Inner = top.Boxes.size();
+    plan.Leaves = top.Boxes;
+    return top.Inner > 1 ? plan : planAlone(input.Domain);
+  }
+  top.Boxes = options.Major.isGiven()
+    ? Tiling::grid(input.Domain, options.Major.Columns, options.Major.Rows)
+    : Tiling::balanced(input.Domain, input.Sample, chooseMajors(input.Ranks));
+  top.Inner = top.Boxes.size();
+  auto samples = samplesByBox(top.Boxes, input.Sample);
+  const double pointsPerSample =
+    double(input.Points) / double(std::max(input.Sample.size(), std::size_t(1)));
+  std::vector<Tiling> inner;
+  std::vector<Area> areas;
+  PartitionIndex leaf = 0;
+  for (PartitionIndex p = 0; p < top.Inner; ++p)
+  {
+    std::vector<Point2>& sample = samples[std::size_t(p)];
+    const double points = double(sample.size()) * pointsPerSample;
+    inner.push_back(
+      divideBox(top.Boxes.box(p), std::move(sample), points, perPart, options));
+    Area area;
+    area.Boxes = Tiling::around(input.Domain, inner.back());
+    area.Inner = inner.back().size();
+    area.FirstLeaf = leaf;
+    leaf += area.Inner;
+    top.Children.push_back(p + 1);
+    areas.push_back(std::move(area));
+  }
+  plan.Leaves = top.Boxes.refined(inner);
+  plan.Areas.insert(plan.Areas.end(), std::make_move_iterator(areas.begin()),
+    std::make_move_iterator(areas.end()));
+  return plan.Leaves.size() > 1 ? plan : planAlone(input.Domain);
+}
+
+void assign(Plan& plan, const PlanInput& input, const std::vector<std::int64_t>& leafCounts,
+  const DistributedOptions& options)
+{
+  plan.Owners.assign(static_cast<std::size_t>(plan.Leaves.size()), 0);
+  std::vector<std::int32_t> all(static_cast<std::size_t>(input.Ranks));
+  std::iota(all.begin(), all.end(), 0);
+  Area& top = plan.Areas.front();
+  if (top.hasLeaves())
+  {
+    // Beside many ranks the first one is the master alone.
+    constexpr int masterAlone = 32;
+    if (input.Ranks >= masterAlone)
+    {
+      all.erase(all.begin());
+    }
+    assignLeaves(plan, top, all, leafCounts, options);
+    top.Lead = 0;
+    return;
+  }
+  std::vector<std::int64_t> majorCounts;
+  for (const std::int32_t child : top.Children)
+  {
+    const Area& area = plan.Areas[std::size_t(child)];
+    const auto begin = leafCounts.begin() + area.FirstLeaf;
+    majorCounts.push_back(std::accumulate(begin, begin + area.Inner, std::int64_t(0)));
+  }
+  const auto groups =
+    formGroups(predictStages(top.Boxes, input.Sample, majorCounts), majorCounts, all, options);
+  std::map<std::vector<std::int32_t>, std::int32_t> homes;
+  top.HomeOf.assign(std::size_t(top.Inner), 0);
+  top.Homes.clear();
+  for (PartitionIndex p = 0; p < top.Inner; ++p)
+  {
+    const std::vector<std::int32_t>& group = groups[std::size_t(p)];
+    const auto place = homes.emplace(group, std::int32_t(homes.size()));
+    if (place.second)
+    {
+      top.Homes.push_back(group);
+    }
+    top.HomeOf[std::size_t(p)] = place.first->second;
+    assignLeaves(plan, plan.Areas[std::size_t(top.Children[std::size_t(p)])], group, leafCounts,
+      options);
+  }
+  top.Lead = 0;
+}
+
+} // namespace tipp

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippBytes_h
+#define tippBytes_h
+
+#include "Triangulation/Buffer.h"
+
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace tipp
+{
+
+using Bytes = Buffer<char>;
+
+/// Puts values and arrays of them one after the other.
+class ByteWriter
+{
+public:
+  template <typename T>
+  void value(const T& v)
+  {
+    static_assert(std::is_trivially_copyable<T>::value, "values are copied byte by byte");
+    this->raw(&v, sizeof(T));
+  }
+
+  /// The count, then the values.
+  template <typename T>
+  void array(const T* values, std::size_t count)
+  {
+    static_assert(std::is_trivially_copyable<T>::value, "values are copied byte by byte");
+    this->value(std::uint64_t(count));
+    this->raw(values, count * sizeof(T));
+  }
+  template <typename T>
+  void array(const std::vector<T>& values)
+  {
+    this->array(values.data(), values.size());
+  }
+  void text(const std::string& s) { this->array(s.data(), s.size()); }
+
+  void raw(const void* data, std::size_t size)
+  {
+    const char* begin = static_cast<const char*>(data);
+    this->Written.insert(this->Written.end(), begin, begin + size);
+  }
+
+  std::size_t size() const { return this->Written.size(); }
+
+  Bytes take()
+  {
+    Bytes bytes(this->Written.size());
+    if (!this->Written.empty())
+    {
+      std::memcpy(bytes.data(), this->Written.data(), this->Written.size());
+    }
+    this->Written.clear();
+    return bytes;
+  }
+
+private:
+  std::vector<char> Written;
+};
+
+/// Reads what a ByteWriter wrote; throws std::runtime_error rather than read beyond the end.
+class ByteReader
+{
+public:
+  ByteReader(const char* data, std::size_t size)
+    : At(data)
+    , End(data + size)
+  {
+  }
+  explicit ByteReader(const Bytes& bytes)
+    : ByteReader(bytes.data(), bytes.size())
+  {
+  }
+
+  template <typename T>
+  T value()
+  {
+    T v;
+    std::memcpy(&v, this->raw(sizeof(T)), sizeof(T));
+    return v;
+  }
+
+  template <typename T>
+  std::vector<T> array()
+  {
+    std::vector<T> values;
+    this->array(values);
+    return values;
+  }
+  template <typename T>
+  void array(std::vector<T>& values)
+  {
+    const std::uint64_t count = this->value<std::uint64_t>();
+    if (count > this->left() / sizeof(T))
+    {
+      throw std::runtime_error("A message from another rank is damaged: an array ends early.");
+    }
+    values.resize(count);
+    const char* from = this->raw(count * sizeof(T));
+    if (count > 0)
+    {
+      std::memcpy(values.data(), from, count * sizeof(T));
+    }
+  }
+  std::string text()
+  {
+    const std::vector<char> letters = this->array<char>();
+    return std::string(letters.begin(), letters.end());
+  }
+
+  const char* raw(std::size_t size)
+  {
+    if (size > this->left())
+    {
+      throw std::runtime_error("A message from another rank is damaged: it ends early.");
+    }
+    const char* begin = this->At;
+    this->At += size;
+    return begin;
+  }
+
+  std::size_t left() const { return static_cast<std::size_t>(this->End - this->At); }
+
+private:
+  const char* At;
+  const char* End;
+};
+
+} // namespace tipp
+
+#endif

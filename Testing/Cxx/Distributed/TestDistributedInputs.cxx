@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Any rank may hold any points.
+#include "DistributedTesting.h"
+
+#include "vtkMultiProcessController.h"
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+
+DistributedOptions manyPartitions(Masters design)
+{
+  DistributedOptions options;
+  options.Design = design;
+  options.Threshold = 80;
+  options.Threads = 1;
+  return options;
+}
+
+void expectReference(const std::string& set, std::size_t count, Share share)
+{
+  const Coordinates xy = makePointSet(set, count);
+  for (const Masters design : { Masters::Single, Masters::Multi })
+  {
+    const Gathered result = triangulateShares(xy, share, manyPartitions(design));
+    if (rank() == 0)
+    {
+      Reference expected = reference(xy);
+      if (share == Share::Copies)
+      {
+        // Each copy but one of every point is a duplicate of a point with the same global id.
+        EXPECT_TRUE(result.Mesh == expected.Mesh);
+        continue;
+      }
+      EXPECT_TRUE(matches(xy, result, expected)) << nameOf(share);
+    }
+  }
+}
+
+TEST(DistributedInputs, AllPointsOnOneRank)
+{
+  expectReference("uniform", 3000, Share::AllOnLast);
+}
+
+TEST(DistributedInputs, UnevenShares)
+{
+  expectReference("clustered", 3000, Share::Uneven);
+}
+
+TEST(DistributedInputs, ConsecutiveBlocks)
+{
+  expectReference("coast", 3000, Share::Blocks);
+}
+
+TEST(DistributedInputs, DuplicatesOverRanks)
+{
+  expectReference("duplicate-lattice", 3000, Share::RoundRobin);
+}
+
+TEST(DistributedInputs, EveryRankHasAllPoints)
+{
+  expectReference("uniform", 1000, Share::Copies);
+}
+
+TEST(DistributedInputs, FewerPointsThanRanks)
+{
+  expectReference("uniform", 3, Share::RoundRobin);
+  expectReference("uniform", 2, Share::RoundRobin);
+}
+
+TEST(DistributedInputs, NoPointsAtAll)
+{
+  const Gathered result = triangulateShares({}, Share::RoundRobin, {});
+  EXPECT_TRUE(result.Mesh.empty());
+}
+
+TEST(DistributedInputs, CollinearPointsGiveDuplicatesOnly)
+{
+  Coordinates xy;
+  for (int i = 0; i < 40; ++i)
+  {
+    xy.insert(xy.end(), { double(i % 20), 2.0 * (i % 20) });
+  }
+  const Gathered result = triangulateShares(xy, Share::RoundRobin, {});
+  if (rank() == 0)
+  {
+    EXPECT_TRUE(result.Mesh.empty());
+    ASSERT_EQ(result.Duplicates.size(), 20u);
+    EXPECT_EQ(result.Duplicates[0].Point, 20);
+    EXPECT_EQ(result.Duplicates[0].Representative, 0);
+  }
+}
+
+TEST(DistributedInputs, HugeAndTinyCoordinates)
+{
+  expectReference("huge-1e300", 1500, Share::RoundRobin);
+  expectReference("tiny-1e-300", 1500, Share::RoundRobin);
+}
+
+TEST(DistributedInputs, PartitionsThatDoNotPay)
+{
+  expectReference("circle", 6000, Share::RoundRobin);
+}
+
+TEST(DistributedInputs, RowsTravelWithTheirPoints)
+{
+  const Coordinates xy = makePointSet("uniform", 2000);
+  Postbox box(vtkMultiProcessController::GetGlobalController());
+  const RankShare mine = shareOf(xy, Share::RoundRobin, box.rank(), box.size());
+  RankPoints points;
+  points.Points = PointsView(mine.XY.data(), mine.GlobalIds.size(), 2);
+  points.GlobalIds = mine.GlobalIds.data();
+  points.RowSize = sizeof(PointId) + 1;
+  points.PackRow = [&](std::size_t i, char* to)
+  {
+    const PointId value = 7 * mine.GlobalIds[i];
+    std::memcpy(to, &value, sizeof(value));
+    to[sizeof(value)] = 'x';
+  };
+  const auto result = triangulateDistributed(box, points, manyPartitions(Masters::Single));
+  for (const PointTuples* tuples : { &result.Owned, &result.Foreign })
+  {
+    for (std::size_t i = 0; i < tuples->size(); ++i)
+    {
+      PointId value = 0;
+      const char* row = tuples->Rows.data() + i * points.RowSize;
+      std::memcpy(&value, row, sizeof(value));
+      ASSERT_EQ(value, 7 * tuples->GlobalIds[i]);
+      ASSERT_EQ(row[sizeof(value)], 'x');
+    }
+  }
+}
+
+TEST(DistributedInputs, GlobalIdsAreCountedOverRanksWhenNoneAreGiven)
+{
+  Postbox box(vtkMultiProcessController::GetGlobalController());
+  const Coordinates xy = makePointSet("uniform", 500, std::uint64_t(box.rank()) + 1);
+  RankPoints points;
+  points.Points = PointsView(xy.data(), xy.size() / 2, 2);
+  const auto result = triangulateDistributed(box, points, {});
+  std::vector<std::int64_t> seen(500 * std::size_t(box.size()), 0);
+  for (const PointId id : result.Owned.GlobalIds)
+  {
+    ++seen.at(std::size_t(id));
+  }
+  box.sum(seen);
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), std::ptrdiff_t(seen.size()));
+}
+
+TEST(DistributedInputs, StoppingOneRankStopsAll)
+{
+  const Coordinates xy = makePointSet("uniform", 20000);
+  Postbox box(vtkMultiProcessController::GetGlobalController());
+  const RankShare mine = shareOf(xy, Share::RoundRobin, box.rank(), box.size());
+  RankPoints points;
+  points.Points = PointsView(mine.XY.data(), mine.GlobalIds.size(), 2);
+  DistributedOptions options = manyPartitions(Masters::Single);
+  options.Progress = [&](double) { return box.rank() != box.size() - 1; };
+  const auto result = triangulateDistributed(box, points, options);
+  EXPECT_TRUE(result.Aborted);
+  EXPECT_EQ(result.triangleCount(), 0u);
+}
+
+TEST(DistributedInputs, AFailureOnOneRankIsEveryRanks)
+{
+  const Coordinates xy = makePointSet("uniform", 20000);
+  const auto run = [&](bool fails)
+  {
+    Postbox box(vtkMultiProcessController::GetGlobalController());
+    const RankShare mine = shareOf(xy, Share::RoundRobin, box.rank(), box.size());
+    RankPoints points;
+    points.Points = PointsView(mine.XY.data(), mine.GlobalIds.size(), 2);
+    DistributedOptions options = manyPartitions(Masters::Multi);
+    options.Progress = [&](double) -> bool
+    {
+      if (fails && box.rank() == box.size() - 1)
+      {
+        throw std::runtime_error("the disk is on fire");
+      }
+      return true;
+    };
+    return triangulateDistributed(box, points, options).AllTriangles;
+  };
+  try
+  {
+    run(true);
+    FAIL() << "nothing was thrown";
+  }
+  catch (const RankFailure& failure)
+  {
+    EXPECT_STREQ(failure.what(), "the disk is on fire");
+    EXPECT_EQ(failure.Rank, ranks() - 1);
+  }
+  // Nothing is left behind: the next run is a good one.
+  EXPECT_GT(run(false), 0);
+}
+
+} // namespace

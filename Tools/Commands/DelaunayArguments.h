@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippDelaunayArguments_h
+#define tippDelaunayArguments_h
+
+#include "Distributed/DistributedOptions.h"
+#include "Points/ReadPoints.h"
+
+#include <optional>
+#include <string>
+
+namespace tipp
+{
+
+/// What `tipp delaunay` was asked for.
+struct DelaunayArguments
+{
+  std::string Input;
+  std::string Output;
+  PointOptions Columns;
+  int Threads = 0;
+  std::string Partitions = "auto";
+  std::string Order = "dynamic";
+  std::string Masters = "auto";
+  std::string Major = "auto";
+  std::string Minor = "auto";
+  std::string Groups = "proportional";
+  int InitialPoints = 0;
+  bool MapDuplicates = false;
+  std::string Statistics;
+
+  /// Something is asked for that only masters and workers have; one rank can be all of them.
+  bool isForRanks() const
+  {
+    return this->Masters != "auto" || this->Major != "auto" || this->Minor != "auto";
+  }
+};
+
+/// "auto" is a grid of no columns and rows; nothing if the text is neither that nor a grid.
+std::optional<GridSize> parseGrid(const std::string& text);
+
+struct MinorChoice
+{
+  Division Kind = Division::Tree;
+  GridSize Grid;
+  std::int64_t Threshold = 0;
+};
+std::optional<MinorChoice> parseMinor(const std::string& text);
+
+DistributedOptions makeDistributedOptions(const DelaunayArguments& arguments);
+
+} // namespace tipp
+
+#endif

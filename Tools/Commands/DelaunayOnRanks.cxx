@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/DelaunayOnRanks.h"
+
+#include "Commands/Commands.h"
+#include "Commands/DelaunayOutput.h"
+#include "Commands/DelaunayStatistics.h"
+#include "Console/Interrupt.h"
+#include "Console/ProgressBar.h"
+#include "Distributed/DistributedTriangulation.h"
+#include "Messages/Postbox.h"
+#include "Triangulation/Stopwatch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+namespace tipp
+{
+namespace
+{
+
+/// All ranks' triangles and duplicates by global ids, on the first rank.
+Triangulation gatherTriangles(Postbox& ranks, const DistributedTriangulation& mine)
+{
+  const std::int64_t own = std::int64_t(mine.Owned.size());
+  Bytes ids(mine.triangleCount() * 3 * sizeof(std::int64_t));
+  const auto fill = [&](const auto& places)
+  {
+    auto* to = reinterpret_cast<std::int64_t*>(ids.data());
+    for (const std::int64_t place : places)
+    {
+      *to++ = place < own ? mine.Owned.GlobalIds[std::size_t(place)]
+                          : mine.Foreign.GlobalIds[std::size_t(place - own)];
+    }
+  };
+  mine.Ids32.empty() ? fill(mine.Ids64) : fill(mine.Ids32);
+  const std::vector<Bytes> all = ranks.gather(std::move(ids));
+  ByteWriter writer;
+  writer.array(mine.Duplicates);
+  writer.array(mine.Rejected);
+  Triangulation result;
+  result.Ids64 = Buffer<std::int64_t>(ranks.rank() == 0 ? std::size_t(3 * mine.AllTriangles) : 0);
+  auto* to = reinterpret_cast<char*>(result.Ids64.data());
+  for (const Bytes& part : all)
+  {
+    to = std::copy(part.begin(), part.end(), to);
+  }
+  for (const Bytes& part : ranks.gather(writer.take()))
+  {
+    ByteReader reader(part);
+    const auto duplicates = reader.array<Duplicate>();
+    const auto rejected = reader.array<PointId>();
+    result.Duplicates.insert(result.Duplicates.end(), duplicates.begin(), duplicates.end());
+    result.Rejected.insert(result.Rejected.end(), rejected.begin(), rejected.end());
+  }
+  std::sort(result.Duplicates.begin(), result.Duplicates.end(),
+    [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
+  return result;
+}
+
+/// A finished file or none: the first rank writes, the others wait for how it went.
+void writeOnFirst(Postbox& ranks, const DelaunayArguments& arguments, DelaunayRun& run,
+  const DistributedTriangulation& mine)
+{
+  const Triangulation all = gatherTriangles(ranks, mine);
+  if (ranks.rank() != 0)
+  {
+    return;
+  }
+  Stopwatch watch;
+  const PointTable points = readPointsFor(arguments);
+  if (!writeResult(arguments, points, all))
+  {
+    throw RankFailure(0, true, "interrupted");
+  }
+  run.WriteSeconds = watch.restart();
+  if (!arguments.Statistics.empty())
+  {
+    writeStatistics(arguments.Statistics, run, mine);
+  }
+  fmt::print("{}\n", summarize(run, all, mine.Statistics));
+  warnOfNoTriangles(all);
+}
+
+void runTogether(Postbox& ranks, const DelaunayArguments& arguments)
+{
+  if (ranks.rank() == 0)
+  {
+    requireWritable(arguments);
+  }
+  DelaunayRun run;
+  run.Input = arguments.Input;
+  run.Output = arguments.Output;
+  Stopwatch watch;
+  const PointTable points =
+    readPointsShare(arguments.Input, arguments.Columns, ranks.rank(), ranks.size());
+  ranks.barrier();
+  run.ReadSeconds = watch.restart();
+  RankPoints input;
+  input.Points = PointsView(points.XY.data(), points.size(), 2);
+  DistributedOptions options = makeDistributedOptions(arguments);
+  std::unique_ptr<ProgressBar> bar;
+  if (ranks.rank() == 0)
+  {
+    bar = std::make_unique<ProgressBar>("Triangulating");
+  }
+  options.Progress = [&bar](double fraction)
+  {
+    if (bar)
+    {
+      bar->update(fraction);
+    }
+    return !isInterrupted();
+  };
+  const DistributedTriangulation mine = triangulateDistributed(ranks, input, options);
+  bar.reset();
+  if (mine.Aborted)
+  {
+    throw RankFailure(0, true, "interrupted");
+  }
+  run.Points = mine.AllPoints;
+  run.TriangulateSeconds = watch.restart();
+  writeOnFirst(ranks, arguments, run, mine);
+}
+
+} // namespace
+
+int runDelaunayOnRanks(const DelaunayArguments& arguments, vtkMultiProcessController* controller)
+{
+  Postbox ranks(controller);
+  try
+  {
+    ranks.together([&]() { runTogether(ranks, arguments); });
+  }
+  catch (const RankFailure& failure)
+  {
+    if (failure.Aborted)
+    {
+      return ranks.rank() == 0 ? reportInterrupt() : interruptedExitCode;
+    }
+    if (ranks.rank() == 0)
+    {
+      fmt::print(stderr, "tipp: {}{}\n",
+        ranks.size() > 1 ? fmt::format("rank {}: ", failure.Rank) : "", failure.what());
+    }
+    return Failure;
+  }
+  return Success;
+}
+
+} // namespace tipp

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/DelaunayOutput.h"
+
+#include "Console/Interrupt.h"
+#include "Files/Extension.h"
+#include "Files/PendingFile.h"
+#include "Meshes/WriteMesh.h"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+namespace tipp
+{
+namespace
+{
+
+TrianglesView viewOf(const Triangulation& result)
+{
+  return result.Ids64.empty() ? TrianglesView(result.Ids32.data(), result.triangleCount())
+                              : TrianglesView(result.Ids64.data(), result.triangleCount());
+}
+
+std::vector<std::int64_t> representatives(const Triangulation& result, std::size_t points)
+{
+  std::vector<std::int64_t> ids(points);
+  std::iota(ids.begin(), ids.end(), std::int64_t(0));
+  for (const Duplicate& duplicate : result.Duplicates)
+  {
+    ids[std::size_t(duplicate.Point)] = duplicate.Representative;
+  }
+  for (const PointId rejected : result.Rejected)
+  {
+    ids[std::size_t(rejected)] = -1;
+  }
+  return ids;
+}
+
+} // namespace
+
+PointTable readPointsFor(const DelaunayArguments& arguments)
+{
+  PointTable points = readPoints(arguments.Input, arguments.Columns);
+  if (extensionOf(arguments.Output) == ".npy")
+  {
+    points.Columns.clear(); // only .vtp and .vtu keep them
+  }
+  return points;
+}
+
+bool writeResult(
+  const DelaunayArguments& arguments, const PointTable& points, const Triangulation& result)
+{
+  MeshOptions options;
+  options.Aborted = isInterrupted;
+  if (arguments.MapDuplicates)
+  {
+    options.Representatives = representatives(result, points.size());
+  }
+  return writeMesh(arguments.Output, points, viewOf(result), options);
+}
+
+void requireWritable(const DelaunayArguments& arguments)
+{
+  const PendingFile output(arguments.Output);
+  if (!arguments.Statistics.empty())
+  {
+    const PendingFile statistics(arguments.Statistics);
+  }
+}
+
+int reportInterrupt()
+{
+  fmt::print(stderr, "tipp: interrupted; nothing was written.\n");
+  return interruptedExitCode;
+}
+
+void warnOfNoTriangles(const Triangulation& result)
+{
+  if (result.triangleCount() == 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: no triangles, since there are fewer than three distinct points or all lie on "
+      "one line.\n");
+  }
+}
+
+} // namespace tipp

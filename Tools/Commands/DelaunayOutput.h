@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippDelaunayOutput_h
+#define tippDelaunayOutput_h
+
+#include "Commands/DelaunayArguments.h"
+#include "Points/PointTable.h"
+#include "Triangulation/Triangulate.h"
+
+namespace tipp
+{
+
+/// The whole input, without columns that the output does not keep.
+PointTable readPointsFor(const DelaunayArguments& arguments);
+
+/// Throws IOError unless the files to write can be: before hours of work rather than after them.
+void requireWritable(const DelaunayArguments& arguments);
+
+/// False if the user has interrupted it; then there is no file.
+bool writeResult(
+  const DelaunayArguments& arguments, const PointTable& points, const Triangulation& result);
+
+void warnOfNoTriangles(const Triangulation& result);
+
+/// Says so and returns the exit code.
+int reportInterrupt();
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippToolRankStatistics_h
+#define tippToolRankStatistics_h
+
+#include "Distributed/DistributedStatistics.h"
+
+#include <nlohmann/json.hpp>
+
+namespace tipp
+{
+
+/// The figures of a run on ranks: of each rank, each master and each kind of message.
+nlohmann::ordered_json describe(const DistributedStatistics& statistics);
+
+} // namespace tipp
+
+#endif
