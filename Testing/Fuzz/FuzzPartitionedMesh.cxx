@@ -2,6 +2,7 @@
 // Damages the index and the tables of a partitioned mesh, gives them right checksums, and reads all
 // pieces: that works or ends with an IOError, and nothing else. A case is known by its number and
 // the seed: 'fuzzPartitionedMesh --seed S --case N' repeats one.
+#include "FuzzDriver.h"
 #include "SourceMesh.h"
 
 #include "Files/IOError.h"
@@ -10,7 +11,6 @@
 #include "Partitioned/ReadPiece.h"
 #include "Partitioning/PartitionMesh.h"
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -161,58 +161,15 @@ private:
   std::string Tables;
 };
 
-int usage()
+bool passes(std::uint64_t seed, std::uint64_t number)
 {
-  std::fputs("usage: fuzzPartitionedMesh [--seconds N] [--seed S] [--case N]\n", stderr);
-  return 2;
+  static const Meshes meshes;
+  return meshes.survives(seed, number);
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-  double seconds = 60;
-  std::uint64_t seed = 1;
-  double only = -1;
-  for (int i = 1; i < argc; i += 2)
-  {
-    char* end = nullptr;
-    const double value = i + 1 < argc ? std::strtod(argv[i + 1], &end) : -1;
-    if (!(value >= 0) || *end != 0)
-    {
-      return usage();
-    }
-    if (std::strcmp(argv[i], "--seconds") == 0)
-    {
-      seconds = value;
-    }
-    else if (std::strcmp(argv[i], "--seed") == 0)
-    {
-      seed = std::uint64_t(value);
-    }
-    else if (std::strcmp(argv[i], "--case") == 0)
-    {
-      only = value;
-    }
-    else
-    {
-      return usage();
-    }
-  }
-  const Meshes meshes;
-  if (only >= 0)
-  {
-    return meshes.survives(seed, std::uint64_t(only)) ? 0 : 1;
-  }
-  const auto now = [] { return std::chrono::steady_clock::now(); };
-  const auto end = now() + std::chrono::duration<double>(seconds);
-  std::uint64_t cases = 0;
-  std::uint64_t failures = 0;
-  for (; now() < end && failures < 10; ++cases)
-  {
-    failures += meshes.survives(seed, cases) ? 0 : 1;
-  }
-  std::printf("%llu cases of seed %llu, %llu failures\n", (unsigned long long)cases,
-    (unsigned long long)seed, (unsigned long long)failures);
-  return failures == 0 ? 0 : 1;
+  return test::fuzz("fuzzPartitionedMesh", argc, argv, passes);
 }

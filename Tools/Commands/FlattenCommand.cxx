@@ -3,7 +3,7 @@
 
 #include "Console/Interrupt.h"
 #include "Files/Extension.h"
-#include "Files/PendingFolder.h"
+#include "Files/NewFolder.h"
 #include "Flat/FlattenAdcirc.h"
 #include "Flat/FlattenDataSet.h"
 #include "Flat/WriteFlatMesh.h"
@@ -87,7 +87,7 @@ int runFlatten(const FlattenArguments& arguments)
   watchForInterrupt();
   {
     // Before the work rather than after it.
-    const PendingFolder writable(arguments.Output);
+    const NewFolder writable(arguments.Output);
   }
   if (isAdcircGrid(arguments.Input))
   {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Files/PendingFolder.h"
+#include "Files/NewFolder.h"
 
 #include "Files/IOError.h"
 
@@ -13,7 +13,7 @@ namespace tipp
 
 namespace fs = std::filesystem;
 
-PendingFolder::PendingFolder(const std::string& path)
+NewFolder::NewFolder(const std::string& path)
 {
   // Without a slash at the end, which would leave no name.
   fs::path target = fs::path(path).lexically_normal();
@@ -41,7 +41,7 @@ PendingFolder::PendingFolder(const std::string& path)
   this->Temporary = temporary.string();
 }
 
-PendingFolder::~PendingFolder()
+NewFolder::~NewFolder()
 {
   if (!this->Temporary.empty())
   {
@@ -50,7 +50,7 @@ PendingFolder::~PendingFolder()
   }
 }
 
-void PendingFolder::commit()
+void NewFolder::commit()
 {
   std::error_code failure;
   fs::rename(this->Temporary, this->Path, failure);

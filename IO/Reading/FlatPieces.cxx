@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Reading/FlatPieces.h"
+
+#include "Files/IOError.h"
+#include "Files/InputFile.h"
+#include "Flat/CellReader.h"
+#include "Partition/ClassifyCells.h"
+#include "Partitioned/PieceLayout.h"
+#include "Partitioning/MakeTiling.h"
+#include "Partitioning/PartitionRun.h"
+#include "Partitioning/PointCoordinates.h"
+#include "Partitioning/SurveyPoints.h"
+#include "Threads/ParallelFor.h"
+
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+Bounds boundsOf(const Box3& box)
+{
+  return { box.Min[0], box.Max[0], box.Min[1], box.Max[1], box.Min[2], box.Max[2] };
+}
+
+bool isWanted(const PartitionedMesh& mesh, const PieceOptions& options, std::size_t attribute)
+{
+  const int step = mesh.Arrays[attribute].Step;
+  return (options.Wanted.empty() || options.Wanted[attribute]) &&
+    (step < 0 || step == options.Step);
+}
+
+/// A's ids and B's, each once; both ascend.
+std::vector<std::int64_t> united(
+  const std::vector<std::int64_t>& a, const std::vector<std::int64_t>& b)
+{
+  std::vector<std::int64_t> all;
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
+  return all;
+}
+
+std::vector<std::int64_t> distinct(std::vector<std::int64_t> ids)
+{
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+RawBuffer bufferOf(const std::vector<std::int64_t>& values)
+{
+  RawBuffer buffer(values.size() * sizeof(std::int64_t));
+  std::copy(values.begin(), values.end(), buffer.as<std::int64_t>());
+  return buffer;
+}
+
+/// 3 coordinates a point from 2, the third 0.
+RawBuffer withThird(const RawBuffer& flat, std::int64_t points, std::size_t scalar)
+{
+  RawBuffer three(std::size_t(points) * 3 * scalar);
+  for (std::size_t i = 0; i < std::size_t(points); ++i)
+  {
+    std::memcpy(three.data() + 3 * i * scalar, flat.data() + 2 * i * scalar, 2 * scalar);
+    std::memset(three.data() + (3 * i + 2) * scalar, 0, scalar);
+  }
+  return three;
+}
+
+} // namespace
+
+FlatPieces::FlatPieces(FlatMesh mesh, const SourceOptions& options)
+  : Flat(std::move(mesh))
+  , Options(options)
+{
+  this->Mesh.Path = this->Flat.Path;
+  this->Mesh.CellSize = this->Flat.CellSize;
+  this->Mesh.PointType = this->Flat.Points.Type;
+  this->Mesh.Points = this->Flat.Points.Tuples;
+  this->Mesh.Cells = this->Flat.Cells.Tuples;
+  this->Mesh.Tiling = options.Tiling.text(this->dimension());
+  this->Mesh.Times = this->Flat.Times;
+  this->describeArrays();
+}
+
+void FlatPieces::describeArrays()
+{
+  std::set<std::pair<bool, std::string>> names{ { true, pointIdsName }, { true, ghostsName },
+    { false, cellIdsName }, { false, ghostsName } };
+  const auto add = [&](const RawArray& array, bool ofPoints, int step)
+  {
+    if (step <= 0 && !names.emplace(ofPoints, array.Name).second)
+    {
+      throw IOError(this->Flat.Path,
+        "has two arrays named " + array.Name + ", or one named as those of the pieces; rename it.");
+    }
+    this->Mesh.Arrays.push_back({ array.Name, ofPoints, array.Type, array.Components, step });
+    this->Arrays.push_back(array);
+  };
+  for (const bool ofPoints : { true, false })
+  {
+    for (const RawArray& array : ofPoints ? this->Flat.PointData : this->Flat.CellData)
+    {
+      add(array, ofPoints, -1);
+    }
+    for (const auto& series : ofPoints ? this->Flat.PointSeries : this->Flat.CellSeries)
+    {
+      for (std::size_t step = 0; step < series.size(); ++step)
+      {
+        add(series[step], ofPoints, int(step));
+      }
+    }
+  }
+}
+
+LoaderOptions FlatPieces::loading() const
+{
+  LoaderOptions loading;
+  loading.MemoryLimit = std::max<std::uint64_t>(this->Options.MemoryLimit / 4, 1);
+  loading.Threads = this->Options.Threads;
+  return loading;
+}
+
+void FlatPieces::prepare(const Ranks& ranks)
+{
+  // All together or none, for what follows is the work of all.
+  if (ranks.sum({ this->Tiling ? 0 : 1 })[0] == 0)
+  {
+    return;
+  }
+  this->PointCounts.clear();
+  if (this->Flat.Points.Tuples == 0)
+  {
+    this->Mesh.Pieces.clear();
+    return;
+  }
+  PartitionOptions partition;
+  partition.Tiling = this->Options.Tiling;
+  partition.MemoryLimit = this->Options.MemoryLimit;
+  partition.Loading = this->loading();
+  partition.Threads = this->Options.Threads;
+  PartitionRun run{ this->Flat, partition, ranks, threadCount(this->Options.Threads), {}, {}, {},
+    {}, {}, {}, 1, 1, {}, {}, {}, {}, {}, {}, {} };
+  run.Rows.Corners = this->Flat.CellSize;
+  run.Rows.Dimension = this->dimension();
+  const Box3 domain = surveyPoints(this->Flat, ranks, run.Threads);
+  BoxTiling tiling = makeTiling(run, domain);
+  this->Mesh.Domain = boundsOf(domain);
+  this->Mesh.Pieces.assign(std::size_t(tiling.count()), {});
+  for (std::int64_t i = 0; i < tiling.count(); ++i)
+  {
+    this->Mesh.Pieces[std::size_t(i)].Box = boundsOf(tiling.box(i));
+  }
+  this->Tiling.emplace(std::move(tiling));
+  std::vector<std::int64_t> counts(this->Mesh.Pieces.size(), 0);
+  ranks.attempt(
+    [&]
+    {
+      const auto [first, last] = ranks.shareOf(this->Flat.Points.Tuples);
+      this->forEachHome(
+        first, last, [&counts](std::int64_t, std::int32_t home) { ++counts[std::size_t(home)]; });
+    });
+  this->PointCounts = ranks.sum(counts);
+}
+
+/// Calls visit(point, home) for points in ascending order. A point's home is the first partition
+/// that holds it.
+template <typename Visit>
+void FlatPieces::forEachHome(std::int64_t first, std::int64_t last, const Visit& visit) const
+{
+  constexpr std::int64_t chunk = 1 << 18;
+  constexpr std::int64_t share = 1 << 14;
+  const RawArray& points = this->Flat.Points;
+  const std::size_t bytes = points.tupleBytes();
+  const auto dimension = std::size_t(this->dimension());
+  const InputFile file(points.Path);
+  std::vector<char> raw;
+  std::vector<std::int32_t> homes;
+  for (std::int64_t from = first; from < last; from += chunk)
+  {
+    const std::int64_t count = std::min(chunk, last - from);
+    raw.resize(std::size_t(count) * bytes);
+    file.read(points.Offset + std::uint64_t(from) * bytes, raw.data(), raw.size());
+    homes.resize(std::size_t(count));
+    parallelFor((count + share - 1) / share, this->Options.Threads,
+      [&](std::int64_t part)
+      {
+        const std::int64_t end = std::min((part + 1) * share, count);
+        for (std::int64_t i = part * share; i < end; ++i)
+        {
+          Box3 at;
+          takeCoordinates(
+            points, raw.data() + std::size_t(i) * bytes, 1, int(dimension), at.Min.data());
+          at.Max = at.Min;
+          std::int32_t home = std::numeric_limits<std::int32_t>::max();
+          this->Tiling->forEachMeeting(
+            at, [&home](std::int32_t box) { home = std::min(home, box); });
+          homes[std::size_t(i)] = home;
+        }
+      });
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      visit(from + i, homes[std::size_t(i)]);
+    }
+  }
+}
+
+void FlatPieces::collectCells(
+  const std::vector<std::int32_t>& draftOf, bool borrowed, std::vector<Draft>& drafts) const
+{
+  const auto corners = std::size_t(this->Flat.CellSize);
+  const auto dimension = std::size_t(this->dimension());
+  const std::size_t perCell = corners * (8 + this->Flat.Points.tupleBytes() + 8 * dimension) + 32;
+  constexpr std::uint64_t most = 1 << 22;
+  const auto chunk =
+    std::int64_t(std::clamp<std::uint64_t>(this->Options.MemoryLimit / 4 / perCell, 1, most));
+  const auto loader = makeVertexLoader({ this->Flat.Points }, this->loading());
+  ClassifyOptions classify;
+  classify.Device.Kind = Device::OpenMP;
+  classify.Threads = this->Options.Threads;
+  CellReader reader(this->Flat, 0, -1, this->Options.Threads);
+  std::vector<std::int64_t> ids;
+  std::vector<char> raw;
+  std::vector<double> coordinates;
+  while (reader.next(chunk, ids))
+  {
+    raw.resize(ids.size() * this->Flat.Points.tupleBytes());
+    void* const out[] = { raw.data() };
+    loader->load(ids.data(), ids.size(), out);
+    coordinates.resize(ids.size() * dimension);
+    takeCoordinates(this->Flat.Points, raw.data(), ids.size(), int(dimension), coordinates.data());
+    const Membership membership =
+      classifyCells({ int(dimension), int(corners), coordinates.data(), ids.size() / corners },
+        *this->Tiling, classify);
+    for (std::size_t i = 0; i < ids.size() / corners; ++i)
+    {
+      const auto take = [&](std::int32_t piece, bool owned)
+      {
+        if (draftOf[std::size_t(piece)] >= 0)
+        {
+          Draft& draft = drafts[std::size_t(draftOf[std::size_t(piece)])];
+          (owned ? draft.Cells : draft.Borrowed).push_back(reader.firstCell() + std::int64_t(i));
+          std::vector<std::int64_t>& to = owned ? draft.Corners : draft.BorrowedCorners;
+          to.insert(to.end(), ids.begin() + std::ptrdiff_t(i * corners),
+            ids.begin() + std::ptrdiff_t((i + 1) * corners));
+        }
+      };
+      take(membership.Owner[i], true);
+      for (std::int64_t b = membership.BorrowerStart[i];
+           borrowed && b < membership.BorrowerStart[i + 1]; ++b)
+      {
+        take(membership.Borrowers[std::size_t(b)], false);
+      }
+    }
+  }
+}
+
+std::vector<Piece> FlatPieces::read(
+  const std::vector<std::size_t>& numbers, const PieceOptions& options)
+{
+  std::vector<Piece> pieces;
+  if (numbers.empty())
+  {
+    return pieces;
+  }
+  std::vector<std::int32_t> draftOf(this->Mesh.Pieces.size(), -1);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    draftOf[numbers[i]] = std::int32_t(i);
+  }
+  std::vector<Draft> drafts(numbers.size());
+  this->collectCells(draftOf, options.Borrowed, drafts);
+  this->forEachHome(0, this->Flat.Points.Tuples,
+    [&](std::int64_t point, std::int32_t home)
+    {
+      if (draftOf[std::size_t(home)] >= 0)
+      {
+        drafts[std::size_t(draftOf[std::size_t(home)])].HomePoints.push_back(point);
+      }
+    });
+  for (Draft& draft : drafts)
+  {
+    pieces.push_back(this->finish(draft, options));
+    draft = {};
+  }
+  return pieces;
+}
+
+Piece FlatPieces::finish(const Draft& draft, const PieceOptions& options) const
+{
+  Piece piece;
+  const std::vector<std::int64_t> owned = united(draft.HomePoints, distinct(draft.Corners));
+  std::vector<std::int64_t> ghosts;
+  const std::vector<std::int64_t> ofBorrowed = distinct(draft.BorrowedCorners);
+  std::set_difference(
+    ofBorrowed.begin(), ofBorrowed.end(), owned.begin(), owned.end(), std::back_inserter(ghosts));
+  piece.CellSize = this->Flat.CellSize;
+  piece.PointType = this->Flat.Points.Type;
+  piece.OwnedPoints = std::int64_t(owned.size());
+  piece.Points = piece.OwnedPoints + std::int64_t(ghosts.size());
+  piece.OwnedCells = std::int64_t(draft.Cells.size());
+  piece.Cells = piece.OwnedCells + std::int64_t(draft.Borrowed.size());
+  std::vector<std::int64_t> ids = owned;
+  ids.insert(ids.end(), ghosts.begin(), ghosts.end());
+  piece.PointIds = bufferOf(ids);
+  piece.PointGhosts = RawBuffer(ids.size());
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    piece.PointGhosts.data()[i] =
+      std::binary_search(draft.HomePoints.begin(), draft.HomePoints.end(), ids[i]) ? 0 : 1;
+  }
+  std::vector<std::int64_t> cells = draft.Cells;
+  cells.insert(cells.end(), draft.Borrowed.begin(), draft.Borrowed.end());
+  piece.CellIds = bufferOf(cells);
+  piece.WideIds = true;
+  piece.Connectivity =
+    RawBuffer((draft.Corners.size() + draft.BorrowedCorners.size()) * sizeof(std::int64_t));
+  auto* to = piece.Connectivity.as<std::int64_t>();
+  for (const std::vector<std::int64_t>* const corners : { &draft.Corners, &draft.BorrowedCorners })
+  {
+    for (const std::int64_t id : *corners)
+    {
+      const auto own = std::lower_bound(owned.begin(), owned.end(), id);
+      const bool isOwn = own != owned.end() && *own == id;
+      *to++ = isOwn
+        ? own - owned.begin()
+        : piece.OwnedPoints + (std::lower_bound(ghosts.begin(), ghosts.end(), id) - ghosts.begin());
+    }
+  }
+  this->loadPoints(ids, options, piece);
+  this->loadCellData(options, piece);
+  return piece;
+}
+
+void FlatPieces::loadPoints(
+  const std::vector<std::int64_t>& ids, const PieceOptions& options, Piece& piece) const
+{
+  std::vector<RawArray> arrays{ this->Flat.Points };
+  std::vector<void*> out;
+  RawBuffer coordinates(ids.size() * this->Flat.Points.tupleBytes());
+  out.push_back(coordinates.data());
+  for (std::size_t i = 0; i < this->Arrays.size(); ++i)
+  {
+    if (this->Mesh.Arrays[i].OfPoints && isWanted(this->Mesh, options, i))
+    {
+      piece.Attributes.push_back(
+        { this->Mesh.Arrays[i], RawBuffer(ids.size() * this->Arrays[i].tupleBytes()) });
+      out.push_back(piece.Attributes.back().Values.data());
+      arrays.push_back(this->Arrays[i]);
+    }
+  }
+  makeVertexLoader(std::move(arrays), this->loading())->load(ids.data(), ids.size(), out.data());
+  piece.Coordinates = this->Flat.Points.Components == 3
+    ? std::move(coordinates)
+    : withThird(coordinates, piece.Points, scalarSize(piece.PointType));
+}
+
+void FlatPieces::loadCellData(const PieceOptions& options, Piece& piece) const
+{
+  std::vector<RawArray> arrays;
+  std::vector<void*> out;
+  for (std::size_t i = 0; i < this->Arrays.size(); ++i)
+  {
+    if (!this->Mesh.Arrays[i].OfPoints && isWanted(this->Mesh, options, i))
+    {
+      piece.Attributes.push_back({ this->Mesh.Arrays[i],
+        RawBuffer(std::size_t(piece.Cells) * this->Arrays[i].tupleBytes()) });
+      out.push_back(piece.Attributes.back().Values.data());
+      arrays.push_back(this->Arrays[i]);
+    }
+  }
+  if (!arrays.empty())
+  {
+    makeVertexLoader(std::move(arrays), this->loading())
+      ->load(piece.CellIds.as<std::int64_t>(), std::size_t(piece.Cells), out.data());
+  }
+}
+
+} // namespace tipp

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippFlatPieces_h
+#define tippFlatPieces_h
+
+#include "Flat/FlatMesh.h"
+#include "Loading/VertexLoader.h"
+#include "Partition/BoxTiling.h"
+#include "Reading/PieceSource.h"
+
+#include <optional>
+
+namespace tipp
+{
+
+/// The pieces of a flat mesh, made in memory: chunk by chunk the cells' coordinates are loaded by
+/// Direct Load and the cells classified; those of the pieces asked for stay.
+class FlatPieces : public PieceSource
+{
+public:
+  FlatPieces(FlatMesh mesh, const SourceOptions& options);
+
+  void prepare(const Ranks& ranks) override;
+  std::vector<std::int64_t> weights() const override { return this->PointCounts; }
+  std::vector<Piece> read(
+    const std::vector<std::size_t>& numbers, const PieceOptions& options) override;
+
+private:
+  /// What is known of a piece before its arrays are loaded.
+  struct Draft
+  {
+    std::vector<std::int64_t> Cells;   ///< owned
+    std::vector<std::int64_t> Corners; ///< of those, CellSize global ids each
+    std::vector<std::int64_t> Borrowed;
+    std::vector<std::int64_t> BorrowedCorners;
+    std::vector<std::int64_t> HomePoints; ///< ascending, as all the others
+  };
+
+  void describeArrays();
+  void collectCells(
+    const std::vector<std::int32_t>& draftOf, bool borrowed, std::vector<Draft>& drafts) const;
+  template <typename Visit>
+  void forEachHome(std::int64_t first, std::int64_t last, const Visit& visit) const;
+  Piece finish(const Draft& draft, const PieceOptions& options) const;
+  void loadPoints(
+    const std::vector<std::int64_t>& ids, const PieceOptions& options, Piece& piece) const;
+  void loadCellData(const PieceOptions& options, Piece& piece) const;
+  int dimension() const { return this->Flat.CellSize - 1; }
+  LoaderOptions loading() const;
+
+  FlatMesh Flat;
+  SourceOptions Options;
+  std::vector<RawArray> Arrays; ///< where those of Mesh.Arrays lie
+  std::optional<BoxTiling> Tiling;
+  std::vector<std::int64_t> PointCounts; ///< of each piece
+};
+
+} // namespace tipp
+
+#endif

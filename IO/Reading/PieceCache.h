@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPieceCache_h
+#define tippPieceCache_h
+
+#include "Partitioned/ReadPiece.h"
+
+#include <cstddef>
+#include <list>
+#include <memory>
+#include <vector>
+
+namespace tipp
+{
+
+/// The last used pieces of one mesh.
+class PieceCache
+{
+public:
+  /// What was read of a piece.
+  struct Key
+  {
+    std::size_t Number;
+    bool Borrowed;
+    std::vector<bool> Wanted;
+    int Step;
+
+    bool operator==(const Key& other) const
+    {
+      return this->Number == other.Number && this->Borrowed == other.Borrowed &&
+        this->Wanted == other.Wanted && this->Step == other.Step;
+    }
+  };
+
+  /// Null if it is not there.
+  std::shared_ptr<const Piece> find(const Key& key);
+  void keep(const Key& key, std::shared_ptr<const Piece> piece);
+  /// Drops the pieces that were used longest ago, down to so many.
+  void shrink(std::size_t pieces);
+  void clear() { this->Entries.clear(); }
+
+private:
+  struct Entry
+  {
+    Key What;
+    std::shared_ptr<const Piece> Held;
+  };
+  std::list<Entry> Entries; ///< the last used one first
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Reading/RangeFilter.h"
+
+#include "Predicates/CellBox.h"
+#include "Reading/AssemblePiece.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace tipp
+{
+namespace
+{
+
+bool boxesMeet(const Box3& a, const Box3& b)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (a.Min[axis] > b.Max[axis] || b.Min[axis] > a.Max[axis])
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::array<double, 3> pointOf(const Piece& piece, std::int64_t point)
+{
+  std::array<double, 3> xyz{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::size_t at = 3 * std::size_t(point) + axis;
+    xyz[axis] = piece.PointType == Scalar::Float32 ? double(piece.Coordinates.as<float>()[at])
+                                                   : piece.Coordinates.as<double>()[at];
+  }
+  return xyz;
+}
+
+std::int64_t cornerOf(const Piece& piece, std::int64_t cell, int corner)
+{
+  const auto at = std::size_t(cell * piece.CellSize + corner);
+  return piece.WideIds ? piece.Connectivity.as<std::int64_t>()[at]
+                       : piece.Connectivity.as<std::int32_t>()[at];
+}
+
+} // namespace
+
+Box3 boxOf(const PartitionedMesh& mesh, const Bounds& bounds)
+{
+  Box3 box;
+  for (std::size_t axis = 0; axis < (mesh.CellSize == 3 ? 2 : 3); ++axis)
+  {
+    // Infinite bounds are all that a double can hold, for predicates want finite ones.
+    constexpr double most = std::numeric_limits<double>::max();
+    box.Min[axis] = std::clamp(bounds[2 * axis], -most, most);
+    box.Max[axis] = std::clamp(bounds[2 * axis + 1], -most, most);
+  }
+  return box;
+}
+
+RangeFilter::RangeFilter(const PartitionedMesh& mesh, const Bounds& range)
+  : Mesh(mesh)
+  , Range(boxOf(mesh, range))
+{
+  // Beyond the domain there is nothing to meet; predicates like bounds of the mesh's own size.
+  const Box3 domain = boxOf(mesh, mesh.Domain);
+  const bool apart = !boxesMeet(this->Range, domain);
+  for (std::size_t axis = 0; axis < 3 && !apart; ++axis)
+  {
+    this->Range.Min[axis] = std::max(this->Range.Min[axis], domain.Min[axis]);
+    this->Range.Max[axis] = std::min(this->Range.Max[axis], domain.Max[axis]);
+  }
+  for (std::size_t i = 0; i < mesh.Pieces.size() && !apart; ++i)
+  {
+    if (boxesMeet(boxOf(mesh, mesh.Pieces[i].Box), this->Range))
+    {
+      this->Open.push_back(i);
+    }
+  }
+}
+
+bool RangeFilter::meets(const Piece& piece, std::int64_t cell, const Box3& box) const
+{
+  std::array<std::array<double, 3>, 4> p{};
+  for (int corner = 0; corner < piece.CellSize; ++corner)
+  {
+    p[std::size_t(corner)] = pointOf(piece, cornerOf(piece, cell, corner));
+  }
+  const std::size_t axes = piece.CellSize == 3 ? 2 : 3;
+  bool inside = false;
+  for (std::size_t axis = 0; axis < axes; ++axis)
+  {
+    double low = p[0][axis];
+    double high = low;
+    for (std::size_t corner = 1; corner < std::size_t(piece.CellSize); ++corner)
+    {
+      low = std::min(low, p[corner][axis]);
+      high = std::max(high, p[corner][axis]);
+    }
+    if (low > box.Max[axis] || high < box.Min[axis])
+    {
+      return false;
+    }
+  }
+  for (std::size_t corner = 0; corner < std::size_t(piece.CellSize); ++corner)
+  {
+    bool within = true;
+    for (std::size_t axis = 0; axis < axes; ++axis)
+    {
+      within = within && p[corner][axis] >= box.Min[axis] && p[corner][axis] <= box.Max[axis];
+    }
+    inside = inside || within;
+  }
+  if (inside)
+  {
+    return true;
+  }
+  const auto flat = [&p](std::size_t i) { return Point2{ p[i][0], p[i][1] }; };
+  const auto space = [&p](std::size_t i) { return Point3{ p[i][0], p[i][1], p[i][2] }; };
+  return piece.CellSize == 3 ? triangleMeetsBox(flat(0), flat(1), flat(2), box)
+                             : tetrahedronMeetsBox(space(0), space(1), space(2), space(3), box);
+}
+
+bool RangeFilter::isLowerPieceMet(const Piece& piece, std::int64_t cell, std::size_t number) const
+{
+  for (const std::size_t other : this->Open)
+  {
+    if (other >= number)
+    {
+      return false;
+    }
+    if (this->meets(piece, cell, boxOf(this->Mesh, this->Mesh.Pieces[other].Box)))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void RangeFilter::setPointGhosts(Piece& piece, std::size_t number) const
+{
+  auto* const ghosts = piece.PointGhosts.as<std::uint8_t>();
+  for (std::int64_t point = 0; point < piece.Points; ++point)
+  {
+    if (ghosts[point] == 0)
+    {
+      continue;
+    }
+    std::array<double, 3> xyz = pointOf(piece, point);
+    xyz[2] = piece.CellSize == 3 ? 0 : xyz[2];
+    const Box3 at{ xyz, xyz };
+    const auto home = std::find_if(this->Open.begin(), this->Open.end(),
+      [&](std::size_t other)
+      { return boxesMeet(at, boxOf(this->Mesh, this->Mesh.Pieces[other].Box)); });
+    ghosts[point] = home != this->Open.end() && *home != number ? 1 : 0;
+  }
+}
+
+Piece RangeFilter::apply(const Piece& piece, std::size_t number, bool borrowed) const
+{
+  std::vector<CellOfPiece> owned;
+  std::vector<CellOfPiece> ghosts;
+  for (std::int64_t cell = 0; cell < piece.Cells; ++cell)
+  {
+    if (!this->meets(piece, cell, this->Range))
+    {
+      continue;
+    }
+    if (cell < piece.OwnedCells || !this->isLowerPieceMet(piece, cell, number))
+    {
+      owned.push_back({ 0, cell });
+    }
+    else if (borrowed)
+    {
+      ghosts.push_back({ 0, cell });
+    }
+  }
+  Piece kept = assemblePiece({ &piece }, owned, ghosts, false);
+  this->setPointGhosts(kept, number);
+  return kept;
+}
+
+} // namespace tipp

@@ -1,0 +1,436 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkPartitionedUnstructuredReader.h"
+
+#include "Files/IOError.h"
+#include "Flat/FlatMesh.h"
+#include "Partitioned/PieceGrid.h"
+#include "Partitioning/AssignPieces.h"
+#include "Reading/AssemblePiece.h"
+#include "Reading/PieceCache.h"
+#include "Reading/PieceSource.h"
+#include "Reading/RangeFilter.h"
+
+#include "vtkDataArraySelection.h"
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMath.h"
+#include "vtkMultiProcessController.h"
+#include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkPartitionedUnstructuredReader);
+vtkCxxSetObjectMacro(vtkPartitionedUnstructuredReader, Controller, vtkMultiProcessController);
+
+namespace
+{
+
+using Pieces = std::vector<std::shared_ptr<const tipp::Piece>>;
+
+/// Changes when a file of the mesh does.
+std::string fileStamp(const std::string& path)
+{
+  namespace fs = std::filesystem;
+  std::string stamp;
+  for (const char* const name : { "", "index.json", "cells.npy", "points.npy" })
+  {
+    const fs::path file = *name ? fs::path(path) / name : fs::path(path);
+    std::error_code ignored;
+    const auto time = fs::last_write_time(file, ignored).time_since_epoch().count();
+    stamp += " " + std::to_string(time);
+  }
+  return stamp;
+}
+
+std::vector<const tipp::Piece*> pointersTo(const Pieces& pieces)
+{
+  std::vector<const tipp::Piece*> pointers;
+  for (const auto& piece : pieces)
+  {
+    pointers.push_back(piece.get());
+  }
+  return pointers;
+}
+
+/// The last step not after the time, or the first.
+int stepAt(const std::vector<double>& times, double time)
+{
+  const auto after = std::upper_bound(times.begin(), times.end(), time);
+  return std::max(int(after - times.begin()) - 1, 0);
+}
+
+} // namespace
+
+class vtkPartitionedUnstructuredReader::Internals
+{
+public:
+  std::string Opened; ///< what Source was made of
+  std::unique_ptr<tipp::PieceSource> Source;
+  tipp::PieceCache Cache;
+};
+
+vtkPartitionedUnstructuredReader::vtkPartitionedUnstructuredReader()
+  : Inner(new Internals)
+{
+  this->SetNumberOfInputPorts(0);
+  vtkMath::UninitializeBounds(this->Bounds);
+  this->SetTiling("grid:4x4");
+  this->SetController(vtkMultiProcessController::GetGlobalController());
+}
+
+vtkPartitionedUnstructuredReader::~vtkPartitionedUnstructuredReader()
+{
+  this->SetFileName(nullptr);
+  this->SetTiling(nullptr);
+  this->SetController(nullptr);
+}
+
+vtkDataArraySelection* vtkPartitionedUnstructuredReader::GetPointDataArraySelection()
+{
+  return this->PointDataArraySelection;
+}
+
+vtkDataArraySelection* vtkPartitionedUnstructuredReader::GetCellDataArraySelection()
+{
+  return this->CellDataArraySelection;
+}
+
+vtkMTimeType vtkPartitionedUnstructuredReader::GetMTime()
+{
+  return std::max({ this->Superclass::GetMTime(), this->PointDataArraySelection->GetMTime(),
+    this->CellDataArraySelection->GetMTime() });
+}
+
+int vtkPartitionedUnstructuredReader::CanReadFile(const char* path)
+{
+  return path && (tipp::isPartitionedMesh(path) || tipp::isFlatMesh(path)) ? 1 : 0;
+}
+
+bool vtkPartitionedUnstructuredReader::HasBounds() const
+{
+  return !(this->Bounds[0] > this->Bounds[1]);
+}
+
+int vtkPartitionedUnstructuredReader::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
+  return 1;
+}
+
+int vtkPartitionedUnstructuredReader::RequestDataObject(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkInformation* const info = outputVector->GetInformationObject(0);
+  vtkDataObject* const present = vtkDataObject::GetData(info);
+  const int wanted = this->MergePieces ? VTK_UNSTRUCTURED_GRID : VTK_PARTITIONED_DATA_SET;
+  if (!present || present->GetDataObjectType() != wanted)
+  {
+    vtkSmartPointer<vtkDataObject> output;
+    if (this->MergePieces)
+    {
+      output = vtkSmartPointer<vtkUnstructuredGrid>::New();
+    }
+    else
+    {
+      output = vtkSmartPointer<vtkPartitionedDataSet>::New();
+    }
+    info->Set(vtkDataObject::DATA_OBJECT(), output);
+  }
+  return 1;
+}
+
+void vtkPartitionedUnstructuredReader::OpenSource()
+{
+  if (!this->FileName || !*this->FileName)
+  {
+    throw std::invalid_argument("FileName is not set; name a partitioned or a flat mesh.");
+  }
+  const std::string tiling = this->Tiling ? this->Tiling : "";
+  const auto choice = tipp::TilingChoice::parse(tiling);
+  if (!choice)
+  {
+    throw std::invalid_argument("Tiling '" + tiling +
+      "' is not understood; write grid:4x4, grid:4x4x2, quadtree:100000 or octree:100000.");
+  }
+  const std::string all =
+    this->FileName + ("\n" + tiling) + "\n" + std::to_string(this->MemoryLimit);
+  const std::string stamped = all + fileStamp(this->FileName);
+  if (this->Inner->Source && this->Inner->Opened == stamped)
+  {
+    return;
+  }
+  this->Inner->Source.reset();
+  this->Inner->Cache.clear();
+  tipp::SourceOptions options;
+  options.Tiling = *choice;
+  options.MemoryLimit = std::uint64_t(this->MemoryLimit);
+  this->Inner->Source = tipp::openPieceSource(this->FileName, options);
+  this->Inner->Opened = stamped;
+}
+
+void vtkPartitionedUnstructuredReader::DescribeArrays()
+{
+  for (const tipp::StoredArray& array : this->Inner->Source->mesh().Arrays)
+  {
+    // Leaves an array alone that it knows.
+    (array.OfPoints ? this->PointDataArraySelection : this->CellDataArraySelection)
+      ->AddArray(array.Name.c_str());
+  }
+}
+
+int vtkPartitionedUnstructuredReader::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkInformation* const info = outputVector->GetInformationObject(0);
+  info->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  info->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+  info->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
+  try
+  {
+    this->OpenSource();
+    this->DescribeArrays();
+    const std::vector<double>& times = this->Inner->Source->mesh().Times;
+    if (!times.empty())
+    {
+      const double range[] = { times.front(), times.back() };
+      info->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(), int(times.size()));
+      info->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
+    }
+    return 1;
+  }
+  catch (const std::exception& error)
+  {
+    // Among several ranks the others wait in RequestData, which finds the same again.
+    if (this->Controller && this->Controller->GetNumberOfProcesses() > 1)
+    {
+      return 1;
+    }
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+}
+
+namespace
+{
+
+/// What one request asks for.
+struct Request
+{
+  int Piece = 0;
+  int Pieces = 1;
+  bool Borrowed = false;
+  std::optional<double> Time;
+
+  explicit Request(vtkInformation* info)
+  {
+    using Pipeline = vtkStreamingDemandDrivenPipeline;
+    if (info->Has(Pipeline::UPDATE_PIECE_NUMBER()) &&
+      info->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()))
+    {
+      this->Piece = info->Get(Pipeline::UPDATE_PIECE_NUMBER());
+      this->Pieces = std::max(info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()), 1);
+    }
+    if (info->Has(Pipeline::UPDATE_TIME_STEP()))
+    {
+      this->Time = info->Get(Pipeline::UPDATE_TIME_STEP());
+    }
+    this->Borrowed = info->Has(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) &&
+      info->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) > 0;
+  }
+
+  /// Its share of the pieces, by weight.
+  std::vector<std::size_t> shareOf(
+    const std::vector<std::size_t>& numbers, const std::vector<std::int64_t>& weights) const
+  {
+    if (this->Piece < 0 || this->Piece >= this->Pieces)
+    {
+      return {};
+    }
+    std::vector<std::int64_t> some;
+    for (const std::size_t number : numbers)
+    {
+      some.push_back(weights[number]);
+    }
+    const std::vector<std::size_t> starts = tipp::assignPieces(some, this->Pieces);
+    const auto first = numbers.begin() + std::ptrdiff_t(starts[std::size_t(this->Piece)]);
+    const auto last = numbers.begin() + std::ptrdiff_t(starts[std::size_t(this->Piece) + 1]);
+    return { first, last };
+  }
+};
+
+/// The pieces, from the cache or the source, the missing ones in one go.
+Pieces fetch(tipp::PieceSource& source, tipp::PieceCache& cache,
+  const std::vector<std::size_t>& numbers, const tipp::PieceOptions& options,
+  std::vector<std::size_t>& missing)
+{
+  Pieces pieces;
+  std::vector<std::size_t> places;
+  const auto keyOf = [&options](std::size_t number) {
+    return tipp::PieceCache::Key{ number, options.Borrowed, options.Wanted, options.Step };
+  };
+  for (const std::size_t number : numbers)
+  {
+    pieces.push_back(cache.find(keyOf(number)));
+    if (!pieces.back())
+    {
+      missing.push_back(number);
+      places.push_back(pieces.size() - 1);
+    }
+  }
+  std::vector<tipp::Piece> read = source.read(missing, options);
+  for (std::size_t i = 0; i < missing.size(); ++i)
+  {
+    pieces[places[i]] = std::make_shared<const tipp::Piece>(std::move(read[i]));
+    cache.keep(keyOf(missing[i]), pieces[places[i]]);
+  }
+  return pieces;
+}
+
+/// A copy of one piece that VTK's arrays may take over.
+tipp::Piece copyOf(const tipp::Piece& piece)
+{
+  return tipp::mergePieces({ &piece });
+}
+
+void setOutput(vtkDataObject* output, const Pieces& pieces)
+{
+  if (auto* const grid = vtkUnstructuredGrid::SafeDownCast(output))
+  {
+    if (!pieces.empty())
+    {
+      grid->ShallowCopy(tipp::makeGrid(tipp::mergePieces(pointersTo(pieces))));
+    }
+    return;
+  }
+  auto* const set = vtkPartitionedDataSet::SafeDownCast(output);
+  set->SetNumberOfPartitions(unsigned(pieces.size()));
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    set->SetPartition(unsigned(i), tipp::makeGrid(copyOf(*pieces[i])));
+  }
+}
+
+} // namespace
+
+void vtkPartitionedUnstructuredReader::ReadPieces(vtkInformation* outInfo)
+{
+  tipp::PieceSource& source = *this->Inner->Source;
+  const tipp::PartitionedMesh& mesh = source.mesh();
+  const Request request(outInfo);
+  tipp::PieceOptions options;
+  options.Step = stepAt(mesh.Times, request.Time.value_or(mesh.Times.empty() ? 0 : mesh.Times[0]));
+  for (const tipp::StoredArray& array : mesh.Arrays)
+  {
+    options.Wanted.push_back(
+      (array.OfPoints ? this->PointDataArraySelection : this->CellDataArraySelection)
+        ->ArrayIsEnabled(array.Name.c_str()) != 0);
+  }
+  const bool borrowed = request.Borrowed || this->BorrowerMode == OWNED_AND_BORROWED;
+  std::optional<tipp::RangeFilter> range;
+  std::vector<std::size_t> numbers(mesh.Pieces.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    numbers[i] = i;
+  }
+  if (this->HasBounds())
+  {
+    const double* const b = this->Bounds;
+    range.emplace(mesh, tipp::Bounds{ b[0], b[1], b[2], b[3], b[4], b[5] });
+    numbers = range->pieces();
+  }
+  options.Borrowed = borrowed || range;
+  numbers = request.shareOf(numbers, source.weights());
+  std::vector<std::size_t> read;
+  Pieces pieces = fetch(source, this->Inner->Cache, numbers, options, read);
+  this->Inner->Cache.shrink(std::size_t(this->CacheSize));
+  this->NumberOfPiecesRead = vtkTypeInt64(read.size());
+  this->NumberOfBytesRead = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    const bool isNew = std::find(read.begin(), read.end(), numbers[i]) != read.end();
+    this->NumberOfBytesRead += isNew ? pieces[i]->Counters.Bytes : 0;
+    if (range)
+    {
+      pieces[i] =
+        std::make_shared<const tipp::Piece>(range->apply(*pieces[i], numbers[i], borrowed));
+    }
+    this->UpdateProgress(double(i + 1) / double(pieces.size() + 1));
+  }
+  vtkDataObject* const output = vtkDataObject::GetData(outInfo);
+  setOutput(output, pieces);
+  if (!mesh.Times.empty())
+  {
+    output->GetInformation()->Set(
+      vtkDataObject::DATA_TIME_STEP(), mesh.Times[std::size_t(options.Step)]);
+  }
+}
+
+int vtkPartitionedUnstructuredReader::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkInformation* const outInfo = outputVector->GetInformationObject(0);
+  vtkDataObject* const output = vtkDataObject::GetData(outInfo);
+  output->Initialize();
+  const tipp::Ranks ranks(this->Controller);
+  try
+  {
+    ranks.attempt(
+      [this]
+      {
+        if (std::any_of(this->Bounds, this->Bounds + 6, [](double b) { return std::isnan(b); }))
+        {
+          throw std::invalid_argument("Bounds hold a NaN; set numbers.");
+        }
+        this->OpenSource();
+        this->DescribeArrays();
+      });
+    this->Inner->Source->prepare(ranks);
+    ranks.attempt([&] { this->ReadPieces(outInfo); });
+    return 1;
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorMacro(
+      "There is not enough memory for the pieces; ask for a range or for fewer pieces.");
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+  }
+  output->Initialize();
+  this->Inner->Source.reset();
+  this->Inner->Cache.clear();
+  return 0;
+}
+
+void vtkPartitionedUnstructuredReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "Bounds:";
+  for (const double bound : this->Bounds)
+  {
+    os << " " << bound;
+  }
+  os << "\n";
+  os << indent << "BorrowerMode: " << this->BorrowerMode << "\n";
+  os << indent << "MergePieces: " << (this->MergePieces ? "On" : "Off") << "\n";
+  os << indent << "CacheSize: " << this->CacheSize << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
+  os << indent << "Tiling: " << (this->Tiling ? this->Tiling : "(none)") << "\n";
+  os << indent << "NumberOfPiecesRead: " << this->NumberOfPiecesRead << "\n";
+  os << indent << "NumberOfBytesRead: " << this->NumberOfBytesRead << "\n";
+  os << indent << "Controller: " << this->Controller << "\n";
+}

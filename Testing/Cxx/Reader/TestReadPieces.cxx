@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Flat/FlatMesh.h"
+#include "Partitioning/PartitionMesh.h"
+#include "ReaderTesting.h"
+#include "TemporaryFolder.h"
+
+#include "vtkDataArraySelection.h"
+#include "vtkInformation.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+namespace
+{
+
+using tipp::test::Content;
+using tipp::test::contentOf;
+using tipp::test::SmallMesh;
+
+/// A mesh, flat and stored both ways, in the plane or in space.
+class ReadPieces : public testing::TestWithParam<int>
+{
+protected:
+  ReadPieces()
+    : Mesh(tipp::test::makeMesh(GetParam(), GetParam() == 3 ? 14 : 6))
+  {
+    tipp::test::writeMesh(this->Mesh, this->path("flat"));
+    tipp::PartitionOptions options;
+    options.Tiling = *tipp::TilingChoice::parse(this->Tiling);
+    for (const bool duplicate : { false, true })
+    {
+      options.DuplicateBorrowers = duplicate;
+      tipp::partitionMesh(tipp::openFlatMesh(this->path("flat")),
+        this->path(duplicate ? "duplicate" : "reference"), options);
+    }
+  }
+
+  std::string path(const std::string& name) const { return this->Folder.path(name); }
+
+  vtkNew<vtkPartitionedUnstructuredReader> reader(const std::string& name) const
+  {
+    vtkNew<vtkPartitionedUnstructuredReader> reader;
+    reader->SetController(nullptr);
+    reader->SetFileName(this->path(name).c_str());
+    reader->SetTiling(this->Tiling);
+    return reader;
+  }
+
+  static vtkUnstructuredGrid* gridOf(vtkPartitionedUnstructuredReader* reader)
+  {
+    return vtkUnstructuredGrid::SafeDownCast(reader->GetOutputDataObject(0));
+  }
+
+  /// Every cell and point of the mesh, as the source has them.
+  void expectWhole(const Content& content) const
+  {
+    EXPECT_EQ(this->Mesh.pointCount(), content.Points.size());
+    EXPECT_EQ(this->Mesh.cellCount(), content.Cells.size());
+    const auto size = std::size_t(this->Mesh.CellSize);
+    for (const auto& [id, point] : content.Points)
+    {
+      const double* const p = this->Mesh.Points.data() + 3 * id;
+      EXPECT_EQ((std::array<double, 3>{ p[0], p[1], p[2] }), point.Place);
+      EXPECT_EQ(0, point.Ghost);
+      EXPECT_EQ((std::vector<double>{ double(id), double(2 * id) }), point.Data);
+    }
+    for (const auto& [id, cell] : content.Cells)
+    {
+      const auto first = this->Mesh.Cells.begin() + std::ptrdiff_t(std::size_t(id) * size);
+      EXPECT_EQ((std::vector<std::int64_t>{ first, first + std::ptrdiff_t(size) }), cell.Corners);
+      EXPECT_EQ((std::vector<double>{ double(id * id) }), cell.Data);
+    }
+  }
+
+  const char* const Tiling = "grid:3x2x2";
+  const tipp::test::TemporaryFolder Folder;
+  const SmallMesh Mesh;
+};
+
+const char* const forms[] = { "flat", "reference", "duplicate" };
+
+} // namespace
+
+TEST_P(ReadPieces, MergedAreTheWholeMesh)
+{
+  for (const char* const form : forms)
+  {
+    for (const int mode : { 0, 1 })
+    {
+      const auto reader = this->reader(form);
+      reader->SetBorrowerMode(mode);
+      reader->Update();
+      this->expectWhole(contentOf(gridOf(reader)));
+    }
+  }
+}
+
+TEST_P(ReadPieces, OfAFlatMeshAreThoseOfTheStoredOne)
+{
+  for (const int mode : { 0, 1 })
+  {
+    std::vector<std::vector<Content>> read;
+    for (const char* const form : forms)
+    {
+      const auto reader = this->reader(form);
+      reader->SetMergePieces(false);
+      reader->SetBorrowerMode(mode);
+      reader->Update();
+      auto* const set = vtkPartitionedDataSet::SafeDownCast(reader->GetOutputDataObject(0));
+      ASSERT_NE(nullptr, set);
+      read.emplace_back();
+      for (unsigned int i = 0; i < set->GetNumberOfPartitions(); ++i)
+      {
+        read.back().push_back(contentOf(vtkUnstructuredGrid::SafeDownCast(set->GetPartition(i))));
+      }
+    }
+    EXPECT_EQ(GetParam() == 3 ? 6U : 12U, read[0].size());
+    EXPECT_EQ(read[0].size(), read[1].size());
+    for (std::size_t i = 0; i < read[0].size(); ++i)
+    {
+      EXPECT_TRUE(read[0][i] == read[1][i]) << i;
+      EXPECT_TRUE(read[0][i] == read[2][i]) << i;
+    }
+  }
+}
+
+TEST_P(ReadPieces, OfManyRequestsHaveEachCellOnce)
+{
+  for (const char* const form : forms)
+  {
+    for (const int pieces : { 1, 2, 5, 40 })
+    {
+      std::map<std::int64_t, int> seen;
+      for (int piece = 0; piece < pieces; ++piece)
+      {
+        const auto reader = this->reader(form);
+        reader->UpdatePiece(piece, pieces, 0);
+        for (const auto& [id, cell] : contentOf(gridOf(reader)).Cells)
+        {
+          ++seen[id];
+        }
+      }
+      EXPECT_EQ(this->Mesh.cellCount(), seen.size());
+      EXPECT_TRUE(
+        std::all_of(seen.begin(), seen.end(), [](const auto& one) { return one.second == 1; }));
+    }
+  }
+}
+
+TEST_P(ReadPieces, WithGhostLevelsHaveBorrowedCells)
+{
+  const auto reader = this->reader("reference");
+  // The first partition owns all that it meets; the last one borrows.
+  reader->UpdatePiece(5, 6, 1);
+  int ghosts = 0;
+  for (const auto& [id, cell] : contentOf(gridOf(reader)).Cells)
+  {
+    ghosts += cell.Ghost != 0;
+  }
+  EXPECT_GT(ghosts, 0);
+}
+
+TEST_P(ReadPieces, AreOfTheRequestedTime)
+{
+  for (const char* const form : forms)
+  {
+    const auto reader = this->reader(form);
+    reader->UpdateInformation();
+    vtkInformation* const info = reader->GetOutputInformation(0);
+    EXPECT_EQ(2, info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()));
+    const std::pair<double, double> times[] = { { -1, 0 }, { 0.5, 0 }, { 2.4, 0 }, { 2.5, 1000 },
+      { 9, 1000 } };
+    for (const auto& [time, added] : times)
+    {
+      reader->UpdateTimeStep(time);
+      vtkUnstructuredGrid* const grid = gridOf(reader);
+      EXPECT_EQ(added,
+        grid->GetPointData()->GetArray("late")->GetTuple1(3) -
+          grid->GetPointData()->GetGlobalIds()->GetTuple1(3));
+    }
+  }
+}
+
+TEST_P(ReadPieces, HaveTheSelectedArraysAlone)
+{
+  for (const char* const form : forms)
+  {
+    const auto reader = this->reader(form);
+    reader->UpdateInformation();
+    EXPECT_EQ(2, reader->GetPointDataArraySelection()->GetNumberOfArrays());
+    reader->GetPointDataArraySelection()->DisableArray("late");
+    reader->GetCellDataArraySelection()->DisableAllArrays();
+    reader->Update();
+    EXPECT_NE(nullptr, gridOf(reader)->GetPointData()->GetArray("twice"));
+    EXPECT_EQ(nullptr, gridOf(reader)->GetPointData()->GetArray("late"));
+    EXPECT_EQ(nullptr, gridOf(reader)->GetCellData()->GetArray("square"));
+    reader->GetPointDataArraySelection()->EnableArray("late");
+    reader->Update();
+    EXPECT_NE(nullptr, gridOf(reader)->GetPointData()->GetArray("late"));
+  }
+}
+
+TEST_P(ReadPieces, InTheCacheAreNotReadAgain)
+{
+  const auto reader = this->reader("reference");
+  reader->SetCacheSize(100);
+  reader->Update();
+  EXPECT_EQ(GetParam() == 3 ? 6 : 12, reader->GetNumberOfPiecesRead());
+  EXPECT_GT(reader->GetNumberOfBytesRead(), 0);
+  reader->Modified();
+  reader->Update();
+  EXPECT_EQ(0, reader->GetNumberOfPiecesRead());
+  this->expectWhole(contentOf(gridOf(reader)));
+}
+
+TEST_P(ReadPieces, ComeWithinASmallMemoryLimit)
+{
+  const auto reader = this->reader("flat");
+  reader->SetMemoryLimit(1000);
+  reader->Update();
+  this->expectWhole(contentOf(gridOf(reader)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Dimension, ReadPieces, testing::Values(3, 4),
+  [](const auto& info) { return info.param == 3 ? "Triangles" : "Tetrahedra"; });

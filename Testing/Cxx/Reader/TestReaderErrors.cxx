@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Flat/FlatMesh.h"
+#include "Partitioning/PartitionMesh.h"
+#include "ReaderTesting.h"
+#include "TemporaryFolder.h"
+
+#include "vtkExecutive.h"
+
+#include <cmath>
+
+namespace
+{
+
+class ReaderErrors : public testing::Test
+{
+protected:
+  ReaderErrors()
+  {
+    tipp::test::writeMesh(tipp::test::makeMesh(3, 8), this->path("flat"));
+    tipp::partitionMesh(tipp::openFlatMesh(this->path("flat")), this->path("stored"));
+    this->Reader->SetController(nullptr);
+    this->Reader->AddObserver(vtkCommand::ErrorEvent, this->Errors);
+    this->Reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->Others);
+  }
+
+  std::string path(const std::string& name) const { return this->Folder.path(name); }
+
+  void expectError(const std::string& words) const
+  {
+    this->Reader->Update();
+    EXPECT_EQ(1, this->Errors->Count);
+    EXPECT_NE(std::string::npos, this->Errors->Text.find(words)) << this->Errors->Text;
+    auto* const grid = vtkUnstructuredGrid::SafeDownCast(this->Reader->GetOutputDataObject(0));
+    EXPECT_TRUE(!grid || grid->GetNumberOfCells() == 0);
+  }
+
+  const tipp::test::TemporaryFolder Folder;
+  const vtkNew<tipp::test::ErrorCounter> Errors;
+  const vtkNew<tipp::test::ErrorCounter> Others;
+  const vtkNew<vtkPartitionedUnstructuredReader> Reader;
+};
+
+} // namespace
+
+TEST_F(ReaderErrors, NoFileName)
+{
+  this->expectError("FileName is not set");
+}
+
+TEST_F(ReaderErrors, NoMeshAtThePath)
+{
+  this->Reader->SetFileName(this->path("none").c_str());
+  this->expectError("neither a partitioned mesh");
+}
+
+TEST_F(ReaderErrors, ATilingThatIsNone)
+{
+  this->Reader->SetFileName(this->path("flat").c_str());
+  this->Reader->SetTiling("hexagons");
+  this->expectError("hexagons");
+}
+
+TEST_F(ReaderErrors, BoundsThatAreNoNumbers)
+{
+  this->Reader->SetFileName(this->path("flat").c_str());
+  this->Reader->SetBounds(0, 1, NAN, 1, 0, 1);
+  this->expectError("NaN");
+}
+
+TEST_F(ReaderErrors, ACutOffPieceIsNamed)
+{
+  const std::string piece = this->path("stored/pieces/000003.vtu");
+  std::filesystem::resize_file(piece, std::filesystem::file_size(piece) / 2);
+  this->Reader->SetFileName(this->path("stored").c_str());
+  this->expectError("000003.vtu");
+}
+
+TEST_F(ReaderErrors, AnIdOfNoPointIsNamed)
+{
+  const std::string cells = this->path("flat/cells.npy");
+  std::fstream file(cells, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(-4, std::ios::end);
+  file.write("\xff\xff\xff\x7f", 4);
+  file.close();
+  this->Reader->SetFileName(this->path("flat").c_str());
+  this->expectError("the vertex id 2147483647");
+}
+
+TEST_F(ReaderErrors, AreOverOnceTheMeshIsGood)
+{
+  this->Reader->SetFileName(this->path("none").c_str());
+  this->Reader->Update();
+  this->Reader->SetFileName(this->path("stored").c_str());
+  this->Reader->Update();
+  EXPECT_EQ(1, this->Errors->Count);
+  EXPECT_EQ(2 * 7 * 7,
+    vtkUnstructuredGrid::SafeDownCast(this->Reader->GetOutputDataObject(0))->GetNumberOfCells());
+}
+
+TEST_F(ReaderErrors, CanReadFileTellsMeshesFromOthers)
+{
+  EXPECT_EQ(1, this->Reader->CanReadFile(this->path("flat").c_str()));
+  EXPECT_EQ(1, this->Reader->CanReadFile(this->path("stored").c_str()));
+  EXPECT_EQ(1, this->Reader->CanReadFile(this->path("stored/index.json").c_str()));
+  EXPECT_EQ(0, this->Reader->CanReadFile(this->path("flat/cells.npy").c_str()));
+  EXPECT_EQ(0, this->Reader->CanReadFile(this->path("none").c_str()));
+  EXPECT_EQ(0, this->Reader->CanReadFile(nullptr));
+}
