@@ -20,20 +20,21 @@ vtkCxxSetObjectMacro(vtkPartitionedUnstructuredWriter, Controller, vtkMultiProce
 
 vtkPartitionedUnstructuredWriter::vtkPartitionedUnstructuredWriter()
 {
-  this->SetTiling("grid:4x4");
-  this->SetLoader("auto");
-  this->SetDevice("openmp");
-  this->SetController(vtkMultiProcessController::GetGlobalController());
+  this->vtkPartitionedUnstructuredWriter::SetTiling("grid:4x4");
+  this->vtkPartitionedUnstructuredWriter::SetLoader("auto");
+  this->vtkPartitionedUnstructuredWriter::SetDevice("openmp");
+  this->vtkPartitionedUnstructuredWriter::SetController(
+    vtkMultiProcessController::GetGlobalController());
 }
 
 vtkPartitionedUnstructuredWriter::~vtkPartitionedUnstructuredWriter()
 {
-  this->SetFileName(nullptr);
-  this->SetInputFileName(nullptr);
-  this->SetTiling(nullptr);
-  this->SetLoader(nullptr);
-  this->SetDevice(nullptr);
-  this->SetController(nullptr);
+  this->vtkPartitionedUnstructuredWriter::SetFileName(nullptr);
+  this->vtkPartitionedUnstructuredWriter::SetInputFileName(nullptr);
+  this->vtkPartitionedUnstructuredWriter::SetTiling(nullptr);
+  this->vtkPartitionedUnstructuredWriter::SetLoader(nullptr);
+  this->vtkPartitionedUnstructuredWriter::SetDevice(nullptr);
+  this->vtkPartitionedUnstructuredWriter::SetController(nullptr);
 }
 
 int vtkPartitionedUnstructuredWriter::FillInputPortInformation(int, vtkInformation* info)

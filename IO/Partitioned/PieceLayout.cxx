@@ -15,8 +15,9 @@ const char* const pieceFooter = "\n  </AppendedData>\n</VTKFile>\n";
 namespace
 {
 
-constexpr const char* fileStart = "<?xml version=\"1.0\"?>\n<VTKFile type=\"%TYPE\" version=\"1.0\" "
-                                  "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
+constexpr const char* fileStart =
+  "<?xml version=\"1.0\"?>\n<VTKFile type=\"%TYPE\" version=\"1.0\" "
+  "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
 
 std::string startOf(const std::string& type)
 {
@@ -84,7 +85,9 @@ std::string section(const std::string& name, const std::vector<std::string>& arr
   std::string text = indent + "<" + name + attributes + ">\n";
   for (const std::string& array : arrays)
   {
-    text += indent + "  " + array;
+    text += indent;
+    text += "  ";
+    text += array;
   }
   return text + indent + "</" + name + ">\n";
 }
@@ -182,8 +185,7 @@ std::int64_t storedTuples(
   return piece.Cells + (mesh.Duplicated ? piece.BorrowedCells : 0);
 }
 
-PieceLayout layOutPiece(
-  const PartitionedMesh& mesh, std::size_t number, const PieceSummary& piece)
+PieceLayout layOutPiece(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& piece)
 {
   PieceLayout layout;
   layout.Arrays = pieceArrays(mesh, piece);
@@ -199,8 +201,8 @@ PieceLayout layOutPiece(
   const std::int64_t cells = piece.Cells + (mesh.Duplicated ? piece.BorrowedCells : 0);
   std::string& header = layout.Header;
   header = startOf("UnstructuredGrid");
-  header += "  <!-- Piece " + std::to_string(number) + " of " +
-    std::to_string(mesh.Pieces.size()) + " of a partitioned mesh; ../index.json tells more. -->\n";
+  header += "  <!-- Piece " + std::to_string(number) + " of " + std::to_string(mesh.Pieces.size()) +
+    " of a partitioned mesh; ../index.json tells more. -->\n";
   header += "  <UnstructuredGrid" + timesAttribute(mesh) + ">\n    <Piece NumberOfPoints=\"" +
     std::to_string(piece.Points + piece.GhostPoints) + "\" NumberOfCells=\"" +
     std::to_string(cells) + "\">\n";
