@@ -45,7 +45,7 @@ public:
     , Result(result)
     , Threads(options.Threads > 0 ? options.Threads : omp_get_max_threads())
   {
-    this->Input.FirstId = 0;
+    this->Result.RowSize = points.RowSize;
   }
 
   void run()

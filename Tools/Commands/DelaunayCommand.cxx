@@ -9,6 +9,7 @@
 #include "Console/MpiSession.h"
 #include "Console/ProgressBar.h"
 #include "Files/Extension.h"
+#include "Meshes/WriteMesh.h"
 #include "Triangulation/Triangulate.h"
 
 #include <CLI/CLI.hpp>
