@@ -39,6 +39,8 @@ int run(int argc, char** argv)
   tipp::addDelaunayCommand(app, exitCode);
   tipp::addFlattenCommand(app, exitCode);
   tipp::addPointsCommand(app, exitCode);
+  tipp::addResampleCommand(app, exitCode);
+  tipp::addPartitionCommand(app, exitCode);
   tipp::addCheckCommand(app, exitCode);
   try
   {

@@ -59,7 +59,8 @@ bool forChunks(
   {
     std::rethrow_exception(error);
   }
-  return wanted;
+  // The calling thread may have come too late for any piece.
+  return wanted && (!report || report(1));
 }
 
 } // namespace tipp

@@ -115,6 +115,8 @@ void BoxTiling::cutAxis(std::size_t axis)
   const double low = this->Domain.Min[axis];
   const double high = this->Domain.Max[axis];
   const int n = this->Counts[axis];
+  const double boxesPerUnit = n / (high - low);
+  this->BoxesPerUnit[axis] = std::isfinite(boxesPerUnit) ? boxesPerUnit : 0.0;
   this->CutStart[axis] = this->Cuts.size();
   this->Cuts.push_back(low);
   for (int i = 1; i < n; ++i)

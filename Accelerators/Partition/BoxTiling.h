@@ -86,15 +86,41 @@ private:
   void makeGridBoxes();
   void makeTree(const std::vector<std::int32_t>& firstChild);
 
+  // Near the box that begins at or before value; any box would do.
+  int guess(std::size_t axis, double value) const
+  {
+    const double place = (value - this->Domain.Min[axis]) * this->BoxesPerUnit[axis];
+    const int last = this->Counts[axis] - 1;
+    // False for NaN.
+    return place > 0.0 ? (place < last ? static_cast<int>(place) : last) : 0;
+  }
+
   // Boxes along an axis that [low, high] meets; empty (First > Last) outside the domain.
   Range rangeAlong(std::size_t axis, double low, double high) const
   {
     const double* cuts = this->Cuts.data() + this->CutStart[axis];
     const int n = this->Counts[axis];
-    // The first box that ends at low or later; the last that begins at high or earlier.
-    const auto first = std::lower_bound(cuts + 1, cuts + n + 1, low) - (cuts + 1);
-    const auto last = std::upper_bound(cuts, cuts + n, high) - cuts - 1;
-    return { static_cast<int>(first), static_cast<int>(last) };
+    // The first box that ends at low or later.
+    int first = this->guess(axis, low);
+    while (first > 0 && cuts[first] >= low)
+    {
+      --first;
+    }
+    while (first < n && cuts[first + 1] < low)
+    {
+      ++first;
+    }
+    // The last that begins at high or earlier.
+    int last = this->guess(axis, high);
+    while (last + 1 < n && cuts[last + 1] <= high)
+    {
+      ++last;
+    }
+    while (last >= 0 && cuts[last] > high)
+    {
+      --last;
+    }
+    return { first, last };
   }
 
   template <typename Visit>
@@ -138,34 +164,42 @@ private:
         visit(-1 - child);
         continue;
       }
-      // Pushed with falling numbers, so that they come back with rising ones.
-      for (int which = this->ChildCount - 1; which >= 0; --which)
-      {
-        if (this->childMeets(node, which, box))
-        {
-          stack[size++] = child + which;
-        }
-      }
+      this->pushChildren(node, box, stack.data(), size);
     }
   }
 
-  // Within a node that the box meets, only the cuts matter.
-  bool childMeets(std::int32_t node, int which, const Box3& box) const
+  // Those that the box meets; it meets the node, so only the cuts matter.
+  void pushChildren(
+    std::int32_t node, const Box3& box, std::int32_t* stack, std::size_t& size) const
   {
     const double* middle = this->Middles.data() + 3 * static_cast<std::size_t>(node);
+    // Bit by bit of a child's number: it may be 0, it may be 1.
+    int lower = 0;
+    int upper = 0;
+    int bit = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       if ((this->Axes >> axis & 1) != 0)
       {
-        const bool upper = (which & 1) != 0;
-        which >>= 1;
-        if (upper ? box.Max[axis] < middle[axis] : box.Min[axis] > middle[axis])
-        {
-          return false;
-        }
+        lower |= (box.Min[axis] <= middle[axis] ? 1 : 0) << bit;
+        upper |= (box.Max[axis] >= middle[axis] ? 1 : 0) << bit;
+        ++bit;
       }
     }
-    return true;
+    const std::int32_t child = this->Children[static_cast<std::size_t>(node)];
+    if ((lower & upper) == 0)
+    {
+      stack[size++] = child + upper;
+      return;
+    }
+    // With falling numbers, so that they come back with rising ones.
+    for (int which = this->ChildCount - 1; which >= 0; --which)
+    {
+      if ((which & ~upper) == 0 && (~which & ~lower & (this->ChildCount - 1)) == 0)
+      {
+        stack[size++] = child + which;
+      }
+    }
   }
 
   int Dimension;
@@ -173,6 +207,7 @@ private:
   std::vector<Box3> Boxes;
   std::array<int, 3> Counts = { 1, 1, 1 };
   std::array<std::size_t, 3> CutStart = {};
+  std::array<double, 3> BoxesPerUnit = {}; // of a grid
   std::vector<double> Cuts;
   std::vector<std::int32_t> Children;
   std::vector<double> Middles;

@@ -4,15 +4,15 @@
 
 #include "Partition/ClassifyCells.h"
 #include "Predicates/CellBox.h"
+#include "vtkTIPPAcceleratorsModule.h"
 
-#include <algorithm>
-#include <cmath>
+#include <cstddef>
 
 namespace tipp
 {
 
 /// Bounds of cells and exact tests of them against boxes, in the plane or in space.
-class CellShape
+class VTKTIPPACCELERATORS_EXPORT CellShape
 {
 public:
   /// Throws AcceleratorError if the tiling's and the cells' dimensions do not go together.
@@ -26,28 +26,13 @@ public:
   /// The cell's bounding box; false if a coordinate is not finite.
   bool bounds(const double* corner, Box3& box) const
   {
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    if (this->Dimension == 3)
     {
-      box.Min[axis] = 0.0;
-      box.Max[axis] = 0.0;
+      return this->Cells.Corners == 4 ? boundsOf<3, 3, 4>(corner, box)
+                                      : boundsOf<3, 3, 3>(corner, box);
     }
-    const auto components = static_cast<std::size_t>(this->Cells.Dimension);
-    double check = 0.0;
-    for (std::size_t axis = 0; axis < static_cast<std::size_t>(this->Dimension); ++axis)
-    {
-      double low = corner[axis];
-      double high = corner[axis];
-      for (std::size_t i = axis; i < this->Stride; i += components)
-      {
-        low = std::min(low, corner[i]);
-        high = std::max(high, corner[i]);
-        // Zero, or NaN from the first value that is not finite on.
-        check += corner[i] * 0.0;
-      }
-      box.Min[axis] = low;
-      box.Max[axis] = high;
-    }
-    return check == 0.0;
+    return this->Cells.Dimension == 2 ? boundsOf<2, 2, 3>(corner, box)
+                                      : boundsOf<2, 3, 3>(corner, box);
   }
 
   /// Whether the cell and the box share a point. Exact.
@@ -57,6 +42,30 @@ public:
   }
 
 private:
+  template <std::size_t Dimension, std::size_t Components, std::size_t Corners>
+  static bool boundsOf(const double* corner, Box3& box)
+  {
+    box.Min[2] = 0.0;
+    box.Max[2] = 0.0;
+    double check = 0.0;
+    for (std::size_t axis = 0; axis < Dimension; ++axis)
+    {
+      double low = corner[axis];
+      double high = corner[axis];
+      for (std::size_t i = 0; i < Corners; ++i)
+      {
+        const double value = corner[i * Components + axis];
+        low = value < low ? value : low;
+        high = value > high ? value : high;
+        // Zero, or NaN from the first value that is not finite on.
+        check += value * 0.0;
+      }
+      box.Min[axis] = low;
+      box.Max[axis] = high;
+    }
+    return check == 0.0;
+  }
+
   bool meetsInPlane(const double* corner, const Box3& box) const;
   bool meetsInSpace(const double* corner, const Box3& box) const;
 

@@ -26,13 +26,13 @@ enum class Scalar
 /// An array of a mesh and the array of samples to fill from it.
 struct Attribute
 {
-  const void* Values = nullptr; ///< of the points, or the cells; Components a tuple
-  void* Samples = nullptr;      ///< as many Components for each sample
+  /// Of the points, or the cells; Components a tuple. Null: all are NullValue.
+  const void* Values = nullptr;
+  void* Samples = nullptr; ///< as many Components for each sample
   Scalar Type = Scalar::Float64;
   int Components = 1;
   bool OfCells = false;
-  /// What samples in no cell get.
-  double NullValue = 0;
+  double NullValue = 0; ///< what samples in no cell get
 };
 
 /// Calls work(value) with a value of the C++ type.

@@ -215,8 +215,8 @@ private:
 
 /// Runs a CellVisitor over the mesh.
 template <typename Sink>
-bool visitCells(const SimplexMesh& mesh, const LatticeAxes& axes, std::vector<Sink>& sinks,
-  const Report& report)
+bool visitCells(
+  const SimplexMesh& mesh, const LatticeAxes& axes, std::vector<Sink>& sinks, const Report& report)
 {
   bool completed = false;
   withAccess(mesh,

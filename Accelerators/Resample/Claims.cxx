@@ -27,8 +27,10 @@ struct Touch
 class FirstWalk
 {
 public:
-  explicit FirstWalk(std::int32_t* claims)
+  /// `names`: what the cells are called in the claims; null: as they are.
+  explicit FirstWalk(std::int32_t* claims, const std::int32_t* names = nullptr)
     : Claims(claims)
+    , Names(names)
   {
   }
 
@@ -41,10 +43,11 @@ public:
   void claim(std::int64_t first, int count, std::int32_t cell)
   {
     this->Claimed += count;
+    const std::int32_t name = this->Names ? this->Names[cell] : cell;
     for (std::int64_t i = first; i < first + count; ++i)
     {
       // An ordinary store; but cells that overlap may be in two threads at once.
-      __atomic_store_n(this->Claims + i, cell, __ATOMIC_RELAXED);
+      __atomic_store_n(this->Claims + i, name, __ATOMIC_RELAXED);
     }
   }
 
@@ -54,7 +57,7 @@ public:
     {
       if (__atomic_load_n(this->Claims + i, __ATOMIC_RELAXED) == unclaimed)
       {
-        this->Touches.push_back({ i, cell });
+        this->Touches.push_back({ i, this->Names ? this->Names[cell] : cell });
       }
     }
   }
@@ -85,6 +88,7 @@ public:
 
 private:
   std::int32_t* Claims;
+  const std::int32_t* Names;
   std::size_t MostTouches = 1 << 16;
 };
 
@@ -183,6 +187,35 @@ public:
     return std::move(this->Result);
   }
 
+  Claims finish(std::unique_ptr<std::int32_t[]> claims, std::int64_t claimed,
+    const std::vector<std::int32_t>& open)
+  {
+    this->Result.Cells = std::move(claims);
+    std::vector<std::int64_t> ids;
+    withAccess(this->Mesh,
+      [&](const auto& access)
+      {
+        for (const std::int32_t cell : open)
+        {
+          ids.insert(ids.end(), access.ids(cell), access.ids(cell) + access.Corners);
+        }
+      });
+    SimplexMesh part = this->Mesh;
+    part.Ids = ids.data();
+    part.Wide = true;
+    part.Cells = std::int64_t(open.size());
+    part.Hidden = nullptr;
+    std::vector<FirstWalk> walks(
+      std::size_t(this->Threads), FirstWalk(this->Result.Cells.get(), open.data()));
+    this->Result.Aborted = !visitCells(part, this->Axes, walks, this->Progress);
+    walks.front().Claimed += claimed;
+    if (!this->Result.Aborted)
+    {
+      this->settle(walks);
+    }
+    return std::move(this->Result);
+  }
+
 private:
   template <typename T>
   void fill(T* values, T value)
@@ -274,7 +307,8 @@ private:
         for (const Touch& touch : touches)
         {
           const CellKey key = OverlapWalk<Access>::keyOf(access, touch.Cell);
-          candidates.push_back({ touch.Sample, withRank(key, this->rank(access, touch)), touch.Cell });
+          candidates.push_back(
+            { touch.Sample, withRank(key, this->rank(access, touch)), touch.Cell });
         }
         std::sort(candidates.begin(), candidates.end(),
           [](const Candidate& a, const Candidate& b)
@@ -323,6 +357,13 @@ Claims claimSamples(
   const SimplexMesh& mesh, const Lattice& lattice, int threads, const Report& report)
 {
   return Claimer(mesh, lattice, threads, report).run();
+}
+
+Claims finishClaims(const SimplexMesh& mesh, const Lattice& lattice, int threads,
+  std::unique_ptr<std::int32_t[]> claims, std::int64_t claimed,
+  const std::vector<std::int32_t>& open, const Report& report)
+{
+  return Claimer(mesh, lattice, threads, report).finish(std::move(claims), claimed, open);
 }
 
 } // namespace tipp

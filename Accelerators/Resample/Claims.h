@@ -49,6 +49,12 @@ struct Claims
 VTKTIPPACCELERATORS_EXPORT Claims claimSamples(
   const SimplexMesh& mesh, const Lattice& lattice, int threads, const Report& report = {});
 
+/// Finishes what a device has begun: `claims` has those of all cells but the `open` ones, which it
+/// may have in part; `claimed` is the sum of samples that each of the others claims.
+Claims finishClaims(const SimplexMesh& mesh, const Lattice& lattice, int threads,
+  std::unique_ptr<std::int32_t[]> claims, std::int64_t claimed,
+  const std::vector<std::int32_t>& open, const Report& report);
+
 } // namespace tipp
 
 #endif

@@ -60,7 +60,8 @@ public:
       const T* const from = this->Values + cell * this->Components;
       for (int j = run.Begin; j < run.Begin + run.Count; ++j)
       {
-        std::copy(from, from + this->Components, this->Samples + std::int64_t(j) * this->Components);
+        std::copy(
+          from, from + this->Components, this->Samples + std::int64_t(j) * this->Components);
       }
     }
   }
@@ -122,8 +123,9 @@ private:
   const Runs& Block;
 };
 
-void fillUnclaimed(
-  const Attribute& attribute, const std::int32_t* claims, std::int64_t first, std::int64_t end)
+/// Sets the samples whose being claimed is as given.
+void fillNull(const Attribute& attribute, const std::int32_t* claims, bool claimed,
+  std::int64_t first, std::int64_t end)
 {
   withScalar(attribute.Type,
     [&](auto type)
@@ -134,7 +136,7 @@ void fillUnclaimed(
       T* const samples = static_cast<T*>(attribute.Samples);
       for (std::int64_t i = first; i < end; ++i)
       {
-        if (claims[i] < 0)
+        if ((claims[i] >= 0) == claimed)
         {
           std::fill(samples + i * components, samples + (i + 1) * components, null);
         }
@@ -144,16 +146,43 @@ void fillUnclaimed(
 
 template <typename Access>
 void fillBlock(const SampleRuns<Access>& runs, const std::vector<Attribute>& attributes,
-  std::int64_t first, const std::int64_t* parents)
+  std::int64_t first, const InterpolationOptions& options)
 {
   for (const Attribute& attribute : attributes)
   {
+    const bool interpolated = !attribute.OfCells &&
+      (attribute.Type == Scalar::Float32 || attribute.Type == Scalar::Float64);
+    if (!attribute.Values || (interpolated && options.SkipInterpolated))
+    {
+      continue;
+    }
     withScalar(attribute.Type,
       [&](auto type)
       {
         BlockFiller<Access, decltype(type)> filler(attribute, runs, first);
-        attribute.OfCells ? filler.fromCells(parents) : filler.fromPoints();
+        attribute.OfCells ? filler.fromCells(options.Parents) : filler.fromPoints();
       });
+  }
+}
+
+void fillRest(const std::vector<Attribute>& attributes, const std::int32_t* claims,
+  std::int64_t begin, std::int64_t end, const InterpolationOptions& options)
+{
+  for (const Attribute& attribute : attributes)
+  {
+    if (options.FillUnclaimed)
+    {
+      fillNull(attribute, claims, false, begin, end);
+    }
+    if (!attribute.Values)
+    {
+      fillNull(attribute, claims, true, begin, end);
+    }
+  }
+  for (std::int64_t i = options.Valid ? begin : end; i < end; ++i)
+  {
+    const bool claimed = claims[i] >= 0;
+    options.Valid[i] = claimed || options.FillUnclaimed ? claimed : options.Valid[i];
   }
 }
 
@@ -168,21 +197,21 @@ bool interpolate(const SimplexMesh& mesh, const Lattice& lattice, const std::int
     [&](const auto& access)
     {
       using Runs = SampleRuns<std::decay_t<decltype(access)>>;
+      const bool needsWeights = !options.SkipInterpolated ||
+        std::any_of(attributes.begin(), attributes.end(),
+          [](const Attribute& attribute) { return !attribute.OfCells; });
       std::vector<Runs> blocks(std::size_t(options.Threads), Runs(mesh, axes));
       completed = forChunks(axes.samples(), Runs::BlockSize, options.Threads, options.Progress,
         [&](std::int64_t begin, std::int64_t end, int thread)
         {
           Runs& runs = blocks[std::size_t(thread)];
           runs.find(claims, begin, int(end - begin));
-          runs.weigh();
-          fillBlock(runs, attributes, begin, options.Parents);
-          for (const Attribute& attribute : attributes)
+          if (needsWeights)
           {
-            if (options.FillUnclaimed)
-            {
-              fillUnclaimed(attribute, claims, begin, end);
-            }
+            runs.weigh();
           }
+          fillBlock(runs, attributes, begin, options);
+          fillRest(attributes, claims, begin, end, options);
         });
     });
   return completed;

@@ -21,8 +21,12 @@ struct InterpolationOptions
   int Threads = 1;
   /// Whether samples that no cell claims get the NullValue; else they keep what they have.
   bool FillUnclaimed = true;
+  /// Whether floating-point arrays of points are there already.
+  bool SkipInterpolated = false;
   /// The cell of the attributes' arrays that each simplex is a part of; null: it is one itself.
   const std::int64_t* Parents = nullptr;
+  /// One a sample, set to 1 where a cell claims it, and with FillUnclaimed to 0 elsewhere; or null.
+  unsigned char* Valid = nullptr;
   Report Progress;
 };
 

@@ -40,6 +40,7 @@ class LatticeAxis
 public:
   LatticeAxis(const Lattice& lattice, int axis)
     : Min(lattice.Min[axis])
+    , Delta(lattice.Delta[axis])
     , Inverse(1.0 / lattice.Delta[axis])
     , First(lattice.Extent[2 * axis])
     , Limit(double(lattice.size(axis)) + 0.5)
@@ -80,6 +81,9 @@ public:
   /// roundings, each of 2^-53 of twice `reach` and Min at the most; this counts 64.
   double error(double reach) const { return reach * this->ErrorScale + this->ErrorOffset; }
   double errorScale() const { return this->ErrorScale; }
+  double errorOffset() const { return this->ErrorOffset; }
+  double limit() const { return this->Limit; }
+  double delta() const { return this->Delta; }
 
   /// Whether the whole part of a place with this error is certain. Never with an error that is half
   /// or more, infinite, or not a number.
@@ -120,6 +124,7 @@ private:
   }
 
   double Min;
+  double Delta;
   double Inverse;
   double First;
   double Limit;

@@ -19,6 +19,7 @@ struct SimplexMesh
   const void* Ids = nullptr;    ///< three or four point ids a cell
   bool Wide = false;            ///< Ids are int64, else int32
   std::int64_t Cells = 0;
+  std::int64_t PointCount = 0;           ///< for copies to a device
   const unsigned char* Hidden = nullptr; ///< a cell with other than 0 answers nothing; may be null
   /// 3 for tetrahedra. 2 for triangles, of which the two coordinates along Axes count.
   int Dimension = 2;

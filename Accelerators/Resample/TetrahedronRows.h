@@ -61,8 +61,8 @@ public:
     RowSpan span{ this->Columns.Begin, this->Columns.End, this->Columns.End };
     for (const Face& face : this->Faces)
     {
-      const double place = this->X.clamp(
-        face.Place - (face.PerY * (y - face.A.y) + face.PerZ * (z - face.A.z)));
+      const double place =
+        this->X.clamp(face.Place - (face.PerY * (y - face.A.y) + face.PerZ * (z - face.A.z)));
       if (LatticeAxis::certain(place, face.Error))
       {
         const int count = int(place);
@@ -144,8 +144,7 @@ private:
     return true;
   }
 
-  void setFace(
-    int i, Point3 a, Point3 b, Point3 c, double width, double depth, double height)
+  void setFace(int i, Point3 a, Point3 b, Point3 c, double width, double depth, double height)
   {
     // Within the cell's box every product of a plane's equation is at most twice the box's volume;
     // less than 32 roundings of those are made, and 64 are allowed for.
@@ -182,7 +181,8 @@ private:
     }
   }
 
-  [[gnu::noinline]] void exactSpan(const Face& face, double y, double z, double place, RowSpan& span) const
+  [[gnu::noinline]] void exactSpan(
+    const Face& face, double y, double z, double place, RowSpan& span) const
   {
     if (face.Direction == 0)
     {
@@ -227,12 +227,12 @@ private:
     ++this->ExactTests;
     const int side = orientation3(face.A, face.B, face.C, { face.A.x, y, z });
     // The move goes along y, then along z.
-    const int ny = side == 0 ? orientation({ face.A.z, face.A.x }, { face.B.z, face.B.x },
-                                 { face.C.z, face.C.x })
-                             : 0;
-    const int nz = side == 0 && ny == 0 ? orientation({ face.A.x, face.A.y },
-                                            { face.B.x, face.B.y }, { face.C.x, face.C.y })
-                                        : 0;
+    const int ny = side == 0
+      ? orientation({ face.A.z, face.A.x }, { face.B.z, face.B.x }, { face.C.z, face.C.x })
+      : 0;
+    const int nz = side == 0 && ny == 0
+      ? orientation({ face.A.x, face.A.y }, { face.B.x, face.B.y }, { face.C.x, face.C.y })
+      : 0;
     if (side < 0)
     {
       span.End = span.ClosedEnd = span.Begin;

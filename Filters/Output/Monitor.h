@@ -4,6 +4,8 @@
 
 #include "Compatibility.h"
 
+#include "vtkAlgorithm.h"
+
 #include <algorithm>
 #include <atomic>
 #include <thread>
@@ -22,6 +24,7 @@ public:
   {
   }
 
+  /// False if the work is to stop.
   bool operator()(double fraction)
   {
     constexpr double share = 0.95; // the rest is for making the output

@@ -255,23 +255,19 @@ private:
   Stopwatch Watch;
 };
 
-/// Partitions of the size that workers are fastest at, but enough of them for all threads: a few
-/// for each, so that none waits for an independent one, and more if they are still large.
+/// Partitions of the size that workers are fastest at, but enough of them for all threads.
 int choosePartitionCount(std::size_t points, int threads)
 {
   constexpr std::size_t alone = 32768;
+  constexpr std::size_t smallest = 4096;
   constexpr std::size_t best = 49152;
+  constexpr std::size_t perThread = 8;
   if (points <= (threads == 1 ? 3 * best : alone))
   {
     return 1;
   }
-  const auto atMost = [points, threads](std::size_t perThread, std::size_t smallest)
-  { return std::min(perThread * static_cast<std::size_t>(threads), points / smallest); };
-  std::size_t count = std::max(points / best, atMost(8, 4096));
-  if (threads > 1)
-  {
-    count = std::max(count, atMost(32, 16384));
-  }
+  const std::size_t count = std::max(
+    points / best, std::min(perThread * static_cast<std::size_t>(threads), points / smallest));
   return static_cast<int>(std::min(count, std::size_t(1) << 26));
 }
 

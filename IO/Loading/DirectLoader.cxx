@@ -4,6 +4,7 @@
 #include "Loading/Divisor.h"
 #include "Loading/Loaders.h"
 #include "Loading/ScatterRange.h"
+#include "Loading/SegmentCounts.h"
 
 #include <algorithm>
 
@@ -70,8 +71,9 @@ private:
   {
     const std::size_t segments = std::size_t((range.High - range.Low) / this->M) + 1;
     const Divisor m(std::uint64_t(this->M));
-    return markActive(ids, count, range.Low, segments, this->Threads,
-      [m](std::uint64_t id) { return m.quotient(id); });
+    return countSegments(ids, count, range.Low, segments, this->Threads,
+      [m](std::uint64_t id) { return m.quotient(id); })
+      .active();
   }
 
   ArrayFiles Files;

@@ -2,14 +2,15 @@
 // Direct Load with a fine bitmap: what is active is known for about 1,024 vertices rather than for
 // M, so that a chunk whose vertices lie together reads little else; active runs that are near each
 // other are read at once, and packed up to M vertices a pass.
-#include "Loading/IdGroups.h"
 #include "Loading/Loaders.h"
 #include "Loading/Runs.h"
 #include "Loading/ScatterRange.h"
+#include "Loading/SegmentCounts.h"
 
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace tipp
 {
@@ -26,11 +27,12 @@ class FineLoader : public VertexLoader
 public:
   FineLoader(ArrayFiles files, std::int64_t m, int threads)
     : Files(std::move(files))
-    , M(m)
+    // Places in the buffers are numbers of 32 bits.
+    , M(std::min<std::int64_t>(m, std::numeric_limits<std::uint32_t>::max()))
     , Threads(threads)
     , Gap(gapBytes / std::int64_t(std::max<std::size_t>(this->Files.recordBytes(), 1)))
   {
-    while (this->Shift < mostShift && (std::int64_t(2) << this->Shift) <= m)
+    while (this->Shift < mostShift && (std::int64_t(2) << this->Shift) <= this->M)
     {
       ++this->Shift;
     }
@@ -72,12 +74,12 @@ private:
     const int shift = this->Shift;
     const std::int64_t block = std::int64_t(1) << shift;
     const std::size_t blocks = std::size_t((range.High - range.Low) >> shift) + 1;
-    const std::vector<char> active = markActive(ids, count, range.Low, blocks, this->Threads,
+    const SegmentCounts counts = countSegments(ids, count, range.Low, blocks, this->Threads,
       [shift](std::uint64_t id) { return id >> shift; });
-    RunPlan plan(
-      runsOfBlocks(active, block, range.Low, range.High, this->Gap), this->M, block, range.Low);
-    // Of each block: where it is packed, and in which group.
-    std::vector<std::uint64_t> starts(blocks);
+    const RunPlan plan(runsOfBlocks(counts.active(), block, range.Low, range.High, this->Gap),
+      this->M, block, range.Low);
+    // Where each block is packed, and in which group.
+    std::vector<std::uint32_t> starts(blocks);
     std::vector<std::uint32_t> groups(blocks);
     for (std::size_t i = 0; i < plan.Runs.size(); ++i)
     {
@@ -85,58 +87,116 @@ private:
       for (std::int64_t at = 0; at < run.Size; at += block)
       {
         const auto index = std::size_t((run.First + at - range.Low) >> shift);
-        starts[index] = plan.Packed[i] + std::uint64_t(at);
+        starts[index] = plan.Packed[i] + std::uint32_t(at);
         groups[index] = plan.GroupOf[i];
       }
     }
-    this->loadPlan(
-      { ids, count, range.Low, range.High - range.Low + 1 }, plan, out,
-      [&](std::uint64_t id) { return std::size_t(groups[id >> shift]); },
-      [&, mask = std::uint64_t(block - 1)](std::uint64_t id)
-      { return starts[id >> shift] + (id & mask); });
+    const auto place = [&starts, shift, mask = std::uint64_t(block - 1)](std::uint64_t id)
+    { return starts[id >> shift] + (id & mask); };
+    if (plan.groups() == 1)
+    {
+      this->readGroup(plan, 0);
+      scatterRange({ ids, count, range.Low, range.High - range.Low + 1 }, this->Files,
+        this->Buffers, out, this->Threads, place);
+      return;
+    }
+    this->sortMoves(ids, counts, groups, plan.groups(),
+      [&place, &groups, shift, low = range.Low](std::int64_t id)
+      {
+        const auto relative = std::uint64_t(id - low);
+        return std::make_pair(groups[relative >> shift], std::uint32_t(place(relative)));
+      });
+    this->loadMoves(plan, out);
+  }
+
+  /// Fills Moves, group by group: a counting sort. where(id) gives an id's group and its place in
+  /// the buffers.
+  template <typename Where>
+  void sortMoves(const std::int64_t* ids, const SegmentCounts& counts,
+    const std::vector<std::uint32_t>& groupOf, std::size_t groups, const Where& where)
+  {
+    std::vector<std::vector<std::size_t>> next(counts.shares());
+    for (std::size_t share = 0; share < counts.shares(); ++share)
+    {
+      next[share].assign(groups, 0);
+      for (std::size_t block = 0; block < groupOf.size(); ++block)
+      {
+        next[share][groupOf[block]] += counts.Shares[share][block];
+      }
+    }
+    this->MoveStarts.clear();
+    std::size_t at = 0;
+    for (std::size_t group = 0; group < groups; ++group)
+    {
+      this->MoveStarts.push_back(at);
+      for (std::vector<std::size_t>& own : next)
+      {
+        at += std::exchange(own[group], at);
+      }
+    }
+    this->MoveStarts.push_back(at);
+    this->reserveMoves(at);
+    parallelFor(std::int64_t(counts.shares()), this->Threads,
+      [&](std::int64_t share)
+      {
+        std::vector<std::size_t>& own = next[std::size_t(share)];
+        const std::size_t end = counts.ShareStarts[std::size_t(share) + 1];
+        for (std::size_t i = counts.ShareStarts[std::size_t(share)]; i < end; ++i)
+        {
+          const auto [group, source] = where(ids[i]);
+          this->Moves[own[group]++] = { source, std::uint32_t(i) };
+        }
+      });
   }
 
   void loadSorted(
     const std::int64_t* ids, std::size_t count, const IdRange& range, void* const* out)
   {
-    const RunPlan plan(runsOfIds(ids, count, this->Gap), this->M, 1, range.Low);
-    const auto runOf = [&](std::uint64_t id)
+    std::vector<std::pair<std::int64_t, std::uint32_t>> sorted(count);
+    for (std::size_t i = 0; i < count; ++i)
     {
-      const auto after =
-        std::upper_bound(plan.Runs.begin(), plan.Runs.end(), range.Low + std::int64_t(id),
-          [](std::int64_t value, const Run& run) { return value < run.First; });
-      return std::size_t(after - plan.Runs.begin()) - 1;
-    };
-    this->loadPlan(
-      { ids, count, range.Low, range.High - range.Low + 1 }, plan, out,
-      [&](std::uint64_t id) { return std::size_t(plan.GroupOf[runOf(id)]); },
-      [&](std::uint64_t id)
+      sorted[i] = { ids[i], std::uint32_t(i) };
+    }
+    std::sort(sorted.begin(), sorted.end());
+    const RunPlan plan(runsOfIds(sorted, this->Gap), this->M, 1, range.Low);
+    this->reserveMoves(count);
+    this->MoveStarts.clear();
+    std::size_t i = 0;
+    for (std::size_t run = 0; run < plan.Runs.size(); ++run)
+    {
+      if (plan.GroupOf[run] == this->MoveStarts.size())
       {
-        const std::size_t run = runOf(id);
-        return plan.Packed[run] + (id - std::uint64_t(plan.Runs[run].First - range.Low));
-      });
+        this->MoveStarts.push_back(i);
+      }
+      const std::int64_t first = plan.Runs[run].First;
+      for (; i < count && sorted[i].first < first + plan.Runs[run].Size; ++i)
+      {
+        const auto inside = std::uint32_t(sorted[i].first - first);
+        this->Moves[i] = { plan.Packed[run] + inside, sorted[i].second };
+      }
+    }
+    this->MoveStarts.push_back(count);
+    this->loadMoves(plan, out);
   }
 
-  /// `groupOf` and `place` tell for an id, less the least of all, in which group and where in the
-  /// buffers it is.
-  template <typename Group, typename Place>
-  void loadPlan(const WantedTuples& wanted, const RunPlan& plan, void* const* out,
-    const Group& groupOf, const Place& place)
+  void loadMoves(const RunPlan& plan, void* const* out)
   {
-    if (plan.groups() == 1)
-    {
-      this->readGroup(plan, 0);
-      scatterRange(wanted, this->Files, this->Buffers, out, this->Threads, place);
-      return;
-    }
-    const IdGroups sorted =
-      groupIds(wanted.Ids, wanted.Count, wanted.First, plan.groups(), this->Threads, groupOf);
     for (std::size_t group = 0; group < plan.groups(); ++group)
     {
       this->readGroup(plan, group);
-      scatterPlaces(wanted, sorted.Places.data() + sorted.Starts[group],
-        sorted.Starts[group + 1] - sorted.Starts[group], this->Files, this->Buffers, out,
-        this->Threads, place);
+      scatterMoves(this->Moves.get() + this->MoveStarts[group],
+        this->MoveStarts[group + 1] - this->MoveStarts[group], this->Files, this->Buffers, out,
+        this->Threads);
+    }
+  }
+
+  /// Without setting them: all are written before they are read.
+  void reserveMoves(std::size_t count)
+  {
+    if (count > this->MoveRoom)
+    {
+      this->Moves.reset(new Move[count]);
+      this->MoveRoom = count;
     }
   }
 
@@ -151,7 +211,7 @@ private:
       for (std::size_t i = begin; i < end; ++i)
       {
         const Run& run = plan.Runs[i];
-        char* const to = this->Buffers.data(a) + plan.Packed[i] * bytes;
+        char* const to = this->Buffers.data(a) + std::size_t(plan.Packed[i]) * bytes;
         this->Files.read(a, run.First, run.Size, to, this->Counts);
       }
     }
@@ -165,6 +225,9 @@ private:
   int Shift = 0;    ///< a block is 2^Shift tuples
   LoadCounters Counts;
   TupleBuffers Buffers;
+  std::unique_ptr<Move[]> Moves; ///< of the chunk, sorted by group
+  std::size_t MoveRoom = 0;
+  std::vector<std::size_t> MoveStarts; ///< of the groups, and the number of moves
 };
 
 } // namespace

@@ -37,15 +37,16 @@ std::vector<Run> runsOfBlocks(const std::vector<char>& active, std::int64_t bloc
   return runs;
 }
 
-std::vector<Run> runsOfIds(const std::int64_t* ids, std::size_t count, std::int64_t gap)
+std::vector<Run> runsOfIds(
+  const std::vector<std::pair<std::int64_t, std::uint32_t>>& ids, std::int64_t gap)
 {
-  std::vector<std::int64_t> sorted(ids, ids + count);
-  std::sort(sorted.begin(), sorted.end());
-  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
   std::vector<Run> runs;
-  for (const std::int64_t id : sorted)
+  for (const auto& pair : ids)
   {
-    append(runs, { id, 1 }, std::max<std::int64_t>(gap, 1));
+    if (runs.empty() || pair.first >= runs.back().First + runs.back().Size)
+    {
+      append(runs, { pair.first, 1 }, std::max<std::int64_t>(gap, 1));
+    }
   }
   return runs;
 }
@@ -88,12 +89,12 @@ RunPlan::RunPlan(std::vector<Run> runs, std::int64_t m, std::int64_t block, std:
 {
   for (std::size_t group = 0; group < this->groups(); ++group)
   {
-    std::uint64_t packed = 0;
+    std::uint32_t packed = 0;
     for (std::size_t i = this->Starts[group]; i < this->Starts[group + 1]; ++i)
     {
       this->Packed.push_back(packed);
       this->GroupOf.push_back(std::uint32_t(group));
-      packed += std::uint64_t(this->Runs[i].Size);
+      packed += std::uint32_t(this->Runs[i].Size);
     }
   }
 }

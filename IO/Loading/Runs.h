@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -21,8 +22,9 @@ struct Run
 std::vector<Run> runsOfBlocks(const std::vector<char>& active, std::int64_t block, std::int64_t low,
   std::int64_t high, std::int64_t gap);
 
-/// The same for single ids, in any order.
-std::vector<Run> runsOfIds(const std::int64_t* ids, std::size_t count, std::int64_t gap);
+/// The same for single ids, which come first in their pairs and ascend.
+std::vector<Run> runsOfIds(
+  const std::vector<std::pair<std::int64_t, std::uint32_t>>& ids, std::int64_t gap);
 
 /// Cuts runs into groups of at most m tuples: the index in the cut runs where each group begins,
 /// and the number of runs at the end. A run is cut at a multiple of `block` tuples from `low`.
@@ -38,7 +40,7 @@ struct RunPlan
 
   std::vector<tipp::Run> Runs;
   std::vector<std::size_t> Starts;    ///< of the groups, and the number of runs
-  std::vector<std::uint64_t> Packed;  ///< of each run
+  std::vector<std::uint32_t> Packed;  ///< of each run; m is below 2^32
   std::vector<std::uint32_t> GroupOf; ///< of each run
 };
 

@@ -81,10 +81,16 @@ void scatterRange(const WantedTuples& wanted, const ArrayFiles& files, TupleBuff
     });
 }
 
-/// The same for the ids at some places of the chunk, which are known to be in the buffers.
-template <typename Place>
-void scatterPlaces(const WantedTuples& wanted, const std::uint32_t* at, std::size_t count,
-  const ArrayFiles& files, TupleBuffers& buffers, void* const* out, int threads, const Place& place)
+/// Where a tuple lies in the buffers, and where in the chunk it goes.
+struct Move
+{
+  std::uint32_t Source;
+  std::uint32_t Target;
+};
+
+/// Copies tuples from the buffers to their places in the chunk.
+inline void scatterMoves(const Move* moves, std::size_t count, const ArrayFiles& files,
+  TupleBuffers& buffers, void* const* out, int threads)
 {
   constexpr std::size_t share = 1 << 16;
   parallelFor(std::int64_t((count + share - 1) / share), threads,
@@ -97,41 +103,12 @@ void scatterPlaces(const WantedTuples& wanted, const std::uint32_t* at, std::siz
         const std::size_t size = std::min(scatterBlock, end - first);
         for (std::size_t i = 0; i < size; ++i)
         {
-          places.Targets[i] = at[first + i];
-          places.Sources[i] = place(std::uint64_t(wanted.Ids[at[first + i]] - wanted.First));
+          places.Sources[i] = moves[first + i].Source;
+          places.Targets[i] = moves[first + i].Target;
         }
         places.copy(size, files, buffers, out);
       }
     });
-}
-
-/// An element a segment: whether an id lies in it. segment(id - low) tells which.
-template <typename Segment>
-std::vector<char> markActive(const std::int64_t* ids, std::size_t count, std::int64_t low,
-  std::size_t segments, int threads, const Segment& segment)
-{
-  constexpr std::size_t least = 1 << 16;
-  // Each thread marks its own, so that there is nothing to wait for.
-  const std::size_t shares =
-    std::max<std::size_t>(std::min(std::size_t(threadCount(threads)), count / least), 1);
-  std::vector<std::vector<char>> marks(shares);
-  parallelFor(std::int64_t(shares), threads,
-    [&](std::int64_t share)
-    {
-      std::vector<char> own(segments, 0);
-      const std::size_t end = count * std::size_t(share + 1) / shares;
-      for (std::size_t i = count * std::size_t(share) / shares; i < end; ++i)
-      {
-        own[segment(std::uint64_t(ids[i] - low))] = 1;
-      }
-      marks[std::size_t(share)] = std::move(own);
-    });
-  for (std::size_t share = 1; share < shares; ++share)
-  {
-    std::transform(marks[0].begin(), marks[0].end(), marks[share].begin(), marks[0].begin(),
-      [](char a, char b) { return char(a | b); });
-  }
-  return std::move(marks[0]);
 }
 
 } // namespace tipp

@@ -2,6 +2,8 @@
 #ifndef tippChecksum_h
 #define tippChecksum_h
 
+#include "vtkTIPPIOModule.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -11,7 +13,7 @@ namespace tipp
 {
 
 /// XXH3 with 64 bits and no seed (https://github.com/Cyan4973/xxHash).
-std::uint64_t checksumOf(const void* data, std::size_t bytes);
+VTKTIPPIO_EXPORT std::uint64_t checksumOf(const void* data, std::size_t bytes);
 
 /// The same of bytes that come one part after the other.
 class Checksum
@@ -32,7 +34,7 @@ private:
 };
 
 /// 16 hexadecimal digits, and back; false for anything else.
-std::string checksumText(std::uint64_t checksum);
+VTKTIPPIO_EXPORT std::string checksumText(std::uint64_t checksum);
 bool parseChecksum(const std::string& text, std::uint64_t& checksum);
 
 } // namespace tipp

@@ -2,6 +2,8 @@
 #ifndef tippIdMap_h
 #define tippIdMap_h
 
+#include "vtkTIPPIOModule.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -11,7 +13,7 @@ namespace tipp
 
 /// From ids to values, both not negative. Looking up takes a table of about one id an entry, and a
 /// search among the few ids that share an entry: two cache lines a look-up.
-class IdMap
+class VTKTIPPIO_EXPORT IdMap
 {
 public:
   IdMap() = default;

@@ -4,6 +4,7 @@
 #include "Files/OutputFile.h"
 #include "Partitioned/Checksum.h"
 #include "Partitioned/MeshIndex.h"
+#include "Partitioning/AssignPieces.h"
 #include "Partitioning/PartitionRun.h"
 #include "Partitioning/PieceAssembly.h"
 #include "Threads/ParallelFor.h"
@@ -25,24 +26,17 @@ struct FinishedPiece
   PieceTable Table;
 };
 
-/// Contiguous runs of pieces of about equal weight; [first, last) of this rank.
+/// [first, last) of this rank.
 std::pair<std::size_t, std::size_t> shareOfPieces(const PartitionRun& run)
 {
-  std::vector<double> ends;
-  double sum = 0;
+  std::vector<std::int64_t> weights;
   for (std::size_t piece = 0; piece < run.pieces(); ++piece)
   {
-    sum += 1 + double(run.Cells->rows(piece)) + double(run.Points->rows(piece));
-    ends.push_back(sum);
+    weights.push_back(1 + run.Cells->rows(piece) + run.Points->rows(piece));
   }
-  const auto startOf = [&](int rank)
-  {
-    const double before = sum * rank / run.Team.count();
-    return std::size_t(std::upper_bound(ends.begin(), ends.end(), before) - ends.begin());
-  };
-  const int rank = run.Team.rank();
-  return { rank == 0 ? 0 : startOf(rank),
-    rank + 1 == run.Team.count() ? run.pieces() : startOf(rank + 1) };
+  const std::vector<std::size_t> starts = assignPieces(weights, run.Team.count());
+  const auto rank = std::size_t(run.Team.rank());
+  return { starts[rank], starts[rank + 1] };
 }
 
 std::size_t bufferBytes(const PartitionRun& run)
@@ -59,8 +53,8 @@ std::vector<FinishedPiece> assembleShare(PartitionRun& run)
   // The heaviest first, so that threads end together.
   std::vector<std::size_t> order(last - first);
   std::iota(order.begin(), order.end(), first);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b)
-    { return run.Cells->rows(a) > run.Cells->rows(b); });
+  std::stable_sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b) { return run.Cells->rows(a) > run.Cells->rows(b); });
   std::vector<FinishedPiece> finished(order.size());
   std::atomic<std::size_t> done{ 0 };
   // Progress is for the calling thread alone, which waits; it hears of every stretch.
@@ -178,15 +172,15 @@ private:
 /// Tells each piece what the others lend it.
 void addBorrowed(std::vector<FinishedPiece>& pieces, bool duplicated)
 {
-  const auto eachGroup = [&](std::size_t owner, const std::vector<LentGroup>& groups,
-                           const auto& take)
+  const auto eachGroup =
+    [&](std::size_t owner, const std::vector<LentGroup>& groups, const auto& take)
   {
     for (std::size_t g = 0; g < groups.size(); ++g)
     {
       for (const std::int32_t to : groups[g].To)
       {
-        take(pieces[std::size_t(to)],
-          BorrowedGroup{ std::int32_t(owner), std::int32_t(g) }, groups[g].Count);
+        take(pieces[std::size_t(to)], BorrowedGroup{ std::int32_t(owner), std::int32_t(g) },
+          groups[g].Count);
       }
     }
   };

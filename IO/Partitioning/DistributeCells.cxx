@@ -23,8 +23,8 @@ struct Chunk
   std::int64_t First = 0;
   std::size_t Cells = 0;
   std::vector<std::int64_t> Ids;
-  std::vector<std::int32_t> Homes;     ///< of the vertices, cell by cell
-  std::vector<std::uint32_t> Border;   ///< cells that meet several partitions
+  std::vector<std::int32_t> Homes;   ///< of the vertices, cell by cell
+  std::vector<std::uint32_t> Border; ///< cells that meet several partitions
 };
 
 class CellDistribution
@@ -34,22 +34,14 @@ public:
     : Run(run)
     , Corners(std::size_t(run.Rows.Corners))
     , Data(run.CellData)
-    , HomeLoader(makeVertexLoader({ run.homes() }, loaderOptions(run)))
-    , PointLoader(makeVertexLoader({ run.Mesh.Points }, loaderOptions(run)))
+    , HomeLoader(makeVertexLoader({ run.homes() }, run.loaderOptions()))
+    , PointLoader(makeVertexLoader({ run.Mesh.Points }, run.loaderOptions()))
   {
   }
 
   void run();
 
 private:
-  static LoaderOptions loaderOptions(const PartitionRun& run)
-  {
-    LoaderOptions options = run.Options.Loading;
-    options.MemoryLimit = run.Options.MemoryLimit / 4;
-    options.Threads = run.Threads;
-    return options;
-  }
-
   void loadHomes(Chunk& chunk);
   void spillInterior(const Chunk& chunk);
   Membership classify(const Chunk& chunk, std::size_t first, std::size_t count);
@@ -190,16 +182,15 @@ void CellDistribution::spillBorder(const Chunk& chunk, std::size_t first, std::s
     [&](std::size_t i, char* to)
     {
       to = this->putCell(chunk, cellOf(i), to);
-      const auto borrowers =
-        std::uint32_t(members.BorrowerStart[i + 1] - members.BorrowerStart[i]);
+      const auto borrowers = std::uint32_t(members.BorrowerStart[i + 1] - members.BorrowerStart[i]);
       std::memcpy(to, &borrowers, 4);
     });
   // The cell of each of all borrowers.
   std::vector<std::uint32_t> cells;
   for (std::size_t i = 0; i < count; ++i)
   {
-    cells.insert(cells.end(),
-      std::size_t(members.BorrowerStart[i + 1] - members.BorrowerStart[i]), std::uint32_t(i));
+    cells.insert(cells.end(), std::size_t(members.BorrowerStart[i + 1] - members.BorrowerStart[i]),
+      std::uint32_t(i));
   }
   this->Run.Borrowers->add(
     cells.size(), this->Run.Threads, [&](std::size_t i) { return members.Owner[cells[i]]; },

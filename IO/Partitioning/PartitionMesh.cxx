@@ -2,7 +2,7 @@
 #include "Partitioning/PartitionMesh.h"
 
 #include "Files/IOError.h"
-#include "Partitioned/PendingFolder.h"
+#include "Partitioned/PendingMesh.h"
 #include "Partitioned/PieceLayout.h"
 #include "Partitioning/AssemblePieces.h"
 #include "Partitioning/DistributeCells.h"
@@ -32,6 +32,14 @@ RawArray PartitionRun::homes() const
   array.Type = Scalar::Int32;
   array.Tuples = this->Mesh.Points.Tuples;
   return array;
+}
+
+LoaderOptions PartitionRun::loaderOptions() const
+{
+  LoaderOptions options = this->Options.Loading;
+  options.MemoryLimit = this->Options.MemoryLimit / 4;
+  options.Threads = this->Threads;
+  return options;
 }
 
 void PartitionRun::report(double fraction) const
@@ -137,9 +145,10 @@ void requireSpace(const PartitionRun& run, const std::string& path)
   if (!failure && space.available < needed)
   {
     throw IOError(path,
-      "needs about " + std::to_string(needed / 1000000 + 1) + " MB while it is made, and its disk "
-      "has " + std::to_string(space.available / 1000000) +
-        " MB free; free space or name another disk.");
+      "needs about " + std::to_string(needed / 1000000 + 1) +
+        " MB while it is made, and its disk "
+        "has " +
+        std::to_string(space.available / 1000000) + " MB free; free space or name another disk.");
   }
 }
 
@@ -232,8 +241,9 @@ void completeStatistics(PartitionRun& run)
 void runPhases(PartitionRun& run, const std::string& path)
 {
   Stopwatch watch;
-  const auto endPhase = [&](const char* name)
-  { run.Statistics.Phases.push_back({ name, watch.seconds() }); };
+  const auto endPhase = [&](const char* name) {
+    run.Statistics.Phases.push_back({ name, watch.seconds() });
+  };
   run.Team.attempt([&] { prepare(run, path); });
   cutDomain(run);
   endPhase("tile");
@@ -251,7 +261,7 @@ PartitionStatistics partitionMesh(const FlatMesh& mesh, const std::string& path,
   const PartitionOptions& options, vtkMultiProcessController* controller)
 {
   const Ranks ranks(controller);
-  std::optional<PendingFolder> pending;
+  std::optional<PendingMesh> pending;
   ranks.attempt(
     [&]
     {

@@ -80,6 +80,7 @@ struct PartitionRun
 
   std::string scratch(const std::string& name) const { return this->Folder + "/." + name; }
   RawArray homes() const;
+  LoaderOptions loaderOptions() const;
   std::size_t pieces() const { return this->Result.Pieces.size(); }
   /// Tells the caller how far the run is. Throws PartitionAborted when told to stop.
   void report(double fraction) const;

@@ -19,6 +19,8 @@ namespace
 // One message of VTK's holds at most 2^31 - 1 values.
 constexpr std::size_t mostAtOnce = std::size_t(1) << 30;
 
+constexpr int reduceTag = 4096;
+
 void broadcastBytes(vtkMultiProcessController* controller, std::string& bytes, int from)
 {
   for (std::size_t at = 0; at < bytes.size(); at += mostAtOnce)
@@ -35,6 +37,30 @@ void broadcastText(vtkMultiProcessController* controller, std::string& text, int
   controller->Broadcast(&size, 1, from);
   text.resize(std::size_t(size));
   broadcastBytes(controller, text, from);
+}
+
+void sendText(vtkMultiProcessController* controller, const std::string& text, int to)
+{
+  const vtkTypeInt64 size = vtkTypeInt64(text.size());
+  controller->Send(&size, 1, to, reduceTag);
+  for (std::size_t at = 0; at < text.size(); at += mostAtOnce)
+  {
+    controller->Send(
+      text.data() + at, vtkIdType(std::min(mostAtOnce, text.size() - at)), to, reduceTag);
+  }
+}
+
+std::string receiveText(vtkMultiProcessController* controller, int from)
+{
+  vtkTypeInt64 size = 0;
+  controller->Receive(&size, 1, from, reduceTag);
+  std::string text(std::size_t(size), '\0');
+  for (std::size_t at = 0; at < text.size(); at += mostAtOnce)
+  {
+    controller->Receive(
+      text.data() + at, vtkIdType(std::min(mostAtOnce, text.size() - at)), from, reduceTag);
+  }
+  return text;
 }
 
 } // namespace
@@ -109,6 +135,44 @@ std::vector<std::string> Ranks::gather(const std::string& bytes) const
     broadcastText(this->Controller, all[std::size_t(from)], from);
   }
   return all;
+}
+
+std::string Ranks::reduce(const std::string& bytes,
+  const std::function<std::string(const std::string&, const std::string&)>& merge) const
+{
+  std::string mine = bytes;
+  std::exception_ptr failure;
+  for (int step = 1; step < this->count(); step *= 2)
+  {
+    if (this->rank() % (2 * step) != 0)
+    {
+      sendText(this->Controller, mine, this->rank() - step);
+      mine.clear();
+      break;
+    }
+    if (this->rank() + step < this->count())
+    {
+      const std::string other = receiveText(this->Controller, this->rank() + step);
+      try
+      {
+        mine = failure ? mine : merge(mine, other);
+      }
+      catch (...)
+      {
+        // The others wait for a message in any case.
+        failure = std::current_exception();
+      }
+    }
+  }
+  this->attempt(
+    [&]
+    {
+      if (failure)
+      {
+        std::rethrow_exception(failure);
+      }
+    });
+  return mine;
 }
 
 std::vector<double> Ranks::minimum(const std::vector<double>& values) const

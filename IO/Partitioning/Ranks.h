@@ -22,6 +22,8 @@ public:
   {
   }
 
+  /// Null for one alone.
+  vtkMultiProcessController* controller() const { return this->Controller; }
   int count() const;
   int rank() const;
   bool isFirst() const { return this->rank() == 0; }
@@ -38,6 +40,11 @@ public:
   std::string broadcast(const std::string& bytes) const;
   /// Every rank's bytes in the order of the ranks, on all.
   std::vector<std::string> gather(const std::string& bytes) const;
+  /// All ranks' bytes made one by merge(mine, other), two ranks at a time as in a tournament; what
+  /// comes out is on the first rank, and other ranks get nothing. Throws on all ranks if merge
+  /// throws on any.
+  std::string reduce(const std::string& bytes,
+    const std::function<std::string(const std::string&, const std::string&)>& merge) const;
   /// Over all ranks, for each value.
   std::vector<double> minimum(const std::vector<double>& values) const;
   std::vector<std::int64_t> sum(const std::vector<std::int64_t>& values) const;

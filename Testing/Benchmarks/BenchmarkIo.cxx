@@ -49,6 +49,10 @@ IoArguments parse(int argc, char** argv)
     {
       (word == "--repeat" ? arguments.Repeat : arguments.Threads) = toCount(argv[++i]);
     }
+    else if (i + 1 < argc && word == "--lru-cells")
+    {
+      arguments.LruCells = toCount(argv[++i]);
+    }
     else if (i + 1 < argc && (word == "--parts" || word == "--chunks"))
     {
       (word == "--parts" ? arguments.Parts : arguments.Chunks) = toCounts(argv[++i]);
@@ -74,9 +78,27 @@ int main(int argc, char** argv)
       benchmarkLoaders(arguments);
       return 0;
     }
+    if (subject == "classify" && arguments.Meshes.size() == 1)
+    {
+      benchmarkClassify(arguments);
+      return 0;
+    }
+    if (subject == "reading" && arguments.Meshes.size() == 2)
+    {
+      benchmarkReading(arguments);
+      return 0;
+    }
+    if (subject == "borrowing" && arguments.Meshes.size() == 2)
+    {
+      benchmarkBorrowing(arguments);
+      return 0;
+    }
     std::fputs(
       "usage: benchmarkIo loaders [--repeat R] [--threads T] [--parts P,P...] [--chunks C,C...] "
-      "RANDOM-MESH LOCAL-MESH\n"
+      "[--lru-cells N] RANDOM-MESH LOCAL-MESH\n"
+      "       benchmarkIo classify [--repeat R] [--threads T] MESH\n"
+      "       benchmarkIo reading [--repeat R] [--threads T] ONE.vtu PARTITIONED-MESH\n"
+      "       benchmarkIo borrowing [--repeat R] LENT-MESH COPIED-MESH\n"
       "M is the number of vertices over P; chunks are in cells.\n",
       stderr);
     return 2;

@@ -3,11 +3,9 @@
 // number and the seed: 'fuzzDelaunay --seed S --case N' repeats one.
 #include "Comparison.h"
 #include "DegeneratePoints.h"
+#include "FuzzDriver.h"
 
-#include <chrono>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 
 namespace
 {
@@ -50,52 +48,9 @@ bool passes(std::uint64_t seed, std::uint64_t number)
   return false;
 }
 
-int usage()
-{
-  std::fputs("usage: fuzzDelaunay [--seconds N] [--seed S] [--case N]\n", stderr);
-  return 2;
-}
-
 } // namespace
 
 int main(int argc, char** argv)
 {
-  double seconds = 60;
-  std::uint64_t seed = 1;
-  for (int i = 1; i < argc; i += 2)
-  {
-    char* end = nullptr;
-    const double value = i + 1 < argc ? std::strtod(argv[i + 1], &end) : -1;
-    if (!(value >= 0) || *end != 0)
-    {
-      return usage();
-    }
-    if (std::strcmp(argv[i], "--seconds") == 0)
-    {
-      seconds = value;
-    }
-    else if (std::strcmp(argv[i], "--seed") == 0)
-    {
-      seed = std::uint64_t(value);
-    }
-    else if (std::strcmp(argv[i], "--case") == 0)
-    {
-      return passes(seed, std::uint64_t(value)) ? 0 : 1;
-    }
-    else
-    {
-      return usage();
-    }
-  }
-  const auto now = [] { return std::chrono::steady_clock::now(); };
-  const auto end = now() + std::chrono::duration<double>(seconds);
-  std::uint64_t cases = 0;
-  std::uint64_t failures = 0;
-  for (; now() < end && failures < 10; ++cases)
-  {
-    failures += passes(seed, cases) ? 0 : 1;
-  }
-  std::printf("%llu cases of seed %llu, %llu failures\n", (unsigned long long)cases,
-    (unsigned long long)seed, (unsigned long long)failures);
-  return failures == 0 ? 0 : 1;
+  return fuzz("fuzzDelaunay", argc, argv, passes);
 }

@@ -23,7 +23,9 @@ enum ExitCode
 void addCheckCommand(CLI::App& app, int& exitCode);
 void addDelaunayCommand(CLI::App& app, int& exitCode);
 void addFlattenCommand(CLI::App& app, int& exitCode);
+void addPartitionCommand(CLI::App& app, int& exitCode);
 void addPointsCommand(CLI::App& app, int& exitCode);
+void addResampleCommand(CLI::App& app, int& exitCode);
 
 } // namespace tipp
 

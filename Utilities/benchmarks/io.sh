@@ -35,3 +35,28 @@ make_mesh local /usr/bin/python3 Testing/Benchmarks/hilbert-order.py "$inputs/ra
 echo "== Loading vertices: loaders over M and chunk size"
 "$build/bin/benchmarkIo" loaders --repeat "$repeat" \
   "$inputs/random-$points" "$inputs/local-$points"
+
+echo "== Classification of cells: OpenMP threads and OpenCL"
+"$build/bin/benchmarkIo" classify --repeat "$repeat" "$inputs/random-$points"
+
+mesh=$inputs/random-$points
+vtu=$inputs/random-$points.vtu
+[ -f "$vtu" ] || /usr/bin/python3 Testing/Benchmarks/flat-to-vtu.py "$mesh" "$vtu"
+
+echo "== Partitioning 4x4, duplicated borrowers, 512 MB, 2 threads"
+for run in $(seq "$repeat"); do
+  "$tipp" partition "$mesh" -o "$inputs/copied.tipp" --tiling grid:4x4 --borrowers duplicate \
+    --memory 512M --threads 2
+done
+sh Utilities/paraview.sh "$build/paraview"
+PYTHONPATH="$build/paraview/python3-paraview/usr/lib/python3/dist-packages" \
+  pvbatch Testing/Benchmarks/redistribute.py "$vtu" 16
+
+echo "== Borrowed cells by reference and duplicated, 4x4"
+"$tipp" partition "$mesh" -o "$inputs/lent.tipp" --tiling grid:4x4 --threads 2
+"$build/bin/benchmarkIo" borrowing --repeat "$repeat" "$inputs/lent.tipp" "$inputs/copied.tipp"
+
+echo "== Reading 16x16 pieces"
+"$tipp" partition "$mesh" -o "$inputs/fine.tipp" --tiling grid:16x16 --threads 2
+"$build/bin/benchmarkIo" reading --repeat "$repeat" "$vtu" "$inputs/fine.tipp"
+rm -rf "$inputs/lent.tipp" "$inputs/copied.tipp" "$inputs/fine.tipp"

@@ -43,11 +43,12 @@ TEST(Runs, WithASmallGapBecomeOne)
   EXPECT_EQ((Runs{ { 0, 30 } }), runsOfBlocks({ 1, 0, 1 }, 10, 0, 29, 11));
 }
 
-TEST(Runs, OfIdsAreSortedAndWithoutDuplicates)
+TEST(Runs, OfIdsTakeEachOnce)
 {
-  const std::vector<std::int64_t> ids{ 9, 3, 4, 9, 100 };
-  EXPECT_EQ((Runs{ { 3, 2 }, { 9, 1 }, { 100, 1 } }), runsOfIds(ids.data(), ids.size(), 0));
-  EXPECT_EQ((Runs{ { 3, 7 }, { 100, 1 } }), runsOfIds(ids.data(), ids.size(), 10));
+  const std::vector<std::pair<std::int64_t, std::uint32_t>> ids{ { 3, 0 }, { 4, 9 }, { 9, 1 },
+    { 9, 5 }, { 100, 2 } };
+  EXPECT_EQ((Runs{ { 3, 2 }, { 9, 1 }, { 100, 1 } }), runsOfIds(ids, 0));
+  EXPECT_EQ((Runs{ { 3, 7 }, { 100, 1 } }), runsOfIds(ids, 10));
 }
 
 TEST(Runs, ThatFitAreOneGroup)

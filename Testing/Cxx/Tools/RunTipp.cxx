@@ -55,7 +55,12 @@ TippProcess::TippProcess(
 
 void TippProcess::interrupt() const
 {
-  kill(this->Process, SIGINT);
+  ::kill(this->Process, SIGINT);
+}
+
+void TippProcess::kill() const
+{
+  ::kill(this->Process, SIGKILL);
 }
 
 Outcome TippProcess::wait() const

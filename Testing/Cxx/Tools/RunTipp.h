@@ -30,6 +30,7 @@ public:
     const TemporaryFolder& folder, const std::vector<std::string>& arguments, int terminal = -1);
 
   void interrupt() const;
+  void kill() const;
   Outcome wait() const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioned/PendingFolder.h"
+#include "Partitioned/PendingMesh.h"
 
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
@@ -21,7 +21,7 @@ namespace tipp
 
 namespace fs = std::filesystem;
 
-PendingFolder::PendingFolder(const std::string& path)
+PendingMesh::PendingMesh(const std::string& path)
 {
   std::error_code failure;
   fs::path target = fs::absolute(path).lexically_normal();
@@ -69,7 +69,7 @@ PendingFolder::PendingFolder(const std::string& path)
   flock(this->Lock, LOCK_EX | LOCK_NB);
 }
 
-PendingFolder::~PendingFolder()
+PendingMesh::~PendingMesh()
 {
   if (!this->Temporary.empty())
   {
@@ -82,7 +82,7 @@ PendingFolder::~PendingFolder()
   }
 }
 
-void PendingFolder::clearLeftovers(const std::string& prefix) const
+void PendingMesh::clearLeftovers(const std::string& prefix) const
 {
   std::error_code failure;
   for (const fs::directory_entry& entry : fs::directory_iterator(this->Parent, failure))
@@ -103,10 +103,10 @@ void PendingFolder::clearLeftovers(const std::string& prefix) const
   }
 }
 
-void PendingFolder::exchange() const
+void PendingMesh::exchange() const
 {
-  if (renameat2(AT_FDCWD, this->Temporary.c_str(), AT_FDCWD, this->Path.c_str(),
-        RENAME_EXCHANGE) == 0)
+  if (renameat2(AT_FDCWD, this->Temporary.c_str(), AT_FDCWD, this->Path.c_str(), RENAME_EXCHANGE) ==
+    0)
   {
     return;
   }
@@ -126,7 +126,7 @@ void PendingFolder::exchange() const
   }
 }
 
-void PendingFolder::commit()
+void PendingMesh::commit()
 {
   std::error_code failure;
   syncToDisk(this->Temporary);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippPendingFolder_h
-#define tippPendingFolder_h
+#ifndef tippPendingMesh_h
+#define tippPendingMesh_h
 
 #include <string>
 
@@ -10,15 +10,15 @@ namespace tipp
 /// The folder of a partitioned mesh under a hidden, temporary name beside its path until commit().
 /// Without commit() it goes away; what a killed process has left, the next one for the same path
 /// clears away.
-class PendingFolder
+class PendingMesh
 {
 public:
   /// Throws IOError if the path's own folder is missing or closed to us, or if there is something
   /// at the path other than a partitioned mesh or an empty folder.
-  explicit PendingFolder(const std::string& path);
-  ~PendingFolder();
-  PendingFolder(const PendingFolder&) = delete;
-  PendingFolder& operator=(const PendingFolder&) = delete;
+  explicit PendingMesh(const std::string& path);
+  ~PendingMesh();
+  PendingMesh(const PendingMesh&) = delete;
+  PendingMesh& operator=(const PendingMesh&) = delete;
 
   const std::string& temporaryPath() const { return this->Temporary; }
 

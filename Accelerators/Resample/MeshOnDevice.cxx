@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Resample/MeshOnDevice.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <numeric>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr std::int64_t PointBytes = 3 * sizeof(double);
+
+} // namespace
+
+std::int64_t cellsOnDevice(const ComputeDevice& device, const SimplexMesh& mesh, std::size_t tuple,
+  std::size_t others, std::uint64_t memory)
+{
+  const DeviceDescription& description = device.description();
+  const std::uint64_t room = memory ? memory : description.Memory / 2;
+  const std::uint64_t largest = memory ? memory : description.LargestBuffer;
+  const std::uint64_t corners = std::uint64_t(mesh.Dimension) + 1;
+  const std::uint64_t points = std::uint64_t(mesh.PointCount);
+  const std::uint64_t pointBytes = points * (mesh.Float ? PointBytes / 2 : PointBytes);
+  const std::uint64_t idBytes = std::uint64_t(mesh.Cells) * corners * (mesh.Wide ? 8 : 4);
+  // Beside them two lists and a count for each cell.
+  const std::uint64_t listBytes = std::uint64_t(mesh.Cells) * 12;
+  if (points <= std::uint64_t(std::numeric_limits<cl_int>::max()) && pointBytes <= largest &&
+    idBytes <= largest && pointBytes + idBytes + listBytes + points * tuple + others <= room)
+  {
+    return std::max<std::int64_t>(mesh.Cells, 1);
+  }
+  const std::uint64_t cellBytes = corners * (std::uint64_t(PointBytes) + 4 + tuple) + 12;
+  const std::uint64_t left = others < room ? std::min((room - others), largest) : 0;
+  if (left < cellBytes)
+  {
+    throw AcceleratorError("The OpenCL device '" + description.Name + "' has no memory for " +
+      std::to_string(others) + " bytes of samples: use a smaller range or fewer samples.");
+  }
+  const std::int64_t most = std::numeric_limits<cl_int>::max() / std::int64_t(corners);
+  return std::min(std::int64_t(left / cellBytes), most);
+}
+
+MeshOnDevice::MeshOnDevice(const ComputeDevice& device, const SimplexMesh& mesh, std::int64_t first,
+  std::int64_t count, int threads)
+  : Float(mesh.Float)
+  , Wide(mesh.Wide)
+  , Corners(mesh.Dimension + 1)
+  , U(mesh.Dimension == 2 ? mesh.Axes[0] : 0)
+  , V(mesh.Dimension == 2 ? mesh.Axes[1] : 1)
+  , Device(device)
+  , First(first)
+  , Count(count)
+  , Whole(count == mesh.Cells)
+{
+  if (this->Whole)
+  {
+    const std::size_t scalar = mesh.Float ? sizeof(float) : sizeof(double);
+    this->Points = device.input(mesh.Points, 3 * std::size_t(mesh.PointCount) * scalar);
+    this->Ids = device.input(mesh.Ids,
+      std::size_t(count * this->Corners) * (mesh.Wide ? sizeof(cl_long) : sizeof(cl_int)));
+    return;
+  }
+  this->Float = 0;
+  this->Wide = 0;
+  this->Gathered.resize(3 * std::size_t(count * this->Corners));
+  this->Numbers.resize(std::size_t(count * this->Corners));
+  std::iota(this->Numbers.begin(), this->Numbers.end(), 0);
+  withAccess(mesh,
+    [&](const auto& access)
+    {
+#pragma omp parallel for num_threads(threads)
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        for (int corner = 0; corner < access.Corners; ++corner)
+        {
+          const Point3 p = access.point(access.ids(first + i)[corner]);
+          double* const to = this->Gathered.data() + 3 * (i * access.Corners + corner);
+          to[0] = p.x;
+          to[1] = p.y;
+          to[2] = p.z;
+        }
+      }
+    });
+  this->Points = device.input(this->Gathered.data(), this->Gathered.size() * sizeof(double));
+  this->Ids = device.input(this->Numbers.data(), this->Numbers.size() * sizeof(std::int32_t));
+}
+
+cl::Buffer MeshOnDevice::values(
+  const SimplexMesh& mesh, const void* values, std::size_t tupleBytes) const
+{
+  if (this->Whole)
+  {
+    return this->Device.input(values, std::size_t(mesh.PointCount) * tupleBytes);
+  }
+  this->GatheredValues.emplace_back(this->Numbers.size() * tupleBytes);
+  std::vector<char>& gathered = this->GatheredValues.back();
+  withAccess(mesh,
+    [&](const auto& access)
+    {
+      for (std::int64_t i = 0; i < this->Count * access.Corners; ++i)
+      {
+        const std::int64_t id = access.ids(this->First)[i];
+        std::memcpy(gathered.data() + std::size_t(i) * tupleBytes,
+          static_cast<const char*>(values) + std::size_t(id) * tupleBytes, tupleBytes);
+      }
+    });
+  return this->Device.input(gathered.data(), gathered.size());
+}
+
+} // namespace tipp

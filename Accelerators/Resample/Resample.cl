@@ -1,0 +1,684 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which cell answers each sample of a lattice, and what it says: TriangleRows.h, TetrahedronRows.h
+// and Weights.h for a device. A cell for which rounding could change a count goes to a list, for
+// the host to do exactly. Host side: ResampleOnDevice.cxx.
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+#pragma OPENCL FP_CONTRACT OFF
+
+#define ROUNDINGS 0x1p-47
+#define SMALLEST 1e-280
+
+// A LatticeAxis as s0 to s7: min, inverse, first, limit, error scale, error offset, delta, size.
+typedef double8 Axis;
+
+double clampPlace(Axis axis, double place)
+{
+  return fmin(axis.s3, fmax(0.5, place));
+}
+double placeOf(Axis axis, double v)
+{
+  return clampPlace(axis, (v - axis.s0) * axis.s1 - axis.s2 + 1);
+}
+double errorOf(Axis axis, double reach)
+{
+  return reach * axis.s4 + axis.s5;
+}
+double coordinateOf(Axis axis, int i)
+{
+  return axis.s0 + (i + axis.s2) * axis.s6;
+}
+bool certain(double place, double error)
+{
+  return fabs(place - (int)place - 0.5) < 0.5 - error;
+}
+
+// ---- The mesh
+
+typedef struct
+{
+  global const uchar* points;
+  global const uchar* ids;
+  int isFloat;
+  int isWide;
+  int corners;
+  int u;
+  int v;
+} Mesh;
+
+int idOf(const Mesh* mesh, long cell, int corner)
+{
+  const long at = cell * mesh->corners + corner;
+  return mesh->isWide ? (int)((global const long*)mesh->ids)[at] : ((global const int*)mesh->ids)[at];
+}
+double coordinate(const Mesh* mesh, int id, int axis)
+{
+  const long at = 3 * (long)id + axis;
+  return mesh->isFloat ? ((global const float*)mesh->points)[at]
+                       : ((global const double*)mesh->points)[at];
+}
+double3 pointOf(const Mesh* mesh, int id)
+{
+  const double x = coordinate(mesh, id, mesh->u);
+  const double y = coordinate(mesh, id, mesh->v);
+  return (double3)(x, y, mesh->corners == 4 ? coordinate(mesh, id, 2) : 0.0);
+}
+
+// ---- Claims
+
+#define NOTHING 0
+#define ROWS 1
+#define DOUBT 2
+
+typedef struct
+{
+  int columnBegin;
+  int columnEnd;
+  int rowBegin;
+  int rowEnd;
+  int layerBegin;
+  int layerEnd;
+} Box;
+
+// What range() of LatticeAxis gives; DOUBT if that is not certain.
+int rangeOf(Axis axis, double low, double high, double error, int* begin, int* end)
+{
+  const double first = placeOf(axis, low);
+  const double last = placeOf(axis, high);
+  *begin = (int)first;
+  *end = (int)last;
+  return !certain(first, error) || !certain(last, error) ? DOUBT
+    : *begin < *end                                      ? ROWS
+                                                         : NOTHING;
+}
+
+typedef struct
+{
+  double2 low;
+  double slope;
+} Edge;
+
+typedef struct
+{
+  Edge edges[3]; // the long one, the short ones below and above the middle corner
+  double middle;
+  double top;
+  double error;
+  int longIsLeft;
+  Box box;
+} Triangle;
+
+Edge edgeOf(double3 low, double3 high)
+{
+  Edge edge;
+  edge.low = low.xy;
+  edge.slope = (high.x - low.x) / (high.y - low.y);
+  return edge;
+}
+
+int setTriangle(Triangle* t, double3 a, double3 b, double3 c, Axis u, Axis v)
+{
+  if (!(isfinite(a.x) && isfinite(a.y) && isfinite(b.x) && isfinite(b.y) && isfinite(c.x) &&
+        isfinite(c.y)))
+  {
+    return NOTHING;
+  }
+  const double left = fmin(fmin(a.x, b.x), c.x);
+  const double right = fmax(fmax(a.x, b.x), c.x);
+  t->error = errorOf(u, fmax(-left, right));
+  const int columns = rangeOf(u, left, right, t->error, &t->box.columnBegin, &t->box.columnEnd);
+  if (columns == NOTHING)
+  {
+    return NOTHING;
+  }
+  double3 swap;
+  if (b.y < a.y)
+  {
+    swap = a; a = b; b = swap;
+  }
+  if (c.y < b.y)
+  {
+    swap = b; b = c; c = swap;
+  }
+  if (b.y < a.y)
+  {
+    swap = a; a = b; b = swap;
+  }
+  const int rows = rangeOf(
+    v, a.y, c.y, errorOf(v, fmax(-a.y, c.y)), &t->box.rowBegin, &t->box.rowEnd);
+  if (rows == NOTHING)
+  {
+    return NOTHING;
+  }
+  t->box.layerBegin = 0;
+  t->box.layerEnd = 1;
+  // orientation(a, c, b) with the filter of Orientation.h.
+  const double l = (a.x - b.x) * (c.y - b.y);
+  const double r = (a.y - b.y) * (c.x - b.x);
+  const double bound = 3.3306690738754716e-16 * (fabs(l) + fabs(r)) + 1e-300;
+  if (columns == DOUBT || rows == DOUBT || !(fabs(l - r) > bound))
+  {
+    return DOUBT;
+  }
+  t->longIsLeft = l < r;
+  t->middle = b.y;
+  t->top = c.y;
+  t->edges[0] = edgeOf(a, c);
+  t->edges[1] = edgeOf(a, b);
+  t->edges[2] = edgeOf(b, c);
+  return ROWS;
+}
+
+int triangleSpan(const Triangle* t, int row, Axis u, Axis v, int* begin, int* end)
+{
+  const double y = coordinateOf(v, row);
+  const Edge* other = &t->edges[y >= t->middle ? 2 : 1];
+  const Edge* whole = &t->edges[0];
+  const double atLong = placeOf(u, whole->low.x + (y - whole->low.y) * whole->slope);
+  const double steps = other->low.x + (y - other->low.y) * other->slope;
+  const double atOther = placeOf(u, steps);
+  if (!(y < t->top) || !isfinite(steps) || !certain(atLong, t->error) || !certain(atOther, t->error))
+  {
+    return DOUBT;
+  }
+  *begin = t->longIsLeft ? (int)atLong : (int)atOther;
+  *end = t->longIsLeft ? (int)atOther : (int)atLong;
+  return ROWS;
+}
+
+typedef struct
+{
+  double place;
+  double perY;
+  double perZ;
+  double y;
+  double z;
+  double error;
+  int direction;
+} Face;
+
+typedef struct
+{
+  Face faces[4];
+  Box box;
+} Tetrahedron;
+
+int setFace(Face* face, double3 a, double3 b, double3 c, double3 size, double reach, Axis x)
+{
+  const double3 u = b - a;
+  const double3 v = c - a;
+  const double nx = u.y * v.z - u.z * v.y;
+  const double ny = u.z * v.x - u.x * v.z;
+  const double nz = u.x * v.y - u.y * v.x;
+  const double scale = x.s1 / nx;
+  face->place = (a.x - x.s0) * x.s1 - x.s2 + 1;
+  face->perY = ny * scale;
+  face->perZ = nz * scale;
+  face->y = a.y;
+  face->z = a.z;
+  face->direction = nx > 0 ? 1 : -1;
+  face->error = errorOf(x, reach) + (ROUNDINGS * size.x * size.y * size.z + SMALLEST) * fabs(scale);
+  return fabs(nx) > ROUNDINGS * size.y * size.z + SMALLEST &&
+      isfinite(face->error + face->perY + face->perZ)
+    ? ROWS
+    : DOUBT;
+}
+
+int setTetrahedron(Tetrahedron* t, double3 a, double3 b, double3 c, double3 d, Axis x, Axis y, Axis z)
+{
+  const double3 low = fmin(fmin(a, b), fmin(c, d));
+  const double3 high = fmax(fmax(a, b), fmax(c, d));
+  const double3 check = (a - a) + (b - b) + (c - c) + (d - d);
+  if (check.x != 0 || check.y != 0 || check.z != 0)
+  {
+    return NOTHING;
+  }
+  const double3 reach = fmax(-low, high);
+  Box* box = &t->box;
+  const int columns = rangeOf(x, low.x, high.x, errorOf(x, reach.x), &box->columnBegin, &box->columnEnd);
+  const int rows = rangeOf(y, low.y, high.y, errorOf(y, reach.y), &box->rowBegin, &box->rowEnd);
+  const int layers = rangeOf(z, low.z, high.z, errorOf(z, reach.z), &box->layerBegin, &box->layerEnd);
+  if (columns == NOTHING || rows == NOTHING || layers == NOTHING)
+  {
+    return NOTHING;
+  }
+  const double3 size = high - low;
+  const double3 u = b - a;
+  const double3 v = c - a;
+  const double3 w = d - a;
+  const double volume = w.x * (u.y * v.z - u.z * v.y) + w.y * (u.z * v.x - u.x * v.z) +
+    w.z * (u.x * v.y - u.y * v.x);
+  if (columns == DOUBT || rows == DOUBT || layers == DOUBT ||
+    !(fabs(volume) > ROUNDINGS * size.x * size.y * size.z + SMALLEST))
+  {
+    return DOUBT;
+  }
+  if (volume < 0)
+  {
+    const double3 swap = a;
+    a = b;
+    b = swap;
+  }
+  const int known = setFace(&t->faces[0], b, d, c, size, reach.x, x) == ROWS &&
+    setFace(&t->faces[1], a, c, d, size, reach.x, x) == ROWS &&
+    setFace(&t->faces[2], a, d, b, size, reach.x, x) == ROWS &&
+    setFace(&t->faces[3], a, b, c, size, reach.x, x) == ROWS;
+  return known ? ROWS : DOUBT;
+}
+
+int tetrahedronSpan(
+  const Tetrahedron* t, int row, int layer, Axis x, Axis y, Axis z, int* begin, int* end)
+{
+  *begin = t->box.columnBegin;
+  *end = t->box.columnEnd;
+  bool known = true;
+  for (int i = 0; i < 4; ++i)
+  {
+    const Face* face = &t->faces[i];
+    const double place = clampPlace(x, face->place - (face->perY * (coordinateOf(y, row) - face->y) +
+      face->perZ * (coordinateOf(z, layer) - face->z)));
+    known = known && certain(place, face->error);
+    const int count = (int)place;
+    *begin = face->direction > 0 ? max(*begin, count) : *begin;
+    *end = face->direction > 0 ? *end : min(*end, count);
+  }
+  return known ? ROWS : DOUBT;
+}
+
+// The spans of one cell of either kind.
+typedef struct
+{
+  Triangle triangle;
+  Tetrahedron tetrahedron;
+} Cell;
+
+int setCell(Cell* cell, const Mesh* mesh, long i, Axis x, Axis y, Axis z, Box* box)
+{
+  const double3 a = pointOf(mesh, idOf(mesh, i, 0));
+  const double3 b = pointOf(mesh, idOf(mesh, i, 1));
+  const double3 c = pointOf(mesh, idOf(mesh, i, 2));
+  if (mesh->corners == 3)
+  {
+    const int state = setTriangle(&cell->triangle, a, b, c, x, y);
+    *box = cell->triangle.box;
+    return state;
+  }
+  const int state =
+    setTetrahedron(&cell->tetrahedron, a, b, c, pointOf(mesh, idOf(mesh, i, 3)), x, y, z);
+  *box = cell->tetrahedron.box;
+  return state;
+}
+
+// Claims a row; returns the number of samples, or -1 if that is in doubt.
+int claimRow(const Cell* cell, int corners, int row, int layer, Axis x, Axis y, Axis z, int name,
+  global int* claims)
+{
+  int begin;
+  int end;
+  const int state = corners == 3 ? triangleSpan(&cell->triangle, row, x, y, &begin, &end)
+                                 : tetrahedronSpan(&cell->tetrahedron, row, layer, x, y, z, &begin, &end);
+  if (state == DOUBT)
+  {
+    return -1;
+  }
+  const long first = ((long)layer * (long)y.s7 + row) * (long)x.s7;
+  for (int i = begin; i < end; ++i)
+  {
+    claims[first + i] = name;
+  }
+  return max(0, end - begin);
+}
+
+// Each item does `share` cells in a row. Cells with more than `largest` samples in their boxes and
+// cells in doubt go to the lists; `lengths` has the lists' lengths. A cell of a list counts nothing.
+kernel void claimCells(global const uchar* points, global const uchar* ids, int isFloat, int isWide,
+  int corners, int u, int v, Axis x, Axis y, Axis z, long cells, long firstCell, int share,
+  long largest, global const uchar* hidden, int hasHidden, global int* claims,
+  global uint* counts, global int* large, global int* doubtful, global int* lengths)
+{
+  const Mesh mesh = { points, ids, isFloat, isWide, corners, u, v };
+  const long item = get_global_id(0);
+  const long begin = item * share;
+  if (begin >= cells)
+  {
+    return;
+  }
+  uint total = 0;
+  for (long i = begin; i < min(begin + share, cells); ++i)
+  {
+    Cell cell;
+    Box box;
+    if (hasHidden && hidden[i])
+    {
+      continue;
+    }
+    int state = setCell(&cell, &mesh, i, x, y, z, &box);
+    const long samples = (long)(box.columnEnd - box.columnBegin) * (box.rowEnd - box.rowBegin) *
+      (box.layerEnd - box.layerBegin);
+    if (state == ROWS && samples > largest)
+    {
+      large[atomic_inc(&lengths[0])] = (int)i;
+      continue;
+    }
+    int count = 0;
+    for (int layer = box.layerBegin; state == ROWS && layer < box.layerEnd; ++layer)
+    {
+      for (int row = box.rowBegin; state == ROWS && row < box.rowEnd; ++row)
+      {
+        const int claimed =
+          claimRow(&cell, corners, row, layer, x, y, z, (int)(firstCell + i), claims);
+        state = claimed < 0 ? DOUBT : ROWS;
+        count += claimed;
+      }
+    }
+    if (state == DOUBT)
+    {
+      doubtful[atomic_inc(&lengths[1])] = (int)i;
+    }
+    total += state == ROWS ? count : 0;
+  }
+  counts[item] = total;
+}
+
+// One large cell, a row an item; counts[row] is what it claims, or -1 if that is in doubt.
+kernel void claimLarge(global const uchar* points, global const uchar* ids, int isFloat, int isWide,
+  int corners, int u, int v, Axis x, Axis y, Axis z, long number, long firstCell, int rows,
+  global int* claims, global int* counts)
+{
+  const Mesh mesh = { points, ids, isFloat, isWide, corners, u, v };
+  const int item = (int)get_global_id(0);
+  Cell cell;
+  Box box;
+  setCell(&cell, &mesh, number, x, y, z, &box);
+  if (item < rows)
+  {
+    const int depth = box.rowEnd - box.rowBegin;
+    counts[item] = claimRow(&cell, corners, box.rowBegin + item % depth,
+      box.layerBegin + item / depth, x, y, z, (int)(firstCell + number), claims);
+  }
+}
+
+// ---- Weights
+
+typedef struct
+{
+  double origin[3];
+  double matrix[3][3];
+  double normals[3][3];
+  double reciprocals[3];
+  int rows[3];
+  int columns[3];
+  int thin;
+} Weights;
+
+double cofactors(Weights* w, int d)
+{
+  if (d == 2)
+  {
+    w->normals[0][0] = w->matrix[1][1];
+    w->normals[0][1] = -w->matrix[0][1];
+    w->normals[1][0] = -w->matrix[1][0];
+    w->normals[1][1] = w->matrix[0][0];
+    return w->matrix[0][0] * w->matrix[1][1] - w->matrix[0][1] * w->matrix[1][0];
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const int p = (axis + 1) % 3;
+      const int q = (axis + 2) % 3;
+      w->normals[i][axis] = w->matrix[p][j] * w->matrix[q][k] - w->matrix[q][j] * w->matrix[p][k];
+    }
+  }
+  return w->normals[0][0] * w->matrix[0][0] + w->normals[0][1] * w->matrix[1][0] +
+    w->normals[0][2] * w->matrix[2][0];
+}
+
+void choosePivot(Weights* w, int d, int step)
+{
+  int row = step;
+  int column = step;
+  for (int i = step; i < d; ++i)
+  {
+    for (int j = step; j < d; ++j)
+    {
+      if (fabs(w->matrix[i][j]) > fabs(w->matrix[row][column]))
+      {
+        row = i;
+        column = j;
+      }
+    }
+  }
+  int swap = w->rows[step];
+  w->rows[step] = w->rows[row];
+  w->rows[row] = swap;
+  swap = w->columns[step];
+  w->columns[step] = w->columns[column];
+  w->columns[column] = swap;
+  for (int i = 0; i < d; ++i)
+  {
+    const double value = w->matrix[step][i];
+    w->matrix[step][i] = w->matrix[row][i];
+    w->matrix[row][i] = value;
+  }
+  for (int i = 0; i < d; ++i)
+  {
+    const double value = w->matrix[i][step];
+    w->matrix[i][step] = w->matrix[i][column];
+    w->matrix[i][column] = value;
+  }
+}
+
+void eliminate(Weights* w, int d)
+{
+  double first = 0;
+  for (int step = 0; step < d; ++step)
+  {
+    choosePivot(w, d, step);
+    first = step == 0 ? fabs(w->matrix[0][0]) : first;
+    const bool flat = !(fabs(w->matrix[step][step]) > 4.4408920985006262e-16 * first);
+    w->reciprocals[step] = flat ? 0 : 1 / w->matrix[step][step];
+    for (int row = step + 1; row < d; ++row)
+    {
+      w->matrix[row][step] *= w->reciprocals[step];
+      for (int column = step + 1; column < d; ++column)
+      {
+        w->matrix[row][column] -= w->matrix[row][step] * w->matrix[step][column];
+      }
+    }
+  }
+}
+
+void setWeights(Weights* w, int d, const double (*corners)[3])
+{
+  double product = 1;
+  for (int axis = 0; axis < d; ++axis)
+  {
+    double largest = 0;
+    w->origin[axis] = corners[0][axis];
+    w->rows[axis] = w->columns[axis] = axis;
+    for (int i = 0; i < d; ++i)
+    {
+      w->matrix[axis][i] = corners[i + 1][axis] - corners[0][axis];
+      largest = fmax(largest, fabs(w->matrix[axis][i]));
+    }
+    product *= largest;
+  }
+  const double determinant = cofactors(w, d);
+  w->thin = !(fabs(determinant) * 64 > product) || product < 1e-280;
+  if (w->thin)
+  {
+    eliminate(w, d);
+    return;
+  }
+  const double inverse = 1 / determinant;
+  for (int i = 0; i < d; ++i)
+  {
+    for (int axis = 0; axis < d; ++axis)
+    {
+      w->normals[i][axis] *= inverse;
+    }
+  }
+}
+
+void solveWeights(const Weights* w, int d, const double* sample, double* weights)
+{
+  if (!w->thin)
+  {
+    for (int i = 0; i < d; ++i)
+    {
+      double rest = 0;
+      for (int axis = 1; axis < d; ++axis)
+      {
+        rest += w->normals[i][axis] * (sample[axis] - w->origin[axis]);
+      }
+      weights[i] = w->normals[i][0] * (sample[0] - w->origin[0]) + rest;
+    }
+    return;
+  }
+  double right[3];
+  for (int i = 0; i < d; ++i)
+  {
+    const int axis = w->rows[i];
+    right[i] = sample[axis] - w->origin[axis];
+    for (int k = 0; k < i; ++k)
+    {
+      right[i] -= w->matrix[i][k] * right[k];
+    }
+  }
+  for (int i = d - 1; i >= 0; --i)
+  {
+    for (int k = i + 1; k < d; ++k)
+    {
+      right[i] -= w->matrix[i][k] * right[k];
+    }
+    right[i] *= w->reciprocals[i];
+    weights[w->columns[i]] = right[i];
+  }
+}
+
+bool precedes(const double* a, const double* b, int d)
+{
+  for (int axis = 0; axis < d; ++axis)
+  {
+    if (a[axis] != b[axis])
+    {
+      return a[axis] < b[axis];
+    }
+  }
+  return false;
+}
+
+// The cell's corners in lexicographic order and their ids.
+void loadSorted(const Mesh* mesh, long cell, double (*corners)[3], int* ids)
+{
+  const int d = mesh->corners - 1;
+  for (int i = 0; i <= d; ++i)
+  {
+    ids[i] = idOf(mesh, cell, i);
+    const double3 p = pointOf(mesh, ids[i]);
+    corners[i][0] = p.x;
+    corners[i][1] = p.y;
+    corners[i][2] = p.z;
+  }
+  for (int end = d; end > 0; --end)
+  {
+    for (int i = 0; i < end; ++i)
+    {
+      if (precedes(corners[i + 1], corners[i], d))
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          const double swap = corners[i][axis];
+          corners[i][axis] = corners[i + 1][axis];
+          corners[i + 1][axis] = swap;
+        }
+        const int id = ids[i];
+        ids[i] = ids[i + 1];
+        ids[i + 1] = id;
+      }
+    }
+  }
+}
+
+// Corner ids and weights of `count` samples from `first` on; each item does `share` in a row. The
+// first id of a sample that none of the cells firstCell.. answers is -1.
+kernel void weighSamples(global const uchar* points, global const uchar* ids, int isFloat,
+  int isWide, int corners, int u, int v, Axis x, Axis y, Axis z, long cells, long firstCell,
+  int share, long first, long count, global const int* claims, global int* cornerIds,
+  global double* weights)
+{
+  const Mesh mesh = { points, ids, isFloat, isWide, corners, u, v };
+  const int d = corners - 1;
+  const long begin = get_global_id(0) * (long)share;
+  long known = -1;
+  Weights w;
+  int sorted[4];
+  for (long i = begin; i < min(begin + share, count); ++i)
+  {
+    const long cell = claims[first + i] - firstCell;
+    if (cell < 0 || cell >= cells)
+    {
+      cornerIds[i * corners] = -1;
+      continue;
+    }
+    if (cell != known)
+    {
+      double places[4][3];
+      loadSorted(&mesh, cell, places, sorted);
+      setWeights(&w, d, places);
+      known = cell;
+    }
+    const long row = (first + i) / (long)x.s7;
+    const double sample[3] = { coordinateOf(x, (int)((first + i) % (long)x.s7)),
+      coordinateOf(y, (int)(row % (long)y.s7)),
+      coordinateOf(z, d == 3 ? (int)(row / (long)y.s7) : 0) };
+    double solved[3];
+    solveWeights(&w, d, sample, solved);
+    for (int corner = 0; corner <= d; ++corner)
+    {
+      cornerIds[i * corners + corner] = sorted[corner];
+    }
+    for (int axis = 0; axis < d; ++axis)
+    {
+      weights[i * d + axis] = solved[axis];
+    }
+  }
+}
+
+// One array of floating-point numbers, an item a sample.
+kernel void interpolateArray(global const uchar* values, int isFloat, int components, int corners,
+  long first, long count, global const int* cornerIds, global const double* weights,
+  global uchar* samples)
+{
+  const long i = get_global_id(0);
+  if (i >= count || cornerIds[i * corners] < 0)
+  {
+    return;
+  }
+  const int d = corners - 1;
+  for (int component = 0; component < components; ++component)
+  {
+    double at[4];
+    for (int corner = 0; corner < corners; ++corner)
+    {
+      const long place = cornerIds[i * corners + corner] * (long)components + component;
+      at[corner] = isFloat ? ((global const float*)values)[place] : ((global const double*)values)[place];
+    }
+    double sum = weights[i * d] * (at[1] - at[0]);
+    for (int axis = 1; axis < d; ++axis)
+    {
+      sum += weights[i * d + axis] * (at[axis + 1] - at[0]);
+    }
+    const long to = (first + i) * components + component;
+    if (isFloat)
+    {
+      ((global float*)samples)[to] = (float)(at[0] + sum);
+    }
+    else
+    {
+      ((global double*)samples)[to] = at[0] + sum;
+    }
+  }
+}

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Resample/ImageOutput.h"
+
+#include "Resample/ScalarTypes.h"
+
+#include "vtkCellData.h"
+#include "vtkCharArray.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include <unistd.h>
+
+namespace tipp
+{
+namespace
+{
+
+/// The bytes of one sample of all selected arrays.
+double bytesOfArrays(const std::vector<vtkPointSet*>& meshes, const SamplingSettings& settings)
+{
+  double bytes = 0;
+  std::set<std::string> counted;
+  const auto count = [&](vtkDataSetAttributes* data, bool ofCells)
+  {
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      vtkDataArray* const array = data->GetArray(i);
+      if (array && array->GetName() && settings.Selected(ofCells, array->GetName()) &&
+        counted.insert(array->GetName()).second)
+      {
+        bytes += array->GetNumberOfComponents() * array->GetDataTypeSize();
+      }
+    }
+  };
+  for (vtkPointSet* mesh : meshes)
+  {
+    count(mesh->GetPointData(), false);
+    count(mesh->GetCellData(), true);
+  }
+  return bytes;
+}
+
+void fillGhosts(const std::vector<unsigned char>& valid, vtkImageData* image)
+{
+  vtkUnsignedCharArray* const points = image->AllocatePointGhostArray();
+  unsigned char* const ghosts = points->GetPointer(0);
+  for (std::size_t i = 0; i < valid.size(); ++i)
+  {
+    ghosts[i] = valid[i] ? 0 : vtkDataSetAttributes::HIDDENPOINT;
+  }
+  vtkUnsignedCharArray* const cells = image->AllocateCellGhostArray();
+  int dimensions[3];
+  image->GetDimensions(dimensions);
+  const std::int64_t width = dimensions[0];
+  const std::int64_t layer = width * dimensions[1];
+  const int columns = std::max(1, dimensions[0] - 1);
+  const int rows = std::max(1, dimensions[1] - 1);
+  const int layers = std::max(1, dimensions[2] - 1);
+  const std::int64_t steps[3] = { dimensions[0] > 1 ? 1 : 0, dimensions[1] > 1 ? width : 0,
+    dimensions[2] > 1 ? layer : 0 };
+  unsigned char* cell = cells->GetPointer(0);
+  for (int z = 0; z < layers; ++z)
+  {
+    for (int y = 0; y < rows; ++y)
+    {
+      const unsigned char* corner = valid.data() + z * layer + y * width;
+      for (int x = 0; x < columns; ++x, ++corner, ++cell)
+      {
+        const auto edge = [&](std::int64_t from) { return corner[from] & corner[from + steps[0]]; };
+        const bool whole = edge(0) & edge(steps[1]) & edge(steps[2]) & edge(steps[1] + steps[2]);
+        *cell = whole ? 0 : vtkDataSetAttributes::HIDDENCELL;
+      }
+    }
+  }
+}
+
+} // namespace
+
+void refuseTooLarge(const Lattice& local, const Lattice& wanted, bool exchanging,
+  const std::vector<vtkPointSet*>& meshes, const SamplingSettings& settings)
+{
+  // The claims, the mask and the two arrays of the output that go with it.
+  constexpr double claims = 4;
+  constexpr double mask = 4;
+  const double arrays = bytesOfArrays(meshes, settings) + mask;
+  const double keys = settings.Merging ? sizeof(CellKey) : 0;
+  const auto count = [](const Lattice& lattice)
+  {
+    return lattice.empty()
+      ? 0.0
+      : double(lattice.size(0)) * double(lattice.size(1)) * double(lattice.size(2));
+  };
+  const double needed =
+    count(local) * (arrays + claims + keys) + (exchanging ? count(wanted) * (arrays + keys) : 0);
+  const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+  if (needed > memory)
+  {
+    char text[256];
+    std::snprintf(text, sizeof text,
+      "%.0f samples need at least %.1f GB of memory, and this machine has %.1f GB: use a smaller "
+      "range, fewer samples or fewer arrays.",
+      std::max(count(local), count(wanted)), needed / 1e9, memory / 1e9);
+    throw std::runtime_error(text);
+  }
+}
+
+std::int64_t fillImage(SampledImage& samples, vtkImageData* image)
+{
+  Lattice lattice = samples.lattice();
+  image->SetExtent(lattice.Extent.data());
+  image->SetOrigin(lattice.Min.data());
+  image->SetSpacing(lattice.Delta.data());
+  vtkPointData* const data = image->GetPointData();
+  for (const SampledImage::Array& array : samples.arrays())
+  {
+    data->AddArray(array.Samples);
+  }
+  std::vector<unsigned char>& valid = samples.valid();
+  vtkNew<vtkCharArray> mask;
+  mask->SetName("vtkValidPointMask");
+  mask->SetNumberOfValues(vtkIdType(valid.size()));
+  std::copy(valid.begin(), valid.end(), mask->GetPointer(0));
+  data->AddArray(mask);
+  if (!lattice.empty())
+  {
+    fillGhosts(valid, image);
+  }
+  return std::count(valid.begin(), valid.end(), 1);
+}
+
+void fillTable(const SamplingReport& report, vtkTable* table)
+{
+  table->Initialize();
+  vtkFieldData* const data = table->GetFieldData();
+  const auto number = [&](const char* name, std::int64_t value)
+  {
+    vtkNew<vtkIdTypeArray> array;
+    array->SetName(name);
+    array->InsertNextValue(value);
+    data->AddArray(array);
+  };
+  const SamplingStatistics& statistics = report.Statistics;
+  number("Cells", statistics.Cells);
+  number("IgnoredCells", statistics.Ignored);
+  number("VisitedCells", statistics.Claims.VisitedCells);
+  number("Tests", statistics.Claims.Tests);
+  number("ExactTests", statistics.Claims.ExactTests);
+  number("OverlappingClaims", statistics.Claims.OverlappingClaims);
+  number("Samples", report.Samples);
+  number("SamplesHit", report.Hits);
+  number("Threads", report.Threads);
+  vtkNew<vtkStringArray> device;
+  device->SetName("Device");
+  device->InsertNextValue(statistics.Device);
+  data->AddArray(device);
+  vtkNew<vtkStringArray> names;
+  vtkNew<vtkDoubleArray> seconds;
+  names->SetName("PhaseName");
+  seconds->SetName("PhaseSeconds");
+  const auto phase = [&](const char* name, double value)
+  {
+    names->InsertNextValue(name);
+    seconds->InsertNextValue(value);
+  };
+  phase("preparation", statistics.PreparationSeconds);
+  phase("claims", statistics.ClaimSeconds);
+  phase("interpolation", statistics.InterpolationSeconds);
+  phase("transfer", statistics.TransferSeconds);
+  phase("exchange", report.ExchangeSeconds);
+  phase("output", report.OutputSeconds);
+  data->AddArray(names);
+  data->AddArray(seconds);
+}
+
+} // namespace tipp

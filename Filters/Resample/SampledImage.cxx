@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Resample/SampledImage.h"
+
+#include "Resample/ScalarTypes.h"
+#include "Resample/ToScalar.h"
+#include "Triangulation/Stopwatch.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+namespace tipp
+{
+namespace
+{
+
+/// Writes the null value into tuples begin..end - 1.
+void fillNull(vtkDataArray* array, double null, std::int64_t begin, std::int64_t end)
+{
+  withScalar(*scalarOf(array->GetDataType()),
+    [&](auto type)
+    {
+      using T = decltype(type);
+      T* const values = static_cast<T*>(array->GetVoidPointer(0));
+      const int components = array->GetNumberOfComponents();
+      std::fill(values + begin * components, values + end * components, toScalar<T>(null));
+    });
+}
+
+/// Marks the points whose value in the array is `value`.
+void markEqual(vtkDataArray* array, double value, std::vector<bool>& marked)
+{
+  withScalar(*scalarOf(array->GetDataType()),
+    [&](auto type)
+    {
+      using T = decltype(type);
+      const T* const values = static_cast<const T*>(array->GetVoidPointer(0));
+      const std::size_t components = std::size_t(array->GetNumberOfComponents());
+      for (std::size_t i = 0; i < marked.size() * components; ++i)
+      {
+        if (values[i] == T(value))
+        {
+          marked[i / components] = true;
+        }
+      }
+    });
+}
+
+void addTo(ClaimStatistics& sum, const ClaimStatistics& more)
+{
+  sum.VisitedCells += more.VisitedCells;
+  sum.Tests += more.Tests;
+  sum.ExactTests += more.ExactTests;
+  sum.OverlappingClaims += more.OverlappingClaims;
+}
+
+bool sameKind(vtkDataArray* a, vtkDataArray* b)
+{
+  return a->GetDataType() == b->GetDataType() &&
+    a->GetNumberOfComponents() == b->GetNumberOfComponents();
+}
+
+} // namespace
+
+SampledImage::SampledImage(const Lattice& lattice, SamplingSettings settings)
+  : Grid(lattice)
+  , Settings(std::move(settings))
+  , Valid(std::size_t(lattice.samples()), 0)
+{
+  if (this->Settings.Merging)
+  {
+    this->Keys.reset(new CellKey[this->Valid.size()]);
+    std::fill(this->Keys.get(), this->Keys.get() + this->Valid.size(), noCellKey);
+  }
+}
+
+SampledImage::Array& SampledImage::addArray(
+  const std::string& name, bool ofCells, int type, int components)
+{
+  Array array{ name, ofCells,
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type)) };
+  array.Samples->SetName(name.c_str());
+  array.Samples->SetNumberOfComponents(components);
+  if (!array.Samples->Resize(vtkIdType(this->Valid.size())))
+  {
+    throw std::bad_alloc();
+  }
+  array.Samples->SetNumberOfTuples(vtkIdType(this->Valid.size()));
+  this->Arrays.push_back(array);
+  return this->Arrays.back();
+}
+
+SampledImage::Array& SampledImage::addNullArray(
+  const std::string& name, bool ofCells, int type, int components)
+{
+  Array& array = this->addArray(name, ofCells, type, components);
+  fillNull(array.Samples, this->Settings.NullValue, 0, std::int64_t(this->Valid.size()));
+  return array;
+}
+
+void SampledImage::setNull(const Array& array, std::int64_t sample) const
+{
+  fillNull(array.Samples, this->Settings.NullValue, sample, sample + 1);
+}
+
+SampledImage::Array* SampledImage::findArray(const std::string& name)
+{
+  for (Array& array : this->Arrays)
+  {
+    if (array.Name == name)
+    {
+      return &array;
+    }
+  }
+  return nullptr;
+}
+
+bool SampledImage::add(vtkPointSet* mesh)
+{
+  const Stopwatch watch;
+  SimplexParts parts = makeSimplices(mesh);
+  this->Statistics.PreparationSeconds += watch.seconds();
+  this->Statistics.Ignored += parts.Thin;
+  if (parts.Tetrahedra.Mesh.Cells > 0 && this->Dimension != 3)
+  {
+    this->startAgain();
+    this->Dimension = 3;
+  }
+  if (parts.Triangles.Mesh.Cells > 0 && this->Dimension != 3)
+  {
+    this->Dimension = 2;
+  }
+  this->addAttributes(mesh->GetPointData(), false);
+  this->addAttributes(mesh->GetCellData(), true);
+  bool completed = true;
+  if (this->Dimension == 3 && parts.Tetrahedra.Mesh.Cells > 0)
+  {
+    completed = this->sample(mesh, parts.Tetrahedra);
+  }
+  if (this->Dimension == 2 && parts.Triangles.Mesh.Cells > 0)
+  {
+    completed = this->sample(mesh, parts.Triangles);
+  }
+  if (this->Dimension == 3 && parts.Triangles.Mesh.Cells > 0)
+  {
+    this->Statistics.Ignored += parts.Triangles.Mesh.Cells;
+    this->warnOnce("Surface cells beside cells with a volume are not sampled.");
+  }
+  return completed;
+}
+
+void SampledImage::startAgain()
+{
+  if (this->Dimension == 2)
+  {
+    this->warnOnce("Surface cells beside cells with a volume are not sampled.");
+    this->Statistics.Ignored += this->Statistics.Cells;
+    this->Statistics.Cells = 0;
+  }
+  for (Array& array : this->Arrays)
+  {
+    fillNull(array.Samples, this->Settings.NullValue, 0, std::int64_t(this->Valid.size()));
+  }
+  std::fill(this->Valid.begin(), this->Valid.end(), 0);
+  if (this->Keys)
+  {
+    std::fill(this->Keys.get(), this->Keys.get() + this->Valid.size(), noCellKey);
+  }
+}
+
+bool SampledImage::sample(vtkPointSet* mesh, Simplices& simplices)
+{
+  simplices.Mesh.Axes[0] = this->Settings.Axes[0];
+  simplices.Mesh.Axes[1] = this->Settings.Axes[1];
+  if (simplices.Mesh.Cells > std::numeric_limits<std::int32_t>::max())
+  {
+    throw std::runtime_error("a mesh has " + std::to_string(simplices.Mesh.Cells) +
+      " cells, and 2147483647 are the most for one piece: split it into pieces.");
+  }
+  const Stopwatch watch;
+  if (this->Settings.NoData)
+  {
+    this->hideNoData(mesh, simplices);
+  }
+  ResampleOptions options;
+  options.Device = this->Settings.Device;
+  options.Threads = this->Settings.Threads;
+  options.Keys = this->Keys.get();
+  options.Valid = this->Valid.data();
+  options.Parents = simplices.Parents.empty() ? nullptr : simplices.Parents.data();
+  options.Progress = this->Settings.Progress;
+  const std::vector<Attribute> attributes = this->attributesOf(mesh);
+  this->Statistics.PreparationSeconds += watch.seconds();
+  this->HasSamples = true;
+  const ResampleResult result = resample(simplices.Mesh, this->Grid, attributes, options);
+  this->Copies.clear();
+  SamplingStatistics& statistics = this->Statistics;
+  statistics.Cells += simplices.Mesh.Cells;
+  addTo(statistics.Claims, result.Statistics);
+  statistics.ClaimSeconds += result.ClaimSeconds;
+  statistics.InterpolationSeconds += result.InterpolationSeconds;
+  statistics.TransferSeconds += result.TransferSeconds;
+  statistics.Device = result.Device;
+  if (!result.Warning.empty())
+  {
+    this->warnOnce(result.Warning);
+  }
+  return !result.Aborted;
+}
+
+std::vector<Attribute> SampledImage::attributesOf(vtkPointSet* mesh)
+{
+  std::vector<Attribute> attributes;
+  for (const Array& array : this->Arrays)
+  {
+    vtkDataSetAttributes* data = mesh->GetPointData();
+    if (array.OfCells)
+    {
+      data = mesh->GetCellData();
+    }
+    vtkSmartPointer<vtkDataArray> values = data->GetArray(array.Name.c_str());
+    if (values && !sameKind(values, array.Samples))
+    {
+      this->warnOnce("The array '" + array.Name +
+        "' differs in type or components between parts of the input; where it does, it is null.");
+      values = nullptr;
+    }
+    if (values && !values->HasStandardMemoryLayout())
+    {
+      const auto copy =
+        vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(values->GetDataType()));
+      copy->DeepCopy(values);
+      this->Copies.push_back(copy);
+      values = copy;
+    }
+    attributes.push_back({ values ? values->GetVoidPointer(0) : nullptr,
+      array.Samples->GetVoidPointer(0), *scalarOf(array.Samples->GetDataType()),
+      array.Samples->GetNumberOfComponents(), array.OfCells, this->Settings.NullValue });
+  }
+  return attributes;
+}
+
+void SampledImage::addAttributes(vtkDataSetAttributes* data, bool ofCells)
+{
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* const any = data->GetAbstractArray(i);
+    const std::string name = any->GetName() ? any->GetName() : "";
+    const bool special = name.empty() || name == vtkDataSetAttributes::GhostArrayName();
+    if (special || !this->Settings.Selected(ofCells, name))
+    {
+      continue;
+    }
+    vtkDataArray* const array = vtkDataArray::SafeDownCast(any);
+    if (!array || !scalarOf(array->GetDataType()))
+    {
+      this->warnOnce("The array '" + name + "' is left out: it is not made of numbers.");
+      continue;
+    }
+    Array* const known = this->findArray(name);
+    if (known && known->OfCells != ofCells)
+    {
+      this->warnOnce("The cell array '" + name + "' is left out: a point array has its name.");
+    }
+    if (!known)
+    {
+      const int type = array->GetDataType();
+      const int components = array->GetNumberOfComponents();
+      Array& added = this->Keys ? this->addNullArray(name, ofCells, type, components)
+                                : this->addArray(name, ofCells, type, components);
+      added.Samples->CopyComponentNames(array);
+    }
+  }
+}
+
+void SampledImage::hideNoData(vtkPointSet* mesh, Simplices& simplices)
+{
+  std::vector<bool> marked(std::size_t(mesh->GetNumberOfPoints()), false);
+  vtkPointData* const data = mesh->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* const array = data->GetArray(i);
+    if (array && array->GetName() && array->HasStandardMemoryLayout() &&
+      scalarOf(array->GetDataType()) && this->Settings.Selected(false, array->GetName()))
+    {
+      markEqual(array, *this->Settings.NoData, marked);
+    }
+  }
+  hideMarked(simplices, marked);
+}
+
+void SampledImage::warnOnce(const std::string& text)
+{
+  if (std::find(this->Warnings.begin(), this->Warnings.end(), text) == this->Warnings.end())
+  {
+    this->Warnings.push_back(text);
+  }
+}
+
+void SampledImage::finish()
+{
+  for (Array& array : this->Arrays)
+  {
+    if (!this->HasSamples)
+    {
+      fillNull(array.Samples, this->Settings.NullValue, 0, std::int64_t(this->Valid.size()));
+    }
+  }
+  this->repeatLayers();
+}
+
+void SampledImage::repeatLayers()
+{
+  const int projected = 3 - this->Settings.Axes[0] - this->Settings.Axes[1];
+  const std::size_t layers = this->Dimension == 2 ? std::size_t(this->Grid.size(projected)) : 1;
+  const std::size_t layer = this->Valid.size() / layers;
+  for (std::size_t i = 1; i < layers; ++i)
+  {
+    for (Array& array : this->Arrays)
+    {
+      char* const samples = static_cast<char*>(array.Samples->GetVoidPointer(0));
+      const std::size_t bytes = layer *
+        std::size_t(array.Samples->GetNumberOfComponents() * array.Samples->GetDataTypeSize());
+      std::memcpy(samples + i * bytes, samples, bytes);
+    }
+    std::memcpy(this->Valid.data() + i * layer, this->Valid.data(), layer);
+    if (this->Keys)
+    {
+      std::memcpy(this->Keys.get() + i * layer, this->Keys.get(), layer * sizeof(CellKey));
+    }
+  }
+}
+
+} // namespace tipp

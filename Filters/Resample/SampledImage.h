@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippSampledImage_h
+#define tippSampledImage_h
+
+#include "Resample/Resample.h"
+#include "Resample/Simplices.h"
+
+#include "vtkSmartPointer.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+class vtkDataSetAttributes;
+class vtkPointSet;
+
+namespace tipp
+{
+
+/// What is sampled, and how.
+struct SamplingSettings
+{
+  std::function<bool(bool ofCells, const std::string& name)> Selected;
+  std::vector<int> Axes = { 0, 1 }; ///< the two that triangles are sampled along
+  double NullValue = 0;
+  std::optional<double> NoData; ///< cells with a corner of this value answer nothing
+  DeviceChoice Device;
+  int Threads = 1;
+  bool Merging = false; ///< more than one mesh is added, here or on other ranks
+  Report Progress;
+};
+
+struct SamplingStatistics
+{
+  ClaimStatistics Claims;
+  std::int64_t Cells = 0;   ///< triangles or tetrahedra sampled
+  std::int64_t Ignored = 0; ///< cells of lower dimension than those
+  double PreparationSeconds = 0;
+  double ClaimSeconds = 0;
+  double InterpolationSeconds = 0;
+  double TransferSeconds = 0;
+  std::string Device;
+};
+
+/// The samples of a lattice's extent, gathered from any number of meshes.
+class SampledImage
+{
+public:
+  SampledImage(const Lattice& lattice, SamplingSettings settings);
+
+  /// One array of the samples.
+  struct Array
+  {
+    std::string Name;
+    bool OfCells;
+    vtkSmartPointer<vtkDataArray> Samples;
+  };
+
+  /// Adds what a mesh answers. False if it was aborted. Meshes with three-dimensional cells put
+  /// aside what triangles have answered; triangles after them are ignored.
+  bool add(vtkPointSet* mesh);
+
+  const Lattice& lattice() const { return this->Grid; }
+  int dimension() const { return this->Dimension; } ///< of the cells; 0: none so far
+  std::vector<Array>& arrays() { return this->Arrays; }
+  const std::vector<Array>& arrays() const { return this->Arrays; }
+  const SamplingStatistics& statistics() const { return this->Statistics; }
+  const std::vector<std::string>& warnings() const { return this->Warnings; }
+
+  /// 1 for each sample that is answered.
+  const std::vector<unsigned char>& valid() const { return this->Valid; }
+  std::vector<unsigned char>& valid() { return this->Valid; }
+  /// One a sample if Merging; else none.
+  CellKey* keys() { return this->Keys.get(); }
+
+  /// Call when all is added: gives samples their null values if there was nothing to add, and
+  /// repeats triangles' samples along the axis that they are projected along.
+  void finish();
+
+  /// An array of NullValue for all samples, added to those there are.
+  Array& addNullArray(const std::string& name, bool ofCells, int type, int components);
+  void setNull(const Array& array, std::int64_t sample) const;
+  Array* findArray(const std::string& name);
+
+private:
+  Array& addArray(const std::string& name, bool ofCells, int type, int components);
+  void repeatLayers();
+  bool sample(vtkPointSet* mesh, Simplices& simplices);
+  void startAgain();
+  std::vector<Attribute> attributesOf(vtkPointSet* mesh);
+  void addAttributes(vtkDataSetAttributes* data, bool ofCells);
+  void hideNoData(vtkPointSet* mesh, Simplices& simplices);
+  void warnOnce(const std::string& text);
+
+  Lattice Grid;
+  SamplingSettings Settings;
+  int Dimension = 0;
+  bool HasSamples = false;
+  std::vector<Array> Arrays;
+  std::vector<vtkSmartPointer<vtkDataArray>> Copies; ///< kept while a mesh is sampled
+  std::vector<unsigned char> Valid;
+  std::unique_ptr<CellKey[]> Keys;
+  SamplingStatistics Statistics;
+  std::vector<std::string> Warnings;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Resample/SamplingRange.h"
+
+#include "vtkBoundingBox.h"
+#include "vtkCommunicator.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkMultiProcessController.h"
+#include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace tipp
+{
+
+std::array<int, 3> rangeDimensions(const std::array<double, 6>& bounds,
+  const std::array<int, 3>& dimensions, const std::array<double, 3>& delta)
+{
+  std::array<int, 3> result = dimensions;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::string name(1, "xyz"[axis]);
+    const double low = bounds[2 * axis];
+    const double high = bounds[2 * axis + 1];
+    if (!std::isfinite(low) || !std::isfinite(high) || low > high)
+    {
+      throw std::runtime_error("the range along " + name + " is from " + std::to_string(low) +
+        " to " + std::to_string(high) + ": give finite bounds, the lower one first.");
+    }
+    if (!std::isfinite(delta[axis]) || delta[axis] < 0)
+    {
+      throw std::runtime_error("Delta along " + name + " is " + std::to_string(delta[axis]) +
+        ": give a distance above 0, or 0 to use SamplingDimensions.");
+    }
+    if (delta[axis] > 0)
+    {
+      const double steps = std::floor((high - low) / delta[axis]);
+      if (!(steps < std::numeric_limits<int>::max()))
+      {
+        throw std::runtime_error(
+          "more than 2147483647 samples along " + name + ": give a larger Delta.");
+      }
+      result[axis] = int(steps) + 1;
+    }
+    if (result[axis] < 1)
+    {
+      throw std::runtime_error("SamplingDimensions along " + name + " is " +
+        std::to_string(result[axis]) + ": give 1 or more.");
+    }
+  }
+  return result;
+}
+
+Lattice rangeLattice(const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
+  const std::array<double, 3>& delta)
+{
+  const std::array<int, 3> counts = rangeDimensions(bounds, dimensions, delta);
+  Lattice lattice;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double low = bounds[2 * axis];
+    const double high = bounds[2 * axis + 1];
+    const double steps = counts[axis] - 1;
+    lattice.Min[axis] = low;
+    lattice.Extent[2 * axis + 1] = counts[axis] - 1;
+    if (delta[axis] > 0)
+    {
+      lattice.Delta[axis] = delta[axis];
+    }
+    else if (counts[axis] > 1)
+    {
+      lattice.Delta[axis] = (high - low) / steps;
+      // A rounding must not put the last sample out of the range.
+      while (lattice.Delta[axis] > 0 && low + steps * lattice.Delta[axis] > high)
+      {
+        lattice.Delta[axis] = std::nextafter(lattice.Delta[axis], 0.0);
+      }
+    }
+    else
+    {
+      lattice.Delta[axis] = high > low ? high - low : 1;
+    }
+  }
+  return lattice;
+}
+
+std::vector<int> surfaceAxes(const std::array<int, 3>& dimensions)
+{
+  if (dimensions[2] == 1 || (dimensions[0] > 1 && dimensions[1] > 1))
+  {
+    return { 0, 1 };
+  }
+  return dimensions[1] == 1 ? std::vector<int>{ 0, 2 } : std::vector<int>{ 1, 2 };
+}
+
+std::vector<vtkPointSet*> meshesOf(vtkDataObject* data)
+{
+  std::vector<vtkPointSet*> meshes;
+  const auto add = [&](vtkDataObject* leaf)
+  {
+    vtkPointSet* const mesh = vtkPointSet::SafeDownCast(leaf);
+    if (!mesh)
+    {
+      throw std::runtime_error(std::string("a ") + leaf->GetClassName() +
+        " is no mesh with points and cells of its own: convert it to a vtkUnstructuredGrid.");
+    }
+    meshes.push_back(mesh);
+  };
+  auto* composite = vtkCompositeDataSet::SafeDownCast(data);
+  if (!composite)
+  {
+    add(data);
+    return meshes;
+  }
+  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+  {
+    add(iterator->GetCurrentDataObject());
+  }
+  return meshes;
+}
+
+std::array<double, 6> boundsOf(
+  const std::vector<vtkPointSet*>& meshes, vtkMultiProcessController* controller)
+{
+  // Minima and negated maxima, so that one reduction does.
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::array<double, 6> ends = { none, none, none, none, none, none };
+  for (vtkPointSet* mesh : meshes)
+  {
+    double bounds[6];
+    mesh->GetBounds(bounds);
+    for (std::size_t i = 0; i < 6 && mesh->GetNumberOfPoints() > 0; ++i)
+    {
+      ends[i] = std::min(ends[i], i % 2 == 0 ? bounds[i] : -bounds[i]);
+    }
+  }
+  if (controller)
+  {
+    std::array<double, 6> all = ends;
+    controller->AllReduce(ends.data(), all.data(), 6, vtkCommunicator::MIN_OP);
+    ends = all;
+  }
+  for (std::size_t i = 1; i < 6; i += 2)
+  {
+    ends[i] = -ends[i];
+  }
+  if (!(ends[0] <= ends[1]))
+  {
+    throw std::runtime_error(
+      "the input has no points, so its bounds give no range: turn UseInputBounds off.");
+  }
+  return ends;
+}
+
+Lattice cropped(
+  const Lattice& lattice, const std::vector<vtkPointSet*>& meshes, const std::vector<int>& axes)
+{
+  vtkBoundingBox box;
+  for (vtkPointSet* mesh : meshes)
+  {
+    double bounds[6];
+    mesh->GetBounds(bounds);
+    box.AddBounds(bounds);
+  }
+  Lattice result = lattice;
+  for (const int axis : axes)
+  {
+    int& first = result.Extent[2 * axis];
+    int& last = result.Extent[2 * axis + 1];
+    if (!box.IsValid())
+    {
+      last = first - 1;
+      continue;
+    }
+    // A step more on either side makes up for the roundings.
+    const double delta = lattice.Delta[axis];
+    const double low = std::floor((box.GetBound(2 * axis) - lattice.Min[axis]) / delta) - 1;
+    const double high = std::ceil((box.GetBound(2 * axis + 1) - lattice.Min[axis]) / delta) + 1;
+    first = low > first ? int(std::min(low, double(last) + 1)) : first;
+    last = high < last ? int(std::max(high, double(first) - 1)) : last;
+  }
+  return result;
+}
+
+} // namespace tipp

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippSamplingRange_h
+#define tippSamplingRange_h
+
+#include "Resample/Lattice.h"
+
+#include <array>
+#include <vector>
+
+class vtkDataObject;
+class vtkMultiProcessController;
+class vtkPointSet;
+
+namespace tipp
+{
+
+/// The number of samples along each axis of a range: by delta where it is above 0, else
+/// `dimensions`. Throws std::runtime_error for a range or a number that makes no sense.
+std::array<int, 3> rangeDimensions(const std::array<double, 6>& bounds,
+  const std::array<int, 3>& dimensions, const std::array<double, 3>& delta);
+
+/// The whole lattice of a range. Where `dimensions` counts, the last sample is not beyond the
+/// range.
+Lattice rangeLattice(const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
+  const std::array<double, 3>& delta);
+
+/// The two axes that surface cells are sampled along: all but the last with one sample, or z.
+std::vector<int> surfaceAxes(const std::array<int, 3>& dimensions);
+
+/// The meshes of a data object: itself or its leaves, in order. Throws std::runtime_error if one is
+/// no vtkPointSet.
+std::vector<vtkPointSet*> meshesOf(vtkDataObject* data);
+
+/// The bounding box of the meshes of all ranks (controller may be null). Throws std::runtime_error
+/// on all ranks if there is no point.
+std::array<double, 6> boundsOf(
+  const std::vector<vtkPointSet*>& meshes, vtkMultiProcessController* controller);
+
+/// The part of the lattice that the meshes' boxes meet along the axes, and all of it along others.
+Lattice cropped(
+  const Lattice& lattice, const std::vector<vtkPointSet*>& meshes, const std::vector<int>& axes);
+
+} // namespace tipp
+
+#endif

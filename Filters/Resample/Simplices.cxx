@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Resample/Simplices.h"
+
+#include "Resample/CellPulling.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkGenericCell.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+
+namespace tipp
+{
+namespace
+{
+
+vtkSmartPointer<vtkDataArray> coordinatesOf(vtkPointSet* mesh)
+{
+  vtkSmartPointer<vtkDataArray> data = mesh->GetPoints()->GetData();
+  const int type = data->GetDataType();
+  if (data->HasStandardMemoryLayout() && (type == VTK_FLOAT || type == VTK_DOUBLE))
+  {
+    return data;
+  }
+  const auto copy = vtkSmartPointer<vtkDoubleArray>::New();
+  copy->DeepCopy(data);
+  return copy;
+}
+
+/// The array of cells, if they all are of the type.
+vtkCellArray* uniformCells(vtkPointSet* mesh, int type)
+{
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(mesh))
+  {
+    vtkUnsignedCharArray* types = grid->GetCellTypesArray();
+    if (!types || types->GetNumberOfValues() == 0)
+    {
+      return nullptr;
+    }
+    const unsigned char* begin = types->GetPointer(0);
+    const unsigned char* end = begin + types->GetNumberOfValues();
+    const bool uniform = std::all_of(begin, end, [type](int t) { return t == type; });
+    return uniform ? grid->GetCells() : nullptr;
+  }
+  auto* surface = vtkPolyData::SafeDownCast(mesh);
+  const bool uniform = surface && type == VTK_TRIANGLE && surface->GetNumberOfPolys() > 0 &&
+    surface->GetNumberOfPolys() == surface->GetNumberOfCells() &&
+    surface->GetPolys()->IsHomogeneous() == 3;
+  return uniform ? surface->GetPolys() : nullptr;
+}
+
+bool takeUniform(vtkPointSet* mesh, int type, Simplices& simplices)
+{
+  vtkCellArray* cells = uniformCells(mesh, type);
+  const vtkIdType corners = type == VTK_TRIANGLE ? 3 : 4;
+  if (!cells || cells->GetNumberOfConnectivityIds() != corners * cells->GetNumberOfCells())
+  {
+    return false;
+  }
+  simplices.Mesh.Ids = cells->GetConnectivityArray()->GetVoidPointer(0);
+  simplices.Mesh.Wide = cells->IsStorage64Bit();
+  simplices.Mesh.Cells = cells->GetNumberOfCells();
+  return true;
+}
+
+/// Cuts cells of any type up.
+class Cutter
+{
+public:
+  Cutter(vtkPointSet* mesh, SimplexParts& parts)
+    : Mesh(mesh)
+    , Parts(parts)
+  {
+  }
+
+  void cut(vtkIdType cell)
+  {
+    const int type = this->Mesh->GetCellType(cell);
+    switch (type)
+    {
+      case VTK_TRIANGLE:
+      case VTK_QUAD:
+      case VTK_PIXEL:
+        this->loadCorners(cell);
+        if (type == VTK_PIXEL)
+        {
+          std::swap(this->Corners[2], this->Corners[3]);
+        }
+        CellPulling::polygon(this->Corners, this->Parts.Triangles.Ids);
+        break;
+      case VTK_TETRA:
+        this->Mesh->GetCellPoints(cell, this->Ids);
+        this->append(this->Parts.Tetrahedra, this->Ids->begin(), this->Ids->end());
+        break;
+      case VTK_HEXAHEDRON:
+      case VTK_VOXEL:
+      case VTK_WEDGE:
+      case VTK_PYRAMID:
+        this->loadCorners(cell);
+        CellPulling::polyhedron(
+          this->Corners, CellPulling::facesOf(type), this->Parts.Tetrahedra.Ids);
+        break;
+      default:
+        this->cutAsVtk(cell);
+    }
+    this->Parts.Triangles.Parents.resize(this->Parts.Triangles.Ids.size() / 3, cell);
+    this->Parts.Tetrahedra.Parents.resize(this->Parts.Tetrahedra.Ids.size() / 4, cell);
+  }
+
+private:
+  void loadCorners(vtkIdType cell)
+  {
+    this->Mesh->GetCellPoints(cell, this->Ids);
+    this->Corners.clear();
+    for (const vtkIdType id : *this->Ids)
+    {
+      double p[3];
+      this->Mesh->GetPoint(id, p);
+      this->Corners.push_back({ { p[0], p[1], p[2] }, id });
+    }
+  }
+
+  void cutAsVtk(vtkIdType id)
+  {
+    this->Mesh->GetCell(id, this->Cell);
+    const int dimension = this->Cell->GetCellDimension();
+    if (dimension < 2)
+    {
+      ++this->Parts.Thin;
+      return;
+    }
+    this->Cell->Triangulate(0, this->Ids, this->Points);
+    this->append(dimension == 2 ? this->Parts.Triangles : this->Parts.Tetrahedra,
+      this->Ids->begin(), this->Ids->end());
+  }
+
+  static void append(Simplices& simplices, const vtkIdType* begin, const vtkIdType* end)
+  {
+    simplices.Ids.insert(simplices.Ids.end(), begin, end);
+  }
+
+  vtkPointSet* Mesh;
+  SimplexParts& Parts;
+  std::vector<CellPulling::Corner> Corners;
+  vtkNew<vtkIdList> Ids;
+  vtkNew<vtkPoints> Points;
+  vtkNew<vtkGenericCell> Cell;
+};
+
+bool hidesCells(vtkUnsignedCharArray* ghosts)
+{
+  if (!ghosts)
+  {
+    return false;
+  }
+  const unsigned char* begin = ghosts->GetPointer(0);
+  return std::any_of(begin, begin + ghosts->GetNumberOfValues(),
+    [](int ghost) { return (ghost & vtkDataSetAttributes::HIDDENCELL) != 0; });
+}
+
+void finish(Simplices& simplices, int dimension, const SimplexParts& parts)
+{
+  SimplexMesh& mesh = simplices.Mesh;
+  mesh.Dimension = dimension;
+  mesh.Points = parts.Coordinates->GetVoidPointer(0);
+  mesh.PointCount = parts.Coordinates->GetNumberOfTuples();
+  mesh.Float = parts.Coordinates->GetDataType() == VTK_FLOAT;
+  if (!simplices.Ids.empty())
+  {
+    mesh.Ids = simplices.Ids.data();
+    mesh.Wide = true;
+    mesh.Cells = std::int64_t(simplices.Ids.size()) / (dimension + 1);
+  }
+}
+
+} // namespace
+
+SimplexParts makeSimplices(vtkPointSet* mesh)
+{
+  SimplexParts parts;
+  parts.Triangles.Mesh.Dimension = 2;
+  parts.Tetrahedra.Mesh.Dimension = 3;
+  const vtkIdType count = mesh->GetPoints() ? mesh->GetNumberOfCells() : 0;
+  if (count == 0)
+  {
+    return parts;
+  }
+  parts.Coordinates = coordinatesOf(mesh);
+  vtkUnsignedCharArray* const ghosts = mesh->GetCellGhostArray();
+  const bool hidden = hidesCells(ghosts);
+  if (hidden ||
+    (!takeUniform(mesh, VTK_TRIANGLE, parts.Triangles) &&
+      !takeUniform(mesh, VTK_TETRA, parts.Tetrahedra)))
+  {
+    Cutter cutter(mesh, parts);
+    for (vtkIdType cell = 0; cell < count; ++cell)
+    {
+      if (!hidden || (ghosts->GetValue(cell) & vtkDataSetAttributes::HIDDENCELL) == 0)
+      {
+        cutter.cut(cell);
+      }
+    }
+  }
+  finish(parts.Triangles, 2, parts);
+  finish(parts.Tetrahedra, 3, parts);
+  return parts;
+}
+
+void hideMarked(Simplices& simplices, const std::vector<bool>& markedPoints)
+{
+  SimplexMesh& mesh = simplices.Mesh;
+  simplices.Hidden.assign(std::size_t(mesh.Cells), 0);
+  mesh.Hidden = simplices.Hidden.data();
+  withAccess(mesh,
+    [&](const auto& access)
+    {
+      for (std::int64_t cell = 0; cell < mesh.Cells; ++cell)
+      {
+        for (int i = 0; i < access.Corners; ++i)
+        {
+          const auto id = std::size_t(access.ids(cell)[i]);
+          simplices.Hidden[std::size_t(cell)] |= (unsigned char)(markedPoints[id]);
+        }
+      }
+    });
+}
+
+} // namespace tipp

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippSegmentCounts_h
+#define tippSegmentCounts_h
+
+#include "Threads/ParallelFor.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+/// How many ids of a chunk lie in each segment of the vertices. The chunk is divided into a few
+/// shares of consecutive ids, each counted by itself.
+struct SegmentCounts
+{
+  std::vector<std::size_t> ShareStarts;           ///< and the number of ids
+  std::vector<std::vector<std::uint32_t>> Shares; ///< a count a segment
+
+  std::size_t shares() const { return this->Shares.size(); }
+
+  /// The bitmap: an element a segment.
+  std::vector<char> active() const
+  {
+    std::vector<char> any(this->Shares.front().size(), 0);
+    for (const std::vector<std::uint32_t>& counts : this->Shares)
+    {
+      std::transform(any.begin(), any.end(), counts.begin(), any.begin(),
+        [](char a, std::uint32_t count) { return char(a != 0 || count > 0); });
+    }
+    return any;
+  }
+};
+
+/// segment(id - low) is below `segments`; the chunk has less than 2^32 ids.
+template <typename Segment>
+SegmentCounts countSegments(const std::int64_t* ids, std::size_t count, std::int64_t low,
+  std::size_t segments, int threads, const Segment& segment)
+{
+  constexpr std::size_t least = 1 << 16;
+  // Each thread counts for itself, so that there is nothing to wait for.
+  const std::size_t shares =
+    std::max<std::size_t>(std::min(std::size_t(threadCount(threads)), count / least), 1);
+  SegmentCounts result;
+  for (std::size_t share = 0; share <= shares; ++share)
+  {
+    result.ShareStarts.push_back(count * share / shares);
+  }
+  result.Shares.resize(shares);
+  parallelFor(std::int64_t(shares), threads,
+    [&](std::int64_t share)
+    {
+      std::vector<std::uint32_t> own(segments, 0);
+      const std::size_t end = result.ShareStarts[std::size_t(share) + 1];
+      for (std::size_t i = result.ShareStarts[std::size_t(share)]; i < end; ++i)
+      {
+        ++own[segment(std::uint64_t(ids[i] - low))];
+      }
+      result.Shares[std::size_t(share)] = std::move(own);
+    });
+  return result;
+}
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioning/AssignPieces.h"
+
+#include <algorithm>
+
+namespace tipp
+{
+namespace
+{
+
+std::int64_t weightOf(const std::vector<std::int64_t>& weights, std::size_t piece)
+{
+  return std::max<std::int64_t>(weights[piece], 0);
+}
+
+// Runs of at most `most`, each as long as it can be while every later rank still gets a piece.
+// The last rank takes what is left.
+std::vector<std::size_t> runsOf(
+  const std::vector<std::int64_t>& weights, std::size_t ranks, std::int64_t most)
+{
+  std::vector<std::size_t> starts = { 0 };
+  std::size_t piece = 0;
+  for (std::size_t rank = 0; rank + 1 < ranks; ++rank)
+  {
+    const std::size_t later = ranks - 1 - rank;
+    const std::size_t end = weights.size() > later ? weights.size() - later : 0;
+    std::int64_t sum = 0;
+    const std::size_t first = piece;
+    while (piece < end && (piece == first || weightOf(weights, piece) <= most - sum))
+    {
+      sum += weightOf(weights, piece);
+      ++piece;
+    }
+    // Fewer pieces than ranks: one each, as long as there are some.
+    piece = std::min(std::max(piece, first + 1), weights.size());
+    starts.push_back(piece);
+  }
+  starts.push_back(weights.size());
+  return starts;
+}
+
+std::int64_t heaviest(
+  const std::vector<std::int64_t>& weights, const std::vector<std::size_t>& starts)
+{
+  std::int64_t most = 0;
+  for (std::size_t rank = 0; rank + 1 < starts.size(); ++rank)
+  {
+    std::int64_t sum = 0;
+    for (std::size_t piece = starts[rank]; piece < starts[rank + 1]; ++piece)
+    {
+      sum += weightOf(weights, piece);
+    }
+    most = std::max(most, sum);
+  }
+  return most;
+}
+
+} // namespace
+
+std::vector<std::size_t> assignPieces(const std::vector<std::int64_t>& weights, int ranks)
+{
+  const auto count = static_cast<std::size_t>(std::max(ranks, 1));
+  std::int64_t low = 0;
+  std::int64_t high = 0;
+  for (std::size_t piece = 0; piece < weights.size(); ++piece)
+  {
+    low = std::max(low, weightOf(weights, piece));
+    high += weightOf(weights, piece);
+  }
+  // The lightest heaviest run, by halving.
+  while (low < high)
+  {
+    const std::int64_t most = low + (high - low) / 2;
+    if (heaviest(weights, runsOf(weights, count, most)) <= most)
+    {
+      high = most;
+    }
+    else
+    {
+      low = most + 1;
+    }
+  }
+  return runsOf(weights, count, low);
+}
+
+} // namespace tipp

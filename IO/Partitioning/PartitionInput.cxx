@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioning/PartitionInput.h"
+
+#include "Files/IOError.h"
+#include "Flat/FlattenDataSet.h"
+#include "Flat/WriteFlatMesh.h"
+#include "Partitioned/PendingMesh.h"
+#include "Partitioning/Ranks.h"
+#include "Vtk/ReadDataSet.h"
+
+#include "vtkDataSet.h"
+#include "vtkSmartPointer.h"
+
+#include <optional>
+
+namespace tipp
+{
+
+PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
+  const std::string& output, const PartitionOptions& options, vtkMultiProcessController* controller)
+{
+  const Ranks ranks(controller);
+  // It goes away with this object, or before the next run if this one is killed.
+  std::optional<PendingMesh> scratch;
+  std::string folder;
+  ranks.attempt(
+    [&]
+    {
+      if (ranks.isFirst())
+      {
+        scratch.emplace(output);
+        folder = scratch->temporaryPath() + "/flat";
+        writeFlatMesh(folder, flattenDataSet(data, name).Content);
+      }
+    });
+  folder = ranks.broadcast(folder);
+  FlatMesh mesh;
+  ranks.attempt([&] { mesh = openFlatMesh(folder); });
+  return partitionMesh(mesh, output, options, controller);
+}
+
+PartitionStatistics partitionInput(const std::string& input, const std::string& output,
+  const PartitionOptions& options, vtkMultiProcessController* controller)
+{
+  const Ranks ranks(controller);
+  FlatMesh mesh;
+  vtkSmartPointer<vtkDataSet> data;
+  int isFlat = 1;
+  ranks.attempt(
+    [&]
+    {
+      isFlat = isFlatMesh(input) || !isVtkFile(input);
+      if (isFlat)
+      {
+        mesh = openFlatMesh(input);
+      }
+      else if (ranks.isFirst())
+      {
+        data = readDataSet(input);
+      }
+    });
+  return isFlat ? partitionMesh(mesh, output, options, controller)
+                : partitionDataSet(data, input, output, options, controller);
+}
+
+} // namespace tipp

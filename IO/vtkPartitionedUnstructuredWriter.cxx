@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkPartitionedUnstructuredWriter.h"
+
+#include "Files/IOError.h"
+#include "Partitioning/GatherDataSets.h"
+#include "Partitioning/PartitionInput.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkDataObject.h"
+#include "vtkDataSet.h"
+#include "vtkInformation.h"
+#include "vtkMultiProcessController.h"
+#include "vtkObjectFactory.h"
+
+#include <exception>
+#include <new>
+
+vtkStandardNewMacro(vtkPartitionedUnstructuredWriter);
+vtkCxxSetObjectMacro(vtkPartitionedUnstructuredWriter, Controller, vtkMultiProcessController);
+
+vtkPartitionedUnstructuredWriter::vtkPartitionedUnstructuredWriter()
+{
+  this->SetTiling("grid:4x4");
+  this->SetLoader("auto");
+  this->SetDevice("openmp");
+  this->SetController(vtkMultiProcessController::GetGlobalController());
+}
+
+vtkPartitionedUnstructuredWriter::~vtkPartitionedUnstructuredWriter()
+{
+  this->SetFileName(nullptr);
+  this->SetInputFileName(nullptr);
+  this->SetTiling(nullptr);
+  this->SetLoader(nullptr);
+  this->SetDevice(nullptr);
+  this->SetController(nullptr);
+}
+
+int vtkPartitionedUnstructuredWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSet");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+int vtkPartitionedUnstructuredWriter::Write()
+{
+  this->Written = false;
+  if (this->InputFileName && *this->InputFileName)
+  {
+    this->WriteData();
+  }
+  else
+  {
+    this->Superclass::Write();
+  }
+  return this->Written ? 1 : 0;
+}
+
+void vtkPartitionedUnstructuredWriter::WriteData()
+{
+  try
+  {
+    this->Partition();
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorMacro("There is not enough memory to partition the mesh.");
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+  }
+}
+
+void vtkPartitionedUnstructuredWriter::Partition()
+{
+  const std::string output = this->FileName ? this->FileName : "";
+  const auto tiling = tipp::TilingChoice::parse(this->Tiling ? this->Tiling : "");
+  if (output.empty())
+  {
+    throw tipp::IOError("FileName is not set; name the folder to write.");
+  }
+  if (!tiling)
+  {
+    throw tipp::IOError(std::string("Tiling is '") + (this->Tiling ? this->Tiling : "") +
+      "'; it is grid:COLUMNSxROWS[xLAYERS] or quadtree:CELLS.");
+  }
+  tipp::PartitionOptions options;
+  options.Tiling = *tiling;
+  options.DuplicateBorrowers = this->DuplicateBorrowers;
+  options.MemoryLimit = std::uint64_t(this->MemoryLimit);
+  options.Loading.Kind = tipp::loaderFromName(this->Loader ? this->Loader : "auto");
+  options.Device = tipp::parseDeviceChoice(this->Device ? this->Device : "openmp");
+  options.Threads = this->NumberOfThreads;
+  options.Progress = [this](double fraction)
+  {
+    this->UpdateProgress(fraction);
+    return this->GetAbortExecute() == 0;
+  };
+  tipp::PartitionStatistics statistics;
+  if (this->InputFileName && *this->InputFileName)
+  {
+    statistics = tipp::partitionInput(this->InputFileName, output, options, this->Controller);
+  }
+  else
+  {
+    const auto data = tipp::gatherDataSets(this->GetInput(), this->Controller);
+    statistics = tipp::partitionDataSet(data, "the input", output, options, this->Controller);
+  }
+  this->Written = !statistics.Aborted;
+}
+
+void vtkPartitionedUnstructuredWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto print = [&](const char* name, const char* value)
+  { os << indent << name << ": " << (value ? value : "(none)") << "\n"; };
+  print("FileName", this->FileName);
+  print("InputFileName", this->InputFileName);
+  print("Tiling", this->Tiling);
+  print("Loader", this->Loader);
+  print("Device", this->Device);
+  os << indent << "DuplicateBorrowers: " << this->DuplicateBorrowers << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "Controller: " << this->Controller << "\n";
+}

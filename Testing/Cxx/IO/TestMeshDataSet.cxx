@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Meshes/MeshDataSet.h"
+
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace tipp;
+
+PointTable square()
+{
+  PointTable table;
+  table.XY = { 0, 0, 2, 0, 2, 2, 0, 2 };
+  table.Columns = { { "z", { 5, 6, 7, 8 } }, { "depth", { 1, 2, 3, 4 } } };
+  return table;
+}
+
+const std::int32_t Ids32[] = { 0, 1, 2, 0, 2, 3 };
+const std::int64_t Ids64[] = { 0, 1, 2, 0, 2, 3 };
+
+void expectTriangles(vtkDataSet* data)
+{
+  ASSERT_EQ(2, data->GetNumberOfCells());
+  vtkNew<vtkIdList> points;
+  for (vtkIdType cell = 0; cell < 2; ++cell)
+  {
+    data->GetCellPoints(cell, points);
+    ASSERT_EQ(3, points->GetNumberOfIds());
+    for (vtkIdType i = 0; i < 3; ++i)
+    {
+      EXPECT_EQ(Ids64[3 * cell + i], points->GetId(i));
+    }
+  }
+}
+
+TEST(MeshDataSet, ColumnZIsTheThirdCoordinateAndOthersArePointData)
+{
+  const PointTable table = square();
+  const auto data = makePolyData(table, TrianglesView(Ids32, 2), {});
+  ASSERT_EQ(4, data->GetNumberOfPoints());
+  EXPECT_EQ(7, data->GetPoint(2)[2]);
+  EXPECT_EQ(2, data->GetPoint(1)[0]);
+  EXPECT_EQ(1, data->GetPointData()->GetNumberOfArrays());
+  ASSERT_NE(nullptr, data->GetPointData()->GetArray("depth"));
+  EXPECT_EQ(3, data->GetPointData()->GetArray("depth")->GetTuple1(2));
+}
+
+TEST(MeshDataSet, WithoutAColumnZPointsLieInThePlane)
+{
+  PointTable table = square();
+  table.Columns.clear();
+  const auto data = makePolyData(table, TrianglesView(Ids32, 2), {});
+  EXPECT_EQ(0, data->GetPoint(2)[2]);
+}
+
+TEST(MeshDataSet, IdsOfEitherSizeMakeTheSameCells)
+{
+  const PointTable table = square();
+  expectTriangles(makePolyData(table, TrianglesView(Ids32, 2), {}));
+  expectTriangles(makePolyData(table, TrianglesView(Ids64, 2), {}));
+  expectTriangles(makeUnstructuredGrid(table, TrianglesView(Ids32, 2), {}));
+  expectTriangles(makeUnstructuredGrid(table, TrianglesView(Ids64, 2), {}));
+}
+
+TEST(MeshDataSet, ConnectivityAndColumnsAreNotCopied)
+{
+  const PointTable table = square();
+  const auto data = makePolyData(table, TrianglesView(Ids32, 2), {});
+  EXPECT_EQ(Ids32, data->GetPolys()->GetConnectivityArray()->GetVoidPointer(0));
+  EXPECT_EQ(
+    table.Columns[1].Values.data(), data->GetPointData()->GetArray("depth")->GetVoidPointer(0));
+}
+
+TEST(MeshDataSet, RepresentativesAreAnArrayOfTheirOwn)
+{
+  const PointTable table = square();
+  const std::vector<std::int64_t> representatives{ 0, 1, 2, 1 };
+  const auto data = makeUnstructuredGrid(table, TrianglesView(Ids32, 2), representatives);
+  vtkDataArray* array = data->GetPointData()->GetArray("RepresentativePointId");
+  ASSERT_NE(nullptr, array);
+  EXPECT_EQ(1, array->GetTuple1(3));
+}
+
+} // namespace

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Files/TextFile.h"
+
+#include "ExpectIOError.h"
+#include "TemporaryFolder.h"
+
+#include <cmath>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+using Fields = std::vector<std::string_view>;
+
+std::vector<std::string> linesOf(const std::string& text)
+{
+  LineReader reader(text);
+  std::vector<std::string> lines;
+  for (std::string_view line; reader.next(line);)
+  {
+    lines.emplace_back(line);
+  }
+  return lines;
+}
+
+Fields fieldsOf(std::string_view line, char delimiter)
+{
+  Fields fields{ "left over" };
+  splitFields(line, delimiter, fields);
+  return fields;
+}
+
+TEST(TextFile, IsReadWhole)
+{
+  const TemporaryFolder folder;
+  std::string text;
+  for (int i = 0; i < 300000; ++i)
+  {
+    text += std::to_string(i) + "\n";
+  }
+  EXPECT_EQ(text, readTextFile(folder.file("large.txt", text)));
+  EXPECT_EQ("", readTextFile(folder.file("empty.txt", "")));
+}
+
+TEST(TextFile, WhatIsNoTextIsRefused)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.file("binary.txt", std::string("ab\0c", 4));
+  expectIOError(path, "not a text file", [&] { readTextFile(path); });
+}
+
+TEST(TextFile, AMissingFileIsReported)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.path("none.txt");
+  expectIOError(path, "cannot be opened", [&] { readTextFile(path); });
+}
+
+TEST(LineReader, EndsOfEitherKindAndAByteOrderMarkAreLeftOut)
+{
+  EXPECT_EQ((std::vector<std::string>{ "a", "", "b", "c" }),
+    linesOf("\xef\xbb\xbf"
+            "a\r\n\nb\nc"));
+  EXPECT_TRUE(linesOf("").empty());
+  EXPECT_EQ(std::vector<std::string>{ "" }, linesOf("\n"));
+}
+
+TEST(LineReader, CountsLines)
+{
+  LineReader reader("a\nb\nc\n");
+  std::string_view line;
+  EXPECT_EQ(0, reader.lineNumber());
+  EXPECT_LE(3, reader.remainingLines());
+  ASSERT_TRUE(reader.next(line) && reader.next(line));
+  EXPECT_EQ(2, reader.lineNumber());
+  EXPECT_LE(1, reader.remainingLines());
+}
+
+TEST(SplitFields, ADelimiterSeparatesEvenEmptyFields)
+{
+  EXPECT_EQ((Fields{ "1", "", "3", "" }), fieldsOf("1,,3,", ','));
+  EXPECT_EQ(Fields{ "" }, fieldsOf("", ','));
+}
+
+TEST(SplitFields, AnyRunOfBlanksIsOneSpace)
+{
+  EXPECT_EQ((Fields{ "1", "2", "3" }), fieldsOf("  1 \t2   3 ", ' '));
+  EXPECT_TRUE(fieldsOf(" \t ", ' ').empty());
+}
+
+TEST(SplitFields, QuotesHoldTheDelimiter)
+{
+  EXPECT_EQ((Fields{ "\"a,b\"", "c" }), fieldsOf("\"a,b\",c", ','));
+  EXPECT_EQ(Fields{ "\"never closed,c" }, fieldsOf("\"never closed,c", ','));
+}
+
+TEST(TrimField, TakesBlanksAndOnePairOfQuotesAway)
+{
+  EXPECT_EQ("a b", trimField(" \" a b \"\t"));
+  EXPECT_EQ("\"", trimField("\""));
+}
+
+TEST(ParseNumber, TakesAWholeField)
+{
+  double value = 0;
+  EXPECT_TRUE(parseNumber(" \"+1.5e3\" ", value));
+  EXPECT_EQ(1500, value);
+  EXPECT_TRUE(parseNumber("-0.25", value));
+  EXPECT_EQ(-0.25, value);
+  for (const char* wrong : { "", "1.5x", "1 2", "+-1", "--1", "abc" })
+  {
+    EXPECT_FALSE(parseNumber(wrong, value)) << wrong;
+  }
+}
+
+TEST(ParseNumber, OutOfRangeIsTheNearest)
+{
+  double value = 0;
+  EXPECT_TRUE(parseNumber("1e999", value));
+  EXPECT_TRUE(std::isinf(value));
+  EXPECT_TRUE(parseNumber("1e-999", value));
+  EXPECT_EQ(0, value);
+}
+
+TEST(ParseInteger, TakesAWholeFieldInRange)
+{
+  std::int64_t value = 0;
+  EXPECT_TRUE(parseInteger(" -9223372036854775808 ", value));
+  EXPECT_EQ(INT64_MIN, value);
+  for (const char* wrong : { "", "1.0", "9223372036854775808", "1e3" })
+  {
+    EXPECT_FALSE(parseInteger(wrong, value)) << wrong;
+  }
+}
+
+} // namespace

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Real meshes: the owner and the borrowers of each cell, against brute force over all partitions.
+#include "CellSets.h"
+#include "ExactClipping.h"
+#include "RealData.h"
+#include "RequireDevice.h"
+
+#include "Vtk/ReadDataSet.h"
+
+#include "vtkDataSet.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <memory>
+
+using tipp::Box3;
+using tipp::BoxTiling;
+using tipp::Membership;
+using tipp::Point3;
+
+namespace
+{
+
+CellSet readTetrahedra(const std::string& path)
+{
+  const auto grid = tipp::readDataSet(path);
+  CellSet cells;
+  cells.Dimension = 3;
+  cells.Corners = 4;
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+  {
+    grid->GetCellPoints(cell, corners);
+    for (vtkIdType i = 0; i < 4; ++i)
+    {
+      double p[3];
+      grid->GetPoint(corners->GetId(i), p);
+      cells.Coordinates.insert(cells.Coordinates.end(), p, p + 3);
+    }
+  }
+  return cells;
+}
+
+// An element a line, as dolfin writes its meshes.
+CellSet readDolfin(const std::string& path)
+{
+  const std::string command = "gzip -dc '" + path + "'";
+  const std::unique_ptr<FILE, int (*)(FILE*)> file(popen(command.c_str(), "r"), pclose);
+  CellSet cells;
+  cells.Dimension = 3;
+  cells.Corners = 4;
+  std::vector<double> points;
+  char line[512];
+  while (std::fgets(line, sizeof line, file.get()) != nullptr)
+  {
+    double p[3];
+    std::size_t v[4];
+    if (std::sscanf(
+          line, " <vertex index=\"%*d\" x=\"%lf\" y=\"%lf\" z=\"%lf\"", p, p + 1, p + 2) == 3)
+    {
+      points.insert(points.end(), p, p + 3);
+    }
+    else if (std::sscanf(line,
+               " <tetrahedron index=\"%*d\" v0=\"%zu\" v1=\"%zu\" v2=\"%zu\" v3=\"%zu\"", v, v + 1,
+               v + 2, v + 3) == 4)
+    {
+      for (const std::size_t vertex : v)
+      {
+        const double* from = &points.at(3 * vertex + 2) - 2;
+        cells.Coordinates.insert(cells.Coordinates.end(), from, from + 3);
+      }
+    }
+  }
+  return cells;
+}
+
+CellSet readTriangles(const std::string& path)
+{
+  const tipp::test::AdcircMesh mesh = tipp::test::readAdcirc(path);
+  CellSet cells;
+  for (const auto& element : mesh.Elements)
+  {
+    for (const auto vertex : element)
+    {
+      const auto place = 2 * static_cast<std::size_t>(vertex);
+      cells.Coordinates.insert(
+        cells.Coordinates.end(), { mesh.Nodes[place], mesh.Nodes[place + 1] });
+    }
+  }
+  return cells;
+}
+
+// The cells whose bounding boxes meet more than one box, every `step`-th of them.
+CellSet borderCells(const CellSet& cells, const BoxTiling& tiling, std::size_t step)
+{
+  CellSet result = { cells.Dimension, cells.Corners, {} };
+  const auto stride = static_cast<std::ptrdiff_t>(cells.Dimension) * cells.Corners;
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    const auto begin = cells.Coordinates.begin() + static_cast<std::ptrdiff_t>(i) * stride;
+    const CellSet alone = { cells.Dimension, cells.Corners, { begin, begin + stride } };
+    const Box3 bounds = alone.bounds();
+    int boxes = 0;
+    for (std::int64_t id = 0; id < tiling.count(); ++id)
+    {
+      bool meets = true;
+      for (std::size_t axis = 0; axis < static_cast<std::size_t>(cells.Dimension); ++axis)
+      {
+        meets = meets && bounds.Min[axis] <= tiling.box(id).Max[axis] &&
+          tiling.box(id).Min[axis] <= bounds.Max[axis];
+      }
+      boxes += meets ? 1 : 0;
+    }
+    if (boxes > 1 && found++ % step == 0)
+    {
+      result.Coordinates.insert(result.Coordinates.end(), begin, begin + stride);
+    }
+  }
+  return result;
+}
+
+Membership classify(const CellSet& cells, const BoxTiling& tiling, tipp::Device device)
+{
+  tipp::ClassifyOptions options;
+  options.Device.Kind = device;
+  options.Threads = 2;
+  return tipp::classifyCells(cells.view(), tiling, options);
+}
+
+void expectExactAtBorders(const CellSet& cells, const BoxTiling& tiling, std::size_t step)
+{
+  const CellSet sample = borderCells(cells, tiling, step);
+  ASSERT_GT(sample.size(), 50u);
+  expectEqual(bruteForce(sample, tiling), classify(sample, tiling, tipp::Device::OpenMP));
+}
+
+void expectSameOnDevice(const CellSet& cells, const BoxTiling& tiling)
+{
+  TIPP_REQUIRE_OPENCL();
+  expectEqual(
+    classify(cells, tiling, tipp::Device::OpenMP), classify(cells, tiling, tipp::Device::OpenCL));
+}
+
+void expectRightClassification(const CellSet& cells, std::size_t step)
+{
+  const Box3 domain = cells.bounds();
+  const BoxTiling grid = BoxTiling::grid(cells.Dimension, domain, { 4, 4, 4 });
+  const BoxTiling tree = randomTree(cells.Dimension, domain, 3, 1);
+  expectExactAtBorders(cells, grid, step);
+  expectExactAtBorders(cells, tree, step);
+  expectSameOnDevice(cells, grid);
+  expectSameOnDevice(cells, tree);
+}
+
+} // namespace
+
+TEST(ClassifyRealMeshes, TheBracketsTetrahedra)
+{
+  TIPP_REQUIRE_REAL_DATA(path, "tets/bracket_appended_compressed.vtu");
+  const CellSet cells = readTetrahedra(path);
+  ASSERT_EQ(cells.size(), 206208u);
+  expectRightClassification(cells, 100);
+}
+
+TEST(ClassifyRealMeshes, TheAneurysmsTetrahedra)
+{
+  TIPP_REQUIRE_REAL_DATA(path, "tets/aneurysm.xml.gz");
+  const CellSet cells = readDolfin(path);
+  ASSERT_EQ(cells.size(), 37548u);
+  expectRightClassification(cells, 50);
+}
+
+TEST(ClassifyRealMeshes, TheEastCoastsTriangles)
+{
+  TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
+  const CellSet cells = readTriangles(path);
+  expectRightClassification(cells, 5);
+}

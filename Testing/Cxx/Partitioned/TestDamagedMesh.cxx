@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ExpectIOError.h"
+#include "MeshChecks.h"
+#include "TemporaryFolder.h"
+
+#include "Flat/FlatMesh.h"
+#include "Partitioned/Checksum.h"
+#include "Partitioned/MeshIndex.h"
+#include "Partitioning/PartitionMesh.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace fs = std::filesystem;
+using namespace tipp;
+using namespace tipp::test;
+
+namespace
+{
+
+/// A good mesh, to be damaged.
+class DamagedMesh : public testing::Test
+{
+protected:
+  DamagedMesh()
+  {
+    writeFlat(makeSource(latticeTriangles(8, 0.3)), this->Folder.path("flat"));
+    PartitionOptions options;
+    options.Tiling = *TilingChoice::parse("grid:2x2");
+    partitionMesh(openFlatMesh(this->Folder.path("flat")), this->path(), options);
+  }
+
+  std::string path(const std::string& name = "") const
+  {
+    return this->Folder.path("mesh") + (name.empty() ? "" : "/" + name);
+  }
+
+  void readAll() const
+  {
+    const PartitionedMesh mesh = openPartitionedMesh(this->path());
+    for (std::size_t i = 0; i < mesh.Pieces.size(); ++i)
+    {
+      readPiece(mesh, i);
+    }
+  }
+
+  void change(const std::string& name, std::size_t at) const
+  {
+    std::string content = contentOf(this->path(name));
+    content[at] = char(content[at] ^ 1);
+    std::ofstream(this->path(name), std::ios::binary) << content;
+  }
+
+  void expectRefused(const std::string& name, const std::string& words) const
+  {
+    expectIOError(this->path(name), words, [this] { this->readAll(); });
+  }
+
+  /// Replaces a text in the index and gives it a right checksum.
+  void editIndex(const std::string& from, const std::string& to) const
+  {
+    std::string text = contentOf(this->path("index.json"));
+    const std::size_t at = text.find(from);
+    ASSERT_NE(std::string::npos, at);
+    text.replace(at, from.size(), to);
+    const std::size_t tail = text.rfind(",\n\"xxh3\"");
+    text = text.substr(0, tail) + ",\n\"xxh3\": \"" + checksumText(checksumOf(text.data(), tail)) +
+      "\"\n}\n";
+    std::ofstream(this->path("index.json"), std::ios::binary) << text;
+  }
+
+  TemporaryFolder Folder;
+};
+
+TEST_F(DamagedMesh, IsReadWhileItIsWhole)
+{
+  this->readAll();
+}
+
+TEST_F(DamagedMesh, LacksItsIndex)
+{
+  fs::remove(this->path("index.json"));
+  this->expectRefused("index.json", "cannot be opened");
+}
+
+TEST_F(DamagedMesh, LacksAPiece)
+{
+  fs::remove(this->path("pieces/000002.vtu"));
+  this->expectRefused("pieces/000002.vtu", "missing");
+}
+
+TEST_F(DamagedMesh, HasATruncatedPiece)
+{
+  fs::resize_file(this->path("pieces/000001.vtu"), 1000);
+  this->expectRefused("pieces/000001.vtu", "1000 bytes where the index says");
+}
+
+TEST_F(DamagedMesh, HasTruncatedTables)
+{
+  fs::resize_file(this->path("tables.bin"), 64);
+  this->expectRefused("tables.bin", "64 bytes where the index says");
+}
+
+TEST_F(DamagedMesh, HasATruncatedIndex)
+{
+  fs::resize_file(this->path("index.json"), 500);
+  this->expectRefused("index.json", "not the whole index");
+}
+
+TEST_F(DamagedMesh, HasAChangedIndex)
+{
+  this->change("index.json", 100);
+  this->expectRefused("index.json", "checksum");
+}
+
+TEST_F(DamagedMesh, HasChangedTables)
+{
+  this->change("tables.bin", 24);
+  this->expectRefused("tables.bin", "table of piece 0");
+}
+
+TEST_F(DamagedMesh, HasSwappedPieces)
+{
+  // Made alike in size, so that sizes do not tell.
+  const PartitionedMesh mesh = openPartitionedMesh(this->path());
+  std::string first = contentOf(mesh.piecePath(0));
+  std::string second = contentOf(mesh.piecePath(1));
+  first.resize(mesh.Pieces[1].FileBytes);
+  second.resize(mesh.Pieces[0].FileBytes);
+  std::ofstream(mesh.piecePath(0), std::ios::binary) << second;
+  std::ofstream(mesh.piecePath(1), std::ios::binary) << first;
+  this->expectRefused("pieces/000000.vtu", "does not have the checksum of piece 0");
+}
+
+TEST_F(DamagedMesh, HasOneChangedByteAnywhereInAnArray)
+{
+  const PartitionedMesh mesh = openPartitionedMesh(this->path());
+  const std::string content = contentOf(mesh.piecePath(0));
+  int refused = 0;
+  int tried = 0;
+  for (std::size_t at = content.find("<AppendedData") + 40; at + 60 < content.size(); at += 97)
+  {
+    this->change("pieces/000000.vtu", at);
+    ++tried;
+    try
+    {
+      this->readAll();
+    }
+    catch (const IOError&)
+    {
+      ++refused;
+    }
+    std::ofstream(mesh.piecePath(0), std::ios::binary) << content;
+  }
+  // Arrays that VTK alone needs are not read: offsets and types; nor are the gaps between arrays.
+  EXPECT_GT(refused, tried * 3 / 4);
+}
+
+TEST_F(DamagedMesh, IsOfANewerVersion)
+{
+  this->editIndex("\"version\": 1", "\"version\": 2");
+  this->expectRefused("index.json", "version 2");
+}
+
+TEST_F(DamagedMesh, HasCountsThatDoNotAddUp)
+{
+  this->editIndex("\"cells\": 128", "\"cells\": 129");
+  this->expectRefused("index.json", "wrong counts of cells");
+}
+
+TEST_F(DamagedMesh, HasANegativeCount)
+{
+  this->editIndex("\"points\": ", "\"points\": -");
+  this->expectRefused("index.json", "wrong points");
+}
+
+TEST_F(DamagedMesh, HasAHugeCount)
+{
+  this->editIndex("\"ghost_points\":0", "\"ghost_points\":9223372036854775807");
+  this->expectRefused("index.json", "wrong ghost_points");
+}
+
+TEST_F(DamagedMesh, HasATableFarAway)
+{
+  this->editIndex("\"table\":[0,", "\"table\":[9223372036854775800,");
+  this->expectRefused("index.json", "wrong table");
+}
+
+TEST_F(DamagedMesh, HasAWrongType)
+{
+  this->editIndex("\"type\":\"Int16\"", "\"type\":\"Int17\"");
+  this->expectRefused("index.json", "wrong type");
+}
+
+TEST_F(DamagedMesh, HasAnArrayLargerThanItsFile)
+{
+  this->editIndex("\"components\":2", "\"components\":200000");
+  this->expectRefused("tables.bin", "behind its file");
+}
+
+TEST_F(DamagedMesh, IsNotThere)
+{
+  expectIOError(this->path("other/index.json"), "cannot be opened",
+    [this] { openPartitionedMesh(this->path("other/index.json")); });
+  EXPECT_FALSE(isPartitionedMesh(this->path("other")));
+  EXPECT_TRUE(isPartitionedMesh(this->path()));
+  EXPECT_TRUE(isPartitionedMesh(this->path("index.json")));
+}
+
+} // namespace

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioned/IdMap.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+using tipp::IdMap;
+
+namespace
+{
+
+void expectFinds(const std::vector<std::int64_t>& ids)
+{
+  const IdMap map(ids.data(), nullptr, ids.size());
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    ASSERT_EQ(std::int64_t(i), map.find(ids[i]));
+    if (!std::binary_search(ids.begin(), ids.end(), ids[i] + 1))
+    {
+      ASSERT_EQ(-1, map.find(ids[i] + 1));
+    }
+  }
+  EXPECT_EQ(-1, map.find(-1));
+  EXPECT_EQ(-1, map.find(std::int64_t(1) << 62));
+}
+
+TEST(IdMap, FindsIdsWithoutGaps)
+{
+  std::vector<std::int64_t> ids;
+  for (std::int64_t i = 0; i < 1000; ++i)
+  {
+    ids.push_back(70 + i);
+  }
+  expectFinds(ids);
+}
+
+TEST(IdMap, FindsScatteredIds)
+{
+  std::mt19937_64 random(1);
+  std::vector<std::int64_t> ids;
+  for (int i = 0; i < 1000; ++i)
+  {
+    ids.push_back(std::int64_t(random() % 1000000));
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  expectFinds(ids);
+}
+
+TEST(IdMap, FindsRunsBetweenWideGapsOfMoreThan32Bits)
+{
+  std::vector<std::int64_t> ids;
+  for (std::int64_t run = 0; run < 5; ++run)
+  {
+    for (std::int64_t i = 0; i < 300; ++i)
+    {
+      ids.push_back((run << 40) + i);
+    }
+  }
+  expectFinds(ids);
+}
+
+TEST(IdMap, FindsNothingInAnEmptyMap)
+{
+  const IdMap map(nullptr, nullptr, 0);
+  EXPECT_EQ(-1, map.find(0));
+  const IdMap none;
+  EXPECT_EQ(-1, none.find(5));
+}
+
+TEST(IdMap, GivesTheValuesThatItWasGiven)
+{
+  const std::vector<std::int64_t> ids{ 3, 5, 900 };
+  const std::vector<std::int64_t> values{ 2, 0, 1 };
+  const IdMap map(ids.data(), values.data(), ids.size());
+  const std::vector<std::int64_t> asked{ 900, 3, 3, 5 };
+  std::vector<std::int32_t> found(asked.size());
+  EXPECT_TRUE(map.translate(asked.data(), asked.size(), found.data()));
+  EXPECT_EQ((std::vector<std::int32_t>{ 1, 2, 2, 0 }), found);
+}
+
+TEST(IdMap, SaysWhenAnIdHasNoValue)
+{
+  const std::vector<std::int64_t> ids{ 3, 5 };
+  const IdMap map(ids.data(), nullptr, ids.size());
+  const std::vector<std::int64_t> asked{ 3, 4 };
+  std::vector<std::int64_t> found(asked.size());
+  EXPECT_FALSE(map.translate(asked.data(), asked.size(), found.data()));
+}
+
+} // namespace

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshChecks.h"
+#include "TemporaryFolder.h"
+
+#include "Files/IOError.h"
+#include "Flat/FlatMesh.h"
+#include "Partitioning/PartitionMesh.h"
+
+#include "vtkMultiProcessController.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+using namespace tipp;
+using namespace tipp::test;
+
+namespace
+{
+
+/// A folder that all ranks see.
+class PartitionRanks : public testing::Test
+{
+protected:
+  PartitionRanks()
+    : Controller(vtkMultiProcessController::GetGlobalController())
+  {
+    char path[4096] = {};
+    if (this->isFirst())
+    {
+      this->Folder = std::make_unique<TemporaryFolder>();
+      this->Folder->path("").copy(path, sizeof(path) - 1);
+    }
+    this->Controller->Broadcast(path, sizeof(path), 0);
+    this->Path = path;
+  }
+  ~PartitionRanks() override { this->Controller->Barrier(); }
+
+  bool isFirst() const { return this->Controller->GetLocalProcessId() == 0; }
+
+  void write(const SourceMesh& source)
+  {
+    if (this->isFirst())
+    {
+      writeFlat(source, this->Path + "flat");
+    }
+    this->Controller->Barrier();
+  }
+
+  void make(const std::string& name, const std::string& tiling, bool alone)
+  {
+    PartitionOptions options;
+    options.Tiling = *TilingChoice::parse(tiling);
+    options.DuplicateBorrowers = true;
+    options.ChunkCells = 37;
+    options.ChunkPoints = 23;
+    options.Threads = 1 + this->Controller->GetLocalProcessId() % 2;
+    if (!alone || this->isFirst())
+    {
+      partitionMesh(openFlatMesh(this->Path + "flat"), this->Path + name, options,
+        alone ? nullptr : this->Controller);
+    }
+    this->Controller->Barrier();
+  }
+
+  void expectSameFilesAsAlone(const std::string& tiling)
+  {
+    this->make("alone", tiling, true);
+    this->make("together", tiling, false);
+    EXPECT_TRUE(filesOf(this->Path + "alone") == filesOf(this->Path + "together"));
+    this->Controller->Barrier();
+  }
+
+  vtkMultiProcessController* Controller;
+  std::unique_ptr<TemporaryFolder> Folder;
+  std::string Path;
+};
+
+TEST_F(PartitionRanks, MakeTheFilesOfOneAloneInTheGrid)
+{
+  this->write(makeSource(latticeTriangles(12, 0.3)));
+  this->expectSameFilesAsAlone("grid:4x3");
+}
+
+TEST_F(PartitionRanks, MakeTheFilesOfOneAloneInTheQuadtree)
+{
+  this->write(makeSource(latticeTriangles(12, 0.3)));
+  this->expectSameFilesAsAlone("quadtree:40");
+}
+
+TEST_F(PartitionRanks, MakeTheFilesOfOneAloneInSpace)
+{
+  this->write(makeSource(latticeTetrahedra(4, 0.3)));
+  this->expectSameFilesAsAlone("octree:100");
+}
+
+TEST_F(PartitionRanks, MoreThanCellsAndPieces)
+{
+  this->write(makeSource(latticeTriangles(1, 0)));
+  this->expectSameFilesAsAlone("grid:1x2");
+}
+
+TEST_F(PartitionRanks, AllFailWithOneMessage)
+{
+  SourceMesh source = makeSource(latticeTriangles(12, 0.3));
+  source.Cells[source.Cells.size() - 1] = 123456; // in the last rank's share
+  this->write(source);
+  try
+  {
+    this->make("mesh", "grid:2x2", false);
+    ADD_FAILURE() << "no error";
+  }
+  catch (const IOError& error)
+  {
+    EXPECT_NE(std::string::npos, std::string(error.what()).find("123456")) << error.what();
+  }
+  this->Controller->Barrier();
+  EXPECT_FALSE(std::filesystem::exists(this->Path + "mesh"));
+}
+
+} // namespace

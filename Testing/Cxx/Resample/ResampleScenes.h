@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippResampleScenes_h
+#define tippResampleScenes_h
+
+#include "Resample/Lattice.h"
+#include "Resample/SimplexMesh.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// A small mesh in memory.
+struct Scene
+{
+  std::string Name;
+  int Dimension = 2;
+  std::vector<double> Points; ///< x, y, z in a row
+  std::vector<std::int64_t> Ids;
+
+  int cells() const { return int(this->Ids.size()) / (this->Dimension + 1); }
+  const double* point(std::int64_t id) const { return this->Points.data() + 3 * id; }
+  bool boxContains(int cell, const double* sample) const;
+  tipp::SimplexMesh mesh() const;
+
+  /// The same mesh with its cells and the corners within them in another order.
+  Scene shuffled(unsigned seed) const;
+  const double* corner(int cell, int i) const
+  {
+    return this->point(this->Ids[std::size_t(cell * (this->Dimension + 1) + i)]);
+  }
+};
+
+/// Regular, of the unit square or cube, cut by diagonals: samples fall on edges and corners.
+Scene regularScene(int dimension, int steps);
+/// The same with its inner points moved at random.
+Scene jitteredScene(int dimension, int steps, unsigned seed);
+/// Triangles as flat as can be: points in columns whose heights differ by a few ulps.
+Scene sliverScene();
+/// A fan of triangles around (0.5, 0.5), each a thin wedge, with a gap.
+Scene fanScene(int wedges);
+/// Triangles at random places: they overlap.
+Scene overlappingScene(int triangles, unsigned seed);
+
+std::vector<Scene> planeScenes();
+std::vector<Scene> spaceScenes();
+
+/// n samples along each axis of the mesh's dimension, from low to high.
+tipp::Lattice latticeOf(int dimension, int n, double low, double high);
+
+/// The coordinates of a sample by its number.
+void sampleOf(const tipp::Lattice& lattice, std::int64_t sample, double (&coordinates)[3]);
+
+#endif

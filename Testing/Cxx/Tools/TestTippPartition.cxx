@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshChecks.h"
+#include "RunTipp.h"
+
+#include "Partitioned/PartitionedMesh.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <random>
+#include <thread>
+
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+using namespace tipp;
+using namespace tipp::test;
+
+namespace
+{
+
+class TippPartition : public testing::Test
+{
+protected:
+  TippPartition()
+    : Source(makeSource(latticeTriangles(60, 0.3)))
+  {
+    writeFlat(this->Source, this->Folder.path("flat"));
+  }
+
+  Outcome run(const std::vector<std::string>& more) const
+  {
+    std::vector<std::string> words{ "partition", "flat", "-o", "mesh" };
+    words.insert(words.end(), more.begin(), more.end());
+    return runTipp(this->Folder, words);
+  }
+
+  /// The hidden folders of runs.
+  int leftovers() const
+  {
+    int count = 0;
+    for (const auto& entry : fs::directory_iterator(this->Folder.path("")))
+    {
+      count += entry.path().filename().string().rfind(".mesh.tmp.", 0) == 0 ? 1 : 0;
+    }
+    return count;
+  }
+
+  SourceMesh Source;
+  TemporaryFolder Folder;
+};
+
+TEST_F(TippPartition, SaysWhatItMade)
+{
+  const Outcome outcome = this->run({ "--stats", "run.json", "--threads", "2" });
+  EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+  EXPECT_EQ("", outcome.Err);
+  EXPECT_EQ(0U, outcome.Out.find("7200 cells, 3722 points, 16 pieces, ")) << outcome.Out;
+  const auto json = nlohmann::json::parse(contentOf(this->Folder.path("run.json")));
+  EXPECT_EQ(7200, json["cells"]);
+  EXPECT_EQ(16, json["pieces"]);
+  EXPECT_EQ(1, json["ranks"]);
+  EXPECT_EQ(2, json["threads"]);
+  EXPECT_GT(json["border_cells"], 0);
+  EXPECT_GT(json["mesh_bytes"], 100000);
+  EXPECT_EQ(5U, json["phases"].size());
+}
+
+TEST_F(TippPartition, TakesAVtkFile)
+{
+  this->run({});
+  const Outcome outcome = runTipp(this->Folder,
+    { "partition", "mesh/pieces/000000.vtu", "-o", "again", "--tiling", "quadtree:100" });
+  // The piece's own arrays have the names of global ids.
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("rename it")) << outcome.Err;
+}
+
+TEST_F(TippPartition, RefusesWrongUsage)
+{
+  EXPECT_EQ(2, this->run({ "--tiling", "hexagons:4" }).ExitCode);
+  EXPECT_EQ(2, this->run({ "--memory", "many" }).ExitCode);
+  EXPECT_EQ(2, this->run({ "--memory", "99999999999G" }).ExitCode);
+  EXPECT_EQ(2, this->run({ "--loader", "magic" }).ExitCode);
+  EXPECT_EQ(2, this->run({ "--borrowers", "steal" }).ExitCode);
+  EXPECT_EQ(1, this->run({ "--device", "abacus" }).ExitCode);
+  EXPECT_EQ(1, runTipp(this->Folder, { "partition", "none", "-o", "mesh" }).ExitCode);
+  EXPECT_FALSE(fs::exists(this->Folder.path("mesh")));
+  EXPECT_EQ(0, this->leftovers());
+}
+
+// Wherever the run is killed, there is no mesh or a whole one, the source is as it was, and the
+// next run clears away what was left.
+TEST_F(TippPartition, SurvivesBeingKilled)
+{
+  const auto source = filesOf(this->Folder.path("flat"));
+  std::mt19937 random(1);
+  std::map<std::string, std::string> whole;
+  int killed = 0;
+  for (int i = 0; i < 40; ++i)
+  {
+    const TippProcess process(this->Folder, { "partition", "flat", "-o", "mesh" });
+    std::this_thread::sleep_for(std::chrono::microseconds(random() % 120000));
+    process.kill();
+    killed += process.wait().ExitCode == -SIGKILL ? 1 : 0;
+    if (fs::exists(this->Folder.path("mesh")))
+    {
+      const auto files = filesOf(this->Folder.path("mesh"));
+      whole = whole.empty() ? files : whole;
+      ASSERT_TRUE(whole == files);
+    }
+    ASSERT_LE(this->leftovers(), 1);
+  }
+  EXPECT_GT(killed, 0);
+  EXPECT_EQ(0, this->run({}).ExitCode);
+  expectHolds(this->Folder.path("mesh"), this->Source);
+  EXPECT_EQ(0, this->leftovers());
+  EXPECT_TRUE(source == filesOf(this->Folder.path("flat")));
+}
+
+/// Runs an action in a process with a small disk of its own at `where`; 77 if that is not allowed.
+template <typename Action>
+int onSmallDisk(const std::string& where, const char* size, const Action& action)
+{
+  fs::create_directory(where);
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    if (unshare(CLONE_NEWNS) != 0 || mount("", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+      mount("tmpfs", where.c_str(), "tmpfs", 0, size) != 0)
+    {
+      _exit(77);
+    }
+    _exit(action());
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST_F(TippPartition, SaysThatTheDiskIsTooSmallBeforeItBegins)
+{
+  const int result = onSmallDisk(this->Folder.path("disk"), "size=100k",
+    [this]
+    {
+      const Outcome outcome = runTipp(this->Folder, { "partition", "flat", "-o", "disk/mesh" });
+      const bool said = outcome.Err.find("free space or name another disk") != std::string::npos;
+      return outcome.ExitCode == 1 && said && fs::is_empty(this->Folder.path("disk")) ? 0 : 1;
+    });
+  if (result == 77)
+  {
+    GTEST_SKIP() << "this process may not mount a small disk";
+  }
+  EXPECT_EQ(0, result);
+}
+
+TEST_F(TippPartition, SaysThatTheDiskIsFullAndLeavesNothing)
+{
+  // Cells that all borders cross need more room than is asked for in advance.
+  const SourceMesh soup = makeSource(cellSoup(2, 3, 3000, 3));
+  writeFlat(soup, this->Folder.path("flat"));
+  const int result = onSmallDisk(this->Folder.path("disk"), "size=1200k",
+    [this]
+    {
+      const Outcome outcome = runTipp(this->Folder,
+        { "partition", "flat", "-o", "disk/mesh", "--tiling", "grid:9x9", "--borrowers",
+          "duplicate" });
+      const bool said = outcome.Err.find("No space left on device") != std::string::npos;
+      return outcome.ExitCode == 1 && said && fs::is_empty(this->Folder.path("disk")) ? 0 : 1;
+    });
+  if (result == 77)
+  {
+    GTEST_SKIP() << "this process may not mount a small disk";
+  }
+  EXPECT_EQ(0, result);
+}
+
+} // namespace

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioning/BuildTree.h"
+
+#include "ReferenceTree.h"
+
+#include "Partition/ClassifyCells.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using tipp::BoxTiling;
+using tipp::buildTree;
+using tipp::PartitionTree;
+using tipp::TreeOptions;
+
+namespace
+{
+
+TreeOptions options(const CellSet& cells, std::int64_t threshold, std::int64_t chunk = 1 << 20)
+{
+  TreeOptions result;
+  result.Dimension = cells.Dimension;
+  result.Threshold = threshold;
+  result.ChunkCells = chunk;
+  result.Threads = 2;
+  return result;
+}
+
+PartitionTree build(const CellSet& cells, std::int64_t threshold, std::int64_t chunk = 1 << 20)
+{
+  return buildTree(sourceOf(cells), cells.bounds(), options(cells, threshold, chunk));
+}
+
+void expectSameTree(const PartitionTree& expected, const PartitionTree& actual)
+{
+  EXPECT_EQ(expected.Tiling.children(), actual.Tiling.children());
+  EXPECT_EQ(expected.Cells, actual.Cells);
+}
+
+// Beside each other along the square's diagonal.
+CellSet slivers(std::size_t count)
+{
+  CellSet cells;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double shift = 1e-6 * static_cast<double>(i);
+    cells.Coordinates.insert(
+      cells.Coordinates.end(), { 0.0, shift, 1.0 - shift, 1.0, 1.0 - 1.5 * shift, 1.0 });
+  }
+  return cells;
+}
+
+} // namespace
+
+TEST(BuildTree, IsTheTreeOfTheRuleForTriangles)
+{
+  for (const CellSet& cells : { latticeTriangles(16, 0.0), latticeTriangles(15, 0.4) })
+  {
+    for (const std::int64_t threshold : { 1000, 50, 10, 3 })
+    {
+      expectTree(referenceTree(cells, threshold), build(cells, threshold));
+    }
+  }
+}
+
+TEST(BuildTree, IsTheTreeOfTheRuleForTetrahedra)
+{
+  for (const CellSet& cells : { latticeTetrahedra(4, 0.0), latticeTetrahedra(4, 0.4) })
+  {
+    for (const std::int64_t threshold : { 200, 60 })
+    {
+      expectTree(referenceTree(cells, threshold), build(cells, threshold));
+    }
+  }
+}
+
+TEST(BuildTree, IsTheTreeOfTheRuleForCellsOfAllLengths)
+{
+  const CellSet triangles = cellSoup(2, 3, 500, 1);
+  expectTree(referenceTree(triangles, 20), build(triangles, 20));
+  const CellSet tetrahedra = cellSoup(3, 4, 150, 2);
+  expectTree(referenceTree(tetrahedra, 20), build(tetrahedra, 20));
+  const CellSet around = fan(300);
+  expectTree(referenceTree(around, 10), build(around, 10));
+}
+
+TEST(BuildTree, ChunksChangeNothing)
+{
+  for (const CellSet& cells : { latticeTriangles(24, 0.4), cellSoup(2, 3, 1000, 3), fan(1000),
+         latticeTetrahedra(6, 0.3), cellSoup(3, 4, 500, 4) })
+  {
+    const PartitionTree whole = build(cells, 25);
+    for (const std::int64_t chunk : { 1, 7, 100, 999 })
+    {
+      expectSameTree(whole, build(cells, 25, chunk));
+    }
+  }
+}
+
+TEST(BuildTree, TheOrderOfTheCellsChangesNothing)
+{
+  const CellSet cells = cellSoup(2, 3, 2000, 5);
+  CellSet reversed = cells;
+  std::reverse(reversed.Coordinates.begin(), reversed.Coordinates.end());
+  // Corners come back as (y, x); put each in order again.
+  for (std::size_t i = 0; i < reversed.Coordinates.size(); i += 2)
+  {
+    std::swap(reversed.Coordinates[i], reversed.Coordinates[i + 1]);
+  }
+  expectSameTree(build(cells, 30), build(reversed, 30, 300));
+}
+
+TEST(BuildTree, ThreadsChangeNothing)
+{
+  const CellSet cells = cellSoup(3, 4, 3000, 6);
+  TreeOptions one = options(cells, 100);
+  one.Threads = 1;
+  TreeOptions five = options(cells, 100);
+  five.Threads = 5;
+  expectSameTree(buildTree(sourceOf(cells), cells.bounds(), one),
+    buildTree(sourceOf(cells), cells.bounds(), five));
+}
+
+TEST(BuildTree, ALeafsNumberIsThatOfTheCellsThatClassificationGivesIt)
+{
+  for (const CellSet& cells : { latticeTriangles(40, 0.0), cellSoup(3, 4, 2000, 7) })
+  {
+    const PartitionTree tree = build(cells, 100);
+    const tipp::Membership members = tipp::classifyCells(cells.view(), tree.Tiling);
+    std::vector<std::int64_t> counts(tree.Cells.size(), 0);
+    for (const std::int32_t id : members.Owner)
+    {
+      ++counts[static_cast<std::size_t>(id)];
+    }
+    for (const std::int32_t id : members.Borrowers)
+    {
+      ++counts[static_cast<std::size_t>(id)];
+    }
+    EXPECT_EQ(counts, tree.Cells);
+  }
+}
+
+TEST(BuildTree, SmallCellsLeaveNoLeafAboveTheThreshold)
+{
+  const CellSet cells = latticeTriangles(60, 0.3);
+  const PartitionTree tree = build(cells, 100, 500);
+  EXPECT_LE(*std::max_element(tree.Cells.begin(), tree.Cells.end()), 100);
+  EXPECT_LE(tree.Passes, 3);
+}
+
+TEST(BuildTree, AMeshOfOneChunkIsReadOnce)
+{
+  const CellSet cells = latticeTriangles(30, 0.3);
+  tipp::CellSource source = sourceOf(cells);
+  int reads = 0;
+  const auto read = source.Read;
+  source.Read = [&](std::int64_t first, std::int64_t count, std::vector<double>& coordinates)
+  {
+    ++reads;
+    read(first, count, coordinates);
+  };
+  buildTree(source, cells.bounds(), options(cells, 50));
+  EXPECT_EQ(reads, 1);
+}
+
+TEST(BuildTree, ManyCellsAtOnePointAreNotSplitForEver)
+{
+  // All triangles meet the centre; none is shorter than a quarter of the square.
+  CellSet cells;
+  for (int i = 0; i < 500; ++i)
+  {
+    const double angle = 6.283 * i / 500;
+    cells.Coordinates.insert(cells.Coordinates.end(),
+      { 0.3, 0.3, 0.3 + std::cos(angle), 0.3 + std::sin(angle), 0.3 + std::cos(angle + 0.01),
+        0.3 + std::sin(angle + 0.01) });
+  }
+  const PartitionTree tree = build(cells, 10);
+  EXPECT_LE(tree.Tiling.count(), 64);
+}
+
+TEST(BuildTree, SliversBesideEachOtherAreNotSplitForEver)
+{
+  const PartitionTree tree = build(slivers(500), 10);
+  EXPECT_LE(tree.Tiling.count(), 16);
+}
+
+TEST(BuildTree, TinyCellsAtOnePlaceEndAtTheGreatestDepth)
+{
+  CellSet cells = latticeTriangles(2, 0.0);
+  for (int i = 0; i < 100; ++i)
+  {
+    const double tiny = 1e-12;
+    cells.Coordinates.insert(
+      cells.Coordinates.end(), { 0.3, 0.3, 0.3 + tiny, 0.3, 0.3, 0.3 + tiny });
+  }
+  const PartitionTree tree = build(cells, 10);
+  EXPECT_EQ(tree.Tiling.count(), 1 + 3 * BoxTiling::MaxDepth);
+  TreeOptions shallow = options(cells, 10);
+  shallow.MaxDepth = 5;
+  EXPECT_EQ(buildTree(sourceOf(cells), cells.bounds(), shallow).Tiling.count(), 16);
+}
+
+TEST(BuildTree, NoCellsAreOneLeaf)
+{
+  CellSet cells = latticeTriangles(2, 0.0);
+  const tipp::Box3 domain = cells.bounds();
+  cells.Coordinates.clear();
+  const PartitionTree tree = buildTree(sourceOf(cells), domain, options(cells, 1));
+  EXPECT_EQ(tree.Tiling.count(), 1);
+  EXPECT_EQ(tree.Cells, (std::vector<std::int64_t>{ 0 }));
+}
+
+TEST(BuildTree, TrianglesInSpaceAreTakenByTheirXAndYInAQuadtree)
+{
+  const CellSet flat = latticeTriangles(20, 0.3);
+  const CellSet inSpace = surface(flat);
+  TreeOptions quadtree = options(flat, 40);
+  expectSameTree(build(flat, 40), buildTree(sourceOf(inSpace), inSpace.bounds(), quadtree));
+}
+
+TEST(BuildTree, AFlatMeshInSpaceIsCutAlongItsTwoAxes)
+{
+  CellSet cells;
+  cells.Dimension = 3;
+  const CellSet flat = latticeTriangles(16, 0.2);
+  for (std::size_t i = 0; i < flat.Coordinates.size(); i += 2)
+  {
+    cells.Coordinates.insert(
+      cells.Coordinates.end(), { flat.Coordinates[i], 5.0, flat.Coordinates[i + 1] });
+  }
+  EXPECT_EQ(build(cells, 30).Cells, build(flat, 30).Cells);
+}
+
+TEST(BuildTree, NamesACellWithoutAPlace)
+{
+  CellSet cells = latticeTriangles(20, 0.0);
+  const tipp::Box3 domain = cells.bounds();
+  cells.Coordinates[6 * 333 + 1] = std::nan("");
+  expectFailure([&] { buildTree(sourceOf(cells), domain, options(cells, 30, 100)); },
+    "Cell 333 has a corner whose coordinates are not finite");
+  for (const std::size_t i : { 0, 2, 4 })
+  {
+    cells.Coordinates[6 * 333 + i] = 7.0;
+    cells.Coordinates[6 * 333 + i + 1] = 7.0;
+  }
+  expectFailure([&] { buildTree(sourceOf(cells), domain, options(cells, 30, 100)); },
+    "Cell 333 lies outside the domain");
+}
+
+TEST(BuildTree, RefusesAThresholdBelowOneAndADomainThatIsNone)
+{
+  const CellSet cells = latticeTriangles(2, 0.0);
+  expectFailure([&] { build(cells, 0); }, "needs a threshold of at least one cell, not 0");
+  const tipp::Box3 inverted = { { 1, 0, 0 }, { 0, 1, 0 } };
+  expectFailure([&] { buildTree(sourceOf(cells), inverted, options(cells, 9)); },
+    "no finite bounds along axis 0");
+}
+
+TEST(BuildTree, RefusesAReaderThatGivesTooFewCoordinates)
+{
+  const CellSet cells = latticeTriangles(2, 0.0);
+  tipp::CellSource source = sourceOf(cells);
+  source.Read = [](std::int64_t, std::int64_t, std::vector<double>& coordinates)
+  { coordinates.assign(3, 0.0); };
+  expectFailure([&] { buildTree(source, cells.bounds(), options(cells, 9)); },
+    "Reading 8 cells from cell 0 on gave 3 coordinates in place of 48");
+}

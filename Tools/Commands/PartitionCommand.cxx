@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/Commands.h"
+
+#include "Commands/PartitionReport.h"
+#include "Console/Interrupt.h"
+#include "Console/MpiSession.h"
+#include "Console/ProgressBar.h"
+#include "Files/PendingFile.h"
+#include "Flat/FlatMesh.h"
+#include "Partitioning/PartitionInput.h"
+#include "Partitioning/PartitionMesh.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <memory>
+#include <optional>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr const char* footer =
+  R"(INPUT   a flat mesh: a folder of cells.npy, points.npy, point_data/NAME.npy and
+        cell_data/NAME.npy, or a .vtu with appended, raw, uncompressed data, read in
+        place whatever its size; or any VTK file of triangles or tetrahedra that
+        fits in memory.
+MESH    a folder: mesh.pvtu, which ParaView and vtkXMLPUnstructuredGridReader read,
+        the pieces, and an index. A partitioned mesh that is there already is
+        replaced when the new one is whole.
+
+A cell belongs to the first partition that it meets; the other partitions it meets
+borrow it, by reference or as ghost cells in their own pieces. Under mpirun all ranks
+share the work, and the files come out the same. Ctrl-C ends the run with exit code
+130 and no output. Memory is in bytes, or with K, M, G for 2^10, 2^20, 2^30 of them,
+and of each rank.
+
+Examples:
+  tipp partition mesh -o mesh.tipp --tiling grid:8x8
+  tipp partition mesh.vtu -o mesh.tipp --tiling quadtree:100000 --memory 512M
+  mpirun -np 4 tipp partition mesh -o mesh.tipp --borrowers duplicate
+)";
+
+struct PartitionArguments
+{
+  std::string Input;
+  std::string Output;
+  std::string Tiling = "grid:4x4";
+  std::string Borrowers = "reference";
+  std::string Memory = "2G";
+  std::string Loader = "auto";
+  std::string Device = "openmp";
+  int Threads = 0;
+  std::string Statistics;
+};
+
+std::optional<std::uint64_t> parseBytes(const std::string& text)
+{
+  std::uint64_t number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  const std::string unit(stop, end);
+  const std::size_t power = std::string("KMG").find(unit);
+  const bool known = unit.empty() || (unit.size() == 1 && power != std::string::npos);
+  if (error != std::errc() || !known || number == 0)
+  {
+    return std::nullopt;
+  }
+  const unsigned shift = unit.empty() ? 0 : 10 * (unsigned(power) + 1);
+  return number <= (~std::uint64_t(0) >> shift) ? std::make_optional(number << shift)
+                                                : std::nullopt;
+}
+
+std::string checkMemory(const std::string& text)
+{
+  return parseBytes(text) ? "" : "'" + text + "' is no number of bytes, as 512M or 2G";
+}
+
+std::string checkTiling(const std::string& text)
+{
+  return TilingChoice::parse(text)
+    ? ""
+    : "'" + text + "' is neither grid:COLUMNSxROWS[xLAYERS] of 1 to 10000 each nor quadtree:CELLS";
+}
+
+PartitionOptions makeOptions(
+  const PartitionArguments& arguments, const MpiSession& session, ProgressBar& bar)
+{
+  PartitionOptions options;
+  options.Tiling = *TilingChoice::parse(arguments.Tiling);
+  options.DuplicateBorrowers = arguments.Borrowers == "duplicate";
+  options.MemoryLimit = *parseBytes(arguments.Memory);
+  options.Loading.Kind = loaderFromName(arguments.Loader);
+  options.Device = parseDeviceChoice(arguments.Device);
+  options.Threads = arguments.Threads;
+  options.Progress = [&session, &bar](double fraction)
+  {
+    if (session.isFirst())
+    {
+      bar.update(fraction);
+    }
+    return !isInterrupted();
+  };
+  return options;
+}
+
+int runPartition(const PartitionArguments& arguments)
+{
+  const MpiSession session;
+  watchForInterrupt();
+  PartitionStatistics statistics;
+  try
+  {
+    if (session.isFirst() && !arguments.Statistics.empty())
+    {
+      const PendingFile writable(arguments.Statistics); // before the work rather than after it
+    }
+    ProgressBar bar("Partitioning");
+    statistics = partitionInput(arguments.Input, arguments.Output,
+      makeOptions(arguments, session, bar), session.controller());
+  }
+  catch (const std::exception&)
+  {
+    if (session.isFirst())
+    {
+      throw;
+    }
+    return Failure; // the first rank says it
+  }
+  if (statistics.Aborted)
+  {
+    if (session.isFirst())
+    {
+      fmt::print(stderr, "tipp: interrupted; nothing was written.\n");
+    }
+    return interruptedExitCode;
+  }
+  if (session.isFirst())
+  {
+    if (!arguments.Statistics.empty())
+    {
+      writeReport(arguments.Statistics, arguments.Input, arguments.Output, statistics);
+    }
+    fmt::print("{}\n", summarize(statistics));
+  }
+  return Success;
+}
+
+} // namespace
+
+void addPartitionCommand(CLI::App& app, int& exitCode)
+{
+  auto arguments = std::make_shared<PartitionArguments>();
+  CLI::App* const command =
+    app.add_subcommand("partition", "Cuts a mesh larger than memory into pieces on the disk");
+  command->add_option("input", arguments->Input, "The mesh")->required();
+  command->add_option("-o,--output", arguments->Output, "The partitioned mesh, as mesh.tipp")
+    ->required();
+  command
+    ->add_option("--tiling", arguments->Tiling,
+      "grid:COLUMNSxROWS[xLAYERS], or quadtree:CELLS (octree:CELLS): partitions that meet at most "
+      "so many cells no longer than themselves")
+    ->check(checkTiling)
+    ->capture_default_str();
+  command
+    ->add_option("--borrowers", arguments->Borrowers,
+      "reference: borrowed cells stay in their owners' pieces; duplicate: they are copied too")
+    ->check(CLI::IsMember({ "reference", "duplicate" }))
+    ->capture_default_str();
+  command->add_option("--memory", arguments->Memory, "What the run may take, as 512M")
+    ->check(checkMemory)
+    ->capture_default_str();
+  command
+    ->add_option("--loader", arguments->Loader,
+      "How vertices are read: Direct Load, its fine form, a cache of blocks, mapped files")
+    ->check(CLI::IsMember({ "auto", "direct", "fine", "lru", "mmap" }))
+    ->capture_default_str();
+  command
+    ->add_option("--device", arguments->Device,
+      "What classifies cells at borders: openmp, opencl, opencl:NAME or auto")
+    ->capture_default_str();
+  command->add_option("--threads", arguments->Threads, "Number of threads; 0: OpenMP's choice")
+    ->check(CLI::Range(0, 4096))
+    ->capture_default_str();
+  command->add_option("--stats", arguments->Statistics, "Writes what the run did to a JSON file");
+  command->footer(footer);
+  command->callback([arguments, &exitCode]() { exitCode = runPartition(*arguments); });
+}
+
+} // namespace tipp

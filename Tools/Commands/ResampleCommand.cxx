@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/Commands.h"
+
+#include "Console/Interrupt.h"
+#include "Console/ProgressBar.h"
+#include "Files/Extension.h"
+#include "Files/IOError.h"
+#include "Files/PendingFile.h"
+#include "Npy/NpyFile.h"
+#include "OpenCL/DeviceChoice.h"
+#include "Vtk/ErrorKeeper.h"
+#include "Vtk/ReadDataSet.h"
+#include "vtkRangeResampleFilter.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataArraySelection.h"
+#include "vtkDataSet.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkTable.h"
+#include "vtkXMLImageDataWriter.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr const char* footer =
+  R"(MESH    any VTK file of triangles, tetrahedra or cells that are cut into them.
+IMAGE   .vti: all arrays, vtkValidPointMask (1 where the mesh answers) and
+        vtkGhostType. .npy: one array (--arrays NAME) as float64 or whatever it
+        is, rows x columns, the first row at the lowest y; for a volume layers x
+        rows x columns. Components come last. NaN where no cell answers, unless
+        --null gives another number.
+
+Examples:
+  tipp resample surge.vtu -o surge.vti --dims 2048 2048 1
+  tipp resample surge.vtu -o peak.npy --arrays zeta_max --delta 0.01 0.01 0
+    --bounds -76 -75 35 36 0 0 --no-data -99999
+)";
+
+struct ResampleArguments
+{
+  std::string Input;
+  std::string Output;
+  std::vector<double> Bounds;
+  std::vector<int> Dimensions;
+  std::vector<double> Delta;
+  std::vector<std::string> Arrays;
+  std::string Device = "auto";
+  int Threads = 0;
+  double Null = 0;
+  bool HasNull = false;
+  double NoData = 0;
+  bool HasNoData = false;
+};
+
+void chooseArrays(
+  const ResampleArguments& arguments, vtkRangeResampleFilter* filter, vtkDataSet* mesh)
+{
+  if (arguments.Arrays.empty())
+  {
+    return;
+  }
+  filter->GetPointDataArraySelection()->SetUnknownArraySetting(0);
+  filter->GetCellDataArraySelection()->SetUnknownArraySetting(0);
+  for (const std::string& name : arguments.Arrays)
+  {
+    const bool ofPoints = mesh->GetPointData()->HasArray(name.c_str()) != 0;
+    (ofPoints ? filter->GetPointDataArraySelection() : filter->GetCellDataArraySelection())
+      ->EnableArray(name.c_str());
+    if (!ofPoints && !mesh->GetCellData()->HasArray(name.c_str()))
+    {
+      throw IOError(arguments.Input, "has no array '" + name + "'.");
+    }
+  }
+}
+
+void configure(const ResampleArguments& arguments, vtkRangeResampleFilter* filter)
+{
+  if (!arguments.Bounds.empty())
+  {
+    filter->UseInputBoundsOff();
+    filter->SetSamplingBounds(arguments.Bounds.data());
+  }
+  if (!arguments.Dimensions.empty())
+  {
+    filter->SetSamplingDimensions(arguments.Dimensions.data());
+  }
+  if (!arguments.Delta.empty())
+  {
+    filter->SetSamplingDimensions(1, 1, 1);
+    filter->SetDelta(arguments.Delta.data());
+  }
+  const DeviceChoice device = parseDeviceChoice(arguments.Device);
+  filter->SetDevice(device.Kind == Device::Auto ? vtkRangeResampleFilter::DEVICE_AUTO
+      : device.Kind == Device::OpenMP           ? vtkRangeResampleFilter::DEVICE_OPENMP
+                                                : vtkRangeResampleFilter::DEVICE_OPENCL);
+  filter->SetDeviceIndex(device.Index);
+  filter->SetDeviceName(device.Name.empty() ? nullptr : device.Name.c_str());
+  filter->SetNumberOfThreads(arguments.Threads);
+  const bool npy = extensionOf(arguments.Output) == ".npy";
+  filter->SetNullValue(
+    arguments.HasNull || !npy ? arguments.Null : std::numeric_limits<double>::quiet_NaN());
+  filter->SetUseNoDataValue(arguments.HasNoData);
+  filter->SetNoDataValue(arguments.NoData);
+}
+
+void writeImage(const std::string& path, vtkImageData* image)
+{
+  PendingFile pending(path);
+  vtkNew<ErrorKeeper> errors;
+  vtkNew<vtkXMLImageDataWriter> writer;
+  writer->AddObserver(vtkCommand::ErrorEvent, errors);
+  writer->SetInputData(image);
+  writer->SetFileName(pending.temporaryPath().c_str());
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToNone();
+  if (!writer->Write() || errors->HasError)
+  {
+    throw IOError(path, "cannot be written; check the disk's space and the folder's permissions.");
+  }
+  pending.commit();
+}
+
+std::string descriptionOf(vtkDataArray* array)
+{
+  const int type = array->GetDataType();
+  const bool floating = type == VTK_FLOAT || type == VTK_DOUBLE;
+  const char kind = floating ? 'f' : array->GetDataTypeMin() < 0 ? 'i' : 'u';
+  const int bytes = array->GetDataTypeSize();
+  return (bytes == 1 ? "|" : "<") + std::string(1, kind) + std::to_string(bytes);
+}
+
+void writeNpy(const ResampleArguments& arguments, vtkImageData* image)
+{
+  vtkDataArray* const array = image->GetPointData()->GetArray(arguments.Arrays.front().c_str());
+  int dimensions[3];
+  image->GetDimensions(dimensions);
+  std::vector<std::int64_t> shape;
+  if (dimensions[2] > 1)
+  {
+    shape.push_back(dimensions[2]);
+  }
+  shape.push_back(dimensions[1]);
+  shape.push_back(dimensions[0]);
+  if (array->GetNumberOfComponents() > 1)
+  {
+    shape.push_back(array->GetNumberOfComponents());
+  }
+  NpyWriter writer(arguments.Output, descriptionOf(array), shape);
+  writer.write(array->GetVoidPointer(0),
+    std::size_t(array->GetNumberOfValues()) * std::size_t(array->GetDataTypeSize()));
+  writer.close();
+}
+
+void summarize(const ResampleArguments& arguments, vtkRangeResampleFilter* filter)
+{
+  vtkFieldData* const figures = filter->GetStatistics()->GetFieldData();
+  const auto number = [&](const char* name)
+  { return std::int64_t(figures->GetArray(name)->GetTuple1(0)); };
+  double seconds = 0;
+  vtkDataArray* const phases = figures->GetArray("PhaseSeconds");
+  for (vtkIdType i = 0; i < phases->GetNumberOfTuples(); ++i)
+  {
+    seconds += phases->GetTuple1(i);
+  }
+  fmt::print("{} of {} samples from {} cells, {:.3f} s on {}, in {}\n", number("SamplesHit"),
+    number("Samples"), number("Cells"), seconds,
+    figures->GetAbstractArray("Device")->GetVariantValue(0).ToString(), arguments.Output);
+}
+
+int runResample(const ResampleArguments& arguments)
+{
+  watchForInterrupt();
+  const vtkSmartPointer<vtkDataSet> mesh = readDataSet(arguments.Input);
+  vtkNew<vtkRangeResampleFilter> filter;
+  filter->SetInputData(mesh);
+  configure(arguments, filter);
+  chooseArrays(arguments, filter, mesh);
+  ProgressBar bar("resampling");
+  vtkNew<vtkCallbackCommand> progress;
+  progress->SetClientData(&bar);
+  progress->SetCallback(
+    [](vtkObject* caller, unsigned long, void* data, void*)
+    {
+      auto* const algorithm = static_cast<vtkAlgorithm*>(caller);
+      static_cast<ProgressBar*>(data)->update(algorithm->GetProgress());
+      algorithm->SetAbortExecute(isInterrupted());
+    });
+  filter->AddObserver(vtkCommand::ProgressEvent, progress);
+  vtkNew<ErrorKeeper> problems;
+  filter->AddObserver(vtkCommand::ErrorEvent, problems);
+  vtkNew<ErrorKeeper> warnings;
+  filter->AddObserver(vtkCommand::WarningEvent, warnings);
+  filter->Update();
+  if (isInterrupted())
+  {
+    fmt::print(stderr, "tipp: interrupted; nothing was written.\n");
+    return interruptedExitCode;
+  }
+  if (problems->HasError)
+  {
+    throw IOError(arguments.Input, "cannot be resampled: " + problems->Message);
+  }
+  if (!warnings->Message.empty())
+  {
+    fmt::print(stderr, "tipp: warning: {}\n", warnings->Message);
+  }
+  if (extensionOf(arguments.Output) == ".npy")
+  {
+    writeNpy(arguments, filter->GetOutput());
+  }
+  else
+  {
+    writeImage(arguments.Output, filter->GetOutput());
+  }
+  summarize(arguments, filter);
+  return Success;
+}
+
+std::string checkOutput(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  return extension == ".vti" || extension == ".npy" ? ""
+                                                    : "'" + path + "' does not end in .vti or .npy";
+}
+
+} // namespace
+
+void addResampleCommand(CLI::App& app, int& exitCode)
+{
+  auto arguments = std::make_shared<ResampleArguments>();
+  CLI::App* const command = app.add_subcommand(
+    "resample", "Samples a mesh of triangles or tetrahedra on a regular grid, in parallel");
+  command->add_option("mesh", arguments->Input, "The mesh, see below")->required();
+  command->add_option("-o,--output", arguments->Output, "The image, see below")
+    ->required()
+    ->check(checkOutput);
+  command
+    ->add_option("--bounds", arguments->Bounds,
+      "The range: xmin xmax ymin ymax zmin zmax; else that of the mesh")
+    ->expected(6);
+  CLI::Option* const dimensions =
+    command->add_option("--dims", arguments->Dimensions, "Samples along x, y and z")->expected(3);
+  CLI::Option* const delta = command
+                               ->add_option("--delta", arguments->Delta,
+                                 "Distance of samples along x, y and z; 0: one sample")
+                               ->expected(3);
+  delta->excludes(dimensions);
+  command->add_option("--arrays", arguments->Arrays, "Names of arrays; else all");
+  command
+    ->add_option("--device", arguments->Device, "auto, openmp, opencl, opencl:INDEX or opencl:NAME")
+    ->capture_default_str();
+  command->add_option("--threads", arguments->Threads, "Number of threads; 0: OpenMP's choice")
+    ->check(CLI::Range(0, 4096))
+    ->capture_default_str();
+  CLI::Option* const null =
+    command->add_option("--null", arguments->Null, "What samples outside the mesh get");
+  CLI::Option* const noData = command->add_option("--no-data", arguments->NoData,
+    "Cells with a corner of this value answer nothing, as -99999 for dry nodes");
+  command->footer(footer);
+  command->callback(
+    [arguments, null, noData, &exitCode]()
+    {
+      arguments->HasNull = null->count() > 0;
+      arguments->HasNoData = noData->count() > 0;
+      if (arguments->Dimensions.empty() && arguments->Delta.empty())
+      {
+        throw CLI::ValidationError("--dims", "or --delta is required");
+      }
+      if (extensionOf(arguments->Output) == ".npy" && arguments->Arrays.size() != 1)
+      {
+        throw CLI::ValidationError("--arrays", "must name one array for an .npy file");
+      }
+      exitCode = runResample(*arguments);
+    });
+}
+
+} // namespace tipp
