@@ -128,9 +128,9 @@ int vtkTIPPDelaunay2D::RequestData(
   {
     if (this->HasSeveralRanks())
     {
-      const bool wantsGhosts = outputVector->GetInformationObject(0)->Get(
-                                 vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) >
-        0;
+      const bool wantsGhosts =
+        outputVector->GetInformationObject(0)->Get(
+          vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) > 0;
       return this->ExecuteOnRanks(input, wantsGhosts, output, statistics) ? 1 : 0;
     }
     return this->Execute(input, output, statistics) ? 1 : 0;

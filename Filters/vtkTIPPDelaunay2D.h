@@ -109,8 +109,8 @@ public:
    */
   enum ScheduleType
   {
-    STAGES = 0, ///< a barrier after each set of independent partitions
-    DYNAMIC = 1, ///< a partition starts as soon as it is independent of all active ones
+    STAGES = 0,           ///< a barrier after each set of independent partitions
+    DYNAMIC = 1,          ///< a partition starts as soon as it is independent of all active ones
     PRODUCER_CONSUMER = 2 ///< stages; on several ranks without a barrier after each shift of them
   };
 
@@ -350,8 +350,7 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestUpdateExtent(
-    vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   double Alpha = 0;

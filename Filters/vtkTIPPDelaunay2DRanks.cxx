@@ -66,11 +66,11 @@ tipp::DistributedOptions vtkTIPPDelaunay2D::OptionsForRanks() const
 
 const char* vtkTIPPDelaunay2D::WhatNeedsOneRank() const
 {
-  return this->Alpha != 0                                  ? "Alpha"
-    : this->Tolerance > 0                                  ? "Tolerance"
-    : this->BoundingTriangulation                          ? "BoundingTriangulation"
+  return this->Alpha != 0                                 ? "Alpha"
+    : this->Tolerance > 0                                 ? "Tolerance"
+    : this->BoundingTriangulation                         ? "BoundingTriangulation"
     : this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE ? "the best fitting plane"
-                                                           : nullptr;
+                                                          : nullptr;
 }
 
 bool vtkTIPPDelaunay2D::ExecuteOnRanks(
@@ -149,8 +149,9 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(
   }
   if (ranks.rank() == 0 && mine.AllTriangles == 0)
   {
-    vtkWarningMacro("No triangles: all ranks together have fewer than three distinct finite points, "
-                    "or all are on one line.");
+    vtkWarningMacro(
+      "No triangles: all ranks together have fewer than three distinct finite points, "
+      "or all are on one line.");
   }
   return true;
 }

@@ -191,8 +191,8 @@ void collect(Postbox& ranks, OwnedPoints<Id>& points, const std::vector<IdTriang
   {
     sink.setInteriorCount(static_cast<PartitionIndex>(leaf), interiorCounts[leaf]);
   }
-  Buffer<Id> ids = sink.assemble(
-    localised(seams, result.ForeignIds, firstOwn, points.Places, leaves), threads);
+  Buffer<Id> ids =
+    sink.assemble(localised(seams, result.ForeignIds, firstOwn, points.Places, leaves), threads);
   if constexpr (sizeof(Id) == 4)
   {
     result.Ids32 = std::move(ids);

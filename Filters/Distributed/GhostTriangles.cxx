@@ -46,8 +46,8 @@ struct SharedVertex
 };
 
 /// Owners hear from the ranks that use their points, and tell each of the others.
-Users findUsers(Postbox& ranks, const DistributedTriangulation& mine,
-  const std::vector<IdTriangle>& triangles)
+Users findUsers(
+  Postbox& ranks, const DistributedTriangulation& mine, const std::vector<IdTriangle>& triangles)
 {
   const std::int64_t firstOwn = mine.FirstIds[std::size_t(ranks.rank())];
   std::vector<std::vector<std::int64_t>> asked(std::size_t(ranks.size()));

@@ -35,7 +35,8 @@ vtkSmartPointer<vtkIdTypeArray> idsOf(const char* name, const Items& items, Get&
 
 void addTotal(const char* name, std::int64_t value, vtkFieldData* totals)
 {
-  totals->AddArray(idsOf(name, std::vector<std::int64_t>{ value }, [](std::int64_t v) { return v; }));
+  totals->AddArray(
+    idsOf(name, std::vector<std::int64_t>{ value }, [](std::int64_t v) { return v; }));
 }
 
 } // namespace
@@ -78,8 +79,8 @@ void fillRankTable(const DistributedTriangulation& mine, vtkTable* table)
     idsOf("RankOwnedPoints", statistics.Ranks, [](const Rank& r) { return r.OwnedPoints; }));
   totals->AddArray(
     idsOf("RankTriangles", statistics.Ranks, [](const Rank& r) { return r.Triangles; }));
-  totals->AddArray(arrayOf<vtkDoubleArray>("MasterSeconds", std::vector<double>{ master.Seconds },
-    [](double value) { return value; }));
+  totals->AddArray(arrayOf<vtkDoubleArray>(
+    "MasterSeconds", std::vector<double>{ master.Seconds }, [](double value) { return value; }));
   using Traffic = TrafficStatistics;
   totals->AddArray(arrayOf<vtkStringArray>(
     "MessageKind", statistics.Traffic, [](const Traffic& t) { return t.Kind; }));
@@ -92,8 +93,8 @@ void fillRankTable(const DistributedTriangulation& mine, vtkTable* table)
 void addAccounts(const DistributedTriangulation& mine, vtkPolyData* output)
 {
   vtkFieldData* data = output->GetFieldData();
-  data->AddArray(idsOf(
-    "DuplicatePointIds", mine.Duplicates, [](const Duplicate& duplicate) { return duplicate.Point; }));
+  data->AddArray(idsOf("DuplicatePointIds", mine.Duplicates,
+    [](const Duplicate& duplicate) { return duplicate.Point; }));
   data->AddArray(idsOf("DuplicateRepresentativeIds", mine.Duplicates,
     [](const Duplicate& duplicate) { return duplicate.Representative; }));
   data->AddArray(idsOf("RejectedPointIds", mine.Rejected, [](PointId id) { return id; }));

@@ -65,7 +65,8 @@ void addPointsCommand(CLI::App& app, int& exitCode)
   CLI::Option_group* const kind = command->add_option_group("kind");
   kind->add_option("--distribution", arguments->Distribution, "Which, see below")
     ->check(CLI::IsMember(distributionNames()));
-  kind->add_option("--like", arguments->Like, "A file whose points they are to be distributed like");
+  kind->add_option(
+    "--like", arguments->Like, "A file whose points they are to be distributed like");
   kind->require_option(1);
   command->add_option("--count", arguments->Count, "Number of points")
     ->required()

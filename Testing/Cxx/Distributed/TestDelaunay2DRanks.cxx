@@ -129,7 +129,8 @@ void expectWhole(const std::vector<std::vector<PieceCell>>& pieces, const Triang
   }
   EXPECT_EQ(sorted(all), expected);
   ASSERT_EQ(numbers.size(), all.size());
-  EXPECT_TRUE(all.empty() || (*numbers.begin() == 0 && *numbers.rbegin() + 1 == std::int64_t(all.size())));
+  EXPECT_TRUE(
+    all.empty() || (*numbers.begin() == 0 && *numbers.rbegin() + 1 == std::int64_t(all.size())));
   EXPECT_FALSE(xy.empty());
 }
 
