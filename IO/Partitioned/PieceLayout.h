@@ -68,8 +68,7 @@ struct PieceLayout
 /// What follows the last array.
 extern const char* const pieceFooter;
 
-PieceLayout layOutPiece(
-  const PartitionedMesh& mesh, std::size_t number, const PieceSummary& piece);
+PieceLayout layOutPiece(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& piece);
 
 /// The .pvtu over all pieces.
 std::string pvtuText(const PartitionedMesh& mesh);
