@@ -53,6 +53,10 @@ std::vector<ForeignPoint> PointDistribution::foreignPoints(std::int64_t chunk) c
 {
   const std::vector<char> raw = this->Run.ForeignPoints->readAll(std::size_t(chunk));
   std::vector<ForeignPoint> points(raw.size() / sizeof(ForeignPoint));
+  if (points.empty())
+  {
+    return points;
+  }
   std::memcpy(points.data(), raw.data(), points.size() * sizeof(ForeignPoint));
   const auto keyOf = [](const ForeignPoint& p)
   { return std::make_tuple(p.Point, p.Piece, p.GhostOnly); };

@@ -93,6 +93,10 @@ void PieceAssembly::extendBounds(const RowPointers& rows)
 
 void PieceAssembly::appendPoints(const RowPointers& rows)
 {
+  if (rows.empty())
+  {
+    return;
+  }
   const std::vector<PieceArray>& arrays = this->Writer->arrays();
   for (std::size_t a = 0; a < arrays.size(); ++a)
   {
@@ -131,6 +135,10 @@ void PieceAssembly::appendPointArray(
 
 void PieceAssembly::appendCells(const RowPointers& rows, bool ghosts)
 {
+  if (rows.empty())
+  {
+    return;
+  }
   const std::vector<PieceArray>& arrays = this->Writer->arrays();
   for (std::size_t a = 0; a < arrays.size(); ++a)
   {
