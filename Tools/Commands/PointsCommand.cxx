@@ -28,7 +28,7 @@ constexpr const char* footer = R"(Distributions:
 --like takes any file of points that tipp delaunay reads: the new ones lie in the
 triangles between them, equally many in each.
 
-Examples:
+Example:
   tipp points --distribution coast --count 1000000 --seed 7 -o coast.npy
   tipp points --like fort.14 --count 1000000 -o dense.npy
 )";
