@@ -7,10 +7,12 @@ function (tipp_embed_kernels target)
   foreach (file IN LISTS ARGN)
     set(source "${CMAKE_CURRENT_SOURCE_DIR}/${file}")
     set(header "${CMAKE_CURRENT_BINARY_DIR}/${file}.h")
+    get_filename_component(folder "${source}" DIRECTORY)
+    file(GLOB parts CONFIGURE_DEPENDS "${folder}/*.cl") # which it may include
     add_custom_command(OUTPUT "${header}"
       COMMAND "${CMAKE_COMMAND}" "-DSOURCE=${source}" "-DHEADER=${header}"
         -P "${tipp_embed_kernel_script}"
-      DEPENDS "${source}" "${tipp_embed_kernel_script}"
+      DEPENDS ${parts} "${tipp_embed_kernel_script}"
       COMMENT "Embedding ${file}"
       VERBATIM)
     target_sources(${target} PRIVATE "${header}")

@@ -17,7 +17,7 @@ namespace tipp
 std::int64_t cellsOnDevice(const ComputeDevice& device, const SimplexMesh& mesh, std::size_t tuple,
   std::size_t others, std::uint64_t memory);
 
-/// Some cells of a mesh for the kernels of Resample.cl: all, with the mesh's own points, or a
+/// Some cells of a mesh for the kernels of ClaimSamples.cl: all, with the mesh's own points, or a
 /// piece, with the corners of each cell side by side.
 class MeshOnDevice
 {

@@ -2,8 +2,9 @@
 #include "Resample/ResampleOnDevice.h"
 
 #include "Resample/CellVisitor.h"
+#include "Resample/ClaimSamples.cl.h"
+#include "Resample/InterpolateSamples.cl.h"
 #include "Resample/MeshOnDevice.h"
-#include "Resample/Resample.cl.h"
 
 #include <algorithm>
 
@@ -101,8 +102,8 @@ public:
     , Grid(lattice)
     , Axes(mesh, lattice)
     , Threads(threads)
-    , CellKernel(device.kernel(ResampleKernels, "claimCells"))
-    , LargeKernel(device.kernel(ResampleKernels, "claimLarge"))
+    , CellKernel(device.kernel(ClaimSamplesKernels, "claimCells"))
+    , LargeKernel(device.kernel(ClaimSamplesKernels, "claimLarge"))
   {
   }
 
@@ -232,8 +233,8 @@ public:
     , Mesh(mesh)
     , Axes(mesh, lattice)
     , Attributes(attributes)
-    , WeighKernel(device.kernel(ResampleKernels, "weighSamples"))
-    , ArrayKernel(device.kernel(ResampleKernels, "interpolateArray"))
+    , WeighKernel(device.kernel(InterpolateSamplesKernels, "weighSamples"))
+    , ArrayKernel(device.kernel(InterpolateSamplesKernels, "interpolateArray"))
   {
   }
 
