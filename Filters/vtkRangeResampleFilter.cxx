@@ -196,12 +196,13 @@ void vtkRangeResampleFilter::Run::finish(vtkImageData* output)
   this->ExchangeSeconds = watch.seconds();
   this->warn(*this->Image);
   const double fillBegin = watch.seconds();
-  const std::int64_t hits = tipp::fillImage(*image, output);
+  const int threads = this->settings(true).Threads;
+  const std::int64_t hits = tipp::fillImage(*image, threads, output);
   tipp::SamplingReport report;
   report.Statistics = this->Image->statistics();
   report.Samples = std::int64_t(image->valid().size());
   report.Hits = hits;
-  report.Threads = this->settings(true).Threads;
+  report.Threads = threads;
   report.ExchangeSeconds = this->ExchangeSeconds;
   report.OutputSeconds = watch.seconds() - fillBegin;
   tipp::fillTable(report, this->Filter->Statistics);

@@ -18,10 +18,12 @@
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkTransform.h"
 
@@ -31,6 +33,7 @@
 
 vtkStandardNewMacro(vtkTIPPDelaunay2D);
 vtkCxxSetObjectMacro(vtkTIPPDelaunay2D, Transform, vtkAbstractTransform);
+vtkCxxSetObjectMacro(vtkTIPPDelaunay2D, Controller, vtkMultiProcessController);
 
 namespace
 {
@@ -72,11 +75,13 @@ std::vector<char> coveredPoints(const tipp::Triangulation& triangulation, vtkIdT
 vtkTIPPDelaunay2D::vtkTIPPDelaunay2D()
 {
   this->SetNumberOfOutputPorts(2);
+  this->vtkTIPPDelaunay2D::SetController(vtkMultiProcessController::GetGlobalController());
 }
 
 vtkTIPPDelaunay2D::~vtkTIPPDelaunay2D()
 {
   this->vtkTIPPDelaunay2D::SetTransform(nullptr);
+  this->vtkTIPPDelaunay2D::SetController(nullptr);
 }
 
 vtkTable* vtkTIPPDelaunay2D::GetStatistics()
@@ -121,6 +126,13 @@ int vtkTIPPDelaunay2D::RequestData(
   const ThreadLimit limit(this->NumberOfThreads);
   try
   {
+    if (this->HasSeveralRanks())
+    {
+      const bool wantsGhosts =
+        outputVector->GetInformationObject(0)->Get(
+          vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) > 0;
+      return this->ExecuteOnRanks(input, wantsGhosts, output, statistics) ? 1 : 0;
+    }
     return this->Execute(input, output, statistics) ? 1 : 0;
   }
   catch (const std::bad_alloc&)
@@ -202,7 +214,7 @@ tipp::Triangulation vtkTIPPDelaunay2D::Triangulate(vtkPoints* points, vtkAbstrac
   options.Columns = this->NumberOfPartitions[0];
   options.Rows = this->NumberOfPartitions[1];
   options.InitialPointsPerPartition = this->InitialPointsPerPartition;
-  options.Order = this->Schedule == STAGES ? tipp::Schedule::Stages : tipp::Schedule::Dynamic;
+  options.Order = this->Schedule == DYNAMIC ? tipp::Schedule::Dynamic : tipp::Schedule::Stages;
   options.Threads = this->NumberOfThreads;
   options.Progress = [&monitor](double fraction) { return monitor(fraction); };
 
@@ -295,7 +307,17 @@ void vtkTIPPDelaunay2D::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfPartitions: " << this->NumberOfPartitions[0] << " x "
      << this->NumberOfPartitions[1] << "\n";
   os << indent << "InitialPointsPerPartition: " << this->InitialPointsPerPartition << "\n";
-  os << indent << "Schedule: " << (this->Schedule == STAGES ? "Stages\n" : "Dynamic\n");
+  const char* schedules[] = { "Stages", "Dynamic", "Producer-consumer" };
+  const char* masters[] = { "Auto", "Single", "Multi" };
+  os << indent << "Schedule: " << schedules[this->Schedule] << "\n";
+  os << indent << "Controller: " << this->Controller << "\n";
+  os << indent << "Masters: " << masters[this->Masters] << "\n";
+  os << indent << "NumberOfMajorPartitions: " << this->NumberOfMajorPartitions[0] << " x "
+     << this->NumberOfMajorPartitions[1] << "\n";
+  os << indent << "MinorDivision: " << (this->MinorDivision == TREE ? "Tree\n" : "Threshold\n");
+  os << indent << "PointsPerPartition: " << this->PointsPerPartition << "\n";
+  os << indent << "EqualGroups: " << onOff(this->EqualGroups);
+  os << indent << "GatherOnFirstRank: " << onOff(this->GatherOnFirstRank);
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "NumberOfDuplicatePoints: " << this->NumberOfDuplicatePoints << "\n";
   os << indent << "NumberOfRejectedPoints: " << this->NumberOfRejectedPoints << "\n";

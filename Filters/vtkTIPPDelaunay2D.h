@@ -39,6 +39,22 @@
  * pandas.DataFrame({name: table.RowData[name] for name in table.RowData.keys()})
  * @endcode
  *
+ * With a Controller of several ranks all of them update the filter together; they triangulate all
+ * their input points together, whichever rank holds which, into one exact triangulation, the same
+ * for every number of ranks. Points of all ranks at the same place are merged. Each rank's output
+ * is a piece: its triangles, each of which is on one rank, and the points that they use, with the
+ * point data that all ranks with points have. "GlobalPointIds" are the input's global ids, or else
+ * count the points from the first rank on; "GlobalCellIds" are 0, 1, ... over all ranks. If ghost
+ * cells are asked for downstream, one layer comes, marked in vtkGhostType: other ranks' triangles
+ * that share a point with the piece. Merged points are in no piece; with GenerateRepresentativeIds
+ * the field data has the arrays "DuplicatePointIds", "DuplicateRepresentativeIds" and
+ * "RejectedPointIds" (global ids) of those found on this rank. Port 1 has on every rank the same
+ * table: rows for the first master's stages, and as field data, by rank, "RankComputeSeconds",
+ * "RankWaitSeconds", "RankSendSeconds", "RankOwnedPoints" and "RankTriangles"; "MasterSeconds",
+ * "LargestMasterMesh"; "MessageKind", "MessageCount" and "MessageBytes". If any rank fails, all do,
+ * and the first one reports the error. Alpha, Tolerance, BoundingTriangulation and the best fitting
+ * plane need a single rank.
+ *
  * An aborted run leaves both outputs empty. A failed one (out of memory, Transform missing) is
  * reported as an error and leaves them empty too.
  *
@@ -64,12 +80,15 @@
 #include "vtkTIPPFiltersModule.h" // For export macro
 
 class vtkAbstractTransform;
+class vtkMultiProcessController;
 class vtkPoints;
 class vtkPointSet;
 class vtkTable;
 
 namespace tipp
 {
+struct DistributedOptions;
+struct DistributedTriangulation;
 struct Triangulation;
 }
 
@@ -90,8 +109,28 @@ public:
    */
   enum ScheduleType
   {
-    STAGES = 0, ///< a barrier after each set of independent partitions
-    DYNAMIC = 1 ///< a partition starts as soon as it is independent of all active ones
+    STAGES = 0,           ///< a barrier after each set of independent partitions
+    DYNAMIC = 1,          ///< a partition starts as soon as it is independent of all active ones
+    PRODUCER_CONSUMER = 2 ///< stages; on several ranks without a barrier after each shift of them
+  };
+
+  /**
+   * How several ranks share the work.
+   */
+  enum MastersType
+  {
+    AUTO_MASTERS = 0,  ///< a single master for few ranks
+    SINGLE_MASTER = 1, ///< one master hands out all partitions (Algorithm 1)
+    MULTI_MASTER = 2   ///< a master hands major partitions to sub-masters (Algorithm 3)
+  };
+
+  /**
+   * How several ranks cut the domain, or each major partition, into partitions.
+   */
+  enum MinorDivisionType
+  {
+    TREE = 0,     ///< boxes with equally many points
+    THRESHOLD = 1 ///< square grids of boxes with about PointsPerPartition points (equation 3.1)
   };
 
   ///@{
@@ -214,10 +253,69 @@ public:
   /**
    * A ScheduleType; DYNAMIC by default.
    */
-  vtkSetClampMacro(Schedule, int, STAGES, DYNAMIC);
+  vtkSetClampMacro(Schedule, int, STAGES, PRODUCER_CONSUMER);
   vtkGetMacro(Schedule, int);
   void SetScheduleToStages() { this->SetSchedule(STAGES); }
   void SetScheduleToDynamic() { this->SetSchedule(DYNAMIC); }
+  void SetScheduleToProducerConsumer() { this->SetSchedule(PRODUCER_CONSUMER); }
+  ///@}
+
+  ///@{
+  /**
+   * The ranks that triangulate together. The global controller by default; null, or a controller of
+   * one rank: this process alone.
+   */
+  virtual void SetController(vtkMultiProcessController*);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
+  ///@{
+  /**
+   * On several ranks: a MastersType, AUTO_MASTERS by default.
+   */
+  vtkSetClampMacro(Masters, int, AUTO_MASTERS, MULTI_MASTER);
+  vtkGetMacro(Masters, int);
+  ///@}
+
+  ///@{
+  /**
+   * On several ranks with several masters: columns and rows of a grid of major partitions, each of
+   * which NumberOfPartitions cuts further. If either is 0 (the default), they are boxes of equally
+   * many points.
+   */
+  vtkSetVector2Macro(NumberOfMajorPartitions, int);
+  vtkGetVector2Macro(NumberOfMajorPartitions, int);
+  ///@}
+
+  ///@{
+  /**
+   * On several ranks, where NumberOfPartitions is not given: a MinorDivisionType, TREE by default,
+   * and the points that a partition is to have; 0 (the default) chooses.
+   */
+  vtkSetClampMacro(MinorDivision, int, TREE, THRESHOLD);
+  vtkGetMacro(MinorDivision, int);
+  vtkSetClampMacro(PointsPerPartition, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(PointsPerPartition, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * On several ranks: whether ranks are given partitions, and major partitions ranks, in equal
+   * numbers rather than in proportion to points (equation 3.2). Off by default.
+   */
+  vtkSetMacro(EqualGroups, vtkTypeBool);
+  vtkGetMacro(EqualGroups, vtkTypeBool);
+  vtkBooleanMacro(EqualGroups, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * On several ranks: whether the first one's output has all triangles, and the others' none. Off
+   * by default.
+   */
+  vtkSetMacro(GatherOnFirstRank, vtkTypeBool);
+  vtkGetMacro(GatherOnFirstRank, vtkTypeBool);
+  vtkBooleanMacro(GatherOnFirstRank, vtkTypeBool);
   ///@}
 
   ///@{
@@ -252,6 +350,7 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   double Alpha = 0;
@@ -268,6 +367,13 @@ protected:
   int InitialPointsPerPartition = 0;
   int Schedule = DYNAMIC;
   int NumberOfThreads = 0;
+  vtkMultiProcessController* Controller = nullptr;
+  int Masters = AUTO_MASTERS;
+  int NumberOfMajorPartitions[2] = { 0, 0 };
+  int MinorDivision = TREE;
+  vtkIdType PointsPerPartition = 0;
+  vtkTypeBool EqualGroups = 0;
+  vtkTypeBool GatherOnFirstRank = 0;
   vtkIdType NumberOfDuplicatePoints = 0;
   vtkIdType NumberOfRejectedPoints = 0;
 
@@ -276,6 +382,11 @@ private:
   void operator=(const vtkTIPPDelaunay2D&) = delete;
 
   bool Execute(vtkPointSet* input, vtkPolyData* output, vtkTable* statistics);
+  bool HasSeveralRanks() const;
+  bool ExecuteOnRanks(
+    vtkPointSet* input, bool wantsGhosts, vtkPolyData* output, vtkTable* statistics);
+  tipp::DistributedOptions OptionsForRanks() const;
+  const char* WhatNeedsOneRank() const;
   tipp::Triangulation Triangulate(vtkPoints* points, vtkAbstractTransform* toPlane);
   void Report(const tipp::Triangulation& triangulation, vtkIdType numberOfPoints);
   void SetCells(tipp::Triangulation& triangulation, vtkPolyData* output) const;

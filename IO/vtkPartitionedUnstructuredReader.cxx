@@ -86,15 +86,15 @@ vtkPartitionedUnstructuredReader::vtkPartitionedUnstructuredReader()
 {
   this->SetNumberOfInputPorts(0);
   vtkMath::UninitializeBounds(this->Bounds);
-  this->SetTiling("grid:4x4");
-  this->SetController(vtkMultiProcessController::GetGlobalController());
+  vtkPartitionedUnstructuredReader::SetTiling("grid:4x4");
+  vtkPartitionedUnstructuredReader::SetController(vtkMultiProcessController::GetGlobalController());
 }
 
 vtkPartitionedUnstructuredReader::~vtkPartitionedUnstructuredReader()
 {
-  this->SetFileName(nullptr);
-  this->SetTiling(nullptr);
-  this->SetController(nullptr);
+  vtkPartitionedUnstructuredReader::SetFileName(nullptr);
+  vtkPartitionedUnstructuredReader::SetTiling(nullptr);
+  vtkPartitionedUnstructuredReader::SetController(nullptr);
 }
 
 vtkDataArraySelection* vtkPartitionedUnstructuredReader::GetPointDataArraySelection()
@@ -259,6 +259,7 @@ struct Request
       return {};
     }
     std::vector<std::int64_t> some;
+    some.reserve(numbers.size());
     for (const std::size_t number : numbers)
     {
       some.push_back(weights[number]);

@@ -63,8 +63,39 @@ std::vector<std::int64_t> foreignIds(
   return ids;
 }
 
-/// Asks the owners for the points named, by ascending id.
-PointTuples fetch(Postbox& ranks, const std::vector<std::int64_t>& ids,
+/// The same triangles by places in Owned and Foreign, with labels that tell the sink their leaf.
+std::vector<SeamTriangle> localised(const std::vector<IdTriangle>& triangles,
+  const std::vector<std::int64_t>& foreign, std::int64_t firstOwn, const Buffer<Point2>& places,
+  const Tiling& leaves)
+{
+  std::vector<SeamTriangle> local;
+  local.reserve(triangles.size());
+  const std::int64_t own = std::int64_t(places.size());
+  for (const IdTriangle& triangle : triangles)
+  {
+    SeamTriangle made{};
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const std::int64_t at = triangle[i] - firstOwn;
+      if (at >= 0 && at < own)
+      {
+        const auto leaf = static_cast<std::uint32_t>(leaves.locate(places[std::size_t(at)]));
+        made[i] = { {}, at, 4 * leaf };
+      }
+      else
+      {
+        const auto place = std::lower_bound(foreign.begin(), foreign.end(), triangle[i]);
+        made[i] = { {}, own + (place - foreign.begin()), 0 };
+      }
+    }
+    local.push_back(made);
+  }
+  return local;
+}
+
+} // namespace
+
+PointTuples fetchPoints(Postbox& ranks, const std::vector<std::int64_t>& ids,
   const std::vector<std::int64_t>& firstIds, const PointTuples& own, std::size_t rowSize)
 {
   std::vector<Bytes> requests;
@@ -113,38 +144,6 @@ PointTuples fetch(Postbox& ranks, const std::vector<std::int64_t>& ids,
   return fetched;
 }
 
-/// The same triangles by places in Owned and Foreign, with labels that tell the sink their leaf.
-std::vector<SeamTriangle> localised(const std::vector<IdTriangle>& triangles,
-  const std::vector<std::int64_t>& foreign, std::int64_t firstOwn, const Buffer<Point2>& places,
-  const Tiling& leaves)
-{
-  std::vector<SeamTriangle> local;
-  local.reserve(triangles.size());
-  const std::int64_t own = std::int64_t(places.size());
-  for (const IdTriangle& triangle : triangles)
-  {
-    SeamTriangle made{};
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      const std::int64_t at = triangle[i] - firstOwn;
-      if (at >= 0 && at < own)
-      {
-        const auto leaf = static_cast<std::uint32_t>(leaves.locate(places[std::size_t(at)]));
-        made[i] = { {}, at, 4 * leaf };
-      }
-      else
-      {
-        const auto place = std::lower_bound(foreign.begin(), foreign.end(), triangle[i]);
-        made[i] = { {}, own + (place - foreign.begin()), 0 };
-      }
-    }
-    local.push_back(made);
-  }
-  return local;
-}
-
-} // namespace
-
 void preferLowestGlobalIds(
   PointTuples& points, std::int64_t firstId, std::vector<Duplicate>& duplicates)
 {
@@ -181,7 +180,7 @@ void collect(Postbox& ranks, OwnedPoints<Id>& points, const std::vector<IdTriang
   const std::vector<std::size_t>& interiorCounts, std::vector<Duplicate> duplicates,
   const Tiling& leaves, int threads, DistributedTriangulation& result)
 {
-  const std::size_t rowSize = points.size() > 0 ? points.Rows.size() / points.size() : 0;
+  const std::size_t rowSize = result.RowSize;
   const std::int64_t firstOwn = points.FirstIds[std::size_t(ranks.rank())];
   result.FirstIds = points.FirstIds;
   const std::vector<IdTriangle> seams = bringHome(ranks, kept, points.FirstIds);
@@ -192,8 +191,8 @@ void collect(Postbox& ranks, OwnedPoints<Id>& points, const std::vector<IdTriang
   {
     sink.setInteriorCount(static_cast<PartitionIndex>(leaf), interiorCounts[leaf]);
   }
-  Buffer<Id> ids = sink.assemble(
-    localised(seams, result.ForeignIds, firstOwn, points.Places, leaves), threads);
+  Buffer<Id> ids =
+    sink.assemble(localised(seams, result.ForeignIds, firstOwn, points.Places, leaves), threads);
   if constexpr (sizeof(Id) == 4)
   {
     result.Ids32 = std::move(ids);
@@ -208,7 +207,7 @@ void collect(Postbox& ranks, OwnedPoints<Id>& points, const std::vector<IdTriang
   result.Owned.Rows = std::move(points.Rows);
   preferLowestGlobalIds(result.Owned, firstOwn, duplicates);
   result.Duplicates = std::move(duplicates);
-  result.Foreign = fetch(ranks, result.ForeignIds, points.FirstIds, result.Owned, rowSize);
+  result.Foreign = fetchPoints(ranks, result.ForeignIds, points.FirstIds, result.Owned, rowSize);
 }
 
 template void collect(Postbox&, OwnedPoints<std::int32_t>&, const std::vector<IdTriangle>&,

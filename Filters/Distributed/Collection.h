@@ -16,6 +16,10 @@ void collect(Postbox& ranks, OwnedPoints<Id>& points, const std::vector<IdTriang
   const std::vector<std::size_t>& interiorCounts, std::vector<Duplicate> duplicates,
   const Tiling& leaves, int threads, DistributedTriangulation& result);
 
+/// Asks the owners for the points named by ascending id. Collective.
+PointTuples fetchPoints(Postbox& ranks, const std::vector<std::int64_t>& ids,
+  const std::vector<std::int64_t>& firstIds, const PointTuples& own, std::size_t rowSize);
+
 /// Among points at one place the representative's place in the output gets the data of the point
 /// with the lowest global id. Duplicates are by internal ids, and by global ones afterwards.
 void preferLowestGlobalIds(

@@ -47,10 +47,10 @@ struct GridSize
 struct DistributedOptions
 {
   Masters Design = Masters::Auto;
-  GridSize Major;                      ///< not given: a tree of a chosen number of boxes
+  GridSize Major; ///< not given: a tree of a chosen number of boxes
   Division MinorDivision = Division::Tree;
-  GridSize Minor;                      ///< for Division::Grid; with one master, the partitions
-  std::int64_t Threshold = 0;          ///< T, points a minor partition; 0: chosen
+  GridSize Minor;             ///< for Division::Grid; with one master, the partitions
+  std::int64_t Threshold = 0; ///< T, points a minor partition; 0: chosen
   GroupSizes Groups = GroupSizes::Proportional;
   RankSchedule Order = RankSchedule::Dynamic;
   int InitialPointsPerPartition = 0; ///< 0: chosen

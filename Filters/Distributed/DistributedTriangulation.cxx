@@ -45,7 +45,7 @@ public:
     , Result(result)
     , Threads(options.Threads > 0 ? options.Threads : omp_get_max_threads())
   {
-    this->Input.FirstId = 0;
+    this->Result.RowSize = points.RowSize;
   }
 
   void run()
@@ -218,7 +218,9 @@ private:
       for (Buffer<Point2>* places : { &this->Result.Owned.Places, &this->Result.Foreign.Places })
       {
         std::transform(places->begin(), places->end(), places->begin(),
-          [factor](Point2 p) { return Point2{ p.x / factor, p.y / factor }; });
+          [factor](Point2 p) {
+            return Point2{ p.x / factor, p.y / factor };
+          });
       }
     }
   }
@@ -231,8 +233,8 @@ private:
     triangles.back() = std::int64_t(this->Result.Rejected.size());
     this->Ranks.sum(triangles);
     const auto end = triangles.end() - 2;
-    this->Result.FirstTriangle = std::accumulate(
-      triangles.begin(), triangles.begin() + this->Ranks.rank(), std::int64_t(0));
+    this->Result.FirstTriangle =
+      std::accumulate(triangles.begin(), triangles.begin() + this->Ranks.rank(), std::int64_t(0));
     this->Result.AllTriangles = std::accumulate(triangles.begin(), end, std::int64_t(0));
     this->Result.AllDuplicates = *end;
     this->Result.AllRejected = triangles.back();

@@ -31,6 +31,7 @@ struct DistributedTriangulation
   Buffer<std::int64_t> Ids64;
   PointTuples Owned; ///< also points that no triangle here has
   PointTuples Foreign;
+  std::size_t RowSize = 0;
   std::vector<std::int64_t> ForeignIds; ///< counted over all ranks' owned points; ascending
   std::vector<std::int64_t> FirstIds;   ///< of each rank's owned points in that count; and the end
 

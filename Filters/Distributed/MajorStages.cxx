@@ -127,8 +127,8 @@ std::vector<Ranks> formGroups(const std::vector<std::vector<PartitionIndex>>& st
     for (std::size_t i = 0; i < stage.size(); ++i)
     {
       Ranks& group = groups[std::size_t(stage[i])];
-      group.assign(ranks.begin() + std::ptrdiff_t(next),
-        ranks.begin() + std::ptrdiff_t(next + sizes[i]));
+      group.assign(
+        ranks.begin() + std::ptrdiff_t(next), ranks.begin() + std::ptrdiff_t(next + sizes[i]));
       for (std::size_t k = 0; k < sizes[i]; ++k)
       {
         load[next + k] += double(count(stage[i])) / double(sizes[i]);

@@ -184,8 +184,8 @@ std::size_t wantedSample(std::int64_t points, const DistributedOptions& options,
   const std::int64_t perPart = threshold(points, options, threads);
   const std::size_t parts = std::size_t(partsFor(double(points), perPart));
   return SamplesPerPartition *
-    std::clamp(std::max(parts, std::size_t(options.Major.size())), std::size_t(16),
-      std::size_t(1) << 16);
+    std::clamp(
+      std::max(parts, std::size_t(options.Major.size())), std::size_t(16), std::size_t(1) << 16);
 }
 
 Plan planAlone(const Box2& domain)
@@ -206,8 +206,7 @@ Plan planAlone(const Box2& domain)
 Plan divide(const PlanInput& input, const DistributedOptions& options)
 {
   constexpr std::int64_t alone = 4096;
-  const bool gridded =
-    options.Major.isGiven() || options.Minor.isGiven() || options.Threshold > 0;
+  const bool gridded = options.Major.isGiven() || options.Minor.isGiven() || options.Threshold > 0;
   if (input.Points <= alone && !gridded)
   {
     return planAlone(input.Domain);
@@ -218,8 +217,7 @@ Plan divide(const PlanInput& input, const DistributedOptions& options)
   Area& top = plan.Areas.front();
   if (!wantsManyMasters(options, input.Ranks))
   {
-    top.Boxes =
-      divideBox(input.Domain, input.Sample, double(input.Points), perPart, options);
+    top.Boxes = divideBox(input.Domain, input.Sample, double(input.Points), perPart, options);
     top.Inner = top.Boxes.size();
     plan.Leaves = top.Boxes;
     return top.Inner > 1 ? plan : planAlone(input.Domain);
@@ -238,8 +236,7 @@ Plan divide(const PlanInput& input, const DistributedOptions& options)
   {
     std::vector<Point2>& sample = samples[std::size_t(p)];
     const double points = double(sample.size()) * pointsPerSample;
-    inner.push_back(
-      divideBox(top.Boxes.box(p), std::move(sample), points, perPart, options));
+    inner.push_back(divideBox(top.Boxes.box(p), std::move(sample), points, perPart, options));
     Area area;
     area.Boxes = Tiling::around(input.Domain, inner.back());
     area.Inner = inner.back().size();
@@ -249,8 +246,8 @@ Plan divide(const PlanInput& input, const DistributedOptions& options)
     areas.push_back(std::move(area));
   }
   plan.Leaves = top.Boxes.refined(inner);
-  plan.Areas.insert(plan.Areas.end(), std::make_move_iterator(areas.begin()),
-    std::make_move_iterator(areas.end()));
+  plan.Areas.insert(
+    plan.Areas.end(), std::make_move_iterator(areas.begin()), std::make_move_iterator(areas.end()));
   return plan.Leaves.size() > 1 ? plan : planAlone(input.Domain);
 }
 
@@ -294,8 +291,8 @@ void assign(Plan& plan, const PlanInput& input, const std::vector<std::int64_t>&
       top.Homes.push_back(group);
     }
     top.HomeOf[std::size_t(p)] = place.first->second;
-    assignLeaves(plan, plan.Areas[std::size_t(top.Children[std::size_t(p)])], group, leafCounts,
-      options);
+    assignLeaves(
+      plan, plan.Areas[std::size_t(top.Children[std::size_t(p)])], group, leafCounts, options);
   }
   top.Lead = 0;
 }

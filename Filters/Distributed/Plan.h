@@ -15,8 +15,8 @@ namespace tipp
 /// What one master looks after: partitions that are handed to workers, or to masters of their own.
 struct Area
 {
-  Tiling Boxes;              ///< its partitions, then the rest of the domain in a few boxes
-  PartitionIndex Inner = 0;  ///< the number of its partitions
+  Tiling Boxes;                 ///< its partitions, then the rest of the domain in a few boxes
+  PartitionIndex Inner = 0;     ///< the number of its partitions
   PartitionIndex FirstLeaf = 0; ///< of its partitions in the order of leaves
   std::vector<std::int32_t> Children; ///< the area of each partition; none: they are leaves
   std::vector<std::vector<std::int32_t>> Homes; ///< groups of ranks

@@ -66,8 +66,8 @@ SeamTriangles thoseMeeting(const Area& area, const SeamTriangles& all)
   SeamTriangles kept;
   for (std::size_t i = 0; i < all.Triangles.size(); ++i)
   {
-    if (std::any_of(all.metBegin(i), all.metEnd(i),
-          [&area](PartitionIndex p) { return p < area.Inner; }))
+    if (std::any_of(
+          all.metBegin(i), all.metEnd(i), [&area](PartitionIndex p) { return p < area.Inner; }))
     {
       kept.Triangles.push_back(all.Triangles[i]);
       kept.Met.insert(kept.Met.end(), all.metBegin(i), all.metEnd(i));
@@ -190,8 +190,7 @@ std::vector<PartitionIndex> RankRun<Id>::withPoints(const Area& area) const
   {
     const Area& leaves =
       area.hasLeaves() ? area : this->Work.Areas[std::size_t(area.Children[std::size_t(p)])];
-    const auto begin =
-      this->LeafCounts.begin() + leaves.FirstLeaf + (area.hasLeaves() ? p : 0);
+    const auto begin = this->LeafCounts.begin() + leaves.FirstLeaf + (area.hasLeaves() ? p : 0);
     const auto end = begin + (area.hasLeaves() ? 1 : leaves.Inner);
     if (std::any_of(begin, end, [](std::int64_t count) { return count > 0; }))
     {
@@ -391,8 +390,7 @@ void RankRun<Id>::keepFigures(const Dispatcher& dispatcher, std::int32_t index)
     group.insert(group.end(), home.begin(), home.end());
   }
   std::sort(group.begin(), group.end());
-  figures.GroupSize =
-    std::int32_t(std::unique(group.begin(), group.end()) - group.begin());
+  figures.GroupSize = std::int32_t(std::unique(group.begin(), group.end()) - group.begin());
   figures.LargestMesh = std::int64_t(dispatcher.LargestMesh);
   figures.Seconds = dispatcher.Seconds + this->Dispatchers.at(index).MoreSeconds;
   for (const Dispatcher::Stage& stage : dispatcher.Stages)
@@ -427,8 +425,8 @@ void RankRun<Id>::finishArea(std::int32_t index)
     {
       v = makeSeamVertex(parent.Boxes, parent.Boxes.locate(v.Place), v.Place, v.Id);
     }
-    seams.add(parent.Boxes, triangle,
-      Circumdisk(triangle[0].Place, triangle[1].Place, triangle[2].Place));
+    seams.add(
+      parent.Boxes, triangle, Circumdisk(triangle[0].Place, triangle[1].Place, triangle[2].Place));
   }
   TaskResult result;
   result.Area = active.Parent;

@@ -99,11 +99,11 @@ private:
     std::uint64_t Stamp = 0;
     std::uint32_t Place = 0;
   };
-  std::vector<PartitionIndex> Met;        ///< of each triangle, without the finished partition
+  std::vector<PartitionIndex> Met; ///< of each triangle, without the finished partition
   std::vector<std::uint32_t> MetEnds;
-  std::vector<std::uint32_t> GroupOf;     ///< of each triangle
-  std::vector<std::uint32_t> Samples;     ///< a triangle of each group
-  std::vector<std::uint32_t> Order;       ///< triangles by group
+  std::vector<std::uint32_t> GroupOf; ///< of each triangle
+  std::vector<std::uint32_t> Samples; ///< a triangle of each group
+  std::vector<std::uint32_t> Order;   ///< triangles by group
   std::vector<std::uint32_t> Table;
   std::vector<Slot> Slots;
   std::uint64_t Stamp = 0;

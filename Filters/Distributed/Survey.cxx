@@ -121,8 +121,7 @@ std::vector<Point2> gatherSample(
 {
   const double share = double(points.size()) / double(std::max<std::int64_t>(1, allPoints));
   ByteWriter writer;
-  writer.array(
-    samplePoints(points, static_cast<std::size_t>(std::ceil(share * double(wanted)))));
+  writer.array(samplePoints(points, static_cast<std::size_t>(std::ceil(share * double(wanted)))));
   std::vector<Point2> sample;
   for (const Bytes& bytes : ranks.gather(writer.take()))
   {

@@ -98,8 +98,7 @@ void Postbox::sendTo(int to, MessageKind kind, Bytes content)
   const auto send = [&](const char* data, std::size_t size, int tag)
   {
     outgoing.Requests.emplace_back();
-    this->Controller->NoBlockSend(
-      data, static_cast<int>(size), to, tag, outgoing.Requests.back());
+    this->Controller->NoBlockSend(data, static_cast<int>(size), to, tag, outgoing.Requests.back());
   };
   send(outgoing.Head.data(), outgoing.Head.size(), HeadTag);
   if (!complete)
@@ -202,8 +201,7 @@ bool Postbox::receiveGood(Message& message)
 
 Message Postbox::wait(MessageKind kind, int from)
 {
-  const auto wanted = [kind, from](const Message& m)
-  { return m.Kind == kind && m.Source == from; };
+  const auto wanted = [kind, from](const Message& m) { return m.Kind == kind && m.Source == from; };
   const auto kept = std::find_if(this->Inbox.begin(), this->Inbox.end(), wanted);
   if (kept != this->Inbox.end())
   {
@@ -399,8 +397,7 @@ void Postbox::partAfterFailure()
     }
   }
   this->HasParted[std::size_t(this->Rank)] = 1;
-  while (!this->Unsent.empty() ||
-    std::count(this->HasParted.begin(), this->HasParted.end(), 0) > 0)
+  while (!this->Unsent.empty() || std::count(this->HasParted.begin(), this->HasParted.end(), 0) > 0)
   {
     Message message;
     if (!this->receive(message))

@@ -121,8 +121,8 @@ public:
     }
     catch (const std::bad_alloc&)
     {
-      this->tellFailure(false,
-        "there is not enough memory; use more ranks on more machines, or fewer points.");
+      this->tellFailure(
+        false, "there is not enough memory; use more ranks on more machines, or fewer points.");
     }
     catch (const std::exception& error)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/ImageOutput.h"
 
+#include "Parallel/ForChunks.h"
 #include "Resample/ScalarTypes.h"
 
 #include "vtkCellData.h"
@@ -56,14 +57,18 @@ double bytesOfArrays(const std::vector<vtkPointSet*>& meshes, const SamplingSett
   return bytes;
 }
 
-void fillGhosts(const std::vector<unsigned char>& valid, vtkImageData* image)
+void fillGhosts(const std::vector<unsigned char>& valid, int threads, vtkImageData* image)
 {
   vtkUnsignedCharArray* const points = image->AllocatePointGhostArray();
   unsigned char* const ghosts = points->GetPointer(0);
-  for (std::size_t i = 0; i < valid.size(); ++i)
-  {
-    ghosts[i] = valid[i] ? 0 : vtkDataSetAttributes::HIDDENPOINT;
-  }
+  forChunks(std::int64_t(valid.size()), 1 << 18, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        ghosts[i] = valid[std::size_t(i)] ? 0 : vtkDataSetAttributes::HIDDENPOINT;
+      }
+    });
   vtkUnsignedCharArray* const cells = image->AllocateCellGhostArray();
   int dimensions[3];
   image->GetDimensions(dimensions);
@@ -74,20 +79,26 @@ void fillGhosts(const std::vector<unsigned char>& valid, vtkImageData* image)
   const int layers = std::max(1, dimensions[2] - 1);
   const std::int64_t steps[3] = { dimensions[0] > 1 ? 1 : 0, dimensions[1] > 1 ? width : 0,
     dimensions[2] > 1 ? layer : 0 };
-  unsigned char* cell = cells->GetPointer(0);
-  for (int z = 0; z < layers; ++z)
+  unsigned char* const first = cells->GetPointer(0);
+  const auto fillRow = [&](std::int64_t row)
   {
-    for (int y = 0; y < rows; ++y)
+    const unsigned char* corner = valid.data() + row / rows * layer + row % rows * width;
+    for (unsigned char* cell = first + row * columns; cell < first + (row + 1) * columns;
+         ++cell, ++corner)
     {
-      const unsigned char* corner = valid.data() + z * layer + y * width;
-      for (int x = 0; x < columns; ++x, ++corner, ++cell)
-      {
-        const auto edge = [&](std::int64_t from) { return corner[from] & corner[from + steps[0]]; };
-        const bool whole = edge(0) & edge(steps[1]) & edge(steps[2]) & edge(steps[1] + steps[2]);
-        *cell = whole ? 0 : vtkDataSetAttributes::HIDDENCELL;
-      }
+      const auto edge = [&](std::int64_t from) { return corner[from] & corner[from + steps[0]]; };
+      const bool whole = edge(0) & edge(steps[1]) & edge(steps[2]) & edge(steps[1] + steps[2]);
+      *cell = whole ? 0 : vtkDataSetAttributes::HIDDENCELL;
     }
-  }
+  };
+  forChunks(std::int64_t(rows) * layers, 64, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int)
+    {
+      for (std::int64_t row = begin; row < end; ++row)
+      {
+        fillRow(row);
+      }
+    });
 }
 
 } // namespace
@@ -120,7 +131,7 @@ void refuseTooLarge(const Lattice& local, const Lattice& wanted, bool exchanging
   }
 }
 
-std::int64_t fillImage(SampledImage& samples, vtkImageData* image)
+std::int64_t fillImage(SampledImage& samples, int threads, vtkImageData* image)
 {
   Lattice lattice = samples.lattice();
   image->SetExtent(lattice.Extent.data());
@@ -139,7 +150,7 @@ std::int64_t fillImage(SampledImage& samples, vtkImageData* image)
   data->AddArray(mask);
   if (!lattice.empty())
   {
-    fillGhosts(valid, image);
+    fillGhosts(valid, threads, image);
   }
   return std::count(valid.begin(), valid.end(), 1);
 }

@@ -21,7 +21,7 @@ void refuseTooLarge(const Lattice& local, const Lattice& wanted, bool exchanging
 
 /// Moves the arrays into the image, with vtkValidPointMask and vtkGhostType. Returns the number of
 /// samples that are answered.
-std::int64_t fillImage(SampledImage& samples, vtkImageData* image);
+std::int64_t fillImage(SampledImage& samples, int threads, vtkImageData* image);
 
 struct SamplingReport
 {

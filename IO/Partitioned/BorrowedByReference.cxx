@@ -63,8 +63,8 @@ void BorrowedByReference::addRuns(
     const std::size_t groups = (ofPoints ? table.PointGroups : table.CellGroups).size();
     if (std::size_t(group.Group) >= groups)
     {
-      piece.fail("borrows a group that its owner, piece " + std::to_string(group.Owner) +
-        ", does not lend");
+      piece.fail(
+        "borrows a group that its owner, piece " + std::to_string(group.Owner) + ", does not lend");
     }
     const std::size_t part = std::size_t(group.Group) + 1;
     const std::vector<std::int64_t>& starts = source.File->partStarts(ofPoints);
@@ -175,23 +175,20 @@ void BorrowedByReference::addCells(const Source& source, const Run& run, Piece& 
 {
   const std::size_t corners = std::size_t(piece.CellSize);
   std::vector<Id> ids(std::size_t(run.Count) * corners);
-  source.File->read(
-    source.File->find(PieceRole::Connectivity), run.Part, run.Part + 1, ids.data());
+  source.File->read(source.File->find(PieceRole::Connectivity), run.Part, run.Part + 1, ids.data());
   for (std::size_t i = 0; i < ids.size(); ++i)
   {
     const std::int64_t inOwner = ids[i];
     const auto after = std::upper_bound(source.PointRuns.begin(), source.PointRuns.end(), inOwner,
       [](std::int64_t point, const Run& points) { return point < points.InOwner; });
-    if (after == source.PointRuns.begin() ||
-      inOwner - (after - 1)->InOwner >= (after - 1)->Count)
+    if (after == source.PointRuns.begin() || inOwner - (after - 1)->InOwner >= (after - 1)->Count)
     {
       source.File->fail("lends cells without their points");
     }
     const Run& points = *(after - 1);
     const std::int64_t place =
       this->PointPlaces[std::size_t(points.First + inOwner - points.InOwner)];
-    const std::size_t cell =
-      std::size_t(this->CellPlaces[std::size_t(run.First) + i / corners]);
+    const std::size_t cell = std::size_t(this->CellPlaces[std::size_t(run.First) + i / corners]);
     if (piece.WideIds)
     {
       piece.Connectivity.as<std::int64_t>()[cell * corners + i % corners] = place;

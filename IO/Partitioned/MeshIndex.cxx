@@ -114,8 +114,7 @@ public:
     {
       this->require(value[i].is_number(), std::string("has a wrong ") + name);
       result[i] = value[i].get<double>();
-      const bool good =
-        std::isfinite(result[i]) && (i % 2 == 0 || result[i - 1] <= result[i]);
+      const bool good = std::isfinite(result[i]) && (i % 2 == 0 || result[i - 1] <= result[i]);
       this->require(good, std::string("has a wrong ") + name);
     }
     return result;
@@ -128,8 +127,7 @@ public:
     {
       return std::nullopt;
     }
-    return value.is_number_integer() ? std::make_optional(value.get<std::int64_t>())
-                                     : std::nullopt;
+    return value.is_number_integer() ? std::make_optional(value.get<std::int64_t>()) : std::nullopt;
   }
 
 private:
@@ -179,8 +177,8 @@ PieceSummary parsePiece(const Fields& fields, const PartitionedMesh& mesh)
   fields.require(table.size() == 2, "has a wrong table");
   const std::optional<std::int64_t> offset = Fields::integerOf(table[0]);
   const std::optional<std::int64_t> bytes = Fields::integerOf(table[1]);
-  fields.require(offset && bytes && *offset >= 0 && *bytes >= 0 && *bytes % 8 == 0 &&
-      *bytes <= most - *offset,
+  fields.require(
+    offset && bytes && *offset >= 0 && *bytes >= 0 && *bytes % 8 == 0 && *bytes <= most - *offset,
     "has a wrong table");
   piece.TableOffset = std::uint64_t(*offset);
   piece.TableBytes = std::uint64_t(*bytes);
@@ -208,8 +206,7 @@ void parseArrays(const Fields& fields, const std::string& path, PartitionedMesh&
     const bool isNew = names.emplace(array.OfPoints, array.Name, array.Step).second &&
       (array.Step < 0 || names.count({ array.OfPoints, array.Name, -1 }) == 0);
     fields.require(isNew, "has two arrays named " + array.Name);
-    const bool ordered =
-      mesh.Arrays.empty() || mesh.Arrays.back().OfPoints || !array.OfPoints;
+    const bool ordered = mesh.Arrays.empty() || mesh.Arrays.back().OfPoints || !array.OfPoints;
     fields.require(ordered, "has arrays of points after those of cells");
     mesh.Arrays.push_back(std::move(array));
   }

@@ -19,16 +19,16 @@ using Bounds = std::array<double, 6>;
 /// What is known of one piece without opening its file.
 struct PieceSummary
 {
-  Bounds Box{};                      ///< the partition: a closed box
-  Bounds Extent{};                   ///< of the piece's own points; from > to if there is none
-  std::int64_t Points = 0;           ///< without those of borrowed cells alone
-  std::int64_t Cells = 0;            ///< owned
-  std::int64_t BorrowedCells = 0;    ///< by reference, or at the end of the piece
-  std::int64_t GhostPoints = 0;      ///< at the end of the piece, of borrowed cells alone
-  std::uint64_t FileBytes = 0;       ///< of the piece's .vtu
-  std::uint64_t TableOffset = 0;     ///< of its table in tables.bin
+  Bounds Box{};                   ///< the partition: a closed box
+  Bounds Extent{};                ///< of the piece's own points; from > to if there is none
+  std::int64_t Points = 0;        ///< without those of borrowed cells alone
+  std::int64_t Cells = 0;         ///< owned
+  std::int64_t BorrowedCells = 0; ///< by reference, or at the end of the piece
+  std::int64_t GhostPoints = 0;   ///< at the end of the piece, of borrowed cells alone
+  std::uint64_t FileBytes = 0;    ///< of the piece's .vtu
+  std::uint64_t TableOffset = 0;  ///< of its table in tables.bin
   std::uint64_t TableBytes = 0;
-  std::uint64_t TableChecksum = 0;   ///< XXH3, 64 bits
+  std::uint64_t TableChecksum = 0; ///< XXH3, 64 bits
 };
 
 /// An attribute as every piece stores it. An array that varies in time is one of these a step.

@@ -50,8 +50,7 @@ vtkSmartPointer<vtkDataArray> takeOver(
 void setIds(RawBuffer&& buffer, std::int64_t tuples, const char* name, vtkDataSetAttributes* data)
 {
   static_assert(sizeof(vtkIdType) == 8);
-  const auto ids =
-    takeOver(std::move(buffer), vtkSmartPointer<vtkIdTypeArray>::New(), 1, tuples);
+  const auto ids = takeOver(std::move(buffer), vtkSmartPointer<vtkIdTypeArray>::New(), 1, tuples);
   ids->SetName(name);
   data->SetGlobalIds(ids);
 }
@@ -74,8 +73,8 @@ vtkSmartPointer<vtkCellArray> makeCells(Piece& piece)
   {
     offsets->SetValue(i, typename Array::ValueType(i * corners));
   }
-  const auto connectivity = takeOver(std::move(piece.Connectivity),
-    vtkSmartPointer<Array>::New(), 1, piece.Cells * corners);
+  const auto connectivity = takeOver(
+    std::move(piece.Connectivity), vtkSmartPointer<Array>::New(), 1, piece.Cells * corners);
   auto cells = vtkSmartPointer<vtkCellArray>::New();
   cells->SetData(offsets.Get(), Array::SafeDownCast(connectivity));
   return cells;

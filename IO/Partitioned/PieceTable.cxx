@@ -166,8 +166,7 @@ void takeArrays(
       in.fail("has the array " + array.Name + " end behind its file");
     }
     table.Offsets.push_back(offset);
-    const std::vector<LentGroup>& groups =
-      array.ofPoints() ? table.PointGroups : table.CellGroups;
+    const std::vector<LentGroup>& groups = array.ofPoints() ? table.PointGroups : table.CellGroups;
     std::vector<std::uint64_t> checksums(groups.size() + (mesh.Duplicated ? 2 : 1));
     for (std::uint64_t& checksum : checksums)
     {

@@ -24,10 +24,7 @@ public:
 
   const std::vector<PieceArray>& arrays() const { return this->Layout.Arrays; }
   /// Where the next bytes of an array go; to be filled before the next call for it.
-  char* extend(std::size_t array, std::size_t bytes)
-  {
-    return this->Columns[array].extend(bytes);
-  }
+  char* extend(std::size_t array, std::size_t bytes) { return this->Columns[array].extend(bytes); }
   void endPart(bool ofPoints);
 
   /// Completes the file and what its table says of it: offsets and checksums. Returns its size.

@@ -70,15 +70,13 @@ void widen(Piece& piece, std::int64_t cells)
   piece.Connectivity = std::move(wide);
 }
 
-void readCells(const PartitionedMesh& mesh, const PieceFile& file, std::int64_t stored,
-  Piece& piece)
+void readCells(
+  const PartitionedMesh& mesh, const PieceFile& file, std::int64_t stored, Piece& piece)
 {
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
   const bool wideInFile = hasWideIds(mesh, file.summary());
-  piece.Connectivity = readOwn(file, file.find(PieceRole::Connectivity), stored,
-    piece.Cells);
-  piece.WideIds =
-    wideInFile || piece.Points > most || piece.Cells > most / piece.CellSize;
+  piece.Connectivity = readOwn(file, file.find(PieceRole::Connectivity), stored, piece.Cells);
+  piece.WideIds = wideInFile || piece.Points > most || piece.Cells > most / piece.CellSize;
   if (piece.WideIds && !wideInFile)
   {
     widen(piece, stored);
@@ -87,16 +85,16 @@ void readCells(const PartitionedMesh& mesh, const PieceFile& file, std::int64_t 
   piece.CellIds = readOwn(file, file.find(PieceRole::CellIds), stored, piece.Cells);
 }
 
-void readAttributes(const PartitionedMesh& mesh, const PieceOptions& options,
-  const PieceFile& file, std::int64_t storedPoints, std::int64_t storedCells, Piece& piece)
+void readAttributes(const PartitionedMesh& mesh, const PieceOptions& options, const PieceFile& file,
+  std::int64_t storedPoints, std::int64_t storedCells, Piece& piece)
 {
   for (std::size_t i = 0; i < mesh.Arrays.size(); ++i)
   {
     if (isWanted(mesh, options, i))
     {
       const bool ofPoints = mesh.Arrays[i].OfPoints;
-      RawBuffer values = readOwn(file, file.findAttribute(i),
-        ofPoints ? storedPoints : storedCells, ofPoints ? piece.Points : piece.Cells);
+      RawBuffer values = readOwn(file, file.findAttribute(i), ofPoints ? storedPoints : storedCells,
+        ofPoints ? piece.Points : piece.Cells);
       piece.Attributes.push_back({ mesh.Arrays[i], std::move(values) });
     }
   }

@@ -32,8 +32,9 @@ void Columns::read(std::int64_t first, std::int64_t count, int threads)
       const auto a = std::size_t(number);
       const RawArray& array = this->Arrays[a];
       this->Values[a].resize(std::size_t(count) * this->Bytes[a]);
-      this->Files.at(array.Path)->read(array.Offset + std::uint64_t(first) * this->Bytes[a],
-        this->Values[a].data(), this->Values[a].size());
+      this->Files.at(array.Path)
+        ->read(array.Offset + std::uint64_t(first) * this->Bytes[a], this->Values[a].data(),
+          this->Values[a].size());
     });
 }
 

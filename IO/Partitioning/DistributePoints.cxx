@@ -94,8 +94,7 @@ std::vector<Copy> PointDistribution::copiesOf(
 void PointDistribution::spillChunk(std::int64_t chunk)
 {
   const std::int64_t first = chunk * this->Run.ChunkPoints;
-  const std::int64_t count =
-    std::min(this->Run.ChunkPoints, this->Run.Mesh.Points.Tuples - first);
+  const std::int64_t count = std::min(this->Run.ChunkPoints, this->Run.Mesh.Points.Tuples - first);
   this->Data.read(first, count, this->Run.Threads);
   const std::vector<Copy> copies = this->copiesOf(chunk, first, count);
   this->Run.Statistics.CopiedPoints += std::int64_t(copies.size()) - count;
@@ -103,8 +102,7 @@ void PointDistribution::spillChunk(std::int64_t chunk)
     copies.size(), this->Run.Threads, [&](std::size_t i) { return copies[i].Piece; },
     [&](std::size_t i, char* to)
     {
-      const std::uint64_t id =
-        std::uint64_t(first + copies[i].Place) << 2 | copies[i].Flags;
+      const std::uint64_t id = std::uint64_t(first + copies[i].Place) << 2 | copies[i].Flags;
       std::memcpy(to, &id, 8);
       this->Data.copyRow(copies[i].Place, to + 8);
     });
@@ -119,8 +117,7 @@ void distributePoints(PartitionRun& run)
     [&]
     {
       run.Points.emplace(run.scratch("points"), ranks, run.pieces(), run.Rows.PointBytes);
-      const std::int64_t chunks =
-        (run.Mesh.Points.Tuples + run.ChunkPoints - 1) / run.ChunkPoints;
+      const std::int64_t chunks = (run.Mesh.Points.Tuples + run.ChunkPoints - 1) / run.ChunkPoints;
       const auto [first, last] = ranks.shareOf(chunks);
       PointDistribution distribution(run);
       for (std::int64_t chunk = first; chunk < last; ++chunk)

@@ -25,11 +25,11 @@ struct PartitionOptions
   bool DuplicateBorrowers = false;
   /// In bytes, of each rank; the loaders', the chunks' and the pieces' buffers keep within it.
   std::uint64_t MemoryLimit = std::uint64_t(2) << 30;
-  LoaderOptions Loading;         ///< MemoryLimit in it is set from the above
-  std::int64_t ChunkCells = 0;   ///< 0: as many as fit
-  std::int64_t ChunkPoints = 0;  ///< 0: as many as fit
-  DeviceChoice Device;           ///< that classifies cells
-  int Threads = 0;               ///< 0: OpenMP's choice
+  LoaderOptions Loading;        ///< MemoryLimit in it is set from the above
+  std::int64_t ChunkCells = 0;  ///< 0: as many as fit
+  std::int64_t ChunkPoints = 0; ///< 0: as many as fit
+  DeviceChoice Device;          ///< that classifies cells
+  int Threads = 0;              ///< 0: OpenMP's choice
   /// Called on the first rank's calling thread with the fraction done; false ends the run.
   std::function<bool(double)> Progress;
 };
@@ -51,8 +51,8 @@ struct PartitionStatistics
   std::uint64_t MeshBytes = 0;    ///< of all files
   int Ranks = 1;
   int Threads = 1;
-  std::string Loader;        ///< that was taken
-  LoadCounters Loads;        ///< of all ranks
+  std::string Loader; ///< that was taken
+  LoadCounters Loads; ///< of all ranks
   std::vector<Phase> Phases;
   bool Aborted = false; ///< by Progress; nothing was written
 };

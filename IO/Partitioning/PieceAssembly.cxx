@@ -268,8 +268,8 @@ void PieceAssembly::writeCells()
     shared.emplace_back(places[std::size_t(this->CellSets[i])],
       this->SharedRows.data() + i * this->Run.SharedCells->rowBytes());
   }
-  std::stable_sort(shared.begin(), shared.end(),
-    [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(
+    shared.begin(), shared.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   auto next = shared.begin();
   for (const LentGroup& group : this->Table.CellGroups)
   {

@@ -67,8 +67,8 @@ private:
   std::vector<char> SharedRows;
   std::vector<int> CellSets; ///< of each shared cell
   LentSets Sets;
-  std::vector<int> PointSets; ///< of each point, or -1
-  std::vector<int> PointGroupOf; ///< of each set: its place among the points' groups, or -1
+  std::vector<int> PointSets;       ///< of each point, or -1
+  std::vector<int> PointGroupOf;    ///< of each set: its place among the points' groups, or -1
   std::vector<std::int64_t> Places; ///< of each point in the piece
   IdMap Local;
   std::optional<PieceWriter> Writer;

@@ -62,8 +62,7 @@ void copyCoordinates(const std::vector<const char*>& rows, const RawArray& point
 std::size_t PieceAssembly::dataOffset(const PieceArray& array) const
 {
   const bool ofPoints = array.ofPoints();
-  std::size_t offset =
-    ofPoints ? 8 + this->Run.Mesh.Points.tupleBytes() : this->Run.Rows.CellData;
+  std::size_t offset = ofPoints ? 8 + this->Run.Mesh.Points.tupleBytes() : this->Run.Rows.CellData;
   for (std::int64_t i = 0; i < array.Attribute; ++i)
   {
     const StoredArray& before = this->Run.Result.Arrays[std::size_t(i)];

@@ -14,8 +14,7 @@ std::string Spill::fileOf(const std::string& path, int rank)
   return path + "." + std::to_string(rank);
 }
 
-Spill::Spill(
-  const std::string& path, const Ranks& ranks, std::size_t keys, std::size_t rowBytes)
+Spill::Spill(const std::string& path, const Ranks& ranks, std::size_t keys, std::size_t rowBytes)
   : Path(path)
   , Keys(keys)
   , RowBytes(rowBytes)
@@ -81,8 +80,9 @@ void Spill::exchange(const Ranks& ranks)
   this->Sorted.resize(this->Starts.back());
   std::vector<std::size_t> places(this->Starts.begin(), this->Starts.end() - 1);
   eachExtent(
-    [&](const Extent& extent, std::uint32_t rank)
-    { this->Sorted[places[extent.Key]++] = { extent.Offset, extent.Rows, rank }; });
+    [&](const Extent& extent, std::uint32_t rank) {
+      this->Sorted[places[extent.Key]++] = { extent.Offset, extent.Rows, rank };
+    });
   for (int rank = 0; rank < ranks.count(); ++rank)
   {
     this->Files.emplace_back(fileOf(this->Path, rank));

@@ -37,8 +37,7 @@ void forEachBlock(const FlatMesh& mesh, const Ranks& ranks, int threads, const W
         raw.size());
       const int dimension = mesh.CellSize - 1;
       std::vector<double> coordinates(std::size_t(count) * std::size_t(dimension));
-      takeCoordinates(
-        mesh.Points, raw.data(), std::size_t(count), dimension, coordinates.data());
+      takeCoordinates(mesh.Points, raw.data(), std::size_t(count), dimension, coordinates.data());
       work(block, first, count, coordinates.data());
     });
 }
@@ -132,11 +131,7 @@ void writeHomes(const FlatMesh& mesh, const BoxTiling& tiling, const std::string
             point.Max = point.Min;
             int met = 0;
             std::int32_t home = 0;
-            tiling.forEachMeeting(point,
-              [&](std::int32_t id)
-              {
-                home = met++ == 0 ? id : home;
-              });
+            tiling.forEachMeeting(point, [&](std::int32_t id) { home = met++ == 0 ? id : home; });
             homes[i] = met == 1 ? home : -1 - home;
           }
           file.write(std::uint64_t(first) * 4, homes.data(), homes.size() * 4);

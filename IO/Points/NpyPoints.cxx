@@ -13,8 +13,7 @@ namespace
 {
 
 template <typename Scalar>
-void readRows(
-  NpyReader& reader, const ColumnChoice& choice, std::size_t rows, PointTable& table)
+void readRows(NpyReader& reader, const ColumnChoice& choice, std::size_t rows, PointTable& table)
 {
   constexpr std::size_t chunkRows = 1 << 15;
   const auto columns = std::size_t(reader.columns());
@@ -39,8 +38,7 @@ void readRows(
 
 } // namespace
 
-PointTable readNpyPoints(
-  const std::string& path, const PointOptions& options, int part, int parts)
+PointTable readNpyPoints(const std::string& path, const PointOptions& options, int part, int parts)
 {
   NpyReader reader(path);
   if ((reader.columns() != 2 && reader.columns() != 3) || !reader.isFloat())
@@ -59,8 +57,7 @@ PointTable readNpyPoints(
   table.XY.resize(2 * rows);
   if (names.size() == 3)
   {
-    table.Columns.push_back(
-      { names[3 - choice.X - choice.Y], std::vector<double>(rows) });
+    table.Columns.push_back({ names[3 - choice.X - choice.Y], std::vector<double>(rows) });
   }
   const bool asStored =
     reader.type() == NpyReader::Type::Float64 && names.size() == 2 && choice.X == 0;

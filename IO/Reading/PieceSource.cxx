@@ -5,7 +5,6 @@
 #include "Flat/FlatMesh.h"
 #include "Reading/FlatPieces.h"
 
-
 namespace tipp
 {
 namespace
@@ -21,6 +20,7 @@ public:
   std::vector<std::int64_t> weights() const override
   {
     std::vector<std::int64_t> cells;
+    cells.reserve(this->Mesh.Pieces.size());
     for (const PieceSummary& piece : this->Mesh.Pieces)
     {
       cells.push_back(piece.Cells + piece.BorrowedCells);

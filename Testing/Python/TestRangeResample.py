@@ -82,7 +82,12 @@ class Resample(unittest.TestCase):
 
     def test_numpy_shape_is_that_of_the_dimensions(self):
         p = np.random.default_rng(1).random((500, 3))
-        image = self.run_filter(surface(p, f=p[:, 0]), (0.2, 0.8, 0.2, 0.8, 0, 0), Delta=(0.1, 0.2, 0))
+        image = self.run_filter(
+            surface(p, f=p[:, 0]),
+            (0.2, 0.8, 0.2, 0.8, 0, 0),
+            SamplingDimensions=(1, 1, 1),
+            Delta=(0.1, 0.2, 0),
+        )
         self.assertEqual(image.GetDimensions()[:2], (7, 4))
         rows = arrays_of(image)["f"].reshape(4, 7)
         np.testing.assert_allclose(rows[0], 0.2 + 0.1 * np.arange(7), atol=1e-14)

@@ -71,9 +71,9 @@ DistributedOptions makeDistributedOptions(const DelaunayArguments& arguments)
   options.Design = arguments.Masters == "single" ? Masters::Single
     : arguments.Masters == "multi"               ? Masters::Multi
                                                  : Masters::Auto;
-  options.Order = arguments.Order == "stages"  ? RankSchedule::Stages
-    : arguments.Order == "producer-consumer" ? RankSchedule::ProducerConsumer
-                                               : RankSchedule::Dynamic;
+  options.Order = arguments.Order == "stages" ? RankSchedule::Stages
+    : arguments.Order == "producer-consumer"  ? RankSchedule::ProducerConsumer
+                                              : RankSchedule::Dynamic;
   options.Groups = arguments.Groups == "equal" ? GroupSizes::Equal : GroupSizes::Proportional;
   options.Major = *parseGrid(arguments.Major);
   const MinorChoice minor = *parseMinor(arguments.Minor);

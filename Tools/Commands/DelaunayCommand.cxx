@@ -135,8 +135,7 @@ std::string checkPartitions(const std::string& text)
 
 std::string checkMinor(const std::string& text)
 {
-  return parseMinor(text) ? ""
-                          : "'" + text + "' is none of auto, COLUMNSxROWS, auto:T and tree:T";
+  return parseMinor(text) ? "" : "'" + text + "' is none of auto, COLUMNSxROWS, auto:T and tree:T";
 }
 
 void addTuning(CLI::App& command, DelaunayArguments& arguments)

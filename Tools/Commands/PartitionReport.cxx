@@ -40,8 +40,7 @@ std::string summarize(const PartitionStatistics& statistics)
   return fmt::format("{} cells, {} points, {} pieces, {} borrowed cells, {:.0f} MB, {:.3f} s, peak "
                      "memory {:.0f} MB",
     statistics.Cells, statistics.Points, statistics.Pieces, statistics.BorrowedCells,
-    double(statistics.MeshBytes) / 1e6, totalSeconds(statistics),
-    double(peakMemoryBytes()) / 1e6);
+    double(statistics.MeshBytes) / 1e6, totalSeconds(statistics), double(peakMemoryBytes()) / 1e6);
 }
 
 void writeReport(const std::string& path, const std::string& input, const std::string& output,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Commands/PointsLike.h"
 #include "Distributions/GeneratePoints.h"
 #include "Files/Extension.h"
 #include "Points/WritePoints.h"
@@ -24,13 +25,18 @@ constexpr const char* footer = R"(Distributions:
   circle     random points of the unit circle
   collinear  exactly on a line, in random order
 
+--like takes any file of points that tipp delaunay reads: the new ones lie in the
+triangles between them, equally many in each.
+
 Example:
   tipp points --distribution coast --count 1000000 --seed 7 -o coast.npy
+  tipp points --like fort.14 --count 1000000 -o dense.npy
 )";
 
 struct PointsArguments
 {
   std::string Distribution;
+  std::string Like;
   std::int64_t Count = 0;
   std::uint64_t Seed = 1;
   std::string Output;
@@ -38,10 +44,14 @@ struct PointsArguments
 
 void runPoints(const PointsArguments& arguments)
 {
-  const Distribution distribution = *distributionFromName(arguments.Distribution);
-  writePoints(arguments.Output, generatePoints(distribution, arguments.Count, arguments.Seed));
-  fmt::print("{} {} points, seed {}, in {}\n", arguments.Count, arguments.Distribution,
-    arguments.Seed, arguments.Output);
+  const bool isLike = !arguments.Like.empty();
+  writePoints(arguments.Output,
+    isLike ? pointsLike(arguments.Like, arguments.Count, arguments.Seed)
+           : generatePoints(
+               *distributionFromName(arguments.Distribution), arguments.Count, arguments.Seed));
+  fmt::print("{} {} points, seed {}, in {}\n", arguments.Count,
+    isLike ? "like '" + arguments.Like + "'" : arguments.Distribution, arguments.Seed,
+    arguments.Output);
 }
 
 } // namespace
@@ -52,9 +62,12 @@ void addPointsCommand(CLI::App& app, int& exitCode)
   CLI::App* const command = app.add_subcommand("points",
     "Writes points of a known distribution as an .npy file (N x 2 float64), the same on every "
     "machine");
-  command->add_option("--distribution", arguments->Distribution, "Which, see below")
-    ->required()
+  CLI::Option_group* const kind = command->add_option_group("kind");
+  kind->add_option("--distribution", arguments->Distribution, "Which, see below")
     ->check(CLI::IsMember(distributionNames()));
+  kind->add_option(
+    "--like", arguments->Like, "A file whose points they are to be distributed like");
+  kind->require_option(1);
   command->add_option("--count", arguments->Count, "Number of points")
     ->required()
     ->check(CLI::Range(std::int64_t(0), std::int64_t(1) << 40));

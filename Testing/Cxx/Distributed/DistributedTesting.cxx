@@ -112,8 +112,8 @@ Gathered triangulateShares(const Coordinates& xy, Share share, const Distributed
   {
     for (std::size_t i = 0; i < ids.size(); i += 3)
     {
-      triangles.push_back(canonical(
-        corners.idOf(ids[i]), corners.idOf(ids[i + 1]), corners.idOf(ids[i + 2])));
+      triangles.push_back(
+        canonical(corners.idOf(ids[i]), corners.idOf(ids[i + 1]), corners.idOf(ids[i + 2])));
     }
   };
   add(result.Ids32);

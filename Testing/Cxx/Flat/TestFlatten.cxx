@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Adcirc/AdcircValues.h"
 #include "ExpectIOError.h"
-#include "FlatTesting.h"
 #include "Flat/FlattenAdcirc.h"
 #include "Flat/FlattenDataSet.h"
 #include "Flat/WriteFlatMesh.h"
+#include "FlatTesting.h"
 #include "SharedData.h"
 #include "Vtk/ReadDataSet.h"
 
@@ -45,8 +45,8 @@ protected:
   /// Of a grid of two triangles.
   std::string grid() const
   {
-    return this->Folder.file("fort.14",
-      "title\n2 4\n1 0 0 5\n2 1 0 6\n3 1 1 7\n4 0 1 8\n1 3 1 2 3\n2 3 1 3 4\n");
+    return this->Folder.file(
+      "fort.14", "title\n2 4\n1 0 0 5\n2 1 0 6\n3 1 1 7\n4 0 1 8\n1 3 1 2 3\n2 3 1 3 4\n");
   }
 
   const tipp::test::TemporaryFolder Folder;
@@ -112,8 +112,8 @@ TEST_F(Flatten, ADataSetKeepsItsNumbersAndTheCellsOrigin)
   EXPECT_EQ(Scalar::Float32, mesh.Points.Type);
   EXPECT_EQ((std::vector<std::int64_t>{ 0, 10, 20, 30, 40 }),
     valuesOf<std::int64_t>(arrayNamed(mesh.PointData, "a/id")));
-  EXPECT_EQ((std::vector<double>{ 1, 2, 1, 2, 3, 4 }),
-    valuesOf<double>(arrayNamed(mesh.CellData, "pair")));
+  EXPECT_EQ(
+    (std::vector<double>{ 1, 2, 1, 2, 3, 4 }), valuesOf<double>(arrayNamed(mesh.CellData, "pair")));
   EXPECT_EQ((std::vector<std::uint8_t>{ 1, 1, 0 }),
     valuesOf<std::uint8_t>(arrayNamed(mesh.CellData, "bits")));
   EXPECT_EQ((std::vector<std::int64_t>{ 0, 0, 1 }),
@@ -126,8 +126,8 @@ TEST_F(Flatten, WritesNothingOverAnotherFolder)
   this->Folder.file("flat/notes", "mine");
   const auto grid = quadAndTriangle();
   const tipp::Flattened flattened = tipp::flattenDataSet(grid, "grid.vtu");
-  expectIOError(this->out(), "exists already",
-    [&] { tipp::writeFlatMesh(this->out(), flattened.Content); });
+  expectIOError(
+    this->out(), "exists already", [&] { tipp::writeFlatMesh(this->out(), flattened.Content); });
   EXPECT_EQ("mine", tipp::test::contentOf(this->Folder.path("flat/notes")));
 }
 
@@ -135,8 +135,7 @@ TEST_F(Flatten, LeavesNothingBehindWhenStopped)
 {
   const auto grid = quadAndTriangle();
   const tipp::Flattened flattened = tipp::flattenDataSet(grid, "grid.vtu");
-  EXPECT_FALSE(
-    tipp::writeFlatMesh(this->out(), flattened.Content, [] { return true; }));
+  EXPECT_FALSE(tipp::writeFlatMesh(this->out(), flattened.Content, [] { return true; }));
   EXPECT_EQ(0U, this->Folder.fileCount());
 }
 
@@ -155,7 +154,8 @@ TEST_F(Flatten, AnAdcircGridWithOneStepHasNoTimes)
     this->Folder.file("maxele.63", "title\n1 4 1 1 1\n10 1\n1 0.5\n2 -99999\n3 1\n4 2\n");
   const FlatMesh mesh = this->written(tipp::flattenAdcirc(this->grid(), { values }));
   EXPECT_TRUE(mesh.Times.empty());
-  EXPECT_EQ((std::vector<double>{ 5, 6, 7, 8 }), valuesOf<double>(arrayNamed(mesh.PointData, "depth")));
+  EXPECT_EQ(
+    (std::vector<double>{ 5, 6, 7, 8 }), valuesOf<double>(arrayNamed(mesh.PointData, "depth")));
   EXPECT_EQ((std::vector<double>{ 0.5, -99999, 1, 2 }),
     valuesOf<double>(arrayNamed(mesh.PointData, "maxele")));
 }
@@ -169,9 +169,10 @@ TEST_F(Flatten, AnAdcircGridWithStepsVariesInTime)
   EXPECT_EQ((std::vector<double>{ 10, 20 }), mesh.Times);
   ASSERT_EQ(1U, mesh.PointSeries.size());
   EXPECT_EQ("fort.64", mesh.PointSeries[0][0].Name);
-  EXPECT_EQ((std::vector<double>{ 1, 2, 3, 4, 5, 6, 7, 8 }), valuesOf<double>(mesh.PointSeries[0][0]));
-  EXPECT_EQ((std::vector<double>{ 0, 0, -9, -9, 1, 1, -9, -9 }),
-    valuesOf<double>(mesh.PointSeries[0][1]));
+  EXPECT_EQ(
+    (std::vector<double>{ 1, 2, 3, 4, 5, 6, 7, 8 }), valuesOf<double>(mesh.PointSeries[0][0]));
+  EXPECT_EQ(
+    (std::vector<double>{ 0, 0, -9, -9, 1, 1, -9, -9 }), valuesOf<double>(mesh.PointSeries[0][1]));
 }
 
 TEST_F(Flatten, AdcircValuesThatAreCutOffOrOfAnotherGridAreRefused)

@@ -163,8 +163,7 @@ TEST_F(SimplicesOf, EveryKindOfSolidCellFillIt)
   {
     vtkNew<vtkUnstructuredGrid> grid;
     grid->SetPoints(this->Points);
-    grid->InsertNextCell(
-      cells[i].first, vtkIdType(cells[i].second.size()), cells[i].second.data());
+    grid->InsertNextCell(cells[i].first, vtkIdType(cells[i].second.size()), cells[i].second.data());
     const Simplices simplices = simplicesOf(grid, "a");
     EXPECT_EQ(4, simplices.CellSize);
     EXPECT_NEAR(volumes[i], measure(grid, simplices), 1e-12) << i;

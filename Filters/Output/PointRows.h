@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPointRows_h
+#define tippPointRows_h
+
+#include "Distributed/PointExchange.h"
+#include "Messages/Postbox.h"
+
+#include "vtkSmartPointer.h"
+
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+class vtkPointSet;
+
+namespace tipp
+{
+
+/// A dataset's points and point data as rows of bytes, so that they can travel with the points: the
+/// coordinates in space, and the arrays that every rank with points has.
+class PointRows
+{
+public:
+  /// Collective: ranks agree on arrays.
+  PointRows(Postbox& ranks, vtkPointSet* input);
+
+  struct Column
+  {
+    std::string Name;
+    int Type = 0;
+    int Components = 0;
+    std::size_t Size = 0; ///< bytes
+  };
+
+  const std::vector<Column>& columns() const { return this->Columns; }
+  bool hasGlobalIds() const { return this->GivenIds; }
+  bool areDoubles() const { return this->Doubles; }
+
+  /// Fills in ids and rows. Valid while this object lives.
+  void describe(RankPoints& points) const;
+
+private:
+  std::vector<Column> Columns;
+  std::vector<vtkSmartPointer<vtkDataArray>> Arrays; ///< empty on a rank without points
+  std::vector<const char*> Values;
+  vtkSmartPointer<vtkDataArray> Coordinates;
+  std::vector<PointId> GlobalIds;
+  bool GivenIds = false;
+  bool Doubles = false;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// vtkTIPPDelaunay2D on several ranks.
+#include "vtkTIPPDelaunay2D.h"
+
+#include "Distributed/DistributedTriangulation.h"
+#include "Distributed/GhostTriangles.h"
+#include "Output/Monitor.h"
+#include "Output/PieceOutput.h"
+#include "Output/PointRows.h"
+#include "Output/RankTable.h"
+#include "Projection/ProjectedPoints.h"
+
+#include "vtkErrorCode.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTable.h"
+
+#include <memory>
+#include <stdexcept>
+
+bool vtkTIPPDelaunay2D::HasSeveralRanks() const
+{
+  return this->Controller && this->Controller->GetNumberOfProcesses() > 1;
+}
+
+int vtkTIPPDelaunay2D::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (!this->HasSeveralRanks())
+  {
+    return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
+  }
+  // Whatever piece is asked for, every rank brings its share of the points.
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* input = inputVector[0]->GetInformationObject(0);
+  input->Set(Pipeline::UPDATE_PIECE_NUMBER(), this->Controller->GetLocalProcessId());
+  input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), this->Controller->GetNumberOfProcesses());
+  input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  return 1;
+}
+
+tipp::DistributedOptions vtkTIPPDelaunay2D::OptionsForRanks() const
+{
+  const tipp::RankSchedule schedules[] = { tipp::RankSchedule::Stages, tipp::RankSchedule::Dynamic,
+    tipp::RankSchedule::ProducerConsumer };
+  const tipp::Masters masters[] = { tipp::Masters::Auto, tipp::Masters::Single,
+    tipp::Masters::Multi };
+  tipp::DistributedOptions options;
+  options.Order = schedules[this->Schedule];
+  options.Design = masters[this->Masters];
+  options.Major = { this->NumberOfMajorPartitions[0], this->NumberOfMajorPartitions[1] };
+  options.Minor = { this->NumberOfPartitions[0], this->NumberOfPartitions[1] };
+  options.MinorDivision = options.Minor.isGiven() ? tipp::Division::Grid
+    : this->MinorDivision == THRESHOLD            ? tipp::Division::Threshold
+                                                  : tipp::Division::Tree;
+  options.Threshold = this->PointsPerPartition;
+  options.Groups = this->EqualGroups ? tipp::GroupSizes::Equal : tipp::GroupSizes::Proportional;
+  options.InitialPointsPerPartition = this->InitialPointsPerPartition;
+  options.Threads = this->NumberOfThreads;
+  return options;
+}
+
+const char* vtkTIPPDelaunay2D::WhatNeedsOneRank() const
+{
+  return this->Alpha != 0                                 ? "Alpha"
+    : this->Tolerance > 0                                 ? "Tolerance"
+    : this->BoundingTriangulation                         ? "BoundingTriangulation"
+    : this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE ? "the best fitting plane"
+                                                          : nullptr;
+}
+
+bool vtkTIPPDelaunay2D::ExecuteOnRanks(
+  vtkPointSet* input, bool wantsGhosts, vtkPolyData* output, vtkTable* statistics)
+{
+  this->NumberOfDuplicatePoints = 0;
+  this->NumberOfRejectedPoints = 0;
+  tipp::Postbox ranks(this->Controller);
+  tipp::DistributedTriangulation mine;
+  const auto run = [&]()
+  {
+    if (const char* what = this->WhatNeedsOneRank())
+    {
+      throw std::invalid_argument(
+        std::string(what) + " needs a single rank: set the controller to null on one rank.");
+    }
+    if (this->ProjectionPlaneMode == VTK_SET_TRANSFORM_PLANE && !this->Transform)
+    {
+      throw std::invalid_argument("ProjectionPlaneMode is VTK_SET_TRANSFORM_PLANE, but there is no "
+                                  "Transform: call SetTransform, or choose another mode.");
+    }
+    tipp::Monitor monitor(this);
+    tipp::DistributedOptions options = this->OptionsForRanks();
+    options.Progress = [&monitor](double fraction) { return monitor(fraction); };
+    const tipp::PointRows rows(ranks, input);
+    const tipp::ProjectedPoints projected(input->GetPoints(), this->Transform);
+    tipp::RankPoints points;
+    points.Points = projected.view();
+    rows.describe(points);
+    mine = tipp::triangulateDistributed(ranks, points, options);
+    if (mine.Aborted)
+    {
+      throw tipp::RankFailure(ranks.rank(), true, "The run was stopped.");
+    }
+    if (this->GatherOnFirstRank)
+    {
+      mine = tipp::gatherOnFirst(ranks, std::move(mine));
+    }
+    std::unique_ptr<tipp::GhostTriangles> ghosts;
+    if (wantsGhosts)
+    {
+      ghosts = std::make_unique<tipp::GhostTriangles>(tipp::fetchGhosts(ranks, mine));
+    }
+    tipp::fillPiece(mine, ranks.rank(), rows, ghosts.get(), output);
+  };
+  try
+  {
+    ranks.together(run);
+  }
+  catch (const tipp::RankFailure& failure)
+  {
+    output->Initialize();
+    statistics->Initialize();
+    if (failure.Aborted)
+    {
+      return true;
+    }
+    this->SetErrorCode(vtkErrorCode::UserError);
+    if (ranks.rank() == 0)
+    {
+      vtkErrorMacro("Rank " << failure.Rank << ": " << failure.what());
+    }
+    return false;
+  }
+  this->NumberOfDuplicatePoints = mine.AllDuplicates;
+  this->NumberOfRejectedPoints = mine.AllRejected;
+  if (this->GenerateRepresentativeIds)
+  {
+    tipp::addAccounts(mine, output);
+  }
+  tipp::fillRankTable(mine, statistics);
+  if (ranks.rank() == 0 && mine.AllRejected > 0)
+  {
+    vtkWarningMacro(<< mine.AllRejected << " of " << mine.AllPoints
+                    << " points have a NaN or infinite coordinate and are in no triangle.");
+  }
+  if (ranks.rank() == 0 && mine.AllTriangles == 0)
+  {
+    vtkWarningMacro(
+      "No triangles: all ranks together have fewer than three distinct finite points, "
+      "or all are on one line.");
+  }
+  return true;
+}

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// vtkTIPPDelaunay2D with the global controller of several ranks.
+#include "DistributedTesting.h"
+
+#include "vtkTIPPDelaunay2D.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+
+/// This rank's share of the points, with z, an array and, if wanted, global ids.
+vtkSmartPointer<vtkPolyData> shareAsData(const Coordinates& xy, bool withIds)
+{
+  const RankShare mine = shareOf(xy, withIds ? Share::RoundRobin : Share::Blocks, rank(), ranks());
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> height;
+  height->SetName("height");
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("ids");
+  for (std::size_t i = 0; i < mine.GlobalIds.size(); ++i)
+  {
+    const double id = double(mine.GlobalIds[i]);
+    points->InsertNextPoint(mine.XY[2 * i], mine.XY[2 * i + 1], id);
+    height->InsertNextValue(3 * id);
+    ids->InsertNextValue(mine.GlobalIds[i]);
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->GetPointData()->AddArray(height);
+  if (withIds)
+  {
+    data->GetPointData()->SetGlobalIds(ids);
+  }
+  return data;
+}
+
+vtkIdType idAt(vtkDataArray* ids, vtkIdType i)
+{
+  return static_cast<vtkIdTypeArray*>(ids)->GetValue(i);
+}
+
+bool isGhost(vtkDataSetAttributes* data, vtkIdType i)
+{
+  auto* ghosts = vtkUnsignedCharArray::SafeDownCast(
+    data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
+  return ghosts && ghosts->GetValue(i) != 0;
+}
+
+Triangle cornersOf(vtkPolyData* mesh, vtkIdType cell)
+{
+  vtkDataArray* ids = mesh->GetPointData()->GetGlobalIds();
+  vtkNew<vtkIdList> corners;
+  mesh->GetCellPoints(cell, corners);
+  return canonical(
+    idAt(ids, corners->GetId(0)), idAt(ids, corners->GetId(1)), idAt(ids, corners->GetId(2)));
+}
+
+struct PieceCell
+{
+  Triangle Corners;
+  std::int64_t Number;
+  std::int64_t IsGhost;
+};
+
+std::vector<PieceCell> cellsOf(vtkPolyData* mesh)
+{
+  std::vector<PieceCell> cells;
+  mesh->BuildCells();
+  for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
+  {
+    cells.push_back({ cornersOf(mesh, i), idAt(mesh->GetCellData()->GetGlobalIds(), i),
+      isGhost(mesh->GetCellData(), i) });
+  }
+  return cells;
+}
+
+/// All ranks' cells, on rank 0.
+std::vector<std::vector<PieceCell>> gatherCells(vtkPolyData* mesh)
+{
+  Postbox box(vtkMultiProcessController::GetGlobalController());
+  ByteWriter writer;
+  writer.array(cellsOf(mesh));
+  std::vector<std::vector<PieceCell>> all;
+  for (const Bytes& bytes : box.gather(writer.take()))
+  {
+    all.push_back(ByteReader(bytes).array<PieceCell>());
+  }
+  box.barrier();
+  return all;
+}
+
+void expectWhole(const std::vector<std::vector<PieceCell>>& pieces, const Triangles& expected,
+  const Coordinates& xy)
+{
+  Triangles all;
+  std::set<std::int64_t> numbers;
+  for (const auto& piece : pieces)
+  {
+    for (const PieceCell& cell : piece)
+    {
+      if (!cell.IsGhost)
+      {
+        all.push_back(cell.Corners);
+        numbers.insert(cell.Number);
+      }
+    }
+  }
+  EXPECT_EQ(sorted(all), expected);
+  ASSERT_EQ(numbers.size(), all.size());
+  EXPECT_TRUE(
+    all.empty() || (*numbers.begin() == 0 && *numbers.rbegin() + 1 == std::int64_t(all.size())));
+  EXPECT_FALSE(xy.empty());
+}
+
+TEST(Delaunay2DRanks, PiecesAreTheWholeTriangulation)
+{
+  const Coordinates xy = makePointSet("duplicates", 6000);
+  for (const bool withIds : { true, false })
+  {
+    vtkNew<vtkTIPPDelaunay2D> filter;
+    filter->SetPointsPerPartition(150);
+    filter->SetInputData(shareAsData(xy, withIds));
+    filter->Update();
+    const auto pieces = gatherCells(filter->GetOutput());
+    const Reference expected = reference(xy);
+    if (rank() == 0)
+    {
+      expectWhole(pieces, expected.Mesh, xy);
+    }
+    std::size_t duplicates = 0;
+    for (std::size_t i = 0; i < expected.Representative.size(); ++i)
+    {
+      duplicates += expected.Representative[i] != std::int64_t(i);
+    }
+    EXPECT_EQ(filter->GetNumberOfDuplicatePoints(), vtkIdType(duplicates));
+  }
+}
+
+TEST(Delaunay2DRanks, PointsKeepTheirDataAndThirdCoordinate)
+{
+  const Coordinates xy = makePointSet("uniform", 5000);
+  vtkNew<vtkTIPPDelaunay2D> filter;
+  filter->SetPointsPerPartition(200);
+  filter->SetInputData(shareAsData(xy, true));
+  filter->Update();
+  if (ranks() == 1)
+  {
+    return; // the input's own points
+  }
+  vtkPolyData* mesh = filter->GetOutput();
+  vtkDataArray* ids = mesh->GetPointData()->GetGlobalIds();
+  vtkDataArray* height = mesh->GetPointData()->GetArray("height");
+  ASSERT_NE(ids, nullptr);
+  ASSERT_NE(height, nullptr);
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  {
+    const vtkIdType id = idAt(ids, i);
+    ASSERT_EQ(height->GetTuple1(i), 3.0 * double(id));
+    ASSERT_EQ(mesh->GetPoint(i)[0], xy[2 * std::size_t(id)]);
+    ASSERT_EQ(mesh->GetPoint(i)[2], double(id));
+  }
+}
+
+TEST(Delaunay2DRanks, GhostsAreTheOtherTrianglesAtAPiecesPoints)
+{
+  const Coordinates xy = makePointSet("clustered", 5000);
+  vtkNew<vtkTIPPDelaunay2D> filter;
+  filter->SetPointsPerPartition(150);
+  filter->SetInputData(shareAsData(xy, true));
+  filter->UpdatePiece(rank(), ranks(), 1);
+  const auto pieces = gatherCells(filter->GetOutput());
+  if (rank() != 0 || ranks() == 1)
+  {
+    return;
+  }
+  const Reference expected = reference(xy);
+  expectWhole(pieces, expected.Mesh, xy);
+  for (const auto& piece : pieces)
+  {
+    std::set<std::int64_t> points;
+    Triangles own;
+    Triangles ghosts;
+    for (const PieceCell& cell : piece)
+    {
+      (cell.IsGhost ? ghosts : own).push_back(cell.Corners);
+      if (!cell.IsGhost)
+      {
+        points.insert(cell.Corners.begin(), cell.Corners.end());
+      }
+    }
+    own = sorted(own);
+    Triangles around;
+    for (const Triangle& triangle : expected.Mesh)
+    {
+      const bool touches = std::any_of(triangle.begin(), triangle.end(),
+        [&points](std::int64_t id) { return points.count(id) > 0; });
+      if (touches && !std::binary_search(own.begin(), own.end(), triangle))
+      {
+        around.push_back(triangle);
+      }
+    }
+    EXPECT_EQ(sorted(ghosts), around);
+  }
+}
+
+TEST(Delaunay2DRanks, EverythingCanBeGatheredOnTheFirstRank)
+{
+  const Coordinates xy = makePointSet("uniform", 5000);
+  vtkNew<vtkTIPPDelaunay2D> filter;
+  filter->SetPointsPerPartition(200);
+  filter->GatherOnFirstRankOn();
+  filter->SetInputData(shareAsData(xy, true));
+  filter->Update();
+  vtkPolyData* mesh = filter->GetOutput();
+  if (ranks() == 1)
+  {
+    return;
+  }
+  if (rank() != 0)
+  {
+    EXPECT_EQ(mesh->GetNumberOfCells(), 0);
+    return;
+  }
+  expectWhole({ cellsOf(mesh) }, reference(xy).Mesh, xy);
+}
+
+TEST(Delaunay2DRanks, StatisticsAreTheSameOnAllRanks)
+{
+  const Coordinates xy = makePointSet("uniform", 20000);
+  vtkNew<vtkTIPPDelaunay2D> filter;
+  filter->SetMasters(vtkTIPPDelaunay2D::MULTI_MASTER);
+  filter->SetNumberOfMajorPartitions(4, 4);
+  filter->SetNumberOfPartitions(4, 4);
+  filter->SetInputData(shareAsData(xy, true));
+  filter->Update();
+  if (ranks() == 1)
+  {
+    return;
+  }
+  vtkFieldData* totals = filter->GetStatistics()->GetFieldData();
+  EXPECT_EQ(totals->GetArray("Partitions")->GetTuple1(0), 256);
+  EXPECT_EQ(totals->GetArray("MajorPartitions")->GetTuple1(0), 16);
+  EXPECT_EQ(totals->GetArray("RankOwnedPoints")->GetNumberOfTuples(), ranks());
+  EXPECT_EQ(totals->GetArray("Points")->GetTuple1(0), 20000);
+  EXPECT_GT(filter->GetStatistics()->GetNumberOfRows(), 0);
+}
+
+TEST(Delaunay2DRanks, WhatNeedsOneRankIsRefusedOnAll)
+{
+  if (ranks() == 1)
+  {
+    return;
+  }
+  vtkNew<vtkTIPPDelaunay2D> filter;
+  filter->SetAlpha(0.1);
+  filter->SetInputData(shareAsData(makePointSet("uniform", 500), true));
+  vtkObject::GlobalWarningDisplayOff();
+  filter->Update();
+  vtkObject::GlobalWarningDisplayOn();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_NE(filter->GetErrorCode(), 0u);
+}
+
+TEST(Delaunay2DRanks, WithoutAControllerARankIsAlone)
+{
+  const Coordinates xy = makePointSet("uniform", 300, std::uint64_t(rank()) + 1);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (std::size_t i = 0; i < xy.size(); i += 2)
+  {
+    points->InsertNextPoint(xy[i], xy[i + 1], 0);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  vtkNew<vtkTIPPDelaunay2D> filter;
+  filter->SetController(nullptr);
+  filter->SetInputData(data);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), vtkIdType(reference(xy).Mesh.size()));
+}
+
+} // namespace
