@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/PieceLayout.h"
 
-#include <cstdio>
 #include <limits>
 
 namespace tipp
@@ -40,22 +39,6 @@ std::string escaped(const std::string& text)
     }
   }
   return out;
-}
-
-std::string timesAttribute(const PartitionedMesh& mesh)
-{
-  if (mesh.Times.empty())
-  {
-    return "";
-  }
-  std::string text = " TimeValues=\"";
-  for (std::size_t i = 0; i < mesh.Times.size(); ++i)
-  {
-    char number[32];
-    std::snprintf(number, sizeof(number), i == 0 ? "%.17g" : " %.17g", mesh.Times[i]);
-    text += number;
-  }
-  return text + "\"";
 }
 
 /// What describes an array alike in a piece and in the .pvtu.
@@ -122,9 +105,7 @@ std::string pieceSections(const PieceLayout& layout)
       const PieceArray& array = layout.Arrays[a];
       if (isIn(name, array.Role))
       {
-        const std::string step =
-          array.Step < 0 ? "" : " TimeStep=\"" + std::to_string(array.Step) + "\"";
-        lines.push_back("<DataArray" + describe(array) + step + " format=\"appended\" offset=\"" +
+        lines.push_back("<DataArray" + describe(array) + " format=\"appended\" offset=\"" +
           std::to_string(layout.Offsets[a] - 8) + "\"/>\n");
       }
     }
@@ -134,6 +115,11 @@ std::string pieceSections(const PieceLayout& layout)
 }
 
 } // namespace
+
+std::string storedName(const StoredArray& array)
+{
+  return array.Step < 0 ? array.Name : array.Name + " step " + std::to_string(array.Step);
+}
 
 bool hasWideIds(const PartitionedMesh& mesh, const PieceSummary& piece)
 {
@@ -146,9 +132,9 @@ std::vector<PieceArray> pieceArrays(const PartitionedMesh& mesh, const PieceSumm
 {
   const Scalar local = hasWideIds(mesh, piece) ? Scalar::Int64 : Scalar::Int32;
   std::vector<PieceArray> arrays{
-    { PieceRole::Points, "Points", mesh.PointType, 3, -1, -1 },
-    { PieceRole::PointIds, pointIdsName, Scalar::Int64, 1, -1, -1 },
-    { PieceRole::PointGhosts, ghostsName, Scalar::UInt8, 1, -1, -1 },
+    { PieceRole::Points, "Points", mesh.PointType, 3, -1 },
+    { PieceRole::PointIds, pointIdsName, Scalar::Int64, 1, -1 },
+    { PieceRole::PointGhosts, ghostsName, Scalar::UInt8, 1, -1 },
   };
   const auto addData = [&](bool ofPoints)
   {
@@ -157,19 +143,19 @@ std::vector<PieceArray> pieceArrays(const PartitionedMesh& mesh, const PieceSumm
       const StoredArray& data = mesh.Arrays[i];
       if (data.OfPoints == ofPoints)
       {
-        arrays.push_back({ ofPoints ? PieceRole::PointData : PieceRole::CellData, data.Name,
-          data.Type, data.Components, data.Step, std::int64_t(i) });
+        arrays.push_back({ ofPoints ? PieceRole::PointData : PieceRole::CellData, storedName(data),
+          data.Type, data.Components, std::int64_t(i) });
       }
     }
   };
   addData(true);
-  arrays.push_back({ PieceRole::Connectivity, "connectivity", local, mesh.CellSize, -1, -1 });
-  arrays.push_back({ PieceRole::Offsets, "offsets", local, 1, -1, -1 });
-  arrays.push_back({ PieceRole::Types, "types", Scalar::UInt8, 1, -1, -1 });
-  arrays.push_back({ PieceRole::CellIds, cellIdsName, Scalar::Int64, 1, -1, -1 });
+  arrays.push_back({ PieceRole::Connectivity, "connectivity", local, mesh.CellSize, -1 });
+  arrays.push_back({ PieceRole::Offsets, "offsets", local, 1, -1 });
+  arrays.push_back({ PieceRole::Types, "types", Scalar::UInt8, 1, -1 });
+  arrays.push_back({ PieceRole::CellIds, cellIdsName, Scalar::Int64, 1, -1 });
   if (mesh.Duplicated)
   {
-    arrays.push_back({ PieceRole::CellGhosts, ghostsName, Scalar::UInt8, 1, -1, -1 });
+    arrays.push_back({ PieceRole::CellGhosts, ghostsName, Scalar::UInt8, 1, -1 });
   }
   addData(false);
   return arrays;
@@ -203,7 +189,7 @@ PieceLayout layOutPiece(const PartitionedMesh& mesh, std::size_t number, const P
   header = startOf("UnstructuredGrid");
   header += "  <!-- Piece " + std::to_string(number) + " of " + std::to_string(mesh.Pieces.size()) +
     " of a partitioned mesh; ../index.json tells more. -->\n";
-  header += "  <UnstructuredGrid" + timesAttribute(mesh) + ">\n    <Piece NumberOfPoints=\"" +
+  header += "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"" +
     std::to_string(piece.Points + piece.GhostPoints) + "\" NumberOfCells=\"" +
     std::to_string(cells) + "\">\n";
   header += pieceSections(layout);
@@ -229,7 +215,7 @@ std::string pvtuText(const PartitionedMesh& mesh)
     std::vector<std::string> lines;
     for (const PieceArray& array : arrays)
     {
-      if (isIn(name, array.Role) && array.Step <= 0)
+      if (isIn(name, array.Role))
       {
         lines.push_back("<PDataArray" + describe(array) + "/>\n");
       }

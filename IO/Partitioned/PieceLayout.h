@@ -33,7 +33,6 @@ struct PieceArray
   std::string Name;
   Scalar Type;
   int Components;
-  int Step = -1;
   std::int64_t Attribute = -1; ///< of PartitionedMesh::Arrays, for data
 
   bool ofPoints() const { return this->Role <= PieceRole::PointData; }
@@ -44,6 +43,11 @@ struct PieceArray
 extern const char* const pointIdsName;
 extern const char* const cellIdsName;
 extern const char* const ghostsName;
+
+/// An attribute's name in the pieces: "level step 7" for a step of one that varies in time. VTK's
+/// own attribute TimeStep is of no use: its reader, up to version 9.2 at least, adds the cells once
+/// more for each step that it reads.
+std::string storedName(const StoredArray& array);
 
 /// Whether the piece's own ids need 64 bits: where a point's number or the connectivity's length
 /// does not fit in 31.

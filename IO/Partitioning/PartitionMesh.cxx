@@ -59,13 +59,14 @@ void describeArrays(const FlatMesh& mesh, PartitionRun& run)
     { false, cellIdsName }, { false, ghostsName } };
   const auto add = [&](const RawArray& array, bool ofPoints, int step)
   {
-    if (step <= 0 && !names.emplace(ofPoints, array.Name).second)
+    const StoredArray stored{ array.Name, ofPoints, array.Type, array.Components, step };
+    if (!names.emplace(ofPoints, storedName(stored)).second)
     {
       throw IOError(mesh.Path,
-        "has two arrays named " + array.Name +
+        "has two arrays named " + storedName(stored) +
           ", or one named as the partitioned mesh names its own; rename it.");
     }
-    run.Result.Arrays.push_back({ array.Name, ofPoints, array.Type, array.Components, step });
+    run.Result.Arrays.push_back(stored);
     (ofPoints ? run.PointData : run.CellData).push_back(array);
   };
   for (const bool ofPoints : { true, false })

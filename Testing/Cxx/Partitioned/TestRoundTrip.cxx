@@ -319,6 +319,27 @@ TEST_F(RoundTrip, KeepsTimeSteps)
   }
 }
 
+TEST_F(RoundTrip, ShowsVtkEachTimeStepAsAnArray)
+{
+  SourceMesh source = makeSource(latticeTriangles(8, 0.3));
+  addSeries(source, 3);
+  this->use(source);
+  const PartitionedMesh mesh = openPartitionedMesh(this->make("grid:2x2"));
+  vtkNew<vtkXMLPUnstructuredGridReader> reader;
+  reader->SetFileName(mesh.pvtuPath().c_str());
+  reader->Update();
+  vtkPointData* const data = reader->GetOutput()->GetPointData();
+  for (int step = 0; step < 3; ++step)
+  {
+    vtkDataArray* const level = data->GetArray(("level step " + std::to_string(step)).c_str());
+    ASSERT_NE(nullptr, level);
+    for (vtkIdType i = 0; i < level->GetNumberOfTuples(); ++i)
+    {
+      ASSERT_EQ(data->GetGlobalIds()->GetTuple1(i) + 1e6 * step, level->GetTuple1(i));
+    }
+  }
+}
+
 TEST_F(RoundTrip, RefusesArraysNamedAsItsOwn)
 {
   this->use(makeSource(latticeTriangles(2, 0)));
