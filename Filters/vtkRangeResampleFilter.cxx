@@ -245,13 +245,13 @@ vtkRangeResampleFilter::vtkRangeResampleFilter()
   {
     selection->AddObserver(vtkCommand::ModifiedEvent, this, &vtkRangeResampleFilter::Modified);
   }
-  this->SetController(vtkMultiProcessController::GetGlobalController());
+  this->vtkRangeResampleFilter::SetController(vtkMultiProcessController::GetGlobalController());
 }
 
 vtkRangeResampleFilter::~vtkRangeResampleFilter()
 {
-  this->SetController(nullptr);
-  this->SetDeviceName(nullptr);
+  this->vtkRangeResampleFilter::SetController(nullptr);
+  this->vtkRangeResampleFilter::SetDeviceName(nullptr);
   this->PointDataArraySelection->Delete();
   this->CellDataArraySelection->Delete();
 }

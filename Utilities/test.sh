@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds and passes every check, or the ones named: sh Utilities/test.sh [STEP...]
-# Steps: format build tidy asan tsan tests. Each ends with one line; the first failure stops the run.
+# Steps: format build tests asan tsan; and, by name only for they take long, tidy and analysis. Each
+# ends with one line; the first failure stops the run.
 set -eu
 
 top=$(cd "$(dirname "$0")/.." && pwd)
@@ -15,10 +16,13 @@ check_format() { sources | xargs clang-format --dry-run -Werror; }
 check_build() { sh Utilities/build.sh default; }
 
 # The libraries and the tool; the tests are checked by passing.
-check_tidy() {
-  run-clang-tidy -quiet -p build -j "$(nproc)" "^$top/(Accelerators|IO|Filters|Tools)/.*\.cxx$" \
+run_tidy() { # OPTION...
+  run-clang-tidy -quiet -p build -j "$(nproc)" "$@" \
+    "^$top/(Accelerators|IO|Filters|Tools)/.*\.cxx$" \
     > build/clang-tidy.log 2>&1 || { grep -E 'error:|warning:' build/clang-tidy.log; return 1; }
 }
+check_tidy() { run_tidy '-checks=-clang-analyzer-*'; }
+check_analysis() { run_tidy; }
 
 check_sanitizer() { sh Utilities/build.sh "$1" && ctest --preset "$1"; }
 check_asan() { check_sanitizer asan; }
@@ -27,11 +31,11 @@ check_tsan() { check_sanitizer tsan; }
 # Tests that render need a display.
 check_tests() { xvfb-run -a ctest --preset default; }
 
-for step in ${*:-format build tidy asan tsan tests}; do
+for step in ${*:-format build tests asan tsan}; do
   case $step in
-    format | build | tidy | asan | tsan | tests) ;;
+    format | build | tests | asan | tsan | tidy | analysis) ;;
     *)
-      echo "Unknown step '$step'; the steps are: format build tidy asan tsan tests." >&2
+      echo "Unknown step '$step'; the steps are: format build tests asan tsan tidy analysis." >&2
       exit 2
       ;;
   esac

@@ -39,7 +39,7 @@ struct Attribute
 template <typename Work>
 void withScalar(Scalar type, const Work& work)
 {
-  switch (type)
+  switch (type) // NOLINT(bugprone-branch-clone): the types differ.
   {
     case Scalar::Float32:
       return work(float());

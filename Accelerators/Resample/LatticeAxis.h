@@ -105,7 +105,7 @@ public:
   {
     const double begin = this->place(low);
     const double end = this->place(high);
-    if (certain(begin, error) & certain(end, error))
+    if ((int(certain(begin, error)) & int(certain(end, error))) != 0) // & : one branch
     {
       return { int(begin), int(end) };
     }

@@ -39,6 +39,7 @@ std::int64_t cellsOnDevice(const ComputeDevice& device, const SimplexMesh& mesh,
     throw AcceleratorError("The OpenCL device '" + description.Name + "' has no memory for " +
       std::to_string(others) + " bytes of samples: use a smaller range or fewer samples.");
   }
+  // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): a cell has corners.
   const std::int64_t most = std::numeric_limits<cl_int>::max() / std::int64_t(corners);
   return std::min(std::int64_t(left / cellBytes), most);
 }

@@ -94,6 +94,7 @@ void withAccess(const SimplexMesh& mesh, const Work& work)
               : work(SimplexAccess<d, Scalar, std::int32_t>(mesh));
   };
   const auto withScalar = [&](auto dimension)
+  // NOLINTNEXTLINE(bugprone-branch-clone): the types differ.
   { mesh.Float ? withIds(dimension, float()) : withIds(dimension, double()); };
   mesh.Dimension == 2 ? withScalar(std::integral_constant<int, 2>())
                       : withScalar(std::integral_constant<int, 3>());

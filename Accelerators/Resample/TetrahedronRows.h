@@ -43,7 +43,7 @@ public:
     const double low = least(a.z, b.z, c.z, d.z);
     const double high = most(a.z, b.z, c.z, d.z);
     this->Layers = this->Z.range(low, high, this->Z.error(std::max(-low, high)));
-    if (this->Columns.empty() | this->Rows.empty() | this->Layers.empty())
+    if ((int(this->Columns.empty()) | int(this->Rows.empty()) | int(this->Layers.empty())) != 0)
     {
       return false;
     }

@@ -55,8 +55,8 @@ public:
     const Edge& edge = this->Short[y >= this->Middle];
     const double atLong = this->place(this->Long, y);
     const double atShort = this->place(edge, y);
-    if (LatticeAxis::certain(atLong, this->Error) & LatticeAxis::certain(atShort, this->Error) &
-      (y < this->Long.High.y))
+    if ((int(LatticeAxis::certain(atLong, this->Error)) &
+          int(LatticeAxis::certain(atShort, this->Error)) & int(y < this->Long.High.y)) != 0)
     {
       const int toLong = int(atLong);
       const int toShort = int(atShort);

@@ -148,7 +148,8 @@ void assignLeaves(Plan& plan, Area& area, const std::vector<std::int32_t>& group
   area.Lead = group.front();
   for (PartitionIndex p = 0; p < area.Inner; ++p)
   {
-    plan.Owners[std::size_t(area.FirstLeaf + p)] = group[std::size_t(area.HomeOf[std::size_t(p)])];
+    plan.Owners[std::size_t(area.FirstLeaf) + std::size_t(p)] =
+      group[std::size_t(area.HomeOf[std::size_t(p)])];
   }
 }
 

@@ -479,8 +479,7 @@ bool RankRun<Id>::step()
     this->handle(message);
     moved = true;
   }
-  TaskResult result;
-  while (this->Workers.take(result))
+  for (TaskResult result; this->Workers.take(result); result = {})
   {
     ++this->Statistics.Partitions;
     const std::int32_t master = this->Work.Areas[std::size_t(result.Area)].Lead;

@@ -49,14 +49,15 @@ void forRows(const Extent& whole, const Extent& part, const Work& work)
     for (int y = part[2]; y <= part[3]; ++y)
     {
       const std::int64_t row = (z - whole[4]) * depth + (y - whole[2]);
-      work(row * width + (part[0] - whole[0]), std::int64_t(part[1] - part[0] + 1));
+      work(row * width + (part[0] - whole[0]), std::int64_t(part[1]) - part[0] + 1);
     }
   }
 }
 
 std::size_t tupleBytes(const SampledImage::Array& array)
 {
-  return std::size_t(array.Samples->GetNumberOfComponents() * array.Samples->GetDataTypeSize());
+  return std::size_t(array.Samples->GetNumberOfComponents()) *
+    std::size_t(array.Samples->GetDataTypeSize());
 }
 
 char* bytesOf(const SampledImage::Array& array)
