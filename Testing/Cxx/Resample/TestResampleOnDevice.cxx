@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OpenCL/DeviceList.h"
 #include "Resample/Resample.h"
 
+#include "RequireDevice.h"
 #include "ResampleScenes.h"
 
 #include <gtest/gtest.h>
@@ -61,13 +61,7 @@ void expectAgreement(const Scene& scene, const tipp::Lattice& lattice, std::uint
 class ResampleOnDevice : public testing::Test
 {
 protected:
-  void SetUp() override
-  {
-    if (tipp::listDevices().empty())
-    {
-      GTEST_SKIP() << "there is no OpenCL device";
-    }
-  }
+  void SetUp() override { TIPP_REQUIRE_OPENCL(); }
 };
 
 } // namespace
