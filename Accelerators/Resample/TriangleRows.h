@@ -41,7 +41,9 @@ public:
     const double low = p[lowest].y;
     const double high = p[highest].y;
     this->Rows = this->V.range(low, high, this->V.error(std::max(-low, high)));
-    return !this->Rows.empty() && this->setEdges(p[lowest], p[3 - lowest - highest], p[highest]);
+    // Only beside NaN are both the same.
+    return !this->Rows.empty() && lowest != highest &&
+      this->setEdges(p[lowest], p[3 - lowest - highest], p[highest]);
   }
 
   IndexRange columns() const { return this->Columns; }
