@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRangeResampleFilter.h"
 
-#include "Compatibility.h"
+#include "Messages/Postbox.h"
 #include "Output/Monitor.h"
 #include "Resample/ExchangeSamples.h"
 #include "Resample/ImageOutput.h"
@@ -9,10 +9,10 @@
 #include "Resample/SamplingRange.h"
 #include "Triangulation/Stopwatch.h"
 
+#include "vtkAlgorithmOutput.h"
 #include "vtkCommand.h"
-#include "vtkCommunicator.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkDataArraySelection.h"
+#include "vtkExecutive.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -27,7 +27,9 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <cstring>
+#include <exception>
+#include <memory>
+#include <stdexcept>
 
 vtkStandardNewMacro(vtkRangeResampleFilter);
 vtkCxxSetObjectMacro(vtkRangeResampleFilter, Controller, vtkMultiProcessController);
@@ -45,58 +47,80 @@ std::array<T, N> toArray(const T (&values)[N])
   return result;
 }
 
-/// The controller if there is more than one rank.
-vtkMultiProcessController* ranksOf(vtkMultiProcessController* controller)
+/// What to do where memory is short is another thing here than for a triangulation.
+template <typename Work>
+void withMemoryAdvice(const Work& work)
 {
-  return controller && controller->GetNumberOfProcesses() > 1 ? controller : nullptr;
+  try
+  {
+    work();
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw std::runtime_error(
+      "there is not enough memory for the samples: use a smaller range or fewer samples.");
+  }
 }
 
-bool failedAnywhere(vtkMultiProcessController* controller, bool failed)
+/// Asks the input for a piece of all ranks' pieces.
+void askForPiece(vtkInformation* inInfo, int piece, int pieces)
 {
-  const int mine = failed;
-  int any = mine;
-  if (controller)
+  inInfo->Remove(Pipeline::UPDATE_EXTENT());
+  if (inInfo->Has(Pipeline::WHOLE_EXTENT())) // a structured grid
   {
-    controller->AllReduce(&mine, &any, 1, vtkCommunicator::MAX_OP);
+    inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
   }
-  return any != 0;
+  inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), piece);
+  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), pieces);
+  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+}
+
+/// The meshes of the input; none if it has no data yet.
+std::vector<vtkPointSet*> meshesIn(vtkInformationVector* input)
+{
+  vtkDataObject* const data = vtkDataObject::GetData(input);
+  return data ? tipp::meshesOf(data) : std::vector<vtkPointSet*>();
 }
 
 } // namespace
 
-/// What lasts from the first of the input's pieces to the last.
+/// One update.
 class vtkRangeResampleFilter::Run
 {
 public:
-  explicit Run(vtkRangeResampleFilter* filter)
+  Run(vtkRangeResampleFilter* filter, tipp::Postbox& ranks)
     : Filter(filter)
-    , Ranks(ranksOf(filter->Controller))
+    , Ranks(ranks)
     , Progress(filter)
   {
   }
 
-  /// Another piece; throws. False if the user stopped it.
-  bool add(vtkDataObject* input, vtkInformation* outInfo);
-
-  /// Makes the output; throws.
+  ///@{
+  /// Throws tipp::RankFailure, on all ranks. Collective.
+  void start(vtkInformationVector* input, vtkInformation* outInfo);
   void finish(vtkImageData* output);
+  ///@}
 
-  bool last() const { return this->Piece == this->Filter->NumberOfInputPieces; }
-  int piece() const { return this->Piece; }
+  /// Asks for all pieces and adds them. What fails here is told in finish(), where all ranks meet.
+  void addPieces(vtkInformationVector* input);
 
 private:
-  void start(const std::vector<vtkPointSet*>& meshes, vtkInformation* outInfo);
+  bool severalRanks() const { return this->Ranks.size() > 1; }
+  void makeImage(const std::vector<vtkPointSet*>& meshes, vtkInformation* outInfo);
+  void add(const std::vector<vtkPointSet*>& meshes);
+  void makeOutput(vtkImageData* output);
   tipp::SamplingSettings settings(bool merging) const;
   void warn(const tipp::SampledImage& image) const;
-  void warnOfMissing(vtkDataArraySelection* selection, bool ofCells);
+  void warnOfMissing(tipp::SampledImage& image, vtkDataArraySelection* selection, bool ofCells);
 
   vtkRangeResampleFilter* Filter;
-  vtkMultiProcessController* Ranks;
+  tipp::Postbox& Ranks;
   tipp::Monitor Progress;
   int Piece = 0;
+  bool Stopped = false;
+  std::exception_ptr Problem;
   tipp::Lattice Wanted; ///< of this rank
   std::unique_ptr<tipp::SampledImage> Image;
-  double ExchangeSeconds = 0;
 };
 
 tipp::SamplingSettings vtkRangeResampleFilter::Run::settings(bool merging) const
@@ -124,7 +148,21 @@ tipp::SamplingSettings vtkRangeResampleFilter::Run::settings(bool merging) const
   return settings;
 }
 
-void vtkRangeResampleFilter::Run::start(
+void vtkRangeResampleFilter::Run::start(vtkInformationVector* input, vtkInformation* outInfo)
+{
+  this->Ranks.together(
+    [&]
+    {
+      if (this->Filter->UseInputBounds && this->Filter->NumberOfInputPieces > 1)
+      {
+        throw std::runtime_error("with NumberOfInputPieces above 1 the bounds of the input are not "
+                                 "known in time: turn UseInputBounds off, set SamplingBounds.");
+      }
+      withMemoryAdvice([&] { this->makeImage(meshesIn(input), outInfo); });
+    });
+}
+
+void vtkRangeResampleFilter::Run::makeImage(
   const std::vector<vtkPointSet*>& meshes, vtkInformation* outInfo)
 {
   vtkRangeResampleFilter* const filter = this->Filter;
@@ -134,9 +172,9 @@ void vtkRangeResampleFilter::Run::start(
     tipp::rangeLattice(bounds, toArray(filter->SamplingDimensions), toArray(filter->Delta));
   const std::array<int, 6> whole = this->Wanted.Extent;
   const std::vector<int> axes = tipp::surfaceAxes({ whole[1] + 1, whole[3] + 1, whole[5] + 1 });
-  if (filter->GatherOnRoot && this->Ranks)
+  if (filter->GatherOnRoot && this->severalRanks())
   {
-    if (this->Ranks->GetLocalProcessId() != 0)
+    if (this->Ranks.rank() != 0)
     {
       this->Wanted.Extent = { 0, -1, 0, -1, 0, -1 };
     }
@@ -146,68 +184,109 @@ void vtkRangeResampleFilter::Run::start(
     outInfo->Get(Pipeline::UPDATE_EXTENT(), this->Wanted.Extent.data());
   }
   tipp::Lattice local = this->Wanted;
-  if (this->Ranks)
+  if (this->severalRanks())
   {
     local.Extent = whole;
     local = filter->NumberOfInputPieces == 1 ? tipp::cropped(local, meshes, axes) : local;
   }
-  const bool merging = this->Ranks || filter->NumberOfInputPieces > 1 || meshes.size() > 1;
+  const bool merging = this->severalRanks() || filter->NumberOfInputPieces > 1 || meshes.size() > 1;
   tipp::SamplingSettings settings = this->settings(merging);
   settings.Axes = axes;
-  settings.Progress = [this](double done)
-  {
-    const int pieces = this->Filter->NumberOfInputPieces;
-    return this->Progress((this->Piece + done) / pieces);
-  };
-  tipp::refuseTooLarge(local, this->Wanted, this->Ranks != nullptr, meshes, settings);
+  tipp::refuseTooLarge(local, this->Wanted, this->severalRanks(), meshes, settings);
   this->Image = std::make_unique<tipp::SampledImage>(local, settings);
 }
 
-bool vtkRangeResampleFilter::Run::add(vtkDataObject* input, vtkInformation* outInfo)
+void vtkRangeResampleFilter::Run::addPieces(vtkInformationVector* input)
 {
-  const std::vector<vtkPointSet*> meshes = tipp::meshesOf(input);
-  if (!this->Image)
+  const int count = this->Filter->NumberOfInputPieces;
+  vtkAlgorithmOutput* const source = this->Filter->GetInputConnection(0, 0);
+  for (; this->Piece < count; ++this->Piece)
   {
-    this->start(meshes, outInfo);
-  }
-  for (vtkPointSet* mesh : meshes)
-  {
-    if (!this->Image->lattice().empty() && !this->Image->add(mesh))
+    bool read = true;
+    if (this->Piece > 0)
     {
-      return false;
+      askForPiece(input->GetInformationObject(0), this->Ranks.rank() * count + this->Piece,
+        this->Ranks.size() * count);
+      read = source->GetProducer()->GetExecutive()->Update(source->GetIndex()) != 0;
+    }
+    if (!this->Problem && !this->Stopped)
+    {
+      try
+      {
+        if (!read)
+        {
+          throw std::runtime_error(
+            "the input has not made its piece " + std::to_string(this->Piece) + ".");
+        }
+        withMemoryAdvice([&] { this->add(meshesIn(input)); });
+      }
+      catch (const std::exception&)
+      {
+        this->Problem = std::current_exception();
+      }
+    }
+    // Sources may need all ranks to ask.
+    if ((this->Problem || this->Stopped) && !this->severalRanks())
+    {
+      return;
     }
   }
-  ++this->Piece;
-  return true;
+}
+
+void vtkRangeResampleFilter::Run::add(const std::vector<vtkPointSet*>& meshes)
+{
+  for (std::size_t i = 0; i < meshes.size() && !this->Stopped; ++i)
+  {
+    const auto report = [&](double done)
+    {
+      const double ofPiece = (double(i) + done) / double(meshes.size());
+      return this->Progress((this->Piece + ofPiece) / this->Filter->NumberOfInputPieces);
+    };
+    this->Stopped = !this->Image->add(meshes[i], report);
+  }
 }
 
 void vtkRangeResampleFilter::Run::finish(vtkImageData* output)
 {
+  this->Ranks.together(
+    [&]
+    {
+      if (this->Problem)
+      {
+        std::rethrow_exception(this->Problem);
+      }
+      if (this->Stopped)
+      {
+        throw tipp::RankFailure(this->Ranks.rank(), true, "The run was stopped.");
+      }
+      withMemoryAdvice([&] { this->makeOutput(output); });
+    });
+}
+
+void vtkRangeResampleFilter::Run::makeOutput(vtkImageData* output)
+{
   this->Image->finish();
   tipp::SampledImage* image = this->Image.get();
   std::unique_ptr<tipp::SampledImage> together;
-  const tipp::Stopwatch watch;
-  if (this->Ranks)
+  tipp::Stopwatch watch;
+  tipp::SamplingReport report;
+  report.Statistics = this->Image->statistics();
+  if (this->severalRanks())
   {
     together = std::make_unique<tipp::SampledImage>(this->Wanted, this->settings(true));
     tipp::exchangeSamples(*image, *together, this->Ranks);
+    this->warn(*together);
     image = together.get();
   }
-  this->ExchangeSeconds = watch.seconds();
+  report.ExchangeSeconds = watch.restart();
   this->warn(*this->Image);
-  const double fillBegin = watch.seconds();
-  const int threads = this->settings(true).Threads;
-  const std::int64_t hits = tipp::fillImage(*image, threads, output);
-  tipp::SamplingReport report;
-  report.Statistics = this->Image->statistics();
+  report.Threads = this->settings(true).Threads;
+  report.Hits = tipp::fillImage(*image, report.Threads, output);
   report.Samples = std::int64_t(image->valid().size());
-  report.Hits = hits;
-  report.Threads = threads;
-  report.ExchangeSeconds = this->ExchangeSeconds;
-  report.OutputSeconds = watch.seconds() - fillBegin;
+  report.OutputSeconds = watch.restart();
   tipp::fillTable(report, this->Filter->Statistics);
-  this->warnOfMissing(this->Filter->PointDataArraySelection, false);
-  this->warnOfMissing(this->Filter->CellDataArraySelection, true);
+  this->warnOfMissing(*image, this->Filter->PointDataArraySelection, false);
+  this->warnOfMissing(*image, this->Filter->CellDataArraySelection, true);
 }
 
 void vtkRangeResampleFilter::Run::warn(const tipp::SampledImage& image) const
@@ -218,12 +297,13 @@ void vtkRangeResampleFilter::Run::warn(const tipp::SampledImage& image) const
   }
 }
 
-void vtkRangeResampleFilter::Run::warnOfMissing(vtkDataArraySelection* selection, bool ofCells)
+void vtkRangeResampleFilter::Run::warnOfMissing(
+  tipp::SampledImage& image, vtkDataArraySelection* selection, bool ofCells)
 {
   for (int i = 0; i < selection->GetNumberOfArrays(); ++i)
   {
     const char* const name = selection->GetArrayName(i);
-    const tipp::SampledImage::Array* array = this->Image->findArray(name);
+    const tipp::SampledImage::Array* array = image.findArray(name);
     if (selection->GetArraySetting(i) && (!array || array->OfCells != ofCells) &&
       this->Image->statistics().Cells > 0)
     {
@@ -285,10 +365,7 @@ int vtkRangeResampleFilter::RequestInformation(
     }
     else if (byDelta)
     {
-      this->GetInputAlgorithm(0, 0)->Update();
-      vtkDataObject* const input = vtkDataObject::GetData(inputs[0]);
-      bounds = tipp::boundsOf(
-        input ? tipp::meshesOf(input) : std::vector<vtkPointSet*>(), ranksOf(this->Controller));
+      bounds = this->BoundsOfInput(inputs[0]);
     }
     tipp::Lattice lattice = tipp::rangeLattice(bounds, toArray(this->SamplingDimensions), delta);
     outInfo->Set(Pipeline::WHOLE_EXTENT(), lattice.Extent.data(), 6);
@@ -306,91 +383,64 @@ int vtkRangeResampleFilter::RequestInformation(
   }
 }
 
+/// Updates the input, each rank its part of it. Collective.
+std::array<double, 6> vtkRangeResampleFilter::BoundsOfInput(vtkInformationVector* input)
+{
+  vtkAlgorithmOutput* const source = this->GetInputConnection(0, 0);
+  tipp::Postbox ranks(this->Controller);
+  askForPiece(input->GetInformationObject(0), ranks.rank(), ranks.size());
+  const bool read = source->GetProducer()->GetExecutive()->Update(source->GetIndex()) != 0;
+  std::array<double, 6> bounds{};
+  ranks.together(
+    [&]
+    {
+      if (!read)
+      {
+        throw std::runtime_error("the input has not been made, so its bounds are not known.");
+      }
+      bounds = tipp::boundsOf(meshesIn(input), ranks);
+    });
+  return bounds;
+}
+
 int vtkRangeResampleFilter::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
-  vtkInformation* const inInfo = inputs[0]->GetInformationObject(0);
-  vtkMultiProcessController* const ranks = ranksOf(this->Controller);
+  const bool several = this->Controller && this->Controller->GetNumberOfProcesses() > 1;
   const int count = this->NumberOfInputPieces;
-  const int rank = ranks ? ranks->GetLocalProcessId() : 0;
-  const int size = ranks ? ranks->GetNumberOfProcesses() : 1;
-  const int piece = this->Current ? this->Current->piece() : 0;
-  inInfo->Remove(Pipeline::UPDATE_EXTENT());
-  if (inInfo->Has(Pipeline::WHOLE_EXTENT())) // a structured grid
-  {
-    inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
-  }
-  inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), rank * count + piece);
-  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), size * count);
-  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  askForPiece(inputs[0]->GetInformationObject(0),
+    several ? this->Controller->GetLocalProcessId() * count : 0,
+    several ? this->Controller->GetNumberOfProcesses() * count : count);
   return 1;
 }
 
 int vtkRangeResampleFilter::RequestData(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkInformation* const outInfo = outputs->GetInformationObject(0);
-  vtkDataObject* const input = vtkDataObject::GetData(inputs[0]);
   vtkImageData* const output = vtkImageData::GetData(outInfo);
-  vtkMultiProcessController* const ranks = ranksOf(this->Controller);
-  std::string problem;
-  bool stopped = false;
-  const auto attempt = [&](const auto& work)
-  {
-    try
-    {
-      work();
-    }
-    catch (const std::bad_alloc&)
-    {
-      problem = "there is not enough memory for the samples: use a smaller range or fewer samples.";
-    }
-    catch (const std::exception& error)
-    {
-      problem = error.what();
-    }
-  };
-  attempt(
-    [&]
-    {
-      if (!this->Current)
-      {
-        if (this->UseInputBounds && this->NumberOfInputPieces > 1)
-        {
-          throw std::runtime_error(
-            "with NumberOfInputPieces above 1 the bounds of the input are not "
-            "known in time: turn UseInputBounds off, set SamplingBounds.");
-        }
-        this->Current = std::make_unique<Run>(this);
-      }
-      stopped = !this->Current->add(input, outInfo);
-    });
-  if (problem.empty() && !stopped && !this->Current->last())
-  {
-    request->Set(Pipeline::CONTINUE_EXECUTING(), 1);
-    return 1;
-  }
-  request->Remove(Pipeline::CONTINUE_EXECUTING());
-  const std::unique_ptr<Run> run = std::move(this->Current);
   output->Initialize();
-  // All ranks go on, or none: an exchange without one of them would never end.
-  const bool failed = failedAnywhere(ranks, !problem.empty() || stopped);
-  if (!failed)
+  try
   {
-    attempt([&] { run->finish(output); });
+    tipp::Postbox ranks(this->Controller);
+    Run run(this, ranks);
+    run.start(inputs[0], outInfo);
+    run.addPieces(inputs[0]);
+    run.finish(output);
   }
-  if (!problem.empty())
+  catch (const std::exception& error)
   {
     output->Initialize();
-    vtkErrorMacro("Resampling: " << problem);
+    const auto* const failure = dynamic_cast<const tipp::RankFailure*>(&error);
+    if (failure && failure->Aborted)
+    {
+      return 1;
+    }
+    vtkErrorMacro("Resampling: " << error.what());
     return 0;
   }
-  if (failed && !stopped)
-  {
-    vtkErrorMacro("Resampling: another rank failed or was stopped; see its message.");
-    return 0;
-  }
-  if (this->PassFieldArrays && !failed)
+  vtkDataObject* const input = vtkDataObject::GetData(inputs[0]);
+  if (this->PassFieldArrays && input)
   {
     output->GetFieldData()->PassData(input->GetFieldData());
   }

@@ -36,7 +36,8 @@
  * With a controller of more than one rank every rank asks its input for its own piece, and the
  * samples are exchanged, so that each rank has the extent that is asked of it, or rank 0 all. With
  * NumberOfInputPieces above 1 the input is asked for so many pieces, one after the other: then only
- * one at a time must fit into memory. Both need a source that honours requests for pieces.
+ * one at a time must fit into memory. Both need a source that honours requests for pieces. If a
+ * rank fails or is stopped, all end, with its reason.
  *
  * GetStatistics() is a vtkTable about the last run of this rank, whose field data has, one value
  * each, Cells, IgnoredCells, VisitedCells (whose boxes have samples), Tests (samples in those
@@ -57,7 +58,7 @@
 #include "vtkNew.h"               // For the table
 #include "vtkTIPPFiltersModule.h" // For export macro
 
-#include <memory> // For the state of a run
+#include <array> // For bounds
 
 class vtkDataArraySelection;
 class vtkDataObject;
@@ -254,7 +255,8 @@ private:
   void operator=(const vtkRangeResampleFilter&) = delete;
 
   class Run;
-  std::unique_ptr<Run> Current; ///< while pieces are awaited
+  std::array<double, 6> BoundsOfInput(vtkInformationVector* input);
+
   vtkNew<vtkTable> Statistics;
 };
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/ExchangeSamples.h"
 
+#include "Messages/Postbox.h"
+
 #include "vtkDataArray.h"
-#include "vtkMultiProcessController.h"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <sstream>
+#include <stdexcept>
 
 namespace tipp
 {
@@ -71,18 +72,16 @@ struct RankNote
   Extent Local;
   Extent Wanted;
   int Dimension;
-  int DescriptionLength;
 };
 
 class Exchange
 {
 public:
-  Exchange(SampledImage& local, SampledImage& result, vtkMultiProcessController* controller)
+  Exchange(SampledImage& local, SampledImage& result, Postbox& ranks)
     : Local(local)
     , Result(result)
-    , Controller(controller)
-    , Rank(controller->GetLocalProcessId())
-    , Notes(std::size_t(controller->GetNumberOfProcesses()))
+    , Ranks(ranks)
+    , Rank(ranks.rank())
   {
   }
 
@@ -90,86 +89,87 @@ public:
   {
     this->shareNotes();
     this->merge(this->Rank, this->pack(this->Rank));
-    const int ranks = int(this->Notes.size());
-    // In each round the ranks pair up; of a pair the lower one speaks first.
-    for (int round = 0; round < ranks; ++round)
+    // In each round the ranks pair up, so that few messages lie in memory at a time.
+    for (int round = 0; round < this->Ranks.size(); ++round)
     {
-      const int partner = (round - this->Rank + ranks) % ranks;
+      const int partner = (round - this->Rank + this->Ranks.size()) % this->Ranks.size();
       if (partner != this->Rank)
       {
-        this->exchangeWith(partner);
+        this->Ranks.post(partner, MessageKind::FirstFree, this->pack(partner));
+        this->merge(partner, this->Ranks.wait(MessageKind::FirstFree, partner).Content);
       }
     }
   }
 
 private:
-  static constexpr int Tag = 51423;
-
   void shareNotes()
   {
-    const std::string description = this->describe();
-    RankNote mine{ this->Local.lattice().Extent, this->Result.lattice().Extent,
-      this->Local.dimension(), int(description.size()) };
-    const std::size_t ranks = this->Notes.size();
-    this->Controller->AllGather(reinterpret_cast<const char*>(&mine),
-      reinterpret_cast<char*>(this->Notes.data()), vtkIdType(sizeof mine));
-    std::vector<vtkIdType> lengths(ranks);
-    std::vector<vtkIdType> offsets(ranks);
-    vtkIdType total = 0;
-    for (std::size_t i = 0; i < ranks; ++i)
+    const RankNote mine{ this->Local.lattice().Extent, this->Result.lattice().Extent,
+      this->Local.dimension() };
+    std::vector<Bytes> contents;
+    for (int rank = 0; rank < this->Ranks.size(); ++rank)
     {
-      this->Dimension = std::max(this->Dimension, this->Notes[i].Dimension);
-      lengths[i] = this->Notes[i].DescriptionLength;
-      offsets[i] = total;
-      total += lengths[i];
+      ByteWriter writer;
+      writer.value(mine);
+      this->describe(writer);
+      contents.push_back(writer.take());
     }
-    std::string all(std::size_t(total), '\0');
-    this->Controller->AllGatherV(description.data(), all.data(), vtkIdType(description.size()),
-      lengths.data(), offsets.data());
-    this->Has.resize(ranks);
-    for (std::size_t i = 0; i < ranks; ++i)
+    for (const Bytes& content : this->Ranks.allToAll(std::move(contents)))
     {
-      this->learnArrays(all.substr(std::size_t(offsets[i]), std::size_t(lengths[i])), this->Has[i]);
+      ByteReader reader(content);
+      this->Notes.push_back(reader.value<RankNote>());
+      this->Dimension = std::max(this->Dimension, this->Notes.back().Dimension);
+      this->Has.push_back(this->learnArrays(reader));
     }
   }
 
-  /// Each array as 'cells type components length name'.
-  std::string describe() const
+  void describe(ByteWriter& writer) const
   {
-    std::ostringstream text;
     for (const SampledImage::Array& array : this->Local.arrays())
     {
-      text << array.OfCells << ' ' << array.Samples->GetDataType() << ' '
-           << array.Samples->GetNumberOfComponents() << ' ' << array.Name.size() << ' '
-           << array.Name;
+      const int components = array.Samples->GetNumberOfComponents();
+      writer.text(array.Name);
+      writer.value(array.OfCells);
+      writer.value(array.Samples->GetDataType());
+      writer.value(components);
+      for (int i = 0; i < components; ++i)
+      {
+        const char* const name = array.Samples->GetComponentName(i);
+        writer.text(name ? name : "");
+      }
     }
-    return text.str();
   }
 
-  /// Adds a rank's arrays to the result and notes which of the result's it has.
-  void learnArrays(const std::string& description, std::vector<std::string>& names)
+  /// Adds a rank's arrays to the result and gives the names of those of the result's that it has.
+  std::vector<std::string> learnArrays(ByteReader& reader)
   {
-    std::istringstream text(description);
-    bool ofCells;
-    int type;
-    int components;
-    std::size_t length;
-    while (text >> ofCells >> type >> components >> length)
+    std::vector<std::string> names;
+    while (reader.left() > 0)
     {
-      std::string name(length, '\0');
-      text.get();
-      text.read(name.data(), std::streamsize(length));
+      const std::string name = reader.text();
+      const bool ofCells = reader.value<bool>();
+      const int type = reader.value<int>();
+      const int components = reader.value<int>();
       SampledImage::Array* known = this->Result.findArray(name);
-      if (!known)
+      const bool isNew = !known;
+      if (isNew)
       {
         known = &this->Result.addNullArray(name, ofCells, type, components);
       }
-      if (known->OfCells == ofCells && known->Samples->GetDataType() == type &&
-        known->Samples->GetNumberOfComponents() == components)
+      for (int i = 0; i < components; ++i)
+      {
+        const std::string component = reader.text();
+        if (isNew && !component.empty())
+        {
+          known->Samples->SetComponentName(i, component.c_str());
+        }
+      }
+      if (this->Result.accepts(*known, ofCells, type, components))
       {
         names.push_back(name);
       }
     }
+    return names;
   }
 
   bool has(int rank, const std::string& name) const
@@ -199,14 +199,14 @@ private:
     return tuple * std::size_t(samplesOf(extent));
   }
 
-  std::vector<char> pack(int to)
+  Bytes pack(int to)
   {
     const Extent part = this->part(this->Rank, to);
     if (samplesOf(part) == 0)
     {
       return {};
     }
-    std::vector<char> message(this->bytes(this->Rank, part));
+    Bytes message(this->bytes(this->Rank, part));
     char* end = message.data();
     const auto append = [&](const char* values, std::size_t size)
     {
@@ -228,10 +228,14 @@ private:
     return message;
   }
 
-  void merge(int from, const std::vector<char>& message)
+  void merge(int from, const Bytes& message)
   {
     const Extent part = this->part(from, this->Rank);
     const std::size_t samples = std::size_t(samplesOf(part));
+    if (message.size() != this->bytes(from, part))
+    {
+      throw std::runtime_error("a message from another rank is damaged.");
+    }
     if (samples == 0)
     {
       return;
@@ -279,47 +283,9 @@ private:
     }
   }
 
-  void exchangeWith(int partner)
-  {
-    const auto send = [&] { this->send(partner, this->pack(partner)); };
-    const auto receive = [&] { this->merge(partner, this->receive(partner)); };
-    if (this->Rank < partner)
-    {
-      send();
-      receive();
-    }
-    else
-    {
-      receive();
-      send();
-    }
-  }
-
-  static constexpr std::size_t LargestMessage = std::size_t(1) << 30;
-
-  void send(int to, const std::vector<char>& message)
-  {
-    for (std::size_t begin = 0; begin < message.size(); begin += LargestMessage)
-    {
-      const std::size_t size = std::min(LargestMessage, message.size() - begin);
-      this->Controller->Send(message.data() + begin, vtkIdType(size), to, Tag);
-    }
-  }
-
-  std::vector<char> receive(int from)
-  {
-    std::vector<char> message(this->bytes(from, this->part(from, this->Rank)));
-    for (std::size_t begin = 0; begin < message.size(); begin += LargestMessage)
-    {
-      const std::size_t size = std::min(LargestMessage, message.size() - begin);
-      this->Controller->Receive(message.data() + begin, vtkIdType(size), from, Tag);
-    }
-    return message;
-  }
-
   SampledImage& Local;
   SampledImage& Result;
-  vtkMultiProcessController* Controller;
+  Postbox& Ranks;
   int Rank;
   int Dimension = 0;
   std::vector<RankNote> Notes;
@@ -328,10 +294,9 @@ private:
 
 } // namespace
 
-void exchangeSamples(
-  SampledImage& local, SampledImage& result, vtkMultiProcessController* controller)
+void exchangeSamples(SampledImage& local, SampledImage& result, Postbox& ranks)
 {
-  Exchange(local, result, controller).run();
+  Exchange(local, result, ranks).run();
 }
 
 } // namespace tipp

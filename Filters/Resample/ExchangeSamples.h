@@ -4,16 +4,16 @@
 
 #include "Resample/SampledImage.h"
 
-class vtkMultiProcessController;
-
 namespace tipp
 {
 
+class Postbox;
+
 /// Puts together what all ranks have sampled: `result` gets, for the extent of its lattice, the
-/// sample of lowest key of any rank. Every rank calls it; extents differ and may be empty. Both
-/// images are Merging. One message goes from each rank to each whose extents overlap.
-void exchangeSamples(
-  SampledImage& local, SampledImage& result, vtkMultiProcessController* controller);
+/// sample of lowest key of any rank, and warnings of arrays that differ between ranks. Extents
+/// differ and may be empty. Both images are Merging. One message goes from each rank to each whose
+/// extents overlap. Collective.
+void exchangeSamples(SampledImage& local, SampledImage& result, Postbox& ranks);
 
 } // namespace tipp
 

@@ -45,10 +45,10 @@ void markEqual(vtkDataArray* array, double value, std::vector<bool>& marked)
       const std::size_t components = std::size_t(array->GetNumberOfComponents());
       for (std::size_t i = 0; i < marked.size() * components; ++i)
       {
-        if (values[i] == T(value))
-        {
-          marked[i / components] = true;
-        }
+        // A float32 is compared with the nearest one; a whole number need not be in reach of T.
+        const bool equal = std::is_floating_point_v<T> ? values[i] == toScalar<T>(value)
+                                                       : double(values[i]) == value;
+        marked[i / components] = marked[i / components] || equal;
       }
     });
 }
@@ -61,10 +61,17 @@ void addTo(ClaimStatistics& sum, const ClaimStatistics& more)
   sum.OverlappingClaims += more.OverlappingClaims;
 }
 
-bool sameKind(vtkDataArray* a, vtkDataArray* b)
+/// The array itself if its values lie tuple after tuple in memory, else a copy that does so.
+vtkSmartPointer<vtkDataArray> plain(vtkDataArray* array)
 {
-  return a->GetDataType() == b->GetDataType() &&
-    a->GetNumberOfComponents() == b->GetNumberOfComponents();
+  if (array->HasStandardMemoryLayout())
+  {
+    return array;
+  }
+  const auto copy =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(array->GetDataType()));
+  copy->DeepCopy(array);
+  return copy;
 }
 
 } // namespace
@@ -122,7 +129,25 @@ SampledImage::Array* SampledImage::findArray(const std::string& name)
   return nullptr;
 }
 
-bool SampledImage::add(vtkPointSet* mesh)
+bool SampledImage::accepts(const Array& array, bool ofCells, int type, int components)
+{
+  if (array.OfCells != ofCells)
+  {
+    this->warnOnce("There are a point array and a cell array '" + array.Name +
+      "'; only the one of the " + (array.OfCells ? "cells" : "points") + " is sampled.");
+    return false;
+  }
+  const bool same = scalarOf(array.Samples->GetDataType()) == scalarOf(type) &&
+    array.Samples->GetNumberOfComponents() == components;
+  if (!same)
+  {
+    this->warnOnce("The array '" + array.Name +
+      "' differs in type or components between parts of the input; where it does, it is null.");
+  }
+  return same;
+}
+
+bool SampledImage::add(vtkPointSet* mesh, const Report& progress)
 {
   const Stopwatch watch;
   SimplexParts parts = makeSimplices(mesh);
@@ -137,16 +162,16 @@ bool SampledImage::add(vtkPointSet* mesh)
   {
     this->Dimension = 2;
   }
-  this->addAttributes(mesh->GetPointData(), false);
-  this->addAttributes(mesh->GetCellData(), true);
+  this->addArrays(mesh->GetPointData(), false);
+  this->addArrays(mesh->GetCellData(), true);
   bool completed = true;
   if (this->Dimension == 3 && parts.Tetrahedra.Mesh.Cells > 0)
   {
-    completed = this->sample(mesh, parts.Tetrahedra);
+    completed = this->sample(mesh, parts.Tetrahedra, progress);
   }
   if (this->Dimension == 2 && parts.Triangles.Mesh.Cells > 0)
   {
-    completed = this->sample(mesh, parts.Triangles);
+    completed = this->sample(mesh, parts.Triangles, progress);
   }
   if (this->Dimension == 3 && parts.Triangles.Mesh.Cells > 0)
   {
@@ -175,8 +200,13 @@ void SampledImage::startAgain()
   }
 }
 
-bool SampledImage::sample(vtkPointSet* mesh, Simplices& simplices)
+bool SampledImage::sample(vtkPointSet* mesh, Simplices& simplices, const Report& progress)
 {
+  this->Statistics.Cells += simplices.Mesh.Cells;
+  if (this->Valid.empty())
+  {
+    return true;
+  }
   simplices.Mesh.Axes[0] = this->Settings.Axes[0];
   simplices.Mesh.Axes[1] = this->Settings.Axes[1];
   if (simplices.Mesh.Cells > std::numeric_limits<std::int32_t>::max())
@@ -195,14 +225,13 @@ bool SampledImage::sample(vtkPointSet* mesh, Simplices& simplices)
   options.Keys = this->Keys.get();
   options.Valid = this->Valid.data();
   options.Parents = simplices.Parents.empty() ? nullptr : simplices.Parents.data();
-  options.Progress = this->Settings.Progress;
+  options.Progress = progress;
   const std::vector<Attribute> attributes = this->attributesOf(mesh);
   this->Statistics.PreparationSeconds += watch.seconds();
   this->HasSamples = true;
   const ResampleResult result = resample(simplices.Mesh, this->Grid, attributes, options);
-  this->Copies.clear();
+  this->Values.clear();
   SamplingStatistics& statistics = this->Statistics;
-  statistics.Cells += simplices.Mesh.Cells;
   addTo(statistics.Claims, result.Statistics);
   statistics.ClaimSeconds += result.ClaimSeconds;
   statistics.InterpolationSeconds += result.InterpolationSeconds;
@@ -220,26 +249,7 @@ std::vector<Attribute> SampledImage::attributesOf(vtkPointSet* mesh)
   std::vector<Attribute> attributes;
   for (const Array& array : this->Arrays)
   {
-    vtkDataSetAttributes* data = mesh->GetPointData();
-    if (array.OfCells)
-    {
-      data = mesh->GetCellData();
-    }
-    vtkSmartPointer<vtkDataArray> values = data->GetArray(array.Name.c_str());
-    if (values && !sameKind(values, array.Samples))
-    {
-      this->warnOnce("The array '" + array.Name +
-        "' differs in type or components between parts of the input; where it does, it is null.");
-      values = nullptr;
-    }
-    if (values && !values->HasStandardMemoryLayout())
-    {
-      const auto copy =
-        vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(values->GetDataType()));
-      copy->DeepCopy(values);
-      this->Copies.push_back(copy);
-      values = copy;
-    }
+    vtkDataArray* const values = this->valuesOf(mesh, array);
     attributes.push_back({ values ? values->GetVoidPointer(0) : nullptr,
       array.Samples->GetVoidPointer(0), *scalarOf(array.Samples->GetDataType()),
       array.Samples->GetNumberOfComponents(), array.OfCells, this->Settings.NullValue });
@@ -247,7 +257,34 @@ std::vector<Attribute> SampledImage::attributesOf(vtkPointSet* mesh)
   return attributes;
 }
 
-void SampledImage::addAttributes(vtkDataSetAttributes* data, bool ofCells)
+/// Null if the mesh has none that can be sampled.
+vtkDataArray* SampledImage::valuesOf(vtkPointSet* mesh, const Array& array)
+{
+  vtkDataSetAttributes* data = mesh->GetPointData();
+  vtkIdType tuples = mesh->GetNumberOfPoints();
+  if (array.OfCells)
+  {
+    data = mesh->GetCellData();
+    tuples = mesh->GetNumberOfCells();
+  }
+  vtkDataArray* const values = data->GetArray(array.Name.c_str());
+  if (!values ||
+    !this->accepts(array, array.OfCells, values->GetDataType(), values->GetNumberOfComponents()))
+  {
+    return nullptr;
+  }
+  if (values->GetNumberOfTuples() < tuples)
+  {
+    this->warnOnce("The array '" + array.Name + "' has " +
+      std::to_string(values->GetNumberOfTuples()) + " values for " + std::to_string(tuples) +
+      (array.OfCells ? " cells" : " points") + "; where it does, it is null.");
+    return nullptr;
+  }
+  this->Values.push_back(plain(values));
+  return this->Values.back();
+}
+
+void SampledImage::addArrays(vtkDataSetAttributes* data, bool ofCells)
 {
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
@@ -264,15 +301,14 @@ void SampledImage::addAttributes(vtkDataSetAttributes* data, bool ofCells)
       this->warnOnce("The array '" + name + "' is left out: it is not made of numbers.");
       continue;
     }
-    Array* const known = this->findArray(name);
-    if (known && known->OfCells != ofCells)
+    const int type = array->GetDataType();
+    const int components = array->GetNumberOfComponents();
+    if (Array* const known = this->findArray(name))
     {
-      this->warnOnce("The cell array '" + name + "' is left out: a point array has its name.");
+      this->accepts(*known, ofCells, type, components);
     }
-    if (!known)
+    else
     {
-      const int type = array->GetDataType();
-      const int components = array->GetNumberOfComponents();
       Array& added = this->Keys ? this->addNullArray(name, ofCells, type, components)
                                 : this->addArray(name, ofCells, type, components);
       added.Samples->CopyComponentNames(array);
@@ -287,10 +323,11 @@ void SampledImage::hideNoData(vtkPointSet* mesh, Simplices& simplices)
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* const array = data->GetArray(i);
-    if (array && array->GetName() && array->HasStandardMemoryLayout() &&
-      scalarOf(array->GetDataType()) && this->Settings.Selected(false, array->GetName()))
+    if (array && array->GetName() && scalarOf(array->GetDataType()) &&
+      array->GetNumberOfTuples() >= mesh->GetNumberOfPoints() &&
+      this->Settings.Selected(false, array->GetName()))
     {
-      markEqual(array, *this->Settings.NoData, marked);
+      markEqual(plain(array), *this->Settings.NoData, marked);
     }
   }
   hideMarked(simplices, marked);
@@ -319,7 +356,8 @@ void SampledImage::finish()
 void SampledImage::repeatLayers()
 {
   const int projected = 3 - this->Settings.Axes[0] - this->Settings.Axes[1];
-  const std::size_t layers = this->Dimension == 2 ? std::size_t(this->Grid.size(projected)) : 1;
+  const bool repeats = this->Dimension == 2 && !this->Valid.empty();
+  const std::size_t layers = repeats ? std::size_t(this->Grid.size(projected)) : 1;
   const std::size_t layer = this->Valid.size() / layers;
   for (std::size_t i = 1; i < layers; ++i)
   {

@@ -30,7 +30,6 @@ struct SamplingSettings
   DeviceChoice Device;
   int Threads = 1;
   bool Merging = false; ///< more than one mesh is added, here or on other ranks
-  Report Progress;
 };
 
 struct SamplingStatistics
@@ -59,9 +58,9 @@ public:
     vtkSmartPointer<vtkDataArray> Samples;
   };
 
-  /// Adds what a mesh answers. False if it was aborted. Meshes with three-dimensional cells put
-  /// aside what triangles have answered; triangles after them are ignored.
-  bool add(vtkPointSet* mesh);
+  /// Adds what a mesh answers. False if `progress` stopped it. Meshes with three-dimensional cells
+  /// put aside what triangles have answered; triangles after them are ignored.
+  bool add(vtkPointSet* mesh, const Report& progress);
 
   const Lattice& lattice() const { return this->Grid; }
   int dimension() const { return this->Dimension; } ///< of the cells; 0: none so far
@@ -84,14 +83,17 @@ public:
   Array& addNullArray(const std::string& name, bool ofCells, int type, int components);
   void setNull(const Array& array, std::int64_t sample) const;
   Array* findArray(const std::string& name);
+  /// Whether an array can be sampled into one of its name; if not, a warning is kept.
+  bool accepts(const Array& array, bool ofCells, int type, int components);
 
 private:
   Array& addArray(const std::string& name, bool ofCells, int type, int components);
   void repeatLayers();
-  bool sample(vtkPointSet* mesh, Simplices& simplices);
+  bool sample(vtkPointSet* mesh, Simplices& simplices, const Report& progress);
   void startAgain();
   std::vector<Attribute> attributesOf(vtkPointSet* mesh);
-  void addAttributes(vtkDataSetAttributes* data, bool ofCells);
+  vtkDataArray* valuesOf(vtkPointSet* mesh, const Array& array);
+  void addArrays(vtkDataSetAttributes* data, bool ofCells);
   void hideNoData(vtkPointSet* mesh, Simplices& simplices);
   void warnOnce(const std::string& text);
 
@@ -100,7 +102,7 @@ private:
   int Dimension = 0;
   bool HasSamples = false;
   std::vector<Array> Arrays;
-  std::vector<vtkSmartPointer<vtkDataArray>> Copies; ///< kept while a mesh is sampled
+  std::vector<vtkSmartPointer<vtkDataArray>> Values; ///< kept while a mesh is sampled
   std::vector<unsigned char> Valid;
   std::unique_ptr<CellKey[]> Keys;
   SamplingStatistics Statistics;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/SamplingRange.h"
 
+#include "Messages/Postbox.h"
+
 #include "vtkBoundingBox.h"
-#include "vtkCommunicator.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkMultiProcessController.h"
 #include "vtkPointSet.h"
 #include "vtkSmartPointer.h"
 
@@ -17,6 +17,23 @@
 
 namespace tipp
 {
+namespace
+{
+
+vtkBoundingBox boxOf(const std::vector<vtkPointSet*>& meshes)
+{
+  vtkBoundingBox box;
+  for (vtkPointSet* mesh : meshes)
+  {
+    if (mesh->GetNumberOfPoints() > 0) // without, the bounds are from 1 to -1
+    {
+      box.AddBounds(mesh->GetBounds());
+    }
+  }
+  return box;
+}
+
+} // namespace
 
 std::array<int, 3> rangeDimensions(const std::array<double, 6>& bounds,
   const std::array<int, 3>& dimensions, const std::array<double, 3>& delta)
@@ -27,7 +44,7 @@ std::array<int, 3> rangeDimensions(const std::array<double, 6>& bounds,
     const std::string name(1, "xyz"[axis]);
     const double low = bounds[2 * axis];
     const double high = bounds[2 * axis + 1];
-    if (!std::isfinite(low) || !std::isfinite(high) || low > high)
+    if (!std::isfinite(high - low) || low > high)
     {
       throw std::runtime_error("the range along " + name + " is from " + std::to_string(low) +
         " to " + std::to_string(high) + ": give finite bounds, the lower one first.");
@@ -125,49 +142,33 @@ std::vector<vtkPointSet*> meshesOf(vtkDataObject* data)
   return meshes;
 }
 
-std::array<double, 6> boundsOf(
-  const std::vector<vtkPointSet*>& meshes, vtkMultiProcessController* controller)
+std::array<double, 6> boundsOf(const std::vector<vtkPointSet*>& meshes, Postbox& ranks)
 {
-  // Minima and negated maxima, so that one reduction does.
-  constexpr double none = std::numeric_limits<double>::infinity();
-  std::array<double, 6> ends = { none, none, none, none, none, none };
-  for (vtkPointSet* mesh : meshes)
+  vtkBoundingBox box = boxOf(meshes);
+  std::array<double, 6> bounds;
+  box.GetBounds(bounds.data());
+  ByteWriter writer;
+  writer.value(bounds);
+  for (const Bytes& other : ranks.gather(writer.take()))
   {
-    double bounds[6];
-    mesh->GetBounds(bounds);
-    for (std::size_t i = 0; i < 6 && mesh->GetNumberOfPoints() > 0; ++i)
-    {
-      ends[i] = std::min(ends[i], i % 2 == 0 ? bounds[i] : -bounds[i]);
-    }
+    bounds = ByteReader(other).value<std::array<double, 6>>();
+    box.AddBounds(bounds.data());
   }
-  if (controller)
-  {
-    std::array<double, 6> all = ends;
-    controller->AllReduce(ends.data(), all.data(), 6, vtkCommunicator::MIN_OP);
-    ends = all;
-  }
-  for (std::size_t i = 1; i < 6; i += 2)
-  {
-    ends[i] = -ends[i];
-  }
-  if (!(ends[0] <= ends[1]))
+  box.GetBounds(bounds.data());
+  writer.value(bounds);
+  bounds = ByteReader(ranks.broadcast(writer.take())).value<std::array<double, 6>>();
+  if (!(bounds[0] <= bounds[1]))
   {
     throw std::runtime_error(
       "the input has no points, so its bounds give no range: turn UseInputBounds off.");
   }
-  return ends;
+  return bounds;
 }
 
 Lattice cropped(
   const Lattice& lattice, const std::vector<vtkPointSet*>& meshes, const std::vector<int>& axes)
 {
-  vtkBoundingBox box;
-  for (vtkPointSet* mesh : meshes)
-  {
-    double bounds[6];
-    mesh->GetBounds(bounds);
-    box.AddBounds(bounds);
-  }
+  const vtkBoundingBox box = boxOf(meshes);
   Lattice result = lattice;
   for (const int axis : axes)
   {

@@ -8,11 +8,12 @@
 #include <vector>
 
 class vtkDataObject;
-class vtkMultiProcessController;
 class vtkPointSet;
 
 namespace tipp
 {
+
+class Postbox;
 
 /// The number of samples along each axis of a range: by delta where it is above 0, else
 /// `dimensions`. Throws std::runtime_error for a range or a number that makes no sense.
@@ -31,10 +32,9 @@ std::vector<int> surfaceAxes(const std::array<int, 3>& dimensions);
 /// no vtkPointSet.
 std::vector<vtkPointSet*> meshesOf(vtkDataObject* data);
 
-/// The bounding box of the meshes of all ranks (controller may be null). Throws std::runtime_error
-/// on all ranks if there is no point.
-std::array<double, 6> boundsOf(
-  const std::vector<vtkPointSet*>& meshes, vtkMultiProcessController* controller);
+/// The bounding box of the meshes of all ranks. Throws std::runtime_error on all ranks if there is
+/// no point. Collective.
+std::array<double, 6> boundsOf(const std::vector<vtkPointSet*>& meshes, Postbox& ranks);
 
 /// The part of the lattice that the meshes' boxes meet along the axes, and all of it along others.
 Lattice cropped(

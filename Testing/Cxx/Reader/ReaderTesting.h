@@ -210,20 +210,6 @@ inline Content contentOf(vtkUnstructuredGrid* grid)
   return content;
 }
 
-/// Counts errors and keeps the last one's text instead of printing it.
-class ErrorCounter : public vtkCommand
-{
-public:
-  static ErrorCounter* New() { return new ErrorCounter; }
-  void Execute(vtkObject*, unsigned long, void* text) override
-  {
-    ++this->Count;
-    this->Text = text ? static_cast<const char*>(text) : "";
-  }
-  int Count = 0;
-  std::string Text;
-};
-
 } // namespace test
 } // namespace tipp
 

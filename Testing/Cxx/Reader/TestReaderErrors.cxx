@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Flat/FlatMesh.h"
+#include "MessageCounter.h"
 #include "Partitioning/PartitionMesh.h"
 #include "ReaderTesting.h"
 #include "TemporaryFolder.h"
@@ -35,8 +36,8 @@ protected:
   }
 
   const tipp::test::TemporaryFolder Folder;
-  const vtkNew<tipp::test::ErrorCounter> Errors;
-  const vtkNew<tipp::test::ErrorCounter> Others;
+  const vtkNew<tipp::test::MessageCounter> Errors;
+  const vtkNew<tipp::test::MessageCounter> Others;
   const vtkNew<vtkPartitionedUnstructuredReader> Reader;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Flat/FlatMesh.h"
+#include "MessageCounter.h"
 #include "Partitioning/PartitionMesh.h"
 #include "ReaderTesting.h"
 #include "TemporaryFolder.h"
@@ -82,8 +83,8 @@ TEST_F(ReaderOnRanks, AnErrorOfOneIsAnErrorOfAll)
     piece.write("garbage garbage garbage", 23);
   }
   this->Controller->Barrier();
-  vtkNew<tipp::test::ErrorCounter> errors;
-  vtkNew<tipp::test::ErrorCounter> others;
+  vtkNew<tipp::test::MessageCounter> errors;
+  vtkNew<tipp::test::MessageCounter> others;
   vtkNew<vtkPartitionedUnstructuredReader> reader;
   reader->AddObserver(vtkCommand::ErrorEvent, errors);
   reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, others);
@@ -95,8 +96,8 @@ TEST_F(ReaderOnRanks, AnErrorOfOneIsAnErrorOfAll)
 
 TEST_F(ReaderOnRanks, AMissingMeshIsAnErrorOfAll)
 {
-  vtkNew<tipp::test::ErrorCounter> errors;
-  vtkNew<tipp::test::ErrorCounter> others;
+  vtkNew<tipp::test::MessageCounter> errors;
+  vtkNew<tipp::test::MessageCounter> others;
   vtkNew<vtkPartitionedUnstructuredReader> reader;
   reader->AddObserver(vtkCommand::ErrorEvent, errors);
   reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, others);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "MessageCounter.h"
 #include "RangeResampleTesting.h"
 
 #include "vtkCellData.h"
@@ -7,6 +8,8 @@
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
+#include "vtkLongLongArray.h"
+#include "vtkPartitionedDataSet.h"
 #include "vtkProbeFilter.h"
 #include "vtkSOADataArrayTemplate.h"
 #include "vtkStringArray.h"
@@ -20,18 +23,15 @@
 namespace
 {
 
-class WarningCounter : public vtkCommand
+/// What the filter warns of.
+std::string warningsOf(vtkRangeResampleFilter* filter)
 {
-public:
-  static WarningCounter* New() { return new WarningCounter; }
-  void Execute(vtkObject*, unsigned long, void* text) override
-  {
-    ++this->Count;
-    this->Text = static_cast<const char*>(text);
-  }
-  int Count = 0;
-  std::string Text;
-};
+  vtkNew<tipp::test::MessageCounter> warnings;
+  const unsigned long tag = filter->AddObserver(vtkCommand::WarningEvent, warnings);
+  filter->Update();
+  filter->RemoveObserver(tag);
+  return warnings->Text;
+}
 
 template <typename Array>
 void addArray(vtkFieldData* data, const char* name, vtkIdType tuples, int components = 1)
@@ -122,7 +122,7 @@ TEST(RangeResampleArrays, ThatAreAbsentMakeAWarning)
   const auto filter = unitFilter(2, 9);
   filter->SetInputData(gridOf(jitteredScene(2, 6, 1)));
   filter->GetPointDataArraySelection()->EnableArray("depth");
-  vtkNew<WarningCounter> warnings;
+  vtkNew<tipp::test::MessageCounter> warnings;
   filter->AddObserver(vtkCommand::WarningEvent, warnings);
   filter->Update();
   EXPECT_EQ(warnings->Count, 1);
@@ -138,7 +138,7 @@ TEST(RangeResampleArrays, ThatAreNotNumbersMakeAWarning)
   grid->GetPointData()->AddArray(names);
   const auto filter = unitFilter(2, 9);
   filter->SetInputData(grid);
-  vtkNew<WarningCounter> warnings;
+  vtkNew<tipp::test::MessageCounter> warnings;
   filter->AddObserver(vtkCommand::WarningEvent, warnings);
   filter->Update();
   EXPECT_EQ(warnings->Count, 1);
@@ -178,6 +178,70 @@ TEST(RangeResampleArrays, HideCellsWithNoDataOnRequest)
   EXPECT_EQ(samples->GetTuple1(6), 0); // inside the cells of the dry corner
   EXPECT_TRUE(isValid(filter->GetOutput(), 12));
   EXPECT_LT(linearError(filter->GetOutput(), 2), 1e-13);
+}
+
+TEST(RangeResampleArrays, OfWholeNumbersKnowNoDataByItsValue)
+{
+  const auto grid = gridOf(regularScene(2, 2));
+  addArray<vtkUnsignedCharArray>(grid->GetPointData(), "depth", grid->GetNumberOfPoints());
+  vtkDataArray* const depth = grid->GetPointData()->GetArray("depth");
+  depth->SetTuple1(0, 97); // -99999 modulo 256
+  depth->SetTuple1(1, 255);
+  const auto filter = unitFilter(2, 5);
+  filter->SetInputData(grid);
+  filter->UseNoDataValueOn();
+  filter->Update();
+  EXPECT_EQ(countValid(filter->GetOutput()), 25);
+  filter->SetNoDataValue(255);
+  filter->Update();
+  EXPECT_LT(countValid(filter->GetOutput()), 25);
+}
+
+TEST(RangeResampleArrays, WithoutStandardLayoutHaveNoDataToo)
+{
+  const auto grid = gridOf(regularScene(2, 2));
+  addArray<vtkSOADataArrayTemplate<double>>(
+    grid->GetPointData(), "parted", grid->GetNumberOfPoints(), 2);
+  grid->GetPointData()->GetArray("parted")->SetComponent(0, 1, -99999);
+  const auto filter = unitFilter(2, 5);
+  filter->SetInputData(grid);
+  filter->UseNoDataValueOn();
+  filter->Update();
+  EXPECT_FALSE(isValid(filter->GetOutput(), 0));
+}
+
+TEST(RangeResampleArrays, OfTooFewValuesAreNullWithAWarning)
+{
+  const auto grid = gridOf(jitteredScene(2, 6, 1));
+  addArray<vtkDoubleArray>(grid->GetPointData(), "short", 3);
+  addArray<vtkDoubleArray>(grid->GetCellData(), "few", 3);
+  const auto filter = unitFilter(2, 9);
+  filter->SetInputData(grid);
+  filter->UseNoDataValueOn();
+  filter->SetNullValue(7);
+  const std::string text = warningsOf(filter);
+  EXPECT_NE(text.find("'short' has 3 values for 49 points"), std::string::npos) << text;
+  EXPECT_NE(text.find("'few' has 3 values for 72 cells"), std::string::npos) << text;
+  for (const char* name : { "short", "few" })
+  {
+    EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray(name)->GetTuple1(40), 7);
+  }
+}
+
+TEST(RangeResampleArrays, OfOneKindButOtherNamesOfTypesAreOne)
+{
+  const auto first = gridOf(jitteredScene(2, 6, 1), 0, 2);
+  const auto second = gridOf(jitteredScene(2, 6, 1), 1, 2);
+  addArray<vtkIdTypeArray>(first->GetPointData(), "number", first->GetNumberOfPoints());
+  addArray<vtkLongLongArray>(second->GetPointData(), "number", second->GetNumberOfPoints());
+  vtkNew<vtkPartitionedDataSet> parts;
+  parts->SetPartition(0, first);
+  parts->SetPartition(1, second);
+  const auto filter = unitFilter(2, 9);
+  filter->SetInputData(parts);
+  filter->SetNullValue(-1);
+  EXPECT_EQ(warningsOf(filter), "");
+  EXPECT_GE(filter->GetOutput()->GetPointData()->GetArray("number")->GetRange()[0], 0);
 }
 
 TEST(RangeResampleArrays, FieldDataIsPassedUnlessTurnedOff)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "MessageCounter.h"
 #include "RangeResampleTesting.h"
 
 #include "vtkCommand.h"
@@ -12,23 +13,9 @@
 namespace
 {
 
-/// Counts a filter's errors or warnings and keeps the last text.
-class Listener : public vtkCommand
-{
-public:
-  static Listener* New() { return new Listener; }
-  void Execute(vtkObject*, unsigned long, void* text) override
-  {
-    ++this->Count;
-    this->Text = this->Text.empty() ? static_cast<const char*>(text) : this->Text; // the first
-  }
-  int Count = 0;
-  std::string Text;
-};
-
 std::string errorOf(vtkRangeResampleFilter* filter)
 {
-  vtkNew<Listener> listener;
+  vtkNew<tipp::test::MessageCounter> listener;
   filter->AddObserver(vtkCommand::ErrorEvent, listener);
   filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listener);
   filter->Update();
@@ -142,6 +129,8 @@ TEST(RangeResampleRange, RangesWithoutSenseAreErrors)
   filter->SetInputData(square());
   filter->SetSamplingBounds(1, 0, 0, 1, 0, 0);
   EXPECT_NE(errorOf(filter).find("lower one first"), std::string::npos);
+  filter->SetSamplingBounds(-1e308, 1e308, 0, 1, 0, 0); // their difference is infinite
+  EXPECT_NE(errorOf(filter).find("give finite bounds"), std::string::npos);
   filter->SetSamplingBounds(0, 1, 0, 1, 0, 0);
   filter->SetSamplingDimensions(0, 3, 1);
   EXPECT_NE(errorOf(filter).find("give 1 or more"), std::string::npos);

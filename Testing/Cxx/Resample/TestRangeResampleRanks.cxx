@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "MessageCounter.h"
+#include "PieceSource.h"
 #include "RangeResampleTesting.h"
 
+#include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
+#include "vtkExecutive.h"
+#include "vtkFloatArray.h"
 #include "vtkMultiProcessController.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkPartitionedDataSet.h"
 
 #include <gtest/gtest.h>
 
@@ -29,6 +35,18 @@ vtkSmartPointer<vtkImageData> alone(const Scene& scene, int n)
   filter->SetInputData(gridOf(scene));
   filter->Update();
   return filter->GetOutput();
+}
+
+/// Updates it and gives what it and its pipeline say.
+std::string errorsOf(vtkRangeResampleFilter* filter)
+{
+  vtkNew<tipp::test::MessageCounter> errors;
+  vtkNew<tipp::test::MessageCounter> others;
+  filter->AddObserver(vtkCommand::ErrorEvent, errors);
+  filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, others);
+  filter->GetInputAlgorithm()->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, others);
+  filter->Update();
+  return errors->Text;
 }
 
 } // namespace
@@ -94,6 +112,18 @@ TEST(RangeResampleRanks, InputBoundsAreThoseOfAllRanks)
   EXPECT_TRUE(sameArrays(alone(scene, 33), filter->GetOutput()));
 }
 
+TEST(RangeResampleRanks, ForInputBoundsWithDeltaEachReadsItsShareOnce)
+{
+  vtkNew<PieceSource> source;
+  source->Cells = jitteredScene(2, 12, 3);
+  vtkNew<vtkRangeResampleFilter> filter;
+  filter->SetDelta(1 / 32.0, 1 / 32.0, 1);
+  filter->SetInputConnection(source->GetOutputPort());
+  filter->Update();
+  EXPECT_EQ(source->Requests, 1);
+  EXPECT_TRUE(sameArrays(alone(source->Cells, 33), filter->GetOutput()));
+}
+
 TEST(RangeResampleRanks, RanksWithoutCellsOrArraysTakePart)
 {
   const Scene scene = jitteredScene(2, 12, 3);
@@ -106,14 +136,134 @@ TEST(RangeResampleRanks, RanksWithoutCellsOrArraysTakePart)
   EXPECT_TRUE(sameArrays(alone(scene, 33), filter->GetOutput()));
 }
 
+TEST(RangeResampleRanks, ARankOutsideTheRangeBringsItsArrays)
+{
+  const auto grid = gridOf(jitteredScene(2, 4, 3));
+  const int rank = controller()->GetLocalProcessId();
+  const int last = controller()->GetNumberOfProcesses() - 1;
+  if (rank == last && last > 0)
+  {
+    grid->GetPointData()->GetArray("linear")->SetName("far");
+    vtkPoints* const points = grid->GetPoints();
+    for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+    {
+      const double* const p = points->GetPoint(i);
+      points->SetPoint(i, p[0] + 100, p[1], p[2]);
+    }
+  }
+  const auto filter = unitFilter(2, 33);
+  filter->SetInputData(grid);
+  filter->SetNullValue(7);
+  filter->Update();
+  vtkDataArray* const far = filter->GetOutput()->GetPointData()->GetArray("far");
+  ASSERT_EQ(far != nullptr, last > 0);
+  EXPECT_TRUE(!far || far->GetTuple1(16) == 7);
+}
+
+TEST(RangeResampleRanks, ArraysThatDifferInTypeAreNullWithAWarning)
+{
+  const auto grid = share(jitteredScene(2, 12, 3));
+  const int rank = controller()->GetLocalProcessId();
+  vtkNew<vtkFloatArray> single;
+  vtkNew<vtkDoubleArray> wide;
+  vtkDataArray* const mixed = rank == 0 ? static_cast<vtkDataArray*>(single) : wide;
+  mixed->SetName("mixed");
+  mixed->SetNumberOfTuples(grid->GetNumberOfPoints());
+  mixed->Fill(1);
+  mixed->SetComponentName(0, "depth");
+  grid->GetPointData()->AddArray(mixed);
+  const auto filter = unitFilter(2, 33);
+  filter->SetInputData(grid);
+  vtkNew<tipp::test::MessageCounter> warnings;
+  filter->AddObserver(vtkCommand::WarningEvent, warnings);
+  filter->Update();
+  const bool several = controller()->GetNumberOfProcesses() > 1;
+  EXPECT_EQ(warnings->Text.find("'mixed' differs in type") != std::string::npos, several);
+  vtkDataArray* const made = filter->GetOutput()->GetPointData()->GetArray("mixed");
+  EXPECT_EQ(made->GetDataType(), VTK_FLOAT);
+  EXPECT_STREQ(made->GetComponentName(0), "depth");
+  EXPECT_EQ(made->GetRange()[0], several ? 0 : 1);
+}
+
+TEST(RangeResampleRanks, ANameOfPointsHereAndCellsThereMakesAWarning)
+{
+  const auto grid = share(jitteredScene(2, 12, 3));
+  const bool ofPoints = controller()->GetLocalProcessId() == 0;
+  vtkNew<vtkDoubleArray> array;
+  array->SetName("both");
+  array->SetNumberOfTuples(ofPoints ? grid->GetNumberOfPoints() : grid->GetNumberOfCells());
+  array->Fill(1);
+  if (ofPoints)
+  {
+    grid->GetPointData()->AddArray(array);
+  }
+  else
+  {
+    grid->GetCellData()->AddArray(array);
+  }
+  const auto filter = unitFilter(2, 33);
+  filter->SetInputData(grid);
+  vtkNew<tipp::test::MessageCounter> warnings;
+  filter->AddObserver(vtkCommand::WarningEvent, warnings);
+  filter->Update();
+  const bool several = controller()->GetNumberOfProcesses() > 1;
+  EXPECT_EQ(warnings->Text.find("a cell array 'both'") != std::string::npos, several);
+}
+
+TEST(RangeResampleRanks, ALeafThatIsNoMeshOnOneEndsAll)
+{
+  const bool fails = controller()->GetLocalProcessId() == 0;
+  vtkNew<vtkPartitionedDataSet> parts;
+  parts->SetPartition(0, share(jitteredScene(2, 4, 3)));
+  if (fails)
+  {
+    vtkNew<vtkImageData> image;
+    parts->SetPartition(1, image);
+  }
+  for (const double delta : { 0.0, 0.1 })
+  {
+    vtkNew<vtkRangeResampleFilter> filter; // whose range is the input's bounds, of all ranks
+    filter->SetDelta(delta, delta, delta);
+    filter->SetInputData(parts);
+    const std::string text = errorsOf(filter);
+    EXPECT_NE(text.find("a vtkImageData is no mesh"), std::string::npos) << text;
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  }
+}
+
+TEST(RangeResampleRanks, APieceThatFailsOnOneEndsAll)
+{
+  vtkNew<PieceSource> source;
+  source->Cells = jitteredScene(2, 12, 3);
+  source->FailingPiece = 1; // of the first rank, of its three
+  const auto filter = unitFilter(2, 33);
+  filter->SetInputConnection(source->GetOutputPort());
+  filter->SetNumberOfInputPieces(3);
+  const std::string text = errorsOf(filter);
+  EXPECT_NE(text.find("has not made its piece 1"), std::string::npos) << text;
+}
+
+TEST(RangeResampleRanks, StoppingOneStopsAll)
+{
+  const auto filter = unitFilter(2, 33);
+  filter->SetInputData(share(jitteredScene(2, 12, 3)));
+  vtkNew<vtkCallbackCommand> stop;
+  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+    { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
+  if (controller()->GetLocalProcessId() == 0)
+  {
+    filter->AddObserver(vtkCommand::ProgressEvent, stop);
+  }
+  EXPECT_EQ(errorsOf(filter), "");
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetNumberOfArrays(), 0);
+}
+
 TEST(RangeResampleRanks, AFailureOnOneEndsAll)
 {
   const auto filter = unitFilter(2, 33);
   const bool fails = controller()->GetLocalProcessId() == 0;
   filter->SetInputData(share(jitteredScene(2, 4, 3)));
   filter->SetSamplingDimensions(fails ? 1 << 20 : 33, fails ? 1 << 20 : 33, 1);
-  vtkObject::GlobalWarningDisplayOff();
-  filter->Update();
-  vtkObject::GlobalWarningDisplayOn();
+  EXPECT_NE(errorsOf(filter).find("GB of memory"), std::string::npos); // on all
   EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("linear"), nullptr);
 }

@@ -1,51 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "MessageCounter.h"
+#include "PieceSource.h"
 #include "RangeResampleTesting.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
-#include "vtkObjectFactory.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkUnstructuredGridAlgorithm.h"
+#include "vtkExecutive.h"
+#include "vtkPartitionedDataSet.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
-
-namespace
-{
-
-/// Gives the cells of a scene by piece: each nth cell.
-class PieceSource : public vtkUnstructuredGridAlgorithm
-{
-public:
-  static PieceSource* New() { VTK_STANDARD_NEW_BODY(PieceSource); }
-  Scene Cells;
-  int Requests = 0;
-
-protected:
-  PieceSource() { this->SetNumberOfInputPorts(0); }
-
-  int RequestInformation(
-    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
-  {
-    outputs->GetInformationObject(0)->Set(CAN_HANDLE_PIECE_REQUEST(), 1);
-    return 1;
-  }
-
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
-  {
-    vtkInformation* const info = outputs->GetInformationObject(0);
-    const int piece = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
-    const int pieces = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES());
-    ++this->Requests;
-    vtkUnstructuredGrid::GetData(outputs)->ShallowCopy(gridOf(this->Cells, piece, pieces));
-    return 1;
-  }
-};
-
-} // namespace
+#include <vector>
 
 TEST(RangeResampleRun, ReadsPieceByPieceTheSameImage)
 {
@@ -65,6 +33,64 @@ TEST(RangeResampleRun, ReadsPieceByPieceTheSameImage)
     EXPECT_EQ(source->Requests, pieces);
     EXPECT_TRUE(sameArrays(whole, filter->GetOutput())) << pieces;
     EXPECT_EQ(statistic(filter, "Cells"), scene.cells());
+  }
+}
+
+TEST(RangeResampleRun, EndsIfAPieceFailsAndStartsAfresh)
+{
+  const Scene scene = jitteredScene(2, 12, 3);
+  vtkNew<PieceSource> source;
+  source->Cells = scene;
+  const auto filter = unitFilter(2, 33);
+  filter->SetInputConnection(source->GetOutputPort());
+  filter->SetNumberOfInputPieces(4);
+  filter->Update();
+  vtkNew<vtkImageData> whole;
+  whole->DeepCopy(filter->GetOutput());
+  source->FailingPiece = 2;
+  source->Modified();
+  vtkNew<tipp::test::MessageCounter> errors;
+  filter->AddObserver(vtkCommand::ErrorEvent, errors);
+  source->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
+  filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
+  filter->Update();
+  EXPECT_NE(errors->Text.find("has not made its piece 2"), std::string::npos) << errors->Text;
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetNumberOfArrays(), 0);
+  source->FailingPiece = -1;
+  source->Requests = 0;
+  source->Modified();
+  filter->Update();
+  EXPECT_EQ(source->Requests, 4);
+  EXPECT_TRUE(sameArrays(whole, filter->GetOutput()));
+}
+
+TEST(RangeResampleRun, ProgressOverMeshesAndPiecesIsOfTheWhole)
+{
+  vtkNew<vtkPartitionedDataSet> parts;
+  for (unsigned i = 0; i < 4; ++i)
+  {
+    parts->SetPartition(i, gridOf(jitteredScene(2, 12, 3), int(i), 4));
+  }
+  const auto filter = unitFilter(2, 33);
+  filter->SetInputData(parts);
+  filter->SetNumberOfInputPieces(2);
+  std::vector<double> steps;
+  vtkNew<vtkCallbackCommand> note;
+  note->SetClientData(&steps);
+  note->SetCallback(
+    [](vtkObject* caller, unsigned long, void* data, void*)
+    {
+      static_cast<std::vector<double>*>(data)->push_back(
+        static_cast<vtkAlgorithm*>(caller)->GetProgress());
+    });
+  filter->AddObserver(vtkCommand::ProgressEvent, note);
+  filter->Update();
+  for (const double of : { 1 / 8.0, 3 / 8.0, 7 / 8.0 })
+  {
+    const double expected = of * 0.95; // the rest is for making the output
+    EXPECT_TRUE(std::any_of(
+      steps.begin(), steps.end(), [&](double step) { return std::fabs(step - expected) < 1e-12; }))
+      << of;
   }
 }
 
