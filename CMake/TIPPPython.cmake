@@ -12,7 +12,6 @@ set(tipp_python_destination "lib/python3/dist-packages")
 # From a wrapped module, three folders deep below lib, to the libraries.
 file(RELATIVE_PATH tipp_python_to_libraries
   "/${tipp_python_destination}/tipp" "/${CMAKE_INSTALL_LIBDIR}")
-set(tipp_install_rpath "${CMAKE_INSTALL_RPATH}")
 set(CMAKE_INSTALL_RPATH "$ORIGIN/${tipp_python_to_libraries}")
 vtk_module_wrap_python(
   MODULES ${tipp_modules}
@@ -22,7 +21,7 @@ vtk_module_wrap_python(
   CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/TIPP"
   INSTALL_HEADERS OFF
   WRAPPED_MODULES tipp_wrapped_modules)
-set(CMAKE_INSTALL_RPATH "${tipp_install_rpath}")
+unset(CMAKE_INSTALL_RPATH)
 
 set(tipp_python_imports "")
 foreach (module IN LISTS tipp_wrapped_modules)

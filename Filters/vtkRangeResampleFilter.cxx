@@ -3,11 +3,12 @@
 
 #include "Messages/Postbox.h"
 #include "Output/Monitor.h"
+#include "Parallel/ParallelFor.h"
+#include "Parallel/Stopwatch.h"
 #include "Resample/ExchangeSamples.h"
 #include "Resample/ImageOutput.h"
 #include "Resample/SampledImage.h"
 #include "Resample/SamplingRange.h"
-#include "Triangulation/Stopwatch.h"
 
 #include "vtkAlgorithmOutput.h"
 #include "vtkCommand.h"
@@ -23,8 +24,6 @@
 #include "vtkPointSet.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
-
-#include <omp.h>
 
 #include <algorithm>
 #include <exception>
@@ -143,7 +142,7 @@ tipp::SamplingSettings vtkRangeResampleFilter::Run::settings(bool merging) const
                                                          : tipp::Device::Auto;
   settings.Device.Index = filter->DeviceIndex;
   settings.Device.Name = filter->DeviceName ? filter->DeviceName : "";
-  settings.Threads = filter->NumberOfThreads > 0 ? filter->NumberOfThreads : omp_get_max_threads();
+  settings.Threads = tipp::threadCount(filter->NumberOfThreads);
   settings.Merging = merging;
   return settings;
 }

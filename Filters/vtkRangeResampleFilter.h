@@ -42,7 +42,9 @@
  * GetStatistics() is a vtkTable about the last run of this rank, whose field data has, one value
  * each, Cells, IgnoredCells, VisitedCells (whose boxes have samples), Tests (samples in those
  * boxes), ExactTests, OverlappingClaims, Samples, SamplesHit, Threads and Device, and, of one
- * length, PhaseName and PhaseSeconds (wall-clock seconds).
+ * length, PhaseName and PhaseSeconds (wall-clock seconds; those to and from an OpenCL device are
+ * apart). On an OpenCL device VisitedCells, Tests and ExactTests count the cells that it leaves to
+ * the threads.
  *
  * Related publication: *Efficient Generating and Processing of Large-Scale Unstructured Meshes*,
  * dissertation, University of Mississippi, chapter 4.4.
@@ -162,7 +164,7 @@ public:
   ///@{
   /**
    * What computes: DEVICE_AUTO (the default), DEVICE_OPENMP or DEVICE_OPENCL. The results of the
-   * devices agree to 1e-12.
+   * devices agree to 1e-12 of the largest value at the corners.
    */
   vtkSetClampMacro(Device, int, DEVICE_AUTO, DEVICE_OPENCL);
   vtkGetMacro(Device, int);

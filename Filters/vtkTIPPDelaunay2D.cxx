@@ -11,7 +11,7 @@
 #include "Projection/BoundingPoints.h"
 #include "Projection/FiniteBounds.h"
 #include "Projection/ProjectedPoints.h"
-#include "Triangulation/Stopwatch.h"
+#include "Parallel/Stopwatch.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkCellArray.h"

@@ -67,7 +67,7 @@ ComputeDevice::ComputeDevice(DeviceDescription description, const cl::Device& de
   : Description(std::move(description))
   , Device(device)
   , Context(device)
-  , Queue(this->Context, device)
+  , Queue(this->Context, device, CL_QUEUE_PROFILING_ENABLE)
   , SharesHostMemory(device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() == CL_TRUE)
 {
 }
@@ -110,12 +110,18 @@ cl::Buffer ComputeDevice::input(const void* data, std::size_t bytes) const
   {
     return this->room(0);
   }
-  const cl_mem_flags placing = this->SharesHostMemory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
+  if (!this->SharesHostMemory)
+  {
+    cl::Buffer copy = this->room(bytes);
+    this->write(copy, data, bytes);
+    return copy;
+  }
   return this->run(
     [&]
     {
       // The flag promises that nothing is written.
-      return cl::Buffer(this->Context, CL_MEM_READ_ONLY | placing, bytes, const_cast<void*>(data));
+      return cl::Buffer(
+        this->Context, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, bytes, const_cast<void*>(data));
     });
 }
 
@@ -129,8 +135,34 @@ void ComputeDevice::read(const cl::Buffer& buffer, void* data, std::size_t bytes
 {
   if (bytes != 0)
   {
-    this->run([&] { this->Queue.enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, data); });
+    this->run(
+      [&]
+      {
+        cl::Event event;
+        this->Queue.enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, data, nullptr, &event);
+        this->countTransfer(event);
+      });
   }
+}
+
+void ComputeDevice::write(const cl::Buffer& buffer, const void* data, std::size_t bytes) const
+{
+  if (bytes != 0)
+  {
+    this->run(
+      [&]
+      {
+        cl::Event event;
+        this->Queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, data, nullptr, &event);
+        this->countTransfer(event);
+      });
+  }
+}
+
+void ComputeDevice::countTransfer(const cl::Event& event) const
+{
+  this->TransferNanoseconds += event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
+    event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
 }
 
 AcceleratorError ComputeDevice::failure(const cl::Error& error) const

@@ -7,7 +7,9 @@
 #include "OpenCL/OpenCLHeaders.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <mutex>
 #include <string>
@@ -48,6 +50,26 @@ public:
   /// A kernel of its own for the caller, of a program that is built once a process.
   cl::Kernel kernel(const KernelSource& source, const char* name);
 
+  /// Puts a kernel with these arguments into the queue, for `items` work items or up to a group
+  /// more.
+  template <typename... Arguments>
+  void launch(cl::Kernel& kernel, std::size_t items, const Arguments&... arguments) const
+  {
+    if (items == 0)
+    {
+      return;
+    }
+    this->run(
+      [&]
+      {
+        cl_uint index = 0;
+        (kernel.setArg(index++, arguments), ...);
+        const std::size_t rounded = (items + GroupSize - 1) / GroupSize * GroupSize;
+        this->queue().enqueueNDRangeKernel(
+          kernel, cl::NullRange, cl::NDRange(rounded), cl::NDRange(GroupSize));
+      });
+  }
+
   /// `bytes` of this process for a kernel to read: without a copy where the memory is shared. They
   /// must stay until the kernels that read them have finished. At least one byte is allocated.
   cl::Buffer input(const void* data, std::size_t bytes) const;
@@ -55,8 +77,14 @@ public:
   /// Room for `bytes` on the device. At least one byte is allocated.
   cl::Buffer room(std::size_t bytes) const;
 
-  /// Copies from the device and waits until it is done.
+  ///@{
+  /// Copies to or from the device and waits until it is done.
+  void write(const cl::Buffer& buffer, const void* data, std::size_t bytes) const;
   void read(const cl::Buffer& buffer, void* data, std::size_t bytes) const;
+  ///@}
+
+  /// What all copies have taken so far, as the device tells it.
+  double transferSeconds() const { return 1e-9 * double(this->TransferNanoseconds); }
 
   /// Calls `work` and makes an AcceleratorError of what OpenCL throws, once the queue is empty:
   /// then nothing uses the caller's memory any more.
@@ -74,14 +102,19 @@ public:
   }
 
 private:
+  /// Counts are rounded up to whole groups: some drivers choose groups of one for a prime number.
+  static constexpr std::size_t GroupSize = 64;
+
   AcceleratorError failure(const cl::Error& error) const;
   cl::Program build(const KernelSource& source) const;
+  void countTransfer(const cl::Event& event) const;
 
   DeviceDescription Description;
   cl::Device Device;
   cl::Context Context;
   cl::CommandQueue Queue;
   bool SharesHostMemory;
+  mutable std::atomic<std::uint64_t> TransferNanoseconds{ 0 };
   std::mutex Mutex;
   std::map<std::string, cl::Program> Programs;
 };

@@ -16,9 +16,19 @@ namespace tipp
 /// Asked now and then by the calling thread with the fraction done; false stops the work.
 using Report = std::function<bool(double)>;
 
+/// The part of the work from `begin` to `end` as a report of its own; `report` must outlive it.
+inline Report partOf(const Report& report, double begin, double end)
+{
+  if (!report)
+  {
+    return {};
+  }
+  return [&report, begin, end](double done) { return report(begin + done * (end - begin)); };
+}
+
 /// Calls body(begin, end, thread) for pieces of 0..count of at most `chunk`, each piece once, by as
-/// many threads, whichever is free. Throws the first exception of a body. False if `report` stopped
-/// it.
+/// many threads, whichever is free, begun in order. If bodies throw, what the lowest of them threw
+/// comes out of here, as in a plain loop. False if `report` stopped it.
 template <typename Body>
 bool forChunks(
   std::int64_t count, std::int64_t chunk, int threads, const Report& report, const Body& body)
@@ -27,6 +37,7 @@ bool forChunks(
   std::atomic<bool> stopped{ false };
   bool wanted = true;
   std::exception_ptr error;
+  std::int64_t errorBegin = count;
 #pragma omp parallel num_threads(threads) if (count > chunk)
   {
     const int thread = omp_get_thread_num();
@@ -49,9 +60,13 @@ bool forChunks(
       }
       catch (...)
       {
-#pragma omp critical(tippForChunks)
-        error = error ? error : std::current_exception();
         stopped = true;
+#pragma omp critical(tippForChunks)
+        if (begin < errorBegin)
+        {
+          error = std::current_exception();
+          errorBegin = begin;
+        }
       }
     }
   }

@@ -20,10 +20,6 @@ enum Verdict : std::uint8_t
   Undecided = 2
 };
 
-// Work items in a group. Counts are rounded up to whole groups: some drivers choose groups of one
-// for a prime number.
-constexpr std::size_t GroupSize = 64;
-
 // Bytes on the device for a candidate (its id, its cell, its verdict) and for a cell that has some
 // (its number, where its candidates begin).
 constexpr std::uint64_t BytesPerCandidate = 4 + 4 + 1;
@@ -33,21 +29,6 @@ template <typename Value>
 cl::Buffer inputOf(const ComputeDevice& device, const std::vector<Value>& values)
 {
   return device.input(values.data(), values.size() * sizeof(Value));
-}
-
-template <typename... Arguments>
-void runKernel(
-  const ComputeDevice& device, cl::Kernel kernel, std::size_t count, const Arguments&... arguments)
-{
-  device.run(
-    [&]
-    {
-      cl_uint index = 0;
-      (kernel.setArg(index++, arguments), ...);
-      const std::size_t rounded = (count + GroupSize - 1) / GroupSize * GroupSize;
-      device.queue().enqueueNDRangeKernel(
-        kernel, cl::NullRange, cl::NDRange(rounded), cl::NDRange(GroupSize));
-    });
 }
 
 // A tiling's flat arrays on the device.
@@ -176,10 +157,10 @@ private:
     const std::size_t bytes = count * sizeof(cl_int);
     const cl::Buffer counts = this->Device.room(bytes);
     const cl::Buffer owners = this->Device.room(bytes);
-    runKernel(this->Device, this->Device.kernel(ClassifyKernels, "countCandidates"), count,
-      t.Dimension, t.Axes, t.Children, t.Counts[0], t.Counts[1], t.Counts[2], t.Cuts, t.Nodes,
-      t.Middles, t.Domain, this->Coordinates, this->Cells.Corners, this->Cells.Dimension,
-      static_cast<cl_uint>(count), counts, owners);
+    cl::Kernel kernel = this->Device.kernel(ClassifyKernels, "countCandidates");
+    this->Device.launch(kernel, count, t.Dimension, t.Axes, t.Children, t.Counts[0], t.Counts[1],
+      t.Counts[2], t.Cuts, t.Nodes, t.Middles, t.Domain, this->Coordinates, this->Cells.Corners,
+      this->Cells.Dimension, static_cast<cl_uint>(count), counts, owners);
     this->Counts.resize(count);
     this->Device.read(counts, this->Counts.data(), bytes);
     this->Device.read(owners, this->Result.Owner.data() + first, bytes);
@@ -207,14 +188,15 @@ private:
     const cl::Buffer ids = this->Device.room(candidates * sizeof(cl_int));
     const cl::Buffer idCells = this->Device.room(candidates * sizeof(cl_uint));
     const cl::Buffer verdicts = this->Device.room(candidates);
-    runKernel(this->Device, this->Device.kernel(ClassifyKernels, "listCandidates"),
-      listed.Cells.size(), t.Dimension, t.Axes, t.Children, t.Counts[0], t.Counts[1], t.Counts[2],
-      t.Cuts, t.Nodes, t.Middles, t.Domain, this->Coordinates, this->Cells.Corners,
-      this->Cells.Dimension, static_cast<cl_uint>(listed.Cells.size()), cells, starts, ids,
-      idCells);
-    runKernel(this->Device, this->Device.kernel(ClassifyKernels, "testCandidates"), candidates,
-      t.Dimension, t.Boxes, this->Coordinates, this->Cells.Corners, this->Cells.Dimension,
-      static_cast<cl_ulong>(candidates), ids, idCells, verdicts);
+    cl::Kernel list = this->Device.kernel(ClassifyKernels, "listCandidates");
+    cl::Kernel test = this->Device.kernel(ClassifyKernels, "testCandidates");
+    this->Device.launch(list, listed.Cells.size(), t.Dimension, t.Axes, t.Children, t.Counts[0],
+      t.Counts[1], t.Counts[2], t.Cuts, t.Nodes, t.Middles, t.Domain, this->Coordinates,
+      this->Cells.Corners, this->Cells.Dimension, static_cast<cl_uint>(listed.Cells.size()), cells,
+      starts, ids, idCells);
+    this->Device.launch(test, candidates, t.Dimension, t.Boxes, this->Coordinates,
+      this->Cells.Corners, this->Cells.Dimension, static_cast<cl_ulong>(candidates), ids, idCells,
+      verdicts);
     this->Device.read(ids, this->Ids.data(), candidates * sizeof(cl_int));
     this->Device.read(verdicts, this->Verdicts.data(), candidates);
   }

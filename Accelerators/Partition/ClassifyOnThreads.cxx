@@ -2,11 +2,9 @@
 #include "Partition/ClassifyOnThreads.h"
 
 #include "OpenCL/AcceleratorError.h"
-
-#include <omp.h>
+#include "Parallel/ParallelFor.h"
 
 #include <atomic>
-#include <new>
 #include <string>
 #include <utility>
 
@@ -27,7 +25,7 @@ public:
     : Count(cells.Cells)
     , Tiling(tiling)
     , Shape(shape)
-    , Threads(threads > 0 ? threads : omp_get_max_threads())
+    , Threads(threadCount(threads))
     , Borrowers((cells.Cells + BlockSize - 1) / BlockSize)
   {
     this->Result.Owner.resize(cells.Cells);
@@ -36,24 +34,9 @@ public:
 
   Membership run()
   {
-    const auto blocks = static_cast<std::int64_t>(this->Borrowers.size());
-#pragma omp parallel for num_threads(this->Threads) schedule(dynamic, 1)
-    for (std::int64_t block = 0; block < blocks; ++block)
-    {
-      // No exception may leave a parallel loop.
-      try
-      {
-        this->classify(static_cast<std::size_t>(block));
-      }
-      catch (const std::bad_alloc&)
-      {
-        this->OutOfMemory = true;
-      }
-    }
-    if (this->OutOfMemory.load())
-    {
-      throw std::bad_alloc();
-    }
+    forChunks(static_cast<std::int64_t>(this->Borrowers.size()), 1, this->Threads, {},
+      [&](std::int64_t block, std::int64_t, int)
+      { this->classify(static_cast<std::size_t>(block)); });
     if (this->Homeless.load() < this->Count)
     {
       failForCell(this->Shape, this->Homeless.load());
@@ -156,18 +139,18 @@ private:
       starts[block + 1] = starts[block] + static_cast<std::int64_t>(this->Borrowers[block].size());
     }
     this->Result.Borrowers.resize(static_cast<std::size_t>(starts[blocks]));
-#pragma omp parallel for num_threads(this->Threads) schedule(static)
-    for (std::int64_t b = 0; b < static_cast<std::int64_t>(blocks); ++b)
-    {
-      const auto block = static_cast<std::size_t>(b);
-      const std::size_t end = std::min(this->Count, (block + 1) * BlockSize);
-      for (std::size_t i = block * BlockSize; i < end; ++i)
+    forChunks(static_cast<std::int64_t>(blocks), 1, this->Threads, {},
+      [&](std::int64_t b, std::int64_t, int)
       {
-        this->Result.BorrowerStart[i + 1] += starts[block];
-      }
-      std::copy(this->Borrowers[block].begin(), this->Borrowers[block].end(),
-        this->Result.Borrowers.begin() + starts[block]);
-    }
+        const auto block = static_cast<std::size_t>(b);
+        const std::size_t end = std::min(this->Count, (block + 1) * BlockSize);
+        for (std::size_t i = block * BlockSize; i < end; ++i)
+        {
+          this->Result.BorrowerStart[i + 1] += starts[block];
+        }
+        std::copy(this->Borrowers[block].begin(), this->Borrowers[block].end(),
+          this->Result.Borrowers.begin() + starts[block]);
+      });
   }
 
   std::size_t Count;
@@ -176,7 +159,6 @@ private:
   int Threads;
   std::vector<std::vector<std::int32_t>> Borrowers;
   Membership Result;
-  std::atomic<bool> OutOfMemory{ false };
   std::atomic<std::size_t> Homeless{ static_cast<std::size_t>(-1) };
 };
 

@@ -49,6 +49,18 @@ CellKey cellKey(const Point3 (&corners)[Corners])
   return hash >> 4;
 }
 
+/// The key of a cell of a SimplexAccess.
+template <typename Access>
+CellKey keyOf(const Access& cells, std::int64_t cell)
+{
+  Point3 corners[Access::Corners];
+  for (int i = 0; i < Access::Corners; ++i)
+  {
+    corners[i] = cells.point(cells.ids(cell)[i]);
+  }
+  return cellKey(corners);
+}
+
 inline CellKey withRank(CellKey key, int rank)
 {
   return (key << 4 >> 4) | (CellKey(rank) << 60);

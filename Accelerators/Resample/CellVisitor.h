@@ -76,7 +76,7 @@ public:
   {
     constexpr std::int64_t chunk = 4096;
     const auto visit = [this](std::int64_t begin, std::int64_t end, int thread)
-    { this->visitChunk(begin, end, thread); };
+    { this->visitChunk(nullptr, begin, end, thread); };
     return forChunks(this->Mesh.Cells, chunk, int(this->Sinks.size()), report, visit) &&
       this->visitLargeCells(report);
   }
@@ -89,6 +89,8 @@ private:
   /// Cells of more samples are shared out among the threads, in parts of about so many samples.
   static constexpr std::int64_t LargeCell = 1 << 16;
   static constexpr std::int64_t LargePart = 1 << 14;
+  /// Cells whose points are asked for before they are used.
+  static constexpr std::int64_t Ahead = 12;
 
   struct Part
   {
@@ -99,18 +101,16 @@ private:
 
   Rows makeRows() const { return this->Axes.rows(std::integral_constant<int, Dimension>()); }
 
-  void visitChunk(std::int64_t begin, std::int64_t end, int thread)
+  /// Cells begin..end - 1; or those parts of large cells.
+  void visitChunk(const Part* parts, std::int64_t begin, std::int64_t end, int thread)
   {
-    constexpr std::int64_t ahead = 12;
     Sink& sink = this->Sinks[std::size_t(thread)];
     Rows rows = this->makeRows();
     Corners corners;
-    for (std::int64_t cell = begin; cell < end; ++cell)
+    for (std::int64_t i = begin; i < end; ++i)
     {
-      if (cell + ahead < this->Mesh.Cells)
-      {
-        this->Cells.prefetch(cell + ahead);
-      }
+      const std::int64_t cell = parts ? parts[i].Cell : i;
+      this->Cells.prefetch(std::min(cell + Ahead, this->Mesh.Cells - 1));
       if (this->Mesh.Hidden && this->Mesh.Hidden[cell])
       {
         continue;
@@ -121,16 +121,21 @@ private:
         continue;
       }
       const std::int64_t samples = samplesOf(rows);
-      sink.visit(samples);
-      if (samples > LargeCell)
+      Part part{ std::int32_t(cell), 0, rowsOf(rows) };
+      if (parts)
       {
-        this->defer(rows, std::int32_t(cell), thread);
-        continue;
+        part = parts[i];
       }
-      for (int layer = rows.layers().Begin; layer < rows.layers().End; ++layer)
+      else
       {
-        this->visitRows(rows, layer, rows.rows(), std::int32_t(cell), sink);
+        sink.visit(samples);
+        if (samples > LargeCell)
+        {
+          this->defer(rows, part, thread);
+          continue;
+        }
       }
+      this->visitRows(rows, part, sink);
     }
     sink.addExactTests(rows.exactTests());
     sink.endChunk();
@@ -141,33 +146,49 @@ private:
     return std::int64_t(rows.columns().size()) * rows.rows().size() * rows.layers().size();
   }
 
-  [[gnu::always_inline]] void visitRows(
-    const Rows& rows, int layer, IndexRange range, std::int32_t cell, Sink& sink)
+  static std::int64_t rowsOf(const Rows& rows)
+  {
+    return std::int64_t(rows.rows().size()) * rows.layers().size();
+  }
+
+  [[gnu::always_inline]] void visitRows(const Rows& rows, const Part& part, Sink& sink)
   {
     const std::int64_t width = this->Axes.U.size();
-    for (int row = range.Begin; row < range.End; ++row)
+    int row = rows.rows().Begin;
+    int layer = rows.layers().Begin;
+    if (part.RowBegin > 0)
+    {
+      row += int(part.RowBegin % rows.rows().size());
+      layer += int(part.RowBegin / rows.rows().size());
+    }
+    for (std::int64_t i = part.RowBegin; i < part.RowEnd; ++i)
     {
       const RowSpan span = rows.span(row, layer);
       const std::int64_t first = (std::int64_t(layer) * this->Axes.V.size() + row) * width;
       if (span.End > span.Begin)
       {
-        sink.claim(first + span.Begin, span.End - span.Begin, cell);
+        sink.claim(first + span.Begin, span.End - span.Begin, part.Cell);
       }
       const int border = std::max(span.Begin, span.End);
       if (span.ClosedEnd > border)
       {
-        sink.touch(first + border, span.ClosedEnd - border, cell);
+        sink.touch(first + border, span.ClosedEnd - border, part.Cell);
+      }
+      if (++row == rows.rows().End)
+      {
+        row = rows.rows().Begin;
+        ++layer;
       }
     }
   }
 
-  void defer(const Rows& rows, std::int32_t cell, int thread)
+  void defer(const Rows& rows, const Part& whole, int thread)
   {
     const std::int64_t step = std::max<std::int64_t>(1, LargePart / rows.columns().size());
-    const std::int64_t count = std::int64_t(rows.rows().size()) * rows.layers().size();
-    for (std::int64_t begin = 0; begin < count; begin += step)
+    for (std::int64_t begin = 0; begin < whole.RowEnd; begin += step)
     {
-      this->Large[std::size_t(thread)].push_back({ cell, begin, std::min(begin + step, count) });
+      this->Large[std::size_t(thread)].push_back(
+        { whole.Cell, begin, std::min(begin + step, whole.RowEnd) });
     }
   }
 
@@ -180,30 +201,8 @@ private:
       large = {};
     }
     const auto visit = [&](std::int64_t begin, std::int64_t end, int thread)
-    {
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        this->visitPart(parts[std::size_t(i)], this->Sinks[std::size_t(thread)]);
-      }
-    };
+    { this->visitChunk(parts.data(), begin, end, thread); };
     return forChunks(std::int64_t(parts.size()), 1, int(this->Sinks.size()), report, visit);
-  }
-
-  void visitPart(const Part& part, Sink& sink)
-  {
-    Rows rows = this->makeRows();
-    Corners corners;
-    this->Cells.corners(part.Cell, corners);
-    rows.set(corners);
-    const std::int64_t depth = rows.rows().size();
-    for (std::int64_t i = part.RowBegin; i < part.RowEnd; ++i)
-    {
-      const int row = rows.rows().Begin + int(i % depth);
-      const int layer = rows.layers().Begin + int(i / depth);
-      this->visitRows(rows, layer, { row, row + 1 }, part.Cell, sink);
-    }
-    sink.addExactTests(rows.exactTests());
-    sink.endChunk();
   }
 
   const SimplexMesh& Mesh;

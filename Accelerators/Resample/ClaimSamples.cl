@@ -112,10 +112,11 @@ int triangleSpan(const Triangle* t, int row, Axis u, Axis v, int* begin, int* en
   const double y = coordinateOf(v, row);
   const Edge* other = &t->edges[y >= t->middle ? 2 : 1];
   const Edge* whole = &t->edges[0];
-  const double atLong = placeOf(u, whole->low.x + (y - whole->low.y) * whole->slope);
-  const double steps = other->low.x + (y - other->low.y) * other->slope;
-  const double atOther = placeOf(u, steps);
-  if (!(y < t->top) || !isfinite(steps) || !certain(atLong, t->error) || !certain(atOther, t->error))
+  const double xLong = whole->low.x + (y - whole->low.y) * whole->slope;
+  const double xOther = other->low.x + (y - other->low.y) * other->slope;
+  const double atLong = placeOf(u, xLong);
+  const double atOther = placeOf(u, xOther);
+  if (!(y < t->top) || !isfinite(xLong) || !isfinite(xOther) || !certain(atLong, t->error) || !certain(atOther, t->error))
   {
     return DOUBT;
   }

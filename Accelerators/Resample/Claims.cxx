@@ -6,6 +6,7 @@
 #include "Resample/Containment.h"
 
 #include <algorithm>
+#include <functional>
 #include <tuple>
 #include <utility>
 
@@ -101,15 +102,16 @@ void lowerTo(CellKey* to, CellKey key)
   }
 }
 
-/// Finds the lowest key at each sample, and then the first cell that has it.
+/// Of overlapping cells: calls settle(sample, cell, key) for what each claims.
 template <typename Access>
 class OverlapWalk
 {
 public:
-  OverlapWalk(const Access& cells, CellKey* keys, std::int32_t* claims)
+  using Settle = std::function<void(std::int64_t sample, std::int32_t cell, CellKey key)>;
+
+  OverlapWalk(const Access& cells, Settle settle)
     : Cells(cells)
-    , Keys(keys)
-    , Claims(claims)
+    , SettleSample(std::move(settle))
   {
   }
 
@@ -127,41 +129,26 @@ public:
     }
     for (std::int64_t i = first; i < first + count; ++i)
     {
-      this->Claims ? this->settle(i, cell) : lowerTo(this->Keys + i, this->KnownKey);
+      this->SettleSample(i, cell, this->KnownKey);
     }
-  }
-
-  static CellKey keyOf(const Access& cells, std::int32_t cell)
-  {
-    Point3 corners[Access::Corners];
-    for (int i = 0; i < Access::Corners; ++i)
-    {
-      corners[i] = cells.point(cells.ids(cell)[i]);
-    }
-    return cellKey(corners);
   }
 
 private:
-  void settle(std::int64_t sample, std::int32_t cell)
-  {
-    if (this->Keys[sample] != this->KnownKey)
-    {
-      return;
-    }
-    std::int32_t* to = this->Claims + sample;
-    std::int32_t known = __atomic_load_n(to, __ATOMIC_RELAXED);
-    while ((known == unclaimed || cell < known) &&
-      !__atomic_compare_exchange_n(to, &known, cell, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
-    {
-    }
-  }
-
   Access Cells;
-  CellKey* Keys;
-  std::int32_t* Claims; ///< null in the walk for the keys
+  Settle SettleSample;
   std::int32_t KnownCell = unclaimed;
   CellKey KnownKey = noCellKey;
 };
+
+/// As numbers without a sign: unclaimed is the largest.
+void lowerTo(std::int32_t* to, std::int32_t cell)
+{
+  std::int32_t known = __atomic_load_n(to, __ATOMIC_RELAXED);
+  while (std::uint32_t(cell) < std::uint32_t(known) &&
+    !__atomic_compare_exchange_n(to, &known, cell, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
+  {
+  }
+}
 
 class Claimer
 {
@@ -281,15 +268,20 @@ private:
         using Access = std::decay_t<decltype(access)>;
         using Walk = OverlapWalk<Access>;
         using Visitor = CellVisitor<Access, Walk>;
-        std::vector<Walk> forKeys(std::size_t(this->Threads), Walk(access, keys.get(), nullptr));
-        if (!Visitor(this->Mesh, this->Axes, forKeys).run(this->Progress))
+        const auto walk = [&](const typename Walk::Settle& settle)
         {
-          this->Result.Aborted = true;
-          return;
+          std::vector<Walk> walks(std::size_t(this->Threads), Walk(access, settle));
+          return Visitor(this->Mesh, this->Axes, walks).run(this->Progress);
+        };
+        // The lowest key at each sample, then the first cell that has it.
+        this->Result.Aborted = !walk([&](std::int64_t sample, std::int32_t, CellKey key)
+          { lowerTo(keys.get() + sample, key); });
+        if (!this->Result.Aborted)
+        {
+          this->fill(claims, unclaimed);
+          this->Result.Aborted = !walk([&](std::int64_t sample, std::int32_t cell, CellKey key)
+            { keys[std::size_t(sample)] == key ? lowerTo(claims + sample, cell) : void(); });
         }
-        this->fill(claims, unclaimed);
-        std::vector<Walk> forCells(std::size_t(this->Threads), Walk(access, keys.get(), claims));
-        this->Result.Aborted = !Visitor(this->Mesh, this->Axes, forCells).run(this->Progress);
       });
   }
 
@@ -298,7 +290,6 @@ private:
     withAccess(this->Mesh,
       [&](const auto& access)
       {
-        using Access = std::decay_t<decltype(access)>;
         struct Candidate
         {
           std::int64_t Sample;
@@ -308,7 +299,7 @@ private:
         std::vector<Candidate> candidates;
         for (const Touch& touch : touches)
         {
-          const CellKey key = OverlapWalk<Access>::keyOf(access, touch.Cell);
+          const CellKey key = keyOf(access, touch.Cell);
           candidates.push_back(
             { touch.Sample, withRank(key, this->rank(access, touch)), touch.Cell });
         }
@@ -366,6 +357,43 @@ Claims finishClaims(const SimplexMesh& mesh, const Lattice& lattice, int threads
   const std::vector<std::int32_t>& open, const Report& report)
 {
   return Claimer(mesh, lattice, threads, report).finish(std::move(claims), claimed, open);
+}
+
+void mergeClaims(
+  const SimplexMesh& mesh, Claims& claims, std::int64_t samples, int threads, CellKey* keys)
+{
+  withAccess(mesh,
+    [&](const auto& access)
+    {
+      forChunks(samples, 1 << 14, threads, {},
+        [&](std::int64_t begin, std::int64_t end, int)
+        {
+          auto border = std::lower_bound(claims.Border.begin(), claims.Border.end(), begin,
+            [](const BorderClaim& claim, std::int64_t sample) { return claim.Sample < sample; });
+          std::int32_t known = -1;
+          CellKey key = noCellKey;
+          for (std::int64_t i = begin; i < end; ++i)
+          {
+            std::int32_t& cell = claims.Cells[std::size_t(i)];
+            if (cell < 0)
+            {
+              continue;
+            }
+            if (cell != known)
+            {
+              key = keyOf(access, cell);
+              known = cell;
+            }
+            CellKey mine = key;
+            if (border != claims.Border.end() && border->Sample == i)
+            {
+              mine = withRank(key, border->Rank);
+              ++border;
+            }
+            mine < keys[i] ? void(keys[i] = mine) : void(cell = -1);
+          }
+        });
+    });
 }
 
 } // namespace tipp

@@ -3,6 +3,7 @@
 #define tippClaims_h
 
 #include "Parallel/ForChunks.h"
+#include "Resample/CellKey.h"
 #include "Resample/Lattice.h"
 #include "Resample/SimplexMesh.h"
 #include "vtkTIPPAcceleratorsModule.h"
@@ -22,6 +23,8 @@ struct BorderClaim
   int Rank; ///< see moveRank()
 };
 
+/// Of the cells that the threads of this process have visited: where a device claims samples, those
+/// that it leaves to them.
 struct ClaimStatistics
 {
   std::int64_t VisitedCells = 0; ///< whose boxes have samples
@@ -54,6 +57,11 @@ VTKTIPPACCELERATORS_EXPORT Claims claimSamples(
 Claims finishClaims(const SimplexMesh& mesh, const Lattice& lattice, int threads,
   std::unique_ptr<std::int32_t[]> claims, std::int64_t claimed,
   const std::vector<std::int32_t>& open, const Report& report);
+
+/// Lowers `keys` to those of the claims, and takes back the claims that are not below what they
+/// find: then other parts of a mesh can add their samples to the same arrays, in any order.
+VTKTIPPACCELERATORS_EXPORT void mergeClaims(
+  const SimplexMesh& mesh, Claims& claims, std::int64_t samples, int threads, CellKey* keys);
 
 } // namespace tipp
 

@@ -144,15 +144,19 @@ void fillNull(const Attribute& attribute, const std::int32_t* claims, bool claim
     });
 }
 
+/// Whether there is something left to sample.
+bool isSampled(const Attribute& attribute, const InterpolationOptions& options)
+{
+  return attribute.Values && !(options.SkipInterpolated && isInterpolated(attribute));
+}
+
 template <typename Access>
 void fillBlock(const SampleRuns<Access>& runs, const std::vector<Attribute>& attributes,
   std::int64_t first, const InterpolationOptions& options)
 {
   for (const Attribute& attribute : attributes)
   {
-    const bool interpolated = !attribute.OfCells &&
-      (attribute.Type == Scalar::Float32 || attribute.Type == Scalar::Float64);
-    if (!attribute.Values || (interpolated && options.SkipInterpolated))
+    if (!isSampled(attribute, options))
     {
       continue;
     }
@@ -197,67 +201,26 @@ bool interpolate(const SimplexMesh& mesh, const Lattice& lattice, const std::int
     [&](const auto& access)
     {
       using Runs = SampleRuns<std::decay_t<decltype(access)>>;
-      const bool needsWeights = !options.SkipInterpolated ||
-        std::any_of(attributes.begin(), attributes.end(),
-          [](const Attribute& attribute) { return !attribute.OfCells; });
+      const bool needsRuns = std::any_of(attributes.begin(), attributes.end(),
+        [&](const Attribute& attribute) { return isSampled(attribute, options); });
+      const bool needsWeights = std::any_of(attributes.begin(), attributes.end(),
+        [&](const Attribute& attribute)
+        { return isSampled(attribute, options) && !attribute.OfCells; });
       std::vector<Runs> blocks(std::size_t(options.Threads), Runs(mesh, axes));
       completed = forChunks(axes.samples(), Runs::BlockSize, options.Threads, options.Progress,
         [&](std::int64_t begin, std::int64_t end, int thread)
         {
           Runs& runs = blocks[std::size_t(thread)];
-          runs.find(claims, begin, int(end - begin));
-          if (needsWeights)
+          if (needsRuns)
           {
-            runs.weigh();
+            runs.find(claims, begin, int(end - begin));
+            needsWeights ? runs.weigh() : void();
+            fillBlock(runs, attributes, begin, options);
           }
-          fillBlock(runs, attributes, begin, options);
           fillRest(attributes, claims, begin, end, options);
         });
     });
   return completed;
-}
-
-void mergeClaims(
-  const SimplexMesh& mesh, Claims& claims, std::int64_t samples, int threads, CellKey* keys)
-{
-  withAccess(mesh,
-    [&](const auto& access)
-    {
-      using Access = std::decay_t<decltype(access)>;
-      forChunks(samples, 1 << 14, threads, {},
-        [&](std::int64_t begin, std::int64_t end, int)
-        {
-          auto border = std::lower_bound(claims.Border.begin(), claims.Border.end(), begin,
-            [](const BorderClaim& claim, std::int64_t sample) { return claim.Sample < sample; });
-          std::int32_t known = -1;
-          CellKey key = noCellKey;
-          for (std::int64_t i = begin; i < end; ++i)
-          {
-            std::int32_t& cell = claims.Cells[std::size_t(i)];
-            if (cell < 0)
-            {
-              continue;
-            }
-            if (cell != known)
-            {
-              Point3 corners[Access::Corners];
-              for (int corner = 0; corner < Access::Corners; ++corner)
-              {
-                corners[corner] = access.point(access.ids(cell)[corner]);
-              }
-              key = cellKey(corners);
-              known = cell;
-            }
-            CellKey mine = key;
-            if (border != claims.Border.end() && border->Sample == i)
-            {
-              mine = withRank(key, border->Rank);
-              ++border;
-            }
-            mine < keys[i] ? void(keys[i] = mine) : void(cell = -1);
-          }
-        });
-    });
 }
 
 } // namespace tipp

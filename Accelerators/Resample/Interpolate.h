@@ -4,7 +4,6 @@
 
 #include "Parallel/ForChunks.h"
 #include "Resample/Attribute.h"
-#include "Resample/CellKey.h"
 #include "Resample/Claims.h"
 #include "Resample/Lattice.h"
 #include "Resample/SimplexMesh.h"
@@ -38,11 +37,6 @@ struct InterpolationOptions
 VTKTIPPACCELERATORS_EXPORT bool interpolate(const SimplexMesh& mesh, const Lattice& lattice,
   const std::int32_t* claims, const std::vector<Attribute>& attributes,
   const InterpolationOptions& options);
-
-/// Lowers `keys` to those of the claims, and takes back the claims that are not below what they
-/// find: then other parts of a mesh can add their samples to the same arrays, in any order.
-VTKTIPPACCELERATORS_EXPORT void mergeClaims(
-  const SimplexMesh& mesh, Claims& claims, std::int64_t samples, int threads, CellKey* keys);
 
 } // namespace tipp
 

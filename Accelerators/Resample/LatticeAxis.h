@@ -34,6 +34,14 @@ struct IndexRange
   }
 };
 
+/// How many samples of a row lie strictly before a line or plane that crosses it, and with those on
+/// it.
+struct Crossing
+{
+  int Before;
+  int WithOn;
+};
+
 /// One axis of a lattice: the coordinates of its samples, and where among them others lie.
 class LatticeAxis
 {
@@ -100,6 +108,25 @@ public:
     return place - whole < 0.5 ? whole - 1 : whole;
   }
 
+  /// The samples before a crossing at a place that is not certain, those of `columns` being in
+  /// question. side(i) is exact: 1 before it, 0 on it, -1 beyond.
+  template <typename Side>
+  Crossing crossing(double place, double error, IndexRange columns, const Side& side) const
+  {
+    if (!(error < 0.5))
+    {
+      return { columns.firstWhereNot([&](int i) { return side(i) > 0; }),
+        columns.firstWhereNot([&](int i) { return side(i) >= 0; }) };
+    }
+    const int i = doubtful(place);
+    if (i < 0 || i >= this->size())
+    {
+      return { int(place), int(place) };
+    }
+    const int where = side(i);
+    return { where > 0 ? i + 1 : i, where >= 0 ? i + 1 : i };
+  }
+
   /// The samples from low to high, both included; `error` as from error() with a reach to both.
   [[gnu::always_inline]] IndexRange range(double low, double high, double error) const
   {
@@ -112,9 +139,10 @@ public:
     return this->exactRange(low, high);
   }
 
-private:
+  /// 64 roundings of numbers up to 1.
   static constexpr double Roundings = 7.1054273576010019e-15; // 2^-47
 
+private:
   [[gnu::noinline]] IndexRange exactRange(double low, double high) const
   {
     const auto begin = this->Coordinates.begin();

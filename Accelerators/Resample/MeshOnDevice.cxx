@@ -15,7 +15,7 @@ constexpr std::int64_t PointBytes = 3 * sizeof(double);
 
 } // namespace
 
-std::int64_t cellsOnDevice(const ComputeDevice& device, const SimplexMesh& mesh, std::size_t tuple,
+DevicePieces piecesOnDevice(const ComputeDevice& device, const SimplexMesh& mesh, std::size_t tuple,
   std::size_t others, std::uint64_t memory)
 {
   const DeviceDescription& description = device.description();
@@ -30,7 +30,7 @@ std::int64_t cellsOnDevice(const ComputeDevice& device, const SimplexMesh& mesh,
   if (points <= std::uint64_t(std::numeric_limits<cl_int>::max()) && pointBytes <= largest &&
     idBytes <= largest && pointBytes + idBytes + listBytes + points * tuple + others <= room)
   {
-    return std::max<std::int64_t>(mesh.Cells, 1);
+    return { true, std::max<std::int64_t>(mesh.Cells, 1) };
   }
   const std::uint64_t cellBytes = corners * (std::uint64_t(PointBytes) + 4 + tuple) + 12;
   const std::uint64_t left = others < room ? std::min((room - others), largest) : 0;
@@ -41,31 +41,40 @@ std::int64_t cellsOnDevice(const ComputeDevice& device, const SimplexMesh& mesh,
   }
   // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): a cell has corners.
   const std::int64_t most = std::numeric_limits<cl_int>::max() / std::int64_t(corners);
-  return std::min(std::int64_t(left / cellBytes), most);
+  return { false, std::min(std::int64_t(left / cellBytes), most) };
 }
 
-MeshOnDevice::MeshOnDevice(const ComputeDevice& device, const SimplexMesh& mesh, std::int64_t first,
-  std::int64_t count, int threads)
+MeshOnDevice::MeshOnDevice(const ComputeDevice& device, const SimplexMesh& mesh)
   : Float(mesh.Float)
   , Wide(mesh.Wide)
   , Corners(mesh.Dimension + 1)
   , U(mesh.Dimension == 2 ? mesh.Axes[0] : 0)
   , V(mesh.Dimension == 2 ? mesh.Axes[1] : 1)
   , Device(device)
+  , First(0)
+  , Count(mesh.Cells)
+  , Whole(true)
+  , Threads(1)
+{
+  const std::size_t scalar = mesh.Float ? sizeof(float) : sizeof(double);
+  const std::size_t id = mesh.Wide ? sizeof(cl_long) : sizeof(cl_int);
+  this->Points = device.input(mesh.Points, 3 * std::size_t(mesh.PointCount) * scalar);
+  this->Ids = device.input(mesh.Ids, std::size_t(mesh.Cells * this->Corners) * id);
+}
+
+MeshOnDevice::MeshOnDevice(const ComputeDevice& device, const SimplexMesh& mesh, std::int64_t first,
+  std::int64_t count, int threads)
+  : Float(0)
+  , Wide(0)
+  , Corners(mesh.Dimension + 1)
+  , U(mesh.Dimension == 2 ? mesh.Axes[0] : 0)
+  , V(mesh.Dimension == 2 ? mesh.Axes[1] : 1)
+  , Device(device)
   , First(first)
   , Count(count)
-  , Whole(count == mesh.Cells)
+  , Whole(false)
+  , Threads(threads)
 {
-  if (this->Whole)
-  {
-    const std::size_t scalar = mesh.Float ? sizeof(float) : sizeof(double);
-    this->Points = device.input(mesh.Points, 3 * std::size_t(mesh.PointCount) * scalar);
-    this->Ids = device.input(mesh.Ids,
-      std::size_t(count * this->Corners) * (mesh.Wide ? sizeof(cl_long) : sizeof(cl_int)));
-    return;
-  }
-  this->Float = 0;
-  this->Wide = 0;
   this->Gathered.resize(3 * std::size_t(count * this->Corners));
   this->Numbers.resize(std::size_t(count * this->Corners));
   std::iota(this->Numbers.begin(), this->Numbers.end(), 0);
@@ -101,6 +110,7 @@ cl::Buffer MeshOnDevice::values(
   withAccess(mesh,
     [&](const auto& access)
     {
+#pragma omp parallel for num_threads(this->Threads)
       for (std::int64_t i = 0; i < this->Count * access.Corners; ++i)
       {
         const std::int64_t id = access.ids(this->First)[i];
@@ -109,6 +119,15 @@ cl::Buffer MeshOnDevice::values(
       }
     });
   return this->Device.input(gathered.data(), gathered.size());
+}
+
+MeshPieces::MeshPieces(
+  ComputeDevice& device, const SimplexMesh& mesh, int threads, std::uint64_t memory)
+  : Device(device)
+  , Mesh(mesh)
+  , Threads(threads)
+  , Memory(memory)
+{
 }
 
 } // namespace tipp

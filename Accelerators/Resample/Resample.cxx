@@ -1,41 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/Resample.h"
 
+#include "Parallel/Stopwatch.h"
 #include "Resample/CellVisitor.h"
 #include "Resample/ResampleOnDevice.h"
 
-#include <chrono>
+#include <memory>
+#include <string>
 #include <utility>
 
 namespace tipp
 {
 namespace
 {
-
-class Clock
-{
-public:
-  double seconds()
-  {
-    const auto now = std::chrono::steady_clock::now();
-    const std::chrono::duration<double> since = now - this->Last;
-    this->Last = now;
-    return since.count();
-  }
-
-private:
-  std::chrono::steady_clock::time_point Last = std::chrono::steady_clock::now();
-};
-
-/// The part of the work from `begin` to `end` as a report of its own.
-Report part(const Report& report, double begin, double end)
-{
-  if (!report)
-  {
-    return {};
-  }
-  return [&report, begin, end](double done) { return report(begin + done * (end - begin)); };
-}
 
 /// Fewer cells and samples together are done before a device has its data.
 constexpr std::int64_t worthATransfer = 1000000;
@@ -56,7 +33,6 @@ public:
   ResampleResult run()
   {
     this->tryDevice([&] { this->open(); });
-    Clock clock;
     Claims claims = this->claim();
     this->Result.Statistics = claims.Statistics;
     this->Result.Aborted = claims.Aborted;
@@ -64,11 +40,11 @@ public:
     {
       mergeClaims(this->Mesh, claims, this->Samples, this->Options.Threads, this->Options.Keys);
     }
-    this->Result.ClaimSeconds = clock.seconds();
+    this->Result.ClaimSeconds = this->lap();
     if (!claims.Aborted)
     {
       this->fill(claims.Cells.get());
-      this->Result.InterpolationSeconds = clock.seconds();
+      this->Result.InterpolationSeconds = this->lap();
     }
     this->Result.Device = this->Device ? this->Device->description().Name : "OpenMP";
     return this->Result;
@@ -82,6 +58,26 @@ private:
     {
       this->Device = ComputeDevice::open(this->Options.Device);
     }
+    if (this->Device)
+    {
+      this->Pieces = std::make_unique<MeshPieces>(
+        *this->Device, this->Mesh, this->Options.Threads, this->Options.DeviceMemory);
+      this->Transferred = this->Device->transferSeconds();
+      this->Watch.restart();
+    }
+  }
+
+  /// Seconds since the last lap, but those of transfers, which are counted apart.
+  double lap()
+  {
+    double transfer = 0;
+    if (this->Device)
+    {
+      transfer = this->Device->transferSeconds() - this->Transferred;
+      this->Transferred += transfer;
+      this->Result.TransferSeconds += transfer;
+    }
+    return std::max(0.0, this->Watch.restart() - transfer);
   }
 
   /// If the device fails, it is not asked again.
@@ -101,16 +97,11 @@ private:
 
   Claims claim()
   {
-    const Report report = part(this->Options.Progress, 0, 0.7);
+    const Report report = partOf(this->Options.Progress, 0, 0.7);
     Claims claims;
     if (this->Device)
     {
-      this->tryDevice(
-        [&]
-        {
-          claims = claimOnDevice(*this->Device, this->Mesh, this->Grid, this->Options.Threads,
-            this->Options.DeviceMemory, report);
-        });
+      this->tryDevice([&] { claims = claimOnDevice(*this->Pieces, this->Grid, report); });
     }
     return this->Device ? std::move(claims)
                         : claimSamples(this->Mesh, this->Grid, this->Options.Threads, report);
@@ -118,13 +109,15 @@ private:
 
   void fill(const std::int32_t* claims)
   {
+    const Report report = partOf(this->Options.Progress, 0.7, 1);
+    bool completed = true;
     if (this->Device)
     {
       this->tryDevice(
         [&]
         {
-          interpolateOnDevice(*this->Device, this->Mesh, this->Grid, claims, this->Attributes,
-            this->Options.DeviceMemory);
+          completed = interpolateOnDevice(*this->Pieces, this->Grid, claims, this->Attributes,
+            this->Options.Keys != nullptr, partOf(report, 0, 0.7));
         });
     }
     InterpolationOptions interpolation;
@@ -133,9 +126,9 @@ private:
     interpolation.SkipInterpolated = this->Device != nullptr;
     interpolation.Parents = this->Options.Parents;
     interpolation.Valid = this->Options.Valid;
-    interpolation.Progress = part(this->Options.Progress, 0.7, 1);
+    interpolation.Progress = this->Device ? partOf(report, 0.7, 1) : report;
     this->Result.Aborted =
-      !interpolate(this->Mesh, this->Grid, claims, this->Attributes, interpolation);
+      !completed || !interpolate(this->Mesh, this->Grid, claims, this->Attributes, interpolation);
   }
 
   const SimplexMesh& Mesh;
@@ -144,6 +137,9 @@ private:
   const ResampleOptions& Options;
   std::int64_t Samples;
   ComputeDevice* Device = nullptr;
+  std::unique_ptr<MeshPieces> Pieces; ///< with a Device
+  Stopwatch Watch;
+  double Transferred = 0; ///< what the device's transfers had taken at the last lap
   ResampleResult Result;
 };
 

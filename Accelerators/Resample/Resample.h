@@ -30,7 +30,7 @@ struct ResampleResult
   ClaimStatistics Statistics;
   double ClaimSeconds = 0;
   double InterpolationSeconds = 0;
-  double TransferSeconds = 0; ///< to and from an OpenCL device
+  double TransferSeconds = 0; ///< to and from an OpenCL device; the others are without them
   std::string Device;         ///< "OpenMP", or an OpenCL device's name
   std::string Warning;        ///< why it is not the device asked for; else empty
   bool Aborted = false;

@@ -4,7 +4,6 @@
 #include "Resample/CellVisitor.h"
 #include "Resample/ClaimSamples.cl.h"
 #include "Resample/InterpolateSamples.cl.h"
-#include "Resample/MeshOnDevice.h"
 
 #include <algorithm>
 
@@ -13,7 +12,6 @@ namespace tipp
 namespace
 {
 
-constexpr std::size_t GroupSize = 64;
 /// Cells with more samples in their boxes are done by an item a row.
 constexpr cl_long LargestCell = 4096;
 /// Neighbours that one work item does on a CPU, where items are not side by side in lanes.
@@ -22,21 +20,6 @@ constexpr cl_int CpuShare = 64;
 cl_int shareOf(const ComputeDevice& device)
 {
   return device.description().Type == DeviceType::Cpu ? CpuShare : 1;
-}
-
-template <typename... Arguments>
-void enqueue(const ComputeDevice& device, cl::Kernel& kernel, std::int64_t items,
-  const Arguments&... arguments)
-{
-  device.run(
-    [&]
-    {
-      cl_uint index = 0;
-      (kernel.setArg(index++, arguments), ...);
-      const std::size_t rounded = (std::size_t(items) + GroupSize - 1) / GroupSize * GroupSize;
-      device.queue().enqueueNDRangeKernel(
-        kernel, cl::NullRange, cl::NDRange(rounded), cl::NDRange(GroupSize));
-    });
 }
 
 /// An array of this process that kernels write to: in place where the memory is shared.
@@ -48,15 +31,17 @@ public:
     , Data(data)
     , Bytes(bytes)
   {
+    if (!device.sharesHostMemory())
+    {
+      this->Room = device.room(bytes);
+      keeps ? device.write(this->Room, data, bytes) : void();
+      return;
+    }
     device.run(
       [&]
       {
-        const bool shared = device.sharesHostMemory();
-        const cl_mem_flags placing = shared ? CL_MEM_USE_HOST_PTR
-          : keeps                           ? CL_MEM_COPY_HOST_PTR
-                                            : cl_mem_flags(0);
-        this->Room = cl::Buffer(
-          device.context(), CL_MEM_READ_WRITE | placing, bytes, shared || keeps ? data : nullptr);
+        this->Room =
+          cl::Buffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, data);
       });
   }
 
@@ -65,14 +50,14 @@ public:
   /// Waits for the kernels and makes their results visible.
   void fetch() const
   {
+    if (!this->Device.sharesHostMemory())
+    {
+      this->Device.read(this->Room, this->Data, this->Bytes);
+      return;
+    }
     this->Device.run(
       [&]
       {
-        if (!this->Device.sharesHostMemory())
-        {
-          this->Device.queue().enqueueReadBuffer(this->Room, CL_TRUE, 0, this->Bytes, this->Data);
-          return;
-        }
         void* const mapped = this->Device.queue().enqueueMapBuffer(
           this->Room, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, this->Bytes);
         this->Device.queue().enqueueUnmapMemObject(this->Room, mapped);
@@ -96,45 +81,54 @@ cl_double8 axisArgument(const LatticeAxis& axis)
 class DeviceClaimer
 {
 public:
-  DeviceClaimer(ComputeDevice& device, const SimplexMesh& mesh, const Lattice& lattice, int threads)
-    : Device(device)
-    , Mesh(mesh)
+  DeviceClaimer(MeshPieces& mesh, const Lattice& lattice)
+    : Pieces(mesh)
+    , Device(mesh.device())
+    , Mesh(mesh.mesh())
     , Grid(lattice)
-    , Axes(mesh, lattice)
-    , Threads(threads)
-    , CellKernel(device.kernel(ClaimSamplesKernels, "claimCells"))
-    , LargeKernel(device.kernel(ClaimSamplesKernels, "claimLarge"))
+    , Axes(mesh.mesh(), lattice)
+    , CellKernel(mesh.device().kernel(ClaimSamplesKernels, "claimCells"))
+    , LargeKernel(mesh.device().kernel(ClaimSamplesKernels, "claimLarge"))
   {
   }
 
-  Claims run(std::uint64_t memory, const Report& report)
+  Claims run(const Report& report)
   {
-    const std::size_t samples = std::size_t(this->Axes.samples());
-    std::unique_ptr<std::int32_t[]> claims(new std::int32_t[samples]);
-    std::fill(claims.get(), claims.get() + samples, -1);
-    bool wanted = true;
+    const std::size_t bytes = std::size_t(this->Axes.samples()) * sizeof(std::int32_t);
+    Claims result;
+    result.Cells.reset(new std::int32_t[std::size_t(this->Axes.samples())]);
     {
-      const OutputArray output(this->Device, claims.get(), samples * sizeof(std::int32_t), true);
-      const std::int64_t piece =
-        cellsOnDevice(this->Device, this->Mesh, 0, samples * sizeof(std::int32_t), memory);
-      for (std::int64_t first = 0; wanted && first < this->Mesh.Cells; first += piece)
-      {
-        wanted = !report || report(0.9 * double(first) / double(this->Mesh.Cells));
-        this->claimPiece(first, std::min(piece, this->Mesh.Cells - first), output.buffer());
-      }
+      const OutputArray output(this->Device, result.Cells.get(), bytes, false);
+      this->clear(result.Cells.get(), output.buffer(), bytes);
+      result.Aborted = !this->Pieces.forEach(0, bytes, partOf(report, 0, 0.9),
+        [&](const MeshOnDevice& piece) { this->claimPiece(piece, output.buffer()); });
       output.fetch();
     }
-    Claims result;
-    result.Aborted = true;
-    return wanted ? finishClaims(this->Mesh, this->Grid, this->Threads, std::move(claims),
-                      this->Claimed, this->Doubtful, {})
-                  : std::move(result);
+    return result.Aborted
+      ? std::move(result)
+      : finishClaims(this->Mesh, this->Grid, this->Pieces.threads(), std::move(result.Cells),
+          this->Claimed, this->Doubtful, partOf(report, 0.9, 1));
   }
 
 private:
-  void claimPiece(std::int64_t first, std::int64_t count, const cl::Buffer& claims)
+  /// No cell claims anything.
+  void clear(std::int32_t* claims, const cl::Buffer& buffer, std::size_t bytes) const
   {
-    const MeshOnDevice piece(this->Device, this->Mesh, first, count, this->Threads);
+    if (!this->Device.sharesHostMemory())
+    {
+      this->Device.run(
+        [&] { this->Device.queue().enqueueFillBuffer(buffer, cl_int(-1), 0, bytes); });
+      return;
+    }
+    forChunks(this->Axes.samples(), 1 << 16, this->Pieces.threads(), {},
+      [&](std::int64_t begin, std::int64_t end, int)
+      { std::fill(claims + begin, claims + end, -1); });
+  }
+
+  void claimPiece(const MeshOnDevice& piece, const cl::Buffer& claims)
+  {
+    const std::int64_t first = piece.first();
+    const std::int64_t count = piece.count();
     const cl_int share = shareOf(this->Device);
     const std::int64_t items = (count + share - 1) / share;
     const cl::Buffer counts = this->Device.room(std::size_t(items) * sizeof(cl_uint));
@@ -145,10 +139,10 @@ private:
     const cl::Buffer hidden =
       this->Device.input(this->Mesh.Hidden ? this->Mesh.Hidden + first : nullptr,
         this->Mesh.Hidden ? std::size_t(count) : 0);
-    enqueue(this->Device, this->CellKernel, items, piece.Points, piece.Ids, piece.Float, piece.Wide,
-      piece.Corners, piece.U, piece.V, axisArgument(this->Axes.U), axisArgument(this->Axes.V),
-      axisArgument(this->Axes.W), cl_long(count), cl_long(first), share, LargestCell, hidden,
-      cl_int(this->Mesh.Hidden != nullptr), claims, counts, large, doubtful,
+    this->Device.launch(this->CellKernel, std::size_t(items), piece.Points, piece.Ids, piece.Float,
+      piece.Wide, piece.Corners, piece.U, piece.V, axisArgument(this->Axes.U),
+      axisArgument(this->Axes.V), axisArgument(this->Axes.W), cl_long(count), cl_long(first), share,
+      LargestCell, hidden, cl_int(this->Mesh.Hidden != nullptr), claims, counts, large, doubtful,
       lengthsOutput.buffer());
     lengthsOutput.fetch();
     std::vector<cl_uint> counted(static_cast<std::size_t>(items));
@@ -167,13 +161,13 @@ private:
     this->Device.read(large, cells.data(), cells.size() * sizeof(cl_int));
     for (const cl_int cell : cells)
     {
-      this->claimLarge(piece, first, cell, claims);
+      this->claimLarge(piece, cell, claims);
     }
   }
 
-  void claimLarge(
-    const MeshOnDevice& piece, std::int64_t first, cl_int cell, const cl::Buffer& claims)
+  void claimLarge(const MeshOnDevice& piece, cl_int cell, const cl::Buffer& claims)
   {
+    const std::int64_t first = piece.first();
     std::int64_t rows = 0;
     withAccess(this->Mesh,
       [&](const auto& access)
@@ -186,9 +180,10 @@ private:
         rows = std::int64_t(spans.rows().size()) * spans.layers().size();
       });
     const cl::Buffer counts = this->Device.room(std::size_t(rows) * sizeof(cl_int));
-    enqueue(this->Device, this->LargeKernel, rows, piece.Points, piece.Ids, piece.Float, piece.Wide,
-      piece.Corners, piece.U, piece.V, axisArgument(this->Axes.U), axisArgument(this->Axes.V),
-      axisArgument(this->Axes.W), cl_long(cell), cl_long(first), cl_int(rows), claims, counts);
+    this->Device.launch(this->LargeKernel, std::size_t(rows), piece.Points, piece.Ids, piece.Float,
+      piece.Wide, piece.Corners, piece.U, piece.V, axisArgument(this->Axes.U),
+      axisArgument(this->Axes.V), axisArgument(this->Axes.W), cl_long(cell), cl_long(first),
+      cl_int(rows), claims, counts);
     std::vector<cl_int> counted(static_cast<std::size_t>(rows));
     this->Device.read(counts, counted.data(), counted.size() * sizeof(cl_int));
     if (std::find(counted.begin(), counted.end(), -1) != counted.end())
@@ -202,11 +197,11 @@ private:
     }
   }
 
+  MeshPieces& Pieces;
   ComputeDevice& Device;
   const SimplexMesh& Mesh;
   const Lattice& Grid;
   LatticeAxes Axes;
-  int Threads;
   cl::Kernel CellKernel;
   cl::Kernel LargeKernel;
   std::int64_t Claimed = 0;
@@ -215,8 +210,7 @@ private:
 
 bool onDevice(const Attribute& attribute)
 {
-  return attribute.Values && !attribute.OfCells &&
-    (attribute.Type == Scalar::Float32 || attribute.Type == Scalar::Float64);
+  return attribute.Values && isInterpolated(attribute);
 }
 
 std::size_t tupleBytes(const Attribute& attribute)
@@ -227,69 +221,69 @@ std::size_t tupleBytes(const Attribute& attribute)
 class DeviceInterpolation
 {
 public:
-  DeviceInterpolation(ComputeDevice& device, const SimplexMesh& mesh, const Lattice& lattice,
-    const std::vector<Attribute>& attributes)
-    : Device(device)
-    , Mesh(mesh)
-    , Axes(mesh, lattice)
+  DeviceInterpolation(
+    MeshPieces& mesh, const Lattice& lattice, const std::vector<Attribute>& attributes)
+    : Pieces(mesh)
+    , Device(mesh.device())
+    , Axes(mesh.mesh(), lattice)
     , Attributes(attributes)
-    , WeighKernel(device.kernel(InterpolateSamplesKernels, "weighSamples"))
-    , ArrayKernel(device.kernel(InterpolateSamplesKernels, "interpolateArray"))
+    , WeighKernel(mesh.device().kernel(InterpolateSamplesKernels, "weighSamples"))
+    , ArrayKernel(mesh.device().kernel(InterpolateSamplesKernels, "interpolateArray"))
   {
   }
 
-  void run(const std::int32_t* claims, std::uint64_t memory)
+  bool run(const std::int32_t* claims, bool keeps, const Report& report)
   {
     const std::size_t samples = std::size_t(this->Axes.samples());
+    const std::size_t corners = std::size_t(this->Pieces.mesh().Dimension) + 1;
+    this->Block = std::min<std::int64_t>(this->Axes.samples(), BlockSize);
+    const std::size_t blockCorners = std::size_t(this->Block) * corners;
+    this->CornerIds = this->Device.room(blockCorners * sizeof(cl_int));
+    this->Weights = this->Device.room(blockCorners * sizeof(cl_double));
     const cl::Buffer claimed = this->Device.input(claims, samples * sizeof(std::int32_t));
-    std::size_t bytes = samples * sizeof(std::int32_t);
+    std::size_t bytes =
+      samples * sizeof(std::int32_t) + blockCorners * (sizeof(cl_int) + sizeof(cl_double));
     std::size_t tuple = 0;
     for (const Attribute& attribute : this->Attributes)
     {
       this->Outputs.emplace_back(
-        this->Device, attribute.Samples, samples * tupleBytes(attribute), true);
+        this->Device, attribute.Samples, samples * tupleBytes(attribute), keeps);
       bytes += samples * tupleBytes(attribute);
       tuple += tupleBytes(attribute);
     }
-    const int corners = this->Mesh.Dimension + 1;
-    this->Block = std::min<std::int64_t>(this->Axes.samples(), BlockSize);
-    this->CornerIds = this->Device.room(std::size_t(this->Block * corners) * sizeof(cl_int));
-    this->Weights = this->Device.room(std::size_t(this->Block * corners) * sizeof(cl_double));
-    const std::int64_t piece = cellsOnDevice(this->Device, this->Mesh, tuple, bytes, memory);
-    for (std::int64_t first = 0; first < this->Mesh.Cells; first += piece)
-    {
-      this->samplePiece(first, std::min(piece, this->Mesh.Cells - first), claimed);
-    }
+    const bool completed = this->Pieces.forEach(
+      tuple, bytes, report, [&](const MeshOnDevice& piece) { this->samplePiece(piece, claimed); });
     for (const OutputArray& output : this->Outputs)
     {
       output.fetch();
     }
+    return completed;
   }
 
 private:
   static constexpr std::int64_t BlockSize = std::int64_t(1) << 18;
 
-  void samplePiece(std::int64_t first, std::int64_t count, const cl::Buffer& claims)
+  void samplePiece(const MeshOnDevice& piece, const cl::Buffer& claims)
   {
-    const MeshOnDevice piece(this->Device, this->Mesh, first, count, 1);
     std::vector<cl::Buffer> values;
     for (const Attribute& attribute : this->Attributes)
     {
-      values.push_back(piece.values(this->Mesh, attribute.Values, tupleBytes(attribute)));
+      values.push_back(piece.values(this->Pieces.mesh(), attribute.Values, tupleBytes(attribute)));
     }
     const cl_int share = shareOf(this->Device);
     const std::int64_t samples = this->Axes.samples();
     for (std::int64_t begin = 0; begin < samples; begin += this->Block)
     {
       const std::int64_t size = std::min(this->Block, samples - begin);
-      enqueue(this->Device, this->WeighKernel, (size + share - 1) / share, piece.Points, piece.Ids,
-        piece.Float, piece.Wide, piece.Corners, piece.U, piece.V, axisArgument(this->Axes.U),
-        axisArgument(this->Axes.V), axisArgument(this->Axes.W), cl_long(count), cl_long(first),
-        share, cl_long(begin), cl_long(size), claims, this->CornerIds, this->Weights);
+      this->Device.launch(this->WeighKernel, std::size_t((size + share - 1) / share), piece.Points,
+        piece.Ids, piece.Float, piece.Wide, piece.Corners, piece.U, piece.V,
+        axisArgument(this->Axes.U), axisArgument(this->Axes.V), axisArgument(this->Axes.W),
+        cl_long(piece.count()), cl_long(piece.first()), share, cl_long(begin), cl_long(size),
+        claims, this->CornerIds, this->Weights);
       for (std::size_t i = 0; i < values.size(); ++i)
       {
         const Attribute& attribute = this->Attributes[i];
-        enqueue(this->Device, this->ArrayKernel, size, values[i],
+        this->Device.launch(this->ArrayKernel, std::size_t(size), values[i],
           cl_int(attribute.Type == Scalar::Float32), cl_int(attribute.Components), piece.Corners,
           cl_long(begin), cl_long(size), this->CornerIds, this->Weights, this->Outputs[i].buffer());
       }
@@ -297,8 +291,8 @@ private:
     this->Device.run([&] { this->Device.queue().finish(); });
   }
 
+  MeshPieces& Pieces;
   ComputeDevice& Device;
-  const SimplexMesh& Mesh;
   LatticeAxes Axes;
   const std::vector<Attribute>& Attributes;
   cl::Kernel WeighKernel;
@@ -311,21 +305,17 @@ private:
 
 } // namespace
 
-Claims claimOnDevice(ComputeDevice& device, const SimplexMesh& mesh, const Lattice& lattice,
-  int threads, std::uint64_t memory, const Report& report)
+Claims claimOnDevice(MeshPieces& mesh, const Lattice& lattice, const Report& report)
 {
-  return DeviceClaimer(device, mesh, lattice, threads).run(memory, report);
+  return DeviceClaimer(mesh, lattice).run(report);
 }
 
-void interpolateOnDevice(ComputeDevice& device, const SimplexMesh& mesh, const Lattice& lattice,
-  const std::int32_t* claims, const std::vector<Attribute>& attributes, std::uint64_t memory)
+bool interpolateOnDevice(MeshPieces& mesh, const Lattice& lattice, const std::int32_t* claims,
+  const std::vector<Attribute>& attributes, bool keeps, const Report& report)
 {
   std::vector<Attribute> chosen;
   std::copy_if(attributes.begin(), attributes.end(), std::back_inserter(chosen), onDevice);
-  if (!chosen.empty())
-  {
-    DeviceInterpolation(device, mesh, lattice, chosen).run(claims, memory);
-  }
+  return chosen.empty() || DeviceInterpolation(mesh, lattice, chosen).run(claims, keeps, report);
 }
 
 } // namespace tipp

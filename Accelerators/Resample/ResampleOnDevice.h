@@ -2,23 +2,22 @@
 #ifndef tippResampleOnDevice_h
 #define tippResampleOnDevice_h
 
-#include "OpenCL/ComputeDevice.h"
+#include "Resample/MeshOnDevice.h"
 #include "Resample/Resample.h"
 
 namespace tipp
 {
 
 /// claimSamples() on an OpenCL device: what its filters decide, it decides; the threads of this
-/// process do the cells in doubt and those at the border. The same result. `memory` is how many
-/// bytes of the device it may use, 0: half of them; a larger mesh goes there in pieces. Throws
-/// AcceleratorError.
-Claims claimOnDevice(ComputeDevice& device, const SimplexMesh& mesh, const Lattice& lattice,
-  int threads, std::uint64_t memory, const Report& report);
+/// process do the cells in doubt and those at the border. The same claims; the statistics count
+/// the cells in doubt only. Throws AcceleratorError.
+Claims claimOnDevice(MeshPieces& mesh, const Lattice& lattice, const Report& report);
 
 /// The attributes of floating-point numbers of points where `claims` has a cell; like
-/// interpolate() otherwise. Throws AcceleratorError.
-void interpolateOnDevice(ComputeDevice& device, const SimplexMesh& mesh, const Lattice& lattice,
-  const std::int32_t* claims, const std::vector<Attribute>& attributes, std::uint64_t memory);
+/// interpolate() otherwise. Other samples keep what they have if `keeps`, else they are undefined.
+/// False if `report` stopped it. Throws AcceleratorError.
+bool interpolateOnDevice(MeshPieces& mesh, const Lattice& lattice, const std::int32_t* claims,
+  const std::vector<Attribute>& attributes, bool keeps, const Report& report);
 
 } // namespace tipp
 

@@ -31,7 +31,6 @@ public:
   SampleRuns(const SimplexMesh& mesh, const LatticeAxes& axes)
     : Cells(mesh)
     , Axes(axes)
-    , Mesh(mesh)
     , WeightValues(std::size_t(D * BlockSize))
   {
   }
@@ -147,7 +146,6 @@ private:
 
   Access Cells;
   const LatticeAxes& Axes;
-  const SimplexMesh& Mesh;
   std::vector<double> WeightValues;
   std::vector<Run> Runs;
   Weights<D> Solver;

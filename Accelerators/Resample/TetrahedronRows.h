@@ -148,8 +148,8 @@ private:
   {
     // Within the cell's box every product of a plane's equation is at most twice the box's volume;
     // less than 32 roundings of those are made, and 64 are allowed for.
-    constexpr double roundings = 7.1054273576010019e-15; // 2^-47
-    constexpr double smallest = 1e-280;                  // keeps clear of underflow
+    constexpr double roundings = LatticeAxis::Roundings;
+    constexpr double smallest = 1e-280; // keeps clear of underflow
     Face& face = this->Faces[i];
     face.A = a;
     face.B = b;
@@ -191,33 +191,20 @@ private:
     }
     // Inner samples have a positive sign: before a face that looks forward they have a negative
     // one.
-    const auto before = [&](int i)
-    {
-      ++this->ExactTests;
-      return -face.Direction * orientation3(face.A, face.B, face.C, { this->X[i], y, z });
-    };
-    int count = int(place);
-    int withOn = count;
-    const int doubtful = LatticeAxis::doubtful(place);
-    if (!(face.Error < 0.5))
-    {
-      count = this->Columns.firstWhereNot([&](int i) { return before(i) > 0; });
-      withOn = this->Columns.firstWhereNot([&](int i) { return before(i) >= 0; });
-    }
-    else if (doubtful >= 0 && doubtful < this->X.size())
-    {
-      const int side = before(doubtful);
-      count = side > 0 ? doubtful + 1 : doubtful;
-      withOn = side >= 0 ? doubtful + 1 : doubtful;
-    }
+    const Crossing crossing = this->X.crossing(place, face.Error, this->Columns,
+      [&](int i)
+      {
+        ++this->ExactTests;
+        return -face.Direction * orientation3(face.A, face.B, face.C, { this->X[i], y, z });
+      });
     if (face.Direction > 0)
     {
-      span.Begin = std::max(span.Begin, count);
+      span.Begin = std::max(span.Begin, crossing.Before);
     }
     else
     {
-      span.End = std::min(span.End, count);
-      span.ClosedEnd = std::min(span.ClosedEnd, withOn);
+      span.End = std::min(span.End, crossing.Before);
+      span.ClosedEnd = std::min(span.ClosedEnd, crossing.WithOn);
     }
   }
 

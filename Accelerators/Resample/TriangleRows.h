@@ -139,12 +139,11 @@ private:
     {
       return this->top();
     }
-    int withLong;
-    int withShort;
-    const int toLong = this->countLeft(this->Long, y, atLong, withLong);
-    const int toShort = this->countLeft(edge, y, atShort, withShort);
-    return this->LongIsLeft ? RowSpan{ toLong, toShort, withShort }
-                            : RowSpan{ toShort, toLong, withLong };
+    const Crossing atLongEdge = this->crossing(this->Long, y, atLong);
+    const Crossing atShortEdge = this->crossing(edge, y, atShort);
+    const Crossing& left = this->LongIsLeft ? atLongEdge : atShortEdge;
+    const Crossing& right = this->LongIsLeft ? atShortEdge : atLongEdge;
+    return { left.Before, right.Before, right.WithOn };
   }
 
   /// The highest row, at the height of the highest corner, is outside after the move.
@@ -158,31 +157,19 @@ private:
     return { touched.Begin, touched.Begin, touched.End };
   }
 
-  /// The number of samples of the row y left of the edge, and with those on it.
-  int countLeft(const Edge& edge, double y, double place, int& withOn) const
+  /// The samples of the row y left of the edge.
+  Crossing crossing(const Edge& edge, double y, double place) const
   {
     if (LatticeAxis::certain(place, this->Error))
     {
-      return withOn = int(place);
+      return { int(place), int(place) };
     }
-    const auto side = [&](int i)
-    {
-      ++this->ExactTests;
-      return orientation(edge.Low, edge.High, { this->U[i], y });
-    };
-    if (!(this->Error < 0.5))
-    {
-      withOn = this->Columns.firstWhereNot([&](int i) { return side(i) >= 0; });
-      return this->Columns.firstWhereNot([&](int i) { return side(i) > 0; });
-    }
-    const int i = LatticeAxis::doubtful(place);
-    if (i < 0 || i >= this->U.size())
-    {
-      return withOn = int(place);
-    }
-    const int turn = side(i);
-    withOn = turn >= 0 ? i + 1 : i;
-    return turn > 0 ? i + 1 : i;
+    return this->U.crossing(place, this->Error, this->Columns,
+      [&](int i)
+      {
+        ++this->ExactTests;
+        return orientation(edge.Low, edge.High, { this->U[i], y });
+      });
   }
 
   const LatticeAxis& U;

@@ -5,8 +5,9 @@
 #include "Distributed/Plan.h"
 #include "Distributed/RankRun.h"
 #include "Distributed/Survey.h"
+#include "Parallel/ParallelFor.h"
+#include "Parallel/Stopwatch.h"
 #include "Triangulation/DegenerateInput.h"
-#include "Triangulation/Stopwatch.h"
 #include "Triangulation/Worker.h"
 
 #include <omp.h>
@@ -43,7 +44,7 @@ public:
     , Input(points)
     , Options(options)
     , Result(result)
-    , Threads(options.Threads > 0 ? options.Threads : omp_get_max_threads())
+    , Threads(threadCount(options.Threads))
   {
     this->Result.RowSize = points.RowSize;
   }

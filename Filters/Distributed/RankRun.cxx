@@ -4,7 +4,7 @@
 #include "Distributed/MessageKinds.h"
 #include "Triangulation/HullRepair.h"
 #include "Triangulation/InitialMesh.h"
-#include "Triangulation/Stopwatch.h"
+#include "Parallel/Stopwatch.h"
 
 #include <algorithm>
 #include <numeric>

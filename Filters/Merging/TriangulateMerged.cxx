@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Merging/TriangulateMerged.h"
 
-#include "Triangulation/Stopwatch.h"
+#include "Parallel/Stopwatch.h"
 
 #include <algorithm>
 #include <limits>

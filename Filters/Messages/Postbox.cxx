@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Messages/Postbox.h"
 
-#include "Triangulation/Stopwatch.h"
+#include "Parallel/Stopwatch.h"
 
 #include "vtkMPIController.h"
 

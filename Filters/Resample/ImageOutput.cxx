@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/ImageOutput.h"
 
+#include "Arrays/ScalarTypes.h"
 #include "Parallel/ForChunks.h"
-#include "Resample/ScalarTypes.h"
 
 #include "vtkCellData.h"
 #include "vtkCharArray.h"

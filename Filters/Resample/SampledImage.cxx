@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/SampledImage.h"
 
-#include "Resample/ScalarTypes.h"
+#include "Arrays/ScalarTypes.h"
+#include "Parallel/Stopwatch.h"
 #include "Resample/ToScalar.h"
-#include "Triangulation/Stopwatch.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -200,7 +200,7 @@ void SampledImage::startAgain()
   }
 }
 
-bool SampledImage::sample(vtkPointSet* mesh, Simplices& simplices, const Report& progress)
+bool SampledImage::sample(vtkPointSet* mesh, SimplexSet& simplices, const Report& progress)
 {
   this->Statistics.Cells += simplices.Mesh.Cells;
   if (this->Valid.empty())
@@ -316,7 +316,7 @@ void SampledImage::addArrays(vtkDataSetAttributes* data, bool ofCells)
   }
 }
 
-void SampledImage::hideNoData(vtkPointSet* mesh, Simplices& simplices)
+void SampledImage::hideNoData(vtkPointSet* mesh, SimplexSet& simplices)
 {
   std::vector<bool> marked(std::size_t(mesh->GetNumberOfPoints()), false);
   vtkPointData* const data = mesh->GetPointData();

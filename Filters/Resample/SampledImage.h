@@ -3,7 +3,7 @@
 #define tippSampledImage_h
 
 #include "Resample/Resample.h"
-#include "Resample/Simplices.h"
+#include "Resample/SimplexParts.h"
 
 #include "vtkSmartPointer.h"
 
@@ -89,12 +89,12 @@ public:
 private:
   Array& addArray(const std::string& name, bool ofCells, int type, int components);
   void repeatLayers();
-  bool sample(vtkPointSet* mesh, Simplices& simplices, const Report& progress);
+  bool sample(vtkPointSet* mesh, SimplexSet& simplices, const Report& progress);
   void startAgain();
   std::vector<Attribute> attributesOf(vtkPointSet* mesh);
   vtkDataArray* valuesOf(vtkPointSet* mesh, const Array& array);
   void addArrays(vtkDataSetAttributes* data, bool ofCells);
-  void hideNoData(vtkPointSet* mesh, Simplices& simplices);
+  void hideNoData(vtkPointSet* mesh, SimplexSet& simplices);
   void warnOnce(const std::string& text);
 
   Lattice Grid;

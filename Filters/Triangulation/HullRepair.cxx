@@ -2,7 +2,7 @@
 #include "Triangulation/HullRepair.h"
 
 #include "Kernel/DelaunayKernel.h"
-#include "Predicates/CircumdiskBox.h"
+#include "Predicates/Circumdisk.h"
 #include "Predicates/InCircle.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #define tippTiling_h
 
 #include "Predicates/Box2.h"
-#include "Predicates/CircumdiskBox.h"
+#include "Predicates/Circumdisk.h"
 #include "Predicates/Point2.h"
 #include "vtkTIPPFiltersModule.h"
 

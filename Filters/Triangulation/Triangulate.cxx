@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation/Triangulate.h"
 
+#include "Parallel/ParallelFor.h"
+#include "Parallel/Stopwatch.h"
 #include "Triangulation/DegenerateInput.h"
 #include "Triangulation/HullRepair.h"
 #include "Triangulation/InitialMesh.h"
 #include "Triangulation/Master.h"
 #include "Triangulation/PointBuckets.h"
-#include "Triangulation/Stopwatch.h"
 #include "Triangulation/TriangleSink.h"
 #include "Triangulation/Worker.h"
 
@@ -290,7 +291,7 @@ Triangulation triangulate(PointsView input, const TriangulationOptions& options)
 {
   Triangulation result;
   TriangulationStatistics& statistics = result.Statistics;
-  statistics.Threads = options.Threads > 0 ? options.Threads : omp_get_max_threads();
+  statistics.Threads = threadCount(options.Threads);
   Stopwatch watch;
   const int passThreads = threadsForPass(input.size(), statistics.Threads);
   PointSurvey survey = surveyPoints(input, passThreads);

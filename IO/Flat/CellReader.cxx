@@ -2,7 +2,7 @@
 #include "Flat/CellReader.h"
 
 #include "Files/IOError.h"
-#include "Threads/ParallelFor.h"
+#include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Flat/FlattenDataSet.h"
 
+#include "Arrays/ScalarTypes.h"
 #include "Flat/Simplices.h"
 
 #include "vtkCellData.h"
@@ -24,31 +25,6 @@ namespace
 
 constexpr const char* parentName = "vtkOriginalCellIds";
 
-Scalar integerOf(int bytes, bool isSigned)
-{
-  switch (bytes)
-  {
-    case 1:
-      return isSigned ? Scalar::Int8 : Scalar::UInt8;
-    case 2:
-      return isSigned ? Scalar::Int16 : Scalar::UInt16;
-    case 4:
-      return isSigned ? Scalar::Int32 : Scalar::UInt32;
-    default:
-      return isSigned ? Scalar::Int64 : Scalar::UInt64;
-  }
-}
-
-Scalar scalarOf(vtkDataArray* array)
-{
-  const int type = array->GetDataType();
-  if (type == VTK_FLOAT || type == VTK_DOUBLE)
-  {
-    return type == VTK_FLOAT ? Scalar::Float32 : Scalar::Float64;
-  }
-  return integerOf(array->GetDataTypeSize(), array->GetDataTypeMin() < 0);
-}
-
 /// The array, or a copy whose values lie one after the other, in bytes for single bits.
 vtkSmartPointer<vtkDataArray> plain(vtkDataArray* array)
 {
@@ -71,7 +47,7 @@ FlatArray flatArray(vtkDataArray* from)
   vtkDataArray* const array = *kept;
   FlatArray flat;
   flat.Name = array->GetName() ? array->GetName() : "";
-  flat.Type = scalarOf(array);
+  flat.Type = *scalarOf(array->GetDataType());
   flat.Components = array->GetNumberOfComponents();
   flat.Tuples = array->GetNumberOfTuples();
   flat.Values = array->GetVoidPointer(0);

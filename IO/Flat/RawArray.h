@@ -2,6 +2,7 @@
 #ifndef tippRawArray_h
 #define tippRawArray_h
 
+#include "Arrays/Scalar.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>
@@ -10,20 +11,6 @@
 
 namespace tipp
 {
-
-enum class Scalar
-{
-  Int8,
-  UInt8,
-  Int16,
-  UInt16,
-  Int32,
-  UInt32,
-  Int64,
-  UInt64,
-  Float32,
-  Float64
-};
 
 /// In bytes.
 VTKTIPPIO_EXPORT std::size_t scalarSize(Scalar type);

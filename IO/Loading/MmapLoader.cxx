@@ -2,7 +2,7 @@
 #include "Files/IOError.h"
 #include "Loading/CopyTuples.h"
 #include "Loading/Loaders.h"
-#include "Threads/ParallelFor.h"
+#include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -4,7 +4,7 @@
 
 #include "Loading/ArrayFiles.h"
 #include "Loading/CopyTuples.h"
-#include "Threads/ParallelFor.h"
+#include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #ifndef tippSegmentCounts_h
 #define tippSegmentCounts_h
 
-#include "Threads/ParallelFor.h"
+#include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <cstddef>

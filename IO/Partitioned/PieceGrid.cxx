@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/PieceGrid.h"
 
+#include "Arrays/ScalarTypes.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
@@ -21,14 +23,6 @@ namespace tipp
 {
 namespace
 {
-
-int vtkTypeOf(Scalar type)
-{
-  constexpr int types[] = { VTK_TYPE_INT8, VTK_TYPE_UINT8, VTK_TYPE_INT16, VTK_TYPE_UINT16,
-    VTK_TYPE_INT32, VTK_TYPE_UINT32, VTK_TYPE_INT64, VTK_TYPE_UINT64, VTK_TYPE_FLOAT32,
-    VTK_TYPE_FLOAT64 };
-  return types[int(type)];
-}
 
 /// An array that takes over the buffer.
 vtkSmartPointer<vtkDataArray> takeOver(

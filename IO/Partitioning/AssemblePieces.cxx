@@ -2,12 +2,12 @@
 #include "Partitioning/AssemblePieces.h"
 
 #include "Files/OutputFile.h"
+#include "Parallel/ParallelFor.h"
 #include "Partitioned/Checksum.h"
 #include "Partitioned/MeshIndex.h"
 #include "Partitioning/AssignPieces.h"
 #include "Partitioning/PartitionRun.h"
 #include "Partitioning/PieceAssembly.h"
-#include "Threads/ParallelFor.h"
 
 #include <algorithm>
 #include <atomic>

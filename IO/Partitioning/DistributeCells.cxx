@@ -3,11 +3,11 @@
 
 #include "Flat/CellReader.h"
 #include "Loading/VertexLoader.h"
+#include "Parallel/ParallelFor.h"
 #include "Partition/ClassifyCells.h"
 #include "Partitioning/Columns.h"
 #include "Partitioning/PartitionRun.h"
 #include "Partitioning/PointCoordinates.h"
-#include "Threads/ParallelFor.h"
 
 #include <algorithm>
 #include <tuple>

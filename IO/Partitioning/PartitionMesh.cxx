@@ -2,6 +2,7 @@
 #include "Partitioning/PartitionMesh.h"
 
 #include "Files/IOError.h"
+#include "Parallel/ParallelFor.h"
 #include "Partitioned/PendingMesh.h"
 #include "Partitioned/PieceLayout.h"
 #include "Partitioning/AssemblePieces.h"
@@ -10,7 +11,6 @@
 #include "Partitioning/MakeTiling.h"
 #include "Partitioning/PartitionRun.h"
 #include "Partitioning/SurveyPoints.h"
-#include "Threads/ParallelFor.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/Spill.h"
 
-#include "Threads/ParallelFor.h"
+#include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <cstring>

@@ -4,8 +4,8 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
+#include "Parallel/ParallelFor.h"
 #include "Partitioning/PointCoordinates.h"
-#include "Threads/ParallelFor.h"
 
 #include <algorithm>
 #include <cmath>

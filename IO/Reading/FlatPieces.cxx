@@ -4,13 +4,13 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Flat/CellReader.h"
+#include "Parallel/ParallelFor.h"
 #include "Partition/ClassifyCells.h"
 #include "Partitioned/PieceLayout.h"
 #include "Partitioning/MakeTiling.h"
 #include "Partitioning/PartitionRun.h"
 #include "Partitioning/PointCoordinates.h"
 #include "Partitioning/SurveyPoints.h"
-#include "Threads/ParallelFor.h"
 
 #include <algorithm>
 #include <cstring>

@@ -2,8 +2,8 @@
 // Reading partitioned meshes beside vtkXMLUnstructuredGridReader on one file of the same cells.
 #include "IoSubjects.h"
 
+#include "Parallel/ParallelFor.h"
 #include "Partitioned/PieceGrid.h"
-#include "Threads/ParallelFor.h"
 
 #include "vtkNew.h"
 #include "vtkUnstructuredGrid.h"

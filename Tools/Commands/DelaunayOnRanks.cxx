@@ -8,7 +8,7 @@
 #include "Console/ProgressBar.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "Messages/Postbox.h"
-#include "Triangulation/Stopwatch.h"
+#include "Parallel/Stopwatch.h"
 
 #include <fmt/format.h>
 

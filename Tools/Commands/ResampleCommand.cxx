@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Arrays/ScalarTypes.h"
 #include "Console/Interrupt.h"
 #include "Console/ProgressBar.h"
 #include "Files/Extension.h"
 #include "Files/IOError.h"
 #include "Files/PendingFile.h"
+#include "Flat/RawArray.h"
 #include "Npy/NpyFile.h"
 #include "OpenCL/DeviceChoice.h"
 #include "Vtk/ErrorKeeper.h"
@@ -135,15 +137,6 @@ void writeImage(const std::string& path, vtkImageData* image)
   pending.commit();
 }
 
-std::string descriptionOf(vtkDataArray* array)
-{
-  const int type = array->GetDataType();
-  const bool floating = type == VTK_FLOAT || type == VTK_DOUBLE;
-  const char kind = floating ? 'f' : array->GetDataTypeMin() < 0 ? 'i' : 'u';
-  const int bytes = array->GetDataTypeSize();
-  return (bytes == 1 ? "|" : "<") + std::string(1, kind) + std::to_string(bytes);
-}
-
 void writeNpy(const ResampleArguments& arguments, vtkImageData* image)
 {
   vtkDataArray* const array = image->GetPointData()->GetArray(arguments.Arrays.front().c_str());
@@ -160,7 +153,7 @@ void writeNpy(const ResampleArguments& arguments, vtkImageData* image)
   {
     shape.push_back(array->GetNumberOfComponents());
   }
-  NpyWriter writer(arguments.Output, descriptionOf(array), shape);
+  NpyWriter writer(arguments.Output, scalarDescr(*scalarOf(array->GetDataType())), shape);
   writer.write(array->GetVoidPointer(0),
     std::size_t(array->GetNumberOfValues()) * std::size_t(array->GetDataTypeSize()));
   writer.close();

@@ -2,7 +2,7 @@
 // Points in several batches, and points in awkward places.
 #include "KernelTesting.h"
 
-#include "Predicates/CircumdiskBox.h"
+#include "Predicates/Circumdisk.h"
 
 #include <algorithm>
 #include <cmath>

@@ -140,20 +140,32 @@ void expectExactAtBorders(const CellSet& cells, const BoxTiling& tiling, std::si
 
 void expectSameOnDevice(const CellSet& cells, const BoxTiling& tiling)
 {
-  TIPP_REQUIRE_OPENCL();
   expectEqual(
     classify(cells, tiling, tipp::Device::OpenMP), classify(cells, tiling, tipp::Device::OpenCL));
 }
 
-void expectRightClassification(const CellSet& cells, std::size_t step)
+/// A grid and a tree.
+std::vector<BoxTiling> tilingsOf(const CellSet& cells)
 {
   const Box3 domain = cells.bounds();
-  const BoxTiling grid = BoxTiling::grid(cells.Dimension, domain, { 4, 4, 4 });
-  const BoxTiling tree = randomTree(cells.Dimension, domain, 3, 1);
-  expectExactAtBorders(cells, grid, step);
-  expectExactAtBorders(cells, tree, step);
-  expectSameOnDevice(cells, grid);
-  expectSameOnDevice(cells, tree);
+  return { BoxTiling::grid(cells.Dimension, domain, { 4, 4, 4 }),
+    randomTree(cells.Dimension, domain, 3, 1) };
+}
+
+void expectExactAtBorders(const CellSet& cells, std::size_t step)
+{
+  for (const BoxTiling& tiling : tilingsOf(cells))
+  {
+    expectExactAtBorders(cells, tiling, step);
+  }
+}
+
+void expectSameOnDevice(const CellSet& cells)
+{
+  for (const BoxTiling& tiling : tilingsOf(cells))
+  {
+    expectSameOnDevice(cells, tiling);
+  }
 }
 
 } // namespace
@@ -163,7 +175,7 @@ TEST(ClassifyRealMeshes, TheBracketsTetrahedra)
   TIPP_REQUIRE_REAL_DATA(path, "tets/bracket_appended_compressed.vtu");
   const CellSet cells = readTetrahedra(path);
   ASSERT_EQ(cells.size(), 206208u);
-  expectRightClassification(cells, 100);
+  expectExactAtBorders(cells, 100);
 }
 
 TEST(ClassifyRealMeshes, TheAneurysmsTetrahedra)
@@ -171,12 +183,33 @@ TEST(ClassifyRealMeshes, TheAneurysmsTetrahedra)
   TIPP_REQUIRE_REAL_DATA(path, "tets/aneurysm.xml.gz");
   const CellSet cells = readDolfin(path);
   ASSERT_EQ(cells.size(), 37548u);
-  expectRightClassification(cells, 50);
+  expectExactAtBorders(cells, 50);
 }
 
 TEST(ClassifyRealMeshes, TheEastCoastsTriangles)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
   const CellSet cells = readTriangles(path);
-  expectRightClassification(cells, 5);
+  expectExactAtBorders(cells, 5);
+}
+
+TEST(ClassifyRealMeshes, TheBracketsTetrahedraOnADevice)
+{
+  TIPP_REQUIRE_REAL_DATA(path, "tets/bracket_appended_compressed.vtu");
+  TIPP_REQUIRE_OPENCL();
+  expectSameOnDevice(readTetrahedra(path));
+}
+
+TEST(ClassifyRealMeshes, TheAneurysmsTetrahedraOnADevice)
+{
+  TIPP_REQUIRE_REAL_DATA(path, "tets/aneurysm.xml.gz");
+  TIPP_REQUIRE_OPENCL();
+  expectSameOnDevice(readDolfin(path));
+}
+
+TEST(ClassifyRealMeshes, TheEastCoastsTrianglesOnADevice)
+{
+  TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
+  TIPP_REQUIRE_OPENCL();
+  expectSameOnDevice(readTriangles(path));
 }

@@ -38,6 +38,27 @@ tipp::SimplexMesh Scene::mesh() const
   return mesh;
 }
 
+StoredMesh::StoredMesh(const Scene& scene, bool singlePrecision, bool narrowIds)
+  : Points(scene.Points.begin(), scene.Points.end())
+  , Ids(scene.Ids.begin(), scene.Ids.end())
+  , Mesh(scene.mesh())
+{
+  this->Mesh.Float = singlePrecision;
+  this->Mesh.Points = singlePrecision ? static_cast<const void*>(this->Points.data())
+                                      : static_cast<const void*>(scene.Points.data());
+  this->Mesh.Wide = !narrowIds;
+  this->Mesh.Ids = narrowIds ? static_cast<const void*>(this->Ids.data())
+                             : static_cast<const void*>(scene.Ids.data());
+}
+
+Scene Scene::rounded() const
+{
+  Scene scene = *this;
+  std::transform(scene.Points.begin(), scene.Points.end(), scene.Points.begin(),
+    [](double coordinate) { return double(float(coordinate)); });
+  return scene;
+}
+
 Scene Scene::shuffled(unsigned seed) const
 {
   std::mt19937 random(seed);

@@ -22,12 +22,26 @@ struct Scene
   bool boxContains(int cell, const double* sample) const;
   tipp::SimplexMesh mesh() const;
 
+  /// The same mesh with coordinates that float32 holds.
+  Scene rounded() const;
   /// The same mesh with its cells and the corners within them in another order.
   Scene shuffled(unsigned seed) const;
   const double* corner(int cell, int i) const
   {
     return this->point(this->Ids[std::size_t(cell * (this->Dimension + 1) + i)]);
   }
+};
+
+/// A scene's mesh in memory of its own, with float32 points and int32 ids on request.
+struct StoredMesh
+{
+  StoredMesh(const Scene& scene, bool singlePrecision, bool narrowIds);
+  StoredMesh(const StoredMesh&) = delete;
+  StoredMesh& operator=(const StoredMesh&) = delete;
+
+  std::vector<float> Points;
+  std::vector<std::int32_t> Ids;
+  tipp::SimplexMesh Mesh;
 };
 
 /// Regular, of the unit square or cube, cut by diagonals: samples fall on edges and corners.

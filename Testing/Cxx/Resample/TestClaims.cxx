@@ -197,9 +197,28 @@ TEST(Claims, LeaveOutHiddenCells)
   tipp::SimplexMesh mesh = scene.mesh();
   mesh.Hidden = hidden;
   const tipp::Claims claims = tipp::claimSamples(mesh, latticeOf(2, 9, 0, 1), 1);
-  for (int i = 0; i < 81; ++i)
+  EXPECT_EQ(std::count(claims.Cells.get(), claims.Cells.get() + 81, 0), 45);
+  EXPECT_EQ(std::count(claims.Cells.get(), claims.Cells.get() + 81, -1), 36);
+}
+
+TEST(Claims, AreTheSameForEveryTypeOfPointsAndIds)
+{
+  for (const Scene& scene :
+    { jitteredScene(2, 9, 3).rounded(), jitteredScene(3, 5, 3).rounded(), overlappingScene(60, 2) })
   {
-    EXPECT_NE(claims.Cells[std::size_t(i)], 1);
+    const tipp::Lattice lattice = latticeOf(scene.Dimension, 23, -0.03, 1);
+    const tipp::Claims expected = tipp::claimSamples(scene.mesh(), lattice, 2);
+    for (const bool single : { false, true })
+    {
+      for (const bool narrow : { false, true })
+      {
+        const StoredMesh stored(scene, single, narrow);
+        const tipp::Claims claims = tipp::claimSamples(stored.Mesh, lattice, 2);
+        EXPECT_TRUE(std::equal(
+          expected.Cells.get(), expected.Cells.get() + lattice.samples(), claims.Cells.get()))
+          << scene.Name << " single " << single << " narrow " << narrow;
+      }
+    }
   }
 }
 

@@ -251,3 +251,22 @@ TEST(Interpolation, OfPartsInAnyOrderIsThatOfTheWhole)
     }
   }
 }
+
+TEST(Interpolation, HasTheSameBitsForEveryTypeOfPointsAndIds)
+{
+  for (const Scene& scene : { jitteredScene(2, 9, 3).rounded(), jitteredScene(3, 5, 3).rounded() })
+  {
+    const tipp::Lattice lattice = latticeOf(scene.Dimension, 23, -0.03, 1);
+    const std::vector<double> values = valuesOf<double>(scene);
+    const std::vector<double> expected = sampled(scene, lattice, values);
+    for (const bool single : { false, true })
+    {
+      const StoredMesh stored(scene, single, true);
+      std::vector<double> samples(expected.size());
+      tipp::Attribute array = attribute(tipp::Scalar::Float64, values, samples);
+      array.NullValue = std::numeric_limits<double>::quiet_NaN();
+      tipp::resample(stored.Mesh, lattice, { array }, {});
+      EXPECT_TRUE(sameBits(expected, samples)) << single;
+    }
+  }
+}

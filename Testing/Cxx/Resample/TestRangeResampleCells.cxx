@@ -301,6 +301,26 @@ TEST(RangeResampleCells, HiddenCellsAnswerNothingAndBorrowedOnesDoNoHarm)
   EXPECT_EQ(countValid(filter->GetOutput()), 15);
 }
 
+TEST(RangeResampleCells, HiddenCellsAndNoDataGoTogether)
+{
+  const auto grid = gridOf(regularScene(2, 2)); // cells 0 and 1 fill the first quarter
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfValues(8);
+  ghosts->Fill(0);
+  ghosts->SetValue(0, vtkDataSetAttributes::HIDDENCELL);
+  grid->GetCellData()->AddArray(ghosts);
+  grid->GetPointData()->GetArray("linear")->SetTuple1(8, -99999); // the opposite corner
+  const auto filter = unitFilter(2, 9);
+  filter->SetInputData(grid);
+  filter->UseNoDataValueOn();
+  filter->Update();
+  EXPECT_FALSE(isValid(filter->GetOutput(), 9 * 1 + 3)); // in the hidden cell
+  EXPECT_TRUE(isValid(filter->GetOutput(), 9 * 3 + 1));
+  EXPECT_FALSE(isValid(filter->GetOutput(), 9 * 7 + 6)); // in a cell of the corner
+  EXPECT_TRUE(isValid(filter->GetOutput(), 9 * 1 + 6));
+}
+
 TEST(RangeResampleCells, PartsOfACollectionMakeTheImageOfTheWhole)
 {
   for (const Scene& scene : { jitteredScene(2, 12, 3), jitteredScene(3, 5, 3) })

@@ -127,6 +127,15 @@ TEST(RangeResampleRun, TellsWhatItDid)
   EXPECT_EQ(statistic(filter, "OverlappingClaims"), 0);
   EXPECT_EQ(statistic(filter, "Threads"), 2);
   EXPECT_GT(statistic(filter, "ExactTests"), 0);
+  EXPECT_EQ(statistic(filter, "VisitedCells"), 128);
+  EXPECT_EQ(statistic(filter, "Tests"), 128 * 9); // each box has three by three samples
+  vtkFieldData* const figures = filter->GetStatistics()->GetFieldData();
+  ASSERT_EQ(figures->GetAbstractArray("PhaseName")->GetNumberOfValues(), 6);
+  for (const int phase : { 0, 1, 2, 5 }) // none was exchanged or went to a device
+  {
+    EXPECT_GT(figures->GetArray("PhaseSeconds")->GetTuple1(phase), 0)
+      << figures->GetAbstractArray("PhaseName")->GetVariantValue(phase).ToString();
+  }
 }
 
 TEST(RangeResampleRun, ReportsProgressAndStops)

@@ -6,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstdint>
+#include <vector>
 
 namespace
 {
@@ -58,6 +60,64 @@ void expectAgreement(const Scene& scene, const tipp::Lattice& lattice, std::uint
   }
 }
 
+/// Arrays of every kind at once: float64, float32 with three components, whole numbers, and numbers
+/// of cells.
+struct Kinds
+{
+  std::vector<double> Double;
+  std::vector<float> Float;
+  std::vector<std::int16_t> Whole;
+  std::vector<std::uint8_t> OfCells;
+
+  static Kinds sized(std::size_t points, std::size_t cells)
+  {
+    return { std::vector<double>(points), std::vector<float>(3 * points),
+      std::vector<std::int16_t>(points), std::vector<std::uint8_t>(cells) };
+  }
+
+  static Kinds of(const Scene& scene)
+  {
+    const std::size_t points = scene.Points.size() / 3;
+    Kinds kinds = sized(points, std::size_t(scene.cells()));
+    for (std::size_t i = 0; i < points; ++i)
+    {
+      kinds.Double[i] = std::sin(50 * scene.Points[3 * i]) + scene.Points[3 * i + 1];
+      kinds.Whole[i] = std::int16_t(100 * i);
+      for (std::size_t component = 0; component < 3; ++component)
+      {
+        kinds.Float[3 * i + component] = float(scene.Points[3 * i + component] + double(i));
+      }
+    }
+    for (std::size_t i = 0; i < kinds.OfCells.size(); ++i)
+    {
+      kinds.OfCells[i] = std::uint8_t(i);
+    }
+    return kinds;
+  }
+
+  std::vector<tipp::Attribute> into(Kinds& samples) const
+  {
+    return { { this->Double.data(), samples.Double.data(), tipp::Scalar::Float64, 1, false, -7 },
+      { this->Float.data(), samples.Float.data(), tipp::Scalar::Float32, 3, false, -7 },
+      { this->Whole.data(), samples.Whole.data(), tipp::Scalar::Int16, 1, false, -7 },
+      { this->OfCells.data(), samples.OfCells.data(), tipp::Scalar::UInt8, 1, true, 77 } };
+  }
+};
+
+void expectNear(const Kinds& a, const Kinds& b)
+{
+  EXPECT_EQ(a.Whole, b.Whole);
+  EXPECT_EQ(a.OfCells, b.OfCells);
+  for (std::size_t i = 0; i < a.Double.size(); ++i)
+  {
+    ASSERT_NEAR(a.Double[i], b.Double[i], 1e-12) << i;
+  }
+  for (std::size_t i = 0; i < a.Float.size(); ++i)
+  {
+    ASSERT_NEAR(a.Float[i], b.Float[i], 2e-7 * std::fabs(a.Float[i])) << i;
+  }
+}
+
 class ResampleOnDevice : public testing::Test
 {
 protected:
@@ -100,6 +160,107 @@ TEST_F(ResampleOnDevice, TakesALargerMeshInPieces)
   const Scene scene = jitteredScene(2, 60, 3);
   const tipp::Lattice lattice = latticeOf(2, 33, 0.0013, 0.997);
   expectAgreement(scene, lattice, 60000);
+}
+
+TEST_F(ResampleOnDevice, AgreesForEveryTypeOfPointsAndIds)
+{
+  const Scene scene = jitteredScene(2, 9, 3).rounded();
+  const tipp::Lattice lattice = latticeOf(2, 65, -0.013, 1);
+  const Kinds values = Kinds::of(scene);
+  Kinds expected = Kinds::sized(65 * 65, 65 * 65);
+  tipp::resample(scene.mesh(), lattice, values.into(expected), {});
+  for (const bool single : { false, true })
+  {
+    for (const bool narrow : { false, true })
+    {
+      const StoredMesh stored(scene, single, narrow);
+      Kinds samples = Kinds::sized(65 * 65, 65 * 65);
+      tipp::ResampleOptions options;
+      options.Device = openCL;
+      EXPECT_EQ(tipp::resample(stored.Mesh, lattice, values.into(samples), options).Warning, "");
+      expectNear(expected, samples);
+    }
+  }
+}
+
+TEST_F(ResampleOnDevice, LeavesOutHiddenCells)
+{
+  const Scene scene = jitteredScene(2, 9, 3);
+  const tipp::Lattice lattice = latticeOf(2, 65, -0.013, 1.017);
+  std::vector<unsigned char> hidden(std::size_t(scene.cells()));
+  for (std::size_t i = 0; i < hidden.size(); i += 3)
+  {
+    hidden[i] = 1;
+  }
+  tipp::SimplexMesh mesh = scene.mesh();
+  mesh.Hidden = hidden.data();
+  const Kinds values = Kinds::of(scene);
+  Kinds here = Kinds::sized(65 * 65, 65 * 65);
+  Kinds there = Kinds::sized(65 * 65, 65 * 65);
+  tipp::resample(mesh, lattice, values.into(here), {});
+  for (const std::uint64_t memory : { std::uint64_t(0), std::uint64_t(262144) })
+  {
+    tipp::ResampleOptions options;
+    options.Device = openCL;
+    options.DeviceMemory = memory;
+    EXPECT_EQ(tipp::resample(mesh, lattice, values.into(there), options).Warning, "");
+    expectNear(here, there);
+  }
+  EXPECT_NE(std::count(here.Double.begin(), here.Double.end(), -7), 0);
+}
+
+TEST_F(ResampleOnDevice, PutsPartsTogetherLikeOpenMP)
+{
+  const Scene scene = overlappingScene(60, 2);
+  const tipp::Lattice lattice = latticeOf(2, 65, -0.013, 1.017);
+  const Kinds values = Kinds::of(scene);
+  const auto together = [&](const tipp::DeviceChoice& device)
+  {
+    Kinds samples = Kinds::sized(65 * 65, 65 * 65);
+    std::vector<tipp::CellKey> keys(65 * 65, tipp::noCellKey);
+    std::vector<unsigned char> valid(65 * 65);
+    for (const int half : { 0, 1 })
+    {
+      std::vector<unsigned char> hidden(std::size_t(scene.cells()));
+      std::fill(hidden.begin() + half * 30, hidden.begin() + half * 30 + 30, 1);
+      tipp::SimplexMesh mesh = scene.mesh();
+      mesh.Hidden = hidden.data();
+      tipp::ResampleOptions options;
+      options.Device = device;
+      options.Keys = keys.data();
+      options.Valid = valid.data();
+      EXPECT_EQ(tipp::resample(mesh, lattice, values.into(samples), options).Warning, "");
+    }
+    return samples;
+  };
+  expectNear(together(openMP), together(openCL));
+}
+
+TEST_F(ResampleOnDevice, TellsItsTimesAndStopsOnRequest)
+{
+  const Scene scene = jitteredScene(2, 60, 3);
+  const tipp::Lattice lattice = latticeOf(2, 33, 0.0013, 0.997);
+  const Kinds values = Kinds::of(scene);
+  Kinds samples = Kinds::sized(33 * 33, 33 * 33);
+  tipp::ResampleOptions options;
+  options.Device = openCL;
+  options.DeviceMemory = 150000;
+  const tipp::ResampleResult result =
+    tipp::resample(scene.mesh(), lattice, values.into(samples), options);
+  EXPECT_GT(result.ClaimSeconds, 0);
+  EXPECT_GT(result.InterpolationSeconds, 0);
+  EXPECT_GT(result.TransferSeconds, 0);
+  for (const double until : { 0.1, 0.75 }) // during the claims and during the interpolation
+  {
+    double last = 0;
+    options.Progress = [&](double done)
+    {
+      last = done;
+      return done < until;
+    };
+    EXPECT_TRUE(tipp::resample(scene.mesh(), lattice, values.into(samples), options).Aborted);
+    EXPECT_LT(last, until + 0.1);
+  }
 }
 
 TEST_F(ResampleOnDevice, WithoutMemoryForTheSamplesOpenMPDoesIt)

@@ -231,7 +231,7 @@ void expectMetAsByBruteForce(const Tiling& tiling, Point2 a, Point2 b, Point2 c)
   std::vector<PartitionIndex> expected;
   for (PartitionIndex i = 0; i < tiling.size(); ++i)
   {
-    if (circumdiskMeetsBox(a, b, c, tiling.box(i)))
+    if (Circumdisk(a, b, c).meets(tiling.box(i)))
     {
       expected.push_back(i);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/Simplices.h"
+#include "Resample/SimplexParts.h"
 
 #include "Resample/CellPulling.h"
 
@@ -18,6 +18,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tipp
 {
@@ -59,7 +60,7 @@ vtkCellArray* uniformCells(vtkPointSet* mesh, int type)
   return uniform ? surface->GetPolys() : nullptr;
 }
 
-bool takeUniform(vtkPointSet* mesh, int type, Simplices& simplices)
+bool takeUniform(vtkPointSet* mesh, int type, SimplexSet& simplices)
 {
   vtkCellArray* cells = uniformCells(mesh, type);
   const vtkIdType corners = type == VTK_TRIANGLE ? 3 : 4;
@@ -89,6 +90,11 @@ public:
     switch (type)
     {
       case VTK_TRIANGLE:
+        this->append(this->Parts.Triangles, cell);
+        break;
+      case VTK_TETRA:
+        this->append(this->Parts.Tetrahedra, cell);
+        break;
       case VTK_QUAD:
       case VTK_PIXEL:
         this->loadCorners(cell);
@@ -97,10 +103,6 @@ public:
           std::swap(this->Corners[2], this->Corners[3]);
         }
         CellPulling::polygon(this->Corners, this->Parts.Triangles.Ids);
-        break;
-      case VTK_TETRA:
-        this->Mesh->GetCellPoints(cell, this->Ids);
-        this->append(this->Parts.Tetrahedra, this->Ids->begin(), this->Ids->end());
         break;
       case VTK_HEXAHEDRON:
       case VTK_VOXEL:
@@ -140,13 +142,16 @@ private:
       return;
     }
     this->Cell->Triangulate(0, this->Ids, this->Points);
-    this->append(dimension == 2 ? this->Parts.Triangles : this->Parts.Tetrahedra,
-      this->Ids->begin(), this->Ids->end());
+    std::vector<std::int64_t>& ids =
+      (dimension == 2 ? this->Parts.Triangles : this->Parts.Tetrahedra).Ids;
+    ids.insert(ids.end(), this->Ids->begin(), this->Ids->end());
   }
 
-  static void append(Simplices& simplices, const vtkIdType* begin, const vtkIdType* end)
+  /// A simplex as it is.
+  void append(SimplexSet& simplices, vtkIdType cell)
   {
-    simplices.Ids.insert(simplices.Ids.end(), begin, end);
+    this->Mesh->GetCellPoints(cell, this->Ids);
+    simplices.Ids.insert(simplices.Ids.end(), this->Ids->begin(), this->Ids->end());
   }
 
   vtkPointSet* Mesh;
@@ -157,24 +162,33 @@ private:
   vtkNew<vtkGenericCell> Cell;
 };
 
-bool hidesCells(vtkUnsignedCharArray* ghosts)
+/// One a cell, if vtkGhostType hides any; else none.
+std::vector<unsigned char> hiddenCells(vtkPointSet* mesh)
 {
-  if (!ghosts)
+  std::vector<unsigned char> hidden;
+  vtkUnsignedCharArray* const ghosts = mesh->GetCellGhostArray();
+  const vtkIdType cells = mesh->GetNumberOfCells();
+  if (ghosts && ghosts->GetNumberOfValues() >= cells)
   {
-    return false;
+    const unsigned char* const begin = ghosts->GetPointer(0);
+    const auto hides = [](int ghost) { return (ghost & vtkDataSetAttributes::HIDDENCELL) != 0; };
+    if (std::any_of(begin, begin + cells, hides))
+    {
+      hidden.resize(std::size_t(cells));
+      std::transform(begin, begin + cells, hidden.begin(), hides);
+    }
   }
-  const unsigned char* begin = ghosts->GetPointer(0);
-  return std::any_of(begin, begin + ghosts->GetNumberOfValues(),
-    [](int ghost) { return (ghost & vtkDataSetAttributes::HIDDENCELL) != 0; });
+  return hidden;
 }
 
-void finish(Simplices& simplices, int dimension, const SimplexParts& parts)
+void finish(SimplexSet& simplices, int dimension, const SimplexParts& parts)
 {
   SimplexMesh& mesh = simplices.Mesh;
   mesh.Dimension = dimension;
   mesh.Points = parts.Coordinates->GetVoidPointer(0);
   mesh.PointCount = parts.Coordinates->GetNumberOfTuples();
   mesh.Float = parts.Coordinates->GetDataType() == VTK_FLOAT;
+  mesh.Hidden = simplices.Hidden.empty() ? nullptr : simplices.Hidden.data();
   if (!simplices.Ids.empty())
   {
     mesh.Ids = simplices.Ids.data();
@@ -196,16 +210,21 @@ SimplexParts makeSimplices(vtkPointSet* mesh)
     return parts;
   }
   parts.Coordinates = coordinatesOf(mesh);
-  vtkUnsignedCharArray* const ghosts = mesh->GetCellGhostArray();
-  const bool hidden = hidesCells(ghosts);
-  if (hidden ||
-    (!takeUniform(mesh, VTK_TRIANGLE, parts.Triangles) &&
-      !takeUniform(mesh, VTK_TETRA, parts.Tetrahedra)))
+  std::vector<unsigned char> hidden = hiddenCells(mesh);
+  if (takeUniform(mesh, VTK_TRIANGLE, parts.Triangles))
+  {
+    parts.Triangles.Hidden = std::move(hidden);
+  }
+  else if (takeUniform(mesh, VTK_TETRA, parts.Tetrahedra))
+  {
+    parts.Tetrahedra.Hidden = std::move(hidden);
+  }
+  else
   {
     Cutter cutter(mesh, parts);
     for (vtkIdType cell = 0; cell < count; ++cell)
     {
-      if (!hidden || (ghosts->GetValue(cell) & vtkDataSetAttributes::HIDDENCELL) == 0)
+      if (hidden.empty() || !hidden[std::size_t(cell)])
       {
         cutter.cut(cell);
       }
@@ -216,10 +235,10 @@ SimplexParts makeSimplices(vtkPointSet* mesh)
   return parts;
 }
 
-void hideMarked(Simplices& simplices, const std::vector<bool>& markedPoints)
+void hideMarked(SimplexSet& simplices, const std::vector<bool>& markedPoints)
 {
   SimplexMesh& mesh = simplices.Mesh;
-  simplices.Hidden.assign(std::size_t(mesh.Cells), 0);
+  simplices.Hidden.resize(std::size_t(mesh.Cells), 0);
   mesh.Hidden = simplices.Hidden.data();
   withAccess(mesh,
     [&](const auto& access)

@@ -2,7 +2,8 @@
 #ifndef tippScalarTypes_h
 #define tippScalarTypes_h
 
-#include "Resample/Attribute.h"
+#include "Arrays/Scalar.h"
+#include "vtkTIPPAcceleratorsModule.h"
 
 #include <optional>
 
@@ -10,7 +11,10 @@ namespace tipp
 {
 
 /// The kind of numbers of a VTK_... type; nothing for bits and what is no number.
-std::optional<Scalar> scalarOf(int vtkType);
+VTKTIPPACCELERATORS_EXPORT std::optional<Scalar> scalarOf(int vtkType);
+
+/// The other way round.
+VTKTIPPACCELERATORS_EXPORT int vtkTypeOf(Scalar type);
 
 } // namespace tipp
 

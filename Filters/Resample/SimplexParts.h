@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippSimplices_h
-#define tippSimplices_h
+#ifndef tippSimplexParts_h
+#define tippSimplexParts_h
 
 #include "Resample/SimplexMesh.h"
 
@@ -17,32 +17,32 @@ namespace tipp
 
 /// Simplices of one dimension made of a data set's cells. Its arrays are the data set's own where
 /// they can be; the data set must outlive it.
-struct Simplices
+struct SimplexSet
 {
   SimplexMesh Mesh;
   std::vector<std::int64_t> Ids;     ///< what Mesh.Ids points to, if the cells had to be cut up
   std::vector<std::int64_t> Parents; ///< the cell that each is a part of; empty: the same number
-  std::vector<unsigned char> Hidden;
+  std::vector<unsigned char> Hidden; ///< what Mesh.Hidden points to
 };
 
 /// All cells of a data set.
 struct SimplexParts
 {
-  Simplices Triangles;
-  Simplices Tetrahedra;
+  SimplexSet Triangles;
+  SimplexSet Tetrahedra;
   std::int64_t Thin = 0; ///< vertices and lines, which cover no sample
 
   vtkSmartPointer<vtkDataArray> Coordinates; ///< float or double
 };
 
-/// Triangles and tetrahedra as they are; other cells cut up. Polyhedra with up to four corners a
-/// face, and quads, are cut by their lexicographically least corners, so that neighbours agree and
+/// Triangles and tetrahedra as they are; other cells cut up. Hexahedra, voxels, wedges, pyramids,
+/// quads and pixels are cut by their lexicographically least corners, so that neighbours agree and
 /// neither order nor ids matter; other types as VTK does it. Cells that vtkGhostType hides are left
 /// out.
 SimplexParts makeSimplices(vtkPointSet* mesh);
 
 /// Hides the simplices that have a corner marked.
-void hideMarked(Simplices& simplices, const std::vector<bool>& markedPoints);
+void hideMarked(SimplexSet& simplices, const std::vector<bool>& markedPoints);
 
 } // namespace tipp
 

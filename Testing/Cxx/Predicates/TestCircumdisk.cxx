@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Predicates/CircumdiskBox.h"
+#include "Predicates/Circumdisk.h"
 
 #include "ExactOracle.h"
 #include "NearDegenerate.h"
@@ -113,51 +113,51 @@ void expectAllAnswers(const Counts& counts)
 
 } // namespace
 
-TEST(CircumdiskBox, TouchingASideCountsAsMeeting)
+TEST(Circumdisk, TouchingASideCountsAsMeeting)
 {
-  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { 5, -1, 9, 1 }));
-  EXPECT_FALSE(tipp::circumdiskMeetsBox(A, B, C, { above(5), -1, 9, 1 }));
-  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { -1, -9, 1, -5 }));
-  EXPECT_FALSE(tipp::circumdiskMeetsBox(A, B, C, { -1, -9, 1, below(-5) }));
+  EXPECT_TRUE(tipp::Circumdisk(A, B, C).meets({ 5, -1, 9, 1 }));
+  EXPECT_FALSE(tipp::Circumdisk(A, B, C).meets({ above(5), -1, 9, 1 }));
+  EXPECT_TRUE(tipp::Circumdisk(A, B, C).meets({ -1, -9, 1, -5 }));
+  EXPECT_FALSE(tipp::Circumdisk(A, B, C).meets({ -1, -9, 1, below(-5) }));
 }
 
-TEST(CircumdiskBox, TouchingACornerCountsAsMeeting)
+TEST(Circumdisk, TouchingACornerCountsAsMeeting)
 {
-  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { 3, 4, 9, 9 }));
-  EXPECT_FALSE(tipp::circumdiskMeetsBox(A, B, C, { above(3), 4, 9, 9 }));
-  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { -9, -9, -4, -3 }));
-  EXPECT_FALSE(tipp::circumdiskMeetsBox(A, B, C, { -9, -9, -4, below(-3) }));
+  EXPECT_TRUE(tipp::Circumdisk(A, B, C).meets({ 3, 4, 9, 9 }));
+  EXPECT_FALSE(tipp::Circumdisk(A, B, C).meets({ above(3), 4, 9, 9 }));
+  EXPECT_TRUE(tipp::Circumdisk(A, B, C).meets({ -9, -9, -4, -3 }));
+  EXPECT_FALSE(tipp::Circumdisk(A, B, C).meets({ -9, -9, -4, below(-3) }));
 }
 
-TEST(CircumdiskBox, TouchingFromInsideCountsAsInside)
+TEST(Circumdisk, TouchingFromInsideCountsAsInside)
 {
-  EXPECT_TRUE(tipp::circumdiskInsideBox(A, B, C, { -5, -5, 5, 5 }));
-  EXPECT_FALSE(tipp::circumdiskInsideBox(A, B, C, { above(-5), -5, 5, 5 }));
-  EXPECT_FALSE(tipp::circumdiskInsideBox(A, B, C, { -5, above(-5), 5, 5 }));
-  EXPECT_FALSE(tipp::circumdiskInsideBox(A, B, C, { -5, -5, below(5), 5 }));
-  EXPECT_FALSE(tipp::circumdiskInsideBox(A, B, C, { -5, -5, 5, below(5) }));
+  EXPECT_TRUE(tipp::Circumdisk(A, B, C).inside({ -5, -5, 5, 5 }));
+  EXPECT_FALSE(tipp::Circumdisk(A, B, C).inside({ above(-5), -5, 5, 5 }));
+  EXPECT_FALSE(tipp::Circumdisk(A, B, C).inside({ -5, above(-5), 5, 5 }));
+  EXPECT_FALSE(tipp::Circumdisk(A, B, C).inside({ -5, -5, below(5), 5 }));
+  EXPECT_FALSE(tipp::Circumdisk(A, B, C).inside({ -5, -5, 5, below(5) }));
 }
 
-TEST(CircumdiskBox, ABoxWithinTheDiskAndADiskWithinTheBoxMeet)
+TEST(Circumdisk, ABoxWithinTheDiskAndADiskWithinTheBoxMeet)
 {
-  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { -1, -1, 1, 1 }));
-  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { 0.5, 0.5, 0.5, 0.5 }));
-  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { -100, -100, 100, 100 }));
+  EXPECT_TRUE(tipp::Circumdisk(A, B, C).meets({ -1, -1, 1, 1 }));
+  EXPECT_TRUE(tipp::Circumdisk(A, B, C).meets({ 0.5, 0.5, 0.5, 0.5 }));
+  EXPECT_TRUE(tipp::Circumdisk(A, B, C).meets({ -100, -100, 100, 100 }));
 }
 
-TEST(CircumdiskBox, UnboundedBoxes)
+TEST(Circumdisk, UnboundedBoxes)
 {
-  EXPECT_TRUE(tipp::circumdiskInsideBox(A, B, C, { -Infinity, -Infinity, Infinity, Infinity }));
-  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { -Infinity, -Infinity, Infinity, Infinity }));
-  EXPECT_TRUE(tipp::circumdiskInsideBox(A, B, C, { -5, -Infinity, Infinity, Infinity }));
-  EXPECT_FALSE(tipp::circumdiskInsideBox(A, B, C, { above(-5), -Infinity, Infinity, Infinity }));
-  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { 5, -Infinity, Infinity, Infinity }));
-  EXPECT_FALSE(tipp::circumdiskMeetsBox(A, B, C, { above(5), -Infinity, Infinity, Infinity }));
-  EXPECT_TRUE(tipp::circumdiskMeetsBox(A, B, C, { -Infinity, 4, -3, Infinity }));
-  EXPECT_FALSE(tipp::circumdiskMeetsBox(A, B, C, { -Infinity, above(4), -3, Infinity }));
+  EXPECT_TRUE(tipp::Circumdisk(A, B, C).inside({ -Infinity, -Infinity, Infinity, Infinity }));
+  EXPECT_TRUE(tipp::Circumdisk(A, B, C).meets({ -Infinity, -Infinity, Infinity, Infinity }));
+  EXPECT_TRUE(tipp::Circumdisk(A, B, C).inside({ -5, -Infinity, Infinity, Infinity }));
+  EXPECT_FALSE(tipp::Circumdisk(A, B, C).inside({ above(-5), -Infinity, Infinity, Infinity }));
+  EXPECT_TRUE(tipp::Circumdisk(A, B, C).meets({ 5, -Infinity, Infinity, Infinity }));
+  EXPECT_FALSE(tipp::Circumdisk(A, B, C).meets({ above(5), -Infinity, Infinity, Infinity }));
+  EXPECT_TRUE(tipp::Circumdisk(A, B, C).meets({ -Infinity, 4, -3, Infinity }));
+  EXPECT_FALSE(tipp::Circumdisk(A, B, C).meets({ -Infinity, above(4), -3, Infinity }));
 }
 
-TEST(CircumdiskBox, BoundsAreTightForOrdinaryTriangles)
+TEST(Circumdisk, BoundsAreTightForOrdinaryTriangles)
 {
   const Box2 bounds = tipp::Circumdisk(A, B, C).bounds();
   EXPECT_NEAR(-5, bounds.xmin, 1e-13);
@@ -166,14 +166,14 @@ TEST(CircumdiskBox, BoundsAreTightForOrdinaryTriangles)
   EXPECT_NEAR(5, bounds.ymax, 1e-13);
 }
 
-TEST(CircumdiskBox, BoundsAreInfiniteWhereDoublesCannotTell)
+TEST(Circumdisk, BoundsAreInfiniteWhereDoublesCannotTell)
 {
   const Box2 bounds = tipp::Circumdisk({ 0, 0 }, { 1e-200, 0 }, { 0, 1e-200 }).bounds();
   EXPECT_EQ(-Infinity, bounds.xmin);
   EXPECT_EQ(Infinity, bounds.ymax);
 }
 
-TEST(CircumdiskBox, ExactForLatticeTriangles)
+TEST(Circumdisk, ExactForLatticeTriangles)
 {
   NearDegenerate draw(1);
   expectAllAnswers(compareWithRationals(draw, 10000,
@@ -186,7 +186,7 @@ TEST(CircumdiskBox, ExactForLatticeTriangles)
     }));
 }
 
-TEST(CircumdiskBox, ExactForBoxesWithCornersByTheCircle)
+TEST(Circumdisk, ExactForBoxesWithCornersByTheCircle)
 {
   NearDegenerate draw(2);
   expectAllAnswers(compareWithRationals(draw, 10000,
@@ -196,7 +196,7 @@ TEST(CircumdiskBox, ExactForBoxesWithCornersByTheCircle)
   expectAllAnswers(compareWithRationals(draw, 5000, [&] { return draw.unitCircle(); }));
 }
 
-TEST(CircumdiskBox, ExactForSliversWithEnormousDisks)
+TEST(Circumdisk, ExactForSliversWithEnormousDisks)
 {
   NearDegenerate draw(3);
   expectAllAnswers(compareWithRationals(draw, 10000,
@@ -209,7 +209,7 @@ TEST(CircumdiskBox, ExactForSliversWithEnormousDisks)
     }));
 }
 
-TEST(CircumdiskBox, ExactBeyondTheRangeOfTheFilter)
+TEST(Circumdisk, ExactBeyondTheRangeOfTheFilter)
 {
   NearDegenerate draw(4);
   for (const int exponent : { -1035, -500, -240, -225, 225, 500, 1000 })
@@ -221,7 +221,7 @@ TEST(CircumdiskBox, ExactBeyondTheRangeOfTheFilter)
   }
 }
 
-TEST(CircumdiskBox, ExactForMixedExponents)
+TEST(Circumdisk, ExactForMixedExponents)
 {
   NearDegenerate draw(5);
   compareWithRationals(draw, 1000, [&] { return draw.mixedExponents(-1030, 990); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/ScalarTypes.h"
+#include "Arrays/ScalarTypes.h"
 
 #include "vtkType.h"
 
@@ -60,6 +60,14 @@ std::optional<Scalar> scalarOf(int vtkType)
     default:
       return std::nullopt;
   }
+}
+
+int vtkTypeOf(Scalar type)
+{
+  constexpr int types[] = { VTK_TYPE_INT8, VTK_TYPE_UINT8, VTK_TYPE_INT16, VTK_TYPE_UINT16,
+    VTK_TYPE_INT32, VTK_TYPE_UINT32, VTK_TYPE_INT64, VTK_TYPE_UINT64, VTK_TYPE_FLOAT32,
+    VTK_TYPE_FLOAT64 };
+  return types[int(type)];
 }
 
 } // namespace tipp

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippScalar_h
+#define tippScalar_h
+
+#include <cstdint>
+
+namespace tipp
+{
+
+/// The numbers that an array is made of.
+enum class Scalar
+{
+  Int8,
+  UInt8,
+  Int16,
+  UInt16,
+  Int32,
+  UInt32,
+  Int64,
+  UInt64,
+  Float32,
+  Float64
+};
+
+/// Calls work(value) with a value of the C++ type.
+template <typename Work>
+void withScalar(Scalar type, const Work& work)
+{
+  switch (type) // NOLINT(bugprone-branch-clone): the types differ.
+  {
+    case Scalar::Int8:
+      return work(std::int8_t());
+    case Scalar::UInt8:
+      return work(std::uint8_t());
+    case Scalar::Int16:
+      return work(std::int16_t());
+    case Scalar::UInt16:
+      return work(std::uint16_t());
+    case Scalar::Int32:
+      return work(std::int32_t());
+    case Scalar::UInt32:
+      return work(std::uint32_t());
+    case Scalar::Int64:
+      return work(std::int64_t());
+    case Scalar::UInt64:
+      return work(std::uint64_t());
+    case Scalar::Float32:
+      return work(float());
+    case Scalar::Float64:
+      return work(double());
+  }
+}
+
+} // namespace tipp
+
+#endif
