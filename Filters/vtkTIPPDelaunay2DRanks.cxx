@@ -4,6 +4,7 @@
 
 #include "Distributed/DistributedTriangulation.h"
 #include "Distributed/GhostTriangles.h"
+#include "Messages/CollectivePipeline.h"
 #include "Output/Monitor.h"
 #include "Output/PieceOutput.h"
 #include "Output/PointRows.h"
@@ -22,6 +23,17 @@
 #include <memory>
 #include <stdexcept>
 #include <vector>
+
+vtkExecutive* vtkTIPPDelaunay2D::CreateDefaultExecutive()
+{
+  if (DefaultExecutivePrototype)
+  {
+    return this->Superclass::CreateDefaultExecutive(); // an application's own, e.g. ParaView's
+  }
+  auto* executive = tipp::CollectivePipeline::New();
+  executive->Controller = [this]() { return this->Controller; };
+  return executive;
+}
 
 bool vtkTIPPDelaunay2D::HasSeveralRanks() const
 {
