@@ -23,7 +23,7 @@ namespace
 
 using tipp::Simplices;
 using tipp::simplicesOf;
-using Ids = std::vector<vtkIdType>;
+using CellPoints = std::vector<vtkIdType>;
 
 class SimplicesOf : public testing::Test
 {
@@ -38,7 +38,7 @@ protected:
     }
   }
 
-  void insert(int type, const Ids& ids)
+  void insert(int type, const CellPoints& ids)
   {
     this->Grid->InsertNextCell(type, vtkIdType(ids.size()), ids.data());
   }
@@ -62,7 +62,7 @@ double measure(vtkDataSet* data, const Simplices& simplices)
     double p[4][3] = {};
     for (int c = 0; c < simplices.CellSize; ++c)
     {
-      data->GetPoint(simplices.Ids[std::size_t(i * simplices.CellSize + c)], p[c]);
+      data->GetPoint(simplices.CellPoints[std::size_t(i * simplices.CellSize + c)], p[c]);
     }
     double e[3][3];
     for (int axis = 0; axis < 3; ++axis)
@@ -89,7 +89,7 @@ double measure(vtkDataSet* data, const Simplices& simplices)
 std::map<std::array<std::int64_t, 3>, int> sides(const Simplices& simplices)
 {
   std::map<std::array<std::int64_t, 3>, int> counts;
-  for (std::size_t i = 0; i < simplices.Ids.size(); i += 4)
+  for (std::size_t i = 0; i < simplices.CellPoints.size(); i += 4)
   {
     for (std::size_t left = 0; left < 4; ++left)
     {
@@ -99,7 +99,7 @@ std::map<std::array<std::int64_t, 3>, int> sides(const Simplices& simplices)
       {
         if (corner != left)
         {
-          side[at++] = simplices.Ids[i + corner];
+          side[at++] = simplices.CellPoints[i + corner];
         }
       }
       std::sort(side.begin(), side.end());
@@ -118,7 +118,7 @@ TEST_F(SimplicesOf, TrianglesAreTheSameTriangles)
   this->insert(VTK_TRIANGLE, { 2, 3, 0 });
   const Simplices simplices = simplicesOf(this->Grid, "a");
   EXPECT_EQ(3, simplices.CellSize);
-  EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 2, 2, 3, 0 }), simplices.Ids);
+  EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 2, 2, 3, 0 }), simplices.CellPoints);
   EXPECT_TRUE(simplices.Parents.empty());
   EXPECT_TRUE(simplices.Cut.empty());
 }
@@ -155,7 +155,7 @@ TEST_F(SimplicesOf, AConcavePolygonStayInsideIt)
 TEST_F(SimplicesOf, EveryKindOfSolidCellFillIt)
 {
   this->insertUnitCube();
-  const std::pair<int, Ids> cells[] = { { VTK_HEXAHEDRON, { 0, 1, 2, 3, 4, 5, 6, 7 } },
+  const std::pair<int, CellPoints> cells[] = { { VTK_HEXAHEDRON, { 0, 1, 2, 3, 4, 5, 6, 7 } },
     { VTK_VOXEL, { 0, 1, 3, 2, 4, 5, 7, 6 } }, { VTK_WEDGE, { 0, 1, 3, 4, 5, 7 } },
     { VTK_PYRAMID, { 0, 1, 2, 3, 4 } }, { VTK_TETRA, { 0, 1, 3, 4 } } };
   const double volumes[] = { 1, 1, 0.5, 1 / 3.0, 1 / 6.0 };
@@ -240,7 +240,7 @@ TEST_F(SimplicesOf, GhostCellsAreLeftOut)
   this->insert(VTK_TRIANGLE, { 2, 3, 0 });
   this->Grid->AllocateCellGhostArray()->SetValue(0, vtkDataSetAttributes::DUPLICATECELL);
   const Simplices simplices = simplicesOf(this->Grid, "a");
-  EXPECT_EQ((std::vector<std::int64_t>{ 2, 3, 0 }), simplices.Ids);
+  EXPECT_EQ((std::vector<std::int64_t>{ 2, 3, 0 }), simplices.CellPoints);
   EXPECT_EQ(1, simplices.LeftOut.at("ghost cell"));
 }
 
