@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
+#include "Parallel/Stopwatch.h"
 #include "Partitioned/PendingMesh.h"
 #include "Partitioned/PieceLayout.h"
 #include "Partitioning/AssemblePieces.h"
@@ -13,7 +14,6 @@
 #include "Partitioning/SurveyPoints.h"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <limits>
 #include <set>
@@ -153,22 +153,6 @@ void requireSpace(const PartitionRun& run, const std::string& path)
   }
 }
 
-class Stopwatch
-{
-public:
-  /// Since the last call.
-  double seconds()
-  {
-    const auto now = std::chrono::steady_clock::now();
-    const std::chrono::duration<double> passed = now - this->Start;
-    this->Start = now;
-    return passed.count();
-  }
-
-private:
-  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
-};
-
 Bounds boundsOf(const Box3& box)
 {
   return { box.Min[0], box.Max[0], box.Min[1], box.Max[1], box.Min[2], box.Max[2] };
@@ -243,7 +227,7 @@ void runPhases(PartitionRun& run, const std::string& path)
 {
   Stopwatch watch;
   const auto endPhase = [&](const char* name) {
-    run.Statistics.Phases.push_back({ name, watch.seconds() });
+    run.Statistics.Phases.push_back({ name, watch.restart() });
   };
   run.Team.attempt([&] { prepare(run, path); });
   cutDomain(run);
@@ -295,7 +279,7 @@ PartitionStatistics partitionMesh(const FlatMesh& mesh, const std::string& path,
         pending->commit();
       }
     });
-  run.Statistics.Phases.push_back({ "publish", watch.seconds() });
+  run.Statistics.Phases.push_back({ "publish", watch.restart() });
   run.report(1);
   return run.Statistics;
 }

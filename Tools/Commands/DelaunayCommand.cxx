@@ -10,12 +10,12 @@
 #include "Console/ProgressBar.h"
 #include "Files/Extension.h"
 #include "Meshes/WriteMesh.h"
+#include "Parallel/Stopwatch.h"
 #include "Triangulation/Triangulate.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <chrono>
 #include <memory>
 
 namespace tipp
@@ -45,22 +45,6 @@ Examples:
   tipp delaunay fort.14 -o mesh.vtu --partitions 8x8 --stats run.json
   mpirun -np 4 tipp delaunay points.npy -o triangles.npy --masters multi --major 4x4
 )";
-
-class Stopwatch
-{
-public:
-  /// Since the last call.
-  double seconds()
-  {
-    const auto now = std::chrono::steady_clock::now();
-    const std::chrono::duration<double> passed = now - this->Start;
-    this->Start = now;
-    return passed.count();
-  }
-
-private:
-  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
-};
 
 TriangulationOptions makeOptions(const DelaunayArguments& arguments, ProgressBar& bar)
 {
@@ -100,18 +84,18 @@ int runDelaunay(const DelaunayArguments& arguments)
   Stopwatch watch;
   const PointTable points = readPointsFor(arguments);
   run.Points = std::int64_t(points.size());
-  run.ReadSeconds = watch.seconds();
+  run.ReadSeconds = watch.restart();
   if (isInterrupted())
   {
     return reportInterrupt();
   }
   const Triangulation result = triangulatePoints(arguments, points);
-  run.TriangulateSeconds = watch.seconds();
+  run.TriangulateSeconds = watch.restart();
   if (result.Aborted || isInterrupted() || !writeResult(arguments, points, result))
   {
     return reportInterrupt();
   }
-  run.WriteSeconds = watch.seconds();
+  run.WriteSeconds = watch.restart();
   if (!arguments.Statistics.empty())
   {
     writeStatistics(arguments.Statistics, run, result);

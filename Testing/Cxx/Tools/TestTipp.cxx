@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes/ReadMesh.h"
+#include "OpenCL/DeviceList.h"
 #include "Points/ReadPoints.h"
 #include "Points/WritePoints.h"
 #include "RunTipp.h"
@@ -157,10 +158,24 @@ TEST_F(Tipp, HelpNamesEveryCommand)
 {
   const Outcome outcome = this->run({ "--help" });
   EXPECT_EQ(0, outcome.ExitCode);
-  for (const char* command : { "delaunay", "points", "check" })
+  for (const char* command : { "delaunay", "devices", "points", "check" })
   {
     EXPECT_NE(std::string::npos, outcome.Out.find(command)) << command;
   }
+}
+
+TEST_F(Tipp, DevicesAreListedByIndexAndName)
+{
+  const Outcome outcome = this->run({ "devices" });
+  EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+  for (const tipp::DeviceDescription& device : tipp::listDevices())
+  {
+    const std::string line = "\n" + std::to_string(device.Index) + "  ";
+    const std::size_t begin = ("\n" + outcome.Out).find(line);
+    ASSERT_NE(std::string::npos, begin) << outcome.Out;
+    EXPECT_NE(std::string::npos, outcome.Out.find(device.Name, begin)) << outcome.Out;
+  }
+  EXPECT_FALSE(outcome.Out.empty());
 }
 
 TEST_F(Tipp, HelpOfACommandNamesItsOptionsAndAnExample)
