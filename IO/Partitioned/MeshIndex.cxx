@@ -22,7 +22,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* formatName = "TIPP partitioned mesh";
 constexpr int formatVersion = 1;
-constexpr std::int64_t mostPieces = 1 << 24;
 // The text's last line but one; its checksum is of all before the comma.
 constexpr const char* checksumStart = ",\n\"xxh3\": \"";
 constexpr const char* checksumEnd = "\"\n}\n";

@@ -16,6 +16,9 @@ namespace tipp
 /// x from, x to, y from, y to, z from, z to.
 using Bounds = std::array<double, 6>;
 
+/// That a mesh can have.
+constexpr std::int64_t mostPieces = 1 << 24;
+
 /// What is known of one piece without opening its file.
 struct PieceSummary
 {

@@ -13,13 +13,6 @@ namespace tipp
 namespace
 {
 
-bool isWanted(const PartitionedMesh& mesh, const PieceOptions& options, std::size_t attribute)
-{
-  const int step = mesh.Arrays[attribute].Step;
-  return (options.Wanted.empty() || options.Wanted[attribute]) &&
-    (step < 0 || step == options.Step);
-}
-
 /// Reads what the piece's own file has of one array; the rest of the buffer is left alone.
 RawBuffer readOwn(
   const PieceFile& file, std::size_t array, std::int64_t stored, std::int64_t tuples)
@@ -90,7 +83,7 @@ void readAttributes(const PartitionedMesh& mesh, const PieceOptions& options, co
 {
   for (std::size_t i = 0; i < mesh.Arrays.size(); ++i)
   {
-    if (isWanted(mesh, options, i))
+    if (options.wants(mesh, i))
     {
       const bool ofPoints = mesh.Arrays[i].OfPoints;
       RawBuffer values = readOwn(file, file.findAttribute(i), ofPoints ? storedPoints : storedCells,
@@ -101,6 +94,12 @@ void readAttributes(const PartitionedMesh& mesh, const PieceOptions& options, co
 }
 
 } // namespace
+
+bool PieceOptions::wants(const PartitionedMesh& mesh, std::size_t attribute) const
+{
+  const int step = mesh.Arrays[attribute].Step;
+  return (this->Wanted.empty() || this->Wanted[attribute]) && (step < 0 || step == this->Step);
+}
 
 Piece readPiece(const PartitionedMesh& mesh, std::size_t number, const PieceOptions& options)
 {

@@ -20,6 +20,9 @@ struct PieceOptions
   /// Which of PartitionedMesh::Arrays are read; empty: all.
   std::vector<bool> Wanted;
   int Step = 0; ///< of arrays that vary in time, only this step is read
+
+  /// Whether it asks for that one of the mesh's arrays.
+  bool wants(const PartitionedMesh& mesh, std::size_t attribute) const;
 };
 
 /// A piece in memory. Points and cells each come in ascending order of their global ids within the

@@ -63,6 +63,18 @@ protected:
     this->Controller->Barrier();
   }
 
+  /// The first rank's Progress stops the run at its call of that number.
+  bool isAborted(int calls)
+  {
+    PartitionOptions options;
+    options.ChunkCells = 37;
+    options.ChunkPoints = 23;
+    options.Progress = [&calls](double) { return calls-- > 0; };
+    return partitionMesh(
+      openFlatMesh(this->Path + "flat"), this->Path + "mesh", options, this->Controller)
+      .Aborted;
+  }
+
   void expectSameFilesAsAlone(const std::string& tiling)
   {
     this->make("alone", tiling, true);
@@ -116,6 +128,22 @@ TEST_F(PartitionRanks, AllFailWithOneMessage)
   }
   this->Controller->Barrier();
   EXPECT_FALSE(std::filesystem::exists(this->Path + "mesh"));
+}
+
+TEST_F(PartitionRanks, AllStopWhenTheFirstIsTold)
+{
+  this->write(makeSource(latticeTriangles(12, 0.3)));
+  int calls = 0;
+  // In every phase, and at last too late.
+  while (this->isAborted(calls))
+  {
+    this->Controller->Barrier();
+    EXPECT_FALSE(std::filesystem::exists(this->Path + "mesh"));
+    this->Controller->Barrier();
+    ++calls;
+  }
+  EXPECT_GT(calls, 3);
+  EXPECT_TRUE(std::filesystem::exists(this->Path + "mesh"));
 }
 
 } // namespace

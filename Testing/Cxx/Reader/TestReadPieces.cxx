@@ -123,6 +123,31 @@ TEST_P(ReadPieces, OfAFlatMeshAreThoseOfTheStoredOne)
   }
 }
 
+TEST_P(ReadPieces, OfATreeOverAFlatMeshAreThoseOfTheStoredOne)
+{
+  const char* const tiling = GetParam() == 3 ? "quadtree:40" : "octree:200";
+  tipp::PartitionOptions options;
+  options.Tiling = *tipp::TilingChoice::parse(tiling);
+  tipp::partitionMesh(tipp::openFlatMesh(this->path("flat")), this->path("reference"), options);
+  std::vector<std::vector<Content>> read;
+  for (const char* const form : { "flat", "reference" })
+  {
+    const auto reader = this->reader(form);
+    reader->SetTiling(tiling);
+    reader->SetMergePieces(false);
+    reader->Update();
+    auto* const set = vtkPartitionedDataSet::SafeDownCast(reader->GetOutputDataObject(0));
+    ASSERT_NE(nullptr, set);
+    read.emplace_back();
+    for (unsigned int i = 0; i < set->GetNumberOfPartitions(); ++i)
+    {
+      read.back().push_back(contentOf(vtkUnstructuredGrid::SafeDownCast(set->GetPartition(i))));
+    }
+  }
+  EXPECT_GT(read[0].size(), 4U);
+  EXPECT_TRUE(read[0] == read[1]);
+}
+
 TEST_P(ReadPieces, OfManyRequestsHaveEachCellOnce)
 {
   for (const char* const form : forms)
