@@ -45,6 +45,7 @@ XmlPart readXmlPart(const InputFile& file)
   constexpr std::uint64_t limit = std::uint64_t(64) << 20;
   constexpr std::uint64_t step = 1 << 16;
   XmlPart part;
+  std::size_t tag = std::string::npos;
   for (std::uint64_t at = 0; at < std::min(file.size(), limit);)
   {
     const auto bytes = std::size_t(std::min(file.size() - at, std::max(step, at)));
@@ -52,7 +53,7 @@ XmlPart readXmlPart(const InputFile& file)
     part.Text.resize(part.Text.size() + bytes);
     file.read(at, part.Text.data() + at, bytes);
     at += bytes;
-    const std::size_t tag = part.Text.find("<AppendedData", searched);
+    tag = tag == std::string::npos ? part.Text.find("<AppendedData", searched) : tag;
     if (tag == std::string::npos)
     {
       continue;

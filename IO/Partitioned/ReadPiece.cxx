@@ -2,6 +2,7 @@
 #include "Partitioned/ReadPiece.h"
 
 #include "Partitioned/BorrowedByReference.h"
+#include "Partitioned/IdRange.h"
 
 #include <algorithm>
 #include <cstring>
@@ -28,18 +29,6 @@ RawBuffer readOwn(
   }
   file.read(array, 0, end, buffer.data());
   return buffer;
-}
-
-template <typename Id>
-bool areBelow(const Id* ids, std::size_t count, std::int64_t limit)
-{
-  using Unsigned = std::make_unsigned_t<Id>;
-  Unsigned greatest = 0;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    greatest = std::max(greatest, Unsigned(ids[i]));
-  }
-  return count == 0 || std::uint64_t(greatest) < std::uint64_t(limit);
 }
 
 void requireLocalIds(const PieceFile& file, const Piece& piece, std::int64_t cells)
@@ -76,6 +65,7 @@ void readCells(
   }
   requireLocalIds(file, piece, stored);
   piece.CellIds = readOwn(file, file.find(PieceRole::CellIds), stored, piece.Cells);
+  file.requireIds(piece.CellIds.as<std::int64_t>(), std::size_t(stored), mesh.Cells);
 }
 
 void readAttributes(const PartitionedMesh& mesh, const PieceOptions& options, const PieceFile& file,
@@ -118,6 +108,7 @@ Piece readPiece(const PartitionedMesh& mesh, std::size_t number, const PieceOpti
   if (options.Borrowed && !mesh.Duplicated)
   {
     RawBuffer ids = readOwn(file, file.find(PieceRole::PointIds), storedPoints, storedPoints);
+    file.requireIds(ids.as<std::int64_t>(), std::size_t(storedPoints), mesh.Points);
     borrowed.emplace(mesh, file, ids.as<std::int64_t>(), piece.Counters);
     piece.Points = storedPoints + borrowed->pointCount();
     piece.Cells = storedCells + borrowed->cellCount();
@@ -129,6 +120,7 @@ Piece readPiece(const PartitionedMesh& mesh, std::size_t number, const PieceOpti
     piece.Points = storedPoints;
     piece.Cells = storedCells;
     piece.PointIds = readOwn(file, file.find(PieceRole::PointIds), storedPoints, storedPoints);
+    file.requireIds(piece.PointIds.as<std::int64_t>(), std::size_t(storedPoints), mesh.Points);
   }
   piece.Coordinates = readOwn(file, file.find(PieceRole::Points), storedPoints, piece.Points);
   piece.PointGhosts = readOwn(file, file.find(PieceRole::PointGhosts), storedPoints, piece.Points);

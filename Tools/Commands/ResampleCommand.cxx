@@ -84,6 +84,13 @@ void chooseArrays(
     {
       throw IOError(arguments.Input, "has no array '" + name + "'.");
     }
+    vtkDataSetAttributes* const data =
+      ofPoints ? static_cast<vtkDataSetAttributes*>(mesh->GetPointData()) : mesh->GetCellData();
+    if (!data->GetArray(name.c_str()))
+    {
+      throw IOError(
+        arguments.Input, "has array '" + name + "', but it holds no numbers; name another.");
+    }
   }
 }
 
@@ -184,6 +191,8 @@ void summarize(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
 
 int runResample(const ResampleArguments& arguments)
 {
+  // Before the work rather than after it.
+  const PendingFile writable(arguments.Output);
   watchForInterrupt();
   const vtkSmartPointer<vtkDataSet> mesh = readDataSet(arguments.Input);
   vtkNew<vtkRangeResampleFilter> filter;
