@@ -202,12 +202,10 @@ private:
   std::optional<Scalar> scalarOf(const Tag& tag) const
   {
     const std::string* const type = tag.find("type");
-    for (int i = int(Scalar::Int8); type && i <= int(Scalar::Float64); ++i)
+    const std::optional<Scalar> scalar = type ? scalarFromName(*type) : std::nullopt;
+    if (scalar)
     {
-      if (*type == scalarName(Scalar(i)))
-      {
-        return Scalar(i);
-      }
+      return scalar;
     }
     if (type && *type == "String")
     {

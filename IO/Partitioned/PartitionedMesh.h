@@ -62,6 +62,7 @@ struct PartitionedMesh
   std::vector<double> Times;
   std::vector<StoredArray> Arrays; ///< those of points first
   std::vector<PieceSummary> Pieces;
+  std::uint64_t PvtuBytes = 0; ///< of mesh.pvtu, once it is there
 
   std::string piecePath(std::size_t piece) const;
   std::string tablesPath() const;
@@ -69,10 +70,6 @@ struct PartitionedMesh
   std::string pvtuPath() const;
 };
 
-/// The names in the folder.
-extern VTKTIPPIO_EXPORT const char* const indexName;
-extern VTKTIPPIO_EXPORT const char* const tablesName;
-extern VTKTIPPIO_EXPORT const char* const pvtuName;
 /// As "pieces/000012.vtu".
 VTKTIPPIO_EXPORT std::string pieceName(std::size_t piece);
 

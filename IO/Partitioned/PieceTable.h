@@ -47,7 +47,12 @@ struct PieceTable
 /// The table as it stands in tables.bin: 64-bit words.
 VTKTIPPIO_EXPORT std::vector<std::uint64_t> packTable(const PieceTable& table);
 
-/// Reads a piece's table and checks every number in it; throws IOError.
+/// Takes such words, which are those of a piece whose summary the mesh has, and checks every
+/// number in them; throws IOError.
+PieceTable unpackTable(
+  const PartitionedMesh& mesh, std::size_t piece, std::vector<std::uint64_t> words);
+
+/// Reads a piece's table from tables.bin and unpacks it; throws IOError.
 VTKTIPPIO_EXPORT PieceTable readPieceTable(const PartitionedMesh& mesh, std::size_t piece);
 
 } // namespace tipp

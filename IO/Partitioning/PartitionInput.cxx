@@ -4,7 +4,6 @@
 #include "Files/IOError.h"
 #include "Flat/FlattenDataSet.h"
 #include "Flat/WriteFlatMesh.h"
-#include "Partitioned/PendingMesh.h"
 #include "Partitioned/PieceLayout.h"
 #include "Partitioning/Ranks.h"
 #include "Vtk/ReadDataSet.h"
@@ -43,14 +42,14 @@ PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
 {
   const Ranks ranks(controller);
   // It goes away with this object, or before the next run if this one is killed.
-  std::optional<PendingMesh> scratch;
+  std::optional<PendingFolder> scratch;
   std::string folder;
   ranks.attempt(
     [&]
     {
       if (ranks.isFirst())
       {
-        scratch.emplace(output);
+        scratch.emplace(output, &replaceableMesh);
         folder = scratch->temporaryPath() + "/flat";
         FlatContent content = flattenDataSet(data, name).Content;
         removeOwnIds(content);

@@ -2,7 +2,6 @@
 #include "Partitioning/PartitionMesh.h"
 
 #include "Files/IOError.h"
-#include "Partitioned/PendingMesh.h"
 #include "Partitioning/AssemblePieces.h"
 #include "Partitioning/DescribeArrays.h"
 #include "Partitioning/DistributeCells.h"
@@ -22,6 +21,8 @@ namespace tipp
 {
 
 namespace fs = std::filesystem;
+
+const Replaceable replaceableMesh{ "partitioned mesh", isPartitionedMesh };
 
 PartitionRun::PartitionRun(const FlatMesh& mesh, const PartitionOptions& options,
   const Ranks& ranks, const std::string& folder)
@@ -90,7 +91,7 @@ void chooseChunks(PartitionRun& run)
   const RowLayout& rows = run.Rows;
   const std::uint64_t share = std::max<std::uint64_t>(run.Options.MemoryLimit / 4, 1);
   const std::size_t corners = std::size_t(rows.Corners);
-  const std::size_t perCell = corners * 12 + 8 + 2 * rows.CellBytes;
+  const std::size_t perCell = corners * 12 + 12 + 2 * rows.CellBytes;
   const std::size_t perPoint = 20 + 2 * rows.PointBytes;
   constexpr std::int64_t most = 1 << 24;
   const auto choose = [&](std::int64_t asked, std::size_t bytes)
@@ -236,13 +237,13 @@ PartitionStatistics partitionMesh(const FlatMesh& mesh, const std::string& path,
   const PartitionOptions& options, vtkMultiProcessController* controller)
 {
   const Ranks ranks(controller);
-  std::optional<PendingMesh> pending;
+  std::optional<PendingFolder> pending;
   ranks.attempt(
     [&]
     {
       if (ranks.isFirst())
       {
-        pending.emplace(path);
+        pending.emplace(path, &replaceableMesh);
         fs::create_directory(pending->temporaryPath() + "/pieces");
       }
     });

@@ -45,14 +45,6 @@ struct RowLayout
   }
 };
 
-/// A vertex that a piece needs beside those in its box.
-struct ForeignPoint
-{
-  std::int64_t Point;
-  std::int32_t Piece;
-  std::int32_t GhostOnly; ///< 0 or 1
-};
-
 /// One run of partitionMesh on one rank: what its phases share.
 struct PartitionRun
 {

@@ -101,6 +101,14 @@ TEST_F(DamagedMesh, LacksAPiece)
   this->expectRefused("pieces/000002.vtu", "missing");
 }
 
+TEST_F(DamagedMesh, LacksThePvtuOrHasHalfOfIt)
+{
+  fs::resize_file(this->path("mesh.pvtu"), 10);
+  this->expectRefused("mesh.pvtu", "10 bytes where the index says");
+  fs::remove(this->path("mesh.pvtu"));
+  this->expectRefused("mesh.pvtu", "missing");
+}
+
 TEST_F(DamagedMesh, HasATruncatedPiece)
 {
   fs::resize_file(this->path("pieces/000001.vtu"), 1000);

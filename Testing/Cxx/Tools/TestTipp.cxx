@@ -157,7 +157,7 @@ TEST_F(Tipp, HelpNamesEveryCommand)
 {
   const Outcome outcome = this->run({ "--help" });
   EXPECT_EQ(0, outcome.ExitCode);
-  for (const char* command : { "delaunay", "points", "check" })
+  for (const char* command : { "delaunay", "flatten", "points", "resample", "partition", "check" })
   {
     EXPECT_NE(std::string::npos, outcome.Out.find(command)) << command;
   }
