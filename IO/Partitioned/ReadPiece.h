@@ -49,6 +49,14 @@ struct Piece
   RawBuffer CellIds; ///< global, std::int64_t; cells from OwnedCells on are ghosts
   std::vector<Attribute> Attributes;
   ReadCounters Counters;
+
+  /// The point of the piece that is the corner of that number of a cell.
+  std::int64_t corner(std::int64_t cell, int number) const
+  {
+    const auto at = std::size_t(cell * this->CellSize + number);
+    return this->WideIds ? this->Connectivity.as<std::int64_t>()[at]
+                         : this->Connectivity.as<std::int32_t>()[at];
+  }
 };
 
 /// Reads a piece: each of its arrays that is wanted in one go. Borrowed cells that are stored by
