@@ -40,6 +40,15 @@ int partsFor(double points, std::int64_t perPart)
   return static_cast<int>(std::clamp(std::ceil(points / double(perPart)), 1.0, most));
 }
 
+void requireFewLeaves(std::int64_t leaves)
+{
+  if (leaves > MostPartitions)
+  {
+    throw std::length_error("All major partitions would have more than " +
+      std::to_string(MostPartitions) + " minor ones together; ask for fewer.");
+  }
+}
+
 /// One box's partitions; `points` of the domain's lie in it.
 Tiling divideBox(const Box2& box, std::vector<Point2> sample, double points, std::int64_t perPart,
   const DistributedOptions& options)
@@ -226,6 +235,10 @@ Plan divide(const PlanInput& input, const DistributedOptions& options)
     ? Tiling::grid(input.Domain, options.Major.Columns, options.Major.Rows)
     : Tiling::balanced(input.Domain, input.Sample, chooseMajors(input.Ranks));
   top.Inner = top.Boxes.size();
+  if (options.MinorDivision == Division::Grid)
+  {
+    requireFewLeaves(top.Inner * std::max<std::int64_t>(1, options.Minor.size()));
+  }
   auto samples = samplesByBox(top.Boxes, input.Sample);
   const double pointsPerSample =
     double(input.Points) / double(std::max(input.Sample.size(), std::size_t(1)));
@@ -241,11 +254,7 @@ Plan divide(const PlanInput& input, const DistributedOptions& options)
     area.Boxes = Tiling::around(input.Domain, inner.back());
     area.Inner = inner.back().size();
     area.FirstLeaf = leaf;
-    if (leaf > MostPartitions - area.Inner)
-    {
-      throw std::length_error("All major partitions would have more than " +
-        std::to_string(MostPartitions) + " minor ones together; ask for fewer.");
-    }
+    requireFewLeaves(std::int64_t(leaf) + area.Inner);
     leaf += area.Inner;
     top.Children.push_back(p + 1);
     areas.push_back(std::move(area));

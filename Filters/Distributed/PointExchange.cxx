@@ -37,7 +37,7 @@ void label(PointsView points, std::size_t begin, std::size_t end, const Tiling& 
     for (std::size_t i = 0; i < size; ++i)
     {
       std::uint32_t& leaf = labels[at + i];
-      if (!std::isfinite(places[i].x) || !std::isfinite(places[i].y))
+      if (!isFinite(places[i]))
       {
         leaf = NoLeaf;
         continue;

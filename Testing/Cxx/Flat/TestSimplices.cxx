@@ -62,7 +62,7 @@ double measure(vtkDataSet* data, const Simplices& simplices)
     double p[4][3] = {};
     for (int c = 0; c < simplices.CellSize; ++c)
     {
-      data->GetPoint(simplices.CellPoints[std::size_t(i * simplices.CellSize + c)], p[c]);
+      data->GetPoint(simplices.Ids[std::size_t(i * simplices.CellSize + c)], p[c]);
     }
     double e[3][3];
     for (int axis = 0; axis < 3; ++axis)
@@ -89,7 +89,7 @@ double measure(vtkDataSet* data, const Simplices& simplices)
 std::map<std::array<std::int64_t, 3>, int> sides(const Simplices& simplices)
 {
   std::map<std::array<std::int64_t, 3>, int> counts;
-  for (std::size_t i = 0; i < simplices.CellPoints.size(); i += 4)
+  for (std::size_t i = 0; i < simplices.Ids.size(); i += 4)
   {
     for (std::size_t left = 0; left < 4; ++left)
     {
@@ -99,7 +99,7 @@ std::map<std::array<std::int64_t, 3>, int> sides(const Simplices& simplices)
       {
         if (corner != left)
         {
-          side[at++] = simplices.CellPoints[i + corner];
+          side[at++] = simplices.Ids[i + corner];
         }
       }
       std::sort(side.begin(), side.end());
@@ -118,7 +118,7 @@ TEST_F(SimplicesOf, TrianglesAreTheSameTriangles)
   this->insert(VTK_TRIANGLE, { 2, 3, 0 });
   const Simplices simplices = simplicesOf(this->Grid, "a");
   EXPECT_EQ(3, simplices.CellSize);
-  EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 2, 2, 3, 0 }), simplices.CellPoints);
+  EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 2, 2, 3, 0 }), simplices.Ids);
   EXPECT_TRUE(simplices.Parents.empty());
   EXPECT_TRUE(simplices.Cut.empty());
 }
@@ -240,7 +240,7 @@ TEST_F(SimplicesOf, GhostCellsAreLeftOut)
   this->insert(VTK_TRIANGLE, { 2, 3, 0 });
   this->Grid->AllocateCellGhostArray()->SetValue(0, vtkDataSetAttributes::DUPLICATECELL);
   const Simplices simplices = simplicesOf(this->Grid, "a");
-  EXPECT_EQ((std::vector<std::int64_t>{ 2, 3, 0 }), simplices.CellPoints);
+  EXPECT_EQ((std::vector<std::int64_t>{ 2, 3, 0 }), simplices.Ids);
   EXPECT_EQ(1, simplices.LeftOut.at("ghost cell"));
 }
 
