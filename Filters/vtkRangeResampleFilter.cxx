@@ -2,11 +2,13 @@
 #include "vtkRangeResampleFilter.h"
 
 #include "Compatibility.h"
+#include "OpenCL/DeviceList.h"
 #include "Output/Monitor.h"
 #include "Resample/ExchangeSamples.h"
 #include "Resample/ImageOutput.h"
 #include "Resample/SampledImage.h"
 #include "Resample/SamplingRange.h"
+#include "Resample/UpdatedInput.h"
 #include "Triangulation/Stopwatch.h"
 
 #include "vtkCommand.h"
@@ -22,6 +24,7 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
 #include "vtkTable.h"
 
 #include <omp.h>
@@ -131,7 +134,7 @@ void vtkRangeResampleFilter::Run::start(
   const std::array<double, 6> bounds =
     filter->UseInputBounds ? tipp::boundsOf(meshes, this->Ranks) : toArray(filter->SamplingBounds);
   this->Wanted =
-    tipp::rangeLattice(bounds, toArray(filter->SamplingDimensions), toArray(filter->Delta));
+    tipp::rangeLattice(bounds, filter->Dimensions(bounds, meshes), toArray(filter->Delta));
   const std::array<int, 6> whole = this->Wanted.Extent;
   const std::vector<int> axes = tipp::surfaceAxes({ whole[1] + 1, whole[3] + 1, whole[5] + 1 });
   if (filter->GatherOnRoot && this->Ranks)
@@ -256,6 +259,33 @@ vtkRangeResampleFilter::~vtkRangeResampleFilter()
   this->CellDataArraySelection->Delete();
 }
 
+void vtkRangeResampleFilter::SetDeviceChoice(const char* text)
+{
+  try
+  {
+    const tipp::DeviceChoice choice = tipp::parseDeviceChoice(text ? text : "auto");
+    this->SetDevice(choice.Kind == tipp::Device::OpenMP ? DEVICE_OPENMP
+        : choice.Kind == tipp::Device::OpenCL           ? DEVICE_OPENCL
+                                                        : DEVICE_AUTO);
+    this->SetDeviceIndex(choice.Index);
+    this->SetDeviceName(choice.Name.empty() ? nullptr : choice.Name.c_str());
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+  }
+}
+
+vtkStringArray* vtkRangeResampleFilter::GetDeviceChoices()
+{
+  this->DeviceChoices->Reset();
+  for (const std::string& choice : tipp::deviceChoices(tipp::listDevices()))
+  {
+    this->DeviceChoices->InsertNextValue(choice);
+  }
+  return this->DeviceChoices;
+}
+
 vtkTable* vtkRangeResampleFilter::GetStatistics()
 {
   return this->Statistics;
@@ -268,8 +298,21 @@ int vtkRangeResampleFilter::FillInputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
+/// SamplingDimensions, with numbers where they are 0.
+std::array<int, 3> vtkRangeResampleFilter::Dimensions(
+  const std::array<double, 6>& bounds, const std::vector<vtkPointSet*>& meshes) const
+{
+  const std::array<int, 3> given = toArray(this->SamplingDimensions);
+  if (std::count(given.begin(), given.end(), 0) == 0)
+  {
+    return given;
+  }
+  return tipp::chosenDimensions(
+    bounds, given, tipp::areSurfaces(meshes, ranksOf(this->Controller)));
+}
+
 int vtkRangeResampleFilter::RequestInformation(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
   vtkInformation* const outInfo = outputs->GetInformationObject(0);
   outInfo->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
@@ -277,22 +320,30 @@ int vtkRangeResampleFilter::RequestInformation(
   {
     const std::array<double, 3> delta = toArray(this->Delta);
     const bool byDelta = delta[0] > 0 || delta[1] > 0 || delta[2] > 0;
-    // The number of samples from SamplingDimensions needs no bounds; any valid ones will do.
+    // Given SamplingDimensions need no bounds; any valid ones will do.
     std::array<double, 6> bounds = { 0, 1, 0, 1, 0, 1 };
     if (!this->UseInputBounds)
     {
       bounds = toArray(this->SamplingBounds);
     }
-    else if (byDelta)
+    const int* const given = this->SamplingDimensions;
+    const bool chosen = std::count(given, given + 3, 0) > 0;
+    std::vector<vtkPointSet*> meshes;
+    if (chosen || (byDelta && this->UseInputBounds))
     {
-      this->GetInputAlgorithm(0, 0)->Update();
-      vtkDataObject* const input = vtkDataObject::GetData(inputs[0]);
-      bounds = tipp::boundsOf(
-        input ? tipp::meshesOf(input) : std::vector<vtkPointSet*>(), ranksOf(this->Controller));
+      if (this->NumberOfInputPieces > 1)
+      {
+        throw std::runtime_error(
+          "with NumberOfInputPieces above 1 the input is not known in time: turn UseInputBounds "
+          "off, set SamplingBounds, and give SamplingDimensions a number along every axis.");
+      }
+      vtkDataObject* const input = tipp::updatedInput(this, ranksOf(this->Controller), outInfo);
+      meshes = input ? tipp::meshesOf(input) : meshes;
+      bounds = this->UseInputBounds ? tipp::boundsOf(meshes, ranksOf(this->Controller)) : bounds;
     }
-    tipp::Lattice lattice = tipp::rangeLattice(bounds, toArray(this->SamplingDimensions), delta);
+    tipp::Lattice lattice = tipp::rangeLattice(bounds, this->Dimensions(bounds, meshes), delta);
     outInfo->Set(Pipeline::WHOLE_EXTENT(), lattice.Extent.data(), 6);
-    if (!this->UseInputBounds || byDelta)
+    if (!this->UseInputBounds || byDelta || chosen)
     {
       outInfo->Set(vtkDataObject::ORIGIN(), lattice.Min.data(), 3);
       outInfo->Set(vtkDataObject::SPACING(), lattice.Delta.data(), 3);

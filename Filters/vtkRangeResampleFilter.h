@@ -57,11 +57,15 @@
 #include "vtkNew.h"               // For the table
 #include "vtkTIPPFiltersModule.h" // For export macro
 
+#include <array>  // For dimensions
 #include <memory> // For the state of a run
+#include <vector> // For the meshes of an input
 
 class vtkDataArraySelection;
 class vtkDataObject;
 class vtkMultiProcessController;
+class vtkPointSet;
+class vtkStringArray;
 class vtkTable;
 
 class VTKTIPPFILTERS_EXPORT vtkRangeResampleFilter : public vtkImageAlgorithm
@@ -102,7 +106,10 @@ public:
   ///@{
   /**
    * The number of samples along each axis, the first at the range's minimum and the last at its
-   * maximum. (10, 10, 10) by default. An axis with a Delta ignores it.
+   * maximum. (10, 10, 10) by default. An axis with a Delta ignores it. 0 along an axis, but not
+   * along all, means as many as put the samples as far apart as along the first axis that has a
+   * number, or one along z for a mesh of surface cells. For that the input is updated as soon as
+   * the extent of the output is asked for.
    */
   vtkSetVector3Macro(SamplingDimensions, int);
   vtkGetVector3Macro(SamplingDimensions, int);
@@ -177,6 +184,18 @@ public:
   vtkSetStringMacro(DeviceName);
   vtkGetStringMacro(DeviceName);
   ///@}
+
+  /**
+   * Device, DeviceIndex and DeviceName in one, as `tipp resample --device` takes them: "auto",
+   * "openmp", "opencl", "opencl:INDEX" or "opencl:NAME".
+   */
+  void SetDeviceChoice(const char* choice);
+
+  /**
+   * What SetDeviceChoice() can be given on this machine: "auto", "openmp" and one for each OpenCL
+   * device with double precision.
+   */
+  vtkStringArray* GetDeviceChoices();
 
   ///@{
   /**
@@ -254,8 +273,13 @@ private:
   void operator=(const vtkRangeResampleFilter&) = delete;
 
   class Run;
+
+  std::array<int, 3> Dimensions(
+    const std::array<double, 6>& bounds, const std::vector<vtkPointSet*>& meshes) const;
+
   std::unique_ptr<Run> Current; ///< while pieces are awaited
   vtkNew<vtkTable> Statistics;
+  vtkNew<vtkStringArray> DeviceChoices;
 };
 
 #endif

@@ -2,21 +2,61 @@
 #include "Resample/SamplingRange.h"
 
 #include "vtkBoundingBox.h"
+#include "vtkCellTypes.h"
 #include "vtkCommunicator.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkGenericCell.h"
 #include "vtkMultiProcessController.h"
+#include "vtkNew.h"
 #include "vtkPointSet.h"
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 namespace tipp
 {
+
+std::array<int, 3> chosenDimensions(
+  const std::array<double, 6>& bounds, std::array<int, 3> dimensions, bool surfaces)
+{
+  const auto length = [&](std::size_t axis) { return bounds[2 * axis + 1] - bounds[2 * axis]; };
+  std::optional<double> step;
+  for (std::size_t axis = 0; axis < 3 && !step; ++axis)
+  {
+    if (dimensions[axis] > 0)
+    {
+      step = length(axis) / std::max(dimensions[axis] - 1, 1);
+    }
+  }
+  if (!step)
+  {
+    throw std::runtime_error(
+      "SamplingDimensions have no number above 0: give one along an axis at least.");
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (dimensions[axis] == 0)
+    {
+      const bool one =
+        (axis == 2 && surfaces) || !(*step > 0); // bounds without sense are told of later
+      const double steps = one ? 0 : std::max(std::round(length(axis) / *step), 0.0);
+      if (!(steps < std::numeric_limits<int>::max()))
+      {
+        throw std::runtime_error("more than 2147483647 samples along " +
+          std::string(1, "xyz"[axis]) + " would be as far apart as those of the first axis: give " +
+          "the number of samples along it.");
+      }
+      dimensions[axis] = int(steps) + 1;
+    }
+  }
+  return dimensions;
+}
 
 std::array<int, 3> rangeDimensions(const std::array<double, 6>& bounds,
   const std::array<int, 3>& dimensions, const std::array<double, 3>& delta)
@@ -123,6 +163,28 @@ std::vector<vtkPointSet*> meshesOf(vtkDataObject* data)
     add(iterator->GetCurrentDataObject());
   }
   return meshes;
+}
+
+bool areSurfaces(const std::vector<vtkPointSet*>& meshes, vtkMultiProcessController* controller)
+{
+  int volumes = 0;
+  vtkNew<vtkCellTypes> types;
+  for (vtkPointSet* mesh : meshes)
+  {
+    mesh->GetCellTypes(types);
+    for (vtkIdType i = 0; i < types->GetNumberOfTypes(); ++i)
+    {
+      vtkNew<vtkGenericCell> cell;
+      cell->SetCellType(types->GetCellType(i));
+      volumes |= int(cell->GetCellDimension() == 3);
+    }
+  }
+  if (controller)
+  {
+    const int mine = volumes;
+    controller->AllReduce(&mine, &volumes, 1, vtkCommunicator::MAX_OP);
+  }
+  return volumes == 0;
 }
 
 std::array<double, 6> boundsOf(

@@ -14,6 +14,12 @@ class vtkPointSet;
 namespace tipp
 {
 
+/// Puts numbers where `dimensions` is 0: as many samples as put them as far apart as along the
+/// first axis that has a number, but one along z for surfaces. Throws std::runtime_error if all are
+/// 0.
+std::array<int, 3> chosenDimensions(
+  const std::array<double, 6>& bounds, std::array<int, 3> dimensions, bool surfaces);
+
 /// The number of samples along each axis of a range: by delta where it is above 0, else
 /// `dimensions`. Throws std::runtime_error for a range or a number that makes no sense.
 std::array<int, 3> rangeDimensions(const std::array<double, 6>& bounds,
@@ -30,6 +36,9 @@ std::vector<int> surfaceAxes(const std::array<int, 3>& dimensions);
 /// The meshes of a data object: itself or its leaves, in order. Throws std::runtime_error if one is
 /// no vtkPointSet.
 std::vector<vtkPointSet*> meshesOf(vtkDataObject* data);
+
+/// Whether the meshes of all ranks (controller may be null) have no cell with a volume.
+bool areSurfaces(const std::vector<vtkPointSet*>& meshes, vtkMultiProcessController* controller);
 
 /// The bounding box of the meshes of all ranks (controller may be null). Throws std::runtime_error
 /// on all ranks if there is no point.

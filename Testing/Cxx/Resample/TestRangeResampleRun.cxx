@@ -7,6 +7,7 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
 #include "vtkUnstructuredGridAlgorithm.h"
 
 #include <gtest/gtest.h>
@@ -127,4 +128,24 @@ TEST(RangeResampleRun, PrintsItsProperties)
   std::ostringstream text;
   unitFilter(2, 5)->Print(text);
   EXPECT_NE(text.str().find("SamplingDimensions: 5 5 1"), std::string::npos);
+}
+
+TEST(RangeResampleRun, ADeviceChoiceSetsTheThreeProperties)
+{
+  vtkNew<vtkRangeResampleFilter> filter;
+  filter->SetDeviceChoice("opencl:Fast GPU");
+  EXPECT_EQ(filter->GetDevice(), vtkRangeResampleFilter::DEVICE_OPENCL);
+  EXPECT_STREQ(filter->GetDeviceName(), "Fast GPU");
+  filter->SetDeviceChoice("opencl:3");
+  EXPECT_EQ(filter->GetDeviceIndex(), 3);
+  EXPECT_EQ(filter->GetDeviceName(), nullptr);
+  filter->SetDeviceChoice("openmp");
+  EXPECT_EQ(filter->GetDevice(), vtkRangeResampleFilter::DEVICE_OPENMP);
+}
+
+TEST(RangeResampleRun, TheFirstDeviceChoicesNeedNoDevice)
+{
+  vtkNew<vtkRangeResampleFilter> filter;
+  EXPECT_EQ(filter->GetDeviceChoices()->GetValue(0), "auto");
+  EXPECT_EQ(filter->GetDeviceChoices()->GetValue(1), "openmp");
 }
