@@ -9,8 +9,10 @@
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
 #include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <exception>
 #include <new>
@@ -44,6 +46,23 @@ int vtkPartitionedUnstructuredWriter::FillInputPortInformation(int, vtkInformati
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSet");
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   return 1;
+}
+
+vtkTypeBool vtkPartitionedUnstructuredWriter::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkMultiProcessController* const ranks = this->Controller;
+  const bool several = ranks && ranks->GetNumberOfProcesses() > 1;
+  vtkInformation* const input = inputVector[0]->GetInformationObject(0);
+  if (several && input && request->Has(Pipeline::REQUEST_UPDATE_EXTENT()))
+  {
+    // Each rank brings its own piece, where vtkWriter would ask for everything on all.
+    input->Set(Pipeline::UPDATE_PIECE_NUMBER(), ranks->GetLocalProcessId());
+    input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), ranks->GetNumberOfProcesses());
+    input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  }
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }
 
 int vtkPartitionedUnstructuredWriter::Write()

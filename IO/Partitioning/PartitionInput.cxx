@@ -5,16 +5,33 @@
 #include "Flat/FlattenDataSet.h"
 #include "Flat/WriteFlatMesh.h"
 #include "Partitioned/PendingMesh.h"
+#include "Partitioned/PieceLayout.h"
 #include "Partitioning/Ranks.h"
 #include "Vtk/ReadDataSet.h"
 
 #include "vtkDataSet.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace tipp
 {
+namespace
+{
+
+/// A mesh that was read from a partitioned one has ids and ghosts, which the new one makes anew.
+void dropOwnArrays(std::vector<FlatArray>& arrays, const std::string& ids)
+{
+  arrays.erase(
+    std::remove_if(arrays.begin(), arrays.end(),
+      [&](const FlatArray& array) { return array.Name == ids || array.Name == ghostsName; }),
+    arrays.end());
+}
+
+} // namespace
 
 PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
   const std::string& output, const PartitionOptions& options, vtkMultiProcessController* controller)
@@ -30,7 +47,10 @@ PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
       {
         scratch.emplace(output);
         folder = scratch->temporaryPath() + "/flat";
-        writeFlatMesh(folder, flattenDataSet(data, name).Content);
+        FlatContent content = flattenDataSet(data, name).Content;
+        dropOwnArrays(content.PointData, pointIdsName);
+        dropOwnArrays(content.CellData, cellIdsName);
+        writeFlatMesh(folder, content);
       }
     });
   folder = ranks.broadcast(folder);
