@@ -21,6 +21,8 @@ function (tipp_build_paraview_plugin)
   set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
   paraview_plugin_build(
     PLUGINS ${plugins}
+    PLUGINS_COMPONENT plugin
+    TARGET_COMPONENT plugin
     AUTOLOAD ${plugins}
     PLUGINS_FILE_NAME "tipp.plugins.xml"
     LIBRARY_SUBDIRECTORY "${tipp_plugins_subdirectory}"

@@ -40,7 +40,8 @@ foreach (file IN LISTS tipp_python_files)
   configure_file("${file}" "${tipp_python_package}" COPYONLY)
 endforeach ()
 install(FILES "${tipp_python_package}/__init__.py" ${tipp_python_files}
-  DESTINATION "${tipp_python_destination}/tipp")
+  DESTINATION "${tipp_python_destination}/tipp"
+  COMPONENT python)
 
 # The interpreter that VTK's own Python modules were built for is the one installed beside VTK,
 # which need not be the first on the PATH.

@@ -15,5 +15,8 @@ if command -v ccache > /dev/null; then
   export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
 fi
 
+if [ "$preset" = paraview ]; then
+  sh Utilities/paraview.sh build-paraview/debian
+fi
 cmake --preset "$preset" --log-level=WARNING
 cmake --build --preset "$preset" "$@"

@@ -2,7 +2,7 @@
 #include "Resample/SamplingRange.h"
 
 #include "vtkBoundingBox.h"
-#include "vtkCellTypes.h"
+#include "vtkCellType.h"
 #include "vtkCommunicator.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -10,6 +10,7 @@
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkPointSet.h"
+#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
@@ -168,15 +169,21 @@ std::vector<vtkPointSet*> meshesOf(vtkDataObject* data)
 bool areSurfaces(const std::vector<vtkPointSet*>& meshes, vtkMultiProcessController* controller)
 {
   int volumes = 0;
-  vtkNew<vtkCellTypes> types;
   for (vtkPointSet* mesh : meshes)
   {
-    mesh->GetCellTypes(types);
-    for (vtkIdType i = 0; i < types->GetNumberOfTypes(); ++i)
+    // Most meshes tell by their first cell; in polygonal ones no cell does.
+    const vtkIdType cells = vtkPolyData::SafeDownCast(mesh) ? 0 : mesh->GetNumberOfCells();
+    vtkNew<vtkGenericCell> cell;
+    int known = VTK_EMPTY_CELL;
+    for (vtkIdType i = 0; i < cells && volumes == 0; ++i)
     {
-      vtkNew<vtkGenericCell> cell;
-      cell->SetCellType(types->GetCellType(i));
-      volumes |= int(cell->GetCellDimension() == 3);
+      const int type = mesh->GetCellType(i);
+      if (type != known)
+      {
+        known = type;
+        cell->SetCellType(type);
+        volumes = int(cell->GetCellDimension() == 3);
+      }
     }
   }
   if (controller)
