@@ -176,7 +176,7 @@ public:
 
   ///@{
   /**
-   * The OpenCL device by its number or by a part of its name, as `tipp devices` lists them. -1 and
+   * The OpenCL device by its number or by a part of its name; see GetDeviceChoices(). -1 and
    * null (the defaults): the first GPU with double precision, or else the first device.
    */
   vtkSetMacro(DeviceIndex, int);
