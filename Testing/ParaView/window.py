@@ -27,6 +27,7 @@ view.OrientationAxesVisibility = 0
 ResetCamera(view)
 view.CameraParallelScale *= 0.65
 SetActiveSource(image)
+{more}
 Render(view)
 print("information:", image.GetDataInformation().GetExtent(), flush=True)
 open({mark!r}, "w").close()
@@ -52,15 +53,17 @@ def wait_for(condition, seconds, process):
 
 
 def photograph(plugin, environment, scratch, mesh, array, preset="Viridis (matplotlib)", colours=(0, 1),
-               size=(1280, 800)):
-    """The window as RGB rows, and what the client printed."""
+               more="", size=(1280, 800)):
+    """The window as RGB rows, after the lines `more` of Python, and what the client printed."""
+    scratch.mkdir()
     frames, mark = scratch / "frames", scratch / "shown"
     frames.mkdir()
     plugins = scratch / "plugins.xml"
     plugins.write_text(f'<?xml version="1.0"?>\n<Plugins><Plugin name="TIPPPlugin" '
                        f'filename="{plugin}/TIPPPlugin.so" auto_load="1"/></Plugins>\n')
     script = scratch / "window-script.py"
-    script.write_text(SCRIPT.format(mesh=str(mesh), array=array, preset=preset, colours=colours, mark=str(mark)))
+    script.write_text(SCRIPT.format(mesh=str(mesh), array=array, preset=preset, colours=colours, more=more,
+                                    mark=str(mark)))
     log = scratch / "window.log"
     with virtual_display(size, frames) as display, open(log, "w", encoding="utf-8") as output:
         client = subprocess.Popen(
