@@ -135,6 +135,12 @@ SeamTriangles triangulateVertices(
   return all;
 }
 
+bool partitionsPay(const SeamTriangles& initialMesh)
+{
+  constexpr std::size_t most = 4;
+  return initialMesh.Met.size() <= most * initialMesh.Triangles.size();
+}
+
 template std::vector<SeamVertex> chooseInitialPoints(
   const Tiling&, PointBuckets<std::int32_t>&, int);
 template std::vector<SeamVertex> chooseInitialPoints(

@@ -20,4 +20,8 @@ mesh = tipp.delaunay_2d(xy, point_data={"height": height})
 expected = tipp.as_array(tipp.resample(mesh, (0.2, 0.8, 0.2, 0.6, 0, 0), (301, 201, 1)), "height")
 np.testing.assert_array_equal(arrays["height"].reshape(201, 301), expected)
 
+# The stored mesh has each triangle once, however many ranks wrote it.
+stored = tipp.read(session.scratch / "terrain.tipp").GetNumberOfCells()
+expect(stored == mesh.GetNumberOfPolys(), f"{stored} triangles were stored, {mesh.GetNumberOfPolys()} were made")
+
 expect_picture(session.scratch / "terrain.png", session.source / "Data/Baselines/PvbatchTerrain.png")

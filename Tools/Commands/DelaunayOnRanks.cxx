@@ -116,10 +116,6 @@ void runTogether(Postbox& ranks, const DelaunayArguments& arguments)
   };
   const DistributedTriangulation mine = triangulateDistributed(ranks, input, options);
   bar.reset();
-  if (mine.Aborted)
-  {
-    throw RankFailure(0, true, "interrupted");
-  }
   run.Points = mine.AllPoints;
   run.TriangulateSeconds = watch.restart();
   writeOnFirst(ranks, arguments, run, mine);

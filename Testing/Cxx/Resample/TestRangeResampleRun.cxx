@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RangeResampleTesting.h"
+#include "Resample/UpdatedInput.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
@@ -24,6 +25,7 @@ public:
   static PieceSource* New() { VTK_STANDARD_NEW_BODY(PieceSource); }
   Scene Cells;
   int Requests = 0;
+  double Time = 0; ///< of the last request
 
 protected:
   PieceSource() { this->SetNumberOfInputPorts(0); }
@@ -31,13 +33,17 @@ protected:
   int RequestInformation(
     vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
   {
-    outputs->GetInformationObject(0)->Set(CAN_HANDLE_PIECE_REQUEST(), 1);
+    vtkInformation* const info = outputs->GetInformationObject(0);
+    info->Set(CAN_HANDLE_PIECE_REQUEST(), 1);
+    const double times[] = { 0, 3 };
+    info->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times, 2);
     return 1;
   }
 
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
   {
     vtkInformation* const info = outputs->GetInformationObject(0);
+    this->Time = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
     const int piece = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
     const int pieces = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES());
     ++this->Requests;
@@ -67,6 +73,19 @@ TEST(RangeResampleRun, ReadsPieceByPieceTheSameImage)
     EXPECT_TRUE(sameArrays(whole, filter->GetOutput())) << pieces;
     EXPECT_EQ(statistic(filter, "Cells"), scene.cells());
   }
+}
+
+TEST(RangeResampleRun, UpdatesItsInputAtTheTimeThatIsAskedFor)
+{
+  vtkNew<PieceSource> source;
+  source->Cells = jitteredScene(2, 4, 3);
+  vtkNew<vtkRangeResampleFilter> filter;
+  filter->SetInputConnection(source->GetOutputPort());
+  vtkNew<vtkInformation> asked;
+  asked->Set(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP(), 3.0);
+  EXPECT_EQ(tipp::updatedInput(filter, nullptr, asked), source->GetOutputDataObject(0));
+  EXPECT_EQ(source->Requests, 1);
+  EXPECT_EQ(source->Time, 3.0);
 }
 
 TEST(RangeResampleRun, GivesTheSameBitsOnAnyThreads)
