@@ -249,9 +249,12 @@ void addResampleCommand(CLI::App& app, int& exitCode)
     ->add_option("--bounds", arguments->Bounds,
       "The range: xmin xmax ymin ymax zmin zmax; else that of the mesh")
     ->expected(6);
-  CLI::Option* const dimensions =
-    command->add_option("--dims", arguments->Dimensions, "Samples along x, y and z; 0: as far apart as along the first axis with a number, one along z for "
-      "surfaces")->expected(3);
+  CLI::Option* const dimensions = command
+                                    ->add_option("--dims", arguments->Dimensions,
+                                      "Samples along x, y and z; 0: as far apart as along the "
+                                      "first axis with a number, one along z for "
+                                      "surfaces")
+                                    ->expected(3);
   CLI::Option* const delta = command
                                ->add_option("--delta", arguments->Delta,
                                  "Distance of samples along x, y and z; 0: one sample")
