@@ -4,10 +4,13 @@
 #include "Files/IOError.h"
 #include "Partitioning/GatherDataSets.h"
 #include "Partitioning/PartitionInput.h"
+#include "Partitioning/Ranks.h"
 
 #include "vtkAlgorithm.h"
+#include "vtkAlgorithmOutput.h"
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
+#include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
@@ -19,6 +22,20 @@
 
 vtkStandardNewMacro(vtkPartitionedUnstructuredWriter);
 vtkCxxSetObjectMacro(vtkPartitionedUnstructuredWriter, Controller, vtkMultiProcessController);
+
+namespace
+{
+
+/// Each rank brings its own piece, where vtkWriter would ask for everything on all.
+void askForPiece(vtkInformation* input, vtkMultiProcessController* ranks)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  input->Set(Pipeline::UPDATE_PIECE_NUMBER(), ranks->GetLocalProcessId());
+  input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), ranks->GetNumberOfProcesses());
+  input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+}
+
+} // namespace
 
 vtkPartitionedUnstructuredWriter::vtkPartitionedUnstructuredWriter()
 {
@@ -51,16 +68,12 @@ int vtkPartitionedUnstructuredWriter::FillInputPortInformation(int, vtkInformati
 vtkTypeBool vtkPartitionedUnstructuredWriter::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
   vtkMultiProcessController* const ranks = this->Controller;
   const bool several = ranks && ranks->GetNumberOfProcesses() > 1;
   vtkInformation* const input = inputVector[0]->GetInformationObject(0);
-  if (several && input && request->Has(Pipeline::REQUEST_UPDATE_EXTENT()))
+  if (several && input && request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
   {
-    // Each rank brings its own piece, where vtkWriter would ask for everything on all.
-    input->Set(Pipeline::UPDATE_PIECE_NUMBER(), ranks->GetLocalProcessId());
-    input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), ranks->GetNumberOfProcesses());
-    input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    askForPiece(input, ranks);
   }
   return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }
@@ -68,15 +81,51 @@ vtkTypeBool vtkPartitionedUnstructuredWriter::ProcessRequest(
 int vtkPartitionedUnstructuredWriter::Write()
 {
   this->Written = false;
+  this->SetAbortExecute(0);
   if (this->InputFileName && *this->InputFileName)
   {
     this->WriteData();
+  }
+  else if (this->Controller && this->Controller->GetNumberOfProcesses() > 1)
+  {
+    this->WriteOnRanks();
   }
   else
   {
     this->Superclass::Write();
   }
   return this->Written ? 1 : 0;
+}
+
+/// A rank without an input would leave the others waiting for it.
+void vtkPartitionedUnstructuredWriter::WriteOnRanks()
+{
+  try
+  {
+    tipp::Ranks(this->Controller).attempt([this] { this->RequireInput(); });
+    this->Superclass::Write();
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+  }
+}
+
+void vtkPartitionedUnstructuredWriter::RequireInput()
+{
+  if (this->GetNumberOfInputConnections(0) < 1)
+  {
+    throw tipp::IOError(
+      "A rank has no input; set one on every rank, an empty one too, or InputFileName.");
+  }
+  vtkAlgorithmOutput* const input = this->GetInputConnection(0, 0);
+  vtkExecutive* const executive = input->GetProducer()->GetExecutive();
+  executive->UpdateInformation();
+  askForPiece(executive->GetOutputInformation(input->GetIndex()), this->Controller);
+  if (!executive->Update(input->GetIndex()))
+  {
+    throw tipp::IOError("A rank's input could not be made; see the errors before this one.");
+  }
 }
 
 void vtkPartitionedUnstructuredWriter::WriteData()

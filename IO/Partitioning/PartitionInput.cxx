@@ -4,7 +4,6 @@
 #include "Files/IOError.h"
 #include "Flat/FlattenDataSet.h"
 #include "Flat/WriteFlatMesh.h"
-#include "Partitioned/PendingMesh.h"
 #include "Partitioned/PieceLayout.h"
 #include "Partitioning/Ranks.h"
 #include "Vtk/ReadDataSet.h"
@@ -19,16 +18,21 @@
 
 namespace tipp
 {
+
 namespace
 {
 
-/// A mesh that was read from a partitioned one has ids and ghosts, which the new one makes anew.
-void dropOwnArrays(std::vector<FlatArray>& arrays, const std::string& ids)
+/// Drops the ids of a partitioned mesh that the data set was read from: this one has its own.
+void removeOwnIds(FlatContent& content)
 {
-  arrays.erase(
-    std::remove_if(arrays.begin(), arrays.end(),
-      [&](const FlatArray& array) { return array.Name == ids || array.Name == ghostsName; }),
-    arrays.end());
+  const auto drop = [](std::vector<FlatArray>& arrays, const std::string& name)
+  {
+    arrays.erase(std::remove_if(arrays.begin(), arrays.end(),
+                   [&](const FlatArray& array) { return array.Name == name; }),
+      arrays.end());
+  };
+  drop(content.PointData, pointIdsName);
+  drop(content.CellData, cellIdsName);
 }
 
 } // namespace
@@ -38,18 +42,17 @@ PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
 {
   const Ranks ranks(controller);
   // It goes away with this object, or before the next run if this one is killed.
-  std::optional<PendingMesh> scratch;
+  std::optional<PendingFolder> scratch;
   std::string folder;
   ranks.attempt(
     [&]
     {
       if (ranks.isFirst())
       {
-        scratch.emplace(output);
+        scratch.emplace(output, &replaceableMesh);
         folder = scratch->temporaryPath() + "/flat";
         FlatContent content = flattenDataSet(data, name).Content;
-        dropOwnArrays(content.PointData, pointIdsName);
-        dropOwnArrays(content.CellData, cellIdsName);
+        removeOwnIds(content);
         writeFlatMesh(folder, content);
       }
     });

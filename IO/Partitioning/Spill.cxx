@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/Spill.h"
 
+#include "Files/InputFile.h"
 #include "Threads/ParallelFor.h"
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 namespace tipp
 {
@@ -52,7 +54,11 @@ void Spill::exchange(const Ranks& ranks)
     reinterpret_cast<const char*>(this->Mine.data()), this->Mine.size() * sizeof(Extent));
   std::vector<Extent>().swap(this->Mine);
   const std::vector<std::string> all = ranks.gather(mine);
-  std::vector<Extent> extents;
+  ranks.attempt([&] { this->sortExtents(all); });
+}
+
+void Spill::sortExtents(const std::vector<std::string>& all)
+{
   this->Rows.assign(this->Keys, 0);
   this->Starts.assign(this->Keys + 1, 0);
   const auto eachExtent = [&](const auto& take)
@@ -83,10 +89,6 @@ void Spill::exchange(const Ranks& ranks)
     [&](const Extent& extent, std::uint32_t rank) {
       this->Sorted[places[extent.Key]++] = { extent.Offset, extent.Rows, rank };
     });
-  for (int rank = 0; rank < ranks.count(); ++rank)
-  {
-    this->Files.emplace_back(fileOf(this->Path, rank));
-  }
 }
 
 void Spill::read(std::size_t key, std::size_t most,
@@ -96,14 +98,21 @@ void Spill::read(std::size_t key, std::size_t most,
   std::size_t held = 0;
   const std::size_t room = std::min(most, std::size_t(this->Rows[key]));
   block.resize(room * this->RowBytes);
+  // A key's extents are in the order of the ranks: one file is open at a time.
+  std::optional<InputFile> file;
+  std::uint32_t opened = 0;
   for (std::size_t i = this->Starts[key]; i < this->Starts[key + 1]; ++i)
   {
     Extent extent = this->Sorted[i];
+    if (!file || opened != extent.Key)
+    {
+      opened = extent.Key;
+      file.emplace(fileOf(this->Path, int(opened)));
+    }
     while (extent.Rows > 0)
     {
       const std::size_t rows = std::min<std::size_t>(extent.Rows, room - held);
-      this->Files[extent.Key].read(
-        extent.Offset, block.data() + held * this->RowBytes, rows * this->RowBytes);
+      file->read(extent.Offset, block.data() + held * this->RowBytes, rows * this->RowBytes);
       held += rows;
       extent.Rows -= std::uint32_t(rows);
       extent.Offset += rows * this->RowBytes;

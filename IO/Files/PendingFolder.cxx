@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioned/PendingMesh.h"
+#include "Files/PendingFolder.h"
 
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
-#include "Partitioned/PartitionedMesh.h"
+#include "Files/OutputPath.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -21,35 +21,19 @@ namespace tipp
 
 namespace fs = std::filesystem;
 
-PendingMesh::PendingMesh(const std::string& path)
+PendingFolder::PendingFolder(const std::string& path, const Replaceable* replaceable)
 {
   std::error_code failure;
-  fs::path target = fs::absolute(path).lexically_normal();
-  if (!target.has_filename())
-  {
-    target = target.parent_path(); // a slash at the end
-  }
-  if (fs::is_symlink(target, failure))
-  {
-    // A rename would replace the link, not what it points to.
-    target = fs::weakly_canonical(target, failure);
-  }
-  const bool taken = fs::exists(target, failure);
-  if (taken &&
-    !(fs::is_directory(target, failure) &&
-      (isPartitionedMesh(target.string()) || fs::is_empty(target, failure))))
-  {
-    throw IOError(
-      path, "is there already and is no partitioned mesh; remove it or name another folder.");
-  }
+  const fs::path target = outputPath(path);
   const fs::path parent = target.parent_path();
-  if (!fs::is_directory(parent, failure))
+  const bool mayBeThere = fs::is_directory(target, failure) &&
+    (fs::is_empty(target, failure) || (replaceable && replaceable->Is(target.string())));
+  if (fs::exists(target, failure) && !mayBeThere)
   {
-    throw IOError(path, "its folder does not exist; create it or name another.");
-  }
-  if (access(parent.c_str(), W_OK) != 0)
-  {
-    throw IOError(path, "its folder cannot be written to; change its permissions or name another.");
+    throw IOError(path,
+      std::string("exists already") +
+        (replaceable ? std::string(" and is no ") + replaceable->Name : "") +
+        "; remove it or name another folder.");
   }
   this->Path = target.string();
   this->Parent = parent.string();
@@ -61,7 +45,7 @@ PendingMesh::PendingMesh(const std::string& path)
     throw IOError(path, std::string("cannot be written (") + std::strerror(errno) + ").");
   }
   this->Temporary = name;
-  // mkdtemp() allows nobody else; a mesh is as open as other files.
+  // mkdtemp() allows nobody else; an output is as open as other files.
   const mode_t mask = umask(0);
   umask(mask);
   fs::permissions(name, fs::perms(0777 & ~mask), failure);
@@ -69,7 +53,7 @@ PendingMesh::PendingMesh(const std::string& path)
   flock(this->Lock, LOCK_EX | LOCK_NB);
 }
 
-PendingMesh::~PendingMesh()
+PendingFolder::~PendingFolder()
 {
   if (!this->Temporary.empty())
   {
@@ -82,7 +66,7 @@ PendingMesh::~PendingMesh()
   }
 }
 
-void PendingMesh::clearLeftovers(const std::string& prefix) const
+void PendingFolder::clearLeftovers(const std::string& prefix) const
 {
   std::error_code failure;
   for (const fs::directory_entry& entry : fs::directory_iterator(this->Parent, failure))
@@ -103,14 +87,14 @@ void PendingMesh::clearLeftovers(const std::string& prefix) const
   }
 }
 
-void PendingMesh::exchange() const
+void PendingFolder::exchange() const
 {
   if (renameat2(AT_FDCWD, this->Temporary.c_str(), AT_FDCWD, this->Path.c_str(), RENAME_EXCHANGE) ==
     0)
   {
     return;
   }
-  // Not every file system can exchange; then the old mesh is moved out of the way first.
+  // Not every file system can exchange; then the old folder is moved out of the way first.
   const std::string old = this->Temporary + ".old";
   std::error_code failure;
   fs::rename(this->Path, old, failure);
@@ -126,7 +110,7 @@ void PendingMesh::exchange() const
   }
 }
 
-void PendingMesh::commit()
+void PendingFolder::commit()
 {
   std::error_code failure;
   syncToDisk(this->Temporary);
@@ -137,16 +121,12 @@ void PendingMesh::commit()
   }
   else
   {
-    fs::rename(this->Temporary, this->Path, failure);
-    if (failure)
-    {
-      throw IOError(this->Path, "cannot be written (" + failure.message() + ").");
-    }
+    moveIntoPlace(this->Temporary, this->Path);
   }
   syncToDisk(this->Parent);
   if (replaces)
   {
-    fs::remove_all(this->Temporary, failure); // the old mesh
+    fs::remove_all(this->Temporary, failure); // the old one
   }
   this->Temporary.clear();
 }
