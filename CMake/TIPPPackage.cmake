@@ -14,8 +14,11 @@ write_basic_package_version_file("${CMAKE_BINARY_DIR}/TIPPConfigVersion.cmake"
   COMPATIBILITY SameMinorVersion)
 install(
   FILES "${CMAKE_BINARY_DIR}/TIPPConfig.cmake" "${CMAKE_BINARY_DIR}/TIPPConfigVersion.cmake"
-  DESTINATION "${tipp_package_destination}")
-install(FILES LICENSE CITATION.cff DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+  DESTINATION "${tipp_package_destination}"
+  COMPONENT development)
+install(FILES LICENSE CITATION.cff CHANGELOG.md
+  DESTINATION "${CMAKE_INSTALL_DOCDIR}"
+  COMPONENT runtime)
 
 file(RELATIVE_PATH tipp_tool_to_libraries
   "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")

@@ -1,4 +1,4 @@
-# The Python package tipp: the wrapped modules and an __init__.py that offers their classes. It lies
+# The Python package tipp: the wrapped modules and, from Plugins/Python, functions over them. It lies
 # at lib/python3/dist-packages/tipp in the build tree and below the prefix. The libraries are found
 # from there, so that PYTHONPATH is all that users set.
 if (NOT TARGET VTK::WrappingPythonCore)
@@ -7,11 +7,13 @@ if (NOT TARGET VTK::WrappingPythonCore)
     "install its Python development files or configure with -DTIPP_WRAP_PYTHON=OFF.")
 endif ()
 
-set(tipp_python_destination "lib/python3/dist-packages")
+if (NOT TIPP_BUILD_PARAVIEW_PLUGIN) # which has a place of its own
+  set(tipp_python_destination "lib/python3/dist-packages")
+endif ()
 
-# From a wrapped module, three folders deep below lib, to the libraries.
+# From a wrapped module to the libraries.
 file(RELATIVE_PATH tipp_python_to_libraries
-  "/${tipp_python_destination}/tipp" "/${CMAKE_INSTALL_LIBDIR}")
+  "/${tipp_python_destination}/tipp" "/${tipp_library_destination}")
 set(CMAKE_INSTALL_RPATH "$ORIGIN/${tipp_python_to_libraries}")
 vtk_module_wrap_python(
   MODULES ${tipp_modules}
@@ -28,11 +30,17 @@ foreach (module IN LISTS tipp_wrapped_modules)
   string(REPLACE "TIPP::" "vtk" library "${module}")
   string(APPEND tipp_python_imports "from .${library} import *\n")
 endforeach ()
-set(tipp_python_init "${CMAKE_BINARY_DIR}/${tipp_python_destination}/tipp/__init__.py")
-file(CONFIGURE OUTPUT "${tipp_python_init}" CONTENT
-"\"\"\"Unstructured meshes that outgrow a desktop filter.\"\"\"
-@tipp_python_imports@" @ONLY)
-install(FILES "${tipp_python_init}" DESTINATION "${tipp_python_destination}/tipp")
+set(tipp_python_source "${PROJECT_SOURCE_DIR}/Plugins/Python/tipp")
+set(tipp_python_package "${CMAKE_BINARY_DIR}/${tipp_python_destination}/tipp")
+configure_file("${tipp_python_source}/__init__.py.in" "${tipp_python_package}/__init__.py" @ONLY)
+file(GLOB tipp_python_files CONFIGURE_DEPENDS
+  "${tipp_python_source}/*.py" "${tipp_python_source}/py.typed")
+foreach (file IN LISTS tipp_python_files)
+  configure_file("${file}" "${tipp_python_package}" COPYONLY)
+endforeach ()
+install(FILES "${tipp_python_package}/__init__.py" ${tipp_python_files}
+  DESTINATION "${tipp_python_destination}/tipp"
+  COMPONENT python)
 
 # The interpreter that VTK's own Python modules were built for is the one installed beside VTK,
 # which need not be the first on the PATH.

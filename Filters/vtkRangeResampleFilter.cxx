@@ -2,6 +2,7 @@
 #include "vtkRangeResampleFilter.h"
 
 #include "Messages/Postbox.h"
+#include "OpenCL/DeviceList.h"
 #include "Output/Monitor.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
@@ -9,6 +10,7 @@
 #include "Resample/ImageOutput.h"
 #include "Resample/SampledImage.h"
 #include "Resample/SamplingRange.h"
+#include "Resample/UpdatedInput.h"
 
 #include "vtkAlgorithmOutput.h"
 #include "vtkCommand.h"
@@ -23,6 +25,7 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
 #include "vtkTable.h"
 
 #include <algorithm>
@@ -167,8 +170,8 @@ void vtkRangeResampleFilter::Run::makeImage(
   vtkRangeResampleFilter* const filter = this->Filter;
   const std::array<double, 6> bounds =
     filter->UseInputBounds ? tipp::boundsOf(meshes, this->Ranks) : toArray(filter->SamplingBounds);
-  this->Wanted =
-    tipp::rangeLattice(bounds, toArray(filter->SamplingDimensions), toArray(filter->Delta));
+  this->Wanted = tipp::rangeLattice(
+    bounds, filter->Dimensions(bounds, meshes, this->Ranks), toArray(filter->Delta));
   const std::array<int, 6> whole = this->Wanted.Extent;
   const std::vector<int> axes = tipp::surfaceAxes({ whole[1] + 1, whole[3] + 1, whole[5] + 1 });
   if (filter->GatherOnRoot && this->severalRanks())
@@ -335,6 +338,33 @@ vtkRangeResampleFilter::~vtkRangeResampleFilter()
   this->CellDataArraySelection->Delete();
 }
 
+void vtkRangeResampleFilter::SetDeviceChoice(const char* text)
+{
+  try
+  {
+    const tipp::DeviceChoice choice = tipp::parseDeviceChoice(text ? text : "auto");
+    this->SetDevice(choice.Kind == tipp::Device::OpenMP ? DEVICE_OPENMP
+        : choice.Kind == tipp::Device::OpenCL           ? DEVICE_OPENCL
+                                                        : DEVICE_AUTO);
+    this->SetDeviceIndex(choice.Index);
+    this->SetDeviceName(choice.Name.empty() ? nullptr : choice.Name.c_str());
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+  }
+}
+
+vtkStringArray* vtkRangeResampleFilter::GetDeviceChoices()
+{
+  this->DeviceChoices->Reset();
+  for (const std::string& choice : tipp::deviceChoices(tipp::listDevices()))
+  {
+    this->DeviceChoices->InsertNextValue(choice);
+  }
+  return this->DeviceChoices;
+}
+
 vtkTable* vtkRangeResampleFilter::GetStatistics()
 {
   return this->Statistics;
@@ -347,8 +377,20 @@ int vtkRangeResampleFilter::FillInputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
+/// SamplingDimensions, with numbers where they are 0.
+std::array<int, 3> vtkRangeResampleFilter::Dimensions(const std::array<double, 6>& bounds,
+  const std::vector<vtkPointSet*>& meshes, tipp::Postbox& ranks) const
+{
+  const std::array<int, 3> given = toArray(this->SamplingDimensions);
+  if (std::count(given.begin(), given.end(), 0) == 0)
+  {
+    return given;
+  }
+  return tipp::chosenDimensions(bounds, given, tipp::areSurfaces(meshes, ranks));
+}
+
 int vtkRangeResampleFilter::RequestInformation(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
   vtkInformation* const outInfo = outputs->GetInformationObject(0);
   outInfo->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
@@ -356,19 +398,40 @@ int vtkRangeResampleFilter::RequestInformation(
   {
     const std::array<double, 3> delta = toArray(this->Delta);
     const bool byDelta = delta[0] > 0 || delta[1] > 0 || delta[2] > 0;
-    // The number of samples from SamplingDimensions needs no bounds; any valid ones will do.
+    // Given SamplingDimensions need no bounds; any valid ones will do.
     std::array<double, 6> bounds = { 0, 1, 0, 1, 0, 1 };
     if (!this->UseInputBounds)
     {
       bounds = toArray(this->SamplingBounds);
     }
-    else if (byDelta)
+    const int* const given = this->SamplingDimensions;
+    const bool chosen = std::count(given, given + 3, 0) > 0;
+    std::array<int, 3> dimensions = toArray(this->SamplingDimensions);
+    if (chosen || (byDelta && this->UseInputBounds))
     {
-      bounds = this->BoundsOfInput(inputs[0]);
+      if (this->NumberOfInputPieces > 1)
+      {
+        throw std::runtime_error(
+          "with NumberOfInputPieces above 1 the input is not known in time: turn UseInputBounds "
+          "off, set SamplingBounds, and give SamplingDimensions a number along every axis.");
+      }
+      tipp::Postbox ranks(this->Controller);
+      vtkDataObject* const input = tipp::updatedInput(this, ranks.rank(), ranks.size(), outInfo);
+      ranks.together(
+        [&]
+        {
+          if (!input)
+          {
+            throw std::runtime_error("the input has not been made, so its extent is not known.");
+          }
+          const std::vector<vtkPointSet*> meshes = tipp::meshesOf(input);
+          bounds = this->UseInputBounds ? tipp::boundsOf(meshes, ranks) : bounds;
+          dimensions = this->Dimensions(bounds, meshes, ranks);
+        });
     }
-    tipp::Lattice lattice = tipp::rangeLattice(bounds, toArray(this->SamplingDimensions), delta);
+    tipp::Lattice lattice = tipp::rangeLattice(bounds, dimensions, delta);
     outInfo->Set(Pipeline::WHOLE_EXTENT(), lattice.Extent.data(), 6);
-    if (!this->UseInputBounds || byDelta)
+    if (!this->UseInputBounds || byDelta || chosen)
     {
       outInfo->Set(vtkDataObject::ORIGIN(), lattice.Min.data(), 3);
       outInfo->Set(vtkDataObject::SPACING(), lattice.Delta.data(), 3);
@@ -380,26 +443,6 @@ int vtkRangeResampleFilter::RequestInformation(
     vtkErrorMacro("Resampling: " << error.what());
     return 0;
   }
-}
-
-/// Updates the input, each rank its part of it. Collective.
-std::array<double, 6> vtkRangeResampleFilter::BoundsOfInput(vtkInformationVector* input)
-{
-  vtkAlgorithmOutput* const source = this->GetInputConnection(0, 0);
-  tipp::Postbox ranks(this->Controller);
-  askForPiece(input->GetInformationObject(0), ranks.rank(), ranks.size());
-  const bool read = source->GetProducer()->GetExecutive()->Update(source->GetIndex()) != 0;
-  std::array<double, 6> bounds{};
-  ranks.together(
-    [&]
-    {
-      if (!read)
-      {
-        throw std::runtime_error("the input has not been made, so its bounds are not known.");
-      }
-      bounds = tipp::boundsOf(meshesIn(input), ranks);
-    });
-  return bounds;
 }
 
 int vtkRangeResampleFilter::RequestUpdateExtent(

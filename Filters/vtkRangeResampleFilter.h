@@ -60,12 +60,19 @@
 #include "vtkNew.h"               // For the table
 #include "vtkTIPPFiltersModule.h" // For export macro
 
-#include <array> // For bounds
+#include <array>  // For dimensions
+#include <vector> // For the meshes of an input
 
 class vtkDataArraySelection;
-class vtkDataObject;
 class vtkMultiProcessController;
+class vtkPointSet;
+class vtkStringArray;
 class vtkTable;
+
+namespace tipp
+{
+class Postbox;
+}
 
 class VTKTIPPFILTERS_EXPORT vtkRangeResampleFilter : public vtkImageAlgorithm
 {
@@ -105,7 +112,10 @@ public:
   ///@{
   /**
    * The number of samples along each axis, the first at the range's minimum and the last at its
-   * maximum. (10, 10, 10) by default. An axis with a Delta ignores it.
+   * maximum. (10, 10, 10) by default. An axis with a Delta ignores it. 0 along an axis, but not
+   * along all, means as many as put the samples as far apart as along the first axis that has a
+   * number, or one along z for a mesh of surface cells. For that the input is updated as soon as
+   * the extent of the output is asked for.
    */
   vtkSetVector3Macro(SamplingDimensions, int);
   vtkGetVector3Macro(SamplingDimensions, int);
@@ -172,7 +182,7 @@ public:
 
   ///@{
   /**
-   * The OpenCL device by its number or by a part of its name, as `tipp devices` lists them. -1 and
+   * The OpenCL device by its number or by a part of its name; see GetDeviceChoices(). -1 and
    * null (the defaults): the first GPU with double precision, or else the first device.
    */
   vtkSetMacro(DeviceIndex, int);
@@ -180,6 +190,18 @@ public:
   vtkSetStringMacro(DeviceName);
   vtkGetStringMacro(DeviceName);
   ///@}
+
+  /**
+   * Device, DeviceIndex and DeviceName in one, as `tipp resample --device` takes them: "auto",
+   * "openmp", "opencl", "opencl:INDEX" or "opencl:NAME".
+   */
+  void SetDeviceChoice(const char* choice);
+
+  /**
+   * What SetDeviceChoice() can be given on this machine: "auto", "openmp" and one for each OpenCL
+   * device with double precision.
+   */
+  vtkStringArray* GetDeviceChoices();
 
   ///@{
   /**
@@ -257,9 +279,12 @@ private:
   void operator=(const vtkRangeResampleFilter&) = delete;
 
   class Run;
-  std::array<double, 6> BoundsOfInput(vtkInformationVector* input);
+
+  std::array<int, 3> Dimensions(const std::array<double, 6>& bounds,
+    const std::vector<vtkPointSet*>& meshes, tipp::Postbox& ranks) const;
 
   vtkNew<vtkTable> Statistics;
+  vtkNew<vtkStringArray> DeviceChoices;
 };
 
 #endif

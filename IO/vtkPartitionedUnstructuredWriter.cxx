@@ -12,14 +12,30 @@
 #include "vtkDataSet.h"
 #include "vtkExecutive.h"
 #include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <exception>
 #include <new>
 
 vtkStandardNewMacro(vtkPartitionedUnstructuredWriter);
 vtkCxxSetObjectMacro(vtkPartitionedUnstructuredWriter, Controller, vtkMultiProcessController);
+
+namespace
+{
+
+/// Each rank brings its own piece, where vtkWriter would ask for everything on all.
+void askForPiece(vtkInformation* input, vtkMultiProcessController* ranks)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  input->Set(Pipeline::UPDATE_PIECE_NUMBER(), ranks->GetLocalProcessId());
+  input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), ranks->GetNumberOfProcesses());
+  input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+}
+
+} // namespace
 
 vtkPartitionedUnstructuredWriter::vtkPartitionedUnstructuredWriter()
 {
@@ -47,6 +63,19 @@ int vtkPartitionedUnstructuredWriter::FillInputPortInformation(int, vtkInformati
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSet");
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   return 1;
+}
+
+vtkTypeBool vtkPartitionedUnstructuredWriter::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMultiProcessController* const ranks = this->Controller;
+  const bool several = ranks && ranks->GetNumberOfProcesses() > 1;
+  vtkInformation* const input = inputVector[0]->GetInformationObject(0);
+  if (several && input && request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
+  {
+    askForPiece(input, ranks);
+  }
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }
 
 int vtkPartitionedUnstructuredWriter::Write()
@@ -91,6 +120,8 @@ void vtkPartitionedUnstructuredWriter::RequireInput()
   }
   vtkAlgorithmOutput* const input = this->GetInputConnection(0, 0);
   vtkExecutive* const executive = input->GetProducer()->GetExecutive();
+  executive->UpdateInformation();
+  askForPiece(executive->GetOutputInformation(input->GetIndex()), this->Controller);
   if (!executive->Update(input->GetIndex()))
   {
     throw tipp::IOError("A rank's input could not be made; see the errors before this one.");

@@ -12,7 +12,8 @@
  * mesh in a file of any size: a folder of .npy arrays or a .vtu file with appended, raw,
  * uncompressed data. Cells of an input other than triangles and tetrahedra are cut into these,
  * ghost cells and cells of a lower dimension are left out. Points at the same place in different
- * data sets become one.
+ * data sets become one. Its arrays GlobalPointIds, GlobalCellIds and vtkGhostType, if it has any,
+ * are not stored: the partitioned mesh has its own.
  *
  * A partition is a closed box. A cell is owned by the first partition that it shares a point with,
  * decided exactly; the others that it meets borrow it, by reference or, with DuplicateBorrowers, as
@@ -136,6 +137,8 @@ protected:
   ~vtkPartitionedUnstructuredWriter() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   void WriteData() override;
 
 private:

@@ -16,5 +16,8 @@ if command -v ccache > /dev/null; then
   export CCACHE_SLOPPINESS=pch_defines,time_macros # or it passes over precompiled headers
 fi
 
+if [ "$preset" = paraview ]; then
+  sh Utilities/paraview.sh build-paraview/debian
+fi
 cmake --preset "$preset" --log-level=WARNING
 cmake --build --preset "$preset" "$@"

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds and passes every check, or the ones named: sh Utilities/test.sh [STEP...]
-# Steps: format build tests asan tsan; and, by name only for they take long, tidy and analysis. Each
-# ends with one line; the first failure stops the run.
+# Steps: format build tests asan tsan; and, by name only for they take long, paraview, tidy and analysis.
+# Each ends with one line; the first failure stops the run.
 set -eu
 
 top=$(cd "$(dirname "$0")/.." && pwd)
@@ -31,11 +31,16 @@ check_tsan() { check_sanitizer tsan; }
 # Tests that render need a display.
 check_tests() { xvfb-run -a ctest --preset default; }
 
+# The plugin is built a second time over, against ParaView's VTK; its tests are skipped without it.
+check_paraview() {
+  sh Utilities/build.sh paraview && ctest --preset default --label-regex '^paraview$'
+}
+
 for step in ${*:-format build tests asan tsan}; do
   case $step in
-    format | build | tests | asan | tsan | tidy | analysis) ;;
+    format | build | tests | asan | tsan | paraview | tidy | analysis) ;;
     *)
-      echo "Unknown step '$step'; the steps are: format build tests asan tsan tidy analysis." >&2
+      echo "Unknown step '$step'; the steps are: format build tests asan tsan paraview tidy analysis." >&2
       exit 2
       ;;
   esac

@@ -122,4 +122,20 @@ std::optional<DeviceDescription> chooseDevice(
   return device;
 }
 
+std::vector<std::string> deviceChoices(const std::vector<DeviceDescription>& devices)
+{
+  std::vector<std::string> choices = { "auto", "openmp" };
+  for (const DeviceDescription& device : devices)
+  {
+    if (device.Double)
+    {
+      const DeviceChoice byName = parseDeviceChoice("opencl:" + device.Name);
+      const bool meant =
+        !byName.Name.empty() && chooseDevice(byName, devices)->Index == device.Index;
+      choices.push_back("opencl:" + (meant ? device.Name : std::to_string(device.Index)));
+    }
+  }
+  return choices;
+}
+
 } // namespace tipp

@@ -42,6 +42,12 @@ VTKTIPPACCELERATORS_EXPORT const std::vector<DeviceDescription>& listDevices();
 VTKTIPPACCELERATORS_EXPORT std::optional<DeviceDescription> chooseDevice(
   const DeviceChoice& choice, const std::vector<DeviceDescription>& devices);
 
+/// What a user can choose from these devices, as parseDeviceChoice() reads it: "auto", "openmp" and
+/// for each device with double precision "opencl:NAME", or "opencl:INDEX" where its name means
+/// another one.
+VTKTIPPACCELERATORS_EXPORT std::vector<std::string> deviceChoices(
+  const std::vector<DeviceDescription>& devices);
+
 } // namespace tipp
 
 #endif

@@ -4,14 +4,19 @@
 #include "Messages/Postbox.h"
 
 #include "vtkBoundingBox.h"
+#include "vtkCellType.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkGenericCell.h"
+#include "vtkNew.h"
 #include "vtkPointSet.h"
+#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -34,6 +39,42 @@ vtkBoundingBox boxOf(const std::vector<vtkPointSet*>& meshes)
 }
 
 } // namespace
+
+std::array<int, 3> chosenDimensions(
+  const std::array<double, 6>& bounds, std::array<int, 3> dimensions, bool surfaces)
+{
+  const auto length = [&](std::size_t axis) { return bounds[2 * axis + 1] - bounds[2 * axis]; };
+  std::optional<double> step;
+  for (std::size_t axis = 0; axis < 3 && !step; ++axis)
+  {
+    if (dimensions[axis] > 0)
+    {
+      step = length(axis) / std::max(dimensions[axis] - 1, 1);
+    }
+  }
+  if (!step)
+  {
+    throw std::runtime_error(
+      "SamplingDimensions have no number above 0: give one along an axis at least.");
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (dimensions[axis] == 0)
+    {
+      const bool one =
+        (axis == 2 && surfaces) || !(*step > 0); // bounds without sense are told of later
+      const double steps = one ? 0 : std::max(std::round(length(axis) / *step), 0.0);
+      if (!(steps < std::numeric_limits<int>::max()))
+      {
+        throw std::runtime_error("more than 2147483647 samples along " +
+          std::string(1, "xyz"[axis]) + " would be as far apart as those of the first axis: give " +
+          "the number of samples along it.");
+      }
+      dimensions[axis] = int(steps) + 1;
+    }
+  }
+  return dimensions;
+}
 
 std::array<int, 3> rangeDimensions(const std::array<double, 6>& bounds,
   const std::array<int, 3>& dimensions, const std::array<double, 3>& delta)
@@ -140,6 +181,31 @@ std::vector<vtkPointSet*> meshesOf(vtkDataObject* data)
     add(iterator->GetCurrentDataObject());
   }
   return meshes;
+}
+
+bool areSurfaces(const std::vector<vtkPointSet*>& meshes, Postbox& ranks)
+{
+  int volumes = 0;
+  for (vtkPointSet* mesh : meshes)
+  {
+    // Most meshes tell by their first cell; in polygonal ones no cell does.
+    const vtkIdType cells = vtkPolyData::SafeDownCast(mesh) ? 0 : mesh->GetNumberOfCells();
+    vtkNew<vtkGenericCell> cell;
+    int known = VTK_EMPTY_CELL;
+    for (vtkIdType i = 0; i < cells && volumes == 0; ++i)
+    {
+      const int type = mesh->GetCellType(i);
+      if (type != known)
+      {
+        known = type;
+        cell->SetCellType(type);
+        volumes = int(cell->GetCellDimension() == 3);
+      }
+    }
+  }
+  std::vector<std::int64_t> all{ volumes };
+  ranks.sum(all);
+  return all.front() == 0;
 }
 
 std::array<double, 6> boundsOf(const std::vector<vtkPointSet*>& meshes, Postbox& ranks)

@@ -15,6 +15,12 @@ namespace tipp
 
 class Postbox;
 
+/// Puts numbers where `dimensions` is 0: as many samples as put them as far apart as along the
+/// first axis that has a number, but one along z for surfaces. Throws std::runtime_error if all are
+/// 0.
+std::array<int, 3> chosenDimensions(
+  const std::array<double, 6>& bounds, std::array<int, 3> dimensions, bool surfaces);
+
 /// The number of samples along each axis of a range: by delta where it is above 0, else
 /// `dimensions`. Throws std::runtime_error for a range or a number that makes no sense.
 std::array<int, 3> rangeDimensions(const std::array<double, 6>& bounds,
@@ -31,6 +37,9 @@ std::vector<int> surfaceAxes(const std::array<int, 3>& dimensions);
 /// The meshes of a data object: itself or its leaves, in order. Throws std::runtime_error if one is
 /// no vtkPointSet.
 std::vector<vtkPointSet*> meshesOf(vtkDataObject* data);
+
+/// Whether the meshes of all ranks have no cell with a volume. Collective.
+bool areSurfaces(const std::vector<vtkPointSet*>& meshes, Postbox& ranks);
 
 /// The bounding box of the meshes of all ranks. Throws std::runtime_error on all ranks if there is
 /// no point. Collective.

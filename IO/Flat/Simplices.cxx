@@ -88,12 +88,17 @@ public:
 private:
   int findDimension()
   {
-    vtkNew<vtkCellTypes> types;
-    this->Data->GetCellTypes(types);
-    int dimension = -1;
-    for (vtkIdType i = 0; i < types->GetNumberOfTypes(); ++i)
+    // vtkUnstructuredGrid::GetCellTypes() warns in VTK 9.2, and its successor is not in 9.1.
+    std::array<bool, 256> present{};
+    for (vtkIdType i = 0; i < this->Data->GetNumberOfCells(); ++i)
     {
-      dimension = std::max(dimension, dimensionOf(types->GetCellType(i), this->Cell));
+      present[std::size_t(this->Data->GetCellType(i))] = true;
+    }
+    int dimension = -1;
+    for (std::size_t type = 0; type < present.size(); ++type)
+    {
+      dimension =
+        present[type] ? std::max(dimension, dimensionOf(int(type), this->Cell)) : dimension;
     }
     if (dimension < 2)
     {

@@ -9,6 +9,9 @@ The blocks of a document are run in order, in a scratch copy of the tracked file
   ```cpp, ```cmake, ```python  the listing of a file in Examples/, word for word (which the tests run)
   ```text                    shown, not run
 
+A document that names $DATA needs the real data sets, whose folder TIPP_SHARED_DATA names, and one that
+names build-paraview/ needs the plugin that is built there; where that is missing the test is skipped.
+
 A document that configures is run on that copy, any other on the build at hand as build/. A command
 that would repeat the whole build or this test is run in its light form, see LIGHT.
 """
@@ -21,11 +24,14 @@ import sys
 
 FENCE = re.compile(r"^```(\S*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 LISTINGS = {"cpp", "cmake", "python"}
+SKIPPED = 77
 
 # Command (a pattern over one line), and what runs in its place.
 LIGHT = [
     (r"^sh Utilities/test\.sh$", r"sh Utilities/test.sh format"),
     (r"^sh Utilities/test\.sh build.*$", r"sh Utilities/test.sh format"),
+    (r"^sh Utilities/(build\.sh paraview|paraview\.sh .*|package\.sh .*)$", r"sh -n Utilities/build.sh"),
+    (r"^sh Utilities/test\.sh paraview$", r"sh Utilities/test.sh format"),
     (r"^sh Utilities/benchmark\.sh.*$", r'for script in Utilities/benchmark.sh Utilities/benchmarks/*.sh; do sh -n "$script"; done'),
     (r"^(cmake --build --preset \S+)$", r"\1 -- -n"),
     (r"^((?:xvfb-run -a )?ctest --preset .*)$", r"\1 -N --no-tests=ignore"),
@@ -79,6 +85,27 @@ def copy_tracked(source, scratch):
             shutil.copy2(source / name, scratch / name)
 
 
+def skip(reason):
+    print(f"Skipped: {reason}")
+    sys.exit(SKIPPED)
+
+
+def needs(source, scratch, script):
+    """What the commands need besides the build: settings of the environment; exits where it is missing."""
+    settings = {}
+    if "$DATA" in script:
+        data = pathlib.Path(os.environ.get("TIPP_SHARED_DATA", ""))
+        if not (data / "SOURCES.md").is_file():
+            skip(f"there are no real data sets at '{data}'")
+        settings["DATA"] = str(data)
+    if "build-paraview/" in script:
+        tree = source / "build-paraview"
+        if not list(tree.glob("lib/paraview-*/plugins/TIPPPlugin/TIPPPlugin.so")):
+            skip(f"{tree} has no plugin; build it: sh Utilities/build.sh paraview")
+        (scratch / "build-paraview").symlink_to(tree)
+    return settings
+
+
 def environment(scratch, build, own_build):
     settings = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "DESTDIR")}
     # A repository of its own: scripts that ask git for the tracked files get the scratch copy's.
@@ -98,7 +125,7 @@ def main():
     script = script_of(source, document, text)
     copy_tracked(source, scratch)
     own_build = "cmake --preset" in script
-    settings = environment(scratch, build, own_build)
+    settings = environment(scratch, build, own_build) | needs(source, scratch, script)
     print(script, flush=True)
     sys.exit(subprocess.run(["sh", "-x", "-c", script], cwd=scratch, env=settings).returncode)
 

@@ -119,12 +119,8 @@ void configure(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
     filter->SetSamplingDimensions(1, 1, 1);
     filter->SetDelta(arguments.Delta.data());
   }
-  const DeviceChoice device = parseDeviceChoice(arguments.Device);
-  filter->SetDevice(device.Kind == Device::Auto ? vtkRangeResampleFilter::DEVICE_AUTO
-      : device.Kind == Device::OpenMP           ? vtkRangeResampleFilter::DEVICE_OPENMP
-                                                : vtkRangeResampleFilter::DEVICE_OPENCL);
-  filter->SetDeviceIndex(device.Index);
-  filter->SetDeviceName(device.Name.empty() ? nullptr : device.Name.c_str());
+  parseDeviceChoice(arguments.Device); // throws where the filter would report
+  filter->SetDeviceChoice(arguments.Device.c_str());
   filter->SetNumberOfThreads(arguments.Threads);
   const bool npy = extensionOf(arguments.Output) == ".npy";
   filter->SetNullValue(
@@ -315,8 +311,12 @@ void addResampleCommand(CLI::App& app, int& exitCode)
     ->add_option("--bounds", arguments->Bounds,
       "The range: xmin xmax ymin ymax zmin zmax; else that of the mesh")
     ->expected(6);
-  CLI::Option* const dimensions =
-    command->add_option("--dims", arguments->Dimensions, "Samples along x, y and z")->expected(3);
+  CLI::Option* const dimensions = command
+                                    ->add_option("--dims", arguments->Dimensions,
+                                      "Samples along x, y and z; 0: as far apart as along the "
+                                      "first axis with a number, one along z for "
+                                      "surfaces")
+                                    ->expected(3);
   CLI::Option* const delta = command
                                ->add_option("--delta", arguments->Delta,
                                  "Distance of samples along x, y and z; 0: one sample")

@@ -113,3 +113,21 @@ TEST(DeviceList, AMachineWithoutDevicesIsAnErrorThatSaysWhatToInstall)
   expectAcceleratorError(
     [] { chooseDevice(openCl(-1, ""), {}); }, "This machine has no OpenCL device");
 }
+
+TEST(DeviceList, ChoicesAreTheDevicesOfUse)
+{
+  EXPECT_EQ(tipp::deviceChoices(someDevices()),
+    (std::vector<std::string>{ "auto", "openmp", "opencl:Large Processor", "opencl:Desktop GPU" }));
+}
+
+TEST(DeviceList, ChoicesTellDevicesOfOneNameApart)
+{
+  const std::vector<DeviceDescription> twins = { device(0, "GPU", DeviceType::Gpu, true),
+    device(1, "GPU", DeviceType::Gpu, true), device(2, "7", DeviceType::Cpu, true) };
+  const std::vector<std::string> choices = tipp::deviceChoices(twins);
+  ASSERT_EQ(choices.size(), 5u);
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_EQ(chosen(tipp::parseDeviceChoice(choices[i + 2]), twins), i);
+  }
+}

@@ -17,6 +17,7 @@ public:
   static PieceSource* New() { VTK_STANDARD_NEW_BODY(PieceSource); }
   Scene Cells;
   int Requests = 0;
+  double Time = 0; ///< of the last request
   int FailingPiece = -1;
 
 protected:
@@ -25,13 +26,17 @@ protected:
   int RequestInformation(
     vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
   {
-    outputs->GetInformationObject(0)->Set(CAN_HANDLE_PIECE_REQUEST(), 1);
+    vtkInformation* const info = outputs->GetInformationObject(0);
+    info->Set(CAN_HANDLE_PIECE_REQUEST(), 1);
+    const double times[] = { 0, 3 };
+    info->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times, 2);
     return 1;
   }
 
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
   {
     vtkInformation* const info = outputs->GetInformationObject(0);
+    this->Time = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
     const int piece = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
     const int pieces = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES());
     ++this->Requests;

@@ -67,6 +67,50 @@ TEST(RangeResampleRange, DeltaStepsFromTheMinimum)
   EXPECT_LT(linearError(filter->GetOutput(), 2), 1e-13);
 }
 
+TEST(RangeResampleRange, ZeroDimensionsKeepTheDistanceOfTheFirstAxis)
+{
+  vtkNew<vtkRangeResampleFilter> filter;
+  filter->SetInputData(gridOf(jitteredScene(3, 4, 1)));
+  filter->SetUseInputBounds(false);
+  filter->SetSamplingBounds(0, 1, 0, 0.5, 0, 0.25);
+  filter->SetSamplingDimensions(0, 11, 0);
+  filter->Update();
+  const int* const dimensions = filter->GetOutput()->GetDimensions();
+  EXPECT_EQ(dimensions[0], 21);
+  EXPECT_EQ(dimensions[1], 11);
+  EXPECT_EQ(dimensions[2], 6);
+}
+
+TEST(RangeResampleRange, ZeroDimensionsGiveASurfaceOneSampleAlongZ)
+{
+  vtkNew<vtkRangeResampleFilter> filter;
+  filter->SetInputData(square());
+  filter->SetUseInputBounds(false);
+  filter->SetSamplingBounds(0, 1, 0, 1, -3, 3);
+  filter->SetSamplingDimensions(9, 0, 0);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetDimensions()[2], 1);
+  EXPECT_EQ(countValid(filter->GetOutput()), 81);
+}
+
+TEST(RangeResampleRange, AllDimensionsZeroAreAnError)
+{
+  vtkNew<vtkRangeResampleFilter> filter;
+  filter->SetInputData(square());
+  filter->SetSamplingDimensions(0, 0, 0);
+  EXPECT_NE(errorOf(filter).find("SamplingDimensions have no number"), std::string::npos);
+}
+
+TEST(RangeResampleRange, ZeroDimensionsNeedTheWholeInput)
+{
+  vtkNew<vtkRangeResampleFilter> filter;
+  filter->SetInputData(square());
+  filter->SetNumberOfInputPieces(2);
+  filter->SetUseInputBounds(false);
+  filter->SetSamplingDimensions(9, 0, 0);
+  EXPECT_NE(errorOf(filter).find("a number along every axis"), std::string::npos);
+}
+
 TEST(RangeResampleRange, InputBoundsAreTheDefault)
 {
   vtkNew<vtkRangeResampleFilter> filter;
@@ -132,7 +176,7 @@ TEST(RangeResampleRange, RangesWithoutSenseAreErrors)
   filter->SetSamplingBounds(-1e308, 1e308, 0, 1, 0, 0); // their difference is infinite
   EXPECT_NE(errorOf(filter).find("give finite bounds"), std::string::npos);
   filter->SetSamplingBounds(0, 1, 0, 1, 0, 0);
-  filter->SetSamplingDimensions(0, 3, 1);
+  filter->SetSamplingDimensions(-1, 3, 1);
   EXPECT_NE(errorOf(filter).find("give 1 or more"), std::string::npos);
 }
 

@@ -2,11 +2,13 @@
 #include "MessageCounter.h"
 #include "PieceSource.h"
 #include "RangeResampleTesting.h"
+#include "Resample/UpdatedInput.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
 #include "vtkPartitionedDataSet.h"
+#include "vtkStringArray.h"
 
 #include <gtest/gtest.h>
 
@@ -94,6 +96,19 @@ TEST(RangeResampleRun, ProgressOverMeshesAndPiecesIsOfTheWhole)
   }
 }
 
+TEST(RangeResampleRun, UpdatesItsInputAtTheTimeThatIsAskedFor)
+{
+  vtkNew<PieceSource> source;
+  source->Cells = jitteredScene(2, 4, 3);
+  vtkNew<vtkRangeResampleFilter> filter;
+  filter->SetInputConnection(source->GetOutputPort());
+  vtkNew<vtkInformation> asked;
+  asked->Set(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP(), 3.0);
+  EXPECT_EQ(tipp::updatedInput(filter, 0, 1, asked), source->GetOutputDataObject(0));
+  EXPECT_EQ(source->Requests, 1);
+  EXPECT_EQ(source->Time, 3.0);
+}
+
 TEST(RangeResampleRun, GivesTheSameBitsOnAnyThreads)
 {
   for (const Scene& scene : { jitteredScene(2, 40, 3), jitteredScene(3, 8, 3) })
@@ -162,4 +177,24 @@ TEST(RangeResampleRun, PrintsItsProperties)
   std::ostringstream text;
   unitFilter(2, 5)->Print(text);
   EXPECT_NE(text.str().find("SamplingDimensions: 5 5 1"), std::string::npos);
+}
+
+TEST(RangeResampleRun, ADeviceChoiceSetsTheThreeProperties)
+{
+  vtkNew<vtkRangeResampleFilter> filter;
+  filter->SetDeviceChoice("opencl:Fast GPU");
+  EXPECT_EQ(filter->GetDevice(), vtkRangeResampleFilter::DEVICE_OPENCL);
+  EXPECT_STREQ(filter->GetDeviceName(), "Fast GPU");
+  filter->SetDeviceChoice("opencl:3");
+  EXPECT_EQ(filter->GetDeviceIndex(), 3);
+  EXPECT_EQ(filter->GetDeviceName(), nullptr);
+  filter->SetDeviceChoice("openmp");
+  EXPECT_EQ(filter->GetDevice(), vtkRangeResampleFilter::DEVICE_OPENMP);
+}
+
+TEST(RangeResampleRun, TheFirstDeviceChoicesNeedNoDevice)
+{
+  vtkNew<vtkRangeResampleFilter> filter;
+  EXPECT_EQ(filter->GetDeviceChoices()->GetValue(0), "auto");
+  EXPECT_EQ(filter->GetDeviceChoices()->GetValue(1), "openmp");
 }

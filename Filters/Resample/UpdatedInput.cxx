@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Resample/UpdatedInput.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkInformation.h"
+#include "vtkInformationDoubleKey.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+namespace tipp
+{
+
+vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInformation* outInfo)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  int port = 0;
+  vtkAlgorithm* const source = filter->GetInputAlgorithm(0, 0, port);
+  vtkNew<vtkInformationVector> requests;
+  requests->SetNumberOfInformationObjects(source->GetNumberOfOutputPorts());
+  vtkInformation* const request = requests->GetInformationObject(port);
+  request->Set(Pipeline::UPDATE_PIECE_NUMBER(), rank);
+  request->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), ranks);
+  if (outInfo->Has(Pipeline::UPDATE_TIME_STEP()))
+  {
+    request->CopyEntry(outInfo, Pipeline::UPDATE_TIME_STEP());
+  }
+  return source->Update(port, requests) ? source->GetOutputDataObject(port) : nullptr;
+}
+
+} // namespace tipp

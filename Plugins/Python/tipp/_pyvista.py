@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""mesh.tipp on PyVista's data sets, once PyVista is imported; it need not be installed."""
+from __future__ import annotations
+
+import importlib.abc
+import importlib.machinery
+import importlib.util
+import sys
+from types import ModuleType
+from typing import Any, Sequence
+
+from ._meshes import write
+from ._resample import resample
+from ._triangulate import delaunay_2d
+
+
+class Accessor:
+    """tipp's functions for one PyVista data set: mesh.tipp.delaunay_2d() and so on."""
+
+    def __init__(self, dataset: Any):
+        self._dataset = dataset
+
+    def delaunay_2d(self, **options: Any) -> Any:
+        """As tipp.delaunay_2d(mesh, ...)."""
+        return delaunay_2d(self._dataset, **options)
+
+    def resample_to_image(self, *, bounds: Sequence[float] | None = None, **options: Any) -> Any:
+        """As tipp.resample(mesh, ...)."""
+        return resample(self._dataset, bounds, **options)
+
+    def save(self, path: str, **options: Any) -> None:
+        """As tipp.write(mesh, path, ...)."""
+        write(self._dataset, path, **options)
+
+
+def register(pyvista: ModuleType) -> None:
+    """Gives PyVista's data sets the accessor."""
+    if hasattr(pyvista, "register_dataset_accessor"):  # since 0.48
+        pyvista.register_dataset_accessor("tipp", pyvista.DataSet)(Accessor)
+    else:
+        pyvista.DataSet.tipp = property(Accessor, doc=Accessor.__doc__)
+
+
+class _Loader(importlib.abc.Loader):
+    """Loads a module as its own loader does, then registers."""
+
+    def __init__(self, loader: Any):
+        self._loader = loader
+
+    def create_module(self, spec: importlib.machinery.ModuleSpec) -> ModuleType | None:
+        return self._loader.create_module(spec)
+
+    def exec_module(self, module: ModuleType) -> None:
+        self._loader.exec_module(module)
+        register(module)
+
+
+class _Finder(importlib.abc.MetaPathFinder):
+    """Waits for the import of pyvista, so that importing tipp does not cost it."""
+
+    def find_spec(self, name: str, path: Any, target: Any = None) -> importlib.machinery.ModuleSpec | None:
+        if name != "pyvista":
+            return None
+        sys.meta_path.remove(self)
+        spec = importlib.util.find_spec(name)
+        if spec is not None and spec.loader is not None:
+            spec.loader = _Loader(spec.loader)
+        return spec
+
+
+def register_when_imported() -> None:
+    if "pyvista" in sys.modules:
+        register(sys.modules["pyvista"])
+    else:
+        sys.meta_path.insert(0, _Finder())

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs a VTK algorithm as a Python function: errors are exceptions, and Ctrl-C stops it."""
+from __future__ import annotations
+
+import contextlib
+import signal
+import sys
+import threading
+import warnings
+from typing import TYPE_CHECKING, Any, Callable, Iterator
+
+if TYPE_CHECKING:
+    from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
+
+_BAR = 40  # characters
+
+
+class Interrupted:
+    """While it is entered, Ctrl-C aborts the algorithm; leaving it then raises KeyboardInterrupt.
+
+    VTK ends the program if KeyboardInterrupt reaches it from a callback, so a handler of our own takes
+    the signal. Python runs it between two steps of a Python callback, which progress gives often.
+    """
+
+    def __init__(self, algorithm: vtkAlgorithm):
+        self._algorithm = algorithm
+        self._happened = False
+        self._former: Any = None
+
+    def _stop(self, _signal: int, _frame: Any) -> None:
+        self._happened = True
+        self._algorithm.SetAbortExecute(1)
+
+    def __enter__(self) -> Interrupted:
+        if threading.current_thread() is threading.main_thread():
+            self._former = signal.getsignal(signal.SIGINT)
+            if callable(self._former) or self._former == signal.SIG_DFL:
+                signal.signal(signal.SIGINT, self._stop)
+        return self
+
+    def __exit__(self, kind: Any, *_: Any) -> None:
+        if self._former is not None:
+            signal.signal(signal.SIGINT, self._former)
+        self._algorithm.SetAbortExecute(0)
+        if self._happened and kind is None:
+            raise KeyboardInterrupt
+
+
+def _show(fraction: float) -> None:
+    done = int(_BAR * min(max(fraction, 0.0), 1.0))
+    sys.stderr.write(f"\r[{'#' * done}{' ' * (_BAR - done)}] {100 * fraction:3.0f} %")
+    sys.stderr.flush()
+
+
+@contextlib.contextmanager
+def _observed(subject: Any, event: str, callback: Callable[..., None]) -> Iterator[None]:
+    tag = subject.AddObserver(event, callback)
+    try:
+        yield
+    finally:
+        subject.RemoveObserver(tag)
+
+
+def _first_sentence(text: str) -> str:
+    """What an error says, without VTK's place in the source and object's address."""
+    return text.strip().split("): ", 1)[-1].strip()
+
+
+def run(algorithm: vtkAlgorithm, progress_bar: bool = False, call: Callable[[], Any] | None = None) -> Any:
+    """Updates the algorithm, or does `call`. Its errors become a RuntimeError, its warnings Python's."""
+    errors: list[str] = []
+    notes: list[str] = []
+
+    def on_error(_object: Any, _event: str, text: str) -> None:
+        errors.append(_first_sentence(text))
+
+    def on_warning(_object: Any, _event: str, text: str) -> None:
+        notes.append(_first_sentence(text))
+
+    def on_progress(_object: Any, _event: str) -> None:
+        if progress_bar:
+            _show(algorithm.GetProgress())
+
+    on_error.CallDataType = on_warning.CallDataType = "string0"  # type: ignore[attr-defined]
+    with contextlib.ExitStack() as stack:
+        for subject in (algorithm, algorithm.GetExecutive()):
+            stack.enter_context(_observed(subject, "ErrorEvent", on_error))
+            stack.enter_context(_observed(subject, "WarningEvent", on_warning))
+        stack.enter_context(_observed(algorithm, "ProgressEvent", on_progress))
+        stack.enter_context(Interrupted(algorithm))
+        result = call() if call else algorithm.Update()
+    if progress_bar:
+        sys.stderr.write("\n")
+    for note in notes:
+        warnings.warn(note, RuntimeWarning, stacklevel=3)
+    if errors:
+        raise RuntimeError(errors[0])
+    return result

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""tipp.delaunay and tipp.delaunay_2d."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Mapping
+
+from ._arrays import point_cloud, triangles_of, wrapped_like
+from ._run import run
+from .vtkTIPPFilters import vtkTIPPDelaunay2D
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike
+
+_SCHEDULES = {
+    "stages": vtkTIPPDelaunay2D.STAGES,
+    "dynamic": vtkTIPPDelaunay2D.DYNAMIC,
+    "producer-consumer": vtkTIPPDelaunay2D.PRODUCER_CONSUMER,
+}
+
+
+def _choice(name: str, value: str, choices: Mapping[str, int]) -> int:
+    if value not in choices:
+        raise ValueError(f"{name} is '{value}'; it is one of {', '.join(choices)}.")
+    return choices[value]
+
+
+def delaunay(
+    points: ArrayLike,
+    *,
+    tol: float = 0.0,
+    partitions: tuple[int, int] | None = None,
+    schedule: str = "dynamic",
+    threads: int = 0,
+    progress_bar: bool = False,
+) -> np.ndarray:
+    """Exact Delaunay triangulation of points in the x-y plane.
+
+    Parameters
+    ----------
+    points
+        Coordinates of shape (n, 2) or (n, 3); z plays no part. An (n, 3) array of float32 or float64
+        in C order is not copied, any other once.
+    tol
+        Points no farther apart than this fraction of the bounding box's diagonal are merged. 0 merges
+        points at the same place.
+    partitions
+        Columns and rows of a grid of partitions. None chooses. The triangles are the same.
+    schedule
+        "dynamic", "stages" or "producer-consumer". The triangles are the same.
+    threads
+        OpenMP threads; 0 is OpenMP's choice.
+    progress_bar
+        Whether to show progress on the standard error stream.
+
+    Returns
+    -------
+    numpy.ndarray
+        (m, 3) point ids, counter-clockwise, of 32 bits where they fit, else of 64. Merged points are
+        in no triangle, nor are points that are not finite (of which a RuntimeWarning tells).
+
+    Raises
+    ------
+    RuntimeError
+        If the triangulation failed; the message is the filter's.
+    KeyboardInterrupt
+        On Ctrl-C, soon.
+
+    Notes
+    -----
+    Within tipp.ranks() all ranks call it together, each with points of its own; ids then count the
+    output's points, so use delaunay_2d() there.
+
+    Examples
+    --------
+    >>> points = numpy.random.default_rng(1).random((100_000, 2))
+    >>> tipp.delaunay(points).shape
+    (199964, 3)
+    """
+    mesh = delaunay_2d(points, tol=tol, partitions=partitions, schedule=schedule, threads=threads,
+                       progress_bar=progress_bar)
+    return triangles_of(mesh)
+
+
+def delaunay_2d(
+    points: Any,
+    *,
+    tol: float = 0.0,
+    alpha: float = 0.0,
+    offset: float = 1.0,
+    bound: bool = False,
+    point_data: Mapping[str, ArrayLike] | None = None,
+    partitions: tuple[int, int] | None = None,
+    schedule: str = "dynamic",
+    threads: int = 0,
+    progress_bar: bool = False,
+) -> Any:
+    """Exact Delaunay triangulation as a mesh; the keywords are those of PyVista's delaunay_2d.
+
+    Parameters
+    ----------
+    points
+        A vtkPointSet, a PyVista data set with points, or an array as delaunay() takes.
+    tol, partitions, schedule, threads, progress_bar
+        As for delaunay().
+    alpha
+        With a radius, in the units of the points, triangles with a larger circumcircle are left out,
+        and edges and points that are then in no triangle are cells of their own. 0: all triangles.
+    offset
+        With bound, the radius of the circle, as a multiple of the bounding box's diagonal.
+    bound
+        Whether to triangulate eight points on a circle around the others with them.
+    point_data
+        With an array of points: arrays of values at them, by name.
+
+    Returns
+    -------
+    vtkPolyData or pyvista.PolyData
+        The input's points and point data, and triangles. A PyVista input makes a PyVista output.
+
+    Raises
+    ------
+    RuntimeError, KeyboardInterrupt
+        As delaunay().
+
+    Examples
+    --------
+    >>> mesh = tipp.delaunay_2d(xyz, point_data={"depth": depth})
+    """
+    is_data = hasattr(points, "IsA") and points.IsA("vtkDataObject")
+    if is_data and point_data is not None:
+        raise ValueError("point_data goes with an array of points; a data set has its own.")
+    algorithm = vtkTIPPDelaunay2D()
+    algorithm.SetInputData(points if is_data else point_cloud(points, point_data))
+    algorithm.SetTolerance(tol)
+    algorithm.SetAlpha(alpha)
+    algorithm.SetOffset(offset)
+    algorithm.SetBoundingTriangulation(bound)
+    algorithm.SetNumberOfPartitions(*(partitions or (0, 0)))
+    algorithm.SetSchedule(_choice("schedule", schedule, _SCHEDULES))
+    algorithm.SetNumberOfThreads(threads)
+    run(algorithm, progress_bar)
+    return wrapped_like(algorithm.GetOutput(), points)

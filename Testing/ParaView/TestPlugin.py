@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The plugin loads without a warning, and its proxies have the properties of those they stand in for."""
+from run_paraview import Session, expect
+
+PROGRAM = """
+import os
+from paraview import servermanager
+from paraview.simple import *
+LoadPlugin(os.path.join(os.environ["TIPP_PLUGIN_DIR"], "TIPPPlugin.so"), remote=False, ns=globals())
+
+def properties(proxy):
+    return set(proxy.ListProperties())
+
+points = Plane(XResolution=20, YResolution=10)
+ours, theirs = TIPPDelaunay2D(Input=points), Delaunay2D(Input=points)
+print("missing of Delaunay2D:", sorted(properties(theirs) - properties(ours)))
+ours.UpdatePipeline()
+print("triangles:", ours.GetDataInformation().GetNumberOfCells())
+print("statistics:", OutputPort(ours, 1).GetDataInformation().GetDataClassName())
+
+ours, theirs = RangeResample(Input=ours), ResampleToImage(Input=points)
+print("missing of ResampleToImage:", sorted(properties(theirs) - properties(ours)))
+print("devices:", ours.GetProperty("Device").GetAvailable()[:2])
+ours.UpdatePipeline()
+print("samples:", ours.GetDataInformation().GetExtent())
+
+from tipp import vtkTIPPDelaunay2D, vtkTIPPRangeReader
+print("wrapped:", vtkTIPPDelaunay2D().GetClassName(), vtkTIPPRangeReader().GetUseRange())
+
+definitions = servermanager.ProxyManager().SMProxyManager.GetProxyDefinitionManager()
+for group, name in (("sources", "TIPPReader"), ("writers", "TIPPWriter"), ("filters", "TIPPDelaunay2D"),
+                    ("filters", "RangeResample")):
+    proxy = servermanager.ProxyManager().NewProxy(group, name)
+    names = servermanager.PropertyIterator(servermanager._getPyProxy(proxy))
+    bare = [p.GetXMLName() for p in names if not (p.GetDocumentation() and p.GetDocumentation().GetDescription())]
+    print("undocumented of", name + ":", bare)
+"""
+EXPECTED = [
+    "missing of Delaunay2D: []",
+    "triangles: 400",
+    "statistics: vtkTable",
+    "missing of ResampleToImage: []",
+    "devices: ['auto', 'openmp']",
+    "samples: (0, 255, 0, 255, 0, 0)",
+    "wrapped: vtkTIPPDelaunay2D False",
+    "undocumented of TIPPReader: []",
+    "undocumented of TIPPWriter: []",
+    "undocumented of TIPPDelaunay2D: []",
+    "undocumented of RangeResample: []",
+]
+
+session = Session(__doc__)
+script = session.scratch / "plugin.py"
+script.write_text(PROGRAM)
+lines = session.pvbatch(script).splitlines()
+for line in EXPECTED:
+    expect(line in lines, f"not printed: {line}")

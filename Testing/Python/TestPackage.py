@@ -1,0 +1,293 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The functions of the package tipp, on NumPy arrays."""
+import inspect
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import textwrap
+import threading
+import unittest
+import warnings
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+import tipp
+
+
+def random_points(count, columns=3, kind=np.float64):
+    return np.random.default_rng(5).random((count, columns)).astype(kind)
+
+
+def edges_of(triangles):
+    return {tuple(sorted((t[i], t[i - 1]))) for t in triangles.tolist() for i in range(3)}
+
+
+def address(array):
+    return array.__array_interface__["data"][0]
+
+
+class Delaunay(unittest.TestCase):
+    def test_triangles_are_counter_clockwise_and_cover_the_hull(self):
+        p = np.vstack([random_points(1000, 2), [[0, 0], [1, 0], [1, 1], [0, 1]]])
+        a, b, c = p[tipp.delaunay(p)].transpose(1, 0, 2)
+        areas = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+        self.assertTrue((areas > 0).all())
+        self.assertAlmostEqual(areas.sum() / 2, 1.0, places=12)
+
+    def test_two_and_three_columns_give_the_same_triangles(self):
+        p = random_points(500)
+        np.testing.assert_array_equal(tipp.delaunay(p), tipp.delaunay(p[:, :2]))
+
+    def test_whole_numbers_and_other_orders_in_memory_are_taken(self):
+        p = np.random.default_rng(1).integers(0, 1000, (300, 2))
+        expected = edges_of(tipp.delaunay(p.astype(float)))
+        self.assertEqual(edges_of(tipp.delaunay(p)), expected)
+        self.assertEqual(edges_of(tipp.delaunay(np.asfortranarray(p.astype(float)))), expected)
+        self.assertEqual(edges_of(tipp.delaunay(p.astype(">f8"))), expected)
+
+    def test_partitions_schedule_and_threads_change_nothing(self):
+        p = random_points(20000, 2)
+        expected = np.sort(np.sort(tipp.delaunay(p), axis=1), axis=0)
+        for options in ({"partitions": (3, 2)}, {"schedule": "stages"}, {"threads": 1}):
+            got = tipp.delaunay(p, **options)
+            np.testing.assert_array_equal(np.sort(np.sort(got, axis=1), axis=0), expected)
+
+    def test_points_of_three_columns_are_not_copied(self):
+        for kind in (np.float32, np.float64):
+            p = random_points(100, 3, kind)
+            mesh = tipp.delaunay_2d(p)
+            self.assertEqual(address(vtk_to_numpy(mesh.GetPoints().GetData())), address(p))
+
+    def test_a_mesh_keeps_the_memory_of_its_points(self):
+        mesh = tipp.delaunay_2d(random_points(100000, 3), point_data={"v": np.arange(100000.0)})
+        trash = [np.full((100000, 3), -1.0) for _ in range(5)]
+        self.assertGreaterEqual(mesh.GetBounds()[0], 0)
+        self.assertEqual(tipp.as_array(mesh, "v")[99999], 99999)
+        del trash
+
+    def test_triangles_outlive_the_mesh(self):
+        triangles = tipp.delaunay(random_points(50000, 2))
+        trash = [np.full(len(triangles) * 3, -1, triangles.dtype) for _ in range(5)]
+        self.assertEqual((triangles.min(), triangles.max()), (0, 49999))
+        del trash
+
+    def test_rejected_points_are_warned_of(self):
+        p = random_points(100, 2)
+        p[7] = np.nan
+        with self.assertWarnsRegex(RuntimeWarning, "the first is point 7"):
+            triangles = tipp.delaunay(p)
+        self.assertFalse((triangles == 7).any())
+
+    def test_an_array_of_another_shape_or_type_is_refused(self):
+        with self.assertRaisesRegex(ValueError, "shape"):
+            tipp.delaunay(np.zeros(5))
+        with self.assertRaisesRegex(ValueError, "shape"):
+            tipp.delaunay(np.zeros((5, 4)))
+        with self.assertRaisesRegex(TypeError, "real numbers"):
+            tipp.delaunay(np.zeros((5, 2), complex))
+        with self.assertRaisesRegex(ValueError, "2 values for 5 points"):
+            tipp.delaunay_2d(random_points(5), point_data={"v": [1.0, 2.0]})
+        with self.assertRaisesRegex(ValueError, "dynamic, producer-consumer|stages, dynamic"):
+            tipp.delaunay(random_points(5), schedule="random")
+
+    def test_alpha_leaves_long_triangles_out(self):
+        p = random_points(1000)
+        p[:, 2] = 0
+        self.assertLess(tipp.delaunay_2d(p, alpha=0.02).GetNumberOfPolys(),
+                        tipp.delaunay_2d(p).GetNumberOfPolys())
+
+    def test_a_data_set_passes_its_own_data_on(self):
+        mesh = tipp.delaunay_2d(random_points(50), point_data={"v": np.arange(50)})
+        again = tipp.delaunay_2d(mesh)
+        np.testing.assert_array_equal(tipp.as_array(again, "v"), np.arange(50))
+        with self.assertRaisesRegex(ValueError, "has its own"):
+            tipp.delaunay_2d(mesh, point_data={"w": np.arange(50)})
+
+
+class Resample(unittest.TestCase):
+    def setUp(self):
+        p = np.vstack([random_points(2000), [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]])
+        self.mesh = tipp.delaunay_2d(p, point_data={"f": 2 * p[:, 0] + p[:, 1], "g": p[:, 0]})
+
+    def test_three_lines_lead_from_an_array_to_an_image(self):
+        grid = tipp.as_array(tipp.resample(self.mesh, dimensions=(5, 3, 1)), "f")
+        x, y = np.meshgrid(np.linspace(0, 1, 5), np.linspace(0, 1, 3))
+        np.testing.assert_allclose(grid, 2 * x + y, atol=1e-12)
+
+    def test_samples_are_square_by_default(self):
+        image = tipp.resample(self.mesh, bounds=(0, 1, 0, 0.5, -1, 1))
+        self.assertEqual(image.GetDimensions(), (256, 129, 1))
+
+    def test_spacing_begins_at_the_lower_bound(self):
+        image = tipp.resample(self.mesh, bounds=(0.125, 0.65, 0.25, 0.75, 0, 0),
+                              spacing=(0.125, 0.25, 0))
+        self.assertEqual(image.GetDimensions(), (5, 3, 1))
+        np.testing.assert_allclose(tipp.as_array(image, "g")[0], 0.125 * np.arange(1, 6), atol=1e-12)
+
+    def test_arrays_can_be_chosen(self):
+        image = tipp.resample(self.mesh, dimensions=(4, 4, 1), arrays=["g"])
+        self.assertIsNotNone(image.GetPointData().GetArray("g"))
+        self.assertIsNone(image.GetPointData().GetArray("f"))
+
+    def test_null_value_and_no_data_mask(self):
+        values = tipp.as_array(self.mesh, "f")
+        values[values > 2] = -99999
+        image = tipp.resample(self.mesh, dimensions=(20, 20, 1), null_value=-1, no_data=-99999)
+        grid = tipp.as_array(image, "f")
+        self.assertEqual(grid[-1, -1], -1)
+        self.assertGreaterEqual(grid.min(), -1)
+        self.assertEqual(tipp.as_array(image, "vtkValidPointMask")[-1, -1], 0)
+
+    def test_errors_are_exceptions(self):
+        with self.assertRaisesRegex(RuntimeError, "lower one first"):
+            tipp.resample(self.mesh, bounds=(1, 0, 0, 1, 0, 0), dimensions=(4, 4, 1))
+        with self.assertRaisesRegex(RuntimeError, "not 'cuda'"):
+            tipp.resample(self.mesh, device="cuda")
+
+    def test_an_unknown_array_is_named(self):
+        with self.assertRaisesRegex(KeyError, "no array 'h'.*'f', 'g'"):
+            tipp.as_array(self.mesh, "h")
+
+
+class Meshes(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = os.path.join(self.folder.name, "mesh.tipp")
+        p = random_points(5000)
+        p[:, 2] = 0
+        self.mesh = tipp.delaunay_2d(p, point_data={"f": p[:, 0], "g": p[:, 1]})
+        tipp.write(self.mesh, self.path, tiling="grid:3x3")
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_a_mesh_comes_back_whole(self):
+        back = tipp.read(self.path)
+        self.assertEqual(back.GetNumberOfCells(), self.mesh.GetNumberOfCells())
+
+    def test_bounds_read_a_part(self):
+        part = tipp.read(self.path, bounds=(0.1, 0.2, 0.1, 0.2, 0, 0))
+        self.assertGreater(part.GetNumberOfCells(), 50)
+        self.assertLess(part.GetNumberOfCells(), 300)
+
+    def test_arrays_can_be_chosen(self):
+        back = tipp.read(self.path, point_arrays=["g"])
+        self.assertTrue(back.GetPointData().HasArray("g"))
+        self.assertFalse(back.GetPointData().HasArray("f"))
+        with self.assertRaisesRegex(KeyError, "no point array 'h'"):
+            tipp.read(self.path, point_arrays=["h"])
+
+    def test_pieces_come_unmerged(self):
+        self.assertEqual(tipp.read(self.path, merge=False).GetNumberOfPartitions(), 9)
+
+    def test_a_mesh_that_was_read_can_be_written_again(self):
+        other = os.path.join(self.folder.name, "other.tipp")
+        tipp.write(tipp.read(self.path), other, tiling="grid:2x2")
+        self.assertEqual(tipp.read(other).GetNumberOfCells(), self.mesh.GetNumberOfCells())
+
+    def test_a_file_is_partitioned_without_being_loaded(self):
+        writer = vtkXMLUnstructuredGridWriter()
+        mesh = tipp.read(self.path)
+        for data, ids in ((mesh.GetPointData(), "GlobalPointIds"), (mesh.GetCellData(), "GlobalCellIds")):
+            data.RemoveArray(ids)
+            data.RemoveArray("vtkGhostType")
+        writer.SetInputData(mesh)
+        flat, other = (os.path.join(self.folder.name, name) for name in ("flat.vtu", "other.tipp"))
+        writer.SetFileName(flat)
+        writer.SetEncodeAppendedData(False)
+        writer.SetCompressorTypeToNone()
+        writer.Write()
+        tipp.write(flat, other, tiling="grid:2x2")
+        self.assertEqual(tipp.read(other).GetNumberOfCells(), self.mesh.GetNumberOfCells())
+
+    def test_errors_are_exceptions(self):
+        with self.assertRaisesRegex(RuntimeError, "neither a partitioned mesh"):
+            tipp.read(os.path.join(self.folder.name, "nothing"))
+        with self.assertRaisesRegex(RuntimeError, "Tiling is 'hexagons'"):
+            tipp.write(self.mesh, self.path, tiling="hexagons")
+
+
+class Interrupt(unittest.TestCase):
+    def test_ctrl_c_stops_a_triangulation(self):
+        points = random_points(3_000_000)
+        threading.Timer(0.15, os.kill, (os.getpid(), signal.SIGINT)).start()
+        former = signal.getsignal(signal.SIGINT)
+        with self.assertRaises(KeyboardInterrupt):
+            tipp.delaunay(points, threads=1)
+        self.assertIs(signal.getsignal(signal.SIGINT), former)
+        self.assertEqual(tipp.delaunay(points[:100]).shape[1], 3)
+
+    def test_other_threads_may_call(self):
+        shapes = []
+        thread = threading.Thread(target=lambda: shapes.append(tipp.delaunay(random_points(100)).shape))
+        thread.start()
+        thread.join()
+        self.assertEqual(shapes[0][1], 3)
+
+
+class Package(unittest.TestCase):
+    def test_every_public_function_is_documented_and_has_type_hints(self):
+        for name in tipp.__all__:
+            thing = getattr(tipp, name)
+            self.assertTrue(inspect.getdoc(thing), name)
+            if inspect.isfunction(thing):
+                parameters = inspect.signature(thing).parameters
+                missing = [p for p in parameters if p not in thing.__annotations__]
+                self.assertEqual(missing, [], name)
+                undocumented = [p for p in parameters if p not in inspect.getdoc(thing)]
+                self.assertEqual(undocumented, [], name)
+
+    def run_python(self, program, **files):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in files.items():
+                with open(os.path.join(folder, name + ".py"), "w", encoding="utf-8") as file:
+                    file.write(textwrap.dedent(text))
+            path = os.pathsep.join([folder, os.environ.get("PYTHONPATH", "")])
+            return subprocess.run([sys.executable, "-c", textwrap.dedent(program)], text=True, check=True,
+                                  env={**os.environ, "PYTHONPATH": path}, capture_output=True).stdout.strip()
+
+    # What PyVista gives packages like this one to register with, before and since version 0.48.
+    OLD = """
+        class DataObject: pass
+        class DataSet(DataObject): pass
+        """
+    NEW = OLD + """
+        def register_dataset_accessor(name, cls):
+            def register(accessor):
+                setattr(cls, name, property(accessor))
+                return accessor
+            return register
+        """
+
+    def test_importing_it_imports_no_pyvista(self):
+        program = "import sys, tipp; print('pyvista' in sys.modules)"
+        self.assertEqual(self.run_python(program, pyvista=self.OLD), "False")
+
+    def test_pyvista_gets_the_accessor_in_any_order_of_imports(self):
+        for first, second in (("tipp", "pyvista"), ("pyvista", "tipp")):
+            for release in (self.OLD, self.NEW):
+                program = f"import {first}, {second}; print(type(pyvista.DataSet().tipp).__name__)"
+                self.assertEqual(self.run_python(program, pyvista=release), "Accessor")
+
+    def test_a_missing_pyvista_is_missing_as_ever(self):
+        program = """
+            import sys
+            sys.path = [p for p in sys.path if "site-packages" not in p]
+            import tipp
+            try:
+                import pyvista
+            except ModuleNotFoundError as error:
+                print(error.name)
+            else:
+                print("pyvista")  # Debian's own is there
+            """
+        self.assertEqual(self.run_python(program), "pyvista")
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("error", DeprecationWarning)
+    unittest.main()

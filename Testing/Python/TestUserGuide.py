@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Documentation/UserGuide.md tells every property of the classes, in the section of its class.
+
+Usage: TestUserGuide.py USER_GUIDE
+"""
+import re
+import sys
+import unittest
+
+import tipp
+
+GUIDE = open(sys.argv.pop(1), encoding="utf-8").read()
+SECTIONS = dict(re.findall(r"^## (\S+)\n(.*?)(?=^## |\Z)", GUIDE, re.MULTILINE | re.DOTALL))
+# Short names for others of the same class.
+SHORTHAND = re.compile(r"(\w+)(On|Off|ToStages|ToDynamic|ToProducerConsumer|ToOwned|ToOwnedAndBorrowed)$")
+
+
+def properties_of(cls):
+    inherited = {name for base in cls.__mro__[1:] for name in vars(base)}
+    own = [name for name in vars(cls) if name not in inherited]
+    setters = {name[3:] for name in own if name.startswith("Set") and not SHORTHAND.match(name)}
+    selections = {name[3:] for name in own if name.startswith("Get") and name.endswith("ArraySelection")}
+    return setters | selections
+
+
+class UserGuide(unittest.TestCase):
+    def test_every_property_has_its_line(self):
+        for name in (n for n in tipp.__all__ if n.startswith("vtk")):
+            properties = properties_of(getattr(tipp, name))
+            self.assertGreater(len(properties), 6, name)
+            missing = [p for p in properties if not re.search(rf"\b{p}\b", SECTIONS[name])]
+            self.assertEqual(missing, [], name)
+
+
+if __name__ == "__main__":
+    unittest.main()
