@@ -9,6 +9,7 @@ namespace tipp
 GroupMesh::GroupMesh(PartitionIndex partitions, const std::vector<PartitionIndex>& withPoints)
   : Members(static_cast<std::size_t>(partitions))
   , Finished(static_cast<std::size_t>(partitions), 1)
+  , Meeting(static_cast<std::size_t>(partitions), 0)
   , LabelSeen(4 * static_cast<std::size_t>(partitions), 0)
 {
   for (const PartitionIndex p : withPoints)
@@ -39,6 +40,10 @@ GroupMesh::Final GroupMesh::add(SeamGroups added)
     if (piece->Alive[g])
     {
       this->Live += groups.triangles(g).size();
+      for (const PartitionIndex p : groups.met(g))
+      {
+        ++this->Meeting[std::size_t(p)];
+      }
     }
     else
     {
@@ -57,6 +62,10 @@ void GroupMesh::finish(PartitionIndex partition)
     {
       reference.Of->Alive[reference.Group] = 0;
       this->Live -= reference.Of->Groups->triangles(reference.Group).size();
+      for (const PartitionIndex p : reference.Of->Groups->met(reference.Group))
+      {
+        --this->Meeting[std::size_t(p)];
+      }
     }
   }
   members = Membership();

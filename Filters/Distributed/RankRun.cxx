@@ -16,13 +16,6 @@ namespace
 
 constexpr int ChosenInitialPoints = 8;
 
-/// See Triangulate.cxx: circumdisks that meet many partitions each bring all vertices to all.
-bool partitionsPay(const SeamTriangles& initialMesh)
-{
-  constexpr std::size_t most = 4;
-  return initialMesh.Met.size() <= most * initialMesh.Triangles.size();
-}
-
 bool placeLess(const PlainVertex& a, const PlainVertex& b)
 {
   return lexicographicLess(a.Place, b.Place);

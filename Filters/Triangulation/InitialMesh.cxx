@@ -135,6 +135,12 @@ SeamTriangles triangulateVertices(
   return all;
 }
 
+bool partitionsPay(const SeamTriangles& initialMesh)
+{
+  constexpr std::size_t most = 4; // ordinary points give 2 to 3, by measurement
+  return initialMesh.Met.size() <= most * initialMesh.Triangles.size();
+}
+
 template std::vector<SeamVertex> chooseInitialPoints(
   const Tiling&, PointBuckets<std::int32_t>&, int);
 template std::vector<SeamVertex> chooseInitialPoints(

@@ -24,6 +24,10 @@ std::vector<SeamVertex> chooseInitialPoints(
 SeamTriangles triangulateVertices(
   const Tiling& tiling, const std::vector<SeamVertex>& vertices, int threads);
 
+/// False for circumdisks that meet many partitions each (points on a circle, a parabola, a line and
+/// one beside it): they would bring nearly all vertices to every worker.
+bool partitionsPay(const SeamTriangles& initialMesh);
+
 extern template std::vector<SeamVertex> chooseInitialPoints(
   const Tiling&, PointBuckets<std::int32_t>&, int);
 extern template std::vector<SeamVertex> chooseInitialPoints(

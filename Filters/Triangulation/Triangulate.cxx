@@ -43,15 +43,6 @@ int threadsForPass(std::size_t points, int threads)
   return static_cast<int>(std::min(static_cast<std::size_t>(threads), 1 + points / shortest));
 }
 
-/// Circumdisks that meet many partitions each (points on a circle, a parabola, a line and one
-/// beside it) would bring nearly all vertices to every worker. Ordinary points give 2 to 3, by
-/// measurement.
-bool partitionsPay(const SeamTriangles& initialMesh)
-{
-  constexpr std::size_t most = 4;
-  return initialMesh.Met.size() <= most * initialMesh.Triangles.size();
-}
-
 /// One run of the algorithm, step by step.
 template <typename Id>
 class Run

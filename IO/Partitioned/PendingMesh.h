@@ -2,6 +2,8 @@
 #ifndef tippPendingMesh_h
 #define tippPendingMesh_h
 
+#include "vtkTIPPIOModule.h"
+
 #include <string>
 
 namespace tipp
@@ -10,7 +12,7 @@ namespace tipp
 /// The folder of a partitioned mesh under a hidden, temporary name beside its path until commit().
 /// Without commit() it goes away; what a killed process has left, the next one for the same path
 /// clears away.
-class PendingMesh
+class VTKTIPPIO_EXPORT PendingMesh
 {
 public:
   /// Throws IOError if the path's own folder is missing or closed to us, or if there is something

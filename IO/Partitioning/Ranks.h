@@ -2,6 +2,8 @@
 #ifndef tippRanks_h
 #define tippRanks_h
 
+#include "vtkTIPPIOModule.h"
+
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -14,7 +16,7 @@ namespace tipp
 {
 
 /// The ranks that work on one mesh; one alone if there is no controller.
-class Ranks
+class VTKTIPPIO_EXPORT Ranks
 {
 public:
   explicit Ranks(vtkMultiProcessController* controller)

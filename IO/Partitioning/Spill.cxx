@@ -120,13 +120,22 @@ void Spill::read(std::size_t key, std::size_t most,
   }
 }
 
+void Spill::readAll(std::size_t key, void* to) const
+{
+  char* at = static_cast<char*>(to);
+  for (std::size_t i = this->Starts[key]; i < this->Starts[key + 1]; ++i)
+  {
+    const Extent& extent = this->Sorted[i];
+    const std::size_t bytes = extent.Rows * this->RowBytes;
+    this->Files[extent.Key].read(extent.Offset, at, bytes);
+    at += bytes;
+  }
+}
+
 std::vector<char> Spill::readAll(std::size_t key) const
 {
-  std::vector<char> rows;
-  rows.reserve(std::size_t(this->Rows[key]) * this->RowBytes);
-  this->read(key, std::size_t(1) << 16,
-    [&](const char* block, std::size_t count)
-    { rows.insert(rows.end(), block, block + count * this->RowBytes); });
+  std::vector<char> rows(std::size_t(this->Rows[key]) * this->RowBytes);
+  this->readAll(key, rows.data());
   return rows;
 }
 

@@ -5,6 +5,7 @@
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
 #include "Partitioning/Ranks.h"
+#include "vtkTIPPIOModule.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +20,7 @@ namespace tipp
 /// Rows of equal size on their way from chunks of a mesh to the pieces: a distribution sort by a
 /// key through a file of each rank. Within a key the rows stay in the order of their chunks, and of
 /// ranks.
-class Spill
+class VTKTIPPIO_EXPORT Spill
 {
 public:
   /// `keys`: the number of keys. Makes the rank's file, "PATH.RANK"; throws IOError.
@@ -41,6 +42,8 @@ public:
   void read(std::size_t key, std::size_t most,
     const std::function<void(const char* rows, std::size_t count)>& take) const;
   std::vector<char> readAll(std::size_t key) const;
+  /// All of the key's rows; there must be room for them.
+  void readAll(std::size_t key, void* to) const;
 
 private:
   struct Extent

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippGrowingPiece_h
+#define tippGrowingPiece_h
+
+#include "Files/OutputFile.h"
+#include "Partitioned/PartitionedMesh.h"
+#include "Partitioned/PieceLayout.h"
+#include "Partitioned/PublishPieces.h"
+#include "vtkTIPPIOModule.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace tipp
+{
+
+/// How points stand in rows of 8-byte words: x, y, further columns, and at last the id.
+struct PointRows
+{
+  std::size_t Words = 3;
+  int Z = -1;                  ///< the word that is the third coordinate, or -1: it is 0
+  std::vector<int> Attributes; ///< of the mesh's arrays: the word, or -1: the representative's id
+
+  std::int64_t id(const double* row) const
+  {
+    std::int64_t id = 0;
+    std::memcpy(&id, row + this->Words - 1, sizeof(id));
+    return id;
+  }
+};
+
+/// A piece of triangles whose file is written in two goes: nearly all as soon as the piece's own
+/// points are triangulated, and the rest, which concerns the border alone, when its neighbours are.
+/// In between it keeps the border.
+///
+/// *Rim* points are own points that the border's triangles have; the caller tells which. Points go
+/// by places here: the own ones have those from `first` on.
+class VTKTIPPIO_EXPORT GrowingPiece
+{
+public:
+  GrowingPiece() = default;
+  GrowingPiece(std::int64_t first, std::int64_t points)
+    : First(first)
+    , OwnPoints(points)
+  {
+  }
+
+  bool owns(std::int64_t place) const
+  {
+    return place >= this->First && place < this->First + this->OwnPoints;
+  }
+
+  /// @name The border
+  ///@{
+  /// A triangle that the piece owns and these other pieces borrow, ascending; perhaps none.
+  void addTriangle(
+    const std::array<std::int64_t, 3>& places, const std::vector<std::int32_t>& borrowers);
+  /// Whether a row is missing, that of another piece's point.
+  bool needsRow(std::int64_t place) const
+  {
+    return !this->owns(place) && this->Ghosts.count(place) == 0;
+  }
+  void addRow(std::int64_t place, const double* row, const PointRows& rows);
+  ///@}
+
+  struct Corners
+  {
+    const std::int32_t* Begin; ///< three a triangle, counted from the first own point
+    std::size_t Triangles;
+  };
+  struct Interior
+  {
+    const double* Rows = nullptr;      ///< of the own points
+    const std::uint8_t* Rim = nullptr; ///< of each own point: 1 if it is one of the rim's
+    std::vector<Corners> Triangles;    ///< all but the border's
+    /// Own points at the place of another: for each, that other; counted from the first.
+    const std::unordered_map<std::int32_t, std::int32_t>* Representatives = nullptr;
+  };
+  /// The first go. Throws IOError.
+  void writeInterior(const PartitionedMesh& mesh, std::size_t number, const PointRows& rows,
+    const Interior& interior);
+  bool hasInterior() const { return this->IsWritten; }
+
+  /// The row of an own rim point, after the first go.
+  const double* rimRow(std::int64_t place, const PointRows& rows) const;
+
+  /// The second go, when no triangle will be added any more. All of the file is there but the
+  /// global ids of cells. Throws IOError.
+  FinishedPiece writeBorder(const PartitionedMesh& mesh, std::size_t number, const PointRows& rows);
+
+  std::size_t bytes() const;
+
+  ///@{
+  /// As bytes, to go on in another process; load() throws std::runtime_error if they are not
+  /// what save() made.
+  std::string save() const;
+  static GrowingPiece load(const std::string& bytes);
+  ///@}
+
+private:
+  struct SharedTriangle
+  {
+    std::array<std::int64_t, 3> Places;
+    std::uint64_t BorrowerEnd; ///< in Borrowers
+  };
+  struct Border;
+  friend struct Border;
+
+  void numberPoints(
+    const Interior& interior, const PointRows& rows, std::vector<std::int32_t>& numbers);
+  std::int64_t countInterior(const Interior& interior, const std::vector<std::int32_t>& numbers);
+  void makeRoom(const PartitionedMesh& mesh, std::size_t number);
+  void writeInteriorArray(const OutputFile& file, const PieceArray& array, std::uint64_t offset,
+    const PointRows& rows, const Interior& interior, const std::vector<std::int32_t>& numbers,
+    std::vector<std::uint64_t>& checksums) const;
+  void extend(const double* row, const PointRows& rows);
+  void enlargeFile(const PartitionedMesh& mesh, std::size_t number, const PieceLayout& from,
+    const PieceLayout& to) const;
+
+  std::int64_t First = 0;
+  std::int64_t OwnPoints = 0;
+  bool IsWritten = false;
+
+  // Of the interior, after the first go.
+  PieceSummary Room;                    ///< counts that the file has room for
+  std::int64_t InteriorPoints = 0;      ///< own points but the rim's
+  std::int64_t InteriorCells = 0;       ///< triangles of these alone
+  Bounds Extent{};                      ///< of the own points
+  std::vector<std::uint64_t> Checksums; ///< of each array's first part
+  std::vector<std::int64_t> RimPlaces;  ///< ascending
+  std::vector<double> RimRows;
+  /// Triangles of the interior at the rim: numbers in the piece, or -1 - k for the k-th rim point.
+  std::vector<std::array<std::int32_t, 3>> RimTriangles;
+
+  // Of the border.
+  std::vector<SharedTriangle> Shared;
+  std::vector<std::int32_t> Borrowers;
+  std::unordered_map<std::int64_t, std::int64_t> Ghosts; ///< of places: which row
+  std::vector<double> GhostRows;
+};
+
+/// Writes the global ids of a finished piece's cells, which follow each other from `first` on, and
+/// completes its table. Throws IOError.
+VTKTIPPIO_EXPORT void writeCellIds(
+  const PartitionedMesh& mesh, std::size_t number, std::int64_t first, FinishedPiece& piece);
+
+} // namespace tipp
+
+#endif
