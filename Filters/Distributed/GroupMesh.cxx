@@ -112,4 +112,24 @@ const std::vector<std::uint32_t>& GroupMesh::reach(PartitionIndex partition)
   return members.Reach;
 }
 
+SeamGroups GroupMesh::liveGroups() const
+{
+  SeamGroups all;
+  for (std::size_t p = 0; p < this->Members.size(); ++p)
+  {
+    for (const Reference& reference : this->Members[p].References)
+    {
+      const SeamGroups& groups = *reference.Of->Groups;
+      const auto met = groups.met(reference.Group);
+      const PartitionIndex* const first = std::find_if(
+        met.begin(), met.end(), [this](PartitionIndex q) { return !this->isFinished(q); });
+      if (reference.isAlive() && first != met.end() && std::size_t(*first) == p)
+      {
+        all.append(groups, reference.Group);
+      }
+    }
+  }
+  return all;
+}
+
 } // namespace tipp

@@ -46,6 +46,15 @@ public:
   /// Whether a group that is not final meets the partition, be this finished or not.
   bool isMet(PartitionIndex partition) const { return this->Meeting[std::size_t(partition)] > 0; }
 
+  /// All groups that are not final, each once: added to an empty mesh with the same finished
+  /// partitions they make this one again.
+  SeamGroups liveGroups() const;
+
+  bool isFinished(PartitionIndex partition) const
+  {
+    return this->Finished[std::size_t(partition)] != 0;
+  }
+
   /// visit(groups, index) for every group that is not final, for some more than once.
   template <typename Visit>
   void visitLive(Visit&& visit) const

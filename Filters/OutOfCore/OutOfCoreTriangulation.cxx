@@ -3,24 +3,24 @@
 
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
+#include "OutOfCore/Checkpoint.h"
 #include "OutOfCore/InputSurvey.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceRun.h"
+#include "OutOfCore/ScratchFolder.h"
 #include "OutOfCore/SpillPoints.h"
 #include "Partitioned/PendingMesh.h"
 #include "Triangulation/Stopwatch.h"
 
 #include <omp.h>
 
-#include <filesystem>
+#include <algorithm>
 #include <memory>
 
 namespace tipp
 {
 namespace
 {
-
-namespace fs = std::filesystem;
 
 constexpr const char* representativeName = "RepresentativePointId";
 
@@ -37,17 +37,22 @@ public:
     , Path(path)
     , Options(options)
     , Threads(options.Threads > 0 ? options.Threads : omp_get_max_threads())
-    , Pending(path)
+    , Pending(PendingMesh::lasting(path))
+    , Scratch(this->Pending.temporaryPath(), options.Scratch)
   {
     this->Statistics.Threads = this->Threads;
+    this->Mesh.Path = this->Pending.temporaryPath();
   }
 
   OutOfCoreStatistics run()
   {
     try
     {
-      this->survey();
-      this->spill();
+      if (!this->resume())
+      {
+        this->survey();
+        this->spill();
+      }
       this->triangulate();
       this->publish();
     }
@@ -72,28 +77,124 @@ private:
     this->Statistics.Phases.push_back({ name, this->Watch.restart() });
   }
 
+  void keep()
+  {
+    this->Pending.keep();
+    this->Scratch.keep();
+    this->Statistics.Kept = true;
+  }
+
+  /// False if there is nothing to resume.
+  bool resume()
+  {
+    if (!this->Scratch.hasPlan())
+    {
+      return false;
+    }
+    this->keep();
+    if (!this->Options.Resume)
+    {
+      throw IOError(this->Path,
+        "has been begun by another run, and its work is in " + this->Pending.temporaryPath() +
+          "; resume it, or remove that folder to start again.");
+    }
+    const Bytes bytes = readCheckpoint(this->Scratch.plan());
+    LoadArchive archive(bytes);
+    this->exchangeInput(archive);
+    this->Memory = std::make_unique<MemoryPlan>(this->Options, this->Rows.Words);
+    this->Plan = std::make_unique<PiecePlan>(archive);
+    this->Spilled =
+      std::make_unique<SpilledPoints>(this->Scratch.points(), *this->Plan, this->Rows, archive);
+    this->Statistics.Resumed = true;
+    this->describeMesh();
+    this->endPhase("resume");
+    return true;
+  }
+
+  /// What tells that it is the same run, and what is known of the input.
+  template <typename Archive>
+  void exchangeInput(Archive& archive)
+  {
+    const std::string ours = this->identity();
+    std::string identity = ours;
+    archive(identity);
+    if (identity != ours)
+    {
+      throw IOError(this->Path,
+        "was begun with another input, or with one that has been changed since, or with other "
+        "options; give those, or remove " +
+          this->Pending.temporaryPath() + " to start again.");
+    }
+    archive(this->Survey.Points);
+    archive(this->Survey.Rejected);
+    archive(this->Survey.Bounds);
+    archive(this->Survey.Factor);
+    archive(this->Survey.Collinear);
+    archive(this->Rows.Words);
+    archive(this->Rows.Z);
+    archive(this->Rows.Attributes);
+    std::vector<std::string> names;
+    for (const StoredArray& array : this->Mesh.Arrays)
+    {
+      names.push_back(array.Name);
+    }
+    archive(names);
+    this->Mesh.Arrays.clear();
+    for (std::size_t i = 0; i < names.size(); ++i)
+    {
+      const bool isId = this->Rows.Attributes[i] < 0;
+      this->Mesh.Arrays.push_back(
+        { names[i], true, isId ? Scalar::Int64 : Scalar::Float64, 1, -1 });
+    }
+  }
+
+  std::string identity() const
+  {
+    const OutOfCoreOptions& options = this->Options;
+    return "TIPP out of core 1\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
+      std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
+      std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") + "\n" +
+      options.Scratch;
+  }
+
+  void savePlan()
+  {
+    SaveArchive archive;
+    this->exchangeInput(archive);
+    this->Plan->save(archive);
+    this->Spilled->save(archive);
+    writeCheckpoint(this->Scratch.plan(), archive);
+    this->keep();
+  }
+
   void survey()
   {
-    fs::create_directory(this->Pending.temporaryPath() + "/pieces");
+    this->Scratch.clear();
     this->Memory =
       std::make_unique<MemoryPlan>(this->Options, 3 + this->Input.columns().size(), this->Threads);
     this->Survey = surveyInput(this->Input, this->Memory->BlockPoints, this->Memory->SamplePoints,
       this->Threads, [this](std::int64_t) { this->report(0); });
     this->describeColumns();
-    this->Memory = std::make_unique<MemoryPlan>(this->Options, this->Rows.Words, this->Threads);
-    this->Statistics.Points = this->Survey.Points;
-    this->Statistics.Rejected = this->Survey.Rejected;
+    this->Memory = std::make_unique<MemoryPlan>(this->Options, this->Rows.Words);
     if (this->Survey.Points == this->Survey.Rejected)
     {
       throw IOError("There is no point with finite coordinates in the input, so nothing to write.");
     }
+    this->requireSpace();
     this->Plan = std::make_unique<PiecePlan>(
       this->Survey, this->Options, *this->Memory, this->Rows.Words, this->Threads);
     this->Survey.Sample = {};
-    this->Statistics.Pieces = this->Plan->pieces();
-    this->Statistics.Partitions = this->Plan->Partitions.size();
     this->describeMesh();
     this->endPhase("survey");
+  }
+
+  void requireSpace() const
+  {
+    const auto points = std::uint64_t(this->Survey.Points - this->Survey.Rejected);
+    // Borders and ids of cells included; two triangles a point at most.
+    const std::uint64_t stored =
+      points * (24 + 8 + 1 + 8 * this->Mesh.Arrays.size() + 2 * (12 + 4 + 1 + 8)) / 50 * 51;
+    this->Scratch.requireSpace(this->Path, stored, points * 8 * this->Rows.Words);
   }
 
   void describeColumns()
@@ -120,8 +221,11 @@ private:
 
   void describeMesh()
   {
+    this->Statistics.Points = this->Survey.Points;
+    this->Statistics.Rejected = this->Survey.Rejected;
+    this->Statistics.Pieces = this->Plan->pieces();
+    this->Statistics.Partitions = this->Plan->Partitions.size();
     PartitionedMesh& mesh = this->Mesh;
-    mesh.Path = this->Pending.temporaryPath();
     mesh.Points = this->Survey.Points;
     mesh.Tiling = "delaunay:" + std::to_string(this->Plan->pieces());
     mesh.Domain = this->boundsOf(this->Survey.Bounds);
@@ -146,7 +250,27 @@ private:
         [this](std::int64_t done)
         { this->report(0.2 * double(done) / double(this->Survey.Points)); });
     this->Statistics.SpilledBytes = this->Spilled->bytes();
+    this->requireMemory();
+    this->savePlan();
     this->endPhase("spill");
+  }
+
+  /// Pieces are of equal size but where very many points share a place.
+  void requireMemory() const
+  {
+    std::int64_t most = 0;
+    for (PartitionIndex piece = 0; piece < this->Plan->pieces(); ++piece)
+    {
+      most = std::max(most, this->Spilled->count(piece));
+    }
+    constexpr std::uint64_t always = std::uint64_t(64) << 20;
+    const std::uint64_t bytes = MemoryPlan::pieceBytes(most, this->Rows.Words);
+    if (bytes > std::max(this->Options.MemoryLimit, always))
+    {
+      throw IOError(this->Path,
+        "would have a piece of " + std::to_string(most) + " points, which takes " +
+          std::to_string(bytes / 1000000 + 1) + " MB; allow more memory.");
+    }
   }
 
   void triangulate()
@@ -158,6 +282,10 @@ private:
         return !this->Options.Progress ||
           this->Options.Progress(0.2 + 0.7 * double(done) / double(this->Survey.Points));
       });
+    if (!this->Survey.Collinear && !this->Plan->IsAlone)
+    {
+      pieces.setCheckpoint(this->Scratch.state());
+    }
     const bool isDone = this->Survey.Collinear ? pieces.writePointsAlone()
       : this->Plan->IsAlone                    ? pieces.triangulateAlone()
                                                : pieces.triangulate();
@@ -175,9 +303,6 @@ private:
 
   void publish()
   {
-    this->Spilled.reset();
-    std::error_code ignored;
-    fs::remove(this->Pending.temporaryPath() + "/.points.0", ignored);
     for (std::size_t number = 0; number < this->Finished.size(); ++number)
     {
       FinishedPiece& piece = this->Finished[number];
@@ -192,6 +317,8 @@ private:
       this->report(0.95 + 0.05 * double(number) / double(this->Finished.size()));
     }
     this->Statistics.MeshBytes = publishPieces(this->Mesh, this->Finished);
+    this->Spilled.reset();
+    this->Scratch.remove();
     this->Pending.commit();
     this->endPhase("publish");
   }
@@ -201,6 +328,7 @@ private:
   const OutOfCoreOptions& Options;
   const int Threads;
   PendingMesh Pending;
+  ScratchFolder Scratch;
   OutOfCoreStatistics Statistics;
   std::unique_ptr<MemoryPlan> Memory;
   InputSurvey Survey;

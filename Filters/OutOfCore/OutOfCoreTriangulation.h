@@ -23,6 +23,11 @@ struct OutOfCoreOptions
   std::int64_t PartitionPoints = 0; ///< about so many points for a worker at once; 0: chosen
   /// Adds the point array RepresentativePointId.
   bool MapDuplicates = false;
+  /// Goes on where a run that was killed or failed has been, if there is one for this path; else
+  /// such a run is not touched and is an error.
+  bool Resume = false;
+  /// A folder on another disk for what is temporary, but for the pieces; empty: beside the mesh.
+  std::string Scratch;
   /// Told the finished fraction now and then, from one thread at a time; false ends the run.
   std::function<bool(double)> Progress;
 };
@@ -47,7 +52,9 @@ struct OutOfCoreStatistics
   std::uint64_t MeshBytes = 0;
   int Threads = 1;
   std::vector<Phase> Phases;
+  bool Resumed = false;
   bool Aborted = false; ///< by Progress
+  bool Kept = false;    ///< then the run can be resumed
 };
 
 /// The Delaunay triangulation of points that need not fit in memory, as the partitioned mesh
@@ -56,7 +63,9 @@ struct OutOfCoreStatistics
 /// coordinate; the others become arrays of points.
 ///
 /// Points are read twice and spilled once, by piece; triangles are written as soon as they are
-/// final. Throws IOError.
+/// final. All is written to a folder ".NAME.part" beside `path`, which takes the path's place when
+/// it is whole. From the time the points are spilled it stays if the run fails, is ended or killed,
+/// and another can go on: with the same files at the end. Throws IOError.
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCore(
   PointStream& points, const std::string& path, const OutOfCoreOptions& options = {});
 

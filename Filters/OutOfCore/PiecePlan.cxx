@@ -42,7 +42,7 @@ std::uint64_t MemoryPlan::pieceBytes(std::int64_t points, std::size_t rowWords)
   return std::uint64_t(points) * (8 * rowWords + 24 + 4 + 1);
 }
 
-MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords, int threads)
+MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords)
 {
   const std::uint64_t limit = options.MemoryLimit;
   // Two blocks of points, their labels and rows by piece.
@@ -52,8 +52,9 @@ MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords, in
   this->SamplePoints =
     std::clamp<std::size_t>(std::size_t(limit / 512), std::size_t(1) << 14, std::size_t(1) << 20);
   this->LoadedBytes = limit / 2;
-  // One that is written, one for each two threads, and one that is loaded.
-  const std::uint64_t together = 2 + (std::uint64_t(threads) + 1) / 2;
+  // One that is written, two that are worked on and one that is loaded; never mind the threads, so
+  // that the pieces are the same for any number of them.
+  constexpr std::uint64_t together = 4;
   const std::uint64_t share = this->LoadedBytes / together / pieceBytes(1, rowWords);
   this->PiecePoints = options.PiecePoints > 0
     ? options.PiecePoints
@@ -98,9 +99,7 @@ void PiecePlan::takeAlone(const InputSurvey& survey)
   this->IsAlone = true;
   this->Pieces = Tiling::grid(survey.Bounds, 1, 1);
   this->Inner = { this->Pieces };
-  this->Partitions = this->Pieces;
-  this->FirstPartition = { 0, 1 };
-  this->PieceOf = { 0 };
+  this->numberPartitions();
   this->Artificial = {};
   this->Initial = {};
 }
@@ -113,14 +112,24 @@ void PiecePlan::choosePartitions(const InputSurvey& survey, const MemoryPlan& me
     samples[std::size_t(this->Pieces.locate(p.Place))].push_back(p.Place);
   }
   const double each = double(survey.Points - survey.Rejected) / double(survey.Sample.size());
-  this->FirstPartition = { 0 };
   for (PartitionIndex piece = 0; piece < this->pieces(); ++piece)
   {
     std::vector<Point2>& sample = samples[std::size_t(piece)];
     const int count = countFor(double(sample.size()) * each, memory.PartitionPoints, sample.size());
     this->Inner.push_back(Tiling::balanced(this->Pieces.box(piece), std::move(sample), count));
-    this->FirstPartition.push_back(this->FirstPartition.back() + this->Inner.back().size());
-    this->PieceOf.insert(this->PieceOf.end(), std::size_t(this->Inner.back().size()), piece);
+  }
+  this->numberPartitions();
+}
+
+void PiecePlan::numberPartitions()
+{
+  this->FirstPartition = { 0 };
+  this->PieceOf = {};
+  for (PartitionIndex piece = 0; piece < this->pieces(); ++piece)
+  {
+    const PartitionIndex count = this->Inner[std::size_t(piece)].size();
+    this->FirstPartition.push_back(this->FirstPartition.back() + count);
+    this->PieceOf.insert(this->PieceOf.end(), std::size_t(count), piece);
   }
   this->Partitions = this->Pieces.refined(this->Inner);
 }

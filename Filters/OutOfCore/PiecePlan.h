@@ -14,10 +14,13 @@
 namespace tipp
 {
 
+class SaveArchive;
+class LoadArchive;
+
 /// How much of everything goes into the memory limit.
 struct MemoryPlan
 {
-  MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords, int threads);
+  MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords);
 
   std::size_t BlockPoints;  ///< read at a time
   std::size_t SamplePoints; ///< at least, of the survey
@@ -44,6 +47,8 @@ struct PiecePlan
 {
   PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options, const MemoryPlan& memory,
     std::size_t rowWords, int threads);
+  explicit PiecePlan(LoadArchive& archive);
+  void save(SaveArchive& archive) const;
 
   Tiling Pieces;
   std::vector<Tiling> Inner;                  ///< of each piece
@@ -71,6 +76,7 @@ struct PiecePlan
 private:
   void choosePartitions(const InputSurvey& survey, const MemoryPlan& memory);
   void chooseInitialPoints(const InputSurvey& survey);
+  void numberPartitions();
   void takeAlone(const InputSurvey& survey);
 };
 

@@ -95,7 +95,6 @@ std::unique_ptr<LoadedPiece> PieceRun::load(PartitionIndex piece) const
   loaded->Buckets = bucketPoints<std::int32_t>(view.scaled(this->Factor), inner, 1);
   loaded->InteriorCounts.assign(std::size_t(inner.size()), 0);
   loaded->Rim.assign(count, 0);
-  loaded->PartitionsLeft = inner.size();
   return loaded;
 }
 
@@ -103,7 +102,7 @@ void PieceRun::loadPieces()
 {
   for (PartitionIndex piece = this->Plan.pieces() - 1; piece >= 0; --piece)
   {
-    if (this->Points.count(piece) == 0)
+    if (!this->Schedule->isToLoad(piece))
     {
       continue;
     }
@@ -192,16 +191,24 @@ void PieceRun::bringBack(PartitionResult result)
   this->Changed.notify_all();
   if (isWhole && !this->Stopped)
   {
-    this->Schedule->findRim(piece);
-    lock.unlock();
-    this->writeInterior(piece);
-    lock.lock();
-    this->Schedule->finishInterior(piece);
-    this->LoadedBytes -= this->bytesOf(piece);
-    this->PeakBorderBytes = std::max(this->PeakBorderBytes, this->Schedule->borderBytes());
-    this->Changed.notify_all();
+    this->finishPiece(piece, lock);
   }
   this->writeBorders(lock);
+  this->saveSometimes(lock);
+}
+
+/// When all of its partitions are finished.
+void PieceRun::finishPiece(PartitionIndex piece, std::unique_lock<std::mutex>& lock)
+{
+  this->Schedule->findRim(piece);
+  lock.unlock();
+  this->writeInterior(piece);
+  lock.lock();
+  this->Schedule->finishInterior(piece);
+  this->LoadedBytes -= this->bytesOf(piece);
+  this->BytesSinceSaved += this->bytesOf(piece);
+  this->PeakBorderBytes = std::max(this->PeakBorderBytes, this->Schedule->borderBytes());
+  this->Changed.notify_all();
 }
 
 void PieceRun::writeInterior(PartitionIndex piece)
@@ -316,7 +323,8 @@ void PieceRun::runThreads()
   }
 }
 
-bool PieceRun::triangulate()
+/// A run from the beginning.
+void PieceRun::start()
 {
   this->Schedule = std::make_unique<PieceSchedule>(
     this->Plan, this->Points, this->Rows, this->Plan.initialMesh(this->Threads));
@@ -330,14 +338,27 @@ bool PieceRun::triangulate()
       this->Schedule->finishInterior(piece);
     }
   }
-  this->runThreads();
-  if (this->Stopped)
+}
+
+bool PieceRun::triangulate()
+{
+  if (!this->startFromCheckpoint())
   {
-    return false;
+    this->start();
   }
+  this->runThreads();
   std::unique_lock<std::mutex> lock(this->Mutex);
-  this->Schedule->repairHull();
-  this->writeBorders(lock);
+  if (!this->Stopped)
+  {
+    this->Schedule->repairHull();
+    this->writeBorders(lock);
+  }
+  if (!this->CheckpointPath.empty())
+  {
+    SaveArchive archive;
+    this->save(archive);
+    writeCheckpoint(this->CheckpointPath, archive);
+  }
   return !this->Stopped;
 }
 

@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 namespace tipp
@@ -26,6 +27,10 @@ public:
   PieceRun(const PiecePlan& plan, const SpilledPoints& points, double factor, const PointRows& rows,
     const PartitionedMesh& mesh, const MemoryPlan& memory, int threads,
     std::function<bool(std::int64_t)> progress);
+
+  /// Saves its state to this file now and then, and where progress ends it; and goes on from there
+  /// if the file is there already.
+  void setCheckpoint(const std::string& path) { this->CheckpointPath = path; }
 
   /// Writes all pieces' files. Throws IOError. False if progress ended it.
   bool triangulate();
@@ -60,6 +65,13 @@ private:
   /// The body of a thread; what it throws ends the run.
   void guard(const std::function<void()>& body);
   void runThreads();
+  void start();
+  bool startFromCheckpoint();
+  void reload(PartitionIndex piece);
+  void makeInteriors(PartitionIndex piece, LoadedPiece& loaded) const;
+  void finishPiece(PartitionIndex piece, std::unique_lock<std::mutex>& lock);
+  void saveSometimes(std::unique_lock<std::mutex>& lock);
+  void save(SaveArchive& archive);
 
   const PiecePlan& Plan;
   const SpilledPoints& Points;
@@ -73,6 +85,10 @@ private:
 
   std::mutex Mutex;
   std::condition_variable Changed;
+  std::string CheckpointPath;
+  bool IsSaving = false;
+  std::uint64_t BytesSinceSaved = 0; ///< of interiors
+  std::uint64_t SavedBytes = 0;      ///< of the last checkpoint
   std::uint64_t LoadedBytes = 0;
   std::int64_t PointsDone = 0;
   bool Stopped = false;

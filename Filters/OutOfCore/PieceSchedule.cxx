@@ -36,30 +36,52 @@ Box3 boxOf(const Box2& box)
 } // namespace
 
 PieceSchedule::PieceSchedule(const PiecePlan& plan, const SpilledPoints& points,
-  const PointRows& rows, const SeamTriangles& initialMesh)
+  const PointRows& rows, const std::vector<PartitionIndex>& unfinished)
   : Plan(plan)
   , Points(points)
   , Rows(rows)
-  , Rim(plan.Partitions.size(), partitionsWithPoints(plan, points))
-  , Waiting(this->Rim, partitionsWithPoints(plan, points), plan.PieceOf)
+  , Rim(plan.Partitions.size(), unfinished)
+  , Waiting(this->Rim, unfinished, plan.PieceOf)
   , Pieces(std::size_t(plan.pieces()))
-  , Left(std::int64_t(partitionsWithPoints(plan, points).size()))
 {
   for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
   {
     this->Pieces[std::size_t(piece)].Growing =
       GrowingPiece(points.starts()[std::size_t(piece)], points.count(piece));
   }
+}
+
+PieceSchedule::PieceSchedule(const PiecePlan& plan, const SpilledPoints& points,
+  const PointRows& rows, const SeamTriangles& initialMesh)
+  : PieceSchedule(plan, points, rows, partitionsWithPoints(plan, points))
+{
   this->takeFinal(this->Rim.add(SeamGrouping().group(initialMesh)));
 }
 
-void PieceSchedule::addLoaded(PartitionIndex piece, std::unique_ptr<LoadedPiece> loaded)
+bool PieceSchedule::addLoaded(PartitionIndex piece, std::unique_ptr<LoadedPiece> loaded)
 {
   State& state = this->Pieces[std::size_t(piece)];
-  // Hull triangles may have come before.
   state.Loaded = std::move(loaded);
   state.At = Stage::Loaded;
-  this->Window.push_back(piece);
+  state.Loaded->Seams = std::move(state.SavedSeams);
+  for (const std::int32_t point : state.SavedRim)
+  {
+    state.Loaded->Rim[std::size_t(point)] = 1;
+  }
+  state.SavedRim = {};
+  state.WasLoaded = false;
+  const PartitionIndex begin = this->Plan.FirstPartition[std::size_t(piece)];
+  const PartitionIndex end = this->Plan.FirstPartition[std::size_t(piece) + 1];
+  state.Loaded->PartitionsLeft = 0;
+  for (PartitionIndex p = begin; p < end; ++p)
+  {
+    state.Loaded->PartitionsLeft += this->isFinished(p) ? 0 : 1;
+  }
+  if (state.Loaded->PartitionsLeft > 0)
+  {
+    this->Window.push_back(piece);
+  }
+  return state.Loaded->PartitionsLeft == 0;
 }
 
 PartitionIndex PieceSchedule::activateNext(std::vector<PlainVertex>& vertices)
@@ -93,7 +115,6 @@ bool PieceSchedule::complete(PartitionResult result)
     loaded.Representatives.emplace(
       std::int32_t(duplicate.Point - first), std::int32_t(duplicate.Representative - first));
   }
-  --this->Left;
   if (--loaded.PartitionsLeft > 0)
   {
     return false;
@@ -291,7 +312,6 @@ PartitionIndex PieceSchedule::takeComplete()
     if (p == end)
     {
       state.At = Stage::Taken;
-      ++this->Taken;
       return piece;
     }
   }
@@ -301,6 +321,7 @@ PartitionIndex PieceSchedule::takeComplete()
 void PieceSchedule::finishBorder(PartitionIndex piece)
 {
   this->Pieces[std::size_t(piece)].Growing = GrowingPiece();
+  this->Pieces[std::size_t(piece)].At = Stage::Done;
 }
 
 void PieceSchedule::repairHull()

@@ -3,6 +3,7 @@
 #define tippPieceSchedule_h
 
 #include "Distributed/GroupMesh.h"
+#include "OutOfCore/Checkpoint.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/SpillPoints.h"
@@ -56,10 +57,31 @@ public:
   PieceSchedule(const PiecePlan& plan, const SpilledPoints& points, const PointRows& rows,
     const SeamTriangles& initialMesh);
 
+  /// Goes on where another one was when it was saved. Pieces that were loaded then must be loaded
+  /// again, with the triangles of their finished partitions, before any partition is activated.
+  PieceSchedule(const PiecePlan& plan, const SpilledPoints& points, const PointRows& rows,
+    LoadArchive& archive);
+  /// What is active counts as not begun. Interiors and borders that are being written count as not
+  /// written.
+  void save(SaveArchive& archive);
+
+  /// Whether a piece has yet to be loaded, and whether it was when the state was saved.
+  bool isToLoad(PartitionIndex piece) const
+  {
+    const State& state = this->Pieces[std::size_t(piece)];
+    return state.At == Stage::Waiting && this->Points.count(piece) > 0;
+  }
+  bool wasLoaded(PartitionIndex piece) const { return this->Pieces[std::size_t(piece)].WasLoaded; }
+  bool isFinished(PartitionIndex partition) const { return this->Rim.isFinished(partition); }
+  bool isInteriorWritten(PartitionIndex piece) const
+  {
+    return this->Pieces[std::size_t(piece)].At > Stage::Loaded;
+  }
+
   PartitionIndex pieces() const { return this->Plan.pieces(); }
 
-  /// From now on the piece's partitions may be active.
-  void addLoaded(PartitionIndex piece, std::unique_ptr<LoadedPiece> loaded);
+  /// From now on the piece's partitions may be active. True if all of them are finished already.
+  bool addLoaded(PartitionIndex piece, std::unique_ptr<LoadedPiece> loaded);
   LoadedPiece& loaded(PartitionIndex piece) { return *this->Pieces[std::size_t(piece)].Loaded; }
 
   /// A partition of a loaded piece that is independent of all active ones, and the vertices of the
@@ -80,26 +102,32 @@ public:
   void finishBorder(PartitionIndex piece);
 
   bool allActivated() const { return this->Waiting.isEmpty(); }
-  bool isHullRepaired() const { return this->HullRepaired; }
   /// When all partitions are finished: replaces the artificial points' triangles.
   void repairHull();
-  bool allTaken() const { return this->Taken == this->pieces(); }
 
   std::size_t rimTriangles() const { return this->Rim.size(); }
   std::uint64_t borderBytes() const;
-  std::int64_t partitionsLeft() const { return this->Left; }
 
 private:
+  PieceSchedule(const PiecePlan& plan, const SpilledPoints& points, const PointRows& rows,
+    const std::vector<PartitionIndex>& unfinished);
+  template <typename Archive>
+  void exchangePiece(Archive& archive, PartitionIndex piece);
+
   enum class Stage
   {
     Waiting,
     Loaded, ///< or being written
     Interior,
-    Taken
+    Taken, ///< its border is being written
+    Done
   };
   struct State
   {
     Stage At = Stage::Waiting;
+    bool WasLoaded = false; ///< when the state was saved, with these:
+    std::vector<std::array<std::int32_t, 3>> SavedSeams;
+    std::vector<std::int32_t> SavedRim;
     bool WaitsForHull = false;
     std::unique_ptr<LoadedPiece> Loaded;
     GrowingPiece Growing;
@@ -124,8 +152,6 @@ private:
   std::vector<PartitionIndex> Window; ///< loaded pieces
   std::vector<SeamTriangle> Hull;     ///< at artificial points
   std::vector<std::int32_t> Met;
-  std::int64_t Left = 0; ///< partitions that are not finished
-  PartitionIndex Taken = 0;
   bool HullRepaired = false;
 };
 

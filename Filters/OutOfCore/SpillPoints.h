@@ -13,6 +13,9 @@
 namespace tipp
 {
 
+class SaveArchive;
+class LoadArchive;
+
 /// The finite points as rows, piece by piece, in the order of the stream within each. Tells the
 /// plan's initial points their places.
 class SpilledPoints
@@ -22,6 +25,11 @@ public:
   SpilledPoints(PointStream& points, const InputSurvey& survey, PiecePlan& plan,
     const PointRows& rows, const std::string& file, std::size_t blockPoints, int threads,
     const std::function<void(std::int64_t)>& progress);
+
+  /// Those that another process has spilled to the file.
+  SpilledPoints(
+    const std::string& file, const PiecePlan& plan, const PointRows& rows, LoadArchive& archive);
+  void save(SaveArchive& archive) const;
 
   /// The place of a piece's first point among all, and, at the end, the number of points.
   const std::vector<std::int64_t>& starts() const { return this->Starts; }
@@ -36,8 +44,8 @@ public:
   std::uint64_t bytes() const { return this->Rows.bytes(); }
 
 private:
-  Spill Rows;
   std::vector<std::int64_t> Starts;
+  Spill Rows;
 };
 
 } // namespace tipp

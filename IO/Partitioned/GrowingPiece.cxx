@@ -29,7 +29,8 @@ void GrowingPiece::addTriangle(
 
 void GrowingPiece::addRow(std::int64_t place, const double* row, const PointRows& rows)
 {
-  this->Ghosts.emplace(place, std::int64_t(this->GhostRows.size() / rows.Words));
+  this->Ghosts.emplace(place, std::int64_t(this->GhostPlaces.size()));
+  this->GhostPlaces.push_back(place);
   this->GhostRows.insert(this->GhostRows.end(), row, row + rows.Words);
 }
 
@@ -50,16 +51,6 @@ std::size_t GrowingPiece::bytes() const
     this->Ghosts.size() * 40 + this->GhostRows.size() * 8;
 }
 
-void GrowingPiece::extend(const double* row, const PointRows& rows)
-{
-  const double xyz[3] = { row[0], row[1], rows.Z < 0 ? 0 : row[rows.Z] };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    this->Extent[2 * axis] = std::min(this->Extent[2 * axis], xyz[axis]);
-    this->Extent[2 * axis + 1] = std::max(this->Extent[2 * axis + 1], xyz[axis]);
-  }
-}
-
 void GrowingPiece::numberPoints(
   const Interior& interior, const PointRows& rows, std::vector<std::int32_t>& numbers)
 {
@@ -69,7 +60,7 @@ void GrowingPiece::numberPoints(
   for (std::size_t i = 0; i < numbers.size(); ++i)
   {
     const double* const row = interior.Rows + i * rows.Words;
-    this->extend(row, rows);
+    extendBounds(this->Extent, row, rows);
     if (interior.Rim[i] == 0)
     {
       numbers[i] = next++;

@@ -90,17 +90,39 @@ public:
   const double* rimRow(std::int64_t place, const PointRows& rows) const;
 
   /// The second go, when no triangle will be added any more. All of the file is there but the
-  /// global ids of cells. Throws IOError.
-  FinishedPiece writeBorder(const PartitionedMesh& mesh, std::size_t number, const PointRows& rows);
+  /// global ids of cells. May be done again. Throws IOError.
+  FinishedPiece writeBorder(
+    const PartitionedMesh& mesh, std::size_t number, const PointRows& rows) const;
 
   std::size_t bytes() const;
 
-  ///@{
-  /// As bytes, to go on in another process; load() throws std::runtime_error if they are not
-  /// what save() made.
-  std::string save() const;
-  static GrowingPiece load(const std::string& bytes);
-  ///@}
+  /// Shows all that it keeps to archive(), which takes numbers and vectors of them, to save or to
+  /// restore it: the interior's part, after the first go, and the border's.
+  template <typename Archive>
+  void exchangeInterior(Archive& archive)
+  {
+    archive(this->IsWritten);
+    archive(this->Room);
+    archive(this->InteriorPoints);
+    archive(this->InteriorCells);
+    archive(this->Extent);
+    archive(this->Checksums);
+    archive(this->RimPlaces);
+    archive(this->RimRows);
+    archive(this->RimTriangles);
+  }
+  template <typename Archive>
+  void exchangeBorder(Archive& archive)
+  {
+    archive(this->Shared);
+    archive(this->Borrowers);
+    archive(this->GhostPlaces);
+    archive(this->GhostRows);
+    for (std::size_t i = this->Ghosts.size(); i < this->GhostPlaces.size(); ++i)
+    {
+      this->Ghosts.emplace(this->GhostPlaces[i], std::int64_t(i));
+    }
+  }
 
 private:
   struct SharedTriangle
@@ -118,9 +140,7 @@ private:
   void writeInteriorArray(const OutputFile& file, const PieceArray& array, std::uint64_t offset,
     const PointRows& rows, const Interior& interior, const std::vector<std::int32_t>& numbers,
     std::vector<std::uint64_t>& checksums) const;
-  void extend(const double* row, const PointRows& rows);
-  void enlargeFile(const PartitionedMesh& mesh, std::size_t number, const PieceLayout& from,
-    const PieceLayout& to) const;
+  void enlargeFile(const std::string& path, const PieceLayout& from, const PieceLayout& to) const;
 
   std::int64_t First = 0;
   std::int64_t OwnPoints = 0;
@@ -140,12 +160,13 @@ private:
   // Of the border.
   std::vector<SharedTriangle> Shared;
   std::vector<std::int32_t> Borrowers;
+  std::vector<std::int64_t> GhostPlaces;
   std::unordered_map<std::int64_t, std::int64_t> Ghosts; ///< of places: which row
   std::vector<double> GhostRows;
 };
 
 /// Writes the global ids of a finished piece's cells, which follow each other from `first` on, and
-/// completes its table. Throws IOError.
+/// completes its file and table. May be done again. Throws IOError.
 VTKTIPPIO_EXPORT void writeCellIds(
   const PartitionedMesh& mesh, std::size_t number, std::int64_t first, FinishedPiece& piece);
 

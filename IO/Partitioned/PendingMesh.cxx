@@ -22,6 +22,11 @@ namespace tipp
 namespace fs = std::filesystem;
 
 PendingMesh::PendingMesh(const std::string& path)
+  : PendingMesh(path, false)
+{
+}
+
+PendingMesh::PendingMesh(const std::string& path, bool lasting)
 {
   std::error_code failure;
   fs::path target = fs::absolute(path).lexically_normal();
@@ -53,25 +58,48 @@ PendingMesh::PendingMesh(const std::string& path)
   }
   this->Path = target.string();
   this->Parent = parent.string();
-  const std::string prefix = "." + target.filename().string() + ".tmp.";
-  this->clearLeftovers(prefix);
-  std::string name = (parent / (prefix + "XXXXXX")).string();
-  if (!mkdtemp(name.data()))
+  const std::string name = "." + target.filename().string();
+  if (lasting)
+  {
+    this->openLasting(path, (parent / (name + ".part")).string());
+    return;
+  }
+  this->clearLeftovers(name + ".tmp.");
+  std::string temporary = (parent / (name + ".tmp.XXXXXX")).string();
+  if (!mkdtemp(temporary.data()))
   {
     throw IOError(path, std::string("cannot be written (") + std::strerror(errno) + ").");
   }
-  this->Temporary = name;
+  this->Temporary = temporary;
   // mkdtemp() allows nobody else; a mesh is as open as other files.
   const mode_t mask = umask(0);
   umask(mask);
-  fs::permissions(name, fs::perms(0777 & ~mask), failure);
-  this->Lock = open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  fs::permissions(temporary, fs::perms(0777 & ~mask), failure);
+  this->Lock = open(temporary.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   flock(this->Lock, LOCK_EX | LOCK_NB);
+}
+
+void PendingMesh::openLasting(const std::string& path, const std::string& name)
+{
+  if (mkdir(name.c_str(), 0777) != 0 && errno != EEXIST)
+  {
+    throw IOError(path, std::string("cannot be written (") + std::strerror(errno) + ").");
+  }
+  this->Lock = open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (this->Lock < 0 || flock(this->Lock, LOCK_EX | LOCK_NB) != 0)
+  {
+    if (this->Lock >= 0)
+    {
+      close(this->Lock);
+    }
+    throw IOError(path, "is being made by another process; wait for it or end it.");
+  }
+  this->Temporary = name;
 }
 
 PendingMesh::~PendingMesh()
 {
-  if (!this->Temporary.empty())
+  if (!this->Temporary.empty() && !this->Kept)
   {
     std::error_code ignored;
     fs::remove_all(this->Temporary, ignored);

@@ -166,6 +166,9 @@ private:
 namespace
 {
 
+/// After the name of a piece's file: one that is to take its place.
+constexpr const char* largerName = ".larger";
+
 /// The border's share of an array, group by group.
 template <typename Item, typename Copy>
 std::vector<std::uint64_t> writeGroups(const OutputFile& file, std::uint64_t offset,
@@ -205,36 +208,26 @@ void copyBytes(const InputFile& from, std::uint64_t at, const OutputFile& to, st
 
 } // namespace
 
-/// The border is larger than the room for it: the interior moves into a file that is laid out for
-/// all.
-void GrowingPiece::enlargeFile(const PartitionedMesh& mesh, std::size_t number,
-  const PieceLayout& from, const PieceLayout& to) const
+/// The border is larger than the room for it: the interior is copied into a file that is laid out
+/// for all. The other one stays, so that this can be done again.
+void GrowingPiece::enlargeFile(
+  const std::string& path, const PieceLayout& from, const PieceLayout& to) const
 {
-  const std::string path = mesh.piecePath(number);
-  const std::string larger = path + ".larger";
+  const InputFile source(path);
+  const OutputFile target(path + largerName);
+  for (std::size_t a = 0; a < to.Arrays.size(); ++a)
   {
-    const InputFile source(path);
-    const OutputFile target(larger);
-    for (std::size_t a = 0; a < to.Arrays.size(); ++a)
-    {
-      const PieceArray& array = to.Arrays[a];
-      const std::int64_t tuples = array.Role == PieceRole::CellIds ? 0
-        : array.ofPoints()                                         ? this->InteriorPoints
-                                                                   : this->InteriorCells;
-      copyBytes(
-        source, from.Offsets[a], target, to.Offsets[a], std::uint64_t(tuples) * array.tupleBytes());
-    }
-  }
-  std::error_code failure;
-  std::filesystem::rename(larger, path, failure);
-  if (failure)
-  {
-    throw IOError(path, "cannot be replaced (" + failure.message() + ").");
+    const PieceArray& array = to.Arrays[a];
+    const std::int64_t tuples = array.Role == PieceRole::CellIds ? 0
+      : array.ofPoints()                                         ? this->InteriorPoints
+                                                                 : this->InteriorCells;
+    copyBytes(
+      source, from.Offsets[a], target, to.Offsets[a], std::uint64_t(tuples) * array.tupleBytes());
   }
 }
 
 FinishedPiece GrowingPiece::writeBorder(
-  const PartitionedMesh& mesh, std::size_t number, const PointRows& rows)
+  const PartitionedMesh& mesh, std::size_t number, const PointRows& rows) const
 {
   const Border border(*this, rows);
   FinishedPiece finished;
@@ -242,28 +235,28 @@ FinishedPiece GrowingPiece::writeBorder(
   summary = mesh.Pieces[number];
   summary.Points = this->InteriorPoints + std::int64_t(border.Points.size());
   summary.Cells = this->InteriorCells + std::int64_t(border.Cells.size());
+  summary.Extent = this->Extent;
   for (const Border::Point& point : border.Points)
   {
-    this->extend(point.Row, rows);
+    extendBounds(summary.Extent, point.Row, rows);
   }
-  if (this->Extent[4] > this->Extent[5])
+  if (summary.Extent[4] > summary.Extent[5])
   {
-    this->Extent[4] = this->Extent[5] = 0; // no third coordinate is a number
+    summary.Extent[4] = summary.Extent[5] = 0; // no third coordinate is a number
   }
-  summary.Extent = this->Extent;
   if (hasWideIds(mesh, summary))
   {
     throw IOError(mesh.piecePath(number),
       "would have more cells than 32-bit numbers can count; give less memory or more partitions.");
   }
-  if (summary.Points > this->Room.Points || summary.Cells > this->Room.Cells)
+  const bool fits = summary.Points <= this->Room.Points && summary.Cells <= this->Room.Cells;
+  const PieceLayout layout = layOutPiece(mesh, number, summary, fits ? &this->Room : nullptr);
+  if (!fits)
   {
-    const PieceLayout before = layOutPiece(mesh, number, this->Room, &this->Room);
-    this->Room = summary;
-    this->enlargeFile(mesh, number, before, layOutPiece(mesh, number, summary, &this->Room));
+    this->enlargeFile(
+      mesh.piecePath(number), layOutPiece(mesh, number, this->Room, &this->Room), layout);
   }
-  const PieceLayout layout = layOutPiece(mesh, number, summary, &this->Room);
-  const OutputFile file = OutputFile::shared(mesh.piecePath(number));
+  const OutputFile file = OutputFile::shared(mesh.piecePath(number) + (fits ? "" : largerName));
   for (std::size_t a = 0; a < layout.Arrays.size(); ++a)
   {
     const PieceArray& array = layout.Arrays[a];
@@ -311,7 +304,17 @@ void writeCellIds(
   const auto found = std::find_if(arrays.begin(), arrays.end(),
     [](const PieceArray& array) { return array.Role == PieceRole::CellIds; });
   const auto a = std::size_t(found - arrays.begin());
-  const OutputFile file = OutputFile::shared(mesh.piecePath(number));
+  const std::string path = mesh.piecePath(number);
+  std::error_code failure;
+  if (std::filesystem::exists(path + largerName, failure))
+  {
+    std::filesystem::rename(path + largerName, path, failure);
+    if (failure)
+    {
+      throw IOError(path, "cannot be replaced (" + failure.message() + ").");
+    }
+  }
+  const OutputFile file = OutputFile::shared(path);
   ColumnWriter column(file, piece.Table.Offsets[a], std::size_t(1) << 20);
   for (const std::int64_t count : piece.Table.parts(mesh, piece.Summary, false))
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/PieceTuples.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace tipp
@@ -45,6 +46,16 @@ void fillPieceCells(const PieceArray& array, std::int64_t first, std::size_t cou
   {
     const auto end = std::int32_t(3 * (first + std::int64_t(i) + 1));
     std::memcpy(to + 4 * i, &end, 4);
+  }
+}
+
+void extendBounds(Bounds& bounds, const double* row, const PointRows& rows)
+{
+  const double xyz[3] = { row[0], row[1], rows.Z < 0 ? 0 : row[rows.Z] };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    bounds[2 * axis] = std::min(bounds[2 * axis], xyz[axis]);
+    bounds[2 * axis + 1] = std::max(bounds[2 * axis + 1], xyz[axis]);
   }
 }
 

@@ -14,6 +14,9 @@ namespace tipp
 void copyPiecePoint(const PieceArray& array, const double* row, const PointRows& rows, bool isGhost,
   std::int64_t representative, char* to);
 
+/// Makes room in the bounds for a row's point.
+void extendBounds(Bounds& bounds, const double* row, const PointRows& rows);
+
 /// What the arrays `offsets` and `types` hold of triangles in a row.
 void fillPieceCells(const PieceArray& array, std::int64_t first, std::size_t count, char* to);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/Spill.h"
 
+#include "Files/IOError.h"
 #include "Threads/ParallelFor.h"
 
 #include <algorithm>
@@ -20,6 +21,44 @@ Spill::Spill(const std::string& path, const Ranks& ranks, std::size_t keys, std:
   , RowBytes(rowBytes)
   , Out(fileOf(path, ranks.rank()))
 {
+}
+
+Spill::Spill(
+  const std::string& path, std::size_t keys, std::size_t rowBytes, const std::vector<char>& saved)
+  : Path(path)
+  , Keys(keys)
+  , RowBytes(rowBytes)
+  , Out(OutputFile::shared(fileOf(path, 0)))
+{
+  for (std::size_t at = 0; at + sizeof(Extent) <= saved.size(); at += sizeof(Extent))
+  {
+    Extent extent;
+    std::memcpy(&extent, saved.data() + at, sizeof(Extent));
+    this->Written = std::max(this->Written, extent.Offset + std::uint64_t(extent.Rows) * rowBytes);
+    if (extent.Key >= keys)
+    {
+      throw IOError(path, "has rows of a piece that there is not; start again.");
+    }
+  }
+  this->index({ std::string(saved.data(), saved.size()) });
+  if (this->Files[0].size() < this->Written)
+  {
+    throw IOError(fileOf(path, 0), "is shorter than it was; start again.");
+  }
+}
+
+std::vector<char> Spill::save() const
+{
+  std::vector<Extent> extents = this->Sorted;
+  for (std::size_t key = 0; key < this->Keys; ++key)
+  {
+    for (std::size_t i = this->Starts[key]; i < this->Starts[key + 1]; ++i)
+    {
+      extents[i].Key = std::uint32_t(key);
+    }
+  }
+  const char* const begin = reinterpret_cast<const char*>(extents.data());
+  return { begin, begin + extents.size() * sizeof(Extent) };
 }
 
 void Spill::write(
@@ -51,8 +90,13 @@ void Spill::exchange(const Ranks& ranks)
   const std::string mine(
     reinterpret_cast<const char*>(this->Mine.data()), this->Mine.size() * sizeof(Extent));
   std::vector<Extent>().swap(this->Mine);
-  const std::vector<std::string> all = ranks.gather(mine);
-  std::vector<Extent> extents;
+  std::vector<char>().swap(this->Buffer);
+  this->index(ranks.gather(mine));
+}
+
+/// Of each rank's extents.
+void Spill::index(const std::vector<std::string>& all)
+{
   this->Rows.assign(this->Keys, 0);
   this->Starts.assign(this->Keys + 1, 0);
   const auto eachExtent = [&](const auto& take)
@@ -83,9 +127,9 @@ void Spill::exchange(const Ranks& ranks)
     [&](const Extent& extent, std::uint32_t rank) {
       this->Sorted[places[extent.Key]++] = { extent.Offset, extent.Rows, rank };
     });
-  for (int rank = 0; rank < ranks.count(); ++rank)
+  for (std::size_t rank = 0; rank < all.size(); ++rank)
   {
-    this->Files.emplace_back(fileOf(this->Path, rank));
+    this->Files.emplace_back(fileOf(this->Path, int(rank)));
   }
 }
 

@@ -26,6 +26,12 @@ public:
   /// `keys`: the number of keys. Makes the rank's file, "PATH.RANK"; throws IOError.
   Spill(const std::string& path, const Ranks& ranks, std::size_t keys, std::size_t rowBytes);
 
+  /// One that another process has written: save() told it all after exchange(), on one rank.
+  /// Throws IOError.
+  Spill(const std::string& path, std::size_t keys, std::size_t rowBytes,
+    const std::vector<char>& saved);
+  std::vector<char> save() const;
+
   std::size_t rowBytes() const { return this->RowBytes; }
   std::uint64_t bytes() const { return this->Written; }
 
@@ -54,6 +60,7 @@ private:
   };
 
   void write(const std::vector<char>& rows, const std::vector<std::int64_t>& starts, int threads);
+  void index(const std::vector<std::string>& all);
   static std::string fileOf(const std::string& path, int rank);
 
   std::string Path;
@@ -61,6 +68,7 @@ private:
   std::size_t RowBytes;
   OutputFile Out;
   std::uint64_t Written = 0;
+  std::vector<char> Buffer; ///< a chunk's rows; kept from one chunk to the next
   std::vector<Extent> Mine;
   std::vector<Extent> Sorted;
   std::vector<std::size_t> Starts; ///< of each key's in Sorted
@@ -101,7 +109,8 @@ void Spill::add(std::size_t count, int threads, const Key& keyOf, const Fill& fi
     }
     starts.push_back(total);
   }
-  std::vector<char> rows(std::size_t(total) * this->RowBytes);
+  std::vector<char>& rows = this->Buffer;
+  rows.resize(std::size_t(total) * this->RowBytes);
 #pragma omp parallel for num_threads(threads) schedule(static, 1)
   for (std::size_t s = 0; s < stretches; ++s)
   {

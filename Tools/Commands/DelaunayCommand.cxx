@@ -3,12 +3,15 @@
 
 #include "Commands/DelaunayArguments.h"
 #include "Commands/DelaunayOnRanks.h"
+#include "Commands/DelaunayOutOfCore.h"
 #include "Commands/DelaunayOutput.h"
 #include "Commands/DelaunayStatistics.h"
+#include "Commands/MemorySize.h"
 #include "Console/Interrupt.h"
 #include "Console/MpiSession.h"
 #include "Console/ProgressBar.h"
 #include "Files/Extension.h"
+#include "Files/IOError.h"
 #include "Meshes/WriteMesh.h"
 #include "Triangulation/Triangulate.h"
 
@@ -89,6 +92,16 @@ int runDelaunay(const DelaunayArguments& arguments)
 {
   watchForInterrupt();
   const MpiSession session;
+  if (isOutOfCore(arguments))
+  {
+    if (session.controller() || arguments.isForRanks())
+    {
+      throw IOError(arguments.Output,
+        "is made by one process, with threads; run it without mpirun and without --masters, "
+        "--major and --minor.");
+    }
+    return runDelaunayOutOfCore(arguments);
+  }
   if (session.controller() || arguments.isForRanks())
   {
     return runDelaunayOnRanks(arguments, session.controller());
@@ -123,7 +136,9 @@ int runDelaunay(const DelaunayArguments& arguments)
 
 std::string checkOutput(const std::string& path)
 {
-  return isMeshFile(path) ? "" : "'" + path + "' does not end in .vtp, .vtu or .npy";
+  return isMeshFile(path) || extensionOf(path) == ".tipp"
+    ? ""
+    : "'" + path + "' does not end in .vtp, .vtu, .npy or .tipp";
 }
 
 std::string checkPartitions(const std::string& text)
@@ -189,7 +204,9 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
   auto arguments = std::make_shared<DelaunayArguments>();
   CLI::App* const command =
     app.add_subcommand("delaunay", "Triangulates points: exact 2D Delaunay, in parallel");
-  command->add_option("input", arguments->Input, "The points")->required();
+  command
+    ->add_option("input", arguments->Inputs, "The points; of several files with a .tipp output")
+    ->required();
   command->add_option("-o,--output", arguments->Output, "The triangles")
     ->required()
     ->check(checkOutput);
@@ -201,6 +218,14 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
     "for a "
     "point, -1 for points that are not finite");
   command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
+  command
+    ->add_option("--memory", arguments->Memory,
+      "With a .tipp output: what the run may take, as 512M; without: 2G")
+    ->check(checkMemorySize);
+  command->add_flag("--resume", arguments->Resume,
+    "With a .tipp output: goes on where a run that was killed, interrupted or failed has been");
+  command->add_option("--scratch", arguments->Scratch,
+    "With a .tipp output: a folder for the spilled points; without: beside the output");
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]()
@@ -209,6 +234,12 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
       {
         throw CLI::ValidationError(
           "--map-duplicates", "needs an output of points, so .vtp or .vtu");
+      }
+      arguments->Input = arguments->Inputs.front();
+      const std::string misplaced = misplacedOutOfCoreOption(*arguments);
+      if (!isOutOfCore(*arguments) && !misplaced.empty())
+      {
+        throw CLI::ValidationError(misplaced, "needs an output named .tipp");
       }
       exitCode = runDelaunay(*arguments);
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/DelaunayStatistics.h"
 
+#include "Commands/MemorySize.h"
 #include "Commands/RankStatistics.h"
 
 #include "Files/IOError.h"
@@ -11,19 +12,10 @@
 
 #include <fstream>
 
-#include <sys/resource.h>
-
 namespace tipp
 {
 namespace
 {
-
-std::int64_t peakMemoryBytes()
-{
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::int64_t(usage.ru_maxrss) * 1024; // Linux counts in KiB
-}
 
 double pointsPerSecond(const DelaunayRun& run)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/PartitionReport.h"
 
+#include "Commands/MemorySize.h"
 #include "Files/IOError.h"
 #include "Files/PendingFile.h"
 
@@ -9,19 +10,10 @@
 
 #include <fstream>
 
-#include <sys/resource.h>
-
 namespace tipp
 {
 namespace
 {
-
-std::int64_t peakMemoryBytes()
-{
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::int64_t(usage.ru_maxrss) * 1024; // Linux counts in KiB
-}
 
 double totalSeconds(const PartitionStatistics& statistics)
 {

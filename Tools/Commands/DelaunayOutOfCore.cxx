@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/DelaunayOutOfCore.h"
+
+#include "Commands/Commands.h"
+#include "Commands/MemorySize.h"
+#include "Console/Interrupt.h"
+#include "Console/ProgressBar.h"
+#include "Files/Extension.h"
+#include "Files/IOError.h"
+#include "Files/PendingFile.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+namespace tipp
+{
+namespace
+{
+
+OutOfCoreOptions makeOptions(const DelaunayArguments& arguments, ProgressBar& bar)
+{
+  const GridSize grid = *parseGrid(arguments.Partitions);
+  OutOfCoreOptions options;
+  if (!arguments.Memory.empty())
+  {
+    options.MemoryLimit = *parseMemorySize(arguments.Memory);
+  }
+  options.Columns = grid.Columns;
+  options.Rows = grid.Rows;
+  options.Threads = arguments.Threads;
+  options.MapDuplicates = arguments.MapDuplicates;
+  options.Resume = arguments.Resume;
+  options.Scratch = arguments.Scratch;
+  options.Progress = [&bar](double fraction)
+  {
+    bar.update(fraction);
+    return !isInterrupted();
+  };
+  return options;
+}
+
+double totalSeconds(const OutOfCoreStatistics& statistics)
+{
+  double sum = 0;
+  for (const OutOfCoreStatistics::Phase& phase : statistics.Phases)
+  {
+    sum += phase.Seconds;
+  }
+  return sum;
+}
+
+void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& statistics)
+{
+  nlohmann::ordered_json json = {
+    { "input", arguments.Inputs },
+    { "output", arguments.Output },
+    { "points", statistics.Points },
+    { "triangles", statistics.Triangles },
+    { "duplicates", statistics.Duplicates },
+    { "rejected", statistics.Rejected },
+    { "pieces", statistics.Pieces },
+    { "partitions", statistics.Partitions },
+    { "worker_vertices", statistics.WorkerVertices },
+    { "peak_rim_triangles", statistics.PeakRimTriangles },
+    { "peak_border_bytes", statistics.PeakBorderBytes },
+    { "spilled_bytes", statistics.SpilledBytes },
+    { "mesh_bytes", statistics.MeshBytes },
+    { "seconds", totalSeconds(statistics) },
+    { "peak_memory_bytes", peakMemoryBytes() },
+    { "threads", statistics.Threads },
+    { "phases", nlohmann::ordered_json::array() },
+  };
+  for (const OutOfCoreStatistics::Phase& phase : statistics.Phases)
+  {
+    json["phases"].push_back({ { "name", phase.Name }, { "seconds", phase.Seconds } });
+  }
+  PendingFile pending(arguments.Statistics);
+  std::ofstream file(pending.temporaryPath());
+  // File names need not be UTF-8.
+  file << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  file.close();
+  if (!file)
+  {
+    throw IOError(arguments.Statistics,
+      "cannot be written; check the disk's space and the folder's permissions.");
+  }
+  pending.commit();
+}
+
+std::string summarize(const OutOfCoreStatistics& statistics)
+{
+  const double seconds = totalSeconds(statistics);
+  const std::string rejected =
+    statistics.Rejected == 0 ? "" : fmt::format(", {} rejected", statistics.Rejected);
+  return fmt::format("{} points, {} triangles, {} duplicates{}, {} pieces, {:.0f} MB, {:.3f} s, "
+                     "{:.0f} points/s, peak memory {:.0f} MB",
+    statistics.Points, statistics.Triangles, statistics.Duplicates, rejected, statistics.Pieces,
+    double(statistics.MeshBytes) / 1e6, seconds, double(statistics.Points) / seconds,
+    double(peakMemoryBytes()) / 1e6);
+}
+
+} // namespace
+
+bool isOutOfCore(const DelaunayArguments& arguments)
+{
+  return extensionOf(arguments.Output) == ".tipp";
+}
+
+std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments)
+{
+  return !arguments.Memory.empty() ? "--memory"
+    : arguments.Resume             ? "--resume"
+    : !arguments.Scratch.empty()   ? "--scratch"
+    : arguments.Inputs.size() > 1  ? "several inputs"
+                                   : "";
+}
+
+int runDelaunayOutOfCore(const DelaunayArguments& arguments)
+{
+  if (!arguments.Statistics.empty())
+  {
+    const PendingFile writable(arguments.Statistics); // before the work rather than after it
+  }
+  OutOfCoreStatistics statistics;
+  {
+    const auto points = openPointStream(arguments.Inputs, arguments.Columns);
+    ProgressBar bar("Triangulating");
+    statistics = triangulateOutOfCore(*points, arguments.Output, makeOptions(arguments, bar));
+  }
+  if (statistics.Aborted)
+  {
+    fmt::print(stderr, "tipp: interrupted; {}.\n",
+      statistics.Kept ? "the same command with --resume goes on" : "nothing was written");
+    return interruptedExitCode;
+  }
+  if (!arguments.Statistics.empty())
+  {
+    writeReport(arguments, statistics);
+  }
+  fmt::print("{}\n", summarize(statistics));
+  if (statistics.Triangles == 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: no triangles, since there are fewer than three distinct points or all lie on "
+      "one line.\n");
+  }
+  return Success;
+}
+
+} // namespace tipp
