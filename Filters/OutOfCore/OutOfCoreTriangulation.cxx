@@ -170,8 +170,7 @@ private:
   void survey()
   {
     this->Scratch.clear();
-    this->Memory =
-      std::make_unique<MemoryPlan>(this->Options, 3 + this->Input.columns().size(), this->Threads);
+    this->Memory = std::make_unique<MemoryPlan>(this->Options, 3 + this->Input.columns().size());
     this->Survey = surveyInput(this->Input, this->Memory->BlockPoints, this->Memory->SamplePoints,
       this->Threads, [this](std::int64_t) { this->report(0); });
     this->describeColumns();
