@@ -243,11 +243,10 @@ private:
 
   void spill()
   {
-    this->Spilled =
-      std::make_unique<SpilledPoints>(this->Input, this->Survey, *this->Plan, this->Rows,
-        this->Pending.temporaryPath() + "/.points", this->Memory->BlockPoints, this->Threads,
-        [this](std::int64_t done)
-        { this->report(0.2 * double(done) / double(this->Survey.Points)); });
+    this->Spilled = std::make_unique<SpilledPoints>(this->Input, this->Survey, *this->Plan,
+      this->Rows, this->Scratch.points(), this->Memory->BlockPoints, this->Threads,
+      [this](std::int64_t done)
+      { this->report(0.2 * double(done) / double(this->Survey.Points)); });
     this->Statistics.SpilledBytes = this->Spilled->bytes();
     this->requireMemory();
     this->savePlan();
