@@ -104,6 +104,7 @@ void exchange(Archive& archive, FinishedPiece& piece)
   archive(piece.Table.Checksums);
   archive(piece.Table.HeaderBytes);
   archive(piece.Table.HeaderChecksum);
+  archive(piece.TriangleSum);
 }
 
 /// Puts a file with a checksum in a path's place in one step. Throws IOError.

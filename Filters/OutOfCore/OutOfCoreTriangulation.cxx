@@ -41,7 +41,7 @@ public:
     , Scratch(this->Pending.temporaryPath(), options.Scratch)
   {
     this->Statistics.Threads = this->Threads;
-    this->Mesh.Path = this->Pending.temporaryPath();
+    this->Mesh.Path = options.CountOnly ? "" : this->Pending.temporaryPath();
   }
 
   OutOfCoreStatistics run()
@@ -54,7 +54,7 @@ public:
         this->spill();
       }
       this->triangulate();
-      this->publish();
+      this->Options.CountOnly ? this->count() : this->publish();
     }
     catch (const Aborted&)
     {
@@ -153,8 +153,8 @@ private:
     const OutOfCoreOptions& options = this->Options;
     return "TIPP out of core 1\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
       std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
-      std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") + "\n" +
-      options.Scratch;
+      std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
+      (options.CountOnly ? " counted" : "") + "\n" + options.Scratch;
   }
 
   void savePlan()
@@ -193,7 +193,8 @@ private:
     // Borders and ids of cells included; two triangles a point at most.
     const std::uint64_t stored =
       points * (24 + 8 + 1 + 8 * this->Mesh.Arrays.size() + 2 * (12 + 4 + 1 + 8)) / 50 * 51;
-    this->Scratch.requireSpace(this->Path, stored, points * 8 * this->Rows.Words);
+    this->Scratch.requireSpace(
+      this->Path, this->Options.CountOnly ? 0 : stored, points * 8 * this->Rows.Words);
   }
 
   void describeColumns()
@@ -297,6 +298,19 @@ private:
     this->Statistics.PeakBorderBytes = pieces.PeakBorderBytes;
     this->Finished = std::move(pieces.finished());
     this->endPhase("triangulate");
+  }
+
+  void count()
+  {
+    for (const FinishedPiece& piece : this->Finished)
+    {
+      this->Statistics.Triangles += piece.Summary.Cells;
+      this->Statistics.TriangleSum += piece.TriangleSum;
+    }
+    this->Spilled.reset();
+    this->Scratch.remove();
+    this->Pending.keep(false);
+    this->report(1);
   }
 
   void publish()

@@ -23,6 +23,8 @@ struct OutOfCoreOptions
   std::int64_t PartitionPoints = 0; ///< about so many points for a worker at once; 0: chosen
   /// Adds the point array RepresentativePointId.
   bool MapDuplicates = false;
+  /// Counts and sums up the triangles instead of writing them.
+  bool CountOnly = false;
   /// Goes on where a run that was killed or failed has been, if there is one for this path; else
   /// such a run is not touched and is an error.
   bool Resume = false;
@@ -41,6 +43,7 @@ struct OutOfCoreStatistics
   };
   std::int64_t Points = 0;
   std::int64_t Triangles = 0;
+  std::uint64_t TriangleSum = 0; ///< where they are only counted: of GrowingPiece::hashTriangle()
   std::int64_t Duplicates = 0;
   std::int64_t Rejected = 0;
   std::int64_t Pieces = 0;

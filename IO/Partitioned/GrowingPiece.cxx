@@ -118,6 +118,12 @@ void GrowingPiece::writeInterior(
   std::vector<std::int32_t> numbers;
   this->numberPoints(interior, rows, numbers);
   this->InteriorCells = this->countInterior(interior, numbers);
+  if (mesh.Path.empty())
+  {
+    this->sumInterior(interior, rows);
+    this->IsWritten = true;
+    return;
+  }
   this->makeRoom(mesh, number);
   const PieceLayout layout = layOutPiece(mesh, number, this->Room, &this->Room);
   const OutputFile file(mesh.piecePath(number));
@@ -189,6 +195,50 @@ void GrowingPiece::writeInteriorArray(const OutputFile& file, const PieceArray& 
   column.endPart();
   column.finish();
   checksums.push_back(column.checksums()[0]);
+}
+
+std::uint64_t GrowingPiece::hashTriangle(std::int64_t a, std::int64_t b, std::int64_t c)
+{
+  const auto mix = [](std::uint64_t x) // the finaliser of splitmix64
+  {
+    x += 0x9e3779b97f4a7c15U;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
+    return x ^ (x >> 31);
+  };
+  // A sum over directed edges does not depend on which corner comes first.
+  const auto edge = [&](std::int64_t from, std::int64_t to)
+  { return mix(mix(std::uint64_t(from)) + std::uint64_t(to)); };
+  return mix(edge(a, b) + edge(b, c) + edge(c, a));
+}
+
+void GrowingPiece::sumInterior(const Interior& interior, const PointRows& rows)
+{
+  for (const Corners& run : interior.Triangles)
+  {
+    for (std::size_t t = 0; t < run.Triangles; ++t)
+    {
+      const auto id = [&](std::size_t i)
+      { return rows.id(interior.Rows + std::size_t(run.Begin[3 * t + i]) * rows.Words); };
+      this->InteriorSum += hashTriangle(id(0), id(1), id(2));
+    }
+  }
+}
+
+std::uint64_t GrowingPiece::sumBorder(const PointRows& rows) const
+{
+  const auto id = [&](std::int64_t place)
+  {
+    return rows.id(this->owns(place)
+        ? this->rimRow(place, rows)
+        : this->GhostRows.data() + std::size_t(this->Ghosts.at(place)) * rows.Words);
+  };
+  std::uint64_t sum = 0;
+  for (const SharedTriangle& triangle : this->Shared)
+  {
+    sum += hashTriangle(id(triangle.Places[0]), id(triangle.Places[1]), id(triangle.Places[2]));
+  }
+  return sum;
 }
 
 } // namespace tipp

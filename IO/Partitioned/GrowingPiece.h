@@ -38,6 +38,8 @@ struct PointRows
 /// points are triangulated, and the rest, which concerns the border alone, when its neighbours are.
 /// In between it keeps the border.
 ///
+/// Without a file, where the mesh has no path, the triangles are counted and summed up only.
+///
 /// *Rim* points are own points that the border's triangles have; the caller tells which. Points go
 /// by places here: the own ones have those from `first` on.
 class VTKTIPPIO_EXPORT GrowingPiece
@@ -86,6 +88,9 @@ public:
     const Interior& interior);
   bool hasInterior() const { return this->IsWritten; }
 
+  /// Of a triangle by its points' ids, whichever comes first.
+  static std::uint64_t hashTriangle(std::int64_t a, std::int64_t b, std::int64_t c);
+
   /// The row of an own rim point, after the first go.
   const double* rimRow(std::int64_t place, const PointRows& rows) const;
 
@@ -105,6 +110,7 @@ public:
     archive(this->Room);
     archive(this->InteriorPoints);
     archive(this->InteriorCells);
+    archive(this->InteriorSum);
     archive(this->Extent);
     archive(this->Checksums);
     archive(this->RimPlaces);
@@ -136,6 +142,8 @@ private:
   void numberPoints(
     const Interior& interior, const PointRows& rows, std::vector<std::int32_t>& numbers);
   std::int64_t countInterior(const Interior& interior, const std::vector<std::int32_t>& numbers);
+  void sumInterior(const Interior& interior, const PointRows& rows);
+  std::uint64_t sumBorder(const PointRows& rows) const;
   void makeRoom(const PartitionedMesh& mesh, std::size_t number);
   void writeInteriorArray(const OutputFile& file, const PieceArray& array, std::uint64_t offset,
     const PointRows& rows, const Interior& interior, const std::vector<std::int32_t>& numbers,
@@ -149,6 +157,7 @@ private:
   // Of the interior, after the first go.
   PieceSummary Room;                    ///< counts that the file has room for
   std::int64_t InteriorPoints = 0;      ///< own points but the rim's
+  std::uint64_t InteriorSum = 0;        ///< of hashes, without a file: of RimTriangles too
   std::int64_t InteriorCells = 0;       ///< triangles of these alone
   Bounds Extent{};                      ///< of the own points
   std::vector<std::uint64_t> Checksums; ///< of each array's first part

@@ -27,7 +27,7 @@ public:
   PendingMesh& operator=(const PendingMesh&) = delete;
 
   const std::string& temporaryPath() const { return this->Temporary; }
-  void keep() { this->Kept = true; }
+  void keep(bool kept = true) { this->Kept = kept; }
 
   /// Puts it in the path's place in one step and removes the mesh that was there. Everything in it
   /// must be safe on the disk. Throws IOError.

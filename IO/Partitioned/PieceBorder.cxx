@@ -229,10 +229,17 @@ void GrowingPiece::enlargeFile(
 FinishedPiece GrowingPiece::writeBorder(
   const PartitionedMesh& mesh, std::size_t number, const PointRows& rows) const
 {
-  const Border border(*this, rows);
   FinishedPiece finished;
   PieceSummary& summary = finished.Summary;
   summary = mesh.Pieces[number];
+  if (mesh.Path.empty())
+  {
+    summary.Cells =
+      this->InteriorCells + std::int64_t(this->RimTriangles.size() + this->Shared.size());
+    finished.TriangleSum = this->InteriorSum + this->sumBorder(rows);
+    return finished;
+  }
+  const Border border(*this, rows);
   summary.Points = this->InteriorPoints + std::int64_t(border.Points.size());
   summary.Cells = this->InteriorCells + std::int64_t(border.Cells.size());
   summary.Extent = this->Extent;

@@ -17,6 +17,7 @@ struct FinishedPiece
 {
   PieceSummary Summary;
   PieceTable Table;
+  std::uint64_t TriangleSum = 0; ///< without a file: of GrowingPiece's hashes
 };
 
 /// Writes what describes the pieces, the index last, into the mesh's folder, and completes

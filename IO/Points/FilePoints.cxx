@@ -169,6 +169,11 @@ private:
 
 std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointOptions& options)
 {
+  const std::int64_t generated = generatedCount(path);
+  if (generated > 0)
+  {
+    return generatePointsAsWanted(generated);
+  }
   const std::string extension = extensionOf(path);
   if (extension == ".npy")
   {

@@ -5,6 +5,7 @@
 #include "Points/PointStream.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,6 +26,10 @@ public:
 
 /// By the file's extension. Throws IOError.
 std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointOptions& options);
+
+/// "uniform:1000000" is no file but so many uniform points; 0 for other names.
+std::int64_t generatedCount(const std::string& name);
+std::unique_ptr<FilePoints> generatePointsAsWanted(std::int64_t count);
 
 } // namespace tipp
 

@@ -21,6 +21,10 @@ namespace
 
 std::string identityOf(const std::string& path)
 {
+  if (generatedCount(path) > 0)
+  {
+    return path + "\n";
+  }
   struct stat status = {};
   if (stat(path.c_str(), &status) != 0)
   {

@@ -47,7 +47,8 @@ public:
 };
 
 /// One or more files, one after the other: .npy and text are read block by block, other formats as
-/// a whole. All must have the same columns. Throws IOError.
+/// a whole. The name "uniform:COUNT" stands for so many points that are uniform in the unit square
+/// and made as they are wanted. All must have the same columns. Throws IOError.
 VTKTIPPIO_EXPORT std::unique_ptr<PointStream> openPointStream(
   const std::vector<std::string>& paths, const PointOptions& options = {});
 

@@ -31,6 +31,7 @@ struct DelaunayArguments
   std::string Statistics;
   // Of a run out of core:
   std::string Memory; ///< empty: not given
+  std::string Sink = "mesh";
   bool Resume = false;
   std::string Scratch;
 

@@ -30,9 +30,13 @@ constexpr const char* footer =
   R"(INPUT   .npy (n x 2 or n x 3, float64 or float32); .csv, .txt, .xyz (one point a
         line, columns parted by comma, semicolon, tab or blanks; a line of names
         or of the count is found); .14, .grd (ADCIRC); any VTK file.
+        With a .tipp output also several files, and uniform:COUNT for so many points
+        that are uniform in the unit square.
 OUTPUT  .vtp, .vtu (all points with their data, a column named z as third
         coordinate) or .npy (m x 3 int64: point ids, counted from 0,
-        counter-clockwise).
+        counter-clockwise); or .tipp, a partitioned mesh, made out of core: points
+        and triangles may be larger than memory. .npy and text are read in blocks,
+        other points as a whole.
 
 Under mpirun the points are spread over the ranks, each with its threads; the
 first rank writes the output. --masters, --major, --minor and --groups choose how
@@ -46,6 +50,8 @@ Examples:
   tipp delaunay points.npy -o triangles.npy
   tipp delaunay survey.csv --x easting --y northing -o survey.vtp --threads 4
   tipp delaunay fort.14 -o mesh.vtu --partitions 8x8 --stats run.json
+  tipp delaunay west.npy east.npy -o mesh.tipp --memory 512M
+  tipp delaunay west.npy east.npy -o mesh.tipp --memory 512M --resume
   mpirun -np 4 tipp delaunay points.npy -o triangles.npy --masters multi --major 4x4
 )";
 
@@ -222,6 +228,12 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
     ->add_option("--memory", arguments->Memory,
       "With a .tipp output: what the run may take, as 512M; without: 2G")
     ->check(checkMemorySize);
+  command
+    ->add_option("--sink", arguments->Sink,
+      "With a .tipp output: mesh, or count: nothing is written but the number of triangles and "
+      "a checksum of them")
+    ->check(CLI::IsMember({ "mesh", "count" }))
+    ->capture_default_str();
   command->add_flag("--resume", arguments->Resume,
     "With a .tipp output: goes on where a run that was killed, interrupted or failed has been");
   command->add_option("--scratch", arguments->Scratch,

@@ -32,6 +32,7 @@ OutOfCoreOptions makeOptions(const DelaunayArguments& arguments, ProgressBar& ba
   options.Rows = grid.Rows;
   options.Threads = arguments.Threads;
   options.MapDuplicates = arguments.MapDuplicates;
+  options.CountOnly = arguments.Sink == "count";
   options.Resume = arguments.Resume;
   options.Scratch = arguments.Scratch;
   options.Progress = [&bar](double fraction)
@@ -59,6 +60,7 @@ void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& 
     { "output", arguments.Output },
     { "points", statistics.Points },
     { "triangles", statistics.Triangles },
+    { "triangle_sum", fmt::format("{:016x}", statistics.TriangleSum) },
     { "duplicates", statistics.Duplicates },
     { "rejected", statistics.Rejected },
     { "pieces", statistics.Pieces },
@@ -112,6 +114,7 @@ bool isOutOfCore(const DelaunayArguments& arguments)
 std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments)
 {
   return !arguments.Memory.empty() ? "--memory"
+    : arguments.Sink != "mesh"     ? "--sink"
     : arguments.Resume             ? "--resume"
     : !arguments.Scratch.empty()   ? "--scratch"
     : arguments.Inputs.size() > 1  ? "several inputs"
@@ -140,7 +143,9 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments)
   {
     writeReport(arguments, statistics);
   }
-  fmt::print("{}\n", summarize(statistics));
+  const bool isCounted = arguments.Sink == "count";
+  fmt::print("{}{}\n", summarize(statistics),
+    isCounted ? fmt::format(", checksum {:016x}", statistics.TriangleSum) : "");
   if (statistics.Triangles == 0)
   {
     fmt::print(stderr,

@@ -2,7 +2,9 @@
 // What a run makes of its input and options.
 #include "OutOfCoreTesting.h"
 
+#include "Distributions/GeneratePoints.h"
 #include "ExpectIOError.h"
+#include "Partitioned/GrowingPiece.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Points/WritePoints.h"
 
@@ -237,6 +239,36 @@ TEST(OutOfCore, RefusesASecondRunForTheSameMesh)
   };
   triangulateFile(folder, xy, options);
   EXPECT_GT(refused, 0);
+  EXPECT_TRUE(meshMatches(folder.path("mesh.tipp"), xy, reference(xy)));
+}
+
+TEST(OutOfCore, CountsAndSumsTrianglesWithoutWritingThem)
+{
+  const Coordinates xy = makePointSet("duplicates", 3000);
+  const TemporaryFolder folder;
+  OutOfCoreOptions options;
+  options.PiecePoints = 300;
+  options.CountOnly = true;
+  const OutOfCoreStatistics statistics = triangulateFile(folder, xy, options);
+  std::uint64_t expected = 0;
+  const Triangles triangles = reference(xy).Mesh;
+  for (const Triangle& t : triangles)
+  {
+    expected += GrowingPiece::hashTriangle(t[0], t[1], t[2]);
+  }
+  EXPECT_EQ(std::int64_t(triangles.size()), statistics.Triangles);
+  EXPECT_EQ(expected, statistics.TriangleSum);
+  EXPECT_EQ(1U, folder.fileCount());
+}
+
+TEST(OutOfCore, TakesUniformPointsThatAreMadeAsTheyAreWanted)
+{
+  const TemporaryFolder folder;
+  const auto points = openPointStream({ "uniform:3000" });
+  OutOfCoreOptions options;
+  options.PiecePoints = 300;
+  triangulateOutOfCore(*points, folder.path("mesh.tipp"), options);
+  const Coordinates xy = generatePoints(Distribution::Uniform, 3000, 1);
   EXPECT_TRUE(meshMatches(folder.path("mesh.tipp"), xy, reference(xy)));
 }
 
