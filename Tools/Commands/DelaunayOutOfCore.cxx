@@ -43,6 +43,23 @@ OutOfCoreOptions makeOptions(const DelaunayArguments& arguments, ProgressBar& ba
   return options;
 }
 
+/// What the process has read and written so far, in bytes: "rchar" and "wchar" of Linux's
+/// /proc/self/io.
+std::int64_t movedBytes(const std::string& name)
+{
+  std::ifstream file("/proc/self/io");
+  std::string label;
+  std::int64_t bytes = 0;
+  while (file >> label >> bytes)
+  {
+    if (label == name + ":")
+    {
+      return bytes;
+    }
+  }
+  return 0;
+}
+
 double totalSeconds(const OutOfCoreStatistics& statistics)
 {
   double sum = 0;
@@ -70,6 +87,9 @@ void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& 
     { "peak_border_bytes", statistics.PeakBorderBytes },
     { "spilled_bytes", statistics.SpilledBytes },
     { "mesh_bytes", statistics.MeshBytes },
+    { "read_bytes", movedBytes("rchar") },
+    { "written_bytes", movedBytes("wchar") },
+    { "resumed", statistics.Resumed },
     { "seconds", totalSeconds(statistics) },
     { "peak_memory_bytes", peakMemoryBytes() },
     { "threads", statistics.Threads },
