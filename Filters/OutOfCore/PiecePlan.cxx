@@ -44,21 +44,22 @@ std::uint64_t MemoryPlan::pieceBytes(std::int64_t points, std::size_t rowWords)
 
 MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords)
 {
-  const std::uint64_t limit = options.MemoryLimit;
+  // Of the two phases each has its share; the rest is for kernels, the rim and borders.
+  const std::uint64_t share = options.MemoryLimit / 5 * 2;
   // Two blocks of points, their labels and rows by piece.
   const std::size_t perPoint = 2 * 8 * (rowWords - 1) + 4 + 8 * rowWords;
   constexpr std::size_t mostPoints = std::size_t(1) << 22;
-  this->BlockPoints = std::clamp<std::size_t>(std::size_t(limit / 2) / perPoint, 1024, mostPoints);
-  this->SamplePoints =
-    std::clamp<std::size_t>(std::size_t(limit / 512), std::size_t(1) << 14, std::size_t(1) << 20);
-  this->LoadedBytes = limit / 2;
+  this->BlockPoints = std::clamp<std::size_t>(std::size_t(share) / perPoint, 1 << 14, mostPoints);
+  this->SamplePoints = std::clamp<std::size_t>(
+    std::size_t(options.MemoryLimit / 512), std::size_t(1) << 14, std::size_t(1) << 20);
+  this->LoadedBytes = share;
   // One that is written, two that are worked on and one that is loaded; never mind the threads, so
   // that the pieces are the same for any number of them.
   constexpr std::uint64_t together = 4;
-  const std::uint64_t share = this->LoadedBytes / together / pieceBytes(1, rowWords);
+  const std::uint64_t most = share / together / pieceBytes(1, rowWords);
   this->PiecePoints = options.PiecePoints > 0
     ? options.PiecePoints
-    : std::clamp<std::int64_t>(std::int64_t(share), 4096, std::int64_t(1) << 20);
+    : std::clamp<std::int64_t>(std::int64_t(most), 4096, std::int64_t(1) << 20);
   this->PartitionPoints = options.PartitionPoints > 0 ? options.PartitionPoints
                                                       : std::min(bestPartition, this->PiecePoints);
 }

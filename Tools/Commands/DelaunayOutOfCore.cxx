@@ -15,6 +15,8 @@
 
 #include <fstream>
 
+#include <malloc.h>
+
 namespace tipp
 {
 namespace
@@ -147,6 +149,8 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments)
   {
     const PendingFile writable(arguments.Statistics); // before the work rather than after it
   }
+  // Large blocks go back to the system when they are freed, whatever was freed before.
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
   OutOfCoreStatistics statistics;
   {
     const auto points = openPointStream(arguments.Inputs, arguments.Columns);
