@@ -40,6 +40,10 @@ endif ()
 # Our own targets only: VTK's generated wrappers do not compile without warnings.
 function (tipp_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic)
+  # GCC takes what a unity build includes for headers, whose anonymous namespaces it warns of.
+  if (CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  endif ()
   if (TIPP_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif ()

@@ -15,7 +15,7 @@
  *
  * Output port 0 is a vtkPolyData with the input's own vtkPoints (the same object, in the same order
  * and precision, with all point data) and triangles of their ids. Points that are in no triangle
- * stay in the output. The ids take 32 bits each where they fit.
+ * stay in the output. The ids take 32 bits each where they fit, and on several ranks always 64.
  *
  * Points at the same place are merged into the one of lowest id. Points with a NaN or infinite
  * coordinate in the plane are rejected, with one warning. If there is a merged or rejected
@@ -52,7 +52,9 @@
  * table: rows for the first master's stages, and as field data, by rank, "RankComputeSeconds",
  * "RankWaitSeconds", "RankSendSeconds", "RankOwnedPoints" and "RankTriangles"; "MasterSeconds",
  * "LargestMasterMesh"; "MessageKind", "MessageCount" and "MessageBytes". If any rank fails, all do,
- * and the first one reports the error. Alpha, Tolerance, BoundingTriangulation and the best fitting
+ * and the first one reports the error; also if it is upstream that fails on a rank, unless the
+ * application has executives of its own (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView
+ * has. Alpha, Tolerance, BoundingTriangulation and the best fitting
  * plane need a single rank.
  *
  * An aborted run leaves both outputs empty. A failed one (out of memory, Transform missing) is
@@ -350,6 +352,7 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  vtkExecutive* CreateDefaultExecutive() override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 

@@ -4,6 +4,7 @@
 
 #include "Distributed/DistributedTriangulation.h"
 #include "Distributed/GhostTriangles.h"
+#include "Messages/CollectivePipeline.h"
 #include "Output/Monitor.h"
 #include "Output/PieceOutput.h"
 #include "Output/PointRows.h"
@@ -21,6 +22,18 @@
 
 #include <memory>
 #include <stdexcept>
+#include <vector>
+
+vtkExecutive* vtkTIPPDelaunay2D::CreateDefaultExecutive()
+{
+  if (DefaultExecutivePrototype)
+  {
+    return this->Superclass::CreateDefaultExecutive(); // an application's own, e.g. ParaView's
+  }
+  auto* executive = tipp::CollectivePipeline::New();
+  executive->Controller = [this]() { return this->Controller; };
+  return executive;
+}
 
 bool vtkTIPPDelaunay2D::HasSeveralRanks() const
 {
@@ -101,20 +114,24 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(
     points.Points = projected.view();
     rows.describe(points);
     mine = tipp::triangulateDistributed(ranks, points, options);
-    if (mine.Aborted)
-    {
-      throw tipp::RankFailure(ranks.rank(), true, "The run was stopped.");
-    }
-    if (this->GatherOnFirstRank)
+    // What is collective is done by all ranks or by none, whatever single ones are set to.
+    std::vector<std::int64_t> wishes{ ranks.rank() == 0 && this->GatherOnFirstRank, wantsGhosts };
+    ranks.sum(wishes);
+    if (wishes[0] > 0)
     {
       mine = tipp::gatherOnFirst(ranks, std::move(mine));
     }
     std::unique_ptr<tipp::GhostTriangles> ghosts;
-    if (wantsGhosts)
+    if (wishes[1] > 0)
     {
       ghosts = std::make_unique<tipp::GhostTriangles>(tipp::fetchGhosts(ranks, mine));
     }
-    tipp::fillPiece(mine, ranks.rank(), rows, ghosts.get(), output);
+    tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? ghosts.get() : nullptr, output);
+    if (this->GenerateRepresentativeIds)
+    {
+      tipp::addAccounts(mine, output);
+    }
+    tipp::fillRankTable(mine, statistics);
   };
   try
   {
@@ -137,11 +154,6 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(
   }
   this->NumberOfDuplicatePoints = mine.AllDuplicates;
   this->NumberOfRejectedPoints = mine.AllRejected;
-  if (this->GenerateRepresentativeIds)
-  {
-    tipp::addAccounts(mine, output);
-  }
-  tipp::fillRankTable(mine, statistics);
   if (ranks.rank() == 0 && mine.AllRejected > 0)
   {
     vtkWarningMacro(<< mine.AllRejected << " of " << mine.AllPoints

@@ -29,6 +29,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkPartitionedUnstructuredReader);
@@ -37,31 +38,53 @@ vtkCxxSetObjectMacro(vtkPartitionedUnstructuredReader, Controller, vtkMultiProce
 namespace
 {
 
-using Pieces = std::vector<std::shared_ptr<const tipp::Piece>>;
+/// A piece that nobody else needs, or one of the cache's.
+struct HeldPiece
+{
+  std::shared_ptr<const tipp::Piece> Shared;
+  tipp::Piece Own; ///< if Shared is null
+
+  const tipp::Piece& get() const { return this->Shared ? *this->Shared : this->Own; }
+  /// For VTK's arrays to take over.
+  tipp::Piece take()
+  {
+    return this->Shared ? tipp::mergePieces({ this->Shared.get() }) : std::move(this->Own);
+  }
+};
+
+/// What a request reads.
+struct Fetched
+{
+  std::vector<HeldPiece> Pieces;
+  std::int64_t Read = 0;  ///< of these, those that were not in the cache
+  std::int64_t Bytes = 0; ///< read
+};
 
 /// Changes when a file of the mesh does.
 std::string fileStamp(const std::string& path)
 {
   namespace fs = std::filesystem;
-  std::string stamp;
-  for (const char* const name : { "", "index.json", "cells.npy", "points.npy" })
+  std::vector<fs::path> files{ path };
+  for (const char* const name : { "index.json", "cells.npy", "points.npy", "time.npy" })
   {
-    const fs::path file = *name ? fs::path(path) / name : fs::path(path);
-    std::error_code ignored;
+    files.push_back(fs::path(path) / name);
+  }
+  std::error_code ignored;
+  for (const char* const folder : { "point_data", "cell_data" })
+  {
+    for (const auto& entry : fs::directory_iterator(fs::path(path) / folder, ignored))
+    {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  std::string stamp;
+  for (const fs::path& file : files)
+  {
     const auto time = fs::last_write_time(file, ignored).time_since_epoch().count();
-    stamp += " " + std::to_string(time);
+    stamp += "\n" + file.string() + " " + std::to_string(time);
   }
   return stamp;
-}
-
-std::vector<const tipp::Piece*> pointersTo(const Pieces& pieces)
-{
-  std::vector<const tipp::Piece*> pointers;
-  for (const auto& piece : pieces)
-  {
-    pointers.push_back(piece.get());
-  }
-  return pointers;
 }
 
 /// The last step not after the time, or the first.
@@ -123,6 +146,20 @@ bool vtkPartitionedUnstructuredReader::HasBounds() const
   return !(this->Bounds[0] > this->Bounds[1]);
 }
 
+void vtkPartitionedUnstructuredReader::CheckBounds() const
+{
+  const double* const b = this->Bounds;
+  if (std::any_of(b, b + 6, [](double bound) { return std::isnan(bound); }))
+  {
+    throw std::invalid_argument("Bounds hold a NaN; set numbers.");
+  }
+  if (this->HasBounds() && (b[2] > b[3] || b[4] > b[5]))
+  {
+    throw std::invalid_argument(
+      "Bounds have from > to along y or z; set from <= to, or from > to along x for everything.");
+  }
+}
+
 int vtkPartitionedUnstructuredReader::FillOutputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
@@ -164,8 +201,8 @@ void vtkPartitionedUnstructuredReader::OpenSource()
     throw std::invalid_argument("Tiling '" + tiling +
       "' is not understood; write grid:4x4, grid:4x4x2, quadtree:100000 or octree:100000.");
   }
-  const std::string all =
-    this->FileName + ("\n" + tiling) + "\n" + std::to_string(this->MemoryLimit);
+  const std::string all = this->FileName + ("\n" + tiling) + "\n" +
+    std::to_string(this->MemoryLimit) + "\n" + std::to_string(this->NumberOfThreads);
   const std::string stamped = all + fileStamp(this->FileName);
   if (this->Inner->Source && this->Inner->Opened == stamped)
   {
@@ -176,6 +213,7 @@ void vtkPartitionedUnstructuredReader::OpenSource()
   tipp::SourceOptions options;
   options.Tiling = *choice;
   options.MemoryLimit = std::uint64_t(this->MemoryLimit);
+  options.Threads = this->NumberOfThreads;
   this->Inner->Source = tipp::openPieceSource(this->FileName, options);
   this->Inner->Opened = stamped;
 }
@@ -271,47 +309,67 @@ struct Request
   }
 };
 
-/// The pieces, from the cache or the source, the missing ones in one go.
-Pieces fetch(tipp::PieceSource& source, tipp::PieceCache& cache,
-  const std::vector<std::size_t>& numbers, const tipp::PieceOptions& options,
-  std::vector<std::size_t>& missing)
+/// The pieces, from the cache or the source, the missing ones in one go. `keep`: the cache has
+/// room.
+Fetched fetch(tipp::PieceSource& source, tipp::PieceCache& cache,
+  const std::vector<std::size_t>& numbers, const tipp::PieceOptions& options, bool keep)
 {
-  Pieces pieces;
+  Fetched fetched;
+  std::vector<std::size_t> missing;
   std::vector<std::size_t> places;
   const auto keyOf = [&options](std::size_t number) {
     return tipp::PieceCache::Key{ number, options.Borrowed, options.Wanted, options.Step };
   };
   for (const std::size_t number : numbers)
   {
-    pieces.push_back(cache.find(keyOf(number)));
-    if (!pieces.back())
+    fetched.Pieces.push_back({ cache.find(keyOf(number)), {} });
+    if (!fetched.Pieces.back().Shared)
     {
       missing.push_back(number);
-      places.push_back(pieces.size() - 1);
+      places.push_back(fetched.Pieces.size() - 1);
     }
   }
   std::vector<tipp::Piece> read = source.read(missing, options);
   for (std::size_t i = 0; i < missing.size(); ++i)
   {
-    pieces[places[i]] = std::make_shared<const tipp::Piece>(std::move(read[i]));
-    cache.keep(keyOf(missing[i]), pieces[places[i]]);
+    fetched.Bytes += read[i].Counters.Bytes;
+    HeldPiece& piece = fetched.Pieces[places[i]];
+    if (keep)
+    {
+      piece.Shared = std::make_shared<const tipp::Piece>(std::move(read[i]));
+      cache.keep(keyOf(missing[i]), piece.Shared);
+    }
+    else
+    {
+      piece.Own = std::move(read[i]);
+    }
   }
-  return pieces;
+  fetched.Read = std::int64_t(missing.size());
+  return fetched;
 }
 
-/// A copy of one piece that VTK's arrays may take over.
-tipp::Piece copyOf(const tipp::Piece& piece)
+tipp::Piece merged(std::vector<HeldPiece>& pieces)
 {
-  return tipp::mergePieces({ &piece });
+  if (pieces.size() == 1)
+  {
+    return pieces[0].take();
+  }
+  std::vector<const tipp::Piece*> pointers;
+  pointers.reserve(pieces.size());
+  for (const HeldPiece& piece : pieces)
+  {
+    pointers.push_back(&piece.get());
+  }
+  return tipp::mergePieces(pointers);
 }
 
-void setOutput(vtkDataObject* output, const Pieces& pieces)
+void setOutput(vtkDataObject* output, std::vector<HeldPiece>& pieces)
 {
   if (auto* const grid = vtkUnstructuredGrid::SafeDownCast(output))
   {
     if (!pieces.empty())
     {
-      grid->ShallowCopy(tipp::makeGrid(tipp::mergePieces(pointersTo(pieces))));
+      grid->ShallowCopy(tipp::makeGrid(merged(pieces)));
     }
     return;
   }
@@ -319,7 +377,7 @@ void setOutput(vtkDataObject* output, const Pieces& pieces)
   set->SetNumberOfPartitions(unsigned(pieces.size()));
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
-    set->SetPartition(unsigned(i), tipp::makeGrid(copyOf(*pieces[i])));
+    set->SetPartition(unsigned(i), tipp::makeGrid(pieces[i].take()));
   }
 }
 
@@ -353,24 +411,18 @@ void vtkPartitionedUnstructuredReader::ReadPieces(vtkInformation* outInfo)
   }
   options.Borrowed = borrowed || range;
   numbers = request.shareOf(numbers, source.weights());
-  std::vector<std::size_t> read;
-  Pieces pieces = fetch(source, this->Inner->Cache, numbers, options, read);
+  Fetched fetched = fetch(source, this->Inner->Cache, numbers, options, this->CacheSize > 0);
   this->Inner->Cache.shrink(std::size_t(this->CacheSize));
-  this->NumberOfPiecesRead = vtkTypeInt64(read.size());
-  this->NumberOfBytesRead = 0;
-  for (std::size_t i = 0; i < pieces.size(); ++i)
+  this->NumberOfPiecesRead = fetched.Read;
+  this->NumberOfBytesRead = fetched.Bytes;
+  for (std::size_t i = 0; range && i < numbers.size(); ++i)
   {
-    const bool isNew = std::find(read.begin(), read.end(), numbers[i]) != read.end();
-    this->NumberOfBytesRead += isNew ? pieces[i]->Counters.Bytes : 0;
-    if (range)
-    {
-      pieces[i] =
-        std::make_shared<const tipp::Piece>(range->apply(*pieces[i], numbers[i], borrowed));
-    }
-    this->UpdateProgress(double(i + 1) / double(pieces.size() + 1));
+    HeldPiece& piece = fetched.Pieces[i];
+    piece = { nullptr, range->apply(piece.get(), numbers[i], borrowed) };
+    this->UpdateProgress(double(i + 1) / double(numbers.size() + 1));
   }
   vtkDataObject* const output = vtkDataObject::GetData(outInfo);
-  setOutput(output, pieces);
+  setOutput(output, fetched.Pieces);
   if (!mesh.Times.empty())
   {
     output->GetInformation()->Set(
@@ -390,10 +442,7 @@ int vtkPartitionedUnstructuredReader::RequestData(
     ranks.attempt(
       [this]
       {
-        if (std::any_of(this->Bounds, this->Bounds + 6, [](double b) { return std::isnan(b); }))
-        {
-          throw std::invalid_argument("Bounds hold a NaN; set numbers.");
-        }
+        this->CheckBounds();
         this->OpenSource();
         this->DescribeArrays();
       });
@@ -430,6 +479,7 @@ void vtkPartitionedUnstructuredReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MergePieces: " << (this->MergePieces ? "On" : "Off") << "\n";
   os << indent << "CacheSize: " << this->CacheSize << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "Tiling: " << (this->Tiling ? this->Tiling : "(none)") << "\n";
   os << indent << "NumberOfPiecesRead: " << this->NumberOfPiecesRead << "\n";
   os << indent << "NumberOfBytesRead: " << this->NumberOfBytesRead << "\n";

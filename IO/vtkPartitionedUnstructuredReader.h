@@ -85,7 +85,8 @@ public:
    * whose partition it meets are opened; the output has the cells that share a point with the
    * closed box, decided exactly (triangles by x and y alone), and their points. A cell or point
    * whose owner is not opened belongs to the lowest opened piece that it meets. Bounds with from >
-   * to along x (the default, vtkMath::UninitializeBounds) stand for everything.
+   * to along x (the default, vtkMath::UninitializeBounds) stand for everything; along y or z alone
+   * that is an error.
    */
   vtkSetVector6Macro(Bounds, double);
   vtkGetVector6Macro(Bounds, double);
@@ -130,8 +131,17 @@ public:
 
   ///@{
   /**
+   * Number of threads that load and partition a flat mesh. Default 0: as many as OpenMP would take.
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
    * How a flat mesh is partitioned: "grid:4x4" (the default), "grid:4x4x2", "quadtree:T" or
-   * "octree:T" with T cells at most in a partition.
+   * "octree:T": nodes of the tree that more than T cells meet are split, of which only cells no
+   * longer than the node count, down to a depth that ends it in any case.
    */
   vtkSetStringMacro(Tiling);
   vtkGetStringMacro(Tiling);
@@ -156,8 +166,8 @@ public:
 
   ///@{
   /**
-   * Of the last update on this process: pieces that were opened, reads from their files and bytes
-   * read. Pieces from the cache and flat meshes do not count.
+   * Of the last update on this process: pieces that were read, of a flat mesh those that were made,
+   * and bytes read from pieces' files, 0 for a flat mesh. Pieces from the cache do not count.
    */
   vtkGetMacro(NumberOfPiecesRead, vtkTypeInt64);
   vtkGetMacro(NumberOfBytesRead, vtkTypeInt64);
@@ -184,6 +194,7 @@ private:
   class Internals;
 
   bool HasBounds() const;
+  void CheckBounds() const;
   void OpenSource();
   void DescribeArrays();
   void ReadPieces(vtkInformation* outInfo);
@@ -195,6 +206,7 @@ private:
   bool MergePieces = true;
   int CacheSize = 0;
   vtkTypeInt64 MemoryLimit = vtkTypeInt64(1) << 31;
+  int NumberOfThreads = 0;
   vtkTypeInt64 NumberOfPiecesRead = 0;
   vtkTypeInt64 NumberOfBytesRead = 0;
   vtkMultiProcessController* Controller = nullptr;

@@ -4,10 +4,13 @@
 #include "Files/IOError.h"
 #include "Partitioning/GatherDataSets.h"
 #include "Partitioning/PartitionInput.h"
+#include "Partitioning/Ranks.h"
 
 #include "vtkAlgorithm.h"
+#include "vtkAlgorithmOutput.h"
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
+#include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
@@ -49,15 +52,49 @@ int vtkPartitionedUnstructuredWriter::FillInputPortInformation(int, vtkInformati
 int vtkPartitionedUnstructuredWriter::Write()
 {
   this->Written = false;
+  this->SetAbortExecute(0);
   if (this->InputFileName && *this->InputFileName)
   {
     this->WriteData();
+  }
+  else if (this->Controller && this->Controller->GetNumberOfProcesses() > 1)
+  {
+    this->WriteOnRanks();
   }
   else
   {
     this->Superclass::Write();
   }
   return this->Written ? 1 : 0;
+}
+
+/// A rank without an input would leave the others waiting for it.
+void vtkPartitionedUnstructuredWriter::WriteOnRanks()
+{
+  try
+  {
+    tipp::Ranks(this->Controller).attempt([this] { this->RequireInput(); });
+    this->Superclass::Write();
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+  }
+}
+
+void vtkPartitionedUnstructuredWriter::RequireInput()
+{
+  if (this->GetNumberOfInputConnections(0) < 1)
+  {
+    throw tipp::IOError(
+      "A rank has no input; set one on every rank, an empty one too, or InputFileName.");
+  }
+  vtkAlgorithmOutput* const input = this->GetInputConnection(0, 0);
+  vtkExecutive* const executive = input->GetProducer()->GetExecutive();
+  if (!executive->Update(input->GetIndex()))
+  {
+    throw tipp::IOError("A rank's input could not be made; see the errors before this one.");
+  }
 }
 
 void vtkPartitionedUnstructuredWriter::WriteData()

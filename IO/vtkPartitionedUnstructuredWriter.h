@@ -67,7 +67,8 @@ public:
   ///@{
   /**
    * How the bounding box is cut: "grid:4x4" or "grid:4x4x2" for a regular grid, "quadtree:N" or
-   * "octree:N" for a tree whose nodes with more than N cells (no longer than the node) are split.
+   * "octree:N" for a tree whose nodes with more than N cells (no longer than the node) are split,
+   * down to a depth that ends it in any case.
    * Default "grid:4x4".
    */
   vtkSetStringMacro(Tiling);
@@ -141,6 +142,8 @@ private:
   vtkPartitionedUnstructuredWriter(const vtkPartitionedUnstructuredWriter&) = delete;
   void operator=(const vtkPartitionedUnstructuredWriter&) = delete;
 
+  void WriteOnRanks();
+  void RequireInput();
   void Partition();
 
   char* FileName = nullptr;

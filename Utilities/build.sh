@@ -13,6 +13,7 @@ cd "$top"
 # A compiler cache, where there is one, makes the second build quick.
 if command -v ccache > /dev/null; then
   export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+  export CCACHE_SLOPPINESS=pch_defines,time_macros # or it passes over precompiled headers
 fi
 
 cmake --preset "$preset" --log-level=WARNING

@@ -2,6 +2,8 @@
 #ifndef tippPoint2_h
 #define tippPoint2_h
 
+#include <cmath>
+
 namespace tipp
 {
 
@@ -14,6 +16,11 @@ struct Point2
 inline bool operator==(Point2 a, Point2 b)
 {
   return a.x == b.x && a.y == b.y;
+}
+
+inline bool isFinite(Point2 p)
+{
+  return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
 // The order that every tie rule of the project stands on.

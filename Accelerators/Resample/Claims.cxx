@@ -278,16 +278,18 @@ private:
     withAccess(this->Mesh,
       [&](const auto& access)
       {
-        using Walk = OverlapWalk<std::decay_t<decltype(access)>>;
+        using Access = std::decay_t<decltype(access)>;
+        using Walk = OverlapWalk<Access>;
+        using Visitor = CellVisitor<Access, Walk>;
         std::vector<Walk> forKeys(std::size_t(this->Threads), Walk(access, keys.get(), nullptr));
-        if (!visitCells(this->Mesh, this->Axes, forKeys, this->Progress))
+        if (!Visitor(this->Mesh, this->Axes, forKeys).run(this->Progress))
         {
           this->Result.Aborted = true;
           return;
         }
         this->fill(claims, unclaimed);
         std::vector<Walk> forCells(std::size_t(this->Threads), Walk(access, keys.get(), claims));
-        this->Result.Aborted = !visitCells(this->Mesh, this->Axes, forCells, this->Progress);
+        this->Result.Aborted = !Visitor(this->Mesh, this->Axes, forCells).run(this->Progress);
       });
   }
 

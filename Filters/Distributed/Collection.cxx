@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/Collection.h"
 
+#include "Distributed/RankArrays.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
@@ -13,16 +14,6 @@ namespace tipp
 namespace
 {
 
-std::size_t ownerOf(std::int64_t id, const std::vector<std::int64_t>& firstIds)
-{
-  const auto next = std::upper_bound(firstIds.begin(), firstIds.end(), id);
-  if (next == firstIds.begin() || next == firstIds.end())
-  {
-    throw std::runtime_error("A triangle from another rank is damaged: it has no such vertex.");
-  }
-  return std::size_t(next - firstIds.begin()) - 1;
-}
-
 /// Each triangle to the rank that owns its vertex of lowest id.
 std::vector<IdTriangle> bringHome(Postbox& ranks, const std::vector<IdTriangle>& triangles,
   const std::vector<std::int64_t>& firstIds)
@@ -33,17 +24,9 @@ std::vector<IdTriangle> bringHome(Postbox& ranks, const std::vector<IdTriangle>&
     sorted[ownerOf(*std::min_element(triangle.begin(), triangle.end()), firstIds)].push_back(
       triangle);
   }
-  std::vector<Bytes> messages;
-  for (const std::vector<IdTriangle>& toRank : sorted)
-  {
-    ByteWriter writer;
-    writer.array(toRank);
-    messages.push_back(writer.take());
-  }
   std::vector<IdTriangle> home;
-  for (const Bytes& message : ranks.allToAll(std::move(messages)))
+  for (const std::vector<IdTriangle>& received : swapArrays(ranks, sorted))
   {
-    const auto received = ByteReader(message).array<IdTriangle>();
     home.insert(home.end(), received.begin(), received.end());
   }
   return home;
@@ -98,22 +81,20 @@ std::vector<SeamTriangle> localised(const std::vector<IdTriangle>& triangles,
 PointTuples fetchPoints(Postbox& ranks, const std::vector<std::int64_t>& ids,
   const std::vector<std::int64_t>& firstIds, const PointTuples& own, std::size_t rowSize)
 {
-  std::vector<Bytes> requests;
+  std::vector<std::vector<std::int64_t>> requests;
   auto begin = ids.begin();
   for (int rank = 0; rank < ranks.size(); ++rank)
   {
     const auto end = std::lower_bound(begin, ids.end(), firstIds[std::size_t(rank) + 1]);
-    ByteWriter writer;
-    writer.array(std::vector<std::int64_t>(begin, end));
-    requests.push_back(writer.take());
+    requests.emplace_back(begin, end);
     begin = end;
   }
   std::vector<Bytes> answers;
   const std::int64_t firstOwn = firstIds[std::size_t(ranks.rank())];
-  for (const Bytes& request : ranks.allToAll(std::move(requests)))
+  for (const std::vector<std::int64_t>& request : swapArrays(ranks, requests))
   {
     ByteWriter writer;
-    for (const std::int64_t id : ByteReader(request).array<std::int64_t>())
+    for (const std::int64_t id : request)
     {
       const std::size_t at = std::size_t(id - firstOwn);
       if (at >= own.size())
@@ -133,13 +114,21 @@ PointTuples fetchPoints(Postbox& ranks, const std::vector<std::int64_t>& ids,
   std::size_t at = 0;
   for (const Bytes& answer : ranks.allToAll(std::move(answers)))
   {
-    for (ByteReader reader(answer); reader.left() > 0 && at < ids.size(); ++at)
+    for (ByteReader reader(answer); reader.left() > 0; ++at)
     {
+      if (at == ids.size())
+      {
+        throw std::runtime_error("Another rank has sent more points than it was asked for.");
+      }
       fetched.Places[at] = reader.value<Point2>();
       fetched.GlobalIds[at] = reader.value<PointId>();
       const char* row = reader.raw(rowSize);
       std::copy(row, row + rowSize, fetched.Rows.data() + at * rowSize);
     }
+  }
+  if (at != ids.size())
+  {
+    throw std::runtime_error("Other ranks have sent fewer points than they were asked for.");
   }
   return fetched;
 }

@@ -41,7 +41,7 @@ struct GridSize
   int Columns = 0;
   int Rows = 0;
   bool isGiven() const { return this->Columns > 0 && this->Rows > 0; }
-  int size() const { return this->Columns * this->Rows; }
+  std::int64_t size() const { return std::int64_t(this->Columns) * this->Rows; }
 };
 
 struct DistributedOptions

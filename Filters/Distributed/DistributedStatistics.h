@@ -6,7 +6,6 @@
 #include "Triangulation/Triangulate.h"
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -57,7 +56,6 @@ struct DistributedStatistics
   std::vector<TrafficStatistics> Traffic;
   std::int64_t Partitions = 0;
   std::int64_t MajorPartitions = 0; ///< 0: one master
-  std::int64_t InitialPoints = 0;   ///< in the whole domain's initial mesh
   int ThreadsPerRank = 0;
   double Seconds = 0; ///< of the slowest rank
 };

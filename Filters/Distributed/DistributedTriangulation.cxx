@@ -265,19 +265,7 @@ DistributedTriangulation triangulateDistributed(
   Postbox& ranks, const RankPoints& points, const DistributedOptions& options)
 {
   DistributedTriangulation result;
-  try
-  {
-    ranks.together([&]() { DistributedRun(ranks, points, options, result).run(); });
-  }
-  catch (const RankFailure& failure)
-  {
-    if (!failure.Aborted)
-    {
-      throw;
-    }
-    result = DistributedTriangulation();
-    result.Aborted = true;
-  }
+  ranks.together([&]() { DistributedRun(ranks, points, options, result).run(); });
   return result;
 }
 

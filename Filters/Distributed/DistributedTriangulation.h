@@ -44,14 +44,13 @@ struct DistributedTriangulation
   std::int64_t AllDuplicates = 0;
   std::int64_t AllRejected = 0;
   DistributedStatistics Statistics;
-  bool Aborted = false;
 
   std::size_t triangleCount() const { return (this->Ids32.size() + this->Ids64.size()) / 3; }
 };
 
 /// The Delaunay triangulation of all ranks' points: the set of triangles that triangulate() makes
 /// of them. Of points at one place, on whatever ranks, the one of lowest global id stands for all.
-/// Collective; throws RankFailure on all ranks if any rank fails.
+/// Collective; throws RankFailure on all ranks if any rank fails or its Progress stops the run.
 VTKTIPPFILTERS_EXPORT DistributedTriangulation triangulateDistributed(
   Postbox& ranks, const RankPoints& points, const DistributedOptions& options = {});
 

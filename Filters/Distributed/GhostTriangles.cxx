@@ -2,6 +2,7 @@
 #include "Distributed/GhostTriangles.h"
 
 #include "Distributed/Collection.h"
+#include "Distributed/RankArrays.h"
 
 #include <algorithm>
 #include <map>
@@ -15,29 +16,6 @@ namespace
 
 /// For each vertex that this rank shares, the other ranks that have triangles at it.
 using Users = std::map<std::int64_t, std::vector<std::int32_t>>;
-
-std::size_t ownerOf(std::int64_t id, const std::vector<std::int64_t>& firstIds)
-{
-  return std::size_t(std::upper_bound(firstIds.begin(), firstIds.end(), id) - firstIds.begin()) - 1;
-}
-
-template <typename T>
-std::vector<std::vector<T>> swapArrays(Postbox& ranks, const std::vector<std::vector<T>>& toRanks)
-{
-  std::vector<Bytes> messages;
-  for (const std::vector<T>& values : toRanks)
-  {
-    ByteWriter writer;
-    writer.array(values);
-    messages.push_back(writer.take());
-  }
-  std::vector<std::vector<T>> received;
-  for (const Bytes& message : ranks.allToAll(std::move(messages)))
-  {
-    received.push_back(ByteReader(message).array<T>());
-  }
-  return received;
-}
 
 struct SharedVertex
 {

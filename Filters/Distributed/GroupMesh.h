@@ -3,6 +3,7 @@
 #define tippGroupMesh_h
 
 #include "Distributed/SeamGroups.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <memory>
 #include <vector>
@@ -12,7 +13,7 @@ namespace tipp
 
 /// A master's mesh: the groups of triangles whose circumdisks meet an unfinished partition. What
 /// SeamMesh is to threads, but its unit is the group, as it came from a worker.
-class GroupMesh : public ReachSource
+class VTKTIPPFILTERS_EXPORT GroupMesh : public ReachSource
 {
 public:
   /// Partitions without points are finished from the start.

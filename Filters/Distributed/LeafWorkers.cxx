@@ -54,14 +54,28 @@ LeafWorkers<Id>::LeafWorkers(
   , Buckets(buckets)
   , FirstId(firstId)
 {
-  for (int i = 0; i < threads; ++i)
+  try
   {
-    this->Threads.emplace_back([this]() { this->work(); });
+    for (int i = 0; i < threads; ++i)
+    {
+      this->Threads.emplace_back([this]() { this->work(); });
+    }
+  }
+  catch (...)
+  {
+    this->stop(); // the system gave some, but not all
+    throw;
   }
 }
 
 template <typename Id>
 LeafWorkers<Id>::~LeafWorkers()
+{
+  this->stop();
+}
+
+template <typename Id>
+void LeafWorkers<Id>::stop()
 {
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);

@@ -70,6 +70,7 @@ private:
   };
 
   void work();
+  void stop();
   class Place;
 
   const Plan& Work;

@@ -2,19 +2,19 @@
 #include "Distributed/Plan.h"
 
 #include "Distributed/MajorStages.h"
+#include "Triangulation/PartitionSizes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
 namespace tipp
 {
 namespace
 {
-
-constexpr std::int64_t BestPoints = 49152; // of a partition: workers are fastest with
-constexpr std::size_t SamplesPerPartition = 64;
 
 /// Enough ranks for one master to be a bottleneck.
 bool wantsManyMasters(const DistributedOptions& options, int ranks)
@@ -26,19 +26,27 @@ bool wantsManyMasters(const DistributedOptions& options, int ranks)
 
 std::int64_t threshold(std::int64_t points, const DistributedOptions& options, int threads)
 {
-  constexpr std::int64_t smallest = 4096;
-  constexpr std::int64_t perThread = 8;
   if (options.Threshold > 0)
   {
     return options.Threshold;
   }
-  return std::clamp(points / (perThread * threads), smallest, BestPoints);
+  return std::clamp(
+    points / (PartitionsPerThread * threads), FewestPointsInPartition, BestPointsInPartition);
 }
 
 int partsFor(double points, std::int64_t perPart)
 {
-  constexpr double most = 1 << 24;
+  constexpr double most = MostPartitions;
   return static_cast<int>(std::clamp(std::ceil(points / double(perPart)), 1.0, most));
+}
+
+void requireFewLeaves(std::int64_t leaves)
+{
+  if (leaves > MostPartitions)
+  {
+    throw std::length_error("All major partitions would have more than " +
+      std::to_string(MostPartitions) + " minor ones together; ask for fewer.");
+  }
 }
 
 /// One box's partitions; `points` of the domain's lie in it.
@@ -185,8 +193,8 @@ std::size_t wantedSample(std::int64_t points, const DistributedOptions& options,
   const std::int64_t perPart = threshold(points, options, threads);
   const std::size_t parts = std::size_t(partsFor(double(points), perPart));
   return SamplesPerPartition *
-    std::clamp(
-      std::max(parts, std::size_t(options.Major.size())), std::size_t(16), std::size_t(1) << 16);
+    std::clamp(std::max(parts, std::size_t(options.Major.isGiven() ? options.Major.size() : 0)),
+      std::size_t(16), std::size_t(1) << 16);
 }
 
 Plan planAlone(const Box2& domain)
@@ -227,6 +235,10 @@ Plan divide(const PlanInput& input, const DistributedOptions& options)
     ? Tiling::grid(input.Domain, options.Major.Columns, options.Major.Rows)
     : Tiling::balanced(input.Domain, input.Sample, chooseMajors(input.Ranks));
   top.Inner = top.Boxes.size();
+  if (options.MinorDivision == Division::Grid)
+  {
+    requireFewLeaves(top.Inner * std::max<std::int64_t>(1, options.Minor.size()));
+  }
   auto samples = samplesByBox(top.Boxes, input.Sample);
   const double pointsPerSample =
     double(input.Points) / double(std::max(input.Sample.size(), std::size_t(1)));
@@ -242,6 +254,7 @@ Plan divide(const PlanInput& input, const DistributedOptions& options)
     area.Boxes = Tiling::around(input.Domain, inner.back());
     area.Inner = inner.back().size();
     area.FirstLeaf = leaf;
+    requireFewLeaves(std::int64_t(leaf) + area.Inner);
     leaf += area.Inner;
     top.Children.push_back(p + 1);
     areas.push_back(std::move(area));

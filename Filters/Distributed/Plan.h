@@ -5,6 +5,7 @@
 #include "Distributed/DistributedOptions.h"
 #include "Messages/Bytes.h"
 #include "Triangulation/Tiling.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
 #include <vector>
@@ -27,7 +28,7 @@ struct Area
 };
 
 /// Who triangulates what. The first area is the whole domain's.
-struct Plan
+struct VTKTIPPFILTERS_EXPORT Plan
 {
   std::vector<Area> Areas;
   Tiling Leaves;                    ///< all partitions that are triangulated, in one tiling
@@ -51,14 +52,14 @@ struct PlanInput
 std::size_t wantedSample(std::int64_t points, const DistributedOptions& options, int threads);
 
 /// The areas and leaves, with nobody to work on them yet.
-Plan divide(const PlanInput& input, const DistributedOptions& options);
+VTKTIPPFILTERS_EXPORT Plan divide(const PlanInput& input, const DistributedOptions& options);
 
 /// One leaf, the first rank's.
 Plan planAlone(const Box2& domain);
 
 /// Shares the partitions out, given the points of each leaf.
-void assign(Plan& plan, const PlanInput& input, const std::vector<std::int64_t>& leafCounts,
-  const DistributedOptions& options);
+VTKTIPPFILTERS_EXPORT void assign(Plan& plan, const PlanInput& input,
+  const std::vector<std::int64_t>& leafCounts, const DistributedOptions& options);
 
 } // namespace tipp
 

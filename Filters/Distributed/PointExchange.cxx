@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/PointExchange.h"
 
+#include "Triangulation/PartitionSizes.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,7 +37,7 @@ void label(PointsView points, std::size_t begin, std::size_t end, const Tiling& 
     for (std::size_t i = 0; i < size; ++i)
     {
       std::uint32_t& leaf = labels[at + i];
-      if (!std::isfinite(places[i].x) || !std::isfinite(places[i].y))
+      if (!isFinite(places[i]))
       {
         leaf = NoLeaf;
         continue;
@@ -221,12 +223,7 @@ OwnedPoints<Id> PointExchange::exchange(
   std::vector<std::size_t> starts = { 0 };
   for (const std::size_t size : sizes)
   {
-    constexpr std::size_t most = 100'000'000; // of the kernel's 32-bit half-edges, with room
-    if (size > most)
-    {
-      throw std::length_error("A partition would hold " + std::to_string(size) +
-        " points, more than " + std::to_string(most) + "; use more partitions.");
-    }
+    requireFitsKernel(size);
     starts.push_back(starts.back() + size);
   }
   // Triangles with other ranks' points come on top of two a point; memory never touched is free.

@@ -4,7 +4,6 @@
 #include "Distributed/MessageKinds.h"
 #include "Triangulation/HullRepair.h"
 #include "Triangulation/InitialMesh.h"
-#include "Triangulation/Stopwatch.h"
 
 #include <algorithm>
 #include <numeric>
@@ -343,23 +342,23 @@ void RankRun<Id>::dispatchAll()
     }
     for (const std::int32_t index : areas)
     {
-      std::vector<std::pair<std::int32_t, Task>> begun; // dispatchers, once this one is through
+      std::vector<Task> begun; // dispatchers, once this one is through
       Dispatcher& dispatcher = *this->Dispatchers.at(index).Master;
       dispatcher.dispatch(
         [&](std::int32_t rank, Task task)
         {
           if (rank == this->Ranks.rank() && !dispatcher.area().hasLeaves())
           {
-            begun.emplace_back(rank, std::move(task));
+            begun.push_back(std::move(task));
           }
           else
           {
             this->giveTo(rank, std::move(task));
           }
         });
-      for (auto& [rank, task] : begun)
+      for (Task& task : begun)
       {
-        this->giveTo(rank, std::move(task));
+        this->giveTo(this->Ranks.rank(), std::move(task));
         again = true;
       }
       if (dispatcher.isDone())
@@ -454,6 +453,7 @@ void RankRun<Id>::finishTop(Dispatcher& top)
 template <typename Id>
 void RankRun<Id>::report()
 {
+  this->SinceReport.restart();
   const double all = double(std::max<std::size_t>(1, this->Points.size()));
   if (this->Options.Progress && !this->Options.Progress(double(this->Workers.PointsDone) / all))
   {
@@ -491,6 +491,11 @@ template <typename Id>
 void RankRun<Id>::wait()
 {
   constexpr std::chrono::microseconds longest(150);
+  constexpr double untilReport = 0.1; // for a master without work of its own too
+  if (this->SinceReport.seconds() > untilReport)
+  {
+    this->report();
+  }
   if (!this->Workers.isIdle())
   {
     this->Workers.waitFor(longest);

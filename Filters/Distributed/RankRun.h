@@ -7,6 +7,7 @@
 #include "Distributed/LeafWorkers.h"
 #include "Distributed/PointExchange.h"
 #include "Messages/Postbox.h"
+#include "Triangulation/Stopwatch.h"
 
 #include <map>
 #include <memory>
@@ -73,6 +74,7 @@ private:
   std::map<std::int32_t, Active> Dispatchers;                     ///< by area
   std::vector<SeamVertex> Artificial;
   bool Finished = false;
+  Stopwatch SinceReport;
 };
 
 extern template class RankRun<std::int32_t>;

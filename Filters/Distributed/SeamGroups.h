@@ -4,6 +4,7 @@
 
 #include "Messages/Bytes.h"
 #include "Triangulation/SeamMesh.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <array>
 #include <cstdint>
@@ -22,7 +23,7 @@ struct PlainVertex
 /// Boundary triangles for a master, in groups whose circumdisks meet the same partitions. All of a
 /// group are superseded together and become final together, so that a master handles some ten
 /// groups a partition where it would handle some hundred triangles.
-class SeamGroups
+class VTKTIPPFILTERS_EXPORT SeamGroups
 {
 public:
   struct Group
@@ -85,7 +86,7 @@ private:
 };
 
 /// Groups triangles. Keeps its memory for the next time.
-class SeamGrouping
+class VTKTIPPFILTERS_EXPORT SeamGrouping
 {
 public:
   /// A partition that is left out of what the triangles meet, or -1.

@@ -33,7 +33,7 @@ void findEnds(PointsView points, Point2 (&ends)[2])
   points.forEach(0, points.size(),
     [&](std::size_t, Point2 p)
     {
-      if (!std::isfinite(p.x) || !std::isfinite(p.y))
+      if (!isFinite(p))
       {
         return;
       }

@@ -11,11 +11,6 @@ namespace tipp
 namespace
 {
 
-bool isFinite(Point2 p)
-{
-  return std::isfinite(p.x) && std::isfinite(p.y);
-}
-
 double largestCoordinate(PointsView points)
 {
   double largest = 0;

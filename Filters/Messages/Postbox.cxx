@@ -6,6 +6,7 @@
 #include "vtkMPIController.h"
 
 #include <algorithm>
+#include <array>
 #include <thread>
 
 namespace tipp
@@ -13,11 +14,14 @@ namespace tipp
 namespace
 {
 
-// Away from the tags that VTK's own filters use.
-constexpr int HeadTag = 7431;
-constexpr int PartTag = 7432;
-constexpr std::size_t LargestPart = std::size_t(1) << 30;
+constexpr int HeadTag = 1;
+constexpr int PartTag = 2;
+constexpr std::size_t LargestPart = std::size_t(1) << 24;
 constexpr std::size_t LargestInHead = std::size_t(1) << 16;
+
+// For messages that nobody wants any more, and for those there is no memory for: taking them in
+// must not fail, or their senders would wait for ever.
+char Discarded[LargestPart];
 
 struct Head
 {
@@ -27,6 +31,14 @@ struct Head
 };
 
 } // namespace
+
+/// A message's first part, which has been taken in.
+struct Postbox::Arrival
+{
+  int Source = 0;
+  Head About = {};
+  std::array<char, sizeof(Head) + LargestInHead> First;
+};
 
 struct Postbox::Outgoing
 {
@@ -120,7 +132,7 @@ void Postbox::testOutgoing()
   }
 }
 
-bool Postbox::receive(Message& message)
+bool Postbox::probe(Arrival& arrival)
 {
   if (!this->Controller)
   {
@@ -128,37 +140,82 @@ bool Postbox::receive(Message& message)
   }
   this->testOutgoing();
   int found = 0;
-  int source = 0;
   int size = 0;
   const char* const type = nullptr;
   this->Controller->Iprobe(
-    vtkMultiProcessController::ANY_SOURCE, HeadTag, &found, &source, type, &size);
+    vtkMultiProcessController::ANY_SOURCE, HeadTag, &found, &arrival.Source, type, &size);
   if (!found)
   {
     return false;
   }
-  Bytes first{ std::size_t(size) };
-  this->Controller->Receive(first.data(), size, source, HeadTag);
-  Head head;
-  std::memcpy(&head, first.data(), sizeof(Head));
-  message.Source = source;
-  message.Kind = head.Kind;
-  message.Content = Bytes(head.Size);
-  if (head.IsComplete)
+  this->Controller->Receive(arrival.First.data(), size, arrival.Source, HeadTag);
+  std::memcpy(&arrival.About, arrival.First.data(), sizeof(Head));
+  return true;
+}
+
+bool Postbox::receive(Message& message)
+{
+  Arrival arrival;
+  if (!this->probe(arrival))
   {
-    if (head.Size > 0)
-    {
-      std::memcpy(message.Content.data(), first.data() + sizeof(Head), head.Size);
-    }
+    return false;
+  }
+  const std::size_t size = arrival.About.Size;
+  message.Source = arrival.Source;
+  message.Kind = arrival.About.Kind;
+  try
+  {
+    message.Content = Bytes(size);
+  }
+  catch (...)
+  {
+    this->discardParts(arrival);
+    throw;
+  }
+  if (arrival.About.IsComplete)
+  {
+    std::copy_n(arrival.First.data() + sizeof(Head), size, message.Content.data());
     return true;
   }
-  for (std::size_t at = 0; at < head.Size; at += LargestPart)
+  for (std::size_t at = 0; at < size; at += LargestPart)
   {
-    const std::size_t part = std::min(LargestPart, std::size_t(head.Size) - at);
+    const std::size_t part = std::min(LargestPart, size - at);
     this->Controller->Receive(
-      message.Content.data() + at, static_cast<vtkIdType>(part), source, PartTag);
+      message.Content.data() + at, static_cast<vtkIdType>(part), arrival.Source, PartTag);
   }
   return true;
+}
+
+/// Takes in the next message, and returns whether it tells of a failure; others are discarded.
+bool Postbox::receiveOfFailure(Message& message)
+{
+  Arrival arrival;
+  while (this->probe(arrival))
+  {
+    message.Source = arrival.Source;
+    message.Kind = arrival.About.Kind;
+    if (message.Kind == MessageKind::Failure || message.Kind == MessageKind::Farewell)
+    {
+      message.Content = Bytes(arrival.About.Size);
+      std::copy_n(arrival.First.data() + sizeof(Head), arrival.About.Size, message.Content.data());
+      return true;
+    }
+    this->discardParts(arrival);
+  }
+  return false;
+}
+
+void Postbox::discardParts(const Arrival& arrival)
+{
+  if (arrival.About.IsComplete)
+  {
+    return;
+  }
+  for (std::size_t at = 0; at < arrival.About.Size; at += LargestPart)
+  {
+    const std::size_t part = std::min(LargestPart, std::size_t(arrival.About.Size) - at);
+    this->Controller->Receive(Discarded, static_cast<vtkIdType>(part), arrival.Source, PartTag);
+  }
 }
 
 bool Postbox::poll(Message& message)
@@ -209,7 +266,6 @@ Message Postbox::wait(MessageKind kind, int from)
     this->Inbox.erase(kept);
     return message;
   }
-  const Stopwatch watch;
   for (;;)
   {
     Message message;
@@ -220,7 +276,6 @@ Message Postbox::wait(MessageKind kind, int from)
     }
     if (wanted(message))
     {
-      this->WaitingSeconds += watch.seconds();
       return message;
     }
     this->Inbox.push_back(std::move(message));
@@ -400,14 +455,7 @@ void Postbox::partAfterFailure()
   while (!this->Unsent.empty() || std::count(this->HasParted.begin(), this->HasParted.end(), 0) > 0)
   {
     Message message;
-    if (!this->receive(message))
-    {
-      this->pause();
-    }
-    else if (message.Kind == MessageKind::Failure || message.Kind == MessageKind::Farewell)
-    {
-      this->noteFailure(message);
-    }
+    this->receiveOfFailure(message) ? this->noteFailure(message) : this->pause();
   }
   throw *this->Failure;
 }

@@ -100,15 +100,23 @@ public:
   ///@}
 
   /// Runs the work on every rank. If it throws anywhere, it ends everywhere, and every rank throws
-  /// the same RankFailure; no message is left behind. Collective.
+  /// the same RankFailure; no message is left behind. Within the work of another call it just runs
+  /// the work, for that call sees to the rest. Collective.
   template <typename Work>
   void together(Work&& work)
   {
+    if (this->IsTogether)
+    {
+      work();
+      return;
+    }
+    this->IsTogether = true;
     try
     {
       work();
       this->barrier(); // nobody leaves while another may still fail
       this->flush();
+      this->IsTogether = false;
       return;
     }
     catch (const RankFailure& failure)
@@ -128,6 +136,10 @@ public:
     {
       this->tellFailure(false, error.what());
     }
+    catch (...)
+    {
+      this->tellFailure(false, "an error of unknown kind ended the work.");
+    }
     this->partAfterFailure();
   }
 
@@ -138,13 +150,16 @@ public:
   };
   /// Sent to other ranks, by kind.
   const std::map<MessageKind, Traffic>& traffic() const { return this->Sent; }
-  double waitingSeconds() const { return this->WaitingSeconds; }
   double sendingSeconds() const { return this->SendingSeconds; }
 
 private:
   struct Outgoing;
+  struct Arrival;
 
+  bool probe(Arrival& arrival);
   bool receive(Message& message);
+  bool receiveOfFailure(Message& message);
+  void discardParts(const Arrival& arrival);
   bool receiveGood(Message& message);
   void testOutgoing();
   void sendTo(int to, MessageKind kind, Bytes content);
@@ -160,9 +175,9 @@ private:
   std::deque<Message> Inbox;
   std::list<Outgoing> Unsent;
   std::map<MessageKind, Traffic> Sent;
-  double WaitingSeconds = 0;
   double SendingSeconds = 0;
   int Pauses = 0;
+  bool IsTogether = false;
   bool Told = false; ///< the others know of this rank's failure
   std::unique_ptr<RankFailure> Failure;
   std::vector<char> HasParted;

@@ -9,7 +9,6 @@
 #include "OutOfCore/PieceRun.h"
 #include "OutOfCore/ScratchFolder.h"
 #include "OutOfCore/SpillPoints.h"
-#include "Partitioned/PendingMesh.h"
 #include "Triangulation/Stopwatch.h"
 
 #include <omp.h>
@@ -37,7 +36,7 @@ public:
     , Path(path)
     , Options(options)
     , Threads(options.Threads > 0 ? options.Threads : omp_get_max_threads())
-    , Pending(PendingMesh::lasting(path))
+    , Pending(PendingFolder::lasting(path, &replaceableMesh))
     , Scratch(this->Pending.temporaryPath(), options.Scratch)
   {
     this->Statistics.Threads = this->Threads;
@@ -339,7 +338,7 @@ private:
   const std::string Path;
   const OutOfCoreOptions& Options;
   const int Threads;
-  PendingMesh Pending;
+  PendingFolder Pending;
   ScratchFolder Scratch;
   OutOfCoreStatistics Statistics;
   std::unique_ptr<MemoryPlan> Memory;

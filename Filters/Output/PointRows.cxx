@@ -3,6 +3,8 @@
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
@@ -120,9 +122,12 @@ PointRows::PointRows(Postbox& ranks, vtkPointSet* input)
     this->Arrays.push_back(input->GetPointData()->GetArray(column.Name.c_str()));
     this->Values.push_back(static_cast<const char*>(this->Arrays.back()->GetVoidPointer(0)));
   }
-  for (vtkIdType i = 0; this->GivenIds && i < ids->GetNumberOfTuples(); ++i)
+  if (this->GivenIds)
   {
-    this->GlobalIds.push_back(PointId(ids->GetTuple1(i)));
+    vtkNew<vtkIdTypeArray> exact; // a double would round beyond 2^53
+    exact->DeepCopy(ids);
+    const vtkIdType* values = exact->GetPointer(0);
+    this->GlobalIds.assign(values, values + exact->GetNumberOfTuples());
   }
 }
 

@@ -1,60 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Output/RankTable.h"
 
+#include "Output/TableArrays.h"
+
 #include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
-#include "vtkIdTypeArray.h"
-#include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
-#include "vtkTable.h"
 
 namespace tipp
 {
-namespace
-{
-
-/// An array of what get(item) gives for each item.
-template <typename Array, typename Items, typename Get>
-vtkSmartPointer<Array> arrayOf(const char* name, const Items& items, Get&& get)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  for (const auto& item : items)
-  {
-    array->InsertNextValue(get(item));
-  }
-  return array;
-}
-
-template <typename Items, typename Get>
-vtkSmartPointer<vtkIdTypeArray> idsOf(const char* name, const Items& items, Get&& get)
-{
-  return arrayOf<vtkIdTypeArray>(name, items, get);
-}
-
-void addTotal(const char* name, std::int64_t value, vtkFieldData* totals)
-{
-  totals->AddArray(
-    idsOf(name, std::vector<std::int64_t>{ value }, [](std::int64_t v) { return v; }));
-}
-
-} // namespace
 
 void fillRankTable(const DistributedTriangulation& mine, vtkTable* table)
 {
-  using Stage = TriangulationStatistics::Stage;
   using Rank = RankStatistics;
   const DistributedStatistics& statistics = mine.Statistics;
   const bool hasMaster = !statistics.Masters.empty() && statistics.Masters.front().Area == 0;
   const MasterStatistics none;
   const MasterStatistics& master = hasMaster ? statistics.Masters.front() : none;
-  std::int64_t number = 0;
-  table->AddColumn(idsOf("Stage", master.Stages, [&number](const Stage&) { return number++; }));
-  table->AddColumn(
-    idsOf("ActivePartitions", master.Stages, [](const Stage& s) { return s.ActivePartitions; }));
-  table->AddColumn(
-    idsOf("MeshTriangles", master.Stages, [](const Stage& s) { return s.MeshTriangles; }));
+  addStages(master.Stages, table);
 
   vtkFieldData* totals = table->GetFieldData();
   addTotal("Points", mine.AllPoints, totals);

@@ -8,16 +8,6 @@
 
 namespace tipp
 {
-namespace
-{
-
-bool isFinite(Point2 p)
-{
-  return std::isfinite(p.x) && std::isfinite(p.y);
-}
-
-} // namespace
-
 PointsView withModerateMagnitude(PointsView points, const Box2& bounds)
 {
   // Determinants have degree four in the coordinates, and errors reach 53 bits further down.

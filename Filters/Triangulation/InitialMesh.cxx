@@ -137,7 +137,7 @@ SeamTriangles triangulateVertices(
 
 bool partitionsPay(const SeamTriangles& initialMesh)
 {
-  constexpr std::size_t most = 4; // ordinary points give 2 to 3, by measurement
+  constexpr std::size_t most = 4;
   return initialMesh.Met.size() <= most * initialMesh.Triangles.size();
 }
 

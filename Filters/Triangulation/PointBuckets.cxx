@@ -13,11 +13,6 @@ namespace
 
 constexpr std::uint32_t NoPartition = std::numeric_limits<std::uint32_t>::max();
 
-bool isFinite(Point2 p)
-{
-  return std::isfinite(p.x) && std::isfinite(p.y);
-}
-
 /// The share of n items that is the part's, of so many parts.
 std::pair<std::size_t, std::size_t> share(std::size_t n, int part, int parts)
 {

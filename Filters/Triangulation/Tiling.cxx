@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation/Tiling.h"
 
+#include "Triangulation/PartitionSizes.h"
+
 #include <algorithm>
 
 namespace tipp
@@ -80,6 +82,11 @@ std::int32_t Tiling::addCut(int axis, double at)
 
 Tiling Tiling::grid(const Box2& domain, int columns, int rows)
 {
+  if (std::int64_t(columns) * rows > MostPartitions)
+  {
+    throw std::length_error(std::to_string(columns) + " x " + std::to_string(rows) +
+      " partitions are too many; the most are " + std::to_string(MostPartitions) + ".");
+  }
   Tiling tiling;
   tiling.Domain = domain;
   tiling.cutGrid(domain, columns, rows, 0);

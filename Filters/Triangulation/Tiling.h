@@ -22,7 +22,7 @@ using PartitionIndex = std::int32_t;
 class VTKTIPPFILTERS_EXPORT Tiling
 {
 public:
-  /// Equal boxes, columns x rows.
+  /// Equal boxes, columns x rows. Throws std::length_error beyond MostPartitions.
   static Tiling grid(const Box2& domain, int columns, int rows);
 
   /// About `count` boxes that hold equally many of the sample's points.

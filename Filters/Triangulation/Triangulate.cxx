@@ -5,6 +5,7 @@
 #include "Triangulation/HullRepair.h"
 #include "Triangulation/InitialMesh.h"
 #include "Triangulation/Master.h"
+#include "Triangulation/PartitionSizes.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/Stopwatch.h"
 #include "Triangulation/TriangleSink.h"
@@ -88,17 +89,9 @@ public:
 private:
   void checkSizes() const
   {
-    constexpr std::size_t most =
-      100'000'000; // of the kernel's 32-bit half-edges, with room to spare
     for (PartitionIndex p = 0; p < this->Buckets.partitions(); ++p)
     {
-      const std::size_t count = this->Buckets.count(p);
-      if (count > most)
-      {
-        throw std::length_error("Partition " + std::to_string(p) + " would hold " +
-          std::to_string(count) + " points, more than " + std::to_string(most) +
-          "; use more partitions.");
-      }
+      requireFitsKernel(this->Buckets.count(p));
     }
   }
 
@@ -250,16 +243,16 @@ private:
 int choosePartitionCount(std::size_t points, int threads)
 {
   constexpr std::size_t alone = 32768;
-  constexpr std::size_t smallest = 4096;
-  constexpr std::size_t best = 49152;
-  constexpr std::size_t perThread = 8;
+  constexpr std::size_t smallest = FewestPointsInPartition;
+  constexpr std::size_t best = BestPointsInPartition;
+  constexpr std::size_t perThread = PartitionsPerThread;
   if (points <= (threads == 1 ? 3 * best : alone))
   {
     return 1;
   }
   const std::size_t count = std::max(
     points / best, std::min(perThread * static_cast<std::size_t>(threads), points / smallest));
-  return static_cast<int>(std::min(count, std::size_t(1) << 26));
+  return static_cast<int>(std::min(count, std::size_t(MostPartitions)));
 }
 
 Tiling makeTiling(
@@ -270,9 +263,8 @@ Tiling makeTiling(
     return Tiling::grid(domain, options.Columns, options.Rows);
   }
   const int count = choosePartitionCount(points.size(), threads);
-  constexpr std::size_t samplesPerPartition = 64;
   return Tiling::balanced(
-    domain, samplePoints(points, samplesPerPartition * static_cast<std::size_t>(count)), count);
+    domain, samplePoints(points, SamplesPerPartition * static_cast<std::size_t>(count)), count);
 }
 
 } // namespace

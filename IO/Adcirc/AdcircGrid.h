@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace tipp
@@ -16,9 +17,11 @@ namespace tipp
 /// lists after them are not read.
 struct AdcircGrid
 {
-  std::vector<double> XY;
+  std::vector<double> XY;              ///< of the nodes, in the order of the file
   std::vector<double> Depth;           ///< below the datum, positive downwards
   std::vector<std::int64_t> Triangles; ///< three indices into the nodes, counted from 0
+  /// The index of each node number; these may have gaps and any order.
+  std::unordered_map<std::int64_t, std::int64_t> IndexOf;
 };
 
 /// Throws IOError.

@@ -2,6 +2,7 @@
 #ifndef tippAdcircValues_h
 #define tippAdcircValues_h
 
+#include "Adcirc/AdcircGrid.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstdint>
@@ -15,17 +16,18 @@ namespace tipp
 /// title; the numbers of steps and nodes, two numbers that are not used, and how many values a node
 /// has; for each step a line of time and time step, and a line `node value...` a node. A step may
 /// give a number of nodes and a default on its first line, and then only the nodes that differ.
-/// Where fewer steps are there than announced, as in a run that was stopped, the file is refused.
+/// Nodes go by the grid's numbers. Where fewer steps are there than announced, as in a run that was
+/// stopped, the file is refused.
 struct AdcircValues
 {
-  std::int64_t Nodes = 0;
   int Components = 1;
-  std::vector<double> Times;  ///< of the steps, in seconds
-  std::vector<double> Values; ///< step by step, node by node; -99999 where a node is dry
+  std::vector<double> Times; ///< of the steps, in seconds
+  std::vector<double>
+    Values; ///< step by step, in the order of the grid's nodes; -99999 where a node is dry
 };
 
-/// Throws IOError.
-VTKTIPPIO_EXPORT AdcircValues readAdcircValues(const std::string& path);
+/// Throws IOError, for the output of another grid too.
+VTKTIPPIO_EXPORT AdcircValues readAdcircValues(const std::string& path, const AdcircGrid& grid);
 
 } // namespace tipp
 

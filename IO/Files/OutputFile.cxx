@@ -44,13 +44,6 @@ OutputFile OutputFile::shared(const std::string& path)
   return { path, 0 };
 }
 
-OutputFile::OutputFile(OutputFile&& other) noexcept
-  : Path(std::move(other.Path))
-  , Descriptor(other.Descriptor)
-{
-  other.Descriptor = -1;
-}
-
 OutputFile::~OutputFile()
 {
   if (this->Descriptor >= 0)

@@ -20,8 +20,8 @@ public:
   /// Opens one that is there already, which other processes may write to as well.
   static OutputFile shared(const std::string& path);
   ~OutputFile();
-  OutputFile(OutputFile&& other) noexcept;
-  OutputFile& operator=(OutputFile&&) = delete;
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
 
   const std::string& path() const { return this->Path; }
   /// Throws IOError, as for a full disk.

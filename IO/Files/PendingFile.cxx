@@ -2,6 +2,7 @@
 #include "Files/PendingFile.h"
 
 #include "Files/IOError.h"
+#include "Files/OutputPath.h"
 
 #include <filesystem>
 #include <system_error>
@@ -16,28 +17,18 @@ namespace fs = std::filesystem;
 PendingFile::PendingFile(const std::string& path)
 {
   std::error_code failure;
-  fs::path target(path);
-  if (fs::exists(target, failure))
+  if (fs::exists(path, failure) && !fs::is_regular_file(path, failure))
   {
-    // A rename would replace a link, not what it points to.
-    target = fs::canonical(target, failure);
-    if (failure || !fs::is_regular_file(target, failure))
-    {
-      throw IOError(path, "is not an ordinary file; name a file to write.");
-    }
+    throw IOError(path, "is not an ordinary file; name a file to write.");
   }
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  if (!target.has_filename() || !fs::is_directory(folder, failure))
+  if (!fs::path(path).has_filename())
   {
     throw IOError(path, "its folder does not exist; create it or name another.");
   }
-  if (access(folder.c_str(), W_OK) != 0)
-  {
-    throw IOError(path, "its folder cannot be written to; change its permissions or name another.");
-  }
+  const fs::path target = outputPath(path);
   this->Path = target.string();
   const std::string name = "." + target.filename().string() + "." + std::to_string(getpid());
-  this->Temporary = (folder / (name + ".tmp")).string();
+  this->Temporary = (target.parent_path() / (name + ".tmp")).string();
 }
 
 PendingFile::~PendingFile()
@@ -51,12 +42,7 @@ PendingFile::~PendingFile()
 
 void PendingFile::commit()
 {
-  std::error_code failure;
-  fs::rename(this->Temporary, this->Path, failure);
-  if (failure)
-  {
-    throw IOError(this->Path, "cannot be written (" + failure.message() + ").");
-  }
+  moveIntoPlace(this->Temporary, this->Path);
   this->Temporary.clear();
 }
 

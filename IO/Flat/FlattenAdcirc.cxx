@@ -26,16 +26,10 @@ std::string nameOf(const std::string& path)
   return file.stem() == "fort" ? file.filename().string() : file.stem().string();
 }
 
-void addValues(const std::string& path, FlatContent& content)
+void addValues(const std::string& path, const AdcircGrid& grid, FlatContent& content)
 {
-  AdcircValues values = readAdcircValues(path);
+  AdcircValues values = readAdcircValues(path, grid);
   const std::int64_t nodes = content.Points.Tuples;
-  if (values.Nodes != nodes)
-  {
-    throw IOError(path,
-      "gives values at " + std::to_string(values.Nodes) + " nodes, but the grid has " +
-        std::to_string(nodes) + "; name the grid that it belongs to.");
-  }
   FlatArray array = floats(nameOf(path), std::move(values.Values), values.Components, nodes);
   if (values.Times.size() > 1)
   {
@@ -58,10 +52,10 @@ FlatContent flattenAdcirc(const std::string& grid, const std::vector<std::string
   content.Cells = std::move(read.Triangles);
   const auto nodes = std::int64_t(read.Depth.size());
   content.Points = floats("points", std::move(read.XY), 2, nodes);
-  content.PointData.push_back(floats("depth", std::move(read.Depth), 1, nodes));
+  content.PointData.push_back(floats("depth", read.Depth, 1, nodes));
   for (const std::string& path : values)
   {
-    addValues(path, content);
+    addValues(path, read, content);
   }
   return content;
 }

@@ -124,6 +124,10 @@ std::vector<FlatArray> arraysOf(vtkDataSetAttributes* attributes, std::vector<st
   {
     vtkDataArray* const array = attributes->GetArray(i);
     const char* const name = attributes->GetAbstractArray(i)->GetName();
+    if (name && std::strcmp(name, vtkDataSetAttributes::GhostArrayName()) == 0)
+    {
+      continue; // no ghost cell is left
+    }
     if (!array || array->GetNumberOfComponents() < 1)
     {
       leftOut.emplace_back(name ? name : "");

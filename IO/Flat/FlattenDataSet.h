@@ -23,7 +23,8 @@ struct Flattened
   std::vector<std::string> ArraysLeftOut;      ///< those that hold no numbers
 };
 
-/// The data set's simplices, points (float32 where they are, else float64) and arrays of numbers.
+/// The data set's simplices, points (float32 where they are, else float64) and arrays of numbers
+/// but for vtkGhostType, for ghost cells are left out.
 /// Where cells are cut or left out, the cell data "vtkOriginalCellIds" tell the cell that each
 /// simplex comes from. Throws IOError as simplicesOf does.
 VTKTIPPIO_EXPORT Flattened flattenDataSet(vtkDataSet* data, const std::string& path);

@@ -16,12 +16,9 @@ Scalar scalarOf(const std::string& descr, const std::string& path)
   {
     return Scalar::UInt8;
   }
-  for (int type = int(Scalar::Int8); type <= int(Scalar::Float64); ++type)
+  if (const std::optional<Scalar> type = scalarFromDescr(descr))
   {
-    if (descr == scalarDescr(Scalar(type)))
-    {
-      return Scalar(type);
-    }
+    return *type;
   }
   throw IOError(path,
     "holds elements of type '" + descr +

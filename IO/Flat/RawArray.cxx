@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Flat/RawArray.h"
 
+#include <iterator>
+
 namespace tipp
 {
 namespace
@@ -27,6 +29,18 @@ constexpr ScalarFacts facts[] = {
   { 8, "Float64", "<f8" },
 };
 
+std::optional<Scalar> find(const char* ScalarFacts::*text, const std::string& wanted)
+{
+  for (std::size_t type = 0; type < std::size(facts); ++type)
+  {
+    if (wanted == facts[type].*text)
+    {
+      return Scalar(int(type));
+    }
+  }
+  return std::nullopt;
+}
+
 } // namespace
 
 std::size_t scalarSize(Scalar type)
@@ -42,6 +56,16 @@ const char* scalarName(Scalar type)
 const char* scalarDescr(Scalar type)
 {
   return facts[int(type)].Descr;
+}
+
+std::optional<Scalar> scalarFromName(const std::string& name)
+{
+  return find(&ScalarFacts::Name, name);
+}
+
+std::optional<Scalar> scalarFromDescr(const std::string& descr)
+{
+  return find(&ScalarFacts::Descr, descr);
 }
 
 } // namespace tipp

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace tipp
@@ -31,6 +32,9 @@ VTKTIPPIO_EXPORT std::size_t scalarSize(Scalar type);
 VTKTIPPIO_EXPORT const char* scalarName(Scalar type);
 /// As NumPy names it: "|i1", "<f8".
 VTKTIPPIO_EXPORT const char* scalarDescr(Scalar type);
+/// Back from either; nothing for any other text.
+std::optional<Scalar> scalarFromName(const std::string& name);
+std::optional<Scalar> scalarFromDescr(const std::string& descr);
 
 /// The tuples of one array where they lie in a file: little-endian, one after the other.
 struct RawArray

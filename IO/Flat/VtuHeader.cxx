@@ -45,6 +45,7 @@ XmlPart readXmlPart(const InputFile& file)
   constexpr std::uint64_t limit = std::uint64_t(64) << 20;
   constexpr std::uint64_t step = 1 << 16;
   XmlPart part;
+  std::size_t tag = std::string::npos;
   for (std::uint64_t at = 0; at < std::min(file.size(), limit);)
   {
     const auto bytes = std::size_t(std::min(file.size() - at, std::max(step, at)));
@@ -52,7 +53,7 @@ XmlPart readXmlPart(const InputFile& file)
     part.Text.resize(part.Text.size() + bytes);
     file.read(at, part.Text.data() + at, bytes);
     at += bytes;
-    const std::size_t tag = part.Text.find("<AppendedData", searched);
+    tag = tag == std::string::npos ? part.Text.find("<AppendedData", searched) : tag;
     if (tag == std::string::npos)
     {
       continue;
@@ -201,12 +202,10 @@ private:
   std::optional<Scalar> scalarOf(const Tag& tag) const
   {
     const std::string* const type = tag.find("type");
-    for (int i = int(Scalar::Int8); type && i <= int(Scalar::Float64); ++i)
+    const std::optional<Scalar> scalar = type ? scalarFromName(*type) : std::nullopt;
+    if (scalar)
     {
-      if (*type == scalarName(Scalar(i)))
-      {
-        return Scalar(i);
-      }
+      return scalar;
     }
     if (type && *type == "String")
     {

@@ -2,7 +2,7 @@
 #include "Flat/WriteFlatMesh.h"
 
 #include "Files/IOError.h"
-#include "Files/NewFolder.h"
+#include "Files/PendingFolder.h"
 #include "Flat/ArrayFileName.h"
 #include "Npy/NpyFile.h"
 
@@ -75,7 +75,7 @@ bool writeData(const std::string& folder, const std::vector<FlatArray>& arrays,
 bool writeFlatMesh(
   const std::string& path, const FlatContent& content, const std::function<bool()>& aborted)
 {
-  NewFolder folder(path);
+  PendingFolder folder(path);
   const std::string& in = folder.temporaryPath();
   writeCells(in + "/cells.npy", content);
   writeArray(in + "/points.npy", content.Points, true);

@@ -4,14 +4,33 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
+#include <cstdint>
 
 namespace tipp
 {
 namespace
 {
 
-// The five entities that XML itself knows; anything else stands as it is.
-std::string decode(std::string_view text)
+void appendUtf8(std::uint32_t code, std::string& to)
+{
+  if (code < 0x80)
+  {
+    to += char(code);
+    return;
+  }
+  const int more = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+  constexpr std::array<std::uint32_t, 4> first = { 0, 0xC0, 0xE0, 0xF0 };
+  to += char(first[std::size_t(more)] | code >> (6 * more));
+  for (int shift = 6 * (more - 1); shift >= 0; shift -= 6)
+  {
+    to += char(0x80 | (code >> shift & 0x3F));
+  }
+}
+
+/// Appends what a reference at the text's beginning stands for, and returns its length; 0 if there
+/// is none. Knows numbers and the five names of XML itself.
+std::size_t takeReference(std::string_view text, std::string& to)
 {
   constexpr std::array<std::pair<std::string_view, char>, 5> entities = { {
     { "&amp;", '&' },
@@ -20,20 +39,43 @@ std::string decode(std::string_view text)
     { "&quot;", '"' },
     { "&apos;", '\'' },
   } };
+  for (const auto& [entity, value] : entities)
+  {
+    if (text.substr(0, entity.size()) == entity)
+    {
+      to += value;
+      return entity.size();
+    }
+  }
+  const bool hex = text.substr(0, 3) == "&#x";
+  const std::size_t end = text.find(';');
+  if (text.substr(0, 2) != "&#" || end == std::string_view::npos)
+  {
+    return 0;
+  }
+  std::uint32_t code = 0;
+  const auto [stop, error] =
+    std::from_chars(text.data() + (hex ? 3 : 2), text.data() + end, code, hex ? 16 : 10);
+  if (error != std::errc() || stop != text.data() + end || code == 0 || code > 0x10FFFF)
+  {
+    return 0;
+  }
+  appendUtf8(code, to);
+  return end + 1;
+}
+
+/// What is no reference stands as it is.
+std::string decode(std::string_view text)
+{
   std::string decoded;
   while (!text.empty())
   {
-    std::size_t taken = 1;
-    char character = text.front();
-    for (const auto& [entity, value] : entities)
+    std::size_t taken = text.front() == '&' ? takeReference(text, decoded) : 0;
+    if (taken == 0)
     {
-      if (text.substr(0, entity.size()) == entity)
-      {
-        taken = entity.size();
-        character = value;
-      }
+      decoded += text.front();
+      taken = 1;
     }
-    decoded += character;
     text.remove_prefix(taken);
   }
   return decoded;

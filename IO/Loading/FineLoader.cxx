@@ -46,11 +46,7 @@ public:
       return;
     }
     this->Counts.UsefulBytes += std::int64_t(count * this->Files.recordBytes());
-    constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
-    if (count > most)
-    {
-      throw std::length_error("a chunk of 2^32 vertex ids or more is asked for");
-    }
+    requireCountable(count);
     // Few ids far apart are sorted: a bit for each block would be more work, and blocks too coarse.
     constexpr std::int64_t sparse = 128;
     const bool sorted = std::int64_t(count) < (range.High - range.Low) / sparse;

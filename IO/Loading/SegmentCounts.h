@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <stdexcept>
 #include <vector>
 
 namespace tipp
@@ -34,11 +36,21 @@ struct SegmentCounts
   }
 };
 
-/// segment(id - low) is below `segments`; the chunk has less than 2^32 ids.
+/// Ids of a chunk are counted, and sorted, by numbers of 32 bits. Throws std::length_error.
+inline void requireCountable(std::size_t ids)
+{
+  if (ids > std::numeric_limits<std::uint32_t>::max())
+  {
+    throw std::length_error("a chunk of 2^32 vertex ids or more is asked for");
+  }
+}
+
+/// segment(id - low) is below `segments`. Throws as requireCountable does.
 template <typename Segment>
 SegmentCounts countSegments(const std::int64_t* ids, std::size_t count, std::int64_t low,
   std::size_t segments, int threads, const Segment& segment)
 {
+  requireCountable(count);
   constexpr std::size_t least = 1 << 16;
   // Each thread counts for itself, so that there is nothing to wait for.
   const std::size_t shares =

@@ -84,6 +84,8 @@ std::vector<std::int64_t> BorrowedByReference::readIds(PieceRole role, bool ofPo
     {
       source.File->read(
         source.File->find(role), run.Part, run.Part + 1, ids.data() + std::size_t(run.First));
+      source.File->requireIds(ids.data() + std::size_t(run.First), std::size_t(run.Count),
+        ofPoints ? this->Mesh.Points : this->Mesh.Cells);
     }
   }
   return ids;

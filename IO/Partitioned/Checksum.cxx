@@ -27,8 +27,6 @@ Checksum::Checksum()
 }
 
 Checksum::~Checksum() = default;
-Checksum::Checksum(Checksum&&) noexcept = default;
-Checksum& Checksum::operator=(Checksum&&) noexcept = default;
 
 void Checksum::add(const void* data, std::size_t bytes)
 {

@@ -21,8 +21,8 @@ class VTKTIPPIO_EXPORT Checksum
 public:
   Checksum();
   ~Checksum();
-  Checksum(Checksum&&) noexcept;
-  Checksum& operator=(Checksum&&) noexcept;
+  Checksum(const Checksum&) = delete;
+  Checksum& operator=(const Checksum&) = delete;
 
   void add(const void* data, std::size_t bytes);
   /// Of all since the last call, and starts again.

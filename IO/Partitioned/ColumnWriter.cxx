@@ -42,9 +42,4 @@ void ColumnWriter::flush()
   this->Hashed = 0;
 }
 
-void ColumnWriter::finish()
-{
-  this->flush();
-}
-
 } // namespace tipp

@@ -22,13 +22,11 @@ public:
   /// Room for the next bytes, which must be filled before the next call. Throws IOError.
   char* extend(std::size_t bytes);
   void endPart();
-  /// Writes what is left.
-  void finish();
+  /// Writes what has come so far.
+  void flush();
   std::vector<std::uint64_t>& checksums() { return this->Checksums; }
 
 private:
-  void flush();
-
   const OutputFile& File;
   std::uint64_t Offset;
   std::vector<char> Buffer;

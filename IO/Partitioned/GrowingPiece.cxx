@@ -193,7 +193,7 @@ void GrowingPiece::writeInteriorArray(const OutputFile& file, const PieceArray& 
     }
   }
   column.endPart();
-  column.finish();
+  column.flush();
   checksums.push_back(column.checksums()[0]);
 }
 

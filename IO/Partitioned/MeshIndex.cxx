@@ -22,7 +22,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* formatName = "TIPP partitioned mesh";
 constexpr int formatVersion = 1;
-constexpr std::int64_t mostPieces = 1 << 24;
 // The text's last line but one; its checksum is of all before the comma.
 constexpr const char* checksumStart = ",\n\"xxh3\": \"";
 constexpr const char* checksumEnd = "\"\n}\n";
@@ -138,15 +137,9 @@ private:
 
 Scalar parseScalar(const Fields& fields)
 {
-  const std::string name = fields.text("type");
-  for (int i = 0; i <= int(Scalar::Float64); ++i)
-  {
-    if (name == scalarName(Scalar(i)))
-    {
-      return Scalar(i);
-    }
-  }
-  fields.fail("has a wrong type");
+  const std::optional<Scalar> type = scalarFromName(fields.text("type"));
+  fields.require(type.has_value(), "has a wrong type");
+  return *type;
 }
 
 StoredArray parseArray(const Fields& fields, std::size_t steps)
@@ -255,7 +248,7 @@ Json parseJson(const std::string& text, const std::string& path)
 
 } // namespace
 
-std::string indexText(const PartitionedMesh& mesh)
+std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu)
 {
   Json json = {
     { "format", formatName },
@@ -279,7 +272,6 @@ std::string indexText(const PartitionedMesh& mesh)
     tables += piece.TableBytes;
   }
   json["tables_bytes"] = tables;
-  const std::string pvtu = pvtuText(mesh);
   json["pvtu_bytes"] = pvtu.size();
   json["pvtu_xxh3"] = checksumText(checksumOf(pvtu.data(), pvtu.size()));
   for (const StoredArray& array : mesh.Arrays)
@@ -339,6 +331,14 @@ PartitionedMesh parseIndex(const std::string& text, const std::string& path)
   parseTimes(fields, mesh);
   parseArrays(fields, path, mesh);
   parsePieces(fields, path, mesh);
+  std::uint64_t tables = 0;
+  for (const PieceSummary& piece : mesh.Pieces)
+  {
+    tables += piece.TableBytes;
+  }
+  fields.require(
+    std::uint64_t(fields.integer("tables_bytes", 0, most)) == tables, "has a wrong tables_bytes");
+  mesh.PvtuBytes = std::uint64_t(fields.integer("pvtu_bytes", 0, most));
   return mesh;
 }
 

@@ -11,8 +11,8 @@
 namespace tipp
 {
 
-/// index.json's text, its checksum included.
-VTKTIPPIO_EXPORT std::string indexText(const PartitionedMesh& mesh);
+/// index.json's text, its checksum included; `pvtu` is mesh.pvtu's.
+std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu);
 
 /// Reads such a text; `path` is the index's, for errors. Checks all that needs no other file and
 /// throws IOError. PartitionedMesh::Path is left empty.

@@ -13,12 +13,12 @@ namespace tipp
 
 namespace fs = std::filesystem;
 
-const char* const indexName = "index.json";
-const char* const tablesName = "tables.bin";
-const char* const pvtuName = "mesh.pvtu";
-
 namespace
 {
+
+constexpr const char* indexName = "index.json";
+constexpr const char* tablesName = "tables.bin";
+constexpr const char* pvtuName = "mesh.pvtu";
 
 std::string indexOf(const std::string& path)
 {
@@ -103,6 +103,7 @@ PartitionedMesh openPartitionedMesh(const std::string& path)
     tables += piece.TableBytes;
   }
   requireSize(mesh.tablesPath(), tables);
+  requireSize(mesh.pvtuPath(), mesh.PvtuBytes);
   return mesh;
 }
 

@@ -16,6 +16,9 @@ namespace tipp
 /// x from, x to, y from, y to, z from, z to.
 using Bounds = std::array<double, 6>;
 
+/// That a mesh can have.
+constexpr std::int64_t mostPieces = 1 << 24;
+
 /// What is known of one piece without opening its file.
 struct PieceSummary
 {
@@ -59,6 +62,7 @@ struct PartitionedMesh
   std::vector<double> Times;
   std::vector<StoredArray> Arrays; ///< those of points first
   std::vector<PieceSummary> Pieces;
+  std::uint64_t PvtuBytes = 0; ///< of mesh.pvtu, once it is there
 
   std::string piecePath(std::size_t piece) const;
   std::string tablesPath() const;
@@ -66,10 +70,6 @@ struct PartitionedMesh
   std::string pvtuPath() const;
 };
 
-/// The names in the folder.
-extern VTKTIPPIO_EXPORT const char* const indexName;
-extern VTKTIPPIO_EXPORT const char* const tablesName;
-extern VTKTIPPIO_EXPORT const char* const pvtuName;
 /// As "pieces/000012.vtu".
 VTKTIPPIO_EXPORT std::string pieceName(std::size_t piece);
 

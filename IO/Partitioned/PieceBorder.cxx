@@ -187,7 +187,7 @@ std::vector<std::uint64_t> writeGroups(const OutputFile& file, std::uint64_t off
   {
     column.endPart();
   }
-  column.finish();
+  column.flush();
   return column.checksums();
 }
 
@@ -331,7 +331,7 @@ void writeCellIds(
     }
     column.endPart();
   }
-  column.finish();
+  column.flush();
   file.startWriteback();
   piece.Table.Checksums[a] = column.checksums();
 }

@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Partitioned/Checksum.h"
+#include "Partitioned/IdRange.h"
 
 #include <string>
 
@@ -41,6 +42,14 @@ PieceFile::PieceFile(const PartitionedMesh& mesh, std::size_t number, ReadCounte
 void PieceFile::fail(const std::string& problem) const
 {
   throw IOError(this->File.path(), problem + "; copy or make the mesh again.");
+}
+
+void PieceFile::requireIds(const std::int64_t* ids, std::size_t count, std::int64_t limit) const
+{
+  if (!areBelow(ids, count, limit))
+  {
+    this->fail("holds a global id that the mesh does not have");
+  }
 }
 
 void PieceFile::checkHeader() const

@@ -46,6 +46,9 @@ public:
   /// checksums; throws IOError.
   void read(std::size_t array, std::size_t first, std::size_t end, void* to) const;
 
+  /// Throws IOError unless the global ids, which came from the file, are from 0 to before `limit`.
+  void requireIds(const std::int64_t* ids, std::size_t count, std::int64_t limit) const;
+
   [[noreturn]] void fail(const std::string& problem) const;
 
 private:

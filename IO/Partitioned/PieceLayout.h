@@ -3,6 +3,7 @@
 #define tippPieceLayout_h
 
 #include "Partitioned/PartitionedMesh.h"
+#include "vtkTIPPIOModule.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -54,7 +55,8 @@ std::string storedName(const StoredArray& array);
 bool hasWideIds(const PartitionedMesh& mesh, const PieceSummary& piece);
 
 /// The arrays of a piece in the order in which its file has them.
-std::vector<PieceArray> pieceArrays(const PartitionedMesh& mesh, const PieceSummary& piece);
+VTKTIPPIO_EXPORT std::vector<PieceArray> pieceArrays(
+  const PartitionedMesh& mesh, const PieceSummary& piece);
 
 /// How many tuples an array of the piece has, those of borrowed cells that lie in it too.
 std::int64_t storedTuples(

@@ -8,6 +8,7 @@
 
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace tipp
 {
@@ -35,29 +36,28 @@ void packBorrowed(const std::vector<BorrowedGroup>& groups, std::vector<std::uin
   }
 }
 
+[[noreturn]] void failInTable(
+  const PartitionedMesh& mesh, std::size_t piece, const std::string& problem)
+{
+  throw IOError(mesh.tablesPath(),
+    "its table of piece " + std::to_string(piece) + " " + problem +
+      "; copy or make the mesh again.");
+}
+
 /// Takes words from a table one by one; every one is checked by who takes it.
 class TableReader
 {
 public:
-  TableReader(const PartitionedMesh& mesh, std::size_t piece)
+  TableReader(const PartitionedMesh& mesh, std::size_t piece, std::vector<std::uint64_t> words)
     : Mesh(mesh)
     , Number(piece)
-    , Words(std::size_t(mesh.Pieces[piece].TableBytes / 8))
+    , Words(std::move(words))
   {
-    const PieceSummary& summary = mesh.Pieces[piece];
-    const InputFile file(mesh.tablesPath());
-    file.read(summary.TableOffset, this->Words.data(), this->Words.size() * 8);
-    if (checksumOf(this->Words.data(), this->Words.size() * 8) != summary.TableChecksum)
-    {
-      this->fail("does not have the checksum that the index gives");
-    }
   }
 
   [[noreturn]] void fail(const std::string& problem) const
   {
-    throw IOError(this->Mesh.tablesPath(),
-      "its table of piece " + std::to_string(this->Number) + " " + problem +
-        "; copy or make the mesh again.");
+    failInTable(this->Mesh, this->Number, problem);
   }
 
   std::uint64_t word()
@@ -211,12 +211,13 @@ std::vector<std::uint64_t> packTable(const PieceTable& table)
   return words;
 }
 
-PieceTable readPieceTable(const PartitionedMesh& mesh, std::size_t piece)
+PieceTable unpackTable(
+  const PartitionedMesh& mesh, std::size_t piece, std::vector<std::uint64_t> words)
 {
   const PieceSummary& summary = mesh.Pieces[piece];
   const auto pieces = std::int64_t(mesh.Pieces.size());
   const auto self = std::int64_t(piece);
-  TableReader in(mesh, piece);
+  TableReader in(mesh, piece, std::move(words));
   PieceTable table;
   table.HeaderBytes = std::uint64_t(in.number(std::int64_t(summary.FileBytes), "header size"));
   table.HeaderChecksum = in.word();
@@ -227,6 +228,19 @@ PieceTable readPieceTable(const PartitionedMesh& mesh, std::size_t piece)
   table.BorrowedCells = takeBorrowed(in, pieces, self);
   in.requireEnd();
   return table;
+}
+
+PieceTable readPieceTable(const PartitionedMesh& mesh, std::size_t piece)
+{
+  const PieceSummary& summary = mesh.Pieces[piece];
+  std::vector<std::uint64_t> words(std::size_t(summary.TableBytes / 8));
+  const InputFile file(mesh.tablesPath());
+  file.read(summary.TableOffset, words.data(), words.size() * 8);
+  if (checksumOf(words.data(), words.size() * 8) != summary.TableChecksum)
+  {
+    failInTable(mesh, piece, "does not have the checksum that the index gives");
+  }
+  return unpackTable(mesh, piece, std::move(words));
 }
 
 } // namespace tipp

@@ -3,6 +3,7 @@
 #define tippPieceTable_h
 
 #include "Partitioned/PartitionedMesh.h"
+#include "vtkTIPPIOModule.h"
 
 #include <cstdint>
 #include <vector>
@@ -39,15 +40,20 @@ struct PieceTable
   std::uint64_t HeaderChecksum = 0;
 
   /// Tuples of each part of the arrays of points, or of cells.
-  std::vector<std::int64_t> parts(
+  VTKTIPPIO_EXPORT std::vector<std::int64_t> parts(
     const PartitionedMesh& mesh, const PieceSummary& piece, bool ofPoints) const;
 };
 
 /// The table as it stands in tables.bin: 64-bit words.
-std::vector<std::uint64_t> packTable(const PieceTable& table);
+VTKTIPPIO_EXPORT std::vector<std::uint64_t> packTable(const PieceTable& table);
 
-/// Reads a piece's table and checks every number in it; throws IOError.
-PieceTable readPieceTable(const PartitionedMesh& mesh, std::size_t piece);
+/// Takes such words, which are those of a piece whose summary the mesh has, and checks every
+/// number in them; throws IOError.
+PieceTable unpackTable(
+  const PartitionedMesh& mesh, std::size_t piece, std::vector<std::uint64_t> words);
+
+/// Reads a piece's table from tables.bin and unpacks it; throws IOError.
+VTKTIPPIO_EXPORT PieceTable readPieceTable(const PartitionedMesh& mesh, std::size_t piece);
 
 } // namespace tipp
 

@@ -39,7 +39,7 @@ std::uint64_t PieceWriter::finish(PieceTable& table)
 {
   for (ColumnWriter& column : this->Columns)
   {
-    column.finish();
+    column.flush();
     table.Checksums.push_back(std::move(column.checksums()));
   }
   const std::size_t footer = std::strlen(pieceFooter);

@@ -10,6 +10,9 @@
 
 namespace tipp
 {
+
+const Replaceable replaceableMesh{ "partitioned mesh", isPartitionedMesh };
+
 namespace
 {
 
@@ -60,8 +63,8 @@ std::uint64_t publishPieces(PartitionedMesh& mesh, std::vector<FinishedPiece>& p
     mesh.Pieces[i] = summary;
     bytes += summary.FileBytes;
   }
-  const std::string index = indexText(mesh);
   const std::string pvtu = pvtuText(mesh);
+  const std::string index = indexText(mesh, pvtu);
   writeWholeFile(mesh.tablesPath(), tables);
   writeWholeFile(mesh.pvtuPath(), pvtu);
   syncToDisk(mesh.Path + "/pieces");

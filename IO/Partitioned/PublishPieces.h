@@ -2,6 +2,7 @@
 #ifndef tippPublishPieces_h
 #define tippPublishPieces_h
 
+#include "Files/PendingFolder.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceTable.h"
 #include "vtkTIPPIOModule.h"
@@ -11,6 +12,9 @@
 
 namespace tipp
 {
+
+/// What a new mesh may take the place of.
+VTKTIPPIO_EXPORT extern const Replaceable replaceableMesh;
 
 /// A piece whose file is complete, and what is known of it; what it borrows is not.
 struct FinishedPiece

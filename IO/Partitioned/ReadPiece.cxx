@@ -2,6 +2,7 @@
 #include "Partitioned/ReadPiece.h"
 
 #include "Partitioned/BorrowedByReference.h"
+#include "Partitioned/IdRange.h"
 
 #include <algorithm>
 #include <cstring>
@@ -12,13 +13,6 @@ namespace tipp
 {
 namespace
 {
-
-bool isWanted(const PartitionedMesh& mesh, const PieceOptions& options, std::size_t attribute)
-{
-  const int step = mesh.Arrays[attribute].Step;
-  return (options.Wanted.empty() || options.Wanted[attribute]) &&
-    (step < 0 || step == options.Step);
-}
 
 /// Reads what the piece's own file has of one array; the rest of the buffer is left alone.
 RawBuffer readOwn(
@@ -35,18 +29,6 @@ RawBuffer readOwn(
   }
   file.read(array, 0, end, buffer.data());
   return buffer;
-}
-
-template <typename Id>
-bool areBelow(const Id* ids, std::size_t count, std::int64_t limit)
-{
-  using Unsigned = std::make_unsigned_t<Id>;
-  Unsigned greatest = 0;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    greatest = std::max(greatest, Unsigned(ids[i]));
-  }
-  return count == 0 || std::uint64_t(greatest) < std::uint64_t(limit);
 }
 
 void requireLocalIds(const PieceFile& file, const Piece& piece, std::int64_t cells)
@@ -83,6 +65,7 @@ void readCells(
   }
   requireLocalIds(file, piece, stored);
   piece.CellIds = readOwn(file, file.find(PieceRole::CellIds), stored, piece.Cells);
+  file.requireIds(piece.CellIds.as<std::int64_t>(), std::size_t(stored), mesh.Cells);
 }
 
 void readAttributes(const PartitionedMesh& mesh, const PieceOptions& options, const PieceFile& file,
@@ -90,7 +73,7 @@ void readAttributes(const PartitionedMesh& mesh, const PieceOptions& options, co
 {
   for (std::size_t i = 0; i < mesh.Arrays.size(); ++i)
   {
-    if (isWanted(mesh, options, i))
+    if (options.wants(mesh, i))
     {
       const bool ofPoints = mesh.Arrays[i].OfPoints;
       RawBuffer values = readOwn(file, file.findAttribute(i), ofPoints ? storedPoints : storedCells,
@@ -101,6 +84,12 @@ void readAttributes(const PartitionedMesh& mesh, const PieceOptions& options, co
 }
 
 } // namespace
+
+bool PieceOptions::wants(const PartitionedMesh& mesh, std::size_t attribute) const
+{
+  const int step = mesh.Arrays[attribute].Step;
+  return (this->Wanted.empty() || this->Wanted[attribute]) && (step < 0 || step == this->Step);
+}
 
 Piece readPiece(const PartitionedMesh& mesh, std::size_t number, const PieceOptions& options)
 {
@@ -119,6 +108,7 @@ Piece readPiece(const PartitionedMesh& mesh, std::size_t number, const PieceOpti
   if (options.Borrowed && !mesh.Duplicated)
   {
     RawBuffer ids = readOwn(file, file.find(PieceRole::PointIds), storedPoints, storedPoints);
+    file.requireIds(ids.as<std::int64_t>(), std::size_t(storedPoints), mesh.Points);
     borrowed.emplace(mesh, file, ids.as<std::int64_t>(), piece.Counters);
     piece.Points = storedPoints + borrowed->pointCount();
     piece.Cells = storedCells + borrowed->cellCount();
@@ -130,6 +120,7 @@ Piece readPiece(const PartitionedMesh& mesh, std::size_t number, const PieceOpti
     piece.Points = storedPoints;
     piece.Cells = storedCells;
     piece.PointIds = readOwn(file, file.find(PieceRole::PointIds), storedPoints, storedPoints);
+    file.requireIds(piece.PointIds.as<std::int64_t>(), std::size_t(storedPoints), mesh.Points);
   }
   piece.Coordinates = readOwn(file, file.find(PieceRole::Points), storedPoints, piece.Points);
   piece.PointGhosts = readOwn(file, file.find(PieceRole::PointGhosts), storedPoints, piece.Points);

@@ -20,6 +20,9 @@ struct PieceOptions
   /// Which of PartitionedMesh::Arrays are read; empty: all.
   std::vector<bool> Wanted;
   int Step = 0; ///< of arrays that vary in time, only this step is read
+
+  /// Whether it asks for that one of the mesh's arrays.
+  bool wants(const PartitionedMesh& mesh, std::size_t attribute) const;
 };
 
 /// A piece in memory. Points and cells each come in ascending order of their global ids within the
@@ -46,6 +49,14 @@ struct Piece
   RawBuffer CellIds; ///< global, std::int64_t; cells from OwnedCells on are ghosts
   std::vector<Attribute> Attributes;
   ReadCounters Counters;
+
+  /// The point of the piece that is the corner of that number of a cell.
+  std::int64_t corner(std::int64_t cell, int number) const
+  {
+    const auto at = std::size_t(cell * this->CellSize + number);
+    return this->WideIds ? this->Connectivity.as<std::int64_t>()[at]
+                         : this->Connectivity.as<std::int32_t>()[at];
+  }
 };
 
 /// Reads a piece: each of its arrays that is wanted in one go. Borrowed cells that are stored by

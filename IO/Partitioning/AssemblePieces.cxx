@@ -68,98 +68,40 @@ std::vector<FinishedPiece> assembleShare(PartitionRun& run)
   return finished;
 }
 
-/// A finished piece on its way to the other ranks.
+/// A finished piece on its way to the first rank: its summary and, as in tables.bin, its table.
 void pack(const FinishedPiece& piece, std::string& bytes)
 {
-  const auto append = [&](const void* from, std::size_t count)
-  { bytes.append(static_cast<const char*>(from), count); };
-  const auto appendGroups = [&](const std::vector<LentGroup>& groups)
-  {
-    const std::uint64_t count = groups.size();
-    append(&count, 8);
-    for (const LentGroup& group : groups)
-    {
-      const std::uint64_t head[2] = { std::uint64_t(group.Count), group.To.size() };
-      append(head, 16);
-      append(group.To.data(), group.To.size() * 4);
-    }
-  };
-  append(&piece.Summary, sizeof(PieceSummary));
-  appendGroups(piece.Table.PointGroups);
-  appendGroups(piece.Table.CellGroups);
-  const std::uint64_t sizes[3] = { piece.Table.HeaderBytes, piece.Table.HeaderChecksum,
-    piece.Table.Offsets.size() };
-  append(sizes, 24);
-  append(piece.Table.Offsets.data(), piece.Table.Offsets.size() * 8);
-  for (const std::vector<std::uint64_t>& checksums : piece.Table.Checksums)
-  {
-    const std::uint64_t count = checksums.size();
-    append(&count, 8);
-    append(checksums.data(), checksums.size() * 8);
-  }
+  const std::vector<std::uint64_t> table = packTable(piece.Table);
+  const std::uint64_t words = table.size();
+  bytes.append(reinterpret_cast<const char*>(&piece.Summary), sizeof(PieceSummary));
+  bytes.append(reinterpret_cast<const char*>(&words), 8);
+  bytes.append(reinterpret_cast<const char*>(table.data()), table.size() * 8);
 }
 
-/// Takes pieces out of what pack() has made in this very program.
-class Unpacker
+/// All pieces in order, out of what this program has packed on all ranks.
+std::vector<FinishedPiece> unpack(const std::vector<std::string>& all, PartitionedMesh& mesh)
 {
-public:
-  explicit Unpacker(const std::string& bytes)
-    : Bytes(bytes)
+  std::vector<FinishedPiece> pieces;
+  for (const std::string& bytes : all)
   {
-  }
-
-  bool atEnd() const { return this->At == this->Bytes.size(); }
-
-  FinishedPiece take()
-  {
-    FinishedPiece piece;
-    this->copy(&piece.Summary, sizeof(PieceSummary));
-    piece.Table.PointGroups = this->groups();
-    piece.Table.CellGroups = this->groups();
-    std::uint64_t sizes[3];
-    this->copy(sizes, 24);
-    piece.Table.HeaderBytes = sizes[0];
-    piece.Table.HeaderChecksum = sizes[1];
-    piece.Table.Offsets.resize(sizes[2]);
-    this->copy(piece.Table.Offsets.data(), sizes[2] * 8);
-    piece.Table.Checksums.resize(sizes[2]);
-    for (std::vector<std::uint64_t>& checksums : piece.Table.Checksums)
+    for (std::size_t at = 0; at < bytes.size();)
     {
-      checksums.resize(this->word());
-      this->copy(checksums.data(), checksums.size() * 8);
+      const auto take = [&](void* to, std::size_t count)
+      {
+        bytes.copy(static_cast<char*>(to), count, at);
+        at += count;
+      };
+      PieceSummary& summary = mesh.Pieces[pieces.size()];
+      std::uint64_t words = 0;
+      take(&summary, sizeof(PieceSummary));
+      take(&words, 8);
+      std::vector<std::uint64_t> table(words);
+      take(table.data(), words * 8);
+      pieces.push_back({ summary, unpackTable(mesh, pieces.size(), std::move(table)) });
     }
-    return piece;
   }
-
-private:
-  void copy(void* to, std::size_t count)
-  {
-    this->Bytes.copy(static_cast<char*>(to), count, this->At);
-    this->At += count;
-  }
-
-  std::uint64_t word()
-  {
-    std::uint64_t value = 0;
-    this->copy(&value, 8);
-    return value;
-  }
-
-  std::vector<LentGroup> groups()
-  {
-    std::vector<LentGroup> groups(this->word());
-    for (LentGroup& group : groups)
-    {
-      group.Count = std::int64_t(this->word());
-      group.To.resize(this->word());
-      this->copy(group.To.data(), group.To.size() * 4);
-    }
-    return groups;
-  }
-
-  const std::string& Bytes;
-  std::size_t At = 0;
-};
+  return pieces;
+}
 
 } // namespace
 
@@ -188,16 +130,9 @@ void assemblePieces(PartitionRun& run)
   run.Team.attempt(
     [&]
     {
-      std::vector<FinishedPiece> pieces;
-      for (const std::string& bytes : all)
-      {
-        for (Unpacker unpacker(bytes); !unpacker.atEnd();)
-        {
-          pieces.push_back(unpacker.take());
-        }
-      }
       if (run.Team.isFirst())
       {
+        std::vector<FinishedPiece> pieces = unpack(all, run.Result);
         run.Statistics.MeshBytes = publishPieces(run.Result, pieces);
       }
     });

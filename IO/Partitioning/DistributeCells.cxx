@@ -5,12 +5,12 @@
 #include "Loading/VertexLoader.h"
 #include "Partition/ClassifyCells.h"
 #include "Partitioning/Columns.h"
+#include "Partitioning/ForeignPoint.h"
 #include "Partitioning/PartitionRun.h"
 #include "Partitioning/PointCoordinates.h"
 #include "Threads/ParallelFor.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace tipp
 {
@@ -24,6 +24,7 @@ struct Chunk
   std::size_t Cells = 0;
   std::vector<std::int64_t> Ids;
   std::vector<std::int32_t> Homes;   ///< of the vertices, cell by cell
+  std::vector<std::int32_t> Inside;  ///< the partition that a cell lies in, or -1
   std::vector<std::uint32_t> Border; ///< cells that meet several partitions
 };
 
@@ -106,6 +107,7 @@ void CellDistribution::loadHomes(Chunk& chunk)
   chunk.Homes.resize(chunk.Ids.size());
   void* const out[] = { chunk.Homes.data() };
   this->HomeLoader->load(chunk.Ids.data(), chunk.Ids.size(), out);
+  chunk.Inside.resize(chunk.Cells);
   const std::size_t stretches = std::size_t(this->Run.Threads);
   std::vector<std::vector<std::uint32_t>> border(stretches);
   parallelFor(std::int64_t(stretches), this->Run.Threads,
@@ -120,6 +122,7 @@ void CellDistribution::loadHomes(Chunk& chunk)
         {
           isInside = isInside && homes[corner] == homes[0];
         }
+        chunk.Inside[i] = isInside ? homes[0] : -1;
         if (!isInside)
         {
           border[s].push_back(std::uint32_t(i));
@@ -136,17 +139,7 @@ void CellDistribution::loadHomes(Chunk& chunk)
 void CellDistribution::spillInterior(const Chunk& chunk)
 {
   this->Run.Cells->add(
-    chunk.Cells, this->Run.Threads,
-    [&](std::size_t i) -> std::int64_t
-    {
-      const std::int32_t* homes = chunk.Homes.data() + i * this->Corners;
-      bool isInside = homes[0] >= 0;
-      for (std::size_t corner = 1; corner < this->Corners; ++corner)
-      {
-        isInside = isInside && homes[corner] == homes[0];
-      }
-      return isInside ? homes[0] : -1;
-    },
+    chunk.Cells, this->Run.Threads, [&](std::size_t i) { return chunk.Inside[i]; },
     [&](std::size_t i, char* to) { this->putCell(chunk, i, to); });
 }
 
@@ -232,14 +225,7 @@ void CellDistribution::spillForeignPoints(
       }
     }
   }
-  const auto keyOf = [](const ForeignPoint& p)
-  { return std::make_tuple(p.Point, p.Piece, p.GhostOnly); };
-  std::sort(points.begin(), points.end(),
-    [&](const ForeignPoint& a, const ForeignPoint& b) { return keyOf(a) < keyOf(b); });
-  points.erase(std::unique(points.begin(), points.end(),
-                 [&](const ForeignPoint& a, const ForeignPoint& b)
-                 { return a.Point == b.Point && a.Piece == b.Piece; }),
-    points.end());
+  makeDistinct(points);
   this->Run.ForeignPoints->add(
     points.size(), this->Run.Threads,
     [&](std::size_t i) { return points[i].Point / this->Run.ChunkPoints; },
@@ -267,13 +253,9 @@ void distributeCells(PartitionRun& run)
       run.ForeignPoints.emplace(run.scratch("foreign"), ranks, chunks, sizeof(ForeignPoint));
       CellDistribution(run).run();
     });
-  ranks.attempt(
-    [&]
-    {
-      run.Statistics.SpilledBytes += run.Cells->bytes() + run.SharedCells->bytes() +
-        run.Borrowers->bytes() + run.ForeignPoints->bytes() +
-        (run.BorrowedCells ? run.BorrowedCells->bytes() : 0);
-    });
+  run.Statistics.SpilledBytes += run.Cells->bytes() + run.SharedCells->bytes() +
+    run.Borrowers->bytes() + run.ForeignPoints->bytes() +
+    (run.BorrowedCells ? run.BorrowedCells->bytes() : 0);
   run.Cells->exchange(ranks);
   run.SharedCells->exchange(ranks);
   run.Borrowers->exchange(ranks);

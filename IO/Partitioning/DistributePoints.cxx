@@ -3,10 +3,10 @@
 
 #include "Files/InputFile.h"
 #include "Partitioning/Columns.h"
+#include "Partitioning/ForeignPoint.h"
 #include "Partitioning/PartitionRun.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace tipp
 {
@@ -58,15 +58,7 @@ std::vector<ForeignPoint> PointDistribution::foreignPoints(std::int64_t chunk) c
     return points;
   }
   std::memcpy(points.data(), raw.data(), points.size() * sizeof(ForeignPoint));
-  const auto keyOf = [](const ForeignPoint& p)
-  { return std::make_tuple(p.Point, p.Piece, p.GhostOnly); };
-  std::sort(points.begin(), points.end(),
-    [&](const ForeignPoint& a, const ForeignPoint& b) { return keyOf(a) < keyOf(b); });
-  // Several cells may have asked for it; one that is owned outweighs all borrowed ones.
-  points.erase(std::unique(points.begin(), points.end(),
-                 [](const ForeignPoint& a, const ForeignPoint& b)
-                 { return a.Point == b.Point && a.Piece == b.Piece; }),
-    points.end());
+  makeDistinct(points);
   return points;
 }
 

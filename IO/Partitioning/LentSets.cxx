@@ -45,4 +45,28 @@ std::vector<int> LentSets::places() const
   return places;
 }
 
+LentSets::Grouping LentSets::groups(const std::vector<int>& setOf) const
+{
+  std::vector<std::int64_t> counts(this->Sets.size(), 0);
+  for (const int set : setOf)
+  {
+    if (set >= 0)
+    {
+      ++counts[std::size_t(set)];
+    }
+  }
+  Grouping grouping;
+  grouping.PlaceOf.assign(this->Sets.size(), -1);
+  for (const auto& [set, number] : this->Numbers)
+  {
+    const std::int64_t count = counts[std::size_t(number)];
+    if (count > 0)
+    {
+      grouping.PlaceOf[std::size_t(number)] = int(grouping.Groups.size());
+      grouping.Groups.push_back({ set, count });
+    }
+  }
+  return grouping;
+}
+
 } // namespace tipp

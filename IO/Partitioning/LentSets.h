@@ -2,6 +2,9 @@
 #ifndef tippLentSets_h
 #define tippLentSets_h
 
+#include "Partitioned/PieceTable.h"
+#include "vtkTIPPIOModule.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -12,7 +15,7 @@ namespace tipp
 {
 
 /// The sets of pieces that borrow from one piece, each by a number.
-class LentSets
+class VTKTIPPIO_EXPORT LentSets
 {
 public:
   /// Of an ascending list.
@@ -24,6 +27,14 @@ public:
     return *this->Sets[static_cast<std::size_t>(number)];
   }
   std::size_t size() const { return this->Sets.size(); }
+  /// The groups of things that have the sets of these numbers (-1: none), in lexicographic order,
+  /// and of each set its place among them, or -1.
+  struct Grouping
+  {
+    std::vector<LentGroup> Groups;
+    std::vector<int> PlaceOf;
+  };
+  Grouping groups(const std::vector<int>& setOf) const;
   /// The place of each set, by number, in the lexicographic order of all.
   std::vector<int> places() const;
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/MakeTiling.h"
 
+#include "Files/IOError.h"
 #include "Flat/CellReader.h"
 #include "Partitioning/BuildTree.h"
-#include "Partitioning/PartitionRun.h"
 #include "Partitioning/PointCoordinates.h"
 
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace tipp
 {
@@ -17,58 +20,86 @@ namespace
 class LoadedCells
 {
 public:
-  explicit LoadedCells(const PartitionRun& run)
-    : Run(run)
-    , Reader(run.Mesh, 0, -1, run.Threads)
-    , Loader(makeVertexLoader({ run.Mesh.Points }, run.loaderOptions()))
+  LoadedCells(const FlatMesh& mesh, const LoaderOptions& loading, int threads)
+    : Mesh(mesh)
+    , Reader(mesh, 0, -1, threads)
+    , Loader(makeVertexLoader({ mesh.Points }, loading))
   {
   }
 
   void read(std::int64_t first, std::int64_t count, std::vector<double>& coordinates)
   {
-    const RawArray& points = this->Run.Mesh.Points;
-    this->Ids.resize(std::size_t(count) * std::size_t(this->Run.Rows.Corners));
+    const RawArray& points = this->Mesh.Points;
+    this->Ids.resize(std::size_t(count) * std::size_t(this->Mesh.CellSize));
     this->Reader.read(first, count, this->Ids.data());
     this->Raw.resize(this->Ids.size() * points.tupleBytes());
     void* const out[] = { this->Raw.data() };
     this->Loader->load(this->Ids.data(), this->Ids.size(), out);
-    const int dimension = this->Run.Rows.Dimension;
+    const int dimension = this->Mesh.CellSize - 1;
     coordinates.resize(this->Ids.size() * std::size_t(dimension));
     takeCoordinates(points, this->Raw.data(), this->Ids.size(), dimension, coordinates.data());
   }
 
 private:
-  const PartitionRun& Run;
+  const FlatMesh& Mesh;
   CellReader Reader;
   std::unique_ptr<VertexLoader> Loader;
   std::vector<std::int64_t> Ids;
   std::vector<char> Raw;
 };
 
+void requirePieces(std::int64_t boxes, const FlatMesh& mesh)
+{
+  if (boxes > mostPieces)
+  {
+    throw IOError(mesh.Path,
+      "would be cut into " + std::to_string(boxes) + " pieces, more than the " +
+        std::to_string(mostPieces) + " that a mesh can have; choose a coarser tiling.");
+  }
+}
+
+Bounds boundsOf(const Box3& box)
+{
+  return { box.Min[0], box.Max[0], box.Min[1], box.Max[1], box.Min[2], box.Max[2] };
+}
+
 } // namespace
 
-BoxTiling makeTiling(const PartitionRun& run, const Box3& domain)
+BoxTiling makeTiling(const FlatMesh& mesh, const TilingChoice& choice, const LoaderOptions& loading,
+  std::int64_t chunkCells, int threads, const Ranks& ranks, const Box3& domain)
 {
-  const TilingChoice& choice = run.Options.Tiling;
+  const int dimension = mesh.CellSize - 1;
   if (choice.Threshold == 0)
   {
     std::array<int, 3> boxes = choice.Boxes;
     // The plane has no third axis to cut.
-    boxes[2] = run.Rows.Dimension == 2 ? 1 : boxes[2];
-    return BoxTiling::grid(run.Rows.Dimension, domain, boxes);
+    boxes[2] = dimension == 2 ? 1 : boxes[2];
+    requirePieces(std::int64_t(boxes[0]) * boxes[1] * boxes[2], mesh);
+    return BoxTiling::grid(dimension, domain, boxes);
   }
   std::optional<LoadedCells> loaded;
-  run.Team.attempt([&] { loaded.emplace(run); });
-  const CellSource source{ run.Rows.Dimension, run.Rows.Corners, run.Mesh.Cells.Tuples,
+  ranks.attempt([&] { loaded.emplace(mesh, loading, threads); });
+  const CellSource source{ dimension, mesh.CellSize, mesh.Cells.Tuples,
     [&](std::int64_t first, std::int64_t count, std::vector<double>& coordinates)
     { loaded->read(first, count, coordinates); } };
   TreeOptions options;
-  options.Dimension = run.Rows.Dimension;
+  options.Dimension = dimension;
   options.Threshold = choice.Threshold;
-  // A chunk here has its coordinates in memory twice beside its ids.
-  options.ChunkCells = std::max<std::int64_t>(1, run.ChunkCells / 4);
-  options.Threads = run.Threads;
-  return buildTree(source, domain, options, run.Team.controller()).Tiling;
+  options.ChunkCells = chunkCells;
+  options.Threads = threads;
+  BoxTiling tiling = buildTree(source, domain, options, ranks.controller()).Tiling;
+  requirePieces(tiling.count(), mesh);
+  return tiling;
+}
+
+void setPieces(PartitionedMesh& mesh, const Box3& domain, const BoxTiling& tiling)
+{
+  mesh.Domain = boundsOf(domain);
+  mesh.Pieces.assign(std::size_t(tiling.count()), {});
+  for (std::int64_t i = 0; i < tiling.count(); ++i)
+  {
+    mesh.Pieces[std::size_t(i)].Box = boundsOf(tiling.box(i));
+  }
 }
 
 } // namespace tipp

@@ -4,33 +4,56 @@
 #include "Files/IOError.h"
 #include "Flat/FlattenDataSet.h"
 #include "Flat/WriteFlatMesh.h"
-#include "Partitioned/PendingMesh.h"
+#include "Partitioned/PieceLayout.h"
 #include "Partitioning/Ranks.h"
 #include "Vtk/ReadDataSet.h"
 
 #include "vtkDataSet.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace tipp
 {
+
+namespace
+{
+
+/// Drops the ids of a partitioned mesh that the data set was read from: this one has its own.
+void removeOwnIds(FlatContent& content)
+{
+  const auto drop = [](std::vector<FlatArray>& arrays, const std::string& name)
+  {
+    arrays.erase(std::remove_if(arrays.begin(), arrays.end(),
+                   [&](const FlatArray& array) { return array.Name == name; }),
+      arrays.end());
+  };
+  drop(content.PointData, pointIdsName);
+  drop(content.CellData, cellIdsName);
+}
+
+} // namespace
 
 PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
   const std::string& output, const PartitionOptions& options, vtkMultiProcessController* controller)
 {
   const Ranks ranks(controller);
   // It goes away with this object, or before the next run if this one is killed.
-  std::optional<PendingMesh> scratch;
+  std::optional<PendingFolder> scratch;
   std::string folder;
   ranks.attempt(
     [&]
     {
       if (ranks.isFirst())
       {
-        scratch.emplace(output);
+        scratch.emplace(output, &replaceableMesh);
         folder = scratch->temporaryPath() + "/flat";
-        writeFlatMesh(folder, flattenDataSet(data, name).Content);
+        FlatContent content = flattenDataSet(data, name).Content;
+        removeOwnIds(content);
+        writeFlatMesh(folder, content);
       }
     });
   folder = ranks.broadcast(folder);

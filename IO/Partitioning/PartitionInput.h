@@ -21,7 +21,7 @@ VTKTIPPIO_EXPORT PartitionStatistics partitionInput(const std::string& input,
 
 /// partitionMesh for the first rank's data set (null on the others), which is laid down as a flat
 /// mesh beside the output for as long as the run lasts; `name` is for errors. Cells other than
-/// triangles and tetrahedra are cut into these.
+/// triangles and tetrahedra are cut into these; ghosts and a partitioned mesh's ids are dropped.
 VTKTIPPIO_EXPORT PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
   const std::string& output, const PartitionOptions& options,
   vtkMultiProcessController* controller = nullptr);

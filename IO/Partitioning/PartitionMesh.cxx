@@ -2,9 +2,9 @@
 #include "Partitioning/PartitionMesh.h"
 
 #include "Files/IOError.h"
-#include "Partitioned/PendingMesh.h"
-#include "Partitioned/PieceLayout.h"
+#include "Partitioned/PublishPieces.h"
 #include "Partitioning/AssemblePieces.h"
+#include "Partitioning/DescribeArrays.h"
 #include "Partitioning/DistributeCells.h"
 #include "Partitioning/DistributePoints.h"
 #include "Partitioning/MakeTiling.h"
@@ -16,13 +16,22 @@
 #include <chrono>
 #include <filesystem>
 #include <limits>
-#include <set>
 #include <utility>
 
 namespace tipp
 {
 
 namespace fs = std::filesystem;
+
+PartitionRun::PartitionRun(const FlatMesh& mesh, const PartitionOptions& options,
+  const Ranks& ranks, const std::string& folder)
+  : Mesh(mesh)
+  , Options(options)
+  , Team(ranks)
+  , Threads(threadCount(options.Threads))
+  , Folder(folder)
+{
+}
 
 RawArray PartitionRun::homes() const
 {
@@ -46,44 +55,12 @@ void PartitionRun::report(double fraction) const
 {
   if (this->Team.isFirst() && this->Options.Progress && !this->Options.Progress(fraction))
   {
-    throw PartitionAborted();
+    throw WorkAborted();
   }
 }
 
 namespace
 {
-
-void describeArrays(const FlatMesh& mesh, PartitionRun& run)
-{
-  std::set<std::pair<bool, std::string>> names{ { true, pointIdsName }, { true, ghostsName },
-    { false, cellIdsName }, { false, ghostsName } };
-  const auto add = [&](const RawArray& array, bool ofPoints, int step)
-  {
-    const StoredArray stored{ array.Name, ofPoints, array.Type, array.Components, step };
-    if (!names.emplace(ofPoints, storedName(stored)).second)
-    {
-      throw IOError(mesh.Path,
-        "has two arrays named " + storedName(stored) +
-          ", or one named as the partitioned mesh names its own; rename it.");
-    }
-    run.Result.Arrays.push_back(stored);
-    (ofPoints ? run.PointData : run.CellData).push_back(array);
-  };
-  for (const bool ofPoints : { true, false })
-  {
-    for (const RawArray& array : ofPoints ? mesh.PointData : mesh.CellData)
-    {
-      add(array, ofPoints, -1);
-    }
-    for (const std::vector<RawArray>& series : ofPoints ? mesh.PointSeries : mesh.CellSeries)
-    {
-      for (std::size_t step = 0; step < series.size(); ++step)
-      {
-        add(series[step], ofPoints, int(step));
-      }
-    }
-  }
-}
 
 std::size_t tupleBytes(const std::vector<RawArray>& arrays)
 {
@@ -113,7 +90,7 @@ void chooseChunks(PartitionRun& run)
   const RowLayout& rows = run.Rows;
   const std::uint64_t share = std::max<std::uint64_t>(run.Options.MemoryLimit / 4, 1);
   const std::size_t corners = std::size_t(rows.Corners);
-  const std::size_t perCell = corners * 12 + 8 + 2 * rows.CellBytes;
+  const std::size_t perCell = corners * 12 + 12 + 2 * rows.CellBytes;
   const std::size_t perPoint = 20 + 2 * rows.PointBytes;
   constexpr std::int64_t most = 1 << 24;
   const auto choose = [&](std::int64_t asked, std::size_t bytes)
@@ -169,21 +146,14 @@ private:
   std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
 };
 
-Bounds boundsOf(const Box3& box)
-{
-  return { box.Min[0], box.Max[0], box.Min[1], box.Max[1], box.Min[2], box.Max[2] };
-}
-
 void cutDomain(PartitionRun& run)
 {
   const Box3 domain = surveyPoints(run.Mesh, run.Team, run.Threads);
-  run.Tiling.emplace(makeTiling(run, domain));
-  run.Result.Domain = boundsOf(domain);
-  run.Result.Pieces.resize(std::size_t(run.Tiling->count()));
-  for (std::int64_t i = 0; i < run.Tiling->count(); ++i)
-  {
-    run.Result.Pieces[std::size_t(i)].Box = boundsOf(run.Tiling->box(i));
-  }
+  // A chunk here has its coordinates in memory twice beside its ids.
+  const std::int64_t chunk = std::max<std::int64_t>(1, run.ChunkCells / 4);
+  run.Tiling.emplace(makeTiling(
+    run.Mesh, run.Options.Tiling, run.loaderOptions(), chunk, run.Threads, run.Team, domain));
+  setPieces(run.Result, domain, *run.Tiling);
   writeHomes(run.Mesh, *run.Tiling, run.homes().Path, run.Team, run.Threads);
 }
 
@@ -215,7 +185,11 @@ void prepare(PartitionRun& run, const std::string& path)
   result.Cells = mesh.Cells.Tuples;
   result.Tiling = run.Options.Tiling.text(mesh.CellSize - 1);
   result.Times = mesh.Times;
-  describeArrays(mesh, run);
+  const std::vector<RawArray> arrays = describeArrays(mesh, result);
+  for (std::size_t i = 0; i < arrays.size(); ++i)
+  {
+    (result.Arrays[i].OfPoints ? run.PointData : run.CellData).push_back(arrays[i]);
+  }
   layOutRows(run);
   chooseChunks(run);
   requireSpace(run, path);
@@ -262,24 +236,22 @@ PartitionStatistics partitionMesh(const FlatMesh& mesh, const std::string& path,
   const PartitionOptions& options, vtkMultiProcessController* controller)
 {
   const Ranks ranks(controller);
-  std::optional<PendingMesh> pending;
+  std::optional<PendingFolder> pending;
   ranks.attempt(
     [&]
     {
       if (ranks.isFirst())
       {
-        pending.emplace(path);
+        pending.emplace(path, &replaceableMesh);
         fs::create_directory(pending->temporaryPath() + "/pieces");
       }
     });
-  PartitionRun run{ mesh, options, ranks, threadCount(options.Threads),
-    ranks.broadcast(pending ? pending->temporaryPath() : ""), {}, {}, {}, {}, {}, 1, 1, {}, {}, {},
-    {}, {}, {}, {} };
+  PartitionRun run(mesh, options, ranks, ranks.broadcast(pending ? pending->temporaryPath() : ""));
   try
   {
     runPhases(run, path);
   }
-  catch (const PartitionAborted&)
+  catch (const WorkAborted&)
   {
     run.Statistics.Aborted = true;
     return run.Statistics;
@@ -296,7 +268,11 @@ PartitionStatistics partitionMesh(const FlatMesh& mesh, const std::string& path,
       }
     });
   run.Statistics.Phases.push_back({ "publish", watch.seconds() });
-  run.report(1);
+  if (ranks.isFirst() && options.Progress)
+  {
+    // Too late to stop: the mesh is there.
+    static_cast<void>(options.Progress(1));
+  }
   return run.Statistics;
 }
 

@@ -2,6 +2,7 @@
 #ifndef tippPartitionMesh_h
 #define tippPartitionMesh_h
 
+#include "Files/PendingFolder.h"
 #include "Flat/FlatMesh.h"
 #include "Loading/VertexLoader.h"
 #include "OpenCL/DeviceChoice.h"
@@ -56,6 +57,9 @@ struct PartitionStatistics
   std::vector<Phase> Phases;
   bool Aborted = false; ///< by Progress; nothing was written
 };
+
+/// A partitioned mesh gives way to a new one.
+extern const Replaceable replaceableMesh;
 
 /// Makes the partitioned mesh `path` of a flat mesh, within the memory limit. The files depend on
 /// the mesh, the tiling and the kind of borrowers alone, byte for byte. All is written to a hidden

@@ -45,22 +45,18 @@ struct RowLayout
   }
 };
 
-/// A vertex that a piece needs beside those in its box.
-struct ForeignPoint
-{
-  std::int64_t Point;
-  std::int32_t Piece;
-  std::int32_t GhostOnly; ///< 0 or 1
-};
-
 /// One run of partitionMesh on one rank: what its phases share.
 struct PartitionRun
 {
+  /// `folder` is the temporary one.
+  PartitionRun(const FlatMesh& mesh, const PartitionOptions& options, const Ranks& ranks,
+    const std::string& folder);
+
   const FlatMesh& Mesh;
   const PartitionOptions& Options;
   Ranks Team;
   int Threads;
-  std::string Folder; ///< the temporary one
+  std::string Folder;
   RowLayout Rows;
   PartitionedMesh Result; ///< all but the pieces' counts is known before the cells are read
   std::optional<BoxTiling> Tiling;
@@ -82,13 +78,8 @@ struct PartitionRun
   RawArray homes() const;
   LoaderOptions loaderOptions() const;
   std::size_t pieces() const { return this->Result.Pieces.size(); }
-  /// Tells the caller how far the run is. Throws PartitionAborted when told to stop.
+  /// Tells the caller how far the run is. Throws WorkAborted when told to stop.
   void report(double fraction) const;
-};
-
-/// Not an error: the user's wish.
-struct PartitionAborted
-{
 };
 
 } // namespace tipp

@@ -109,30 +109,9 @@ std::size_t PieceAssembly::partOf(std::size_t point) const
 
 void PieceAssembly::orderPoints()
 {
-  // The sets that points have, in lexicographic order, are their groups.
-  std::vector<std::int64_t> counts(this->Sets.size(), 0);
-  for (const int set : this->PointSets)
-  {
-    if (set >= 0)
-    {
-      ++counts[std::size_t(set)];
-    }
-  }
-  const std::vector<int> places = this->Sets.places();
-  std::vector<int> inOrder(places.size());
-  for (std::size_t set = 0; set < places.size(); ++set)
-  {
-    inOrder[std::size_t(places[set])] = int(set);
-  }
-  this->PointGroupOf.assign(places.size(), -1);
-  for (const int set : inOrder)
-  {
-    if (counts[std::size_t(set)] > 0)
-    {
-      this->PointGroupOf[std::size_t(set)] = int(this->Table.PointGroups.size());
-      this->Table.PointGroups.push_back({ this->Sets.set(set), counts[std::size_t(set)] });
-    }
-  }
+  LentSets::Grouping grouping = this->Sets.groups(this->PointSets);
+  this->Table.PointGroups = std::move(grouping.Groups);
+  this->PointGroupOf = std::move(grouping.PlaceOf);
 
   std::vector<std::int64_t> starts(this->Table.PointGroups.size() + 3, 0);
   for (std::size_t i = 0; i < this->PointIds.size(); ++i)
@@ -158,25 +137,7 @@ void PieceAssembly::countCells()
   {
     this->Summary.BorrowedCells = this->Run.BorrowedCells->rows(this->Piece);
   }
-  // Of the sets that cells have, in lexicographic order.
-  std::vector<std::int64_t> counts(this->Sets.size(), 0);
-  for (const int set : this->CellSets)
-  {
-    ++counts[std::size_t(set)];
-  }
-  const std::vector<int> places = this->Sets.places();
-  std::vector<int> inOrder(places.size());
-  for (std::size_t set = 0; set < places.size(); ++set)
-  {
-    inOrder[std::size_t(places[set])] = int(set);
-  }
-  for (const int set : inOrder)
-  {
-    if (counts[std::size_t(set)] > 0)
-    {
-      this->Table.CellGroups.push_back({ this->Sets.set(set), counts[std::size_t(set)] });
-    }
-  }
+  this->Table.CellGroups = this->Sets.groups(this->CellSets).Groups;
 }
 
 void PieceAssembly::appendInBlocks(const RowPointers& rows, bool ofPoints, bool ghosts)
@@ -232,7 +193,7 @@ void PieceAssembly::writePoints()
     {
       this->extendBounds(block);
     }
-    this->appendInBlocks(RowPointers(block), true, false);
+    this->appendInBlocks(block, true, false);
     this->Writer->endPart(true);
   };
   for (const LentGroup& group : this->Table.PointGroups)

@@ -92,6 +92,7 @@ void Ranks::attempt(const std::function<void()>& work) const
   }
   std::string problem;
   int failed = this->count();
+  int aborted = this->count();
   try
   {
     work();
@@ -107,12 +108,21 @@ void Ranks::attempt(const std::function<void()>& work) const
     problem = error.what();
     failed = this->rank();
   }
-  int first = 0;
-  this->Controller->AllReduce(&failed, &first, 1, vtkCommunicator::MIN_OP);
-  if (first < this->count())
+  catch (const WorkAborted&)
   {
-    broadcastText(this->Controller, problem, first);
+    aborted = this->rank();
+  }
+  const int mine[2] = { failed, aborted };
+  int first[2] = {};
+  this->Controller->AllReduce(mine, first, 2, vtkCommunicator::MIN_OP);
+  if (first[0] < this->count())
+  {
+    broadcastText(this->Controller, problem, first[0]);
     throw IOError(problem);
+  }
+  if (first[1] < this->count())
+  {
+    throw WorkAborted();
   }
 }
 

@@ -15,6 +15,11 @@ class vtkMultiProcessController;
 namespace tipp
 {
 
+/// Thrown by work that is told to stop: not an error, but the user's wish.
+struct WorkAborted
+{
+};
+
 /// The ranks that work on one mesh; one alone if there is no controller.
 class VTKTIPPIO_EXPORT Ranks
 {
@@ -34,8 +39,8 @@ public:
   /// for one.
   std::pair<std::int64_t, std::int64_t> shareOf(std::int64_t count) const;
 
-  /// Runs work on every rank and waits for all. If it throws on any, this throws on all, with the
-  /// words of the first such rank.
+  /// Runs work on every rank and waits for all. If it throws on any, this throws on all: an IOError
+  /// with the words of the first rank that failed, else WorkAborted.
   void attempt(const std::function<void()>& work) const;
 
   /// The first rank's bytes, on all.

@@ -2,10 +2,12 @@
 #include "Partitioning/Spill.h"
 
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Threads/ParallelFor.h"
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 namespace tipp
 {
@@ -40,11 +42,11 @@ Spill::Spill(
       throw IOError(path, "has rows of a piece that there is not; start again.");
     }
   }
-  this->index({ std::string(saved.data(), saved.size()) });
-  if (this->Files[0].size() < this->Written)
+  if (InputFile(fileOf(path, 0)).size() < this->Written)
   {
     throw IOError(fileOf(path, 0), "is shorter than it was; start again.");
   }
+  this->sortExtents({ std::string(saved.data(), saved.size()) });
 }
 
 std::vector<char> Spill::save() const
@@ -91,11 +93,11 @@ void Spill::exchange(const Ranks& ranks)
     reinterpret_cast<const char*>(this->Mine.data()), this->Mine.size() * sizeof(Extent));
   std::vector<Extent>().swap(this->Mine);
   std::vector<char>().swap(this->Buffer);
-  this->index(ranks.gather(mine));
+  const std::vector<std::string> all = ranks.gather(mine);
+  ranks.attempt([&] { this->sortExtents(all); });
 }
 
-/// Of each rank's extents.
-void Spill::index(const std::vector<std::string>& all)
+void Spill::sortExtents(const std::vector<std::string>& all)
 {
   this->Rows.assign(this->Keys, 0);
   this->Starts.assign(this->Keys + 1, 0);
@@ -127,10 +129,6 @@ void Spill::index(const std::vector<std::string>& all)
     [&](const Extent& extent, std::uint32_t rank) {
       this->Sorted[places[extent.Key]++] = { extent.Offset, extent.Rows, rank };
     });
-  for (std::size_t rank = 0; rank < all.size(); ++rank)
-  {
-    this->Files.emplace_back(fileOf(this->Path, int(rank)));
-  }
 }
 
 void Spill::read(std::size_t key, std::size_t most,
@@ -140,14 +138,21 @@ void Spill::read(std::size_t key, std::size_t most,
   std::size_t held = 0;
   const std::size_t room = std::min(most, std::size_t(this->Rows[key]));
   block.resize(room * this->RowBytes);
+  // A key's extents are in the order of the ranks: one file is open at a time.
+  std::optional<InputFile> file;
+  std::uint32_t opened = 0;
   for (std::size_t i = this->Starts[key]; i < this->Starts[key + 1]; ++i)
   {
     Extent extent = this->Sorted[i];
+    if (!file || opened != extent.Key)
+    {
+      opened = extent.Key;
+      file.emplace(fileOf(this->Path, int(opened)));
+    }
     while (extent.Rows > 0)
     {
       const std::size_t rows = std::min<std::size_t>(extent.Rows, room - held);
-      this->Files[extent.Key].read(
-        extent.Offset, block.data() + held * this->RowBytes, rows * this->RowBytes);
+      file->read(extent.Offset, block.data() + held * this->RowBytes, rows * this->RowBytes);
       held += rows;
       extent.Rows -= std::uint32_t(rows);
       extent.Offset += rows * this->RowBytes;
@@ -167,13 +172,12 @@ void Spill::read(std::size_t key, std::size_t most,
 void Spill::readAll(std::size_t key, void* to) const
 {
   char* at = static_cast<char*>(to);
-  for (std::size_t i = this->Starts[key]; i < this->Starts[key + 1]; ++i)
-  {
-    const Extent& extent = this->Sorted[i];
-    const std::size_t bytes = extent.Rows * this->RowBytes;
-    this->Files[extent.Key].read(extent.Offset, at, bytes);
-    at += bytes;
-  }
+  this->read(key, std::size_t(1) << 16,
+    [&](const char* block, std::size_t count)
+    {
+      std::memcpy(at, block, count * this->RowBytes);
+      at += count * this->RowBytes;
+    });
 }
 
 std::vector<char> Spill::readAll(std::size_t key) const

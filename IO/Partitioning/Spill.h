@@ -2,14 +2,12 @@
 #ifndef tippSpill_h
 #define tippSpill_h
 
-#include "Files/InputFile.h"
 #include "Files/OutputFile.h"
 #include "Partitioning/Ranks.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <string>
 #include <vector>
@@ -60,7 +58,7 @@ private:
   };
 
   void write(const std::vector<char>& rows, const std::vector<std::int64_t>& starts, int threads);
-  void index(const std::vector<std::string>& all);
+  void sortExtents(const std::vector<std::string>& all);
   static std::string fileOf(const std::string& path, int rank);
 
   std::string Path;
@@ -73,7 +71,6 @@ private:
   std::vector<Extent> Sorted;
   std::vector<std::size_t> Starts; ///< of each key's in Sorted
   std::vector<std::int64_t> Rows;
-  std::deque<InputFile> Files;
 };
 
 template <typename Key, typename Fill>

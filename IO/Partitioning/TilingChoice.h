@@ -17,7 +17,8 @@ struct TilingChoice
 {
   /// Of a regular grid.
   std::array<int, 3> Boxes{ 4, 4, 1 };
-  /// Not 0: a quadtree, or octree, whose leaves meet no more cells than this.
+  /// Not 0: a quadtree, or octree, whose nodes are split, down to BoxTiling::MaxDepth, if more
+  /// cells than this meet them. Only cells no longer than the node count.
   std::int64_t Threshold = 0;
 
   /// "grid:4x4", "grid:4x4x2", "quadtree:100000" or "octree:100000"; nothing for any other text.

@@ -23,7 +23,7 @@ struct PointOptions
 /// .npy (n x 2 or n x 3, float64 or float32); .csv, .txt, .xyz (one point a line, columns parted by
 /// comma, semicolon, tab or spaces, with or without a line of names or a line with the count
 /// first); .14, .grd (ADCIRC grids: nodes and depth); any format that VTK reads (points and
-/// one-component point data). Throws IOError.
+/// point data, a column for each component). Throws IOError.
 VTKTIPPIO_EXPORT PointTable readPoints(const std::string& path, const PointOptions& options = {});
 
 /// A part's share of a file's points, of so many parts: consecutive points where a file can be read

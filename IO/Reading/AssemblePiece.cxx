@@ -12,13 +12,6 @@ namespace tipp
 namespace
 {
 
-std::int64_t cornerOf(const Piece& piece, std::int64_t cell, int corner)
-{
-  const auto at = std::size_t(cell * piece.CellSize + corner);
-  return piece.WideIds ? piece.Connectivity.as<std::int64_t>()[at]
-                       : piece.Connectivity.as<std::int32_t>()[at];
-}
-
 struct PointOfPiece
 {
   std::int64_t Id; ///< global
@@ -78,7 +71,7 @@ private:
     {
       for (int corner = 0; corner < this->Pieces[cell.Piece]->CellSize; ++corner)
       {
-        mark(cell.Piece, cornerOf(*this->Pieces[cell.Piece], cell.Cell, corner));
+        mark(cell.Piece, this->Pieces[cell.Piece]->corner(cell.Cell, corner));
       }
     }
     for (std::size_t p = 0; allPoints && p < this->Pieces.size(); ++p)
@@ -156,7 +149,7 @@ private:
       for (int corner = 0; corner < corners; ++corner)
       {
         const std::int64_t place =
-          this->Places[cell.Piece][std::size_t(cornerOf(piece, cell.Cell, corner))];
+          this->Places[cell.Piece][std::size_t(piece.corner(cell.Cell, corner))];
         const std::size_t at = i * std::size_t(corners) + std::size_t(corner);
         if (result.WideIds)
         {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Reading/FlatPieces.h"
 
-#include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Flat/CellReader.h"
 #include "Partition/ClassifyCells.h"
-#include "Partitioned/PieceLayout.h"
+#include "Partitioning/DescribeArrays.h"
 #include "Partitioning/MakeTiling.h"
-#include "Partitioning/PartitionRun.h"
 #include "Partitioning/PointCoordinates.h"
 #include "Partitioning/SurveyPoints.h"
 #include "Threads/ParallelFor.h"
@@ -16,26 +14,12 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
-#include <set>
-#include <string>
 #include <utility>
 
 namespace tipp
 {
 namespace
 {
-
-Bounds boundsOf(const Box3& box)
-{
-  return { box.Min[0], box.Max[0], box.Min[1], box.Max[1], box.Min[2], box.Max[2] };
-}
-
-bool isWanted(const PartitionedMesh& mesh, const PieceOptions& options, std::size_t attribute)
-{
-  const int step = mesh.Arrays[attribute].Step;
-  return (options.Wanted.empty() || options.Wanted[attribute]) &&
-    (step < 0 || step == options.Step);
-}
 
 /// A's ids and B's, each once; both ascend.
 std::vector<std::int64_t> united(
@@ -85,37 +69,7 @@ FlatPieces::FlatPieces(FlatMesh mesh, const SourceOptions& options)
   this->Mesh.Cells = this->Flat.Cells.Tuples;
   this->Mesh.Tiling = options.Tiling.text(this->dimension());
   this->Mesh.Times = this->Flat.Times;
-  this->describeArrays();
-}
-
-void FlatPieces::describeArrays()
-{
-  std::set<std::pair<bool, std::string>> names{ { true, pointIdsName }, { true, ghostsName },
-    { false, cellIdsName }, { false, ghostsName } };
-  const auto add = [&](const RawArray& array, bool ofPoints, int step)
-  {
-    if (step <= 0 && !names.emplace(ofPoints, array.Name).second)
-    {
-      throw IOError(this->Flat.Path,
-        "has two arrays named " + array.Name + ", or one named as those of the pieces; rename it.");
-    }
-    this->Mesh.Arrays.push_back({ array.Name, ofPoints, array.Type, array.Components, step });
-    this->Arrays.push_back(array);
-  };
-  for (const bool ofPoints : { true, false })
-  {
-    for (const RawArray& array : ofPoints ? this->Flat.PointData : this->Flat.CellData)
-    {
-      add(array, ofPoints, -1);
-    }
-    for (const auto& series : ofPoints ? this->Flat.PointSeries : this->Flat.CellSeries)
-    {
-      for (std::size_t step = 0; step < series.size(); ++step)
-      {
-        add(series[step], ofPoints, int(step));
-      }
-    }
-  }
+  this->Arrays = describeArrays(this->Flat, this->Mesh);
 }
 
 LoaderOptions FlatPieces::loading() const
@@ -124,6 +78,16 @@ LoaderOptions FlatPieces::loading() const
   loading.MemoryLimit = std::max<std::uint64_t>(this->Options.MemoryLimit / 4, 1);
   loading.Threads = this->Options.Threads;
   return loading;
+}
+
+/// Of a chunk with its coordinates: as many as fit into a quarter of the memory.
+std::int64_t FlatPieces::chunkCells() const
+{
+  const auto corners = std::size_t(this->Flat.CellSize);
+  const auto dimension = std::size_t(this->dimension());
+  const std::size_t perCell = corners * (8 + this->Flat.Points.tupleBytes() + 8 * dimension) + 32;
+  constexpr std::uint64_t most = 1 << 22;
+  return std::int64_t(std::clamp<std::uint64_t>(this->Options.MemoryLimit / 4 / perCell, 1, most));
 }
 
 void FlatPieces::prepare(const Ranks& ranks)
@@ -139,23 +103,11 @@ void FlatPieces::prepare(const Ranks& ranks)
     this->Mesh.Pieces.clear();
     return;
   }
-  PartitionOptions partition;
-  partition.Tiling = this->Options.Tiling;
-  partition.MemoryLimit = this->Options.MemoryLimit;
-  partition.Loading = this->loading();
-  partition.Threads = this->Options.Threads;
-  PartitionRun run{ this->Flat, partition, ranks, threadCount(this->Options.Threads), {}, {}, {},
-    {}, {}, {}, 1, 1, {}, {}, {}, {}, {}, {}, {} };
-  run.Rows.Corners = this->Flat.CellSize;
-  run.Rows.Dimension = this->dimension();
-  const Box3 domain = surveyPoints(this->Flat, ranks, run.Threads);
-  BoxTiling tiling = makeTiling(run, domain);
-  this->Mesh.Domain = boundsOf(domain);
-  this->Mesh.Pieces.assign(std::size_t(tiling.count()), {});
-  for (std::int64_t i = 0; i < tiling.count(); ++i)
-  {
-    this->Mesh.Pieces[std::size_t(i)].Box = boundsOf(tiling.box(i));
-  }
+  const int threads = threadCount(this->Options.Threads);
+  const Box3 domain = surveyPoints(this->Flat, ranks, threads);
+  BoxTiling tiling = makeTiling(
+    this->Flat, this->Options.Tiling, this->loading(), this->chunkCells(), threads, ranks, domain);
+  setPieces(this->Mesh, domain, tiling);
   this->Tiling.emplace(std::move(tiling));
   std::vector<std::int64_t> counts(this->Mesh.Pieces.size(), 0);
   ranks.attempt(
@@ -215,10 +167,7 @@ void FlatPieces::collectCells(
 {
   const auto corners = std::size_t(this->Flat.CellSize);
   const auto dimension = std::size_t(this->dimension());
-  const std::size_t perCell = corners * (8 + this->Flat.Points.tupleBytes() + 8 * dimension) + 32;
-  constexpr std::uint64_t most = 1 << 22;
-  const auto chunk =
-    std::int64_t(std::clamp<std::uint64_t>(this->Options.MemoryLimit / 4 / perCell, 1, most));
+  const std::int64_t chunk = this->chunkCells();
   const auto loader = makeVertexLoader({ this->Flat.Points }, this->loading());
   ClassifyOptions classify;
   classify.Device.Kind = Device::OpenMP;
@@ -346,7 +295,7 @@ void FlatPieces::loadPoints(
   out.push_back(coordinates.data());
   for (std::size_t i = 0; i < this->Arrays.size(); ++i)
   {
-    if (this->Mesh.Arrays[i].OfPoints && isWanted(this->Mesh, options, i))
+    if (this->Mesh.Arrays[i].OfPoints && options.wants(this->Mesh, i))
     {
       piece.Attributes.push_back(
         { this->Mesh.Arrays[i], RawBuffer(ids.size() * this->Arrays[i].tupleBytes()) });
@@ -366,7 +315,7 @@ void FlatPieces::loadCellData(const PieceOptions& options, Piece& piece) const
   std::vector<void*> out;
   for (std::size_t i = 0; i < this->Arrays.size(); ++i)
   {
-    if (!this->Mesh.Arrays[i].OfPoints && isWanted(this->Mesh, options, i))
+    if (!this->Mesh.Arrays[i].OfPoints && options.wants(this->Mesh, i))
     {
       piece.Attributes.push_back({ this->Mesh.Arrays[i],
         RawBuffer(std::size_t(piece.Cells) * this->Arrays[i].tupleBytes()) });

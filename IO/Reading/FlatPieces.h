@@ -35,7 +35,6 @@ private:
     std::vector<std::int64_t> HomePoints; ///< ascending, as all the others
   };
 
-  void describeArrays();
   void collectCells(
     const std::vector<std::int32_t>& draftOf, bool borrowed, std::vector<Draft>& drafts) const;
   template <typename Visit>
@@ -46,6 +45,7 @@ private:
   void loadCellData(const PieceOptions& options, Piece& piece) const;
   int dimension() const { return this->Flat.CellSize - 1; }
   LoaderOptions loading() const;
+  std::int64_t chunkCells() const;
 
   FlatMesh Flat;
   SourceOptions Options;

@@ -3,6 +3,7 @@
 #define tippPieceCache_h
 
 #include "Partitioned/ReadPiece.h"
+#include "vtkTIPPIOModule.h"
 
 #include <cstddef>
 #include <list>
@@ -13,7 +14,7 @@ namespace tipp
 {
 
 /// The last used pieces of one mesh.
-class PieceCache
+class VTKTIPPIO_EXPORT PieceCache
 {
 public:
   /// What was read of a piece.

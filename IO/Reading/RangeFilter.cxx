@@ -37,13 +37,6 @@ std::array<double, 3> pointOf(const Piece& piece, std::int64_t point)
   return xyz;
 }
 
-std::int64_t cornerOf(const Piece& piece, std::int64_t cell, int corner)
-{
-  const auto at = std::size_t(cell * piece.CellSize + corner);
-  return piece.WideIds ? piece.Connectivity.as<std::int64_t>()[at]
-                       : piece.Connectivity.as<std::int32_t>()[at];
-}
-
 } // namespace
 
 Box3 boxOf(const PartitionedMesh& mesh, const Bounds& bounds)
@@ -85,7 +78,7 @@ bool RangeFilter::meets(const Piece& piece, std::int64_t cell, const Box3& box) 
   std::array<std::array<double, 3>, 4> p{};
   for (int corner = 0; corner < piece.CellSize; ++corner)
   {
-    p[std::size_t(corner)] = pointOf(piece, cornerOf(piece, cell, corner));
+    p[std::size_t(corner)] = pointOf(piece, piece.corner(cell, corner));
   }
   const std::size_t axes = piece.CellSize == 3 ? 2 : 3;
   bool inside = false;

@@ -155,6 +155,10 @@ Arguments parseArguments(int argc, char** argv)
   for (int i = 1; i < argc; ++i)
   {
     const std::string option = argv[i];
+    if (option == "--help")
+    {
+      return {};
+    }
     if (option == "--phases")
     {
       arguments.Phases = true;

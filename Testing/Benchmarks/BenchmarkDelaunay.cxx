@@ -81,8 +81,8 @@ void printPhases(const Run& run)
     statistics.Stages.size(), (long long)largest, (long long)statistics.InitialPoints);
 }
 
-/// Ratios are against the first contender; 'same' compares sets of triangles with it.
-void print(const std::string& input, std::size_t count, const Contender& one,
+/// Ratios are against the first contender; 'same' compares sets of triangles with it. Returns it.
+bool print(const std::string& input, std::size_t count, const Contender& one,
   const Contender& first, bool phases)
 {
   const Measurement& m = one.Best;
@@ -104,9 +104,11 @@ void print(const std::string& input, std::size_t count, const Contender& one,
     printPhases(m.Result);
   }
   std::fflush(stdout);
+  return same;
 }
 
-void compare(const Arguments& arguments, const Arguments::Input& input)
+/// Whether all made the same triangles.
+bool compare(const Arguments& arguments, const Arguments::Input& input)
 {
   const std::vector<double> xy = load(input, arguments.Seed);
   std::vector<Contender> all = contenders(arguments, xy);
@@ -122,10 +124,12 @@ void compare(const Arguments& arguments, const Arguments::Input& input)
       }
     }
   }
+  bool same = true;
   for (const Contender& one : all)
   {
-    print(input.Name, xy.size() / 2, one, all.front(), arguments.Phases);
+    same = print(input.Name, xy.size() / 2, one, all.front(), arguments.Phases) && same;
   }
+  return same;
 }
 
 } // namespace
@@ -142,11 +146,12 @@ int main(int argc, char** argv)
     }
     std::printf("%-18s %10s  %-16s %9s %8s %7s  %-4s %8s %8s %8s %7s\n", "input", "points",
       "engine", "seconds", "ns/point", "faster", "same", "peak MB", "own MB", "vertices", "boxes");
+    bool same = true;
     for (const Arguments::Input& input : arguments.Inputs)
     {
-      compare(arguments, input);
+      same = compare(arguments, input) && same;
     }
-    return 0;
+    return same ? 0 : 1;
   }
   catch (const std::exception& error)
   {

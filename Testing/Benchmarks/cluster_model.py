@@ -10,6 +10,7 @@ so that the model can be judged, and larger clusters are predicted.
 import heapq
 import json
 import math
+import os
 import sys
 
 NETWORKS = {  # seconds a message, bytes a second and rank
@@ -23,14 +24,13 @@ class Costs:
     """What one thread needs, from the figures of measured runs."""
 
     def __init__(self, runs):
-        points = compute = exchange = owned = 0.0
+        points = compute = exchange = 0.0
         master = handled = task_bytes = boundary = 0.0
         for run in runs:
             points += run["points"]
             compute += sum(rank["compute_seconds"] for rank in run["ranks"])
             exchange += sum(rank["exchange_seconds"] + rank["collect_seconds"]
                             for rank in run["ranks"])
-            owned += run["points"]
             master += sum(m["seconds"] for m in run["masters"])
             boundary += boundary_units(run["points"], run["partitions"])
             handled += run["partitions"]
@@ -40,7 +40,7 @@ class Costs:
                 task_bytes = max(task_bytes, sent / remote
                                  / boundary_units(run["points"], run["partitions"]))
         self.point = compute / points
-        self.exchange = exchange / owned
+        self.exchange = exchange / points
         self.boundary = master / max(boundary, 1.0)  # seconds of a master, a unit of boundary
         self.bytes = task_bytes or 100.0             # both ways, a unit of boundary
 
@@ -123,7 +123,7 @@ def check(costs, runs):
         ranks = len(run["ranks"])
         single = not run["major_partitions"]
         network = (2e-6, 4e9)  # within one machine
-        cores = min(ranks, run.get("cores", 2))
+        cores = min(ranks, os.cpu_count())
         seconds, _ = predict(costs, run["points"], cores, network,
                              "single" if single else "multi",
                              run["points"] / run["partitions"])

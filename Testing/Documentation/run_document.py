@@ -26,7 +26,7 @@ LISTINGS = {"cpp", "cmake", "python"}
 LIGHT = [
     (r"^sh Utilities/test\.sh$", r"sh Utilities/test.sh format"),
     (r"^sh Utilities/test\.sh build.*$", r"sh Utilities/test.sh format"),
-    (r"^sh Utilities/benchmark\.sh.*$", r"sh -n Utilities/benchmark.sh"),
+    (r"^sh Utilities/benchmark\.sh.*$", r'for script in Utilities/benchmark.sh Utilities/benchmarks/*.sh; do sh -n "$script"; done'),
     (r"^(cmake --build --preset \S+)$", r"\1 -- -n"),
     (r"^((?:xvfb-run -a )?ctest --preset .*)$", r"\1 -N --no-tests=ignore"),
 ]

@@ -2,14 +2,13 @@
 // Draws quadruples of points that are degenerate or an ulp beside it, and compares every predicate
 // that has an answer for them with rational arithmetic.
 #include "ExactOracle.h"
+#include "FuzzDriver.h"
 #include "NearDegenerate.h"
 
 #include "Predicates/CoordinateGrid.h"
 #include "Predicates/InCircle.h"
 
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <utility>
 
 namespace
@@ -77,54 +76,30 @@ bool agree(Points q)
     grid.inCircle(q[0], q[1], q[2], q[3]) == side;
 }
 
-int usage()
+/// A case is a thousand quadruples.
+bool passes(std::uint64_t seed, std::uint64_t number)
 {
-  std::fputs("usage: fuzzPredicates [--quadruples N] [--seed S]\n", stderr);
-  return 2;
+  NearDegenerate draw(unsigned(seed * 1000003 + number));
+  for (int i = 0; i < 1000; ++i)
+  {
+    const Points q = drawQuadruple(draw);
+    if (!agree(q))
+    {
+      std::printf("case %llu of seed %llu, quadruple %d:\n", (unsigned long long)number,
+        (unsigned long long)seed, i);
+      for (const tipp::Point2 p : q)
+      {
+        std::printf("  %a, %a\n", p.x, p.y);
+      }
+      return false;
+    }
+  }
+  return true;
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-  long quadruples = 1000000;
-  unsigned seed = 1;
-  for (int i = 1; i < argc; i += 2)
-  {
-    char* end = nullptr;
-    const long value = i + 1 < argc ? std::strtol(argv[i + 1], &end, 10) : -1;
-    if (value < 0 || *end != 0)
-    {
-      return usage();
-    }
-    if (std::strcmp(argv[i], "--quadruples") == 0)
-    {
-      quadruples = value;
-    }
-    else if (std::strcmp(argv[i], "--seed") == 0)
-    {
-      seed = static_cast<unsigned>(value);
-    }
-    else
-    {
-      return usage();
-    }
-  }
-  NearDegenerate draw(seed);
-  long failures = 0;
-  for (long i = 0; i < quadruples && failures < 10; ++i)
-  {
-    const Points q = drawQuadruple(draw);
-    if (!agree(q))
-    {
-      ++failures;
-      std::printf("quadruple %ld of seed %u:\n", i, seed);
-      for (const tipp::Point2 p : q)
-      {
-        std::printf("  %a, %a\n", p.x, p.y);
-      }
-    }
-  }
-  std::printf("%ld quadruples of seed %u, %ld failures\n", quadruples, seed, failures);
-  return failures == 0 ? 0 : 1;
+  return tipp::test::fuzz("fuzzPredicates", argc, argv, passes);
 }

@@ -247,6 +247,11 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
         throw CLI::ValidationError(
           "--map-duplicates", "needs an output of points, so .vtp or .vtu");
       }
+      if (arguments->Partitions != "auto" && arguments->isForRanks())
+      {
+        throw CLI::ValidationError(
+          "--partitions", "does not go with --masters, --major and --minor; give --minor");
+      }
       arguments->Input = arguments->Inputs.front();
       const std::string misplaced = misplacedOutOfCoreOption(*arguments);
       if (!isOutOfCore(*arguments) && !misplaced.empty())

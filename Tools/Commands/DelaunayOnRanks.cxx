@@ -7,6 +7,7 @@
 #include "Console/Interrupt.h"
 #include "Console/ProgressBar.h"
 #include "Distributed/DistributedTriangulation.h"
+#include "Files/Extension.h"
 #include "Messages/Postbox.h"
 #include "Triangulation/Stopwatch.h"
 
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <stdexcept>
 
 namespace tipp
 {
@@ -70,7 +70,9 @@ void writeOnFirst(Postbox& ranks, const DelaunayArguments& arguments, DelaunayRu
     return;
   }
   Stopwatch watch;
-  const PointTable points = readPointsFor(arguments);
+  // An output of triangles alone has no use for them.
+  const PointTable points =
+    extensionOf(arguments.Output) == ".npy" ? PointTable() : readPointsFor(arguments);
   if (!writeResult(arguments, points, all))
   {
     throw RankFailure(0, true, "interrupted");
@@ -116,10 +118,6 @@ void runTogether(Postbox& ranks, const DelaunayArguments& arguments)
   };
   const DistributedTriangulation mine = triangulateDistributed(ranks, input, options);
   bar.reset();
-  if (mine.Aborted)
-  {
-    throw RankFailure(0, true, "interrupted");
-  }
   run.Points = mine.AllPoints;
   run.TriangulateSeconds = watch.restart();
   writeOnFirst(ranks, arguments, run, mine);

@@ -3,15 +3,14 @@
 
 #include "Commands/Commands.h"
 #include "Commands/MemorySize.h"
+#include "Commands/Report.h"
 #include "Console/Interrupt.h"
 #include "Console/ProgressBar.h"
 #include "Files/Extension.h"
-#include "Files/IOError.h"
 #include "Files/PendingFile.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <fstream>
 
@@ -101,17 +100,7 @@ void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& 
   {
     json["phases"].push_back({ { "name", phase.Name }, { "seconds", phase.Seconds } });
   }
-  PendingFile pending(arguments.Statistics);
-  std::ofstream file(pending.temporaryPath());
-  // File names need not be UTF-8.
-  file << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
-  file.close();
-  if (!file)
-  {
-    throw IOError(arguments.Statistics,
-      "cannot be written; check the disk's space and the folder's permissions.");
-  }
-  pending.commit();
+  writeJson(arguments.Statistics, json);
 }
 
 std::string summarize(const OutOfCoreStatistics& statistics)

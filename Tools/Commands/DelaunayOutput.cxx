@@ -69,12 +69,6 @@ void requireWritable(const DelaunayArguments& arguments)
   }
 }
 
-int reportInterrupt()
-{
-  fmt::print(stderr, "tipp: interrupted; nothing was written.\n");
-  return interruptedExitCode;
-}
-
 void warnOfNoTriangles(const Triangulation& result)
 {
   if (result.triangleCount() == 0)

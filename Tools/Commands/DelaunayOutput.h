@@ -21,9 +21,6 @@ bool writeResult(
 
 void warnOfNoTriangles(const Triangulation& result);
 
-/// Says so and returns the exit code.
-int reportInterrupt();
-
 } // namespace tipp
 
 #endif

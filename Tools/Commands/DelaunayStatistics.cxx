@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/DelaunayStatistics.h"
 
-#include "Commands/MemorySize.h"
 #include "Commands/RankStatistics.h"
-
-#include "Files/IOError.h"
-#include "Files/PendingFile.h"
+#include "Commands/Report.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include <fstream>
 
 namespace tipp
 {
@@ -20,20 +14,6 @@ namespace
 double pointsPerSecond(const DelaunayRun& run)
 {
   return run.TriangulateSeconds > 0 ? double(run.Points) / run.TriangulateSeconds : 0;
-}
-
-void writeJson(const std::string& path, const nlohmann::ordered_json& json)
-{
-  PendingFile pending(path);
-  std::ofstream file(pending.temporaryPath());
-  // File names need not be UTF-8.
-  file << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
-  file.close();
-  if (!file)
-  {
-    throw IOError(path, "cannot be written; check the disk's space and the folder's permissions.");
-  }
-  pending.commit();
 }
 
 nlohmann::ordered_json describeRun(const DelaunayRun& run)
@@ -65,25 +45,18 @@ std::string summarize(const DelaunayRun& run, const Triangulation& result)
 void writeStatistics(const std::string& path, const DelaunayRun& run, const Triangulation& result)
 {
   const TriangulationStatistics& statistics = result.Statistics;
-  nlohmann::ordered_json json = {
-    { "input", run.Input },
-    { "output", run.Output },
-    { "points", run.Points },
+  nlohmann::ordered_json json = describeRun(run);
+  json.update({
     { "triangles", result.triangleCount() },
     { "duplicates", result.Duplicates.size() },
     { "rejected", result.Rejected.size() },
-    { "read_seconds", run.ReadSeconds },
-    { "triangulate_seconds", run.TriangulateSeconds },
-    { "write_seconds", run.WriteSeconds },
-    { "points_per_second", pointsPerSecond(run) },
-    { "peak_memory_bytes", peakMemoryBytes() },
     { "threads", statistics.Threads },
     { "partitions", statistics.Partitions },
     { "initial_points", statistics.InitialPoints },
     { "worker_vertices", statistics.WorkerVertices },
     { "phases", nlohmann::ordered_json::array() },
     { "stages", nlohmann::ordered_json::array() },
-  };
+  });
   for (const TriangulationStatistics::Phase& phase : statistics.Phases)
   {
     json["phases"].push_back({ { "name", phase.Name }, { "seconds", phase.Seconds } });

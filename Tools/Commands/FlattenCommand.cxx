@@ -3,7 +3,7 @@
 
 #include "Console/Interrupt.h"
 #include "Files/Extension.h"
-#include "Files/NewFolder.h"
+#include "Files/PendingFolder.h"
 #include "Flat/FlattenAdcirc.h"
 #include "Flat/FlattenDataSet.h"
 #include "Flat/WriteFlatMesh.h"
@@ -71,7 +71,7 @@ bool writeContent(const FlattenArguments& arguments, const FlatContent& content)
 {
   if (!writeFlatMesh(arguments.Output, content, isInterrupted))
   {
-    fmt::print(stderr, "tipp: interrupted; nothing was written.\n");
+    reportInterrupt();
     return false;
   }
   fmt::print("{} {}, {} points, {} arrays{} in {}\n",
@@ -87,7 +87,7 @@ int runFlatten(const FlattenArguments& arguments)
   watchForInterrupt();
   {
     // Before the work rather than after it.
-    const NewFolder writable(arguments.Output);
+    const PendingFolder writable(arguments.Output);
   }
   if (isAdcircGrid(arguments.Input))
   {

@@ -3,8 +3,6 @@
 
 #include <charconv>
 
-#include <sys/resource.h>
-
 namespace tipp
 {
 
@@ -28,13 +26,6 @@ std::optional<std::uint64_t> parseMemorySize(const std::string& text)
 std::string checkMemorySize(const std::string& text)
 {
   return parseMemorySize(text) ? "" : "'" + text + "' is no number of bytes, as 512M or 2G";
-}
-
-std::int64_t peakMemoryBytes()
-{
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::int64_t(usage.ru_maxrss) * 1024; // Linux counts in KiB
 }
 
 } // namespace tipp

@@ -16,9 +16,6 @@ std::optional<std::uint64_t> parseMemorySize(const std::string& text);
 /// For the command line: empty, or what is wrong.
 std::string checkMemorySize(const std::string& text);
 
-/// The most memory that the process has had so far, in bytes.
-std::int64_t peakMemoryBytes();
-
 } // namespace tipp
 
 #endif

@@ -7,9 +7,9 @@
 #include "Console/MpiSession.h"
 #include "Console/ProgressBar.h"
 #include "Files/PendingFile.h"
-#include "Flat/FlatMesh.h"
 #include "Partitioning/PartitionInput.h"
 #include "Partitioning/PartitionMesh.h"
+#include "Partitioning/Ranks.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -90,10 +90,16 @@ int runPartition(const PartitionArguments& arguments)
   PartitionStatistics statistics;
   try
   {
-    if (session.isFirst() && !arguments.Statistics.empty())
-    {
-      const PendingFile writable(arguments.Statistics); // before the work rather than after it
-    }
+    // Before the work rather than after it, and on all ranks if on one.
+    Ranks(session.controller())
+      .attempt(
+        [&]
+        {
+          if (session.isFirst() && !arguments.Statistics.empty())
+          {
+            const PendingFile writable(arguments.Statistics);
+          }
+        });
     ProgressBar bar("Partitioning");
     statistics = partitionInput(arguments.Input, arguments.Output,
       makeOptions(arguments, session, bar), session.controller());
@@ -108,11 +114,7 @@ int runPartition(const PartitionArguments& arguments)
   }
   if (statistics.Aborted)
   {
-    if (session.isFirst())
-    {
-      fmt::print(stderr, "tipp: interrupted; nothing was written.\n");
-    }
-    return interruptedExitCode;
+    return session.isFirst() ? reportInterrupt() : interruptedExitCode;
   }
   if (session.isFirst())
   {

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/PartitionReport.h"
 
-#include "Commands/MemorySize.h"
-#include "Files/IOError.h"
-#include "Files/PendingFile.h"
+#include "Commands/Report.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include <fstream>
 
 namespace tipp
 {
@@ -64,16 +59,7 @@ void writeReport(const std::string& path, const std::string& input, const std::s
   {
     json["phases"].push_back({ { "name", phase.Name }, { "seconds", phase.Seconds } });
   }
-  PendingFile pending(path);
-  std::ofstream file(pending.temporaryPath());
-  // File names need not be UTF-8.
-  file << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
-  file.close();
-  if (!file)
-  {
-    throw IOError(path, "cannot be written; check the disk's space and the folder's permissions.");
-  }
-  pending.commit();
+  writeJson(path, json);
 }
 
 } // namespace tipp

@@ -6,10 +6,13 @@
 #include "Files/Extension.h"
 #include "Files/IOError.h"
 #include "Files/PendingFile.h"
+#include "Flat/FlatMesh.h"
 #include "Npy/NpyFile.h"
 #include "OpenCL/DeviceChoice.h"
+#include "Partitioned/PartitionedMesh.h"
 #include "Vtk/ErrorKeeper.h"
 #include "Vtk/ReadDataSet.h"
+#include "vtkPartitionedUnstructuredReader.h"
 #include "vtkRangeResampleFilter.h"
 
 #include "vtkCallbackCommand.h"
@@ -27,6 +30,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -37,7 +41,10 @@ namespace
 {
 
 constexpr const char* footer =
-  R"(MESH    any VTK file of triangles, tetrahedra or cells that are cut into them.
+  R"(MESH    any VTK file of triangles, tetrahedra or cells that are cut into them; or a
+        partitioned mesh of 'tipp partition' (its folder or index) or a flat one (a
+        folder of .npy arrays), of which only the range of --bounds is read. Of arrays
+        that vary in time the first step is taken.
 IMAGE   .vti: all arrays, vtkValidPointMask (1 where the mesh answers) and
         vtkGhostType. .npy: one array (--arrays NAME) as float64 or whatever it
         is, rows x columns, the first row at the lowest y; for a volume layers x
@@ -83,6 +90,13 @@ void chooseArrays(
     if (!ofPoints && !mesh->GetCellData()->HasArray(name.c_str()))
     {
       throw IOError(arguments.Input, "has no array '" + name + "'.");
+    }
+    vtkDataSetAttributes* const data =
+      ofPoints ? static_cast<vtkDataSetAttributes*>(mesh->GetPointData()) : mesh->GetCellData();
+    if (!data->GetArray(name.c_str()))
+    {
+      throw IOError(
+        arguments.Input, "has array '" + name + "', but it holds no numbers; name another.");
     }
   }
 }
@@ -182,10 +196,66 @@ void summarize(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
     figures->GetAbstractArray("Device")->GetVariantValue(0).ToString(), arguments.Output);
 }
 
+/// Only the range and the arrays that are asked for, of a partitioned or a flat mesh.
+vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments)
+{
+  vtkNew<ErrorKeeper> errors;
+  vtkNew<vtkPartitionedUnstructuredReader> reader;
+  reader->AddObserver(vtkCommand::ErrorEvent, errors);
+  reader->SetController(nullptr);
+  reader->SetFileName(arguments.Input.c_str());
+  reader->SetTiling("grid:1x1"); // of a flat mesh, all of which is looked at in any case
+  reader->SetNumberOfThreads(arguments.Threads);
+  if (!arguments.Bounds.empty())
+  {
+    reader->SetBounds(arguments.Bounds.data());
+  }
+  reader->UpdateInformation();
+  for (vtkDataArraySelection* const selection :
+    { reader->GetPointDataArraySelection(), reader->GetCellDataArraySelection() })
+  {
+    for (int i = 0; !arguments.Arrays.empty() && i < selection->GetNumberOfArrays(); ++i)
+    {
+      const std::string name = selection->GetArrayName(i);
+      const bool wanted =
+        std::find(arguments.Arrays.begin(), arguments.Arrays.end(), name) != arguments.Arrays.end();
+      selection->SetArraySetting(name.c_str(), wanted ? 1 : 0);
+    }
+  }
+  reader->Update();
+  const vtkSmartPointer<vtkDataSet> mesh = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
+  if (!mesh || errors->HasError)
+  {
+    throw IOError(errors->Message);
+  }
+  // What the reader adds is no field to sample.
+  for (vtkDataSetAttributes* const data :
+    { static_cast<vtkDataSetAttributes*>(mesh->GetPointData()),
+      static_cast<vtkDataSetAttributes*>(mesh->GetCellData()) })
+  {
+    data->RemoveArray(vtkDataSetAttributes::GhostArrayName());
+    if (data->GetGlobalIds())
+    {
+      data->RemoveArray(data->GetGlobalIds()->GetName());
+    }
+  }
+  return mesh;
+}
+
+vtkSmartPointer<vtkDataSet> readMeshToSample(const ResampleArguments& arguments)
+{
+  // A .vtu may be flat, too; VTK's reader takes those of other cells as well.
+  const bool stored = isPartitionedMesh(arguments.Input) ||
+    (isFlatMesh(arguments.Input) && !isVtkFile(arguments.Input));
+  return stored ? readRange(arguments) : readDataSet(arguments.Input);
+}
+
 int runResample(const ResampleArguments& arguments)
 {
+  // Before the work rather than after it.
+  const PendingFile writable(arguments.Output);
   watchForInterrupt();
-  const vtkSmartPointer<vtkDataSet> mesh = readDataSet(arguments.Input);
+  const vtkSmartPointer<vtkDataSet> mesh = readMeshToSample(arguments);
   vtkNew<vtkRangeResampleFilter> filter;
   filter->SetInputData(mesh);
   configure(arguments, filter);
@@ -208,8 +278,7 @@ int runResample(const ResampleArguments& arguments)
   filter->Update();
   if (isInterrupted())
   {
-    fmt::print(stderr, "tipp: interrupted; nothing was written.\n");
-    return interruptedExitCode;
+    return reportInterrupt();
   }
   if (problems->HasError)
   {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Console/Interrupt.h"
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <csignal>
 
@@ -30,6 +32,12 @@ void watchForInterrupt()
 bool isInterrupted()
 {
   return interrupted;
+}
+
+int reportInterrupt()
+{
+  fmt::print(stderr, "tipp: interrupted; nothing was written.\n");
+  return interruptedExitCode;
 }
 
 } // namespace tipp

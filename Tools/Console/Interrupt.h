@@ -11,6 +11,8 @@ constexpr int interruptedExitCode = 130;
 /// From now on the first Ctrl-C (SIGINT) only sets a flag; a second one ends the process.
 void watchForInterrupt();
 bool isInterrupted();
+/// Tells the user that nothing was written, and returns the exit code.
+int reportInterrupt();
 
 } // namespace tipp
 

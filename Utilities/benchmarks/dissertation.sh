@@ -24,6 +24,11 @@ while [ $# -gt 0 ]; do
   shift
 done
 
+case " all table2.1 figure3.4 figure3.6 figure3.5 figure3.8 model " in
+  *" $table "*) ;;
+  *) usage ;;
+esac
+
 build_targets tipp
 tipp=$build/bin/tipp
 work=$build/dissertation

@@ -6,16 +6,21 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCommand.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
+#include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkPolyDataAlgorithm.h"
 #include "vtkTable.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -54,6 +59,51 @@ vtkSmartPointer<vtkPolyData> shareAsData(const Coordinates& xy, bool withIds)
     data->GetPointData()->SetGlobalIds(ids);
   }
   return data;
+}
+
+/// Gives Data, or fails: early, when it is asked what it has, or when it is to give it.
+class FailingSource : public vtkPolyDataAlgorithm
+{
+public:
+  static FailingSource* New();
+  vtkTypeMacro(FailingSource, vtkPolyDataAlgorithm)
+  FailingSource() { this->SetNumberOfInputPorts(0); }
+
+  bool Fails = false;
+  bool Early = false;
+  vtkSmartPointer<vtkPolyData> Data;
+
+protected:
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector* output) override
+  {
+    output->GetInformationObject(0)->Set(CAN_HANDLE_PIECE_REQUEST(), 1);
+    return !(this->Fails && this->Early);
+  }
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* output) override
+  {
+    vtkPolyData::GetData(output)->ShallowCopy(this->Data);
+    return !this->Fails;
+  }
+};
+vtkStandardNewMacro(FailingSource);
+
+class AbortOnProgress : public vtkCommand
+{
+public:
+  static AbortOnProgress* New() { return new AbortOnProgress; }
+  void Execute(vtkObject* caller, unsigned long, void*) override
+  {
+    static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
+  }
+};
+
+void expectNoOutput(vtkTIPPDelaunay2D* filter)
+{
+  vtkObject::GlobalWarningDisplayOff();
+  filter->Update();
+  vtkObject::GlobalWarningDisplayOn();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
 }
 
 vtkIdType idAt(vtkDataArray* ids, vtkIdType i)
@@ -234,10 +284,6 @@ TEST(Delaunay2DRanks, EverythingCanBeGatheredOnTheFirstRank)
   filter->SetInputData(shareAsData(xy, true));
   filter->Update();
   vtkPolyData* mesh = filter->GetOutput();
-  if (ranks() == 1)
-  {
-    return;
-  }
   if (rank() != 0)
   {
     EXPECT_EQ(mesh->GetNumberOfCells(), 0);
@@ -255,10 +301,6 @@ TEST(Delaunay2DRanks, StatisticsAreTheSameOnAllRanks)
   filter->SetNumberOfPartitions(4, 4);
   filter->SetInputData(shareAsData(xy, true));
   filter->Update();
-  if (ranks() == 1)
-  {
-    return;
-  }
   vtkFieldData* totals = filter->GetStatistics()->GetFieldData();
   EXPECT_EQ(totals->GetArray("Partitions")->GetTuple1(0), 256);
   EXPECT_EQ(totals->GetArray("MajorPartitions")->GetTuple1(0), 16);
@@ -269,10 +311,6 @@ TEST(Delaunay2DRanks, StatisticsAreTheSameOnAllRanks)
 
 TEST(Delaunay2DRanks, WhatNeedsOneRankIsRefusedOnAll)
 {
-  if (ranks() == 1)
-  {
-    return;
-  }
   vtkNew<vtkTIPPDelaunay2D> filter;
   filter->SetAlpha(0.1);
   filter->SetInputData(shareAsData(makePointSet("uniform", 500), true));
@@ -281,6 +319,91 @@ TEST(Delaunay2DRanks, WhatNeedsOneRankIsRefusedOnAll)
   vtkObject::GlobalWarningDisplayOn();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
   EXPECT_NE(filter->GetErrorCode(), 0u);
+}
+
+TEST(Delaunay2DRanks, AGhostLayerAskedForByOneRankComesThere)
+{
+  vtkNew<vtkTIPPDelaunay2D> filter;
+  filter->SetPointsPerPartition(200);
+  filter->SetInputData(shareAsData(makePointSet("uniform", 3000), true));
+  filter->UpdatePiece(rank(), ranks(), rank() == 0 ? 1 : 0);
+  vtkPolyData* mesh = filter->GetOutput();
+  vtkIdType ghosts = 0;
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
+  {
+    ghosts += isGhost(mesh->GetCellData(), cell);
+  }
+  EXPECT_EQ(ghosts > 0, rank() == 0);
+}
+
+TEST(Delaunay2DRanks, AbortingOnOneRankEmptiesTheOutputOfAll)
+{
+  vtkNew<vtkTIPPDelaunay2D> filter;
+  filter->SetPointsPerPartition(200);
+  filter->SetInputData(shareAsData(makePointSet("uniform", 20000), true));
+  vtkNew<AbortOnProgress> abort;
+  if (rank() == ranks() - 1)
+  {
+    filter->AddObserver(vtkCommand::ProgressEvent, abort);
+  }
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_EQ(filter->GetErrorCode(), 0u);
+}
+
+TEST(Delaunay2DRanks, AMissingTransformFailsOnAll)
+{
+  vtkNew<vtkTIPPDelaunay2D> filter;
+  filter->SetProjectionPlaneMode(VTK_SET_TRANSFORM_PLANE);
+  filter->SetInputData(shareAsData(makePointSet("uniform", 500), true));
+  expectNoOutput(filter);
+}
+
+TEST(Delaunay2DRanks, WhatFailsUpstreamOnOneRankFailsOnAll)
+{
+  for (const bool early : { true, false })
+  {
+    vtkNew<FailingSource> source;
+    source->Early = early;
+    source->Fails = rank() == ranks() - 1;
+    source->Data = shareAsData(makePointSet("uniform", 500), true);
+    vtkNew<vtkTIPPDelaunay2D> filter;
+    filter->SetInputConnection(source->GetOutputPort());
+    expectNoOutput(filter);
+    source->Fails = false;
+    source->Modified();
+    filter->Update();
+    EXPECT_GT(filter->GetStatistics()->GetFieldData()->GetArray("Triangles")->GetTuple1(0), 900);
+  }
+}
+
+TEST(Delaunay2DRanks, GlobalIdsBeyondAllDoublesStayExact)
+{
+  constexpr vtkIdType large = (vtkIdType(1) << 53) + 1;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkIdTypeArray> ids;
+  for (int i = 0; rank() == 0 && i < 4; ++i)
+  {
+    points->InsertNextPoint(i % 2, i / 2, 0);
+    ids->InsertNextValue(large + i);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->GetPointData()->SetGlobalIds(ids);
+  vtkNew<vtkTIPPDelaunay2D> filter;
+  filter->GatherOnFirstRankOn();
+  filter->SetInputData(data);
+  filter->Update();
+  if (rank() == 0)
+  {
+    vtkDataArray* got = filter->GetOutput()->GetPointData()->GetGlobalIds();
+    std::set<vtkIdType> found;
+    for (vtkIdType i = 0; i < got->GetNumberOfTuples(); ++i)
+    {
+      found.insert(idAt(got, i));
+    }
+    EXPECT_EQ(found, (std::set<vtkIdType>{ large, large + 1, large + 2, large + 3 }));
+  }
 }
 
 TEST(Delaunay2DRanks, WithoutAControllerARankIsAlone)

@@ -146,6 +146,44 @@ TEST(Postbox, AFailureEndsTheOthersWaiting)
   }
 }
 
+TEST(Postbox, AFailureLeavesNoLargeMessageBehind)
+{
+  constexpr std::size_t size = 40'000'000;
+  for (int run = 0; run < 2; ++run)
+  {
+    Postbox box(controller());
+    const auto work = [&]()
+    {
+      box.post((box.rank() + 1) % box.size(), Note, filled(size, 'x'));
+      throw std::runtime_error("nobody takes it");
+    };
+    EXPECT_THROW(box.together(work), RankFailure);
+  }
+}
+
+TEST(Postbox, WorkWithinWorkFailsOnceOnAllRanks)
+{
+  Postbox box(controller());
+  const auto inner = [&]()
+  {
+    if (box.rank() == box.size() - 1)
+    {
+      throw std::runtime_error("deep inside");
+    }
+    box.wait(Note, box.size() - 1);
+  };
+  try
+  {
+    box.together([&]() { box.together(inner); });
+    FAIL() << "nothing was thrown";
+  }
+  catch (const RankFailure& failure)
+  {
+    EXPECT_STREQ(failure.what(), "deep inside");
+    EXPECT_EQ(failure.Rank, box.size() - 1);
+  }
+}
+
 TEST(Postbox, OfSeveralFailuresAllRanksHearOfTheLowestRanks)
 {
   Postbox box(controller());

@@ -191,6 +191,24 @@ TEST_F(FlatVtu, OfTrianglesAndTetrahedraIsRefused)
   this->expectError("cell 2, vtkTetra");
 }
 
+TEST_F(FlatVtu, WithALongHeaderOpensWhereverTheDataBegin)
+{
+  this->makeTriangles();
+  this->Writer->Write();
+  const std::string content = contentOf(this->Path);
+  const std::size_t tag = content.find("<AppendedData");
+  const std::size_t mark = content.find('_', tag);
+  // The header is read in rounds of 64 KiB; the tag and the data's mark may lie in different ones.
+  const std::string wide = content.substr(0, mark) + std::string(500, ' ') + content.substr(mark);
+  for (const int before : { -3, 3, 70, 300, 505 })
+  {
+    const std::size_t padding = (1 << 16) - tag - std::size_t(before);
+    std::ofstream(this->Path, std::ios::binary)
+      << wide.substr(0, tag) + std::string(padding, ' ') + wide.substr(tag);
+    EXPECT_EQ(2, openFlatMesh(this->Path).Cells.Tuples) << before;
+  }
+}
+
 TEST_F(FlatVtu, ThatIsNotRawAppendedNamesTheRemedy)
 {
   this->makeTriangles();

@@ -18,6 +18,7 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -120,6 +121,28 @@ TEST_F(Flatten, ADataSetKeepsItsNumbersAndTheCellsOrigin)
     valuesOf<std::int64_t>(arrayNamed(mesh.CellData, "vtkOriginalCellIds")));
 }
 
+TEST_F(Flatten, GhostsAreLeftOutWithTheirMarks)
+{
+  const auto grid = quadAndTriangle();
+  for (vtkDataSetAttributes* const data :
+    { static_cast<vtkDataSetAttributes*>(grid->GetPointData()),
+      static_cast<vtkDataSetAttributes*>(grid->GetCellData()) })
+  {
+    vtkNew<vtkUnsignedCharArray> ghosts;
+    ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+    for (int i = 0; i < (data == grid->GetPointData() ? 5 : 2); ++i)
+    {
+      ghosts->InsertNextValue(i == 1 ? vtkDataSetAttributes::DUPLICATECELL : 0);
+    }
+    data->AddArray(ghosts);
+  }
+  const tipp::Flattened flattened = tipp::flattenDataSet(grid, "grid.vtu");
+  const FlatMesh mesh = this->written(flattened.Content);
+  EXPECT_EQ(2, mesh.Cells.Tuples);
+  EXPECT_EQ(1U, mesh.PointData.size());
+  EXPECT_THROW(arrayNamed(mesh.CellData, "vtkGhostType"), std::runtime_error);
+}
+
 TEST_F(Flatten, WritesNothingOverAnotherFolder)
 {
   std::filesystem::create_directory(this->out());
@@ -175,6 +198,20 @@ TEST_F(Flatten, AnAdcircGridWithStepsVariesInTime)
     (std::vector<double>{ 0, 0, -9, -9, 1, 1, -9, -9 }), valuesOf<double>(mesh.PointSeries[0][1]));
 }
 
+TEST_F(Flatten, AdcircValuesGoToTheNodesOfTheirNumbers)
+{
+  const std::string grid =
+    this->Folder.file("fort.14", "title\n1 3\n70 0 0 5\n9 1 0 6\n20 1 1 7\n1 3 70 9 20\n");
+  const std::string dense =
+    this->Folder.file("maxele.63", "title\n1 3 1 1 1\n10 1\n9 0.9\n20 2\n70 7\n");
+  const std::string sparse = this->Folder.file("maxvel.63", "title\n1 3 1 1 1\n10 1 1 -9\n20 2\n");
+  const FlatMesh mesh = this->written(tipp::flattenAdcirc(grid, { dense, sparse }));
+  EXPECT_EQ(
+    (std::vector<double>{ 7, 0.9, 2 }), valuesOf<double>(arrayNamed(mesh.PointData, "maxele")));
+  EXPECT_EQ(
+    (std::vector<double>{ -9, -9, 2 }), valuesOf<double>(arrayNamed(mesh.PointData, "maxvel")));
+}
+
 TEST_F(Flatten, AdcircValuesThatAreCutOffOrOfAnotherGridAreRefused)
 {
   const std::string grid = this->grid();
@@ -185,6 +222,7 @@ TEST_F(Flatten, AdcircValuesThatAreCutOffOrOfAnotherGridAreRefused)
     { "title\n1 999999999999 1 1 1\n10 1\n", "announces" },
     { "title\n1 3 1 1 1\n10 1\n1 1\n2 1\n3 1\n", "the grid has 4" },
     { "title\n1 4 1 1 1\n10 1\n1 1\n2 1\n3 1\n9 1\n", "names node 9" },
+    { "title\n1 4 1 1 1\n10 1\n1 1\n2 1\n3 1\n1 2\n", "node 1 twice" },
     { "title\n1 4 1 1 1\n10 1\n1 1\n2 1\n3 x\n4 1\n", "'x' is not a number" },
   };
   for (const auto& [text, words] : cases)

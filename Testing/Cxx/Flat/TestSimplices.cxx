@@ -23,7 +23,7 @@ namespace
 
 using tipp::Simplices;
 using tipp::simplicesOf;
-using Ids = std::vector<vtkIdType>;
+using CellPoints = std::vector<vtkIdType>;
 
 class SimplicesOf : public testing::Test
 {
@@ -38,7 +38,7 @@ protected:
     }
   }
 
-  void insert(int type, const Ids& ids)
+  void insert(int type, const CellPoints& ids)
   {
     this->Grid->InsertNextCell(type, vtkIdType(ids.size()), ids.data());
   }
@@ -155,7 +155,7 @@ TEST_F(SimplicesOf, AConcavePolygonStayInsideIt)
 TEST_F(SimplicesOf, EveryKindOfSolidCellFillIt)
 {
   this->insertUnitCube();
-  const std::pair<int, Ids> cells[] = { { VTK_HEXAHEDRON, { 0, 1, 2, 3, 4, 5, 6, 7 } },
+  const std::pair<int, CellPoints> cells[] = { { VTK_HEXAHEDRON, { 0, 1, 2, 3, 4, 5, 6, 7 } },
     { VTK_VOXEL, { 0, 1, 3, 2, 4, 5, 7, 6 } }, { VTK_WEDGE, { 0, 1, 3, 4, 5, 7 } },
     { VTK_PYRAMID, { 0, 1, 2, 3, 4 } }, { VTK_TETRA, { 0, 1, 3, 4 } } };
   const double volumes[] = { 1, 1, 0.5, 1 / 3.0, 1 / 6.0 };

@@ -43,6 +43,17 @@ TEST(XmlScanner, DecodesAttributes)
   EXPECT_EQ(nullptr, tag.find("four"));
 }
 
+TEST(XmlScanner, DecodesNumbersOfCharacters)
+{
+  tipp::XmlScanner scanner(
+    "<a b='&#38;&#x3c;&#9;' c='&#233;&#x20AC;&#x1F600;' d='&#;&#38&#x110000;'>");
+  Tag tag;
+  ASSERT_TRUE(scanner.next(tag));
+  EXPECT_EQ("&<\t", *tag.find("b"));
+  EXPECT_EQ("\xC3\xA9\xE2\x82\xAC\xF0\x9F\x98\x80", *tag.find("c"));
+  EXPECT_EQ("&#;&#38&#x110000;", *tag.find("d"));
+}
+
 TEST(XmlScanner, StopsWhereTheTextIsNotWellFormed)
 {
   for (const char* text : { "<", "<a", "<a b", "<a b=", "<a b=c>", "<a b='c>", "<a b='1' b='2'>",

@@ -88,5 +88,6 @@ TEST_F(PendingFiles, FolderOrDeviceIsNoFile)
 TEST_F(PendingFiles, PathWithoutAFolderIsInTheCurrentOne)
 {
   const PendingFile pending("result");
-  EXPECT_EQ(0U, pending.temporaryPath().find("./.result."));
+  EXPECT_EQ(
+    0U, pending.temporaryPath().find((std::filesystem::current_path() / ".result.").string()));
 }

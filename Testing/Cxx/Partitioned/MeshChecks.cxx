@@ -28,7 +28,7 @@ bool holds(const Bounds& box, const double* point, int dimension)
   return inside;
 }
 
-std::string bytesOf(const RawBuffer& buffer)
+std::string copyOf(const RawBuffer& buffer)
 {
   return buffer.data() ? std::string(buffer.data(), buffer.size()) : std::string();
 }
@@ -228,15 +228,15 @@ void expectEqual(const Piece& a, const Piece& b)
   EXPECT_EQ(a.Cells, b.Cells);
   EXPECT_EQ(a.OwnedCells, b.OwnedCells);
   EXPECT_EQ(a.WideIds, b.WideIds);
-  EXPECT_TRUE(bytesOf(a.Coordinates) == bytesOf(b.Coordinates));
-  EXPECT_TRUE(bytesOf(a.PointIds) == bytesOf(b.PointIds));
-  EXPECT_TRUE(bytesOf(a.PointGhosts) == bytesOf(b.PointGhosts));
-  EXPECT_TRUE(bytesOf(a.Connectivity) == bytesOf(b.Connectivity));
-  EXPECT_TRUE(bytesOf(a.CellIds) == bytesOf(b.CellIds));
+  EXPECT_TRUE(copyOf(a.Coordinates) == copyOf(b.Coordinates));
+  EXPECT_TRUE(copyOf(a.PointIds) == copyOf(b.PointIds));
+  EXPECT_TRUE(copyOf(a.PointGhosts) == copyOf(b.PointGhosts));
+  EXPECT_TRUE(copyOf(a.Connectivity) == copyOf(b.Connectivity));
+  EXPECT_TRUE(copyOf(a.CellIds) == copyOf(b.CellIds));
   ASSERT_EQ(a.Attributes.size(), b.Attributes.size());
   for (std::size_t i = 0; i < a.Attributes.size(); ++i)
   {
-    EXPECT_TRUE(bytesOf(a.Attributes[i].Values) == bytesOf(b.Attributes[i].Values));
+    EXPECT_TRUE(copyOf(a.Attributes[i].Values) == copyOf(b.Attributes[i].Values));
   }
 }
 

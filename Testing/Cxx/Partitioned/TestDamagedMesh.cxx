@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExpectIOError.h"
+#include "ForgedMesh.h"
 #include "MeshChecks.h"
 #include "TemporaryFolder.h"
 
 #include "Flat/FlatMesh.h"
-#include "Partitioned/Checksum.h"
 #include "Partitioned/MeshIndex.h"
 #include "Partitioning/PartitionMesh.h"
 
@@ -12,6 +12,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 namespace fs = std::filesystem;
 using namespace tipp;
@@ -61,14 +62,23 @@ protected:
   /// Replaces a text in the index and gives it a right checksum.
   void editIndex(const std::string& from, const std::string& to) const
   {
-    std::string text = contentOf(this->path("index.json"));
-    const std::size_t at = text.find(from);
+    ForgedMesh forged(this->path());
+    const std::size_t at = forged.Index.find(from);
     ASSERT_NE(std::string::npos, at);
-    text.replace(at, from.size(), to);
-    const std::size_t tail = text.rfind(",\n\"xxh3\"");
-    text = text.substr(0, tail) + ",\n\"xxh3\": \"" + checksumText(checksumOf(text.data(), tail)) +
-      "\"\n}\n";
-    std::ofstream(this->path("index.json"), std::ios::binary) << text;
+    forged.Index.replace(at, from.size(), to);
+    forged.write();
+  }
+
+  /// The last id of the last piece that has such, in the good mesh, becomes another.
+  void expectIdIsRefused(PieceRole role, std::int64_t id) const
+  {
+    const ForgedMesh good(this->path());
+    ForgedMesh forged = good;
+    const std::size_t array = forged.find(0, role);
+    forged.putWord(0, array, forged.arrayBytes(0, array) - 8, std::uint64_t(id));
+    forged.write();
+    this->expectRefused("pieces/000000.vtu", "a global id that the mesh does not have");
+    good.write();
   }
 
   TemporaryFolder Folder;
@@ -89,6 +99,14 @@ TEST_F(DamagedMesh, LacksAPiece)
 {
   fs::remove(this->path("pieces/000002.vtu"));
   this->expectRefused("pieces/000002.vtu", "missing");
+}
+
+TEST_F(DamagedMesh, LacksThePvtuOrHasHalfOfIt)
+{
+  fs::resize_file(this->path("mesh.pvtu"), 10);
+  this->expectRefused("mesh.pvtu", "10 bytes where the index says");
+  fs::remove(this->path("mesh.pvtu"));
+  this->expectRefused("mesh.pvtu", "missing");
 }
 
 TEST_F(DamagedMesh, HasATruncatedPiece)
@@ -198,6 +216,26 @@ TEST_F(DamagedMesh, HasAnArrayLargerThanItsFile)
 {
   this->editIndex("\"components\":2", "\"components\":200000");
   this->expectRefused("tables.bin", "behind its file");
+}
+
+TEST_F(DamagedMesh, HasIdsOfNoPointOrCell)
+{
+  for (const bool duplicate : { false, true })
+  {
+    PartitionOptions options;
+    options.Tiling = *TilingChoice::parse("grid:2x2");
+    options.DuplicateBorrowers = duplicate;
+    partitionMesh(openFlatMesh(this->Folder.path("flat")), this->path(), options);
+    const PartitionedMesh mesh = openPartitionedMesh(this->path());
+    for (const std::int64_t id : { std::int64_t(-1), std::numeric_limits<std::int64_t>::min() })
+    {
+      this->expectIdIsRefused(PieceRole::PointIds, id);
+      this->expectIdIsRefused(PieceRole::CellIds, id);
+    }
+    this->expectIdIsRefused(PieceRole::PointIds, mesh.Points);
+    this->expectIdIsRefused(PieceRole::CellIds, mesh.Cells);
+    this->readAll();
+  }
 }
 
 TEST_F(DamagedMesh, IsNotThere)

@@ -5,8 +5,13 @@
 #include "Files/IOError.h"
 #include "Flat/FlatMesh.h"
 #include "Partitioning/PartitionMesh.h"
+#include "vtkPartitionedUnstructuredReader.h"
+#include "vtkPartitionedUnstructuredWriter.h"
 
+#include "vtkCommand.h"
 #include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
 
@@ -17,6 +22,15 @@ using namespace tipp::test;
 
 namespace
 {
+
+/// Counts errors instead of printing them.
+class SilentErrors : public vtkCommand
+{
+public:
+  static SilentErrors* New() { return new SilentErrors; }
+  void Execute(vtkObject*, unsigned long, void*) override { ++this->Count; }
+  int Count = 0;
+};
 
 /// A folder that all ranks see.
 class PartitionRanks : public testing::Test
@@ -61,6 +75,18 @@ protected:
         alone ? nullptr : this->Controller);
     }
     this->Controller->Barrier();
+  }
+
+  /// The first rank's Progress stops the run at its call of that number.
+  bool isAborted(int calls)
+  {
+    PartitionOptions options;
+    options.ChunkCells = 37;
+    options.ChunkPoints = 23;
+    options.Progress = [&calls](double) { return calls-- > 0; };
+    return partitionMesh(
+      openFlatMesh(this->Path + "flat"), this->Path + "mesh", options, this->Controller)
+      .Aborted;
   }
 
   void expectSameFilesAsAlone(const std::string& tiling)
@@ -116,6 +142,55 @@ TEST_F(PartitionRanks, AllFailWithOneMessage)
   }
   this->Controller->Barrier();
   EXPECT_FALSE(std::filesystem::exists(this->Path + "mesh"));
+}
+
+TEST_F(PartitionRanks, WriteWhatEachOfThemHas)
+{
+  this->write(makeSource(latticeTriangles(12, 0.3)));
+  this->make("mesh", "grid:4x3", false);
+  vtkNew<vtkPartitionedUnstructuredReader> reader;
+  reader->SetFileName((this->Path + "mesh").c_str());
+  reader->UpdatePiece(
+    this->Controller->GetLocalProcessId(), this->Controller->GetNumberOfProcesses(), 0);
+  vtkNew<vtkPartitionedUnstructuredWriter> writer;
+  writer->SetFileName((this->Path + "again").c_str());
+  writer->SetInputDataObject(reader->GetOutputDataObject(0));
+  EXPECT_EQ(1, writer->Write());
+  this->Controller->Barrier();
+  const PartitionedMesh again = openPartitionedMesh(this->Path + "again");
+  EXPECT_EQ(288, again.Cells);
+  this->Controller->Barrier();
+}
+
+TEST_F(PartitionRanks, AllFailWhenOneHasNoInput)
+{
+  vtkNew<vtkPartitionedUnstructuredWriter> writer;
+  vtkNew<SilentErrors> errors;
+  writer->AddObserver(vtkCommand::ErrorEvent, errors);
+  writer->SetFileName((this->Path + "mesh").c_str());
+  vtkNew<vtkUnstructuredGrid> grid;
+  if (!this->isFirst())
+  {
+    writer->SetInputDataObject(grid);
+  }
+  EXPECT_EQ(0, writer->Write());
+  EXPECT_EQ(1, errors->Count);
+}
+
+TEST_F(PartitionRanks, AllStopWhenTheFirstIsTold)
+{
+  this->write(makeSource(latticeTriangles(12, 0.3)));
+  int calls = 0;
+  // In every phase, and at last too late.
+  while (this->isAborted(calls))
+  {
+    this->Controller->Barrier();
+    EXPECT_FALSE(std::filesystem::exists(this->Path + "mesh"));
+    this->Controller->Barrier();
+    ++calls;
+  }
+  EXPECT_GT(calls, 3);
+  EXPECT_TRUE(std::filesystem::exists(this->Path + "mesh"));
 }
 
 } // namespace

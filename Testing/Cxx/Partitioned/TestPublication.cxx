@@ -59,6 +59,22 @@ TEST_F(Publication, LeavesNothingOfARunThatIsStopped)
   }
 }
 
+TEST_F(Publication, ToldToStopWhenTheMeshIsThereKeepsIt)
+{
+  PartitionOptions options;
+  options.Progress = [](double fraction) { return fraction < 1; };
+  EXPECT_FALSE(this->make(options).Aborted);
+  expectHolds(this->Folder.path("mesh"), this->Source);
+}
+
+TEST_F(Publication, RefusesMorePiecesThanAMeshCanHave)
+{
+  PartitionOptions options;
+  options.Tiling = *TilingChoice::parse("grid:10000x10000");
+  expectIOError(this->Folder.path("flat"), "coarser tiling", [&] { this->make(options); });
+  EXPECT_EQ(1U, this->Folder.fileCount());
+}
+
 TEST_F(Publication, LeavesTheSourceAlone)
 {
   const auto before = filesOf(this->Folder.path("flat"));

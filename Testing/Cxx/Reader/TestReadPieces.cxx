@@ -9,6 +9,8 @@
 #include "vtkPartitionedDataSet.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <filesystem>
+
 namespace
 {
 
@@ -123,6 +125,31 @@ TEST_P(ReadPieces, OfAFlatMeshAreThoseOfTheStoredOne)
   }
 }
 
+TEST_P(ReadPieces, OfATreeOverAFlatMeshAreThoseOfTheStoredOne)
+{
+  const char* const tiling = GetParam() == 3 ? "quadtree:40" : "octree:200";
+  tipp::PartitionOptions options;
+  options.Tiling = *tipp::TilingChoice::parse(tiling);
+  tipp::partitionMesh(tipp::openFlatMesh(this->path("flat")), this->path("reference"), options);
+  std::vector<std::vector<Content>> read;
+  for (const char* const form : { "flat", "reference" })
+  {
+    const auto reader = this->reader(form);
+    reader->SetTiling(tiling);
+    reader->SetMergePieces(false);
+    reader->Update();
+    auto* const set = vtkPartitionedDataSet::SafeDownCast(reader->GetOutputDataObject(0));
+    ASSERT_NE(nullptr, set);
+    read.emplace_back();
+    for (unsigned int i = 0; i < set->GetNumberOfPartitions(); ++i)
+    {
+      read.back().push_back(contentOf(vtkUnstructuredGrid::SafeDownCast(set->GetPartition(i))));
+    }
+  }
+  EXPECT_GT(read[0].size(), 4U);
+  EXPECT_TRUE(read[0] == read[1]);
+}
+
 TEST_P(ReadPieces, OfManyRequestsHaveEachCellOnce)
 {
   for (const char* const form : forms)
@@ -210,6 +237,57 @@ TEST_P(ReadPieces, InTheCacheAreNotReadAgain)
   reader->Update();
   EXPECT_EQ(0, reader->GetNumberOfPiecesRead());
   this->expectWhole(contentOf(gridOf(reader)));
+}
+
+TEST_P(ReadPieces, AreTheSameFromTheCache)
+{
+  for (const char* const form : forms)
+  {
+    std::vector<Content> contents;
+    for (const int cache : { 0, 2, 100 })
+    {
+      const auto reader = this->reader(form);
+      reader->SetCacheSize(cache);
+      reader->UpdatePiece(1, 6, 1);
+      contents.push_back(contentOf(gridOf(reader)));
+      reader->Modified();
+      reader->UpdatePiece(1, 6, 1);
+      contents.push_back(contentOf(gridOf(reader)));
+      EXPECT_TRUE(cache == 0 || reader->GetNumberOfPiecesRead() == 0) << cache;
+    }
+    for (const Content& content : contents)
+    {
+      EXPECT_TRUE(contents[0] == content);
+    }
+  }
+}
+
+TEST_P(ReadPieces, AreThoseOfAFileThatHasChanged)
+{
+  const auto reader = this->reader("flat");
+  reader->SetCacheSize(100);
+  reader->Update();
+  namespace fs = std::filesystem;
+  fs::rename(this->path("flat/point_data/twice.npy"), this->path("flat/point_data/thrice.npy"));
+  reader->Modified();
+  reader->Update();
+  EXPECT_EQ(nullptr, gridOf(reader)->GetPointData()->GetArray("twice"));
+  EXPECT_NE(nullptr, gridOf(reader)->GetPointData()->GetArray("thrice"));
+  fs::last_write_time(this->path("flat/time.npy"), fs::file_time_type::clock::now());
+  reader->Modified();
+  reader->Update();
+  EXPECT_GT(reader->GetNumberOfPiecesRead(), 0);
+}
+
+TEST_P(ReadPieces, AreTheSameForEveryNumberOfThreads)
+{
+  for (const int threads : { 1, 3 })
+  {
+    const auto reader = this->reader("flat");
+    reader->SetNumberOfThreads(threads);
+    reader->Update();
+    this->expectWhole(contentOf(gridOf(reader)));
+  }
 }
 
 TEST_P(ReadPieces, ComeWithinASmallMemoryLimit)

@@ -67,6 +67,16 @@ TEST_F(ReaderErrors, BoundsThatAreNoNumbers)
   this->expectError("NaN");
 }
 
+TEST_F(ReaderErrors, BoundsThatAreNoBox)
+{
+  this->Reader->SetFileName(this->path("flat").c_str());
+  this->Reader->SetBounds(0, 1, 2, 1, 0, 1);
+  this->expectError("from > to");
+  this->Errors->Count = 0;
+  this->Reader->SetBounds(0, 1, 0, 1, 2, 1);
+  this->expectError("from > to");
+}
+
 TEST_F(ReaderErrors, ACutOffPieceIsNamed)
 {
   const std::string piece = this->path("stored/pieces/000003.vtu");

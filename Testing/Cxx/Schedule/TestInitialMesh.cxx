@@ -11,7 +11,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-Box2 boundsOf(const std::vector<SeamVertex>& vertices)
+Box2 frameOf(const std::vector<SeamVertex>& vertices)
 {
   Coordinates xy;
   for (const SeamVertex& v : vertices)
@@ -32,7 +32,7 @@ TEST(ArtificialPoints, EncloseTheDomainStrictly)
   {
     for (const int side : { 1, 2, 16 })
     {
-      const Box2 frame = boundsOf(makeArtificialPoints(Tiling::grid(domain, side, side)));
+      const Box2 frame = frameOf(makeArtificialPoints(Tiling::grid(domain, side, side)));
       EXPECT_LT(frame.xmin, domain.xmin);
       EXPECT_LT(frame.ymin, domain.ymin);
       EXPECT_GT(frame.xmax, domain.xmax);
@@ -47,7 +47,7 @@ TEST(ArtificialPoints, StandAtTheRectanglesCorners)
   for (const Box2& domain : Domains)
   {
     const std::vector<SeamVertex> points = makeArtificialPoints(Tiling::grid(domain, 4, 4));
-    const Box2 frame = boundsOf(points);
+    const Box2 frame = frameOf(points);
     for (const Point2 corner : { Point2{ frame.xmin, frame.ymin }, Point2{ frame.xmax, frame.ymin },
            Point2{ frame.xmin, frame.ymax }, Point2{ frame.xmax, frame.ymax } })
     {
@@ -62,7 +62,7 @@ TEST(ArtificialPoints, NoneIsInsideTheRectangle)
   for (const Box2& domain : Domains)
   {
     const std::vector<SeamVertex> points = makeArtificialPoints(Tiling::grid(domain, 4, 4));
-    const Box2 frame = boundsOf(points);
+    const Box2 frame = frameOf(points);
     for (const SeamVertex& v : points)
     {
       EXPECT_TRUE(v.Place.x == frame.xmin || v.Place.x == frame.xmax || v.Place.y == frame.ymin ||

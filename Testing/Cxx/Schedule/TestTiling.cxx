@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ScheduleTesting.h"
 
+#include "Triangulation/PartitionSizes.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>
@@ -292,6 +293,18 @@ TEST(Tiling, ADiskThatTouchesABoxMeetsIt)
     Circumdisk({ 2, 1 }, { 3, 2 }, { 1, 2 }), [&](PartitionIndex i) { met.push_back(i); });
   // Four boxes hold the disk; on each side two more are touched, at one common corner.
   EXPECT_EQ(12U, met.size());
+}
+
+TEST(Tiling, TooManyBoxesAreRefused)
+{
+  EXPECT_THROW(Tiling::grid({ 0, 0, 1, 1 }, 65536, 65536), std::length_error);
+  EXPECT_THROW(Tiling::grid({ 0, 0, 1, 1 }, 1 << 24, 2), std::length_error);
+}
+
+TEST(PartitionSizes, APartitionBeyondTheKernelIsRefused)
+{
+  requireFitsKernel(100'000'000);
+  EXPECT_THROW(requireFitsKernel(100'000'001), std::length_error);
 }
 
 } // namespace

@@ -90,6 +90,9 @@ const Misuse misuses[] = {
   { "UnknownOption", { "delaunay", "points.npy", "-o", "a.npy", "--fast" }, "--fast" },
   { "NoInput", { "delaunay", "-o", "a.npy" }, "input" },
   { "NoOutput", { "delaunay", "points.npy" }, "--output" },
+  { "PartitionsOfMasters",
+    { "delaunay", "points.npy", "-o", "a.npy", "--partitions", "4x4", "--masters", "multi" },
+    "--partitions" },
   { "OutputOfUnknownKind", { "delaunay", "points.npy", "-o", "a.stl" }, "'a.stl' does not end" },
   { "PartitionsOfNoGrid", { "delaunay", "points.npy", "-o", "a.npy", "--partitions", "4" }, "8x8" },
   { "PartitionsOfZero", { "delaunay", "points.npy", "-o", "a.npy", "--partitions", "0x4" },
@@ -157,7 +160,7 @@ TEST_F(Tipp, HelpNamesEveryCommand)
 {
   const Outcome outcome = this->run({ "--help" });
   EXPECT_EQ(0, outcome.ExitCode);
-  for (const char* command : { "delaunay", "points", "check" })
+  for (const char* command : { "delaunay", "flatten", "points", "resample", "partition", "check" })
   {
     EXPECT_NE(std::string::npos, outcome.Out.find(command)) << command;
   }

@@ -76,9 +76,19 @@ TEST_F(TippPartition, SaysWhatItMade)
 TEST_F(TippPartition, TakesAVtkFile)
 {
   this->run({});
-  const Outcome outcome = runTipp(this->Folder,
-    { "partition", "mesh/pieces/000000.vtu", "-o", "again", "--tiling", "quadtree:100" });
-  // The piece's own arrays have the names of global ids.
+  const Outcome outcome = runTipp(
+    this->Folder, { "partition", "mesh/mesh.pvtu", "-o", "again", "--tiling", "quadtree:1000" });
+  EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+  const PartitionedMesh again = openPartitionedMesh(this->Folder.path("again"));
+  EXPECT_EQ(7200, again.Cells);
+  EXPECT_GT(again.Pieces.size(), 4U);
+}
+
+TEST_F(TippPartition, RefusesAFlatMeshWithArraysNamedAsItsOwn)
+{
+  this->run({});
+  const Outcome outcome =
+    runTipp(this->Folder, { "partition", "mesh/pieces/000000.vtu", "-o", "again" });
   EXPECT_EQ(1, outcome.ExitCode);
   EXPECT_NE(std::string::npos, outcome.Err.find("rename it")) << outcome.Err;
 }

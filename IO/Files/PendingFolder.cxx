@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioned/PendingMesh.h"
+#include "Files/PendingFolder.h"
 
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
-#include "Partitioned/PartitionedMesh.h"
+#include "Files/OutputPath.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -21,69 +21,56 @@ namespace tipp
 
 namespace fs = std::filesystem;
 
-PendingMesh::PendingMesh(const std::string& path)
-  : PendingMesh(path, false)
+PendingFolder::PendingFolder(const std::string& path, const Replaceable* replaceable)
+  : PendingFolder(path, replaceable, false)
 {
 }
 
-PendingMesh::PendingMesh(const std::string& path, bool lasting)
+PendingFolder::PendingFolder(
+  const std::string& path, const Replaceable* replaceable, bool isLasting)
 {
   std::error_code failure;
-  fs::path target = fs::absolute(path).lexically_normal();
-  if (!target.has_filename())
-  {
-    target = target.parent_path(); // a slash at the end
-  }
-  if (fs::is_symlink(target, failure))
-  {
-    // A rename would replace the link, not what it points to.
-    target = fs::weakly_canonical(target, failure);
-  }
-  const bool taken = fs::exists(target, failure);
-  if (taken &&
-    !(fs::is_directory(target, failure) &&
-      (isPartitionedMesh(target.string()) || fs::is_empty(target, failure))))
-  {
-    throw IOError(
-      path, "is there already and is no partitioned mesh; remove it or name another folder.");
-  }
+  const fs::path target = outputPath(path);
   const fs::path parent = target.parent_path();
-  if (!fs::is_directory(parent, failure))
+  const bool mayBeThere = fs::is_directory(target, failure) &&
+    (fs::is_empty(target, failure) || (replaceable && replaceable->Is(target.string())));
+  if (fs::exists(target, failure) && !mayBeThere)
   {
-    throw IOError(path, "its folder does not exist; create it or name another.");
-  }
-  if (access(parent.c_str(), W_OK) != 0)
-  {
-    throw IOError(path, "its folder cannot be written to; change its permissions or name another.");
+    throw IOError(path,
+      std::string("exists already") +
+        (replaceable ? std::string(" and is no ") + replaceable->Name : "") +
+        "; remove it or name another folder.");
   }
   this->Path = target.string();
   this->Parent = parent.string();
   const std::string name = "." + target.filename().string();
-  if (lasting)
+  isLasting ? this->openLasting((parent / (name + ".part")).string())
+            : this->makeTemporary(name + ".tmp.");
+}
+
+void PendingFolder::makeTemporary(const std::string& prefix)
+{
+  this->clearLeftovers(prefix);
+  std::string name = this->Parent + "/" + prefix + "XXXXXX";
+  if (!mkdtemp(name.data()))
   {
-    this->openLasting(path, (parent / (name + ".part")).string());
-    return;
+    throw IOError(this->Path, std::string("cannot be written (") + std::strerror(errno) + ").");
   }
-  this->clearLeftovers(name + ".tmp.");
-  std::string temporary = (parent / (name + ".tmp.XXXXXX")).string();
-  if (!mkdtemp(temporary.data()))
-  {
-    throw IOError(path, std::string("cannot be written (") + std::strerror(errno) + ").");
-  }
-  this->Temporary = temporary;
-  // mkdtemp() allows nobody else; a mesh is as open as other files.
+  this->Temporary = name;
+  // mkdtemp() allows nobody else; an output is as open as other files.
   const mode_t mask = umask(0);
   umask(mask);
-  fs::permissions(temporary, fs::perms(0777 & ~mask), failure);
-  this->Lock = open(temporary.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  std::error_code failure;
+  fs::permissions(name, fs::perms(0777 & ~mask), failure);
+  this->Lock = open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   flock(this->Lock, LOCK_EX | LOCK_NB);
 }
 
-void PendingMesh::openLasting(const std::string& path, const std::string& name)
+void PendingFolder::openLasting(const std::string& name)
 {
   if (mkdir(name.c_str(), 0777) != 0 && errno != EEXIST)
   {
-    throw IOError(path, std::string("cannot be written (") + std::strerror(errno) + ").");
+    throw IOError(this->Path, std::string("cannot be written (") + std::strerror(errno) + ").");
   }
   this->Lock = open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (this->Lock < 0 || flock(this->Lock, LOCK_EX | LOCK_NB) != 0)
@@ -92,12 +79,12 @@ void PendingMesh::openLasting(const std::string& path, const std::string& name)
     {
       close(this->Lock);
     }
-    throw IOError(path, "is being made by another process; wait for it or end it.");
+    throw IOError(this->Path, "is being made by another process; wait for it or end it.");
   }
   this->Temporary = name;
 }
 
-PendingMesh::~PendingMesh()
+PendingFolder::~PendingFolder()
 {
   if (!this->Temporary.empty() && !this->Kept)
   {
@@ -110,7 +97,7 @@ PendingMesh::~PendingMesh()
   }
 }
 
-void PendingMesh::clearLeftovers(const std::string& prefix) const
+void PendingFolder::clearLeftovers(const std::string& prefix) const
 {
   std::error_code failure;
   for (const fs::directory_entry& entry : fs::directory_iterator(this->Parent, failure))
@@ -131,14 +118,14 @@ void PendingMesh::clearLeftovers(const std::string& prefix) const
   }
 }
 
-void PendingMesh::exchange() const
+void PendingFolder::exchange() const
 {
   if (renameat2(AT_FDCWD, this->Temporary.c_str(), AT_FDCWD, this->Path.c_str(), RENAME_EXCHANGE) ==
     0)
   {
     return;
   }
-  // Not every file system can exchange; then the old mesh is moved out of the way first.
+  // Not every file system can exchange; then the old folder is moved out of the way first.
   const std::string old = this->Temporary + ".old";
   std::error_code failure;
   fs::rename(this->Path, old, failure);
@@ -154,7 +141,7 @@ void PendingMesh::exchange() const
   }
 }
 
-void PendingMesh::commit()
+void PendingFolder::commit()
 {
   std::error_code failure;
   syncToDisk(this->Temporary);
@@ -165,16 +152,12 @@ void PendingMesh::commit()
   }
   else
   {
-    fs::rename(this->Temporary, this->Path, failure);
-    if (failure)
-    {
-      throw IOError(this->Path, "cannot be written (" + failure.message() + ").");
-    }
+    moveIntoPlace(this->Temporary, this->Path);
   }
   syncToDisk(this->Parent);
   if (replaces)
   {
-    fs::remove_all(this->Temporary, failure); // the old mesh
+    fs::remove_all(this->Temporary, failure); // the old one
   }
   this->Temporary.clear();
 }

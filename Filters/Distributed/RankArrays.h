@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippRankArrays_h
+#define tippRankArrays_h
+
+#include "Messages/Postbox.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+namespace tipp
+{
+
+/// The rank that owns a point: `firstIds` has the first id of each rank's, and the end.
+inline std::size_t ownerOf(std::int64_t id, const std::vector<std::int64_t>& firstIds)
+{
+  const auto next = std::upper_bound(firstIds.begin(), firstIds.end(), id);
+  if (next == firstIds.begin() || next == firstIds.end())
+  {
+    throw std::runtime_error("A triangle from another rank is damaged: it has no such vertex.");
+  }
+  return std::size_t(next - firstIds.begin()) - 1;
+}
+
+/// An array to each rank, and one from each. Collective.
+template <typename T>
+std::vector<std::vector<T>> swapArrays(Postbox& ranks, const std::vector<std::vector<T>>& toRanks)
+{
+  std::vector<Bytes> messages;
+  for (const std::vector<T>& values : toRanks)
+  {
+    ByteWriter writer;
+    writer.array(values);
+    messages.push_back(writer.take());
+  }
+  std::vector<std::vector<T>> received;
+  for (const Bytes& message : ranks.allToAll(std::move(messages)))
+  {
+    received.push_back(ByteReader(message).array<T>());
+  }
+  return received;
+}
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RunTipp.h"
+
+#include "Distributions/GeneratePoints.h"
+#include "Npy/NpyHeader.h"
+#include "Points/ReadPoints.h"
+#include "Points/WritePoints.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+using namespace tipp;
+using namespace tipp::test;
+
+namespace
+{
+
+using Words = std::vector<std::string>;
+
+/// A triangulation with the field z at its points, as a VTK file.
+class TippMesh : public testing::Test
+{
+protected:
+  TippMesh()
+  {
+    std::ofstream csv(this->Folder.path("points.csv"));
+    csv << "x,y,height\n";
+    const std::vector<double> xy = generatePoints(Distribution::Uniform, 500, 3);
+    for (std::size_t i = 0; i < xy.size(); i += 2)
+    {
+      csv << xy[i] << "," << xy[i + 1] << "," << xy[i] - 2 * xy[i + 1] << "\n";
+    }
+    csv.close();
+    EXPECT_EQ(0, this->run({ "delaunay", "points.csv", "-o", "mesh.vtu" }).ExitCode);
+  }
+
+  Outcome run(const Words& words) const { return runTipp(this->Folder, words); }
+  bool exists(const std::string& name) const
+  {
+    return std::filesystem::exists(this->Folder.path(name));
+  }
+
+  /// The .npy image of the range of a mesh.
+  std::string imageOf(const std::string& mesh) const
+  {
+    const Outcome outcome = this->run({ "resample", mesh, "-o", "image.npy", "--arrays", "height",
+      "--bounds", "0.2", "0.7", "0.1", "0.6", "0", "0", "--dims", "40", "30", "1" });
+    EXPECT_EQ(0, outcome.ExitCode) << mesh << ": " << outcome.Err;
+    return outcome.ExitCode == 0 ? contentOf(this->Folder.path("image.npy")) : "";
+  }
+
+  TemporaryFolder Folder;
+};
+
+using TippFlatten = TippMesh;
+using TippResample = TippMesh;
+using TippPointsLike = TippMesh;
+
+TEST_F(TippFlatten, WritesAFolderOfArrays)
+{
+  const Outcome outcome = this->run({ "flatten", "mesh.vtu", "-o", "flat" });
+  EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+  EXPECT_NE(std::string::npos, outcome.Out.find("500 points")) << outcome.Out;
+  EXPECT_TRUE(this->exists("flat/cells.npy"));
+  EXPECT_TRUE(this->exists("flat/point_data/height.npy"));
+}
+
+TEST_F(TippFlatten, LeavesAFolderOfOthersAlone)
+{
+  std::filesystem::create_directory(this->Folder.path("flat"));
+  this->Folder.file("flat/notes", "mine");
+  const Outcome outcome = this->run({ "flatten", "mesh.vtu", "-o", "flat" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("exists already")) << outcome.Err;
+  EXPECT_FALSE(this->exists("flat/cells.npy"));
+}
+
+TEST_F(TippFlatten, RefusesValuesWithoutAGrid)
+{
+  EXPECT_EQ(2, this->run({ "flatten", "mesh.vtu", "-o", "flat", "--values", "fort.63" }).ExitCode);
+}
+
+TEST_F(TippResample, OfAStoredMeshIsThatOfItsSource)
+{
+  ASSERT_EQ(0, this->run({ "flatten", "mesh.vtu", "-o", "flat" }).ExitCode);
+  ASSERT_EQ(
+    0, this->run({ "partition", "flat", "-o", "mesh.tipp", "--tiling", "grid:3x3" }).ExitCode);
+  const std::string expected = this->imageOf("mesh.vtu");
+  EXPECT_GT(expected.size(), 40U * 30 * 8);
+  EXPECT_TRUE(expected == this->imageOf("flat"));
+  EXPECT_TRUE(expected == this->imageOf("mesh.tipp"));
+  EXPECT_TRUE(expected == this->imageOf("mesh.tipp/index.json"));
+}
+
+TEST_F(TippResample, HasTheArraysOfTheMeshAlone)
+{
+  ASSERT_EQ(0, this->run({ "partition", "mesh.vtu", "-o", "mesh.tipp" }).ExitCode);
+  const Outcome outcome =
+    this->run({ "resample", "mesh.tipp", "-o", "image.vti", "--dims", "8", "8", "1" });
+  EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+  const std::string image = contentOf(this->Folder.path("image.vti"));
+  EXPECT_NE(std::string::npos, image.find("height"));
+  EXPECT_EQ(std::string::npos, image.find("Global"));
+}
+
+TEST_F(TippResample, NamesAnArrayThatIsNotThere)
+{
+  for (const char* const mesh : { "mesh.vtu", "mesh.tipp" })
+  {
+    ASSERT_EQ(0, this->run({ "partition", "mesh.vtu", "-o", "mesh.tipp" }).ExitCode);
+    const Outcome outcome = this->run(
+      { "resample", mesh, "-o", "image.npy", "--arrays", "depth", "--dims", "8", "8", "1" });
+    EXPECT_EQ(1, outcome.ExitCode);
+    EXPECT_NE(std::string::npos, outcome.Err.find("no array 'depth'")) << outcome.Err;
+  }
+}
+
+TEST_F(TippResample, RefusesAnArrayOfWords)
+{
+  this->Folder.file("words.vtk",
+    "# vtk DataFile Version 3.0\nwords\nASCII\nDATASET POLYDATA\nPOINTS 3 double\n"
+    "0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\nPOINT_DATA 3\nFIELD f 1\n"
+    "names 1 3 string\na\nb\nc\n");
+  const Outcome outcome = this->run(
+    { "resample", "words.vtk", "-o", "image.npy", "--arrays", "names", "--dims", "8", "8", "1" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("holds no numbers")) << outcome.Err;
+}
+
+TEST_F(TippResample, ChecksTheOutputBeforeTheWork)
+{
+  const Outcome outcome =
+    this->run({ "resample", "none.vtu", "-o", "none/image.vti", "--dims", "8", "8", "1" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("none/image.vti")) << outcome.Err;
+}
+
+TEST_F(TippPointsLike, LieInTheBoxOfTheOthers)
+{
+  const Outcome outcome = this->run(
+    { "points", "--like", "points.csv", "--count", "300", "--seed", "4", "-o", "more.npy" });
+  EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+  const std::vector<double> xy = readPoints(this->Folder.path("more.npy")).XY;
+  EXPECT_EQ(600U, xy.size());
+  EXPECT_TRUE(std::all_of(xy.begin(), xy.end(), [](double c) { return c >= 0 && c <= 1; }));
+}
+
+} // namespace

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command `tipp delaunay` under mpirun: TestTippOnRanks.py MPIEXEC TIPP"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+MPIEXEC, TIPP = sys.argv[1:3]
+
+
+def canonical(triangles):
+    """As a sorted list, each triangle from its lowest id on."""
+    first = np.argmin(triangles, axis=1)
+    turned = np.stack([np.roll(t, -f) for t, f in zip(triangles, first)])
+    return turned[np.lexsort(turned.T[::-1])]
+
+
+class TippOnRanks(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        rng = np.random.default_rng(7)
+        np.save(self.folder / "points.npy", rng.random((20000, 2)))
+
+    def run_tipp(self, ranks, *arguments):
+        launcher = [MPIEXEC, "--oversubscribe", "--bind-to", "none", "-n", str(ranks)] if ranks > 1 else []
+        return subprocess.run([*launcher, TIPP, "delaunay", *arguments], cwd=self.folder,
+                              capture_output=True, text=True, timeout=120)
+
+    def triangles(self, ranks, *arguments):
+        run = self.run_tipp(ranks, "points.npy", "-o", "out.npy", *arguments)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return canonical(np.load(self.folder / "out.npy"))
+
+    def test_every_number_of_ranks_gives_the_same_triangles(self):
+        alone = self.triangles(1)
+        for ranks in (2, 3):
+            np.testing.assert_array_equal(self.triangles(ranks), alone)
+        multi = self.triangles(3, "--masters", "multi", "--major", "2x2", "--minor", "3x3")
+        np.testing.assert_array_equal(multi, alone)
+
+    def test_statistics_tell_of_every_rank(self):
+        self.triangles(3, "--stats", "run.json", "--masters", "multi", "--major", "2x2", "--minor", "3x3")
+        statistics = json.loads((self.folder / "run.json").read_text())
+        self.assertEqual(len(statistics["ranks"]), 3)
+        self.assertEqual(statistics["major_partitions"], 4)
+        self.assertEqual(statistics["partitions"], 36)
+
+    def test_a_mesh_file_has_the_points_too(self):
+        run = self.run_tipp(2, "points.npy", "-o", "mesh.vtp")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn(b'NumberOfPoints="20000"', (self.folder / "mesh.vtp").read_bytes()[:4000])
+
+    def test_bad_input_is_one_sentence_and_no_output(self):
+        (self.folder / "points.npy").write_bytes(b"not an array")
+        run = self.run_tipp(3, "points.npy", "-o", "out.npy")
+        self.assertNotEqual(run.returncode, 0)
+        complaints = [line for line in run.stderr.splitlines() if line.startswith("tipp:")]
+        self.assertEqual(len(complaints), 1, run.stderr)
+        self.assertIn("points.npy", complaints[0])
+        self.assertFalse((self.folder / "out.npy").exists())
+
+    def test_too_many_partitions_end_all_ranks(self):
+        run = self.run_tipp(2, "points.npy", "-o", "out.npy", "--masters", "multi", "--major", "4000x5000")
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("partitions are too many", run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
