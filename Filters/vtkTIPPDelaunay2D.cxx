@@ -7,11 +7,11 @@
 #include "Output/Monitor.h"
 #include "Output/RepresentativeIds.h"
 #include "Output/StatisticsTable.h"
+#include "Parallel/Stopwatch.h"
 #include "Projection/BestFittingPlane.h"
 #include "Projection/BoundingPoints.h"
 #include "Projection/FiniteBounds.h"
 #include "Projection/ProjectedPoints.h"
-#include "Parallel/Stopwatch.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkCellArray.h"

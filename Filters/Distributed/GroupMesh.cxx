@@ -9,6 +9,7 @@ namespace tipp
 GroupMesh::GroupMesh(PartitionIndex partitions, const std::vector<PartitionIndex>& withPoints)
   : Members(static_cast<std::size_t>(partitions))
   , Finished(static_cast<std::size_t>(partitions), 1)
+  , Meeting(static_cast<std::size_t>(partitions), 0)
   , LabelSeen(4 * static_cast<std::size_t>(partitions), 0)
 {
   for (const PartitionIndex p : withPoints)
@@ -39,6 +40,10 @@ GroupMesh::Final GroupMesh::add(SeamGroups added)
     if (piece->Alive[g])
     {
       this->Live += groups.triangles(g).size();
+      for (const PartitionIndex p : groups.met(g))
+      {
+        ++this->Meeting[std::size_t(p)];
+      }
     }
     else
     {
@@ -57,6 +62,10 @@ void GroupMesh::finish(PartitionIndex partition)
     {
       reference.Of->Alive[reference.Group] = 0;
       this->Live -= reference.Of->Groups->triangles(reference.Group).size();
+      for (const PartitionIndex p : reference.Of->Groups->met(reference.Group))
+      {
+        --this->Meeting[std::size_t(p)];
+      }
     }
   }
   members = Membership();
@@ -101,6 +110,26 @@ const std::vector<std::uint32_t>& GroupMesh::reach(PartitionIndex partition)
     }
   }
   return members.Reach;
+}
+
+SeamGroups GroupMesh::liveGroups() const
+{
+  SeamGroups all;
+  for (std::size_t p = 0; p < this->Members.size(); ++p)
+  {
+    for (const Reference& reference : this->Members[p].References)
+    {
+      const SeamGroups& groups = *reference.Of->Groups;
+      const auto met = groups.met(reference.Group);
+      const PartitionIndex* const first = std::find_if(
+        met.begin(), met.end(), [this](PartitionIndex q) { return !this->isFinished(q); });
+      if (reference.isAlive() && first != met.end() && std::size_t(*first) == p)
+      {
+        all.append(groups, reference.Group);
+      }
+    }
+  }
+  return all;
 }
 
 } // namespace tipp

@@ -44,6 +44,34 @@ public:
   /// Triangles that are not final.
   std::size_t size() const { return this->Live; }
 
+  /// Whether a group that is not final meets the partition, be this finished or not.
+  bool isMet(PartitionIndex partition) const { return this->Meeting[std::size_t(partition)] > 0; }
+
+  /// All groups that are not final, each once: added to an empty mesh with the same finished
+  /// partitions they make this one again.
+  SeamGroups liveGroups() const;
+
+  bool isFinished(PartitionIndex partition) const
+  {
+    return this->Finished[std::size_t(partition)] != 0;
+  }
+
+  /// visit(groups, index) for every group that is not final, for some more than once.
+  template <typename Visit>
+  void visitLive(Visit&& visit) const
+  {
+    for (const Membership& members : this->Members)
+    {
+      for (const Reference& reference : members.References)
+      {
+        if (reference.isAlive())
+        {
+          visit(*reference.Of->Groups, reference.Group);
+        }
+      }
+    }
+  }
+
 private:
   struct Piece
   {
@@ -65,6 +93,7 @@ private:
 
   std::vector<Membership> Members;
   std::vector<char> Finished;
+  std::vector<std::uint32_t> Meeting; ///< of each partition: groups that are not final and meet it
   std::vector<std::uint64_t> LabelSeen; ///< the epoch in which reach() last met each label
   std::uint64_t Epoch = 0;
   std::size_t Live = 0;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/LeafWorkers.h"
 
+#include "Distributed/VertexLabelling.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/Worker.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace tipp
@@ -25,9 +25,9 @@ public:
   {
     const Stopwatch watch;
     const Area& area = this->Of.Work.Areas[std::size_t(task.Area)];
-    this->labelVertices(area.Boxes, task.Vertices);
     this->Triangulator.setTiling(area.Boxes, area.FirstLeaf);
-    this->Triangulator.triangulate(task.Partition, this->Vertices);
+    this->Triangulator.triangulate(
+      task.Partition, this->Labelling.label(area.Boxes, task.Vertices));
     Finished finished;
     finished.Result.Area = task.Area;
     finished.Result.Partition = task.Partition;
@@ -40,35 +40,10 @@ public:
   }
 
 private:
-  /// Each vertex once, with the label that it has in this tiling.
-  void labelVertices(const Tiling& boxes, std::vector<PlainVertex>& vertices)
-  {
-    std::sort(vertices.begin(), vertices.end(),
-      [](const PlainVertex& a, const PlainVertex& b) { return a.Id < b.Id; });
-    vertices.erase(std::unique(vertices.begin(), vertices.end(),
-                     [](const PlainVertex& a, const PlainVertex& b) { return a.Id == b.Id; }),
-      vertices.end());
-    this->Points.clear();
-    for (const PlainVertex& v : vertices)
-    {
-      this->Points.push_back(v.Place);
-    }
-    this->Partitions.resize(vertices.size());
-    boxes.locate(this->Points.data(), this->Points.size(), this->Partitions.data());
-    this->Vertices.clear();
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-    {
-      this->Vertices.push_back(makeSeamVertex(boxes,
-        static_cast<PartitionIndex>(this->Partitions[i]), vertices[i].Place, vertices[i].Id));
-    }
-  }
-
   LeafWorkers<Id>& Of;
   Worker<Id> Triangulator;
   SeamGrouping Grouping;
-  std::vector<Point2> Points;
-  std::vector<std::uint32_t> Partitions;
-  std::vector<SeamVertex> Vertices;
+  VertexLabelling Labelling;
 };
 
 template <typename Id>

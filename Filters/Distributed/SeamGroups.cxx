@@ -24,6 +24,20 @@ std::size_t tableSize(std::size_t entries)
 
 } // namespace
 
+void SeamGroups::append(const SeamGroups& others, std::size_t g)
+{
+  const auto add = [](auto& to, const auto& range)
+  { to.insert(to.end(), range.begin(), range.end()); };
+  add(this->Met, others.met(g));
+  add(this->Labels, others.labels(g));
+  add(this->Vertices, others.vertices(g));
+  add(this->Triangles, others.triangles(g));
+  this->Groups.push_back(
+    { static_cast<std::uint32_t>(this->Met.size()), static_cast<std::uint32_t>(this->Labels.size()),
+      static_cast<std::uint32_t>(this->Vertices.size()),
+      static_cast<std::uint32_t>(this->Triangles.size()), others.Groups[g].HasArtificial });
+}
+
 void SeamGroups::write(ByteWriter& writer) const
 {
   writer.array(this->Groups);

@@ -68,6 +68,9 @@ public:
     return range(this->Triangles, g, &Group::TriangleEnd);
   }
 
+  /// Adds one of other groups.
+  void append(const SeamGroups& others, std::size_t g);
+
   void write(ByteWriter& writer) const;
   /// Throws std::runtime_error if the groups are not what write() wrote.
   static SeamGroups read(ByteReader& reader);

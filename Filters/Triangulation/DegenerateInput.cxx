@@ -32,22 +32,29 @@ PointsView withModerateMagnitude(PointsView points, const Box2& bounds)
   return points.scaled(factor);
 }
 
+bool CollinearityTest::add(Point2 p)
+{
+  if (!this->Holds || !isFinite(p) || (this->Found > 0 && p == this->Line[0]))
+  {
+    return this->Holds;
+  }
+  if (this->Found < 2)
+  {
+    this->Line[this->Found++] = p;
+  }
+  else
+  {
+    this->Holds = orientation(this->Line[0], this->Line[1], p) == 0;
+  }
+  return this->Holds;
+}
+
 bool areCollinear(PointsView points)
 {
-  std::size_t found = 0; // distinct points, at most two
-  Point2 line[2]{};
+  CollinearityTest test;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const Point2 p = points[i];
-    if (!isFinite(p) || (found > 0 && p == line[0]))
-    {
-      continue;
-    }
-    if (found < 2)
-    {
-      line[found++] = p;
-    }
-    else if (orientation(line[0], line[1], p) != 0)
+    if (!test.add(points[i]))
     {
       return false;
     }

@@ -2,6 +2,8 @@
 #ifndef tippOutputFile_h
 #define tippOutputFile_h
 
+#include "vtkTIPPIOModule.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -10,7 +12,7 @@ namespace tipp
 {
 
 /// A new file open for writes at any place, from any number of threads at once.
-class OutputFile
+class VTKTIPPIO_EXPORT OutputFile
 {
 public:
   /// Throws IOError if it cannot be made.
@@ -35,10 +37,10 @@ private:
 };
 
 /// Returns when a file or folder is safe on its disk; throws IOError.
-void syncToDisk(const std::string& path);
+VTKTIPPIO_EXPORT void syncToDisk(const std::string& path);
 
 /// Writes a whole file and returns when it is safe; throws IOError.
-void writeWholeFile(const std::string& path, const std::string& content);
+VTKTIPPIO_EXPORT void writeWholeFile(const std::string& path, const std::string& content);
 
 } // namespace tipp
 

@@ -22,6 +22,12 @@ namespace tipp
 namespace fs = std::filesystem;
 
 PendingFolder::PendingFolder(const std::string& path, const Replaceable* replaceable)
+  : PendingFolder(path, replaceable, false)
+{
+}
+
+PendingFolder::PendingFolder(
+  const std::string& path, const Replaceable* replaceable, bool isLasting)
 {
   std::error_code failure;
   const fs::path target = outputPath(path);
@@ -37,25 +43,50 @@ PendingFolder::PendingFolder(const std::string& path, const Replaceable* replace
   }
   this->Path = target.string();
   this->Parent = parent.string();
-  const std::string prefix = "." + target.filename().string() + ".tmp.";
+  const std::string name = "." + target.filename().string();
+  isLasting ? this->openLasting((parent / (name + ".part")).string())
+            : this->makeTemporary(name + ".tmp.");
+}
+
+void PendingFolder::makeTemporary(const std::string& prefix)
+{
   this->clearLeftovers(prefix);
-  std::string name = (parent / (prefix + "XXXXXX")).string();
+  std::string name = this->Parent + "/" + prefix + "XXXXXX";
   if (!mkdtemp(name.data()))
   {
-    throw IOError(path, std::string("cannot be written (") + std::strerror(errno) + ").");
+    throw IOError(this->Path, std::string("cannot be written (") + std::strerror(errno) + ").");
   }
   this->Temporary = name;
   // mkdtemp() allows nobody else; an output is as open as other files.
   const mode_t mask = umask(0);
   umask(mask);
+  std::error_code failure;
   fs::permissions(name, fs::perms(0777 & ~mask), failure);
   this->Lock = open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   flock(this->Lock, LOCK_EX | LOCK_NB);
 }
 
+void PendingFolder::openLasting(const std::string& name)
+{
+  if (mkdir(name.c_str(), 0777) != 0 && errno != EEXIST)
+  {
+    throw IOError(this->Path, std::string("cannot be written (") + std::strerror(errno) + ").");
+  }
+  this->Lock = open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (this->Lock < 0 || flock(this->Lock, LOCK_EX | LOCK_NB) != 0)
+  {
+    if (this->Lock >= 0)
+    {
+      close(this->Lock);
+    }
+    throw IOError(this->Path, "is being made by another process; wait for it or end it.");
+  }
+  this->Temporary = name;
+}
+
 PendingFolder::~PendingFolder()
 {
-  if (!this->Temporary.empty())
+  if (!this->Temporary.empty() && !this->Kept)
   {
     std::error_code ignored;
     fs::remove_all(this->Temporary, ignored);

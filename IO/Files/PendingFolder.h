@@ -25,24 +25,36 @@ public:
   /// Throws IOError if the path's own folder is missing or closed to us, or if there is something
   /// at the path other than an empty folder or, where it is given, what may be replaced.
   explicit PendingFolder(const std::string& path, const Replaceable* replaceable = nullptr);
+  /// With a name that stays the same, ".NAME.part": it may be there already, from a run that did
+  /// not end, and after keep() it stays where there was no commit(). Throws IOError also if another
+  /// process has it.
+  static PendingFolder lasting(const std::string& path, const Replaceable* replaceable)
+  {
+    return { path, replaceable, true };
+  }
   ~PendingFolder();
   PendingFolder(const PendingFolder&) = delete;
   PendingFolder& operator=(const PendingFolder&) = delete;
 
   /// Write in here.
   const std::string& temporaryPath() const { return this->Temporary; }
+  void keep(bool kept = true) { this->Kept = kept; }
 
   /// Puts it in the path's place in one step and removes what was there. What is in it must be safe
   /// on the disk, if it is to be so afterwards. Throws IOError.
   void commit();
 
 private:
+  PendingFolder(const std::string& path, const Replaceable* replaceable, bool isLasting);
+  void makeTemporary(const std::string& prefix);
+  void openLasting(const std::string& name);
   void clearLeftovers(const std::string& prefix) const;
   void exchange() const;
 
   std::string Path;
   std::string Parent;
   std::string Temporary;
+  bool Kept = false;
   int Lock = -1; ///< held as long as the process lives
 };
 

@@ -16,7 +16,7 @@ namespace tipp
 VTKTIPPIO_EXPORT std::uint64_t checksumOf(const void* data, std::size_t bytes);
 
 /// The same of bytes that come one part after the other.
-class Checksum
+class VTKTIPPIO_EXPORT Checksum
 {
 public:
   Checksum();
@@ -35,7 +35,7 @@ private:
 
 /// 16 hexadecimal digits, and back; false for anything else.
 VTKTIPPIO_EXPORT std::string checksumText(std::uint64_t checksum);
-bool parseChecksum(const std::string& text, std::uint64_t& checksum);
+VTKTIPPIO_EXPORT bool parseChecksum(const std::string& text, std::uint64_t& checksum);
 
 } // namespace tipp
 

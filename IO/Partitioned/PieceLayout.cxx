@@ -114,6 +114,22 @@ std::string pieceSections(const PieceLayout& layout)
   return text;
 }
 
+/// The XML before the padding; offsets are those in the appended data.
+std::string headerText(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& piece,
+  const PieceLayout& layout)
+{
+  const std::int64_t cells = piece.Cells + (mesh.Duplicated ? piece.BorrowedCells : 0);
+  std::string header = startOf("UnstructuredGrid");
+  header += "  <!-- Piece " + std::to_string(number) + " of " + std::to_string(mesh.Pieces.size()) +
+    " of a partitioned mesh; ../index.json tells more. -->\n";
+  header += "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"" +
+    std::to_string(piece.Points + piece.GhostPoints) + "\" NumberOfCells=\"" +
+    std::to_string(cells) + "\">\n";
+  header += pieceSections(layout);
+  header += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n";
+  return header;
+}
+
 } // namespace
 
 std::string storedName(const StoredArray& array)
@@ -171,7 +187,8 @@ std::int64_t storedTuples(
   return piece.Cells + (mesh.Duplicated ? piece.BorrowedCells : 0);
 }
 
-PieceLayout layOutPiece(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& piece)
+PieceLayout layOutPiece(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& piece,
+  const PieceSummary* room)
 {
   PieceLayout layout;
   layout.Arrays = pieceArrays(mesh, piece);
@@ -181,21 +198,15 @@ PieceLayout layOutPiece(const PartitionedMesh& mesh, std::size_t number, const P
   {
     at += 8;
     layout.Offsets.push_back(at);
-    layout.End = at + std::uint64_t(storedTuples(mesh, piece, array)) * array.tupleBytes();
+    layout.End =
+      at + std::uint64_t(storedTuples(mesh, room ? *room : piece, array)) * array.tupleBytes();
     at = (layout.End + 7) / 8 * 8;
   }
-  const std::int64_t cells = piece.Cells + (mesh.Duplicated ? piece.BorrowedCells : 0);
   std::string& header = layout.Header;
-  header = startOf("UnstructuredGrid");
-  header += "  <!-- Piece " + std::to_string(number) + " of " + std::to_string(mesh.Pieces.size()) +
-    " of a partitioned mesh; ../index.json tells more. -->\n";
-  header += "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"" +
-    std::to_string(piece.Points + piece.GhostPoints) + "\" NumberOfCells=\"" +
-    std::to_string(cells) + "\">\n";
-  header += pieceSections(layout);
-  header += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n";
+  header = headerText(mesh, number, piece, layout);
   // The data begin after the underscore, at a multiple of 8.
-  header.append(7 - header.size() % 8, ' ');
+  const std::size_t size = room ? headerText(mesh, number, *room, layout).size() : header.size();
+  header.append(size + 7 - size % 8 - header.size(), ' ');
   header += '_';
   for (std::uint64_t& offset : layout.Offsets)
   {

@@ -74,7 +74,10 @@ struct PieceLayout
 /// What follows the last array.
 extern const char* const pieceFooter;
 
-PieceLayout layOutPiece(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& piece);
+/// With `room`, arrays begin where they would in a piece of those counts, which are no smaller: so
+/// the first tuples can be written before the last are known.
+PieceLayout layOutPiece(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& piece,
+  const PieceSummary* room = nullptr);
 
 /// The .pvtu over all pieces.
 std::string pvtuText(const PartitionedMesh& mesh);

@@ -105,7 +105,7 @@ private:
 std::vector<LentGroup> takeGroups(
   TableReader& in, std::int64_t pieces, std::int64_t self, std::int64_t tuples)
 {
-  std::vector<LentGroup> groups(in.count(3, "number of lent groups"));
+  std::vector<LentGroup> groups(in.count(2, "number of lent groups"));
   for (LentGroup& group : groups)
   {
     group.Count = in.number(tuples, "size of a lent group");
@@ -121,7 +121,8 @@ std::vector<LentGroup> takeGroups(
       }
       to = std::int32_t(last = piece);
     }
-    if (group.Count == 0 || group.To.empty())
+    // Tuples that nobody borrows may come first, as part 0 has them.
+    if (group.Count == 0 || (group.To.empty() && &group != groups.data()))
     {
       in.fail("has an empty lent group");
     }

@@ -3,9 +3,7 @@
 
 #include "Files/OutputFile.h"
 #include "Parallel/ParallelFor.h"
-#include "Partitioned/Checksum.h"
-#include "Partitioned/MeshIndex.h"
-#include "Partitioned/PieceLayout.h"
+#include "Partitioned/PublishPieces.h"
 #include "Partitioning/AssignPieces.h"
 #include "Partitioning/PartitionRun.h"
 #include "Partitioning/PieceAssembly.h"
@@ -19,13 +17,6 @@ namespace tipp
 {
 namespace
 {
-
-/// What the first rank learns of a piece.
-struct FinishedPiece
-{
-  PieceSummary Summary;
-  PieceTable Table;
-};
 
 /// [first, last) of this rank.
 std::pair<std::size_t, std::size_t> shareOfPieces(const PartitionRun& run)
@@ -112,62 +103,6 @@ std::vector<FinishedPiece> unpack(const std::vector<std::string>& all, Partition
   return pieces;
 }
 
-/// Tells each piece what the others lend it.
-void addBorrowed(std::vector<FinishedPiece>& pieces, bool duplicated)
-{
-  const auto eachGroup =
-    [&](std::size_t owner, const std::vector<LentGroup>& groups, const auto& take)
-  {
-    for (std::size_t g = 0; g < groups.size(); ++g)
-    {
-      for (const std::int32_t to : groups[g].To)
-      {
-        take(pieces[std::size_t(to)], BorrowedGroup{ std::int32_t(owner), std::int32_t(g) },
-          groups[g].Count);
-      }
-    }
-  };
-  for (std::size_t owner = 0; owner < pieces.size(); ++owner)
-  {
-    eachGroup(owner, pieces[owner].Table.PointGroups,
-      [](FinishedPiece& piece, BorrowedGroup group, std::int64_t)
-      { piece.Table.BorrowedPoints.push_back(group); });
-    eachGroup(owner, pieces[owner].Table.CellGroups,
-      [duplicated](FinishedPiece& piece, BorrowedGroup group, std::int64_t count)
-      {
-        piece.Table.BorrowedCells.push_back(group);
-        piece.Summary.BorrowedCells += duplicated ? 0 : count;
-      });
-  }
-}
-
-/// Writes what describes the pieces, on the first rank.
-void describePieces(PartitionRun& run, std::vector<FinishedPiece>& pieces)
-{
-  PartitionedMesh& mesh = run.Result;
-  addBorrowed(pieces, mesh.Duplicated);
-  std::string tables;
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-  {
-    const std::vector<std::uint64_t> table = packTable(pieces[i].Table);
-    PieceSummary& summary = pieces[i].Summary;
-    summary.TableOffset = tables.size();
-    summary.TableBytes = table.size() * 8;
-    summary.TableChecksum = checksumOf(table.data(), table.size() * 8);
-    tables.append(reinterpret_cast<const char*>(table.data()), table.size() * 8);
-    mesh.Pieces[i] = summary;
-    run.Statistics.MeshBytes += summary.FileBytes;
-  }
-  const std::string pvtu = pvtuText(mesh);
-  const std::string index = indexText(mesh, pvtu);
-  run.Statistics.MeshBytes += tables.size() + pvtu.size() + index.size();
-  writeWholeFile(mesh.tablesPath(), tables);
-  writeWholeFile(mesh.pvtuPath(), pvtu);
-  syncToDisk(mesh.Path + "/pieces");
-  syncToDisk(mesh.Path);
-  writeWholeFile(mesh.indexPath(), index);
-}
-
 } // namespace
 
 void assemblePieces(PartitionRun& run)
@@ -198,7 +133,7 @@ void assemblePieces(PartitionRun& run)
       if (run.Team.isFirst())
       {
         std::vector<FinishedPiece> pieces = unpack(all, run.Result);
-        describePieces(run, pieces);
+        run.Statistics.MeshBytes = publishPieces(run.Result, pieces);
       }
     });
 }

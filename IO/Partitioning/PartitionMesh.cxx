@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
+#include "Partitioned/PublishPieces.h"
 #include "Partitioning/AssemblePieces.h"
 #include "Partitioning/DescribeArrays.h"
 #include "Partitioning/DistributeCells.h"
@@ -21,8 +22,6 @@ namespace tipp
 {
 
 namespace fs = std::filesystem;
-
-const Replaceable replaceableMesh{ "partitioned mesh", isPartitionedMesh };
 
 PartitionRun::PartitionRun(const FlatMesh& mesh, const PartitionOptions& options,
   const Ranks& ranks, const std::string& folder)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/Spill.h"
 
+#include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Parallel/ParallelFor.h"
 
@@ -22,6 +23,44 @@ Spill::Spill(const std::string& path, const Ranks& ranks, std::size_t keys, std:
   , RowBytes(rowBytes)
   , Out(fileOf(path, ranks.rank()))
 {
+}
+
+Spill::Spill(
+  const std::string& path, std::size_t keys, std::size_t rowBytes, const std::vector<char>& saved)
+  : Path(path)
+  , Keys(keys)
+  , RowBytes(rowBytes)
+  , Out(OutputFile::shared(fileOf(path, 0)))
+{
+  for (std::size_t at = 0; at + sizeof(Extent) <= saved.size(); at += sizeof(Extent))
+  {
+    Extent extent;
+    std::memcpy(&extent, saved.data() + at, sizeof(Extent));
+    this->Written = std::max(this->Written, extent.Offset + std::uint64_t(extent.Rows) * rowBytes);
+    if (extent.Key >= keys)
+    {
+      throw IOError(path, "has rows of a piece that there is not; start again.");
+    }
+  }
+  if (InputFile(fileOf(path, 0)).size() < this->Written)
+  {
+    throw IOError(fileOf(path, 0), "is shorter than it was; start again.");
+  }
+  this->sortExtents({ std::string(saved.data(), saved.size()) });
+}
+
+std::vector<char> Spill::save() const
+{
+  std::vector<Extent> extents = this->Sorted;
+  for (std::size_t key = 0; key < this->Keys; ++key)
+  {
+    for (std::size_t i = this->Starts[key]; i < this->Starts[key + 1]; ++i)
+    {
+      extents[i].Key = std::uint32_t(key);
+    }
+  }
+  const char* const begin = reinterpret_cast<const char*>(extents.data());
+  return { begin, begin + extents.size() * sizeof(Extent) };
 }
 
 void Spill::write(
@@ -53,6 +92,7 @@ void Spill::exchange(const Ranks& ranks)
   const std::string mine(
     reinterpret_cast<const char*>(this->Mine.data()), this->Mine.size() * sizeof(Extent));
   std::vector<Extent>().swap(this->Mine);
+  std::vector<char>().swap(this->Buffer);
   const std::vector<std::string> all = ranks.gather(mine);
   ranks.attempt([&] { this->sortExtents(all); });
 }
@@ -129,13 +169,21 @@ void Spill::read(std::size_t key, std::size_t most,
   }
 }
 
-std::vector<char> Spill::readAll(std::size_t key) const
+void Spill::readAll(std::size_t key, void* to) const
 {
-  std::vector<char> rows;
-  rows.reserve(std::size_t(this->Rows[key]) * this->RowBytes);
+  char* at = static_cast<char*>(to);
   this->read(key, std::size_t(1) << 16,
     [&](const char* block, std::size_t count)
-    { rows.insert(rows.end(), block, block + count * this->RowBytes); });
+    {
+      std::memcpy(at, block, count * this->RowBytes);
+      at += count * this->RowBytes;
+    });
+}
+
+std::vector<char> Spill::readAll(std::size_t key) const
+{
+  std::vector<char> rows(std::size_t(this->Rows[key]) * this->RowBytes);
+  this->readAll(key, rows.data());
   return rows;
 }
 

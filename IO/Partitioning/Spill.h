@@ -4,6 +4,7 @@
 
 #include "Files/OutputFile.h"
 #include "Partitioning/Ranks.h"
+#include "vtkTIPPIOModule.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -17,11 +18,17 @@ namespace tipp
 /// Rows of equal size on their way from chunks of a mesh to the pieces: a distribution sort by a
 /// key through a file of each rank. Within a key the rows stay in the order of their chunks, and of
 /// ranks.
-class Spill
+class VTKTIPPIO_EXPORT Spill
 {
 public:
   /// `keys`: the number of keys. Makes the rank's file, "PATH.RANK"; throws IOError.
   Spill(const std::string& path, const Ranks& ranks, std::size_t keys, std::size_t rowBytes);
+
+  /// One that another process has written: save() told it all after exchange(), on one rank.
+  /// Throws IOError.
+  Spill(const std::string& path, std::size_t keys, std::size_t rowBytes,
+    const std::vector<char>& saved);
+  std::vector<char> save() const;
 
   std::size_t rowBytes() const { return this->RowBytes; }
   std::uint64_t bytes() const { return this->Written; }
@@ -39,6 +46,8 @@ public:
   void read(std::size_t key, std::size_t most,
     const std::function<void(const char* rows, std::size_t count)>& take) const;
   std::vector<char> readAll(std::size_t key) const;
+  /// All of the key's rows; there must be room for them.
+  void readAll(std::size_t key, void* to) const;
 
 private:
   struct Extent
@@ -57,6 +66,7 @@ private:
   std::size_t RowBytes;
   OutputFile Out;
   std::uint64_t Written = 0;
+  std::vector<char> Buffer; ///< a chunk's rows; kept from one chunk to the next
   std::vector<Extent> Mine;
   std::vector<Extent> Sorted;
   std::vector<std::size_t> Starts; ///< of each key's in Sorted
@@ -96,7 +106,8 @@ void Spill::add(std::size_t count, int threads, const Key& keyOf, const Fill& fi
     }
     starts.push_back(total);
   }
-  std::vector<char> rows(std::size_t(total) * this->RowBytes);
+  std::vector<char>& rows = this->Buffer;
+  rows.resize(std::size_t(total) * this->RowBytes);
 #pragma omp parallel for num_threads(threads) schedule(static, 1)
   for (std::size_t s = 0; s < stretches; ++s)
   {

@@ -2,8 +2,10 @@
 #include "Commands/Commands.h"
 
 #include "Check/DelaunayChecker.h"
+#include "Commands/CheckPartitioned.h"
 #include "Files/IOError.h"
 #include "Meshes/ReadMesh.h"
+#include "Partitioned/PartitionedMesh.h"
 #include "Points/ReadPoints.h"
 
 #include <CLI/CLI.hpp>
@@ -21,13 +23,15 @@ constexpr const char* footer =
   R"(Exact, and without a triangulation of its own: every edge in at most two
 triangles, all triangles counter-clockwise, every interior edge locally
 Delaunay, the boundary one convex chain, the number of triangles Euler's, every
-distinct point a vertex. Exit code 0: no fault, 1: faults or a file that cannot
+distinct point a vertex. A partitioned mesh is read piece by piece and may be
+larger than memory. Exit code 0: no fault, 1: faults or a file that cannot
 be read, 2: wrong usage.
 
 Examples:
   tipp check points.npy triangles.npy
   tipp check survey.csv --x easting --y northing mesh.vtp --tie-rule
   tipp check fort.14 fort.14 --boundary-free
+  tipp check points.npy mesh.tipp
 )";
 
 struct CheckArguments
@@ -57,13 +61,22 @@ void requireSamePoints(
   }
 }
 
-int runCheck(const CheckArguments& arguments)
+CheckReport check(const CheckArguments& arguments)
 {
+  if (isPartitionedMesh(arguments.Mesh))
+  {
+    return checkPartitioned(arguments.Points, arguments.Columns, arguments.Mesh, arguments.Options);
+  }
   const PointTable points = readPoints(arguments.Points, arguments.Columns);
   TriangleMesh mesh = readMesh(arguments.Mesh);
   requireSamePoints(arguments, points.XY, mesh.XY);
   mesh.XY = {};
-  const CheckReport report = checkDelaunay(points.XY, mesh.Triangles, arguments.Options);
+  return checkDelaunay(points.XY, mesh.Triangles, arguments.Options);
+}
+
+int runCheck(const CheckArguments& arguments)
+{
+  const CheckReport report = check(arguments);
   fmt::print("{} points ({} distinct), {} triangles, {} boundary edges, {} co-circular ties: {}\n",
     report.Points, report.DistinctPoints, report.Triangles, report.BoundaryEdges, report.Ties,
     report.isCorrect() ? "correct" : "FAULTY");
@@ -84,8 +97,8 @@ void addCheckCommand(CLI::App& app, int& exitCode)
   command->add_option("points", arguments->Points, "The points, in any format of 'tipp delaunay'")
     ->required();
   command
-    ->add_option(
-      "mesh", arguments->Mesh, "The triangles: .npy (m x 3 integers), .14, .grd or a VTK file")
+    ->add_option("mesh", arguments->Mesh,
+      "The triangles: .npy (m x 3 integers), .14, .grd, a VTK file or a partitioned mesh")
     ->required();
   command->add_option("--x", arguments->Columns.X, "Column of x: a name, or a number from 0");
   command->add_option("--y", arguments->Columns.Y, "Column of y: a name, or a number from 0");

@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tipp
 {
@@ -14,7 +15,8 @@ namespace tipp
 /// What `tipp delaunay` was asked for.
 struct DelaunayArguments
 {
-  std::string Input;
+  std::vector<std::string> Inputs;
+  std::string Input; ///< the first
   std::string Output;
   PointOptions Columns;
   int Threads = 0;
@@ -27,6 +29,11 @@ struct DelaunayArguments
   int InitialPoints = 0;
   bool MapDuplicates = false;
   std::string Statistics;
+  // Of a run out of core:
+  std::string Memory; ///< empty: not given
+  std::string Sink = "mesh";
+  bool Resume = false;
+  std::string Scratch;
 
   /// Something is asked for that only masters and workers have; one rank can be all of them.
   bool isForRanks() const

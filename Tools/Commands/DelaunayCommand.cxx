@@ -3,12 +3,15 @@
 
 #include "Commands/DelaunayArguments.h"
 #include "Commands/DelaunayOnRanks.h"
+#include "Commands/DelaunayOutOfCore.h"
 #include "Commands/DelaunayOutput.h"
 #include "Commands/DelaunayStatistics.h"
+#include "Commands/MemorySize.h"
 #include "Console/Interrupt.h"
 #include "Console/MpiSession.h"
 #include "Console/ProgressBar.h"
 #include "Files/Extension.h"
+#include "Files/IOError.h"
 #include "Meshes/WriteMesh.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/Triangulate.h"
@@ -27,9 +30,13 @@ constexpr const char* footer =
   R"(INPUT   .npy (n x 2 or n x 3, float64 or float32); .csv, .txt, .xyz (one point a
         line, columns parted by comma, semicolon, tab or blanks; a line of names
         or of the count is found); .14, .grd (ADCIRC); any VTK file.
+        With a .tipp output also several files, and uniform:COUNT for so many points
+        that are uniform in the unit square.
 OUTPUT  .vtp, .vtu (all points with their data, a column named z as third
         coordinate) or .npy (m x 3 int64: point ids, counted from 0,
-        counter-clockwise).
+        counter-clockwise); or .tipp, a partitioned mesh, made out of core: points
+        and triangles may be larger than memory. .npy and text are read in blocks,
+        other points as a whole.
 
 Under mpirun the points are spread over the ranks, each with its threads; the
 first rank writes the output. --masters, --major, --minor and --groups choose how
@@ -43,6 +50,8 @@ Examples:
   tipp delaunay points.npy -o triangles.npy
   tipp delaunay survey.csv --x easting --y northing -o survey.vtp --threads 4
   tipp delaunay fort.14 -o mesh.vtu --partitions 8x8 --stats run.json
+  tipp delaunay west.npy east.npy -o mesh.tipp --memory 512M
+  tipp delaunay west.npy east.npy -o mesh.tipp --memory 512M --resume
   mpirun -np 4 tipp delaunay points.npy -o triangles.npy --masters multi --major 4x4
 )";
 
@@ -73,6 +82,16 @@ int runDelaunay(const DelaunayArguments& arguments)
 {
   watchForInterrupt();
   const MpiSession session;
+  if (isOutOfCore(arguments))
+  {
+    if (session.controller() || arguments.isForRanks())
+    {
+      throw IOError(arguments.Output,
+        "is made by one process, with threads; run it without mpirun and without --masters, "
+        "--major and --minor.");
+    }
+    return runDelaunayOutOfCore(arguments);
+  }
   if (session.controller() || arguments.isForRanks())
   {
     return runDelaunayOnRanks(arguments, session.controller());
@@ -107,7 +126,9 @@ int runDelaunay(const DelaunayArguments& arguments)
 
 std::string checkOutput(const std::string& path)
 {
-  return isMeshFile(path) ? "" : "'" + path + "' does not end in .vtp, .vtu or .npy";
+  return isMeshFile(path) || extensionOf(path) == ".tipp"
+    ? ""
+    : "'" + path + "' does not end in .vtp, .vtu, .npy or .tipp";
 }
 
 std::string checkPartitions(const std::string& text)
@@ -173,7 +194,9 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
   auto arguments = std::make_shared<DelaunayArguments>();
   CLI::App* const command =
     app.add_subcommand("delaunay", "Triangulates points: exact 2D Delaunay, in parallel");
-  command->add_option("input", arguments->Input, "The points")->required();
+  command
+    ->add_option("input", arguments->Inputs, "The points; of several files with a .tipp output")
+    ->required();
   command->add_option("-o,--output", arguments->Output, "The triangles")
     ->required()
     ->check(checkOutput);
@@ -185,6 +208,20 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
     "for a "
     "point, -1 for points that are not finite");
   command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
+  command
+    ->add_option("--memory", arguments->Memory,
+      "With a .tipp output: what the run may take, as 512M; without: 2G")
+    ->check(checkMemorySize);
+  command
+    ->add_option("--sink", arguments->Sink,
+      "With a .tipp output: mesh, or count: nothing is written but the number of triangles and "
+      "a checksum of them")
+    ->check(CLI::IsMember({ "mesh", "count" }))
+    ->capture_default_str();
+  command->add_flag("--resume", arguments->Resume,
+    "With a .tipp output: goes on where a run that was killed, interrupted or failed has been");
+  command->add_option("--scratch", arguments->Scratch,
+    "With a .tipp output: a folder for the spilled points; without: beside the output");
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]()
@@ -198,6 +235,12 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
       {
         throw CLI::ValidationError(
           "--partitions", "does not go with --masters, --major and --minor; give --minor");
+      }
+      arguments->Input = arguments->Inputs.front();
+      const std::string misplaced = misplacedOutOfCoreOption(*arguments);
+      if (!isOutOfCore(*arguments) && !misplaced.empty())
+      {
+        throw CLI::ValidationError(misplaced, "needs an output named .tipp");
       }
       exitCode = runDelaunay(*arguments);
     });

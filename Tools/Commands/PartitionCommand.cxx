@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Commands/MemorySize.h"
 #include "Commands/PartitionReport.h"
 #include "Console/Interrupt.h"
 #include "Console/MpiSession.h"
@@ -13,9 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <charconv>
 #include <memory>
-#include <optional>
 
 namespace tipp
 {
@@ -56,28 +55,6 @@ struct PartitionArguments
   std::string Statistics;
 };
 
-std::optional<std::uint64_t> parseBytes(const std::string& text)
-{
-  std::uint64_t number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  const std::string unit(stop, end);
-  const std::size_t power = std::string("KMG").find(unit);
-  const bool known = unit.empty() || (unit.size() == 1 && power != std::string::npos);
-  if (error != std::errc() || !known || number == 0)
-  {
-    return std::nullopt;
-  }
-  const unsigned shift = unit.empty() ? 0 : 10 * (unsigned(power) + 1);
-  return number <= (~std::uint64_t(0) >> shift) ? std::make_optional(number << shift)
-                                                : std::nullopt;
-}
-
-std::string checkMemory(const std::string& text)
-{
-  return parseBytes(text) ? "" : "'" + text + "' is no number of bytes, as 512M or 2G";
-}
-
 std::string checkTiling(const std::string& text)
 {
   return TilingChoice::parse(text)
@@ -91,7 +68,7 @@ PartitionOptions makeOptions(
   PartitionOptions options;
   options.Tiling = *TilingChoice::parse(arguments.Tiling);
   options.DuplicateBorrowers = arguments.Borrowers == "duplicate";
-  options.MemoryLimit = *parseBytes(arguments.Memory);
+  options.MemoryLimit = *parseMemorySize(arguments.Memory);
   options.Loading.Kind = loaderFromName(arguments.Loader);
   options.Device = parseDeviceChoice(arguments.Device);
   options.Threads = arguments.Threads;
@@ -172,7 +149,7 @@ void addPartitionCommand(CLI::App& app, int& exitCode)
     ->check(CLI::IsMember({ "reference", "duplicate" }))
     ->capture_default_str();
   command->add_option("--memory", arguments->Memory, "What the run may take, as 512M")
-    ->check(checkMemory)
+    ->check(checkMemorySize)
     ->capture_default_str();
   command
     ->add_option("--loader", arguments->Loader,

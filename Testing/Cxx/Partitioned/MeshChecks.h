@@ -19,6 +19,9 @@ namespace test
 /// to one piece; ids, coordinates and attributes are the source's.
 void expectHolds(const std::string& path, const SourceMesh& source);
 
+/// The same but for attributes.
+void expectBelongs(const std::string& path, const SourceMesh& source);
+
 /// The same bytes in all that was read.
 void expectEqual(const Piece& a, const Piece& b);
 

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPiecePlan_h
+#define tippPiecePlan_h
+
+#include "OutOfCore/InputSurvey.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "Triangulation/SeamMesh.h"
+#include "Triangulation/Tiling.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+class SaveArchive;
+class LoadArchive;
+
+/// How much of everything goes into the memory limit.
+struct MemoryPlan
+{
+  MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords);
+
+  std::size_t BlockPoints;  ///< read at a time
+  std::size_t SamplePoints; ///< at least, of the survey
+  std::int64_t PiecePoints; ///< about
+  std::int64_t PartitionPoints;
+  std::uint64_t LoadedBytes; ///< of pieces in memory together
+
+  /// What a piece takes while its points are triangulated and written, but for the kernels.
+  static std::uint64_t pieceBytes(std::int64_t points, std::size_t rowWords);
+};
+
+/// A point of the initial mesh.
+struct InitialPoint
+{
+  std::int64_t Id; ///< in the stream
+  Point2 Place;
+  PartitionIndex Partition;
+  std::int64_t InPieces = -1; ///< its place when all points are in the order of pieces
+};
+
+/// The two levels of boxes: pieces, which are spilled, loaded and written, and in each the
+/// partitions that workers triangulate.
+struct PiecePlan
+{
+  PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options, const MemoryPlan& memory,
+    std::size_t rowWords, int threads);
+  explicit PiecePlan(LoadArchive& archive);
+  void save(SaveArchive& archive) const;
+
+  Tiling Pieces;
+  std::vector<Tiling> Inner;                  ///< of each piece
+  Tiling Partitions;                          ///< all together
+  std::vector<PartitionIndex> FirstPartition; ///< of each piece; one more at the end
+  std::vector<std::int32_t> PieceOf;          ///< of each partition
+  std::vector<SeamVertex> Artificial;
+  std::vector<InitialPoint> Initial; ///< by id
+  /// One piece of one partition, no artificial points: partitions do not pay for such points, or
+  /// doubles cannot enclose them.
+  bool IsAlone = false;
+
+  PartitionIndex pieces() const { return this->Pieces.size(); }
+
+  /// Pieces stand in the mesh in the opposite order: a point on a cut belongs to the upper box here
+  /// and to the first there.
+  std::size_t number(PartitionIndex piece) const
+  {
+    return static_cast<std::size_t>(this->pieces() - 1 - piece);
+  }
+
+  /// The initial mesh, once the initial points have their places.
+  SeamTriangles initialMesh(int threads) const;
+
+private:
+  void choosePartitions(const InputSurvey& survey, const MemoryPlan& memory);
+  void chooseInitialPoints(const InputSurvey& survey);
+  void numberPartitions();
+  void takeAlone(const InputSurvey& survey);
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OutOfCore/ScratchFolder.h"
+
+#include "Files/IOError.h"
+
+#include <filesystem>
+
+#include <sys/stat.h>
+
+namespace tipp
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+void makeFolder(const std::string& path)
+{
+  std::error_code failure;
+  fs::create_directories(path, failure);
+  if (failure)
+  {
+    throw IOError(path, "cannot be made (" + failure.message() + "); name another folder.");
+  }
+}
+
+bool areOnOneDisk(const std::string& a, const std::string& b)
+{
+  struct stat ofA = {};
+  struct stat ofB = {};
+  return stat(a.c_str(), &ofA) == 0 && stat(b.c_str(), &ofB) == 0 && ofA.st_dev == ofB.st_dev;
+}
+
+void requireFree(const std::string& path, const std::string& folder, std::uint64_t needed)
+{
+  std::error_code failure;
+  const fs::space_info space = fs::space(folder, failure);
+  if (!failure && space.available < needed)
+  {
+    throw IOError(path,
+      "needs about " + std::to_string(needed / 1000000 + 1) +
+        " MB while it is made, and the disk of " + folder + " has " +
+        std::to_string(space.available / 1000000) + " MB free; free space or name another disk.");
+  }
+}
+
+} // namespace
+
+ScratchFolder::ScratchFolder(const std::string& meshFolder, const std::string& other)
+  : Mesh(meshFolder)
+  , Folder(other.empty() ? meshFolder : other + "/" + fs::path(meshFolder).filename().string())
+{
+  makeFolder(this->Folder);
+}
+
+ScratchFolder::~ScratchFolder()
+{
+  if (!this->Kept)
+  {
+    this->remove();
+  }
+}
+
+bool ScratchFolder::hasPlan() const
+{
+  std::error_code ignored;
+  return fs::exists(this->plan(), ignored);
+}
+
+void ScratchFolder::clear()
+{
+  std::error_code failure;
+  for (const fs::directory_entry& entry : fs::directory_iterator(this->Mesh, failure))
+  {
+    fs::remove_all(entry.path(), failure);
+  }
+  makeFolder(this->Mesh + "/pieces");
+}
+
+void ScratchFolder::requireSpace(
+  const std::string& path, std::uint64_t mesh, std::uint64_t scratch) const
+{
+  if (areOnOneDisk(this->Mesh, this->Folder))
+  {
+    requireFree(path, this->Folder, mesh + scratch);
+    return;
+  }
+  requireFree(path, this->Mesh, mesh);
+  requireFree(path, this->Folder, scratch);
+}
+
+void ScratchFolder::remove()
+{
+  std::error_code ignored;
+  for (const std::string& name : { this->points() + ".0", this->state(), this->state() + ".next",
+         this->plan() + ".next", this->plan() })
+  {
+    fs::remove(name, ignored);
+  }
+  if (this->Folder != this->Mesh)
+  {
+    fs::remove(this->Folder, ignored);
+  }
+}
+
+} // namespace tipp

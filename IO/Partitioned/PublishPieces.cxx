@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioned/PublishPieces.h"
+
+#include "Files/OutputFile.h"
+#include "Partitioned/Checksum.h"
+#include "Partitioned/MeshIndex.h"
+#include "Partitioned/PieceLayout.h"
+
+#include <string>
+
+namespace tipp
+{
+
+const Replaceable replaceableMesh{ "partitioned mesh", isPartitionedMesh };
+
+namespace
+{
+
+/// Tells each piece what the others lend it.
+void addBorrowed(std::vector<FinishedPiece>& pieces, bool duplicated)
+{
+  const auto eachGroup =
+    [&](std::size_t owner, const std::vector<LentGroup>& groups, const auto& take)
+  {
+    for (std::size_t g = 0; g < groups.size(); ++g)
+    {
+      for (const std::int32_t to : groups[g].To)
+      {
+        take(pieces[std::size_t(to)], BorrowedGroup{ std::int32_t(owner), std::int32_t(g) },
+          groups[g].Count);
+      }
+    }
+  };
+  for (std::size_t owner = 0; owner < pieces.size(); ++owner)
+  {
+    eachGroup(owner, pieces[owner].Table.PointGroups,
+      [](FinishedPiece& piece, BorrowedGroup group, std::int64_t)
+      { piece.Table.BorrowedPoints.push_back(group); });
+    eachGroup(owner, pieces[owner].Table.CellGroups,
+      [duplicated](FinishedPiece& piece, BorrowedGroup group, std::int64_t count)
+      {
+        piece.Table.BorrowedCells.push_back(group);
+        piece.Summary.BorrowedCells += duplicated ? 0 : count;
+      });
+  }
+}
+
+} // namespace
+
+std::uint64_t publishPieces(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces)
+{
+  addBorrowed(pieces, mesh.Duplicated);
+  std::uint64_t bytes = 0;
+  std::string tables;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    const std::vector<std::uint64_t> table = packTable(pieces[i].Table);
+    PieceSummary& summary = pieces[i].Summary;
+    summary.TableOffset = tables.size();
+    summary.TableBytes = table.size() * 8;
+    summary.TableChecksum = checksumOf(table.data(), table.size() * 8);
+    tables.append(reinterpret_cast<const char*>(table.data()), table.size() * 8);
+    mesh.Pieces[i] = summary;
+    bytes += summary.FileBytes;
+  }
+  const std::string pvtu = pvtuText(mesh);
+  const std::string index = indexText(mesh, pvtu);
+  writeWholeFile(mesh.tablesPath(), tables);
+  writeWholeFile(mesh.pvtuPath(), pvtu);
+  syncToDisk(mesh.Path + "/pieces");
+  syncToDisk(mesh.Path);
+  writeWholeFile(mesh.indexPath(), index);
+  return bytes + tables.size() + pvtu.size() + index.size();
+}
+
+} // namespace tipp

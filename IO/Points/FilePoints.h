@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippFilePoints_h
+#define tippFilePoints_h
+
+#include "Points/PointStream.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// The points of one file, block by block.
+class FilePoints
+{
+public:
+  virtual ~FilePoints() = default;
+  /// Appends to an empty block; false at the end.
+  virtual bool next(PointBlock& block, std::size_t most) = 0;
+  virtual void rewind() = 0;
+  virtual std::vector<std::string> columns() const = 0;
+};
+
+/// By the file's extension. Throws IOError.
+std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointOptions& options);
+
+/// "uniform:1000000" is no file but so many uniform points; 0 for other names.
+std::int64_t generatedCount(const std::string& name);
+std::unique_ptr<FilePoints> generatePointsAsWanted(std::int64_t count);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `tipp delaunay` with a partitioned mesh for output.
+#include "MeshChecks.h"
+#include "RunTipp.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <random>
+#include <thread>
+
+#include <sys/resource.h>
+
+namespace
+{
+
+using namespace tipp::test;
+
+class TippOutOfCore : public testing::Test
+{
+protected:
+  void makePoints(const std::string& distribution, const std::string& count) const
+  {
+    ASSERT_EQ(0,
+      runTipp(this->Folder,
+        { "points", "--distribution", distribution, "--count", count, "-o", this->Points })
+        .ExitCode);
+  }
+
+  Outcome run(const std::vector<std::string>& more) const
+  {
+    std::vector<std::string> arguments = this->command();
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runTipp(this->Folder, arguments);
+  }
+
+  std::vector<std::string> command() const
+  {
+    return { "delaunay", this->Points, "-o", this->Mesh, "--memory", "2M", "--threads", "2" };
+  }
+
+  TemporaryFolder Folder;
+  std::string Points = this->Folder.path("points.npy");
+  std::string Mesh = this->Folder.path("mesh.tipp");
+};
+
+TEST_F(TippOutOfCore, MakesAMeshThatTheCheckAccepts)
+{
+  this->makePoints("clustered", "30000");
+  const Outcome made = this->run({ "--stats", this->Folder.path("run.json") });
+  ASSERT_EQ(0, made.ExitCode) << made.Err;
+  const auto json = nlohmann::json::parse(contentOf(this->Folder.path("run.json")));
+  EXPECT_EQ(30000, json["points"]);
+  EXPECT_GT(json["pieces"], 4);
+  const Outcome checked =
+    runTipp(this->Folder, { "check", this->Points, this->Mesh, "--tie-rule" });
+  EXPECT_EQ(0, checked.ExitCode) << checked.Out << checked.Err;
+  EXPECT_NE(std::string::npos, checked.Out.find("correct"));
+}
+
+TEST_F(TippOutOfCore, ChecksAgainstTheRightPointsOnly)
+{
+  this->makePoints("clustered", "3000");
+  ASSERT_EQ(0, this->run({}).ExitCode);
+  this->makePoints("uniform", "3000");
+  const Outcome checked = runTipp(this->Folder, { "check", this->Points, this->Mesh });
+  EXPECT_EQ(1, checked.ExitCode);
+  EXPECT_NE(std::string::npos, checked.Err.find("are not the 3000 points"));
+}
+
+TEST_F(TippOutOfCore, EndsWithTheSameBytesAfterTwentyKills)
+{
+  this->makePoints("coast", "60000");
+  ASSERT_EQ(0, this->run({}).ExitCode);
+  const auto expected = filesOf(this->Mesh);
+  std::mt19937 random(3);
+  int kills = 0;
+  for (int round = 0; kills < 20; ++round)
+  {
+    ASSERT_LT(round, 60) << "runs end before they are killed";
+    std::filesystem::remove_all(this->Mesh);
+    std::vector<std::string> arguments = this->command();
+    arguments.emplace_back("--resume");
+    int longest = 150; // so that each goes on a little longer than the last
+    for (;; longest += 40)
+    {
+      const TippProcess process(this->Folder, arguments);
+      std::this_thread::sleep_for(std::chrono::milliseconds(random() % unsigned(longest)));
+      process.kill();
+      const int code = process.wait().ExitCode;
+      if (code == 0)
+      {
+        break;
+      }
+      ASSERT_EQ(-9, code);
+      ++kills;
+    }
+    ASSERT_TRUE(expected == filesOf(this->Mesh)) << round;
+  }
+}
+
+TEST_F(TippOutOfCore, GoesOnAfterAnInterrupt)
+{
+  this->makePoints("uniform", "200000");
+  const TippProcess process(this->Folder, this->command());
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  process.interrupt();
+  const Outcome interrupted = process.wait();
+  EXPECT_TRUE(interrupted.ExitCode == 130 || interrupted.ExitCode == 0) << interrupted.ExitCode;
+  const Outcome resumed = this->run({ "--resume" });
+  EXPECT_EQ(0, resumed.ExitCode) << resumed.Err;
+  EXPECT_EQ(0, runTipp(this->Folder, { "check", this->Points, this->Mesh }).ExitCode);
+}
+
+TEST_F(TippOutOfCore, GoesOnAfterADiskThatIsFull)
+{
+  this->makePoints("uniform", "50000");
+  // Files of at most so many bytes stand for a disk: first for the spilled points, then for pieces.
+  for (const rlim_t most : { 100000, 1300000 })
+  {
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit small{ most, before.rlim_max };
+    setrlimit(RLIMIT_FSIZE, &small);
+    std::signal(SIGXFSZ, SIG_IGN);
+    const Outcome full = this->run({ "--partitions", "1x1" });
+    setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_EQ(1, full.ExitCode);
+    EXPECT_NE(std::string::npos, full.Err.find("cannot be written")) << full.Err;
+    EXPECT_FALSE(std::filesystem::exists(this->Mesh));
+    const Outcome resumed = this->run({ "--partitions", "1x1", "--resume" });
+    EXPECT_EQ(0, resumed.ExitCode) << resumed.Err;
+    EXPECT_EQ(0, runTipp(this->Folder, { "check", this->Points, this->Mesh }).ExitCode);
+    std::filesystem::remove_all(this->Mesh);
+  }
+}
+
+TEST_F(TippOutOfCore, NamesOptionsThatNeedSuchAnOutput)
+{
+  this->makePoints("uniform", "100");
+  for (const std::vector<std::string>& more :
+    { std::vector<std::string>{ "--resume" }, { "--memory", "2M" }, { "--scratch", "x" } })
+  {
+    std::vector<std::string> arguments{ "delaunay", this->Points, "-o",
+      this->Folder.path("mesh.vtu") };
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = runTipp(this->Folder, arguments);
+    EXPECT_EQ(2, outcome.ExitCode);
+    EXPECT_NE(std::string::npos, outcome.Err.find("needs an output named .tipp")) << outcome.Err;
+  }
+}
+
+} // namespace

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Check/PieceChecker.h"
+
+#include "Check/Hull.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <unordered_map>
+
+namespace tipp
+{
+namespace
+{
+
+using check::Position;
+
+Position at(const CheckedPiece& piece, std::int32_t point)
+{
+  return { piece.XY[2 * std::size_t(point)], piece.XY[2 * std::size_t(point) + 1] };
+}
+
+bool isSame(Position a, Position b)
+{
+  return a.x == b.x && a.y == b.y;
+}
+
+std::uint64_t mix(std::uint64_t x) // the finaliser of splitmix64
+{
+  x += 0x9e3779b97f4a7c15U;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
+  return x ^ (x >> 31);
+}
+
+} // namespace
+
+std::uint64_t PieceChecker::hashPoint(std::int64_t id, double x, double y)
+{
+  std::uint64_t bits[2];
+  const double xy[2] = { x, y };
+  std::memcpy(bits, xy, sizeof(bits));
+  return mix(std::uint64_t(id) + mix(bits[0] + mix(bits[1])));
+}
+
+void PieceChecker::add(const CheckedPiece& piece)
+{
+  this->Report.Triangles += piece.OwnTriangles;
+  this->checkTriangles(piece);
+  this->checkPoints(piece);
+  this->checkEdges(piece);
+}
+
+void PieceChecker::checkTriangles(const CheckedPiece& piece)
+{
+  const std::size_t count = piece.Triangles.size() / 3;
+  const auto points = std::int32_t(piece.Ids.size());
+  this->IsGood.assign(count, 1);
+  this->IsSound.assign(count, 1);
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    const std::int32_t* const corners = &piece.Triangles[3 * t];
+    const bool isOwn = std::int64_t(t) < piece.OwnTriangles;
+    this->IsGood[t] = std::all_of(corners, corners + 3,
+      [&](std::int32_t point)
+      {
+        return point >= 0 && point < points && std::isfinite(at(piece, point).x) &&
+          std::isfinite(at(piece, point).y);
+      });
+    this->Report.BadIds += isOwn && !this->IsGood[t] ? 1 : 0;
+    this->IsSound[t] = this->IsGood[t] &&
+      check::turn(at(piece, corners[0]), at(piece, corners[1]), at(piece, corners[2])) > 0;
+    this->Report.BadTurns += isOwn && this->IsGood[t] && !this->IsSound[t] ? 1 : 0;
+  }
+}
+
+/// All triangles that have one of the piece's points are in the piece, and points at one place are
+/// in one piece.
+void PieceChecker::checkPoints(const CheckedPiece& piece)
+{
+  std::vector<bool> used(piece.Ids.size(), false);
+  for (std::size_t t = 0; t < this->IsGood.size(); ++t)
+  {
+    for (std::size_t i = 0; this->IsGood[t] && i < 3; ++i)
+    {
+      used[std::size_t(piece.Triangles[3 * t + i])] = true;
+    }
+  }
+  std::vector<std::int32_t> own;
+  for (std::size_t i = 0; i < piece.Ids.size(); ++i)
+  {
+    const Position p = at(piece, std::int32_t(i));
+    if (piece.IsOwn[i])
+    {
+      ++this->Report.Points;
+      this->PointSum += hashPoint(piece.Ids[i], p.x, p.y);
+      if (std::isfinite(p.x) && std::isfinite(p.y))
+      {
+        own.push_back(std::int32_t(i));
+      }
+    }
+  }
+  std::sort(own.begin(), own.end(),
+    [&](std::int32_t a, std::int32_t b) { return check::isBefore(at(piece, a), at(piece, b)); });
+  for (std::size_t first = 0, last = 0; first < own.size(); first = last)
+  {
+    const Position place = at(piece, own[first]);
+    std::int64_t vertices = 0;
+    for (last = first; last < own.size() && isSame(place, at(piece, own[last])); ++last)
+    {
+      vertices += used[std::size_t(own[last])] ? 1 : 0;
+    }
+    ++this->Report.DistinctPoints;
+    this->Report.UnusedPoints += vertices == 0 ? 1 : 0;
+    this->Report.TwinVertices += std::max<std::int64_t>(vertices - 1, 0);
+    if (this->Line.size() < 2)
+    {
+      this->Line.push_back(place);
+    }
+    else if (this->IsCollinear)
+    {
+      this->IsCollinear = check::turn(this->Line[0], this->Line[1], place) == 0;
+    }
+  }
+}
+
+PieceChecker::Edge PieceChecker::edgeOf(const CheckedPiece& piece, std::size_t h) const
+{
+  const std::int32_t from = piece.Triangles[h];
+  const std::int32_t to = piece.Triangles[h % 3 == 2 ? h - 2 : h + 1];
+  const std::int32_t off = piece.Triangles[h % 3 == 0 ? h + 2 : h - 1];
+  const bool isReversed = piece.Ids[std::size_t(from)] > piece.Ids[std::size_t(to)];
+  const std::int32_t low = isReversed ? to : from;
+  const std::int32_t high = isReversed ? from : to;
+  return { { piece.Ids[std::size_t(low)], piece.Ids[std::size_t(high)] }, isReversed,
+    { at(piece, low), at(piece, high) }, at(piece, off), this->IsSound[h / 3] != 0 };
+}
+
+/// A counting sort by the lower point, then a sort of each point's few edges.
+void PieceChecker::checkEdges(const CheckedPiece& piece)
+{
+  struct HalfEdge
+  {
+    std::int32_t Higher;
+    std::uint32_t Id;
+  };
+  const std::size_t halfEdges = 3 * std::size_t(piece.OwnTriangles);
+  const auto eachHalfEdge = [&](const auto& take)
+  {
+    for (std::size_t h = 0; h < halfEdges; ++h)
+    {
+      if (this->IsGood[h / 3])
+      {
+        const std::int32_t a = piece.Triangles[h];
+        const std::int32_t b = piece.Triangles[h % 3 == 2 ? h - 2 : h + 1];
+        take(h, std::min(a, b), std::max(a, b));
+      }
+    }
+  };
+  std::vector<std::uint32_t> starts(piece.Ids.size() + 1, 0);
+  eachHalfEdge(
+    [&](std::size_t, std::int32_t low, std::int32_t) { ++starts[std::size_t(low) + 1]; });
+  for (std::size_t i = 1; i < starts.size(); ++i)
+  {
+    starts[i] += starts[i - 1];
+  }
+  std::vector<HalfEdge> sorted(starts.back());
+  std::vector<std::uint32_t> next(starts.begin(), starts.end() - 1);
+  eachHalfEdge(
+    [&](std::size_t h, std::int32_t low, std::int32_t high) {
+      sorted[next[std::size_t(low)]++] = { high, std::uint32_t(h) };
+    });
+  for (std::size_t point = 0; point + 1 < starts.size(); ++point)
+  {
+    const auto begin = sorted.begin() + std::ptrdiff_t(starts[point]);
+    const auto end = sorted.begin() + std::ptrdiff_t(starts[point + 1]);
+    std::sort(begin, end, [](const HalfEdge& a, const HalfEdge& b) { return a.Higher < b.Higher; });
+    for (auto first = begin, last = begin; first != end; first = last)
+    {
+      last = std::find_if(
+        first, end, [&](const HalfEdge& edge) { return edge.Higher != first->Higher; });
+      if (last - first == 1)
+      {
+        this->Open.push_back(this->edgeOf(piece, first->Id));
+      }
+      else if (last - first == 2)
+      {
+        this->checkPair(this->edgeOf(piece, first[0].Id), this->edgeOf(piece, first[1].Id));
+      }
+      else
+      {
+        ++this->Report.BadEdges;
+      }
+    }
+  }
+}
+
+void PieceChecker::checkPair(const Edge& a, const Edge& b)
+{
+  if (a.IsReversed == b.IsReversed || !isSame(a.Ends[0], b.Ends[0]) ||
+    !isSame(a.Ends[1], b.Ends[1]))
+  {
+    ++this->Report.BadEdges;
+    return;
+  }
+  if (!a.IsSound || !b.IsSound)
+  {
+    return;
+  }
+  const Position from = a.Ends[a.IsReversed ? 1 : 0];
+  const Position to = a.Ends[a.IsReversed ? 0 : 1];
+  const int side = check::inCircle(from, to, a.Opposite, b.Opposite);
+  this->Report.BadCircles += side > 0 ? 1 : 0;
+  if (side == 0)
+  {
+    ++this->Report.Ties;
+    const Position end = check::isBefore(from, to) ? to : from;
+    const Position off = check::isBefore(a.Opposite, b.Opposite) ? b.Opposite : a.Opposite;
+    this->Report.BadTies += this->Options.TieRule && check::isBefore(off, end) ? 1 : 0;
+  }
+}
+
+/// Those between pieces; what is left is the hull.
+void PieceChecker::matchEdges()
+{
+  std::sort(this->Open.begin(), this->Open.end(),
+    [](const Edge& a, const Edge& b) { return a.Ids < b.Ids; });
+  std::size_t hull = 0;
+  for (std::size_t first = 0, last = 0; first < this->Open.size(); first = last)
+  {
+    while (last < this->Open.size() && this->Open[last].Ids == this->Open[first].Ids)
+    {
+      ++last;
+    }
+    if (last - first == 2)
+    {
+      this->checkPair(this->Open[first], this->Open[first + 1]);
+    }
+    else if (last - first == 1)
+    {
+      this->Open[hull++] = this->Open[first];
+    }
+    else
+    {
+      ++this->Report.BadEdges;
+    }
+  }
+  this->Open.resize(hull);
+}
+
+CheckReport PieceChecker::finish()
+{
+  this->matchEdges();
+  this->Report.BoundaryEdges = std::int64_t(this->Open.size());
+  if (this->Report.Triangles == 0)
+  {
+    this->Report.UnusedPoints = this->IsCollinear ? 0 : this->Report.UnusedPoints;
+    return this->Report;
+  }
+  if (this->Options.BoundaryFree)
+  {
+    return this->Report;
+  }
+  std::unordered_map<std::int64_t, std::int64_t> places;
+  std::vector<double> xy;
+  std::vector<check::DirectedEdge> hull;
+  for (const Edge& edge : this->Open)
+  {
+    std::int64_t ends[2];
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+      const auto [found, isNew] = places.emplace(edge.Ids[i], std::int64_t(xy.size() / 2));
+      if (isNew)
+      {
+        xy.push_back(edge.Ends[i].x);
+        xy.push_back(edge.Ends[i].y);
+      }
+      ends[i] = found->second;
+    }
+    hull.push_back({ ends[edge.IsReversed ? 1 : 0], ends[edge.IsReversed ? 0 : 1] });
+  }
+  this->Report.BadHullEdges = check::countHullFaults(xy, hull);
+  this->Report.EulerMismatch =
+    this->Report.Triangles - (2 * this->Report.DistinctPoints - 2 - this->Report.BoundaryEdges);
+  return this->Report;
+}
+
+} // namespace tipp
