@@ -51,5 +51,6 @@ endfunction ()
 
 # For programs that leave all work that takes long to the libraries: compiled in half the time.
 function (tipp_compile_quickly target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${target} PRIVATE
+    $<$<CONFIG:Release>:-O1> $<$<BOOL:${TIPP_SANITIZE}>:-O0>)
 endfunction ()

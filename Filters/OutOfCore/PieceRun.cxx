@@ -102,13 +102,13 @@ void PieceRun::loadPieces()
 {
   for (PartitionIndex piece = this->Plan.pieces() - 1; piece >= 0; --piece)
   {
-    if (!this->Schedule->isToLoad(piece))
-    {
-      continue;
-    }
     const std::uint64_t bytes = this->bytesOf(piece);
     {
       std::unique_lock<std::mutex> lock(this->Mutex);
+      if (!this->Schedule->isToLoad(piece))
+      {
+        continue;
+      }
       this->Changed.wait(lock,
         [&]
         {

@@ -265,6 +265,7 @@ const double* PieceSchedule::rowOf(std::int64_t place) const
 
 void PieceSchedule::findRim(PartitionIndex piece)
 {
+  this->Pieces[std::size_t(piece)].IsWritten = true; // from here on
   const PartitionIndex begin = this->Plan.FirstPartition[std::size_t(piece)];
   const PartitionIndex end = this->Plan.FirstPartition[std::size_t(piece) + 1];
   this->Rim.visitLive(
@@ -290,6 +291,7 @@ void PieceSchedule::finishInterior(PartitionIndex piece)
 {
   State& state = this->Pieces[std::size_t(piece)];
   state.Loaded.reset();
+  state.IsWritten = false;
   state.At = Stage::Interior;
 }
 
@@ -312,6 +314,7 @@ PartitionIndex PieceSchedule::takeComplete()
     if (p == end)
     {
       state.At = Stage::Taken;
+      state.IsWritten = true;
       return piece;
     }
   }
@@ -320,8 +323,10 @@ PartitionIndex PieceSchedule::takeComplete()
 
 void PieceSchedule::finishBorder(PartitionIndex piece)
 {
-  this->Pieces[std::size_t(piece)].Growing = GrowingPiece();
-  this->Pieces[std::size_t(piece)].At = Stage::Done;
+  State& state = this->Pieces[std::size_t(piece)];
+  state.Growing = GrowingPiece();
+  state.IsWritten = false;
+  state.At = Stage::Done;
 }
 
 void PieceSchedule::repairHull()
@@ -340,12 +345,13 @@ void PieceSchedule::repairHull()
   this->HullRepaired = true;
 }
 
-std::uint64_t PieceSchedule::borderBytes() const
+std::uint64_t PieceSchedule::borderBytes()
 {
   std::uint64_t bytes = 0;
-  for (const State& state : this->Pieces)
+  for (State& state : this->Pieces)
   {
-    bytes += state.Growing.bytes();
+    state.BorderBytes = state.IsWritten ? state.BorderBytes : state.Growing.bytes();
+    bytes += state.BorderBytes;
   }
   return bytes;
 }

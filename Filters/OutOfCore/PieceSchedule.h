@@ -106,7 +106,7 @@ public:
   void repairHull();
 
   std::size_t rimTriangles() const { return this->Rim.size(); }
-  std::uint64_t borderBytes() const;
+  std::uint64_t borderBytes();
 
 private:
   PieceSchedule(const PiecePlan& plan, const SpilledPoints& points, const PointRowLayout& rows,
@@ -129,6 +129,8 @@ private:
     std::vector<std::array<std::int32_t, 3>> SavedSeams;
     std::vector<std::int32_t> SavedRim;
     bool WaitsForHull = false;
+    bool IsWritten = false;        ///< by a thread, just now
+    std::uint64_t BorderBytes = 0; ///< of Growing when last seen not being written
     std::unique_ptr<LoadedPiece> Loaded;
     GrowingPiece Growing;
   };
