@@ -51,6 +51,9 @@ endfunction ()
 
 # For programs that leave all work that takes long to the libraries: compiled in half the time.
 function (tipp_compile_quickly target)
-  target_compile_options(${target} PRIVATE
-    $<$<CONFIG:Release>:-O1> $<$<BOOL:${TIPP_SANITIZE}>:-O0>)
+  if (TIPP_SANITIZE)
+    target_compile_options(${target} PRIVATE -O0)
+  else ()
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif ()
 endfunction ()
