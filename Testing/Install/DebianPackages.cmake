@@ -27,10 +27,10 @@ foreach (name IN ITEMS libtipp${MINOR} libtipp-dev python3-tipp tipp)
     message(FATAL_ERROR "${name} does not depend on VTK, but on: ${depends}")
   endif ()
   execute_process(
-    COMMAND "${DPKG_DEB}" --extract "${package}" "${WORK}/root" COMMAND_ERROR_IS_FATAL ANY)
+    COMMAND "${DPKG_DEB}" --extract "${package}" "${WORK}/unpacked" COMMAND_ERROR_IS_FATAL ANY)
 endforeach ()
 
-set(prefix "${WORK}/root/${INSTALL_PREFIX}")
+set(prefix "${WORK}/unpacked/${INSTALL_PREFIX}")
 execute_process(
   COMMAND "${CMAKE_COMMAND}" -E env --unset=LD_LIBRARY_PATH
     "${prefix}/bin/tipp" points --distribution uniform --count 1000 --seed 1 -o "${WORK}/points.npy"
