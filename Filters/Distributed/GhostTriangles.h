@@ -20,13 +20,16 @@ struct GhostTriangles
 };
 
 /// Collective.
-GhostTriangles fetchGhosts(Postbox& ranks, const DistributedTriangulation& mine);
+VTKTIPPFILTERS_EXPORT GhostTriangles fetchGhosts(
+  Postbox& ranks, const DistributedTriangulation& mine);
 
 /// The triangles of a rank by ids that count all ranks' owned points.
-std::vector<IdTriangle> trianglesByIds(const DistributedTriangulation& mine, int rank);
+VTKTIPPFILTERS_EXPORT std::vector<IdTriangle> trianglesByIds(
+  const DistributedTriangulation& mine, int rank);
 
 /// Everything on the first rank; nothing is left on the others. Collective.
-DistributedTriangulation gatherOnFirst(Postbox& ranks, DistributedTriangulation mine);
+VTKTIPPFILTERS_EXPORT DistributedTriangulation gatherOnFirst(
+  Postbox& ranks, DistributedTriangulation mine);
 
 } // namespace tipp
 

@@ -4,6 +4,7 @@
 #include "Distributed/MessageKinds.h"
 #include "Triangulation/HullRepair.h"
 #include "Triangulation/InitialMesh.h"
+#include "Triangulation/PartitionSizes.h"
 
 #include <algorithm>
 #include <numeric>
@@ -12,8 +13,6 @@ namespace tipp
 {
 namespace
 {
-
-constexpr int ChosenInitialPoints = 8;
 
 bool placeLess(const PlainVertex& a, const PlainVertex& b)
 {
@@ -116,7 +115,7 @@ void RankRun<Id>::collectInitialPoints()
   };
   const std::size_t wanted = std::size_t(this->Options.InitialPointsPerPartition > 0
       ? this->Options.InitialPointsPerPartition
-      : ChosenInitialPoints);
+      : InitialPointsOfPartition);
   std::vector<std::vector<Entry>> entries(static_cast<std::size_t>(this->Ranks.size()));
   const std::int64_t firstId = this->Points.FirstIds[std::size_t(this->Ranks.rank())];
   const auto choose = [&](PartitionIndex leaf, std::size_t most, std::int32_t area)

@@ -10,7 +10,7 @@ namespace tipp
 {
 
 /// Makes vertices for a worker of those that masters keep. Keeps its memory for the next time.
-class VertexLabelling
+class VTKTIPPFILTERS_EXPORT VertexLabelling
 {
 public:
   /// Each vertex once, by id, with the label that it has in the tiling. Sorts what it is given; the

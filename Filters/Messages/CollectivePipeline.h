@@ -3,6 +3,7 @@
 #define tippCollectivePipeline_h
 
 #include "vtkCompositeDataPipeline.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <functional>
 
@@ -17,7 +18,7 @@ namespace tipp
 ///
 /// This costs a reduction for each execution. All ranks must update the filter, as they must
 /// anyway.
-class CollectivePipeline : public vtkCompositeDataPipeline
+class VTKTIPPFILTERS_EXPORT CollectivePipeline : public vtkCompositeDataPipeline
 {
 public:
   static CollectivePipeline* New();

@@ -4,6 +4,7 @@
 
 #include "Messages/Bytes.h"
 #include "Partitioned/PublishPieces.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <string>
 #include <type_traits>
@@ -108,10 +109,10 @@ void exchange(Archive& archive, FinishedPiece& piece)
 }
 
 /// Puts a file with a checksum in a path's place in one step. Throws IOError.
-void writeCheckpoint(const std::string& path, SaveArchive& archive);
+VTKTIPPFILTERS_EXPORT void writeCheckpoint(const std::string& path, SaveArchive& archive);
 
 /// Throws IOError for a file that is not what writeCheckpoint() wrote.
-Bytes readCheckpoint(const std::string& path);
+VTKTIPPFILTERS_EXPORT Bytes readCheckpoint(const std::string& path);
 
 } // namespace tipp
 

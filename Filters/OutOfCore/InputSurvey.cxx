@@ -52,8 +52,7 @@ public:
   std::vector<SampledPoint> take()
   {
     this->Picks.erase(std::remove_if(this->Picks.begin(), this->Picks.end(),
-                        [](const SampledPoint& p)
-                        { return !std::isfinite(p.Place.x) || !std::isfinite(p.Place.y); }),
+                        [](const SampledPoint& p) { return !isFinite(p.Place); }),
       this->Picks.end());
     return std::move(this->Picks);
   }

@@ -5,6 +5,7 @@
 #include "Points/PointStream.h"
 #include "Predicates/Box2.h"
 #include "Predicates/Point2.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -33,8 +34,8 @@ struct InputSurvey
 
 /// `blockPoints`: how many to read at a time. The sample has between `sample` and twice that many
 /// points, one of each stretch of so many ids, picked at random but always the same.
-InputSurvey surveyInput(PointStream& points, std::size_t blockPoints, std::size_t sample,
-  int threads, const std::function<void(std::int64_t)>& progress);
+VTKTIPPFILTERS_EXPORT InputSurvey surveyInput(PointStream& points, std::size_t blockPoints,
+  std::size_t sample, int threads, const std::function<void(std::int64_t)>& progress);
 
 } // namespace tipp
 

@@ -65,10 +65,11 @@ struct OutOfCoreStatistics
 /// every number of threads. A piece's cells have successive ids. A column named z is the third
 /// coordinate; the others become arrays of points.
 ///
-/// Points are read twice and spilled once, by piece; triangles are written as soon as they are
-/// final. All is written to a folder ".NAME.part" beside `path`, which takes the path's place when
-/// it is whole. From the time the points are spilled it stays if the run fails, is ended or killed,
-/// and another can go on: with the same files at the end. Throws IOError.
+/// Points are read twice (once more if their coordinates are so far from 1 that they are scaled)
+/// and spilled once, by piece; triangles are written as soon as they are final. All is written to a
+/// folder ".NAME.part" beside `path`, which takes the path's place when it is whole. From the time
+/// the points are spilled it stays if the run fails, is ended or killed, and another can go on:
+/// with the same files at the end. Throws IOError.
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCore(
   PointStream& points, const std::string& path, const OutOfCoreOptions& options = {});
 

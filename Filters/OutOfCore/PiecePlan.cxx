@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Triangulation/InitialMesh.h"
+#include "Triangulation/PartitionSizes.h"
 
 #include <algorithm>
 #include <limits>
@@ -11,9 +12,6 @@ namespace tipp
 {
 namespace
 {
-
-constexpr std::int64_t bestPartition = 49152; // points; as Triangulate.cxx
-constexpr std::size_t initialPerPartition = 8;
 
 std::vector<Point2> placesOf(const std::vector<SampledPoint>& sample)
 {
@@ -60,8 +58,9 @@ MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords)
   this->PiecePoints = options.PiecePoints > 0
     ? options.PiecePoints
     : std::clamp<std::int64_t>(std::int64_t(most), 4096, std::int64_t(1) << 20);
-  this->PartitionPoints = options.PartitionPoints > 0 ? options.PartitionPoints
-                                                      : std::min(bestPartition, this->PiecePoints);
+  this->PartitionPoints = options.PartitionPoints > 0
+    ? options.PartitionPoints
+    : std::min(BestPointsInPartition, this->PiecePoints);
 }
 
 PiecePlan::PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options,
@@ -145,7 +144,7 @@ void PiecePlan::chooseInitialPoints(const InputSurvey& survey)
   }
   for (const std::vector<InitialPoint>& points : sampled)
   {
-    const std::size_t chosen = std::min(points.size(), initialPerPartition);
+    const std::size_t chosen = std::min(points.size(), std::size_t(InitialPointsOfPartition));
     for (std::size_t i = 0; i < chosen; ++i)
     {
       this->Initial.push_back(points[(2 * i + 1) * points.size() / (2 * chosen)]);

@@ -6,6 +6,7 @@
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Triangulation/SeamMesh.h"
 #include "Triangulation/Tiling.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
 #include <string>
@@ -18,7 +19,7 @@ class SaveArchive;
 class LoadArchive;
 
 /// How much of everything goes into the memory limit.
-struct MemoryPlan
+struct VTKTIPPFILTERS_EXPORT MemoryPlan
 {
   MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords);
 
@@ -43,7 +44,7 @@ struct InitialPoint
 
 /// The two levels of boxes: pieces, which are spilled, loaded and written, and in each the
 /// partitions that workers triangulate.
-struct PiecePlan
+struct VTKTIPPFILTERS_EXPORT PiecePlan
 {
   PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options, const MemoryPlan& memory,
     std::size_t rowWords, int threads);

@@ -19,7 +19,7 @@ namespace tipp
 {
 
 /// The threads that load pieces, triangulate their partitions and write them.
-class PieceRun
+class VTKTIPPFILTERS_EXPORT PieceRun
 {
 public:
   /// `progress` is told how many points are triangulated, from one thread at a time; false ends the
@@ -72,6 +72,8 @@ private:
   void finishPiece(PartitionIndex piece, std::unique_lock<std::mutex>& lock);
   void saveSometimes(std::unique_lock<std::mutex>& lock);
   void save(SaveArchive& archive);
+  template <typename Archive>
+  void exchangeFinished(Archive& archive); ///< figures and finished pieces
 
   const PiecePlan& Plan;
   const SpilledPoints& Points;

@@ -51,7 +51,7 @@ struct PartitionResult
 /// others are the border's. A point with a triangle of the latter kind, or at an artificial point,
 /// is on the rim. When all partitions of a piece are finished, its rim is known: a triangle at a
 /// point that is changed afterwards meets another piece before and after.
-class PieceSchedule
+class VTKTIPPFILTERS_EXPORT PieceSchedule
 {
 public:
   PieceSchedule(const PiecePlan& plan, const SpilledPoints& points, const PointRowLayout& rows,
@@ -73,10 +73,6 @@ public:
   }
   bool wasLoaded(PartitionIndex piece) const { return this->Pieces[std::size_t(piece)].WasLoaded; }
   bool isFinished(PartitionIndex partition) const { return this->Rim.isFinished(partition); }
-  bool isInteriorWritten(PartitionIndex piece) const
-  {
-    return this->Pieces[std::size_t(piece)].At > Stage::Loaded;
-  }
 
   PartitionIndex pieces() const { return this->Plan.pieces(); }
 

@@ -10,7 +10,8 @@
 namespace tipp
 {
 
-void PieceRun::save(SaveArchive& archive)
+template <typename Archive>
+void PieceRun::exchangeFinished(Archive& archive)
 {
   archive(this->Duplicates);
   archive(this->WorkerVertices);
@@ -21,6 +22,11 @@ void PieceRun::save(SaveArchive& archive)
   {
     exchange(archive, piece);
   }
+}
+
+void PieceRun::save(SaveArchive& archive)
+{
+  this->exchangeFinished(archive);
   this->Schedule->save(archive);
 }
 
@@ -55,15 +61,7 @@ bool PieceRun::startFromCheckpoint()
   {
     const Bytes bytes = readCheckpoint(this->CheckpointPath);
     LoadArchive archive(bytes);
-    archive(this->Duplicates);
-    archive(this->WorkerVertices);
-    archive(this->PeakRimTriangles);
-    archive(this->PeakBorderBytes);
-    archive(this->PointsDone);
-    for (FinishedPiece& piece : this->Finished)
-    {
-      exchange(archive, piece);
-    }
+    this->exchangeFinished(archive);
     this->Schedule = std::make_unique<PieceSchedule>(this->Plan, this->Points, this->Rows, archive);
   }
   catch (const IOError&)

@@ -4,7 +4,6 @@
 #include "Files/IOError.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tipp
 {
@@ -64,8 +63,7 @@ private:
       this->Plan.Pieces.locate(places, size, pieces);
       for (std::size_t i = 0; i < size; ++i)
       {
-        const bool isFinite = std::isfinite(places[i].x) && std::isfinite(places[i].y);
-        this->Labels[begin + i] = isFinite ? std::int32_t(pieces[i]) : -1;
+        this->Labels[begin + i] = isFinite(places[i]) ? std::int32_t(pieces[i]) : -1;
       }
     }
   }

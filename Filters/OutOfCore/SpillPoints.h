@@ -18,7 +18,7 @@ class LoadArchive;
 
 /// The finite points as rows, piece by piece, in the order of the stream within each. Tells the
 /// plan's initial points their places.
-class SpilledPoints
+class VTKTIPPFILTERS_EXPORT SpilledPoints
 {
 public:
   /// One pass over the stream. `file`: where to put them.

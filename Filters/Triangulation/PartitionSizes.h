@@ -15,6 +15,8 @@ constexpr std::int64_t BestPointsInPartition = 49152;
 constexpr std::int64_t FewestPointsInPartition = 4096;
 /// Partitions for each thread, so that there is something to do until the end.
 constexpr std::int64_t PartitionsPerThread = 8;
+/// Of each partition's points, in the initial mesh.
+constexpr int InitialPointsOfPartition = 8;
 /// Of a partition's points, to balance a tiling.
 constexpr std::size_t SamplesPerPartition = 64;
 /// Of a tiling; more would only cost memory.

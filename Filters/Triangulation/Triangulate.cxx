@@ -100,9 +100,8 @@ private:
 
   int initialPointsPerPartition() const
   {
-    constexpr int chosen = 8;
     return this->Options.InitialPointsPerPartition > 0 ? this->Options.InitialPointsPerPartition
-                                                       : chosen;
+                                                       : InitialPointsOfPartition;
   }
 
   std::vector<PartitionIndex> partitionsWithPoints(const Tiling& tiling) const

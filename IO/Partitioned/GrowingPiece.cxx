@@ -18,6 +18,23 @@ constexpr std::size_t blockTuples = 4096;
 constexpr std::size_t bufferBytes = std::size_t(1) << 20;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Calls visit(corners by their numbers, whether one of them is on the rim) for each triangle.
+template <typename Visit>
+void forEachTriangle(const GrowingPiece::Interior& interior,
+  const std::vector<std::int32_t>& numbers, const Visit& visit)
+{
+  for (const GrowingPiece::Corners& run : interior.Triangles)
+  {
+    const std::int32_t* corner = run.Begin;
+    for (std::size_t t = 0; t < run.Triangles; ++t, corner += 3)
+    {
+      const std::array<std::int32_t, 3> triangle = { numbers[std::size_t(corner[0])],
+        numbers[std::size_t(corner[1])], numbers[std::size_t(corner[2])] };
+      visit(triangle, (triangle[0] | triangle[1] | triangle[2]) < 0);
+    }
+  }
+}
+
 } // namespace
 
 void GrowingPiece::addTriangle(
@@ -78,23 +95,15 @@ std::int64_t GrowingPiece::countInterior(
   const Interior& interior, const std::vector<std::int32_t>& numbers)
 {
   std::int64_t count = 0;
-  for (const Corners& run : interior.Triangles)
-  {
-    const std::int32_t* corner = run.Begin;
-    for (std::size_t t = 0; t < run.Triangles; ++t, corner += 3)
+  forEachTriangle(interior, numbers,
+    [&](const std::array<std::int32_t, 3>& triangle, bool isOnRim)
     {
-      const std::array<std::int32_t, 3> triangle = { numbers[std::size_t(corner[0])],
-        numbers[std::size_t(corner[1])], numbers[std::size_t(corner[2])] };
-      if ((triangle[0] | triangle[1] | triangle[2]) >= 0)
-      {
-        ++count;
-      }
-      else
+      if (isOnRim)
       {
         this->RimTriangles.push_back(triangle);
       }
-    }
-  }
+      count += isOnRim ? 0 : 1;
+    });
   return count;
 }
 
@@ -121,7 +130,6 @@ void GrowingPiece::writeInterior(const PartitionedMesh& mesh, std::size_t number
   if (mesh.Path.empty())
   {
     this->sumInterior(interior, rows);
-    this->IsWritten = true;
     return;
   }
   this->makeRoom(mesh, number);
@@ -133,7 +141,6 @@ void GrowingPiece::writeInterior(const PartitionedMesh& mesh, std::size_t number
       file, layout.Arrays[a], layout.Offsets[a], rows, interior, numbers, this->Checksums);
   }
   file.startWriteback();
-  this->IsWritten = true;
 }
 
 void GrowingPiece::writeInteriorArray(const OutputFile& file, const PieceArray& array,
@@ -170,19 +177,14 @@ void GrowingPiece::writeInteriorArray(const OutputFile& file, const PieceArray& 
   }
   else if (array.Role == PieceRole::Connectivity)
   {
-    for (const Corners& run : interior.Triangles)
-    {
-      const std::int32_t* corner = run.Begin;
-      for (std::size_t t = 0; t < run.Triangles; ++t, corner += 3)
+    forEachTriangle(interior, numbers,
+      [&](const std::array<std::int32_t, 3>& triangle, bool isOnRim)
       {
-        const std::array<std::int32_t, 3> triangle = { numbers[std::size_t(corner[0])],
-          numbers[std::size_t(corner[1])], numbers[std::size_t(corner[2])] };
-        if ((triangle[0] | triangle[1] | triangle[2]) >= 0)
+        if (!isOnRim)
         {
           std::memcpy(column.extend(sizeof(triangle)), triangle.data(), sizeof(triangle));
         }
-      }
-    }
+      });
   }
   else
   {

@@ -86,7 +86,6 @@ public:
   /// The first go. Throws IOError.
   void writeInterior(const PartitionedMesh& mesh, std::size_t number, const PointRowLayout& rows,
     const Interior& interior);
-  bool hasInterior() const { return this->IsWritten; }
 
   /// Of a triangle by its points' ids, whichever comes first.
   static std::uint64_t hashTriangle(std::int64_t a, std::int64_t b, std::int64_t c);
@@ -106,7 +105,6 @@ public:
   template <typename Archive>
   void exchangeInterior(Archive& archive)
   {
-    archive(this->IsWritten);
     archive(this->Room);
     archive(this->InteriorPoints);
     archive(this->InteriorCells);
@@ -152,7 +150,6 @@ private:
 
   std::int64_t First = 0;
   std::int64_t OwnPoints = 0;
-  bool IsWritten = false;
 
   // Of the interior, after the first go.
   PieceSummary Room;                    ///< counts that the file has room for

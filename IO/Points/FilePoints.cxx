@@ -3,8 +3,7 @@
 
 #include "Files/Extension.h"
 #include "Files/IOError.h"
-#include "Npy/NpyFile.h"
-#include "Points/ColumnChoice.h"
+#include "Points/NpyPoints.h"
 #include "Points/ReadPoints.h"
 
 #include <algorithm>
@@ -21,85 +20,38 @@ class NpyFilePoints : public FilePoints
 public:
   NpyFilePoints(const std::string& path, const PointOptions& options)
     : Path(path)
+    , Options(options)
   {
-    this->Reader.emplace(path);
-    this->Width = std::size_t(std::max<std::int64_t>(this->Reader->columns(), 0));
-    if ((this->Width != 2 && this->Width != 3) || !this->Reader->isFloat())
-    {
-      throw IOError(
-        path, "does not hold points; save n x 2 or n x 3 numbers of float64 or float32.");
-    }
-    std::vector<std::string> names{ "x", "y", "z" };
-    names.resize(this->Width);
-    this->Choice = chooseColumns(path, names, this->Width, options);
-    if (this->Width == 3)
-    {
-      this->Names.push_back(names[3 - this->Choice.X - this->Choice.Y]);
-    }
+    this->rewind();
   }
 
   bool next(PointBlock& block, std::size_t most) override
   {
-    const std::size_t count = std::min(most, std::size_t(this->Reader->rows() - this->Row));
+    const std::size_t count = std::min(most, std::size_t(this->File->rows() - this->Row));
     if (count == 0)
     {
       return false;
     }
     block.XY.resize(2 * count);
-    block.Columns.assign(this->Names.size(), std::vector<double>(count));
-    if (this->Reader->type() == NpyReader::Type::Float32)
-    {
-      this->readRows<float>(block, count);
-    }
-    else if (this->Width == 2 && this->Choice.X == 0)
-    {
-      this->Reader->read(block.XY.data(), block.XY.size() * sizeof(double));
-    }
-    else
-    {
-      this->readRows<double>(block, count);
-    }
+    block.Columns.assign(this->File->further().size(), std::vector<double>(count));
+    this->File->read(
+      count, block.XY.data(), block.Columns.empty() ? nullptr : block.Columns[0].data());
     this->Row += std::int64_t(count);
     return true;
   }
 
   void rewind() override
   {
-    this->Reader.emplace(this->Path);
+    this->File.emplace(this->Path, this->Options);
     this->Row = 0;
   }
 
-  std::vector<std::string> columns() const override { return this->Names; }
+  std::vector<std::string> columns() const override { return this->File->further(); }
 
 private:
-  template <typename Scalar>
-  void readRows(PointBlock& block, std::size_t count)
-  {
-    constexpr std::size_t rowsAtOnce = 1 << 15;
-    const std::size_t further = 3 - this->Choice.X - this->Choice.Y; // with three columns
-    std::vector<Scalar> rows(this->Width * std::min(rowsAtOnce, count));
-    for (std::size_t first = 0; first < count; first += rowsAtOnce)
-    {
-      const std::size_t size = std::min(rowsAtOnce, count - first);
-      this->Reader->read(rows.data(), size * this->Width * sizeof(Scalar));
-      for (std::size_t i = 0; i < size; ++i)
-      {
-        const Scalar* const row = &rows[i * this->Width];
-        block.XY[2 * (first + i)] = row[this->Choice.X];
-        block.XY[2 * (first + i) + 1] = row[this->Choice.Y];
-        if (this->Width == 3)
-        {
-          block.Columns[0][first + i] = row[further];
-        }
-      }
-    }
-  }
-
   std::string Path;
-  std::optional<NpyReader> Reader;
-  std::size_t Width = 0;
-  ColumnChoice Choice;
-  std::vector<std::string> Names;
+  PointOptions Options;
+  std::optional<NpyPointRows> File;
   std::int64_t Row = 0;
 };
 

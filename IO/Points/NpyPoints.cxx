@@ -2,77 +2,83 @@
 #include "Points/NpyPoints.h"
 
 #include "Files/IOError.h"
-#include "Npy/NpyFile.h"
-#include "Points/ColumnChoice.h"
 
 #include <algorithm>
 
 namespace tipp
 {
-namespace
+
+NpyPointRows::NpyPointRows(const std::string& path, const PointOptions& options)
+  : Reader(path)
+  , Width(std::size_t(std::max<std::int64_t>(this->Reader.columns(), 0)))
 {
+  if ((this->Width != 2 && this->Width != 3) || !this->Reader.isFloat())
+  {
+    throw IOError(path, "does not hold points; save n x 2 or n x 3 numbers of float64 or float32.");
+  }
+  std::vector<std::string> names{ "x", "y", "z" };
+  names.resize(this->Width);
+  this->Choice = chooseColumns(path, names, this->Width, options);
+  if (this->Width == 3)
+  {
+    this->Further.push_back(names[3 - this->Choice.X - this->Choice.Y]);
+  }
+}
+
+void NpyPointRows::read(std::size_t count, double* xy, double* further)
+{
+  if (this->Reader.type() == NpyReader::Type::Float32)
+  {
+    this->readRows<float>(count, xy, further);
+  }
+  else if (this->Width == 2 && this->Choice.X == 0)
+  {
+    this->Reader.read(xy, 2 * count * sizeof(double)); // as stored
+  }
+  else
+  {
+    this->readRows<double>(count, xy, further);
+  }
+}
 
 template <typename Scalar>
-void readRows(NpyReader& reader, const ColumnChoice& choice, std::size_t rows, PointTable& table)
+void NpyPointRows::readRows(std::size_t count, double* xy, double* further)
 {
-  constexpr std::size_t chunkRows = 1 << 15;
-  const auto columns = std::size_t(reader.columns());
-  const std::size_t further = 3 - choice.X - choice.Y; // only used with three columns
-  std::vector<Scalar> chunk(columns * std::min(chunkRows, rows));
-  for (std::size_t first = 0; first < rows; first += chunkRows)
+  constexpr std::size_t rowsAtOnce = 1 << 15;
+  const std::size_t third = 3 - this->Choice.X - this->Choice.Y; // only used with three columns
+  std::vector<Scalar> rows(this->Width * std::min(rowsAtOnce, count));
+  for (std::size_t first = 0; first < count; first += rowsAtOnce)
   {
-    const std::size_t size = std::min(chunkRows, rows - first);
-    reader.read(chunk.data(), size * columns * sizeof(Scalar));
+    const std::size_t size = std::min(rowsAtOnce, count - first);
+    this->Reader.read(rows.data(), size * this->Width * sizeof(Scalar));
     for (std::size_t i = 0; i < size; ++i)
     {
-      const Scalar* const row = &chunk[i * columns];
-      table.XY[2 * (first + i)] = row[choice.X];
-      table.XY[2 * (first + i) + 1] = row[choice.Y];
-      if (columns == 3)
+      const Scalar* const row = &rows[i * this->Width];
+      xy[2 * (first + i)] = row[this->Choice.X];
+      xy[2 * (first + i) + 1] = row[this->Choice.Y];
+      if (further)
       {
-        table.Columns[0].Values[first + i] = row[further];
+        further[first + i] = row[third];
       }
     }
   }
 }
 
-} // namespace
-
 PointTable readNpyPoints(const std::string& path, const PointOptions& options, int part, int parts)
 {
-  NpyReader reader(path);
-  if ((reader.columns() != 2 && reader.columns() != 3) || !reader.isFloat())
-  {
-    throw IOError(path, "does not hold points; save n x 2 or n x 3 numbers of float64 or float32.");
-  }
-  std::vector<std::string> names{ "x", "y", "z" };
-  names.resize(std::size_t(reader.columns()));
-  const ColumnChoice choice = chooseColumns(path, names, names.size(), options);
-
+  NpyPointRows file(path, options);
   const auto rowBefore = [&](int p)
-  { return reader.rows() / parts * p + reader.rows() % parts * p / parts; };
+  { return file.rows() / parts * p + file.rows() % parts * p / parts; };
   const auto rows = std::size_t(rowBefore(part + 1) - rowBefore(part));
-  reader.skipRows(rowBefore(part));
+  file.skip(rowBefore(part));
   PointTable table;
   table.XY.resize(2 * rows);
-  if (names.size() == 3)
+  for (const std::string& name : file.further())
   {
-    table.Columns.push_back({ names[3 - choice.X - choice.Y], std::vector<double>(rows) });
+    table.Columns.push_back({ name, std::vector<double>(rows) });
   }
-  const bool asStored =
-    reader.type() == NpyReader::Type::Float64 && names.size() == 2 && choice.X == 0;
-  if (asStored)
-  {
-    reader.read(table.XY.data(), table.XY.size() * sizeof(double));
-  }
-  else if (reader.type() == NpyReader::Type::Float64)
-  {
-    readRows<double>(reader, choice, rows, table);
-  }
-  else
-  {
-    readRows<float>(reader, choice, rows, table);
-  }
+  file.read(
+    rows, table.XY.data(), table.Columns.empty() ? nullptr : table.Columns[0].Values.data());
   return table;
 }
 

@@ -38,17 +38,16 @@ public:
   /// Starts again. Throws IOError if a file is another than at first.
   virtual void rewind() = 0;
 
-  /// Names of the columns beside x and y. Of text they are known after one pass over all points:
-  /// until then there may be columns that turn out to hold something else than numbers.
+  /// Names of the columns beside x and y.
   virtual std::vector<std::string> columns() const = 0;
 
   /// What tells whether it is the same input in another run: names, sizes and times of files.
   virtual std::string identity() const = 0;
 };
 
-/// One or more files, one after the other: .npy and text are read block by block, other formats as
-/// a whole. The name "uniform:COUNT" stands for so many points that are uniform in the unit square
-/// and made as they are wanted. All must have the same columns. Throws IOError.
+/// One or more files, one after the other: .npy is read block by block, other formats a file as a
+/// whole, for each pass. The name "uniform:COUNT" stands for so many points that are uniform in the
+/// unit square and made as they are wanted. All must have the same columns. Throws IOError.
 VTKTIPPIO_EXPORT std::unique_ptr<PointStream> openPointStream(
   const std::vector<std::string>& paths, const PointOptions& options = {});
 

@@ -6,10 +6,9 @@
 #include "Files/IOError.h"
 #include "Partitioned/ReadPiece.h"
 #include "Points/PointStream.h"
+#include "Predicates/Point2.h"
 
 #include <fmt/format.h>
-
-#include <cmath>
 
 namespace tipp
 {
@@ -70,7 +69,7 @@ InputSum sumInput(const std::string& path, const PointOptions& columns)
       {
         const double x = block.XY[2 * i];
         const double y = block.XY[2 * i + 1];
-        if (std::isfinite(x) && std::isfinite(y))
+        if (isFinite({ x, y }))
         {
           ++input.Points;
           input.Sum += PieceChecker::hashPoint(block.First + std::int64_t(i), x, y);

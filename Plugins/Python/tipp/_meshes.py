@@ -123,7 +123,8 @@ def write(
     path
         The folder to write, by custom NAME.tipp. A partitioned mesh there is replaced.
     tiling
-        "grid:4x4", "grid:4x4x2", "quadtree:N" or "octree:N" with N cells at most in a partition.
+        "grid:4x4", "grid:4x4x2", "quadtree:N" or "octree:N": boxes are split until about N cells or
+        fewer meet each.
     duplicate_borrowers
         Whether cells that several partitions meet are stored in each of their pieces.
     memory_limit

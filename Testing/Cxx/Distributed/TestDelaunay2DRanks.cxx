@@ -2,6 +2,8 @@
 // vtkTIPPDelaunay2D with the global controller of several ranks.
 #include "DistributedTesting.h"
 
+#include "Messages/CollectivePipeline.h"
+
 #include "vtkTIPPDelaunay2D.h"
 
 #include "vtkCellArray.h"
@@ -375,6 +377,24 @@ TEST(Delaunay2DRanks, WhatFailsUpstreamOnOneRankFailsOnAll)
     filter->Update();
     EXPECT_GT(filter->GetStatistics()->GetFieldData()->GetArray("Triangles")->GetTuple1(0), 900);
   }
+}
+
+TEST(CollectivePipeline, IsTheFiltersAndRunsAloneWithoutRanks)
+{
+  vtkNew<FailingSource> source;
+  source->Fails = rank() == 0; // of the others nobody waits for it
+  source->Data = shareAsData(makePointSet("uniform", 500), true);
+  vtkNew<vtkTIPPDelaunay2D> filter;
+  auto* const executive = dynamic_cast<CollectivePipeline*>(filter->GetExecutive());
+  ASSERT_NE(executive, nullptr);
+  EXPECT_EQ(executive->Controller(), vtkMultiProcessController::GetGlobalController());
+  filter->SetController(nullptr);
+  EXPECT_EQ(executive->Controller(), nullptr);
+  filter->SetInputConnection(source->GetOutputPort());
+  vtkObject::GlobalWarningDisplayOff();
+  filter->Update();
+  vtkObject::GlobalWarningDisplayOn();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells() > 0, rank() != 0);
 }
 
 TEST(Delaunay2DRanks, GlobalIdsBeyondAllDoublesStayExact)

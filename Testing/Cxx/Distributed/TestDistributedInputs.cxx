@@ -2,7 +2,12 @@
 // Any rank may hold any points.
 #include "DistributedTesting.h"
 
+#include "Distributed/GhostTriangles.h"
+
 #include "vtkMultiProcessController.h"
+
+#include <algorithm>
+#include <set>
 
 namespace
 {
@@ -147,6 +152,53 @@ TEST(DistributedInputs, GlobalIdsAreCountedOverRanksWhenNoneAreGiven)
   }
   box.sum(seen);
   EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), std::ptrdiff_t(seen.size()));
+}
+
+TEST(GhostTriangles, AreTheOthersTrianglesAtOwnVerticesEachOnce)
+{
+  const Coordinates xy = makePointSet("uniform", 3000);
+  Postbox box(vtkMultiProcessController::GetGlobalController());
+  const RankShare mine = shareOf(xy, Share::RoundRobin, box.rank(), box.size());
+  RankPoints points;
+  points.Points = PointsView(mine.XY.data(), mine.GlobalIds.size(), 2);
+  points.GlobalIds = mine.GlobalIds.data();
+  const auto result = triangulateDistributed(box, points, manyPartitions(Masters::Single));
+  const GhostTriangles ghosts = fetchGhosts(box, result);
+  const std::vector<IdTriangle> own = trianglesByIds(result, box.rank());
+
+  // All ranks' triangles on every rank: the ghosts by definition.
+  ByteWriter writer;
+  writer.array(own);
+  ByteWriter all;
+  std::vector<IdTriangle> every;
+  for (const Bytes& part : box.gather(writer.take()))
+  {
+    const auto triangles = ByteReader(part).array<IdTriangle>();
+    every.insert(every.end(), triangles.begin(), triangles.end());
+  }
+  all.array(every);
+  const Bytes bytes = box.broadcast(all.take());
+  every = ByteReader(bytes).array<IdTriangle>();
+  std::set<std::int64_t> vertices;
+  for (const IdTriangle& t : own)
+  {
+    vertices.insert(t.begin(), t.end());
+  }
+  std::set<std::int64_t> expected;
+  for (std::size_t i = 0; i < every.size(); ++i)
+  {
+    const bool isOwn = std::int64_t(i) >= result.FirstTriangle &&
+      std::int64_t(i) < result.FirstTriangle + std::int64_t(own.size());
+    const bool touches = std::any_of(
+      every[i].begin(), every[i].end(), [&](std::int64_t id) { return vertices.count(id) > 0; });
+    if (!isOwn && touches)
+    {
+      expected.insert(std::int64_t(i));
+    }
+  }
+  EXPECT_EQ(expected.size(), ghosts.Numbers.size());
+  EXPECT_EQ(expected, std::set<std::int64_t>(ghosts.Numbers.begin(), ghosts.Numbers.end()));
+  EXPECT_EQ(expected.empty(), box.size() == 1);
 }
 
 TEST(DistributedInputs, StoppingOneRankStopsAll)

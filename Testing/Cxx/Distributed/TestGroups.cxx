@@ -3,6 +3,7 @@
 #include "../Schedule/ScheduleTesting.h"
 
 #include "Distributed/GroupMesh.h"
+#include "Distributed/VertexLabelling.h"
 
 #include <gtest/gtest.h>
 
@@ -84,6 +85,21 @@ TEST(SeamGrouping, AVertexComesOnceInAGroup)
   seams.Triangles[2][0] = seams.Triangles[0][1];
   const SeamGroups groups = SeamGrouping().group(seams);
   EXPECT_EQ(groups.vertices(groupOf(groups, { 0, 1 })).size(), 5u);
+}
+
+TEST(VertexLabelling, GivesEachVertexOnceWithItsBoxsLabel)
+{
+  const Tiling boxes = Tiling::grid({ 0, 0, 2, 1 }, 2, 1);
+  std::vector<PlainVertex> vertices = { { { 1.6, 0.7 }, 9 }, { { 0.1, 0.2 }, 4 },
+    { { 1.6, 0.7 }, 9 }, { { 1.2, 0.1 }, -2 } };
+  VertexLabelling labelling;
+  const std::vector<SeamVertex>& labelled = labelling.label(boxes, vertices);
+  ASSERT_EQ(labelled.size(), 3u);
+  for (const SeamVertex& v : labelled)
+  {
+    EXPECT_EQ(v.partition(), boxes.locate(v.Place)) << v.Id;
+    EXPECT_EQ(v.Label, makeSeamVertex(boxes, v.partition(), v.Place, v.Id).Label);
+  }
 }
 
 TEST(SeamGroups, ComeBackFromTheirBytes)

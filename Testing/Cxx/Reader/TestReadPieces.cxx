@@ -52,6 +52,20 @@ protected:
     return vtkUnstructuredGrid::SafeDownCast(reader->GetOutputDataObject(0));
   }
 
+  /// What an update gives, piece by piece.
+  static std::vector<Content> piecesOf(vtkPartitionedUnstructuredReader* reader)
+  {
+    reader->Update();
+    std::vector<Content> pieces;
+    auto* const set = vtkPartitionedDataSet::SafeDownCast(reader->GetOutputDataObject(0));
+    EXPECT_NE(nullptr, set);
+    for (unsigned int i = 0; set && i < set->GetNumberOfPartitions(); ++i)
+    {
+      pieces.push_back(contentOf(vtkUnstructuredGrid::SafeDownCast(set->GetPartition(i))));
+    }
+    return pieces;
+  }
+
   /// Every cell and point of the mesh, as the source has them.
   void expectWhole(const Content& content) const
   {
@@ -106,14 +120,7 @@ TEST_P(ReadPieces, OfAFlatMeshAreThoseOfTheStoredOne)
       const auto reader = this->reader(form);
       reader->SetMergePieces(false);
       reader->SetBorrowerMode(mode);
-      reader->Update();
-      auto* const set = vtkPartitionedDataSet::SafeDownCast(reader->GetOutputDataObject(0));
-      ASSERT_NE(nullptr, set);
-      read.emplace_back();
-      for (unsigned int i = 0; i < set->GetNumberOfPartitions(); ++i)
-      {
-        read.back().push_back(contentOf(vtkUnstructuredGrid::SafeDownCast(set->GetPartition(i))));
-      }
+      read.push_back(piecesOf(reader));
     }
     EXPECT_EQ(GetParam() == 3 ? 6U : 12U, read[0].size());
     EXPECT_EQ(read[0].size(), read[1].size());
@@ -137,14 +144,7 @@ TEST_P(ReadPieces, OfATreeOverAFlatMeshAreThoseOfTheStoredOne)
     const auto reader = this->reader(form);
     reader->SetTiling(tiling);
     reader->SetMergePieces(false);
-    reader->Update();
-    auto* const set = vtkPartitionedDataSet::SafeDownCast(reader->GetOutputDataObject(0));
-    ASSERT_NE(nullptr, set);
-    read.emplace_back();
-    for (unsigned int i = 0; i < set->GetNumberOfPartitions(); ++i)
-    {
-      read.back().push_back(contentOf(vtkUnstructuredGrid::SafeDownCast(set->GetPartition(i))));
-    }
+    read.push_back(piecesOf(reader));
   }
   EXPECT_GT(read[0].size(), 4U);
   EXPECT_TRUE(read[0] == read[1]);

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run is made of: survey, plan, spill, schedule, checkpoints.
+#include "OutOfCoreTesting.h"
+
+#include "ExpectIOError.h"
+#include "OutOfCore/Checkpoint.h"
+#include "OutOfCore/InputSurvey.h"
+#include "OutOfCore/PiecePlan.h"
+#include "OutOfCore/PieceRun.h"
+#include "OutOfCore/PieceSchedule.h"
+#include "Points/WritePoints.h"
+
+#include <cmath>
+#include <fstream>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+
+/// The steps of a run, up to its schedule, in pieces of 300 points and partitions of 80.
+class Steps
+{
+public:
+  explicit Steps(const Coordinates& xy, std::size_t block = 1 << 14)
+  {
+    writePoints(this->Folder.path("points.npy"), xy);
+    this->Stream = openPointStream({ this->Folder.path("points.npy") });
+    this->Options.PiecePoints = 300;
+    this->Options.PartitionPoints = 80;
+    this->Survey = surveyInput(*this->Stream, block, 1 << 10, 2, [](std::int64_t) {});
+    this->Rows.Words = 3;
+  }
+
+  MemoryPlan memory() const { return MemoryPlan(this->Options, this->Rows.Words); }
+  PiecePlan plan() const
+  {
+    return PiecePlan(this->Survey, this->Options, this->memory(), this->Rows.Words, 1);
+  }
+  SpilledPoints spill(PiecePlan& plan)
+  {
+    return SpilledPoints(*this->Stream, this->Survey, plan, this->Rows, this->Folder.path("spill"),
+      1000, 2, [](std::int64_t) {});
+  }
+
+  TemporaryFolder Folder;
+  std::unique_ptr<PointStream> Stream;
+  OutOfCoreOptions Options;
+  InputSurvey Survey;
+  PointRowLayout Rows;
+};
+
+TEST(Checkpoint, ComesBackAsItWasSaved)
+{
+  const TemporaryFolder folder;
+  SaveArchive out;
+  out(std::int64_t(-7));
+  out(std::string("a name"));
+  out(std::vector<std::vector<std::int32_t>>{ { 1, 2 }, {}, { 3 } });
+  writeCheckpoint(folder.path("state"), out);
+  const Bytes bytes = readCheckpoint(folder.path("state"));
+  LoadArchive in(bytes);
+  std::int64_t number = 0;
+  std::string name;
+  std::vector<std::vector<std::int32_t>> lists;
+  in(number);
+  in(name);
+  in(lists);
+  EXPECT_EQ(-7, number);
+  EXPECT_EQ("a name", name);
+  EXPECT_EQ((std::vector<std::vector<std::int32_t>>{ { 1, 2 }, {}, { 3 } }), lists);
+  EXPECT_THROW(in(number), std::runtime_error);
+  EXPECT_EQ(1U, folder.fileCount());
+}
+
+TEST(Checkpoint, DamagedAnywhereItIsRefused)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.path("state");
+  SaveArchive out;
+  out(std::vector<std::int32_t>{ 1, 2, 3 });
+  writeCheckpoint(path, out);
+  for (int at = 0; at < 8 + 8 + 12; ++at)
+  {
+    const auto flip = [&]
+    {
+      std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+      file.seekg(at);
+      const char byte = char(file.get() ^ 0x21);
+      file.seekp(at);
+      file.put(byte);
+    };
+    flip();
+    expectIOError(path, "damaged", [&] { readCheckpoint(path); });
+    flip();
+  }
+  std::ofstream(path, std::ios::binary) << "short";
+  EXPECT_THROW(readCheckpoint(path), IOError);
+}
+
+TEST(InputSurvey, CountsPointsAndTheirBounds)
+{
+  Coordinates xy = makePointSet("uniform", 5000);
+  xy[20] = std::nan("");
+  xy[41] = HUGE_VAL;
+  xy[100] = -3;
+  xy[103] = 17;
+  const InputSurvey survey = Steps(xy).Survey;
+  EXPECT_EQ(5000, survey.Points);
+  EXPECT_EQ(2, survey.Rejected);
+  EXPECT_EQ(-3, survey.Bounds.xmin);
+  EXPECT_EQ(17, survey.Bounds.ymax);
+  EXPECT_FALSE(survey.Collinear);
+  EXPECT_EQ(1, survey.Factor);
+}
+
+TEST(InputSurvey, SamplesTheSamePointsInBlocksOfAnySize)
+{
+  const Coordinates xy = makePointSet("clustered", 9000);
+  const InputSurvey expected = Steps(xy).Survey;
+  EXPECT_GE(expected.Sample.size(), std::size_t(1) << 10);
+  EXPECT_LE(expected.Sample.size(), std::size_t(1) << 11);
+  for (const std::size_t block : { 1, 77, 4096 })
+  {
+    const InputSurvey survey = Steps(xy, block).Survey;
+    ASSERT_EQ(expected.Sample.size(), survey.Sample.size());
+    for (std::size_t i = 0; i < survey.Sample.size(); ++i)
+    {
+      const auto id = std::size_t(survey.Sample[i].Id);
+      ASSERT_EQ(expected.Sample[i].Id, survey.Sample[i].Id);
+      ASSERT_TRUE(survey.Sample[i].Place == (Point2{ xy[2 * id], xy[2 * id + 1] }));
+    }
+  }
+}
+
+TEST(InputSurvey, TellsPointsOnOneLine)
+{
+  Coordinates xy;
+  for (int i = 0; i < 3000; ++i)
+  {
+    xy.insert(xy.end(), { double(i), 2.0 * i });
+  }
+  EXPECT_TRUE(Steps(xy).Survey.Collinear);
+  xy.back() = 1;
+  EXPECT_FALSE(Steps(xy).Survey.Collinear);
+}
+
+TEST(InputSurvey, ScalesCoordinatesThatAreFarFromOneByAPowerOfTwo)
+{
+  Coordinates xy = makePointSet("uniform", 500);
+  for (double& value : xy)
+  {
+    value *= std::ldexp(1.0, 900);
+  }
+  const InputSurvey survey = Steps(xy).Survey;
+  int exponent = 0;
+  EXPECT_EQ(0.5, std::frexp(survey.Factor, &exponent));
+  EXPECT_LT(survey.Factor, 1);
+  EXPECT_LT(survey.Bounds.xmax, 1e150);
+}
+
+TEST(PiecePlan, EachPartitionLiesInItsPiece)
+{
+  const Coordinates xy = makePointSet("clustered", 4000);
+  const PiecePlan plan = Steps(xy).plan();
+  EXPECT_GT(plan.pieces(), 8);
+  EXPECT_GT(plan.Partitions.size(), 2 * plan.pieces());
+  for (std::size_t i = 0; i < xy.size(); i += 2)
+  {
+    const Point2 p{ xy[i], xy[i + 1] };
+    ASSERT_EQ(plan.Pieces.locate(p), plan.PieceOf[std::size_t(plan.Partitions.locate(p))]);
+  }
+}
+
+TEST(PiecePlan, LessMemoryMakesMorePieces)
+{
+  Steps steps(makePointSet("uniform", 100000));
+  steps.Options.PiecePoints = 0;
+  steps.Options.PartitionPoints = 0;
+  steps.Options.MemoryLimit = 4 << 20;
+  const PartitionIndex few = steps.plan().pieces();
+  steps.Options.MemoryLimit = 1 << 20;
+  EXPECT_GT(steps.plan().pieces(), few);
+}
+
+TEST(PiecePlan, ComesBackFromAnArchive)
+{
+  const Coordinates xy = makePointSet("clustered", 4000);
+  const PiecePlan plan = Steps(xy).plan();
+  SaveArchive out;
+  plan.save(out);
+  const Bytes bytes = out.Writer.take();
+  LoadArchive in(bytes);
+  const PiecePlan back(in);
+  EXPECT_EQ(plan.FirstPartition, back.FirstPartition);
+  EXPECT_EQ(plan.PieceOf, back.PieceOf);
+  EXPECT_EQ(plan.Initial.size(), back.Initial.size());
+  EXPECT_EQ(plan.Artificial.size(), back.Artificial.size());
+  for (std::size_t i = 0; i < xy.size(); i += 2)
+  {
+    const Point2 p{ xy[i], xy[i + 1] };
+    ASSERT_EQ(plan.Partitions.locate(p), back.Partitions.locate(p));
+  }
+}
+
+TEST(SpilledPoints, HasEachPiecesPointsInTheOrderOfTheStream)
+{
+  const Coordinates xy = makePointSet("clustered", 4000);
+  Steps steps(xy);
+  PiecePlan plan = steps.plan();
+  const SpilledPoints spilled = steps.spill(plan);
+  EXPECT_EQ(4000, spilled.starts().back());
+  for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
+  {
+    const auto count = std::size_t(spilled.count(piece));
+    std::vector<double> rows(3 * count);
+    spilled.read(piece, rows.data());
+    std::int64_t last = -1;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const std::int64_t id = steps.Rows.id(&rows[3 * i]);
+      ASSERT_GT(id, last);
+      last = id;
+      const Point2 p{ xy[2 * std::size_t(id)], xy[2 * std::size_t(id) + 1] };
+      ASSERT_TRUE(p == (Point2{ rows[3 * i], rows[3 * i + 1] }));
+      ASSERT_EQ(piece, plan.Pieces.locate(p));
+    }
+  }
+}
+
+TEST(PieceSchedule, ActivatesNothingBeforeAPieceIsLoaded)
+{
+  Steps steps(makePointSet("uniform", 4000));
+  PiecePlan plan = steps.plan();
+  const SpilledPoints spilled = steps.spill(plan);
+  PieceSchedule schedule(plan, spilled, steps.Rows, plan.initialMesh(1));
+  std::vector<PlainVertex> vertices;
+  EXPECT_FALSE(schedule.allActivated());
+  EXPECT_EQ(-1, schedule.activateNext(vertices));
+  EXPECT_EQ(-1, schedule.takeComplete());
+  auto loaded = std::make_unique<LoadedPiece>();
+  loaded->Rim.assign(std::size_t(spilled.count(0)), 0);
+  EXPECT_TRUE(schedule.isToLoad(0));
+  EXPECT_FALSE(schedule.addLoaded(0, std::move(loaded)));
+  EXPECT_FALSE(schedule.isToLoad(0));
+  const PartitionIndex partition = schedule.activateNext(vertices);
+  ASSERT_GE(partition, 0);
+  EXPECT_EQ(0, plan.PieceOf[std::size_t(partition)]);
+  EXPECT_FALSE(vertices.empty());
+}
+
+TEST(PieceRun, FinishesEveryPieceOrStopsWhereItIsTold)
+{
+  const Coordinates xy = makePointSet("uniform", 4000);
+  Steps steps(xy);
+  PiecePlan plan = steps.plan();
+  const SpilledPoints spilled = steps.spill(plan);
+  const MemoryPlan memory = steps.memory();
+  PartitionedMesh mesh; // without a path: triangles are counted
+  mesh.Pieces.resize(std::size_t(plan.pieces()));
+  PieceRun run(plan, spilled, 1, steps.Rows, mesh, memory, 2, [](std::int64_t) { return true; });
+  EXPECT_TRUE(run.triangulate());
+  std::int64_t triangles = 0;
+  for (const FinishedPiece& piece : run.finished())
+  {
+    triangles += piece.Summary.Cells;
+  }
+  EXPECT_EQ(std::int64_t(reference(xy).Mesh.size()), triangles);
+
+  PieceRun stopped(
+    plan, spilled, 1, steps.Rows, mesh, memory, 2, [](std::int64_t done) { return done < 1000; });
+  EXPECT_FALSE(stopped.triangulate());
+}
+
+} // namespace
