@@ -89,12 +89,12 @@ TEST_F(TippOutOfCore, EndsWithTheSameBytesAfterTwentyKills)
       const TippProcess process(this->Folder, arguments);
       std::this_thread::sleep_for(std::chrono::milliseconds(random() % unsigned(longest)));
       process.kill();
-      const int code = process.wait().ExitCode;
-      if (code == 0)
+      const Outcome outcome = process.wait();
+      if (outcome.ExitCode == 0)
       {
         break;
       }
-      ASSERT_EQ(-9, code);
+      ASSERT_EQ(-9, outcome.ExitCode) << outcome.Err;
       ++kills;
     }
     ASSERT_TRUE(expected == filesOf(this->Mesh)) << round;
