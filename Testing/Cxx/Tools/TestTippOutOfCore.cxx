@@ -3,6 +3,10 @@
 #include "MeshChecks.h"
 #include "RunTipp.h"
 
+#include "vtkTIPPOutOfCoreDelaunay2D.h"
+
+#include "vtkNew.h"
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -58,6 +62,19 @@ TEST_F(TippOutOfCore, MakesAMeshThatTheCheckAccepts)
     runTipp(this->Folder, { "check", this->Points, this->Mesh, "--tie-rule" });
   EXPECT_EQ(0, checked.ExitCode) << checked.Out << checked.Err;
   EXPECT_NE(std::string::npos, checked.Out.find("correct"));
+}
+
+TEST_F(TippOutOfCore, MakesTheFilesOfTheVtkClass)
+{
+  this->makePoints("clustered", "30000");
+  ASSERT_EQ(0, this->run({}).ExitCode);
+  const std::string other = this->Folder.path("other.tipp");
+  vtkNew<vtkTIPPOutOfCoreDelaunay2D> filter;
+  filter->AddInputFileName(this->Points.c_str());
+  filter->SetFileName(other.c_str());
+  filter->SetMemoryLimit(2 << 20);
+  filter->Update();
+  EXPECT_TRUE(filesOf(this->Mesh) == filesOf(other));
 }
 
 TEST_F(TippOutOfCore, ChecksAgainstTheRightPointsOnly)
