@@ -246,6 +246,15 @@ TEST_F(TippOutOfCore, GoesOnAfterADiskThatIsFull)
   }
 }
 
+TEST_F(TippOutOfCore, TellsTheTimeLeftOnATerminal)
+{
+  const Outcome outcome = runTippOnTerminal(this->Folder,
+    { "delaunay", "uniform:5000000", "-o", this->Mesh, "--sink", "count", "--threads", "1",
+      "--memory", "8M" });
+  EXPECT_EQ(0, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find(" s left")) << outcome.Err;
+}
+
 TEST_F(TippOutOfCore, NamesOptionsThatNeedSuchAnOutput)
 {
   this->makePoints("uniform", "100");
