@@ -246,6 +246,34 @@ TEST_F(TippOutOfCore, GoesOnAfterADiskThatIsFull)
   }
 }
 
+/// What Documentation/OutOfCore.md says of two threads.
+class TippMemory : public TippOutOfCore
+{
+protected:
+  void expectKept(const std::string& points, const std::string& sink, int limit) const
+  {
+    constexpr double onTop = 60e6;
+    const std::string report = this->Folder.path("run.json");
+    const Outcome made = runTipp(this->Folder,
+      { "delaunay", "uniform:" + points, "-o", this->Mesh, "--sink", sink, "--threads", "2",
+        "--memory", std::to_string(limit) + "M", "--stats", report });
+    ASSERT_EQ(0, made.ExitCode) << made.Err;
+    const auto json = nlohmann::json::parse(contentOf(report));
+    EXPECT_EQ(std::stoll(points), json["points"]);
+    EXPECT_LT(json["peak_memory_bytes"].get<double>(), limit * 0x1p20 + onTop);
+  }
+};
+
+TEST_F(TippMemory, IsWithinTheLimitForThreeMillionPoints)
+{
+  this->expectKept("3000000", "mesh", 32);
+}
+
+TEST_F(TippMemory, IsWithinTheLimitForTwentyMillionPoints)
+{
+  this->expectKept("20000000", "count", 64);
+}
+
 TEST_F(TippOutOfCore, TellsTheTimeLeftOnATerminal)
 {
   const Outcome outcome = runTippOnTerminal(this->Folder,
