@@ -336,6 +336,8 @@ void PieceRun::runThreads()
   {
     std::rethrow_exception(this->Failure);
   }
+  std::unique_lock<std::mutex> lock(this->Mutex);
+  this->tell(lock); // of what the other threads did last
 }
 
 /// A run from the beginning.
