@@ -34,12 +34,6 @@ std::size_t DelaunayKernel::bytes() const
     this->Places.capacity() * sizeof(std::uint32_t);
 }
 
-bool DelaunayKernel::isInfinite(Index triangle) const
-{
-  const Index* v = this->Mesh.slots() + triangle;
-  return v[0] == Infinite || v[1] == Infinite || v[2] == Infinite;
-}
-
 bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monitor& proceed)
 {
   const std::vector<std::uint32_t>& order = this->Order.compute(points, count);

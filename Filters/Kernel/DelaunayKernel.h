@@ -56,7 +56,11 @@ public:
 
   /// All triangles, those at the infinite vertex too.
   const HalfEdgeMesh& mesh() const { return this->Mesh; }
-  bool isInfinite(Index triangle) const;
+  bool isInfinite(Index triangle) const
+  {
+    const Index* v = this->Mesh.slots() + triangle;
+    return v[0] == Infinite || v[1] == Infinite || v[2] == Infinite;
+  }
   Point2 point(Index vertex) const { return this->Points[vertex]; }
 
   /// The place of a vertex's point, counted over all points inserted since clear().

@@ -9,13 +9,11 @@
 #include <new>
 #include <utility>
 
-#include <sys/mman.h>
-
 namespace tipp
 {
 
-/// An uninitialised array whose memory can be handed over (free() releases it). Large ones ask
-/// for huge pages: first touch of 4 KiB pages would cost more than writing them.
+/// An uninitialised array whose memory can be handed over (free() releases it). No huge pages are
+/// asked for: in a virtual machine whose host takes free memory back, their first touch is slower.
 template <typename T>
 class Buffer
 {
@@ -67,7 +65,6 @@ private:
 
   static T* allocate(std::size_t size)
   {
-    constexpr std::size_t hugePage = std::size_t(1) << 21;
     if (size == 0)
     {
       return nullptr;
@@ -76,19 +73,8 @@ private:
     {
       throw std::bad_alloc();
     }
-    const std::size_t bytes = size * sizeof(T);
-    if (bytes < 4 * hugePage)
-    {
-      void* memory = std::malloc(bytes);
-      return memory ? static_cast<T*>(memory) : throw std::bad_alloc();
-    }
-    void* memory = nullptr;
-    if (posix_memalign(&memory, hugePage, bytes) != 0)
-    {
-      throw std::bad_alloc();
-    }
-    madvise(memory, bytes, MADV_HUGEPAGE);
-    return static_cast<T*>(memory);
+    void* memory = std::malloc(size * sizeof(T));
+    return memory ? static_cast<T*>(memory) : throw std::bad_alloc();
   }
 
   std::unique_ptr<T, Free> Data;

@@ -18,7 +18,9 @@ namespace tipp
 namespace
 {
 
-using Json = nlohmann::ordered_json;
+// Reading is quicker without the order.
+using Json = nlohmann::json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr const char* formatName = "TIPP partitioned mesh";
 constexpr int formatVersion = 1;
@@ -26,12 +28,12 @@ constexpr int formatVersion = 1;
 constexpr const char* checksumStart = ",\n\"xxh3\": \"";
 constexpr const char* checksumEnd = "\"\n}\n";
 
-Json packBounds(const Bounds& bounds)
+OrderedJson packBounds(const Bounds& bounds)
 {
-  return bounds[0] <= bounds[1] ? Json(bounds) : Json::array();
+  return bounds[0] <= bounds[1] ? OrderedJson(bounds) : OrderedJson::array();
 }
 
-Json packPiece(const PieceSummary& piece)
+OrderedJson packPiece(const PieceSummary& piece)
 {
   return { { "box", packBounds(piece.Box) }, { "extent", packBounds(piece.Extent) },
     { "points", piece.Points }, { "cells", piece.Cells }, { "borrowed_cells", piece.BorrowedCells },
@@ -40,7 +42,7 @@ Json packPiece(const PieceSummary& piece)
     { "table_xxh3", checksumText(piece.TableChecksum) } };
 }
 
-Json packArray(const StoredArray& array)
+OrderedJson packArray(const StoredArray& array)
 {
   return { { "name", array.Name }, { "of", array.OfPoints ? "points" : "cells" },
     { "type", scalarName(array.Type) }, { "components", array.Components },
@@ -66,39 +68,40 @@ public:
         "; copy or make the mesh again.");
   }
 
-  void require(bool holds, const std::string& problem) const
+  /// The problem in two parts: an index has thousands of fields, and few fail.
+  void require(bool holds, const char* problem, const char* name = "") const
   {
     if (!holds)
     {
-      this->fail(problem);
+      this->fail(std::string(problem) + name);
     }
   }
 
   const Json& get(const char* name) const
   {
     const auto found = this->Object.find(name);
-    this->require(found != this->Object.end(), std::string("has no ") + name);
+    this->require(found != this->Object.end(), "has no ", name);
     return *found;
   }
 
   std::int64_t integer(const char* name, std::int64_t least, std::int64_t most) const
   {
     const std::optional<std::int64_t> value = integerOf(this->get(name));
-    this->require(value && *value >= least && *value <= most, std::string("has a wrong ") + name);
+    this->require(value && *value >= least && *value <= most, "has a wrong ", name);
     return *value;
   }
 
   std::string text(const char* name) const
   {
     const Json& value = this->get(name);
-    this->require(value.is_string(), std::string("has a wrong ") + name);
+    this->require(value.is_string(), "has a wrong ", name);
     return value.get<std::string>();
   }
 
   const Json& list(const char* name) const
   {
     const Json& value = this->get(name);
-    this->require(value.is_array(), std::string("has a wrong ") + name);
+    this->require(value.is_array(), "has a wrong ", name);
     return value;
   }
 
@@ -108,13 +111,13 @@ public:
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const Json& value = this->list(name);
     Bounds result{ infinity, -infinity, infinity, -infinity, infinity, -infinity };
-    this->require(value.empty() || value.size() == 6, std::string("has a wrong ") + name);
+    this->require(value.empty() || value.size() == 6, "has a wrong ", name);
     for (std::size_t i = 0; i < value.size(); ++i)
     {
-      this->require(value[i].is_number(), std::string("has a wrong ") + name);
+      this->require(value[i].is_number(), "has a wrong ", name);
       result[i] = value[i].get<double>();
       const bool good = std::isfinite(result[i]) && (i % 2 == 0 || result[i - 1] <= result[i]);
-      this->require(good, std::string("has a wrong ") + name);
+      this->require(good, "has a wrong ", name);
     }
     return result;
   }
@@ -198,7 +201,7 @@ void parseArrays(const Fields& fields, const std::string& path, PartitionedMesh&
     StoredArray array = parseArray(Fields(json, path, where), mesh.Times.size());
     const bool isNew = names.emplace(array.OfPoints, array.Name, array.Step).second &&
       (array.Step < 0 || names.count({ array.OfPoints, array.Name, -1 }) == 0);
-    fields.require(isNew, "has two arrays named " + array.Name);
+    fields.require(isNew, "has two arrays named ", array.Name.c_str());
     const bool ordered = mesh.Arrays.empty() || mesh.Arrays.back().OfPoints || !array.OfPoints;
     fields.require(ordered, "has arrays of points after those of cells");
     mesh.Arrays.push_back(std::move(array));
@@ -250,7 +253,7 @@ Json parseJson(const std::string& text, const std::string& path)
 
 std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu)
 {
-  Json json = {
+  OrderedJson json = {
     { "format", formatName },
     { "version", formatVersion },
     { "cell_type", mesh.CellSize == 3 ? "triangle" : "tetrahedron" },
@@ -262,8 +265,8 @@ std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu)
     { "tiling", mesh.Tiling },
     { "times", mesh.Times },
     { "tables_bytes", 0 },
-    { "arrays", Json::array() },
-    { "pieces", Json::array() },
+    { "arrays", OrderedJson::array() },
+    { "pieces", OrderedJson::array() },
   };
   std::uint64_t tables = 0;
   for (const PieceSummary& piece : mesh.Pieces)
@@ -282,19 +285,19 @@ std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu)
   std::string text = "{";
   for (const auto& [name, value] : json.items())
   {
-    text += (text.size() > 1 ? ",\n" : "\n") + Json(name).dump() + ": ";
+    text += (text.size() > 1 ? ",\n" : "\n") + OrderedJson(name).dump() + ": ";
     if (value.is_array() && !value.empty() && value[0].is_object())
     {
       for (std::size_t i = 0; i < value.size(); ++i)
       {
         text += (i == 0 ? "[\n  " : ",\n  ") +
-          value[i].dump(-1, ' ', false, Json::error_handler_t::replace);
+          value[i].dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
       }
       text += "\n]";
     }
     else
     {
-      text += value.dump(-1, ' ', false, Json::error_handler_t::replace);
+      text += value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
     }
   }
   const std::string checksum = checksumText(checksumOf(text.data(), text.size()));

@@ -5,8 +5,13 @@
 #include "Files/InputFile.h"
 #include "Partitioned/MeshIndex.h"
 
+#include <cerrno>
 #include <filesystem>
 #include <system_error>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace tipp
 {
@@ -39,23 +44,48 @@ std::string readIndex(const std::string& path)
   return text;
 }
 
-void requireSize(const std::string& path, std::uint64_t bytes)
+/// The sizes of a folder's files: a mesh may have very many, so paths are not resolved again and
+/// again.
+class SizesInFolder
 {
-  std::error_code failure;
-  const std::uint64_t present = fs::file_size(path, failure);
-  if (failure)
+public:
+  explicit SizesInFolder(const std::string& folder)
+    : Folder(folder)
+    , Descriptor(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC))
   {
-    throw IOError(path,
-      "is missing from the partitioned mesh (" + failure.message() +
-        "); copy or make the mesh again.");
   }
-  if (present != bytes)
+  SizesInFolder(const SizesInFolder&) = delete;
+  SizesInFolder& operator=(const SizesInFolder&) = delete;
+  ~SizesInFolder()
   {
-    throw IOError(path,
-      "has " + std::to_string(present) + " bytes where the index says " + std::to_string(bytes) +
-        "; copy or make the mesh again.");
+    if (this->Descriptor >= 0)
+    {
+      ::close(this->Descriptor);
+    }
   }
-}
+
+  void require(const std::string& name, std::uint64_t bytes) const
+  {
+    struct stat state = {};
+    if (this->Descriptor < 0 || ::fstatat(this->Descriptor, name.c_str(), &state, 0) != 0)
+    {
+      const std::error_code failure(errno, std::generic_category());
+      throw IOError(this->Folder + "/" + name,
+        "is missing from the partitioned mesh (" + failure.message() +
+          "); copy or make the mesh again.");
+    }
+    if (std::uint64_t(state.st_size) != bytes)
+    {
+      throw IOError(this->Folder + "/" + name,
+        "has " + std::to_string(state.st_size) + " bytes where the index says " +
+          std::to_string(bytes) + "; copy or make the mesh again.");
+    }
+  }
+
+private:
+  const std::string Folder;
+  const int Descriptor;
+};
 
 } // namespace
 
@@ -67,22 +97,22 @@ std::string pieceName(std::size_t piece)
 
 std::string PartitionedMesh::piecePath(std::size_t piece) const
 {
-  return (fs::path(this->Path) / pieceName(piece)).string();
+  return this->Path + "/" + pieceName(piece);
 }
 
 std::string PartitionedMesh::tablesPath() const
 {
-  return (fs::path(this->Path) / tablesName).string();
+  return this->Path + "/" + tablesName;
 }
 
 std::string PartitionedMesh::indexPath() const
 {
-  return (fs::path(this->Path) / indexName).string();
+  return this->Path + "/" + indexName;
 }
 
 std::string PartitionedMesh::pvtuPath() const
 {
-  return (fs::path(this->Path) / pvtuName).string();
+  return this->Path + "/" + pvtuName;
 }
 
 PartitionedMesh openPartitionedMesh(const std::string& path)
@@ -91,19 +121,20 @@ PartitionedMesh openPartitionedMesh(const std::string& path)
   PartitionedMesh mesh = parseIndex(readIndex(index), index);
   const fs::path folder = fs::path(index).parent_path();
   mesh.Path = folder.empty() ? "." : folder.string();
+  const SizesInFolder sizes(mesh.Path);
   std::uint64_t tables = 0;
   for (std::size_t i = 0; i < mesh.Pieces.size(); ++i)
   {
     const PieceSummary& piece = mesh.Pieces[i];
-    requireSize(mesh.piecePath(i), piece.FileBytes);
+    sizes.require(pieceName(i), piece.FileBytes);
     if (piece.TableOffset != tables || piece.TableBytes > (std::uint64_t(1) << 62) - tables)
     {
       throw IOError(index, "has tables out of order; copy or make the mesh again.");
     }
     tables += piece.TableBytes;
   }
-  requireSize(mesh.tablesPath(), tables);
-  requireSize(mesh.pvtuPath(), mesh.PvtuBytes);
+  sizes.require(tablesName, tables);
+  sizes.require(pvtuName, mesh.PvtuBytes);
   return mesh;
 }
 

@@ -13,7 +13,7 @@ namespace
 
 using namespace tipp;
 
-/// A small one and one that asks for huge pages.
+/// A small one and one of many pages.
 constexpr std::size_t Sizes[] = { 1, 1000, 3000000 };
 
 Buffer<int> counting(std::size_t size)
