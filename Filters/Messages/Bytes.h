@@ -48,7 +48,9 @@ public:
     this->Written.insert(this->Written.end(), begin, begin + size);
   }
 
+  void reserve(std::size_t size) { this->Written.reserve(size); }
   std::size_t size() const { return this->Written.size(); }
+  const char* data() const { return this->Written.data(); }
 
   Bytes take()
   {

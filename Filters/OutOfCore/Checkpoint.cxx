@@ -11,10 +11,10 @@
 namespace tipp
 {
 
-void writeCheckpoint(const std::string& path, SaveArchive& archive)
+void writeCheckpoint(const std::string& path, const SaveArchive& archive)
 {
   const std::string next = path + ".next";
-  const Bytes bytes = archive.Writer.take();
+  const ByteWriter& bytes = archive.Writer;
   const std::uint64_t checksum = checksumOf(bytes.data(), bytes.size());
   {
     const OutputFile file(next);

@@ -109,7 +109,7 @@ void exchange(Archive& archive, FinishedPiece& piece)
 }
 
 /// Puts a file with a checksum in a path's place in one step. Throws IOError.
-VTKTIPPFILTERS_EXPORT void writeCheckpoint(const std::string& path, SaveArchive& archive);
+VTKTIPPFILTERS_EXPORT void writeCheckpoint(const std::string& path, const SaveArchive& archive);
 
 /// Throws IOError for a file that is not what writeCheckpoint() wrote.
 VTKTIPPFILTERS_EXPORT Bytes readCheckpoint(const std::string& path);

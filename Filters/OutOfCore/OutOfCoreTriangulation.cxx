@@ -28,6 +28,24 @@ struct Aborted
 {
 };
 
+/// What the statistics of a whole mesh say whichever process has finished it.
+template <typename Archive>
+void exchangeFigures(Archive& archive, OutOfCoreStatistics& statistics)
+{
+  archive(statistics.Points);
+  archive(statistics.Triangles);
+  archive(statistics.TriangleSum);
+  archive(statistics.Duplicates);
+  archive(statistics.Rejected);
+  archive(statistics.Pieces);
+  archive(statistics.Partitions);
+  archive(statistics.WorkerVertices);
+  archive(statistics.PeakRimTriangles);
+  archive(statistics.PeakBorderBytes);
+  archive(statistics.SpilledBytes);
+  archive(statistics.MeshBytes);
+}
+
 class Run
 {
 public:
@@ -37,7 +55,7 @@ public:
     , Options(options)
     , Threads(options.Threads > 0 ? options.Threads : omp_get_max_threads())
     , Pending(PendingFolder::lasting(path, &replaceableMesh))
-    , Scratch(this->Pending.temporaryPath(), options.Scratch)
+    , Scratch(this->Pending, options.Scratch)
   {
     this->Statistics.Threads = this->Threads;
     this->Mesh.Path = options.CountOnly ? "" : this->Pending.temporaryPath();
@@ -52,8 +70,12 @@ public:
         this->survey();
         this->spill();
       }
-      this->triangulate();
-      this->Options.CountOnly ? this->count() : this->publish();
+      if (!this->IsWhole)
+      {
+        this->triangulate();
+        this->Options.CountOnly ? this->count() : this->publish();
+      }
+      this->putInPlace();
     }
     catch (const Aborted&)
     {
@@ -76,11 +98,11 @@ private:
     this->Statistics.Phases.push_back({ name, this->Watch.restart() });
   }
 
-  void keep()
+  void keep(bool kept = true)
   {
-    this->Pending.keep();
-    this->Scratch.keep();
-    this->Statistics.Kept = true;
+    this->Pending.keep(kept);
+    this->Scratch.keep(kept);
+    this->Statistics.Kept = kept;
   }
 
   /// False if there is nothing to resume.
@@ -91,39 +113,70 @@ private:
       return false;
     }
     this->keep();
-    if (!this->Options.Resume)
-    {
-      throw IOError(this->Path,
-        "has been begun by another run, and its work is in " + this->Pending.temporaryPath() +
-          "; resume it, or remove that folder to start again.");
-    }
     const Bytes bytes = readCheckpoint(this->Scratch.plan());
     LoadArchive archive(bytes);
+    std::string identity;
+    archive(identity);
+    const bool isOurs = identity == this->identity();
+    std::uint8_t isWhole = 0;
+    archive(isWhole);
+    this->IsWhole = isWhole == 1;
+    this->IsWhole ? this->resumeWhole(archive, isOurs) : this->resumeBegun(archive, isOurs);
+    this->Statistics.Resumed = this->Statistics.Kept;
+    this->endPhase("resume");
+    return this->Statistics.Resumed;
+  }
+
+  void resumeBegun(LoadArchive& archive, bool isOurs)
+  {
+    this->requireOurs(isOurs && this->Options.Resume);
     this->exchangeInput(archive);
     this->Memory = std::make_unique<MemoryPlan>(this->Options, this->Rows.Words);
     this->Plan = std::make_unique<PiecePlan>(archive);
     this->Spilled =
       std::make_unique<SpilledPoints>(this->Scratch.points(), *this->Plan, this->Rows, archive);
-    this->Statistics.Resumed = true;
     this->describeMesh();
-    this->endPhase("resume");
-    return true;
   }
 
-  /// What tells that it is the same run, and what is known of the input.
+  /// After recordWhole().
+  void resumeWhole(LoadArchive& archive, bool isOurs)
+  {
+    exchangeFigures(archive, this->Statistics);
+    archive(this->Fingerprint);
+    this->IsInPlace = this->Fingerprint != 0 && fingerprintOf(this->Path) == this->Fingerprint;
+    if (this->IsInPlace && !isOurs) // what is left of that run is of no use
+    {
+      this->keep(false);
+      this->Statistics = {};
+      this->Statistics.Threads = this->Threads;
+      this->IsWhole = this->IsInPlace = false;
+      return;
+    }
+    this->requireOurs(isOurs);
+    if (!this->IsInPlace && fingerprintOf(this->Pending.temporaryPath()) != this->Fingerprint)
+    {
+      throw IOError(
+        this->Pending.temporaryPath(), "is damaged; remove the folder around it and start again.");
+    }
+  }
+
+  void requireOurs(bool isOurs) const
+  {
+    if (!isOurs)
+    {
+      throw IOError(this->Path,
+        this->Options.Resume
+          ? "was begun with another input, or with one that has been changed since, or with other "
+            "options; give those, or remove " +
+            this->Pending.workPath() + " to start again."
+          : "has been begun by another run, and its work is in " + this->Pending.workPath() +
+            "; resume it, or remove that folder to start again.");
+    }
+  }
+
   template <typename Archive>
   void exchangeInput(Archive& archive)
   {
-    const std::string ours = this->identity();
-    std::string identity = ours;
-    archive(identity);
-    if (identity != ours)
-    {
-      throw IOError(this->Path,
-        "was begun with another input, or with one that has been changed since, or with other "
-        "options; give those, or remove " +
-          this->Pending.temporaryPath() + " to start again.");
-    }
     archive(this->Survey.Points);
     archive(this->Survey.Rejected);
     archive(this->Survey.Bounds);
@@ -147,10 +200,11 @@ private:
     }
   }
 
+  /// What tells that it is the same run.
   std::string identity() const
   {
     const OutOfCoreOptions& options = this->Options;
-    return "TIPP out of core 1\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
+    return "TIPP out of core 2\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
       std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
       std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
       (options.CountOnly ? " counted" : "") + "\n" + options.Scratch;
@@ -159,6 +213,8 @@ private:
   void savePlan()
   {
     SaveArchive archive;
+    archive(this->identity());
+    archive(std::uint8_t(this->IsWhole));
     this->exchangeInput(archive);
     this->Plan->save(archive);
     this->Spilled->save(archive);
@@ -306,10 +362,7 @@ private:
       this->Statistics.Triangles += piece.Summary.Cells;
       this->Statistics.TriangleSum += piece.TriangleSum;
     }
-    this->Spilled.reset();
-    this->Scratch.remove();
-    this->Pending.keep(false);
-    this->report(1);
+    this->recordWhole();
   }
 
   void publish()
@@ -328,9 +381,37 @@ private:
       this->report(0.95 + 0.05 * double(number) / double(this->Finished.size()));
     }
     this->Statistics.MeshBytes = publishPieces(this->Mesh, this->Finished);
+    this->Fingerprint = fingerprintOf(this->Mesh.Path);
+    this->recordWhole();
+  }
+
+  /// Takes the plan's place: from now on neither the plan nor anything else in the work folder but
+  /// the mesh is needed, and whatever ends the process, another has only to put it in place.
+  void recordWhole()
+  {
+    this->IsWhole = true;
+    SaveArchive archive;
+    archive(this->identity());
+    archive(std::uint8_t(this->IsWhole));
+    exchangeFigures(archive, this->Statistics);
+    archive(this->Fingerprint);
+    writeCheckpoint(this->Scratch.plan(), archive);
+    syncToDisk(this->Scratch.plan());
+    syncToDisk(this->Pending.workPath());
+  }
+
+  void putInPlace()
+  {
+    if (this->Options.Progress)
+    {
+      this->Options.Progress(1); // too late to end it
+    }
+    if (this->Fingerprint != 0 && !this->IsInPlace)
+    {
+      this->Pending.commit();
+    }
     this->Spilled.reset();
-    this->Scratch.remove();
-    this->Pending.commit();
+    this->keep(false);
     this->endPhase("publish");
   }
 
@@ -348,6 +429,9 @@ private:
   std::unique_ptr<PiecePlan> Plan;
   std::unique_ptr<SpilledPoints> Spilled;
   std::vector<FinishedPiece> Finished;
+  bool IsWhole = false;          ///< all files of the mesh are there, or all triangles are counted
+  bool IsInPlace = false;        ///< where it belongs
+  std::uint64_t Fingerprint = 0; ///< of the whole mesh
   Stopwatch Watch;
 };
 

@@ -30,7 +30,7 @@ struct OutOfCoreOptions
   bool Resume = false;
   /// A folder on another disk for what is temporary, but for the pieces; empty: beside the mesh.
   std::string Scratch;
-  /// Told the finished fraction now and then, from one thread at a time; false ends the run.
+  /// Told the finished fraction now and then, in the thread that called; false ends the run.
   std::function<bool(double)> Progress;
 };
 

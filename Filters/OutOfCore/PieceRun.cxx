@@ -143,7 +143,24 @@ PartitionIndex PieceRun::acquire(Place& place)
       return partition;
     }
     this->Changed.wait(lock);
+    this->tell(lock);
   }
+}
+
+/// The caller's progress, in the caller's thread.
+void PieceRun::tell(std::unique_lock<std::mutex>& lock)
+{
+  if (this->Stopped || this->PointsDone == this->PointsTold ||
+    std::this_thread::get_id() != this->Caller)
+  {
+    return;
+  }
+  const std::int64_t done = this->PointsTold = this->PointsDone;
+  lock.unlock();
+  const bool goesOn = this->Progress(done);
+  lock.lock();
+  this->Stopped = this->Stopped || !goesOn;
+  this->Changed.notify_all();
 }
 
 PartitionResult PieceRun::triangulate(Place& place, PartitionIndex partition)
@@ -184,11 +201,8 @@ void PieceRun::bringBack(PartitionResult result)
   const bool isWhole = this->Schedule->complete(std::move(result));
   this->PeakRimTriangles =
     std::max(this->PeakRimTriangles, std::int64_t(this->Schedule->rimTriangles()));
-  if (!this->Stopped && !this->Progress(this->PointsDone))
-  {
-    this->Stopped = true;
-  }
   this->Changed.notify_all();
+  this->tell(lock);
   if (isWhole && !this->Stopped)
   {
     this->finishPiece(piece, lock);
@@ -304,7 +318,7 @@ void PieceRun::runThreads()
   try
   {
     threads.emplace_back([this] { this->guard([this] { this->loadPieces(); }); });
-    for (int i = 0; i < this->Threads; ++i)
+    for (int i = 1; i < this->Threads; ++i)
     {
       threads.emplace_back([this] { this->guard([this] { this->work(); }); });
     }
@@ -313,6 +327,7 @@ void PieceRun::runThreads()
   {
     this->stop(std::current_exception());
   }
+  this->guard([this] { this->work(); });
   for (std::thread& thread : threads)
   {
     thread.join();
@@ -321,6 +336,8 @@ void PieceRun::runThreads()
   {
     std::rethrow_exception(this->Failure);
   }
+  std::unique_lock<std::mutex> lock(this->Mutex);
+  this->tell(lock); // of what the other threads did last
 }
 
 /// A run from the beginning.

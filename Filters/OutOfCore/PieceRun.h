@@ -13,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace tipp
@@ -22,8 +23,8 @@ namespace tipp
 class VTKTIPPFILTERS_EXPORT PieceRun
 {
 public:
-  /// `progress` is told how many points are triangulated, from one thread at a time; false ends the
-  /// run.
+  /// `progress` is told how many points are triangulated, in the thread that this object is made
+  /// and run in; false ends the run.
   PieceRun(const PiecePlan& plan, const SpilledPoints& points, double factor,
     const PointRowLayout& rows, const PartitionedMesh& mesh, const MemoryPlan& memory, int threads,
     std::function<bool(std::int64_t)> progress);
@@ -55,6 +56,7 @@ private:
   void loadPieces();
   void work();
   PartitionIndex acquire(Place& place);
+  void tell(std::unique_lock<std::mutex>& lock);
   PartitionResult triangulate(Place& place, PartitionIndex partition);
   void bringBack(PartitionResult result);
   void writeInterior(PartitionIndex piece);
@@ -83,6 +85,7 @@ private:
   const MemoryPlan& Memory;
   const int Threads;
   const std::function<bool(std::int64_t)> Progress;
+  const std::thread::id Caller = std::this_thread::get_id();
   std::unique_ptr<PieceSchedule> Schedule;
 
   std::mutex Mutex;
@@ -93,6 +96,7 @@ private:
   std::uint64_t SavedBytes = 0;      ///< of the last checkpoint
   std::uint64_t LoadedBytes = 0;
   std::int64_t PointsDone = 0;
+  std::int64_t PointsTold = 0;
   bool Stopped = false;
   std::exception_ptr Failure;
   std::vector<FinishedPiece> Finished;

@@ -42,6 +42,7 @@ void PieceRun::saveSometimes(std::unique_lock<std::mutex>& lock)
   this->IsSaving = true;
   this->BytesSinceSaved = 0;
   SaveArchive archive;
+  archive.Writer.reserve(this->SavedBytes + this->SavedBytes / 4); // it grows slowly
   this->save(archive);
   this->SavedBytes = archive.Writer.size();
   lock.unlock();

@@ -47,9 +47,10 @@ void requireFree(const std::string& path, const std::string& folder, std::uint64
 
 } // namespace
 
-ScratchFolder::ScratchFolder(const std::string& meshFolder, const std::string& other)
-  : Mesh(meshFolder)
-  , Folder(other.empty() ? meshFolder : other + "/" + fs::path(meshFolder).filename().string())
+ScratchFolder::ScratchFolder(const PendingFolder& mesh, const std::string& other)
+  : Mesh(mesh.temporaryPath())
+  , Work(mesh.workPath())
+  , Folder(other.empty() ? this->Work : other + "/" + fs::path(this->Work).filename().string())
 {
   makeFolder(this->Folder);
 }
@@ -71,7 +72,7 @@ bool ScratchFolder::hasPlan() const
 void ScratchFolder::clear()
 {
   std::error_code failure;
-  for (const fs::directory_entry& entry : fs::directory_iterator(this->Mesh, failure))
+  for (const fs::directory_entry& entry : fs::directory_iterator(this->Work, failure))
   {
     fs::remove_all(entry.path(), failure);
   }
@@ -81,24 +82,23 @@ void ScratchFolder::clear()
 void ScratchFolder::requireSpace(
   const std::string& path, std::uint64_t mesh, std::uint64_t scratch) const
 {
-  if (areOnOneDisk(this->Mesh, this->Folder))
+  if (areOnOneDisk(this->Work, this->Folder))
   {
     requireFree(path, this->Folder, mesh + scratch);
     return;
   }
-  requireFree(path, this->Mesh, mesh);
+  requireFree(path, this->Work, mesh);
   requireFree(path, this->Folder, scratch);
 }
 
 void ScratchFolder::remove()
 {
   std::error_code ignored;
-  for (const std::string& name : { this->points() + ".0", this->state(), this->state() + ".next",
-         this->plan() + ".next", this->plan() })
+  for (const std::string& name : { this->points() + ".0", this->state() })
   {
     fs::remove(name, ignored);
   }
-  if (this->Folder != this->Mesh)
+  if (this->Folder != this->Work)
   {
     fs::remove(this->Folder, ignored);
   }

@@ -43,9 +43,9 @@ PendingFolder::PendingFolder(
   }
   this->Path = target.string();
   this->Parent = parent.string();
-  const std::string name = "." + target.filename().string();
-  isLasting ? this->openLasting((parent / (name + ".part")).string())
-            : this->makeTemporary(name + ".tmp.");
+  const std::string name = target.filename().string();
+  isLasting ? this->openLasting((parent / ("." + name + ".part")).string(), name)
+            : this->makeTemporary("." + name + ".tmp.");
 }
 
 void PendingFolder::makeTemporary(const std::string& prefix)
@@ -57,6 +57,7 @@ void PendingFolder::makeTemporary(const std::string& prefix)
     throw IOError(this->Path, std::string("cannot be written (") + std::strerror(errno) + ").");
   }
   this->Temporary = name;
+  this->Work = name;
   // mkdtemp() allows nobody else; an output is as open as other files.
   const mode_t mask = umask(0);
   umask(mask);
@@ -66,30 +67,49 @@ void PendingFolder::makeTemporary(const std::string& prefix)
   flock(this->Lock, LOCK_EX | LOCK_NB);
 }
 
-void PendingFolder::openLasting(const std::string& name)
+void PendingFolder::openLasting(const std::string& folder, const std::string& name)
 {
-  if (mkdir(name.c_str(), 0777) != 0 && errno != EEXIST)
+  const auto isStillThere = [&]
   {
-    throw IOError(this->Path, std::string("cannot be written (") + std::strerror(errno) + ").");
-  }
-  this->Lock = open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (this->Lock < 0 || flock(this->Lock, LOCK_EX | LOCK_NB) != 0)
+    struct stat opened = {};
+    struct stat named = {};
+    return fstat(this->Lock, &opened) == 0 && stat(folder.c_str(), &named) == 0 &&
+      opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
+  };
+  for (;;)
   {
+    if (mkdir(folder.c_str(), 0777) != 0 && errno != EEXIST)
+    {
+      throw IOError(this->Path, std::string("cannot be written (") + std::strerror(errno) + ").");
+    }
+    this->Lock = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const bool isOurs = this->Lock >= 0 && flock(this->Lock, LOCK_EX | LOCK_NB) == 0;
+    if (isOurs && isStillThere())
+    {
+      break;
+    }
+    const bool wasRemoved = isOurs || (this->Lock < 0 && errno == ENOENT);
     if (this->Lock >= 0)
     {
       close(this->Lock);
+      this->Lock = -1;
     }
-    throw IOError(this->Path, "is being made by another process; wait for it or end it.");
+    if (!wasRemoved) // else its maker has just ended
+    {
+      throw IOError(this->Path, "is being made by another process; wait for it or end it.");
+    }
   }
-  this->Temporary = name;
+  this->Work = folder;
+  this->Temporary = folder + "/" + name;
+  mkdir(this->Temporary.c_str(), 0777);
 }
 
 PendingFolder::~PendingFolder()
 {
-  if (!this->Temporary.empty() && !this->Kept)
+  if (!this->Work.empty() && !this->Kept)
   {
     std::error_code ignored;
-    fs::remove_all(this->Temporary, ignored);
+    fs::remove_all(this->Work, ignored);
   }
   if (this->Lock >= 0)
   {
@@ -159,7 +179,6 @@ void PendingFolder::commit()
   {
     fs::remove_all(this->Temporary, failure); // the old one
   }
-  this->Temporary.clear();
 }
 
 } // namespace tipp

@@ -25,9 +25,9 @@ public:
   /// Throws IOError if the path's own folder is missing or closed to us, or if there is something
   /// at the path other than an empty folder or, where it is given, what may be replaced.
   explicit PendingFolder(const std::string& path, const Replaceable* replaceable = nullptr);
-  /// With a name that stays the same, ".NAME.part": it may be there already, from a run that did
-  /// not end, and after keep() it stays where there was no commit(). Throws IOError also if another
-  /// process has it.
+  /// In a folder of its own whose name stays the same, ".NAME.part": that may be there already,
+  /// from a run that did not end, and after keep() it stays. What is in it beside the output is
+  /// never published. Throws IOError also if another process has it.
   static PendingFolder lasting(const std::string& path, const Replaceable* replaceable)
   {
     return { path, replaceable, true };
@@ -38,6 +38,8 @@ public:
 
   /// Write in here.
   const std::string& temporaryPath() const { return this->Temporary; }
+  /// The folder that goes away at the end: ".NAME.part", or the temporary one itself.
+  const std::string& workPath() const { return this->Work; }
   void keep(bool kept = true) { this->Kept = kept; }
 
   /// Puts it in the path's place in one step and removes what was there. What is in it must be safe
@@ -47,13 +49,14 @@ public:
 private:
   PendingFolder(const std::string& path, const Replaceable* replaceable, bool isLasting);
   void makeTemporary(const std::string& prefix);
-  void openLasting(const std::string& name);
+  void openLasting(const std::string& folder, const std::string& name);
   void clearLeftovers(const std::string& prefix) const;
   void exchange() const;
 
   std::string Path;
   std::string Parent;
   std::string Temporary;
+  std::string Work; ///< it, or the folder around it
   bool Kept = false;
   int Lock = -1; ///< held as long as the process lives
 };

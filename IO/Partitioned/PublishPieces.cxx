@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/PublishPieces.h"
 
+#include "Files/IOError.h"
 #include "Files/OutputFile.h"
+#include "Files/TextFile.h"
 #include "Partitioned/Checksum.h"
 #include "Partitioned/MeshIndex.h"
 #include "Partitioned/PieceLayout.h"
@@ -71,6 +73,23 @@ std::uint64_t publishPieces(PartitionedMesh& mesh, std::vector<FinishedPiece>& p
   syncToDisk(mesh.Path);
   writeWholeFile(mesh.indexPath(), index);
   return bytes + tables.size() + pvtu.size() + index.size();
+}
+
+std::uint64_t fingerprintOf(const std::string& path)
+{
+  if (!isPartitionedMesh(path))
+  {
+    return 0;
+  }
+  try
+  {
+    const std::string index = readTextFile(openPartitionedMesh(path).indexPath());
+    return checksumOf(index.data(), index.size());
+  }
+  catch (const IOError&)
+  {
+    return 0;
+  }
 }
 
 } // namespace tipp

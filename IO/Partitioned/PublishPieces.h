@@ -8,6 +8,7 @@
 #include "vtkTIPPIOModule.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace tipp
@@ -29,6 +30,10 @@ struct FinishedPiece
 /// IOError.
 VTKTIPPIO_EXPORT std::uint64_t publishPieces(
   PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces);
+
+/// What tells the mesh in a folder from any other, by its index; 0 if there is none or files of it
+/// are missing.
+VTKTIPPIO_EXPORT std::uint64_t fingerprintOf(const std::string& path);
 
 } // namespace tipp
 

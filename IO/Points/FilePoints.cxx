@@ -5,6 +5,7 @@
 #include "Files/IOError.h"
 #include "Points/NpyPoints.h"
 #include "Points/ReadPoints.h"
+#include "Points/TextPoints.h"
 
 #include <algorithm>
 #include <optional>
@@ -130,6 +131,10 @@ std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointO
   if (extension == ".npy")
   {
     return std::make_unique<NpyFilePoints>(path, options);
+  }
+  if (isTextExtension(extension))
+  {
+    return streamTextPoints(path, options);
   }
   return std::make_unique<WholeFilePoints>(path, options);
 }

@@ -27,6 +27,9 @@ public:
 /// By the file's extension. Throws IOError.
 std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointOptions& options);
 
+/// A text file, read in blocks.
+std::unique_ptr<FilePoints> streamTextPoints(const std::string& path, const PointOptions& options);
+
 /// "uniform:1000000" is no file but so many uniform points; 0 for other names.
 std::int64_t generatedCount(const std::string& name);
 std::unique_ptr<FilePoints> generatePointsAsWanted(std::int64_t count);

@@ -45,9 +45,10 @@ public:
   virtual std::string identity() const = 0;
 };
 
-/// One or more files, one after the other: .npy is read block by block, other formats a file as a
-/// whole, for each pass. The name "uniform:COUNT" stands for so many points that are uniform in the
-/// unit square and made as they are wanted. All must have the same columns. Throws IOError.
+/// One or more files, one after the other: .npy and text are read block by block, other formats a
+/// file as a whole, for each pass. Text takes a pass more, at once, which finds its numeric
+/// columns. The name "uniform:COUNT" stands for so many points that are uniform in the unit square
+/// and made as they are wanted. All must have the same columns. Throws IOError.
 VTKTIPPIO_EXPORT std::unique_ptr<PointStream> openPointStream(
   const std::vector<std::string>& paths, const PointOptions& options = {});
 

@@ -40,7 +40,7 @@ PointTable readPoints(const std::string& path, const PointOptions& options)
   {
     return readNpyPoints(path, options);
   }
-  if (extension == ".csv" || extension == ".txt" || extension == ".xyz")
+  if (isTextExtension(extension))
   {
     return readTextPoints(path, options);
   }

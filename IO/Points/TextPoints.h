@@ -13,6 +13,9 @@ namespace tipp
 /// names the first is z and the others column<number>.
 PointTable readTextPoints(const std::string& path, const PointOptions& options);
 
+/// .csv, .txt and .xyz.
+bool isTextExtension(const std::string& extension);
+
 } // namespace tipp
 
 #endif

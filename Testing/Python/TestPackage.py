@@ -2,6 +2,7 @@
 """The functions of the package tipp, on NumPy arrays."""
 import inspect
 import os
+import pathlib
 import signal
 import subprocess
 import sys
@@ -9,6 +10,7 @@ import tempfile
 import textwrap
 import threading
 import unittest
+import unittest.mock
 import warnings
 
 import numpy as np
@@ -209,6 +211,77 @@ class Meshes(unittest.TestCase):
             tipp.read(os.path.join(self.folder.name, "nothing"))
         with self.assertRaisesRegex(RuntimeError, "Tiling is 'hexagons'"):
             tipp.write(self.mesh, self.path, tiling="hexagons")
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.points = random_points(60_000, 2)
+        self.input = self.path("points.npy")
+        np.save(self.input, self.points)
+        self.output = self.path("mesh.tipp")
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def test_a_file_becomes_the_mesh_of_its_points(self):
+        made = tipp.delaunay_file(pathlib.Path(self.input), pathlib.Path(self.output), memory="2M")
+        self.assertEqual((made["points"], made["duplicates"], made["resumed"]), (60_000, 0, 0))
+        self.assertGreater(made["pieces"], 4)
+        mesh = tipp.read(self.output)
+        self.assertEqual(mesh.GetNumberOfCells(), made["triangles"])
+        ids = tipp.as_array(mesh, "GlobalPointIds")
+        corners = vtk_to_numpy(mesh.GetCells().GetConnectivityArray()).reshape(-1, 3)
+        self.assertEqual(edges_of(ids[corners]), edges_of(tipp.delaunay(self.points)))
+
+    def test_several_files_and_columns_by_name(self):
+        for name in ("a.csv", "b.csv"):
+            np.savetxt(self.path(name), random_points(500, 3) + ord(name[0]), delimiter=",", comments="",
+                       header="height,south,west")
+        made = tipp.delaunay_file([self.path("a.csv"), self.path("b.csv")], self.output,
+                                  columns=("west", "south"), partitions=(3, 2), map_duplicates=True)
+        self.assertEqual((made["points"], made["pieces"]), (1000, 6))
+        mesh = tipp.read(self.output)
+        self.assertEqual(mesh.GetPointData().HasArray("height"), 1)
+        self.assertEqual(mesh.GetPointData().HasArray("RepresentativePointId"), 1)
+
+    def test_counted_triangles_are_not_written(self):
+        made = tipp.delaunay_file(self.input, self.output, count_only=True, threads=1)
+        self.assertEqual(made["triangles"], len(tipp.delaunay(self.points)))
+        self.assertGreater(made["triangle_sum"], 0)
+        self.assertEqual(os.listdir(self.folder.name), ["points.npy"])
+
+    def test_misuse_is_told(self):
+        for memory in (0, -5, "2T", "", "1.5G", 1 << 70):
+            with self.assertRaisesRegex(ValueError, "memory is"):
+                tipp.delaunay_file(self.input, self.output, memory=memory)
+        with self.assertRaisesRegex(RuntimeError, "nothing.npy: cannot be opened"):
+            tipp.delaunay_file(self.path("nothing.npy"), self.output)
+        with self.assertRaisesRegex(RuntimeError, "no files of points"):
+            tipp.delaunay_file([], self.output)
+        with self.assertRaisesRegex(RuntimeError, "FileName is not set"):
+            tipp.delaunay_file(self.input, "")
+        with self.assertRaisesRegex(RuntimeError, "points.npy: exists already"):
+            tipp.delaunay_file(self.input, self.input)
+
+    def test_a_run_goes_on_after_ctrl_c(self):
+        tipp.delaunay_file(self.input, self.path("whole.tipp"), memory="1M")
+        def press(fraction):
+            if fraction > 0.4:
+                signal.raise_signal(signal.SIGINT)
+
+        with unittest.mock.patch("tipp._run._show", press), self.assertRaises(KeyboardInterrupt):
+            tipp.delaunay_file(self.input, self.output, memory="1M", progress_bar=True)
+        self.assertFalse(os.path.exists(self.output))
+        with self.assertRaisesRegex(RuntimeError, "resume it"):
+            tipp.delaunay_file(self.input, self.output, memory="1M")
+        self.assertEqual(tipp.delaunay_file(self.input, self.output, memory="1M", resume=True)["resumed"], 1)
+        self.assertEqual(self.files("mesh.tipp"), self.files("whole.tipp"))
+
+    def files(self, name):
+        root = pathlib.Path(self.path(name))
+        return {str(f.relative_to(root)): f.read_bytes() for f in root.rglob("*") if f.is_file()}
 
 
 class Interrupt(unittest.TestCase):

@@ -2,6 +2,9 @@
 #ifndef tippProgressBar_h
 #define tippProgressBar_h
 
+#include "Console/TimeLeft.h"
+#include "Parallel/Stopwatch.h"
+
 #include <string>
 
 namespace tipp
@@ -16,13 +19,18 @@ public:
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// The fraction that is done; redrawn when the percentage changes.
+  /// The fraction that is done; redrawn when the percentage changes or a second has gone by.
   void update(double fraction);
 
 private:
+  void draw(double fraction, const std::string& left);
+
   std::string Task;
   bool OnTerminal;
   int Percent = -1;
+  Stopwatch Watch;
+  double DrawnAt = 0; ///< in seconds
+  TimeLeft Left;
 };
 
 } // namespace tipp

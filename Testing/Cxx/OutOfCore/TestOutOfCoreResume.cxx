@@ -133,4 +133,127 @@ TEST_F(OutOfCoreBegun, LeavesAnOlderMeshUntilItIsWhole)
   EXPECT_EQ(2500, openPartitionedMesh(this->Folder.path("mesh.tipp")).Points);
 }
 
+/// A run that was killed when its mesh was whole, but not in its place.
+class OutOfCoreWhole : public OutOfCoreResume
+{
+protected:
+  void SetUp() override { this->makeWhole(); }
+
+  void makeWhole()
+  {
+    writePoints(this->Folder.path("points.npy"), makePointSet("duplicates", 2500));
+    this->Options.Progress = [this](double fraction)
+    {
+      if (fraction == 1)
+      {
+        fs::copy(this->Part, this->Folder.path("copy"), fs::copy_options::recursive);
+      }
+      return true;
+    };
+    this->Whole = this->run();
+    this->Options.Progress = {};
+    if (!this->Options.CountOnly)
+    {
+      this->Expected = this->files();
+      fs::rename(this->Folder.path("mesh.tipp"), this->Folder.path("published"));
+    }
+    fs::rename(this->Folder.path("copy"), this->Part);
+  }
+
+  void publish() const
+  {
+    fs::rename(this->Folder.path("published"), this->Folder.path("mesh.tipp"));
+  }
+
+  void expectTheSame(const OutOfCoreStatistics& statistics) const
+  {
+    EXPECT_TRUE(statistics.Resumed);
+    EXPECT_EQ(2500, statistics.Points);
+    EXPECT_EQ(this->Whole.Triangles, statistics.Triangles);
+    EXPECT_EQ(this->Whole.TriangleSum, statistics.TriangleSum);
+    EXPECT_EQ(this->Whole.Duplicates, statistics.Duplicates);
+    EXPECT_EQ(this->Whole.Pieces, statistics.Pieces);
+    EXPECT_EQ(this->Whole.MeshBytes, statistics.MeshBytes);
+    EXPECT_FALSE(fs::exists(this->Part));
+  }
+
+  const std::string Part = Folder.path(".mesh.tipp.part");
+  OutOfCoreStatistics Whole;
+  std::map<std::string, std::string> Expected;
+};
+
+TEST_F(OutOfCoreWhole, IsPutInPlaceThoughItsPointsAreGone)
+{
+  for (const char* name : { ".points.0", ".state" })
+  {
+    ASSERT_TRUE(fs::remove(this->Part + "/" + name)) << name;
+  }
+  this->Options.Resume = true;
+  this->expectTheSame(this->run());
+  EXPECT_TRUE(this->Expected == this->files());
+}
+
+TEST_F(OutOfCoreWhole, IsPutInPlaceWithoutBeingTold)
+{
+  this->Options.Progress = [](double) { return false; }; // too late
+  this->expectTheSame(this->run());
+  EXPECT_TRUE(this->Expected == this->files());
+}
+
+TEST_F(OutOfCoreWhole, IsRefusedForAnotherInput)
+{
+  writePoints(this->Folder.path("points.npy"), makePointSet("uniform", 2500, 2));
+  expectIOError(this->Folder.path("mesh.tipp"), "another run", [this] { this->run(); });
+  this->Options.Resume = true;
+  expectIOError(this->Folder.path("mesh.tipp"), "changed since", [this] { this->run(); });
+  EXPECT_TRUE(this->Expected == filesOf(this->Part + "/mesh.tipp"));
+}
+
+TEST_F(OutOfCoreWhole, IsRefusedWhereAFileOfItsMeshIsMissing)
+{
+  fs::remove(this->Part + "/mesh.tipp/pieces/000003.vtu");
+  this->Options.Resume = true;
+  expectIOError(this->Part + "/mesh.tipp", "is damaged", [this] { this->run(); });
+}
+
+TEST_F(OutOfCoreWhole, IsLeftAloneWhereItTookAnotherMeshsPlace)
+{
+  this->publish();
+  fs::remove_all(this->Part + "/mesh.tipp");
+  const TemporaryFolder other;
+  triangulateFile(other, makePointSet("uniform", 500), {});
+  fs::rename(other.path("mesh.tipp"), this->Part + "/mesh.tipp");
+  this->Options.Resume = true;
+  this->expectTheSame(this->run());
+  EXPECT_TRUE(this->Expected == this->files());
+}
+
+TEST_F(OutOfCoreWhole, GivesWayToAnotherInputOnceItIsInPlace)
+{
+  this->publish();
+  const Coordinates xy = makePointSet("uniform", 1000, 2);
+  writePoints(this->Folder.path("points.npy"), xy);
+  EXPECT_FALSE(this->run().Resumed);
+  EXPECT_TRUE(meshMatches(this->Folder.path("mesh.tipp"), xy, reference(xy)));
+  EXPECT_FALSE(fs::exists(this->Part));
+}
+
+class OutOfCoreCounted : public OutOfCoreWhole
+{
+protected:
+  void SetUp() override
+  {
+    this->Options.CountOnly = true;
+    this->makeWhole();
+  }
+};
+
+TEST_F(OutOfCoreCounted, IsNotCountedAgain)
+{
+  ASSERT_TRUE(fs::remove(this->Part + "/.points.0"));
+  this->Options.Resume = true;
+  this->expectTheSame(this->run());
+  EXPECT_EQ(1U, this->Folder.fileCount());
+}
+
 } // namespace

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include <fcntl.h>
+#include <pty.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -74,6 +75,28 @@ Outcome TippProcess::wait() const
 Outcome runTipp(const TemporaryFolder& folder, const std::vector<std::string>& arguments)
 {
   return TippProcess(folder, arguments).wait();
+}
+
+Outcome runTippOnTerminal(const TemporaryFolder& folder, const std::vector<std::string>& arguments)
+{
+  int ours = -1;
+  int theirs = -1;
+  if (openpty(&ours, &theirs, nullptr, nullptr, nullptr) != 0)
+  {
+    throw std::runtime_error("no terminal");
+  }
+  const TippProcess process(folder, arguments, theirs);
+  close(theirs);
+  std::string shown;
+  char buffer[1024];
+  for (ssize_t got; (got = read(ours, buffer, sizeof(buffer))) > 0;)
+  {
+    shown.append(buffer, std::size_t(got));
+  }
+  close(ours);
+  Outcome outcome = process.wait();
+  outcome.Err = shown;
+  return outcome;
 }
 
 } // namespace test

@@ -40,6 +40,9 @@ private:
 
 Outcome runTipp(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
 
+/// The same with a terminal for stderr.
+Outcome runTippOnTerminal(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
+
 } // namespace test
 } // namespace tipp
 

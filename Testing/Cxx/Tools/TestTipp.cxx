@@ -14,7 +14,6 @@
 #include <ostream>
 #include <set>
 
-#include <pty.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -393,19 +392,9 @@ TEST_F(Tipp, InterruptEndsTheRunWithoutAnOutput)
 TEST_F(Tipp, ProgressIsShownOnATerminalOnly)
 {
   this->writePoints();
-  int ours = -1;
-  int theirs = -1;
-  ASSERT_EQ(0, openpty(&ours, &theirs, nullptr, nullptr, nullptr));
-  const TippProcess process(this->Folder, { "delaunay", "points.npy", "-o", "o.npy" }, theirs);
-  close(theirs);
-  std::string shown;
-  char buffer[1024];
-  for (ssize_t got; (got = read(ours, buffer, sizeof(buffer))) > 0;)
-  {
-    shown.append(buffer, std::size_t(got));
-  }
-  close(ours);
-  EXPECT_EQ(0, process.wait().ExitCode);
-  EXPECT_NE(std::string::npos, shown.find("Triangulating [")) << shown;
-  EXPECT_EQ("", this->run({ "delaunay", "points.npy", "-o", "o.npy" }).Err);
+  const Words words{ "delaunay", "points.npy", "-o", "o.npy" };
+  const Outcome outcome = tipp::test::runTippOnTerminal(this->Folder, words);
+  EXPECT_EQ(0, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("Triangulating [")) << outcome.Err;
+  EXPECT_EQ("", this->run(words).Err);
 }

@@ -3,6 +3,10 @@
 #include "MeshChecks.h"
 #include "RunTipp.h"
 
+#include "vtkTIPPOutOfCoreDelaunay2D.h"
+
+#include "vtkNew.h"
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -60,6 +64,19 @@ TEST_F(TippOutOfCore, MakesAMeshThatTheCheckAccepts)
   EXPECT_NE(std::string::npos, checked.Out.find("correct"));
 }
 
+TEST_F(TippOutOfCore, MakesTheFilesOfTheVtkClass)
+{
+  this->makePoints("clustered", "30000");
+  ASSERT_EQ(0, this->run({}).ExitCode);
+  const std::string other = this->Folder.path("other.tipp");
+  vtkNew<vtkTIPPOutOfCoreDelaunay2D> filter;
+  filter->AddInputFileName(this->Points.c_str());
+  filter->SetFileName(other.c_str());
+  filter->SetMemoryLimit(2 << 20);
+  filter->Update();
+  EXPECT_TRUE(filesOf(this->Mesh) == filesOf(other));
+}
+
 TEST_F(TippOutOfCore, ChecksAgainstTheRightPointsOnly)
 {
   this->makePoints("clustered", "3000");
@@ -101,6 +118,98 @@ TEST_F(TippOutOfCore, EndsWithTheSameBytesAfterTwentyKills)
   }
 }
 
+/// Kills runs before each call in turn that renames or removes something, and resumes them.
+class TippKilledAtACall : public TippOutOfCore
+{
+protected:
+  /// Calls check() after each resumed run.
+  template <typename Prepare, typename Check>
+  void killAtEachCall(
+    const std::vector<std::string>& more, const Prepare& prepare, const Check& check) const
+  {
+    int at = 1;
+    for (;; ++at)
+    {
+      ASSERT_LT(at, 200) << "no run has come to its end";
+      prepare();
+      setenv("LD_PRELOAD", TIPP_KILL_AT_CALL, 1);
+      setenv("TIPP_KILL_AT", std::to_string(at).c_str(), 1);
+      const Outcome killed = this->run(more);
+      unsetenv("TIPP_KILL_AT");
+      unsetenv("LD_PRELOAD");
+      if (killed.ExitCode == 0)
+      {
+        break;
+      }
+      ASSERT_EQ(-SIGKILL, killed.ExitCode) << killed.Err;
+      std::vector<std::string> resume = more;
+      resume.emplace_back("--resume");
+      const Outcome resumed = this->run(resume);
+      ASSERT_EQ(0, resumed.ExitCode) << at << ": " << resumed.Err;
+      ASSERT_NO_FATAL_FAILURE(check(at, resumed));
+    }
+    EXPECT_GT(at, 5);
+  }
+};
+
+TEST_F(TippKilledAtACall, LeavesNothingInTheMeshNorBesideIt)
+{
+  this->makePoints("coast", "20000");
+  ASSERT_EQ(0, this->run({}).ExitCode);
+  const auto expected = filesOf(this->Mesh);
+  const std::size_t files = this->Folder.fileCount();
+  this->killAtEachCall(
+    {}, [&] { std::filesystem::remove_all(this->Mesh); },
+    [&](int at, const Outcome&)
+    {
+      ASSERT_TRUE(expected == filesOf(this->Mesh)) << at;
+      ASSERT_EQ(files, this->Folder.fileCount()) << at;
+    });
+}
+
+TEST_F(TippKilledAtACall, ReplacesAnOlderMeshOrLeavesIt)
+{
+  this->makePoints("uniform", "100");
+  ASSERT_EQ(0, this->run({}).ExitCode);
+  const std::string older = this->Folder.path("older.tipp");
+  std::filesystem::rename(this->Mesh, older);
+  this->makePoints("coast", "20000");
+  ASSERT_EQ(0, this->run({}).ExitCode);
+  const auto expected = filesOf(this->Mesh);
+  const std::size_t files = this->Folder.fileCount();
+  this->killAtEachCall(
+    {},
+    [&]
+    {
+      std::filesystem::remove_all(this->Mesh);
+      std::filesystem::copy(older, this->Mesh, std::filesystem::copy_options::recursive);
+    },
+    [&](int at, const Outcome&)
+    {
+      ASSERT_TRUE(expected == filesOf(this->Mesh)) << at;
+      ASSERT_EQ(files, this->Folder.fileCount()) << at;
+    });
+}
+
+TEST_F(TippKilledAtACall, CountsTheSameTriangles)
+{
+  this->makePoints("coast", "20000");
+  const auto checksum = [](const Outcome& outcome)
+  { return outcome.Out.substr(outcome.Out.find("checksum")); };
+  const std::vector<std::string> more{ "--sink", "count", "--scratch",
+    this->Folder.path("scratch") };
+  const std::string expected = checksum(this->run(more));
+  const std::size_t files = this->Folder.fileCount();
+  this->killAtEachCall(
+    more, [] {},
+    [&](int at, const Outcome& outcome)
+    {
+      ASSERT_EQ(expected, checksum(outcome)) << at;
+      ASSERT_EQ(files, this->Folder.fileCount()) << at;
+      ASSERT_TRUE(std::filesystem::is_empty(this->Folder.path("scratch"))) << at;
+    });
+}
+
 TEST_F(TippOutOfCore, GoesOnAfterAnInterrupt)
 {
   this->makePoints("uniform", "200000");
@@ -135,6 +244,43 @@ TEST_F(TippOutOfCore, GoesOnAfterADiskThatIsFull)
     EXPECT_EQ(0, runTipp(this->Folder, { "check", this->Points, this->Mesh }).ExitCode);
     std::filesystem::remove_all(this->Mesh);
   }
+}
+
+/// What Documentation/OutOfCore.md says of two threads.
+class TippMemory : public TippOutOfCore
+{
+protected:
+  void expectKept(const std::string& points, const std::string& sink, int limit) const
+  {
+    constexpr double onTop = 60e6;
+    const std::string report = this->Folder.path("run.json");
+    const Outcome made = runTipp(this->Folder,
+      { "delaunay", "uniform:" + points, "-o", this->Mesh, "--sink", sink, "--threads", "2",
+        "--memory", std::to_string(limit) + "M", "--stats", report });
+    ASSERT_EQ(0, made.ExitCode) << made.Err;
+    const auto json = nlohmann::json::parse(contentOf(report));
+    EXPECT_EQ(std::stoll(points), json["points"]);
+    EXPECT_LT(json["peak_memory_bytes"].get<double>(), limit * 0x1p20 + onTop);
+  }
+};
+
+TEST_F(TippMemory, IsWithinTheLimitForThreeMillionPoints)
+{
+  this->expectKept("3000000", "mesh", 32);
+}
+
+TEST_F(TippMemory, IsWithinTheLimitForTwentyMillionPoints)
+{
+  this->expectKept("20000000", "count", 64);
+}
+
+TEST_F(TippOutOfCore, TellsTheTimeLeftOnATerminal)
+{
+  const Outcome outcome = runTippOnTerminal(this->Folder,
+    { "delaunay", "uniform:5000000", "-o", this->Mesh, "--sink", "count", "--threads", "1",
+      "--memory", "8M" });
+  EXPECT_EQ(0, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find(" s left")) << outcome.Err;
 }
 
 TEST_F(TippOutOfCore, NamesOptionsThatNeedSuchAnOutput)

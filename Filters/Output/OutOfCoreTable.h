@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippOutOfCoreTable_h
+#define tippOutOfCoreTable_h
+
+#include "OutOfCore/OutOfCoreTriangulation.h"
+
+class vtkTable;
+
+namespace tipp
+{
+
+/// Fills the empty table: a row for each phase, the run's totals as field data.
+/// vtkTIPPOutOfCoreDelaunay2D's documentation names the columns and arrays.
+void fillOutOfCoreTable(const OutOfCoreStatistics& statistics, bool isCounted, vtkTable* table);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTIPPOutOfCoreDelaunay2D.h"
+
+#include "Files/IOError.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "Output/Monitor.h"
+#include "Output/OutOfCoreTable.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkTable.h"
+
+#include <exception>
+#include <new>
+
+vtkStandardNewMacro(vtkTIPPOutOfCoreDelaunay2D);
+
+namespace
+{
+
+std::string textOf(const char* text)
+{
+  return text ? text : "";
+}
+
+} // namespace
+
+vtkTIPPOutOfCoreDelaunay2D::vtkTIPPOutOfCoreDelaunay2D()
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+vtkTIPPOutOfCoreDelaunay2D::~vtkTIPPOutOfCoreDelaunay2D()
+{
+  this->vtkTIPPOutOfCoreDelaunay2D::SetXColumn(nullptr);
+  this->vtkTIPPOutOfCoreDelaunay2D::SetYColumn(nullptr);
+  this->vtkTIPPOutOfCoreDelaunay2D::SetFileName(nullptr);
+  this->vtkTIPPOutOfCoreDelaunay2D::SetScratchFolder(nullptr);
+}
+
+void vtkTIPPOutOfCoreDelaunay2D::AddInputFileName(const char* name)
+{
+  if (name && *name)
+  {
+    this->InputFileNames.emplace_back(name);
+    this->Modified();
+  }
+}
+
+void vtkTIPPOutOfCoreDelaunay2D::SetInputFileName(const char* name)
+{
+  if (name && this->InputFileNames == std::vector<std::string>{ name })
+  {
+    return;
+  }
+  this->ClearInputFileNames();
+  this->AddInputFileName(name);
+}
+
+void vtkTIPPOutOfCoreDelaunay2D::ClearInputFileNames()
+{
+  if (!this->InputFileNames.empty())
+  {
+    this->InputFileNames.clear();
+    this->Modified();
+  }
+}
+
+int vtkTIPPOutOfCoreDelaunay2D::GetNumberOfInputFileNames() const
+{
+  return int(this->InputFileNames.size());
+}
+
+const char* vtkTIPPOutOfCoreDelaunay2D::GetInputFileName(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfInputFileNames()
+    ? this->InputFileNames[std::size_t(index)].c_str()
+    : nullptr;
+}
+
+int vtkTIPPOutOfCoreDelaunay2D::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkTable* const output = vtkTable::GetData(outputVector, 0);
+  try
+  {
+    this->Execute(output);
+    return 1;
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorMacro("There is not enough memory for the triangulation; lower MemoryLimit.");
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+  }
+  output->Initialize();
+  return 0;
+}
+
+void vtkTIPPOutOfCoreDelaunay2D::Execute(vtkTable* output)
+{
+  const std::string path = textOf(this->FileName);
+  if (path.empty())
+  {
+    throw tipp::IOError("FileName is not set; name the folder to write.");
+  }
+  const auto points =
+    tipp::openPointStream(this->InputFileNames, { textOf(this->XColumn), textOf(this->YColumn) });
+  tipp::Monitor monitor(this);
+  tipp::OutOfCoreOptions options = this->Options();
+  options.Progress = [&monitor](double fraction) { return monitor(fraction); };
+  const tipp::OutOfCoreStatistics statistics = tipp::triangulateOutOfCore(*points, path, options);
+  if (!statistics.Aborted)
+  {
+    this->Report(statistics);
+    tipp::fillOutOfCoreTable(statistics, options.CountOnly, output);
+  }
+}
+
+tipp::OutOfCoreOptions vtkTIPPOutOfCoreDelaunay2D::Options() const
+{
+  tipp::OutOfCoreOptions options;
+  options.MemoryLimit = std::uint64_t(this->MemoryLimit);
+  options.Threads = this->NumberOfThreads;
+  options.Columns = this->NumberOfPartitions[0];
+  options.Rows = this->NumberOfPartitions[1];
+  options.MapDuplicates = this->GenerateRepresentativeIds != 0;
+  options.CountOnly = this->CountOnly != 0;
+  options.Resume = this->Resume != 0;
+  options.Scratch = textOf(this->ScratchFolder);
+  return options;
+}
+
+void vtkTIPPOutOfCoreDelaunay2D::Report(const tipp::OutOfCoreStatistics& statistics)
+{
+  if (statistics.Rejected > 0)
+  {
+    vtkWarningMacro(<< statistics.Rejected << " of " << statistics.Points
+                    << " points have a NaN or infinite coordinate and are left out.");
+  }
+  if (statistics.Triangles == 0)
+  {
+    vtkWarningMacro("No triangles: there are fewer than three distinct points, or all are on one "
+                    "line.");
+  }
+}
+
+void vtkTIPPOutOfCoreDelaunay2D::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto print = [&](const char* name, const char* value)
+  { os << indent << name << ": " << (value ? value : "(none)") << "\n"; };
+  const auto onOff = [](vtkTypeBool flag) { return flag ? "On\n" : "Off\n"; };
+  for (const std::string& name : this->InputFileNames)
+  {
+    print("InputFileName", name.c_str());
+  }
+  print("XColumn", this->XColumn);
+  print("YColumn", this->YColumn);
+  print("FileName", this->FileName);
+  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
+  os << indent << "NumberOfPartitions: " << this->NumberOfPartitions[0] << " x "
+     << this->NumberOfPartitions[1] << "\n";
+  os << indent << "GenerateRepresentativeIds: " << onOff(this->GenerateRepresentativeIds);
+  os << indent << "CountOnly: " << onOff(this->CountOnly);
+  os << indent << "Resume: " << onOff(this->Resume);
+  print("ScratchFolder", this->ScratchFolder);
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+}

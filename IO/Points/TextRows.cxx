@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Points/TextRows.h"
+
+#include "Files/IOError.h"
+#include "Files/TextFile.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace tipp
+{
+namespace
+{
+
+char findDelimiter(std::string_view line)
+{
+  for (const char candidate : { ';', ',', '\t' })
+  {
+    if (line.find(candidate) != std::string_view::npos)
+    {
+      return candidate;
+    }
+  }
+  return ' ';
+}
+
+bool isMissing(std::string_view field)
+{
+  field = trimField(field);
+  return field.empty() || field == "NA" || field == "N/A" || field == "null" || field == "-";
+}
+
+std::string_view trimEnd(std::string_view line)
+{
+  while (!line.empty() && line.back() == ' ')
+  {
+    line.remove_suffix(1);
+  }
+  return line;
+}
+
+} // namespace
+
+TextRows::TextRows(const std::string& path, const PointOptions& options)
+  : Path(path)
+  , Lines(path)
+{
+  this->readStart();
+  this->chooseColumns(options);
+}
+
+bool TextRows::nextLine()
+{
+  while (this->Lines.next(this->Line))
+  {
+    const std::size_t start = this->Line.find_first_not_of(" \t");
+    if (start != std::string_view::npos && this->Line[start] != '#')
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void TextRows::requireLine()
+{
+  if (!this->nextLine())
+  {
+    throw IOError(this->Path, "holds no points; give a file with one point a line.");
+  }
+}
+
+void TextRows::split()
+{
+  // Files with blanks between columns may have one at the end of a line, too.
+  const std::string_view line = this->Delimiter == ' ' ? this->Line : trimEnd(this->Line);
+  splitFields(line, this->Delimiter, this->Row);
+}
+
+/// Stops with the first point's fields in Row.
+void TextRows::readStart()
+{
+  this->requireLine();
+  this->Delimiter = findDelimiter(this->Line);
+  this->split();
+  std::int64_t count = 0;
+  if (this->Row.size() == 1 && parseInteger(this->Row[0], count))
+  {
+    this->Count = count;
+    this->requireLine();
+  }
+  else if (this->startsWithNames())
+  {
+    const std::string header(this->Line);
+    this->requireLine();
+    this->Delimiter = findDelimiter(this->Line);
+    splitFields(header, this->Delimiter, this->Row);
+    for (const std::string_view name : this->Row)
+    {
+      this->Names.emplace_back(trimField(name));
+    }
+  }
+  this->Delimiter = findDelimiter(this->Line);
+  this->split();
+  if (this->Names.size() != this->Row.size())
+  {
+    this->Names.clear(); // a title
+  }
+}
+
+/// A point has two numbers at least; names may hold one, as a year.
+bool TextRows::startsWithNames() const
+{
+  double value;
+  return std::count_if(this->Row.begin(), this->Row.end(),
+           [&](std::string_view field) { return parseNumber(field, value); }) < 2;
+}
+
+void TextRows::chooseColumns(const PointOptions& options)
+{
+  this->Width = this->Row.size();
+  this->Choice = tipp::chooseColumns(this->Path, this->Names, this->Width, options);
+  for (std::size_t i = 0; i < this->Width; ++i)
+  {
+    if (i != this->Choice.X && i != this->Choice.Y)
+    {
+      const std::string plain = this->Further.empty() ? "z" : "column" + std::to_string(i);
+      const bool named = !this->Names.empty() && !this->Names[i].empty();
+      this->Further.push_back({ i, named ? this->Names[i] : plain });
+    }
+  }
+}
+
+bool TextRows::next()
+{
+  if (this->Rows > 0)
+  {
+    if (!this->nextLine())
+    {
+      this->checkCount();
+      return false;
+    }
+    this->split();
+    if (this->Row.size() != this->Width)
+    {
+      throw IOError(this->Path, this->Lines.lineNumber(),
+        "has " + std::to_string(this->Row.size()) + " columns where the first point has " +
+          std::to_string(this->Width) + "; correct or remove the line.");
+    }
+  }
+  ++this->Rows;
+  return true;
+}
+
+double TextRows::coordinate(std::size_t index) const
+{
+  double value = 0;
+  if (!parseNumber(this->Row[index], value))
+  {
+    constexpr std::size_t shown = 40;
+    throw IOError(this->Path, this->Lines.lineNumber(),
+      "'" + std::string(trimField(this->Row[index]).substr(0, shown)) +
+        "' is not a number; correct the line or choose other columns for x and y.");
+  }
+  return value;
+}
+
+TextRows::Value TextRows::value(const Column& column, double& value) const
+{
+  const std::string_view field = this->Row[column.Index];
+  if (parseNumber(field, value))
+  {
+    return Value::Number;
+  }
+  value = std::numeric_limits<double>::quiet_NaN();
+  return isMissing(field) ? Value::Missing : Value::Text;
+}
+
+void TextRows::checkCount() const
+{
+  if (this->Count && *this->Count != this->Rows)
+  {
+    throw IOError(this->Path,
+      "announces " + std::to_string(*this->Count) + " points in its first line and holds " +
+        std::to_string(this->Rows) + "; copy it again or correct the line.");
+  }
+}
+
+} // namespace tipp
