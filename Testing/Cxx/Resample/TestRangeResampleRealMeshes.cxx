@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "AdcircWater.h"
 #include "RangeResampleTesting.h"
-#include "RealData.h"
 
 #include "Vtk/ReadDataSet.h"
 
@@ -10,47 +10,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <string>
 
 namespace
 {
 
 constexpr double dry = -99999;
-
-/// The values of an ADCIRC file of one step at as many nodes.
-vtkSmartPointer<vtkDoubleArray> readMaximum(const std::string& path, vtkIdType nodes)
-{
-  const auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetName("maxele");
-  std::ifstream file(path);
-  std::string line;
-  for (int i = 0; i < 3; ++i)
-  {
-    std::getline(file, line);
-  }
-  vtkIdType node;
-  double value;
-  while (array->GetNumberOfValues() < nodes && file >> node >> value)
-  {
-    array->InsertNextValue(value);
-  }
-  return array;
-}
-
-vtkSmartPointer<vtkUnstructuredGrid> gridOf(const tipp::test::AdcircMesh& mesh)
-{
-  Scene scene;
-  for (std::size_t i = 0; i < mesh.Nodes.size(); i += 2)
-  {
-    scene.Points.insert(scene.Points.end(), { mesh.Nodes[i], mesh.Nodes[i + 1], 0 });
-  }
-  for (const auto& element : mesh.Elements)
-  {
-    scene.Ids.insert(scene.Ids.end(), element.begin(), element.end());
-  }
-  return ::gridOf(scene);
-}
 
 /// Where vtkProbeFilter finds a sample, so do we, with its value.
 void expectAllThatVtkFinds(
@@ -87,7 +52,7 @@ TEST(RangeResampleRealMeshes, TheEastCoastsWaterIsAsVtkProbeFilterHasIt)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
   TIPP_REQUIRE_REAL_DATA(maximum, "adcirc/ec95d/maxele.63");
-  const auto grid = gridOf(tipp::test::readAdcirc(path));
+  const auto grid = gridOfAdcirc(path);
   const auto values = readMaximum(maximum, grid->GetNumberOfPoints());
   ASSERT_EQ(values->GetNumberOfValues(), grid->GetNumberOfPoints());
   grid->GetPointData()->AddArray(values);
@@ -103,7 +68,7 @@ TEST(RangeResampleRealMeshes, TheEastCoastsDryNodesAreLeftOutOnRequest)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
   TIPP_REQUIRE_REAL_DATA(maximum, "adcirc/ec95d/maxele.63");
-  const auto grid = gridOf(tipp::test::readAdcirc(path));
+  const auto grid = gridOfAdcirc(path);
   const auto values = readMaximum(maximum, grid->GetNumberOfPoints());
   // The file's own dry nodes lie in cells too small for these samples.
   for (vtkIdType i = 0; i < values->GetNumberOfValues(); i += 100)
