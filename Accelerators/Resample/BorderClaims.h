@@ -52,7 +52,7 @@ private:
 };
 
 /// Which of the touching cells answers each sample, by ascending sample; no other cell does.
-std::vector<BorderClaim> borderClaims(
+VTKTIPPACCELERATORS_EXPORT std::vector<BorderClaim> borderClaims(
   const SimplexMesh& mesh, const LatticeAxes& axes, const std::vector<Touch>& touches);
 
 } // namespace tipp

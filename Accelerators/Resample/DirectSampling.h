@@ -20,8 +20,9 @@ struct DirectResult
 /// What claimSamples() and interpolate() do, in one walk over the cells, which are read once. Right
 /// for cells that do not overlap; for others it tells. All samples are filled; `options.Valid` is
 /// not null.
-DirectResult sampleDirectly(const SimplexMesh& mesh, const Lattice& lattice,
-  const std::vector<Attribute>& attributes, const InterpolationOptions& options);
+VTKTIPPACCELERATORS_EXPORT DirectResult sampleDirectly(const SimplexMesh& mesh,
+  const Lattice& lattice, const std::vector<Attribute>& attributes,
+  const InterpolationOptions& options);
 
 } // namespace tipp
 

@@ -5,9 +5,9 @@
 #include "AdcircWater.h"
 
 #include "vtkActor.h"
-#include "vtkDataSetSurfaceFilter.h"
+#include "vtkCamera.h"
+#include "vtkDataSetMapper.h"
 #include "vtkLookupTable.h"
-#include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
@@ -15,6 +15,7 @@
 
 #include <exception>
 #include <iostream>
+#include <limits>
 
 namespace
 {
@@ -26,14 +27,14 @@ vtkSmartPointer<vtkActor> waterActor(vtkUnstructuredGrid* mesh)
   vtkNew<vtkRangeResampleFilter> resample;
   resample->SetInputData(mesh);
   resample->SetSamplingDimensions(500, 500, 1);
-  vtkNew<vtkDataSetSurfaceFilter> surface; // leaves out what vtkGhostType hides
-  surface->SetInputConnection(resample->GetOutputPort());
-  surface->Update();
-  surface->GetOutput()->GetPointData()->SetActiveScalars("maxele");
+  resample->SetNullValue(std::numeric_limits<double>::quiet_NaN());
+  resample->Update();
+  resample->GetOutput()->GetPointData()->SetActiveScalars("maxele");
   vtkNew<vtkLookupTable> blueToRed;
   blueToRed->SetHueRange(0.667, 0);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(surface->GetOutputPort());
+  blueToRed->SetNanColor(0.8, 0.8, 0.8, 1);
+  vtkNew<vtkDataSetMapper> mapper;
+  mapper->SetInputData(resample->GetOutput());
   mapper->SetLookupTable(blueToRed);
   mapper->SetScalarRange(0, 2);
   auto actor = vtkSmartPointer<vtkActor>::New();
@@ -80,6 +81,7 @@ int main(int argc, char* argv[])
   window->SetSize(400, 400);
   window->AddRenderer(renderer);
   renderer->ResetCamera();
+  renderer->GetActiveCamera()->Zoom(1.4);
   window->Render();
 
   vtkNew<vtkTesting> test;
