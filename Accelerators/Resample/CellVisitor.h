@@ -4,6 +4,7 @@
 
 #include "Parallel/ForChunks.h"
 #include "Resample/LatticeAxis.h"
+#include "Resample/OutsidePoints.h"
 #include "Resample/SimplexMesh.h"
 #include "Resample/TetrahedronLanes.h"
 #include "Resample/TetrahedronRows.h"
@@ -81,6 +82,7 @@ public:
     : Mesh(mesh)
     , Cells(mesh)
     , Axes(axes)
+    , Outside(mesh, { &axes.U, &axes.V, &axes.W })
     , Sinks(sinks)
     , Large(sinks.size())
   {
@@ -90,6 +92,7 @@ public:
   bool run(const Report& report)
   {
     constexpr std::int64_t chunk = 4096;
+    this->Outside.find(int(this->Sinks.size()));
     const bool wide = __builtin_cpu_supports("avx2") != 0;
     const auto visit = [this, wide](std::int64_t begin, std::int64_t end, int thread)
     { wide ? this->visitChunkAvx2(begin, end, thread) : this->visitChunk(begin, end, thread); };
@@ -129,12 +132,19 @@ private:
     Sink& sink = this->Sinks[std::size_t(thread)];
     Rows rows = this->makeRows();
     auto lanes = this->Axes.lanes(std::integral_constant<int, Dimension>());
+    bool outside[2 * Ahead] = {};
     std::int64_t cell = begin;
     for (; cell + laneCount <= end; cell += laneCount)
     {
       if ((cell - begin) % Ahead == 0)
       {
-        this->prefetch(cell == begin ? cell : cell + Ahead, std::min(cell + 2 * Ahead, end));
+        this->prefetch(
+          cell == begin ? cell : cell + Ahead, std::min(cell + 2 * Ahead, end), outside);
+      }
+      const bool* const without = outside + cell % (2 * Ahead);
+      if (without[0] && without[1] && without[2] && without[3])
+      {
+        continue;
       }
       lanes.set(this->Cells, cell);
       for (int lane = 0; lane < laneCount; ++lane)
@@ -218,11 +228,14 @@ private:
     samples > LargeCell ? this->defer(rows, part, thread) : this->visitRows(rows, part, sink);
   }
 
-  void prefetch(std::int64_t begin, std::int64_t end) const
+  /// Tells, in turns, which of the cells are outside, and asks for the points of the others.
+  [[gnu::always_inline]] void prefetch(
+    std::int64_t begin, std::int64_t end, bool (&outside)[2 * Ahead]) const
   {
     for (std::int64_t cell = begin; cell < end; ++cell)
     {
-      this->Cells.prefetch(cell);
+      outside[cell % (2 * Ahead)] = this->Outside.contain(cell);
+      outside[cell % (2 * Ahead)] ? void() : this->Cells.prefetch(cell);
     }
   }
 
@@ -301,6 +314,7 @@ private:
   const SimplexMesh& Mesh;
   Access Cells;
   const LatticeAxes& Axes;
+  OutsidePoints<Access> Outside;
   std::vector<Sink>& Sinks;
   std::vector<std::vector<Part>> Large;
 };

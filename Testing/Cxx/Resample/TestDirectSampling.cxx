@@ -2,6 +2,7 @@
 #include "Resample/BorderClaims.h"
 #include "Resample/DirectSampling.h"
 #include "Resample/FillBlock.h"
+#include "Resample/OutsidePoints.h"
 #include "Resample/TetrahedronLanes.h"
 #include "Resample/TriangleLanes.h"
 
@@ -203,4 +204,41 @@ TEST(BorderClaims, GiveEachTouchedSampleOneCellInAnyOrder)
     EXPECT_EQ(claims[i].Sample, std::int64_t(i));
     EXPECT_EQ(claims[i].Cell, again[i].Cell);
   }
+}
+
+TEST(OutsidePoints, AreThoseOfCellsBeyondASideOfASmallLattice)
+{
+  using Access = tipp::SimplexAccess<2, double, std::int64_t>;
+  const Scene scene = jitteredScene(2, 40, 5);
+  const tipp::SimplexMesh mesh = scene.mesh();
+  const tipp::Lattice lattice = latticeOf(2, 30, 0.4, 0.5);
+  const tipp::LatticeAxes axes(mesh, lattice);
+  tipp::OutsidePoints<Access> outside(mesh, { &axes.U, &axes.V, &axes.W });
+  EXPECT_FALSE(outside.contain(0));
+  outside.find(2);
+  ASSERT_TRUE(outside.found());
+  tipp::TriangleRows rows(axes.U, axes.V);
+  int without = 0;
+  for (int cell = 0; cell < scene.cells(); ++cell)
+  {
+    tipp::Point2 corners[3];
+    Access(mesh).corners(cell, corners);
+    if (outside.contain(cell))
+    {
+      ++without;
+      EXPECT_FALSE(rows.set(corners)) << cell;
+    }
+  }
+  EXPECT_GT(without, scene.cells() * 9 / 10);
+  expectAsInTwoWalks(scene, lattice);
+}
+
+TEST(OutsidePoints, AreNotLookedForWhereTheLatticeHoldsMost)
+{
+  const Scene scene = jitteredScene(2, 40, 5);
+  const tipp::LatticeAxes axes(scene.mesh(), latticeOf(2, 30, 0, 1));
+  tipp::OutsidePoints<tipp::SimplexAccess<2, double, std::int64_t>> outside(
+    scene.mesh(), { &axes.U, &axes.V, &axes.W });
+  outside.find(2);
+  EXPECT_FALSE(outside.found());
 }
