@@ -182,19 +182,8 @@ void ours(vtkPointSet* mesh, const double* bounds, const int* dimensions, int de
   filter->SetSamplingDimensions(dimensions);
   filter->SetDevice(device);
   const double begin = seconds();
-  const clock_t c0 = clock();
   filter->Update();
-  const clock_t c1 = clock();
   best.take(seconds() - begin, hitsOf(filter->GetOutput()));
-  if (std::getenv("PHASES"))
-  {
-    vtkFieldData* fd = filter->GetStatistics()->GetFieldData();
-    auto* s = vtkDataArray::SafeDownCast(fd->GetAbstractArray("PhaseSeconds"));
-    std::fprintf(stderr, "  cpu %.4f total %.4f", (c1 - c0) / 1e6, seconds() - begin);
-    for (int i = 0; i < s->GetNumberOfTuples(); ++i) std::fprintf(stderr, " %.4f", s->GetComponent(i, 0));
-    for (const char* n : {"VisitedCells", "Tests", "ExactTests"}) std::fprintf(stderr, " %s %g", n, fd->GetArray(n)->GetComponent(0,0));
-    std::fprintf(stderr, "\n");
-  }
   image->ShallowCopy(filter->GetOutput());
 }
 
@@ -246,7 +235,7 @@ int main(int argc, char* argv[])
   const double extra = peakMegabytes() - before;
   for (int i = 0; i < repeat; ++i)
   {
-    if (!std::getenv("NOPEER")) theirs(mesh, image, peer);
+    theirs(mesh, image, peer);
     ours(mesh, bounds, dimensions, vtkRangeResampleFilter::DEVICE_OPENMP, us, image);
     if (argc == 7)
     {
