@@ -147,6 +147,14 @@ private:
         continue;
       }
       lanes.set(this->Cells, cell);
+      if constexpr (Dimension == 3)
+      {
+        if (!this->Mesh.Hidden && lanes.haveSingleRows())
+        {
+          this->visitSingleRows(lanes, cell, rows, sink);
+          continue;
+        }
+      }
       for (int lane = 0; lane < laneCount; ++lane)
       {
         if (!lanes.nothing(lane) && !this->hidden(cell + lane))
@@ -203,6 +211,30 @@ private:
       }
     }
     return true;
+  }
+
+  /// Most tetrahedra that are small beside the samples' distances have one row at most.
+  template <typename CellLanes>
+  [[gnu::always_inline]] void visitSingleRows(
+    const CellLanes& lanes, std::int64_t first, Rows& rows, Sink& sink)
+  {
+    const SpanLanes spans = lanes.singleRows();
+    for (int lane = 0; lane < laneCount; ++lane)
+    {
+      lanes.nothing(lane) ? void() : sink.visit(lanes.columns(lane).size());
+    }
+    for (unsigned open = spans.Open; open != 0; open &= open - 1)
+    {
+      const int lane = __builtin_ctz(open);
+      const std::int32_t cell = std::int32_t(first + lane);
+      if ((spans.Doubtful >> lane & 1) != 0)
+      {
+        this->visitExactly({ cell, 0, 1 }, rows, sink);
+        continue;
+      }
+      sink.claim(this->sampleRow(lanes.rows(lane).Begin, lanes.layers(lane).Begin),
+        spans.Begin[lane], spans.End[lane] - spans.Begin[lane], cell);
+    }
   }
 
   [[gnu::noinline]] void visitExactly(const Part& part, Rows& rows, Sink& sink)

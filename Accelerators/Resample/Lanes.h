@@ -56,6 +56,12 @@ constexpr int laneCount = 4;
   return lanes;
 }
 
+/// A bit for each lane.
+[[gnu::always_inline]] inline unsigned laneBits(LaneTruths truths)
+{
+  return unsigned((truths[0] & 1) | (truths[1] & 2) | (truths[2] & 4) | (truths[3] & 8));
+}
+
 /// Places along a LatticeAxis: LatticeAxis::place(), error() and certain() for lanes.
 class AxisLanes
 {
@@ -136,12 +142,13 @@ struct SpanLanes
 {
   std::int32_t Begin[laneCount];
   std::int32_t End[laneCount];
-  unsigned Open; ///< a bit for each row that has samples
-  bool Certain;  ///< of the rows asked for; else nothing is told
+  unsigned Open;         ///< a bit for each row that has samples
+  unsigned Doubtful = 0; ///< if not Certain: a bit for each row in doubt, as far as that is told
+  bool Certain;          ///< of the rows asked for; else nothing is told
 
   [[gnu::always_inline]] void set(Lanes begin, Lanes end, LaneTruths open)
   {
-    this->Open = unsigned((open[0] & 1) | (open[1] & 2) | (open[2] & 4) | (open[3] & 8));
+    this->Open = laneBits(open);
     const LaneInts begins = __builtin_convertvector(begin, LaneInts);
     const LaneInts ends = __builtin_convertvector(end, LaneInts);
     std::memcpy(this->Begin, &begins, sizeof begins);

@@ -70,6 +70,42 @@ public:
   IndexRange rows(int lane) const { return this->Rows[lane]; }
   IndexRange layers(int lane) const { return this->Layers[lane]; }
 
+  /// Whether the boxes of all that have samples hold one row, as told: then singleRows() is faster.
+  bool haveSingleRows() const
+  {
+    bool single = any(~this->Nothing);
+    for (int lane = 0; lane < laneCount; ++lane)
+    {
+      const bool one = this->Rows[lane].size() == 1 && this->Layers[lane].size() == 1;
+      single = single && (this->nothing(lane) || (one && this->fast(lane)));
+    }
+    return single;
+  }
+
+  /// The row of each tetrahedron's box; Doubtful has a bit for each that is to be asked exactly.
+  [[gnu::always_inline]] SpanLanes singleRows() const
+  {
+    Lanes y = {};
+    Lanes z = {};
+    Lanes first = {};
+    Lanes last = {};
+    for (int lane = 0; lane < laneCount; ++lane)
+    {
+      y[lane] = this->nothing(lane) ? 0 : this->Y.coordinate(this->Rows[lane].Begin);
+      z[lane] = this->nothing(lane) ? 0 : this->Z.coordinate(this->Layers[lane].Begin);
+      first[lane] = this->Columns[lane].Begin;
+      last[lane] = this->Columns[lane].End;
+    }
+    RowLanes rows{ first, last, LaneTruths{} - 1 };
+    for (const Face& face : this->Faces)
+    {
+      this->cut(rows, first, last,
+        face.Place - (face.PerY * (y - face.AY) + face.PerZ * (z - face.AZ)), face.Error,
+        face.Forward);
+    }
+    return rows.spans(~this->Nothing);
+  }
+
   /// The rows row..row + count - 1, at most four, of a fast tetrahedron.
   [[gnu::always_inline]] SpanLanes spans(int lane, int row, int count, int layer) const
   {
@@ -77,26 +113,15 @@ public:
     const double z = this->Z.coordinate(layer);
     const Lanes first = allLanes(this->Columns[lane].Begin);
     const Lanes last = allLanes(this->Columns[lane].End);
-    Lanes begin = first;
-    Lanes end = last;
-    LaneTruths certain = firstLanes(laneCount);
+    RowLanes rows{ first, last, LaneTruths{} - 1 };
     for (const Face& face : this->Faces)
     {
-      const Lanes place = this->X.clamp(face.Place[lane] -
-        (face.PerY[lane] * (y - face.AY[lane]) + face.PerZ[lane] * (z - face.AZ[lane])));
-      const Lanes before = whole(place);
-      const LaneTruths sure = AxisLanes::certain(place, before, allLanes(face.Error[lane]));
-      const LaneTruths forward = LaneTruths{} + face.Forward[lane];
-      certain &= sure;
-      begin = most((sure & forward) ? before : first, begin);
-      end = least((sure & ~forward) ? before : last, end);
+      this->cut(rows, first, last,
+        face.Place[lane] -
+          (face.PerY[lane] * (y - face.AY[lane]) + face.PerZ[lane] * (z - face.AZ[lane])),
+        allLanes(face.Error[lane]), LaneTruths{} + face.Forward[lane]);
     }
-    const LaneTruths open = (begin < end) & firstLanes(count);
-    SpanLanes spans;
-    // What is in doubt matters only where the other faces leave something.
-    spans.Certain = !any(~certain & open);
-    spans.set(begin, end, open);
-    return spans;
+    return rows.spans(firstLanes(count));
   }
 
 private:
@@ -118,6 +143,36 @@ private:
     Lanes Error;
     LaneTruths Forward;
   };
+
+  /// What faces have left of four rows.
+  struct RowLanes
+  {
+    [[gnu::always_inline]] SpanLanes spans(LaneTruths wanted) const
+    {
+      const LaneTruths open = (this->Begin < this->End) & wanted;
+      SpanLanes spans;
+      // What is in doubt matters only where the other faces leave something.
+      spans.Doubtful = laneBits(~this->Certain & open);
+      spans.Certain = spans.Doubtful == 0;
+      spans.set(this->Begin, this->End, open);
+      return spans;
+    }
+
+    Lanes Begin;
+    Lanes End;
+    LaneTruths Certain;
+  };
+
+  [[gnu::always_inline]] void cut(
+    RowLanes& rows, Lanes first, Lanes last, Lanes crossing, Lanes error, LaneTruths forward) const
+  {
+    const Lanes place = this->X.clamp(crossing);
+    const Lanes before = whole(place);
+    const LaneTruths sure = AxisLanes::certain(place, before, error);
+    rows.Certain &= sure;
+    rows.Begin = most((sure & forward) ? before : first, rows.Begin);
+    rows.End = least((sure & ~forward) ? before : last, rows.End);
+  }
 
   [[gnu::always_inline]] static Lanes leastOf(const Corner (&c)[4], Lanes Corner::*axis)
   {
