@@ -4,8 +4,11 @@
 
 #include "Parallel/ForChunks.h"
 #include "Resample/LatticeAxis.h"
+#include "Resample/OutsidePoints.h"
 #include "Resample/SimplexMesh.h"
+#include "Resample/TetrahedronLanes.h"
 #include "Resample/TetrahedronRows.h"
+#include "Resample/TriangleLanes.h"
 #include "Resample/TriangleRows.h"
 
 #include <cstdint>
@@ -22,6 +25,7 @@ struct CellGeometry<2>
 {
   using Corners = Point2[3];
   using Rows = TriangleRows;
+  using Lanes = TriangleLanes;
 };
 
 template <>
@@ -29,6 +33,7 @@ struct CellGeometry<3>
 {
   using Corners = Point3[4];
   using Rows = TetrahedronRows;
+  using Lanes = TetrahedronLanes;
 };
 
 /// The axes of a lattice that a mesh's samples lie on.
@@ -47,16 +52,27 @@ struct LatticeAxes
   TriangleRows rows(std::integral_constant<int, 2>) const { return { U, V }; }
   TetrahedronRows rows(std::integral_constant<int, 3>) const { return { U, V, W }; }
 
+  TriangleLanes lanes(std::integral_constant<int, 2>) const { return { U, V }; }
+  TetrahedronLanes lanes(std::integral_constant<int, 3>) const { return { U, V, W }; }
+
   LatticeAxis U;
   LatticeAxis V;
   LatticeAxis W;
   int Layers;
 };
 
+/// A row of a lattice's samples along the first axis.
+struct SampleRow
+{
+  std::int64_t First; ///< its first sample
+  int Row;
+  int Layer;
+};
+
 /// Walks over the samples of all cells, each thread with a sink of its own:
 /// sink.visit(samples) for each cell whose box has samples, with their number;
-/// sink.claim(first, count, cell) for samples in a row that a cell answers;
-/// sink.touch(first, count, cell) for those on a cell's border that it does not answer;
+/// sink.claim(row, begin, count, cell) for samples of a row that a cell answers, if count is above
+/// 0; sink.touch(row, begin, count, cell) for those on a cell's border that it does not answer;
 /// sink.addExactTests(count); sink.endChunk() now and then.
 template <typename Access, typename Sink>
 class CellVisitor
@@ -66,6 +82,7 @@ public:
     : Mesh(mesh)
     , Cells(mesh)
     , Axes(axes)
+    , Outside(mesh, { &axes.U, &axes.V, &axes.W })
     , Sinks(sinks)
     , Large(sinks.size())
   {
@@ -75,8 +92,10 @@ public:
   bool run(const Report& report)
   {
     constexpr std::int64_t chunk = 4096;
-    const auto visit = [this](std::int64_t begin, std::int64_t end, int thread)
-    { this->visitChunk(nullptr, begin, end, thread); };
+    this->Outside.find(int(this->Sinks.size()));
+    const bool wide = __builtin_cpu_supports("avx2") != 0;
+    const auto visit = [this, wide](std::int64_t begin, std::int64_t end, int thread)
+    { wide ? this->visitChunkAvx2(begin, end, thread) : this->visitChunk(begin, end, thread); };
     return forChunks(this->Mesh.Cells, chunk, int(this->Sinks.size()), report, visit) &&
       this->visitLargeCells(report);
   }
@@ -89,8 +108,9 @@ private:
   /// Cells of more samples are shared out among the threads, in parts of about so many samples.
   static constexpr std::int64_t LargeCell = 1 << 16;
   static constexpr std::int64_t LargePart = 1 << 14;
-  /// Cells whose points are asked for before they are used.
-  static constexpr std::int64_t Ahead = 12;
+  /// Points of so many cells are asked for together before they are used: then the processor looks
+  /// up the places of many at a time, while in between other instructions it would those of one.
+  static constexpr std::int64_t Ahead = 32;
 
   struct Part
   {
@@ -101,44 +121,154 @@ private:
 
   Rows makeRows() const { return this->Axes.rows(std::integral_constant<int, Dimension>()); }
 
-  /// Cells begin..end - 1; or those parts of large cells.
-  void visitChunk(const Part* parts, std::int64_t begin, std::int64_t end, int thread)
+  [[gnu::flatten, gnu::target("avx2")]] void visitChunkAvx2(
+    std::int64_t begin, std::int64_t end, int thread)
+  {
+    this->visitChunk(begin, end, thread);
+  }
+
+  [[gnu::always_inline]] void visitChunk(std::int64_t begin, std::int64_t end, int thread)
   {
     Sink& sink = this->Sinks[std::size_t(thread)];
     Rows rows = this->makeRows();
-    Corners corners;
-    for (std::int64_t i = begin; i < end; ++i)
+    auto lanes = this->Axes.lanes(std::integral_constant<int, Dimension>());
+    bool outside[2 * Ahead] = {};
+    std::int64_t cell = begin;
+    for (; cell + laneCount <= end; cell += laneCount)
     {
-      const std::int64_t cell = parts ? parts[i].Cell : i;
-      this->Cells.prefetch(std::min(cell + Ahead, this->Mesh.Cells - 1));
-      if (this->Mesh.Hidden && this->Mesh.Hidden[cell])
+      if ((cell - begin) % Ahead == 0)
+      {
+        this->prefetch(
+          cell == begin ? cell : cell + Ahead, std::min(cell + 2 * Ahead, end), outside);
+      }
+      const bool* const without = outside + cell % (2 * Ahead);
+      if (without[0] && without[1] && without[2] && without[3])
       {
         continue;
       }
-      this->Cells.corners(cell, corners);
-      if (!rows.set(corners))
+      lanes.set(this->Cells, cell);
+      if constexpr (Dimension == 3)
       {
-        continue;
-      }
-      const std::int64_t samples = samplesOf(rows);
-      Part part{ std::int32_t(cell), 0, rowsOf(rows) };
-      if (parts)
-      {
-        part = parts[i];
-      }
-      else
-      {
-        sink.visit(samples);
-        if (samples > LargeCell)
+        if (!this->Mesh.Hidden && lanes.haveSingleRows())
         {
-          this->defer(rows, part, thread);
+          this->visitSingleRows(lanes, cell, rows, sink);
           continue;
         }
       }
-      this->visitRows(rows, part, sink);
+      for (int lane = 0; lane < laneCount; ++lane)
+      {
+        if (!lanes.nothing(lane) && !this->hidden(cell + lane))
+        {
+          lanes.fast(lane) && this->visitLane(lanes, lane, cell + lane, rows, sink)
+            ? void()
+            : this->visitCell(cell + lane, rows, thread);
+        }
+      }
+    }
+    for (; cell < end; ++cell)
+    {
+      this->hidden(cell) ? void() : this->visitCell(cell, rows, thread);
     }
     sink.addExactTests(rows.exactTests());
     sink.endChunk();
+  }
+
+  bool hidden(std::int64_t cell) const { return this->Mesh.Hidden && this->Mesh.Hidden[cell] != 0; }
+
+  /// False, and nothing done, if it is a large cell.
+  template <typename CellLanes>
+  [[gnu::always_inline]] bool visitLane(
+    const CellLanes& lanes, int lane, std::int64_t cell, Rows& rows, Sink& sink)
+  {
+    const IndexRange across = lanes.rows(lane);
+    const IndexRange layers = lanes.layers(lane);
+    const std::int64_t samples =
+      std::int64_t(lanes.columns(lane).size()) * across.size() * layers.size();
+    if (samples > LargeCell)
+    {
+      return false;
+    }
+    sink.visit(samples);
+    for (int layer = layers.Begin; layer < layers.End; ++layer)
+    {
+      for (int row = across.Begin; row < across.End; row += laneCount)
+      {
+        const int count = std::min(laneCount, across.End - row);
+        const SpanLanes spans = lanes.spans(lane, row, count, layer);
+        if (!spans.Certain)
+        {
+          const std::int64_t first =
+            std::int64_t(layer - layers.Begin) * across.size() + (row - across.Begin);
+          this->visitExactly({ std::int32_t(cell), first, first + count }, rows, sink);
+          continue;
+        }
+        for (unsigned open = spans.Open; open != 0; open &= open - 1)
+        {
+          const int i = __builtin_ctz(open);
+          sink.claim(this->sampleRow(row + i, layer), spans.Begin[i], spans.End[i] - spans.Begin[i],
+            std::int32_t(cell));
+        }
+      }
+    }
+    return true;
+  }
+
+  /// Most tetrahedra that are small beside the samples' distances have one row at most.
+  template <typename CellLanes>
+  [[gnu::always_inline]] void visitSingleRows(
+    const CellLanes& lanes, std::int64_t first, Rows& rows, Sink& sink)
+  {
+    const SpanLanes spans = lanes.singleRows();
+    for (int lane = 0; lane < laneCount; ++lane)
+    {
+      lanes.nothing(lane) ? void() : sink.visit(lanes.columns(lane).size());
+    }
+    for (unsigned open = spans.Open; open != 0; open &= open - 1)
+    {
+      const int lane = __builtin_ctz(open);
+      const std::int32_t cell = std::int32_t(first + lane);
+      if ((spans.Doubtful >> lane & 1) != 0)
+      {
+        this->visitExactly({ cell, 0, 1 }, rows, sink);
+        continue;
+      }
+      sink.claim(this->sampleRow(lanes.rows(lane).Begin, lanes.layers(lane).Begin),
+        spans.Begin[lane], spans.End[lane] - spans.Begin[lane], cell);
+    }
+  }
+
+  [[gnu::noinline]] void visitExactly(const Part& part, Rows& rows, Sink& sink)
+  {
+    Corners corners;
+    this->Cells.corners(part.Cell, corners);
+    rows.set(corners);
+    this->visitRows(rows, part, sink);
+  }
+
+  [[gnu::noinline]] void visitCell(std::int64_t cell, Rows& rows, int thread)
+  {
+    Sink& sink = this->Sinks[std::size_t(thread)];
+    Corners corners;
+    this->Cells.corners(cell, corners);
+    if (!rows.set(corners))
+    {
+      return;
+    }
+    const std::int64_t samples = samplesOf(rows);
+    const Part part{ std::int32_t(cell), 0, rowsOf(rows) };
+    sink.visit(samples);
+    samples > LargeCell ? this->defer(rows, part, thread) : this->visitRows(rows, part, sink);
+  }
+
+  /// Tells, in turns, which of the cells are outside, and asks for the points of the others.
+  [[gnu::always_inline]] void prefetch(
+    std::int64_t begin, std::int64_t end, bool (&outside)[2 * Ahead]) const
+  {
+    for (std::int64_t cell = begin; cell < end; ++cell)
+    {
+      outside[cell % (2 * Ahead)] = this->Outside.contain(cell);
+      outside[cell % (2 * Ahead)] ? void() : this->Cells.prefetch(cell);
+    }
   }
 
   static std::int64_t samplesOf(const Rows& rows)
@@ -151,9 +281,14 @@ private:
     return std::int64_t(rows.rows().size()) * rows.layers().size();
   }
 
-  [[gnu::always_inline]] void visitRows(const Rows& rows, const Part& part, Sink& sink)
+  SampleRow sampleRow(int row, int layer) const
   {
-    const std::int64_t width = this->Axes.U.size();
+    const std::int64_t line = std::int64_t(layer) * this->Axes.V.size() + row;
+    return { line * this->Axes.U.size(), row, layer };
+  }
+
+  void visitRows(const Rows& rows, const Part& part, Sink& sink)
+  {
     int row = rows.rows().Begin;
     int layer = rows.layers().Begin;
     if (part.RowBegin > 0)
@@ -164,15 +299,12 @@ private:
     for (std::int64_t i = part.RowBegin; i < part.RowEnd; ++i)
     {
       const RowSpan span = rows.span(row, layer);
-      const std::int64_t first = (std::int64_t(layer) * this->Axes.V.size() + row) * width;
-      if (span.End > span.Begin)
-      {
-        sink.claim(first + span.Begin, span.End - span.Begin, part.Cell);
-      }
+      const SampleRow place = this->sampleRow(row, layer);
+      sink.claim(place, span.Begin, span.End - span.Begin, part.Cell);
       const int border = std::max(span.Begin, span.End);
       if (span.ClosedEnd > border)
       {
-        sink.touch(first + border, span.ClosedEnd - border, part.Cell);
+        sink.touch(place, border, span.ClosedEnd - border, part.Cell);
       }
       if (++row == rows.rows().End)
       {
@@ -200,14 +332,21 @@ private:
       parts.insert(parts.end(), large.begin(), large.end());
       large = {};
     }
-    const auto visit = [&](std::int64_t begin, std::int64_t end, int thread)
-    { this->visitChunk(parts.data(), begin, end, thread); };
+    const auto visit = [&](std::int64_t i, std::int64_t, int thread)
+    {
+      Sink& sink = this->Sinks[std::size_t(thread)];
+      Rows rows = this->makeRows();
+      this->visitExactly(parts[std::size_t(i)], rows, sink);
+      sink.addExactTests(rows.exactTests());
+      sink.endChunk();
+    };
     return forChunks(std::int64_t(parts.size()), 1, int(this->Sinks.size()), report, visit);
   }
 
   const SimplexMesh& Mesh;
   Access Cells;
   const LatticeAxes& Axes;
+  OutsidePoints<Access> Outside;
   std::vector<Sink>& Sinks;
   std::vector<std::vector<Part>> Large;
 };

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/Claims.h"
 
+#include "Resample/BorderClaims.h"
 #include "Resample/CellKey.h"
 #include "Resample/CellVisitor.h"
-#include "Resample/Containment.h"
 
 #include <algorithm>
 #include <functional>
-#include <tuple>
 #include <utility>
 
 namespace tipp
@@ -16,12 +15,6 @@ namespace
 {
 
 constexpr std::int32_t unclaimed = -1;
-
-struct Touch
-{
-  std::int64_t Sample;
-  std::int32_t Cell;
-};
 
 /// What a thread keeps of the first walk. Cells that do not overlap write to different samples;
 /// if some do overlap, more samples are claimed than there are, and another walk decides.
@@ -41,24 +34,25 @@ public:
     this->Statistics.Tests += samples;
   }
 
-  void claim(std::int64_t first, int count, std::int32_t cell)
+  void claim(const SampleRow& row, int begin, int count, std::int32_t cell)
   {
-    this->Claimed += count;
+    this->Claimed += std::max(count, 0);
     const std::int32_t name = this->Names ? this->Names[cell] : cell;
-    for (std::int64_t i = first; i < first + count; ++i)
+    std::int32_t* const claims = this->Claims + row.First + begin;
+    for (int i = 0; i < count; ++i)
     {
       // An ordinary store; but cells that overlap may be in two threads at once.
-      __atomic_store_n(this->Claims + i, name, __ATOMIC_RELAXED);
+      __atomic_store_n(claims + i, name, __ATOMIC_RELAXED);
     }
   }
 
-  void touch(std::int64_t first, int count, std::int32_t cell)
+  void touch(const SampleRow& row, int begin, int count, std::int32_t cell)
   {
-    for (std::int64_t i = first; i < first + count; ++i)
+    for (std::int64_t i = row.First + begin; i < row.First + begin + count; ++i)
     {
-      if (__atomic_load_n(this->Claims + i, __ATOMIC_RELAXED) == unclaimed)
+      if (!this->isClaimed(i))
       {
-        this->Touches.push_back({ i, this->Names ? this->Names[cell] : cell });
+        this->Touches.add(i, this->Names ? this->Names[cell] : cell);
       }
     }
   }
@@ -67,30 +61,27 @@ public:
 
   void endChunk()
   {
-    if (this->Touches.size() > this->MostTouches)
-    {
-      this->dropClaimed();
-      this->MostTouches = std::max(this->MostTouches, 2 * this->Touches.size());
-    }
+    this->Touches.tidy([this](std::int64_t sample) { return this->isClaimed(sample); });
   }
 
-  /// Most samples that one cell touches another answers.
-  void dropClaimed()
+  const std::vector<Touch>& openTouches()
   {
-    const auto claimed = [this](const Touch& touch)
-    { return __atomic_load_n(this->Claims + touch.Sample, __ATOMIC_RELAXED) != unclaimed; };
-    this->Touches.erase(
-      std::remove_if(this->Touches.begin(), this->Touches.end(), claimed), this->Touches.end());
+    this->Touches.dropClaimed([this](std::int64_t sample) { return this->isClaimed(sample); });
+    return this->Touches.touches();
   }
 
   ClaimStatistics Statistics;
   std::int64_t Claimed = 0;
-  std::vector<Touch> Touches;
 
 private:
+  bool isClaimed(std::int64_t sample) const
+  {
+    return __atomic_load_n(this->Claims + sample, __ATOMIC_RELAXED) != unclaimed;
+  }
+
+  TouchList Touches;
   std::int32_t* Claims;
   const std::int32_t* Names;
-  std::size_t MostTouches = 1 << 16;
 };
 
 void lowerTo(CellKey* to, CellKey key)
@@ -116,18 +107,18 @@ public:
   }
 
   void visit(std::int64_t) {}
-  void touch(std::int64_t, int, std::int32_t) {}
+  void touch(const SampleRow&, int, int, std::int32_t) {}
   void addExactTests(std::int64_t) {}
   void endChunk() {}
 
-  void claim(std::int64_t first, int count, std::int32_t cell)
+  void claim(const SampleRow& row, int begin, int count, std::int32_t cell)
   {
-    if (cell != this->KnownCell)
+    if (count > 0 && cell != this->KnownCell)
     {
       this->KnownCell = cell;
       this->KnownKey = keyOf(this->Cells, cell);
     }
-    for (std::int64_t i = first; i < first + count; ++i)
+    for (std::int64_t i = row.First + begin; i < row.First + begin + count; ++i)
     {
       this->SettleSample(i, cell, this->KnownKey);
     }
@@ -245,15 +236,19 @@ private:
       statistics.Tests += walk.Statistics.Tests;
       statistics.ExactTests += walk.Statistics.ExactTests;
       claimed += walk.Claimed;
-      walk.dropClaimed();
-      touches.insert(touches.end(), walk.Touches.begin(), walk.Touches.end());
+      const std::vector<Touch>& open = walk.openTouches();
+      touches.insert(touches.end(), open.begin(), open.end());
     }
     statistics.OverlappingClaims = claimed - this->countClaimed();
     if (statistics.OverlappingClaims > 0)
     {
       this->settleOverlaps();
     }
-    this->settleBorder(touches);
+    this->Result.Border = borderClaims(this->Mesh, this->Axes, touches);
+    for (const BorderClaim& claim : this->Result.Border)
+    {
+      this->Result.Cells[std::size_t(claim.Sample)] = claim.Cell;
+    }
   }
 
   void settleOverlaps()
@@ -283,58 +278,6 @@ private:
             { keys[std::size_t(sample)] == key ? lowerTo(claims + sample, cell) : void(); });
         }
       });
-  }
-
-  void settleBorder(std::vector<Touch>& touches)
-  {
-    withAccess(this->Mesh,
-      [&](const auto& access)
-      {
-        struct Candidate
-        {
-          std::int64_t Sample;
-          CellKey Key;
-          std::int32_t Cell;
-        };
-        std::vector<Candidate> candidates;
-        for (const Touch& touch : touches)
-        {
-          const CellKey key = keyOf(access, touch.Cell);
-          candidates.push_back(
-            { touch.Sample, withRank(key, this->rank(access, touch)), touch.Cell });
-        }
-        std::sort(candidates.begin(), candidates.end(),
-          [](const Candidate& a, const Candidate& b)
-          { return std::tie(a.Sample, a.Key, a.Cell) < std::tie(b.Sample, b.Key, b.Cell); });
-        for (const Candidate& candidate : candidates)
-        {
-          std::int32_t& claim = this->Result.Cells[std::size_t(candidate.Sample)];
-          if (claim == unclaimed)
-          {
-            claim = candidate.Cell;
-            this->Result.Border.push_back(
-              { candidate.Sample, candidate.Cell, int(candidate.Key >> 60) });
-          }
-        }
-      });
-  }
-
-  template <typename Access>
-  int rank(const Access& access, const Touch& touch) const
-  {
-    typename CellGeometry<Access::Dimension>::Corners corners;
-    access.corners(touch.Cell, corners);
-    const std::int64_t row = touch.Sample / this->Axes.U.size();
-    const double u = this->Axes.U[int(touch.Sample % this->Axes.U.size())];
-    const double v = this->Axes.V[int(row % this->Axes.V.size())];
-    if constexpr (Access::Dimension == 2)
-    {
-      return moveRank(corners, { u, v });
-    }
-    else
-    {
-      return moveRank(corners, { u, v, this->Axes.W[int(row / this->Axes.V.size())] });
-    }
   }
 
   const SimplexMesh& Mesh;

@@ -52,7 +52,8 @@ public:
     , Inverse(1.0 / lattice.Delta[axis])
     , First(lattice.Extent[2 * axis])
     , Limit(double(lattice.size(axis)) + 0.5)
-    , Coordinates(std::size_t(lattice.size(axis)))
+    , Count(int(lattice.size(axis)))
+    , Coordinates(std::size_t(this->Count) + Padding)
   {
     for (std::size_t i = 0; i < this->Coordinates.size(); ++i)
     {
@@ -67,8 +68,9 @@ public:
     }
   }
 
-  int size() const { return int(this->Coordinates.size()); }
+  int size() const { return this->Count; }
   double operator[](int i) const { return this->Coordinates[std::size_t(i)]; }
+  /// The coordinates, and three more.
   const double* data() const { return this->Coordinates.data(); }
 
   /// Where v lies, in steps, rounded: 1 at the first sample. Clamped to numbers whose whole part is
@@ -146,10 +148,12 @@ private:
   [[gnu::noinline]] IndexRange exactRange(double low, double high) const
   {
     const auto begin = this->Coordinates.begin();
-    const auto end = this->Coordinates.end();
+    const auto end = begin + this->Count;
     return { int(std::lower_bound(begin, end, low) - begin),
       int(std::upper_bound(begin, end, high) - begin) };
   }
+
+  static constexpr std::size_t Padding = 3;
 
   double Min;
   double Delta;
@@ -158,6 +162,7 @@ private:
   double Limit;
   double ErrorScale;
   double ErrorOffset;
+  int Count;
   std::vector<double> Coordinates;
 };
 

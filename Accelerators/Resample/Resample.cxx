@@ -3,6 +3,7 @@
 
 #include "Parallel/Stopwatch.h"
 #include "Resample/CellVisitor.h"
+#include "Resample/DirectSampling.h"
 #include "Resample/ResampleOnDevice.h"
 
 #include <memory>
@@ -33,6 +34,10 @@ public:
   ResampleResult run()
   {
     this->tryDevice([&] { this->open(); });
+    if (!this->Device && !this->Options.Keys && this->sampleAtOnce())
+    {
+      return this->Result;
+    }
     Claims claims = this->claim();
     this->Result.Statistics = claims.Statistics;
     this->Result.Aborted = claims.Aborted;
@@ -40,11 +45,11 @@ public:
     {
       mergeClaims(this->Mesh, claims, this->Samples, this->Options.Threads, this->Options.Keys);
     }
-    this->Result.ClaimSeconds = this->lap();
+    this->Result.ClaimSeconds += this->lap();
     if (!claims.Aborted)
     {
       this->fill(claims.Cells.get());
-      this->Result.InterpolationSeconds = this->lap();
+      this->Result.InterpolationSeconds += this->lap();
     }
     this->Result.Device = this->Device ? this->Device->description().Name : "OpenMP";
     return this->Result;
@@ -65,6 +70,26 @@ private:
       this->Transferred = this->Device->transferSeconds();
       this->Watch.restart();
     }
+  }
+
+  /// False if it takes more, for cells overlap.
+  bool sampleAtOnce()
+  {
+    std::vector<unsigned char> valid;
+    InterpolationOptions options = this->interpolation();
+    options.Progress = this->Options.Progress;
+    if (!options.Valid)
+    {
+      valid.resize(std::size_t(this->Samples));
+      options.Valid = valid.data();
+    }
+    const DirectResult direct = sampleDirectly(this->Mesh, this->Grid, this->Attributes, options);
+    this->Result.Statistics = direct.Statistics;
+    this->Result.Aborted = direct.Aborted;
+    this->Result.InterpolationSeconds = direct.FinishSeconds;
+    this->Result.ClaimSeconds = this->lap() - direct.FinishSeconds;
+    this->Result.Device = "OpenMP";
+    return !direct.Overlapping;
   }
 
   /// Seconds since the last lap, but those of transfers, which are counted apart.
@@ -120,15 +145,21 @@ private:
             this->Options.Keys != nullptr, partOf(report, 0, 0.7));
         });
     }
-    InterpolationOptions interpolation;
-    interpolation.Threads = this->Options.Threads;
-    interpolation.FillUnclaimed = !this->Options.Keys;
-    interpolation.SkipInterpolated = this->Device != nullptr;
-    interpolation.Parents = this->Options.Parents;
-    interpolation.Valid = this->Options.Valid;
+    InterpolationOptions interpolation = this->interpolation();
     interpolation.Progress = this->Device ? partOf(report, 0.7, 1) : report;
     this->Result.Aborted =
       !completed || !interpolate(this->Mesh, this->Grid, claims, this->Attributes, interpolation);
+  }
+
+  InterpolationOptions interpolation() const
+  {
+    InterpolationOptions options;
+    options.Threads = this->Options.Threads;
+    options.FillUnclaimed = !this->Options.Keys;
+    options.SkipInterpolated = this->Device != nullptr;
+    options.Parents = this->Options.Parents;
+    options.Valid = this->Options.Valid;
+    return options;
   }
 
   const SimplexMesh& Mesh;

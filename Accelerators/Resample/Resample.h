@@ -28,6 +28,7 @@ struct ResampleOptions
 struct ResampleResult
 {
   ClaimStatistics Statistics;
+  /// Where threads do it and the mesh is all there is, most of the interpolation is counted here.
   double ClaimSeconds = 0;
   double InterpolationSeconds = 0;
   double TransferSeconds = 0; ///< to and from an OpenCL device; the others are without them

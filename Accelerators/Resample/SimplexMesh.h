@@ -19,7 +19,7 @@ struct SimplexMesh
   const void* Ids = nullptr;    ///< three or four point ids a cell
   bool Wide = false;            ///< Ids are int64, else int32
   std::int64_t Cells = 0;
-  std::int64_t PointCount = 0;           ///< for copies to a device
+  std::int64_t PointCount = 0;
   const unsigned char* Hidden = nullptr; ///< a cell with other than 0 answers nothing; may be null
   /// 3 for tetrahedra. 2 for triangles, of which the two coordinates along Axes count.
   int Dimension = 2;
@@ -57,6 +57,16 @@ public:
     for (int i = 0; i < 4; ++i)
     {
       corners[i] = this->point(this->ids(cell)[i]);
+    }
+  }
+
+  /// Those coordinates of a point that count.
+  [[gnu::always_inline]] void coordinates(std::int64_t id, double (&coordinates)[D]) const
+  {
+    const Scalar* p = this->Points + 3 * id;
+    for (int axis = 0; axis < D; ++axis)
+    {
+      coordinates[axis] = double(p[D == 3 ? axis : axis == 0 ? this->U : this->V]);
     }
   }
 

@@ -54,31 +54,22 @@ public:
     }
   }
 
-  /// Of samples that lie in a row along the first axis: weights[i][j] is that of corner i + 1 for
-  /// sample j.
-  void solve(const double* firsts, int count, const double* others, double* const* weights) const
+  /// Of a sample: weights[i] is that of corner i + 1.
+  void solve(const double* sample, double (&weights)[D]) const
   {
     if (this->Thin)
     {
-      this->solveThin(firsts, count, others, weights);
+      this->solveThin(sample, weights);
       return;
     }
-    double rest[D];
     for (int i = 0; i < D; ++i)
     {
-      rest[i] = 0;
+      double rest = 0;
       for (int axis = 1; axis < D; ++axis)
       {
-        rest[i] += this->Normals[i][axis] * (others[axis - 1] - this->Origin[axis]);
+        rest += this->Normals[i][axis] * (sample[axis] - this->Origin[axis]);
       }
-    }
-    for (int i = 0; i < D; ++i)
-    {
-      double* const to = weights[i];
-      for (int j = 0; j < count; ++j)
-      {
-        to[j] = this->Normals[i][0] * (firsts[j] - this->Origin[0]) + rest[i];
-      }
+      weights[i] = this->Normals[i][0] * (sample[0] - this->Origin[0]) + rest;
     }
   }
 
@@ -166,30 +157,26 @@ private:
     }
   }
 
-  void solveThin(
-    const double* firsts, int count, const double* others, double* const* weights) const
+  void solveThin(const double* sample, double (&weights)[D]) const
   {
-    for (int j = 0; j < count; ++j)
+    double right[D];
+    for (int i = 0; i < D; ++i)
     {
-      double right[D];
-      for (int i = 0; i < D; ++i)
+      const int axis = this->Rows[i];
+      right[i] = sample[axis] - this->Origin[axis];
+      for (int k = 0; k < i; ++k)
       {
-        const int axis = this->Rows[i];
-        right[i] = (axis == 0 ? firsts[j] : others[axis - 1]) - this->Origin[axis];
-        for (int k = 0; k < i; ++k)
-        {
-          right[i] -= this->Matrix[i][k] * right[k];
-        }
+        right[i] -= this->Matrix[i][k] * right[k];
       }
-      for (int i = D - 1; i >= 0; --i)
+    }
+    for (int i = D - 1; i >= 0; --i)
+    {
+      for (int k = i + 1; k < D; ++k)
       {
-        for (int k = i + 1; k < D; ++k)
-        {
-          right[i] -= this->Matrix[i][k] * right[k];
-        }
-        right[i] *= this->Reciprocals[i];
-        weights[this->Columns[i]][j] = right[i];
+        right[i] -= this->Matrix[i][k] * right[k];
       }
+      right[i] *= this->Reciprocals[i];
+      weights[this->Columns[i]] = right[i];
     }
   }
 

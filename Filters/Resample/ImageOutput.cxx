@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -57,18 +58,26 @@ double bytesOfArrays(const std::vector<vtkPointSet*>& meshes, const SamplingSett
   return bytes;
 }
 
-void fillGhosts(const std::vector<unsigned char>& valid, int threads, vtkImageData* image)
+/// Fills the mask and the points' ghosts; how many samples are valid.
+std::int64_t fillPoints(
+  const std::vector<unsigned char>& valid, int threads, char* mask, unsigned char* ghosts)
 {
-  vtkUnsignedCharArray* const points = image->AllocatePointGhostArray();
-  unsigned char* const ghosts = points->GetPointer(0);
-  forChunks(std::int64_t(valid.size()), 1 << 18, threads, {},
-    [&](std::int64_t begin, std::int64_t end, int)
+  std::vector<std::int64_t> counts(std::size_t(threads), 0);
+  forChunks(std::int64_t(valid.size()), 1 << 16, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int thread)
     {
       for (std::int64_t i = begin; i < end; ++i)
       {
+        mask[i] = char(valid[std::size_t(i)]);
         ghosts[i] = valid[std::size_t(i)] ? 0 : vtkDataSetAttributes::HIDDENPOINT;
       }
+      counts[std::size_t(thread)] += std::count(valid.begin() + begin, valid.begin() + end, 1);
     });
+  return std::accumulate(counts.begin(), counts.end(), std::int64_t(0));
+}
+
+void fillCellGhosts(const std::vector<unsigned char>& valid, int threads, vtkImageData* image)
+{
   vtkUnsignedCharArray* const cells = image->AllocateCellGhostArray();
   int dimensions[3];
   image->GetDimensions(dimensions);
@@ -146,13 +155,14 @@ std::int64_t fillImage(SampledImage& samples, int threads, vtkImageData* image)
   vtkNew<vtkCharArray> mask;
   mask->SetName("vtkValidPointMask");
   mask->SetNumberOfValues(vtkIdType(valid.size()));
-  std::copy(valid.begin(), valid.end(), mask->GetPointer(0));
   data->AddArray(mask);
-  if (!lattice.empty())
+  if (lattice.empty())
   {
-    fillGhosts(valid, threads, image);
+    return 0;
   }
-  return std::count(valid.begin(), valid.end(), 1);
+  fillCellGhosts(valid, threads, image);
+  return fillPoints(
+    valid, threads, mask->GetPointer(0), image->AllocatePointGhostArray()->GetPointer(0));
 }
 
 void fillTable(const SamplingReport& report, vtkTable* table)

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "AdcircWater.h"
+#include "BesideProbeFilter.h"
 #include "RangeResampleTesting.h"
-#include "RealData.h"
 
 #include "Vtk/ReadDataSet.h"
-
-#include "vtkProbeFilter.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <string>
 
 namespace
@@ -18,76 +16,13 @@ namespace
 
 constexpr double dry = -99999;
 
-/// The values of an ADCIRC file of one step at as many nodes.
-vtkSmartPointer<vtkDoubleArray> readMaximum(const std::string& path, vtkIdType nodes)
-{
-  const auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetName("maxele");
-  std::ifstream file(path);
-  std::string line;
-  for (int i = 0; i < 3; ++i)
-  {
-    std::getline(file, line);
-  }
-  vtkIdType node;
-  double value;
-  while (array->GetNumberOfValues() < nodes && file >> node >> value)
-  {
-    array->InsertNextValue(value);
-  }
-  return array;
-}
-
-vtkSmartPointer<vtkUnstructuredGrid> gridOf(const tipp::test::AdcircMesh& mesh)
-{
-  Scene scene;
-  for (std::size_t i = 0; i < mesh.Nodes.size(); i += 2)
-  {
-    scene.Points.insert(scene.Points.end(), { mesh.Nodes[i], mesh.Nodes[i + 1], 0 });
-  }
-  for (const auto& element : mesh.Elements)
-  {
-    scene.Ids.insert(scene.Ids.end(), element.begin(), element.end());
-  }
-  return ::gridOf(scene);
-}
-
-/// Where vtkProbeFilter finds a sample, so do we, with its value.
-void expectAllThatVtkFinds(
-  vtkRangeResampleFilter* filter, vtkDataSet* mesh, const char* name, double tolerance)
-{
-  vtkImageData* const ours = filter->GetOutput();
-  vtkNew<vtkImageData> image;
-  image->CopyStructure(ours);
-  vtkNew<vtkProbeFilter> probe;
-  probe->SetInputData(image);
-  probe->SetSourceData(mesh);
-  probe->ComputeToleranceOff();
-  probe->SetTolerance(1e-13);
-  probe->Update();
-  vtkPointData* const theirs = probe->GetOutput()->GetPointData();
-  vtkIdType found = 0;
-  for (vtkIdType i = 0; i < ours->GetNumberOfPoints(); ++i)
-  {
-    if (theirs->GetArray("vtkValidPointMask")->GetTuple1(i) == 1)
-    {
-      ++found;
-      ASSERT_TRUE(isValid(ours, i)) << i;
-      ASSERT_NEAR(ours->GetPointData()->GetArray(name)->GetTuple1(i),
-        theirs->GetArray(name)->GetTuple1(i), tolerance)
-        << i;
-    }
-  }
-  EXPECT_GT(found, ours->GetNumberOfPoints() / 20);
-}
-
 } // namespace
 
 TEST(RangeResampleRealMeshes, TheEastCoastsWaterIsAsVtkProbeFilterHasIt)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
   TIPP_REQUIRE_REAL_DATA(maximum, "adcirc/ec95d/maxele.63");
-  const auto grid = gridOf(tipp::test::readAdcirc(path));
+  const auto grid = gridOfAdcirc(path);
   const auto values = readMaximum(maximum, grid->GetNumberOfPoints());
   ASSERT_EQ(values->GetNumberOfValues(), grid->GetNumberOfPoints());
   grid->GetPointData()->AddArray(values);
@@ -103,7 +38,7 @@ TEST(RangeResampleRealMeshes, TheEastCoastsDryNodesAreLeftOutOnRequest)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
   TIPP_REQUIRE_REAL_DATA(maximum, "adcirc/ec95d/maxele.63");
-  const auto grid = gridOf(tipp::test::readAdcirc(path));
+  const auto grid = gridOfAdcirc(path);
   const auto values = readMaximum(maximum, grid->GetNumberOfPoints());
   // The file's own dry nodes lie in cells too small for these samples.
   for (vtkIdType i = 0; i < values->GetNumberOfValues(); i += 100)
@@ -139,29 +74,5 @@ TEST(RangeResampleRealMeshes, TheBracketsTetrahedraAreSampledLinearlyWhereVtkFin
 {
   TIPP_REQUIRE_REAL_DATA(path, "tets/bracket_appended_compressed.vtu");
   const vtkSmartPointer<vtkDataSet> mesh = tipp::readDataSet(path);
-  vtkNew<vtkDoubleArray> linear;
-  linear->SetName("linear");
-  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
-  {
-    linear->InsertNextValue(linearField(mesh->GetPoint(i)));
-  }
-  mesh->GetPointData()->AddArray(linear);
-  // On the faces, whose points are not quite in a plane, vtkProbeFilter's tolerance would tell.
-  double b[6];
-  mesh->GetBounds(b);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double size = b[2 * axis + 1] - b[2 * axis];
-    b[2 * axis] += 0.0137 * size;
-    b[2 * axis + 1] -= 0.0171 * size;
-  }
-  vtkNew<vtkRangeResampleFilter> filter;
-  filter->UseInputBoundsOff();
-  filter->SetSamplingBounds(b);
-  filter->SetSamplingDimensions(40, 40, 40);
-  filter->SetInputData(mesh);
-  filter->Update();
-  const double scale = linear->GetMaxNorm();
-  EXPECT_LT(linearError(filter->GetOutput(), 3), 1e-12 * scale);
-  expectAllThatVtkFinds(filter, mesh, "linear", 1e-6 * scale);
+  expectLinearWhereVtkFindsIt(mesh);
 }

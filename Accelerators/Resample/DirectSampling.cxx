@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Resample/DirectSampling.h"
+
+#include "Parallel/Stopwatch.h"
+#include "Resample/BorderClaims.h"
+#include "Resample/CellVisitor.h"
+#include "Resample/FillBlock.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace tipp
+{
+namespace
+{
+
+/// What a thread fills of the samples.
+template <typename Access>
+class FillingWalk
+{
+public:
+  FillingWalk(const SimplexMesh& mesh, const LatticeAxes& axes,
+    const std::vector<Attribute>& attributes, const InterpolationOptions& options)
+    : Attributes(attributes)
+    , Options(options)
+    , Weighs(needsWeights(attributes, options))
+    , Block(mesh, axes)
+  {
+  }
+
+  void visit(std::int64_t samples)
+  {
+    ++this->Statistics.VisitedCells;
+    this->Statistics.Tests += samples;
+  }
+
+  [[gnu::always_inline]] void claim(const SampleRow& row, int begin, int count, std::int32_t cell)
+  {
+    while (count > this->Block.room())
+    {
+      const int part = this->Block.room();
+      this->Block.add(cell, row, begin, part);
+      this->flush();
+      begin += part;
+      count -= part;
+    }
+    this->Block.add(cell, row, begin, count);
+  }
+
+  void touch(const SampleRow& row, int begin, int count, std::int32_t cell)
+  {
+    for (std::int64_t i = row.First + begin; i < row.First + begin + count; ++i)
+    {
+      if (!this->isClaimed(i))
+      {
+        this->Touches.add(i, cell);
+      }
+    }
+  }
+
+  void addExactTests(std::int64_t count) { this->Statistics.ExactTests += count; }
+
+  void endChunk()
+  {
+    this->flush();
+    this->Touches.tidy([this](std::int64_t sample) { return this->isClaimed(sample); });
+  }
+
+  [[gnu::noinline]] void flush()
+  {
+    this->Claimed += this->Block.size();
+    for (int j = 0; j < this->Block.size(); ++j)
+    {
+      // An ordinary store; but cells that overlap may be in two threads at once.
+      __atomic_store_n(this->Options.Valid + this->Block[j].Place, 1, __ATOMIC_RELAXED);
+    }
+    fillBlock(this->Block, this->Weighs, this->Attributes, this->Options);
+    this->Block.clear();
+  }
+
+  const std::vector<Touch>& openTouches()
+  {
+    this->Touches.dropClaimed([this](std::int64_t sample) { return this->isClaimed(sample); });
+    return this->Touches.touches();
+  }
+
+  ClaimStatistics Statistics;
+  std::int64_t Claimed = 0;
+
+private:
+  bool isClaimed(std::int64_t sample) const
+  {
+    return __atomic_load_n(this->Options.Valid + sample, __ATOMIC_RELAXED) != 0;
+  }
+
+  const std::vector<Attribute>& Attributes;
+  const InterpolationOptions& Options;
+  bool Weighs;
+  SampleBlock<Access> Block;
+  TouchList Touches;
+};
+
+/// One run for a mesh of known types.
+template <typename Access>
+class DirectSampler
+{
+public:
+  using Walk = FillingWalk<Access>;
+
+  DirectSampler(const SimplexMesh& mesh, const LatticeAxes& axes,
+    const std::vector<Attribute>& attributes, const InterpolationOptions& options)
+    : Mesh(mesh)
+    , Axes(axes)
+    , Attributes(attributes)
+    , Options(options)
+    , Walks(std::size_t(options.Threads), Walk(mesh, axes, attributes, options))
+  {
+  }
+
+  DirectResult run()
+  {
+    this->forSamples([this](std::int64_t begin, std::int64_t end, int)
+      { std::memset(this->Options.Valid + begin, 0, std::size_t(end - begin)); });
+    this->Result.Aborted =
+      !CellVisitor<Access, Walk>(this->Mesh, this->Axes, this->Walks).run(this->Options.Progress);
+    std::int64_t claimed = 0;
+    for (const Walk& walk : this->Walks)
+    {
+      this->Result.Statistics.VisitedCells += walk.Statistics.VisitedCells;
+      this->Result.Statistics.Tests += walk.Statistics.Tests;
+      this->Result.Statistics.ExactTests += walk.Statistics.ExactTests;
+      claimed += walk.Claimed;
+    }
+    const Stopwatch watch;
+    if (!this->Result.Aborted)
+    {
+      this->Result.Overlapping = this->finishSamples() != claimed;
+    }
+    if (!this->Result.Aborted && !this->Result.Overlapping)
+    {
+      this->fillBorder();
+    }
+    this->Result.FinishSeconds = watch.seconds();
+    return this->Result;
+  }
+
+private:
+  template <typename Work>
+  void forSamples(const Work& work)
+  {
+    forChunks(this->Axes.samples(), 1 << 16, this->Options.Threads, {}, work);
+  }
+
+  /// Gives the samples that cells do not contain their null values; tells how many they do.
+  std::int64_t finishSamples()
+  {
+    const unsigned char* const valid = this->Options.Valid;
+    std::vector<std::int64_t> counts(std::size_t(this->Options.Threads), 0);
+    this->forSamples(
+      [&](std::int64_t begin, std::int64_t end, int thread)
+      {
+        const std::int64_t count = std::count(valid + begin, valid + end, 1);
+        counts[std::size_t(thread)] += count;
+        for (const Attribute& attribute : this->Attributes)
+        {
+          const bool all = !attribute.Values;
+          if (all || count < end - begin)
+          {
+            fillNull(attribute, begin, end, [&](std::int64_t i) { return all || valid[i] == 0; });
+          }
+        }
+      });
+    std::int64_t sum = 0;
+    for (const std::int64_t count : counts)
+    {
+      sum += count;
+    }
+    return sum;
+  }
+
+  void fillBorder()
+  {
+    std::vector<Touch> touches;
+    for (Walk& walk : this->Walks)
+    {
+      const std::vector<Touch>& open = walk.openTouches();
+      touches.insert(touches.end(), open.begin(), open.end());
+    }
+    const std::int64_t width = this->Axes.U.size();
+    const std::int64_t height = this->Axes.V.size();
+    Walk& walk = this->Walks.front();
+    for (const BorderClaim& claim : borderClaims(this->Mesh, this->Axes, touches))
+    {
+      const std::int64_t line = claim.Sample / width;
+      const SampleRow row{ line * width, int(line % height), int(line / height) };
+      walk.claim(row, int(claim.Sample % width), 1, claim.Cell);
+    }
+    walk.flush();
+  }
+
+  const SimplexMesh& Mesh;
+  const LatticeAxes& Axes;
+  const std::vector<Attribute>& Attributes;
+  const InterpolationOptions& Options;
+  std::vector<Walk> Walks;
+  DirectResult Result;
+};
+
+} // namespace
+
+DirectResult sampleDirectly(const SimplexMesh& mesh, const Lattice& lattice,
+  const std::vector<Attribute>& attributes, const InterpolationOptions& options)
+{
+  const LatticeAxes axes(mesh, lattice);
+  DirectResult result;
+  withAccess(mesh,
+    [&](const auto& access)
+    {
+      using Access = std::decay_t<decltype(access)>;
+      result = DirectSampler<Access>(mesh, axes, attributes, options).run();
+    });
+  return result;
+}
+
+} // namespace tipp

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippLanes_h
+#define tippLanes_h
+
+#include "Resample/LatticeAxis.h"
+
+#include <cstdint>
+#include <cstring>
+
+// Functions of lanes are always inlined, so how they would be called does not matter.
+#pragma GCC diagnostic ignored "-Wpsabi"
+// GCC 12 takes arrays of lanes for uninitialised, even where they are.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+
+namespace tipp
+{
+
+/// Four numbers side by side, and four truths: 0 or -1.
+using Lanes = double __attribute__((vector_size(32)));
+using LaneTruths = std::int64_t __attribute__((vector_size(32)));
+using LaneInts = std::int32_t __attribute__((vector_size(16)));
+
+constexpr int laneCount = 4;
+
+[[gnu::always_inline]] inline Lanes allLanes(double value)
+{
+  return Lanes{ value, value, value, value };
+}
+/// The larger, or b.
+[[gnu::always_inline]] inline Lanes most(Lanes a, Lanes b)
+{
+  return a > b ? a : b;
+}
+/// The smaller, or b.
+[[gnu::always_inline]] inline Lanes least(Lanes a, Lanes b)
+{
+  return a < b ? a : b;
+}
+[[gnu::always_inline]] inline Lanes absolute(Lanes a)
+{
+  const LaneTruths bits = LaneTruths(a) & ~(LaneTruths{} + INT64_MIN);
+  return Lanes(bits);
+}
+[[gnu::always_inline]] inline Lanes whole(Lanes a)
+{
+  return __builtin_convertvector(__builtin_convertvector(a, LaneInts), Lanes);
+}
+[[gnu::always_inline]] inline bool any(LaneTruths truths)
+{
+  return (truths[0] | truths[1] | truths[2] | truths[3]) != 0;
+}
+[[gnu::always_inline]] inline Lanes loadLanes(const double* from)
+{
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+
+/// A bit for each lane.
+[[gnu::always_inline]] inline unsigned laneBits(LaneTruths truths)
+{
+  return unsigned((truths[0] & 1) | (truths[1] & 2) | (truths[2] & 4) | (truths[3] & 8));
+}
+
+/// Places along a LatticeAxis: LatticeAxis::place(), error() and certain() for lanes.
+class AxisLanes
+{
+public:
+  explicit AxisLanes(const LatticeAxis& axis)
+    : Axis(axis)
+    , Min(axis.origin())
+    , Inverse(axis.inverse())
+    , First(axis.firstIndex())
+    , Limit(axis.limit())
+    , ErrorScale(axis.errorScale())
+    , ErrorOffset(axis.errorOffset())
+  {
+  }
+
+  [[gnu::always_inline]] Lanes place(Lanes v) const
+  {
+    return this->clamp((v - this->Min) * this->Inverse - this->First + 1);
+  }
+  [[gnu::always_inline]] Lanes clamp(Lanes place) const
+  {
+    return least(most(place, allLanes(0.5)), allLanes(this->Limit));
+  }
+  [[gnu::always_inline]] Lanes error(Lanes low, Lanes high) const
+  {
+    return most(-low, high) * this->ErrorScale + this->ErrorOffset;
+  }
+  [[gnu::always_inline]] static LaneTruths certain(Lanes place, Lanes wholePart, Lanes error)
+  {
+    return absolute(place - wholePart - 0.5) < 0.5 - error;
+  }
+  [[gnu::always_inline]] Lanes coordinates(int first) const
+  {
+    return loadLanes(this->Axis.data() + first);
+  }
+
+  double coordinate(int i) const { return this->Axis[i]; }
+  double origin() const { return this->Min; }
+  double inverse() const { return this->Inverse; }
+  double firstIndex() const { return this->First; }
+
+private:
+  const LatticeAxis& Axis;
+  double Min;
+  double Inverse;
+  double First;
+  double Limit;
+  double ErrorScale;
+  double ErrorOffset;
+};
+
+/// LatticeAxis::range() of four cells, as far as it is certain.
+struct RangeLanes
+{
+  [[gnu::always_inline]] RangeLanes(const AxisLanes& axis, Lanes low, Lanes high)
+    : Error(axis.error(low, high))
+  {
+    const Lanes begin = axis.place(low);
+    const Lanes end = axis.place(high);
+    this->Begin = whole(begin);
+    this->End = whole(end);
+    this->Certain = AxisLanes::certain(begin, this->Begin, this->Error) &
+      AxisLanes::certain(end, this->End, this->Error);
+    this->Empty = this->Certain & (this->Begin >= this->End);
+  }
+
+  IndexRange range(int lane) const { return { int(this->Begin[lane]), int(this->End[lane]) }; }
+
+  Lanes Error;
+  Lanes Begin;
+  Lanes End;
+  LaneTruths Certain;
+  LaneTruths Empty;
+};
+
+/// What four rows of a cell answer.
+struct SpanLanes
+{
+  std::int32_t Begin[laneCount];
+  std::int32_t End[laneCount];
+  unsigned Open;         ///< a bit for each row that has samples
+  unsigned Doubtful = 0; ///< if not Certain: a bit for each row in doubt, as far as that is told
+  bool Certain;          ///< of the rows asked for; else nothing is told
+
+  [[gnu::always_inline]] void set(Lanes begin, Lanes end, LaneTruths open)
+  {
+    this->Open = laneBits(open);
+    const LaneInts begins = __builtin_convertvector(begin, LaneInts);
+    const LaneInts ends = __builtin_convertvector(end, LaneInts);
+    std::memcpy(this->Begin, &begins, sizeof begins);
+    std::memcpy(this->End, &ends, sizeof ends);
+  }
+};
+
+/// For the first `count` lanes.
+[[gnu::always_inline]] inline LaneTruths firstLanes(int count)
+{
+  return LaneTruths{ 0, 1, 2, 3 } < count;
+}
+
+} // namespace tipp
+
+#endif

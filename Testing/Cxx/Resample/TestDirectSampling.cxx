@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Resample/BorderClaims.h"
+#include "Resample/DirectSampling.h"
+#include "Resample/FillBlock.h"
+#include "Resample/OutsidePoints.h"
+#include "Resample/TetrahedronLanes.h"
+#include "Resample/TriangleLanes.h"
+
+#include "ResampleScenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace
+{
+
+/// Samples of a point array, a cell array and an array of whole numbers, and the mask.
+struct FilledArrays
+{
+  FilledArrays(const Scene& scene, const tipp::Lattice& lattice)
+    : Numbers(scene.Points.size() / 3)
+    , OfCells(std::size_t(scene.cells()))
+    , NumberSamples(std::size_t(lattice.samples()), -7)
+    , PointSamples(3 * std::size_t(lattice.samples()), -7)
+    , CellSamples(std::size_t(lattice.samples()), -7)
+    , Valid(std::size_t(lattice.samples()), 9)
+  {
+    std::iota(this->Numbers.begin(), this->Numbers.end(), 100);
+    std::iota(this->OfCells.begin(), this->OfCells.end(), 0.5F);
+    this->Attributes.push_back(
+      { scene.Points.data(), this->PointSamples.data(), tipp::Scalar::Float64, 3, false, -1 });
+    this->Attributes.push_back(
+      { this->OfCells.data(), this->CellSamples.data(), tipp::Scalar::Float32, 1, true, -2 });
+    this->Attributes.push_back(
+      { this->Numbers.data(), this->NumberSamples.data(), tipp::Scalar::Int32, 1, false, -3 });
+    this->Options.Threads = 2;
+    this->Options.Valid = this->Valid.data();
+  }
+
+  bool operator==(const FilledArrays& other) const
+  {
+    return this->NumberSamples == other.NumberSamples && this->PointSamples == other.PointSamples &&
+      this->CellSamples == other.CellSamples && this->Valid == other.Valid;
+  }
+
+  std::vector<std::int32_t> Numbers;
+  std::vector<float> OfCells;
+  std::vector<std::int32_t> NumberSamples;
+  std::vector<double> PointSamples;
+  std::vector<float> CellSamples;
+  std::vector<unsigned char> Valid;
+  std::vector<tipp::Attribute> Attributes;
+  tipp::InterpolationOptions Options;
+};
+
+void expectAsInTwoWalks(const Scene& scene, const tipp::Lattice& lattice)
+{
+  FilledArrays direct(scene, lattice);
+  FilledArrays inTwo(scene, lattice);
+  const tipp::DirectResult result =
+    tipp::sampleDirectly(scene.mesh(), lattice, direct.Attributes, direct.Options);
+  const tipp::Claims claims = tipp::claimSamples(scene.mesh(), lattice, 2);
+  ASSERT_EQ(result.Overlapping, claims.Statistics.OverlappingClaims > 0) << scene.Name;
+  if (result.Overlapping)
+  {
+    return;
+  }
+  tipp::interpolate(scene.mesh(), lattice, claims.Cells.get(), inTwo.Attributes, inTwo.Options);
+  EXPECT_TRUE(direct == inTwo) << scene.Name;
+  EXPECT_EQ(result.Statistics.VisitedCells, claims.Statistics.VisitedCells) << scene.Name;
+  EXPECT_EQ(result.Statistics.Tests, claims.Statistics.Tests) << scene.Name;
+}
+
+/// What lanes tell of cells is what rows tell; returns for how many rows they do.
+template <typename Access, typename Lanes, typename Rows>
+int expectLanesLikeRows(const Scene& scene, Lanes lanes, Rows rows)
+{
+  const tipp::SimplexMesh mesh = scene.mesh();
+  const Access cells(mesh);
+  int told = 0;
+  for (int first = 0; first + tipp::laneCount <= scene.cells(); first += tipp::laneCount)
+  {
+    lanes.set(cells, first);
+    for (int lane = 0; lane < tipp::laneCount; ++lane)
+    {
+      typename tipp::CellGeometry<Access::Dimension>::Corners corners;
+      cells.corners(first + lane, corners);
+      const bool visited = rows.set(corners);
+      EXPECT_FALSE(visited && lanes.nothing(lane)) << scene.Name;
+      if (lanes.nothing(lane) || !lanes.fast(lane))
+      {
+        continue;
+      }
+      EXPECT_TRUE(visited);
+      EXPECT_EQ(lanes.columns(lane).size(), rows.columns().size());
+      EXPECT_EQ(lanes.rows(lane).Begin, rows.rows().Begin);
+      EXPECT_EQ(lanes.rows(lane).End, rows.rows().End);
+      const int row = rows.rows().Begin;
+      const int layer = rows.layers().Begin;
+      const tipp::SpanLanes spans = lanes.spans(lane, row, 1, layer);
+      const tipp::RowSpan span = rows.span(row, layer);
+      const bool open = span.End > span.Begin;
+      if (spans.Certain)
+      {
+        ++told;
+        EXPECT_EQ(spans.Open != 0, open) << scene.Name << " cell " << first + lane;
+        EXPECT_TRUE(!open || (spans.Begin[0] == span.Begin && spans.End[0] == span.End));
+      }
+    }
+  }
+  return told;
+}
+
+} // namespace
+
+TEST(DirectSampling, GivesTheBitsOfTwoWalksInThePlane)
+{
+  for (const Scene& scene : planeScenes())
+  {
+    expectAsInTwoWalks(scene, latticeOf(2, 33, -0.5, 1.5));
+    expectAsInTwoWalks(scene, latticeOf(2, 101, 0.013, 1.0171));
+  }
+}
+
+TEST(DirectSampling, GivesTheBitsOfTwoWalksInSpace)
+{
+  for (const Scene& scene : spaceScenes())
+  {
+    expectAsInTwoWalks(scene, latticeOf(3, 9, -0.5, 1.5));
+    expectAsInTwoWalks(scene, latticeOf(3, 17, 0.013, 1.0171));
+  }
+}
+
+TEST(DirectSampling, TellsThatCellsOverlap)
+{
+  const Scene scene = overlappingScene(20, 1);
+  const tipp::Lattice lattice = latticeOf(2, 50, 0, 1);
+  FilledArrays sampled(scene, lattice);
+  EXPECT_TRUE(
+    tipp::sampleDirectly(scene.mesh(), lattice, sampled.Attributes, sampled.Options).Overlapping);
+}
+
+TEST(DirectSampling, StopsWhenAsked)
+{
+  const Scene scene = jitteredScene(2, 100, 1);
+  const tipp::Lattice lattice = latticeOf(2, 50, 0, 1);
+  FilledArrays sampled(scene, lattice);
+  sampled.Options.Progress = [](double) { return false; };
+  EXPECT_TRUE(
+    tipp::sampleDirectly(scene.mesh(), lattice, sampled.Attributes, sampled.Options).Aborted);
+}
+
+TEST(TriangleLanes, TellWhatRowsTell)
+{
+  const Scene scene = jitteredScene(2, 40, 5);
+  const tipp::Lattice lattice = latticeOf(2, 90, -0.1, 1.2);
+  const tipp::LatticeAxes axes(scene.mesh(), lattice);
+  const int told = expectLanesLikeRows<tipp::SimplexAccess<2, double, std::int64_t>>(
+    scene, tipp::TriangleLanes(axes.U, axes.V), tipp::TriangleRows(axes.U, axes.V));
+  EXPECT_GT(told, scene.cells() / 2);
+}
+
+TEST(TetrahedronLanes, TellWhatRowsTell)
+{
+  const Scene scene = jitteredScene(3, 8, 5);
+  const tipp::Lattice lattice = latticeOf(3, 30, -0.1, 1.2);
+  const tipp::LatticeAxes axes(scene.mesh(), lattice);
+  const int told = expectLanesLikeRows<tipp::SimplexAccess<3, double, std::int64_t>>(scene,
+    tipp::TetrahedronLanes(axes.U, axes.V, axes.W), tipp::TetrahedronRows(axes.U, axes.V, axes.W));
+  EXPECT_GT(told, scene.cells() / 2);
+}
+
+TEST(BorderClaims, GiveEachTouchedSampleOneCellInAnyOrder)
+{
+  const Scene scene = regularScene(2, 4);
+  const tipp::Lattice lattice = latticeOf(2, 5, 0, 1); // a sample on each corner
+  const tipp::LatticeAxes axes(scene.mesh(), lattice);
+  std::vector<tipp::Touch> touches;
+  for (std::int64_t i = 0; i < lattice.samples(); ++i)
+  {
+    double sample[3];
+    sampleOf(lattice, i, sample);
+    for (int cell = 0; cell < scene.cells(); ++cell)
+    {
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        const double* p = scene.corner(cell, corner);
+        if (p[0] == sample[0] && p[1] == sample[1])
+        {
+          touches.push_back({ i, cell });
+        }
+      }
+    }
+  }
+  const std::vector<tipp::BorderClaim> claims = borderClaims(scene.mesh(), axes, touches);
+  ASSERT_EQ(std::int64_t(claims.size()), lattice.samples());
+  std::reverse(touches.begin(), touches.end());
+  const std::vector<tipp::BorderClaim> again = borderClaims(scene.mesh(), axes, touches);
+  for (std::size_t i = 0; i < claims.size(); ++i)
+  {
+    EXPECT_EQ(claims[i].Sample, std::int64_t(i));
+    EXPECT_EQ(claims[i].Cell, again[i].Cell);
+  }
+}
+
+TEST(OutsidePoints, AreThoseOfCellsBeyondASideOfASmallLattice)
+{
+  using Access = tipp::SimplexAccess<2, double, std::int64_t>;
+  const Scene scene = jitteredScene(2, 40, 5);
+  const tipp::SimplexMesh mesh = scene.mesh();
+  const tipp::Lattice lattice = latticeOf(2, 30, 0.4, 0.5);
+  const tipp::LatticeAxes axes(mesh, lattice);
+  tipp::OutsidePoints<Access> outside(mesh, { &axes.U, &axes.V, &axes.W });
+  EXPECT_FALSE(outside.contain(0));
+  outside.find(2);
+  ASSERT_TRUE(outside.found());
+  tipp::TriangleRows rows(axes.U, axes.V);
+  int without = 0;
+  for (int cell = 0; cell < scene.cells(); ++cell)
+  {
+    tipp::Point2 corners[3];
+    Access(mesh).corners(cell, corners);
+    if (outside.contain(cell))
+    {
+      ++without;
+      EXPECT_FALSE(rows.set(corners)) << cell;
+    }
+  }
+  EXPECT_GT(without, scene.cells() * 9 / 10);
+  expectAsInTwoWalks(scene, lattice);
+}
+
+TEST(OutsidePoints, AreNotLookedForWhereTheLatticeHoldsMost)
+{
+  const Scene scene = jitteredScene(2, 40, 5);
+  const tipp::LatticeAxes axes(scene.mesh(), latticeOf(2, 30, 0, 1));
+  tipp::OutsidePoints<tipp::SimplexAccess<2, double, std::int64_t>> outside(
+    scene.mesh(), { &axes.U, &axes.V, &axes.W });
+  outside.find(2);
+  EXPECT_FALSE(outside.found());
+}
