@@ -26,7 +26,7 @@ case ${2:-} in
 esac
 # The prefix is Debian's, so that the libraries go where its linker looks.
 cmake --preset "$preset" -B "$build" --log-level=WARNING \
-  -DCMAKE_INSTALL_PREFIX=/usr -DTIPP_BUILD_TESTING=OFF
+  -DCMAKE_INSTALL_PREFIX=/usr -DTIPP_BUILD_TESTING=OFF -DTIPP_BUILD_BENCHMARKS=OFF
 cmake --build "$build"
 cpack --config "$build/CPackConfig.cmake" -B "$folder"
 rm -rf "$folder/_CPack_Packages"
