@@ -15,6 +15,10 @@ endif ()
 file(RELATIVE_PATH tipp_python_to_libraries
   "/${tipp_python_destination}/tipp" "/${tipp_library_destination}")
 set(CMAKE_INSTALL_RPATH "$ORIGIN/${tipp_python_to_libraries}")
+if (TIPP_BUILD_PARAVIEW_PLUGIN)
+  # A module there has a class of its name, and their wrapped code names the same statics.
+  set(CMAKE_UNITY_BUILD OFF)
+endif ()
 vtk_module_wrap_python(
   MODULES ${tipp_modules}
   TARGET TIPP::Python
@@ -24,6 +28,7 @@ vtk_module_wrap_python(
   INSTALL_HEADERS OFF
   WRAPPED_MODULES tipp_wrapped_modules)
 unset(CMAKE_INSTALL_RPATH)
+unset(CMAKE_UNITY_BUILD) # the cached one again
 
 set(tipp_python_imports "")
 foreach (module IN LISTS tipp_wrapped_modules)
