@@ -1,8 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A virtual display of one's own. (xvfb-run -a may give two programs that start together the same one.)"""
 import contextlib
+import fcntl
 import os
 import subprocess
+import tempfile
+
+
+@contextlib.contextmanager
+def one_at_a_time():
+    """Servers that start together may take each other's socket."""
+    with open(os.path.join(tempfile.gettempdir(), f"tipp-display-{os.getuid()}.lock"), "w", encoding="utf-8") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        yield
 
 
 @contextlib.contextmanager
@@ -12,14 +22,16 @@ def virtual_display(size=(1280, 1024), frames=None):
     command = ["Xvfb", "-displayfd", str(write_end), "-nolisten", "tcp", "-screen", "0", f"{size[0]}x{size[1]}x24"]
     if frames:
         command += ["-fbdir", str(frames)]
-    server = subprocess.Popen(command, pass_fds=[write_end], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    os.close(write_end)
-    try:
+    with one_at_a_time():
+        server = subprocess.Popen(command, pass_fds=[write_end], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(write_end)
         with os.fdopen(read_end) as answer:
             number = answer.readline().strip()  # empty if the server ended
+    try:
         if not number:
             raise RuntimeError("Xvfb did not start.")
         yield ":" + number
     finally:
-        server.terminate()
-        server.wait()
+        with one_at_a_time():
+            server.terminate()
+            server.wait()
