@@ -30,9 +30,12 @@ vtk_module_wrap_python(
 unset(CMAKE_INSTALL_RPATH)
 unset(CMAKE_UNITY_BUILD) # the cached one again
 
+# All that the package imports.
+add_custom_target(tipp_python)
 set(tipp_python_imports "")
 foreach (module IN LISTS tipp_wrapped_modules)
   string(REPLACE "TIPP::" "vtk" library "${module}")
+  add_dependencies(tipp_python "${library}Python")
   string(APPEND tipp_python_imports "from .${library} import *\n")
 endforeach ()
 set(tipp_python_source "${PROJECT_SOURCE_DIR}/Plugins/Python/tipp")

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Tries this on a bare Debian, made in FOLDER, which is emptied: sh Utilities/clean-root.sh FOLDER WHAT
+# Tries this on a bare Debian, made anew in FOLDER/root: sh Utilities/clean-root.sh FOLDER WHAT
 #   demo      the README's first command, on the last commit, timed
 #   packages  the Debian packages: made here, installed there by apt, and used
 # Needs root and debootstrap.
@@ -52,6 +52,7 @@ case $2 in
     echo "clean-root.sh: from the bare machine to the picture took $(($(date +%s) - begin)) s"
     ;;
   packages)
+    rm -rf "$folder/packages"
     sh "$top/Utilities/package.sh" "$folder/packages"
     mkdir "$root/tmp/packages"
     cp "$folder"/packages/*.deb "$root/tmp/packages"

@@ -10,8 +10,7 @@ top=$(cd "$(dirname "$0")/.." && pwd)
 cd "$top"
 count=${TIPP_DEMO_POINTS:-1000000}
 if [ -z "${TIPP_BUILD_DIR:-}" ]; then
-  sh Utilities/build.sh default --target tipp --target vtkTIPPFiltersPython \
-    --target vtkTIPPIOPython
+  sh Utilities/build.sh default --target tipp --target tipp_python
   TIPP_BUILD_DIR=$top/build
 fi
 tipp=$TIPP_BUILD_DIR/bin/tipp

@@ -23,7 +23,18 @@ struct Touch
 class TouchList
 {
 public:
-  void add(std::int64_t sample, std::int32_t cell) { this->Touches.push_back({ sample, cell }); }
+  template <typename IsClaimed>
+  void add(
+    const SampleRow& row, int begin, int count, std::int32_t cell, const IsClaimed& isClaimed)
+  {
+    for (std::int64_t i = row.First + begin; i < row.First + begin + count; ++i)
+    {
+      if (!isClaimed(i))
+      {
+        this->Touches.push_back({ i, cell });
+      }
+    }
+  }
 
   /// Most samples that one cell touches another answers: call now and then.
   template <typename IsClaimed>

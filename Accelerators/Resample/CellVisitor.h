@@ -93,9 +93,14 @@ public:
   {
     constexpr std::int64_t chunk = 4096;
     this->Outside.find(int(this->Sinks.size()));
+#ifdef __x86_64__
     const bool wide = __builtin_cpu_supports("avx2") != 0;
     const auto visit = [this, wide](std::int64_t begin, std::int64_t end, int thread)
     { wide ? this->visitChunkAvx2(begin, end, thread) : this->visitChunk(begin, end, thread); };
+#else
+    const auto visit = [this](std::int64_t begin, std::int64_t end, int thread)
+    { this->visitChunk(begin, end, thread); };
+#endif
     return forChunks(this->Mesh.Cells, chunk, int(this->Sinks.size()), report, visit) &&
       this->visitLargeCells(report);
   }
@@ -108,8 +113,7 @@ private:
   /// Cells of more samples are shared out among the threads, in parts of about so many samples.
   static constexpr std::int64_t LargeCell = 1 << 16;
   static constexpr std::int64_t LargePart = 1 << 14;
-  /// Points of so many cells are asked for together before they are used: then the processor looks
-  /// up the places of many at a time, while in between other instructions it would those of one.
+  /// So many cells are told outside or not, and points of the others asked for, at a time.
   static constexpr std::int64_t Ahead = 32;
 
   struct Part
@@ -119,13 +123,18 @@ private:
     std::int64_t RowEnd;
   };
 
-  Rows makeRows() const { return this->Axes.rows(std::integral_constant<int, Dimension>()); }
+  Rows makeRows() const
+  {
+    return this->Axes.rows(std::integral_constant<int, Dimension>());
+  }
 
+#ifdef __x86_64__
   [[gnu::flatten, gnu::target("avx2")]] void visitChunkAvx2(
     std::int64_t begin, std::int64_t end, int thread)
   {
     this->visitChunk(begin, end, thread);
   }
+#endif
 
   [[gnu::always_inline]] void visitChunk(std::int64_t begin, std::int64_t end, int thread)
   {
@@ -173,7 +182,10 @@ private:
     sink.endChunk();
   }
 
-  bool hidden(std::int64_t cell) const { return this->Mesh.Hidden && this->Mesh.Hidden[cell] != 0; }
+  bool hidden(std::int64_t cell) const
+  {
+    return this->Mesh.Hidden && this->Mesh.Hidden[cell] != 0;
+  }
 
   /// False, and nothing done, if it is a large cell.
   template <typename CellLanes>

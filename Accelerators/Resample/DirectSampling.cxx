@@ -49,13 +49,8 @@ public:
 
   void touch(const SampleRow& row, int begin, int count, std::int32_t cell)
   {
-    for (std::int64_t i = row.First + begin; i < row.First + begin + count; ++i)
-    {
-      if (!this->isClaimed(i))
-      {
-        this->Touches.add(i, cell);
-      }
-    }
+    this->Touches.add(
+      row, begin, count, cell, [this](std::int64_t sample) { return this->isClaimed(sample); });
   }
 
   void addExactTests(std::int64_t count) { this->Statistics.ExactTests += count; }

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <cstring>
 
-#if defined(__GNUC__) && !defined(__clang__)
 // Functions of lanes are always inlined, so how they would be called does not matter.
 #pragma GCC diagnostic ignored "-Wpsabi"
+#ifndef __clang__
 // GCC 12 takes arrays of lanes for uninitialised, even where they are.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif

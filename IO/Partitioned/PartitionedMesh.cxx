@@ -53,21 +53,20 @@ public:
     : Folder(folder)
     , Descriptor(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC))
   {
+    if (this->Descriptor < 0)
+    {
+      const std::error_code failure(errno, std::generic_category());
+      throw IOError(folder, "cannot be opened (" + failure.message() + ").");
+    }
   }
   SizesInFolder(const SizesInFolder&) = delete;
   SizesInFolder& operator=(const SizesInFolder&) = delete;
-  ~SizesInFolder()
-  {
-    if (this->Descriptor >= 0)
-    {
-      ::close(this->Descriptor);
-    }
-  }
+  ~SizesInFolder() { ::close(this->Descriptor); }
 
   void require(const std::string& name, std::uint64_t bytes) const
   {
     struct stat state = {};
-    if (this->Descriptor < 0 || ::fstatat(this->Descriptor, name.c_str(), &state, 0) != 0)
+    if (::fstatat(this->Descriptor, name.c_str(), &state, 0) != 0)
     {
       const std::error_code failure(errno, std::generic_category());
       throw IOError(this->Folder + "/" + name,

@@ -7,7 +7,7 @@
   echo "benchmark.sh: there is no $data; name the data by TIPP_SHARED_DATA." >&2
   exit 1
 }
-sh Utilities/build.sh default --target tipp --target vtkTIPPFiltersPython --target vtkTIPPIOPython
+sh Utilities/build.sh default --target tipp --target tipp_python
 /usr/bin/python3 - "$data" "$inputs" << 'EOF'
 import lzma, sys
 import numpy as np

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Streams of text: TextFilePoints behind openPointStream().
 #include "Points/PointStream.h"
 
 #include "ExpectIOError.h"
