@@ -29,7 +29,7 @@ print("wrapped:", vtkTIPPDelaunay2D().GetClassName(), vtkTIPPRangeReader().GetUs
 
 definitions = servermanager.ProxyManager().SMProxyManager.GetProxyDefinitionManager()
 for group, name in (("sources", "TIPPReader"), ("writers", "TIPPWriter"), ("filters", "TIPPDelaunay2D"),
-                    ("filters", "RangeResample")):
+                    ("sources", "TIPPOutOfCoreDelaunay2D"), ("filters", "RangeResample")):
     proxy = servermanager.ProxyManager().NewProxy(group, name)
     names = servermanager.PropertyIterator(servermanager._getPyProxy(proxy))
     bare = [p.GetXMLName() for p in names if not (p.GetDocumentation() and p.GetDocumentation().GetDescription())]
@@ -46,6 +46,7 @@ EXPECTED = [
     "undocumented of TIPPReader: []",
     "undocumented of TIPPWriter: []",
     "undocumented of TIPPDelaunay2D: []",
+    "undocumented of TIPPOutOfCoreDelaunay2D: []",
     "undocumented of RangeResample: []",
 ]
 
