@@ -6,6 +6,7 @@ from run_paraview import Session, expect
 
 PROGRAM = """
 import os, sys
+import tipp  # whose classes client-side objects are then seen as
 from paraview.simple import *
 LoadPlugin(os.path.join(os.environ["TIPP_PLUGIN_DIR"], "TIPPPlugin.so"), remote=False, ns=globals())
 first, second, folder = sys.argv[1:]
@@ -14,10 +15,11 @@ run = TIPPOutOfCoreDelaunay2D()
 print("defaults:", run.MemoryLimit, run.Resume, list(run.NumberOfPartitions), len(run.InputFileNames or []))
 run.InputFileNames = [first, second]
 run.FileName = folder
-run.MemoryLimit = 1000000
+run.MemoryLimit = 5000000000
 run.NumberOfPartitions = [3, 2]
 run.NumberOfThreads = 1
 run.UpdatePipeline()
+print("limit set:", run.GetClientSideObject().GetMemoryLimit())
 print("output:", run.GetDataInformation().GetDataClassName())
 totals = servermanager.Fetch(run).GetFieldData()
 for name in ("Points", "Pieces", "Resumed"):
@@ -38,7 +40,8 @@ run.UpdatePipeline()
 print("pieces now:", int(servermanager.Fetch(run).GetFieldData().GetArray("Pieces").GetTuple1(0)))
 """
 EXPECTED = [
-    "defaults: 2147483647 0 [0, 0] 0",
+    "defaults: 2147483648.0 0 [0, 0] 0",
+    "limit set: 5000000000",
     "output: vtkTable",
     "Points: 5000",
     "Pieces: 6",
