@@ -2,6 +2,8 @@
 """NumPy arrays as VTK's and back, without copies where VTK allows."""
 from __future__ import annotations
 
+import ctypes
+import mmap
 import os
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
 _BLOCK = 4096  # rows
 _SHARE = 64 * _BLOCK  # of a thread, at a time
 _MOST_THREADS = 8
+_MADV_POPULATE_WRITE = 23  # Linux 5.14
 
 
 def vtk_points(points: ArrayLike) -> vtkPoints:
@@ -45,7 +48,8 @@ def _copied(points: np.ndarray, kind: np.dtype) -> vtkDataArray:
     """x, y and z, or 0, in memory of VTK's.
 
     NumPy would ask for huge pages, whose first touch takes several times as long in a virtual machine that gives
-    free memory back. Threads share the copying, block by block, which keeps to the cache.
+    free memory back. Threads share the copying, block by block, which keeps to the cache; small pages are asked for
+    many at once.
     """
     result = vtkFloatArray() if kind == np.float32 else vtkDoubleArray()
     result.SetNumberOfComponents(3)
@@ -55,7 +59,9 @@ def _copied(points: np.ndarray, kind: np.dtype) -> vtkDataArray:
     target = vtk_to_numpy(result)
 
     def fill(first: int) -> None:
-        for begin in range(first, min(first + _SHARE, len(points)), _BLOCK):
+        last = min(first + _SHARE, len(points))
+        _touch(target[first:last])
+        for begin in range(first, last, _BLOCK):
             rows = slice(begin, begin + _BLOCK)
             for axis in range(3):
                 target[rows, axis] = points[rows, axis] if axis < points.shape[1] else 0
@@ -64,6 +70,15 @@ def _copied(points: np.ndarray, kind: np.dtype) -> vtkDataArray:
     with ThreadPoolExecutor(min(_MOST_THREADS, len(os.sched_getaffinity(0)))) as threads:
         list(map(fill, shares) if len(shares) == 1 else threads.map(fill, shares))
     return result
+
+
+def _touch(array: np.ndarray) -> None:
+    """Has Linux map the memory of an array that will be written; older versions do not know how and need not."""
+    if sys.platform == "linux":
+        begin = array.__array_interface__["data"][0]
+        page = begin // mmap.PAGESIZE * mmap.PAGESIZE
+        ctypes.CDLL(None).madvise(ctypes.c_void_p(page), ctypes.c_size_t(begin + array.nbytes - page),
+                                  _MADV_POPULATE_WRITE)
 
 
 def vtk_array(name: str, values: ArrayLike) -> Any:
