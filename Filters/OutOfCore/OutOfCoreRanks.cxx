@@ -5,6 +5,7 @@
 #include "OutOfCore/Checkpoint.h"
 #include "OutOfCore/PieceHelper.h"
 #include "OutOfCore/PreparedRun.h"
+#include "Parallel/Stopwatch.h"
 
 #include <omp.h>
 
@@ -53,12 +54,18 @@ Bytes bytesOf(const std::string& text)
 /// Of a rank other than the first: false if there is nothing to help with.
 bool receivePrepared(Postbox& ranks, const OutOfCoreOptions& options, PreparedRun& prepared)
 {
+  constexpr double moment = 0.1;
+  Stopwatch sinceReport;
   Message message;
   while (!ranks.poll(message))
   {
-    if (options.Progress && !options.Progress(0))
+    if (options.Progress && sinceReport.seconds() > moment)
     {
-      throw RankFailure(ranks.rank(), true, "The run was stopped.");
+      sinceReport.restart();
+      if (!options.Progress(0))
+      {
+        throw RankFailure(ranks.rank(), true, "The run was stopped.");
+      }
     }
     ranks.pause();
   }
