@@ -11,7 +11,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <random>
+#include <stdexcept>
 #include <utility>
 
 namespace tipp
@@ -161,9 +163,20 @@ OutOfCoreStatistics triangulateOutOfCoreOnRanks(Postbox& ranks,
       ranks.post(to, EndMessage, Bytes());
     }
   };
+  const auto workInMemory = [&]
+  {
+    try
+    {
+      work();
+    }
+    catch (const std::bad_alloc&)
+    {
+      throw std::runtime_error("There is not enough memory; lower the memory limit.");
+    }
+  };
   try
   {
-    ranks.together(work);
+    ranks.together(workInMemory);
   }
   catch (const RankFailure& failure)
   {

@@ -7,7 +7,11 @@
 #include "OutOfCore/PieceHelper.h"
 #include "Points/WritePoints.h"
 
+#include "vtkErrorCode.h"
 #include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkTIPPOutOfCoreDelaunay2D.h"
+#include "vtkTable.h"
 
 #include <filesystem>
 #include <random>
@@ -207,6 +211,35 @@ TEST_F(OutOfCoreRanks, AllEndWithTheReasonOfTheOneThatFails)
     EXPECT_TRUE(expected == this->takeFiles());
     this->Options.Resume = false;
   }
+}
+
+TEST_F(OutOfCoreRanks, UpdateTheFilterTogether)
+{
+  this->makePoints("clustered", 20000);
+  std::vector<char> name(4096, 0);
+  const std::string folder = this->isFirst() ? this->Folder->path("") : "";
+  std::copy(folder.begin(), folder.end(), name.begin());
+  this->Controller->Broadcast(name.data(), vtkIdType(name.size()), 0);
+  const auto update = [&](vtkMultiProcessController* controller)
+  {
+    vtkNew<vtkTIPPOutOfCoreDelaunay2D> filter;
+    filter->SetController(controller);
+    filter->AddInputFileName((name.data() + std::string("/points.npy")).c_str());
+    filter->SetFileName((name.data() + std::string("/mesh.tipp")).c_str());
+    filter->SetMemoryLimit(1 << 20);
+    filter->Update();
+    EXPECT_EQ(this->isFirst() ? 4 : 0, filter->GetStatistics()->GetNumberOfRows());
+    EXPECT_EQ(vtkErrorCode::NoError, filter->GetErrorCode());
+  };
+  if (this->isFirst())
+  {
+    update(nullptr);
+  }
+  const Files expected = this->takeFiles();
+  this->Ranks.barrier();
+  update(this->Controller);
+  EXPECT_TRUE(expected == this->takeFiles());
+  EXPECT_TRUE(!this->isFirst() || expected.size() > 5);
 }
 
 TEST_F(OutOfCoreRanks, AllLearnThatTheInputIsMissing)
