@@ -232,6 +232,40 @@ TEST(SpilledPoints, HasEachPiecesPointsInTheOrderOfTheStream)
   }
 }
 
+TEST(SpilledPoints, DamagedAreRefusedPieceByPiece)
+{
+  Steps steps(makePointSet("clustered", 4000));
+  PiecePlan plan = steps.plan();
+  const SpilledPoints spilled = steps.spill(plan);
+  const std::string file = steps.Folder.path("spill.0");
+  std::string content = contentOf(file);
+  content[content.size() - 20] ^= 1;
+  steps.Folder.file("spill.0", content);
+  SaveArchive out;
+  spilled.save(out);
+  const Bytes bytes = out.Writer.take();
+  LoadArchive in(bytes);
+  const SpilledPoints back(file.substr(0, file.size() - 2), plan, steps.Rows, in);
+  for (const SpilledPoints* const points : { &spilled, &back })
+  {
+    int damaged = 0;
+    for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
+    {
+      std::vector<double> rows(3 * std::size_t(points->count(piece)));
+      try
+      {
+        points->read(piece, rows.data());
+      }
+      catch (const IOError& error)
+      {
+        ++damaged;
+        EXPECT_EQ(0U, std::string(error.what()).find(file + ": is damaged")) << error.what();
+      }
+    }
+    EXPECT_EQ(1, damaged);
+  }
+}
+
 TEST(PieceSchedule, ActivatesNothingBeforeAPieceIsLoaded)
 {
   Steps steps(makePointSet("uniform", 4000));
