@@ -18,11 +18,21 @@ namespace
 std::vector<IdTriangle> bringHome(Postbox& ranks, const std::vector<IdTriangle>& triangles,
   const std::vector<std::int64_t>& firstIds)
 {
-  std::vector<std::vector<IdTriangle>> sorted(static_cast<std::size_t>(ranks.size()));
+  const auto owner = [&firstIds](const IdTriangle& triangle)
+  { return ownerOf(*std::min_element(triangle.begin(), triangle.end()), firstIds); };
+  std::vector<std::size_t> counts(static_cast<std::size_t>(ranks.size()), 0);
   for (const IdTriangle& triangle : triangles)
   {
-    sorted[ownerOf(*std::min_element(triangle.begin(), triangle.end()), firstIds)].push_back(
-      triangle);
+    ++counts[owner(triangle)];
+  }
+  std::vector<std::vector<IdTriangle>> sorted(counts.size());
+  for (std::size_t rank = 0; rank < counts.size(); ++rank)
+  {
+    sorted[rank].reserve(counts[rank]);
+  }
+  for (const IdTriangle& triangle : triangles)
+  {
+    sorted[owner(triangle)].push_back(triangle);
   }
   std::vector<IdTriangle> home;
   for (const std::vector<IdTriangle>& received : swapArrays(ranks, sorted))
@@ -46,32 +56,33 @@ std::vector<std::int64_t> foreignIds(
   return ids;
 }
 
-/// The same triangles by places in Owned and Foreign, with labels that tell the sink their leaf.
-std::vector<SeamTriangle> localised(const std::vector<IdTriangle>& triangles,
+/// The same triangles by places in Owned and Foreign.
+template <typename Id>
+std::vector<typename TriangleSink<Id>::Seam> localised(const std::vector<IdTriangle>& triangles,
   const std::vector<std::int64_t>& foreign, std::int64_t firstOwn, const Buffer<Point2>& places,
   const Tiling& leaves)
 {
-  std::vector<SeamTriangle> local;
+  std::vector<typename TriangleSink<Id>::Seam> local;
   local.reserve(triangles.size());
   const std::int64_t own = std::int64_t(places.size());
   for (const IdTriangle& triangle : triangles)
   {
-    SeamTriangle made{};
+    typename TriangleSink<Id>::Corners ids;
     for (std::size_t i = 0; i < 3; ++i)
     {
       const std::int64_t at = triangle[i] - firstOwn;
       if (at >= 0 && at < own)
       {
-        const auto leaf = static_cast<std::uint32_t>(leaves.locate(places[std::size_t(at)]));
-        made[i] = { {}, at, 4 * leaf };
+        ids[i] = static_cast<Id>(at);
       }
       else
       {
         const auto place = std::lower_bound(foreign.begin(), foreign.end(), triangle[i]);
-        made[i] = { {}, own + (place - foreign.begin()), 0 };
+        ids[i] = static_cast<Id>(own + (place - foreign.begin()));
       }
     }
-    local.push_back(made);
+    ids = TriangleSink<Id>::fromLowest(ids);
+    local.push_back({ ids, leaves.locate(places[std::size_t(ids[0])]) });
   }
   return local;
 }
@@ -180,8 +191,8 @@ void collect(Postbox& ranks, OwnedPoints<Id>& points, const std::vector<IdTriang
   {
     sink.setInteriorCount(static_cast<PartitionIndex>(leaf), interiorCounts[leaf]);
   }
-  Buffer<Id> ids =
-    sink.assemble(localised(seams, result.ForeignIds, firstOwn, points.Places, leaves), threads);
+  Buffer<Id> ids = sink.assemble(
+    localised<Id>(seams, result.ForeignIds, firstOwn, points.Places, leaves), threads);
   if constexpr (sizeof(Id) == 4)
   {
     result.Ids32 = std::move(ids);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/Dispatcher.h"
 
-#include "Parallel/Stopwatch.h"
+#include "Parallel/ProcessorWatch.h"
 
 #include <algorithm>
 
@@ -24,7 +24,7 @@ Dispatcher::Dispatcher(const Area& area, std::int32_t areaIndex, const SeamTrian
     last = std::max(last, *std::max_element(home.begin(), home.end()));
   }
   this->InFlight.assign(std::size_t(last) + 1, 0);
-  const Stopwatch watch;
+  const ProcessorWatch watch;
   this->take(this->Mesh.add(SeamGrouping().group(initialMesh)));
   this->LargestMesh = this->Mesh.size();
   this->Seconds += watch.seconds();
@@ -92,7 +92,7 @@ void Dispatcher::dispatch(const Give& giveTask)
     return;
   }
   this->Changed = false;
-  const Stopwatch watch;
+  const ProcessorWatch watch;
   if (this->Order != RankSchedule::Dynamic && this->Active == 0 && this->StageLeft == 0 &&
     !this->Waiting.isEmpty())
   {
@@ -113,9 +113,9 @@ void Dispatcher::dispatch(const Give& giveTask)
   this->Seconds += watch.seconds();
 }
 
-void Dispatcher::complete(const TaskResult& result)
+void Dispatcher::complete(TaskResult&& result)
 {
-  const Stopwatch watch;
+  const ProcessorWatch watch;
   const std::size_t home = std::size_t(this->Of.HomeOf[std::size_t(result.Partition)]);
   for (const std::int32_t rank : this->Of.Homes[home])
   {
@@ -123,7 +123,7 @@ void Dispatcher::complete(const TaskResult& result)
   }
   --this->Active;
   this->Mesh.finish(result.Partition);
-  this->take(this->Mesh.add(result.Seams));
+  this->take(this->Mesh.add(std::move(result.Seams)));
   this->Waiting.deactivate(result.Partition);
   this->LargestMesh = std::max(this->LargestMesh, this->Mesh.size());
   this->WorkerVertices += result.WorkerVertices;

@@ -41,7 +41,7 @@ public:
   using Give = std::function<void(std::int32_t rank, Task task)>;
   void dispatch(const Give& give);
 
-  void complete(const TaskResult& result);
+  void complete(TaskResult&& result);
 
   bool isDone() const { return this->Active == 0 && this->allGivenOut(); }
 

@@ -12,7 +12,8 @@
 namespace tipp
 {
 
-/// What a rank did. Seconds are wall clock, those of computing summed over its threads.
+/// What a rank did. Seconds are wall clock; those of computing, summed over its threads, and of
+/// masters are processor time, which does not count when others have the core.
 struct RankStatistics
 {
   std::int64_t InputPoints = 0;

@@ -2,7 +2,7 @@
 #include "Distributed/LeafWorkers.h"
 
 #include "Distributed/VertexLabelling.h"
-#include "Parallel/Stopwatch.h"
+#include "Parallel/ProcessorWatch.h"
 #include "Triangulation/Worker.h"
 
 #include <utility>
@@ -23,7 +23,7 @@ public:
 
   Finished triangulate(Task& task)
   {
-    const Stopwatch watch;
+    const ProcessorWatch watch;
     const Area& area = this->Of.Work.Areas[std::size_t(task.Area)];
     this->Triangulator.setTiling(area.Boxes, area.FirstLeaf);
     this->Triangulator.triangulate(
@@ -141,6 +141,13 @@ bool LeafWorkers<Id>::isIdle()
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
   return this->Unfinished == 0;
+}
+
+template <typename Id>
+bool LeafWorkers<Id>::hasTasksWaiting()
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  return !this->Tasks.empty();
 }
 
 template <typename Id>

@@ -55,6 +55,9 @@ public:
 
   bool isIdle();
 
+  /// More tasks than threads.
+  bool hasTasksWaiting();
+
   /// What is left once all results are taken.
   std::vector<Duplicate> Duplicates;
   std::vector<std::size_t> InteriorCounts; ///< of each leaf

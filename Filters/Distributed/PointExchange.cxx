@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/PointExchange.h"
 
-#include "Triangulation/PartitionSizes.h"
+#include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstring>
 #include <limits>
-#include <stdexcept>
 
 namespace tipp
 {
@@ -47,44 +44,6 @@ void label(PointsView points, std::size_t begin, std::size_t end, const Tiling& 
   }
 }
 
-/// Where the parts of a message of so many points are: places, ids and rows, after the counts.
-struct Layout
-{
-  Layout(std::size_t leaves, std::size_t points, std::size_t rowSize)
-    : Places(leaves * sizeof(std::uint64_t))
-    , Ids(this->Places + points * sizeof(Point2))
-    , Rows(this->Ids + points * sizeof(PointId))
-    , End(this->Rows + points * rowSize)
-  {
-  }
-  std::size_t Places;
-  std::size_t Ids;
-  std::size_t Rows;
-  std::size_t End;
-};
-
-std::vector<std::size_t> leavesOf(int rank, const std::vector<std::int32_t>& owners)
-{
-  std::vector<std::size_t> leaves;
-  for (std::size_t leaf = 0; leaf < owners.size(); ++leaf)
-  {
-    if (owners[leaf] == rank)
-    {
-      leaves.push_back(leaf);
-    }
-  }
-  return leaves;
-}
-
-void requireSize(std::size_t actual, std::size_t expected)
-{
-  if (actual != expected)
-  {
-    throw std::runtime_error("Points from another rank are damaged: their message has " +
-      std::to_string(actual) + " bytes instead of " + std::to_string(expected) + ".");
-  }
-}
-
 } // namespace
 
 PointExchange::PointExchange(const RankPoints& points, const Tiling& leaves, int threads)
@@ -95,12 +54,13 @@ PointExchange::PointExchange(const RankPoints& points, const Tiling& leaves, int
   , Counts(static_cast<std::size_t>(threads), std::vector<std::size_t>(this->Leaves, 0))
 {
   const std::size_t size = points.Points.size();
-#pragma omp parallel for num_threads(threads) schedule(static, 1)
-  for (int part = 0; part < threads; ++part)
+  const auto labelPart = [&](std::int64_t part)
   {
-    label(points.Points, partBegin(size, part, threads), partBegin(size, part + 1, threads), leaves,
-      this->Labels.data(), this->Counts[std::size_t(part)]);
-  }
+    label(points.Points, partBegin(size, int(part), threads),
+      partBegin(size, int(part) + 1, threads), leaves, this->Labels.data(),
+      this->Counts[std::size_t(part)]);
+  };
+  parallelFor(threads, threads, labelPart);
 }
 
 std::vector<std::int64_t> PointExchange::counts() const
@@ -116,78 +76,72 @@ std::vector<std::int64_t> PointExchange::counts() const
   return counts;
 }
 
-/// A message for each rank: the number of points in each of its leaves, then the points leaf by
-/// leaf.
-std::vector<Bytes> PointExchange::pack(int ranks, const std::vector<std::int32_t>& owners) const
+void PointExchange::scatter(
+  const std::vector<PointArrays>& to, const std::vector<std::size_t>& begins) const
 {
-  const std::vector<std::int64_t> leafCounts = this->counts();
   const std::size_t rowSize = this->Input.RowSize;
-  std::vector<std::size_t> leaves(std::size_t(ranks), 0);
-  std::vector<std::size_t> points(std::size_t(ranks), 0);
-  std::vector<std::size_t> begins(this->Leaves); // of each leaf among its owner's points
-  for (std::size_t leaf = 0; leaf < this->Leaves; ++leaf)
+  const auto scatterPart = [&](std::int64_t part)
   {
-    const std::size_t owner = std::size_t(owners[leaf]);
-    begins[leaf] = points[owner];
-    ++leaves[owner];
-    points[owner] += std::size_t(leafCounts[leaf]);
-  }
-  std::vector<Bytes> messages;
-  std::vector<Layout> layouts;
-  for (std::size_t rank = 0; rank < std::size_t(ranks); ++rank)
-  {
-    layouts.emplace_back(leaves[rank], points[rank], rowSize);
-    messages.emplace_back(layouts.back().End);
-    leaves[rank] = 0;
-  }
-  for (std::size_t leaf = 0; leaf < this->Leaves; ++leaf)
-  {
-    const std::size_t owner = std::size_t(owners[leaf]);
-    const std::uint64_t count = std::uint64_t(leafCounts[leaf]);
-    std::memcpy(messages[owner].data() + leaves[owner]++ * sizeof(count), &count, sizeof(count));
-  }
-#pragma omp parallel for num_threads(this->Threads) schedule(static, 1)
-  for (int part = 0; part < this->Threads; ++part)
-  {
-    struct Cursor
-    {
-      Point2* Place;
-      PointId* Id;
-      char* Row;
-    };
-    std::vector<Cursor> cursors(this->Leaves);
+    std::vector<PointArrays> cursors = to;
     for (std::size_t leaf = 0; leaf < this->Leaves; ++leaf)
     {
       std::size_t at = begins[leaf];
-      for (int before = 0; before < part; ++before)
+      for (std::int64_t before = 0; before < part; ++before)
       {
         at += this->Counts[std::size_t(before)][leaf];
       }
-      const Layout& layout = layouts[std::size_t(owners[leaf])];
-      char* const message = messages[std::size_t(owners[leaf])].data();
-      cursors[leaf] = { reinterpret_cast<Point2*>(message + layout.Places) + at,
-        reinterpret_cast<PointId*>(message + layout.Ids) + at,
-        message + layout.Rows + at * rowSize };
+      PointArrays& cursor = cursors[leaf];
+      cursor = { cursor.Places + at, cursor.Ids + at, cursor.Rows + at * rowSize };
     }
     const std::size_t size = this->Input.Points.size();
-    this->Input.Points.forEach(partBegin(size, part, this->Threads),
-      partBegin(size, part + 1, this->Threads),
+    this->Input.Points.forEach(partBegin(size, int(part), this->Threads),
+      partBegin(size, int(part) + 1, this->Threads),
       [&](std::size_t i, Point2 p)
       {
         if (this->Labels[i] == NoLeaf)
         {
           return;
         }
-        Cursor& cursor = cursors[this->Labels[i]];
-        *cursor.Place++ = p;
-        *cursor.Id++ = this->Input.globalId(i);
+        PointArrays& cursor = cursors[this->Labels[i]];
+        *cursor.Places++ = p;
+        *cursor.Ids++ = this->Input.globalId(i);
         if (rowSize > 0)
         {
-          this->Input.PackRow(i, cursor.Row);
-          cursor.Row += rowSize;
+          this->Input.PackRow(i, cursor.Rows);
+          cursor.Rows += rowSize;
         }
       });
+  };
+  parallelFor(this->Threads, this->Threads, scatterPart);
+}
+
+/// The own points go to their places at once. Returns a message for each of the other ranks.
+std::vector<Bytes> PointExchange::pack(const std::vector<std::int32_t>& owners,
+  const PointArrangement& arrangement, const PointArrays& home) const
+{
+  const std::vector<std::int64_t> counts = this->counts();
+  std::vector<std::size_t> sizes(arrangement.Counts.size(), 0);
+  std::vector<std::size_t> begins(this->Leaves);
+  const std::size_t me = std::size_t(arrangement.Rank);
+  for (std::size_t leaf = 0, own = 0; leaf < this->Leaves; ++leaf)
+  {
+    const std::size_t owner = std::size_t(owners[leaf]);
+    begins[leaf] = owner == me ? arrangement.Firsts[me][own++] : sizes[owner];
+    sizes[owner] += std::size_t(counts[leaf]);
   }
+  std::vector<Bytes> messages;
+  std::vector<PointArrays> arrays;
+  for (std::size_t to = 0; to < sizes.size(); ++to)
+  {
+    messages.emplace_back(to == me ? 0 : PointArrays::bytes(sizes[to], this->Input.RowSize));
+    arrays.push_back(to == me ? home : PointArrays(messages.back(), sizes[to]));
+  }
+  std::vector<PointArrays> arraysOfLeaves;
+  for (const std::int32_t owner : owners)
+  {
+    arraysOfLeaves.push_back(arrays[std::size_t(owner)]);
+  }
+  this->scatter(arraysOfLeaves, begins);
   return messages;
 }
 
@@ -196,78 +150,29 @@ OwnedPoints<Id> PointExchange::exchange(
   Postbox& ranks, const std::vector<std::int32_t>& owners) const
 {
   const std::size_t rowSize = this->Input.RowSize;
-  std::vector<Bytes> received = ranks.allToAll(this->pack(ranks.size(), owners));
-  const std::vector<std::size_t> mine = leavesOf(ranks.rank(), owners);
-  std::vector<std::size_t> sizes(this->Leaves, 0);
-  std::vector<Layout> layouts;
-  std::size_t total = 0;
-  for (const Bytes& message : received)
-  {
-    if (message.size() < mine.size() * sizeof(std::uint64_t))
-    {
-      requireSize(message.size(), mine.size() * sizeof(std::uint64_t));
-    }
-    const auto* counts = reinterpret_cast<const std::uint64_t*>(message.data());
-    std::size_t points = 0;
-    for (std::size_t i = 0; i < mine.size(); ++i)
-    {
-      sizes[mine[i]] += counts[i];
-      points += counts[i];
-    }
-    layouts.emplace_back(mine.size(), points, rowSize);
-    requireSize(message.size(), layouts.back().End);
-    total += points;
-  }
-
+  const PointArrangement arrangement(ranks, owners, this->counts());
+  const std::size_t total = arrangement.Starts.back();
   OwnedPoints<Id> owned;
-  std::vector<std::size_t> starts = { 0 };
-  for (const std::size_t size : sizes)
-  {
-    requireFitsKernel(size);
-    starts.push_back(starts.back() + size);
-  }
-  // Triangles with other ranks' points come on top of two a point; memory never touched is free.
-  owned.Buckets = PointBuckets<Id>(starts, total / 8);
   owned.Places = Buffer<Point2>(total);
   owned.GlobalIds = Buffer<PointId>(total);
   owned.Rows = Buffer<char>(total * rowSize);
-  std::vector<std::size_t> taken(received.size(), 0); // of each message's points
-  for (std::size_t i = 0; i < mine.size(); ++i)
+  const PointArrays home(owned.Places.data(), owned.GlobalIds.data(), owned.Rows.data());
+  // Triangles with other ranks' points come on top of two a point; memory never touched is free.
+  owned.Buckets = PointBuckets<Id>(arrangement.Starts, home.Places, total / 8);
+
+  std::vector<Bytes> received = ranks.allToAll(this->pack(owners, arrangement, home));
+  for (int source = 0; source < ranks.size(); ++source)
   {
-    const std::size_t leaf = mine[i];
-    const PartitionIndex bucket = static_cast<PartitionIndex>(leaf);
-    std::size_t at = starts[leaf];
-    for (std::size_t source = 0; source < received.size(); ++source)
+    if (source != ranks.rank())
     {
-      const char* message = received[source].data();
-      const std::size_t count = reinterpret_cast<const std::uint64_t*>(message)[i];
-      const std::size_t from = taken[source];
-      const Layout& layout = layouts[source];
-      const auto copy = [&](void* to, std::size_t begin, std::size_t size)
-      {
-        if (count * size > 0)
-        {
-          std::memcpy(to, message + begin + from * size, count * size);
-        }
-      };
-      copy(owned.Buckets.points(bucket) + (at - starts[leaf]), layout.Places, sizeof(Point2));
-      copy(owned.Places.data() + at, layout.Places, sizeof(Point2));
-      copy(owned.GlobalIds.data() + at, layout.Ids, sizeof(PointId));
-      copy(owned.Rows.data() + at * rowSize, layout.Rows, rowSize);
-      taken[source] += count;
-      at += count;
-    }
-    Id* const ids = owned.Buckets.ids(bucket);
-    for (std::size_t k = 0; k < sizes[leaf]; ++k)
-    {
-      ids[k] = static_cast<Id>(starts[leaf] + k);
+      arrangement.unpack(source, received[std::size_t(source)], home, rowSize, this->Threads);
     }
   }
-  std::vector<std::int64_t> counts(std::size_t(ranks.size()), 0);
-  counts[std::size_t(ranks.rank())] = std::int64_t(total);
-  ranks.sum(counts);
+  std::vector<std::int64_t> totals(std::size_t(ranks.size()), 0);
+  totals[std::size_t(ranks.rank())] = std::int64_t(total);
+  ranks.sum(totals);
   owned.FirstIds = { 0 };
-  for (const std::int64_t count : counts)
+  for (const std::int64_t count : totals)
   {
     owned.FirstIds.push_back(owned.FirstIds.back() + count);
   }

@@ -3,6 +3,7 @@
 #define tippPointExchange_h
 
 #include "Distributed/Plan.h"
+#include "Distributed/PointArrangement.h"
 #include "Messages/Postbox.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/Triangulate.h"
@@ -57,7 +58,9 @@ public:
   OwnedPoints<Id> exchange(Postbox& ranks, const std::vector<std::int32_t>& owners) const;
 
 private:
-  std::vector<Bytes> pack(int ranks, const std::vector<std::int32_t>& owners) const;
+  std::vector<Bytes> pack(const std::vector<std::int32_t>& owners,
+    const PointArrangement& arrangement, const PointArrays& home) const;
+  void scatter(const std::vector<PointArrays>& to, const std::vector<std::size_t>& begins) const;
 
   const RankPoints& Input;
   const std::size_t Leaves;

@@ -2,6 +2,7 @@
 #include "Distributed/RankRun.h"
 
 #include "Distributed/MessageKinds.h"
+#include "Parallel/ProcessorWatch.h"
 #include "Triangulation/HullRepair.h"
 #include "Triangulation/InitialMesh.h"
 #include "Triangulation/PartitionSizes.h"
@@ -125,7 +126,7 @@ void RankRun<Id>::collectInitialPoints()
     for (std::size_t i = 0; i < chosen; ++i)
     {
       const std::size_t at = (2 * i + 1) * count / (2 * chosen);
-      const std::int64_t id = firstId + std::int64_t(this->Points.Buckets.ids(leaf)[at]);
+      const std::int64_t id = firstId + std::int64_t(this->Points.Buckets.id(leaf, at));
       entries[std::size_t(this->Work.Areas[std::size_t(area)].Lead)].push_back(
         { { this->Points.Buckets.points(leaf)[at], id }, area });
     }
@@ -224,7 +225,7 @@ void RankRun<Id>::beginDispatcher(std::int32_t index, const SeamTriangles& mesh)
 template <typename Id>
 void RankRun<Id>::beginTop()
 {
-  const Stopwatch watch;
+  const ProcessorWatch watch;
   const Tiling& boxes = this->Work.Areas.front().Boxes;
   this->Artificial = makeArtificialPoints(boxes);
   std::vector<SeamVertex> vertices = labelled(boxes, this->InitialPoints[0]);
@@ -243,7 +244,7 @@ void RankRun<Id>::beginTop()
 template <typename Id>
 void RankRun<Id>::beginArea(std::int32_t parent, Task task)
 {
-  const Stopwatch watch;
+  const ProcessorWatch watch;
   const std::int32_t index =
     this->Work.Areas[std::size_t(parent)].Children[std::size_t(task.Partition)];
   const Area& area = this->Work.Areas[std::size_t(index)];
@@ -294,7 +295,7 @@ void RankRun<Id>::deliver(std::int32_t master, TaskResult result)
     this->Ranks.post(master, ResultMessage, pack(result));
     return;
   }
-  this->Dispatchers.at(result.Area).Master->complete(result);
+  this->Dispatchers.at(result.Area).Master->complete(std::move(result));
 }
 
 template <typename Id>
@@ -305,7 +306,7 @@ void RankRun<Id>::handle(Message& message)
     this->Finished = true;
     return;
   }
-  const Stopwatch watch;
+  const ProcessorWatch watch;
   ByteReader reader(message.Content);
   if (message.Kind == TaskMessage)
   {
@@ -324,7 +325,7 @@ void RankRun<Id>::handle(Message& message)
   result.Seams = SeamGroups::read(reader);
   Active& active = this->Dispatchers.at(result.Area);
   active.MoreSeconds += watch.seconds();
-  active.Master->complete(result);
+  active.Master->complete(std::move(result));
 }
 
 template <typename Id>
@@ -396,9 +397,13 @@ void RankRun<Id>::keepFigures(const Dispatcher& dispatcher, std::int32_t index)
 template <typename Id>
 void RankRun<Id>::finishArea(std::int32_t index)
 {
-  Stopwatch watch;
+  const ProcessorWatch watch;
   Active& active = this->Dispatchers.at(index);
   Dispatcher& dispatcher = *active.Master;
+  if (this->Kept.empty())
+  {
+    this->Kept.swap(dispatcher.Kept);
+  }
   this->Kept.insert(this->Kept.end(), dispatcher.Kept.begin(), dispatcher.Kept.end());
   if (active.Parent < 0)
   {
@@ -489,7 +494,9 @@ bool RankRun<Id>::step()
 template <typename Id>
 void RankRun<Id>::wait()
 {
-  constexpr std::chrono::microseconds longest(150);
+  // Whoever looks for messages takes the processor from a thread that computes.
+  constexpr std::chrono::microseconds untilMessages(150);
+  constexpr std::chrono::microseconds withTasksWaiting(1000);
   constexpr double untilReport = 0.1; // for a master without work of its own too
   if (this->SinceReport.seconds() > untilReport)
   {
@@ -497,7 +504,7 @@ void RankRun<Id>::wait()
   }
   if (!this->Workers.isIdle())
   {
-    this->Workers.waitFor(longest);
+    this->Workers.waitFor(this->Workers.hasTasksWaiting() ? withTasksWaiting : untilMessages);
     return;
   }
   const Stopwatch watch;

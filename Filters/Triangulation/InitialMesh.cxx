@@ -2,6 +2,7 @@
 #include "Triangulation/InitialMesh.h"
 
 #include "Kernel/DelaunayKernel.h"
+#include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,7 +80,7 @@ std::vector<SeamVertex> makeArtificialPoints(const Tiling& tiling)
 
 template <typename Id>
 std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling& tiling, PointBuckets<Id>& buckets, int perPartition)
+  const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition)
 {
   std::vector<SeamVertex> vertices;
   for (PartitionIndex p = 0; p < tiling.size(); ++p)
@@ -89,7 +90,7 @@ std::vector<SeamVertex> chooseInitialPoints(
     for (std::size_t i = 0; i < chosen; ++i)
     {
       const std::size_t at = (2 * i + 1) * count / (2 * chosen);
-      vertices.push_back(makeSeamVertex(tiling, p, buckets.points(p)[at], buckets.ids(p)[at]));
+      vertices.push_back(makeSeamVertex(tiling, p, buckets.points(p)[at], buckets.id(p, at)));
     }
   }
   return vertices;
@@ -110,8 +111,7 @@ SeamTriangles triangulateVertices(
   const HalfEdgeMesh& mesh = kernel.mesh();
   const std::int64_t triangles = mesh.end() / 8;
   std::vector<SeamTriangles> parts(static_cast<std::size_t>(threads));
-#pragma omp parallel for num_threads(threads) schedule(static, 1)
-  for (int part = 0; part < threads; ++part)
+  const auto collect = [&](std::int64_t part)
   {
     const std::int64_t end = triangles * (part + 1) / threads;
     for (std::int64_t t = triangles * part / threads; t < end; ++t)
@@ -126,7 +126,8 @@ SeamTriangles triangulateVertices(
       parts[std::size_t(part)].add(
         tiling, triangle, Circumdisk(triangle[0].Place, triangle[1].Place, triangle[2].Place));
     }
-  }
+  };
+  parallelFor(threads, threads, collect);
   SeamTriangles all;
   for (const SeamTriangles& part : parts)
   {
@@ -142,8 +143,8 @@ bool partitionsPay(const SeamTriangles& initialMesh)
 }
 
 template std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling&, PointBuckets<std::int32_t>&, int);
+  const Tiling&, const PointBuckets<std::int32_t>&, int);
 template std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling&, PointBuckets<std::int64_t>&, int);
+  const Tiling&, const PointBuckets<std::int64_t>&, int);
 
 } // namespace tipp

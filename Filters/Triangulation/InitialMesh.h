@@ -18,7 +18,7 @@ std::vector<SeamVertex> makeArtificialPoints(const Tiling& tiling);
 /// Equally many points of each partition, evenly spaced in the input's order.
 template <typename Id>
 std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling& tiling, PointBuckets<Id>& buckets, int perPartition);
+  const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition);
 
 /// The Delaunay triangulation of vertices, with the partitions each triangle belongs to.
 SeamTriangles triangulateVertices(
@@ -30,9 +30,9 @@ SeamTriangles triangulateVertices(
 bool partitionsPay(const SeamTriangles& initialMesh);
 
 extern template std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling&, PointBuckets<std::int32_t>&, int);
+  const Tiling&, const PointBuckets<std::int32_t>&, int);
 extern template std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling&, PointBuckets<std::int64_t>&, int);
+  const Tiling&, const PointBuckets<std::int64_t>&, int);
 
 } // namespace tipp
 

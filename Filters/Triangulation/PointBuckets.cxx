@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation/PointBuckets.h"
 
+#include "Parallel/ParallelFor.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace tipp
 {
@@ -53,12 +56,12 @@ PartSurvey surveyPart(PointsView points, std::size_t begin, std::size_t end)
 PointSurvey surveyPoints(PointsView points, int threads)
 {
   std::vector<PartSurvey> parts(static_cast<std::size_t>(threads));
-#pragma omp parallel for num_threads(threads) schedule(static, 1)
-  for (int part = 0; part < threads; ++part)
+  const auto survey = [&](std::int64_t part)
   {
-    const auto [begin, end] = share(points.size(), part, threads);
+    const auto [begin, end] = share(points.size(), int(part), threads);
     parts[std::size_t(part)] = surveyPart(points, begin, end);
-  }
+  };
+  parallelFor(threads, threads, survey);
   PointSurvey all;
   all.Bounds = PartSurvey().Bounds;
   for (const PartSurvey& part : parts)
@@ -139,10 +142,33 @@ private:
 } // namespace
 
 template <typename Id>
-PointBuckets<Id>::PointBuckets(std::vector<std::size_t> starts, std::size_t more)
+PointBuckets<Id>::PointBuckets(std::vector<std::size_t> starts)
   : Starts(std::move(starts))
+  , Memory(6 * this->Starts.back())
+{
+}
+
+template <typename Id>
+PointBuckets<Id>::PointBuckets(
+  std::vector<std::size_t> starts, const Point2* points, std::size_t more)
+  : Starts(std::move(starts))
+  , Elsewhere(points)
   , Memory(6 * this->Starts.back() + 3 * more)
 {
+}
+
+template <typename Id>
+void PointBuckets<Id>::copyIds(PartitionIndex p, std::vector<Id>& ids) const
+{
+  ids.resize(this->count(p));
+  if (this->Elsewhere)
+  {
+    std::iota(ids.begin(), ids.end(), static_cast<Id>(this->start(p)));
+  }
+  else
+  {
+    std::copy_n(this->heldIds(p), ids.size(), ids.data());
+  }
 }
 
 template <typename Id>
@@ -152,14 +178,14 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
   Buffer<std::uint32_t> labels(points.size());
   std::vector<std::vector<std::size_t>> places(
     static_cast<std::size_t>(threads), std::vector<std::size_t>(partitions, 0));
-#pragma omp parallel for num_threads(threads) schedule(static, 1)
-  for (int part = 0; part < threads; ++part)
+  const auto labelPart = [&](std::int64_t part)
   {
-    const auto [begin, end] = share(points.size(), part, threads);
+    const auto [begin, end] = share(points.size(), int(part), threads);
     Labeller labeller(tiling, labels.data(), places[std::size_t(part)]);
     points.forEach(begin, end, [&labeller](std::size_t id, Point2 p) { labeller.add(id, p); });
     labeller.flush(end);
-  }
+  };
+  parallelFor(threads, threads, labelPart);
 
   // From here on places are those of each part's next point within its partition.
   std::vector<std::size_t> starts = { 0 };
@@ -176,8 +202,7 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
   }
 
   PointBuckets<Id> buckets(std::move(starts));
-#pragma omp parallel for num_threads(threads) schedule(static, 1)
-  for (int part = 0; part < threads; ++part)
+  const auto scatterPart = [&](std::int64_t part)
   {
     struct Cursor
     {
@@ -188,9 +213,9 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
     for (PartitionIndex p = 0; p < tiling.size(); ++p)
     {
       const std::size_t place = places[std::size_t(part)][std::size_t(p)];
-      cursors.push_back({ buckets.points(p) + place, buckets.ids(p) + place });
+      cursors.push_back({ buckets.pointsToFill(p) + place, buckets.idsToFill(p) + place });
     }
-    const auto [begin, end] = share(points.size(), part, threads);
+    const auto [begin, end] = share(points.size(), int(part), threads);
     points.forEach(begin, end,
       [&](std::size_t id, Point2 p)
       {
@@ -201,7 +226,8 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
           *cursor.PointId++ = static_cast<Id>(id);
         }
       });
-  }
+  };
+  parallelFor(threads, threads, scatterPart);
   return buckets;
 }
 

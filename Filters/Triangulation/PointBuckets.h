@@ -32,18 +32,36 @@ class PointBuckets
 {
 public:
   PointBuckets() = default;
-  /// Starts: of each partition, counted in points, and the end. More: room for so many triangles
-  /// after the last partition's.
-  explicit PointBuckets(std::vector<std::size_t> starts, std::size_t more = 0);
+  /// Starts: of each partition, counted in points, and the end.
+  explicit PointBuckets(std::vector<std::size_t> starts);
+  /// Of points that lie in the buckets' order elsewhere, and whose ids are their places there.
+  /// More: room for so many triangles after the last partition's.
+  PointBuckets(std::vector<std::size_t> starts, const Point2* points, std::size_t more);
 
   PartitionIndex partitions() const { return static_cast<PartitionIndex>(this->Starts.size() - 1); }
   std::size_t start(PartitionIndex p) const { return this->Starts[std::size_t(p)]; }
   std::size_t count(PartitionIndex p) const { return this->start(p + 1) - this->start(p); }
   std::size_t size() const { return this->Starts.back(); }
 
-  Point2* points(PartitionIndex p) { return reinterpret_cast<Point2*>(this->triangles(p)); }
-  Id* ids(PartitionIndex p) { return reinterpret_cast<Id*>(this->points(p) + this->count(p)); }
+  const Point2* points(PartitionIndex p) const
+  {
+    return this->Elsewhere ? this->Elsewhere + this->start(p) : this->held(p);
+  }
+  Id id(PartitionIndex p, std::size_t at) const
+  {
+    return this->Elsewhere ? static_cast<Id>(this->start(p) + at) : this->heldIds(p)[at];
+  }
+  void copyIds(PartitionIndex p, std::vector<Id>& ids) const;
   Id* triangles(PartitionIndex p) { return this->Memory.data() + 6 * this->start(p); }
+
+  ///@{
+  /// To be filled.
+  Point2* pointsToFill(PartitionIndex p) { return reinterpret_cast<Point2*>(this->triangles(p)); }
+  Id* idsToFill(PartitionIndex p)
+  {
+    return reinterpret_cast<Id*>(this->pointsToFill(p) + this->count(p));
+  }
+  ///@}
 
   /// All partitions' triangles, with gaps between them.
   Buffer<Id> release() { return std::move(this->Memory); }
@@ -51,7 +69,17 @@ public:
 private:
   static_assert(sizeof(Point2) + sizeof(Id) <= 6 * sizeof(Id), "the points fit");
 
+  const Point2* held(PartitionIndex p) const
+  {
+    return reinterpret_cast<const Point2*>(this->Memory.data() + 6 * this->start(p));
+  }
+  const Id* heldIds(PartitionIndex p) const
+  {
+    return reinterpret_cast<const Id*>(this->held(p) + this->count(p));
+  }
+
   std::vector<std::size_t> Starts = { 0 };
+  const Point2* Elsewhere = nullptr;
   Buffer<Id> Memory;
 };
 

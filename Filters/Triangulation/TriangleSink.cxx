@@ -15,19 +15,21 @@ TriangleSink<Id>::TriangleSink(PointBuckets<Id>& buckets)
 }
 
 template <typename Id>
+typename TriangleSink<Id>::Corners TriangleSink<Id>::fromLowest(const Corners& ids)
+{
+  const auto first = std::size_t(std::min_element(ids.begin(), ids.end()) - ids.begin());
+  return { ids[first], ids[(first + 1) % 3], ids[(first + 2) % 3] };
+}
+
+template <typename Id>
 std::vector<typename TriangleSink<Id>::Corners> TriangleSink<Id>::sortSeams(
-  const std::vector<SeamTriangle>& seams, int threads) const
+  const std::vector<Seam>& seams, int threads) const
 {
   const std::size_t partitions = this->InteriorCounts.size();
-  const auto lowest = [](const SeamTriangle& triangle)
-  {
-    return std::min_element(triangle.begin(), triangle.end(),
-      [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; });
-  };
   std::vector<std::size_t> places(partitions + 1, 0);
-  for (const SeamTriangle& triangle : seams)
+  for (const Seam& seam : seams)
   {
-    ++places[std::size_t(lowest(triangle)->partition()) + 1];
+    ++places[std::size_t(seam.Partition) + 1];
   }
   for (std::size_t p = 0; p < partitions; ++p)
   {
@@ -35,14 +37,9 @@ std::vector<typename TriangleSink<Id>::Corners> TriangleSink<Id>::sortSeams(
   }
   const std::vector<std::size_t> begins = places;
   std::vector<Corners> sorted(seams.size());
-  for (const SeamTriangle& triangle : seams)
+  for (const Seam& seam : seams)
   {
-    const auto first = static_cast<std::size_t>(lowest(triangle) - triangle.begin());
-    Corners& corners = sorted[places[std::size_t(triangle[first].partition())]++];
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      corners[i] = static_cast<Id>(triangle[(first + i) % 3].Id);
-    }
+    sorted[places[std::size_t(seam.Partition)]++] = seam.Ids;
   }
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 16)
   for (std::size_t p = 0; p < partitions; ++p)
@@ -55,6 +52,22 @@ std::vector<typename TriangleSink<Id>::Corners> TriangleSink<Id>::sortSeams(
 
 template <typename Id>
 Buffer<Id> TriangleSink<Id>::assemble(const std::vector<SeamTriangle>& seams, int threads)
+{
+  std::vector<Seam> taken;
+  taken.reserve(seams.size());
+  for (const SeamTriangle& triangle : seams)
+  {
+    const auto lowest = std::min_element(triangle.begin(), triangle.end(),
+      [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; });
+    const Corners ids = { static_cast<Id>(triangle[0].Id), static_cast<Id>(triangle[1].Id),
+      static_cast<Id>(triangle[2].Id) };
+    taken.push_back({ fromLowest(ids), lowest->partition() });
+  }
+  return this->assemble(taken, threads);
+}
+
+template <typename Id>
+Buffer<Id> TriangleSink<Id>::assemble(const std::vector<Seam>& seams, int threads)
 {
   const std::vector<Corners> sorted = this->sortSeams(seams, threads);
   std::size_t total = sorted.size();

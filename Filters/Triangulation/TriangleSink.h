@@ -27,13 +27,22 @@ public:
     this->InteriorCounts[std::size_t(p)] = count;
   }
 
+  using Corners = std::array<Id, 3>;
+  struct Seam
+  {
+    Corners Ids;              ///< the lowest first
+    PartitionIndex Partition; ///< of that one
+  };
+  /// The corners in their order, from the lowest id on.
+  static Corners fromLowest(const Corners& ids);
+
   /// Takes the buckets' memory. The seams' vertices must be true points; some may be points that
   /// are not in the buckets, so that there can be more than two triangles a point.
+  Buffer<Id> assemble(const std::vector<Seam>& seams, int threads);
   Buffer<Id> assemble(const std::vector<SeamTriangle>& seams, int threads);
 
 private:
-  using Corners = std::array<Id, 3>;
-  std::vector<Corners> sortSeams(const std::vector<SeamTriangle>& seams, int threads) const;
+  std::vector<Corners> sortSeams(const std::vector<Seam>& seams, int threads) const;
 
   PointBuckets<Id>& Buckets;
   std::vector<std::size_t> InteriorCounts;

@@ -89,8 +89,7 @@ bool Worker<Id>::triangulateAlone(const DelaunayKernel::Monitor& proceed)
 template <typename Id>
 void Worker<Id>::takeIds(PartitionIndex bucket)
 {
-  const Id* ids = this->Buckets.ids(bucket);
-  this->Ids.assign(ids, ids + this->Buckets.count(bucket));
+  this->Buckets.copyIds(bucket, this->Ids);
 }
 
 template <typename Id>

@@ -34,17 +34,23 @@ public:
     const std::int64_t chunkRange = range.High - range.Low + 1;
     if (chunkRange <= this->M)
     {
-      this->loadSegment({ ids, count, range.Low, chunkRange }, out);
+      this->readSegment(range.Low, chunkRange);
+      gatherAll(count, this->Files, this->Buffers, out, this->Threads,
+        [ids, low = range.Low](std::size_t i) { return std::uint64_t(ids[i] - low); });
       return;
     }
-    const std::vector<char> active = this->findActive(ids, count, range);
+    const std::size_t segments = std::size_t((range.High - range.Low) / this->M) + 1;
+    const std::vector<char> active = findActive(ids, count, range.Low, segments, this->Threads,
+      [m = Divisor(std::uint64_t(this->M))](std::uint64_t id) { return m.quotient(id); });
     for (std::size_t segment = 0; segment < active.size(); ++segment)
     {
       if (active[segment] != 0)
       {
         const std::int64_t first = range.Low + std::int64_t(segment) * this->M;
         const std::int64_t size = std::min(this->M, range.High + 1 - first);
-        this->loadSegment({ ids, count, first, size }, out);
+        this->readSegment(first, size);
+        scatterRange({ ids, count, first, size }, this->Files, this->Buffers, out, this->Threads,
+          [](std::uint64_t id) { return id; });
       }
     }
   }
@@ -53,27 +59,14 @@ public:
   Loader kind() const override { return Loader::Direct; }
 
 private:
-  void loadSegment(const WantedTuples& wanted, void* const* out)
+  void readSegment(std::int64_t first, std::int64_t size)
   {
-    this->Buffers.resize(this->Files, wanted.Size);
+    this->Buffers.resize(this->Files, size);
     for (std::size_t a = 0; a < this->Files.count(); ++a)
     {
-      this->Files.read(a, wanted.First, wanted.Size, this->Buffers.data(a), this->Counts);
+      this->Files.read(a, first, size, this->Buffers.data(a), this->Counts);
     }
     ++this->Counts.Passes;
-    scatterRange(
-      wanted, this->Files, this->Buffers, out, this->Threads, [](std::uint64_t id) { return id; });
-  }
-
-  /// The bitmap: an element a segment of M vertices.
-  std::vector<char> findActive(
-    const std::int64_t* ids, std::size_t count, const IdRange& range) const
-  {
-    const std::size_t segments = std::size_t((range.High - range.Low) / this->M) + 1;
-    const Divisor m(std::uint64_t(this->M));
-    return countSegments(ids, count, range.Low, segments, this->Threads,
-      [m](std::uint64_t id) { return m.quotient(id); })
-      .active();
   }
 
   ArrayFiles Files;

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Direct Load with a fine bitmap: what is active is known for about 1,024 vertices rather than for
 // M, so that a chunk whose vertices lie together reads little else; active runs that are near each
-// other are read at once, and packed up to M vertices a pass.
+// other are read at once, and packed up to M vertices a pass. Of vertices that are few and far
+// apart each is read by itself. Where all vertices fit into M, what is read stays in memory from
+// when as much has been read as there is.
 #include "Loading/Loaders.h"
 #include "Loading/Runs.h"
 #include "Loading/ScatterRange.h"
 #include "Loading/SegmentCounts.h"
+#include "Loading/UniqueIds.h"
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -47,16 +51,31 @@ public:
     }
     this->Counts.UsefulBytes += std::int64_t(count * this->Files.recordBytes());
     requireCountable(count);
-    // Few ids far apart are sorted: a bit for each block would be more work, and blocks too coarse.
-    constexpr std::int64_t sparse = 128;
-    const bool sorted = std::int64_t(count) < (range.High - range.Low) / sparse;
-    if (sorted)
+    Chunk chunk = { ids, count, range.Low >> this->Shift << this->Shift, range.High, {}, {} };
+    const std::size_t blocks = std::size_t((range.High - chunk.Low) >> this->Shift) + 1;
+    constexpr std::int64_t sparse = 128; // tuples that are read along with each that is wanted
+    bool isSparse = blocks > count;      // then to look for active blocks is more work than to sort
+    std::int64_t pages = std::int64_t(count);
+    if (!isSparse)
     {
-      this->loadSorted(ids, count, range, out);
+      this->findActiveBlocks(chunk, blocks);
+      const std::int64_t active = std::count(chunk.Active.begin(), chunk.Active.end(), char(1))
+        << this->Shift;
+      isSparse = active > sparse * std::int64_t(count);
+      pages = isSparse ? pages : this->pagesOf(active);
+    }
+    if (this->keepsAll(pages))
+    {
+      this->findActiveBlocks(chunk, blocks);
+      this->loadWhole(chunk, out);
+    }
+    else if (isSparse)
+    {
+      this->loadSparse(chunk, out);
     }
     else
     {
-      this->loadBlocks(ids, count, range, out);
+      this->loadBlocks(chunk, out);
     }
   }
 
@@ -64,16 +83,86 @@ public:
   Loader kind() const override { return Loader::Fine; }
 
 private:
-  void loadBlocks(
-    const std::int64_t* ids, std::size_t count, const IdRange& range, void* const* out)
+  struct Chunk
+  {
+    const std::int64_t* Ids;
+    std::size_t Count;
+    std::int64_t Low; ///< where the block of the lowest id begins
+    std::int64_t High;
+    std::vector<char> Active; ///< of each block: has ids, and has not been read
+    SegmentCounts Counts;     ///< only if there may be several groups
+  };
+
+  bool fitsWhole() const { return this->Files.tuples() <= this->M; }
+
+  void findActiveBlocks(Chunk& chunk, std::size_t blocks) const
+  {
+    if (!chunk.Active.empty())
+    {
+      return;
+    }
+    const auto blockOf = [shift = this->Shift](std::uint64_t id) { return id >> shift; };
+    if (chunk.High - chunk.Low >= this->M && !this->fitsWhole())
+    {
+      chunk.Counts =
+        countSegments(chunk.Ids, chunk.Count, chunk.Low, blocks, this->Threads, blockOf);
+      chunk.Active = chunk.Counts.active();
+      return;
+    }
+    chunk.Active = findActive(chunk.Ids, chunk.Count, chunk.Low, blocks, this->Threads, blockOf);
+    if (!this->WasRead.empty())
+    {
+      const char* const wasRead = this->WasRead.data() + (chunk.Low >> this->Shift);
+      for (std::size_t block = 0; block < blocks; ++block)
+      {
+        chunk.Active[block] &= char(wasRead[block] ^ 1);
+      }
+    }
+  }
+
+  std::int64_t pagesOf(std::int64_t tuples) const
+  {
+    constexpr std::int64_t page = 4096;
+    return tuples * std::int64_t(this->Files.recordBytes()) / page;
+  }
+
+  /// Whether what is read shall stay: if all fits, from when as much has been read as there is.
+  bool keepsAll(std::int64_t pages)
+  {
+    this->PagesRead += pages;
+    return this->fitsWhole() && this->PagesRead > this->pagesOf(this->Files.tuples());
+  }
+
+  /// Tuples are in the buffers where they are in the files.
+  void loadWhole(const Chunk& chunk, void* const* out)
+  {
+    const std::int64_t block = std::int64_t(1) << this->Shift;
+    this->Buffers.resize(this->Files, this->Files.tuples());
+    this->WasRead.resize(std::size_t((this->Files.tuples() - 1) >> this->Shift) + 1, 0);
+    const std::int64_t end = std::min(
+      chunk.Low + (std::int64_t(chunk.Active.size()) << this->Shift), this->Files.tuples());
+    for (const Run& run : runsOfBlocks(chunk.Active, block, chunk.Low, end - 1, 1))
+    {
+      for (std::size_t a = 0; a < this->Files.count(); ++a)
+      {
+        char* const to = this->Buffers.data(a) + std::size_t(run.First) * this->Files.tupleBytes(a);
+        this->Files.read(a, run.First, run.Size, to, this->Counts);
+      }
+      const auto first = this->WasRead.begin() + (run.First >> this->Shift);
+      std::fill(first, first + ((run.Size - 1) >> this->Shift) + 1, char(1));
+    }
+    ++this->Counts.Passes;
+    gatherAll(chunk.Count, this->Files, this->Buffers, out, this->Threads,
+      [ids = chunk.Ids](std::size_t i) { return std::uint64_t(ids[i]); });
+  }
+
+  void loadBlocks(const Chunk& chunk, void* const* out)
   {
     const int shift = this->Shift;
     const std::int64_t block = std::int64_t(1) << shift;
-    const std::size_t blocks = std::size_t((range.High - range.Low) >> shift) + 1;
-    const SegmentCounts counts = countSegments(ids, count, range.Low, blocks, this->Threads,
-      [shift](std::uint64_t id) { return id >> shift; });
-    const RunPlan plan(runsOfBlocks(counts.active(), block, range.Low, range.High, this->Gap),
-      this->M, block, range.Low);
+    const std::size_t blocks = chunk.Active.size();
+    const RunPlan plan(runsOfBlocks(chunk.Active, block, chunk.Low, chunk.High, this->Gap), this->M,
+      block, chunk.Low);
     // Where each block is packed, and in which group.
     std::vector<std::uint32_t> starts(blocks);
     std::vector<std::uint32_t> groups(blocks);
@@ -82,7 +171,7 @@ private:
       const Run& run = plan.Runs[i];
       for (std::int64_t at = 0; at < run.Size; at += block)
       {
-        const auto index = std::size_t((run.First + at - range.Low) >> shift);
+        const auto index = std::size_t((run.First + at - chunk.Low) >> shift);
         starts[index] = plan.Packed[i] + std::uint32_t(at);
         groups[index] = plan.GroupOf[i];
       }
@@ -92,12 +181,13 @@ private:
     if (plan.groups() == 1)
     {
       this->readGroup(plan, 0);
-      scatterRange({ ids, count, range.Low, range.High - range.Low + 1 }, this->Files,
-        this->Buffers, out, this->Threads, place);
+      gatherAll(chunk.Count, this->Files, this->Buffers, out, this->Threads,
+        [&place, ids = chunk.Ids, low = chunk.Low](std::size_t i)
+        { return place(std::uint64_t(ids[i] - low)); });
       return;
     }
-    this->sortMoves(ids, counts, groups, plan.groups(),
-      [&place, &groups, shift, low = range.Low](std::int64_t id)
+    this->sortMoves(chunk.Ids, chunk.Counts, groups, plan.groups(),
+      [&place, &groups, shift, low = chunk.Low](std::int64_t id)
       {
         const auto relative = std::uint64_t(id - low);
         return std::make_pair(groups[relative >> shift], std::uint32_t(place(relative)));
@@ -145,33 +235,43 @@ private:
       });
   }
 
-  void loadSorted(
-    const std::int64_t* ids, std::size_t count, const IdRange& range, void* const* out)
+  /// Few ids far apart: single tuples are read.
+  void loadSparse(const Chunk& chunk, void* const* out)
   {
-    std::vector<std::pair<std::int64_t, std::uint32_t>> sorted(count);
-    for (std::size_t i = 0; i < count; ++i)
+    const UniqueIds unique(chunk.Ids, chunk.Count);
+    const RunPlan plan(runsOfIds(unique.Sorted, this->Gap), this->M, 1, chunk.Low);
+    std::vector<std::uint32_t> places(unique.Sorted.size()); // of each number, and its group
+    std::vector<std::uint32_t> groups(unique.Sorted.size());
+    std::size_t run = 0;
+    for (const auto& [id, number] : unique.Sorted)
     {
-      sorted[i] = { ids[i], std::uint32_t(i) };
+      while (id >= plan.Runs[run].First + plan.Runs[run].Size)
+      {
+        ++run;
+      }
+      places[number] = plan.Packed[run] + std::uint32_t(id - plan.Runs[run].First);
+      groups[number] = plan.GroupOf[run];
     }
-    std::sort(sorted.begin(), sorted.end());
-    const RunPlan plan(runsOfIds(sorted, this->Gap), this->M, 1, range.Low);
-    this->reserveMoves(count);
-    this->MoveStarts.clear();
-    std::size_t i = 0;
-    for (std::size_t run = 0; run < plan.Runs.size(); ++run)
+    if (plan.groups() == 1)
     {
-      if (plan.GroupOf[run] == this->MoveStarts.size())
-      {
-        this->MoveStarts.push_back(i);
-      }
-      const std::int64_t first = plan.Runs[run].First;
-      for (; i < count && sorted[i].first < first + plan.Runs[run].Size; ++i)
-      {
-        const auto inside = std::uint32_t(sorted[i].first - first);
-        this->Moves[i] = { plan.Packed[run] + inside, sorted[i].second };
-      }
+      this->readGroup(plan, 0);
+      gatherAll(chunk.Count, this->Files, this->Buffers, out, this->Threads,
+        [&](std::size_t i) { return std::uint64_t(places[unique.Numbers[i]]); });
+      return;
     }
-    this->MoveStarts.push_back(count);
+    this->MoveStarts.assign(plan.groups() + 1, 0);
+    for (const std::uint32_t number : unique.Numbers)
+    {
+      ++this->MoveStarts[groups[number] + 1];
+    }
+    std::partial_sum(this->MoveStarts.begin(), this->MoveStarts.end(), this->MoveStarts.begin());
+    this->reserveMoves(chunk.Count);
+    std::vector<std::size_t> next = this->MoveStarts;
+    for (std::size_t i = 0; i < chunk.Count; ++i)
+    {
+      const std::uint32_t number = unique.Numbers[i];
+      this->Moves[next[groups[number]]++] = { places[number], std::uint32_t(i) };
+    }
     this->loadMoves(plan, out);
   }
 
@@ -221,6 +321,8 @@ private:
   int Shift = 0;    ///< a block is 2^Shift tuples
   LoadCounters Counts;
   TupleBuffers Buffers;
+  std::vector<char> WasRead;     ///< of each block, where all tuples fit
+  std::int64_t PagesRead = 0;    ///< about, and a page for each tuple read by itself
   std::unique_ptr<Move[]> Moves; ///< of the chunk, sorted by group
   std::size_t MoveRoom = 0;
   std::vector<std::size_t> MoveStarts; ///< of the groups, and the number of moves

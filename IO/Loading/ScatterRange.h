@@ -81,6 +81,34 @@ void scatterRange(const WantedTuples& wanted, const ArrayFiles& files, TupleBuff
     });
 }
 
+/// Copies all tuples of a chunk: the one at source(i) in the buffers to place i.
+template <typename Source>
+void gatherAll(std::size_t count, const ArrayFiles& files, TupleBuffers& buffers, void* const* out,
+  int threads, const Source& source)
+{
+  constexpr std::size_t share = 1 << 17;
+  parallelFor(std::int64_t((count + share - 1) / share), threads,
+    [&](std::int64_t part)
+    {
+      const std::size_t end = std::min((std::size_t(part) + 1) * share, count);
+      std::array<std::uint64_t, scatterBlock> sources;
+      for (std::size_t first = std::size_t(part) * share; first < end; first += scatterBlock)
+      {
+        const std::size_t size = std::min(scatterBlock, end - first);
+        for (std::size_t i = 0; i < size; ++i)
+        {
+          sources[i] = source(first + i);
+        }
+        for (std::size_t a = 0; a < files.count(); ++a)
+        {
+          const std::size_t bytes = files.tupleBytes(a);
+          gatherTuples(buffers.data(a), sources.data(), static_cast<char*>(out[a]) + first * bytes,
+            size, bytes);
+        }
+      }
+    });
+}
+
 /// Where a tuple lies in the buffers, and where in the chunk it goes.
 struct Move
 {

@@ -45,6 +45,35 @@ inline void requireCountable(std::size_t ids)
   }
 }
 
+/// Whether there are ids of a chunk in each segment of the vertices; for that alone, quicker than
+/// to count them: ids that follow each other are often of one segment, and each count waits for the
+/// one before.
+template <typename Segment>
+std::vector<char> findActive(const std::int64_t* ids, std::size_t count, std::int64_t low,
+  std::size_t segments, int threads, const Segment& segment)
+{
+  constexpr std::size_t share = 1 << 18;
+  const std::size_t shares = std::max<std::size_t>((count + share - 1) / share, 1);
+  std::vector<std::vector<char>> parts(shares);
+  parallelFor(std::int64_t(shares), threads,
+    [&](std::int64_t part)
+    {
+      std::vector<char> own(segments, 0);
+      const std::size_t end = std::min((std::size_t(part) + 1) * share, count);
+      for (std::size_t i = std::size_t(part) * share; i < end; ++i)
+      {
+        own[segment(std::uint64_t(ids[i] - low))] = 1;
+      }
+      parts[std::size_t(part)] = std::move(own);
+    });
+  for (std::size_t part = 1; part < shares; ++part)
+  {
+    std::transform(parts[part].begin(), parts[part].end(), parts[0].begin(), parts[0].begin(),
+      [](char a, char b) { return char(a | b); });
+  }
+  return std::move(parts[0]);
+}
+
 /// segment(id - low) is below `segments`. Throws as requireCountable does.
 template <typename Segment>
 SegmentCounts countSegments(const std::int64_t* ids, std::size_t count, std::int64_t low,

@@ -245,6 +245,34 @@ TEST(FineLoader, ReadsLittleBesideWhatIsAsked)
   EXPECT_EQ(2 * 24, loader->counters().Bytes);
 }
 
+TEST(FineLoader, ReadsNothingTwiceForLongWhereAllFits)
+{
+  LoaderOptions options;
+  options.Kind = Loader::Fine;
+  options.M = tuples;
+  const auto loader = makeVertexLoader(source().Arrays, options);
+  for (int round = 0; round < 30; ++round)
+  {
+    for (const Ids& ids : patterns())
+    {
+      expectRight(*loader, ids, 300);
+    }
+  }
+  const std::int64_t whole = tuples * (3 * 8 + 1 + 5 * 2);
+  EXPECT_LE(loader->counters().Bytes, 4 * whole);
+  EXPECT_GT(loader->counters().UsefulBytes, 100 * whole / 2);
+}
+
+TEST(FineLoader, FewIdsInSeveralPassesAreAllFound)
+{
+  LoaderOptions options;
+  options.Kind = Loader::Fine;
+  options.M = 2;
+  const auto loader = makeVertexLoader(source().Arrays, options);
+  expectRight(*loader, { 4999, 3, 4999, 2500, 3, 1200, 0, 3 }, 8);
+  EXPECT_EQ(4, loader->counters().Passes); // 0 to 3 are read together, two at a time
+}
+
 TEST(LruLoader, CountsAMissForEachBlockThatItReads)
 {
   LoaderOptions options;

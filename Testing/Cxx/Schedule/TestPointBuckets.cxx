@@ -33,6 +33,14 @@ Tiling someTiling()
   return Tiling::grid({ 0, 0, 1, 1 }, 5, 3);
 }
 
+template <typename Id>
+std::vector<Id> idsOf(const PointBuckets<Id>& buckets, PartitionIndex p)
+{
+  std::vector<Id> ids;
+  buckets.copyIds(p, ids);
+  return ids;
+}
+
 TYPED_TEST(BucketsOf, EveryFinitePointIsInItsPartitionsBucketInTheInputsOrder)
 {
   const Coordinates xy = pointsWithHoles();
@@ -50,8 +58,8 @@ TYPED_TEST(BucketsOf, EveryFinitePointIsInItsPartitionsBucketInTheInputsOrder)
   }
   for (PartitionIndex p = 0; p < tiling.size(); ++p)
   {
-    const TypeParam* const ids = buckets.ids(p);
-    ASSERT_EQ(expected[std::size_t(p)], std::vector<TypeParam>(ids, ids + buckets.count(p)));
+    const std::vector<TypeParam> ids = idsOf(buckets, p);
+    ASSERT_EQ(expected[std::size_t(p)], ids);
     for (std::size_t i = 0; i < buckets.count(p); ++i)
     {
       ASSERT_EQ(points[std::size_t(ids[i])], buckets.points(p)[i]);
@@ -70,7 +78,7 @@ TYPED_TEST(BucketsOf, AreTheSameForAnyNumberOfThreads)
     for (PartitionIndex p = 0; p < tiling.size(); ++p)
     {
       ASSERT_EQ(one.count(p), more.count(p));
-      ASSERT_TRUE(std::equal(one.ids(p), one.ids(p) + one.count(p), more.ids(p)));
+      ASSERT_EQ(idsOf(one, p), idsOf(more, p));
       ASSERT_TRUE(std::equal(one.points(p), one.points(p) + one.count(p), more.points(p)));
     }
   }
@@ -81,8 +89,8 @@ TYPED_TEST(BucketsOf, MoreThreadsThanPointsAreFine)
   const Coordinates xy{ 0.1, 0.1, 0.9, 0.9 };
   auto buckets = bucketPoints<TypeParam>(view(xy), someTiling(), 7);
   EXPECT_EQ(2U, buckets.size());
-  EXPECT_EQ(0, *buckets.ids(someTiling().locate({ 0.1, 0.1 })));
-  EXPECT_EQ(1, *buckets.ids(someTiling().locate({ 0.9, 0.9 })));
+  EXPECT_EQ(0, buckets.id(someTiling().locate({ 0.1, 0.1 }), 0));
+  EXPECT_EQ(1, buckets.id(someTiling().locate({ 0.9, 0.9 }), 0));
 }
 
 TYPED_TEST(BucketsOf, NothingButRejectedPointsLeavesAllBucketsEmpty)
@@ -90,6 +98,22 @@ TYPED_TEST(BucketsOf, NothingButRejectedPointsLeavesAllBucketsEmpty)
   const Coordinates xy(200, std::nan(""));
   const auto buckets = bucketPoints<TypeParam>(view(xy), someTiling(), 2);
   EXPECT_EQ(0U, buckets.size());
+}
+
+TYPED_TEST(BucketsOf, PointsElsewhereAreNotOverwrittenAndTheirPlacesAreTheirIds)
+{
+  const std::vector<Point2> points{ { 1, 2 }, { 3, 4 }, { 5, 6 }, { 7, 8 } };
+  PointBuckets<TypeParam> buckets({ 0, 1, 1, 4 }, points.data(), 1);
+  for (PartitionIndex p = 0; p < buckets.partitions(); ++p)
+  {
+    std::fill_n(buckets.triangles(p), 6 * buckets.count(p), TypeParam(9));
+  }
+  EXPECT_EQ((std::vector<TypeParam>{ 0 }), idsOf(buckets, 0));
+  EXPECT_EQ((std::vector<TypeParam>{}), idsOf(buckets, 1));
+  EXPECT_EQ((std::vector<TypeParam>{ 1, 2, 3 }), idsOf(buckets, 2));
+  EXPECT_EQ((Point2{ 3, 4 }), buckets.points(2)[0]);
+  EXPECT_EQ(2, buckets.id(2, 1));
+  EXPECT_EQ(3U * (2 * 4 + 1), buckets.release().size());
 }
 
 TYPED_TEST(BucketsOf, TrianglesHaveRoomForTwoAPoint)

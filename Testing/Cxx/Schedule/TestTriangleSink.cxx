@@ -104,7 +104,7 @@ TYPED_TEST(SinkOf, ThereIsRoomForTwoTrianglesAPoint)
 
 TYPED_TEST(SinkOf, NothingIsEmpty)
 {
-  EXPECT_TRUE(this->Sink.assemble({}, 1).empty());
+  EXPECT_TRUE(this->Sink.assemble(std::vector<SeamTriangle>(), 1).empty());
 }
 
 TYPED_TEST(SinkOf, InteriorTrianglesStayWhereTheyAre)
@@ -147,7 +147,7 @@ TYPED_TEST(SinkOf, SeamsStayCounterClockwise)
 {
   const SeamTriangle t = { SeamVertex{ {}, 9, 0 }, SeamVertex{ {}, 4, 8 },
     SeamVertex{ {}, 7, 12 } };
-  const Buffer<TypeParam> ids = this->Sink.assemble({ t }, 1);
+  const Buffer<TypeParam> ids = this->Sink.assemble(std::vector<SeamTriangle>{ t }, 1);
   EXPECT_EQ((std::vector<TypeParam>{ 4, 7, 9 }), std::vector<TypeParam>(ids.begin(), ids.end()));
 }
 

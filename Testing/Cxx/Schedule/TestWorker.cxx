@@ -53,8 +53,9 @@ public:
 
   Interior triangulate(PartitionIndex p)
   {
-    const std::int32_t* const ids = this->Scene.Buckets.ids(p);
-    this->Inserted.insert(this->Inserted.end(), ids, ids + this->Scene.Buckets.count(p));
+    std::vector<std::int32_t> ids;
+    this->Scene.Buckets.copyIds(p, ids);
+    this->Inserted.insert(this->Inserted.end(), ids.begin(), ids.end());
     std::sort(this->Inserted.begin(), this->Inserted.end());
     this->Inserted.erase(
       std::unique(this->Inserted.begin(), this->Inserted.end()), this->Inserted.end());

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The points' way to their owners: PointExchange and the PointArrangement it makes.
+#include "Distributed/PointExchange.h"
+
+#include "vtkMultiProcessController.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+namespace
+{
+
+using namespace tipp;
+
+constexpr std::size_t RowSize = 3;
+
+/// What one rank brings along: some points of which one is not finite, and a row with each.
+struct Share
+{
+  explicit Share(int rank)
+  {
+    std::mt19937 random(std::uint32_t(rank) + 1);
+    std::uniform_real_distribution<double> place(0, 1);
+    const int count = rank == 1 ? 0 : 200 + 50 * rank; // a rank may have none
+    for (int i = 0; i < count; ++i)
+    {
+      this->Places.push_back({ place(random), place(random) });
+      this->Ids.push_back(1000 * rank + 7 * i);
+    }
+    if (count > 0)
+    {
+      this->Places.front().x = std::nan("");
+    }
+  }
+
+  std::vector<char> row(std::size_t i) const
+  {
+    return { char(this->Ids[i] % 100), char(i % 100), 'r' };
+  }
+
+  RankPoints points() const
+  {
+    RankPoints points;
+    points.Points =
+      PointsView(this->Places.empty() ? nullptr : &this->Places.front().x, this->Places.size(), 2);
+    points.GlobalIds = this->Ids.data();
+    points.RowSize = RowSize;
+    points.PackRow = [this](std::size_t i, char* to)
+    {
+      const std::vector<char> made = this->row(i);
+      std::memcpy(to, made.data(), made.size());
+    };
+    return points;
+  }
+
+  std::vector<Point2> Places;
+  std::vector<PointId> Ids;
+};
+
+Tiling leaves()
+{
+  return Tiling::grid({ 0, 0, 1, 1 }, 4, 3);
+}
+
+/// Leaves by turns, and the last two to the last rank.
+std::vector<std::int32_t> ownersOf(int ranks)
+{
+  std::vector<std::int32_t> owners;
+  for (PartitionIndex leaf = 0; leaf < leaves().size(); ++leaf)
+  {
+    owners.push_back(leaf < leaves().size() - 2 ? leaf % ranks : ranks - 1);
+  }
+  return owners;
+}
+
+class PointExchangeOf : public testing::TestWithParam<int>
+{
+};
+
+TEST_P(PointExchangeOf, OwnersGetAllRanksPointsLeafByLeafInTheOrderOfRanks)
+{
+  Postbox box(vtkMultiProcessController::GetGlobalController());
+  const Tiling tiling = leaves();
+  const std::vector<std::int32_t> owners = ownersOf(box.size());
+  const Share mine(box.rank());
+  const RankPoints points = mine.points();
+  OwnedPoints<std::int32_t> owned =
+    PointExchange(points, tiling, GetParam()).exchange<std::int32_t>(box, owners);
+
+  std::size_t at = 0;
+  for (PartitionIndex leaf = 0; leaf < tiling.size(); ++leaf)
+  {
+    ASSERT_EQ(at, owned.Buckets.start(leaf));
+    for (int rank = 0; owners[std::size_t(leaf)] == box.rank() && rank < box.size(); ++rank)
+    {
+      const Share share(rank);
+      for (std::size_t i = 0; i < share.Places.size(); ++i)
+      {
+        if (isFinite(share.Places[i]) && tiling.locate(share.Places[i]) == leaf)
+        {
+          ASSERT_LT(at, owned.size());
+          EXPECT_EQ(share.Places[i], owned.Places[at]);
+          EXPECT_EQ(share.Ids[i], owned.GlobalIds[at]);
+          const char* const row = owned.Rows.data() + at * RowSize;
+          EXPECT_EQ(share.row(i), std::vector<char>(row, row + RowSize));
+          ++at;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(at, owned.size());
+  EXPECT_EQ(std::int64_t(at),
+    owned.FirstIds[std::size_t(box.rank()) + 1] - owned.FirstIds[std::size_t(box.rank())]);
+  box.barrier();
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, PointExchangeOf, testing::Values(1, 3));
+
+TEST(PointArrangement, AMessageOfAnotherSizeIsRefused)
+{
+  Postbox box(vtkMultiProcessController::GetGlobalController());
+  const std::vector<std::int32_t> owners(1, 0);
+  const PointArrangement arrangement(box, owners, { 2 });
+  if (box.rank() == 0)
+  {
+    std::vector<Point2> places(std::size_t(2 * box.size()));
+    std::vector<PointId> ids(places.size());
+    Bytes message(PointArrays::bytes(3, 0));
+    EXPECT_THROW(
+      arrangement.unpack(0, message, PointArrays(places.data(), ids.data(), nullptr), 0, 1),
+      std::runtime_error);
+  }
+  box.barrier();
+}
+
+} // namespace
