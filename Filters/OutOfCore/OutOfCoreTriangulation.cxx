@@ -224,7 +224,7 @@ private:
     this->requireSpace();
     this->Prepared.Plan =
       std::make_unique<PiecePlan>(survey, this->Options, *this->Memory, words, this->Threads);
-    survey.Sample = {};
+    std::vector<SampledPoint>().swap(survey.Sample); // = {} would keep the memory
     this->Prepared.describeMesh();
     this->describePlan();
     this->endPhase("survey");

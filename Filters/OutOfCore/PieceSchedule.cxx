@@ -25,6 +25,13 @@ std::vector<PartitionIndex> partitionsWithPoints(const PiecePlan& plan, const Sp
   return partitions;
 }
 
+/// Assigning {} would keep the memory.
+template <typename T>
+void release(std::vector<T>& values)
+{
+  std::vector<T>().swap(values);
+}
+
 Box3 boxOf(const Box2& box)
 {
   Box3 result;
@@ -318,15 +325,15 @@ void PieceSchedule::finishInterior(PartitionIndex piece, GrowingPiece interior)
   State& state = this->Pieces[std::size_t(piece)];
   state.At = Stage::Interior;
   state.Growing.takeInterior(std::move(interior));
-  state.Rim = {};
-  state.Seams = {};
+  release(state.Rim);
+  release(state.Seams);
   for (const WantedRow& row : state.Wanted)
   {
     State& by = this->Pieces[std::size_t(row.By)];
     by.Growing.setRow(row.Place, state.Growing.rimRow(row.Place, this->Rows), this->Rows);
     --by.RowsMissing;
   }
-  state.Wanted = {};
+  release(state.Wanted);
 }
 
 bool PieceSchedule::allInterior() const
@@ -380,7 +387,7 @@ void PieceSchedule::repairHull()
     }
     this->share(plain);
   }
-  this->Hull = {};
+  release(this->Hull);
   this->HullRepaired = true;
 }
 
