@@ -173,6 +173,9 @@ public:
   vtkGetMacro(NumberOfBytesRead, vtkTypeInt64);
   ///@}
 
+  /**
+   * Also that of the array selections.
+   */
   vtkMTimeType GetMTime() override;
 
 protected:

@@ -17,9 +17,10 @@ check_build() { sh Utilities/build.sh default; }
 
 # The libraries and the tool; the tests are checked by passing.
 run_tidy() { # OPTION...
-  run-clang-tidy -quiet -p build -j "$(nproc)" "$@" \
+  cmake --preset tidy --log-level=WARNING > /dev/null
+  run-clang-tidy -quiet -p build-tidy -j "$(nproc)" "$@" \
     "^$top/(Accelerators|IO|Filters|Tools)/.*\.cxx$" \
-    > build/clang-tidy.log 2>&1 || { grep -E 'error:|warning:' build/clang-tidy.log; return 1; }
+    > build-tidy/clang-tidy.log 2>&1 || { grep -E 'error:|warning:' build-tidy/clang-tidy.log; return 1; }
 }
 check_tidy() { run_tidy '-checks=-clang-analyzer-*'; }
 check_analysis() { run_tidy; }

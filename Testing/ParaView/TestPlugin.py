@@ -29,11 +29,14 @@ print("wrapped:", vtkTIPPDelaunay2D().GetClassName(), vtkTIPPRangeReader().GetUs
 
 definitions = servermanager.ProxyManager().SMProxyManager.GetProxyDefinitionManager()
 for group, name in (("sources", "TIPPReader"), ("writers", "TIPPWriter"), ("filters", "TIPPDelaunay2D"),
-                    ("filters", "RangeResample")):
+                    ("sources", "TIPPOutOfCoreDelaunay2D"), ("filters", "RangeResample")):
     proxy = servermanager.ProxyManager().NewProxy(group, name)
     names = servermanager.PropertyIterator(servermanager._getPyProxy(proxy))
     bare = [p.GetXMLName() for p in names if not (p.GetDocumentation() and p.GetDocumentation().GetDescription())]
     print("undocumented of", name + ":", bare)
+    # The window has no widget for these.
+    names = servermanager.PropertyIterator(servermanager._getPyProxy(proxy))
+    print("unseen of", name + ":", [p.GetXMLName() for p in names if p.IsA("vtkSMIdTypeVectorProperty")])
 """
 EXPECTED = [
     "missing of Delaunay2D: []",
@@ -44,9 +47,15 @@ EXPECTED = [
     "samples: (0, 255, 0, 255, 0, 0)",
     "wrapped: vtkTIPPDelaunay2D False",
     "undocumented of TIPPReader: []",
+    "unseen of TIPPReader: []",
     "undocumented of TIPPWriter: []",
+    "unseen of TIPPWriter: []",
     "undocumented of TIPPDelaunay2D: []",
+    "unseen of TIPPDelaunay2D: []",
+    "undocumented of TIPPOutOfCoreDelaunay2D: []",
+    "unseen of TIPPOutOfCoreDelaunay2D: []",
     "undocumented of RangeResample: []",
+    "unseen of RangeResample: []",
 ]
 
 session = Session(__doc__)

@@ -32,6 +32,12 @@ def address(array):
     return array.__array_interface__["data"][0]
 
 
+def memory_of(kind):
+    """Bytes of this process, by a name of Linux's."""
+    with open("/proc/self/status", encoding="ascii") as file:
+        return next(int(line.split()[1]) * 1024 for line in file if line.startswith(kind + ":"))
+
+
 class Delaunay(unittest.TestCase):
     def test_triangles_are_counter_clockwise_and_cover_the_hull(self):
         p = np.vstack([random_points(1000, 2), [[0, 0], [1, 0], [1, 1], [0, 1]]])
@@ -63,6 +69,26 @@ class Delaunay(unittest.TestCase):
             p = random_points(100, 3, kind)
             mesh = tipp.delaunay_2d(p)
             self.assertEqual(address(vtk_to_numpy(mesh.GetPoints().GetData())), address(p))
+
+    def test_other_points_are_copied_whole(self):
+        base = random_points(600_000, 3)
+        for p in (base[:, :2], base[::2], base[:, :2].astype(np.float32), (base * 1000).astype(np.int32),
+                  base.astype(">f8"), base[:0, :2]):
+            got = vtk_to_numpy(tipp._arrays.vtk_points(p).GetData()) if len(p) else np.empty((0, 3))
+            self.assertEqual(got.shape, (len(p), 3))
+            np.testing.assert_array_equal(got[:, :p.shape[1]], p)
+            self.assertFalse(got[:, p.shape[1]:].any())
+
+    def test_other_points_are_copied_once(self):
+        p = random_points(2_000_000, 2)
+        once = len(p) * 24
+        with open("/proc/self/clear_refs", "w", encoding="ascii") as file:
+            file.write("5")  # the peak counts from here
+        before = memory_of("VmRSS")
+        points = tipp._arrays.vtk_points(p)
+        self.assertLess(memory_of("VmHWM") - before, 1.2 * once)
+        self.assertGreater(memory_of("VmRSS") - before, 0.8 * once)
+        self.assertEqual(points.GetNumberOfPoints(), len(p))
 
     def test_a_mesh_keeps_the_memory_of_its_points(self):
         mesh = tipp.delaunay_2d(random_points(100000, 3), point_data={"v": np.arange(100000.0)})

@@ -13,9 +13,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <memory>
-
 using tipp::Box3;
 using tipp::BoxTiling;
 using tipp::Membership;
@@ -44,35 +41,16 @@ CellSet readTetrahedra(const std::string& path)
   return cells;
 }
 
-// An element a line, as dolfin writes its meshes.
-CellSet readDolfin(const std::string& path)
+CellSet readAneurysm(const std::string& path)
 {
-  const std::string command = "gzip -dc '" + path + "'";
-  const std::unique_ptr<FILE, int (*)(FILE*)> file(popen(command.c_str(), "r"), pclose);
+  const tipp::test::TetrahedralMesh mesh = tipp::test::readDolfin(path);
   CellSet cells;
   cells.Dimension = 3;
   cells.Corners = 4;
-  std::vector<double> points;
-  char line[512];
-  while (std::fgets(line, sizeof line, file.get()) != nullptr)
+  for (const std::int64_t id : mesh.Cells)
   {
-    double p[3];
-    std::size_t v[4];
-    if (std::sscanf(
-          line, " <vertex index=\"%*d\" x=\"%lf\" y=\"%lf\" z=\"%lf\"", p, p + 1, p + 2) == 3)
-    {
-      points.insert(points.end(), p, p + 3);
-    }
-    else if (std::sscanf(line,
-               " <tetrahedron index=\"%*d\" v0=\"%zu\" v1=\"%zu\" v2=\"%zu\" v3=\"%zu\"", v, v + 1,
-               v + 2, v + 3) == 4)
-    {
-      for (const std::size_t vertex : v)
-      {
-        const double* from = &points.at(3 * vertex + 2) - 2;
-        cells.Coordinates.insert(cells.Coordinates.end(), from, from + 3);
-      }
-    }
+    const auto point = mesh.Points.begin() + 3 * id;
+    cells.Coordinates.insert(cells.Coordinates.end(), point, point + 3);
   }
   return cells;
 }
@@ -181,7 +159,7 @@ TEST(ClassifyRealMeshes, TheBracketsTetrahedra)
 TEST(ClassifyRealMeshes, TheAneurysmsTetrahedra)
 {
   TIPP_REQUIRE_REAL_DATA(path, "tets/aneurysm.xml.gz");
-  const CellSet cells = readDolfin(path);
+  const CellSet cells = readAneurysm(path);
   ASSERT_EQ(cells.size(), 37548u);
   expectExactAtBorders(cells, 50);
 }
@@ -204,7 +182,7 @@ TEST(ClassifyRealMeshes, TheAneurysmsTetrahedraOnADevice)
 {
   TIPP_REQUIRE_REAL_DATA(path, "tets/aneurysm.xml.gz");
   TIPP_REQUIRE_OPENCL();
-  expectSameOnDevice(readDolfin(path));
+  expectSameOnDevice(readAneurysm(path));
 }
 
 TEST(ClassifyRealMeshes, TheEastCoastsTrianglesOnADevice)

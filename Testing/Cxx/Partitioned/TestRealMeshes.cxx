@@ -10,11 +10,18 @@
 #include "Flat/WriteFlatMesh.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Vtk/ReadDataSet.h"
+#include "vtkPartitionedUnstructuredReader.h"
 
+#include "vtkCellData.h"
 #include "vtkDataSet.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 using namespace tipp;
@@ -128,6 +135,62 @@ TEST(RealMeshes, TheBracketOfTetrahedraComesBack)
   const vtkSmartPointer<vtkDataSet> data = readDataSet(path);
   writeFlatMesh(folder.path("flat"), flattenDataSet(data, path).Content);
   expectSame(folder.path("flat"), folder.path("mesh"), "octree:20000");
+}
+
+/// Cells and points by their global ids, as vtkPartitionedUnstructuredReader gives them.
+void expectReaderGives(const std::string& path, const TetrahedralMesh& source)
+{
+  vtkNew<vtkPartitionedUnstructuredReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  auto* const grid = vtkUnstructuredGrid::SafeDownCast(reader->GetOutputDataObject(0));
+  ASSERT_NE(nullptr, grid);
+  ASSERT_EQ(source.Points.size(), 3 * std::size_t(grid->GetNumberOfPoints()));
+  ASSERT_EQ(source.Cells.size(), 4 * std::size_t(grid->GetNumberOfCells()));
+  vtkDataArray* const pointIds = grid->GetPointData()->GetGlobalIds();
+  vtkDataArray* const cellIds = grid->GetCellData()->GetGlobalIds();
+  ASSERT_TRUE(pointIds && cellIds);
+  const auto idIn = [](vtkDataArray* ids, vtkIdType i)
+  { return std::int64_t(ids->GetComponent(i, 0)); };
+  std::vector<double> points(source.Points.size(), HUGE_VAL);
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    grid->GetPoint(i, &points.at(3 * std::size_t(idIn(pointIds, i))));
+  }
+  EXPECT_EQ(source.Points, points);
+  std::vector<std::int64_t> cells(source.Cells.size(), -1);
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
+  {
+    ASSERT_EQ(VTK_TETRA, grid->GetCellType(i));
+    grid->GetCellPoints(i, corners);
+    for (vtkIdType corner = 0; corner < 4; ++corner)
+    {
+      cells.at(4 * std::size_t(idIn(cellIds, i)) + std::size_t(corner)) =
+        idIn(pointIds, corners->GetId(corner));
+    }
+  }
+  EXPECT_EQ(source.Cells, cells);
+}
+
+TEST(RealMeshes, TheAneurysmsTetrahedraComeBack)
+{
+  TIPP_REQUIRE_REAL_DATA(path, "tets/aneurysm.xml.gz")
+  const TetrahedralMesh source = readDolfin(path);
+  ASSERT_EQ(37548U * 4, source.Cells.size());
+  const TemporaryFolder folder;
+  FlatContent content;
+  content.CellSize = 4;
+  content.Cells = source.Cells;
+  content.Points = { "points", Scalar::Float64, 3, std::int64_t(source.Points.size() / 3), 0,
+    source.Points.data(), {} };
+  writeFlatMesh(folder.path("flat"), content);
+  for (const std::string tiling : { "grid:2x2x3", "octree:3000" })
+  {
+    const std::string output = folder.path(tiling.substr(0, tiling.find(':')));
+    expectSame(folder.path("flat"), output, tiling);
+    expectReaderGives(output, source);
+  }
 }
 
 } // namespace

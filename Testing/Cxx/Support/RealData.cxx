@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RealData.h"
 
+#include <algorithm>
+#include <cinttypes>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -14,9 +16,10 @@ namespace test
 namespace
 {
 
-std::string decompressed(const std::string& path)
+/// What `program` (xz or gzip) makes of a file.
+std::string decompressed(const std::string& program, const std::string& path)
 {
-  const std::string command = "xz --decompress --stdout '" + path + "'";
+  const std::string command = program + " --decompress --stdout '" + path + "'";
   FILE* pipe = popen(command.c_str(), "r");
   std::string text;
   char part[1 << 16];
@@ -26,7 +29,7 @@ std::string decompressed(const std::string& path)
   }
   if (!pipe || pclose(pipe) != 0)
   {
-    throw std::runtime_error(path + ": xz could not decompress it; is xz-utils installed?");
+    throw std::runtime_error(path + ": " + program + " could not decompress it; is it installed?");
   }
   return text;
 }
@@ -73,10 +76,40 @@ AdcircMesh readAdcirc(const std::string& path)
   return mesh;
 }
 
+TetrahedralMesh readDolfin(const std::string& path)
+{
+  std::istringstream text(decompressed("gzip", path));
+  TetrahedralMesh mesh;
+  double p[3];
+  std::int64_t v[4];
+  for (std::string line; std::getline(text, line);)
+  {
+    if (std::sscanf(line.c_str(), " <vertex index=\"%*d\" x=\"%lf\" y=\"%lf\" z=\"%lf\"", p, p + 1,
+          p + 2) == 3)
+    {
+      mesh.Points.insert(mesh.Points.end(), p, p + 3);
+    }
+    else if (std::sscanf(line.c_str(),
+               " <tetrahedron index=\"%*d\" v0=\"%" SCNd64 "\" v1=\"%" SCNd64 "\" v2=\"%" SCNd64
+               "\" v3=\"%" SCNd64 "\"",
+               v, v + 1, v + 2, v + 3) == 4)
+    {
+      mesh.Cells.insert(mesh.Cells.end(), v, v + 4);
+    }
+  }
+  const auto isNoPoint = [&](std::int64_t id)
+  { return id < 0 || 3 * std::size_t(id) >= mesh.Points.size(); };
+  if (mesh.Cells.empty() || std::any_of(mesh.Cells.begin(), mesh.Cells.end(), isNoPoint))
+  {
+    throw std::runtime_error(path + ": not a whole mesh of tetrahedra in dolfin's format");
+  }
+  return mesh;
+}
+
 Coordinates readCompressedTable(
   const std::string& path, char separator, bool header, std::size_t x, std::size_t y)
 {
-  std::istringstream text(decompressed(path));
+  std::istringstream text(decompressed("xz", path));
   std::string line;
   if (header)
   {

@@ -4,7 +4,9 @@
 
 #include "DelaunayOracle.h"
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace tipp
 {
@@ -23,6 +25,17 @@ struct AdcircMesh
 
 /// Throws std::runtime_error if the file is not such a mesh.
 AdcircMesh readAdcirc(const std::string& path);
+
+/// Tetrahedra with x, y and z of their points.
+struct TetrahedralMesh
+{
+  std::vector<double> Points;
+  std::vector<std::int64_t> Cells; ///< four ids each
+};
+
+/// A mesh of tetrahedra as dolfin writes it, compressed: an element a line. Throws
+/// std::runtime_error if there is none in the file.
+TetrahedralMesh readDolfin(const std::string& path);
 
 /// Two columns, counted from 0, of an .xz-compressed table. Throws std::runtime_error.
 Coordinates readCompressedTable(

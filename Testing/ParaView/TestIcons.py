@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every icon that the proxies name is in the plugin, as an SVG; no other is."""
+import re
+import xml.etree.ElementTree as ElementTree
+
+from run_paraview import Session, expect
+
+# The icons are Qt resources, which Qt itself is asked for.
+PROGRAM = """
+import ctypes, os
+from paraview.simple import *
+qt = ctypes.CDLL("libQt5Core.so.5")
+
+def is_there(path):
+    string, of_utf8 = ctypes.c_void_p(), qt._ZN7QString15fromUtf8_helperEPKci
+    of_utf8(ctypes.byref(string), path.encode(), len(path))
+    exists = qt._ZN5QFile6existsERK7QString
+    exists.restype = ctypes.c_bool
+    return exists(ctypes.byref(string))
+
+NAMES = %r
+print("before:", [name for name in NAMES if is_there(name)])
+LoadPlugin(os.path.join(os.environ["TIPP_PLUGIN_DIR"], "TIPPPlugin.so"), remote=False, ns=globals())
+print("missing:", [name for name in NAMES if not is_there(name)])
+"""
+
+
+def named_icons(folder):
+    names = set()
+    for file in folder.glob("*.xml"):
+        root = ElementTree.parse(file).getroot()
+        names |= {hint.get("icon") for hint in root.iter("ShowInMenu")}
+        names |= {hint.get("name") for hint in root.iter("PipelineIcon")}
+    return names
+
+
+session = Session(__doc__)
+folder = session.source / "Plugins/TIPPPlugin"
+names = named_icons(folder)
+drawn = {":/TIPP/Icons/" + file.name for file in (folder / "Icons").iterdir()}
+expect(names == drawn, f"named are {sorted(names)}, drawn {sorted(drawn)}")
+for file in (folder / "Icons").iterdir():
+    expect(re.search(r"}svg$", ElementTree.parse(file).getroot().tag), f"{file} is no SVG")
+script = session.scratch / "icons.py"
+script.write_text(PROGRAM % sorted(names))
+lines = session.pvbatch(script).splitlines()
+expect("before: []" in lines, "the icons are there without the plugin")
+expect("missing: []" in lines, "icons are missing in the plugin, see above")
