@@ -104,6 +104,7 @@ std::vector<std::int64_t> listOf(
   const std::vector<ProcessUsage>& ranks, std::int64_t ProcessUsage::*value)
 {
   std::vector<std::int64_t> list;
+  list.reserve(ranks.size());
   for (const ProcessUsage& usage : ranks)
   {
     list.push_back(usage.*value);
