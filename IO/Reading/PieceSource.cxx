@@ -32,6 +32,7 @@ public:
     const std::vector<std::size_t>& numbers, const PieceOptions& options) override
   {
     std::vector<Piece> pieces;
+    pieces.reserve(numbers.size());
     for (const std::size_t number : numbers)
     {
       pieces.push_back(readPiece(this->Mesh, number, options));
