@@ -137,6 +137,7 @@ std::vector<Bytes> PointExchange::pack(const std::vector<std::int32_t>& owners,
     arrays.push_back(to == me ? home : PointArrays(messages.back(), sizes[to]));
   }
   std::vector<PointArrays> arraysOfLeaves;
+  arraysOfLeaves.reserve(owners.size());
   for (const std::int32_t owner : owners)
   {
     arraysOfLeaves.push_back(arrays[std::size_t(owner)]);

@@ -188,14 +188,14 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
   add(mine.Ids64);
   vtkNew<vtkIdTypeArray> numbers;
   numbers->SetName("GlobalCellIds");
-  numbers->SetNumberOfValues(vtkIdType(own + more));
+  numbers->SetNumberOfValues(vtkIdType(own) + vtkIdType(more));
   for (std::size_t i = 0; i < own; ++i)
   {
     numbers->SetValue(vtkIdType(i), mine.FirstTriangle + std::int64_t(i));
   }
   for (std::size_t i = 0; i < more; ++i)
   {
-    numbers->SetValue(vtkIdType(own + i), ghosts->Numbers[i]);
+    numbers->SetValue(vtkIdType(own) + vtkIdType(i), ghosts->Numbers[i]);
     for (const std::int64_t id : ghosts->Triangles[i])
     {
       *to++ = piece.ofId(id);
@@ -207,7 +207,7 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
   {
     vtkNew<vtkUnsignedCharArray> ghost;
     ghost->SetName(vtkDataSetAttributes::GhostArrayName());
-    ghost->SetNumberOfValues(vtkIdType(own + more));
+    ghost->SetNumberOfValues(vtkIdType(own) + vtkIdType(more));
     for (std::size_t i = 0; i < own + more; ++i)
     {
       ghost->SetValue(vtkIdType(i), i < own ? 0 : vtkDataSetAttributes::DUPLICATECELL);
