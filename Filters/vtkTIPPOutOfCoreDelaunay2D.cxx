@@ -2,19 +2,21 @@
 #include "vtkTIPPOutOfCoreDelaunay2D.h"
 
 #include "Files/IOError.h"
-#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "OutOfCore/OutOfCoreRanks.h"
 #include "Output/Monitor.h"
 #include "Output/OutOfCoreTable.h"
 
+#include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkTable.h"
 
 #include <exception>
-#include <new>
 
 vtkStandardNewMacro(vtkTIPPOutOfCoreDelaunay2D);
+vtkCxxSetObjectMacro(vtkTIPPOutOfCoreDelaunay2D, Controller, vtkMultiProcessController);
 
 namespace
 {
@@ -29,6 +31,7 @@ std::string textOf(const char* text)
 vtkTIPPOutOfCoreDelaunay2D::vtkTIPPOutOfCoreDelaunay2D()
 {
   this->SetNumberOfInputPorts(0);
+  this->vtkTIPPOutOfCoreDelaunay2D::SetController(vtkMultiProcessController::GetGlobalController());
 }
 
 vtkTIPPOutOfCoreDelaunay2D::~vtkTIPPOutOfCoreDelaunay2D()
@@ -37,6 +40,7 @@ vtkTIPPOutOfCoreDelaunay2D::~vtkTIPPOutOfCoreDelaunay2D()
   this->vtkTIPPOutOfCoreDelaunay2D::SetYColumn(nullptr);
   this->vtkTIPPOutOfCoreDelaunay2D::SetFileName(nullptr);
   this->vtkTIPPOutOfCoreDelaunay2D::SetScratchFolder(nullptr);
+  this->vtkTIPPOutOfCoreDelaunay2D::SetController(nullptr);
 }
 
 void vtkTIPPOutOfCoreDelaunay2D::AddInputFileName(const char* name)
@@ -88,9 +92,18 @@ int vtkTIPPOutOfCoreDelaunay2D::RequestData(
     this->Execute(output);
     return 1;
   }
-  catch (const std::bad_alloc&)
+  catch (const tipp::RankFailure& failure)
   {
-    vtkErrorMacro("There is not enough memory for the triangulation; lower MemoryLimit.");
+    const int ranks = this->Controller ? this->Controller->GetNumberOfProcesses() : 1;
+    if (ranks == 1)
+    {
+      vtkErrorMacro(<< failure.what());
+    }
+    else if (this->Controller->GetLocalProcessId() == 0)
+    {
+      vtkErrorMacro("Rank " << failure.Rank << ": " << failure.what());
+    }
+    this->SetErrorCode(vtkErrorCode::UserError);
   }
   catch (const std::exception& error)
   {
@@ -103,17 +116,22 @@ int vtkTIPPOutOfCoreDelaunay2D::RequestData(
 void vtkTIPPOutOfCoreDelaunay2D::Execute(vtkTable* output)
 {
   const std::string path = textOf(this->FileName);
-  if (path.empty())
-  {
-    throw tipp::IOError("FileName is not set; name the folder to write.");
-  }
-  const auto points =
-    tipp::openPointStream(this->InputFileNames, { textOf(this->XColumn), textOf(this->YColumn) });
+  tipp::Postbox ranks(this->Controller);
   tipp::Monitor monitor(this);
   tipp::OutOfCoreOptions options = this->Options();
   options.Progress = [&monitor](double fraction) { return monitor(fraction); };
-  const tipp::OutOfCoreStatistics statistics = tipp::triangulateOutOfCore(*points, path, options);
-  if (!statistics.Aborted)
+  const auto open = [&]
+  {
+    if (path.empty())
+    {
+      throw tipp::IOError("FileName is not set; name the folder to write.");
+    }
+    return tipp::openPointStream(
+      this->InputFileNames, { textOf(this->XColumn), textOf(this->YColumn) });
+  };
+  const tipp::OutOfCoreStatistics statistics =
+    tipp::triangulateOutOfCoreOnRanks(ranks, open, path, options);
+  if (!statistics.Aborted && ranks.rank() == 0)
   {
     this->Report(statistics);
     tipp::fillOutOfCoreTable(statistics, options.CountOnly, output);
@@ -169,4 +187,5 @@ void vtkTIPPOutOfCoreDelaunay2D::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Resume: " << onOff(this->Resume);
   print("ScratchFolder", this->ScratchFolder);
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "Controller: " << this->Controller << "\n";
 }

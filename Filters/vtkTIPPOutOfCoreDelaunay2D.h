@@ -37,9 +37,13 @@
  * file's, no finite point, a folder that cannot be written, too little room on the disk (with the
  * numbers), work of another run in the hidden folder.
  *
+ * With a Controller of several ranks all of them update the filter together, with the same
+ * properties; the files are the same for every number of ranks. MemoryLimit and NumberOfThreads are
+ * those of each rank. All must see the folders of FileName and ScratchFolder. The figures are on
+ * the first rank. If one rank fails or stops, all do; the first rank reports it.
+ *
  * @warning
- * The run is that of one process; of several ranks let one do it. It executes when a property has
- * changed, not when a file has: call Modified() then.
+ * It executes when a property has changed, not when a file has: call Modified() then.
  *
  * Related publication: *Efficient Generating and Processing of Large-Scale Unstructured Meshes*,
  * dissertation, University of Mississippi, chapter 2 (Triangulation of Independent Partitions in
@@ -57,6 +61,8 @@
 
 #include <string> // For InputFileNames
 #include <vector> // For InputFileNames
+
+class vtkMultiProcessController;
 
 namespace tipp
 {
@@ -105,8 +111,8 @@ public:
 
   ///@{
   /**
-   * Bytes that points, triangles and buffers may take; the process itself and the threads' kernels
-   * come on top. Default 2 GiB. However small, pieces have 4,096 points at least.
+   * Bytes that points, triangles and buffers may take in each process; the process itself and the
+   * threads' kernels come on top. Default 2 GiB. However small, pieces have 4,096 points at least.
    */
   vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MemoryLimit, vtkTypeInt64);
@@ -168,6 +174,15 @@ public:
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
+  ///@{
+  /**
+   * The ranks that triangulate together. The global controller by default; null, or a controller of
+   * one rank: this process alone.
+   */
+  virtual void SetController(vtkMultiProcessController*);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
   /**
    * The output.
    */
@@ -190,6 +205,7 @@ protected:
   vtkTypeBool Resume = 0;
   char* ScratchFolder = nullptr;
   int NumberOfThreads = 0;
+  vtkMultiProcessController* Controller = nullptr;
 
 private:
   vtkTIPPOutOfCoreDelaunay2D(const vtkTIPPOutOfCoreDelaunay2D&) = delete;

@@ -26,7 +26,8 @@ enum class Scalar
 template <typename Work>
 void withScalar(Scalar type, const Work& work)
 {
-  switch (type) // NOLINT(bugprone-branch-clone): the types differ.
+  // NOLINTBEGIN(bugprone-branch-clone): the types differ.
+  switch (type)
   {
     case Scalar::Int8:
       return work(std::int8_t());
@@ -49,6 +50,7 @@ void withScalar(Scalar type, const Work& work)
     case Scalar::Float64:
       return work(double());
   }
+  // NOLINTEND(bugprone-branch-clone)
 }
 
 } // namespace tipp

@@ -96,7 +96,7 @@ public:
       this->Solvers[std::size_t(sample.Group)].solve(at, weights);
       for (int i = 0; i < D; ++i)
       {
-        this->WeightValues[std::size_t(i * Capacity + j)] = weights[i];
+        this->WeightValues[std::size_t(i) * Capacity + std::size_t(j)] = weights[i];
       }
     }
   }

@@ -118,6 +118,7 @@ std::vector<Ranks> formGroups(const std::vector<std::vector<PartitionIndex>>& st
       continue;
     }
     std::vector<double> weights;
+    weights.reserve(stage.size());
     for (const PartitionIndex p : stage)
     {
       weights.push_back(equal ? 1.0 : double(count(p)));

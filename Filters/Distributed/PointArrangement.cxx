@@ -32,6 +32,7 @@ std::vector<std::vector<std::uint64_t>> tellCounts(
     writers[std::size_t(owners[leaf])].value(std::uint64_t(counts[leaf]));
   }
   std::vector<Bytes> messages;
+  messages.reserve(writers.size());
   for (ByteWriter& writer : writers)
   {
     messages.push_back(writer.take());

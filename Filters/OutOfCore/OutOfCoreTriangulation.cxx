@@ -4,11 +4,10 @@
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "OutOfCore/Checkpoint.h"
-#include "OutOfCore/InputSurvey.h"
-#include "OutOfCore/PiecePlan.h"
+#include "OutOfCore/OutOfCoreRanks.h"
 #include "OutOfCore/PieceRun.h"
+#include "OutOfCore/PreparedRun.h"
 #include "OutOfCore/ScratchFolder.h"
-#include "OutOfCore/SpillPoints.h"
 #include "Parallel/Stopwatch.h"
 
 #include <omp.h>
@@ -20,8 +19,6 @@ namespace tipp
 {
 namespace
 {
-
-constexpr const char* representativeName = "RepresentativePointId";
 
 /// Not an error: the user's wish.
 struct Aborted
@@ -49,8 +46,9 @@ void exchangeFigures(Archive& archive, OutOfCoreStatistics& statistics)
 class Run
 {
 public:
-  Run(PointStream& points, const std::string& path, const OutOfCoreOptions& options)
+  Run(PointStream& points, const std::string& path, const OutOfCoreOptions& options, Postbox* ranks)
     : Input(points)
+    , Ranks(ranks)
     , Path(path)
     , Options(options)
     , Threads(options.Threads > 0 ? options.Threads : omp_get_max_threads())
@@ -58,13 +56,18 @@ public:
     , Scratch(this->Pending, options.Scratch)
   {
     this->Statistics.Threads = this->Threads;
-    this->Mesh.Path = options.CountOnly ? "" : this->Pending.temporaryPath();
+    this->Prepared.Mesh.Path = options.CountOnly ? "" : this->Pending.temporaryPath();
   }
 
   OutOfCoreStatistics run()
   {
     try
     {
+      if (this->Ranks)
+      {
+        requireSharedFolder(*this->Ranks, this->Pending.workPath());
+        requireSharedFolder(*this->Ranks, this->Scratch.folder());
+      }
       if (!this->resume())
       {
         this->survey();
@@ -81,12 +84,25 @@ public:
     {
       this->Statistics.Aborted = true;
     }
+    catch (const RankFailure& failure)
+    {
+      if (!failure.Aborted)
+      {
+        throw;
+      }
+      this->Statistics.Aborted = true;
+    }
     return std::move(this->Statistics);
   }
 
 private:
   void report(double fraction) const
   {
+    if (this->Ranks)
+    {
+      Message message; // there is none but of a failure, which is thrown
+      this->Ranks->poll(message);
+    }
     if (this->Options.Progress && !this->Options.Progress(fraction))
     {
       throw Aborted();
@@ -130,12 +146,9 @@ private:
   void resumeBegun(LoadArchive& archive, bool isOurs)
   {
     this->requireOurs(isOurs && this->Options.Resume);
-    this->exchangeInput(archive);
-    this->Memory = std::make_unique<MemoryPlan>(this->Options, this->Rows.Words);
-    this->Plan = std::make_unique<PiecePlan>(archive);
-    this->Spilled =
-      std::make_unique<SpilledPoints>(this->Scratch.points(), *this->Plan, this->Rows, archive);
-    this->describeMesh();
+    this->Prepared.load(archive, this->Scratch.points());
+    this->Memory = std::make_unique<MemoryPlan>(this->Options, this->Prepared.Rows.Words);
+    this->describePlan();
   }
 
   /// After recordWhole().
@@ -174,37 +187,11 @@ private:
     }
   }
 
-  template <typename Archive>
-  void exchangeInput(Archive& archive)
-  {
-    archive(this->Survey.Points);
-    archive(this->Survey.Rejected);
-    archive(this->Survey.Bounds);
-    archive(this->Survey.Factor);
-    archive(this->Survey.Collinear);
-    archive(this->Rows.Words);
-    archive(this->Rows.Z);
-    archive(this->Rows.Attributes);
-    std::vector<std::string> names;
-    for (const StoredArray& array : this->Mesh.Arrays)
-    {
-      names.push_back(array.Name);
-    }
-    archive(names);
-    this->Mesh.Arrays.clear();
-    for (std::size_t i = 0; i < names.size(); ++i)
-    {
-      const bool isId = this->Rows.Attributes[i] < 0;
-      this->Mesh.Arrays.push_back(
-        { names[i], true, isId ? Scalar::Int64 : Scalar::Float64, 1, -1 });
-    }
-  }
-
   /// What tells that it is the same run.
   std::string identity() const
   {
     const OutOfCoreOptions& options = this->Options;
-    return "TIPP out of core 2\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
+    return "TIPP out of core 3\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
       std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
       std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
       (options.CountOnly ? " counted" : "") + "\n" + options.Scratch;
@@ -215,9 +202,7 @@ private:
     SaveArchive archive;
     archive(this->identity());
     archive(std::uint8_t(this->IsWhole));
-    this->exchangeInput(archive);
-    this->Plan->save(archive);
-    this->Spilled->save(archive);
+    this->Prepared.save(archive);
     writeCheckpoint(this->Scratch.plan(), archive);
     this->keep();
   }
@@ -226,84 +211,52 @@ private:
   {
     this->Scratch.clear();
     this->Memory = std::make_unique<MemoryPlan>(this->Options, 3 + this->Input.columns().size());
-    this->Survey = surveyInput(this->Input, this->Memory->BlockPoints, this->Memory->SamplePoints,
+    InputSurvey& survey = this->Prepared.Survey;
+    survey = surveyInput(this->Input, this->Memory->BlockPoints, this->Memory->SamplePoints,
       this->Threads, [this](std::int64_t) { this->report(0); });
-    this->describeColumns();
-    this->Memory = std::make_unique<MemoryPlan>(this->Options, this->Rows.Words);
-    if (this->Survey.Points == this->Survey.Rejected)
+    this->Prepared.describeColumns(this->Input.columns(), this->Options.MapDuplicates);
+    const std::size_t words = this->Prepared.Rows.Words;
+    this->Memory = std::make_unique<MemoryPlan>(this->Options, words);
+    if (survey.Points == survey.Rejected)
     {
       throw IOError("There is no point with finite coordinates in the input, so nothing to write.");
     }
     this->requireSpace();
-    this->Plan = std::make_unique<PiecePlan>(
-      this->Survey, this->Options, *this->Memory, this->Rows.Words, this->Threads);
-    this->Survey.Sample = {};
-    this->describeMesh();
+    this->Prepared.Plan =
+      std::make_unique<PiecePlan>(survey, this->Options, *this->Memory, words, this->Threads);
+    std::vector<SampledPoint>().swap(survey.Sample); // = {} would keep the memory
+    this->Prepared.describeMesh();
+    this->describePlan();
     this->endPhase("survey");
+  }
+
+  void describePlan()
+  {
+    this->Statistics.Points = this->Prepared.Survey.Points;
+    this->Statistics.Rejected = this->Prepared.Survey.Rejected;
+    this->Statistics.Pieces = this->Prepared.Plan->pieces();
+    this->Statistics.Partitions = this->Prepared.Plan->Partitions.size();
   }
 
   void requireSpace() const
   {
-    const auto points = std::uint64_t(this->Survey.Points - this->Survey.Rejected);
+    const auto points =
+      std::uint64_t(this->Prepared.Survey.Points - this->Prepared.Survey.Rejected);
     // Borders and ids of cells included; two triangles a point at most.
-    const std::uint64_t stored =
-      points * (24 + 8 + 1 + 8 * this->Mesh.Arrays.size() + 2 * (12 + 4 + 1 + 8)) / 50 * 51;
+    const std::uint64_t stored = points *
+      (24 + 8 + 1 + 8 * this->Prepared.Mesh.Arrays.size() + 2 * (12 + 4 + 1 + 8)) / 50 * 51;
     this->Scratch.requireSpace(
-      this->Path, this->Options.CountOnly ? 0 : stored, points * 8 * this->Rows.Words);
-  }
-
-  void describeColumns()
-  {
-    const std::vector<std::string> columns = this->Input.columns();
-    this->Rows.Words = 3 + columns.size();
-    for (std::size_t i = 0; i < columns.size(); ++i)
-    {
-      const bool isZ = this->Rows.Z < 0 && (columns[i] == "z" || columns[i] == "Z");
-      if (isZ)
-      {
-        this->Rows.Z = int(2 + i);
-        continue;
-      }
-      this->Mesh.Arrays.push_back({ columns[i], true, Scalar::Float64, 1, -1 });
-      this->Rows.Attributes.push_back(int(2 + i));
-    }
-    if (this->Options.MapDuplicates)
-    {
-      this->Mesh.Arrays.push_back({ representativeName, true, Scalar::Int64, 1, -1 });
-      this->Rows.Attributes.push_back(-1);
-    }
-  }
-
-  void describeMesh()
-  {
-    this->Statistics.Points = this->Survey.Points;
-    this->Statistics.Rejected = this->Survey.Rejected;
-    this->Statistics.Pieces = this->Plan->pieces();
-    this->Statistics.Partitions = this->Plan->Partitions.size();
-    PartitionedMesh& mesh = this->Mesh;
-    mesh.Points = this->Survey.Points;
-    mesh.Tiling = "delaunay:" + std::to_string(this->Plan->pieces());
-    mesh.Domain = this->boundsOf(this->Survey.Bounds);
-    mesh.Pieces.resize(std::size_t(this->Plan->pieces()));
-    for (PartitionIndex piece = 0; piece < this->Plan->pieces(); ++piece)
-    {
-      mesh.Pieces[this->Plan->number(piece)].Box = this->boundsOf(this->Plan->Pieces.box(piece));
-    }
-  }
-
-  Bounds boundsOf(const Box2& box) const
-  {
-    const double factor = this->Survey.Factor;
-    return { box.xmin / factor, box.xmax / factor, box.ymin / factor, box.ymax / factor, 0, 0 };
+      this->Path, this->Options.CountOnly ? 0 : stored, points * 8 * this->Prepared.Rows.Words);
   }
 
   void spill()
   {
-    this->Spilled = std::make_unique<SpilledPoints>(this->Input, this->Survey, *this->Plan,
-      this->Rows, this->Scratch.points(), this->Memory->BlockPoints, this->Threads,
-      [this](std::int64_t done)
-      { this->report(0.2 * double(done) / double(this->Survey.Points)); });
-    this->Statistics.SpilledBytes = this->Spilled->bytes();
+    this->Prepared.Spilled =
+      std::make_unique<SpilledPoints>(this->Input, this->Prepared.Survey, *this->Prepared.Plan,
+        this->Prepared.Rows, this->Scratch.points(), this->Memory->BlockPoints, this->Threads,
+        [this](std::int64_t done)
+        { this->report(0.2 * double(done) / double(this->Prepared.Survey.Points)); });
+    this->Statistics.SpilledBytes = this->Prepared.Spilled->bytes();
     this->requireMemory();
     this->savePlan();
     this->endPhase("spill");
@@ -313,12 +266,12 @@ private:
   void requireMemory() const
   {
     std::int64_t most = 0;
-    for (PartitionIndex piece = 0; piece < this->Plan->pieces(); ++piece)
+    for (PartitionIndex piece = 0; piece < this->Prepared.Plan->pieces(); ++piece)
     {
-      most = std::max(most, this->Spilled->count(piece));
+      most = std::max(most, this->Prepared.Spilled->count(piece));
     }
     constexpr std::uint64_t always = std::uint64_t(64) << 20;
-    const std::uint64_t bytes = MemoryPlan::pieceBytes(most, this->Rows.Words);
+    const std::uint64_t bytes = MemoryPlan::pieceBytes(most, this->Prepared.Rows.Words);
     if (bytes > std::max(this->Options.MemoryLimit, always))
     {
       throw IOError(this->Path,
@@ -329,20 +282,26 @@ private:
 
   void triangulate()
   {
-    PieceRun pieces(*this->Plan, *this->Spilled, this->Survey.Factor, this->Rows, this->Mesh,
-      *this->Memory, this->Threads,
+    const bool isShared = !this->Prepared.Survey.Collinear && !this->Prepared.Plan->IsAlone;
+    if (this->Ranks && isShared)
+    {
+      sharePrepared(*this->Ranks, this->Prepared, this->Scratch.points());
+    }
+    PieceRun pieces(
+      this->Prepared.work(), *this->Memory, this->Threads,
       [this](std::int64_t done)
       {
         return !this->Options.Progress ||
-          this->Options.Progress(0.2 + 0.7 * double(done) / double(this->Survey.Points));
-      });
-    if (!this->Survey.Collinear && !this->Plan->IsAlone)
+          this->Options.Progress(0.2 + 0.7 * double(done) / double(this->Prepared.Survey.Points));
+      },
+      isShared ? this->Ranks : nullptr);
+    if (isShared)
     {
       pieces.setCheckpoint(this->Scratch.state());
     }
-    const bool isDone = this->Survey.Collinear ? pieces.writePointsAlone()
-      : this->Plan->IsAlone                    ? pieces.triangulateAlone()
-                                               : pieces.triangulate();
+    const bool isDone = this->Prepared.Survey.Collinear ? pieces.writePointsAlone()
+      : this->Prepared.Plan->IsAlone                    ? pieces.triangulateAlone()
+                                                        : pieces.triangulate();
     if (!isDone)
     {
       throw Aborted();
@@ -367,21 +326,22 @@ private:
 
   void publish()
   {
+    PartitionedMesh& mesh = this->Prepared.Mesh;
     for (std::size_t number = 0; number < this->Finished.size(); ++number)
     {
       FinishedPiece& piece = this->Finished[number];
-      writeCellIds(this->Mesh, number, this->Mesh.Cells, piece);
-      this->Mesh.Cells += piece.Summary.Cells;
+      writeCellIds(mesh, number, mesh.Cells, piece);
+      mesh.Cells += piece.Summary.Cells;
       this->report(0.9 + 0.05 * double(number) / double(this->Finished.size()));
     }
-    this->Statistics.Triangles = this->Mesh.Cells;
+    this->Statistics.Triangles = mesh.Cells;
     for (std::size_t number = 0; number < this->Finished.size(); ++number)
     {
-      syncToDisk(this->Mesh.piecePath(number));
+      syncToDisk(mesh.piecePath(number));
       this->report(0.95 + 0.05 * double(number) / double(this->Finished.size()));
     }
-    this->Statistics.MeshBytes = publishPieces(this->Mesh, this->Finished);
-    this->Fingerprint = fingerprintOf(this->Mesh.Path);
+    this->Statistics.MeshBytes = publishPieces(mesh, this->Finished);
+    this->Fingerprint = fingerprintOf(mesh.Path);
     this->recordWhole();
   }
 
@@ -410,12 +370,13 @@ private:
     {
       this->Pending.commit();
     }
-    this->Spilled.reset();
+    this->Prepared.Spilled.reset();
     this->keep(false);
     this->endPhase("publish");
   }
 
   PointStream& Input;
+  Postbox* const Ranks; ///< null: this process alone
   const std::string Path;
   const OutOfCoreOptions& Options;
   const int Threads;
@@ -423,11 +384,7 @@ private:
   ScratchFolder Scratch;
   OutOfCoreStatistics Statistics;
   std::unique_ptr<MemoryPlan> Memory;
-  InputSurvey Survey;
-  PointRowLayout Rows;
-  PartitionedMesh Mesh;
-  std::unique_ptr<PiecePlan> Plan;
-  std::unique_ptr<SpilledPoints> Spilled;
+  PreparedRun Prepared;
   std::vector<FinishedPiece> Finished;
   bool IsWhole = false;          ///< all files of the mesh are there, or all triangles are counted
   bool IsInPlace = false;        ///< where it belongs
@@ -438,9 +395,9 @@ private:
 } // namespace
 
 OutOfCoreStatistics triangulateOutOfCore(
-  PointStream& points, const std::string& path, const OutOfCoreOptions& options)
+  PointStream& points, const std::string& path, const OutOfCoreOptions& options, Postbox* ranks)
 {
-  return Run(points, path, options).run();
+  return Run(points, path, options, ranks && ranks->size() > 1 ? ranks : nullptr).run();
 }
 
 } // namespace tipp

@@ -13,6 +13,8 @@
 namespace tipp
 {
 
+class Postbox;
+
 struct OutOfCoreOptions
 {
   std::uint64_t MemoryLimit = std::uint64_t(2) << 30; ///< in bytes
@@ -70,8 +72,10 @@ struct OutOfCoreStatistics
 /// folder ".NAME.part" beside `path`, which takes the path's place when it is whole. From the time
 /// the points are spilled it stays if the run fails, is ended or killed, and another can go on:
 /// with the same files at the end. Throws IOError.
-VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCore(
-  PointStream& points, const std::string& path, const OutOfCoreOptions& options = {});
+///
+/// Ranks: others that work with this first one, see triangulateOutOfCoreOnRanks(); null: none.
+VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCore(PointStream& points,
+  const std::string& path, const OutOfCoreOptions& options = {}, Postbox* ranks = nullptr);
 
 } // namespace tipp
 

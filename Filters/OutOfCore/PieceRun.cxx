@@ -1,136 +1,81 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/PieceRun.h"
 
-#include "Distributed/VertexLabelling.h"
-#include "Triangulation/DegenerateInput.h"
-
 #include <algorithm>
-#include <thread>
 #include <utility>
 
 namespace tipp
 {
-namespace
-{
 
-/// The lowest point of each place is to stand for the others, also where another one was in the
-/// initial mesh: once its partition is finished, all triangles that have it are those of its
-/// worker. Renames it everywhere.
-void preferLowest(std::vector<Duplicate>& duplicates, SeamGroups& seams, std::int32_t* interior,
-  std::size_t corners, std::int64_t first)
-{
-  std::unordered_map<std::int64_t, std::int64_t> lowest;
-  for (const Duplicate& duplicate : duplicates)
-  {
-    if (duplicate.Point < duplicate.Representative)
-    {
-      std::int64_t& low = lowest.emplace(duplicate.Representative, duplicate.Point).first->second;
-      low = std::min(low, duplicate.Point);
-    }
-  }
-  if (lowest.empty())
-  {
-    return;
-  }
-  const auto renamed = [&](std::int64_t id)
-  {
-    const auto found = lowest.find(id);
-    return found == lowest.end() ? id : found->second;
-  };
-  for (Duplicate& duplicate : duplicates)
-  {
-    const std::int64_t low = renamed(duplicate.Representative);
-    duplicate = { duplicate.Point == low ? duplicate.Representative : duplicate.Point, low };
-  }
-  for (PlainVertex& v : seams.Vertices)
-  {
-    v.Id = renamed(v.Id);
-  }
-  for (std::size_t i = 0; i < corners; ++i)
-  {
-    interior[i] = std::int32_t(renamed(first + interior[i]) - first);
-  }
-}
-
-} // namespace
-
-/// What one thread works with.
-struct PieceRun::Place
-{
-  PartitionIndex Piece = -1;
-  std::unique_ptr<Worker<std::int32_t>> Triangulator; ///< for that piece
-  SeamGrouping Grouping;
-  VertexLabelling Labelling;
-  std::vector<PlainVertex> Vertices;
-};
-
-PieceRun::PieceRun(const PiecePlan& plan, const SpilledPoints& points, double factor,
-  const PointRowLayout& rows, const PartitionedMesh& mesh, const MemoryPlan& memory, int threads,
-  std::function<bool(std::int64_t)> progress)
-  : Plan(plan)
-  , Points(points)
-  , Factor(factor)
-  , Rows(rows)
-  , Mesh(mesh)
+PieceRun::PieceRun(const PieceWork& work, const MemoryPlan& memory, int threads,
+  std::function<bool(std::int64_t)> progress, Postbox* ranks)
+  : Work(work)
   , Memory(memory)
   , Threads(threads)
   , Progress(std::move(progress))
-  , Finished(std::size_t(plan.pieces()))
+  , Post(ranks)
+  , Own(work)
+  , Ranks(std::size_t(ranks ? ranks->size() : 1))
+  , NextToLoad(work.Plan.pieces() - 1)
+  , Finished(std::size_t(work.Plan.pieces()))
 {
 }
 
-std::uint64_t PieceRun::bytesOf(PartitionIndex piece) const
+/// The next piece for the rank to load, if it has the memory; else -1.
+PartitionIndex PieceRun::takeToLoad(int rank)
 {
-  return MemoryPlan::pieceBytes(this->Points.count(piece), this->Rows.Words);
-}
-
-std::unique_ptr<LoadedPiece> PieceRun::load(PartitionIndex piece) const
-{
-  auto loaded = std::make_unique<LoadedPiece>();
-  const auto count = std::size_t(this->Points.count(piece));
-  loaded->Rows = Buffer<double>(count * this->Rows.Words);
-  this->Points.read(piece, loaded->Rows.data());
-  const PointsView view(loaded->Rows.data(), count, this->Rows.Words);
-  const Tiling& inner = this->Plan.Inner[std::size_t(piece)];
-  loaded->Buckets = bucketPoints<std::int32_t>(view.scaled(this->Factor), inner, 1);
-  loaded->InteriorCounts.assign(std::size_t(inner.size()), 0);
-  loaded->Rim.assign(count, 0);
-  return loaded;
+  while (this->NextToLoad >= 0 && !this->Schedule->isToLoad(this->NextToLoad))
+  {
+    --this->NextToLoad;
+  }
+  if (this->NextToLoad < 0)
+  {
+    return -1;
+  }
+  const std::uint64_t bytes = this->Own.bytesOf(this->NextToLoad);
+  std::uint64_t& loaded = this->Ranks[std::size_t(rank)].LoadedBytes;
+  if (loaded > 0 && loaded + bytes > this->Memory.LoadedBytes)
+  {
+    return -1;
+  }
+  loaded += bytes;
+  return this->NextToLoad--;
 }
 
 void PieceRun::loadPieces()
 {
-  for (PartitionIndex piece = this->Plan.pieces() - 1; piece >= 0; --piece)
+  Lock lock(this->Mutex);
+  while (!this->Stopped && this->NextToLoad >= 0)
   {
-    const std::uint64_t bytes = this->bytesOf(piece);
+    const PartitionIndex piece = this->takeToLoad(0);
+    if (piece < 0)
     {
-      std::unique_lock<std::mutex> lock(this->Mutex);
-      if (!this->Schedule->isToLoad(piece))
+      if (this->NextToLoad >= 0)
       {
-        continue;
+        this->Changed.wait(lock);
       }
-      this->Changed.wait(lock,
-        [&]
-        {
-          return this->Stopped || this->LoadedBytes == 0 ||
-            this->LoadedBytes + bytes <= this->Memory.LoadedBytes;
-        });
-      if (this->Stopped)
-      {
-        return;
-      }
-      this->LoadedBytes += bytes;
+      continue;
     }
-    std::unique_ptr<LoadedPiece> loaded = this->load(piece);
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->Schedule->addLoaded(piece, std::move(loaded));
-    this->Changed.notify_all();
+    const std::vector<PartitionIndex> finished = this->Schedule->finishedPartitions(piece);
+    lock.unlock();
+    this->Own.load(piece, finished);
+    lock.lock();
+    this->addLoaded(piece, 0, lock);
   }
+}
+
+void PieceRun::addLoaded(PartitionIndex piece, int rank, Lock& lock)
+{
+  if (this->Schedule->addLoaded(piece, rank))
+  {
+    this->finishPiece(piece, lock);
+  }
+  this->Changed.notify_all();
 }
 
 PartitionIndex PieceRun::acquire(Place& place)
 {
-  std::unique_lock<std::mutex> lock(this->Mutex);
+  Lock lock(this->Mutex);
   for (;;)
   {
     if (this->Stopped || this->Schedule->allActivated())
@@ -148,7 +93,7 @@ PartitionIndex PieceRun::acquire(Place& place)
 }
 
 /// The caller's progress, in the caller's thread.
-void PieceRun::tell(std::unique_lock<std::mutex>& lock)
+void PieceRun::tell(Lock& lock)
 {
   if (this->Stopped || this->PointsDone == this->PointsTold ||
     std::this_thread::get_id() != this->Caller)
@@ -163,41 +108,13 @@ void PieceRun::tell(std::unique_lock<std::mutex>& lock)
   this->Changed.notify_all();
 }
 
-PartitionResult PieceRun::triangulate(Place& place, PartitionIndex partition)
-{
-  const PartitionIndex piece = this->Plan.PieceOf[std::size_t(partition)];
-  const PartitionIndex firstPartition = this->Plan.FirstPartition[std::size_t(piece)];
-  const std::int64_t first = this->Points.starts()[std::size_t(piece)];
-  LoadedPiece& loaded = this->Schedule->loaded(piece);
-  if (place.Piece != piece)
-  {
-    place.Triangulator.reset(); // gives its kernel to the next
-    place.Triangulator =
-      std::make_unique<Worker<std::int32_t>>(this->Plan.Partitions, loaded.Buckets, first);
-    place.Triangulator->setTiling(this->Plan.Partitions, -firstPartition);
-    place.Piece = piece;
-  }
-  Worker<std::int32_t>& worker = *place.Triangulator;
-  worker.triangulate(partition, place.Labelling.label(this->Plan.Partitions, place.Vertices));
-  PartitionResult result;
-  result.Partition = partition;
-  result.Seams = place.Grouping.group(worker.seams());
-  result.InteriorCount = worker.interiorCount();
-  result.Duplicates = worker.duplicates();
-  result.Vertices = worker.vertexCount();
-  preferLowest(result.Duplicates, result.Seams,
-    loaded.Buckets.triangles(partition - firstPartition), 3 * result.InteriorCount, first);
-  return result;
-}
-
 void PieceRun::bringBack(PartitionResult result)
 {
-  const PartitionIndex piece = this->Plan.PieceOf[std::size_t(result.Partition)];
-  const PartitionIndex inPiece = result.Partition - this->Plan.FirstPartition[std::size_t(piece)];
-  std::unique_lock<std::mutex> lock(this->Mutex);
-  this->PointsDone += std::int64_t(this->Schedule->loaded(piece).Buckets.count(inPiece));
-  this->Duplicates += std::int64_t(result.Duplicates.size());
-  this->WorkerVertices += std::int64_t(result.Vertices);
+  const PartitionIndex piece = this->Work.Plan.PieceOf[std::size_t(result.Partition)];
+  Lock lock(this->Mutex);
+  this->PointsDone += result.Points;
+  this->Duplicates += result.Duplicates;
+  this->WorkerVertices += result.Vertices;
   const bool isWhole = this->Schedule->complete(std::move(result));
   this->PeakRimTriangles =
     std::max(this->PeakRimTriangles, std::int64_t(this->Schedule->rimTriangles()));
@@ -211,55 +128,17 @@ void PieceRun::bringBack(PartitionResult result)
   this->saveSometimes(lock);
 }
 
-/// When all of its partitions are finished.
-void PieceRun::finishPiece(PartitionIndex piece, std::unique_lock<std::mutex>& lock)
+void PieceRun::takeInterior(PartitionIndex piece, GrowingPiece interior)
 {
-  this->Schedule->findRim(piece);
-  lock.unlock();
-  this->writeInterior(piece);
-  lock.lock();
-  this->Schedule->finishInterior(piece);
-  this->LoadedBytes -= this->bytesOf(piece);
-  this->BytesSinceSaved += this->bytesOf(piece);
+  this->Schedule->finishInterior(piece, std::move(interior));
+  const std::uint64_t bytes = this->Own.bytesOf(piece);
+  this->Ranks[std::size_t(this->Schedule->rankOf(piece))].LoadedBytes -= bytes;
+  this->BytesSinceSaved += bytes;
   this->PeakBorderBytes = std::max(this->PeakBorderBytes, this->Schedule->borderBytes());
   this->Changed.notify_all();
 }
 
-void PieceRun::writeInterior(PartitionIndex piece)
-{
-  this->writeLoaded(piece, this->Schedule->loaded(piece), this->Schedule->growing(piece));
-}
-
-void PieceRun::writeLoaded(PartitionIndex piece, LoadedPiece& loaded, GrowingPiece& growing)
-{
-  std::sort(loaded.Seams.begin(), loaded.Seams.end());
-  GrowingPiece::Interior interior;
-  interior.Rows = loaded.Rows.data();
-  interior.Rim = loaded.Rim.data();
-  interior.Representatives = &loaded.Representatives;
-  for (PartitionIndex p = 0; p < loaded.Buckets.partitions(); ++p)
-  {
-    interior.Triangles.push_back(
-      { loaded.Buckets.triangles(p), loaded.InteriorCounts[std::size_t(p)] });
-  }
-  if (!loaded.Seams.empty())
-  {
-    interior.Triangles.push_back({ loaded.Seams.front().data(), loaded.Seams.size() });
-  }
-  growing.writeInterior(this->Mesh, this->Plan.number(piece), this->Rows, interior);
-}
-
-/// A piece without a border.
-void PieceRun::writeWhole(PartitionIndex piece, LoadedPiece& loaded)
-{
-  GrowingPiece growing(this->Points.starts()[std::size_t(piece)], this->Points.count(piece));
-  this->writeLoaded(piece, loaded, growing);
-  const std::size_t number = this->Plan.number(piece);
-  this->Finished[number] = growing.writeBorder(this->Mesh, number, this->Rows);
-  this->Duplicates += std::int64_t(loaded.Representatives.size());
-}
-
-void PieceRun::writeBorders(std::unique_lock<std::mutex>& lock)
+void PieceRun::writeBorders(Lock& lock)
 {
   while (!this->Stopped)
   {
@@ -269,9 +148,9 @@ void PieceRun::writeBorders(std::unique_lock<std::mutex>& lock)
       return;
     }
     lock.unlock();
-    const std::size_t number = this->Plan.number(piece);
+    const std::size_t number = this->Work.Plan.number(piece);
     FinishedPiece finished =
-      this->Schedule->growing(piece).writeBorder(this->Mesh, number, this->Rows);
+      this->Schedule->growing(piece).writeBorder(this->Work.Mesh, number, this->Work.Rows);
     lock.lock();
     this->Finished[number] = std::move(finished);
     this->Schedule->finishBorder(piece);
@@ -288,7 +167,7 @@ void PieceRun::work()
     {
       return;
     }
-    this->bringBack(this->triangulate(place, partition));
+    this->bringBack(this->Own.triangulate(place, partition));
   }
 }
 
@@ -314,20 +193,21 @@ void PieceRun::guard(const std::function<void()>& body)
 
 void PieceRun::runThreads()
 {
+  const auto work = [this] { this->guard([this] { this->work(); }); };
   std::vector<std::thread> threads;
   try
   {
     threads.emplace_back([this] { this->guard([this] { this->loadPieces(); }); });
-    for (int i = 1; i < this->Threads; ++i)
+    for (int i = this->hasOtherRanks() ? 0 : 1; i < this->Threads; ++i)
     {
-      threads.emplace_back([this] { this->guard([this] { this->work(); }); });
+      threads.emplace_back(work);
     }
   }
   catch (...)
   {
     this->stop(std::current_exception());
   }
-  this->guard([this] { this->work(); });
+  this->hasOtherRanks() ? this->guard([this] { this->serve(); }) : work();
   for (std::thread& thread : threads)
   {
     thread.join();
@@ -336,23 +216,23 @@ void PieceRun::runThreads()
   {
     std::rethrow_exception(this->Failure);
   }
-  std::unique_lock<std::mutex> lock(this->Mutex);
+  Lock lock(this->Mutex);
   this->tell(lock); // of what the other threads did last
 }
 
 /// A run from the beginning.
 void PieceRun::start()
 {
-  this->Schedule = std::make_unique<PieceSchedule>(
-    this->Plan, this->Points, this->Rows, this->Plan.initialMesh(this->Threads));
+  this->Schedule = std::make_unique<PieceSchedule>(this->Work.Plan, this->Work.Points,
+    this->Work.Rows, this->Work.Plan.initialMesh(this->Threads));
   // Pieces without points may own triangles all the same.
-  for (PartitionIndex piece = 0; piece < this->Plan.pieces(); ++piece)
+  for (PartitionIndex piece = 0; piece < this->Work.Plan.pieces(); ++piece)
   {
-    if (this->Points.count(piece) == 0)
+    if (this->Work.Points.count(piece) == 0)
     {
-      this->Schedule->growing(piece).writeInterior(
-        this->Mesh, this->Plan.number(piece), this->Rows, {});
-      this->Schedule->finishInterior(piece);
+      GrowingPiece empty = this->Schedule->growing(piece);
+      empty.writeInterior(this->Work.Mesh, this->Work.Plan.number(piece), this->Work.Rows, {});
+      this->Schedule->finishInterior(piece, std::move(empty));
     }
   }
 }
@@ -364,9 +244,10 @@ bool PieceRun::triangulate()
     this->start();
   }
   this->runThreads();
-  std::unique_lock<std::mutex> lock(this->Mutex);
+  Lock lock(this->Mutex);
   if (!this->Stopped)
   {
+    this->writeBorders(lock);
     this->Schedule->repairHull();
     this->writeBorders(lock);
   }
@@ -381,18 +262,11 @@ bool PieceRun::triangulate()
 
 bool PieceRun::writePointsAlone()
 {
-  for (PartitionIndex piece = 0; piece < this->Plan.pieces(); ++piece)
+  for (PartitionIndex piece = 0; piece < this->Work.Plan.pieces(); ++piece)
   {
-    const std::unique_ptr<LoadedPiece> loaded = this->load(piece);
-    const auto count = std::size_t(this->Points.count(piece));
-    const PointsView view(loaded->Rows.data(), count, this->Rows.Words);
-    for (const Duplicate& duplicate : sortOutDuplicates(view))
-    {
-      loaded->Representatives.emplace(
-        std::int32_t(duplicate.Point), std::int32_t(duplicate.Representative));
-    }
-    this->writeWhole(piece, *loaded);
-    this->PointsDone += std::int64_t(count);
+    this->Duplicates +=
+      this->Own.writePointsAlone(piece, this->Finished[this->Work.Plan.number(piece)]);
+    this->PointsDone += this->Work.Points.count(piece);
     if (!this->Progress(this->PointsDone))
     {
       return false;
@@ -403,22 +277,13 @@ bool PieceRun::writePointsAlone()
 
 bool PieceRun::triangulateAlone()
 {
-  const std::unique_ptr<LoadedPiece> loaded = this->load(0);
-  Worker<std::int32_t> worker(this->Plan.Partitions, loaded->Buckets);
-  if (!worker.triangulateAlone(
-        [this](std::size_t inserted) { return this->Progress(std::int64_t(inserted)); }))
-  {
-    return false;
-  }
-  loaded->InteriorCounts[0] = worker.interiorCount();
-  for (const Duplicate& duplicate : worker.duplicates())
-  {
-    loaded->Representatives.emplace(
-      std::int32_t(duplicate.Point), std::int32_t(duplicate.Representative));
-  }
-  this->WorkerVertices = std::int64_t(worker.vertexCount());
-  this->writeWhole(0, *loaded);
-  return true;
+  PartitionResult result;
+  const bool isDone = this->Own.triangulateAlone([this](std::size_t inserted)
+    { return this->Progress(std::int64_t(inserted)); },
+    result, this->Finished[0]);
+  this->Duplicates = result.Duplicates;
+  this->WorkerVertices = result.Vertices;
+  return isDone;
 }
 
 } // namespace tipp

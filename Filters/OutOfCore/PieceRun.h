@@ -2,9 +2,10 @@
 #ifndef tippPieceRun_h
 #define tippPieceRun_h
 
+#include "Messages/Postbox.h"
+#include "OutOfCore/LoadedPieces.h"
 #include "OutOfCore/PieceSchedule.h"
 #include "Partitioned/PublishPieces.h"
-#include "Triangulation/Worker.h"
 
 #include <condition_variable>
 #include <cstdint>
@@ -19,21 +20,21 @@
 namespace tipp
 {
 
-/// The threads that load pieces, triangulate their partitions and write them.
+/// The threads that load pieces, triangulate their partitions and write them; and on the first of
+/// several ranks the orders for the others, each of which has a PieceHelper.
 class VTKTIPPFILTERS_EXPORT PieceRun
 {
 public:
   /// `progress` is told how many points are triangulated, in the thread that this object is made
-  /// and run in; false ends the run.
-  PieceRun(const PiecePlan& plan, const SpilledPoints& points, double factor,
-    const PointRowLayout& rows, const PartitionedMesh& mesh, const MemoryPlan& memory, int threads,
-    std::function<bool(std::int64_t)> progress);
+  /// and run in; false ends the run. Ranks: null for this process alone.
+  PieceRun(const PieceWork& work, const MemoryPlan& memory, int threads,
+    std::function<bool(std::int64_t)> progress, Postbox* ranks = nullptr);
 
   /// Saves its state to this file now and then, and where progress ends it; and goes on from there
   /// if the file is there already.
   void setCheckpoint(const std::string& path) { this->CheckpointPath = path; }
 
-  /// Writes all pieces' files. Throws IOError. False if progress ended it.
+  /// Writes all pieces' files. Throws IOError, and RankFailure. False if progress ended it.
   bool triangulate();
   /// The same of points on one line: there are no triangles.
   bool writePointsAlone();
@@ -49,43 +50,54 @@ public:
   std::uint64_t PeakBorderBytes = 0;
 
 private:
-  struct Place;
+  using Lock = std::unique_lock<std::mutex>;
+  using Place = LoadedPieces::Place;
+  /// What is known of a rank, this one too.
+  struct Rank
+  {
+    std::uint64_t LoadedBytes = 0;
+    bool IsReady = false; ///< another rank
+    int IdleThreads = 0;  ///< of another rank
+    bool IsLoading = false;
+  };
 
-  std::unique_ptr<LoadedPiece> load(PartitionIndex piece) const;
-  std::uint64_t bytesOf(PartitionIndex piece) const;
+  PartitionIndex takeToLoad(int rank);
   void loadPieces();
   void work();
   PartitionIndex acquire(Place& place);
-  void tell(std::unique_lock<std::mutex>& lock);
-  PartitionResult triangulate(Place& place, PartitionIndex partition);
+  void tell(Lock& lock);
+  void addLoaded(PartitionIndex piece, int rank, Lock& lock);
   void bringBack(PartitionResult result);
-  void writeInterior(PartitionIndex piece);
-  void writeLoaded(PartitionIndex piece, LoadedPiece& loaded, GrowingPiece& growing);
-  void writeWhole(PartitionIndex piece, LoadedPiece& loaded);
-  void writeBorders(std::unique_lock<std::mutex>& lock);
+  void finishPiece(PartitionIndex piece, Lock& lock);
+  void takeInterior(PartitionIndex piece, GrowingPiece interior);
+  void writeBorders(Lock& lock);
   void stop(const std::exception_ptr& reason);
   /// The body of a thread; what it throws ends the run.
   void guard(const std::function<void()>& body);
   void runThreads();
   void start();
   bool startFromCheckpoint();
-  void reload(PartitionIndex piece);
-  void makeInteriors(PartitionIndex piece, LoadedPiece& loaded) const;
-  void finishPiece(PartitionIndex piece, std::unique_lock<std::mutex>& lock);
-  void saveSometimes(std::unique_lock<std::mutex>& lock);
+  void saveSometimes(Lock& lock);
   void save(SaveArchive& archive);
   template <typename Archive>
   void exchangeFinished(Archive& archive); ///< figures and finished pieces
 
-  const PiecePlan& Plan;
-  const SpilledPoints& Points;
-  const double Factor;
-  const PointRowLayout& Rows;
-  const PartitionedMesh& Mesh;
+  /// @name Other ranks
+  ///@{
+  bool hasOtherRanks() const { return this->Ranks.size() > 1; }
+  void serve();
+  void take(const Message& message);
+  bool giveOrders();
+  ///@}
+
+  const PieceWork Work;
   const MemoryPlan& Memory;
   const int Threads;
   const std::function<bool(std::int64_t)> Progress;
+  Postbox* const Post;
   const std::thread::id Caller = std::this_thread::get_id();
+  LoadedPieces Own;
+  std::vector<Rank> Ranks;
   std::unique_ptr<PieceSchedule> Schedule;
 
   std::mutex Mutex;
@@ -94,7 +106,7 @@ private:
   bool IsSaving = false;
   std::uint64_t BytesSinceSaved = 0; ///< of interiors
   std::uint64_t SavedBytes = 0;      ///< of the last checkpoint
-  std::uint64_t LoadedBytes = 0;
+  PartitionIndex NextToLoad;
   std::int64_t PointsDone = 0;
   std::int64_t PointsTold = 0;
   bool Stopped = false;

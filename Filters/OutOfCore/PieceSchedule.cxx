@@ -25,6 +25,13 @@ std::vector<PartitionIndex> partitionsWithPoints(const PiecePlan& plan, const Sp
   return partitions;
 }
 
+/// Assigning {} would keep the memory.
+template <typename T>
+void release(std::vector<T>& values)
+{
+  std::vector<T>().swap(values);
+}
+
 Box3 boxOf(const Box2& box)
 {
   Box3 result;
@@ -58,37 +65,41 @@ PieceSchedule::PieceSchedule(const PiecePlan& plan, const SpilledPoints& points,
   this->takeFinal(this->Rim.add(SeamGrouping().group(initialMesh)));
 }
 
-bool PieceSchedule::addLoaded(PartitionIndex piece, std::unique_ptr<LoadedPiece> loaded)
+std::vector<PartitionIndex> PieceSchedule::finishedPartitions(PartitionIndex piece) const
+{
+  std::vector<PartitionIndex> finished;
+  const PartitionIndex end = this->Plan.FirstPartition[std::size_t(piece) + 1];
+  for (PartitionIndex p = this->Plan.FirstPartition[std::size_t(piece)]; p < end; ++p)
+  {
+    if (this->isFinished(p))
+    {
+      finished.push_back(p);
+    }
+  }
+  return finished;
+}
+
+bool PieceSchedule::addLoaded(PartitionIndex piece, int rank)
 {
   State& state = this->Pieces[std::size_t(piece)];
-  state.Loaded = std::move(loaded);
   state.At = Stage::Loaded;
-  state.Loaded->Seams = std::move(state.SavedSeams);
-  for (const std::int32_t point : state.SavedRim)
-  {
-    state.Loaded->Rim[std::size_t(point)] = 1;
-  }
-  state.SavedRim = {};
-  state.WasLoaded = false;
-  const PartitionIndex begin = this->Plan.FirstPartition[std::size_t(piece)];
-  const PartitionIndex end = this->Plan.FirstPartition[std::size_t(piece) + 1];
-  state.Loaded->PartitionsLeft = 0;
-  for (PartitionIndex p = begin; p < end; ++p)
-  {
-    state.Loaded->PartitionsLeft += this->isFinished(p) ? 0 : 1;
-  }
-  if (state.Loaded->PartitionsLeft > 0)
+  state.Rank = rank;
+  const PartitionIndex all = this->Plan.FirstPartition[std::size_t(piece) + 1] -
+    this->Plan.FirstPartition[std::size_t(piece)];
+  state.PartitionsLeft = all - PartitionIndex(this->finishedPartitions(piece).size());
+  if (state.PartitionsLeft > 0)
   {
     this->Window.push_back(piece);
   }
-  return state.Loaded->PartitionsLeft == 0;
+  return state.PartitionsLeft == 0;
 }
 
-PartitionIndex PieceSchedule::activateNext(std::vector<PlainVertex>& vertices)
+PartitionIndex PieceSchedule::activateNext(std::vector<PlainVertex>& vertices, int rank)
 {
   for (const PartitionIndex piece : this->Window)
   {
-    const PartitionIndex partition = this->Waiting.activateNext(piece);
+    const PartitionIndex partition =
+      this->rankOf(piece) == rank ? this->Waiting.activateNext(piece) : -1;
     if (partition >= 0)
     {
       this->Rim.gather(partition, vertices);
@@ -100,22 +111,12 @@ PartitionIndex PieceSchedule::activateNext(std::vector<PlainVertex>& vertices)
 
 bool PieceSchedule::complete(PartitionResult result)
 {
-  const PartitionIndex partition = result.Partition;
-  const PartitionIndex piece = this->Plan.PieceOf[std::size_t(partition)];
-  this->Rim.finish(partition);
+  const PartitionIndex piece = this->Plan.PieceOf[std::size_t(result.Partition)];
+  this->Rim.finish(result.Partition);
   const GroupMesh::Final final = this->Rim.add(std::move(result.Seams));
-  this->Waiting.deactivate(partition);
+  this->Waiting.deactivate(result.Partition);
   this->takeFinal(final);
-  LoadedPiece& loaded = this->loaded(piece);
-  loaded.InteriorCounts[std::size_t(partition - this->Plan.FirstPartition[std::size_t(piece)])] =
-    result.InteriorCount;
-  const std::int64_t first = this->Points.starts()[std::size_t(piece)];
-  for (const Duplicate& duplicate : result.Duplicates)
-  {
-    loaded.Representatives.emplace(
-      std::int32_t(duplicate.Point - first), std::int32_t(duplicate.Representative - first));
-  }
-  if (--loaded.PartitionsLeft > 0)
+  if (--this->Pieces[std::size_t(piece)].PartitionsLeft > 0)
   {
     return false;
   }
@@ -156,7 +157,7 @@ void PieceSchedule::takeInterior(
 {
   const std::int64_t first = this->Points.starts()[std::size_t(piece)];
   const auto vertices = groups.vertices(group);
-  std::vector<std::array<std::int32_t, 3>>& seams = this->loaded(piece).Seams;
+  std::vector<std::array<std::int32_t, 3>>& seams = this->Pieces[std::size_t(piece)].Seams;
   for (const SeamGroups::Corners& corners : groups.triangles(group))
   {
     std::array<std::int32_t, 3> triangle = { std::int32_t(vertices[corners[0]].Id - first),
@@ -230,7 +231,8 @@ void PieceSchedule::share(const std::array<PlainVertex, 3>& triangle)
     this->markRim(v);
     if (growing.needsRow(v.Id))
     {
-      growing.addRow(v.Id, this->rowOf(v.Id), this->Rows);
+      growing.addRow(v.Id, this->Rows);
+      this->wantRow(owner, v.Id);
     }
   }
 }
@@ -242,30 +244,61 @@ void PieceSchedule::markRim(const PlainVertex& v)
     return;
   }
   const PartitionIndex piece = this->pieceOf(v.Id);
-  const State& state = this->Pieces[std::size_t(piece)];
-  if (state.Loaded)
+  State& state = this->Pieces[std::size_t(piece)];
+  if (state.At > Stage::Loaded) // then it is marked already
   {
-    std::uint8_t& mark =
-      state.Loaded->Rim[std::size_t(v.Id - this->Points.starts()[std::size_t(piece)])];
-    if (mark == 0) // a piece that is being written is only read
+    return;
+  }
+  if (state.Rim.empty())
+  {
+    state.Rim.assign(std::size_t(this->Points.count(piece)), 0);
+  }
+  state.Rim[std::size_t(v.Id - this->Points.starts()[std::size_t(piece)])] = 1;
+}
+
+/// Its rows are where its points are loaded, perhaps on another rank, until its interior is
+/// written: then those of the rim come here.
+void PieceSchedule::wantRow(PartitionIndex by, std::int64_t place)
+{
+  State& state = this->Pieces[std::size_t(this->pieceOf(place))];
+  if (state.At < Stage::Interior)
+  {
+    state.Wanted.push_back({ by, place });
+    ++this->Pieces[std::size_t(by)].RowsMissing;
+    return;
+  }
+  this->Pieces[std::size_t(by)].Growing.setRow(
+    place, state.Growing.rimRow(place, this->Rows), this->Rows);
+}
+
+std::vector<std::int32_t> PieceSchedule::placesOfRim(const std::vector<std::uint8_t>& rim)
+{
+  std::vector<std::int32_t> places;
+  for (std::size_t i = 0; i < rim.size(); ++i)
+  {
+    if (rim[i] != 0)
     {
-      mark = 1;
+      places.push_back(std::int32_t(i));
     }
   }
+  return places;
 }
 
-const double* PieceSchedule::rowOf(std::int64_t place) const
+InteriorTask PieceSchedule::startInterior(PartitionIndex piece)
 {
-  const PartitionIndex piece = this->pieceOf(place);
-  const State& state = this->Pieces[std::size_t(piece)];
-  return state.Loaded ? state.Loaded->Rows.data() +
-      std::size_t(place - this->Points.starts()[std::size_t(piece)]) * this->Rows.Words
-                      : state.Growing.rimRow(place, this->Rows);
+  this->markLive(piece);
+  State& state = this->Pieces[std::size_t(piece)];
+  state.At = Stage::Writing;
+  InteriorTask task;
+  task.Piece = piece;
+  task.Rim = PieceSchedule::placesOfRim(state.Rim);
+  task.Seams = state.Seams;
+  return task;
 }
 
-void PieceSchedule::findRim(PartitionIndex piece)
+/// The points of triangles that are not final.
+void PieceSchedule::markLive(PartitionIndex piece)
 {
-  this->Pieces[std::size_t(piece)].IsWritten = true; // from here on
   const PartitionIndex begin = this->Plan.FirstPartition[std::size_t(piece)];
   const PartitionIndex end = this->Plan.FirstPartition[std::size_t(piece) + 1];
   this->Rim.visitLive(
@@ -287,12 +320,26 @@ void PieceSchedule::findRim(PartitionIndex piece)
     });
 }
 
-void PieceSchedule::finishInterior(PartitionIndex piece)
+void PieceSchedule::finishInterior(PartitionIndex piece, GrowingPiece interior)
 {
   State& state = this->Pieces[std::size_t(piece)];
-  state.Loaded.reset();
-  state.IsWritten = false;
   state.At = Stage::Interior;
+  state.Growing.takeInterior(std::move(interior));
+  release(state.Rim);
+  release(state.Seams);
+  for (const WantedRow& row : state.Wanted)
+  {
+    State& by = this->Pieces[std::size_t(row.By)];
+    by.Growing.setRow(row.Place, state.Growing.rimRow(row.Place, this->Rows), this->Rows);
+    --by.RowsMissing;
+  }
+  release(state.Wanted);
+}
+
+bool PieceSchedule::allInterior() const
+{
+  return std::all_of(this->Pieces.begin(), this->Pieces.end(),
+    [](const State& state) { return state.At >= Stage::Interior; });
 }
 
 PartitionIndex PieceSchedule::takeComplete()
@@ -300,7 +347,8 @@ PartitionIndex PieceSchedule::takeComplete()
   for (PartitionIndex piece = this->pieces() - 1; piece >= 0; --piece)
   {
     State& state = this->Pieces[std::size_t(piece)];
-    if (state.At != Stage::Interior || (state.WaitsForHull && !this->HullRepaired))
+    if (state.At != Stage::Interior || state.RowsMissing > 0 ||
+      (state.WaitsForHull && !this->HullRepaired))
     {
       continue;
     }
@@ -314,7 +362,6 @@ PartitionIndex PieceSchedule::takeComplete()
     if (p == end)
     {
       state.At = Stage::Taken;
-      state.IsWritten = true;
       return piece;
     }
   }
@@ -325,7 +372,6 @@ void PieceSchedule::finishBorder(PartitionIndex piece)
 {
   State& state = this->Pieces[std::size_t(piece)];
   state.Growing = GrowingPiece();
-  state.IsWritten = false;
   state.At = Stage::Done;
 }
 
@@ -341,17 +387,16 @@ void PieceSchedule::repairHull()
     }
     this->share(plain);
   }
-  this->Hull = {};
+  release(this->Hull);
   this->HullRepaired = true;
 }
 
-std::uint64_t PieceSchedule::borderBytes()
+std::uint64_t PieceSchedule::borderBytes() const
 {
   std::uint64_t bytes = 0;
-  for (State& state : this->Pieces)
+  for (const State& state : this->Pieces)
   {
-    state.BorderBytes = state.IsWritten ? state.BorderBytes : state.Growing.bytes();
-    bytes += state.BorderBytes;
+    bytes += state.Growing.bytes();
   }
   return bytes;
 }

@@ -4,48 +4,21 @@
 
 #include "Distributed/GroupMesh.h"
 #include "OutOfCore/Checkpoint.h"
-#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "OutOfCore/LoadedPieces.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/SpillPoints.h"
 #include "Partitioned/GrowingPiece.h"
-#include "Triangulation/Buffer.h"
 #include "Triangulation/IndependentPartitions.h"
-#include "Triangulation/PointBuckets.h"
-#include "Triangulation/Triangulate.h"
 
 #include <array>
 #include <cstdint>
-#include <memory>
-#include <unordered_map>
 #include <vector>
 
 namespace tipp
 {
 
-/// A piece's points and triangles while its partitions are worked on.
-struct LoadedPiece
-{
-  Buffer<double> Rows;
-  PointBuckets<std::int32_t> Buckets;
-  std::vector<std::size_t> InteriorCounts;        ///< triangles, of each partition
-  std::vector<std::uint8_t> Rim;                  ///< of each point
-  std::vector<std::array<std::int32_t, 3>> Seams; ///< triangles that meet no other piece
-  std::unordered_map<std::int32_t, std::int32_t> Representatives;
-  PartitionIndex PartitionsLeft = 0;
-};
-
-/// What a worker has made of a partition.
-struct PartitionResult
-{
-  PartitionIndex Partition = 0;
-  SeamGroups Seams;
-  std::size_t InteriorCount = 0;
-  std::vector<Duplicate> Duplicates; ///< the representative is the lower one
-  std::size_t Vertices = 0;
-};
-
-/// The state of all pieces between the workers: which partitions may be active, what is final,
-/// which piece it belongs to. Not thread-safe, but for what is said to be.
+/// The state of all pieces between the workers of all ranks: which partitions may be active, what
+/// is final, which piece it belongs to. Not thread-safe.
 ///
 /// A triangle whose circumdisk meets partitions of one piece only is of the piece's interior; the
 /// others are the border's. A point with a triangle of the latter kind, or at an artificial point,
@@ -57,77 +30,94 @@ public:
   PieceSchedule(const PiecePlan& plan, const SpilledPoints& points, const PointRowLayout& rows,
     const SeamTriangles& initialMesh);
 
-  /// Goes on where another one was when it was saved. Pieces that were loaded then must be loaded
-  /// again, with the triangles of their finished partitions, before any partition is activated.
+  /// Goes on where another one was when it was saved. Pieces that were loaded then are to be loaded
+  /// again.
   PieceSchedule(const PiecePlan& plan, const SpilledPoints& points, const PointRowLayout& rows,
     LoadArchive& archive);
   /// What is active counts as not begun. Interiors and borders that are being written count as not
   /// written.
   void save(SaveArchive& archive);
 
-  /// Whether a piece has yet to be loaded, and whether it was when the state was saved.
+  /// Whether a piece has yet to be loaded.
   bool isToLoad(PartitionIndex piece) const
   {
-    const State& state = this->Pieces[std::size_t(piece)];
-    return state.At == Stage::Waiting && this->Points.count(piece) > 0;
+    return this->Pieces[std::size_t(piece)].At == Stage::Waiting && this->Points.count(piece) > 0;
   }
-  bool wasLoaded(PartitionIndex piece) const { return this->Pieces[std::size_t(piece)].WasLoaded; }
   bool isFinished(PartitionIndex partition) const { return this->Rim.isFinished(partition); }
+  /// Those of the piece's partitions that are.
+  std::vector<PartitionIndex> finishedPartitions(PartitionIndex piece) const;
 
   PartitionIndex pieces() const { return this->Plan.pieces(); }
 
-  /// From now on the piece's partitions may be active. True if all of them are finished already.
-  bool addLoaded(PartitionIndex piece, std::unique_ptr<LoadedPiece> loaded);
-  LoadedPiece& loaded(PartitionIndex piece) { return *this->Pieces[std::size_t(piece)].Loaded; }
+  /// From now on this rank may have the piece's partitions. True if all of them are finished
+  /// already.
+  bool addLoaded(PartitionIndex piece, int rank = 0);
+  int rankOf(PartitionIndex piece) const { return this->Pieces[std::size_t(piece)].Rank; }
 
-  /// A partition of a loaded piece that is independent of all active ones, and the vertices of the
-  /// triangles that belong to it; -1 if there is none now.
-  PartitionIndex activateNext(std::vector<PlainVertex>& vertices);
+  /// A partition of a piece loaded by the rank that is independent of all active ones, and the
+  /// vertices of the triangles that belong to it; -1 if there is none now.
+  PartitionIndex activateNext(std::vector<PlainVertex>& vertices, int rank = 0);
 
   /// True if this was the piece's last partition: then its interior is to be written.
   bool complete(PartitionResult result);
 
-  /// Before and after a piece's interior is written. In between it may be read by other threads.
-  void findRim(PartitionIndex piece);
-  GrowingPiece& growing(PartitionIndex piece) { return this->Pieces[std::size_t(piece)].Growing; }
-  void finishInterior(PartitionIndex piece);
+  /// Before and after a piece's interior is written.
+  InteriorTask startInterior(PartitionIndex piece);
+  void finishInterior(PartitionIndex piece, GrowingPiece interior);
 
-  /// A piece whose border is complete now, or -1. It is handed out once.
+  /// A piece whose border is complete now, or -1. It is handed out once, and not changed any more.
   PartitionIndex takeComplete();
+  const GrowingPiece& growing(PartitionIndex piece) const
+  {
+    return this->Pieces[std::size_t(piece)].Growing;
+  }
   /// The border has been written; frees it.
   void finishBorder(PartitionIndex piece);
 
   bool allActivated() const { return this->Waiting.isEmpty(); }
-  /// When all partitions are finished: replaces the artificial points' triangles.
+  /// Whether the interiors of all pieces are written.
+  bool allInterior() const;
+  /// When they are: replaces the artificial points' triangles.
   void repairHull();
 
   std::size_t rimTriangles() const { return this->Rim.size(); }
-  std::uint64_t borderBytes();
+  std::uint64_t borderBytes() const;
 
 private:
   PieceSchedule(const PiecePlan& plan, const SpilledPoints& points, const PointRowLayout& rows,
     const std::vector<PartitionIndex>& unfinished);
   template <typename Archive>
   void exchangePiece(Archive& archive, PartitionIndex piece);
+  template <typename Archive>
+  void exchangeRim(Archive& archive, PartitionIndex piece);
+  static std::vector<std::int32_t> placesOfRim(const std::vector<std::uint8_t>& rim);
 
   enum class Stage
   {
     Waiting,
-    Loaded, ///< or being written
+    Loaded,
+    Writing, ///< its interior
     Interior,
     Taken, ///< its border is being written
     Done
   };
+  /// A row of this piece that another piece's border wants as soon as it is known.
+  struct WantedRow
+  {
+    PartitionIndex By;
+    std::int64_t Place;
+  };
   struct State
   {
     Stage At = Stage::Waiting;
-    bool WasLoaded = false; ///< when the state was saved, with these:
-    std::vector<std::array<std::int32_t, 3>> SavedSeams;
-    std::vector<std::int32_t> SavedRim;
+    int Rank = 0; ///< which has loaded it
+    PartitionIndex PartitionsLeft = 0;
     bool WaitsForHull = false;
-    bool IsWritten = false;        ///< by a thread, just now
-    std::uint64_t BorderBytes = 0; ///< of Growing when last seen not being written
-    std::unique_ptr<LoadedPiece> Loaded;
+    std::uint64_t RowsMissing = 0; ///< of other pieces' points, at the border
+    // Until the interior is written:
+    std::vector<std::uint8_t> Rim; ///< of each point, once one of them is on the rim
+    std::vector<std::array<std::int32_t, 3>> Seams; ///< triangles that meet no other piece
+    std::vector<WantedRow> Wanted;
     GrowingPiece Growing;
   };
 
@@ -136,8 +126,9 @@ private:
   void takeBorder(const SeamGroups& groups, std::uint32_t group);
   void share(const std::array<PlainVertex, 3>& triangle);
   void markRim(const PlainVertex& v);
+  void markLive(PartitionIndex piece);
   PartitionIndex pieceOf(std::int64_t place) const;
-  const double* rowOf(std::int64_t place) const;
+  void wantRow(PartitionIndex by, std::int64_t place);
   /// The pieces that the triangle meets, by their numbers in the mesh, ascending.
   void findMet(const std::array<PlainVertex, 3>& triangle, std::vector<std::int32_t>& met) const;
 

@@ -26,36 +26,18 @@ std::vector<PartitionIndex> readUnfinished(LoadArchive& archive, const PiecePlan
 template <typename Archive>
 void PieceSchedule::exchangePiece(Archive& archive, PartitionIndex piece)
 {
-  constexpr bool isSaving = std::is_same<Archive, SaveArchive>::value;
   State& state = this->Pieces[std::size_t(piece)];
   archive(state.WaitsForHull);
-  Stage stage = state.At == Stage::Taken ? Stage::Interior : state.At;
+  archive(state.RowsMissing);
+  Stage stage = state.At < Stage::Interior ? Stage::Waiting
+    : state.At == Stage::Taken             ? Stage::Interior
+                                           : state.At;
   archive(stage);
-  if constexpr (isSaving)
+  if (stage < Stage::Interior)
   {
-    if (stage == Stage::Loaded)
-    {
-      archive(state.Loaded->Seams);
-      std::vector<std::int32_t> rim;
-      for (std::size_t i = 0; i < state.Loaded->Rim.size(); ++i)
-      {
-        if (state.Loaded->Rim[i] != 0)
-        {
-          rim.push_back(std::int32_t(i));
-        }
-      }
-      archive(rim);
-    }
-  }
-  else
-  {
-    state.WasLoaded = stage == Stage::Loaded;
-    state.At = state.WasLoaded ? Stage::Waiting : stage;
-    if (state.WasLoaded)
-    {
-      archive(state.SavedSeams);
-      archive(state.SavedRim);
-    }
+    archive(state.Seams);
+    archive(state.Wanted);
+    this->exchangeRim(archive, piece);
   }
   if (stage == Stage::Interior)
   {
@@ -64,6 +46,26 @@ void PieceSchedule::exchangePiece(Archive& archive, PartitionIndex piece)
   if (stage != Stage::Done)
   {
     state.Growing.exchangeBorder(archive);
+  }
+  if constexpr (std::is_same<Archive, LoadArchive>::value)
+  {
+    state.At = stage;
+  }
+}
+
+template <typename Archive>
+void PieceSchedule::exchangeRim(Archive& archive, PartitionIndex piece)
+{
+  std::vector<std::uint8_t>& rim = this->Pieces[std::size_t(piece)].Rim;
+  std::vector<std::int32_t> places = placesOfRim(rim);
+  archive(places);
+  if (!places.empty())
+  {
+    rim.assign(std::size_t(this->Points.count(piece)), 0);
+  }
+  for (const std::int32_t place : places)
+  {
+    rim.at(std::size_t(place)) = 1;
   }
 }
 

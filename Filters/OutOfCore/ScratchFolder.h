@@ -23,6 +23,7 @@ public:
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
 
+  const std::string& folder() const { return this->Folder; }
   std::string points() const { return this->Folder + "/.points"; }
   std::string plan() const { return this->Work + "/.plan"; }
   std::string state() const { return this->Work + "/.state"; }

@@ -115,6 +115,7 @@ SpilledPoints::SpilledPoints(PointStream& points, const InputSurvey& survey, Pie
   const std::function<void(std::int64_t)>& progress)
   : Rows(file, Ranks(nullptr), std::size_t(plan.pieces()), 8 * rows.Words)
 {
+  this->Rows.protect();
   Labelling labelling(plan, survey.Factor, threads);
   std::int64_t seen = 0;
   forEachBlock(points, blockPoints,

@@ -68,7 +68,7 @@ vtkSmartPointer<vtkDataArray> plain(vtkDataArray* array)
   {
     return array;
   }
-  const auto copy =
+  auto copy =
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(array->GetDataType()));
   copy->DeepCopy(array);
   return copy;

@@ -44,11 +44,30 @@ void GrowingPiece::addTriangle(
   this->Shared.push_back({ places, this->Borrowers.size() });
 }
 
-void GrowingPiece::addRow(std::int64_t place, const double* row, const PointRowLayout& rows)
+void GrowingPiece::addRow(std::int64_t place, const PointRowLayout& rows)
 {
   this->Ghosts.emplace(place, std::int64_t(this->GhostPlaces.size()));
   this->GhostPlaces.push_back(place);
-  this->GhostRows.insert(this->GhostRows.end(), row, row + rows.Words);
+  this->GhostRows.resize(this->GhostRows.size() + rows.Words);
+}
+
+void GrowingPiece::setRow(std::int64_t place, const double* row, const PointRowLayout& rows)
+{
+  std::copy_n(
+    row, rows.Words, this->GhostRows.data() + std::size_t(this->Ghosts.at(place)) * rows.Words);
+}
+
+void GrowingPiece::takeInterior(GrowingPiece other)
+{
+  this->Room = other.Room;
+  this->InteriorPoints = other.InteriorPoints;
+  this->InteriorSum = other.InteriorSum;
+  this->InteriorCells = other.InteriorCells;
+  this->Extent = other.Extent;
+  this->Checksums = std::move(other.Checksums);
+  this->RimPlaces = std::move(other.RimPlaces);
+  this->RimRows = std::move(other.RimRows);
+  this->RimTriangles = std::move(other.RimTriangles);
 }
 
 const double* GrowingPiece::rimRow(std::int64_t place, const PointRowLayout& rows) const

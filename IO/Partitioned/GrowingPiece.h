@@ -67,7 +67,9 @@ public:
   {
     return !this->owns(place) && this->Ghosts.count(place) == 0;
   }
-  void addRow(std::int64_t place, const double* row, const PointRowLayout& rows);
+  /// Makes room for the row, and fills it.
+  void addRow(std::int64_t place, const PointRowLayout& rows);
+  void setRow(std::int64_t place, const double* row, const PointRowLayout& rows);
   ///@}
 
   struct Corners
@@ -86,6 +88,9 @@ public:
   /// The first go. Throws IOError.
   void writeInterior(const PartitionedMesh& mesh, std::size_t number, const PointRowLayout& rows,
     const Interior& interior);
+
+  /// What another object for the same piece has kept of its interior, by the first go.
+  void takeInterior(GrowingPiece other);
 
   /// Of a triangle by its points' ids, whichever comes first.
   static std::uint64_t hashTriangle(std::int64_t a, std::int64_t b, std::int64_t c);

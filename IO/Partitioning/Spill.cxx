@@ -32,7 +32,14 @@ Spill::Spill(
   , RowBytes(rowBytes)
   , Out(OutputFile::shared(fileOf(path, 0)))
 {
-  for (std::size_t at = 0; at + sizeof(Extent) <= saved.size(); at += sizeof(Extent))
+  const std::size_t sums = keys * sizeof(std::uint64_t);
+  if (saved.size() < sums)
+  {
+    throw IOError(path, "has checksums of other pieces; start again.");
+  }
+  this->Checksums.resize(keys);
+  std::memcpy(this->Checksums.data(), saved.data(), sums);
+  for (std::size_t at = sums; at + sizeof(Extent) <= saved.size(); at += sizeof(Extent))
   {
     Extent extent;
     std::memcpy(&extent, saved.data() + at, sizeof(Extent));
@@ -46,7 +53,7 @@ Spill::Spill(
   {
     throw IOError(fileOf(path, 0), "is shorter than it was; start again.");
   }
-  this->sortExtents({ std::string(saved.data(), saved.size()) });
+  this->sortExtents({ std::string(saved.data() + sums, saved.size() - sums) });
 }
 
 std::vector<char> Spill::save() const
@@ -59,8 +66,36 @@ std::vector<char> Spill::save() const
       extents[i].Key = std::uint32_t(key);
     }
   }
-  const char* const begin = reinterpret_cast<const char*>(extents.data());
-  return { begin, begin + extents.size() * sizeof(Extent) };
+  const auto append = [](const auto& values, std::vector<char>& to)
+  {
+    const char* const begin = reinterpret_cast<const char*>(values.data());
+    to.insert(to.end(), begin, begin + values.size() * sizeof(values[0]));
+  };
+  std::vector<char> saved;
+  append(this->Checksums, saved);
+  append(extents, saved);
+  return saved;
+}
+
+void Spill::protect()
+{
+  this->Checksums.resize(this->Keys);
+  for (std::size_t key = 0; key < this->Keys; ++key)
+  {
+    this->Sums.push_back(std::make_unique<Checksum>());
+  }
+}
+
+void Spill::addToChecksums(
+  const std::vector<char>& rows, const std::vector<std::int64_t>& starts, int threads)
+{
+  parallelFor(std::int64_t(this->Sums.size()), threads,
+    [&](std::int64_t key)
+    {
+      const auto from = std::size_t(starts[std::size_t(key)]) * this->RowBytes;
+      const auto to = std::size_t(starts[std::size_t(key) + 1]) * this->RowBytes;
+      this->Sums[std::size_t(key)]->add(rows.data() + from, to - from);
+    });
 }
 
 void Spill::write(
@@ -76,6 +111,7 @@ void Spill::write(
         std::uint32_t(std::min(most, starts[key + 1] - row)), std::uint32_t(key) });
     }
   }
+  this->addToChecksums(rows, starts, threads);
   const std::size_t parts = rows.size() < (std::size_t(1) << 20) ? 1 : std::size_t(threads);
   parallelFor(std::int64_t(parts), threads,
     [&](std::int64_t part)
@@ -93,6 +129,11 @@ void Spill::exchange(const Ranks& ranks)
     reinterpret_cast<const char*>(this->Mine.data()), this->Mine.size() * sizeof(Extent));
   std::vector<Extent>().swap(this->Mine);
   std::vector<char>().swap(this->Buffer);
+  for (std::size_t key = 0; key < this->Sums.size(); ++key)
+  {
+    this->Checksums[key] = this->Sums[key]->finish();
+  }
+  this->Sums.clear();
   const std::vector<std::string> all = ranks.gather(mine);
   ranks.attempt([&] { this->sortExtents(all); });
 }
@@ -141,6 +182,16 @@ void Spill::read(std::size_t key, std::size_t most,
   // A key's extents are in the order of the ranks: one file is open at a time.
   std::optional<InputFile> file;
   std::uint32_t opened = 0;
+  Checksum checksum;
+  const auto give = [&]
+  {
+    if (!this->Checksums.empty())
+    {
+      checksum.add(block.data(), held * this->RowBytes);
+    }
+    take(block.data(), held);
+    held = 0;
+  };
   for (std::size_t i = this->Starts[key]; i < this->Starts[key + 1]; ++i)
   {
     Extent extent = this->Sorted[i];
@@ -158,14 +209,18 @@ void Spill::read(std::size_t key, std::size_t most,
       extent.Offset += rows * this->RowBytes;
       if (held == room)
       {
-        take(block.data(), held);
-        held = 0;
+        give();
       }
     }
   }
   if (held > 0)
   {
-    take(block.data(), held);
+    give();
+  }
+  if (!this->Checksums.empty() && checksum.finish() != this->Checksums[key])
+  {
+    throw IOError(fileOf(this->Path, 0),
+      "is damaged: it does not hold what was written to it; remove its folder and start again.");
   }
 }
 

@@ -3,12 +3,14 @@
 #define tippSpill_h
 
 #include "Files/OutputFile.h"
+#include "Partitioned/Checksum.h"
 #include "Partitioning/Ranks.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -38,11 +40,16 @@ public:
   template <typename Key, typename Fill>
   void add(std::size_t count, int threads, const Key& keyOf, const Fill& fill);
 
+  /// From now on checksums of rows are taken, key by key, and kept with what save() tells: to be
+  /// verified where rows are read. Before all chunks; on one rank.
+  void protect();
+
   /// After all chunks: has every rank know all rows. A call of all ranks.
   void exchange(const Ranks& ranks);
 
   std::int64_t rows(std::size_t key) const { return this->Rows[key]; }
-  /// Gives the key's rows, a block of at most `most` at a time, in order.
+  /// Gives the key's rows, a block of at most `most` at a time, in order. Throws IOError, after the
+  /// last block also where they are not those that were added.
   void read(std::size_t key, std::size_t most,
     const std::function<void(const char* rows, std::size_t count)>& take) const;
   std::vector<char> readAll(std::size_t key) const;
@@ -59,6 +66,8 @@ private:
 
   void write(const std::vector<char>& rows, const std::vector<std::int64_t>& starts, int threads);
   void sortExtents(const std::vector<std::string>& all);
+  void addToChecksums(
+    const std::vector<char>& rows, const std::vector<std::int64_t>& starts, int threads);
   static std::string fileOf(const std::string& path, int rank);
 
   std::string Path;
@@ -67,6 +76,9 @@ private:
   OutputFile Out;
   std::uint64_t Written = 0;
   std::vector<char> Buffer; ///< a chunk's rows; kept from one chunk to the next
+  std::vector<std::unique_ptr<Checksum>>
+    Sums;                               ///< of each key, after protect() and until exchange()
+  std::vector<std::uint64_t> Checksums; ///< then; none: rows are not protected
   std::vector<Extent> Mine;
   std::vector<Extent> Sorted;
   std::vector<std::size_t> Starts; ///< of each key's in Sorted

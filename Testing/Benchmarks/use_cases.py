@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scattered points to a grid, beside scipy and gdal_grid.
+"""Scattered points, and meshes, to a grid, beside scipy, gdal_grid, VTK and matplotlib.
 
-Usage: use_cases.py TIPP NAME=POINTS.npy:WIDTH...   (TIPP: the tool; POINTS: x, y and a value, n x 3;
-       WIDTH: samples along x)
+Usage: use_cases.py TIPP NAME=INPUT:WIDTH...   (TIPP: the tool; INPUT: POINTS.npy, x, y and a value,
+       n x 3, or a mesh of triangles that tipp.read reads; WIDTH: samples along x)
 
 In memory: from NumPy arrays to a NumPy grid, tipp.delaunay_2d and tipp.resample beside scipy's
 LinearNDInterpolator. From file to file: `tipp delaunay` and `tipp resample` beside gdal_grid with its
-linear algorithm, which triangulates too. Each peer is run once, ours three times.
+linear algorithm, which triangulates too. The points' arrays of a mesh are sampled by tipp.resample beside
+vtkProbeFilter, and one of them beside matplotlib's LinearTriInterpolator. Each peer is run once, ours three
+times.
 """
 import importlib.util
 import pathlib
@@ -17,6 +19,7 @@ import tempfile
 import time
 
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import tipp
 
@@ -111,13 +114,51 @@ def run(tool, name, points, width):
             print("; gdal_grid is not installed")
 
 
+def probes(mesh, image):
+    from vtkmodules.vtkCommonDataModel import vtkImageData
+    from vtkmodules.vtkFiltersCore import vtkProbeFilter
+    lattice = vtkImageData()
+    lattice.CopyStructure(image)
+    probe = vtkProbeFilter()
+    probe.SetInputData(lattice)
+    probe.SetSourceData(mesh)
+    probe.Update()
+
+
+def matplotlibs(points, triangles, values, grid):
+    from matplotlib.tri import LinearTriInterpolator, Triangulation
+    mesh = Triangulation(points[:, 0], points[:, 1], triangles)
+    return LinearTriInterpolator(mesh, values)(*np.meshgrid(*grid.axes()))
+
+
+def run_mesh(name, mesh, width, array):
+    points = vtk_to_numpy(mesh.GetPoints().GetData())
+    grid = Grid(points, width)
+    seconds, image = timed(
+        lambda: tipp.resample(mesh, grid.bounds(), (grid.width, grid.height, 1)), 3)
+    print(f"{name}: {mesh.GetNumberOfCells()} triangles, {grid.width} x {grid.height} samples")
+    print(f"  in memory: ours {seconds:.3f} s", end="")
+    peer, _ = timed(lambda: probes(mesh, image))
+    print(f", vtkProbeFilter {peer:.2f} s, {peer / seconds:.0f} times ours", end="")
+    if importlib.util.find_spec("matplotlib"):
+        triangles = vtk_to_numpy(mesh.GetCells().GetConnectivityArray()).reshape(-1, 3)
+        peer, _ = timed(lambda: matplotlibs(points, triangles, tipp.as_array(mesh, array), grid))
+        print(f", matplotlib {peer:.2f} s, {peer / seconds:.0f} times ours")
+    else:
+        print("; matplotlib is not installed")
+
+
 def main():
     if len(sys.argv) < 3 or not all("=" in word and ":" in word for word in sys.argv[2:]):
         sys.exit(__doc__)
     for word in sys.argv[2:]:
         name, rest = word.split("=", 1)
         path, width = rest.rsplit(":", 1)
-        run(sys.argv[1], name, np.load(path), int(width))
+        if path.endswith(".npy"):
+            run(sys.argv[1], name, np.load(path), int(width))
+        else:
+            mesh = tipp.read(path)
+            run_mesh(name, mesh, int(width), mesh.GetPointData().GetArrayName(0))
 
 
 if __name__ == "__main__":

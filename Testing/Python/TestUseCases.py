@@ -14,6 +14,8 @@ from unittest import mock
 
 import numpy as np
 
+import tipp
+
 PROGRAM, TOOL = sys.argv[1:3]
 del sys.argv[1:3]
 specification = importlib.util.spec_from_file_location("use_cases", PROGRAM)
@@ -21,17 +23,21 @@ use_cases = importlib.util.module_from_spec(specification)
 specification.loader.exec_module(use_cases)
 
 
-def lines_of(points, width):
-    """What the benchmark prints of some points where no peer is installed."""
+def lines_of_input(name, path, width):
+    """What the benchmark prints where no peer is installed."""
     printed = io.StringIO()
+    with mock.patch.object(sys, "argv", [PROGRAM, TOOL, f"{name}={path}:{width}"]), \
+            mock.patch("importlib.util.find_spec", return_value=None), \
+            mock.patch("shutil.which", return_value=None), contextlib.redirect_stdout(printed):
+        use_cases.main()
+    return printed.getvalue().splitlines()
+
+
+def lines_of(points, width):
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "points.npy"
         np.save(path, points)
-        with mock.patch.object(sys, "argv", [PROGRAM, TOOL, f"small={path}:{width}"]), \
-                mock.patch("importlib.util.find_spec", return_value=None), \
-                mock.patch("shutil.which", return_value=None), contextlib.redirect_stdout(printed):
-            use_cases.main()
-    return printed.getvalue().splitlines()
+        return lines_of_input("small", path, width)
 
 
 class UseCases(unittest.TestCase):
@@ -43,6 +49,15 @@ class UseCases(unittest.TestCase):
         self.assertRegex(head, r"^small: 500 points, 20 x 10 samples$")
         self.assertRegex(memory, r"^  in memory: ours \d+\.\d{3} s; scipy is not installed$")
         self.assertRegex(files, r"^  from file to file: ours \d+\.\d{3} s; gdal_grid is not installed$")
+
+    def test_a_mesh_is_sampled_beside_vtk(self):
+        mesh = tipp.delaunay_2d(self.points[:, :2], point_data={"value": self.points[:, 2]})
+        with tempfile.TemporaryDirectory() as folder:
+            path = f"{folder}/mesh.tipp"
+            tipp.write(mesh, path)
+            head, memory = lines_of_input("small", path, 20)
+        self.assertRegex(head, r"^small: \d+ triangles, 20 x 10 samples$")
+        self.assertRegex(memory, r"^  in memory: ours \d+\.\d{3} s, vtkProbeFilter .* matplotlib is not installed$")
 
     def test_points_without_a_value_are_left_out(self):
         self.points[7, 2] = np.nan

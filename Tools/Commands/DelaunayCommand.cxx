@@ -11,7 +11,6 @@
 #include "Console/MpiSession.h"
 #include "Console/ProgressBar.h"
 #include "Files/Extension.h"
-#include "Files/IOError.h"
 #include "Meshes/WriteMesh.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/Triangulate.h"
@@ -40,7 +39,8 @@ OUTPUT  .vtp, .vtu (all points with their data, a column named z as third
 
 Under mpirun the points are spread over the ranks, each with its threads; the
 first rank writes the output. --masters, --major, --minor and --groups choose how
-the ranks share the work.
+the ranks share the work. A .tipp output is written by all ranks, which must all
+see its folder and that of --scratch; --memory is that of each.
 
 Duplicates are merged, points that are not finite are left out. Ctrl-C ends the
 run with exit code 130 and no output. Seconds in the summary are those of the
@@ -53,6 +53,7 @@ Examples:
   tipp delaunay west.npy east.npy -o mesh.tipp --memory 512M
   tipp delaunay west.npy east.npy -o mesh.tipp --memory 512M --resume
   mpirun -np 4 tipp delaunay points.npy -o triangles.npy --masters multi --major 4x4
+  mpirun -np 4 tipp delaunay points.npy -o mesh.tipp --memory 512M
 )";
 
 TriangulationOptions makeOptions(const DelaunayArguments& arguments, ProgressBar& bar)
@@ -84,13 +85,7 @@ int runDelaunay(const DelaunayArguments& arguments)
   const MpiSession session;
   if (isOutOfCore(arguments))
   {
-    if (session.controller() || arguments.isForRanks())
-    {
-      throw IOError(arguments.Output,
-        "is made by one process, with threads; run it without mpirun and without --masters, "
-        "--major and --minor.");
-    }
-    return runDelaunayOutOfCore(arguments);
+    return runDelaunayOutOfCore(arguments, session.controller());
   }
   if (session.controller() || arguments.isForRanks())
   {
@@ -210,7 +205,7 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
   command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
   command
     ->add_option("--memory", arguments->Memory,
-      "With a .tipp output: what the run may take, as 512M; without: 2G")
+      "With a .tipp output: what each process may take, as 512M; without: 2G")
     ->check(checkMemorySize);
   command
     ->add_option("--sink", arguments->Sink,
@@ -238,6 +233,11 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
       }
       arguments->Input = arguments->Inputs.front();
       const std::string misplaced = misplacedOutOfCoreOption(*arguments);
+      if (isOutOfCore(*arguments) && arguments->isForRanks())
+      {
+        throw CLI::ValidationError(
+          "--masters, --major and --minor", "do not go with an output named .tipp");
+      }
       if (!isOutOfCore(*arguments) && !misplaced.empty())
       {
         throw CLI::ValidationError(misplaced, "needs an output named .tipp");

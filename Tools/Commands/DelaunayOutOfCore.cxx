@@ -8,11 +8,15 @@
 #include "Console/ProgressBar.h"
 #include "Files/Extension.h"
 #include "Files/PendingFile.h"
-#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "OutOfCore/OutOfCoreRanks.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
+#include <memory>
+#include <numeric>
+#include <vector>
 
 #include <malloc.h>
 
@@ -21,7 +25,8 @@ namespace tipp
 namespace
 {
 
-OutOfCoreOptions makeOptions(const DelaunayArguments& arguments, ProgressBar& bar)
+OutOfCoreOptions makeOptions(
+  const DelaunayArguments& arguments, const std::unique_ptr<ProgressBar>& bar)
 {
   const GridSize grid = *parseGrid(arguments.Partitions);
   OutOfCoreOptions options;
@@ -38,7 +43,10 @@ OutOfCoreOptions makeOptions(const DelaunayArguments& arguments, ProgressBar& ba
   options.Scratch = arguments.Scratch;
   options.Progress = [&bar](double fraction)
   {
-    bar.update(fraction);
+    if (bar)
+    {
+      bar->update(fraction);
+    }
     return !isInterrupted();
   };
   return options;
@@ -71,7 +79,53 @@ double totalSeconds(const OutOfCoreStatistics& statistics)
   return sum;
 }
 
-void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& statistics)
+/// What a process has used, which /proc and the system know.
+struct ProcessUsage
+{
+  std::int64_t PeakMemory = peakMemoryBytes();
+  std::int64_t Read = movedBytes("rchar");
+  std::int64_t Written = movedBytes("wchar");
+};
+
+/// On the first rank, of all.
+std::vector<ProcessUsage> gatherUsage(Postbox& ranks)
+{
+  ByteWriter writer;
+  writer.value(ProcessUsage());
+  std::vector<ProcessUsage> all;
+  for (const Bytes& bytes : ranks.gather(writer.take()))
+  {
+    all.push_back(ByteReader(bytes).value<ProcessUsage>());
+  }
+  return all;
+}
+
+std::vector<std::int64_t> listOf(
+  const std::vector<ProcessUsage>& ranks, std::int64_t ProcessUsage::*value)
+{
+  std::vector<std::int64_t> list;
+  list.reserve(ranks.size());
+  for (const ProcessUsage& usage : ranks)
+  {
+    list.push_back(usage.*value);
+  }
+  return list;
+}
+
+std::int64_t sumOf(const std::vector<ProcessUsage>& ranks, std::int64_t ProcessUsage::*value)
+{
+  const std::vector<std::int64_t> list = listOf(ranks, value);
+  return std::accumulate(list.begin(), list.end(), std::int64_t(0));
+}
+
+std::int64_t largestMemory(const std::vector<ProcessUsage>& ranks)
+{
+  const std::vector<std::int64_t> list = listOf(ranks, &ProcessUsage::PeakMemory);
+  return *std::max_element(list.begin(), list.end());
+}
+
+void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& statistics,
+  const std::vector<ProcessUsage>& ranks)
 {
   nlohmann::ordered_json json = {
     { "input", arguments.Inputs },
@@ -88,11 +142,13 @@ void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& 
     { "peak_border_bytes", statistics.PeakBorderBytes },
     { "spilled_bytes", statistics.SpilledBytes },
     { "mesh_bytes", statistics.MeshBytes },
-    { "read_bytes", movedBytes("rchar") },
-    { "written_bytes", movedBytes("wchar") },
+    { "read_bytes", sumOf(ranks, &ProcessUsage::Read) },
+    { "written_bytes", sumOf(ranks, &ProcessUsage::Written) },
     { "resumed", statistics.Resumed },
     { "seconds", totalSeconds(statistics) },
-    { "peak_memory_bytes", peakMemoryBytes() },
+    { "peak_memory_bytes", largestMemory(ranks) },
+    { "rank_memory_bytes", listOf(ranks, &ProcessUsage::PeakMemory) },
+    { "ranks", ranks.size() },
     { "threads", statistics.Threads },
     { "phases", nlohmann::ordered_json::array() },
   };
@@ -103,16 +159,42 @@ void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& 
   writeJson(arguments.Statistics, json);
 }
 
-std::string summarize(const OutOfCoreStatistics& statistics)
+std::string summarize(const OutOfCoreStatistics& statistics, const std::vector<ProcessUsage>& ranks)
 {
   const double seconds = totalSeconds(statistics);
   const std::string rejected =
     statistics.Rejected == 0 ? "" : fmt::format(", {} rejected", statistics.Rejected);
+  const std::string each = ranks.size() == 1 ? "" : " on a rank at most";
   return fmt::format("{} points, {} triangles, {} duplicates{}, {} pieces, {:.0f} MB, {:.3f} s, "
-                     "{:.0f} points/s, peak memory {:.0f} MB",
+                     "{:.0f} points/s, peak memory {:.0f} MB{}",
     statistics.Points, statistics.Triangles, statistics.Duplicates, rejected, statistics.Pieces,
     double(statistics.MeshBytes) / 1e6, seconds, double(statistics.Points) / seconds,
-    double(peakMemoryBytes()) / 1e6);
+    double(largestMemory(ranks)) / 1e6, each);
+}
+
+int reportInterrupted(const OutOfCoreStatistics& statistics)
+{
+  fmt::print(stderr, "tipp: interrupted; {}.\n",
+    statistics.Kept ? "the same command with --resume goes on" : "nothing was written");
+  return interruptedExitCode;
+}
+
+void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& statistics,
+  const std::vector<ProcessUsage>& ranks)
+{
+  if (!arguments.Statistics.empty())
+  {
+    writeReport(arguments, statistics, ranks);
+  }
+  const bool isCounted = arguments.Sink == "count";
+  fmt::print("{}{}\n", summarize(statistics, ranks),
+    isCounted ? fmt::format(", checksum {:016x}", statistics.TriangleSum) : "");
+  if (statistics.Triangles == 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: no triangles, since there are fewer than three distinct points or all lie on "
+      "one line.\n");
+  }
 }
 
 } // namespace
@@ -132,38 +214,47 @@ std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments)
                                    : "";
 }
 
-int runDelaunayOutOfCore(const DelaunayArguments& arguments)
+int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessController* controller)
 {
-  if (!arguments.Statistics.empty())
-  {
-    const PendingFile writable(arguments.Statistics); // before the work rather than after it
-  }
   // Large blocks go back to the system when they are freed, whatever was freed before.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  Postbox ranks(controller);
+  const bool isFirst = ranks.rank() == 0;
   OutOfCoreStatistics statistics;
+  std::unique_ptr<ProgressBar> bar;
+  const auto open = [&]
   {
-    const auto points = openPointStream(arguments.Inputs, arguments.Columns);
-    ProgressBar bar("Triangulating");
-    statistics = triangulateOutOfCore(*points, arguments.Output, makeOptions(arguments, bar));
+    if (!arguments.Statistics.empty())
+    {
+      const PendingFile writable(arguments.Statistics); // before the work rather than after it
+    }
+    bar = std::make_unique<ProgressBar>("Triangulating");
+    return openPointStream(arguments.Inputs, arguments.Columns);
+  };
+  try
+  {
+    statistics =
+      triangulateOutOfCoreOnRanks(ranks, open, arguments.Output, makeOptions(arguments, bar));
   }
+  catch (const RankFailure& failure)
+  {
+    bar.reset();
+    if (isFirst)
+    {
+      fmt::print(stderr, "tipp: {}{}\n",
+        ranks.size() > 1 ? fmt::format("rank {}: ", failure.Rank) : "", failure.what());
+    }
+    return Failure;
+  }
+  bar.reset();
   if (statistics.Aborted)
   {
-    fmt::print(stderr, "tipp: interrupted; {}.\n",
-      statistics.Kept ? "the same command with --resume goes on" : "nothing was written");
-    return interruptedExitCode;
+    return isFirst ? reportInterrupted(statistics) : interruptedExitCode;
   }
-  if (!arguments.Statistics.empty())
+  const std::vector<ProcessUsage> usage = gatherUsage(ranks);
+  if (isFirst)
   {
-    writeReport(arguments, statistics);
-  }
-  const bool isCounted = arguments.Sink == "count";
-  fmt::print("{}{}\n", summarize(statistics),
-    isCounted ? fmt::format(", checksum {:016x}", statistics.TriangleSum) : "");
-  if (statistics.Triangles == 0)
-  {
-    fmt::print(stderr,
-      "tipp: warning: no triangles, since there are fewer than three distinct points or all lie on "
-      "one line.\n");
+    reportMade(arguments, statistics, usage);
   }
   return Success;
 }

@@ -212,7 +212,7 @@ vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments)
     }
   }
   reader->Update();
-  const vtkSmartPointer<vtkDataSet> mesh = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
+  vtkSmartPointer<vtkDataSet> mesh = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
   if (!mesh || errors->HasError)
   {
     throw IOError(errors->Message);

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # usecases
-#   Scattered points to a grid beside scipy and gdal_grid, where those are installed
-#   (python3-scipy, gdal-bin), on the data of Documentation/UseCases.md.
+#   Scattered points and a mesh to a grid beside scipy, gdal_grid, VTK and matplotlib, where those
+#   are installed (python3-scipy, gdal-bin, python3-matplotlib), on the data of
+#   Documentation/UseCases.md.
 [ $# -eq 0 ] || usage
 [ -d "$data" ] || {
   echo "benchmark.sh: there is no $data; name the data by TIPP_SHARED_DATA." >&2
@@ -18,5 +19,8 @@ with lzma.open(data + "/points/osborne-magnetic.csv.xz", "rt") as file:
     columns = [names.index(name) for name in ("longitude", "latitude", "total_field_anomaly_nt")]
     np.save(inputs + "/osborne-xyz.npy", np.loadtxt(file, delimiter=",", usecols=columns))
 EOF
+[ -d "$inputs/surge" ] || build/bin/tipp flatten "$data/adcirc/ec95d/ec95d.grd" -o "$inputs/surge" \
+  --values "$data/adcirc/ec95d/maxele.63"
 PYTHONPATH="$top/build/lib/python3/dist-packages" /usr/bin/python3 Testing/Benchmarks/use_cases.py \
-  build/bin/tipp "autzen=$inputs/autzen-xyz.npy:1000" "osborne=$inputs/osborne-xyz.npy:2000"
+  build/bin/tipp "autzen=$inputs/autzen-xyz.npy:1000" "osborne=$inputs/osborne-xyz.npy:2000" \
+  "surge=$inputs/surge:2000"

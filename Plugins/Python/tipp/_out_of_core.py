@@ -57,8 +57,8 @@ def delaunay_file(
     output
         The folder to write, by custom NAME.tipp. A partitioned mesh there is replaced.
     memory
-        What points, triangles and buffers may take: bytes, or a text as "512M" or "2G". What Python
-        and the threads' kernels take comes on top.
+        What points, triangles and buffers may take in each process: bytes, or a text as "512M" or
+        "2G". What Python and the threads' kernels take comes on top.
     partitions
         Columns and rows of a grid of pieces. None: boxes of equally many points.
     columns
@@ -80,7 +80,8 @@ def delaunay_file(
     -------
     dict
         Numbers: points, triangles, duplicates, rejected, pieces, spilled_bytes, mesh_bytes,
-        resumed (0 or 1), and with count_only triangle_sum, a checksum of the triangles.
+        resumed (0 or 1), and with count_only triangle_sum, a checksum of the triangles. Where VTK's
+        global controller has several ranks, all must call this, and the numbers are on the first.
 
     Raises
     ------

@@ -5,9 +5,12 @@
 #include "ExpectIOError.h"
 #include "OutOfCore/Checkpoint.h"
 #include "OutOfCore/InputSurvey.h"
+#include "OutOfCore/LoadedPieces.h"
+#include "OutOfCore/PieceMessages.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceRun.h"
 #include "OutOfCore/PieceSchedule.h"
+#include "OutOfCore/PreparedRun.h"
 #include "Points/WritePoints.h"
 
 #include <cmath>
@@ -229,6 +232,40 @@ TEST(SpilledPoints, HasEachPiecesPointsInTheOrderOfTheStream)
   }
 }
 
+TEST(SpilledPoints, DamagedAreRefusedPieceByPiece)
+{
+  Steps steps(makePointSet("clustered", 4000));
+  PiecePlan plan = steps.plan();
+  const SpilledPoints spilled = steps.spill(plan);
+  const std::string file = steps.Folder.path("spill.0");
+  std::string content = contentOf(file);
+  content[content.size() - 20] ^= 1;
+  steps.Folder.file("spill.0", content);
+  SaveArchive out;
+  spilled.save(out);
+  const Bytes bytes = out.Writer.take();
+  LoadArchive in(bytes);
+  const SpilledPoints back(file.substr(0, file.size() - 2), plan, steps.Rows, in);
+  for (const SpilledPoints* const points : { &spilled, &back })
+  {
+    int damaged = 0;
+    for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
+    {
+      std::vector<double> rows(3 * std::size_t(points->count(piece)));
+      try
+      {
+        points->read(piece, rows.data());
+      }
+      catch (const IOError& error)
+      {
+        ++damaged;
+        EXPECT_EQ(0U, std::string(error.what()).find(file + ": is damaged")) << error.what();
+      }
+    }
+    EXPECT_EQ(1, damaged);
+  }
+}
+
 TEST(PieceSchedule, ActivatesNothingBeforeAPieceIsLoaded)
 {
   Steps steps(makePointSet("uniform", 4000));
@@ -239,15 +276,110 @@ TEST(PieceSchedule, ActivatesNothingBeforeAPieceIsLoaded)
   EXPECT_FALSE(schedule.allActivated());
   EXPECT_EQ(-1, schedule.activateNext(vertices));
   EXPECT_EQ(-1, schedule.takeComplete());
-  auto loaded = std::make_unique<LoadedPiece>();
-  loaded->Rim.assign(std::size_t(spilled.count(0)), 0);
   EXPECT_TRUE(schedule.isToLoad(0));
-  EXPECT_FALSE(schedule.addLoaded(0, std::move(loaded)));
+  EXPECT_FALSE(schedule.addLoaded(0));
   EXPECT_FALSE(schedule.isToLoad(0));
   const PartitionIndex partition = schedule.activateNext(vertices);
   ASSERT_GE(partition, 0);
   EXPECT_EQ(0, plan.PieceOf[std::size_t(partition)]);
   EXPECT_FALSE(vertices.empty());
+}
+
+TEST(PieceSchedule, GivesARankThePartitionsOfItsOwnPiecesOnly)
+{
+  Steps steps(makePointSet("uniform", 4000));
+  PiecePlan plan = steps.plan();
+  const SpilledPoints spilled = steps.spill(plan);
+  PieceSchedule schedule(plan, spilled, steps.Rows, plan.initialMesh(1));
+  const PartitionIndex last = plan.pieces() - 1;
+  schedule.addLoaded(0, 2);
+  schedule.addLoaded(last, 1);
+  std::vector<PlainVertex> vertices;
+  EXPECT_EQ(-1, schedule.activateNext(vertices, 0));
+  EXPECT_EQ(0, plan.PieceOf.at(std::size_t(schedule.activateNext(vertices, 2))));
+  EXPECT_EQ(last, plan.PieceOf.at(std::size_t(schedule.activateNext(vertices, 1))));
+}
+
+PartitionResult returned(const PartitionResult& result)
+{
+  PartitionResult back;
+  unpack(pack(result), back);
+  return back;
+}
+
+TEST(LoadedPieces, MakeTheInteriorOfFinishedPartitionsAgain)
+{
+  const Coordinates xy = makePointSet("duplicates", 4000);
+  Steps steps(xy);
+  PiecePlan plan = steps.plan();
+  const SpilledPoints spilled = steps.spill(plan);
+  PartitionedMesh mesh; // without a path: triangles are counted
+  mesh.Pieces.resize(std::size_t(plan.pieces()));
+  const PieceWork work{ plan, spilled, 1, steps.Rows, mesh };
+  PieceSchedule schedule(plan, spilled, steps.Rows, plan.initialMesh(1));
+  LoadedPieces pieces(work);
+  pieces.load(0, {});
+  schedule.addLoaded(0);
+  LoadedPieces::Place place;
+  bool isWhole = false;
+  while (!isWhole)
+  {
+    const PartitionIndex partition = schedule.activateNext(place.Vertices);
+    isWhole = schedule.complete(returned(pieces.triangulate(place, partition)));
+  }
+  const InteriorTask task = schedule.startInterior(0);
+  InteriorTask sent;
+  unpack(pack(task), sent);
+  const auto sumOf = [&](const InteriorTask& of)
+  { return pieces.writeInterior(of).writeBorder(mesh, plan.number(0), steps.Rows).TriangleSum; };
+  const std::uint64_t expected = sumOf(task);
+  LoadOrder order;
+  unpack(pack(LoadOrder{ 0, schedule.finishedPartitions(0) }), order);
+  EXPECT_EQ(plan.FirstPartition[1], PartitionIndex(order.Finished.size()));
+  pieces.load(order.Piece, order.Finished);
+  EXPECT_EQ(expected, sumOf(sent));
+  EXPECT_NE(0U, expected);
+}
+
+TEST(PieceMessages, CutShortAreRefused)
+{
+  const Bytes whole = pack(PartitionTask{ 7, { { { 1, 2 }, 3 } } });
+  PartitionTask task;
+  unpack(whole, task);
+  EXPECT_EQ(7, task.Partition);
+  ASSERT_EQ(1U, task.Vertices.size());
+  EXPECT_EQ(3, task.Vertices[0].Id);
+  for (std::size_t size = 0; size < whole.size(); ++size)
+  {
+    Bytes part(size);
+    std::copy_n(whole.begin(), size, part.begin());
+    EXPECT_THROW(unpack(part, task), std::runtime_error) << size;
+  }
+}
+
+TEST(PreparedRun, ComesBackOnAnotherRank)
+{
+  Steps steps(makePointSet("clustered", 4000));
+  PreparedRun run;
+  run.Survey = steps.Survey;
+  run.describeColumns({ "depth", "z" }, true);
+  EXPECT_EQ(3, run.Rows.Z);
+  run.Rows.Words = 3;
+  run.Plan = std::make_unique<PiecePlan>(steps.plan());
+  run.Spilled.reset(new SpilledPoints(steps.spill(*run.Plan)));
+  run.describeMesh();
+  SaveArchive out;
+  run.save(out);
+  const Bytes bytes = out.Writer.take();
+  LoadArchive in(bytes);
+  PreparedRun back;
+  back.load(in, steps.Folder.path("spill"));
+  ASSERT_EQ(2U, back.Mesh.Arrays.size());
+  EXPECT_EQ("depth", back.Mesh.Arrays[0].Name);
+  EXPECT_EQ(Scalar::Int64, back.Mesh.Arrays[1].Type);
+  EXPECT_EQ(run.Mesh.Tiling, back.Mesh.Tiling);
+  EXPECT_EQ(run.Mesh.Domain, back.Mesh.Domain);
+  EXPECT_EQ(run.Spilled->starts(), back.work().Points.starts());
 }
 
 TEST(PieceRun, FinishesEveryPieceOrStopsWhereItIsTold)
@@ -259,7 +391,8 @@ TEST(PieceRun, FinishesEveryPieceOrStopsWhereItIsTold)
   const MemoryPlan memory = steps.memory();
   PartitionedMesh mesh; // without a path: triangles are counted
   mesh.Pieces.resize(std::size_t(plan.pieces()));
-  PieceRun run(plan, spilled, 1, steps.Rows, mesh, memory, 2, [](std::int64_t) { return true; });
+  const PieceWork work{ plan, spilled, 1, steps.Rows, mesh };
+  PieceRun run(work, memory, 2, [](std::int64_t) { return true; });
   EXPECT_TRUE(run.triangulate());
   std::int64_t triangles = 0;
   for (const FinishedPiece& piece : run.finished())
@@ -268,8 +401,7 @@ TEST(PieceRun, FinishesEveryPieceOrStopsWhereItIsTold)
   }
   EXPECT_EQ(std::int64_t(reference(xy).Mesh.size()), triangles);
 
-  PieceRun stopped(
-    plan, spilled, 1, steps.Rows, mesh, memory, 2, [](std::int64_t done) { return done < 1000; });
+  PieceRun stopped(work, memory, 2, [](std::int64_t done) { return done < 1000; });
   EXPECT_FALSE(stopped.triangulate());
 }
 

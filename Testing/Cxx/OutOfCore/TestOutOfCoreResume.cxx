@@ -125,6 +125,20 @@ TEST_F(OutOfCoreBegun, NamesSpilledPointsThatAreCutShort)
   expectIOError(points, "shorter", [this] { this->run(); });
 }
 
+TEST_F(OutOfCoreBegun, NamesSpilledPointsThatAreDamaged)
+{
+  const std::string points = this->Folder.path(".mesh.tipp.part/.points.0");
+  std::string content = contentOf(points);
+  for (std::size_t at = 0; at < content.size(); at += 500)
+  {
+    content[at] ^= 1;
+  }
+  this->Folder.file(".mesh.tipp.part/.points.0", content);
+  this->Options.Resume = true;
+  expectIOError(points, "is damaged", [this] { this->run(); });
+  EXPECT_FALSE(fs::exists(this->Folder.path("mesh.tipp")));
+}
+
 TEST_F(OutOfCoreBegun, LeavesAnOlderMeshUntilItIsWhole)
 {
   fs::create_directory(this->Folder.path("mesh.tipp"));

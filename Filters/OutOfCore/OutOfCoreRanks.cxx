@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OutOfCore/OutOfCoreRanks.h"
+
+#include "Files/IOError.h"
+#include "OutOfCore/Checkpoint.h"
+#include "OutOfCore/PieceHelper.h"
+#include "OutOfCore/PreparedRun.h"
+#include "Parallel/Stopwatch.h"
+
+#include <omp.h>
+
+#include <filesystem>
+#include <fstream>
+#include <new>
+#include <random>
+#include <stdexcept>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// A file that goes away.
+struct Mark
+{
+  explicit Mark(std::string path)
+    : Path(std::move(path))
+  {
+  }
+  ~Mark()
+  {
+    std::error_code ignored;
+    std::filesystem::remove(this->Path, ignored);
+  }
+  Mark(const Mark&) = delete;
+  Mark& operator=(const Mark&) = delete;
+
+  const std::string Path;
+};
+
+std::string firstLine(const std::string& path)
+{
+  std::string line;
+  std::getline(std::ifstream(path), line);
+  return line;
+}
+
+Bytes bytesOf(const std::string& text)
+{
+  ByteWriter writer;
+  writer.text(text);
+  return writer.take();
+}
+
+/// Of a rank other than the first: false if there is nothing to help with.
+bool receivePrepared(Postbox& ranks, const OutOfCoreOptions& options, PreparedRun& prepared)
+{
+  constexpr double moment = 0.1;
+  Stopwatch sinceReport;
+  Message message;
+  while (!ranks.poll(message))
+  {
+    if (options.Progress && sinceReport.seconds() > moment)
+    {
+      sinceReport.restart();
+      if (!options.Progress(0))
+      {
+        throw RankFailure(ranks.rank(), true, "The run was stopped.");
+      }
+    }
+    ranks.pause();
+  }
+  if (message.Kind == EndMessage)
+  {
+    return false;
+  }
+  LoadArchive archive(message.Content);
+  std::string points;
+  archive(points);
+  archive(prepared.Mesh.Path);
+  prepared.load(archive, points);
+  return true;
+}
+
+void help(Postbox& ranks, const OutOfCoreOptions& options)
+{
+  requireSharedFolder(ranks, "");
+  requireSharedFolder(ranks, "");
+  PreparedRun prepared;
+  if (!receivePrepared(ranks, options, prepared))
+  {
+    return;
+  }
+  const int threads = options.Threads > 0 ? options.Threads : omp_get_max_threads();
+  const auto progress = [&](std::int64_t done)
+  { return !options.Progress || options.Progress(double(done) / double(prepared.Survey.Points)); };
+  PieceHelper(prepared.work(), ranks, threads, progress).run();
+}
+
+} // namespace
+
+void requireSharedFolder(Postbox& ranks, const std::string& folder)
+{
+  const bool isFirst = ranks.rank() == 0;
+  const Mark mark(isFirst ? folder + "/.ranks" : "");
+  std::string expected;
+  if (isFirst)
+  {
+    std::random_device random;
+    expected = std::to_string(random()) + " " + std::to_string(random());
+    std::ofstream(mark.Path) << expected << "\n";
+    if (firstLine(mark.Path) != expected)
+    {
+      throw IOError(mark.Path, "cannot be written.");
+    }
+  }
+  const std::string path = ByteReader(ranks.broadcast(bytesOf(mark.Path))).text();
+  expected = ByteReader(ranks.broadcast(bytesOf(expected))).text();
+  if (firstLine(path) != expected)
+  {
+    throw IOError(std::filesystem::path(path).parent_path().string(),
+      "is not there on this rank, but all ranks work in it; name folders that all of them share.");
+  }
+  ranks.barrier(); // then it may go
+}
+
+void sharePrepared(Postbox& ranks, PreparedRun& prepared, const std::string& points)
+{
+  SaveArchive archive;
+  archive(points);
+  archive(prepared.Mesh.Path);
+  prepared.save(archive);
+  const Bytes bytes = archive.Writer.take();
+  for (int to = 1; to < ranks.size(); ++to)
+  {
+    Bytes copy(bytes.size());
+    std::copy(bytes.begin(), bytes.end(), copy.begin());
+    ranks.post(to, SetUpMessage, std::move(copy));
+  }
+}
+
+OutOfCoreStatistics triangulateOutOfCoreOnRanks(Postbox& ranks,
+  const std::function<std::unique_ptr<PointStream>()>& open, const std::string& path,
+  const OutOfCoreOptions& options)
+{
+  OutOfCoreStatistics statistics;
+  const auto work = [&]
+  {
+    if (ranks.rank() > 0)
+    {
+      help(ranks, options);
+      return;
+    }
+    const std::unique_ptr<PointStream> points = open();
+    statistics = triangulateOutOfCore(*points, path, options, &ranks);
+    if (statistics.Aborted)
+    {
+      throw RankFailure(0, true, "The run was stopped.");
+    }
+    for (int to = 1; to < ranks.size(); ++to)
+    {
+      ranks.post(to, EndMessage, Bytes());
+    }
+  };
+  const auto workInMemory = [&]
+  {
+    try
+    {
+      work();
+    }
+    catch (const std::bad_alloc&)
+    {
+      throw std::runtime_error("There is not enough memory; lower the memory limit.");
+    }
+  };
+  try
+  {
+    ranks.together(workInMemory);
+  }
+  catch (const RankFailure& failure)
+  {
+    statistics.Aborted = failure.Aborted;
+    if (!failure.Aborted)
+    {
+      throw;
+    }
+  }
+  return statistics;
+}
+
+} // namespace tipp

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippOutOfCoreRanks_h
+#define tippOutOfCoreRanks_h
+
+#include "Messages/Postbox.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "Points/PointStream.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace tipp
+{
+
+class PreparedRun;
+
+/// triangulateOutOfCore() on all ranks, each of which calls this with the same path and options:
+/// the first one surveys and spills the points and keeps what the ranks have in common; pieces are
+/// loaded, triangulated and their interiors written by all. The files are those of one process.
+/// `open` is called on the first rank, and the figures are there.
+///
+/// All ranks must see the folders. The memory limit and the threads are those of each rank. Throws
+/// RankFailure on all ranks; the statistics of a run that was ended by Progress on any rank have
+/// Aborted on all. Not to be called within Postbox::together().
+VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCoreOnRanks(Postbox& ranks,
+  const std::function<std::unique_ptr<PointStream>()>& open, const std::string& path,
+  const OutOfCoreOptions& options);
+
+/// Whether all ranks see a folder of the first rank, by a file that is there for a moment;
+/// collective. Throws IOError on a rank that does not.
+VTKTIPPFILTERS_EXPORT void requireSharedFolder(Postbox& ranks, const std::string& folder);
+
+/// What the other ranks need to work on pieces: `prepared` and `points`, the file they are spilled
+/// to, on the first rank; collective.
+VTKTIPPFILTERS_EXPORT void sharePrepared(
+  Postbox& ranks, PreparedRun& prepared, const std::string& points);
+
+} // namespace tipp
+
+#endif

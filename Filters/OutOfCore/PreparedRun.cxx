@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OutOfCore/PreparedRun.h"
+
+#include "OutOfCore/Checkpoint.h"
+
+namespace tipp
+{
+namespace
+{
+
+constexpr const char* representativeName = "RepresentativePointId";
+
+} // namespace
+
+template <typename Archive>
+void PreparedRun::exchangeInput(Archive& archive)
+{
+  archive(this->Survey.Points);
+  archive(this->Survey.Rejected);
+  archive(this->Survey.Bounds);
+  archive(this->Survey.Factor);
+  archive(this->Survey.Collinear);
+  archive(this->Rows.Words);
+  archive(this->Rows.Z);
+  archive(this->Rows.Attributes);
+  std::vector<std::string> names;
+  for (const StoredArray& array : this->Mesh.Arrays)
+  {
+    names.push_back(array.Name);
+  }
+  archive(names);
+  this->Mesh.Arrays.clear();
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    const bool isId = this->Rows.Attributes[i] < 0;
+    this->Mesh.Arrays.push_back({ names[i], true, isId ? Scalar::Int64 : Scalar::Float64, 1, -1 });
+  }
+}
+
+void PreparedRun::save(SaveArchive& archive)
+{
+  this->exchangeInput(archive);
+  this->Plan->save(archive);
+  this->Spilled->save(archive);
+}
+
+void PreparedRun::load(LoadArchive& archive, const std::string& points)
+{
+  this->exchangeInput(archive);
+  this->Plan = std::make_unique<PiecePlan>(archive);
+  this->Spilled = std::make_unique<SpilledPoints>(points, *this->Plan, this->Rows, archive);
+  this->describeMesh();
+}
+
+void PreparedRun::describeColumns(const std::vector<std::string>& columns, bool mapDuplicates)
+{
+  this->Rows.Words = 3 + columns.size();
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    const bool isZ = this->Rows.Z < 0 && (columns[i] == "z" || columns[i] == "Z");
+    if (isZ)
+    {
+      this->Rows.Z = int(2 + i);
+      continue;
+    }
+    this->Mesh.Arrays.push_back({ columns[i], true, Scalar::Float64, 1, -1 });
+    this->Rows.Attributes.push_back(int(2 + i));
+  }
+  if (mapDuplicates)
+  {
+    this->Mesh.Arrays.push_back({ representativeName, true, Scalar::Int64, 1, -1 });
+    this->Rows.Attributes.push_back(-1);
+  }
+}
+
+void PreparedRun::describeMesh()
+{
+  PartitionedMesh& mesh = this->Mesh;
+  mesh.Points = this->Survey.Points;
+  mesh.Tiling = "delaunay:" + std::to_string(this->Plan->pieces());
+  mesh.Domain = this->boundsOf(this->Survey.Bounds);
+  mesh.Pieces.resize(std::size_t(this->Plan->pieces()));
+  for (PartitionIndex piece = 0; piece < this->Plan->pieces(); ++piece)
+  {
+    mesh.Pieces[this->Plan->number(piece)].Box = this->boundsOf(this->Plan->Pieces.box(piece));
+  }
+}
+
+Bounds PreparedRun::boundsOf(const Box2& box) const
+{
+  const double factor = this->Survey.Factor;
+  return { box.xmin / factor, box.xmax / factor, box.ymin / factor, box.ymax / factor, 0, 0 };
+}
+
+} // namespace tipp

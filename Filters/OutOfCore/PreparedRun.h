@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPreparedRun_h
+#define tippPreparedRun_h
+
+#include "OutOfCore/InputSurvey.h"
+#include "OutOfCore/LoadedPieces.h"
+#include "OutOfCore/PiecePlan.h"
+#include "OutOfCore/SpillPoints.h"
+#include "Partitioned/PartitionedMesh.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// What is known when the points are spilled: all that a process needs to work on pieces, once it
+/// knows the folders.
+class VTKTIPPFILTERS_EXPORT PreparedRun
+{
+public:
+  /// Columns of the input; the mesh's arrays.
+  void describeColumns(const std::vector<std::string>& columns, bool mapDuplicates);
+  /// After the plan.
+  void describeMesh();
+
+  void save(SaveArchive& archive);
+  /// `points`: the file they are spilled to. Throws IOError if it is not that one.
+  void load(LoadArchive& archive, const std::string& points);
+
+  PieceWork work() const
+  {
+    return { *this->Plan, *this->Spilled, this->Survey.Factor, this->Rows, this->Mesh };
+  }
+
+  InputSurvey Survey;
+  PointRowLayout Rows;
+  PartitionedMesh Mesh;
+  std::unique_ptr<PiecePlan> Plan;
+  std::unique_ptr<SpilledPoints> Spilled;
+
+private:
+  template <typename Archive>
+  void exchangeInput(Archive& archive);
+  Bounds boundsOf(const Box2& box) const;
+};
+
+} // namespace tipp
+
+#endif

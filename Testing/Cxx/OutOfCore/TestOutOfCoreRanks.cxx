@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Several ranks make the files of one process, and end together.
+#include "OutOfCoreTesting.h"
+
+#include "Files/IOError.h"
+#include "OutOfCore/OutOfCoreRanks.h"
+#include "OutOfCore/PieceHelper.h"
+#include "Points/WritePoints.h"
+
+#include "vtkErrorCode.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkTIPPOutOfCoreDelaunay2D.h"
+#include "vtkTable.h"
+
+#include <filesystem>
+#include <random>
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using namespace tipp;
+using namespace tipp::test;
+
+using Files = std::map<std::string, std::string>;
+
+class OutOfCoreRanks : public testing::TestWithParam<std::string>
+{
+protected:
+  OutOfCoreRanks()
+    : Ranks(this->Controller)
+  {
+    this->Options.PiecePoints = 150;
+    this->Options.PartitionPoints = 40;
+    this->Options.Threads = 2;
+    if (this->isFirst())
+    {
+      this->Folder = std::make_unique<TemporaryFolder>();
+    }
+  }
+
+  void makePoints(const std::string& set, std::size_t count = 2500) const
+  {
+    if (this->isFirst())
+    {
+      writePoints(this->Folder->path("points.npy"), makePointSet(set, count));
+    }
+  }
+
+  bool isFirst() const { return this->Ranks.rank() == 0; }
+  std::string mesh() const { return this->isFirst() ? this->Folder->path("mesh.tipp") : ""; }
+
+  std::unique_ptr<PointStream> open() const
+  {
+    return openPointStream({ this->Folder->path("points.npy") });
+  }
+
+  OutOfCoreStatistics runTogether()
+  {
+    Postbox ranks(this->Controller); // is of no use after a failure
+    return triangulateOutOfCoreOnRanks(
+      ranks, [this] { return this->open(); }, this->mesh(), this->Options);
+  }
+
+  /// Of the first rank, the others waiting.
+  OutOfCoreStatistics runAlone()
+  {
+    OutOfCoreStatistics statistics;
+    if (this->isFirst())
+    {
+      OutOfCoreOptions options = this->Options;
+      options.Threads = 1;
+      statistics = triangulateOutOfCore(*this->open(), this->mesh(), options);
+    }
+    this->Ranks.barrier();
+    return statistics;
+  }
+
+  /// The mesh's, which is removed.
+  Files takeFiles() const
+  {
+    Files files;
+    if (this->isFirst())
+    {
+      files = filesOf(this->mesh());
+      fs::remove_all(this->mesh());
+      EXPECT_EQ(1U, this->Folder->fileCount()) << "something is left";
+    }
+    return files;
+  }
+
+  /// What the ranks throw when one of them fails.
+  std::string failure()
+  {
+    try
+    {
+      this->runTogether();
+    }
+    catch (const RankFailure& error)
+    {
+      return error.what();
+    }
+    return "";
+  }
+
+  vtkMultiProcessController* const Controller = vtkMultiProcessController::GetGlobalController();
+  Postbox Ranks;
+  OutOfCoreOptions Options;
+  std::unique_ptr<TemporaryFolder> Folder;
+};
+
+TEST_P(OutOfCoreRanks, MakeTheFilesOfOneProcess)
+{
+  this->makePoints(GetParam());
+  const OutOfCoreStatistics alone = this->runAlone();
+  const Files expected = this->takeFiles();
+  for (const int threads : { 1, 3 })
+  {
+    this->Options.Threads = threads;
+    const OutOfCoreStatistics together = this->runTogether();
+    EXPECT_TRUE(expected == this->takeFiles()) << threads;
+    EXPECT_EQ(alone.Triangles, together.Triangles);
+    EXPECT_EQ(alone.Duplicates, together.Duplicates);
+    EXPECT_EQ(alone.Points, together.Points);
+  }
+}
+
+TEST_P(OutOfCoreRanks, GoOnWhereAnyNumberOfRanksWasEnded)
+{
+  this->makePoints(GetParam());
+  this->runAlone();
+  const Files expected = this->takeFiles();
+  this->Options.Resume = true;
+  std::mt19937 random(1); // the same numbers on all ranks
+  int aborted = 0;
+  for (int round = 0; round < 4; ++round)
+  {
+    bool isDone = false;
+    while (!isDone)
+    {
+      int calls = int(random() % 8); // of progress that has been made meanwhile
+      const bool isTogether = random() % 3 > 0;
+      const int by = int(random() % 2) % this->Ranks.size();
+      this->Options.Progress = [&](double fraction)
+      {
+        constexpr double triangulated = 0.9; // what follows has many calls
+        return fraction > triangulated || calls-- > 0 || (isTogether && by != this->Ranks.rank());
+      };
+      const OutOfCoreStatistics statistics = isTogether ? this->runTogether() : this->runAlone();
+      std::vector<std::int64_t> endings{ this->isFirst() && statistics.Aborted };
+      this->Ranks.sum(endings);
+      isDone = endings[0] == 0;
+      aborted += isDone ? 0 : 1;
+    }
+    EXPECT_TRUE(expected == this->takeFiles()) << round;
+  }
+  EXPECT_GT(aborted, 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(PointSets, OutOfCoreRanks,
+  testing::Values("uniform", "clustered", "coast", "duplicates", "lattice"));
+
+TEST_F(OutOfCoreRanks, LeaveToTheFirstWhatHasNoPartitions)
+{
+  for (const char* const set : { "collinear", "parabola" })
+  {
+    this->makePoints(set, 500);
+    this->Options.PiecePoints = 0;
+    this->Options.PartitionPoints = 0;
+    this->runAlone();
+    const Files expected = this->takeFiles();
+    this->runTogether();
+    EXPECT_TRUE(expected == this->takeFiles()) << set;
+  }
+}
+
+TEST_F(OutOfCoreRanks, CountTheTrianglesOfOneProcess)
+{
+  this->makePoints("clustered");
+  this->Options.CountOnly = true;
+  const OutOfCoreStatistics alone = this->runAlone();
+  const OutOfCoreStatistics together = this->runTogether();
+  EXPECT_EQ(alone.TriangleSum, together.TriangleSum);
+  EXPECT_EQ(alone.Triangles, together.Triangles);
+}
+
+TEST_F(OutOfCoreRanks, AllEndWithTheReasonOfTheOneThatFails)
+{
+  this->makePoints("uniform", 60000);
+  this->Options.PiecePoints = 1000;
+  this->runAlone();
+  const Files expected = this->takeFiles();
+  const double spilled = 0.2; // of the first rank's fraction; another fails at once
+  for (int failing = 0; failing < this->Ranks.size(); ++failing)
+  {
+    this->Options.Progress = [&](double fraction)
+    {
+      if (failing == this->Ranks.rank() && (failing > 0 || fraction > spilled))
+      {
+        throw IOError("points", "are cursed.");
+      }
+      return true;
+    };
+    EXPECT_EQ("points: are cursed.", this->failure()) << failing;
+    this->Options.Progress = {};
+    EXPECT_FALSE(fs::exists(this->mesh()));
+    this->Options.Resume = true;
+    const OutOfCoreStatistics resumed = this->runTogether();
+    EXPECT_TRUE(resumed.Resumed || failing > 0 || !this->isFirst());
+    EXPECT_TRUE(expected == this->takeFiles());
+    this->Options.Resume = false;
+  }
+}
+
+TEST_F(OutOfCoreRanks, UpdateTheFilterTogether)
+{
+  this->makePoints("clustered", 20000);
+  std::vector<char> name(4096, 0);
+  const std::string folder = this->isFirst() ? this->Folder->path("") : "";
+  std::copy(folder.begin(), folder.end(), name.begin());
+  this->Controller->Broadcast(name.data(), vtkIdType(name.size()), 0);
+  const auto update = [&](vtkMultiProcessController* controller)
+  {
+    vtkNew<vtkTIPPOutOfCoreDelaunay2D> filter;
+    filter->SetController(controller);
+    filter->AddInputFileName((name.data() + std::string("/points.npy")).c_str());
+    filter->SetFileName((name.data() + std::string("/mesh.tipp")).c_str());
+    filter->SetMemoryLimit(1 << 20);
+    filter->Update();
+    EXPECT_EQ(this->isFirst() ? 4 : 0, filter->GetStatistics()->GetNumberOfRows());
+    EXPECT_EQ(vtkErrorCode::NoError, filter->GetErrorCode());
+  };
+  if (this->isFirst())
+  {
+    update(nullptr);
+  }
+  const Files expected = this->takeFiles();
+  this->Ranks.barrier();
+  update(this->Controller);
+  EXPECT_TRUE(expected == this->takeFiles());
+  EXPECT_TRUE(!this->isFirst() || expected.size() > 5);
+}
+
+TEST_F(OutOfCoreRanks, AllLearnThatTheInputIsMissing)
+{
+  EXPECT_NE(std::string::npos, this->failure().find("points.npy: cannot be opened"));
+}
+
+TEST_F(OutOfCoreRanks, SayWhichFolderIsNotShared)
+{
+  if (this->isFirst())
+  {
+    fs::create_directory(this->Folder->path("shared"));
+  }
+  const std::string folder = this->isFirst() ? this->Folder->path("shared") : "";
+  EXPECT_NO_THROW(this->Ranks.together([&] { requireSharedFolder(this->Ranks, folder); }));
+  if (this->Ranks.size() == 1)
+  {
+    return;
+  }
+  // A rank in another folder does not see what a relative path names.
+  const fs::path here = fs::current_path();
+  const TemporaryFolder elsewhere;
+  fs::current_path(this->isFirst() ? this->Folder->path("") : elsewhere.path(""));
+  std::string reason;
+  Postbox ranks(this->Controller);
+  try
+  {
+    ranks.together([&] { requireSharedFolder(ranks, "shared"); });
+  }
+  catch (const RankFailure& failure)
+  {
+    EXPECT_GT(failure.Rank, 0);
+    reason = failure.what();
+  }
+  fs::current_path(here);
+  EXPECT_EQ(0U, reason.find("shared: is not there on this rank")) << reason;
+  if (this->isFirst())
+  {
+    EXPECT_TRUE(fs::is_empty(this->Folder->path("shared")));
+  }
+}
+
+} // namespace
