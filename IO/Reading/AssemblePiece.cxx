@@ -270,7 +270,6 @@ Piece mergePieces(const std::vector<const Piece*>& pieces)
     [](const Piece* piece) { return piece->Cells > piece->OwnedCells; });
   for (std::size_t p = 0; p < pieces.size(); ++p)
   {
-    owned.reserve(owned.size() + std::size_t(pieces[p]->OwnedCells));
     for (std::int64_t cell = 0; cell < pieces[p]->OwnedCells; ++cell)
     {
       owned.push_back({ p, cell });
