@@ -83,6 +83,20 @@ const char* vtkTIPPOutOfCoreDelaunay2D::GetInputFileName(int index) const
     : nullptr;
 }
 
+/// Else a pipeline that asks each rank for a piece of its own would run the first rank alone, which
+/// would wait for the others.
+int vtkTIPPOutOfCoreDelaunay2D::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkInformation* const info = outputVector->GetInformationObject(0);
+  info->Remove(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST());
+  if (this->Controller && this->Controller->GetNumberOfProcesses() > 1)
+  {
+    info->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  }
+  return 1;
+}
+
 int vtkTIPPOutOfCoreDelaunay2D::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {

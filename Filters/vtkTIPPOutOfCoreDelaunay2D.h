@@ -192,6 +192,7 @@ protected:
   vtkTIPPOutOfCoreDelaunay2D();
   ~vtkTIPPOutOfCoreDelaunay2D() override;
 
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   std::vector<std::string> InputFileNames;

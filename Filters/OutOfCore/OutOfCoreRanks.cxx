@@ -137,6 +137,7 @@ void sharePrepared(Postbox& ranks, PreparedRun& prepared, const std::string& poi
     Bytes copy(bytes.size());
     std::copy(bytes.begin(), bytes.end(), copy.begin());
     ranks.post(to, SetUpMessage, std::move(copy));
+    ranks.flush(); // or there would be a copy for each rank at a time
   }
 }
 

@@ -31,8 +31,8 @@ VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCoreOnRanks(Postbox& r
 /// collective. Throws IOError on a rank that does not.
 VTKTIPPFILTERS_EXPORT void requireSharedFolder(Postbox& ranks, const std::string& folder);
 
-/// What the other ranks need to work on pieces: `prepared` and `points`, the file they are spilled
-/// to, on the first rank; collective.
+/// Of the first rank: sends the others, which wait for it in triangulateOutOfCoreOnRanks(), what
+/// they need to work on pieces. `points`: the file they are spilled to.
 VTKTIPPFILTERS_EXPORT void sharePrepared(
   Postbox& ranks, PreparedRun& prepared, const std::string& points);
 

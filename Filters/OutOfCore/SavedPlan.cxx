@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The parts of PiecePlan and SpilledPoints that save and restore them.
+#include "Files/IOError.h"
 #include "OutOfCore/Checkpoint.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/SpillPoints.h"
@@ -64,6 +65,15 @@ SpilledPoints::SpilledPoints(
         return extents;
       }())
 {
+  bool isOurs = this->Starts.size() == std::size_t(plan.pieces()) + 1 && this->Starts[0] == 0;
+  for (PartitionIndex piece = 0; isOurs && piece < plan.pieces(); ++piece)
+  {
+    isOurs = this->count(piece) == this->Rows.rows(std::size_t(piece));
+  }
+  if (!isOurs)
+  {
+    throw IOError(file, "has points of other pieces; start again.");
+  }
 }
 
 } // namespace tipp

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -48,7 +49,7 @@ OutputFile::~OutputFile()
 {
   if (this->Descriptor >= 0)
   {
-    close(this->Descriptor);
+    ::close(this->Descriptor);
   }
 }
 
@@ -71,6 +72,14 @@ void OutputFile::write(std::uint64_t offset, const void* from, std::size_t bytes
     at += done;
     offset += std::uint64_t(done);
     bytes -= std::size_t(done);
+  }
+}
+
+void OutputFile::close()
+{
+  if (::close(std::exchange(this->Descriptor, -1)) != 0 && errno != EINTR)
+  {
+    failToWrite(this->Path);
   }
 }
 

@@ -26,6 +26,9 @@ public:
   const std::string& path() const { return this->Path; }
   /// Throws IOError, as for a full disk.
   void write(std::uint64_t offset, const void* from, std::size_t bytes) const;
+  /// No more writes. Throws IOError also for what the system could not write until now; other
+  /// machines that open the file afterwards see all of it.
+  void close();
   /// Has the system begin to write what it holds back.
   void startWriteback() const;
 

@@ -291,6 +291,8 @@ private:
   {
     if (count > this->MoveRoom)
     {
+      this->MoveRoom = 0;
+      this->Moves.reset(); // not two at a time
       this->Moves.reset(new Move[count]);
       this->MoveRoom = count;
     }

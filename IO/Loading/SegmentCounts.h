@@ -52,15 +52,17 @@ template <typename Segment>
 std::vector<char> findActive(const std::int64_t* ids, std::size_t count, std::int64_t low,
   std::size_t segments, int threads, const Segment& segment)
 {
-  constexpr std::size_t share = 1 << 18;
-  const std::size_t shares = std::max<std::size_t>((count + share - 1) / share, 1);
+  constexpr std::size_t least = 1 << 18;
+  // As many as there are threads at most, for each has a bitmap.
+  const std::size_t shares =
+    std::max<std::size_t>(std::min(std::size_t(threadCount(threads)), count / least), 1);
   std::vector<std::vector<char>> parts(shares);
   parallelFor(std::int64_t(shares), threads,
     [&](std::int64_t part)
     {
       std::vector<char> own(segments, 0);
-      const std::size_t end = std::min((std::size_t(part) + 1) * share, count);
-      for (std::size_t i = std::size_t(part) * share; i < end; ++i)
+      const std::size_t end = count * (std::size_t(part) + 1) / shares;
+      for (std::size_t i = count * std::size_t(part) / shares; i < end; ++i)
       {
         own[segment(std::uint64_t(ids[i] - low))] = 1;
       }

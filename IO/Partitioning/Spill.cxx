@@ -21,7 +21,7 @@ Spill::Spill(const std::string& path, const Ranks& ranks, std::size_t keys, std:
   : Path(path)
   , Keys(keys)
   , RowBytes(rowBytes)
-  , Out(fileOf(path, ranks.rank()))
+  , Out(std::in_place, fileOf(path, ranks.rank()))
 {
 }
 
@@ -30,16 +30,15 @@ Spill::Spill(
   : Path(path)
   , Keys(keys)
   , RowBytes(rowBytes)
-  , Out(OutputFile::shared(fileOf(path, 0)))
 {
   const std::size_t sums = keys * sizeof(std::uint64_t);
-  if (saved.size() < sums)
+  if (saved.size() < sums || (saved.size() - sums) % sizeof(Extent) != 0)
   {
     throw IOError(path, "has checksums of other pieces; start again.");
   }
   this->Checksums.resize(keys);
   std::memcpy(this->Checksums.data(), saved.data(), sums);
-  for (std::size_t at = sums; at + sizeof(Extent) <= saved.size(); at += sizeof(Extent))
+  for (std::size_t at = sums; at < saved.size(); at += sizeof(Extent))
   {
     Extent extent;
     std::memcpy(&extent, saved.data() + at, sizeof(Extent));
@@ -118,7 +117,7 @@ void Spill::write(
     {
       const std::size_t from = rows.size() * std::size_t(part) / parts;
       const std::size_t to = rows.size() * (std::size_t(part) + 1) / parts;
-      this->Out.write(this->Written + from, rows.data() + from, to - from);
+      this->Out->write(this->Written + from, rows.data() + from, to - from);
     });
   this->Written += rows.size();
 }
@@ -134,6 +133,8 @@ void Spill::exchange(const Ranks& ranks)
     this->Checksums[key] = this->Sums[key]->finish();
   }
   this->Sums.clear();
+  ranks.attempt([this] { this->Out->close(); }); // or other machines might not see all rows
+  this->Out.reset();
   const std::vector<std::string> all = ranks.gather(mine);
   ranks.attempt([&] { this->sortExtents(all); });
 }

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,7 @@ public:
   /// verified where rows are read. Before all chunks; on one rank.
   void protect();
 
-  /// After all chunks: has every rank know all rows. A call of all ranks.
+  /// After all chunks: has every rank know all rows. A call of all ranks. Throws IOError on all.
   void exchange(const Ranks& ranks);
 
   std::int64_t rows(std::size_t key) const { return this->Rows[key]; }
@@ -73,7 +74,7 @@ private:
   std::string Path;
   std::size_t Keys;
   std::size_t RowBytes;
-  OutputFile Out;
+  std::optional<OutputFile> Out; ///< until exchange()
   std::uint64_t Written = 0;
   std::vector<char> Buffer; ///< a chunk's rows; kept from one chunk to the next
   std::vector<std::unique_ptr<Checksum>>

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The out-of-core triangulation of files in ParaView: the first rank makes the mesh, all ranks read it."""
+"""The out-of-core triangulation of files in ParaView: all ranks make the mesh and read it."""
 import numpy as np
 
 from run_paraview import Session, expect

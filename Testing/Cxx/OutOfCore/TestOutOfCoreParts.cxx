@@ -13,12 +13,15 @@
 #include "OutOfCore/PreparedRun.h"
 #include "Points/WritePoints.h"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 namespace
 {
 
+namespace fs = std::filesystem;
 using namespace tipp;
 using namespace tipp::test;
 
@@ -229,6 +232,37 @@ TEST(SpilledPoints, HasEachPiecesPointsInTheOrderOfTheStream)
       ASSERT_TRUE(p == (Point2{ rows[3 * i], rows[3 * i + 1] }));
       ASSERT_EQ(piece, plan.Pieces.locate(p));
     }
+  }
+}
+
+TEST(SpilledPoints, KeepsNoFileOpenThatOthersRead)
+{
+  Steps steps(makePointSet("uniform", 4000));
+  PiecePlan plan = steps.plan();
+  const SpilledPoints spilled = steps.spill(plan);
+  ASSERT_TRUE(fs::exists(steps.Folder.path("spill.0")));
+  for (const fs::directory_entry& open : fs::directory_iterator("/proc/self/fd"))
+  {
+    std::error_code gone; // the iterator's own
+    EXPECT_NE(fs::path(steps.Folder.path("spill.0")), fs::read_symlink(open.path(), gone));
+  }
+}
+
+TEST(SpilledPoints, ThoseOfOtherPiecesAreRefused)
+{
+  Steps steps(makePointSet("uniform", 4000));
+  PiecePlan plan = steps.plan();
+  const SpilledPoints spilled = steps.spill(plan);
+  SaveArchive out;
+  spilled.save(out);
+  for (const std::size_t at : { 8, 16 }) // the first two of starts(), behind their number
+  {
+    Bytes bytes(out.Writer.size());
+    std::copy_n(out.Writer.data(), bytes.size(), bytes.begin());
+    bytes.data()[at] ^= 1;
+    LoadArchive in(bytes);
+    expectIOError(steps.Folder.path("spill"), "other pieces",
+      [&] { SpilledPoints(steps.Folder.path("spill"), plan, steps.Rows, in); });
   }
 }
 
