@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Flat/FlatMesh.h"
+#include "Parallel/ParallelFor.h"
 #include "Partitioned/PieceGrid.h"
 #include "Partitioning/AssignPieces.h"
 #include "Reading/AssemblePiece.h"
@@ -415,12 +416,18 @@ void vtkPartitionedUnstructuredReader::ReadPieces(vtkInformation* outInfo)
   this->Inner->Cache.shrink(std::size_t(this->CacheSize));
   this->NumberOfPiecesRead = fetched.Read;
   this->NumberOfBytesRead = fetched.Bytes;
-  for (std::size_t i = 0; range && i < numbers.size(); ++i)
-  {
-    HeldPiece& piece = fetched.Pieces[i];
-    piece = { nullptr, range->apply(piece.get(), numbers[i], borrowed) };
-    this->UpdateProgress(double(i + 1) / double(numbers.size() + 1));
-  }
+  tipp::forChunks(
+    range ? std::int64_t(numbers.size()) : 0, 1, tipp::threadCount(this->NumberOfThreads),
+    [this](double done)
+    {
+      this->UpdateProgress(0.9 * done);
+      return true;
+    },
+    [&](std::int64_t i, std::int64_t, int)
+    {
+      HeldPiece& piece = fetched.Pieces[std::size_t(i)];
+      piece = { nullptr, range->apply(piece.get(), numbers[std::size_t(i)], borrowed) };
+    });
   vtkDataObject* const output = vtkDataObject::GetData(outInfo);
   setOutput(output, fetched.Pieces);
   if (!mesh.Times.empty())

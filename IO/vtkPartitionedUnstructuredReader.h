@@ -131,7 +131,8 @@ public:
 
   ///@{
   /**
-   * Number of threads that load and partition a flat mesh. Default 0: as many as OpenMP would take.
+   * Number of threads that read pieces, or load and partition a flat mesh. Default 0: as many as
+   * OpenMP would take.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
   vtkGetMacro(NumberOfThreads, int);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 namespace tipp
 {
@@ -34,7 +35,13 @@ CellKey cellKey(const Point3 (&corners)[Corners])
 {
   Point3 sorted[Corners];
   std::copy(corners, corners + Corners, sorted);
-  std::sort(sorted, sorted + Corners, [](Point3 a, Point3 b) { return lexicographicLess(a, b); });
+  for (int i = 0; i < Corners; ++i)
+  {
+    for (int j = i + 1; j < Corners; ++j)
+    {
+      lexicographicLess(sorted[j], sorted[i]) ? std::swap(sorted[i], sorted[j]) : void();
+    }
+  }
   std::uint64_t hash = 0;
   for (const Point3& corner : sorted)
   {

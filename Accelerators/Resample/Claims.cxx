@@ -297,39 +297,54 @@ Claims finishClaims(const SimplexMesh& mesh, const Lattice& lattice, int threads
   return Claimer(mesh, lattice, threads, report).finish(std::move(claims), claimed, open);
 }
 
+namespace
+{
+
+/// Merges claims first..last - 1; the keys are found `shift` further.
+template <typename Access>
+void mergeRun(const Access& access, Claims& claims, std::int64_t first, std::int64_t last,
+  std::int64_t shift, CellKey* keys)
+{
+  auto border = std::lower_bound(claims.Border.begin(), claims.Border.end(), first,
+    [](const BorderClaim& claim, std::int64_t sample) { return claim.Sample < sample; });
+  std::int32_t known = unclaimed;
+  CellKey key = noCellKey;
+  for (std::int64_t i = first; i < last; ++i)
+  {
+    std::int32_t& cell = claims.Cells[std::size_t(i)];
+    if (cell < 0)
+    {
+      continue;
+    }
+    if (cell != known)
+    {
+      key = keyOf(access, cell);
+      known = cell;
+    }
+    CellKey mine = key;
+    if (border != claims.Border.end() && border->Sample == i)
+    {
+      mine = withRank(key, border->Rank);
+      ++border;
+    }
+    mine < keys[i + shift] ? void(keys[i + shift] = mine) : void(cell = unclaimed);
+  }
+}
+
+} // namespace
+
 void mergeClaims(
-  const SimplexMesh& mesh, Claims& claims, std::int64_t samples, int threads, CellKey* keys)
+  const SimplexMesh& mesh, Claims& claims, const SampleWindow& window, int threads, CellKey* keys)
 {
   withAccess(mesh,
     [&](const auto& access)
     {
-      forChunks(samples, 1 << 14, threads, {},
+      forChunks(window.samples(), 1 << 12, threads, {},
         [&](std::int64_t begin, std::int64_t end, int)
         {
-          auto border = std::lower_bound(claims.Border.begin(), claims.Border.end(), begin,
-            [](const BorderClaim& claim, std::int64_t sample) { return claim.Sample < sample; });
-          std::int32_t known = -1;
-          CellKey key = noCellKey;
-          for (std::int64_t i = begin; i < end; ++i)
-          {
-            std::int32_t& cell = claims.Cells[std::size_t(i)];
-            if (cell < 0)
-            {
-              continue;
-            }
-            if (cell != known)
-            {
-              key = keyOf(access, cell);
-              known = cell;
-            }
-            CellKey mine = key;
-            if (border != claims.Border.end() && border->Sample == i)
-            {
-              mine = withRank(key, border->Rank);
-              ++border;
-            }
-            mine < keys[i] ? void(keys[i] = mine) : void(cell = -1);
-          }
+          window.forRuns(begin, end,
+            [&](std::int64_t first, std::int64_t last, std::int64_t shift)
+            { mergeRun(access, claims, first, last, shift, keys); });
         });
     });
 }

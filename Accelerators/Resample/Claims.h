@@ -5,6 +5,7 @@
 #include "Parallel/ForChunks.h"
 #include "Resample/CellKey.h"
 #include "Resample/Lattice.h"
+#include "Resample/SampleWindow.h"
 #include "Resample/SimplexMesh.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
@@ -59,9 +60,10 @@ Claims finishClaims(const SimplexMesh& mesh, const Lattice& lattice, int threads
   const std::vector<std::int32_t>& open, const Report& report);
 
 /// Lowers `keys` to those of the claims, and takes back the claims that are not below what they
-/// find: then other parts of a mesh can add their samples to the same arrays, in any order.
+/// find: then other parts of a mesh can add their samples to the same arrays, in any order. The
+/// claims are of the window's samples, the keys of all.
 VTKTIPPACCELERATORS_EXPORT void mergeClaims(
-  const SimplexMesh& mesh, Claims& claims, std::int64_t samples, int threads, CellKey* keys);
+  const SimplexMesh& mesh, Claims& claims, const SampleWindow& window, int threads, CellKey* keys);
 
 } // namespace tipp
 

@@ -10,40 +10,45 @@ namespace tipp
 namespace
 {
 
+/// Samples first..last - 1 of the claims, which are found `shift` further among all.
 void fillRest(const std::vector<Attribute>& attributes, const std::int32_t* claims,
-  std::int64_t begin, std::int64_t end, const InterpolationOptions& options)
+  std::int64_t first, std::int64_t last, std::int64_t shift, const InterpolationOptions& options)
 {
+  const auto claimed = [claims, shift](std::int64_t i) { return claims[i - shift] >= 0; };
+  const std::int64_t begin = first + shift;
+  const std::int64_t end = last + shift;
   for (const Attribute& attribute : attributes)
   {
     if (options.FillUnclaimed)
     {
-      fillNull(attribute, begin, end, [claims](std::int64_t i) { return claims[i] < 0; });
+      fillNull(attribute, begin, end, [&](std::int64_t i) { return !claimed(i); });
     }
     if (!attribute.Values)
     {
-      fillNull(attribute, begin, end, [claims](std::int64_t i) { return claims[i] >= 0; });
+      fillNull(attribute, begin, end, claimed);
     }
   }
   for (std::int64_t i = options.Valid ? begin : end; i < end; ++i)
   {
-    const bool claimed = claims[i] >= 0;
-    options.Valid[i] = claimed || options.FillUnclaimed ? claimed : options.Valid[i];
+    const bool is = claimed(i);
+    options.Valid[i] = is || options.FillUnclaimed ? is : options.Valid[i];
   }
 }
 
-/// Calls work(cell, row, begin, count) for runs of samples begin..end - 1 of the lattice that one
-/// cell claims.
+/// Calls work(cell, row, begin, count) for runs of samples begin..end - 1 of the window that one
+/// cell claims; the row's first sample is counted among all.
 template <typename Access, typename Work>
-void forRuns(const Access& access, const LatticeAxes& axes, const std::int32_t* claims,
-  std::int64_t begin, std::int64_t end, const Work& work)
+void forCellRuns(const Access& access, const LatticeAxes& axes, const SampleWindow& window,
+  const std::int32_t* claims, std::int64_t begin, std::int64_t end, const Work& work)
 {
   constexpr std::int64_t ahead = 16;
   const int width = axes.U.size();
   for (std::int64_t i = begin; i < end;)
   {
     const std::int64_t line = i / width;
-    const SampleRow row{ line * width, int(line % axes.V.size()), int(line / axes.V.size()) };
-    const std::int64_t rowEnd = std::min(end, row.First + width);
+    const std::int64_t rowBegin = line * width;
+    const SampleRow row{ window.place(line), int(line % axes.V.size()), int(line / axes.V.size()) };
+    const std::int64_t rowEnd = std::min(end, rowBegin + width);
     while (i < rowEnd)
     {
       const std::int32_t cell = claims[i];
@@ -58,7 +63,7 @@ void forRuns(const Access& access, const LatticeAxes& axes, const std::int32_t* 
         const std::int64_t later = std::min(i + 2 * ahead, end - 1);
         claims[soon] >= 0 ? access.prefetch(claims[soon]) : void();
         __builtin_prefetch(access.ids(std::max(claims[later], 0)));
-        work(cell, row, int(first - row.First), int(i - first));
+        work(cell, row, int(first - rowBegin), int(i - first));
       }
     }
   }
@@ -66,10 +71,10 @@ void forRuns(const Access& access, const LatticeAxes& axes, const std::int32_t* 
 
 } // namespace
 
-bool interpolate(const SimplexMesh& mesh, const Lattice& lattice, const std::int32_t* claims,
+bool interpolate(const SimplexMesh& mesh, const SampleWindow& window, const std::int32_t* claims,
   const std::vector<Attribute>& attributes, const InterpolationOptions& options)
 {
-  const LatticeAxes axes(mesh, lattice);
+  const LatticeAxes axes(mesh, window.lattice());
   bool completed = false;
   withAccess(mesh,
     [&](const auto& access)
@@ -86,12 +91,14 @@ bool interpolate(const SimplexMesh& mesh, const Lattice& lattice, const std::int
           if (samples)
           {
             block.clear();
-            forRuns(access, axes, claims, begin, end,
+            forCellRuns(access, axes, window, claims, begin, end,
               [&](std::int32_t cell, const SampleRow& row, int first, int count)
               { block.add(cell, row, first, count); });
             fillBlock(block, weighs, attributes, options);
           }
-          fillRest(attributes, claims, begin, end, options);
+          window.forRuns(begin, end,
+            [&](std::int64_t first, std::int64_t last, std::int64_t shift)
+            { fillRest(attributes, claims, first, last, shift, options); });
         });
     });
   return completed;

@@ -5,7 +5,7 @@
 #include "Parallel/ForChunks.h"
 #include "Resample/Attribute.h"
 #include "Resample/Claims.h"
-#include "Resample/Lattice.h"
+#include "Resample/SampleWindow.h"
 #include "Resample/SimplexMesh.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
@@ -29,12 +29,13 @@ struct InterpolationOptions
   Report Progress;
 };
 
-/// Fills the attributes' samples. Floating-point numbers of points are interpolated linearly in
+/// Fills the attributes' samples, and Valid, of a window, whose claims they are; the other samples
+/// stay. Floating-point numbers of points are interpolated linearly in
 /// double precision; whole numbers are taken from the corner of largest weight; numbers of cells
 /// from the cell. The weights are evaluated with the corners in the lexicographic order of their
 /// coordinates, so that the same cell gives the same bits however it is stored. False if Progress
 /// stopped it.
-VTKTIPPACCELERATORS_EXPORT bool interpolate(const SimplexMesh& mesh, const Lattice& lattice,
+VTKTIPPACCELERATORS_EXPORT bool interpolate(const SimplexMesh& mesh, const SampleWindow& window,
   const std::int32_t* claims, const std::vector<Attribute>& attributes,
   const InterpolationOptions& options);
 

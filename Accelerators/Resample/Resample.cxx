@@ -27,12 +27,17 @@ public:
     , Grid(lattice)
     , Attributes(attributes)
     , Options(options)
-    , Samples(LatticeAxes(mesh, lattice).samples())
+    , Window(options.Keys ? SampleWindow::around(mesh, lattice, options.Threads)
+                          : SampleWindow(mesh, lattice))
   {
   }
 
   ResampleResult run()
   {
+    if (this->Options.Keys && this->Window.samples() == 0)
+    {
+      return this->Result; // the part is outside
+    }
     this->tryDevice([&] { this->open(); });
     if (!this->Device && !this->Options.Keys && this->sampleAtOnce())
     {
@@ -43,7 +48,7 @@ public:
     this->Result.Aborted = claims.Aborted;
     if (!claims.Aborted && this->Options.Keys)
     {
-      mergeClaims(this->Mesh, claims, this->Samples, this->Options.Threads, this->Options.Keys);
+      mergeClaims(this->Mesh, claims, this->Window, this->Options.Threads, this->Options.Keys);
     }
     this->Result.ClaimSeconds += this->lap();
     if (!claims.Aborted)
@@ -58,7 +63,7 @@ public:
 private:
   void open()
   {
-    const bool small = this->Mesh.Cells + this->Samples < worthATransfer;
+    const bool small = this->Mesh.Cells + this->Window.samples() < worthATransfer;
     if (this->Options.Device.Kind != tipp::Device::Auto || !small)
     {
       this->Device = ComputeDevice::open(this->Options.Device);
@@ -80,7 +85,7 @@ private:
     options.Progress = this->Options.Progress;
     if (!options.Valid)
     {
-      valid.resize(std::size_t(this->Samples));
+      valid.resize(std::size_t(this->Window.samples()));
       options.Valid = valid.data();
     }
     const DirectResult direct = sampleDirectly(this->Mesh, this->Grid, this->Attributes, options);
@@ -126,10 +131,12 @@ private:
     Claims claims;
     if (this->Device)
     {
-      this->tryDevice([&] { claims = claimOnDevice(*this->Pieces, this->Grid, report); });
+      this->tryDevice(
+        [&] { claims = claimOnDevice(*this->Pieces, this->Window.lattice(), report); });
     }
-    return this->Device ? std::move(claims)
-                        : claimSamples(this->Mesh, this->Grid, this->Options.Threads, report);
+    return this->Device
+      ? std::move(claims)
+      : claimSamples(this->Mesh, this->Window.lattice(), this->Options.Threads, report);
   }
 
   void fill(const std::int32_t* claims)
@@ -141,14 +148,14 @@ private:
       this->tryDevice(
         [&]
         {
-          completed = interpolateOnDevice(*this->Pieces, this->Grid, claims, this->Attributes,
+          completed = interpolateOnDevice(*this->Pieces, this->Window, claims, this->Attributes,
             this->Options.Keys != nullptr, partOf(report, 0, 0.7));
         });
     }
     InterpolationOptions interpolation = this->interpolation();
     interpolation.Progress = this->Device ? partOf(report, 0.7, 1) : report;
     this->Result.Aborted =
-      !completed || !interpolate(this->Mesh, this->Grid, claims, this->Attributes, interpolation);
+      !completed || !interpolate(this->Mesh, this->Window, claims, this->Attributes, interpolation);
   }
 
   InterpolationOptions interpolation() const
@@ -166,7 +173,7 @@ private:
   const Lattice& Grid;
   const std::vector<Attribute>& Attributes;
   const ResampleOptions& Options;
-  std::int64_t Samples;
+  SampleWindow Window; ///< the samples that are looked at
   ComputeDevice* Device = nullptr;
   std::unique_ptr<MeshPieces> Pieces; ///< with a Device
   Stopwatch Watch;

@@ -16,8 +16,8 @@ struct ResampleOptions
   std::uint64_t DeviceMemory = 0; ///< bytes of an OpenCL device to use; 0: half of them
   int Threads = 1;
   /// One a sample, of the cells that answer so far (noCellKey: none): the mesh is a part of a
-  /// whole, and only adds what has lower keys. Null: it is all there is, and samples that it does
-  /// not answer get the attributes' NullValue.
+  /// whole, only adds what has lower keys, and costs what its own box covers. Null: it is all there
+  /// is, and samples that it does not answer get the attributes' NullValue.
   CellKey* Keys = nullptr;
   /// One a sample, 1 if a cell answers it. With Keys the caller clears it.
   unsigned char* Valid = nullptr;
@@ -32,8 +32,9 @@ struct ResampleResult
   double ClaimSeconds = 0;
   double InterpolationSeconds = 0;
   double TransferSeconds = 0; ///< to and from an OpenCL device; the others are without them
-  std::string Device;         ///< "OpenMP", or an OpenCL device's name
-  std::string Warning;        ///< why it is not the device asked for; else empty
+  /// "OpenMP", or an OpenCL device's name; empty if a part has no samples to find.
+  std::string Device;
+  std::string Warning; ///< why it is not the device asked for; else empty
   bool Aborted = false;
 };
 

@@ -6,6 +6,7 @@
 #include "Resample/InterpolateSamples.cl.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace tipp
 {
@@ -303,6 +304,54 @@ private:
   std::int64_t Block = 0;
 };
 
+/// Attributes' samples in a window, in memory of their own.
+class WindowSamples
+{
+public:
+  WindowSamples(const SampleWindow& window, const std::vector<Attribute>& attributes)
+    : Window(window)
+    , All(attributes)
+    , Windows(attributes)
+  {
+    for (std::size_t i = 0; i < this->All.size(); ++i)
+    {
+      this->Copies.emplace_back(std::size_t(window.samples()) * tupleBytes(this->All[i]));
+      this->Windows[i].Samples = this->Copies.back().data();
+    }
+    this->forRows([](char* all, char* copy, std::size_t bytes) { std::memcpy(copy, all, bytes); });
+  }
+
+  const std::vector<Attribute>& attributes() const { return this->Windows; }
+
+  void writeBack()
+  {
+    this->forRows([](char* all, char* copy, std::size_t bytes) { std::memcpy(all, copy, bytes); });
+  }
+
+private:
+  template <typename Work>
+  void forRows(const Work& work)
+  {
+    for (std::size_t i = 0; i < this->All.size(); ++i)
+    {
+      const auto bytes = std::int64_t(tupleBytes(this->All[i]));
+      char* const all = static_cast<char*>(this->All[i].Samples);
+      char* const copy = this->Copies[i].data();
+      this->Window.forRuns(0, this->Window.samples(),
+        [&](std::int64_t first, std::int64_t last, std::int64_t shift)
+        {
+          work(all + (first + shift) * bytes, copy + first * bytes,
+            std::size_t((last - first) * bytes));
+        });
+    }
+  }
+
+  const SampleWindow& Window;
+  const std::vector<Attribute>& All;
+  std::vector<Attribute> Windows;
+  std::vector<std::vector<char>> Copies;
+};
+
 } // namespace
 
 Claims claimOnDevice(MeshPieces& mesh, const Lattice& lattice, const Report& report)
@@ -310,12 +359,24 @@ Claims claimOnDevice(MeshPieces& mesh, const Lattice& lattice, const Report& rep
   return DeviceClaimer(mesh, lattice).run(report);
 }
 
-bool interpolateOnDevice(MeshPieces& mesh, const Lattice& lattice, const std::int32_t* claims,
+bool interpolateOnDevice(MeshPieces& mesh, const SampleWindow& window, const std::int32_t* claims,
   const std::vector<Attribute>& attributes, bool keeps, const Report& report)
 {
   std::vector<Attribute> chosen;
   std::copy_if(attributes.begin(), attributes.end(), std::back_inserter(chosen), onDevice);
-  return chosen.empty() || DeviceInterpolation(mesh, lattice, chosen).run(claims, keeps, report);
+  if (chosen.empty())
+  {
+    return true;
+  }
+  if (window.isWhole())
+  {
+    return DeviceInterpolation(mesh, window.lattice(), chosen).run(claims, keeps, report);
+  }
+  WindowSamples samples(window, chosen);
+  const bool completed =
+    DeviceInterpolation(mesh, window.lattice(), samples.attributes()).run(claims, true, report);
+  samples.writeBack();
+  return completed;
 }
 
 } // namespace tipp

@@ -14,9 +14,10 @@ namespace tipp
 Claims claimOnDevice(MeshPieces& mesh, const Lattice& lattice, const Report& report);
 
 /// The attributes of floating-point numbers of points where `claims` has a cell; like
-/// interpolate() otherwise. Other samples keep what they have if `keeps`, else they are undefined.
+/// interpolate() otherwise. Other samples keep what they have if `keeps`, else they are undefined;
+/// only the window's go to the device and back.
 /// False if `report` stopped it. Throws AcceleratorError.
-bool interpolateOnDevice(MeshPieces& mesh, const Lattice& lattice, const std::int32_t* claims,
+bool interpolateOnDevice(MeshPieces& mesh, const SampleWindow& window, const std::int32_t* claims,
   const std::vector<Attribute>& attributes, bool keeps, const Report& report);
 
 } // namespace tipp

@@ -236,7 +236,10 @@ bool SampledImage::sample(vtkPointSet* mesh, SimplexSet& simplices, const Report
   statistics.ClaimSeconds += result.ClaimSeconds;
   statistics.InterpolationSeconds += result.InterpolationSeconds;
   statistics.TransferSeconds += result.TransferSeconds;
-  statistics.Device = result.Device;
+  if (!result.Device.empty() || statistics.Device.empty())
+  {
+    statistics.Device = result.Device.empty() ? "OpenMP" : result.Device;
+  }
   if (!result.Warning.empty())
   {
     this->warnOnce(result.Warning);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Reading/AssemblePiece.h"
 
+#include "Loading/CopyTuples.h"
+
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -20,6 +21,50 @@ struct PointOfPiece
   std::int64_t Point;
 };
 
+/// Sorts values that come in a few ascending runs, as a piece's ids do.
+template <typename Value, typename Less>
+void sortRuns(std::vector<Value>& values, const Less& less)
+{
+  std::vector<std::size_t> starts{ 0 };
+  for (std::size_t i = 1; i < values.size(); ++i)
+  {
+    if (less(values[i], values[i - 1]))
+    {
+      starts.push_back(i);
+    }
+  }
+  starts.push_back(values.size());
+  std::vector<Value> merged(starts.size() > 2 ? values.size() : 0);
+  while (starts.size() > 2)
+  {
+    std::vector<std::size_t> next;
+    for (std::size_t run = 0; run + 1 < starts.size(); run += 2)
+    {
+      const auto at = [&](std::size_t i)
+      { return values.begin() + std::ptrdiff_t(starts[std::min(i, starts.size() - 1)]); };
+      std::merge(at(run), at(run + 1), at(run + 1), at(run + 2),
+        merged.begin() + std::ptrdiff_t(starts[run]), less);
+      next.push_back(starts[run]);
+    }
+    next.push_back(values.size());
+    starts = std::move(next);
+    values.swap(merged);
+  }
+}
+
+/// Tuples of one of the pieces, and where they go.
+struct TupleMoves
+{
+  std::vector<std::uint64_t> Sources;
+  std::vector<std::uint64_t> Targets;
+
+  void add(std::int64_t source, std::size_t target)
+  {
+    this->Sources.push_back(std::uint64_t(source));
+    this->Targets.push_back(target);
+  }
+};
+
 class Assembly
 {
 public:
@@ -28,7 +73,7 @@ public:
   {
     for (const Piece* const piece : pieces)
     {
-      this->Places.emplace_back(std::size_t(piece->Points), -1);
+      this->Places.emplace_back(std::size_t(piece->Points), absent);
     }
   }
 
@@ -55,30 +100,34 @@ private:
   /// Appends the cells' points that are not there yet, by global id.
   void pick(const std::vector<CellOfPiece>& cells, bool allPoints)
   {
-    std::vector<PointOfPiece> found;
-    const auto mark = [&](std::size_t p, std::int64_t point)
+    if (cells.empty() && !allPoints)
     {
-      std::int64_t& place = this->Places[p][std::size_t(point)];
-      if (place == -1)
-      {
-        place = -2;
-        const Piece& piece = *this->Pieces[p];
-        found.push_back({ piece.PointIds.as<std::int64_t>()[point], std::uint32_t(p),
-          piece.PointGhosts.as<std::uint8_t>()[point], point });
-      }
-    };
+      return;
+    }
+    const auto mark = [](std::int64_t& place) { place = place == absent ? wanted : place; };
     for (const CellOfPiece& cell : cells)
     {
-      for (int corner = 0; corner < this->Pieces[cell.Piece]->CellSize; ++corner)
+      const Piece& piece = *this->Pieces[cell.Piece];
+      for (int corner = 0; corner < piece.CellSize; ++corner)
       {
-        mark(cell.Piece, this->Pieces[cell.Piece]->corner(cell.Cell, corner));
+        mark(this->Places[cell.Piece][std::size_t(piece.corner(cell.Cell, corner))]);
       }
     }
     for (std::size_t p = 0; allPoints && p < this->Pieces.size(); ++p)
     {
-      for (std::int64_t point = 0; point < this->Pieces[p]->OwnedPoints; ++point)
+      std::for_each_n(this->Places[p].begin(), this->Pieces[p]->OwnedPoints, mark);
+    }
+    std::vector<PointOfPiece> found;
+    for (std::size_t p = 0; p < this->Pieces.size(); ++p)
+    {
+      const Piece& piece = *this->Pieces[p];
+      for (std::int64_t point = 0; point < piece.Points; ++point)
       {
-        mark(p, point);
+        if (this->Places[p][std::size_t(point)] == wanted)
+        {
+          found.push_back({ piece.PointIds.as<std::int64_t>()[point], std::uint32_t(p),
+            piece.PointGhosts.as<std::uint8_t>()[point], point });
+        }
       }
     }
     this->number(found);
@@ -87,7 +136,7 @@ private:
   void number(std::vector<PointOfPiece>& found)
   {
     // The copy that is no ghost comes first.
-    std::sort(found.begin(), found.end(),
+    sortRuns(found,
       [](const PointOfPiece& a, const PointOfPiece& b)
       { return std::tie(a.Id, a.Ghost, a.Piece) < std::tie(b.Id, b.Ghost, b.Piece); });
     // Those of the cells before, sorted: a copy of one of them in another piece is no new point.
@@ -115,82 +164,92 @@ private:
 
   void fillPoints(Piece& result) const
   {
-    const std::size_t bytes = 3 * scalarSize(result.PointType);
     const std::size_t count = this->Points.size();
-    result.Coordinates = RawBuffer(count * bytes);
-    result.PointIds = RawBuffer(count * sizeof(std::int64_t));
+    std::vector<TupleMoves> moves(this->Pieces.size());
     result.PointGhosts = RawBuffer(count);
     for (std::size_t i = 0; i < count; ++i)
     {
       const PointOfPiece& point = this->Points[i];
-      std::memcpy(result.Coordinates.data() + i * bytes,
-        this->Pieces[point.Piece]->Coordinates.data() + std::size_t(point.Point) * bytes, bytes);
-      result.PointIds.as<std::int64_t>()[i] = point.Id;
+      moves[point.Piece].add(point.Point, i);
       result.PointGhosts.as<std::uint8_t>()[i] = point.Ghost;
     }
-    this->fillAttributes(result, true, count,
-      [this](std::size_t i)
-      { return std::make_pair(std::size_t(this->Points[i].Piece), this->Points[i].Point); });
+    result.Coordinates = this->gather(moves, count, 3 * scalarSize(result.PointType),
+      [](const Piece& piece) { return piece.Coordinates.data(); });
+    result.PointIds = this->gather(
+      moves, count, sizeof(std::int64_t), [](const Piece& piece) { return piece.PointIds.data(); });
+    this->gatherAttributes(result, true, moves, count);
   }
 
   void fillCells(Piece& result) const
   {
     const std::size_t count = this->Cells.size();
     constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-    const int corners = result.CellSize;
-    result.WideIds = result.Points > most || result.Cells > most / corners;
-    result.Connectivity = RawBuffer(count * std::size_t(corners) * (result.WideIds ? 8 : 4));
-    result.CellIds = RawBuffer(count * sizeof(std::int64_t));
+    result.WideIds = result.Points > most || result.Cells > most / result.CellSize;
+    result.WideIds ? this->fillConnectivity<std::int64_t>(result)
+                   : this->fillConnectivity<std::int32_t>(result);
+    std::vector<TupleMoves> moves(this->Pieces.size());
     for (std::size_t i = 0; i < count; ++i)
     {
-      const CellOfPiece& cell = this->Cells[i];
-      const Piece& piece = *this->Pieces[cell.Piece];
-      result.CellIds.as<std::int64_t>()[i] = piece.CellIds.as<std::int64_t>()[cell.Cell];
-      for (int corner = 0; corner < corners; ++corner)
-      {
-        const std::int64_t place =
-          this->Places[cell.Piece][std::size_t(piece.corner(cell.Cell, corner))];
-        const std::size_t at = i * std::size_t(corners) + std::size_t(corner);
-        if (result.WideIds)
-        {
-          result.Connectivity.as<std::int64_t>()[at] = place;
-        }
-        else
-        {
-          result.Connectivity.as<std::int32_t>()[at] = std::int32_t(place);
-        }
-      }
+      moves[this->Cells[i].Piece].add(this->Cells[i].Cell, i);
     }
-    this->fillAttributes(result, false, count,
-      [this](std::size_t i) { return std::make_pair(this->Cells[i].Piece, this->Cells[i].Cell); });
+    result.CellIds = this->gather(
+      moves, count, sizeof(std::int64_t), [](const Piece& piece) { return piece.CellIds.data(); });
+    this->gatherAttributes(result, false, moves, count);
   }
 
-  /// source(i) is the piece and the tuple that the i-th comes from.
-  template <typename Source>
-  void fillAttributes(Piece& result, bool ofPoints, std::size_t count, const Source& source) const
+  template <typename Id>
+  void fillConnectivity(Piece& result) const
+  {
+    const int corners = result.CellSize;
+    result.Connectivity = RawBuffer(this->Cells.size() * std::size_t(corners) * sizeof(Id));
+    Id* id = result.Connectivity.as<Id>();
+    for (const CellOfPiece& cell : this->Cells)
+    {
+      for (int corner = 0; corner < corners; ++corner, ++id)
+      {
+        const std::int64_t point = this->Pieces[cell.Piece]->corner(cell.Cell, corner);
+        *id = Id(this->Places[cell.Piece][std::size_t(point)]);
+      }
+    }
+  }
+
+  void gatherAttributes(
+    Piece& result, bool ofPoints, const std::vector<TupleMoves>& moves, std::size_t count) const
   {
     const std::vector<Piece::Attribute>& first = this->Pieces.front()->Attributes;
     for (std::size_t a = 0; a < first.size(); ++a)
     {
       const StoredArray& description = first[a].Description;
-      if (description.OfPoints != ofPoints)
+      if (description.OfPoints == ofPoints)
       {
-        continue;
+        const std::size_t bytes =
+          std::size_t(description.Components) * scalarSize(description.Type);
+        result.Attributes.push_back({ description,
+          this->gather(moves, count, bytes,
+            [a](const Piece& piece) { return piece.Attributes[a].Values.data(); }) });
       }
-      const std::size_t bytes = std::size_t(description.Components) * scalarSize(description.Type);
-      RawBuffer values(count * bytes);
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        const auto [piece, tuple] = source(i);
-        std::memcpy(values.data() + i * bytes,
-          this->Pieces[piece]->Attributes[a].Values.data() + std::size_t(tuple) * bytes, bytes);
-      }
-      result.Attributes.push_back({ description, std::move(values) });
     }
   }
 
+  /// An array of `count` tuples; data(piece) has those of a piece.
+  template <typename Data>
+  RawBuffer gather(const std::vector<TupleMoves>& moves, std::size_t count, std::size_t bytes,
+    const Data& data) const
+  {
+    RawBuffer values(count * bytes);
+    for (std::size_t p = 0; p < moves.size(); ++p)
+    {
+      scatterTuples(data(*this->Pieces[p]), moves[p].Sources.data(), values.data(),
+        moves[p].Targets.data(), moves[p].Sources.size(), bytes);
+    }
+    return values;
+  }
+
+  static constexpr std::int64_t absent = -1;
+  static constexpr std::int64_t wanted = -2;
+
   std::vector<const Piece*> Pieces;
-  std::vector<std::vector<std::int64_t>> Places; ///< in the result; -1: not picked
+  std::vector<std::vector<std::int64_t>> Places; ///< in the result; or absent, or wanted
   std::vector<PointOfPiece> Points;
   std::vector<CellOfPiece> Cells;
 };
@@ -207,13 +266,16 @@ Piece mergePieces(const std::vector<const Piece*>& pieces)
 {
   std::vector<CellOfPiece> owned;
   std::vector<std::int64_t> ids;
+  const bool borrows = std::any_of(pieces.begin(), pieces.end(),
+    [](const Piece* piece) { return piece->Cells > piece->OwnedCells; });
   for (std::size_t p = 0; p < pieces.size(); ++p)
   {
     for (std::int64_t cell = 0; cell < pieces[p]->OwnedCells; ++cell)
     {
       owned.push_back({ p, cell });
-      ids.push_back(pieces[p]->CellIds.as<std::int64_t>()[cell]);
     }
+    const std::int64_t* const first = pieces[p]->CellIds.as<std::int64_t>();
+    ids.insert(ids.end(), first, first + (borrows ? pieces[p]->OwnedCells : 0));
   }
   std::sort(ids.begin(), ids.end());
   // Ghosts that none of the pieces owns, each once.

@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Flat/FlatMesh.h"
+#include "Parallel/ParallelFor.h"
 #include "Reading/FlatPieces.h"
 
 namespace tipp
@@ -13,7 +14,11 @@ namespace
 class StoredPieces : public PieceSource
 {
 public:
-  explicit StoredPieces(const std::string& path) { this->Mesh = openPartitionedMesh(path); }
+  StoredPieces(const std::string& path, int threads)
+    : Threads(threads)
+  {
+    this->Mesh = openPartitionedMesh(path);
+  }
 
   void prepare(const Ranks&) override {}
 
@@ -31,14 +36,15 @@ public:
   std::vector<Piece> read(
     const std::vector<std::size_t>& numbers, const PieceOptions& options) override
   {
-    std::vector<Piece> pieces;
-    pieces.reserve(numbers.size());
-    for (const std::size_t number : numbers)
-    {
-      pieces.push_back(readPiece(this->Mesh, number, options));
-    }
+    std::vector<Piece> pieces(numbers.size());
+    parallelFor(std::int64_t(numbers.size()), this->Threads,
+      [&](std::int64_t i)
+      { pieces[std::size_t(i)] = readPiece(this->Mesh, numbers[std::size_t(i)], options); });
     return pieces;
   }
+
+private:
+  int Threads;
 };
 
 } // namespace
@@ -49,7 +55,7 @@ std::unique_ptr<PieceSource> openPieceSource(const std::string& path, const Sour
 {
   if (isPartitionedMesh(path))
   {
-    return std::make_unique<StoredPieces>(path);
+    return std::make_unique<StoredPieces>(path, options.Threads);
   }
   if (isFlatMesh(path))
   {

@@ -13,6 +13,8 @@ namespace tipp
 namespace
 {
 
+constexpr std::uint8_t insideRange = 0x80; ///< in place of sides
+
 bool boxesMeet(const Box3& a, const Box3& b)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -150,13 +152,48 @@ void RangeFilter::setPointGhosts(Piece& piece, std::size_t number) const
   }
 }
 
+std::vector<std::uint8_t> RangeFilter::sidesOfPoints(const Piece& piece) const
+{
+  const std::size_t axes = piece.CellSize == 3 ? 2 : 3;
+  std::vector<std::uint8_t> sides(std::size_t(piece.Points));
+  for (std::int64_t point = 0; point < piece.Points; ++point)
+  {
+    const std::array<double, 3> xyz = pointOf(piece, point);
+    int beyond = 0;
+    bool within = true; // not for NaN
+    for (std::size_t axis = 0; axis < axes; ++axis)
+    {
+      beyond |= int(xyz[axis] < this->Range.Min[axis]) << (2 * axis);
+      beyond |= int(xyz[axis] > this->Range.Max[axis]) << (2 * axis + 1);
+      within = within && xyz[axis] >= this->Range.Min[axis] && xyz[axis] <= this->Range.Max[axis];
+    }
+    sides[std::size_t(point)] = std::uint8_t(within ? insideRange : beyond);
+  }
+  return sides;
+}
+
+bool RangeFilter::meetsRange(
+  const Piece& piece, std::int64_t cell, const std::vector<std::uint8_t>& sides) const
+{
+  int common = 0xff;
+  bool inside = false;
+  for (int corner = 0; corner < piece.CellSize; ++corner)
+  {
+    const int beyond = sides[std::size_t(piece.corner(cell, corner))];
+    common &= beyond;
+    inside = inside || beyond == insideRange;
+  }
+  return inside || (common == 0 && this->meets(piece, cell, this->Range));
+}
+
 Piece RangeFilter::apply(const Piece& piece, std::size_t number, bool borrowed) const
 {
+  const std::vector<std::uint8_t> sides = this->sidesOfPoints(piece);
   std::vector<CellOfPiece> owned;
   std::vector<CellOfPiece> ghosts;
   for (std::int64_t cell = 0; cell < piece.Cells; ++cell)
   {
-    if (!this->meets(piece, cell, this->Range))
+    if (!this->meetsRange(piece, cell, sides))
     {
       continue;
     }

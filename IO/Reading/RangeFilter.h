@@ -7,6 +7,7 @@
 #include "Predicates/Box3.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace tipp
@@ -28,6 +29,10 @@ public:
 
 private:
   bool meets(const Piece& piece, std::int64_t cell, const Box3& box) const;
+  /// A bit of each point for each side of the range that it lies beyond.
+  std::vector<std::uint8_t> sidesOfPoints(const Piece& piece) const;
+  bool meetsRange(
+    const Piece& piece, std::int64_t cell, const std::vector<std::uint8_t>& sides) const;
   bool isLowerPieceMet(const Piece& piece, std::int64_t cell, std::size_t number) const;
   void setPointGhosts(Piece& piece, std::size_t number) const;
 

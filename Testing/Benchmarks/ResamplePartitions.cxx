@@ -24,6 +24,21 @@ namespace
 
 constexpr int Sides[] = { 1, 2, 4, 8, 16 }; ///< partitions along an axis
 
+void printTitle(const std::vector<int>& sampleSides)
+{
+  std::printf("| partitions |");
+  for (const int side : sampleSides)
+  {
+    std::printf(" %d x %d samples in each |", side, side);
+  }
+  std::printf("\n|---|");
+  for (std::size_t i = 0; i < sampleSides.size(); ++i)
+  {
+    std::printf("---|");
+  }
+  std::printf("\n");
+}
+
 /// The pieces of a mesh, cut anew and read back, so that they lie in memory as a reader gives them.
 vtkSmartPointer<vtkDataObject> pieces(vtkUnstructuredGrid* grid, const std::string& path, int side)
 {
@@ -71,23 +86,12 @@ void benchmarkPartitions(const std::vector<std::string>& arguments)
     sampleSides.push_back(side);
   }
   const bool device = arguments.size() > 4;
-  std::printf("%lld triangles; one thread's seconds, %d threads' speed-up%s\n\n| partitions |",
+  std::printf("%lld triangles; one thread's seconds, %d threads' speed-up%s\n\n",
     static_cast<long long>(grid->GetNumberOfCells()), omp_get_max_threads(),
     device ? ", the OpenCL device's" : "");
-  for (const int side : sampleSides)
+  printTitle(sampleSides);
+  const auto row = [&](vtkDataObject* parts, int side)
   {
-    std::printf(" %d x %d samples in each |", side, side);
-  }
-  std::printf("\n|---|");
-  for (std::size_t i = 0; i < sampleSides.size(); ++i)
-  {
-    std::printf("---|");
-  }
-  std::printf("\n");
-  for (const int side : Sides)
-  {
-    const auto parts = pieces(grid, arguments.at(0) + "/partitions.tipp", side);
-    std::printf("| %d x %d |", side, side);
     for (const int samples : sampleSides)
     {
       const auto run = [&](int kind, int threads)
@@ -102,6 +106,17 @@ void benchmarkPartitions(const std::vector<std::string>& arguments)
       std::fflush(stdout);
     }
     std::printf("\n");
+  };
+  for (const int side : Sides)
+  {
+    const auto parts = pieces(grid, arguments.at(0) + "/partitions.tipp", side);
+    std::printf("| %d x %d |", side, side);
+    row(parts, side);
+    if (side == 1)
+    {
+      std::printf("| 1 x 1, as many samples as of 16 x 16 |");
+      row(parts, 16);
+    }
   }
 }
 

@@ -13,7 +13,8 @@ A document that names $DATA needs the real data sets, whose folder TIPP_SHARED_D
 names build-paraview/ needs the plugin that is built there; where that is missing the test is skipped.
 
 A document that configures is run on that copy, any other on the build at hand as build/. A command
-that would repeat the whole build or this test is run in its light form, see LIGHT.
+that would repeat the whole build or this test is run in its light form, see LIGHT. For xvfb-run stands
+display.py of the ParaView tests, whose servers start one at a time.
 """
 import os
 import pathlib
@@ -106,12 +107,24 @@ def needs(source, scratch, script):
     return settings
 
 
-def environment(scratch, build, own_build):
+def locked_display(source, folder):
+    """Puts a program xvfb-run into the folder."""
+    folder.mkdir()
+    program = folder / "xvfb-run"
+    display = source / "Testing" / "ParaView" / "display.py"
+    program.write_text(f'#!/bin/sh\n[ "$1" != -a ] || shift\nexec "{sys.executable}" "{display}" "$@"\n')
+    program.chmod(0o755)
+
+
+def environment(source, scratch, build, own_build):
     settings = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "DESTDIR")}
     # A repository of its own: scripts that ask git for the tracked files get the scratch copy's.
     subprocess.run(["git", "init", "-q", scratch], check=True)
     subprocess.run(["git", "-C", scratch, "add", "--all"], check=True)
-    settings |= {"HOME": str(scratch), "TIPP_DEMO_POINTS": "20000"}
+    programs = scratch / ".git" / "programs"
+    locked_display(source, programs)
+    settings |= {"HOME": str(scratch), "TIPP_DEMO_POINTS": "20000",
+                 "PATH": f"{programs}{os.pathsep}{os.environ['PATH']}"}
     if not own_build:
         (scratch / "build").symlink_to(build)
         settings["TIPP_BUILD_DIR"] = str(build)
@@ -125,7 +138,7 @@ def main():
     script = script_of(source, document, text)
     copy_tracked(source, scratch)
     own_build = "cmake --preset" in script
-    settings = environment(scratch, build, own_build) | needs(source, scratch, script)
+    settings = environment(source, scratch, build, own_build) | needs(source, scratch, script)
     print(script, flush=True)
     sys.exit(subprocess.run(["sh", "-x", "-c", script], cwd=scratch, env=settings).returncode)
 

@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A virtual display of one's own. (xvfb-run -a may give two programs that start together the same one.)"""
+"""A virtual display of one's own. (xvfb-run -a may give two programs that start together the same one.)
+
+Usage: display.py COMMAND [ARGUMENT...]     runs the command on such a display
+"""
 import contextlib
 import fcntl
 import os
 import subprocess
+import sys
 import tempfile
 
 
@@ -35,3 +39,8 @@ def virtual_display(size=(1280, 1024), frames=None):
         with one_at_a_time():
             server.terminate()
             server.wait()
+
+
+if __name__ == "__main__":
+    with virtual_display() as name:
+        sys.exit(subprocess.run(sys.argv[1:], env={**os.environ, "DISPLAY": name}).returncode)

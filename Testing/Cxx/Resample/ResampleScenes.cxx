@@ -217,6 +217,46 @@ Scene overlappingScene(int triangles, unsigned seed)
   return scene;
 }
 
+std::vector<Scene> tilesOf(const Scene& scene, int side, bool ownPoints)
+{
+  const int corners = scene.Dimension + 1;
+  std::vector<Scene> tiles(std::size_t(side * side * (scene.Dimension == 3 ? side : 1)));
+  std::vector<std::vector<std::int64_t>> places(tiles.size());
+  for (std::size_t tile = 0; tile < tiles.size(); ++tile)
+  {
+    tiles[tile].Dimension = scene.Dimension;
+    tiles[tile].Points = ownPoints ? std::vector<double>() : scene.Points;
+    places[tile].assign(scene.Points.size() / 3, -1);
+  }
+  for (int cell = 0; cell < scene.cells(); ++cell)
+  {
+    std::size_t tile = 0;
+    for (int axis = scene.Dimension - 1; axis >= 0; --axis)
+    {
+      double sum = 0;
+      for (int i = 0; i < corners; ++i)
+      {
+        sum += scene.corner(cell, i)[axis];
+      }
+      const int at = std::clamp(int(sum / corners * side), 0, side - 1);
+      tile = tile * std::size_t(side) + std::size_t(at);
+    }
+    Scene& part = tiles[tile];
+    for (int i = 0; i < corners; ++i)
+    {
+      const std::int64_t id = scene.Ids[std::size_t(cell * corners + i)];
+      std::int64_t& place = places[tile][std::size_t(id)];
+      if (ownPoints && place < 0)
+      {
+        place = std::int64_t(part.Points.size() / 3);
+        part.Points.insert(part.Points.end(), scene.point(id), scene.point(id) + 3);
+      }
+      part.Ids.push_back(ownPoints ? place : id);
+    }
+  }
+  return tiles;
+}
+
 std::vector<Scene> planeScenes()
 {
   Scene corner; // only its corner at (0.5, 0.5) is in reach of no mirrored move

@@ -55,6 +55,10 @@ Scene fanScene(int wedges);
 /// Triangles at random places: they overlap.
 Scene overlappingScene(int triangles, unsigned seed);
 
+/// The scene's cells by the tile that their centre lies in, `side` along each axis; each part with
+/// all points, or with those that it uses.
+std::vector<Scene> tilesOf(const Scene& scene, int side, bool ownPoints);
+
 std::vector<Scene> planeScenes();
 std::vector<Scene> spaceScenes();
 

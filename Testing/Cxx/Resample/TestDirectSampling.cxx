@@ -68,7 +68,8 @@ void expectAsInTwoWalks(const Scene& scene, const tipp::Lattice& lattice)
   {
     return;
   }
-  tipp::interpolate(scene.mesh(), lattice, claims.Cells.get(), inTwo.Attributes, inTwo.Options);
+  tipp::interpolate(
+    scene.mesh(), { scene.mesh(), lattice }, claims.Cells.get(), inTwo.Attributes, inTwo.Options);
   EXPECT_TRUE(direct == inTwo) << scene.Name;
   EXPECT_EQ(result.Statistics.VisitedCells, claims.Statistics.VisitedCells) << scene.Name;
   EXPECT_EQ(result.Statistics.Tests, claims.Statistics.Tests) << scene.Name;

@@ -236,6 +236,36 @@ TEST_F(ResampleOnDevice, PutsPartsTogetherLikeOpenMP)
   expectNear(together(openMP), together(openCL));
 }
 
+TEST_F(ResampleOnDevice, PutsTilesTogetherToTheWhole)
+{
+  const Scene scene = jitteredScene(2, 12, 2);
+  const tipp::Lattice lattice = latticeOf(2, 65, -0.013, 1.017);
+  const Kinds values = Kinds::of(scene);
+  Kinds whole = Kinds::sized(65 * 65, 65 * 65);
+  std::vector<tipp::Attribute> points = values.into(whole);
+  points.pop_back(); // that of cells, which tiles number otherwise
+  tipp::resample(scene.mesh(), lattice, points, {});
+  Kinds tiled = Kinds::sized(65 * 65, 65 * 65);
+  std::fill(tiled.Double.begin(), tiled.Double.end(), -7);
+  std::fill(tiled.Float.begin(), tiled.Float.end(), -7.0f);
+  std::fill(tiled.Whole.begin(), tiled.Whole.end(), -7);
+  points = values.into(tiled);
+  points.pop_back();
+  std::vector<tipp::CellKey> keys(65 * 65, tipp::noCellKey);
+  std::vector<unsigned char> valid(65 * 65);
+  for (const Scene& tile : tilesOf(scene, 3, false))
+  {
+    tipp::ResampleOptions options;
+    options.Device = openCL;
+    options.Keys = keys.data();
+    options.Valid = valid.data();
+    const tipp::ResampleResult result = tipp::resample(tile.mesh(), lattice, points, options);
+    EXPECT_EQ(result.Warning, "");
+    EXPECT_NE(result.Device, "OpenMP");
+  }
+  expectNear(whole, tiled);
+}
+
 TEST_F(ResampleOnDevice, TellsItsTimesAndStopsOnRequest)
 {
   const Scene scene = jitteredScene(2, 60, 3);
