@@ -23,7 +23,9 @@ def one_at_a_time():
 def virtual_display(size=(1280, 1024), frames=None):
     """The display's name. Xvfb keeps what it shows in the folder `frames`, if there is one."""
     read_end, write_end = os.pipe()
-    command = ["Xvfb", "-displayfd", str(write_end), "-nolisten", "tcp", "-screen", "0", f"{size[0]}x{size[1]}x24"]
+    # A server that resets when its last program leaves refuses the next one meanwhile.
+    command = ["Xvfb", "-displayfd", str(write_end), "-nolisten", "tcp", "-noreset",
+               "-screen", "0", f"{size[0]}x{size[1]}x24"]
     if frames:
         command += ["-fbdir", str(frames)]
     with one_at_a_time():
