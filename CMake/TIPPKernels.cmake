@@ -1,9 +1,11 @@
 # tipp_embed_kernels(<target> <file.cl>...)
 # Makes the text of each .cl file part of a target: Folder/Name.cl becomes the header Folder/Name.cl.h
-# in the build tree, which defines `const KernelSource NameKernels` (OpenCL/ComputeDevice.h).
+# in the build tree, which defines `const KernelSource NameKernels` (OpenCL/ComputeDevice.h). The target
+# <target>_kernels makes these alone, for programs that read the sources.
 set(tipp_embed_kernel_script "${CMAKE_CURRENT_LIST_DIR}/EmbedKernel.cmake")
 
 function (tipp_embed_kernels target)
+  set(headers "")
   foreach (file IN LISTS ARGN)
     set(source "${CMAKE_CURRENT_SOURCE_DIR}/${file}")
     set(header "${CMAKE_CURRENT_BINARY_DIR}/${file}.h")
@@ -16,5 +18,7 @@ function (tipp_embed_kernels target)
       COMMENT "Embedding ${file}"
       VERBATIM)
     target_sources(${target} PRIVATE "${header}")
+    list(APPEND headers "${header}")
   endforeach ()
+  add_custom_target(${target}_kernels DEPENDS ${headers})
 endfunction ()

@@ -17,7 +17,7 @@ check_build() { sh Utilities/build.sh default; }
 
 # The libraries and the tool; the tests are checked by passing.
 run_tidy() { # OPTION...
-  cmake --preset tidy --log-level=WARNING > /dev/null
+  sh Utilities/build.sh tidy
   run-clang-tidy -quiet -p build-tidy -j "$(nproc)" "$@" \
     "^$top/(Accelerators|IO|Filters|Tools)/.*\.cxx$" \
     > build-tidy/clang-tidy.log 2>&1 || { grep -E 'error:|warning:' build-tidy/clang-tidy.log; return 1; }

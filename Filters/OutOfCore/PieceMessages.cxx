@@ -3,27 +3,36 @@
 
 #include "OutOfCore/Checkpoint.h"
 
+#include <type_traits>
+
 namespace tipp
 {
 namespace
 {
 
+template <typename T>
+struct Kind
+{
+};
+
+/// @name What a message has, in its order, for both directions
+///@{
 template <typename Archive, typename Order>
-void exchangeOrder(Archive& archive, Order& order)
+void exchange(Archive& archive, Order& order, Kind<LoadOrder>)
 {
   archive(order.Piece);
   archive(order.Finished);
 }
 
 template <typename Archive, typename Task>
-void exchangeTask(Archive& archive, Task& task)
+void exchange(Archive& archive, Task& task, Kind<PartitionTask>)
 {
   archive(task.Partition);
   archive(task.Vertices);
 }
 
 template <typename Archive, typename Task>
-void exchangeInteriorTask(Archive& archive, Task& task)
+void exchange(Archive& archive, Task& task, Kind<InteriorTask>)
 {
   archive(task.Piece);
   archive(task.Rim);
@@ -31,96 +40,101 @@ void exchangeInteriorTask(Archive& archive, Task& task)
 }
 
 template <typename Archive, typename Result>
-void exchangeResult(Archive& archive, Result& result)
+void exchange(Archive& archive, Result& result, Kind<PartitionResult>)
 {
   archive(result.Partition);
   archive(result.Points);
   archive(result.Duplicates);
   archive(result.Vertices);
+  if constexpr (std::is_same<Archive, SaveArchive>::value)
+  {
+    result.Seams.write(archive.Writer);
+  }
+  else
+  {
+    result.Seams = SeamGroups::read(archive.Reader);
+  }
+}
+
+template <typename Archive>
+void exchange(Archive& archive, WrittenInterior& written, Kind<WrittenInterior>)
+{
+  archive(written.Piece);
+  written.Growing.exchangeInterior(archive);
+}
+
+template <typename Archive, typename Number>
+void exchange(Archive& archive, Number& number, Kind<std::int32_t>)
+{
+  archive(number);
+}
+///@}
+
+template <typename T>
+Bytes packed(T& value)
+{
+  SaveArchive archive;
+  exchange(archive, value, Kind<std::remove_const_t<T>>());
+  return archive.Writer.take();
+}
+
+template <typename T>
+void unpackTo(const Bytes& bytes, T& value)
+{
+  LoadArchive archive(bytes);
+  exchange(archive, value, Kind<T>());
 }
 
 } // namespace
 
 Bytes pack(const LoadOrder& order)
 {
-  SaveArchive archive;
-  exchangeOrder(archive, order);
-  return archive.Writer.take();
+  return packed(order);
 }
-
 Bytes pack(const PartitionTask& task)
 {
-  SaveArchive archive;
-  exchangeTask(archive, task);
-  return archive.Writer.take();
+  return packed(task);
 }
-
 Bytes pack(const InteriorTask& task)
 {
-  SaveArchive archive;
-  exchangeInteriorTask(archive, task);
-  return archive.Writer.take();
+  return packed(task);
 }
-
 Bytes pack(const PartitionResult& result)
 {
-  SaveArchive archive;
-  exchangeResult(archive, result);
-  result.Seams.write(archive.Writer);
-  return archive.Writer.take();
+  return packed(result);
 }
-
 Bytes pack(WrittenInterior& written)
 {
-  SaveArchive archive;
-  archive(written.Piece);
-  written.Growing.exchangeInterior(archive);
-  return archive.Writer.take();
+  return packed(written);
 }
-
 Bytes pack(std::int32_t number)
 {
-  SaveArchive archive;
-  archive(number);
-  return archive.Writer.take();
+  return packed(number);
 }
 
 void unpack(const Bytes& bytes, LoadOrder& order)
 {
-  LoadArchive archive(bytes);
-  exchangeOrder(archive, order);
+  unpackTo(bytes, order);
 }
-
 void unpack(const Bytes& bytes, PartitionTask& task)
 {
-  LoadArchive archive(bytes);
-  exchangeTask(archive, task);
+  unpackTo(bytes, task);
 }
-
 void unpack(const Bytes& bytes, InteriorTask& task)
 {
-  LoadArchive archive(bytes);
-  exchangeInteriorTask(archive, task);
+  unpackTo(bytes, task);
 }
-
 void unpack(const Bytes& bytes, PartitionResult& result)
 {
-  LoadArchive archive(bytes);
-  exchangeResult(archive, result);
-  result.Seams = SeamGroups::read(archive.Reader);
+  unpackTo(bytes, result);
 }
-
 void unpack(const Bytes& bytes, WrittenInterior& written)
 {
-  LoadArchive archive(bytes);
-  archive(written.Piece);
-  written.Growing.exchangeInterior(archive);
+  unpackTo(bytes, written);
 }
-
 void unpack(const Bytes& bytes, std::int32_t& number)
 {
-  LoadArchive archive(bytes);
-  archive(number);
+  unpackTo(bytes, number);
 }
 
 } // namespace tipp

@@ -32,7 +32,7 @@ void PreparedRun::exchangeInput(Archive& archive)
   this->Mesh.Arrays.clear();
   for (std::size_t i = 0; i < names.size(); ++i)
   {
-    const bool isId = this->Rows.Attributes[i] < 0;
+    const bool isId = this->Rows.Attributes.at(i) < 0;
     this->Mesh.Arrays.push_back({ names[i], true, isId ? Scalar::Int64 : Scalar::Float64, 1, -1 });
   }
 }

@@ -82,7 +82,7 @@ void PieceRun::take(const Message& message)
     rank.IsLoading = false;
     this->addLoaded(number, message.Source, lock);
   }
-  else
+  else if (message.Kind == ReadyMessage)
   {
     rank.IsReady = true;
     rank.IdleThreads = number;

@@ -18,6 +18,13 @@ while [ $# -gt 0 ]; do
   esac
 done
 
+for name in $(echo "$rows" | tr , " "); do
+  case $name in
+    probe | stored | scipy | partitions) ;;
+    *) usage ;;
+  esac
+done
+
 build_targets benchmarkResample
 row() { # CASE POINTS SAMPLES FRACTION
   "$build/bin/benchmarkResample" "$1" "$2" "$3" "$repeat" "$4" $opencl

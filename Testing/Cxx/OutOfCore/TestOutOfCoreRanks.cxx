@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several ranks make the files of one process, and end together.
+// Several ranks make the files of one process, and end together: PieceHelper, and the first rank's
+// side of a PieceRun, RunOnRanks.
 #include "OutOfCoreTesting.h"
 
 #include "Files/IOError.h"
