@@ -15,25 +15,19 @@ namespace
 {
 
 /// Each triangle to the rank that owns its vertex of lowest id.
-std::vector<IdTriangle> bringHome(Postbox& ranks, const std::vector<IdTriangle>& triangles,
-  const std::vector<std::int64_t>& firstIds)
+std::vector<IdTriangle> bringHome(
+  Postbox& ranks, const FinalTriangles& triangles, const std::vector<std::int64_t>& firstIds)
 {
   const auto owner = [&firstIds](const IdTriangle& triangle)
   { return ownerOf(*std::min_element(triangle.begin(), triangle.end()), firstIds); };
   std::vector<std::size_t> counts(static_cast<std::size_t>(ranks.size()), 0);
-  for (const IdTriangle& triangle : triangles)
-  {
-    ++counts[owner(triangle)];
-  }
+  triangles.visit([&](const IdTriangle& triangle) { ++counts[owner(triangle)]; });
   std::vector<std::vector<IdTriangle>> sorted(counts.size());
   for (std::size_t rank = 0; rank < counts.size(); ++rank)
   {
     sorted[rank].reserve(counts[rank]);
   }
-  for (const IdTriangle& triangle : triangles)
-  {
-    sorted[owner(triangle)].push_back(triangle);
-  }
+  triangles.visit([&](const IdTriangle& triangle) { sorted[owner(triangle)].push_back(triangle); });
   std::vector<IdTriangle> home;
   for (const std::vector<IdTriangle>& received : swapArrays(ranks, sorted))
   {
@@ -176,7 +170,7 @@ void preferLowestGlobalIds(
 }
 
 template <typename Id>
-void collect(Postbox& ranks, OwnedPoints<Id>& points, const std::vector<IdTriangle>& kept,
+void collect(Postbox& ranks, OwnedPoints<Id>& points, const FinalTriangles& kept,
   const std::vector<std::size_t>& interiorCounts, std::vector<Duplicate> duplicates,
   const Tiling& leaves, int threads, DistributedTriangulation& result)
 {
@@ -210,10 +204,10 @@ void collect(Postbox& ranks, OwnedPoints<Id>& points, const std::vector<IdTriang
   result.Foreign = fetchPoints(ranks, result.ForeignIds, points.FirstIds, result.Owned, rowSize);
 }
 
-template void collect(Postbox&, OwnedPoints<std::int32_t>&, const std::vector<IdTriangle>&,
+template void collect(Postbox&, OwnedPoints<std::int32_t>&, const FinalTriangles&,
   const std::vector<std::size_t>&, std::vector<Duplicate>, const Tiling&, int,
   DistributedTriangulation&);
-template void collect(Postbox&, OwnedPoints<std::int64_t>&, const std::vector<IdTriangle>&,
+template void collect(Postbox&, OwnedPoints<std::int64_t>&, const FinalTriangles&,
   const std::vector<std::size_t>&, std::vector<Duplicate>, const Tiling&, int,
   DistributedTriangulation&);
 

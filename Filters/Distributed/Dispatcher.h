@@ -3,12 +3,12 @@
 #define tippDispatcher_h
 
 #include "Distributed/DistributedOptions.h"
+#include "Distributed/FinalTriangles.h"
 #include "Distributed/GroupMesh.h"
 #include "Distributed/LeafWorkers.h"
 #include "Distributed/Plan.h"
 #include "Triangulation/IndependentPartitions.h"
 
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -16,8 +16,6 @@
 
 namespace tipp
 {
-
-using IdTriangle = std::array<std::int64_t, 3>;
 
 /// A master: gives out the independent partitions of one area and takes their boundary triangles
 /// back, until all are finished (Algorithm 1, steps 2 to 5). It does not know whether a partition
@@ -46,7 +44,7 @@ public:
   bool isDone() const { return this->Active == 0 && this->allGivenOut(); }
 
   /// Triangles that meet nothing but this area's finished partitions; by their vertices' ids.
-  std::vector<IdTriangle> Kept;
+  FinalTriangles Kept;
 
   /// Final here, but they meet the rest of the domain or have an artificial vertex.
   std::vector<SeamTriangle> Upward;

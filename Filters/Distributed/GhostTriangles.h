@@ -2,8 +2,8 @@
 #ifndef tippGhostTriangles_h
 #define tippGhostTriangles_h
 
-#include "Distributed/Dispatcher.h"
 #include "Distributed/DistributedTriangulation.h"
+#include "Distributed/FinalTriangles.h"
 
 #include <vector>
 

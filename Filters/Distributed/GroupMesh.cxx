@@ -74,8 +74,18 @@ void GroupMesh::finish(PartitionIndex partition)
 
 void GroupMesh::gather(PartitionIndex partition, std::vector<PlainVertex>& vertices) const
 {
+  const std::vector<Reference>& references = this->Members[std::size_t(partition)].References;
+  std::size_t count = 0;
+  for (const Reference& reference : references)
+  {
+    if (reference.isAlive())
+    {
+      count += reference.Of->Groups->vertices(reference.Group).size();
+    }
+  }
   vertices.clear();
-  for (const Reference& reference : this->Members[std::size_t(partition)].References)
+  vertices.reserve(count);
+  for (const Reference& reference : references)
   {
     if (reference.isAlive())
     {

@@ -2,6 +2,7 @@
 #include "Distributed/RankRun.h"
 
 #include "Distributed/MessageKinds.h"
+#include "Distributed/TaskMessages.h"
 #include "Parallel/ProcessorWatch.h"
 #include "Triangulation/HullRepair.h"
 #include "Triangulation/InitialMesh.h"
@@ -67,26 +68,6 @@ SeamTriangles thoseMeeting(const Area& area, const SeamTriangles& all)
     }
   }
   return kept;
-}
-
-Bytes pack(const Task& task)
-{
-  ByteWriter writer;
-  writer.value(task.Area);
-  writer.value(task.Partition);
-  writer.array(task.Vertices);
-  return writer.take();
-}
-
-Bytes pack(const TaskResult& result)
-{
-  ByteWriter writer;
-  writer.value(result.Area);
-  writer.value(result.Partition);
-  writer.value(result.WorkerVertices);
-  writer.value(result.Seconds);
-  result.Seams.write(writer);
-  return writer.take();
 }
 
 } // namespace
@@ -307,22 +288,12 @@ void RankRun<Id>::handle(Message& message)
     return;
   }
   const ProcessorWatch watch;
-  ByteReader reader(message.Content);
   if (message.Kind == TaskMessage)
   {
-    Task task;
-    task.Area = reader.value<std::int32_t>();
-    task.Partition = reader.value<PartitionIndex>();
-    reader.array(task.Vertices);
-    this->handleTask(std::move(task));
+    this->handleTask(unpackTask(message));
     return;
   }
-  TaskResult result;
-  result.Area = reader.value<std::int32_t>();
-  result.Partition = reader.value<PartitionIndex>();
-  result.WorkerVertices = reader.value<std::int64_t>();
-  result.Seconds = reader.value<double>();
-  result.Seams = SeamGroups::read(reader);
+  TaskResult result = unpackResult(message);
   Active& active = this->Dispatchers.at(result.Area);
   active.MoreSeconds += watch.seconds();
   active.Master->complete(std::move(result));
@@ -400,11 +371,7 @@ void RankRun<Id>::finishArea(std::int32_t index)
   const ProcessorWatch watch;
   Active& active = this->Dispatchers.at(index);
   Dispatcher& dispatcher = *active.Master;
-  if (this->Kept.empty())
-  {
-    this->Kept.swap(dispatcher.Kept);
-  }
-  this->Kept.insert(this->Kept.end(), dispatcher.Kept.begin(), dispatcher.Kept.end());
+  this->Kept.append(std::move(dispatcher.Kept));
   if (active.Parent < 0)
   {
     this->finishTop(dispatcher);

@@ -4,6 +4,7 @@
 
 #include "Distributed/Dispatcher.h"
 #include "Distributed/DistributedStatistics.h"
+#include "Distributed/FinalTriangles.h"
 #include "Distributed/LeafWorkers.h"
 #include "Distributed/PointExchange.h"
 #include "Messages/Postbox.h"
@@ -29,7 +30,7 @@ public:
   void run();
 
   /// Boundary triangles that have become final on this rank, by internal ids.
-  std::vector<IdTriangle> Kept;
+  FinalTriangles Kept;
   std::vector<Duplicate> Duplicates;       ///< by internal ids
   std::vector<std::size_t> InteriorCounts; ///< of each leaf
   RankStatistics Statistics;

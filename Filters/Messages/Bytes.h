@@ -4,11 +4,13 @@
 
 #include "Triangulation/Buffer.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -44,27 +46,38 @@ public:
 
   void raw(const void* data, std::size_t size)
   {
-    const char* begin = static_cast<const char*>(data);
-    this->Written.insert(this->Written.end(), begin, begin + size);
+    if (size > this->Written.size() - this->Size)
+    {
+      this->reserve(std::max(this->Size + size, 2 * this->Size));
+    }
+    if (size > 0)
+    {
+      std::memcpy(this->Written.data() + this->Size, data, size);
+    }
+    this->Size += size;
   }
 
-  void reserve(std::size_t size) { this->Written.reserve(size); }
-  std::size_t size() const { return this->Written.size(); }
+  void reserve(std::size_t size)
+  {
+    if (size > this->Written.size())
+    {
+      Bytes larger(size);
+      std::copy_n(this->Written.data(), this->Size, larger.data());
+      this->Written = std::move(larger);
+    }
+  }
+  std::size_t size() const { return this->Size; }
   const char* data() const { return this->Written.data(); }
 
   Bytes take()
   {
-    Bytes bytes(this->Written.size());
-    if (!this->Written.empty())
-    {
-      std::memcpy(bytes.data(), this->Written.data(), this->Written.size());
-    }
-    this->Written.clear();
-    return bytes;
+    this->Written.truncate(std::exchange(this->Size, 0));
+    return std::move(this->Written);
   }
 
 private:
-  std::vector<char> Written;
+  Bytes Written; ///< room for more
+  std::size_t Size = 0;
 };
 
 /// Reads what a ByteWriter wrote; throws std::runtime_error rather than read beyond the end.

@@ -128,12 +128,11 @@ SeamTriangles triangulateVertices(
     }
   };
   parallelFor(threads, threads, collect);
-  SeamTriangles all;
-  for (const SeamTriangles& part : parts)
+  for (std::size_t i = 1; i < parts.size(); ++i)
   {
-    all.append(part);
+    parts[0].append(parts[i]);
   }
-  return all;
+  return std::move(parts[0]);
 }
 
 bool partitionsPay(const SeamTriangles& initialMesh)
