@@ -84,12 +84,27 @@ IdRange ArrayFiles::range(const std::int64_t* ids, std::size_t count, int thread
   return all;
 }
 
-void ArrayFiles::read(
-  std::size_t a, std::int64_t first, std::int64_t tuples, void* to, LoadCounters& counters) const
+void ArrayFiles::read(std::size_t a, std::int64_t first, std::int64_t tuples, void* to, int threads,
+  LoadCounters& counters) const
 {
   const std::size_t size = this->tupleBytes(a);
   const std::size_t bytes = std::size_t(tuples) * size;
-  this->Files[a]->read(this->Arrays[a].Offset + std::uint64_t(first) * size, to, bytes);
+  const std::uint64_t offset = this->Arrays[a].Offset + std::uint64_t(first) * size;
+  constexpr std::size_t share = std::size_t(4) << 20;
+  if (bytes <= share)
+  {
+    this->Files[a]->read(offset, to, bytes);
+  }
+  else
+  {
+    parallelFor(std::int64_t((bytes + share - 1) / share), threads,
+      [&](std::int64_t part)
+      {
+        const std::size_t begin = std::size_t(part) * share;
+        this->Files[a]->read(
+          offset + begin, static_cast<char*>(to) + begin, std::min(share, bytes - begin));
+      });
+  }
   ++counters.Reads;
   counters.Bytes += std::int64_t(bytes);
 }

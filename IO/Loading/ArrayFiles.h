@@ -37,9 +37,10 @@ public:
   /// Throws IOError that names an id which is not that of a tuple.
   IdRange range(const std::int64_t* ids, std::size_t count, int threads) const;
 
-  /// Tuples of one array with one read, and counts it.
-  void read(
-    std::size_t a, std::int64_t first, std::int64_t tuples, void* to, LoadCounters& counters) const;
+  /// Tuples of one array that follow each other, and counts that as a read. Of very many tuples
+  /// each thread reads a part: where files are cached, reading is copying.
+  void read(std::size_t a, std::int64_t first, std::int64_t tuples, void* to, int threads,
+    LoadCounters& counters) const;
 
 private:
   std::vector<RawArray> Arrays;

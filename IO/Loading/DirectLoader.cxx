@@ -64,7 +64,7 @@ private:
     this->Buffers.resize(this->Files, size);
     for (std::size_t a = 0; a < this->Files.count(); ++a)
     {
-      this->Files.read(a, first, size, this->Buffers.data(a), this->Counts);
+      this->Files.read(a, first, size, this->Buffers.data(a), this->Threads, this->Counts);
     }
     ++this->Counts.Passes;
   }

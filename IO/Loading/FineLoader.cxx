@@ -2,12 +2,13 @@
 // Direct Load with a fine bitmap: what is active is known for about 1,024 vertices rather than for
 // M, so that a chunk whose vertices lie together reads little else; active runs that are near each
 // other are read at once, and packed up to M vertices a pass. Of vertices that are few and far
-// apart each is read by itself. Where all vertices fit into M, what is read stays in memory from
-// when as much has been read as there is.
+// apart each is read by itself, and kept for the next chunks. Where all vertices fit into M, what
+// is read stays in memory from when as much has been read as there is.
 #include "Loading/Loaders.h"
 #include "Loading/Runs.h"
 #include "Loading/ScatterRange.h"
 #include "Loading/SegmentCounts.h"
+#include "Loading/TupleCache.h"
 #include "Loading/UniqueIds.h"
 
 #include <algorithm>
@@ -102,6 +103,7 @@ private:
       return;
     }
     const auto blockOf = [shift = this->Shift](std::uint64_t id) { return id >> shift; };
+    constexpr std::int64_t dense = 2; // ids for each tuple, of which hardly one is not wanted
     if (chunk.High - chunk.Low >= this->M && !this->fitsWhole())
     {
       chunk.Counts =
@@ -109,7 +111,9 @@ private:
       chunk.Active = chunk.Counts.active();
       return;
     }
-    chunk.Active = findActive(chunk.Ids, chunk.Count, chunk.Low, blocks, this->Threads, blockOf);
+    chunk.Active = std::int64_t(chunk.Count) / dense > chunk.High - chunk.Low
+      ? std::vector<char>(blocks, 1)
+      : findActive(chunk.Ids, chunk.Count, chunk.Low, blocks, this->Threads, blockOf);
     if (!this->WasRead.empty())
     {
       const char* const wasRead = this->WasRead.data() + (chunk.Low >> this->Shift);
@@ -146,7 +150,7 @@ private:
       for (std::size_t a = 0; a < this->Files.count(); ++a)
       {
         char* const to = this->Buffers.data(a) + std::size_t(run.First) * this->Files.tupleBytes(a);
-        this->Files.read(a, run.First, run.Size, to, this->Counts);
+        this->Files.read(a, run.First, run.Size, to, this->Threads, this->Counts);
       }
       const auto first = this->WasRead.begin() + (run.First >> this->Shift);
       std::fill(first, first + ((run.Size - 1) >> this->Shift) + 1, char(1));
@@ -239,6 +243,11 @@ private:
   void loadSparse(const Chunk& chunk, void* const* out)
   {
     const UniqueIds unique(chunk.Ids, chunk.Count);
+    if (std::int64_t(unique.Sorted.size()) <= this->cached())
+    {
+      this->loadCached(unique, chunk, out);
+      return;
+    }
     const RunPlan plan(runsOfIds(unique.Sorted, this->Gap), this->M, 1, chunk.Low);
     std::vector<std::uint32_t> places(unique.Sorted.size()); // of each number, and its group
     std::vector<std::uint32_t> groups(unique.Sorted.size());
@@ -273,6 +282,70 @@ private:
       this->Moves[next[groups[number]]++] = { places[number], std::uint32_t(i) };
     }
     this->loadMoves(plan, out);
+  }
+
+  /// Tuples that the cache holds: half of M, the rest is for what is read.
+  std::int64_t cached() const
+  {
+    constexpr std::int64_t most = 1 << 16; // few enough for the processor's cache
+    return std::min(this->M / 2, most);
+  }
+
+  /// Neighbouring chunks share vertices: so those of the last chunks stay.
+  void loadCached(const UniqueIds& unique, const Chunk& chunk, void* const* out)
+  {
+    if (!this->Cache)
+    {
+      this->Cache = std::make_unique<TupleCache>(this->Files, std::uint32_t(this->cached()));
+    }
+    std::vector<std::uint32_t> slots(unique.Sorted.size());      // of each number
+    std::vector<std::pair<std::int64_t, std::uint32_t>> missing; // and their slots
+    for (const auto& [id, number] : unique.Sorted)
+    {
+      const BlockCache::Place place = this->Cache->use(id);
+      slots[number] = place.Slot;
+      if (place.Miss)
+      {
+        missing.emplace_back(id, place.Slot);
+      }
+    }
+    try
+    {
+      this->fillCache(missing, chunk.Low);
+    }
+    catch (...)
+    {
+      this->Cache.reset();
+      throw;
+    }
+    gatherAll(chunk.Count, this->Files, this->Cache->tuples(), out, this->Threads,
+      [&](std::size_t i) { return std::uint64_t(slots[unique.Numbers[i]]); });
+  }
+
+  void fillCache(
+    const std::vector<std::pair<std::int64_t, std::uint32_t>>& missing, std::int64_t low)
+  {
+    this->Counts.CacheMisses += std::int64_t(missing.size());
+    if (missing.empty())
+    {
+      return;
+    }
+    const RunPlan plan(runsOfIds(missing, this->Gap), this->M - this->cached(), 1, low);
+    std::size_t run = 0;
+    auto next = missing.begin();
+    for (std::size_t group = 0; group < plan.groups(); ++group)
+    {
+      this->readGroup(plan, group);
+      for (; run < plan.Starts[group + 1]; ++run)
+      {
+        const Run& read = plan.Runs[run];
+        for (; next != missing.end() && next->first < read.First + read.Size; ++next)
+        {
+          this->Cache->fill(next->second, this->Files, this->Buffers,
+            plan.Packed[run] + std::size_t(next->first - read.First));
+        }
+      }
+    }
   }
 
   void loadMoves(const RunPlan& plan, void* const* out)
@@ -310,7 +383,7 @@ private:
       {
         const Run& run = plan.Runs[i];
         char* const to = this->Buffers.data(a) + std::size_t(plan.Packed[i]) * bytes;
-        this->Files.read(a, run.First, run.Size, to, this->Counts);
+        this->Files.read(a, run.First, run.Size, to, this->Threads, this->Counts);
       }
     }
     ++this->Counts.Passes;
@@ -323,9 +396,10 @@ private:
   int Shift = 0;    ///< a block is 2^Shift tuples
   LoadCounters Counts;
   TupleBuffers Buffers;
-  std::vector<char> WasRead;     ///< of each block, where all tuples fit
-  std::int64_t PagesRead = 0;    ///< about, and a page for each tuple read by itself
-  std::unique_ptr<Move[]> Moves; ///< of the chunk, sorted by group
+  std::vector<char> WasRead;         ///< of each block, where all tuples fit
+  std::int64_t PagesRead = 0;        ///< about, and a page for each tuple read by itself
+  std::unique_ptr<TupleCache> Cache; ///< once there was a chunk of few ids far apart
+  std::unique_ptr<Move[]> Moves;     ///< of the chunk, sorted by group
   std::size_t MoveRoom = 0;
   std::vector<std::size_t> MoveStarts; ///< of the groups, and the number of moves
 };

@@ -78,7 +78,7 @@ private:
       {
         const std::size_t at =
           std::size_t(std::int64_t(slot) * this->Block) * this->Files.tupleBytes(a);
-        this->Files.read(a, first, size, this->Buffers.data(a) + at, this->Counts);
+        this->Files.read(a, first, size, this->Buffers.data(a) + at, 1, this->Counts);
       }
     }
     catch (...)

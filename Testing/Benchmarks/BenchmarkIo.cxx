@@ -49,10 +49,6 @@ IoArguments parse(int argc, char** argv)
     {
       (word == "--repeat" ? arguments.Repeat : arguments.Threads) = toCount(argv[++i]);
     }
-    else if (i + 1 < argc && word == "--lru-cells")
-    {
-      arguments.LruCells = toCount(argv[++i]);
-    }
     else if (i + 1 < argc && (word == "--parts" || word == "--chunks"))
     {
       (word == "--parts" ? arguments.Parts : arguments.Chunks) = toCounts(argv[++i]);
@@ -95,7 +91,7 @@ int main(int argc, char** argv)
     }
     std::fputs(
       "usage: benchmarkIo loaders [--repeat R] [--threads T] [--parts P,P...] [--chunks C,C...] "
-      "[--lru-cells N] RANDOM-MESH LOCAL-MESH\n"
+      "RANDOM-MESH LOCAL-MESH\n"
       "       benchmarkIo classify [--repeat R] [--threads T] MESH\n"
       "       benchmarkIo reading [--repeat R] [--threads T] ONE.vtu PARTITIONED-MESH\n"
       "       benchmarkIo borrowing [--repeat R] LENT-MESH COPIED-MESH\n"

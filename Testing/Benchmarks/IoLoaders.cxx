@@ -98,8 +98,7 @@ public:
     double best = 0;
     for (int i = 0; i < (lru ? 1 : this->Arguments.Repeat); ++i)
     {
-      const double microseconds =
-        this->run(row, column, lru ? std::min(this->Arguments.LruCells, cells) : cells, counters);
+      const double microseconds = this->run(row, column, cells, counters);
       best = i == 0 ? microseconds : std::min(best, microseconds);
     }
     return best;
@@ -118,23 +117,30 @@ private:
     {
       options.MemoryLimit = std::uint64_t(options.M) * mesh.Points.tupleBytes();
     }
-    const std::int64_t chunk = std::min(row.Chunk, cells);
+    // A cache does not know of chunks, and is slow: of small ones some are enough.
+    constexpr std::int64_t small = 4096;
+    const std::int64_t chunk = std::min(column.Kind == Loader::Lru ? small : row.Chunk, cells);
     this->Out.resize(std::size_t(chunk * mesh.CellSize) * mesh.Points.tupleBytes());
     if (row.Cold)
     {
       dropFromCache(mesh.Points.Path);
     }
-    // Of many small chunks some, spread over the mesh; a cache needs them one after the other.
-    constexpr std::int64_t enough = 200;
+    // Of many small chunks some: runs of them, for neighbours share vertices, all over the mesh.
+    constexpr std::int64_t enough = 240;
+    constexpr std::int64_t together = 20;
     const std::int64_t chunks = (cells + chunk - 1) / chunk;
-    const std::int64_t step =
-      column.Kind == Loader::Lru ? 1 : std::max<std::int64_t>(chunks / enough, 1);
+    const std::int64_t stride = together * std::max<std::int64_t>(chunks / enough, 1);
     std::int64_t loaded = 0;
     const auto start = std::chrono::steady_clock::now();
     const auto loader = makeVertexLoader({ mesh.Points }, options);
     void* const out[] = { this->Out.data() };
-    for (std::int64_t first = 0; first < cells; first += step * chunk)
+    for (std::int64_t i = 0; i < chunks; ++i)
     {
+      if (i % stride >= together)
+      {
+        continue;
+      }
+      const std::int64_t first = i * chunk;
       const std::int64_t size = std::min(chunk, cells - first);
       loader->load(
         row.Source->Ids.data() + first * mesh.CellSize, std::size_t(size * mesh.CellSize), out);
@@ -150,12 +156,11 @@ private:
   std::vector<char> Out;
 };
 
-void printHeader(const IoArguments& arguments)
+void printHeader()
 {
-  std::printf(
-    "Microseconds a cell. 'LRU' is measured on the first %lld cells; 'auto, M' may use the "
-    "memory of M vertices, 'auto' 512 MiB.\n%-7s %-5s %6s %9s",
-    (long long)arguments.LruCells, "order", "cache", "M", "chunk");
+  std::printf("Microseconds a cell. 'auto, M' may use the memory of M vertices, 'auto' 512 MiB.\n"
+              "%-7s %-5s %6s %9s",
+    "order", "cache", "M", "chunk");
   for (const Column& column : columns)
   {
     std::printf(" %9s", column.Name);
@@ -246,14 +251,13 @@ void benchmarkLoaders(const IoArguments& arguments)
   const Mesh meshes[] = { { arguments.Meshes[0], "random" }, { arguments.Meshes[1], "local" } };
   LoaderBenchmark benchmark(arguments);
   std::vector<Row> rows;
-  printHeader(arguments);
+  printHeader();
   for (const Mesh& mesh : meshes)
   {
     for (const bool cold : { false, true })
     {
       for (const std::int64_t parts : arguments.Parts)
       {
-        // A cache does not know of chunks: it is measured once.
         std::map<const char*, std::pair<double, LoadCounters>> lru;
         for (const std::int64_t chunk : arguments.Chunks)
         {

@@ -5,6 +5,7 @@
 #include "TemporaryFolder.h"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <ostream>
 #include <random>
@@ -13,6 +14,7 @@
 namespace
 {
 
+using tipp::IOError;
 using tipp::Loader;
 using tipp::LoaderOptions;
 using tipp::makeVertexLoader;
@@ -271,6 +273,48 @@ TEST(FineLoader, FewIdsInSeveralPassesAreAllFound)
   const auto loader = makeVertexLoader(source().Arrays, options);
   expectRight(*loader, { 4999, 3, 4999, 2500, 3, 1200, 0, 3 }, 8);
   EXPECT_EQ(4, loader->counters().Passes); // 0 to 3 are read together, two at a time
+}
+
+TEST(FineLoader, KeepsFewFarIdsForTheNextChunks)
+{
+  LoaderOptions options;
+  options.Kind = Loader::Fine;
+  options.M = 100;
+  const auto loader = makeVertexLoader({ source().Arrays[0] }, options);
+  std::vector<double> xyz(3 * 3);
+  void* const out[] = { xyz.data() };
+  const Ids first{ 10, 2500, 4990 };
+  loader->load(first.data(), first.size(), out);
+  EXPECT_EQ(3, loader->counters().Reads);
+  const Ids next{ 4990, 1300, 10 };
+  loader->load(next.data(), next.size(), out);
+  EXPECT_EQ(4, loader->counters().Reads);
+  EXPECT_EQ(4990, xyz[0]);
+  EXPECT_EQ(1300, xyz[3]);
+  EXPECT_EQ(10, xyz[6]);
+}
+
+TEST(FineLoader, IsRightAgainAfterAReadThatFailed)
+{
+  const tipp::test::TemporaryFolder folder;
+  std::string content(8 * 1000, '!');
+  for (std::int64_t id = 0; id < 1000; ++id)
+  {
+    std::memcpy(&content[std::size_t(8 * id)], &id, 8);
+  }
+  const std::string path = folder.file("cut", content);
+  LoaderOptions options;
+  options.Kind = Loader::Fine;
+  options.M = 64;
+  const auto loader = makeVertexLoader({ { "ids", path, 0, Scalar::Int64, 1, 1000 } }, options);
+  std::filesystem::resize_file(path, 8 * 500);
+  std::vector<std::int64_t> got(2);
+  void* const out[] = { got.data() };
+  const Ids ids{ 10, 900 };
+  EXPECT_THROW(loader->load(ids.data(), ids.size(), out), IOError);
+  std::ofstream(path, std::ios::binary) << content;
+  loader->load(ids.data(), ids.size(), out);
+  EXPECT_EQ((std::vector<std::int64_t>{ 10, 900 }), got);
 }
 
 TEST(LruLoader, CountsAMissForEachBlockThatItReads)
