@@ -2,11 +2,14 @@
 // Direct Load: Algorithm 4 of the dissertation "Efficient Generating and Processing of Large-Scale
 // Unstructured Meshes".
 #include "Loading/Divisor.h"
+#include "Loading/GatherAll.h"
+#include "Loading/GroupedMoves.h"
 #include "Loading/Loaders.h"
-#include "Loading/ScatterRange.h"
 #include "Loading/SegmentCounts.h"
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
 
 namespace tipp
 {
@@ -18,7 +21,8 @@ class DirectLoader : public VertexLoader
 public:
   DirectLoader(ArrayFiles files, std::int64_t m, int threads)
     : Files(std::move(files))
-    , M(m)
+    // Places in the buffers are numbers of 32 bits.
+    , M(std::min<std::int64_t>(m, std::numeric_limits<std::uint32_t>::max()))
     , Threads(threads)
   {
   }
@@ -40,17 +44,26 @@ public:
       return;
     }
     const std::size_t segments = std::size_t((range.High - range.Low) / this->M) + 1;
-    const std::vector<char> active = findActive(ids, count, range.Low, segments, this->Threads,
-      [m = Divisor(std::uint64_t(this->M))](std::uint64_t id) { return m.quotient(id); });
+    const Divisor m{ std::uint64_t(this->M) };
+    const SegmentCounts counts = countSegments(ids, count, range.Low, segments, this->Threads,
+      [&m](std::uint64_t id) { return m.quotient(id); });
+    std::vector<std::uint32_t> own(segments);
+    std::iota(own.begin(), own.end(), 0U);
+    this->Moves.sort(ids, counts, own, segments, this->Threads,
+      [this, &m, low = range.Low](std::int64_t id)
+      {
+        const auto relative = std::uint64_t(id - low);
+        const std::uint64_t segment = m.quotient(relative);
+        return std::make_pair(segment, std::uint32_t(relative - segment * std::uint64_t(this->M)));
+      });
+    const std::vector<char> active = counts.active();
     for (std::size_t segment = 0; segment < active.size(); ++segment)
     {
       if (active[segment] != 0)
       {
         const std::int64_t first = range.Low + std::int64_t(segment) * this->M;
-        const std::int64_t size = std::min(this->M, range.High + 1 - first);
-        this->readSegment(first, size);
-        scatterRange({ ids, count, first, size }, this->Files, this->Buffers, out, this->Threads,
-          [](std::uint64_t id) { return id; });
+        this->readSegment(first, std::min(this->M, range.High + 1 - first));
+        this->Moves.scatter(segment, this->Files, this->Buffers, out, this->Threads);
       }
     }
   }
@@ -74,6 +87,7 @@ private:
   int Threads;
   LoadCounters Counts;
   TupleBuffers Buffers;
+  GroupedMoves Moves;
 };
 
 } // namespace

@@ -4,9 +4,10 @@
 // other are read at once, and packed up to M vertices a pass. Of vertices that are few and far
 // apart each is read by itself, and kept for the next chunks. Where all vertices fit into M, what
 // is read stays in memory from when as much has been read as there is.
+#include "Loading/GatherAll.h"
+#include "Loading/GroupedMoves.h"
 #include "Loading/Loaders.h"
 #include "Loading/Runs.h"
-#include "Loading/ScatterRange.h"
 #include "Loading/SegmentCounts.h"
 #include "Loading/TupleCache.h"
 #include "Loading/UniqueIds.h"
@@ -65,7 +66,7 @@ public:
       isSparse = active > sparse * std::int64_t(count);
       pages = isSparse ? pages : this->pagesOf(active);
     }
-    if (this->keepsAll(pages))
+    if (this->keepsAll(pages, isSparse))
     {
       this->findActiveBlocks(chunk, blocks);
       this->loadWhole(chunk, out);
@@ -130,11 +131,13 @@ private:
     return tuples * std::int64_t(this->Files.recordBytes()) / page;
   }
 
-  /// Whether what is read shall stay: if all fits, from when as much has been read as there is.
-  bool keepsAll(std::int64_t pages)
+  /// Whether what is read shall stay: if all fits, and if single tuples are wanted, from when as
+  /// much has been read as there is.
+  bool keepsAll(std::int64_t pages, bool isSparse)
   {
     this->PagesRead += pages;
-    return this->fitsWhole() && this->PagesRead > this->pagesOf(this->Files.tuples());
+    return this->fitsWhole() &&
+      (!isSparse || this->PagesRead > this->pagesOf(this->Files.tuples()));
   }
 
   /// Tuples are in the buffers where they are in the files.
@@ -190,53 +193,13 @@ private:
         { return place(std::uint64_t(ids[i] - low)); });
       return;
     }
-    this->sortMoves(chunk.Ids, chunk.Counts, groups, plan.groups(),
+    this->Moves.sort(chunk.Ids, chunk.Counts, groups, plan.groups(), this->Threads,
       [&place, &groups, shift, low = chunk.Low](std::int64_t id)
       {
         const auto relative = std::uint64_t(id - low);
         return std::make_pair(groups[relative >> shift], std::uint32_t(place(relative)));
       });
     this->loadMoves(plan, out);
-  }
-
-  /// Fills Moves, group by group: a counting sort. where(id) gives an id's group and its place in
-  /// the buffers.
-  template <typename Where>
-  void sortMoves(const std::int64_t* ids, const SegmentCounts& counts,
-    const std::vector<std::uint32_t>& groupOf, std::size_t groups, const Where& where)
-  {
-    std::vector<std::vector<std::size_t>> next(counts.shares());
-    for (std::size_t share = 0; share < counts.shares(); ++share)
-    {
-      next[share].assign(groups, 0);
-      for (std::size_t block = 0; block < groupOf.size(); ++block)
-      {
-        next[share][groupOf[block]] += counts.Shares[share][block];
-      }
-    }
-    this->MoveStarts.clear();
-    std::size_t at = 0;
-    for (std::size_t group = 0; group < groups; ++group)
-    {
-      this->MoveStarts.push_back(at);
-      for (std::vector<std::size_t>& own : next)
-      {
-        at += std::exchange(own[group], at);
-      }
-    }
-    this->MoveStarts.push_back(at);
-    this->reserveMoves(at);
-    parallelFor(std::int64_t(counts.shares()), this->Threads,
-      [&](std::int64_t share)
-      {
-        std::vector<std::size_t>& own = next[std::size_t(share)];
-        const std::size_t end = counts.ShareStarts[std::size_t(share) + 1];
-        for (std::size_t i = counts.ShareStarts[std::size_t(share)]; i < end; ++i)
-        {
-          const auto [group, source] = where(ids[i]);
-          this->Moves[own[group]++] = { source, std::uint32_t(i) };
-        }
-      });
   }
 
   /// Few ids far apart: single tuples are read.
@@ -268,19 +231,8 @@ private:
         [&](std::size_t i) { return std::uint64_t(places[unique.Numbers[i]]); });
       return;
     }
-    this->MoveStarts.assign(plan.groups() + 1, 0);
-    for (const std::uint32_t number : unique.Numbers)
-    {
-      ++this->MoveStarts[groups[number] + 1];
-    }
-    std::partial_sum(this->MoveStarts.begin(), this->MoveStarts.end(), this->MoveStarts.begin());
-    this->reserveMoves(chunk.Count);
-    std::vector<std::size_t> next = this->MoveStarts;
-    for (std::size_t i = 0; i < chunk.Count; ++i)
-    {
-      const std::uint32_t number = unique.Numbers[i];
-      this->Moves[next[groups[number]]++] = { places[number], std::uint32_t(i) };
-    }
+    this->Moves.sort(unique.Numbers, plan.groups(),
+      [&](std::uint32_t number) { return std::make_pair(groups[number], places[number]); });
     this->loadMoves(plan, out);
   }
 
@@ -353,21 +305,7 @@ private:
     for (std::size_t group = 0; group < plan.groups(); ++group)
     {
       this->readGroup(plan, group);
-      scatterMoves(this->Moves.get() + this->MoveStarts[group],
-        this->MoveStarts[group + 1] - this->MoveStarts[group], this->Files, this->Buffers, out,
-        this->Threads);
-    }
-  }
-
-  /// Without setting them: all are written before they are read.
-  void reserveMoves(std::size_t count)
-  {
-    if (count > this->MoveRoom)
-    {
-      this->MoveRoom = 0;
-      this->Moves.reset(); // not two at a time
-      this->Moves.reset(new Move[count]);
-      this->MoveRoom = count;
+      this->Moves.scatter(group, this->Files, this->Buffers, out, this->Threads);
     }
   }
 
@@ -399,9 +337,7 @@ private:
   std::vector<char> WasRead;         ///< of each block, where all tuples fit
   std::int64_t PagesRead = 0;        ///< about, and a page for each tuple read by itself
   std::unique_ptr<TupleCache> Cache; ///< once there was a chunk of few ids far apart
-  std::unique_ptr<Move[]> Moves;     ///< of the chunk, sorted by group
-  std::size_t MoveRoom = 0;
-  std::vector<std::size_t> MoveStarts; ///< of the groups, and the number of moves
+  GroupedMoves Moves;
 };
 
 } // namespace
