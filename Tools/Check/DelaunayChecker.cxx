@@ -276,6 +276,7 @@ std::vector<std::string> CheckReport::faults() const
     { this->UnusedPoints, "distinct points are in no triangle" },
     { this->TwinVertices, "vertices lie where another vertex lies" },
     { this->BadHullEdges, "boundary edges are not in one convex chain" },
+    { this->BadNeighbors, "edges have triangles that name other neighbours" },
     { this->EulerMismatch, "triangles too many (negative: too few) by Euler's count" },
   };
   std::vector<std::string> lines;

@@ -36,6 +36,7 @@ struct CheckReport
   std::int64_t UnusedPoints = 0;  ///< distinct points in no triangle
   std::int64_t TwinVertices = 0;  ///< ids beyond the first used for one place
   std::int64_t BadHullEdges = 0;  ///< boundary edges that are not in one convex closed chain
+  std::int64_t BadNeighbors = 0;  ///< edges whose triangles do not name each other, if they should
   std::int64_t EulerMismatch = 0; ///< triangles above (or, negative, below) 2 n - 2 - h
 
   bool isCorrect() const { return this->faults().empty(); }

@@ -24,7 +24,8 @@ constexpr const char* footer =
 triangles, all triangles counter-clockwise, every interior edge locally
 Delaunay, the boundary one convex chain, the number of triangles Euler's, every
 distinct point a vertex. A partitioned mesh is read piece by piece and may be
-larger than memory. Exit code 0: no fault, 1: faults or a file that cannot
+larger than memory; where it has NeighborIds, triangles must name each other
+over every edge. Exit code 0: no fault, 1: faults or a file that cannot
 be read, 2: wrong usage.
 
 Examples:

@@ -32,6 +32,7 @@ struct DelaunayArguments
   // Of a run out of core:
   std::string Memory; ///< empty: not given
   std::string Sink = "mesh";
+  bool Neighbors = false;
   bool Resume = false;
   std::string Scratch;
 

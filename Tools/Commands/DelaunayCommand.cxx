@@ -213,6 +213,9 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
       "a checksum of them")
     ->check(CLI::IsMember({ "mesh", "count" }))
     ->capture_default_str();
+  command->add_flag("--neighbors", arguments->Neighbors,
+    "With a .tipp output: adds the cell array NeighborIds, three ids a triangle: of the triangles "
+    "opposite its corners, -1 at the hull");
   command->add_flag("--resume", arguments->Resume,
     "With a .tipp output: goes on where a run that was killed, interrupted or failed has been");
   command->add_option("--scratch", arguments->Scratch,

@@ -38,6 +38,7 @@ OutOfCoreOptions makeOptions(
   options.Rows = grid.Rows;
   options.Threads = arguments.Threads;
   options.MapDuplicates = arguments.MapDuplicates;
+  options.Neighbors = arguments.Neighbors;
   options.CountOnly = arguments.Sink == "count";
   options.Resume = arguments.Resume;
   options.Scratch = arguments.Scratch;
@@ -208,6 +209,7 @@ std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments)
 {
   return !arguments.Memory.empty() ? "--memory"
     : arguments.Sink != "mesh"     ? "--sink"
+    : arguments.Neighbors          ? "--neighbors"
     : arguments.Resume             ? "--resume"
     : !arguments.Scratch.empty()   ? "--scratch"
     : arguments.Inputs.size() > 1  ? "several inputs"
