@@ -13,11 +13,13 @@ namespace
 std::vector<double> chooseCuts(const Point2* points, std::size_t count, std::size_t strips)
 {
   constexpr std::size_t sampledInStrip = 64;
-  const std::size_t stride = std::max<std::size_t>(count / (sampledInStrip * strips), 1);
+  // Multiples of the golden ratio are spread evenly and in step with no row of a lattice.
+  constexpr std::uint64_t ratio = 0x9e3779b97f4a7c15U;
   std::vector<double> sample;
-  for (std::size_t i = 0; i < count; i += stride)
+  for (std::size_t i = 0; i < sampledInStrip * strips; ++i)
   {
-    sample.push_back(points[i].x);
+    const std::uint64_t fraction = std::uint64_t(i) * ratio >> 32;
+    sample.push_back(points[std::size_t(fraction * count >> 32)].x);
   }
   std::sort(sample.begin(), sample.end());
   std::vector<double> cuts;

@@ -141,7 +141,7 @@ std::string usage()
     "  --phases              our phases' seconds and stages below each line\n"
     "Columns: 'faster' and 'same' (the set of triangles) are against the first line of an input;\n"
     "'own MB' is the peak besides what was in memory before the call; 'vertices' are those of all\n"
-    "workers for each point; 'boxes' are the partitions.\n"
+    "workers for each point; 'boxes' are the partitions, or the sweep's strips.\n"
     "inputs:";
   for (const std::string& name : test::pointSetNames())
   {

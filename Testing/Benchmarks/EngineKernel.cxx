@@ -60,14 +60,21 @@ Run runKernel(const std::vector<double>& xy)
 
 Run runSweep(const std::vector<double>& xy)
 {
-  return runOn(xy,
-    [](const Point2* points, std::size_t count, std::vector<Triangle>& triangles)
+  TriangulationStatistics statistics;
+  Run run = runOn(xy,
+    [&](const Point2* points, std::size_t count, std::vector<Triangle>& triangles)
     {
       SweepKernel kernel;
       kernel.triangulate(points, count,
         [&](const std::vector<Triangle>& final)
-        { triangles.insert(triangles.end(), final.begin(), final.end()); });
+        {
+          triangles.insert(triangles.end(), final.begin(), final.end());
+          ++statistics.Partitions;
+        });
+      statistics.WorkerVertices = std::int64_t(count + kernel.carried());
     });
+  run.Statistics = statistics;
+  return run;
 }
 
 } // namespace benchmark

@@ -49,9 +49,10 @@ struct CheckReport
 /// (x and y interleaved), by exact arithmetic and without a triangulation of its own: locally
 /// Delaunay counter-clockwise triangles that meet edge to edge within one convex chain are that
 /// (Delaunay's lemma). Ties may be broken either way unless asked for. Points that are fewer than
-/// three or collinear have no triangles.
+/// three or collinear have no triangles. `neighbors` are what triangles say of the one opposite to
+/// each corner; empty: nothing.
 CheckReport checkDelaunay(const std::vector<double>& xy, const std::vector<std::int64_t>& triangles,
-  const CheckOptions& options = {});
+  const CheckOptions& options = {}, const std::vector<std::int64_t>& neighbors = {});
 
 } // namespace tipp
 

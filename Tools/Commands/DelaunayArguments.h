@@ -28,11 +28,11 @@ struct DelaunayArguments
   std::string Groups = "proportional";
   int InitialPoints = 0;
   bool MapDuplicates = false;
+  bool Neighbors = false;
   std::string Statistics;
   // Of a run out of core:
   std::string Memory; ///< empty: not given
   std::string Sink = "mesh";
-  bool Neighbors = false;
   bool Resume = false;
   std::string Scratch;
 

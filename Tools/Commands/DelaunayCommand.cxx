@@ -202,6 +202,9 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
     "Add the point array RepresentativePointId to .vtp or .vtu: the id of the vertex that stands "
     "for a "
     "point, -1 for points that are not finite");
+  command->add_flag("--neighbors", arguments->Neighbors,
+    "Add the cell array NeighborIds to .vtp, .vtu or .tipp: three ids a triangle, those of the "
+    "triangles opposite its corners, -1 at the hull");
   command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
   command
     ->add_option("--memory", arguments->Memory,
@@ -213,9 +216,6 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
       "a checksum of them")
     ->check(CLI::IsMember({ "mesh", "count" }))
     ->capture_default_str();
-  command->add_flag("--neighbors", arguments->Neighbors,
-    "With a .tipp output: adds the cell array NeighborIds, three ids a triangle: of the triangles "
-    "opposite its corners, -1 at the hull");
   command->add_flag("--resume", arguments->Resume,
     "With a .tipp output: goes on where a run that was killed, interrupted or failed has been");
   command->add_option("--scratch", arguments->Scratch,
@@ -228,6 +228,11 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
       {
         throw CLI::ValidationError(
           "--map-duplicates", "needs an output of points, so .vtp or .vtu");
+      }
+      if (arguments->Neighbors && extensionOf(arguments->Output) == ".npy")
+      {
+        throw CLI::ValidationError(
+          "--neighbors", "needs an output of cells with data, so .vtp, .vtu or .tipp");
       }
       if (arguments->Partitions != "auto" && arguments->isForRanks())
       {

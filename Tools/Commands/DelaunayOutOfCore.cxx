@@ -209,7 +209,6 @@ std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments)
 {
   return !arguments.Memory.empty() ? "--memory"
     : arguments.Sink != "mesh"     ? "--sink"
-    : arguments.Neighbors          ? "--neighbors"
     : arguments.Resume             ? "--resume"
     : !arguments.Scratch.empty()   ? "--scratch"
     : arguments.Inputs.size() > 1  ? "several inputs"

@@ -70,11 +70,16 @@ TEST_F(TippOutOfCore, ChecksTheNeighborsThatAMeshNames)
   ASSERT_EQ(0, this->run({ "--neighbors" }).ExitCode);
   const Outcome checked = runTipp(this->Folder, { "check", this->Points, this->Mesh });
   EXPECT_EQ(0, checked.ExitCode) << checked.Out << checked.Err;
-  const std::string flat = this->Folder.path("triangles.npy");
+  const std::string flat = this->Folder.path("mesh.vtu");
+  ASSERT_EQ(
+    0, runTipp(this->Folder, { "delaunay", this->Points, "-o", flat, "--neighbors" }).ExitCode);
+  EXPECT_NE(std::string::npos, contentOf(flat).find("NeighborIds"));
+  EXPECT_EQ(0, runTipp(this->Folder, { "check", this->Points, flat }).ExitCode);
+  const std::string ids = this->Folder.path("triangles.npy");
   const Outcome refused =
-    runTipp(this->Folder, { "delaunay", this->Points, "-o", flat, "--neighbors" });
+    runTipp(this->Folder, { "delaunay", this->Points, "-o", ids, "--neighbors" });
   EXPECT_EQ(2, refused.ExitCode);
-  EXPECT_NE(std::string::npos, refused.Err.find("--neighbors: needs an output named .tipp"))
+  EXPECT_NE(std::string::npos, refused.Err.find("--neighbors: needs an output of cells"))
     << refused.Err;
 }
 
