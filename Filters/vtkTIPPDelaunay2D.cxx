@@ -5,6 +5,7 @@
 #include "Merging/TriangulateMerged.h"
 #include "Output/CellBuffers.h"
 #include "Output/Monitor.h"
+#include "Output/NeighborArray.h"
 #include "Output/RepresentativeIds.h"
 #include "Output/StatisticsTable.h"
 #include "Parallel/Stopwatch.h"
@@ -15,6 +16,7 @@
 
 #include "vtkAbstractTransform.h"
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -195,6 +197,14 @@ bool vtkTIPPDelaunay2D::Execute(vtkPointSet* input, vtkPolyData* output, vtkTabl
   {
     output->GetPointData()->AddArray(tipp::representativeIds(triangulation, numberOfPoints));
   }
+  if (this->GenerateNeighborIds && this->Alpha == 0)
+  {
+    output->GetCellData()->AddArray(tipp::neighborArray(triangulation));
+  }
+  else if (this->GenerateNeighborIds)
+  {
+    vtkWarningMacro("No NeighborIds: with Alpha not all triangles are output.");
+  }
   this->SetCells(triangulation, output);
   triangulation.Statistics.Phases.push_back({ "VTK output", watch.seconds() });
   tipp::fillStatisticsTable(triangulation, numberOfPoints, vtkIdType(triangles), statistics);
@@ -304,6 +314,7 @@ void vtkTIPPDelaunay2D::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ProjectionPlaneMode: " << modes[this->ProjectionPlaneMode] << "\n";
   os << indent << "Transform: " << (this->Transform ? "specified\n" : "none\n");
   os << indent << "GenerateRepresentativeIds: " << onOff(this->GenerateRepresentativeIds);
+  os << indent << "GenerateNeighborIds: " << onOff(this->GenerateNeighborIds);
   os << indent << "NumberOfPartitions: " << this->NumberOfPartitions[0] << " x "
      << this->NumberOfPartitions[1] << "\n";
   os << indent << "InitialPointsPerPartition: " << this->InitialPointsPerPartition << "\n";

@@ -236,6 +236,17 @@ public:
 
   ///@{
   /**
+   * Whether the output has the cell array "NeighborIds" (vtkIdTypeArray): for each corner of a
+   * triangle the id of the triangle opposite to it, or -1 at the hull. With Alpha there is none,
+   * and a warning. On several ranks it is an error. Off by default.
+   */
+  vtkSetMacro(GenerateNeighborIds, vtkTypeBool);
+  vtkGetMacro(GenerateNeighborIds, vtkTypeBool);
+  vtkBooleanMacro(GenerateNeighborIds, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
    * Columns and rows of a grid of partitions over the points. If either is 0 (the default), a
    * tiling is chosen for the points.
    */
@@ -366,6 +377,7 @@ protected:
   vtkAbstractTransform* Transform = nullptr;
   int ProjectionPlaneMode = VTK_DELAUNAY_XY_PLANE;
   vtkTypeBool GenerateRepresentativeIds = 1;
+  vtkTypeBool GenerateNeighborIds = 0;
   int NumberOfPartitions[2] = { 0, 0 };
   int InitialPointsPerPartition = 0;
   int Schedule = DYNAMIC;

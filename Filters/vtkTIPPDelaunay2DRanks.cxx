@@ -82,6 +82,7 @@ const char* vtkTIPPDelaunay2D::WhatNeedsOneRank() const
   return this->Alpha != 0                                 ? "Alpha"
     : this->Tolerance > 0                                 ? "Tolerance"
     : this->BoundingTriangulation                         ? "BoundingTriangulation"
+    : this->GenerateNeighborIds                           ? "GenerateNeighborIds"
     : this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE ? "the best fitting plane"
                                                           : nullptr;
 }

@@ -160,6 +160,7 @@ tipp::OutOfCoreOptions vtkTIPPOutOfCoreDelaunay2D::Options() const
   options.Columns = this->NumberOfPartitions[0];
   options.Rows = this->NumberOfPartitions[1];
   options.MapDuplicates = this->GenerateRepresentativeIds != 0;
+  options.Neighbors = this->GenerateNeighborIds != 0;
   options.CountOnly = this->CountOnly != 0;
   options.Resume = this->Resume != 0;
   options.Scratch = textOf(this->ScratchFolder);
@@ -197,6 +198,7 @@ void vtkTIPPOutOfCoreDelaunay2D::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfPartitions: " << this->NumberOfPartitions[0] << " x "
      << this->NumberOfPartitions[1] << "\n";
   os << indent << "GenerateRepresentativeIds: " << onOff(this->GenerateRepresentativeIds);
+  os << indent << "GenerateNeighborIds: " << onOff(this->GenerateNeighborIds);
   os << indent << "CountOnly: " << onOff(this->CountOnly);
   os << indent << "Resume: " << onOff(this->Resume);
   print("ScratchFolder", this->ScratchFolder);

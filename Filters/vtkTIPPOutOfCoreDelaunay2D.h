@@ -139,6 +139,16 @@ public:
 
   ///@{
   /**
+   * Whether the mesh has the cell array "NeighborIds": for each corner of a triangle the global id
+   * of the triangle opposite to it, or -1 at the hull. Off by default.
+   */
+  vtkSetMacro(GenerateNeighborIds, vtkTypeBool);
+  vtkGetMacro(GenerateNeighborIds, vtkTypeBool);
+  vtkBooleanMacro(GenerateNeighborIds, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
    * Whether triangles are counted and summed up (TriangleSum: a checksum of them, whatever their
    * order) instead of written. Off by default.
    */
@@ -202,6 +212,7 @@ protected:
   vtkTypeInt64 MemoryLimit = vtkTypeInt64(1) << 31;
   int NumberOfPartitions[2] = { 0, 0 };
   vtkTypeBool GenerateRepresentativeIds = 0;
+  vtkTypeBool GenerateNeighborIds = 0;
   vtkTypeBool CountOnly = 0;
   vtkTypeBool Resume = 0;
   char* ScratchFolder = nullptr;

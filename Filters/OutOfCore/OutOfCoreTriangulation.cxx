@@ -8,7 +8,9 @@
 #include "OutOfCore/PieceRun.h"
 #include "OutOfCore/PreparedRun.h"
 #include "OutOfCore/ScratchFolder.h"
+#include "Parallel/ForChunks.h"
 #include "Parallel/Stopwatch.h"
+#include "Partitioned/NeighborIds.h"
 
 #include <omp.h>
 
@@ -191,10 +193,11 @@ private:
   std::string identity() const
   {
     const OutOfCoreOptions& options = this->Options;
-    return "TIPP out of core 3\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
+    return "TIPP out of core 4\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
       std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
       std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
-      (options.CountOnly ? " counted" : "") + "\n" + options.Scratch;
+      (options.Neighbors ? " linked" : "") + (options.CountOnly ? " counted" : "") + "\n" +
+      options.Scratch;
   }
 
   void savePlan()
@@ -214,7 +217,8 @@ private:
     InputSurvey& survey = this->Prepared.Survey;
     survey = surveyInput(this->Input, this->Memory->BlockPoints, this->Memory->SamplePoints,
       this->Threads, [this](std::int64_t) { this->report(0); });
-    this->Prepared.describeColumns(this->Input.columns(), this->Options.MapDuplicates);
+    this->Prepared.describeColumns(
+      this->Input.columns(), this->Options.MapDuplicates, this->Options.Neighbors);
     const std::size_t words = this->Prepared.Rows.Words;
     this->Memory = std::make_unique<MemoryPlan>(this->Options, words);
     if (survey.Points == survey.Rejected)
@@ -242,9 +246,10 @@ private:
   {
     const auto points =
       std::uint64_t(this->Prepared.Survey.Points - this->Prepared.Survey.Rejected);
+    const std::uint64_t cell = 12 + 4 + 1 + 8 + (this->Options.Neighbors ? 24 : 0);
     // Borders and ids of cells included; two triangles a point at most.
-    const std::uint64_t stored = points *
-      (24 + 8 + 1 + 8 * this->Prepared.Mesh.Arrays.size() + 2 * (12 + 4 + 1 + 8)) / 50 * 51;
+    const std::uint64_t stored =
+      points * (24 + 8 + 1 + 8 * this->Prepared.Rows.Attributes.size() + 2 * cell) / 50 * 51;
     this->Scratch.requireSpace(
       this->Path, this->Options.CountOnly ? 0 : stored, points * 8 * this->Prepared.Rows.Words);
   }
@@ -324,7 +329,7 @@ private:
     this->recordWhole();
   }
 
-  void publish()
+  void numberCells()
   {
     PartitionedMesh& mesh = this->Prepared.Mesh;
     for (std::size_t number = 0; number < this->Finished.size(); ++number)
@@ -332,13 +337,46 @@ private:
       FinishedPiece& piece = this->Finished[number];
       writeCellIds(mesh, number, mesh.Cells, piece);
       mesh.Cells += piece.Summary.Cells;
-      this->report(0.9 + 0.05 * double(number) / double(this->Finished.size()));
+      this->report(0.9 + 0.02 * double(number) / double(this->Finished.size()));
     }
     this->Statistics.Triangles = mesh.Cells;
+  }
+
+  /// By as many threads as there is memory for.
+  void linkCells()
+  {
+    std::uint64_t most = 1;
+    for (const FinishedPiece& piece : this->Finished)
+    {
+      most = std::max(most, NeighborWriter::bytesFor(piece));
+    }
+    const auto threads = int(
+      std::clamp<std::uint64_t>(this->Memory->LoadedBytes / most, 1, std::uint64_t(this->Threads)));
+    NeighborWriter neighbors(this->Prepared.Mesh, this->Finished);
+    forChunks(
+      std::int64_t(this->Finished.size()), 1, threads,
+      [this](double done)
+      {
+        this->report(0.92 + 0.06 * done);
+        return true;
+      },
+      [&](std::int64_t number, std::int64_t, int) { neighbors.add(std::size_t(number)); });
+    neighbors.finish();
+  }
+
+  void publish()
+  {
+    PartitionedMesh& mesh = this->Prepared.Mesh;
+    this->numberCells();
+    if (this->Options.Neighbors)
+    {
+      this->linkCells();
+      this->endPhase("link");
+    }
     for (std::size_t number = 0; number < this->Finished.size(); ++number)
     {
       syncToDisk(mesh.piecePath(number));
-      this->report(0.95 + 0.05 * double(number) / double(this->Finished.size()));
+      this->report(0.98 + 0.02 * double(number) / double(this->Finished.size()));
     }
     this->Statistics.MeshBytes = publishPieces(mesh, this->Finished);
     this->Fingerprint = fingerprintOf(mesh.Path);

@@ -25,6 +25,8 @@ struct OutOfCoreOptions
   std::int64_t PartitionPoints = 0; ///< about so many points for a worker at once; 0: chosen
   /// Adds the point array RepresentativePointId.
   bool MapDuplicates = false;
+  /// Adds the cell array NeighborIds.
+  bool Neighbors = false;
   /// Counts and sums up the triangles instead of writing them.
   bool CountOnly = false;
   /// Goes on where a run that was killed or failed has been, if there is one for this path; else

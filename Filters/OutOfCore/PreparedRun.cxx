@@ -2,6 +2,7 @@
 #include "OutOfCore/PreparedRun.h"
 
 #include "OutOfCore/Checkpoint.h"
+#include "Partitioned/NeighborIds.h"
 
 namespace tipp
 {
@@ -23,10 +24,12 @@ void PreparedRun::exchangeInput(Archive& archive)
   archive(this->Rows.Words);
   archive(this->Rows.Z);
   archive(this->Rows.Attributes);
+  auto hasNeighbors = std::uint8_t(findNeighborIds(this->Mesh) >= 0);
+  archive(hasNeighbors);
   std::vector<std::string> names;
-  for (const StoredArray& array : this->Mesh.Arrays)
+  for (std::size_t i = 0; i < this->Rows.Attributes.size() && i < this->Mesh.Arrays.size(); ++i)
   {
-    names.push_back(array.Name);
+    names.push_back(this->Mesh.Arrays[i].Name);
   }
   archive(names);
   this->Mesh.Arrays.clear();
@@ -34,6 +37,10 @@ void PreparedRun::exchangeInput(Archive& archive)
   {
     const bool isId = this->Rows.Attributes.at(i) < 0;
     this->Mesh.Arrays.push_back({ names[i], true, isId ? Scalar::Int64 : Scalar::Float64, 1, -1 });
+  }
+  if (hasNeighbors != 0)
+  {
+    this->Mesh.Arrays.push_back(neighborIdsArray);
   }
 }
 
@@ -52,7 +59,8 @@ void PreparedRun::load(LoadArchive& archive, const std::string& points)
   this->describeMesh();
 }
 
-void PreparedRun::describeColumns(const std::vector<std::string>& columns, bool mapDuplicates)
+void PreparedRun::describeColumns(
+  const std::vector<std::string>& columns, bool mapDuplicates, bool hasNeighbors)
 {
   this->Rows.Words = 3 + columns.size();
   for (std::size_t i = 0; i < columns.size(); ++i)
@@ -70,6 +78,10 @@ void PreparedRun::describeColumns(const std::vector<std::string>& columns, bool 
   {
     this->Mesh.Arrays.push_back({ representativeName, true, Scalar::Int64, 1, -1 });
     this->Rows.Attributes.push_back(-1);
+  }
+  if (hasNeighbors)
+  {
+    this->Mesh.Arrays.push_back(neighborIdsArray);
   }
 }
 

@@ -21,7 +21,8 @@ class VTKTIPPFILTERS_EXPORT PreparedRun
 {
 public:
   /// Columns of the input; the mesh's arrays.
-  void describeColumns(const std::vector<std::string>& columns, bool mapDuplicates);
+  void describeColumns(
+    const std::vector<std::string>& columns, bool mapDuplicates, bool hasNeighbors);
   /// After the plan.
   void describeMesh();
 

@@ -2,8 +2,10 @@
 #include "Meshes/MeshDataSet.h"
 
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -41,8 +43,18 @@ const PointTable::Column* findZ(const PointTable& points)
   return nullptr;
 }
 
-void setPoints(
-  const PointTable& table, const std::vector<std::int64_t>& representatives, vtkPointSet* data)
+void setIds(vtkFieldData* data, const char* name, const std::vector<std::int64_t>* ids, int each)
+{
+  if (ids && !ids->empty())
+  {
+    const auto array = borrow<vtkTypeInt64Array>(ids->data(), ids->size());
+    array->SetNumberOfComponents(each);
+    array->SetName(name);
+    data->AddArray(array);
+  }
+}
+
+void setPoints(const PointTable& table, vtkPointSet* data)
 {
   const std::size_t count = table.size();
   const PointTable::Column* const z = findZ(table);
@@ -68,12 +80,12 @@ void setPoints(
       data->GetPointData()->AddArray(array);
     }
   }
-  if (!representatives.empty())
-  {
-    const auto array = borrow<vtkTypeInt64Array>(representatives.data(), representatives.size());
-    array->SetName("RepresentativePointId");
-    data->GetPointData()->AddArray(array);
-  }
+}
+
+void setData(const MeshData& more, vtkPointSet* data)
+{
+  setIds(data->GetPointData(), "RepresentativePointId", more.Representatives, 1);
+  setIds(data->GetCellData(), "NeighborIds", more.Neighbors, 3);
 }
 
 template <typename Array, typename Id>
@@ -115,21 +127,23 @@ vtkSmartPointer<vtkCellArray> makeCells(TrianglesView triangles)
 
 } // namespace
 
-vtkSmartPointer<vtkPolyData> makePolyData(const PointTable& points, TrianglesView triangles,
-  const std::vector<std::int64_t>& representatives)
+vtkSmartPointer<vtkPolyData> makePolyData(
+  const PointTable& points, TrianglesView triangles, const MeshData& more)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
-  setPoints(points, representatives, data);
+  setPoints(points, data);
   data->SetPolys(makeCells(triangles));
+  setData(more, data);
   return data;
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> makeUnstructuredGrid(const PointTable& points,
-  TrianglesView triangles, const std::vector<std::int64_t>& representatives)
+vtkSmartPointer<vtkUnstructuredGrid> makeUnstructuredGrid(
+  const PointTable& points, TrianglesView triangles, const MeshData& more)
 {
   auto data = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  setPoints(points, representatives, data);
+  setPoints(points, data);
   data->SetCells(VTK_TRIANGLE, makeCells(triangles));
+  setData(more, data);
   return data;
 }
 

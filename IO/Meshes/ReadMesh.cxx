@@ -8,10 +8,12 @@
 #include "Points/DataSetPoints.h"
 #include "Vtk/ReadDataSet.h"
 
+#include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataSet.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
+#include "vtkTypeInt64Array.h"
 
 #include <algorithm>
 #include <utility>
@@ -77,6 +79,12 @@ TriangleMesh readVtkMesh(const std::string& path)
     mesh.Triangles.insert(mesh.Triangles.end(), ids->begin(), ids->end());
   }
   mesh.XY = std::move(pointsOf(data).XY);
+  auto* const neighbors =
+    vtkTypeInt64Array::FastDownCast(data->GetCellData()->GetArray("NeighborIds"));
+  if (neighbors && neighbors->GetNumberOfComponents() == 3)
+  {
+    mesh.Neighbors.assign(neighbors->Begin(), neighbors->End());
+  }
   return mesh;
 }
 
@@ -92,7 +100,7 @@ TriangleMesh readMesh(const std::string& path)
   if (extension == ".14" || extension == ".grd")
   {
     AdcircGrid grid = readAdcircGrid(path);
-    return { std::move(grid.Triangles), std::move(grid.XY) };
+    return { std::move(grid.Triangles), std::move(grid.XY), {} };
   }
   if (isVtkFile(path))
   {

@@ -4,6 +4,7 @@
 #include "Files/Extension.h"
 #include "Files/IOError.h"
 #include "Files/PendingFile.h"
+#include "Meshes/FindNeighbors.h"
 #include "Meshes/MeshDataSet.h"
 #include "Npy/NpyFile.h"
 #include "Vtk/ErrorKeeper.h"
@@ -73,6 +74,14 @@ bool writeXml(const std::string& path, vtkDataSet* data, const MeshOptions& opti
   return true;
 }
 
+std::vector<std::int64_t> neighborsOf(TrianglesView triangles)
+{
+  std::vector<std::int64_t> neighbors(3 * triangles.size());
+  triangles.ids32() ? findNeighbors(triangles.ids32(), triangles.size(), neighbors.data())
+                    : findNeighbors(triangles.ids64(), triangles.size(), neighbors.data());
+  return neighbors;
+}
+
 } // namespace
 
 bool isMeshFile(const std::string& path)
@@ -89,14 +98,17 @@ bool writeMesh(const std::string& path, const PointTable& points, TrianglesView 
   {
     return writeNpy(path, triangles, options);
   }
+  const std::vector<std::int64_t> neighbors =
+    options.Neighbors ? neighborsOf(triangles) : std::vector<std::int64_t>();
+  const MeshData more{ &options.Representatives, &neighbors };
   if (extension == ".vtp")
   {
-    const auto data = makePolyData(points, triangles, options.Representatives);
+    const auto data = makePolyData(points, triangles, more);
     return writeXml<vtkXMLPolyDataWriter>(path, data, options);
   }
   if (extension == ".vtu")
   {
-    const auto data = makeUnstructuredGrid(points, triangles, options.Representatives);
+    const auto data = makeUnstructuredGrid(points, triangles, more);
     return writeXml<vtkXMLUnstructuredGridWriter>(path, data, options);
   }
   throw IOError(path, "has no extension that tells a kind of mesh file; use .npy, .vtp or .vtu.");

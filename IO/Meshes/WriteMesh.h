@@ -18,6 +18,9 @@ struct MeshOptions
 {
   /// One id a point, written as the point array "RepresentativePointId"; empty: no such array.
   std::vector<std::int64_t> Representatives;
+  /// Adds the cell array "NeighborIds": for each corner of a triangle the place of the triangle
+  /// opposite to it among all, or -1.
+  bool Neighbors = false;
   /// Asked when all is written under a temporary name; true drops it.
   std::function<bool()> Aborted;
 };

@@ -166,7 +166,7 @@ void GrowingPiece::writeInteriorArray(const OutputFile& file, const PieceArray& 
   std::uint64_t offset, const PointRowLayout& rows, const Interior& interior,
   const std::vector<std::int32_t>& numbers, std::vector<std::uint64_t>& checksums) const
 {
-  if (array.Role == PieceRole::CellIds)
+  if (holdsCellIds(array))
   {
     checksums.push_back(0); // when they are known
     return;

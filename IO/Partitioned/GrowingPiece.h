@@ -99,7 +99,7 @@ public:
   const double* rimRow(std::int64_t place, const PointRowLayout& rows) const;
 
   /// The second go, when no triangle will be added any more. All of the file is there but the
-  /// global ids of cells. May be done again. Throws IOError.
+  /// global ids of cells and of their neighbours. May be done again. Throws IOError.
   FinishedPiece writeBorder(
     const PartitionedMesh& mesh, std::size_t number, const PointRowLayout& rows) const;
 
@@ -177,7 +177,8 @@ private:
 };
 
 /// Writes the global ids of a finished piece's cells, which follow each other from `first` on, and
-/// completes its file and table. May be done again. Throws IOError.
+/// completes its file and table, but for a NeighborWriter's array. May be done again. Throws
+/// IOError.
 VTKTIPPIO_EXPORT void writeCellIds(
   const PartitionedMesh& mesh, std::size_t number, std::int64_t first, FinishedPiece& piece);
 

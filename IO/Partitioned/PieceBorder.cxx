@@ -218,9 +218,9 @@ void GrowingPiece::enlargeFile(
   for (std::size_t a = 0; a < to.Arrays.size(); ++a)
   {
     const PieceArray& array = to.Arrays[a];
-    const std::int64_t tuples = array.Role == PieceRole::CellIds ? 0
-      : array.ofPoints()                                         ? this->InteriorPoints
-                                                                 : this->InteriorCells;
+    const std::int64_t tuples = holdsCellIds(array) ? 0
+      : array.ofPoints()                            ? this->InteriorPoints
+                                                    : this->InteriorCells;
     copyBytes(
       source, from.Offsets[a], target, to.Offsets[a], std::uint64_t(tuples) * array.tupleBytes());
   }
@@ -274,7 +274,7 @@ FinishedPiece GrowingPiece::writeBorder(
       std::uint64_t(array.ofPoints() ? this->InteriorPoints : this->InteriorCells);
     const std::uint64_t offset = layout.Offsets[a] + interior * tuple;
     std::vector<std::uint64_t> checksums{ this->Checksums[a] };
-    if (array.Role != PieceRole::CellIds)
+    if (!holdsCellIds(array))
     {
       const std::vector<std::uint64_t> more = array.ofPoints()
         ? writeGroups(file, offset, tuple, border.Points,

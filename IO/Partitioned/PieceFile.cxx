@@ -6,6 +6,7 @@
 #include "Partitioned/IdRange.h"
 
 #include <string>
+#include <utility>
 
 namespace tipp
 {
@@ -25,17 +26,23 @@ std::vector<std::int64_t> startsOf(const std::vector<std::int64_t>& counts)
 } // namespace
 
 PieceFile::PieceFile(const PartitionedMesh& mesh, std::size_t number, ReadCounters& counters)
-  : Summary(mesh.Pieces[number])
+  : PieceFile(mesh, number, mesh.Pieces[number], readPieceTable(mesh, number), counters)
+{
+  ++this->Counters.Reads;
+  this->Counters.Bytes += std::int64_t(this->Summary.TableBytes);
+}
+
+PieceFile::PieceFile(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& summary,
+  PieceTable table, ReadCounters& counters)
+  : Summary(summary)
   , Number(number)
   , File(mesh.piecePath(number))
-  , Table(readPieceTable(mesh, number))
+  , Table(std::move(table))
   , Arrays(pieceArrays(mesh, this->Summary))
   , PointParts(startsOf(this->Table.parts(mesh, this->Summary, true)))
   , CellParts(startsOf(this->Table.parts(mesh, this->Summary, false)))
   , Counters(counters)
 {
-  ++this->Counters.Reads;
-  this->Counters.Bytes += std::int64_t(this->Summary.TableBytes);
   this->checkHeader();
 }
 

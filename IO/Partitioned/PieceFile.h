@@ -27,6 +27,10 @@ class PieceFile
 public:
   /// Reads its table and checks the file's header; throws IOError.
   PieceFile(const PartitionedMesh& mesh, std::size_t number, ReadCounters& counters);
+  /// Of a mesh that is not published: with the summary, which must stay, and table that it will
+  /// have.
+  PieceFile(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& summary,
+    PieceTable table, ReadCounters& counters);
 
   const PieceSummary& summary() const { return this->Summary; }
   const PieceTable& table() const { return this->Table; }

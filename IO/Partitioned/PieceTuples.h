@@ -10,6 +10,13 @@
 namespace tipp
 {
 
+/// Whether an array of a growing piece is of global ids of cells, which are known last: there are
+/// no data of cells but their neighbours' ids.
+inline bool holdsCellIds(const PieceArray& array)
+{
+  return array.Role == PieceRole::CellIds || array.Role == PieceRole::CellData;
+}
+
 /// What an array of points holds of a row.
 void copyPiecePoint(const PieceArray& array, const double* row, const PointRowLayout& rows,
   bool isGhost, std::int64_t representative, char* to);

@@ -42,9 +42,11 @@ std::vector<std::string> toPeers(const std::string& text)
   const std::vector<std::string> peers = text == "none" ? std::vector<std::string>{} : split(text);
   for (const std::string& peer : peers)
   {
-    if (peer != "cgal" && peer != "filter" && peer != "vtk")
+    const std::vector<std::string> known = { "cgal", "kernel", "sweep", "filter", "vtk" };
+    if (std::find(known.begin(), known.end(), peer) == known.end())
     {
-      throw std::invalid_argument("no peer is called '" + peer + "'; there are cgal, filter, vtk");
+      throw std::invalid_argument(
+        "no peer is called '" + peer + "'; there are cgal, kernel, sweep, filter, vtk");
     }
   }
   return peers;
@@ -130,8 +132,8 @@ std::string usage()
     "  --count N             points of an input that names no count (1000000)\n"
     "  --threads 1,2         our own runs\n"
     "  --repeat R            runs of each; the fastest counts (3)\n"
-    "  --peers P,P...        cgal, filter (vtkTIPPDelaunay2D), vtk "
-    "(vtkDelaunay2D), or none (cgal)\n"
+    "  --peers P,P...        cgal, kernel (one for all points), sweep (the kernel along a line),\n"
+    "                        filter (vtkTIPPDelaunay2D), vtk (vtkDelaunay2D), or none (cgal)\n"
     "  --partitions CxR      or auto (auto)\n"
     "  --initial-points N    per partition (chosen)\n"
     "  --schedule S          stages or dynamic (dynamic)\n"
@@ -139,7 +141,7 @@ std::string usage()
     "  --phases              our phases' seconds and stages below each line\n"
     "Columns: 'faster' and 'same' (the set of triangles) are against the first line of an input;\n"
     "'own MB' is the peak besides what was in memory before the call; 'vertices' are those of all\n"
-    "workers for each point; 'boxes' are the partitions.\n"
+    "workers for each point; 'boxes' are the partitions, or the sweep's strips.\n"
     "inputs:";
   for (const std::string& name : test::pointSetNames())
   {

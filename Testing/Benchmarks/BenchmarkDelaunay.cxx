@@ -45,6 +45,14 @@ std::vector<Contender> contenders(const Arguments& arguments, const std::vector<
   {
     all.push_back({ "CGAL, 1 thread", [&] { return runCgal(xy); }, {} });
   }
+  if (arguments.hasPeer("kernel"))
+  {
+    all.push_back({ "kernel, 1 thread", [&] { return runKernel(xy); }, {} });
+  }
+  if (arguments.hasPeer("sweep"))
+  {
+    all.push_back({ "sweep, 1 thread", [&] { return runSweep(xy); }, {} });
+  }
   for (const int threads : arguments.Threads)
   {
     tipp::TriangulationOptions options = arguments.Options;

@@ -37,6 +37,10 @@ private:
 Run runCore(const std::vector<double>& xy, const TriangulationOptions& options);
 /// vtkTIPPDelaunay2D from a vtkPolyData to a vtkPolyData.
 Run runFilter(const std::vector<double>& xy, const TriangulationOptions& options);
+/// One DelaunayKernel for all points, one thread.
+Run runKernel(const std::vector<double>& xy);
+/// One SweepKernel for all points, one thread.
+Run runSweep(const std::vector<double>& xy);
 /// CGAL's Delaunay_triangulation_2, EPICK, range insert, one thread, without ids.
 Run runCgal(const std::vector<double>& xy);
 /// vtkDelaunay2D with its defaults.

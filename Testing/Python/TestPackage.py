@@ -272,6 +272,15 @@ class Files(unittest.TestCase):
         self.assertEqual(mesh.GetPointData().HasArray("height"), 1)
         self.assertEqual(mesh.GetPointData().HasArray("RepresentativePointId"), 1)
 
+    def test_neighbors_name_each_other(self):
+        tipp.delaunay_file(self.input, self.output, memory="1M", neighbors=True)
+        mesh = tipp.read(self.output)
+        cells = tipp.as_array(mesh, "GlobalCellIds")
+        neighbors = np.empty((len(cells), 3), dtype=np.int64)
+        neighbors[cells] = tipp.as_array(mesh, "NeighborIds")
+        cell, corner = np.nonzero(neighbors >= 0)
+        self.assertTrue((neighbors[neighbors[cell, corner]] == cell[:, None]).any(axis=1).all())
+
     def test_counted_triangles_are_not_written(self):
         made = tipp.delaunay_file(self.input, self.output, count_only=True, threads=1)
         self.assertEqual(made["triangles"], len(tipp.delaunay(self.points)))

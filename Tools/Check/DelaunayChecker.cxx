@@ -24,9 +24,10 @@ class Checker
 {
 public:
   Checker(const std::vector<double>& xy, const std::vector<std::int64_t>& triangles,
-    const CheckOptions& options)
+    const CheckOptions& options, const std::vector<std::int64_t>& neighbors)
     : XY(xy)
     , Ids(triangles)
+    , Neighbors(neighbors)
     , Options(options)
   {
   }
@@ -203,6 +204,7 @@ private:
     if (count == 1)
     {
       ++this->Report.BoundaryEdges;
+      this->Report.BadNeighbors += this->isNeighbor(h, -1) ? 0 : 1;
       this->Boundary.push_back({ this->from(h), this->to(h) });
       return;
     }
@@ -212,10 +214,19 @@ private:
       ++this->Report.BadEdges;
       return;
     }
+    const bool isMutual =
+      this->isNeighbor(h, std::int64_t(twin / 3)) && this->isNeighbor(twin, std::int64_t(h / 3));
+    this->Report.BadNeighbors += isMutual ? 0 : 1;
     if (this->States[h / 3] == State::Sound && this->States[twin / 3] == State::Sound)
     {
       this->checkCircle(h, this->opposite(twin));
     }
+  }
+
+  /// Whether the half-edge's triangle says so, or nothing.
+  bool isNeighbor(std::size_t h, std::int64_t triangle) const
+  {
+    return this->Neighbors.empty() || this->Neighbors[h % 3 == 0 ? h + 2 : h - 1] == triangle;
   }
 
   void checkCircle(std::size_t h, std::int64_t beyond)
@@ -249,6 +260,7 @@ private:
 
   const std::vector<double>& XY;
   const std::vector<std::int64_t>& Ids;
+  const std::vector<std::int64_t>& Neighbors;
   const CheckOptions Options;
   CheckReport Report;
   std::vector<State> States;
@@ -276,6 +288,7 @@ std::vector<std::string> CheckReport::faults() const
     { this->UnusedPoints, "distinct points are in no triangle" },
     { this->TwinVertices, "vertices lie where another vertex lies" },
     { this->BadHullEdges, "boundary edges are not in one convex chain" },
+    { this->BadNeighbors, "edges have triangles that name other neighbours" },
     { this->EulerMismatch, "triangles too many (negative: too few) by Euler's count" },
   };
   std::vector<std::string> lines;
@@ -290,14 +303,14 @@ std::vector<std::string> CheckReport::faults() const
 }
 
 CheckReport checkDelaunay(const std::vector<double>& xy, const std::vector<std::int64_t>& triangles,
-  const CheckOptions& options)
+  const CheckOptions& options, const std::vector<std::int64_t>& neighbors)
 {
   constexpr std::size_t limit = std::numeric_limits<std::uint32_t>::max();
   if (xy.size() / 2 < limit && triangles.size() < limit)
   {
-    return Checker<std::uint32_t>(xy, triangles, options).run();
+    return Checker<std::uint32_t>(xy, triangles, options, neighbors).run();
   }
-  return Checker<std::uint64_t>(xy, triangles, options).run();
+  return Checker<std::uint64_t>(xy, triangles, options, neighbors).run();
 }
 
 } // namespace tipp

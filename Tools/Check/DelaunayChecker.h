@@ -36,6 +36,7 @@ struct CheckReport
   std::int64_t UnusedPoints = 0;  ///< distinct points in no triangle
   std::int64_t TwinVertices = 0;  ///< ids beyond the first used for one place
   std::int64_t BadHullEdges = 0;  ///< boundary edges that are not in one convex closed chain
+  std::int64_t BadNeighbors = 0;  ///< edges whose triangles do not name each other, if they should
   std::int64_t EulerMismatch = 0; ///< triangles above (or, negative, below) 2 n - 2 - h
 
   bool isCorrect() const { return this->faults().empty(); }
@@ -48,9 +49,10 @@ struct CheckReport
 /// (x and y interleaved), by exact arithmetic and without a triangulation of its own: locally
 /// Delaunay counter-clockwise triangles that meet edge to edge within one convex chain are that
 /// (Delaunay's lemma). Ties may be broken either way unless asked for. Points that are fewer than
-/// three or collinear have no triangles.
+/// three or collinear have no triangles. `neighbors` are what triangles say of the one opposite to
+/// each corner; empty: nothing.
 CheckReport checkDelaunay(const std::vector<double>& xy, const std::vector<std::int64_t>& triangles,
-  const CheckOptions& options = {});
+  const CheckOptions& options = {}, const std::vector<std::int64_t>& neighbors = {});
 
 } // namespace tipp
 

@@ -25,6 +25,8 @@ bool isSame(Position a, Position b)
   return a.x == b.x && a.y == b.y;
 }
 
+constexpr std::int64_t none = -1;
+
 std::uint64_t mix(std::uint64_t x) // the finaliser of splitmix64
 {
   x += 0x9e3779b97f4a7c15U;
@@ -128,12 +130,15 @@ PieceChecker::Edge PieceChecker::edgeOf(const CheckedPiece& piece, std::size_t h
 {
   const std::int32_t from = piece.Triangles[h];
   const std::int32_t to = piece.Triangles[h % 3 == 2 ? h - 2 : h + 1];
-  const std::int32_t off = piece.Triangles[h % 3 == 0 ? h + 2 : h - 1];
+  const std::size_t opposite = h % 3 == 0 ? h + 2 : h - 1;
+  const std::int32_t off = piece.Triangles[opposite];
   const bool isReversed = piece.Ids[std::size_t(from)] > piece.Ids[std::size_t(to)];
   const std::int32_t low = isReversed ? to : from;
   const std::int32_t high = isReversed ? from : to;
   return { { piece.Ids[std::size_t(low)], piece.Ids[std::size_t(high)] }, isReversed,
-    { at(piece, low), at(piece, high) }, at(piece, off), this->IsSound[h / 3] != 0 };
+    { at(piece, low), at(piece, high) }, at(piece, off), this->IsSound[h / 3] != 0,
+    piece.Neighbors.empty() ? none : piece.CellIds[h / 3],
+    piece.Neighbors.empty() ? none : piece.Neighbors[opposite] };
 }
 
 /// A counting sort by the lower point, then a sort of each point's few edges.
@@ -203,6 +208,7 @@ void PieceChecker::checkPair(const Edge& a, const Edge& b)
     ++this->Report.BadEdges;
     return;
   }
+  this->Report.BadNeighbors += a.Neighbor != b.Cell || b.Neighbor != a.Cell ? 1 : 0;
   if (!a.IsSound || !b.IsSound)
   {
     return;
@@ -238,6 +244,7 @@ void PieceChecker::matchEdges()
     }
     else if (last - first == 1)
     {
+      this->Report.BadNeighbors += this->Open[first].Neighbor != none ? 1 : 0;
       this->Open[hull++] = this->Open[first];
     }
     else

@@ -20,6 +20,8 @@ struct CheckedPiece
   std::vector<bool> IsOwn;             ///< of the points: the piece's, or another's
   std::vector<std::int32_t> Triangles; ///< three numbers of points each
   std::int64_t OwnTriangles = 0;       ///< the first so many
+  std::vector<std::int64_t> CellIds;   ///< of own triangles in the whole mesh
+  std::vector<std::int64_t> Neighbors; ///< what these say: opposite each corner; empty: nothing
 };
 
 /// checkDelaunay() of a mesh that comes piece by piece: in memory are one piece and the edges
@@ -50,6 +52,8 @@ private:
     std::array<check::Position, 2> Ends;
     check::Position Opposite;
     bool IsSound; ///< a triangle that turns counter-clockwise
+    std::int64_t Cell;
+    std::int64_t Neighbor; ///< as the triangle says
   };
 
   void checkTriangles(const CheckedPiece& piece);

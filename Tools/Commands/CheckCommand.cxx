@@ -23,8 +23,9 @@ constexpr const char* footer =
   R"(Exact, and without a triangulation of its own: every edge in at most two
 triangles, all triangles counter-clockwise, every interior edge locally
 Delaunay, the boundary one convex chain, the number of triangles Euler's, every
-distinct point a vertex. A partitioned mesh is read piece by piece and may be
-larger than memory. Exit code 0: no fault, 1: faults or a file that cannot
+distinct point a vertex. Where the mesh has the cell array NeighborIds, the two
+triangles of every edge name each other. A partitioned mesh is read piece by
+piece and may be larger than memory. Exit code 0: no fault, 1: faults or a file that cannot
 be read, 2: wrong usage.
 
 Examples:
@@ -71,7 +72,7 @@ CheckReport check(const CheckArguments& arguments)
   TriangleMesh mesh = readMesh(arguments.Mesh);
   requireSamePoints(arguments, points.XY, mesh.XY);
   mesh.XY = {};
-  return checkDelaunay(points.XY, mesh.Triangles, arguments.Options);
+  return checkDelaunay(points.XY, mesh.Triangles, arguments.Options, mesh.Neighbors);
 }
 
 int runCheck(const CheckArguments& arguments)

@@ -4,6 +4,7 @@
 #include "Check/PieceChecker.h"
 #include "Console/ProgressBar.h"
 #include "Files/IOError.h"
+#include "Partitioned/NeighborIds.h"
 #include "Partitioned/ReadPiece.h"
 #include "Points/PointStream.h"
 #include "Predicates/Point2.h"
@@ -19,6 +20,11 @@ CheckedPiece readChecked(const PartitionedMesh& mesh, std::size_t number)
 {
   PieceOptions options;
   options.Wanted.assign(mesh.Arrays.size(), false);
+  const std::int64_t neighborIds = findNeighborIds(mesh);
+  if (neighborIds >= 0)
+  {
+    options.Wanted[std::size_t(neighborIds)] = true;
+  }
   Piece piece = readPiece(mesh, number, options);
   CheckedPiece checked;
   const auto points = std::size_t(piece.Points);
@@ -48,6 +54,13 @@ CheckedPiece readChecked(const PartitionedMesh& mesh, std::size_t number)
   const auto* corners = piece.Connectivity.as<std::int32_t>();
   checked.Triangles.assign(corners, corners + 3 * piece.Cells);
   checked.OwnTriangles = piece.OwnedCells;
+  if (neighborIds >= 0)
+  {
+    const auto* cells = piece.CellIds.as<std::int64_t>();
+    checked.CellIds.assign(cells, cells + piece.OwnedCells);
+    const auto* neighbors = piece.Attributes[0].Values.as<std::int64_t>();
+    checked.Neighbors.assign(neighbors, neighbors + 3 * piece.OwnedCells);
+  }
   return checked;
 }
 

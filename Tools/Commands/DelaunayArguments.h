@@ -28,6 +28,7 @@ struct DelaunayArguments
   std::string Groups = "proportional";
   int InitialPoints = 0;
   bool MapDuplicates = false;
+  bool Neighbors = false;
   std::string Statistics;
   // Of a run out of core:
   std::string Memory; ///< empty: not given

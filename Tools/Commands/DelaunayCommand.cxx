@@ -202,6 +202,9 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
     "Add the point array RepresentativePointId to .vtp or .vtu: the id of the vertex that stands "
     "for a "
     "point, -1 for points that are not finite");
+  command->add_flag("--neighbors", arguments->Neighbors,
+    "Add the cell array NeighborIds to .vtp, .vtu or .tipp: three ids a triangle, those of the "
+    "triangles opposite its corners, -1 at the hull");
   command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
   command
     ->add_option("--memory", arguments->Memory,
@@ -225,6 +228,11 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
       {
         throw CLI::ValidationError(
           "--map-duplicates", "needs an output of points, so .vtp or .vtu");
+      }
+      if (arguments->Neighbors && extensionOf(arguments->Output) == ".npy")
+      {
+        throw CLI::ValidationError(
+          "--neighbors", "needs an output of cells with data, so .vtp, .vtu or .tipp");
       }
       if (arguments->Partitions != "auto" && arguments->isForRanks())
       {

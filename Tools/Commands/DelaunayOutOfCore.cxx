@@ -38,6 +38,7 @@ OutOfCoreOptions makeOptions(
   options.Rows = grid.Rows;
   options.Threads = arguments.Threads;
   options.MapDuplicates = arguments.MapDuplicates;
+  options.Neighbors = arguments.Neighbors;
   options.CountOnly = arguments.Sink == "count";
   options.Resume = arguments.Resume;
   options.Scratch = arguments.Scratch;

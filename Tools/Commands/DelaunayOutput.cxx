@@ -53,6 +53,7 @@ bool writeResult(
 {
   MeshOptions options;
   options.Aborted = isInterrupted;
+  options.Neighbors = arguments.Neighbors;
   if (arguments.MapDuplicates)
   {
     options.Representatives = representatives(result, points.size());

@@ -51,6 +51,11 @@ echo "== Small inputs"
 run --repeat 15 --input uniform:1e5 --input uniform:1e4
 echo "== One box"
 run --repeat 15 --threads 1 --partitions 1x1 --input uniform:1e4
+echo "== Along a sweep line"
+run --repeat 9 --threads 1 --peers kernel,sweep --input uniform:1e4 --input uniform:1e5 \
+  --input uniform:1e6 --input clustered:1e6 --input lattice:1e6 --input "$inputs/coast.npy"
+run --threads 1 --peers kernel,sweep --input uniform:1e7 --input lattice:9e6 --input one-far-away:3e4 \
+  --input circle:3e5 --input parabola:3e5
 echo "== Inputs that are hard on schedules and searches"
 run --peers none --input collinear:1e6 --input collinear-and-one:1e6 --input circle:1e6 \
   --input spiral:1e6 --input parabola:1e6 --input two-clusters:1e6 --input one-far-away:1e6 \

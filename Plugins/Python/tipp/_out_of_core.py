@@ -40,6 +40,7 @@ def delaunay_file(
     partitions: tuple[int, int] | None = None,
     columns: tuple[str | int, str | int] | None = None,
     map_duplicates: bool = False,
+    neighbors: bool = False,
     count_only: bool = False,
     resume: bool = False,
     scratch: _Path | None = None,
@@ -65,6 +66,9 @@ def delaunay_file(
         Which columns are x and y, by name or number from 0. None: by the usual names, else the first two.
     map_duplicates
         Whether the mesh gets the point array RepresentativePointId.
+    neighbors
+        Whether the mesh gets the cell array NeighborIds: for each corner of a triangle the global id of
+        the triangle opposite to it, -1 at the hull.
     count_only
         Whether to count triangles and sum them up instead of writing them.
     resume
@@ -107,6 +111,7 @@ def delaunay_file(
         algorithm.SetXColumn(str(columns[0]))
         algorithm.SetYColumn(str(columns[1]))
     algorithm.SetGenerateRepresentativeIds(map_duplicates)
+    algorithm.SetGenerateNeighborIds(neighbors)
     algorithm.SetCountOnly(count_only)
     algorithm.SetResume(resume)
     algorithm.SetScratchFolder(None if scratch is None else os.fspath(scratch))

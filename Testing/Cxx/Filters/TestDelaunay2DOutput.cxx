@@ -2,8 +2,10 @@
 // What comes out of vtkTIPPDelaunay2D for the kinds of data that go in.
 #include "Delaunay2DTesting.h"
 
+#include "vtkCellData.h"
 #include "vtkDelaunay2D.h"
 #include "vtkDoubleArray.h"
+#include "vtkIdList.h"
 #include "vtkPointData.h"
 #include "vtkSOADataArrayTemplate.h"
 #include "vtkStructuredGrid.h"
@@ -32,6 +34,14 @@ Cells triangulated(vtkPointSet* input)
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetInputData(input);
   return trianglesOf(delaunay);
+}
+
+std::vector<vtkIdType> cornersOf(vtkPolyData* mesh, vtkIdType cell)
+{
+  vtkIdType size = 0;
+  const vtkIdType* ids = nullptr;
+  mesh->GetCellPoints(cell, size, ids);
+  return { ids, ids + size };
 }
 
 } // namespace
@@ -189,4 +199,41 @@ TEST(Delaunay2DOutput, OrderOfThePointsDoesNotMatterOnALattice)
     renumbered.insert(cell);
   }
   EXPECT_EQ(forward, renumbered);
+}
+
+TEST(Delaunay2DOutput, NeighborsAreTheTrianglesOppositeToEachCorner)
+{
+  vtkNew<vtkTIPPDelaunay2D> delaunay;
+  delaunay->SetInputData(dataset(randomPoints(500)));
+  delaunay->GenerateNeighborIdsOn();
+  delaunay->Update();
+  vtkPolyData* const output = delaunay->GetOutput();
+  output->BuildLinks();
+  vtkDataArray* const neighbors = output->GetCellData()->GetArray("NeighborIds");
+  ASSERT_NE(nullptr, neighbors);
+  ASSERT_EQ(output->GetNumberOfCells(), neighbors->GetNumberOfTuples());
+  vtkNew<vtkIdList> beyond;
+  for (vtkIdType cell = 0; cell < output->GetNumberOfCells(); ++cell)
+  {
+    const std::vector<vtkIdType> corners = cornersOf(output, cell);
+    for (int i = 0; i < 3; ++i)
+    {
+      output->GetCellEdgeNeighbors(
+        cell, corners[std::size_t((i + 1) % 3)], corners[std::size_t((i + 2) % 3)], beyond);
+      ASSERT_EQ(beyond->GetNumberOfIds() == 0 ? -1 : beyond->GetId(0),
+        vtkIdType(neighbors->GetComponent(cell, i)));
+    }
+  }
+}
+
+TEST(Delaunay2DOutput, NeighborsAreLeftOutWithAlpha)
+{
+  vtkNew<vtkTIPPDelaunay2D> delaunay;
+  delaunay->SetInputData(dataset(randomPoints(500)));
+  delaunay->GenerateNeighborIdsOn();
+  delaunay->SetAlpha(0.1);
+  const Messages messages(delaunay);
+  delaunay->Update();
+  EXPECT_EQ(0, delaunay->GetOutput()->GetCellData()->GetNumberOfArrays());
+  EXPECT_EQ(1U, messages.Warnings.size());
 }

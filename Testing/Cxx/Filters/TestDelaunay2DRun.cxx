@@ -298,8 +298,8 @@ TEST(Delaunay2DRun, PrintTellsEveryProperty)
   EXPECT_NE(std::string::npos, text.str().find("NumberOfPartitions: 6 x 5"));
   for (const char* name : { "Alpha:", "AlphaTris:", "AlphaLines:", "AlphaVerts:", "Tolerance:",
          "Offset:", "BoundingTriangulation:", "ProjectionPlaneMode:", "Transform:",
-         "GenerateRepresentativeIds:", "InitialPointsPerPartition:", "Schedule:",
-         "NumberOfThreads:", "NumberOfDuplicatePoints:", "NumberOfRejectedPoints:" })
+         "GenerateRepresentativeIds:", "GenerateNeighborIds:", "InitialPointsPerPartition:",
+         "Schedule:", "NumberOfThreads:", "NumberOfDuplicatePoints:", "NumberOfRejectedPoints:" })
   {
     EXPECT_NE(std::string::npos, text.str().find(name)) << name;
   }

@@ -84,7 +84,8 @@ TEST(MeshDataSet, RepresentativesAreAnArrayOfTheirOwn)
 {
   const PointTable table = square();
   const std::vector<std::int64_t> representatives{ 0, 1, 2, 1 };
-  const auto data = makeUnstructuredGrid(table, TrianglesView(Ids32, 2), representatives);
+  const auto data =
+    makeUnstructuredGrid(table, TrianglesView(Ids32, 2), { &representatives, nullptr });
   vtkDataArray* array = data->GetPointData()->GetArray("RepresentativePointId");
   ASSERT_NE(nullptr, array);
   EXPECT_EQ(1, array->GetTuple1(3));

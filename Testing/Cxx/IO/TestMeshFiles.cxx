@@ -128,6 +128,27 @@ TEST_F(MeshFiles, RepresentativesAreAPointArray)
   EXPECT_EQ((std::vector<double>{ 0, 1, 2, 0 }), points.Columns[2].Values);
 }
 
+TEST_F(MeshFiles, NeighborsAreACellArray)
+{
+  // A strip of two triangles and one that only touches them.
+  const Ids strip = { 0, 1, 2, 2, 1, 3, 3, 4, 5 };
+  const std::vector<std::int32_t> strip32(strip.begin(), strip.end());
+  this->Points.XY.resize(12);
+  this->Points.Columns.clear();
+  tipp::MeshOptions options;
+  options.Neighbors = true;
+  for (const char* const name : { "mesh.vtp", "mesh.vtu" })
+  {
+    const std::string path = this->Folder.path(name);
+    tipp::writeMesh(path, this->Points, { strip.data(), 3 }, options);
+    EXPECT_EQ((Ids{ 1, -1, -1, -1, -1, 0, -1, -1, -1 }), readMesh(path).Neighbors);
+    tipp::writeMesh(path, this->Points, { strip32.data(), 3 }, options);
+    EXPECT_EQ((Ids{ 1, -1, -1, -1, -1, 0, -1, -1, -1 }), readMesh(path).Neighbors);
+    tipp::writeMesh(path, this->Points, { strip.data(), 3 });
+    EXPECT_TRUE(readMesh(path).Neighbors.empty());
+  }
+}
+
 TEST_F(MeshFiles, IdsOfAllIntegerTypesAreRead)
 {
   const auto read = [this](const char* descr, const std::string& data)

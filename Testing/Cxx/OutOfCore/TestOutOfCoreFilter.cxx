@@ -8,6 +8,7 @@
 #include "vtkTIPPOutOfCoreDelaunay2D.h"
 
 #include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkExecutive.h"
@@ -15,6 +16,7 @@
 #include "vtkNew.h"
 #include "vtkTable.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <thread>
@@ -85,6 +87,25 @@ TEST_F(OutOfCoreFilter, WritesAMeshThatTheReaderBehindItReads)
   reader->Update();
   EXPECT_EQ(vtkIdType(expected.Mesh.size()),
     vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0))->GetNumberOfCells());
+}
+
+TEST_F(OutOfCoreFilter, NamesNeighborsThatTheReaderBehindItReads)
+{
+  this->Filter->GenerateNeighborIdsOn();
+  this->Filter->Update();
+  EXPECT_EQ(5, this->Filter->GetStatistics()->GetNumberOfRows());
+  vtkNew<vtkPartitionedUnstructuredReader> reader;
+  reader->SetController(nullptr);
+  reader->SetFileName(this->Filter->GetFileName());
+  reader->SetMergePieces(true);
+  reader->Update();
+  vtkDataArray* const neighbors = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0))
+                                    ->GetCellData()
+                                    ->GetArray("NeighborIds");
+  ASSERT_TRUE(neighbors != nullptr);
+  EXPECT_EQ(3, neighbors->GetNumberOfComponents());
+  EXPECT_EQ(-1,
+    std::min({ neighbors->GetRange(0)[0], neighbors->GetRange(1)[0], neighbors->GetRange(2)[0] }));
 }
 
 TEST_F(OutOfCoreFilter, TellsTheRunsFigures)

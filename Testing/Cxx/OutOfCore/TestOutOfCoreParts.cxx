@@ -11,6 +11,7 @@
 #include "OutOfCore/PieceRun.h"
 #include "OutOfCore/PieceSchedule.h"
 #include "OutOfCore/PreparedRun.h"
+#include "Partitioned/NeighborIds.h"
 #include "Points/WritePoints.h"
 
 #include <algorithm>
@@ -396,7 +397,7 @@ TEST(PreparedRun, ComesBackOnAnotherRank)
   Steps steps(makePointSet("clustered", 4000));
   PreparedRun run;
   run.Survey = steps.Survey;
-  run.describeColumns({ "depth", "z" }, true);
+  run.describeColumns({ "depth", "z" }, true, true);
   EXPECT_EQ(3, run.Rows.Z);
   run.Rows.Words = 3;
   run.Plan = std::make_unique<PiecePlan>(steps.plan());
@@ -408,9 +409,10 @@ TEST(PreparedRun, ComesBackOnAnotherRank)
   LoadArchive in(bytes);
   PreparedRun back;
   back.load(in, steps.Folder.path("spill"));
-  ASSERT_EQ(2U, back.Mesh.Arrays.size());
+  ASSERT_EQ(3U, back.Mesh.Arrays.size());
   EXPECT_EQ("depth", back.Mesh.Arrays[0].Name);
   EXPECT_EQ(Scalar::Int64, back.Mesh.Arrays[1].Type);
+  EXPECT_EQ(2, findNeighborIds(back.Mesh));
   EXPECT_EQ(run.Mesh.Tiling, back.Mesh.Tiling);
   EXPECT_EQ(run.Mesh.Domain, back.Mesh.Domain);
   EXPECT_EQ(run.Spilled->starts(), back.work().Points.starts());

@@ -35,6 +35,7 @@ protected:
     this->Options.PiecePoints = 150;
     this->Options.PartitionPoints = 40;
     this->Options.Threads = 2;
+    this->Options.Neighbors = true;
     if (this->isFirst())
     {
       this->Folder = std::make_unique<TemporaryFolder>();

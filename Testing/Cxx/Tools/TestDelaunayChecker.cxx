@@ -2,6 +2,7 @@
 #include "Adcirc/AdcircGrid.h"
 #include "Check/DelaunayChecker.h"
 #include "Distributions/GeneratePoints.h"
+#include "Meshes/FindNeighbors.h"
 #include "SharedData.h"
 #include "Triangulation/Triangulate.h"
 
@@ -163,6 +164,24 @@ TEST_P(CorrectTriangulation, HasNoFault)
 
 INSTANTIATE_TEST_SUITE_P(DelaunayChecker, CorrectTriangulation,
   testing::ValuesIn(tipp::distributionNames()), [](const auto& info) { return info.param; });
+
+TEST_F(Spoiled, ByANeighborThatIsNotBeyondTheEdge)
+{
+  Ids neighbors(this->Triangles.size());
+  tipp::findNeighbors(this->Triangles.data(), this->Triangles.size() / 3, neighbors.data());
+  const auto bad = [&]
+  { return checkDelaunay(this->XY, this->Triangles, strict(), neighbors).BadNeighbors; };
+  EXPECT_EQ(0, bad());
+  for (std::size_t i = 0; i < neighbors.size(); i += 7)
+  {
+    const std::int64_t right = neighbors[i];
+    neighbors[i] = right == -1 ? 3 : -1;
+    EXPECT_EQ(1, bad()) << i;
+    neighbors[i] = right;
+  }
+  std::swap(neighbors[0], neighbors[1]);
+  EXPECT_EQ(2, bad());
+}
 
 TEST_F(Spoiled, NotAtAllIsCorrect)
 {

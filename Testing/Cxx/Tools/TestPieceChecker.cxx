@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <random>
+#include <utility>
 
 namespace
 {
@@ -180,6 +182,81 @@ TEST(PieceChecker, FindsAPointThatAnotherPieceHasElsewhere)
     checker.add(piece);
   }
   EXPECT_FALSE(checker.finish().isCorrect());
+}
+
+/// The places of triangles in the mesh as their ids, and their neighbours from all pairs of edges.
+std::vector<CheckedPiece> piecesWithNeighbors(const Mesh& mesh)
+{
+  std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> cellOf; // by a directed edge
+  const auto edge = [&](std::size_t t, std::size_t i)
+  {
+    const std::int64_t* const ids = &mesh.Triangles[3 * t];
+    return std::make_pair(ids[(i + 1) % 3], ids[(i + 2) % 3]);
+  };
+  std::map<std::array<std::int64_t, 3>, std::size_t> triangles;
+  for (std::size_t t = 0; t < mesh.count(); ++t)
+  {
+    const std::int64_t* const ids = &mesh.Triangles[3 * t];
+    triangles[{ ids[0], ids[1], ids[2] }] = t;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      cellOf[edge(t, i)] = std::int64_t(t);
+    }
+  }
+  std::vector<CheckedPiece> pieces;
+  for (std::size_t column = 0; column < 4; ++column)
+  {
+    pieces.push_back(pieceOf(mesh, column));
+    CheckedPiece& piece = pieces.back();
+    for (std::size_t own = 0; own < std::size_t(piece.OwnTriangles); ++own)
+    {
+      const auto id = [&](std::size_t i)
+      { return piece.Ids[std::size_t(piece.Triangles[3 * own + i])]; };
+      const std::size_t t = triangles.at({ id(0), id(1), id(2) });
+      piece.CellIds.push_back(std::int64_t(t));
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        const auto [from, to] = edge(t, i);
+        const auto found = cellOf.find({ to, from });
+        piece.Neighbors.push_back(found == cellOf.end() ? -1 : found->second);
+      }
+    }
+  }
+  return pieces;
+}
+
+std::int64_t countBadNeighbors(const std::vector<CheckedPiece>& pieces)
+{
+  PieceChecker checker({});
+  for (const CheckedPiece& piece : pieces)
+  {
+    checker.add(piece);
+  }
+  const CheckReport report = checker.finish();
+  EXPECT_EQ(report.BadNeighbors > 0, !report.isCorrect());
+  return report.BadNeighbors;
+}
+
+TEST(PieceChecker, AcceptsTheNeighborsAcrossEachEdge)
+{
+  EXPECT_EQ(0, countBadNeighbors(piecesWithNeighbors(makeMesh(300, false))));
+}
+
+TEST(PieceChecker, FindsAWrongNeighborWhereverItIs)
+{
+  const std::vector<CheckedPiece> pieces = piecesWithNeighbors(makeMesh(300, false));
+  for (std::size_t p = 0; p < pieces.size(); ++p)
+  {
+    for (std::size_t i = 0; i < pieces[p].Neighbors.size(); i += 5)
+    {
+      std::vector<CheckedPiece> wrong = pieces;
+      wrong[p].Neighbors[i] = wrong[p].Neighbors[i] == 7 ? -1 : 7;
+      EXPECT_EQ(1, countBadNeighbors(wrong)) << p << " " << i;
+    }
+    std::vector<CheckedPiece> turned = pieces;
+    std::swap(turned[p].Neighbors[0], turned[p].Neighbors[1]);
+    EXPECT_EQ(2, countBadNeighbors(turned)) << p;
+  }
 }
 
 TEST(PieceChecker, FindsIdsBeyondThePoints)

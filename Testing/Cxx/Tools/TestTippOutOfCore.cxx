@@ -64,15 +64,35 @@ TEST_F(TippOutOfCore, MakesAMeshThatTheCheckAccepts)
   EXPECT_NE(std::string::npos, checked.Out.find("correct"));
 }
 
+TEST_F(TippOutOfCore, ChecksTheNeighborsThatAMeshNames)
+{
+  this->makePoints("clustered", "30000");
+  ASSERT_EQ(0, this->run({ "--neighbors" }).ExitCode);
+  const Outcome checked = runTipp(this->Folder, { "check", this->Points, this->Mesh });
+  EXPECT_EQ(0, checked.ExitCode) << checked.Out << checked.Err;
+  const std::string flat = this->Folder.path("mesh.vtu");
+  ASSERT_EQ(
+    0, runTipp(this->Folder, { "delaunay", this->Points, "-o", flat, "--neighbors" }).ExitCode);
+  EXPECT_NE(std::string::npos, contentOf(flat).find("NeighborIds"));
+  EXPECT_EQ(0, runTipp(this->Folder, { "check", this->Points, flat }).ExitCode);
+  const std::string ids = this->Folder.path("triangles.npy");
+  const Outcome refused =
+    runTipp(this->Folder, { "delaunay", this->Points, "-o", ids, "--neighbors" });
+  EXPECT_EQ(2, refused.ExitCode);
+  EXPECT_NE(std::string::npos, refused.Err.find("--neighbors: needs an output of cells"))
+    << refused.Err;
+}
+
 TEST_F(TippOutOfCore, MakesTheFilesOfTheVtkClass)
 {
   this->makePoints("clustered", "30000");
-  ASSERT_EQ(0, this->run({}).ExitCode);
+  ASSERT_EQ(0, this->run({ "--neighbors" }).ExitCode);
   const std::string other = this->Folder.path("other.tipp");
   vtkNew<vtkTIPPOutOfCoreDelaunay2D> filter;
   filter->AddInputFileName(this->Points.c_str());
   filter->SetFileName(other.c_str());
   filter->SetMemoryLimit(2 << 20);
+  filter->GenerateNeighborIdsOn();
   filter->Update();
   EXPECT_TRUE(filesOf(this->Mesh) == filesOf(other));
 }
@@ -90,7 +110,7 @@ TEST_F(TippOutOfCore, ChecksAgainstTheRightPointsOnly)
 TEST_F(TippOutOfCore, EndsWithTheSameBytesAfterTwentyKills)
 {
   this->makePoints("coast", "60000");
-  ASSERT_EQ(0, this->run({}).ExitCode);
+  ASSERT_EQ(0, this->run({ "--neighbors" }).ExitCode);
   const auto expected = filesOf(this->Mesh);
   std::mt19937 random(3);
   int kills = 0;
@@ -99,7 +119,7 @@ TEST_F(TippOutOfCore, EndsWithTheSameBytesAfterTwentyKills)
     ASSERT_LT(round, 60) << "runs end before they are killed";
     std::filesystem::remove_all(this->Mesh);
     std::vector<std::string> arguments = this->command();
-    arguments.emplace_back("--resume");
+    arguments.insert(arguments.end(), { "--neighbors", "--resume" });
     int longest = 150; // so that each goes on a little longer than the last
     for (;; longest += 40)
     {

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Kernel/SweepKernel.h"
+
+#include "Predicates/Circumdisk.h"
+#include "Predicates/Orientation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// The front has one or two vertices for each point on the line, so about as many as the square
+/// root of all; it is triangulated once more with each strip, so strips are many times as large.
+std::size_t chooseStrip(std::size_t points)
+{
+  constexpr double roots = 24;
+  constexpr std::size_t least = 8192;
+  return std::max(least, std::size_t(roots * std::sqrt(double(points))));
+}
+
+/// Whether the closed half-plane to the left of the line from a to b meets the box.
+bool halfPlaneMeets(Point2 a, Point2 b, const Box2& box)
+{
+  const Point2 corners[4] = { { box.xmin, box.ymin }, { box.xmax, box.ymin },
+    { box.xmax, box.ymax }, { box.xmin, box.ymax } };
+  return std::any_of(
+    corners, corners + 4, [&](Point2 corner) { return orientation(a, b, corner) >= 0; });
+}
+
+} // namespace
+
+void SweepKernel::triangulate(const Point2* points, std::size_t count, const Sink& sink)
+{
+  this->Duplicates.clear();
+  this->Points.clear();
+  this->Places.clear();
+  this->FrontSize = this->Carried = 0;
+  if (count == 0)
+  {
+    return;
+  }
+  const SweepStrips strips(
+    points, count, this->PointsInStrip > 0 ? this->PointsInStrip : chooseStrip(count));
+  for (std::size_t strip = 0, next = 0; strip < strips.size(); strip = next)
+  {
+    // Where disks are large so is the front: several strips at once.
+    constexpr std::size_t times = 4;
+    const std::size_t start = strips.start(strip);
+    for (next = strip + 1;
+         next < strips.size() && strips.start(next) - start < times * this->FrontSize;)
+    {
+      ++next;
+    }
+    this->takeStrip(points, strips.order().data() + start, strips.start(next) - start);
+    if (!this->Kernel.hasTriangles())
+    {
+      this->FrontSize = this->Points.size();
+      continue;
+    }
+    this->nameDuplicates();
+    this->States.assign(std::size_t(this->Kernel.mesh().end() / 8), State::Unknown);
+    if (next < strips.size())
+    {
+      this->findFront(strips.boxFrom(next));
+    }
+    this->collectFinal(strips.boxFrom(strip));
+    sink(this->Finished);
+    this->collectFront();
+  }
+}
+
+/// The front's vertices are inserted first, so they stand for themselves.
+void SweepKernel::takeStrip(const Point2* points, const std::uint32_t* places, std::size_t count)
+{
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    this->Places.push_back(places[i]);
+    this->Points.push_back(points[places[i]]);
+  }
+  this->Kernel.clear();
+  this->Kernel.insert(this->Points.data(), this->FrontSize);
+  this->Kernel.insert(this->Points.data() + this->FrontSize, count);
+}
+
+/// None of them is a vertex of a triangle yet: points of different strips have different x.
+void SweepKernel::nameDuplicates()
+{
+  for (const DelaunayKernel::Duplicate& found : this->Kernel.duplicates())
+  {
+    std::uint32_t& place = this->Places[found.Point];
+    std::uint32_t& representative = this->Places[this->Kernel.place(found.Vertex)];
+    if (place < representative)
+    {
+      std::swap(place, representative);
+    }
+  }
+  for (const DelaunayKernel::Duplicate& found : this->Kernel.duplicates())
+  {
+    this->Duplicates.push_back(
+      { this->Places[found.Point], this->Places[this->Kernel.place(found.Vertex)] });
+  }
+}
+
+bool SweepKernel::meets(Index triangle, const Box2& box) const
+{
+  const Index* v = this->Kernel.mesh().slots() + triangle;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    if (v[i] == DelaunayKernel::Infinite)
+    {
+      return halfPlaneMeets(
+        this->Kernel.point(v[(i + 1) % 3]), this->Kernel.point(v[(i + 2) % 3]), box);
+    }
+  }
+  return Circumdisk(this->Kernel.point(v[0]), this->Kernel.point(v[1]), this->Kernel.point(v[2]))
+    .meets(box);
+}
+
+/// The triangles that meet the box are connected: a walk from one of them to a point of its disk in
+/// the box keeps to such triangles, and so does one through the box. All points are to the left of
+/// it, so one of them is infinite.
+void SweepKernel::findFront(const Box2& ahead)
+{
+  const HalfEdgeMesh& mesh = this->Kernel.mesh();
+  Index start = 0;
+  while (!this->Kernel.isInfinite(start) || !this->meets(start, ahead))
+  {
+    start += 8;
+  }
+  this->Stack.assign(1, start);
+  this->States[std::size_t(start / 8)] = State::Front;
+  while (!this->Stack.empty())
+  {
+    const Index t = this->Stack.back();
+    this->Stack.pop_back();
+    for (Index h = t; h < t + 3; ++h)
+    {
+      const Index neighbour = HalfEdgeMesh::triangleOf(mesh.twin(h));
+      State& state = this->States[std::size_t(neighbour / 8)];
+      if (state == State::Unknown)
+      {
+        state = this->meets(neighbour, ahead) ? State::Front : State::Final;
+        if (state == State::Front)
+        {
+          this->Stack.push_back(neighbour);
+        }
+      }
+    }
+  }
+}
+
+/// Of those that are not the front's. A triangle of vertices of the last front alone may be none of
+/// the whole triangulation, or one that has left already: then it does not meet what was ahead.
+void SweepKernel::collectFinal(const Box2& before)
+{
+  this->Finished.clear();
+  const Index* const slots = this->Kernel.mesh().slots();
+  for (Index t = 0; t < this->Kernel.mesh().end(); t += 8)
+  {
+    if (this->States[std::size_t(t / 8)] == State::Front || this->Kernel.isInfinite(t))
+    {
+      continue;
+    }
+    const std::array<std::uint32_t, 3> places = { this->Kernel.place(slots[t]),
+      this->Kernel.place(slots[t + 1]), this->Kernel.place(slots[t + 2]) };
+    const bool isOld = *std::max_element(places.begin(), places.end()) < this->FrontSize;
+    if (!isOld || this->meets(t, before))
+    {
+      this->Finished.push_back(
+        { this->Places[places[0]], this->Places[places[1]], this->Places[places[2]] });
+    }
+  }
+}
+
+void SweepKernel::collectFront()
+{
+  const Index* const slots = this->Kernel.mesh().slots();
+  std::vector<bool> isFront(std::size_t(this->Kernel.vertexEnd()), false);
+  for (std::size_t t = 0; t < this->States.size(); ++t)
+  {
+    for (std::size_t i = 0; this->States[t] == State::Front && i < 3; ++i)
+    {
+      isFront[std::size_t(slots[8 * t + i])] = true;
+    }
+  }
+  std::vector<Point2> points;
+  std::vector<std::uint32_t> places;
+  for (Index v = 1; v < this->Kernel.vertexEnd(); ++v)
+  {
+    if (isFront[std::size_t(v)])
+    {
+      points.push_back(this->Kernel.point(v));
+      places.push_back(this->Places[this->Kernel.place(v)]);
+    }
+  }
+  this->Points.swap(points);
+  this->Places.swap(places);
+  this->FrontSize = this->Points.size();
+  this->Carried += this->FrontSize;
+}
+
+} // namespace tipp

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Engines.h"
+
+#include "Kernel/SweepKernel.h"
+
+#include <array>
+#include <chrono>
+
+namespace tipp
+{
+namespace benchmark
+{
+namespace
+{
+
+using Triangle = SweepKernel::Triangle;
+
+/// `work` adds triangles to a list, which is as long as it can become from the beginning.
+template <typename Work>
+Run runOn(const std::vector<double>& xy, const Work& work)
+{
+  Run run;
+  const auto* const points = reinterpret_cast<const Point2*>(xy.data());
+  const std::size_t count = xy.size() / 2;
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<Triangle> triangles;
+  triangles.reserve(2 * count);
+  work(points, count, triangles);
+  run.Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  run.Triangles = std::int64_t(triangles.size());
+  TriangleSum sum;
+  for (const Triangle& triangle : triangles)
+  {
+    sum.add(&xy[2 * triangle[0]], &xy[2 * triangle[1]], &xy[2 * triangle[2]]);
+  }
+  run.Checksum = sum.value();
+  return run;
+}
+
+} // namespace
+
+Run runKernel(const std::vector<double>& xy)
+{
+  return runOn(xy,
+    [](const Point2* points, std::size_t count, std::vector<Triangle>& triangles)
+    {
+      DelaunayKernel kernel;
+      kernel.insert(points, count);
+      const DelaunayKernel::Index* const slots = kernel.mesh().slots();
+      for (DelaunayKernel::Index t = 0; t < kernel.mesh().end(); t += 8)
+      {
+        if (!kernel.isInfinite(t))
+        {
+          triangles.push_back(
+            { kernel.place(slots[t]), kernel.place(slots[t + 1]), kernel.place(slots[t + 2]) });
+        }
+      }
+    });
+}
+
+Run runSweep(const std::vector<double>& xy)
+{
+  TriangulationStatistics statistics;
+  Run run = runOn(xy,
+    [&](const Point2* points, std::size_t count, std::vector<Triangle>& triangles)
+    {
+      SweepKernel kernel;
+      kernel.triangulate(points, count,
+        [&](const std::vector<Triangle>& final)
+        {
+          triangles.insert(triangles.end(), final.begin(), final.end());
+          ++statistics.Partitions;
+        });
+      statistics.WorkerVertices = std::int64_t(count + kernel.carried());
+    });
+  run.Statistics = statistics;
+  return run;
+}
+
+} // namespace benchmark
+} // namespace tipp
