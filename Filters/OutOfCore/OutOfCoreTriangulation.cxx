@@ -191,7 +191,7 @@ private:
   std::string identity() const
   {
     const OutOfCoreOptions& options = this->Options;
-    return "TIPP out of core 3\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
+    return "TIPP out of core 4\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
       std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
       std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
       (options.CountOnly ? " counted" : "") + "\n" + options.Scratch;

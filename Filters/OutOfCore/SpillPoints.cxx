@@ -113,7 +113,7 @@ void writeRow(const PointBlock& block, std::size_t i, char* to)
 SpilledPoints::SpilledPoints(PointStream& points, const InputSurvey& survey, PiecePlan& plan,
   const PointRowLayout& rows, const std::string& file, std::size_t blockPoints, int threads,
   const std::function<void(std::int64_t)>& progress)
-  : Rows(file, Ranks(nullptr), std::size_t(plan.pieces()), 8 * rows.Words)
+  : Rows(file, 0, std::size_t(plan.pieces()), 8 * rows.Words)
 {
   this->Rows.protect();
   Labelling labelling(plan, survey.Factor, threads);
