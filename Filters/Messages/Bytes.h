@@ -6,9 +6,11 @@
 
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -45,10 +47,30 @@ public:
   void raw(const void* data, std::size_t size)
   {
     const char* begin = static_cast<const char*>(data);
+    if (this->Sink && this->Written.size() + size > heldBytes)
+    {
+      this->flush();
+      if (size > heldBytes)
+      {
+        this->Sink(begin, size);
+        return;
+      }
+    }
     this->Written.insert(this->Written.end(), begin, begin + size);
   }
 
-  void reserve(std::size_t size) { this->Written.reserve(size); }
+  /// From now on what is written goes there, a stretch at a time, instead of into memory; the last
+  /// one with flush().
+  void setSink(std::function<void(const char* data, std::size_t size)> sink)
+  {
+    this->Sink = std::move(sink);
+  }
+  void flush()
+  {
+    this->Sink(this->Written.data(), this->Written.size());
+    this->Written.clear();
+  }
+
   std::size_t size() const { return this->Written.size(); }
   const char* data() const { return this->Written.data(); }
 
@@ -64,7 +86,9 @@ public:
   }
 
 private:
+  static constexpr std::size_t heldBytes = std::size_t(1) << 16;
   std::vector<char> Written;
+  std::function<void(const char*, std::size_t)> Sink;
 };
 
 /// Reads what a ByteWriter wrote; throws std::runtime_error rather than read beyond the end.

@@ -39,6 +39,7 @@ void exchangeFigures(Archive& archive, OutOfCoreStatistics& statistics)
   archive(statistics.WorkerVertices);
   archive(statistics.PeakRimTriangles);
   archive(statistics.PeakBorderBytes);
+  archive(statistics.AsideBytes);
   archive(statistics.SpilledBytes);
   archive(statistics.MeshBytes);
 }
@@ -199,11 +200,13 @@ private:
 
   void savePlan()
   {
-    SaveArchive archive;
-    archive(this->identity());
-    archive(std::uint8_t(this->IsWhole));
-    this->Prepared.save(archive);
-    writeCheckpoint(this->Scratch.plan(), archive);
+    writeCheckpoint(this->Scratch.plan(),
+      [this](SaveArchive& archive)
+      {
+        archive(this->identity());
+        archive(std::uint8_t(this->IsWhole));
+        this->Prepared.save(archive);
+      });
     this->keep();
   }
 
@@ -297,7 +300,7 @@ private:
       isShared ? this->Ranks : nullptr);
     if (isShared)
     {
-      pieces.setCheckpoint(this->Scratch.state());
+      pieces.setCheckpoint(this->Scratch.state(), this->Scratch.aside());
     }
     const bool isDone = this->Prepared.Survey.Collinear ? pieces.writePointsAlone()
       : this->Prepared.Plan->IsAlone                    ? pieces.triangulateAlone()
@@ -310,6 +313,7 @@ private:
     this->Statistics.WorkerVertices = pieces.WorkerVertices;
     this->Statistics.PeakRimTriangles = pieces.PeakRimTriangles;
     this->Statistics.PeakBorderBytes = pieces.PeakBorderBytes;
+    this->Statistics.AsideBytes = pieces.asideBytes();
     this->Finished = std::move(pieces.finished());
     this->endPhase("triangulate");
   }
@@ -350,12 +354,14 @@ private:
   void recordWhole()
   {
     this->IsWhole = true;
-    SaveArchive archive;
-    archive(this->identity());
-    archive(std::uint8_t(this->IsWhole));
-    exchangeFigures(archive, this->Statistics);
-    archive(this->Fingerprint);
-    writeCheckpoint(this->Scratch.plan(), archive);
+    writeCheckpoint(this->Scratch.plan(),
+      [this](SaveArchive& archive)
+      {
+        archive(this->identity());
+        archive(std::uint8_t(this->IsWhole));
+        exchangeFigures(archive, this->Statistics);
+        archive(this->Fingerprint);
+      });
     syncToDisk(this->Scratch.plan());
     syncToDisk(this->Pending.workPath());
   }

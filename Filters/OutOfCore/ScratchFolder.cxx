@@ -94,7 +94,7 @@ void ScratchFolder::requireSpace(
 void ScratchFolder::remove()
 {
   std::error_code ignored;
-  for (const std::string& name : { this->points() + ".0", this->state() })
+  for (const std::string& name : { this->points() + ".0", this->state(), this->aside() })
   {
     fs::remove(name, ignored);
   }

@@ -140,6 +140,7 @@ void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& 
     { "worker_vertices", statistics.WorkerVertices },
     { "peak_rim_triangles", statistics.PeakRimTriangles },
     { "peak_border_bytes", statistics.PeakBorderBytes },
+    { "aside_bytes", statistics.AsideBytes },
     { "spilled_bytes", statistics.SpilledBytes },
     { "mesh_bytes", statistics.MeshBytes },
     { "read_bytes", sumOf(ranks, &ProcessUsage::Read) },

@@ -3,6 +3,7 @@
 #include "OutOfCoreTesting.h"
 
 #include "ExpectIOError.h"
+#include "OutOfCore/AsideFile.h"
 #include "OutOfCore/Checkpoint.h"
 #include "OutOfCore/InputSurvey.h"
 #include "OutOfCore/LoadedPieces.h"
@@ -60,11 +61,16 @@ public:
 TEST(Checkpoint, ComesBackAsItWasSaved)
 {
   const TemporaryFolder folder;
-  SaveArchive out;
-  out(std::int64_t(-7));
-  out(std::string("a name"));
-  out(std::vector<std::vector<std::int32_t>>{ { 1, 2 }, {}, { 3 } });
-  writeCheckpoint(folder.path("state"), out);
+  const std::vector<double> many(20000, 0.5);
+  const std::uint64_t bytesWritten = writeCheckpoint(folder.path("state"),
+    [&](SaveArchive& out)
+    {
+      out(std::int64_t(-7));
+      out(std::string("a name"));
+      out(many);
+      out(std::vector<std::vector<std::int32_t>>{ { 1, 2 }, {}, { 3 } });
+    });
+  EXPECT_EQ(fs::file_size(folder.path("state")), bytesWritten);
   const Bytes bytes = readCheckpoint(folder.path("state"));
   LoadArchive in(bytes);
   std::int64_t number = 0;
@@ -72,7 +78,10 @@ TEST(Checkpoint, ComesBackAsItWasSaved)
   std::vector<std::vector<std::int32_t>> lists;
   in(number);
   in(name);
+  std::vector<double> manyBack;
+  in(manyBack);
   in(lists);
+  EXPECT_EQ(many, manyBack);
   EXPECT_EQ(-7, number);
   EXPECT_EQ("a name", name);
   EXPECT_EQ((std::vector<std::vector<std::int32_t>>{ { 1, 2 }, {}, { 3 } }), lists);
@@ -84,9 +93,7 @@ TEST(Checkpoint, DamagedAnywhereItIsRefused)
 {
   const TemporaryFolder folder;
   const std::string path = folder.path("state");
-  SaveArchive out;
-  out(std::vector<std::int32_t>{ 1, 2, 3 });
-  writeCheckpoint(path, out);
+  writeCheckpoint(path, [](SaveArchive& out) { out(std::vector<std::int32_t>{ 1, 2, 3 }); });
   for (int at = 0; at < 8 + 8 + 12; ++at)
   {
     const auto flip = [&]
@@ -103,6 +110,30 @@ TEST(Checkpoint, DamagedAnywhereItIsRefused)
   }
   std::ofstream(path, std::ios::binary) << "short";
   EXPECT_THROW(readCheckpoint(path), IOError);
+}
+
+TEST(AsideFile, GivesBackItsParts)
+{
+  const TemporaryFolder folder;
+  AsideFile file(folder.path("aside"));
+  std::vector<AsideFile::Part> parts;
+  for (const int number : { 7, 8, 9 })
+  {
+    SaveArchive archive;
+    archive(std::vector<int>(100, number));
+    parts.push_back(file.put(archive));
+  }
+  AsideFile later(folder.path("aside"));
+  later.goOnFrom(parts[1].Offset + parts[1].Bytes);
+  SaveArchive other;
+  other(std::vector<int>(100, 5));
+  EXPECT_EQ(parts[2].Offset, later.put(other).Offset);
+  const Bytes bytes = later.get(parts[1]);
+  LoadArchive archive(bytes);
+  std::vector<int> numbers;
+  archive(numbers);
+  EXPECT_EQ(std::vector<int>(100, 8), numbers);
+  expectIOError(folder.path("aside"), "is damaged", [&] { file.get(parts[2]); });
 }
 
 TEST(InputSurvey, CountsPointsAndTheirBounds)
