@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "OutOfCore/Checkpoint.h"
+#include "OutOfCore/InputPasses.h"
 #include "OutOfCore/OutOfCoreRanks.h"
 #include "OutOfCore/PieceRun.h"
 #include "OutOfCore/PreparedRun.h"
@@ -104,6 +105,11 @@ private:
       Message message; // there is none but of a failure, which is thrown
       this->Ranks->poll(message);
     }
+    this->tell(fraction);
+  }
+
+  void tell(double fraction) const
+  {
     if (this->Options.Progress && !this->Options.Progress(fraction))
     {
       throw Aborted();
@@ -215,8 +221,11 @@ private:
     this->Scratch.clear();
     this->Memory = std::make_unique<MemoryPlan>(this->Options, 3 + this->Input.columns().size());
     InputSurvey& survey = this->Prepared.Survey;
-    survey = surveyInput(this->Input, this->Memory->BlockPoints, this->Memory->SamplePoints,
-      this->Threads, [this](std::int64_t) { this->report(0); });
+    survey = InputPasses(this->Input, this->Ranks,
+      this->passOptions(
+        [this](std::int64_t) {
+          this->tell(0);
+        })).survey();
     this->Prepared.describeColumns(this->Input.columns(), this->Options.MapDuplicates);
     const std::size_t words = this->Prepared.Rows.Words;
     this->Memory = std::make_unique<MemoryPlan>(this->Options, words);
@@ -231,6 +240,11 @@ private:
     this->Prepared.describeMesh();
     this->describePlan();
     this->endPhase("survey");
+  }
+
+  PassOptions passOptions(const std::function<void(std::int64_t)>& progress) const
+  {
+    return { this->Memory->BlockPoints, this->Memory->SamplePoints, this->Threads, progress };
   }
 
   void describePlan()
@@ -254,11 +268,12 @@ private:
 
   void spill()
   {
+    const InputSurvey& survey = this->Prepared.Survey;
+    const auto progress = [&](std::int64_t done)
+    { this->tell(0.2 * double(done) / double(survey.Points)); };
     this->Prepared.Spilled =
-      std::make_unique<SpilledPoints>(this->Input, this->Prepared.Survey, *this->Prepared.Plan,
-        this->Prepared.Rows, this->Scratch.points(), this->Memory->BlockPoints, this->Threads,
-        [this](std::int64_t done)
-        { this->report(0.2 * double(done) / double(this->Prepared.Survey.Points)); });
+      InputPasses(this->Input, this->Ranks, this->passOptions(progress))
+        .spill(survey, *this->Prepared.Plan, this->Prepared.Rows, this->Scratch.points());
     this->Statistics.SpilledBytes = this->Prepared.Spilled->bytes();
     this->requireMemory();
     this->savePlan();

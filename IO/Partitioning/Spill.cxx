@@ -102,6 +102,15 @@ Spill::Spill(const std::string& path, std::size_t keys, std::size_t rowBytes, co
   }
 }
 
+Spill::Spill(
+  const std::string& path, std::size_t keys, std::size_t rowBytes, const std::vector<Words>& ranks)
+  : Path(path)
+  , Keys(keys)
+  , RowBytes(rowBytes)
+{
+  this->join(ranks);
+}
+
 Words Spill::save() const
 {
   Words words(this->Rows.begin(), this->Rows.end());

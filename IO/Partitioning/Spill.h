@@ -31,14 +31,18 @@ public:
   /// `keys`: the number of keys. Makes the rank's file, "PATH.RANK"; throws IOError.
   Spill(const std::string& path, int rank, std::size_t keys, std::size_t rowBytes);
 
-  /// One that other processes have written: save() told it all after exchange() or join(). Throws
+  /// One that other processes have written: save() told it all after exchange(). Throws
   /// IOError.
   Spill(const std::string& path, std::size_t keys, std::size_t rowBytes,
     const std::vector<std::uint64_t>& saved);
   std::vector<std::uint64_t> save() const;
 
+  /// One that others have written: what close() told on each, in the order of the ranks.
+  Spill(const std::string& path, std::size_t keys, std::size_t rowBytes,
+    const std::vector<std::vector<std::uint64_t>>& ranks);
+
   std::size_t rowBytes() const { return this->RowBytes; }
-  /// In this rank's file; after exchange() or join() in all ranks'.
+  /// In this rank's file; after exchange() in all ranks'.
   std::uint64_t bytes() const;
 
   /// Adds a chunk: key of each of `count` items, or -1 to leave it out; fill(item, to) writes the
@@ -52,12 +56,8 @@ public:
 
   /// After all chunks: has every rank know all rows. A call of all ranks. Throws IOError on all.
   void exchange(const Ranks& ranks);
-  /// @name The same where the caller carries what close() tells from all ranks to join(), in their
-  /// order
-  ///@{
+  /// The same where the caller carries what it tells, to make one of what all ranks have written.
   std::vector<std::uint64_t> close();
-  void join(const std::vector<std::vector<std::uint64_t>>& ranks);
-  ///@}
 
   std::int64_t rows(std::size_t key) const { return this->Rows[key]; }
   /// Gives the key's rows, a block of at most `most` at a time, in order. Throws IOError, after the
@@ -81,6 +81,7 @@ private:
     std::size_t Rows;
   };
 
+  void join(const std::vector<std::vector<std::uint64_t>>& ranks);
   template <typename Key, typename Fill>
   void addChunk(
     std::size_t first, std::size_t count, int threads, const Key& keyOf, const Fill& fill);
@@ -99,8 +100,8 @@ private:
   std::vector<std::int64_t> Rows;              ///< of each key; of this rank until join()
   std::vector<char> Buffer;                    ///< a chunk; kept from one chunk to the next
   std::vector<std::unique_ptr<Checksum>> Sums; ///< of each key, after protect() and until close()
-  std::vector<std::uint64_t> Checksums;        ///< from join() on; none: rows are not protected
-  std::vector<File> Files;                     ///< from join() on
+  std::vector<std::uint64_t> Checksums;        ///< from exchange() on; none: rows are not protected
+  std::vector<File> Files;                     ///< from exchange() on
 };
 
 template <typename Key, typename Fill>

@@ -225,11 +225,14 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
   std::unique_ptr<ProgressBar> bar;
   const auto open = [&]
   {
-    if (!arguments.Statistics.empty())
+    if (isFirst && !arguments.Statistics.empty())
     {
       const PendingFile writable(arguments.Statistics); // before the work rather than after it
     }
-    bar = std::make_unique<ProgressBar>("Triangulating");
+    if (isFirst)
+    {
+      bar = std::make_unique<ProgressBar>("Triangulating");
+    }
     return openPointStream(arguments.Inputs, arguments.Columns);
   };
   try

@@ -5,6 +5,7 @@
 #include "ExpectIOError.h"
 #include "OutOfCore/AsideFile.h"
 #include "OutOfCore/Checkpoint.h"
+#include "OutOfCore/InputPasses.h"
 #include "OutOfCore/InputSurvey.h"
 #include "OutOfCore/LoadedPieces.h"
 #include "OutOfCore/PieceMessages.h"
@@ -36,7 +37,8 @@ public:
     this->Stream = openPointStream({ this->Folder.path("points.npy") });
     this->Options.PiecePoints = 300;
     this->Options.PartitionPoints = 80;
-    this->Survey = surveyInput(*this->Stream, block, 1 << 10, 2, [](std::int64_t) {});
+    this->Survey =
+      InputPasses(*this->Stream, nullptr, { block, 1 << 10, 2, [](std::int64_t) {} }).survey();
     this->Rows.Words = 3;
   }
 
@@ -47,8 +49,9 @@ public:
   }
   SpilledPoints spill(PiecePlan& plan)
   {
-    return SpilledPoints(*this->Stream, this->Survey, plan, this->Rows, this->Folder.path("spill"),
-      1000, 2, [](std::int64_t) {});
+    const SpilledPart all = spillPart(*this->Stream, this->Survey.Factor, plan, this->Rows,
+      this->Folder.path("spill"), 0, 1000, 2, [](std::int64_t) {});
+    return SpilledPoints({ all }, this->Survey, plan, this->Rows, this->Folder.path("spill"));
   }
 
   TemporaryFolder Folder;

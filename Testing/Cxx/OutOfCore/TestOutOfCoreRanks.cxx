@@ -15,6 +15,7 @@
 #include "vtkTable.h"
 
 #include <filesystem>
+#include <fstream>
 #include <random>
 
 namespace
@@ -39,6 +40,9 @@ protected:
     {
       this->Folder = std::make_unique<TemporaryFolder>();
     }
+    ByteWriter name;
+    name.text(this->isFirst() ? this->Folder->path("points.npy") : "");
+    this->Points = ByteReader(this->Ranks.broadcast(name.take())).text();
   }
 
   void makePoints(const std::string& set, std::size_t count = 2500) const
@@ -52,10 +56,7 @@ protected:
   bool isFirst() const { return this->Ranks.rank() == 0; }
   std::string mesh() const { return this->isFirst() ? this->Folder->path("mesh.tipp") : ""; }
 
-  std::unique_ptr<PointStream> open() const
-  {
-    return openPointStream({ this->Folder->path("points.npy") });
-  }
+  std::unique_ptr<PointStream> open() const { return openPointStream({ this->Points }); }
 
   OutOfCoreStatistics runTogether()
   {
@@ -107,8 +108,25 @@ protected:
 
   vtkMultiProcessController* const Controller = vtkMultiProcessController::GetGlobalController();
   Postbox Ranks;
+  /// Whether there were spilled points of the last rank's when all were.
+  bool lastRankSpills()
+  {
+    bool isThere = false;
+    this->Options.Progress = [&](double)
+    {
+      isThere = isThere || !this->isFirst() ||
+        fs::exists(
+          this->Folder->path(".mesh.tipp.part/.points." + std::to_string(this->Ranks.size() - 1)));
+      return true;
+    };
+    this->runTogether();
+    this->Options.Progress = {};
+    return isThere;
+  }
+
   OutOfCoreOptions Options;
   std::unique_ptr<TemporaryFolder> Folder;
+  std::string Points; ///< the file, on all ranks
 };
 
 TEST_P(OutOfCoreRanks, MakeTheFilesOfOneProcess)
@@ -161,6 +179,64 @@ TEST_P(OutOfCoreRanks, GoOnWhereAnyNumberOfRanksWasEnded)
 
 INSTANTIATE_TEST_SUITE_P(PointSets, OutOfCoreRanks,
   testing::Values("uniform", "clustered", "coast", "duplicates", "lattice"));
+
+TEST_F(OutOfCoreRanks, ReadTheirPartsOfTheInput)
+{
+  this->makePoints("uniform", 20000);
+  this->runAlone();
+  const Files expected = this->takeFiles();
+  EXPECT_TRUE(this->lastRankSpills());
+  EXPECT_TRUE(expected == this->takeFiles());
+}
+
+TEST_F(OutOfCoreRanks, LeaveToTheFirstAnInputThatOthersDoNotSee)
+{
+  this->makePoints("uniform", 20000);
+  this->runAlone();
+  const Files expected = this->takeFiles();
+  if (this->Ranks.rank() % 2 == 1)
+  {
+    this->Points = "missing.npy";
+  }
+  EXPECT_TRUE(this->lastRankSpills());
+  EXPECT_TRUE(expected == this->takeFiles());
+}
+
+TEST_F(OutOfCoreRanks, LeaveToTheFirstAnInputThatIsNotToBeDivided)
+{
+  const Coordinates xy = makePointSet("uniform", 5000);
+  this->Points.replace(this->Points.size() - 3, 3, "xyz");
+  if (this->isFirst())
+  {
+    std::ofstream file(this->Points);
+    file.precision(17);
+    for (std::size_t i = 0; i < xy.size(); i += 2)
+    {
+      file << xy[i] << " " << xy[i + 1] << "\n";
+    }
+  }
+  this->runAlone();
+  const Files expected = this->takeFiles();
+  EXPECT_EQ(!this->isFirst() || this->Ranks.size() == 1, this->lastRankSpills());
+  EXPECT_TRUE(expected == this->takeFiles());
+}
+
+TEST_F(OutOfCoreRanks, FindTheFactorOfTheirPartsTogether)
+{
+  Coordinates xy = makePointSet("uniform", 5000);
+  for (double& coordinate : xy)
+  {
+    coordinate *= 1e-250;
+  }
+  if (this->isFirst())
+  {
+    writePoints(this->Points, xy);
+  }
+  this->runAlone();
+  const Files expected = this->takeFiles();
+  this->runTogether();
+  EXPECT_TRUE(expected == this->takeFiles());
+}
 
 TEST_F(OutOfCoreRanks, LeaveToTheFirstWhatHasNoPartitions)
 {

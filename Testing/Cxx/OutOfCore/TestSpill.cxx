@@ -126,11 +126,11 @@ TEST(Spill, JoinsTheRowsOfRanksInTheirOrder)
   Written second(folder, 1, 3 * chunkRows, 2);
   const auto ofFirst = first.Rows.close();
   const auto ofSecond = second.Rows.close();
-  first.Rows.join({ ofFirst, ofSecond });
-  const Spill back(folder.path("rows"), keys, rowBytes, first.Rows.save());
+  const Spill joined(folder.path("rows"), keys, rowBytes, { ofFirst, ofSecond });
+  const Spill back(folder.path("rows"), keys, rowBytes, joined.save());
   for (std::size_t key = 0; key < keys; ++key)
   {
-    EXPECT_EQ(expectedNumbers(key, 5 * chunkRows), numbersOf(first.Rows, key));
+    EXPECT_EQ(expectedNumbers(key, 5 * chunkRows), numbersOf(joined, key));
     EXPECT_EQ(expectedNumbers(key, 5 * chunkRows), numbersOf(back, key));
   }
 }
