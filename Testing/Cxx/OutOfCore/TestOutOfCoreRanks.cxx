@@ -27,6 +27,39 @@ using namespace tipp::test;
 
 using Files = std::map<std::string, std::string>;
 
+/// A stream that cannot be read any more after so many passes.
+class BrokenStream : public PointStream
+{
+public:
+  BrokenStream(std::unique_ptr<PointStream> points, int goodPasses)
+    : Points(std::move(points))
+    , PassesLeft(goodPasses)
+  {
+  }
+
+  bool next(PointBlock& block, std::size_t most) override
+  {
+    if (this->PassesLeft < 0)
+    {
+      throw IOError("points", "cannot be read.");
+    }
+    return this->Points->next(block, most);
+  }
+  void rewind() override
+  {
+    --this->PassesLeft;
+    this->Points->rewind();
+  }
+  std::int64_t divisible() const override { return this->Points->divisible(); }
+  void limitTo(std::int64_t first, std::int64_t end) override { this->Points->limitTo(first, end); }
+  std::vector<std::string> columns() const override { return this->Points->columns(); }
+  std::string identity() const override { return this->Points->identity(); }
+
+private:
+  const std::unique_ptr<PointStream> Points;
+  int PassesLeft;
+};
+
 class OutOfCoreRanks : public testing::TestWithParam<std::string>
 {
 protected:
@@ -56,7 +89,10 @@ protected:
   bool isFirst() const { return this->Ranks.rank() == 0; }
   std::string mesh() const { return this->isFirst() ? this->Folder->path("mesh.tipp") : ""; }
 
-  std::unique_ptr<PointStream> open() const { return openPointStream({ this->Points }); }
+  std::unique_ptr<PointStream> open() const
+  {
+    return std::make_unique<BrokenStream>(openPointStream({ this->Points }), this->GoodPasses);
+  }
 
   OutOfCoreStatistics runTogether()
   {
@@ -126,7 +162,8 @@ protected:
 
   OutOfCoreOptions Options;
   std::unique_ptr<TemporaryFolder> Folder;
-  std::string Points; ///< the file, on all ranks
+  std::string Points;   ///< the file, on all ranks
+  int GoodPasses = 100; ///< over it on this rank
 };
 
 TEST_P(OutOfCoreRanks, MakeTheFilesOfOneProcess)
@@ -182,7 +219,7 @@ INSTANTIATE_TEST_SUITE_P(PointSets, OutOfCoreRanks,
 
 TEST_F(OutOfCoreRanks, ReadTheirPartsOfTheInput)
 {
-  this->makePoints("uniform", 20000);
+  this->makePoints("uniform", 5000);
   this->runAlone();
   const Files expected = this->takeFiles();
   EXPECT_TRUE(this->lastRankSpills());
@@ -191,7 +228,7 @@ TEST_F(OutOfCoreRanks, ReadTheirPartsOfTheInput)
 
 TEST_F(OutOfCoreRanks, LeaveToTheFirstAnInputThatOthersDoNotSee)
 {
-  this->makePoints("uniform", 20000);
+  this->makePoints("uniform", 5000);
   this->runAlone();
   const Files expected = this->takeFiles();
   if (this->Ranks.rank() % 2 == 1)
@@ -219,6 +256,22 @@ TEST_F(OutOfCoreRanks, LeaveToTheFirstAnInputThatIsNotToBeDivided)
   const Files expected = this->takeFiles();
   EXPECT_EQ(!this->isFirst() || this->Ranks.size() == 1, this->lastRankSpills());
   EXPECT_TRUE(expected == this->takeFiles());
+}
+
+TEST_F(OutOfCoreRanks, AllEndWhereThePartOfOneCannotBeRead)
+{
+  this->makePoints("uniform", 5000);
+  this->runAlone();
+  const Files expected = this->takeFiles();
+  for (const int goodPasses : { 0, 1 })
+  {
+    this->GoodPasses = this->Ranks.rank() == this->Ranks.size() - 1 ? goodPasses : 100;
+    EXPECT_EQ("points: cannot be read.", this->failure());
+    this->GoodPasses = 100;
+    EXPECT_TRUE(!this->isFirst() || this->Folder->fileCount() == 1);
+    this->runTogether();
+    EXPECT_TRUE(expected == this->takeFiles());
+  }
 }
 
 TEST_F(OutOfCoreRanks, FindTheFactorOfTheirPartsTogether)
