@@ -2,6 +2,7 @@
 #include "Distributed/GroupMesh.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tipp
 {
@@ -18,57 +19,117 @@ GroupMesh::GroupMesh(PartitionIndex partitions, const std::vector<PartitionIndex
   }
 }
 
+void GroupMesh::Batch::append(const SeamGroups& groups, std::size_t g, std::uint32_t triangles)
+{
+  this->Groups.append(groups, g);
+  this->Triangles.push_back(triangles);
+}
+
+/// When most of them are, so that it costs no more than to append them did.
+void GroupMesh::Batch::dropGone()
+{
+  if (this->Groups.size() == 0 || 2 * this->Alive > this->Groups.size())
+  {
+    return;
+  }
+  Batch left;
+  for (std::uint32_t& place : this->Places)
+  {
+    if (place != Gone)
+    {
+      left.append(this->Groups, place, this->Triangles[place]);
+      place = std::uint32_t(left.Groups.size() - 1);
+    }
+  }
+  left.Groups.shrink();
+  this->Groups = std::move(left.Groups);
+  this->Triangles = std::move(left.Triangles);
+}
+
+bool GroupMesh::isLive(const SeamGroups& groups, std::size_t g) const
+{
+  const auto met = groups.met(g);
+  return std::any_of(
+    met.begin(), met.end(), [this](PartitionIndex p) { return !this->isFinished(p); });
+}
+
 GroupMesh::Final GroupMesh::add(SeamGroups added)
 {
-  const auto piece = std::make_shared<Piece>();
-  piece->Groups = std::make_shared<const SeamGroups>(std::move(added));
-  const SeamGroups& groups = *piece->Groups;
-  piece->Alive.assign(groups.size(), 0);
-  Final final{ piece->Groups, {} };
-  for (std::uint32_t g = 0; g < groups.size(); ++g)
+  const auto groups = std::make_shared<const SeamGroups>(std::move(added));
+  const auto batch = std::make_shared<Batch>();
+  Final final{ groups, {} };
+  for (std::uint32_t g = 0; g < groups->size(); ++g)
   {
-    for (const PartitionIndex p : groups.met(g))
+    if (this->isLive(*groups, g))
     {
-      if (!this->Finished[std::size_t(p)])
-      {
-        Membership& members = this->Members[std::size_t(p)];
-        members.References.push_back({ piece, g });
-        members.ReachIsCurrent = false;
-        piece->Alive[g] = 1;
-      }
-    }
-    if (piece->Alive[g])
-    {
-      this->Live += groups.triangles(g).size();
-      for (const PartitionIndex p : groups.met(g))
-      {
-        ++this->Meeting[std::size_t(p)];
-      }
+      batch->append(*groups, g, std::uint32_t(groups->triangles(g).size()));
     }
     else
     {
       final.Indices.push_back(g);
     }
   }
+  this->enter(batch);
   return final;
+}
+
+void GroupMesh::add(const LiveGroups& groups)
+{
+  const auto batch = std::make_shared<Batch>();
+  for (std::uint32_t g = 0; g < groups.Groups.size(); ++g)
+  {
+    if (this->isLive(groups.Groups, g))
+    {
+      batch->append(groups.Groups, g, groups.Triangles.at(g));
+    }
+  }
+  this->enter(batch);
+}
+
+void GroupMesh::enter(const std::shared_ptr<Batch>& batch)
+{
+  batch->Groups.shrink();
+  batch->Alive = batch->Groups.size();
+  for (std::uint32_t g = 0; g < batch->Groups.size(); ++g)
+  {
+    batch->Places.push_back(g);
+    this->Live += batch->Triangles[g];
+    for (const PartitionIndex p : batch->Groups.met(g))
+    {
+      ++this->Meeting[std::size_t(p)];
+      if (!this->isFinished(p))
+      {
+        Membership& members = this->Members[std::size_t(p)];
+        members.References.push_back({ batch, g });
+        members.ReachIsCurrent = false;
+      }
+    }
+  }
 }
 
 void GroupMesh::finish(PartitionIndex partition)
 {
-  Membership& members = this->Members[std::size_t(partition)];
+  const Membership members = std::move(this->Members[std::size_t(partition)]);
+  this->Members[std::size_t(partition)] = Membership();
   for (const Reference& reference : members.References)
   {
     if (reference.isAlive())
     {
-      reference.Of->Alive[reference.Group] = 0;
-      this->Live -= reference.Of->Groups->triangles(reference.Group).size();
-      for (const PartitionIndex p : reference.Of->Groups->met(reference.Group))
+      Batch& batch = *reference.Of;
+      std::uint32_t& place = batch.Places[reference.Group];
+      this->Live -= batch.Triangles[place];
+      for (const PartitionIndex p : batch.Groups.met(place))
       {
         --this->Meeting[std::size_t(p)];
       }
+      place = Gone;
+      --batch.Alive;
     }
   }
-  members = Membership();
+  for (const Reference& reference : members.References)
+  {
+    reference.Of->dropGone();
+  }
   this->Finished[std::size_t(partition)] = 1;
 }
 
@@ -80,7 +141,7 @@ void GroupMesh::gather(PartitionIndex partition, std::vector<PlainVertex>& verti
   {
     if (reference.isAlive())
     {
-      count += reference.Of->Groups->vertices(reference.Group).size();
+      count += reference.Of->Groups.vertices(reference.place()).size();
     }
   }
   vertices.clear();
@@ -89,7 +150,7 @@ void GroupMesh::gather(PartitionIndex partition, std::vector<PlainVertex>& verti
   {
     if (reference.isAlive())
     {
-      const auto added = reference.Of->Groups->vertices(reference.Group);
+      const auto added = reference.Of->Groups.vertices(reference.place());
       vertices.insert(vertices.end(), added.begin(), added.end());
     }
   }
@@ -110,7 +171,7 @@ const std::vector<std::uint32_t>& GroupMesh::reach(PartitionIndex partition)
     members.References.end());
   for (const Reference& reference : members.References)
   {
-    for (const std::uint32_t label : reference.Of->Groups->labels(reference.Group))
+    for (const std::uint32_t label : reference.Of->Groups.labels(reference.place()))
     {
       if (this->LabelSeen[label] != this->Epoch)
       {
@@ -122,20 +183,25 @@ const std::vector<std::uint32_t>& GroupMesh::reach(PartitionIndex partition)
   return members.Reach;
 }
 
-SeamGroups GroupMesh::liveGroups() const
+GroupMesh::LiveGroups GroupMesh::liveGroups() const
 {
-  SeamGroups all;
+  LiveGroups all;
   for (std::size_t p = 0; p < this->Members.size(); ++p)
   {
     for (const Reference& reference : this->Members[p].References)
     {
-      const SeamGroups& groups = *reference.Of->Groups;
-      const auto met = groups.met(reference.Group);
+      if (!reference.isAlive())
+      {
+        continue;
+      }
+      const SeamGroups& groups = reference.Of->Groups;
+      const auto met = groups.met(reference.place());
       const PartitionIndex* const first = std::find_if(
         met.begin(), met.end(), [this](PartitionIndex q) { return !this->isFinished(q); });
-      if (reference.isAlive() && first != met.end() && std::size_t(*first) == p)
+      if (first != met.end() && std::size_t(*first) == p)
       {
-        all.append(groups, reference.Group);
+        all.Groups.append(groups, reference.place());
+        all.Triangles.push_back(reference.Of->Triangles[reference.place()]);
       }
     }
   }

@@ -12,7 +12,8 @@ namespace tipp
 {
 
 /// A master's mesh: the groups of triangles whose circumdisks meet an unfinished partition. What
-/// SeamMesh is to threads, but its unit is the group, as it came from a worker.
+/// SeamMesh is to threads, but its unit is the group, as it came from a worker. Of triangles it
+/// keeps the vertices and the number: which are which is asked only of those that are final.
 class VTKTIPPFILTERS_EXPORT GroupMesh : public ReachSource
 {
 public:
@@ -47,9 +48,15 @@ public:
   /// Whether a group that is not final meets the partition, be this finished or not.
   bool isMet(PartitionIndex partition) const { return this->Meeting[std::size_t(partition)] > 0; }
 
-  /// All groups that are not final, each once: added to an empty mesh with the same finished
-  /// partitions they make this one again.
-  SeamGroups liveGroups() const;
+  /// All groups that are not final, each once, and the number of triangles of each: added to an
+  /// empty mesh with the same finished partitions they make this one again.
+  struct LiveGroups
+  {
+    SeamGroups Groups;
+    std::vector<std::uint32_t> Triangles;
+  };
+  LiveGroups liveGroups() const;
+  void add(const LiveGroups& groups);
 
   bool isFinished(PartitionIndex partition) const
   {
@@ -66,23 +73,32 @@ public:
       {
         if (reference.isAlive())
         {
-          visit(*reference.Of->Groups, reference.Group);
+          visit(reference.Of->Groups, reference.place());
         }
       }
     }
   }
 
 private:
-  struct Piece
+  static constexpr std::uint32_t Gone = ~0U;
+
+  /// Groups that came together, those that are not final.
+  struct Batch
   {
-    std::shared_ptr<const SeamGroups> Groups;
-    std::vector<char> Alive; ///< of each group
+    SeamGroups Groups;
+    std::vector<std::uint32_t> Triangles; ///< of each group: how many
+    std::vector<std::uint32_t> Places;    ///< of what was added: among the groups, or Gone
+    std::size_t Alive = 0;
+
+    void append(const SeamGroups& groups, std::size_t g, std::uint32_t triangles);
+    void dropGone();
   };
   struct Reference
   {
-    std::shared_ptr<Piece> Of;
+    std::shared_ptr<Batch> Of;
     std::uint32_t Group;
-    bool isAlive() const { return this->Of->Alive[this->Group] != 0; }
+    std::uint32_t place() const { return this->Of->Places[this->Group]; }
+    bool isAlive() const { return this->place() != Gone; }
   };
   struct Membership
   {
@@ -90,6 +106,9 @@ private:
     std::vector<std::uint32_t> Reach;
     bool ReachIsCurrent = false;
   };
+
+  bool isLive(const SeamGroups& groups, std::size_t g) const;
+  void enter(const std::shared_ptr<Batch>& batch);
 
   std::vector<Membership> Members;
   std::vector<char> Finished;

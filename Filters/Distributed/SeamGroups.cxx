@@ -31,11 +31,19 @@ void SeamGroups::append(const SeamGroups& others, std::size_t g)
   add(this->Met, others.met(g));
   add(this->Labels, others.labels(g));
   add(this->Vertices, others.vertices(g));
-  add(this->Triangles, others.triangles(g));
   this->Groups.push_back(
     { static_cast<std::uint32_t>(this->Met.size()), static_cast<std::uint32_t>(this->Labels.size()),
       static_cast<std::uint32_t>(this->Vertices.size()),
       static_cast<std::uint32_t>(this->Triangles.size()), others.Groups[g].HasArtificial });
+}
+
+void SeamGroups::shrink()
+{
+  this->Groups.shrink_to_fit();
+  this->Met.shrink_to_fit();
+  this->Labels.shrink_to_fit();
+  this->Vertices.shrink_to_fit();
+  this->Triangles.shrink_to_fit();
 }
 
 void SeamGroups::write(ByteWriter& writer) const

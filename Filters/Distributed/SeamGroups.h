@@ -68,8 +68,10 @@ public:
     return range(this->Triangles, g, &Group::TriangleEnd);
   }
 
-  /// Adds one of other groups.
+  /// Adds one of other groups, but for its triangles.
   void append(const SeamGroups& others, std::size_t g);
+  /// Gives back memory that is not used.
+  void shrink();
 
   void write(ByteWriter& writer) const;
   /// Throws std::runtime_error if the groups are not what write() wrote.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -46,15 +47,34 @@ public:
 
   void raw(const void* data, std::size_t size)
   {
+    const char* begin = static_cast<const char*>(data);
+    if (this->Sink && this->Size + size > heldBytes)
+    {
+      this->flush();
+      if (size > heldBytes)
+      {
+        this->Sink(begin, size);
+        return;
+      }
+    }
     if (size > this->Written.size() - this->Size)
     {
       this->reserve(std::max(this->Size + size, 2 * this->Size));
     }
-    if (size > 0)
-    {
-      std::memcpy(this->Written.data() + this->Size, data, size);
-    }
+    std::copy_n(begin, size, this->Written.data() + this->Size);
     this->Size += size;
+  }
+
+  /// From now on what is written goes there, a stretch at a time, instead of into memory; the last
+  /// one with flush().
+  void setSink(std::function<void(const char* data, std::size_t size)> sink)
+  {
+    this->Sink = std::move(sink);
+  }
+  void flush()
+  {
+    this->Sink(this->Written.data(), this->Size);
+    this->Size = 0;
   }
 
   void reserve(std::size_t size)
@@ -76,8 +96,11 @@ public:
   }
 
 private:
+  static constexpr std::size_t heldBytes = std::size_t(1) << 16;
+
   Bytes Written; ///< room for more
   std::size_t Size = 0;
+  std::function<void(const char*, std::size_t)> Sink;
 };
 
 /// Reads what a ByteWriter wrote; throws std::runtime_error rather than read beyond the end.

@@ -11,15 +11,26 @@
 namespace tipp
 {
 
-void writeCheckpoint(const std::string& path, const SaveArchive& archive)
+std::uint64_t writeCheckpoint(
+  const std::string& path, const std::function<void(SaveArchive&)>& save)
 {
   const std::string next = path + ".next";
-  const ByteWriter& bytes = archive.Writer;
-  const std::uint64_t checksum = checksumOf(bytes.data(), bytes.size());
+  std::uint64_t end = 8;
   {
     const OutputFile file(next);
+    Checksum sum;
+    SaveArchive archive;
+    archive.Writer.setSink(
+      [&](const char* data, std::size_t size)
+      {
+        sum.add(data, size);
+        file.write(end, data, size);
+        end += size;
+      });
+    save(archive);
+    archive.Writer.flush();
+    const std::uint64_t checksum = sum.finish();
     file.write(0, &checksum, 8);
-    file.write(8, bytes.data(), bytes.size());
   }
   std::error_code failure;
   std::filesystem::rename(next, path, failure);
@@ -27,6 +38,7 @@ void writeCheckpoint(const std::string& path, const SaveArchive& archive)
   {
     throw IOError(path, "cannot be replaced (" + failure.message() + ").");
   }
+  return end;
 }
 
 Bytes readCheckpoint(const std::string& path)

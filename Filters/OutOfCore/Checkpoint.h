@@ -6,6 +6,8 @@
 #include "Partitioned/PublishPieces.h"
 #include "vtkTIPPFiltersModule.h"
 
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -108,8 +110,10 @@ void exchange(Archive& archive, FinishedPiece& piece)
   archive(piece.TriangleSum);
 }
 
-/// Puts a file with a checksum in a path's place in one step. Throws IOError.
-VTKTIPPFILTERS_EXPORT void writeCheckpoint(const std::string& path, const SaveArchive& archive);
+/// Puts what save() shows to an archive into a file with a checksum, and this in the path's place
+/// in one step; holds little of it in memory. Returns its bytes. Throws IOError.
+VTKTIPPFILTERS_EXPORT std::uint64_t writeCheckpoint(
+  const std::string& path, const std::function<void(SaveArchive&)>& save);
 
 /// Throws IOError for a file that is not what writeCheckpoint() wrote.
 VTKTIPPFILTERS_EXPORT Bytes readCheckpoint(const std::string& path);

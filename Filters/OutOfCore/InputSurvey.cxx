@@ -22,30 +22,47 @@ std::uint64_t mix(std::uint64_t x) // the finaliser of splitmix64
   return x ^ (x >> 31);
 }
 
-/// One point of each stretch of ids; stretches double whenever there are too many. Regular picks
-/// would see one column of a lattice that comes row by row.
+constexpr Box2 nothing{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+
+Box2 united(const Box2& a, const Box2& b)
+{
+  return { std::min(a.xmin, b.xmin), std::min(a.ymin, b.ymin), std::max(a.xmax, b.xmax),
+    std::max(a.ymax, b.ymax) };
+}
+
+/// One point of each stretch of ids; stretches double until there are not too many. Regular picks
+/// would see one column of a lattice that comes row by row. Where the number of all points is
+/// known, a part of them has the picks that it has among all.
 class Sampler
 {
 public:
-  explicit Sampler(std::size_t atLeast)
-    : Most(2 * std::max<std::size_t>(atLeast, 1))
+  /// `points`: of all, or -1.
+  Sampler(std::size_t atLeast, std::int64_t points)
+    : Most(2 * std::int64_t(std::max<std::size_t>(atLeast, 1)))
+    , IsKnown(points >= 0)
   {
+    while (this->IsKnown && this->pick(this->Most - 1, this->Doublings) < points)
+    {
+      ++this->Doublings;
+    }
   }
 
   void add(std::int64_t first, PointsView points)
   {
     const std::int64_t end = first + std::int64_t(points.size());
-    while (this->Next < end)
+    this->Stretch = std::max(this->Stretch, first >> this->Doublings);
+    for (std::int64_t id = this->next(); id < end; id = this->next())
     {
-      this->Picks.push_back({ this->Next, points[std::size_t(this->Next - first)] });
-      if (this->Picks.size() == this->Most)
+      ++this->Stretch;
+      if (id < first)
+      {
+        continue; // of another part
+      }
+      this->Picks.push_back({ id, points[std::size_t(id - first)] });
+      if (!this->IsKnown && this->Stretch == this->Most)
       {
         this->halve();
       }
-      const auto stretch = std::int64_t(this->Picks.size());
-      this->Next = stretch * this->Stretch +
-        std::int64_t(
-          mix(std::uint64_t(stretch * 64 + this->Doublings)) % std::uint64_t(this->Stretch));
     }
   }
 
@@ -58,78 +75,116 @@ public:
   }
 
 private:
+  std::int64_t next() const { return this->pick(this->Stretch, this->Doublings); }
+
+  static std::int64_t chosenOf(std::int64_t pair) { return 2 * pair + (mix(pair) & 1); }
+
+  /// The id that stands for a stretch after so many doublings: of the first ones it was picked when
+  /// they were shorter.
+  std::int64_t pick(std::int64_t stretch, int doublings) const
+  {
+    while (doublings > 0 && stretch < this->Most / 2)
+    {
+      stretch = chosenOf(stretch);
+      --doublings;
+    }
+    const std::int64_t length = std::int64_t(1) << doublings;
+    return stretch * length +
+      std::int64_t(mix(std::uint64_t(stretch * 64 + doublings)) % std::uint64_t(length));
+  }
+
   void halve()
   {
-    for (std::size_t i = 0; i < this->Most / 2; ++i)
+    const std::int64_t half = this->Most / 2;
+    for (std::int64_t i = 0; i < half; ++i)
     {
-      this->Picks[i] = this->Picks[2 * i + (mix(i) & 1)];
+      this->Picks[std::size_t(i)] = this->Picks[std::size_t(chosenOf(i))];
     }
-    this->Picks.resize(this->Most / 2);
-    this->Stretch *= 2;
+    this->Picks.resize(std::size_t(half));
+    this->Stretch = half;
     ++this->Doublings;
   }
 
-  const std::size_t Most;
+  const std::int64_t Most;
+  const bool IsKnown;
   std::vector<SampledPoint> Picks;
-  std::int64_t Stretch = 1;
-  std::int64_t Doublings = 0;
-  std::int64_t Next = 0;
+  std::int64_t Stretch = 0; ///< the next one
+  int Doublings = 0;
 };
-
-/// A factor for all points: withModerateMagnitude's, if it is exact for each block.
-double factorFor(PointStream& points, std::size_t blockPoints, const Box2& bounds)
-{
-  double factor = withModerateMagnitude(PointsView(), bounds).factor();
-  if (factor != 1)
-  {
-    forEachBlock(points, blockPoints,
-      [&](PointBlock& block)
-      {
-        const PointsView view(block.XY.data(), block.size(), 2);
-        factor = factor == 1 ? 1 : withModerateMagnitude(view, bounds).factor();
-      });
-  }
-  return factor;
-}
 
 } // namespace
 
-InputSurvey surveyInput(PointStream& points, std::size_t blockPoints, std::size_t sample,
-  int threads, const std::function<void(std::int64_t)>& progress)
+/// withModerateMagnitude's, if it is exact for each block.
+double factorOfPart(PointStream& points, std::size_t blockPoints, const Box2& bounds)
 {
-  InputSurvey survey;
-  survey.Bounds = { HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
-  Sampler sampler(sample);
+  double factor = withModerateMagnitude(PointsView(), bounds).factor();
+  forEachBlock(points, blockPoints,
+    [&](PointBlock& block)
+    {
+      const PointsView view(block.XY.data(), block.size(), 2);
+      factor = factor == 1 ? 1 : withModerateMagnitude(view, bounds).factor();
+    });
+  return factor;
+}
+
+bool mayNeedFactor(const InputSurvey& survey)
+{
+  return survey.Points > survey.Rejected &&
+    withModerateMagnitude(PointsView(), survey.Bounds).factor() != 1;
+}
+
+void applyFactor(InputSurvey& survey, double factor)
+{
+  survey.Factor = factor;
+  survey.Bounds = { survey.Bounds.xmin * factor, survey.Bounds.ymin * factor,
+    survey.Bounds.xmax * factor, survey.Bounds.ymax * factor };
+  for (SampledPoint& p : survey.Sample)
+  {
+    p.Place = { p.Place.x * factor, p.Place.y * factor };
+  }
+}
+
+PartSurvey surveyPart(PointStream& points, std::size_t blockPoints, std::size_t sample, int threads,
+  const std::function<void(std::int64_t)>& progress)
+{
+  PartSurvey survey;
+  survey.Bounds = nothing;
+  Sampler sampler(sample, points.divisible());
   CollinearityTest line;
   forEachBlock(points, blockPoints,
     [&](PointBlock& block)
     {
       const PointsView view(block.XY.data(), block.size(), 2);
       const PointSurvey part = surveyPoints(view, threads);
-      survey.Bounds.xmin = std::min(survey.Bounds.xmin, part.Bounds.xmin);
-      survey.Bounds.ymin = std::min(survey.Bounds.ymin, part.Bounds.ymin);
-      survey.Bounds.xmax = std::max(survey.Bounds.xmax, part.Bounds.xmax);
-      survey.Bounds.ymax = std::max(survey.Bounds.ymax, part.Bounds.ymax);
+      survey.Bounds = united(survey.Bounds, part.Bounds);
       survey.Rejected += std::int64_t(part.Rejected.size());
       sampler.add(block.First, view);
       for (std::size_t i = 0; survey.Collinear && i < view.size(); ++i)
       {
         survey.Collinear = line.add(view[i]);
       }
-      survey.Points = block.First + std::int64_t(block.size());
+      survey.Points += std::int64_t(block.size());
       progress(survey.Points);
     });
+  survey.Line = line.line();
   survey.Sample = sampler.take();
-  if (survey.Points > survey.Rejected)
+  return survey;
+}
+
+InputSurvey joinSurveys(std::vector<PartSurvey>& parts)
+{
+  InputSurvey survey;
+  survey.Bounds = nothing;
+  CollinearityTest line;
+  for (PartSurvey& part : parts)
   {
-    survey.Factor = factorFor(points, blockPoints, survey.Bounds);
-  }
-  const double factor = survey.Factor;
-  survey.Bounds = { survey.Bounds.xmin * factor, survey.Bounds.ymin * factor,
-    survey.Bounds.xmax * factor, survey.Bounds.ymax * factor };
-  for (SampledPoint& p : survey.Sample)
-  {
-    p.Place = { p.Place.x * factor, p.Place.y * factor };
+    survey.Points += part.Points;
+    survey.Rejected += part.Rejected;
+    survey.Bounds = united(survey.Bounds, part.Bounds);
+    survey.Collinear = survey.Collinear && part.Collinear &&
+      std::all_of(part.Line.begin(), part.Line.end(), [&](Point2 p) { return line.add(p); });
+    survey.Sample.insert(survey.Sample.end(), part.Sample.begin(), part.Sample.end());
+    std::vector<SampledPoint>().swap(part.Sample);
   }
   return survey;
 }

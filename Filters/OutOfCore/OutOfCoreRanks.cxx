@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "OutOfCore/Checkpoint.h"
+#include "OutOfCore/InputPasses.h"
 #include "OutOfCore/PieceHelper.h"
 #include "OutOfCore/PreparedRun.h"
 #include "Parallel/Stopwatch.h"
@@ -53,23 +54,52 @@ Bytes bytesOf(const std::string& text)
   return writer.take();
 }
 
-/// Of a rank other than the first: false if there is nothing to help with.
-bool receivePrepared(Postbox& ranks, const OutOfCoreOptions& options, PreparedRun& prepared)
+/// Of a rank other than the first, before there are pieces.
+void report(const Postbox& ranks, const OutOfCoreOptions& options)
+{
+  if (options.Progress && !options.Progress(0))
+  {
+    throw RankFailure(ranks.rank(), true, "The run was stopped.");
+  }
+}
+
+Message waitForOrder(Postbox& ranks, const OutOfCoreOptions& options)
 {
   constexpr double moment = 0.1;
   Stopwatch sinceReport;
   Message message;
   while (!ranks.poll(message))
   {
-    if (options.Progress && sinceReport.seconds() > moment)
+    if (sinceReport.seconds() > moment)
     {
       sinceReport.restart();
-      if (!options.Progress(0))
-      {
-        throw RankFailure(ranks.rank(), true, "The run was stopped.");
-      }
+      report(ranks, options);
     }
     ranks.pause();
+  }
+  return message;
+}
+
+int threadsOf(const OutOfCoreOptions& options)
+{
+  return options.Threads > 0 ? options.Threads : omp_get_max_threads();
+}
+
+/// Helps with the input until pieces can be worked on: false if there are none to help with.
+bool receivePrepared(
+  Postbox& ranks, const OpenPoints& open, const OutOfCoreOptions& options, PreparedRun& prepared)
+{
+  const auto progress = [&](std::int64_t)
+  {
+    Message none; // but of a failure, which is thrown
+    ranks.poll(none);
+    report(ranks, options);
+  };
+  InputHelper input(ranks, open, { 0, 0, threadsOf(options), progress });
+  Message message = waitForOrder(ranks, options);
+  while (input.take(message))
+  {
+    message = waitForOrder(ranks, options);
   }
   if (message.Kind == EndMessage)
   {
@@ -83,19 +113,18 @@ bool receivePrepared(Postbox& ranks, const OutOfCoreOptions& options, PreparedRu
   return true;
 }
 
-void help(Postbox& ranks, const OutOfCoreOptions& options)
+void help(Postbox& ranks, const OpenPoints& open, const OutOfCoreOptions& options)
 {
   requireSharedFolder(ranks, "");
   requireSharedFolder(ranks, "");
   PreparedRun prepared;
-  if (!receivePrepared(ranks, options, prepared))
+  if (!receivePrepared(ranks, open, options, prepared))
   {
     return;
   }
-  const int threads = options.Threads > 0 ? options.Threads : omp_get_max_threads();
   const auto progress = [&](std::int64_t done)
   { return !options.Progress || options.Progress(double(done) / double(prepared.Survey.Points)); };
-  PieceHelper(prepared.work(), ranks, threads, progress).run();
+  PieceHelper(prepared.work(), ranks, threadsOf(options), progress).run();
 }
 
 } // namespace
@@ -141,16 +170,15 @@ void sharePrepared(Postbox& ranks, PreparedRun& prepared, const std::string& poi
   }
 }
 
-OutOfCoreStatistics triangulateOutOfCoreOnRanks(Postbox& ranks,
-  const std::function<std::unique_ptr<PointStream>()>& open, const std::string& path,
-  const OutOfCoreOptions& options)
+OutOfCoreStatistics triangulateOutOfCoreOnRanks(
+  Postbox& ranks, const OpenPoints& open, const std::string& path, const OutOfCoreOptions& options)
 {
   OutOfCoreStatistics statistics;
   const auto work = [&]
   {
     if (ranks.rank() > 0)
     {
-      help(ranks, options);
+      help(ranks, open, options);
       return;
     }
     const std::unique_ptr<PointStream> points = open();

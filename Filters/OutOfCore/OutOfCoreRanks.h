@@ -15,17 +15,19 @@ namespace tipp
 
 class PreparedRun;
 
+using OpenPoints = std::function<std::unique_ptr<PointStream>()>;
+
 /// triangulateOutOfCore() on all ranks, each of which calls this with the same path and options:
-/// the first one surveys and spills the points and keeps what the ranks have in common; pieces are
-/// loaded, triangulated and their interiors written by all. The files are those of one process.
-/// `open` is called on the first rank, and the figures are there.
+/// points are surveyed and spilled, pieces loaded, triangulated and their interiors written by all;
+/// the first one keeps what the ranks have in common. The files are those of one process. `open` is
+/// called on all ranks; where it throws an IOError or opens another input than on the first rank,
+/// that one reads this rank's part. The figures are on the first rank.
 ///
 /// All ranks must see the folders. The memory limit and the threads are those of each rank. Throws
 /// RankFailure on all ranks; the statistics of a run that was ended by Progress on any rank have
 /// Aborted on all. Not to be called within Postbox::together().
-VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCoreOnRanks(Postbox& ranks,
-  const std::function<std::unique_ptr<PointStream>()>& open, const std::string& path,
-  const OutOfCoreOptions& options);
+VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCoreOnRanks(
+  Postbox& ranks, const OpenPoints& open, const std::string& path, const OutOfCoreOptions& options);
 
 /// Whether all ranks see a folder of the first rank, by a file that is there for a moment;
 /// collective. Throws IOError on a rank that does not.

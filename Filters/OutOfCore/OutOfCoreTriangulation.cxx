@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "OutOfCore/Checkpoint.h"
+#include "OutOfCore/InputPasses.h"
 #include "OutOfCore/OutOfCoreRanks.h"
 #include "OutOfCore/PieceRun.h"
 #include "OutOfCore/PreparedRun.h"
@@ -41,6 +42,7 @@ void exchangeFigures(Archive& archive, OutOfCoreStatistics& statistics)
   archive(statistics.WorkerVertices);
   archive(statistics.PeakRimTriangles);
   archive(statistics.PeakBorderBytes);
+  archive(statistics.AsideBytes);
   archive(statistics.SpilledBytes);
   archive(statistics.MeshBytes);
 }
@@ -105,6 +107,11 @@ private:
       Message message; // there is none but of a failure, which is thrown
       this->Ranks->poll(message);
     }
+    this->tell(fraction);
+  }
+
+  void tell(double fraction) const
+  {
     if (this->Options.Progress && !this->Options.Progress(fraction))
     {
       throw Aborted();
@@ -193,7 +200,7 @@ private:
   std::string identity() const
   {
     const OutOfCoreOptions& options = this->Options;
-    return "TIPP out of core 4\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
+    return "TIPP out of core 5\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
       std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
       std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
       (options.Neighbors ? " linked" : "") + (options.CountOnly ? " counted" : "") + "\n" +
@@ -202,11 +209,13 @@ private:
 
   void savePlan()
   {
-    SaveArchive archive;
-    archive(this->identity());
-    archive(std::uint8_t(this->IsWhole));
-    this->Prepared.save(archive);
-    writeCheckpoint(this->Scratch.plan(), archive);
+    writeCheckpoint(this->Scratch.plan(),
+      [this](SaveArchive& archive)
+      {
+        archive(this->identity());
+        archive(std::uint8_t(this->IsWhole));
+        this->Prepared.save(archive);
+      });
     this->keep();
   }
 
@@ -215,8 +224,11 @@ private:
     this->Scratch.clear();
     this->Memory = std::make_unique<MemoryPlan>(this->Options, 3 + this->Input.columns().size());
     InputSurvey& survey = this->Prepared.Survey;
-    survey = surveyInput(this->Input, this->Memory->BlockPoints, this->Memory->SamplePoints,
-      this->Threads, [this](std::int64_t) { this->report(0); });
+    survey = InputPasses(this->Input, this->Ranks,
+      this->passOptions(
+        [this](std::int64_t) {
+          this->tell(0);
+        })).survey();
     this->Prepared.describeColumns(
       this->Input.columns(), this->Options.MapDuplicates, this->Options.Neighbors);
     const std::size_t words = this->Prepared.Rows.Words;
@@ -232,6 +244,11 @@ private:
     this->Prepared.describeMesh();
     this->describePlan();
     this->endPhase("survey");
+  }
+
+  PassOptions passOptions(const std::function<void(std::int64_t)>& progress) const
+  {
+    return { this->Memory->BlockPoints, this->Memory->SamplePoints, this->Threads, progress };
   }
 
   void describePlan()
@@ -256,11 +273,12 @@ private:
 
   void spill()
   {
+    const InputSurvey& survey = this->Prepared.Survey;
+    const auto progress = [&](std::int64_t done)
+    { this->tell(0.2 * double(done) / double(survey.Points)); };
     this->Prepared.Spilled =
-      std::make_unique<SpilledPoints>(this->Input, this->Prepared.Survey, *this->Prepared.Plan,
-        this->Prepared.Rows, this->Scratch.points(), this->Memory->BlockPoints, this->Threads,
-        [this](std::int64_t done)
-        { this->report(0.2 * double(done) / double(this->Prepared.Survey.Points)); });
+      InputPasses(this->Input, this->Ranks, this->passOptions(progress))
+        .spill(survey, *this->Prepared.Plan, this->Prepared.Rows, this->Scratch.points());
     this->Statistics.SpilledBytes = this->Prepared.Spilled->bytes();
     this->requireMemory();
     this->savePlan();
@@ -302,7 +320,7 @@ private:
       isShared ? this->Ranks : nullptr);
     if (isShared)
     {
-      pieces.setCheckpoint(this->Scratch.state());
+      pieces.setCheckpoint(this->Scratch.state(), this->Scratch.aside());
     }
     const bool isDone = this->Prepared.Survey.Collinear ? pieces.writePointsAlone()
       : this->Prepared.Plan->IsAlone                    ? pieces.triangulateAlone()
@@ -315,6 +333,7 @@ private:
     this->Statistics.WorkerVertices = pieces.WorkerVertices;
     this->Statistics.PeakRimTriangles = pieces.PeakRimTriangles;
     this->Statistics.PeakBorderBytes = pieces.PeakBorderBytes;
+    this->Statistics.AsideBytes = pieces.asideBytes();
     this->Finished = std::move(pieces.finished());
     this->endPhase("triangulate");
   }
@@ -388,12 +407,14 @@ private:
   void recordWhole()
   {
     this->IsWhole = true;
-    SaveArchive archive;
-    archive(this->identity());
-    archive(std::uint8_t(this->IsWhole));
-    exchangeFigures(archive, this->Statistics);
-    archive(this->Fingerprint);
-    writeCheckpoint(this->Scratch.plan(), archive);
+    writeCheckpoint(this->Scratch.plan(),
+      [this](SaveArchive& archive)
+      {
+        archive(this->identity());
+        archive(std::uint8_t(this->IsWhole));
+        exchangeFigures(archive, this->Statistics);
+        archive(this->Fingerprint);
+      });
     syncToDisk(this->Scratch.plan());
     syncToDisk(this->Pending.workPath());
   }

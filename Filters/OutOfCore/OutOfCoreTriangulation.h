@@ -55,6 +55,7 @@ struct OutOfCoreStatistics
   std::int64_t WorkerVertices = 0;
   std::int64_t PeakRimTriangles = 0; ///< most unfinished triangles at a time
   std::uint64_t PeakBorderBytes = 0; ///< most that pieces kept of their borders at a time
+  std::uint64_t AsideBytes = 0;      ///< of borders that were put into a file meanwhile
   std::uint64_t SpilledBytes = 0;
   std::uint64_t MeshBytes = 0;
   int Threads = 1;

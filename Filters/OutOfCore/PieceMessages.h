@@ -23,6 +23,9 @@ constexpr MessageKind LoadMessage = pieceMessage(1);        ///< a LoadOrder
 constexpr MessageKind TriangulateMessage = pieceMessage(2); ///< a PartitionTask
 constexpr MessageKind WriteMessage = pieceMessage(3);       ///< an InteriorTask
 constexpr MessageKind EndMessage = pieceMessage(4);         ///< there is no more work
+constexpr MessageKind SurveyMessage = pieceMessage(9);      ///< these three for an InputHelper
+constexpr MessageKind FactorMessage = pieceMessage(10);
+constexpr MessageKind SpillMessage = pieceMessage(11);
 ///@}
 /// @name To the first rank
 ///@{
@@ -30,6 +33,7 @@ constexpr MessageKind ReadyMessage = pieceMessage(5);     ///< its number of thr
 constexpr MessageKind LoadedMessage = pieceMessage(6);    ///< the piece
 constexpr MessageKind PartitionMessage = pieceMessage(7); ///< a PartitionResult
 constexpr MessageKind WrittenMessage = pieceMessage(8);   ///< a WrittenInterior
+constexpr MessageKind PartMessage = pieceMessage(12);     ///< of the input
 ///@}
 
 struct LoadOrder

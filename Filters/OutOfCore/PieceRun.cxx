@@ -125,7 +125,7 @@ void PieceRun::bringBack(PartitionResult result)
     this->finishPiece(piece, lock);
   }
   this->writeBorders(lock);
-  this->saveSometimes(lock);
+  this->saveSometimes();
 }
 
 void PieceRun::takeInterior(PartitionIndex piece, GrowingPiece interior)
@@ -150,7 +150,7 @@ void PieceRun::writeBorders(Lock& lock)
     lock.unlock();
     const std::size_t number = this->Work.Plan.number(piece);
     FinishedPiece finished =
-      this->Schedule->growing(piece).writeBorder(this->Work.Mesh, number, this->Work.Rows);
+      this->Schedule->border(piece).writeBorder(this->Work.Mesh, number, this->Work.Rows);
     lock.lock();
     this->Finished[number] = std::move(finished);
     this->Schedule->finishBorder(piece);
@@ -225,6 +225,10 @@ void PieceRun::start()
 {
   this->Schedule = std::make_unique<PieceSchedule>(this->Work.Plan, this->Work.Points,
     this->Work.Rows, this->Work.Plan.initialMesh(this->Threads));
+  if (this->Aside)
+  {
+    this->Schedule->putAside(*this->Aside, this->Memory.BorderBytes);
+  }
   // Pieces without points may own triangles all the same.
   for (PartitionIndex piece = 0; piece < this->Work.Plan.pieces(); ++piece)
   {
@@ -253,9 +257,7 @@ bool PieceRun::triangulate()
   }
   if (!this->CheckpointPath.empty())
   {
-    SaveArchive archive;
-    this->save(archive);
-    writeCheckpoint(this->CheckpointPath, archive);
+    this->saveNow();
   }
   return !this->Stopped;
 }

@@ -31,8 +31,13 @@ public:
     std::function<bool(std::int64_t)> progress, Postbox* ranks = nullptr);
 
   /// Saves its state to this file now and then, and where progress ends it; and goes on from there
-  /// if the file is there already.
-  void setCheckpoint(const std::string& path) { this->CheckpointPath = path; }
+  /// if the file is there already. `aside`: a file for what there is no memory for; it belongs to
+  /// the saved state.
+  void setCheckpoint(const std::string& path, const std::string& aside)
+  {
+    this->CheckpointPath = path;
+    this->Aside = std::make_unique<AsideFile>(aside);
+  }
 
   /// Writes all pieces' files. Throws IOError, and RankFailure. False if progress ended it.
   bool triangulate();
@@ -48,6 +53,8 @@ public:
   std::int64_t WorkerVertices = 0;
   std::int64_t PeakRimTriangles = 0;
   std::uint64_t PeakBorderBytes = 0;
+  /// Of borders that were put aside.
+  std::uint64_t asideBytes() const { return this->Aside ? this->Aside->end() : 0; }
 
 private:
   using Lock = std::unique_lock<std::mutex>;
@@ -77,7 +84,8 @@ private:
   void runThreads();
   void start();
   bool startFromCheckpoint();
-  void saveSometimes(Lock& lock);
+  void saveSometimes();
+  std::uint64_t saveNow();
   void save(SaveArchive& archive);
   template <typename Archive>
   void exchangeFinished(Archive& archive); ///< figures and finished pieces
@@ -103,7 +111,7 @@ private:
   std::mutex Mutex;
   std::condition_variable Changed;
   std::string CheckpointPath;
-  bool IsSaving = false;
+  std::unique_ptr<AsideFile> Aside;
   std::uint64_t BytesSinceSaved = 0; ///< of interiors
   std::uint64_t SavedBytes = 0;      ///< of the last checkpoint
   PartitionIndex NextToLoad;

@@ -261,6 +261,12 @@ void PieceSchedule::markRim(const PlainVertex& v)
 void PieceSchedule::wantRow(PartitionIndex by, std::int64_t place)
 {
   State& state = this->Pieces[std::size_t(this->pieceOf(place))];
+  if (state.Aside.Bytes > 0)
+  {
+    this->WantedFromAside.push_back({ by, place });
+    ++this->Pieces[std::size_t(by)].RowsMissing;
+    return;
+  }
   if (state.At < Stage::Interior)
   {
     state.Wanted.push_back({ by, place });
@@ -347,25 +353,59 @@ PartitionIndex PieceSchedule::takeComplete()
   for (PartitionIndex piece = this->pieces() - 1; piece >= 0; --piece)
   {
     State& state = this->Pieces[std::size_t(piece)];
-    if (state.At != Stage::Interior || state.RowsMissing > 0 ||
-      (state.WaitsForHull && !this->HullRepaired))
+    if (state.At != Stage::Interior || state.RowsMissing > 0 || this->isMet(piece))
     {
       continue;
     }
-    const PartitionIndex begin = this->Plan.FirstPartition[std::size_t(piece)];
-    const PartitionIndex end = this->Plan.FirstPartition[std::size_t(piece) + 1];
-    PartitionIndex p = begin;
-    while (p < end && !this->Rim.isMet(p))
-    {
-      ++p;
-    }
-    if (p == end)
+    if (!state.WaitsForHull || this->HullRepaired)
     {
       state.At = Stage::Taken;
       return piece;
     }
+    this->putAsideIfTooMuch(state);
   }
   return -1;
+}
+
+bool PieceSchedule::isMet(PartitionIndex piece) const
+{
+  const PartitionIndex end = this->Plan.FirstPartition[std::size_t(piece) + 1];
+  PartitionIndex p = this->Plan.FirstPartition[std::size_t(piece)];
+  while (p < end && !this->Rim.isMet(p))
+  {
+    ++p;
+  }
+  return p < end;
+}
+
+/// What comes with the hull is kept beside it.
+void PieceSchedule::putAsideIfTooMuch(State& state)
+{
+  if (!this->Aside || state.Aside.Bytes > 0 || this->borderBytes() <= this->MostBorderBytes)
+  {
+    return;
+  }
+  SaveArchive archive;
+  state.Growing.exchangeInterior(archive);
+  state.Growing.exchangeBorder(archive);
+  state.Aside = this->Aside->put(archive);
+  state.Growing = state.Growing.emptied();
+}
+
+GrowingPiece PieceSchedule::border(PartitionIndex piece) const
+{
+  const State& state = this->Pieces[std::size_t(piece)];
+  if (state.Aside.Bytes == 0)
+  {
+    return state.Growing;
+  }
+  const Bytes bytes = this->Aside->get(state.Aside);
+  LoadArchive archive(bytes);
+  GrowingPiece whole = state.Growing.emptied();
+  whole.exchangeInterior(archive);
+  whole.exchangeBorder(archive);
+  whole.addBorder(state.Growing, this->Rows);
+  return whole;
 }
 
 void PieceSchedule::finishBorder(PartitionIndex piece)
@@ -388,7 +428,29 @@ void PieceSchedule::repairHull()
     this->share(plain);
   }
   release(this->Hull);
+  this->takeRowsFromAside();
   this->HullRepaired = true;
+}
+
+/// One piece after the other.
+void PieceSchedule::takeRowsFromAside()
+{
+  std::sort(this->WantedFromAside.begin(), this->WantedFromAside.end(),
+    [](const WantedRow& a, const WantedRow& b) { return a.Place < b.Place; });
+  PartitionIndex from = -1;
+  GrowingPiece whole;
+  for (const WantedRow& row : this->WantedFromAside)
+  {
+    if (this->pieceOf(row.Place) != from)
+    {
+      from = this->pieceOf(row.Place);
+      whole = this->border(from);
+    }
+    State& by = this->Pieces[std::size_t(row.By)];
+    by.Growing.setRow(row.Place, whole.rimRow(row.Place, this->Rows), this->Rows);
+    --by.RowsMissing;
+  }
+  release(this->WantedFromAside);
 }
 
 std::uint64_t PieceSchedule::borderBytes() const

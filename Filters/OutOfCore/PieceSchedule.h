@@ -3,6 +3,7 @@
 #define tippPieceSchedule_h
 
 #include "Distributed/GroupMesh.h"
+#include "OutOfCore/AsideFile.h"
 #include "OutOfCore/Checkpoint.h"
 #include "OutOfCore/LoadedPieces.h"
 #include "OutOfCore/PiecePlan.h"
@@ -38,6 +39,14 @@ public:
   /// written.
   void save(SaveArchive& archive);
 
+  /// Complete borders that wait for the hull alone go to this file where all take more than so many
+  /// bytes.
+  void putAside(AsideFile& file, std::uint64_t most)
+  {
+    this->Aside = &file;
+    this->MostBorderBytes = most;
+  }
+
   /// Whether a piece has yet to be loaded.
   bool isToLoad(PartitionIndex piece) const
   {
@@ -71,6 +80,9 @@ public:
   {
     return this->Pieces[std::size_t(piece)].Growing;
   }
+  /// The same, with all of its border, wherever this is. May be called for one that was handed out
+  /// while the others change.
+  GrowingPiece border(PartitionIndex piece) const;
   /// The border has been written; frees it.
   void finishBorder(PartitionIndex piece);
 
@@ -118,7 +130,8 @@ private:
     std::vector<std::uint8_t> Rim; ///< of each point, once one of them is on the rim
     std::vector<std::array<std::int32_t, 3>> Seams; ///< triangles that meet no other piece
     std::vector<WantedRow> Wanted;
-    GrowingPiece Growing;
+    GrowingPiece Growing; ///< but for what is aside
+    AsideFile::Part Aside;
   };
 
   void takeFinal(const GroupMesh::Final& final);
@@ -129,6 +142,9 @@ private:
   void markLive(PartitionIndex piece);
   PartitionIndex pieceOf(std::int64_t place) const;
   void wantRow(PartitionIndex by, std::int64_t place);
+  void takeRowsFromAside();
+  bool isMet(PartitionIndex piece) const;
+  void putAsideIfTooMuch(State& state);
   /// The pieces that the triangle meets, by their numbers in the mesh, ascending.
   void findMet(const std::array<PlainVertex, 3>& triangle, std::vector<std::int32_t>& met) const;
 
@@ -142,6 +158,9 @@ private:
   std::vector<SeamTriangle> Hull;     ///< at artificial points
   std::vector<std::int32_t> Met;
   bool HullRepaired = false;
+  AsideFile* Aside = nullptr;
+  std::uint64_t MostBorderBytes = 0;
+  std::vector<WantedRow> WantedFromAside;
 };
 
 } // namespace tipp

@@ -26,29 +26,28 @@ void PieceRun::exchangeFinished(Archive& archive)
 
 void PieceRun::save(SaveArchive& archive)
 {
+  archive(this->Aside ? this->Aside->end() : std::uint64_t(0));
   this->exchangeFinished(archive);
   this->Schedule->save(archive);
 }
 
+std::uint64_t PieceRun::saveNow()
+{
+  return writeCheckpoint(
+    this->CheckpointPath, [this](SaveArchive& archive) { this->save(archive); });
+}
+
 /// So seldom that it is an eighth of what is written at most.
-void PieceRun::saveSometimes(Lock& lock)
+void PieceRun::saveSometimes()
 {
   constexpr std::uint64_t part = 8;
-  if (this->CheckpointPath.empty() || this->IsSaving || this->Stopped ||
-    this->BytesSinceSaved == 0 || this->BytesSinceSaved < part * this->SavedBytes)
+  if (this->CheckpointPath.empty() || this->Stopped || this->BytesSinceSaved == 0 ||
+    this->BytesSinceSaved < part * this->SavedBytes)
   {
     return;
   }
-  this->IsSaving = true;
   this->BytesSinceSaved = 0;
-  SaveArchive archive;
-  archive.Writer.reserve(this->SavedBytes + this->SavedBytes / 4); // it grows slowly
-  this->save(archive);
-  this->SavedBytes = archive.Writer.size();
-  lock.unlock();
-  writeCheckpoint(this->CheckpointPath, archive);
-  lock.lock();
-  this->IsSaving = false;
+  this->SavedBytes = this->saveNow();
 }
 
 bool PieceRun::startFromCheckpoint()
@@ -62,9 +61,13 @@ bool PieceRun::startFromCheckpoint()
   {
     const Bytes bytes = readCheckpoint(this->CheckpointPath);
     LoadArchive archive(bytes);
+    std::uint64_t end = 0;
+    archive(end);
+    this->Aside->goOnFrom(end);
     this->exchangeFinished(archive);
     this->Schedule =
       std::make_unique<PieceSchedule>(this->Work.Plan, this->Work.Points, this->Work.Rows, archive);
+    this->Schedule->putAside(*this->Aside, this->Memory.BorderBytes);
   }
   catch (const IOError&)
   {

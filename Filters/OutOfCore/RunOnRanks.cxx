@@ -72,7 +72,7 @@ void PieceRun::take(const Message& message)
     unpack(message.Content, written);
     this->takeInterior(written.Piece, std::move(written.Growing));
     this->writeBorders(lock);
-    this->saveSometimes(lock);
+    this->saveSometimes();
     return;
   }
   std::int32_t number = 0;

@@ -60,9 +60,9 @@ SpilledPoints::SpilledPoints(
   , Rows(file, std::size_t(plan.pieces()), 8 * rows.Words,
       [&]
       {
-        std::vector<char> extents;
-        archive(extents);
-        return extents;
+        std::vector<std::uint64_t> saved;
+        archive(saved);
+        return saved;
       }())
 {
   bool isOurs = this->Starts.size() == std::size_t(plan.pieces()) + 1 && this->Starts[0] == 0;

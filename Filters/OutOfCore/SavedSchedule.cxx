@@ -41,6 +41,7 @@ void PieceSchedule::exchangePiece(Archive& archive, PartitionIndex piece)
   }
   if (stage == Stage::Interior)
   {
+    archive(state.Aside);
     state.Growing.exchangeInterior(archive);
   }
   if (stage != Stage::Done)
@@ -80,9 +81,12 @@ void PieceSchedule::save(SaveArchive& archive)
     }
   }
   archive(unfinished);
-  this->Rim.liveGroups().write(archive.Writer);
+  const GroupMesh::LiveGroups rim = this->Rim.liveGroups();
+  rim.Groups.write(archive.Writer);
+  archive(rim.Triangles);
   archive(this->Hull);
   archive(this->HullRepaired);
+  archive(this->WantedFromAside);
   for (PartitionIndex piece = 0; piece < this->pieces(); ++piece)
   {
     this->exchangePiece(archive, piece);
@@ -93,9 +97,13 @@ PieceSchedule::PieceSchedule(const PiecePlan& plan, const SpilledPoints& points,
   const PointRowLayout& rows, LoadArchive& archive)
   : PieceSchedule(plan, points, rows, readUnfinished(archive, plan))
 {
-  this->Rim.add(SeamGroups::read(archive.Reader));
+  GroupMesh::LiveGroups rim;
+  rim.Groups = SeamGroups::read(archive.Reader);
+  archive(rim.Triangles);
+  this->Rim.add(rim);
   archive(this->Hull);
   archive(this->HullRepaired);
+  archive(this->WantedFromAside);
   for (PartitionIndex piece = 0; piece < this->pieces(); ++piece)
   {
     this->exchangePiece(archive, piece);

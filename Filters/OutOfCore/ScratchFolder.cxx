@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 
 #include <filesystem>
+#include <vector>
 
 #include <sys/stat.h>
 
@@ -94,9 +95,22 @@ void ScratchFolder::requireSpace(
 void ScratchFolder::remove()
 {
   std::error_code ignored;
-  for (const std::string& name : { this->points() + ".0", this->state() })
+  for (const std::string& name : { this->state(), this->aside() })
   {
     fs::remove(name, ignored);
+  }
+  const std::string points = fs::path(this->points()).filename().string() + ".";
+  std::vector<fs::path> parts;
+  for (const fs::directory_entry& entry : fs::directory_iterator(this->Folder, ignored))
+  {
+    if (entry.path().filename().string().compare(0, points.size(), points) == 0)
+    {
+      parts.push_back(entry.path());
+    }
+  }
+  for (const fs::path& part : parts)
+  {
+    fs::remove(part, ignored);
   }
   if (this->Folder != this->Work)
   {

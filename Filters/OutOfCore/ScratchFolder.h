@@ -11,12 +11,12 @@ namespace tipp
 {
 
 /// Where a run keeps what it needs until its mesh is in its place, beside the mesh in the making:
-/// the spilled points, the plan and the state to go on from.
+/// the spilled points, the plan, the state to go on from and what of it is put aside.
 class ScratchFolder
 {
 public:
-  /// The points are there, too, if `other` is empty; else a folder of that name is made there.
-  /// Throws IOError.
+  /// The points and what is put aside are there, too, if `other` is empty; else a folder of that
+  /// name is made there. Throws IOError.
   ScratchFolder(const PendingFolder& mesh, const std::string& other);
   /// Removes everything but after keep().
   ~ScratchFolder();
@@ -27,6 +27,7 @@ public:
   std::string points() const { return this->Folder + "/.points"; }
   std::string plan() const { return this->Work + "/.plan"; }
   std::string state() const { return this->Work + "/.state"; }
+  std::string aside() const { return this->Folder + "/.aside"; }
 
   bool hasPlan() const;
   /// Makes room for a new run, and its empty folder of pieces.

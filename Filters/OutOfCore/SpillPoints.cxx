@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace tipp
 {
@@ -14,7 +15,7 @@ namespace
 class Labelling
 {
 public:
-  Labelling(PiecePlan& plan, double factor, int threads)
+  Labelling(const PiecePlan& plan, double factor, int threads)
     : Plan(plan)
     , Factor(factor)
     , Threads(threads)
@@ -45,6 +46,10 @@ public:
   {
     return this->Counts;
   }
+  const std::vector<std::int64_t>& inPieces() const
+  {
+    return this->InPieces;
+  }
 
 private:
   void labelStretch(const PointBlock& block, std::size_t begin, std::size_t end)
@@ -70,14 +75,19 @@ private:
 
   void countPoints(std::int64_t first)
   {
-    std::vector<InitialPoint>& initial = this->Plan.Initial;
+    const std::vector<InitialPoint>& initial = this->Plan.Initial;
+    while (this->NextInitial < initial.size() && initial[this->NextInitial].Id < first)
+    {
+      ++this->NextInitial; // of another part
+    }
     for (std::size_t i = 0; i < this->Labels.size(); ++i)
     {
       const std::int32_t piece = this->Labels[i];
       if (this->NextInitial < initial.size() &&
         initial[this->NextInitial].Id == first + std::int64_t(i))
       {
-        initial[this->NextInitial++].InPieces = this->Counts[std::size_t(piece)];
+        this->InPieces.push_back(this->Counts[std::size_t(piece)]);
+        ++this->NextInitial;
       }
       if (piece >= 0)
       {
@@ -86,11 +96,12 @@ private:
     }
   }
 
-  PiecePlan& Plan;
+  const PiecePlan& Plan;
   const double Factor;
   const int Threads;
   std::vector<std::int32_t> Labels;
   std::vector<std::int64_t> Counts;
+  std::vector<std::int64_t> InPieces;
   std::size_t NextInitial = 0;
 };
 
@@ -108,33 +119,67 @@ void writeRow(const PointBlock& block, std::size_t i, char* to)
   std::memcpy(to, &id, 8);
 }
 
+std::vector<std::vector<std::uint64_t>> rowsOf(const std::vector<SpilledPart>& parts)
+{
+  std::vector<std::vector<std::uint64_t>> rows;
+  for (const SpilledPart& part : parts)
+  {
+    rows.push_back(part.Rows);
+  }
+  return rows;
+}
+
 } // namespace
 
-SpilledPoints::SpilledPoints(PointStream& points, const InputSurvey& survey, PiecePlan& plan,
-  const PointRowLayout& rows, const std::string& file, std::size_t blockPoints, int threads,
-  const std::function<void(std::int64_t)>& progress)
-  : Rows(file, Ranks(nullptr), std::size_t(plan.pieces()), 8 * rows.Words)
+SpilledPart spillPart(PointStream& points, double factor, const PiecePlan& plan,
+  const PointRowLayout& rows, const std::string& file, int part, std::size_t blockPoints,
+  int threads, const std::function<void(std::int64_t)>& progress)
 {
-  this->Rows.protect();
-  Labelling labelling(plan, survey.Factor, threads);
-  std::int64_t seen = 0;
+  Spill spill(file, part, std::size_t(plan.pieces()), 8 * rows.Words);
+  spill.protect();
+  Labelling labelling(plan, factor, threads);
+  SpilledPart spilled;
   forEachBlock(points, blockPoints,
     [&](PointBlock& block)
     {
       labelling.label(block);
-      this->Rows.add(
+      spill.add(
         block.size(), threads, [&](std::size_t i) { return labelling.labelOf(i); },
         [&](std::size_t i, char* to) { writeRow(block, i, to); });
-      seen = block.First + std::int64_t(block.size());
-      progress(seen);
+      spilled.Points += std::int64_t(block.size());
+      progress(spilled.Points);
     });
-  this->Rows.exchange(Ranks(nullptr));
-  this->Starts = { 0 };
-  for (const std::int64_t count : labelling.counts())
+  spilled.Rows = spill.close();
+  spilled.Counts = labelling.counts();
+  spilled.InPieces = labelling.inPieces();
+  return spilled;
+}
+
+SpilledPoints::SpilledPoints(const std::vector<SpilledPart>& parts, const InputSurvey& survey,
+  PiecePlan& plan, const PointRowLayout& rows, const std::string& file)
+  : Starts(std::size_t(plan.pieces()) + 1, 0)
+  , Rows(file, std::size_t(plan.pieces()), 8 * rows.Words, rowsOf(parts))
+{
+  std::int64_t seen = 0;
+  std::vector<std::int64_t> before(std::size_t(plan.pieces()), 0); // the part
+  auto next = plan.Initial.begin();
+  for (const SpilledPart& part : parts)
   {
-    this->Starts.push_back(this->Starts.back() + count);
+    seen += part.Points;
+    for (std::size_t i = 0; i < part.InPieces.size() && next != plan.Initial.end(); ++i)
+    {
+      const std::int32_t piece = plan.PieceOf[std::size_t(next->Partition)];
+      next->InPieces = before.at(std::size_t(piece)) + part.InPieces[i];
+      ++next;
+    }
+    for (std::size_t piece = 0; piece < before.size(); ++piece)
+    {
+      before[piece] += part.Counts.at(piece);
+    }
   }
-  if (seen != survey.Points || this->Starts.back() != survey.Points - survey.Rejected)
+  std::partial_sum(before.begin(), before.end(), this->Starts.begin() + 1);
+  if (seen != survey.Points || this->Starts.back() != survey.Points - survey.Rejected ||
+    next != plan.Initial.end())
   {
     throw IOError("The input has changed while it was read; start again.");
   }

@@ -16,15 +16,29 @@ namespace tipp
 class SaveArchive;
 class LoadArchive;
 
+/// What is known of a part of the stream that has been spilled.
+struct SpilledPart
+{
+  std::int64_t Points = 0;
+  std::vector<std::uint64_t> Rows;    ///< of Spill::close()
+  std::vector<std::int64_t> Counts;   ///< of finite points, of each piece
+  std::vector<std::int64_t> InPieces; ///< places of the part's initial points among these
+};
+
+/// A pass over the part of the stream that it is limited to; these rows are in the file's part with
+/// this number.
+VTKTIPPFILTERS_EXPORT SpilledPart spillPart(PointStream& points, double factor,
+  const PiecePlan& plan, const PointRowLayout& rows, const std::string& file, int part,
+  std::size_t blockPoints, int threads, const std::function<void(std::int64_t)>& progress);
+
 /// The finite points as rows, piece by piece, in the order of the stream within each. Tells the
 /// plan's initial points their places.
 class VTKTIPPFILTERS_EXPORT SpilledPoints
 {
 public:
-  /// One pass over the stream. `file`: where to put them.
-  SpilledPoints(PointStream& points, const InputSurvey& survey, PiecePlan& plan,
-    const PointRowLayout& rows, const std::string& file, std::size_t blockPoints, int threads,
-    const std::function<void(std::int64_t)>& progress);
+  /// Of all parts of the stream, in their order.
+  SpilledPoints(const std::vector<SpilledPart>& parts, const InputSurvey& survey, PiecePlan& plan,
+    const PointRowLayout& rows, const std::string& file);
 
   /// Those that another process has spilled to the file.
   SpilledPoints(const std::string& file, const PiecePlan& plan, const PointRowLayout& rows,

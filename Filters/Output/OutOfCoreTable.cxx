@@ -27,6 +27,7 @@ void fillOutOfCoreTable(const OutOfCoreStatistics& statistics, bool isCounted, v
   addTotal("WorkerVertices", statistics.WorkerVertices, totals);
   addTotal("PeakRimTriangles", statistics.PeakRimTriangles, totals);
   addTotal("PeakBorderBytes", std::int64_t(statistics.PeakBorderBytes), totals);
+  addTotal("AsideBytes", std::int64_t(statistics.AsideBytes), totals);
   addTotal("SpilledBytes", std::int64_t(statistics.SpilledBytes), totals);
   addTotal("MeshBytes", std::int64_t(statistics.MeshBytes), totals);
   addTotal("Threads", statistics.Threads, totals);

@@ -24,6 +24,9 @@ public:
   /// False as soon as three finite points do not; then it always is.
   bool add(Point2 p);
 
+  /// Two of the points, or fewer, that lie on the line; instead of all, where all do.
+  std::vector<Point2> line() const { return { this->Line, this->Line + this->Found }; }
+
 private:
   bool Holds = true;
   std::size_t Found = 0; ///< distinct points, at most two

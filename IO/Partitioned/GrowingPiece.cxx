@@ -57,6 +57,24 @@ void GrowingPiece::setRow(std::int64_t place, const double* row, const PointRowL
     row, rows.Words, this->GhostRows.data() + std::size_t(this->Ghosts.at(place)) * rows.Words);
 }
 
+void GrowingPiece::addBorder(const GrowingPiece& other, const PointRowLayout& rows)
+{
+  const std::uint64_t begin = this->Borrowers.size();
+  this->Borrowers.insert(this->Borrowers.end(), other.Borrowers.begin(), other.Borrowers.end());
+  for (const SharedTriangle& triangle : other.Shared)
+  {
+    this->Shared.push_back({ triangle.Places, begin + triangle.BorrowerEnd });
+  }
+  for (std::size_t i = 0; i < other.GhostPlaces.size(); ++i)
+  {
+    if (this->needsRow(other.GhostPlaces[i]))
+    {
+      this->addRow(other.GhostPlaces[i], rows);
+      this->setRow(other.GhostPlaces[i], other.GhostRows.data() + i * rows.Words, rows);
+    }
+  }
+}
+
 void GrowingPiece::takeInterior(GrowingPiece other)
 {
   this->Room = other.Room;
@@ -68,6 +86,10 @@ void GrowingPiece::takeInterior(GrowingPiece other)
   this->RimPlaces = std::move(other.RimPlaces);
   this->RimRows = std::move(other.RimRows);
   this->RimTriangles = std::move(other.RimTriangles);
+  // They have grown, and are kept for long.
+  this->RimPlaces.shrink_to_fit();
+  this->RimRows.shrink_to_fit();
+  this->RimTriangles.shrink_to_fit();
 }
 
 const double* GrowingPiece::rimRow(std::int64_t place, const PointRowLayout& rows) const

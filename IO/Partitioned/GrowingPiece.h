@@ -70,7 +70,12 @@ public:
   /// Makes room for the row, and fills it.
   void addRow(std::int64_t place, const PointRowLayout& rows);
   void setRow(std::int64_t place, const double* row, const PointRowLayout& rows);
+  /// Another object's for the same piece, with all rows there.
+  void addBorder(const GrowingPiece& other, const PointRowLayout& rows);
   ///@}
+
+  /// The same piece without anything.
+  GrowingPiece emptied() const { return { this->First, this->OwnPoints }; }
 
   struct Corners
   {

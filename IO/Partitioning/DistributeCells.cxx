@@ -243,14 +243,15 @@ void distributeCells(PartitionRun& run)
   ranks.attempt(
     [&]
     {
-      run.Cells.emplace(run.scratch("cells"), ranks, pieces, run.Rows.CellBytes);
-      run.SharedCells.emplace(run.scratch("shared"), ranks, pieces, run.Rows.CellBytes + 4);
-      run.Borrowers.emplace(run.scratch("borrowers"), ranks, pieces, 4);
+      run.Cells.emplace(run.scratch("cells"), ranks.rank(), pieces, run.Rows.CellBytes);
+      run.SharedCells.emplace(run.scratch("shared"), ranks.rank(), pieces, run.Rows.CellBytes + 4);
+      run.Borrowers.emplace(run.scratch("borrowers"), ranks.rank(), pieces, 4);
       if (run.Options.DuplicateBorrowers)
       {
-        run.BorrowedCells.emplace(run.scratch("borrowed"), ranks, pieces, run.Rows.CellBytes);
+        run.BorrowedCells.emplace(
+          run.scratch("borrowed"), ranks.rank(), pieces, run.Rows.CellBytes);
       }
-      run.ForeignPoints.emplace(run.scratch("foreign"), ranks, chunks, sizeof(ForeignPoint));
+      run.ForeignPoints.emplace(run.scratch("foreign"), ranks.rank(), chunks, sizeof(ForeignPoint));
       CellDistribution(run).run();
     });
   run.Statistics.SpilledBytes += run.Cells->bytes() + run.SharedCells->bytes() +

@@ -108,7 +108,7 @@ void distributePoints(PartitionRun& run)
   ranks.attempt(
     [&]
     {
-      run.Points.emplace(run.scratch("points"), ranks, run.pieces(), run.Rows.PointBytes);
+      run.Points.emplace(run.scratch("points"), ranks.rank(), run.pieces(), run.Rows.PointBytes);
       const std::int64_t chunks = (run.Mesh.Points.Tuples + run.ChunkPoints - 1) / run.ChunkPoints;
       const auto [first, last] = ranks.shareOf(chunks);
       PointDistribution distribution(run);

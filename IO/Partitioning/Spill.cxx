@@ -5,234 +5,313 @@
 #include "Files/InputFile.h"
 #include "Parallel/ParallelFor.h"
 
-#include <algorithm>
+#include <array>
 #include <cstring>
 #include <optional>
 
 namespace tipp
 {
+namespace
+{
 
-std::string Spill::fileOf(const std::string& path, int rank)
+using Words = std::vector<std::uint64_t>;
+
+/// Takes numbers from a list, which may end early.
+class WordReader
+{
+public:
+  WordReader(const std::string& path, const Words& words)
+    : Path(path)
+    , Left(words)
+  {
+  }
+
+  Words take(std::uint64_t count)
+  {
+    if (count > this->Left.size() - this->At)
+    {
+      throw IOError(this->Path, "has rows of other pieces; start again.");
+    }
+    const auto begin = this->Left.begin() + std::ptrdiff_t(this->At);
+    this->At += std::size_t(count);
+    return { begin, begin + std::ptrdiff_t(count) };
+  }
+  std::uint64_t take() { return this->take(1)[0]; }
+
+private:
+  const std::string& Path;
+  const Words& Left;
+  std::size_t At = 0;
+};
+
+void append(Words& words, const Words& more)
+{
+  words.insert(words.end(), more.begin(), more.end());
+}
+
+/// Of a key's rows in several files.
+std::uint64_t combined(std::uint64_t sum, std::uint64_t next)
+{
+  const std::array<std::uint64_t, 2> both{ sum, next };
+  return checksumOf(both.data(), sizeof(both));
+}
+
+} // namespace
+
+std::string Spill::fileOf(const std::string& path, std::size_t rank)
 {
   return path + "." + std::to_string(rank);
 }
 
-Spill::Spill(const std::string& path, const Ranks& ranks, std::size_t keys, std::size_t rowBytes)
+void Spill::refuse(const std::string& file)
+{
+  throw IOError(file,
+    "is damaged: it does not hold what was written to it; remove its folder and start again.");
+}
+
+Spill::Spill(const std::string& path, int rank, std::size_t keys, std::size_t rowBytes)
   : Path(path)
   , Keys(keys)
   , RowBytes(rowBytes)
-  , Out(std::in_place, fileOf(path, ranks.rank()))
+  , Out(std::in_place, fileOf(path, std::size_t(rank)))
+  , Rows(keys, 0)
 {
+}
+
+Spill::Spill(const std::string& path, std::size_t keys, std::size_t rowBytes, const Words& saved)
+  : Path(path)
+  , Keys(keys)
+  , RowBytes(rowBytes)
+{
+  WordReader words(this->Path, saved);
+  for (const std::uint64_t rows : words.take(keys))
+  {
+    this->Rows.push_back(std::int64_t(rows));
+  }
+  this->Checksums = words.take(words.take());
+  const std::uint64_t files = words.take();
+  for (std::uint64_t file = 0; file < files; ++file)
+  {
+    this->Files.emplace_back();
+    this->Files.back().Bytes = words.take();
+    this->Files.back().Chunks = words.take(words.take());
+    if (InputFile(fileOf(path, file)).size() < this->Files.back().Bytes)
+    {
+      throw IOError(fileOf(path, file), "is shorter than it was; start again.");
+    }
+  }
 }
 
 Spill::Spill(
-  const std::string& path, std::size_t keys, std::size_t rowBytes, const std::vector<char>& saved)
+  const std::string& path, std::size_t keys, std::size_t rowBytes, const std::vector<Words>& ranks)
   : Path(path)
   , Keys(keys)
   , RowBytes(rowBytes)
 {
-  const std::size_t sums = keys * sizeof(std::uint64_t);
-  if (saved.size() < sums || (saved.size() - sums) % sizeof(Extent) != 0)
-  {
-    throw IOError(path, "has checksums of other pieces; start again.");
-  }
-  this->Checksums.resize(keys);
-  std::memcpy(this->Checksums.data(), saved.data(), sums);
-  for (std::size_t at = sums; at < saved.size(); at += sizeof(Extent))
-  {
-    Extent extent;
-    std::memcpy(&extent, saved.data() + at, sizeof(Extent));
-    this->Written = std::max(this->Written, extent.Offset + std::uint64_t(extent.Rows) * rowBytes);
-    if (extent.Key >= keys)
-    {
-      throw IOError(path, "has rows of a piece that there is not; start again.");
-    }
-  }
-  if (InputFile(fileOf(path, 0)).size() < this->Written)
-  {
-    throw IOError(fileOf(path, 0), "is shorter than it was; start again.");
-  }
-  this->sortExtents({ std::string(saved.data() + sums, saved.size() - sums) });
+  this->join(ranks);
 }
 
-std::vector<char> Spill::save() const
+Words Spill::save() const
 {
-  std::vector<Extent> extents = this->Sorted;
-  for (std::size_t key = 0; key < this->Keys; ++key)
+  Words words(this->Rows.begin(), this->Rows.end());
+  words.push_back(this->Checksums.size());
+  append(words, this->Checksums);
+  words.push_back(this->Files.size());
+  for (const File& file : this->Files)
   {
-    for (std::size_t i = this->Starts[key]; i < this->Starts[key + 1]; ++i)
-    {
-      extents[i].Key = std::uint32_t(key);
-    }
+    words.push_back(file.Bytes);
+    words.push_back(file.Chunks.size());
+    append(words, file.Chunks);
   }
-  const auto append = [](const auto& values, std::vector<char>& to)
+  return words;
+}
+
+std::uint64_t Spill::bytes() const
+{
+  std::uint64_t bytes = this->Mine.Bytes;
+  for (const File& file : this->Files)
   {
-    const char* const begin = reinterpret_cast<const char*>(values.data());
-    to.insert(to.end(), begin, begin + values.size() * sizeof(values[0]));
-  };
-  std::vector<char> saved;
-  append(this->Checksums, saved);
-  append(extents, saved);
-  return saved;
+    bytes += file.Bytes;
+  }
+  return bytes;
 }
 
 void Spill::protect()
 {
-  this->Checksums.resize(this->Keys);
   for (std::size_t key = 0; key < this->Keys; ++key)
   {
     this->Sums.push_back(std::make_unique<Checksum>());
   }
 }
 
-void Spill::addToChecksums(
-  const std::vector<char>& rows, const std::vector<std::int64_t>& starts, int threads)
+void Spill::addToChecksums(const std::vector<std::uint32_t>& starts, int threads)
 {
+  const char* const rows = this->Buffer.data() + this->listBytes();
   parallelFor(std::int64_t(this->Sums.size()), threads,
     [&](std::int64_t key)
     {
       const auto from = std::size_t(starts[std::size_t(key)]) * this->RowBytes;
       const auto to = std::size_t(starts[std::size_t(key) + 1]) * this->RowBytes;
-      this->Sums[std::size_t(key)]->add(rows.data() + from, to - from);
+      this->Sums[std::size_t(key)]->add(rows + from, to - from);
     });
 }
 
-void Spill::write(
-  const std::vector<char>& rows, const std::vector<std::int64_t>& starts, int threads)
+void Spill::write(const std::vector<std::uint32_t>& starts, int threads)
 {
+  if (starts.back() == 0)
+  {
+    return;
+  }
+  this->addToChecksums(starts, threads);
   for (std::size_t key = 0; key < this->Keys; ++key)
   {
-    // Longer runs than a field holds become several.
-    constexpr std::int64_t most = std::int64_t(1) << 31;
-    for (std::int64_t row = starts[key]; row < starts[key + 1]; row += most)
-    {
-      this->Mine.push_back({ this->Written + std::uint64_t(row) * this->RowBytes,
-        std::uint32_t(std::min(most, starts[key + 1] - row)), std::uint32_t(key) });
-    }
+    this->Rows[key] += starts[key + 1] - starts[key];
   }
-  this->addToChecksums(rows, starts, threads);
-  const std::size_t parts = rows.size() < (std::size_t(1) << 20) ? 1 : std::size_t(threads);
+  const std::vector<char>& chunk = this->Buffer;
+  std::memcpy(this->Buffer.data(), starts.data(), this->listBytes());
+  const std::size_t parts = chunk.size() < (std::size_t(1) << 20) ? 1 : std::size_t(threads);
   parallelFor(std::int64_t(parts), threads,
     [&](std::int64_t part)
     {
-      const std::size_t from = rows.size() * std::size_t(part) / parts;
-      const std::size_t to = rows.size() * (std::size_t(part) + 1) / parts;
-      this->Out->write(this->Written + from, rows.data() + from, to - from);
+      const std::size_t from = chunk.size() * std::size_t(part) / parts;
+      const std::size_t to = chunk.size() * (std::size_t(part) + 1) / parts;
+      this->Out->write(this->Mine.Bytes + from, chunk.data() + from, to - from);
     });
-  this->Written += rows.size();
+  this->Mine.Chunks.push_back(this->Mine.Bytes);
+  this->Mine.Bytes += chunk.size();
+}
+
+Words Spill::close()
+{
+  std::vector<char>().swap(this->Buffer);
+  this->Out->close(); // or other machines might not see all rows
+  this->Out.reset();
+  Words words(this->Rows.begin(), this->Rows.end());
+  words.push_back(this->Sums.size());
+  for (const std::unique_ptr<Checksum>& sum : this->Sums)
+  {
+    words.push_back(sum->finish());
+  }
+  std::vector<std::unique_ptr<Checksum>>().swap(this->Sums);
+  words.push_back(this->Mine.Bytes);
+  append(words, this->Mine.Chunks);
+  this->Mine = File();
+  return words;
+}
+
+void Spill::join(const std::vector<Words>& ranks)
+{
+  this->Rows.assign(this->Keys, 0);
+  for (const Words& rank : ranks)
+  {
+    WordReader words(this->Path, rank);
+    const Words rows = words.take(this->Keys);
+    for (std::size_t key = 0; key < this->Keys; ++key)
+    {
+      this->Rows[key] += std::int64_t(rows[key]);
+    }
+    const Words sums = words.take(words.take());
+    this->Checksums.resize(sums.size(), 0);
+    for (std::size_t key = 0; key < sums.size(); ++key)
+    {
+      this->Checksums[key] = combined(this->Checksums[key], sums[key]);
+    }
+    this->Files.emplace_back();
+    this->Files.back().Bytes = words.take();
+    this->Files.back().Chunks = words.take(rank.size() - this->Keys - sums.size() - 2);
+  }
 }
 
 void Spill::exchange(const Ranks& ranks)
 {
-  const std::string mine(
-    reinterpret_cast<const char*>(this->Mine.data()), this->Mine.size() * sizeof(Extent));
-  std::vector<Extent>().swap(this->Mine);
-  std::vector<char>().swap(this->Buffer);
-  for (std::size_t key = 0; key < this->Sums.size(); ++key)
+  Words mine;
+  ranks.attempt([&] { mine = this->close(); });
+  const std::vector<std::string> all = ranks.gather(
+    std::string(reinterpret_cast<const char*>(mine.data()), mine.size() * sizeof(mine[0])));
+  std::vector<Words> words;
+  for (const std::string& bytes : all)
   {
-    this->Checksums[key] = this->Sums[key]->finish();
+    words.emplace_back(bytes.size() / sizeof(mine[0]));
+    std::memcpy(words.back().data(), bytes.data(), bytes.size());
   }
-  this->Sums.clear();
-  ranks.attempt([this] { this->Out->close(); }); // or other machines might not see all rows
-  this->Out.reset();
-  const std::vector<std::string> all = ranks.gather(mine);
-  ranks.attempt([&] { this->sortExtents(all); });
+  ranks.attempt([&] { this->join(words); });
 }
 
-void Spill::sortExtents(const std::vector<std::string>& all)
+void Spill::readRows(std::size_t key, const std::function<Room(std::size_t)>& roomFor) const
 {
-  this->Rows.assign(this->Keys, 0);
-  this->Starts.assign(this->Keys + 1, 0);
-  const auto eachExtent = [&](const auto& take)
+  std::uint64_t sum = 0;
+  auto left = std::uint64_t(this->Rows[key]);
+  Checksum checksum;
+  for (std::size_t f = 0; f < this->Files.size(); ++f)
   {
-    for (std::size_t rank = 0; rank < all.size(); ++rank)
+    const InputFile file(fileOf(this->Path, f));
+    for (const std::uint64_t chunk : this->Files[f].Chunks)
     {
-      for (std::size_t at = 0; at < all[rank].size(); at += sizeof(Extent))
+      std::array<std::uint32_t, 2> ends{};
+      file.read(chunk + key * sizeof(ends[0]), ends.data(), sizeof(ends));
+      if (ends[1] < ends[0] || ends[1] - ends[0] > left)
       {
-        Extent extent;
-        std::memcpy(&extent, all[rank].data() + at, sizeof(Extent));
-        take(extent, std::uint32_t(rank));
+        refuse(file.path());
+      }
+      left -= ends[1] - ends[0];
+      while (ends[0] < ends[1])
+      {
+        const Room room = roomFor(ends[1] - ends[0]);
+        const std::size_t bytes = room.Rows * this->RowBytes;
+        file.read(
+          chunk + this->listBytes() + std::uint64_t(ends[0]) * this->RowBytes, room.At, bytes);
+        if (!this->Checksums.empty())
+        {
+          checksum.add(room.At, bytes);
+        }
+        ends[0] += std::uint32_t(room.Rows);
       }
     }
-  };
-  eachExtent(
-    [&](const Extent& extent, std::uint32_t)
-    {
-      this->Rows[extent.Key] += extent.Rows;
-      ++this->Starts[extent.Key + 1];
-    });
-  for (std::size_t key = 0; key < this->Keys; ++key)
-  {
-    this->Starts[key + 1] += this->Starts[key];
+    sum = combined(sum, checksum.finish());
   }
-  this->Sorted.resize(this->Starts.back());
-  std::vector<std::size_t> places(this->Starts.begin(), this->Starts.end() - 1);
-  eachExtent(
-    [&](const Extent& extent, std::uint32_t rank) {
-      this->Sorted[places[extent.Key]++] = { extent.Offset, extent.Rows, rank };
-    });
+  if (left > 0 || (!this->Checksums.empty() && sum != this->Checksums[key]))
+  {
+    refuse(fileOf(this->Path, 0));
+  }
 }
 
 void Spill::read(std::size_t key, std::size_t most,
   const std::function<void(const char*, std::size_t)>& take) const
 {
-  std::vector<char> block;
-  std::size_t held = 0;
   const std::size_t room = std::min(most, std::size_t(this->Rows[key]));
-  block.resize(room * this->RowBytes);
-  // A key's extents are in the order of the ranks: one file is open at a time.
-  std::optional<InputFile> file;
-  std::uint32_t opened = 0;
-  Checksum checksum;
+  std::vector<char> block(room * this->RowBytes);
+  std::size_t held = 0;
   const auto give = [&]
   {
-    if (!this->Checksums.empty())
+    if (held > 0)
     {
-      checksum.add(block.data(), held * this->RowBytes);
+      take(block.data(), held);
+      held = 0;
     }
-    take(block.data(), held);
-    held = 0;
   };
-  for (std::size_t i = this->Starts[key]; i < this->Starts[key + 1]; ++i)
-  {
-    Extent extent = this->Sorted[i];
-    if (!file || opened != extent.Key)
+  this->readRows(key,
+    [&](std::size_t rows)
     {
-      opened = extent.Key;
-      file.emplace(fileOf(this->Path, int(opened)));
-    }
-    while (extent.Rows > 0)
-    {
-      const std::size_t rows = std::min<std::size_t>(extent.Rows, room - held);
-      file->read(extent.Offset, block.data() + held * this->RowBytes, rows * this->RowBytes);
-      held += rows;
-      extent.Rows -= std::uint32_t(rows);
-      extent.Offset += rows * this->RowBytes;
       if (held == room)
       {
         give();
       }
-    }
-  }
-  if (held > 0)
-  {
-    give();
-  }
-  if (!this->Checksums.empty() && checksum.finish() != this->Checksums[key])
-  {
-    throw IOError(fileOf(this->Path, 0),
-      "is damaged: it does not hold what was written to it; remove its folder and start again.");
-  }
+      const Room here{ block.data() + held * this->RowBytes, std::min(rows, room - held) };
+      held += here.Rows;
+      return here;
+    });
+  give();
 }
 
 void Spill::readAll(std::size_t key, void* to) const
 {
   char* at = static_cast<char*>(to);
-  this->read(key, std::size_t(1) << 16,
-    [&](const char* block, std::size_t count)
+  this->readRows(key,
+    [&](std::size_t rows)
     {
-      std::memcpy(at, block, count * this->RowBytes);
-      at += count * this->RowBytes;
+      const Room here{ at, rows };
+      at += rows * this->RowBytes;
+      return here;
     });
 }
 

@@ -47,6 +47,14 @@ public:
     this->Row = 0;
   }
 
+  std::int64_t divisible() const override { return this->File->rows(); }
+
+  void skip(std::int64_t points) override
+  {
+    this->File->skip(points);
+    this->Row += points;
+  }
+
   std::vector<std::string> columns() const override { return this->File->further(); }
 
 private:

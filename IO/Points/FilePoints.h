@@ -21,6 +21,10 @@ public:
   /// Appends to an empty block; false at the end.
   virtual bool next(PointBlock& block, std::size_t most) = 0;
   virtual void rewind() = 0;
+  /// The number of points if skip() takes no time, else -1.
+  virtual std::int64_t divisible() const { return -1; }
+  /// Leaves out the next ones.
+  virtual void skip(std::int64_t) {}
   virtual std::vector<std::string> columns() const = 0;
 };
 

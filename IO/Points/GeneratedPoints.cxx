@@ -37,6 +37,17 @@ public:
     this->At = 0;
   }
 
+  std::int64_t divisible() const override { return this->Count; }
+
+  void skip(std::int64_t points) override
+  {
+    for (std::int64_t i = 0; i < 2 * points; ++i)
+    {
+      this->Numbers.bits(); // one a coordinate; little of what becomes of a point
+    }
+    this->At += points;
+  }
+
   std::vector<std::string> columns() const override { return {}; }
 
 private:

@@ -5,8 +5,10 @@
 #include "Files/IOError.h"
 #include "Points/FilePoints.h"
 
+#include <algorithm>
 #include <array>
 #include <future>
+#include <limits>
 #include <utility>
 
 #include <sys/stat.h>
@@ -50,11 +52,12 @@ public:
 
   bool next(PointBlock& block, std::size_t most) override
   {
-    while (this->At < this->Files.size())
+    while (this->At < this->Files.size() && this->Points < this->End)
     {
       block.XY.clear();
       block.Columns.clear();
-      if (this->Files[this->At]->next(block, most))
+      const auto left = std::uint64_t(this->End - this->Points);
+      if (this->Files[this->At]->next(block, std::size_t(std::min<std::uint64_t>(most, left))))
       {
         block.First = this->Points;
         this->Points += std::int64_t(block.size());
@@ -79,12 +82,44 @@ public:
     }
     this->At = 0;
     this->Points = 0;
+    this->skipToFirst();
+  }
+
+  std::int64_t divisible() const override
+  {
+    std::int64_t points = 0;
+    for (const auto& file : this->Files)
+    {
+      if (file->divisible() < 0)
+      {
+        return -1;
+      }
+      points += file->divisible();
+    }
+    return points;
+  }
+
+  void limitTo(std::int64_t first, std::int64_t end) override
+  {
+    this->First = first;
+    this->End = end;
   }
 
   std::vector<std::string> columns() const override { return this->Files[0]->columns(); }
   std::string identity() const override { return this->Identity; }
 
 private:
+  void skipToFirst()
+  {
+    while (this->Points < this->First && this->At < this->Files.size())
+    {
+      const std::int64_t here = this->Files[this->At]->divisible();
+      const std::int64_t skipped = std::min(here, this->First - this->Points);
+      this->Points += skipped;
+      skipped < here ? this->Files[this->At]->skip(skipped) : static_cast<void>(++this->At);
+    }
+  }
+
   void requireSameColumns() const
   {
     for (std::size_t i = 1; i < this->Files.size(); ++i)
@@ -112,6 +147,8 @@ private:
   std::string Identity;
   std::size_t At = 0;
   std::int64_t Points = 0;
+  std::int64_t First = 0;
+  std::int64_t End = std::numeric_limits<std::int64_t>::max();
 };
 
 } // namespace

@@ -38,6 +38,12 @@ public:
   /// Starts again. Throws IOError if a file is another than at first.
   virtual void rewind() = 0;
 
+  /// The number of points, if a part of them can be read without reading what is before; else -1.
+  virtual std::int64_t divisible() const = 0;
+
+  /// From the next rewind() on there are only those from the first one to before the end.
+  virtual void limitTo(std::int64_t first, std::int64_t end) = 0;
+
   /// Names of the columns beside x and y.
   virtual std::vector<std::string> columns() const = 0;
 

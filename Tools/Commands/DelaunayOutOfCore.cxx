@@ -141,6 +141,7 @@ void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& 
     { "worker_vertices", statistics.WorkerVertices },
     { "peak_rim_triangles", statistics.PeakRimTriangles },
     { "peak_border_bytes", statistics.PeakBorderBytes },
+    { "aside_bytes", statistics.AsideBytes },
     { "spilled_bytes", statistics.SpilledBytes },
     { "mesh_bytes", statistics.MeshBytes },
     { "read_bytes", sumOf(ranks, &ProcessUsage::Read) },
@@ -225,11 +226,14 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
   std::unique_ptr<ProgressBar> bar;
   const auto open = [&]
   {
-    if (!arguments.Statistics.empty())
+    if (isFirst && !arguments.Statistics.empty())
     {
       const PendingFile writable(arguments.Statistics); // before the work rather than after it
     }
-    bar = std::make_unique<ProgressBar>("Triangulating");
+    if (isFirst)
+    {
+      bar = std::make_unique<ProgressBar>("Triangulating");
+    }
     return openPointStream(arguments.Inputs, arguments.Columns);
   };
   try

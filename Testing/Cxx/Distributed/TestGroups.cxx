@@ -7,7 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <set>
+#include <utility>
+#include <vector>
 
 namespace
 {
@@ -178,6 +181,63 @@ TEST(GroupMesh, FinishingAPartitionTakesItsTrianglesFromTheOthers)
   EXPECT_EQ(gathered(mesh, 1), (std::set<std::int64_t>{ 20, 21, 22 }));
   mesh.finish(2);
   EXPECT_EQ(mesh.size(), 0u);
+}
+
+/// One triangle for each pair of neighbours in a row of partitions, and one for each three.
+SeamTriangles rowOfSeams(PartitionIndex partitions)
+{
+  std::vector<std::pair<SeamTriangle, std::vector<PartitionIndex>>> seams;
+  for (PartitionIndex p = 0; p + 2 < partitions; ++p)
+  {
+    seams.push_back({ seamTriangle(100 * p, 0, 1, 4), { p, p + 1 } });
+    seams.push_back({ seamTriangle(100 * p + 50, 0, 1, 4), { p, p + 1, p + 2 } });
+  }
+  return seamTriangles(seams);
+}
+
+TEST(GroupMesh, KeepsTheOthersTrianglesWhateverIsFinished)
+{
+  constexpr PartitionIndex partitions = 9;
+  std::vector<PartitionIndex> all(partitions);
+  std::iota(all.begin(), all.end(), 0);
+  GroupMesh mesh(partitions, all);
+  mesh.add(SeamGrouping().group(rowOfSeams(partitions)));
+  for (const PartitionIndex finished : { 4, 5, 3, 0, 8, 7, 1 })
+  {
+    mesh.finish(finished);
+    for (PartitionIndex p = 0; p < partitions; ++p)
+    {
+      std::set<std::int64_t> expected;
+      const auto live = [&](PartitionIndex q) { return !mesh.isFinished(q); };
+      for (PartitionIndex q = 0; live(p) && q + 2 < partitions; ++q)
+      {
+        for (const PartitionIndex last : { q + 1, q + 2 })
+        {
+          const std::int64_t id = 100 * q + (last == q + 1 ? 0 : 50);
+          if (q <= p && p <= last && live(q) && live(q + 1) && live(last))
+          {
+            expected.insert({ id, id + 1, id + 2 });
+          }
+        }
+      }
+      ASSERT_EQ(expected, gathered(mesh, p)) << finished << " " << p;
+    }
+  }
+}
+
+TEST(GroupMesh, LiveGroupsMakeItAgain)
+{
+  GroupMesh mesh(3, { 0, 1, 2 });
+  mesh.add(SeamGrouping().group(exampleSeams()));
+  mesh.finish(2);
+  GroupMesh again(3, { 0, 1 });
+  again.add(mesh.liveGroups());
+  EXPECT_EQ(mesh.size(), again.size());
+  for (const PartitionIndex p : { 0, 1, 2 })
+  {
+    EXPECT_EQ(gathered(mesh, p), gathered(again, p));
+    EXPECT_EQ(mesh.isMet(p), again.isMet(p));
+  }
 }
 
 TEST(GroupMesh, ReachIsTheLabelsOfAPartitionsTriangles)

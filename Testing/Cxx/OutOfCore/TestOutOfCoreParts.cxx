@@ -3,7 +3,9 @@
 #include "OutOfCoreTesting.h"
 
 #include "ExpectIOError.h"
+#include "OutOfCore/AsideFile.h"
 #include "OutOfCore/Checkpoint.h"
+#include "OutOfCore/InputPasses.h"
 #include "OutOfCore/InputSurvey.h"
 #include "OutOfCore/LoadedPieces.h"
 #include "OutOfCore/PieceMessages.h"
@@ -36,7 +38,8 @@ public:
     this->Stream = openPointStream({ this->Folder.path("points.npy") });
     this->Options.PiecePoints = 300;
     this->Options.PartitionPoints = 80;
-    this->Survey = surveyInput(*this->Stream, block, 1 << 10, 2, [](std::int64_t) {});
+    this->Survey =
+      InputPasses(*this->Stream, nullptr, { block, 1 << 10, 2, [](std::int64_t) {} }).survey();
     this->Rows.Words = 3;
   }
 
@@ -47,8 +50,9 @@ public:
   }
   SpilledPoints spill(PiecePlan& plan)
   {
-    return SpilledPoints(*this->Stream, this->Survey, plan, this->Rows, this->Folder.path("spill"),
-      1000, 2, [](std::int64_t) {});
+    const SpilledPart all = spillPart(*this->Stream, this->Survey.Factor, plan, this->Rows,
+      this->Folder.path("spill"), 0, 1000, 2, [](std::int64_t) {});
+    return SpilledPoints({ all }, this->Survey, plan, this->Rows, this->Folder.path("spill"));
   }
 
   TemporaryFolder Folder;
@@ -61,11 +65,16 @@ public:
 TEST(Checkpoint, ComesBackAsItWasSaved)
 {
   const TemporaryFolder folder;
-  SaveArchive out;
-  out(std::int64_t(-7));
-  out(std::string("a name"));
-  out(std::vector<std::vector<std::int32_t>>{ { 1, 2 }, {}, { 3 } });
-  writeCheckpoint(folder.path("state"), out);
+  const std::vector<double> many(20000, 0.5);
+  const std::uint64_t bytesWritten = writeCheckpoint(folder.path("state"),
+    [&](SaveArchive& out)
+    {
+      out(std::int64_t(-7));
+      out(std::string("a name"));
+      out(many);
+      out(std::vector<std::vector<std::int32_t>>{ { 1, 2 }, {}, { 3 } });
+    });
+  EXPECT_EQ(fs::file_size(folder.path("state")), bytesWritten);
   const Bytes bytes = readCheckpoint(folder.path("state"));
   LoadArchive in(bytes);
   std::int64_t number = 0;
@@ -73,7 +82,10 @@ TEST(Checkpoint, ComesBackAsItWasSaved)
   std::vector<std::vector<std::int32_t>> lists;
   in(number);
   in(name);
+  std::vector<double> manyBack;
+  in(manyBack);
   in(lists);
+  EXPECT_EQ(many, manyBack);
   EXPECT_EQ(-7, number);
   EXPECT_EQ("a name", name);
   EXPECT_EQ((std::vector<std::vector<std::int32_t>>{ { 1, 2 }, {}, { 3 } }), lists);
@@ -85,9 +97,7 @@ TEST(Checkpoint, DamagedAnywhereItIsRefused)
 {
   const TemporaryFolder folder;
   const std::string path = folder.path("state");
-  SaveArchive out;
-  out(std::vector<std::int32_t>{ 1, 2, 3 });
-  writeCheckpoint(path, out);
+  writeCheckpoint(path, [](SaveArchive& out) { out(std::vector<std::int32_t>{ 1, 2, 3 }); });
   for (int at = 0; at < 8 + 8 + 12; ++at)
   {
     const auto flip = [&]
@@ -104,6 +114,30 @@ TEST(Checkpoint, DamagedAnywhereItIsRefused)
   }
   std::ofstream(path, std::ios::binary) << "short";
   EXPECT_THROW(readCheckpoint(path), IOError);
+}
+
+TEST(AsideFile, GivesBackItsParts)
+{
+  const TemporaryFolder folder;
+  AsideFile file(folder.path("aside"));
+  std::vector<AsideFile::Part> parts;
+  for (const int number : { 7, 8, 9 })
+  {
+    SaveArchive archive;
+    archive(std::vector<int>(100, number));
+    parts.push_back(file.put(archive));
+  }
+  AsideFile later(folder.path("aside"));
+  later.goOnFrom(parts[1].Offset + parts[1].Bytes);
+  SaveArchive other;
+  other(std::vector<int>(100, 5));
+  EXPECT_EQ(parts[2].Offset, later.put(other).Offset);
+  const Bytes bytes = later.get(parts[1]);
+  LoadArchive archive(bytes);
+  std::vector<int> numbers;
+  archive(numbers);
+  EXPECT_EQ(std::vector<int>(100, 8), numbers);
+  expectIOError(folder.path("aside"), "is damaged", [&] { file.get(parts[2]); });
 }
 
 TEST(InputSurvey, CountsPointsAndTheirBounds)

@@ -15,6 +15,7 @@
 #include "vtkTable.h"
 
 #include <filesystem>
+#include <fstream>
 #include <random>
 
 namespace
@@ -25,6 +26,39 @@ using namespace tipp;
 using namespace tipp::test;
 
 using Files = std::map<std::string, std::string>;
+
+/// A stream that cannot be read any more after so many passes.
+class BrokenStream : public PointStream
+{
+public:
+  BrokenStream(std::unique_ptr<PointStream> points, int goodPasses)
+    : Points(std::move(points))
+    , PassesLeft(goodPasses)
+  {
+  }
+
+  bool next(PointBlock& block, std::size_t most) override
+  {
+    if (this->PassesLeft < 0)
+    {
+      throw IOError("points", "cannot be read.");
+    }
+    return this->Points->next(block, most);
+  }
+  void rewind() override
+  {
+    --this->PassesLeft;
+    this->Points->rewind();
+  }
+  std::int64_t divisible() const override { return this->Points->divisible(); }
+  void limitTo(std::int64_t first, std::int64_t end) override { this->Points->limitTo(first, end); }
+  std::vector<std::string> columns() const override { return this->Points->columns(); }
+  std::string identity() const override { return this->Points->identity(); }
+
+private:
+  const std::unique_ptr<PointStream> Points;
+  int PassesLeft;
+};
 
 class OutOfCoreRanks : public testing::TestWithParam<std::string>
 {
@@ -40,6 +74,9 @@ protected:
     {
       this->Folder = std::make_unique<TemporaryFolder>();
     }
+    ByteWriter name;
+    name.text(this->isFirst() ? this->Folder->path("points.npy") : "");
+    this->Points = ByteReader(this->Ranks.broadcast(name.take())).text();
   }
 
   void makePoints(const std::string& set, std::size_t count = 2500) const
@@ -55,7 +92,7 @@ protected:
 
   std::unique_ptr<PointStream> open() const
   {
-    return openPointStream({ this->Folder->path("points.npy") });
+    return std::make_unique<BrokenStream>(openPointStream({ this->Points }), this->GoodPasses);
   }
 
   OutOfCoreStatistics runTogether()
@@ -108,8 +145,26 @@ protected:
 
   vtkMultiProcessController* const Controller = vtkMultiProcessController::GetGlobalController();
   Postbox Ranks;
+  /// Whether there were spilled points of the last rank's when all were.
+  bool lastRankSpills()
+  {
+    bool isThere = false;
+    this->Options.Progress = [&](double)
+    {
+      isThere = isThere || !this->isFirst() ||
+        fs::exists(
+          this->Folder->path(".mesh.tipp.part/.points." + std::to_string(this->Ranks.size() - 1)));
+      return true;
+    };
+    this->runTogether();
+    this->Options.Progress = {};
+    return isThere;
+  }
+
   OutOfCoreOptions Options;
   std::unique_ptr<TemporaryFolder> Folder;
+  std::string Points;   ///< the file, on all ranks
+  int GoodPasses = 100; ///< over it on this rank
 };
 
 TEST_P(OutOfCoreRanks, MakeTheFilesOfOneProcess)
@@ -162,6 +217,80 @@ TEST_P(OutOfCoreRanks, GoOnWhereAnyNumberOfRanksWasEnded)
 
 INSTANTIATE_TEST_SUITE_P(PointSets, OutOfCoreRanks,
   testing::Values("uniform", "clustered", "coast", "duplicates", "lattice"));
+
+TEST_F(OutOfCoreRanks, ReadTheirPartsOfTheInput)
+{
+  this->makePoints("uniform", 5000);
+  this->runAlone();
+  const Files expected = this->takeFiles();
+  EXPECT_TRUE(this->lastRankSpills());
+  EXPECT_TRUE(expected == this->takeFiles());
+}
+
+TEST_F(OutOfCoreRanks, LeaveToTheFirstAnInputThatOthersDoNotSee)
+{
+  this->makePoints("uniform", 5000);
+  this->runAlone();
+  const Files expected = this->takeFiles();
+  if (this->Ranks.rank() % 2 == 1)
+  {
+    this->Points = "missing.npy";
+  }
+  EXPECT_TRUE(this->lastRankSpills());
+  EXPECT_TRUE(expected == this->takeFiles());
+}
+
+TEST_F(OutOfCoreRanks, LeaveToTheFirstAnInputThatIsNotToBeDivided)
+{
+  const Coordinates xy = makePointSet("uniform", 5000);
+  this->Points.replace(this->Points.size() - 3, 3, "xyz");
+  if (this->isFirst())
+  {
+    std::ofstream file(this->Points);
+    file.precision(17);
+    for (std::size_t i = 0; i < xy.size(); i += 2)
+    {
+      file << xy[i] << " " << xy[i + 1] << "\n";
+    }
+  }
+  this->runAlone();
+  const Files expected = this->takeFiles();
+  EXPECT_EQ(!this->isFirst() || this->Ranks.size() == 1, this->lastRankSpills());
+  EXPECT_TRUE(expected == this->takeFiles());
+}
+
+TEST_F(OutOfCoreRanks, AllEndWhereThePartOfOneCannotBeRead)
+{
+  this->makePoints("uniform", 5000);
+  this->runAlone();
+  const Files expected = this->takeFiles();
+  for (const int goodPasses : { 0, 1 })
+  {
+    this->GoodPasses = this->Ranks.rank() == this->Ranks.size() - 1 ? goodPasses : 100;
+    EXPECT_EQ("points: cannot be read.", this->failure());
+    this->GoodPasses = 100;
+    EXPECT_TRUE(!this->isFirst() || this->Folder->fileCount() == 1);
+    this->runTogether();
+    EXPECT_TRUE(expected == this->takeFiles());
+  }
+}
+
+TEST_F(OutOfCoreRanks, FindTheFactorOfTheirPartsTogether)
+{
+  Coordinates xy = makePointSet("uniform", 5000);
+  for (double& coordinate : xy)
+  {
+    coordinate *= 1e-250;
+  }
+  if (this->isFirst())
+  {
+    writePoints(this->Points, xy);
+  }
+  this->runAlone();
+  const Files expected = this->takeFiles();
+  this->runTogether();
+  EXPECT_TRUE(expected == this->takeFiles());
+}
 
 TEST_F(OutOfCoreRanks, LeaveToTheFirstWhatHasNoPartitions)
 {

@@ -51,6 +51,7 @@ TEST_P(OutOfCoreResume, MakesTheSameFilesWhereverItWasEnded)
   for (int round = 0; round < 8; ++round)
   {
     fs::remove_all(this->Folder.path("mesh.tipp"));
+    this->Options.MemoryLimit = round % 2 == 0 ? 1 : OutOfCoreOptions().MemoryLimit;
     OutOfCoreStatistics statistics;
     do
     {

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippInputPasses_h
+#define tippInputPasses_h
+
+#include "Messages/Postbox.h"
+#include "OutOfCore/InputSurvey.h"
+#include "OutOfCore/PieceMessages.h"
+#include "OutOfCore/PiecePlan.h"
+#include "OutOfCore/SpillPoints.h"
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// How a rank reads its part of the input.
+struct PassOptions
+{
+  std::size_t BlockPoints; ///< at a time
+  std::size_t SamplePoints;
+  int Threads;
+  /// Told how many points of a part are done.
+  std::function<void(std::int64_t)> Progress;
+};
+
+/// The passes over the input before its points are triangulated. If it can be divided each rank
+/// takes a part; the first rank, which has this, those of ranks that do not see the same input,
+/// too. What comes out does not depend on the parts.
+class VTKTIPPFILTERS_EXPORT InputPasses
+{
+public:
+  /// Ranks: null for this process alone.
+  InputPasses(PointStream& points, Postbox* ranks, PassOptions options);
+
+  InputSurvey survey();
+  /// Tells the plan's initial points their places. `file`: to which a number is added for each
+  /// part.
+  std::unique_ptr<SpilledPoints> spill(const InputSurvey& survey, PiecePlan& plan,
+    const PointRowLayout& rows, const std::string& file);
+
+private:
+  double commonFactor(const InputSurvey& survey);
+  template <typename Result, typename Work>
+  std::vector<Result> share(MessageKind kind, SaveArchive order, const Work& work);
+  Bytes answerOf(int rank);
+  void poll();
+  std::function<void(std::int64_t)> progress();
+
+  PointStream& Points;
+  Postbox* const Ranks;
+  const PassOptions Options;
+  const std::int64_t Total; ///< points, or -1
+  const int Parts;
+  std::deque<Message> Arrived;
+};
+
+/// The other ranks' side.
+class VTKTIPPFILTERS_EXPORT InputHelper
+{
+public:
+  /// Progress throws to end the run. The rest of the options come from the first rank.
+  InputHelper(
+    Postbox& ranks, std::function<std::unique_ptr<PointStream>()> open, PassOptions options);
+
+  /// Does what the first rank wants; false if the message is about something else.
+  bool take(const Message& message);
+
+private:
+  void open(LoadArchive& order);
+  SaveArchive survey();
+  SaveArchive factor(LoadArchive& order);
+  SaveArchive spill(LoadArchive& order);
+
+  Postbox& Ranks;
+  const std::function<std::unique_ptr<PointStream>()> Open;
+  PassOptions Options;
+  std::unique_ptr<PointStream> Points; ///< limited to this rank's part; null if it is another input
+};
+
+} // namespace tipp
+
+#endif

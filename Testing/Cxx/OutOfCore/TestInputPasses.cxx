@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the passes over the input tell does not depend on how it is divided.
+#include "Comparison.h"
+#include "TemporaryFolder.h"
+
+#include "OutOfCore/InputPasses.h"
+#include "Points/WritePoints.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+
+InputSurvey surveyOf(PointStream& points)
+{
+  return InputPasses(points, nullptr, { 1 << 14, 1 << 10, 2, [](std::int64_t) {} }).survey();
+}
+
+TEST(InputSurvey, IsTheSameHoweverTheInputIsDivided)
+{
+  const TemporaryFolder folder;
+  const std::vector<std::string> names{ folder.path("points.npy"), "uniform:3000" };
+  writePoints(names[0], makePointSet("lattice", 7001));
+  // As of an input whose size is not known: the sample is thinned out while it is read.
+  std::vector<double> xy;
+  const auto whole = openPointStream(names);
+  forEachBlock(
+    *whole, 999, [&](PointBlock& block) { xy.insert(xy.end(), block.XY.begin(), block.XY.end()); });
+  std::ofstream file(folder.path("points.xyz"));
+  file.precision(17);
+  for (std::size_t i = 0; i < xy.size(); i += 2)
+  {
+    file << xy[i] << " " << xy[i + 1] << "\n";
+  }
+  file.close();
+  const auto unknown = openPointStream({ folder.path("points.xyz") });
+  ASSERT_EQ(-1, unknown->divisible());
+  ASSERT_EQ(10001, whole->divisible());
+  const InputSurvey expected = surveyOf(*unknown);
+  for (const std::int64_t cuts : { 1, 2, 7 })
+  {
+    std::vector<PartSurvey> parts;
+    for (std::int64_t part = 0; part < cuts; ++part)
+    {
+      whole->limitTo(10001 * part / cuts, 10001 * (part + 1) / cuts);
+      parts.push_back(surveyPart(*whole, 500, 1 << 10, 2, [](std::int64_t) {}));
+    }
+    const InputSurvey survey = joinSurveys(parts);
+    EXPECT_EQ(10001, survey.Points);
+    EXPECT_EQ(expected.Bounds.xmax, survey.Bounds.xmax);
+    ASSERT_EQ(expected.Sample.size(), survey.Sample.size());
+    for (std::size_t i = 0; i < survey.Sample.size(); ++i)
+    {
+      ASSERT_EQ(expected.Sample[i].Id, survey.Sample[i].Id);
+      ASSERT_TRUE(expected.Sample[i].Place == survey.Sample[i].Place);
+    }
+  }
+}
+
+TEST(InputSurvey, PartsOnDifferentLinesAreNotOnOne)
+{
+  PartSurvey a;
+  a.Line = { { 0, 0 }, { 1, 1 } };
+  PartSurvey b;
+  b.Line = { { 2, 2 }, { 3, 3 } };
+  PartSurvey c;
+  c.Line = { { 2, 2 }, { 3, 4 } };
+  std::vector<PartSurvey> on{ a, b };
+  EXPECT_TRUE(joinSurveys(on).Collinear);
+  std::vector<PartSurvey> off{ a, b, c };
+  EXPECT_FALSE(joinSurveys(off).Collinear);
+}
+
+} // namespace

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The files of rows by key that the out-of-core run and the partitioner write.
+#include "ExpectIOError.h"
+#include "TemporaryFolder.h"
+
+#include "Files/OutputFile.h"
+#include "Partitioning/Spill.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+
+constexpr std::size_t keys = 5;
+constexpr std::size_t rowBytes = 12;
+constexpr std::size_t chunkRows = 100;
+
+using Row = std::array<std::int32_t, 3>;
+
+int keyOf(std::size_t row)
+{
+  return int(row * row % 7) - 1; // of 0, 1, 2 and 4 squares; some are left out
+}
+
+/// A rank's chunks of rows from `first` on.
+class Written
+{
+public:
+  Written(const TemporaryFolder& folder, int rank, std::size_t first, std::size_t chunks)
+    : Rows(folder.path("rows"), rank, keys, rowBytes)
+  {
+    this->Rows.protect();
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk, first += chunkRows)
+    {
+      this->Rows.add(
+        chunkRows, 2, [&](std::size_t i) { return keyOf(first + i); },
+        [&](std::size_t i, char* to)
+        {
+          const Row row{ std::int32_t(first + i), 7, -1 };
+          std::memcpy(to, row.data(), rowBytes);
+        });
+    }
+  }
+
+  Spill Rows;
+};
+
+/// The only rank's, to be read.
+class WrittenAlone : public Written
+{
+public:
+  WrittenAlone(const TemporaryFolder& folder, std::size_t chunks)
+    : Written(folder, 0, 0, chunks)
+  {
+    this->Rows.exchange(Ranks(nullptr));
+  }
+};
+
+std::vector<std::int32_t> numbersOf(const Spill& spill, std::size_t key)
+{
+  const std::vector<char> bytes = spill.readAll(key);
+  std::vector<std::int32_t> numbers;
+  for (std::size_t at = 0; at < bytes.size(); at += rowBytes)
+  {
+    Row row{};
+    std::memcpy(row.data(), bytes.data() + at, rowBytes);
+    numbers.push_back(row[0]);
+  }
+  return numbers;
+}
+
+std::vector<std::int32_t> expectedNumbers(std::size_t key, std::size_t rows)
+{
+  std::vector<std::int32_t> numbers;
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    if (keyOf(row) == int(key))
+    {
+      numbers.push_back(std::int32_t(row));
+    }
+  }
+  return numbers;
+}
+
+TEST(Spill, GivesEachKeysRowsInTheOrderOfTheChunks)
+{
+  const TemporaryFolder folder;
+  const WrittenAlone written(folder, 4);
+  for (std::size_t key = 0; key < keys; ++key)
+  {
+    EXPECT_EQ(expectedNumbers(key, 4 * chunkRows), numbersOf(written.Rows, key));
+    EXPECT_EQ(numbersOf(written.Rows, key).size(), std::size_t(written.Rows.rows(key)));
+  }
+}
+
+TEST(Spill, GivesRowsABlockAtATime)
+{
+  const TemporaryFolder folder;
+  const WrittenAlone written(folder, 4);
+  std::vector<std::int32_t> numbers;
+  written.Rows.read(1, 30,
+    [&](const char* rows, std::size_t count)
+    {
+      EXPECT_LE(count, 30U);
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        numbers.emplace_back();
+        std::memcpy(&numbers.back(), rows + i * rowBytes, 4);
+      }
+    });
+  EXPECT_EQ(expectedNumbers(1, 4 * chunkRows), numbers);
+}
+
+TEST(Spill, JoinsTheRowsOfRanksInTheirOrder)
+{
+  const TemporaryFolder folder;
+  Written first(folder, 0, 0, 3);
+  Written second(folder, 1, 3 * chunkRows, 2);
+  const auto ofFirst = first.Rows.close();
+  const auto ofSecond = second.Rows.close();
+  const Spill joined(folder.path("rows"), keys, rowBytes, { ofFirst, ofSecond });
+  const Spill back(folder.path("rows"), keys, rowBytes, joined.save());
+  for (std::size_t key = 0; key < keys; ++key)
+  {
+    EXPECT_EQ(expectedNumbers(key, 5 * chunkRows), numbersOf(joined, key));
+    EXPECT_EQ(expectedNumbers(key, 5 * chunkRows), numbersOf(back, key));
+  }
+}
+
+TEST(Spill, KeepsNothingForEachPairOfChunkAndKey)
+{
+  const TemporaryFolder folder;
+  const std::size_t few = WrittenAlone(folder, 10).Rows.save().size();
+  EXPECT_EQ(few + 20, WrittenAlone(folder, 30).Rows.save().size());
+}
+
+TEST(Spill, NamesAListOfAChunkThatIsDamaged)
+{
+  const TemporaryFolder folder;
+  const WrittenAlone written(folder, 2);
+  const std::uint32_t wrong = 77;
+  OutputFile::shared(folder.path("rows.0")).write(4, &wrong, 4); // where key 1 begins
+  for (const std::size_t key : { std::size_t(0), std::size_t(1) })
+  {
+    expectIOError(folder.path("rows.0"), "is damaged", [&] { written.Rows.readAll(key); });
+  }
+  EXPECT_EQ(expectedNumbers(3, 2 * chunkRows), numbersOf(written.Rows, 3));
+}
+
+TEST(Spill, RefusesWhatIsSavedOfOthers)
+{
+  const TemporaryFolder folder;
+  std::vector<std::uint64_t> saved = WrittenAlone(folder, 2).Rows.save();
+  while (!saved.empty())
+  {
+    saved.pop_back();
+    expectIOError(folder.path("rows"), "other pieces",
+      [&] { Spill(folder.path("rows"), keys, rowBytes, saved); });
+  }
+  expectIOError(folder.path("rows"), "other pieces",
+    [&] {
+      Spill(folder.path("rows"), keys, rowBytes, { 0, 0, 0, 0, 0, ~std::uint64_t(0) });
+    });
+}
+
+} // namespace
