@@ -122,6 +122,7 @@ void writeRow(const PointBlock& block, std::size_t i, char* to)
 std::vector<std::vector<std::uint64_t>> rowsOf(const std::vector<SpilledPart>& parts)
 {
   std::vector<std::vector<std::uint64_t>> rows;
+  rows.reserve(parts.size());
   for (const SpilledPart& part : parts)
   {
     rows.push_back(part.Rows);
