@@ -94,14 +94,9 @@ public:
   {
     constexpr std::int64_t chunk = 4096;
     this->Outside.find(int(this->Sinks.size()));
-#ifdef __x86_64__
-    const bool wide = __builtin_cpu_supports("avx2") != 0;
+    const bool wide = hasAvx2();
     const auto visit = [this, wide](std::int64_t begin, std::int64_t end, int thread)
     { wide ? this->visitChunkAvx2(begin, end, thread) : this->visitChunk(begin, end, thread); };
-#else
-    const auto visit = [this](std::int64_t begin, std::int64_t end, int thread)
-    { this->visitChunk(begin, end, thread); };
-#endif
     return forChunks(this->Mesh.Cells, chunk, int(this->Sinks.size()), report, visit) &&
       this->visitLargeCells(report);
   }
@@ -124,18 +119,16 @@ private:
     std::int64_t RowEnd;
   };
 
-  Rows makeRows() const
-  {
-    return this->Axes.rows(std::integral_constant<int, Dimension>());
-  }
+  Rows makeRows() const { return this->Axes.rows(std::integral_constant<int, Dimension>()); }
 
 #ifdef __x86_64__
-  [[gnu::flatten, gnu::target("avx2")]] void visitChunkAvx2(
-    std::int64_t begin, std::int64_t end, int thread)
+  [[gnu::flatten, gnu::target("avx2")]]
+#endif
+  void
+  visitChunkAvx2(std::int64_t begin, std::int64_t end, int thread)
   {
     this->visitChunk(begin, end, thread);
   }
-#endif
 
   [[gnu::always_inline]] void visitChunk(std::int64_t begin, std::int64_t end, int thread)
   {

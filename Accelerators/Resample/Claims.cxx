@@ -239,7 +239,7 @@ private:
     {
       this->settleOverlaps();
     }
-    this->Result.Border = borderClaims(this->Mesh, this->Axes, touches);
+    this->Result.Border = borderClaims(this->Mesh, this->Axes, touches, this->Threads);
     for (const BorderClaim& claim : this->Result.Border)
     {
       this->Result.Cells[std::size_t(claim.Sample)] = claim.Cell;

@@ -24,6 +24,16 @@ using LaneInts = std::int32_t __attribute__((vector_size(16)));
 
 constexpr int laneCount = 4;
 
+/// Whether functions for AVX2 may be called.
+inline bool hasAvx2()
+{
+#ifdef __x86_64__
+  return __builtin_cpu_supports("avx2") != 0;
+#else
+  return false;
+#endif
+}
+
 [[gnu::always_inline]] inline Lanes allLanes(double value)
 {
   return Lanes{ value, value, value, value };
@@ -112,6 +122,7 @@ public:
   double inverse() const { return this->Inverse; }
   double firstIndex() const { return this->First; }
   double delta() const { return this->Axis.delta(); }
+  IndexRange exactRange(double low, double high) const { return this->Axis.exactRange(low, high); }
 
 private:
   const LatticeAxis& Axis;
@@ -123,7 +134,7 @@ private:
   double ErrorOffset;
 };
 
-/// LatticeAxis::range() of four cells, as far as it is certain.
+/// LatticeAxis::range() of four cells.
 struct RangeLanes
 {
   [[gnu::always_inline]] RangeLanes(const AxisLanes& axis, Lanes low, Lanes high)
@@ -133,9 +144,10 @@ struct RangeLanes
     const Lanes end = axis.place(high);
     this->Begin = whole(begin);
     this->End = whole(end);
-    this->Certain = AxisLanes::certain(begin, this->Begin, this->Error) &
+    const LaneTruths certain = AxisLanes::certain(begin, this->Begin, this->Error) &
       AxisLanes::certain(end, this->End, this->Error);
-    this->Empty = this->Certain & (this->Begin >= this->End);
+    any(~certain) ? this->findExactly(axis, low, high, certain) : void();
+    this->Empty = this->Begin >= this->End;
   }
 
   IndexRange range(int lane) const { return { int(this->Begin[lane]), int(this->End[lane]) }; }
@@ -143,8 +155,22 @@ struct RangeLanes
   Lanes Error;
   Lanes Begin;
   Lanes End;
-  LaneTruths Certain;
   LaneTruths Empty;
+
+private:
+  [[gnu::always_inline]] void findExactly(
+    const AxisLanes& axis, Lanes low, Lanes high, LaneTruths certain)
+  {
+    for (int lane = 0; lane < laneCount; ++lane)
+    {
+      if (certain[lane] == 0)
+      {
+        const IndexRange range = axis.exactRange(low[lane], high[lane]);
+        this->Begin[lane] = range.Begin;
+        this->End[lane] = range.End;
+      }
+    }
+  }
 };
 
 /// What rows of one cell answer, or a row of each of some cells.

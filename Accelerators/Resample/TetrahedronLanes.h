@@ -46,7 +46,6 @@ public:
     const RangeLanes rows(this->Y, front, back);
     const RangeLanes layers(this->Z, low, high);
     this->Nothing = columns.Empty | rows.Empty | layers.Empty;
-    this->Fast = columns.Certain & rows.Certain & layers.Certain;
     if (this->nothing())
     {
       return;
@@ -68,7 +67,7 @@ public:
   bool nothing() const { return !any(~this->Nothing); }
   /// Whether the tetrahedron's box certainly has no sample.
   bool nothing(int lane) const { return this->Nothing[lane] != 0; }
-  /// Whether the tetrahedron is finite and has a volume, and its box is as told.
+  /// Whether the tetrahedron certainly is finite and has a volume.
   bool fast(int lane) const { return this->Fast[lane] != 0; }
 
   IndexRange columns(int lane) const { return this->Columns[lane]; }
@@ -307,7 +306,7 @@ private:
       absolute(c.z) * (absolute(a.x * b.y) + absolute(b.x * a.y));
     const Lanes bound = 7.7715611723761e-16 * permanent + 1e-300 * (1.0 + heights);
     // Beside NaN and infinity this is false.
-    this->Fast &= absolute(minus) > bound;
+    this->Fast = absolute(minus) > bound;
     const LaneTruths swap = minus > 0;
     const Corner first = p[0];
     p[0] = { swap ? p[1].x : first.x, swap ? p[1].y : first.y, swap ? p[1].z : first.z };

@@ -44,14 +44,13 @@ public:
     this->Error = columns.Error;
     this->Columns = { columns.Begin, columns.End };
     this->Rows = { rows.Begin, rows.End };
-    this->Fast &= columns.Certain & rows.Certain;
   }
 
   /// Whether that holds for all.
   bool nothing() const { return !any(~this->Nothing); }
   /// Whether the triangle's box certainly has no sample.
   bool nothing(int lane) const { return this->Nothing[lane] != 0; }
-  /// Whether the triangle is finite and has an area, and its box is as told.
+  /// Whether the triangle certainly is finite and has an area.
   bool fast(int lane) const { return this->Fast[lane] != 0; }
 
   IndexRange columns(int lane) const { return this->Columns.range(lane); }

@@ -204,10 +204,10 @@ TEST(BorderClaims, GiveEachTouchedSampleOneCellInAnyOrder)
       }
     }
   }
-  const std::vector<tipp::BorderClaim> claims = borderClaims(scene.mesh(), axes, touches);
+  const std::vector<tipp::BorderClaim> claims = borderClaims(scene.mesh(), axes, touches, 2);
   ASSERT_EQ(std::int64_t(claims.size()), lattice.samples());
   std::reverse(touches.begin(), touches.end());
-  const std::vector<tipp::BorderClaim> again = borderClaims(scene.mesh(), axes, touches);
+  const std::vector<tipp::BorderClaim> again = borderClaims(scene.mesh(), axes, touches, 2);
   for (std::size_t i = 0; i < claims.size(); ++i)
   {
     EXPECT_EQ(claims[i].Sample, std::int64_t(i));
