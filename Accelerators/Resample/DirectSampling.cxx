@@ -5,6 +5,7 @@
 #include "Resample/BorderClaims.h"
 #include "Resample/CellVisitor.h"
 #include "Resample/FillBlock.h"
+#include "Resample/PartMesh.h"
 
 #include <algorithm>
 #include <cstring>
@@ -128,13 +129,11 @@ public:
   {
   }
 
-  DirectResult run()
+  /// `claimed` samples are there already.
+  DirectResult run(std::int64_t claimed)
   {
-    this->forSamples([this](std::int64_t begin, std::int64_t end, int)
-      { std::memset(this->Options.Valid + begin, 0, std::size_t(end - begin)); });
     this->Result.Aborted =
       !CellVisitor<Access, Walk>(this->Mesh, this->Axes, this->Walks).run(this->Options.Progress);
-    std::int64_t claimed = 0;
     for (const Walk& walk : this->Walks)
     {
       this->Result.Statistics.VisitedCells += walk.Statistics.VisitedCells;
@@ -224,10 +223,9 @@ private:
   DirectResult Result;
 };
 
-} // namespace
-
-DirectResult sampleDirectly(const SimplexMesh& mesh, const Lattice& lattice,
-  const std::vector<Attribute>& attributes, const InterpolationOptions& options)
+DirectResult sampleRest(const SimplexMesh& mesh, const Lattice& lattice,
+  const std::vector<Attribute>& attributes, const InterpolationOptions& options,
+  std::int64_t claimed)
 {
   const LatticeAxes axes(mesh, lattice);
   DirectResult result;
@@ -235,9 +233,33 @@ DirectResult sampleDirectly(const SimplexMesh& mesh, const Lattice& lattice,
     [&](const auto& access)
     {
       using Access = std::decay_t<decltype(access)>;
-      result = DirectSampler<Access>(mesh, axes, attributes, options).run();
+      result = DirectSampler<Access>(mesh, axes, attributes, options).run(claimed);
     });
   return result;
+}
+
+} // namespace
+
+void clearMask(std::int64_t samples, int threads, unsigned char* valid)
+{
+  forChunks(samples, 1 << 16, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int)
+    { std::memset(valid + begin, 0, std::size_t(end - begin)); });
+}
+
+DirectResult sampleDirectly(const SimplexMesh& mesh, const Lattice& lattice,
+  const std::vector<Attribute>& attributes, const InterpolationOptions& options)
+{
+  clearMask(LatticeAxes(mesh, lattice).samples(), options.Threads, options.Valid);
+  return sampleRest(mesh, lattice, attributes, options, 0);
+}
+
+DirectResult finishDirectly(const SimplexMesh& mesh, const Lattice& lattice,
+  const std::vector<Attribute>& attributes, const InterpolationOptions& options,
+  const SampledCells& sampled)
+{
+  const PartMesh part(mesh, sampled.Open);
+  return sampleRest(part.mesh(), lattice, attributes, options, sampled.Claimed);
 }
 
 } // namespace tipp
