@@ -51,6 +51,16 @@ Edge edgeOf(double3 low, double3 high)
   return edge;
 }
 
+// Without branches, of which half would be mispredicted.
+void lowFirst(double3* a, double3* b)
+{
+  const bool swap = b->y < a->y;
+  const double3 low = swap ? *b : *a;
+  const double3 high = swap ? *a : *b;
+  *a = low;
+  *b = high;
+}
+
 int setTriangle(Triangle* t, double3 a, double3 b, double3 c, Axis u, Axis v)
 {
   if (!(isfinite(a.x) && isfinite(a.y) && isfinite(b.x) && isfinite(b.y) && isfinite(c.x) &&
@@ -66,19 +76,9 @@ int setTriangle(Triangle* t, double3 a, double3 b, double3 c, Axis u, Axis v)
   {
     return NOTHING;
   }
-  double3 swap;
-  if (b.y < a.y)
-  {
-    swap = a; a = b; b = swap;
-  }
-  if (c.y < b.y)
-  {
-    swap = b; b = c; c = swap;
-  }
-  if (b.y < a.y)
-  {
-    swap = a; a = b; b = swap;
-  }
+  lowFirst(&a, &b);
+  lowFirst(&b, &c);
+  lowFirst(&a, &b);
   const int rows = rangeOf(
     v, a.y, c.y, errorOf(v, fmax(-a.y, c.y)), &t->box.rowBegin, &t->box.rowEnd);
   if (rows == NOTHING)
@@ -122,42 +122,62 @@ int triangleSpan(const Triangle* t, int row, Axis u, Axis v, int* begin, int* en
   return ROWS;
 }
 
+// Faces side by side: where each crosses the first row, in steps from the box's first column, and how
+// many steps before that for each row and each layer. In single precision: see TetrahedronLanes.h.
 typedef struct
 {
-  double place;
-  double perY;
-  double perZ;
-  double y;
-  double z;
-  double error;
-  int direction;
-} Face;
-
-typedef struct
-{
-  Face faces[4];
+  float4 place;
+  float4 perRow;
+  float4 perLayer;
+  float4 notBegin;
+  float4 notEnd;
+  float certainty;
   Box box;
 } Tetrahedron;
 
-int setFace(Face* face, double3 a, double3 b, double3 c, double3 size, double reach, Axis x)
+#define BEYOND 1e30f
+
+// The corners a, b, c of the faces turn counter-clockwise seen from inside.
+int setFaces(Tetrahedron* t, const double3 a, const double3 b, const double3 c, const double3 d,
+  double3 size, double3 reach, Axis x, Axis y, Axis z)
 {
-  const double3 u = b - a;
-  const double3 v = c - a;
-  const double nx = u.y * v.z - u.z * v.y;
-  const double ny = u.z * v.x - u.x * v.z;
-  const double nz = u.x * v.y - u.y * v.x;
-  const double scale = x.s1 / nx;
-  face->place = (a.x - x.s0) * x.s1 - x.s2 + 1;
-  face->perY = ny * scale;
-  face->perZ = nz * scale;
-  face->y = a.y;
-  face->z = a.z;
-  face->direction = nx > 0 ? 1 : -1;
-  face->error = errorOf(x, reach) + (ROUNDINGS * size.x * size.y * size.z + SMALLEST) * fabs(scale);
-  return fabs(nx) > ROUNDINGS * size.y * size.z + SMALLEST &&
-      isfinite(face->error + face->perY + face->perZ)
-    ? ROWS
-    : DOUBT;
+  const double4 ax = (double4)(b.x, a.x, a.x, a.x);
+  const double4 ay = (double4)(b.y, a.y, a.y, a.y);
+  const double4 az = (double4)(b.z, a.z, a.z, a.z);
+  const double4 ux = (double4)(d.x, c.x, d.x, b.x) - ax;
+  const double4 uy = (double4)(d.y, c.y, d.y, b.y) - ay;
+  const double4 uz = (double4)(d.z, c.z, d.z, b.z) - az;
+  const double4 vx = (double4)(c.x, d.x, b.x, c.x) - ax;
+  const double4 vy = (double4)(c.y, d.y, b.y, c.y) - ay;
+  const double4 vz = (double4)(c.z, d.z, b.z, c.z) - az;
+  const double4 nx = uy * vz - uz * vy;
+  const double4 ny = uz * vx - ux * vz;
+  const double4 nz = ux * vy - uy * vx;
+  const double4 scale = x.s1 / nx;
+  const double4 perRow = ny * scale * y.s6;
+  const double4 perLayer = nz * scale * z.s6;
+  const Box* box = &t->box;
+  const double4 place = (ax - x.s0) * x.s1 - x.s2 + 1 -
+    (ny * scale * (coordinateOf(y, box->rowBegin) - ay) +
+      nz * scale * (coordinateOf(z, box->layerBegin) - az)) - (double)box->columnBegin;
+  const double area = ROUNDINGS * size.y * size.z;
+  const double4 error = 2 * (errorOf(x, reach.x) + (area * size.x + SMALLEST) * fabs(scale)) +
+    fabs(perRow) * errorOf(y, reach.y) + fabs(perLayer) * errorOf(z, reach.z) +
+    0x1p-21 * (fabs(place) + fabs(perRow) * (double)(box->rowEnd - box->rowBegin) +
+      fabs(perLayer) * (double)(box->layerEnd - box->layerBegin));
+  if (!all((fabs(nx) > area + SMALLEST) & (error < 0.25)))
+  {
+    return DOUBT;
+  }
+  t->place = convert_float4(place);
+  t->perRow = convert_float4(perRow);
+  t->perLayer = convert_float4(perLayer);
+  const int4 forward = convert_int4(nx > 0);
+  t->notBegin = select((float4)(-BEYOND), (float4)(0), forward);
+  t->notEnd = select((float4)(0), (float4)(BEYOND), forward);
+  const double2 worst = fmax(error.lo, error.hi);
+  t->certainty = (float)(0.5 - 0x1p-20 - fmax(worst.x, worst.y));
+  return ROWS;
 }
 
 int setTetrahedron(Tetrahedron* t, double3 a, double3 b, double3 c, double3 d, Axis x, Axis y, Axis z)
@@ -195,30 +215,7 @@ int setTetrahedron(Tetrahedron* t, double3 a, double3 b, double3 c, double3 d, A
     a = b;
     b = swap;
   }
-  const int known = setFace(&t->faces[0], b, d, c, size, reach.x, x) == ROWS &&
-    setFace(&t->faces[1], a, c, d, size, reach.x, x) == ROWS &&
-    setFace(&t->faces[2], a, d, b, size, reach.x, x) == ROWS &&
-    setFace(&t->faces[3], a, b, c, size, reach.x, x) == ROWS;
-  return known ? ROWS : DOUBT;
-}
-
-int tetrahedronSpan(
-  const Tetrahedron* t, int row, int layer, Axis x, Axis y, Axis z, int* begin, int* end)
-{
-  *begin = t->box.columnBegin;
-  *end = t->box.columnEnd;
-  bool known = true;
-  for (int i = 0; i < 4; ++i)
-  {
-    const Face* face = &t->faces[i];
-    const double place = clampPlace(x, face->place - (face->perY * (coordinateOf(y, row) - face->y) +
-      face->perZ * (coordinateOf(z, layer) - face->z)));
-    known = known && certain(place, face->error);
-    const int count = (int)place;
-    *begin = face->direction > 0 ? max(*begin, count) : *begin;
-    *end = face->direction > 0 ? *end : min(*end, count);
-  }
-  return known ? ROWS : DOUBT;
+  return setFaces(t, a, b, c, d, size, reach, x, y, z);
 }
 
 // The spans of one cell.
@@ -240,13 +237,71 @@ int setCell(Cell* cell, const Mesh* mesh, long i, Axis x, Axis y, Axis z)
 #endif
 }
 
-int cellSpan(const Cell* cell, int row, int layer, Axis x, Axis y, Axis z, int* begin, int* end)
+#define ROWS_AT_ONCE 8
+
+// What rows of a cell answer; a row without samples does not begin before it ends.
+typedef struct
 {
+  int begin[ROWS_AT_ONCE];
+  int end[ROWS_AT_ONCE];
+  int row[ROWS_AT_ONCE];
+  int layer[ROWS_AT_ONCE];
+} Spans;
+
+// The rows first..last - 1, at most eight, counted from the first of the box's first layer.
+int cellSpans(const Cell* cell, int first, int last, Axis x, Axis y, Spans* spans)
+{
+  const Box* box = &cell->box;
 #if CORNERS == 3
-  return triangleSpan(cell, row, x, y, begin, end);
+  int state = ROWS;
+  for (int i = 0; i < last - first && i < ROWS_AT_ONCE; ++i)
+  {
+    spans->row[i] = box->rowBegin + first + i;
+    spans->layer[i] = 0;
+    const int told = triangleSpan(cell, spans->row[i], x, y, &spans->begin[i], &spans->end[i]);
+    state = told == DOUBT ? DOUBT : state;
+  }
+  return state;
 #else
-  return tetrahedronSpan(cell, row, layer, x, y, z, begin, end);
+  const float depth = (float)(box->rowEnd - box->rowBegin);
+  const float8 number = (float8)(0, 1, 2, 3, 4, 5, 6, 7) + (float)first;
+  const int8 layer = convert_int8((number + 0.5f) * (1 / depth));
+  const float8 up = convert_float8(layer);
+  const float8 along = number - up * depth;
+  const float width = (float)(box->columnEnd - box->columnBegin) + 0.5f;
+  const float place[4] = { cell->place.x, cell->place.y, cell->place.z, cell->place.w };
+  const float perRow[4] = { cell->perRow.x, cell->perRow.y, cell->perRow.z, cell->perRow.w };
+  const float perLayer[4] = { cell->perLayer.x, cell->perLayer.y, cell->perLayer.z,
+    cell->perLayer.w };
+  const float notBegin[4] = { cell->notBegin.x, cell->notBegin.y, cell->notBegin.z,
+    cell->notBegin.w };
+  const float notEnd[4] = { cell->notEnd.x, cell->notEnd.y, cell->notEnd.z, cell->notEnd.w };
+  float8 begin = (float8)(0.5f);
+  float8 end = (float8)(width);
+  for (int i = 0; i < 4; ++i)
+  {
+    const float8 crossing = place[i] - (perRow[i] * along + perLayer[i] * up);
+    begin = fmax(crossing + notBegin[i], begin);
+    end = fmin(crossing + notEnd[i], end);
+  }
+  begin = fmin(begin, (float8)(width));
+  end = fmax(end, (float8)(0.5f));
+  const int8 begins = convert_int8(begin);
+  const int8 ends = convert_int8(end);
+  const int8 sure = (fabs(begin - convert_float8(begins) - 0.5f) < cell->certainty) &
+    (fabs(end - convert_float8(ends) - 0.5f) < cell->certainty);
+  vstore8(begins + box->columnBegin, 0, spans->begin);
+  vstore8(ends + box->columnBegin, 0, spans->end);
+  vstore8(convert_int8(along) + box->rowBegin, 0, spans->row);
+  vstore8(layer + box->layerBegin, 0, spans->layer);
+  return any(~sure & (begins <= ends + 1) & (number < (float)last)) ? DOUBT : ROWS;
 #endif
+}
+
+// How many rows a cell's box has.
+int rowsOf(const Box* box)
+{
+  return (box->rowEnd - box->rowBegin) * (box->layerEnd - box->layerBegin);
 }
 
 // How many samples a cell's box has.

@@ -4,23 +4,28 @@
 #include "LatticeAndMesh.cl"
 #include "CellRows.cl"
 
-// Claims a row; returns the number of samples, or -1 if that is in doubt.
-int claimRow(const Cell* cell, int row, int layer, Axis x, Axis y, Axis z, int name,
-  global int* claims)
+// Claims some rows of a cell; returns the number of samples, or -1 if that is in doubt.
+int claimRows(const Cell* cell, int first, int last, Axis x, Axis y, int name, global int* claims)
 {
-  int begin;
-  int end;
-  const int state = cellSpan(cell, row, layer, x, y, z, &begin, &end);
-  if (state == DOUBT)
+  int total = 0;
+  for (; first < last; first += ROWS_AT_ONCE)
   {
-    return -1;
+    Spans spans;
+    if (cellSpans(cell, first, last, x, y, &spans) == DOUBT)
+    {
+      return -1;
+    }
+    for (int i = 0; i < min(ROWS_AT_ONCE, last - first); ++i)
+    {
+      const long row = placeOfRow(spans.row[i], spans.layer[i], x, y);
+      for (int column = spans.begin[i]; column < spans.end[i]; ++column)
+      {
+        claims[row + column] = name;
+      }
+      total += max(0, spans.end[i] - spans.begin[i]);
+    }
   }
-  const long first = placeOfRow(row, layer, x, y);
-  for (int i = begin; i < end; ++i)
-  {
-    claims[first + i] = name;
-  }
-  return max(0, end - begin);
+  return total;
 }
 
 // Each item does `share` cells in a row. Cells with more than `largest` samples in their boxes and
@@ -52,15 +57,10 @@ kernel void claimCells(global const Real* points, global const Id* ids, int u, i
       continue;
     }
     int count = 0;
-    for (int layer = box.layerBegin; state == ROWS && layer < box.layerEnd; ++layer)
+    if (state == ROWS)
     {
-      for (int row = box.rowBegin; state == ROWS && row < box.rowEnd; ++row)
-      {
-        const int claimed =
-          claimRow(&cell, row, layer, x, y, z, (int)(firstCell + i), claims);
-        state = claimed < 0 ? DOUBT : ROWS;
-        count += claimed;
-      }
+      count = claimRows(&cell, 0, rowsOf(&box), x, y, (int)(firstCell + i), claims);
+      state = count < 0 ? DOUBT : ROWS;
     }
     if (state == DOUBT)
     {
@@ -79,11 +79,8 @@ kernel void claimLarge(global const Real* points, global const Id* ids, int u, i
   const int item = (int)get_global_id(0);
   Cell cell;
   setCell(&cell, &mesh, number, x, y, z);
-  const Box box = cell.box;
   if (item < rows)
   {
-    const int depth = box.rowEnd - box.rowBegin;
-    counts[item] = claimRow(&cell, box.rowBegin + item % depth,
-      box.layerBegin + item / depth, x, y, z, (int)(firstCell + number), claims);
+    counts[item] = claimRows(&cell, item, item + 1, x, y, (int)(firstCell + number), claims);
   }
 }

@@ -158,44 +158,40 @@ void fillRow(const Gradients* gradients, long first, int begin, int end, double 
   }
 }
 
-// Fills some rows of a cell, numbered from its box's first; `*total` is the number of samples.
-// Gradients wait for the first sample: many cells have none.
-int sampleRows(const Cell* cell, int rowBegin, int rowEnd, const Mesh* mesh, long number, Axis x,
-  Axis y, Axis z, const Array* arrays, int arrayCount, global uchar* valid, int* total)
+// Fills the rows first..last - 1 of a cell, counted from the first of its box; `*total` is the number
+// of samples. Gradients wait for the first sample: many cells have none.
+int sampleRows(const Cell* cell, int first, int last, const Mesh* mesh, long number, Axis x, Axis y,
+  Axis z, const Array* arrays, int arrayCount, global uchar* valid, int* total)
 {
-  const Box box = cell->box;
-  const int depth = box.rowEnd - box.rowBegin;
   Gradients gradients;
   *total = 0;
-  int row = box.rowBegin + rowBegin % depth;
-  int layer = box.layerBegin + rowBegin / depth;
-  for (int i = rowBegin; i < rowEnd; ++i)
+  for (; first < last; first += ROWS_AT_ONCE)
   {
-    int begin;
-    int end;
-    if (cellSpan(cell, row, layer, x, y, z, &begin, &end) == DOUBT)
+    Spans spans;
+    if (cellSpans(cell, first, last, x, y, &spans) == DOUBT)
     {
       return DOUBT;
     }
-    if (begin < end)
+    for (int i = 0; i < min(ROWS_AT_ONCE, last - first); ++i)
     {
+      const int begin = spans.begin[i];
+      const int end = spans.end[i];
+      if (begin >= end)
+      {
+        continue;
+      }
       if (*total == 0 && setGradients(&gradients, mesh, number, arrays, arrayCount) == DOUBT)
       {
         return DOUBT;
       }
       *total += end - begin;
-      const long first = placeOfRow(row, layer, x, y);
+      const long place = placeOfRow(spans.row[i], spans.layer[i], x, y);
       for (int column = begin; column < end; ++column)
       {
-        valid[first + column] = 1;
+        valid[place + column] = 1;
       }
-      fillRow(&gradients, first, begin, end, coordinateOf(y, row),
-        CORNERS == 4 ? coordinateOf(z, layer) : 0, x);
-    }
-    if (++row == box.rowEnd)
-    {
-      row = box.rowBegin;
-      ++layer;
+      fillRow(&gradients, place, begin, end, coordinateOf(y, spans.row[i]),
+        CORNERS == 4 ? coordinateOf(z, spans.layer[i]) : 0, x);
     }
   }
   return ROWS;
@@ -250,10 +246,8 @@ kernel void sampleCells(global const Real* points, global const Id* ids, int u, 
     int total = 0;
     if (state == ROWS)
     {
-      const int rows =
-        (cell.box.rowEnd - cell.box.rowBegin) * (cell.box.layerEnd - cell.box.layerBegin);
       state = sampleRows(
-        &cell, 0, rows, &mesh, i, x, y, z, arrays, arrayCount, valid, &total);
+        &cell, 0, rowsOf(&cell.box), &mesh, i, x, y, z, arrays, arrayCount, valid, &total);
     }
     if (state == DOUBT)
     {
