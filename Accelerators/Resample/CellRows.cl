@@ -15,16 +15,34 @@ typedef struct
   int layerEnd;
 } Box;
 
-// What range() of LatticeAxis gives; DOUBT if that is not certain.
-int rangeOf(Axis axis, double low, double high, double error, int* begin, int* end)
+// What range() of LatticeAxis gives along three axes at once, of which the third of a triangle is not
+// looked at; DOUBT if that is not certain.
+INLINE int setBox(Box* box, double3 low, double3 high, double3 error, Axis x, Axis y, Axis z)
 {
-  const double first = placeOf(axis, low);
-  const double last = placeOf(axis, high);
-  *begin = (int)first;
-  *end = (int)last;
-  return !certain(first, error) || !certain(last, error) ? DOUBT
-    : *begin < *end                                      ? ROWS
-                                                         : NOTHING;
+  const double3 origin = (double3)(x.s0, y.s0, z.s0);
+  const double3 inverse = (double3)(x.s1, y.s1, z.s1);
+  const double3 shift = 1 - (double3)(x.s2, y.s2, z.s2);
+  const double3 limit = (double3)(x.s3, y.s3, z.s3);
+  const double3 first = fmin(limit, fmax(0.5, (low - origin) * inverse + shift));
+  const double3 last = fmin(limit, fmax(0.5, (high - origin) * inverse + shift));
+  const int3 begin = convert_int3(first);
+  const int3 end = convert_int3(last);
+  const long3 sure = (fabs(first - convert_double3(begin) - 0.5) < 0.5 - error) &
+    (fabs(last - convert_double3(end) - 0.5) < 0.5 - error);
+  const int3 empty = convert_int3(sure) & (begin >= end);
+  box->columnBegin = begin.x;
+  box->columnEnd = end.x;
+  box->rowBegin = begin.y;
+  box->rowEnd = end.y;
+#if CORNERS == 3
+  box->layerBegin = 0;
+  box->layerEnd = 1;
+  return empty.x | empty.y ? NOTHING : sure.x & sure.y ? ROWS : DOUBT;
+#else
+  box->layerBegin = begin.z;
+  box->layerEnd = end.z;
+  return any(empty) ? NOTHING : all(sure) ? ROWS : DOUBT;
+#endif
 }
 
 typedef struct
@@ -61,37 +79,27 @@ void lowFirst(double3* a, double3* b)
   *b = high;
 }
 
-int setTriangle(Triangle* t, double3 a, double3 b, double3 c, Axis u, Axis v)
+INLINE int setTriangle(Triangle* t, double3 a, double3 b, double3 c, Axis u, Axis v)
 {
-  if (!(isfinite(a.x) && isfinite(a.y) && isfinite(b.x) && isfinite(b.y) && isfinite(c.x) &&
-        isfinite(c.y)))
-  {
-    return NOTHING;
-  }
   const double left = fmin(fmin(a.x, b.x), c.x);
   const double right = fmax(fmax(a.x, b.x), c.x);
   t->error = errorOf(u, fmax(-left, right));
-  const int columns = rangeOf(u, left, right, t->error, &t->box.columnBegin, &t->box.columnEnd);
-  if (columns == NOTHING)
-  {
-    return NOTHING;
-  }
   lowFirst(&a, &b);
   lowFirst(&b, &c);
   lowFirst(&a, &b);
-  const int rows = rangeOf(
-    v, a.y, c.y, errorOf(v, fmax(-a.y, c.y)), &t->box.rowBegin, &t->box.rowEnd);
-  if (rows == NOTHING)
+  const double3 error = (double3)(t->error, errorOf(v, fmax(-a.y, c.y)), 0);
+  const int box =
+    setBox(&t->box, (double3)(left, a.y, 0), (double3)(right, c.y, 0), error, u, v, v);
+  if (box == NOTHING)
   {
     return NOTHING;
   }
-  t->box.layerBegin = 0;
-  t->box.layerEnd = 1;
   // orientation(a, c, b) with the filter of Orientation.h.
   const double l = (a.x - b.x) * (c.y - b.y);
   const double r = (a.y - b.y) * (c.x - b.x);
   const double bound = 3.3306690738754716e-16 * (fabs(l) + fabs(r)) + 1e-300;
-  if (columns == DOUBT || rows == DOUBT || !(fabs(l - r) > bound))
+  // Coordinates that are not finite make that false.
+  if (box == DOUBT || !(fabs(l - r) > bound))
   {
     return DOUBT;
   }
@@ -104,7 +112,7 @@ int setTriangle(Triangle* t, double3 a, double3 b, double3 c, Axis u, Axis v)
   return ROWS;
 }
 
-int triangleSpan(const Triangle* t, int row, Axis u, Axis v, int* begin, int* end)
+INLINE int triangleSpan(const Triangle* t, int row, Axis u, Axis v, int* begin, int* end)
 {
   const double y = coordinateOf(v, row);
   const Edge* other = &t->edges[y >= t->middle ? 2 : 1];
@@ -113,7 +121,8 @@ int triangleSpan(const Triangle* t, int row, Axis u, Axis v, int* begin, int* en
   const double xOther = other->low.x + (y - other->low.y) * other->slope;
   const double atLong = placeOf(u, xLong);
   const double atOther = placeOf(u, xOther);
-  if (!(y < t->top) || !isfinite(xLong) || !isfinite(xOther) || !certain(atLong, t->error) || !certain(atOther, t->error))
+  if (!(y < t->top) || !isfinite(xLong + xOther) || !certain(atLong, t->error) ||
+    !certain(atOther, t->error))
   {
     return DOUBT;
   }
@@ -138,8 +147,8 @@ typedef struct
 #define BEYOND 1e30f
 
 // The corners a, b, c of the faces turn counter-clockwise seen from inside.
-int setFaces(Tetrahedron* t, const double3 a, const double3 b, const double3 c, const double3 d,
-  double3 size, double3 reach, Axis x, Axis y, Axis z)
+INLINE int setFaces(Tetrahedron* t, const double3 a, const double3 b, const double3 c, const double3 d,
+  double3 size, double3 errors, Axis x, Axis y, Axis z)
 {
   const double4 ax = (double4)(b.x, a.x, a.x, a.x);
   const double4 ay = (double4)(b.y, a.y, a.y, a.y);
@@ -161,8 +170,8 @@ int setFaces(Tetrahedron* t, const double3 a, const double3 b, const double3 c, 
     (ny * scale * (coordinateOf(y, box->rowBegin) - ay) +
       nz * scale * (coordinateOf(z, box->layerBegin) - az)) - (double)box->columnBegin;
   const double area = ROUNDINGS * size.y * size.z;
-  const double4 error = 2 * (errorOf(x, reach.x) + (area * size.x + SMALLEST) * fabs(scale)) +
-    fabs(perRow) * errorOf(y, reach.y) + fabs(perLayer) * errorOf(z, reach.z) +
+  const double4 error = 2 * (errors.x + (area * size.x + SMALLEST) * fabs(scale)) +
+    fabs(perRow) * errors.y + fabs(perLayer) * errors.z +
     0x1p-21 * (fabs(place) + fabs(perRow) * (double)(box->rowEnd - box->rowBegin) +
       fabs(perLayer) * (double)(box->layerEnd - box->layerBegin));
   if (!all((fabs(nx) > area + SMALLEST) & (error < 0.25)))
@@ -180,21 +189,15 @@ int setFaces(Tetrahedron* t, const double3 a, const double3 b, const double3 c, 
   return ROWS;
 }
 
-int setTetrahedron(Tetrahedron* t, double3 a, double3 b, double3 c, double3 d, Axis x, Axis y, Axis z)
+INLINE int setTetrahedron(Tetrahedron* t, double3 a, double3 b, double3 c, double3 d, Axis x, Axis y, Axis z)
 {
   const double3 low = fmin(fmin(a, b), fmin(c, d));
   const double3 high = fmax(fmax(a, b), fmax(c, d));
-  const double3 check = (a - a) + (b - b) + (c - c) + (d - d);
-  if (check.x != 0 || check.y != 0 || check.z != 0)
-  {
-    return NOTHING;
-  }
   const double3 reach = fmax(-low, high);
-  Box* box = &t->box;
-  const int columns = rangeOf(x, low.x, high.x, errorOf(x, reach.x), &box->columnBegin, &box->columnEnd);
-  const int rows = rangeOf(y, low.y, high.y, errorOf(y, reach.y), &box->rowBegin, &box->rowEnd);
-  const int layers = rangeOf(z, low.z, high.z, errorOf(z, reach.z), &box->layerBegin, &box->layerEnd);
-  if (columns == NOTHING || rows == NOTHING || layers == NOTHING)
+  const double3 error =
+    (double3)(errorOf(x, reach.x), errorOf(y, reach.y), errorOf(z, reach.z));
+  const int box = setBox(&t->box, low, high, error, x, y, z);
+  if (box == NOTHING)
   {
     return NOTHING;
   }
@@ -204,8 +207,8 @@ int setTetrahedron(Tetrahedron* t, double3 a, double3 b, double3 c, double3 d, A
   const double3 w = d - a;
   const double volume = w.x * (u.y * v.z - u.z * v.y) + w.y * (u.z * v.x - u.x * v.z) +
     w.z * (u.x * v.y - u.y * v.x);
-  if (columns == DOUBT || rows == DOUBT || layers == DOUBT ||
-    !(fabs(volume) > ROUNDINGS * size.x * size.y * size.z + SMALLEST))
+  // Coordinates that are not finite make that false.
+  if (box == DOUBT || !(fabs(volume) > ROUNDINGS * size.x * size.y * size.z + SMALLEST))
   {
     return DOUBT;
   }
@@ -215,7 +218,7 @@ int setTetrahedron(Tetrahedron* t, double3 a, double3 b, double3 c, double3 d, A
     a = b;
     b = swap;
   }
-  return setFaces(t, a, b, c, d, size, reach, x, y, z);
+  return setFaces(t, a, b, c, d, size, error, x, y, z);
 }
 
 // The spans of one cell.
@@ -225,7 +228,7 @@ typedef Triangle Cell;
 typedef Tetrahedron Cell;
 #endif
 
-int setCell(Cell* cell, const Mesh* mesh, long i, Axis x, Axis y, Axis z)
+INLINE int setCell(Cell* cell, const Mesh* mesh, long i, Axis x, Axis y, Axis z)
 {
   const double3 a = pointOf(mesh, idOf(mesh, i, 0));
   const double3 b = pointOf(mesh, idOf(mesh, i, 1));
@@ -249,7 +252,7 @@ typedef struct
 } Spans;
 
 // The rows first..last - 1, at most eight, counted from the first of the box's first layer.
-int cellSpans(const Cell* cell, int first, int last, Axis x, Axis y, Spans* spans)
+INLINE int cellSpans(const Cell* cell, int first, int last, Axis x, Axis y, Spans* spans)
 {
   const Box* box = &cell->box;
 #if CORNERS == 3

@@ -5,7 +5,7 @@
 #include "CellRows.cl"
 
 // Claims some rows of a cell; returns the number of samples, or -1 if that is in doubt.
-int claimRows(const Cell* cell, int first, int last, Axis x, Axis y, int name, global int* claims)
+INLINE int claimRows(const Cell* cell, int first, int last, Axis x, Axis y, int name, global int* claims)
 {
   int total = 0;
   for (; first < last; first += ROWS_AT_ONCE)

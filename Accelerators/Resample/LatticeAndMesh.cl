@@ -3,6 +3,9 @@
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #pragma OPENCL FP_CONTRACT OFF
 
+// For functions that are called for every cell with all that is known of the axes.
+#define INLINE __attribute__((always_inline))
+
 #define ROUNDINGS 0x1p-47
 #define SMALLEST 1e-280
 

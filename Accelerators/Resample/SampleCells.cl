@@ -55,7 +55,7 @@ double largest(double a, double b, double c)
 
 // The corners in lexicographic order, and how the weights of all but the first rise: see GroupLanes.h.
 // DOUBT for a thin cell.
-int setNormals(const Mesh* mesh, long cell, int* ids, double3* origin, double3* normals)
+INLINE int setNormals(const Mesh* mesh, long cell, int* ids, double3* origin, double3* normals)
 {
   double3 p[4];
   for (int i = 0; i < CORNERS; ++i)
@@ -104,7 +104,7 @@ double valueAt(const Array* array, int id, int component)
                         : ((global const double*)array->values)[at];
 }
 
-int setGradients(Gradients* gradients, const Mesh* mesh, long cell, const Array* arrays, int count)
+INLINE int setGradients(Gradients* gradients, const Mesh* mesh, long cell, const Array* arrays, int count)
 {
   int ids[4];
   double3 normals[3];
@@ -134,7 +134,7 @@ int setGradients(Gradients* gradients, const Mesh* mesh, long cell, const Array*
   return state;
 }
 
-void fillRow(const Gradients* gradients, long first, int begin, int end, double y, double z, Axis x)
+INLINE void fillRow(const Gradients* gradients, long first, int begin, int end, double y, double z, Axis x)
 {
   for (int i = 0; i < gradients->count; ++i)
   {
@@ -160,7 +160,7 @@ void fillRow(const Gradients* gradients, long first, int begin, int end, double 
 
 // Fills the rows first..last - 1 of a cell, counted from the first of its box; `*total` is the number
 // of samples. Gradients wait for the first sample: many cells have none.
-int sampleRows(const Cell* cell, int first, int last, const Mesh* mesh, long number, Axis x, Axis y,
+INLINE int sampleRows(const Cell* cell, int first, int last, const Mesh* mesh, long number, Axis x, Axis y,
   Axis z, const Array* arrays, int arrayCount, global uchar* valid, int* total)
 {
   Gradients gradients;
