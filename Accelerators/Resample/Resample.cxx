@@ -81,18 +81,17 @@ private:
   /// False if it takes more: cells overlap, or a device has more to do than one walk can.
   bool sampleAtOnce()
   {
+    if (this->Device && !canSampleOnDevice(this->Attributes))
+    {
+      return false;
+    }
     std::vector<unsigned char> valid;
     InterpolationOptions options = this->interpolation();
     options.SkipInterpolated = false;
-    options.Progress = this->Options.Progress;
     if (!options.Valid)
     {
       valid.resize(std::size_t(this->Window.samples()));
       options.Valid = valid.data();
-    }
-    if (this->Device && !canSampleOnDevice(this->Attributes))
-    {
-      return false;
     }
     SampledCells sampled;
     if (this->Device)
@@ -100,10 +99,12 @@ private:
       this->tryDevice(
         [&]
         {
-          sampled = sampleOnDevice(
-            *this->Pieces, this->Grid, this->Attributes, options.Valid, this->Options.Progress);
+          sampled = sampleOnDevice(*this->Pieces, this->Grid, this->Attributes, options.Valid,
+            partOf(this->Options.Progress, 0, 0.9));
         });
     }
+    options.Progress =
+      this->Device ? partOf(this->Options.Progress, 0.9, 1) : this->Options.Progress;
     const DirectResult direct = sampled.Aborted ? DirectResult{ {}, 0, false, true }
       : this->Device ? finishDirectly(this->Mesh, this->Grid, this->Attributes, options, sampled)
                      : sampleDirectly(this->Mesh, this->Grid, this->Attributes, options);
