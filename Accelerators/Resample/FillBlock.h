@@ -176,7 +176,7 @@ private:
       double(values[ids[2] * components]), double(values[ids[3] * components]) };
   }
 
-  void prefetch(int begin, int end) const
+  [[gnu::always_inline]] void prefetch(int begin, int end) const
   {
     for (int i = begin; i < end; ++i)
     {
