@@ -284,7 +284,7 @@ void vtkRangeResampleFilter::Run::makeOutput(vtkImageData* output)
   this->warn(*this->Image);
   report.Threads = this->settings(true).Threads;
   report.Hits = tipp::fillImage(*image, report.Threads, output);
-  report.Samples = std::int64_t(image->valid().size());
+  report.Samples = image->samples();
   report.OutputSeconds = watch.restart();
   tipp::fillTable(report, this->Filter->Statistics);
   this->warnOfMissing(*image, this->Filter->PointDataArraySelection, false);

@@ -72,18 +72,20 @@ ComputeDevice::ComputeDevice(DeviceDescription description, const cl::Device& de
 {
 }
 
-cl::Kernel ComputeDevice::kernel(const KernelSource& source, const char* name)
+cl::Kernel ComputeDevice::kernel(
+  const KernelSource& source, const char* name, const std::string& options)
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  auto found = this->Programs.find(source.Name);
+  const std::string key = source.Name + (" " + options);
+  auto found = this->Programs.find(key);
   if (found == this->Programs.end())
   {
-    found = this->Programs.emplace(source.Name, this->build(source)).first;
+    found = this->Programs.emplace(key, this->build(source, options)).first;
   }
   return this->run([&] { return cl::Kernel(found->second, name); });
 }
 
-cl::Program ComputeDevice::build(const KernelSource& source) const
+cl::Program ComputeDevice::build(const KernelSource& source, const std::string& options) const
 {
   return this->run(
     [&]
@@ -91,7 +93,7 @@ cl::Program ComputeDevice::build(const KernelSource& source) const
       cl::Program program(this->Context, std::string(source.Text));
       try
       {
-        program.build({ this->Device }, "-cl-std=CL1.2");
+        program.build({ this->Device }, ("-cl-std=CL1.2 " + options).c_str());
       }
       catch (const cl::BuildError& error)
       {

@@ -47,8 +47,9 @@ public:
   /// Whether buffers over memory of this process need no copy.
   bool sharesHostMemory() const { return this->SharesHostMemory; }
 
-  /// A kernel of its own for the caller, of a program that is built once a process.
-  cl::Kernel kernel(const KernelSource& source, const char* name);
+  /// A kernel of its own for the caller, of a program that is built once a process with these
+  /// options of the compiler.
+  cl::Kernel kernel(const KernelSource& source, const char* name, const std::string& options = "");
 
   /// Puts a kernel with these arguments into the queue, for `items` work items or up to a group
   /// more.
@@ -106,7 +107,7 @@ private:
   static constexpr std::size_t GroupSize = 64;
 
   AcceleratorError failure(const cl::Error& error) const;
-  cl::Program build(const KernelSource& source) const;
+  cl::Program build(const KernelSource& source, const std::string& options) const;
   void countTransfer(const cl::Event& event) const;
 
   DeviceDescription Description;
@@ -116,7 +117,7 @@ private:
   bool SharesHostMemory;
   mutable std::atomic<std::uint64_t> TransferNanoseconds{ 0 };
   std::mutex Mutex;
-  std::map<std::string, cl::Program> Programs;
+  std::map<std::string, cl::Program> Programs; ///< by name and options
 };
 
 } // namespace tipp

@@ -66,6 +66,13 @@ int orientationOfIntegers(const std::array<std::int64_t, 3>& x,
 
 int orientation3Exact(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
 {
+  // Most that are coplanar are so along an axis: borders of boxes and their samples.
+  const auto level = [&](double Point3::*axis)
+  { return a.*axis == d.*axis && b.*axis == d.*axis && c.*axis == d.*axis; };
+  if (level(&Point3::x) || level(&Point3::y) || level(&Point3::z))
+  {
+    return 0;
+  }
   const AxisDifferences x(a.x, b.x, c.x, d.x);
   const AxisDifferences y(a.y, b.y, c.y, d.y);
   const AxisDifferences z(a.z, b.z, c.z, d.z);

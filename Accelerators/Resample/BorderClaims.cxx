@@ -29,31 +29,52 @@ int rankOf(const Access& access, const LatticeAxes& axes, const Touch& touch)
   }
 }
 
+struct Candidate
+{
+  std::int64_t Sample;
+  CellKey Key;
+  std::int32_t Cell;
+};
+
+bool operator<(const Candidate& a, const Candidate& b)
+{
+  return std::tie(a.Sample, a.Key, a.Cell) < std::tie(b.Sample, b.Key, b.Cell);
+}
+
+/// Each thread sorts a share of them, and then the shares are merged.
+void sort(std::vector<Candidate>& candidates, int threads)
+{
+  const auto border = [&](std::int64_t share)
+  { return candidates.begin() + std::ptrdiff_t(candidates.size()) * share / threads; };
+  forChunks(threads, 1, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int) { std::sort(border(begin), border(end)); });
+  for (std::int64_t share = 1; share < threads; ++share)
+  {
+    std::inplace_merge(candidates.begin(), border(share), border(share + 1));
+  }
+}
+
 } // namespace
 
 std::vector<BorderClaim> borderClaims(
-  const SimplexMesh& mesh, const LatticeAxes& axes, const std::vector<Touch>& touches)
+  const SimplexMesh& mesh, const LatticeAxes& axes, const std::vector<Touch>& touches, int threads)
 {
-  struct Candidate
-  {
-    std::int64_t Sample;
-    CellKey Key;
-    std::int32_t Cell;
-  };
-  std::vector<Candidate> candidates;
+  std::vector<Candidate> candidates(touches.size());
   withAccess(mesh,
     [&](const auto& access)
     {
-      for (const Touch& touch : touches)
-      {
-        const CellKey key = keyOf(access, touch.Cell);
-        candidates.push_back(
-          { touch.Sample, withRank(key, rankOf(access, axes, touch)), touch.Cell });
-      }
+      forChunks(std::int64_t(touches.size()), 1 << 12, threads, {},
+        [&](std::int64_t begin, std::int64_t end, int)
+        {
+          for (std::int64_t i = begin; i < end; ++i)
+          {
+            const Touch& touch = touches[std::size_t(i)];
+            const CellKey key = withRank(keyOf(access, touch.Cell), rankOf(access, axes, touch));
+            candidates[std::size_t(i)] = { touch.Sample, key, touch.Cell };
+          }
+        });
     });
-  std::sort(candidates.begin(), candidates.end(),
-    [](const Candidate& a, const Candidate& b)
-    { return std::tie(a.Sample, a.Key, a.Cell) < std::tie(b.Sample, b.Key, b.Cell); });
+  sort(candidates, threads);
   std::vector<BorderClaim> claims;
   for (const Candidate& candidate : candidates)
   {

@@ -64,7 +64,7 @@ private:
 
 /// Which of the touching cells answers each sample, by ascending sample; no other cell does.
 VTKTIPPACCELERATORS_EXPORT std::vector<BorderClaim> borderClaims(
-  const SimplexMesh& mesh, const LatticeAxes& axes, const std::vector<Touch>& touches);
+  const SimplexMesh& mesh, const LatticeAxes& axes, const std::vector<Touch>& touches, int threads);
 
 } // namespace tipp
 

@@ -12,6 +12,7 @@
 #include "Resample/TriangleRows.h"
 
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace tipp
@@ -93,14 +94,9 @@ public:
   {
     constexpr std::int64_t chunk = 4096;
     this->Outside.find(int(this->Sinks.size()));
-#ifdef __x86_64__
-    const bool wide = __builtin_cpu_supports("avx2") != 0;
+    const bool wide = hasAvx2();
     const auto visit = [this, wide](std::int64_t begin, std::int64_t end, int thread)
     { wide ? this->visitChunkAvx2(begin, end, thread) : this->visitChunk(begin, end, thread); };
-#else
-    const auto visit = [this](std::int64_t begin, std::int64_t end, int thread)
-    { this->visitChunk(begin, end, thread); };
-#endif
     return forChunks(this->Mesh.Cells, chunk, int(this->Sinks.size()), report, visit) &&
       this->visitLargeCells(report);
   }
@@ -123,18 +119,16 @@ private:
     std::int64_t RowEnd;
   };
 
-  Rows makeRows() const
-  {
-    return this->Axes.rows(std::integral_constant<int, Dimension>());
-  }
+  Rows makeRows() const { return this->Axes.rows(std::integral_constant<int, Dimension>()); }
 
 #ifdef __x86_64__
-  [[gnu::flatten, gnu::target("avx2")]] void visitChunkAvx2(
-    std::int64_t begin, std::int64_t end, int thread)
+  [[gnu::flatten, gnu::target("avx2")]]
+#endif
+  void
+  visitChunkAvx2(std::int64_t begin, std::int64_t end, int thread)
   {
     this->visitChunk(begin, end, thread);
   }
-#endif
 
   [[gnu::always_inline]] void visitChunk(std::int64_t begin, std::int64_t end, int thread)
   {
@@ -156,6 +150,10 @@ private:
         continue;
       }
       lanes.set(this->Cells, cell);
+      if (lanes.nothing())
+      {
+        continue;
+      }
       if constexpr (Dimension == 3)
       {
         if (!this->Mesh.Hidden && lanes.haveSingleRows())
@@ -164,6 +162,7 @@ private:
           continue;
         }
       }
+      lanes.prepareRows();
       for (int lane = 0; lane < laneCount; ++lane)
       {
         if (!lanes.nothing(lane) && !this->hidden(cell + lane))
@@ -201,26 +200,24 @@ private:
       return false;
     }
     sink.visit(samples);
-    for (int layer = layers.Begin; layer < layers.End; ++layer)
+    const int rowCount = across.size() * layers.size();
+    for (int first = 0; first < rowCount;)
     {
-      for (int row = across.Begin; row < across.End; row += laneCount)
+      const auto spans = lanes.spans(lane, first);
+      const int next = first + int(std::size(spans.Row));
+      if (spans.Doubtful != 0)
       {
-        const int count = std::min(laneCount, across.End - row);
-        const SpanLanes spans = lanes.spans(lane, row, count, layer);
-        if (!spans.Certain)
-        {
-          const std::int64_t first =
-            std::int64_t(layer - layers.Begin) * across.size() + (row - across.Begin);
-          this->visitExactly({ std::int32_t(cell), first, first + count }, rows, sink);
-          continue;
-        }
-        for (unsigned open = spans.Open; open != 0; open &= open - 1)
-        {
-          const int i = __builtin_ctz(open);
-          sink.claim(this->sampleRow(row + i, layer), spans.Begin[i], spans.End[i] - spans.Begin[i],
-            std::int32_t(cell));
-        }
+        this->visitExactly({ std::int32_t(cell), first, std::min(next, rowCount) }, rows, sink);
+        first = next;
+        continue;
       }
+      for (unsigned open = spans.Open; open != 0; open &= open - 1)
+      {
+        const int i = __builtin_ctz(open);
+        sink.claim(this->sampleRow(spans.Row[i], spans.Layer[i]), spans.Begin[i], spans.Size[i],
+          std::int32_t(cell));
+      }
+      first = next;
     }
     return true;
   }
@@ -230,7 +227,7 @@ private:
   [[gnu::always_inline]] void visitSingleRows(
     const CellLanes& lanes, std::int64_t first, Rows& rows, Sink& sink)
   {
-    const SpanLanes spans = lanes.singleRows();
+    const auto spans = lanes.singleRows();
     for (int lane = 0; lane < laneCount; ++lane)
     {
       lanes.nothing(lane) ? void() : sink.visit(lanes.columns(lane).size());
@@ -244,8 +241,8 @@ private:
         this->visitExactly({ cell, 0, 1 }, rows, sink);
         continue;
       }
-      sink.claim(this->sampleRow(lanes.rows(lane).Begin, lanes.layers(lane).Begin),
-        spans.Begin[lane], spans.End[lane] - spans.Begin[lane], cell);
+      sink.claim(this->sampleRow(spans.Row[lane], spans.Layer[lane]), spans.Begin[lane],
+        spans.Size[lane], cell);
     }
   }
 

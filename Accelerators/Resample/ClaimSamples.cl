@@ -1,281 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which cell answers each sample of a lattice: TriangleRows.h and TetrahedronRows.h for a device. A
-// cell for which rounding could change a count goes to a list, for the host to do exactly. Host
-// side: ResampleOnDevice.cxx.
+// Which cell answers each sample of a lattice. A cell for which rounding could change a count goes to
+// a list, for the host to do exactly. Host side: ResampleOnDevice.cxx.
 #include "LatticeAndMesh.cl"
+#include "CellRows.cl"
 
-#define NOTHING 0
-#define ROWS 1
-#define DOUBT 2
-
-typedef struct
+// Claims some rows of a cell; returns the number of samples, or -1 if that is in doubt.
+INLINE int claimRows(const Cell* cell, int first, int last, Axis x, Axis y, int name, global int* claims)
 {
-  int columnBegin;
-  int columnEnd;
-  int rowBegin;
-  int rowEnd;
-  int layerBegin;
-  int layerEnd;
-} Box;
-
-// What range() of LatticeAxis gives; DOUBT if that is not certain.
-int rangeOf(Axis axis, double low, double high, double error, int* begin, int* end)
-{
-  const double first = placeOf(axis, low);
-  const double last = placeOf(axis, high);
-  *begin = (int)first;
-  *end = (int)last;
-  return !certain(first, error) || !certain(last, error) ? DOUBT
-    : *begin < *end                                      ? ROWS
-                                                         : NOTHING;
-}
-
-typedef struct
-{
-  double2 low;
-  double slope;
-} Edge;
-
-typedef struct
-{
-  Edge edges[3]; // the long one, the short ones below and above the middle corner
-  double middle;
-  double top;
-  double error;
-  int longIsLeft;
-  Box box;
-} Triangle;
-
-Edge edgeOf(double3 low, double3 high)
-{
-  Edge edge;
-  edge.low = low.xy;
-  edge.slope = (high.x - low.x) / (high.y - low.y);
-  return edge;
-}
-
-int setTriangle(Triangle* t, double3 a, double3 b, double3 c, Axis u, Axis v)
-{
-  if (!(isfinite(a.x) && isfinite(a.y) && isfinite(b.x) && isfinite(b.y) && isfinite(c.x) &&
-        isfinite(c.y)))
+  int total = 0;
+  for (; first < last; first += ROWS_AT_ONCE)
   {
-    return NOTHING;
+    Spans spans;
+    if (cellSpans(cell, first, last, x, y, &spans) == DOUBT)
+    {
+      return -1;
+    }
+    for (int i = 0; i < min(ROWS_AT_ONCE, last - first); ++i)
+    {
+      const long row = placeOfRow(spans.row[i], spans.layer[i], x, y);
+      for (int column = spans.begin[i]; column < spans.end[i]; ++column)
+      {
+        claims[row + column] = name;
+      }
+      total += max(0, spans.end[i] - spans.begin[i]);
+    }
   }
-  const double left = fmin(fmin(a.x, b.x), c.x);
-  const double right = fmax(fmax(a.x, b.x), c.x);
-  t->error = errorOf(u, fmax(-left, right));
-  const int columns = rangeOf(u, left, right, t->error, &t->box.columnBegin, &t->box.columnEnd);
-  if (columns == NOTHING)
-  {
-    return NOTHING;
-  }
-  double3 swap;
-  if (b.y < a.y)
-  {
-    swap = a; a = b; b = swap;
-  }
-  if (c.y < b.y)
-  {
-    swap = b; b = c; c = swap;
-  }
-  if (b.y < a.y)
-  {
-    swap = a; a = b; b = swap;
-  }
-  const int rows = rangeOf(
-    v, a.y, c.y, errorOf(v, fmax(-a.y, c.y)), &t->box.rowBegin, &t->box.rowEnd);
-  if (rows == NOTHING)
-  {
-    return NOTHING;
-  }
-  t->box.layerBegin = 0;
-  t->box.layerEnd = 1;
-  // orientation(a, c, b) with the filter of Orientation.h.
-  const double l = (a.x - b.x) * (c.y - b.y);
-  const double r = (a.y - b.y) * (c.x - b.x);
-  const double bound = 3.3306690738754716e-16 * (fabs(l) + fabs(r)) + 1e-300;
-  if (columns == DOUBT || rows == DOUBT || !(fabs(l - r) > bound))
-  {
-    return DOUBT;
-  }
-  t->longIsLeft = l < r;
-  t->middle = b.y;
-  t->top = c.y;
-  t->edges[0] = edgeOf(a, c);
-  t->edges[1] = edgeOf(a, b);
-  t->edges[2] = edgeOf(b, c);
-  return ROWS;
-}
-
-int triangleSpan(const Triangle* t, int row, Axis u, Axis v, int* begin, int* end)
-{
-  const double y = coordinateOf(v, row);
-  const Edge* other = &t->edges[y >= t->middle ? 2 : 1];
-  const Edge* whole = &t->edges[0];
-  const double xLong = whole->low.x + (y - whole->low.y) * whole->slope;
-  const double xOther = other->low.x + (y - other->low.y) * other->slope;
-  const double atLong = placeOf(u, xLong);
-  const double atOther = placeOf(u, xOther);
-  if (!(y < t->top) || !isfinite(xLong) || !isfinite(xOther) || !certain(atLong, t->error) || !certain(atOther, t->error))
-  {
-    return DOUBT;
-  }
-  *begin = t->longIsLeft ? (int)atLong : (int)atOther;
-  *end = t->longIsLeft ? (int)atOther : (int)atLong;
-  return ROWS;
-}
-
-typedef struct
-{
-  double place;
-  double perY;
-  double perZ;
-  double y;
-  double z;
-  double error;
-  int direction;
-} Face;
-
-typedef struct
-{
-  Face faces[4];
-  Box box;
-} Tetrahedron;
-
-int setFace(Face* face, double3 a, double3 b, double3 c, double3 size, double reach, Axis x)
-{
-  const double3 u = b - a;
-  const double3 v = c - a;
-  const double nx = u.y * v.z - u.z * v.y;
-  const double ny = u.z * v.x - u.x * v.z;
-  const double nz = u.x * v.y - u.y * v.x;
-  const double scale = x.s1 / nx;
-  face->place = (a.x - x.s0) * x.s1 - x.s2 + 1;
-  face->perY = ny * scale;
-  face->perZ = nz * scale;
-  face->y = a.y;
-  face->z = a.z;
-  face->direction = nx > 0 ? 1 : -1;
-  face->error = errorOf(x, reach) + (ROUNDINGS * size.x * size.y * size.z + SMALLEST) * fabs(scale);
-  return fabs(nx) > ROUNDINGS * size.y * size.z + SMALLEST &&
-      isfinite(face->error + face->perY + face->perZ)
-    ? ROWS
-    : DOUBT;
-}
-
-int setTetrahedron(Tetrahedron* t, double3 a, double3 b, double3 c, double3 d, Axis x, Axis y, Axis z)
-{
-  const double3 low = fmin(fmin(a, b), fmin(c, d));
-  const double3 high = fmax(fmax(a, b), fmax(c, d));
-  const double3 check = (a - a) + (b - b) + (c - c) + (d - d);
-  if (check.x != 0 || check.y != 0 || check.z != 0)
-  {
-    return NOTHING;
-  }
-  const double3 reach = fmax(-low, high);
-  Box* box = &t->box;
-  const int columns = rangeOf(x, low.x, high.x, errorOf(x, reach.x), &box->columnBegin, &box->columnEnd);
-  const int rows = rangeOf(y, low.y, high.y, errorOf(y, reach.y), &box->rowBegin, &box->rowEnd);
-  const int layers = rangeOf(z, low.z, high.z, errorOf(z, reach.z), &box->layerBegin, &box->layerEnd);
-  if (columns == NOTHING || rows == NOTHING || layers == NOTHING)
-  {
-    return NOTHING;
-  }
-  const double3 size = high - low;
-  const double3 u = b - a;
-  const double3 v = c - a;
-  const double3 w = d - a;
-  const double volume = w.x * (u.y * v.z - u.z * v.y) + w.y * (u.z * v.x - u.x * v.z) +
-    w.z * (u.x * v.y - u.y * v.x);
-  if (columns == DOUBT || rows == DOUBT || layers == DOUBT ||
-    !(fabs(volume) > ROUNDINGS * size.x * size.y * size.z + SMALLEST))
-  {
-    return DOUBT;
-  }
-  if (volume < 0)
-  {
-    const double3 swap = a;
-    a = b;
-    b = swap;
-  }
-  const int known = setFace(&t->faces[0], b, d, c, size, reach.x, x) == ROWS &&
-    setFace(&t->faces[1], a, c, d, size, reach.x, x) == ROWS &&
-    setFace(&t->faces[2], a, d, b, size, reach.x, x) == ROWS &&
-    setFace(&t->faces[3], a, b, c, size, reach.x, x) == ROWS;
-  return known ? ROWS : DOUBT;
-}
-
-int tetrahedronSpan(
-  const Tetrahedron* t, int row, int layer, Axis x, Axis y, Axis z, int* begin, int* end)
-{
-  *begin = t->box.columnBegin;
-  *end = t->box.columnEnd;
-  bool known = true;
-  for (int i = 0; i < 4; ++i)
-  {
-    const Face* face = &t->faces[i];
-    const double place = clampPlace(x, face->place - (face->perY * (coordinateOf(y, row) - face->y) +
-      face->perZ * (coordinateOf(z, layer) - face->z)));
-    known = known && certain(place, face->error);
-    const int count = (int)place;
-    *begin = face->direction > 0 ? max(*begin, count) : *begin;
-    *end = face->direction > 0 ? *end : min(*end, count);
-  }
-  return known ? ROWS : DOUBT;
-}
-
-// The spans of one cell of either kind.
-typedef struct
-{
-  Triangle triangle;
-  Tetrahedron tetrahedron;
-} Cell;
-
-int setCell(Cell* cell, const Mesh* mesh, long i, Axis x, Axis y, Axis z, Box* box)
-{
-  const double3 a = pointOf(mesh, idOf(mesh, i, 0));
-  const double3 b = pointOf(mesh, idOf(mesh, i, 1));
-  const double3 c = pointOf(mesh, idOf(mesh, i, 2));
-  if (mesh->corners == 3)
-  {
-    const int state = setTriangle(&cell->triangle, a, b, c, x, y);
-    *box = cell->triangle.box;
-    return state;
-  }
-  const int state =
-    setTetrahedron(&cell->tetrahedron, a, b, c, pointOf(mesh, idOf(mesh, i, 3)), x, y, z);
-  *box = cell->tetrahedron.box;
-  return state;
-}
-
-// Claims a row; returns the number of samples, or -1 if that is in doubt.
-int claimRow(const Cell* cell, int corners, int row, int layer, Axis x, Axis y, Axis z, int name,
-  global int* claims)
-{
-  int begin;
-  int end;
-  const int state = corners == 3 ? triangleSpan(&cell->triangle, row, x, y, &begin, &end)
-                                 : tetrahedronSpan(&cell->tetrahedron, row, layer, x, y, z, &begin, &end);
-  if (state == DOUBT)
-  {
-    return -1;
-  }
-  const long first = ((long)layer * (long)y.s7 + row) * (long)x.s7;
-  for (int i = begin; i < end; ++i)
-  {
-    claims[first + i] = name;
-  }
-  return max(0, end - begin);
+  return total;
 }
 
 // Each item does `share` cells in a row. Cells with more than `largest` samples in their boxes and
 // cells in doubt go to the lists; `lengths` has the lists' lengths. A cell of a list counts nothing.
-kernel void claimCells(global const uchar* points, global const uchar* ids, int isFloat, int isWide,
-  int corners, int u, int v, Axis x, Axis y, Axis z, long cells, long firstCell, int share,
+kernel void claimCells(global const Real* points, global const Id* ids, int u, int v, Axis x, Axis y, Axis z, long cells, long firstCell, int share,
   long largest, global const uchar* hidden, int hasHidden, global int* claims,
   global uint* counts, global int* large, global int* doubtful, global int* lengths)
 {
-  const Mesh mesh = { points, ids, isFloat, isWide, corners, u, v };
+  const Mesh mesh = { points, ids, u, v };
   const long item = get_global_id(0);
   const long begin = item * share;
   if (begin >= cells)
@@ -286,29 +45,22 @@ kernel void claimCells(global const uchar* points, global const uchar* ids, int 
   for (long i = begin; i < min(begin + share, cells); ++i)
   {
     Cell cell;
-    Box box;
     if (hasHidden && hidden[i])
     {
       continue;
     }
-    int state = setCell(&cell, &mesh, i, x, y, z, &box);
-    const long samples = (long)(box.columnEnd - box.columnBegin) * (box.rowEnd - box.rowBegin) *
-      (box.layerEnd - box.layerBegin);
-    if (state == ROWS && samples > largest)
+    int state = setCell(&cell, &mesh, i, x, y, z);
+    const Box box = cell.box;
+    if (state == ROWS && samplesOf(&box) > largest)
     {
       large[atomic_inc(&lengths[0])] = (int)i;
       continue;
     }
     int count = 0;
-    for (int layer = box.layerBegin; state == ROWS && layer < box.layerEnd; ++layer)
+    if (state == ROWS)
     {
-      for (int row = box.rowBegin; state == ROWS && row < box.rowEnd; ++row)
-      {
-        const int claimed =
-          claimRow(&cell, corners, row, layer, x, y, z, (int)(firstCell + i), claims);
-        state = claimed < 0 ? DOUBT : ROWS;
-        count += claimed;
-      }
+      count = claimRows(&cell, 0, rowsOf(&box), x, y, (int)(firstCell + i), claims);
+      state = count < 0 ? DOUBT : ROWS;
     }
     if (state == DOUBT)
     {
@@ -320,19 +72,15 @@ kernel void claimCells(global const uchar* points, global const uchar* ids, int 
 }
 
 // One large cell, a row an item; counts[row] is what it claims, or -1 if that is in doubt.
-kernel void claimLarge(global const uchar* points, global const uchar* ids, int isFloat, int isWide,
-  int corners, int u, int v, Axis x, Axis y, Axis z, long number, long firstCell, int rows,
+kernel void claimLarge(global const Real* points, global const Id* ids, int u, int v, Axis x, Axis y, Axis z, long number, long firstCell, int rows,
   global int* claims, global int* counts)
 {
-  const Mesh mesh = { points, ids, isFloat, isWide, corners, u, v };
+  const Mesh mesh = { points, ids, u, v };
   const int item = (int)get_global_id(0);
   Cell cell;
-  Box box;
-  setCell(&cell, &mesh, number, x, y, z, &box);
+  setCell(&cell, &mesh, number, x, y, z);
   if (item < rows)
   {
-    const int depth = box.rowEnd - box.rowBegin;
-    counts[item] = claimRow(&cell, corners, box.rowBegin + item % depth,
-      box.layerBegin + item / depth, x, y, z, (int)(firstCell + number), claims);
+    counts[item] = claimRows(&cell, item, item + 1, x, y, (int)(firstCell + number), claims);
   }
 }

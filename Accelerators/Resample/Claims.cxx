@@ -4,6 +4,7 @@
 #include "Resample/BorderClaims.h"
 #include "Resample/CellKey.h"
 #include "Resample/CellVisitor.h"
+#include "Resample/PartMesh.h"
 
 #include <algorithm>
 #include <functional>
@@ -164,23 +165,10 @@ public:
     const std::vector<std::int32_t>& open)
   {
     this->Result.Cells = std::move(claims);
-    std::vector<std::int64_t> ids;
-    withAccess(this->Mesh,
-      [&](const auto& access)
-      {
-        for (const std::int32_t cell : open)
-        {
-          ids.insert(ids.end(), access.ids(cell), access.ids(cell) + access.Corners);
-        }
-      });
-    SimplexMesh part = this->Mesh;
-    part.Ids = ids.data();
-    part.Wide = true;
-    part.Cells = std::int64_t(open.size());
-    part.Hidden = nullptr;
+    const PartMesh part(this->Mesh, open);
     std::vector<FirstWalk> walks(
       std::size_t(this->Threads), FirstWalk(this->Result.Cells.get(), open.data()));
-    this->Result.Aborted = !visitCells(part, this->Axes, walks, this->Progress);
+    this->Result.Aborted = !visitCells(part.mesh(), this->Axes, walks, this->Progress);
     walks.front().Claimed += claimed;
     if (!this->Result.Aborted)
     {
@@ -239,7 +227,7 @@ private:
     {
       this->settleOverlaps();
     }
-    this->Result.Border = borderClaims(this->Mesh, this->Axes, touches);
+    this->Result.Border = borderClaims(this->Mesh, this->Axes, touches, this->Threads);
     for (const BorderClaim& claim : this->Result.Border)
     {
       this->Result.Cells[std::size_t(claim.Sample)] = claim.Cell;

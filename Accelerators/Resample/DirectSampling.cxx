@@ -5,6 +5,7 @@
 #include "Resample/BorderClaims.h"
 #include "Resample/CellVisitor.h"
 #include "Resample/FillBlock.h"
+#include "Resample/PartMesh.h"
 
 #include <algorithm>
 #include <cstring>
@@ -13,6 +14,19 @@ namespace tipp
 {
 namespace
 {
+
+/// How many of some bytes, all 0 or 1, are 1.
+std::int64_t countOnes(const unsigned char* begin, const unsigned char* end)
+{
+  std::int64_t count = 0;
+  for (; end - begin >= 8; begin += 8)
+  {
+    std::uint64_t bytes;
+    std::memcpy(&bytes, begin, sizeof bytes);
+    count += std::int64_t(bytes * 0x0101010101010101u >> 56); // the highest is the sum of all
+  }
+  return std::count(begin, end, 1) + count;
+}
 
 /// What a thread fills of the samples.
 template <typename Access>
@@ -64,10 +78,13 @@ public:
   [[gnu::noinline]] void flush()
   {
     this->Claimed += this->Block.size();
-    for (int j = 0; j < this->Block.size(); ++j)
+    unsigned char* const valid = this->Options.Valid;
+    const std::int64_t* const places = this->Block.places();
+    const int size = this->Block.size();
+    for (int j = 0; j < size; ++j)
     {
       // An ordinary store; but cells that overlap may be in two threads at once.
-      __atomic_store_n(this->Options.Valid + this->Block[j].Place, 1, __ATOMIC_RELAXED);
+      __atomic_store_n(valid + places[j], 1, __ATOMIC_RELAXED);
     }
     fillBlock(this->Block, this->Weighs, this->Attributes, this->Options);
     this->Block.clear();
@@ -112,13 +129,11 @@ public:
   {
   }
 
-  DirectResult run()
+  /// `claimed` samples are there already.
+  DirectResult run(std::int64_t claimed)
   {
-    this->forSamples([this](std::int64_t begin, std::int64_t end, int)
-      { std::memset(this->Options.Valid + begin, 0, std::size_t(end - begin)); });
     this->Result.Aborted =
       !CellVisitor<Access, Walk>(this->Mesh, this->Axes, this->Walks).run(this->Options.Progress);
-    std::int64_t claimed = 0;
     for (const Walk& walk : this->Walks)
     {
       this->Result.Statistics.VisitedCells += walk.Statistics.VisitedCells;
@@ -154,7 +169,7 @@ private:
     this->forSamples(
       [&](std::int64_t begin, std::int64_t end, int thread)
       {
-        const std::int64_t count = std::count(valid + begin, valid + end, 1);
+        const std::int64_t count = countOnes(valid + begin, valid + end);
         counts[std::size_t(thread)] += count;
         for (const Attribute& attribute : this->Attributes)
         {
@@ -183,14 +198,21 @@ private:
     }
     const std::int64_t width = this->Axes.U.size();
     const std::int64_t height = this->Axes.V.size();
-    Walk& walk = this->Walks.front();
-    for (const BorderClaim& claim : borderClaims(this->Mesh, this->Axes, touches))
-    {
-      const std::int64_t line = claim.Sample / width;
-      const SampleRow row{ line * width, int(line % height), int(line / height) };
-      walk.claim(row, int(claim.Sample % width), 1, claim.Cell);
-    }
-    walk.flush();
+    const std::vector<BorderClaim> claims =
+      borderClaims(this->Mesh, this->Axes, touches, this->Options.Threads);
+    forChunks(std::int64_t(claims.size()), 1 << 12, this->Options.Threads, {},
+      [&](std::int64_t begin, std::int64_t end, int thread)
+      {
+        Walk& walk = this->Walks[std::size_t(thread)];
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          const BorderClaim& claim = claims[std::size_t(i)];
+          const std::int64_t line = claim.Sample / width;
+          const SampleRow row{ line * width, int(line % height), int(line / height) };
+          walk.claim(row, int(claim.Sample % width), 1, claim.Cell);
+        }
+        walk.flush();
+      });
   }
 
   const SimplexMesh& Mesh;
@@ -201,10 +223,9 @@ private:
   DirectResult Result;
 };
 
-} // namespace
-
-DirectResult sampleDirectly(const SimplexMesh& mesh, const Lattice& lattice,
-  const std::vector<Attribute>& attributes, const InterpolationOptions& options)
+DirectResult sampleRest(const SimplexMesh& mesh, const Lattice& lattice,
+  const std::vector<Attribute>& attributes, const InterpolationOptions& options,
+  std::int64_t claimed)
 {
   const LatticeAxes axes(mesh, lattice);
   DirectResult result;
@@ -212,9 +233,33 @@ DirectResult sampleDirectly(const SimplexMesh& mesh, const Lattice& lattice,
     [&](const auto& access)
     {
       using Access = std::decay_t<decltype(access)>;
-      result = DirectSampler<Access>(mesh, axes, attributes, options).run();
+      result = DirectSampler<Access>(mesh, axes, attributes, options).run(claimed);
     });
   return result;
+}
+
+} // namespace
+
+void clearMask(std::int64_t samples, int threads, unsigned char* valid)
+{
+  forChunks(samples, 1 << 16, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int)
+    { std::memset(valid + begin, 0, std::size_t(end - begin)); });
+}
+
+DirectResult sampleDirectly(const SimplexMesh& mesh, const Lattice& lattice,
+  const std::vector<Attribute>& attributes, const InterpolationOptions& options)
+{
+  clearMask(LatticeAxes(mesh, lattice).samples(), options.Threads, options.Valid);
+  return sampleRest(mesh, lattice, attributes, options, 0);
+}
+
+DirectResult finishDirectly(const SimplexMesh& mesh, const Lattice& lattice,
+  const std::vector<Attribute>& attributes, const InterpolationOptions& options,
+  const SampledCells& sampled)
+{
+  const PartMesh part(mesh, sampled.Open);
+  return sampleRest(part.mesh(), lattice, attributes, options, sampled.Claimed);
 }
 
 } // namespace tipp

@@ -19,7 +19,6 @@ class BlockFiller
 {
 public:
   using Block = SampleBlock<Access>;
-  using Group = typename Block::Group;
   static constexpr int D = Access::Dimension;
 
   BlockFiller(const Attribute& attribute, const Block& block)
@@ -36,7 +35,7 @@ public:
     {
       for (int component = 0; component < this->Components; ++component)
       {
-        this->interpolate(component);
+        hasAvx2() ? this->interpolateAvx2(component) : this->interpolate(component);
       }
     }
     else
@@ -49,16 +48,30 @@ public:
   {
     for (int j = 0; j < this->Weighed.size(); ++j)
     {
-      const std::int32_t simplex = this->Weighed.group(this->Weighed[j].Group).Cell;
+      const std::int32_t simplex = this->Weighed.cellOf(j);
       this->take(j, this->Values + (parents ? parents[simplex] : simplex) * this->Components);
     }
   }
 
 private:
+  /// Four groups' values at the first corner, and by how much they rise along each axis.
+  struct alignas(32) Gradients
+  {
+    Lanes First;
+    Lanes Rise[D];
+  };
+
+  /// A run's value at the first coordinate of its cell's first corner, and by how much it rises.
+  struct Line
+  {
+    double First;
+    double Rise;
+  };
+
   /// An ordinary store; but cells that overlap may be in two threads at once.
   static void store(T* to, T value) { __atomic_store(to, &value, __ATOMIC_RELAXED); }
 
-  T* sample(int j) const { return this->Samples + this->Weighed[j].Place * this->Components; }
+  T* sample(int j) const { return this->Samples + this->Weighed.places()[j] * this->Components; }
 
   void take(int j, const T* from)
   {
@@ -68,52 +81,141 @@ private:
     }
   }
 
-  void interpolate(int component)
+#ifdef __x86_64__
+  [[gnu::target("avx2")]]
+#endif
+  void
+  interpolateAvx2(int component)
   {
-    double gradients[Block::Capacity][D + 1];
-    this->findGradients(component, gradients);
-    for (int j = 0; j < this->Weighed.size(); ++j)
+    this->interpolate(component);
+  }
+
+  [[gnu::always_inline]] void interpolate(int component)
+  {
+    Gradients gradients[Block::Capacity / laneCount + 1];
+    Line lines[Block::Capacity];
+    const LaneTruths useful = this->findGradients(component, gradients);
+    for (int run = 0; run < this->Weighed.runs(); ++run)
     {
-      const double(&gradient)[D + 1] = gradients[this->Weighed[j].Group];
-      double sum = this->Weighed.weights(0)[j] * gradient[1];
-      for (int i = 1; i < D; ++i)
+      const int group = this->Weighed.groupOfRun(run);
+      const Gradients& gradient = gradients[group / laneCount];
+      const int lane = group % laneCount;
+      const auto& offset = this->Weighed.runOffset(run);
+      double sum = gradient.Rise[1][lane] * offset[0];
+      if constexpr (D == 3)
       {
-        sum += this->Weighed.weights(i)[j] * gradient[i + 1];
+        sum += gradient.Rise[2][lane] * offset[1];
       }
-      store(this->sample(j) + component, T(gradient[0] + sum));
+      lines[run] = { gradient.First[lane] + sum, gradient.Rise[0][lane] };
+    }
+    // By pointers of their own, which stores do not make the compiler load again.
+    const std::int64_t* const places = this->Weighed.places();
+    const std::int32_t* const runs = this->Weighed.runsOfSamples();
+    const double* const offsets = this->Weighed.offsets();
+    T* const samples = this->Samples + component;
+    const std::int64_t components = this->Components;
+    const int size = this->Weighed.size();
+    for (int j = 0; j < size; ++j)
+    {
+      const Line& line = lines[runs[j]];
+      store(samples + places[j] * components, T(line.First + line.Rise * offsets[j]));
+    }
+    if (any(~useful))
+    {
+      this->interpolateByWeights(component, gradients);
     }
   }
 
-  /// Of each group: the first corner's value, and by how much the others' are more.
-  void findGradients(int component, double (*gradients)[D + 1]) const
+  /// Of all groups; tells where they are of use.
+  [[gnu::always_inline]] LaneTruths findGradients(int component, Gradients* gradients) const
   {
-    constexpr int ahead = 32;
-    const int groups = this->Weighed.groups();
-    for (int i = 0; i < groups; ++i)
+    constexpr int ahead = 8;
+    const int count = (this->Weighed.groups() + laneCount - 1) / laneCount;
+    LaneTruths useful = LaneTruths{} - 1;
+    for (int i = 0; i < count; ++i)
     {
       if (i % ahead == 0)
       {
-        this->prefetch(i == 0 ? 0 : i + ahead, std::min(i + 2 * ahead, groups));
+        this->prefetch(i == 0 ? 0 : i + ahead, std::min(i + 2 * ahead, count));
       }
-      const Group& group = this->Weighed.group(i);
-      const T* const values = this->Values + component;
-      gradients[i][0] = double(values[group.Corners[0] * this->Components]);
-      for (int corner = 1; corner <= D; ++corner)
+      const GroupLanes<Access>& group = this->Weighed.groupLanes(i);
+      Gradients& gradient = gradients[i];
+      gradient.First = this->valuesAt(group.Ids[0], component);
+      for (int corner = 0; corner < D; ++corner)
       {
-        gradients[i][corner] =
-          double(values[group.Corners[corner] * this->Components]) - gradients[i][0];
+        const Lanes rise = this->valuesAt(group.Ids[corner + 1], component) - gradient.First;
+        for (int axis = 0; axis < D; ++axis)
+        {
+          const Lanes part = group.Normals[corner][axis] * rise;
+          gradient.Rise[axis] = corner == 0 ? part : gradient.Rise[axis] + part;
+        }
+      }
+      useful &= isUseful(group, gradient);
+    }
+    return useful;
+  }
+
+  /// Whether samples may be found by gradients: not in thin cells, and not if these are infinite,
+  /// or NaN, which the samples need not be.
+  [[gnu::always_inline]] static LaneTruths isUseful(
+    const GroupLanes<Access>& group, const Gradients& gradient)
+  {
+    Lanes sum = gradient.Rise[0] - gradient.Rise[0];
+    for (int axis = 1; axis < D; ++axis)
+    {
+      sum += gradient.Rise[axis] - gradient.Rise[axis];
+    }
+    return ~group.Thin & (sum == 0);
+  }
+
+  [[gnu::always_inline]] Lanes valuesAt(LaneTruths ids, int component) const
+  {
+    const T* const values = this->Values + component;
+    const std::int64_t components = this->Components;
+    return Lanes{ double(values[ids[0] * components]), double(values[ids[1] * components]),
+      double(values[ids[2] * components]), double(values[ids[3] * components]) };
+  }
+
+  [[gnu::always_inline]] void prefetch(int begin, int end) const
+  {
+    for (int i = begin; i < end; ++i)
+    {
+      for (const LaneTruths& ids : this->Weighed.groupLanes(i).Ids)
+      {
+        for (int lane = 0; lane < laneCount; ++lane)
+        {
+          __builtin_prefetch(this->Values + ids[lane] * this->Components);
+        }
       }
     }
   }
 
-  void prefetch(int begin, int end) const
+  /// Once more the samples of groups whose gradients are of no use.
+  [[gnu::noinline]] void interpolateByWeights(int component, const Gradients* gradients)
   {
-    for (int i = begin; i < end; ++i)
+    for (int j = 0; j < this->Weighed.size(); ++j)
     {
-      for (const std::int64_t id : this->Weighed.group(i).Corners)
+      const int group = this->Weighed.groupOf(j);
+      const LaneTruths useful =
+        isUseful(this->Weighed.groupLanes(group / laneCount), gradients[group / laneCount]);
+      if (useful[group % laneCount] != 0)
       {
-        __builtin_prefetch(this->Values + id * this->Components);
+        continue;
       }
+      double weights[D];
+      this->Weighed.weightsOf(j, weights);
+      const auto value = [&](int corner)
+      {
+        const std::int64_t id = this->Weighed.cornerId(group, corner);
+        return double(this->Values[id * this->Components + component]);
+      };
+      const double first = value(0);
+      double sum = weights[0] * (value(1) - first);
+      for (int i = 1; i < D; ++i)
+      {
+        sum += weights[i] * (value(i + 1) - first);
+      }
+      store(this->sample(j) + component, T(first + sum));
     }
   }
 
@@ -121,21 +223,23 @@ private:
   {
     for (int j = 0; j < this->Weighed.size(); ++j)
     {
+      double weights[D];
+      this->Weighed.weightsOf(j, weights);
       double rest = 1;
       for (int i = 0; i < D; ++i)
       {
-        rest -= this->Weighed.weights(i)[j];
+        rest -= weights[i];
       }
       int nearest = 0;
       for (int i = 0; i < D; ++i)
       {
-        if (this->Weighed.weights(i)[j] > rest)
+        if (weights[i] > rest)
         {
-          rest = this->Weighed.weights(i)[j];
+          rest = weights[i];
           nearest = i + 1;
         }
       }
-      const std::int64_t id = this->Weighed.group(this->Weighed[j].Group).Corners[nearest];
+      const std::int64_t id = this->Weighed.cornerId(this->Weighed.groupOf(j), nearest);
       this->take(j, this->Values + id * this->Components);
     }
   }

@@ -177,7 +177,7 @@ bool precedes(const double* a, const double* b, int d)
 // The cell's corners in lexicographic order and their ids.
 void loadSorted(const Mesh* mesh, long cell, double (*corners)[3], int* ids)
 {
-  const int d = mesh->corners - 1;
+  const int d = CORNERS - 1;
   for (int i = 0; i <= d; ++i)
   {
     ids[i] = idOf(mesh, cell, i);
@@ -208,13 +208,12 @@ void loadSorted(const Mesh* mesh, long cell, double (*corners)[3], int* ids)
 
 // Corner ids and weights of `count` samples from `first` on; each item does `share` in a row. The
 // first id of a sample that none of the cells firstCell.. answers is -1.
-kernel void weighSamples(global const uchar* points, global const uchar* ids, int isFloat,
-  int isWide, int corners, int u, int v, Axis x, Axis y, Axis z, long cells, long firstCell,
+kernel void weighSamples(global const Real* points, global const Id* ids, int u, int v, Axis x, Axis y, Axis z, long cells, long firstCell,
   int share, long first, long count, global const int* claims, global int* cornerIds,
   global double* weights)
 {
-  const Mesh mesh = { points, ids, isFloat, isWide, corners, u, v };
-  const int d = corners - 1;
+  const Mesh mesh = { points, ids, u, v };
+  const int d = CORNERS - 1;
   const long begin = get_global_id(0) * (long)share;
   long known = -1;
   Weights w;
@@ -224,7 +223,7 @@ kernel void weighSamples(global const uchar* points, global const uchar* ids, in
     const long cell = claims[first + i] - firstCell;
     if (cell < 0 || cell >= cells)
     {
-      cornerIds[i * corners] = -1;
+      cornerIds[i * CORNERS] = -1;
       continue;
     }
     if (cell != known)
@@ -242,7 +241,7 @@ kernel void weighSamples(global const uchar* points, global const uchar* ids, in
     solveWeights(&w, d, sample, solved);
     for (int corner = 0; corner <= d; ++corner)
     {
-      cornerIds[i * corners + corner] = sorted[corner];
+      cornerIds[i * CORNERS + corner] = sorted[corner];
     }
     for (int axis = 0; axis < d; ++axis)
     {
@@ -252,22 +251,22 @@ kernel void weighSamples(global const uchar* points, global const uchar* ids, in
 }
 
 // One array of floating-point numbers, an item a sample.
-kernel void interpolateArray(global const uchar* values, int isFloat, int components, int corners,
+kernel void interpolateArray(global const uchar* values, int isFloat, int components,
   long first, long count, global const int* cornerIds, global const double* weights,
   global uchar* samples)
 {
   const long i = get_global_id(0);
-  if (i >= count || cornerIds[i * corners] < 0)
+  if (i >= count || cornerIds[i * CORNERS] < 0)
   {
     return;
   }
-  const int d = corners - 1;
+  const int d = CORNERS - 1;
   for (int component = 0; component < components; ++component)
   {
     double at[4];
-    for (int corner = 0; corner < corners; ++corner)
+    for (int corner = 0; corner < CORNERS; ++corner)
     {
-      const long place = cornerIds[i * corners + corner] * (long)components + component;
+      const long place = cornerIds[i * CORNERS + corner] * (long)components + component;
       at[corner] = isFloat ? ((global const float*)values)[place] : ((global const double*)values)[place];
     }
     double sum = weights[i * d] * (at[1] - at[0]);

@@ -24,6 +24,16 @@ using LaneInts = std::int32_t __attribute__((vector_size(16)));
 
 constexpr int laneCount = 4;
 
+/// Whether functions for AVX2 may be called.
+inline bool hasAvx2()
+{
+#ifdef __x86_64__
+  return __builtin_cpu_supports("avx2") != 0;
+#else
+  return false;
+#endif
+}
+
 [[gnu::always_inline]] inline Lanes allLanes(double value)
 {
   return Lanes{ value, value, value, value };
@@ -61,7 +71,14 @@ constexpr int laneCount = 4;
 /// A bit for each lane.
 [[gnu::always_inline]] inline unsigned laneBits(LaneTruths truths)
 {
+#ifdef __SSE2__
+  using Half = double __attribute__((vector_size(16)));
+  Half halves[2];
+  std::memcpy(halves, &truths, sizeof truths);
+  return unsigned(__builtin_ia32_movmskpd(halves[0]) | __builtin_ia32_movmskpd(halves[1]) << 2);
+#else
   return unsigned((truths[0] & 1) | (truths[1] & 2) | (truths[2] & 4) | (truths[3] & 8));
+#endif
 }
 
 /// Places along a LatticeAxis: LatticeAxis::place(), error() and certain() for lanes.
@@ -104,6 +121,8 @@ public:
   double origin() const { return this->Min; }
   double inverse() const { return this->Inverse; }
   double firstIndex() const { return this->First; }
+  double delta() const { return this->Axis.delta(); }
+  IndexRange exactRange(double low, double high) const { return this->Axis.exactRange(low, high); }
 
 private:
   const LatticeAxis& Axis;
@@ -115,7 +134,7 @@ private:
   double ErrorOffset;
 };
 
-/// LatticeAxis::range() of four cells, as far as it is certain.
+/// LatticeAxis::range() of four cells.
 struct RangeLanes
 {
   [[gnu::always_inline]] RangeLanes(const AxisLanes& axis, Lanes low, Lanes high)
@@ -125,9 +144,10 @@ struct RangeLanes
     const Lanes end = axis.place(high);
     this->Begin = whole(begin);
     this->End = whole(end);
-    this->Certain = AxisLanes::certain(begin, this->Begin, this->Error) &
+    const LaneTruths certain = AxisLanes::certain(begin, this->Begin, this->Error) &
       AxisLanes::certain(end, this->End, this->Error);
-    this->Empty = this->Certain & (this->Begin >= this->End);
+    any(~certain) ? this->findExactly(axis, low, high, certain) : void();
+    this->Empty = this->Begin >= this->End;
   }
 
   IndexRange range(int lane) const { return { int(this->Begin[lane]), int(this->End[lane]) }; }
@@ -135,27 +155,43 @@ struct RangeLanes
   Lanes Error;
   Lanes Begin;
   Lanes End;
-  LaneTruths Certain;
   LaneTruths Empty;
+
+private:
+  [[gnu::always_inline]] void findExactly(
+    const AxisLanes& axis, Lanes low, Lanes high, LaneTruths certain)
+  {
+    for (int lane = 0; lane < laneCount; ++lane)
+    {
+      if (certain[lane] == 0)
+      {
+        const IndexRange range = axis.exactRange(low[lane], high[lane]);
+        this->Begin[lane] = range.Begin;
+        this->End[lane] = range.End;
+      }
+    }
+  }
 };
 
-/// What four rows of a cell answer.
-struct SpanLanes
+/// What rows of one cell answer, or a row of each of some cells.
+template <int N>
+struct RowSpans
 {
-  std::int32_t Begin[laneCount];
-  std::int32_t End[laneCount];
-  unsigned Open;         ///< a bit for each row that has samples
-  unsigned Doubtful = 0; ///< if not Certain: a bit for each row in doubt, as far as that is told
-  bool Certain;          ///< of the rows asked for; else nothing is told
-
-  [[gnu::always_inline]] void set(Lanes begin, Lanes end, LaneTruths open)
+  template <typename Ints>
+  [[gnu::always_inline]] void set(Ints begin, Ints size, Ints row, Ints layer)
   {
-    this->Open = laneBits(open);
-    const LaneInts begins = __builtin_convertvector(begin, LaneInts);
-    const LaneInts ends = __builtin_convertvector(end, LaneInts);
-    std::memcpy(this->Begin, &begins, sizeof begins);
-    std::memcpy(this->End, &ends, sizeof ends);
+    std::memcpy(this->Begin, &begin, sizeof begin);
+    std::memcpy(this->Size, &size, sizeof size);
+    std::memcpy(this->Row, &row, sizeof row);
+    std::memcpy(this->Layer, &layer, sizeof layer);
   }
+
+  unsigned Open;     ///< a bit for each row that has samples
+  unsigned Doubtful; ///< a bit for each row that is to be asked exactly; else it is as told
+  std::int32_t Begin[N];
+  std::int32_t Size[N];
+  std::int32_t Row[N];
+  std::int32_t Layer[N];
 };
 
 /// For the first `count` lanes.

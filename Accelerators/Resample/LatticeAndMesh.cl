@@ -3,6 +3,9 @@
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #pragma OPENCL FP_CONTRACT OFF
 
+// For functions that are called for every cell with all that is known of the axes.
+#define INLINE __attribute__((always_inline))
+
 #define ROUNDINGS 0x1p-47
 #define SMALLEST 1e-280
 
@@ -30,31 +33,33 @@ bool certain(double place, double error)
   return fabs(place - (int)place - 0.5) < 0.5 - error;
 }
 
+// CORNERS is 3 or 4, FLOAT_POINTS and WIDE_IDS are 0 or 1: the mesh's types, told to the compiler.
+#if FLOAT_POINTS
+typedef float Real;
+#else
+typedef double Real;
+#endif
+#if WIDE_IDS
+typedef long Id;
+#else
+typedef int Id;
+#endif
+
+// The axes u and v count, and the third of tetrahedra.
 typedef struct
 {
-  global const uchar* points;
-  global const uchar* ids;
-  int isFloat;
-  int isWide;
-  int corners;
+  global const Real* points;
+  global const Id* ids;
   int u;
   int v;
 } Mesh;
 
 int idOf(const Mesh* mesh, long cell, int corner)
 {
-  const long at = cell * mesh->corners + corner;
-  return mesh->isWide ? (int)((global const long*)mesh->ids)[at] : ((global const int*)mesh->ids)[at];
-}
-double coordinate(const Mesh* mesh, int id, int axis)
-{
-  const long at = 3 * (long)id + axis;
-  return mesh->isFloat ? ((global const float*)mesh->points)[at]
-                       : ((global const double*)mesh->points)[at];
+  return (int)mesh->ids[cell * CORNERS + corner];
 }
 double3 pointOf(const Mesh* mesh, int id)
 {
-  const double x = coordinate(mesh, id, mesh->u);
-  const double y = coordinate(mesh, id, mesh->v);
-  return (double3)(x, y, mesh->corners == 4 ? coordinate(mesh, id, 2) : 0.0);
+  global const Real* p = mesh->points + 3 * (long)id;
+  return CORNERS == 4 ? (double3)(p[0], p[1], p[2]) : (double3)(p[mesh->u], p[mesh->v], 0);
 }

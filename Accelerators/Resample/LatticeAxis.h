@@ -70,7 +70,7 @@ public:
 
   int size() const { return this->Count; }
   double operator[](int i) const { return this->Coordinates[std::size_t(i)]; }
-  /// The coordinates, and three more.
+  /// The coordinates, and four more.
   const double* data() const { return this->Coordinates.data(); }
 
   /// Where v lies, in steps, rounded: 1 at the first sample. Clamped to numbers whose whole part is
@@ -144,7 +144,7 @@ public:
   /// 64 roundings of numbers up to 1.
   static constexpr double Roundings = 7.1054273576010019e-15; // 2^-47
 
-private:
+  /// As range() where that is not certain.
   [[gnu::noinline]] IndexRange exactRange(double low, double high) const
   {
     const auto begin = this->Coordinates.begin();
@@ -153,7 +153,8 @@ private:
       int(std::upper_bound(begin, end, high) - begin) };
   }
 
-  static constexpr std::size_t Padding = 3;
+private:
+  static constexpr std::size_t Padding = 4;
 
   double Min;
   double Delta;

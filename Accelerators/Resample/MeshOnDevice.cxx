@@ -45,11 +45,11 @@ DevicePieces piecesOnDevice(const ComputeDevice& device, const SimplexMesh& mesh
 }
 
 MeshOnDevice::MeshOnDevice(const ComputeDevice& device, const SimplexMesh& mesh)
-  : Float(mesh.Float)
+  : U(mesh.Dimension == 2 ? mesh.Axes[0] : 0)
+  , V(mesh.Dimension == 2 ? mesh.Axes[1] : 1)
+  , Float(mesh.Float)
   , Wide(mesh.Wide)
   , Corners(mesh.Dimension + 1)
-  , U(mesh.Dimension == 2 ? mesh.Axes[0] : 0)
-  , V(mesh.Dimension == 2 ? mesh.Axes[1] : 1)
   , Device(device)
   , First(0)
   , Count(mesh.Cells)
@@ -64,11 +64,11 @@ MeshOnDevice::MeshOnDevice(const ComputeDevice& device, const SimplexMesh& mesh)
 
 MeshOnDevice::MeshOnDevice(const ComputeDevice& device, const SimplexMesh& mesh, std::int64_t first,
   std::int64_t count, int threads)
-  : Float(0)
-  , Wide(0)
-  , Corners(mesh.Dimension + 1)
-  , U(mesh.Dimension == 2 ? mesh.Axes[0] : 0)
+  : U(mesh.Dimension == 2 ? mesh.Axes[0] : 0)
   , V(mesh.Dimension == 2 ? mesh.Axes[1] : 1)
+  , Float(false)
+  , Wide(false)
+  , Corners(mesh.Dimension + 1)
   , Device(device)
   , First(first)
   , Count(count)
@@ -96,6 +96,12 @@ MeshOnDevice::MeshOnDevice(const ComputeDevice& device, const SimplexMesh& mesh,
     });
   this->Points = device.input(this->Gathered.data(), this->Gathered.size() * sizeof(double));
   this->Ids = device.input(this->Numbers.data(), this->Numbers.size() * sizeof(std::int32_t));
+}
+
+std::string MeshOnDevice::compilerOptions() const
+{
+  return "-DCORNERS=" + std::to_string(this->Corners) +
+    " -DFLOAT_POINTS=" + (this->Float ? "1" : "0") + " -DWIDE_IDS=" + (this->Wide ? "1" : "0");
 }
 
 cl::Buffer MeshOnDevice::values(

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace tipp
@@ -41,18 +42,22 @@ public:
   /// A point array for these points.
   cl::Buffer values(const SimplexMesh& mesh, const void* values, std::size_t tupleBytes) const;
 
+  /// Tells the compiler of the kernels the types of the mesh.
+  std::string compilerOptions() const;
+
   std::int64_t first() const { return this->First; }
   std::int64_t count() const { return this->Count; }
+  bool isWhole() const { return this->Whole; }
 
   cl::Buffer Points;
   cl::Buffer Ids;
-  cl_int Float;
-  cl_int Wide;
-  cl_int Corners;
   cl_int U;
   cl_int V;
 
 private:
+  bool Float;
+  bool Wide;
+  int Corners;
   const ComputeDevice& Device;
   std::int64_t First;
   std::int64_t Count;

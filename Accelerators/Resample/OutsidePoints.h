@@ -55,6 +55,8 @@ public:
   }
 
   bool found() const { return this->Sides != nullptr; }
+  /// A bit for each side that a point lies beyond; null before find().
+  const unsigned char* sides() const { return this->Sides.get(); }
 
   /// Whether a cell certainly has no samples; false before find().
   [[gnu::always_inline]] bool contain(std::int64_t cell) const

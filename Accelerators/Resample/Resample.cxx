@@ -5,6 +5,7 @@
 #include "Resample/CellVisitor.h"
 #include "Resample/DirectSampling.h"
 #include "Resample/ResampleOnDevice.h"
+#include "Resample/SampleOnDevice.h"
 
 #include <memory>
 #include <string>
@@ -39,7 +40,7 @@ public:
       return this->Result; // the part is outside
     }
     this->tryDevice([&] { this->open(); });
-    if (!this->Device && !this->Options.Keys && this->sampleAtOnce())
+    if (!this->Options.Keys && this->sampleAtOnce())
     {
       return this->Result;
     }
@@ -77,23 +78,41 @@ private:
     }
   }
 
-  /// False if it takes more, for cells overlap.
+  /// False if it takes more: cells overlap, or a device has more to do than one walk can.
   bool sampleAtOnce()
   {
+    if (this->Device && !canSampleOnDevice(this->Attributes))
+    {
+      return false;
+    }
     std::vector<unsigned char> valid;
     InterpolationOptions options = this->interpolation();
-    options.Progress = this->Options.Progress;
+    options.SkipInterpolated = false;
     if (!options.Valid)
     {
       valid.resize(std::size_t(this->Window.samples()));
       options.Valid = valid.data();
     }
-    const DirectResult direct = sampleDirectly(this->Mesh, this->Grid, this->Attributes, options);
+    SampledCells sampled;
+    if (this->Device)
+    {
+      this->tryDevice(
+        [&]
+        {
+          sampled = sampleOnDevice(*this->Pieces, this->Grid, this->Attributes, options.Valid,
+            partOf(this->Options.Progress, 0, 0.9));
+        });
+    }
+    options.Progress =
+      this->Device ? partOf(this->Options.Progress, 0.9, 1) : this->Options.Progress;
+    const DirectResult direct = sampled.Aborted ? DirectResult{ {}, 0, false, true }
+      : this->Device ? finishDirectly(this->Mesh, this->Grid, this->Attributes, options, sampled)
+                     : sampleDirectly(this->Mesh, this->Grid, this->Attributes, options);
     this->Result.Statistics = direct.Statistics;
     this->Result.Aborted = direct.Aborted;
     this->Result.InterpolationSeconds = direct.FinishSeconds;
     this->Result.ClaimSeconds = this->lap() - direct.FinishSeconds;
-    this->Result.Device = "OpenMP";
+    this->Result.Device = this->Device ? this->Device->description().Name : "OpenMP";
     return !direct.Overlapping;
   }
 

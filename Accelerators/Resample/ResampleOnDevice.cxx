@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/ResampleOnDevice.h"
 
-#include "Resample/CellVisitor.h"
 #include "Resample/ClaimSamples.cl.h"
+#include "Resample/DeviceArrays.h"
 #include "Resample/InterpolateSamples.cl.h"
 
 #include <algorithm>
@@ -13,72 +13,6 @@ namespace tipp
 namespace
 {
 
-/// Cells with more samples in their boxes are done by an item a row.
-constexpr cl_long LargestCell = 4096;
-/// Neighbours that one work item does on a CPU, where items are not side by side in lanes.
-constexpr cl_int CpuShare = 64;
-
-cl_int shareOf(const ComputeDevice& device)
-{
-  return device.description().Type == DeviceType::Cpu ? CpuShare : 1;
-}
-
-/// An array of this process that kernels write to: in place where the memory is shared.
-class OutputArray
-{
-public:
-  OutputArray(const ComputeDevice& device, void* data, std::size_t bytes, bool keeps)
-    : Device(device)
-    , Data(data)
-    , Bytes(bytes)
-  {
-    if (!device.sharesHostMemory())
-    {
-      this->Room = device.room(bytes);
-      keeps ? device.write(this->Room, data, bytes) : void();
-      return;
-    }
-    device.run(
-      [&]
-      {
-        this->Room =
-          cl::Buffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, data);
-      });
-  }
-
-  const cl::Buffer& buffer() const { return this->Room; }
-
-  /// Waits for the kernels and makes their results visible.
-  void fetch() const
-  {
-    if (!this->Device.sharesHostMemory())
-    {
-      this->Device.read(this->Room, this->Data, this->Bytes);
-      return;
-    }
-    this->Device.run(
-      [&]
-      {
-        void* const mapped = this->Device.queue().enqueueMapBuffer(
-          this->Room, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, this->Bytes);
-        this->Device.queue().enqueueUnmapMemObject(this->Room, mapped);
-        this->Device.queue().finish();
-      });
-  }
-
-private:
-  const ComputeDevice& Device;
-  void* Data;
-  std::size_t Bytes;
-  cl::Buffer Room;
-};
-
-cl_double8 axisArgument(const LatticeAxis& axis)
-{
-  return { { axis.origin(), axis.inverse(), axis.firstIndex(), axis.limit(), axis.errorScale(),
-    axis.errorOffset(), axis.delta(), double(axis.size()) } };
-}
-
 class DeviceClaimer
 {
 public:
@@ -88,8 +22,6 @@ public:
     , Mesh(mesh.mesh())
     , Grid(lattice)
     , Axes(mesh.mesh(), lattice)
-    , CellKernel(mesh.device().kernel(ClaimSamplesKernels, "claimCells"))
-    , LargeKernel(mesh.device().kernel(ClaimSamplesKernels, "claimLarge"))
   {
   }
 
@@ -140,10 +72,12 @@ private:
     const cl::Buffer hidden =
       this->Device.input(this->Mesh.Hidden ? this->Mesh.Hidden + first : nullptr,
         this->Mesh.Hidden ? std::size_t(count) : 0);
-    this->Device.launch(this->CellKernel, std::size_t(items), piece.Points, piece.Ids, piece.Float,
-      piece.Wide, piece.Corners, piece.U, piece.V, axisArgument(this->Axes.U),
-      axisArgument(this->Axes.V), axisArgument(this->Axes.W), cl_long(count), cl_long(first), share,
-      LargestCell, hidden, cl_int(this->Mesh.Hidden != nullptr), claims, counts, large, doubtful,
+    cl::Kernel kernel =
+      this->Device.kernel(ClaimSamplesKernels, "claimCells", piece.compilerOptions());
+    this->Device.launch(kernel, std::size_t(items), piece.Points, piece.Ids, piece.U, piece.V,
+      axisArgument(this->Axes.U), axisArgument(this->Axes.V), axisArgument(this->Axes.W),
+      cl_long(count), cl_long(first), share, LargestCellOnDevice, hidden,
+      cl_int(this->Mesh.Hidden != nullptr), claims, counts, large, doubtful,
       lengthsOutput.buffer());
     lengthsOutput.fetch();
     std::vector<cl_uint> counted(static_cast<std::size_t>(items));
@@ -152,15 +86,9 @@ private:
     {
       this->Claimed += n;
     }
-    std::vector<cl_int> cells(static_cast<std::size_t>(lengths[1]));
-    this->Device.read(doubtful, cells.data(), cells.size() * sizeof(cl_int));
-    for (const cl_int cell : cells)
-    {
-      this->Doubtful.push_back(std::int32_t(first + cell));
-    }
-    cells.resize(std::size_t(lengths[0]));
-    this->Device.read(large, cells.data(), cells.size() * sizeof(cl_int));
-    for (const cl_int cell : cells)
+    const std::vector<std::int32_t> open = listedCells(this->Device, doubtful, lengths[1], first);
+    this->Doubtful.insert(this->Doubtful.end(), open.begin(), open.end());
+    for (const std::int32_t cell : listedCells(this->Device, large, lengths[0], 0))
     {
       this->claimLarge(piece, cell, claims);
     }
@@ -169,22 +97,13 @@ private:
   void claimLarge(const MeshOnDevice& piece, cl_int cell, const cl::Buffer& claims)
   {
     const std::int64_t first = piece.first();
-    std::int64_t rows = 0;
-    withAccess(this->Mesh,
-      [&](const auto& access)
-      {
-        constexpr int dimension = std::decay_t<decltype(access)>::Dimension;
-        auto spans = this->Axes.rows(std::integral_constant<int, dimension>());
-        typename CellGeometry<dimension>::Corners corners;
-        access.corners(first + cell, corners);
-        spans.set(corners);
-        rows = std::int64_t(spans.rows().size()) * spans.layers().size();
-      });
+    const std::int64_t rows = rowsOfCell(this->Mesh, this->Axes, first + cell);
     const cl::Buffer counts = this->Device.room(std::size_t(rows) * sizeof(cl_int));
-    this->Device.launch(this->LargeKernel, std::size_t(rows), piece.Points, piece.Ids, piece.Float,
-      piece.Wide, piece.Corners, piece.U, piece.V, axisArgument(this->Axes.U),
-      axisArgument(this->Axes.V), axisArgument(this->Axes.W), cl_long(cell), cl_long(first),
-      cl_int(rows), claims, counts);
+    cl::Kernel kernel =
+      this->Device.kernel(ClaimSamplesKernels, "claimLarge", piece.compilerOptions());
+    this->Device.launch(kernel, std::size_t(rows), piece.Points, piece.Ids, piece.U, piece.V,
+      axisArgument(this->Axes.U), axisArgument(this->Axes.V), axisArgument(this->Axes.W),
+      cl_long(cell), cl_long(first), cl_int(rows), claims, counts);
     std::vector<cl_int> counted(static_cast<std::size_t>(rows));
     this->Device.read(counts, counted.data(), counted.size() * sizeof(cl_int));
     if (std::find(counted.begin(), counted.end(), -1) != counted.end())
@@ -203,21 +122,9 @@ private:
   const SimplexMesh& Mesh;
   const Lattice& Grid;
   LatticeAxes Axes;
-  cl::Kernel CellKernel;
-  cl::Kernel LargeKernel;
   std::int64_t Claimed = 0;
   std::vector<std::int32_t> Doubtful;
 };
-
-bool onDevice(const Attribute& attribute)
-{
-  return attribute.Values && isInterpolated(attribute);
-}
-
-std::size_t tupleBytes(const Attribute& attribute)
-{
-  return std::size_t(attribute.Components) * (attribute.Type == Scalar::Float32 ? 4 : 8);
-}
 
 class DeviceInterpolation
 {
@@ -228,8 +135,6 @@ public:
     , Device(mesh.device())
     , Axes(mesh.mesh(), lattice)
     , Attributes(attributes)
-    , WeighKernel(mesh.device().kernel(InterpolateSamplesKernels, "weighSamples"))
-    , ArrayKernel(mesh.device().kernel(InterpolateSamplesKernels, "interpolateArray"))
   {
   }
 
@@ -271,22 +176,24 @@ private:
     {
       values.push_back(piece.values(this->Pieces.mesh(), attribute.Values, tupleBytes(attribute)));
     }
+    const std::string options = piece.compilerOptions();
+    cl::Kernel weigh = this->Device.kernel(InterpolateSamplesKernels, "weighSamples", options);
+    cl::Kernel array = this->Device.kernel(InterpolateSamplesKernels, "interpolateArray", options);
     const cl_int share = shareOf(this->Device);
     const std::int64_t samples = this->Axes.samples();
     for (std::int64_t begin = 0; begin < samples; begin += this->Block)
     {
       const std::int64_t size = std::min(this->Block, samples - begin);
-      this->Device.launch(this->WeighKernel, std::size_t((size + share - 1) / share), piece.Points,
-        piece.Ids, piece.Float, piece.Wide, piece.Corners, piece.U, piece.V,
-        axisArgument(this->Axes.U), axisArgument(this->Axes.V), axisArgument(this->Axes.W),
-        cl_long(piece.count()), cl_long(piece.first()), share, cl_long(begin), cl_long(size),
-        claims, this->CornerIds, this->Weights);
+      this->Device.launch(weigh, std::size_t((size + share - 1) / share), piece.Points, piece.Ids,
+        piece.U, piece.V, axisArgument(this->Axes.U), axisArgument(this->Axes.V),
+        axisArgument(this->Axes.W), cl_long(piece.count()), cl_long(piece.first()), share,
+        cl_long(begin), cl_long(size), claims, this->CornerIds, this->Weights);
       for (std::size_t i = 0; i < values.size(); ++i)
       {
         const Attribute& attribute = this->Attributes[i];
-        this->Device.launch(this->ArrayKernel, std::size_t(size), values[i],
-          cl_int(attribute.Type == Scalar::Float32), cl_int(attribute.Components), piece.Corners,
-          cl_long(begin), cl_long(size), this->CornerIds, this->Weights, this->Outputs[i].buffer());
+        this->Device.launch(array, std::size_t(size), values[i],
+          cl_int(attribute.Type == Scalar::Float32), cl_int(attribute.Components), cl_long(begin),
+          cl_long(size), this->CornerIds, this->Weights, this->Outputs[i].buffer());
       }
     }
     this->Device.run([&] { this->Device.queue().finish(); });
@@ -296,8 +203,6 @@ private:
   ComputeDevice& Device;
   LatticeAxes Axes;
   const std::vector<Attribute>& Attributes;
-  cl::Kernel WeighKernel;
-  cl::Kernel ArrayKernel;
   std::vector<OutputArray> Outputs;
   cl::Buffer CornerIds;
   cl::Buffer Weights;
@@ -363,7 +268,7 @@ bool interpolateOnDevice(MeshPieces& mesh, const SampleWindow& window, const std
   const std::vector<Attribute>& attributes, bool keeps, const Report& report)
 {
   std::vector<Attribute> chosen;
-  std::copy_if(attributes.begin(), attributes.end(), std::back_inserter(chosen), onDevice);
+  std::copy_if(attributes.begin(), attributes.end(), std::back_inserter(chosen), isForDevice);
   if (chosen.empty())
   {
     return true;

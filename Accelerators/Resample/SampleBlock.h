@@ -3,18 +3,20 @@
 #define tippSampleBlock_h
 
 #include "Resample/CellVisitor.h"
-#include "Resample/Weights.h"
+#include "Resample/GroupLanes.h"
+#include "Resample/ThinWeights.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 namespace tipp
 {
 
-/// Some samples that cells claim, grouped by cell, and their weights.
+/// Some samples that cells claim: in runs along the first axis, and these grouped by cell.
 ///
-/// Most cells have a sample or two, and how many cannot be predicted; so samples are gathered
-/// first, and what takes time is done in loops over many cells or many samples.
+/// Most cells have a few samples, and how many cannot be predicted; so samples are gathered first,
+/// and what takes time is done in loops over many cells, runs or samples.
 template <typename Access>
 class SampleBlock
 {
@@ -22,29 +24,16 @@ public:
   static constexpr int D = Access::Dimension;
   static constexpr int Capacity = 512;
 
-  struct Sample
-  {
-    std::int64_t Place; ///< among the lattice's
-    std::int32_t Column;
-    std::int32_t Row;
-    std::int32_t Layer;
-    std::int32_t Group;
-  };
-
-  /// Samples with one cell.
-  struct Group
-  {
-    std::int64_t Corners[D + 1]; ///< point ids, in the lexicographic order of the coordinates
-    std::int32_t Cell;
-  };
-
   SampleBlock(const SimplexMesh& mesh, const LatticeAxes& axes)
     : Cells(mesh)
     , Axes(axes)
-    , Samples(std::size_t(Capacity + Stride))
-    , Groups(std::size_t(Capacity + 2))
-    , Solvers(std::size_t(Capacity))
-    , WeightValues(std::size_t(D * Capacity))
+    , Places(Capacity + Stride)
+    , Offsets(Capacity + Stride)
+    , RunOfSamples(Capacity + Stride)
+    , Runs(Capacity + 1)
+    , RunOffsets(Capacity)
+    , GroupCells(Capacity + laneCount)
+    , Groups(Capacity / laneCount + 1)
   {
   }
 
@@ -53,6 +42,7 @@ public:
   void clear()
   {
     this->Size = 0;
+    this->RunCount = 0;
     this->LastGroup = -1;
     this->LastCell = -1;
   }
@@ -61,106 +51,168 @@ public:
   [[gnu::always_inline]] void add(std::int32_t cell, const SampleRow& row, int begin, int count)
   {
     const int group = this->LastGroup + int(cell != this->LastCell);
-    this->Groups[std::size_t(group)].Cell = cell;
-    this->LastGroup = count > 0 ? group : this->LastGroup;
-    this->LastCell = count > 0 ? cell : this->LastCell;
-    Sample* const samples = this->Samples.data() + this->Size;
-    const auto write = [&](int i) {
-      samples[i] = { row.First + begin + i, begin + i, row.Row, row.Layer, group };
-    };
+    const bool any = count > 0;
+    this->GroupCells[std::size_t(group)] = cell;
+    this->Runs[std::size_t(this->RunCount)] = { row.Row, row.Layer, group };
     // So many at a time, and what is too much is overwritten by the next.
     for (int i = 0; i < Stride; ++i)
     {
-      write(i);
+      this->write(i, row.First + begin, this->Axes.U.data() + begin);
     }
     for (int i = Stride; i < count; ++i)
     {
-      write(i);
+      this->write(i, row.First + begin, this->Axes.U.data() + begin);
     }
-    this->Size += count > 0 ? count : 0;
+    this->LastGroup = any ? group : this->LastGroup;
+    this->LastCell = any ? cell : this->LastCell;
+    this->RunCount += int(any);
+    this->Size += any ? count : 0;
   }
 
-  /// Finds the corners of all groups and the weights of all samples.
-  void weigh()
+  /// Finds the groups' corners and how weights rise in them, and where in them the samples lie.
+  void weigh() { hasAvx2() ? this->weighAvx2() : this->weighAll(); }
+
+  int size() const { return this->Size; }
+  /// Of each sample among the lattice's.
+  const std::int64_t* places() const { return this->Places.data(); }
+  const std::int32_t* runsOfSamples() const { return this->RunOfSamples.data(); }
+  int groupOf(int j) const { return this->groupOfRun(this->RunOfSamples[std::size_t(j)]); }
+  std::int32_t cellOf(int j) const { return this->GroupCells[std::size_t(this->groupOf(j))]; }
+
+  int runs() const { return this->RunCount; }
+  int groupOfRun(int run) const { return this->Runs[std::size_t(run)].Group; }
+
+  int groups() const { return this->LastGroup + 1; }
+
+  /// The rest is known after weigh().
+
+  /// Four groups from 4 * i on.
+  const GroupLanes<Access>& groupLanes(int i) const { return this->Groups[std::size_t(i)]; }
+  /// The corner's point id, in the lexicographic order of the coordinates.
+  std::int64_t cornerId(int group, int corner) const
   {
-    for (int i = 0; i < this->groups(); ++i)
+    return this->groupLanes(group / laneCount).Ids[corner][group % laneCount];
+  }
+
+  /// How far each sample lies from its cell's first corner along the first axis.
+  const double* offsets() const { return this->Offsets.data(); }
+  /// And along the others.
+  const double (&runOffset(int run) const)[D - 1]
+  {
+    return this->RunOffsets[std::size_t(run)].Along;
+  }
+
+  /// The weights of a sample's corners but the first.
+  void weightsOf(int j, double (&weights)[D]) const
+  {
+    const int group = this->groupOf(j);
+    const GroupLanes<Access>& lanes = this->groupLanes(group / laneCount);
+    const int lane = group % laneCount;
+    double offset[D] = { this->Offsets[std::size_t(j)] };
+    std::copy_n(this->runOffset(this->RunOfSamples[std::size_t(j)]), D - 1, offset + 1);
+    if (lanes.Thin[lane] != 0)
     {
-      this->load(i);
+      double edges[D][D];
+      for (int i = 0; i < D; ++i)
+      {
+        for (int axis = 0; axis < D; ++axis)
+        {
+          edges[i][axis] = lanes.Corners[i + 1][axis][lane] - lanes.Corners[0][axis][lane];
+        }
+      }
+      ThinWeights<D>(edges).solve(offset, weights);
+      return;
+    }
+    for (int i = 0; i < D; ++i)
+    {
+      double rest = 0;
+      for (int axis = 1; axis < D; ++axis)
+      {
+        rest += lanes.Normals[i][axis][lane] * offset[axis];
+      }
+      weights[i] = lanes.Normals[i][0][lane] * offset[0] + rest;
+    }
+  }
+
+private:
+  /// Samples that add() writes at a time; the axis has room for as many.
+  static constexpr int Stride = 4;
+
+  struct Run
+  {
+    std::int32_t Row;
+    std::int32_t Layer;
+    std::int32_t Group;
+  };
+
+  struct RunOffset
+  {
+    double First; ///< coordinate of the group's first corner along the first axis
+    double Along[D - 1];
+  };
+
+  [[gnu::always_inline]] void write(int i, std::int64_t place, const double* coordinates)
+  {
+    const std::size_t j = std::size_t(this->Size + i);
+    this->Places[j] = place + i;
+    this->Offsets[j] = coordinates[i];
+    this->RunOfSamples[j] = this->RunCount;
+  }
+
+#ifdef __x86_64__
+  [[gnu::target("avx2")]]
+#endif
+  void
+  weighAvx2()
+  {
+    this->weighAll();
+  }
+
+  [[gnu::always_inline]] void weighAll()
+  {
+    const int groups = this->groups();
+    // The last ones stand in for those that four lanes have too many.
+    for (int i = groups; i % laneCount != 0; ++i)
+    {
+      this->GroupCells[std::size_t(i)] = this->GroupCells[std::size_t(groups - 1)];
+    }
+    for (int i = 0; i < groups; i += laneCount)
+    {
+      this->Groups[std::size_t(i / laneCount)].set(this->Cells, this->GroupCells.data() + i);
+    }
+    for (int run = 0; run < this->RunCount; ++run)
+    {
+      const Run& of = this->Runs[std::size_t(run)];
+      const auto& origin = this->groupLanes(of.Group / laneCount).Corners[0];
+      const int lane = of.Group % laneCount;
+      RunOffset& offset = this->RunOffsets[std::size_t(run)];
+      offset.First = origin[0][lane];
+      offset.Along[0] = this->Axes.V[of.Row] - origin[1][lane];
+      if constexpr (D == 3)
+      {
+        offset.Along[1] = this->Axes.W[of.Layer] - origin[2][lane];
+      }
     }
     for (int j = 0; j < this->Size; ++j)
     {
-      const Sample& sample = this->Samples[std::size_t(j)];
-      const double at[3] = { this->Axes.U[sample.Column], this->Axes.V[sample.Row],
-        D == 3 ? this->Axes.W[sample.Layer] : 0 };
-      double weights[D];
-      this->Solvers[std::size_t(sample.Group)].solve(at, weights);
-      for (int i = 0; i < D; ++i)
-      {
-        this->WeightValues[std::size_t(i) * Capacity + std::size_t(j)] = weights[i];
-      }
+      this->Offsets[std::size_t(j)] -=
+        this->RunOffsets[std::size_t(this->RunOfSamples[std::size_t(j)])].First;
     }
-  }
-
-  int size() const { return this->Size; }
-  const Sample& operator[](int j) const { return this->Samples[std::size_t(j)]; }
-  /// Weight of corner i + 1 for each sample.
-  const double* weights(int i) const { return this->WeightValues.data() + i * Capacity; }
-
-  int groups() const { return this->LastGroup + 1; }
-  const Group& group(int i) const { return this->Groups[std::size_t(i)]; }
-
-private:
-  /// Samples that add() writes at a time.
-  static constexpr int Stride = 4;
-
-  using Corners = typename CellGeometry<D>::Corners;
-
-  static void toArray(const Point2& corner, double* array)
-  {
-    array[0] = corner.x;
-    array[1] = corner.y;
-  }
-  static void toArray(const Point3& corner, double* array)
-  {
-    array[0] = corner.x;
-    array[1] = corner.y;
-    array[2] = corner.z;
-  }
-
-  void load(int i)
-  {
-    Group& group = this->Groups[std::size_t(i)];
-    Corners corners;
-    this->Cells.corners(group.Cell, corners);
-    // Without branches, of which half would be mispredicted.
-    int ranks[D + 1] = {};
-    for (int a = 0; a <= D; ++a)
-    {
-      for (int b = a + 1; b <= D; ++b)
-      {
-        const bool swapped = lexicographicLess(corners[b], corners[a]);
-        ranks[a] += int(swapped);
-        ranks[b] += int(!swapped);
-      }
-    }
-    double sorted[D + 1][D];
-    for (int a = 0; a <= D; ++a)
-    {
-      group.Corners[ranks[a]] = this->Cells.ids(group.Cell)[a];
-      toArray(corners[a], sorted[ranks[a]]);
-    }
-    this->Solvers[std::size_t(i)].set(sorted);
   }
 
   Access Cells;
   const LatticeAxes& Axes;
   int Size = 0;
+  int RunCount = 0;
   int LastGroup = -1;
   std::int32_t LastCell = -1;
-  std::vector<Sample> Samples;
-  std::vector<Group> Groups;
-  std::vector<Weights<D>> Solvers; ///< one a group
-  std::vector<double> WeightValues;
+  std::vector<std::int64_t> Places;
+  std::vector<double> Offsets; ///< before weigh() the samples' coordinates
+  std::vector<std::int32_t> RunOfSamples;
+  std::vector<Run> Runs;
+  std::vector<RunOffset> RunOffsets;
+  std::vector<std::int32_t> GroupCells;
+  std::vector<GroupLanes<Access>> Groups; ///< four each
 };
 
 } // namespace tipp

@@ -76,8 +76,9 @@ public:
     return { double(p[0]), double(p[1]), double(p[2]) };
   }
 
-  /// Asks for a cell's points, whose places in memory need not follow any order.
-  void prefetch(std::int64_t cell) const
+  /// Asks for a cell's points, whose places in memory need not follow any order. Always inlined: a
+  /// call of a function that does no more than that may be left out by the compiler.
+  [[gnu::always_inline]] void prefetch(std::int64_t cell) const
   {
     for (int i = 0; i < Corners; ++i)
     {

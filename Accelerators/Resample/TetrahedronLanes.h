@@ -2,6 +2,7 @@
 #ifndef tippTetrahedronLanes_h
 #define tippTetrahedronLanes_h
 
+#include "Resample/FloatLanes.h"
 #include "Resample/Lanes.h"
 #include "Resample/TetrahedronRows.h"
 
@@ -45,14 +46,15 @@ public:
     const RangeLanes rows(this->Y, front, back);
     const RangeLanes layers(this->Z, low, high);
     this->Nothing = columns.Empty | rows.Empty | layers.Empty;
-    this->Fast = columns.Certain & rows.Certain & layers.Certain;
-    if (!any(~this->Nothing))
+    if (this->nothing())
     {
       return;
     }
     store(columns, this->Columns);
     store(rows, this->Rows);
     store(layers, this->Layers);
+    this->RowError = rows.Error;
+    this->LayerError = layers.Error;
     this->orient(corners);
     const Corner size{ right - left, back - front, high - low };
     this->setFace(0, corners[1], corners[3], corners[2], size, columns.Error);
@@ -61,9 +63,11 @@ public:
     this->setFace(3, corners[0], corners[1], corners[2], size, columns.Error);
   }
 
+  /// Whether that holds for all: then the rest is not told.
+  bool nothing() const { return !any(~this->Nothing); }
   /// Whether the tetrahedron's box certainly has no sample.
   bool nothing(int lane) const { return this->Nothing[lane] != 0; }
-  /// Whether the tetrahedron is finite and has a volume, and its box is as told.
+  /// Whether the tetrahedron certainly is finite and has a volume.
   bool fast(int lane) const { return this->Fast[lane] != 0; }
 
   IndexRange columns(int lane) const { return this->Columns[lane]; }
@@ -73,7 +77,7 @@ public:
   /// Whether the boxes of all that have samples hold one row, as told: then singleRows() is faster.
   bool haveSingleRows() const
   {
-    bool single = any(~this->Nothing);
+    bool single = true;
     for (int lane = 0; lane < laneCount; ++lane)
     {
       const bool one = this->Rows[lane].size() == 1 && this->Layers[lane].size() == 1;
@@ -82,8 +86,8 @@ public:
     return single;
   }
 
-  /// The row of each tetrahedron's box; Doubtful has a bit for each that is to be asked exactly.
-  [[gnu::always_inline]] SpanLanes singleRows() const
+  /// The row of each tetrahedron's box.
+  [[gnu::always_inline]] RowSpans<laneCount> singleRows() const
   {
     Lanes y = {};
     Lanes z = {};
@@ -103,25 +107,81 @@ public:
         face.Place - (face.PerY * (y - face.AY) + face.PerZ * (z - face.AZ)), face.Error,
         face.Forward);
     }
-    return rows.spans(~this->Nothing);
+    const LaneTruths open = (rows.Begin < rows.End) & ~this->Nothing;
+    RowSpans<laneCount> spans;
+    spans.Open = laneBits(open);
+    // What is in doubt matters only where the other faces leave something.
+    spans.Doubtful = laneBits(~rows.Certain & open);
+    const LaneInts begins = __builtin_convertvector(rows.Begin, LaneInts);
+    const LaneInts ends = __builtin_convertvector(rows.End, LaneInts);
+    LaneInts row;
+    LaneInts layer;
+    for (int lane = 0; lane < laneCount; ++lane)
+    {
+      row[lane] = this->Rows[lane].Begin;
+      layer[lane] = this->Layers[lane].Begin;
+    }
+    spans.set(begins, ends - begins, row, layer);
+    return spans;
   }
 
-  /// The rows row..row + count - 1, at most four, of a fast tetrahedron.
-  [[gnu::always_inline]] SpanLanes spans(int lane, int row, int count, int layer) const
+  /// To be called before spans().
+  [[gnu::always_inline]] void prepareRows()
   {
-    const Lanes y = this->Y.coordinates(row);
-    const double z = this->Z.coordinate(layer);
-    const Lanes first = allLanes(this->Columns[lane].Begin);
-    const Lanes last = allLanes(this->Columns[lane].End);
-    RowLanes rows{ first, last, LaneTruths{} - 1 };
-    for (const Face& face : this->Faces)
+    Lanes y = {};
+    Lanes z = {};
+    Lanes first = {};
+    Lanes rows = {};
+    Lanes layers = {};
+    for (int lane = 0; lane < laneCount; ++lane)
     {
-      this->cut(rows, first, last,
-        face.Place[lane] -
-          (face.PerY[lane] * (y - face.AY[lane]) + face.PerZ[lane] * (z - face.AZ[lane])),
-        allLanes(face.Error[lane]), LaneTruths{} + face.Forward[lane]);
+      y[lane] = this->Y.coordinate(this->Rows[lane].Begin);
+      z[lane] = this->Z.coordinate(this->Layers[lane].Begin);
+      first[lane] = this->Columns[lane].Begin;
+      rows[lane] = this->Rows[lane].size();
+      layers[lane] = this->Layers[lane].size();
     }
-    return rows.spans(firstLanes(count));
+    Lanes worst = {};
+    for (int i = 0; i < 4; ++i)
+    {
+      this->prepareCut(i, { first, y, z }, rows, layers, worst);
+    }
+    storeFloats(0.5 - FloatSlack - worst, this->Certainty);
+    storeFloats(1 / rows, this->PerRows);
+  }
+
+  /// Eight rows of a fast tetrahedron, from row `first` on, counted from the first of its first
+  /// layer. In single precision, which tells the samples of nearly all rows.
+  [[gnu::always_inline]] RowSpans<floatLaneCount> spans(int lane, int first) const
+  {
+    const IndexRange across = this->Rows[lane];
+    const IndexRange deep = this->Layers[lane];
+    const FloatLanes number = FloatLanes{ 0, 1, 2, 3, 4, 5, 6, 7 } + float(first);
+    const FloatLaneInts layer = toInts((number + 0.5F) * this->PerRows[lane]);
+    const FloatLanes up = toFloats(layer);
+    const FloatLanes along = number - up * float(across.size());
+    const float width = float(this->Columns[lane].size());
+    FloatLanes begin = allFloats(0.5F);
+    FloatLanes end = allFloats(width + 0.5F);
+    for (const Cut& cut : this->Cuts)
+    {
+      const FloatLanes place =
+        cut.Place[lane] - (cut.PerRow[lane] * along + cut.PerLayer[lane] * up);
+      begin = most(place + cut.NotBegin[lane], begin);
+      end = least(place + cut.NotEnd[lane], end);
+    }
+    begin = least(begin, allFloats(width + 0.5F));
+    end = most(end, allFloats(0.5F));
+    const FloatLaneInts begins = toInts(begin);
+    const FloatLaneInts ends = toInts(end);
+    const FloatLaneInts wanted = number < float(across.size() * deep.size());
+    const FloatLaneInts sure = this->certain(lane, begin, begins) & this->certain(lane, end, ends);
+    RowSpans<floatLaneCount> spans;
+    spans.Open = laneBits((begins < ends) & wanted);
+    spans.Doubtful = laneBits(~sure & (begins <= ends + 1) & wanted);
+    const FloatLaneInts row = toInts(along) + across.Begin;
+    spans.set(begins + this->Columns[lane].Begin, ends - begins, row, layer + deep.Begin);
+    return spans;
   }
 
 private:
@@ -144,24 +204,62 @@ private:
     LaneTruths Forward;
   };
 
+  /// A face for spans(): where it crosses the first row, in steps from the box's first column, and
+  /// how many steps before that for each row and each layer.
+  struct Cut
+  {
+    float Place[laneCount];
+    float PerRow[laneCount];
+    float PerLayer[laneCount];
+    float NotBegin[laneCount]; ///< -Beyond if rows do not begin at the face
+    float NotEnd[laneCount];   ///< Beyond if they do not end there
+  };
+
+  static constexpr float Beyond = 1e30F;
+  static constexpr double FloatSlack = 0x1p-20; ///< for the roundings of Certainty
+
   /// What faces have left of four rows.
   struct RowLanes
   {
-    [[gnu::always_inline]] SpanLanes spans(LaneTruths wanted) const
-    {
-      const LaneTruths open = (this->Begin < this->End) & wanted;
-      SpanLanes spans;
-      // What is in doubt matters only where the other faces leave something.
-      spans.Doubtful = laneBits(~this->Certain & open);
-      spans.Certain = spans.Doubtful == 0;
-      spans.set(this->Begin, this->End, open);
-      return spans;
-    }
-
     Lanes Begin;
     Lanes End;
     LaneTruths Certain;
   };
+
+  /// `first` has the box's first column and the coordinates of its first row.
+  [[gnu::always_inline]] void prepareCut(
+    int i, const Corner& first, Lanes rows, Lanes layers, Lanes& worst)
+  {
+    // A place takes seven roundings of 2^-24 of these numbers; this counts eight.
+    constexpr double roundings = 0x1p-21;
+    // Farther than that from certain, single precision is of no use.
+    constexpr double useless = 0.25;
+    const Face& face = this->Faces[i];
+    const Lanes place =
+      face.Place - (face.PerY * (first.y - face.AY) + face.PerZ * (first.z - face.AZ)) - first.x;
+    const Lanes perRow = face.PerY * this->Y.delta();
+    const Lanes perLayer = face.PerZ * this->Z.delta();
+    // Steps from the first row meet the others' coordinates but for the errors of their axes. With
+    // them the error of PerY and PerZ counts twice.
+    const Lanes error = 2 * face.Error + absolute(perRow) * this->RowError +
+      absolute(perLayer) * this->LayerError +
+      roundings * (absolute(place) + absolute(perRow) * rows + absolute(perLayer) * layers);
+    const LaneTruths good = error < useless;
+    const Lanes none = {};
+    worst = good ? most(error, worst) : allLanes(1);
+    Cut& cut = this->Cuts[i];
+    storeFloats(good ? place : none, cut.Place);
+    storeFloats(good ? perRow : none, cut.PerRow);
+    storeFloats(good ? perLayer : none, cut.PerLayer);
+    storeFloats((good & face.Forward) ? none : allLanes(-Beyond), cut.NotBegin);
+    storeFloats((good & ~face.Forward) ? none : allLanes(Beyond), cut.NotEnd);
+  }
+
+  [[gnu::always_inline]] FloatLaneInts certain(
+    int lane, FloatLanes place, FloatLaneInts whole) const
+  {
+    return absolute(place - toFloats(whole) - 0.5F) < this->Certainty[lane];
+  }
 
   [[gnu::always_inline]] void cut(
     RowLanes& rows, Lanes first, Lanes last, Lanes crossing, Lanes error, LaneTruths forward) const
@@ -208,7 +306,7 @@ private:
       absolute(c.z) * (absolute(a.x * b.y) + absolute(b.x * a.y));
     const Lanes bound = 7.7715611723761e-16 * permanent + 1e-300 * (1.0 + heights);
     // Beside NaN and infinity this is false.
-    this->Fast &= absolute(minus) > bound;
+    this->Fast = absolute(minus) > bound;
     const LaneTruths swap = minus > 0;
     const Corner first = p[0];
     p[0] = { swap ? p[1].x : first.x, swap ? p[1].y : first.y, swap ? p[1].z : first.z };
@@ -246,6 +344,11 @@ private:
   LaneTruths Nothing;
   LaneTruths Fast;
   Face Faces[4];
+  Cut Cuts[4];
+  Lanes RowError;
+  Lanes LayerError;
+  float Certainty[laneCount]; ///< how near to the middle of two samples a crossing is certain
+  float PerRows[laneCount];   ///< one by the number of rows in a layer
   IndexRange Columns[laneCount];
   IndexRange Rows[laneCount];
   IndexRange Layers[laneCount];

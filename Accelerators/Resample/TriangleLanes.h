@@ -44,21 +44,27 @@ public:
     this->Error = columns.Error;
     this->Columns = { columns.Begin, columns.End };
     this->Rows = { rows.Begin, rows.End };
-    this->Fast &= columns.Certain & rows.Certain;
   }
 
+  /// Whether that holds for all.
+  bool nothing() const { return !any(~this->Nothing); }
   /// Whether the triangle's box certainly has no sample.
   bool nothing(int lane) const { return this->Nothing[lane] != 0; }
-  /// Whether the triangle is finite and has an area, and its box is as told.
+  /// Whether the triangle certainly is finite and has an area.
   bool fast(int lane) const { return this->Fast[lane] != 0; }
 
   IndexRange columns(int lane) const { return this->Columns.range(lane); }
   IndexRange rows(int lane) const { return this->Rows.range(lane); }
   static IndexRange layers(int) { return { 0, 1 }; }
 
-  /// The rows row..row + count - 1, at most four, of a fast triangle.
-  [[gnu::always_inline]] SpanLanes spans(int lane, int row, int count, int) const
+  static void prepareRows() {}
+
+  /// Four rows of a fast triangle, from its row `first` on.
+  [[gnu::always_inline]] RowSpans<laneCount> spans(int lane, int first) const
   {
+    const IndexRange rows = this->rows(lane);
+    const int row = rows.Begin + first;
+    const LaneTruths wanted = firstLanes(rows.End - row);
     const Lanes y = this->V.coordinates(row);
     const LaneTruths upper = y >= this->Y[1][lane];
     const Lanes lowX = upper ? allLanes(this->X[1][lane]) : allLanes(this->X[0][lane]);
@@ -75,9 +81,12 @@ public:
     const LaneTruths longIsLeft = LaneTruths{} + this->LongIsLeft[lane];
     const Lanes begin = longIsLeft ? wholeLong : wholeShort;
     const Lanes end = longIsLeft ? wholeShort : wholeLong;
-    SpanLanes spans;
-    spans.Certain = !any(~certain & firstLanes(count));
-    spans.set(begin, end, (begin < end) & firstLanes(count));
+    RowSpans<laneCount> spans;
+    spans.Open = laneBits((begin < end) & wanted);
+    spans.Doubtful = laneBits(~certain & wanted);
+    const LaneInts begins = __builtin_convertvector(begin, LaneInts);
+    spans.set(begins, __builtin_convertvector(end, LaneInts) - begins, LaneInts{ 0, 1, 2, 3 } + row,
+      LaneInts{});
     return spans;
   }
 

@@ -258,7 +258,7 @@ private:
           if (key < this->Result.keys()[sample])
           {
             this->Result.keys()[sample] = key;
-            this->Result.valid()[std::size_t(sample)] = 1;
+            this->Result.valid()[sample] = 1;
             this->take(sources, i, sample);
           }
         }

@@ -5,7 +5,6 @@
 #include "Parallel/ForChunks.h"
 
 #include "vtkCellData.h"
-#include "vtkCharArray.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
@@ -58,27 +57,44 @@ double bytesOfArrays(const std::vector<vtkPointSet*>& meshes, const SamplingSett
   return bytes;
 }
 
-/// Fills the mask and the points' ghosts; how many samples are valid.
-std::int64_t fillPoints(
-  const std::vector<unsigned char>& valid, int threads, char* mask, unsigned char* ghosts)
+/// The ghosts of points or cells, not yet filled.
+unsigned char* addGhosts(vtkDataSetAttributes* data, std::int64_t count)
+{
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfValues(vtkIdType(count));
+  data->AddArray(ghosts);
+  return ghosts->GetPointer(0);
+}
+
+/// Points that are not valid are hidden. Returns how many are valid.
+std::int64_t fillPointGhosts(
+  const unsigned char* valid, std::int64_t size, int threads, unsigned char* ghosts)
 {
   std::vector<std::int64_t> counts(std::size_t(threads), 0);
-  forChunks(std::int64_t(valid.size()), 1 << 16, threads, {},
+  forChunks(size, 1 << 16, threads, {},
     [&](std::int64_t begin, std::int64_t end, int thread)
     {
-      for (std::int64_t i = begin; i < end; ++i)
+      constexpr std::int64_t few = 1 << 7; // whose count fits a byte, in which lanes are added
+      std::int64_t count = 0;
+      for (std::int64_t first = begin; first < end; first += few)
       {
-        mask[i] = char(valid[std::size_t(i)]);
-        ghosts[i] = valid[std::size_t(i)] ? 0 : vtkDataSetAttributes::HIDDENPOINT;
+        unsigned char hits = 0;
+        for (std::int64_t i = first; i < std::min(first + few, end); ++i)
+        {
+          ghosts[i] = (unsigned char)((1 - valid[i]) * vtkDataSetAttributes::HIDDENPOINT);
+          hits = (unsigned char)(hits + valid[i]);
+        }
+        count += hits;
       }
-      counts[std::size_t(thread)] += std::count(valid.begin() + begin, valid.begin() + end, 1);
+      counts[std::size_t(thread)] += count;
     });
   return std::accumulate(counts.begin(), counts.end(), std::int64_t(0));
 }
 
-void fillCellGhosts(const std::vector<unsigned char>& valid, int threads, vtkImageData* image)
+void fillCellGhosts(const unsigned char* valid, int threads, vtkImageData* image)
 {
-  vtkUnsignedCharArray* const cells = image->AllocateCellGhostArray();
+  unsigned char* const first = addGhosts(image->GetCellData(), image->GetNumberOfCells());
   int dimensions[3];
   image->GetDimensions(dimensions);
   const std::int64_t width = dimensions[0];
@@ -86,18 +102,21 @@ void fillCellGhosts(const std::vector<unsigned char>& valid, int threads, vtkIma
   const int columns = std::max(1, dimensions[0] - 1);
   const int rows = std::max(1, dimensions[1] - 1);
   const int layers = std::max(1, dimensions[2] - 1);
-  const std::int64_t steps[3] = { dimensions[0] > 1 ? 1 : 0, dimensions[1] > 1 ? width : 0,
-    dimensions[2] > 1 ? layer : 0 };
-  unsigned char* const first = cells->GetPointer(0);
+  const std::int64_t right = dimensions[0] > 1 ? 1 : 0;
+  const std::int64_t back = dimensions[1] > 1 ? width : 0;
+  const std::int64_t up = dimensions[2] > 1 ? layer : 0;
   const auto fillRow = [&](std::int64_t row)
   {
-    const unsigned char* corner = valid.data() + row / rows * layer + row % rows * width;
-    for (unsigned char* cell = first + row * columns; cell < first + (row + 1) * columns;
-         ++cell, ++corner)
+    const unsigned char* const a = valid + row / rows * layer + row % rows * width;
+    const unsigned char* const b = a + back;
+    const unsigned char* const c = a + up;
+    const unsigned char* const d = c + back;
+    unsigned char* const cells = first + row * columns;
+    for (int i = 0; i < columns; ++i)
     {
-      const auto edge = [&](std::int64_t from) { return corner[from] & corner[from + steps[0]]; };
-      const bool whole = edge(0) & edge(steps[1]) & edge(steps[2]) & edge(steps[1] + steps[2]);
-      *cell = whole ? 0 : vtkDataSetAttributes::HIDDENCELL;
+      const int whole =
+        a[i] & a[i + right] & b[i] & b[i + right] & c[i] & c[i + right] & d[i] & d[i + right];
+      cells[i] = (unsigned char)((1 - whole) * vtkDataSetAttributes::HIDDENCELL);
     }
   };
   forChunks(std::int64_t(rows) * layers, 64, threads, {},
@@ -115,9 +134,9 @@ void fillCellGhosts(const std::vector<unsigned char>& valid, int threads, vtkIma
 void refuseTooLarge(const Lattice& local, const Lattice& wanted, bool exchanging,
   const std::vector<vtkPointSet*>& meshes, const SamplingSettings& settings)
 {
-  // The claims, the mask and the two arrays of the output that go with it.
+  // The claims, the mask and the two arrays of ghosts that go with it.
   constexpr double claims = 4;
-  constexpr double mask = 4;
+  constexpr double mask = 3;
   const double arrays = bytesOfArrays(meshes, settings) + mask;
   const double keys = settings.Merging ? sizeof(CellKey) : 0;
   const auto count = [](const Lattice& lattice)
@@ -151,18 +170,14 @@ std::int64_t fillImage(SampledImage& samples, int threads, vtkImageData* image)
   {
     data->AddArray(array.Samples);
   }
-  std::vector<unsigned char>& valid = samples.valid();
-  vtkNew<vtkCharArray> mask;
-  mask->SetName("vtkValidPointMask");
-  mask->SetNumberOfValues(vtkIdType(valid.size()));
-  data->AddArray(mask);
+  data->AddArray(samples.mask());
   if (lattice.empty())
   {
     return 0;
   }
+  const unsigned char* const valid = samples.valid();
   fillCellGhosts(valid, threads, image);
-  return fillPoints(
-    valid, threads, mask->GetPointer(0), image->AllocatePointGhostArray()->GetPointer(0));
+  return fillPointGhosts(valid, samples.samples(), threads, addGhosts(data, samples.samples()));
 }
 
 void fillTable(const SamplingReport& report, vtkTable* table)

@@ -79,12 +79,31 @@ vtkSmartPointer<vtkDataArray> plain(vtkDataArray* array)
 SampledImage::SampledImage(const Lattice& lattice, SamplingSettings settings)
   : Grid(lattice)
   , Settings(std::move(settings))
-  , Valid(std::size_t(lattice.samples()), 0)
 {
+  this->Mask->SetName("vtkValidPointMask");
+  if (!this->Mask->Resize(vtkIdType(lattice.samples())))
+  {
+    throw std::bad_alloc();
+  }
+  this->Mask->SetNumberOfValues(vtkIdType(lattice.samples()));
   if (this->Settings.Merging)
   {
-    this->Keys.reset(new CellKey[this->Valid.size()]);
-    std::fill(this->Keys.get(), this->Keys.get() + this->Valid.size(), noCellKey);
+    this->Keys.reset(new CellKey[std::size_t(this->samples())]);
+    this->clear();
+  }
+}
+
+unsigned char* SampledImage::valid() const
+{
+  return reinterpret_cast<unsigned char*>(this->Mask->GetPointer(0));
+}
+
+void SampledImage::clear()
+{
+  std::fill(this->valid(), this->valid() + this->samples(), 0);
+  if (this->Keys)
+  {
+    std::fill(this->Keys.get(), this->Keys.get() + this->samples(), noCellKey);
   }
 }
 
@@ -95,11 +114,11 @@ SampledImage::Array& SampledImage::addArray(
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type)) };
   array.Samples->SetName(name.c_str());
   array.Samples->SetNumberOfComponents(components);
-  if (!array.Samples->Resize(vtkIdType(this->Valid.size())))
+  if (!array.Samples->Resize(vtkIdType(this->samples())))
   {
     throw std::bad_alloc();
   }
-  array.Samples->SetNumberOfTuples(vtkIdType(this->Valid.size()));
+  array.Samples->SetNumberOfTuples(vtkIdType(this->samples()));
   this->Arrays.push_back(array);
   return this->Arrays.back();
 }
@@ -108,7 +127,7 @@ SampledImage::Array& SampledImage::addNullArray(
   const std::string& name, bool ofCells, int type, int components)
 {
   Array& array = this->addArray(name, ofCells, type, components);
-  fillNull(array.Samples, this->Settings.NullValue, 0, std::int64_t(this->Valid.size()));
+  fillNull(array.Samples, this->Settings.NullValue, 0, this->samples());
   return array;
 }
 
@@ -191,19 +210,15 @@ void SampledImage::startAgain()
   }
   for (Array& array : this->Arrays)
   {
-    fillNull(array.Samples, this->Settings.NullValue, 0, std::int64_t(this->Valid.size()));
+    fillNull(array.Samples, this->Settings.NullValue, 0, this->samples());
   }
-  std::fill(this->Valid.begin(), this->Valid.end(), 0);
-  if (this->Keys)
-  {
-    std::fill(this->Keys.get(), this->Keys.get() + this->Valid.size(), noCellKey);
-  }
+  this->clear();
 }
 
 bool SampledImage::sample(vtkPointSet* mesh, SimplexSet& simplices, const Report& progress)
 {
   this->Statistics.Cells += simplices.Mesh.Cells;
-  if (this->Valid.empty())
+  if (this->samples() == 0)
   {
     return true;
   }
@@ -223,7 +238,7 @@ bool SampledImage::sample(vtkPointSet* mesh, SimplexSet& simplices, const Report
   options.Device = this->Settings.Device;
   options.Threads = this->Settings.Threads;
   options.Keys = this->Keys.get();
-  options.Valid = this->Valid.data();
+  options.Valid = this->valid();
   options.Parents = simplices.Parents.empty() ? nullptr : simplices.Parents.data();
   options.Progress = progress;
   const std::vector<Attribute> attributes = this->attributesOf(mesh);
@@ -346,11 +361,12 @@ void SampledImage::warnOnce(const std::string& text)
 
 void SampledImage::finish()
 {
-  for (Array& array : this->Arrays)
+  if (!this->HasSamples)
   {
-    if (!this->HasSamples)
+    this->clear();
+    for (Array& array : this->Arrays)
     {
-      fillNull(array.Samples, this->Settings.NullValue, 0, std::int64_t(this->Valid.size()));
+      fillNull(array.Samples, this->Settings.NullValue, 0, this->samples());
     }
   }
   this->repeatLayers();
@@ -359,9 +375,9 @@ void SampledImage::finish()
 void SampledImage::repeatLayers()
 {
   const int projected = 3 - this->Settings.Axes[0] - this->Settings.Axes[1];
-  const bool repeats = this->Dimension == 2 && !this->Valid.empty();
+  const bool repeats = this->Dimension == 2 && this->samples() > 0;
   const std::size_t layers = repeats ? std::size_t(this->Grid.size(projected)) : 1;
-  const std::size_t layer = this->Valid.size() / layers;
+  const std::size_t layer = std::size_t(this->samples()) / layers;
   for (std::size_t i = 1; i < layers; ++i)
   {
     for (Array& array : this->Arrays)
@@ -371,7 +387,7 @@ void SampledImage::repeatLayers()
         std::size_t(array.Samples->GetNumberOfComponents() * array.Samples->GetDataTypeSize());
       std::memcpy(samples + i * bytes, samples, bytes);
     }
-    std::memcpy(this->Valid.data() + i * layer, this->Valid.data(), layer);
+    std::memcpy(this->valid() + i * layer, this->valid(), layer);
     if (this->Keys)
     {
       std::memcpy(this->Keys.get() + i * layer, this->Keys.get(), layer * sizeof(CellKey));

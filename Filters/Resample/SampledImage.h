@@ -5,6 +5,8 @@
 #include "Resample/Resample.h"
 #include "Resample/SimplexParts.h"
 
+#include "vtkCharArray.h"
+#include "vtkNew.h"
 #include "vtkSmartPointer.h"
 
 #include <functional>
@@ -69,9 +71,11 @@ public:
   const SamplingStatistics& statistics() const { return this->Statistics; }
   const std::vector<std::string>& warnings() const { return this->Warnings; }
 
-  /// 1 for each sample that is answered.
-  const std::vector<unsigned char>& valid() const { return this->Valid; }
-  std::vector<unsigned char>& valid() { return this->Valid; }
+  std::int64_t samples() const { return this->Mask->GetNumberOfValues(); }
+  /// 1 for each sample that is answered, 0 for the others.
+  unsigned char* valid() const;
+  /// The same, as the image has it.
+  vtkCharArray* mask() const { return this->Mask; }
   /// One a sample if Merging; else none.
   CellKey* keys() { return this->Keys.get(); }
 
@@ -90,6 +94,7 @@ private:
   Array& addArray(const std::string& name, bool ofCells, int type, int components);
   void repeatLayers();
   bool sample(vtkPointSet* mesh, SimplexSet& simplices, const Report& progress);
+  void clear();
   void startAgain();
   std::vector<Attribute> attributesOf(vtkPointSet* mesh);
   vtkDataArray* valuesOf(vtkPointSet* mesh, const Array& array);
@@ -103,7 +108,7 @@ private:
   bool HasSamples = false;
   std::vector<Array> Arrays;
   std::vector<vtkSmartPointer<vtkDataArray>> Values; ///< kept while a mesh is sampled
-  std::vector<unsigned char> Valid;
+  vtkNew<vtkCharArray> Mask;
   std::unique_ptr<CellKey[]> Keys;
   SamplingStatistics Statistics;
   std::vector<std::string> Warnings;

@@ -221,6 +221,16 @@ TEST(Interpolation, KeepsNaNToTheCellsThatHaveIt)
   EXPECT_FALSE(std::isnan(samples[33 * 2 + 2]));
 }
 
+TEST(Interpolation, MakesNoNaNOfAnInfiniteValueWhereItHasWeight)
+{
+  const Scene scene = regularScene(2, 1);
+  std::vector<double> values(4, 1);
+  values[3] = std::numeric_limits<double>::infinity();
+  const std::vector<double> samples = sampled(scene, latticeOf(2, 33, 0, 1), values);
+  EXPECT_EQ(samples[33 * 30 + 29], values[3]);
+  EXPECT_EQ(samples[33 * 29 + 30], values[3]);
+}
+
 TEST(Interpolation, OfPartsInAnyOrderIsThatOfTheWhole)
 {
   const Scene whole = overlappingScene(80, 7);

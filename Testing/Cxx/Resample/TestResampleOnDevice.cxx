@@ -144,6 +144,41 @@ TEST_F(ResampleOnDevice, InSpaceAgreesWithOpenMP)
   }
 }
 
+TEST_F(ResampleOnDevice, AgreesOnASmallRangeOfALargeMesh)
+{
+  expectAgreement(jitteredScene(2, 40, 5), latticeOf(2, 30, 0.4, 0.5));
+  expectAgreement(jitteredScene(3, 12, 5), latticeOf(3, 11, 0.4, 0.5));
+}
+
+TEST_F(ResampleOnDevice, SamplesArraysOfPointsWithSeveralComponentsLikeOpenMP)
+{
+  for (const int dimension : { 2, 3 })
+  {
+    const Scene scene = jitteredScene(dimension, 12, 4);
+    const tipp::Lattice lattice = latticeOf(dimension, 31, -0.1, 1.1);
+    Kinds kinds = Kinds::of(scene);
+    kinds.Double[5] = HUGE_VAL; // which the threads do
+    const auto sampledOn = [&](const tipp::DeviceChoice& device)
+    {
+      Kinds samples = Kinds::sized(std::size_t(lattice.samples()), std::size_t(lattice.samples()));
+      std::vector<tipp::Attribute> attributes = kinds.into(samples);
+      attributes.resize(2);
+      tipp::ResampleOptions options;
+      options.Device = device;
+      options.Threads = 2;
+      EXPECT_EQ(tipp::resample(scene.mesh(), lattice, attributes, options).Warning, "");
+      for (double& value : samples.Double)
+      {
+        value = std::isfinite(value) ? value : 1e6; // so that they can be compared
+      }
+      return samples;
+    };
+    const Kinds ours = sampledOn(openMP);
+    EXPECT_GT(std::count(ours.Double.begin(), ours.Double.end(), 1e6), 0);
+    expectNear(ours, sampledOn(openCL));
+  }
+}
+
 TEST_F(ResampleOnDevice, AgreesWhereCellsOverlap)
 {
   expectAgreement(overlappingScene(100, 3), latticeOf(2, 65, -0.013, 1.017));

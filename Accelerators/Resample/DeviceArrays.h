@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippDeviceArrays_h
+#define tippDeviceArrays_h
+
+#include "OpenCL/ComputeDevice.h"
+#include "Resample/Attribute.h"
+#include "Resample/CellVisitor.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+/// Cells with more samples in their boxes are done by an item a row.
+constexpr cl_long LargestCellOnDevice = 4096;
+/// Neighbours that one work item does on a CPU, where items are not side by side in lanes.
+constexpr cl_int CpuShare = 64;
+
+inline cl_int shareOf(const ComputeDevice& device)
+{
+  return device.description().Type == DeviceType::Cpu ? CpuShare : 1;
+}
+
+/// An array of this process that kernels write to: in place where the memory is shared.
+class OutputArray
+{
+public:
+  OutputArray(const ComputeDevice& device, void* data, std::size_t bytes, bool keeps)
+    : Device(device)
+    , Data(data)
+    , Bytes(bytes)
+  {
+    if (!device.sharesHostMemory())
+    {
+      this->Room = device.room(bytes);
+      keeps ? device.write(this->Room, data, bytes) : void();
+      return;
+    }
+    device.run(
+      [&]
+      {
+        this->Room =
+          cl::Buffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, data);
+      });
+  }
+
+  const cl::Buffer& buffer() const { return this->Room; }
+
+  /// Waits for the kernels and makes their results visible.
+  void fetch() const
+  {
+    if (!this->Device.sharesHostMemory())
+    {
+      this->Device.read(this->Room, this->Data, this->Bytes);
+      return;
+    }
+    this->Device.run(
+      [&]
+      {
+        void* const mapped = this->Device.queue().enqueueMapBuffer(
+          this->Room, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, this->Bytes);
+        this->Device.queue().enqueueUnmapMemObject(this->Room, mapped);
+        this->Device.queue().finish();
+      });
+  }
+
+private:
+  const ComputeDevice& Device;
+  void* Data;
+  std::size_t Bytes;
+  cl::Buffer Room;
+};
+
+inline cl_double8 axisArgument(const LatticeAxis& axis)
+{
+  return { { axis.origin(), axis.inverse(), axis.firstIndex(), axis.limit(), axis.errorScale(),
+    axis.errorOffset(), axis.delta(), double(axis.size()) } };
+}
+
+/// Whether kernels sample it.
+inline bool isForDevice(const Attribute& attribute)
+{
+  return attribute.Values && isInterpolated(attribute);
+}
+
+inline std::size_t tupleBytes(const Attribute& attribute)
+{
+  return std::size_t(attribute.Components) * (attribute.Type == Scalar::Float32 ? 4 : 8);
+}
+
+/// How many rows of samples a cell's box has.
+inline std::int64_t rowsOfCell(const SimplexMesh& mesh, const LatticeAxes& axes, std::int64_t cell)
+{
+  std::int64_t rows = 0;
+  withAccess(mesh,
+    [&](const auto& access)
+    {
+      constexpr int dimension = std::decay_t<decltype(access)>::Dimension;
+      auto spans = axes.rows(std::integral_constant<int, dimension>());
+      typename CellGeometry<dimension>::Corners corners;
+      access.corners(cell, corners);
+      spans.set(corners);
+      rows = std::int64_t(spans.rows().size()) * spans.layers().size();
+    });
+  return rows;
+}
+
+/// The cells that a kernel has put into a list on the device, numbered as in the mesh.
+inline std::vector<std::int32_t> listedCells(
+  const ComputeDevice& device, const cl::Buffer& list, cl_int length, std::int64_t first)
+{
+  std::vector<cl_int> cells(static_cast<std::size_t>(length));
+  device.read(list, cells.data(), cells.size() * sizeof(cl_int));
+  for (cl_int& cell : cells)
+  {
+    cell = cl_int(first + cell);
+  }
+  return cells;
+}
+
+} // namespace tipp
+
+#endif

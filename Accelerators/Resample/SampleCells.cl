@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The samples that cells answer and what they say there, in one walk: DirectSampling.h for a device.
+// A cell for which rounding could change a count, or whose weights take more than determinants, goes
+// to a list, for the host. Host side: SampleOnDevice.cxx.
+#include "LatticeAndMesh.cl"
+#include "CellRows.cl"
+
+// The numbers of all arrays at one point: SampleOnDevice.cxx sees to it that there are no more.
+#define CHANNELS 8
+
+typedef struct
+{
+  global const uchar* values;
+  global uchar* samples;
+  int isFloat;
+  int components;
+} Array;
+
+// A component of an array in a cell: the value at the first corner and its rise along the axes.
+typedef struct
+{
+  global uchar* samples;
+  int isFloat;
+  int components;
+  int component;
+  double first;
+  double3 rise;
+} Channel;
+
+typedef struct
+{
+  double3 origin; // the first corner
+  Channel channels[CHANNELS];
+  int count;
+} Gradients;
+
+void order(double3* a, double3* b, int* i, int* j)
+{
+  const int less = (b->x < a->x) |
+    ((b->x == a->x) & ((b->y < a->y) | ((b->y == a->y) & (b->z < a->z))));
+  const double3 p = less ? *b : *a;
+  const double3 q = less ? *a : *b;
+  const int k = less ? *j : *i;
+  const int l = less ? *i : *j;
+  *a = p;
+  *b = q;
+  *i = k;
+  *j = l;
+}
+
+double largest(double a, double b, double c)
+{
+  return fmax(fmax(fabs(a), fabs(b)), fabs(c));
+}
+
+// The corners in lexicographic order, and how the weights of all but the first rise: see GroupLanes.h.
+// DOUBT for a thin cell.
+INLINE int setNormals(const Mesh* mesh, long cell, int* ids, double3* origin, double3* normals)
+{
+  double3 p[4];
+  for (int i = 0; i < CORNERS; ++i)
+  {
+    ids[i] = idOf(mesh, cell, i);
+    p[i] = pointOf(mesh, ids[i]);
+  }
+#if CORNERS == 3
+  order(&p[0], &p[1], &ids[0], &ids[1]);
+  order(&p[1], &p[2], &ids[1], &ids[2]);
+  order(&p[0], &p[1], &ids[0], &ids[1]);
+  const double3 u = p[1] - p[0];
+  const double3 v = p[2] - p[0];
+  const double determinant = u.x * v.y - u.y * v.x;
+  const double product = largest(u.x, v.x, 0) * largest(u.y, v.y, 0);
+  normals[0] = (double3)(v.y, -v.x, 0);
+  normals[1] = (double3)(-u.y, u.x, 0);
+#else
+  order(&p[0], &p[1], &ids[0], &ids[1]);
+  order(&p[2], &p[3], &ids[2], &ids[3]);
+  order(&p[0], &p[2], &ids[0], &ids[2]);
+  order(&p[1], &p[3], &ids[1], &ids[3]);
+  order(&p[1], &p[2], &ids[1], &ids[2]);
+  const double3 u = p[1] - p[0];
+  const double3 v = p[2] - p[0];
+  const double3 w = p[3] - p[0];
+  normals[0] = v.yzx * w.zxy - v.zxy * w.yzx;
+  normals[1] = w.yzx * u.zxy - w.zxy * u.yzx;
+  normals[2] = u.yzx * v.zxy - u.zxy * v.yzx;
+  const double determinant = normals[0].x * u.x + normals[0].y * u.y + normals[0].z * u.z;
+  const double product = largest(u.x, v.x, w.x) * largest(u.y, v.y, w.y) * largest(u.z, v.z, w.z);
+#endif
+  *origin = p[0];
+  const double inverse = 1 / determinant;
+  for (int i = 0; i < CORNERS - 1; ++i)
+  {
+    normals[i] *= inverse;
+  }
+  return fabs(determinant) * 64 > product && !(product < 1e-280) ? ROWS : DOUBT;
+}
+
+double valueAt(const Array* array, int id, int component)
+{
+  const long at = (long)id * array->components + component;
+  return array->isFloat ? ((global const float*)array->values)[at]
+                        : ((global const double*)array->values)[at];
+}
+
+INLINE int setGradients(Gradients* gradients, const Mesh* mesh, long cell, const Array* arrays, int count)
+{
+  int ids[4];
+  double3 normals[3];
+  int state = setNormals(mesh, cell, ids, &gradients->origin, normals);
+  gradients->count = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    for (int component = 0; component < arrays[i].components; ++component)
+    {
+      Channel* channel = &gradients->channels[gradients->count++];
+      channel->samples = arrays[i].samples;
+      channel->isFloat = arrays[i].isFloat;
+      channel->components = arrays[i].components;
+      channel->component = component;
+      channel->first = valueAt(&arrays[i], ids[0], component);
+      channel->rise = normals[0] * (valueAt(&arrays[i], ids[1], component) - channel->first);
+      for (int corner = 2; corner < CORNERS; ++corner)
+      {
+        channel->rise +=
+          normals[corner - 1] * (valueAt(&arrays[i], ids[corner], component) - channel->first);
+      }
+      // Not for infinite ones and NaN, which the samples need not be.
+      const double3 check = channel->rise - channel->rise;
+      state = check.x + check.y + check.z == 0 ? state : DOUBT;
+    }
+  }
+  return state;
+}
+
+INLINE void fillRow(const Gradients* gradients, long first, int begin, int end, double y, double z, Axis x)
+{
+  for (int i = 0; i < gradients->count; ++i)
+  {
+    const Channel* channel = &gradients->channels[i];
+    const double base = channel->first +
+      (channel->rise.y * (y - gradients->origin.y) + channel->rise.z * (z - gradients->origin.z));
+    const double rise = channel->rise.x;
+    for (int column = begin; column < end; ++column)
+    {
+      const double value = base + rise * (coordinateOf(x, column) - gradients->origin.x);
+      const long at = (first + column) * channel->components + channel->component;
+      if (channel->isFloat)
+      {
+        ((global float*)channel->samples)[at] = (float)value;
+      }
+      else
+      {
+        ((global double*)channel->samples)[at] = value;
+      }
+    }
+  }
+}
+
+// Fills the rows first..last - 1 of a cell, counted from the first of its box; `*total` is the number
+// of samples. Gradients wait for the first sample: many cells have none.
+INLINE int sampleRows(const Cell* cell, int first, int last, const Mesh* mesh, long number, Axis x, Axis y,
+  Axis z, const Array* arrays, int arrayCount, global uchar* valid, int* total)
+{
+  Gradients gradients;
+  *total = 0;
+  for (; first < last; first += ROWS_AT_ONCE)
+  {
+    Spans spans;
+    if (cellSpans(cell, first, last, x, y, &spans) == DOUBT)
+    {
+      return DOUBT;
+    }
+    for (int i = 0; i < min(ROWS_AT_ONCE, last - first); ++i)
+    {
+      const int begin = spans.begin[i];
+      const int end = spans.end[i];
+      if (begin >= end)
+      {
+        continue;
+      }
+      if (*total == 0 && setGradients(&gradients, mesh, number, arrays, arrayCount) == DOUBT)
+      {
+        return DOUBT;
+      }
+      *total += end - begin;
+      const long place = placeOfRow(spans.row[i], spans.layer[i], x, y);
+      for (int column = begin; column < end; ++column)
+      {
+        valid[place + column] = 1;
+      }
+      fillRow(&gradients, place, begin, end, coordinateOf(y, spans.row[i]),
+        CORNERS == 4 ? coordinateOf(z, spans.layer[i]) : 0, x);
+    }
+  }
+  return ROWS;
+}
+
+// Whether all corners lie beyond one side of the lattice: see OutsidePoints.h.
+int isOutside(const Mesh* mesh, long cell, global const uchar* sides)
+{
+  int common = 0xff;
+  for (int i = 0; i < CORNERS; ++i)
+  {
+    common &= sides[idOf(mesh, cell, i)];
+  }
+  return common != 0;
+}
+
+// Each item does `share` cells in a row. Cells with more than `most` samples in their boxes and cells
+// in doubt go to the lists; `lengths` has the lists' lengths. A cell of a list counts nothing.
+kernel void sampleCells(global const Real* points, global const Id* ids, int u, int v, Axis x, Axis y,
+  Axis z, long cells, int share, long most, global const uchar* hidden, int hasHidden,
+  global const uchar* sides, int hasSides, global uchar* valid, global uint* counts,
+  global int* large, global int* doubtful, global int* lengths, int arrayCount,
+  global const uchar* values0, global uchar* samples0, int isFloat0, int components0,
+  global const uchar* values1, global uchar* samples1, int isFloat1, int components1,
+  global const uchar* values2, global uchar* samples2, int isFloat2, int components2,
+  global const uchar* values3, global uchar* samples3, int isFloat3, int components3)
+{
+  const Mesh mesh = { points, ids, u, v };
+  const Array arrays[4] = { { values0, samples0, isFloat0, components0 },
+    { values1, samples1, isFloat1, components1 }, { values2, samples2, isFloat2, components2 },
+    { values3, samples3, isFloat3, components3 } };
+  const long item = get_global_id(0);
+  const long begin = item * share;
+  if (begin >= cells)
+  {
+    return;
+  }
+  uint sum = 0;
+  for (long i = begin; i < min(begin + share, cells); ++i)
+  {
+    Cell cell;
+    if ((hasHidden && hidden[i]) || (hasSides && isOutside(&mesh, i, sides)))
+    {
+      continue;
+    }
+    int state = setCell(&cell, &mesh, i, x, y, z);
+    if (state == ROWS && samplesOf(&cell.box) > most)
+    {
+      large[atomic_inc(&lengths[0])] = (int)i;
+      continue;
+    }
+    int total = 0;
+    if (state == ROWS)
+    {
+      state = sampleRows(
+        &cell, 0, rowsOf(&cell.box), &mesh, i, x, y, z, arrays, arrayCount, valid, &total);
+    }
+    if (state == DOUBT)
+    {
+      doubtful[atomic_inc(&lengths[1])] = (int)i;
+    }
+    sum += state == ROWS ? total : 0;
+  }
+  counts[item] = sum;
+}
+
+// One large cell, a row an item; counts[row] is what it claims, or -1 if that is in doubt.
+kernel void sampleLarge(global const Real* points, global const Id* ids, int u, int v, Axis x, Axis y,
+  Axis z, long number, int rows, global uchar* valid, global int* counts, int arrayCount,
+  global const uchar* values0, global uchar* samples0, int isFloat0, int components0,
+  global const uchar* values1, global uchar* samples1, int isFloat1, int components1,
+  global const uchar* values2, global uchar* samples2, int isFloat2, int components2,
+  global const uchar* values3, global uchar* samples3, int isFloat3, int components3)
+{
+  const Mesh mesh = { points, ids, u, v };
+  const Array arrays[4] = { { values0, samples0, isFloat0, components0 },
+    { values1, samples1, isFloat1, components1 }, { values2, samples2, isFloat2, components2 },
+    { values3, samples3, isFloat3, components3 } };
+  const int item = (int)get_global_id(0);
+  Cell cell;
+  setCell(&cell, &mesh, number, x, y, z);
+  if (item < rows)
+  {
+    int total;
+    const int state = sampleRows(
+      &cell, item, item + 1, &mesh, number, x, y, z, arrays, arrayCount, valid, &total);
+    counts[item] = state == DOUBT ? -1 : total;
+  }
+}
