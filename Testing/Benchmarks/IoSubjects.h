@@ -16,7 +16,7 @@ struct IoArguments
   std::vector<std::string> Meshes; ///< flat meshes
   int Repeat = 3;
   int Threads = 2;
-  std::vector<std::int64_t> Parts{ 64, 8, 1 }; ///< M is n over these
+  std::vector<std::int64_t> Parts{ 64, 8, 1 };                      ///< M is n over these
   std::vector<std::int64_t> Chunks{ 4096, 65536, 524288, 4000000 }; ///< in cells
 };
 
