@@ -2,6 +2,7 @@
 #include "Distributed/GroupMesh.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace tipp
@@ -19,31 +20,28 @@ GroupMesh::GroupMesh(PartitionIndex partitions, const std::vector<PartitionIndex
   }
 }
 
-void GroupMesh::Batch::append(const SeamGroups& groups, std::size_t g, std::uint32_t triangles)
-{
-  this->Groups.append(groups, g);
-  this->Triangles.push_back(triangles);
-}
-
-/// When most of them are, so that it costs no more than to append them did.
+/// When most of them are, so that it costs no more than to enter them did.
 void GroupMesh::Batch::dropGone()
 {
   if (this->Groups.size() == 0 || 2 * this->Alive > this->Groups.size())
   {
     return;
   }
-  Batch left;
+  std::vector<std::uint32_t> left;
+  std::vector<std::uint32_t> triangles;
   for (std::uint32_t& place : this->Places)
   {
     if (place != Gone)
     {
-      left.append(this->Groups, place, this->Triangles[place]);
-      place = std::uint32_t(left.Groups.size() - 1);
+      left.push_back(place);
+      triangles.push_back(this->Triangles[place]);
+      place = std::uint32_t(left.size() - 1);
     }
   }
-  left.Groups.shrink();
-  this->Groups = std::move(left.Groups);
-  this->Triangles = std::move(left.Triangles);
+  SeamGroups groups;
+  groups.copyWithoutTriangles(this->Groups, left);
+  this->Groups = std::move(groups);
+  this->Triangles = std::move(triangles);
 }
 
 bool GroupMesh::isLive(const SeamGroups& groups, std::size_t g) const
@@ -56,43 +54,51 @@ bool GroupMesh::isLive(const SeamGroups& groups, std::size_t g) const
 GroupMesh::Final GroupMesh::add(SeamGroups added)
 {
   const auto groups = std::make_shared<const SeamGroups>(std::move(added));
-  const auto batch = std::make_shared<Batch>();
   Final final{ groups, {} };
+  std::vector<std::uint32_t> live;
+  std::vector<std::uint32_t> triangles;
   for (std::uint32_t g = 0; g < groups->size(); ++g)
   {
     if (this->isLive(*groups, g))
     {
-      batch->append(*groups, g, std::uint32_t(groups->triangles(g).size()));
+      live.push_back(g);
+      triangles.push_back(std::uint32_t(groups->triangles(g).size()));
     }
     else
     {
       final.Indices.push_back(g);
     }
   }
-  this->enter(batch);
+  this->enter(*groups, live, std::move(triangles));
   return final;
 }
 
 void GroupMesh::add(const LiveGroups& groups)
 {
-  const auto batch = std::make_shared<Batch>();
+  std::vector<std::uint32_t> live;
+  std::vector<std::uint32_t> triangles;
   for (std::uint32_t g = 0; g < groups.Groups.size(); ++g)
   {
     if (this->isLive(groups.Groups, g))
     {
-      batch->append(groups.Groups, g, groups.Triangles.at(g));
+      live.push_back(g);
+      triangles.push_back(groups.Triangles.at(g));
     }
   }
-  this->enter(batch);
+  this->enter(groups.Groups, live, std::move(triangles));
 }
 
-void GroupMesh::enter(const std::shared_ptr<Batch>& batch)
+void GroupMesh::enter(const SeamGroups& groups, const std::vector<std::uint32_t>& live,
+  std::vector<std::uint32_t> triangles)
 {
-  batch->Groups.shrink();
-  batch->Alive = batch->Groups.size();
-  for (std::uint32_t g = 0; g < batch->Groups.size(); ++g)
+  const auto batch = std::make_shared<Batch>();
+  batch->Groups.copyWithoutTriangles(groups, live);
+  batch->Triangles = std::move(triangles);
+  batch->Alive = live.size();
+  batch->Places.resize(live.size());
+  std::iota(batch->Places.begin(), batch->Places.end(), 0U);
+  for (std::uint32_t g = 0; g < live.size(); ++g)
   {
-    batch->Places.push_back(g);
     this->Live += batch->Triangles[g];
     for (const PartitionIndex p : batch->Groups.met(g))
     {

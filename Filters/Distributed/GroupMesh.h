@@ -90,7 +90,6 @@ private:
     std::vector<std::uint32_t> Places;    ///< of what was added: among the groups, or Gone
     std::size_t Alive = 0;
 
-    void append(const SeamGroups& groups, std::size_t g, std::uint32_t triangles);
     void dropGone();
   };
   struct Reference
@@ -108,7 +107,9 @@ private:
   };
 
   bool isLive(const SeamGroups& groups, std::size_t g) const;
-  void enter(const std::shared_ptr<Batch>& batch);
+  /// Those of the groups that are live, and the number of triangles of each.
+  void enter(const SeamGroups& groups, const std::vector<std::uint32_t>& live,
+    std::vector<std::uint32_t> triangles);
 
   std::vector<Membership> Members;
   std::vector<char> Finished;

@@ -37,13 +37,26 @@ void SeamGroups::append(const SeamGroups& others, std::size_t g)
       static_cast<std::uint32_t>(this->Triangles.size()), others.Groups[g].HasArtificial });
 }
 
-void SeamGroups::shrink()
+void SeamGroups::copyWithoutTriangles(
+  const SeamGroups& others, const std::vector<std::uint32_t>& which)
 {
-  this->Groups.shrink_to_fit();
-  this->Met.shrink_to_fit();
-  this->Labels.shrink_to_fit();
-  this->Vertices.shrink_to_fit();
-  this->Triangles.shrink_to_fit();
+  std::size_t met = 0;
+  std::size_t labels = 0;
+  std::size_t vertices = 0;
+  for (const std::uint32_t g : which)
+  {
+    met += others.met(g).size();
+    labels += others.labels(g).size();
+    vertices += others.vertices(g).size();
+  }
+  this->Groups.reserve(which.size());
+  this->Met.reserve(met);
+  this->Labels.reserve(labels);
+  this->Vertices.reserve(vertices);
+  for (const std::uint32_t g : which)
+  {
+    this->append(others, g);
+  }
 }
 
 void SeamGroups::write(ByteWriter& writer) const

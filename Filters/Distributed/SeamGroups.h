@@ -68,10 +68,10 @@ public:
     return range(this->Triangles, g, &Group::TriangleEnd);
   }
 
-  /// Adds one of other groups, but for its triangles.
+  /// Adds some of other groups, but for their triangles, to none. Takes just the memory they need.
+  void copyWithoutTriangles(const SeamGroups& others, const std::vector<std::uint32_t>& which);
+  /// Adds one.
   void append(const SeamGroups& others, std::size_t g);
-  /// Gives back memory that is not used.
-  void shrink();
 
   void write(ByteWriter& writer) const;
   /// Throws std::runtime_error if the groups are not what write() wrote.
