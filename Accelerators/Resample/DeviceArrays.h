@@ -107,19 +107,6 @@ inline std::int64_t rowsOfCell(const SimplexMesh& mesh, const LatticeAxes& axes,
   return rows;
 }
 
-/// The cells that a kernel has put into a list on the device, numbered as in the mesh.
-inline std::vector<std::int32_t> listedCells(
-  const ComputeDevice& device, const cl::Buffer& list, cl_int length, std::int64_t first)
-{
-  std::vector<cl_int> cells(static_cast<std::size_t>(length));
-  device.read(list, cells.data(), cells.size() * sizeof(cl_int));
-  for (cl_int& cell : cells)
-  {
-    cell = cl_int(first + cell);
-  }
-  return cells;
-}
-
 } // namespace tipp
 
 #endif

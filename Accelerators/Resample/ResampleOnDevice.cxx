@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/ResampleOnDevice.h"
 
+#include "Resample/CellLists.h"
 #include "Resample/ClaimSamples.cl.h"
 #include "Resample/DeviceArrays.h"
 #include "Resample/InterpolateSamples.cl.h"
@@ -62,33 +63,21 @@ private:
   {
     const std::int64_t first = piece.first();
     const std::int64_t count = piece.count();
-    const cl_int share = shareOf(this->Device);
-    const std::int64_t items = (count + share - 1) / share;
-    const cl::Buffer counts = this->Device.room(std::size_t(items) * sizeof(cl_uint));
-    const cl::Buffer large = this->Device.room(std::size_t(count) * sizeof(cl_int));
-    const cl::Buffer doubtful = this->Device.room(std::size_t(count) * sizeof(cl_int));
-    std::vector<cl_int> lengths(2, 0);
-    const OutputArray lengthsOutput(this->Device, lengths.data(), 2 * sizeof(cl_int), true);
+    const CellLists lists(this->Device, piece);
     const cl::Buffer hidden =
       this->Device.input(this->Mesh.Hidden ? this->Mesh.Hidden + first : nullptr,
         this->Mesh.Hidden ? std::size_t(count) : 0);
     cl::Kernel kernel =
       this->Device.kernel(ClaimSamplesKernels, "claimCells", piece.compilerOptions());
-    this->Device.launch(kernel, std::size_t(items), piece.Points, piece.Ids, piece.U, piece.V,
-      axisArgument(this->Axes.U), axisArgument(this->Axes.V), axisArgument(this->Axes.W),
-      cl_long(count), cl_long(first), share, LargestCellOnDevice, hidden,
-      cl_int(this->Mesh.Hidden != nullptr), claims, counts, large, doubtful,
-      lengthsOutput.buffer());
-    lengthsOutput.fetch();
-    std::vector<cl_uint> counted(static_cast<std::size_t>(items));
-    this->Device.read(counts, counted.data(), counted.size() * sizeof(cl_uint));
-    for (const cl_uint n : counted)
-    {
-      this->Claimed += n;
-    }
-    const std::vector<std::int32_t> open = listedCells(this->Device, doubtful, lengths[1], first);
+    this->Device.launch(kernel, std::size_t(lists.items()), piece.Points, piece.Ids, piece.U,
+      piece.V, axisArgument(this->Axes.U), axisArgument(this->Axes.V), axisArgument(this->Axes.W),
+      cl_long(count), cl_long(first), lists.share(), LargestCellOnDevice, hidden,
+      cl_int(this->Mesh.Hidden != nullptr), claims, lists.counts(), lists.large(), lists.doubtful(),
+      lists.lengths());
+    this->Claimed += lists.fetch();
+    const std::vector<std::int32_t> open = lists.doubtfulCells();
     this->Doubtful.insert(this->Doubtful.end(), open.begin(), open.end());
-    for (const std::int32_t cell : listedCells(this->Device, large, lengths[0], 0))
+    for (const std::int32_t cell : lists.largeCells())
     {
       this->claimLarge(piece, cell, claims);
     }

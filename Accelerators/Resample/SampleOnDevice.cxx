@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/SampleOnDevice.h"
 
+#include "Resample/CellLists.h"
 #include "Resample/DeviceArrays.h"
 #include "Resample/OutsidePoints.h"
 #include "Resample/SampleCells.cl.h"
@@ -100,29 +101,21 @@ private:
   {
     const std::int64_t first = piece.first();
     const std::int64_t count = piece.count();
-    const cl_int share = shareOf(this->Device);
-    const std::int64_t items = (count + share - 1) / share;
     const std::vector<Array> arrays = this->arraysOf(piece);
-    const cl::Buffer counts = this->Device.room(std::size_t(items) * sizeof(cl_uint));
-    const cl::Buffer large = this->Device.room(std::size_t(count) * sizeof(cl_int));
-    const cl::Buffer doubtful = this->Device.room(std::size_t(count) * sizeof(cl_int));
-    std::vector<cl_int> lengths(2, 0);
-    const OutputArray lengthsOutput(this->Device, lengths.data(), 2 * sizeof(cl_int), true);
+    const CellLists lists(this->Device, piece);
     const cl::Buffer hidden =
       this->Device.input(this->Mesh.Hidden ? this->Mesh.Hidden + first : nullptr,
         this->Mesh.Hidden ? std::size_t(count) : 0);
     const cl::Buffer sides =
       this->Device.input(outside, outside ? std::size_t(this->Mesh.PointCount) : 0);
-    this->launch("sampleCells", items, piece, arrays, cl_long(count), share, LargestCellOnDevice,
-      hidden, cl_int(this->Mesh.Hidden != nullptr), sides, cl_int(outside != nullptr),
-      this->Outputs[0].buffer(), counts, large, doubtful, lengthsOutput.buffer());
-    lengthsOutput.fetch();
-    std::vector<cl_uint> counted(static_cast<std::size_t>(items));
-    this->Device.read(counts, counted.data(), counted.size() * sizeof(cl_uint));
-    this->Result.Claimed += std::accumulate(counted.begin(), counted.end(), std::int64_t(0));
-    const std::vector<std::int32_t> open = listedCells(this->Device, doubtful, lengths[1], first);
+    this->launch("sampleCells", lists.items(), piece, arrays, cl_long(count), lists.share(),
+      LargestCellOnDevice, hidden, cl_int(this->Mesh.Hidden != nullptr), sides,
+      cl_int(outside != nullptr), this->Outputs[0].buffer(), lists.counts(), lists.large(),
+      lists.doubtful(), lists.lengths());
+    this->Result.Claimed += lists.fetch();
+    const std::vector<std::int32_t> open = lists.doubtfulCells();
     this->Result.Open.insert(this->Result.Open.end(), open.begin(), open.end());
-    for (const std::int32_t cell : listedCells(this->Device, large, lengths[0], 0))
+    for (const std::int32_t cell : lists.largeCells())
     {
       this->sampleLarge(piece, arrays, cell);
     }
