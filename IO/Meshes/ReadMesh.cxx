@@ -10,10 +10,10 @@
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"
+#include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
-#include "vtkTypeInt64Array.h"
 
 #include <algorithm>
 #include <utility>
@@ -60,6 +60,21 @@ TriangleMesh readNpyMesh(const std::string& path)
   return mesh;
 }
 
+/// Of the several classes of 64-bit integers VTK's readers take another than its writers. None if
+/// they are not three integers a triangle.
+std::vector<std::int64_t> neighborsOf(vtkDataArray* array)
+{
+  const int type = array->GetDataType();
+  const bool isWide = type == VTK_LONG || type == VTK_LONG_LONG || type == VTK_ID_TYPE;
+  if (!isWide || array->GetNumberOfComponents() != 3 ||
+    array->GetDataTypeSize() != int(sizeof(std::int64_t)) || !array->HasStandardMemoryLayout())
+  {
+    return {};
+  }
+  const auto* const ids = static_cast<const std::int64_t*>(array->GetVoidPointer(0));
+  return { ids, ids + array->GetNumberOfValues() };
+}
+
 TriangleMesh readVtkMesh(const std::string& path)
 {
   const vtkSmartPointer<vtkDataSet> data = readDataSet(path);
@@ -79,11 +94,9 @@ TriangleMesh readVtkMesh(const std::string& path)
     mesh.Triangles.insert(mesh.Triangles.end(), ids->begin(), ids->end());
   }
   mesh.XY = std::move(pointsOf(data).XY);
-  auto* const neighbors =
-    vtkTypeInt64Array::FastDownCast(data->GetCellData()->GetArray("NeighborIds"));
-  if (neighbors && neighbors->GetNumberOfComponents() == 3)
+  if (vtkDataArray* const neighbors = data->GetCellData()->GetArray("NeighborIds"))
   {
-    mesh.Neighbors.assign(neighbors->Begin(), neighbors->End());
+    mesh.Neighbors = neighborsOf(neighbors);
   }
   return mesh;
 }
