@@ -44,7 +44,7 @@ constexpr int floatLaneCount = 8;
 }
 
 /// A bit for each lane.
-[[gnu::always_inline]] inline unsigned laneBits(FloatLaneInts truths)
+[[gnu::always_inline]] inline unsigned floatLaneBits(FloatLaneInts truths)
 {
 #ifdef __SSE__
   using Half = float __attribute__((vector_size(16)));

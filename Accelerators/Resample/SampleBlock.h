@@ -153,7 +153,7 @@ private:
 
   [[gnu::always_inline]] void write(int i, std::int64_t place, const double* coordinates)
   {
-    const std::size_t j = std::size_t(this->Size + i);
+    const std::size_t j = std::size_t(this->Size) + std::size_t(i);
     this->Places[j] = place + i;
     this->Offsets[j] = coordinates[i];
     this->RunOfSamples[j] = this->RunCount;

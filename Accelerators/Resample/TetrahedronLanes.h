@@ -177,8 +177,8 @@ public:
     const FloatLaneInts wanted = number < float(across.size() * deep.size());
     const FloatLaneInts sure = this->certain(lane, begin, begins) & this->certain(lane, end, ends);
     RowSpans<floatLaneCount> spans;
-    spans.Open = laneBits((begins < ends) & wanted);
-    spans.Doubtful = laneBits(~sure & (begins <= ends + 1) & wanted);
+    spans.Open = floatLaneBits((begins < ends) & wanted);
+    spans.Doubtful = floatLaneBits(~sure & (begins <= ends + 1) & wanted);
     const FloatLaneInts row = toInts(along) + across.Begin;
     spans.set(begins + this->Columns[lane].Begin, ends - begins, row, layer + deep.Begin);
     return spans;

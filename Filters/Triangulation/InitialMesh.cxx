@@ -137,7 +137,7 @@ SeamTriangles triangulateVertices(
 
 bool partitionsPay(const SeamTriangles& initialMesh)
 {
-  constexpr std::size_t most = 4;
+  constexpr std::size_t most = 3;
   return initialMesh.Met.size() <= most * initialMesh.Triangles.size();
 }
 
