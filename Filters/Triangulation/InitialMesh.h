@@ -25,8 +25,8 @@ SeamTriangles triangulateVertices(
   const Tiling& tiling, const std::vector<SeamVertex>& vertices, int threads);
 
 /// Circumdisks that meet many partitions each (points on a circle, a parabola, a line and one
-/// beside it: 3.5 and more partitions each, by measurement) would bring nearly all vertices to every
-/// worker. Ordinary points give 1.5 to 2.8.
+/// beside it: 3.5 and more partitions each, by measurement) would bring nearly all vertices to
+/// every worker. Ordinary points give 1.5 to 2.8.
 bool partitionsPay(const SeamTriangles& initialMesh);
 
 extern template std::vector<SeamVertex> chooseInitialPoints(
