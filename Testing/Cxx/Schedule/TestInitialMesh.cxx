@@ -231,4 +231,34 @@ TEST(InitialMesh, InitialPointsAtOnePlaceAreOneVertex)
   EXPECT_EQ(artificial + 1, used.size());
 }
 
+/// The initial mesh of eight partitions of equally many points.
+SeamTriangles initialMeshOfEight(const std::string& set)
+{
+  const Coordinates xy = makePointSet(set, 40'000);
+  const PointsView points = view(xy);
+  const Tiling tiling = Tiling::balanced(test::boundsOf(xy), samplePoints(points, 8000), 8);
+  std::vector<SeamVertex> vertices =
+    chooseInitialPoints(tiling, bucketPoints<std::int32_t>(points, tiling, 1), 8);
+  const std::vector<SeamVertex> artificial = makeArtificialPoints(tiling);
+  vertices.insert(vertices.end(), artificial.begin(), artificial.end());
+  return triangulateVertices(tiling, vertices, 1);
+}
+
+TEST(PartitionsPay, ForPointsSpreadOverAnArea)
+{
+  for (const char* set :
+    { "uniform", "clustered", "coast", "kuzmin", "lattice", "two-clusters", "spiral" })
+  {
+    EXPECT_TRUE(partitionsPay(initialMeshOfEight(set))) << set;
+  }
+}
+
+TEST(PartitionsPay, NotForPointsOnACurve)
+{
+  for (const char* set : { "circle", "parabola", "collinear-and-one" })
+  {
+    EXPECT_FALSE(partitionsPay(initialMeshOfEight(set))) << set;
+  }
+}
+
 } // namespace
