@@ -208,21 +208,28 @@ int isOutside(const Mesh* mesh, long cell, global const uchar* sides)
   return common != 0;
 }
 
+// OpenCL has no arrays of buffers.
+#define ARRAY_PARAMETERS                                                                             \
+  global const uchar *values0, global uchar *samples0, int isFloat0, int components0,                \
+    global const uchar *values1, global uchar *samples1, int isFloat1, int components1,              \
+    global const uchar *values2, global uchar *samples2, int isFloat2, int components2,              \
+    global const uchar *values3, global uchar *samples3, int isFloat3, int components3
+#define ARRAYS                                                                                       \
+  {                                                                                                  \
+    { values0, samples0, isFloat0, components0 }, { values1, samples1, isFloat1, components1 },      \
+      { values2, samples2, isFloat2, components2 }, { values3, samples3, isFloat3, components3 }     \
+  }
+
 // Each item does `share` cells in a row. Cells with more than `most` samples in their boxes and cells
 // in doubt go to the lists; `lengths` has the lists' lengths. A cell of a list counts nothing.
 kernel void sampleCells(global const Real* points, global const Id* ids, int u, int v, Axis x, Axis y,
   Axis z, long cells, int share, long most, global const uchar* hidden, int hasHidden,
   global const uchar* sides, int hasSides, global uchar* valid, global uint* counts,
   global int* large, global int* doubtful, global int* lengths, int arrayCount,
-  global const uchar* values0, global uchar* samples0, int isFloat0, int components0,
-  global const uchar* values1, global uchar* samples1, int isFloat1, int components1,
-  global const uchar* values2, global uchar* samples2, int isFloat2, int components2,
-  global const uchar* values3, global uchar* samples3, int isFloat3, int components3)
+  ARRAY_PARAMETERS)
 {
   const Mesh mesh = { points, ids, u, v };
-  const Array arrays[4] = { { values0, samples0, isFloat0, components0 },
-    { values1, samples1, isFloat1, components1 }, { values2, samples2, isFloat2, components2 },
-    { values3, samples3, isFloat3, components3 } };
+  const Array arrays[4] = ARRAYS;
   const long item = get_global_id(0);
   const long begin = item * share;
   if (begin >= cells)
@@ -261,15 +268,10 @@ kernel void sampleCells(global const Real* points, global const Id* ids, int u, 
 // One large cell, a row an item; counts[row] is what it claims, or -1 if that is in doubt.
 kernel void sampleLarge(global const Real* points, global const Id* ids, int u, int v, Axis x, Axis y,
   Axis z, long number, int rows, global uchar* valid, global int* counts, int arrayCount,
-  global const uchar* values0, global uchar* samples0, int isFloat0, int components0,
-  global const uchar* values1, global uchar* samples1, int isFloat1, int components1,
-  global const uchar* values2, global uchar* samples2, int isFloat2, int components2,
-  global const uchar* values3, global uchar* samples3, int isFloat3, int components3)
+  ARRAY_PARAMETERS)
 {
   const Mesh mesh = { points, ids, u, v };
-  const Array arrays[4] = { { values0, samples0, isFloat0, components0 },
-    { values1, samples1, isFloat1, components1 }, { values2, samples2, isFloat2, components2 },
-    { values3, samples3, isFloat3, components3 } };
+  const Array arrays[4] = ARRAYS;
   const int item = (int)get_global_id(0);
   Cell cell;
   setCell(&cell, &mesh, number, x, y, z);

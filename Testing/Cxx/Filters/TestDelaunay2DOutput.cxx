@@ -201,6 +201,7 @@ TEST(Delaunay2DOutput, OrderOfThePointsDoesNotMatterOnALattice)
   EXPECT_EQ(forward, renumbered);
 }
 
+/// NeighborArray, by the edges' own account.
 TEST(Delaunay2DOutput, NeighborsAreTheTrianglesOppositeToEachCorner)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;

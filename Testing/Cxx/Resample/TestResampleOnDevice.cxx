@@ -150,6 +150,7 @@ TEST_F(ResampleOnDevice, AgreesOnASmallRangeOfALargeMesh)
   expectAgreement(jitteredScene(3, 12, 5), latticeOf(3, 11, 0.4, 0.5));
 }
 
+/// Numbers of cells and integers are not for SampleOnDevice, so here are none.
 TEST_F(ResampleOnDevice, SamplesArraysOfPointsWithSeveralComponentsLikeOpenMP)
 {
   for (const int dimension : { 2, 3 })
