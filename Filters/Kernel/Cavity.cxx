@@ -5,17 +5,15 @@ namespace tipp
 {
 
 Cavity::Cavity()
-  : Triangles(64)
-  , Ring(64)
+  : Places(64)
   , Stack(64)
 {
 }
 
 void Cavity::grow()
 {
-  const std::size_t size = 2 * this->Triangles.size();
-  this->Triangles.resize(size);
-  this->Ring.resize(size);
+  const std::size_t size = 2 * this->Places.size();
+  this->Places.resize(size);
   this->Stack.resize(size);
 }
 

@@ -13,7 +13,8 @@
 namespace tipp
 {
 
-/// The triangles that one insertion destroys, and the edges around them (Bowyer 1981, Watson 1981).
+/// The triangles that one insertion destroys, and those that take their place (Bowyer 1981, Watson
+/// 1981).
 class Cavity
 {
 public:
@@ -21,16 +22,15 @@ public:
 
   Cavity();
 
-  /// Collects the triangles in conflict with p, from the one that holds it.
-  void open(const HalfEdgeMesh& mesh, const Point2* points, KernelPredicates& predicates,
-    const Location& location, Point2 p);
-
-  /// Joins the vertex to every edge of the ring, in the places of the destroyed triangles and two
-  /// new ones at the end. Returns one of the new triangles, a finite one.
-  Index fill(HalfEdgeMesh& mesh, Index vertex);
+  /// Destroys the triangles in conflict with the vertex, beginning with the one found, and joins it
+  /// to every edge around them; the new triangles are in the places of those destroyed, two more at
+  /// the end. The mesh has room for three more. Returns one of the new triangles, a finite one.
+  Index retriangulate(HalfEdgeMesh& mesh, const Point2* points, KernelPredicates& predicates,
+    const Location& found, Index vertex);
 
 private:
-  /// Two edges side by side, (first, second) in every pair, counter-clockwise around p.
+  /// Two edges side by side, (first, second) in every pair, counter-clockwise around p: from the
+  /// vertex Start to Middle, and on to Stop.
   struct EdgePair
   {
     Pair StartX; ///< from p
@@ -43,6 +43,9 @@ private:
     // The half-edges on their other sides; no array, which would keep all this out of registers.
     Index FirstOuter;
     Index SecondOuter;
+    Index Start;
+    Index Middle;
+    Index Stop;
   };
   /// The apexes of the triangles behind a pair.
   struct ApexPair
@@ -52,27 +55,28 @@ private:
     Pair Lift;
     Pair StartCross; ///< start x apex
     Pair CrossStop;  ///< apex x stop
+    Index First;
+    Index Second;
   };
-  struct RingEdge
+  /// New triangles side by side, counter-clockwise around p.
+  struct Fan
   {
-    Index Outer;
-    Index Start;
+    Index First;
+    Index Last;
   };
-  /// What is left to do while the cavity grows: another pair, or an edge of the ring.
+  /// A pair to go on with later, and the new triangles that follow those behind it.
   struct Deferred
   {
     EdgePair Edges;
-    bool IsPair;
+    Fan After;
   };
 
   class Growth;
   void grow();
 
-  // All of one size, larger than any insertion has needed yet.
-  std::vector<Index> Triangles;
-  std::vector<RingEdge> Ring; ///< counter-clockwise
+  // Larger than any insertion has needed yet.
+  std::vector<Index> Places; ///< for new triangles: the two at the end, then the destroyed ones'
   std::vector<Deferred> Stack;
-  std::size_t RingSize = 0;
 };
 
 } // namespace tipp

@@ -4,115 +4,196 @@
 
 #include "Kernel/Cavity.h"
 
-#include <algorithm>
-
 // Cavity's steps, inline: Insertion.cxx compiles them for several sets of instructions.
 
 namespace tipp
 {
 
-/// One run of open(): local, so that its counters stay in registers.
+/// One run of retriangulate(): local, so that its counters stay in registers.
+///
+/// The cavity has no vertex inside, so its dual is a tree: no triangle is met twice and no marks
+/// are needed. Of t destroyed triangles, depth-first, at most t + 2 edges around are known, so a
+/// place is free for the new triangle at each of them as soon as it is found. The edges still to
+/// come lie in one gap of the ring, between the fan Before and the fan After; where two triangles
+/// behind an edge pair are in conflict, the second one's gap is deferred.
 class Cavity::Growth
 {
 public:
-  Growth(
-    Cavity& cavity, const Index* slot, const Point2* points, KernelPredicates& predicates, Point2 p)
+  Growth(Cavity& cavity, HalfEdgeMesh& mesh, const Point2* points, KernelPredicates& predicates,
+    Index vertex)
     : Result(cavity)
-    , Slot(slot)
+    , Slot(mesh.slots())
     , Points(points)
     , Predicates(predicates)
-    , P(p)
+    , P(points[vertex])
+    , Vertex(vertex)
+    , None(mesh.end() + 16)
+    , Last(this->None)
+    , After{ this->None, this->None }
+    , NextPlace(cavity.Places.data())
+    , PlaceEnd(cavity.Places.data())
+    , StackEnd(cavity.Stack.data())
   {
-    this->update();
+    *this->PlaceEnd++ = mesh.end();
+    *this->PlaceEnd++ = mesh.end() + 8;
+    mesh.setEnd(mesh.end() + 16);
   }
 
-  void run(const Location& at)
+  Index run(const Location& at)
   {
-    this->Triangles[this->TriangleCount++] = at.Triangle;
-    // All three edges are tested before the first branch.
-    const EdgePair last = this->lastEdge(at);
-    ApexPair lastApex;
-    const unsigned lastInside = this->test(last, lastApex);
+    *this->PlaceEnd++ = at.Triangle;
     EdgePair edges = this->firstEdges(at);
     ApexPair apex;
     unsigned inside = this->test(edges, apex);
-    if (lastInside & 1)
+    if (at.LastIsOutside)
     {
-      this->enter(last.FirstOuter);
-      this->Stack[this->StackSize++] = { this->behindFirst(last, lastApex), true };
+      this->addBehind(at.Outer[2], edges.Stop, edges.Start);
     }
     else
     {
-      this->defer(last.FirstOuter);
+      this->addLast(at);
     }
     for (;; inside = this->test(edges, apex))
     {
       if (inside & 1)
       {
-        this->enter(edges.FirstOuter);
+        this->destroy(edges.FirstOuter);
         if (inside & 2)
         {
-          this->enter(edges.SecondOuter);
-          this->Stack[this->StackSize++] = { this->behindSecond(edges, apex), true };
+          this->destroy(edges.SecondOuter);
+          this->defer(this->behindSecond(edges, apex));
+          edges = this->behindFirst(edges, apex);
         }
         else
         {
-          this->defer(edges.SecondOuter);
+          const EdgePair tested = edges;
+          edges = this->behindFirst(edges, apex);
+          this->addBehind(tested.SecondOuter, tested.Middle, tested.Stop);
         }
-        edges = this->behindFirst(edges, apex);
         continue;
       }
-      this->emit(edges.FirstOuter);
       if (inside & 2)
       {
-        this->enter(edges.SecondOuter);
+        this->destroy(edges.SecondOuter);
+        const EdgePair tested = edges;
         edges = this->behindSecond(edges, apex);
+        this->addBefore(tested.FirstOuter, tested.Start, tested.Middle);
         continue;
       }
-      this->emit(edges.SecondOuter);
-      while (this->StackSize > 0 && !this->Stack[this->StackSize - 1].IsPair)
+      this->addBefore(edges.FirstOuter, edges.Start, edges.Middle);
+      this->addBefore(edges.SecondOuter, edges.Middle, edges.Stop);
+      this->closeGap();
+      if (this->StackEnd == this->Result.Stack.data())
       {
-        this->emit(this->Stack[--this->StackSize].Edges.FirstOuter);
+        return this->closeRing();
       }
-      if (this->StackSize == 0)
-      {
-        return;
-      }
-      edges = this->Stack[--this->StackSize].Edges;
+      const Deferred& next = *--this->StackEnd;
+      edges = next.Edges;
+      this->After = next.After;
     }
   }
-
-  std::size_t ringSize() const { return this->RingSize; }
 
 private:
-  void update()
+  void destroy(Index outer)
   {
-    this->Triangles = this->Result.Triangles.data();
-    this->Ring = this->Result.Ring.data();
-    this->Stack = this->Result.Stack.data();
-    // The ring and fill() need up to three places more.
-    this->MostTriangles = this->Result.Triangles.size() - 3;
-  }
-
-  void enter(Index outer)
-  {
-    if (__builtin_expect(this->TriangleCount >= this->MostTriangles, 0))
+    if (__builtin_expect(
+          this->PlaceEnd == this->Result.Places.data() + this->Result.Places.size(), 0))
     {
-      this->Result.grow();
-      this->update();
+      this->grow();
     }
-    this->Triangles[this->TriangleCount++] = HalfEdgeMesh::triangleOf(outer);
+    *this->PlaceEnd++ = HalfEdgeMesh::triangleOf(outer);
   }
 
-  void emit(Index outer)
+  void grow()
   {
-    this->Ring[this->RingSize++] = { outer, this->Slot[HalfEdgeMesh::previous(outer)] };
+    const std::ptrdiff_t next = this->NextPlace - this->Result.Places.data();
+    const std::ptrdiff_t placeEnd = this->PlaceEnd - this->Result.Places.data();
+    const std::ptrdiff_t stackEnd = this->StackEnd - this->Result.Stack.data();
+    this->Result.grow();
+    this->NextPlace = this->Result.Places.data() + next;
+    this->PlaceEnd = this->Result.Places.data() + placeEnd;
+    this->StackEnd = this->Result.Stack.data() + stackEnd;
   }
 
-  void defer(Index outer)
+  void defer(const EdgePair& edges)
   {
-    this->Stack[this->StackSize].Edges.FirstOuter = outer;
-    this->Stack[this->StackSize++].IsPair = false;
+    *this->StackEnd++ = { edges, this->After };
+    this->After = { this->None, this->None };
+  }
+
+  /// The new triangle (vertex, start, stop) at an edge around the cavity.
+  Index add(Index outer, Index start, Index stop)
+  {
+    const Index t = *this->NextPlace++;
+    this->Slot[t] = this->Vertex;
+    this->Slot[t + 1] = start;
+    this->Slot[t + 2] = stop;
+    this->Slot[t + 4] = outer;
+    this->Slot[outer + 4] = t;
+    return t;
+  }
+
+  /// Its edges from and to the vertex are t + 2 and t + 1. Links with None are written beyond the
+  /// end of the mesh.
+  void link(Index before, Index after)
+  {
+    this->Slot[before + 1 + 4] = after + 2;
+    this->Slot[after + 2 + 4] = before + 1;
+  }
+
+  /// `last`, or `of` if the fan is empty. Either is as likely, so there is no branch here.
+  Index lastOr(Index of, Index last) const
+  {
+    const Index empty = -Index(this->After.First == this->None);
+    return last ^ ((last ^ of) & empty);
+  }
+
+  void addBefore(Index outer, Index start, Index stop)
+  {
+    const Index t = this->add(outer, start, stop);
+    this->link(this->Last, t);
+    this->Last = t;
+  }
+
+  void addBehind(Index outer, Index start, Index stop)
+  {
+    const Index t = this->add(outer, start, stop);
+    this->link(t, this->After.First);
+    this->After.Last = this->lastOr(t, this->After.Last);
+    this->After.First = t;
+  }
+
+  void closeGap()
+  {
+    this->link(this->Last, this->After.First);
+    this->Last = this->lastOr(this->Last, this->After.Last);
+  }
+
+  Index closeRing()
+  {
+    Index t = this->Slot[this->None + 1 + 4] - 2;
+    this->link(this->Last, t);
+    while (this->Slot[t + 1] == InfiniteVertex || this->Slot[t + 2] == InfiniteVertex)
+    {
+      t = HalfEdgeMesh::triangleOf(this->Slot[t + 1 + 4]);
+    }
+    return t;
+  }
+
+  /// The third edge of the first triangle, in both lanes.
+  void addLast(const Location& at)
+  {
+    const EdgePair last = lastEdge(at);
+    ApexPair apex;
+    if (this->test(last, apex) & 1)
+    {
+      this->destroy(last.FirstOuter);
+      this->defer(this->behindFirst(last, apex));
+    }
+    else
+    {
+      this->addBehind(last.FirstOuter, last.Start, last.Middle);
+    }
   }
 
   static EdgePair firstEdges(const Location& at)
@@ -123,10 +204,9 @@ private:
     const double bl = b.lift();
     return { Pair{ a.X, b.X }, Pair{ a.Y, b.Y }, Pair{ a.lift(), bl }, Pair{ b.X, c.X },
       Pair{ b.Y, c.Y }, Pair{ bl, c.lift() }, Pair{ at.Cross[0], at.Cross[1] }, at.Outer[0],
-      at.Outer[1] };
+      at.Outer[1], at.Vertex[0], at.Vertex[1], at.Vertex[2] };
   }
 
-  /// The third edge, in both lanes.
   static EdgePair lastEdge(const Location& at)
   {
     const Direction c = at.Corner[2];
@@ -136,15 +216,17 @@ private:
     const double ca = at.Cross[2];
     const Index outer = at.Outer[2];
     return { Pair{ c.X, c.X }, Pair{ c.Y, c.Y }, Pair{ cl, cl }, Pair{ a.X, a.X }, Pair{ a.Y, a.Y },
-      Pair{ al, al }, Pair{ ca, ca }, outer, outer };
+      Pair{ al, al }, Pair{ ca, ca }, outer, outer, at.Vertex[2], at.Vertex[0], at.Vertex[0] };
   }
 
   /// Bit i: the triangle behind edge i is in conflict with p. Of the in-circle determinant's terms
   /// only those with the apex are new.
   unsigned test(const EdgePair& pair, ApexPair& apex)
   {
-    const Point2 first = this->Points[this->Slot[pair.FirstOuter]];
-    const Point2 second = this->Points[this->Slot[pair.SecondOuter]];
+    apex.First = this->Slot[pair.FirstOuter];
+    apex.Second = this->Slot[pair.SecondOuter];
+    const Point2 first = this->Points[apex.First];
+    const Point2 second = this->Points[apex.Second];
     apex.X = Pair{ first.x, second.x } - this->P.x;
     apex.Y = Pair{ first.y, second.y } - this->P.y;
     apex.Lift = apex.X * apex.X + apex.Y * apex.Y;
@@ -157,28 +239,25 @@ private:
     const unsigned decided = bitsOf(magnitude(det) > bound);
     if (__builtin_expect(decided != 3, 0))
     {
-      return this->testExactly(pair.FirstOuter, pair.SecondOuter, decided, ~signsOf(det) & decided);
+      return testExactly(this->Predicates, this->Slot, this->P, pair.FirstOuter, pair.SecondOuter,
+        decided, ~signsOf(det) & decided);
     }
     return ~signsOf(det);
   }
 
-  [[gnu::noinline]] unsigned testExactly(
-    Index first, Index second, unsigned decided, unsigned inside)
+  /// Static, as a call with this object would keep it in memory.
+  [[gnu::noinline]] static unsigned testExactly(KernelPredicates& predicates, const Index* slot,
+    Point2 p, Index first, Index second, unsigned decided, unsigned inside)
   {
     if (!(decided & 1))
     {
-      inside |= this->isInConflict(first) ? 1U : 0U;
+      inside |= predicates.isInConflict(slot + HalfEdgeMesh::triangleOf(first), p) ? 1U : 0U;
     }
     if (!(decided & 2))
     {
-      inside |= this->isInConflict(second) ? 2U : 0U;
+      inside |= predicates.isInConflict(slot + HalfEdgeMesh::triangleOf(second), p) ? 2U : 0U;
     }
     return inside;
-  }
-
-  bool isInConflict(Index outer)
-  {
-    return this->Predicates.isInConflict(this->Slot + HalfEdgeMesh::triangleOf(outer), this->P);
   }
 
   /// The two edges behind the first edge, whose triangle is in conflict; and behind the second.
@@ -187,76 +266,35 @@ private:
     return { low(e.StartX, v.X), low(e.StartY, v.Y), low(e.StartLift, v.Lift), low(v.X, e.StopX),
       low(v.Y, e.StopY), low(v.Lift, e.StopLift), low(v.StartCross, v.CrossStop),
       this->Slot[HalfEdgeMesh::next(e.FirstOuter) + 4],
-      this->Slot[HalfEdgeMesh::previous(e.FirstOuter) + 4] };
+      this->Slot[HalfEdgeMesh::previous(e.FirstOuter) + 4], e.Start, v.First, e.Middle };
   }
   EdgePair behindSecond(const EdgePair& e, const ApexPair& v) const
   {
     return { high(e.StartX, v.X), high(e.StartY, v.Y), high(e.StartLift, v.Lift),
       high(v.X, e.StopX), high(v.Y, e.StopY), high(v.Lift, e.StopLift),
       high(v.StartCross, v.CrossStop), this->Slot[HalfEdgeMesh::next(e.SecondOuter) + 4],
-      this->Slot[HalfEdgeMesh::previous(e.SecondOuter) + 4] };
+      this->Slot[HalfEdgeMesh::previous(e.SecondOuter) + 4], e.Middle, v.Second, e.Stop };
   }
 
   Cavity& Result;
-  const Index* const Slot;
+  Index* const Slot;
   const Point2* const Points;
   KernelPredicates& Predicates;
   const Point2 P;
-  Index* Triangles;
-  RingEdge* Ring;
-  Deferred* Stack;
-  std::size_t MostTriangles;
-  std::size_t TriangleCount = 0;
-  std::size_t RingSize = 0;
-  std::size_t StackSize = 0;
+  const Index Vertex;
+  const Index None; ///< in place of a triangle
+  Index Last;       ///< of Before
+  Fan After;
+  // In the cavity's arrays.
+  const Index* NextPlace;
+  Index* PlaceEnd;
+  Deferred* StackEnd;
 };
 
-/// The cavity has no vertex inside, so its dual is a tree: no triangle is met twice, no marks are
-/// needed, and depth-first order is the order around the ring.
-inline void Cavity::open(const HalfEdgeMesh& mesh, const Point2* points,
-  KernelPredicates& predicates, const Location& location, Point2 p)
+inline Cavity::Index Cavity::retriangulate(HalfEdgeMesh& mesh, const Point2* points,
+  KernelPredicates& predicates, const Location& found, Index vertex)
 {
-  Growth growth(*this, mesh.slots(), points, predicates, p);
-  growth.run(location);
-  this->RingSize = growth.ringSize();
-}
-
-inline Cavity::Index Cavity::fill(HalfEdgeMesh& mesh, Index vertex)
-{
-  Index* const slot = mesh.slots();
-  Index* const triangles = this->Triangles.data();
-  RingEdge* const ring = this->Ring.data();
-  const std::size_t count = this->RingSize;
-  const Index end = mesh.end();
-  triangles[count - 2] = end;
-  triangles[count - 1] = end + 8;
-  mesh.setEnd(end + 16);
-
-  ring[count] = ring[0];
-  Index before = triangles[count - 1];
-  Index start = ring[0].Start;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const Index t = triangles[i];
-    const Index outer = ring[i].Outer;
-    const Index stop = ring[i + 1].Start;
-    slot[t] = vertex;
-    slot[t + 1] = start;
-    slot[t + 2] = stop;
-    slot[t + 4] = outer;
-    slot[outer + 4] = t;
-    slot[t + 2 + 4] = before + 1;
-    slot[before + 1 + 4] = t + 2;
-    before = t;
-    start = stop;
-  }
-  std::size_t finite = 0;
-  while (
-    slot[triangles[finite] + 1] == InfiniteVertex || slot[triangles[finite] + 2] == InfiniteVertex)
-  {
-    ++finite;
-  }
-  return triangles[finite];
+  return Growth(*this, mesh, points, predicates, vertex).run(found);
 }
 
 } // namespace tipp

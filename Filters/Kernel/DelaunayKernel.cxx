@@ -10,7 +10,8 @@ namespace tipp
 {
 
 DelaunayKernel::DelaunayKernel(Instructions instructions)
-  : Predicates(this->Points)
+  : Order(instructions)
+  , Predicates(this->Points)
   , Insertion(chooseInsertion(instructions))
 {
   this->clear();
@@ -36,19 +37,20 @@ std::size_t DelaunayKernel::bytes() const
 
 bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monitor& proceed)
 {
-  const std::vector<std::uint32_t>& order = this->Order.compute(points, count);
+  this->Order.compute(points, count);
   const Index first = this->vertexEnd();
   this->Points.resize(this->Points.size() + count);
   this->Places.resize(this->Places.size() + count);
   for (std::size_t i = 0; i < count; ++i)
   {
-    this->Points[first + i] = points[order[i]];
-    this->Places[first + i] = this->PlaceEnd + order[i];
+    const std::uint32_t place = this->Order[i];
+    this->Points[first + i] = points[place];
+    this->Places[first + i] = this->PlaceEnd + place;
   }
   this->PlaceEnd += static_cast<std::uint32_t>(count);
   this->Predicates.restart();
 
-  // Euler: n vertices and the infinite one have 2 n - 2 triangles.
+  // Euler: n vertices and the infinite one have 2 n - 2 triangles. The cavity writes to one beyond.
   this->Mesh.reserve(2 * this->Points.size());
   if (!this->hasTriangles() && !this->makeFirstTriangle(this->Pending))
   {

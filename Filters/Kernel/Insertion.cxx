@@ -11,25 +11,6 @@ namespace
 
 using Index = HalfEdgeMesh::Index;
 
-/// The triangle's vertex at p, or the infinite one.
-Index equalVertex(const HalfEdgeMesh& mesh, const Point2* points, const Location& at, Point2 p)
-{
-  // At a corner two of them are zero, or NaN where the triangle's extent overflows.
-  if (__builtin_expect(at.Cross[0] > 0 && at.Cross[1] > 0 && at.Cross[2] > 0, 1))
-  {
-    return InfiniteVertex;
-  }
-  for (Index i = 0; i < 3; ++i)
-  {
-    const Index v = mesh.vertex(at.Triangle + i);
-    if (points[v] == p)
-    {
-      return v;
-    }
-  }
-  return InfiniteVertex;
-}
-
 [[gnu::noinline]] void addCoincidence(const InsertionScene& scene, Index vertex, Index equal)
 {
   scene.Coincidences.push_back({ vertex, equal });
@@ -42,16 +23,14 @@ inline void insertInto(const InsertionScene& scene, Index first, Index end)
   Index recent = scene.Recent;
   for (Index vertex = first; vertex < end; ++vertex)
   {
-    const Point2 p = points[vertex];
-    const Location location = locate(mesh, points, scene.Predicates, recent, p);
-    const Index equal = equalVertex(mesh, points, location, p);
-    if (__builtin_expect(equal != InfiniteVertex, 0))
+    const Location found =
+      PointLocation(mesh, points, scene.Predicates, points[vertex]).from(recent);
+    if (__builtin_expect(found.EqualTo != InfiniteVertex, 0))
     {
-      addCoincidence(scene, vertex, equal);
+      addCoincidence(scene, vertex, found.EqualTo);
       continue;
     }
-    scene.Opened.open(mesh, points, scene.Predicates, location, p);
-    recent = scene.Opened.fill(mesh, vertex);
+    recent = scene.Opened.retriangulate(mesh, points, scene.Predicates, found, vertex);
   }
   scene.Recent = recent;
 }
@@ -76,8 +55,7 @@ inline void insertInto(const InsertionScene& scene, Index first, Index end)
 InsertVertices chooseInsertion(Instructions instructions)
 {
 #ifdef __x86_64__
-  if (instructions == Instructions::Best && __builtin_cpu_supports("avx2") &&
-    __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2"))
+  if (hasAvx2(instructions))
   {
     return insertAvx2;
   }

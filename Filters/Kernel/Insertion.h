@@ -4,6 +4,7 @@
 
 #include "Kernel/Cavity.h"
 #include "Kernel/HalfEdgeMesh.h"
+#include "Kernel/Instructions.h"
 #include "Kernel/KernelPredicates.h"
 #include "Predicates/Point2.h"
 
@@ -11,14 +12,6 @@
 
 namespace tipp
 {
-
-/// Which of the processor's instructions insertions may use. The triangles are the same, bit for
-/// bit: no multiplication and addition are contracted in either.
-enum class Instructions
-{
-  Common, ///< what every processor of the architecture has
-  Best    ///< what this one has
-};
 
 /// What insertions work on.
 struct InsertionScene

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Kernel/InsertionOrder.h"
 
+#include "Kernel/HilbertKeys.h"
+#include "Kernel/Lanes.h"
+
 #include <algorithm>
 #include <array>
 
@@ -9,66 +12,11 @@ namespace tipp
 namespace
 {
 
-constexpr unsigned LevelsPerStep = 4;
-constexpr unsigned Steps = 4;
-constexpr unsigned Levels = LevelsPerStep * Steps;
+constexpr unsigned IndexBits = InsertionOrder::IndexBits;
+constexpr unsigned Levels = 16;
 constexpr unsigned KeyBits = 2 * Levels;
 constexpr unsigned RoundBits = 4;
-constexpr unsigned IndexBits = 28;
 static_assert(RoundBits + KeyBits + IndexBits == 64, "an entry is one word");
-
-/// Four levels of the Hilbert curve at once: (state, four bits of x, four bits of y) to eight bits
-/// of key and the next state. A state says whether x and y are exchanged and complemented; the
-/// two commute, so that it is two independent bits.
-struct HilbertTable
-{
-  std::array<std::uint16_t, 4 * 256> Entries{};
-
-  constexpr HilbertTable()
-  {
-    for (unsigned start = 0; start < 4; ++start)
-    {
-      for (unsigned cell = 0; cell < 256; ++cell)
-      {
-        unsigned swapped = start & 1;
-        unsigned flipped = start >> 1;
-        unsigned key = 0;
-        for (unsigned level = LevelsPerStep; level-- > 0;)
-        {
-          const unsigned x = ((cell >> (4 + level)) & 1) ^ flipped;
-          const unsigned y = ((cell >> level) & 1) ^ flipped;
-          const unsigned u = swapped ? y : x;
-          const unsigned v = swapped ? x : y;
-          key = (key << 2) | ((3 * u) ^ v);
-          if (v == 0)
-          {
-            flipped ^= u;
-            swapped ^= 1;
-          }
-        }
-        this->Entries[start * 256 + cell] =
-          static_cast<std::uint16_t>(key | ((flipped << 1 | swapped) << 8));
-      }
-    }
-  }
-};
-
-constexpr HilbertTable Hilbert;
-
-std::uint64_t hilbertKey(std::uint32_t x, std::uint32_t y)
-{
-  std::uint64_t key = 0;
-  unsigned state = 0;
-  for (unsigned step = Steps; step-- > 0;)
-  {
-    const unsigned shift = LevelsPerStep * step;
-    const unsigned cell = ((x >> shift) & 15) << 4 | ((y >> shift) & 15);
-    const unsigned entry = Hilbert.Entries[state * 256 + cell];
-    key = key << 8 | (entry & 255);
-    state = entry >> 8;
-  }
-  return key;
-}
 
 /// Rounds before the last: so many that the first holds a few dozen points.
 unsigned earlierRounds(std::size_t count)
@@ -81,96 +29,198 @@ unsigned earlierRounds(std::size_t count)
   return rounds;
 }
 
-std::uint64_t mix(std::uint64_t z)
+/// Murmur3's last step.
+inline std::uint32_t mix(std::uint32_t z)
 {
-  z = (z + 0x9e3779b97f4a7c15U) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 29)) * 0x94d049bb133111ebU;
-  return z ^ (z >> 32);
+  z = (z ^ z >> 16) * 0x85ebca6bU;
+  z = (z ^ z >> 13) * 0xc2b2ae35U;
+  return z ^ z >> 16;
 }
 
-std::uint32_t quantise(double distance, double scale)
+inline std::uint32_t quantise(double distance, double scale)
 {
-  constexpr double cells = 1U << Levels;
+  constexpr double last = (1U << Levels) - 1;
   const double cell = distance * scale;
   // NaN (an extent of zero, or beyond the range of doubles) goes to cell 0: slower, never wrong.
-  return cell > 0 ? static_cast<std::uint32_t>(std::min(cell, cells - 1)) : 0;
+  const double atLeast = cell > 0 ? cell : 0;
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(atLeast < last ? atLeast : last));
 }
+
+struct Extent
+{
+  Pair Low;
+  Pair High;
+};
+
+inline Extent extentOf(const Point2* points, std::size_t count)
+{
+  constexpr std::size_t lanes = 4; // so that no comparison waits for the one before
+  const Pair first{ points[0].x, points[0].y };
+  std::array<Extent, lanes> extents;
+  extents.fill({ first, first });
+  const auto extend = [](Extent& extent, Pair p)
+  {
+    extent.Low = p < extent.Low ? p : extent.Low;
+    extent.High = p > extent.High ? p : extent.High;
+  };
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes)
+  {
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+    {
+      extend(extents[lane], Pair{ points[i + lane].x, points[i + lane].y });
+    }
+  }
+  for (; i < count; ++i)
+  {
+    extend(extents[0], Pair{ points[i].x, points[i].y });
+  }
+  for (const Extent& other : extents)
+  {
+    extend(extents[0], other.Low);
+    extend(extents[0], other.High);
+  }
+  return extents[0];
+}
+
+/// Steps of one kind for a block of points, each a loop that compilers make vectors of.
+inline void fillBlock(const Point2* points, std::size_t first, std::size_t count, Pair low,
+  double scale, unsigned lastRound, std::uint64_t* entries)
+{
+  constexpr std::size_t most = 256;
+  std::uint32_t x[most];
+  std::uint32_t y[most];
+  std::uint32_t round[most];
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    x[i] = quantise(points[first + i].x - low[0], scale);
+    y[i] = quantise(points[first + i].y - low[1], scale);
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    x[i] = hilbertKey(x[i], y[i]);
+    y[i] = mix(static_cast<std::uint32_t>(first + i));
+    round[i] = lastRound;
+  }
+  for (unsigned earlier = 1; earlier <= lastRound; ++earlier)
+  {
+    const std::uint32_t mask = (1U << (3 * earlier)) - 1;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      round[i] -= (y[i] & mask) == 0 ? 1 : 0;
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const std::uint64_t place = std::uint64_t(round[i]) << KeyBits | x[i];
+    entries[first + i] = place << IndexBits | (first + i);
+  }
+}
+
+inline void fillEntries(const Point2* points, std::size_t count, std::uint64_t* entries)
+{
+  const Extent extent = extentOf(points, count);
+  const Pair sides = extent.High - extent.Low;
+  const double scale = (1U << Levels) / std::max(sides[0], sides[1]);
+  const unsigned lastRound = earlierRounds(count);
+  for (std::size_t first = 0; first < count; first += 256)
+  {
+    fillBlock(points, first, std::min<std::size_t>(256, count - first), extent.Low, scale,
+      lastRound, entries);
+  }
+}
+
+// Each is compiled for its instructions with all that is inline.
+
+[[gnu::flatten]] void fillCommon(const Point2* points, std::size_t count, std::uint64_t* entries)
+{
+  fillEntries(points, count, entries);
+}
+
+#ifdef __x86_64__
+[[gnu::flatten, gnu::target("avx2,bmi,bmi2")]] void fillAvx2(
+  const Point2* points, std::size_t count, std::uint64_t* entries)
+{
+  fillEntries(points, count, entries);
+}
+#endif
 
 } // namespace
 
-void InsertionOrder::computeKeys(const Point2* points, std::size_t count)
+InsertionOrder::InsertionOrder(Instructions instructions)
+  : Allowed(instructions)
 {
-  Point2 low = points[0];
-  Point2 high = points[0];
-  for (std::size_t i = 1; i < count; ++i)
-  {
-    low.x = std::min(low.x, points[i].x);
-    low.y = std::min(low.y, points[i].y);
-    high.x = std::max(high.x, points[i].x);
-    high.y = std::max(high.y, points[i].y);
-  }
-  const double scale = (1U << Levels) / std::max(high.x - low.x, high.y - low.y);
-  const unsigned lastRound = earlierRounds(count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const std::uint32_t x = quantise(points[i].x - low.x, scale);
-    const std::uint32_t y = quantise(points[i].y - low.y, scale);
-    const unsigned earlier = static_cast<unsigned>(__builtin_ctzll(mix(i) | (1ULL << 63))) / 3;
-    const std::uint64_t round = lastRound - std::min(earlier, lastRound);
-    this->Entries[i] = (round << KeyBits | hilbertKey(x, y)) << IndexBits | i;
-  }
 }
 
+/// Least digits first, from bit `lowest` of the entries on.
 template <unsigned passes>
-void InsertionOrder::sortByKey()
+void InsertionOrder::sortByDigits(unsigned lowest, unsigned digitBits)
 {
-  constexpr unsigned digitBits = (KeyBits + RoundBits) / passes;
-  constexpr unsigned digits = 1U << digitBits;
-  static_assert(passes * digitBits == KeyBits + RoundBits, "the passes cover the key");
-
-  std::array<std::array<std::uint32_t, digits>, passes> starts{};
+  constexpr std::size_t most = 1U << 12;
+  const std::uint64_t mask = (1U << digitBits) - 1;
+  std::array<std::array<std::uint32_t, most>, passes> starts;
+  for (auto& pass : starts)
+  {
+    std::fill_n(pass.begin(), mask + 1, 0U);
+  }
   for (const std::uint64_t entry : this->Entries)
   {
     for (unsigned pass = 0; pass < passes; ++pass)
     {
-      ++starts[pass][(entry >> (IndexBits + pass * digitBits)) & (digits - 1)];
+      ++starts[pass][(entry >> (lowest + pass * digitBits)) & mask];
     }
   }
   for (unsigned pass = 0; pass < passes; ++pass)
   {
     std::uint32_t sum = 0;
-    for (std::uint32_t& start : starts[pass])
+    for (std::size_t digit = 0; digit <= mask; ++digit)
     {
-      const std::uint32_t size = start;
-      start = sum;
+      const std::uint32_t size = starts[pass][digit];
+      starts[pass][digit] = sum;
       sum += size;
     }
     for (const std::uint64_t entry : this->Entries)
     {
-      this->Scratch[starts[pass][(entry >> (IndexBits + pass * digitBits)) & (digits - 1)]++] =
-        entry;
+      this->Scratch[starts[pass][(entry >> (lowest + pass * digitBits)) & mask]++] = entry;
     }
     this->Entries.swap(this->Scratch);
   }
 }
 
-const std::vector<std::uint32_t>& InsertionOrder::compute(const Point2* points, std::size_t count)
+/// Whether more than a few neighbours in the order differ below bit `lowest` alone.
+bool InsertionOrder::hasManyTies(unsigned lowest) const
+{
+  std::size_t ties = 0;
+  for (std::size_t i = 1; i < this->Entries.size(); ++i)
+  {
+    ties += (this->Entries[i] ^ this->Entries[i - 1]) >> lowest == 0 ? 1 : 0;
+  }
+  return 16 * ties > this->Entries.size();
+}
+
+void InsertionOrder::compute(const Point2* points, std::size_t count)
 {
   this->Entries.resize(count);
   this->Scratch.resize(count);
-  this->Order.resize(count);
-  if (count > 0)
+  if (count == 0)
   {
-    this->computeKeys(points, count);
-    // Large digits need fewer passes, but their counters would cost more than a few points.
-    constexpr std::size_t many = 8192;
-    count < many ? this->sortByKey<4>() : this->sortByKey<3>();
+    return;
   }
-  for (std::size_t i = 0; i < count; ++i)
+#ifdef __x86_64__
+  (hasAvx2(this->Allowed) ? fillAvx2 : fillCommon)(points, count, this->Entries.data());
+#else
+  fillCommon(points, count, this->Entries.data());
+#endif
+  // Two passes tell evenly spread points apart; clusters need the finer levels as well. Counters of
+  // large digits would cost more than they save for a few points.
+  constexpr std::size_t many = 16384;
+  const unsigned digitBits = count < many ? 11 : 12;
+  const unsigned lowest = 64 - 2 * digitBits;
+  this->sortByDigits<2>(lowest, digitBits);
+  if (this->hasManyTies(lowest))
   {
-    this->Order[i] = static_cast<std::uint32_t>(this->Entries[i] & ((1U << IndexBits) - 1));
+    this->sortByDigits<3>(IndexBits, (RoundBits + KeyBits) / 3);
   }
-  return this->Order;
 }
 
 } // namespace tipp

@@ -2,6 +2,7 @@
 #ifndef tippInsertionOrder_h
 #define tippInsertionOrder_h
 
+#include "Kernel/Instructions.h"
 #include "Predicates/Point2.h"
 
 #include <cstddef>
@@ -17,23 +18,36 @@ namespace tipp
 class InsertionOrder
 {
 public:
-  /// The permutation: entry k is the index of the point to insert k-th. Valid until the next call.
-  const std::vector<std::uint32_t>& compute(const Point2* points, std::size_t count);
+  explicit InsertionOrder(Instructions instructions = Instructions::Best);
+
+  /// Valid until the next call.
+  void compute(const Point2* points, std::size_t count);
+
+  std::size_t size() const { return this->Entries.size(); }
+
+  /// The index of the point to insert k-th.
+  std::uint32_t operator[](std::size_t k) const
+  {
+    return static_cast<std::uint32_t>(this->Entries[k]) & IndexMask;
+  }
 
   std::size_t bytes() const
   {
-    return 2 * this->Entries.capacity() * sizeof(std::uint64_t) +
-      this->Order.capacity() * sizeof(std::uint32_t);
+    return (this->Entries.capacity() + this->Scratch.capacity()) * sizeof(std::uint64_t);
   }
 
-private:
-  void computeKeys(const Point2* points, std::size_t count);
-  template <unsigned passes>
-  void sortByKey();
+  static constexpr unsigned IndexBits = 28;
 
+private:
+  static constexpr std::uint32_t IndexMask = (1U << IndexBits) - 1;
+
+  template <unsigned passes>
+  void sortByDigits(unsigned lowest, unsigned digitBits);
+  bool hasManyTies(unsigned lowest) const;
+
+  const Instructions Allowed;
   std::vector<std::uint64_t> Entries; ///< round, key and index, from the highest bits down
   std::vector<std::uint64_t> Scratch;
-  std::vector<std::uint32_t> Order;
 };
 
 } // namespace tipp

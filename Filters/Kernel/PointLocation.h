@@ -5,9 +5,6 @@
 #include "Kernel/HalfEdgeMesh.h"
 #include "Kernel/KernelPredicates.h"
 #include "Kernel/Lanes.h"
-#include "Predicates/Orientation.h"
-
-#include <utility>
 
 namespace tipp
 {
@@ -20,14 +17,17 @@ struct Direction
   double lift() const { return this->X * this->X + this->Y * this->Y; }
 };
 
-/// The triangle that holds p, or an infinite one in conflict with it, as seen from p. Edge i goes
-/// from corner i to the next; the corners are in order, but need not begin with slot 0.
+/// A triangle in conflict with p, as seen from p. Edge i goes from corner i to the next; the
+/// corners are in order, but need not begin with slot 0.
 struct Location
 {
   HalfEdgeMesh::Index Triangle;
+  HalfEdgeMesh::Index Vertex[3];
   Direction Corner[3];
   double Cross[3]; ///< of each edge's ends
   HalfEdgeMesh::Index Outer[3];
+  bool LastIsOutside;          ///< the triangle behind edge 2 is known not to be in conflict
+  HalfEdgeMesh::Index EqualTo; ///< the vertex at p; then there is no conflict, or InfiniteVertex
 };
 
 inline Direction directionTo(Point2 v, Point2 p)
@@ -35,84 +35,142 @@ inline Direction directionTo(Point2 v, Point2 p)
   return { v.x - p.x, v.y - p.y };
 }
 
-inline Location seenFrom(
-  const HalfEdgeMesh::Index* slot, const Point2* points, HalfEdgeMesh::Index triangle, Point2 p)
+inline double cross(const Direction& a, const Direction& b)
 {
-  const HalfEdgeMesh::Index* v = slot + triangle;
-  const Direction a = directionTo(points[v[0]], p);
-  const Direction b = directionTo(points[v[1]], p);
-  const Direction c = directionTo(points[v[2]], p);
-  return { triangle, { a, b, c },
-    { a.X * b.Y - a.Y * b.X, b.X * c.Y - b.Y * c.X, c.X * a.Y - c.Y * a.X },
-    { v[2 + 4], v[0 + 4], v[1 + 4] } };
+  return a.X * b.Y - a.Y * b.X;
 }
 
-/// Walks from the edge opposite to `start`, of a finite triangle, to a triangle that holds p, or to
-/// the infinite triangle at a hull edge that p lies outside of. In a Delaunay triangulation such a
-/// walk ends (Devillers, Pion, Teillaud 2002).
-inline Location locate(const HalfEdgeMesh& mesh, const Point2* points, KernelPredicates& predicates,
-  HalfEdgeMesh::Index start, Point2 p)
+/// Finds a triangle in conflict with a point.
+class PointLocation
 {
+public:
   using Index = HalfEdgeMesh::Index;
-  const Index* const slot = mesh.slots();
-  // p does not lie to the left of the edge from a to b; behind it is the triangle (a, d, b).
-  Index h = start;
-  Direction a = directionTo(points[slot[HalfEdgeMesh::previous(h)]], p);
-  Direction b = directionTo(points[slot[HalfEdgeMesh::next(h)]], p);
-  double ab = a.X * b.Y - a.Y * b.X;
-  if (orientation(points[slot[HalfEdgeMesh::previous(h)]], points[slot[HalfEdgeMesh::next(h)]], p) >
-    0)
+
+  PointLocation(
+    const HalfEdgeMesh& mesh, const Point2* points, KernelPredicates& predicates, Point2 p)
+    : Slot(mesh.slots())
+    , Points(points)
+    , Predicates(predicates)
+    , P(p)
   {
-    h = slot[h + 4];
-    std::swap(a, b);
-    ab = -ab;
   }
-  for (;;)
+
+  /// Walks from a finite triangle towards p until a triangle is in conflict with it: the one that
+  /// holds p at the latest, or the infinite triangle at a hull edge that p lies beyond. In a
+  /// Delaunay triangulation such a walk ends (Devillers, Pion, Teillaud 2002).
+  Location from(Index start)
   {
-    const Index id = slot[h];
-    if (__builtin_expect(id == InfiniteVertex, 0))
+    const Index* const v = this->Slot + start;
+    Direction a = directionTo(this->Points[v[0]], this->P);
+    Direction b = directionTo(this->Points[v[1]], this->P);
+    const Direction c = directionTo(this->Points[v[2]], this->P);
+    double ab = cross(a, b);
+    const double bc = cross(b, c);
+    const double ca = cross(c, a);
+    if (this->isInConflict(start, a.lift(), b.lift(), c.lift(), ab, bc, ca))
     {
-      return seenFrom(slot, points, HalfEdgeMesh::triangleOf(h), p);
+      return { start, { v[0], v[1], v[2] }, { a, b, c }, { ab, bc, ca },
+        { v[2 + 4], v[0 + 4], v[1 + 4] }, false, this->EqualTo };
     }
-    const Index toA = HalfEdgeMesh::previous(h);
-    const Index toB = HalfEdgeMesh::next(h);
-    const Direction d = directionTo(points[id], p);
-    const Pair left = Pair{ a.X, d.X } * Pair{ d.Y, b.Y };
-    const Pair right = Pair{ a.Y, d.Y } * Pair{ d.X, b.X };
-    const Pair cross = left - right; // a x d, d x b
-    const Pair bound = TurnFilterBound * (magnitude(left) + magnitude(right)) + UnderflowBound;
-    unsigned isRight = signsOf(cross);
-    const unsigned decided = bitsOf(magnitude(cross) > bound);
-    if (__builtin_expect(decided != 3, 0))
+    // p lies to the right of the edge from a to b; behind it is the triangle (a, d, b).
+    Index h = v[2 + 4];
+    if (this->isRight(v[1], v[2], bc, b, c))
     {
-      if (!(decided & 1))
+      h = v[0 + 4];
+      a = b;
+      b = c;
+      ab = bc;
+    }
+    else if (this->isRight(v[2], v[0], ca, c, a))
+    {
+      h = v[1 + 4];
+      b = a;
+      a = c;
+      ab = ca;
+    }
+    double al = a.lift();
+    double bl = b.lift();
+    for (;;)
+    {
+      const Index id = this->Slot[h];
+      const Index toA = HalfEdgeMesh::previous(h);
+      const Index toB = HalfEdgeMesh::next(h);
+      const Direction d = directionTo(this->Points[id], this->P);
+      const double dl = d.lift();
+      const double ad = cross(a, d);
+      const double db = cross(d, b);
+      if (this->isInConflict(HalfEdgeMesh::triangleOf(h), al, dl, bl, ad, db, -ab))
       {
-        isRight = (isRight & 2) | (predicates.orientation(slot[toA], id, p) < 0 ? 1U : 0U);
+        return { HalfEdgeMesh::triangleOf(h), { this->Slot[toA], id, this->Slot[toB] }, { a, d, b },
+          { ad, db, -ab }, { this->Slot[toB + 4], this->Slot[toA + 4], this->Slot[h + 4] }, true,
+          this->EqualTo };
       }
-      if (!(decided & 2))
+      if (this->isRight(this->Slot[toA], id, ad, a, d))
       {
-        isRight = (isRight & 1) | (predicates.orientation(id, slot[toB], p) < 0 ? 2U : 0U);
+        b = d;
+        bl = dl;
+        ab = ad;
+        h = this->Slot[toB + 4];
       }
-    }
-    if (isRight & 1)
-    {
-      b = d;
-      ab = cross[0];
-      h = slot[toB + 4];
-    }
-    else if (isRight & 2)
-    {
-      a = d;
-      ab = cross[1];
-      h = slot[toA + 4];
-    }
-    else
-    {
-      return { HalfEdgeMesh::triangleOf(h), { a, d, b }, { cross[0], cross[1], -ab },
-        { slot[toB + 4], slot[toA + 4], slot[h + 4] } };
+      else
+      {
+        a = d;
+        al = dl;
+        ab = db;
+        h = this->Slot[toA + 4];
+      }
     }
   }
-}
+
+private:
+  /// A vertex at p is on the circle, and ends the walk as well.
+  bool isInConflict(
+    Index triangle, double al, double bl, double cl, double ab, double bc, double ca)
+  {
+    const double det = al * bc + bl * ca + cl * ab;
+    const double lifts = al + bl + cl;
+    const double bound = CircleFilterBound * (lifts * lifts) + UnderflowBound;
+    if (__builtin_expect(!(__builtin_fabs(det) > bound), 0))
+    {
+      this->EqualTo = vertexAt(this->Slot + triangle, this->Points, this->P);
+      return this->EqualTo != InfiniteVertex ||
+        this->Predicates.isInConflict(this->Slot + triangle, this->P);
+    }
+    return det > 0;
+  }
+
+  /// Static, as a call with this object would keep it in memory.
+  [[gnu::noinline]] static Index vertexAt(const Index* corners, const Point2* points, Point2 p)
+  {
+    for (Index i = 0; i < 3; ++i)
+    {
+      if (points[corners[i]] == p)
+      {
+        return corners[i];
+      }
+    }
+    return InfiniteVertex;
+  }
+
+  /// Whether p is to the right of the edge from u to w.
+  bool isRight(Index u, Index w, double turn, const Direction& from, const Direction& to)
+  {
+    const double bound =
+      TurnFilterBound * (__builtin_fabs(from.X * to.Y) + __builtin_fabs(from.Y * to.X)) +
+      UnderflowBound;
+    if (__builtin_expect(!(__builtin_fabs(turn) > bound), 0))
+    {
+      return this->Predicates.orientation(u, w, this->P) < 0;
+    }
+    return turn < 0;
+  }
+
+  const Index* const Slot;
+  const Point2* const Points;
+  KernelPredicates& Predicates;
+  const Point2 P;
+  Index EqualTo = InfiniteVertex;
+};
 
 } // namespace tipp
 

@@ -30,7 +30,7 @@ public:
     this->Points.push_back(p);
     const std::size_t triangles = std::size_t(made.mesh().end()) / 8;
     this->Mesh.clear();
-    this->Mesh.reserve(triangles + 2);
+    this->Mesh.reserve(triangles + 3);
     std::copy_n(made.mesh().slots(), 8 * triangles, this->Mesh.slots());
     this->Mesh.setEnd(made.mesh().end());
     this->Start = 0;
@@ -64,16 +64,17 @@ public:
   {
     KernelPredicates predicates(this->Points);
     const Point2 p = this->Points.back();
-    const Location at = locate(this->Mesh, this->Points.data(), predicates, this->Start, p);
+    const Location found =
+      PointLocation(this->Mesh, this->Points.data(), predicates, p).from(this->Start);
     Cavity cavity;
-    cavity.open(this->Mesh, this->Points.data(), predicates, at, p);
-    this->Filled = cavity.fill(this->Mesh, Index(this->Points.size() - 1));
+    this->Returned = cavity.retriangulate(
+      this->Mesh, this->Points.data(), predicates, found, Index(this->Points.size() - 1));
   }
 
   HalfEdgeMesh Mesh;
   std::vector<Point2> Points;
   Index Start = 0;
-  Index Filled = 0;
+  Index Returned = 0;
 };
 
 const Point2 Places[] = { { 0.4, 0.6 }, { 3.25, 7.5 }, { 12, 8.5 }, { -1e4, 20 }, { 0.5, 1e6 } };
@@ -126,13 +127,13 @@ TEST_P(CavityTest, LeavesEveryHalfEdgeWithItsTwin)
   }
 }
 
-TEST_P(CavityTest, FillReturnsAFiniteTriangleAtTheVertex)
+TEST_P(CavityTest, ReturnsAFiniteTriangleAtTheVertex)
 {
   for (const Point2 p : Places)
   {
     this->prepare(p);
     this->insertLast();
-    const Corners c = this->corners(this->Filled);
+    const Corners c = this->corners(this->Returned);
     EXPECT_NE(InfiniteVertex, c[0]);
     EXPECT_EQ(1, std::count(c.begin(), c.end(), Index(this->Points.size() - 1)));
   }

@@ -15,9 +15,21 @@ using namespace tipp::test;
 
 using Order = std::vector<std::uint32_t>;
 
+Order indices(InsertionOrder& computed, const std::vector<Point2>& points)
+{
+  computed.compute(points.data(), points.size());
+  Order order(computed.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+  {
+    order[k] = computed[k];
+  }
+  return order;
+}
+
 Order orderOf(const std::vector<Point2>& points)
 {
-  return InsertionOrder().compute(points.data(), points.size());
+  InsertionOrder computed;
+  return indices(computed, points);
 }
 
 testing::AssertionResult isPermutation(Order order, std::size_t count)
@@ -56,7 +68,17 @@ TEST(InsertionOrder, IsTheSameForTheSamePoints)
   const std::vector<Point2> points = pointSet("clustered", 5000);
   InsertionOrder used;
   used.compute(pointSet("uniform", 700).data(), 700);
-  EXPECT_EQ(orderOf(points), used.compute(points.data(), points.size()));
+  EXPECT_EQ(orderOf(points), indices(used, points));
+}
+
+TEST(InsertionOrder, InstructionsDoNotChangeIt)
+{
+  for (const char* name : { "uniform", "clustered", "survey-lines" })
+  {
+    const std::vector<Point2> points = pointSet(name, 5003);
+    InsertionOrder common(Instructions::Common);
+    EXPECT_EQ(indices(common, points), orderOf(points)) << name;
+  }
 }
 
 /// Which round a point belongs to depends on its position alone, and the last round is the largest.
@@ -103,6 +125,24 @@ TEST(InsertionOrder, TheFirstPointsAreSpreadOverSortedInput)
   EXPECT_LT(low, count / 8 - count / 20);
 }
 
+/// Evenly spread points are told apart by the curve's coarse levels, these only by its finest.
+TEST(InsertionOrder, NeighboursInATightClusterAreNearInThePlane)
+{
+  const std::size_t count = 3000;
+  std::vector<Point2> points = pointSet("uniform", count);
+  for (Point2& p : points)
+  {
+    p = { p.x / 256, p.y / 256 };
+  }
+  Order given(count);
+  std::iota(given.begin(), given.end(), 0U);
+  const double unordered = wayLength(points, given, 0);
+  points.push_back({ 1, 1 });
+  Order order = orderOf(points);
+  order.erase(std::find(order.begin(), order.end(), std::uint32_t(count)));
+  EXPECT_LT(10 * wayLength(points, order, 0), unordered);
+}
+
 TEST(InsertionOrder, PointsAtOnePlaceAllComeUp)
 {
   EXPECT_TRUE(isPermutation(orderOf(std::vector<Point2>(1000, { 3, -4 })), 1000));
@@ -147,7 +187,8 @@ TEST(InsertionOrder, NoPointsHaveAnEmptyOrder)
 {
   InsertionOrder order;
   order.compute(pointSet("uniform", 10).data(), 10);
-  EXPECT_TRUE(order.compute(nullptr, 0).empty());
+  order.compute(nullptr, 0);
+  EXPECT_EQ(0U, order.size());
 }
 
 } // namespace

@@ -13,10 +13,10 @@ using namespace tipp::test;
 using Index = HalfEdgeMesh::Index;
 
 /// A finished triangulation to walk in.
-class PointLocation : public testing::TestWithParam<std::string>
+class PointLocationTest : public testing::TestWithParam<std::string>
 {
 public:
-  PointLocation()
+  PointLocationTest()
   {
     insert(this->Made, pointSet(GetParam(), 400));
     for (Index v = 0; v < this->Made.vertexEnd(); ++v)
@@ -38,7 +38,7 @@ public:
     std::vector<Point2> points = this->Points;
     points.push_back(p);
     KernelPredicates predicates(points);
-    return locate(this->Made.mesh(), points.data(), predicates, start, p);
+    return PointLocation(this->Made.mesh(), points.data(), predicates, p).from(start);
   }
 
   Point2 corner(Index triangle, Index i) const
@@ -46,15 +46,19 @@ public:
     return this->Made.point(this->Made.mesh().vertex(triangle + i));
   }
 
-  bool holds(Index triangle, Point2 p) const
+  Point2 middle(Index triangle) const
   {
-    bool inside = true;
-    for (Index i = 0; i < 3; ++i)
-    {
-      inside = inside &&
-        orientation(this->corner(triangle, i), this->corner(triangle, (i + 1) % 3), p) >= 0;
-    }
-    return inside;
+    const Point2 a = this->corner(triangle, 0);
+    const Point2 b = this->corner(triangle, 1);
+    const Point2 c = this->corner(triangle, 2);
+    return { (a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3 };
+  }
+
+  bool isInConflict(Index triangle, Point2 p) const
+  {
+    std::vector<Point2> points = this->Points;
+    points.push_back(p);
+    return KernelPredicates(points).isInConflict(this->Made.mesh().slots() + triangle, p);
   }
 
   DelaunayKernel Made;
@@ -62,38 +66,33 @@ public:
   std::vector<Index> Starts;
 };
 
-TEST_P(PointLocation, APointInsideIsFoundFromAnywhere)
+TEST_P(PointLocationTest, ATriangleInConflictIsFoundFromAnywhere)
 {
   ASSERT_LT(3U, this->Starts.size());
   for (const Index target : this->Starts)
   {
-    const Point2 a = this->corner(target, 0);
-    const Point2 b = this->corner(target, 1);
-    const Point2 c = this->corner(target, 2);
-    const Point2 p{ (a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3 };
+    const Point2 p = this->middle(target);
     for (const Index start : this->Starts)
     {
       const Location at = this->find(start, p);
-      ASSERT_FALSE(this->Made.isInfinite(at.Triangle));
-      ASSERT_TRUE(this->holds(at.Triangle, p));
+      ASSERT_EQ(InfiniteVertex, at.EqualTo);
+      ASSERT_TRUE(this->isInConflict(at.Triangle, p));
     }
   }
 }
 
-TEST_P(PointLocation, AVertexIsACornerOfTheTriangleFound)
+TEST_P(PointLocationTest, AVertexIsFoundWhereThePointIs)
 {
   for (std::size_t v = 1; v < this->Points.size(); v += 23)
   {
     for (const Index start : this->Starts)
     {
-      const Location at = this->find(start, this->Points[v]);
-      ASSERT_TRUE(std::any_of(
-        at.Corner, at.Corner + 3, [](const Direction& d) { return d.X == 0 && d.Y == 0; }));
+      ASSERT_EQ(Index(v), this->find(start, this->Points[v]).EqualTo);
     }
   }
 }
 
-TEST_P(PointLocation, AMidpointOfAnEdgeIsFoundInAClosedTriangle)
+TEST_P(PointLocationTest, AMidpointOfAnEdgeIsInConflictWithTheTriangleFound)
 {
   for (const Index target : this->Starts)
   {
@@ -101,40 +100,50 @@ TEST_P(PointLocation, AMidpointOfAnEdgeIsFoundInAClosedTriangle)
     const Point2 b = this->corner(target, 1);
     const Point2 p{ (a.x + b.x) / 2, (a.y + b.y) / 2 };
     const Location at = this->find(this->Starts.back(), p);
-    if (!this->Made.isInfinite(at.Triangle))
+    if (at.EqualTo == InfiniteVertex)
     {
-      EXPECT_TRUE(this->holds(at.Triangle, p));
+      EXPECT_TRUE(this->isInConflict(at.Triangle, p));
     }
     else
     {
-      // Rounding may bring the middle of a hull edge outside.
-      EXPECT_FALSE(this->holds(target, p));
+      EXPECT_EQ(p, this->Points[std::size_t(at.EqualTo)]); // a lattice of even spacing
     }
   }
 }
 
-TEST_P(PointLocation, APointOutsideEndsAtAHullEdgeItLiesBeyond)
+TEST_P(PointLocationTest, APointOutsideIsInConflictWithTheTriangleFound)
 {
   for (const Point2 p : { Point2{ 1e7, 3e6 }, Point2{ -1e7, 2e6 }, Point2{ 50, -1e7 } })
   {
     for (const Index start : this->Starts)
     {
-      const Location at = this->find(start, p);
-      ASSERT_TRUE(this->Made.isInfinite(at.Triangle));
-      std::vector<Point2> points = this->Points;
-      points.push_back(p);
-      KernelPredicates predicates(points);
-      ASSERT_TRUE(predicates.isInConflict(this->Made.mesh().slots() + at.Triangle, p));
+      ASSERT_TRUE(this->isInConflict(this->find(start, p).Triangle, p));
     }
   }
 }
 
-TEST_P(PointLocation, CornersEdgesAndNeighboursGoTogether)
+TEST_P(PointLocationTest, TheTriangleItCameFromIsNotInConflict)
 {
-  const Point2 a = this->corner(this->Starts[1], 0);
-  const Point2 b = this->corner(this->Starts[1], 1);
-  const Point2 c = this->corner(this->Starts[1], 2);
-  const Point2 p{ (a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3 };
+  std::size_t walked = 0;
+  for (const Index target : this->Starts)
+  {
+    const Point2 p = this->middle(target);
+    for (const Index start : this->Starts)
+    {
+      const Location at = this->find(start, p);
+      if (at.LastIsOutside)
+      {
+        ++walked;
+        ASSERT_FALSE(this->isInConflict(HalfEdgeMesh::triangleOf(at.Outer[2]), p));
+      }
+    }
+  }
+  EXPECT_LT(0U, walked);
+}
+
+TEST_P(PointLocationTest, CornersEdgesAndNeighboursGoTogether)
+{
+  const Point2 p = this->middle(this->Starts[1]);
   const HalfEdgeMesh& mesh = this->Made.mesh();
   for (const Index start : this->Starts)
   {
@@ -147,6 +156,7 @@ TEST_P(PointLocation, CornersEdgesAndNeighboursGoTogether)
       const Point2 begin = this->Made.point(mesh.vertex(HalfEdgeMesh::previous(at.Outer[i])));
       const Point2 end = this->Made.point(mesh.vertex(HalfEdgeMesh::next(at.Outer[i])));
       ASSERT_EQ(HalfEdgeMesh::triangleOf(mesh.twin(at.Outer[i])), at.Triangle);
+      ASSERT_EQ(mesh.vertex(HalfEdgeMesh::previous(at.Outer[i])), at.Vertex[i]);
       EXPECT_EQ(begin.x - p.x, from.X);
       EXPECT_EQ(begin.y - p.y, from.Y);
       EXPECT_EQ(end.x - p.x, to.X);
@@ -156,7 +166,7 @@ TEST_P(PointLocation, CornersEdgesAndNeighboursGoTogether)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(PointSets, PointLocation,
+INSTANTIATE_TEST_SUITE_P(PointSets, PointLocationTest,
   testing::Values("uniform", "lattice-shuffled", "clustered", "survey-lines"),
   [](const auto& info)
   {
