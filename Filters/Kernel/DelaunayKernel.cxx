@@ -11,7 +11,6 @@ namespace tipp
 
 DelaunayKernel::DelaunayKernel(Instructions instructions)
   : Order(instructions)
-  , Predicates(this->Points)
   , Insertion(chooseInsertion(instructions))
 {
   this->clear();
@@ -48,7 +47,7 @@ bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monit
     this->Places[first + i] = this->PlaceEnd + place;
   }
   this->PlaceEnd += static_cast<std::uint32_t>(count);
-  this->Predicates.restart();
+  this->Predicates.restart(this->Points.data(), this->Points.size());
 
   // Euler: n vertices and the infinite one have 2 n - 2 triangles. The cavity writes to one beyond.
   this->Mesh.reserve(2 * this->Points.size());

@@ -7,6 +7,7 @@
 #include "Kernel/Insertion.h"
 #include "Kernel/InsertionOrder.h"
 #include "Kernel/KernelPredicates.h"
+#include "Kernel/Uninitialised.h"
 #include "Predicates/Point2.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -74,8 +75,8 @@ private:
   void insertVertices(Index first, Index end);
 
   HalfEdgeMesh Mesh;
-  std::vector<Point2> Points;
-  std::vector<std::uint32_t> Places;
+  Uninitialised<Point2> Points;
+  Uninitialised<std::uint32_t> Places;
   std::vector<Duplicate> Duplicates;
   std::uint32_t PlaceEnd = 0;
   Index Pending = 1; ///< vertices from here on wait for a point off the line of all before

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Kernel/InsertionOrder.h"
 
+#include "Kernel/Extent.h"
 #include "Kernel/HilbertKeys.h"
-#include "Kernel/Lanes.h"
 
 #include <algorithm>
 #include <array>
@@ -44,43 +44,6 @@ inline std::uint32_t quantise(double distance, double scale)
   // NaN (an extent of zero, or beyond the range of doubles) goes to cell 0: slower, never wrong.
   const double atLeast = cell > 0 ? cell : 0;
   return static_cast<std::uint32_t>(static_cast<std::int32_t>(atLeast < last ? atLeast : last));
-}
-
-struct Extent
-{
-  Pair Low;
-  Pair High;
-};
-
-inline Extent extentOf(const Point2* points, std::size_t count)
-{
-  constexpr std::size_t lanes = 4; // so that no comparison waits for the one before
-  const Pair first{ points[0].x, points[0].y };
-  std::array<Extent, lanes> extents;
-  extents.fill({ first, first });
-  const auto extend = [](Extent& extent, Pair p)
-  {
-    extent.Low = p < extent.Low ? p : extent.Low;
-    extent.High = p > extent.High ? p : extent.High;
-  };
-  std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes)
-  {
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-    {
-      extend(extents[lane], Pair{ points[i + lane].x, points[i + lane].y });
-    }
-  }
-  for (; i < count; ++i)
-  {
-    extend(extents[0], Pair{ points[i].x, points[i].y });
-  }
-  for (const Extent& other : extents)
-  {
-    extend(extents[0], other.Low);
-    extend(extents[0], other.High);
-  }
-  return extents[0];
 }
 
 /// Steps of one kind for a block of points, each a loop that compilers make vectors of.

@@ -3,11 +3,11 @@
 #define tippInsertionOrder_h
 
 #include "Kernel/Instructions.h"
+#include "Kernel/Uninitialised.h"
 #include "Predicates/Point2.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace tipp
 {
@@ -46,8 +46,8 @@ private:
   bool hasManyTies(unsigned lowest) const;
 
   const Instructions Allowed;
-  std::vector<std::uint64_t> Entries; ///< round, key and index, from the highest bits down
-  std::vector<std::uint64_t> Scratch;
+  Uninitialised<std::uint64_t> Entries; ///< round, key and index, from the highest bits down
+  Uninitialised<std::uint64_t> Scratch;
 };
 
 } // namespace tipp

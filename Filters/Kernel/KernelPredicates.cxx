@@ -22,8 +22,10 @@ bool isInHalfPlane(Point2 u, Point2 w, Point2 p)
 
 } // namespace
 
-void KernelPredicates::restart()
+void KernelPredicates::restart(const Point2* points, std::size_t count)
 {
+  this->Points = points;
+  this->Count = count;
   this->GridIsCurrent = false;
   this->Turns = 0;
 }
@@ -32,7 +34,7 @@ const CoordinateGrid& KernelPredicates::grid()
 {
   if (!this->GridIsCurrent)
   {
-    this->Grid.analyse(this->Points.data() + 1, this->Points.size() - 1);
+    this->Grid.analyse(this->Points + 1, this->Count - 1);
     this->GridIsCurrent = true;
   }
   return this->Grid;
@@ -40,8 +42,8 @@ const CoordinateGrid& KernelPredicates::grid()
 
 int KernelPredicates::orientation(HalfEdgeMesh::Index ia, HalfEdgeMesh::Index ib, Point2 p)
 {
-  const Point2 a = this->Points[std::size_t(ia)];
-  const Point2 b = this->Points[std::size_t(ib)];
+  const Point2 a = this->Points[ia];
+  const Point2 b = this->Points[ib];
   // Some failures come with any input; the grid pays where there are many.
   constexpr std::size_t few = 32;
   return ++this->Turns > few ? this->grid().orientation(a, b, p) : orientationExact(a, b, p);
@@ -49,9 +51,9 @@ int KernelPredicates::orientation(HalfEdgeMesh::Index ia, HalfEdgeMesh::Index ib
 
 bool KernelPredicates::isInConflict(const HalfEdgeMesh::Index* corners, Point2 p)
 {
-  const Point2 a = this->Points[std::size_t(corners[0])];
-  const Point2 b = this->Points[std::size_t(corners[1])];
-  const Point2 c = this->Points[std::size_t(corners[2])];
+  const Point2 a = this->Points[corners[0]];
+  const Point2 b = this->Points[corners[1]];
+  const Point2 c = this->Points[corners[2]];
   if (corners[0] == InfiniteVertex)
   {
     return isInHalfPlane(b, c, p);

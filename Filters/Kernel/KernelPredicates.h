@@ -7,7 +7,6 @@
 #include "Predicates/Point2.h"
 
 #include <cstddef>
-#include <vector>
 
 namespace tipp
 {
@@ -26,14 +25,11 @@ constexpr double UnderflowBound = 1e-300;
 class KernelPredicates
 {
 public:
-  /// Vertex coordinates, the infinite vertex first; they may move when more are added.
-  explicit KernelPredicates(const std::vector<Point2>& points)
-    : Points(points)
-  {
-  }
+  KernelPredicates() = default;
+  KernelPredicates(const Point2* points, std::size_t count) { this->restart(points, count); }
 
-  /// Points were added.
-  void restart();
+  /// With the coordinates of so many vertices, the infinite one first.
+  void restart(const Point2* points, std::size_t count);
 
   int orientation(HalfEdgeMesh::Index a, HalfEdgeMesh::Index b, Point2 p);
 
@@ -45,7 +41,8 @@ public:
 private:
   const CoordinateGrid& grid();
 
-  const std::vector<Point2>& Points;
+  const Point2* Points = nullptr;
+  std::size_t Count = 0;
   CoordinateGrid Grid;
   bool GridIsCurrent = false;
   std::size_t Turns = 0; ///< asked for since restart()

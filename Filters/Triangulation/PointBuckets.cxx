@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation/PointBuckets.h"
 
+#include "Kernel/Extent.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -30,24 +31,42 @@ struct PartSurvey
   Box2 Bounds{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
   std::vector<std::int64_t> Rejected;
 
-  void add(std::size_t id, Point2 p)
+  void add(std::size_t first, const Point2* points, std::size_t count)
   {
-    if (!isFinite(p))
+    const Extent extent = extentOf(points, count);
+    if (extent.AllFinite)
     {
-      this->Rejected.push_back(static_cast<std::int64_t>(id));
+      this->extend(extent);
       return;
     }
-    this->Bounds.xmin = std::min(this->Bounds.xmin, p.x);
-    this->Bounds.ymin = std::min(this->Bounds.ymin, p.y);
-    this->Bounds.xmax = std::max(this->Bounds.xmax, p.x);
-    this->Bounds.ymax = std::max(this->Bounds.ymax, p.y);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (isFinite(points[i]))
+      {
+        this->extend(extentOf(points + i, 1));
+      }
+      else
+      {
+        this->Rejected.push_back(static_cast<std::int64_t>(first + i));
+      }
+    }
+  }
+
+  void extend(const Extent& extent)
+  {
+    this->Bounds.xmin = std::min(this->Bounds.xmin, extent.Low[0]);
+    this->Bounds.ymin = std::min(this->Bounds.ymin, extent.Low[1]);
+    this->Bounds.xmax = std::max(this->Bounds.xmax, extent.High[0]);
+    this->Bounds.ymax = std::max(this->Bounds.ymax, extent.High[1]);
   }
 };
 
 PartSurvey surveyPart(PointsView points, std::size_t begin, std::size_t end)
 {
   PartSurvey survey;
-  points.forEach(begin, end, [&survey](std::size_t id, Point2 p) { survey.add(id, p); });
+  points.forBlocks(begin, end,
+    [&survey](std::size_t first, const Point2* block, std::size_t count)
+    { survey.add(first, block, count); });
   return survey;
 }
 
@@ -95,49 +114,20 @@ std::vector<Point2> samplePoints(PointsView points, std::size_t count)
 namespace
 {
 
-/// Finds partitions for many points at a time, so that their searches overlap.
-class Labeller
+/// Finds the partitions of a block of points at a time, so that their searches overlap.
+void labelBlock(const Tiling& tiling, const Point2* points, std::size_t count,
+  std::uint32_t* labels, std::vector<std::size_t>& counts)
 {
-public:
-  Labeller(const Tiling& tiling, std::uint32_t* labels, std::vector<std::size_t>& counts)
-    : Boxes(tiling)
-    , Labels(labels)
-    , Counts(counts)
+  tiling.locate(points, count, labels);
+  for (std::size_t i = 0; i < count; ++i)
   {
-  }
-
-  void add(std::size_t id, Point2 p)
-  {
-    this->Points[this->Size] = p;
-    if (++this->Size == this->Points.size())
+    labels[i] = isFinite(points[i]) ? labels[i] : NoPartition;
+    if (labels[i] != NoPartition)
     {
-      this->flush(id + 1);
+      ++counts[labels[i]];
     }
   }
-
-  /// The last points' ids end at `end`.
-  void flush(std::size_t end)
-  {
-    std::uint32_t* labels = this->Labels + end - this->Size;
-    this->Boxes.locate(this->Points.data(), this->Size, labels);
-    for (std::size_t i = 0; i < this->Size; ++i)
-    {
-      labels[i] = isFinite(this->Points[i]) ? labels[i] : NoPartition;
-      if (labels[i] != NoPartition)
-      {
-        ++this->Counts[labels[i]];
-      }
-    }
-    this->Size = 0;
-  }
-
-private:
-  const Tiling& Boxes;
-  std::uint32_t* Labels;
-  std::vector<std::size_t>& Counts;
-  std::array<Point2, 64> Points;
-  std::size_t Size = 0;
-};
+}
 
 } // namespace
 
@@ -181,9 +171,9 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
   const auto labelPart = [&](std::int64_t part)
   {
     const auto [begin, end] = share(points.size(), int(part), threads);
-    Labeller labeller(tiling, labels.data(), places[std::size_t(part)]);
-    points.forEach(begin, end, [&labeller](std::size_t id, Point2 p) { labeller.add(id, p); });
-    labeller.flush(end);
+    points.forBlocks(begin, end,
+      [&, part](std::size_t first, const Point2* block, std::size_t count)
+      { labelBlock(tiling, block, count, labels.data() + first, places[std::size_t(part)]); });
   };
   parallelFor(threads, threads, labelPart);
 
@@ -231,9 +221,35 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
   return buckets;
 }
 
+template <typename Id>
+PointBuckets<Id> bucketTogether(PointsView points, const Box2& bounds, bool allFinite, int threads)
+{
+  if (points.contiguous() && allFinite)
+  {
+    return PointBuckets<Id>({ 0, points.size() }, points.contiguous(), 0);
+  }
+  if (!allFinite)
+  {
+    return bucketPoints<Id>(points, Tiling::grid(bounds, 1, 1), threads);
+  }
+  PointBuckets<Id> buckets({ 0, points.size() });
+  Point2* const to = buckets.pointsToFill(0);
+  Id* const ids = buckets.idsToFill(0);
+  const auto copyPart = [&](std::int64_t part)
+  {
+    const auto [begin, end] = share(points.size(), int(part), threads);
+    points.forEach(begin, end, [to](std::size_t id, Point2 p) { to[id] = p; });
+    std::iota(ids + begin, ids + end, static_cast<Id>(begin));
+  };
+  parallelFor(threads, threads, copyPart);
+  return buckets;
+}
+
 template class PointBuckets<std::int32_t>;
 template class PointBuckets<std::int64_t>;
 template PointBuckets<std::int32_t> bucketPoints(PointsView, const Tiling&, int);
 template PointBuckets<std::int64_t> bucketPoints(PointsView, const Tiling&, int);
+template PointBuckets<std::int32_t> bucketTogether(PointsView, const Box2&, bool, int);
+template PointBuckets<std::int64_t> bucketTogether(PointsView, const Box2&, bool, int);
 
 } // namespace tipp

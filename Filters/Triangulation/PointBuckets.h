@@ -86,10 +86,16 @@ private:
 template <typename Id>
 PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threads);
 
+/// One bucket for all: the points stay where they are, if they lie side by side and are all finite.
+template <typename Id>
+PointBuckets<Id> bucketTogether(PointsView points, const Box2& bounds, bool allFinite, int threads);
+
 extern template class PointBuckets<std::int32_t>;
 extern template class PointBuckets<std::int64_t>;
 extern template PointBuckets<std::int32_t> bucketPoints(PointsView, const Tiling&, int);
 extern template PointBuckets<std::int64_t> bucketPoints(PointsView, const Tiling&, int);
+extern template PointBuckets<std::int32_t> bucketTogether(PointsView, const Box2&, bool, int);
+extern template PointBuckets<std::int64_t> bucketTogether(PointsView, const Box2&, bool, int);
 
 } // namespace tipp
 

@@ -4,6 +4,8 @@
 
 #include "Predicates/Point2.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace tipp
@@ -39,6 +41,14 @@ public:
       : Point2{ this->Floats[at] * this->Factor, this->Floats[at + 1] * this->Factor };
   }
 
+  /// The points themselves, if they lie side by side as they are to be, or nullptr.
+  const Point2* contiguous() const
+  {
+    static_assert(sizeof(Point2) == 2 * sizeof(double), "a point is its coordinates");
+    return this->Stride == 2 && this->Factor == 1 ? reinterpret_cast<const Point2*>(this->Doubles)
+                                                  : nullptr;
+  }
+
   /// The same points times a factor; exact if it is a power of two and nothing under- or overflows.
   PointsView scaled(double factor) const
   {
@@ -58,6 +68,24 @@ public:
     else
     {
       this->scan(this->Floats, begin, end, visit);
+    }
+  }
+
+  /// visit(index of the first, points, count) for blocks of points side by side, in order.
+  template <typename Visit>
+  void forBlocks(std::size_t begin, std::size_t end, const Visit& visit) const
+  {
+    std::array<Point2, 256> room;
+    for (std::size_t first = begin; first < end; first += room.size())
+    {
+      const std::size_t count = std::min(room.size(), end - first);
+      const Point2* block = this->contiguous() ? this->contiguous() + first : room.data();
+      if (!this->contiguous())
+      {
+        this->forEach(
+          first, first + count, [&room, first](std::size_t i, Point2 p) { room[i - first] = p; });
+      }
+      visit(first, block, count);
     }
   }
 

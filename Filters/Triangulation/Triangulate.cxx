@@ -62,15 +62,15 @@ public:
   void run(const Tiling& tiling)
   {
     this->Result.Statistics.Partitions = tiling.size();
-    this->Buckets = bucketPoints<Id>(this->Points, tiling, this->PassThreads);
-    this->checkSizes();
-    this->endPhase("bucketing");
     const std::vector<SeamVertex> artificial = makeArtificialPoints(tiling);
     if (tiling.size() == 1 || artificial.empty())
     {
       this->triangulateAlone(tiling);
       return;
     }
+    this->Buckets = bucketPoints<Id>(this->Points, tiling, this->PassThreads);
+    this->checkSizes();
+    this->endPhase("bucketing");
     std::vector<SeamVertex> initial =
       chooseInitialPoints(tiling, this->Buckets, initialPointsPerPartition());
     this->Result.Statistics.InitialPoints = std::int64_t(initial.size());
@@ -130,12 +130,10 @@ private:
   /// All points at once: no partitions, no artificial points.
   void triangulateAlone(const Tiling& tiling)
   {
-    if (tiling.size() > 1)
-    {
-      this->Buckets =
-        bucketPoints<Id>(this->Points, Tiling::grid(tiling.domain(), 1, 1), this->PassThreads);
-      this->checkSizes();
-    }
+    this->Buckets = bucketTogether<Id>(
+      this->Points, tiling.domain(), this->Result.Rejected.empty(), this->PassThreads);
+    this->checkSizes();
+    this->endPhase("bucketing");
     this->Result.Statistics.Partitions = 1;
     TriangleSink<Id> sink(this->Buckets);
     Worker<Id> worker(tiling, this->Buckets);

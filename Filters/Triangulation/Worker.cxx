@@ -62,7 +62,8 @@ void Worker<Id>::triangulateCollected(PartitionIndex partition)
   this->VertexCount = static_cast<std::size_t>(this->Kernel.vertexEnd()) - 1;
   this->resolveDuplicates();
   this->findSeams(partition);
-  this->writeInterior(bucket);
+  this->writeTriangles(
+    bucket, [this](DelaunayKernel::Index t) { return !this->IsSeam[std::size_t(t / 8)]; });
 }
 
 template <typename Id>
@@ -77,12 +78,7 @@ bool Worker<Id>::triangulateAlone(const DelaunayKernel::Monitor& proceed)
   }
   this->VertexCount = static_cast<std::size_t>(this->Kernel.vertexEnd()) - 1;
   this->resolveDuplicates();
-  this->IsSeam.resize(static_cast<std::size_t>(this->Kernel.mesh().end() / 8));
-  for (std::size_t t = 0; t < this->IsSeam.size(); ++t)
-  {
-    this->IsSeam[t] = this->Kernel.isInfinite(static_cast<DelaunayKernel::Index>(8 * t));
-  }
-  this->writeInterior(0);
+  this->writeTriangles(0, [this](DelaunayKernel::Index t) { return !this->Kernel.isInfinite(t); });
   return true;
 }
 
@@ -223,7 +219,8 @@ void Worker<Id>::findSeams(PartitionIndex partition)
 }
 
 template <typename Id>
-void Worker<Id>::writeInterior(PartitionIndex bucket)
+template <typename IsInterior>
+void Worker<Id>::writeTriangles(PartitionIndex bucket, const IsInterior& isInterior)
 {
   // Each vertex has six triangles or so, next to one another; its point is anywhere.
   const std::size_t own = this->Ids.size();
@@ -237,13 +234,13 @@ void Worker<Id>::writeInterior(PartitionIndex bucket)
   const Id* ids = this->VertexIds.data();
   Id* const interior = this->Buckets.triangles(bucket);
   Id* out = interior;
-  for (std::size_t t = 0; t < this->IsSeam.size(); ++t)
+  for (DelaunayKernel::Index t = 0; t < this->Kernel.mesh().end(); t += 8)
   {
-    if (!this->IsSeam[t])
+    if (isInterior(t))
     {
-      for (std::size_t i = 0; i < 3; ++i)
+      for (DelaunayKernel::Index i = 0; i < 3; ++i)
       {
-        *out++ = ids[slots[8 * t + i]];
+        *out++ = ids[slots[t + i]];
       }
     }
   }

@@ -51,7 +51,8 @@ private:
   void takeIds(PartitionIndex bucket);
   void resolveDuplicates();
   void findSeams(PartitionIndex partition);
-  void writeInterior(PartitionIndex bucket);
+  template <typename IsInterior>
+  void writeTriangles(PartitionIndex bucket, const IsInterior& isInterior);
   SeamVertex vertex(PartitionIndex partition, DelaunayKernel::Index v) const;
 
   const Tiling* Boxes;

@@ -62,7 +62,7 @@ public:
 
   void insertLast()
   {
-    KernelPredicates predicates(this->Points);
+    KernelPredicates predicates(this->Points.data(), this->Points.size());
     const Point2 p = this->Points.back();
     const Location found =
       PointLocation(this->Mesh, this->Points.data(), predicates, p).from(this->Start);
@@ -84,7 +84,7 @@ TEST_P(CavityTest, DestroysExactlyTheTrianglesInConflict)
   for (const Point2 p : Places)
   {
     this->prepare(p);
-    KernelPredicates predicates(this->Points);
+    KernelPredicates predicates(this->Points.data(), this->Points.size());
     std::vector<Corners> expected;
     for (Index t = 0; t < this->Mesh.end(); t += 8)
     {

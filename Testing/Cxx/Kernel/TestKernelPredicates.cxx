@@ -44,7 +44,7 @@ public:
   }
 
   std::vector<Point2> Points = withInfinite({ { 0, 0 }, { 4, 0 }, { 1, 3 } });
-  KernelPredicates Predicates{ Points };
+  KernelPredicates Predicates{ Points.data(), Points.size() };
 };
 
 TEST_F(InfiniteTriangle, HoldsTheHalfPlaneBeyondItsEdge)
@@ -81,7 +81,7 @@ TEST(KernelPredicates, AFiniteTrianglesDiskIsExactWithTiesBroken)
 {
   const std::vector<Point2> points =
     withInfinite({ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 }, { 0.5, std::nextafter(1.2, 2) } });
-  KernelPredicates predicates(points);
+  KernelPredicates predicates(points.data(), points.size());
   const Index lower[] = { 1, 2, 3 };
   const Index other[] = { 2, 3, 4 };
   // Four corners of a square: one diagonal or the other.
@@ -103,7 +103,7 @@ TEST(KernelPredicates, TheThousandthTurnIsAsExactAsTheFirst)
     points.push_back({ x, x + double(random() % 3) * 0x1p-52 });
   }
   points = withInfinite(points);
-  KernelPredicates predicates(points);
+  KernelPredicates predicates(points.data(), points.size());
   for (Index i = 1; i + 2 < Index(points.size()); ++i)
   {
     const Point2 p = points[std::size_t(i + 2)];
@@ -116,7 +116,7 @@ TEST(KernelPredicates, TheThousandthTurnIsAsExactAsTheFirst)
 TEST(KernelPredicates, PointsAddedLaterAreSeenAfterARestart)
 {
   std::vector<Point2> points = withInfinite({ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } });
-  KernelPredicates predicates(points);
+  KernelPredicates predicates(points.data(), points.size());
   const Index corners[] = { 1, 2, 3 };
   predicates.isInConflict(corners, points[4]);
   for (int i = 0; i < 40; ++i)
@@ -126,7 +126,7 @@ TEST(KernelPredicates, PointsAddedLaterAreSeenAfterARestart)
   points.push_back({ 0x1p-60, 1 });
   points.push_back({ -0x1p-60, 1 });
   points.push_back({ 0x1p-60, 0x1p-60 });
-  predicates.restart();
+  predicates.restart(points.data(), points.size());
   EXPECT_TRUE(predicates.isInConflict(corners, points[5]));
   EXPECT_FALSE(predicates.isInConflict(corners, points[6]));
   for (int i = 0; i < 40; ++i)

@@ -37,7 +37,7 @@ public:
   {
     std::vector<Point2> points = this->Points;
     points.push_back(p);
-    KernelPredicates predicates(points);
+    KernelPredicates predicates(points.data(), points.size());
     return PointLocation(this->Made.mesh(), points.data(), predicates, p).from(start);
   }
 
@@ -58,7 +58,8 @@ public:
   {
     std::vector<Point2> points = this->Points;
     points.push_back(p);
-    return KernelPredicates(points).isInConflict(this->Made.mesh().slots() + triangle, p);
+    return KernelPredicates(points.data(), points.size())
+      .isInConflict(this->Made.mesh().slots() + triangle, p);
   }
 
   DelaunayKernel Made;
