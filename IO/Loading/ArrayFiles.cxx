@@ -90,7 +90,7 @@ void ArrayFiles::read(std::size_t a, std::int64_t first, std::int64_t tuples, vo
   const std::size_t size = this->tupleBytes(a);
   const std::size_t bytes = std::size_t(tuples) * size;
   const std::uint64_t offset = this->Arrays[a].Offset + std::uint64_t(first) * size;
-  constexpr std::size_t share = std::size_t(4) << 20;
+  constexpr std::size_t share = std::size_t(1) << 20;
   if (bytes <= share)
   {
     this->Files[a]->read(offset, to, bytes);

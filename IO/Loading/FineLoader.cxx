@@ -4,18 +4,16 @@
 // other are read at once, and packed up to M vertices a pass. Of vertices that are few and far
 // apart each is read by itself, and kept for the next chunks. Where all vertices fit into M, what
 // is read stays in memory from when as much has been read as there is.
+#include "Loading/ActiveSegments.h"
 #include "Loading/GatherAll.h"
 #include "Loading/GroupedMoves.h"
 #include "Loading/Loaders.h"
 #include "Loading/Runs.h"
-#include "Loading/SegmentCounts.h"
 #include "Loading/TupleCache.h"
 #include "Loading/UniqueIds.h"
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
-#include <stdexcept>
 #include <utility>
 
 namespace tipp
@@ -52,8 +50,7 @@ public:
       return;
     }
     this->Counts.UsefulBytes += std::int64_t(count * this->Files.recordBytes());
-    requireCountable(count);
-    Chunk chunk = { ids, count, range.Low >> this->Shift << this->Shift, range.High, {}, {} };
+    Chunk chunk = { ids, count, range.Low >> this->Shift << this->Shift, range.High, {} };
     const std::size_t blocks = std::size_t((range.High - chunk.Low) >> this->Shift) + 1;
     constexpr std::int64_t sparse = 128; // tuples that are read along with each that is wanted
     bool isSparse = blocks > count;      // then to look for active blocks is more work than to sort
@@ -92,7 +89,6 @@ private:
     std::int64_t Low; ///< where the block of the lowest id begins
     std::int64_t High;
     std::vector<char> Active; ///< of each block: has ids, and has not been read
-    SegmentCounts Counts;     ///< only if there may be several groups
   };
 
   bool fitsWhole() const { return this->Files.tuples() <= this->M; }
@@ -105,13 +101,6 @@ private:
     }
     const auto blockOf = [shift = this->Shift](std::uint64_t id) { return id >> shift; };
     constexpr std::int64_t dense = 2; // ids for each tuple, of which hardly one is not wanted
-    if (chunk.High - chunk.Low >= this->M && !this->fitsWhole())
-    {
-      chunk.Counts =
-        countSegments(chunk.Ids, chunk.Count, chunk.Low, blocks, this->Threads, blockOf);
-      chunk.Active = chunk.Counts.active();
-      return;
-    }
     chunk.Active = std::int64_t(chunk.Count) / dense > chunk.High - chunk.Low
       ? std::vector<char>(blocks, 1)
       : findActive(chunk.Ids, chunk.Count, chunk.Low, blocks, this->Threads, blockOf);
@@ -193,10 +182,10 @@ private:
         { return place(std::uint64_t(ids[i] - low)); });
       return;
     }
-    this->Moves.sort(chunk.Ids, chunk.Counts, groups, plan.groups(), this->Threads,
-      [&place, &groups, shift, low = chunk.Low](std::int64_t id)
+    this->Moves.sort(chunk.Count, plan.groups(), this->Threads,
+      [&place, &groups, shift, ids = chunk.Ids, low = chunk.Low](std::size_t i)
       {
-        const auto relative = std::uint64_t(id - low);
+        const auto relative = std::uint64_t(ids[i] - low);
         return std::make_pair(groups[relative >> shift], std::uint32_t(place(relative)));
       });
     this->loadMoves(plan, out);
@@ -231,8 +220,12 @@ private:
         [&](std::size_t i) { return std::uint64_t(places[unique.Numbers[i]]); });
       return;
     }
-    this->Moves.sort(unique.Numbers, plan.groups(),
-      [&](std::uint32_t number) { return std::make_pair(groups[number], places[number]); });
+    this->Moves.sort(chunk.Count, plan.groups(), this->Threads,
+      [&](std::size_t i)
+      {
+        const std::uint32_t number = unique.Numbers[i];
+        return std::make_pair(groups[number], places[number]);
+      });
     this->loadMoves(plan, out);
   }
 
@@ -305,7 +298,8 @@ private:
     for (std::size_t group = 0; group < plan.groups(); ++group)
     {
       this->readGroup(plan, group);
-      this->Moves.scatter(group, this->Files, this->Buffers, out, this->Threads);
+      this->Moves.gather(
+        group, group + 1 == plan.groups(), this->Files, this->Buffers, out, this->Threads);
     }
   }
 

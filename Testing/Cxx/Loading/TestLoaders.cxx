@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Loading/GroupedMoves.h"
 #include "Loading/VertexLoader.h"
 
 #include "ExpectIOError.h"
@@ -316,23 +315,6 @@ TEST(FineLoader, IsRightAgainAfterAReadThatFailed)
   std::ofstream(path, std::ios::binary) << content;
   loader->load(ids.data(), ids.size(), out);
   EXPECT_EQ((std::vector<std::int64_t>{ 10, 900 }), got);
-}
-
-TEST(GroupedMoves, BringAGroupsTuplesToEveryPlaceThatWantsThem)
-{
-  const tipp::ArrayFiles files({ source().Arrays[1] });
-  tipp::TupleBuffers buffers;
-  buffers.resize(files, 3);
-  std::copy_n("abc", 3, buffers.data(0));
-  tipp::GroupedMoves moves;
-  moves.sort(
-    { 0, 1, 0, 2, 1 }, 2, [](std::uint32_t number) { return std::make_pair(number % 2, number); });
-  std::string got(5, '.');
-  void* const out[] = { got.data() };
-  moves.scatter(0, files, buffers, out, 1);
-  EXPECT_EQ("a.ac.", got);
-  moves.scatter(1, files, buffers, out, 1);
-  EXPECT_EQ("abacb", got);
 }
 
 TEST(LruLoader, CountsAMissForEachBlockThatItReads)
