@@ -27,10 +27,11 @@ std::vector<char> findActive(const std::int64_t* ids, std::size_t count, std::in
     [&](std::int64_t part)
     {
       std::vector<char> own(segments, 0);
+      char* const active = own.data(); // which writing a char cannot change
       const std::size_t end = count * (std::size_t(part) + 1) / shares;
       for (std::size_t i = count * std::size_t(part) / shares; i < end; ++i)
       {
-        own[segment(std::uint64_t(ids[i] - low))] = 1;
+        active[segment(std::uint64_t(ids[i] - low))] = 1;
       }
       parts[std::size_t(part)] = std::move(own);
     });

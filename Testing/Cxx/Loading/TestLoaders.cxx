@@ -265,6 +265,39 @@ TEST(FineLoader, ReadsNothingTwiceForLongWhereAllFits)
   EXPECT_GT(loader->counters().UsefulBytes, 100 * whole / 2);
 }
 
+TEST(FineLoader, ReadsBlocksThatTheLastChunksHadOnlyOnce)
+{
+  LoaderOptions options;
+  options.Kind = Loader::Fine;
+  options.M = 4000; // not all, but more than the two chunks want
+  const auto loader = makeVertexLoader(source().Arrays, options);
+  Ids ids(1500);
+  std::iota(ids.begin(), ids.end(), 0);
+  expectRight(*loader, ids, ids.size());
+  const std::int64_t once = loader->counters().Bytes;
+  expectRight(*loader, ids, ids.size());
+  EXPECT_EQ(once, loader->counters().Bytes);
+  std::iota(ids.begin(), ids.end(), 1000);
+  expectRight(*loader, ids, ids.size());
+  EXPECT_EQ(once + 1024 * (24 + 1 + 10), loader->counters().Bytes);
+}
+
+TEST(FineLoader, IsRightWhereFewIdsFollowBlocksAndGroups)
+{
+  LoaderOptions options;
+  options.Kind = Loader::Fine;
+  options.M = 2100;
+  const auto loader = makeVertexLoader(source().Arrays, options);
+  Ids ids(4 * 1000);
+  for (int round = 0; round < 3; ++round)
+  {
+    std::iota(ids.begin(), ids.end(), 300 * round);
+    expectRight(*loader, ids, 1000);
+    expectRight(*loader, ids, ids.size());
+    expectRight(*loader, { 1, 4999, 2600 }, 3);
+  }
+}
+
 TEST(FineLoader, FewIdsInSeveralPassesAreAllFound)
 {
   LoaderOptions options;
