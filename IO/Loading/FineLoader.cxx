@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Direct Load with a fine bitmap: what is active is known for about 1,024 vertices rather than for
 // M, so that a chunk whose vertices lie together reads little else; active runs that are near each
-// other are read at once, and packed up to M vertices a pass. Of vertices that are few and far
-// apart each is read by itself, and kept for the next chunks. Where all vertices fit into M, what
-// is read stays in memory from when as much has been read as there is.
+// other are read at once, and packed up to M vertices a pass. Blocks of a single pass stay for the
+// next chunks; of vertices that are few and far apart each is read by itself, and kept likewise.
+// Where all vertices fit into M, all that is read stays from when as much has been read as there
+// is.
 #include "Loading/ActiveSegments.h"
 #include "Loading/GatherAll.h"
 #include "Loading/GroupedMoves.h"
