@@ -50,8 +50,9 @@ void scatterTuples(const char* from, const std::uint64_t* sources, char* to,
     });
 }
 
+template <typename Source>
 void gatherTuples(
-  const char* from, const std::uint64_t* sources, char* to, std::size_t count, std::size_t bytes)
+  const char* from, const Source* sources, char* to, std::size_t count, std::size_t bytes)
 {
   withSize(bytes,
     [=](auto size)
@@ -62,5 +63,12 @@ void gatherTuples(
       }
     });
 }
+
+template void gatherTuples(
+  const char*, const std::uint16_t*, char*, std::size_t count, std::size_t bytes);
+template void gatherTuples(
+  const char*, const std::uint32_t*, char*, std::size_t count, std::size_t bytes);
+template void gatherTuples(
+  const char*, const std::uint64_t*, char*, std::size_t count, std::size_t bytes);
 
 } // namespace tipp

@@ -12,9 +12,11 @@ namespace tipp
 void scatterTuples(const char* from, const std::uint64_t* sources, char* to,
   const std::uint64_t* targets, std::size_t count, std::size_t bytes);
 
-/// to[i] = from[sources[i]].
+/// to[i] = from[sources[i]], the places being counted in tuples of `bytes` bytes. Source is a
+/// number of 16, 32 or 64 bits.
+template <typename Source>
 void gatherTuples(
-  const char* from, const std::uint64_t* sources, char* to, std::size_t count, std::size_t bytes);
+  const char* from, const Source* sources, char* to, std::size_t count, std::size_t bytes);
 
 } // namespace tipp
 

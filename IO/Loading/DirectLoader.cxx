@@ -5,11 +5,10 @@
 #include "Loading/GatherAll.h"
 #include "Loading/GroupedMoves.h"
 #include "Loading/Loaders.h"
-#include "Loading/SegmentCounts.h"
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 namespace tipp
 {
@@ -45,26 +44,20 @@ public:
     }
     const std::size_t segments = std::size_t((range.High - range.Low) / this->M) + 1;
     const Divisor m{ std::uint64_t(this->M) };
-    const SegmentCounts counts = countSegments(ids, count, range.Low, segments, this->Threads,
-      [&m](std::uint64_t id) { return m.quotient(id); });
-    std::vector<std::uint32_t> own(segments);
-    std::iota(own.begin(), own.end(), 0U);
-    this->Moves.sort(ids, counts, own, segments, this->Threads,
-      [this, &m, low = range.Low](std::int64_t id)
+    this->Moves.sort(count, segments, this->Threads,
+      [this, ids, &m, low = range.Low](std::size_t i)
       {
-        const auto relative = std::uint64_t(id - low);
+        const auto relative = std::uint64_t(ids[i] - low);
         const std::uint64_t segment = m.quotient(relative);
         return std::make_pair(segment, std::uint32_t(relative - segment * std::uint64_t(this->M)));
       });
-    const std::vector<char> active = counts.active();
-    for (std::size_t segment = 0; segment < active.size(); ++segment)
+    const std::vector<std::size_t> active = this->Moves.wanted();
+    for (const std::size_t segment : active)
     {
-      if (active[segment] != 0)
-      {
-        const std::int64_t first = range.Low + std::int64_t(segment) * this->M;
-        this->readSegment(first, std::min(this->M, range.High + 1 - first));
-        this->Moves.scatter(segment, this->Files, this->Buffers, out, this->Threads);
-      }
+      const std::int64_t first = range.Low + std::int64_t(segment) * this->M;
+      this->readSegment(first, std::min(this->M, range.High + 1 - first));
+      this->Moves.gather(
+        segment, segment == active.back(), this->Files, this->Buffers, out, this->Threads);
     }
   }
 

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Direct Load with a fine bitmap: what is active is known for about 1,024 vertices rather than for
 // M, so that a chunk whose vertices lie together reads little else; active runs that are near each
-// other are read at once, and packed up to M vertices a pass. Of vertices that are few and far
-// apart each is read by itself, and kept for the next chunks. Where all vertices fit into M, what
-// is read stays in memory from when as much has been read as there is.
+// other are read at once, and packed up to M vertices a pass. Blocks of a single pass stay for the
+// next chunks; of vertices that are few and far apart each is read by itself, and kept likewise.
+// Where all vertices fit into M, all that is read stays from when as much has been read as there
+// is.
+#include "Loading/ActiveSegments.h"
 #include "Loading/GatherAll.h"
 #include "Loading/GroupedMoves.h"
 #include "Loading/Loaders.h"
 #include "Loading/Runs.h"
-#include "Loading/SegmentCounts.h"
 #include "Loading/TupleCache.h"
 #include "Loading/UniqueIds.h"
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 
 namespace tipp
@@ -52,33 +52,26 @@ public:
       return;
     }
     this->Counts.UsefulBytes += std::int64_t(count * this->Files.recordBytes());
-    requireCountable(count);
-    Chunk chunk = { ids, count, range.Low >> this->Shift << this->Shift, range.High, {}, {} };
+    Chunk chunk = { ids, count, range.Low >> this->Shift << this->Shift, range.High, {} };
     const std::size_t blocks = std::size_t((range.High - chunk.Low) >> this->Shift) + 1;
     constexpr std::int64_t sparse = 128; // tuples that are read along with each that is wanted
     bool isSparse = blocks > count;      // then to look for active blocks is more work than to sort
-    std::int64_t pages = std::int64_t(count);
     if (!isSparse)
     {
       this->findActiveBlocks(chunk, blocks);
       const std::int64_t active = std::count(chunk.Active.begin(), chunk.Active.end(), char(1))
         << this->Shift;
       isSparse = active > sparse * std::int64_t(count);
-      pages = isSparse ? pages : this->pagesOf(active);
     }
-    if (this->keepsAll(pages, isSparse))
+    if (isSparse && !this->wantsAll())
     {
-      this->findActiveBlocks(chunk, blocks);
-      this->loadWhole(chunk, out);
-    }
-    else if (isSparse)
-    {
+      constexpr std::int64_t page = 4096; // which a read of one tuple costs about
+      this->Spent += std::int64_t(count) * page;
       this->loadSparse(chunk, out);
+      return;
     }
-    else
-    {
-      this->loadBlocks(chunk, out);
-    }
+    this->findActiveBlocks(chunk, blocks);
+    this->loadBlocks(chunk, out);
   }
 
   const LoadCounters& counters() const override { return this->Counts; }
@@ -91,8 +84,7 @@ private:
     std::size_t Count;
     std::int64_t Low; ///< where the block of the lowest id begins
     std::int64_t High;
-    std::vector<char> Active; ///< of each block: has ids, and has not been read
-    SegmentCounts Counts;     ///< only if there may be several groups
+    std::vector<char> Active; ///< of each block: has ids
   };
 
   bool fitsWhole() const { return this->Files.tuples() <= this->M; }
@@ -103,76 +95,107 @@ private:
     {
       return;
     }
-    const auto blockOf = [shift = this->Shift](std::uint64_t id) { return id >> shift; };
     constexpr std::int64_t dense = 2; // ids for each tuple, of which hardly one is not wanted
-    if (chunk.High - chunk.Low >= this->M && !this->fitsWhole())
-    {
-      chunk.Counts =
-        countSegments(chunk.Ids, chunk.Count, chunk.Low, blocks, this->Threads, blockOf);
-      chunk.Active = chunk.Counts.active();
-      return;
-    }
     chunk.Active = std::int64_t(chunk.Count) / dense > chunk.High - chunk.Low
       ? std::vector<char>(blocks, 1)
-      : findActive(chunk.Ids, chunk.Count, chunk.Low, blocks, this->Threads, blockOf);
-    if (!this->WasRead.empty())
-    {
-      const char* const wasRead = this->WasRead.data() + (chunk.Low >> this->Shift);
-      for (std::size_t block = 0; block < blocks; ++block)
-      {
-        chunk.Active[block] &= char(wasRead[block] ^ 1);
-      }
-    }
+      : findActive(chunk.Ids, chunk.Count, chunk.Low, blocks, this->Threads,
+          [shift = this->Shift](std::uint64_t id) { return id >> shift; });
   }
 
-  std::int64_t pagesOf(std::int64_t tuples) const
+  std::int64_t bytesOf(std::int64_t tuples) const
   {
-    constexpr std::int64_t page = 4096;
-    return tuples * std::int64_t(this->Files.recordBytes()) / page;
+    return tuples * std::int64_t(this->Files.recordBytes());
   }
 
-  /// Whether what is read shall stay: if all fits, and if single tuples are wanted, from when as
-  /// much has been read as there is.
-  bool keepsAll(std::int64_t pages, bool isSparse)
+  /// Whether all fits, and as much has been read as there is: from then on what is read stays.
+  bool wantsAll() const
   {
-    this->PagesRead += pages;
-    return this->fitsWhole() &&
-      (!isSparse || this->PagesRead > this->pagesOf(this->Files.tuples()));
+    return this->fitsWhole() && this->Spent > this->bytesOf(this->Files.tuples());
   }
 
-  /// Tuples are in the buffers where they are in the files.
-  void loadWhole(const Chunk& chunk, void* const* out)
+  std::vector<Run> runsOf(const Chunk& chunk, const std::vector<char>& wanted) const
   {
-    const std::int64_t block = std::int64_t(1) << this->Shift;
-    this->Buffers.resize(this->Files, this->Files.tuples());
-    this->WasRead.resize(std::size_t((this->Files.tuples() - 1) >> this->Shift) + 1, 0);
-    const std::int64_t end = std::min(
-      chunk.Low + (std::int64_t(chunk.Active.size()) << this->Shift), this->Files.tuples());
-    for (const Run& run : runsOfBlocks(chunk.Active, block, chunk.Low, end - 1, 1))
-    {
-      for (std::size_t a = 0; a < this->Files.count(); ++a)
-      {
-        char* const to = this->Buffers.data(a) + std::size_t(run.First) * this->Files.tupleBytes(a);
-        this->Files.read(a, run.First, run.Size, to, this->Threads, this->Counts);
-      }
-      const auto first = this->WasRead.begin() + (run.First >> this->Shift);
-      std::fill(first, first + ((run.Size - 1) >> this->Shift) + 1, char(1));
-    }
-    ++this->Counts.Passes;
-    gatherAll(chunk.Count, this->Files, this->Buffers, out, this->Threads,
-      [ids = chunk.Ids](std::size_t i) { return std::uint64_t(ids[i]); });
+    const std::int64_t end = chunk.Low + (std::int64_t(wanted.size()) << this->Shift);
+    return runsOfBlocks(wanted, std::int64_t(1) << this->Shift, chunk.Low,
+      std::min(end, this->Files.tuples()) - 1, this->Gap);
   }
 
   void loadBlocks(const Chunk& chunk, void* const* out)
   {
+    this->Cache.reset();
+    std::vector<Run> runs = this->runsOf(chunk, this->missing(chunk));
+    if (this->Used + tuplesOf(runs) > this->Room)
+    {
+      this->forget();
+      runs = this->runsOf(chunk, chunk.Active);
+    }
+    if (tuplesOf(runs) > this->M)
+    {
+      this->loadGroups(chunk, std::move(runs), out);
+      return;
+    }
+    this->hold(runs);
+    gatherAll(chunk.Count, this->Files, this->Buffers, out, this->Threads,
+      [this, shift = this->Shift, mask = (std::uint64_t(1) << this->Shift) - 1, ids = chunk.Ids](
+        std::size_t i)
+      {
+        const auto id = std::uint64_t(ids[i]);
+        return this->Places[id >> shift] + (id & mask);
+      });
+  }
+
+  /// Tuples of blocks that stay for the next chunks: neighbouring ones share many.
+  std::int64_t kept() const
+  {
+    constexpr std::int64_t enough = 1 << 18; // more would leave the processor's cache
+    return this->wantsAll() ? this->M : std::min(this->M, enough);
+  }
+
+  /// The active blocks that are not held.
+  std::vector<char> missing(const Chunk& chunk)
+  {
+    this->Places.resize(std::size_t((this->Files.tuples() - 1) >> this->Shift) + 1, nowhere);
+    std::vector<char> wanted = chunk.Active;
+    const std::uint32_t* const places = this->Places.data() + (chunk.Low >> this->Shift);
+    for (std::size_t block = 0; block < wanted.size(); ++block)
+    {
+      wanted[block] &= char(places[block] == nowhere);
+    }
+    return wanted;
+  }
+
+  void forget()
+  {
+    std::fill(this->Places.begin(), this->Places.end(), nowhere);
+    this->Used = 0;
+  }
+
+  /// Reads runs of blocks behind those that are held; none are if the runs do not fit there.
+  void hold(const std::vector<Run>& runs)
+  {
+    this->Room = std::max({ this->Room, this->kept(), tuplesOf(runs) });
+    this->Buffers.resize(this->Files, this->Room);
+    this->Spent += this->bytesOf(tuplesOf(runs));
+    for (const Run& run : runs)
+    {
+      this->read(run, this->Used);
+      for (std::int64_t at = 0; at < run.Size; at += std::int64_t(1) << this->Shift)
+      {
+        this->Places[std::size_t((run.First + at) >> this->Shift)] = std::uint32_t(this->Used + at);
+      }
+      this->Used += run.Size;
+    }
+    ++this->Counts.Passes;
+  }
+
+  /// More than M tuples: so many at a time, and where each id's tuple goes is found before.
+  void loadGroups(const Chunk& chunk, std::vector<Run> runs, void* const* out)
+  {
     const int shift = this->Shift;
     const std::int64_t block = std::int64_t(1) << shift;
-    const std::size_t blocks = chunk.Active.size();
-    const RunPlan plan(runsOfBlocks(chunk.Active, block, chunk.Low, chunk.High, this->Gap), this->M,
-      block, chunk.Low);
-    // Where each block is packed, and in which group.
-    std::vector<std::uint32_t> starts(blocks);
-    std::vector<std::uint32_t> groups(blocks);
+    const RunPlan plan(std::move(runs), this->M, block, chunk.Low);
+    std::vector<std::uint32_t> starts(chunk.Active.size()); // of each block, and its group
+    std::vector<std::uint32_t> groups(chunk.Active.size());
     for (std::size_t i = 0; i < plan.Runs.size(); ++i)
     {
       const Run& run = plan.Runs[i];
@@ -183,21 +206,13 @@ private:
         groups[index] = plan.GroupOf[i];
       }
     }
-    const auto place = [&starts, shift, mask = std::uint64_t(block - 1)](std::uint64_t id)
-    { return starts[id >> shift] + (id & mask); };
-    if (plan.groups() == 1)
-    {
-      this->readGroup(plan, 0);
-      gatherAll(chunk.Count, this->Files, this->Buffers, out, this->Threads,
-        [&place, ids = chunk.Ids, low = chunk.Low](std::size_t i)
-        { return place(std::uint64_t(ids[i] - low)); });
-      return;
-    }
-    this->Moves.sort(chunk.Ids, chunk.Counts, groups, plan.groups(), this->Threads,
-      [&place, &groups, shift, low = chunk.Low](std::int64_t id)
+    this->Moves.sort(chunk.Count, plan.groups(), this->Threads,
+      [&starts, &groups, shift, mask = std::uint64_t(block - 1), ids = chunk.Ids, low = chunk.Low](
+        std::size_t i)
       {
-        const auto relative = std::uint64_t(id - low);
-        return std::make_pair(groups[relative >> shift], std::uint32_t(place(relative)));
+        const auto relative = std::uint64_t(ids[i] - low);
+        return std::make_pair(
+          groups[relative >> shift], starts[relative >> shift] + std::uint32_t(relative & mask));
       });
     this->loadMoves(plan, out);
   }
@@ -205,6 +220,7 @@ private:
   /// Few ids far apart: single tuples are read.
   void loadSparse(const Chunk& chunk, void* const* out)
   {
+    this->forget();
     const UniqueIds unique(chunk.Ids, chunk.Count);
     if (std::int64_t(unique.Sorted.size()) <= this->cached())
     {
@@ -231,8 +247,12 @@ private:
         [&](std::size_t i) { return std::uint64_t(places[unique.Numbers[i]]); });
       return;
     }
-    this->Moves.sort(unique.Numbers, plan.groups(),
-      [&](std::uint32_t number) { return std::make_pair(groups[number], places[number]); });
+    this->Moves.sort(chunk.Count, plan.groups(), this->Threads,
+      [&](std::size_t i)
+      {
+        const std::uint32_t number = unique.Numbers[i];
+        return std::make_pair(groups[number], places[number]);
+      });
     this->loadMoves(plan, out);
   }
 
@@ -248,6 +268,8 @@ private:
   {
     if (!this->Cache)
     {
+      this->Buffers = TupleBuffers(); // both would be more than M
+      this->Room = 0;
       this->Cache = std::make_unique<TupleCache>(this->Files, std::uint32_t(this->cached()));
     }
     std::vector<std::uint32_t> slots(unique.Sorted.size());      // of each number
@@ -305,7 +327,8 @@ private:
     for (std::size_t group = 0; group < plan.groups(); ++group)
     {
       this->readGroup(plan, group);
-      this->Moves.scatter(group, this->Files, this->Buffers, out, this->Threads);
+      this->Moves.gather(
+        group, group + 1 == plan.groups(), this->Files, this->Buffers, out, this->Threads);
     }
   }
 
@@ -314,18 +337,30 @@ private:
     const std::size_t begin = plan.Starts[group];
     const std::size_t end = plan.Starts[group + 1];
     this->Buffers.resize(this->Files, std::int64_t(plan.Packed[end - 1]) + plan.Runs[end - 1].Size);
-    for (std::size_t a = 0; a < this->Files.count(); ++a)
+    for (std::size_t i = begin; i < end; ++i)
     {
-      const std::size_t bytes = this->Files.tupleBytes(a);
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const Run& run = plan.Runs[i];
-        char* const to = this->Buffers.data(a) + std::size_t(plan.Packed[i]) * bytes;
-        this->Files.read(a, run.First, run.Size, to, this->Threads, this->Counts);
-      }
+      this->read(plan.Runs[i], plan.Packed[i]);
     }
     ++this->Counts.Passes;
   }
+
+  void read(const Run& run, std::int64_t to)
+  {
+    for (std::size_t a = 0; a < this->Files.count(); ++a)
+    {
+      this->Files.read(a, run.First, run.Size,
+        this->Buffers.data(a) + std::size_t(to) * this->Files.tupleBytes(a), this->Threads,
+        this->Counts);
+    }
+  }
+
+  static std::int64_t tuplesOf(const std::vector<Run>& runs)
+  {
+    return std::accumulate(runs.begin(), runs.end(), std::int64_t(0),
+      [](std::int64_t sum, const Run& run) { return sum + run.Size; });
+  }
+
+  static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 
   ArrayFiles Files;
   std::int64_t M;
@@ -334,8 +369,10 @@ private:
   int Shift = 0;    ///< a block is 2^Shift tuples
   LoadCounters Counts;
   TupleBuffers Buffers;
-  std::vector<char> WasRead;         ///< of each block, where all tuples fit
-  std::int64_t PagesRead = 0;        ///< about, and a page for each tuple read by itself
+  std::vector<std::uint32_t> Places; ///< in the buffers, of each block that is held; or nowhere
+  std::int64_t Used = 0;             ///< tuples of the buffers
+  std::int64_t Room = 0;             ///< for such tuples
+  std::int64_t Spent = 0;            ///< bytes read, about
   std::unique_ptr<TupleCache> Cache; ///< once there was a chunk of few ids far apart
   GroupedMoves Moves;
 };

@@ -15,7 +15,8 @@ namespace tipp
 /// Tuples whose places are found before any is copied.
 constexpr std::size_t tuplesAtATime = 2048;
 
-/// Copies all tuples of a chunk: the one at source(i) in the buffers to place i.
+/// Copies all tuples of a chunk: the one at source(i), a number of 32 bits, in
+/// the buffers to place i.
 template <typename Source>
 void gatherAll(std::size_t count, const ArrayFiles& files, TupleBuffers& buffers, void* const* out,
   int threads, const Source& source)
@@ -25,13 +26,13 @@ void gatherAll(std::size_t count, const ArrayFiles& files, TupleBuffers& buffers
     [&](std::int64_t part)
     {
       const std::size_t end = std::min((std::size_t(part) + 1) * share, count);
-      std::array<std::uint64_t, tuplesAtATime> sources;
+      std::array<std::uint32_t, tuplesAtATime> sources;
       for (std::size_t first = std::size_t(part) * share; first < end; first += tuplesAtATime)
       {
         const std::size_t size = std::min(tuplesAtATime, end - first);
         for (std::size_t i = 0; i < size; ++i)
         {
-          sources[i] = source(first + i);
+          sources[i] = std::uint32_t(source(first + i));
         }
         for (std::size_t a = 0; a < files.count(); ++a)
         {

@@ -2,53 +2,149 @@
 #include "Loading/GroupedMoves.h"
 
 #include "Loading/CopyTuples.h"
-#include "Loading/GatherAll.h"
 
-#include <algorithm>
-#include <array>
+#include <limits>
+#include <numeric>
 
 namespace tipp
 {
 
-/// Without setting them: all are written before they are read.
-void GroupedMoves::reserve(std::size_t count)
+void GroupedMoves::BlockSort::reset(std::size_t size, std::size_t groups)
 {
-  if (count > this->Room)
+  if (this->GroupOf.size() < size)
   {
-    this->Room = 0;
-    this->Moves.reset(); // not two at a time
-    this->Moves.reset(new Move[count]);
-    this->Room = count;
+    this->GroupOf.resize(size);
+    this->Sources.resize(size);
+  }
+  this->Next.assign(groups + 1, 0);
+}
+
+bool GroupedMoves::isWide() const
+{
+  return this->BlockSize - 1 > std::numeric_limits<std::uint16_t>::max();
+}
+
+void GroupedMoves::reset(std::size_t count, std::size_t groups)
+{
+  constexpr std::size_t least = 8192; // 128 KB of points in a plane
+  constexpr std::size_t ofEach = 16;  // tuples of each group, lest the starts take much memory
+  this->Count = count;
+  this->Groups = groups;
+  this->BlockSize = std::max(least, ofEach * groups);
+  this->Blocks = (count + this->BlockSize - 1) / this->BlockSize;
+  this->Starts.resize(this->Blocks * (groups + 1));
+  this->InOrder.resize(this->Blocks);
+  this->Sources.reserve(count);
+  this->Places.reserve(this->isWide() ? 0 : count);
+  this->WidePlaces.reserve(this->isWide() ? count : 0);
+}
+
+void GroupedMoves::place(std::size_t block, BlockSort& own)
+{
+  const std::size_t size = this->sizeOf(block);
+  const std::size_t first = block * this->BlockSize;
+  const bool isOfOneGroup = own.Next[own.GroupOf[0] + 1] == size;
+  std::partial_sum(own.Next.begin(), own.Next.end(), own.Next.begin());
+  std::copy(own.Next.begin(), own.Next.end(),
+    this->Starts.begin() + std::ptrdiff_t(block * (this->Groups + 1)));
+  this->InOrder[block] = char(isOfOneGroup);
+  std::uint32_t* const sources = this->Sources.data() + first;
+  if (isOfOneGroup)
+  {
+    std::copy_n(own.Sources.begin(), size, sources);
+  }
+  else if (this->isWide())
+  {
+    this->place(own, size, sources, this->WidePlaces.data() + first);
+  }
+  else
+  {
+    this->place(own, size, sources, this->Places.data() + first);
   }
 }
 
-void GroupedMoves::scatter(std::size_t group, const ArrayFiles& files, TupleBuffers& buffers,
-  void* const* out, int threads) const
+template <typename Place>
+void GroupedMoves::place(
+  BlockSort& own, std::size_t size, std::uint32_t* sources, Place* places) const
 {
-  const Move* const moves = this->Moves.get() + this->Starts[group];
-  const std::size_t count = this->Starts[group + 1] - this->Starts[group];
-  constexpr std::size_t share = 1 << 16;
-  parallelFor(std::int64_t((count + share - 1) / share), threads,
-    [&](std::int64_t part)
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    const std::uint32_t place = own.Next[own.GroupOf[i]]++;
+    sources[place] = own.Sources[i];
+    places[i] = Place(place);
+  }
+}
+
+std::vector<std::size_t> GroupedMoves::wanted() const
+{
+  std::vector<char> any(this->Groups, 0);
+  for (std::size_t block = 0; block < this->Blocks; ++block)
+  {
+    const std::uint32_t* const starts = this->startsOf(block);
+    for (std::size_t group = 0; group < this->Groups; ++group)
     {
-      const std::size_t end = std::min((std::size_t(part) + 1) * share, count);
-      std::array<std::uint64_t, tuplesAtATime> sources;
-      std::array<std::uint64_t, tuplesAtATime> targets;
-      for (std::size_t first = std::size_t(part) * share; first < end; first += tuplesAtATime)
+      any[group] |= char(starts[group] != starts[group + 1]);
+    }
+  }
+  std::vector<std::size_t> groups;
+  for (std::size_t group = 0; group < this->Groups; ++group)
+  {
+    if (any[group] != 0)
+    {
+      groups.push_back(group);
+    }
+  }
+  return groups;
+}
+
+void GroupedMoves::gather(std::size_t group, bool isLast, const ArrayFiles& files,
+  TupleBuffers& buffers, void* const* out, int threads) const
+{
+  std::vector<std::vector<char>> rooms(this->threadsFor(threads));
+  forChunks(std::int64_t(this->Blocks), 1, int(rooms.size()), {},
+    [&](std::int64_t index, std::int64_t, int thread)
+    {
+      const auto block = std::size_t(index);
+      const std::uint32_t* const starts = this->startsOf(block) + group;
+      for (std::size_t a = 0; a < files.count(); ++a)
       {
-        const std::size_t size = std::min(tuplesAtATime, end - first);
-        for (std::size_t i = 0; i < size; ++i)
+        const std::size_t bytes = files.tupleBytes(a);
+        char* const to = static_cast<char*>(out[a]) + block * this->BlockSize * bytes;
+        if (isLast && this->InOrder[block] == 0)
         {
-          sources[i] = moves[first + i].Source;
-          targets[i] = moves[first + i].Target;
+          this->complete(block, group, buffers.data(a), to, bytes, rooms[std::size_t(thread)]);
+          continue;
         }
-        for (std::size_t a = 0; a < files.count(); ++a)
-        {
-          scatterTuples(buffers.data(a), sources.data(), static_cast<char*>(out[a]), targets.data(),
-            size, files.tupleBytes(a));
-        }
+        gatherTuples(buffers.data(a), this->Sources.data() + block * this->BlockSize + starts[0],
+          to + starts[0] * bytes, starts[1] - starts[0], bytes);
       }
     });
+}
+
+/// Puts a block in order whose tuples are all there but those of one group.
+void GroupedMoves::complete(std::size_t block, std::size_t group, const char* from, char* to,
+  std::size_t bytes, std::vector<char>& room) const
+{
+  const std::size_t first = block * this->BlockSize;
+  const std::size_t size = this->sizeOf(block);
+  const std::size_t begin = this->startsOf(block)[group];
+  const std::size_t end = this->startsOf(block)[group + 1];
+  if (room.size() < size * bytes)
+  {
+    room.resize(size * bytes);
+  }
+  std::copy_n(to, begin * bytes, room.data());
+  gatherTuples(
+    from, this->Sources.data() + first + begin, room.data() + begin * bytes, end - begin, bytes);
+  std::copy_n(to + end * bytes, (size - end) * bytes, room.data() + end * bytes);
+  if (this->isWide())
+  {
+    gatherTuples(room.data(), this->WidePlaces.data() + first, to, size, bytes);
+  }
+  else
+  {
+    gatherTuples(room.data(), this->Places.data() + first, to, size, bytes);
+  }
 }
 
 } // namespace tipp

@@ -3,98 +3,122 @@
 #define tippGroupedMoves_h
 
 #include "Loading/ArrayFiles.h"
-#include "Loading/SegmentCounts.h"
+#include "Parallel/ForChunks.h"
 #include "Parallel/ParallelFor.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <numeric>
-#include <utility>
 #include <vector>
 
 namespace tipp
 {
 
-/// Where the tuples of a chunk go, group by group: a group is what is in the buffers together. To
-/// sort them once is quicker than to look at all ids for each group.
+/// Numbers that are all written before they are read, and so not cleared.
+template <typename Number>
+class RawVector
+{
+public:
+  Number* data() const { return this->Numbers.get(); }
+  void reserve(std::size_t count)
+  {
+    if (count > this->Room)
+    {
+      this->Room = 0;
+      this->Numbers.reset(); // not two at a time
+      this->Numbers.reset(new Number[count]);
+      this->Room = count;
+    }
+  }
+
+private:
+  std::unique_ptr<Number[]> Numbers;
+  std::size_t Room = 0;
+};
+
+/// Where the tuples of a chunk come from, group by group: a group is what is in the buffers
+/// together. The chunk is cut into blocks that fit into the processor's cache. In each block of the
+/// caller's arrays the tuples of a group first lie together, so that hardly a line of memory is
+/// written by several groups; with the last group, the tuples of each block are put in order.
 class GroupedMoves
 {
 public:
-  /// A counting sort. Counts are of segments, each of which lies in one group; where(id) gives an
-  /// id's group and its place in the buffers.
+  /// where(i) gives the group of the chunk's i-th id, and its place in the buffers.
   template <typename Where>
-  void sort(const std::int64_t* ids, const SegmentCounts& counts,
-    const std::vector<std::uint32_t>& groupOf, std::size_t groups, int threads, const Where& where)
+  void sort(std::size_t count, std::size_t groups, int threads, const Where& where)
   {
-    std::vector<std::vector<std::size_t>> next(counts.shares());
-    for (std::size_t share = 0; share < counts.shares(); ++share)
-    {
-      next[share].assign(groups, 0);
-      for (std::size_t segment = 0; segment < groupOf.size(); ++segment)
+    this->reset(count, groups);
+    std::vector<BlockSort> sorts(this->threadsFor(threads));
+    forChunks(std::int64_t(this->Blocks), 1, int(sorts.size()), {},
+      [&](std::int64_t block, std::int64_t, int thread)
       {
-        next[share][groupOf[segment]] += counts.Shares[share][segment];
-      }
-    }
-    this->Starts.clear();
-    std::size_t at = 0;
-    for (std::size_t group = 0; group < groups; ++group)
-    {
-      this->Starts.push_back(at);
-      for (std::vector<std::size_t>& own : next)
-      {
-        at += std::exchange(own[group], at);
-      }
-    }
-    this->Starts.push_back(at);
-    this->reserve(at);
-    parallelFor(std::int64_t(counts.shares()), threads,
-      [&](std::int64_t share)
-      {
-        std::vector<std::size_t>& own = next[std::size_t(share)];
-        const std::size_t end = counts.ShareStarts[std::size_t(share) + 1];
-        for (std::size_t i = counts.ShareStarts[std::size_t(share)]; i < end; ++i)
+        BlockSort& own = sorts[std::size_t(thread)];
+        const std::size_t first = std::size_t(block) * this->BlockSize;
+        const std::size_t size = this->sizeOf(std::size_t(block));
+        own.reset(size, groups);
+        for (std::size_t i = 0; i < size; ++i)
         {
-          const auto [group, source] = where(ids[i]);
-          this->Moves[own[group]++] = { source, std::uint32_t(i) };
+          const auto [group, source] = where(first + i);
+          own.GroupOf[i] = std::uint32_t(group);
+          own.Sources[i] = source;
+          ++own.Next[std::size_t(group) + 1];
         }
+        this->place(std::size_t(block), own);
       });
   }
 
-  /// The same of a few: where(number) for the number of each id of the chunk.
-  template <typename Where>
-  void sort(const std::vector<std::uint32_t>& numbers, std::size_t groups, const Where& where)
-  {
-    this->Starts.assign(groups + 1, 0);
-    for (const std::uint32_t number : numbers)
-    {
-      ++this->Starts[where(number).first + 1];
-    }
-    std::partial_sum(this->Starts.begin(), this->Starts.end(), this->Starts.begin());
-    this->reserve(numbers.size());
-    std::vector<std::size_t> next = this->Starts;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-    {
-      const auto [group, source] = where(numbers[i]);
-      this->Moves[next[group]++] = { source, std::uint32_t(i) };
-    }
-  }
+  /// The groups of which tuples are wanted, ascending.
+  std::vector<std::size_t> wanted() const;
 
-  /// Copies a group's tuples from the buffers to their places in the chunk.
-  void scatter(std::size_t group, const ArrayFiles& files, TupleBuffers& buffers, void* const* out,
-    int threads) const;
+  /// Brings a group's tuples from the buffers into the blocks. Groups may come in any order, each
+  /// once; with the last one the chunk is complete.
+  void gather(std::size_t group, bool isLast, const ArrayFiles& files, TupleBuffers& buffers,
+    void* const* out, int threads) const;
 
 private:
-  struct Move
+  /// What a thread needs to sort a block.
+  struct BlockSort
   {
-    std::uint32_t Source; ///< in the buffers
-    std::uint32_t Target; ///< in the chunk
+    void reset(std::size_t size, std::size_t groups);
+
+    std::vector<std::uint32_t> GroupOf;
+    std::vector<std::uint32_t> Sources;
+    std::vector<std::uint32_t> Next; ///< counts, then the next place, of each group
   };
 
-  void reserve(std::size_t count);
+  void reset(std::size_t count, std::size_t groups);
+  void place(std::size_t block, BlockSort& own);
+  template <typename Place>
+  void place(BlockSort& own, std::size_t size, std::uint32_t* sources, Place* places) const;
+  void complete(std::size_t block, std::size_t group, const char* from, char* to, std::size_t bytes,
+    std::vector<char>& room) const;
 
-  std::unique_ptr<Move[]> Moves;
-  std::size_t Room = 0;
-  std::vector<std::size_t> Starts; ///< of the groups, and the number of moves
+  std::size_t sizeOf(std::size_t block) const
+  {
+    return std::min(this->BlockSize, this->Count - block * this->BlockSize);
+  }
+  const std::uint32_t* startsOf(std::size_t block) const
+  {
+    return this->Starts.data() + block * (this->Groups + 1);
+  }
+  std::size_t threadsFor(int threads) const
+  {
+    return std::max<std::size_t>(std::min(std::size_t(threadCount(threads)), this->Blocks), 1);
+  }
+  bool isWide() const;
+
+  std::size_t Count = 0;
+  std::size_t Groups = 0;
+  std::size_t BlockSize = 0;
+  std::size_t Blocks = 0;
+  /// In the buffers, of each block by group.
+  RawVector<std::uint32_t> Sources;
+  /// Of each id, among its block's; which of them, isWide tells.
+  RawVector<std::uint16_t> Places;
+  RawVector<std::uint32_t> WidePlaces;
+  std::vector<std::uint32_t> Starts; ///< of each group in each block, and the block's size
+  std::vector<char> InOrder;         ///< of each block: is of one group, and has no places
 };
 
 } // namespace tipp

@@ -2,6 +2,8 @@
 #include "Loading/UniqueIds.h"
 
 #include <algorithm>
+#include <limits>
+#include <stdexcept>
 
 namespace tipp
 {
@@ -9,12 +11,16 @@ namespace tipp
 UniqueIds::UniqueIds(const std::int64_t* ids, std::size_t count)
   : Numbers(count)
 {
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  if (count > none)
+  {
+    throw std::length_error("a chunk of 2^32 vertex ids or more is asked for");
+  }
   int bits = 4;
   while ((std::size_t(1) << bits) < 2 * count)
   {
     ++bits;
   }
-  constexpr std::uint32_t none = ~std::uint32_t(0);
   std::vector<std::uint32_t> table(std::size_t(1) << bits, none); // open addressing
   for (std::size_t i = 0; i < count; ++i)
   {

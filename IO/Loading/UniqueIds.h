@@ -14,7 +14,7 @@ namespace tipp
 /// mesh's triangles.
 struct UniqueIds
 {
-  /// At most 2^31 ids, none negative.
+  /// Throws std::length_error for 2^32 ids or more. None is negative.
   UniqueIds(const std::int64_t* ids, std::size_t count);
 
   std::vector<std::pair<std::int64_t, std::uint32_t>> Sorted; ///< each id and its number

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Loading/GroupedMoves.h"
 #include "Loading/VertexLoader.h"
 
 #include "ExpectIOError.h"
@@ -266,6 +265,39 @@ TEST(FineLoader, ReadsNothingTwiceForLongWhereAllFits)
   EXPECT_GT(loader->counters().UsefulBytes, 100 * whole / 2);
 }
 
+TEST(FineLoader, ReadsBlocksThatTheLastChunksHadOnlyOnce)
+{
+  LoaderOptions options;
+  options.Kind = Loader::Fine;
+  options.M = 4000; // not all, but more than the two chunks want
+  const auto loader = makeVertexLoader(source().Arrays, options);
+  Ids ids(1500);
+  std::iota(ids.begin(), ids.end(), 0);
+  expectRight(*loader, ids, ids.size());
+  const std::int64_t once = loader->counters().Bytes;
+  expectRight(*loader, ids, ids.size());
+  EXPECT_EQ(once, loader->counters().Bytes);
+  std::iota(ids.begin(), ids.end(), 1000);
+  expectRight(*loader, ids, ids.size());
+  EXPECT_EQ(once + 1024 * (24 + 1 + 10), loader->counters().Bytes);
+}
+
+TEST(FineLoader, IsRightWhereFewIdsFollowBlocksAndGroups)
+{
+  LoaderOptions options;
+  options.Kind = Loader::Fine;
+  options.M = 2100;
+  const auto loader = makeVertexLoader(source().Arrays, options);
+  Ids ids(4 * 1000);
+  for (int round = 0; round < 3; ++round)
+  {
+    std::iota(ids.begin(), ids.end(), 300 * round);
+    expectRight(*loader, ids, 1000);
+    expectRight(*loader, ids, ids.size());
+    expectRight(*loader, { 1, 4999, 2600 }, 3);
+  }
+}
+
 TEST(FineLoader, FewIdsInSeveralPassesAreAllFound)
 {
   LoaderOptions options;
@@ -316,23 +348,6 @@ TEST(FineLoader, IsRightAgainAfterAReadThatFailed)
   std::ofstream(path, std::ios::binary) << content;
   loader->load(ids.data(), ids.size(), out);
   EXPECT_EQ((std::vector<std::int64_t>{ 10, 900 }), got);
-}
-
-TEST(GroupedMoves, BringAGroupsTuplesToEveryPlaceThatWantsThem)
-{
-  const tipp::ArrayFiles files({ source().Arrays[1] });
-  tipp::TupleBuffers buffers;
-  buffers.resize(files, 3);
-  std::copy_n("abc", 3, buffers.data(0));
-  tipp::GroupedMoves moves;
-  moves.sort(
-    { 0, 1, 0, 2, 1 }, 2, [](std::uint32_t number) { return std::make_pair(number % 2, number); });
-  std::string got(5, '.');
-  void* const out[] = { got.data() };
-  moves.scatter(0, files, buffers, out, 1);
-  EXPECT_EQ("a.ac.", got);
-  moves.scatter(1, files, buffers, out, 1);
-  EXPECT_EQ("abacb", got);
 }
 
 TEST(LruLoader, CountsAMissForEachBlockThatItReads)
