@@ -82,7 +82,7 @@ std::int64_t fillPointGhosts(
         unsigned char hits = 0;
         for (std::int64_t i = first; i < std::min(first + few, end); ++i)
         {
-          ghosts[i] = (unsigned char)((1 - valid[i]) * vtkDataSetAttributes::HIDDENPOINT);
+          ghosts[i] = (unsigned char)((valid[i] - 1) & vtkDataSetAttributes::HIDDENPOINT);
           hits = (unsigned char)(hits + valid[i]);
         }
         count += hits;
@@ -105,26 +105,31 @@ void fillCellGhosts(const unsigned char* valid, int threads, vtkImageData* image
   const std::int64_t right = dimensions[0] > 1 ? 1 : 0;
   const std::int64_t back = dimensions[1] > 1 ? width : 0;
   const std::int64_t up = dimensions[2] > 1 ? layer : 0;
-  const auto fillRow = [&](std::int64_t row)
+  const auto fillRow = [&](std::int64_t row, std::vector<unsigned char>& corners)
   {
     const unsigned char* const a = valid + row / rows * layer + row % rows * width;
     const unsigned char* const b = a + back;
     const unsigned char* const c = a + up;
     const unsigned char* const d = c + back;
+    for (std::int64_t i = 0; i < width; ++i)
+    {
+      corners[std::size_t(i)] = a[i] & b[i] & c[i] & d[i];
+    }
+    const unsigned char* const left = corners.data();
     unsigned char* const cells = first + row * columns;
     for (int i = 0; i < columns; ++i)
     {
-      const int whole =
-        a[i] & a[i + right] & b[i] & b[i + right] & c[i] & c[i + right] & d[i] & d[i + right];
-      cells[i] = (unsigned char)((1 - whole) * vtkDataSetAttributes::HIDDENCELL);
+      const int whole = left[i] & left[i + right];
+      cells[i] = (unsigned char)((whole - 1) & vtkDataSetAttributes::HIDDENCELL);
     }
   };
   forChunks(std::int64_t(rows) * layers, 64, threads, {},
     [&](std::int64_t begin, std::int64_t end, int)
     {
+      std::vector<unsigned char> corners(static_cast<std::size_t>(width));
       for (std::int64_t row = begin; row < end; ++row)
       {
-        fillRow(row);
+        fillRow(row, corners);
       }
     });
 }
