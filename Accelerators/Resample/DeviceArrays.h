@@ -16,7 +16,7 @@ namespace tipp
 /// Cells with more samples in their boxes are done by an item a row.
 constexpr cl_long LargestCellOnDevice = 4096;
 /// Neighbours that one work item does on a CPU, where items are not side by side in lanes.
-constexpr cl_int CpuShare = 64;
+constexpr cl_int CpuShare = 32;
 
 inline cl_int shareOf(const ComputeDevice& device)
 {
