@@ -6,27 +6,23 @@
 #define ROWS 1
 #define DOUBT 2
 
+// A box's samples: columns, rows and layers.
 typedef struct
 {
-  int columnBegin;
-  int columnEnd;
-  int rowBegin;
-  int rowEnd;
-  int layerBegin;
-  int layerEnd;
+  int4 begin;
+  int4 end;
 } Box;
 
 // How many rows a cell's box has.
 int rowsOf(const Box* box)
 {
-  return (box->rowEnd - box->rowBegin) * (box->layerEnd - box->layerBegin);
+  return (box->end.y - box->begin.y) * (box->end.z - box->begin.z);
 }
 
 // How many samples a cell's box has.
 long samplesOf(const Box* box)
 {
-  return (long)(box->columnEnd - box->columnBegin) * (box->rowEnd - box->rowBegin) *
-    (box->layerEnd - box->layerBegin);
+  return (long)(box->end.x - box->begin.x) * rowsOf(box);
 }
 
 // Rows of a cell that are done side by side.

@@ -2,26 +2,23 @@
 // TetrahedronRows.h for a device. After CellRows.cl.
 #if CORNERS == 4
 
-// What range() of LatticeAxis gives along all axes; DOUBT if that is not certain.
+// What range() of LatticeAxis gives along all axes; DOUBT if that is not certain. A fourth axis fills
+// the lanes: from 0 to 1 it has one sample.
 INLINE int setBox(Box* box, double4 low, double4 high, double4 error, Axis x, Axis y, Axis z)
 {
   const double4 origin = (double4)(x.s0, y.s0, z.s0, 0);
-  const double4 inverse = (double4)(x.s1, y.s1, z.s1, 0);
-  const double4 shift = 1 - (double4)(x.s2, y.s2, z.s2, 0);
+  const double4 inverse = (double4)(x.s1, y.s1, z.s1, 1);
+  const double4 shift = (double4)(1 - x.s2, 1 - y.s2, 1 - z.s2, 0.5);
   const double4 limit = (double4)(x.s3, y.s3, z.s3, 1.5);
   const double4 first = CLAMPED((low - origin) * inverse + shift, (double4)(0.5), limit);
   const double4 last = CLAMPED((high - origin) * inverse + shift, (double4)(0.5), limit);
   const int4 begin = convert_int4(first);
   const int4 end = convert_int4(last);
   const int4 both = convert_int4(certain(first, error) & certain(last, error));
-  box->columnBegin = begin.x;
-  box->columnEnd = end.x;
-  box->rowBegin = begin.y;
-  box->rowEnd = end.y;
-  box->layerBegin = begin.z;
-  box->layerEnd = end.z;
-  const int3 empty = (both & (begin >= end)).xyz;
-  return any(empty) ? NOTHING : all(both.xyz) ? ROWS : DOUBT;
+  box->begin = begin;
+  box->end = end;
+  const int4 empty = both & (begin >= end);
+  return any(empty) ? NOTHING : all(both) ? ROWS : DOUBT;
 }
 
 // Faces side by side: where each crosses the first row, in steps from the box's first column, and how
@@ -61,13 +58,13 @@ INLINE int setFaces(Cell* t, const double3 a, const double3 b, const double3 c, 
   const double4 perLayer = nz * scale * z.s6;
   const Box* box = &t->box;
   const double4 place = (ax - x.s0) * x.s1 - x.s2 + 1 -
-    (ny * scale * (coordinateOf(y, box->rowBegin) - ay) +
-      nz * scale * (coordinateOf(z, box->layerBegin) - az)) - (double)box->columnBegin;
+    (ny * scale * (coordinateOf(y, box->begin.y) - ay) +
+      nz * scale * (coordinateOf(z, box->begin.z) - az)) - (double)box->begin.x;
   const double area = ROUNDINGS * size.y * size.z;
   const double4 error = 2 * (errors.x + (area * size.x + SMALLEST) * fabs(scale)) +
     fabs(perRow) * errors.y + fabs(perLayer) * errors.z +
-    0x1p-21 * (fabs(place) + fabs(perRow) * (double)(box->rowEnd - box->rowBegin) +
-      fabs(perLayer) * (double)(box->layerEnd - box->layerBegin));
+    0x1p-21 * (fabs(place) + fabs(perRow) * (double)(box->end.y - box->begin.y) +
+      fabs(perLayer) * (double)(box->end.z - box->begin.z));
   if (!all((fabs(nx) > area + SMALLEST) & (error < 0.25)))
   {
     return DOUBT;
@@ -83,17 +80,18 @@ INLINE int setFaces(Cell* t, const double3 a, const double3 b, const double3 c, 
   return ROWS;
 }
 
-// Whether the sample, from which the corners are counted, is inside: see TetrahedronLanes.h.
-INLINE int setSample(double3 a, double3 b, double3 c, double3 d, double3 size)
+// Whether the box's only sample is inside: see TetrahedronLanes.h.
+INLINE int setSample(const Box* box, double3 a, double3 b, double3 c, double3 d, double3 size, Axis x,
+  Axis y, Axis z)
 {
-  const double ab = a.x * b.y - b.x * a.y;
-  const double ac = a.x * c.y - c.x * a.y;
-  const double ad = a.x * d.y - d.x * a.y;
-  const double bc = b.x * c.y - c.x * b.y;
-  const double bd = b.x * d.y - d.x * b.y;
-  const double cd = c.x * d.y - d.x * c.y;
-  const double4 weights = (double4)(b.z * cd - c.z * bd + d.z * bc, c.z * ad - a.z * cd - d.z * ac,
-    a.z * bd - b.z * ad + d.z * ab, b.z * ac - a.z * bc - c.z * ab);
+  const double4 px = (double4)(a.x, b.x, c.x, d.x) - coordinateOf(x, box->begin.x);
+  const double4 py = (double4)(a.y, b.y, c.y, d.y) - coordinateOf(y, box->begin.y);
+  const double4 pz = (double4)(a.z, b.z, c.z, d.z) - coordinateOf(z, box->begin.z);
+  // Minors of each corner with the next, and with that after it.
+  const double4 next = px * py.yzwx - px.yzwx * py;
+  const double4 second = px * py.zwxy - px.zwxy * py;
+  const double4 turned = pz.yzwx * next.zwxy - pz.zwxy * second.yzwx + pz.wxyz * next.yzwx;
+  const double4 weights = turned * (double4)(1, -1, 1, -1);
   const double4 bound = ROUNDINGS * size.x * size.y * size.z + SMALLEST * (1 + size.z);
   const long4 above = weights > bound;
   const long4 below = weights < -bound;
@@ -114,18 +112,16 @@ INLINE int setCell(Cell* t, const double3* p, Axis x, Axis y, Axis z)
   const double3 high = MOST(mostOfTwo, mostOfOthers);
   const double3 error = MOST(-low, high) * (double3)(x.s4, y.s4, z.s4) + (double3)(x.s5, y.s5, z.s5);
   const int box =
-    setBox(&t->box, (double4)(low, 0), (double4)(high, 0), (double4)(error, 0), x, y, z);
+    setBox(&t->box, (double4)(low, 0), (double4)(high, 1), (double4)(error, 0), x, y, z);
   if (box == NOTHING)
   {
     return NOTHING;
   }
   const double3 size = high - low;
-  t->isSample = samplesOf(&t->box) == 1;
+  t->isSample = all(t->box.end - t->box.begin == 1);
   if (box == ROWS && t->isSample)
   {
-    const double3 sample = (double3)(coordinateOf(x, t->box.columnBegin),
-      coordinateOf(y, t->box.rowBegin), coordinateOf(z, t->box.layerBegin));
-    return setSample(a - sample, b - sample, c - sample, d - sample, size);
+    return setSample(&t->box, a, b, c, d, size, x, y, z);
   }
   const double3 u = b - a;
   const double3 v = c - a;
@@ -152,18 +148,18 @@ INLINE int cellSpans(const Cell* cell, int first, int last, Axis x, Axis y, Span
   const Box* box = &cell->box;
   if (cell->isSample)
   {
-    spans->begin[0] = box->columnBegin;
-    spans->end[0] = box->columnEnd;
-    spans->row[0] = box->rowBegin;
-    spans->layer[0] = box->layerBegin;
+    spans->begin[0] = box->begin.x;
+    spans->end[0] = box->end.x;
+    spans->row[0] = box->begin.y;
+    spans->layer[0] = box->begin.z;
     return ROWS;
   }
-  const float depth = (float)(box->rowEnd - box->rowBegin);
+  const float depth = (float)(box->end.y - box->begin.y);
   const float8 number = (float8)(0, 1, 2, 3, 4, 5, 6, 7) + (float)first;
   const int8 layer = convert_int8((number + 0.5f) * (1 / depth));
   const float8 up = convert_float8(layer);
   const float8 along = number - up * depth;
-  const float width = (float)(box->columnEnd - box->columnBegin) + 0.5f;
+  const float width = (float)(box->end.x - box->begin.x) + 0.5f;
   const float place[4] = { cell->place.x, cell->place.y, cell->place.z, cell->place.w };
   const float perRow[4] = { cell->perRow.x, cell->perRow.y, cell->perRow.z, cell->perRow.w };
   const float perLayer[4] = { cell->perLayer.x, cell->perLayer.y, cell->perLayer.z,
@@ -187,10 +183,10 @@ INLINE int cellSpans(const Cell* cell, int first, int last, Axis x, Axis y, Span
   const int8 ends = convert_int8(end);
   const int8 sure = (fabs(begin - convert_float8(begins) - 0.5f) < cell->certainty) &
     (fabs(end - convert_float8(ends) - 0.5f) < cell->certainty);
-  vstore8(begins + box->columnBegin, 0, spans->begin);
-  vstore8(ends + box->columnBegin, 0, spans->end);
-  vstore8(convert_int8(along) + box->rowBegin, 0, spans->row);
-  vstore8(layer + box->layerBegin, 0, spans->layer);
+  vstore8(begins + box->begin.x, 0, spans->begin);
+  vstore8(ends + box->begin.x, 0, spans->end);
+  vstore8(convert_int8(along) + box->begin.y, 0, spans->row);
+  vstore8(layer + box->begin.z, 0, spans->layer);
   return any(~sure & (begins <= ends + 1) & (number < (float)last)) ? DOUBT : ROWS;
 }
 

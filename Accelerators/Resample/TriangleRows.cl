@@ -11,12 +11,8 @@ INLINE int setBox(Box* box, double2 low, double2 high, double2 error, Axis x, Ax
   const double4 clamped = CLAMPED(place, (double4)(0.5), (double4)(x.s3, y.s3, x.s3, y.s3));
   const int4 whole = convert_int4(clamped);
   const int4 sure = convert_int4(certain(clamped, (double4)(error, error)));
-  box->columnBegin = whole.x;
-  box->columnEnd = whole.z;
-  box->rowBegin = whole.y;
-  box->rowEnd = whole.w;
-  box->layerBegin = 0;
-  box->layerEnd = 1;
+  box->begin = (int4)(whole.lo, 0, 0);
+  box->end = (int4)(whole.hi, 1, 1);
   const int2 both = sure.lo & sure.hi;
   return any(both & (whole.lo >= whole.hi)) ? NOTHING : all(both) ? ROWS : DOUBT;
 }
@@ -96,7 +92,7 @@ INLINE int setCell(Cell* t, const double3* p, Axis u, Axis v, Axis w)
 INLINE int cellSpans(const Cell* t, int first, int last, Axis u, Axis v, Spans* spans)
 {
   const int4 number = (int4)(0, 1, 2, 3) + first;
-  const int4 row = number + t->box.rowBegin;
+  const int4 row = number + t->box.begin.y;
   const double4 y = coordinatesOf(v, row);
   const long4 upper = y >= t->middle;
   const Edge* whole = &t->edges[0];
