@@ -1,10 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which samples of its rows a cell answers, as far as rounding could not change a count. After
-// LatticeAndMesh.cl; TriangleRows.cl and TetrahedronRows.cl, of which one counts, follow with
-// setCell() and cellSpans() for a Cell.
+// LatticeAndMesh.cl; TriangleRows.cl and TetrahedronRows.cl, of which one counts, follow with a Cell and
+// setBox(), setRows() and cellSpans() for it, to be called in this order. Each returns what the cell
+// has as far as it knows.
 #define NOTHING 0
 #define ROWS 1
 #define DOUBT 2
+
+// Without branches, of which many would be mispredicted: truths are 0 or -1.
+int anyOf(int4 truths)
+{
+  const int2 pairs = truths.lo | truths.hi;
+  return pairs.x | pairs.y;
+}
+int allOf(int4 truths)
+{
+  const int2 pairs = truths.lo & truths.hi;
+  return pairs.x & pairs.y;
+}
+int stateOf(int isNothing, int isSure)
+{
+  return (1 + isNothing) * (2 + isSure);
+}
 
 // A box's samples: columns, rows and layers.
 typedef struct

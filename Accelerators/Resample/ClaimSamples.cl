@@ -36,7 +36,8 @@ INLINE int setCellOf(Cell* cell, const Mesh* mesh, long number, Axis x, Axis y, 
   double3 points[CORNERS];
   loadIds(mesh, number, ids);
   loadPoints(mesh, ids, points);
-  return setCell(cell, points, x, y, z);
+  const int state = setBox(cell, points, x, y, z);
+  return state == ROWS ? setRows(cell, points, x, y, z) : state;
 }
 
 // Each item does `share` cells in a row. Cells with more than `largest` samples in their boxes and

@@ -264,12 +264,13 @@ int isOutside(const int* ids, global const uchar* sides)
       { values2, samples2, isFloat2, components2 }, { values3, samples3, isFloat3, components3 }     \
   }
 
-// A cell that has samples.
+// A cell whose box has samples.
 typedef struct
 {
   Cell cell;
   Spans spans; // of its first rows
   int number;  // among the item's
+  int state;
 } Live;
 
 // Each item does SHARE cells in a row. Cells with more than `most` samples in their boxes and cells in
@@ -306,38 +307,55 @@ kernel void sampleCells(global const Real* points, global const Id* ids, int u, 
   {
     Live* next = &live[liveCount];
     next->number = kept[k];
-    int state = setCell(&next->cell, corners[kept[k]].points, x, y, z);
-    if (state == ROWS && samplesOf(&next->cell.box) > most)
+    next->state = setBox(&next->cell, corners[kept[k]].points, x, y, z);
+    liveCount += next->state != NOTHING;
+  }
+  int open[SHARE];
+  int openCount = 0;
+  for (int k = 0; k < liveCount; ++k)
+  {
+    Live* of = &live[k];
+    const int rows = rowsOf(&of->cell.box);
+    if (of->state == ROWS && samplesOf(&of->cell.box) > most)
     {
-      large[atomic_inc(&lengths[0])] = (int)begin + kept[k];
+      large[atomic_inc(&lengths[0])] = (int)begin + of->number;
       continue;
     }
-    const int rows = rowsOf(&next->cell.box);
-    state = state == ROWS ? cellSpans(&next->cell, 0, rows, x, y, &next->spans) : state;
-    if (state == DOUBT)
+    if (of->state == ROWS)
     {
-      doubtful[atomic_inc(&lengths[1])] = (int)begin + kept[k];
+      of->state = setRows(&of->cell, corners[of->number].points, x, y, z);
     }
-    liveCount += state == ROWS && isOpen(&next->spans, rows);
+    if (of->state != DOUBT)
+    {
+      // A cell with nothing still has nothing.
+      of->state *= cellSpans(&of->cell, 0, rows, x, y, &of->spans);
+    }
+    if (of->state == DOUBT)
+    {
+      doubtful[atomic_inc(&lengths[1])] = (int)begin + of->number;
+    }
+    open[openCount] = k;
+    openCount += (of->state == ROWS) & isOpen(&of->spans, rows);
   }
-  for (int k = 0; k < liveCount; ++k)
+  for (int k = 0; k < openCount; ++k)
   {
-    loadValues(&corners[live[k].number], arrays, arrayCount);
+    loadValues(&corners[live[open[k]].number], arrays, arrayCount);
   }
   uint sum = 0;
-  for (int k = 0; k < liveCount; ++k)
+  for (int k = 0; k < openCount; ++k)
   {
+    Live* of = &live[open[k]];
     Gradients gradients;
     int total = 0;
-    int state = setGradients(&gradients, &corners[live[k].number], arrays, arrayCount);
+    int state = setGradients(&gradients, &corners[of->number], arrays, arrayCount);
     if (state == ROWS)
     {
-      state = fillCell(&live[k].cell, &live[k].spans, 0, rowsOf(&live[k].cell.box), &gradients, x, y, z,
-        valid, &total);
+      state = fillCell(
+        &of->cell, &of->spans, 0, rowsOf(&of->cell.box), &gradients, x, y, z, valid, &total);
     }
     if (state == DOUBT)
     {
-      doubtful[atomic_inc(&lengths[1])] = (int)begin + live[k].number;
+      doubtful[atomic_inc(&lengths[1])] = (int)begin + of->number;
     }
     sum += state == ROWS ? total : 0;
   }
@@ -361,7 +379,8 @@ kernel void sampleLarge(global const Real* points, global const Id* ids, int u, 
   loadPoints(&mesh, corners.ids, corners.points);
   loadValues(&corners, arrays, arrayCount);
   Cell cell;
-  setCell(&cell, corners.points, x, y, z);
+  setBox(&cell, corners.points, x, y, z);
+  setRows(&cell, corners.points, x, y, z);
   Spans spans;
   Gradients gradients;
   int total = 0;

@@ -2,25 +2,6 @@
 // TetrahedronRows.h for a device. After CellRows.cl.
 #if CORNERS == 4
 
-// What range() of LatticeAxis gives along all axes; DOUBT if that is not certain. A fourth axis fills
-// the lanes: from 0 to 1 it has one sample.
-INLINE int setBox(Box* box, double4 low, double4 high, double4 error, Axis x, Axis y, Axis z)
-{
-  const double4 origin = (double4)(x.s0, y.s0, z.s0, 0);
-  const double4 inverse = (double4)(x.s1, y.s1, z.s1, 1);
-  const double4 shift = (double4)(1 - x.s2, 1 - y.s2, 1 - z.s2, 0.5);
-  const double4 limit = (double4)(x.s3, y.s3, z.s3, 1.5);
-  const double4 first = CLAMPED((low - origin) * inverse + shift, (double4)(0.5), limit);
-  const double4 last = CLAMPED((high - origin) * inverse + shift, (double4)(0.5), limit);
-  const int4 begin = convert_int4(first);
-  const int4 end = convert_int4(last);
-  const int4 both = convert_int4(certain(first, error) & certain(last, error));
-  box->begin = begin;
-  box->end = end;
-  const int4 empty = both & (begin >= end);
-  return any(empty) ? NOTHING : all(both) ? ROWS : DOUBT;
-}
-
 // Faces side by side: where each crosses the first row, in steps from the box's first column, and how
 // many steps before that for each row and each layer. In single precision: see TetrahedronLanes.h.
 typedef struct
@@ -32,6 +13,8 @@ typedef struct
   float4 notEnd;
   float certainty;
   Box box;
+  double3 size; // of the box
+  double3 error;
   int isSample; // the box is one sample, which is inside: the rest is not told
 } Cell;
 
@@ -93,33 +76,46 @@ INLINE int setSample(const Box* box, double3 a, double3 b, double3 c, double3 d,
   const double4 turned = pz.yzwx * next.zwxy - pz.zwxy * second.yzwx + pz.wxyz * next.yzwx;
   const double4 weights = turned * (double4)(1, -1, 1, -1);
   const double4 bound = ROUNDINGS * size.x * size.y * size.z + SMALLEST * (1 + size.z);
-  const long4 above = weights > bound;
-  const long4 below = weights < -bound;
-  return any(above) && any(below) ? NOTHING : all(above) || all(below) ? ROWS : DOUBT;
+  const int4 above = convert_int4(weights > bound);
+  const int4 below = convert_int4(weights < -bound);
+  return stateOf(anyOf(above) & anyOf(below), allOf(above) | allOf(below));
 }
 
-INLINE int setCell(Cell* t, const double3* p, Axis x, Axis y, Axis z)
+// What range() of LatticeAxis gives along all axes. A fourth axis fills the lanes: it has one sample.
+INLINE int setBox(Cell* t, const double3* p, Axis x, Axis y, Axis z)
+{
+  const double3 leastOfTwo = LEAST(p[0], p[1]);
+  const double3 leastOfOthers = LEAST(p[2], p[3]);
+  const double3 mostOfTwo = MOST(p[0], p[1]);
+  const double3 mostOfOthers = MOST(p[2], p[3]);
+  const double3 low = LEAST(leastOfTwo, leastOfOthers);
+  const double3 high = MOST(mostOfTwo, mostOfOthers);
+  t->size = high - low;
+  t->error = MOST(-low, high) * (double3)(x.s4, y.s4, z.s4) + (double3)(x.s5, y.s5, z.s5);
+  const double4 error = (double4)(t->error, 0);
+  const double4 origin = (double4)(x.s0, y.s0, z.s0, 0);
+  const double4 inverse = (double4)(x.s1, y.s1, z.s1, 1);
+  const double4 shift = (double4)(1 - x.s2, 1 - y.s2, 1 - z.s2, 0.5);
+  const double4 limit = (double4)(x.s3, y.s3, z.s3, 1.5);
+  const double4 first = ((double4)(low, 0) - origin) * inverse + shift;
+  const double4 last = ((double4)(high, 1) - origin) * inverse + shift;
+  const double4 begin = CLAMPED(first, (double4)(0.5), limit);
+  const double4 end = CLAMPED(last, (double4)(0.5), limit);
+  t->box.begin = convert_int4(begin);
+  t->box.end = convert_int4(end);
+  t->isSample = -allOf(t->box.end - t->box.begin == 1);
+  const int4 sure = convert_int4(certain(begin, error) & certain(end, error));
+  return stateOf(anyOf(sure & (t->box.begin >= t->box.end)), allOf(sure));
+}
+
+INLINE int setRows(Cell* t, const double3* p, Axis x, Axis y, Axis z)
 {
   double3 a = p[0];
   double3 b = p[1];
   const double3 c = p[2];
   const double3 d = p[3];
-  const double3 leastOfTwo = LEAST(a, b);
-  const double3 leastOfOthers = LEAST(c, d);
-  const double3 mostOfTwo = MOST(a, b);
-  const double3 mostOfOthers = MOST(c, d);
-  const double3 low = LEAST(leastOfTwo, leastOfOthers);
-  const double3 high = MOST(mostOfTwo, mostOfOthers);
-  const double3 error = MOST(-low, high) * (double3)(x.s4, y.s4, z.s4) + (double3)(x.s5, y.s5, z.s5);
-  const int box =
-    setBox(&t->box, (double4)(low, 0), (double4)(high, 1), (double4)(error, 0), x, y, z);
-  if (box == NOTHING)
-  {
-    return NOTHING;
-  }
-  const double3 size = high - low;
-  t->isSample = all(t->box.end - t->box.begin == 1);
-  if (box == ROWS && t->isSample)
+  const double3 size = t->size;
+  if (t->isSample)
   {
     return setSample(&t->box, a, b, c, d, size, x, y, z);
   }
@@ -129,7 +125,7 @@ INLINE int setCell(Cell* t, const double3* p, Axis x, Axis y, Axis z)
   const double volume = w.x * (u.y * v.z - u.z * v.y) + w.y * (u.z * v.x - u.x * v.z) +
     w.z * (u.x * v.y - u.y * v.x);
   // Coordinates that are not finite make that false.
-  if (box == DOUBT || !(fabs(volume) > ROUNDINGS * size.x * size.y * size.z + SMALLEST))
+  if (!(fabs(volume) > ROUNDINGS * size.x * size.y * size.z + SMALLEST))
   {
     return DOUBT;
   }
@@ -139,7 +135,7 @@ INLINE int setCell(Cell* t, const double3* p, Axis x, Axis y, Axis z)
     a = b;
     b = swap;
   }
-  return setFaces(t, a, b, c, d, size, error, x, y, z);
+  return setFaces(t, a, b, c, d, size, t->error, x, y, z);
 }
 
 // The rows first..last - 1 of the box, at most ROWS_AT_ONCE, counted from the first of its first layer.

@@ -1,21 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TriangleRows.h for a device; w is not looked at. After CellRows.cl.
+// TriangleRows.h for a device; the third axis is not looked at. After CellRows.cl.
 #if CORNERS == 3
-
-// What range() of LatticeAxis gives along both axes; DOUBT if that is not certain.
-INLINE int setBox(Box* box, double2 low, double2 high, double2 error, Axis x, Axis y)
-{
-  const double4 ends = (double4)(low, high);
-  const double4 place = (ends - (double4)(x.s0, y.s0, x.s0, y.s0)) * (double4)(x.s1, y.s1, x.s1, y.s1) +
-    (1 - (double4)(x.s2, y.s2, x.s2, y.s2));
-  const double4 clamped = CLAMPED(place, (double4)(0.5), (double4)(x.s3, y.s3, x.s3, y.s3));
-  const int4 whole = convert_int4(clamped);
-  const int4 sure = convert_int4(certain(clamped, (double4)(error, error)));
-  box->begin = (int4)(whole.lo, 0, 0);
-  box->end = (int4)(whole.hi, 1, 1);
-  const int2 both = sure.lo & sure.hi;
-  return any(both & (whole.lo >= whole.hi)) ? NOTHING : all(both) ? ROWS : DOUBT;
-}
 
 typedef struct
 {
@@ -51,31 +36,42 @@ void lowFirst(double3* a, double3* b)
   *b = high;
 }
 
-INLINE int setCell(Cell* t, const double3* p, Axis u, Axis v, Axis w)
+// What range() of LatticeAxis gives along both axes.
+INLINE int setBox(Cell* t, const double3* p, Axis x, Axis y, Axis z)
+{
+  const double2 least = LEAST(p[0].xy, p[1].xy);
+  const double2 most = MOST(p[0].xy, p[1].xy);
+  const double2 low = LEAST(least, p[2].xy);
+  const double2 high = MOST(most, p[2].xy);
+  const double2 error = MOST(-low, high) * (double2)(x.s4, y.s4) + (double2)(x.s5, y.s5);
+  const double4 ends = (double4)(low, high);
+  const double4 place = (ends - (double4)(x.s0, y.s0, x.s0, y.s0)) * (double4)(x.s1, y.s1, x.s1, y.s1) +
+    (1 - (double4)(x.s2, y.s2, x.s2, y.s2));
+  const double4 clamped = CLAMPED(place, (double4)(0.5), (double4)(x.s3, y.s3, x.s3, y.s3));
+  const int4 whole = convert_int4(clamped);
+  const int4 sure = convert_int4(certain(clamped, (double4)(error, error)));
+  t->error = error.x;
+  t->box.begin = (int4)(whole.lo, 0, 0);
+  t->box.end = (int4)(whole.hi, 1, 1);
+  const int2 both = sure.lo & sure.hi;
+  return stateOf(
+    anyOf((int4)(both & (whole.lo >= whole.hi), 0, 0)), allOf((int4)(both, -1, -1)));
+}
+
+INLINE int setRows(Cell* t, const double3* p, Axis x, Axis y, Axis z)
 {
   double3 a = p[0];
   double3 b = p[1];
   double3 c = p[2];
-  const double least = LEAST(a.x, b.x);
-  const double most = MOST(a.x, b.x);
-  const double left = LEAST(least, c.x);
-  const double right = MOST(most, c.x);
-  t->error = errorOf(u, MOST(-left, right));
   lowFirst(&a, &b);
   lowFirst(&b, &c);
   lowFirst(&a, &b);
-  const int box = setBox(&t->box, (double2)(left, a.y), (double2)(right, c.y),
-    (double2)(t->error, errorOf(v, MOST(-a.y, c.y))), u, v);
-  if (box == NOTHING)
-  {
-    return NOTHING;
-  }
   // orientation(a, c, b) with the filter of Orientation.h.
   const double l = (a.x - b.x) * (c.y - b.y);
   const double r = (a.y - b.y) * (c.x - b.x);
   const double bound = 3.3306690738754716e-16 * (fabs(l) + fabs(r)) + 1e-300;
   // Coordinates that are not finite make that false.
-  if (box == DOUBT || !(fabs(l - r) > bound))
+  if (!(fabs(l - r) > bound))
   {
     return DOUBT;
   }
