@@ -111,9 +111,10 @@ private:
         this->Mesh.Hidden ? std::size_t(count) : 0);
     const cl::Buffer sides =
       this->Device.input(outside, outside ? std::size_t(this->Mesh.PointCount) : 0);
-    this->launch("sampleCells", lists.items(), piece, arrays, cl_long(count), LargestCellOnDevice,
-      hidden, cl_int(this->Mesh.Hidden != nullptr), sides, cl_int(outside != nullptr),
-      this->Outputs[0].buffer(), lists.counts(), lists.large(), lists.doubtful(), lists.lengths());
+    this->launch("sampleCells", lists.items(), piece, arrays, cl_long(count),
+      largestCellOf(this->Device), hidden, cl_int(this->Mesh.Hidden != nullptr), sides,
+      cl_int(outside != nullptr), this->Outputs[0].buffer(), lists.counts(), lists.large(),
+      lists.doubtful(), lists.lengths());
     this->Result.Claimed += lists.fetch();
     const std::vector<std::int32_t> open = lists.doubtfulCells();
     this->Result.Open.insert(this->Result.Open.end(), open.begin(), open.end());
