@@ -57,9 +57,10 @@ double largest(double a, double b, double c)
   return fmax(fmax(fabs(a), fabs(b)), fabs(c));
 }
 
-// Which corners a cell has, and what the arrays say there.
+// A cell, which corners it has, and what the arrays say there.
 typedef struct
 {
+  int number; // among the item's
   int ids[CORNERS];
   double3 points[CORNERS];
   double values[CHANNELS][CORNERS];
@@ -269,7 +270,7 @@ typedef struct
 {
   Cell cell;
   Spans spans; // of its first rows
-  int number;  // among the item's
+  Corners* corners;
   int state;
 } Live;
 
@@ -289,25 +290,32 @@ kernel void sampleCells(global const Real* points, global const Id* ids, int u, 
     return;
   }
   Corners corners[SHARE];
-  int kept[SHARE];
-  int keptCount = 0;
+  int kept = 0;
   for (int i = 0; i < (int)min((long)SHARE, cells - begin); ++i)
   {
-    loadIds(&mesh, begin + i, corners[i].ids);
-    kept[keptCount] = i;
-    keptCount += !((hasHidden && hidden[begin + i]) || (hasSides && isOutside(corners[i].ids, sides)));
+    int ids[CORNERS];
+    loadIds(&mesh, begin + i, ids);
+    if ((hasHidden && hidden[begin + i]) || (hasSides && isOutside(ids, sides)))
+    {
+      continue;
+    }
+    for (int corner = 0; corner < CORNERS; ++corner)
+    {
+      corners[kept].ids[corner] = ids[corner];
+    }
+    corners[kept++].number = i;
   }
-  for (int k = 0; k < keptCount; ++k)
+  for (int k = 0; k < kept; ++k)
   {
-    loadPoints(&mesh, corners[kept[k]].ids, corners[kept[k]].points);
+    loadPoints(&mesh, corners[k].ids, corners[k].points);
   }
   Live live[SHARE];
   int liveCount = 0;
-  for (int k = 0; k < keptCount; ++k)
+  for (int k = 0; k < kept; ++k)
   {
     Live* next = &live[liveCount];
-    next->number = kept[k];
-    next->state = setBox(&next->cell, corners[kept[k]].points, x, y, z);
+    next->corners = &corners[k];
+    next->state = setBox(&next->cell, corners[k].points, x, y, z);
     liveCount += next->state != NOTHING;
   }
   int open[SHARE];
@@ -318,12 +326,12 @@ kernel void sampleCells(global const Real* points, global const Id* ids, int u, 
     const int rows = rowsOf(&of->cell.box);
     if (of->state == ROWS && samplesOf(&of->cell.box) > most)
     {
-      large[atomic_inc(&lengths[0])] = (int)begin + of->number;
+      large[atomic_inc(&lengths[0])] = (int)begin + of->corners->number;
       continue;
     }
     if (of->state == ROWS)
     {
-      of->state = setRows(&of->cell, corners[of->number].points, x, y, z);
+      of->state = setRows(&of->cell, of->corners->points, x, y, z);
     }
     if (of->state != DOUBT)
     {
@@ -332,14 +340,14 @@ kernel void sampleCells(global const Real* points, global const Id* ids, int u, 
     }
     if (of->state == DOUBT)
     {
-      doubtful[atomic_inc(&lengths[1])] = (int)begin + of->number;
+      doubtful[atomic_inc(&lengths[1])] = (int)begin + of->corners->number;
     }
     open[openCount] = k;
     openCount += (of->state == ROWS) & isOpen(&of->spans, rows);
   }
   for (int k = 0; k < openCount; ++k)
   {
-    loadValues(&corners[live[open[k]].number], arrays, arrayCount);
+    loadValues(live[open[k]].corners, arrays, arrayCount);
   }
   uint sum = 0;
   for (int k = 0; k < openCount; ++k)
@@ -347,7 +355,7 @@ kernel void sampleCells(global const Real* points, global const Id* ids, int u, 
     Live* of = &live[open[k]];
     Gradients gradients;
     int total = 0;
-    int state = setGradients(&gradients, &corners[of->number], arrays, arrayCount);
+    int state = setGradients(&gradients, of->corners, arrays, arrayCount);
     if (state == ROWS)
     {
       state = fillCell(
@@ -355,7 +363,7 @@ kernel void sampleCells(global const Real* points, global const Id* ids, int u, 
     }
     if (state == DOUBT)
     {
-      doubtful[atomic_inc(&lengths[1])] = (int)begin + of->number;
+      doubtful[atomic_inc(&lengths[1])] = (int)begin + of->corners->number;
     }
     sum += state == ROWS ? total : 0;
   }
