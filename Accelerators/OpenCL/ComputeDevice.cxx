@@ -54,7 +54,7 @@ ComputeDevice* ComputeDevice::open(const DeviceChoice& choice)
   }
   try
   {
-    return &drivers().open(description->Index);
+    return &drivers().open(description->Index, choice.AsCard);
   }
   catch (const cl::Error& error)
   {
@@ -63,12 +63,13 @@ ComputeDevice* ComputeDevice::open(const DeviceChoice& choice)
   }
 }
 
-ComputeDevice::ComputeDevice(DeviceDescription description, const cl::Device& device)
+ComputeDevice::ComputeDevice(
+  DeviceDescription description, const cl::Device& device, bool sharesHostMemory)
   : Description(std::move(description))
   , Device(device)
   , Context(device)
   , Queue(this->Context, device, CL_QUEUE_PROFILING_ENABLE)
-  , SharesHostMemory(device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() == CL_TRUE)
+  , SharesHostMemory(sharesHostMemory)
 {
 }
 

@@ -36,7 +36,7 @@ public:
   /// AcceleratorError as chooseDevice() does, or if the device cannot be opened.
   static ComputeDevice* open(const DeviceChoice& choice);
 
-  ComputeDevice(DeviceDescription description, const cl::Device& device);
+  ComputeDevice(DeviceDescription description, const cl::Device& device, bool sharesHostMemory);
   ComputeDevice(const ComputeDevice&) = delete;
   ComputeDevice& operator=(const ComputeDevice&) = delete;
 

@@ -26,6 +26,9 @@ struct DeviceChoice
   /// With OpenCL and no Index: a part of the device's name, in any case; empty for the first GPU
   /// with double precision, or else the first device with it.
   std::string Name;
+  /// With OpenCL: use a processor like a graphics card, with copies of all data and small work
+  /// items. Slower; for tests of what cards do on machines without one.
+  bool AsCard = false;
 };
 
 /// Reads "auto", "openmp", "opencl", "opencl:INDEX" or "opencl:NAME" (see DeviceChoice). Throws

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OpenCL/Drivers.h"
 
+#include <utility>
+
 namespace tipp
 {
 namespace
@@ -88,17 +90,21 @@ Drivers::Drivers()
       }
     }
   }
-  this->Opened.resize(this->Devices.size());
+  this->Opened.resize(2 * this->Devices.size());
 }
 
-ComputeDevice& Drivers::open(int index)
+ComputeDevice& Drivers::open(int index, bool asCard)
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
   const auto place = static_cast<std::size_t>(index);
-  std::unique_ptr<ComputeDevice>& opened = this->Opened.at(place);
+  std::unique_ptr<ComputeDevice>& opened = this->Opened.at(2 * place + std::size_t(asCard));
   if (!opened)
   {
-    opened = std::make_unique<ComputeDevice>(this->Descriptions[place], this->Devices[place]);
+    DeviceDescription description = this->Descriptions[place];
+    description.Type = asCard ? DeviceType::Gpu : description.Type;
+    const cl::Device& device = this->Devices[place];
+    const bool shares = !asCard && device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() == CL_TRUE;
+    opened = std::make_unique<ComputeDevice>(std::move(description), device, shares);
   }
   return *opened;
 }

@@ -21,14 +21,14 @@ public:
 
   const std::vector<DeviceDescription>& descriptions() const { return this->Descriptions; }
 
-  /// The device, opened when it is first asked for. Any thread may ask.
-  ComputeDevice& open(int index);
+  /// The device, opened when it is first asked for; `asCard`: see DeviceChoice. Any thread may ask.
+  ComputeDevice& open(int index, bool asCard);
 
 private:
   std::vector<DeviceDescription> Descriptions;
   std::vector<cl::Device> Devices;
   std::mutex Mutex;
-  std::vector<std::unique_ptr<ComputeDevice>> Opened;
+  std::vector<std::unique_ptr<ComputeDevice>> Opened; ///< each as it is, and as a card
 };
 
 /// Those of this process, found on the first call.

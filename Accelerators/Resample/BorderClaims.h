@@ -4,6 +4,7 @@
 
 #include "Resample/CellVisitor.h"
 #include "Resample/Claims.h"
+#include "Resample/Containment.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -17,6 +18,11 @@ struct Touch
 {
   std::int64_t Sample;
   std::int32_t Cell;
+
+  bool operator<(const Touch& other) const
+  {
+    return this->Sample != other.Sample ? this->Sample < other.Sample : this->Cell < other.Cell;
+  }
 };
 
 /// Touches of samples that no cell has answered so far.
@@ -62,9 +68,29 @@ private:
   std::size_t Most = 1 << 16;
 };
 
+/// The moveRank() of a cell at a sample that it touches.
+template <typename Access>
+int borderRank(
+  const Access& access, const LatticeAxes& axes, std::int64_t sample, std::int32_t cell)
+{
+  typename CellGeometry<Access::Dimension>::Corners corners;
+  access.corners(cell, corners);
+  const std::int64_t row = sample / axes.U.size();
+  const double u = axes.U[int(sample % axes.U.size())];
+  const double v = axes.V[int(row % axes.V.size())];
+  if constexpr (Access::Dimension == 2)
+  {
+    return moveRank(corners, { u, v });
+  }
+  else
+  {
+    return moveRank(corners, { u, v, axes.W[int(row / axes.V.size())] });
+  }
+}
+
 /// Which of the touching cells answers each sample, by ascending sample; no other cell does.
 VTKTIPPACCELERATORS_EXPORT std::vector<BorderClaim> borderClaims(
-  const SimplexMesh& mesh, const LatticeAxes& axes, const std::vector<Touch>& touches, int threads);
+  const SimplexMesh& mesh, const LatticeAxes& axes, std::vector<Touch> touches, int threads);
 
 } // namespace tipp
 

@@ -156,6 +156,11 @@ private:
       }
       if constexpr (Dimension == 3)
       {
+        if (lanes.haveSingleSamples())
+        {
+          this->visitSingleSamples(lanes, cell, rows, thread);
+          continue;
+        }
         if (!this->Mesh.Hidden && lanes.haveSingleRows())
         {
           this->visitSingleRows(lanes, cell, rows, sink);
@@ -184,6 +189,17 @@ private:
   bool hidden(std::int64_t cell) const
   {
     return this->Mesh.Hidden && this->Mesh.Hidden[cell] != 0;
+  }
+
+  /// A bit for each hidden one of the cells from `first` on.
+  unsigned hiddenLanes(std::int64_t first) const
+  {
+    unsigned hidden = 0;
+    for (int lane = 0; this->Mesh.Hidden && lane < laneCount; ++lane)
+    {
+      hidden |= unsigned(this->hidden(first + lane)) << lane;
+    }
+    return hidden;
   }
 
   /// False, and nothing done, if it is a large cell.
@@ -243,6 +259,31 @@ private:
       }
       sink.claim(this->sampleRow(spans.Row[lane], spans.Layer[lane]), spans.Begin[lane],
         spans.Size[lane], cell);
+    }
+  }
+
+  /// Where samples are as far from each other as tetrahedra are large, most boxes have one.
+  template <typename CellLanes>
+  [[gnu::always_inline]] void visitSingleSamples(
+    const CellLanes& lanes, std::int64_t first, Rows& rows, int thread)
+  {
+    Sink& sink = this->Sinks[std::size_t(thread)];
+    const auto& spans = lanes.samples();
+    const unsigned visited = lanes.visited() & ~this->hiddenLanes(first);
+    for (unsigned told = visited & ~spans.Doubtful; told != 0; told &= told - 1)
+    {
+      sink.visit(1);
+    }
+    for (unsigned open = spans.Open & visited; open != 0; open &= open - 1)
+    {
+      const int lane = __builtin_ctz(open);
+      if ((spans.Doubtful >> lane & 1) != 0)
+      {
+        this->visitCell(first + lane, rows, thread);
+        continue;
+      }
+      sink.claim(this->sampleRow(spans.Row[lane], spans.Layer[lane]), spans.Begin[lane], 1,
+        std::int32_t(first + lane));
     }
   }
 

@@ -3,6 +3,8 @@
 // a list, for the host to do exactly. Host side: ResampleOnDevice.cxx.
 #include "LatticeAndMesh.cl"
 #include "CellRows.cl"
+#include "TriangleRows.cl"
+#include "TetrahedronRows.cl"
 
 // Claims some rows of a cell; returns the number of samples, or -1 if that is in doubt.
 INLINE int claimRows(const Cell* cell, int first, int last, Axis x, Axis y, int name, global int* claims)
@@ -28,6 +30,16 @@ INLINE int claimRows(const Cell* cell, int first, int last, Axis x, Axis y, int 
   return total;
 }
 
+INLINE int setCellOf(Cell* cell, const Mesh* mesh, long number, Axis x, Axis y, Axis z)
+{
+  int ids[CORNERS];
+  double3 points[CORNERS];
+  loadIds(mesh, number, ids);
+  loadPoints(mesh, ids, points);
+  const int state = setBox(cell, points, x, y, z);
+  return state == ROWS ? setRows(cell, points, x, y, z) : state;
+}
+
 // Each item does `share` cells in a row. Cells with more than `largest` samples in their boxes and
 // cells in doubt go to the lists; `lengths` has the lists' lengths. A cell of a list counts nothing.
 kernel void claimCells(global const Real* points, global const Id* ids, int u, int v, Axis x, Axis y, Axis z, long cells, long firstCell, int share,
@@ -49,7 +61,7 @@ kernel void claimCells(global const Real* points, global const Id* ids, int u, i
     {
       continue;
     }
-    int state = setCell(&cell, &mesh, i, x, y, z);
+    int state = setCellOf(&cell, &mesh, i, x, y, z);
     const Box box = cell.box;
     if (state == ROWS && samplesOf(&box) > largest)
     {
@@ -78,7 +90,7 @@ kernel void claimLarge(global const Real* points, global const Id* ids, int u, i
   const Mesh mesh = { points, ids, u, v };
   const int item = (int)get_global_id(0);
   Cell cell;
-  setCell(&cell, &mesh, number, x, y, z);
+  setCellOf(&cell, &mesh, number, x, y, z);
   if (item < rows)
   {
     counts[item] = claimRows(&cell, item, item + 1, x, y, (int)(firstCell + number), claims);

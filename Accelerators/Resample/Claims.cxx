@@ -227,7 +227,7 @@ private:
     {
       this->settleOverlaps();
     }
-    this->Result.Border = borderClaims(this->Mesh, this->Axes, touches, this->Threads);
+    this->Result.Border = borderClaims(this->Mesh, this->Axes, std::move(touches), this->Threads);
     for (const BorderClaim& claim : this->Result.Border)
     {
       this->Result.Cells[std::size_t(claim.Sample)] = claim.Cell;
@@ -290,8 +290,8 @@ namespace
 
 /// Merges claims first..last - 1; the keys are found `shift` further.
 template <typename Access>
-void mergeRun(const Access& access, Claims& claims, std::int64_t first, std::int64_t last,
-  std::int64_t shift, CellKey* keys)
+void mergeRun(const Access& access, const LatticeAxes& axes, Claims& claims, std::int64_t first,
+  std::int64_t last, std::int64_t shift, CellKey* keys)
 {
   auto border = std::lower_bound(claims.Border.begin(), claims.Border.end(), first,
     [](const BorderClaim& claim, std::int64_t sample) { return claim.Sample < sample; });
@@ -312,7 +312,7 @@ void mergeRun(const Access& access, Claims& claims, std::int64_t first, std::int
     CellKey mine = key;
     if (border != claims.Border.end() && border->Sample == i)
     {
-      mine = withRank(key, border->Rank);
+      mine = withRank(key, borderRank(access, axes, i, cell));
       ++border;
     }
     mine < keys[i + shift] ? void(keys[i + shift] = mine) : void(cell = unclaimed);
@@ -324,6 +324,7 @@ void mergeRun(const Access& access, Claims& claims, std::int64_t first, std::int
 void mergeClaims(
   const SimplexMesh& mesh, Claims& claims, const SampleWindow& window, int threads, CellKey* keys)
 {
+  const LatticeAxes axes(mesh, window.lattice());
   withAccess(mesh,
     [&](const auto& access)
     {
@@ -332,7 +333,7 @@ void mergeClaims(
         {
           window.forRuns(begin, end,
             [&](std::int64_t first, std::int64_t last, std::int64_t shift)
-            { mergeRun(access, claims, first, last, shift, keys); });
+            { mergeRun(access, axes, claims, first, last, shift, keys); });
         });
     });
 }

@@ -21,7 +21,6 @@ struct BorderClaim
 {
   std::int64_t Sample;
   std::int32_t Cell;
-  int Rank; ///< see moveRank()
 };
 
 /// Of the cells that the threads of this process have visited: where a device claims samples, those

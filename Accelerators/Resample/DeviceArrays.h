@@ -13,14 +13,17 @@
 namespace tipp
 {
 
-/// Cells with more samples in their boxes are done by an item a row.
-constexpr cl_long LargestCellOnDevice = 4096;
-/// Neighbours that one work item does on a CPU, where items are not side by side in lanes.
-constexpr cl_int CpuShare = 64;
-
+/// Neighbours that one work item does: some on a CPU, where items are not side by side in lanes.
 inline cl_int shareOf(const ComputeDevice& device)
 {
-  return device.description().Type == DeviceType::Cpu ? CpuShare : 1;
+  return device.description().Type == DeviceType::Cpu ? 32 : 1;
+}
+
+/// Cells with more samples in their boxes are done by an item a row. A CPU waits longer for a kernel
+/// to begin than others wait for one large cell.
+inline cl_long largestCellOf(const ComputeDevice& device)
+{
+  return device.description().Type == DeviceType::Cpu ? 1 << 16 : 1 << 12;
 }
 
 /// An array of this process that kernels write to: in place where the memory is shared.

@@ -15,17 +15,21 @@ namespace tipp
 namespace
 {
 
-/// How many of some bytes, all 0 or 1, are 1.
-std::int64_t countOnes(const unsigned char* begin, const unsigned char* end)
+/// Calls work(first, last) for runs of bytes that are 0, of begin..end - 1, which are 0 or 1.
+template <typename Work>
+void forZeros(const unsigned char* bytes, std::int64_t begin, std::int64_t end, const Work& work)
 {
-  std::int64_t count = 0;
-  for (; end - begin >= 8; begin += 8)
+  const auto find = [&](int byte, std::int64_t from)
   {
-    std::uint64_t bytes;
-    std::memcpy(&bytes, begin, sizeof bytes);
-    count += std::int64_t(bytes * 0x0101010101010101u >> 56); // the highest is the sum of all
+    const void* const found = std::memchr(bytes + from, byte, std::size_t(end - from));
+    return found ? static_cast<const unsigned char*>(found) - bytes : end;
+  };
+  for (std::int64_t first = find(0, begin); first < end;)
+  {
+    const std::int64_t last = find(1, first);
+    work(first, last);
+    first = find(0, last);
   }
-  return std::count(begin, end, 1) + count;
 }
 
 /// What a thread fills of the samples.
@@ -169,15 +173,20 @@ private:
     this->forSamples(
       [&](std::int64_t begin, std::int64_t end, int thread)
       {
-        const std::int64_t count = countOnes(valid + begin, valid + end);
-        counts[std::size_t(thread)] += count;
+        const auto always = [](std::int64_t) { return true; };
+        counts[std::size_t(thread)] += end - begin;
+        forZeros(valid, begin, end,
+          [&](std::int64_t first, std::int64_t last)
+          {
+            counts[std::size_t(thread)] -= last - first;
+            for (const Attribute& attribute : this->Attributes)
+            {
+              attribute.Values ? fillNull(attribute, first, last, always) : void();
+            }
+          });
         for (const Attribute& attribute : this->Attributes)
         {
-          const bool all = !attribute.Values;
-          if (all || count < end - begin)
-          {
-            fillNull(attribute, begin, end, [&](std::int64_t i) { return all || valid[i] == 0; });
-          }
+          attribute.Values ? void() : fillNull(attribute, begin, end, always);
         }
       });
     std::int64_t sum = 0;
@@ -199,8 +208,8 @@ private:
     const std::int64_t width = this->Axes.U.size();
     const std::int64_t height = this->Axes.V.size();
     const std::vector<BorderClaim> claims =
-      borderClaims(this->Mesh, this->Axes, touches, this->Options.Threads);
-    forChunks(std::int64_t(claims.size()), 1 << 12, this->Options.Threads, {},
+      borderClaims(this->Mesh, this->Axes, std::move(touches), this->Options.Threads);
+    forChunks(std::int64_t(claims.size()), 1 << 10, this->Options.Threads, {},
       [&](std::int64_t begin, std::int64_t end, int thread)
       {
         Walk& walk = this->Walks[std::size_t(thread)];

@@ -53,9 +53,13 @@ inline bool hasAvx2()
   const LaneTruths bits = LaneTruths(a) & ~(LaneTruths{} + INT64_MIN);
   return Lanes(bits);
 }
+[[gnu::always_inline]] inline LaneInts toInts(Lanes a)
+{
+  return __builtin_convertvector(a, LaneInts);
+}
 [[gnu::always_inline]] inline Lanes whole(Lanes a)
 {
-  return __builtin_convertvector(__builtin_convertvector(a, LaneInts), Lanes);
+  return __builtin_convertvector(toInts(a), Lanes);
 }
 [[gnu::always_inline]] inline bool any(LaneTruths truths)
 {
@@ -89,6 +93,7 @@ public:
     : Axis(axis)
     , Min(axis.origin())
     , Inverse(axis.inverse())
+    , Delta(axis.delta())
     , First(axis.firstIndex())
     , Limit(axis.limit())
     , ErrorScale(axis.errorScale())
@@ -117,17 +122,24 @@ public:
     return loadLanes(this->Axis.data() + first);
   }
 
+  /// As coordinate() tells them, of samples with these numbers.
+  [[gnu::always_inline]] Lanes coordinates(Lanes numbers) const
+  {
+    return this->Min + (numbers + this->First) * this->Delta;
+  }
+
   double coordinate(int i) const { return this->Axis[i]; }
   double origin() const { return this->Min; }
   double inverse() const { return this->Inverse; }
   double firstIndex() const { return this->First; }
-  double delta() const { return this->Axis.delta(); }
+  double delta() const { return this->Delta; }
   IndexRange exactRange(double low, double high) const { return this->Axis.exactRange(low, high); }
 
 private:
   const LatticeAxis& Axis;
   double Min;
   double Inverse;
+  double Delta;
   double First;
   double Limit;
   double ErrorScale;

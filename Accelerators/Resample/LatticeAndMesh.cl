@@ -6,20 +6,18 @@
 // For functions that are called for every cell with all that is known of the axes.
 #define INLINE __attribute__((always_inline))
 
+// The smaller or larger of numbers or vectors, or b: as processors have it, where fmin() and fmax() also
+// look for NaN.
+#define LEAST(a, b) ((a) < (b) ? (a) : (b))
+#define MOST(a, b) ((a) > (b) ? (a) : (b))
+#define CLAMPED(a, low, high) LEAST(MOST(a, low), high)
+
 #define ROUNDINGS 0x1p-47
 #define SMALLEST 1e-280
 
 // A LatticeAxis as s0 to s7: min, inverse, first, limit, error scale, error offset, delta, size.
 typedef double8 Axis;
 
-double clampPlace(Axis axis, double place)
-{
-  return fmin(axis.s3, fmax(0.5, place));
-}
-double placeOf(Axis axis, double v)
-{
-  return clampPlace(axis, (v - axis.s0) * axis.s1 - axis.s2 + 1);
-}
 double errorOf(Axis axis, double reach)
 {
   return reach * axis.s4 + axis.s5;
@@ -28,9 +26,20 @@ double coordinateOf(Axis axis, int i)
 {
   return axis.s0 + (i + axis.s2) * axis.s6;
 }
-bool certain(double place, double error)
+double4 coordinatesOf(Axis axis, int4 i)
 {
-  return fabs(place - (int)place - 0.5) < 0.5 - error;
+  return axis.s0 + (convert_double4(i) + axis.s2) * axis.s6;
+}
+// Where v lies, in steps: see LatticeAxis.h.
+double4 placesOf(Axis axis, double4 v)
+{
+  const double4 place = (v - axis.s0) * axis.s1 - axis.s2 + 1;
+  return CLAMPED(place, (double4)(0.5), (double4)(axis.s3));
+}
+// Whether the whole parts of these places are certain.
+long4 certain(double4 place, double4 error)
+{
+  return fabs(place - convert_double4(convert_int4(place)) - 0.5) < 0.5 - error;
 }
 
 // CORNERS is 3 or 4, FLOAT_POINTS and WIDE_IDS are 0 or 1: the mesh's types, told to the compiler.
@@ -62,4 +71,18 @@ double3 pointOf(const Mesh* mesh, int id)
 {
   global const Real* p = mesh->points + 3 * (long)id;
   return CORNERS == 4 ? (double3)(p[0], p[1], p[2]) : (double3)(p[mesh->u], p[mesh->v], 0);
+}
+void loadIds(const Mesh* mesh, long cell, int* ids)
+{
+  for (int corner = 0; corner < CORNERS; ++corner)
+  {
+    ids[corner] = idOf(mesh, cell, corner);
+  }
+}
+void loadPoints(const Mesh* mesh, const int* ids, double3* points)
+{
+  for (int corner = 0; corner < CORNERS; ++corner)
+  {
+    points[corner] = pointOf(mesh, ids[corner]);
+  }
 }

@@ -71,7 +71,7 @@ private:
       this->Device.kernel(ClaimSamplesKernels, "claimCells", piece.compilerOptions());
     this->Device.launch(kernel, std::size_t(lists.items()), piece.Points, piece.Ids, piece.U,
       piece.V, axisArgument(this->Axes.U), axisArgument(this->Axes.V), axisArgument(this->Axes.W),
-      cl_long(count), cl_long(first), lists.share(), LargestCellOnDevice, hidden,
+      cl_long(count), cl_long(first), lists.share(), largestCellOf(this->Device), hidden,
       cl_int(this->Mesh.Hidden != nullptr), claims, lists.counts(), lists.large(), lists.doubtful(),
       lists.lengths());
     this->Claimed += lists.fetch();

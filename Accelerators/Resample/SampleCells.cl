@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The samples that cells answer and what they say there, in one walk: DirectSampling.h for a device.
+// An item does SHARE cells, step by step for all of them, so that what it reads from memory, in no
+// order, does not have to be waited for one by one.
 // A cell for which rounding could change a count, or whose weights take more than determinants, goes
 // to a list, for the host. Host side: SampleOnDevice.cxx.
 #include "LatticeAndMesh.cl"
 #include "CellRows.cl"
+#include "TriangleRows.cl"
+#include "TetrahedronRows.cl"
 
 // The numbers of all arrays at one point: SampleOnDevice.cxx sees to it that there are no more.
 #define CHANNELS 8
@@ -53,15 +57,24 @@ double largest(double a, double b, double c)
   return fmax(fmax(fabs(a), fabs(b)), fabs(c));
 }
 
-// The corners in lexicographic order, and how the weights of all but the first rise: see GroupLanes.h.
-// DOUBT for a thin cell.
-INLINE int setNormals(const Mesh* mesh, long cell, int* ids, double3* origin, double3* normals)
+// A cell, which corners it has, and what the arrays say there.
+typedef struct
+{
+  int number; // among the item's
+  int ids[CORNERS];
+  double3 points[CORNERS];
+  double values[CHANNELS][CORNERS];
+} Corners;
+
+// The corners' numbers in the lexicographic order of their points, and how the weights of all but the
+// first rise: see GroupLanes.h. DOUBT for a thin cell.
+INLINE int setNormals(const double3* points, int* ids, double3* origin, double3* normals)
 {
   double3 p[4];
   for (int i = 0; i < CORNERS; ++i)
   {
-    ids[i] = idOf(mesh, cell, i);
-    p[i] = pointOf(mesh, ids[i]);
+    ids[i] = i;
+    p[i] = points[i];
   }
 #if CORNERS == 3
   order(&p[0], &p[1], &ids[0], &ids[1]);
@@ -104,27 +117,42 @@ double valueAt(const Array* array, int id, int component)
                         : ((global const double*)array->values)[at];
 }
 
-INLINE int setGradients(Gradients* gradients, const Mesh* mesh, long cell, const Array* arrays, int count)
+INLINE void loadValues(Corners* corners, const Array* arrays, int count)
 {
-  int ids[4];
+  int channel = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    for (int component = 0; component < arrays[i].components; ++component, ++channel)
+    {
+      for (int corner = 0; corner < CORNERS; ++corner)
+      {
+        corners->values[channel][corner] = valueAt(&arrays[i], corners->ids[corner], component);
+      }
+    }
+  }
+}
+
+INLINE int setGradients(Gradients* gradients, const Corners* corners, const Array* arrays, int count)
+{
+  int order[4];
   double3 normals[3];
-  int state = setNormals(mesh, cell, ids, &gradients->origin, normals);
+  int state = setNormals(corners->points, order, &gradients->origin, normals);
   gradients->count = 0;
   for (int i = 0; i < count; ++i)
   {
     for (int component = 0; component < arrays[i].components; ++component)
     {
+      const double* values = corners->values[gradients->count];
       Channel* channel = &gradients->channels[gradients->count++];
       channel->samples = arrays[i].samples;
       channel->isFloat = arrays[i].isFloat;
       channel->components = arrays[i].components;
       channel->component = component;
-      channel->first = valueAt(&arrays[i], ids[0], component);
-      channel->rise = normals[0] * (valueAt(&arrays[i], ids[1], component) - channel->first);
+      channel->first = values[order[0]];
+      channel->rise = normals[0] * (values[order[1]] - channel->first);
       for (int corner = 2; corner < CORNERS; ++corner)
       {
-        channel->rise +=
-          normals[corner - 1] * (valueAt(&arrays[i], ids[corner], component) - channel->first);
+        channel->rise += normals[corner - 1] * (values[order[corner]] - channel->first);
       }
       // Not for infinite ones and NaN, which the samples need not be.
       const double3 check = channel->rise - channel->rise;
@@ -158,52 +186,69 @@ INLINE void fillRow(const Gradients* gradients, long first, int begin, int end, 
   }
 }
 
-// Fills the rows first..last - 1 of a cell, counted from the first of its box; `*total` is the number
-// of samples. Gradients wait for the first sample: many cells have none.
-INLINE int sampleRows(const Cell* cell, int first, int last, const Mesh* mesh, long number, Axis x, Axis y,
-  Axis z, const Array* arrays, int arrayCount, global uchar* valid, int* total)
+// Fills some rows; returns the number of samples.
+INLINE int fillRows(const Gradients* gradients, const Spans* spans, int count, Axis x, Axis y, Axis z,
+  global uchar* valid)
 {
-  Gradients gradients;
-  *total = 0;
-  for (; first < last; first += ROWS_AT_ONCE)
+  int total = 0;
+  for (int i = 0; i < min(ROWS_AT_ONCE, count); ++i)
   {
-    Spans spans;
-    if (cellSpans(cell, first, last, x, y, &spans) == DOUBT)
+    const int begin = spans->begin[i];
+    const int end = spans->end[i];
+    if (begin >= end)
+    {
+      continue;
+    }
+    total += end - begin;
+    const long place = placeOfRow(spans->row[i], spans->layer[i], x, y);
+    for (int column = begin; column < end; ++column)
+    {
+      valid[place + column] = 1;
+    }
+    fillRow(gradients, place, begin, end, coordinateOf(y, spans->row[i]),
+      CORNERS == 4 ? coordinateOf(z, spans->layer[i]) : 0, x);
+  }
+  return total;
+}
+
+// The first rows of a cell, counted from the first of its box, and all others up to `last` - 1.
+INLINE int fillCell(const Cell* cell, Spans* spans, int first, int last, const Gradients* gradients, Axis x,
+  Axis y, Axis z, global uchar* valid, int* total)
+{
+  *total = 0;
+  while (true)
+  {
+    *total += fillRows(gradients, spans, last - first, x, y, z, valid);
+    first += ROWS_AT_ONCE;
+    if (first >= last)
+    {
+      return ROWS;
+    }
+    if (cellSpans(cell, first, last, x, y, spans) == DOUBT)
     {
       return DOUBT;
     }
-    for (int i = 0; i < min(ROWS_AT_ONCE, last - first); ++i)
-    {
-      const int begin = spans.begin[i];
-      const int end = spans.end[i];
-      if (begin >= end)
-      {
-        continue;
-      }
-      if (*total == 0 && setGradients(&gradients, mesh, number, arrays, arrayCount) == DOUBT)
-      {
-        return DOUBT;
-      }
-      *total += end - begin;
-      const long place = placeOfRow(spans.row[i], spans.layer[i], x, y);
-      for (int column = begin; column < end; ++column)
-      {
-        valid[place + column] = 1;
-      }
-      fillRow(&gradients, place, begin, end, coordinateOf(y, spans.row[i]),
-        CORNERS == 4 ? coordinateOf(z, spans.layer[i]) : 0, x);
-    }
   }
-  return ROWS;
+}
+
+// Whether there may be samples in a cell of so many rows, of which these are the first.
+INLINE int isOpen(const Spans* spans, int rows)
+{
+  int open = rows > ROWS_AT_ONCE;
+  for (int i = 0; i < min(ROWS_AT_ONCE, rows); ++i)
+  {
+    open |= spans->begin[i] < spans->end[i];
+  }
+  return open;
 }
 
 // Whether all corners lie beyond one side of the lattice: see OutsidePoints.h.
-int isOutside(const Mesh* mesh, long cell, global const uchar* sides)
+int isOutside(const int* ids, global const uchar* sides)
 {
   int common = 0xff;
   for (int i = 0; i < CORNERS; ++i)
   {
-    common &= sides[idOf(mesh, cell, i)];
+    common &= sides[ids[i]];
   }
   return common != 0;
 }
@@ -220,45 +265,121 @@ int isOutside(const Mesh* mesh, long cell, global const uchar* sides)
       { values2, samples2, isFloat2, components2 }, { values3, samples3, isFloat3, components3 }     \
   }
 
-// Each item does `share` cells in a row. Cells with more than `most` samples in their boxes and cells
-// in doubt go to the lists; `lengths` has the lists' lengths. A cell of a list counts nothing.
+// Asks for what the next item reads first, where the compiler can: PoCL's prefetch() does nothing. On a
+// card items run side by side instead. What lies beyond the end is asked for in vain.
+void askForIds(const Mesh* mesh, long cell)
+{
+#if SHARE > 1 && defined(__has_builtin)
+#if __has_builtin(__builtin_prefetch)
+  const size_t first = (size_t)(mesh->ids + cell * CORNERS);
+  for (size_t line = 0; line < SHARE * CORNERS * sizeof(Id); line += 64)
+  {
+    __builtin_prefetch((const void*)(first + line));
+  }
+#endif
+#endif
+}
+
+// A cell whose box has samples.
+typedef struct
+{
+  Cell cell;
+  Spans spans; // of its first rows
+  Corners* corners;
+  int state;
+} Live;
+
+// Each item does SHARE cells in a row. Cells with more than `most` samples in their boxes and cells in
+// doubt go to the lists; `lengths` has the lists' lengths. A cell of a list counts nothing.
 kernel void sampleCells(global const Real* points, global const Id* ids, int u, int v, Axis x, Axis y,
-  Axis z, long cells, int share, long most, global const uchar* hidden, int hasHidden,
-  global const uchar* sides, int hasSides, global uchar* valid, global uint* counts,
-  global int* large, global int* doubtful, global int* lengths, int arrayCount,
-  ARRAY_PARAMETERS)
+  Axis z, long cells, long most, global const uchar* hidden, int hasHidden, global const uchar* sides,
+  int hasSides, global uchar* valid, global uint* counts, global int* large, global int* doubtful,
+  global int* lengths, int arrayCount, ARRAY_PARAMETERS)
 {
   const Mesh mesh = { points, ids, u, v };
   const Array arrays[4] = ARRAYS;
   const long item = get_global_id(0);
-  const long begin = item * share;
+  const long begin = item * SHARE;
   if (begin >= cells)
   {
     return;
   }
-  uint sum = 0;
-  for (long i = begin; i < min(begin + share, cells); ++i)
+  Corners corners[SHARE];
+  int kept = 0;
+  for (int i = 0; i < (int)min((long)SHARE, cells - begin); ++i)
   {
-    Cell cell;
-    if ((hasHidden && hidden[i]) || (hasSides && isOutside(&mesh, i, sides)))
+    int ids[CORNERS];
+    loadIds(&mesh, begin + i, ids);
+    if ((hasHidden && hidden[begin + i]) || (hasSides && isOutside(ids, sides)))
     {
       continue;
     }
-    int state = setCell(&cell, &mesh, i, x, y, z);
-    if (state == ROWS && samplesOf(&cell.box) > most)
+    for (int corner = 0; corner < CORNERS; ++corner)
     {
-      large[atomic_inc(&lengths[0])] = (int)i;
+      corners[kept].ids[corner] = ids[corner];
+    }
+    corners[kept++].number = i;
+  }
+  askForIds(&mesh, begin + SHARE);
+  for (int k = 0; k < kept; ++k)
+  {
+    loadPoints(&mesh, corners[k].ids, corners[k].points);
+  }
+  Live live[SHARE];
+  int liveCount = 0;
+  for (int k = 0; k < kept; ++k)
+  {
+    Live* next = &live[liveCount];
+    next->corners = &corners[k];
+    next->state = setBox(&next->cell, corners[k].points, x, y, z);
+    liveCount += next->state != NOTHING;
+  }
+  int open[SHARE];
+  int openCount = 0;
+  for (int k = 0; k < liveCount; ++k)
+  {
+    Live* of = &live[k];
+    const int rows = rowsOf(&of->cell.box);
+    if (of->state == ROWS && samplesOf(&of->cell.box) > most)
+    {
+      large[atomic_inc(&lengths[0])] = (int)begin + of->corners->number;
       continue;
     }
+    if (of->state == ROWS)
+    {
+      of->state = setRows(&of->cell, of->corners->points, x, y, z);
+    }
+    if (of->state != DOUBT)
+    {
+      // A cell with nothing still has nothing.
+      of->state *= cellSpans(&of->cell, 0, rows, x, y, &of->spans);
+    }
+    if (of->state == DOUBT)
+    {
+      doubtful[atomic_inc(&lengths[1])] = (int)begin + of->corners->number;
+    }
+    open[openCount] = k;
+    openCount += (of->state == ROWS) & isOpen(&of->spans, rows);
+  }
+  for (int k = 0; k < openCount; ++k)
+  {
+    loadValues(live[open[k]].corners, arrays, arrayCount);
+  }
+  uint sum = 0;
+  for (int k = 0; k < openCount; ++k)
+  {
+    Live* of = &live[open[k]];
+    Gradients gradients;
     int total = 0;
+    int state = setGradients(&gradients, of->corners, arrays, arrayCount);
     if (state == ROWS)
     {
-      state = sampleRows(
-        &cell, 0, rowsOf(&cell.box), &mesh, i, x, y, z, arrays, arrayCount, valid, &total);
+      state = fillCell(
+        &of->cell, &of->spans, 0, rowsOf(&of->cell.box), &gradients, x, y, z, valid, &total);
     }
     if (state == DOUBT)
     {
-      doubtful[atomic_inc(&lengths[1])] = (int)i;
+      doubtful[atomic_inc(&lengths[1])] = (int)begin + of->corners->number;
     }
     sum += state == ROWS ? total : 0;
   }
@@ -273,13 +394,25 @@ kernel void sampleLarge(global const Real* points, global const Id* ids, int u, 
   const Mesh mesh = { points, ids, u, v };
   const Array arrays[4] = ARRAYS;
   const int item = (int)get_global_id(0);
-  Cell cell;
-  setCell(&cell, &mesh, number, x, y, z);
-  if (item < rows)
+  if (item >= rows)
   {
-    int total;
-    const int state = sampleRows(
-      &cell, item, item + 1, &mesh, number, x, y, z, arrays, arrayCount, valid, &total);
-    counts[item] = state == DOUBT ? -1 : total;
+    return;
   }
+  Corners corners;
+  loadIds(&mesh, number, corners.ids);
+  loadPoints(&mesh, corners.ids, corners.points);
+  loadValues(&corners, arrays, arrayCount);
+  Cell cell;
+  setBox(&cell, corners.points, x, y, z);
+  setRows(&cell, corners.points, x, y, z);
+  Spans spans;
+  Gradients gradients;
+  int total = 0;
+  int state = cellSpans(&cell, item, item + 1, x, y, &spans);
+  if (state == ROWS && isOpen(&spans, 1))
+  {
+    state = setGradients(&gradients, &corners, arrays, arrayCount);
+    total = state == ROWS ? fillRows(&gradients, &spans, 1, x, y, z, valid) : 0;
+  }
+  counts[item] = state == DOUBT ? -1 : total;
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 
 namespace tipp
 {
@@ -88,7 +89,9 @@ private:
   void launch(const char* name, std::int64_t items, const MeshOnDevice& piece,
     const std::vector<Array>& a, const Arguments&... arguments) const
   {
-    cl::Kernel kernel = this->Device.kernel(SampleCellsKernels, name, piece.compilerOptions());
+    const std::string options =
+      piece.compilerOptions() + " -DSHARE=" + std::to_string(shareOf(this->Device));
+    cl::Kernel kernel = this->Device.kernel(SampleCellsKernels, name, options);
     this->Device.launch(kernel, std::size_t(items), piece.Points, piece.Ids, piece.U, piece.V,
       axisArgument(this->Axes.U), axisArgument(this->Axes.V), axisArgument(this->Axes.W),
       arguments..., cl_int(this->Attributes.size()), a[0].Values, a[0].Samples, a[0].Float,
@@ -108,8 +111,8 @@ private:
         this->Mesh.Hidden ? std::size_t(count) : 0);
     const cl::Buffer sides =
       this->Device.input(outside, outside ? std::size_t(this->Mesh.PointCount) : 0);
-    this->launch("sampleCells", lists.items(), piece, arrays, cl_long(count), lists.share(),
-      LargestCellOnDevice, hidden, cl_int(this->Mesh.Hidden != nullptr), sides,
+    this->launch("sampleCells", lists.items(), piece, arrays, cl_long(count),
+      largestCellOf(this->Device), hidden, cl_int(this->Mesh.Hidden != nullptr), sides,
       cl_int(outside != nullptr), this->Outputs[0].buffer(), lists.counts(), lists.large(),
       lists.doubtful(), lists.lengths());
     this->Result.Claimed += lists.fetch();

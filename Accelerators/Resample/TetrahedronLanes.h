@@ -45,9 +45,18 @@ public:
     const RangeLanes columns(this->X, left, right);
     const RangeLanes rows(this->Y, front, back);
     const RangeLanes layers(this->Z, low, high);
+    const Corner size{ right - left, back - front, high - low };
     this->Nothing = columns.Empty | rows.Empty | layers.Empty;
+    const LaneTruths single = (columns.End - columns.Begin == 1) & (rows.End - rows.Begin == 1) &
+      (layers.End - layers.Begin == 1);
+    this->Single = !any(~(single | this->Nothing));
     if (this->nothing())
     {
+      return;
+    }
+    if (this->Single)
+    {
+      this->setSamples(corners, size, columns, rows, layers);
       return;
     }
     store(columns, this->Columns);
@@ -56,7 +65,6 @@ public:
     this->RowError = rows.Error;
     this->LayerError = layers.Error;
     this->orient(corners);
-    const Corner size{ right - left, back - front, high - low };
     this->setFace(0, corners[1], corners[3], corners[2], size, columns.Error);
     this->setFace(1, corners[0], corners[2], corners[3], size, columns.Error);
     this->setFace(2, corners[0], corners[3], corners[1], size, columns.Error);
@@ -67,6 +75,14 @@ public:
   bool nothing() const { return !any(~this->Nothing); }
   /// Whether the tetrahedron's box certainly has no sample.
   bool nothing(int lane) const { return this->Nothing[lane] != 0; }
+  /// Whether the boxes of all that have samples hold one: then samples() tells all, and nothing
+  /// else is told.
+  bool haveSingleSamples() const { return this->Single; }
+  /// A bit for each tetrahedron whose box may have a sample.
+  unsigned visited() const { return laneBits(~this->Nothing); }
+  /// The sample of each tetrahedron's box: `Open` if it is inside, or in doubt.
+  const RowSpans<laneCount>& samples() const { return this->Samples; }
+
   /// Whether the tetrahedron certainly is finite and has a volume.
   bool fast(int lane) const { return this->Fast[lane] != 0; }
 
@@ -112,8 +128,8 @@ public:
     spans.Open = laneBits(open);
     // What is in doubt matters only where the other faces leave something.
     spans.Doubtful = laneBits(~rows.Certain & open);
-    const LaneInts begins = __builtin_convertvector(rows.Begin, LaneInts);
-    const LaneInts ends = __builtin_convertvector(rows.End, LaneInts);
+    const LaneInts begins = toInts(rows.Begin);
+    const LaneInts ends = toInts(rows.End);
     LaneInts row;
     LaneInts layer;
     for (int lane = 0; lane < laneCount; ++lane)
@@ -215,6 +231,7 @@ private:
     float NotEnd[laneCount];   ///< Beyond if they do not end there
   };
 
+  static constexpr double Smallest = 1e-280; ///< keeps clear of underflow
   static constexpr float Beyond = 1e30F;
   static constexpr double FloatSlack = 0x1p-20; ///< for the roundings of Certainty
 
@@ -272,6 +289,50 @@ private:
     rows.End = least((sure & ~forward) ? before : last, rows.End);
   }
 
+  [[gnu::always_inline]] void setSamples(const Corner (&corners)[4], const Corner& size,
+    const RangeLanes& columns, const RangeLanes& rows, const RangeLanes& layers)
+  {
+    const Corner sample{ this->X.coordinates(columns.Begin), this->Y.coordinates(rows.Begin),
+      this->Z.coordinates(layers.Begin) };
+    Corner p[4];
+    for (int i = 0; i < 4; ++i)
+    {
+      p[i] = { corners[i].x - sample.x, corners[i].y - sample.y, corners[i].z - sample.z };
+    }
+    const auto minor = [&p](int i, int j) { return p[i].x * p[j].y - p[j].x * p[i].y; };
+    const Lanes m01 = minor(0, 1);
+    const Lanes m02 = minor(0, 2);
+    const Lanes m03 = minor(0, 3);
+    const Lanes m12 = minor(1, 2);
+    const Lanes m13 = minor(1, 3);
+    const Lanes m23 = minor(2, 3);
+    // By how much each corner weighs, times the volume, which may be negative.
+    const Lanes weights[4] = { p[1].z * m23 - p[2].z * m13 + p[3].z * m12,
+      p[2].z * m03 - p[0].z * m23 - p[3].z * m02, p[0].z * m13 - p[1].z * m03 + p[3].z * m01,
+      p[1].z * m02 - p[0].z * m12 - p[2].z * m01 };
+    // None of the six products exceeds the box's volume, and each takes eight roundings: 48.
+    const Lanes bound =
+      LatticeAxis::Roundings * size.x * size.y * size.z + Smallest * (1.0 + size.z);
+    LaneTruths allAbove = LaneTruths{} - 1;
+    LaneTruths allBelow = allAbove;
+    LaneTruths anyAbove = {};
+    LaneTruths anyBelow = {};
+    for (const Lanes& weight : weights)
+    {
+      const LaneTruths above = weight > bound;
+      const LaneTruths below = weight < -bound;
+      allAbove &= above;
+      allBelow &= below;
+      anyAbove |= above;
+      anyBelow |= below;
+    }
+    const LaneTruths outside = (anyAbove & anyBelow) | this->Nothing;
+    this->Samples.Open = laneBits(~outside);
+    this->Samples.Doubtful = laneBits(~(outside | allAbove | allBelow));
+    this->Samples.set(
+      toInts(columns.Begin), LaneInts{} + 1, toInts(rows.Begin), toInts(layers.Begin));
+  }
+
   [[gnu::always_inline]] static Lanes leastOf(const Corner (&c)[4], Lanes Corner::*axis)
   {
     return least(least(c[0].*axis, c[1].*axis), least(c[2].*axis, c[3].*axis));
@@ -283,8 +344,8 @@ private:
 
   [[gnu::always_inline]] static void store(const RangeLanes& from, IndexRange (&to)[laneCount])
   {
-    const LaneInts begins = __builtin_convertvector(from.Begin, LaneInts);
-    const LaneInts ends = __builtin_convertvector(from.End, LaneInts);
+    const LaneInts begins = toInts(from.Begin);
+    const LaneInts ends = toInts(from.End);
     for (int lane = 0; lane < laneCount; ++lane)
     {
       to[lane] = { begins[lane], ends[lane] };
@@ -317,7 +378,6 @@ private:
     int i, const Corner& a, const Corner& b, const Corner& c, const Corner& size, Lanes columnError)
   {
     constexpr double roundings = LatticeAxis::Roundings;
-    constexpr double smallest = 1e-280; // keeps clear of underflow
     const Corner u{ b.x - a.x, b.y - a.y, b.z - a.z };
     const Corner v{ c.x - a.x, c.y - a.y, c.z - a.z };
     const Lanes nx = u.y * v.z - u.z * v.y;
@@ -332,8 +392,8 @@ private:
     face.AZ = a.z;
     face.Forward = nx > 0;
     const Lanes area = roundings * size.y * size.z;
-    const Lanes error = columnError + (area * size.x + smallest) * absolute(scale);
-    const LaneTruths good = (absolute(nx) > area + smallest) &
+    const Lanes error = columnError + (area * size.x + Smallest) * absolute(scale);
+    const LaneTruths good = (absolute(nx) > area + Smallest) &
       (error + absolute(face.PerY) + absolute(face.PerZ) < HUGE_VAL);
     face.Error = good ? error : allLanes(HUGE_VAL);
   }
@@ -343,6 +403,8 @@ private:
   AxisLanes Z;
   LaneTruths Nothing;
   LaneTruths Fast;
+  bool Single = false;
+  RowSpans<laneCount> Samples;
   Face Faces[4];
   Cut Cuts[4];
   Lanes RowError;

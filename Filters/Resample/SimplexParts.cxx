@@ -18,6 +18,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 namespace tipp
@@ -48,9 +49,10 @@ vtkCellArray* uniformCells(vtkPointSet* mesh, int type)
     {
       return nullptr;
     }
-    const unsigned char* begin = types->GetPointer(0);
-    const unsigned char* end = begin + types->GetNumberOfValues();
-    const bool uniform = std::all_of(begin, end, [type](int t) { return t == type; });
+    // Each like the next: the fastest way through many bytes.
+    const unsigned char* const begin = types->GetPointer(0);
+    const std::size_t pairs = std::size_t(types->GetNumberOfValues()) - 1;
+    const bool uniform = *begin == type && std::memcmp(begin, begin + 1, pairs) == 0;
     return uniform ? grid->GetCells() : nullptr;
   }
   auto* surface = vtkPolyData::SafeDownCast(mesh);

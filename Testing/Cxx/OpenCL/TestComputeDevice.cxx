@@ -70,6 +70,21 @@ TEST(ComputeDevice, IsOpenedOnceAProcess)
   EXPECT_EQ(device, ComputeDevice::open(byName));
 }
 
+TEST(ComputeDevice, CanBeUsedAsACardBesideAsItIs)
+{
+  TIPP_REQUIRE_OPENCL();
+  const ComputeDevice* const device = ComputeDevice::open(anyDevice());
+  DeviceChoice choice = anyDevice();
+  choice.AsCard = true;
+  ComputeDevice* const card = ComputeDevice::open(choice);
+  EXPECT_NE(card, device);
+  EXPECT_EQ(card, ComputeDevice::open(choice));
+  EXPECT_EQ(card->description().Name, device->description().Name);
+  EXPECT_EQ(card->description().Type, tipp::DeviceType::Gpu);
+  EXPECT_FALSE(card->sharesHostMemory());
+  EXPECT_EQ(twice(*card, { 1.5, -0.25 }), (std::vector<double>{ 3.0, -0.5 }));
+}
+
 TEST(ComputeDevice, IsNoneForOpenMP)
 {
   DeviceChoice choice;

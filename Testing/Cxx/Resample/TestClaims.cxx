@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace
@@ -243,6 +244,44 @@ TEST(Claims, InSpaceAreExactForSamplesBetween)
   for (const Scene& scene : spaceScenes())
   {
     expectExact(scene, latticeOf(3, 11, 0.013, 1.0171));
+  }
+}
+
+TEST(Claims, InSpaceAreExactWhereBoxesHoldASampleAtMost)
+{
+  std::vector<Scene> scenes = spaceScenes();
+  scenes.push_back(jitteredScene(3, 6, 1));
+  for (const Scene& scene : scenes)
+  {
+    expectExact(scene, latticeOf(3, 5, 0, 1));
+    expectExact(scene, latticeOf(3, 4, 0.013, 1.0171));
+  }
+}
+
+TEST(Claims, InSpaceLeaveOutCellsOfASampleAndACoordinateThatIsNotFinite)
+{
+  const Scene scene = jitteredScene(3, 6, 1);
+  const tipp::Lattice lattice = latticeOf(3, 4, 0.013, 0.9871);
+  std::vector<unsigned char> hidden(std::size_t(scene.cells()));
+  Scene infinite = scene;
+  for (int cell = 0; cell < scene.cells(); cell += 7)
+  {
+    const std::int64_t point = scene.Ids[std::size_t(4 * cell)];
+    for (int other = 0; other < scene.cells(); ++other)
+    {
+      const auto* const ids = scene.Ids.data() + 4 * other;
+      hidden[std::size_t(other)] |= (unsigned char)(std::count(ids, ids + 4, point) > 0);
+    }
+    infinite.Points[std::size_t(3 * point + cell % 3)] =
+      cell % 2 == 0 ? std::numeric_limits<double>::quiet_NaN() : HUGE_VAL;
+  }
+  tipp::SimplexMesh without = scene.mesh();
+  without.Hidden = hidden.data();
+  const tipp::Claims expected = tipp::claimSamples(without, lattice, 2);
+  const tipp::Claims claims = tipp::claimSamples(infinite.mesh(), lattice, 2);
+  for (std::int64_t i = 0; i < lattice.samples(); ++i)
+  {
+    EXPECT_EQ(claims.Cells[std::size_t(i)], expected.Cells[std::size_t(i)]) << i;
   }
 }
 

@@ -44,21 +44,7 @@ Sampled sampled(const Scene& scene, const tipp::Lattice& lattice, tipp::DeviceCh
   return sampled;
 }
 
-const tipp::DeviceChoice openMP{ tipp::Device::OpenMP, -1, "" };
-const tipp::DeviceChoice openCL{ tipp::Device::OpenCL, -1, "" };
-
-void expectAgreement(const Scene& scene, const tipp::Lattice& lattice, std::uint64_t memory = 0)
-{
-  const Sampled ours = sampled(scene, lattice, openMP);
-  const Sampled theirs = sampled(scene, lattice, openCL, memory);
-  EXPECT_EQ(theirs.Result.Warning, "");
-  EXPECT_NE(theirs.Result.Device, "OpenMP");
-  ASSERT_EQ(ours.Valid, theirs.Valid) << scene.Name;
-  for (std::size_t i = 0; i < ours.Values.size(); ++i)
-  {
-    ASSERT_NEAR(ours.Values[i], theirs.Values[i], 1e-12) << scene.Name << " sample " << i;
-  }
-}
+const tipp::DeviceChoice openMP{ tipp::Device::OpenMP, -1, "", false };
 
 /// Arrays of every kind at once: float64, float32 with three components, whole numbers, and numbers
 /// of cells.
@@ -118,15 +104,35 @@ void expectNear(const Kinds& a, const Kinds& b)
   }
 }
 
-class ResampleOnDevice : public testing::Test
+/// A device as it is, and as a card, so that what cards do is tested where there is none.
+class ResampleOnDevice : public testing::TestWithParam<bool>
 {
 protected:
   void SetUp() override { TIPP_REQUIRE_OPENCL(); }
+
+  void expectAgreement(
+    const Scene& scene, const tipp::Lattice& lattice, std::uint64_t memory = 0) const
+  {
+    const Sampled ours = sampled(scene, lattice, openMP);
+    const Sampled theirs = sampled(scene, lattice, this->openCL, memory);
+    EXPECT_EQ(theirs.Result.Warning, "");
+    EXPECT_NE(theirs.Result.Device, "OpenMP");
+    ASSERT_EQ(ours.Valid, theirs.Valid) << scene.Name;
+    for (std::size_t i = 0; i < ours.Values.size(); ++i)
+    {
+      ASSERT_NEAR(ours.Values[i], theirs.Values[i], 1e-12) << scene.Name << " sample " << i;
+    }
+  }
+
+  const tipp::DeviceChoice openCL{ tipp::Device::OpenCL, -1, "", GetParam() };
 };
+
+INSTANTIATE_TEST_SUITE_P(, ResampleOnDevice, testing::Bool(),
+  [](const auto& asCard) { return asCard.param ? "AsCard" : "AsItIs"; });
 
 } // namespace
 
-TEST_F(ResampleOnDevice, AgreesWithOpenMP)
+TEST_P(ResampleOnDevice, AgreesWithOpenMP)
 {
   for (const Scene& scene : planeScenes())
   {
@@ -135,7 +141,7 @@ TEST_F(ResampleOnDevice, AgreesWithOpenMP)
   }
 }
 
-TEST_F(ResampleOnDevice, InSpaceAgreesWithOpenMP)
+TEST_P(ResampleOnDevice, InSpaceAgreesWithOpenMP)
 {
   for (const Scene& scene : spaceScenes())
   {
@@ -144,14 +150,21 @@ TEST_F(ResampleOnDevice, InSpaceAgreesWithOpenMP)
   }
 }
 
-TEST_F(ResampleOnDevice, AgreesOnASmallRangeOfALargeMesh)
+TEST_P(ResampleOnDevice, AgreesWhereBoxesHoldASampleAtMost)
+{
+  const Scene scene = jitteredScene(3, 12, 5);
+  expectAgreement(scene, latticeOf(3, 8, -0.1, 1.2));
+  expectAgreement(scene, latticeOf(3, 7, 0, 1)); // on faces, edges and corners of the border
+}
+
+TEST_P(ResampleOnDevice, AgreesOnASmallRangeOfALargeMesh)
 {
   expectAgreement(jitteredScene(2, 40, 5), latticeOf(2, 30, 0.4, 0.5));
   expectAgreement(jitteredScene(3, 12, 5), latticeOf(3, 11, 0.4, 0.5));
 }
 
 /// Numbers of cells and integers are not for SampleOnDevice, so here are none.
-TEST_F(ResampleOnDevice, SamplesArraysOfPointsWithSeveralComponentsLikeOpenMP)
+TEST_P(ResampleOnDevice, SamplesArraysOfPointsWithSeveralComponentsLikeOpenMP)
 {
   for (const int dimension : { 2, 3 })
   {
@@ -180,25 +193,25 @@ TEST_F(ResampleOnDevice, SamplesArraysOfPointsWithSeveralComponentsLikeOpenMP)
   }
 }
 
-TEST_F(ResampleOnDevice, AgreesWhereCellsOverlap)
+TEST_P(ResampleOnDevice, AgreesWhereCellsOverlap)
 {
   expectAgreement(overlappingScene(100, 3), latticeOf(2, 65, -0.013, 1.017));
 }
 
-TEST_F(ResampleOnDevice, AgreesWhereACellIsLarge)
+TEST_P(ResampleOnDevice, AgreesWhereACellIsLarge)
 {
   expectAgreement(jitteredScene(2, 2, 3), latticeOf(2, 701, 0.0013, 0.997));
   expectAgreement(jitteredScene(3, 2, 3), latticeOf(3, 61, 0.0013, 0.997));
 }
 
-TEST_F(ResampleOnDevice, TakesALargerMeshInPieces)
+TEST_P(ResampleOnDevice, TakesALargerMeshInPieces)
 {
   const Scene scene = jitteredScene(2, 60, 3);
   const tipp::Lattice lattice = latticeOf(2, 33, 0.0013, 0.997);
   expectAgreement(scene, lattice, 60000);
 }
 
-TEST_F(ResampleOnDevice, AgreesForEveryTypeOfPointsAndIds)
+TEST_P(ResampleOnDevice, AgreesForEveryTypeOfPointsAndIds)
 {
   const Scene scene = jitteredScene(2, 9, 3).rounded();
   const tipp::Lattice lattice = latticeOf(2, 65, -0.013, 1);
@@ -219,7 +232,7 @@ TEST_F(ResampleOnDevice, AgreesForEveryTypeOfPointsAndIds)
   }
 }
 
-TEST_F(ResampleOnDevice, LeavesOutHiddenCells)
+TEST_P(ResampleOnDevice, LeavesOutHiddenCells)
 {
   const Scene scene = jitteredScene(2, 9, 3);
   const tipp::Lattice lattice = latticeOf(2, 65, -0.013, 1.017);
@@ -245,7 +258,7 @@ TEST_F(ResampleOnDevice, LeavesOutHiddenCells)
   EXPECT_NE(std::count(here.Double.begin(), here.Double.end(), -7), 0);
 }
 
-TEST_F(ResampleOnDevice, PutsPartsTogetherLikeOpenMP)
+TEST_P(ResampleOnDevice, PutsPartsTogetherLikeOpenMP)
 {
   const Scene scene = overlappingScene(60, 2);
   const tipp::Lattice lattice = latticeOf(2, 65, -0.013, 1.017);
@@ -272,7 +285,7 @@ TEST_F(ResampleOnDevice, PutsPartsTogetherLikeOpenMP)
   expectNear(together(openMP), together(openCL));
 }
 
-TEST_F(ResampleOnDevice, PutsTilesTogetherToTheWhole)
+TEST_P(ResampleOnDevice, PutsTilesTogetherToTheWhole)
 {
   const Scene scene = jitteredScene(2, 12, 2);
   const tipp::Lattice lattice = latticeOf(2, 65, -0.013, 1.017);
@@ -302,7 +315,7 @@ TEST_F(ResampleOnDevice, PutsTilesTogetherToTheWhole)
   expectNear(whole, tiled);
 }
 
-TEST_F(ResampleOnDevice, TellsItsTimesAndStopsOnRequest)
+TEST_P(ResampleOnDevice, TellsItsTimesAndStopsOnRequest)
 {
   const Scene scene = jitteredScene(2, 60, 3);
   const tipp::Lattice lattice = latticeOf(2, 33, 0.0013, 0.997);
@@ -329,7 +342,7 @@ TEST_F(ResampleOnDevice, TellsItsTimesAndStopsOnRequest)
   }
 }
 
-TEST_F(ResampleOnDevice, WithoutMemoryForTheSamplesOpenMPDoesIt)
+TEST_P(ResampleOnDevice, WithoutMemoryForTheSamplesOpenMPDoesIt)
 {
   const Scene scene = jitteredScene(2, 8, 3);
   const Sampled result = sampled(scene, latticeOf(2, 65, 0, 1), openCL, 1000);

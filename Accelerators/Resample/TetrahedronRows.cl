@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// TetrahedronRows.h for a device. After CellRows.cl.
+#if CORNERS == 4
+
+// Faces side by side: where each crosses the first row, in steps from the box's first column, and how
+// many steps before that for each row and each layer. In single precision: see TetrahedronLanes.h.
+typedef struct
+{
+  float4 place;
+  float4 perRow;
+  float4 perLayer;
+  float4 notBegin;
+  float4 notEnd;
+  float certainty;
+  Box box;
+  double3 size; // of the box
+  double3 error;
+  int isSample; // the box is one sample, which is inside: the rest is not told
+} Cell;
+
+#define BEYOND 1e30f
+
+// The corners a, b, c of the faces turn counter-clockwise seen from inside.
+INLINE int setFaces(Cell* t, const double3 a, const double3 b, const double3 c, const double3 d,
+  double3 size, double3 errors, Axis x, Axis y, Axis z)
+{
+  const double4 ax = (double4)(b.x, a.x, a.x, a.x);
+  const double4 ay = (double4)(b.y, a.y, a.y, a.y);
+  const double4 az = (double4)(b.z, a.z, a.z, a.z);
+  const double4 ux = (double4)(d.x, c.x, d.x, b.x) - ax;
+  const double4 uy = (double4)(d.y, c.y, d.y, b.y) - ay;
+  const double4 uz = (double4)(d.z, c.z, d.z, b.z) - az;
+  const double4 vx = (double4)(c.x, d.x, b.x, c.x) - ax;
+  const double4 vy = (double4)(c.y, d.y, b.y, c.y) - ay;
+  const double4 vz = (double4)(c.z, d.z, b.z, c.z) - az;
+  const double4 nx = uy * vz - uz * vy;
+  const double4 ny = uz * vx - ux * vz;
+  const double4 nz = ux * vy - uy * vx;
+  const double4 scale = x.s1 / nx;
+  const double4 perRow = ny * scale * y.s6;
+  const double4 perLayer = nz * scale * z.s6;
+  const Box* box = &t->box;
+  const double4 place = (ax - x.s0) * x.s1 - x.s2 + 1 -
+    (ny * scale * (coordinateOf(y, box->begin.y) - ay) +
+      nz * scale * (coordinateOf(z, box->begin.z) - az)) - (double)box->begin.x;
+  const double area = ROUNDINGS * size.y * size.z;
+  const double4 error = 2 * (errors.x + (area * size.x + SMALLEST) * fabs(scale)) +
+    fabs(perRow) * errors.y + fabs(perLayer) * errors.z +
+    0x1p-21 * (fabs(place) + fabs(perRow) * (double)(box->end.y - box->begin.y) +
+      fabs(perLayer) * (double)(box->end.z - box->begin.z));
+  if (!all((fabs(nx) > area + SMALLEST) & (error < 0.25)))
+  {
+    return DOUBT;
+  }
+  t->place = convert_float4(place);
+  t->perRow = convert_float4(perRow);
+  t->perLayer = convert_float4(perLayer);
+  const int4 forward = convert_int4(nx > 0);
+  t->notBegin = select((float4)(-BEYOND), (float4)(0), forward);
+  t->notEnd = select((float4)(0), (float4)(BEYOND), forward);
+  const double2 worst = fmax(error.lo, error.hi);
+  t->certainty = (float)(0.5 - 0x1p-20 - fmax(worst.x, worst.y));
+  return ROWS;
+}
+
+// Whether the box's only sample is inside: see TetrahedronLanes.h.
+INLINE int setSample(const Box* box, double3 a, double3 b, double3 c, double3 d, double3 size, Axis x,
+  Axis y, Axis z)
+{
+  const double4 px = (double4)(a.x, b.x, c.x, d.x) - coordinateOf(x, box->begin.x);
+  const double4 py = (double4)(a.y, b.y, c.y, d.y) - coordinateOf(y, box->begin.y);
+  const double4 pz = (double4)(a.z, b.z, c.z, d.z) - coordinateOf(z, box->begin.z);
+  // Minors of each corner with the next, and with that after it.
+  const double4 next = px * py.yzwx - px.yzwx * py;
+  const double4 second = px * py.zwxy - px.zwxy * py;
+  const double4 turned = pz.yzwx * next.zwxy - pz.zwxy * second.yzwx + pz.wxyz * next.yzwx;
+  const double4 weights = turned * (double4)(1, -1, 1, -1);
+  const double4 bound = ROUNDINGS * size.x * size.y * size.z + SMALLEST * (1 + size.z);
+  const int4 above = convert_int4(weights > bound);
+  const int4 below = convert_int4(weights < -bound);
+  return stateOf(anyOf(above) & anyOf(below), allOf(above) | allOf(below));
+}
+
+// What range() of LatticeAxis gives along all axes. A fourth axis fills the lanes: it has one sample.
+INLINE int setBox(Cell* t, const double3* p, Axis x, Axis y, Axis z)
+{
+  const double3 leastOfTwo = LEAST(p[0], p[1]);
+  const double3 leastOfOthers = LEAST(p[2], p[3]);
+  const double3 mostOfTwo = MOST(p[0], p[1]);
+  const double3 mostOfOthers = MOST(p[2], p[3]);
+  const double3 low = LEAST(leastOfTwo, leastOfOthers);
+  const double3 high = MOST(mostOfTwo, mostOfOthers);
+  t->size = high - low;
+  t->error = MOST(-low, high) * (double3)(x.s4, y.s4, z.s4) + (double3)(x.s5, y.s5, z.s5);
+  const double4 error = (double4)(t->error, 0);
+  const double4 origin = (double4)(x.s0, y.s0, z.s0, 0);
+  const double4 inverse = (double4)(x.s1, y.s1, z.s1, 1);
+  const double4 shift = (double4)(1 - x.s2, 1 - y.s2, 1 - z.s2, 0.5);
+  const double4 limit = (double4)(x.s3, y.s3, z.s3, 1.5);
+  const double4 first = ((double4)(low, 0) - origin) * inverse + shift;
+  const double4 last = ((double4)(high, 1) - origin) * inverse + shift;
+  const double4 begin = CLAMPED(first, (double4)(0.5), limit);
+  const double4 end = CLAMPED(last, (double4)(0.5), limit);
+  t->box.begin = convert_int4(begin);
+  t->box.end = convert_int4(end);
+  t->isSample = -allOf(t->box.end - t->box.begin == 1);
+  const int4 sure = convert_int4(certain(begin, error) & certain(end, error));
+  return stateOf(anyOf(sure & (t->box.begin >= t->box.end)), allOf(sure));
+}
+
+INLINE int setRows(Cell* t, const double3* p, Axis x, Axis y, Axis z)
+{
+  double3 a = p[0];
+  double3 b = p[1];
+  const double3 c = p[2];
+  const double3 d = p[3];
+  const double3 size = t->size;
+  if (t->isSample)
+  {
+    return setSample(&t->box, a, b, c, d, size, x, y, z);
+  }
+  const double3 u = b - a;
+  const double3 v = c - a;
+  const double3 w = d - a;
+  const double volume = w.x * (u.y * v.z - u.z * v.y) + w.y * (u.z * v.x - u.x * v.z) +
+    w.z * (u.x * v.y - u.y * v.x);
+  // Coordinates that are not finite make that false.
+  if (!(fabs(volume) > ROUNDINGS * size.x * size.y * size.z + SMALLEST))
+  {
+    return DOUBT;
+  }
+  if (volume < 0)
+  {
+    const double3 swap = a;
+    a = b;
+    b = swap;
+  }
+  return setFaces(t, a, b, c, d, size, t->error, x, y, z);
+}
+
+// The rows first..last - 1 of the box, at most ROWS_AT_ONCE, counted from the first of its first layer.
+INLINE int cellSpans(const Cell* cell, int first, int last, Axis x, Axis y, Spans* spans)
+{
+  const Box* box = &cell->box;
+  if (cell->isSample)
+  {
+    spans->begin[0] = box->begin.x;
+    spans->end[0] = box->end.x;
+    spans->row[0] = box->begin.y;
+    spans->layer[0] = box->begin.z;
+    return ROWS;
+  }
+  const float depth = (float)(box->end.y - box->begin.y);
+  const float8 number = (float8)(0, 1, 2, 3, 4, 5, 6, 7) + (float)first;
+  const int8 layer = convert_int8((number + 0.5f) * (1 / depth));
+  const float8 up = convert_float8(layer);
+  const float8 along = number - up * depth;
+  const float width = (float)(box->end.x - box->begin.x) + 0.5f;
+  const float place[4] = { cell->place.x, cell->place.y, cell->place.z, cell->place.w };
+  const float perRow[4] = { cell->perRow.x, cell->perRow.y, cell->perRow.z, cell->perRow.w };
+  const float perLayer[4] = { cell->perLayer.x, cell->perLayer.y, cell->perLayer.z,
+    cell->perLayer.w };
+  const float notBegin[4] = { cell->notBegin.x, cell->notBegin.y, cell->notBegin.z,
+    cell->notBegin.w };
+  const float notEnd[4] = { cell->notEnd.x, cell->notEnd.y, cell->notEnd.z, cell->notEnd.w };
+  float8 begin = (float8)(0.5f);
+  float8 end = (float8)(width);
+  for (int i = 0; i < 4; ++i)
+  {
+    const float8 crossing = place[i] - (perRow[i] * along + perLayer[i] * up);
+    const float8 from = crossing + notBegin[i];
+    const float8 to = crossing + notEnd[i];
+    begin = MOST(from, begin);
+    end = LEAST(to, end);
+  }
+  begin = LEAST(begin, (float8)(width));
+  end = MOST(end, (float8)(0.5f));
+  const int8 begins = convert_int8(begin);
+  const int8 ends = convert_int8(end);
+  const int8 sure = (fabs(begin - convert_float8(begins) - 0.5f) < cell->certainty) &
+    (fabs(end - convert_float8(ends) - 0.5f) < cell->certainty);
+  vstore8(begins + box->begin.x, 0, spans->begin);
+  vstore8(ends + box->begin.x, 0, spans->end);
+  vstore8(convert_int8(along) + box->begin.y, 0, spans->row);
+  vstore8(layer + box->begin.z, 0, spans->layer);
+  return any(~sure & (begins <= ends + 1) & (number < (float)last)) ? DOUBT : ROWS;
+}
+
+#endif
