@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <unordered_map>
 
 namespace tipp
 {
@@ -57,17 +58,39 @@ std::vector<SeamVertex> labelled(const Tiling& tiling, const std::vector<PlainVe
 SeamTriangles thoseMeeting(const Area& area, const SeamTriangles& all)
 {
   SeamTriangles kept;
-  for (std::size_t i = 0; i < all.Triangles.size(); ++i)
+  kept.Vertices = all.Vertices;
+  for (std::size_t i = 0; i < all.size(); ++i)
   {
     if (std::any_of(
           all.metBegin(i), all.metEnd(i), [&area](PartitionIndex p) { return p < area.Inner; }))
     {
-      kept.Triangles.push_back(all.Triangles[i]);
-      kept.Met.insert(kept.Met.end(), all.metBegin(i), all.metEnd(i));
-      kept.MetEnds.push_back(kept.Met.size());
+      kept.add(all.Triangles[i], all.metBegin(i), all.metEnd(i));
     }
   }
   return kept;
+}
+
+/// The triangles as another tiling has them.
+SeamTriangles seamsIn(const Tiling& boxes, const std::vector<SeamTriangle>& triangles)
+{
+  SeamTriangles seams;
+  std::unordered_map<std::int64_t, std::uint32_t> places;
+  for (const SeamTriangle& triangle : triangles)
+  {
+    SeamTriangles::Corners corners{};
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const SeamVertex& v = triangle[i];
+      const auto entry = places.emplace(v.Id, std::uint32_t(seams.Vertices.size()));
+      if (entry.second)
+      {
+        seams.Vertices.push_back(makeSeamVertex(boxes, boxes.locate(v.Place), v.Place, v.Id));
+      }
+      corners[i] = entry.first->second;
+    }
+    seams.add(boxes, corners, Circumdisk(triangle[0].Place, triangle[1].Place, triangle[2].Place));
+  }
+  return seams;
 }
 
 } // namespace
@@ -381,16 +404,7 @@ void RankRun<Id>::finishArea(std::int32_t index)
     return;
   }
   const Area& parent = this->Work.Areas[std::size_t(active.Parent)];
-  SeamTriangles seams;
-  for (SeamTriangle& triangle : dispatcher.Upward)
-  {
-    for (SeamVertex& v : triangle)
-    {
-      v = makeSeamVertex(parent.Boxes, parent.Boxes.locate(v.Place), v.Place, v.Id);
-    }
-    seams.add(
-      parent.Boxes, triangle, Circumdisk(triangle[0].Place, triangle[1].Place, triangle[2].Place));
-  }
+  const SeamTriangles seams = seamsIn(parent.Boxes, dispatcher.Upward);
   TaskResult result;
   result.Area = active.Parent;
   result.Partition = active.Partition;

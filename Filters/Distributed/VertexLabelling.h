@@ -9,19 +9,10 @@
 namespace tipp
 {
 
-/// Makes vertices for a worker of those that masters keep. Keeps its memory for the next time.
-class VTKTIPPFILTERS_EXPORT VertexLabelling
-{
-public:
-  /// Each vertex once, by id, with the label that it has in the tiling. Sorts what it is given; the
-  /// result lasts until the next call.
-  const std::vector<SeamVertex>& label(const Tiling& boxes, std::vector<PlainVertex>& vertices);
-
-private:
-  std::vector<Point2> Points;
-  std::vector<std::uint32_t> Partitions;
-  std::vector<SeamVertex> Labelled;
-};
+/// Makes vertices for a worker of those that masters keep: each once, by id, with the label that it
+/// has in the tiling. Sorts what it is given.
+VTKTIPPFILTERS_EXPORT std::vector<SeamVertex> labelVertices(
+  const Tiling& boxes, std::vector<PlainVertex>& vertices);
 
 } // namespace tipp
 

@@ -45,6 +45,7 @@ bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monit
     this->Points[first + i] = points[order[i]];
     this->Places[first + i] = this->PlaceEnd + order[i];
   }
+  this->Order.releaseIfLarge();
   this->PlaceEnd += static_cast<std::uint32_t>(count);
   this->Predicates.restart();
 

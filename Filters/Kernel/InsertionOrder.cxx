@@ -173,4 +173,15 @@ const std::vector<std::uint32_t>& InsertionOrder::compute(const Point2* points, 
   return this->Order;
 }
 
+void InsertionOrder::releaseIfLarge()
+{
+  constexpr std::size_t large = std::size_t(1) << 18;
+  if (this->Order.capacity() > large)
+  {
+    std::vector<std::uint64_t>().swap(this->Entries);
+    std::vector<std::uint64_t>().swap(this->Scratch);
+    std::vector<std::uint32_t>().swap(this->Order);
+  }
+}
+
 } // namespace tipp

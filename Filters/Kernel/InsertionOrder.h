@@ -20,6 +20,9 @@ public:
   /// The permutation: entry k is the index of the point to insert k-th. Valid until the next call.
   const std::vector<std::uint32_t>& compute(const Point2* points, std::size_t count);
 
+  /// Gives large memory back; then the permutation is gone.
+  void releaseIfLarge();
+
   std::size_t bytes() const
   {
     return 2 * this->Entries.capacity() * sizeof(std::uint64_t) +

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/LoadedPieces.h"
 
+#include "Distributed/VertexLabelling.h"
 #include "Triangulation/DegenerateInput.h"
 
 #include <algorithm>
 #include <mutex>
 #include <unordered_map>
+#include <utility>
 
 namespace tipp
 {
 namespace
 {
+
+/// A worker of more of them does not keep its memory for the next partition: very many come where
+/// partitions do not pay, and then no two are worked on together.
+constexpr std::size_t mostVerticesKept = std::size_t(1) << 18;
 
 /// The lowest point of each place is to stand for the others, also where another one was in the
 /// initial mesh: once its partition is finished, all triangles that have it are those of its
@@ -123,7 +129,7 @@ void LoadedPieces::makeInteriors(
   worker.setTiling(plan.Partitions, -first);
   for (const PartitionIndex partition : finished)
   {
-    worker.triangulate(partition, plan.Artificial);
+    worker.triangulate(partition, std::vector<SeamVertex>(plan.Artificial));
     loaded.InteriorCounts[std::size_t(partition - first)] = worker.interiorCount();
     loaded.add(worker.duplicates());
   }
@@ -144,7 +150,9 @@ PartitionResult LoadedPieces::triangulate(Place& place, PartitionIndex partition
     place.Piece = piece;
   }
   Worker<std::int32_t>& worker = *place.Triangulator;
-  worker.triangulate(partition, place.Labelling.label(plan.Partitions, place.Vertices));
+  std::vector<SeamVertex> vertices = labelVertices(plan.Partitions, place.Vertices);
+  std::vector<PlainVertex>().swap(place.Vertices);
+  worker.triangulate(partition, std::move(vertices));
   PartitionResult result;
   result.Partition = partition;
   result.Seams = place.Grouping.group(worker.seams());
@@ -156,6 +164,10 @@ PartitionResult LoadedPieces::triangulate(Place& place, PartitionIndex partition
     3 * worker.interiorCount(), loaded.First);
   loaded.InteriorCounts[std::size_t(inPiece)] = worker.interiorCount();
   loaded.add(duplicates);
+  if (worker.vertexCount() > mostVerticesKept) // gives its memory back
+  {
+    place = Place();
+  }
   return result;
 }
 

@@ -29,8 +29,8 @@ public:
   /// alone, over its points, and keeps the others whose circumdisk meets the partition.
   void triangulate(PartitionIndex partition, const std::vector<SeamTriangle>& belonging);
 
-  /// The same, of the vertices of the triangles that belong to it; some perhaps more than once.
-  void triangulate(PartitionIndex partition, const std::vector<SeamVertex>& vertices);
+  /// The same, of the vertices of the triangles that belong to it, each once.
+  void triangulate(PartitionIndex partition, std::vector<SeamVertex>&& vertices);
 
   /// The only partition, number 0: all triangles are interior. False if the monitor ended it.
   bool triangulateAlone(const DelaunayKernel::Monitor& proceed);
@@ -44,8 +44,8 @@ public:
   std::size_t vertexCount() const { return this->VertexCount; }
 
 private:
-  /// Vertices that came with the triangles: those of other partitions, and the partition's own.
-  void collectVertices(PartitionIndex partition, const SeamVertex* vertices, std::size_t count);
+  void collectVertices(const SeamVertex* vertices, std::size_t count);
+  void separateOwnVertices(PartitionIndex partition);
   void triangulateCollected(PartitionIndex partition);
   PartitionIndex bucket(PartitionIndex partition) const { return this->FirstBucket + partition; }
   void takeIds(PartitionIndex bucket);
@@ -53,6 +53,7 @@ private:
   void findSeams(PartitionIndex partition);
   void writeInterior(PartitionIndex bucket);
   SeamVertex vertex(PartitionIndex partition, DelaunayKernel::Index v) const;
+  std::uint32_t seamPlace(DelaunayKernel::Index v);
 
   const Tiling* Boxes;
   PointBuckets<Id>& Buckets;
@@ -62,13 +63,15 @@ private:
   DelaunayKernel& Kernel;
   std::vector<Id> Ids; ///< of the partition's own points
   std::vector<Id> VertexIds;
-  std::vector<SeamVertex> Foreign;
+  std::vector<SeamVertex> Foreign; ///< vertices that came with the triangles, but for own ones
   std::vector<Point2> ForeignPoints;
   std::vector<std::int64_t> KnownIds; ///< of own points that other partitions know; sorted
   std::vector<std::uint32_t> HashTable;
   std::vector<char> IsSeam; ///< of each triangle of the kernel: not interior
   std::vector<DelaunayKernel::Index> Stack;
   SeamTriangles Seams;
+  std::vector<std::uint32_t> SeamPlaces; ///< of the kernel's vertices among those of the seams
+  std::vector<DelaunayKernel::Index> SeamVertices; ///< those of the seams
   std::vector<Duplicate> Duplicates;
   std::size_t InteriorCount = 0;
   std::size_t VertexCount = 0;

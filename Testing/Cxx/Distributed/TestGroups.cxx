@@ -90,13 +90,12 @@ TEST(SeamGrouping, AVertexComesOnceInAGroup)
   EXPECT_EQ(groups.vertices(groupOf(groups, { 0, 1 })).size(), 5u);
 }
 
-TEST(VertexLabelling, GivesEachVertexOnceWithItsBoxsLabel)
+TEST(LabelVertices, GivesEachVertexOnceWithItsBoxsLabel)
 {
   const Tiling boxes = Tiling::grid({ 0, 0, 2, 1 }, 2, 1);
   std::vector<PlainVertex> vertices = { { { 1.6, 0.7 }, 9 }, { { 0.1, 0.2 }, 4 },
     { { 1.6, 0.7 }, 9 }, { { 1.2, 0.1 }, -2 } };
-  VertexLabelling labelling;
-  const std::vector<SeamVertex>& labelled = labelling.label(boxes, vertices);
+  const std::vector<SeamVertex> labelled = labelVertices(boxes, vertices);
   ASSERT_EQ(labelled.size(), 3u);
   for (const SeamVertex& v : labelled)
   {
