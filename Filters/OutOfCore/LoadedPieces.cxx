@@ -14,9 +14,13 @@ namespace tipp
 namespace
 {
 
-/// A worker of more of them does not keep its memory for the next partition: very many come where
-/// partitions do not pay, and then no two are worked on together.
-constexpr std::size_t mostVerticesKept = std::size_t(1) << 18;
+/// Whether a worker keeps its memory for the next partition. Where most vertices are those of the
+/// rim, partitions do not pay, and hardly two are worked on together.
+bool isWorthKeeping(std::size_t vertices, std::size_t points)
+{
+  constexpr std::size_t some = 16384;
+  return vertices <= 2 * points + some;
+}
 
 /// The lowest point of each place is to stand for the others, also where another one was in the
 /// initial mesh: once its partition is finished, all triangles that have it are those of its
@@ -135,39 +139,53 @@ void LoadedPieces::makeInteriors(
   }
 }
 
+/// Has a worker for the piece's partitions.
+void LoadedPieces::prepare(Place& place, PartitionIndex piece)
+{
+  if (place.Piece == piece)
+  {
+    return;
+  }
+  const PiecePlan& plan = this->Work.Plan;
+  Loaded& loaded = *this->Pieces[std::size_t(piece)];
+  place.Triangulator.reset(); // gives its kernel to the next
+  place.Triangulator =
+    std::make_unique<Worker<std::int32_t>>(plan.Partitions, loaded.Buckets, loaded.First);
+  place.Triangulator->setTiling(plan.Partitions, -plan.FirstPartition[std::size_t(piece)]);
+  place.Piece = piece;
+}
+
 PartitionResult LoadedPieces::triangulate(Place& place, PartitionIndex partition)
 {
   const PiecePlan& plan = this->Work.Plan;
   const PartitionIndex piece = plan.PieceOf[std::size_t(partition)];
   const PartitionIndex inPiece = partition - plan.FirstPartition[std::size_t(piece)];
   Loaded& loaded = *this->Pieces[std::size_t(piece)];
-  if (place.Piece != piece)
-  {
-    place.Triangulator.reset(); // gives its kernel to the next
-    place.Triangulator =
-      std::make_unique<Worker<std::int32_t>>(plan.Partitions, loaded.Buckets, loaded.First);
-    place.Triangulator->setTiling(plan.Partitions, inPiece - partition);
-    place.Piece = piece;
-  }
+  this->prepare(place, piece);
   Worker<std::int32_t>& worker = *place.Triangulator;
   std::vector<SeamVertex> vertices = labelVertices(plan.Partitions, place.Vertices);
   std::vector<PlainVertex>().swap(place.Vertices);
   worker.triangulate(partition, std::move(vertices));
   PartitionResult result;
   result.Partition = partition;
-  result.Seams = place.Grouping.group(worker.seams());
   result.Points = std::int64_t(loaded.Buckets.count(inPiece));
   result.Vertices = std::int64_t(worker.vertexCount());
-  std::vector<Duplicate> duplicates = worker.duplicates();
-  result.Duplicates = std::int64_t(duplicates.size());
-  preferLowest(duplicates, result.Seams, loaded.Buckets.triangles(inPiece),
-    3 * worker.interiorCount(), loaded.First);
   loaded.InteriorCounts[std::size_t(inPiece)] = worker.interiorCount();
-  loaded.add(duplicates);
-  if (worker.vertexCount() > mostVerticesKept) // gives its memory back
+  std::vector<Duplicate> duplicates = worker.duplicates();
+  const SeamTriangles seams = worker.takeSeams();
+  if (isWorthKeeping(worker.vertexCount(), loaded.Buckets.count(inPiece)))
+  {
+    result.Seams = place.Grouping.group(seams);
+  }
+  else
   {
     place = Place();
+    result.Seams = SeamGrouping().group(seams);
   }
+  result.Duplicates = std::int64_t(duplicates.size());
+  preferLowest(duplicates, result.Seams, loaded.Buckets.triangles(inPiece),
+    3 * loaded.InteriorCounts[std::size_t(inPiece)], loaded.First);
+  loaded.add(duplicates);
   return result;
 }
 

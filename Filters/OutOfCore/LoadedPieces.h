@@ -84,6 +84,7 @@ public:
 private:
   struct Loaded;
 
+  void prepare(Place& place, PartitionIndex piece);
   std::unique_ptr<Loaded> read(PartitionIndex piece) const;
   void makeInteriors(
     PartitionIndex piece, const std::vector<PartitionIndex>& finished, Loaded& loaded) const;

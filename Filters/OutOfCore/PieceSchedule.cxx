@@ -186,13 +186,14 @@ void PieceSchedule::takeBorder(const SeamGroups& groups, std::uint32_t group)
       continue;
     }
     hasArtificial = true;
-    SeamTriangle seam{};
-    for (std::size_t i = 0; i < 3; ++i)
+    for (const PlainVertex& v : triangle)
     {
-      seam[i] = { triangle[i].Place, triangle[i].Id, 0 };
-      this->markRim(triangle[i]);
+      if (v.Id >= 0)
+      {
+        this->Hull.add(v);
+        this->markRim(v);
+      }
     }
-    this->Hull.push_back(seam);
   }
   for (const PartitionIndex p : groups.met(group))
   {
@@ -417,17 +418,17 @@ void PieceSchedule::finishBorder(PartitionIndex piece)
 
 void PieceSchedule::repairHull()
 {
-  removeArtificialPoints(this->Hull, this->Plan.Artificial);
-  for (const SeamTriangle& triangle : this->Hull)
+  const std::vector<PlainVertex> hull = this->Hull.take();
+  std::vector<Point2> points;
+  points.reserve(hull.size());
+  for (const PlainVertex& v : hull)
   {
-    std::array<PlainVertex, 3> plain{};
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      plain[i] = { triangle[i].Place, triangle[i].Id };
-    }
-    this->share(plain);
+    points.push_back(v.Place);
   }
-  release(this->Hull);
+  visitHullTriangles(points, this->Plan.Artificial,
+    [&](const std::array<std::uint32_t, 3>& corners) {
+      this->share({ hull[corners[0]], hull[corners[1]], hull[corners[2]] });
+    });
   this->takeRowsFromAside();
   this->HullRepaired = true;
 }

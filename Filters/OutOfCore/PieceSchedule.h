@@ -5,6 +5,7 @@
 #include "Distributed/GroupMesh.h"
 #include "OutOfCore/AsideFile.h"
 #include "OutOfCore/Checkpoint.h"
+#include "OutOfCore/HullVertices.h"
 #include "OutOfCore/LoadedPieces.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/SpillPoints.h"
@@ -155,7 +156,7 @@ private:
   IndependentPartitions Waiting;
   std::vector<State> Pieces;
   std::vector<PartitionIndex> Window; ///< loaded pieces
-  std::vector<SeamTriangle> Hull;     ///< at artificial points
+  HullVertices Hull;
   std::vector<std::int32_t> Met;
   bool HullRepaired = false;
   AsideFile* Aside = nullptr;

@@ -84,7 +84,7 @@ void PieceSchedule::save(SaveArchive& archive)
   const GroupMesh::LiveGroups rim = this->Rim.liveGroups();
   rim.Groups.write(archive.Writer);
   archive(rim.Triangles);
-  archive(this->Hull);
+  this->Hull.exchange(archive);
   archive(this->HullRepaired);
   archive(this->WantedFromAside);
   for (PartitionIndex piece = 0; piece < this->pieces(); ++piece)
@@ -101,7 +101,7 @@ PieceSchedule::PieceSchedule(const PiecePlan& plan, const SpilledPoints& points,
   rim.Groups = SeamGroups::read(archive.Reader);
   archive(rim.Triangles);
   this->Rim.add(rim);
-  archive(this->Hull);
+  this->Hull.exchange(archive);
   archive(this->HullRepaired);
   archive(this->WantedFromAside);
   for (PartitionIndex piece = 0; piece < this->pieces(); ++piece)

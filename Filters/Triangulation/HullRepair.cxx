@@ -41,6 +41,32 @@ bool contains(const Box2& box, Point2 p)
 
 } // namespace
 
+void visitHullTriangles(const std::vector<Point2>& vertices,
+  const std::vector<SeamVertex>& artificial,
+  const std::function<void(const std::array<std::uint32_t, 3>&)>& visit)
+{
+  DelaunayKernel kernel;
+  kernel.insert(vertices.data(), vertices.size());
+  for (DelaunayKernel::Index t = 0; t < kernel.mesh().end(); t += 8)
+  {
+    if (kernel.isInfinite(t))
+    {
+      continue;
+    }
+    const DelaunayKernel::Index* v = kernel.mesh().slots() + t;
+    const Point2 a = kernel.point(v[0]);
+    const Point2 b = kernel.point(v[1]);
+    const Point2 c = kernel.point(v[2]);
+    const Box2 bounds = Circumdisk(a, b, c).bounds();
+    if (std::any_of(artificial.begin(), artificial.end(),
+          [&](const SeamVertex& z)
+          { return contains(bounds, z.Place) && inCirclePerturbed(a, b, c, z.Place); }))
+    {
+      visit({ kernel.place(v[0]), kernel.place(v[1]), kernel.place(v[2]) });
+    }
+  }
+}
+
 void removeArtificialPoints(
   std::vector<SeamTriangle>& final, const std::vector<SeamVertex>& artificial)
 {
@@ -55,28 +81,10 @@ void removeArtificialPoints(
   {
     points.push_back(v.Place);
   }
-  DelaunayKernel kernel;
-  kernel.insert(points.data(), points.size());
-  for (DelaunayKernel::Index t = 0; t < kernel.mesh().end(); t += 8)
-  {
-    if (kernel.isInfinite(t))
-    {
-      continue;
-    }
-    const DelaunayKernel::Index* v = kernel.mesh().slots() + t;
-    const SeamTriangle triangle = { rim[kernel.place(v[0])], rim[kernel.place(v[1])],
-      rim[kernel.place(v[2])] };
-    const Point2 a = triangle[0].Place;
-    const Point2 b = triangle[1].Place;
-    const Point2 c = triangle[2].Place;
-    const Box2 bounds = Circumdisk(a, b, c).bounds();
-    if (std::any_of(artificial.begin(), artificial.end(),
-          [&](const SeamVertex& z)
-          { return contains(bounds, z.Place) && inCirclePerturbed(a, b, c, z.Place); }))
-    {
-      final.push_back(triangle);
-    }
-  }
+  visitHullTriangles(points, artificial,
+    [&](const std::array<std::uint32_t, 3>& corners) {
+      final.push_back({ rim[corners[0]], rim[corners[1]], rim[corners[2]] });
+    });
 }
 
 } // namespace tipp

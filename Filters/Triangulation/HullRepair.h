@@ -4,6 +4,9 @@
 
 #include "Triangulation/SeamMesh.h"
 
+#include <array>
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace tipp
@@ -14,6 +17,12 @@ namespace tipp
 /// with.
 void removeArtificialPoints(
   std::vector<SeamTriangle>& final, const std::vector<SeamVertex>& artificial);
+
+/// The same, of the true vertices alone: visits the triangles that take the place of those at the
+/// artificial points, by places among the vertices, each of which comes once.
+void visitHullTriangles(const std::vector<Point2>& vertices,
+  const std::vector<SeamVertex>& artificial,
+  const std::function<void(const std::array<std::uint32_t, 3>&)>& visit);
 
 } // namespace tipp
 

@@ -12,17 +12,6 @@ namespace
 
 constexpr std::uint32_t NoPlace = ~0U;
 
-/// What is small is kept for the next partition.
-template <typename T>
-void releaseIfLarge(std::vector<T>& values)
-{
-  constexpr std::size_t large = std::size_t(1) << 18;
-  if (values.capacity() > large)
-  {
-    std::vector<T>().swap(values);
-  }
-}
-
 /// The disks inside this closed box do not touch the closed boxes around it.
 Box2 openBox(const Box2& box)
 {
@@ -74,11 +63,21 @@ void Worker<Id>::triangulateCollected(PartitionIndex partition)
   // The own points first: their interior triangles then do not depend on the foreign ones.
   this->Kernel.insert(this->Buckets.points(bucket), this->Buckets.count(bucket));
   this->Kernel.insert(this->ForeignPoints.data(), this->ForeignPoints.size());
-  releaseIfLarge(this->ForeignPoints);
+  // Otherwise memory is kept for the next partition.
+  const bool isLarge = this->Kernel.bytes() > PooledKernel::MostBytesKept;
+  if (isLarge)
+  {
+    std::vector<Point2>().swap(this->ForeignPoints);
+  }
   this->VertexCount = static_cast<std::size_t>(this->Kernel.vertexEnd()) - 1;
   this->resolveDuplicates();
   this->findSeams(partition);
   this->writeInterior(bucket);
+  if (isLarge)
+  {
+    this->Kernel.releaseTriangles();
+  }
+  this->nameSeamVertices(partition);
 }
 
 template <typename Id>
@@ -265,6 +264,11 @@ void Worker<Id>::findSeams(PartitionIndex partition)
       this->Stack.push_back(neighbour);
     }
   }
+}
+
+template <typename Id>
+void Worker<Id>::nameSeamVertices(PartitionIndex partition)
+{
   this->Seams.Vertices.reserve(this->SeamVertices.size());
   for (const DelaunayKernel::Index v : this->SeamVertices)
   {

@@ -8,6 +8,7 @@
 #include "Triangulation/Triangulate.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -37,6 +38,7 @@ public:
 
   std::size_t interiorCount() const { return this->InteriorCount; }
   const SeamTriangles& seams() const { return this->Seams; }
+  SeamTriangles takeSeams() { return std::move(this->Seams); }
 
   /// Points of the partition at the place of another. The representative is the lowest id, unless
   /// it is an initial point, which other partitions know already.
@@ -51,6 +53,7 @@ private:
   void takeIds(PartitionIndex bucket);
   void resolveDuplicates();
   void findSeams(PartitionIndex partition);
+  void nameSeamVertices(PartitionIndex partition);
   void writeInterior(PartitionIndex bucket);
   SeamVertex vertex(PartitionIndex partition, DelaunayKernel::Index v) const;
   std::uint32_t seamPlace(DelaunayKernel::Index v);
