@@ -41,6 +41,8 @@ void exchangeFigures(Archive& archive, OutOfCoreStatistics& statistics)
   archive(statistics.Partitions);
   archive(statistics.WorkerVertices);
   archive(statistics.PeakRimTriangles);
+  archive(statistics.PeakRimBytes);
+  archive(statistics.RimSpilledBytes);
   archive(statistics.PeakBorderBytes);
   archive(statistics.AsideBytes);
   archive(statistics.SpilledBytes);
@@ -320,7 +322,7 @@ private:
       isShared ? this->Ranks : nullptr);
     if (isShared)
     {
-      pieces.setCheckpoint(this->Scratch.state(), this->Scratch.aside());
+      pieces.setCheckpoint(this->Scratch.state(), this->Scratch.aside(), this->Scratch.rim());
     }
     const bool isDone = this->Prepared.Survey.Collinear ? pieces.writePointsAlone()
       : this->Prepared.Plan->IsAlone                    ? pieces.triangulateAlone()
@@ -332,6 +334,8 @@ private:
     this->Statistics.Duplicates = pieces.Duplicates;
     this->Statistics.WorkerVertices = pieces.WorkerVertices;
     this->Statistics.PeakRimTriangles = pieces.PeakRimTriangles;
+    this->Statistics.PeakRimBytes = pieces.PeakRimBytes;
+    this->Statistics.RimSpilledBytes = pieces.RimSpilledBytes;
     this->Statistics.PeakBorderBytes = pieces.PeakBorderBytes;
     this->Statistics.AsideBytes = pieces.asideBytes();
     this->Finished = std::move(pieces.finished());

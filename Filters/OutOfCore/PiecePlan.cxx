@@ -52,6 +52,7 @@ MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords)
     std::size_t(options.MemoryLimit / 512), std::size_t(1) << 14, std::size_t(1) << 20);
   this->LoadedBytes = share;
   this->BorderBytes = options.MemoryLimit / 10;
+  this->RimBytes = options.MemoryLimit / 10;
   // One that is written, two that are worked on and one that is loaded; never mind the threads, so
   // that the pieces are the same for any number of them.
   constexpr std::uint64_t together = 4;

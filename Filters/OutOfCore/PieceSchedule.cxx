@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace tipp
 {
@@ -116,6 +117,7 @@ bool PieceSchedule::complete(PartitionResult result)
   const GroupMesh::Final final = this->Rim.add(std::move(result.Seams));
   this->Waiting.deactivate(result.Partition);
   this->takeFinal(final);
+  this->takeRowsFromAside();
   if (--this->Pieces[std::size_t(piece)].PartitionsLeft > 0)
   {
     return false;
@@ -308,21 +310,12 @@ void PieceSchedule::markLive(PartitionIndex piece)
 {
   const PartitionIndex begin = this->Plan.FirstPartition[std::size_t(piece)];
   const PartitionIndex end = this->Plan.FirstPartition[std::size_t(piece) + 1];
-  this->Rim.visitLive(
-    [&](const SeamGroups& groups, std::uint32_t group)
+  this->Rim.visitVertices(begin, end,
+    [&](const PlainVertex& v)
     {
-      const auto met = groups.met(group);
-      if (std::none_of(
-            met.begin(), met.end(), [&](PartitionIndex p) { return begin <= p && p < end; }))
+      if (this->Pieces[std::size_t(piece)].Growing.owns(v.Id))
       {
-        return;
-      }
-      for (const PlainVertex& v : groups.vertices(group))
-      {
-        if (this->Pieces[std::size_t(piece)].Growing.owns(v.Id))
-        {
-          this->markRim(v);
-        }
+        this->markRim(v);
       }
     });
 }
@@ -363,9 +356,34 @@ PartitionIndex PieceSchedule::takeComplete()
       state.At = Stage::Taken;
       return piece;
     }
-    this->putAsideIfTooMuch(state);
+    if (this->Aside && this->borderBytes() > this->MostBorderBytes)
+    {
+      this->writeAside(state);
+    }
   }
+  this->putAsideGrowing();
   return -1;
+}
+
+/// Borders that are not complete, where those that are do not suffice. What they get from then on
+/// is kept beside it; so is what comes with the hull.
+void PieceSchedule::putAsideGrowing()
+{
+  constexpr std::uint64_t timesMore = 5;
+  std::uint64_t bytes = this->Aside ? this->borderBytes() : 0;
+  for (State& state : this->Pieces)
+  {
+    if (bytes <= timesMore * this->MostBorderBytes)
+    {
+      return;
+    }
+    if (state.At == Stage::Interior && state.RowsMissing == 0)
+    {
+      bytes -= state.Growing.bytes();
+      this->writeAside(state);
+      bytes += state.Growing.bytes();
+    }
+  }
 }
 
 bool PieceSchedule::isMet(PartitionIndex piece) const
@@ -379,10 +397,10 @@ bool PieceSchedule::isMet(PartitionIndex piece) const
   return p < end;
 }
 
-/// What comes with the hull is kept beside it.
-void PieceSchedule::putAsideIfTooMuch(State& state)
+/// Unless it has been already.
+void PieceSchedule::writeAside(State& state)
 {
-  if (!this->Aside || state.Aside.Bytes > 0 || this->borderBytes() <= this->MostBorderBytes)
+  if (state.Aside.Bytes > 0)
   {
     return;
   }
@@ -425,10 +443,11 @@ void PieceSchedule::repairHull()
   {
     points.push_back(v.Place);
   }
-  visitHullTriangles(points, this->Plan.Artificial,
-    [&](const std::array<std::uint32_t, 3>& corners) {
-      this->share({ hull[corners[0]], hull[corners[1]], hull[corners[2]] });
-    });
+  for (const std::array<std::uint32_t, 3>& corners :
+    hullTriangles(std::move(points), this->Plan.Artificial))
+  {
+    this->share({ hull[corners[0]], hull[corners[1]], hull[corners[2]] });
+  }
   this->takeRowsFromAside();
   this->HullRepaired = true;
 }
@@ -436,6 +455,10 @@ void PieceSchedule::repairHull()
 /// One piece after the other.
 void PieceSchedule::takeRowsFromAside()
 {
+  if (this->WantedFromAside.empty())
+  {
+    return;
+  }
   std::sort(this->WantedFromAside.begin(), this->WantedFromAside.end(),
     [](const WantedRow& a, const WantedRow& b) { return a.Place < b.Place; });
   PartitionIndex from = -1;

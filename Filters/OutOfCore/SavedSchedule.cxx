@@ -81,9 +81,7 @@ void PieceSchedule::save(SaveArchive& archive)
     }
   }
   archive(unfinished);
-  const GroupMesh::LiveGroups rim = this->Rim.liveGroups();
-  rim.Groups.write(archive.Writer);
-  archive(rim.Triangles);
+  this->Rim.save(archive.Writer);
   this->Hull.exchange(archive);
   archive(this->HullRepaired);
   archive(this->WantedFromAside);
@@ -97,10 +95,7 @@ PieceSchedule::PieceSchedule(const PiecePlan& plan, const SpilledPoints& points,
   const PointRowLayout& rows, LoadArchive& archive)
   : PieceSchedule(plan, points, rows, readUnfinished(archive, plan))
 {
-  GroupMesh::LiveGroups rim;
-  rim.Groups = SeamGroups::read(archive.Reader);
-  archive(rim.Triangles);
-  this->Rim.add(rim);
+  this->Rim.restore(archive.Reader);
   this->Hull.exchange(archive);
   archive(this->HullRepaired);
   archive(this->WantedFromAside);

@@ -6,6 +6,7 @@
 #include "Predicates/InCircle.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tipp
 {
@@ -41,12 +42,13 @@ bool contains(const Box2& box, Point2 p)
 
 } // namespace
 
-void visitHullTriangles(const std::vector<Point2>& vertices,
-  const std::vector<SeamVertex>& artificial,
-  const std::function<void(const std::array<std::uint32_t, 3>&)>& visit)
+std::vector<std::array<std::uint32_t, 3>> hullTriangles(
+  std::vector<Point2> vertices, const std::vector<SeamVertex>& artificial)
 {
   DelaunayKernel kernel;
   kernel.insert(vertices.data(), vertices.size());
+  std::vector<Point2>().swap(vertices); // the kernel has them; there may be very many
+  std::vector<std::array<std::uint32_t, 3>> triangles;
   for (DelaunayKernel::Index t = 0; t < kernel.mesh().end(); t += 8)
   {
     if (kernel.isInfinite(t))
@@ -62,9 +64,10 @@ void visitHullTriangles(const std::vector<Point2>& vertices,
           [&](const SeamVertex& z)
           { return contains(bounds, z.Place) && inCirclePerturbed(a, b, c, z.Place); }))
     {
-      visit({ kernel.place(v[0]), kernel.place(v[1]), kernel.place(v[2]) });
+      triangles.push_back({ kernel.place(v[0]), kernel.place(v[1]), kernel.place(v[2]) });
     }
   }
+  return triangles;
 }
 
 void removeArtificialPoints(
@@ -81,10 +84,10 @@ void removeArtificialPoints(
   {
     points.push_back(v.Place);
   }
-  visitHullTriangles(points, artificial,
-    [&](const std::array<std::uint32_t, 3>& corners) {
-      final.push_back({ rim[corners[0]], rim[corners[1]], rim[corners[2]] });
-    });
+  for (const std::array<std::uint32_t, 3>& corners : hullTriangles(std::move(points), artificial))
+  {
+    final.push_back({ rim[corners[0]], rim[corners[1]], rim[corners[2]] });
+  }
 }
 
 } // namespace tipp

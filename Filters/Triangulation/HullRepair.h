@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace tipp
@@ -18,11 +17,10 @@ namespace tipp
 void removeArtificialPoints(
   std::vector<SeamTriangle>& final, const std::vector<SeamVertex>& artificial);
 
-/// The same, of the true vertices alone: visits the triangles that take the place of those at the
-/// artificial points, by places among the vertices, each of which comes once.
-void visitHullTriangles(const std::vector<Point2>& vertices,
-  const std::vector<SeamVertex>& artificial,
-  const std::function<void(const std::array<std::uint32_t, 3>&)>& visit);
+/// The triangles that take the place of those at the artificial points, of these points' true
+/// vertices, each of which comes once; by places among them.
+std::vector<std::array<std::uint32_t, 3>> hullTriangles(
+  std::vector<Point2> vertices, const std::vector<SeamVertex>& artificial);
 
 } // namespace tipp
 
