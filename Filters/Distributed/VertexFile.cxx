@@ -48,11 +48,14 @@ VertexFile::Part VertexFile::put(const PlainVertex* vertices, std::size_t count)
   if (!this->File)
   {
     this->File = std::make_unique<OutputFile>(this->Path);
-    this->Source = std::make_unique<InputFile>(this->Path);
   }
   const std::uint64_t bytes = count * sizeof(PlainVertex);
   const Part part{ this->allocate(bytes), count, checksumOf(vertices, bytes) };
   this->File->write(part.Offset, vertices, bytes);
+  if (!this->Source)
+  {
+    this->Source = std::make_unique<InputFile>(this->Path);
+  }
   this->Used += bytes;
   this->Written += bytes;
   return part;

@@ -4,6 +4,7 @@
 
 #include "Distributed/GroupMesh.h"
 #include "Distributed/VertexLabelling.h"
+#include "TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
@@ -235,6 +236,77 @@ TEST(GroupMesh, KeepsTheOthersTrianglesWhateverIsFinished)
       ASSERT_EQ(expected, gathered(mesh, p)) << finished << " " << p;
     }
   }
+}
+
+/// Everything that a mesh tells of vertices.
+void expectSame(const GroupMesh& a, const GroupMesh& b)
+{
+  EXPECT_EQ(a.size(), b.size());
+  for (PartitionIndex p = 0; p < a.partitions(); ++p)
+  {
+    EXPECT_EQ(gathered(a, p), gathered(b, p)) << p;
+    std::multiset<std::int64_t> ofA;
+    std::multiset<std::int64_t> ofB;
+    a.visitVertices(p, p + 2, [&](const PlainVertex& v) { ofA.insert(v.Id); });
+    b.visitVertices(p, p + 2, [&](const PlainVertex& v) { ofB.insert(v.Id); });
+    EXPECT_EQ(ofA, ofB) << p;
+  }
+  const Bytes savedA = saved(a);
+  const Bytes savedB = saved(b);
+  EXPECT_TRUE(std::equal(savedA.begin(), savedA.end(), savedB.begin(), savedB.end()));
+}
+
+TEST(GroupMesh, IsTheSameWithItsVerticesInAFile)
+{
+  const TemporaryFolder folder;
+  VertexFile file(folder.path("rim"));
+  constexpr PartitionIndex partitions = 9;
+  std::vector<PartitionIndex> all(partitions);
+  std::iota(all.begin(), all.end(), 0);
+  GroupMesh inMemory(partitions, all);
+  GroupMesh spilled(partitions, all);
+  inMemory.add(SeamGrouping().group(rowOfSeams(partitions)));
+  spilled.add(SeamGrouping().group(rowOfSeams(partitions)));
+  spilled.spillTo(file, 0);
+  EXPECT_EQ(spilled.vertexBytes(), file.used());
+  EXPECT_EQ(inMemory.vertexBytes(), file.used());
+  expectSame(inMemory, spilled);
+  for (const PartitionIndex finished : { 4, 5, 3, 0, 8, 7, 1 })
+  {
+    for (GroupMesh* mesh : { &inMemory, &spilled })
+    {
+      mesh->finish(finished);
+      mesh->add(SeamGrouping().group(rowOfSeams(partitions), finished));
+    }
+    expectSame(inMemory, spilled);
+  }
+}
+
+TEST(GroupMesh, SpillsNothingThatThereIsMemoryFor)
+{
+  const TemporaryFolder folder;
+  VertexFile file(folder.path("rim"));
+  GroupMesh mesh(9, { 0, 1, 2, 3, 4, 5, 6, 7, 8 });
+  mesh.spillTo(file, 1 << 20);
+  mesh.add(SeamGrouping().group(rowOfSeams(9)));
+  EXPECT_EQ(0U, file.written());
+  EXPECT_EQ(0U, folder.fileCount());
+}
+
+TEST(GroupMesh, LeavesTheFileEmptyWhenAllIsFinished)
+{
+  const TemporaryFolder folder;
+  VertexFile file(folder.path("rim"));
+  GroupMesh mesh(3, { 0, 1, 2 });
+  mesh.spillTo(file, 0);
+  mesh.add(SeamGrouping().group(exampleSeams()));
+  EXPECT_GT(file.used(), 0U);
+  for (const PartitionIndex p : { 0, 1, 2 })
+  {
+    mesh.finish(p);
+  }
+  EXPECT_EQ(0U, file.used());
+  EXPECT_EQ(0U, mesh.vertexBytes());
 }
 
 TEST(GroupMesh, IsMadeAgainOfWhatWasSaved)
