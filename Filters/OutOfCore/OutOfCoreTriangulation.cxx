@@ -239,10 +239,16 @@ private:
     {
       throw IOError("There is no point with finite coordinates in the input, so nothing to write.");
     }
-    this->requireSpace();
+    this->requireSpace(0);
     this->Prepared.Plan =
       std::make_unique<PiecePlan>(survey, this->Options, *this->Memory, words, this->Threads);
     std::vector<SampledPoint>().swap(survey.Sample); // = {} would keep the memory
+    if (this->Prepared.Plan->HasLargeRim)
+    {
+      constexpr std::uint64_t rim = 2 * 24; // a vertex, and room between vertices
+      constexpr std::uint64_t border = 64;
+      this->requireSpace(rim + border);
+    }
     this->Prepared.describeMesh();
     this->describePlan();
     this->endPhase("survey");
@@ -261,7 +267,8 @@ private:
     this->Statistics.Partitions = this->Prepared.Plan->Partitions.size();
   }
 
-  void requireSpace() const
+  /// With so many bytes a point more than usual in the scratch folder.
+  void requireSpace(std::uint64_t more) const
   {
     const auto points =
       std::uint64_t(this->Prepared.Survey.Points - this->Prepared.Survey.Rejected);
@@ -269,8 +276,8 @@ private:
     // Borders and ids of cells included; two triangles a point at most.
     const std::uint64_t stored =
       points * (24 + 8 + 1 + 8 * this->Prepared.Rows.Attributes.size() + 2 * cell) / 50 * 51;
-    this->Scratch.requireSpace(
-      this->Path, this->Options.CountOnly ? 0 : stored, points * 8 * this->Prepared.Rows.Words);
+    this->Scratch.requireSpace(this->Path, this->Options.CountOnly ? 0 : stored,
+      points * (8 * this->Prepared.Rows.Words + more));
   }
 
   void spill()

@@ -90,7 +90,8 @@ PiecePlan::PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options,
     return;
   }
   this->chooseInitialPoints(survey);
-  if (!isGrid && fits && !partitionsPay(this->initialMesh(threads)))
+  this->HasLargeRim = !partitionsPay(this->initialMesh(threads));
+  if (!isGrid && fits && this->HasLargeRim)
   {
     this->takeAlone(survey);
   }
@@ -99,6 +100,7 @@ PiecePlan::PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options,
 void PiecePlan::takeAlone(const InputSurvey& survey)
 {
   this->IsAlone = true;
+  this->HasLargeRim = false;
   this->Pieces = Tiling::grid(survey.Bounds, 1, 1);
   this->Inner = { this->Pieces };
   this->numberPartitions();

@@ -63,6 +63,8 @@ struct VTKTIPPFILTERS_EXPORT PiecePlan
   /// One piece of one partition, no artificial points: partitions do not pay for such points, or
   /// doubles cannot enclose them.
   bool IsAlone = false;
+  /// Nearly all points may be on the rim: partitions do not pay, but there is no memory for one.
+  bool HasLargeRim = false;
 
   PartitionIndex pieces() const { return this->Pieces.size(); }
 
