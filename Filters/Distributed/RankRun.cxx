@@ -3,6 +3,7 @@
 
 #include "Distributed/MessageKinds.h"
 #include "Distributed/TaskMessages.h"
+#include "Distributed/VertexLabelling.h"
 #include "Parallel/ProcessorWatch.h"
 #include "Triangulation/HullRepair.h"
 #include "Triangulation/InitialMesh.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <unordered_map>
 
 namespace tipp
 {
@@ -68,29 +68,6 @@ SeamTriangles thoseMeeting(const Area& area, const SeamTriangles& all)
     }
   }
   return kept;
-}
-
-/// The triangles as another tiling has them.
-SeamTriangles seamsIn(const Tiling& boxes, const std::vector<SeamTriangle>& triangles)
-{
-  SeamTriangles seams;
-  std::unordered_map<std::int64_t, std::uint32_t> places;
-  for (const SeamTriangle& triangle : triangles)
-  {
-    SeamTriangles::Corners corners{};
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      const SeamVertex& v = triangle[i];
-      const auto entry = places.emplace(v.Id, std::uint32_t(seams.Vertices.size()));
-      if (entry.second)
-      {
-        seams.Vertices.push_back(makeSeamVertex(boxes, boxes.locate(v.Place), v.Place, v.Id));
-      }
-      corners[i] = entry.first->second;
-    }
-    seams.add(boxes, corners, Circumdisk(triangle[0].Place, triangle[1].Place, triangle[2].Place));
-  }
-  return seams;
 }
 
 } // namespace
@@ -404,7 +381,7 @@ void RankRun<Id>::finishArea(std::int32_t index)
     return;
   }
   const Area& parent = this->Work.Areas[std::size_t(active.Parent)];
-  const SeamTriangles seams = seamsIn(parent.Boxes, dispatcher.Upward);
+  const SeamTriangles seams = labelTriangles(parent.Boxes, dispatcher.Upward);
   TaskResult result;
   result.Area = active.Parent;
   result.Partition = active.Partition;

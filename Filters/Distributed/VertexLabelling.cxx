@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_map>
 
 namespace tipp
 {
@@ -35,6 +36,28 @@ std::vector<SeamVertex> labelVertices(const Tiling& boxes, std::vector<PlainVert
     }
   }
   return labelled;
+}
+
+SeamTriangles labelTriangles(const Tiling& boxes, const std::vector<SeamTriangle>& triangles)
+{
+  SeamTriangles seams;
+  std::unordered_map<std::int64_t, std::uint32_t> places;
+  for (const SeamTriangle& triangle : triangles)
+  {
+    SeamTriangles::Corners corners{};
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const SeamVertex& v = triangle[i];
+      const auto entry = places.emplace(v.Id, std::uint32_t(seams.Vertices.size()));
+      if (entry.second)
+      {
+        seams.Vertices.push_back(makeSeamVertex(boxes, boxes.locate(v.Place), v.Place, v.Id));
+      }
+      corners[i] = entry.first->second;
+    }
+    seams.add(boxes, corners, Circumdisk(triangle[0].Place, triangle[1].Place, triangle[2].Place));
+  }
+  return seams;
 }
 
 } // namespace tipp

@@ -14,6 +14,11 @@ namespace tipp
 VTKTIPPFILTERS_EXPORT std::vector<SeamVertex> labelVertices(
   const Tiling& boxes, std::vector<PlainVertex>& vertices);
 
+/// Triangles of another tiling, with the labels that their vertices have in this one, and what they
+/// meet there.
+VTKTIPPFILTERS_EXPORT SeamTriangles labelTriangles(
+  const Tiling& boxes, const std::vector<SeamTriangle>& triangles);
+
 } // namespace tipp
 
 #endif
