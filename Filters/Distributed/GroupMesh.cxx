@@ -21,27 +21,87 @@ GroupMesh::GroupMesh(PartitionIndex partitions, const std::vector<PartitionIndex
 }
 
 /// When most of them are, so that it costs no more than to enter them did.
-void GroupMesh::Batch::dropGone()
+void GroupMesh::dropGone(Batch& batch)
 {
-  if (this->Groups.size() == 0 || 2 * this->Alive > this->Groups.size())
+  if (batch.Groups.size() == 0 || 2 * batch.Alive > batch.Groups.size())
   {
     return;
   }
+  this->Held -= batch.held();
   std::vector<std::uint32_t> left;
   std::vector<std::uint32_t> triangles;
-  for (std::uint32_t& place : this->Places)
+  std::vector<VertexFile::Part> spilled;
+  for (std::uint32_t& place : batch.Places)
   {
     if (place != Gone)
     {
       left.push_back(place);
-      triangles.push_back(this->Triangles[place]);
+      triangles.push_back(batch.Triangles[place]);
+      if (!batch.Spilled.empty())
+      {
+        spilled.push_back(batch.Spilled[place]);
+      }
       place = std::uint32_t(left.size() - 1);
     }
   }
   SeamGroups groups;
-  groups.copyWithoutTriangles(this->Groups, left);
-  this->Groups = std::move(groups);
-  this->Triangles = std::move(triangles);
+  groups.copyWithoutTriangles(batch.Groups, left);
+  batch.Groups = std::move(groups);
+  batch.Triangles = std::move(triangles);
+  batch.Spilled = std::move(spilled);
+  this->Held += batch.held();
+}
+
+void GroupMesh::spillTo(VertexFile& file, std::uint64_t most)
+{
+  this->File = &file;
+  this->MostHeld = most;
+  for (const Membership& members : this->Members)
+  {
+    for (const Reference& reference : members.References)
+    {
+      this->spillIfTooMuch(*reference.Of);
+    }
+  }
+}
+
+/// Not small ones: that would take time, and hardly give memory.
+void GroupMesh::spillIfTooMuch(Batch& batch)
+{
+  constexpr std::uint64_t smallPart = 16;
+  if (!this->File || this->Held <= this->MostHeld || batch.held() <= this->MostHeld / smallPart)
+  {
+    return;
+  }
+  this->Held -= batch.held();
+  for (std::size_t g = 0; g < batch.Groups.size(); ++g)
+  {
+    const auto vertices = batch.Groups.vertices(g);
+    batch.Spilled.push_back(this->File->put(vertices.begin(), vertices.size()));
+  }
+  std::vector<PlainVertex>().swap(batch.Groups.Vertices);
+  for (SeamGroups::Group& group : batch.Groups.Groups)
+  {
+    group.VertexEnd = 0;
+  }
+}
+
+std::size_t GroupMesh::vertexCount(const Batch& batch, std::uint32_t place) const
+{
+  return batch.Spilled.empty() ? batch.Groups.vertices(place).size()
+                               : std::size_t(batch.Spilled[place].Count);
+}
+
+void GroupMesh::addVertices(
+  const Batch& batch, std::uint32_t place, std::vector<PlainVertex>& vertices) const
+{
+  if (!batch.Spilled.empty())
+  {
+    this->File->get(batch.Spilled[place], vertices);
+    return;
+  }
+  const auto added = batch.Groups.vertices(place);
+  vertices.insert(vertices.end(), added.begin(), added.end());
 }
 
 bool GroupMesh::isLive(const SeamGroups& groups, std::size_t g) const
@@ -73,21 +133,6 @@ GroupMesh::Final GroupMesh::add(SeamGroups added)
   return final;
 }
 
-void GroupMesh::add(const LiveGroups& groups)
-{
-  std::vector<std::uint32_t> live;
-  std::vector<std::uint32_t> triangles;
-  for (std::uint32_t g = 0; g < groups.Groups.size(); ++g)
-  {
-    if (this->isLive(groups.Groups, g))
-    {
-      live.push_back(g);
-      triangles.push_back(groups.Triangles.at(g));
-    }
-  }
-  this->enter(groups.Groups, live, std::move(triangles));
-}
-
 void GroupMesh::enter(const SeamGroups& groups, const std::vector<std::uint32_t>& live,
   std::vector<std::uint32_t> triangles)
 {
@@ -97,6 +142,8 @@ void GroupMesh::enter(const SeamGroups& groups, const std::vector<std::uint32_t>
   batch->Alive = live.size();
   batch->Places.resize(live.size());
   std::iota(batch->Places.begin(), batch->Places.end(), 0U);
+  this->Held += batch->held();
+  this->spillIfTooMuch(*batch);
   for (std::uint32_t g = 0; g < live.size(); ++g)
   {
     this->Live += batch->Triangles[g];
@@ -128,13 +175,17 @@ void GroupMesh::finish(PartitionIndex partition)
       {
         --this->Meeting[std::size_t(p)];
       }
+      if (!batch.Spilled.empty())
+      {
+        this->File->free(batch.Spilled[place]);
+      }
       place = Gone;
       --batch.Alive;
     }
   }
   for (const Reference& reference : members.References)
   {
-    reference.Of->dropGone();
+    this->dropGone(*reference.Of);
   }
   this->Finished[std::size_t(partition)] = 1;
 }
@@ -147,7 +198,7 @@ void GroupMesh::gather(PartitionIndex partition, std::vector<PlainVertex>& verti
   {
     if (reference.isAlive())
     {
-      count += reference.Of->Groups.vertices(reference.place()).size();
+      count += this->vertexCount(*reference.Of, reference.place());
     }
   }
   vertices.clear();
@@ -156,8 +207,7 @@ void GroupMesh::gather(PartitionIndex partition, std::vector<PlainVertex>& verti
   {
     if (reference.isAlive())
     {
-      const auto added = reference.Of->Groups.vertices(reference.place());
-      vertices.insert(vertices.end(), added.begin(), added.end());
+      this->addVertices(*reference.Of, reference.place(), vertices);
     }
   }
 }
@@ -189,9 +239,9 @@ const std::vector<std::uint32_t>& GroupMesh::reach(PartitionIndex partition)
   return members.Reach;
 }
 
-GroupMesh::LiveGroups GroupMesh::liveGroups() const
+/// Every group that is not final, once.
+void GroupMesh::visitLive(const std::function<void(const Batch&, std::uint32_t)>& visit) const
 {
-  LiveGroups all;
   for (std::size_t p = 0; p < this->Members.size(); ++p)
   {
     for (const Reference& reference : this->Members[p].References)
@@ -200,18 +250,85 @@ GroupMesh::LiveGroups GroupMesh::liveGroups() const
       {
         continue;
       }
-      const SeamGroups& groups = reference.Of->Groups;
-      const auto met = groups.met(reference.place());
+      const auto met = reference.Of->Groups.met(reference.place());
       const PartitionIndex* const first = std::find_if(
         met.begin(), met.end(), [this](PartitionIndex q) { return !this->isFinished(q); });
       if (first != met.end() && std::size_t(*first) == p)
       {
-        all.Groups.append(groups, reference.place());
-        all.Triangles.push_back(reference.Of->Triangles[reference.place()]);
+        visit(*reference.Of, reference.place());
       }
     }
   }
-  return all;
+}
+
+void GroupMesh::visitVertices(PartitionIndex begin, PartitionIndex end,
+  const std::function<void(const PlainVertex&)>& visit) const
+{
+  std::vector<PlainVertex> vertices;
+  this->visitLive(
+    [&](const Batch& batch, std::uint32_t place)
+    {
+      const auto met = batch.Groups.met(place);
+      if (std::any_of(
+            met.begin(), met.end(), [&](PartitionIndex p) { return begin <= p && p < end; }))
+      {
+        vertices.clear();
+        this->addVertices(batch, place, vertices);
+        std::for_each(vertices.begin(), vertices.end(), visit);
+      }
+    });
+}
+
+/// As SeamGroups writes them, but with no more vertices in memory than those of one group.
+void GroupMesh::save(ByteWriter& writer) const
+{
+  SeamGroups groups;
+  std::vector<std::uint32_t> triangles;
+  std::uint64_t count = 0;
+  this->visitLive(
+    [&](const Batch& batch, std::uint32_t place)
+    {
+      const auto met = batch.Groups.met(place);
+      const auto labels = batch.Groups.labels(place);
+      groups.Met.insert(groups.Met.end(), met.begin(), met.end());
+      groups.Labels.insert(groups.Labels.end(), labels.begin(), labels.end());
+      count += this->vertexCount(batch, place);
+      groups.Groups.push_back(
+        { std::uint32_t(groups.Met.size()), std::uint32_t(groups.Labels.size()),
+          std::uint32_t(count), 0, batch.Groups.Groups[place].HasArtificial });
+      triangles.push_back(batch.Triangles[place]);
+    });
+  writer.array(groups.Groups);
+  writer.array(groups.Met);
+  writer.array(groups.Labels);
+  writer.value(count);
+  std::vector<PlainVertex> vertices;
+  this->visitLive(
+    [&](const Batch& batch, std::uint32_t place)
+    {
+      vertices.clear();
+      this->addVertices(batch, place, vertices);
+      writer.raw(vertices.data(), vertices.size() * sizeof(PlainVertex));
+    });
+  writer.array(groups.Triangles);
+  writer.array(triangles);
+}
+
+void GroupMesh::restore(ByteReader& reader)
+{
+  const SeamGroups groups = SeamGroups::read(reader);
+  const auto counts = reader.array<std::uint32_t>();
+  std::vector<std::uint32_t> live;
+  std::vector<std::uint32_t> triangles;
+  for (std::uint32_t g = 0; g < groups.size(); ++g)
+  {
+    if (this->isLive(groups, g))
+    {
+      live.push_back(g);
+      triangles.push_back(counts.at(g));
+    }
+  }
+  this->enter(groups, live, std::move(triangles));
 }
 
 } // namespace tipp

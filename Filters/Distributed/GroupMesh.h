@@ -3,8 +3,11 @@
 #define tippGroupMesh_h
 
 #include "Distributed/SeamGroups.h"
+#include "Distributed/VertexFile.h"
 #include "vtkTIPPFiltersModule.h"
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -13,12 +16,18 @@ namespace tipp
 
 /// A master's mesh: the groups of triangles whose circumdisks meet an unfinished partition. What
 /// SeamMesh is to threads, but its unit is the group, as it came from a worker. Of triangles it
-/// keeps the vertices and the number: which are which is asked only of those that are final.
+/// keeps the vertices and the number: which are which is asked only of those that are final. The
+/// vertices may be in a file; all methods may then throw IOError.
 class VTKTIPPFILTERS_EXPORT GroupMesh : public ReachSource
 {
 public:
   /// Partitions without points are finished from the start.
   GroupMesh(PartitionIndex partitions, const std::vector<PartitionIndex>& withPoints);
+
+  /// From now on vertices go to this file where all in memory take more than so many bytes.
+  void spillTo(VertexFile& file, std::uint64_t most);
+  /// Bytes of vertices, in memory and in the file.
+  std::uint64_t vertexBytes() const { return this->Held + (this->File ? this->File->used() : 0); }
 
   /// Groups whose partitions are all finished, and what holds them.
   struct Final
@@ -48,36 +57,20 @@ public:
   /// Whether a group that is not final meets the partition, be this finished or not.
   bool isMet(PartitionIndex partition) const { return this->Meeting[std::size_t(partition)] > 0; }
 
-  /// All groups that are not final, each once, and the number of triangles of each: added to an
-  /// empty mesh with the same finished partitions they make this one again.
-  struct LiveGroups
-  {
-    SeamGroups Groups;
-    std::vector<std::uint32_t> Triangles;
-  };
-  LiveGroups liveGroups() const;
-  void add(const LiveGroups& groups);
+  /// All groups that are not final: restored in an empty mesh with the same finished partitions
+  /// they make this one again.
+  void save(ByteWriter& writer) const;
+  void restore(ByteReader& reader);
 
   bool isFinished(PartitionIndex partition) const
   {
     return this->Finished[std::size_t(partition)] != 0;
   }
 
-  /// visit(groups, index) for every group that is not final, for some more than once.
-  template <typename Visit>
-  void visitLive(Visit&& visit) const
-  {
-    for (const Membership& members : this->Members)
-    {
-      for (const Reference& reference : members.References)
-      {
-        if (reference.isAlive())
-        {
-          visit(reference.Of->Groups, reference.place());
-        }
-      }
-    }
-  }
+  /// The vertices of every group that is not final and meets one of the partitions from `begin` to
+  /// `end`.
+  void visitVertices(PartitionIndex begin, PartitionIndex end,
+    const std::function<void(const PlainVertex&)>& visit) const;
 
 private:
   static constexpr std::uint32_t Gone = ~0U;
@@ -86,11 +79,12 @@ private:
   struct Batch
   {
     SeamGroups Groups;
-    std::vector<std::uint32_t> Triangles; ///< of each group: how many
-    std::vector<std::uint32_t> Places;    ///< of what was added: among the groups, or Gone
+    std::vector<std::uint32_t> Triangles;  ///< of each group: how many
+    std::vector<std::uint32_t> Places;     ///< of what was added: among the groups, or Gone
+    std::vector<VertexFile::Part> Spilled; ///< each group's vertices, if they are in the file
     std::size_t Alive = 0;
 
-    void dropGone();
+    std::uint64_t held() const { return this->Groups.Vertices.size() * sizeof(PlainVertex); }
   };
   struct Reference
   {
@@ -107,6 +101,12 @@ private:
   };
 
   bool isLive(const SeamGroups& groups, std::size_t g) const;
+  void visitLive(const std::function<void(const Batch&, std::uint32_t)>& visit) const;
+  std::size_t vertexCount(const Batch& batch, std::uint32_t place) const;
+  void addVertices(
+    const Batch& batch, std::uint32_t place, std::vector<PlainVertex>& vertices) const;
+  void dropGone(Batch& batch);
+  void spillIfTooMuch(Batch& batch);
   /// Those of the groups that are live, and the number of triangles of each.
   void enter(const SeamGroups& groups, const std::vector<std::uint32_t>& live,
     std::vector<std::uint32_t> triangles);
@@ -117,6 +117,9 @@ private:
   std::vector<std::uint64_t> LabelSeen; ///< the epoch in which reach() last met each label
   std::uint64_t Epoch = 0;
   std::size_t Live = 0;
+  VertexFile* File = nullptr;
+  std::uint64_t MostHeld = 0;
+  std::uint64_t Held = 0; ///< bytes of vertices in memory
 };
 
 } // namespace tipp

@@ -26,8 +26,7 @@ public:
     const ProcessorWatch watch;
     const Area& area = this->Of.Work.Areas[std::size_t(task.Area)];
     this->Triangulator.setTiling(area.Boxes, area.FirstLeaf);
-    this->Triangulator.triangulate(
-      task.Partition, this->Labelling.label(area.Boxes, task.Vertices));
+    this->Triangulator.triangulate(task.Partition, labelVertices(area.Boxes, task.Vertices));
     Finished finished;
     finished.Result.Area = task.Area;
     finished.Result.Partition = task.Partition;
@@ -43,7 +42,6 @@ private:
   LeafWorkers<Id>& Of;
   Worker<Id> Triangulator;
   SeamGrouping Grouping;
-  VertexLabelling Labelling;
 };
 
 template <typename Id>

@@ -3,6 +3,7 @@
 
 #include "Distributed/MessageKinds.h"
 #include "Distributed/TaskMessages.h"
+#include "Distributed/VertexLabelling.h"
 #include "Parallel/ProcessorWatch.h"
 #include "Triangulation/HullRepair.h"
 #include "Triangulation/InitialMesh.h"
@@ -57,14 +58,13 @@ std::vector<SeamVertex> labelled(const Tiling& tiling, const std::vector<PlainVe
 SeamTriangles thoseMeeting(const Area& area, const SeamTriangles& all)
 {
   SeamTriangles kept;
-  for (std::size_t i = 0; i < all.Triangles.size(); ++i)
+  kept.Vertices = all.Vertices;
+  for (std::size_t i = 0; i < all.size(); ++i)
   {
     if (std::any_of(
           all.metBegin(i), all.metEnd(i), [&area](PartitionIndex p) { return p < area.Inner; }))
     {
-      kept.Triangles.push_back(all.Triangles[i]);
-      kept.Met.insert(kept.Met.end(), all.metBegin(i), all.metEnd(i));
-      kept.MetEnds.push_back(kept.Met.size());
+      kept.add(all.Triangles[i], all.metBegin(i), all.metEnd(i));
     }
   }
   return kept;
@@ -381,16 +381,7 @@ void RankRun<Id>::finishArea(std::int32_t index)
     return;
   }
   const Area& parent = this->Work.Areas[std::size_t(active.Parent)];
-  SeamTriangles seams;
-  for (SeamTriangle& triangle : dispatcher.Upward)
-  {
-    for (SeamVertex& v : triangle)
-    {
-      v = makeSeamVertex(parent.Boxes, parent.Boxes.locate(v.Place), v.Place, v.Id);
-    }
-    seams.add(
-      parent.Boxes, triangle, Circumdisk(triangle[0].Place, triangle[1].Place, triangle[2].Place));
-  }
+  const SeamTriangles seams = labelTriangles(parent.Boxes, dispatcher.Upward);
   TaskResult result;
   result.Area = active.Parent;
   result.Partition = active.Partition;

@@ -9,18 +9,7 @@ namespace tipp
 namespace
 {
 
-constexpr std::uint64_t Golden = 0x9e3779b97f4a7c15U;
 constexpr std::uint32_t Empty = ~0U;
-
-std::size_t tableSize(std::size_t entries)
-{
-  std::size_t size = 64;
-  while (size < 2 * entries)
-  {
-    size *= 2;
-  }
-  return size;
-}
 
 } // namespace
 
@@ -106,123 +95,108 @@ void SeamGroups::check() const
 SeamGroups SeamGrouping::group(const SeamTriangles& seams, PartitionIndex finished)
 {
   this->findGroups(seams, finished);
+  this->orderByGroup();
   SeamGroups groups;
-  this->addTriangles(seams, groups);
+  this->reserve(seams, groups);
+  for (std::uint32_t g = 0; g < this->Met.size(); ++g)
+  {
+    this->addGroup(seams, g, groups);
+  }
   return groups;
 }
 
+/// In the order of their first triangles.
 void SeamGrouping::findGroups(const SeamTriangles& seams, PartitionIndex finished)
 {
-  const std::size_t count = seams.Triangles.size();
   this->Met.clear();
-  this->MetEnds.clear();
-  this->GroupOf.resize(count);
-  this->Samples.clear();
-  const std::size_t size = tableSize(count);
-  this->Table.assign(size, Empty);
-  const auto begin = [this](std::size_t t) { return t == 0 ? 0 : this->MetEnds[t - 1]; };
-  const auto same = [&](std::size_t a, std::size_t b)
+  std::vector<std::uint32_t> groupOfSet(seams.Sets.size(), Empty);
+  std::vector<PartitionIndex> met;
+  this->GroupOf.resize(seams.size());
+  for (std::size_t t = 0; t < seams.size(); ++t)
   {
-    return this->MetEnds[a] - begin(a) == this->MetEnds[b] - begin(b) &&
-      std::equal(this->Met.begin() + begin(a), this->Met.begin() + this->MetEnds[a],
-        this->Met.begin() + begin(b));
-  };
-  for (std::size_t t = 0; t < count; ++t)
-  {
-    std::uint64_t hash = 0;
-    for (const PartitionIndex* p = seams.metBegin(t); p != seams.metEnd(t); ++p)
+    std::uint32_t& group = groupOfSet[seams.SetOf[t]];
+    if (group == Empty)
     {
-      if (*p != finished)
-      {
-        this->Met.push_back(*p);
-        hash = (hash ^ std::uint64_t(*p + 1)) * Golden;
-      }
+      met.assign(seams.metBegin(t), seams.metEnd(t));
+      met.erase(std::remove(met.begin(), met.end(), finished), met.end());
+      group = this->Met.number(met.data(), met.data() + met.size());
     }
-    this->MetEnds.push_back(static_cast<std::uint32_t>(this->Met.size()));
-    std::size_t at = (hash >> 32) & (size - 1);
-    while (this->Table[at] != Empty && !same(t, this->Samples[this->Table[at]]))
-    {
-      at = (at + 1) & (size - 1);
-    }
-    if (this->Table[at] == Empty)
-    {
-      this->Table[at] = static_cast<std::uint32_t>(this->Samples.size());
-      this->Samples.push_back(static_cast<std::uint32_t>(t));
-    }
-    this->GroupOf[t] = this->Table[at];
+    this->GroupOf[t] = group;
   }
 }
 
-void SeamGrouping::addTriangles(const SeamTriangles& seams, SeamGroups& groups)
+void SeamGrouping::orderByGroup()
 {
-  const std::size_t count = seams.Triangles.size();
-  std::vector<std::uint32_t> places(this->Samples.size() + 1, 0);
+  this->Begins.assign(this->Met.size() + 1, 0);
   for (const std::uint32_t g : this->GroupOf)
   {
-    ++places[g + 1];
+    ++this->Begins[g + 1];
   }
-  for (std::size_t g = 0; g < this->Samples.size(); ++g)
+  for (std::size_t g = 0; g < this->Met.size(); ++g)
   {
-    places[g + 1] += places[g];
+    this->Begins[g + 1] += this->Begins[g];
   }
-  const std::vector<std::uint32_t> begins = places;
-  this->Order.resize(count);
-  for (std::size_t t = 0; t < count; ++t)
+  std::vector<std::uint32_t> places = this->Begins;
+  this->Order.resize(this->GroupOf.size());
+  for (std::size_t t = 0; t < this->GroupOf.size(); ++t)
   {
     this->Order[places[this->GroupOf[t]]++] = static_cast<std::uint32_t>(t);
   }
-  this->Slots.resize(std::max(this->Slots.size(), tableSize(2 * count)));
-  groups.Triangles.reserve(count);
-  for (std::size_t g = 0; g < this->Samples.size(); ++g)
-  {
-    const std::size_t sample = this->Samples[g];
-    groups.Met.insert(groups.Met.end(),
-      this->Met.begin() + (sample == 0 ? 0 : this->MetEnds[sample - 1]),
-      this->Met.begin() + this->MetEnds[sample]);
-    const std::size_t firstVertex = groups.Vertices.size();
-    const std::size_t firstLabel = groups.Labels.size();
-    std::uint32_t artificial = 0;
-    ++this->Stamp;
-    for (std::uint32_t i = begins[g]; i < begins[g + 1]; ++i)
-    {
-      SeamGroups::Corners corners;
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        const SeamVertex& v = seams.Triangles[this->Order[i]][k];
-        artificial |= v.isArtificial();
-        corners[k] = this->placeOf(v, firstVertex, groups);
-      }
-      groups.Triangles.push_back(corners);
-    }
-    std::sort(groups.Labels.begin() + std::ptrdiff_t(firstLabel), groups.Labels.end());
-    groups.Labels.erase(
-      std::unique(groups.Labels.begin() + std::ptrdiff_t(firstLabel), groups.Labels.end()),
-      groups.Labels.end());
-    groups.Groups.push_back({ static_cast<std::uint32_t>(groups.Met.size()),
-      static_cast<std::uint32_t>(groups.Labels.size()),
-      static_cast<std::uint32_t>(groups.Vertices.size()),
-      static_cast<std::uint32_t>(groups.Triangles.size()), artificial });
-  }
 }
 
-/// Its place among the group's vertices, where it is put when it comes first.
-std::uint32_t SeamGrouping::placeOf(
-  const SeamVertex& v, std::size_t firstVertex, SeamGroups& groups)
+/// Just the memory that the groups need, since they may live long.
+void SeamGrouping::reserve(const SeamTriangles& seams, SeamGroups& groups)
 {
-  const std::size_t mask = this->Slots.size() - 1;
-  std::size_t at = ((std::uint64_t(v.Id) * Golden) >> 32) & mask;
-  while (this->Slots[at].Stamp == this->Stamp && this->Slots[at].Id != v.Id)
+  std::size_t vertices = 0;
+  this->Slots.assign(seams.Vertices.size(), {});
+  for (std::uint32_t g = 0; g < this->Met.size(); ++g)
   {
-    at = (at + 1) & mask;
+    for (std::uint32_t i = this->Begins[g]; i < this->Begins[g + 1]; ++i)
+    {
+      for (const std::uint32_t corner : seams.Triangles[this->Order[i]])
+      {
+        vertices += this->Slots[corner].Group != g;
+        this->Slots[corner].Group = g;
+      }
+    }
   }
-  if (this->Slots[at].Stamp != this->Stamp)
+  groups.Vertices.reserve(vertices);
+  groups.Triangles.reserve(seams.size());
+  this->Slots.assign(seams.Vertices.size(), {});
+}
+
+void SeamGrouping::addGroup(const SeamTriangles& seams, std::uint32_t g, SeamGroups& groups)
+{
+  groups.Met.insert(groups.Met.end(), this->Met.begin(g), this->Met.end(g));
+  const std::size_t firstVertex = groups.Vertices.size();
+  std::uint32_t artificial = 0;
+  this->Labels.clear();
+  for (std::uint32_t i = this->Begins[g]; i < this->Begins[g + 1]; ++i)
   {
-    const std::size_t place = groups.Vertices.size() - firstVertex;
-    this->Slots[at] = { v.Id, this->Stamp, static_cast<std::uint32_t>(place) };
-    groups.Vertices.push_back({ v.Place, v.Id });
-    groups.Labels.push_back(v.Label);
+    SeamGroups::Corners corners{};
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const std::uint32_t place = seams.Triangles[this->Order[i]][k];
+      Slot& slot = this->Slots[place];
+      if (slot.Group != g)
+      {
+        const SeamVertex& v = seams.Vertices[place];
+        slot = { g, static_cast<std::uint32_t>(groups.Vertices.size() - firstVertex) };
+        groups.Vertices.push_back({ v.Place, v.Id });
+        this->Labels.push_back(v.Label);
+        artificial |= v.isArtificial();
+      }
+      corners[k] = slot.Place;
+    }
+    groups.Triangles.push_back(corners);
   }
-  return this->Slots[at].Place;
+  std::sort(this->Labels.begin(), this->Labels.end());
+  groups.Labels.insert(groups.Labels.end(), this->Labels.begin(),
+    std::unique(this->Labels.begin(), this->Labels.end()));
+  groups.Groups.push_back({ static_cast<std::uint32_t>(groups.Met.size()),
+    static_cast<std::uint32_t>(groups.Labels.size()),
+    static_cast<std::uint32_t>(groups.Vertices.size()),
+    static_cast<std::uint32_t>(groups.Triangles.size()), artificial });
 }
 
 } // namespace tipp

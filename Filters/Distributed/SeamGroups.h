@@ -96,23 +96,22 @@ public:
 
 private:
   void findGroups(const SeamTriangles& seams, PartitionIndex finished);
-  void addTriangles(const SeamTriangles& seams, SeamGroups& groups);
-  std::uint32_t placeOf(const SeamVertex& v, std::size_t firstVertex, SeamGroups& groups);
+  void orderByGroup();
+  void reserve(const SeamTriangles& seams, SeamGroups& groups);
+  void addGroup(const SeamTriangles& seams, std::uint32_t g, SeamGroups& groups);
 
+  /// The group that a vertex was last put into, and its place there.
   struct Slot
   {
-    std::int64_t Id = 0;
-    std::uint64_t Stamp = 0;
+    std::uint32_t Group = ~0U;
     std::uint32_t Place = 0;
   };
-  std::vector<PartitionIndex> Met; ///< of each triangle, without the finished partition
-  std::vector<std::uint32_t> MetEnds;
+  PartitionSets Met;                  ///< of each group, without the finished partition
   std::vector<std::uint32_t> GroupOf; ///< of each triangle
-  std::vector<std::uint32_t> Samples; ///< a triangle of each group
+  std::vector<std::uint32_t> Begins;  ///< of each group, in Order
   std::vector<std::uint32_t> Order;   ///< triangles by group
-  std::vector<std::uint32_t> Table;
-  std::vector<Slot> Slots;
-  std::uint64_t Stamp = 0;
+  std::vector<Slot> Slots;            ///< of each vertex
+  std::vector<std::uint32_t> Labels;
 };
 
 } // namespace tipp

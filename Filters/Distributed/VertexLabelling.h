@@ -9,19 +9,15 @@
 namespace tipp
 {
 
-/// Makes vertices for a worker of those that masters keep. Keeps its memory for the next time.
-class VTKTIPPFILTERS_EXPORT VertexLabelling
-{
-public:
-  /// Each vertex once, by id, with the label that it has in the tiling. Sorts what it is given; the
-  /// result lasts until the next call.
-  const std::vector<SeamVertex>& label(const Tiling& boxes, std::vector<PlainVertex>& vertices);
+/// Makes vertices for a worker of those that masters keep: each once, by id, with the label that it
+/// has in the tiling. Sorts what it is given.
+VTKTIPPFILTERS_EXPORT std::vector<SeamVertex> labelVertices(
+  const Tiling& boxes, std::vector<PlainVertex>& vertices);
 
-private:
-  std::vector<Point2> Points;
-  std::vector<std::uint32_t> Partitions;
-  std::vector<SeamVertex> Labelled;
-};
+/// Triangles of another tiling, with the labels that their vertices have in this one, and what they
+/// meet there.
+VTKTIPPFILTERS_EXPORT SeamTriangles labelTriangles(
+  const Tiling& boxes, const std::vector<SeamTriangle>& triangles);
 
 } // namespace tipp
 

@@ -46,6 +46,7 @@ bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monit
     this->Points[first + i] = points[place];
     this->Places[first + i] = this->PlaceEnd + place;
   }
+  this->Order.releaseIfLarge();
   this->PlaceEnd += static_cast<std::uint32_t>(count);
   this->Predicates.restart(this->Points.data(), this->Points.size());
 

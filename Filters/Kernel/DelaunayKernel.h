@@ -43,6 +43,9 @@ public:
 
   void clear();
 
+  /// Gives the triangles' memory back. Vertices stay; but only clear() may follow.
+  void releaseTriangles() { this->Mesh.release(); }
+
   /// The memory that its points and triangles take, most of what it keeps.
   std::size_t bytes() const;
 

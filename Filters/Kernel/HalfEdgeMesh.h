@@ -37,6 +37,9 @@ public:
 
   void clear() { this->End = 0; }
 
+  /// Gives the memory back, too.
+  void release() { *this = HalfEdgeMesh(); }
+
   std::size_t bytes() const { return this->Slots.size() * sizeof(Index); }
 
   /// Room for so many triangles in all; the names of those there stay.

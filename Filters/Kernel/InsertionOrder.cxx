@@ -186,4 +186,14 @@ void InsertionOrder::compute(const Point2* points, std::size_t count)
   }
 }
 
+void InsertionOrder::releaseIfLarge()
+{
+  constexpr std::size_t large = std::size_t(1) << 18;
+  if (this->Entries.capacity() > large)
+  {
+    Uninitialised<std::uint64_t>().swap(this->Entries);
+    Uninitialised<std::uint64_t>().swap(this->Scratch);
+  }
+}
+
 } // namespace tipp

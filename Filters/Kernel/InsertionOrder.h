@@ -31,6 +31,9 @@ public:
     return static_cast<std::uint32_t>(this->Entries[k]) & IndexMask;
   }
 
+  /// Gives large memory back; then the permutation is gone.
+  void releaseIfLarge();
+
   std::size_t bytes() const
   {
     return (this->Entries.capacity() + this->Scratch.capacity()) * sizeof(std::uint64_t);

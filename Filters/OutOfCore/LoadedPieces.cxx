@@ -1,16 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/LoadedPieces.h"
 
+#include "Distributed/VertexLabelling.h"
 #include "Triangulation/DegenerateInput.h"
 
 #include <algorithm>
 #include <mutex>
 #include <unordered_map>
+#include <utility>
 
 namespace tipp
 {
 namespace
 {
+
+/// Whether a worker keeps its memory for the next partition. Where most vertices are those of the
+/// rim, partitions do not pay, and hardly two are worked on together.
+bool isWorthKeeping(std::size_t vertices, std::size_t points)
+{
+  constexpr std::size_t some = 16384;
+  return vertices <= 2 * points + some;
+}
 
 /// The lowest point of each place is to stand for the others, also where another one was in the
 /// initial mesh: once its partition is finished, all triangles that have it are those of its
@@ -123,10 +133,26 @@ void LoadedPieces::makeInteriors(
   worker.setTiling(plan.Partitions, -first);
   for (const PartitionIndex partition : finished)
   {
-    worker.triangulate(partition, plan.Artificial);
+    worker.triangulate(partition, std::vector<SeamVertex>(plan.Artificial));
     loaded.InteriorCounts[std::size_t(partition - first)] = worker.interiorCount();
     loaded.add(worker.duplicates());
   }
+}
+
+/// Has a worker for the piece's partitions.
+void LoadedPieces::prepare(Place& place, PartitionIndex piece)
+{
+  if (place.Piece == piece)
+  {
+    return;
+  }
+  const PiecePlan& plan = this->Work.Plan;
+  Loaded& loaded = *this->Pieces[std::size_t(piece)];
+  place.Triangulator.reset(); // gives its kernel to the next
+  place.Triangulator =
+    std::make_unique<Worker<std::int32_t>>(plan.Partitions, loaded.Buckets, loaded.First);
+  place.Triangulator->setTiling(plan.Partitions, -plan.FirstPartition[std::size_t(piece)]);
+  place.Piece = piece;
 }
 
 PartitionResult LoadedPieces::triangulate(Place& place, PartitionIndex partition)
@@ -135,26 +161,30 @@ PartitionResult LoadedPieces::triangulate(Place& place, PartitionIndex partition
   const PartitionIndex piece = plan.PieceOf[std::size_t(partition)];
   const PartitionIndex inPiece = partition - plan.FirstPartition[std::size_t(piece)];
   Loaded& loaded = *this->Pieces[std::size_t(piece)];
-  if (place.Piece != piece)
-  {
-    place.Triangulator.reset(); // gives its kernel to the next
-    place.Triangulator =
-      std::make_unique<Worker<std::int32_t>>(plan.Partitions, loaded.Buckets, loaded.First);
-    place.Triangulator->setTiling(plan.Partitions, inPiece - partition);
-    place.Piece = piece;
-  }
+  this->prepare(place, piece);
   Worker<std::int32_t>& worker = *place.Triangulator;
-  worker.triangulate(partition, place.Labelling.label(plan.Partitions, place.Vertices));
+  std::vector<SeamVertex> vertices = labelVertices(plan.Partitions, place.Vertices);
+  std::vector<PlainVertex>().swap(place.Vertices);
+  worker.triangulate(partition, std::move(vertices));
   PartitionResult result;
   result.Partition = partition;
-  result.Seams = place.Grouping.group(worker.seams());
   result.Points = std::int64_t(loaded.Buckets.count(inPiece));
   result.Vertices = std::int64_t(worker.vertexCount());
+  loaded.InteriorCounts[std::size_t(inPiece)] = worker.interiorCount();
   std::vector<Duplicate> duplicates = worker.duplicates();
+  const SeamTriangles seams = worker.takeSeams();
+  if (isWorthKeeping(worker.vertexCount(), loaded.Buckets.count(inPiece)))
+  {
+    result.Seams = place.Grouping.group(seams);
+  }
+  else
+  {
+    place = Place();
+    result.Seams = SeamGrouping().group(seams);
+  }
   result.Duplicates = std::int64_t(duplicates.size());
   preferLowest(duplicates, result.Seams, loaded.Buckets.triangles(inPiece),
-    3 * worker.interiorCount(), loaded.First);
-  loaded.InteriorCounts[std::size_t(inPiece)] = worker.interiorCount();
+    3 * loaded.InteriorCounts[std::size_t(inPiece)], loaded.First);
   loaded.add(duplicates);
   return result;
 }

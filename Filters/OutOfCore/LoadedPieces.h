@@ -3,7 +3,6 @@
 #define tippLoadedPieces_h
 
 #include "Distributed/SeamGroups.h"
-#include "Distributed/VertexLabelling.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/SpillPoints.h"
 #include "Partitioned/GrowingPiece.h"
@@ -66,7 +65,6 @@ public:
     PartitionIndex Piece = -1;
     std::unique_ptr<Worker<std::int32_t>> Triangulator; ///< for that piece
     SeamGrouping Grouping;
-    VertexLabelling Labelling;
     std::vector<PlainVertex> Vertices; ///< of the triangles that belong to the partition
   };
   PartitionResult triangulate(Place& place, PartitionIndex partition);
@@ -86,6 +84,7 @@ public:
 private:
   struct Loaded;
 
+  void prepare(Place& place, PartitionIndex piece);
   std::unique_ptr<Loaded> read(PartitionIndex piece) const;
   void makeInteriors(
     PartitionIndex piece, const std::vector<PartitionIndex>& finished, Loaded& loaded) const;

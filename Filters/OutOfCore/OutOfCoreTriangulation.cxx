@@ -41,6 +41,8 @@ void exchangeFigures(Archive& archive, OutOfCoreStatistics& statistics)
   archive(statistics.Partitions);
   archive(statistics.WorkerVertices);
   archive(statistics.PeakRimTriangles);
+  archive(statistics.PeakRimBytes);
+  archive(statistics.RimSpilledBytes);
   archive(statistics.PeakBorderBytes);
   archive(statistics.AsideBytes);
   archive(statistics.SpilledBytes);
@@ -200,7 +202,7 @@ private:
   std::string identity() const
   {
     const OutOfCoreOptions& options = this->Options;
-    return "TIPP out of core 5\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
+    return "TIPP out of core 6\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
       std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
       std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
       (options.Neighbors ? " linked" : "") + (options.CountOnly ? " counted" : "") + "\n" +
@@ -237,10 +239,16 @@ private:
     {
       throw IOError("There is no point with finite coordinates in the input, so nothing to write.");
     }
-    this->requireSpace();
+    this->requireSpace(0);
     this->Prepared.Plan =
       std::make_unique<PiecePlan>(survey, this->Options, *this->Memory, words, this->Threads);
     std::vector<SampledPoint>().swap(survey.Sample); // = {} would keep the memory
+    if (this->Prepared.Plan->HasLargeRim)
+    {
+      constexpr std::uint64_t rim = 2 * 24; // a vertex, and room between vertices
+      constexpr std::uint64_t border = 64;
+      this->requireSpace(rim + border);
+    }
     this->Prepared.describeMesh();
     this->describePlan();
     this->endPhase("survey");
@@ -259,7 +267,8 @@ private:
     this->Statistics.Partitions = this->Prepared.Plan->Partitions.size();
   }
 
-  void requireSpace() const
+  /// With so many bytes a point more than usual in the scratch folder.
+  void requireSpace(std::uint64_t more) const
   {
     const auto points =
       std::uint64_t(this->Prepared.Survey.Points - this->Prepared.Survey.Rejected);
@@ -267,8 +276,8 @@ private:
     // Borders and ids of cells included; two triangles a point at most.
     const std::uint64_t stored =
       points * (24 + 8 + 1 + 8 * this->Prepared.Rows.Attributes.size() + 2 * cell) / 50 * 51;
-    this->Scratch.requireSpace(
-      this->Path, this->Options.CountOnly ? 0 : stored, points * 8 * this->Prepared.Rows.Words);
+    this->Scratch.requireSpace(this->Path, this->Options.CountOnly ? 0 : stored,
+      points * (8 * this->Prepared.Rows.Words + more));
   }
 
   void spill()
@@ -320,7 +329,7 @@ private:
       isShared ? this->Ranks : nullptr);
     if (isShared)
     {
-      pieces.setCheckpoint(this->Scratch.state(), this->Scratch.aside());
+      pieces.setCheckpoint(this->Scratch.state(), this->Scratch.aside(), this->Scratch.rim());
     }
     const bool isDone = this->Prepared.Survey.Collinear ? pieces.writePointsAlone()
       : this->Prepared.Plan->IsAlone                    ? pieces.triangulateAlone()
@@ -332,6 +341,8 @@ private:
     this->Statistics.Duplicates = pieces.Duplicates;
     this->Statistics.WorkerVertices = pieces.WorkerVertices;
     this->Statistics.PeakRimTriangles = pieces.PeakRimTriangles;
+    this->Statistics.PeakRimBytes = pieces.PeakRimBytes;
+    this->Statistics.RimSpilledBytes = pieces.RimSpilledBytes;
     this->Statistics.PeakBorderBytes = pieces.PeakBorderBytes;
     this->Statistics.AsideBytes = pieces.asideBytes();
     this->Finished = std::move(pieces.finished());

@@ -54,6 +54,8 @@ struct OutOfCoreStatistics
   std::int64_t Partitions = 0;
   std::int64_t WorkerVertices = 0;
   std::int64_t PeakRimTriangles = 0; ///< most unfinished triangles at a time
+  std::uint64_t PeakRimBytes = 0;    ///< of their vertices, in memory and in a file
+  std::uint64_t RimSpilledBytes = 0; ///< written to that file
   std::uint64_t PeakBorderBytes = 0; ///< most that pieces kept of their borders at a time
   std::uint64_t AsideBytes = 0;      ///< of borders that were put into a file meanwhile
   std::uint64_t SpilledBytes = 0;

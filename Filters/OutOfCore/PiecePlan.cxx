@@ -52,6 +52,7 @@ MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords)
     std::size_t(options.MemoryLimit / 512), std::size_t(1) << 14, std::size_t(1) << 20);
   this->LoadedBytes = share;
   this->BorderBytes = options.MemoryLimit / 10;
+  this->RimBytes = options.MemoryLimit / 10;
   // One that is written, two that are worked on and one that is loaded; never mind the threads, so
   // that the pieces are the same for any number of them.
   constexpr std::uint64_t together = 4;
@@ -89,7 +90,8 @@ PiecePlan::PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options,
     return;
   }
   this->chooseInitialPoints(survey);
-  if (!isGrid && fits && !partitionsPay(this->initialMesh(threads)))
+  this->HasLargeRim = !partitionsPay(this->initialMesh(threads));
+  if (!isGrid && fits && this->HasLargeRim)
   {
     this->takeAlone(survey);
   }
@@ -98,6 +100,7 @@ PiecePlan::PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options,
 void PiecePlan::takeAlone(const InputSurvey& survey)
 {
   this->IsAlone = true;
+  this->HasLargeRim = false;
   this->Pieces = Tiling::grid(survey.Bounds, 1, 1);
   this->Inner = { this->Pieces };
   this->numberPartitions();

@@ -29,6 +29,7 @@ struct VTKTIPPFILTERS_EXPORT MemoryPlan
   std::int64_t PartitionPoints;
   std::uint64_t LoadedBytes; ///< of pieces in memory together
   std::uint64_t BorderBytes; ///< that wait in memory together; more are put aside
+  std::uint64_t RimBytes;    ///< of the rim's vertices in memory; more are in a file
 
   /// What a piece takes while its points are triangulated and written, but for the kernels.
   static std::uint64_t pieceBytes(std::int64_t points, std::size_t rowWords);
@@ -62,6 +63,8 @@ struct VTKTIPPFILTERS_EXPORT PiecePlan
   /// One piece of one partition, no artificial points: partitions do not pay for such points, or
   /// doubles cannot enclose them.
   bool IsAlone = false;
+  /// Nearly all points may be on the rim: partitions do not pay, but there is no memory for one.
+  bool HasLargeRim = false;
 
   PartitionIndex pieces() const { return this->Pieces.size(); }
 

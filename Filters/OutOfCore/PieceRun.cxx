@@ -116,8 +116,7 @@ void PieceRun::bringBack(PartitionResult result)
   this->Duplicates += result.Duplicates;
   this->WorkerVertices += result.Vertices;
   const bool isWhole = this->Schedule->complete(std::move(result));
-  this->PeakRimTriangles =
-    std::max(this->PeakRimTriangles, std::int64_t(this->Schedule->rimTriangles()));
+  this->countRim();
   this->Changed.notify_all();
   this->tell(lock);
   if (isWhole && !this->Stopped)
@@ -126,6 +125,18 @@ void PieceRun::bringBack(PartitionResult result)
   }
   this->writeBorders(lock);
   this->saveSometimes();
+}
+
+void PieceRun::countRim()
+{
+  this->PeakRimTriangles =
+    std::max(this->PeakRimTriangles, std::int64_t(this->Schedule->rimTriangles()));
+  this->PeakRimBytes = std::max(this->PeakRimBytes, this->Schedule->rimBytes());
+  if (this->SpilledRim)
+  {
+    const std::uint64_t written = this->SpilledRim->written();
+    this->RimSpilledBytes += written - std::exchange(this->RimBytesCounted, written);
+  }
 }
 
 void PieceRun::takeInterior(PartitionIndex piece, GrowingPiece interior)
@@ -225,10 +236,7 @@ void PieceRun::start()
 {
   this->Schedule = std::make_unique<PieceSchedule>(this->Work.Plan, this->Work.Points,
     this->Work.Rows, this->Work.Plan.initialMesh(this->Threads));
-  if (this->Aside)
-  {
-    this->Schedule->putAside(*this->Aside, this->Memory.BorderBytes);
-  }
+  this->useFiles();
   // Pieces without points may own triangles all the same.
   for (PartitionIndex piece = 0; piece < this->Work.Plan.pieces(); ++piece)
   {
@@ -238,6 +246,15 @@ void PieceRun::start()
       empty.writeInterior(this->Work.Mesh, this->Work.Plan.number(piece), this->Work.Rows, {});
       this->Schedule->finishInterior(piece, std::move(empty));
     }
+  }
+}
+
+void PieceRun::useFiles()
+{
+  if (this->Aside)
+  {
+    this->Schedule->putAside(*this->Aside, this->Memory.BorderBytes);
+    this->Schedule->spillRim(*this->SpilledRim, this->Memory.RimBytes);
   }
 }
 

@@ -31,12 +31,13 @@ public:
     std::function<bool(std::int64_t)> progress, Postbox* ranks = nullptr);
 
   /// Saves its state to this file now and then, and where progress ends it; and goes on from there
-  /// if the file is there already. `aside`: a file for what there is no memory for; it belongs to
-  /// the saved state.
-  void setCheckpoint(const std::string& path, const std::string& aside)
+  /// if the file is there already. `aside`: a file for borders that there is no memory for; it
+  /// belongs to the saved state. `rim`: one for the rim, which does not.
+  void setCheckpoint(const std::string& path, const std::string& aside, const std::string& rim)
   {
     this->CheckpointPath = path;
     this->Aside = std::make_unique<AsideFile>(aside);
+    this->SpilledRim = std::make_unique<VertexFile>(rim);
   }
 
   /// Writes all pieces' files. Throws IOError, and RankFailure. False if progress ended it.
@@ -52,6 +53,8 @@ public:
   std::int64_t Duplicates = 0;
   std::int64_t WorkerVertices = 0;
   std::int64_t PeakRimTriangles = 0;
+  std::uint64_t PeakRimBytes = 0;
+  std::uint64_t RimSpilledBytes = 0; ///< by runs before this one, too
   std::uint64_t PeakBorderBytes = 0;
   /// Of borders that were put aside.
   std::uint64_t asideBytes() const { return this->Aside ? this->Aside->end() : 0; }
@@ -75,6 +78,7 @@ private:
   void tell(Lock& lock);
   void addLoaded(PartitionIndex piece, int rank, Lock& lock);
   void bringBack(PartitionResult result);
+  void countRim();
   void finishPiece(PartitionIndex piece, Lock& lock);
   void takeInterior(PartitionIndex piece, GrowingPiece interior);
   void writeBorders(Lock& lock);
@@ -84,6 +88,7 @@ private:
   void runThreads();
   void start();
   bool startFromCheckpoint();
+  void useFiles();
   void saveSometimes();
   std::uint64_t saveNow();
   void save(SaveArchive& archive);
@@ -112,6 +117,8 @@ private:
   std::condition_variable Changed;
   std::string CheckpointPath;
   std::unique_ptr<AsideFile> Aside;
+  std::unique_ptr<VertexFile> SpilledRim;
+  std::uint64_t RimBytesCounted = 0; ///< of those that this run has spilled
   std::uint64_t BytesSinceSaved = 0; ///< of interiors
   std::uint64_t SavedBytes = 0;      ///< of the last checkpoint
   PartitionIndex NextToLoad;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace tipp
 {
@@ -116,6 +117,7 @@ bool PieceSchedule::complete(PartitionResult result)
   const GroupMesh::Final final = this->Rim.add(std::move(result.Seams));
   this->Waiting.deactivate(result.Partition);
   this->takeFinal(final);
+  this->takeRowsFromAside();
   if (--this->Pieces[std::size_t(piece)].PartitionsLeft > 0)
   {
     return false;
@@ -186,13 +188,14 @@ void PieceSchedule::takeBorder(const SeamGroups& groups, std::uint32_t group)
       continue;
     }
     hasArtificial = true;
-    SeamTriangle seam{};
-    for (std::size_t i = 0; i < 3; ++i)
+    for (const PlainVertex& v : triangle)
     {
-      seam[i] = { triangle[i].Place, triangle[i].Id, 0 };
-      this->markRim(triangle[i]);
+      if (v.Id >= 0)
+      {
+        this->Hull.add(v);
+        this->markRim(v);
+      }
     }
-    this->Hull.push_back(seam);
   }
   for (const PartitionIndex p : groups.met(group))
   {
@@ -307,21 +310,12 @@ void PieceSchedule::markLive(PartitionIndex piece)
 {
   const PartitionIndex begin = this->Plan.FirstPartition[std::size_t(piece)];
   const PartitionIndex end = this->Plan.FirstPartition[std::size_t(piece) + 1];
-  this->Rim.visitLive(
-    [&](const SeamGroups& groups, std::uint32_t group)
+  this->Rim.visitVertices(begin, end,
+    [&](const PlainVertex& v)
     {
-      const auto met = groups.met(group);
-      if (std::none_of(
-            met.begin(), met.end(), [&](PartitionIndex p) { return begin <= p && p < end; }))
+      if (this->Pieces[std::size_t(piece)].Growing.owns(v.Id))
       {
-        return;
-      }
-      for (const PlainVertex& v : groups.vertices(group))
-      {
-        if (this->Pieces[std::size_t(piece)].Growing.owns(v.Id))
-        {
-          this->markRim(v);
-        }
+        this->markRim(v);
       }
     });
 }
@@ -362,9 +356,34 @@ PartitionIndex PieceSchedule::takeComplete()
       state.At = Stage::Taken;
       return piece;
     }
-    this->putAsideIfTooMuch(state);
+    if (this->Aside && this->borderBytes() > this->MostBorderBytes)
+    {
+      this->writeAside(state);
+    }
   }
+  this->putAsideGrowing();
   return -1;
+}
+
+/// Borders that are not complete, where those that are do not suffice. What they get from then on
+/// is kept beside it; so is what comes with the hull.
+void PieceSchedule::putAsideGrowing()
+{
+  constexpr std::uint64_t timesMore = 5;
+  std::uint64_t bytes = this->Aside ? this->borderBytes() : 0;
+  for (State& state : this->Pieces)
+  {
+    if (bytes <= timesMore * this->MostBorderBytes)
+    {
+      return;
+    }
+    if (state.At == Stage::Interior && state.RowsMissing == 0)
+    {
+      bytes -= state.Growing.bytes();
+      this->writeAside(state);
+      bytes += state.Growing.bytes();
+    }
+  }
 }
 
 bool PieceSchedule::isMet(PartitionIndex piece) const
@@ -378,10 +397,10 @@ bool PieceSchedule::isMet(PartitionIndex piece) const
   return p < end;
 }
 
-/// What comes with the hull is kept beside it.
-void PieceSchedule::putAsideIfTooMuch(State& state)
+/// Unless it has been already.
+void PieceSchedule::writeAside(State& state)
 {
-  if (!this->Aside || state.Aside.Bytes > 0 || this->borderBytes() <= this->MostBorderBytes)
+  if (state.Aside.Bytes > 0)
   {
     return;
   }
@@ -417,17 +436,18 @@ void PieceSchedule::finishBorder(PartitionIndex piece)
 
 void PieceSchedule::repairHull()
 {
-  removeArtificialPoints(this->Hull, this->Plan.Artificial);
-  for (const SeamTriangle& triangle : this->Hull)
+  const std::vector<PlainVertex> hull = this->Hull.take();
+  std::vector<Point2> points;
+  points.reserve(hull.size());
+  for (const PlainVertex& v : hull)
   {
-    std::array<PlainVertex, 3> plain{};
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      plain[i] = { triangle[i].Place, triangle[i].Id };
-    }
-    this->share(plain);
+    points.push_back(v.Place);
   }
-  release(this->Hull);
+  for (const std::array<std::uint32_t, 3>& corners :
+    hullTriangles(std::move(points), this->Plan.Artificial))
+  {
+    this->share({ hull[corners[0]], hull[corners[1]], hull[corners[2]] });
+  }
   this->takeRowsFromAside();
   this->HullRepaired = true;
 }
@@ -435,6 +455,10 @@ void PieceSchedule::repairHull()
 /// One piece after the other.
 void PieceSchedule::takeRowsFromAside()
 {
+  if (this->WantedFromAside.empty())
+  {
+    return;
+  }
   std::sort(this->WantedFromAside.begin(), this->WantedFromAside.end(),
     [](const WantedRow& a, const WantedRow& b) { return a.Place < b.Place; });
   PartitionIndex from = -1;

@@ -5,6 +5,7 @@
 #include "Distributed/GroupMesh.h"
 #include "OutOfCore/AsideFile.h"
 #include "OutOfCore/Checkpoint.h"
+#include "OutOfCore/HullVertices.h"
 #include "OutOfCore/LoadedPieces.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/SpillPoints.h"
@@ -40,12 +41,15 @@ public:
   void save(SaveArchive& archive);
 
   /// Complete borders that wait for the hull alone go to this file where all take more than so many
-  /// bytes.
+  /// bytes; others where all take more than five times as many.
   void putAside(AsideFile& file, std::uint64_t most)
   {
     this->Aside = &file;
     this->MostBorderBytes = most;
   }
+
+  /// The rim's vertices go to this file where they take more than so many bytes.
+  void spillRim(VertexFile& file, std::uint64_t most) { this->Rim.spillTo(file, most); }
 
   /// Whether a piece has yet to be loaded.
   bool isToLoad(PartitionIndex piece) const
@@ -93,6 +97,7 @@ public:
   void repairHull();
 
   std::size_t rimTriangles() const { return this->Rim.size(); }
+  std::uint64_t rimBytes() const { return this->Rim.vertexBytes(); }
   std::uint64_t borderBytes() const;
 
 private:
@@ -144,7 +149,8 @@ private:
   void wantRow(PartitionIndex by, std::int64_t place);
   void takeRowsFromAside();
   bool isMet(PartitionIndex piece) const;
-  void putAsideIfTooMuch(State& state);
+  void putAsideGrowing();
+  void writeAside(State& state);
   /// The pieces that the triangle meets, by their numbers in the mesh, ascending.
   void findMet(const std::array<PlainVertex, 3>& triangle, std::vector<std::int32_t>& met) const;
 
@@ -155,7 +161,7 @@ private:
   IndependentPartitions Waiting;
   std::vector<State> Pieces;
   std::vector<PartitionIndex> Window; ///< loaded pieces
-  std::vector<SeamTriangle> Hull;     ///< at artificial points
+  HullVertices Hull;
   std::vector<std::int32_t> Met;
   bool HullRepaired = false;
   AsideFile* Aside = nullptr;

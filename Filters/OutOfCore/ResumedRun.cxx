@@ -16,6 +16,8 @@ void PieceRun::exchangeFinished(Archive& archive)
   archive(this->Duplicates);
   archive(this->WorkerVertices);
   archive(this->PeakRimTriangles);
+  archive(this->PeakRimBytes);
+  archive(this->RimSpilledBytes);
   archive(this->PeakBorderBytes);
   archive(this->PointsDone);
   for (FinishedPiece& piece : this->Finished)
@@ -67,7 +69,7 @@ bool PieceRun::startFromCheckpoint()
     this->exchangeFinished(archive);
     this->Schedule =
       std::make_unique<PieceSchedule>(this->Work.Plan, this->Work.Points, this->Work.Rows, archive);
-    this->Schedule->putAside(*this->Aside, this->Memory.BorderBytes);
+    this->useFiles();
   }
   catch (const IOError&)
   {

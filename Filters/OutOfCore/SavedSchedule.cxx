@@ -81,10 +81,8 @@ void PieceSchedule::save(SaveArchive& archive)
     }
   }
   archive(unfinished);
-  const GroupMesh::LiveGroups rim = this->Rim.liveGroups();
-  rim.Groups.write(archive.Writer);
-  archive(rim.Triangles);
-  archive(this->Hull);
+  this->Rim.save(archive.Writer);
+  this->Hull.exchange(archive);
   archive(this->HullRepaired);
   archive(this->WantedFromAside);
   for (PartitionIndex piece = 0; piece < this->pieces(); ++piece)
@@ -97,11 +95,8 @@ PieceSchedule::PieceSchedule(const PiecePlan& plan, const SpilledPoints& points,
   const PointRowLayout& rows, LoadArchive& archive)
   : PieceSchedule(plan, points, rows, readUnfinished(archive, plan))
 {
-  GroupMesh::LiveGroups rim;
-  rim.Groups = SeamGroups::read(archive.Reader);
-  archive(rim.Triangles);
-  this->Rim.add(rim);
-  archive(this->Hull);
+  this->Rim.restore(archive.Reader);
+  this->Hull.exchange(archive);
   archive(this->HullRepaired);
   archive(this->WantedFromAside);
   for (PartitionIndex piece = 0; piece < this->pieces(); ++piece)

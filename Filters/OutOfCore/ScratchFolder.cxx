@@ -95,7 +95,7 @@ void ScratchFolder::requireSpace(
 void ScratchFolder::remove()
 {
   std::error_code ignored;
-  for (const std::string& name : { this->state(), this->aside() })
+  for (const std::string& name : { this->state(), this->aside(), this->rim() })
   {
     fs::remove(name, ignored);
   }

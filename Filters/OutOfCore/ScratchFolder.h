@@ -27,6 +27,7 @@ public:
   std::string points() const { return this->Folder + "/.points"; }
   std::string plan() const { return this->Work + "/.plan"; }
   std::string state() const { return this->Work + "/.state"; }
+  std::string rim() const { return this->Folder + "/.rim"; }
   std::string aside() const { return this->Folder + "/.aside"; }
 
   bool hasPlan() const;

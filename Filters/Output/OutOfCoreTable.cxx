@@ -26,6 +26,8 @@ void fillOutOfCoreTable(const OutOfCoreStatistics& statistics, bool isCounted, v
   addTotal("Partitions", statistics.Partitions, totals);
   addTotal("WorkerVertices", statistics.WorkerVertices, totals);
   addTotal("PeakRimTriangles", statistics.PeakRimTriangles, totals);
+  addTotal("PeakRimBytes", std::int64_t(statistics.PeakRimBytes), totals);
+  addTotal("RimSpilledBytes", std::int64_t(statistics.RimSpilledBytes), totals);
   addTotal("PeakBorderBytes", std::int64_t(statistics.PeakBorderBytes), totals);
   addTotal("AsideBytes", std::int64_t(statistics.AsideBytes), totals);
   addTotal("SpilledBytes", std::int64_t(statistics.SpilledBytes), totals);

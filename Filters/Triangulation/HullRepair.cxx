@@ -6,6 +6,7 @@
 #include "Predicates/InCircle.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tipp
 {
@@ -41,6 +42,34 @@ bool contains(const Box2& box, Point2 p)
 
 } // namespace
 
+std::vector<std::array<std::uint32_t, 3>> hullTriangles(
+  std::vector<Point2> vertices, const std::vector<SeamVertex>& artificial)
+{
+  DelaunayKernel kernel;
+  kernel.insert(vertices.data(), vertices.size());
+  std::vector<Point2>().swap(vertices); // the kernel has them; there may be very many
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (DelaunayKernel::Index t = 0; t < kernel.mesh().end(); t += 8)
+  {
+    if (kernel.isInfinite(t))
+    {
+      continue;
+    }
+    const DelaunayKernel::Index* v = kernel.mesh().slots() + t;
+    const Point2 a = kernel.point(v[0]);
+    const Point2 b = kernel.point(v[1]);
+    const Point2 c = kernel.point(v[2]);
+    const Box2 bounds = Circumdisk(a, b, c).bounds();
+    if (std::any_of(artificial.begin(), artificial.end(),
+          [&](const SeamVertex& z)
+          { return contains(bounds, z.Place) && inCirclePerturbed(a, b, c, z.Place); }))
+    {
+      triangles.push_back({ kernel.place(v[0]), kernel.place(v[1]), kernel.place(v[2]) });
+    }
+  }
+  return triangles;
+}
+
 void removeArtificialPoints(
   std::vector<SeamTriangle>& final, const std::vector<SeamVertex>& artificial)
 {
@@ -55,27 +84,9 @@ void removeArtificialPoints(
   {
     points.push_back(v.Place);
   }
-  DelaunayKernel kernel;
-  kernel.insert(points.data(), points.size());
-  for (DelaunayKernel::Index t = 0; t < kernel.mesh().end(); t += 8)
+  for (const std::array<std::uint32_t, 3>& corners : hullTriangles(std::move(points), artificial))
   {
-    if (kernel.isInfinite(t))
-    {
-      continue;
-    }
-    const DelaunayKernel::Index* v = kernel.mesh().slots() + t;
-    const SeamTriangle triangle = { rim[kernel.place(v[0])], rim[kernel.place(v[1])],
-      rim[kernel.place(v[2])] };
-    const Point2 a = triangle[0].Place;
-    const Point2 b = triangle[1].Place;
-    const Point2 c = triangle[2].Place;
-    const Box2 bounds = Circumdisk(a, b, c).bounds();
-    if (std::any_of(artificial.begin(), artificial.end(),
-          [&](const SeamVertex& z)
-          { return contains(bounds, z.Place) && inCirclePerturbed(a, b, c, z.Place); }))
-    {
-      final.push_back(triangle);
-    }
+    final.push_back({ rim[corners[0]], rim[corners[1]], rim[corners[2]] });
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include "Triangulation/SeamMesh.h"
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 namespace tipp
@@ -14,6 +16,11 @@ namespace tipp
 /// with.
 void removeArtificialPoints(
   std::vector<SeamTriangle>& final, const std::vector<SeamVertex>& artificial);
+
+/// The triangles that take the place of those at the artificial points, of these points' true
+/// vertices, each of which comes once; by places among them.
+std::vector<std::array<std::uint32_t, 3>> hullTriangles(
+  std::vector<Point2> vertices, const std::vector<SeamVertex>& artificial);
 
 } // namespace tipp
 

@@ -121,24 +121,30 @@ SeamTriangles triangulateVertices(
         continue;
       }
       const DelaunayKernel::Index* v = mesh.slots() + 8 * t;
-      const SeamTriangle triangle = { vertices[kernel.place(v[0])], vertices[kernel.place(v[1])],
-        vertices[kernel.place(v[2])] };
+      const SeamTriangles::Corners corners = { kernel.place(v[0]), kernel.place(v[1]),
+        kernel.place(v[2]) };
       parts[std::size_t(part)].add(
-        tiling, triangle, Circumdisk(triangle[0].Place, triangle[1].Place, triangle[2].Place));
+        tiling, corners, Circumdisk(kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2])));
     }
   };
   parallelFor(threads, threads, collect);
   for (std::size_t i = 1; i < parts.size(); ++i)
   {
-    parts[0].append(parts[i]);
+    parts[0].appendTriangles(parts[i]);
   }
+  parts[0].Vertices = vertices;
   return std::move(parts[0]);
 }
 
 bool partitionsPay(const SeamTriangles& initialMesh)
 {
   constexpr std::size_t most = 3;
-  return initialMesh.Met.size() <= most * initialMesh.Triangles.size();
+  std::size_t met = 0;
+  for (const std::uint32_t set : initialMesh.SetOf)
+  {
+    met += std::size_t(initialMesh.Sets.end(set) - initialMesh.Sets.begin(set));
+  }
+  return met <= most * initialMesh.size();
 }
 
 template std::vector<SeamVertex> chooseInitialPoints(

@@ -16,26 +16,31 @@ SeamVertex makeSeamVertex(const Tiling& tiling, PartitionIndex partition, Point2
 
 void SeamTriangles::clear()
 {
+  this->Vertices.clear();
   this->Triangles.clear();
-  this->Met.clear();
-  this->MetEnds.clear();
+  this->SetOf.clear();
+  this->Sets.clear();
 }
 
-void SeamTriangles::add(const Tiling& tiling, const SeamTriangle& triangle, const Circumdisk& disk)
+void SeamTriangles::add(const Tiling& tiling, const Corners& corners, const Circumdisk& disk)
 {
-  this->Triangles.push_back(triangle);
-  tiling.visitMet(disk, [this](PartitionIndex partition) { this->Met.push_back(partition); });
-  this->MetEnds.push_back(this->Met.size());
+  this->Found.clear();
+  tiling.visitMet(disk, [this](PartitionIndex partition) { this->Found.push_back(partition); });
+  this->add(corners, this->Found.data(), this->Found.data() + this->Found.size());
 }
 
-void SeamTriangles::append(const SeamTriangles& others)
+void SeamTriangles::add(
+  const Corners& corners, const PartitionIndex* metBegin, const PartitionIndex* metEnd)
 {
-  const std::size_t offset = this->Met.size();
-  this->Triangles.insert(this->Triangles.end(), others.Triangles.begin(), others.Triangles.end());
-  this->Met.insert(this->Met.end(), others.Met.begin(), others.Met.end());
-  for (const std::size_t end : others.MetEnds)
+  this->Triangles.push_back(corners);
+  this->SetOf.push_back(this->Sets.number(metBegin, metEnd));
+}
+
+void SeamTriangles::appendTriangles(const SeamTriangles& others)
+{
+  for (std::size_t i = 0; i < others.size(); ++i)
   {
-    this->MetEnds.push_back(offset + end);
+    this->add(others.Triangles[i], others.metBegin(i), others.metEnd(i));
   }
 }
 
@@ -77,9 +82,9 @@ std::uint32_t SeamMesh::allocate(const SeamTriangle& triangle)
 
 void SeamMesh::add(const SeamTriangles& added, std::vector<SeamTriangle>& final)
 {
-  for (std::size_t i = 0; i < added.Triangles.size(); ++i)
+  for (std::size_t i = 0; i < added.size(); ++i)
   {
-    const SeamTriangle& triangle = added.Triangles[i];
+    const SeamTriangle triangle = added[i];
     const auto unfinished = [this](PartitionIndex p) { return !this->isFinished(p); };
     if (std::none_of(added.metBegin(i), added.metEnd(i), unfinished))
     {

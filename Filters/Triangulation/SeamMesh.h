@@ -2,6 +2,7 @@
 #ifndef tippSeamMesh_h
 #define tippSeamMesh_h
 
+#include "Triangulation/PartitionSets.h"
 #include "Triangulation/Tiling.h"
 
 #include <array>
@@ -31,21 +32,36 @@ SeamVertex makeSeamVertex(
 
 using SeamTriangle = std::array<SeamVertex, 3>;
 
-/// Triangles, and for each the partitions its circumdisk meets.
+/// Triangles, and for each the partitions its circumdisk meets. Small: where points lie on a circle
+/// there are as many as points, and each meets all partitions.
 struct SeamTriangles
 {
-  std::vector<SeamTriangle> Triangles;
-  std::vector<PartitionIndex> Met;  ///< of all triangles, one after the other
-  std::vector<std::size_t> MetEnds; ///< in Met, for each triangle
+  using Corners = std::array<std::uint32_t, 3>; ///< places among the vertices
+
+  std::vector<SeamVertex> Vertices; ///< each once; some perhaps of no triangle
+  std::vector<Corners> Triangles;
+  std::vector<std::uint32_t> SetOf; ///< of each triangle: the partitions that it meets
+  PartitionSets Sets;
+
+  std::size_t size() const { return this->Triangles.size(); }
+  SeamTriangle operator[](std::size_t i) const
+  {
+    const Corners& corners = this->Triangles[i];
+    return { this->Vertices[corners[0]], this->Vertices[corners[1]], this->Vertices[corners[2]] };
+  }
 
   void clear();
-  void add(const Tiling& tiling, const SeamTriangle& triangle, const Circumdisk& disk);
-  void append(const SeamTriangles& others);
-  const PartitionIndex* metBegin(std::size_t i) const
-  {
-    return this->Met.data() + (i == 0 ? 0 : this->MetEnds[i - 1]);
-  }
-  const PartitionIndex* metEnd(std::size_t i) const { return this->Met.data() + this->MetEnds[i]; }
+  /// A triangle of vertices that are there, or that will be.
+  void add(const Tiling& tiling, const Corners& corners, const Circumdisk& disk);
+  void add(const Corners& corners, const PartitionIndex* metBegin, const PartitionIndex* metEnd);
+  /// Another one's triangles, of the same vertices.
+  void appendTriangles(const SeamTriangles& others);
+
+  const PartitionIndex* metBegin(std::size_t i) const { return this->Sets.begin(this->SetOf[i]); }
+  const PartitionIndex* metEnd(std::size_t i) const { return this->Sets.end(this->SetOf[i]); }
+
+private:
+  std::vector<PartitionIndex> Found;
 };
 
 /// What independence is decided on.

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tipp
 {
 namespace
 {
+
+constexpr std::uint32_t NoPlace = ~0U;
 
 /// The disks inside this closed box do not touch the closed boxes around it.
 Box2 openBox(const Box2& box)
@@ -39,14 +42,14 @@ void Worker<Id>::triangulate(PartitionIndex partition, const std::vector<SeamTri
 {
   static_assert(sizeof(SeamTriangle) == 3 * sizeof(SeamVertex), "corners lie in a row");
   this->collectVertices(
-    partition, belonging.empty() ? nullptr : belonging.front().data(), 3 * belonging.size());
+    belonging.empty() ? nullptr : belonging.front().data(), 3 * belonging.size());
   this->triangulateCollected(partition);
 }
 
 template <typename Id>
-void Worker<Id>::triangulate(PartitionIndex partition, const std::vector<SeamVertex>& vertices)
+void Worker<Id>::triangulate(PartitionIndex partition, std::vector<SeamVertex>&& vertices)
 {
-  this->collectVertices(partition, vertices.data(), vertices.size());
+  this->Foreign = std::move(vertices);
   this->triangulateCollected(partition);
 }
 
@@ -54,16 +57,28 @@ template <typename Id>
 void Worker<Id>::triangulateCollected(PartitionIndex partition)
 {
   const PartitionIndex bucket = this->bucket(partition);
+  this->separateOwnVertices(partition);
   this->takeIds(bucket);
   this->Kernel.clear();
   // The own points first: their interior triangles then do not depend on the foreign ones.
   this->Kernel.insert(this->Buckets.points(bucket), this->Buckets.count(bucket));
   this->Kernel.insert(this->ForeignPoints.data(), this->ForeignPoints.size());
+  // Otherwise memory is kept for the next partition.
+  const bool isLarge = this->Kernel.bytes() > PooledKernel::MostBytesKept;
+  if (isLarge)
+  {
+    std::vector<Point2>().swap(this->ForeignPoints);
+  }
   this->VertexCount = static_cast<std::size_t>(this->Kernel.vertexEnd()) - 1;
   this->resolveDuplicates();
   this->findSeams(partition);
   this->writeTriangles(
     bucket, [this](DelaunayKernel::Index t) { return !this->IsSeam[std::size_t(t / 8)]; });
+  if (isLarge)
+  {
+    this->Kernel.releaseTriangles();
+  }
+  this->nameSeamVertices(partition);
 }
 
 template <typename Id>
@@ -88,13 +103,11 @@ void Worker<Id>::takeIds(PartitionIndex bucket)
   this->Buckets.copyIds(bucket, this->Ids);
 }
 
+/// Each once.
 template <typename Id>
-void Worker<Id>::collectVertices(
-  PartitionIndex partition, const SeamVertex* vertices, std::size_t count)
+void Worker<Id>::collectVertices(const SeamVertex* vertices, std::size_t count)
 {
   this->Foreign.clear();
-  this->ForeignPoints.clear();
-  this->KnownIds.clear();
   std::size_t size = 64;
   while (3 * size < 4 * count)
   {
@@ -105,11 +118,6 @@ void Worker<Id>::collectVertices(
   for (const SeamVertex* at = vertices; at != vertices + count; ++at)
   {
     const SeamVertex& v = *at;
-    if (v.partition() == partition && !v.isArtificial())
-    {
-      this->KnownIds.push_back(v.Id - this->FirstId);
-      continue;
-    }
     std::size_t place = (std::uint64_t(v.Id) * 0x9e3779b97f4a7c15U) >> 32;
     for (place &= size - 1; this->HashTable[place] != empty; place = (place + 1) & (size - 1))
     {
@@ -122,10 +130,34 @@ void Worker<Id>::collectVertices(
     {
       this->HashTable[place] = static_cast<std::uint32_t>(this->Foreign.size());
       this->Foreign.push_back(v);
-      this->ForeignPoints.push_back(v.Place);
     }
   }
+}
+
+template <typename Id>
+void Worker<Id>::separateOwnVertices(PartitionIndex partition)
+{
+  this->KnownIds.clear();
+  std::size_t kept = 0;
+  for (const SeamVertex& v : this->Foreign)
+  {
+    if (v.partition() == partition && !v.isArtificial())
+    {
+      this->KnownIds.push_back(v.Id - this->FirstId);
+    }
+    else
+    {
+      this->Foreign[kept++] = v;
+    }
+  }
+  this->Foreign.resize(kept);
   std::sort(this->KnownIds.begin(), this->KnownIds.end());
+  this->ForeignPoints.clear();
+  this->ForeignPoints.reserve(kept);
+  for (const SeamVertex& v : this->Foreign)
+  {
+    this->ForeignPoints.push_back(v.Place);
+  }
 }
 
 template <typename Id>
@@ -165,6 +197,18 @@ SeamVertex Worker<Id>::vertex(PartitionIndex partition, DelaunayKernel::Index v)
     *this->Boxes, partition, this->Kernel.point(v), this->FirstId + this->Ids[place]);
 }
 
+template <typename Id>
+std::uint32_t Worker<Id>::seamPlace(DelaunayKernel::Index v)
+{
+  std::uint32_t& place = this->SeamPlaces[std::size_t(v)];
+  if (place == NoPlace)
+  {
+    place = static_cast<std::uint32_t>(this->SeamVertices.size());
+    this->SeamVertices.push_back(v);
+  }
+  return place;
+}
+
 /// Walks over the triangles whose circumdisk is not inside the partition. They are connected: each
 /// point outside has a cavity that is, and a path outside from point to point changes the cavity
 /// by one neighbour at a time. So only the seam and one row of interior triangles are looked at.
@@ -175,6 +219,8 @@ void Worker<Id>::findSeams(PartitionIndex partition)
   const Box2& box = this->Boxes->box(partition);
   const Box2 open = openBox(box);
   this->Seams.clear();
+  this->SeamVertices.clear();
+  this->SeamPlaces.assign(static_cast<std::size_t>(this->Kernel.vertexEnd()), NoPlace);
   this->IsSeam.assign(static_cast<std::size_t>(mesh.end() / 8), 0);
   DelaunayKernel::Index start = 0;
   while (!this->Kernel.isInfinite(start))
@@ -207,14 +253,22 @@ void Worker<Id>::findSeams(PartitionIndex partition)
         if (disk.meets(box))
         {
           this->Seams.add(*this->Boxes,
-            { this->vertex(partition, v[0]), this->vertex(partition, v[1]),
-              this->vertex(partition, v[2]) },
-            disk);
+            { this->seamPlace(v[0]), this->seamPlace(v[1]), this->seamPlace(v[2]) }, disk);
         }
       }
       isSeam = 1;
       this->Stack.push_back(neighbour);
     }
+  }
+}
+
+template <typename Id>
+void Worker<Id>::nameSeamVertices(PartitionIndex partition)
+{
+  this->Seams.Vertices.reserve(this->SeamVertices.size());
+  for (const DelaunayKernel::Index v : this->SeamVertices)
+  {
+    this->Seams.Vertices.push_back(this->vertex(partition, v));
   }
 }
 

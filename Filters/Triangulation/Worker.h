@@ -8,6 +8,7 @@
 #include "Triangulation/Triangulate.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -29,14 +30,15 @@ public:
   /// alone, over its points, and keeps the others whose circumdisk meets the partition.
   void triangulate(PartitionIndex partition, const std::vector<SeamTriangle>& belonging);
 
-  /// The same, of the vertices of the triangles that belong to it; some perhaps more than once.
-  void triangulate(PartitionIndex partition, const std::vector<SeamVertex>& vertices);
+  /// The same, of the vertices of the triangles that belong to it, each once.
+  void triangulate(PartitionIndex partition, std::vector<SeamVertex>&& vertices);
 
   /// The only partition, number 0: all triangles are interior. False if the monitor ended it.
   bool triangulateAlone(const DelaunayKernel::Monitor& proceed);
 
   std::size_t interiorCount() const { return this->InteriorCount; }
   const SeamTriangles& seams() const { return this->Seams; }
+  SeamTriangles takeSeams() { return std::move(this->Seams); }
 
   /// Points of the partition at the place of another. The representative is the lowest id, unless
   /// it is an initial point, which other partitions know already.
@@ -44,8 +46,8 @@ public:
   std::size_t vertexCount() const { return this->VertexCount; }
 
 private:
-  /// Vertices that came with the triangles: those of other partitions, and the partition's own.
-  void collectVertices(PartitionIndex partition, const SeamVertex* vertices, std::size_t count);
+  void collectVertices(const SeamVertex* vertices, std::size_t count);
+  void separateOwnVertices(PartitionIndex partition);
   void triangulateCollected(PartitionIndex partition);
   PartitionIndex bucket(PartitionIndex partition) const { return this->FirstBucket + partition; }
   void takeIds(PartitionIndex bucket);
@@ -53,7 +55,9 @@ private:
   void findSeams(PartitionIndex partition);
   template <typename IsInterior>
   void writeTriangles(PartitionIndex bucket, const IsInterior& isInterior);
+  void nameSeamVertices(PartitionIndex partition);
   SeamVertex vertex(PartitionIndex partition, DelaunayKernel::Index v) const;
+  std::uint32_t seamPlace(DelaunayKernel::Index v);
 
   const Tiling* Boxes;
   PointBuckets<Id>& Buckets;
@@ -63,13 +67,15 @@ private:
   DelaunayKernel& Kernel;
   std::vector<Id> Ids; ///< of the partition's own points
   std::vector<Id> VertexIds;
-  std::vector<SeamVertex> Foreign;
+  std::vector<SeamVertex> Foreign; ///< vertices that came with the triangles, but for own ones
   std::vector<Point2> ForeignPoints;
   std::vector<std::int64_t> KnownIds; ///< of own points that other partitions know; sorted
   std::vector<std::uint32_t> HashTable;
   std::vector<char> IsSeam; ///< of each triangle of the kernel: not interior
   std::vector<DelaunayKernel::Index> Stack;
   SeamTriangles Seams;
+  std::vector<std::uint32_t> SeamPlaces; ///< of the kernel's vertices among those of the seams
+  std::vector<DelaunayKernel::Index> SeamVertices; ///< those of the seams
   std::vector<Duplicate> Duplicates;
   std::size_t InteriorCount = 0;
   std::size_t VertexCount = 0;

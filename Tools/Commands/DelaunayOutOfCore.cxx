@@ -141,6 +141,8 @@ void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& 
     { "worker_vertices", statistics.WorkerVertices },
     { "peak_rim_triangles", statistics.PeakRimTriangles },
     { "peak_border_bytes", statistics.PeakBorderBytes },
+    { "peak_rim_bytes", statistics.PeakRimBytes },
+    { "rim_spilled_bytes", statistics.RimSpilledBytes },
     { "aside_bytes", statistics.AsideBytes },
     { "spilled_bytes", statistics.SpilledBytes },
     { "mesh_bytes", statistics.MeshBytes },

@@ -4,6 +4,7 @@
 
 #include "Distributed/GroupMesh.h"
 #include "Distributed/VertexLabelling.h"
+#include "TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
@@ -62,6 +63,19 @@ std::set<std::int64_t> gathered(const GroupMesh& mesh, PartitionIndex partition)
   return ids;
 }
 
+Bytes saved(const GroupMesh& mesh)
+{
+  ByteWriter writer;
+  mesh.save(writer);
+  return writer.take();
+}
+
+void restore(GroupMesh& mesh, const Bytes& bytes)
+{
+  ByteReader reader(bytes);
+  mesh.restore(reader);
+}
+
 TEST(SeamGrouping, TrianglesThatMeetTheSamePartitionsShareAGroup)
 {
   const SeamGroups groups = SeamGrouping().group(exampleSeams());
@@ -90,13 +104,12 @@ TEST(SeamGrouping, AVertexComesOnceInAGroup)
   EXPECT_EQ(groups.vertices(groupOf(groups, { 0, 1 })).size(), 5u);
 }
 
-TEST(VertexLabelling, GivesEachVertexOnceWithItsBoxsLabel)
+TEST(LabelVertices, GivesEachVertexOnceWithItsBoxsLabel)
 {
   const Tiling boxes = Tiling::grid({ 0, 0, 2, 1 }, 2, 1);
   std::vector<PlainVertex> vertices = { { { 1.6, 0.7 }, 9 }, { { 0.1, 0.2 }, 4 },
     { { 1.6, 0.7 }, 9 }, { { 1.2, 0.1 }, -2 } };
-  VertexLabelling labelling;
-  const std::vector<SeamVertex>& labelled = labelling.label(boxes, vertices);
+  const std::vector<SeamVertex> labelled = labelVertices(boxes, vertices);
   ASSERT_EQ(labelled.size(), 3u);
   for (const SeamVertex& v : labelled)
   {
@@ -225,13 +238,84 @@ TEST(GroupMesh, KeepsTheOthersTrianglesWhateverIsFinished)
   }
 }
 
-TEST(GroupMesh, LiveGroupsMakeItAgain)
+/// Everything that a mesh tells of vertices.
+void expectSame(const GroupMesh& a, const GroupMesh& b)
+{
+  EXPECT_EQ(a.size(), b.size());
+  for (PartitionIndex p = 0; p < a.partitions(); ++p)
+  {
+    EXPECT_EQ(gathered(a, p), gathered(b, p)) << p;
+    std::multiset<std::int64_t> ofA;
+    std::multiset<std::int64_t> ofB;
+    a.visitVertices(p, p + 2, [&](const PlainVertex& v) { ofA.insert(v.Id); });
+    b.visitVertices(p, p + 2, [&](const PlainVertex& v) { ofB.insert(v.Id); });
+    EXPECT_EQ(ofA, ofB) << p;
+  }
+  const Bytes savedA = saved(a);
+  const Bytes savedB = saved(b);
+  EXPECT_TRUE(std::equal(savedA.begin(), savedA.end(), savedB.begin(), savedB.end()));
+}
+
+TEST(GroupMesh, IsTheSameWithItsVerticesInAFile)
+{
+  const TemporaryFolder folder;
+  VertexFile file(folder.path("rim"));
+  constexpr PartitionIndex partitions = 9;
+  std::vector<PartitionIndex> all(partitions);
+  std::iota(all.begin(), all.end(), 0);
+  GroupMesh inMemory(partitions, all);
+  GroupMesh spilled(partitions, all);
+  inMemory.add(SeamGrouping().group(rowOfSeams(partitions)));
+  spilled.add(SeamGrouping().group(rowOfSeams(partitions)));
+  spilled.spillTo(file, 0);
+  EXPECT_EQ(spilled.vertexBytes(), file.used());
+  EXPECT_EQ(inMemory.vertexBytes(), file.used());
+  expectSame(inMemory, spilled);
+  for (const PartitionIndex finished : { 4, 5, 3, 0, 8, 7, 1 })
+  {
+    for (GroupMesh* mesh : { &inMemory, &spilled })
+    {
+      mesh->finish(finished);
+      mesh->add(SeamGrouping().group(rowOfSeams(partitions), finished));
+    }
+    expectSame(inMemory, spilled);
+  }
+}
+
+TEST(GroupMesh, SpillsNothingThatThereIsMemoryFor)
+{
+  const TemporaryFolder folder;
+  VertexFile file(folder.path("rim"));
+  GroupMesh mesh(9, { 0, 1, 2, 3, 4, 5, 6, 7, 8 });
+  mesh.spillTo(file, 1 << 20);
+  mesh.add(SeamGrouping().group(rowOfSeams(9)));
+  EXPECT_EQ(0U, file.written());
+  EXPECT_EQ(0U, folder.fileCount());
+}
+
+TEST(GroupMesh, LeavesTheFileEmptyWhenAllIsFinished)
+{
+  const TemporaryFolder folder;
+  VertexFile file(folder.path("rim"));
+  GroupMesh mesh(3, { 0, 1, 2 });
+  mesh.spillTo(file, 0);
+  mesh.add(SeamGrouping().group(exampleSeams()));
+  EXPECT_GT(file.used(), 0U);
+  for (const PartitionIndex p : { 0, 1, 2 })
+  {
+    mesh.finish(p);
+  }
+  EXPECT_EQ(0U, file.used());
+  EXPECT_EQ(0U, mesh.vertexBytes());
+}
+
+TEST(GroupMesh, IsMadeAgainOfWhatWasSaved)
 {
   GroupMesh mesh(3, { 0, 1, 2 });
   mesh.add(SeamGrouping().group(exampleSeams()));
   mesh.finish(2);
   GroupMesh again(3, { 0, 1 });
-  again.add(mesh.liveGroups());
+  restore(again, saved(mesh));
   EXPECT_EQ(mesh.size(), again.size());
   for (const PartitionIndex p : { 0, 1, 2 })
   {

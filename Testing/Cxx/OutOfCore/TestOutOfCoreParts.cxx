@@ -225,6 +225,19 @@ TEST(PiecePlan, LessMemoryMakesMorePieces)
   EXPECT_GT(steps.plan().pieces(), few);
 }
 
+TEST(PiecePlan, KnowsWhereTheRimWillBeLarge)
+{
+  Steps circle(makePointSet("circle", 4000));
+  EXPECT_TRUE(circle.plan().IsAlone);
+  EXPECT_FALSE(circle.plan().HasLargeRim);
+  circle.Options.MemoryLimit = 1;
+  EXPECT_FALSE(circle.plan().IsAlone);
+  EXPECT_TRUE(circle.plan().HasLargeRim);
+  Steps uniform(makePointSet("uniform", 4000));
+  uniform.Options.MemoryLimit = 1;
+  EXPECT_FALSE(uniform.plan().HasLargeRim);
+}
+
 TEST(PiecePlan, ComesBackFromAnArchive)
 {
   const Coordinates xy = makePointSet("clustered", 4000);

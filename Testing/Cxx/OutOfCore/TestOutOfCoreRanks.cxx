@@ -218,6 +218,30 @@ TEST_P(OutOfCoreRanks, GoOnWhereAnyNumberOfRanksWasEnded)
 INSTANTIATE_TEST_SUITE_P(PointSets, OutOfCoreRanks,
   testing::Values("uniform", "clustered", "coast", "duplicates", "lattice"));
 
+/// Where partitions do not pay, nearly all points are on the rim.
+class OutOfCoreRanksWithALargeRim : public OutOfCoreRanks
+{
+};
+
+TEST_P(OutOfCoreRanksWithALargeRim, MakeTheFilesOfOneProcess)
+{
+  this->makePoints(GetParam(), 1500);
+  this->Options.Columns = 4;
+  this->Options.Rows = 4;
+  this->runAlone();
+  const Files expected = this->takeFiles();
+  this->Options.MemoryLimit = 1;
+  const OutOfCoreStatistics together = this->runTogether();
+  EXPECT_TRUE(expected == this->takeFiles());
+  if (this->isFirst())
+  {
+    EXPECT_GT(together.RimSpilledBytes, 0U);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(PointSets, OutOfCoreRanksWithALargeRim,
+  testing::Values("circle", "parabola", "collinear-and-one"));
+
 TEST_F(OutOfCoreRanks, ReadTheirPartsOfTheInput)
 {
   this->makePoints("uniform", 5000);

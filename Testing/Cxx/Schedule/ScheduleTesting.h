@@ -8,6 +8,7 @@
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/SeamMesh.h"
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,13 +63,34 @@ inline SeamTriangles seamTriangles(
   const std::vector<std::pair<SeamTriangle, std::vector<PartitionIndex>>>& list)
 {
   SeamTriangles all;
+  std::map<std::pair<std::int64_t, std::uint32_t>, std::uint32_t> places;
   for (const auto& entry : list)
   {
-    all.Triangles.push_back(entry.first);
-    all.Met.insert(all.Met.end(), entry.second.begin(), entry.second.end());
-    all.MetEnds.push_back(all.Met.size());
+    SeamTriangles::Corners corners{};
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const SeamVertex& v = entry.first[i];
+      const auto place = places.emplace(
+        std::make_pair(v.Id, v.Label), static_cast<std::uint32_t>(all.Vertices.size()));
+      corners[i] = place.first->second;
+      if (place.second)
+      {
+        all.Vertices.push_back(v);
+      }
+    }
+    all.add(corners, entry.second.data(), entry.second.data() + entry.second.size());
   }
   return all;
+}
+
+inline std::vector<SeamTriangle> listOf(const SeamTriangles& seams)
+{
+  std::vector<SeamTriangle> list;
+  for (std::size_t i = 0; i < seams.size(); ++i)
+  {
+    list.push_back(seams[i]);
+  }
+  return list;
 }
 
 inline Triangles idsOf(const std::vector<SeamTriangle>& seams)

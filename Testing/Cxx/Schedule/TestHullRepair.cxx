@@ -27,7 +27,7 @@ struct Enclosed
       vertices.push_back(
         makeSeamVertex(this->Boxes, this->Boxes.locate(points[i]), points[i], std::int64_t(i)));
     }
-    this->Final = triangulateVertices(this->Boxes, vertices, 1).Triangles;
+    this->Final = listOf(triangulateVertices(this->Boxes, vertices, 1));
   }
 
   Tiling Boxes;

@@ -185,7 +185,7 @@ TEST(InitialMesh, IsTheDelaunayTriangulationOfItsVertices)
   for (const int threads : { 1, 2, 5 })
   {
     EXPECT_TRUE(sameTriangles(
-      xy, idsOf(triangulateVertices(scene.Boxes, numbered, threads).Triangles), delaunay(xy, all)));
+      xy, idsOf(listOf(triangulateVertices(scene.Boxes, numbered, threads))), delaunay(xy, all)));
   }
 }
 
@@ -193,12 +193,12 @@ TEST(InitialMesh, IsInTheSameOrderForAnyNumberOfThreads)
 {
   const InitialScene scene("uniform", 1000, 4, 4);
   const SeamTriangles more = triangulateVertices(scene.Boxes, scene.Vertices, 3);
-  EXPECT_EQ(scene.Mesh.Met, more.Met);
-  EXPECT_EQ(scene.Mesh.MetEnds, more.MetEnds);
-  ASSERT_EQ(scene.Mesh.Triangles.size(), more.Triangles.size());
-  for (std::size_t i = 0; i < more.Triangles.size(); ++i)
+  ASSERT_EQ(scene.Mesh.size(), more.size());
+  for (std::size_t i = 0; i < more.size(); ++i)
   {
-    EXPECT_EQ(scene.Mesh.Triangles[i][0].Id, more.Triangles[i][0].Id);
+    EXPECT_EQ(scene.Mesh[i][0].Id, more[i][0].Id);
+    EXPECT_TRUE(
+      std::equal(scene.Mesh.metBegin(i), scene.Mesh.metEnd(i), more.metBegin(i), more.metEnd(i)));
   }
 }
 
@@ -208,9 +208,12 @@ TEST(InitialMesh, EveryPartitionHasTrianglesThatBelongToIt)
   const InitialScene scene("one-far-away", 500, 6, 6);
   for (PartitionIndex p = 0; p < scene.Boxes.size(); ++p)
   {
-    EXPECT_EQ(
-      1, std::min<std::ptrdiff_t>(1, std::count(scene.Mesh.Met.begin(), scene.Mesh.Met.end(), p)))
-      << "partition " << p;
+    bool isMet = false;
+    for (std::size_t i = 0; i < scene.Mesh.size(); ++i)
+    {
+      isMet = isMet || std::count(scene.Mesh.metBegin(i), scene.Mesh.metEnd(i), p) > 0;
+    }
+    EXPECT_TRUE(isMet) << "partition " << p;
   }
 }
 
@@ -224,7 +227,7 @@ TEST(InitialMesh, InitialPointsAtOnePlaceAreOneVertex)
     vertices.push_back(makeSeamVertex(tiling, 0, { 0.2, 0.3 }, id));
   }
   std::set<std::int64_t> used;
-  for (const SeamTriangle& t : triangulateVertices(tiling, vertices, 1).Triangles)
+  for (const SeamTriangle& t : listOf(triangulateVertices(tiling, vertices, 1)))
   {
     used.insert({ t[0].Id, t[1].Id, t[2].Id });
   }

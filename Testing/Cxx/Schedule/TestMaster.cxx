@@ -81,11 +81,11 @@ TEST_P(MasterOf, APartitionComesWithTheTrianglesThatBelongToIt)
   std::vector<SeamTriangle> belonging;
   const PartitionIndex p = master.acquire(belonging);
   std::vector<SeamTriangle> expected;
-  for (std::size_t i = 0; i < scene.Mesh.Triangles.size(); ++i)
+  for (std::size_t i = 0; i < scene.Mesh.size(); ++i)
   {
     if (std::count(scene.Mesh.metBegin(i), scene.Mesh.metEnd(i), p) > 0)
     {
-      expected.push_back(scene.Mesh.Triangles[i]);
+      expected.push_back(scene.Mesh[i]);
     }
   }
   EXPECT_FALSE(expected.empty());

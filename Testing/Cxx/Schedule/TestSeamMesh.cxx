@@ -289,11 +289,11 @@ TEST(SeamTriangles, AppendingKeepsWhatEachTriangleMeets)
 {
   SeamTriangles all =
     seamTriangles({ { seamTriangle(1, 0, 0, 0), { 5, 6 } }, { seamTriangle(4, 0, 0, 0), {} } });
-  all.append(seamTriangles({ { seamTriangle(7, 0, 0, 0), { 8 } } }));
-  all.append(SeamTriangles());
+  all.appendTriangles(seamTriangles({ { seamTriangle(7, 0, 0, 0), { 8 } } }));
+  all.appendTriangles(SeamTriangles());
   const auto met = [&](std::size_t i)
   { return std::vector<PartitionIndex>(all.metBegin(i), all.metEnd(i)); };
-  ASSERT_EQ(3U, all.Triangles.size());
+  ASSERT_EQ(3U, all.size());
   EXPECT_EQ((std::vector<PartitionIndex>{ 5, 6 }), met(0));
   EXPECT_TRUE(met(1).empty());
   EXPECT_EQ((std::vector<PartitionIndex>{ 8 }), met(2));
@@ -306,7 +306,7 @@ TEST(SeamTriangles, AddingNotesThePartitionsThatTheDiskMeets)
   const Point2 b{ 1.1, 0.5 };
   const Point2 c{ 1, 0.6 };
   SeamTriangles triangles;
-  triangles.add(tiling, seamTriangle(1, 0, 0, 0), Circumdisk(a, b, c));
+  triangles.add(tiling, { 0, 1, 2 }, Circumdisk(a, b, c));
   std::vector<PartitionIndex> met(triangles.metBegin(0), triangles.metEnd(0));
   std::sort(met.begin(), met.end());
   std::vector<PartitionIndex> expected{ tiling.locate(a), tiling.locate(b) };

@@ -75,7 +75,7 @@ public:
   /// The last partition's interior triangles and the seams, by places in XY.
   Triangles made(const Interior& interior) const
   {
-    Triangles all = this->inXY(this->Work.seams().Triangles);
+    Triangles all = this->inXY(listOf(this->Work.seams()));
     for (std::size_t i = 0; i < interior.size(); i += 3)
     {
       all.push_back(canonical(interior[i], interior[i + 1], interior[i + 2]));

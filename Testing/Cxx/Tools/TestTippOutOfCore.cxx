@@ -12,8 +12,10 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <random>
 #include <thread>
+#include <utility>
 
 #include <sys/resource.h>
 
@@ -264,6 +266,109 @@ TEST_F(TippOutOfCore, GoesOnAfterADiskThatIsFull)
     EXPECT_EQ(0, runTipp(this->Folder, { "check", this->Points, this->Mesh }).ExitCode);
     std::filesystem::remove_all(this->Mesh);
   }
+}
+
+/// Points for which partitions do not pay: nearly all of them are on the rim, most of which is in a
+/// file.
+class TippLargeRim : public TippOutOfCore
+{
+protected:
+  /// y as it comes from x, which is -1 to 1.
+  template <typename Curve>
+  void makeCurve(int count, const Curve& curve)
+  {
+    this->Points = this->Folder.path("points.csv");
+    std::ofstream file(this->Points);
+    file.precision(17);
+    file << "x,y\n";
+    std::mt19937 random(1);
+    for (int i = 0; i < count; ++i)
+    {
+      const double x = double(random()) * 0x1p-31 - 1;
+      file << x << "," << curve(x) << "\n";
+    }
+  }
+
+  /// What Documentation/OutOfCore.md says of two threads.
+  void expectSmall(double count) const
+  {
+    const Outcome made = this->run({ "--stats", this->Folder.path("run.json") });
+    ASSERT_EQ(0, made.ExitCode) << made.Err;
+    const auto json = nlohmann::json::parse(contentOf(this->Folder.path("run.json")));
+    EXPECT_EQ(count, json["points"].get<double>());
+    EXPECT_GT(json["rim_spilled_bytes"], 0);
+    EXPECT_GT(json["peak_rim_bytes"], 0);
+    constexpr double onTop = 60e6;
+    constexpr double perPoint = 300;
+    EXPECT_LT(json["peak_memory_bytes"].get<double>(), 2 * 0x1p20 + onTop + perPoint * count);
+    EXPECT_EQ(0, runTipp(this->Folder, { "check", this->Points, this->Mesh }).ExitCode);
+  }
+};
+
+TEST_F(TippLargeRim, OfACircleTakesLittleMemory)
+{
+  this->makePoints("circle", "120000");
+  this->expectSmall(120000);
+}
+
+TEST_F(TippLargeRim, OfAParabolaTakesLittleMemory)
+{
+  this->makeCurve(120000, [](double x) { return x * x; });
+  this->expectSmall(120000);
+}
+
+TEST_F(TippLargeRim, OfALineAndAPointTakesLittleMemory)
+{
+  bool isFirst = true;
+  this->makeCurve(60000, [&](double) { return std::exchange(isFirst, false) ? 1 : 0; });
+  this->expectSmall(60000);
+}
+
+TEST_F(TippLargeRim, IsMadeAgainAfterKills)
+{
+  this->makePoints("circle", "30000");
+  ASSERT_EQ(0, this->run({}).ExitCode);
+  const auto expected = filesOf(this->Mesh);
+  std::filesystem::remove_all(this->Mesh);
+  std::mt19937 random(5);
+  int kills = 0;
+  for (int longest = 200;; longest += 100)
+  {
+    std::vector<std::string> arguments = this->command();
+    arguments.push_back("--resume");
+    const TippProcess process(this->Folder, arguments);
+    std::this_thread::sleep_for(std::chrono::milliseconds(random() % unsigned(longest)));
+    process.kill();
+    const Outcome outcome = process.wait();
+    if (outcome.ExitCode == 0)
+    {
+      break;
+    }
+    ASSERT_EQ(-9, outcome.ExitCode) << outcome.Err;
+    ++kills;
+  }
+  EXPECT_GT(kills, 0);
+  EXPECT_TRUE(expected == filesOf(this->Mesh));
+  EXPECT_FALSE(std::filesystem::exists(this->Folder.path(".mesh.tipp.part")));
+}
+
+TEST_F(TippLargeRim, GoesOnAfterADiskThatIsFull)
+{
+  this->makePoints("circle", "30000");
+  const std::string scratch = this->Folder.path("scratch");
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{ 730000, before.rlim_max };
+  setrlimit(RLIMIT_FSIZE, &small);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const Outcome full = this->run({ "--sink", "count", "--scratch", scratch });
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(1, full.ExitCode);
+  EXPECT_NE(std::string::npos, full.Err.find("cannot be written")) << full.Err;
+  EXPECT_NE(std::string::npos, full.Err.find(scratch)) << full.Err;
+  const Outcome resumed = this->run({ "--sink", "count", "--scratch", scratch, "--resume" });
+  EXPECT_EQ(0, resumed.ExitCode) << resumed.Err;
+  EXPECT_NE(std::string::npos, resumed.Out.find("30000 points")) << resumed.Out;
 }
 
 /// What Documentation/OutOfCore.md says of two threads.

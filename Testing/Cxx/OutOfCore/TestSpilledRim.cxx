@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs whose rim has no memory: most of it is in a file, as are borders.
+#include "OutOfCoreTesting.h"
+
+#include "Points/WritePoints.h"
+
+#include <filesystem>
+#include <random>
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using namespace tipp;
+using namespace tipp::test;
+
+/// A grid of pieces, so that points for which partitions do not pay have them, too.
+class SpilledRim : public testing::TestWithParam<std::string>
+{
+protected:
+  SpilledRim()
+  {
+    this->Options.Columns = 4;
+    this->Options.Rows = 4;
+    this->Options.PartitionPoints = 40;
+    this->Options.Threads = 2;
+    writePoints(this->Folder.path("points.npy"), this->XY);
+  }
+
+  OutOfCoreStatistics run(std::uint64_t memory)
+  {
+    this->Options.MemoryLimit = memory;
+    const auto points = openPointStream({ this->Folder.path("points.npy") });
+    return triangulateOutOfCore(*points, this->Mesh, this->Options);
+  }
+
+  static constexpr std::uint64_t Much = std::uint64_t(1) << 30;
+  const Coordinates XY = makePointSet(GetParam(), 2000);
+  OutOfCoreOptions Options;
+  TemporaryFolder Folder;
+  const std::string Mesh = Folder.path("mesh.tipp");
+};
+
+TEST_P(SpilledRim, ChangesNothing)
+{
+  const OutOfCoreStatistics inMemory = this->run(Much);
+  EXPECT_EQ(0U, inMemory.RimSpilledBytes);
+  EXPECT_TRUE(meshMatches(this->Mesh, this->XY, reference(this->XY)));
+  const auto expected = filesOf(this->Mesh);
+  for (const int threads : { 1, 3 })
+  {
+    this->Options.Threads = threads;
+    const OutOfCoreStatistics spilled = this->run(1);
+    EXPECT_GT(spilled.RimSpilledBytes, 0U);
+    EXPECT_GT(spilled.PeakRimBytes, 0U);
+    EXPECT_LE(spilled.PeakRimBytes, spilled.RimSpilledBytes);
+    EXPECT_TRUE(expected == filesOf(this->Mesh)) << threads;
+    EXPECT_EQ(2U, this->Folder.fileCount()) << "something is left";
+  }
+}
+
+TEST_P(SpilledRim, IsThereAgainAfterARunThatWasEnded)
+{
+  this->run(1);
+  const auto expected = filesOf(this->Mesh);
+  this->Options.Resume = true;
+  std::mt19937 random(1);
+  int resumed = 0;
+  for (int round = 0; round < 4; ++round)
+  {
+    fs::remove_all(this->Mesh);
+    OutOfCoreStatistics statistics;
+    do
+    {
+      int calls = int(random() % 40);
+      this->Options.Progress = [&calls](double) { return calls-- > 0; };
+      // What a killed run leaves of the rim is of no use, and does no harm.
+      if (fs::exists(this->Folder.path(".mesh.tipp.part")))
+      {
+        this->Folder.file(".mesh.tipp.part/.rim", "left over");
+      }
+      statistics = this->run(round % 2 == 0 ? 1 : Much);
+      resumed += statistics.Resumed ? 1 : 0;
+    } while (statistics.Aborted);
+    ASSERT_TRUE(expected == filesOf(this->Mesh)) << round;
+    ASSERT_EQ(2U, this->Folder.fileCount()) << "something is left";
+  }
+  EXPECT_GT(resumed, 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(PointSets, SpilledRim,
+  testing::Values("circle", "cocircular", "parabola", "collinear-and-one", "spiral", "uniform",
+    "clustered", "duplicates"),
+  [](const auto& info)
+  {
+    std::string name = info.param;
+    name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
+    return name;
+  });
+
+} // namespace
