@@ -3,6 +3,7 @@
 
 #include "Kernel/Extent.h"
 #include "Parallel/ParallelFor.h"
+#include "Triangulation/PopulatePages.h"
 
 #include <algorithm>
 #include <array>
@@ -148,6 +149,13 @@ PointBuckets<Id>::PointBuckets(
 }
 
 template <typename Id>
+void PointBuckets<Id>::populate(int part, int parts)
+{
+  const auto [begin, end] = share(this->Memory.size(), part, parts);
+  populatePages(this->Memory.data() + begin, (end - begin) * sizeof(Id));
+}
+
+template <typename Id>
 void PointBuckets<Id>::copyIds(PartitionIndex p, std::vector<Id>& ids) const
 {
   ids.resize(this->count(p));
@@ -194,6 +202,7 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
   PointBuckets<Id> buckets(std::move(starts));
   const auto scatterPart = [&](std::int64_t part)
   {
+    buckets.populate(int(part), threads);
     struct Cursor
     {
       Point2* Point;
@@ -226,7 +235,9 @@ PointBuckets<Id> bucketTogether(PointsView points, const Box2& bounds, bool allF
 {
   if (points.contiguous() && allFinite)
   {
-    return PointBuckets<Id>({ 0, points.size() }, points.contiguous(), 0);
+    PointBuckets<Id> buckets({ 0, points.size() }, points.contiguous(), 0);
+    buckets.populate(0, 1);
+    return buckets;
   }
   if (!allFinite)
   {
@@ -238,6 +249,7 @@ PointBuckets<Id> bucketTogether(PointsView points, const Box2& bounds, bool allF
   const auto copyPart = [&](std::int64_t part)
   {
     const auto [begin, end] = share(points.size(), int(part), threads);
+    buckets.populate(int(part), threads);
     points.forEach(begin, end, [to](std::size_t id, Point2 p) { to[id] = p; });
     std::iota(ids + begin, ids + end, static_cast<Id>(begin));
   };

@@ -63,6 +63,9 @@ public:
   }
   ///@}
 
+  /// Has the system provide a part of the memory, all of which will be used.
+  void populate(int part, int parts);
+
   /// All partitions' triangles, with gaps between them.
   Buffer<Id> release() { return std::move(this->Memory); }
 
