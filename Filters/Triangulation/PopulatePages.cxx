@@ -27,9 +27,7 @@ void populatePages(void* memory, std::size_t bytes)
   }
 }
 #else
-void populatePages(void*, std::size_t)
-{
-}
+void populatePages(void*, std::size_t) {}
 #endif
 
 } // namespace tipp
