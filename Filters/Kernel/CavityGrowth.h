@@ -239,23 +239,33 @@ private:
     const unsigned decided = bitsOf(magnitude(det) > bound);
     if (__builtin_expect(decided != 3, 0))
     {
+      // Of an edge's ends a and b, |ax by| + |ay bx| is at most half the sum of their lifts.
+      const unsigned isLeft =
+        bitsOf(pair.Cross > TurnFilterBound * (pair.StartLift + pair.StopLift) + UnderflowBound);
       return testExactly(this->Predicates, this->Slot, this->P, pair.FirstOuter, pair.SecondOuter,
-        decided, ~signsOf(det) & decided);
+        decided, isLeft, ~signsOf(det) & decided);
     }
     return ~signsOf(det);
   }
 
-  /// Static, as a call with this object would keep it in memory.
+  /// For the lanes that are not decided. Most often it is the hull's outside that is behind an
+  /// edge: not in conflict, if p is to the left. Static, as a call with this object would keep it
+  /// in memory.
   [[gnu::noinline]] static unsigned testExactly(KernelPredicates& predicates, const Index* slot,
-    Point2 p, Index first, Index second, unsigned decided, unsigned inside)
+    Point2 p, Index first, Index second, unsigned decided, unsigned isLeft, unsigned inside)
   {
-    if (!(decided & 1))
+    const auto isInConflict = [&](Index outer, unsigned lane)
     {
-      inside |= predicates.isInConflict(slot + HalfEdgeMesh::triangleOf(first), p) ? 1U : 0U;
+      return !((isLeft & lane) != 0 && slot[outer] == InfiniteVertex) &&
+        predicates.isInConflict(slot + HalfEdgeMesh::triangleOf(outer), p);
+    };
+    if (!(decided & 1) && isInConflict(first, 1))
+    {
+      inside |= 1;
     }
-    if (!(decided & 2))
+    if (!(decided & 2) && isInConflict(second, 2))
     {
-      inside |= predicates.isInConflict(slot + HalfEdgeMesh::triangleOf(second), p) ? 2U : 0U;
+      inside |= 2;
     }
     return inside;
   }
