@@ -19,8 +19,8 @@ inline cl_int shareOf(const ComputeDevice& device)
   return device.description().Type == DeviceType::Cpu ? 32 : 1;
 }
 
-/// Cells with more samples in their boxes are done by an item a row. A CPU waits longer for a kernel
-/// to begin than others wait for one large cell.
+/// Cells with more samples in their boxes are done by an item a row. A CPU waits longer for a
+/// kernel to begin than others wait for one large cell.
 inline cl_long largestCellOf(const ComputeDevice& device)
 {
   return device.description().Type == DeviceType::Cpu ? 1 << 16 : 1 << 12;
