@@ -2,46 +2,19 @@
 #include "Distributed/PointExchange.h"
 
 #include "Parallel/ParallelFor.h"
+#include "Triangulation/PartitionFinder.h"
 
 #include <algorithm>
-#include <array>
-#include <limits>
 
 namespace tipp
 {
 namespace
 {
 
-constexpr std::uint32_t NoLeaf = std::numeric_limits<std::uint32_t>::max();
-
 std::size_t partBegin(std::size_t n, int part, int parts)
 {
   return n / std::size_t(parts) * std::size_t(part) +
     std::min(n % std::size_t(parts), std::size_t(part));
-}
-
-/// Leaves of many points at a time, so that their searches overlap.
-void label(PointsView points, std::size_t begin, std::size_t end, const Tiling& leaves,
-  std::uint32_t* labels, std::vector<std::size_t>& counts)
-{
-  constexpr std::size_t batch = 64;
-  std::array<Point2, batch> places;
-  for (std::size_t at = begin; at < end; at += batch)
-  {
-    const std::size_t size = std::min(batch, end - at);
-    points.forEach(at, at + size, [&](std::size_t i, Point2 p) { places[i - at] = p; });
-    leaves.locate(places.data(), size, labels + at);
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      std::uint32_t& leaf = labels[at + i];
-      if (!isFinite(places[i]))
-      {
-        leaf = NoLeaf;
-        continue;
-      }
-      ++counts[leaf];
-    }
-  }
 }
 
 } // namespace
@@ -54,10 +27,11 @@ PointExchange::PointExchange(const RankPoints& points, const Tiling& leaves, int
   , Counts(static_cast<std::size_t>(threads), std::vector<std::size_t>(this->Leaves, 0))
 {
   const std::size_t size = points.Points.size();
+  const PartitionFinder finder(leaves);
   const auto labelPart = [&](std::int64_t part)
   {
-    label(points.Points, partBegin(size, int(part), threads),
-      partBegin(size, int(part) + 1, threads), leaves, this->Labels.data(),
+    finder.label(points.Points, partBegin(size, int(part), threads),
+      partBegin(size, int(part) + 1, threads), this->Labels.data(),
       this->Counts[std::size_t(part)]);
   };
   parallelFor(threads, threads, labelPart);
@@ -98,7 +72,7 @@ void PointExchange::scatter(
       partBegin(size, int(part) + 1, this->Threads),
       [&](std::size_t i, Point2 p)
       {
-        if (this->Labels[i] == NoLeaf)
+        if (this->Labels[i] == PartitionFinder::None)
         {
           return;
         }

@@ -2,6 +2,7 @@
 #include "OutOfCore/SpillPoints.h"
 
 #include "Files/IOError.h"
+#include "Triangulation/PartitionFinder.h"
 
 #include <algorithm>
 #include <numeric>
@@ -17,6 +18,7 @@ class Labelling
 public:
   Labelling(const PiecePlan& plan, double factor, int threads)
     : Plan(plan)
+    , Pieces(plan.Pieces)
     , Factor(factor)
     , Threads(threads)
     , Counts(std::size_t(plan.pieces()), 0)
@@ -65,7 +67,7 @@ private:
         places[i] = { block.XY[2 * (begin + i)] * this->Factor,
           block.XY[2 * (begin + i) + 1] * this->Factor };
       }
-      this->Plan.Pieces.locate(places, size, pieces);
+      this->Pieces.locate(places, size, pieces);
       for (std::size_t i = 0; i < size; ++i)
       {
         this->Labels[begin + i] = isFinite(places[i]) ? std::int32_t(pieces[i]) : -1;
@@ -97,6 +99,7 @@ private:
   }
 
   const PiecePlan& Plan;
+  const PartitionFinder Pieces;
   const double Factor;
   const int Threads;
   std::vector<std::int32_t> Labels;

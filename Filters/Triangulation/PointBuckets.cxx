@@ -3,20 +3,17 @@
 
 #include "Kernel/Extent.h"
 #include "Parallel/ParallelFor.h"
+#include "Triangulation/PartitionFinder.h"
 #include "Triangulation/PopulatePages.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace tipp
 {
 namespace
 {
-
-constexpr std::uint32_t NoPartition = std::numeric_limits<std::uint32_t>::max();
 
 /// The share of n items that is the part's, of so many parts.
 std::pair<std::size_t, std::size_t> share(std::size_t n, int part, int parts)
@@ -112,26 +109,6 @@ std::vector<Point2> samplePoints(PointsView points, std::size_t count)
   return sample;
 }
 
-namespace
-{
-
-/// Finds the partitions of a block of points at a time, so that their searches overlap.
-void labelBlock(const Tiling& tiling, const Point2* points, std::size_t count,
-  std::uint32_t* labels, std::vector<std::size_t>& counts)
-{
-  tiling.locate(points, count, labels);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    labels[i] = isFinite(points[i]) ? labels[i] : NoPartition;
-    if (labels[i] != NoPartition)
-    {
-      ++counts[labels[i]];
-    }
-  }
-}
-
-} // namespace
-
 template <typename Id>
 PointBuckets<Id>::PointBuckets(std::vector<std::size_t> starts)
   : Starts(std::move(starts))
@@ -173,15 +150,14 @@ template <typename Id>
 PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threads)
 {
   const std::size_t partitions = static_cast<std::size_t>(tiling.size());
+  const PartitionFinder finder(tiling);
   Buffer<std::uint32_t> labels(points.size());
   std::vector<std::vector<std::size_t>> places(
     static_cast<std::size_t>(threads), std::vector<std::size_t>(partitions, 0));
   const auto labelPart = [&](std::int64_t part)
   {
     const auto [begin, end] = share(points.size(), int(part), threads);
-    points.forBlocks(begin, end,
-      [&, part](std::size_t first, const Point2* block, std::size_t count)
-      { labelBlock(tiling, block, count, labels.data() + first, places[std::size_t(part)]); });
+    finder.label(points, begin, end, labels.data(), places[std::size_t(part)]);
   };
   parallelFor(threads, threads, labelPart);
 
@@ -218,7 +194,7 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
     points.forEach(begin, end,
       [&](std::size_t id, Point2 p)
       {
-        if (labels[id] != NoPartition)
+        if (labels[id] != PartitionFinder::None)
         {
           Cursor& cursor = cursors[labels[id]];
           *cursor.Point++ = p;

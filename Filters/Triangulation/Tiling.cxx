@@ -55,13 +55,7 @@ void Tiling::locate(const Point2* points, std::size_t count, std::uint32_t* part
   }
   for (; begin < count; ++begin)
   {
-    const double* const coordinates = &points[begin].x;
-    const Node* at = nodes;
-    while (!at->isBox())
-    {
-      at = nodes + at->Child[coordinates[at->Axis] >= at->At];
-    }
-    partitions[begin] = static_cast<std::uint32_t>(at->Partition);
+    partitions[begin] = static_cast<std::uint32_t>(this->locate(points[begin], 0));
   }
 }
 

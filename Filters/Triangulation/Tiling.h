@@ -44,7 +44,7 @@ public:
   const Box2& box(PartitionIndex i) const { return this->Boxes[static_cast<std::size_t>(i)]; }
   const Box2& domain() const { return this->Domain; }
 
-  /// The partitions of many points.
+  /// The partitions of some points; of very many, PartitionFinder is faster.
   void locate(const Point2* points, std::size_t count, std::uint32_t* partitions) const;
 
   PartitionIndex locate(Point2 p) const
@@ -85,6 +85,8 @@ public:
   }
 
 private:
+  friend class PartitionFinder;
+
   /// A cut, or a box; a box is its own child, so that searches of any length can go on.
   struct Node
   {
@@ -97,6 +99,18 @@ private:
   };
   // Every cut halves the number of boxes, which fits 31 bits.
   static constexpr std::size_t MaximumDepth = 64;
+
+  /// The partition of a point that is known to be beyond a node.
+  PartitionIndex locate(Point2 p, std::int32_t from) const
+  {
+    const double coordinates[2] = { p.x, p.y };
+    const Node* at = &this->node(from);
+    while (!at->isBox())
+    {
+      at = &this->node(at->Child[coordinates[at->Axis] >= at->At]);
+    }
+    return at->Partition;
+  }
 
   std::int32_t cutGrid(const Box2& box, int columns, int rows, std::size_t depth);
   std::int32_t cutSample(const Box2& box, Point2* begin, Point2* end, int count, std::size_t depth);

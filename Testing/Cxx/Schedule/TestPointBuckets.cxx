@@ -34,7 +34,7 @@ Tiling someTiling()
 }
 
 template <typename Id>
-std::vector<Id> idsOf(const PointBuckets<Id>& buckets, PartitionIndex p)
+std::vector<Id> bucketIds(const PointBuckets<Id>& buckets, PartitionIndex p)
 {
   std::vector<Id> ids;
   buckets.copyIds(p, ids);
@@ -58,7 +58,7 @@ TYPED_TEST(BucketsOf, EveryFinitePointIsInItsPartitionsBucketInTheInputsOrder)
   }
   for (PartitionIndex p = 0; p < tiling.size(); ++p)
   {
-    const std::vector<TypeParam> ids = idsOf(buckets, p);
+    const std::vector<TypeParam> ids = bucketIds(buckets, p);
     ASSERT_EQ(expected[std::size_t(p)], ids);
     for (std::size_t i = 0; i < buckets.count(p); ++i)
     {
@@ -78,7 +78,7 @@ TYPED_TEST(BucketsOf, AreTheSameForAnyNumberOfThreads)
     for (PartitionIndex p = 0; p < tiling.size(); ++p)
     {
       ASSERT_EQ(one.count(p), more.count(p));
-      ASSERT_EQ(idsOf(one, p), idsOf(more, p));
+      ASSERT_EQ(bucketIds(one, p), bucketIds(more, p));
       ASSERT_TRUE(std::equal(one.points(p), one.points(p) + one.count(p), more.points(p)));
     }
   }
@@ -108,9 +108,9 @@ TYPED_TEST(BucketsOf, PointsElsewhereAreNotOverwrittenAndTheirPlacesAreTheirIds)
   {
     std::fill_n(buckets.triangles(p), 6 * buckets.count(p), TypeParam(9));
   }
-  EXPECT_EQ((std::vector<TypeParam>{ 0 }), idsOf(buckets, 0));
-  EXPECT_EQ((std::vector<TypeParam>{}), idsOf(buckets, 1));
-  EXPECT_EQ((std::vector<TypeParam>{ 1, 2, 3 }), idsOf(buckets, 2));
+  EXPECT_EQ((std::vector<TypeParam>{ 0 }), bucketIds(buckets, 0));
+  EXPECT_EQ((std::vector<TypeParam>{}), bucketIds(buckets, 1));
+  EXPECT_EQ((std::vector<TypeParam>{ 1, 2, 3 }), bucketIds(buckets, 2));
   EXPECT_EQ((Point2{ 3, 4 }), buckets.points(2)[0]);
   EXPECT_EQ(2, buckets.id(2, 1));
   EXPECT_EQ(3U * (2 * 4 + 1), buckets.release().size());

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Triangulation/PartitionFinder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tipp
+{
+namespace
+{
+
+/// So many that few cells are in several boxes, but the grid stays in the processor's cache.
+std::uint32_t cellsAlongASide(PartitionIndex boxes)
+{
+  constexpr double perBox = 32;
+  constexpr double most = 1024;
+  return boxes > 1 ? static_cast<std::uint32_t>(std::min(perBox * std::sqrt(double(boxes)), most))
+                   : 1;
+}
+
+} // namespace
+
+PartitionFinder::Cells::Cells(double low, double high, std::uint32_t count)
+{
+  const double scale = count / (high - low);
+  if (std::isfinite(scale))
+  {
+    this->Low = low;
+    this->Scale = scale;
+    this->Last = count - 1;
+  }
+}
+
+PartitionFinder::PartitionFinder(const Tiling& tiling)
+  : Boxes(tiling)
+  , Columns(tiling.domain().xmin, tiling.domain().xmax, cellsAlongASide(tiling.size()))
+  , Rows(tiling.domain().ymin, tiling.domain().ymax, cellsAlongASide(tiling.size()))
+  , Starts(std::size_t(this->Columns.Last + 1) * (this->Rows.Last + 1))
+{
+  this->fill(0, { { 0, 0 }, { this->Columns.Last + 1, this->Rows.Last + 1 } });
+}
+
+/// All of the block's cells reach the node.
+void PartitionFinder::fill(std::int32_t node, const Block& block)
+{
+  if (block.Begin[0] >= block.End[0] || block.Begin[1] >= block.End[1])
+  {
+    return;
+  }
+  const Tiling::Node& cut = this->Boxes.node(node);
+  Block cells = block; // those of a box, or with points on both sides of the cut
+  if (!cut.isBox())
+  {
+    const std::uint32_t at = cut.Axis == 0 ? this->Columns(cut.At) : this->Rows(cut.At);
+    Block below = block;
+    Block above = block;
+    below.End[cut.Axis] = std::min(block.End[cut.Axis], at);
+    above.Begin[cut.Axis] = std::max(block.Begin[cut.Axis], at + 1);
+    this->fill(cut.Child[0], below);
+    this->fill(cut.Child[1], above);
+    cells.Begin[cut.Axis] = std::max(block.Begin[cut.Axis], at);
+    cells.End[cut.Axis] = std::min(block.End[cut.Axis], at + 1);
+  }
+  for (std::uint32_t row = cells.Begin[1]; row < cells.End[1]; ++row)
+  {
+    std::int32_t* const starts = this->Starts.data() + std::size_t(row) * (this->Columns.Last + 1);
+    std::fill(starts + std::min(cells.Begin[0], cells.End[0]), starts + cells.End[0],
+      cut.isBox() ? ~cut.Partition : node);
+  }
+}
+
+void PartitionFinder::locate(
+  const Point2* points, std::size_t count, std::uint32_t* partitions) const
+{
+  constexpr std::size_t most = 256; // at a time
+  std::array<std::uint32_t, most> open;
+  const std::size_t width = this->Columns.Last + 1;
+  for (std::size_t begin = 0; begin < count; begin += most)
+  {
+    const std::size_t end = std::min(count, begin + most);
+    // No branch: what few cells leave open comes later.
+    std::size_t openCount = 0;
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      const std::size_t row = this->Rows(points[i].y);
+      const std::int32_t start = this->Starts[row * width + this->Columns(points[i].x)];
+      partitions[i] = static_cast<std::uint32_t>(~start);
+      open[openCount] = static_cast<std::uint32_t>(i - begin);
+      openCount += start >= 0 ? 1 : 0;
+    }
+    for (std::size_t k = 0; k < openCount; ++k)
+    {
+      std::uint32_t& found = partitions[begin + open[k]];
+      found = static_cast<std::uint32_t>(
+        this->Boxes.locate(points[begin + open[k]], static_cast<std::int32_t>(~found)));
+    }
+  }
+}
+
+void PartitionFinder::label(PointsView points, std::size_t begin, std::size_t end,
+  std::uint32_t* labels, std::vector<std::size_t>& counts) const
+{
+  points.forBlocks(begin, end,
+    [this, labels, &counts](std::size_t first, const Point2* block, std::size_t count)
+    {
+      std::uint32_t* const to = labels + first;
+      this->locate(block, count, to);
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        to[i] = isFinite(block[i]) ? to[i] : None;
+        if (to[i] != None)
+        {
+          ++counts[to[i]];
+        }
+      }
+    });
+}
+
+} // namespace tipp
