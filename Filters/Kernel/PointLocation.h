@@ -61,10 +61,10 @@ public:
   Location from(Index start)
   {
     const Index* const v = this->Slot + start;
-    Direction a = directionTo(this->Points[v[0]], this->P);
-    Direction b = directionTo(this->Points[v[1]], this->P);
+    const Direction a = directionTo(this->Points[v[0]], this->P);
+    const Direction b = directionTo(this->Points[v[1]], this->P);
     const Direction c = directionTo(this->Points[v[2]], this->P);
-    double ab = cross(a, b);
+    const double ab = cross(a, b);
     const double bc = cross(b, c);
     const double ca = cross(c, a);
     if (this->isInConflict(start, a.lift(), b.lift(), c.lift(), ab, bc, ca))
@@ -72,22 +72,22 @@ public:
       return { start, { v[0], v[1], v[2] }, { a, b, c }, { ab, bc, ca },
         { v[2 + 4], v[0 + 4], v[1 + 4] }, false, this->EqualTo };
     }
-    // p lies to the right of the edge from a to b; behind it is the triangle (a, d, b).
-    Index h = v[2 + 4];
     if (this->isRight(v[1], v[2], bc, b, c))
     {
-      h = v[0 + 4];
-      a = b;
-      b = c;
-      ab = bc;
+      return this->walk(v[0 + 4], b, c, bc);
     }
-    else if (this->isRight(v[2], v[0], ca, c, a))
+    if (this->isRight(v[2], v[0], ca, c, a))
     {
-      h = v[1 + 4];
-      b = a;
-      a = c;
-      ab = ca;
+      return this->walk(v[1 + 4], c, a, ca);
     }
+    return this->walk(v[2 + 4], a, b, ab);
+  }
+
+private:
+  /// p lies to the right of the edge from a to b; behind it, at half-edge h, is a triangle (a, d,
+  /// b).
+  Location walk(Index h, Direction a, Direction b, double ab)
+  {
     double al = a.lift();
     double bl = b.lift();
     for (;;)
@@ -122,7 +122,6 @@ public:
     }
   }
 
-private:
   /// A vertex at p is on the circle, and ends the walk as well.
   bool isInConflict(
     Index triangle, double al, double bl, double cl, double ab, double bc, double ca)
