@@ -141,11 +141,13 @@ private:
     this->Slot[after + 2 + 4] = before + 1;
   }
 
-  /// `last`, or `of` if the fan is empty. Either is as likely, so there is no branch here.
-  Index lastOr(Index of, Index last) const
+  /// The last of the fan After, or another triangle if it is empty. Either is as likely, so there
+  /// is no branch here.
+  Index lastAfterOr(Index other) const
   {
+    const Index last = this->After.Last;
     const Index empty = -Index(this->After.First == this->None);
-    return last ^ ((last ^ of) & empty);
+    return last ^ ((last ^ other) & empty);
   }
 
   void addBefore(Index outer, Index start, Index stop)
@@ -159,14 +161,14 @@ private:
   {
     const Index t = this->add(outer, start, stop);
     this->link(t, this->After.First);
-    this->After.Last = this->lastOr(t, this->After.Last);
+    this->After.Last = this->lastAfterOr(t);
     this->After.First = t;
   }
 
   void closeGap()
   {
     this->link(this->Last, this->After.First);
-    this->Last = this->lastOr(this->Last, this->After.Last);
+    this->Last = this->lastAfterOr(this->Last);
   }
 
   Index closeRing()

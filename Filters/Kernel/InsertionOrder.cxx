@@ -16,6 +16,7 @@ constexpr unsigned IndexBits = InsertionOrder::IndexBits;
 constexpr unsigned Levels = 16;
 constexpr unsigned KeyBits = 2 * Levels;
 constexpr unsigned RoundBits = 4;
+constexpr std::size_t PointsInBlock = 256;
 static_assert(RoundBits + KeyBits + IndexBits == 64, "an entry is one word");
 
 /// Rounds before the last: so many that the first holds a few dozen points.
@@ -50,10 +51,9 @@ inline std::uint32_t quantise(double distance, double scale)
 inline void fillBlock(const Point2* points, std::size_t first, std::size_t count, Pair low,
   double scale, unsigned lastRound, std::uint64_t* entries)
 {
-  constexpr std::size_t most = 256;
-  std::uint32_t x[most];
-  std::uint32_t y[most];
-  std::uint32_t round[most];
+  std::uint32_t x[PointsInBlock];
+  std::uint32_t y[PointsInBlock];
+  std::uint32_t round[PointsInBlock];
   for (std::size_t i = 0; i < count; ++i)
   {
     x[i] = quantise(points[first + i].x - low[0], scale);
@@ -86,10 +86,10 @@ inline void fillEntries(const Point2* points, std::size_t count, std::uint64_t* 
   const Pair sides = extent.High - extent.Low;
   const double scale = (1U << Levels) / std::max(sides[0], sides[1]);
   const unsigned lastRound = earlierRounds(count);
-  for (std::size_t first = 0; first < count; first += 256)
+  for (std::size_t first = 0; first < count; first += PointsInBlock)
   {
-    fillBlock(points, first, std::min<std::size_t>(256, count - first), extent.Low, scale,
-      lastRound, entries);
+    fillBlock(
+      points, first, std::min(PointsInBlock, count - first), extent.Low, scale, lastRound, entries);
   }
 }
 

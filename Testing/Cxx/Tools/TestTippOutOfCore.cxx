@@ -47,6 +47,29 @@ protected:
     return { "delaunay", this->Points, "-o", this->Mesh, "--memory", "2M", "--threads", "2" };
   }
 
+  /// Runs and resumes, each killed at a random moment, a little later than the last, until one
+  /// comes to its end. Returns the number of those killed.
+  int killUntilDone(
+    std::vector<std::string> more, std::mt19937& random, unsigned first, unsigned step) const
+  {
+    std::vector<std::string> arguments = this->command();
+    more.emplace_back("--resume");
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    for (int kills = 0;; ++kills)
+    {
+      const TippProcess process(this->Folder, arguments);
+      const unsigned longest = first + step * unsigned(kills);
+      std::this_thread::sleep_for(std::chrono::milliseconds(random() % longest));
+      process.kill();
+      const Outcome outcome = process.wait();
+      if (outcome.ExitCode != -SIGKILL)
+      {
+        EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+        return kills;
+      }
+    }
+  }
+
   TemporaryFolder Folder;
   std::string Points = this->Folder.path("points.npy");
   std::string Mesh = this->Folder.path("mesh.tipp");
@@ -120,22 +143,7 @@ TEST_F(TippOutOfCore, EndsWithTheSameBytesAfterTwentyKills)
   {
     ASSERT_LT(round, 60) << "runs end before they are killed";
     std::filesystem::remove_all(this->Mesh);
-    std::vector<std::string> arguments = this->command();
-    arguments.insert(arguments.end(), { "--neighbors", "--resume" });
-    int longest = 150; // so that each goes on a little longer than the last
-    for (;; longest += 40)
-    {
-      const TippProcess process(this->Folder, arguments);
-      std::this_thread::sleep_for(std::chrono::milliseconds(random() % unsigned(longest)));
-      process.kill();
-      const Outcome outcome = process.wait();
-      if (outcome.ExitCode == 0)
-      {
-        break;
-      }
-      ASSERT_EQ(-9, outcome.ExitCode) << outcome.Err;
-      ++kills;
-    }
+    kills += this->killUntilDone({ "--neighbors" }, random, 150, 40);
     ASSERT_TRUE(expected == filesOf(this->Mesh)) << round;
   }
 }
@@ -331,22 +339,7 @@ TEST_F(TippLargeRim, IsMadeAgainAfterKills)
   const auto expected = filesOf(this->Mesh);
   std::filesystem::remove_all(this->Mesh);
   std::mt19937 random(5);
-  int kills = 0;
-  for (int longest = 200;; longest += 100)
-  {
-    std::vector<std::string> arguments = this->command();
-    arguments.push_back("--resume");
-    const TippProcess process(this->Folder, arguments);
-    std::this_thread::sleep_for(std::chrono::milliseconds(random() % unsigned(longest)));
-    process.kill();
-    const Outcome outcome = process.wait();
-    if (outcome.ExitCode == 0)
-    {
-      break;
-    }
-    ASSERT_EQ(-9, outcome.ExitCode) << outcome.Err;
-    ++kills;
-  }
+  const int kills = this->killUntilDone({}, random, 200, 100);
   EXPECT_GT(kills, 0);
   EXPECT_TRUE(expected == filesOf(this->Mesh));
   EXPECT_FALSE(std::filesystem::exists(this->Folder.path(".mesh.tipp.part")));
