@@ -29,24 +29,6 @@ public:
     const Location& found, Index vertex);
 
 private:
-  /// Two edges side by side, (first, second) in every pair, counter-clockwise around p: from the
-  /// vertex Start to Middle, and on to Stop.
-  struct EdgePair
-  {
-    Pair StartX; ///< from p
-    Pair StartY;
-    Pair StartLift;
-    Pair StopX;
-    Pair StopY;
-    Pair StopLift;
-    Pair Cross; ///< start x stop
-    // The half-edges on their other sides; no array, which would keep all this out of registers.
-    Index FirstOuter;
-    Index SecondOuter;
-    Index Start;
-    Index Middle;
-    Index Stop;
-  };
   /// The apexes of the triangles behind a pair.
   struct ApexPair
   {

@@ -25,7 +25,7 @@ public:
     , Slot(mesh.slots())
     , Points(points)
     , Predicates(predicates)
-    , P(points[vertex])
+    , P(pairAt(&points[vertex].x))
     , Vertex(vertex)
     , None(mesh.end() + 16)
     , Last(this->None)
@@ -42,12 +42,12 @@ public:
   Index run(const Location& at)
   {
     *this->PlaceEnd++ = at.Triangle;
-    EdgePair edges = this->firstEdges(at);
+    EdgePair edges = at.Edges;
     ApexPair apex;
     unsigned inside = this->test(edges, apex);
     if (at.LastIsOutside)
     {
-      this->addBehind(at.Outer[2], edges.Stop, edges.Start);
+      this->addBehind(at.LastOuter, edges.Stop, edges.Start);
     }
     else
     {
@@ -125,29 +125,30 @@ private:
   Index add(Index outer, Index start, Index stop)
   {
     const Index t = *this->NextPlace++;
-    this->Slot[t] = this->Vertex;
-    this->Slot[t + 1] = start;
-    this->Slot[t + 2] = stop;
-    this->Slot[t + 4] = outer;
-    this->Slot[outer + 4] = t;
+    Index* const slot = this->Slot + HalfEdgeMesh::offset(t);
+    slot[0] = this->Vertex;
+    slot[1] = start;
+    slot[2] = stop;
+    slot[4] = slot[7] = outer;
+    HalfEdgeMesh::setTwin(this->Slot, outer, t);
     return t;
   }
 
-  /// Its edges from and to the vertex are t + 2 and t + 1. Links with None are written beyond the
-  /// end of the mesh.
+  /// Half-edges 1 of the triangle before and 2 of that after; the others of the twins' slots are
+  /// HalfEdgeMesh's repetitions. Links with None are written beyond the end of the mesh.
   void link(Index before, Index after)
   {
-    this->Slot[before + 1 + 4] = after + 2;
-    this->Slot[after + 2 + 4] = before + 1;
+    Index* const last = this->Slot + HalfEdgeMesh::offset(before);
+    Index* const first = this->Slot + HalfEdgeMesh::offset(after);
+    last[5] = after + 2;
+    first[6] = first[3] = before + 1;
   }
 
-  /// The last of the fan After, or another triangle if it is empty. Either is as likely, so there
-  /// is no branch here.
+  /// The last of the fan After, or another triangle if it is empty.
   Index lastAfterOr(Index other) const
   {
-    const Index last = this->After.Last;
-    const Index empty = -Index(this->After.First == this->None);
-    return last ^ ((last ^ other) & empty);
+    const bool isEmpty = this->After.First == this->None;
+    return __builtin_expect_with_probability(isEmpty, 1, 0.5) ? other : this->After.Last;
   }
 
   void addBefore(Index outer, Index start, Index stop)
@@ -173,11 +174,12 @@ private:
 
   Index closeRing()
   {
-    Index t = this->Slot[this->None + 1 + 4] - 2;
+    Index t = HalfEdgeMesh::twinOf(this->Slot, this->None + 1) - 2;
     this->link(this->Last, t);
-    while (this->Slot[t + 1] == InfiniteVertex || this->Slot[t + 2] == InfiniteVertex)
+    for (const Index* slot = this->Slot + t; slot[1] == InfiniteVertex || slot[2] == InfiniteVertex;
+         slot = this->Slot + t)
     {
-      t = HalfEdgeMesh::triangleOf(this->Slot[t + 1 + 4]);
+      t = HalfEdgeMesh::triangleOf(slot[5]);
     }
     return t;
   }
@@ -185,7 +187,7 @@ private:
   /// The third edge of the first triangle, in both lanes.
   void addLast(const Location& at)
   {
-    const EdgePair last = lastEdge(at);
+    const EdgePair last = at.Edges.closing(at.LastCross, at.LastOuter);
     ApexPair apex;
     if (this->test(last, apex) & 1)
     {
@@ -198,39 +200,16 @@ private:
     }
   }
 
-  static EdgePair firstEdges(const Location& at)
-  {
-    const Direction a = at.Corner[0];
-    const Direction b = at.Corner[1];
-    const Direction c = at.Corner[2];
-    const double bl = b.lift();
-    return { Pair{ a.X, b.X }, Pair{ a.Y, b.Y }, Pair{ a.lift(), bl }, Pair{ b.X, c.X },
-      Pair{ b.Y, c.Y }, Pair{ bl, c.lift() }, Pair{ at.Cross[0], at.Cross[1] }, at.Outer[0],
-      at.Outer[1], at.Vertex[0], at.Vertex[1], at.Vertex[2] };
-  }
-
-  static EdgePair lastEdge(const Location& at)
-  {
-    const Direction c = at.Corner[2];
-    const Direction a = at.Corner[0];
-    const double cl = c.lift();
-    const double al = a.lift();
-    const double ca = at.Cross[2];
-    const Index outer = at.Outer[2];
-    return { Pair{ c.X, c.X }, Pair{ c.Y, c.Y }, Pair{ cl, cl }, Pair{ a.X, a.X }, Pair{ a.Y, a.Y },
-      Pair{ al, al }, Pair{ ca, ca }, outer, outer, at.Vertex[2], at.Vertex[0], at.Vertex[0] };
-  }
-
   /// Bit i: the triangle behind edge i is in conflict with p. Of the in-circle determinant's terms
   /// only those with the apex are new.
   unsigned test(const EdgePair& pair, ApexPair& apex)
   {
-    apex.First = this->Slot[pair.FirstOuter];
-    apex.Second = this->Slot[pair.SecondOuter];
-    const Point2 first = this->Points[apex.First];
-    const Point2 second = this->Points[apex.Second];
-    apex.X = Pair{ first.x, second.x } - this->P.x;
-    apex.Y = Pair{ first.y, second.y } - this->P.y;
+    apex.First = this->Slot[HalfEdgeMesh::offset(pair.FirstOuter)];
+    apex.Second = this->Slot[HalfEdgeMesh::offset(pair.SecondOuter)];
+    const Pair first = towards(this->P, this->Points, apex.First);
+    const Pair second = towards(this->P, this->Points, apex.Second);
+    apex.X = low(first, second);
+    apex.Y = high(first, second);
     apex.Lift = apex.X * apex.X + apex.Y * apex.Y;
     apex.StartCross = pair.StartX * apex.Y - pair.StartY * apex.X;
     apex.CrossStop = pair.StopY * apex.X - pair.StopX * apex.Y;
@@ -244,8 +223,8 @@ private:
       // Of an edge's ends a and b, |ax by| + |ay bx| is at most half the sum of their lifts.
       const unsigned isLeft =
         bitsOf(pair.Cross > TurnFilterBound * (pair.StartLift + pair.StopLift) + UnderflowBound);
-      return testExactly(this->Predicates, this->Slot, this->P, pair.FirstOuter, pair.SecondOuter,
-        decided, isLeft, ~signsOf(det) & decided);
+      return testExactly(this->Predicates, this->Slot, { this->P[0], this->P[1] }, pair.FirstOuter,
+        pair.SecondOuter, decided, isLeft, ~signsOf(det) & decided);
     }
     return ~signsOf(det);
   }
@@ -277,22 +256,22 @@ private:
   {
     return { low(e.StartX, v.X), low(e.StartY, v.Y), low(e.StartLift, v.Lift), low(v.X, e.StopX),
       low(v.Y, e.StopY), low(v.Lift, e.StopLift), low(v.StartCross, v.CrossStop),
-      this->Slot[HalfEdgeMesh::next(e.FirstOuter) + 4],
-      this->Slot[HalfEdgeMesh::previous(e.FirstOuter) + 4], e.Start, v.First, e.Middle };
+      HalfEdgeMesh::twinOfNext(this->Slot, e.FirstOuter),
+      HalfEdgeMesh::twinOfPrevious(this->Slot, e.FirstOuter), e.Start, v.First, e.Middle };
   }
   EdgePair behindSecond(const EdgePair& e, const ApexPair& v) const
   {
     return { high(e.StartX, v.X), high(e.StartY, v.Y), high(e.StartLift, v.Lift),
       high(v.X, e.StopX), high(v.Y, e.StopY), high(v.Lift, e.StopLift),
-      high(v.StartCross, v.CrossStop), this->Slot[HalfEdgeMesh::next(e.SecondOuter) + 4],
-      this->Slot[HalfEdgeMesh::previous(e.SecondOuter) + 4], e.Middle, v.Second, e.Stop };
+      high(v.StartCross, v.CrossStop), HalfEdgeMesh::twinOfNext(this->Slot, e.SecondOuter),
+      HalfEdgeMesh::twinOfPrevious(this->Slot, e.SecondOuter), e.Middle, v.Second, e.Stop };
   }
 
   Cavity& Result;
   Index* const Slot;
   const Point2* const Points;
   KernelPredicates& Predicates;
-  const Point2 P;
+  const Pair P;
   const Index Vertex;
   const Index None; ///< in place of a triangle
   Index Last;       ///< of Before

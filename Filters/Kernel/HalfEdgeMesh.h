@@ -13,7 +13,9 @@ namespace tipp
 
 /// Triangles of 32 bytes in one array: slots 0..2 hold the vertices, counter-clockwise, and slots
 /// 4..6 the neighbours. A half-edge is named by the slot of the vertex opposite to it, h = 8 t + i,
-/// and slot h + 4 holds its twin, so that the neighbour's apex is one load away.
+/// and slot h + 4 holds its twin, so that the neighbour's apex is one load away. Slots 3 and 7
+/// repeat slots 6 and 4: the twins of the previous and of the next half-edge are in h + 3 and h + 5
+/// without a look at which of the three h is.
 class HalfEdgeMesh
 {
 public:
@@ -25,8 +27,23 @@ public:
   static Index next(Index h) { return h + 1 - 3 * (h >> 1 & 1); }
   static Index previous(Index h) { return h - 1 + (((h & 3) - 1) >> 31 & 3); }
 
+  /// Names are never negative, and extending them without a sign is free on most processors.
+  static std::size_t offset(Index name) { return std::uint32_t(name); }
+
+  static Index twinOf(const Index* slots, Index h) { return slots[offset(h) + 4]; }
+  static Index twinOfNext(const Index* slots, Index h) { return slots[offset(h) + 5]; }
+  static Index twinOfPrevious(const Index* slots, Index h) { return slots[offset(h) + 3]; }
+
+  /// The repeated slot of half-edge 0 is 7, that of 2 is 3; 1 has none, and its own is written
+  /// twice.
+  static void setTwin(Index* slots, Index h, Index twin)
+  {
+    slots[offset(h) + 4] = twin;
+    slots[offset(h + 7 - 3 * (h & 3))] = twin;
+  }
+
   Index vertex(Index h) const { return this->Slots[h]; }
-  Index twin(Index h) const { return this->Slots[h + 4]; }
+  Index twin(Index h) const { return twinOf(this->Slots.data(), h); }
 
   Index* slots() { return this->Slots.data(); }
   const Index* slots() const { return this->Slots.data(); }
@@ -57,8 +74,8 @@ public:
 
   void link(Index h, Index g)
   {
-    this->Slots[h + 4] = g;
-    this->Slots[g + 4] = h;
+    setTwin(this->Slots.data(), h, g);
+    setTwin(this->Slots.data(), g, h);
   }
 
 private:

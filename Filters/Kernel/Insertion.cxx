@@ -24,7 +24,7 @@ inline void insertInto(const InsertionScene& scene, Index first, Index end)
   for (Index vertex = first; vertex < end; ++vertex)
   {
     const Location found =
-      PointLocation(mesh, points, scene.Predicates, points[vertex]).from(recent);
+      PointLocation(mesh, points, scene.Predicates, pairAt(&points[vertex].x)).from(recent);
     if (__builtin_expect(found.EqualTo != InfiniteVertex, 0))
     {
       addCoincidence(scene, vertex, found.EqualTo);

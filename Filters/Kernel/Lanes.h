@@ -13,6 +13,13 @@ namespace tipp
 using Pair = double __attribute__((vector_size(16)));
 using PairMask = long long __attribute__((vector_size(16)));
 
+/// Of two doubles that lie side by side in memory, anywhere.
+inline Pair pairAt(const double* lanes)
+{
+  using InMemory = double __attribute__((vector_size(16), aligned(8), may_alias));
+  return *reinterpret_cast<const InMemory*>(lanes);
+}
+
 inline Pair magnitude(Pair a)
 {
   return reinterpret_cast<Pair>(reinterpret_cast<PairMask>(a) & 0x7fffffffffffffffLL);

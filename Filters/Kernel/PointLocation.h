@@ -2,43 +2,26 @@
 #ifndef tippPointLocation_h
 #define tippPointLocation_h
 
+#include "Kernel/EdgePair.h"
 #include "Kernel/HalfEdgeMesh.h"
 #include "Kernel/KernelPredicates.h"
 #include "Kernel/Lanes.h"
 
+#include <utility>
+
 namespace tipp
 {
 
-/// A vertex as seen from the point p that is being inserted.
-struct Direction
-{
-  double X;
-  double Y;
-  double lift() const { return this->X * this->X + this->Y * this->Y; }
-};
-
-/// A triangle in conflict with p, as seen from p. Edge i goes from corner i to the next; the
-/// corners are in order, but need not begin with slot 0.
+/// A triangle in conflict with the point p that is being inserted.
 struct Location
 {
   HalfEdgeMesh::Index Triangle;
-  HalfEdgeMesh::Index Vertex[3];
-  Direction Corner[3];
-  double Cross[3]; ///< of each edge's ends
-  HalfEdgeMesh::Index Outer[3];
-  bool LastIsOutside;          ///< the triangle behind edge 2 is known not to be in conflict
+  EdgePair Edges;                ///< two of its edges
+  HalfEdgeMesh::Index LastOuter; ///< of the third, from Stop to Start
+  double LastCross;
+  bool LastIsOutside;          ///< the triangle behind that is known not to be in conflict
   HalfEdgeMesh::Index EqualTo; ///< the vertex at p; then there is no conflict, or InfiniteVertex
 };
-
-inline Direction directionTo(Point2 v, Point2 p)
-{
-  return { v.x - p.x, v.y - p.y };
-}
-
-inline double cross(const Direction& a, const Direction& b)
-{
-  return a.X * b.Y - a.Y * b.X;
-}
 
 /// Finds a triangle in conflict with a point.
 class PointLocation
@@ -47,7 +30,7 @@ public:
   using Index = HalfEdgeMesh::Index;
 
   PointLocation(
-    const HalfEdgeMesh& mesh, const Point2* points, KernelPredicates& predicates, Point2 p)
+    const HalfEdgeMesh& mesh, const Point2* points, KernelPredicates& predicates, Pair p)
     : Slot(mesh.slots())
     , Points(points)
     , Predicates(predicates)
@@ -60,80 +43,94 @@ public:
   /// Delaunay triangulation such a walk ends (Devillers, Pion, Teillaud 2002).
   Location from(Index start)
   {
-    const Index* const v = this->Slot + start;
-    const Direction a = directionTo(this->Points[v[0]], this->P);
-    const Direction b = directionTo(this->Points[v[1]], this->P);
-    const Direction c = directionTo(this->Points[v[2]], this->P);
-    const double ab = cross(a, b);
-    const double bc = cross(b, c);
-    const double ca = cross(c, a);
-    if (this->isInConflict(start, a.lift(), b.lift(), c.lift(), ab, bc, ca))
+    const Index* const v = this->Slot + HalfEdgeMesh::offset(start);
+    this->A = this->corner(v[0]);
+    this->B = this->corner(v[1]);
+    this->C = this->corner(v[2]);
+    this->AB = cross(this->A, this->B);
+    this->BC = cross(this->B, this->C);
+    this->CA = cross(this->C, this->A);
+    this->Last = start + 1;
+    const bool isThere = this->isInConflict();
+    if (!isThere)
     {
-      return { start, { v[0], v[1], v[2] }, { a, b, c }, { ab, bc, ca },
-        { v[2 + 4], v[0 + 4], v[1 + 4] }, false, this->EqualTo };
+      this->leave(v);
+      this->walk();
     }
-    if (this->isRight(v[1], v[2], bc, b, c))
-    {
-      return this->walk(v[0 + 4], b, c, bc);
-    }
-    if (this->isRight(v[2], v[0], ca, c, a))
-    {
-      return this->walk(v[1 + 4], c, a, ca);
-    }
-    return this->walk(v[2 + 4], a, b, ab);
+    const Index last = this->Last;
+    return { HalfEdgeMesh::triangleOf(last),
+      EdgePair::of(this->A, this->B, this->C, this->AB, this->BC,
+        HalfEdgeMesh::twinOfNext(this->Slot, last), HalfEdgeMesh::twinOfPrevious(this->Slot, last)),
+      HalfEdgeMesh::twinOf(this->Slot, last), this->CA, !isThere, this->EqualTo };
   }
 
 private:
-  /// p lies to the right of the edge from a to b; behind it, at half-edge h, is a triangle (a, d,
-  /// b).
-  Location walk(Index h, Direction a, Direction b, double ab)
+  Corner corner(Index vertex) const { return Corner::of(this->P, this->Points, vertex); }
+
+  /// Of the first triangle's edges, takes one that p lies beyond as that from C to A, to which B
+  /// is then to be found.
+  void leave(const Index* v)
   {
-    double al = a.lift();
-    double bl = b.lift();
+    if (this->isRight(this->B, this->C, this->BC))
+    {
+      this->Last = v[4];
+      this->A = this->B;
+      this->CA = -this->BC;
+    }
+    else if (this->isRight(this->C, this->A, this->CA))
+    {
+      this->Last = v[5];
+      std::swap(this->A, this->C);
+      this->CA = -this->CA;
+    }
+    else
+    {
+      this->Last = v[6];
+      this->C = this->B;
+      this->CA = -this->AB;
+    }
+  }
+
+  void walk()
+  {
     for (;;)
     {
-      const Index id = this->Slot[h];
-      const Index toA = HalfEdgeMesh::previous(h);
-      const Index toB = HalfEdgeMesh::next(h);
-      const Direction d = directionTo(this->Points[id], this->P);
-      const double dl = d.lift();
-      const double ad = cross(a, d);
-      const double db = cross(d, b);
-      if (this->isInConflict(HalfEdgeMesh::triangleOf(h), al, dl, bl, ad, db, -ab))
+      const Index last = this->Last;
+      this->B = this->corner(this->Slot[HalfEdgeMesh::offset(last)]);
+      this->AB = cross(this->A, this->B);
+      this->BC = cross(this->B, this->C);
+      if (this->isInConflict())
       {
-        return { HalfEdgeMesh::triangleOf(h), { this->Slot[toA], id, this->Slot[toB] }, { a, d, b },
-          { ad, db, -ab }, { this->Slot[toB + 4], this->Slot[toA + 4], this->Slot[h + 4] }, true,
-          this->EqualTo };
+        return;
       }
-      if (this->isRight(this->Slot[toA], id, ad, a, d))
+      if (this->isRight(this->A, this->B, this->AB))
       {
-        b = d;
-        bl = dl;
-        ab = ad;
-        h = this->Slot[toB + 4];
+        this->C = this->B;
+        this->CA = -this->AB;
+        this->Last = HalfEdgeMesh::twinOfNext(this->Slot, last);
       }
       else
       {
-        a = d;
-        al = dl;
-        ab = db;
-        h = this->Slot[toA + 4];
+        this->A = this->B;
+        this->CA = -this->BC;
+        this->Last = HalfEdgeMesh::twinOfPrevious(this->Slot, last);
       }
     }
   }
 
   /// A vertex at p is on the circle, and ends the walk as well.
-  bool isInConflict(
-    Index triangle, double al, double bl, double cl, double ab, double bc, double ca)
+  bool isInConflict()
   {
-    const double det = al * bc + bl * ca + cl * ab;
-    const double lifts = al + bl + cl;
+    const double det = this->A.Lift * this->BC + this->B.Lift * this->CA + this->C.Lift * this->AB;
+    const double lifts = this->A.Lift + this->B.Lift + this->C.Lift;
     const double bound = CircleFilterBound * (lifts * lifts) + UnderflowBound;
     if (__builtin_expect(!(__builtin_fabs(det) > bound), 0))
     {
-      this->EqualTo = vertexAt(this->Slot + triangle, this->Points, this->P);
+      const Index* const corners =
+        this->Slot + HalfEdgeMesh::offset(HalfEdgeMesh::triangleOf(this->Last));
+      this->EqualTo = vertexAt(corners, this->Points, this->point());
       return this->EqualTo != InfiniteVertex ||
-        this->Predicates.isInConflict(this->Slot + triangle, this->P);
+        this->Predicates.isInConflict(corners, this->point());
     }
     return det > 0;
   }
@@ -151,24 +148,34 @@ private:
     return InfiniteVertex;
   }
 
-  /// Whether p is to the right of the edge from u to w.
-  bool isRight(Index u, Index w, double turn, const Direction& from, const Direction& to)
+  /// Whether p is to the right of the edge from u to w, of which |ux wy| + |uy wx| is at most half
+  /// the sum of their lifts.
+  bool isRight(const Corner& u, const Corner& w, double turn)
   {
-    const double bound =
-      TurnFilterBound * (__builtin_fabs(from.X * to.Y) + __builtin_fabs(from.Y * to.X)) +
-      UnderflowBound;
+    const double bound = TurnFilterBound * (u.Lift + w.Lift) + UnderflowBound;
     if (__builtin_expect(!(__builtin_fabs(turn) > bound), 0))
     {
-      return this->Predicates.orientation(u, w, this->P) < 0;
+      return this->Predicates.orientation(u.Vertex, w.Vertex, this->point()) < 0;
     }
     return turn < 0;
   }
 
+  Point2 point() const { return { this->P[0], this->P[1] }; }
+
   const Index* const Slot;
   const Point2* const Points;
   KernelPredicates& Predicates;
-  const Point2 P;
+  const Pair P;
   Index EqualTo = InfiniteVertex;
+
+  // The triangle reached: Last is its half-edge from C to A.
+  Corner A;
+  Corner B;
+  Corner C;
+  double AB;
+  double BC;
+  double CA;
+  Index Last;
 };
 
 } // namespace tipp

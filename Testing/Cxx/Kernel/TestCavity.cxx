@@ -65,7 +65,7 @@ public:
     KernelPredicates predicates(this->Points.data(), this->Points.size());
     const Point2 p = this->Points.back();
     const Location found =
-      PointLocation(this->Mesh, this->Points.data(), predicates, p).from(this->Start);
+      PointLocation(this->Mesh, this->Points.data(), predicates, pairAt(&p.x)).from(this->Start);
     Cavity cavity;
     this->Returned = cavity.retriangulate(
       this->Mesh, this->Points.data(), predicates, found, Index(this->Points.size() - 1));
@@ -118,6 +118,10 @@ TEST_P(CavityTest, LeavesEveryHalfEdgeWithItsTwin)
       {
         const Index g = this->Mesh.twin(h);
         ASSERT_EQ(h, this->Mesh.twin(g));
+        ASSERT_EQ(
+          this->Mesh.twin(HalfEdgeMesh::next(h)), HalfEdgeMesh::twinOfNext(this->Mesh.slots(), h));
+        ASSERT_EQ(this->Mesh.twin(HalfEdgeMesh::previous(h)),
+          HalfEdgeMesh::twinOfPrevious(this->Mesh.slots(), h));
         ASSERT_EQ(
           this->Mesh.vertex(HalfEdgeMesh::next(h)), this->Mesh.vertex(HalfEdgeMesh::previous(g)));
         ASSERT_EQ(

@@ -53,6 +53,21 @@ TEST(HalfEdgeMesh, LinkingMakesTwinsOfBoth)
   EXPECT_EQ(1, mesh.twin(8 + 2));
 }
 
+TEST(HalfEdgeMesh, TheTwinsOfNextAndPreviousAreWhereEachHalfEdgePoints)
+{
+  HalfEdgeMesh mesh;
+  mesh.reserve(2);
+  for (Index i = 0; i < 3; ++i)
+  {
+    mesh.link(i, 8 + (i + 1) % 3);
+  }
+  for (Index h : { 0, 1, 2, 8, 9, 10 })
+  {
+    EXPECT_EQ(mesh.twin(HalfEdgeMesh::next(h)), HalfEdgeMesh::twinOfNext(mesh.slots(), h));
+    EXPECT_EQ(mesh.twin(HalfEdgeMesh::previous(h)), HalfEdgeMesh::twinOfPrevious(mesh.slots(), h));
+  }
+}
+
 TEST(HalfEdgeMesh, LinksAndVerticesDoNotShareSlots)
 {
   HalfEdgeMesh mesh;

@@ -38,7 +38,7 @@ public:
     std::vector<Point2> points = this->Points;
     points.push_back(p);
     KernelPredicates predicates(points.data(), points.size());
-    return PointLocation(this->Made.mesh(), points.data(), predicates, p).from(start);
+    return PointLocation(this->Made.mesh(), points.data(), predicates, pairAt(&p.x)).from(start);
   }
 
   Point2 corner(Index triangle, Index i) const
@@ -135,7 +135,7 @@ TEST_P(PointLocationTest, TheTriangleItCameFromIsNotInConflict)
       if (at.LastIsOutside)
       {
         ++walked;
-        ASSERT_FALSE(this->isInConflict(HalfEdgeMesh::triangleOf(at.Outer[2]), p));
+        ASSERT_FALSE(this->isInConflict(HalfEdgeMesh::triangleOf(at.LastOuter), p));
       }
     }
   }
@@ -149,21 +149,51 @@ TEST_P(PointLocationTest, CornersEdgesAndNeighboursGoTogether)
   for (const Index start : this->Starts)
   {
     const Location at = this->find(start, p);
+    const EdgePair& e = at.Edges;
+    const Index corners[] = { e.Start, e.Middle, e.Stop };
+    const Point2 seen[] = { { e.StartX[0], e.StartY[0] }, { e.StartX[1], e.StartY[1] },
+      { e.StopX[1], e.StopY[1] } };
+    const double crosses[] = { e.Cross[0], e.Cross[1], at.LastCross };
+    const Index outers[] = { e.FirstOuter, e.SecondOuter, at.LastOuter };
+    EXPECT_EQ(e.StartX[1], e.StopX[0]);
+    EXPECT_EQ(e.StartY[1], e.StopY[0]);
     for (std::size_t i = 0; i < 3; ++i)
     {
       // Behind edge i, from corner i to the next, lies the triangle with that edge reversed.
-      const Direction& from = at.Corner[i];
-      const Direction& to = at.Corner[(i + 1) % 3];
-      const Point2 begin = this->Made.point(mesh.vertex(HalfEdgeMesh::previous(at.Outer[i])));
-      const Point2 end = this->Made.point(mesh.vertex(HalfEdgeMesh::next(at.Outer[i])));
-      ASSERT_EQ(HalfEdgeMesh::triangleOf(mesh.twin(at.Outer[i])), at.Triangle);
-      ASSERT_EQ(mesh.vertex(HalfEdgeMesh::previous(at.Outer[i])), at.Vertex[i]);
-      EXPECT_EQ(begin.x - p.x, from.X);
-      EXPECT_EQ(begin.y - p.y, from.Y);
-      EXPECT_EQ(end.x - p.x, to.X);
-      EXPECT_EQ(end.y - p.y, to.Y);
-      EXPECT_DOUBLE_EQ(from.X * to.Y - from.Y * to.X, at.Cross[i]);
+      const std::size_t next = (i + 1) % 3;
+      ASSERT_EQ(HalfEdgeMesh::triangleOf(mesh.twin(outers[i])), at.Triangle);
+      ASSERT_EQ(mesh.vertex(HalfEdgeMesh::previous(outers[i])), corners[i]);
+      ASSERT_EQ(mesh.vertex(HalfEdgeMesh::next(outers[i])), corners[next]);
+      EXPECT_EQ(p.x - this->Made.point(corners[i]).x, seen[i].x);
+      EXPECT_EQ(p.y - this->Made.point(corners[i]).y, seen[i].y);
+      EXPECT_DOUBLE_EQ(seen[i].x * seen[next].y - seen[i].y * seen[next].x, crosses[i]);
     }
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+      EXPECT_DOUBLE_EQ(seen[i].x * seen[i].x + seen[i].y * seen[i].y, e.StartLift[i]);
+      EXPECT_DOUBLE_EQ(
+        seen[i + 1].x * seen[i + 1].x + seen[i + 1].y * seen[i + 1].y, e.StopLift[i]);
+    }
+  }
+}
+
+TEST_P(PointLocationTest, TheClosingEdgeIsTheThird)
+{
+  const Point2 p = this->middle(this->Starts[2]);
+  for (const Index start : this->Starts)
+  {
+    const Location at = this->find(start, p);
+    const EdgePair closing = at.Edges.closing(at.LastCross, at.LastOuter);
+    EXPECT_EQ(at.Edges.Stop, closing.Start);
+    EXPECT_EQ(at.Edges.Start, closing.Middle);
+    EXPECT_EQ(at.LastOuter, closing.FirstOuter);
+    EXPECT_EQ(at.Edges.StopX[1], closing.StartX[0]);
+    EXPECT_EQ(at.Edges.StopY[1], closing.StartY[0]);
+    EXPECT_EQ(at.Edges.StopLift[1], closing.StartLift[0]);
+    EXPECT_EQ(at.Edges.StartX[0], closing.StopX[0]);
+    EXPECT_EQ(at.Edges.StartY[0], closing.StopY[0]);
+    EXPECT_EQ(at.Edges.StartLift[0], closing.StopLift[0]);
+    EXPECT_EQ(at.LastCross, closing.Cross[0]);
   }
 }
 
