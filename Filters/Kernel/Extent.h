@@ -35,8 +35,8 @@ inline Extent extentOf(const Point2* points, std::size_t count)
   const auto add = [&](std::size_t lane, Point2 point)
   {
     const Pair p{ point.x, point.y };
-    low[lane] = p < low[lane] ? p : low[lane];
-    high[lane] = p > high[lane] ? p : high[lane];
+    low[lane] = lower(p, low[lane]);
+    high[lane] = higher(p, high[lane]);
     finite[lane] &= magnitude(p) < none;
   };
   std::size_t i = 0;
@@ -53,8 +53,8 @@ inline Extent extentOf(const Point2* points, std::size_t count)
   }
   for (std::size_t lane = 1; lane < lanes; ++lane)
   {
-    low[0] = low[lane] < low[0] ? low[lane] : low[0];
-    high[0] = high[lane] > high[0] ? high[lane] : high[0];
+    low[0] = lower(low[lane], low[0]);
+    high[0] = higher(high[lane], high[0]);
     finite[0] &= finite[lane];
   }
   return { low[0], high[0], bitsOf(finite[0]) == 3 };

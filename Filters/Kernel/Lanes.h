@@ -25,6 +25,26 @@ inline Pair magnitude(Pair a)
   return reinterpret_cast<Pair>(reinterpret_cast<PairMask>(a) & 0x7fffffffffffffffLL);
 }
 
+///@{
+/// a < b ? a : b, and a > b ? a : b: with a NaN among them, b.
+inline Pair lower(Pair a, Pair b)
+{
+#ifdef __SSE2__
+  return _mm_min_pd(a, b);
+#else
+  return a < b ? a : b;
+#endif
+}
+inline Pair higher(Pair a, Pair b)
+{
+#ifdef __SSE2__
+  return _mm_max_pd(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
+///@}
+
 /// Bit 0 for the first lane, bit 1 for the second.
 inline unsigned bitsOf(PairMask mask)
 {

@@ -21,24 +21,12 @@ std::uint32_t cellsAlongASide(PartitionIndex boxes)
 
 } // namespace
 
-PartitionFinder::Cells::Cells(double low, double high, std::uint32_t count)
-{
-  const double scale = count / (high - low);
-  if (std::isfinite(scale))
-  {
-    this->Low = low;
-    this->Scale = scale;
-    this->Last = count - 1;
-  }
-}
-
 PartitionFinder::PartitionFinder(const Tiling& tiling)
   : Boxes(tiling)
-  , Columns(tiling.domain().xmin, tiling.domain().xmax, cellsAlongASide(tiling.size()))
-  , Rows(tiling.domain().ymin, tiling.domain().ymax, cellsAlongASide(tiling.size()))
-  , Starts(std::size_t(this->Columns.Last + 1) * (this->Rows.Last + 1))
+  , Cells(tiling.domain(), cellsAlongASide(tiling.size()))
+  , Starts(this->Cells.size() + 1)
 {
-  this->fill(0, { { 0, 0 }, { this->Columns.Last + 1, this->Rows.Last + 1 } });
+  this->fill(0, { { 0, 0 }, { this->Cells.columns().size(), this->Cells.rows().size() } });
 }
 
 /// All of the block's cells reach the node.
@@ -52,7 +40,8 @@ void PartitionFinder::fill(std::int32_t node, const Block& block)
   Block cells = block; // those of a box, or with points on both sides of the cut
   if (!cut.isBox())
   {
-    const std::uint32_t at = cut.Axis == 0 ? this->Columns(cut.At) : this->Rows(cut.At);
+    const std::uint32_t at =
+      cut.Axis == 0 ? this->Cells.columns()(cut.At) : this->Cells.rows()(cut.At);
     Block below = block;
     Block above = block;
     below.End[cut.Axis] = std::min(block.End[cut.Axis], at);
@@ -64,7 +53,8 @@ void PartitionFinder::fill(std::int32_t node, const Block& block)
   }
   for (std::uint32_t row = cells.Begin[1]; row < cells.End[1]; ++row)
   {
-    std::int32_t* const starts = this->Starts.data() + std::size_t(row) * (this->Columns.Last + 1);
+    std::int32_t* const starts =
+      this->Starts.data() + std::size_t(row) * this->Cells.columns().size();
     std::fill(starts + std::min(cells.Begin[0], cells.End[0]), starts + cells.End[0],
       cut.isBox() ? ~cut.Partition : node);
   }
@@ -74,26 +64,29 @@ void PartitionFinder::locate(
   const Point2* points, std::size_t count, std::uint32_t* partitions) const
 {
   constexpr std::size_t most = 256; // at a time
+  std::array<std::uint32_t, most> cells;
   std::array<std::uint32_t, most> open;
-  const std::size_t width = this->Columns.Last + 1;
   for (std::size_t begin = 0; begin < count; begin += most)
   {
-    const std::size_t end = std::min(count, begin + most);
+    const std::size_t size = std::min(count - begin, most);
+    const Point2* const block = points + begin;
+    std::uint32_t* const found = partitions + begin;
+    this->Cells.find(block, size, cells.data());
     // No branch: what few cells leave open comes later.
     std::size_t openCount = 0;
-    for (std::size_t i = begin; i < end; ++i)
+    for (std::size_t i = 0; i < size; ++i)
     {
-      const std::size_t row = this->Rows(points[i].y);
-      const std::int32_t start = this->Starts[row * width + this->Columns(points[i].x)];
-      partitions[i] = static_cast<std::uint32_t>(~start);
-      open[openCount] = static_cast<std::uint32_t>(i - begin);
+      const std::int32_t start = this->Starts[cells[i]];
+      found[i] = static_cast<std::uint32_t>(~start);
+      open[openCount] = static_cast<std::uint32_t>(i);
       openCount += start >= 0 ? 1 : 0;
     }
     for (std::size_t k = 0; k < openCount; ++k)
     {
-      std::uint32_t& found = partitions[begin + open[k]];
-      found = static_cast<std::uint32_t>(
-        this->Boxes.locate(points[begin + open[k]], static_cast<std::int32_t>(~found)));
+      const std::size_t i = open[k];
+      const std::int32_t start = static_cast<std::int32_t>(~found[i]);
+      found[i] =
+        isFinite(block[i]) ? static_cast<std::uint32_t>(this->Boxes.locate(block[i], start)) : None;
     }
   }
 }
@@ -106,14 +99,14 @@ void PartitionFinder::label(PointsView points, std::size_t begin, std::size_t en
     {
       std::uint32_t* const to = labels + first;
       this->locate(block, count, to);
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        to[i] = isFinite(block[i]) ? to[i] : None;
-        if (to[i] != None)
+      std::for_each(to, to + count,
+        [&counts](std::uint32_t partition)
         {
-          ++counts[to[i]];
-        }
-      }
+          if (partition != None)
+          {
+            ++counts[partition];
+          }
+        });
     });
 }
 

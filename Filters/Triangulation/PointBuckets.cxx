@@ -3,6 +3,7 @@
 
 #include "Kernel/Extent.h"
 #include "Parallel/ParallelFor.h"
+#include "Triangulation/BucketWriter.h"
 #include "Triangulation/PartitionFinder.h"
 #include "Triangulation/PopulatePages.h"
 
@@ -157,6 +158,7 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
   const auto labelPart = [&](std::int64_t part)
   {
     const auto [begin, end] = share(points.size(), int(part), threads);
+    populatePages(labels.data() + begin, (end - begin) * sizeof(std::uint32_t));
     finder.label(points, begin, end, labels.data(), places[std::size_t(part)]);
   };
   parallelFor(threads, threads, labelPart);
@@ -179,28 +181,23 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
   const auto scatterPart = [&](std::int64_t part)
   {
     buckets.populate(int(part), threads);
-    struct Cursor
-    {
-      Point2* Point;
-      Id* PointId;
-    };
-    std::vector<Cursor> cursors;
+    std::vector<typename BucketWriter<Id>::Bucket> toFill;
     for (PartitionIndex p = 0; p < tiling.size(); ++p)
     {
-      const std::size_t place = places[std::size_t(part)][std::size_t(p)];
-      cursors.push_back({ buckets.pointsToFill(p) + place, buckets.idsToFill(p) + place });
+      toFill.push_back({ buckets.pointsToFill(p), buckets.idsToFill(p),
+        places[std::size_t(part)][std::size_t(p)] });
     }
+    BucketWriter<Id> writer(std::move(toFill));
     const auto [begin, end] = share(points.size(), int(part), threads);
     points.forEach(begin, end,
       [&](std::size_t id, Point2 p)
       {
         if (labels[id] != PartitionFinder::None)
         {
-          Cursor& cursor = cursors[labels[id]];
-          *cursor.Point++ = p;
-          *cursor.PointId++ = static_cast<Id>(id);
+          writer.append(labels[id], p, static_cast<Id>(id));
         }
       });
+    writer.finish();
   };
   parallelFor(threads, threads, scatterPart);
   return buckets;

@@ -56,11 +56,8 @@ public:
 
   ///@{
   /// To be filled.
-  Point2* pointsToFill(PartitionIndex p) { return reinterpret_cast<Point2*>(this->triangles(p)); }
-  Id* idsToFill(PartitionIndex p)
-  {
-    return reinterpret_cast<Id*>(this->pointsToFill(p) + this->count(p));
-  }
+  Point2* pointsToFill(PartitionIndex p) { return const_cast<Point2*>(this->held(p)); }
+  Id* idsToFill(PartitionIndex p) { return const_cast<Id*>(this->heldIds(p)); }
   ///@}
 
   /// Has the system provide a part of the memory, all of which will be used.
@@ -72,14 +69,30 @@ public:
 private:
   static_assert(sizeof(Point2) + sizeof(Id) <= 6 * sizeof(Id), "the points fit");
 
+  ///@{
+  /// Points and ids begin at cache lines, for BucketWriter, where there are so many of them that
+  /// what triangles need more than they leaves room for that.
+  std::uintptr_t alignment(PartitionIndex p) const
+  {
+    constexpr std::size_t line = 64;
+    constexpr std::size_t spare = 6 * sizeof(Id) - sizeof(Point2) - sizeof(Id);
+    return this->count(p) * spare >= 2 * line ? line : alignof(Id);
+  }
   const Point2* held(PartitionIndex p) const
   {
-    return reinterpret_cast<const Point2*>(this->Memory.data() + 6 * this->start(p));
+    return alignedUp<Point2>(this->Memory.data() + 6 * this->start(p), this->alignment(p));
   }
   const Id* heldIds(PartitionIndex p) const
   {
-    return reinterpret_cast<const Id*>(this->held(p) + this->count(p));
+    return alignedUp<Id>(this->held(p) + this->count(p), this->alignment(p));
   }
+  template <typename Item>
+  static const Item* alignedUp(const void* memory, std::uintptr_t alignment)
+  {
+    const auto address = reinterpret_cast<std::uintptr_t>(memory);
+    return reinterpret_cast<const Item*>((address + alignment - 1) / alignment * alignment);
+  }
+  ///@}
 
   std::vector<std::size_t> Starts = { 0 };
   const Point2* Elsewhere = nullptr;
