@@ -34,7 +34,14 @@ Master::Master(Schedule schedule, PartitionIndex partitions,
   , Mesh(makeMesh(partitions, withPoints))
   , Waiting(this->Mesh, withPoints)
 {
-  this->Mesh.add(initialMesh, this->Final);
+  this->take(initialMesh);
+}
+
+void Master::take(const SeamTriangles& seams)
+{
+  this->NewlyFinal.clear();
+  this->Mesh.add(seams, this->NewlyFinal);
+  this->Final.add(this->NewlyFinal);
 }
 
 /// The next partition, or -1 if none can be active now. Called with the mutex held.
@@ -93,7 +100,7 @@ void Master::complete(PartitionIndex partition, const SeamTriangles& seams,
   const std::lock_guard<std::mutex> lock(this->Mutex);
   const Stopwatch watch;
   this->Mesh.finish(partition);
-  this->Mesh.add(seams, this->Final);
+  this->take(seams);
   this->Waiting.deactivate(partition);
   this->Duplicates.insert(this->Duplicates.end(), duplicates.begin(), duplicates.end());
   this->WorkerVertices += workerVertices;

@@ -2,6 +2,7 @@
 #ifndef tippMaster_h
 #define tippMaster_h
 
+#include "Triangulation/FinalSeams.h"
 #include "Triangulation/IndependentPartitions.h"
 #include "Triangulation/SeamMesh.h"
 #include "Triangulation/Triangulate.h"
@@ -37,7 +38,7 @@ public:
   std::exception_ptr failure() const { return this->Failure; }
 
   /// What has come together, once all workers are through.
-  std::vector<SeamTriangle> Final;
+  FinalSeams Final;
   std::vector<Duplicate> Duplicates;
   std::vector<TriangulationStatistics::Stage> Stages;
   std::size_t WorkerVertices = 0;
@@ -45,11 +46,13 @@ public:
 
 private:
   PartitionIndex next();
+  void take(const SeamTriangles& seams);
 
   const Schedule Order;
   std::mutex Mutex;
   std::condition_variable Changed;
   SeamMesh Mesh;
+  std::vector<SeamTriangle> NewlyFinal;
   IndependentPartitions Waiting;
   std::vector<PartitionIndex> Stage; ///< independent partitions still to be handed out
   std::size_t Active = 0;

@@ -51,17 +51,15 @@ std::vector<typename TriangleSink<Id>::Corners> TriangleSink<Id>::sortSeams(
 }
 
 template <typename Id>
-Buffer<Id> TriangleSink<Id>::assemble(const std::vector<SeamTriangle>& seams, int threads)
+Buffer<Id> TriangleSink<Id>::assemble(const FinalSeams& seams, int threads)
 {
   std::vector<Seam> taken;
-  taken.reserve(seams.size());
-  for (const SeamTriangle& triangle : seams)
+  taken.reserve(seams.triangles().size());
+  for (const FinalSeams::Triangle& triangle : seams.triangles())
   {
-    const auto lowest = std::min_element(triangle.begin(), triangle.end(),
-      [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; });
-    const Corners ids = { static_cast<Id>(triangle[0].Id), static_cast<Id>(triangle[1].Id),
-      static_cast<Id>(triangle[2].Id) };
-    taken.push_back({ fromLowest(ids), lowest->partition() });
+    const auto& ids = triangle.Ids;
+    taken.push_back({ { static_cast<Id>(ids[0]), static_cast<Id>(ids[1]), static_cast<Id>(ids[2]) },
+      triangle.Partition });
   }
   return this->assemble(taken, threads);
 }

@@ -4,7 +4,6 @@
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/DegenerateInput.h"
-#include "Triangulation/HullRepair.h"
 #include "Triangulation/InitialMesh.h"
 #include "Triangulation/Master.h"
 #include "Triangulation/PartitionSizes.h"
@@ -179,7 +178,7 @@ private:
     {
       return;
     }
-    removeArtificialPoints(master.Final, artificial);
+    master.Final.removeArtificialPoints(artificial);
     this->endPhase("hull");
     this->Result.Duplicates = std::move(master.Duplicates);
     this->finish(sink, master.Final);
@@ -216,7 +215,7 @@ private:
     return !this->Stopped;
   }
 
-  void finish(TriangleSink<Id>& sink, const std::vector<SeamTriangle>& seams)
+  void finish(TriangleSink<Id>& sink, const FinalSeams& seams)
   {
     Buffer<Id> ids = sink.assemble(seams, this->PassThreads);
     preferLowestIds(ids, this->Result.Duplicates, this->PassThreads);

@@ -89,7 +89,7 @@ TYPED_TEST(SinkOf, InteriorTrianglesAndSeamsAreAllThere)
       run.writeInterior(0, std::size_t(first));
       run.writeInterior(2, std::size_t(third));
       run.writeInterior(3, std::size_t(last));
-      run.expectAll(run.Sink.assemble(run.seams(seamCount), 2));
+      run.expectAll(run.Sink.assemble(finalSeams(run.seams(seamCount)), 2));
     }
   }
 }
@@ -99,19 +99,19 @@ TYPED_TEST(SinkOf, ThereIsRoomForTwoTrianglesAPoint)
   this->writeInterior(0, 10);
   this->writeInterior(2, 4);
   this->writeInterior(3, 3);
-  this->expectAll(this->Sink.assemble(this->seams(7), 1));
+  this->expectAll(this->Sink.assemble(finalSeams(this->seams(7)), 1));
 }
 
 TYPED_TEST(SinkOf, NothingIsEmpty)
 {
-  EXPECT_TRUE(this->Sink.assemble(std::vector<SeamTriangle>(), 1).empty());
+  EXPECT_TRUE(this->Sink.assemble(FinalSeams(), 1).empty());
 }
 
 TYPED_TEST(SinkOf, InteriorTrianglesStayWhereTheyAre)
 {
   this->writeInterior(0, 4);
   const std::vector<TypeParam> before(this->Buckets.triangles(0), this->Buckets.triangles(0) + 12);
-  const Buffer<TypeParam> ids = this->Sink.assemble(this->seams(5), 1);
+  const Buffer<TypeParam> ids = this->Sink.assemble(finalSeams(this->seams(5)), 1);
   EXPECT_EQ(before, std::vector<TypeParam>(ids.begin(), ids.begin() + 12));
 }
 
@@ -136,7 +136,7 @@ TYPED_TEST(SinkOf, TheOrderDoesNotDependOnThatOfTheSeams)
       // The same triangle from another corner.
       std::rotate(t.begin(), t.begin() + draw % 3, t.end());
     }
-    const Buffer<TypeParam> ids = run.Sink.assemble(seams, 1 + draw % 3);
+    const Buffer<TypeParam> ids = run.Sink.assemble(finalSeams(seams), 1 + draw % 3);
     const std::vector<TypeParam> now(ids.begin(), ids.end());
     expected = draw == 0 ? now : expected;
     ASSERT_EQ(expected, now);
@@ -147,7 +147,7 @@ TYPED_TEST(SinkOf, SeamsStayCounterClockwise)
 {
   const SeamTriangle t = { SeamVertex{ {}, 9, 0 }, SeamVertex{ {}, 4, 8 },
     SeamVertex{ {}, 7, 12 } };
-  const Buffer<TypeParam> ids = this->Sink.assemble(std::vector<SeamTriangle>{ t }, 1);
+  const Buffer<TypeParam> ids = this->Sink.assemble(finalSeams({ t }), 1);
   EXPECT_EQ((std::vector<TypeParam>{ 4, 7, 9 }), std::vector<TypeParam>(ids.begin(), ids.end()));
 }
 
