@@ -28,6 +28,14 @@ void DelaunayKernel::clear()
   this->Recent = 0;
 }
 
+void DelaunayKernel::reserve(std::size_t points)
+{
+  this->Mesh.reserve(2 * (points + 1));
+  this->Points.reserve(points + 1);
+  this->Places.reserve(points + 1);
+  this->Order.reserve(points);
+}
+
 std::size_t DelaunayKernel::bytes() const
 {
   return this->Mesh.bytes() + this->Order.bytes() + this->Points.capacity() * sizeof(Point2) +

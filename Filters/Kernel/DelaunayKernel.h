@@ -43,6 +43,10 @@ public:
 
   void clear();
 
+  /// Room for so many points in all, so that inserting them moves nothing. Memory that is not used
+  /// is none of the system's.
+  void reserve(std::size_t points);
+
   /// Gives the triangles' memory back. Vertices stay; but only clear() may follow.
   void releaseTriangles() { this->Mesh.release(); }
 

@@ -23,6 +23,13 @@ public:
   /// Valid until the next call.
   void compute(const Point2* points, std::size_t count);
 
+  /// Room for so many points.
+  void reserve(std::size_t points)
+  {
+    this->Entries.reserve(points);
+    this->Scratch.reserve(points);
+  }
+
   std::size_t size() const { return this->Entries.size(); }
 
   /// The index of the point to insert k-th.

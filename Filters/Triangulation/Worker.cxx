@@ -28,6 +28,26 @@ Worker<Id>::Worker(const Tiling& tiling, PointBuckets<Id>& buckets, std::int64_t
   , FirstId(firstId)
   , Kernel(*this->Pooled)
 {
+  this->reserve();
+}
+
+/// For the largest partition and what comes to it: fresh memory, which takes the system time, is
+/// asked for once.
+template <typename Id>
+void Worker<Id>::reserve()
+{
+  std::size_t largest = 0;
+  for (PartitionIndex bucket = 0; bucket < this->Buckets.partitions(); ++bucket)
+  {
+    largest = std::max(largest, this->Buckets.count(bucket));
+  }
+  constexpr std::size_t few = 1024;
+  const std::size_t vertices = largest + largest / 8 + few;
+  this->Kernel.reserve(vertices);
+  this->Ids.reserve(largest);
+  this->VertexIds.reserve(vertices + 1);
+  this->SeamPlaces.reserve(vertices + 1);
+  this->IsSeam.reserve(2 * vertices);
 }
 
 template <typename Id>

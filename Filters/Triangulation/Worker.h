@@ -46,6 +46,7 @@ public:
   std::size_t vertexCount() const { return this->VertexCount; }
 
 private:
+  void reserve();
   void collectVertices(const SeamVertex* vertices, std::size_t count);
   void separateOwnVertices(PartitionIndex partition);
   void triangulateCollected(PartitionIndex partition);

@@ -288,4 +288,16 @@ TEST(KernelBatches, DuplicatesAreFoundWhereDifferencesOverflow)
   EXPECT_EQ(6, kernel.mesh().end() / 8);
 }
 
+TEST(KernelBatches, ReservedRoomIsEnoughForAllBatches)
+{
+  DelaunayKernel kernel;
+  kernel.reserve(1000);
+  const std::size_t bytes = kernel.bytes();
+  insert(kernel, onCircle(600, 1));
+  const HalfEdgeMesh::Index* const slots = kernel.mesh().slots();
+  insert(kernel, moved(onCircle(400, 1), 0.5, 0));
+  EXPECT_EQ(slots, kernel.mesh().slots());
+  EXPECT_EQ(bytes, kernel.bytes());
+}
+
 } // namespace
