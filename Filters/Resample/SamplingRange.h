@@ -4,7 +4,9 @@
 
 #include "Resample/Lattice.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 class vtkDataObject;
@@ -14,6 +16,15 @@ namespace tipp
 {
 
 class Postbox;
+
+/// A class's triple as values.
+template <std::size_t N, typename T>
+std::array<T, N> toArray(const T (&values)[N])
+{
+  std::array<T, N> result;
+  std::copy(values, values + N, result.begin());
+  return result;
+}
 
 /// Puts numbers where `dimensions` is 0: as many samples as put them as far apart as along the
 /// first axis that has a number, but one along z for surfaces. Throws std::runtime_error if all are

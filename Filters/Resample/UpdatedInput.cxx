@@ -11,9 +11,10 @@
 namespace tipp
 {
 
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
 vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInformation* outInfo)
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
   int port = 0;
   vtkAlgorithm* const source = filter->GetInputAlgorithm(0, 0, port);
   vtkNew<vtkInformationVector> requests;
@@ -26,6 +27,18 @@ vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInform
     request->CopyEntry(outInfo, Pipeline::UPDATE_TIME_STEP());
   }
   return source->Update(port, requests) ? source->GetOutputDataObject(port) : nullptr;
+}
+
+void askForPiece(vtkInformation* inInfo, int piece, int pieces)
+{
+  inInfo->Remove(Pipeline::UPDATE_EXTENT());
+  if (inInfo->Has(Pipeline::WHOLE_EXTENT())) // a structured grid
+  {
+    inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
+  }
+  inInfo->Set(Pipeline::UPDATE_PIECE_NUMBER(), piece);
+  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), pieces);
+  inInfo->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
 }
 
 } // namespace tipp

@@ -13,6 +13,9 @@ namespace tipp
 /// time that `outInfo` asks for, if any. Null if the input fails.
 vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInformation* outInfo);
 
+/// Asks a filter's input for a piece.
+void askForPiece(vtkInformation* inInfo, int piece, int pieces);
+
 } // namespace tipp
 
 #endif

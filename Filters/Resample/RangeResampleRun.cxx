@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Resample/RangeResampleRun.h"
+
+#include "Messages/Postbox.h"
+#include "Parallel/ParallelFor.h"
+#include "Parallel/Stopwatch.h"
+#include "Resample/ExchangeSamples.h"
+#include "Resample/ImageOutput.h"
+#include "Resample/SamplingRange.h"
+#include "Resample/UpdatedInput.h"
+
+#include "vtkAlgorithmOutput.h"
+#include "vtkDataArraySelection.h"
+#include "vtkExecutive.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkPointSet.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <stdexcept>
+#include <string>
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+namespace
+{
+
+/// What to do where memory is short is another thing here than for a triangulation.
+template <typename Work>
+void withMemoryAdvice(const Work& work)
+{
+  try
+  {
+    work();
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw std::runtime_error(
+      "there is not enough memory for the samples: use a smaller range or fewer samples.");
+  }
+}
+
+/// The meshes of the input; none if it has no data yet.
+std::vector<vtkPointSet*> meshesIn(vtkInformationVector* input)
+{
+  vtkDataObject* const data = vtkDataObject::GetData(input);
+  return data ? tipp::meshesOf(data) : std::vector<vtkPointSet*>();
+}
+
+} // namespace
+
+tipp::SamplingSettings vtkRangeResampleFilter::Run::settings(bool merging) const
+{
+  vtkRangeResampleFilter* const filter = this->Filter;
+  tipp::SamplingSettings settings;
+  settings.Selected = [filter](bool ofCells, const std::string& name)
+  {
+    vtkDataArraySelection* const selection =
+      ofCells ? filter->CellDataArraySelection : filter->PointDataArraySelection;
+    return selection->ArrayIsEnabled(name.c_str()) != 0;
+  };
+  settings.NullValue = filter->NullValue;
+  if (filter->UseNoDataValue)
+  {
+    settings.NoData = filter->NoDataValue;
+  }
+  settings.Device.Kind = filter->Device == DEVICE_OPENMP ? tipp::Device::OpenMP
+    : filter->Device == DEVICE_OPENCL                    ? tipp::Device::OpenCL
+                                                         : tipp::Device::Auto;
+  settings.Device.Index = filter->DeviceIndex;
+  settings.Device.Name = filter->DeviceName ? filter->DeviceName : "";
+  settings.Threads = tipp::threadCount(filter->NumberOfThreads);
+  settings.Merging = merging;
+  return settings;
+}
+
+void vtkRangeResampleFilter::Run::start(vtkInformationVector* input, vtkInformation* outInfo)
+{
+  this->Ranks.together(
+    [&]
+    {
+      if (this->Filter->UseInputBounds && this->Filter->NumberOfInputPieces > 1)
+      {
+        throw std::runtime_error("with NumberOfInputPieces above 1 the bounds of the input are not "
+                                 "known in time: turn UseInputBounds off, set SamplingBounds.");
+      }
+      withMemoryAdvice([&] { this->makeImage(meshesIn(input), outInfo); });
+    });
+}
+
+void vtkRangeResampleFilter::Run::makeImage(
+  const std::vector<vtkPointSet*>& meshes, vtkInformation* outInfo)
+{
+  vtkRangeResampleFilter* const filter = this->Filter;
+  const std::array<double, 6> bounds = filter->UseInputBounds
+    ? tipp::boundsOf(meshes, this->Ranks)
+    : tipp::toArray(filter->SamplingBounds);
+  this->Wanted = tipp::rangeLattice(
+    bounds, filter->Dimensions(bounds, meshes, this->Ranks), tipp::toArray(filter->Delta));
+  const std::array<int, 6> whole = this->Wanted.Extent;
+  const std::vector<int> axes = tipp::surfaceAxes({ whole[1] + 1, whole[3] + 1, whole[5] + 1 });
+  if (filter->GatherOnRoot && this->severalRanks())
+  {
+    if (this->Ranks.rank() != 0)
+    {
+      this->Wanted.Extent = { 0, -1, 0, -1, 0, -1 };
+    }
+  }
+  else if (outInfo->Has(Pipeline::UPDATE_EXTENT()))
+  {
+    outInfo->Get(Pipeline::UPDATE_EXTENT(), this->Wanted.Extent.data());
+  }
+  tipp::Lattice local = this->Wanted;
+  if (this->severalRanks())
+  {
+    local.Extent = whole;
+    local = filter->NumberOfInputPieces == 1 ? tipp::cropped(local, meshes, axes) : local;
+  }
+  const bool merging = this->severalRanks() || filter->NumberOfInputPieces > 1 || meshes.size() > 1;
+  tipp::SamplingSettings settings = this->settings(merging);
+  settings.Axes = axes;
+  tipp::refuseTooLarge(local, this->Wanted, this->severalRanks(), meshes, settings);
+  this->Image = std::make_unique<tipp::SampledImage>(local, settings);
+}
+
+void vtkRangeResampleFilter::Run::addPieces(vtkInformationVector* input)
+{
+  const int count = this->Filter->NumberOfInputPieces;
+  vtkAlgorithmOutput* const source = this->Filter->GetInputConnection(0, 0);
+  for (; this->Piece < count; ++this->Piece)
+  {
+    bool read = true;
+    if (this->Piece > 0)
+    {
+      tipp::askForPiece(input->GetInformationObject(0), this->Ranks.rank() * count + this->Piece,
+        this->Ranks.size() * count);
+      read = source->GetProducer()->GetExecutive()->Update(source->GetIndex()) != 0;
+    }
+    if (!this->Problem && !this->Stopped)
+    {
+      try
+      {
+        if (!read)
+        {
+          throw std::runtime_error(
+            "the input has not made its piece " + std::to_string(this->Piece) + ".");
+        }
+        withMemoryAdvice([&] { this->add(meshesIn(input)); });
+      }
+      catch (const std::exception&)
+      {
+        this->Problem = std::current_exception();
+      }
+    }
+    // Sources may need all ranks to ask.
+    if ((this->Problem || this->Stopped) && !this->severalRanks())
+    {
+      return;
+    }
+  }
+}
+
+void vtkRangeResampleFilter::Run::add(const std::vector<vtkPointSet*>& meshes)
+{
+  for (std::size_t i = 0; i < meshes.size() && !this->Stopped; ++i)
+  {
+    const auto report = [&](double done)
+    {
+      const double ofPiece = (double(i) + done) / double(meshes.size());
+      return this->Progress((this->Piece + ofPiece) / this->Filter->NumberOfInputPieces);
+    };
+    this->Stopped = !this->Image->add(meshes[i], report);
+  }
+}
+
+void vtkRangeResampleFilter::Run::finish(vtkImageData* output)
+{
+  this->Ranks.together(
+    [&]
+    {
+      if (this->Problem)
+      {
+        std::rethrow_exception(this->Problem);
+      }
+      if (this->Stopped)
+      {
+        throw tipp::RankFailure(this->Ranks.rank(), true, "The run was stopped.");
+      }
+      withMemoryAdvice([&] { this->makeOutput(output); });
+    });
+}
+
+void vtkRangeResampleFilter::Run::makeOutput(vtkImageData* output)
+{
+  this->Image->finish();
+  tipp::SampledImage* image = this->Image.get();
+  std::unique_ptr<tipp::SampledImage> together;
+  tipp::Stopwatch watch;
+  tipp::SamplingReport report;
+  report.Statistics = this->Image->statistics();
+  if (this->severalRanks())
+  {
+    together = std::make_unique<tipp::SampledImage>(this->Wanted, this->settings(true));
+    tipp::exchangeSamples(*image, *together, this->Ranks);
+    this->warn(*together);
+    image = together.get();
+  }
+  report.ExchangeSeconds = watch.restart();
+  this->warn(*this->Image);
+  report.Threads = this->settings(true).Threads;
+  report.Hits = tipp::fillImage(*image, report.Threads, output);
+  report.Samples = image->samples();
+  report.OutputSeconds = watch.restart();
+  tipp::fillTable(report, this->Filter->Statistics);
+  this->warnOfMissing(*image, this->Filter->PointDataArraySelection, false);
+  this->warnOfMissing(*image, this->Filter->CellDataArraySelection, true);
+}
+
+void vtkRangeResampleFilter::Run::warn(const tipp::SampledImage& image) const
+{
+  for (const std::string& warning : image.warnings())
+  {
+    vtkWarningWithObjectMacro(this->Filter, << warning);
+  }
+}
+
+void vtkRangeResampleFilter::Run::warnOfMissing(
+  tipp::SampledImage& image, vtkDataArraySelection* selection, bool ofCells)
+{
+  for (int i = 0; i < selection->GetNumberOfArrays(); ++i)
+  {
+    const char* const name = selection->GetArrayName(i);
+    const tipp::SampledImage::Array* array = image.findArray(name);
+    if (selection->GetArraySetting(i) && (!array || array->OfCells != ofCells) &&
+      this->Image->statistics().Cells > 0)
+    {
+      vtkWarningWithObjectMacro(this->Filter,
+        "There is no " << (ofCells ? "cell" : "point") << " array '" << name
+                       << "' in the input, so it is not sampled.");
+    }
+  }
+}
