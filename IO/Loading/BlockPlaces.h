@@ -30,10 +30,12 @@ public:
   void setRoom(std::int64_t tuples) { this->Room = tuples; }
   void forget();
 
-  /// Of a tuple whose block is held.
-  std::uint64_t placeOf(std::uint64_t id) const
+  /// Gives the places of tuples whose blocks are held. A copy of what that takes, which writing
+  /// places cannot change.
+  auto finder() const
   {
-    return this->Places[id >> this->Shift] + (id & this->mask());
+    return [places = this->Places.data(), shift = this->Shift, mask = this->mask()](
+             std::uint64_t id) { return places[id >> shift] + (id & mask); };
   }
 
   /// Those of the active blocks, from that of tuple `low` on, that are not held.

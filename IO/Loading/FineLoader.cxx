@@ -202,8 +202,8 @@ private:
     }
     this->hold(runs);
     gatherAll(chunk.Count, this->Files, this->Buffers, out, this->Threads,
-      [&held = this->Held, ids = chunk.Ids](std::size_t i)
-      { return held.placeOf(std::uint64_t(ids[i])); });
+      [placeOf = this->Held.finder(), ids = chunk.Ids](std::size_t i)
+      { return placeOf(std::uint64_t(ids[i])); });
   }
 
   /// Tuples of blocks that stay for the next chunks: neighbouring ones share many.

@@ -37,7 +37,7 @@ TEST(BlockPlaces, FindTuplesOfHeldBlocks)
   BlockPlaces places = someHeld();
   EXPECT_EQ(Places({ 0, 7, 5 }), found(places, { 8, 15, 13 }));
   EXPECT_TRUE(places.found().empty());
-  EXPECT_EQ(5, places.placeOf(13));
+  EXPECT_EQ(5U, places.finder()(13));
 }
 
 TEST(BlockPlaces, GiveOtherBlocksPlacesBehindThoseHeld)

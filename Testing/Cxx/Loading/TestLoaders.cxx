@@ -134,6 +134,54 @@ std::vector<Case> cases()
   return all;
 }
 
+/// Tuples of one array, each its own id, in a file that can be cut off.
+class OwnIds
+{
+public:
+  explicit OwnIds(std::int64_t count)
+    : Content(std::size_t(8 * count), '!')
+    , Count(count)
+  {
+    for (std::int64_t id = 0; id < count; ++id)
+    {
+      std::memcpy(&this->Content[std::size_t(8 * id)], &id, 8);
+    }
+    this->Path = this->Folder.file("ids", this->Content);
+  }
+
+  std::unique_ptr<tipp::VertexLoader> fineLoader(std::int64_t m) const
+  {
+    LoaderOptions options;
+    options.Kind = Loader::Fine;
+    options.M = m;
+    return makeVertexLoader({ { "ids", this->Path, 0, Scalar::Int64, 1, this->Count } }, options);
+  }
+
+  static Ids loaded(tipp::VertexLoader& loader, const Ids& ids)
+  {
+    Ids got(ids.size());
+    void* const out[] = { got.data() };
+    loader.load(ids.data(), ids.size(), out);
+    return got;
+  }
+
+  void cut(std::int64_t count) const { std::filesystem::resize_file(this->Path, 8 * count); }
+  void restore() const { std::ofstream(this->Path, std::ios::binary) << this->Content; }
+
+private:
+  tipp::test::TemporaryFolder Folder;
+  std::string Content;
+  std::string Path;
+  std::int64_t Count;
+};
+
+Ids from(std::int64_t first, std::size_t count)
+{
+  Ids ids(count);
+  std::iota(ids.begin(), ids.end(), first);
+  return ids;
+}
+
 } // namespace
 
 TEST_P(Loaders, GiveEveryTupleForAnyChunk)
@@ -325,54 +373,6 @@ TEST(FineLoader, KeepsFewFarIdsForTheNextChunks)
   EXPECT_EQ(4990, xyz[0]);
   EXPECT_EQ(1300, xyz[3]);
   EXPECT_EQ(10, xyz[6]);
-}
-
-/// Tuples of one array, each its own id, in a file that can be cut off.
-class OwnIds
-{
-public:
-  explicit OwnIds(std::int64_t count)
-    : Content(std::size_t(8 * count), '!')
-    , Count(count)
-  {
-    for (std::int64_t id = 0; id < count; ++id)
-    {
-      std::memcpy(&this->Content[std::size_t(8 * id)], &id, 8);
-    }
-    this->Path = this->Folder.file("ids", this->Content);
-  }
-
-  std::unique_ptr<tipp::VertexLoader> fineLoader(std::int64_t m) const
-  {
-    LoaderOptions options;
-    options.Kind = Loader::Fine;
-    options.M = m;
-    return makeVertexLoader({ { "ids", this->Path, 0, Scalar::Int64, 1, this->Count } }, options);
-  }
-
-  static Ids loaded(tipp::VertexLoader& loader, const Ids& ids)
-  {
-    Ids got(ids.size());
-    void* const out[] = { got.data() };
-    loader.load(ids.data(), ids.size(), out);
-    return got;
-  }
-
-  void cut(std::int64_t count) const { std::filesystem::resize_file(this->Path, 8 * count); }
-  void restore() const { std::ofstream(this->Path, std::ios::binary) << this->Content; }
-
-private:
-  tipp::test::TemporaryFolder Folder;
-  std::string Content;
-  std::string Path;
-  std::int64_t Count;
-};
-
-Ids from(std::int64_t first, std::size_t count)
-{
-  Ids ids(count);
-  std::iota(ids.begin(), ids.end(), first);
-  return ids;
 }
 
 TEST(FineLoader, IsRightAgainAfterAReadThatFailed)
