@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include <omp.h>
+
 namespace tipp
 {
 namespace
@@ -166,6 +168,22 @@ void ComputeDevice::countTransfer(const cl::Event& event) const
 {
   this->TransferNanoseconds += event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
     event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+}
+
+void ComputeDevice::enqueue(const cl::Kernel& kernel, std::size_t items) const
+{
+  if (this->Description.Type == DeviceType::Cpu)
+  {
+    // Between loops OpenMP's threads spin for some milliseconds, on processors that the device
+    // needs.
+    omp_pause_resource_all(omp_pause_soft);
+  }
+  // Counts are rounded up to whole groups: some drivers choose groups of one for a prime number.
+  constexpr std::size_t usual = 64;
+  const auto own = kernel.getWorkGroupInfo<CL_KERNEL_COMPILE_WORK_GROUP_SIZE>(this->Device);
+  const std::size_t group = own[0] == 0 ? usual : own[0];
+  const std::size_t rounded = (items + group - 1) / group * group;
+  this->Queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(rounded), cl::NDRange(group));
 }
 
 AcceleratorError ComputeDevice::failure(const cl::Error& error) const

@@ -65,9 +65,7 @@ public:
       {
         cl_uint index = 0;
         (kernel.setArg(index++, arguments), ...);
-        const std::size_t rounded = (items + GroupSize - 1) / GroupSize * GroupSize;
-        this->queue().enqueueNDRangeKernel(
-          kernel, cl::NullRange, cl::NDRange(rounded), cl::NDRange(GroupSize));
+        this->enqueue(kernel, items);
       });
   }
 
@@ -103,9 +101,7 @@ public:
   }
 
 private:
-  /// Counts are rounded up to whole groups: some drivers choose groups of one for a prime number.
-  static constexpr std::size_t GroupSize = 64;
-
+  void enqueue(const cl::Kernel& kernel, std::size_t items) const;
   AcceleratorError failure(const cl::Error& error) const;
   cl::Program build(const KernelSource& source, const std::string& options) const;
   void countTransfer(const cl::Event& event) const;

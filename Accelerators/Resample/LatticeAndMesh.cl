@@ -42,6 +42,50 @@ long4 certain(double4 place, double4 error)
   return fabs(place - convert_double4(convert_int4(place)) - 0.5) < 0.5 - error;
 }
 
+// Four axes side by side.
+typedef struct
+{
+  double4 origin;
+  double4 inverse;
+  double4 first;
+  double4 delta;
+  double4 last; // the last sample's number
+} Axes;
+
+INLINE Axes axesOf(Axis a, Axis b, Axis c, Axis d)
+{
+  Axes axes;
+  axes.origin = (double4)(a.s0, b.s0, c.s0, d.s0);
+  axes.inverse = (double4)(a.s1, b.s1, c.s1, d.s1);
+  axes.first = (double4)(a.s2, b.s2, c.s2, d.s2);
+  axes.delta = (double4)(a.s6, b.s6, c.s6, d.s6);
+  axes.last = (double4)(a.s7, b.s7, c.s7, d.s7) - 1;
+  return axes;
+}
+
+// The samples nearest to v. Where errors are less than half a step, all others' sides of v are known.
+INLINE int4 nearestTo(const Axes* axes, double4 v)
+{
+  const double4 place = (v - axes->origin) * axes->inverse + (0.5 - axes->first);
+  return convert_int4(CLAMPED(place, (double4)(0), axes->last));
+}
+// As coordinateOf().
+INLINE double4 samplesAt(const Axes* axes, int4 i)
+{
+  return axes->origin + (convert_double4(i) + axes->first) * axes->delta;
+}
+// How many samples lie before v, and how many do not lie beyond. A comparison is -1 where it holds.
+INLINE int4 countBefore(const Axes* axes, double4 v)
+{
+  const int4 nearest = nearestTo(axes, v);
+  return nearest - convert_int4(samplesAt(axes, nearest) < v);
+}
+INLINE int4 countUpTo(const Axes* axes, double4 v)
+{
+  const int4 nearest = nearestTo(axes, v);
+  return nearest - convert_int4(samplesAt(axes, nearest) <= v);
+}
+
 // CORNERS is 3 or 4, FLOAT_POINTS and WIDE_IDS are 0 or 1: the mesh's types, told to the compiler.
 #if FLOAT_POINTS
 typedef float Real;
@@ -81,6 +125,7 @@ void loadIds(const Mesh* mesh, long cell, int* ids)
 }
 void loadPoints(const Mesh* mesh, const int* ids, double3* points)
 {
+#pragma unroll
   for (int corner = 0; corner < CORNERS; ++corner)
   {
     points[corner] = pointOf(mesh, ids[corner]);

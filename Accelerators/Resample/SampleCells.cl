@@ -57,14 +57,16 @@ double largest(double a, double b, double c)
   return fmax(fmax(fabs(a), fabs(b)), fabs(c));
 }
 
-// A cell, which corners it has, and what the arrays say there.
+// A cell and which corners it has.
 typedef struct
 {
   int number; // among the item's
   int ids[CORNERS];
   double3 points[CORNERS];
-  double values[CHANNELS][CORNERS];
 } Corners;
+
+// What the arrays say at a cell's corners.
+typedef double Values[CHANNELS][CORNERS];
 
 // The corners' numbers in the lexicographic order of their points, and how the weights of all but the
 // first rise: see GroupLanes.h. DOUBT for a thin cell.
@@ -117,7 +119,7 @@ double valueAt(const Array* array, int id, int component)
                         : ((global const double*)array->values)[at];
 }
 
-INLINE void loadValues(Corners* corners, const Array* arrays, int count)
+INLINE void loadValues(double (*values)[CORNERS], const int* ids, const Array* arrays, int count)
 {
   int channel = 0;
   for (int i = 0; i < count; ++i)
@@ -126,33 +128,34 @@ INLINE void loadValues(Corners* corners, const Array* arrays, int count)
     {
       for (int corner = 0; corner < CORNERS; ++corner)
       {
-        corners->values[channel][corner] = valueAt(&arrays[i], corners->ids[corner], component);
+        values[channel][corner] = valueAt(&arrays[i], ids[corner], component);
       }
     }
   }
 }
 
-INLINE int setGradients(Gradients* gradients, const Corners* corners, const Array* arrays, int count)
+INLINE int setGradients(Gradients* gradients, const double3* points, double (*values)[CORNERS],
+  const Array* arrays, int count)
 {
   int order[4];
   double3 normals[3];
-  int state = setNormals(corners->points, order, &gradients->origin, normals);
+  int state = setNormals(points, order, &gradients->origin, normals);
   gradients->count = 0;
   for (int i = 0; i < count; ++i)
   {
     for (int component = 0; component < arrays[i].components; ++component)
     {
-      const double* values = corners->values[gradients->count];
+      const double* at = values[gradients->count];
       Channel* channel = &gradients->channels[gradients->count++];
       channel->samples = arrays[i].samples;
       channel->isFloat = arrays[i].isFloat;
       channel->components = arrays[i].components;
       channel->component = component;
-      channel->first = values[order[0]];
-      channel->rise = normals[0] * (values[order[1]] - channel->first);
+      channel->first = at[order[0]];
+      channel->rise = normals[0] * (at[order[1]] - channel->first);
       for (int corner = 2; corner < CORNERS; ++corner)
       {
-        channel->rise += normals[corner - 1] * (values[order[corner]] - channel->first);
+        channel->rise += normals[corner - 1] * (at[order[corner]] - channel->first);
       }
       // Not for infinite ones and NaN, which the samples need not be.
       const double3 check = channel->rise - channel->rise;
@@ -291,6 +294,10 @@ typedef struct
 
 // Each item does SHARE cells in a row. Cells with more than `most` samples in their boxes and cells in
 // doubt go to the lists; `lengths` has the lists' lengths. A cell of a list counts nothing.
+#if SHARE > 1
+// PoCL has memory for the arrays of all items of a group: those of many would not stay in the cache.
+__attribute__((reqd_work_group_size(1, 1, 1)))
+#endif
 kernel void sampleCells(global const Real* points, global const Id* ids, int u, int v, Axis x, Axis y,
   Axis z, long cells, long most, global const uchar* hidden, int hasHidden, global const uchar* sides,
   int hasSides, global uchar* valid, global uint* counts, global int* large, global int* doubtful,
@@ -361,9 +368,10 @@ kernel void sampleCells(global const Real* points, global const Id* ids, int u, 
     open[openCount] = k;
     openCount += (of->state == ROWS) & isOpen(&of->spans, rows);
   }
+  Values values[SHARE];
   for (int k = 0; k < openCount; ++k)
   {
-    loadValues(live[open[k]].corners, arrays, arrayCount);
+    loadValues(values[k], live[open[k]].corners->ids, arrays, arrayCount);
   }
   uint sum = 0;
   for (int k = 0; k < openCount; ++k)
@@ -371,7 +379,7 @@ kernel void sampleCells(global const Real* points, global const Id* ids, int u, 
     Live* of = &live[open[k]];
     Gradients gradients;
     int total = 0;
-    int state = setGradients(&gradients, of->corners, arrays, arrayCount);
+    int state = setGradients(&gradients, of->corners->points, values[k], arrays, arrayCount);
     if (state == ROWS)
     {
       state = fillCell(
@@ -401,7 +409,8 @@ kernel void sampleLarge(global const Real* points, global const Id* ids, int u, 
   Corners corners;
   loadIds(&mesh, number, corners.ids);
   loadPoints(&mesh, corners.ids, corners.points);
-  loadValues(&corners, arrays, arrayCount);
+  Values values;
+  loadValues(values, corners.ids, arrays, arrayCount);
   Cell cell;
   setBox(&cell, corners.points, x, y, z);
   setRows(&cell, corners.points, x, y, z);
@@ -411,7 +420,7 @@ kernel void sampleLarge(global const Real* points, global const Id* ids, int u, 
   int state = cellSpans(&cell, item, item + 1, x, y, &spans);
   if (state == ROWS && isOpen(&spans, 1))
   {
-    state = setGradients(&gradients, &corners, arrays, arrayCount);
+    state = setGradients(&gradients, corners.points, values, arrays, arrayCount);
     total = state == ROWS ? fillRows(&gradients, &spans, 1, x, y, z, valid) : 0;
   }
   counts[item] = state == DOUBT ? -1 : total;

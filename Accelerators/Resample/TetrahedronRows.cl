@@ -92,19 +92,12 @@ INLINE int setBox(Cell* t, const double3* p, Axis x, Axis y, Axis z)
   const double3 high = MOST(mostOfTwo, mostOfOthers);
   t->size = high - low;
   t->error = MOST(-low, high) * (double3)(x.s4, y.s4, z.s4) + (double3)(x.s5, y.s5, z.s5);
-  const double4 error = (double4)(t->error, 0);
-  const double4 origin = (double4)(x.s0, y.s0, z.s0, 0);
-  const double4 inverse = (double4)(x.s1, y.s1, z.s1, 1);
-  const double4 shift = (double4)(1 - x.s2, 1 - y.s2, 1 - z.s2, 0.5);
-  const double4 limit = (double4)(x.s3, y.s3, z.s3, 1.5);
-  const double4 first = ((double4)(low, 0) - origin) * inverse + shift;
-  const double4 last = ((double4)(high, 1) - origin) * inverse + shift;
-  const double4 begin = CLAMPED(first, (double4)(0.5), limit);
-  const double4 end = CLAMPED(last, (double4)(0.5), limit);
-  t->box.begin = convert_int4(begin);
-  t->box.end = convert_int4(end);
+  const Axis single = (Axis)(0, 1, 0, 0, 0, 0, 1, 1);
+  const Axes axes = axesOf(x, y, z, single);
+  t->box.begin = countBefore(&axes, (double4)(low, 0));
+  t->box.end = countUpTo(&axes, (double4)(high, 0));
   t->isSample = -allOf(t->box.end - t->box.begin == 1);
-  const int4 sure = convert_int4(certain(begin, error) & certain(end, error));
+  const int4 sure = convert_int4((double4)(t->error, 0) < 0.5);
   return stateOf(anyOf(sure & (t->box.begin >= t->box.end)), allOf(sure));
 }
 

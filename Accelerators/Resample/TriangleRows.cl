@@ -45,17 +45,14 @@ INLINE int setBox(Cell* t, const double3* p, Axis x, Axis y, Axis z)
   const double2 high = MOST(most, p[2].xy);
   const double2 error = MOST(-low, high) * (double2)(x.s4, y.s4) + (double2)(x.s5, y.s5);
   const double4 ends = (double4)(low, high);
-  const double4 place = (ends - (double4)(x.s0, y.s0, x.s0, y.s0)) * (double4)(x.s1, y.s1, x.s1, y.s1) +
-    (1 - (double4)(x.s2, y.s2, x.s2, y.s2));
-  const double4 clamped = CLAMPED(place, (double4)(0.5), (double4)(x.s3, y.s3, x.s3, y.s3));
-  const int4 whole = convert_int4(clamped);
-  const int4 sure = convert_int4(certain(clamped, (double4)(error, error)));
+  const Axes axes = axesOf(x, y, x, y);
+  const int2 begin = countBefore(&axes, ends).lo;
+  const int2 end = countUpTo(&axes, ends).hi;
+  const int2 sure = convert_int2(error < 0.5);
   t->error = error.x;
-  t->box.begin = (int4)(whole.lo, 0, 0);
-  t->box.end = (int4)(whole.hi, 1, 1);
-  const int2 both = sure.lo & sure.hi;
-  return stateOf(
-    anyOf((int4)(both & (whole.lo >= whole.hi), 0, 0)), allOf((int4)(both, -1, -1)));
+  t->box.begin = (int4)(begin, 0, 0);
+  t->box.end = (int4)(end, 1, 1);
+  return stateOf(anyOf((int4)(sure & (begin >= end), 0, 0)), allOf((int4)(sure, -1, -1)));
 }
 
 INLINE int setRows(Cell* t, const double3* p, Axis x, Axis y, Axis z)

@@ -6,6 +6,8 @@
 // Where all vertices fit into M, all that is read stays from when as much has been read as there
 // is.
 #include "Loading/ActiveSegments.h"
+#include "Loading/BlockPlaces.h"
+#include "Loading/CopyTuples.h"
 #include "Loading/GatherAll.h"
 #include "Loading/GroupedMoves.h"
 #include "Loading/Loaders.h"
@@ -37,15 +39,17 @@ public:
     , M(std::min<std::int64_t>(m, std::numeric_limits<std::uint32_t>::max()))
     , Threads(threads)
     , Gap(gapBytes / std::int64_t(std::max<std::size_t>(this->Files.recordBytes(), 1)))
+    , Shift(shiftFor(this->M))
+    , Held(this->Shift, this->Files.tuples())
   {
-    while (this->Shift < mostShift && (std::int64_t(2) << this->Shift) <= this->M)
-    {
-      ++this->Shift;
-    }
   }
 
   void load(const std::int64_t* ids, std::size_t count, void* const* out) override
   {
+    if (this->loadFromHeld(ids, count, out))
+    {
+      return;
+    }
     const IdRange range = this->Files.range(ids, count, this->Threads);
     if (count == 0)
     {
@@ -87,6 +91,68 @@ private:
     std::vector<char> Active; ///< of each block: has ids
   };
 
+  static int shiftFor(std::int64_t m)
+  {
+    int shift = 0;
+    while (shift < mostShift && (std::int64_t(2) << shift) <= m)
+    {
+      ++shift;
+    }
+    return shift;
+  }
+
+  /// The usual chunk of neighbours, whose blocks are held but for a few: its ids are looked at
+  /// once. False, and nothing done, if it is another one.
+  bool loadFromHeld(const std::int64_t* ids, std::size_t count, void* const* out)
+  {
+    constexpr std::size_t few = 1 << 16; // more are for several threads
+    if (count > few || this->Held.isEmpty())
+    {
+      return false;
+    }
+    this->Sources.reserve(count);
+    if (!this->Held.find(ids, count, this->Sources.data()))
+    {
+      return false;
+    }
+    this->Counts.UsefulBytes += std::int64_t(count * this->Files.recordBytes());
+    this->readFound();
+    for (std::size_t a = 0; a < this->Files.count(); ++a)
+    {
+      gatherTuples(this->Buffers.data(a), this->Sources.data(), static_cast<char*>(out[a]), count,
+        this->Files.tupleBytes(a));
+    }
+    return true;
+  }
+
+  void readFound()
+  {
+    const std::vector<Run> runs = this->Held.found();
+    try
+    {
+      std::int64_t to = this->Held.used();
+      for (const Run& run : runs)
+      {
+        this->read(run, to);
+        to += this->wholeBlocks(run.Size);
+      }
+    }
+    catch (...)
+    {
+      this->Held.loseFound();
+      throw;
+    }
+    this->Held.keepFound();
+    this->Spent += this->bytesOf(tuplesOf(runs));
+    ++this->Counts.Passes;
+  }
+
+  /// Tuples of the blocks that hold so many.
+  std::int64_t wholeBlocks(std::int64_t tuples) const
+  {
+    return (((tuples - 1) >> this->Shift) + 1) << this->Shift;
+  }
+
   bool fitsWhole() const { return this->Files.tuples() <= this->M; }
 
   void findActiveBlocks(Chunk& chunk, std::size_t blocks) const
@@ -123,10 +189,10 @@ private:
   void loadBlocks(const Chunk& chunk, void* const* out)
   {
     this->Cache.reset();
-    std::vector<Run> runs = this->runsOf(chunk, this->missing(chunk));
-    if (this->Used + tuplesOf(runs) > this->Room)
+    std::vector<Run> runs = this->runsOf(chunk, this->Held.missing(chunk.Active, chunk.Low));
+    if (this->Held.used() + tuplesOf(runs) > this->Held.room())
     {
-      this->forget();
+      this->Held.forget();
       runs = this->runsOf(chunk, chunk.Active);
     }
     if (tuplesOf(runs) > this->M)
@@ -136,12 +202,8 @@ private:
     }
     this->hold(runs);
     gatherAll(chunk.Count, this->Files, this->Buffers, out, this->Threads,
-      [this, shift = this->Shift, mask = (std::uint64_t(1) << this->Shift) - 1, ids = chunk.Ids](
-        std::size_t i)
-      {
-        const auto id = std::uint64_t(ids[i]);
-        return this->Places[id >> shift] + (id & mask);
-      });
+      [placeOf = this->Held.finder(), ids = chunk.Ids](std::size_t i)
+      { return placeOf(std::uint64_t(ids[i])); });
   }
 
   /// Tuples of blocks that stay for the next chunks: neighbouring ones share many.
@@ -151,39 +213,19 @@ private:
     return this->wantsAll() ? this->M : std::min(this->M, enough);
   }
 
-  /// The active blocks that are not held.
-  std::vector<char> missing(const Chunk& chunk)
-  {
-    this->Places.resize(std::size_t((this->Files.tuples() - 1) >> this->Shift) + 1, nowhere);
-    std::vector<char> wanted = chunk.Active;
-    const std::uint32_t* const places = this->Places.data() + (chunk.Low >> this->Shift);
-    for (std::size_t block = 0; block < wanted.size(); ++block)
-    {
-      wanted[block] &= char(places[block] == nowhere);
-    }
-    return wanted;
-  }
-
-  void forget()
-  {
-    std::fill(this->Places.begin(), this->Places.end(), nowhere);
-    this->Used = 0;
-  }
-
   /// Reads runs of blocks behind those that are held; none are if the runs do not fit there.
   void hold(const std::vector<Run>& runs)
   {
-    this->Room = std::max({ this->Room, this->kept(), tuplesOf(runs) });
-    this->Buffers.resize(this->Files, this->Room);
+    if (this->Held.isEmpty())
+    {
+      this->Held.setRoom(std::max({ this->Held.room(), this->kept(), tuplesOf(runs) }));
+      this->Buffers.resize(this->Files, this->Held.room());
+    }
     this->Spent += this->bytesOf(tuplesOf(runs));
     for (const Run& run : runs)
     {
-      this->read(run, this->Used);
-      for (std::int64_t at = 0; at < run.Size; at += std::int64_t(1) << this->Shift)
-      {
-        this->Places[std::size_t((run.First + at) >> this->Shift)] = std::uint32_t(this->Used + at);
-      }
-      this->Used += run.Size;
+      this->read(run, this->Held.used());
+      this->Held.add(run);
     }
     ++this->Counts.Passes;
   }
@@ -220,7 +262,7 @@ private:
   /// Few ids far apart: single tuples are read.
   void loadSparse(const Chunk& chunk, void* const* out)
   {
-    this->forget();
+    this->Held.forget();
     const UniqueIds unique(chunk.Ids, chunk.Count);
     if (std::int64_t(unique.Sorted.size()) <= this->cached())
     {
@@ -269,7 +311,7 @@ private:
     if (!this->Cache)
     {
       this->Buffers = TupleBuffers(); // both would be more than M
-      this->Room = 0;
+      this->Held.setRoom(0);
       this->Cache = std::make_unique<TupleCache>(this->Files, std::uint32_t(this->cached()));
     }
     std::vector<std::uint32_t> slots(unique.Sorted.size());      // of each number
@@ -360,19 +402,16 @@ private:
       [](std::int64_t sum, const Run& run) { return sum + run.Size; });
   }
 
-  static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
-
   ArrayFiles Files;
   std::int64_t M;
   int Threads;
   std::int64_t Gap; ///< in tuples
-  int Shift = 0;    ///< a block is 2^Shift tuples
+  int Shift;        ///< a block is 2^Shift tuples
+  BlockPlaces Held; ///< in the buffers
   LoadCounters Counts;
   TupleBuffers Buffers;
-  std::vector<std::uint32_t> Places; ///< in the buffers, of each block that is held; or nowhere
-  std::int64_t Used = 0;             ///< tuples of the buffers
-  std::int64_t Room = 0;             ///< for such tuples
   std::int64_t Spent = 0;            ///< bytes read, about
+  RawVector<std::uint32_t> Sources;  ///< of a chunk's tuples, in the buffers
   std::unique_ptr<TupleCache> Cache; ///< once there was a chunk of few ids far apart
   GroupedMoves Moves;
 };

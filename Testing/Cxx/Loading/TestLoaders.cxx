@@ -134,6 +134,54 @@ std::vector<Case> cases()
   return all;
 }
 
+/// Tuples of one array, each its own id, in a file that can be cut off.
+class OwnIds
+{
+public:
+  explicit OwnIds(std::int64_t count)
+    : Content(std::size_t(8 * count), '!')
+    , Count(count)
+  {
+    for (std::int64_t id = 0; id < count; ++id)
+    {
+      std::memcpy(&this->Content[std::size_t(8 * id)], &id, 8);
+    }
+    this->Path = this->Folder.file("ids", this->Content);
+  }
+
+  std::unique_ptr<tipp::VertexLoader> fineLoader(std::int64_t m) const
+  {
+    LoaderOptions options;
+    options.Kind = Loader::Fine;
+    options.M = m;
+    return makeVertexLoader({ { "ids", this->Path, 0, Scalar::Int64, 1, this->Count } }, options);
+  }
+
+  static Ids loaded(tipp::VertexLoader& loader, const Ids& ids)
+  {
+    Ids got(ids.size());
+    void* const out[] = { got.data() };
+    loader.load(ids.data(), ids.size(), out);
+    return got;
+  }
+
+  void cut(std::int64_t count) const { std::filesystem::resize_file(this->Path, 8 * count); }
+  void restore() const { std::ofstream(this->Path, std::ios::binary) << this->Content; }
+
+private:
+  tipp::test::TemporaryFolder Folder;
+  std::string Content;
+  std::string Path;
+  std::int64_t Count;
+};
+
+Ids from(std::int64_t first, std::size_t count)
+{
+  Ids ids(count);
+  std::iota(ids.begin(), ids.end(), first);
+  return ids;
+}
+
 } // namespace
 
 TEST_P(Loaders, GiveEveryTupleForAnyChunk)
@@ -329,25 +377,35 @@ TEST(FineLoader, KeepsFewFarIdsForTheNextChunks)
 
 TEST(FineLoader, IsRightAgainAfterAReadThatFailed)
 {
-  const tipp::test::TemporaryFolder folder;
-  std::string content(8 * 1000, '!');
-  for (std::int64_t id = 0; id < 1000; ++id)
-  {
-    std::memcpy(&content[std::size_t(8 * id)], &id, 8);
-  }
-  const std::string path = folder.file("cut", content);
-  LoaderOptions options;
-  options.Kind = Loader::Fine;
-  options.M = 64;
-  const auto loader = makeVertexLoader({ { "ids", path, 0, Scalar::Int64, 1, 1000 } }, options);
-  std::filesystem::resize_file(path, 8 * 500);
-  std::vector<std::int64_t> got(2);
-  void* const out[] = { got.data() };
+  const OwnIds source(1000);
+  const auto loader = source.fineLoader(64);
+  source.cut(500);
   const Ids ids{ 10, 900 };
-  EXPECT_THROW(loader->load(ids.data(), ids.size(), out), IOError);
-  std::ofstream(path, std::ios::binary) << content;
-  loader->load(ids.data(), ids.size(), out);
-  EXPECT_EQ((std::vector<std::int64_t>{ 10, 900 }), got);
+  EXPECT_THROW(OwnIds::loaded(*loader, ids), IOError);
+  source.restore();
+  EXPECT_EQ(ids, OwnIds::loaded(*loader, ids));
+}
+
+TEST(FineLoader, IsRightAgainAfterAReadForNeighboursThatFailed)
+{
+  const OwnIds source(1000);
+  const auto loader = source.fineLoader(800);
+  EXPECT_EQ(from(0, 300), OwnIds::loaded(*loader, from(0, 300)));
+  source.cut(520);
+  EXPECT_THROW(OwnIds::loaded(*loader, from(300, 300)), IOError);
+  source.restore();
+  EXPECT_EQ(from(300, 300), OwnIds::loaded(*loader, from(300, 300)));
+}
+
+TEST(FineLoader, IsRightFromWhenAllStays)
+{
+  const OwnIds source(300000);
+  const auto loader = source.fineLoader(300000);
+  for (const std::int64_t first : { 0, 100000, 200000, 0, 60000, 100000, 130000, 200000 })
+  {
+    const Ids ids = from(first, 100000);
+    ASSERT_TRUE(ids == OwnIds::loaded(*loader, ids)) << first;
+  }
 }
 
 TEST(LruLoader, CountsAMissForEachBlockThatItReads)

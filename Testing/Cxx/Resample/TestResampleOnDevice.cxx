@@ -157,6 +157,19 @@ TEST_P(ResampleOnDevice, AgreesWhereBoxesHoldASampleAtMost)
   expectAgreement(scene, latticeOf(3, 7, 0, 1)); // on faces, edges and corners of the border
 }
 
+TEST_P(ResampleOnDevice, DoesCellsWhoseCornersAreLevelWithSamples)
+{
+  const Scene triangle = { "triangle", 2, { 0.25, 0.1, 0, 0.6, 0.3, 0, 0.3, 0.7, 0 }, { 0, 1, 2 } };
+  const Scene tetrahedron = { "tetrahedron", 3,
+    { 0.25, 0.1, 0.1, 0.6, 0.3, 0.25, 0.3, 0.75, 0.3, 0.35, 0.3, 0.75 }, { 0, 1, 2, 3 } };
+  for (const Scene& scene : { triangle, tetrahedron })
+  {
+    const tipp::Lattice lattice = latticeOf(scene.Dimension, 5, 0, 1);
+    expectAgreement(scene, lattice);
+    EXPECT_EQ(sampled(scene, lattice, openCL).Result.Statistics.VisitedCells, 0) << "by threads";
+  }
+}
+
 TEST_P(ResampleOnDevice, AgreesOnASmallRangeOfALargeMesh)
 {
   expectAgreement(jitteredScene(2, 40, 5), latticeOf(2, 30, 0.4, 0.5));

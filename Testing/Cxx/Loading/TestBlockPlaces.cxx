@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Loading/BlockPlaces.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace
+{
+
+using tipp::BlockPlaces;
+using tipp::Run;
+using Ids = std::vector<std::int64_t>;
+using Places = std::vector<std::uint32_t>;
+
+/// Blocks of 4 of 30 tuples, the third and the fourth held, and room for 20 tuples.
+BlockPlaces someHeld()
+{
+  BlockPlaces places(2, 30);
+  places.setRoom(20);
+  places.missing(std::vector<char>(8, 1), 0);
+  places.add({ 8, 8 });
+  return places;
+}
+
+/// As find() gives them; none if it refuses.
+Places found(BlockPlaces& places, const Ids& ids)
+{
+  Places found(ids.size());
+  return places.find(ids.data(), ids.size(), found.data()) ? found : Places();
+}
+
+} // namespace
+
+TEST(BlockPlaces, FindTuplesOfHeldBlocks)
+{
+  BlockPlaces places = someHeld();
+  EXPECT_EQ(Places({ 0, 7, 5 }), found(places, { 8, 15, 13 }));
+  EXPECT_TRUE(places.found().empty());
+  EXPECT_EQ(5U, places.finder()(13));
+}
+
+TEST(BlockPlaces, GiveOtherBlocksPlacesBehindThoseHeld)
+{
+  BlockPlaces places = someHeld();
+  EXPECT_EQ(Places({ 9, 8, 13, 4, 3, 2, 1, 0 }), found(places, { 17, 16, 21, 12, 11, 10, 9, 8 }));
+  ASSERT_EQ(1U, places.found().size());
+  EXPECT_EQ(16, places.found()[0].First);
+  EXPECT_EQ(8, places.found()[0].Size);
+  places.keepFound();
+  EXPECT_EQ(16, places.used());
+  EXPECT_EQ(Places({ 15 }), found(places, { 23 }));
+}
+
+TEST(BlockPlaces, ReadTheLastBlockUpToTheLastTuple)
+{
+  BlockPlaces places = someHeld();
+  EXPECT_EQ(Places({ 9, 12, 8, 8, 8, 8, 8, 8 }), found(places, { 29, 4, 28, 28, 28, 28, 28, 28 }));
+  ASSERT_EQ(2U, places.found().size());
+  EXPECT_EQ(28, places.found()[0].First);
+  EXPECT_EQ(2, places.found()[0].Size);
+  EXPECT_EQ(4, places.found()[1].First);
+}
+
+TEST(BlockPlaces, RefuseWhatTheyHaveNoRoomFor)
+{
+  BlockPlaces places = someHeld();
+  EXPECT_TRUE(found(places, Ids{ 0, 4, 16, 20, 24, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }).empty());
+  EXPECT_TRUE(places.found().empty());
+  EXPECT_EQ(Places({ 8, 9, 10, 11 }), found(places, { 20, 21, 22, 23 })); // as if nothing had been
+}
+
+TEST(BlockPlaces, RefuseToReadMoreTuplesThanThereAreIds)
+{
+  BlockPlaces places = someHeld();
+  EXPECT_TRUE(found(places, { 0, 1, 2 }).empty());
+  EXPECT_FALSE(found(places, { 0, 1, 2, 3 }).empty());
+}
+
+TEST(BlockPlaces, RefuseIdsThatAreNoTuples)
+{
+  for (const std::int64_t id : { std::int64_t(-1), std::int64_t(30), INT64_MIN, INT64_MAX })
+  {
+    BlockPlaces places = someHeld();
+    EXPECT_TRUE(found(places, { 8, 8, 8, 8, id }).empty()) << id;
+  }
+}
+
+TEST(BlockPlaces, LoseBlocksWhoseReadFailed)
+{
+  BlockPlaces places = someHeld();
+  EXPECT_FALSE(found(places, { 0, 1, 2, 3 }).empty());
+  places.loseFound();
+  EXPECT_EQ(8, places.used());
+  EXPECT_TRUE(found(places, { 0 }).empty()); // one id is not worth a block
+}
+
+TEST(BlockPlaces, TellWhichActiveBlocksAreNotHeld)
+{
+  BlockPlaces places = someHeld();
+  EXPECT_EQ(std::vector<char>({ 1, 0, 0, 0 }), places.missing({ 1, 0, 1, 0 }, 0));
+  EXPECT_EQ(std::vector<char>({ 0, 0, 1 }), places.missing({ 1, 1, 1 }, 8));
+  places.forget();
+  EXPECT_TRUE(places.isEmpty());
+  EXPECT_EQ(std::vector<char>({ 1, 1, 1 }), places.missing({ 1, 1, 1 }, 8));
+}
