@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/PointArrangement.h"
 
-#include "Parallel/ParallelFor.h"
 #include "Triangulation/PartitionSizes.h"
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 
@@ -50,8 +50,8 @@ std::vector<std::vector<std::uint64_t>> tellCounts(
 
 } // namespace
 
-PointArrays::PointArrays(Bytes& message, std::size_t points)
-  : Places(reinterpret_cast<Point2*>(message.data()))
+PointArrays::PointArrays(char* memory, std::size_t points)
+  : Places(reinterpret_cast<Point2*>(memory))
   , Ids(reinterpret_cast<PointId*>(this->Places + points))
   , Rows(reinterpret_cast<char*>(this->Ids + points))
 {
@@ -87,28 +87,54 @@ PointArrangement::PointArrangement(
   }
 }
 
-void PointArrangement::unpack(
-  int source, Bytes& message, const PointArrays& home, std::size_t rowSize, int threads) const
+PointLanding::PointLanding(const PointArrangement& arrangement, std::size_t source,
+  const PointArrays& home, std::size_t rowSize)
 {
-  const std::vector<std::uint64_t>& counts = this->Counts[std::size_t(source)];
-  const std::vector<std::size_t>& firsts = this->Firsts[std::size_t(source)];
-  std::vector<std::size_t> begins = { 0 };
-  for (const std::uint64_t count : counts)
+  const std::vector<std::uint64_t>& counts = arrangement.Counts[source];
+  const std::vector<std::size_t>& firsts = arrangement.Firsts[source];
+  const auto add = [&](char* array, std::size_t itemSize)
   {
-    begins.push_back(begins.back() + count);
-  }
-  requireSize(message.size(), PointArrays::bytes(begins.back(), rowSize));
-  const PointArrays from(message, begins.back());
-  const auto bring = [&](std::int64_t leaf)
-  {
-    const std::size_t count = counts[std::size_t(leaf)];
-    const std::size_t begin = begins[std::size_t(leaf)];
-    const std::size_t first = firsts[std::size_t(leaf)];
-    std::copy_n(from.Places + begin, count, home.Places + first);
-    std::copy_n(from.Ids + begin, count, home.Ids + first);
-    std::copy_n(from.Rows + begin * rowSize, count * rowSize, home.Rows + first * rowSize);
+    for (std::size_t leaf = 0; leaf < counts.size(); ++leaf)
+    {
+      if (counts[leaf] > 0 && itemSize > 0)
+      {
+        this->Left.push_back({ array + firsts[leaf] * itemSize, counts[leaf] * itemSize });
+      }
+    }
   };
-  parallelFor(std::int64_t(counts.size()), threads, bring);
+  add(reinterpret_cast<char*>(home.Places), sizeof(Point2));
+  add(reinterpret_cast<char*>(home.Ids), sizeof(PointId));
+  add(home.Rows, rowSize);
+  std::reverse(this->Left.begin(), this->Left.end());
+}
+
+void PointLanding::take(const char* part, std::size_t size)
+{
+  while (size > 0)
+  {
+    if (this->Left.empty())
+    {
+      throw std::runtime_error("Points from another rank are damaged: they are more than it told.");
+    }
+    Place& place = this->Left.back();
+    const std::size_t taken = std::min(size, place.Size);
+    std::memcpy(place.To, part, taken);
+    part += taken;
+    size -= taken;
+    place = { place.To + taken, place.Size - taken };
+    if (place.Size == 0)
+    {
+      this->Left.pop_back();
+    }
+  }
+}
+
+void PointLanding::requireComplete() const
+{
+  if (!this->Left.empty())
+  {
+    throw std::runtime_error("Points from another rank are damaged: they are fewer than it told.");
+  }
 }
 
 } // namespace tipp

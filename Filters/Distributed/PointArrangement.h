@@ -26,8 +26,8 @@ struct PointArrays
     , Rows(rows)
   {
   }
-  /// Those of so many points in a message.
-  PointArrays(Bytes& message, std::size_t points);
+  /// Those of so many points that lie there one after the other.
+  PointArrays(char* memory, std::size_t points);
 
   /// Of a message of so many points.
   static std::size_t bytes(std::size_t points, std::size_t rowSize);
@@ -41,15 +41,33 @@ struct PointArrangement
   PointArrangement(Postbox& ranks, const std::vector<std::int32_t>& owners,
     const std::vector<std::int64_t>& counts);
 
-  /// Brings the points of another rank's message to their places. Throws std::runtime_error if
-  /// they are not as many as it told.
-  void unpack(
-    int source, Bytes& message, const PointArrays& home, std::size_t rowSize, int threads) const;
-
   std::int32_t Rank;
   std::vector<std::vector<std::uint64_t>> Counts; ///< from each rank, for each leaf of this one
   std::vector<std::vector<std::size_t>> Firsts;   ///< the place of the first of these
   std::vector<std::size_t> Starts;                ///< of all leaves, and the end
+};
+
+/// Brings what comes from another rank, part by part, to its places.
+class PointLanding
+{
+public:
+  PointLanding(const PointArrangement& arrangement, std::size_t source, const PointArrays& home,
+    std::size_t rowSize);
+
+  /// Throws std::runtime_error if it is more than the rank told.
+  void take(const char* part, std::size_t size);
+
+  /// Throws std::runtime_error if it was less.
+  void requireComplete() const;
+
+private:
+  struct Place
+  {
+    char* To;
+    std::size_t Size;
+  };
+
+  std::vector<Place> Left; ///< the next one last
 };
 
 } // namespace tipp

@@ -5,6 +5,7 @@
 #include "Triangulation/PartitionFinder.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace tipp
 {
@@ -89,26 +90,41 @@ void PointExchange::scatter(
   parallelFor(this->Threads, this->Threads, scatterPart);
 }
 
-/// The own points go to their places at once. Returns a message for each of the other ranks.
-std::vector<Bytes> PointExchange::pack(const std::vector<std::int32_t>& owners,
-  const PointArrangement& arrangement, const PointArrays& home) const
+PointExchange::Packing PointExchange::planPacking(
+  const std::vector<std::int32_t>& owners, const PointArrangement& arrangement) const
 {
   const std::vector<std::int64_t> counts = this->counts();
-  std::vector<std::size_t> sizes(arrangement.Counts.size(), 0);
-  std::vector<std::size_t> begins(this->Leaves);
+  Packing packing;
+  packing.Sizes.assign(arrangement.Counts.size(), 0);
+  packing.Begins.resize(this->Leaves);
   const std::size_t me = std::size_t(arrangement.Rank);
   for (std::size_t leaf = 0, own = 0; leaf < this->Leaves; ++leaf)
   {
     const std::size_t owner = std::size_t(owners[leaf]);
-    begins[leaf] = owner == me ? arrangement.Firsts[me][own++] : sizes[owner];
-    sizes[owner] += std::size_t(counts[leaf]);
+    packing.Begins[leaf] = owner == me ? arrangement.Firsts[me][own++] : packing.Sizes[owner];
+    packing.Sizes[owner] += std::size_t(counts[leaf]);
   }
-  std::vector<Bytes> messages;
-  std::vector<PointArrays> arrays;
-  for (std::size_t to = 0; to < sizes.size(); ++to)
+  for (std::size_t to = 0; to < packing.Sizes.size(); ++to)
   {
-    messages.emplace_back(to == me ? 0 : PointArrays::bytes(sizes[to], this->Input.RowSize));
-    arrays.push_back(to == me ? home : PointArrays(messages.back(), sizes[to]));
+    constexpr std::size_t alignment = alignof(std::max_align_t);
+    const std::size_t size =
+      to == me ? 0 : PointArrays::bytes(packing.Sizes[to], this->Input.RowSize);
+    packing.Messages.push_back({ packing.Size, size });
+    packing.Size += (size + alignment - 1) / alignment * alignment;
+  }
+  return packing;
+}
+
+/// The own points go to their places at once, the others into messages.
+void PointExchange::pack(const std::vector<std::int32_t>& owners, const Packing& packing,
+  const PointArrays& home, char* messages) const
+{
+  std::vector<PointArrays> arrays;
+  for (std::size_t to = 0; to < packing.Sizes.size(); ++to)
+  {
+    const Postbox::Stretch& message = packing.Messages[to];
+    arrays.push_back(
+      message.Size == 0 ? home : PointArrays(messages + message.Begin, packing.Sizes[to]));
   }
   std::vector<PointArrays> arraysOfLeaves;
   arraysOfLeaves.reserve(owners.size());
@@ -116,8 +132,7 @@ std::vector<Bytes> PointExchange::pack(const std::vector<std::int32_t>& owners,
   {
     arraysOfLeaves.push_back(arrays[std::size_t(owner)]);
   }
-  this->scatter(arraysOfLeaves, begins);
-  return messages;
+  this->scatter(arraysOfLeaves, packing.Begins);
 }
 
 template <typename Id>
@@ -135,13 +150,34 @@ OwnedPoints<Id> PointExchange::exchange(
   // Triangles with other ranks' points come on top of two a point; memory never touched is free.
   owned.Buckets = PointBuckets<Id>(arrangement.Starts, home.Places, total / 8);
 
-  std::vector<Bytes> received = ranks.allToAll(this->pack(owners, arrangement, home));
-  for (int source = 0; source < ranks.size(); ++source)
+  const Packing packing = this->planPacking(owners, arrangement);
+  // What leaves is packed where triangles will be, if it fits: fresh memory takes time.
+  Bytes messages(owned.Buckets.release());
+  const bool isLent = packing.Size <= messages.size();
+  if (!isLent)
   {
-    if (source != ranks.rank())
+    owned.Buckets.takeBack(Buffer<Id>(std::move(messages)));
+    messages = Bytes(packing.Size);
+  }
+  this->pack(owners, packing, home, messages.data());
+  std::vector<PointLanding> landings;
+  for (std::size_t source = 0; source < arrangement.Counts.size(); ++source)
+  {
+    landings.emplace_back(arrangement, source, home, rowSize);
+  }
+  messages = ranks.allToAllInParts(std::move(messages), packing.Messages,
+    [&landings](int from, const char* part, std::size_t size)
+    { landings[std::size_t(from)].take(part, size); });
+  for (std::size_t source = 0; source < landings.size(); ++source)
+  {
+    if (source != std::size_t(ranks.rank()))
     {
-      arrangement.unpack(source, received[std::size_t(source)], home, rowSize, this->Threads);
+      landings[source].requireComplete();
     }
+  }
+  if (isLent)
+  {
+    owned.Buckets.takeBack(Buffer<Id>(std::move(messages)));
   }
   std::vector<std::int64_t> totals(std::size_t(ranks.size()), 0);
   totals[std::size_t(ranks.rank())] = std::int64_t(total);

@@ -58,8 +58,19 @@ public:
   OwnedPoints<Id> exchange(Postbox& ranks, const std::vector<std::int32_t>& owners) const;
 
 private:
-  std::vector<Bytes> pack(const std::vector<std::int32_t>& owners,
-    const PointArrangement& arrangement, const PointArrays& home) const;
+  /// Where in the messages, and how much.
+  struct Packing
+  {
+    std::vector<std::size_t> Sizes;  ///< points to each rank
+    std::vector<std::size_t> Begins; ///< of each leaf, among its owner's points from here
+    std::vector<Postbox::Stretch> Messages;
+    std::size_t Size = 0; ///< of all messages, in bytes
+  };
+
+  Packing planPacking(
+    const std::vector<std::int32_t>& owners, const PointArrangement& arrangement) const;
+  void pack(const std::vector<std::int32_t>& owners, const Packing& packing,
+    const PointArrays& home, char* messages) const;
   void scatter(const std::vector<PointArrays>& to, const std::vector<std::size_t>& begins) const;
 
   const RankPoints& Input;

@@ -16,12 +16,12 @@ namespace
 
 constexpr int HeadTag = 1;
 constexpr int PartTag = 2;
-constexpr std::size_t LargestPart = std::size_t(1) << 24;
+constexpr std::size_t LargestPart = std::size_t(1) << 20;
 constexpr std::size_t LargestInHead = std::size_t(1) << 16;
 
-// For messages that nobody wants any more, and for those there is no memory for: taking them in
-// must not fail, or their senders would wait for ever.
-char Discarded[LargestPart];
+// For messages that are taken in part by part, that nobody wants any more, or that there is no
+// memory for: taking them in must not fail, or their senders would wait for ever.
+char Taken[LargestPart];
 
 struct Head
 {
@@ -43,7 +43,7 @@ struct Postbox::Arrival
 struct Postbox::Outgoing
 {
   Bytes Head;
-  Bytes Content;
+  std::shared_ptr<Bytes> Content;
   std::vector<vtkMPICommunicator::Request> Requests;
 
   bool hasLeft()
@@ -86,40 +86,55 @@ void Postbox::post(int to, MessageKind kind, Bytes content)
     this->Inbox.push_back({ to, kind, std::move(content) });
     return;
   }
+  const Stretch whole{ 0, content.size() };
+  this->postStretch(to, kind, std::make_shared<Bytes>(std::move(content)), whole);
+}
+
+void Postbox::postStretch(
+  int to, MessageKind kind, const std::shared_ptr<Bytes>& memory, const Stretch& stretch)
+{
   const Stopwatch watch;
   Traffic& traffic = this->Sent[kind];
   ++traffic.Messages;
-  traffic.Bytes += std::int64_t(sizeof(Head) + content.size());
-  this->sendTo(to, kind, std::move(content));
+  traffic.Bytes += std::int64_t(sizeof(Head) + stretch.Size);
+  this->sendTo(to, kind, memory, stretch);
   this->testOutgoing();
   this->SendingSeconds += watch.seconds();
 }
 
 void Postbox::sendTo(int to, MessageKind kind, Bytes content)
 {
-  const bool complete = content.size() <= LargestInHead;
-  const Head head{ content.size(), kind, complete };
+  const Stretch whole{ 0, content.size() };
+  this->sendTo(to, kind, std::make_shared<Bytes>(std::move(content)), whole);
+}
+
+void Postbox::sendTo(
+  int to, MessageKind kind, const std::shared_ptr<Bytes>& memory, const Stretch& stretch)
+{
+  const char* const content = memory->data() + stretch.Begin;
+  const std::size_t size = stretch.Size;
+  const bool complete = size <= LargestInHead;
+  const Head head{ size, kind, complete };
   this->Unsent.emplace_back();
   Outgoing& outgoing = this->Unsent.back();
-  outgoing.Head = Bytes(sizeof(Head) + (complete ? content.size() : 0));
+  outgoing.Head = Bytes(sizeof(Head) + (complete ? size : 0));
   std::memcpy(outgoing.Head.data(), &head, sizeof(Head));
-  if (complete && !content.empty())
+  if (complete && size > 0)
   {
-    std::memcpy(outgoing.Head.data() + sizeof(Head), content.data(), content.size());
+    std::memcpy(outgoing.Head.data() + sizeof(Head), content, size);
   }
-  const auto send = [&](const char* data, std::size_t size, int tag)
+  const auto send = [&](const char* data, std::size_t bytes, int tag)
   {
     outgoing.Requests.emplace_back();
-    this->Controller->NoBlockSend(data, static_cast<int>(size), to, tag, outgoing.Requests.back());
+    this->Controller->NoBlockSend(data, static_cast<int>(bytes), to, tag, outgoing.Requests.back());
   };
   send(outgoing.Head.data(), outgoing.Head.size(), HeadTag);
   if (!complete)
   {
-    outgoing.Content = std::move(content);
-    const std::size_t size = outgoing.Content.size();
+    outgoing.Content = memory;
     for (std::size_t at = 0; at < size; at += LargestPart)
     {
-      send(outgoing.Content.data() + at, std::min(LargestPart, size - at), PartTag);
+      send(content + at, std::min(LargestPart, size - at), PartTag);
     }
   }
 }
@@ -153,7 +168,7 @@ bool Postbox::probe(Arrival& arrival)
   return true;
 }
 
-bool Postbox::receive(Message& message)
+bool Postbox::receive(Message& message, const InParts* inParts)
 {
   Arrival arrival;
   if (!this->probe(arrival))
@@ -163,6 +178,11 @@ bool Postbox::receive(Message& message)
   const std::size_t size = arrival.About.Size;
   message.Source = arrival.Source;
   message.Kind = arrival.About.Kind;
+  if (inParts && inParts->concerns(message))
+  {
+    this->receiveParts(arrival, inParts->Take);
+    return true;
+  }
   try
   {
     message.Content = Bytes(size);
@@ -184,6 +204,41 @@ bool Postbox::receive(Message& message)
       message.Content.data() + at, static_cast<vtkIdType>(part), arrival.Source, PartTag);
   }
   return true;
+}
+
+/// All parts are taken in, also when nobody can take them any more.
+void Postbox::receiveParts(const Arrival& arrival, const TakePart& takePart)
+{
+  if (arrival.About.IsComplete)
+  {
+    takePart(arrival.Source, arrival.First.data() + sizeof(Head), arrival.About.Size);
+    return;
+  }
+  std::exception_ptr failure;
+  const auto take = [&](std::size_t size)
+  {
+    try
+    {
+      takePart(arrival.Source, Taken, size);
+    }
+    catch (...)
+    {
+      failure = std::current_exception();
+    }
+  };
+  for (std::size_t at = 0; at < arrival.About.Size; at += LargestPart)
+  {
+    const std::size_t part = std::min(LargestPart, std::size_t(arrival.About.Size) - at);
+    this->Controller->Receive(Taken, static_cast<vtkIdType>(part), arrival.Source, PartTag);
+    if (!failure)
+    {
+      take(part);
+    }
+  }
+  if (failure)
+  {
+    std::rethrow_exception(failure);
+  }
 }
 
 /// Takes in the next message, and returns whether it tells of a failure; others are discarded.
@@ -214,7 +269,7 @@ void Postbox::discardParts(const Arrival& arrival)
   for (std::size_t at = 0; at < arrival.About.Size; at += LargestPart)
   {
     const std::size_t part = std::min(LargestPart, std::size_t(arrival.About.Size) - at);
-    this->Controller->Receive(Discarded, static_cast<vtkIdType>(part), arrival.Source, PartTag);
+    this->Controller->Receive(Taken, static_cast<vtkIdType>(part), arrival.Source, PartTag);
   }
 }
 
@@ -241,9 +296,9 @@ bool Postbox::poll(Message& message)
 }
 
 /// Throws if the message tells of a failure.
-bool Postbox::receiveGood(Message& message)
+bool Postbox::receiveGood(Message& message, const InParts* inParts)
 {
-  if (!this->receive(message))
+  if (!this->receive(message, inParts))
   {
     return false;
   }
@@ -306,99 +361,6 @@ void Postbox::pause()
   }
   std::this_thread::sleep_for(
     std::chrono::microseconds(std::min(10 * (this->Pauses - yields), longest)));
-}
-
-std::vector<Bytes> Postbox::allToAll(std::vector<Bytes> contents)
-{
-  std::vector<Bytes> received(static_cast<std::size_t>(this->Size));
-  received[std::size_t(this->Rank)] = std::move(contents[std::size_t(this->Rank)]);
-  // Each rank begins with the next one, so that not all send to the same.
-  for (int step = 1; step < this->Size; ++step)
-  {
-    const int to = (this->Rank + step) % this->Size;
-    this->post(to, MessageKind::AllToAll, std::move(contents[std::size_t(to)]));
-  }
-  for (int step = 1; step < this->Size; ++step)
-  {
-    const int from = (this->Rank + this->Size - step) % this->Size;
-    received[std::size_t(from)] = this->wait(MessageKind::AllToAll, from).Content;
-  }
-  return received;
-}
-
-std::vector<Bytes> Postbox::gather(Bytes content)
-{
-  std::vector<Bytes> received;
-  if (this->Rank != 0)
-  {
-    this->post(0, MessageKind::Gather, std::move(content));
-    return received;
-  }
-  received.push_back(std::move(content));
-  for (int from = 1; from < this->Size; ++from)
-  {
-    received.push_back(this->wait(MessageKind::Gather, from).Content);
-  }
-  return received;
-}
-
-/// Along a binomial tree: a rank gets it from the one without its lowest bit.
-Bytes Postbox::broadcast(Bytes content)
-{
-  int bit = 1;
-  while (bit < this->Size && !(this->Rank & bit))
-  {
-    bit *= 2;
-  }
-  if (this->Rank != 0)
-  {
-    content = this->wait(MessageKind::Broadcast, this->Rank - bit).Content;
-  }
-  for (bit /= 2; bit > 0; bit /= 2)
-  {
-    if (this->Rank + bit < this->Size)
-    {
-      Bytes copy(content.size());
-      std::copy(content.begin(), content.end(), copy.begin());
-      this->post(this->Rank + bit, MessageKind::Broadcast, std::move(copy));
-    }
-  }
-  return content;
-}
-
-void Postbox::sum(std::vector<std::int64_t>& values)
-{
-  const auto pack = [](const std::vector<std::int64_t>& v)
-  {
-    ByteWriter writer;
-    writer.array(v);
-    return writer.take();
-  };
-  for (int bit = 1; bit < this->Size; bit *= 2)
-  {
-    if (this->Rank & bit)
-    {
-      this->post(this->Rank - bit, MessageKind::Sum, pack(values));
-      break;
-    }
-    if (this->Rank + bit < this->Size)
-    {
-      const Message message = this->wait(MessageKind::Sum, this->Rank + bit);
-      const auto others = ByteReader(message.Content).array<std::int64_t>();
-      for (std::size_t i = 0; i < values.size(); ++i)
-      {
-        values[i] += others.at(i);
-      }
-    }
-  }
-  const Bytes total = this->broadcast(this->Rank == 0 ? pack(values) : Bytes());
-  values = ByteReader(total).array<std::int64_t>();
-}
-
-void Postbox::barrier()
-{
-  std::vector<std::int64_t> none;
-  this->sum(none);
 }
 
 void Postbox::note(int rank, bool aborted, const std::string& reason)

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <list>
 #include <map>
 #include <memory>
@@ -99,6 +100,20 @@ public:
   void barrier();
   ///@}
 
+  /// So many bytes of a memory.
+  struct Stretch
+  {
+    std::size_t Begin = 0;
+    std::size_t Size = 0;
+  };
+  using TakePart = std::function<void(int from, const char* part, std::size_t size)>;
+
+  /// As allToAll(), of messages that lie in one memory, a stretch for each of the other ranks. It
+  /// comes back when they have left. What comes is handed on part by part, so that none of it need
+  /// be in memory as a whole: a rank's parts in order, those of several ranks by turns.
+  Bytes allToAllInParts(
+    Bytes memory, const std::vector<Stretch>& contents, const TakePart& takePart);
+
   /// Runs the work on every rank. If it throws anywhere, it ends everywhere, and every rank throws
   /// the same RankFailure; no message is left behind. Within the work of another call it just runs
   /// the work, for that call sees to the rest. Collective.
@@ -156,12 +171,29 @@ private:
   struct Outgoing;
   struct Arrival;
 
+  /// Who is to take the parts of messages, and from which ranks.
+  struct InParts
+  {
+    const TakePart& Take;
+    std::vector<char> IsAwaited;
+
+    bool concerns(const Message& message) const
+    {
+      return message.Kind == MessageKind::AllToAll && this->IsAwaited[std::size_t(message.Source)];
+    }
+  };
+
   bool probe(Arrival& arrival);
-  bool receive(Message& message);
+  bool receive(Message& message, const InParts* inParts);
+  void receiveParts(const Arrival& arrival, const TakePart& takePart);
   bool receiveOfFailure(Message& message);
   void discardParts(const Arrival& arrival);
-  bool receiveGood(Message& message);
+  bool receiveGood(Message& message, const InParts* inParts = nullptr);
   void testOutgoing();
+  void postStretch(
+    int to, MessageKind kind, const std::shared_ptr<Bytes>& memory, const Stretch& stretch);
+  void sendTo(
+    int to, MessageKind kind, const std::shared_ptr<Bytes>& memory, const Stretch& stretch);
   void sendTo(int to, MessageKind kind, Bytes content);
   void tellFailure(bool aborted, const std::string& reason);
   void note(int rank, bool aborted, const std::string& reason);

@@ -36,6 +36,14 @@ public:
     return *this;
   }
 
+  /// The same memory as an array of another type, as many as fit.
+  template <typename U>
+  explicit Buffer(Buffer<U>&& other) noexcept
+    : Size(other.size() * sizeof(U) / sizeof(T))
+  {
+    this->Data.reset(reinterpret_cast<T*>(other.release()));
+  }
+
   T* data() { return this->Data.get(); }
   const T* data() const { return this->Data.get(); }
   std::size_t size() const { return this->Size; }

@@ -66,6 +66,9 @@ public:
   /// All partitions' triangles, with gaps between them.
   Buffer<Id> release() { return std::move(this->Memory); }
 
+  /// What was released, whose content does not matter: the points lie elsewhere.
+  void takeBack(Buffer<Id> memory) { this->Memory = std::move(memory); }
+
 private:
   static_assert(sizeof(Point2) + sizeof(Id) <= 6 * sizeof(Id), "the points fit");
 

@@ -119,7 +119,7 @@ TEST_P(PointExchangeOf, OwnersGetAllRanksPointsLeafByLeafInTheOrderOfRanks)
 
 INSTANTIATE_TEST_SUITE_P(Threads, PointExchangeOf, testing::Values(1, 3));
 
-TEST(PointArrangement, AMessageOfAnotherSizeIsRefused)
+TEST(PointLanding, MoreOrFewerPointsThanTheirRankToldAreRefused)
 {
   Postbox box(vtkMultiProcessController::GetGlobalController());
   const std::vector<std::int32_t> owners(1, 0);
@@ -128,10 +128,13 @@ TEST(PointArrangement, AMessageOfAnotherSizeIsRefused)
   {
     std::vector<Point2> places(std::size_t(2 * box.size()));
     std::vector<PointId> ids(places.size());
-    Bytes message(PointArrays::bytes(3, 0));
-    EXPECT_THROW(
-      arrangement.unpack(0, message, PointArrays(places.data(), ids.data(), nullptr), 0, 1),
-      std::runtime_error);
+    const Bytes message(PointArrays::bytes(3, 0));
+    PointLanding landing(arrangement, 0, PointArrays(places.data(), ids.data(), nullptr), 0);
+    landing.take(message.data(), PointArrays::bytes(2, 0) - 1);
+    EXPECT_THROW(landing.requireComplete(), std::runtime_error);
+    landing.take(message.data(), 1);
+    EXPECT_NO_THROW(landing.requireComplete());
+    EXPECT_THROW(landing.take(message.data(), 1), std::runtime_error);
   }
   box.barrier();
 }
