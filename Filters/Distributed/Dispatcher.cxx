@@ -24,6 +24,7 @@ Dispatcher::Dispatcher(const Area& area, std::int32_t areaIndex, const SeamTrian
     last = std::max(last, *std::max_element(home.begin(), home.end()));
   }
   this->InFlight.assign(std::size_t(last) + 1, 0);
+  this->SinceBarrier.assign(std::size_t(last) + 1, 0);
   const ProcessorWatch watch;
   this->take(this->Mesh.add(SeamGrouping().group(initialMesh)));
   this->LargestMesh = this->Mesh.size();
@@ -122,6 +123,7 @@ void Dispatcher::complete(TaskResult&& result)
     --this->InFlight[std::size_t(rank)];
   }
   --this->Active;
+  this->addToPath(this->Of.Homes[home], result.Seconds);
   this->Mesh.finish(result.Partition);
   this->take(this->Mesh.add(std::move(result.Seams)));
   this->Waiting.deactivate(result.Partition);
@@ -129,6 +131,22 @@ void Dispatcher::complete(TaskResult&& result)
   this->WorkerVertices += result.WorkerVertices;
   this->Changed = true;
   this->Seconds += watch.seconds();
+}
+
+void Dispatcher::addToPath(const std::vector<std::int32_t>& group, double seconds)
+{
+  for (const std::int32_t rank : group)
+  {
+    this->SinceBarrier[std::size_t(rank)] += seconds;
+  }
+  const bool endsShift = this->Active == 0 && this->Order == RankSchedule::Stages;
+  const bool endsStage = this->Active == 0 && this->StageLeft == 0 &&
+    (this->Order != RankSchedule::Dynamic || this->Waiting.isEmpty());
+  if (endsShift || endsStage)
+  {
+    this->PathSeconds += *std::max_element(this->SinceBarrier.begin(), this->SinceBarrier.end());
+    this->SinceBarrier.assign(this->SinceBarrier.size(), 0);
+  }
 }
 
 void Dispatcher::take(const GroupMesh::Final& final)

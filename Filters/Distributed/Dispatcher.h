@@ -54,6 +54,10 @@ public:
   std::int64_t WorkerVertices = 0;
   double Seconds = 0; ///< spent here
 
+  /// What computing takes at least where each rank has a processor: between barriers the longest
+  /// rank's, all together.
+  double PathSeconds = 0;
+
   const Area& area() const { return this->Of; }
 
 private:
@@ -61,6 +65,7 @@ private:
   bool canTake(std::size_t home) const;
   PartitionIndex next(std::size_t home);
   void beginStage();
+  void addToPath(const std::vector<std::int32_t>& group, double seconds);
   void take(const GroupMesh::Final& final);
   void give(std::size_t home, PartitionIndex partition, const Give& giveTask);
 
@@ -73,8 +78,9 @@ private:
   std::vector<std::deque<PartitionIndex>> StageOf; ///< of each home, still to be given out
   std::size_t StageLeft = 0;
   std::size_t Active = 0;
-  std::vector<int> InFlight; ///< of each rank
-  bool Changed = true;       ///< something may have become independent since the last dispatch
+  std::vector<int> InFlight;        ///< of each rank
+  std::vector<double> SinceBarrier; ///< of each rank: seconds of computing
+  bool Changed = true; ///< something may have become independent since the last dispatch
 };
 
 } // namespace tipp

@@ -27,6 +27,7 @@ void write(const MasterStatistics& master, ByteWriter& writer)
   writer.value(master.GroupSize);
   writer.value(master.LargestMesh);
   writer.value(master.Seconds);
+  writer.value(master.PathSeconds);
   writer.array(master.Stages);
 }
 
@@ -38,6 +39,7 @@ MasterStatistics readMaster(ByteReader& reader)
   master.GroupSize = reader.value<std::int32_t>();
   master.LargestMesh = reader.value<std::int64_t>();
   master.Seconds = reader.value<double>();
+  master.PathSeconds = reader.value<double>();
   reader.array(master.Stages);
   return master;
 }

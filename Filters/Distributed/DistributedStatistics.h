@@ -39,6 +39,9 @@ struct MasterStatistics
   std::int32_t GroupSize = 0;   ///< ranks that worked for it
   std::int64_t LargestMesh = 0; ///< triangles held at a time
   double Seconds = 0;
+  /// Processor time of the rank that computes longest between two barriers, summed over these: what
+  /// computing takes at least where each rank has a processor.
+  double PathSeconds = 0;
   std::vector<TriangulationStatistics::Stage> Stages;
 };
 

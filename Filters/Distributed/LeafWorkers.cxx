@@ -127,11 +127,11 @@ bool LeafWorkers<Id>::take(TaskResult& result)
 }
 
 template <typename Id>
-void LeafWorkers<Id>::waitFor(std::chrono::microseconds longest)
+void LeafWorkers<Id>::waitFor(double seconds)
 {
   std::unique_lock<std::mutex> lock(this->Mutex);
-  this->ResultCame.wait_for(
-    lock, longest, [this]() { return !this->Results.empty() || this->Failure; });
+  this->ResultCame.wait_for(lock, std::chrono::duration<double>(seconds),
+    [this]() { return !this->Results.empty() || this->Failure; });
 }
 
 template <typename Id>

@@ -51,7 +51,7 @@ public:
   bool take(TaskResult& result);
 
   /// Waits a moment for a result.
-  void waitFor(std::chrono::microseconds longest);
+  void waitFor(double seconds);
 
   bool isIdle();
 

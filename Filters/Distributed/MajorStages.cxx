@@ -88,56 +88,45 @@ std::vector<std::vector<PartitionIndex>> predictStages(const Tiling& majors,
   return stages;
 }
 
-std::vector<Ranks> formGroups(const std::vector<std::vector<PartitionIndex>>& stages,
+void formGroups(const std::vector<PartitionIndex>& active,
   const std::vector<std::int64_t>& majorCounts, const Ranks& ranks,
-  const DistributedOptions& options)
+  const DistributedOptions& options, std::vector<double> load, std::vector<Ranks>& groups)
 {
   const bool equal = options.Groups == GroupSizes::Equal;
-  std::vector<Ranks> groups(majorCounts.size(), Ranks{ ranks.front() });
-  std::vector<double> load(ranks.size(), 0);
-  for (const std::vector<PartitionIndex>& active : stages)
+  const auto count = [&](PartitionIndex p) { return double(majorCounts[std::size_t(p)]); };
+  std::vector<PartitionIndex> stage = active;
+  std::sort(stage.begin(), stage.end());
+  if (!equal)
   {
-    std::vector<PartitionIndex> stage = active;
-    const auto count = [&](PartitionIndex p) { return majorCounts[std::size_t(p)]; };
-    if (stage.size() >= ranks.size())
-    {
-      std::sort(stage.begin(), stage.end());
-      if (!equal)
-      {
-        std::stable_sort(stage.begin(), stage.end(),
-          [&](PartitionIndex a, PartitionIndex b) { return count(a) > count(b); });
-      }
-      for (std::size_t i = 0; i < stage.size(); ++i)
-      {
-        const std::size_t rank = equal
-          ? i * ranks.size() / stage.size()
-          : std::size_t(std::min_element(load.begin(), load.end()) - load.begin());
-        groups[std::size_t(stage[i])] = { ranks[rank] };
-        load[rank] += double(count(stage[i]));
-      }
-      continue;
-    }
-    std::vector<double> weights;
-    weights.reserve(stage.size());
-    for (const PartitionIndex p : stage)
-    {
-      weights.push_back(equal ? 1.0 : double(count(p)));
-    }
-    const std::vector<std::size_t> sizes = groupSizes(weights, ranks.size());
-    std::size_t next = 0;
+    std::stable_sort(stage.begin(), stage.end(),
+      [&](PartitionIndex a, PartitionIndex b) { return count(a) > count(b); });
+  }
+  if (stage.size() >= ranks.size())
+  {
     for (std::size_t i = 0; i < stage.size(); ++i)
     {
-      Ranks& group = groups[std::size_t(stage[i])];
-      group.assign(
-        ranks.begin() + std::ptrdiff_t(next), ranks.begin() + std::ptrdiff_t(next + sizes[i]));
-      for (std::size_t k = 0; k < sizes[i]; ++k)
-      {
-        load[next + k] += double(count(stage[i])) / double(sizes[i]);
-      }
-      next += sizes[i];
+      const std::size_t rank = equal
+        ? i * ranks.size() / stage.size()
+        : std::size_t(std::min_element(load.begin(), load.end()) - load.begin());
+      groups[std::size_t(stage[i])] = { ranks[rank] };
+      load[rank] += count(stage[i]);
     }
+    return;
   }
-  return groups;
+  std::vector<double> weights;
+  weights.reserve(stage.size());
+  for (const PartitionIndex p : stage)
+  {
+    weights.push_back(equal ? 1.0 : count(p));
+  }
+  const std::vector<std::size_t> sizes = groupSizes(weights, ranks.size());
+  auto next = ranks.begin();
+  for (std::size_t i = 0; i < stage.size(); ++i)
+  {
+    const auto end = next + std::ptrdiff_t(sizes[i]);
+    groups[std::size_t(stage[i])].assign(next, end);
+    next = end;
+  }
 }
 
 } // namespace tipp

@@ -16,13 +16,13 @@ namespace tipp
 std::vector<std::vector<PartitionIndex>> predictStages(const Tiling& majors,
   const std::vector<Point2>& sample, const std::vector<std::int64_t>& majorCounts);
 
-/// For each major partition the ranks of the group that works on it. In a stage with fewer major
-/// partitions than ranks each group has several ranks, in proportion to the points (equation 3.2);
-/// else a group is one rank, the one with the fewest points so far.
-std::vector<std::vector<std::int32_t>> formGroups(
-  const std::vector<std::vector<PartitionIndex>>& stages,
+/// For each major partition of a stage the ranks of the group that works on it. In a stage with
+/// fewer major partitions than ranks each group has several ranks, in proportion to the points
+/// (equation 3.2); else a group is one rank, the one with the fewest points so far (its load).
+void formGroups(const std::vector<PartitionIndex>& active,
   const std::vector<std::int64_t>& majorCounts, const std::vector<std::int32_t>& ranks,
-  const DistributedOptions& options);
+  const DistributedOptions& options, std::vector<double> load,
+  std::vector<std::vector<std::int32_t>>& groups);
 
 } // namespace tipp
 

@@ -142,22 +142,43 @@ Area readArea(ByteReader& reader)
   return area;
 }
 
-/// The leaves of an area, shared out to a group of ranks.
+/// The leaves of an area, shared out to a group of ranks. Shares are of whole leaves: the largest
+/// goes to the rank that has the least load so far.
 void assignLeaves(Plan& plan, Area& area, const std::vector<std::int32_t>& group,
-  const std::vector<std::int64_t>& leafCounts, const DistributedOptions& options)
+  const std::vector<std::int64_t>& leafCounts, const DistributedOptions& options,
+  std::vector<double>& load)
 {
   const std::int64_t* counts = leafCounts.data() + area.FirstLeaf;
-  area.HomeOf = shareOut(weightsOf(counts, counts + area.Inner, options), group.size());
-  area.Homes.clear();
-  for (const std::int32_t rank : group)
+  const std::vector<double> weights = weightsOf(counts, counts + area.Inner, options);
+  area.HomeOf = shareOut(weights, group.size());
+  std::vector<std::pair<double, std::size_t>> shares;
+  for (std::size_t home = 0; home < group.size(); ++home)
   {
-    area.Homes.push_back({ rank });
+    shares.push_back({ 0, home });
+  }
+  for (std::size_t p = 0; p < weights.size(); ++p)
+  {
+    shares[std::size_t(area.HomeOf[p])].first -= weights[p];
+  }
+  std::vector<std::int32_t> idlest = group;
+  if (options.Groups != GroupSizes::Equal)
+  {
+    std::sort(shares.begin(), shares.end()); // largest first
+    std::stable_sort(idlest.begin(), idlest.end(),
+      [&load](std::int32_t a, std::int32_t b)
+      { return load[std::size_t(a)] < load[std::size_t(b)]; });
+  }
+  area.Homes.assign(group.size(), {});
+  for (std::size_t i = 0; i < group.size(); ++i)
+  {
+    area.Homes[shares[i].second] = { idlest[i] };
+    load[std::size_t(idlest[i])] -= shares[i].first;
   }
   area.Lead = group.front();
   for (PartitionIndex p = 0; p < area.Inner; ++p)
   {
     plan.Owners[std::size_t(area.FirstLeaf) + std::size_t(p)] =
-      group[std::size_t(area.HomeOf[std::size_t(p)])];
+      area.Homes[std::size_t(area.HomeOf[std::size_t(p)])].front();
   }
 }
 
@@ -272,6 +293,7 @@ void assign(Plan& plan, const PlanInput& input, const std::vector<std::int64_t>&
   std::vector<std::int32_t> all(static_cast<std::size_t>(input.Ranks));
   std::iota(all.begin(), all.end(), 0);
   Area& top = plan.Areas.front();
+  std::vector<double> load(all.size(), 0);
   if (top.hasLeaves())
   {
     // Beside many ranks the first one is the master alone.
@@ -280,7 +302,7 @@ void assign(Plan& plan, const PlanInput& input, const std::vector<std::int64_t>&
     {
       all.erase(all.begin());
     }
-    assignLeaves(plan, top, all, leafCounts, options);
+    assignLeaves(plan, top, all, leafCounts, options, load);
     top.Lead = 0;
     return;
   }
@@ -291,8 +313,16 @@ void assign(Plan& plan, const PlanInput& input, const std::vector<std::int64_t>&
     const auto begin = leafCounts.begin() + area.FirstLeaf;
     majorCounts.push_back(std::accumulate(begin, begin + area.Inner, std::int64_t(0)));
   }
-  const auto groups =
-    formGroups(predictStages(top.Boxes, input.Sample, majorCounts), majorCounts, all, options);
+  std::vector<std::vector<std::int32_t>> groups(majorCounts.size(), { all.front() });
+  for (const auto& stage : predictStages(top.Boxes, input.Sample, majorCounts))
+  {
+    formGroups(stage, majorCounts, all, options, load, groups);
+    for (const PartitionIndex p : stage)
+    {
+      assignLeaves(plan, plan.Areas[std::size_t(top.Children[std::size_t(p)])],
+        groups[std::size_t(p)], leafCounts, options, load);
+    }
+  }
   std::map<std::vector<std::int32_t>, std::int32_t> homes;
   top.HomeOf.assign(std::size_t(top.Inner), 0);
   top.Homes.clear();
@@ -305,8 +335,11 @@ void assign(Plan& plan, const PlanInput& input, const std::vector<std::int64_t>&
       top.Homes.push_back(group);
     }
     top.HomeOf[std::size_t(p)] = place.first->second;
-    assignLeaves(
-      plan, plan.Areas[std::size_t(top.Children[std::size_t(p)])], group, leafCounts, options);
+    if (majorCounts[std::size_t(p)] == 0) // in no stage
+    {
+      assignLeaves(plan, plan.Areas[std::size_t(top.Children[std::size_t(p)])], group, leafCounts,
+        options, load);
+    }
   }
   top.Lead = 0;
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/RankRun.h"
 
+#include "Distributed/InitialPoints.h"
 #include "Distributed/MessageKinds.h"
 #include "Distributed/TaskMessages.h"
 #include "Distributed/VertexLabelling.h"
 #include "Parallel/ProcessorWatch.h"
 #include "Triangulation/HullRepair.h"
 #include "Triangulation/InitialMesh.h"
-#include "Triangulation/PartitionSizes.h"
 
 #include <algorithm>
 #include <numeric>
@@ -83,76 +83,6 @@ RankRun<Id>::RankRun(Postbox& ranks, const Plan& plan, OwnedPoints<Id>& points,
   , Threads(threads)
   , Workers(plan, points.Buckets, points.FirstIds[std::size_t(ranks.rank())], threads)
 {
-}
-
-/// Every owner sends some points of its leaves to the masters of their areas, and fewer to the
-/// whole domain's.
-template <typename Id>
-void RankRun<Id>::collectInitialPoints()
-{
-  struct Entry
-  {
-    PlainVertex Vertex;
-    std::int64_t Area;
-  };
-  const std::size_t wanted = std::size_t(this->Options.InitialPointsPerPartition > 0
-      ? this->Options.InitialPointsPerPartition
-      : InitialPointsOfPartition);
-  std::vector<std::vector<Entry>> entries(static_cast<std::size_t>(this->Ranks.size()));
-  const std::int64_t firstId = this->Points.FirstIds[std::size_t(this->Ranks.rank())];
-  const auto choose = [&](PartitionIndex leaf, std::size_t most, std::int32_t area)
-  {
-    const std::size_t count = this->Points.Buckets.count(leaf);
-    const std::size_t chosen = std::min(count, most);
-    for (std::size_t i = 0; i < chosen; ++i)
-    {
-      const std::size_t at = (2 * i + 1) * count / (2 * chosen);
-      const std::int64_t id = firstId + std::int64_t(this->Points.Buckets.id(leaf, at));
-      entries[std::size_t(this->Work.Areas[std::size_t(area)].Lead)].push_back(
-        { { this->Points.Buckets.points(leaf)[at], id }, area });
-    }
-  };
-  for (std::size_t index = 0; index < this->Work.Areas.size(); ++index)
-  {
-    const Area& area = this->Work.Areas[index];
-    if (!area.hasLeaves())
-    {
-      continue;
-    }
-    const auto begin = this->LeafCounts.begin() + area.FirstLeaf;
-    const std::size_t used =
-      std::size_t(std::count_if(begin, begin + area.Inner, [](std::int64_t n) { return n > 0; }));
-    // The whole domain's mesh gets so many of each of its partitions.
-    std::size_t seen = 0;
-    for (PartitionIndex p = 0; p < area.Inner; ++p)
-    {
-      const PartitionIndex leaf = area.FirstLeaf + p;
-      if (this->LeafCounts[std::size_t(leaf)] == 0)
-      {
-        continue;
-      }
-      choose(leaf, wanted, std::int32_t(index));
-      if (index > 0)
-      {
-        choose(leaf, (seen + 1) * wanted / used - seen * wanted / used, 0);
-      }
-      ++seen;
-    }
-  }
-  std::vector<Bytes> messages;
-  for (const std::vector<Entry>& toRank : entries)
-  {
-    ByteWriter writer;
-    writer.array(toRank);
-    messages.push_back(writer.take());
-  }
-  for (const Bytes& message : this->Ranks.allToAll(std::move(messages)))
-  {
-    for (const Entry& entry : ByteReader(message).array<Entry>())
-    {
-      this->InitialPoints[std::int32_t(entry.Area)].push_back(entry.Vertex);
-    }
-  }
 }
 
 template <typename Id>
@@ -355,6 +285,7 @@ void RankRun<Id>::keepFigures(const Dispatcher& dispatcher, std::int32_t index)
   std::sort(group.begin(), group.end());
   figures.GroupSize = std::int32_t(std::unique(group.begin(), group.end()) - group.begin());
   figures.LargestMesh = std::int64_t(dispatcher.LargestMesh);
+  figures.PathSeconds = dispatcher.PathSeconds;
   figures.Seconds = dispatcher.Seconds + this->Dispatchers.at(index).MoreSeconds;
   for (const Dispatcher::Stage& stage : dispatcher.Stages)
   {
@@ -386,6 +317,7 @@ void RankRun<Id>::finishArea(std::int32_t index)
   result.Area = active.Parent;
   result.Partition = active.Partition;
   result.WorkerVertices = dispatcher.WorkerVertices;
+  result.Seconds = dispatcher.PathSeconds;
   result.Seams = SeamGrouping().group(seams, active.Partition);
   active.MoreSeconds += watch.seconds();
   this->keepFigures(dispatcher, index);
@@ -437,6 +369,7 @@ bool RankRun<Id>::step()
   for (TaskResult result; this->Workers.take(result); result = {})
   {
     ++this->Statistics.Partitions;
+    this->TaskSeconds = result.Seconds;
     const std::int32_t master = this->Work.Areas[std::size_t(result.Area)].Lead;
     this->deliver(master, std::move(result));
     this->report();
@@ -453,8 +386,9 @@ template <typename Id>
 void RankRun<Id>::wait()
 {
   // Whoever looks for messages takes the processor from a thread that computes.
-  constexpr std::chrono::microseconds untilMessages(150);
-  constexpr std::chrono::microseconds withTasksWaiting(1000);
+  constexpr double shortest = 150e-6;
+  constexpr double longest = 2e-3;
+  constexpr double withTasksWaiting = 1e-3;
   constexpr double untilReport = 0.1; // for a master without work of its own too
   if (this->SinceReport.seconds() > untilReport)
   {
@@ -462,7 +396,8 @@ void RankRun<Id>::wait()
   }
   if (!this->Workers.isIdle())
   {
-    this->Workers.waitFor(this->Workers.hasTasksWaiting() ? withTasksWaiting : untilMessages);
+    const double least = this->Workers.hasTasksWaiting() ? withTasksWaiting : shortest;
+    this->Workers.waitFor(std::clamp(this->TaskSeconds / 4, least, longest));
     return;
   }
   const Stopwatch watch;
@@ -473,7 +408,8 @@ void RankRun<Id>::wait()
 template <typename Id>
 void RankRun<Id>::run()
 {
-  this->collectInitialPoints();
+  this->InitialPoints =
+    gatherInitialPoints(this->Ranks, this->Work, this->Points, this->LeafCounts, this->Options);
   if (this->Ranks.rank() == 0)
   {
     this->beginTop();

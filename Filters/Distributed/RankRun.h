@@ -5,6 +5,7 @@
 #include "Distributed/Dispatcher.h"
 #include "Distributed/DistributedStatistics.h"
 #include "Distributed/FinalTriangles.h"
+#include "Distributed/InitialPoints.h"
 #include "Distributed/LeafWorkers.h"
 #include "Distributed/PointExchange.h"
 #include "Messages/Postbox.h"
@@ -38,7 +39,6 @@ public:
   bool PartitionsPay = true;             ///< known on all ranks; if not, nothing was done
 
 private:
-  void collectInitialPoints();
   void beginTop();
   void beginArea(std::int32_t parent, Task task);
   void beginDispatcher(std::int32_t index, const SeamTriangles& mesh);
@@ -71,10 +71,11 @@ private:
   const DistributedOptions& Options;
   const int Threads;
   LeafWorkers<Id> Workers;
-  std::map<std::int32_t, std::vector<PlainVertex>> InitialPoints; ///< by area
-  std::map<std::int32_t, Active> Dispatchers;                     ///< by area
+  InitialPointsOfAreas InitialPoints;
+  std::map<std::int32_t, Active> Dispatchers; ///< by area
   std::vector<SeamVertex> Artificial;
   bool Finished = false;
+  double TaskSeconds = 0; ///< that the last partition took
   Stopwatch SinceReport;
 };
 

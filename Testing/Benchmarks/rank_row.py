@@ -7,7 +7,7 @@ import json
 import sys
 
 COLUMNS = ("run", "seconds", "points/s", "master", "sub-masters", "largest mesh", "compute max/mean",
-           "bytes/output")
+           "longest path", "bytes/output")
 
 
 def row(cells):
@@ -26,13 +26,15 @@ def main():
     compute = [rank["compute_seconds"] for rank in run["ranks"]]
     mean = sum(compute) / len(compute)
     master = sum(m["seconds"] for m in run["masters"] if m["area"] == 0)
+    # The rank that computes longest between two barriers, summed over these.
+    path = sum(m["path_seconds"] for m in run["masters"] if m["area"] == 0)
     largest = max((m["largest_mesh"] for m in run["masters"]), default=0)
     # Besides the points' own way to their owners: tasks and boundary triangles.
     sent = sum(t["bytes"] for t in run["traffic"] if t["kind"] in ("task", "result"))
     row((sys.argv[1], f"{seconds:.3f}", f"{run['points'] / seconds:.0f}",
          f"{master / seconds:.2%}",
          f"{sum(m['seconds'] for m in run['masters'] if m['area'] > 0) / seconds:.2%}",
-         f"{largest}", f"{max(compute) / mean if mean else 1:.3f}",
+         f"{largest}", f"{max(compute) / mean if mean else 1:.3f}", f"{path:.3f}",
          f"{sent / (12 * run['triangles']):.2%}"))
 
 

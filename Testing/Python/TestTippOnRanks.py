@@ -51,6 +51,16 @@ class TippOnRanks(unittest.TestCase):
         self.assertEqual(statistics["major_partitions"], 4)
         self.assertEqual(statistics["partitions"], 36)
 
+    def test_the_longest_path_is_between_the_longest_rank_and_all_together(self):
+        for schedule in ("stages", "producer-consumer", "dynamic"):
+            self.triangles(3, "--stats", "run.json", "--masters", "multi", "--major", "2x2",
+                           "--minor", "3x3", "--schedule", schedule)
+            statistics = json.loads((self.folder / "run.json").read_text())
+            computing = [rank["compute_seconds"] for rank in statistics["ranks"]]
+            path = statistics["masters"][0]["path_seconds"]
+            self.assertGreater(path, 0.999 * max(computing))
+            self.assertLess(path, 1.001 * sum(computing))
+
     def test_a_mesh_file_has_the_points_too(self):
         run = self.run_tipp(2, "points.npy", "-o", "mesh.vtp")
         self.assertEqual(run.returncode, 0, run.stderr)

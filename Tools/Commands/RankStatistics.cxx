@@ -33,9 +33,10 @@ nlohmann::ordered_json describe(const DistributedStatistics& statistics)
       stages.push_back({ { "active_partitions", stage.ActivePartitions },
         { "mesh_triangles", stage.MeshTriangles } });
     }
-    json["masters"].push_back({ { "area", master.Area }, { "rank", master.Rank },
-      { "group_size", master.GroupSize }, { "largest_mesh", master.LargestMesh },
-      { "seconds", master.Seconds }, { "stages", stages } });
+    json["masters"].push_back(
+      { { "area", master.Area }, { "rank", master.Rank }, { "group_size", master.GroupSize },
+        { "largest_mesh", master.LargestMesh }, { "seconds", master.Seconds },
+        { "path_seconds", master.PathSeconds }, { "stages", stages } });
   }
   for (const TrafficStatistics& traffic : statistics.Traffic)
   {

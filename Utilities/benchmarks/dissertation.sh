@@ -105,19 +105,21 @@ fi
 if wanted figure3.8; then
   mesh=$data/adcirc/ec95d/ec95d.grd
   if [ -f "$mesh" ]; then
-    echo "== Figure 3.8: points like EC95d, $most ranks"
+    echo "== Figure 3.8: points like EC95d"
     make_points "ec95d-$points" --like "$mesh" --count "$points"
     head_row
-    on_ranks ec95d-single-stages "$most" "ec95d-$points" --masters single --minor 32x32 \
-      --schedule stages --groups equal
-    on_ranks ec95d-producer-consumer "$most" "ec95d-$points" --masters single --minor 32x32 \
-      --schedule producer-consumer --groups equal
-    on_ranks ec95d-multi-plain "$most" "ec95d-$points" --masters multi --major 4x4 --minor 8x8 \
-      --schedule stages --groups equal
-    on_ranks ec95d-multi-adaptive "$most" "ec95d-$points" --masters multi --major 4x4 \
-      --minor auto:49152
-    on_ranks ec95d-multi-tree "$most" "ec95d-$points" --masters multi
-    on_ranks ec95d-single-tree "$most" "ec95d-$points" --masters single
+    for n in $ranks; do
+      on_ranks "ec95d-$n-single-stages" "$n" "ec95d-$points" --masters single --minor 32x32 \
+        --schedule stages --groups equal
+      on_ranks "ec95d-$n-producer-consumer" "$n" "ec95d-$points" --masters single --minor 32x32 \
+        --schedule producer-consumer --groups equal
+      on_ranks "ec95d-$n-multi-plain" "$n" "ec95d-$points" --masters multi --major 4x4 \
+        --minor 8x8 --schedule stages --groups equal
+      on_ranks "ec95d-$n-multi-adaptive" "$n" "ec95d-$points" --masters multi --major 4x4 \
+        --minor auto:16384
+      on_ranks "ec95d-$n-multi-tree" "$n" "ec95d-$points" --masters multi
+      on_ranks "ec95d-$n-single-tree" "$n" "ec95d-$points" --masters single
+    done
   else
     echo "benchmark.sh: no $mesh: figure 3.8 is left out; name the data by TIPP_SHARED_DATA." >&2
   fi

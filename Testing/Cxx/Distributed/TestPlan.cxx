@@ -153,6 +153,28 @@ TEST(Plan, GroupsAreInProportionToPointsUnlessAskedToBeEqual)
   EXPECT_LE(heaviest(GroupSizes::Proportional), heaviest(GroupSizes::Equal));
 }
 
+TEST(Plan, SharesOfWholePartitionsEvenOutOverMajorPartitions)
+{
+  const Coordinates xy = makePointSet("coast", 100000);
+  for (const Division division : { Division::Tree, Division::Threshold })
+  {
+    for (int ranks = 2; ranks <= 8; ++ranks)
+    {
+      DistributedOptions options;
+      options.Design = Masters::Multi;
+      options.Major = { 4, 4 };
+      options.MinorDivision = division;
+      options.Threshold = 400;
+      const PlanInput input = inputOf(xy, ranks);
+      Plan plan = divide(input, options);
+      const std::vector<std::int64_t> counts = leafCounts(plan, xy);
+      assign(plan, input, counts, options);
+      const std::vector<std::int64_t> points = pointsOfRanks(plan, counts, ranks);
+      EXPECT_LT(*std::max_element(points.begin(), points.end()) * ranks, 115 * 1000) << ranks;
+    }
+  }
+}
+
 TEST(Plan, ComesBackFromItsBytes)
 {
   const Coordinates xy = makePointSet("uniform", 20000);
