@@ -4,6 +4,7 @@
 
 #include "vtkRangeResampleFilter.h"
 
+#include "Messages/Postbox.h"
 #include "Output/Monitor.h"
 #include "Resample/Lattice.h"
 #include "Resample/SampledImage.h"
@@ -15,11 +16,6 @@
 class vtkDataArraySelection;
 class vtkImageData;
 class vtkPointSet;
-
-namespace tipp
-{
-class Postbox;
-}
 
 /// One update.
 class vtkRangeResampleFilter::Run
