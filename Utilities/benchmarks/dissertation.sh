@@ -66,12 +66,15 @@ make_points "uniform-$points" --distribution uniform --count "$points"
 
 if wanted table2.1; then
   echo "== Table 2.1: partitions active in the first stage (dissertation: 4 16 61 251 1020)"
-  for n in 4 8 16 32 64; do
-    "$tipp" delaunay "$inputs/uniform-$points.npy" -o "$work/triangles.npy" \
-      --partitions "${n}x$n" --schedule stages --stats "$work/stages.json" >/dev/null
-    /usr/bin/python3 -c "import json, sys
-print(int(sys.argv[2]) ** 2, json.load(open(sys.argv[1]))['stages'][0]['active_partitions'])" \
-      "$work/stages.json" "$n"
+  for initial in 8 64 256; do
+    for n in 4 8 16 32 64; do
+      "$tipp" delaunay "$inputs/uniform-$points.npy" -o "$work/triangles.npy" --partitions "${n}x$n" \
+        --initial-points "$initial" --schedule stages --stats "$work/stages.json" >/dev/null
+      /usr/bin/python3 -c "import json, sys
+active = json.load(open(sys.argv[1]))['stages'][0]['active_partitions']
+print(int(sys.argv[2]) ** 2, 'partitions,', sys.argv[3], 'initial points in each:', active)" \
+        "$work/stages.json" "$n" "$initial"
+    done
   done
 fi
 if wanted figure3.4; then
