@@ -182,6 +182,7 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
   {
     buckets.populate(int(part), threads);
     std::vector<typename BucketWriter<Id>::Bucket> toFill;
+    toFill.reserve(partitions);
     for (PartitionIndex p = 0; p < tiling.size(); ++p)
     {
       toFill.push_back({ buckets.pointsToFill(p), buckets.idsToFill(p),

@@ -92,8 +92,9 @@ private:
   template <typename Item>
   static const Item* alignedUp(const void* memory, std::uintptr_t alignment)
   {
-    const auto address = reinterpret_cast<std::uintptr_t>(memory);
-    return reinterpret_cast<const Item*>((address + alignment - 1) / alignment * alignment);
+    const std::uintptr_t beyond = reinterpret_cast<std::uintptr_t>(memory) % alignment;
+    return reinterpret_cast<const Item*>(
+      static_cast<const char*>(memory) + (beyond == 0 ? 0 : alignment - beyond));
   }
   ///@}
 

@@ -22,8 +22,8 @@ void populatePages(void* memory, std::size_t bytes)
   if (last > first + 8 * page)
   {
     // A failure is no loss: the pages come at their first touch.
-    static_cast<void>(
-      madvise(reinterpret_cast<void*>(first), std::size_t(last - first), MADV_POPULATE_WRITE));
+    static_cast<void>(madvise(static_cast<char*>(memory) + (first - begin),
+      std::size_t(last - first), MADV_POPULATE_WRITE));
   }
 }
 #else
