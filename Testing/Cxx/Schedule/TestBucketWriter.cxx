@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Triangulation/BucketWriter.h"
+#include "ScheduleTesting.h"
 
-#include <gtest/gtest.h>
+#include "Triangulation/BucketWriter.h"
 
 #include <algorithm>
 #include <random>
@@ -11,6 +11,7 @@ namespace
 {
 
 using namespace tipp;
+using namespace tipp::test;
 
 template <typename Id>
 class BucketWriterTest : public testing::Test
@@ -56,8 +57,7 @@ public:
   std::vector<Id> Ids;
 };
 
-using IdTypes = testing::Types<std::int32_t, std::int64_t>;
-TYPED_TEST_SUITE(BucketWriterTest, IdTypes);
+TYPED_TEST_SUITE(BucketWriterTest, IdTypes, IdNames);
 
 TYPED_TEST(BucketWriterTest, EachBucketHasItsItemsInOrderAndNothingBeside)
 {
