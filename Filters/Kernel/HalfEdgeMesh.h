@@ -23,10 +23,6 @@ public:
 
   static Index triangleOf(Index h) { return h & ~7; }
 
-  // Which slot an edge has is unpredictable, so there is no branch here.
-  static Index next(Index h) { return h + 1 - 3 * (h >> 1 & 1); }
-  static Index previous(Index h) { return h - 1 + (((h & 3) - 1) >> 31 & 3); }
-
   /// Names are never negative, and extending them without a sign is free on most processors.
   static std::size_t offset(Index name) { return std::uint32_t(name); }
 

@@ -68,10 +68,8 @@ private:
           block.XY[2 * (begin + i) + 1] * this->Factor };
       }
       this->Pieces.locate(places, size, pieces);
-      for (std::size_t i = 0; i < size; ++i)
-      {
-        this->Labels[begin + i] = isFinite(places[i]) ? std::int32_t(pieces[i]) : -1;
-      }
+      static_assert(std::int32_t(PartitionFinder::None) == -1, "the label of no piece");
+      std::copy_n(pieces, size, this->Labels.begin() + std::ptrdiff_t(begin));
     }
   }
 

@@ -16,6 +16,18 @@ namespace tipp
 namespace test
 {
 
+///@{
+/// Of a half-edge's triangle, counter-clockwise.
+inline HalfEdgeMesh::Index nextOf(HalfEdgeMesh::Index h)
+{
+  return h - h % 8 + (h % 8 + 1) % 3;
+}
+inline HalfEdgeMesh::Index previousOf(HalfEdgeMesh::Index h)
+{
+  return h - h % 8 + (h % 8 + 2) % 3;
+}
+///@}
+
 inline std::vector<Point2> asPoints(const Coordinates& xy)
 {
   std::vector<Point2> points;

@@ -118,14 +118,11 @@ TEST_P(CavityTest, LeavesEveryHalfEdgeWithItsTwin)
       {
         const Index g = this->Mesh.twin(h);
         ASSERT_EQ(h, this->Mesh.twin(g));
+        ASSERT_EQ(this->Mesh.twin(nextOf(h)), HalfEdgeMesh::twinOfNext(this->Mesh.slots(), h));
         ASSERT_EQ(
-          this->Mesh.twin(HalfEdgeMesh::next(h)), HalfEdgeMesh::twinOfNext(this->Mesh.slots(), h));
-        ASSERT_EQ(this->Mesh.twin(HalfEdgeMesh::previous(h)),
-          HalfEdgeMesh::twinOfPrevious(this->Mesh.slots(), h));
-        ASSERT_EQ(
-          this->Mesh.vertex(HalfEdgeMesh::next(h)), this->Mesh.vertex(HalfEdgeMesh::previous(g)));
-        ASSERT_EQ(
-          this->Mesh.vertex(HalfEdgeMesh::previous(h)), this->Mesh.vertex(HalfEdgeMesh::next(g)));
+          this->Mesh.twin(previousOf(h)), HalfEdgeMesh::twinOfPrevious(this->Mesh.slots(), h));
+        ASSERT_EQ(this->Mesh.vertex(nextOf(h)), this->Mesh.vertex(previousOf(g)));
+        ASSERT_EQ(this->Mesh.vertex(previousOf(h)), this->Mesh.vertex(nextOf(g)));
       }
     }
   }

@@ -52,8 +52,8 @@ TEST_P(Kernel, TwinsShareTheirVerticesTheOtherWayRound)
     for (Index h = t; h < t + 3; ++h)
     {
       const Index g = mesh.twin(h);
-      ASSERT_EQ(mesh.vertex(HalfEdgeMesh::next(h)), mesh.vertex(HalfEdgeMesh::previous(g)));
-      ASSERT_EQ(mesh.vertex(HalfEdgeMesh::previous(h)), mesh.vertex(HalfEdgeMesh::next(g)));
+      ASSERT_EQ(mesh.vertex(nextOf(h)), mesh.vertex(previousOf(g)));
+      ASSERT_EQ(mesh.vertex(previousOf(h)), mesh.vertex(nextOf(g)));
     }
   }
 }
@@ -104,8 +104,8 @@ TEST_P(Kernel, NoVertexLiesBeyondAHullEdge)
     {
       if (mesh.vertex(h) == DelaunayKernel::Infinite)
       {
-        const Point2 u = this->Made.point(mesh.vertex(HalfEdgeMesh::next(h)));
-        const Point2 w = this->Made.point(mesh.vertex(HalfEdgeMesh::previous(h)));
+        const Point2 u = this->Made.point(mesh.vertex(nextOf(h)));
+        const Point2 w = this->Made.point(mesh.vertex(previousOf(h)));
         ASSERT_TRUE(std::none_of(this->Points.begin(), this->Points.end(),
           [&](Point2 p) { return orientation(u, w, p) > 0; }));
       }

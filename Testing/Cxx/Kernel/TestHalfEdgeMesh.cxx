@@ -1,37 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Kernel/HalfEdgeMesh.h"
+#include "KernelTesting.h"
 
-#include <gtest/gtest.h>
+#include "Kernel/HalfEdgeMesh.h"
 
 namespace
 {
 
 using namespace tipp;
+using namespace tipp::test;
 using Index = HalfEdgeMesh::Index;
 
 /// Triangles near both ends of the range of names.
 constexpr Index Named[] = { 0, 8, 16, 24, 1000 * 8, 0x7ffffff0, 0x7ffffff8 };
-
-TEST(HalfEdgeMesh, NextGoesThroughTheThreeSlotsInOrder)
-{
-  for (const Index t : Named)
-  {
-    EXPECT_EQ(t + 1, HalfEdgeMesh::next(t));
-    EXPECT_EQ(t + 2, HalfEdgeMesh::next(t + 1));
-    EXPECT_EQ(t, HalfEdgeMesh::next(t + 2));
-  }
-}
-
-TEST(HalfEdgeMesh, PreviousUndoesNext)
-{
-  for (const Index t : Named)
-  {
-    for (Index i = 0; i < 3; ++i)
-    {
-      EXPECT_EQ(t + i, HalfEdgeMesh::previous(HalfEdgeMesh::next(t + i)));
-    }
-  }
-}
 
 TEST(HalfEdgeMesh, AHalfEdgeKnowsItsTriangle)
 {
@@ -63,8 +43,8 @@ TEST(HalfEdgeMesh, TheTwinsOfNextAndPreviousAreWhereEachHalfEdgePoints)
   }
   for (Index h : { 0, 1, 2, 8, 9, 10 })
   {
-    EXPECT_EQ(mesh.twin(HalfEdgeMesh::next(h)), HalfEdgeMesh::twinOfNext(mesh.slots(), h));
-    EXPECT_EQ(mesh.twin(HalfEdgeMesh::previous(h)), HalfEdgeMesh::twinOfPrevious(mesh.slots(), h));
+    EXPECT_EQ(mesh.twin(nextOf(h)), HalfEdgeMesh::twinOfNext(mesh.slots(), h));
+    EXPECT_EQ(mesh.twin(previousOf(h)), HalfEdgeMesh::twinOfPrevious(mesh.slots(), h));
   }
 }
 

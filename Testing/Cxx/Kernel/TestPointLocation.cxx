@@ -162,8 +162,8 @@ TEST_P(PointLocationTest, CornersEdgesAndNeighboursGoTogether)
       // Behind edge i, from corner i to the next, lies the triangle with that edge reversed.
       const std::size_t next = (i + 1) % 3;
       ASSERT_EQ(HalfEdgeMesh::triangleOf(mesh.twin(outers[i])), at.Triangle);
-      ASSERT_EQ(mesh.vertex(HalfEdgeMesh::previous(outers[i])), corners[i]);
-      ASSERT_EQ(mesh.vertex(HalfEdgeMesh::next(outers[i])), corners[next]);
+      ASSERT_EQ(mesh.vertex(previousOf(outers[i])), corners[i]);
+      ASSERT_EQ(mesh.vertex(nextOf(outers[i])), corners[next]);
       EXPECT_EQ(p.x - this->Made.point(corners[i]).x, seen[i].x);
       EXPECT_EQ(p.y - this->Made.point(corners[i]).y, seen[i].y);
       EXPECT_DOUBLE_EQ(seen[i].x * seen[next].y - seen[i].y * seen[next].x, crosses[i]);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 namespace
@@ -12,6 +13,7 @@ using tipp::BlockPlaces;
 using tipp::Run;
 using Ids = std::vector<std::int64_t>;
 using Places = std::vector<std::uint32_t>;
+using FirstsAndSizes = std::vector<std::pair<std::int64_t, std::int64_t>>;
 
 /// Blocks of 4 of 30 tuples, the third and the fourth held, and room for 20 tuples.
 BlockPlaces someHeld()
@@ -30,6 +32,17 @@ Places found(BlockPlaces& places, const Ids& ids)
   return places.find(ids.data(), ids.size(), found.data()) ? found : Places();
 }
 
+/// What is to be read: first tuples and sizes.
+FirstsAndSizes toRead(const BlockPlaces& places)
+{
+  FirstsAndSizes runs;
+  for (const Run& run : places.found())
+  {
+    runs.push_back({ run.First, run.Size });
+  }
+  return runs;
+}
+
 } // namespace
 
 TEST(BlockPlaces, FindTuplesOfHeldBlocks)
@@ -44,9 +57,7 @@ TEST(BlockPlaces, GiveOtherBlocksPlacesBehindThoseHeld)
 {
   BlockPlaces places = someHeld();
   EXPECT_EQ(Places({ 9, 8, 13, 4, 3, 2, 1, 0 }), found(places, { 17, 16, 21, 12, 11, 10, 9, 8 }));
-  ASSERT_EQ(1U, places.found().size());
-  EXPECT_EQ(16, places.found()[0].First);
-  EXPECT_EQ(8, places.found()[0].Size);
+  EXPECT_EQ((FirstsAndSizes{ { 16, 8 } }), toRead(places));
   places.keepFound();
   EXPECT_EQ(16, places.used());
   EXPECT_EQ(Places({ 15 }), found(places, { 23 }));
@@ -56,10 +67,7 @@ TEST(BlockPlaces, ReadTheLastBlockUpToTheLastTuple)
 {
   BlockPlaces places = someHeld();
   EXPECT_EQ(Places({ 9, 12, 8, 8, 8, 8, 8, 8 }), found(places, { 29, 4, 28, 28, 28, 28, 28, 28 }));
-  ASSERT_EQ(2U, places.found().size());
-  EXPECT_EQ(28, places.found()[0].First);
-  EXPECT_EQ(2, places.found()[0].Size);
-  EXPECT_EQ(4, places.found()[1].First);
+  EXPECT_EQ((FirstsAndSizes{ { 28, 2 }, { 4, 4 } }), toRead(places));
 }
 
 TEST(BlockPlaces, RefuseWhatTheyHaveNoRoomFor)
