@@ -127,13 +127,6 @@ void vtkTIPPDelaunay2D::CheckNumbers() const
   require(this->Alpha, "Alpha");
   require(this->Tolerance, "Tolerance");
   require(this->Offset, "Offset");
-  if (this->NumberOfPartitions[0] < 0 || this->NumberOfPartitions[1] < 0)
-  {
-    throw std::runtime_error("NumberOfPartitions is " +
-      std::to_string(this->NumberOfPartitions[0]) + " x " +
-      std::to_string(this->NumberOfPartitions[1]) +
-      ": give numbers above 0, or 0 to have them chosen.");
-  }
 }
 
 vtkAbstractTransform* vtkTIPPDelaunay2D::ComputeBestFittingPlane(vtkPointSet* input)
