@@ -8,6 +8,7 @@
 #include "Output/NeighborArray.h"
 #include "Output/RepresentativeIds.h"
 #include "Output/StatisticsTable.h"
+#include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Projection/BestFittingPlane.h"
 #include "Projection/BoundingPoints.h"
@@ -32,6 +33,9 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
 
 vtkStandardNewMacro(vtkTIPPDelaunay2D);
 vtkCxxSetObjectMacro(vtkTIPPDelaunay2D, Transform, vtkAbstractTransform);
@@ -48,7 +52,7 @@ public:
   explicit ThreadLimit(int threads)
     : Before(omp_get_max_threads())
   {
-    omp_set_num_threads(threads > 0 ? threads : this->Before);
+    omp_set_num_threads(tipp::threadCount(threads));
   }
   ~ThreadLimit() { omp_set_num_threads(this->Before); }
   ThreadLimit(const ThreadLimit&) = delete;
@@ -109,6 +113,22 @@ int vtkTIPPDelaunay2D::FillOutputPortInformation(int port, vtkInformation* info)
   return 1;
 }
 
+/// The setters' bounds let NaN pass.
+void vtkTIPPDelaunay2D::CheckNumbers() const
+{
+  const auto require = [](double value, const char* name)
+  {
+    if (!std::isfinite(value))
+    {
+      throw std::runtime_error(
+        std::string(name) + " is " + std::to_string(value) + ": give a finite number.");
+    }
+  };
+  require(this->Alpha, "Alpha");
+  require(this->Tolerance, "Tolerance");
+  require(this->Offset, "Offset");
+}
+
 vtkAbstractTransform* vtkTIPPDelaunay2D::ComputeBestFittingPlane(vtkPointSet* input)
 {
   const auto transform = tipp::bestFittingPlane(input ? input->GetPoints() : nullptr);
@@ -128,6 +148,7 @@ int vtkTIPPDelaunay2D::RequestData(
   const ThreadLimit limit(this->NumberOfThreads);
   try
   {
+    this->CheckNumbers();
     if (this->HasSeveralRanks())
     {
       const bool wantsGhosts =

@@ -396,6 +396,7 @@ private:
   vtkTIPPDelaunay2D(const vtkTIPPDelaunay2D&) = delete;
   void operator=(const vtkTIPPDelaunay2D&) = delete;
 
+  void CheckNumbers() const;
   bool Execute(vtkPointSet* input, vtkPolyData* output, vtkTable* statistics);
   bool HasSeveralRanks() const;
   bool ExecuteOnRanks(

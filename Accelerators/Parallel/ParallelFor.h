@@ -7,10 +7,12 @@
 namespace tipp
 {
 
-/// As many threads as asked for; 0: OpenMP's choice.
+/// As many threads as asked for, 0: OpenMP's choice; but no more than can be of use. Without that
+/// limit a large number ends the process: OpenMP reports no failure to start a thread.
 inline int threadCount(int threads)
 {
-  return threads > 0 ? threads : omp_get_max_threads();
+  const int most = std::max(64, 4 * omp_get_num_procs());
+  return std::min(threads > 0 ? threads : omp_get_max_threads(), most);
 }
 
 /// work(0) ... work(count - 1) on several threads (0: OpenMP's choice), begun in that order. If

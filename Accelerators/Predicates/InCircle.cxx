@@ -2,27 +2,39 @@
 #include "Predicates/InCircle.h"
 
 #include "Predicates/BitSpan.h"
-#include "Predicates/CommonExponent.h"
 #include "Predicates/ExactDifference.h"
 #include "Predicates/IntegerSigns.h"
+#include "Predicates/ProductSum.h"
 
 namespace tipp
 {
 namespace
 {
 
+// The determinant of the rows (x, y, x^2 + y^2, 1) over the coordinates themselves: differences of
+// coordinates with exponents far apart have too many digits.
 int inCircleAnyLength(Point2 a, Point2 b, Point2 c, Point2 p)
 {
-  const auto v = toCommonExponent<8>({ a.x, a.y, b.x, b.y, c.x, c.y, p.x, p.y });
-  const mpz_class ax = v[0] - v[6];
-  const mpz_class ay = v[1] - v[7];
-  const mpz_class bx = v[2] - v[6];
-  const mpz_class by = v[3] - v[7];
-  const mpz_class cx = v[4] - v[6];
-  const mpz_class cy = v[5] - v[7];
-  const mpz_class determinant = (ax * ax + ay * ay) * (bx * cy - by * cx) +
-    (bx * bx + by * by) * (cx * ay - cy * ax) + (cx * cx + cy * cy) * (ax * by - ay * bx);
-  return sgn(determinant);
+  const BinaryNumber x[4] = { binaryNumber(a.x), binaryNumber(b.x), binaryNumber(c.x),
+    binaryNumber(p.x) };
+  const BinaryNumber y[4] = { binaryNumber(a.y), binaryNumber(b.y), binaryNumber(c.y),
+    binaryNumber(p.y) };
+  // The even permutations of the four rows; exchanging the first two makes the odd ones.
+  constexpr unsigned char even[12][3] = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 1, 0, 3 },
+    { 1, 2, 0 }, { 1, 3, 2 }, { 2, 0, 1 }, { 2, 1, 3 }, { 2, 3, 0 }, { 3, 0, 2 }, { 3, 1, 0 },
+    { 3, 2, 1 } };
+  ProductSum<48, 212> determinant;
+  for (const auto& [i, j, k] : even)
+  {
+    const BinaryNumber left = x[i] * y[j];
+    const BinaryNumber right = -(x[j] * y[i]);
+    for (const BinaryNumber& square : { x[k] * x[k], y[k] * y[k] })
+    {
+      determinant.add(left, square);
+      determinant.add(right, square);
+    }
+  }
+  return determinant.sign();
 }
 
 } // namespace

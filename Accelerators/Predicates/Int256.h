@@ -34,6 +34,30 @@ public:
     return *this;
   }
 
+  /// By less than 256 places; digits beyond the range are lost.
+  Int256& operator<<=(unsigned places)
+  {
+    if (places >= 128)
+    {
+      this->High = this->Low << (places - 128);
+      this->Low = 0;
+    }
+    else if (places > 0)
+    {
+      this->High = this->High << places | this->Low >> (128 - places);
+      this->Low <<= places;
+    }
+    return *this;
+  }
+
+  /// The n for which 2^(n-1) <= value < 2^n, or 2^(n-1) < -value <= 2^n if it is negative.
+  int bitLength() const
+  {
+    const UInt128 flip = this->sign() < 0 ? ~UInt128(0) : 0;
+    const UInt128 high = this->High ^ flip;
+    return high != 0 ? 128 + bitLength(high) : bitLength(this->Low ^ flip);
+  }
+
   /// -1, 0 or +1.
   int sign() const
   {
@@ -45,6 +69,13 @@ public:
   }
 
 private:
+  static int bitLength(UInt128 value)
+  {
+    const std::uint64_t top = static_cast<std::uint64_t>(value >> 64);
+    const std::uint64_t bottom = static_cast<std::uint64_t>(value);
+    return top != 0 ? 128 - __builtin_clzll(top) : (bottom != 0 ? 64 - __builtin_clzll(bottom) : 0);
+  }
+
   static Int256 unsignedProduct(UInt128 a, UInt128 b)
   {
     const std::uint64_t a0 = static_cast<std::uint64_t>(a);

@@ -2,22 +2,29 @@
 #include "Predicates/Orientation.h"
 
 #include "Predicates/BitSpan.h"
-#include "Predicates/CommonExponent.h"
 #include "Predicates/ExactDifference.h"
 #include "Predicates/IntegerSigns.h"
+#include "Predicates/ProductSum.h"
 
 namespace tipp
 {
 namespace
 {
 
+// Over the coordinates themselves: differences of coordinates with exponents far apart have too
+// many digits.
 int orientationAnyLength(Point2 a, Point2 b, Point2 c)
 {
-  // Each product has an x and a y: the two axes may have different powers of two.
-  const auto x = toCommonExponent<3>({ a.x, b.x, c.x });
-  const auto y = toCommonExponent<3>({ a.y, b.y, c.y });
-  const mpz_class determinant = (x[0] - x[2]) * (y[1] - y[2]) - (y[0] - y[2]) * (x[1] - x[2]);
-  return sgn(determinant);
+  const BinaryNumber x[3] = { binaryNumber(a.x), binaryNumber(b.x), binaryNumber(c.x) };
+  const BinaryNumber y[3] = { binaryNumber(a.y), binaryNumber(b.y), binaryNumber(c.y) };
+  ProductSum<6, 106> determinant;
+  for (int i = 0; i < 3; ++i)
+  {
+    const int next = (i + 1) % 3;
+    determinant.add(x[i], y[next]);
+    determinant.add(-x[next], y[i]);
+  }
+  return determinant.sign();
 }
 
 BitSpan spanOf(ExactDifference first, ExactDifference second)

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <vector>
 
 namespace tipp
 {
@@ -91,6 +93,54 @@ inline void fillEntries(const Point2* points, std::size_t count, std::uint64_t* 
     fillBlock(
       points, first, std::min(PointsInBlock, count - first), extent.Low, scale, lastRound, entries);
   }
+}
+
+/// Entries of consecutive points with the same round and key.
+struct Run
+{
+  std::size_t Begin;
+  std::size_t End;
+};
+
+/// Adds the runs of three and more entries that are equal above bit `lowest`. The entries are those
+/// of the range `within`.
+void addRuns(
+  const Uninitialised<std::uint64_t>& entries, Run within, unsigned lowest, std::vector<Run>& runs)
+{
+  const std::size_t count = within.End - within.Begin;
+  std::size_t begin = 0;
+  for (std::size_t i = 1; i <= count; ++i)
+  {
+    if (i == count || (entries[i] ^ entries[begin]) >> lowest != 0)
+    {
+      if (i - begin > 2)
+      {
+        runs.push_back({ within.Begin + begin, within.Begin + i });
+      }
+      begin = i;
+    }
+  }
+}
+
+/// For each point the key in the points' own bounding box above its index. False where that tells
+/// no points apart: they are at one place, or the box is too large or too small for doubles.
+bool fillKeys(const std::vector<Point2>& points, Uninitialised<std::uint64_t>& keys)
+{
+  const Extent extent = extentOf(points.data(), points.size());
+  const Pair sides = extent.High - extent.Low;
+  const double scale = (1U << Levels) / std::max(sides[0], sides[1]);
+  if (!std::isnormal(scale))
+  {
+    return false;
+  }
+  keys.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const std::uint64_t key = hilbertKey(
+      quantise(points[i].x - extent.Low[0], scale), quantise(points[i].y - extent.Low[1], scale));
+    keys[i] = key << IndexBits | i;
+  }
+  return true;
 }
 
 // Each is compiled for its instructions with all that is inline.
@@ -185,6 +235,41 @@ void InsertionOrder::compute(const Point2* points, std::size_t count)
   if (this->hasManyTies(lowest))
   {
     this->sortByDigits<3>(IndexBits, (RoundBits + KeyBits) / 3);
+    if (this->hasManyTies(IndexBits))
+    {
+      this->refineTies(points);
+    }
+  }
+}
+
+/// Sorts points of one round that share a cell of the finest level along a curve in their own
+/// bounding box, until no cell is shared: coordinates may be hundreds of binary digits apart.
+void InsertionOrder::refineTies(const Point2* points)
+{
+  std::vector<Run> runs;
+  addRuns(this->Entries, { 0, this->Entries.size() }, IndexBits, runs);
+  Uninitialised<std::uint64_t> keys;
+  std::vector<Point2> local;
+  while (!runs.empty())
+  {
+    const Run run = runs.back();
+    runs.pop_back();
+    local.clear();
+    for (std::size_t i = run.Begin; i < run.End; ++i)
+    {
+      local.push_back(points[(*this)[i]]);
+    }
+    if (!fillKeys(local, keys))
+    {
+      continue;
+    }
+    std::sort(keys.begin(), keys.end());
+    for (std::size_t i = 0; i < local.size(); ++i)
+    {
+      this->Scratch[run.Begin + i] = this->Entries[run.Begin + (keys[i] & IndexMask)];
+    }
+    std::copy_n(&this->Scratch[run.Begin], local.size(), &this->Entries[run.Begin]);
+    addRuns(keys, { run.Begin, run.End }, IndexBits, runs);
   }
 }
 

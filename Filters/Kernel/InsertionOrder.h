@@ -54,6 +54,7 @@ private:
   template <unsigned passes>
   void sortByDigits(unsigned lowest, unsigned digitBits);
   bool hasManyTies(unsigned lowest) const;
+  void refineTies(const Point2* points);
 
   const Instructions Allowed;
   Uninitialised<std::uint64_t> Entries; ///< round, key and index, from the highest bits down

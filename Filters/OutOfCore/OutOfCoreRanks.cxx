@@ -6,9 +6,8 @@
 #include "OutOfCore/InputPasses.h"
 #include "OutOfCore/PieceHelper.h"
 #include "OutOfCore/PreparedRun.h"
+#include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
-
-#include <omp.h>
 
 #include <filesystem>
 #include <fstream>
@@ -82,7 +81,7 @@ Message waitForOrder(Postbox& ranks, const OutOfCoreOptions& options)
 
 int threadsOf(const OutOfCoreOptions& options)
 {
-  return options.Threads > 0 ? options.Threads : omp_get_max_threads();
+  return threadCount(options.Threads);
 }
 
 /// Helps with the input until pieces can be worked on: false if there are none to help with.

@@ -10,10 +10,9 @@
 #include "OutOfCore/PreparedRun.h"
 #include "OutOfCore/ScratchFolder.h"
 #include "Parallel/ForChunks.h"
+#include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Partitioned/NeighborIds.h"
-
-#include <omp.h>
 
 #include <algorithm>
 #include <memory>
@@ -57,7 +56,7 @@ public:
     , Ranks(ranks)
     , Path(path)
     , Options(options)
-    , Threads(options.Threads > 0 ? options.Threads : omp_get_max_threads())
+    , Threads(threadCount(options.Threads))
     , Pending(PendingFolder::lasting(path, &replaceableMesh))
     , Scratch(this->Pending, options.Scratch)
   {

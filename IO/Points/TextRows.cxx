@@ -5,6 +5,8 @@
 #include "Files/TextFile.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <limits>
 
 namespace tipp
@@ -28,6 +30,30 @@ bool isMissing(std::string_view field)
 {
   field = trimField(field);
   return field.empty() || field == "NA" || field == "N/A" || field == "null" || field == "-";
+}
+
+/// Whether a field of digits alone is not the double that was made of it.
+bool isRoundedInteger(std::string_view field, double value)
+{
+  constexpr double exact = 0x1p53;
+  if (!(std::fabs(value) >= exact))
+  {
+    return false;
+  }
+  field = trimField(field);
+  if (field.front() == '+' || field.front() == '-')
+  {
+    field.remove_prefix(1);
+  }
+  field.remove_prefix(std::min(field.find_first_not_of('0'), field.size()));
+  if (field.find_first_not_of("0123456789") != std::string_view::npos)
+  {
+    return false;
+  }
+  char digits[400];
+  const auto [end, error] =
+    std::to_chars(digits, digits + sizeof(digits), std::fabs(value), std::chars_format::fixed, 0);
+  return error != std::errc() || field != std::string_view(digits, std::size_t(end - digits));
 }
 
 std::string_view trimEnd(std::string_view line)
@@ -161,6 +187,13 @@ double TextRows::coordinate(std::size_t index) const
     throw IOError(this->Path, this->Lines.lineNumber(),
       "'" + std::string(trimField(this->Row[index]).substr(0, shown)) +
         "' is not a number; correct the line or choose other columns for x and y.");
+  }
+  if (isRoundedInteger(this->Row[index], value))
+  {
+    throw IOError(this->Path, this->Lines.lineNumber(),
+      "'" + std::string(trimField(this->Row[index])) +
+        "' is an integer beyond 2^53 that a double cannot hold; subtract an offset from the "
+        "column.");
   }
   return value;
 }

@@ -27,7 +27,7 @@ Points drawQuadruple(NearDegenerate& draw)
 {
   const double steps[] = { 1.0, 0.1, 1e-9 };
   const double step = steps[draw.integer(0, 2)];
-  switch (draw.integer(0, 9))
+  switch (draw.integer(0, 10))
   {
     case 0:
     case 1:
@@ -44,6 +44,9 @@ Points drawQuadruple(NearDegenerate& draw)
       return scaled(draw.collinear(0.1, { 0.3, 0 }), draw.integer(-1060, 1014));
     case 8:
       return draw.unitCircle();
+    case 9:
+      return draw.integer(0, 9) == 0 ? draw.fewMagnitudes(-1074, 1020)
+                                     : draw.fewMagnitudes(-100, 100);
     default:
       // Rationals of thousands of bits are slow: one in fifty.
       return draw.integer(0, 49) == 0 ? draw.mixedExponents(-1030, 1000)

@@ -14,6 +14,8 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkFloatArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
 
+from ._arguments import data_object, text
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
     from vtkmodules.vtkCommonCore import vtkDataArray
@@ -25,20 +27,65 @@ _MOST_THREADS = 8
 _MADV_POPULATE_WRITE = 23  # Linux 5.14
 
 
+def taken(values: ArrayLike, name: str) -> np.ndarray:
+    """The array that every function takes its numbers from: in the machine's byte order, of a type that VTK has.
+
+    It shares the memory of `values` where that is possible. Masked entries become NaN. Raises TypeError or ValueError
+    where a conversion would lose something.
+    """
+    try:
+        array = values if isinstance(values, np.ma.MaskedArray) else np.asarray(values)
+    except (TypeError, ValueError) as error:
+        raise type(error)(f"{name} cannot be made an array of numbers; give rows of equal length.") from None
+    kind, size = array.dtype.kind, array.dtype.itemsize
+    if kind not in "fiub":
+        raise TypeError(f"{name} is of type {array.dtype}; give real numbers.")
+    if kind == "f" and size > 8:
+        raise TypeError(f"{name} is of type {array.dtype}, which VTK does not have; give float64, "
+                        "as by astype(numpy.float64), which rounds.")
+    if np.ma.is_masked(array):
+        if kind != "f":
+            raise ValueError(f"{name} has masked entries and is of type {array.dtype}, which has no NaN; give floats, "
+                             "or a value for them, as by filled(-1).")
+        array = array.filled(np.nan)
+    native = "u1" if kind == "b" else "f4" if kind == "f" and size == 2 else f"{kind}{size}"
+    return np.asarray(array).astype(native, copy=False)
+
+
+def _coordinates(points: ArrayLike) -> np.ndarray:
+    if isinstance(points, np.ma.MaskedArray) and points.dtype.kind in "iu":
+        points = np.ma.MaskedArray(_as_doubles(points.data, points.mask), points.mask)
+    array = taken(points, "points")
+    if array.ndim != 2 or array.shape[1] not in (2, 3):
+        raise ValueError(f"points have the shape {array.shape}; give an array of shape (n, 2) or (n, 3).")
+    if np.asarray(points).dtype.kind == "b":
+        raise TypeError("points are of type bool; give real numbers.")
+    return _as_doubles(array) if array.dtype.kind in "iu" and array.dtype.itemsize == 8 else array
+
+
+def _as_doubles(integers: np.ndarray, mask: Any = False) -> np.ndarray:
+    """Integers as doubles, none of them rounded but those under the mask."""
+    doubles = integers.astype(np.float64)
+    beyond = np.abs(doubles) >= 2.0**53
+    if beyond.any():
+        too_large = doubles >= (2.0**63 if integers.dtype.kind == "i" else 2.0**64)
+        back = np.where(too_large, 0, doubles).astype(integers.dtype)
+        rounded = beyond & (too_large | (back != integers)) & ~np.asarray(mask)
+        if rounded.any():
+            raise ValueError(f"points have {int(rounded.sum())} integers beyond 2**53 that a double cannot hold; "
+                             "subtract an offset from them.")
+    return doubles
+
+
 def vtk_points(points: ArrayLike) -> vtkPoints:
     """VTK's points of an (n, 2) or (n, 3) array.
 
-    They share the memory of an (n, 3) array of float32 or float64 in C order; any other array is
+    They share the memory of a writable (n, 3) array of float32 or float64 in C order; any other array is
     copied once.
     """
-    array = np.asarray(points)
-    if array.ndim != 2 or array.shape[1] not in (2, 3):
-        raise ValueError(f"points have the shape {array.shape}; give an array of shape (n, 2) or (n, 3).")
-    if array.dtype.kind not in "fiu":
-        raise TypeError(f"points are of type {array.dtype}; give real numbers.")
-    kind = array.dtype.newbyteorder("=")
-    kind = kind if kind in (np.float32, np.float64) else np.dtype(np.float64)
-    is_shared = array.shape[1] == 3 and array.dtype == kind and array.flags.c_contiguous
+    array = _coordinates(points)
+    kind = array.dtype if array.dtype in (np.float32, np.float64) else np.dtype(np.float64)
+    is_shared = (array.shape[1] == 3 and array.dtype == kind and array.flags.c_contiguous and array.flags.writeable)
     result = vtkPoints()
     result.SetData(numpy_to_vtk(array) if is_shared else _copied(array, kind))
     return result
@@ -82,20 +129,29 @@ def _touch(array: np.ndarray) -> None:
 
 
 def vtk_array(name: str, values: ArrayLike) -> Any:
-    """A named VTK array that shares the memory of values, if they are contiguous."""
-    array = np.ascontiguousarray(values)
-    if array.dtype.kind == "b":
-        array = array.view(np.uint8)
-    result = numpy_to_vtk(array)
+    """A named VTK array of one value or one row for each point.
+
+    It shares the memory of values, if they are writable, contiguous and of a type that VTK has.
+    """
+    argument = f"point_data['{name}']"
+    array = taken(values, argument)
+    if array.ndim not in (1, 2) or array.shape[-1:] == (0,) and array.ndim == 2:
+        raise ValueError(f"{argument} has the shape {array.shape}; give one value or one row for each point.")
+    array = np.ascontiguousarray(array)
+    result = numpy_to_vtk(array if array.flags.writeable else array.copy())
     result.SetName(name)
     return result
 
 
 def point_cloud(points: ArrayLike, point_data: Mapping[str, ArrayLike] | None = None) -> vtkPolyData:
     """Points and values at them as a data set; see vtk_points for copies."""
+    if point_data is not None and not isinstance(point_data, Mapping):
+        raise TypeError("point_data is no mapping; give a dictionary of arrays by name.")
     cloud = vtkPolyData()
     cloud.SetPoints(vtk_points(points))
     for name, values in (point_data or {}).items():
+        if not isinstance(name, str):
+            raise TypeError(f"point_data has the key {name!r}; give names as keys.")
         array = vtk_array(name, values)
         if array.GetNumberOfTuples() != cloud.GetNumberOfPoints():
             raise ValueError(f"point_data['{name}'] has {array.GetNumberOfTuples()} values for "
@@ -131,6 +187,8 @@ def as_array(data: vtkDataSet, name: str) -> np.ndarray:
     >>> grid.shape
     (200, 300)
     """
+    data_object(data, "data", ("vtkDataSet",), "a VTK data set")
+    text(name, "name")
     of_points, of_cells = data.GetPointData(), data.GetCellData()
     array = of_points.GetArray(name) or of_cells.GetArray(name)
     if array is None:

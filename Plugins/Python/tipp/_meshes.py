@@ -2,9 +2,11 @@
 """tipp.read and tipp.write: partitioned and flat meshes."""
 from __future__ import annotations
 
+import math
 import os
 from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
+from . import _arguments as check
 from ._run import run
 from .vtkTIPPIO import vtkPartitionedUnstructuredReader, vtkPartitionedUnstructuredWriter
 
@@ -12,11 +14,10 @@ if TYPE_CHECKING:
     from vtkmodules.vtkCommonDataModel import vtkDataObject
 
 
-def _keep_only(selection: Any, names: Iterable[str] | None, what: str) -> None:
-    if names is None:
+def _keep_only(selection: Any, wanted: list[str] | None, what: str) -> None:
+    if wanted is None:
         return
     known = [selection.GetArrayName(i) for i in range(selection.GetNumberOfArrays())]
-    wanted = list(names)
     for name in wanted:
         if name not in known:
             raise KeyError(f"the mesh has no {what} array '{name}'; it has {known}.")
@@ -29,8 +30,8 @@ def read(
     bounds: Sequence[float] | None = None,
     *,
     time: float | None = None,
-    point_arrays: Iterable[str] | None = None,
-    cell_arrays: Iterable[str] | None = None,
+    point_arrays: str | Iterable[str] | None = None,
+    cell_arrays: str | Iterable[str] | None = None,
     borrowed: bool = False,
     merge: bool = True,
     tiling: str = "grid:4x4",
@@ -50,7 +51,7 @@ def read(
     time
         Of arrays that vary in time the last step not after it. None: the first.
     point_arrays, cell_arrays
-        The names of the arrays to read. None: all.
+        The name or the names of the arrays to read. None: all.
     borrowed
         Whether pieces also have, as ghosts, the cells that they borrow.
     merge
@@ -79,21 +80,32 @@ def read(
     >>> part = tipp.read("mesh.tipp", bounds=(0.2, 0.4, 0.5, 0.7, 0, 0))
     """
     reader = vtkPartitionedUnstructuredReader()
-    reader.SetFileName(os.fspath(path))
+    reader.SetFileName(check.path(path, "path"))
     if bounds is not None:
-        reader.SetBounds(*bounds)
-    reader.SetBorrowerMode(reader.OWNED_AND_BORROWED if borrowed else reader.OWNED)
-    reader.SetMergePieces(merge)
-    reader.SetTiling(tiling)
-    reader.SetMemoryLimit(memory_limit)
+        reader.SetBounds(*check.several(bounds, "bounds", 6, _bound))
+    reader.SetBorrowerMode(reader.OWNED_AND_BORROWED if check.flag(borrowed, "borrowed") else reader.OWNED)
+    reader.SetMergePieces(check.flag(merge, "merge"))
+    reader.SetTiling(check.text(tiling, "tiling"))
+    reader.SetMemoryLimit(check.memory(memory_limit, "memory_limit"))
+    check.flag(progress_bar, "progress_bar")
+    time = None if time is None else check.number(time, "time")
+    of_points = None if point_arrays is None else check.names(point_arrays, "point_arrays")
+    of_cells = None if cell_arrays is None else check.names(cell_arrays, "cell_arrays")
     run(reader, call=reader.UpdateInformation)
-    _keep_only(reader.GetPointDataArraySelection(), point_arrays, "point")
-    _keep_only(reader.GetCellDataArraySelection(), cell_arrays, "cell")
+    _keep_only(reader.GetPointDataArraySelection(), of_points, "point")
+    _keep_only(reader.GetCellDataArraySelection(), of_cells, "cell")
     controller = reader.GetController()
     rank = controller.GetLocalProcessId() if controller else 0
     size = controller.GetNumberOfProcesses() if controller else 1
     run(reader, progress_bar, lambda: _update(reader, rank, size, time))
     return reader.GetOutputDataObject(0)
+
+
+def _bound(value: Any, name: str) -> float:
+    result = check.number(value, name, finite=False)
+    if math.isnan(result):
+        raise ValueError(f"{name} is nan; give a number.")
+    return result
 
 
 def _update(reader: vtkPartitionedUnstructuredReader, rank: int, size: int, time: float | None) -> None:
@@ -144,13 +156,14 @@ def write(
     >>> tipp.write(mesh, "mesh.tipp", tiling="quadtree:100000")
     """
     writer = vtkPartitionedUnstructuredWriter()
-    if isinstance(mesh, (str, os.PathLike)):
-        writer.SetInputFileName(os.fspath(mesh))
+    if isinstance(mesh, (str, bytes, os.PathLike)):
+        writer.SetInputFileName(check.path(mesh, "mesh"))
     else:
-        writer.SetInputData(mesh)
-    writer.SetFileName(os.fspath(path))
-    writer.SetTiling(tiling)
-    writer.SetDuplicateBorrowers(duplicate_borrowers)
-    writer.SetMemoryLimit(memory_limit)
-    writer.SetNumberOfThreads(threads)
+        writer.SetInputData(check.data_object(mesh, "mesh", ("vtkDataObject",), "a VTK data set or a path"))
+    writer.SetFileName(check.path(path, "path"))
+    writer.SetTiling(check.text(tiling, "tiling"))
+    writer.SetDuplicateBorrowers(check.flag(duplicate_borrowers, "duplicate_borrowers"))
+    writer.SetMemoryLimit(check.memory(memory_limit, "memory_limit"))
+    writer.SetNumberOfThreads(check.threads(threads))
+    check.flag(progress_bar, "progress_bar")
     run(writer, progress_bar, writer.Write)

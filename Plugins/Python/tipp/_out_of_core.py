@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
-import re
-from typing import Sequence, Union
+from typing import Any, Iterable, Mapping, Sequence, Union
 
+from . import _arguments as check
 from ._run import run
 from .vtkTIPPFilters import vtkTIPPOutOfCoreDelaunay2D
 
@@ -24,12 +24,13 @@ _FIGURES = {
 }
 
 
-def _bytes_of(memory: int | str) -> int:
-    match = re.fullmatch(r"([0-9]+)([KMG]?)", str(memory))
-    size = int(match[1]) << {"": 0, "K": 10, "M": 20, "G": 30}[match[2]] if match else 0
-    if not 0 < size < 1 << 63:
-        raise ValueError(f"memory is {memory!r}; it is a number of bytes, as 536870912 or '512M' or '2G'.")
-    return size
+def _paths(points: Any) -> list[str]:
+    is_list = isinstance(points, Iterable) and not isinstance(points, (str, bytes, os.PathLike, Mapping))
+    return [check.path(path, "points") for path in (points if is_list else [points])]
+
+
+def _column(value: Any, name: str) -> str:
+    return value if isinstance(value, str) else str(check.whole(value, name))
 
 
 def delaunay_file(
@@ -102,20 +103,23 @@ def delaunay_file(
     >>> part = tipp.read("mesh.tipp", bounds=(0.2, 0.4, 0.5, 0.7, 0, 0))
     """
     algorithm = vtkTIPPOutOfCoreDelaunay2D()
-    for path in [points] if isinstance(points, (str, os.PathLike)) else points:
-        algorithm.AddInputFileName(os.fspath(path))
-    algorithm.SetFileName(os.fspath(output))
-    algorithm.SetMemoryLimit(_bytes_of(memory))
-    algorithm.SetNumberOfPartitions(*(partitions or (0, 0)))
+    for path in _paths(points):
+        algorithm.AddInputFileName(path)
+    algorithm.SetFileName(check.path(output, "output"))
+    algorithm.SetMemoryLimit(check.memory(memory, "memory"))
+    if partitions is not None:
+        algorithm.SetNumberOfPartitions(*check.several(partitions, "partitions", 2, check.whole))
     if columns is not None:
-        algorithm.SetXColumn(str(columns[0]))
-        algorithm.SetYColumn(str(columns[1]))
-    algorithm.SetGenerateRepresentativeIds(map_duplicates)
-    algorithm.SetGenerateNeighborIds(neighbors)
-    algorithm.SetCountOnly(count_only)
-    algorithm.SetResume(resume)
-    algorithm.SetScratchFolder(None if scratch is None else os.fspath(scratch))
-    algorithm.SetNumberOfThreads(threads)
+        x, y = check.several(columns, "columns", 2, _column)
+        algorithm.SetXColumn(x)
+        algorithm.SetYColumn(y)
+    algorithm.SetGenerateRepresentativeIds(check.flag(map_duplicates, "map_duplicates"))
+    algorithm.SetGenerateNeighborIds(check.flag(neighbors, "neighbors"))
+    algorithm.SetCountOnly(check.flag(count_only, "count_only"))
+    algorithm.SetResume(check.flag(resume, "resume"))
+    algorithm.SetScratchFolder(None if scratch is None else check.path(scratch, "scratch"))
+    algorithm.SetNumberOfThreads(check.threads(threads))
+    check.flag(progress_bar, "progress_bar")
     run(algorithm, progress_bar)
     totals = algorithm.GetOutput().GetFieldData()
     arrays = {key: totals.GetArray(name) for key, name in _FIGURES.items()}

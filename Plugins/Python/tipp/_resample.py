@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Iterable, Sequence
 
+from . import _arguments as check
 from ._arrays import wrapped_like
 from ._run import run
 from .vtkTIPPFilters import vtkRangeResampleFilter
@@ -17,7 +18,7 @@ def resample(
     spacing: Sequence[float] | None = None,
     null_value: float = 0.0,
     no_data: float | None = None,
-    arrays: Iterable[str] | None = None,
+    arrays: str | Iterable[str] | None = None,
     device: str = "auto",
     threads: int = 0,
     progress_bar: bool = False,
@@ -42,7 +43,7 @@ def resample(
     no_data
         Cells with a corner that has this value answer nothing (as ADCIRC's -99999 at dry nodes).
     arrays
-        The names of the arrays to sample. None: all.
+        The name or the names of the arrays to sample. None: all.
     device
         "auto", "openmp", "opencl", "opencl:INDEX" or "opencl:NAME".
     threads
@@ -58,6 +59,10 @@ def resample(
 
     Raises
     ------
+    TypeError, ValueError
+        If an argument is of a wrong type or value.
+    KeyError
+        If the mesh has no such array.
     RuntimeError
         If the filter failed; the message is the filter's.
     KeyboardInterrupt
@@ -67,22 +72,27 @@ def resample(
     --------
     >>> image = tipp.resample(mesh, bounds=(0, 10, 0, 5, 0, 0), dimensions=(1000, 500, 1))
     """
+    check.data_object(mesh, "mesh", ("vtkPointSet", "vtkCompositeDataSet"), "a mesh or a composite of meshes")
     algorithm = vtkRangeResampleFilter()
     algorithm.SetInputDataObject(mesh)
     if bounds is not None:
         algorithm.SetUseInputBounds(False)
-        algorithm.SetSamplingBounds(*bounds)
+        algorithm.SetSamplingBounds(*check.several(bounds, "bounds", 6, check.number))
     if spacing is not None:
-        algorithm.SetDelta(*spacing)
-    algorithm.SetSamplingDimensions(*(dimensions or ((1, 1, 1) if spacing is not None else (256, 0, 0))))
-    algorithm.SetNullValue(null_value)
+        algorithm.SetDelta(*check.several(spacing, "spacing", 3, check.number, at_least=0))
+    if dimensions is None:
+        dimensions = (1, 1, 1) if spacing is not None else (256, 0, 0)
+    algorithm.SetSamplingDimensions(*check.several(dimensions, "dimensions", 3, check.whole))
+    algorithm.SetNullValue(check.number(null_value, "null_value", finite=False))
     if no_data is not None:
         algorithm.SetUseNoDataValue(True)
-        algorithm.SetNoDataValue(no_data)
+        algorithm.SetNoDataValue(check.number(no_data, "no_data", finite=False))
     if arrays is not None:
-        _select(algorithm, mesh, list(arrays))
+        _select(algorithm, mesh, check.names(arrays, "arrays"))
+    check.text(device, "device")
+    check.flag(progress_bar, "progress_bar")
+    algorithm.SetNumberOfThreads(check.threads(threads))
     run(algorithm, call=lambda: algorithm.SetDeviceChoice(device))
-    algorithm.SetNumberOfThreads(threads)
     run(algorithm, progress_bar)
     return wrapped_like(algorithm.GetOutput(), mesh)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import re
 import signal
 import sys
 import threading
@@ -62,8 +63,14 @@ def _observed(subject: Any, event: str, callback: Callable[..., None]) -> Iterat
 
 
 def _first_sentence(text: str) -> str:
-    """What an error says, without VTK's place in the source and object's address."""
-    return text.strip().split("): ", 1)[-1].strip()
+    """What an error says, on one line, without VTK's place in the source and addresses of objects. A file in the
+    temporary form of an output is named as that output."""
+    text = re.sub(r"^\s*(ERROR|Warning|Generic Warning): In .*, line \d+\s*", "", text)
+    text = re.sub(r"^\s*\w+ \((0x)?[0-9a-fA-F]+\): ", "", text)
+    text = re.sub(r" ?\((0x[0-9a-fA-F]+|nil)\)", "", text)
+    text = re.sub(r"(^|/)\.([^/]+?)\.tmp\.\w{6}(/[^:]*)?", r"\1\2", text)
+    text = re.sub(r" for request: vtkInformation\b.*", ".", text, flags=re.DOTALL)
+    return " ".join(text.split())
 
 
 def run(algorithm: vtkAlgorithm, progress_bar: bool = False, call: Callable[[], Any] | None = None) -> Any:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Mapping
 
+from . import _arguments as check
 from ._arrays import point_cloud, triangles_of, wrapped_like
 from ._run import run
 from .vtkTIPPFilters import vtkTIPPDelaunay2D
@@ -17,12 +18,6 @@ _SCHEDULES = {
     "dynamic": vtkTIPPDelaunay2D.DYNAMIC,
     "producer-consumer": vtkTIPPDelaunay2D.PRODUCER_CONSUMER,
 }
-
-
-def _choice(name: str, value: str, choices: Mapping[str, int]) -> int:
-    if value not in choices:
-        raise ValueError(f"{name} is '{value}'; it is one of {', '.join(choices)}.")
-    return choices[value]
 
 
 def delaunay(
@@ -39,8 +34,8 @@ def delaunay(
     Parameters
     ----------
     points
-        Coordinates of shape (n, 2) or (n, 3); z plays no part. An (n, 3) array of float32 or float64
-        in C order is not copied, any other once.
+        Coordinates of shape (n, 2) or (n, 3); z plays no part. A writable (n, 3) array of float32 or
+        float64 in C order is not copied, any other once. Masked coordinates are NaN.
     tol
         Points no farther apart than this fraction of the bounding box's diagonal are merged. 0 merges
         points at the same place.
@@ -61,6 +56,8 @@ def delaunay(
 
     Raises
     ------
+    TypeError, ValueError
+        If an argument is of a wrong type or value.
     RuntimeError
         If the triangulation failed; the message is the filter's.
     KeyboardInterrupt
@@ -127,17 +124,21 @@ def delaunay_2d(
     --------
     >>> mesh = tipp.delaunay_2d(xyz, point_data={"depth": depth})
     """
-    is_data = hasattr(points, "IsA") and points.IsA("vtkDataObject")
+    is_data = check.is_vtk_object(points)
     if is_data and point_data is not None:
         raise ValueError("point_data goes with an array of points; a data set has its own.")
+    if is_data:
+        check.data_object(points, "points", ("vtkPointSet",), "a vtkPointSet or an array")
     algorithm = vtkTIPPDelaunay2D()
     algorithm.SetInputData(points if is_data else point_cloud(points, point_data))
-    algorithm.SetTolerance(tol)
-    algorithm.SetAlpha(alpha)
-    algorithm.SetOffset(offset)
-    algorithm.SetBoundingTriangulation(bound)
-    algorithm.SetNumberOfPartitions(*(partitions or (0, 0)))
-    algorithm.SetSchedule(_choice("schedule", schedule, _SCHEDULES))
-    algorithm.SetNumberOfThreads(threads)
+    algorithm.SetTolerance(check.number(tol, "tol", at_least=0))
+    algorithm.SetAlpha(check.number(alpha, "alpha", at_least=0))
+    algorithm.SetOffset(check.number(offset, "offset", at_least=0))
+    algorithm.SetBoundingTriangulation(check.flag(bound, "bound"))
+    if partitions is not None:
+        algorithm.SetNumberOfPartitions(*check.several(partitions, "partitions", 2, check.whole))
+    algorithm.SetSchedule(check.choice(schedule, "schedule", _SCHEDULES))
+    algorithm.SetNumberOfThreads(check.threads(threads))
+    check.flag(progress_bar, "progress_bar")
     run(algorithm, progress_bar)
     return wrapped_like(algorithm.GetOutput(), points)

@@ -139,6 +139,19 @@ TEST_F(TextPoints, NotANumberIsReadAsSuch)
   EXPECT_TRUE(std::isnan(this->read("1,2\nnan,3\n").XY[2]));
 }
 
+TEST_F(TextPoints, IntegersThatADoubleCannotHoldAreReportedWithTheirLine)
+{
+  const Values exact{ 9007199254740994.0, -9007199254740992.0, 1e22, 18446744073709551616.0 };
+  EXPECT_EQ(exact,
+    this->read(
+          "9007199254740994,-9007199254740992\n+10000000000000000000000,18446744073709551616\n")
+      .XY);
+  EXPECT_EQ(12345678901234567.25, this->read("12345678901234567.25,1\n2,3\n").XY[0]);
+  this->expectError(
+    "1,2\n9007199254740993,4\n", "line 2: '9007199254740993' is an integer beyond 2^53");
+  this->expectError("1,-0018446744073709551615\n", "subtract an offset from the column");
+}
+
 TEST_F(TextPoints, GarbageInACoordinateIsReportedWithItsLine)
 {
   this->expectError("x,y\n1,2\n3,four\n", "line 3: 'four' is not a number");

@@ -143,6 +143,39 @@ TEST(InsertionOrder, NeighboursInATightClusterAreNearInThePlane)
   EXPECT_LT(10 * wayLength(points, order, 0), unordered);
 }
 
+/// Clusters beside the origin, each a millionth of the one before: no fixed number of levels tells
+/// the points of the last ones apart.
+TEST(InsertionOrder, NeighboursInEveryOfManyNestedClustersAreNear)
+{
+  const std::size_t count = 3000;
+  const std::vector<Point2> cluster = pointSet("uniform", count);
+  const int clusters = 12;
+  std::vector<Point2> points;
+  for (int i = 0; i < clusters; ++i)
+  {
+    for (const Point2 p : cluster)
+    {
+      points.push_back({ std::ldexp(p.x, -20 * i), std::ldexp(p.y, -20 * i) });
+    }
+  }
+  const Order order = orderOf(points);
+  ASSERT_TRUE(isPermutation(order, points.size()));
+  Order given(count);
+  std::iota(given.begin(), given.end(), 0U);
+  for (int i = 0; i < clusters; ++i)
+  {
+    Order mine;
+    for (const std::uint32_t index : order)
+    {
+      if (index / count == std::size_t(i))
+      {
+        mine.push_back(std::uint32_t(index % count));
+      }
+    }
+    EXPECT_LT(10 * wayLength(cluster, mine, 0), wayLength(cluster, given, 0)) << "cluster " << i;
+  }
+}
+
 TEST(InsertionOrder, PointsAtOnePlaceAllComeUp)
 {
   EXPECT_TRUE(isPermutation(orderOf(std::vector<Point2>(1000, { 3, -4 })), 1000));

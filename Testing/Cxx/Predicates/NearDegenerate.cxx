@@ -84,6 +84,19 @@ NearDegenerate::Points NearDegenerate::mixedExponents(int lowest, int highest)
   return points;
 }
 
+NearDegenerate::Points NearDegenerate::fewMagnitudes(int lowest, int highest)
+{
+  const double magnitudes[] = { 0, std::ldexp(1, this->integer(lowest, highest)),
+    std::ldexp(1, this->integer(lowest, highest)) };
+  Points points;
+  for (tipp::Point2& point : points)
+  {
+    point.x = this->integer(-2, 2) * magnitudes[this->integer(0, 2)];
+    point.y = this->integer(-2, 2) * magnitudes[this->integer(0, 2)];
+  }
+  return points;
+}
+
 NearDegenerate::Points NearDegenerate::unitCircle()
 {
   Points points;

@@ -34,6 +34,9 @@ public:
   Points collinear(double step, tipp::Point2 offset);
   /// Every coordinate with an exponent of its own between the given powers of two.
   Points mixedExponents(int lowest, int highest);
+  /// Every coordinate one of a few powers of two between the given ones, times a small integer:
+  /// ties between numbers far apart.
+  Points fewMagnitudes(int lowest, int highest);
   /// The unit circle's points in doubles, four random angles: all digits in use.
   Points unitCircle();
 

@@ -138,6 +138,13 @@ TEST(InCircle, ExactForMixedExponents)
   compareWithRationals(20000, [&] { return draw.mixedExponents(-40, 40); });
 }
 
+TEST(InCircle, ExactForTiesOfFewMagnitudesFarApart)
+{
+  NearDegenerate draw(10);
+  expectAllAnswers(compareWithRationals(3000, [&] { return draw.fewMagnitudes(-1074, 1020); }));
+  expectAllAnswers(compareWithRationals(20000, [&] { return draw.fewMagnitudes(-100, 100); }));
+}
+
 TEST(InCircle, ExactForADenormalBesideLargeNumbers)
 {
   const double denormal = 4.9406564584124654e-324;

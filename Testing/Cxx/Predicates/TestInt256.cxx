@@ -42,6 +42,24 @@ TEST(Int256, SignOfProductsAtTheEndsOfTheRange)
   EXPECT_EQ(0, Int256::product(0, Smallest).sign());
 }
 
+TEST(Int256, ShiftAndBitLengthAgree)
+{
+  for (const Int128 factor : { Int128(1), Int128(-1), Int128(3), Int128(-3) })
+  {
+    const int digits = factor == 3 || factor == -3 ? 2 : (factor == 1 ? 1 : 0);
+    for (unsigned places = 0; places < 250; ++places)
+    {
+      Int256 value = Int256::product(factor, 1);
+      value <<= places;
+      EXPECT_EQ(digits + int(places), value.bitLength()) << places;
+      EXPECT_EQ(factor < 0 ? -1 : 1, value.sign()) << places;
+    }
+  }
+  EXPECT_EQ(0, Int256().bitLength());
+  EXPECT_EQ(254, Int256::product(Largest, Largest).bitLength());
+  EXPECT_EQ(254, Int256::product(Smallest, Largest).bitLength());
+}
+
 TEST(Int256, SignOfASumOfProductsAgreesWithGmp)
 {
   std::mt19937_64 engine(1);

@@ -112,3 +112,10 @@ TEST(Orientation, ExactForMixedExponents)
   compareWithRationals(20000, [&] { return draw.mixedExponents(-1030, 1000); });
   compareWithRationals(20000, [&] { return draw.mixedExponents(-40, 40); });
 }
+
+TEST(Orientation, ExactForTiesOfFewMagnitudesFarApart)
+{
+  NearDegenerate draw(7);
+  expectAllAnswers(compareWithRationals(5000, [&] { return draw.fewMagnitudes(-1074, 1020); }));
+  expectAllAnswers(compareWithRationals(20000, [&] { return draw.fewMagnitudes(-100, 100); }));
+}

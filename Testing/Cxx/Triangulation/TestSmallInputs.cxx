@@ -92,6 +92,70 @@ TEST(SmallInputs, MixedExponentsAreTriangulatedAsByCgal)
   EXPECT_TRUE(matches(xy, triangulate(view(xy), withGrid(4, 4)), expected));
 }
 
+/// How a coordinate is drawn whose exponent is anywhere in the range of doubles.
+struct WideCoordinate
+{
+  std::string Name;
+  double (*X)(std::mt19937_64&);
+  double (*Y)(std::mt19937_64&);
+};
+
+int anyExponent(std::mt19937_64& random)
+{
+  return int(random() % 2080) - 1060;
+}
+
+double moderate(std::mt19937_64& random)
+{
+  return double(random() >> 11) * 0x1p-53;
+}
+
+double wide(std::mt19937_64& random)
+{
+  const double mantissa = moderate(random);
+  return std::ldexp(mantissa, anyExponent(random));
+}
+
+double wideOfBothSigns(std::mt19937_64& random)
+{
+  const double sign = random() % 2 == 0 ? 1 : -1;
+  return sign * wide(random);
+}
+
+double wideInteger(std::mt19937_64& random)
+{
+  const double integer = double(random() % 9) - 4;
+  return std::ldexp(integer, anyExponent(random));
+}
+
+class WideExponents : public testing::TestWithParam<WideCoordinate>
+{
+};
+
+TEST_P(WideExponents, AreTriangulatedAsByCgal)
+{
+  std::mt19937_64 random(6);
+  for (const int count : { 5, 30, 300 })
+  {
+    Coordinates xy;
+    for (int i = 0; i < count; ++i)
+    {
+      xy.push_back(GetParam().X(random));
+      xy.push_back(GetParam().Y(random));
+    }
+    const Reference expected = reference(xy);
+    EXPECT_TRUE(matches(xy, triangulate(view(xy), withGrid(0, 0)), expected)) << count;
+    EXPECT_TRUE(matches(xy, triangulate(view(xy), withGrid(3, 3)), expected)) << count;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Points, WideExponents,
+  testing::Values(WideCoordinate{ "Positive", wide, wide },
+    WideCoordinate{ "OfBothSigns", wideOfBothSigns, wideOfBothSigns },
+    WideCoordinate{ "InXAlone", wideOfBothSigns, moderate },
+    WideCoordinate{ "OfIntegers", wideInteger, wideInteger }),
+  [](const auto& info) { return info.param.Name; });
+
 class Flat : public testing::TestWithParam<std::tuple<double, double>>
 {
 };

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks of arguments: each returns the value in the type that VTK takes, or raises one sentence that names it."""
+from __future__ import annotations
+
+import math
+import numbers
+import operator
+import os
+import re
+from typing import Any, Iterable, Mapping
+
+import numpy as np
+
+_LARGEST_INT = (1 << 31) - 1  # C's int
+_MOST_THREADS = 4096
+
+
+def number(value: Any, name: str, *, at_least: float = -math.inf, finite: bool = True) -> float:
+    """A real number. Without `finite` it may be infinite or NaN."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Real):
+        raise TypeError(f"{name} is {_shown(value)}; give a number.")
+    try:
+        result = float(value)
+    except OverflowError:
+        result = math.inf
+    if finite and not math.isfinite(result):
+        raise ValueError(f"{name} is {_shown(value)}; give a finite number.")
+    if result < at_least:
+        raise ValueError(f"{name} is {_shown(value)}; give {at_least:g} or more.")
+    return result
+
+
+def whole(value: Any, name: str, *, at_least: int = 0, at_most: int = _LARGEST_INT) -> int:
+    """A whole number, which a float is not."""
+    try:
+        if isinstance(value, (bool, np.bool_)):
+            raise TypeError
+        result = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} is {_shown(value)}; give a whole number.") from None
+    if not at_least <= result <= at_most:
+        raise ValueError(f"{name} is {_shown(value)}; give a whole number from {at_least} to {at_most}.")
+    return result
+
+
+def threads(value: Any) -> int:
+    return whole(value, "threads", at_most=_MOST_THREADS)
+
+
+def memory(value: Any, name: str) -> int:
+    """Bytes, from a number or a text as '512M'."""
+    if not isinstance(value, str):
+        return whole(value, name, at_least=1, at_most=(1 << 63) - 1)
+    match = re.fullmatch(r"([0-9]+)([KMG]?)", value)
+    size = int(match[1]) << {"": 0, "K": 10, "M": 20, "G": 30}[match[2]] if match and len(value) < 30 else 0
+    if not 0 < size < 1 << 63:
+        raise ValueError(f"{name} is {_shown(value)}; it is a number of bytes, as 536870912 or '512M' or '2G'.")
+    return size
+
+
+def flag(value: Any, name: str) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name} is {_shown(value)}; give True or False.")
+    return bool(value)
+
+
+def several(value: Any, name: str, count: int, check: Any, **limits: Any) -> list[Any]:
+    """`count` values, each of which passes `check`."""
+    if isinstance(value, (str, bytes, Mapping, set, frozenset)) or not isinstance(value, Iterable):
+        raise TypeError(f"{name} is {_shown(value)}; give {count} numbers.")
+    values = list(value)
+    if len(values) != count:
+        raise ValueError(f"{name} has {len(values)} values; give {count}.")
+    return [check(v, f"{name}[{i}]", **limits) for i, v in enumerate(values)]
+
+
+def names(value: Any, name: str) -> list[str]:
+    """Names of arrays; a text is one name."""
+    if isinstance(value, str):
+        return [value]
+    is_list = isinstance(value, Iterable) and not isinstance(value, (bytes, Mapping))
+    result = list(value) if is_list else [value]
+    for one in result:
+        if not isinstance(one, str):
+            raise TypeError(f"{name} is {_shown(value)}; give a name or a list of names.")
+    return [str(one) for one in result]
+
+
+def text(value: Any, name: str) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"{name} is {_shown(value)}; give a text.")
+    return str(value)
+
+
+def choice(value: Any, name: str, choices: Mapping[str, int]) -> int:
+    if text(value, name) not in choices:
+        raise ValueError(f"{name} is {_shown(value)}; it is one of {', '.join(choices)}.")
+    return choices[value]
+
+
+def path(value: Any, name: str) -> str:
+    if not isinstance(value, (str, bytes, os.PathLike)):
+        raise TypeError(f"{name} is {_shown(value)}; give a path.")
+    result = os.fsdecode(value)
+    if "\0" in result:
+        raise ValueError(f"{name} has a null character; give a path without it.")
+    return result
+
+
+def is_vtk_object(value: Any) -> bool:
+    return callable(getattr(value, "IsA", None)) and not isinstance(value, type)
+
+
+def data_object(value: Any, name: str, kinds: Iterable[str], wanted: str) -> Any:
+    """A VTK object of one of these classes."""
+    if not is_vtk_object(value) or not any(value.IsA(kind) for kind in kinds):
+        raise TypeError(f"{name} is {_shown(value)}; give {wanted}.")
+    return value
+
+
+def _shown(value: Any) -> str:
+    """A short value as it is written, of others the type."""
+    if is_vtk_object(value):
+        return f"a {value.GetClassName()}"
+    simple = value is None or isinstance(value, (str, bytes, bool, int, float, complex, np.generic))
+    try:
+        shown = repr(value) if simple else ""
+    except ValueError:  # an int of too many digits
+        shown = ""
+    shown = " ".join(shown.split())
+    return shown if shown and len(shown) <= 60 else f"of type {type(value).__name__}"

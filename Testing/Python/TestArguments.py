@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every argument of every public function, given what it does not take: one sentence that names it."""
+import inspect
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData, vtkTable
+
+import tipp
+
+NAN, INF = float("nan"), float("inf")
+POINTS = np.random.default_rng(2).random((40, 2))
+
+# For each kind of argument what is of a wrong type, and what is of a right type and a wrong value.
+NUMBER = ([None, "1", [1], {}, True, 1j], [NAN, INF, -INF, 10**400])
+LENGTH = (NUMBER[0], NUMBER[1] + [-1])
+ANY_NUMBER = (NUMBER[0], [])
+THREADS = ([None, "2", 1.5, 2.0, True, {}, [1]], [-1, 10**9, 10**30])
+BYTES = ([None, 1.5, True, {}, [1]], [0, -1, 1 << 70])
+FLAG = ([None, "yes", 2, 1.0, [], {}], [])
+TEXT = ([None, 3, 1.5, [], {}, b"auto"], [])
+NAMES = ([3, 1.5, {}, {"f": 1}, [None], [["f"]], [1], True, b"f"], [])
+PATH = ([None, 3, 1.5, {}, True], ["a\0b"])
+DATA = ([None, "text", 3, {}, [], np.zeros((3, 3)), vtkTable(), vtkPolyData], [])
+
+
+def several(wrong_types, wrong_values, good, count):
+    """A sequence of wrong length, and with one wrong value."""
+    types = [3, 1.5, True, "abc"[:count], {1: 2}, {1, 2}] + [[good] * (count - 1) + [w] for w in wrong_types]
+    values = [[], [good] * (count - 1), [good] * (count + 1)] + [[w] + [good] * (count - 1) for w in wrong_values]
+    return types, values
+
+
+COUNTS = several([None, "1", 1.5, True], [-1, 10**9 * 10**9], 2, 2)
+DIMENSIONS = several([None, "1", 1.5, True], [-1, 1 << 31], 2, 3)
+SPACING = several([None, "1", True], [NAN, INF, -0.5], 1.0, 3)
+BOUNDS = several([None, "1", True], [NAN, INF], 1.0, 6)
+OPEN_BOUNDS = several([None, "1", True], [NAN], 1.0, 6)
+COLUMNS = several([None, 1.5, True], [-1], 1, 2)
+POINT_DATA = ([3, "f", [1, 2], np.zeros(40), {3: np.zeros(40)}, {"f": None}, {"f": "text"}, {"f": {}}],
+              [{"f": 3.0}, {"f": np.zeros(7)}])
+ARRAY = ([None, "text", {}, np.zeros((3, 2), complex), vtkTable(), vtkImageData(), vtkPolyData],
+         [3, [], [1, 2], np.zeros((3, 5))])
+
+TABLE = {
+    "delaunay": {"points": ARRAY, "tol": LENGTH, "partitions": COUNTS, "schedule": (TEXT[0], ["random", ""]),
+                 "threads": THREADS, "progress_bar": FLAG},
+    "delaunay_2d": {"points": ARRAY, "tol": LENGTH, "alpha": LENGTH, "offset": LENGTH, "bound": FLAG,
+                    "point_data": POINT_DATA, "partitions": COUNTS, "schedule": (TEXT[0], ["random"]),
+                    "threads": THREADS, "progress_bar": FLAG},
+    "delaunay_file": {"points": (PATH[0] + [[None], {"a": 1}], PATH[1]), "output": PATH,
+                      "memory": (BYTES[0], BYTES[1] + ["", "2T", "1.5G", "9" * 40]), "partitions": COUNTS,
+                      "columns": COLUMNS, "map_duplicates": FLAG, "neighbors": FLAG, "count_only": FLAG,
+                      "resume": FLAG, "scratch": PATH, "threads": THREADS, "progress_bar": FLAG},
+    "resample": {"mesh": DATA, "bounds": BOUNDS, "dimensions": DIMENSIONS, "spacing": SPACING,
+                 "null_value": ANY_NUMBER, "no_data": ANY_NUMBER, "arrays": NAMES, "device": TEXT,
+                 "threads": THREADS, "progress_bar": FLAG},
+    "read": {"path": PATH, "bounds": OPEN_BOUNDS, "time": NUMBER, "point_arrays": NAMES, "cell_arrays": NAMES,
+             "borrowed": FLAG, "merge": FLAG, "tiling": TEXT, "memory_limit": BYTES, "progress_bar": FLAG},
+    "write": {"mesh": ([None, 3, {}, [], np.zeros((3, 3)), vtkPolyData], ["a\0b"]), "path": PATH, "tiling": TEXT,
+              "duplicate_borrowers": FLAG, "memory_limit": BYTES, "threads": THREADS, "progress_bar": FLAG},
+    "as_array": {"data": DATA, "name": ([None, 3, [], {}, b"f"], [])},
+    "ranks": {},
+}
+
+
+class Arguments(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.points = os.path.join(self.folder.name, "points.npy")
+        np.save(self.points, POINTS)
+        self.mesh = tipp.delaunay_2d(POINTS, point_data={"f": POINTS[:, 0]})
+        self.stored = os.path.join(self.folder.name, "mesh.tipp")
+        tipp.write(self.mesh, self.stored)
+        self.output = os.path.join(self.folder.name, "out.tipp")
+
+    def good(self, function):
+        """The arguments that a function needs."""
+        return {
+            "delaunay": {"points": POINTS}, "delaunay_2d": {"points": POINTS},
+            "delaunay_file": {"points": self.points, "output": self.output}, "resample": {"mesh": self.mesh},
+            "read": {"path": self.stored}, "write": {"mesh": self.mesh, "path": self.output},
+            "as_array": {"data": self.mesh, "name": "f"},
+        }[function]
+
+    def test_every_argument_of_every_function_is_in_the_table(self):
+        functions = [name for name in tipp.__all__ if inspect.isfunction(getattr(tipp, name))]
+        self.assertEqual(sorted(functions), sorted(TABLE))
+        for name in functions:
+            self.assertEqual(list(inspect.signature(getattr(tipp, name)).parameters), list(TABLE[name]), name)
+
+    def test_wrong_types_and_values_are_refused_in_one_sentence_that_names_the_argument(self):
+        for function, arguments in TABLE.items():
+            for argument, (types, values) in arguments.items():
+                default = inspect.signature(getattr(tipp, function)).parameters[argument].default
+                wrong = [(TypeError, value) for value in types if value is not None or default is not None]
+                for error, value in wrong + [(ValueError, value) for value in values]:
+                    with self.subTest(function=function, argument=argument, value=repr(value)):
+                        self.refuses(error, function, argument, value)
+
+    def refuses(self, error, function, argument, value):
+        with self.assertRaises(error) as raised:
+            getattr(tipp, function)(**{**self.good(function), argument: value})
+        message = str(raised.exception)
+        self.assertRegex(message, rf"^{argument}\b")
+        self.assertNotIn("\n", message)
+        self.assertNotRegex(message, r"0x[0-9a-f]{4}|\.cxx|\.py\b")
+        self.assertTrue(message.endswith("."), message)
+        self.assertLess(len(message), 300)
+        self.assertFalse(os.path.exists(self.output))
+
+    def test_one_name_is_a_list_of_one(self):
+        both = tipp.delaunay_2d(POINTS, point_data={"f": POINTS[:, 0], "depth": POINTS[:, 1]})
+        tipp.write(both, self.output)
+        part = tipp.read(self.output, point_arrays="depth", cell_arrays=[])
+        self.assertTrue(part.GetPointData().HasArray("depth"))
+        self.assertFalse(part.GetPointData().HasArray("f"))
+        image = tipp.resample(both, dimensions=(3, 3, 1), arrays="depth")
+        self.assertTrue(image.GetPointData().HasArray("depth"))
+        self.assertFalse(image.GetPointData().HasArray("f"))
+
+    def test_numbers_of_numpy_are_numbers(self):
+        options = {"tol": np.float32(0), "threads": np.int8(2), "partitions": np.array([2, 2]), "bound": np.bool_(False)}
+        self.assertEqual(tipp.delaunay_2d(POINTS, **options).GetNumberOfPolys(), self.mesh.GetNumberOfPolys())
+        bounds, dimensions = np.array([0, 1, 0, 1, 0, 0]), np.array([3, 3, 1])
+        self.assertEqual(tipp.resample(self.mesh, bounds, dimensions).GetDimensions(), (3, 3, 1))
+
+    def test_an_open_range_is_read(self):
+        self.assertEqual(tipp.read(self.stored, (-INF, INF) * 3).GetNumberOfCells(), self.mesh.GetNumberOfPolys())
+
+
+class Messages(unittest.TestCase):
+    """What VTK says as an error is the exception's one sentence."""
+
+    def test_places_in_the_source_and_addresses_are_left_out(self):
+        told = "ERROR: In /build/Filters/vtkThing.cxx, line 57\nvtkThing (0x55d0c8a0): the mesh\n has no cells.\n\n"
+        self.assertEqual(tipp._run._first_sentence(told), "the mesh has no cells.")
+        told = "vtkCompositeDataPipeline (0x1f): Input for algorithm vtkThing(0x55d0c8a0) is missing."
+        self.assertEqual(tipp._run._first_sentence(told), "Input for algorithm vtkThing is missing.")
+        told = ("Algorithm vtkThing(0x55d0) returned failure for request: vtkInformation (0x77d0)\n  Debug: Off\n"
+                "  Modified Time: 117\n")
+        self.assertEqual(tipp._run._first_sentence(told), "Algorithm vtkThing returned failure.")
+
+    def test_a_temporary_file_is_named_as_the_output_that_it_is_for(self):
+        program = (
+            "import resource, signal, numpy as np, tipp\n"
+            "mesh = tipp.delaunay_2d(np.random.default_rng(1).random((3000, 2)))\n"
+            "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
+            "resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))\n"
+            "try:\n"
+            "    tipp.write(mesh, 'mesh.tipp')\n"
+            "except RuntimeError as error:\n"
+            "    print(error)\n")
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([sys.executable, "-c", program], text=True, capture_output=True, cwd=folder)
+        self.assertRegex(done.stdout, r"^(.*/)?mesh\.tipp: cannot be written \(File too large\)")
+
+    def test_a_sentence_with_parentheses_is_kept_whole(self):
+        told = "points.npy: holds 3 (of 4): copy it again."
+        self.assertEqual(tipp._run._first_sentence(told), told)
+
+
+class Limits(unittest.TestCase):
+    """What is too large is an exception, and Python goes on."""
+
+    def run_python(self, program):
+        program = "import numpy as np, tipp\np = np.random.default_rng(1).random((3000, 2))\n" + program
+        return subprocess.run([sys.executable, "-c", program], text=True, capture_output=True, timeout=250)
+
+    def test_an_image_larger_than_memory_tells_its_bytes(self):
+        for dimensions in ("(100000, 100000, 100)", "(10**9, 10**9, 1)"):
+            done = self.run_python(f"tipp.resample(tipp.delaunay_2d(p), dimensions={dimensions})")
+            self.assertRegex(done.stderr.splitlines()[-1], "^(RuntimeError|MemoryError): .* GB of memory, and this")
+
+    def test_too_many_partitions_are_refused(self):
+        done = self.run_python("tipp.delaunay(p, partitions=(10**9, 10**9))")
+        self.assertRegex(done.stderr.splitlines()[-1], "^RuntimeError: .*partitions are too many")
+
+    def test_more_threads_than_can_be_of_use_change_nothing(self):
+        done = self.run_python(
+            "a = tipp.delaunay(p, threads=4096)\n"
+            "assert (np.sort(a, axis=None) == np.sort(tipp.delaunay(p), axis=None)).all()\n"
+            "f = tipp.vtkRangeResampleFilter()\n"
+            "f.SetInputDataObject(tipp.delaunay_2d(p))\n"
+            "f.SetNumberOfThreads(10**9)\n"
+            "f.SetSamplingDimensions(300, 300, 1)\n"
+            "f.Update()\n"
+            "print(f.GetOutput().GetNumberOfPoints())\n")
+        self.assertEqual((done.stdout.strip(), done.returncode), ("90000", 0), done.stderr)
+
+    def test_numbers_that_are_none_are_refused_by_the_class_too(self):
+        for name, value in (("Alpha", "nan"), ("Offset", "nan"), ("Tolerance", "nan")):
+            f = tipp.vtkTIPPDelaunay2D()
+            f.SetInputData(tipp.delaunay_2d(POINTS))
+            getattr(f, "Set" + name)(float(value))
+            with self.assertRaisesRegex(RuntimeError, f"{name} is nan: give a finite number"):
+                tipp._run.run(f)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arrays of every type and layout: taken with their values, or refused in one sentence."""
+import os
+import tempfile
+import unittest
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+import tipp
+
+COUNT = 60
+
+
+def random_points(columns=3):
+    return np.random.default_rng(3).random((COUNT, columns))
+
+
+def stored(values):
+    """The values of a point array as the mesh has them."""
+    mesh = tipp.delaunay_2d(random_points(), point_data={"v": values})
+    return tipp.as_array(mesh, "v")
+
+
+def coordinates(points):
+    """The coordinates as the mesh has them."""
+    return vtk_to_numpy(tipp.delaunay_2d(points).GetPoints().GetData())
+
+
+class PointData(unittest.TestCase):
+    def test_every_type_of_number_keeps_its_values_in_either_byte_order(self):
+        for kind in ("i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", "f2", "f4", "f8", "?"):
+            values = (np.arange(COUNT) - (0 if kind[0] == "u" else 20)).astype(kind)
+            for order in "<>":
+                np.testing.assert_array_equal(stored(values.astype(values.dtype.newbyteorder(order))), values)
+
+    def test_types_of_equal_size_keep_their_values(self):
+        for kind in (np.longlong, np.ulonglong, np.intc, np.int_):
+            np.testing.assert_array_equal(stored(np.arange(COUNT, dtype=kind)), np.arange(COUNT))
+
+    def test_layouts_in_memory_keep_their_values(self):
+        base = np.arange(4.0 * COUNT).reshape(COUNT, 4)
+        for values in (base[:, 1], base[::-1], base[:, ::-1], base[:, 1:3], np.asfortranarray(base), base.tolist(),
+                       np.broadcast_to(1.5, COUNT), base.astype(">f4")[::-1, ::2]):
+            np.testing.assert_array_equal(stored(values), values)
+
+    def test_memory_that_is_read_only_is_not_shared(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "v.npy")
+            np.save(file, np.arange(COUNT))
+            values = stored(np.load(file, mmap_mode="r"))
+        values[0] = 7
+        self.assertEqual(values[0], 7)
+
+    def test_masked_floats_are_nan(self):
+        for kind in ("f2", "f4", ">f8"):
+            values = np.ma.masked_equal(np.arange(COUNT).astype(kind), 5)
+            np.testing.assert_array_equal(np.flatnonzero(np.isnan(stored(values))), [5])
+
+    def test_masked_integers_are_refused_and_unmasked_ones_taken(self):
+        values = np.ma.masked_equal(np.arange(COUNT), 5)
+        with self.assertRaisesRegex(ValueError, r"^point_data\['v'\] has masked entries .* filled\(-1\)"):
+            stored(values)
+        np.testing.assert_array_equal(stored(np.ma.array(np.arange(COUNT))), np.arange(COUNT))
+
+    def test_what_is_no_real_number_is_refused(self):
+        for values in (np.zeros(COUNT, complex), np.zeros(COUNT, object), np.full(COUNT, "a"), np.full(COUNT, b"a"),
+                       np.zeros(COUNT, "M8[s]"), np.zeros(COUNT, "m8[s]"), np.zeros(COUNT, [("a", "f8")]),
+                       [None] * COUNT, "text"):
+            with self.assertRaisesRegex(TypeError, r"^point_data\['v'\] is of type .*; give real numbers\.$"):
+                stored(values)
+
+    def test_a_long_double_is_refused(self):
+        if np.dtype(np.longdouble).itemsize == 8:
+            self.skipTest("a long double is a double here")
+        with self.assertRaisesRegex(TypeError, r"^point_data\['v'\] is of type .*astype"):
+            stored(np.zeros(COUNT, np.longdouble))
+
+    def test_wrong_shapes_are_refused(self):
+        for values in (np.float64(3), np.zeros((COUNT, 2, 2)), np.zeros((COUNT, 0)), np.zeros(0), [[1, 2], [3]]):
+            with self.assertRaisesRegex(ValueError, r"^point_data\['v'\] "):
+                stored(values)
+
+
+class Points(unittest.TestCase):
+    def test_every_type_of_number_keeps_its_values_in_either_byte_order(self):
+        p = np.random.default_rng(3).integers(0, 100, (COUNT, 3))
+        for kind in ("i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", "f2", "f4", "f8"):
+            for order in "<>":
+                np.testing.assert_array_equal(coordinates(p.astype(np.dtype(kind).newbyteorder(order))), p)
+
+    def test_a_masked_coordinate_rejects_its_point(self):
+        p = np.ma.array(random_points(2))
+        p[7, 1] = np.ma.masked
+        whole = np.ma.array(np.arange(2 * COUNT).reshape(COUNT, 2) ** 2 % 97)
+        whole[7] = np.ma.masked
+        for points in (p, whole):
+            with self.assertWarnsRegex(RuntimeWarning, "1 of 60 points .* the first is point 7"):
+                triangles = tipp.delaunay(points)
+            self.assertFalse((triangles == 7).any())
+
+    def test_a_masked_height_is_nan(self):
+        p = np.ma.array(random_points())
+        p[7, 2] = np.ma.masked
+        self.assertTrue(np.isnan(coordinates(p)[7, 2]))
+
+    def test_integers_that_a_double_cannot_hold_are_refused(self):
+        for kind in (np.int64, np.uint64):
+            p = np.random.default_rng(3).integers(0, 100, (COUNT, 2)).astype(kind)
+            p[3, 0] = 2**53
+            np.testing.assert_array_equal(coordinates(p)[:, :2], p)
+            p[3, 0] = 2**53 + 1
+            p[4, 1] = np.iinfo(kind).max
+            with self.assertRaisesRegex(ValueError, r"^points have 2 integers beyond 2\*\*53 .* subtract an offset"):
+                tipp.delaunay(p)
+
+    def test_memory_that_is_read_only_is_not_shared(self):
+        p = random_points()
+        p.flags.writeable = False
+        np.testing.assert_array_equal(coordinates(p), p)
+        self.assertNotEqual(coordinates(p).__array_interface__["data"][0], p.__array_interface__["data"][0])
+
+    def test_what_is_no_real_number_is_refused(self):
+        for kind in (complex, object, "U3", "S3", "M8[s]", [("a", "f8")], bool, np.longdouble):
+            if np.dtype(kind) != np.float64:
+                with self.assertRaisesRegex(TypeError, "^points (is|are) of type"):
+                    tipp.delaunay(np.zeros((COUNT, 2), kind))
+
+    def test_wrong_shapes_are_refused(self):
+        for points in (3.5, np.zeros(4), np.zeros((4, 1)), np.zeros((4, 4)), np.zeros((2, 2, 2)), [[1, 2], [3]], []):
+            with self.assertRaisesRegex(ValueError, "^points "):
+                tipp.delaunay(points)
+
+    def test_no_points_have_no_triangles(self):
+        with self.assertWarnsRegex(RuntimeWarning, "No triangles"):
+            self.assertEqual(tipp.delaunay(np.zeros((0, 2))).shape, (0, 3))
+
+
+if __name__ == "__main__":
+    unittest.main()
