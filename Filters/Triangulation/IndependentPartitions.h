@@ -2,13 +2,27 @@
 #ifndef tippIndependentPartitions_h
 #define tippIndependentPartitions_h
 
-#include "Triangulation/SeamMesh.h"
+#include "Triangulation/SeamTriangles.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace tipp
 {
+
+/// What independence is decided on.
+class ReachSource
+{
+public:
+  virtual ~ReachSource() = default;
+
+  /// The labels of the vertices of the partition's triangles, each once; and perhaps of some that
+  /// were superseded since triangles were last added to it.
+  virtual const std::vector<std::uint32_t>& reach(PartitionIndex partition) = 0;
+
+  virtual PartitionIndex partitions() const = 0;
+  std::size_t labelEnd() const { return 4 * static_cast<std::size_t>(this->partitions()); }
+};
 
 /// Which partitions may be active together.
 ///

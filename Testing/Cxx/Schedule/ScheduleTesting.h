@@ -7,7 +7,7 @@
 #include "Predicates/InCircle.h"
 #include "Triangulation/FinalSeams.h"
 #include "Triangulation/PointBuckets.h"
-#include "Triangulation/SeamMesh.h"
+#include "Triangulation/SeamTriangles.h"
 
 #include <map>
 #include <string>

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippReadyPartitions_h
+#define tippReadyPartitions_h
+
+#include "Engine/PartitionOrder.h"
+
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <vector>
+
+namespace tipp
+{
+
+/// Hands partitions to threads as soon as they are ready: all conflicting partitions that come
+/// before them in the order are done. Threads share counters and a queue, and no lock.
+class ReadyPartitions
+{
+public:
+  /// With a barrier between colours, a partition waits for all partitions of the colour before.
+  ReadyPartitions(const PartitionOrder& order, bool barrierBetweenColours);
+
+  /// A ready partition; waits for one. -1 if all were handed out or the run was stopped.
+  PartitionIndex take();
+
+  /// The partition is done, and what it sends is in the inboxes.
+  void finish(PartitionIndex p);
+
+  /// No further partition is handed out. The first reason is kept.
+  void stop(const std::exception_ptr& reason = nullptr);
+  bool isStopped() const { return this->Stopped.load(std::memory_order_relaxed); }
+  std::exception_ptr failure() const { return this->Failure; }
+
+private:
+  void release(PartitionIndex p);
+
+  const PartitionOrder& Order;
+  const bool Barrier;
+  std::vector<std::atomic<std::int32_t>> Awaited; ///< of each partition: earlier ones not done
+  std::vector<std::atomic<std::int64_t>> LeftInColour;
+  std::vector<std::atomic<PartitionIndex>> Queue; ///< -1 until a partition is ready for the place
+  std::atomic<std::size_t> QueueEnd{ 0 };
+  std::atomic<std::size_t> Tickets{ 0 };
+  std::atomic<bool> Stopped{ false };
+  std::mutex FailureMutex;
+  std::exception_ptr Failure;
+};
+
+} // namespace tipp
+
+#endif
