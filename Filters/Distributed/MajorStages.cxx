@@ -56,43 +56,6 @@ std::vector<std::size_t> groupSizes(const std::vector<double>& weights, std::siz
   return sizes;
 }
 
-/// The labels of the vertices of each partition's triangles, in a mesh that does not change.
-class MeshReach : public ReachSource
-{
-public:
-  MeshReach(PartitionIndex partitions, const SeamTriangles& mesh)
-    : Labels(std::size_t(partitions))
-  {
-    for (std::size_t i = 0; i < mesh.size(); ++i)
-    {
-      for (const PartitionIndex* p = mesh.metBegin(i); p != mesh.metEnd(i); ++p)
-      {
-        for (const SeamVertex& v : mesh[i])
-        {
-          this->Labels[std::size_t(*p)].push_back(v.Label);
-        }
-      }
-    }
-    for (std::vector<std::uint32_t>& labels : this->Labels)
-    {
-      std::sort(labels.begin(), labels.end());
-      labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
-    }
-  }
-
-  const std::vector<std::uint32_t>& reach(PartitionIndex partition) override
-  {
-    return this->Labels[std::size_t(partition)];
-  }
-  PartitionIndex partitions() const override
-  {
-    return static_cast<PartitionIndex>(this->Labels.size());
-  }
-
-private:
-  std::vector<std::vector<std::uint32_t>> Labels;
-};
-
 } // namespace
 
 std::vector<std::vector<PartitionIndex>> predictStages(const Tiling& majors,

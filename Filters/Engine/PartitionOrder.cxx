@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace tipp
 {
@@ -19,7 +20,8 @@ Conflict conflictOf(PartitionIndex a, PartitionIndex b)
 }
 
 /// Adds both (a, b) and (b, a) for all a of one set and b of the other.
-void addConflicts(const PartitionSets& sets, std::uint32_t one, std::uint32_t other, std::vector<Conflict>& pairs)
+void addConflicts(
+  const PartitionSets& sets, std::uint32_t one, std::uint32_t other, std::vector<Conflict>& pairs)
 {
   for (const PartitionIndex* a = sets.begin(one); a != sets.end(one); ++a)
   {
@@ -42,7 +44,8 @@ void makeUnique(std::vector<Conflict>& pairs)
 
 } // namespace
 
-PartitionOrder::PartitionOrder(const std::vector<char>& isUsed, const SeamTriangles& initialMesh)
+PartitionOrder::PartitionOrder(const std::vector<char>& isUsed, const SeamTriangles& initialMesh,
+  const std::vector<std::int32_t>& windows)
   : Positions(isUsed.size(), 0)
   , Colours(isUsed.size(), 0)
 {
@@ -54,34 +57,32 @@ PartitionOrder::PartitionOrder(const std::vector<char>& isUsed, const SeamTriang
     }
   }
   this->Total = !this->findConflicts(initialMesh);
-  if (this->Total)
-  {
-    this->ColourEnds.resize(this->Sequence.size());
-    std::iota(this->ColourEnds.begin(), this->ColourEnds.end(), std::size_t(1));
-    for (std::size_t i = 0; i < this->Sequence.size(); ++i)
-    {
-      this->Positions[std::size_t(this->Sequence[i])] = static_cast<std::uint32_t>(i);
-      this->Colours[std::size_t(this->Sequence[i])] = static_cast<std::uint32_t>(i);
-    }
-    return;
-  }
   this->colour();
-  this->sortByColour();
+  const auto key = [&](PartitionIndex p)
+  { return std::make_pair(windows.empty() ? 0 : windows[std::size_t(p)], this->colourOf(p)); };
+  std::stable_sort(this->Sequence.begin(), this->Sequence.end(),
+    [&](PartitionIndex a, PartitionIndex b) { return key(a) < key(b); });
+  for (std::size_t i = 0; i < this->Sequence.size(); ++i)
+  {
+    this->Positions[std::size_t(this->Sequence[i])] = static_cast<std::uint32_t>(i);
+  }
+  this->orderConflicts();
 }
 
 /// False if there are so many conflicts that a total order costs little: where points lie on a
 /// circle, each disk meets nearly all partitions.
 bool PartitionOrder::findConflicts(const SeamTriangles& initialMesh)
 {
-  constexpr std::size_t mostPairs = std::size_t(1) << 22;
-  const std::size_t limit = mostPairs + 256 * this->Positions.size();
+  constexpr std::size_t mostUnsorted = std::size_t(1) << 22;
+  constexpr std::size_t mostOfAPartition = 256;
+  const std::size_t limit = mostOfAPartition * std::max<std::size_t>(4096, this->Positions.size());
   const PartitionSets& sets = initialMesh.Sets;
   std::vector<Conflict> pairs;
   std::size_t unique = 0;
   const auto add = [&](std::uint32_t one, std::uint32_t other)
   {
     addConflicts(sets, one, other, pairs);
-    if (pairs.size() > 2 * unique + mostPairs)
+    if (pairs.size() > 2 * unique + mostUnsorted)
     {
       makeUnique(pairs);
       unique = pairs.size();
@@ -118,14 +119,25 @@ bool PartitionOrder::findConflicts(const SeamTriangles& initialMesh)
 
 void PartitionOrder::colour()
 {
-  const auto begin = [this](PartitionIndex p) { return p == 0 ? 0 : this->Ends[std::size_t(p) - 1]; };
+  if (this->Total)
+  {
+    this->ColourSizes.assign(this->Sequence.size(), 1);
+    for (std::size_t i = 0; i < this->Sequence.size(); ++i)
+    {
+      this->Colours[std::size_t(this->Sequence[i])] = static_cast<std::uint32_t>(i);
+    }
+    return;
+  }
+  const auto begin = [this](PartitionIndex p)
+  { return p == 0 ? 0 : this->Ends[std::size_t(p) - 1]; };
   std::vector<PartitionIndex> order = this->Sequence;
   std::stable_sort(order.begin(), order.end(),
     [&](PartitionIndex a, PartitionIndex b)
     { return this->Ends[std::size_t(a)] - begin(a) > this->Ends[std::size_t(b)] - begin(b); });
   constexpr std::uint32_t none = ~0U;
   this->Colours.assign(this->Colours.size(), none);
-  std::vector<PartitionIndex> takenFor; // of each colour, the partition that it was last refused for
+  std::vector<PartitionIndex>
+    takenFor; // of each colour, the partition that it was last refused for
   for (const PartitionIndex p : order)
   {
     for (std::size_t i = begin(p); i < this->Ends[std::size_t(p)]; ++i)
@@ -144,31 +156,24 @@ void PartitionOrder::colour()
       takenFor.push_back(-1);
     }
   }
-  this->ColourEnds.assign(takenFor.size(), 0);
-}
-
-void PartitionOrder::sortByColour()
-{
+  this->ColourSizes.assign(takenFor.size(), 0);
   for (const PartitionIndex p : this->Sequence)
   {
-    ++this->ColourEnds[this->colourOf(p)];
+    ++this->ColourSizes[this->colourOf(p)];
   }
-  std::partial_sum(this->ColourEnds.begin(), this->ColourEnds.end(), this->ColourEnds.begin());
-  std::stable_sort(this->Sequence.begin(), this->Sequence.end(),
-    [this](PartitionIndex a, PartitionIndex b) { return this->colourOf(a) < this->colourOf(b); });
-  for (std::size_t i = 0; i < this->Sequence.size(); ++i)
-  {
-    this->Positions[std::size_t(this->Sequence[i])] = static_cast<std::uint32_t>(i);
-  }
+}
+
+void PartitionOrder::orderConflicts()
+{
   this->LaterBegins.resize(this->Ends.size());
   for (std::size_t p = 0; p < this->Ends.size(); ++p)
   {
     const auto begin = this->Conflicts.begin() + std::ptrdiff_t(p == 0 ? 0 : this->Ends[p - 1]);
     const auto end = this->Conflicts.begin() + std::ptrdiff_t(this->Ends[p]);
-    std::sort(begin, end, [this](PartitionIndex a, PartitionIndex b)
-      { return this->position(a) < this->position(b); });
-    const auto later = std::partition_point(begin, end, [this, p](PartitionIndex q)
-      { return this->position(q) < this->Positions[p]; });
+    std::sort(begin, end,
+      [this](PartitionIndex a, PartitionIndex b) { return this->position(a) < this->position(b); });
+    const auto later = std::partition_point(
+      begin, end, [this, p](PartitionIndex q) { return this->position(q) < this->Positions[p]; });
     this->LaterBegins[p] = std::size_t(later - this->Conflicts.begin());
   }
 }
@@ -186,14 +191,8 @@ PartitionOrder::Range PartitionOrder::later(PartitionIndex p) const
 
 PartitionIndex PartitionOrder::first(const PartitionIndex* begin, const PartitionIndex* end) const
 {
-  return *std::min_element(begin, end, [this](PartitionIndex a, PartitionIndex b)
-    { return this->position(a) < this->position(b); });
-}
-
-PartitionOrder::Range PartitionOrder::ofColour(std::size_t colour) const
-{
-  const PartitionIndex* const all = this->Sequence.data();
-  return { all + (colour == 0 ? 0 : this->ColourEnds[colour - 1]), all + this->ColourEnds[colour] };
+  return *std::min_element(begin, end,
+    [this](PartitionIndex a, PartitionIndex b) { return this->position(a) < this->position(b); });
 }
 
 } // namespace tipp

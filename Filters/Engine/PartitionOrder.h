@@ -26,11 +26,12 @@ struct SeamTriangles;
 /// in each, then two vertices u, w of F in neither would lie between those in H_p and those in H_q,
 /// and the line uw would separate H_p from H_q inside F: a contradiction. A vertex of F is a
 /// triangle at a, an edge of F two triangles with a common edge. Where F is unbounded, no unbounded
-/// direction helps inside the hull, which holds all regions.) So no later triangle and no later edge
-/// joins them, and their workers commute. More conflicts than there are do no harm.
+/// direction helps inside the hull, which holds all regions.) So no later triangle and no later
+/// edge joins them, and their workers commute. More conflicts than there are do no harm.
 ///
 /// Partitions are coloured greedily, those with most conflicts first; a colour is a stage of the
-/// dissertation. They are ordered by colour, then by index.
+/// dissertation. They are ordered by window, where windows are given, then by colour and index. Any
+/// windows do: the triangles do not depend on the order.
 class VTKTIPPFILTERS_EXPORT PartitionOrder
 {
 public:
@@ -44,8 +45,10 @@ public:
     std::size_t size() const { return std::size_t(this->Last - this->First); }
   };
 
-  /// Orders the partitions that are to be triangulated: `isUsed` has one entry for each partition.
-  PartitionOrder(const std::vector<char>& isUsed, const SeamTriangles& initialMesh);
+  /// Orders the partitions that are to be triangulated: `isUsed` has one entry for each partition,
+  /// and so have the windows, unless there are none.
+  PartitionOrder(const std::vector<char>& isUsed, const SeamTriangles& initialMesh,
+    const std::vector<std::int32_t>& windows = {});
 
   /// Used or not.
   std::size_t partitionCount() const { return this->Positions.size(); }
@@ -60,9 +63,9 @@ public:
   /// Of a set that is not empty, the partition that comes first.
   PartitionIndex first(const PartitionIndex* begin, const PartitionIndex* end) const;
 
-  std::size_t colourCount() const { return this->ColourEnds.size(); }
-  /// The used partitions of a colour, counted from 0 on; none of them conflict.
-  Range ofColour(std::size_t colour) const;
+  std::size_t colourCount() const { return this->ColourSizes.size(); }
+  /// How many partitions have a colour, counted from 0 on; none of them conflict.
+  std::size_t colourSize(std::size_t colour) const { return this->ColourSizes[colour]; }
   std::size_t colourOf(PartitionIndex p) const { return this->Colours[std::size_t(p)]; }
 
   /// True if every partition counts as conflicting with every other.
@@ -71,13 +74,13 @@ public:
 private:
   bool findConflicts(const SeamTriangles& initialMesh);
   void colour();
-  void sortByColour();
+  void orderConflicts();
 
   std::vector<PartitionIndex> Sequence;
   std::vector<std::uint32_t> Positions;
   std::vector<std::uint32_t> Colours;
-  std::vector<std::size_t> ColourEnds; ///< positions
-  std::vector<std::size_t> Ends;       ///< of each partition's conflicts, in Conflicts
+  std::vector<std::size_t> ColourSizes;
+  std::vector<std::size_t> Ends; ///< of each partition's conflicts, in Conflicts
   std::vector<PartitionIndex> Conflicts;
   std::vector<std::size_t> LaterBegins;
   bool Total = false;

@@ -33,40 +33,58 @@ ReadyPartitions::ReadyPartitions(const PartitionOrder& order, bool barrierBetwee
   , LeftInColour(this->Barrier ? order.colourCount() : 0)
   , Queue(order.sequence().size())
 {
-  for (auto& place : this->Queue)
+  for (auto& entry : this->Queue)
   {
-    place.store(-1, std::memory_order_relaxed);
+    entry.store(-1, std::memory_order_relaxed);
+  }
+  if (this->Queue.empty())
+  {
+    return;
   }
   if (this->Barrier)
   {
     for (std::size_t colour = 0; colour < order.colourCount(); ++colour)
     {
-      this->LeftInColour[colour] = std::int64_t(order.ofColour(colour).size());
+      this->LeftInColour[colour] = std::int64_t(order.colourSize(colour));
     }
+    this->releaseColour(0);
+    return;
   }
-  else if (!order.isTotal())
+  if (order.isTotal())
   {
-    for (const PartitionIndex p : order.sequence())
+    this->release(order.sequence().front());
+    return;
+  }
+  for (const PartitionIndex p : order.sequence())
+  {
+    for (const PartitionIndex later : order.later(p))
     {
-      for (const PartitionIndex later : order.later(p))
-      {
-        ++this->Awaited[std::size_t(later)];
-      }
+      ++this->Awaited[std::size_t(later)];
     }
   }
-  if (order.colourCount() > 0)
+  for (const PartitionIndex p : order.sequence())
   {
-    for (const PartitionIndex p : order.ofColour(0))
+    if (this->Awaited[std::size_t(p)] == 0)
     {
       this->release(p);
     }
   }
 }
 
+/// Where there are barriers, the order has no windows: a colour's partitions come in a row.
+void ReadyPartitions::releaseColour(std::size_t colour)
+{
+  const auto& sequence = this->Order.sequence();
+  const auto first = std::partition_point(sequence.begin(), sequence.end(),
+    [&](PartitionIndex p) { return this->Order.colourOf(p) < colour; });
+  std::for_each(first, first + std::ptrdiff_t(this->Order.colourSize(colour)),
+    [this](PartitionIndex p) { this->release(p); });
+}
+
 void ReadyPartitions::release(PartitionIndex p)
 {
-  const std::size_t place = this->QueueEnd.fetch_add(1, std::memory_order_relaxed);
-  this->Queue[place].store(p, std::memory_order_release);
+  const std::size_t end = this->QueueEnd.fetch_add(1, std::memory_order_relaxed);
+  this->Queue[end].store(p, std::memory_order_release);
 }
 
 PartitionIndex ReadyPartitions::take()
@@ -96,10 +114,7 @@ void ReadyPartitions::finish(PartitionIndex p)
     const bool isLast = this->LeftInColour[colour].fetch_sub(1, std::memory_order_acq_rel) == 1;
     if (isLast && colour + 1 < this->Order.colourCount())
     {
-      for (const PartitionIndex next : this->Order.ofColour(colour + 1))
-      {
-        this->release(next);
-      }
+      this->releaseColour(colour + 1);
     }
     return;
   }

@@ -18,7 +18,8 @@ namespace tipp
 class ReadyPartitions
 {
 public:
-  /// With a barrier between colours, a partition waits for all partitions of the colour before.
+  /// With a barrier between colours, a partition waits for all partitions of the colour before; the
+  /// order must have no windows then.
   ReadyPartitions(const PartitionOrder& order, bool barrierBetweenColours);
 
   /// A ready partition; waits for one. -1 if all were handed out or the run was stopped.
@@ -34,12 +35,13 @@ public:
 
 private:
   void release(PartitionIndex p);
+  void releaseColour(std::size_t colour);
 
   const PartitionOrder& Order;
   const bool Barrier;
   std::vector<std::atomic<std::int32_t>> Awaited; ///< of each partition: earlier ones not done
   std::vector<std::atomic<std::int64_t>> LeftInColour;
-  std::vector<std::atomic<PartitionIndex>> Queue; ///< -1 until a partition is ready for the place
+  std::vector<std::atomic<PartitionIndex>> Queue; ///< -1 until filled
   std::atomic<std::size_t> QueueEnd{ 0 };
   std::atomic<std::size_t> Tickets{ 0 };
   std::atomic<bool> Stopped{ false };

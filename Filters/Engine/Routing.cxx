@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Engine/Routing.h"
 
+#include "Triangulation/HullRepair.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -25,10 +27,9 @@ void FinalBoundary<Id>::add(const SeamTriangle& triangle)
   }
   const auto lowest = std::min_element(triangle.begin(), triangle.end(),
     [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; });
-  this->Triangles.push_back(
-    { TriangleSink<Id>::fromLowest({ static_cast<Id>(triangle[0].Id), static_cast<Id>(triangle[1].Id),
-        static_cast<Id>(triangle[2].Id) }),
-      lowest->partition() });
+  this->Triangles.push_back({ TriangleSink<Id>::fromLowest({ static_cast<Id>(triangle[0].Id),
+                                static_cast<Id>(triangle[1].Id), static_cast<Id>(triangle[2].Id) }),
+    lowest->partition() });
 }
 
 template <typename Id>
@@ -38,6 +39,26 @@ void FinalBoundary<Id>::append(FinalBoundary&& other)
   this->HullVertices.insert(
     this->HullVertices.end(), other.HullVertices.begin(), other.HullVertices.end());
   other = FinalBoundary();
+}
+
+template <typename Id>
+void repairHull(FinalBoundary<Id>& final, const std::vector<SeamVertex>& artificial)
+{
+  std::vector<SeamVertex>& hull = final.HullVertices;
+  const auto less = [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; };
+  const auto equal = [](const SeamVertex& a, const SeamVertex& b) { return a.Id == b.Id; };
+  std::sort(hull.begin(), hull.end(), less);
+  hull.erase(std::unique(hull.begin(), hull.end(), equal), hull.end());
+  std::vector<Point2> points;
+  points.reserve(hull.size());
+  for (const SeamVertex& v : hull)
+  {
+    points.push_back(v.Place);
+  }
+  for (const auto& corners : hullTriangles(std::move(points), artificial))
+  {
+    final.add({ hull[corners[0]], hull[corners[1]], hull[corners[2]] });
+  }
 }
 
 template <typename Id>
@@ -62,8 +83,7 @@ void Routing<Id>::begin(DelaunayKernel::Index vertexEnd)
 }
 
 template <typename Id>
-void Routing<Id>::add(
-  const std::array<DelaunayKernel::Index, 3>& corners, const Circumdisk& disk)
+void Routing<Id>::add(const std::array<DelaunayKernel::Index, 3>& corners, const Circumdisk& disk)
 {
   const auto next = std::find_if(this->Later.begin(), this->Later.end(),
     [&](PartitionIndex q) { return disk.meets(this->Boxes[q]); });
@@ -170,11 +190,13 @@ std::int64_t sendInitialMesh(const SeamTriangles& mesh, const PartitionOrder& or
 
 template struct FinalBoundary<std::int32_t>;
 template struct FinalBoundary<std::int64_t>;
+template void repairHull(FinalBoundary<std::int32_t>&, const std::vector<SeamVertex>&);
+template void repairHull(FinalBoundary<std::int64_t>&, const std::vector<SeamVertex>&);
 template class Routing<std::int32_t>;
 template class Routing<std::int64_t>;
-template std::int64_t sendInitialMesh(const SeamTriangles&, const PartitionOrder&,
-  std::vector<Inbox>&, FinalBoundary<std::int32_t>&);
-template std::int64_t sendInitialMesh(const SeamTriangles&, const PartitionOrder&,
-  std::vector<Inbox>&, FinalBoundary<std::int64_t>&);
+template std::int64_t sendInitialMesh(
+  const SeamTriangles&, const PartitionOrder&, std::vector<Inbox>&, FinalBoundary<std::int32_t>&);
+template std::int64_t sendInitialMesh(
+  const SeamTriangles&, const PartitionOrder&, std::vector<Inbox>&, FinalBoundary<std::int64_t>&);
 
 } // namespace tipp

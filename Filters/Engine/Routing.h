@@ -27,15 +27,19 @@ struct FinalBoundary
   void append(FinalBoundary&& other);
 };
 
+/// Adds the triangles that take the place of those at artificial points (Lemma 3, HullRepair.h).
+template <typename Id>
+void repairHull(FinalBoundary<Id>& final, const std::vector<SeamVertex>& artificial);
+
 /// Sends the boundary triangles of one partition after another on their way.
 ///
 /// Lemma 6: the partitions that a triangle meets conflict pairwise, so the order is total on them.
 /// The triangle goes to the next of them alone, and is final if there is none. (Proof. Two
 /// partitions that one triangle of any later mesh meets conflict by Lemma 5. At any time the inbox
-/// of q holds each triangle of the mesh before q that meets q exactly once, sent by the last earlier
-/// partition that it meets, or by the initial mesh: it exists there, for its vertices are initial or
-/// lie in partitions that it meets, and partitions in between do not meet it, so it survives them.
-/// When q is done, what is still true of it has come out of q's worker again.)
+/// of q holds each triangle of the mesh before q that meets q exactly once, sent by the last
+/// earlier partition that it meets, or by the initial mesh: it exists there, for its vertices are
+/// initial or lie in partitions that it meets, and partitions in between do not meet it, so it
+/// survives them. When q is done, what is still true of it has come out of q's worker again.)
 template <typename Id>
 class Routing : public BoundaryTaker
 {

@@ -40,8 +40,8 @@ int piecesOf(double side, double spacing)
   return static_cast<int>(std::clamp(std::ceil(side / spacing), 1.0, most));
 }
 
-/// The sets of finite triangles with a common edge, where they differ; each pair once. SetOf: of the
-/// finite triangles, in the kernel's order.
+/// The sets of finite triangles with a common edge, where they differ; each pair once. SetOf: of
+/// the finite triangles, in the kernel's order.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> adjacentSets(
   const DelaunayKernel& kernel, const std::vector<std::uint32_t>& setOf)
 {
@@ -184,10 +184,8 @@ bool partitionsPay(const SeamTriangles& initialMesh)
   return met <= most * initialMesh.size();
 }
 
-template SeamTriangles triangulateVertices(
-  const Tiling&, const std::vector<SeamVertex>&, int);
-template SeamTriangles triangulateVertices(
-  const Regions&, const std::vector<SeamVertex>&, int);
+template SeamTriangles triangulateVertices(const Tiling&, const std::vector<SeamVertex>&, int);
+template SeamTriangles triangulateVertices(const Regions&, const std::vector<SeamVertex>&, int);
 template std::vector<SeamVertex> chooseInitialPoints(
   const Tiling&, const PointBuckets<std::int32_t>&, int);
 template std::vector<SeamVertex> chooseInitialPoints(

@@ -21,8 +21,8 @@ template <typename Id>
 std::vector<SeamVertex> chooseInitialPoints(
   const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition);
 
-/// The Delaunay triangulation of vertices, with the boxes (a Tiling's, or Regions) that each triangle
-/// meets, and those that triangles with a common edge meet.
+/// The Delaunay triangulation of vertices, with the boxes (a Tiling's, or Regions) that each
+/// triangle meets, and those that triangles with a common edge meet.
 template <typename Boxes>
 SeamTriangles triangulateVertices(
   const Boxes& boxes, const std::vector<SeamVertex>& vertices, int threads);

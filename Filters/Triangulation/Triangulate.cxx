@@ -8,7 +8,6 @@
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/DegenerateInput.h"
-#include "Triangulation/HullRepair.h"
 #include "Triangulation/InitialMesh.h"
 #include "Triangulation/PartitionSizes.h"
 #include "Triangulation/PointBuckets.h"
@@ -250,34 +249,14 @@ private:
       return started;
     }
     std::vector<TriangulationStatistics::Stage> stages;
+    std::size_t first = 0;
     for (std::size_t colour = 0; colour < order.colourCount(); ++colour)
     {
-      const PartitionOrder::Range active = order.ofColour(colour);
-      stages.push_back({ std::int64_t(active.size()),
-        started[order.position(*active.begin())].MeshTriangles });
+      const std::size_t size = order.colourSize(colour);
+      stages.push_back({ std::int64_t(size), started[first].MeshTriangles });
+      first += size;
     }
     return stages;
-  }
-
-  /// Lemma 3.
-  static void repairHull(
-    FinalBoundary<Id>& boundary, const std::vector<SeamVertex>& artificial)
-  {
-    std::vector<SeamVertex>& hull = boundary.HullVertices;
-    const auto less = [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; };
-    const auto equal = [](const SeamVertex& a, const SeamVertex& b) { return a.Id == b.Id; };
-    std::sort(hull.begin(), hull.end(), less);
-    hull.erase(std::unique(hull.begin(), hull.end(), equal), hull.end());
-    std::vector<Point2> points;
-    points.reserve(hull.size());
-    for (const SeamVertex& v : hull)
-    {
-      points.push_back(v.Place);
-    }
-    for (const auto& corners : hullTriangles(std::move(points), artificial))
-    {
-      boundary.add({ hull[corners[0]], hull[corners[1]], hull[corners[2]] });
-    }
   }
 
   /// Threads report one at a time, so that the fraction rises; none after one was told to stop.
@@ -290,8 +269,7 @@ private:
     return !this->Stopped;
   }
 
-  void finish(
-    TriangleSink<Id>& sink, const std::vector<typename TriangleSink<Id>::Seam>& boundary)
+  void finish(TriangleSink<Id>& sink, const std::vector<typename TriangleSink<Id>::Seam>& boundary)
   {
     Buffer<Id> ids = sink.assemble(boundary, this->PassThreads);
     preferLowestIds(ids, this->Result.Duplicates, this->PassThreads);

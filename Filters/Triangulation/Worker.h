@@ -15,8 +15,8 @@
 namespace tipp
 {
 
-/// Takes the triangles on a partition's boundary: those whose circumdisk meets its region, and which
-/// are not interior.
+/// Takes the triangles on a partition's boundary: those whose circumdisk meets its region, and
+/// which are not interior.
 class BoundaryTaker
 {
 public:
@@ -85,7 +85,7 @@ private:
   std::vector<SeamVertex> Foreign; ///< vertices that came with the triangles, but for own ones
   std::vector<Point2> ForeignPoints;
   std::vector<std::int64_t> KnownIds; ///< of own points that other partitions know; sorted
-  std::vector<char> IsSeam; ///< of each triangle of the kernel: not interior
+  std::vector<char> IsSeam;           ///< of each triangle of the kernel: not interior
   std::vector<DelaunayKernel::Index> Stack;
   SeamTriangles Seams;
   std::vector<Duplicate> Duplicates;
