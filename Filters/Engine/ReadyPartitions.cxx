@@ -28,43 +28,57 @@ void waitAWhile(int turn)
 
 ReadyPartitions::ReadyPartitions(const PartitionOrder& order, bool barrierBetweenColours)
   : Order(order)
-  , Barrier(barrierBetweenColours && !order.isTotal())
+  , Barrier(barrierBetweenColours)
   , Awaited(order.partitionCount())
-  , LeftInColour(this->Barrier ? order.colourCount() : 0)
+  , LeftInColour(barrierBetweenColours ? order.colourCount() : 0)
   , Queue(order.sequence().size())
+{
+  if (!this->Barrier)
+  {
+    this->awaitEarlier();
+    return;
+  }
+  for (auto& entry : this->Queue)
+  {
+    entry.store(-1, std::memory_order_relaxed);
+  }
+  for (std::size_t colour = 0; colour < order.colourCount(); ++colour)
+  {
+    this->LeftInColour[colour] = std::int64_t(order.colourSize(colour));
+  }
+  if (order.colourCount() > 0)
+  {
+    this->releaseColour(0);
+  }
+}
+
+ReadyPartitions::ReadyPartitions(const PartitionOrder& order, const std::vector<char>& isOwn)
+  : Order(order)
+  , Barrier(false)
+  , Own(isOwn)
+  , Awaited(order.partitionCount())
+  , Queue(std::size_t(std::count_if(order.sequence().begin(), order.sequence().end(),
+      [&](PartitionIndex p) { return isOwn[std::size_t(p)] != 0; })))
+{
+  this->awaitEarlier();
+}
+
+void ReadyPartitions::awaitEarlier()
 {
   for (auto& entry : this->Queue)
   {
     entry.store(-1, std::memory_order_relaxed);
   }
-  if (this->Queue.empty())
+  for (const PartitionIndex p : this->Order.sequence())
   {
-    return;
-  }
-  if (this->Barrier)
-  {
-    for (std::size_t colour = 0; colour < order.colourCount(); ++colour)
-    {
-      this->LeftInColour[colour] = std::int64_t(order.colourSize(colour));
-    }
-    this->releaseColour(0);
-    return;
-  }
-  if (order.isTotal())
-  {
-    this->release(order.sequence().front());
-    return;
-  }
-  for (const PartitionIndex p : order.sequence())
-  {
-    for (const PartitionIndex later : order.later(p))
+    for (const PartitionIndex later : this->Order.later(p))
     {
       ++this->Awaited[std::size_t(later)];
     }
   }
-  for (const PartitionIndex p : order.sequence())
+  for (const PartitionIndex p : this->Order.sequence())
   {
-    if (this->Awaited[std::size_t(p)] == 0)
+    if (this->Awaited[std::size_t(p)] == 0 && (this->Own.empty() || this->Own[std::size_t(p)]))
     {
       this->release(p);
     }
@@ -118,18 +132,10 @@ void ReadyPartitions::finish(PartitionIndex p)
     }
     return;
   }
-  const PartitionOrder::Range later = this->Order.later(p);
-  if (this->Order.isTotal())
+  for (const PartitionIndex q : this->Order.later(p))
   {
-    if (later.size() > 0)
-    {
-      this->release(*later.begin());
-    }
-    return;
-  }
-  for (const PartitionIndex q : later)
-  {
-    if (this->Awaited[std::size_t(q)].fetch_sub(1, std::memory_order_acq_rel) == 1)
+    if ((this->Own.empty() || this->Own[std::size_t(q)]) &&
+      this->Awaited[std::size_t(q)].fetch_sub(1, std::memory_order_acq_rel) == 1)
     {
       this->release(q);
     }

@@ -21,11 +21,14 @@ public:
   /// With a barrier between colours, a partition waits for all partitions of the colour before; the
   /// order must have no windows then.
   ReadyPartitions(const PartitionOrder& order, bool barrierBetweenColours);
+  /// Hands out only a rank's own partitions: `isOwn` has one entry for each partition, and there is
+  /// no barrier.
+  ReadyPartitions(const PartitionOrder& order, const std::vector<char>& isOwn);
 
   /// A ready partition; waits for one. -1 if all were handed out or the run was stopped.
   PartitionIndex take();
 
-  /// The partition is done, and what it sends is in the inboxes.
+  /// The partition is done, one's own or another rank's, and what it sends is in the inboxes.
   void finish(PartitionIndex p);
 
   /// No further partition is handed out. The first reason is kept.
@@ -34,11 +37,13 @@ public:
   std::exception_ptr failure() const { return this->Failure; }
 
 private:
+  void awaitEarlier();
   void release(PartitionIndex p);
   void releaseColour(std::size_t colour);
 
   const PartitionOrder& Order;
   const bool Barrier;
+  const std::vector<char> Own;                    ///< empty: all
   std::vector<std::atomic<std::int32_t>> Awaited; ///< of each partition: earlier ones not done
   std::vector<std::atomic<std::int64_t>> LeftInColour;
   std::vector<std::atomic<PartitionIndex>> Queue; ///< -1 until filled

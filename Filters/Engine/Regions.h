@@ -5,6 +5,7 @@
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/Tiling.h"
 
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -18,6 +19,14 @@ public:
   /// The tiling must outlive this.
   template <typename Id>
   Regions(const Tiling& tiling, const PointBuckets<Id>& buckets, int threads);
+
+  /// Of boxes that are known. Used: of each partition, whether it has points.
+  Regions(const Tiling& tiling, std::vector<Box2> boxes, std::vector<char> used)
+    : Tiles(tiling)
+    , Boxes(std::move(boxes))
+    , Used(std::move(used))
+  {
+  }
 
   PartitionIndex size() const { return static_cast<PartitionIndex>(this->Boxes.size()); }
   const Box2& operator[](PartitionIndex p) const { return this->Boxes[std::size_t(p)]; }

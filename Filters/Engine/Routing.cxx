@@ -128,8 +128,9 @@ VertexMessage Routing<Id>::messageTo(std::uint32_t recipient, const Worker<Id>& 
 }
 
 template <typename Id>
+template <typename FinalId>
 std::int64_t Routing<Id>::send(
-  const Worker<Id>& worker, std::vector<Inbox>& inboxes, FinalBoundary<Id>& final)
+  const Worker<Id>& worker, const DeliverMessage& deliver, FinalBoundary<FinalId>& final)
 {
   this->sortByRecipient();
   const std::size_t nobody = this->Later.size();
@@ -138,7 +139,7 @@ std::int64_t Routing<Id>::send(
   {
     if (this->Ends[recipient] < this->Ends[recipient + 1])
     {
-      inboxes[std::size_t(this->Later.begin()[recipient])].put(this->messageTo(recipient, worker));
+      deliver(this->Later.begin()[recipient], this->messageTo(recipient, worker));
     }
   }
   for (std::size_t i = sent; i < this->Sorted.size(); ++i)
@@ -152,7 +153,7 @@ std::int64_t Routing<Id>::send(
 
 template <typename Id>
 std::int64_t sendInitialMesh(const SeamTriangles& mesh, const PartitionOrder& order,
-  std::vector<Inbox>& inboxes, FinalBoundary<Id>& final)
+  const DeliverMessage& deliver, FinalBoundary<Id>& final)
 {
   std::vector<std::pair<PartitionIndex, std::size_t>> sent;
   for (std::size_t i = 0; i < mesh.size(); ++i)
@@ -183,7 +184,7 @@ std::int64_t sendInitialMesh(const SeamTriangles& mesh, const PartitionOrder& or
         }
       }
     }
-    inboxes[std::size_t(recipient)].put(std::move(message));
+    deliver(recipient, std::move(message));
   }
   return std::int64_t(sent.size());
 }
@@ -194,9 +195,15 @@ template void repairHull(FinalBoundary<std::int32_t>&, const std::vector<SeamVer
 template void repairHull(FinalBoundary<std::int64_t>&, const std::vector<SeamVertex>&);
 template class Routing<std::int32_t>;
 template class Routing<std::int64_t>;
+template std::int64_t Routing<std::int32_t>::send(
+  const Worker<std::int32_t>&, const DeliverMessage&, FinalBoundary<std::int32_t>&);
+template std::int64_t Routing<std::int32_t>::send(
+  const Worker<std::int32_t>&, const DeliverMessage&, FinalBoundary<std::int64_t>&);
+template std::int64_t Routing<std::int64_t>::send(
+  const Worker<std::int64_t>&, const DeliverMessage&, FinalBoundary<std::int64_t>&);
 template std::int64_t sendInitialMesh(
-  const SeamTriangles&, const PartitionOrder&, std::vector<Inbox>&, FinalBoundary<std::int32_t>&);
+  const SeamTriangles&, const PartitionOrder&, const DeliverMessage&, FinalBoundary<std::int32_t>&);
 template std::int64_t sendInitialMesh(
-  const SeamTriangles&, const PartitionOrder&, std::vector<Inbox>&, FinalBoundary<std::int64_t>&);
+  const SeamTriangles&, const PartitionOrder&, const DeliverMessage&, FinalBoundary<std::int64_t>&);
 
 } // namespace tipp

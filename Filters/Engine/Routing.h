@@ -10,10 +10,14 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace tipp
 {
+
+/// Takes a message for a partition.
+using DeliverMessage = std::function<void(PartitionIndex, VertexMessage&&)>;
 
 /// What final triangles on the boundaries of partitions come to: the triangles of true points, and
 /// the true corners of those at artificial points, which the hull repair takes.
@@ -52,10 +56,11 @@ public:
   void begin(DelaunayKernel::Index vertexEnd) override;
   void add(const std::array<DelaunayKernel::Index, 3>& corners, const Circumdisk& disk) override;
 
-  /// Puts the triangles, whose vertices the worker knows, into inboxes or among the final ones.
-  /// Returns how many were put into inboxes.
+  /// Hands the message for each later partition that gets one to `deliver`, and adds the triangles
+  /// that nobody gets to the final ones. Returns how many triangles were delivered.
+  template <typename FinalId>
   std::int64_t send(
-    const Worker<Id>& worker, std::vector<Inbox>& inboxes, FinalBoundary<Id>& final);
+    const Worker<Id>& worker, const DeliverMessage& deliver, FinalBoundary<FinalId>& final);
 
 private:
   struct Triangle
@@ -77,11 +82,10 @@ private:
   std::vector<std::uint32_t> SentTo; ///< of each vertex, the recipient it was last sent to
 };
 
-/// Puts the triangles of the initial mesh into the inboxes of the first partitions that they meet,
-/// or among the final ones. Returns how many were put into inboxes.
+/// The same for the triangles of the initial mesh: each goes to the first partition that it meets.
 template <typename Id>
 std::int64_t sendInitialMesh(const SeamTriangles& mesh, const PartitionOrder& order,
-  std::vector<Inbox>& inboxes, FinalBoundary<Id>& final);
+  const DeliverMessage& deliver, FinalBoundary<Id>& final);
 
 } // namespace tipp
 

@@ -150,6 +150,12 @@ private:
     std::vector<TriangulationStatistics::Stage> Stages; ///< by partition started, or by colour
     std::atomic<std::int64_t> Active{ 0 };
     std::atomic<std::int64_t> Unfinished{ 0 }; ///< triangles in inboxes and with workers
+
+    DeliverMessage deliver()
+    {
+      return [this](PartitionIndex to, VertexMessage&& message)
+      { this->Inboxes[std::size_t(to)].put(std::move(message)); };
+    }
   };
 
   /// What a thread contributes to the result.
@@ -169,7 +175,7 @@ private:
       ReadyPartitions(order, barrier), {} };
     shared.Stages.resize(order.sequence().size());
     FinalBoundary<Id> boundary;
-    shared.Unfinished = sendInitialMesh(initialMesh, order, shared.Inboxes, boundary);
+    shared.Unfinished = sendInitialMesh(initialMesh, order, shared.deliver(), boundary);
     this->endPhase("initial mesh");
     TriangleSink<Id> sink(this->Buckets);
     std::vector<Contribution> parts(std::size_t(this->Threads));
@@ -212,6 +218,7 @@ private:
     Worker<Id> worker(shared.Tiles, this->Buckets);
     Routing<Id> routing(shared.Order, shared.Boxes);
     UniqueVertices unique;
+    const DeliverMessage deliver = shared.deliver();
     for (PartitionIndex p = shared.Ready.take(); p >= 0; p = shared.Ready.take())
     {
       shared.Stages[shared.Order.position(p)] = { ++shared.Active, shared.Unfinished };
@@ -225,7 +232,7 @@ private:
         routing.setPartition(p);
         worker.triangulate(p, unique.collect(messages), shared.Boxes[p], routing);
       }
-      shared.Unfinished += routing.send(worker, shared.Inboxes, part.Boundary) - handed;
+      shared.Unfinished += routing.send(worker, deliver, part.Boundary) - handed;
       sink.setInteriorCount(p, worker.interiorCount());
       part.WorkerVertices += worker.vertexCount();
       part.Duplicates.insert(

@@ -80,7 +80,7 @@ public:
         this->Ready.push_back(p);
       }
     }
-    sendInitialMesh(scene.Mesh, order, this->Inboxes, this->Final);
+    sendInitialMesh(scene.Mesh, order, this->deliver(), this->Final);
   }
 
   /// The triangulation of all points; ready partitions are taken at random.
@@ -111,6 +111,12 @@ public:
   std::size_t Done = 0;
 
 private:
+  DeliverMessage deliver()
+  {
+    return [this](PartitionIndex to, VertexMessage&& message)
+    { this->Inboxes[std::size_t(to)].put(std::move(message)); };
+  }
+
   void triangulate(PartitionIndex p, Worker<std::int32_t>& worker, Routing<std::int32_t>& routing)
   {
     const std::vector<VertexMessage> messages = this->Inboxes[std::size_t(p)].take();
@@ -120,7 +126,7 @@ private:
     }
     routing.setPartition(p);
     worker.triangulate(p, UniqueVertices().collect(messages), this->Scene.Boxes[p], routing);
-    routing.send(worker, this->Inboxes, this->Final);
+    routing.send(worker, this->deliver(), this->Final);
     ++this->Done;
     for (const PartitionIndex q : this->Order.later(p))
     {

@@ -76,7 +76,10 @@ TEST(Routing, SendsTheInitialMeshToTheFirstPartitions)
   const PartitionOrder order = scene.order();
   std::vector<Inbox> inboxes(16);
   Final final;
-  const std::int64_t sent = sendInitialMesh(scene.Mesh, order, inboxes, final);
+  const std::int64_t sent = sendInitialMesh(scene.Mesh, order,
+    [&](PartitionIndex to, VertexMessage&& message)
+    { inboxes[std::size_t(to)].put(std::move(message)); },
+    final);
   std::vector<std::int64_t> expected(16, 0);
   for (std::size_t i = 0; i < scene.Mesh.size(); ++i)
   {
