@@ -346,6 +346,7 @@ void MasterlessRun<Id>::coordinate()
   // Looking for messages takes the processor from a thread that computes.
   constexpr auto pause = std::chrono::microseconds(300);
   constexpr double untilReport = 0.05;
+  this->report();
   while (this->LeftPartitions > 0 && !this->Ready->isStopped())
   {
     if (!this->sendAndReceive())
@@ -358,6 +359,7 @@ void MasterlessRun<Id>::coordinate()
     }
   }
   this->sendAndReceive();
+  this->report();
 }
 
 /// Lemma 3. The first rank has the triangles at the hull.
