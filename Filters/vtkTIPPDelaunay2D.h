@@ -49,7 +49,7 @@
  * that share a point with the piece. Merged points are in no piece; with GenerateRepresentativeIds
  * the field data has the arrays "DuplicatePointIds", "DuplicateRepresentativeIds" and
  * "RejectedPointIds" (global ids) of those found on this rank. Port 1 has on every rank the same
- * table: rows for the first master's stages, and as field data, by rank, "RankComputeSeconds",
+ * table: rows for the first master's stages, if there is a master, and as field data, by rank, "RankComputeSeconds",
  * "RankWaitSeconds", "RankSendSeconds", "RankOwnedPoints" and "RankTriangles"; "MasterSeconds",
  * "LargestMasterMesh"; "MessageKind", "MessageCount" and "MessageBytes". If any rank fails, all do,
  * and the first one reports the error; also if it is upstream that fails on a rank, unless the
@@ -121,7 +121,7 @@ public:
    */
   enum MastersType
   {
-    AUTO_MASTERS = 0,  ///< a single master for few ranks
+    AUTO_MASTERS = 0,  ///< no master: each rank triangulates the partitions it owns
     SINGLE_MASTER = 1, ///< one master hands out all partitions (Algorithm 1)
     MULTI_MASTER = 2   ///< a master hands major partitions to sub-masters (Algorithm 3)
   };

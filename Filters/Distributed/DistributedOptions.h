@@ -10,7 +10,8 @@ namespace tipp
 
 enum class Masters
 {
-  Auto,
+  Auto,   ///< no master; several where a grid of major partitions is given, or one for schedules
+          ///< with barriers
   Single, ///< one master hands out all partitions (Algorithm 1)
   Multi   ///< a master hands major partitions to sub-masters (Algorithm 3)
 };
@@ -46,6 +47,12 @@ struct GridSize
 
 struct DistributedOptions
 {
+  bool isMasterless() const
+  {
+    return this->Design == Masters::Auto && !this->Major.isGiven() &&
+      this->Order == RankSchedule::Dynamic;
+  }
+
   Masters Design = Masters::Auto;
   GridSize Major; ///< not given: a tree of a chosen number of boxes
   Division MinorDivision = Division::Tree;

@@ -2,6 +2,7 @@
 #include "Distributed/DistributedTriangulation.h"
 
 #include "Distributed/Collection.h"
+#include "Distributed/MasterlessRun.h"
 #include "Distributed/Plan.h"
 #include "Distributed/RankRun.h"
 #include "Distributed/Survey.h"
@@ -141,7 +142,20 @@ private:
       this->triangulateOnFirst(points, plan.Leaves);
       return true;
     }
+    if (this->Options.isMasterless())
+    {
+      MasterlessRun<Id> run(this->Ranks, plan, points, this->Options, this->Threads);
+      return this->runAndCollect(run, plan, points);
+    }
     RankRun<Id> run(this->Ranks, plan, points, counts, this->Options, this->Threads);
+    const bool done = this->runAndCollect(run, plan, points);
+    this->Masters = std::move(run.Masters);
+    return done;
+  }
+
+  template <typename Id, typename Run>
+  bool runAndCollect(Run& run, const Plan& plan, OwnedPoints<Id>& points)
+  {
     run.Statistics = this->Figures;
     run.run();
     if (!run.PartitionsPay)
@@ -149,7 +163,6 @@ private:
       return false;
     }
     this->Figures = run.Statistics;
-    this->Masters = std::move(run.Masters);
     this->Result.Statistics.Partitions = plan.Leaves.size();
     this->Result.Statistics.MajorPartitions =
       plan.Areas.front().hasLeaves() ? 0 : plan.Areas.front().Inner;

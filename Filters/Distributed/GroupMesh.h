@@ -4,6 +4,7 @@
 
 #include "Distributed/SeamGroups.h"
 #include "Distributed/VertexFile.h"
+#include "Triangulation/IndependentPartitions.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace tipp
 {
 
 /// A master's mesh: the groups of triangles whose circumdisks meet an unfinished partition. What
-/// SeamMesh is to threads, but its unit is the group, as it came from a worker. Of triangles it
+/// inboxes are to threads, but its unit is the group, as it came from a worker. Of triangles it
 /// keeps the vertices and the number: which are which is asked only of those that are final. The
 /// vertices may be in a file; all methods may then throw IOError.
 class VTKTIPPFILTERS_EXPORT GroupMesh : public ReachSource

@@ -72,9 +72,7 @@ std::vector<std::vector<PartitionIndex>> predictStages(const Tiling& majors,
   std::vector<SeamVertex> vertices = chooseVertices(majors, sample);
   const std::vector<SeamVertex> artificial = makeArtificialPoints(majors);
   vertices.insert(vertices.end(), artificial.begin(), artificial.end());
-  SeamMesh mesh(majors.size());
-  std::vector<SeamTriangle> final;
-  mesh.add(triangulateVertices(majors, vertices, 1), final);
+  MeshReach mesh(majors.size(), triangulateVertices(majors, vertices, 1));
   IndependentPartitions waiting(mesh, withPoints);
   std::vector<std::vector<PartitionIndex>> stages;
   while (!waiting.isEmpty())

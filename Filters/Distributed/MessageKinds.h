@@ -16,6 +16,8 @@ constexpr MessageKind kindAfter(std::uint32_t n)
 constexpr MessageKind TaskMessage = kindAfter(0);
 constexpr MessageKind ResultMessage = kindAfter(1);
 constexpr MessageKind FinishedMessage = kindAfter(2);
+/// Without a master: a partition is done, and what it sends to a rank's partitions.
+constexpr MessageKind PartitionDoneMessage = kindAfter(3);
 
 } // namespace tipp
 

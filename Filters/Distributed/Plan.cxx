@@ -16,12 +16,10 @@ namespace tipp
 namespace
 {
 
-/// Enough ranks for one master to be a bottleneck.
-bool wantsManyMasters(const DistributedOptions& options, int ranks)
+bool wantsManyMasters(const DistributedOptions& options)
 {
-  constexpr int manyRanks = 16;
   return options.Design == Masters::Multi ||
-    (options.Design == Masters::Auto && (options.Major.isGiven() || ranks >= manyRanks));
+    (options.Design == Masters::Auto && options.Major.isGiven());
 }
 
 std::int64_t threshold(std::int64_t points, const DistributedOptions& options, int threads)
@@ -245,7 +243,7 @@ Plan divide(const PlanInput& input, const DistributedOptions& options)
   Plan plan;
   plan.Areas.resize(1);
   Area& top = plan.Areas.front();
-  if (!wantsManyMasters(options, input.Ranks))
+  if (!wantsManyMasters(options))
   {
     top.Boxes = divideBox(input.Domain, input.Sample, double(input.Points), perPart, options);
     top.Inner = top.Boxes.size();
@@ -298,7 +296,7 @@ void assign(Plan& plan, const PlanInput& input, const std::vector<std::int64_t>&
   {
     // Beside many ranks the first one is the master alone.
     constexpr int masterAlone = 32;
-    if (input.Ranks >= masterAlone)
+    if (input.Ranks >= masterAlone && !options.isMasterless())
     {
       all.erase(all.begin());
     }

@@ -3,7 +3,7 @@
 #define tippSeamGroups_h
 
 #include "Messages/Bytes.h"
-#include "Triangulation/SeamMesh.h"
+#include "Triangulation/SeamTriangles.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <array>

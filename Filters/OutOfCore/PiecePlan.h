@@ -4,7 +4,7 @@
 
 #include "OutOfCore/InputSurvey.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
-#include "Triangulation/SeamMesh.h"
+#include "Triangulation/SeamTriangles.h"
 #include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"
 

@@ -2,7 +2,7 @@
 #ifndef tippHullRepair_h
 #define tippHullRepair_h
 
-#include "Triangulation/SeamMesh.h"
+#include "Triangulation/SeamTriangles.h"
 
 #include <array>
 #include <cstdint>

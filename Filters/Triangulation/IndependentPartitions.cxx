@@ -7,6 +7,26 @@
 namespace tipp
 {
 
+MeshReach::MeshReach(PartitionIndex partitions, const SeamTriangles& mesh)
+  : Labels(static_cast<std::size_t>(partitions))
+{
+  for (std::size_t i = 0; i < mesh.size(); ++i)
+  {
+    for (const PartitionIndex* p = mesh.metBegin(i); p != mesh.metEnd(i); ++p)
+    {
+      for (const SeamVertex& v : mesh[i])
+      {
+        this->Labels[std::size_t(*p)].push_back(v.Label);
+      }
+    }
+  }
+  for (std::vector<std::uint32_t>& labels : this->Labels)
+  {
+    std::sort(labels.begin(), labels.end());
+    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  }
+}
+
 IndependentPartitions::IndependentPartitions(ReachSource& mesh,
   const std::vector<PartitionIndex>& unfinished, const std::vector<std::int32_t>& homes)
   : Mesh(mesh)

@@ -2,13 +2,47 @@
 #ifndef tippIndependentPartitions_h
 #define tippIndependentPartitions_h
 
-#include "Triangulation/SeamMesh.h"
+#include "Triangulation/SeamTriangles.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace tipp
 {
+
+/// What independence is decided on.
+class ReachSource
+{
+public:
+  virtual ~ReachSource() = default;
+
+  /// The labels of the vertices of the partition's triangles, each once; and perhaps of some that
+  /// were superseded since triangles were last added to it.
+  virtual const std::vector<std::uint32_t>& reach(PartitionIndex partition) = 0;
+
+  virtual PartitionIndex partitions() const = 0;
+  std::size_t labelEnd() const { return 4 * static_cast<std::size_t>(this->partitions()); }
+};
+
+/// The same for a mesh that does not change.
+class VTKTIPPFILTERS_EXPORT MeshReach : public ReachSource
+{
+public:
+  MeshReach(PartitionIndex partitions, const SeamTriangles& mesh);
+
+  const std::vector<std::uint32_t>& reach(PartitionIndex partition) override
+  {
+    return this->Labels[std::size_t(partition)];
+  }
+  PartitionIndex partitions() const override
+  {
+    return static_cast<PartitionIndex>(this->Labels.size());
+  }
+
+private:
+  std::vector<std::vector<std::uint32_t>> Labels;
+};
 
 /// Which partitions may be active together.
 ///

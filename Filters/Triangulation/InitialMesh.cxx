@@ -40,6 +40,40 @@ int piecesOf(double side, double spacing)
   return static_cast<int>(std::clamp(std::ceil(side / spacing), 1.0, most));
 }
 
+/// The sets of finite triangles with a common edge, where they differ; each pair once. SetOf: of
+/// the finite triangles, in the kernel's order.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> adjacentSets(
+  const DelaunayKernel& kernel, const std::vector<std::uint32_t>& setOf)
+{
+  constexpr std::uint32_t none = ~0U;
+  const HalfEdgeMesh& mesh = kernel.mesh();
+  std::vector<std::uint32_t> sets(std::size_t(mesh.end() / 8), none);
+  auto set = setOf.begin();
+  for (DelaunayKernel::Index t = 0; t < mesh.end(); t += 8)
+  {
+    if (!kernel.isInfinite(t))
+    {
+      sets[std::size_t(t / 8)] = *set++;
+    }
+  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (DelaunayKernel::Index t = 0; t < mesh.end(); t += 8)
+  {
+    for (DelaunayKernel::Index i = 0; i < 3; ++i)
+    {
+      const std::uint32_t one = sets[std::size_t(t / 8)];
+      const std::uint32_t other = sets[std::size_t(HalfEdgeMesh::triangleOf(mesh.twin(t + i)) / 8)];
+      if (one < other && other != none)
+      {
+        pairs.emplace_back(one, other);
+      }
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
 } // namespace
 
 std::vector<SeamVertex> makeArtificialPoints(const Tiling& tiling)
@@ -96,8 +130,9 @@ std::vector<SeamVertex> chooseInitialPoints(
   return vertices;
 }
 
+template <typename Boxes>
 SeamTriangles triangulateVertices(
-  const Tiling& tiling, const std::vector<SeamVertex>& vertices, int threads)
+  const Boxes& boxes, const std::vector<SeamVertex>& vertices, int threads)
 {
   std::vector<Point2> points;
   points.reserve(vertices.size());
@@ -124,16 +159,18 @@ SeamTriangles triangulateVertices(
       const SeamTriangles::Corners corners = { kernel.place(v[0]), kernel.place(v[1]),
         kernel.place(v[2]) };
       parts[std::size_t(part)].add(
-        tiling, corners, Circumdisk(kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2])));
+        boxes, corners, Circumdisk(kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2])));
     }
   };
   parallelFor(threads, threads, collect);
+  SeamTriangles& all = parts[0];
   for (std::size_t i = 1; i < parts.size(); ++i)
   {
-    parts[0].appendTriangles(parts[i]);
+    all.appendTriangles(parts[i]);
   }
-  parts[0].Vertices = vertices;
-  return std::move(parts[0]);
+  all.Vertices = vertices;
+  all.AdjacentSets = adjacentSets(kernel, all.SetOf);
+  return std::move(all);
 }
 
 bool partitionsPay(const SeamTriangles& initialMesh)
@@ -147,6 +184,8 @@ bool partitionsPay(const SeamTriangles& initialMesh)
   return met <= most * initialMesh.size();
 }
 
+template SeamTriangles triangulateVertices(const Tiling&, const std::vector<SeamVertex>&, int);
+template SeamTriangles triangulateVertices(const Regions&, const std::vector<SeamVertex>&, int);
 template std::vector<SeamVertex> chooseInitialPoints(
   const Tiling&, const PointBuckets<std::int32_t>&, int);
 template std::vector<SeamVertex> chooseInitialPoints(

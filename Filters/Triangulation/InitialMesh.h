@@ -2,8 +2,9 @@
 #ifndef tippInitialMesh_h
 #define tippInitialMesh_h
 
+#include "Engine/Regions.h"
 #include "Triangulation/PointBuckets.h"
-#include "Triangulation/SeamMesh.h"
+#include "Triangulation/SeamTriangles.h"
 
 #include <vector>
 
@@ -20,15 +21,21 @@ template <typename Id>
 std::vector<SeamVertex> chooseInitialPoints(
   const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition);
 
-/// The Delaunay triangulation of vertices, with the partitions each triangle belongs to.
+/// The Delaunay triangulation of vertices, with the boxes (a Tiling's, or Regions) that each
+/// triangle meets, and those that triangles with a common edge meet.
+template <typename Boxes>
 SeamTriangles triangulateVertices(
-  const Tiling& tiling, const std::vector<SeamVertex>& vertices, int threads);
+  const Boxes& boxes, const std::vector<SeamVertex>& vertices, int threads);
 
 /// Circumdisks that meet many partitions each (points on a circle, a parabola, a line and one
 /// beside it: 3.5 and more partitions each, by measurement) would bring nearly all vertices to
 /// every worker. Ordinary points give 1.5 to 2.8.
 bool partitionsPay(const SeamTriangles& initialMesh);
 
+extern template SeamTriangles triangulateVertices(
+  const Tiling&, const std::vector<SeamVertex>&, int);
+extern template SeamTriangles triangulateVertices(
+  const Regions&, const std::vector<SeamVertex>&, int);
 extern template std::vector<SeamVertex> chooseInitialPoints(
   const Tiling&, const PointBuckets<std::int32_t>&, int);
 extern template std::vector<SeamVertex> chooseInitialPoints(

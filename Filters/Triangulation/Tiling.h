@@ -58,7 +58,20 @@ public:
   template <typename Visit>
   void visitMet(const Circumdisk& disk, Visit&& visit) const
   {
-    const Box2 bounds = disk.bounds();
+    this->visitNear(disk.bounds(),
+      [&](PartitionIndex p)
+      {
+        if (disk.meets(this->box(p)))
+        {
+          visit(p);
+        }
+      });
+  }
+
+  /// visit(partition) for every box that meets the bounds, and perhaps some others.
+  template <typename Visit>
+  void visitNear(const Box2& bounds, Visit&& visit) const
+  {
     const double low[2] = { bounds.xmin, bounds.ymin };
     const double high[2] = { bounds.xmax, bounds.ymax };
     std::array<std::int32_t, MaximumDepth> pending;
@@ -77,10 +90,7 @@ public:
         }
         node = &this->node(node->Child[!below]);
       }
-      if (disk.meets(this->box(node->Partition)))
-      {
-        visit(node->Partition);
-      }
+      visit(node->Partition);
     }
   }
 

@@ -51,20 +51,6 @@ std::vector<typename TriangleSink<Id>::Corners> TriangleSink<Id>::sortSeams(
 }
 
 template <typename Id>
-Buffer<Id> TriangleSink<Id>::assemble(const FinalSeams& seams, int threads)
-{
-  std::vector<Seam> taken;
-  taken.reserve(seams.triangles().size());
-  for (const FinalSeams::Triangle& triangle : seams.triangles())
-  {
-    const auto& ids = triangle.Ids;
-    taken.push_back({ { static_cast<Id>(ids[0]), static_cast<Id>(ids[1]), static_cast<Id>(ids[2]) },
-      triangle.Partition });
-  }
-  return this->assemble(taken, threads);
-}
-
-template <typename Id>
 Buffer<Id> TriangleSink<Id>::assemble(const std::vector<Seam>& seams, int threads)
 {
   const std::vector<Corners> sorted = this->sortSeams(seams, threads);

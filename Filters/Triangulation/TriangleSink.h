@@ -3,9 +3,8 @@
 #define tippTriangleSink_h
 
 #include "Triangulation/Buffer.h"
-#include "Triangulation/FinalSeams.h"
 #include "Triangulation/PointBuckets.h"
-#include "Triangulation/SeamMesh.h"
+#include "Triangulation/SeamTriangles.h"
 #include "Triangulation/Triangulate.h"
 
 #include <cstdint>
@@ -40,7 +39,6 @@ public:
   /// Takes the buckets' memory. The seams' vertices must be true points; some may be points that
   /// are not in the buckets, so that there can be more than two triangles a point.
   Buffer<Id> assemble(const std::vector<Seam>& seams, int threads);
-  Buffer<Id> assemble(const FinalSeams& seams, int threads);
 
 private:
   std::vector<Corners> sortSeams(const std::vector<Seam>& seams, int threads) const;

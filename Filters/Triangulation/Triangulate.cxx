@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation/Triangulate.h"
 
+#include "Engine/PartitionOrder.h"
+#include "Engine/ReadyPartitions.h"
+#include "Engine/Regions.h"
+#include "Engine/Routing.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/DegenerateInput.h"
 #include "Triangulation/InitialMesh.h"
-#include "Triangulation/Master.h"
 #include "Triangulation/PartitionSizes.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/TriangleSink.h"
@@ -14,6 +17,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
@@ -74,16 +78,14 @@ public:
       chooseInitialPoints(tiling, this->Buckets, initialPointsPerPartition());
     this->Result.Statistics.InitialPoints = std::int64_t(initial.size());
     initial.insert(initial.end(), artificial.begin(), artificial.end());
-    const SeamTriangles initialMesh = triangulateVertices(tiling, initial, this->PassThreads);
+    const Regions regions(tiling, this->Buckets, this->PassThreads);
+    const SeamTriangles initialMesh = triangulateVertices(regions, initial, this->PassThreads);
     if (!this->hasGrid() && !partitionsPay(initialMesh))
     {
       this->triangulateAlone(tiling);
       return;
     }
-    Master master(
-      this->Options.Order, tiling.size(), this->partitionsWithPoints(tiling), initialMesh);
-    this->endPhase("initial mesh");
-    this->work(tiling, master, artificial);
+    this->work(tiling, regions, initialMesh, artificial);
   }
 
 private:
@@ -101,19 +103,6 @@ private:
   {
     return this->Options.InitialPointsPerPartition > 0 ? this->Options.InitialPointsPerPartition
                                                        : InitialPointsOfPartition;
-  }
-
-  std::vector<PartitionIndex> partitionsWithPoints(const Tiling& tiling) const
-  {
-    std::vector<PartitionIndex> partitions;
-    for (PartitionIndex p = 0; p < tiling.size(); ++p)
-    {
-      if (this->Buckets.count(p) > 0)
-      {
-        partitions.push_back(p);
-      }
-    }
-    return partitions;
   }
 
   void endPhase(const char* name)
@@ -150,59 +139,131 @@ private:
     this->finish(sink, {});
   }
 
-  void work(const Tiling& tiling, Master& master, const std::vector<SeamVertex>& artificial)
+  /// What the threads of a run share.
+  struct Shared
   {
+    const Tiling& Tiles;
+    const Regions& Boxes;
+    const PartitionOrder& Order;
+    std::vector<Inbox> Inboxes;
+    ReadyPartitions Ready;
+    std::vector<TriangulationStatistics::Stage> Stages; ///< by partition started, or by colour
+    std::atomic<std::int64_t> Active{ 0 };
+    std::atomic<std::int64_t> Unfinished{ 0 }; ///< triangles in inboxes and with workers
+
+    DeliverMessage deliver()
+    {
+      return [this](PartitionIndex to, VertexMessage&& message)
+      { this->Inboxes[std::size_t(to)].put(std::move(message)); };
+    }
+  };
+
+  /// What a thread contributes to the result.
+  struct Contribution
+  {
+    FinalBoundary<Id> Boundary;
+    std::vector<Duplicate> Duplicates;
+    std::size_t WorkerVertices = 0;
+  };
+
+  void work(const Tiling& tiling, const Regions& regions, const SeamTriangles& initialMesh,
+    const std::vector<SeamVertex>& artificial)
+  {
+    const PartitionOrder order(regions.areUsed(), initialMesh);
+    const bool barrier = this->Options.Order == Schedule::Stages;
+    Shared shared{ tiling, regions, order, std::vector<Inbox>(order.partitionCount()),
+      ReadyPartitions(order, barrier), {} };
+    shared.Stages.resize(order.sequence().size());
+    FinalBoundary<Id> boundary;
+    shared.Unfinished = sendInitialMesh(initialMesh, order, shared.deliver(), boundary);
+    this->endPhase("initial mesh");
     TriangleSink<Id> sink(this->Buckets);
+    std::vector<Contribution> parts(std::size_t(this->Threads));
 #pragma omp parallel num_threads(this->Threads)
     {
       try
       {
-        this->workAsOneThread(tiling, master, sink);
+        this->workAsOneThread(shared, sink, parts[std::size_t(omp_get_thread_num())]);
       }
       catch (...)
       {
-        master.stop(std::current_exception());
+        shared.Ready.stop(std::current_exception());
       }
     }
-    if (master.failure())
+    if (shared.Ready.failure())
     {
-      std::rethrow_exception(master.failure());
+      std::rethrow_exception(shared.Ready.failure());
     }
-    TriangulationStatistics& statistics = this->Result.Statistics;
     this->endPhase("workers");
-    statistics.Phases.push_back({ "master, within workers", master.Seconds });
-    statistics.Stages = std::move(master.Stages);
-    statistics.WorkerVertices = std::int64_t(master.WorkerVertices);
-    this->Result.Aborted = master.isStopped();
-    if (this->Result.Aborted)
+    TriangulationStatistics& statistics = this->Result.Statistics;
+    statistics.Stages = stagesOf(shared.Stages, order, barrier);
+    this->Result.Aborted = shared.Ready.isStopped();
+    for (Contribution& part : parts)
     {
-      return;
+      boundary.append(std::move(part.Boundary));
+      statistics.WorkerVertices += std::int64_t(part.WorkerVertices);
+      this->Result.Duplicates.insert(
+        this->Result.Duplicates.end(), part.Duplicates.begin(), part.Duplicates.end());
     }
-    master.Final.removeArtificialPoints(artificial);
-    this->endPhase("hull");
-    this->Result.Duplicates = std::move(master.Duplicates);
-    this->finish(sink, master.Final);
+    if (!this->Result.Aborted)
+    {
+      repairHull(boundary, artificial);
+      this->endPhase("hull");
+      this->finish(sink, boundary.Triangles);
+    }
   }
 
-  void workAsOneThread(const Tiling& tiling, Master& master, TriangleSink<Id>& sink)
+  void workAsOneThread(Shared& shared, TriangleSink<Id>& sink, Contribution& part)
   {
-    Worker<Id> worker(tiling, this->Buckets);
-    std::vector<SeamTriangle> belonging;
-    for (;;)
+    Worker<Id> worker(shared.Tiles, this->Buckets);
+    Routing<Id> routing(shared.Order, shared.Boxes);
+    UniqueVertices unique;
+    const DeliverMessage deliver = shared.deliver();
+    for (PartitionIndex p = shared.Ready.take(); p >= 0; p = shared.Ready.take())
     {
-      const PartitionIndex partition = master.acquire(belonging);
-      if (partition < 0)
+      shared.Stages[shared.Order.position(p)] = { ++shared.Active, shared.Unfinished };
+      std::int64_t handed = 0;
       {
-        return;
+        const std::vector<VertexMessage> messages = shared.Inboxes[std::size_t(p)].take();
+        for (const VertexMessage& message : messages)
+        {
+          handed += message.Triangles;
+        }
+        routing.setPartition(p);
+        worker.triangulate(p, unique.collect(messages), shared.Boxes[p], routing);
       }
-      worker.triangulate(partition, belonging);
-      sink.setInteriorCount(partition, worker.interiorCount());
-      master.complete(partition, worker.seams(), worker.duplicates(), worker.vertexCount());
-      if (!this->reportFinished(this->Buckets.count(partition)))
+      shared.Unfinished += routing.send(worker, deliver, part.Boundary) - handed;
+      sink.setInteriorCount(p, worker.interiorCount());
+      part.WorkerVertices += worker.vertexCount();
+      part.Duplicates.insert(
+        part.Duplicates.end(), worker.duplicates().begin(), worker.duplicates().end());
+      --shared.Active;
+      shared.Ready.finish(p);
+      if (!this->reportFinished(this->Buckets.count(p)))
       {
-        master.stop();
+        shared.Ready.stop();
       }
     }
+  }
+
+  /// One entry a colour if there are barriers between colours, else one a partition.
+  static std::vector<TriangulationStatistics::Stage> stagesOf(
+    const std::vector<TriangulationStatistics::Stage>& started, const PartitionOrder& order,
+    bool barrier)
+  {
+    if (!barrier)
+    {
+      return started;
+    }
+    std::vector<TriangulationStatistics::Stage> stages;
+    std::size_t first = 0;
+    for (std::size_t colour = 0; colour < order.colourCount(); ++colour)
+    {
+      const std::size_t size = order.colourSize(colour);
+      stages.push_back({ std::int64_t(size), started[first].MeshTriangles });
+      first += size;
+    }
+    return stages;
   }
 
   /// Threads report one at a time, so that the fraction rises; none after one was told to stop.
@@ -215,9 +276,9 @@ private:
     return !this->Stopped;
   }
 
-  void finish(TriangleSink<Id>& sink, const FinalSeams& seams)
+  void finish(TriangleSink<Id>& sink, const std::vector<typename TriangleSink<Id>::Seam>& boundary)
   {
-    Buffer<Id> ids = sink.assemble(seams, this->PassThreads);
+    Buffer<Id> ids = sink.assemble(boundary, this->PassThreads);
     preferLowestIds(ids, this->Result.Duplicates, this->PassThreads);
     idsOf<Id>(this->Result) = std::move(ids);
     this->endPhase("output");

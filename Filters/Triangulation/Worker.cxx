@@ -10,14 +10,56 @@ namespace tipp
 namespace
 {
 
-constexpr std::uint32_t NoPlace = ~0U;
-
 /// The disks inside this closed box do not touch the closed boxes around it.
 Box2 openBox(const Box2& box)
 {
   return { std::nextafter(box.xmin, HUGE_VAL), std::nextafter(box.ymin, HUGE_VAL),
     std::nextafter(box.xmax, -HUGE_VAL), std::nextafter(box.ymax, -HUGE_VAL) };
 }
+
+/// Boundary triangles with all boxes of a tiling that they meet.
+class SeamCollector : public BoundaryTaker
+{
+public:
+  SeamCollector(const Tiling& tiling, SeamTriangles& seams)
+    : Boxes(tiling)
+    , Seams(seams)
+  {
+    this->Seams.clear();
+  }
+
+  void begin(DelaunayKernel::Index vertexEnd) override
+  {
+    this->Numbers.assign(std::size_t(vertexEnd), Unknown);
+  }
+
+  void add(const std::array<DelaunayKernel::Index, 3>& corners, const Circumdisk& disk) override
+  {
+    this->Seams.add(this->Boxes,
+      { this->number(corners[0]), this->number(corners[1]), this->number(corners[2]) }, disk);
+  }
+
+  /// The kernel's vertices that the triangles name, in the order of their numbers.
+  std::vector<DelaunayKernel::Index> Vertices;
+
+private:
+  static constexpr std::uint32_t Unknown = ~0U;
+
+  std::uint32_t number(DelaunayKernel::Index v)
+  {
+    std::uint32_t& number = this->Numbers[std::size_t(v)];
+    if (number == Unknown)
+    {
+      number = static_cast<std::uint32_t>(this->Vertices.size());
+      this->Vertices.push_back(v);
+    }
+    return number;
+  }
+
+  const Tiling& Boxes;
+  SeamTriangles& Seams;
+  std::vector<std::uint32_t> Numbers; ///< of the kernel's vertices
+};
 
 } // namespace
 
@@ -46,7 +88,6 @@ void Worker<Id>::reserve()
   this->Kernel.reserve(vertices);
   this->Ids.reserve(largest);
   this->VertexIds.reserve(vertices + 1);
-  this->SeamPlaces.reserve(vertices + 1);
   this->IsSeam.reserve(2 * vertices);
 }
 
@@ -58,24 +99,22 @@ void Worker<Id>::setTiling(const Tiling& tiling, PartitionIndex firstBucket)
 }
 
 template <typename Id>
-void Worker<Id>::triangulate(PartitionIndex partition, const std::vector<SeamTriangle>& belonging)
-{
-  static_assert(sizeof(SeamTriangle) == 3 * sizeof(SeamVertex), "corners lie in a row");
-  this->collectVertices(
-    belonging.empty() ? nullptr : belonging.front().data(), 3 * belonging.size());
-  this->triangulateCollected(partition);
-}
-
-template <typename Id>
 void Worker<Id>::triangulate(PartitionIndex partition, std::vector<SeamVertex>&& vertices)
 {
-  this->Foreign = std::move(vertices);
-  this->triangulateCollected(partition);
+  SeamCollector collector(*this->Boxes, this->Seams);
+  this->triangulate(partition, std::move(vertices), this->Boxes->box(partition), collector);
+  this->Seams.Vertices.reserve(collector.Vertices.size());
+  for (const DelaunayKernel::Index v : collector.Vertices)
+  {
+    this->Seams.Vertices.push_back(this->vertex(partition, v));
+  }
 }
 
 template <typename Id>
-void Worker<Id>::triangulateCollected(PartitionIndex partition)
+void Worker<Id>::triangulate(PartitionIndex partition, std::vector<SeamVertex>&& vertices,
+  const Box2& region, BoundaryTaker& boundary)
 {
+  this->Foreign = std::move(vertices);
   const PartitionIndex bucket = this->bucket(partition);
   this->separateOwnVertices(partition);
   this->takeIds(bucket);
@@ -91,14 +130,14 @@ void Worker<Id>::triangulateCollected(PartitionIndex partition)
   }
   this->VertexCount = static_cast<std::size_t>(this->Kernel.vertexEnd()) - 1;
   this->resolveDuplicates();
-  this->findSeams(partition);
+  boundary.begin(this->Kernel.vertexEnd());
+  this->findBoundary(this->Boxes->box(partition), region, boundary);
   this->writeTriangles(
     bucket, [this](DelaunayKernel::Index t) { return !this->IsSeam[std::size_t(t / 8)]; });
   if (isLarge)
   {
     this->Kernel.releaseTriangles();
   }
-  this->nameSeamVertices(partition);
 }
 
 template <typename Id>
@@ -121,37 +160,6 @@ template <typename Id>
 void Worker<Id>::takeIds(PartitionIndex bucket)
 {
   this->Buckets.copyIds(bucket, this->Ids);
-}
-
-/// Each once.
-template <typename Id>
-void Worker<Id>::collectVertices(const SeamVertex* vertices, std::size_t count)
-{
-  this->Foreign.clear();
-  std::size_t size = 64;
-  while (3 * size < 4 * count)
-  {
-    size *= 2;
-  }
-  constexpr std::uint32_t empty = ~0U;
-  this->HashTable.assign(size, empty);
-  for (const SeamVertex* at = vertices; at != vertices + count; ++at)
-  {
-    const SeamVertex& v = *at;
-    std::size_t place = (std::uint64_t(v.Id) * 0x9e3779b97f4a7c15U) >> 32;
-    for (place &= size - 1; this->HashTable[place] != empty; place = (place + 1) & (size - 1))
-    {
-      if (this->Foreign[this->HashTable[place]].Id == v.Id)
-      {
-        break;
-      }
-    }
-    if (this->HashTable[place] == empty)
-    {
-      this->HashTable[place] = static_cast<std::uint32_t>(this->Foreign.size());
-      this->Foreign.push_back(v);
-    }
-  }
 }
 
 template <typename Id>
@@ -217,30 +225,14 @@ SeamVertex Worker<Id>::vertex(PartitionIndex partition, DelaunayKernel::Index v)
     *this->Boxes, partition, this->Kernel.point(v), this->FirstId + this->Ids[place]);
 }
 
-template <typename Id>
-std::uint32_t Worker<Id>::seamPlace(DelaunayKernel::Index v)
-{
-  std::uint32_t& place = this->SeamPlaces[std::size_t(v)];
-  if (place == NoPlace)
-  {
-    place = static_cast<std::uint32_t>(this->SeamVertices.size());
-    this->SeamVertices.push_back(v);
-  }
-  return place;
-}
-
 /// Walks over the triangles whose circumdisk is not inside the partition. They are connected: each
 /// point outside has a cavity that is, and a path outside from point to point changes the cavity
 /// by one neighbour at a time. So only the seam and one row of interior triangles are looked at.
 template <typename Id>
-void Worker<Id>::findSeams(PartitionIndex partition)
+void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryTaker& boundary)
 {
   const HalfEdgeMesh& mesh = this->Kernel.mesh();
-  const Box2& box = this->Boxes->box(partition);
   const Box2 open = openBox(box);
-  this->Seams.clear();
-  this->SeamVertices.clear();
-  this->SeamPlaces.assign(static_cast<std::size_t>(this->Kernel.vertexEnd()), NoPlace);
   this->IsSeam.assign(static_cast<std::size_t>(mesh.end() / 8), 0);
   DelaunayKernel::Index start = 0;
   while (!this->Kernel.isInfinite(start))
@@ -270,25 +262,14 @@ void Worker<Id>::findSeams(PartitionIndex partition)
         {
           continue;
         }
-        if (disk.meets(box))
+        if (disk.meets(region))
         {
-          this->Seams.add(*this->Boxes,
-            { this->seamPlace(v[0]), this->seamPlace(v[1]), this->seamPlace(v[2]) }, disk);
+          boundary.add({ v[0], v[1], v[2] }, disk);
         }
       }
       isSeam = 1;
       this->Stack.push_back(neighbour);
     }
-  }
-}
-
-template <typename Id>
-void Worker<Id>::nameSeamVertices(PartitionIndex partition)
-{
-  this->Seams.Vertices.reserve(this->SeamVertices.size());
-  for (const DelaunayKernel::Index v : this->SeamVertices)
-  {
-    this->Seams.Vertices.push_back(this->vertex(partition, v));
   }
 }
 

@@ -4,15 +4,29 @@
 
 #include "Kernel/KernelPool.h"
 #include "Triangulation/PointBuckets.h"
-#include "Triangulation/SeamMesh.h"
+#include "Triangulation/SeamTriangles.h"
 #include "Triangulation/Triangulate.h"
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 namespace tipp
 {
+
+/// Takes the triangles on a partition's boundary: those whose circumdisk meets its region, and
+/// which are not interior.
+class BoundaryTaker
+{
+public:
+  virtual ~BoundaryTaker() = default;
+
+  /// Before the first triangle. The kernel's vertices are 0 to vertexEnd - 1.
+  virtual void begin(DelaunayKernel::Index vertexEnd) = 0;
+  /// Corners: the kernel's vertices, counter-clockwise.
+  virtual void add(const std::array<DelaunayKernel::Index, 3>& corners, const Circumdisk& disk) = 0;
+};
 
 /// Triangulates one partition at a time (Lemma 1): its points, and the vertices of the triangles
 /// that belong to it. Keeps its memory from one partition to the next.
@@ -26,12 +40,17 @@ public:
   /// From now on partitions are those of another tiling, the first of which has this bucket.
   void setTiling(const Tiling& tiling, PartitionIndex firstBucket);
 
-  /// Writes the partition's interior triangles, whose order and number depend on its own points
-  /// alone, over its points, and keeps the others whose circumdisk meets the partition.
-  void triangulate(PartitionIndex partition, const std::vector<SeamTriangle>& belonging);
+  /// Triangulates the partition's points and the vertices of the triangles that meet its region,
+  /// each once. Writes the interior triangles, whose order and number depend on the partition's
+  /// points alone, over these points, and gives the boundary triangles to `boundary`.
+  void triangulate(PartitionIndex partition, std::vector<SeamVertex>&& vertices, const Box2& region,
+    BoundaryTaker& boundary);
 
-  /// The same, of the vertices of the triangles that belong to it, each once.
+  /// The same; the region is the partition's box, and seams() are the boundary triangles.
   void triangulate(PartitionIndex partition, std::vector<SeamVertex>&& vertices);
+
+  /// A vertex of the last partition's kernel.
+  SeamVertex vertex(PartitionIndex partition, DelaunayKernel::Index v) const;
 
   /// The only partition, number 0: all triangles are interior. False if the monitor ended it.
   bool triangulateAlone(const DelaunayKernel::Monitor& proceed);
@@ -47,18 +66,13 @@ public:
 
 private:
   void reserve();
-  void collectVertices(const SeamVertex* vertices, std::size_t count);
   void separateOwnVertices(PartitionIndex partition);
-  void triangulateCollected(PartitionIndex partition);
   PartitionIndex bucket(PartitionIndex partition) const { return this->FirstBucket + partition; }
   void takeIds(PartitionIndex bucket);
   void resolveDuplicates();
-  void findSeams(PartitionIndex partition);
+  void findBoundary(const Box2& box, const Box2& region, BoundaryTaker& boundary);
   template <typename IsInterior>
   void writeTriangles(PartitionIndex bucket, const IsInterior& isInterior);
-  void nameSeamVertices(PartitionIndex partition);
-  SeamVertex vertex(PartitionIndex partition, DelaunayKernel::Index v) const;
-  std::uint32_t seamPlace(DelaunayKernel::Index v);
 
   const Tiling* Boxes;
   PointBuckets<Id>& Buckets;
@@ -71,12 +85,9 @@ private:
   std::vector<SeamVertex> Foreign; ///< vertices that came with the triangles, but for own ones
   std::vector<Point2> ForeignPoints;
   std::vector<std::int64_t> KnownIds; ///< of own points that other partitions know; sorted
-  std::vector<std::uint32_t> HashTable;
-  std::vector<char> IsSeam; ///< of each triangle of the kernel: not interior
+  std::vector<char> IsSeam;           ///< of each triangle of the kernel: not interior
   std::vector<DelaunayKernel::Index> Stack;
   SeamTriangles Seams;
-  std::vector<std::uint32_t> SeamPlaces; ///< of the kernel's vertices among those of the seams
-  std::vector<DelaunayKernel::Index> SeamVertices; ///< those of the seams
   std::vector<Duplicate> Duplicates;
   std::size_t InteriorCount = 0;
   std::size_t VertexCount = 0;

@@ -17,7 +17,7 @@ import tipp
 import tipp._triangulate
 
 # Phases that are not the core's, or that others hold.
-BESIDE = ("projection", "VTK output", "master, within workers")
+BESIDE = ("projection", "VTK output")
 
 
 class Remembered:

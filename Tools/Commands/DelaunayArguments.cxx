@@ -83,7 +83,6 @@ DistributedOptions makeDistributedOptions(const DelaunayArguments& arguments)
   const GridSize partitions = *parseGrid(arguments.Partitions);
   if (partitions.isGiven() && !arguments.isForRanks())
   {
-    options.Design = Masters::Single;
     options.MinorDivision = Division::Grid;
     options.Minor = partitions;
   }

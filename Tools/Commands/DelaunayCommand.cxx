@@ -156,7 +156,8 @@ void addTuning(CLI::App& command, DelaunayArguments& arguments)
     ->capture_default_str();
   command
     .add_option("--masters", arguments.Masters,
-      "single: one master hands out all partitions; multi: sub-masters, a major partition each")
+      "auto: no master; single: one master hands out all partitions; multi: sub-masters, a major "
+      "partition each")
     ->check(CLI::IsMember({ "auto", "single", "multi" }))
     ->capture_default_str();
   command

@@ -31,6 +31,10 @@ DistributedOptions make(Masters masters, GridSize major, Division division, Grid
 
 const Design designs[] = {
   { "automatic", {} },
+  { "NoMasterGrid8x8", make(Masters::Auto, {}, Division::Grid, { 8, 8 }, 0) },
+  { "NoMasterTree", make(Masters::Auto, {}, Division::Tree, {}, 100) },
+  { "NoMasterThresholdEqual",
+    make(Masters::Auto, {}, Division::Threshold, {}, 60, GroupSizes::Equal) },
   { "SingleGrid8x8", make(Masters::Single, {}, Division::Grid, { 8, 8 }, 0) },
   { "SingleGrid16x3Equal",
     make(Masters::Single, {}, Division::Grid, { 16, 3 }, 0, GroupSizes::Equal) },

@@ -7,7 +7,10 @@
 #include "vtkMultiProcessController.h"
 
 #include <algorithm>
+#include <chrono>
+#include <random>
 #include <set>
+#include <thread>
 
 namespace
 {
@@ -27,7 +30,7 @@ DistributedOptions manyPartitions(Masters design)
 void expectReference(const std::string& set, std::size_t count, Share share)
 {
   const Coordinates xy = makePointSet(set, count);
-  for (const Masters design : { Masters::Single, Masters::Multi })
+  for (const Masters design : { Masters::Auto, Masters::Single, Masters::Multi })
   {
     const Gathered result = triangulateShares(xy, share, manyPartitions(design));
     if (rank() == 0)
@@ -201,14 +204,18 @@ TEST(GhostTriangles, AreTheOthersTrianglesAtOwnVerticesEachOnce)
   EXPECT_EQ(expected.empty(), box.size() == 1);
 }
 
-TEST(DistributedInputs, StoppingOneRankStopsAll)
+class DistributedDesign : public testing::TestWithParam<Masters>
+{
+};
+
+TEST_P(DistributedDesign, StoppingOneRankStopsAll)
 {
   const Coordinates xy = makePointSet("uniform", 20000);
   Postbox box(vtkMultiProcessController::GetGlobalController());
   const RankShare mine = shareOf(xy, Share::RoundRobin, box.rank(), box.size());
   RankPoints points;
   points.Points = PointsView(mine.XY.data(), mine.GlobalIds.size(), 2);
-  DistributedOptions options = manyPartitions(Masters::Single);
+  DistributedOptions options = manyPartitions(GetParam());
   options.Progress = [&](double) { return box.rank() != box.size() - 1; };
   try
   {
@@ -221,7 +228,7 @@ TEST(DistributedInputs, StoppingOneRankStopsAll)
   }
 }
 
-TEST(DistributedInputs, AFailureOnOneRankIsEveryRanks)
+TEST_P(DistributedDesign, AFailureOnOneRankIsEveryRanks)
 {
   const Coordinates xy = makePointSet("uniform", 20000);
   const auto run = [&](bool fails)
@@ -230,7 +237,7 @@ TEST(DistributedInputs, AFailureOnOneRankIsEveryRanks)
     const RankShare mine = shareOf(xy, Share::RoundRobin, box.rank(), box.size());
     RankPoints points;
     points.Points = PointsView(mine.XY.data(), mine.GlobalIds.size(), 2);
-    DistributedOptions options = manyPartitions(Masters::Multi);
+    DistributedOptions options = manyPartitions(GetParam());
     options.Progress = [&](double) -> bool
     {
       if (fails && box.rank() == box.size() - 1)
@@ -253,6 +260,36 @@ TEST(DistributedInputs, AFailureOnOneRankIsEveryRanks)
   }
   // Nothing is left behind: the next run is a good one.
   EXPECT_GT(run(false), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Masters, DistributedDesign,
+  testing::Values(Masters::Auto, Masters::Single, Masters::Multi),
+  [](const auto& info)
+  {
+    return info.param == Masters::Auto ? "None" : info.param == Masters::Single ? "One" : "Several";
+  });
+
+/// Messages leave and are looked at whenever the main thread comes to it.
+TEST(DistributedInputs, DelayedMessagesChangeNothing)
+{
+  const Coordinates xy = makePointSet("clustered", 4000);
+  const Reference expected = reference(xy);
+  for (std::uint64_t seed = 1; seed <= 5; ++seed)
+  {
+    std::mt19937_64 random(seed + 100 * std::uint64_t(rank()));
+    DistributedOptions options = manyPartitions(Masters::Auto);
+    options.Threads = 2;
+    options.Progress = [&](double)
+    {
+      std::this_thread::sleep_for(std::chrono::microseconds(random() % 3000));
+      return true;
+    };
+    const Gathered result = triangulateShares(xy, Share::RoundRobin, options);
+    if (rank() == 0)
+    {
+      EXPECT_TRUE(matches(xy, result, expected)) << "seed " << seed;
+    }
+  }
 }
 
 } // namespace

@@ -5,9 +5,8 @@
 #include "Comparison.h"
 
 #include "Predicates/InCircle.h"
-#include "Triangulation/FinalSeams.h"
 #include "Triangulation/PointBuckets.h"
-#include "Triangulation/SeamMesh.h"
+#include "Triangulation/SeamTriangles.h"
 
 #include <map>
 #include <string>
@@ -92,23 +91,6 @@ inline std::vector<SeamTriangle> listOf(const SeamTriangles& seams)
     list.push_back(seams[i]);
   }
   return list;
-}
-
-inline FinalSeams finalSeams(const std::vector<SeamTriangle>& triangles)
-{
-  FinalSeams seams;
-  seams.add(triangles);
-  return seams;
-}
-
-inline Triangles idsOf(const FinalSeams& seams)
-{
-  Triangles triangles;
-  for (const FinalSeams::Triangle& t : seams.triangles())
-  {
-    triangles.push_back(canonical(t.Ids[0], t.Ids[1], t.Ids[2]));
-  }
-  return sorted(std::move(triangles));
 }
 
 inline Triangles idsOf(const std::vector<SeamTriangle>& seams)

@@ -20,11 +20,9 @@ class PartitionsOfAMesh : public testing::TestWithParam<std::string>
 public:
   PartitionsOfAMesh()
     : Scene(GetParam(), 2500, 8, 8)
-    , Mesh(this->Scene.Boxes.size())
+    , Mesh(this->Scene.Boxes.size(), this->Scene.Mesh)
     , All(this->Scene.partitionsWithPoints())
   {
-    std::vector<SeamTriangle> final;
-    this->Mesh.add(this->Scene.Mesh, final);
   }
 
   bool conflict(PartitionIndex p, PartitionIndex q)
@@ -42,7 +40,7 @@ public:
   }
 
   InitialScene Scene;
-  SeamMesh Mesh;
+  MeshReach Mesh;
   Partitions All;
 };
 
@@ -67,12 +65,14 @@ TEST_P(PartitionsOfAMesh, AStagesPartitionsShareNoVertexOfTheMesh)
   std::set<std::int64_t> seen;
   for (const PartitionIndex p : waiting.nextStage())
   {
-    std::vector<SeamTriangle> belonging;
-    this->Mesh.gather(p, belonging);
+    const SeamTriangles& mesh = this->Scene.Mesh;
     std::set<std::int64_t> own;
-    for (const SeamTriangle& t : belonging)
+    for (std::size_t i = 0; i < mesh.size(); ++i)
     {
-      own.insert({ t[0].Id, t[1].Id, t[2].Id });
+      if (std::count(mesh.metBegin(i), mesh.metEnd(i), p) > 0)
+      {
+        own.insert({ mesh[i][0].Id, mesh[i][1].Id, mesh[i][2].Id });
+      }
     }
     for (const std::int64_t id : own)
     {
@@ -154,15 +154,9 @@ INSTANTIATE_TEST_SUITE_P(PointSets, PartitionsOfAMesh,
 class ThreePartitionsAndOne : public testing::Test
 {
 public:
-  ThreePartitionsAndOne()
-  {
-    std::vector<SeamTriangle> final;
-    this->Mesh.add(seamTriangles({ { seamTriangle(10, 0, 1, 4), { 0, 1 } },
-                     { seamTriangle(20, 8, 9, 9), { 2 } } }),
-      final);
-  }
-
-  SeamMesh Mesh{ 4 };
+  MeshReach Mesh{ 4,
+    seamTriangles(
+      { { seamTriangle(10, 0, 1, 4), { 0, 1 } }, { seamTriangle(20, 8, 9, 9), { 2 } } }) };
 };
 
 TEST_F(ThreePartitionsAndOne, AConflictingPartitionWaits)
@@ -189,9 +183,7 @@ TEST_F(ThreePartitionsAndOne, DeactivatingFreesWhatWasReachedOnActivation)
 {
   IndependentPartitions waiting(this->Mesh, { 0, 1 });
   EXPECT_EQ(0, waiting.activateNext());
-  this->Mesh.finish(0);
-  std::vector<SeamTriangle> final;
-  this->Mesh.add(seamTriangles({ { seamTriangle(30, 0, 4, 5), { 1 } } }), final);
+  this->Mesh = MeshReach(4, seamTriangles({ { seamTriangle(30, 0, 4, 5), { 1 } } }));
   waiting.deactivate(0);
   EXPECT_EQ(1, waiting.activateNext());
 }
@@ -199,11 +191,9 @@ TEST_F(ThreePartitionsAndOne, DeactivatingFreesWhatWasReachedOnActivation)
 TEST(IndependentPartitions, ThoseWithTheFewestConflictsComeFirst)
 {
   // Partition 1 conflicts with 0 and 2, which are independent of each other.
-  SeamMesh chain(3);
-  std::vector<SeamTriangle> final;
-  chain.add(seamTriangles({ { seamTriangle(1, 0, 0, 4), { 0 } },
-              { seamTriangle(4, 4, 5, 5), { 1 } }, { seamTriangle(7, 5, 8, 8), { 2 } } }),
-    final);
+  MeshReach chain(3,
+    seamTriangles({ { seamTriangle(1, 0, 0, 4), { 0 } }, { seamTriangle(4, 4, 5, 5), { 1 } },
+      { seamTriangle(7, 5, 8, 8), { 2 } } }));
   IndependentPartitions waiting(chain, { 1, 0, 2 });
   EXPECT_EQ((Partitions{ 0, 2 }), waiting.nextStage());
 }

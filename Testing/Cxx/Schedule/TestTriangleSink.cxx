@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ScheduleTesting.h"
 
+#include "Engine/Routing.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
@@ -13,6 +14,17 @@ namespace
 
 using namespace tipp;
 using namespace tipp::test;
+
+template <typename Id>
+std::vector<typename TriangleSink<Id>::Seam> finalOnes(const std::vector<SeamTriangle>& triangles)
+{
+  FinalBoundary<Id> final;
+  for (const SeamTriangle& triangle : triangles)
+  {
+    final.add(triangle);
+  }
+  return final.Triangles;
+}
 
 /// Four partitions with 5, 0, 3 and 4 points.
 template <typename Id>
@@ -89,7 +101,7 @@ TYPED_TEST(SinkOf, InteriorTrianglesAndSeamsAreAllThere)
       run.writeInterior(0, std::size_t(first));
       run.writeInterior(2, std::size_t(third));
       run.writeInterior(3, std::size_t(last));
-      run.expectAll(run.Sink.assemble(finalSeams(run.seams(seamCount)), 2));
+      run.expectAll(run.Sink.assemble(finalOnes<TypeParam>(run.seams(seamCount)), 2));
     }
   }
 }
@@ -99,19 +111,19 @@ TYPED_TEST(SinkOf, ThereIsRoomForTwoTrianglesAPoint)
   this->writeInterior(0, 10);
   this->writeInterior(2, 4);
   this->writeInterior(3, 3);
-  this->expectAll(this->Sink.assemble(finalSeams(this->seams(7)), 1));
+  this->expectAll(this->Sink.assemble(finalOnes<TypeParam>(this->seams(7)), 1));
 }
 
 TYPED_TEST(SinkOf, NothingIsEmpty)
 {
-  EXPECT_TRUE(this->Sink.assemble(FinalSeams(), 1).empty());
+  EXPECT_TRUE(this->Sink.assemble({}, 1).empty());
 }
 
 TYPED_TEST(SinkOf, InteriorTrianglesStayWhereTheyAre)
 {
   this->writeInterior(0, 4);
   const std::vector<TypeParam> before(this->Buckets.triangles(0), this->Buckets.triangles(0) + 12);
-  const Buffer<TypeParam> ids = this->Sink.assemble(finalSeams(this->seams(5)), 1);
+  const Buffer<TypeParam> ids = this->Sink.assemble(finalOnes<TypeParam>(this->seams(5)), 1);
   EXPECT_EQ(before, std::vector<TypeParam>(ids.begin(), ids.begin() + 12));
 }
 
@@ -136,7 +148,7 @@ TYPED_TEST(SinkOf, TheOrderDoesNotDependOnThatOfTheSeams)
       // The same triangle from another corner.
       std::rotate(t.begin(), t.begin() + draw % 3, t.end());
     }
-    const Buffer<TypeParam> ids = run.Sink.assemble(finalSeams(seams), 1 + draw % 3);
+    const Buffer<TypeParam> ids = run.Sink.assemble(finalOnes<TypeParam>(seams), 1 + draw % 3);
     const std::vector<TypeParam> now(ids.begin(), ids.end());
     expected = draw == 0 ? now : expected;
     ASSERT_EQ(expected, now);
@@ -147,7 +159,7 @@ TYPED_TEST(SinkOf, SeamsStayCounterClockwise)
 {
   const SeamTriangle t = { SeamVertex{ {}, 9, 0 }, SeamVertex{ {}, 4, 8 },
     SeamVertex{ {}, 7, 12 } };
-  const Buffer<TypeParam> ids = this->Sink.assemble(finalSeams({ t }), 1);
+  const Buffer<TypeParam> ids = this->Sink.assemble(finalOnes<TypeParam>({ t }), 1);
   EXPECT_EQ((std::vector<TypeParam>{ 4, 7, 9 }), std::vector<TypeParam>(ids.begin(), ids.end()));
 }
 

@@ -22,18 +22,91 @@ Interior interiorOf(
   return Interior(ids, ids + 3 * worker.interiorCount());
 }
 
+/// All triangles that some unfinished partition meets, and those that are final.
+class UnfinishedMesh
+{
+public:
+  void add(const SeamTriangles& triangles)
+  {
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+    {
+      this->Entries.push_back({ triangles[i], { triangles.metBegin(i), triangles.metEnd(i) } });
+    }
+  }
+
+  /// The partition's triangles are replaced by its worker's, which are to be added next.
+  void finish(PartitionIndex p)
+  {
+    this->Entries.erase(std::remove_if(this->Entries.begin(), this->Entries.end(),
+                          [p](const Entry& entry) { return entry.meets(p); }),
+      this->Entries.end());
+  }
+
+  std::vector<SeamTriangle> thoseMeeting(PartitionIndex p) const
+  {
+    std::vector<SeamTriangle> triangles;
+    for (const Entry& entry : this->Entries)
+    {
+      if (entry.meets(p))
+      {
+        triangles.push_back(entry.Triangle);
+      }
+    }
+    return triangles;
+  }
+
+  /// When all partitions are finished, these are all that were added last.
+  std::vector<SeamTriangle> all() const
+  {
+    std::vector<SeamTriangle> triangles;
+    for (const Entry& entry : this->Entries)
+    {
+      triangles.push_back(entry.Triangle);
+    }
+    return triangles;
+  }
+
+private:
+  struct Entry
+  {
+    SeamTriangle Triangle;
+    std::vector<PartitionIndex> Met;
+
+    bool meets(PartitionIndex p) const
+    {
+      return std::find(this->Met.begin(), this->Met.end(), p) != this->Met.end();
+    }
+  };
+
+  std::vector<Entry> Entries;
+};
+
+std::vector<SeamVertex> uniqueVertices(const std::vector<SeamTriangle>& triangles)
+{
+  std::vector<SeamVertex> vertices;
+  for (const SeamTriangle& triangle : triangles)
+  {
+    vertices.insert(vertices.end(), triangle.begin(), triangle.end());
+  }
+  std::sort(vertices.begin(), vertices.end(),
+    [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; });
+  vertices.erase(std::unique(vertices.begin(), vertices.end(),
+                   [](const SeamVertex& a, const SeamVertex& b) { return a.Id == b.Id; }),
+    vertices.end());
+  return vertices;
+}
+
 /// Partitions that workers take one after the other.
 class WorkerRun
 {
 public:
   WorkerRun(const std::string& set, std::size_t count, int side)
     : Scene(set, count, side, side)
-    , Mesh(this->Scene.Boxes.size())
     , Work(this->Scene.Boxes, this->Scene.Buckets)
     , XY(this->Scene.XY)
 
   {
-    this->Mesh.add(this->Scene.Mesh, this->Final);
+    this->Mesh.add(this->Scene.Mesh);
     // Artificial points come after the true ones, so that both are named by their place.
     for (const SeamVertex& v : this->Scene.Artificial)
     {
@@ -59,11 +132,9 @@ public:
     std::sort(this->Inserted.begin(), this->Inserted.end());
     this->Inserted.erase(
       std::unique(this->Inserted.begin(), this->Inserted.end()), this->Inserted.end());
-    std::vector<SeamTriangle> belonging;
-    this->Mesh.gather(p, belonging);
-    this->Work.triangulate(p, belonging);
+    this->Work.triangulate(p, uniqueVertices(this->Mesh.thoseMeeting(p)));
     this->Mesh.finish(p);
-    this->Mesh.add(this->Work.seams(), this->Final);
+    this->Mesh.add(this->Work.seams());
     return interiorOf(this->Scene.Buckets, p, this->Work);
   }
 
@@ -94,9 +165,8 @@ public:
   }
 
   InitialScene Scene;
-  SeamMesh Mesh;
+  UnfinishedMesh Mesh;
   Worker<std::int32_t> Work;
-  std::vector<SeamTriangle> Final;
   Coordinates XY;
   Ids Inserted;
 };
@@ -133,9 +203,8 @@ TEST_P(WorkerOn, InteriorTrianglesAndFinalSeamsAreTheTriangulation)
       all.push_back(canonical(interior[i], interior[i + 1], interior[i + 2]));
     }
   }
-  const Triangles seams = run.inXY(run.Final);
+  const Triangles seams = run.inXY(run.Mesh.all());
   all.insert(all.end(), seams.begin(), seams.end());
-  EXPECT_EQ(0U, run.Mesh.size());
   EXPECT_TRUE(sameTriangles(run.XY, sorted(std::move(all)), delaunay(run.XY, run.Inserted)));
 }
 
@@ -195,10 +264,8 @@ INSTANTIATE_TEST_SUITE_P(PointSets, WorkerOn,
 TEST(Worker, CountsItsOwnPointsAndTheVerticesAround)
 {
   WorkerRun run("uniform", 500, 2);
-  std::vector<SeamTriangle> belonging;
-  run.Mesh.gather(0, belonging);
   Ids foreign;
-  for (const SeamTriangle& t : belonging)
+  for (const SeamTriangle& t : run.Mesh.thoseMeeting(0))
   {
     for (const SeamVertex& v : t)
     {
@@ -224,12 +291,10 @@ std::size_t interiorCountWithCircle(double dx, double dy, double radius)
   const Tiling tiling = Tiling::grid({ 0, 0, 12, 12 }, 3, 3);
   const PartitionIndex middle = tiling.locate({ 6, 6 });
   auto buckets = bucketPoints<std::int32_t>(view(xy), tiling, 1);
-  SeamMesh mesh(tiling.size());
-  std::vector<SeamTriangle> seams;
-  mesh.add(triangulateVertices(tiling, makeArtificialPoints(tiling), 1), seams);
-  mesh.gather(middle, seams);
+  UnfinishedMesh mesh;
+  mesh.add(triangulateVertices(tiling, makeArtificialPoints(tiling), 1));
   Worker<std::int32_t> worker(tiling, buckets);
-  worker.triangulate(middle, seams);
+  worker.triangulate(middle, uniqueVertices(mesh.thoseMeeting(middle)));
   return worker.interiorCount();
 }
 
@@ -289,12 +354,10 @@ TEST(Worker, AnInitialPointStandsForLowerDuplicates)
     auto buckets = bucketPoints<std::int32_t>(view(xy), tiling, 1);
     std::vector<SeamVertex> vertices = makeArtificialPoints(tiling);
     vertices.push_back(makeSeamVertex(tiling, p, { 0.3, 0.2 }, known));
-    SeamMesh mesh(tiling.size());
-    std::vector<SeamTriangle> seams;
-    mesh.add(triangulateVertices(tiling, vertices, 1), seams);
-    mesh.gather(p, seams);
+    UnfinishedMesh mesh;
+    mesh.add(triangulateVertices(tiling, vertices, 1));
     Worker<std::int32_t> worker(tiling, buckets);
-    worker.triangulate(p, seams);
+    worker.triangulate(p, uniqueVertices(mesh.thoseMeeting(p)));
     ASSERT_EQ(2U, worker.duplicates().size());
     for (const Duplicate& duplicate : worker.duplicates())
     {

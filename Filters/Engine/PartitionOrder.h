@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPartitionOrder_h
+#define tippPartitionOrder_h
+
+#include "Triangulation/Tiling.h"
+#include "vtkTIPPFiltersModule.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+struct SeamTriangles;
+
+/// Which partitions conflict, and the order in which conflicting ones are triangulated. A function
+/// of the initial mesh alone, so that every rank computes the same one.
+///
+/// Lemma 5: P and Q conflict if one triangle of the initial mesh meets both, or of two triangles
+/// with a common edge one meets P and the other Q. If they do not conflict, no disk that is empty
+/// of the initial mesh's vertices meets both, now or later. (Proof. Grow the disk about its centre
+/// until it touches a first vertex a. The centres of empty disks through a form a's Voronoi cell F;
+/// those whose disk holds a point p of P form a half-plane H_p, and H_q likewise; F, H_p and H_q
+/// have a point in common. If no vertex of F were in both half-planes, and no edge of F had an end
+/// in each, then two vertices u, w of F in neither would lie between those in H_p and those in H_q,
+/// and the line uw would separate H_p from H_q inside F: a contradiction. A vertex of F is a
+/// triangle at a, an edge of F two triangles with a common edge. Where F is unbounded, no unbounded
+/// direction helps inside the hull, which holds all regions.) So no later triangle and no later
+/// edge joins them, and their workers commute. More conflicts than there are do no harm.
+///
+/// Partitions are coloured greedily, those with most conflicts first; a colour is a stage of the
+/// dissertation. They are ordered by window, where windows are given, then by colour and index. Any
+/// windows do: the triangles do not depend on the order.
+class VTKTIPPFILTERS_EXPORT PartitionOrder
+{
+public:
+  struct Range
+  {
+    const PartitionIndex* First;
+    const PartitionIndex* Last;
+
+    const PartitionIndex* begin() const { return this->First; }
+    const PartitionIndex* end() const { return this->Last; }
+    std::size_t size() const { return std::size_t(this->Last - this->First); }
+  };
+
+  /// Orders the partitions that are to be triangulated: `isUsed` has one entry for each partition,
+  /// and so have the windows, unless there are none.
+  PartitionOrder(const std::vector<char>& isUsed, const SeamTriangles& initialMesh,
+    const std::vector<std::int32_t>& windows = {});
+
+  /// Used or not.
+  std::size_t partitionCount() const { return this->Positions.size(); }
+
+  /// All used partitions, in order.
+  const std::vector<PartitionIndex>& sequence() const { return this->Sequence; }
+  std::size_t position(PartitionIndex p) const { return this->Positions[std::size_t(p)]; }
+
+  /// The conflicting partitions that come after p, in order.
+  Range later(PartitionIndex p) const;
+
+  /// Of a set that is not empty, the partition that comes first.
+  PartitionIndex first(const PartitionIndex* begin, const PartitionIndex* end) const;
+
+  std::size_t colourCount() const { return this->ColourSizes.size(); }
+  /// How many partitions have a colour, counted from 0 on; none of them conflict.
+  std::size_t colourSize(std::size_t colour) const { return this->ColourSizes[colour]; }
+  std::size_t colourOf(PartitionIndex p) const { return this->Colours[std::size_t(p)]; }
+
+  /// True if every partition counts as conflicting with every other.
+  bool isTotal() const { return this->Total; }
+
+private:
+  bool findConflicts(const SeamTriangles& initialMesh);
+  void colour();
+  void orderConflicts();
+
+  std::vector<PartitionIndex> Sequence;
+  std::vector<std::uint32_t> Positions;
+  std::vector<std::uint32_t> Colours;
+  std::vector<std::size_t> ColourSizes;
+  std::vector<std::size_t> Ends; ///< of each partition's conflicts, in Conflicts
+  std::vector<PartitionIndex> Conflicts;
+  std::vector<std::size_t> LaterBegins;
+  bool Total = false;
+};
+
+} // namespace tipp
+
+#endif

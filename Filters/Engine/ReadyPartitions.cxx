@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Engine/ReadyPartitions.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+namespace tipp
+{
+namespace
+{
+
+/// A short wait leaves the core to another thread; longer ones let it rest.
+void waitAWhile(int turn)
+{
+  constexpr int yields = 32;
+  if (turn < yields)
+  {
+    std::this_thread::yield();
+  }
+  else
+  {
+    std::this_thread::sleep_for(std::chrono::microseconds(50));
+  }
+}
+
+} // namespace
+
+ReadyPartitions::ReadyPartitions(const PartitionOrder& order, bool barrierBetweenColours)
+  : Order(order)
+  , Barrier(barrierBetweenColours)
+  , Awaited(order.partitionCount())
+  , LeftInColour(barrierBetweenColours ? order.colourCount() : 0)
+  , Queue(order.sequence().size())
+{
+  if (!this->Barrier)
+  {
+    this->awaitEarlier();
+    return;
+  }
+  for (auto& entry : this->Queue)
+  {
+    entry.store(-1, std::memory_order_relaxed);
+  }
+  for (std::size_t colour = 0; colour < order.colourCount(); ++colour)
+  {
+    this->LeftInColour[colour] = std::int64_t(order.colourSize(colour));
+  }
+  if (order.colourCount() > 0)
+  {
+    this->releaseColour(0);
+  }
+}
+
+ReadyPartitions::ReadyPartitions(const PartitionOrder& order, const std::vector<char>& isOwn)
+  : Order(order)
+  , Barrier(false)
+  , Own(isOwn)
+  , Awaited(order.partitionCount())
+  , Queue(std::size_t(std::count_if(order.sequence().begin(), order.sequence().end(),
+      [&](PartitionIndex p) { return isOwn[std::size_t(p)] != 0; })))
+{
+  this->awaitEarlier();
+}
+
+void ReadyPartitions::awaitEarlier()
+{
+  for (auto& entry : this->Queue)
+  {
+    entry.store(-1, std::memory_order_relaxed);
+  }
+  for (const PartitionIndex p : this->Order.sequence())
+  {
+    for (const PartitionIndex later : this->Order.later(p))
+    {
+      ++this->Awaited[std::size_t(later)];
+    }
+  }
+  for (const PartitionIndex p : this->Order.sequence())
+  {
+    if (this->Awaited[std::size_t(p)] == 0 && (this->Own.empty() || this->Own[std::size_t(p)]))
+    {
+      this->release(p);
+    }
+  }
+}
+
+/// Where there are barriers, the order has no windows: a colour's partitions come in a row.
+void ReadyPartitions::releaseColour(std::size_t colour)
+{
+  const auto& sequence = this->Order.sequence();
+  const auto first = std::partition_point(sequence.begin(), sequence.end(),
+    [&](PartitionIndex p) { return this->Order.colourOf(p) < colour; });
+  std::for_each(first, first + std::ptrdiff_t(this->Order.colourSize(colour)),
+    [this](PartitionIndex p) { this->release(p); });
+}
+
+void ReadyPartitions::release(PartitionIndex p)
+{
+  const std::size_t end = this->QueueEnd.fetch_add(1, std::memory_order_relaxed);
+  this->Queue[end].store(p, std::memory_order_release);
+}
+
+PartitionIndex ReadyPartitions::take()
+{
+  const std::size_t ticket = this->Tickets.fetch_add(1, std::memory_order_relaxed);
+  if (ticket >= this->Queue.size())
+  {
+    return -1;
+  }
+  for (int turn = 0; !this->isStopped(); ++turn)
+  {
+    const PartitionIndex p = this->Queue[ticket].load(std::memory_order_acquire);
+    if (p >= 0)
+    {
+      return p;
+    }
+    waitAWhile(turn);
+  }
+  return -1;
+}
+
+void ReadyPartitions::finish(PartitionIndex p)
+{
+  if (this->Barrier)
+  {
+    const std::size_t colour = this->Order.colourOf(p);
+    const bool isLast = this->LeftInColour[colour].fetch_sub(1, std::memory_order_acq_rel) == 1;
+    if (isLast && colour + 1 < this->Order.colourCount())
+    {
+      this->releaseColour(colour + 1);
+    }
+    return;
+  }
+  for (const PartitionIndex q : this->Order.later(p))
+  {
+    if ((this->Own.empty() || this->Own[std::size_t(q)]) &&
+      this->Awaited[std::size_t(q)].fetch_sub(1, std::memory_order_acq_rel) == 1)
+    {
+      this->release(q);
+    }
+  }
+}
+
+void ReadyPartitions::stop(const std::exception_ptr& reason)
+{
+  const std::lock_guard<std::mutex> lock(this->FailureMutex);
+  if (reason && !this->Failure)
+  {
+    this->Failure = reason;
+  }
+  this->Stopped = true;
+}
+
+} // namespace tipp

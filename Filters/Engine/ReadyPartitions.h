@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippReadyPartitions_h
+#define tippReadyPartitions_h
+
+#include "Engine/PartitionOrder.h"
+
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <vector>
+
+namespace tipp
+{
+
+/// Hands partitions to threads as soon as they are ready: all conflicting partitions that come
+/// before them in the order are done. Threads share counters and a queue, and no lock.
+class ReadyPartitions
+{
+public:
+  /// With a barrier between colours, a partition waits for all partitions of the colour before; the
+  /// order must have no windows then.
+  ReadyPartitions(const PartitionOrder& order, bool barrierBetweenColours);
+  /// Hands out only a rank's own partitions: `isOwn` has one entry for each partition, and there is
+  /// no barrier.
+  ReadyPartitions(const PartitionOrder& order, const std::vector<char>& isOwn);
+
+  /// A ready partition; waits for one. -1 if all were handed out or the run was stopped.
+  PartitionIndex take();
+
+  /// The partition is done, one's own or another rank's, and what it sends is in the inboxes.
+  void finish(PartitionIndex p);
+
+  /// No further partition is handed out. The first reason is kept.
+  void stop(const std::exception_ptr& reason = nullptr);
+  bool isStopped() const { return this->Stopped.load(std::memory_order_relaxed); }
+  std::exception_ptr failure() const { return this->Failure; }
+
+private:
+  void awaitEarlier();
+  void release(PartitionIndex p);
+  void releaseColour(std::size_t colour);
+
+  const PartitionOrder& Order;
+  const bool Barrier;
+  const std::vector<char> Own;                    ///< empty: all
+  std::vector<std::atomic<std::int32_t>> Awaited; ///< of each partition: earlier ones not done
+  std::vector<std::atomic<std::int64_t>> LeftInColour;
+  std::vector<std::atomic<PartitionIndex>> Queue; ///< -1 until filled
+  std::atomic<std::size_t> QueueEnd{ 0 };
+  std::atomic<std::size_t> Tickets{ 0 };
+  std::atomic<bool> Stopped{ false };
+  std::mutex FailureMutex;
+  std::exception_ptr Failure;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Engine/Routing.h"
+
+#include "Triangulation/HullRepair.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr std::uint32_t Nobody = ~0U;
+
+} // namespace
+
+template <typename Id>
+void FinalBoundary<Id>::add(const SeamTriangle& triangle)
+{
+  const auto isArtificial = [](const SeamVertex& v) { return v.isArtificial(); };
+  if (std::any_of(triangle.begin(), triangle.end(), isArtificial))
+  {
+    std::copy_if(triangle.begin(), triangle.end(), std::back_inserter(this->HullVertices),
+      [&](const SeamVertex& v) { return !isArtificial(v); });
+    return;
+  }
+  const auto lowest = std::min_element(triangle.begin(), triangle.end(),
+    [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; });
+  this->Triangles.push_back({ TriangleSink<Id>::fromLowest({ static_cast<Id>(triangle[0].Id),
+                                static_cast<Id>(triangle[1].Id), static_cast<Id>(triangle[2].Id) }),
+    lowest->partition() });
+}
+
+template <typename Id>
+void FinalBoundary<Id>::append(FinalBoundary&& other)
+{
+  this->Triangles.insert(this->Triangles.end(), other.Triangles.begin(), other.Triangles.end());
+  this->HullVertices.insert(
+    this->HullVertices.end(), other.HullVertices.begin(), other.HullVertices.end());
+  other = FinalBoundary();
+}
+
+template <typename Id>
+void repairHull(FinalBoundary<Id>& final, const std::vector<SeamVertex>& artificial)
+{
+  std::vector<SeamVertex>& hull = final.HullVertices;
+  const auto less = [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; };
+  const auto equal = [](const SeamVertex& a, const SeamVertex& b) { return a.Id == b.Id; };
+  std::sort(hull.begin(), hull.end(), less);
+  hull.erase(std::unique(hull.begin(), hull.end(), equal), hull.end());
+  std::vector<Point2> points;
+  points.reserve(hull.size());
+  for (const SeamVertex& v : hull)
+  {
+    points.push_back(v.Place);
+  }
+  for (const auto& corners : hullTriangles(std::move(points), artificial))
+  {
+    final.add({ hull[corners[0]], hull[corners[1]], hull[corners[2]] });
+  }
+}
+
+template <typename Id>
+Routing<Id>::Routing(const PartitionOrder& order, const Regions& regions)
+  : Order(order)
+  , Boxes(regions)
+{
+}
+
+template <typename Id>
+void Routing<Id>::setPartition(PartitionIndex p)
+{
+  this->Sender = p;
+  this->Later = this->Order.later(p);
+}
+
+template <typename Id>
+void Routing<Id>::begin(DelaunayKernel::Index vertexEnd)
+{
+  this->Triangles.clear();
+  this->SentTo.assign(std::size_t(vertexEnd), Nobody);
+}
+
+template <typename Id>
+void Routing<Id>::add(const std::array<DelaunayKernel::Index, 3>& corners, const Circumdisk& disk)
+{
+  const auto next = std::find_if(this->Later.begin(), this->Later.end(),
+    [&](PartitionIndex q) { return disk.meets(this->Boxes[q]); });
+  this->Triangles.push_back({ static_cast<std::uint32_t>(next - this->Later.begin()), corners });
+}
+
+/// Sorts the triangles by recipient.
+template <typename Id>
+void Routing<Id>::sortByRecipient()
+{
+  this->Ends.assign(this->Later.size() + 1, 0);
+  for (const Triangle& triangle : this->Triangles)
+  {
+    ++this->Ends[triangle.Recipient];
+  }
+  std::partial_sum(this->Ends.begin(), this->Ends.end(), this->Ends.begin());
+  this->Sorted.resize(this->Triangles.size());
+  for (auto triangle = this->Triangles.rbegin(); triangle != this->Triangles.rend(); ++triangle)
+  {
+    this->Sorted[--this->Ends[triangle->Recipient]] = triangle->Corners;
+  }
+  // What were ends are now begins.
+}
+
+template <typename Id>
+VertexMessage Routing<Id>::messageTo(std::uint32_t recipient, const Worker<Id>& worker)
+{
+  const std::size_t end = this->Ends[recipient + 1];
+  VertexMessage message{ this->Sender, {}, std::int64_t(end - this->Ends[recipient]) };
+  for (std::size_t i = this->Ends[recipient]; i < end; ++i)
+  {
+    for (const DelaunayKernel::Index v : this->Sorted[i])
+    {
+      if (this->SentTo[std::size_t(v)] != recipient)
+      {
+        this->SentTo[std::size_t(v)] = recipient;
+        message.Vertices.push_back(worker.vertex(this->Sender, v));
+      }
+    }
+  }
+  return message;
+}
+
+template <typename Id>
+template <typename FinalId>
+std::int64_t Routing<Id>::send(
+  const Worker<Id>& worker, const DeliverMessage& deliver, FinalBoundary<FinalId>& final)
+{
+  this->sortByRecipient();
+  const std::size_t nobody = this->Later.size();
+  const std::size_t sent = this->Ends[nobody];
+  for (std::uint32_t recipient = 0; recipient < nobody; ++recipient)
+  {
+    if (this->Ends[recipient] < this->Ends[recipient + 1])
+    {
+      deliver(this->Later.begin()[recipient], this->messageTo(recipient, worker));
+    }
+  }
+  for (std::size_t i = sent; i < this->Sorted.size(); ++i)
+  {
+    const auto& v = this->Sorted[i];
+    final.add({ worker.vertex(this->Sender, v[0]), worker.vertex(this->Sender, v[1]),
+      worker.vertex(this->Sender, v[2]) });
+  }
+  return std::int64_t(sent);
+}
+
+template <typename Id>
+std::int64_t sendInitialMesh(const SeamTriangles& mesh, const PartitionOrder& order,
+  const DeliverMessage& deliver, FinalBoundary<Id>& final)
+{
+  std::vector<std::pair<PartitionIndex, std::size_t>> sent;
+  for (std::size_t i = 0; i < mesh.size(); ++i)
+  {
+    if (mesh.metBegin(i) == mesh.metEnd(i))
+    {
+      final.add(mesh[i]);
+    }
+    else
+    {
+      sent.emplace_back(order.first(mesh.metBegin(i), mesh.metEnd(i)), i);
+    }
+  }
+  std::sort(sent.begin(), sent.end());
+  std::vector<PartitionIndex> sentTo(mesh.Vertices.size(), -1);
+  for (auto at = sent.begin(); at != sent.end();)
+  {
+    const PartitionIndex recipient = at->first;
+    VertexMessage message{ -1, {}, 0 };
+    for (; at != sent.end() && at->first == recipient; ++at, ++message.Triangles)
+    {
+      for (const std::uint32_t v : mesh.Triangles[at->second])
+      {
+        if (sentTo[v] != recipient)
+        {
+          sentTo[v] = recipient;
+          message.Vertices.push_back(mesh.Vertices[v]);
+        }
+      }
+    }
+    deliver(recipient, std::move(message));
+  }
+  return std::int64_t(sent.size());
+}
+
+template struct FinalBoundary<std::int32_t>;
+template struct FinalBoundary<std::int64_t>;
+template void repairHull(FinalBoundary<std::int32_t>&, const std::vector<SeamVertex>&);
+template void repairHull(FinalBoundary<std::int64_t>&, const std::vector<SeamVertex>&);
+template class Routing<std::int32_t>;
+template class Routing<std::int64_t>;
+template std::int64_t Routing<std::int32_t>::send(
+  const Worker<std::int32_t>&, const DeliverMessage&, FinalBoundary<std::int32_t>&);
+template std::int64_t Routing<std::int32_t>::send(
+  const Worker<std::int32_t>&, const DeliverMessage&, FinalBoundary<std::int64_t>&);
+template std::int64_t Routing<std::int64_t>::send(
+  const Worker<std::int64_t>&, const DeliverMessage&, FinalBoundary<std::int64_t>&);
+template std::int64_t sendInitialMesh(
+  const SeamTriangles&, const PartitionOrder&, const DeliverMessage&, FinalBoundary<std::int32_t>&);
+template std::int64_t sendInitialMesh(
+  const SeamTriangles&, const PartitionOrder&, const DeliverMessage&, FinalBoundary<std::int64_t>&);
+
+} // namespace tipp

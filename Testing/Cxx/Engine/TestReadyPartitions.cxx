@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DataflowScene.h"
+
+#include "Engine/ReadyPartitions.h"
+
+#include <atomic>
+#include <future>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+
+using Partitions = std::vector<PartitionIndex>;
+
+/// Two partitions that conflict.
+PartitionOrder pairOrder()
+{
+  SeamTriangles mesh;
+  const PartitionIndex both[] = { 0, 1 };
+  mesh.add({ 0, 0, 0 }, both, both + 2);
+  return PartitionOrder({ 1, 1 }, mesh);
+}
+
+class ReadyPartitionsWith : public testing::TestWithParam<bool>
+{
+};
+
+TEST_P(ReadyPartitionsWith, EachPartitionIsHandedOutOnceAndAfterThoseBeforeIt)
+{
+  const DataflowScene scene("uniform", 3000, 9, 8);
+  const PartitionOrder order = scene.order();
+  ReadyPartitions ready(order, GetParam());
+  std::vector<std::atomic<int>> finished(order.partitionCount());
+  std::atomic<int> wrong{ 0 };
+  const auto work = [&]
+  {
+    Partitions taken;
+    for (PartitionIndex p = ready.take(); p >= 0; p = ready.take())
+    {
+      taken.push_back(p);
+      for (const PartitionIndex q : order.sequence())
+      {
+        const bool mustBeDone = GetParam()
+          ? order.colourOf(q) < order.colourOf(p)
+          : order.position(q) < order.position(p) && conflict(order, p, q);
+        wrong += mustBeDone && finished[std::size_t(q)] == 0;
+      }
+      finished[std::size_t(p)] = 1;
+      ready.finish(p);
+    }
+    return taken;
+  };
+  std::vector<std::future<Partitions>> threads;
+  for (int i = 0; i < 3; ++i)
+  {
+    threads.push_back(std::async(std::launch::async, work));
+  }
+  Partitions all;
+  for (std::future<Partitions>& thread : threads)
+  {
+    const Partitions part = thread.get();
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  std::sort(all.begin(), all.end());
+  Partitions expected = order.sequence();
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(expected, all);
+  EXPECT_EQ(0, wrong);
+}
+
+TEST_P(ReadyPartitionsWith, FinishingHandsOutTheNextConflictingPartition)
+{
+  const PartitionOrder order = pairOrder();
+  ReadyPartitions ready(order, GetParam());
+  const PartitionIndex first = ready.take();
+  EXPECT_EQ(order.sequence()[0], first);
+  std::future<PartitionIndex> waiting =
+    std::async(std::launch::async, [&ready] { return ready.take(); });
+  ready.finish(first);
+  EXPECT_EQ(order.sequence()[1], waiting.get());
+  EXPECT_EQ(-1, ready.take());
+}
+
+TEST_P(ReadyPartitionsWith, StoppingEndsAWaitingThread)
+{
+  const PartitionOrder order = pairOrder();
+  ReadyPartitions ready(order, GetParam());
+  ASSERT_LE(0, ready.take());
+  std::future<PartitionIndex> waiting =
+    std::async(std::launch::async, [&ready] { return ready.take(); });
+  ready.stop();
+  EXPECT_EQ(-1, waiting.get());
+  EXPECT_TRUE(ready.isStopped());
+  EXPECT_FALSE(ready.failure());
+}
+
+TEST_P(ReadyPartitionsWith, TheFirstFailureIsKept)
+{
+  const PartitionOrder order = pairOrder();
+  ReadyPartitions ready(order, GetParam());
+  for (const char* text : { "first", "second" })
+  {
+    ready.stop(std::make_exception_ptr(std::runtime_error(text)));
+  }
+  ready.stop();
+  ASSERT_TRUE(ready.failure());
+  try
+  {
+    std::rethrow_exception(ready.failure());
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_STREQ("first", error.what());
+  }
+}
+
+TEST_P(ReadyPartitionsWith, WithoutPartitionsThereIsNothingToDo)
+{
+  const PartitionOrder order({ 0, 0 }, SeamTriangles());
+  EXPECT_EQ(-1, ReadyPartitions(order, GetParam()).take());
+}
+
+TEST_P(ReadyPartitionsWith, ATotalOrderIsHandedOutOneByOne)
+{
+  constexpr PartitionIndex count = 5000;
+  Partitions all(count);
+  for (PartitionIndex p = 0; p < count; ++p)
+  {
+    all[std::size_t(p)] = p;
+  }
+  SeamTriangles mesh;
+  mesh.add({ 0, 0, 0 }, all.data(), all.data() + count);
+  const PartitionOrder order(std::vector<char>(count, 1), mesh);
+  ASSERT_TRUE(order.isTotal());
+  ReadyPartitions ready(order, GetParam());
+  Partitions taken;
+  for (PartitionIndex p = ready.take(); p >= 0; p = ready.take())
+  {
+    taken.push_back(p);
+    ready.finish(p);
+  }
+  EXPECT_EQ(order.sequence(), taken);
+}
+
+INSTANTIATE_TEST_SUITE_P(Barriers, ReadyPartitionsWith, testing::Bool(),
+  [](const auto& info) { return info.param ? "BetweenColours" : "None"; });
+
+} // namespace

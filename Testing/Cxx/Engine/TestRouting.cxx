@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DataflowScene.h"
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+
+using Final = FinalBoundary<std::int64_t>;
+
+SeamTriangle triangleOf(std::int64_t a, std::int64_t b, std::int64_t c)
+{
+  return { SeamVertex{ { 0, 0 }, a, 4 }, SeamVertex{ { 1, 0 }, b, 8 },
+    SeamVertex{ { 0, 1 }, c, 12 } };
+}
+
+TEST(FinalBoundary, TrianglesBeginWithTheLowestIdAndKeepTheirOrientation)
+{
+  SeamTriangle triangle = triangleOf(9, 4, 7);
+  for (int turn = 0; turn < 3; ++turn)
+  {
+    Final final;
+    final.add(triangle);
+    ASSERT_EQ(1U, final.Triangles.size());
+    EXPECT_EQ((std::array<std::int64_t, 3>{ 4, 7, 9 }), final.Triangles[0].Ids);
+    EXPECT_EQ(2, final.Triangles[0].Partition);
+    std::rotate(triangle.begin(), triangle.begin() + 1, triangle.end());
+  }
+}
+
+TEST(FinalBoundary, OfTrianglesAtArtificialPointsTheTrueCornersAreKept)
+{
+  Final final;
+  final.add(triangleOf(9, -4, 7));
+  final.add(triangleOf(-1, -2, 3));
+  EXPECT_TRUE(final.Triangles.empty());
+  std::vector<std::int64_t> ids;
+  for (const SeamVertex& v : final.HullVertices)
+  {
+    ids.push_back(v.Id);
+  }
+  EXPECT_EQ((std::vector<std::int64_t>{ 9, 7, 3 }), ids);
+}
+
+TEST(FinalBoundary, HullRepairCompletesTheTriangulation)
+{
+  const Coordinates xy = makePointSet("uniform", 300);
+  const Tiling tiles = Tiling::grid(test::boundsOf(xy), 3, 3);
+  const std::vector<SeamVertex> artificial = makeArtificialPoints(tiles);
+  std::vector<SeamVertex> vertices = artificial;
+  const std::vector<Point2> points = asPoints(xy);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    vertices.push_back(makeSeamVertex(tiles, tiles.locate(points[i]), points[i], std::int64_t(i)));
+  }
+  Final final;
+  for (const SeamTriangle& triangle : listOf(triangulateVertices(tiles, vertices, 1)))
+  {
+    final.add(triangle);
+  }
+  EXPECT_LT(final.Triangles.size(), reference(xy).Mesh.size());
+  repairHull(final, artificial);
+  Triangles made;
+  for (const auto& triangle : final.Triangles)
+  {
+    made.push_back(canonical(triangle.Ids[0], triangle.Ids[1], triangle.Ids[2]));
+  }
+  EXPECT_TRUE(sameTriangles(xy, sorted(std::move(made)), reference(xy).Mesh));
+}
+
+/// Each triangle that meets a partition goes to the first one that it meets; others are final.
+TEST(Routing, SendsTheInitialMeshToTheFirstPartitions)
+{
+  const DataflowScene scene("uniform", 800, 4, 4);
+  const PartitionOrder order = scene.order();
+  std::vector<Inbox> inboxes(16);
+  Final final;
+  const std::int64_t sent = sendInitialMesh(scene.Mesh, order,
+    [&](PartitionIndex to, VertexMessage&& message)
+    { inboxes[std::size_t(to)].put(std::move(message)); },
+    final);
+  std::vector<std::int64_t> expected(16, 0);
+  for (std::size_t i = 0; i < scene.Mesh.size(); ++i)
+  {
+    if (scene.Mesh.metBegin(i) != scene.Mesh.metEnd(i))
+    {
+      ++expected[std::size_t(order.first(scene.Mesh.metBegin(i), scene.Mesh.metEnd(i)))];
+    }
+  }
+  std::int64_t total = 0;
+  for (std::size_t p = 0; p < inboxes.size(); ++p)
+  {
+    const std::vector<VertexMessage> messages = inboxes[p].take();
+    EXPECT_EQ(expected[p] > 0 ? 1U : 0U, messages.size());
+    for (const VertexMessage& message : messages)
+    {
+      EXPECT_EQ(-1, message.Sender);
+      EXPECT_EQ(expected[p], message.Triangles);
+      total += message.Triangles;
+    }
+  }
+  EXPECT_EQ(total, sent);
+}
+
+} // namespace
