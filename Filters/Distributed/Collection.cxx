@@ -186,7 +186,7 @@ void collect(Postbox& ranks, OwnedPoints<Id>& points, const FinalTriangles& kept
     sink.setInteriorCount(static_cast<PartitionIndex>(leaf), interiorCounts[leaf]);
   }
   Buffer<Id> ids = sink.assemble(
-    localised<Id>(seams, result.ForeignIds, firstOwn, points.Places, leaves), threads);
+    { localised<Id>(seams, result.ForeignIds, firstOwn, points.Places, leaves) }, threads);
   if constexpr (sizeof(Id) == 4)
   {
     result.Ids32 = std::move(ids);

@@ -23,23 +23,29 @@ typename TriangleSink<Id>::Corners TriangleSink<Id>::fromLowest(const Corners& i
 
 template <typename Id>
 std::vector<typename TriangleSink<Id>::Corners> TriangleSink<Id>::sortSeams(
-  const std::vector<Seam>& seams, int threads) const
+  const std::vector<std::vector<Seam>>& seams, int threads) const
 {
   const std::size_t partitions = this->InteriorCounts.size();
   std::vector<std::size_t> places(partitions + 1, 0);
-  for (const Seam& seam : seams)
+  for (const std::vector<Seam>& list : seams)
   {
-    ++places[std::size_t(seam.Partition) + 1];
+    for (const Seam& seam : list)
+    {
+      ++places[std::size_t(seam.Partition) + 1];
+    }
   }
   for (std::size_t p = 0; p < partitions; ++p)
   {
     places[p + 1] += places[p];
   }
   const std::vector<std::size_t> begins = places;
-  std::vector<Corners> sorted(seams.size());
-  for (const Seam& seam : seams)
+  std::vector<Corners> sorted(begins.back());
+  for (const std::vector<Seam>& list : seams)
   {
-    sorted[places[std::size_t(seam.Partition)]++] = seam.Ids;
+    for (const Seam& seam : list)
+    {
+      sorted[places[std::size_t(seam.Partition)]++] = seam.Ids;
+    }
   }
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 16)
   for (std::size_t p = 0; p < partitions; ++p)
@@ -51,7 +57,7 @@ std::vector<typename TriangleSink<Id>::Corners> TriangleSink<Id>::sortSeams(
 }
 
 template <typename Id>
-Buffer<Id> TriangleSink<Id>::assemble(const std::vector<Seam>& seams, int threads)
+Buffer<Id> TriangleSink<Id>::assemble(const std::vector<std::vector<Seam>>& seams, int threads)
 {
   const std::vector<Corners> sorted = this->sortSeams(seams, threads);
   std::size_t total = sorted.size();

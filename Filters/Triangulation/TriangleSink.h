@@ -36,12 +36,13 @@ public:
   /// The corners in their order, from the lowest id on.
   static Corners fromLowest(const Corners& ids);
 
-  /// Takes the buckets' memory. The seams' vertices must be true points; some may be points that
-  /// are not in the buckets, so that there can be more than two triangles a point.
-  Buffer<Id> assemble(const std::vector<Seam>& seams, int threads);
+  /// Takes the buckets' memory. The seams come in several lists; their vertices must be true
+  /// points; some may be points that are not in the buckets, so that there can be more than two
+  /// triangles a point.
+  Buffer<Id> assemble(const std::vector<std::vector<Seam>>& seams, int threads);
 
 private:
-  std::vector<Corners> sortSeams(const std::vector<Seam>& seams, int threads) const;
+  std::vector<Corners> sortSeams(const std::vector<std::vector<Seam>>& seams, int threads) const;
 
   PointBuckets<Id>& Buckets;
   std::vector<std::size_t> InteriorCounts;

@@ -198,9 +198,12 @@ private:
     TriangulationStatistics& statistics = this->Result.Statistics;
     statistics.Stages = stagesOf(shared.Stages, order, barrier);
     this->Result.Aborted = shared.Ready.isStopped();
+    std::vector<std::vector<typename TriangleSink<Id>::Seam>> triangles;
     for (Contribution& part : parts)
     {
-      boundary.append(std::move(part.Boundary));
+      boundary.HullVertices.insert(boundary.HullVertices.end(), part.Boundary.HullVertices.begin(),
+        part.Boundary.HullVertices.end());
+      triangles.push_back(std::move(part.Boundary.Triangles));
       statistics.WorkerVertices += std::int64_t(part.WorkerVertices);
       this->Result.Duplicates.insert(
         this->Result.Duplicates.end(), part.Duplicates.begin(), part.Duplicates.end());
@@ -208,8 +211,9 @@ private:
     if (!this->Result.Aborted)
     {
       repairHull(boundary, artificial);
+      triangles.push_back(std::move(boundary.Triangles));
       this->endPhase("hull");
-      this->finish(sink, boundary.Triangles);
+      this->finish(sink, triangles);
     }
   }
 
@@ -276,7 +280,8 @@ private:
     return !this->Stopped;
   }
 
-  void finish(TriangleSink<Id>& sink, const std::vector<typename TriangleSink<Id>::Seam>& boundary)
+  void finish(TriangleSink<Id>& sink,
+    const std::vector<std::vector<typename TriangleSink<Id>::Seam>>& boundary)
   {
     Buffer<Id> ids = sink.assemble(boundary, this->PassThreads);
     preferLowestIds(ids, this->Result.Duplicates, this->PassThreads);

@@ -15,15 +15,17 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
+/// In two lists, as two threads make them.
 template <typename Id>
-std::vector<typename TriangleSink<Id>::Seam> finalOnes(const std::vector<SeamTriangle>& triangles)
+std::vector<std::vector<typename TriangleSink<Id>::Seam>> finalOnes(
+  const std::vector<SeamTriangle>& triangles)
 {
-  FinalBoundary<Id> final;
-  for (const SeamTriangle& triangle : triangles)
+  FinalBoundary<Id> final[2];
+  for (std::size_t i = 0; i < triangles.size(); ++i)
   {
-    final.add(triangle);
+    final[i % 2].add(triangles[i]);
   }
-  return final.Triangles;
+  return { final[0].Triangles, final[1].Triangles };
 }
 
 /// Four partitions with 5, 0, 3 and 4 points.
