@@ -64,14 +64,16 @@ ScratchFolder::~ScratchFolder()
   }
 }
 
-bool ScratchFolder::hasPlan() const
+bool ScratchFolder::hasRun() const
 {
   std::error_code ignored;
-  return fs::exists(this->plan(), ignored);
+  return fs::exists(this->plan(), ignored) || fs::exists(this->state(), ignored);
 }
 
 void ScratchFolder::clear()
 {
+  this->remove(); // the state before the plan
+  makeFolder(this->Folder);
   std::error_code failure;
   for (const fs::directory_entry& entry : fs::directory_iterator(this->Work, failure))
   {
