@@ -78,9 +78,10 @@ def damage(rng, folder):
 
 def make_points(rng, folder, tools, least, most):
     """points.npy"""
-    require_clear_end(run([tools.tipp, "points", "--distribution", rng.choice(("uniform", "clustered", "coast", "lattice")),
-                           "--count", rng.randint(least, most) * 1000, "--seed", rng.randint(1, 1000), "-o",
-                           "points.npy"], cwd=folder), (0,))
+    distribution = rng.choice(("uniform", "clustered", "coast", "lattice"))
+    require_clear_end(run([tools.tipp, "points", "--distribution", distribution, "--count",
+                           rng.randint(least, most) * 1000, "--seed", rng.randint(1, 1000), "-o", "points.npy"],
+                          cwd=folder), (0,))
 
 
 def make_work(rng, folder, tools, command):
@@ -211,7 +212,8 @@ def flat_trial(rng, folder, tools):
             if rng.random() < 0.5:
                 resample(tools, folder, "flat", [])
             else:
-                require_clear_end(run([tools.tipp, "partition", "flat", "-o", "mesh.tipp", "--threads", 2], cwd=folder), (0, 1))
+                command = [tools.tipp, "partition", "flat", "-o", "mesh.tipp", "--threads", 2]
+                require_clear_end(run(command, cwd=folder), (0, 1))
         shutil.rmtree(folder / "flat")
     return FOLDERS
 

@@ -106,7 +106,8 @@ def partition(rng, folder, tools):
     require_clear_end(run([tools.tipp, "points", "--distribution", "clustered", "--count", rng.randint(20, 60) * 1000,
                            "-o", "points.npy"], cwd=folder), (0,))
     require_clear_end(run([tools.tipp, "delaunay", "points.npy", "-o", "mesh.vtu"], cwd=folder), (0,))
-    command = [tools.tipp, "partition", "mesh.vtu", "-o", "mesh.tipp", "--tiling", rng.choice(("grid:5x4", "quadtree:4000")),
+    command = [tools.tipp, "partition", "mesh.vtu", "-o", "mesh.tipp",
+               "--tiling", rng.choice(("grid:5x4", "quadtree:4000")),
                "--borrowers", rng.choice(("reference", "duplicate")), "--threads", rng.randint(1, 3)]
     return command, command, command
 
@@ -151,7 +152,8 @@ def trial(rng: random.Random, folder: pathlib.Path, tools: Tools):
         changed = sorted(name for name in left.keys() | expected.keys() if left.get(name) != expected.get(name))
         raise Failure(f"{' '.join(map(str, resume))}: after {kills} kills these differ from an undisturbed run, or "
                       f"are left over or missing: {', '.join(changed[:9])}")
-    others = sorted(path.name for path in folder.iterdir() if path.name not in {name.split('/')[0] for name in expected})
+    known = {name.split("/")[0] for name in expected}
+    others = sorted(path.name for path in folder.iterdir() if path.name not in known)
     if others:
         raise Failure(f"{' '.join(map(str, resume))}: leaves {', '.join(others)}")
     return kills
