@@ -72,9 +72,8 @@ bool ScratchFolder::hasRun() const
 
 void ScratchFolder::clear()
 {
-  this->remove(); // the state before the plan
-  makeFolder(this->Folder);
   std::error_code failure;
+  fs::remove(this->state(), failure); // a state without its plan would be one that has lost it
   for (const fs::directory_entry& entry : fs::directory_iterator(this->Work, failure))
   {
     fs::remove_all(entry.path(), failure);
