@@ -134,6 +134,7 @@ void vtkTIPPOutOfCoreDelaunay2D::Execute(vtkTable* output)
   tipp::Monitor monitor(this);
   tipp::OutOfCoreOptions options = this->Options();
   options.Progress = [&monitor](double fraction) { return monitor(fraction); };
+  options.Warn = [this](const std::string& sentence) { vtkWarningMacro(<< sentence); };
   const auto open = [&]
   {
     if (path.empty())

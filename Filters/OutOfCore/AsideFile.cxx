@@ -41,7 +41,16 @@ Bytes AsideFile::get(const Part& part) const
       return bytes;
     }
   }
-  throw IOError(this->Path, "is damaged; remove its folder and start again.");
+  throw IOError(this->Path, "is damaged; resume the run, which makes it again.");
+}
+
+void AsideFile::goOnFrom(std::uint64_t end)
+{
+  if (end > 0 && InputFile(this->Path).size() < end)
+  {
+    throw IOError(this->Path, "is shorter than it was; resume the run, which makes it again.");
+  }
+  this->End = end;
 }
 
 } // namespace tipp

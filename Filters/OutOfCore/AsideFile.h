@@ -34,8 +34,9 @@ public:
   Bytes get(const Part& part) const;
 
   std::uint64_t end() const { return this->End; }
-  /// The file of an earlier run, of which all behind this end is forgotten.
-  void goOnFrom(std::uint64_t end) { this->End = end; }
+  /// Takes over the file of an earlier run, all of it before this end. Throws IOError if it is
+  /// shorter.
+  void goOnFrom(std::uint64_t end);
 
 private:
   std::string Path;

@@ -43,16 +43,24 @@ std::uint64_t writeCheckpoint(
 
 Bytes readCheckpoint(const std::string& path)
 {
-  const InputFile file(path);
-  std::uint64_t checksum = 0;
-  file.read(0, &checksum, 8);
-  Bytes bytes(file.size() - 8);
-  file.read(8, bytes.data(), bytes.size());
-  if (checksumOf(bytes.data(), bytes.size()) != checksum)
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
   {
-    throw IOError(path, "is damaged; remove its folder and start again.");
+    throw IOError(path, "is missing; remove its folder and start again.");
   }
-  return bytes;
+  const InputFile file(path);
+  if (file.size() >= 8)
+  {
+    std::uint64_t checksum = 0;
+    file.read(0, &checksum, 8);
+    Bytes bytes(file.size() - 8);
+    file.read(8, bytes.data(), bytes.size());
+    if (checksumOf(bytes.data(), bytes.size()) == checksum)
+    {
+      return bytes;
+    }
+  }
+  throw IOError(path, "is damaged; remove its folder and start again.");
 }
 
 } // namespace tipp

@@ -34,15 +34,10 @@ void exchangeFigures(Archive& archive, OutOfCoreStatistics& statistics)
   archive(statistics.Points);
   archive(statistics.Triangles);
   archive(statistics.TriangleSum);
-  archive(statistics.Duplicates);
   archive(statistics.Rejected);
   archive(statistics.Pieces);
   archive(statistics.Partitions);
-  archive(statistics.WorkerVertices);
-  archive(statistics.PeakRimTriangles);
-  archive(statistics.PeakRimBytes);
-  archive(statistics.RimSpilledBytes);
-  archive(statistics.PeakBorderBytes);
+  archive(static_cast<PieceFigures&>(statistics));
   archive(statistics.AsideBytes);
   archive(statistics.SpilledBytes);
   archive(statistics.MeshBytes);
@@ -119,6 +114,14 @@ private:
     }
   }
 
+  void warn(const std::string& sentence) const
+  {
+    if (this->Options.Warn)
+    {
+      this->Options.Warn(sentence);
+    }
+  }
+
   void endPhase(const char* name)
   {
     this->Statistics.Phases.push_back({ name, this->Watch.restart() });
@@ -134,7 +137,7 @@ private:
   /// False if there is nothing to resume.
   bool resume()
   {
-    if (!this->Scratch.hasPlan())
+    if (!this->Scratch.hasRun())
     {
       return false;
     }
@@ -166,7 +169,7 @@ private:
   {
     exchangeFigures(archive, this->Statistics);
     archive(this->Fingerprint);
-    this->IsInPlace = this->Fingerprint != 0 && fingerprintOf(this->Path) == this->Fingerprint;
+    this->IsInPlace = this->Fingerprint != 0 && holdsMesh(this->Path, this->Fingerprint);
     if (this->IsInPlace && !isOurs) // what is left of that run is of no use
     {
       this->keep(false);
@@ -176,10 +179,25 @@ private:
       return;
     }
     this->requireOurs(isOurs);
-    if (!this->IsInPlace && fingerprintOf(this->Pending.temporaryPath()) != this->Fingerprint)
+    if (this->hasMeshToPublish())
     {
-      throw IOError(
-        this->Pending.temporaryPath(), "is damaged; remove the folder around it and start again.");
+      this->verifyWhole();
+    }
+  }
+
+  bool hasMeshToPublish() const { return !this->Options.CountOnly && !this->IsInPlace; }
+
+  /// The process that made the mesh has ended, and its files may have changed since.
+  void verifyWhole() const
+  {
+    try
+    {
+      verifyMesh(this->Pending.temporaryPath(), this->Fingerprint, this->Threads);
+    }
+    catch (const IOError& error)
+    {
+      throw IOError(error.path(),
+        "is damaged or missing; remove " + this->Pending.workPath() + " and start again.");
     }
   }
 
@@ -201,7 +219,7 @@ private:
   std::string identity() const
   {
     const OutOfCoreOptions& options = this->Options;
-    return "TIPP out of core 6\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
+    return "TIPP out of core 7\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
       std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
       std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
       (options.Neighbors ? " linked" : "") + (options.CountOnly ? " counted" : "") + "\n" +
@@ -328,7 +346,8 @@ private:
       isShared ? this->Ranks : nullptr);
     if (isShared)
     {
-      pieces.setCheckpoint(this->Scratch.state(), this->Scratch.aside(), this->Scratch.rim());
+      pieces.setCheckpoint(this->Scratch.state(), this->Scratch.aside(), this->Scratch.rim(),
+        [this](const std::string& sentence) { this->warn(sentence); });
     }
     const bool isDone = this->Prepared.Survey.Collinear ? pieces.writePointsAlone()
       : this->Prepared.Plan->IsAlone                    ? pieces.triangulateAlone()
@@ -337,12 +356,7 @@ private:
     {
       throw Aborted();
     }
-    this->Statistics.Duplicates = pieces.Duplicates;
-    this->Statistics.WorkerVertices = pieces.WorkerVertices;
-    this->Statistics.PeakRimTriangles = pieces.PeakRimTriangles;
-    this->Statistics.PeakRimBytes = pieces.PeakRimBytes;
-    this->Statistics.RimSpilledBytes = pieces.RimSpilledBytes;
-    this->Statistics.PeakBorderBytes = pieces.PeakBorderBytes;
+    static_cast<PieceFigures&>(this->Statistics) = pieces.figures();
     this->Statistics.AsideBytes = pieces.asideBytes();
     this->Finished = std::move(pieces.finished());
     this->endPhase("triangulate");
@@ -407,8 +421,9 @@ private:
       syncToDisk(mesh.piecePath(number));
       this->report(0.98 + 0.02 * double(number) / double(this->Finished.size()));
     }
-    this->Statistics.MeshBytes = publishPieces(mesh, this->Finished);
-    this->Fingerprint = fingerprintOf(mesh.Path);
+    const PublishedMesh published = publishPieces(mesh, this->Finished);
+    this->Statistics.MeshBytes = published.Bytes;
+    this->Fingerprint = published.Fingerprint;
     this->recordWhole();
   }
 
@@ -435,7 +450,7 @@ private:
     {
       this->Options.Progress(1); // too late to end it
     }
-    if (this->Fingerprint != 0 && !this->IsInPlace)
+    if (this->hasMeshToPublish())
     {
       this->Pending.commit();
     }
@@ -457,7 +472,7 @@ private:
   std::vector<FinishedPiece> Finished;
   bool IsWhole = false;          ///< all files of the mesh are there, or all triangles are counted
   bool IsInPlace = false;        ///< where it belongs
-  std::uint64_t Fingerprint = 0; ///< of the whole mesh
+  std::uint64_t Fingerprint = 0; ///< of the whole mesh, where there is one
   Stopwatch Watch;
 };
 

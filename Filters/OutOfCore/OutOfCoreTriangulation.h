@@ -2,6 +2,7 @@
 #ifndef tippOutOfCoreTriangulation_h
 #define tippOutOfCoreTriangulation_h
 
+#include "OutOfCore/PieceFigures.h"
 #include "Points/PointStream.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -36,9 +37,11 @@ struct OutOfCoreOptions
   std::string Scratch;
   /// Told the finished fraction now and then, in the thread that called; false ends the run.
   std::function<bool(double)> Progress;
+  /// Told in one sentence what of an earlier run is damaged and therefore made again.
+  std::function<void(const std::string&)> Warn;
 };
 
-struct OutOfCoreStatistics
+struct OutOfCoreStatistics : PieceFigures
 {
   struct Phase
   {
@@ -48,16 +51,10 @@ struct OutOfCoreStatistics
   std::int64_t Points = 0;
   std::int64_t Triangles = 0;
   std::uint64_t TriangleSum = 0; ///< where they are only counted: of GrowingPiece::hashTriangle()
-  std::int64_t Duplicates = 0;
   std::int64_t Rejected = 0;
   std::int64_t Pieces = 0;
   std::int64_t Partitions = 0;
-  std::int64_t WorkerVertices = 0;
-  std::int64_t PeakRimTriangles = 0; ///< most unfinished triangles at a time
-  std::uint64_t PeakRimBytes = 0;    ///< of their vertices, in memory and in a file
-  std::uint64_t RimSpilledBytes = 0; ///< written to that file
-  std::uint64_t PeakBorderBytes = 0; ///< most that pieces kept of their borders at a time
-  std::uint64_t AsideBytes = 0;      ///< of borders that were put into a file meanwhile
+  std::uint64_t AsideBytes = 0; ///< of borders that were put into a file meanwhile
   std::uint64_t SpilledBytes = 0;
   std::uint64_t MeshBytes = 0;
   int Threads = 1;

@@ -2,6 +2,8 @@
 #include "OutOfCore/PieceRun.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace tipp
@@ -113,8 +115,8 @@ void PieceRun::bringBack(PartitionResult result)
   const PartitionIndex piece = this->Work.Plan.PieceOf[std::size_t(result.Partition)];
   Lock lock(this->Mutex);
   this->PointsDone += result.Points;
-  this->Duplicates += result.Duplicates;
-  this->WorkerVertices += result.Vertices;
+  this->Figures.Duplicates += result.Duplicates;
+  this->Figures.WorkerVertices += result.Vertices;
   const bool isWhole = this->Schedule->complete(std::move(result));
   this->countRim();
   this->Changed.notify_all();
@@ -129,13 +131,13 @@ void PieceRun::bringBack(PartitionResult result)
 
 void PieceRun::countRim()
 {
-  this->PeakRimTriangles =
-    std::max(this->PeakRimTriangles, std::int64_t(this->Schedule->rimTriangles()));
-  this->PeakRimBytes = std::max(this->PeakRimBytes, this->Schedule->rimBytes());
+  this->Figures.PeakRimTriangles =
+    std::max(this->Figures.PeakRimTriangles, std::int64_t(this->Schedule->rimTriangles()));
+  this->Figures.PeakRimBytes = std::max(this->Figures.PeakRimBytes, this->Schedule->rimBytes());
   if (this->SpilledRim)
   {
     const std::uint64_t written = this->SpilledRim->written();
-    this->RimSpilledBytes += written - std::exchange(this->RimBytesCounted, written);
+    this->Figures.RimSpilledBytes += written - std::exchange(this->RimBytesCounted, written);
   }
 }
 
@@ -145,7 +147,8 @@ void PieceRun::takeInterior(PartitionIndex piece, GrowingPiece interior)
   const std::uint64_t bytes = this->Own.bytesOf(piece);
   this->Ranks[std::size_t(this->Schedule->rankOf(piece))].LoadedBytes -= bytes;
   this->BytesSinceSaved += bytes;
-  this->PeakBorderBytes = std::max(this->PeakBorderBytes, this->Schedule->borderBytes());
+  this->Figures.PeakBorderBytes =
+    std::max(this->Figures.PeakBorderBytes, this->Schedule->borderBytes());
   this->Changed.notify_all();
 }
 
@@ -231,9 +234,30 @@ void PieceRun::runThreads()
   this->tell(lock); // of what the other threads did last
 }
 
+/// What an earlier run has left unfinished must not take the place of this one's files. Pieces are
+/// written anew.
+void PieceRun::clearPieces()
+{
+  if (this->Work.Mesh.Path.empty())
+  {
+    return;
+  }
+  std::error_code ignored; // what cannot be removed cannot be written either
+  const auto folder = std::filesystem::path(this->Work.Mesh.piecePath(0)).parent_path();
+  std::filesystem::create_directories(folder, ignored);
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+  {
+    if (entry.path().extension() == GrowingPiece::NextName)
+    {
+      std::filesystem::remove(entry.path(), ignored);
+    }
+  }
+}
+
 /// A run from the beginning.
 void PieceRun::start()
 {
+  this->clearPieces();
   this->Schedule = std::make_unique<PieceSchedule>(this->Work.Plan, this->Work.Points,
     this->Work.Rows, this->Work.Plan.initialMesh(this->Threads));
   this->useFiles();
@@ -283,7 +307,7 @@ bool PieceRun::writePointsAlone()
 {
   for (PartitionIndex piece = 0; piece < this->Work.Plan.pieces(); ++piece)
   {
-    this->Duplicates +=
+    this->Figures.Duplicates +=
       this->Own.writePointsAlone(piece, this->Finished[this->Work.Plan.number(piece)]);
     this->PointsDone += this->Work.Points.count(piece);
     if (!this->Progress(this->PointsDone))
@@ -300,8 +324,8 @@ bool PieceRun::triangulateAlone()
   const bool isDone = this->Own.triangulateAlone([this](std::size_t inserted)
     { return this->Progress(std::int64_t(inserted)); },
     result, this->Finished[0]);
-  this->Duplicates = result.Duplicates;
-  this->WorkerVertices = result.Vertices;
+  this->Figures.Duplicates = result.Duplicates;
+  this->Figures.WorkerVertices = result.Vertices;
   return isDone;
 }
 

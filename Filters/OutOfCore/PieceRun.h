@@ -4,6 +4,7 @@
 
 #include "Messages/Postbox.h"
 #include "OutOfCore/LoadedPieces.h"
+#include "OutOfCore/PieceFigures.h"
 #include "OutOfCore/PieceSchedule.h"
 #include "Partitioned/PublishPieces.h"
 
@@ -15,6 +16,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -32,12 +34,15 @@ public:
 
   /// Saves its state to this file now and then, and where progress ends it; and goes on from there
   /// if the file is there already. `aside`: a file for borders that there is no memory for; it
-  /// belongs to the saved state. `rim`: one for the rim, which does not.
-  void setCheckpoint(const std::string& path, const std::string& aside, const std::string& rim)
+  /// belongs to the saved state. `rim`: one for the rim, which does not. `warn` is told, in one
+  /// sentence, if what was saved is damaged: then all pieces are made again.
+  void setCheckpoint(const std::string& path, const std::string& aside, const std::string& rim,
+    std::function<void(const std::string&)> warn)
   {
     this->CheckpointPath = path;
     this->Aside = std::make_unique<AsideFile>(aside);
     this->SpilledRim = std::make_unique<VertexFile>(rim);
+    this->Warn = std::move(warn);
   }
 
   /// Writes all pieces' files. Throws IOError, and RankFailure. False if progress ended it.
@@ -50,12 +55,7 @@ public:
   /// By their numbers in the mesh.
   std::vector<FinishedPiece>& finished() { return this->Finished; }
 
-  std::int64_t Duplicates = 0;
-  std::int64_t WorkerVertices = 0;
-  std::int64_t PeakRimTriangles = 0;
-  std::uint64_t PeakRimBytes = 0;
-  std::uint64_t RimSpilledBytes = 0; ///< by runs before this one, too
-  std::uint64_t PeakBorderBytes = 0;
+  const PieceFigures& figures() const { return this->Figures; }
   /// Of borders that were put aside.
   std::uint64_t asideBytes() const { return this->Aside ? this->Aside->end() : 0; }
 
@@ -87,13 +87,15 @@ private:
   void guard(const std::function<void()>& body);
   void runThreads();
   void start();
+  void clearPieces();
   bool startFromCheckpoint();
+  void loadCheckpoint();
+  bool verifyWritten();
+  void isolateInteriors();
   void useFiles();
   void saveSometimes();
   std::uint64_t saveNow();
   void save(SaveArchive& archive);
-  template <typename Archive>
-  void exchangeFinished(Archive& archive); ///< figures and finished pieces
 
   /// @name Other ranks
   ///@{
@@ -116,12 +118,14 @@ private:
   std::mutex Mutex;
   std::condition_variable Changed;
   std::string CheckpointPath;
+  std::function<void(const std::string&)> Warn;
   std::unique_ptr<AsideFile> Aside;
   std::unique_ptr<VertexFile> SpilledRim;
   std::uint64_t RimBytesCounted = 0; ///< of those that this run has spilled
   std::uint64_t BytesSinceSaved = 0; ///< of interiors
   std::uint64_t SavedBytes = 0;      ///< of the last checkpoint
   PartitionIndex NextToLoad;
+  PieceFigures Figures;
   std::int64_t PointsDone = 0;
   std::int64_t PointsTold = 0;
   bool Stopped = false;

@@ -56,6 +56,16 @@ public:
   {
     return this->Pieces[std::size_t(piece)].At == Stage::Waiting && this->Points.count(piece) > 0;
   }
+  /// Whether its interior is written but its border is not.
+  bool hasInterior(PartitionIndex piece) const
+  {
+    return this->Pieces[std::size_t(piece)].At == Stage::Interior;
+  }
+  /// Whether all of it is written.
+  bool isDone(PartitionIndex piece) const
+  {
+    return this->Pieces[std::size_t(piece)].At == Stage::Done;
+  }
   bool isFinished(PartitionIndex partition) const { return this->Rim.isFinished(partition); }
   /// Those of the piece's partitions that are.
   std::vector<PartitionIndex> finishedPartitions(PartitionIndex piece) const;

@@ -3,6 +3,7 @@
 #include "OutOfCore/PieceRun.h"
 
 #include "Files/IOError.h"
+#include "Parallel/ForChunks.h"
 
 #include <filesystem>
 #include <utility>
@@ -10,26 +11,15 @@
 namespace tipp
 {
 
-template <typename Archive>
-void PieceRun::exchangeFinished(Archive& archive)
+void PieceRun::save(SaveArchive& archive)
 {
-  archive(this->Duplicates);
-  archive(this->WorkerVertices);
-  archive(this->PeakRimTriangles);
-  archive(this->PeakRimBytes);
-  archive(this->RimSpilledBytes);
-  archive(this->PeakBorderBytes);
+  archive(this->Aside ? this->Aside->end() : std::uint64_t(0));
+  archive(this->Figures);
   archive(this->PointsDone);
   for (FinishedPiece& piece : this->Finished)
   {
     exchange(archive, piece);
   }
-}
-
-void PieceRun::save(SaveArchive& archive)
-{
-  archive(this->Aside ? this->Aside->end() : std::uint64_t(0));
-  this->exchangeFinished(archive);
   this->Schedule->save(archive);
 }
 
@@ -52,6 +42,8 @@ void PieceRun::saveSometimes()
   this->SavedBytes = this->saveNow();
 }
 
+/// False if there is no saved state, or what belongs to it is damaged: the spilled points are
+/// enough to start from.
 bool PieceRun::startFromCheckpoint()
 {
   std::error_code ignored;
@@ -61,25 +53,75 @@ bool PieceRun::startFromCheckpoint()
   }
   try
   {
-    const Bytes bytes = readCheckpoint(this->CheckpointPath);
-    LoadArchive archive(bytes);
-    std::uint64_t end = 0;
-    archive(end);
-    this->Aside->goOnFrom(end);
-    this->exchangeFinished(archive);
-    this->Schedule =
-      std::make_unique<PieceSchedule>(this->Work.Plan, this->Work.Points, this->Work.Rows, archive);
-    this->useFiles();
+    this->loadCheckpoint();
+    this->Stopped = !this->verifyWritten();
   }
-  catch (const IOError&)
+  catch (const IOError& error)
   {
-    throw;
+    this->Figures = {};
+    this->PointsDone = 0;
+    this->Finished.assign(this->Finished.size(), {});
+    this->Aside->goOnFrom(0);
+    this->Warn(error.path() +
+      ": is damaged or missing; all pieces are made again from the points that were spilled.");
+    return false;
   }
-  catch (const std::runtime_error&)
+  if (!this->Stopped)
   {
-    throw IOError(this->CheckpointPath, "is not of this run; remove its folder and start again.");
+    this->isolateInteriors();
   }
+  this->useFiles();
   return true;
+}
+
+void PieceRun::loadCheckpoint()
+{
+  const Bytes bytes = readCheckpoint(this->CheckpointPath);
+  LoadArchive archive(bytes);
+  std::uint64_t asideEnd = 0;
+  archive(asideEnd);
+  this->Aside->goOnFrom(asideEnd);
+  archive(this->Figures);
+  archive(this->PointsDone);
+  for (FinishedPiece& piece : this->Finished)
+  {
+    exchange(archive, piece);
+  }
+  this->Schedule =
+    std::make_unique<PieceSchedule>(this->Work.Plan, this->Work.Points, this->Work.Rows, archive);
+  this->Schedule->putAside(*this->Aside, this->Memory.BorderBytes);
+}
+
+/// Reads what earlier processes have written of pieces. False if progress ended it.
+bool PieceRun::verifyWritten()
+{
+  return forChunks(
+    this->Work.Plan.pieces(), 1, this->Threads,
+    [this](double) { return this->Progress(this->PointsDone); },
+    [this](std::int64_t at, std::int64_t, int)
+    {
+      const auto piece = static_cast<PartitionIndex>(at);
+      const std::size_t number = this->Work.Plan.number(piece);
+      if (this->Schedule->hasInterior(piece))
+      {
+        this->Schedule->border(piece).verifyInterior(this->Work.Mesh, number);
+      }
+      else if (this->Schedule->isDone(piece))
+      {
+        verifyFinished(this->Work.Mesh, number, this->Finished[number]);
+      }
+    });
+}
+
+void PieceRun::isolateInteriors()
+{
+  for (PartitionIndex piece = 0; piece < this->Work.Plan.pieces(); ++piece)
+  {
+    if (this->Schedule->hasInterior(piece))
+    {
+      this->Schedule->border(piece).isolateInterior(this->Work.Mesh, this->Work.Plan.number(piece));
+    }
+  }
 }
 
 } // namespace tipp

@@ -64,15 +64,16 @@ ScratchFolder::~ScratchFolder()
   }
 }
 
-bool ScratchFolder::hasPlan() const
+bool ScratchFolder::hasRun() const
 {
   std::error_code ignored;
-  return fs::exists(this->plan(), ignored);
+  return fs::exists(this->plan(), ignored) || fs::exists(this->state(), ignored);
 }
 
 void ScratchFolder::clear()
 {
   std::error_code failure;
+  fs::remove(this->state(), failure); // a state without its plan would be one that has lost it
   for (const fs::directory_entry& entry : fs::directory_iterator(this->Work, failure))
   {
     fs::remove_all(entry.path(), failure);

@@ -30,7 +30,8 @@ public:
   std::string rim() const { return this->Folder + "/.rim"; }
   std::string aside() const { return this->Folder + "/.aside"; }
 
-  bool hasPlan() const;
+  /// Whether there is a run to resume. A saved state without a plan is one whose plan was lost.
+  bool hasRun() const;
   /// Makes room for a new run, and its empty folder of pieces.
   void clear();
   void keep(bool kept = true) { this->Kept = kept; }

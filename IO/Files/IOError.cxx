@@ -11,11 +11,13 @@ IOError::IOError(const std::string& sentence)
 
 IOError::IOError(const std::string& path, const std::string& problem)
   : std::runtime_error(path + ": " + problem)
+  , Path(path)
 {
 }
 
 IOError::IOError(const std::string& path, std::int64_t line, const std::string& problem)
   : std::runtime_error(path + ", line " + std::to_string(line) + ": " + problem)
+  , Path(path)
 {
 }
 

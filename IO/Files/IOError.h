@@ -20,6 +20,12 @@ public:
   IOError(const std::string& path, const std::string& problem);
   IOError(const std::string& path, std::int64_t line, const std::string& problem);
   ~IOError() override;
+
+  /// The file or folder, or empty.
+  const std::string& path() const { return this->Path; }
+
+private:
+  std::string Path;
 };
 
 } // namespace tipp

@@ -4,9 +4,11 @@
 
 #include "vtkTIPPIOModule.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace tipp
 {
@@ -28,6 +30,21 @@ public:
 
   /// Exactly these bytes; throws IOError if the file ends before.
   void read(std::uint64_t offset, void* to, std::size_t bytes) const;
+  /// The same in blocks that fit in the processor's cache: calls take(data, bytes) for each.
+  template <typename Take>
+  void readBlocks(std::uint64_t offset, std::uint64_t bytes, Take take) const
+  {
+    constexpr std::uint64_t most = std::uint64_t(1) << 18;
+    std::vector<char> block(std::size_t(std::min(most, bytes)));
+    while (bytes > 0)
+    {
+      const auto count = std::size_t(std::min(most, bytes));
+      this->read(offset, block.data(), count);
+      take(block.data(), count);
+      offset += count;
+      bytes -= count;
+    }
+  }
 
 private:
   std::string Path;

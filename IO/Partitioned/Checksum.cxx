@@ -54,7 +54,7 @@ bool parseChecksum(const std::string& text, std::uint64_t& checksum)
 {
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, checksum, 16);
-  return text.size() == 16 && stop == end && error == std::errc();
+  return stop == end && error == std::errc() && checksumText(checksum) == text;
 }
 
 } // namespace tipp

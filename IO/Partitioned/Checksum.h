@@ -33,7 +33,7 @@ private:
   std::unique_ptr<State> Progress;
 };
 
-/// 16 hexadecimal digits, and back; false for anything else.
+/// 16 hexadecimal digits in lower case, and back; false for anything else.
 VTKTIPPIO_EXPORT std::string checksumText(std::uint64_t checksum);
 VTKTIPPIO_EXPORT bool parseChecksum(const std::string& text, std::uint64_t& checksum);
 

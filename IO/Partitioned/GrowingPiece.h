@@ -45,6 +45,9 @@ struct PointRowLayout
 class VTKTIPPIO_EXPORT GrowingPiece
 {
 public:
+  /// What follows the name of a piece's file in that of a file that is to take its place.
+  static constexpr const char* NextName = ".next";
+
   GrowingPiece() = default;
   GrowingPiece(std::int64_t first, std::int64_t points)
     : First(first)
@@ -108,6 +111,15 @@ public:
   FinishedPiece writeBorder(
     const PartitionedMesh& mesh, std::size_t number, const PointRowLayout& rows) const;
 
+  /// @name A file that an earlier process has left after the first go
+  ///@{
+  /// Checks what it holds of the interior; throws IOError.
+  void verifyInterior(const PartitionedMesh& mesh, std::size_t number) const;
+  /// Replaces it by a file of the interior alone: that process may have written parts of the
+  /// border, and what damage there is elsewhere would stay. Throws IOError.
+  void isolateInterior(const PartitionedMesh& mesh, std::size_t number) const;
+  ///@}
+
   std::size_t bytes() const;
 
   /// Shows all that it keeps to archive(), which takes numbers and vectors of them, to save or to
@@ -156,7 +168,7 @@ private:
   void writeInteriorArray(const OutputFile& file, const PieceArray& array, std::uint64_t offset,
     const PointRowLayout& rows, const Interior& interior, const std::vector<std::int32_t>& numbers,
     std::vector<std::uint64_t>& checksums) const;
-  void enlargeFile(const std::string& path, const PieceLayout& from, const PieceLayout& to) const;
+  void copyInterior(const std::string& path, const PieceLayout& from, const PieceLayout& to) const;
 
   std::int64_t First = 0;
   std::int64_t OwnPoints = 0;
@@ -180,6 +192,11 @@ private:
   std::unordered_map<std::int64_t, std::int64_t> Ghosts; ///< of places: which row
   std::vector<double> GhostRows;
 };
+
+/// Checks every byte of a finished piece's file, which an earlier process has left, but for global
+/// ids of cells and of their neighbours. Throws IOError.
+VTKTIPPIO_EXPORT void verifyFinished(
+  const PartitionedMesh& mesh, std::size_t number, const FinishedPiece& piece);
 
 /// Writes the global ids of a finished piece's cells, which follow each other from `first` on, and
 /// completes its file and table, but for a NeighborWriter's array. May be done again. Throws

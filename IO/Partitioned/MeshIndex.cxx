@@ -342,6 +342,8 @@ PartitionedMesh parseIndex(const std::string& text, const std::string& path)
   fields.require(
     std::uint64_t(fields.integer("tables_bytes", 0, most)) == tables, "has a wrong tables_bytes");
   mesh.PvtuBytes = std::uint64_t(fields.integer("pvtu_bytes", 0, most));
+  fields.require(
+    parseChecksum(fields.text("pvtu_xxh3"), mesh.PvtuChecksum), "has a wrong pvtu_xxh3");
   return mesh;
 }
 

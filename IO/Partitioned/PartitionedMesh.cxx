@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Partitioned/Checksum.h"
 #include "Partitioned/MeshIndex.h"
 
 #include <cerrno>
@@ -31,13 +32,13 @@ std::string indexOf(const std::string& path)
   return fs::is_directory(path, ignored) ? (fs::path(path) / indexName).string() : path;
 }
 
-std::string readIndex(const std::string& path)
+std::string readText(const std::string& path)
 {
   constexpr std::uint64_t most = std::uint64_t(1) << 32;
   const InputFile file(path);
   if (file.size() > most)
   {
-    throw IOError(path, "is larger than any index; check the name.");
+    throw IOError(path, "is larger than any such file of a partitioned mesh; check the name.");
   }
   std::string text(std::size_t(file.size()), '\0');
   file.read(0, text.data(), text.size());
@@ -117,7 +118,7 @@ std::string PartitionedMesh::pvtuPath() const
 PartitionedMesh openPartitionedMesh(const std::string& path)
 {
   const std::string index = indexOf(path);
-  PartitionedMesh mesh = parseIndex(readIndex(index), index);
+  PartitionedMesh mesh = parseIndex(readText(index), index);
   const fs::path folder = fs::path(index).parent_path();
   mesh.Path = folder.empty() ? "." : folder.string();
   const SizesInFolder sizes(mesh.Path);
@@ -135,6 +136,16 @@ PartitionedMesh openPartitionedMesh(const std::string& path)
   sizes.require(tablesName, tables);
   sizes.require(pvtuName, mesh.PvtuBytes);
   return mesh;
+}
+
+void verifyPvtu(const PartitionedMesh& mesh)
+{
+  const std::string text = readText(mesh.pvtuPath());
+  if (checksumOf(text.data(), text.size()) != mesh.PvtuChecksum)
+  {
+    throw IOError(mesh.pvtuPath(),
+      "does not have the checksum that the index gives; copy or make the mesh again.");
+  }
 }
 
 bool isPartitionedMesh(const std::string& path)

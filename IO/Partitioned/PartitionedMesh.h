@@ -63,6 +63,7 @@ struct PartitionedMesh
   std::vector<StoredArray> Arrays; ///< those of points first
   std::vector<PieceSummary> Pieces;
   std::uint64_t PvtuBytes = 0; ///< of mesh.pvtu, once it is there
+  std::uint64_t PvtuChecksum = 0;
 
   std::string piecePath(std::size_t piece) const;
   std::string tablesPath() const;
@@ -76,6 +77,9 @@ VTKTIPPIO_EXPORT std::string pieceName(std::size_t piece);
 /// Reads the index of the folder `path`, or the index that `path` is, and checks every count of it
 /// and the sizes of all files. Throws IOError naming the file and the fact.
 VTKTIPPIO_EXPORT PartitionedMesh openPartitionedMesh(const std::string& path);
+
+/// Throws IOError unless mesh.pvtu, which opening the mesh does not read, has its checksum.
+VTKTIPPIO_EXPORT void verifyPvtu(const PartitionedMesh& mesh);
 
 /// Whether the path looks like a partitioned mesh or its index; opening it may still fail.
 VTKTIPPIO_EXPORT bool isPartitionedMesh(const std::string& path);

@@ -4,6 +4,7 @@
 #include "Files/InputFile.h"
 #include "Partitioned/ColumnWriter.h"
 #include "Partitioned/GrowingPiece.h"
+#include "Partitioned/PieceFile.h"
 #include "Partitioned/PieceTuples.h"
 #include "Partitioning/LentSets.h"
 
@@ -166,8 +167,20 @@ private:
 namespace
 {
 
-/// After the name of a piece's file: one that is to take its place.
-constexpr const char* largerName = ".larger";
+/// Puts the file that is to take this one's place there, if there is one.
+void takeNextFile(const std::string& path)
+{
+  std::error_code failure;
+  if (!std::filesystem::exists(path + GrowingPiece::NextName, failure))
+  {
+    return;
+  }
+  std::filesystem::rename(path + GrowingPiece::NextName, path, failure);
+  if (failure)
+  {
+    throw IOError(path, "cannot be replaced (" + failure.message() + ").");
+  }
+}
 
 /// The border's share of an array, group by group.
 template <typename Item, typename Copy>
@@ -191,39 +204,65 @@ std::vector<std::uint64_t> writeGroups(const OutputFile& file, std::uint64_t off
   return column.checksums();
 }
 
-void copyBytes(const InputFile& from, std::uint64_t at, const OutputFile& to, std::uint64_t toAt,
-  std::uint64_t bytes)
-{
-  std::vector<char> block(std::size_t(1) << 20);
-  while (bytes > 0)
-  {
-    const auto count = std::size_t(std::min<std::uint64_t>(bytes, block.size()));
-    from.read(at, block.data(), count);
-    to.write(toAt, block.data(), count);
-    at += count;
-    toAt += count;
-    bytes -= count;
-  }
-}
-
 } // namespace
 
-/// The border is larger than the room for it: the interior is copied into a file that is laid out
-/// for all. The other one stays, so that this can be done again.
-void GrowingPiece::enlargeFile(
+/// Copies the interior into the next file. The present one stays, so that this can be done again.
+void GrowingPiece::copyInterior(
   const std::string& path, const PieceLayout& from, const PieceLayout& to) const
 {
   const InputFile source(path);
-  const OutputFile target(path + largerName);
+  const OutputFile target(path + NextName);
   for (std::size_t a = 0; a < to.Arrays.size(); ++a)
   {
     const PieceArray& array = to.Arrays[a];
     const std::int64_t tuples = holdsCellIds(array) ? 0
       : array.ofPoints()                            ? this->InteriorPoints
                                                     : this->InteriorCells;
-    copyBytes(
-      source, from.Offsets[a], target, to.Offsets[a], std::uint64_t(tuples) * array.tupleBytes());
+    source.readBlocks(from.Offsets[a], std::uint64_t(tuples) * array.tupleBytes(),
+      [&, at = to.Offsets[a]](const char* data, std::size_t bytes) mutable
+      {
+        target.write(at, data, bytes);
+        at += bytes;
+      });
   }
+}
+
+void GrowingPiece::verifyInterior(const PartitionedMesh& mesh, std::size_t number) const
+{
+  if (mesh.Path.empty())
+  {
+    return;
+  }
+  const PieceLayout layout = layOutPiece(mesh, number, this->Room, &this->Room);
+  const InputFile file(mesh.piecePath(number));
+  for (std::size_t a = 0; a < layout.Arrays.size(); ++a)
+  {
+    const PieceArray& array = layout.Arrays[a];
+    if (holdsCellIds(array))
+    {
+      continue;
+    }
+    const std::int64_t tuples = array.ofPoints() ? this->InteriorPoints : this->InteriorCells;
+    Checksum sum;
+    file.readBlocks(layout.Offsets[a], std::uint64_t(tuples) * array.tupleBytes(),
+      [&](const char* data, std::size_t bytes) { sum.add(data, bytes); });
+    if (sum.finish() != this->Checksums[a])
+    {
+      throw IOError(file.path(), "the array " + array.Name + " does not have its checksum.");
+    }
+  }
+}
+
+void GrowingPiece::isolateInterior(const PartitionedMesh& mesh, std::size_t number) const
+{
+  if (mesh.Path.empty())
+  {
+    return;
+  }
+  const std::string path = mesh.piecePath(number);
+  const PieceLayout layout = layOutPiece(mesh, number, this->Room, &this->Room);
+  this->copyInterior(path, layout, layout);
+  takeNextFile(path);
 }
 
 FinishedPiece GrowingPiece::writeBorder(
@@ -260,10 +299,10 @@ FinishedPiece GrowingPiece::writeBorder(
   const PieceLayout layout = layOutPiece(mesh, number, summary, fits ? &this->Room : nullptr);
   if (!fits)
   {
-    this->enlargeFile(
+    this->copyInterior(
       mesh.piecePath(number), layOutPiece(mesh, number, this->Room, &this->Room), layout);
   }
-  const OutputFile file = OutputFile::shared(mesh.piecePath(number) + (fits ? "" : largerName));
+  const OutputFile file = OutputFile::shared(mesh.piecePath(number) + (fits ? "" : NextName));
   for (std::size_t a = 0; a < layout.Arrays.size(); ++a)
   {
     const PieceArray& array = layout.Arrays[a];
@@ -273,9 +312,10 @@ FinishedPiece GrowingPiece::writeBorder(
     const std::uint64_t interior =
       std::uint64_t(array.ofPoints() ? this->InteriorPoints : this->InteriorCells);
     const std::uint64_t offset = layout.Offsets[a] + interior * tuple;
-    std::vector<std::uint64_t> checksums{ this->Checksums[a] };
+    std::vector<std::uint64_t> checksums;
     if (!holdsCellIds(array))
     {
+      checksums.push_back(this->Checksums[a]);
       const std::vector<std::uint64_t> more = array.ofPoints()
         ? writeGroups(file, offset, tuple, border.Points,
             [&](const Border::Point& point, std::size_t, char* to)
@@ -304,6 +344,17 @@ FinishedPiece GrowingPiece::writeBorder(
   return finished;
 }
 
+void verifyFinished(const PartitionedMesh& mesh, std::size_t number, const FinishedPiece& piece)
+{
+  if (mesh.Path.empty())
+  {
+    return;
+  }
+  takeNextFile(mesh.piecePath(number));
+  ReadCounters counters;
+  PieceFile(mesh, number, piece.Summary, piece.Table, counters).verifyAll();
+}
+
 void writeCellIds(
   const PartitionedMesh& mesh, std::size_t number, std::int64_t first, FinishedPiece& piece)
 {
@@ -312,15 +363,7 @@ void writeCellIds(
     [](const PieceArray& array) { return array.Role == PieceRole::CellIds; });
   const auto a = std::size_t(found - arrays.begin());
   const std::string path = mesh.piecePath(number);
-  std::error_code failure;
-  if (std::filesystem::exists(path + largerName, failure))
-  {
-    std::filesystem::rename(path + largerName, path, failure);
-    if (failure)
-    {
-      throw IOError(path, "cannot be replaced (" + failure.message() + ").");
-    }
-  }
+  takeNextFile(path);
   const OutputFile file = OutputFile::shared(path);
   ColumnWriter column(file, piece.Table.Offsets[a], std::size_t(1) << 20);
   for (const std::int64_t count : piece.Table.parts(mesh, piece.Summary, false))

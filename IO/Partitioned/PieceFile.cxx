@@ -5,6 +5,8 @@
 #include "Partitioned/Checksum.h"
 #include "Partitioned/IdRange.h"
 
+#include <algorithm>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -104,12 +106,112 @@ void PieceFile::read(std::size_t array, std::size_t first, std::size_t end, void
   for (std::size_t part = first; part < end; ++part)
   {
     const std::size_t size = std::size_t(starts[part + 1] - starts[part]) * tuple;
-    if (checksumOf(at, size) != this->Table.Checksums[array][part])
-    {
-      this->fail("the array " + description.Name + " does not have its checksum");
-    }
+    this->requirePart(array, part, checksumOf(at, size));
     at += size;
   }
+}
+
+void PieceFile::requirePart(std::size_t array, std::size_t part, std::uint64_t checksum) const
+{
+  if (checksum != this->Table.Checksums[array][part])
+  {
+    this->fail("the array " + this->Arrays[array].Name + " does not have its checksum");
+  }
+}
+
+void PieceFile::verify(std::size_t array, std::size_t first, std::size_t end) const
+{
+  const std::vector<std::int64_t>& starts = this->partStarts(this->Arrays[array].ofPoints());
+  const std::size_t tuple = this->Arrays[array].tupleBytes();
+  const auto placeOf = [&](std::size_t part)
+  { return this->Table.Offsets[array] + std::uint64_t(starts[part]) * tuple; };
+  std::size_t part = first;
+  Checksum sum;
+  // One pass over all parts, which may be many and small.
+  const std::uint64_t bytes = placeOf(end) - placeOf(first);
+  ++this->Counters.Reads;
+  this->Counters.Bytes += std::int64_t(bytes);
+  this->File.readBlocks(placeOf(first), bytes,
+    [&, at = placeOf(first)](const char* data, std::size_t size) mutable
+    {
+      const std::uint64_t blockEnd = at + size;
+      for (; part < end && placeOf(part + 1) <= blockEnd; ++part)
+      {
+        const auto rest = std::size_t(placeOf(part + 1) - at);
+        sum.add(data, rest);
+        this->requirePart(array, part, sum.finish());
+        data += rest;
+        at += rest;
+      }
+      sum.add(data, std::size_t(blockEnd - at));
+      at = blockEnd;
+    });
+  for (; part < end; ++part) // without tuples
+  {
+    this->requirePart(array, part, sum.finish());
+  }
+}
+
+void PieceFile::requireZeros(std::uint64_t from, std::uint64_t to) const
+{
+  this->File.readBlocks(from, to - from,
+    [this](const char* data, std::size_t bytes)
+    {
+      if (std::any_of(data, data + bytes, [](char byte) { return byte != 0; }))
+      {
+        this->fail("holds something between its arrays");
+      }
+    });
+}
+
+void PieceFile::requireFooter(std::uint64_t at) const
+{
+  std::string footer(std::strlen(pieceFooter), '\0');
+  this->File.read(at, footer.data(), footer.size());
+  if (footer != pieceFooter)
+  {
+    this->fail("does not end as it was written");
+  }
+}
+
+void PieceFile::verifyAll() const
+{
+  if (this->File.size() != this->Summary.FileBytes)
+  {
+    this->fail("has " + std::to_string(this->File.size()) + " bytes instead of " +
+      std::to_string(this->Summary.FileBytes));
+  }
+  std::uint64_t at = this->Table.HeaderBytes;
+  for (std::size_t a = 0; a < this->Arrays.size(); ++a)
+  {
+    const PieceArray& array = this->Arrays[a];
+    const std::uint64_t offset = this->Table.Offsets[a];
+    const std::vector<std::int64_t>& starts = this->partStarts(array.ofPoints());
+    const std::uint64_t bytes = std::uint64_t(starts.back()) * array.tupleBytes();
+    std::uint64_t written = 0;
+    if (offset < at + sizeof(written))
+    {
+      this->fail("the array " + array.Name + " is not behind the one before it");
+    }
+    this->requireZeros(at, offset - sizeof(written));
+    this->File.read(offset - sizeof(written), &written, sizeof(written));
+    if (written != bytes)
+    {
+      this->fail("the array " + array.Name + " does not have its size before it");
+    }
+    if (!this->Table.Checksums[a].empty())
+    {
+      this->verify(a, 0, starts.size() - 1);
+    }
+    at = offset + bytes;
+  }
+  const std::uint64_t end = this->Summary.FileBytes - std::strlen(pieceFooter);
+  if (end < at)
+  {
+    this->fail("ends before its arrays do");
+  }
+  this->requireZeros(at, end);
+  this->requireFooter(end);
 }
 
 } // namespace tipp

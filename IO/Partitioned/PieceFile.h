@@ -50,6 +50,11 @@ public:
   /// checksums; throws IOError.
   void read(std::size_t array, std::size_t first, std::size_t end, void* to) const;
 
+  /// Reads these parts only to check their checksums; throws IOError.
+  void verify(std::size_t array, std::size_t first, std::size_t end) const;
+  /// Checks every byte of the file, but for arrays that have no checksums yet; throws IOError.
+  void verifyAll() const;
+
   /// Throws IOError unless the global ids, which came from the file, are from 0 to before `limit`.
   void requireIds(const std::int64_t* ids, std::size_t count, std::int64_t limit) const;
 
@@ -57,6 +62,9 @@ public:
 
 private:
   void checkHeader() const;
+  void requirePart(std::size_t array, std::size_t part, std::uint64_t checksum) const;
+  void requireZeros(std::uint64_t from, std::uint64_t to) const;
+  void requireFooter(std::uint64_t at) const;
 
   const PieceSummary& Summary;
   std::size_t Number;

@@ -4,8 +4,10 @@
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "Files/TextFile.h"
+#include "Parallel/ParallelFor.h"
 #include "Partitioned/Checksum.h"
 #include "Partitioned/MeshIndex.h"
+#include "Partitioned/PieceFile.h"
 #include "Partitioned/PieceLayout.h"
 
 #include <string>
@@ -49,7 +51,7 @@ void addBorrowed(std::vector<FinishedPiece>& pieces, bool duplicated)
 
 } // namespace
 
-std::uint64_t publishPieces(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces)
+PublishedMesh publishPieces(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces)
 {
   addBorrowed(pieces, mesh.Duplicated);
   std::uint64_t bytes = 0;
@@ -72,24 +74,50 @@ std::uint64_t publishPieces(PartitionedMesh& mesh, std::vector<FinishedPiece>& p
   syncToDisk(mesh.Path + "/pieces");
   syncToDisk(mesh.Path);
   writeWholeFile(mesh.indexPath(), index);
-  return bytes + tables.size() + pvtu.size() + index.size();
+  openPartitionedMesh(mesh.Path);
+  return { bytes + tables.size() + pvtu.size() + index.size(),
+    checksumOf(index.data(), index.size()) };
 }
 
-std::uint64_t fingerprintOf(const std::string& path)
+namespace
 {
-  if (!isPartitionedMesh(path))
+
+PartitionedMesh openMesh(const std::string& path, std::uint64_t fingerprint)
+{
+  const PartitionedMesh mesh = openPartitionedMesh(path);
+  const std::string index = readTextFile(mesh.indexPath());
+  if (checksumOf(index.data(), index.size()) != fingerprint)
   {
-    return 0;
+    throw IOError(mesh.indexPath(), "is the index of another mesh.");
   }
+  return mesh;
+}
+
+} // namespace
+
+bool holdsMesh(const std::string& path, std::uint64_t fingerprint)
+{
   try
   {
-    const std::string index = readTextFile(openPartitionedMesh(path).indexPath());
-    return checksumOf(index.data(), index.size());
+    openMesh(path, fingerprint);
+    return true;
   }
   catch (const IOError&)
   {
-    return 0;
+    return false;
   }
+}
+
+void verifyMesh(const std::string& path, std::uint64_t fingerprint, int threads)
+{
+  const PartitionedMesh mesh = openMesh(path, fingerprint);
+  verifyPvtu(mesh);
+  parallelFor(std::int64_t(mesh.Pieces.size()), threads,
+    [&](std::int64_t number)
+    {
+      ReadCounters counters;
+      PieceFile(mesh, std::size_t(number), counters).verifyAll();
+    });
 }
 
 } // namespace tipp

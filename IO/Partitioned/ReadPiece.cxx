@@ -14,21 +14,42 @@ namespace tipp
 namespace
 {
 
+/// The end of the parts that hold the first `stored` tuples of an array. Parts that come last may
+/// be empty.
+std::size_t endOfParts(const PieceFile& file, bool ofPoints, std::int64_t stored)
+{
+  const std::vector<std::int64_t>& starts = file.partStarts(ofPoints);
+  std::size_t end = starts.size() - 1;
+  while (end > 0 && starts[end] > stored)
+  {
+    --end;
+  }
+  return end;
+}
+
 /// Reads what the piece's own file has of one array; the rest of the buffer is left alone.
 RawBuffer readOwn(
   const PieceFile& file, std::size_t array, std::int64_t stored, std::int64_t tuples)
 {
   const PieceArray& description = file.arrays()[array];
   RawBuffer buffer(std::size_t(tuples) * description.tupleBytes());
-  const std::vector<std::int64_t>& starts = file.partStarts(description.ofPoints());
-  // Parts that come last may be empty.
-  std::size_t end = starts.size() - 1;
-  while (end > 0 && starts[end] > stored)
-  {
-    --end;
-  }
-  file.read(array, 0, end, buffer.data());
+  file.read(array, 0, endOfParts(file, description.ofPoints(), stored), buffer.data());
   return buffer;
+}
+
+/// What only VTK's readers need: the result does not depend on it, but a damaged file is refused
+/// whichever of its arrays it is.
+void verifyUnused(const PieceFile& file, std::int64_t stored)
+{
+  const std::size_t end = endOfParts(file, false, stored);
+  for (std::size_t a = 0; a < file.arrays().size(); ++a)
+  {
+    const PieceRole role = file.arrays()[a].Role;
+    if (role == PieceRole::Offsets || role == PieceRole::Types || role == PieceRole::CellGhosts)
+    {
+      file.verify(a, 0, end);
+    }
+  }
 }
 
 void requireLocalIds(const PieceFile& file, const Piece& piece, std::int64_t cells)
@@ -66,6 +87,7 @@ void readCells(
   requireLocalIds(file, piece, stored);
   piece.CellIds = readOwn(file, file.find(PieceRole::CellIds), stored, piece.Cells);
   file.requireIds(piece.CellIds.as<std::int64_t>(), std::size_t(stored), mesh.Cells);
+  verifyUnused(file, stored);
 }
 
 void readAttributes(const PartitionedMesh& mesh, const PieceOptions& options, const PieceFile& file,

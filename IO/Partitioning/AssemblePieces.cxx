@@ -133,7 +133,7 @@ void assemblePieces(PartitionRun& run)
       if (run.Team.isFirst())
       {
         std::vector<FinishedPiece> pieces = unpack(all, run.Result);
-        run.Statistics.MeshBytes = publishPieces(run.Result, pieces);
+        run.Statistics.MeshBytes = publishPieces(run.Result, pieces).Bytes;
       }
     });
 }

@@ -12,7 +12,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 namespace tipp
 {
@@ -64,7 +66,9 @@ void requireSamePoints(
 
 CheckReport check(const CheckArguments& arguments)
 {
-  if (isPartitionedMesh(arguments.Mesh))
+  std::error_code ignored;
+  // No other kind of mesh is a folder here; one without its index is named as such.
+  if (isPartitionedMesh(arguments.Mesh) || std::filesystem::is_directory(arguments.Mesh, ignored))
   {
     return checkPartitioned(arguments.Points, arguments.Columns, arguments.Mesh, arguments.Options);
   }

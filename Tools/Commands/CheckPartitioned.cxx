@@ -102,11 +102,14 @@ CheckReport checkPartitioned(const std::string& points, const PointOptions& colu
   {
     throw IOError(path, "holds tetrahedra; the check is of triangles.");
   }
+  verifyPvtu(mesh);
   PieceChecker checker(options);
   {
     ProgressBar bar("Checking");
     for (std::size_t number = 0; number < mesh.Pieces.size(); ++number)
     {
+      ReadCounters counters;
+      PieceFile(mesh, number, counters).verifyAll();
       checker.add(readChecked(mesh, number));
       bar.update(double(number + 1) / double(mesh.Pieces.size()));
     }

@@ -25,8 +25,12 @@ namespace tipp
 namespace
 {
 
-OutOfCoreOptions makeOptions(
-  const DelaunayArguments& arguments, const std::unique_ptr<ProgressBar>& bar)
+std::unique_ptr<ProgressBar> makeBar()
+{
+  return std::make_unique<ProgressBar>("Triangulating");
+}
+
+OutOfCoreOptions makeOptions(const DelaunayArguments& arguments, std::unique_ptr<ProgressBar>& bar)
 {
   const GridSize grid = *parseGrid(arguments.Partitions);
   OutOfCoreOptions options;
@@ -49,6 +53,12 @@ OutOfCoreOptions makeOptions(
       bar->update(fraction);
     }
     return !isInterrupted();
+  };
+  options.Warn = [&bar](const std::string& sentence)
+  {
+    bar.reset();
+    fmt::print(stderr, "tipp: warning: {}\n", sentence);
+    bar = makeBar();
   };
   return options;
 }
@@ -234,7 +244,7 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
     }
     if (isFirst)
     {
-      bar = std::make_unique<ProgressBar>("Triangulating");
+      bar = makeBar();
     }
     return openPointStream(arguments.Inputs, arguments.Columns);
   };

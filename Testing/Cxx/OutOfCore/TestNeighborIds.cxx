@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <random>
 #include <utility>
@@ -159,22 +160,58 @@ TEST_F(NeighborIds, AreTheSameWhereverTheirWritingWasEnded)
   EXPECT_GT(after, 35); // one call a piece for ids and one for neighbours, at least
 }
 
-TEST_F(NeighborIds, AreNotMadeOfPiecesThatAreDamagedMeanwhile)
+class NeighborIdsOfDamagedPieces : public NeighborIds
 {
-  this->cutIntoPiecesOf(150);
-  writePoints(this->Folder.path("points.npy"), makePointSet("uniform", 2500));
+protected:
+  NeighborIdsOfDamagedPieces()
+  {
+    this->cutIntoPiecesOf(150);
+    this->Options.Threads = 1;
+    writePoints(this->Folder.path("points.npy"), makePointSet("uniform", 2500));
+  }
+
+  void damage() const
+  {
+    std::string content = contentOf(this->Damaged);
+    for (std::size_t at = content.size() / 4; at < content.size(); at += 40)
+    {
+      content[at] ^= 1;
+    }
+    std::ofstream(this->Damaged, std::ios::binary) << content;
+  }
+
+  const std::string Damaged = Folder.path(".mesh.tipp.part/mesh.tipp/pieces/000003.vtu");
+};
+
+TEST_F(NeighborIdsOfDamagedPieces, AreNotMade)
+{
+  this->Options.Progress = [this, isDone = false](double done) mutable
+  {
+    if (done >= 0.92 && !std::exchange(isDone, true)) // pieces are about to be linked
+    {
+      this->damage();
+    }
+    return true;
+  };
+  expectIOError(this->Damaged, "checksum", [this] { this->resume(); });
+  EXPECT_FALSE(fs::exists(this->Mesh));
+  EXPECT_TRUE(fs::exists(this->Folder.path(".mesh.tipp.part/.points.0")));
+}
+
+TEST_F(NeighborIdsOfDamagedPieces, AreMadeOnceThePiecesAreMadeAgain)
+{
+  this->resume();
+  const auto expected = filesOf(this->Mesh);
+  fs::remove_all(this->Mesh);
   this->Options.Progress = [](double done) { return done < 0.9; };
   EXPECT_TRUE(this->resume().Aborted);
   this->Options.Progress = {};
-  const std::string name = ".mesh.tipp.part/mesh.tipp/pieces/000003.vtu";
-  std::string content = contentOf(this->Folder.path(name));
-  for (std::size_t at = content.size() / 4; at < content.size(); at += 40)
-  {
-    content[at] ^= 1;
-  }
-  this->Folder.file(name, content);
-  expectIOError(this->Folder.path(name), "checksum", [this] { this->resume(); });
-  EXPECT_FALSE(fs::exists(this->Mesh));
+  this->damage();
+  std::string warning;
+  this->Options.Warn = [&](const std::string& sentence) { warning = sentence; };
+  this->resume();
+  EXPECT_EQ(0U, warning.find(this->Damaged)) << warning;
+  EXPECT_TRUE(expected == filesOf(this->Mesh));
 }
 
 template <typename Index>

@@ -6,6 +6,7 @@
 #include "Points/WritePoints.h"
 
 #include <filesystem>
+#include <fstream>
 #include <random>
 
 namespace
@@ -116,6 +117,92 @@ TEST_F(OutOfCoreBegun, NamesADamagedPlan)
   this->Folder.file(".mesh.tipp.part/.plan", content);
   this->Options.Resume = true;
   expectIOError(plan, "is damaged", [this] { this->run(); });
+}
+
+TEST_F(OutOfCoreBegun, NamesAMissingPlan)
+{
+  const std::string plan = this->Folder.path(".mesh.tipp.part/.plan");
+  fs::remove(plan);
+  this->Options.Resume = true;
+  expectIOError(plan, "is missing", [this] { this->run(); });
+  EXPECT_TRUE(fs::exists(this->Folder.path(".mesh.tipp.part/.state")));
+}
+
+class OutOfCoreDamaged : public OutOfCoreBegun
+{
+protected:
+  /// Resumes, and expects a warning that names the file, and the files of an undisturbed run.
+  void expectMadeAgain(const std::string& damaged)
+  {
+    std::vector<std::string> warnings;
+    this->Options.Warn = [&](const std::string& sentence) { warnings.push_back(sentence); };
+    this->Options.Resume = true;
+    EXPECT_TRUE(this->run().Resumed);
+    ASSERT_EQ(1U, warnings.size());
+    EXPECT_EQ(0U, warnings[0].find(damaged)) << warnings[0];
+    const auto resumed = this->files();
+    fs::remove_all(this->Folder.path("mesh.tipp"));
+    this->run();
+    EXPECT_TRUE(resumed == this->files());
+    EXPECT_EQ(1U, warnings.size());
+  }
+
+  void change(const std::string& path) const
+  {
+    std::string content = contentOf(path);
+    for (std::size_t at = 0; at < content.size(); at += 100)
+    {
+      content[at] ^= 1;
+    }
+    std::ofstream(path, std::ios::binary) << content;
+  }
+
+  const std::string Pieces = Folder.path(".mesh.tipp.part/mesh.tipp/pieces");
+};
+
+TEST_F(OutOfCoreDamaged, MakesPiecesAgainThatHaveChanged)
+{
+  for (const auto& piece : fs::directory_iterator(this->Pieces))
+  {
+    this->change(piece.path().string());
+  }
+  this->expectMadeAgain(this->Pieces);
+}
+
+TEST_F(OutOfCoreDamaged, MakesPiecesAgainThatAreCutShort)
+{
+  for (const auto& piece : fs::directory_iterator(this->Pieces))
+  {
+    fs::resize_file(piece, fs::file_size(piece) / 2);
+  }
+  this->expectMadeAgain(this->Pieces);
+}
+
+TEST_F(OutOfCoreDamaged, MakesPiecesAgainThatAreMissing)
+{
+  fs::remove_all(this->Pieces);
+  this->expectMadeAgain(this->Pieces);
+}
+
+TEST_F(OutOfCoreDamaged, MakesPiecesAgainWhereTheStateHasChanged)
+{
+  const std::string state = this->Folder.path(".mesh.tipp.part/.state");
+  this->change(state);
+  this->expectMadeAgain(state);
+}
+
+TEST_F(OutOfCoreDamaged, LeavesNothingOfWhatIsAppendedToPieces)
+{
+  for (const auto& piece : fs::directory_iterator(this->Pieces))
+  {
+    std::ofstream(piece.path(), std::ios::app) << std::string(100000, 'x');
+  }
+  this->Options.Resume = true;
+  this->run();
+  const auto resumed = this->files();
+  fs::remove_all(this->Folder.path("mesh.tipp"));
+  this->run();
+  EXPECT_TRUE(resumed == this->files());
 }
 
 TEST_F(OutOfCoreBegun, NamesSpilledPointsThatAreCutShort)
@@ -229,6 +316,23 @@ TEST_F(OutOfCoreWhole, IsRefusedWhereAFileOfItsMeshIsMissing)
   fs::remove(this->Part + "/mesh.tipp/pieces/000003.vtu");
   this->Options.Resume = true;
   expectIOError(this->Part + "/mesh.tipp", "is damaged", [this] { this->run(); });
+}
+
+TEST_F(OutOfCoreWhole, IsRefusedWhereAnyOfItsFilesHasChanged)
+{
+  this->Options.Resume = true;
+  const std::string mesh = this->Part + "/mesh.tipp/";
+  for (const auto& [name, content] : this->Expected)
+  {
+    std::string damaged = content;
+    damaged[damaged.size() - 8] ^= 1;
+    std::ofstream(mesh + name, std::ios::binary) << damaged;
+    expectIOError(mesh + name, "is damaged", [this] { this->run(); });
+    EXPECT_FALSE(fs::exists(this->Folder.path("mesh.tipp")));
+    std::ofstream(mesh + name, std::ios::binary) << content;
+  }
+  this->expectTheSame(this->run());
+  EXPECT_TRUE(this->Expected == this->files());
 }
 
 TEST_F(OutOfCoreWhole, IsLeftAloneWhereItTookAnotherMeshsPlace)

@@ -6,6 +6,7 @@
 
 #include "Flat/FlatMesh.h"
 #include "Partitioned/MeshIndex.h"
+#include "Partitioned/PieceFile.h"
 #include "Partitioning/PartitionMesh.h"
 
 #include <gtest/gtest.h>
@@ -152,28 +153,80 @@ TEST_F(DamagedMesh, HasSwappedPieces)
   this->expectRefused("pieces/000000.vtu", "does not have the checksum of piece 0");
 }
 
-TEST_F(DamagedMesh, HasOneChangedByteAnywhereInAnArray)
+/// A mesh with each way of borrowing.
+class DamagedArrays : public DamagedMesh
 {
-  const PartitionedMesh mesh = openPartitionedMesh(this->path());
-  const std::string content = contentOf(mesh.piecePath(0));
-  int refused = 0;
-  int tried = 0;
-  for (std::size_t at = content.find("<AppendedData") + 40; at + 60 < content.size(); at += 97)
+protected:
+  /// Calls body() for a mesh of each kind.
+  template <typename Body>
+  void forEachKind(const Body& body) const
   {
-    this->change("pieces/000000.vtu", at);
-    ++tried;
-    try
+    for (const bool duplicate : { false, true })
     {
-      this->readAll();
+      SCOPED_TRACE(duplicate ? "duplicate" : "reference");
+      PartitionOptions options;
+      options.Tiling = *TilingChoice::parse("grid:2x2");
+      options.DuplicateBorrowers = duplicate;
+      partitionMesh(openFlatMesh(this->Folder.path("flat")), this->path(), options);
+      body();
     }
-    catch (const IOError&)
-    {
-      ++refused;
-    }
-    std::ofstream(mesh.piecePath(0), std::ios::binary) << content;
   }
-  // Arrays that VTK alone needs are not read: offsets and types; nor are the gaps between arrays.
-  EXPECT_GT(refused, tried * 3 / 4);
+
+  void verifyAll() const
+  {
+    const PartitionedMesh mesh = openPartitionedMesh(this->path());
+    verifyPvtu(mesh);
+    for (std::size_t i = 0; i < mesh.Pieces.size(); ++i)
+    {
+      ReadCounters counters;
+      PieceFile(mesh, i, counters).verifyAll();
+    }
+  }
+};
+
+TEST_F(DamagedArrays, AreRefusedByTheReaderWhicheverOfThemHasChanged)
+{
+  this->forEachKind(
+    [this]
+    {
+      const PartitionedMesh mesh = openPartitionedMesh(this->path());
+      ReadCounters counters;
+      const PieceFile piece(mesh, 0, counters);
+      const std::string content = contentOf(mesh.piecePath(0));
+      for (std::size_t a = 0; a < piece.arrays().size(); ++a)
+      {
+        const PieceArray& array = piece.arrays()[a];
+        const auto tuples = std::size_t(piece.partStarts(array.ofPoints()).back());
+        const std::size_t begin = piece.table().Offsets[a];
+        const std::size_t bytes = tuples * array.tupleBytes();
+        for (const std::size_t at : { begin, begin + bytes / 2, begin + bytes - 1 })
+        {
+          this->change("pieces/000000.vtu", at);
+          this->expectRefused("pieces/000000.vtu", array.Name + " does not have its checksum");
+          std::ofstream(mesh.piecePath(0), std::ios::binary) << content;
+        }
+      }
+    });
+}
+
+TEST_F(DamagedArrays, AreFoundByteForByte)
+{
+  this->forEachKind(
+    [this]
+    {
+      this->verifyAll();
+      for (const auto& [name, content] : filesOf(this->path()))
+      {
+        for (std::size_t at = 0; at < content.size(); at += at + 40 < content.size() ? 13 : 1)
+        {
+          std::string damaged = content;
+          damaged[at] ^= 0x20;
+          std::ofstream(this->path(name), std::ios::binary) << damaged;
+          expectIOError(this->path(name), "", [this] { this->verifyAll(); });
+        }
+        std::ofstream(this->path(name), std::ios::binary) << content;
+      }
+    });
 }
 
 TEST_F(DamagedMesh, IsOfANewerVersion)

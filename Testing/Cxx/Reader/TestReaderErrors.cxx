@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Flat/FlatMesh.h"
 #include "MessageCounter.h"
+#include "Partitioned/PieceFile.h"
 #include "Partitioning/PartitionMesh.h"
 #include "ReaderTesting.h"
 #include "TemporaryFolder.h"
@@ -8,6 +9,7 @@
 #include "vtkExecutive.h"
 
 #include <cmath>
+#include <fstream>
 
 namespace
 {
@@ -116,4 +118,17 @@ TEST_F(ReaderErrors, CanReadFileTellsMeshesFromOthers)
   EXPECT_EQ(0, this->Reader->CanReadFile(this->path("flat/cells.npy").c_str()));
   EXPECT_EQ(0, this->Reader->CanReadFile(this->path("none").c_str()));
   EXPECT_EQ(0, this->Reader->CanReadFile(nullptr));
+}
+
+/// The reader makes the types itself, but a damaged file is refused.
+TEST_F(ReaderErrors, APieceWhoseTypesHaveChanged)
+{
+  const tipp::PartitionedMesh mesh = tipp::openPartitionedMesh(this->path("stored"));
+  tipp::ReadCounters counters;
+  const tipp::PieceFile piece(mesh, 0, counters);
+  std::string content = tipp::test::contentOf(mesh.piecePath(0));
+  content[piece.table().Offsets[piece.find(tipp::PieceRole::Types)]] ^= 1;
+  std::ofstream(mesh.piecePath(0), std::ios::binary) << content;
+  this->Reader->SetFileName(this->path("stored").c_str());
+  this->expectError("the array types does not have its checksum");
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RunTipp.h"
 
+#include <chrono>
 #include <csignal>
 #include <stdexcept>
+#include <thread>
 
 #include <fcntl.h>
 #include <pty.h>
@@ -70,6 +72,20 @@ Outcome TippProcess::wait() const
   waitpid(this->Process, &status, 0);
   return { WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status),
     contentOf(this->Folder.path(".out")), contentOf(this->Folder.path(".err")) };
+}
+
+void TippProcess::waitUntil(const std::function<bool()>& condition) const
+{
+  const auto hasEnded = [this]
+  {
+    siginfo_t state{};
+    return waitid(P_PID, id_t(this->Process), &state, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+      state.si_pid != 0;
+  };
+  while (!condition() && !hasEnded())
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
 }
 
 Outcome runTipp(const TemporaryFolder& folder, const std::vector<std::string>& arguments)

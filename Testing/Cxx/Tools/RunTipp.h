@@ -4,6 +4,7 @@
 
 #include "TemporaryFolder.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ public:
   void interrupt() const;
   void kill() const;
   Outcome wait() const;
+  /// Returns when the condition holds, or the process has ended.
+  void waitUntil(const std::function<bool()>& condition) const;
 
 private:
   const TemporaryFolder& Folder;

@@ -10,11 +10,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <random>
-#include <thread>
 #include <utility>
 
 #include <sys/resource.h>
@@ -47,19 +45,32 @@ protected:
     return { "delaunay", this->Points, "-o", this->Mesh, "--memory", "2M", "--threads", "2" };
   }
 
-  /// Runs and resumes, each killed at a random moment, a little later than the last, until one
-  /// comes to its end. Returns the number of those killed.
-  int killUntilDone(
-    std::vector<std::string> more, std::mt19937& random, unsigned first, unsigned step) const
+  /// Of the hidden folder beside the mesh.
+  std::size_t workFiles() const
+  {
+    const std::string work = this->Folder.path(".mesh.tipp.part");
+    std::error_code ignored; // files come and go
+    std::size_t count = 0;
+    for (std::filesystem::recursive_directory_iterator at(work, ignored), end; at != end;
+         at.increment(ignored))
+    {
+      ++count;
+    }
+    return count;
+  }
+
+  /// Runs and resumes, each killed when it has made a few files more, until one comes to its end.
+  /// Returns the number of those killed.
+  int killUntilDone(std::vector<std::string> more, std::mt19937& random) const
   {
     std::vector<std::string> arguments = this->command();
     more.emplace_back("--resume");
     arguments.insert(arguments.end(), more.begin(), more.end());
     for (int kills = 0;; ++kills)
     {
+      const std::size_t enough = this->workFiles() + 1 + random() % 4;
       const TippProcess process(this->Folder, arguments);
-      const unsigned longest = first + step * unsigned(kills);
-      std::this_thread::sleep_for(std::chrono::milliseconds(random() % longest));
+      process.waitUntil([&] { return this->workFiles() >= enough; });
       process.kill();
       const Outcome outcome = process.wait();
       if (outcome.ExitCode != -SIGKILL)
@@ -143,7 +154,7 @@ TEST_F(TippOutOfCore, EndsWithTheSameBytesAfterTwentyKills)
   {
     ASSERT_LT(round, 60) << "runs end before they are killed";
     std::filesystem::remove_all(this->Mesh);
-    kills += this->killUntilDone({ "--neighbors" }, random, 150, 40);
+    kills += this->killUntilDone({ "--neighbors" }, random);
     ASSERT_TRUE(expected == filesOf(this->Mesh)) << round;
   }
 }
@@ -240,17 +251,56 @@ TEST_F(TippKilledAtACall, CountsTheSameTriangles)
     });
 }
 
-TEST_F(TippOutOfCore, GoesOnAfterAnInterrupt)
+TEST_F(TippOutOfCore, ResumesAfterInterrupt)
 {
   this->makePoints("uniform", "200000");
   const TippProcess process(this->Folder, this->command());
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  const std::string plan = this->Folder.path(".mesh.tipp.part/.plan");
+  process.waitUntil([&] { return std::filesystem::exists(plan); });
   process.interrupt();
   const Outcome interrupted = process.wait();
   EXPECT_TRUE(interrupted.ExitCode == 130 || interrupted.ExitCode == 0) << interrupted.ExitCode;
   const Outcome resumed = this->run({ "--resume" });
   EXPECT_EQ(0, resumed.ExitCode) << resumed.Err;
   EXPECT_EQ(0, runTipp(this->Folder, { "check", this->Points, this->Mesh }).ExitCode);
+}
+
+TEST_F(TippOutOfCore, MakesPiecesAgainThatAreDamagedBeforeItIsResumed)
+{
+  this->makePoints("uniform", "100000");
+  ASSERT_EQ(0, this->run({}).ExitCode);
+  const auto expected = filesOf(this->Mesh);
+  std::filesystem::remove_all(this->Mesh);
+  const TippProcess process(this->Folder, this->command());
+  const std::string state = this->Folder.path(".mesh.tipp.part/.state");
+  process.waitUntil([&] { return std::filesystem::exists(state); });
+  process.kill();
+  ASSERT_EQ(-SIGKILL, process.wait().ExitCode);
+  for (const auto& piece :
+    std::filesystem::directory_iterator(this->Folder.path(".mesh.tipp.part/mesh.tipp/pieces")))
+  {
+    std::filesystem::resize_file(piece, std::filesystem::file_size(piece) / 2);
+  }
+  const Outcome resumed = this->run({ "--resume" });
+  EXPECT_EQ(0, resumed.ExitCode) << resumed.Err;
+  EXPECT_NE(std::string::npos, resumed.Err.find("is damaged or missing")) << resumed.Err;
+  EXPECT_TRUE(expected == filesOf(this->Mesh));
+}
+
+TEST_F(TippOutOfCore, CheckNamesTheFileOfAMeshThatIsDamaged)
+{
+  this->makePoints("clustered", "10000");
+  ASSERT_EQ(0, this->run({ "--neighbors" }).ExitCode);
+  for (const auto& [name, content] : filesOf(this->Mesh))
+  {
+    std::string damaged = content;
+    damaged[damaged.size() * 3 / 4] ^= 1;
+    const std::string path = this->Folder.file("mesh.tipp/" + name, damaged);
+    const Outcome checked = runTipp(this->Folder, { "check", this->Points, this->Mesh });
+    EXPECT_EQ(1, checked.ExitCode) << name << checked.Out;
+    EXPECT_NE(std::string::npos, checked.Err.find(path)) << checked.Err;
+    this->Folder.file("mesh.tipp/" + name, content);
+  }
 }
 
 TEST_F(TippOutOfCore, GoesOnAfterADiskThatIsFull)
@@ -339,7 +389,7 @@ TEST_F(TippLargeRim, IsMadeAgainAfterKills)
   const auto expected = filesOf(this->Mesh);
   std::filesystem::remove_all(this->Mesh);
   std::mt19937 random(5);
-  const int kills = this->killUntilDone({}, random, 200, 100);
+  const int kills = this->killUntilDone({}, random);
   EXPECT_GT(kills, 0);
   EXPECT_TRUE(expected == filesOf(this->Mesh));
   EXPECT_FALSE(std::filesystem::exists(this->Folder.path(".mesh.tipp.part")));

@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Kills random runs at random moments, several times each, and finishes them.
+
+The finished mesh must be that of an undisturbed run, byte for byte, and nothing else may be left behind. A trial
+returns the number of kills.
+"""
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import time
+
+from campaign import Failure, Tools, contents, main, require_clear_end, run
+
+SIGNALS = (signal.SIGKILL, signal.SIGKILL, signal.SIGTERM, signal.SIGINT)
+DISTRIBUTIONS = ("uniform", "clustered", "kuzmin", "lattice", "coast", "circle")
+
+
+def kill_at_call(tools: Tools):
+    """The library that kills a process before a call of the system, if it is built."""
+    build = pathlib.Path(tools.tipp).resolve().parent.parent
+    return next(iter(sorted(build.glob("Testing/Cxx/Tools/*TIPPKillAtCall.so")) +
+                     sorted(build.glob("lib/**/*TIPPKillAtCall.so"))), None)
+
+
+def processes_of(session):
+    """The living processes of a session: all that a command has started."""
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        if entry.name.isdigit():
+            try:
+                fields = (entry / "stat").read_text().rpartition(")")[2].split()
+            except OSError:
+                continue
+            if int(fields[3]) == session and fields[0] != "Z":
+                found.append((int(entry.name), int(fields[1])))
+    return found
+
+
+class Killed:
+    """A command in a session of its own, to be killed."""
+    def __init__(self, command, folder, env=None):
+        self.command = [str(word) for word in command]
+        self.errors = folder / "errors.txt"
+        with open(self.errors, "wb") as errors:
+            self.process = subprocess.Popen(self.command, stdout=subprocess.DEVNULL, stderr=errors, cwd=folder,
+                                            env=dict(os.environ, **(env or {})), start_new_session=True)
+
+    def wait(self, seconds):
+        """Whether it has ended by then."""
+        try:
+            self.process.wait(seconds)
+            return True
+        except subprocess.TimeoutExpired:
+            return False
+
+    def signal(self, number, rng):
+        """Sends the signal to the command or, SIGKILL alone, to any process that it has started."""
+        targets = [self.process.pid]
+        if number == signal.SIGKILL:
+            targets += [pid for pid, _ in processes_of(self.process.pid)]
+        try:
+            os.kill(rng.choice(targets), number)
+        except ProcessLookupError:
+            pass
+
+    def end(self):
+        """Waits until all of its processes have ended. Returns the exit code and what it wrote to stderr."""
+        if not self.wait(60):
+            for pid, _ in processes_of(self.process.pid):
+                os.kill(pid, signal.SIGKILL)
+            self.process.wait()
+            raise Failure(f"{' '.join(self.command)}: still running 60 s after a signal")
+        limit = time.monotonic() + 30
+        while processes_of(self.process.pid):
+            if time.monotonic() > limit:
+                for pid, _ in processes_of(self.process.pid):
+                    os.kill(pid, signal.SIGKILL)
+                raise Failure(f"{' '.join(self.command)}: a process of it lives on after it has ended")
+            time.sleep(0.005)
+        error = self.errors.read_text(errors="replace")
+        self.errors.unlink()
+        return self.process.returncode, error
+
+
+def delaunay(rng, folder, tools):
+    """A command that can be resumed, and the same without others that share the work."""
+    distribution = rng.choice(DISTRIBUTIONS)
+    count = rng.randint(20, 40 if distribution == "circle" else 200) * 1000
+    require_clear_end(run([tools.tipp, "points", "--distribution", distribution, "--count", count, "--seed",
+                           rng.randint(1, 1000), "-o", "points.npy"], cwd=folder), (0,))
+    options = ["--memory", f"{rng.randint(2, 16)}M"]
+    options += ["--neighbors"] if rng.random() < 0.4 else []
+    options += ["--map-duplicates"] if rng.random() < 0.2 else []
+    plain = [tools.tipp, "delaunay", "points.npy", "-o", "mesh.tipp", *options, "--threads", "2"]
+    command = plain[:-1] + [rng.randint(1, 3)]
+    if rng.random() < 0.15:
+        command = [tools.mpiexec, "--oversubscribe", "--bind-to", "none", "-np", "2", *command]
+    return plain, command, [*command, "--resume"]
+
+
+def partition(rng, folder, tools):
+    """A command that starts again."""
+    require_clear_end(run([tools.tipp, "points", "--distribution", "clustered", "--count", rng.randint(20, 60) * 1000,
+                           "-o", "points.npy"], cwd=folder), (0,))
+    require_clear_end(run([tools.tipp, "delaunay", "points.npy", "-o", "mesh.vtu"], cwd=folder), (0,))
+    command = [tools.tipp, "partition", "mesh.vtu", "-o", "mesh.tipp",
+               "--tiling", rng.choice(("grid:5x4", "quadtree:4000")),
+               "--borrowers", rng.choice(("reference", "duplicate")), "--threads", rng.randint(1, 3)]
+    return command, command, command
+
+
+def trial(rng: random.Random, folder: pathlib.Path, tools: Tools):
+    """One command, killed until it was killed often enough, and compared."""
+    plain, command, resume = (delaunay if rng.random() < 0.8 else partition)(rng, folder, tools)
+    undisturbed = run(plain, cwd=folder)
+    require_clear_end(undisturbed, (0,))
+    expected = contents(folder)
+    mesh = folder / "mesh.tipp"
+    library = kill_at_call(tools) if command[0] == tools.tipp else None
+    mesh.rename(folder / "older.tipp")
+    kills, wanted = 0, rng.randint(4, 8)
+    for attempt in range(100):
+        env = {}
+        if library and rng.random() < 0.4:
+            env = {"LD_PRELOAD": str(library), "TIPP_KILL_AT": str(rng.randint(1, 25))}
+        killed = Killed(command if kills == 0 else resume, folder, env)
+        if not killed.wait(60 if env else rng.uniform(0, 1.1 * undisturbed.seconds)):
+            killed.signal(rng.choice(SIGNALS), rng)
+        code, error = killed.end()
+        if code == 0:
+            finished = contents(mesh)
+            if finished != contents(folder / "older.tipp"):
+                raise Failure(f"{killed.command}: another mesh after {kills} kills")
+            if kills >= wanted or attempt >= 3 * wanted:
+                break
+            if rng.random() < 0.7:  # else it takes the place of the one before
+                run(["rm", "-r", mesh])
+            continue
+        if code > 0 and code != 130 and command[0] == tools.tipp:
+            raise Failure(f"{killed.command}: exit code {code} after {kills} kills\n  {error}")
+        kills += 1
+        if kills >= wanted:
+            result = run(resume, cwd=folder)
+            require_clear_end(result, (0,))
+            break
+    run(["rm", "-r", folder / "older.tipp"])
+    left = contents(folder)
+    if left != expected:
+        changed = sorted(name for name in left.keys() | expected.keys() if left.get(name) != expected.get(name))
+        raise Failure(f"{' '.join(map(str, resume))}: after {kills} kills these differ from an undisturbed run, or "
+                      f"are left over or missing: {', '.join(changed[:9])}")
+    known = {name.split("/")[0] for name in expected}
+    others = sorted(path.name for path in folder.iterdir() if path.name not in known)
+    if others:
+        raise Failure(f"{' '.join(map(str, resume))}: leaves {', '.join(others)}")
+    return kills
+
+
+if __name__ == "__main__":
+    sys.exit(main("kill", trial, __doc__))
