@@ -3,6 +3,8 @@
 
 #include "Files/Extension.h"
 #include "Files/IOError.h"
+#include "Vtk/CheckDataSet.h"
+#include "Vtk/CheckVtkFile.h"
 #include "Vtk/ErrorKeeper.h"
 
 #include "vtkDataSet.h"
@@ -23,7 +25,7 @@
 #include "vtkXMLStructuredGridReader.h"
 #include "vtkXMLUnstructuredGridReader.h"
 
-#include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <map>
 #include <type_traits>
@@ -32,19 +34,6 @@ namespace tipp
 {
 namespace
 {
-
-// VTK's texts are "ERROR: In file, line n\nclass (address): what went wrong\n\n".
-std::string lastSentence(const std::string& message)
-{
-  const std::size_t colon = message.find("): ");
-  std::string text = colon == std::string::npos ? message : message.substr(colon + 3);
-  text.erase(std::find(text.begin(), text.end(), '\n'), text.end());
-  while (!text.empty() && (text.back() == '.' || text.back() == ' '))
-  {
-    text.pop_back();
-  }
-  return text;
-}
 
 using ReadFunction = vtkSmartPointer<vtkDataSet> (*)(const std::string&, ErrorKeeper*);
 
@@ -86,7 +75,24 @@ const std::map<std::string, ReadFunction>& readFunctions()
   return functions;
 }
 
+std::atomic<const char*> currentFile{ nullptr };
+
+/// Names the file while this object lives.
+class CurrentFile
+{
+public:
+  explicit CurrentFile(const std::string& path) { currentFile = path.c_str(); }
+  ~CurrentFile() { currentFile = nullptr; }
+  CurrentFile(const CurrentFile&) = delete;
+  CurrentFile& operator=(const CurrentFile&) = delete;
+};
+
 } // namespace
+
+const char* fileBeingRead()
+{
+  return currentFile;
+}
 
 bool isVtkFile(const std::string& path)
 {
@@ -105,15 +111,19 @@ vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path)
   {
     throw IOError(path, "is of a kind that VTK's readers here do not know.");
   }
+  checkVtkFile(path);
+  const CurrentFile current(path);
   vtkSmartPointer<vtkDataSet> data = read->second(path, errors);
   if (errors->HasError || !data)
   {
-    const std::string reason =
-      errors->Message.empty() ? "no data set in it" : lastSentence(errors->Message);
+    std::string reason = errors->message();
+    reason.erase(reason.find_last_not_of(". ") + 1);
+    reason = reason.empty() ? "no data set in it" : reason;
     throw IOError(path,
       "cannot be read as a VTK file (" + reason +
         "); check that it is whole and that its extension is right.");
   }
+  checkDataSet(data, path);
   return data;
 }
 
