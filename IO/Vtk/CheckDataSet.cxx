@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
+#include "Vtk/ArrayNames.h"
 #include "Vtk/CellSizes.h"
 
 #include "vtkAOSDataArrayTemplate.h"
@@ -42,7 +43,68 @@ std::string toText(std::int64_t number)
   return std::to_string(number);
 }
 
-/// The modification time at which a data set passed a check, kept in its information.
+/// What a data set is made of, as one number: times of modification, places in memory and sizes.
+/// Its own time of modification alone does not tell that its cells have been replaced.
+class Stamp
+{
+public:
+  explicit Stamp(vtkDataSet* data)
+  {
+    this->add(data->GetMTime());
+    auto* const set = vtkPointSet::SafeDownCast(data);
+    this->add(set && set->GetPoints() ? set->GetPoints()->GetData() : nullptr);
+    if (auto* const surface = vtkPolyData::SafeDownCast(data))
+    {
+      this->add(surface->GetVerts());
+      this->add(surface->GetLines());
+      this->add(surface->GetPolys());
+      this->add(surface->GetStrips());
+    }
+    if (auto* const grid = vtkUnstructuredGrid::SafeDownCast(data))
+    {
+      this->add(grid->GetCells());
+      this->add(grid->GetCellTypesArray());
+      this->add(grid->GetFaces());
+      this->add(grid->GetFaceLocations());
+    }
+  }
+
+  /// Whether an earlier one with the key's name, kept in the data set's information, is the same.
+  bool isKept(vtkDataSet* data, vtkInformationUnsignedLongKey* key) const
+  {
+    vtkInformation* const info = data->GetInformation();
+    return info->Has(key) && info->Get(key) == this->Value;
+  }
+  void keep(vtkDataSet* data, vtkInformationUnsignedLongKey* key) const
+  {
+    data->GetInformation()->Set(key, this->Value);
+  }
+
+private:
+  void add(std::uint64_t number)
+  {
+    // The finaliser of MurmurHash3.
+    this->Value = (this->Value ^ number) * 0xff51afd7ed558ccdu;
+    this->Value ^= this->Value >> 33;
+  }
+  void add(vtkDataArray* array)
+  {
+    this->add(array ? array->GetMTime() : 0);
+    this->add(array ? std::uint64_t(array->GetNumberOfValues()) : 0);
+    this->add(array && array->HasStandardMemoryLayout()
+        ? std::uint64_t(reinterpret_cast<std::uintptr_t>(array->GetVoidPointer(0)))
+        : 0);
+  }
+  void add(vtkCellArray* cells)
+  {
+    this->add(cells ? cells->GetMTime() : 0);
+    this->add(cells ? cells->GetOffsetsArray() : nullptr);
+    this->add(cells ? cells->GetConnectivityArray() : nullptr);
+  }
+
+  std::uint64_t Value = 0;
+};
+
 vtkInformationUnsignedLongKey* checkedKey()
 {
   static vtkInformationUnsignedLongKey* const key =
@@ -55,12 +117,6 @@ vtkInformationUnsignedLongKey* finiteKey()
   static vtkInformationUnsignedLongKey* const key =
     vtkInformationUnsignedLongKey::MakeKey("FINITE_POINTS", "tipp");
   return key;
-}
-
-bool isStamped(vtkDataSet* data, vtkInformationUnsignedLongKey* key)
-{
-  vtkInformation* const info = data->GetInformation();
-  return info->Has(key) && info->Get(key) == data->GetMTime();
 }
 
 /// The cells of one vtkCellArray, with ids of type Id.
@@ -197,8 +253,8 @@ private:
     const Id* const bad = std::find_if_not(this->Ids + begin, this->Ids + this->Count, isGood);
     const Id* const offset =
       std::upper_bound(this->Offsets, this->Offsets + this->Cells, Id(bad - this->Ids));
-    this->fail("refer to point " + toText(*bad) + " at number " + toText(offset - this->Offsets - 1) +
-      ", but there are " + toText(points) + " points");
+    this->fail("refer to point " + toText(*bad) + " at number " +
+      toText(offset - this->Offsets - 1) + ", but there are " + toText(points) + " points");
   }
 
   void requireSize(std::int64_t cell, int type) const
@@ -277,8 +333,8 @@ public:
       vtkAbstractArray* const array = arrays->GetAbstractArray(i);
       if (array && array->GetNumberOfTuples() < due)
       {
-        this->fail("its array '" + std::string(array->GetName() ? array->GetName() : "") +
-          "' has " + toText(array->GetNumberOfTuples()) + " values for " + toText(due) + " " + of);
+        this->fail("its array '" + shownText(array->GetName() ? array->GetName() : "") + "' has " +
+          toText(array->GetNumberOfTuples()) + " values for " + toText(due) + " " + of);
       }
     }
   }
@@ -497,12 +553,13 @@ void checkPoints(vtkDataSet* data, const std::string& name)
 
 void checkCells(vtkDataSet* data, const std::string& name, int threads)
 {
-  if (!isStamped(data, checkedKey()))
+  const Stamp stamp(data);
+  if (!stamp.isKept(data, checkedKey()))
   {
     const Checker checker(data, name, threads);
     checker.checkPoints();
     checker.checkCells();
-    data->GetInformation()->Set(checkedKey(), data->GetMTime());
+    stamp.keep(data, checkedKey());
   }
 }
 
@@ -515,14 +572,14 @@ void checkDataSet(vtkDataSet* data, const std::string& name, int threads)
 
 bool allPointsFinite(vtkDataSet* data, int threads)
 {
-  // An odd number is a yes.
-  vtkInformation* const info = data->GetInformation();
-  const unsigned long now = 2 * data->GetMTime();
-  if (!info->Has(finiteKey()) || info->Get(finiteKey()) / 2 != now / 2)
+  const Stamp stamp(data);
+  if (stamp.isKept(data, finiteKey()))
   {
-    info->Set(finiteKey(), now + (computeFinite(data, threads) ? 1 : 0));
+    return true;
   }
-  return info->Get(finiteKey()) % 2 == 1;
+  const bool finite = computeFinite(data, threads);
+  finite ? stamp.keep(data, finiteKey()) : void();
+  return finite;
 }
 
 } // namespace tipp

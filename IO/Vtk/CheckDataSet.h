@@ -26,7 +26,7 @@ VTKTIPPIO_EXPORT void checkCells(vtkDataSet* data, const std::string& name, int 
 VTKTIPPIO_EXPORT void checkDataSet(vtkDataSet* data, const std::string& name, int threads = 0);
 ///@}
 
-/// Whether no coordinate is NaN or infinite. The answer is kept as that of checkCells().
+/// Whether no coordinate is NaN or infinite. That there is none is kept as by checkCells().
 VTKTIPPIO_EXPORT bool allPointsFinite(vtkDataSet* data, int threads = 0);
 
 } // namespace tipp

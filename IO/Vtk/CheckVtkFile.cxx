@@ -5,6 +5,7 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Flat/XmlScanner.h"
+#include "Vtk/ArrayNames.h"
 #include "Vtk/LegacyFileCheck.h"
 
 #include <algorithm>
@@ -87,7 +88,9 @@ public:
     }
     if (scanner.failed())
     {
-      this->fail("is not well-formed XML at byte " + std::to_string(scanner.position()));
+      throw IOError(this->File.path(),
+        "cannot be read as a VTK file (it is not well-formed XML at byte " +
+          std::to_string(scanner.position()) + "); check that it is whole.");
     }
   }
 
@@ -99,7 +102,7 @@ private:
 
   [[noreturn]] void failAt(const std::string& key, const std::string& value) const
   {
-    this->fail("gives " + key + "=\"" + value + "\", which its " +
+    this->fail("gives " + key + "=\"" + shownText(value) + "\", which its " +
       std::to_string(this->File.size()) + " bytes cannot hold");
   }
 
@@ -194,7 +197,8 @@ private:
     // Beyond, products of dimensions overflow.
     if (count != 6 || points > 1e18)
     {
-      this->fail(std::string("gives ") + key + "=\"" + text + "\", which is no range of points");
+      this->fail(
+        std::string("gives ") + key + "=\"" + shownText(text) + "\", which is no range of points");
     }
     return points;
   }
@@ -213,7 +217,8 @@ private:
       const bool ofPoints = this->Section == "Points" || this->Section == "PPoints";
       if (ofPoints && *given != 3)
       {
-        this->fail("gives NumberOfComponents=\"" + *text + "\" for its points, which have 3");
+        this->fail(
+          "gives NumberOfComponents=\"" + shownText(*text) + "\" for its points, which have 3");
       }
     }
     if (tag.Name == "PDataArray")
@@ -239,7 +244,7 @@ private:
     if (values > this->Room)
     {
       const std::string* const name = tag.find("Name");
-      this->fail("gives array '" + (name ? *name : "") + "' more values than its " +
+      this->fail("gives array '" + (name ? shownText(*name) : "") + "' more values than its " +
         std::to_string(this->File.size()) + " bytes can hold");
     }
   }

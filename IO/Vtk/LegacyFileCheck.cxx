@@ -3,12 +3,13 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Vtk/ArrayNames.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -117,8 +118,8 @@ private:
     // What is no number, VTK tells.
     if (value && (*value < 0 || double(*value) * each > double(this->Text.size())))
     {
-      this->fail("gives '" + std::string(words[place]) + "' after '" +
-        std::string(words[place > 0 ? place - 1 : 0]) + "', which its " +
+      this->fail("gives '" + shownText(std::string(words[place])) + "' after '" +
+        shownText(std::string(words[place > 0 ? place - 1 : 0])) + "', which its " +
         std::to_string(this->Text.size()) + " bytes cannot hold");
     }
     return value ? double(*value) : 0;

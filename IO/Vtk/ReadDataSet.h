@@ -20,8 +20,8 @@ VTKTIPPIO_EXPORT bool isVtkFile(const std::string& path);
 /// and the data set have passed checkVtkFile() and checkDataSet().
 VTKTIPPIO_EXPORT vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path);
 
-/// The file that readDataSet is reading, null at other times. VTK's readers trust what they read, so
-/// a damaged file can crash them; a program's signal handler can then say which file it was.
+/// The file that readDataSet is reading, null at other times. VTK's readers trust what they read,
+/// so a damaged file can crash them; a program's signal handler can then say which file it was.
 VTKTIPPIO_EXPORT const char* fileBeingRead();
 
 } // namespace tipp

@@ -31,8 +31,9 @@ extern "C" void onCrash(int signal)
   }
   print("tipp: ");
   print(path);
-  print(": cannot be read as a VTK file (VTK's reader crashed); check that it is whole and that its "
-        "extension is right.\n");
+  print(
+    ": cannot be read as a VTK file (VTK's reader crashed); check that it is whole and that its "
+    "extension is right.\n");
   _exit(Failure);
 }
 

@@ -57,6 +57,17 @@ protected:
   TemporaryFolder Folder;
 };
 
+TEST_F(TippPartition, NamesTheFileThatItWasGiven)
+{
+  this->Folder.file("bad.vtk",
+    "# vtk DataFile Version 4.2\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+    "0 0 0 1 0 0 0 nan 0 1 1 0\nCELLS 1 5\n4 0 1 3 2\nCELL_TYPES 1\n9\n");
+  const Outcome outcome = runTipp(this->Folder, { "partition", "bad.vtk", "-o", "mesh" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_EQ("tipp: bad.vtk: point 2 has a coordinate that is not finite; leave such points out.\n",
+    outcome.Err);
+}
+
 TEST_F(TippPartition, SaysWhatItMade)
 {
   const Outcome outcome = this->run({ "--stats", "run.json", "--threads", "2" });
