@@ -9,9 +9,9 @@
 
 #include "vtkDataSet.h"
 #include "vtkDataSetReader.h"
-#include "vtkExecutive.h"
 #include "vtkNew.h"
 #include "vtkOBJReader.h"
+#include "vtkOutputWindow.h"
 #include "vtkPLYReader.h"
 #include "vtkSTLReader.h"
 #include "vtkXMLImageDataReader.h"
@@ -28,27 +28,63 @@
 #include <atomic>
 #include <filesystem>
 #include <map>
-#include <type_traits>
 
 namespace tipp
 {
 namespace
 {
 
-using ReadFunction = vtkSmartPointer<vtkDataSet> (*)(const std::string&, ErrorKeeper*);
+/// Takes, while it lives, what VTK would print: readers have further objects at work whose errors
+/// they do not hand on.
+class ErrorWindow
+{
+public:
+  explicit ErrorWindow(ErrorKeeper* errors)
+    : Before(vtkOutputWindow::GetInstance())
+  {
+    const auto window = vtkSmartPointer<Window>::New();
+    window->Errors = errors;
+    vtkOutputWindow::SetInstance(window);
+  }
+  ~ErrorWindow() { vtkOutputWindow::SetInstance(this->Before); }
+  ErrorWindow(const ErrorWindow&) = delete;
+  ErrorWindow& operator=(const ErrorWindow&) = delete;
+
+private:
+  class Window : public vtkOutputWindow
+  {
+  public:
+    static Window* New()
+    {
+      auto* const window = new Window;
+      window->InitializeObjectBase();
+      return window;
+    }
+    void DisplayText(const char*) override {}
+    void DisplayErrorText(const char* text) override { this->keep(vtkCommand::ErrorEvent, text); }
+    void DisplayWarningText(const char* text) override
+    {
+      this->keep(vtkCommand::WarningEvent, text);
+    }
+
+    vtkSmartPointer<ErrorKeeper> Errors;
+
+  private:
+    void keep(unsigned long event, std::string text)
+    {
+      this->Errors->Execute(nullptr, event, text.data());
+    }
+  };
+
+  vtkSmartPointer<vtkOutputWindow> Before;
+};
+
+using ReadFunction = vtkSmartPointer<vtkDataSet> (*)(const std::string&);
 
 template <typename Reader>
-vtkSmartPointer<vtkDataSet> readWith(const std::string& path, ErrorKeeper* errors)
+vtkSmartPointer<vtkDataSet> readWith(const std::string& path)
 {
   vtkNew<Reader> reader;
-  reader->AddObserver(vtkCommand::ErrorEvent, errors);
-  reader->AddObserver(vtkCommand::WarningEvent, errors);
-  reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
-  if constexpr (std::is_base_of_v<vtkXMLReader, Reader>)
-  {
-    reader->SetReaderErrorObserver(errors);
-    reader->SetParserErrorObserver(errors);
-  }
   reader->SetFileName(path.c_str());
   reader->Update();
   return vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
@@ -113,7 +149,8 @@ vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path)
   }
   checkVtkFile(path);
   const CurrentFile current(path);
-  vtkSmartPointer<vtkDataSet> data = read->second(path, errors);
+  const ErrorWindow window(errors);
+  vtkSmartPointer<vtkDataSet> data = read->second(path);
   if (errors->HasError || !data)
   {
     std::string reason = errors->message();

@@ -134,6 +134,11 @@ TEST_F(CheckVtkFile, LegacyCellsThatDoNotFitTheirCountAreRefused)
     "bad.vtk", changed(wholeLegacy, "POLYGONS 1 4", "POLYGONS 2 4"), "does not fit");
 }
 
+TEST_F(CheckVtkFile, WhatAReadersOwnReaderSaysIsAnError)
+{
+  this->expectRefusal("bad.vtk", changed(wholeLegacy, "0 1 0", "0 nan 0"), "(Unrecognized keyword");
+}
+
 TEST(PlainMessage, HasNoPlaceInTheSourceAndNoAddress)
 {
   EXPECT_EQ(tipp::plainMessage("ERROR: In /build/x (1)/vtkThing.cxx, line 98\n"

@@ -59,9 +59,18 @@ protected:
 
 TEST_F(TippPartition, NamesTheFileThatItWasGiven)
 {
+  // Big-endian: a square, two coordinates of which are 1, one is NaN.
+  std::string doubles(12 * 8, '\0');
+  for (const std::size_t value : { 3, 9, 10 })
+  {
+    doubles.replace(8 * value, 2, "\x3f\xf0");
+  }
+  doubles.replace(8 * 7, 2, "\x7f\xf8");
+  const auto number = [](char value) { return std::string(3, '\0') + value; };
   this->Folder.file("bad.vtk",
-    "# vtk DataFile Version 4.2\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
-    "0 0 0 1 0 0 0 nan 0 1 1 0\nCELLS 1 5\n4 0 1 3 2\nCELL_TYPES 1\n9\n");
+    "# vtk DataFile Version 4.2\nmesh\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n" +
+      doubles + "\nCELLS 1 5\n" + number(4) + number(0) + number(1) + number(3) + number(2) +
+      "\nCELL_TYPES 1\n" + number(9) + "\n");
   const Outcome outcome = runTipp(this->Folder, { "partition", "bad.vtk", "-o", "mesh" });
   EXPECT_EQ(1, outcome.ExitCode);
   EXPECT_EQ("tipp: bad.vtk: point 2 has a coordinate that is not finite; leave such points out.\n",
