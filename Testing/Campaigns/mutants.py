@@ -163,7 +163,7 @@ def make_command(random, path, has_cells, folder):
     if command == "check":
         return ["check", path, path], None
     if command == "partition":
-        return ["partition", path, "-o", folder / "out.tipp", "--tiling", random.choice(["grid:2x2", "quadtree:4"])], folder / "out.tipp"
+        return ["partition", path, "-o", folder / "out.tipp", "--tiling", random.choice(["grid:2x2", "quadtree:10"])], folder / "out.tipp"
     if command == "flatten":
         return ["flatten", path, "-o", folder / "out"], folder / "out"
     words = ["resample", path, "-o", folder / "out.vti"]
