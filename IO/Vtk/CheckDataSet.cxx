@@ -4,7 +4,7 @@
 #include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
 #include "Vtk/ArrayNames.h"
-#include "Vtk/CellSizes.h"
+#include "Vtk/CellArrayCheck.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
@@ -34,14 +34,6 @@ namespace tipp
 {
 namespace
 {
-
-constexpr std::int64_t chunkSize = 1 << 16;
-constexpr const char* repair = "; repair it or write it again.";
-
-std::string toText(std::int64_t number)
-{
-  return std::to_string(number);
-}
 
 /// What a data set is made of, as one number: times of modification, places in memory and sizes.
 /// Its own time of modification alone does not tell that its cells have been replaced.
@@ -119,165 +111,6 @@ vtkInformationUnsignedLongKey* finiteKey()
   return key;
 }
 
-/// The cells of one vtkCellArray, with ids of type Id.
-template <typename Id>
-class CellArrayCheck
-{
-public:
-  CellArrayCheck(vtkAOSDataArrayTemplate<Id>* offsets, vtkAOSDataArrayTemplate<Id>* ids,
-    const std::string& name, const std::string& what, int threads)
-    : Offsets(offsets->GetPointer(0))
-    , Cells(std::max<std::int64_t>(offsets->GetNumberOfValues() - 1, 0))
-    , Ids(ids->GetPointer(0))
-    , Count(ids->GetNumberOfValues())
-    , Name(name)
-    , What(what)
-    , Threads(threads)
-  {
-  }
-
-  void offsets() const
-  {
-    if (this->Cells == 0)
-    {
-      return;
-    }
-    forChunks(this->Cells, chunkSize, this->Threads, {},
-      [this](std::int64_t begin, std::int64_t end, int)
-      {
-        // Negative if an offset or a difference is; without branches, so that it is vectorised.
-        Unsigned all = 0;
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          const auto next = Unsigned(this->Offsets[i + 1]);
-          all |= next | (next - Unsigned(this->Offsets[i]));
-        }
-        if (Id(all) < 0)
-        {
-          this->failAtOffset(begin, end);
-        }
-      });
-    if (this->Offsets[0] != 0 || std::int64_t(this->Offsets[this->Cells]) > this->Count)
-    {
-      this->fail("begin at vertex id " + toText(this->Offsets[0]) + " and end at " +
-        toText(this->Offsets[this->Cells]) + " of " + toText(this->Count));
-    }
-  }
-
-  /// After offsets().
-  void ids(std::int64_t points) const
-  {
-    const std::int64_t used = this->Cells > 0 ? std::int64_t(this->Offsets[this->Cells]) : 0;
-    const auto last = Unsigned(std::min<std::int64_t>(points - 1, std::numeric_limits<Id>::max()));
-    forChunks(used, chunkSize, this->Threads, {},
-      [&](std::int64_t begin, std::int64_t end, int)
-      {
-        Unsigned all = 0; // negative if an id is, or is above the last one
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          const auto id = Unsigned(this->Ids[i]);
-          all |= id | (last - id);
-        }
-        if (points == 0 || Id(all) < 0)
-        {
-          this->failAtId(begin, points);
-        }
-      });
-  }
-
-  /// After offsets(); the size of each cell is one that its type allows.
-  void sizes(const unsigned char* types) const
-  {
-    forChunks(this->Cells, chunkSize, this->Threads, {},
-      [&](std::int64_t begin, std::int64_t end, int)
-      {
-        const Id size = Id(cellSizeOf(types[begin]));
-        const bool uniform = size > 0 &&
-          std::memcmp(types + begin, types + begin + 1, std::size_t(end - begin - 1)) == 0;
-        Unsigned different = uniform ? 0 : 1;
-        for (std::int64_t i = begin; i < end && uniform; ++i)
-        {
-          different |= Unsigned(this->Offsets[i + 1]) - Unsigned(this->Offsets[i]) - Unsigned(size);
-        }
-        for (std::int64_t i = begin; i < end && different != 0; ++i)
-        {
-          this->requireSize(i, types[i]);
-        }
-      });
-  }
-
-  void sizesFrom(std::int64_t least) const
-  {
-    forChunks(this->Cells, chunkSize, this->Threads, {},
-      [&](std::int64_t begin, std::int64_t end, int)
-      {
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          if (this->size(i) < least)
-          {
-            this->fail("have one of " + toText(this->size(i)) + " vertices, number " + toText(i) +
-              ", where " + toText(least) + " are the least");
-          }
-        }
-      });
-  }
-
-private:
-  using Unsigned = std::make_unsigned_t<Id>;
-
-  [[noreturn]] void fail(const std::string& problem) const
-  {
-    throw IOError(this->Name, "its " + this->What + " " + problem + repair);
-  }
-
-  std::int64_t size(std::int64_t cell) const
-  {
-    return std::int64_t(this->Offsets[cell + 1]) - std::int64_t(this->Offsets[cell]);
-  }
-
-  void failAtOffset(std::int64_t begin, std::int64_t end) const
-  {
-    for (std::int64_t i = begin; i < end; ++i)
-    {
-      if (this->Offsets[i] < 0 || this->Offsets[i + 1] < this->Offsets[i])
-      {
-        this->fail("have offsets that do not ascend: " + toText(this->Offsets[i + 1]) + " after " +
-          toText(this->Offsets[i]) + " at number " + toText(i));
-      }
-    }
-  }
-
-  void failAtId(std::int64_t begin, std::int64_t points) const
-  {
-    const auto isGood = [&](Id id) { return id >= 0 && std::int64_t(id) < points; };
-    const Id* const bad = std::find_if_not(this->Ids + begin, this->Ids + this->Count, isGood);
-    const Id* const offset =
-      std::upper_bound(this->Offsets, this->Offsets + this->Cells, Id(bad - this->Ids));
-    this->fail("refer to point " + toText(*bad) + " at number " +
-      toText(offset - this->Offsets - 1) + ", but there are " + toText(points) + " points");
-  }
-
-  void requireSize(std::int64_t cell, int type) const
-  {
-    if (!isCellSize(type, this->size(cell)))
-    {
-      throw IOError(this->Name,
-        "its cell " + toText(cell) + " is of type " + toText(type) +
-          (isCellType(type) ? ", which cannot have " + toText(this->size(cell)) + " vertices"
-                            : ", which VTK does not know") +
-          repair);
-    }
-  }
-
-  const Id* Offsets;
-  std::int64_t Cells;
-  const Id* Ids;
-  std::int64_t Count;
-  const std::string& Name;
-  const std::string& What;
-  int Threads;
-};
-
 /// The checks that all kinds of data sets share.
 class Checker
 {
@@ -334,7 +167,8 @@ public:
       if (array && array->GetNumberOfTuples() < due)
       {
         this->fail("its array '" + shownText(array->GetName() ? array->GetName() : "") + "' has " +
-          toText(array->GetNumberOfTuples()) + " values for " + toText(due) + " " + of);
+          std::to_string(array->GetNumberOfTuples()) + " values for " + std::to_string(due) + " " +
+          of);
       }
     }
   }
@@ -342,14 +176,14 @@ public:
 private:
   [[noreturn]] void fail(const std::string& problem) const
   {
-    throw IOError(this->Name, problem + repair);
+    throw IOError(this->Name, problem + repairAdvice);
   }
 
   void checkCoordinates(vtkPoints* points) const
   {
     if (points && points->GetData()->GetNumberOfComponents() != 3)
     {
-      this->fail("its points have " + toText(points->GetData()->GetNumberOfComponents()) +
+      this->fail("its points have " + std::to_string(points->GetData()->GetNumberOfComponents()) +
         " coordinates each where three are due");
     }
   }
@@ -365,8 +199,8 @@ private:
       const std::int64_t count = axes[axis] ? axes[axis]->GetNumberOfTuples() : 0;
       if (this->Data->GetNumberOfPoints() > 0 && count < dimensions[axis])
       {
-        this->fail(std::string("its axis ") + "xyz"[axis] + " has " + toText(count) +
-          " coordinates for " + toText(dimensions[axis]) + " points");
+        this->fail(std::string("its axis ") + "xyz"[axis] + " has " + std::to_string(count) +
+          " coordinates for " + std::to_string(dimensions[axis]) + " points");
       }
     }
   }
@@ -382,8 +216,9 @@ private:
     }
     if (due > points)
     {
-      this->fail("it has " + toText(points) + " points, too few for a grid of " +
-        toText(dimensions[0]) + " x " + toText(dimensions[1]) + " x " + toText(dimensions[2]));
+      this->fail("it has " + std::to_string(points) + " points, too few for a grid of " +
+        std::to_string(dimensions[0]) + " x " + std::to_string(dimensions[1]) + " x " +
+        std::to_string(dimensions[2]));
     }
   }
 
@@ -395,7 +230,8 @@ private:
     const std::int64_t due = blocks->GetNumberOfCells();
     if (cells < due)
     {
-      this->fail("it has " + toText(cells) + " cells where " + toText(due) + " are due");
+      this->fail(
+        "it has " + std::to_string(cells) + " cells where " + std::to_string(due) + " are due");
     }
     this->checkCellArray(blocks->GetCells(), "cells", 8);
   }
@@ -412,7 +248,8 @@ private:
     const std::int64_t typed = types ? types->GetNumberOfValues() : 0;
     if (typed != count)
     {
-      this->fail("it has " + toText(typed) + " cell types for " + toText(count) + " cells");
+      this->fail(
+        "it has " + std::to_string(typed) + " cell types for " + std::to_string(count) + " cells");
     }
     this->checkCellArray(cells, "cells", 0, types->GetPointer(0));
     const unsigned char* const begin = types->GetPointer(0);
@@ -440,7 +277,7 @@ private:
     {
       if (at < 0 || at >= size)
       {
-        this->fail("its polyhedron " + toText(cell) + " has faces that are not all there");
+        this->fail("its polyhedron " + std::to_string(cell) + " has faces that are not all there");
       }
       return values[at++];
     };
@@ -452,8 +289,8 @@ private:
         const std::int64_t id = take();
         if (id < 0 || id >= points)
         {
-          this->fail("its polyhedron " + toText(cell) + " refers to point " + toText(id) +
-            ", but there are " + toText(points) + " points");
+          this->fail("its polyhedron " + std::to_string(cell) + " refers to point " +
+            std::to_string(id) + ", but there are " + std::to_string(points) + " points");
         }
       }
     }
@@ -500,7 +337,7 @@ bool areFinite(const Real* values, std::int64_t count, int threads)
   constexpr Bits sign = Bits(1) << (8 * sizeof(Bits) - 1);
   constexpr Bits exponent = (sign - 1) >> mantissa << mantissa;
   std::atomic<bool> finite{ true };
-  forChunks(count, chunkSize, threadCount(threads), {},
+  forChunks(count, checkedAtOnce, threadCount(threads), {},
     [&](std::int64_t begin, std::int64_t end, int)
     {
       Bits all = 0;
