@@ -138,7 +138,7 @@ int vtkRangeResampleFilter::RequestInformation(
           {
             throw std::runtime_error("the input has not been made, so its extent is not known.");
           }
-          const std::vector<vtkPointSet*> meshes = tipp::meshesOf(input);
+          const std::vector<vtkPointSet*> meshes = tipp::meshesOf(input, this->NumberOfThreads);
           bounds = this->UseInputBounds ? tipp::boundsOf(meshes, ranks) : bounds;
           dimensions = this->Dimensions(bounds, meshes, ranks);
         });

@@ -14,6 +14,7 @@
 #include "Projection/BoundingPoints.h"
 #include "Projection/FiniteBounds.h"
 #include "Projection/ProjectedPoints.h"
+#include "Vtk/CheckDataSet.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkCellArray.h"
@@ -176,6 +177,7 @@ bool vtkTIPPDelaunay2D::Execute(vtkPointSet* input, vtkPolyData* output, vtkTabl
 {
   this->NumberOfDuplicatePoints = 0;
   this->NumberOfRejectedPoints = 0;
+  tipp::checkPoints(input, "the input");
   vtkSmartPointer<vtkPoints> points = input->GetPoints();
   vtkSmartPointer<vtkAbstractTransform> toPlane = this->Transform;
   if (this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE)

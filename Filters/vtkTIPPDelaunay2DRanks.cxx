@@ -10,6 +10,7 @@
 #include "Output/PointRows.h"
 #include "Output/RankTable.h"
 #include "Projection/ProjectedPoints.h"
+#include "Vtk/CheckDataSet.h"
 
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
@@ -109,6 +110,7 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(
     tipp::Monitor monitor(this);
     tipp::DistributedOptions options = this->OptionsForRanks();
     options.Progress = [&monitor](double fraction) { return monitor(fraction); };
+    tipp::checkPoints(input, "the input");
     const tipp::PointRows rows(ranks, input);
     const tipp::ProjectedPoints projected(input->GetPoints(), this->Transform);
     tipp::RankPoints points;

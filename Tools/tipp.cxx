@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
+#include "Console/CrashReport.h"
 
 #include "vtkLogger.h"
 
@@ -60,6 +61,7 @@ int main(int argc, char** argv)
 {
   // What VTK's readers have to say comes in our own sentence.
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  tipp::reportReaderCrashes();
   try
   {
     return run(argc, argv);

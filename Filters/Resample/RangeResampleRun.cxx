@@ -8,6 +8,7 @@
 #include "Resample/ImageOutput.h"
 #include "Resample/SamplingRange.h"
 #include "Resample/UpdatedInput.h"
+#include "Vtk/ArrayNames.h"
 
 #include "vtkAlgorithmOutput.h"
 #include "vtkDataArraySelection.h"
@@ -41,14 +42,14 @@ void withMemoryAdvice(const Work& work)
   }
 }
 
-/// The meshes of the input; none if it has no data yet.
-std::vector<vtkPointSet*> meshesIn(vtkInformationVector* input)
+} // namespace
+
+/// None if the input has no data yet.
+std::vector<vtkPointSet*> vtkRangeResampleFilter::Run::meshesIn(vtkInformationVector* input) const
 {
   vtkDataObject* const data = vtkDataObject::GetData(input);
-  return data ? tipp::meshesOf(data) : std::vector<vtkPointSet*>();
+  return data ? tipp::meshesOf(data, this->Filter->NumberOfThreads) : std::vector<vtkPointSet*>();
 }
-
-} // namespace
 
 tipp::SamplingSettings vtkRangeResampleFilter::Run::settings(bool merging) const
 {
@@ -85,7 +86,7 @@ void vtkRangeResampleFilter::Run::start(vtkInformationVector* input, vtkInformat
         throw std::runtime_error("with NumberOfInputPieces above 1 the bounds of the input are not "
                                  "known in time: turn UseInputBounds off, set SamplingBounds.");
       }
-      withMemoryAdvice([&] { this->makeImage(meshesIn(input), outInfo); });
+      withMemoryAdvice([&] { this->makeImage(this->meshesIn(input), outInfo); });
     });
 }
 
@@ -110,6 +111,7 @@ void vtkRangeResampleFilter::Run::makeImage(
   else if (outInfo->Has(Pipeline::UPDATE_EXTENT()))
   {
     outInfo->Get(Pipeline::UPDATE_EXTENT(), this->Wanted.Extent.data());
+    this->WantsAll = this->severalRanks() || this->Wanted.Extent == whole;
   }
   tipp::Lattice local = this->Wanted;
   if (this->severalRanks())
@@ -146,7 +148,7 @@ void vtkRangeResampleFilter::Run::addPieces(vtkInformationVector* input)
           throw std::runtime_error(
             "the input has not made its piece " + std::to_string(this->Piece) + ".");
         }
-        withMemoryAdvice([&] { this->add(meshesIn(input)); });
+        withMemoryAdvice([&] { this->add(this->meshesIn(input)); });
       }
       catch (const std::exception&)
       {
@@ -213,6 +215,7 @@ void vtkRangeResampleFilter::Run::makeOutput(vtkImageData* output)
   report.Samples = image->samples();
   report.OutputSeconds = watch.restart();
   tipp::fillTable(report, this->Filter->Statistics);
+  this->warnOfCounts(*image, report.Hits);
   this->warnOfMissing(*image, this->Filter->PointDataArraySelection, false);
   this->warnOfMissing(*image, this->Filter->CellDataArraySelection, true);
 }
@@ -222,6 +225,31 @@ void vtkRangeResampleFilter::Run::warn(const tipp::SampledImage& image) const
   for (const std::string& warning : image.warnings())
   {
     vtkWarningWithObjectMacro(this->Filter, << warning);
+  }
+}
+
+/// Of all ranks, on the first one. Collective.
+void vtkRangeResampleFilter::Run::warnOfCounts(const tipp::SampledImage& image, std::int64_t hits)
+{
+  std::vector<std::int64_t> sums{ this->Image->statistics().NotFinite,
+    this->Image->statistics().Cells, hits, image.samples() };
+  this->Ranks.sum(sums);
+  if (this->Ranks.rank() != 0)
+  {
+    return;
+  }
+  if (sums[0] > 0)
+  {
+    vtkWarningWithObjectMacro(this->Filter,
+      << sums[0]
+      << (sums[0] == 1 ? " cell has a corner with a NaN or infinite coordinate and yields no value."
+                       : " cells have a corner with a NaN or infinite coordinate and yield no "
+                         "value."));
+  }
+  if (sums[1] > 0 && sums[2] == 0 && sums[3] > 0 && this->WantsAll)
+  {
+    vtkWarningWithObjectMacro(this->Filter,
+      "No sample lies in a cell of the mesh: check the range and the number of samples.");
   }
 }
 
@@ -237,7 +265,8 @@ void vtkRangeResampleFilter::Run::warnOfMissing(
     {
       vtkWarningWithObjectMacro(this->Filter,
         "There is no " << (ofCells ? "cell" : "point") << " array '" << name
-                       << "' in the input, so it is not sampled.");
+                       << "' in the input, so it is not sampled"
+                       << tipp::listOfNames(this->Image->namesOf(ofCells), "; there are ") << ".");
     }
   }
 }

@@ -43,7 +43,9 @@ private:
   void add(const std::vector<vtkPointSet*>& meshes);
   void makeOutput(vtkImageData* output);
   tipp::SamplingSettings settings(bool merging) const;
+  std::vector<vtkPointSet*> meshesIn(vtkInformationVector* input) const;
   void warn(const tipp::SampledImage& image) const;
+  void warnOfCounts(const tipp::SampledImage& image, std::int64_t hits);
   void warnOfMissing(tipp::SampledImage& image, vtkDataArraySelection* selection, bool ofCells);
 
   vtkRangeResampleFilter* Filter;
@@ -51,6 +53,7 @@ private:
   tipp::Monitor Progress;
   int Piece = 0;
   bool Stopped = false;
+  bool WantsAll = true; ///< and not a part of the image
   std::exception_ptr Problem;
   tipp::Lattice Wanted; ///< of this rank
   std::unique_ptr<tipp::SampledImage> Image;

@@ -169,9 +169,10 @@ bool SampledImage::accepts(const Array& array, bool ofCells, int type, int compo
 bool SampledImage::add(vtkPointSet* mesh, const Report& progress)
 {
   const Stopwatch watch;
-  SimplexParts parts = makeSimplices(mesh);
+  SimplexParts parts = makeSimplices(mesh, this->Settings.Axes, this->Settings.Threads);
   this->Statistics.PreparationSeconds += watch.seconds();
   this->Statistics.Ignored += parts.Thin;
+  this->Statistics.NotFinite += parts.NotFinite;
   if (parts.Tetrahedra.Mesh.Cells > 0 && this->Dimension != 3)
   {
     this->startAgain();
@@ -309,6 +310,10 @@ void SampledImage::addArrays(vtkDataSetAttributes* data, bool ofCells)
     vtkAbstractArray* const any = data->GetAbstractArray(i);
     const std::string name = any->GetName() ? any->GetName() : "";
     const bool special = name.empty() || name == vtkDataSetAttributes::GhostArrayName();
+    if (!special)
+    {
+      this->Names[ofCells ? 1 : 0].insert(name);
+    }
     if (special || !this->Settings.Selected(ofCells, name))
     {
       continue;

@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,9 @@ struct SamplingSettings
 struct SamplingStatistics
 {
   ClaimStatistics Claims;
-  std::int64_t Cells = 0;   ///< triangles or tetrahedra sampled
-  std::int64_t Ignored = 0; ///< cells of lower dimension than those
+  std::int64_t Cells = 0;     ///< triangles or tetrahedra sampled
+  std::int64_t Ignored = 0;   ///< cells of lower dimension than those
+  std::int64_t NotFinite = 0; ///< cells with a corner that is NaN or infinite
   double PreparationSeconds = 0;
   double ClaimSeconds = 0;
   double InterpolationSeconds = 0;
@@ -69,6 +71,8 @@ public:
   std::vector<Array>& arrays() { return this->Arrays; }
   const std::vector<Array>& arrays() const { return this->Arrays; }
   const SamplingStatistics& statistics() const { return this->Statistics; }
+  /// The named arrays of the meshes added, sampled or not.
+  const std::set<std::string>& namesOf(bool ofCells) const { return this->Names[ofCells ? 1 : 0]; }
   const std::vector<std::string>& warnings() const { return this->Warnings; }
 
   std::int64_t samples() const { return this->Mask->GetNumberOfValues(); }
@@ -111,6 +115,7 @@ private:
   vtkNew<vtkCharArray> Mask;
   std::unique_ptr<CellKey[]> Keys;
   SamplingStatistics Statistics;
+  std::set<std::string> Names[2]; ///< of points and of cells
   std::vector<std::string> Warnings;
 };
 

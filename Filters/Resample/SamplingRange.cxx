@@ -2,15 +2,13 @@
 #include "Resample/SamplingRange.h"
 
 #include "Messages/Postbox.h"
+#include "Resample/SimplexParts.h"
+#include "Vtk/CheckDataSet.h"
 
 #include "vtkBoundingBox.h"
-#include "vtkCellType.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkGenericCell.h"
-#include "vtkNew.h"
 #include "vtkPointSet.h"
-#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
@@ -25,14 +23,26 @@ namespace tipp
 namespace
 {
 
-vtkBoundingBox boxOf(const std::vector<vtkPointSet*>& meshes)
+/// Of the points that are finite along the axes.
+vtkBoundingBox boxOf(const std::vector<vtkPointSet*>& meshes, const std::vector<int>& axes)
 {
   vtkBoundingBox box;
   for (vtkPointSet* mesh : meshes)
   {
-    if (mesh->GetNumberOfPoints() > 0) // without, the bounds are from 1 to -1
+    if (allPointsFinite(mesh))
     {
-      box.AddBounds(mesh->GetBounds());
+      // Without points they are from 1 to -1.
+      mesh->GetNumberOfPoints() > 0 ? box.AddBounds(mesh->GetBounds()) : void();
+      continue;
+    }
+    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+    {
+      double p[3];
+      mesh->GetPoint(i, p);
+      if (std::all_of(axes.begin(), axes.end(), [&](int axis) { return std::isfinite(p[axis]); }))
+      {
+        box.AddPoint(p);
+      }
     }
   }
   return box;
@@ -156,7 +166,7 @@ std::vector<int> surfaceAxes(const std::array<int, 3>& dimensions)
   return dimensions[1] == 1 ? std::vector<int>{ 0, 2 } : std::vector<int>{ 1, 2 };
 }
 
-std::vector<vtkPointSet*> meshesOf(vtkDataObject* data)
+std::vector<vtkPointSet*> meshesOf(vtkDataObject* data, int threads)
 {
   std::vector<vtkPointSet*> meshes;
   const auto add = [&](vtkDataObject* leaf)
@@ -167,6 +177,7 @@ std::vector<vtkPointSet*> meshesOf(vtkDataObject* data)
       throw std::runtime_error(std::string("a ") + leaf->GetClassName() +
         " is no mesh with points and cells of its own: convert it to a vtkUnstructuredGrid.");
     }
+    checkCells(mesh, "the input", threads);
     meshes.push_back(mesh);
   };
   auto* composite = vtkCompositeDataSet::SafeDownCast(data);
@@ -188,20 +199,7 @@ bool areSurfaces(const std::vector<vtkPointSet*>& meshes, Postbox& ranks)
   int volumes = 0;
   for (vtkPointSet* mesh : meshes)
   {
-    // Most meshes tell by their first cell; in polygonal ones no cell does.
-    const vtkIdType cells = vtkPolyData::SafeDownCast(mesh) ? 0 : mesh->GetNumberOfCells();
-    vtkNew<vtkGenericCell> cell;
-    int known = VTK_EMPTY_CELL;
-    for (vtkIdType i = 0; i < cells && volumes == 0; ++i)
-    {
-      const int type = mesh->GetCellType(i);
-      if (type != known)
-      {
-        known = type;
-        cell->SetCellType(type);
-        volumes = int(cell->GetCellDimension() == 3);
-      }
-    }
+    volumes += int(hasVolumes(mesh));
   }
   std::vector<std::int64_t> all{ volumes };
   ranks.sum(all);
@@ -210,7 +208,7 @@ bool areSurfaces(const std::vector<vtkPointSet*>& meshes, Postbox& ranks)
 
 std::array<double, 6> boundsOf(const std::vector<vtkPointSet*>& meshes, Postbox& ranks)
 {
-  vtkBoundingBox box = boxOf(meshes);
+  vtkBoundingBox box = boxOf(meshes, { 0, 1, 2 });
   std::array<double, 6> bounds;
   box.GetBounds(bounds.data());
   ByteWriter writer;
@@ -226,7 +224,8 @@ std::array<double, 6> boundsOf(const std::vector<vtkPointSet*>& meshes, Postbox&
   if (!(bounds[0] <= bounds[1]))
   {
     throw std::runtime_error(
-      "the input has no points, so its bounds give no range: turn UseInputBounds off.");
+      "the input has no points with finite coordinates, so its bounds give no range: turn "
+      "UseInputBounds off.");
   }
   return bounds;
 }
@@ -234,7 +233,7 @@ std::array<double, 6> boundsOf(const std::vector<vtkPointSet*>& meshes, Postbox&
 Lattice cropped(
   const Lattice& lattice, const std::vector<vtkPointSet*>& meshes, const std::vector<int>& axes)
 {
-  const vtkBoundingBox box = boxOf(meshes);
+  const vtkBoundingBox box = boxOf(meshes, axes);
   Lattice result = lattice;
   for (const int axis : axes)
   {

@@ -46,8 +46,8 @@ Lattice rangeLattice(const std::array<double, 6>& bounds, const std::array<int, 
 std::vector<int> surfaceAxes(const std::array<int, 3>& dimensions);
 
 /// The meshes of a data object: itself or its leaves, in order. Throws std::runtime_error if one is
-/// no vtkPointSet.
-std::vector<vtkPointSet*> meshesOf(vtkDataObject* data);
+/// no vtkPointSet or does not pass checkCells().
+std::vector<vtkPointSet*> meshesOf(vtkDataObject* data, int threads);
 
 /// Whether the meshes of all ranks have no cell with a volume. Collective.
 bool areSurfaces(const std::vector<vtkPointSet*>& meshes, Postbox& ranks);

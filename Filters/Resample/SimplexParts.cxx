@@ -2,6 +2,7 @@
 #include "Resample/SimplexParts.h"
 
 #include "Resample/CellPulling.h"
+#include "Vtk/CheckDataSet.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -18,6 +19,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -183,6 +185,34 @@ std::vector<unsigned char> hiddenCells(vtkPointSet* mesh)
   return hidden;
 }
 
+/// Hides the cells that have such a corner, and counts those that were not hidden yet.
+void hideNotFinite(vtkPointSet* mesh, const std::vector<int>& axes, SimplexParts& parts,
+  std::vector<unsigned char>& hidden)
+{
+  const std::vector<int> counting = hasVolumes(mesh) ? std::vector<int>{ 0, 1, 2 } : axes;
+  std::vector<bool> finite(std::size_t(mesh->GetNumberOfPoints()), true);
+  for (std::size_t id = 0; id < finite.size(); ++id)
+  {
+    double p[3];
+    mesh->GetPoint(vtkIdType(id), p);
+    finite[id] = std::all_of(
+      counting.begin(), counting.end(), [&](int axis) { return std::isfinite(p[axis]); });
+  }
+  hidden.resize(std::size_t(mesh->GetNumberOfCells()), 0);
+  vtkNew<vtkIdList> ids;
+  for (std::size_t cell = 0; cell < hidden.size(); ++cell)
+  {
+    mesh->GetCellPoints(vtkIdType(cell), ids);
+    const bool whole =
+      std::all_of(ids->begin(), ids->end(), [&](vtkIdType id) { return finite[std::size_t(id)]; });
+    if (!whole && hidden[cell] == 0)
+    {
+      hidden[cell] = 1;
+      ++parts.NotFinite;
+    }
+  }
+}
+
 void finish(SimplexSet& simplices, int dimension, const SimplexParts& parts)
 {
   SimplexMesh& mesh = simplices.Mesh;
@@ -201,7 +231,29 @@ void finish(SimplexSet& simplices, int dimension, const SimplexParts& parts)
 
 } // namespace
 
-SimplexParts makeSimplices(vtkPointSet* mesh)
+bool hasVolumes(vtkPointSet* mesh)
+{
+  // In polygonal meshes no cell has one.
+  const vtkIdType cells = vtkPolyData::SafeDownCast(mesh) ? 0 : mesh->GetNumberOfCells();
+  vtkNew<vtkGenericCell> cell;
+  int known = VTK_EMPTY_CELL;
+  for (vtkIdType i = 0; i < cells; ++i)
+  {
+    const int type = mesh->GetCellType(i);
+    if (type != known)
+    {
+      known = type;
+      cell->SetCellType(type);
+      if (cell->GetCellDimension() == 3)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+SimplexParts makeSimplices(vtkPointSet* mesh, const std::vector<int>& axes, int threads)
 {
   SimplexParts parts;
   parts.Triangles.Mesh.Dimension = 2;
@@ -213,6 +265,10 @@ SimplexParts makeSimplices(vtkPointSet* mesh)
   }
   parts.Coordinates = coordinatesOf(mesh);
   std::vector<unsigned char> hidden = hiddenCells(mesh);
+  if (!allPointsFinite(mesh, threads))
+  {
+    hideNotFinite(mesh, axes, parts, hidden);
+  }
   if (takeUniform(mesh, VTK_TRIANGLE, parts.Triangles))
   {
     parts.Triangles.Hidden = std::move(hidden);

@@ -30,7 +30,8 @@ struct SimplexParts
 {
   SimplexSet Triangles;
   SimplexSet Tetrahedra;
-  std::int64_t Thin = 0; ///< vertices and lines, which cover no sample
+  std::int64_t Thin = 0;      ///< vertices and lines, which cover no sample
+  std::int64_t NotFinite = 0; ///< cells left out for a corner whose coordinates are not finite
 
   vtkSmartPointer<vtkDataArray> Coordinates; ///< float or double
 };
@@ -38,8 +39,12 @@ struct SimplexParts
 /// Triangles and tetrahedra as they are; other cells cut up. Hexahedra, voxels, wedges, pyramids,
 /// quads and pixels are cut by their lexicographically least corners, so that neighbours agree and
 /// neither order nor ids matter; other types as VTK does it. Cells that vtkGhostType hides are left
-/// out.
-SimplexParts makeSimplices(vtkPointSet* mesh);
+/// out, and those with a corner that is NaN or infinite along one of the axes that count: `axes`,
+/// or all three if the mesh has cells with a volume. The mesh has passed checkCells().
+SimplexParts makeSimplices(vtkPointSet* mesh, const std::vector<int>& axes, int threads);
+
+/// Whether it has cells with a volume.
+bool hasVolumes(vtkPointSet* mesh);
 
 /// Hides the simplices that have a corner marked.
 void hideMarked(SimplexSet& simplices, const std::vector<bool>& markedPoints);

@@ -3,6 +3,7 @@
 
 #include "Arrays/ScalarTypes.h"
 #include "Flat/Simplices.h"
+#include "Vtk/CheckDataSet.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -129,6 +130,7 @@ FlatArray parentArray(std::vector<std::int64_t> parents)
 
 Flattened flattenDataSet(vtkDataSet* data, const std::string& path)
 {
+  checkDataSet(data, path);
   Simplices simplices = simplicesOf(data, path);
   Flattened flattened;
   flattened.Cut = std::move(simplices.Cut);

@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Partitioning/Ranks.h"
+#include "Vtk/CheckDataSet.h"
 
 #include "vtkAppendFilter.h"
 #include "vtkDataSet.h"
@@ -64,6 +65,14 @@ vtkSmartPointer<vtkDataSet> gatherDataSets(
 {
   const Ranks ranks(controller);
   DataSets sets = dataSetsIn(data);
+  ranks.attempt(
+    [&]
+    {
+      for (const vtkSmartPointer<vtkDataSet>& set : sets)
+      {
+        checkDataSet(set, "the input");
+      }
+    });
   const std::int64_t count = ranks.sum({ std::int64_t(sets.size()) })[0];
   if (count == 0)
   {

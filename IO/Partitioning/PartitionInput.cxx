@@ -35,6 +35,18 @@ void removeOwnIds(FlatContent& content)
   drop(content.CellData, cellIdsName);
 }
 
+/// The message with the input's name where it names a file of the temporary flat mesh.
+std::string inNameOf(std::string message, const std::string& folder, const std::string& name)
+{
+  const std::size_t begin = message.find(folder);
+  if (begin != std::string::npos)
+  {
+    const std::size_t end = std::min(message.find_first_of(":,", begin), message.size());
+    message.replace(begin, end - begin, name);
+  }
+  return message;
+}
+
 } // namespace
 
 PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
@@ -57,9 +69,16 @@ PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
       }
     });
   folder = ranks.broadcast(folder);
-  FlatMesh mesh;
-  ranks.attempt([&] { mesh = openFlatMesh(folder); });
-  return partitionMesh(mesh, output, options, controller);
+  try
+  {
+    FlatMesh mesh;
+    ranks.attempt([&] { mesh = openFlatMesh(folder); });
+    return partitionMesh(mesh, output, options, controller);
+  }
+  catch (const IOError& error)
+  {
+    throw IOError(inNameOf(error.what(), folder, name));
+  }
 }
 
 PartitionStatistics partitionInput(const std::string& input, const std::string& output,

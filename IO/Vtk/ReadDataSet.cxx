@@ -3,13 +3,15 @@
 
 #include "Files/Extension.h"
 #include "Files/IOError.h"
+#include "Vtk/CheckDataSet.h"
+#include "Vtk/CheckVtkFile.h"
 #include "Vtk/ErrorKeeper.h"
 
 #include "vtkDataSet.h"
 #include "vtkDataSetReader.h"
-#include "vtkExecutive.h"
 #include "vtkNew.h"
 #include "vtkOBJReader.h"
+#include "vtkOutputWindow.h"
 #include "vtkPLYReader.h"
 #include "vtkSTLReader.h"
 #include "vtkXMLImageDataReader.h"
@@ -23,43 +25,66 @@
 #include "vtkXMLStructuredGridReader.h"
 #include "vtkXMLUnstructuredGridReader.h"
 
-#include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <map>
-#include <type_traits>
 
 namespace tipp
 {
 namespace
 {
 
-// VTK's texts are "ERROR: In file, line n\nclass (address): what went wrong\n\n".
-std::string lastSentence(const std::string& message)
+/// Takes, while it lives, what VTK would print: readers have further objects at work whose errors
+/// they do not hand on.
+class ErrorWindow
 {
-  const std::size_t colon = message.find("): ");
-  std::string text = colon == std::string::npos ? message : message.substr(colon + 3);
-  text.erase(std::find(text.begin(), text.end(), '\n'), text.end());
-  while (!text.empty() && (text.back() == '.' || text.back() == ' '))
+public:
+  explicit ErrorWindow(ErrorKeeper* errors)
+    : Before(vtkOutputWindow::GetInstance())
   {
-    text.pop_back();
+    const auto window = vtkSmartPointer<Window>::New();
+    window->Errors = errors;
+    vtkOutputWindow::SetInstance(window);
   }
-  return text;
-}
+  ~ErrorWindow() { vtkOutputWindow::SetInstance(this->Before); }
+  ErrorWindow(const ErrorWindow&) = delete;
+  ErrorWindow& operator=(const ErrorWindow&) = delete;
 
-using ReadFunction = vtkSmartPointer<vtkDataSet> (*)(const std::string&, ErrorKeeper*);
+private:
+  class Window : public vtkOutputWindow
+  {
+  public:
+    static Window* New()
+    {
+      auto* const window = new Window;
+      window->InitializeObjectBase();
+      return window;
+    }
+    void DisplayText(const char*) override {}
+    void DisplayErrorText(const char* text) override { this->keep(vtkCommand::ErrorEvent, text); }
+    void DisplayWarningText(const char* text) override
+    {
+      this->keep(vtkCommand::WarningEvent, text);
+    }
+
+    vtkSmartPointer<ErrorKeeper> Errors;
+
+  private:
+    void keep(unsigned long event, std::string text)
+    {
+      this->Errors->Execute(nullptr, event, text.data());
+    }
+  };
+
+  vtkSmartPointer<vtkOutputWindow> Before;
+};
+
+using ReadFunction = vtkSmartPointer<vtkDataSet> (*)(const std::string&);
 
 template <typename Reader>
-vtkSmartPointer<vtkDataSet> readWith(const std::string& path, ErrorKeeper* errors)
+vtkSmartPointer<vtkDataSet> readWith(const std::string& path)
 {
   vtkNew<Reader> reader;
-  reader->AddObserver(vtkCommand::ErrorEvent, errors);
-  reader->AddObserver(vtkCommand::WarningEvent, errors);
-  reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
-  if constexpr (std::is_base_of_v<vtkXMLReader, Reader>)
-  {
-    reader->SetReaderErrorObserver(errors);
-    reader->SetParserErrorObserver(errors);
-  }
   reader->SetFileName(path.c_str());
   reader->Update();
   return vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
@@ -86,7 +111,24 @@ const std::map<std::string, ReadFunction>& readFunctions()
   return functions;
 }
 
+std::atomic<const char*> currentFile{ nullptr };
+
+/// Names the file while this object lives.
+class CurrentFile
+{
+public:
+  explicit CurrentFile(const std::string& path) { currentFile = path.c_str(); }
+  ~CurrentFile() { currentFile = nullptr; }
+  CurrentFile(const CurrentFile&) = delete;
+  CurrentFile& operator=(const CurrentFile&) = delete;
+};
+
 } // namespace
+
+const char* fileBeingRead()
+{
+  return currentFile;
+}
 
 bool isVtkFile(const std::string& path)
 {
@@ -105,15 +147,20 @@ vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path)
   {
     throw IOError(path, "is of a kind that VTK's readers here do not know.");
   }
-  vtkSmartPointer<vtkDataSet> data = read->second(path, errors);
+  checkVtkFile(path);
+  const CurrentFile current(path);
+  const ErrorWindow window(errors);
+  vtkSmartPointer<vtkDataSet> data = read->second(path);
   if (errors->HasError || !data)
   {
-    const std::string reason =
-      errors->Message.empty() ? "no data set in it" : lastSentence(errors->Message);
+    std::string reason = errors->message();
+    reason.erase(reason.find_last_not_of(". ") + 1);
+    reason = reason.empty() ? "no data set in it" : reason;
     throw IOError(path,
       "cannot be read as a VTK file (" + reason +
         "); check that it is whole and that its extension is right.");
   }
+  checkDataSet(data, path);
   return data;
 }
 

@@ -12,6 +12,7 @@
 #include "Npy/NpyFile.h"
 #include "OpenCL/DeviceChoice.h"
 #include "Partitioned/PartitionedMesh.h"
+#include "Vtk/ArrayNames.h"
 #include "Vtk/ErrorKeeper.h"
 #include "Vtk/ReadDataSet.h"
 #include "vtkPartitionedUnstructuredReader.h"
@@ -22,10 +23,12 @@
 #include "vtkDataArray.h"
 #include "vtkDataArraySelection.h"
 #include "vtkDataSet.h"
+#include "vtkExecutive.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
 #include "vtkTable.h"
 #include "vtkXMLImageDataWriter.h"
 
@@ -35,6 +38,8 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -91,7 +96,10 @@ void chooseArrays(
       ->EnableArray(name.c_str());
     if (!ofPoints && !mesh->GetCellData()->HasArray(name.c_str()))
     {
-      throw IOError(arguments.Input, "has no array '" + name + "'.");
+      std::set<std::string> names = arrayNames(mesh->GetPointData());
+      names.merge(arrayNames(mesh->GetCellData()));
+      throw IOError(
+        arguments.Input, "has no array '" + name + "'" + listOfNames(names, "; it has ") + ".");
     }
     vtkDataSetAttributes* const data =
       ofPoints ? static_cast<vtkDataSetAttributes*>(mesh->GetPointData()) : mesh->GetCellData();
@@ -215,7 +223,7 @@ vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments)
   vtkSmartPointer<vtkDataSet> mesh = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
   if (!mesh || errors->HasError)
   {
-    throw IOError(errors->Message);
+    throw IOError(errors->message());
   }
   // What the reader adds is no field to sample.
   for (vtkDataSetAttributes* const data :
@@ -236,13 +244,43 @@ vtkSmartPointer<vtkDataSet> readMeshToSample(const ResampleArguments& arguments)
   // A .vtu may be flat, too; VTK's reader takes those of other cells as well.
   const bool stored = isPartitionedMesh(arguments.Input) ||
     (isFlatMesh(arguments.Input) && !isVtkFile(arguments.Input));
-  return stored ? readRange(arguments) : readDataSet(arguments.Input);
+  const vtkSmartPointer<vtkDataSet> mesh =
+    stored ? readRange(arguments) : readDataSet(arguments.Input);
+  if (!vtkPointSet::SafeDownCast(mesh))
+  {
+    throw IOError(arguments.Input,
+      std::string("holds a ") + mesh->GetClassName() +
+        ", which is a grid without points of its own; 'tipp flatten' makes a mesh of it.");
+  }
+  return mesh;
+}
+
+/// The filter's message, with what the user has set here instead of the filter's properties.
+std::string reasonOf(std::string message)
+{
+  const std::vector<std::pair<std::string, std::string>> names = {
+    { "Resampling: ", "" },
+    { "turn UseInputBounds off", "give --bounds" },
+    { "SamplingDimensions", "--dims" },
+    { "Delta", "--delta" },
+  };
+  for (const auto& [property, option] : names)
+  {
+    const std::size_t at = message.find(property);
+    if (at != std::string::npos)
+    {
+      message.replace(at, property.size(), option);
+    }
+  }
+  return "cannot be resampled: " + message;
 }
 
 int runResample(const ResampleArguments& arguments)
 {
-  // Before the work rather than after it.
-  const PendingFile writable(arguments.Output);
+  {
+    // Before the work rather than after it.
+    const PendingFile writable(arguments.Output);
+  }
   watchForInterrupt();
   const vtkSmartPointer<vtkDataSet> mesh = readMeshToSample(arguments);
   vtkNew<vtkRangeResampleFilter> filter;
@@ -262,6 +300,7 @@ int runResample(const ResampleArguments& arguments)
   filter->AddObserver(vtkCommand::ProgressEvent, progress);
   vtkNew<ErrorKeeper> problems;
   filter->AddObserver(vtkCommand::ErrorEvent, problems);
+  filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, problems);
   vtkNew<ErrorKeeper> warnings;
   filter->AddObserver(vtkCommand::WarningEvent, warnings);
   filter->Update();
@@ -271,11 +310,11 @@ int runResample(const ResampleArguments& arguments)
   }
   if (problems->HasError)
   {
-    throw IOError(arguments.Input, "cannot be resampled: " + problems->Message);
+    throw IOError(arguments.Input, reasonOf(problems->message()));
   }
-  if (!warnings->Message.empty())
+  for (const std::string& warning : warnings->Messages)
   {
-    fmt::print(stderr, "tipp: warning: {}\n", warnings->Message);
+    fmt::print(stderr, "tipp: warning: {}: {}\n", arguments.Input, warning);
   }
   if (extensionOf(arguments.Output) == ".npy")
   {

@@ -2,8 +2,10 @@
 // How vtkTIPPDelaunay2D runs in a pipeline: when, how far, how it ends, what it tells.
 #include "Delaunay2DTesting.h"
 
+#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkTransform.h"
@@ -204,6 +206,23 @@ TEST(Delaunay2DRun, LackOfMemoryIsAnError)
 TEST(Delaunay2DRun, ExceptionsAreErrors)
 {
   EXPECT_NE(std::string::npos, errorOf<Shortage>().find("the sky fell"));
+}
+
+TEST(Delaunay2DRun, RefusesPointArraysOfTooFewValues)
+{
+  const auto points = dataset(randomPoints(10));
+  vtkNew<vtkDoubleArray> heat;
+  heat->SetName("heat");
+  heat->SetNumberOfTuples(9);
+  points->GetPointData()->AddArray(heat);
+  vtkNew<vtkTIPPDelaunay2D> delaunay;
+  delaunay->SetInputData(points);
+  Messages messages(delaunay);
+  Messages executive(delaunay->GetExecutive());
+  delaunay->Update();
+  ASSERT_EQ(1U, messages.Errors.size());
+  EXPECT_NE(std::string::npos, messages.Errors[0].find("'heat' has 9 values for 10 points"))
+    << messages.Errors[0];
 }
 
 TEST(Delaunay2DRun, PartitionsScheduleAndThreadsDoNotChangeTheTriangles)

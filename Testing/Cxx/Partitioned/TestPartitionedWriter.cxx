@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshChecks.h"
+#include "MessageCounter.h"
 #include "TemporaryFolder.h"
 
 #include "Partitioned/PartitionedMesh.h"
@@ -8,6 +9,8 @@
 
 #include "vtkCallbackCommand.h"
 #include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
 
@@ -64,6 +67,25 @@ TEST_F(PartitionedWriter, TakesWhatTheReaderGives)
   const PartitionedMesh again = openPartitionedMesh(this->Folder.path("again"));
   EXPECT_EQ(std::int64_t(this->Source.cells()), again.Cells);
   EXPECT_EQ(std::int64_t(this->Source.points()), again.Points);
+}
+
+TEST_F(PartitionedWriter, RefusesIdsOfPointsThatAreNotThere)
+{
+  vtkNew<vtkPoints> points;
+  points->SetNumberOfPoints(4);
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(points);
+  const vtkIdType ids[3] = { 0, 1, 4294967299 };
+  grid->InsertNextCell(VTK_TRIANGLE, 3, ids);
+  vtkNew<MessageCounter> errors;
+  this->Writer->AddObserver(vtkCommand::ErrorEvent, errors);
+  this->Writer->SetInputFileName(nullptr);
+  this->Writer->SetInputData(grid);
+  EXPECT_EQ(0, this->Writer->Write());
+  EXPECT_NE(std::string::npos,
+    errors->Text.find("the input: its cells refer to point 4294967299 at number 0"))
+    << errors->Text;
+  EXPECT_FALSE(std::filesystem::exists(this->Folder.path("mesh")));
 }
 
 } // namespace

@@ -5,12 +5,15 @@
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellData.h"
+#include "vtkCommunicator.h"
 #include "vtkExecutive.h"
 #include "vtkFloatArray.h"
 #include "vtkMultiProcessController.h"
 #include "vtkPartitionedDataSet.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace
 {
@@ -266,4 +269,29 @@ TEST(RangeResampleRanks, AFailureOnOneEndsAll)
   filter->SetSamplingDimensions(fails ? 1 << 20 : 33, fails ? 1 << 20 : 33, 1);
   EXPECT_NE(errorsOf(filter).find("GB of memory"), std::string::npos); // on all
   EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("linear"), nullptr);
+}
+
+TEST(RangeResampleRanks, TheFirstCountsTheCellsOfAllThatAreNotFinite)
+{
+  const auto grid = share(jitteredScene(2, 4, 1));
+  grid->GetPoints()->SetPoint(12, std::nan(""), 0.5, 0);
+  vtkNew<vtkIdList> ids;
+  std::int64_t mine = 0;
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+  {
+    grid->GetCellPoints(cell, ids);
+    mine += ids->IsId(12) >= 0 ? 1 : 0;
+  }
+  std::int64_t all = 0;
+  controller()->AllReduce(&mine, &all, 1, vtkCommunicator::SUM_OP);
+  const auto filter = unitFilter(2, 33);
+  filter->SetInputData(grid);
+  vtkNew<tipp::test::MessageCounter> warnings;
+  filter->AddObserver(vtkCommand::WarningEvent, warnings);
+  filter->Update();
+  const std::string expected = controller()->GetLocalProcessId() == 0
+    ? std::to_string(all) + " cells have a corner with a NaN or infinite coordinate"
+    : "";
+  EXPECT_NE(warnings->Text.find(expected), std::string::npos) << warnings->Text;
+  EXPECT_EQ(warnings->Count, controller()->GetLocalProcessId() == 0 ? 1 : 0);
 }

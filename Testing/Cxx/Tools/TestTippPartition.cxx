@@ -57,6 +57,26 @@ protected:
   TemporaryFolder Folder;
 };
 
+TEST_F(TippPartition, NamesTheFileThatItWasGiven)
+{
+  // Big-endian: a square, two coordinates of which are 1, one is NaN.
+  std::string doubles(12 * 8, '\0');
+  for (const std::size_t value : { 3, 9, 10 })
+  {
+    doubles.replace(8 * value, 2, "\x3f\xf0");
+  }
+  doubles.replace(8 * 7, 2, "\x7f\xf8");
+  const auto number = [](char value) { return std::string(3, '\0') + value; };
+  this->Folder.file("bad.vtk",
+    "# vtk DataFile Version 4.2\nmesh\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n" +
+      doubles + "\nCELLS 1 5\n" + number(4) + number(0) + number(1) + number(3) + number(2) +
+      "\nCELL_TYPES 1\n" + number(9) + "\n");
+  const Outcome outcome = runTipp(this->Folder, { "partition", "bad.vtk", "-o", "mesh" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_EQ("tipp: bad.vtk: point 2 has a coordinate that is not finite; leave such points out.\n",
+    outcome.Err);
+}
+
 TEST_F(TippPartition, SaysWhatItMade)
 {
   const Outcome outcome = this->run({ "--stats", "run.json", "--threads", "2" });

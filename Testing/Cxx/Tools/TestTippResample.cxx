@@ -106,6 +106,110 @@ TEST_F(TippResample, HasTheArraysOfTheMeshAlone)
   EXPECT_EQ(std::string::npos, image.find("Global"));
 }
 
+TEST_F(TippResample, NamesTheArraysThatThereAre)
+{
+  const Outcome outcome = this->run(
+    { "resample", "mesh.vtu", "-o", "image.npy", "--arrays", "depth", "--dims", "8", "8", "1" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_EQ("tipp: mesh.vtu: has no array 'depth'; it has 'height'.\n", outcome.Err);
+}
+
+TEST_F(TippResample, SaysWhatFailedInOneSentence)
+{
+  const Outcome outcome = this->run({ "resample", "mesh.vtu", "-o", "image.vti", "--dims", "8", "8",
+    "1", "--bounds", "nan", "1", "0", "1", "0", "0" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_EQ("tipp: mesh.vtu: cannot be resampled: the range along x is from nan to 1.000000: give "
+            "finite bounds, the lower one first.\n",
+    outcome.Err);
+}
+
+TEST_F(TippResample, WarnsOfARangeOutsideOfTheMesh)
+{
+  const Outcome outcome = this->run({ "resample", "mesh.vtu", "-o", "image.vti", "--dims", "8", "8",
+    "1", "--bounds", "5", "6", "5", "6", "0", "0" });
+  EXPECT_EQ(0, outcome.ExitCode);
+  EXPECT_EQ(
+    "tipp: warning: mesh.vtu: No sample lies in a cell of the mesh: check the range and the "
+    "number of samples.\n",
+    outcome.Err);
+}
+
+TEST_F(TippResample, RefusesAGridWithoutPointsOfItsOwn)
+{
+  ASSERT_EQ(
+    0, this->run({ "resample", "mesh.vtu", "-o", "image.vti", "--dims", "8", "8", "1" }).ExitCode);
+  const Outcome outcome =
+    this->run({ "resample", "image.vti", "-o", "again.vti", "--dims", "8", "8", "1" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("holds a vtkImageData")) << outcome.Err;
+}
+
+/// Files that crash or stop VTK's readers, or whose ids are those of no point.
+class TippDamagedFile : public testing::Test
+{
+protected:
+  /// All commands that read the mesh fail with one line that starts so.
+  void expectRefusal(const std::string& file, const std::string& start) const
+  {
+    for (const Words& words :
+      { Words{ "resample", file, "-o", "image.vti", "--dims", "8", "8", "1" },
+        Words{ "flatten", file, "-o", "flat" }, Words{ "partition", file, "-o", "mesh.tipp" },
+        Words{ "delaunay", file, "-o", "mesh.npy" }, Words{ "check", file, file } })
+    {
+      const Outcome outcome = runTipp(this->Folder, words);
+      EXPECT_EQ(1, outcome.ExitCode) << words[0];
+      EXPECT_EQ(0U, outcome.Err.find("tipp: " + file + ": " + start)) << words[0] << outcome.Err;
+      EXPECT_EQ(outcome.Err.size() - 1, outcome.Err.find('\n')) << words[0] << outcome.Err;
+    }
+    EXPECT_EQ(1U, this->Folder.fileCount() - 2); // beside what runTipp() keeps
+  }
+
+  static std::string surface(const std::string& components, const std::string& id)
+  {
+    return "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+           "header_type=\"UInt64\"><UnstructuredGrid><Piece NumberOfPoints=\"3\" "
+           "NumberOfCells=\"1\"><PointData><DataArray type=\"Float64\" Name=\"heat\" "
+           "NumberOfComponents=\"" +
+      components +
+      "\" format=\"ascii\">1 2 3</DataArray></PointData><Points><DataArray type=\"Float64\" "
+      "Name=\"Points\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0"
+      "</DataArray></Points><Cells><DataArray type=\"Int64\" Name=\"connectivity\" "
+      "format=\"ascii\">0 1 " +
+      id +
+      "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">3</DataArray>"
+      "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">5</DataArray></Cells></Piece>"
+      "</UnstructuredGrid></VTKFile>";
+  }
+
+  TemporaryFolder Folder;
+};
+
+TEST_F(TippDamagedFile, WithIdsOfNoPointIsRefused)
+{
+  for (const char* const id : { "-1", "3", "4294967299", "999999999999" })
+  {
+    this->Folder.file("bad.vtu", surface("1", id));
+    this->expectRefusal("bad.vtu", std::string("its cells refer to point ") + id);
+  }
+}
+
+TEST_F(TippDamagedFile, WithACountThatItCannotHoldIsRefused)
+{
+  this->Folder.file("bad.vtu", surface("4294967296", "2"));
+  this->expectRefusal("bad.vtu", "gives NumberOfComponents=\"4294967296\"");
+}
+
+TEST_F(TippDamagedFile, ThatCrashesVtksReaderIsRefused)
+{
+  this->Folder.file("bad.ply",
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+    "z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 "
+    "0 "
+    "1 999999999\n");
+  this->expectRefusal("bad.ply", "cannot be read as a VTK file (VTK's reader crashed)");
+}
+
 TEST_F(TippResample, NamesAnArrayThatIsNotThere)
 {
   for (const char* const mesh : { "mesh.vtu", "mesh.tipp" })

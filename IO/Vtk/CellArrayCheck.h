@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippCellArrayCheck_h
+#define tippCellArrayCheck_h
+
+#include "Files/IOError.h"
+#include "Parallel/ForChunks.h"
+#include "Vtk/CellSizes.h"
+
+#include "vtkAOSDataArrayTemplate.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <type_traits>
+
+namespace tipp
+{
+
+/// Values that a thread checks at a time.
+constexpr std::int64_t checkedAtOnce = 1 << 16;
+constexpr const char* repairAdvice = "; repair it or write it again.";
+
+/// The cells of one vtkCellArray, with ids of type Id.
+template <typename Id>
+class CellArrayCheck
+{
+public:
+  CellArrayCheck(vtkAOSDataArrayTemplate<Id>* offsets, vtkAOSDataArrayTemplate<Id>* ids,
+    const std::string& name, const std::string& what, int threads)
+    : Offsets(offsets->GetPointer(0))
+    , Cells(std::max<std::int64_t>(offsets->GetNumberOfValues() - 1, 0))
+    , Ids(ids->GetPointer(0))
+    , Count(ids->GetNumberOfValues())
+    , Name(name)
+    , What(what)
+    , Threads(threads)
+  {
+  }
+
+  void offsets() const
+  {
+    if (this->Cells == 0)
+    {
+      return;
+    }
+    forChunks(this->Cells, checkedAtOnce, this->Threads, {},
+      [this](std::int64_t begin, std::int64_t end, int)
+      {
+        // Negative if an offset or a difference is; without branches, so that it is vectorised.
+        Unsigned all = 0;
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          const auto next = Unsigned(this->Offsets[i + 1]);
+          all |= next | (next - Unsigned(this->Offsets[i]));
+        }
+        if (Id(all) < 0)
+        {
+          this->failAtOffset(begin, end);
+        }
+      });
+    if (this->Offsets[0] != 0 || std::int64_t(this->Offsets[this->Cells]) > this->Count)
+    {
+      this->fail("begin at vertex id " + std::to_string(this->Offsets[0]) + " and end at " +
+        std::to_string(this->Offsets[this->Cells]) + " of " + std::to_string(this->Count));
+    }
+  }
+
+  /// After offsets().
+  void ids(std::int64_t points) const
+  {
+    const std::int64_t used = this->Cells > 0 ? std::int64_t(this->Offsets[this->Cells]) : 0;
+    const auto last = Unsigned(std::min<std::int64_t>(points - 1, std::numeric_limits<Id>::max()));
+    forChunks(used, checkedAtOnce, this->Threads, {},
+      [&](std::int64_t begin, std::int64_t end, int)
+      {
+        Unsigned all = 0; // negative if an id is, or is above the last one
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          const auto id = Unsigned(this->Ids[i]);
+          all |= id | (last - id);
+        }
+        if (points == 0 || Id(all) < 0)
+        {
+          this->failAtId(begin, points);
+        }
+      });
+  }
+
+  /// After offsets(); the size of each cell is one that its type allows.
+  void sizes(const unsigned char* types) const
+  {
+    forChunks(this->Cells, checkedAtOnce, this->Threads, {},
+      [&](std::int64_t begin, std::int64_t end, int)
+      {
+        const Id size = Id(cellSizeOf(types[begin]));
+        const bool uniform = size > 0 &&
+          std::memcmp(types + begin, types + begin + 1, std::size_t(end - begin - 1)) == 0;
+        Unsigned different = uniform ? 0 : 1;
+        for (std::int64_t i = begin; i < end && uniform; ++i)
+        {
+          different |= Unsigned(this->Offsets[i + 1]) - Unsigned(this->Offsets[i]) - Unsigned(size);
+        }
+        for (std::int64_t i = begin; i < end && different != 0; ++i)
+        {
+          this->requireSize(i, types[i]);
+        }
+      });
+  }
+
+  void sizesFrom(std::int64_t least) const
+  {
+    forChunks(this->Cells, checkedAtOnce, this->Threads, {},
+      [&](std::int64_t begin, std::int64_t end, int)
+      {
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          if (this->size(i) < least)
+          {
+            this->fail("have one of " + std::to_string(this->size(i)) + " vertices, number " +
+              std::to_string(i) + ", where " + std::to_string(least) + " are the least");
+          }
+        }
+      });
+  }
+
+private:
+  using Unsigned = std::make_unsigned_t<Id>;
+
+  [[noreturn]] void fail(const std::string& problem) const
+  {
+    throw IOError(this->Name, "its " + this->What + " " + problem + repairAdvice);
+  }
+
+  std::int64_t size(std::int64_t cell) const
+  {
+    return std::int64_t(this->Offsets[cell + 1]) - std::int64_t(this->Offsets[cell]);
+  }
+
+  void failAtOffset(std::int64_t begin, std::int64_t end) const
+  {
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      if (this->Offsets[i] < 0 || this->Offsets[i + 1] < this->Offsets[i])
+      {
+        this->fail("have offsets that do not ascend: " + std::to_string(this->Offsets[i + 1]) +
+          " after " + std::to_string(this->Offsets[i]) + " at number " + std::to_string(i));
+      }
+    }
+  }
+
+  void failAtId(std::int64_t begin, std::int64_t points) const
+  {
+    const auto isGood = [&](Id id) { return id >= 0 && std::int64_t(id) < points; };
+    const Id* const bad = std::find_if_not(this->Ids + begin, this->Ids + this->Count, isGood);
+    const Id* const offset =
+      std::upper_bound(this->Offsets, this->Offsets + this->Cells, Id(bad - this->Ids));
+    this->fail("refer to point " + std::to_string(*bad) + " at number " +
+      std::to_string(offset - this->Offsets - 1) + ", but there are " + std::to_string(points) +
+      " points");
+  }
+
+  void requireSize(std::int64_t cell, int type) const
+  {
+    if (!isCellSize(type, this->size(cell)))
+    {
+      throw IOError(this->Name,
+        "its cell " + std::to_string(cell) + " is of type " + std::to_string(type) +
+          (isCellType(type)
+              ? ", which cannot have " + std::to_string(this->size(cell)) + " vertices"
+              : ", which VTK does not know") +
+          repairAdvice);
+    }
+  }
+
+  const Id* Offsets;
+  std::int64_t Cells;
+  const Id* Ids;
+  std::int64_t Count;
+  const std::string& Name;
+  const std::string& What;
+  int Threads;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Vtk/CheckVtkFile.h"
+
+#include "Files/Extension.h"
+#include "Files/IOError.h"
+#include "Files/InputFile.h"
+#include "Flat/XmlScanner.h"
+#include "Vtk/ArrayNames.h"
+#include "Vtk/LegacyFileCheck.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace tipp
+{
+namespace
+{
+
+using Tag = XmlScanner::Tag;
+
+constexpr const char* advised = "; copy or write it again.";
+
+/// No compressor of VTK's writers but lzma makes a block shorter by more.
+constexpr double compression = 1100;
+
+bool isXml(const std::string& extension)
+{
+  const std::array<const char*, 10> known = { ".vti", ".vtp", ".vtr", ".vts", ".vtu", ".pvti",
+    ".pvtp", ".pvtr", ".pvts", ".pvtu" };
+  return std::find(known.begin(), known.end(), extension) != known.end();
+}
+
+/// The text up to the appended data.
+std::string readText(const InputFile& file)
+{
+  constexpr std::uint64_t step = 1 << 16;
+  std::string text;
+  for (std::uint64_t at = 0; at < file.size();)
+  {
+    const auto bytes = std::size_t(std::min(file.size() - at, std::max(step, at)));
+    const std::size_t searched = text.size() - std::min<std::size_t>(text.size(), 64);
+    text.resize(text.size() + bytes);
+    file.read(at, text.data() + at, bytes);
+    at += bytes;
+    const std::size_t tag = text.find("<AppendedData", searched);
+    if (tag != std::string::npos)
+    {
+      text.resize(tag);
+      break;
+    }
+  }
+  return text;
+}
+
+std::optional<std::int64_t> parseCount(std::string text)
+{
+  text.erase(0, text.find_first_not_of(" \t\r\n"));
+  text.erase(text.find_last_not_of(" \t\r\n") + 1);
+  std::int64_t value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && stop == end && !text.empty() ? std::make_optional(value)
+                                                              : std::nullopt;
+}
+
+class XmlCheck
+{
+public:
+  explicit XmlCheck(const std::string& path)
+    : File(path)
+    , Room(double(this->File.size()))
+  {
+  }
+
+  void run()
+  {
+    const std::string text = readText(this->File);
+    XmlScanner scanner(text);
+    for (Tag tag; scanner.next(tag);)
+    {
+      this->take(tag);
+    }
+    if (scanner.failed())
+    {
+      throw IOError(this->File.path(),
+        "cannot be read as a VTK file (it is not well-formed XML at byte " +
+          std::to_string(scanner.position()) + "); check that it is whole.");
+    }
+  }
+
+private:
+  [[noreturn]] void fail(const std::string& problem) const
+  {
+    throw IOError(this->File.path(), problem + advised);
+  }
+
+  [[noreturn]] void failAt(const std::string& key, const std::string& value) const
+  {
+    this->fail("gives " + key + "=\"" + shownText(value) + "\", which its " +
+      std::to_string(this->File.size()) + " bytes cannot hold");
+  }
+
+  void take(const Tag& tag)
+  {
+    if (tag.What == Tag::Close)
+    {
+      return;
+    }
+    if (tag.Name == "VTKFile")
+    {
+      const std::string* const compressor = tag.find("compressor");
+      this->Room *= compressor && !compressor->empty() ? compression : 1;
+    }
+    else if (tag.Name == "Piece")
+    {
+      this->takePiece(tag);
+    }
+    else if (tag.find("WholeExtent"))
+    {
+      this->Whole = this->pointsOf(tag, "WholeExtent");
+    }
+    else if (tag.Name == "DataArray" || tag.Name == "Array" || tag.Name == "PDataArray")
+    {
+      this->takeArray(tag);
+    }
+    else
+    {
+      this->Section = tag.Name;
+    }
+  }
+
+  void takePiece(const Tag& tag)
+  {
+    if (const std::string* const source = tag.find("Source"))
+    {
+      const std::string path =
+        (std::filesystem::path(this->File.path()).parent_path() / *source).string();
+      // A file that is missing is told of by its reader.
+      if (std::filesystem::is_regular_file(path) && extensionOf(path).substr(0, 2) != ".p")
+      {
+        checkVtkFile(path);
+      }
+      return;
+    }
+    this->Points = std::max(this->takeCount(tag, "NumberOfPoints"),
+      std::max(this->Whole, tag.find("Extent") ? this->pointsOf(tag, "Extent") : 0));
+    this->Cells = this->takeCount(tag, "NumberOfCells");
+    for (const char* const kind :
+      { "NumberOfVerts", "NumberOfLines", "NumberOfStrips", "NumberOfPolys" })
+    {
+      this->Cells += this->takeCount(tag, kind);
+    }
+  }
+
+  double takeCount(const Tag& tag, const char* key) const
+  {
+    const std::string* const text = tag.find(key);
+    const std::optional<std::int64_t> count = text ? parseCount(*text) : 0;
+    if (!count || *count < 0 || double(*count) > this->Room)
+    {
+      this->failAt(key, *text);
+    }
+    return double(*count);
+  }
+
+  /// Which have no array of their own in an image.
+  double pointsOf(const Tag& tag, const char* key) const
+  {
+    const std::string& text = *tag.find(key);
+    std::array<double, 6> extent{};
+    std::size_t count = 0;
+    std::size_t at = 0;
+    for (; count < 6 && (at = text.find_first_not_of(" \t\r\n", at)) != std::string::npos; ++count)
+    {
+      const std::size_t end = std::min(text.find_first_of(" \t\r\n", at), text.size());
+      const std::optional<std::int64_t> value = parseCount(text.substr(at, end - at));
+      if (!value || std::fabs(double(*value)) > std::numeric_limits<int>::max())
+      {
+        break;
+      }
+      extent[count] = double(*value);
+      at = end;
+    }
+    double points = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double length = extent[2 * axis + 1] - extent[2 * axis] + 1;
+      points *= std::max(length, 0.0);
+      count = length > std::numeric_limits<int>::max() ? 0 : count;
+    }
+    // Beyond, products of dimensions overflow.
+    if (count != 6 || points > 1e18)
+    {
+      this->fail(
+        std::string("gives ") + key + "=\"" + shownText(text) + "\", which is no range of points");
+    }
+    return points;
+  }
+
+  void takeArray(const Tag& tag) const
+  {
+    double components = 1;
+    if (const std::string* const text = tag.find("NumberOfComponents"))
+    {
+      const std::optional<std::int64_t> given = parseCount(*text);
+      if (!given || *given < 0 || *given > std::numeric_limits<int>::max())
+      {
+        this->failAt("NumberOfComponents", *text);
+      }
+      components = std::max(double(*given), 1.0);
+      const bool ofPoints = this->Section == "Points" || this->Section == "PPoints";
+      if (ofPoints && *given != 3)
+      {
+        this->fail(
+          "gives NumberOfComponents=\"" + shownText(*text) + "\" for its points, which have 3");
+      }
+    }
+    if (tag.Name == "PDataArray")
+    {
+      this->require(components, tag);
+      return;
+    }
+    double tuples = this->takeCount(tag, "NumberOfTuples");
+    this->takeCount(tag, "offset");
+    if (this->Section == "PointData" || this->Section == "Points")
+    {
+      tuples = std::max(this->Points, 1.0);
+    }
+    else if (this->Section == "CellData")
+    {
+      tuples = std::max(this->Cells, 1.0);
+    }
+    this->require(tuples * components, tag);
+  }
+
+  void require(double values, const Tag& tag) const
+  {
+    if (values > this->Room)
+    {
+      const std::string* const name = tag.find("Name");
+      this->fail("gives array '" + (name ? shownText(*name) : "") + "' more values than its " +
+        std::to_string(this->File.size()) + " bytes can hold");
+    }
+  }
+
+  const InputFile File;
+  double Room; ///< the most values of a byte each that the file can hold
+  double Whole = 0;
+  double Points = 0;
+  double Cells = 0;
+  std::string Section;
+};
+
+} // namespace
+
+void checkVtkFile(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  if (isXml(extension))
+  {
+    XmlCheck(path).run();
+  }
+  else if (extension == ".vtk")
+  {
+    checkLegacyFile(path);
+  }
+}
+
+} // namespace tipp
