@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
+#include "Console/Interrupt.h"
+#include "Console/MpiSession.h"
 
 #include "vtkLogger.h"
 
@@ -60,16 +62,21 @@ int main(int argc, char** argv)
 {
   // What VTK's readers have to say comes in our own sentence.
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  tipp::watchForInterrupt(tipp::startedRank());
   try
   {
-    return run(argc, argv);
+    const int exitCode = run(argc, argv);
+    tipp::endWatch();
+    return exitCode;
   }
   catch (const std::bad_alloc&)
   {
+    tipp::endWatch();
     fmt::print(stderr, "tipp: there is not enough memory for this input.\n");
   }
   catch (const std::exception& error)
   {
+    tipp::endWatch();
     fmt::print(stderr, "tipp: {}\n", error.what());
   }
   return tipp::Failure;

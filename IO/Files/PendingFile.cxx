@@ -29,6 +29,7 @@ PendingFile::PendingFile(const std::string& path)
   this->Path = target.string();
   const std::string name = "." + target.filename().string() + "." + std::to_string(getpid());
   this->Temporary = (target.parent_path() / (name + ".tmp")).string();
+  this->Listed.list(this->Temporary);
 }
 
 PendingFile::~PendingFile()
@@ -42,7 +43,7 @@ PendingFile::~PendingFile()
 
 void PendingFile::commit()
 {
-  moveIntoPlace(this->Temporary, this->Path);
+  commitOutput(this->Path, [this] { moveIntoPlace(this->Temporary, this->Path); });
   this->Temporary.clear();
 }
 

@@ -2,6 +2,7 @@
 #ifndef tippPendingFile_h
 #define tippPendingFile_h
 
+#include "Files/TemporaryPath.h"
 #include "vtkTIPPIOModule.h"
 
 #include <string>
@@ -31,6 +32,7 @@ public:
 private:
   std::string Path;
   std::string Temporary;
+  TemporaryPath Listed;
 };
 
 } // namespace tipp

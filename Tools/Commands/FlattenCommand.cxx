@@ -84,7 +84,6 @@ bool writeContent(const FlattenArguments& arguments, const FlatContent& content)
 
 int runFlatten(const FlattenArguments& arguments)
 {
-  watchForInterrupt();
   {
     // Before the work rather than after it.
     const PendingFolder writable(arguments.Output);

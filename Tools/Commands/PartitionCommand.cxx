@@ -86,7 +86,6 @@ PartitionOptions makeOptions(
 int runPartition(const PartitionArguments& arguments)
 {
   const MpiSession session;
-  watchForInterrupt();
   PartitionStatistics statistics;
   try
   {
@@ -114,7 +113,7 @@ int runPartition(const PartitionArguments& arguments)
   }
   if (statistics.Aborted)
   {
-    return session.isFirst() ? reportInterrupt() : interruptedExitCode;
+    return reportInterrupt();
   }
   if (session.isFirst())
   {

@@ -243,7 +243,6 @@ int runResample(const ResampleArguments& arguments)
 {
   // Before the work rather than after it.
   const PendingFile writable(arguments.Output);
-  watchForInterrupt();
   const vtkSmartPointer<vtkDataSet> mesh = readMeshToSample(arguments);
   vtkNew<vtkRangeResampleFilter> filter;
   filter->SetInputData(mesh);

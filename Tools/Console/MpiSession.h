@@ -8,6 +8,9 @@ class vtkMultiProcessController;
 namespace tipp
 {
 
+/// The rank that mpirun or a batch system started this process as; -1: none. Known before MPI is.
+int startedRank();
+
 /// MPI while this lives, if mpirun or a batch system has started the process; else nothing.
 class MpiSession
 {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RunTipp.h"
 
-#include <csignal>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 
 #include <fcntl.h>
 #include <pty.h>
@@ -54,14 +55,9 @@ TippProcess::TippProcess(
   }
 }
 
-void TippProcess::interrupt() const
+void TippProcess::signal(int number) const
 {
-  ::kill(this->Process, SIGINT);
-}
-
-void TippProcess::kill() const
-{
-  ::kill(this->Process, SIGKILL);
+  ::kill(this->Process, number);
 }
 
 Outcome TippProcess::wait() const
@@ -70,6 +66,28 @@ Outcome TippProcess::wait() const
   waitpid(this->Process, &status, 0);
   return { WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status),
     contentOf(this->Folder.path(".out")), contentOf(this->Folder.path(".err")) };
+}
+
+bool TippProcess::hasEnded() const
+{
+  siginfo_t info = {};
+  waitid(P_PID, id_t(this->Process), &info, WEXITED | WNOHANG | WNOWAIT);
+  return info.si_pid == this->Process;
+}
+
+Outcome TippProcess::waitOrKill() const
+{
+  constexpr int mostMilliseconds = 60000;
+  for (int i = 0; i < mostMilliseconds / 10; ++i)
+  {
+    if (this->hasEnded())
+    {
+      return this->wait();
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  this->kill();
+  return this->wait();
 }
 
 Outcome runTipp(const TemporaryFolder& folder, const std::vector<std::string>& arguments)
