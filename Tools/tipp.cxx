@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include <exception>
-#include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -45,13 +45,16 @@ int run(int argc, char** argv)
   tipp::addResampleCommand(app, exitCode);
   tipp::addPartitionCommand(app, exitCode);
   tipp::addCheckCommand(app, exitCode);
+  std::ostringstream unsaid; // the first rank says it
+  const bool speaks = tipp::startedRank() <= 0;
   try
   {
     app.parse(argc, argv);
   }
   catch (const CLI::ParseError& error)
   {
-    return app.exit(error) == 0 ? tipp::Success : tipp::Usage;
+    const int code = speaks ? app.exit(error) : app.exit(error, unsaid, unsaid);
+    return code == 0 ? tipp::Success : tipp::Usage;
   }
   return exitCode;
 }
@@ -69,15 +72,8 @@ int main(int argc, char** argv)
     tipp::endWatch();
     return exitCode;
   }
-  catch (const std::bad_alloc&)
+  catch (const std::exception&)
   {
-    tipp::endWatch();
-    fmt::print(stderr, "tipp: there is not enough memory for this input.\n");
+    return tipp::reportFailure();
   }
-  catch (const std::exception& error)
-  {
-    tipp::endWatch();
-    fmt::print(stderr, "tipp: {}\n", error.what());
-  }
-  return tipp::Failure;
 }

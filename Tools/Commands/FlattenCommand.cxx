@@ -2,6 +2,7 @@
 #include "Commands/Commands.h"
 
 #include "Console/Interrupt.h"
+#include "Console/MpiSession.h"
 #include "Files/Extension.h"
 #include "Files/PendingFolder.h"
 #include "Flat/FlattenAdcirc.h"
@@ -122,7 +123,7 @@ void addFlattenCommand(CLI::App& app, int& exitCode)
       {
         throw CLI::ValidationError("--values goes with an ADCIRC grid (.14, .grd)");
       }
-      exitCode = runFlatten(*arguments);
+      exitCode = isIdleRank() ? Success : runFlatten(*arguments);
     });
 }
 

@@ -105,11 +105,7 @@ int runPartition(const PartitionArguments& arguments)
   }
   catch (const std::exception&)
   {
-    if (session.isFirst())
-    {
-      throw;
-    }
-    return Failure; // the first rank says it
+    return reportFailure();
   }
   if (statistics.Aborted)
   {

@@ -9,8 +9,11 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <ctime>
+#include <exception>
 #include <mutex>
+#include <new>
 #include <thread>
 
 #include <semaphore.h>
@@ -123,9 +126,37 @@ int reportInterrupt(const std::string& consequence)
   return interruptedExitCode;
 }
 
+int reportFailure()
+{
+  endWatch();
+  std::string reason;
+  try
+  {
+    throw;
+  }
+  catch (const std::bad_alloc&)
+  {
+    reason = "there is not enough memory for this input.";
+  }
+  catch (const std::exception& error)
+  {
+    reason = error.what();
+  }
+  if (!isSaid.exchange(true))
+  {
+    fmt::print(stderr, "tipp: {}\n", reason);
+  }
+  return EXIT_FAILURE;
+}
+
 void endWatch()
 {
-  ending().lock(); // for ever
+  static bool hasEnded = false; // of the main thread
+  if (!hasEnded)
+  {
+    ending().lock(); // for ever
+    hasEnded = true;
+  }
 }
 
 } // namespace tipp
