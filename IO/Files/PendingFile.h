@@ -12,7 +12,7 @@ namespace tipp
 
 /// An output file under a temporary name in its own folder until commit() renames it; without
 /// commit() it goes away. So a failed or aborted run leaves nothing half-written, and what was at
-/// the path before stays.
+/// the path before stays. What a killed process has left, the next one for the same path removes.
 class VTKTIPPIO_EXPORT PendingFile
 {
 public:
@@ -33,6 +33,7 @@ private:
   std::string Path;
   std::string Temporary;
   TemporaryPath Listed;
+  int Lock = -1; ///< held as long as the process lives
 };
 
 } // namespace tipp
