@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Flat/FlatMesh.h"
 #include "Parallel/ParallelFor.h"
+#include "Parallel/Poll.h"
 #include "Partitioned/PieceGrid.h"
 #include "Partitioning/AssignPieces.h"
 #include "Reading/AssemblePiece.h"
@@ -444,6 +445,12 @@ int vtkPartitionedUnstructuredReader::RequestData(
   vtkDataObject* const output = vtkDataObject::GetData(outInfo);
   output->Initialize();
   const tipp::Ranks ranks(this->Controller);
+  const tipp::PollScope polled(
+    [this]
+    {
+      this->UpdateProgress(this->GetProgress());
+      return this->GetAbortExecute() == 0;
+    });
   try
   {
     ranks.attempt(
@@ -455,6 +462,11 @@ int vtkPartitionedUnstructuredReader::RequestData(
       });
     this->Inner->Source->prepare(ranks);
     ranks.attempt([&] { this->ReadPieces(outInfo); });
+    return 1;
+  }
+  catch (const tipp::WorkAborted&)
+  {
+    output->Initialize();
     return 1;
   }
   catch (const std::bad_alloc&)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 #include "Console/CrashReport.h"
+#include "Console/Interrupt.h"
+#include "Console/MpiSession.h"
 
 #include "vtkLogger.h"
 
@@ -8,7 +10,7 @@
 #include <fmt/format.h>
 
 #include <exception>
-#include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -44,13 +46,16 @@ int run(int argc, char** argv)
   tipp::addResampleCommand(app, exitCode);
   tipp::addPartitionCommand(app, exitCode);
   tipp::addCheckCommand(app, exitCode);
+  std::ostringstream unsaid; // the first rank says it
+  const bool speaks = tipp::startedRank() <= 0;
   try
   {
     app.parse(argc, argv);
   }
   catch (const CLI::ParseError& error)
   {
-    return app.exit(error) == 0 ? tipp::Success : tipp::Usage;
+    const int code = speaks ? app.exit(error) : app.exit(error, unsaid, unsaid);
+    return code == 0 ? tipp::Success : tipp::Usage;
   }
   return exitCode;
 }
@@ -62,17 +67,15 @@ int main(int argc, char** argv)
   // What VTK's readers have to say comes in our own sentence.
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   tipp::reportReaderCrashes();
+  tipp::watchForInterrupt(tipp::startedRank());
   try
   {
-    return run(argc, argv);
+    const int exitCode = run(argc, argv);
+    tipp::endWatch();
+    return exitCode;
   }
-  catch (const std::bad_alloc&)
+  catch (const std::exception&)
   {
-    fmt::print(stderr, "tipp: there is not enough memory for this input.\n");
+    return tipp::reportFailure();
   }
-  catch (const std::exception& error)
-  {
-    fmt::print(stderr, "tipp: {}\n", error.what());
-  }
-  return tipp::Failure;
 }

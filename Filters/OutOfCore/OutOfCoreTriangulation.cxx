@@ -240,6 +240,7 @@ private:
 
   void survey()
   {
+    this->keep(false);
     this->Scratch.clear();
     this->Memory = std::make_unique<MemoryPlan>(this->Options, 3 + this->Input.columns().size());
     InputSurvey& survey = this->Prepared.Survey;

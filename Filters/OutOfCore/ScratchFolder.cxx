@@ -54,6 +54,11 @@ ScratchFolder::ScratchFolder(const PendingFolder& mesh, const std::string& other
   , Folder(other.empty() ? this->Work : other + "/" + fs::path(this->Work).filename().string())
 {
   makeFolder(this->Folder);
+  if (this->Folder != this->Work)
+  {
+    this->Listed.list(this->Folder);
+  }
+  this->keep(mesh.isKept());
 }
 
 ScratchFolder::~ScratchFolder()

@@ -34,7 +34,11 @@ public:
   bool hasRun() const;
   /// Makes room for a new run, and its empty folder of pieces.
   void clear();
-  void keep(bool kept = true) { this->Kept = kept; }
+  void keep(bool kept = true)
+  {
+    this->Kept = kept;
+    this->Listed.keep(kept);
+  }
   /// Whether so many bytes more fit on the disks of the mesh and of this; throws IOError with the
   /// numbers. `path`: the mesh's, for the error.
   void requireSpace(const std::string& path, std::uint64_t mesh, std::uint64_t scratch) const;
@@ -45,6 +49,7 @@ private:
   std::string Mesh;
   std::string Work;
   std::string Folder;
+  TemporaryPath Listed; ///< Folder, if it is not Work
   bool Kept = false;
 };
 

@@ -2,6 +2,7 @@
 #ifndef tippPendingFile_h
 #define tippPendingFile_h
 
+#include "Files/TemporaryPath.h"
 #include "vtkTIPPIOModule.h"
 
 #include <string>
@@ -11,7 +12,7 @@ namespace tipp
 
 /// An output file under a temporary name in its own folder until commit() renames it; without
 /// commit() it goes away. So a failed or aborted run leaves nothing half-written, and what was at
-/// the path before stays.
+/// the path before stays. What a killed process has left, the next one for the same path removes.
 class VTKTIPPIO_EXPORT PendingFile
 {
 public:
@@ -31,6 +32,8 @@ public:
 private:
   std::string Path;
   std::string Temporary;
+  TemporaryPath Listed;
+  int Lock = -1; ///< held as long as the process lives
 };
 
 } // namespace tipp

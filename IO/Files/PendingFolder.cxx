@@ -58,6 +58,7 @@ void PendingFolder::makeTemporary(const std::string& prefix)
   }
   this->Temporary = name;
   this->Work = name;
+  this->Listed.list(name);
   // mkdtemp() allows nobody else; an output is as open as other files.
   const mode_t mask = umask(0);
   umask(mask);
@@ -76,9 +77,11 @@ void PendingFolder::openLasting(const std::string& folder, const std::string& na
     return fstat(this->Lock, &opened) == 0 && stat(folder.c_str(), &named) == 0 &&
       opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
   };
+  bool wasThere = false;
   for (;;)
   {
-    if (mkdir(folder.c_str(), 0777) != 0 && errno != EEXIST)
+    wasThere = mkdir(folder.c_str(), 0777) != 0;
+    if (wasThere && errno != EEXIST)
     {
       throw IOError(this->Path, std::string("cannot be written (") + std::strerror(errno) + ").");
     }
@@ -100,6 +103,8 @@ void PendingFolder::openLasting(const std::string& folder, const std::string& na
     }
   }
   this->Work = folder;
+  this->Listed.list(folder);
+  this->keep(wasThere);
   this->Temporary = folder + "/" + name;
   mkdir(this->Temporary.c_str(), 0777);
 }
@@ -166,14 +171,8 @@ void PendingFolder::commit()
   std::error_code failure;
   syncToDisk(this->Temporary);
   const bool replaces = fs::exists(this->Path, failure);
-  if (replaces)
-  {
-    this->exchange();
-  }
-  else
-  {
-    moveIntoPlace(this->Temporary, this->Path);
-  }
+  commitOutput(
+    this->Path, [&] { replaces ? this->exchange() : moveIntoPlace(this->Temporary, this->Path); });
   syncToDisk(this->Parent);
   if (replaces)
   {

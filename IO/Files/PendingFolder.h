@@ -2,6 +2,7 @@
 #ifndef tippPendingFolder_h
 #define tippPendingFolder_h
 
+#include "Files/TemporaryPath.h"
 #include "vtkTIPPIOModule.h"
 
 #include <functional>
@@ -26,8 +27,8 @@ public:
   /// at the path other than an empty folder or, where it is given, what may be replaced.
   explicit PendingFolder(const std::string& path, const Replaceable* replaceable = nullptr);
   /// In a folder of its own whose name stays the same, ".NAME.part": that may be there already,
-  /// from a run that did not end, and after keep() it stays. What is in it beside the output is
-  /// never published. Throws IOError also if another process has it.
+  /// from a run that did not end, and is then kept until keep(false); after keep() it stays. What
+  /// is in it beside the output is never published. Throws IOError also if another process has it.
   static PendingFolder lasting(const std::string& path, const Replaceable* replaceable)
   {
     return { path, replaceable, true };
@@ -40,7 +41,12 @@ public:
   const std::string& temporaryPath() const { return this->Temporary; }
   /// The folder that goes away at the end: ".NAME.part", or the temporary one itself.
   const std::string& workPath() const { return this->Work; }
-  void keep(bool kept = true) { this->Kept = kept; }
+  bool isKept() const { return this->Kept; }
+  void keep(bool kept = true)
+  {
+    this->Kept = kept;
+    this->Listed.keep(kept);
+  }
 
   /// Puts it in the path's place in one step and removes what was there. What is in it must be safe
   /// on the disk, if it is to be so afterwards. Throws IOError.
@@ -57,6 +63,7 @@ private:
   std::string Parent;
   std::string Temporary;
   std::string Work; ///< it, or the folder around it
+  TemporaryPath Listed;
   bool Kept = false;
   int Lock = -1; ///< held as long as the process lives
 };

@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
+#include "Parallel/Poll.h"
 
 #include <algorithm>
 #include <array>
@@ -57,6 +58,7 @@ void CellReader::read(std::int64_t first, std::int64_t cells, std::int64_t* ids)
   parallelFor((count + share - 1) / share, this->Threads,
     [&](std::int64_t i)
     {
+      poll();
       const std::int64_t from = i * share;
       const std::int64_t end = std::min(from + share, count);
       for (std::int64_t at = from; at < end; at += blockIds)

@@ -4,6 +4,7 @@
 #include "Arrays/ScalarTypes.h"
 #include "Flat/Simplices.h"
 #include "Vtk/CheckDataSet.h"
+#include "Parallel/Poll.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -89,6 +90,7 @@ FlatArray pointsOf(vtkDataSet* data)
   points->SetNumberOfTuples(data->GetNumberOfPoints());
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {
+    pollAt(i);
     data->GetPoint(i, points->GetPointer(3 * i));
   }
   return flatArray(points);

@@ -2,6 +2,7 @@
 #include "Flat/Simplices.h"
 
 #include "Files/IOError.h"
+#include "Parallel/Poll.h"
 
 #include "vtkCell.h"
 #include "vtkCellType.h"
@@ -64,6 +65,7 @@ public:
     this->Result.Parents.reserve(std::size_t(cells));
     for (vtkIdType cell = 0; cell < cells; ++cell)
     {
+      pollAt(cell);
       const int type = this->Data->GetCellType(cell);
       if (this->isGhost(cell))
       {

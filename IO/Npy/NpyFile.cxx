@@ -2,6 +2,7 @@
 #include "Npy/NpyFile.h"
 
 #include "Files/IOError.h"
+#include "Parallel/Poll.h"
 
 #include <array>
 #include <cerrno>
@@ -111,9 +112,18 @@ NpyWriter::NpyWriter(
 
 void NpyWriter::write(const void* from, std::size_t bytes)
 {
-  if (bytes != 0 && std::fwrite(from, 1, bytes, this->File.get()) != bytes)
+  constexpr std::size_t most = std::size_t(1) << 24;
+  const char* at = static_cast<const char*>(from);
+  for (std::size_t left = bytes; left > 0;)
   {
-    throw IOError(this->Path, std::string("cannot be written (") + std::strerror(errno) + ").");
+    poll();
+    const std::size_t part = std::min(left, most);
+    if (std::fwrite(at, 1, part, this->File.get()) != part)
+    {
+      throw IOError(this->Path, std::string("cannot be written (") + std::strerror(errno) + ").");
+    }
+    at += part;
+    left -= part;
   }
 }
 

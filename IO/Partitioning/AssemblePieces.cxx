@@ -3,6 +3,7 @@
 
 #include "Files/OutputFile.h"
 #include "Parallel/ParallelFor.h"
+#include "Parallel/Poll.h"
 #include "Partitioned/PublishPieces.h"
 #include "Partitioning/AssignPieces.h"
 #include "Partitioning/PartitionRun.h"
@@ -124,6 +125,7 @@ void assemblePieces(PartitionRun& run)
       const auto [first, last] = shareOfPieces(run);
       for (std::size_t piece = first; piece < last; ++piece)
       {
+        poll();
         syncToDisk(run.Result.piecePath(piece));
       }
     });

@@ -4,6 +4,7 @@
 #include "Flat/CellReader.h"
 #include "Loading/VertexLoader.h"
 #include "Parallel/ParallelFor.h"
+#include "Parallel/Poll.h"
 #include "Partition/ClassifyCells.h"
 #include "Partitioning/Columns.h"
 #include "Partitioning/ForeignPoint.h"
@@ -81,9 +82,11 @@ void CellDistribution::run()
     chunk.Cells = chunk.Ids.size() / this->Corners;
     this->Data.read(chunk.First, std::int64_t(chunk.Cells), this->Run.Threads);
     this->loadHomes(chunk);
+    poll();
     this->spillInterior(chunk);
     for (std::size_t at = 0; at < chunk.Border.size(); at += batch)
     {
+      poll();
       this->spillBorder(chunk, at, std::min(batch, chunk.Border.size() - at));
     }
     const auto done = double(chunk.First - first) + double(chunk.Cells);
@@ -106,6 +109,7 @@ void CellDistribution::loadHomes(Chunk& chunk)
 {
   chunk.Homes.resize(chunk.Ids.size());
   void* const out[] = { chunk.Homes.data() };
+  poll();
   this->HomeLoader->load(chunk.Ids.data(), chunk.Ids.size(), out);
   chunk.Inside.resize(chunk.Cells);
   const std::size_t stretches = std::size_t(this->Run.Threads);
@@ -116,6 +120,7 @@ void CellDistribution::loadHomes(Chunk& chunk)
       const auto s = std::size_t(stretch);
       for (std::size_t i = chunk.Cells * s / stretches; i < chunk.Cells * (s + 1) / stretches; ++i)
       {
+        pollAt(std::int64_t(i));
         const std::int32_t* homes = chunk.Homes.data() + i * this->Corners;
         bool isInside = homes[0] >= 0;
         for (std::size_t corner = 1; corner < this->Corners; ++corner)
@@ -155,6 +160,7 @@ Membership CellDistribution::classify(const Chunk& chunk, std::size_t first, std
   const RawArray& points = this->Run.Mesh.Points;
   std::vector<char> raw(ids.size() * points.tupleBytes());
   void* const out[] = { raw.data() };
+  poll();
   this->PointLoader->load(ids.data(), ids.size(), out);
   const int dimension = this->Run.Rows.Dimension;
   std::vector<double> coordinates(ids.size() * std::size_t(dimension));
@@ -194,6 +200,7 @@ void CellDistribution::spillBorder(const Chunk& chunk, std::size_t first, std::s
       cells.size(), this->Run.Threads, [&](std::size_t i) { return members.Borrowers[i]; },
       [&](std::size_t i, char* to) { this->putCell(chunk, cellOf(cells[i]), to); });
   }
+  poll();
   this->spillForeignPoints(chunk, first, count, members);
   this->Run.Statistics.BorderCells += std::int64_t(count);
   this->Run.Statistics.BorrowedCells += std::int64_t(cells.size());

@@ -2,6 +2,7 @@
 #include "Partitioning/DistributePoints.h"
 
 #include "Files/InputFile.h"
+#include "Parallel/Poll.h"
 #include "Partitioning/Columns.h"
 #include "Partitioning/ForeignPoint.h"
 #include "Partitioning/PartitionRun.h"
@@ -73,6 +74,7 @@ std::vector<Copy> PointDistribution::copiesOf(
   auto next = foreign.begin();
   for (std::uint32_t i = 0; i < homes.size(); ++i)
   {
+    pollAt(i);
     copies.push_back({ i, homes[i] < 0 ? -1 - homes[i] : homes[i], 0 });
     for (; next != foreign.end() && next->Point == first + i; ++next)
     {
@@ -89,6 +91,7 @@ void PointDistribution::spillChunk(std::int64_t chunk)
   const std::int64_t count = std::min(this->Run.ChunkPoints, this->Run.Mesh.Points.Tuples - first);
   this->Data.read(first, count, this->Run.Threads);
   const std::vector<Copy> copies = this->copiesOf(chunk, first, count);
+  poll();
   this->Run.Statistics.CopiedPoints += std::int64_t(copies.size()) - count;
   this->Run.Points->add(
     copies.size(), this->Run.Threads, [&](std::size_t i) { return copies[i].Piece; },

@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Flat/CellReader.h"
+#include "Parallel/Poll.h"
 #include "Partitioning/BuildTree.h"
 #include "Partitioning/PointCoordinates.h"
 
@@ -34,6 +35,7 @@ public:
     this->Reader.read(first, count, this->Ids.data());
     this->Raw.resize(this->Ids.size() * points.tupleBytes());
     void* const out[] = { this->Raw.data() };
+    poll();
     this->Loader->load(this->Ids.data(), this->Ids.size(), out);
     const int dimension = this->Mesh.CellSize - 1;
     coordinates.resize(this->Ids.size() * std::size_t(dimension));

@@ -53,21 +53,31 @@ PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
   const std::string& output, const PartitionOptions& options, vtkMultiProcessController* controller)
 {
   const Ranks ranks(controller);
+  const PollScope polled([&options] { return !options.Progress || options.Progress(0); });
   // It goes away with this object, or before the next run if this one is killed.
   std::optional<PendingFolder> scratch;
   std::string folder;
-  ranks.attempt(
-    [&]
-    {
-      if (ranks.isFirst())
+  try
+  {
+    ranks.attempt(
+      [&]
       {
-        scratch.emplace(output, &replaceableMesh);
-        folder = scratch->temporaryPath() + "/flat";
-        FlatContent content = flattenDataSet(data, name).Content;
-        removeOwnIds(content);
-        writeFlatMesh(folder, content);
-      }
-    });
+        if (ranks.isFirst())
+        {
+          scratch.emplace(output, &replaceableMesh);
+          folder = scratch->temporaryPath() + "/flat";
+          FlatContent content = flattenDataSet(data, name).Content;
+          removeOwnIds(content);
+          writeFlatMesh(folder, content);
+        }
+      });
+  }
+  catch (const WorkAborted&)
+  {
+    PartitionStatistics statistics;
+    statistics.Aborted = true;
+    return statistics;
+  }
   folder = ranks.broadcast(folder);
   try
   {

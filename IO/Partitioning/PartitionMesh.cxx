@@ -51,12 +51,10 @@ LoaderOptions PartitionRun::loaderOptions() const
   return options;
 }
 
-void PartitionRun::report(double fraction) const
+void PartitionRun::report(double fraction)
 {
-  if (this->Team.isFirst() && this->Options.Progress && !this->Options.Progress(fraction))
-  {
-    throw WorkAborted();
-  }
+  this->Fraction = fraction;
+  poll();
 }
 
 namespace
@@ -231,6 +229,8 @@ PartitionStatistics partitionMesh(const FlatMesh& mesh, const std::string& path,
       }
     });
   PartitionRun run(mesh, options, ranks, ranks.broadcast(pending ? pending->temporaryPath() : ""));
+  const PollScope polled(
+    [&run] { return !run.Options.Progress || run.Options.Progress(run.Fraction); });
   try
   {
     runPhases(run, path);

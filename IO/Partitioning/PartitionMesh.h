@@ -31,7 +31,8 @@ struct PartitionOptions
   std::int64_t ChunkPoints = 0; ///< 0: as many as fit
   DeviceChoice Device;          ///< that classifies cells
   int Threads = 0;              ///< 0: OpenMP's choice
-  /// Called on the first rank's calling thread with the fraction done; false ends the run.
+  /// Called on every rank's calling thread, every few thousand points or cells, with the fraction
+  /// done; false ends the run on all ranks.
   std::function<bool(double)> Progress;
 };
 

@@ -65,6 +65,7 @@ struct PartitionRun
   std::int64_t ChunkCells = 1;
   std::int64_t ChunkPoints = 1;
   PartitionStatistics Statistics;
+  double Fraction = 0; ///< that is done
 
   // Keyed by piece; ForeignPoints by chunk of points.
   std::optional<Spill> Cells;         ///< those that lie in one partition
@@ -79,7 +80,7 @@ struct PartitionRun
   LoaderOptions loaderOptions() const;
   std::size_t pieces() const { return this->Result.Pieces.size(); }
   /// Tells the caller how far the run is. Throws WorkAborted when told to stop.
-  void report(double fraction) const;
+  void report(double fraction);
 };
 
 } // namespace tipp

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/PieceAssembly.h"
+#include "Parallel/Poll.h"
 
 #include <algorithm>
 #include <limits>
@@ -45,6 +46,7 @@ void PieceAssembly::takePointIds()
   points.read(this->Piece, blockRows,
     [&](const char* rows, std::size_t count)
     {
+      poll();
       for (std::size_t i = 0; i < count; ++i, rows += points.rowBytes())
       {
         const std::uint64_t word = wordAt(rows);
@@ -83,6 +85,7 @@ void PieceAssembly::lendPoints()
   this->PointSets.assign(this->PointIds.size(), -1);
   for (std::size_t cell = 0; cell < this->CellSets.size(); ++cell)
   {
+    pollAt(std::int64_t(cell));
     const char* const row = this->SharedRows.data() + cell * rowBytes;
     for (std::size_t corner = 1; corner <= this->Corners; ++corner)
     {
@@ -145,6 +148,7 @@ void PieceAssembly::appendInBlocks(const RowPointers& rows, bool ofPoints, bool 
   RowPointers block;
   for (std::size_t at = 0; at < rows.size(); at += blockRows)
   {
+    poll();
     block.assign(rows.begin() + std::ptrdiff_t(at),
       rows.begin() + std::ptrdiff_t(std::min(rows.size(), at + blockRows)));
     ofPoints ? this->appendPoints(block) : this->appendCells(block, ghosts);
@@ -165,6 +169,7 @@ void PieceAssembly::writePoints()
   points.read(this->Piece, blockRows,
     [&](const char* rows, std::size_t count)
     {
+      poll();
       block.clear();
       for (std::size_t i = 0; i < count; ++i, ++point, rows += rowBytes)
       {
@@ -213,6 +218,7 @@ void PieceAssembly::writeCells()
   cells.read(this->Piece, blockRows,
     [&](const char* block, std::size_t count)
     {
+      poll();
       rows.clear();
       for (std::size_t i = 0; i < count; ++i)
       {

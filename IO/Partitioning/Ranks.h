@@ -2,6 +2,7 @@
 #ifndef tippRanks_h
 #define tippRanks_h
 
+#include "Parallel/Poll.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstdint>
@@ -14,11 +15,6 @@ class vtkMultiProcessController;
 
 namespace tipp
 {
-
-/// Thrown by work that is told to stop: not an error, but the user's wish.
-struct WorkAborted
-{
-};
 
 /// The ranks that work on one mesh; one alone if there is no controller.
 class VTKTIPPIO_EXPORT Ranks

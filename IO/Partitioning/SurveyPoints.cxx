@@ -5,6 +5,7 @@
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
 #include "Parallel/ParallelFor.h"
+#include "Parallel/Poll.h"
 #include "Partitioning/PointCoordinates.h"
 
 #include <algorithm>
@@ -30,6 +31,7 @@ void forEachBlock(const FlatMesh& mesh, const Ranks& ranks, int threads, const W
   parallelFor(blocks, threads,
     [&, from = from, to = to](std::int64_t block)
     {
+      poll();
       const std::int64_t first = from + block * blockPoints;
       const std::int64_t count = std::min(blockPoints, to - first);
       std::vector<char> raw(std::size_t(count) * mesh.Points.tupleBytes());

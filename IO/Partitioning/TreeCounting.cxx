@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
+#include "Parallel/Poll.h"
 
 #include <algorithm>
 #include <array>
@@ -116,6 +117,7 @@ void TreeCounting::countAll(const CellShape& shape, std::size_t cells, std::int6
       MeasuredCell measured;
       for (std::size_t i = stretch.Begin; i < stretch.End; ++i)
       {
+        pollAt(std::int64_t(i));
         const bool finite = measure(shape, this->Tree.dimension(), i, measured);
         if (!finite ||
           (!isWithin(measured.Bounds, this->Tree.domain()) &&
@@ -214,6 +216,7 @@ void TreeCounting::collectVisits(const CellShape& shape, std::size_t cells)
       Stretch& stretch = stretches[static_cast<std::size_t>(s)];
       for (std::size_t i = stretch.Begin; i < stretch.End; ++i)
       {
+        pollAt(std::int64_t(i));
         this->visitTree(shape, static_cast<std::uint32_t>(i), stretch);
       }
     });
@@ -238,6 +241,7 @@ void TreeCounting::refineOnce(const CellShape& shape)
       Stretch& stretch = stretches[static_cast<std::size_t>(s)];
       for (std::size_t i = stretch.Begin; i < stretch.End; ++i)
       {
+        pollAt(std::int64_t(i));
         if (this->Marked[static_cast<std::size_t>(parents[i].Node)] != 0)
         {
           this->visitChildren(shape, parents[i], stretch);

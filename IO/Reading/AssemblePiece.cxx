@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Reading/AssemblePiece.h"
 
+#include "Parallel/Poll.h"
+
 #include "Loading/CopyTuples.h"
 
 #include <algorithm>
@@ -107,6 +109,7 @@ private:
     const auto mark = [](std::int64_t& place) { place = place == absent ? wanted : place; };
     for (const CellOfPiece& cell : cells)
     {
+      pollAt(cell.Cell);
       const Piece& piece = *this->Pieces[cell.Piece];
       for (int corner = 0; corner < piece.CellSize; ++corner)
       {

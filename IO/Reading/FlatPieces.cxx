@@ -4,6 +4,7 @@
 #include "Files/InputFile.h"
 #include "Flat/CellReader.h"
 #include "Parallel/ParallelFor.h"
+#include "Parallel/Poll.h"
 #include "Partition/ClassifyCells.h"
 #include "Partitioning/DescribeArrays.h"
 #include "Partitioning/MakeTiling.h"
@@ -136,6 +137,7 @@ void FlatPieces::forEachHome(std::int64_t first, std::int64_t last, const Visit&
   for (std::int64_t from = first; from < last; from += chunk)
   {
     const std::int64_t count = std::min(chunk, last - from);
+    poll();
     raw.resize(std::size_t(count) * bytes);
     file.read(points.Offset + std::uint64_t(from) * bytes, raw.data(), raw.size());
     homes.resize(std::size_t(count));
@@ -180,7 +182,9 @@ void FlatPieces::collectCells(
   {
     raw.resize(ids.size() * this->Flat.Points.tupleBytes());
     void* const out[] = { raw.data() };
+    poll();
     loader->load(ids.data(), ids.size(), out);
+    poll();
     coordinates.resize(ids.size() * dimension);
     takeCoordinates(this->Flat.Points, raw.data(), ids.size(), int(dimension), coordinates.data());
     const Membership membership =
@@ -188,6 +192,7 @@ void FlatPieces::collectCells(
         *this->Tiling, classify);
     for (std::size_t i = 0; i < ids.size() / corners; ++i)
     {
+      pollAt(std::int64_t(i));
       const auto take = [&](std::int32_t piece, bool owned)
       {
         if (draftOf[std::size_t(piece)] >= 0)

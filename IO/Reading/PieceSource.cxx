@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Flat/FlatMesh.h"
 #include "Parallel/ParallelFor.h"
+#include "Parallel/Poll.h"
 #include "Reading/FlatPieces.h"
 
 namespace tipp
@@ -39,7 +40,10 @@ public:
     std::vector<Piece> pieces(numbers.size());
     parallelFor(std::int64_t(numbers.size()), this->Threads,
       [&](std::int64_t i)
-      { pieces[std::size_t(i)] = readPiece(this->Mesh, numbers[std::size_t(i)], options); });
+      {
+        poll();
+        pieces[std::size_t(i)] = readPiece(this->Mesh, numbers[std::size_t(i)], options);
+      });
     return pieces;
   }
 

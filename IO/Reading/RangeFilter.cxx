@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Reading/RangeFilter.h"
 
+#include "Parallel/Poll.h"
 #include "Predicates/CellBox.h"
 #include "Reading/AssemblePiece.h"
 
@@ -193,6 +194,7 @@ Piece RangeFilter::apply(const Piece& piece, std::size_t number, bool borrowed) 
   std::vector<CellOfPiece> ghosts;
   for (std::int64_t cell = 0; cell < piece.Cells; ++cell)
   {
+    pollAt(cell);
     if (!this->meetsRange(piece, cell, sides))
     {
       continue;

@@ -321,13 +321,42 @@ class Files(unittest.TestCase):
 
 class Interrupt(unittest.TestCase):
     def test_ctrl_c_stops_a_triangulation(self):
-        points = random_points(3_000_000)
-        threading.Timer(0.15, os.kill, (os.getpid(), signal.SIGINT)).start()
+        points = random_points(100_000)
         former = signal.getsignal(signal.SIGINT)
-        with self.assertRaises(KeyboardInterrupt):
-            tipp.delaunay(points, threads=1)
+        calls = self.interrupt_at(3, lambda: tipp.delaunay(points, threads=1, progress_bar=True))
+        self.assertEqual(calls, 3)
         self.assertIs(signal.getsignal(signal.SIGINT), former)
         self.assertEqual(tipp.delaunay(points[:100]).shape[1], 3)
+
+    def interrupt_at(self, call, work):
+        """Ctrl-C when progress is shown for that time. Returns how often it was shown in all."""
+        calls = []
+
+        def show(fraction):
+            calls.append(fraction)
+            if len(calls) == call:
+                signal.raise_signal(signal.SIGINT)
+
+        with unittest.mock.patch("tipp._run._show", show), self.assertRaises(KeyboardInterrupt):
+            work()
+        return len(calls)
+
+    def test_ctrl_c_stops_write_and_read_at_once(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "mesh.tipp")
+            tipp.delaunay_file(self.save_points(folder), path)
+            again = os.path.join(folder, "again.tipp")
+            whole = tipp.read(path)
+            for call in (1, 2, 5, 15):
+                calls = self.interrupt_at(call, lambda: tipp.write(whole, again, progress_bar=True))
+                self.assertEqual(calls, call)
+                self.assertEqual(sorted(os.listdir(folder)), ["mesh.tipp", "points.npy"])
+            self.assertEqual(self.interrupt_at(1, lambda: tipp.read(path, progress_bar=True)), 1)
+
+    def save_points(self, folder):
+        path = os.path.join(folder, "points.npy")
+        np.save(path, random_points(20_000))
+        return path
 
     def test_other_threads_may_call(self):
         shapes = []

@@ -73,7 +73,7 @@ class OutOfCoreOnRanks(unittest.TestCase):
 
     def wait_for_the_ranks(self):
         """mpirun's children notice a little later that it is gone."""
-        for _ in range(100):
+        for _ in range(1000):
             run = self.run_tipp(1, "points.npy", "--memory", "2M")
             if "another process" not in run.stderr:
                 return

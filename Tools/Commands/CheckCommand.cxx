@@ -3,6 +3,7 @@
 
 #include "Check/DelaunayChecker.h"
 #include "Commands/CheckPartitioned.h"
+#include "Console/MpiSession.h"
 #include "Files/IOError.h"
 #include "Meshes/ReadMesh.h"
 #include "Partitioned/PartitionedMesh.h"
@@ -113,7 +114,8 @@ void addCheckCommand(CLI::App& app, int& exitCode)
   command->add_flag("--boundary-free", arguments->Options.BoundaryFree,
     "The mesh has a boundary of its own: do not check the hull and Euler's count");
   command->footer(footer);
-  command->callback([arguments, &exitCode]() { exitCode = runCheck(*arguments); });
+  command->callback(
+    [arguments, &exitCode]() { exitCode = isIdleRank() ? Success : runCheck(*arguments); });
 }
 
 } // namespace tipp

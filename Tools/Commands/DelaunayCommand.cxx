@@ -81,7 +81,6 @@ Triangulation triangulatePoints(const DelaunayArguments& arguments, const PointT
 
 int runDelaunay(const DelaunayArguments& arguments)
 {
-  watchForInterrupt();
   const MpiSession session;
   if (isOutOfCore(arguments))
   {

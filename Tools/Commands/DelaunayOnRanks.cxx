@@ -136,7 +136,7 @@ int runDelaunayOnRanks(const DelaunayArguments& arguments, vtkMultiProcessContro
   {
     if (failure.Aborted)
     {
-      return ranks.rank() == 0 ? reportInterrupt() : interruptedExitCode;
+      return reportInterrupt();
     }
     if (ranks.rank() == 0)
     {

@@ -186,13 +186,6 @@ std::string summarize(const OutOfCoreStatistics& statistics, const std::vector<P
     double(largestMemory(ranks)) / 1e6, each);
 }
 
-int reportInterrupted(const OutOfCoreStatistics& statistics)
-{
-  fmt::print(stderr, "tipp: interrupted; {}.\n",
-    statistics.Kept ? "the same command with --resume goes on" : "nothing was written");
-  return interruptedExitCode;
-}
-
 void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& statistics,
   const std::vector<ProcessUsage>& ranks)
 {
@@ -266,7 +259,8 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
   bar.reset();
   if (statistics.Aborted)
   {
-    return isFirst ? reportInterrupted(statistics) : interruptedExitCode;
+    return reportInterrupt(
+      statistics.Kept ? "the same command with --resume goes on" : "nothing was written");
   }
   const std::vector<ProcessUsage> usage = gatherUsage(ranks);
   if (isFirst)

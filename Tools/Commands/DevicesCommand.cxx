@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Console/MpiSession.h"
 #include "OpenCL/DeviceList.h"
 
 #include <CLI/CLI.hpp>
@@ -49,7 +50,10 @@ void addDevicesCommand(CLI::App& app, int& exitCode)
   command->callback(
     [&exitCode]
     {
-      printDevices();
+      if (!isIdleRank())
+      {
+        printDevices();
+      }
       exitCode = Success;
     });
 }

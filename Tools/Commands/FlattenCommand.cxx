@@ -2,6 +2,7 @@
 #include "Commands/Commands.h"
 
 #include "Console/Interrupt.h"
+#include "Console/MpiSession.h"
 #include "Files/Extension.h"
 #include "Files/PendingFolder.h"
 #include "Flat/FlattenAdcirc.h"
@@ -84,7 +85,6 @@ bool writeContent(const FlattenArguments& arguments, const FlatContent& content)
 
 int runFlatten(const FlattenArguments& arguments)
 {
-  watchForInterrupt();
   {
     // Before the work rather than after it.
     const PendingFolder writable(arguments.Output);
@@ -123,7 +123,7 @@ void addFlattenCommand(CLI::App& app, int& exitCode)
       {
         throw CLI::ValidationError("--values goes with an ADCIRC grid (.14, .grd)");
       }
-      exitCode = runFlatten(*arguments);
+      exitCode = isIdleRank() ? Success : runFlatten(*arguments);
     });
 }
 

@@ -86,7 +86,6 @@ PartitionOptions makeOptions(
 int runPartition(const PartitionArguments& arguments)
 {
   const MpiSession session;
-  watchForInterrupt();
   PartitionStatistics statistics;
   try
   {
@@ -106,15 +105,11 @@ int runPartition(const PartitionArguments& arguments)
   }
   catch (const std::exception&)
   {
-    if (session.isFirst())
-    {
-      throw;
-    }
-    return Failure; // the first rank says it
+    return reportFailure();
   }
   if (statistics.Aborted)
   {
-    return session.isFirst() ? reportInterrupt() : interruptedExitCode;
+    return reportInterrupt();
   }
   if (session.isFirst())
   {

@@ -2,6 +2,7 @@
 #include "Commands/Commands.h"
 
 #include "Commands/PointsLike.h"
+#include "Console/MpiSession.h"
 #include "Distributions/GeneratePoints.h"
 #include "Files/Extension.h"
 #include "Points/WritePoints.h"
@@ -82,7 +83,10 @@ void addPointsCommand(CLI::App& app, int& exitCode)
   command->callback(
     [arguments, &exitCode]()
     {
-      runPoints(*arguments);
+      if (!isIdleRank())
+      {
+        runPoints(*arguments);
+      }
       exitCode = Success;
     });
 }

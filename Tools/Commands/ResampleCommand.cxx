@@ -2,7 +2,9 @@
 #include "Commands/Commands.h"
 
 #include "Arrays/ScalarTypes.h"
+#include "Commands/ResampleShare.h"
 #include "Console/Interrupt.h"
+#include "Console/MpiSession.h"
 #include "Console/ProgressBar.h"
 #include "Files/Extension.h"
 #include "Files/IOError.h"
@@ -12,6 +14,7 @@
 #include "Npy/NpyFile.h"
 #include "OpenCL/DeviceChoice.h"
 #include "Partitioned/PartitionedMesh.h"
+#include "Partitioning/Ranks.h"
 #include "Vtk/ArrayNames.h"
 #include "Vtk/ErrorKeeper.h"
 #include "Vtk/ReadDataSet.h"
@@ -58,8 +61,12 @@ IMAGE   .vti: all arrays, vtkValidPointMask (1 where the mesh answers) and
         rows x columns. Components come last. NaN where no cell answers, unless
         --null gives another number.
 
+Under mpirun the ranks share the cells, and the first one writes the image. A VTK file is
+read by every rank; of a partitioned or flat mesh each reads its own part.
+
 Examples:
   tipp resample surge.vtu -o surge.vti --dims 2048 2048 1
+  mpirun -np 4 tipp resample surge.tipp -o surge.vti --dims 2048 2048 1
   tipp resample surge.vtu -o peak.npy --arrays zeta_max --delta 0.01 0.01 0
     --bounds -76 -75 35 36 0 0 --no-data -99999
 )";
@@ -80,8 +87,15 @@ struct ResampleArguments
   bool HasNoData = false;
 };
 
-void chooseArrays(
-  const ResampleArguments& arguments, vtkRangeResampleFilter* filter, vtkDataSet* mesh)
+[[noreturn]] void refuseName(
+  const ResampleArguments& arguments, const std::string& name, const std::set<std::string>& names)
+{
+  throw IOError(
+    arguments.Input, "has no array '" + name + "'" + listOfNames(names, "; it has ") + ".");
+}
+
+void chooseArrays(const ResampleArguments& arguments, vtkRangeResampleFilter* filter,
+  vtkDataSet* mesh, const std::string& associations)
 {
   if (arguments.Arrays.empty())
   {
@@ -89,21 +103,22 @@ void chooseArrays(
   }
   filter->GetPointDataArraySelection()->SetUnknownArraySetting(0);
   filter->GetCellDataArraySelection()->SetUnknownArraySetting(0);
-  for (const std::string& name : arguments.Arrays)
+  for (std::size_t i = 0; i < arguments.Arrays.size(); ++i)
   {
-    const bool ofPoints = mesh->GetPointData()->HasArray(name.c_str()) != 0;
+    const std::string& name = arguments.Arrays[i];
+    const char association = associations[i];
+    const bool ofPoints = association == 'p';
     (ofPoints ? filter->GetPointDataArraySelection() : filter->GetCellDataArraySelection())
       ->EnableArray(name.c_str());
-    if (!ofPoints && !mesh->GetCellData()->HasArray(name.c_str()))
+    if (association == ' ')
     {
       std::set<std::string> names = arrayNames(mesh->GetPointData());
       names.merge(arrayNames(mesh->GetCellData()));
-      throw IOError(
-        arguments.Input, "has no array '" + name + "'" + listOfNames(names, "; it has ") + ".");
+      refuseName(arguments, name, names);
     }
     vtkDataSetAttributes* const data =
       ofPoints ? static_cast<vtkDataSetAttributes*>(mesh->GetPointData()) : mesh->GetCellData();
-    if (!data->GetArray(name.c_str()))
+    if (data->HasArray(name.c_str()) && !data->GetArray(name.c_str()))
     {
       throw IOError(
         arguments.Input, "has array '" + name + "', but it holds no numbers; name another.");
@@ -194,20 +209,33 @@ void summarize(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
 }
 
 /// Only the range and the arrays that are asked for, of a partitioned or a flat mesh.
-vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments)
+vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments, const Ranks& ranks)
 {
   vtkNew<ErrorKeeper> errors;
   vtkNew<vtkPartitionedUnstructuredReader> reader;
   reader->AddObserver(vtkCommand::ErrorEvent, errors);
-  reader->SetController(nullptr);
+  reader->SetController(ranks.controller());
   reader->SetFileName(arguments.Input.c_str());
-  reader->SetTiling("grid:1x1"); // of a flat mesh, all of which is looked at in any case
+  // Of a flat mesh, all of which is looked at in any case.
+  reader->SetTiling(ranks.count() == 1 ? "grid:1x1" : "grid:16x16");
   reader->SetNumberOfThreads(arguments.Threads);
   if (!arguments.Bounds.empty())
   {
     reader->SetBounds(arguments.Bounds.data());
   }
-  reader->UpdateInformation();
+  const auto requireGood = [&]
+  {
+    if (errors->HasError)
+    {
+      throw IOError(errors->message());
+    }
+  };
+  ranks.attempt(
+    [&]
+    {
+      reader->UpdateInformation();
+      requireGood();
+    });
   for (vtkDataArraySelection* const selection :
     { reader->GetPointDataArraySelection(), reader->GetCellDataArraySelection() })
   {
@@ -219,12 +247,9 @@ vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments)
       selection->SetArraySetting(name.c_str(), wanted ? 1 : 0);
     }
   }
-  reader->Update();
+  reader->UpdatePiece(ranks.rank(), ranks.count(), 0);
+  ranks.attempt(requireGood);
   vtkSmartPointer<vtkDataSet> mesh = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
-  if (!mesh || errors->HasError)
-  {
-    throw IOError(errors->message());
-  }
   // What the reader adds is no field to sample.
   for (vtkDataSetAttributes* const data :
     { static_cast<vtkDataSetAttributes*>(mesh->GetPointData()),
@@ -239,20 +264,30 @@ vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments)
   return mesh;
 }
 
-vtkSmartPointer<vtkDataSet> readMeshToSample(const ResampleArguments& arguments)
+/// This rank's part of it. A call of all ranks.
+vtkSmartPointer<vtkDataSet> readMeshToSample(const ResampleArguments& arguments, const Ranks& ranks)
 {
-  // A .vtu may be flat, too; VTK's reader takes those of other cells as well.
-  const bool stored = isPartitionedMesh(arguments.Input) ||
-    (isFlatMesh(arguments.Input) && !isVtkFile(arguments.Input));
-  const vtkSmartPointer<vtkDataSet> mesh =
-    stored ? readRange(arguments) : readDataSet(arguments.Input);
-  if (!vtkPointSet::SafeDownCast(mesh))
-  {
-    throw IOError(arguments.Input,
-      std::string("holds a ") + mesh->GetClassName() +
-        ", which is a grid without points of its own; 'tipp flatten' makes a mesh of it.");
-  }
-  return mesh;
+  vtkSmartPointer<vtkDataSet> mesh;
+  ranks.attempt(
+    [&]
+    {
+      // A .vtu may be flat, too; VTK's reader takes those of other cells as well.
+      const bool stored = isPartitionedMesh(arguments.Input) ||
+        (isFlatMesh(arguments.Input) && !isVtkFile(arguments.Input));
+      if (!stored)
+      {
+        mesh = readDataSet(arguments.Input);
+        if (!vtkPointSet::SafeDownCast(mesh))
+        {
+          throw IOError(arguments.Input,
+            std::string("holds a ") + mesh->GetClassName() +
+              ", which is a grid without points of its own; 'tipp flatten' makes a mesh of it.");
+        }
+        hideOtherShares(mesh, ranks);
+      }
+    });
+  // A rank that does not see the mesh has failed with readDataSet().
+  return mesh ? mesh : readRange(arguments, ranks);
 }
 
 /// The filter's message, with what the user has set here instead of the filter's properties.
@@ -275,18 +310,23 @@ std::string reasonOf(std::string message)
   return "cannot be resampled: " + message;
 }
 
-int runResample(const ResampleArguments& arguments)
+void sample(const ResampleArguments& arguments, vtkRangeResampleFilter* filter, const Ranks& ranks)
 {
-  {
-    // Before the work rather than after it.
-    const PendingFile writable(arguments.Output);
-  }
-  watchForInterrupt();
-  const vtkSmartPointer<vtkDataSet> mesh = readMeshToSample(arguments);
-  vtkNew<vtkRangeResampleFilter> filter;
+  ranks.attempt(
+    [&]
+    {
+      if (ranks.isFirst())
+      {
+        const PendingFile writable(arguments.Output); // before the work rather than after it
+      }
+    });
+  const vtkSmartPointer<vtkDataSet> mesh = readMeshToSample(arguments, ranks);
   filter->SetInputData(mesh);
+  filter->SetController(ranks.controller());
+  filter->GatherOnRootOn();
   configure(arguments, filter);
-  chooseArrays(arguments, filter, mesh);
+  const std::string associations = associationsOf(arguments.Arrays, mesh, ranks);
+  ranks.attempt([&] { chooseArrays(arguments, filter, mesh, associations); });
   ProgressBar bar("resampling");
   vtkNew<vtkCallbackCommand> progress;
   progress->SetClientData(&bar);
@@ -304,17 +344,45 @@ int runResample(const ResampleArguments& arguments)
   vtkNew<ErrorKeeper> warnings;
   filter->AddObserver(vtkCommand::WarningEvent, warnings);
   filter->Update();
-  if (isInterrupted())
-  {
-    return reportInterrupt();
-  }
+  ranks.attempt(
+    []
+    {
+      if (isInterrupted())
+      {
+        throw WorkAborted();
+      }
+    });
   if (problems->HasError)
   {
     throw IOError(arguments.Input, reasonOf(problems->message()));
   }
-  for (const std::string& warning : warnings->Messages)
+  for (const std::string& warning :
+    ranks.isFirst() ? warnings->Messages : std::vector<std::string>())
   {
     fmt::print(stderr, "tipp: warning: {}: {}\n", arguments.Input, warning);
+  }
+}
+
+int runResample(const ResampleArguments& arguments)
+{
+  const MpiSession session;
+  const Ranks ranks(session.controller());
+  vtkNew<vtkRangeResampleFilter> filter;
+  try
+  {
+    sample(arguments, filter, ranks);
+  }
+  catch (const WorkAborted&)
+  {
+    return reportInterrupt();
+  }
+  catch (const std::exception&)
+  {
+    return reportFailure();
+  }
+  if (!ranks.isFirst())
+  {
+    return Success;
   }
   if (extensionOf(arguments.Output) == ".npy")
   {

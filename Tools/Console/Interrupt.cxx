@@ -1,32 +1,118 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Console/Interrupt.h"
 
+#include "Files/TemporaryPath.h"
+
 #include <fmt/format.h>
 
 #include <atomic>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <ctime>
+#include <exception>
+#include <mutex>
+#include <new>
+#include <thread>
+
+#include <semaphore.h>
+#include <unistd.h>
 
 namespace tipp
 {
 namespace
 {
 
-std::atomic<bool> interrupted{ false };
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
+constexpr long grace = 300'000'000; // nanoseconds
 
-extern "C" void onInterrupt(int)
+std::atomic<bool> interrupted{ false };
+std::atomic<bool> terminated{ false };
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
+std::atomic<bool> isSaid{ false };
+bool isRank = false;
+sem_t signals;
+
+/// Whoever has it decides how the process ends. Never destroyed, for the thread may still run when
+/// statics are.
+std::mutex& ending()
 {
-  interrupted = true;
+  static auto* const mutex = new std::mutex;
+  return *mutex;
+}
+
+extern "C" void onSignal(int number)
+{
+  (number == SIGTERM ? terminated : interrupted) = true;
+  sem_post(&signals);
+}
+
+void waitForSignal()
+{
+  while (sem_wait(&signals) != 0 && errno == EINTR)
+  {
+  }
+}
+
+/// Gives the work time to end by itself.
+void waitForGrace()
+{
+  timespec until = {};
+  clock_gettime(CLOCK_REALTIME, &until);
+  until.tv_nsec += grace;
+  until.tv_sec += until.tv_nsec / 1'000'000'000;
+  until.tv_nsec %= 1'000'000'000;
+  while (sem_timedwait(&signals, &until) != 0 && errno == EINTR)
+  {
+  }
+}
+
+void say(const char* what, const std::string& consequence)
+{
+  if (!isSaid.exchange(true))
+  {
+    const char* const clear = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : ""; // a progress bar
+    fmt::print(stderr, "{}tipp: {}; {}.\n", clear, what, consequence);
+  }
+}
+
+[[noreturn]] void endProcess()
+{
+  ending().lock(); // for ever
+  const EndedPaths paths = endTemporaryPaths();
+  say(interrupted ? "interrupted"
+      : isRank    ? "ended by SIGTERM, which mpirun sends to all ranks when one has ended"
+                  : "ended by SIGTERM",
+    paths.HasOutput   ? "the output was already written"
+      : paths.HasKept ? "the same command with --resume goes on"
+                      : "nothing was written");
+  std::fflush(stderr);
+  _exit(interrupted ? interruptedExitCode : 128 + SIGTERM);
+}
+
+void watch()
+{
+  waitForSignal();
+  if (!terminated)
+  {
+    waitForGrace();
+  }
+  endProcess();
 }
 
 } // namespace
 
-void watchForInterrupt()
+void watchForInterrupt(int rank)
 {
+  isSaid = rank > 0;
+  isRank = rank >= 0;
+  sem_init(&signals, 0, 0);
   struct sigaction action = {};
-  action.sa_handler = onInterrupt;
-  action.sa_flags = SA_RESTART | SA_RESETHAND;
+  action.sa_handler = onSignal;
+  action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  std::thread(watch).detach();
 }
 
 bool isInterrupted()
@@ -34,10 +120,43 @@ bool isInterrupted()
   return interrupted;
 }
 
-int reportInterrupt()
+int reportInterrupt(const std::string& consequence)
 {
-  fmt::print(stderr, "tipp: interrupted; nothing was written.\n");
+  say("interrupted", consequence);
   return interruptedExitCode;
+}
+
+int reportFailure()
+{
+  endWatch();
+  std::string reason;
+  try
+  {
+    throw;
+  }
+  catch (const std::bad_alloc&)
+  {
+    reason = "there is not enough memory for this input.";
+  }
+  catch (const std::exception& error)
+  {
+    reason = error.what();
+  }
+  if (!isSaid.exchange(true))
+  {
+    fmt::print(stderr, "tipp: {}\n", reason);
+  }
+  return EXIT_FAILURE;
+}
+
+void endWatch()
+{
+  static bool hasEnded = false; // of the main thread
+  if (!hasEnded)
+  {
+    ending().lock(); // for ever
+    hasEnded = true;
+  }
 }
 
 } // namespace tipp

@@ -10,28 +10,24 @@
 
 namespace tipp
 {
-namespace
-{
 
-// MPI_Init() of a process that nobody has started as a rank costs time and can fail for want of a
-// network; so it is left out there.
-bool isStartedAsRank()
+int startedRank()
 {
-  for (const char* const name : { "OMPI_COMM_WORLD_SIZE", "PMI_RANK", "PMI_SIZE", "PMIX_RANK" })
+  for (const char* const name : { "OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK" })
   {
-    if (std::getenv(name))
+    if (const char* const rank = std::getenv(name))
     {
-      return true;
+      return std::atoi(rank);
     }
   }
-  return false;
+  return -1;
 }
-
-} // namespace
 
 MpiSession::MpiSession()
 {
-  if (!isStartedAsRank())
+  // MPI_Init() of a process that nobody has started as a rank costs time and can fail for want of a
+  // network.
+  if (startedRank() < 0)
   {
     return;
   }

@@ -8,6 +8,15 @@ class vtkMultiProcessController;
 namespace tipp
 {
 
+/// The rank that mpirun or a batch system started this process as; -1: none. Known before MPI is.
+int startedRank();
+
+/// Whether this process is a rank with nothing to do in a command that the first one does alone.
+inline bool isIdleRank()
+{
+  return startedRank() > 0;
+}
+
 /// MPI while this lives, if mpirun or a batch system has started the process; else nothing.
 class MpiSession
 {

@@ -85,6 +85,30 @@ TEST_F(PendingFiles, FolderOrDeviceIsNoFile)
     "/dev/null", "not an ordinary file", []() { PendingFile{ "/dev/null" }; });
 }
 
+TEST_F(PendingFiles, RemovesWhatAKilledProcessHasLeft)
+{
+  const std::string left = this->Folder.path(".result.123456789.tmp");
+  const std::string others = this->Folder.path(".result.old.tmp");
+  write(left, "half");
+  write(others, "whole");
+  {
+    const PendingFile pending(this->Folder.path("result"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(left));
+  EXPECT_TRUE(std::filesystem::exists(others));
+}
+
+TEST_F(PendingFiles, LeavesWhatALivingProcessWrites)
+{
+  const PendingFile pending(this->Folder.path("result"));
+  const std::string living = this->Folder.path(".result.123456789.tmp");
+  std::filesystem::rename(pending.temporaryPath(), living);
+  {
+    const PendingFile another(this->Folder.path("result"));
+  }
+  EXPECT_TRUE(std::filesystem::exists(living));
+}
+
 TEST_F(PendingFiles, PathWithoutAFolderIsInTheCurrentOne)
 {
   const PendingFile pending("result");

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 
 namespace fs = std::filesystem;
 using namespace tipp;
@@ -57,6 +58,54 @@ TEST_F(Publication, LeavesNothingOfARunThatIsStopped)
     EXPECT_TRUE(this->make(options).Aborted);
     EXPECT_EQ(1U, this->Folder.fileCount());
   }
+}
+
+TEST_F(Publication, EndsAtTheFirstWishToStopWhereverItComes)
+{
+  int calls = 0;
+  for (bool aborted = true; aborted; ++calls)
+  {
+    PartitionOptions options;
+    int made = 0;
+    options.ChunkCells = 40;
+    options.Tiling = *TilingChoice::parse("quadtree:40");
+    options.DuplicateBorrowers = true;
+    options.Progress = [&](double) { return made++ < calls; };
+    aborted = this->make(options).Aborted;
+    if (aborted)
+    {
+      ASSERT_EQ(calls + 1, made);
+      ASSERT_EQ(1U, this->Folder.fileCount());
+    }
+  }
+  EXPECT_GT(calls, 50);
+}
+
+TEST_F(Publication, AsksInEveryPhaseWhetherToGoOnHoweverLargeTheChunks)
+{
+  writeFlat(makeSource(latticeTriangles(300, 0.3)), this->Folder.path("flat")); // 180,000 cells
+  std::map<double, int> calls; // by the fraction that was done
+  PartitionOptions options;
+  options.Threads = 1;
+  options.Tiling = *TilingChoice::parse("quadtree:20000");
+  options.Progress = [&calls](double fraction)
+  {
+    ++calls[fraction];
+    return true;
+  };
+  this->make(options);
+  const auto count = [&calls](double from, double to)
+  {
+    int sum = 0;
+    for (auto at = calls.lower_bound(from); at != calls.lower_bound(to); ++at)
+    {
+      sum += at->second;
+    }
+    return sum;
+  };
+  EXPECT_GT(count(0, 0.3), 15) << "tiling and cells";
+  EXPECT_GT(count(0.5, 0.6), 2) << "points";
+  EXPECT_GT(count(0.7, 0.95), 50) << "pieces";
 }
 
 TEST_F(Publication, ToldToStopWhenTheMeshIsThereKeepsIt)

@@ -6,6 +6,7 @@
 #include "ReaderTesting.h"
 #include "TemporaryFolder.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkExecutive.h"
 
 #include <cmath>
@@ -131,4 +132,42 @@ TEST_F(ReaderErrors, APieceWhoseTypesHaveChanged)
   std::ofstream(mesh.piecePath(0), std::ios::binary) << content;
   this->Reader->SetFileName(this->path("stored").c_str());
   this->expectError("the array types does not have its checksum");
+}
+
+TEST_F(ReaderErrors, StoppedAnywhereItGivesNothingAndNoError)
+{
+  struct Stop
+  {
+    int Calls = 0;
+    int Made = 0;
+  } stop;
+  vtkNew<vtkCallbackCommand> progress;
+  progress->SetClientData(&stop);
+  progress->SetCallback(
+    [](vtkObject* reader, unsigned long, void* data, void*)
+    {
+      auto* const at = static_cast<Stop*>(data);
+      if (at->Made++ >= at->Calls)
+      {
+        static_cast<vtkAlgorithm*>(reader)->SetAbortExecute(1);
+      }
+    });
+  this->Reader->AddObserver(vtkCommand::ProgressEvent, progress);
+  this->Reader->SetBounds(0, 1, 0, 1, 0, 1);
+  for (const char* const mesh : { "stored", "flat" })
+  {
+    this->Reader->SetFileName(this->path(mesh).c_str());
+    bool isStopped = true;
+    for (stop.Calls = 1; isStopped && stop.Calls < 100; ++stop.Calls)
+    {
+      stop.Made = 0;
+      this->Reader->Modified();
+      this->Reader->Update();
+      auto* const grid = vtkUnstructuredGrid::SafeDownCast(this->Reader->GetOutputDataObject(0));
+      isStopped = grid->GetNumberOfCells() == 0;
+    }
+    EXPECT_FALSE(isStopped);
+    EXPECT_GT(stop.Calls, 4) << mesh;
+  }
+  EXPECT_EQ(0, this->Errors->Count);
 }

@@ -2,7 +2,6 @@
 #include "RunTipp.h"
 
 #include <chrono>
-#include <csignal>
 #include <stdexcept>
 #include <thread>
 
@@ -56,14 +55,9 @@ TippProcess::TippProcess(
   }
 }
 
-void TippProcess::interrupt() const
+void TippProcess::signal(int number) const
 {
-  ::kill(this->Process, SIGINT);
-}
-
-void TippProcess::kill() const
-{
-  ::kill(this->Process, SIGKILL);
+  ::kill(this->Process, number);
 }
 
 Outcome TippProcess::wait() const
@@ -76,16 +70,32 @@ Outcome TippProcess::wait() const
 
 void TippProcess::waitUntil(const std::function<bool()>& condition) const
 {
-  const auto hasEnded = [this]
-  {
-    siginfo_t state{};
-    return waitid(P_PID, id_t(this->Process), &state, WEXITED | WNOHANG | WNOWAIT) != 0 ||
-      state.si_pid != 0;
-  };
-  while (!condition() && !hasEnded())
+  while (!condition() && !this->hasEnded())
   {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
+}
+
+bool TippProcess::hasEnded() const
+{
+  siginfo_t info = {};
+  waitid(P_PID, id_t(this->Process), &info, WEXITED | WNOHANG | WNOWAIT);
+  return info.si_pid == this->Process;
+}
+
+Outcome TippProcess::waitOrKill() const
+{
+  constexpr int mostMilliseconds = 60000;
+  for (int i = 0; i < mostMilliseconds / 10; ++i)
+  {
+    if (this->hasEnded())
+    {
+      return this->wait();
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  this->kill();
+  return this->wait();
 }
 
 Outcome runTipp(const TemporaryFolder& folder, const std::vector<std::string>& arguments)

@@ -4,6 +4,7 @@
 
 #include "TemporaryFolder.h"
 
+#include <csignal>
 #include <functional>
 #include <string>
 #include <vector>
@@ -30,11 +31,16 @@ public:
   TippProcess(
     const TemporaryFolder& folder, const std::vector<std::string>& arguments, int terminal = -1);
 
-  void interrupt() const;
-  void kill() const;
+  void interrupt() const { this->signal(SIGINT); }
+  void kill() const { this->signal(SIGKILL); }
+  void signal(int number) const;
+  bool hasEnded() const;
   Outcome wait() const;
   /// Returns when the condition holds, or the process has ended.
   void waitUntil(const std::function<bool()>& condition) const;
+  /// As wait(), but kills the process if it is still there after a time far longer than it should
+  /// be.
+  Outcome waitOrKill() const;
 
 private:
   const TemporaryFolder& Folder;

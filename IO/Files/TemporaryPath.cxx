@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Files/TemporaryPath.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <system_error>
+
+namespace tipp
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+struct Listed
+{
+  std::mutex Mutex;
+  std::map<std::string, int> Count; ///< one path may be listed twice
+  std::map<std::string, bool> Kept;
+  bool HasOutput = false;
+};
+
+/// Never destroyed: a signal may come while the program's statics are.
+Listed& listed()
+{
+  static auto* const all = new Listed;
+  return *all;
+}
+
+/// Other threads may still be writing into the folder.
+void removePath(const std::string& path)
+{
+  constexpr int mostTries = 100;
+  for (int i = 0; i < mostTries; ++i)
+  {
+    std::error_code failure;
+    fs::remove_all(path, failure);
+    if (!failure)
+    {
+      return;
+    }
+  }
+}
+
+} // namespace
+
+void TemporaryPath::list(const std::string& path)
+{
+  this->unlist();
+  const std::lock_guard<std::mutex> lock(listed().Mutex);
+  this->Path = path;
+  ++listed().Count[path];
+}
+
+void TemporaryPath::unlist()
+{
+  if (this->Path.empty())
+  {
+    return;
+  }
+  const std::lock_guard<std::mutex> lock(listed().Mutex);
+  if (--listed().Count[this->Path] == 0)
+  {
+    listed().Count.erase(this->Path);
+    listed().Kept.erase(this->Path);
+  }
+  this->Path.clear();
+}
+
+void TemporaryPath::keep(bool kept)
+{
+  const std::lock_guard<std::mutex> lock(listed().Mutex);
+  listed().Kept[this->Path] = kept;
+}
+
+void commitOutput(const std::string& path, const std::function<void()>& move)
+{
+  const std::lock_guard<std::mutex> lock(listed().Mutex);
+  move();
+  const auto isWithin = [&path](const auto& entry)
+  { return path.compare(0, entry.first.size() + 1, entry.first + "/") == 0; };
+  const std::map<std::string, int>& all = listed().Count;
+  listed().HasOutput |= std::none_of(all.begin(), all.end(), isWithin);
+}
+
+EndedPaths endTemporaryPaths()
+{
+  listed().Mutex.lock(); // for ever
+  EndedPaths ended;
+  ended.HasOutput = listed().HasOutput;
+  for (const auto& [path, count] : listed().Count)
+  {
+    const auto kept = listed().Kept.find(path);
+    if (kept != listed().Kept.end() && kept->second)
+    {
+      ended.HasKept = true;
+      continue;
+    }
+    removePath(path);
+  }
+  return ended;
+}
+
+} // namespace tipp

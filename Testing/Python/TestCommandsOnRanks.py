@@ -1,0 +1,255 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every command under mpirun, and signals to one rank: TestCommandsOnRanks.py MPIEXEC TIPP HANG_AT_CALL"""
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_TETRA, VTK_TRIANGLE, vtkUnstructuredGrid
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+MPIEXEC, TIPP, HANG_AT_CALL = sys.argv[1:4]
+
+
+def on_ranks(ranks, *arguments):
+    launcher = [MPIEXEC, "--oversubscribe", "--bind-to", "none", "-n", str(ranks)] if ranks > 1 else []
+    return [*launcher, TIPP, *map(str, arguments)]
+
+
+def rank_process(mpirun, rank):
+    """The process of that rank, a child of mpirun."""
+    for entry in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            parent = int((entry / "stat").read_text().rpartition(")")[2].split()[1])
+            environment = (entry / "environ").read_bytes().split(b"\0")
+        except OSError:
+            continue
+        if parent == mpirun and f"OMPI_COMM_WORLD_RANK={rank}".encode() in environment:
+            return int(entry.name)
+    raise AssertionError(f"no rank {rank}")
+
+
+class Commands(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_tipp(self, ranks, *arguments):
+        return subprocess.run(on_ranks(ranks, *arguments), cwd=self.folder, capture_output=True, text=True,
+                              timeout=250)
+
+    def make(self, *arguments):
+        run = self.run_tipp(1, *arguments)
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+    def make_points(self, count=5000):
+        self.make("points", "--distribution", "uniform", "--count", count, "-o", "points.npy")
+
+    def make_surface(self):
+        """mesh.vtu with an array of the points and one of the cells, mesh.tipp and the flat mesh."""
+        rng = np.random.default_rng(3)
+        points = rng.random((4000, 3)) * (1, 1, 0)
+        np.save(self.folder / "points.npy", points[:, :2])
+        self.make("delaunay", "points.npy", "-o", "triangles.npy")
+        triangles = np.load(self.folder / "triangles.npy")
+        flat = self.folder / "flat"
+        for name in ("point_data", "cell_data"):
+            (flat / name).mkdir(parents=True, exist_ok=True)
+        np.save(flat / "points.npy", points[:, :2])
+        np.save(flat / "cells.npy", triangles.astype(np.int32))
+        np.save(flat / "point_data" / "height.npy", np.sin(7 * points[:, 0]) * points[:, 1])
+        np.save(flat / "cell_data" / "number.npy", np.arange(len(triangles), dtype=np.int32))
+        self.write_grid(points, [(VTK_TRIANGLE, triangle) for triangle in triangles])
+        self.make("partition", "flat", "-o", "mesh.tipp")
+
+    def write_grid(self, points, cells):
+        grid = vtkUnstructuredGrid()
+        at = vtkPoints()
+        at.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=1))
+        grid.SetPoints(at)
+        for kind, corners in cells:
+            grid.InsertNextCell(kind, len(corners), [int(corner) for corner in corners])
+        for data, name, values in ((grid.GetPointData(), "height", np.sin(7 * points[:, 0]) * points[:, 1]),
+                                   (grid.GetCellData(), "number", np.arange(len(cells), dtype=np.int32))):
+            array = numpy_to_vtk(values, deep=1)
+            array.SetName(name)
+            data.AddArray(array)
+        writer = vtkXMLUnstructuredGridWriter()
+        writer.SetFileName(str(self.folder / "mesh.vtu"))
+        writer.SetInputData(grid)
+        writer.Write()
+
+
+class Resample(Commands):
+    def expect_image_of_one_process(self, mesh, name, *options):
+        self.make("resample", mesh, "-o", f"alone{name}", *options)
+        alone = (self.folder / f"alone{name}").read_bytes()
+        for ranks in (2, 3):
+            run = self.run_tipp(ranks, "resample", mesh, "-o", f"shared{name}", *options)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertEqual(len(run.stdout.splitlines()), 1, run.stdout)
+            self.assertEqual((self.folder / f"shared{name}").read_bytes(), alone, f"{mesh} on {ranks} ranks")
+
+    def test_surface_gives_the_image_of_one_process(self):
+        self.make_surface()
+        for mesh in ("mesh.vtu", "mesh.tipp", "flat"):
+            self.expect_image_of_one_process(mesh, ".vti", "--dims", 60, 50, 1)
+            self.expect_image_of_one_process(mesh, ".npy", "--dims", 40, 0, 0, "--arrays", "number")
+
+    def test_range_in_one_ranks_pieces_gives_the_image_of_one_process(self):
+        self.make_surface()
+        for mesh in ("mesh.vtu", "mesh.tipp", "flat"):
+            self.expect_image_of_one_process(mesh, ".npy", "--delta", 0.01, 0.01, 0, "--arrays", "height",
+                                             "--bounds", 0.05, 0.2, 0.05, 0.2, 0, 0)
+
+    def test_mixed_cells_give_the_image_of_one_process(self):
+        """Two blocks of hexahedra and a tetrahedron behind triangles, which a mesh of volumes ignores."""
+        points = np.array([(x, y, z) for z in range(2) for y in range(2) for x in range(3)], dtype=float)
+        cube = [0, 1, 4, 3, 6, 7, 10, 9]
+        cells = [(VTK_TRIANGLE, (0, 1, 3))] * 9
+        cells += [(VTK_HEXAHEDRON, cube), (VTK_TETRA, (1, 2, 4, 7))]
+        self.write_grid(points, cells)
+        self.expect_image_of_one_process("mesh.vtu", ".vti", "--dims", 9, 7, 5)
+
+    def test_mesh_that_is_missing_is_one_sentence(self):
+        run = self.run_tipp(3, "resample", "none.vtu", "-o", "out.vti", "--dims", 9, 9, 1)
+        self.assertEqual(run.returncode, 1)
+        self.assertEqual(len([line for line in run.stderr.splitlines() if line.startswith("tipp:")]), 1, run.stderr)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_array_that_is_missing_is_one_sentence(self):
+        self.make_surface()
+        for mesh in ("mesh.vtu", "mesh.tipp"):
+            run = self.run_tipp(3, "resample", mesh, "-o", "out.vti", "--dims", 9, 9, 1, "--arrays", "none")
+            self.assertEqual(run.returncode, 1)
+            self.assertEqual(run.stderr.count("has no array 'none'"), 1, run.stderr)
+            self.assertFalse((self.folder / "out.vti").exists())
+
+
+class FirstRankAlone(Commands):
+    """Commands that have nothing to share are done once."""
+
+    def expect_once(self, *arguments):
+        alone = self.run_tipp(1, *arguments)
+        run = self.run_tipp(3, *arguments)
+        self.assertEqual(run.returncode, alone.returncode, run.stderr)
+        self.assertEqual(run.stdout, alone.stdout)
+        return run
+
+    def test_points_are_written_once(self):
+        self.expect_once("points", "--distribution", "uniform", "--count", 1000, "-o", "points.npy")
+        self.assertEqual(os.listdir(self.folder), ["points.npy"])
+
+    def test_mesh_is_flattened_once(self):
+        self.make_surface()
+        run = self.run_tipp(3, "flatten", "mesh.vtu", "-o", "again")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(len(run.stdout.splitlines()), 1, run.stdout)
+
+    def test_mesh_is_checked_once(self):
+        self.make_surface()
+        self.expect_once("check", "points.npy", "triangles.npy")
+
+    def test_devices_are_listed_once(self):
+        self.expect_once("devices")
+
+    def test_wrong_usage_is_told_once(self):
+        run = self.run_tipp(3, "points", "--count", "many")
+        self.assertEqual(run.returncode, 2)
+        self.assertEqual(run.stderr.count("see 'tipp points --help'"), 1, run.stderr)
+
+
+class SignalToOneRank(Commands):
+    """A rank hangs in a call that reads or writes a file, so that only the signal can end the run."""
+
+    def hang(self, call, rank, *arguments):
+        """The run, hanging; None if it ended before that call."""
+        mark = self.folder / "mark"
+        mark.unlink(missing_ok=True)
+        environment = dict(os.environ, TIPP_HANG_AT=str(call), TIPP_HANG_MARK=str(mark), TIPP_HANG_RANK=str(rank))
+        command = on_ranks(2, *arguments)
+        at = command.index(TIPP)
+        # mpirun itself is not to hang.
+        command = [*command[:at], "env", f"LD_PRELOAD={HANG_AT_CALL}", *command[at:]]
+        run = subprocess.Popen(command, cwd=self.folder, env=environment, text=True, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE)
+        while run.poll() is None and not mark.exists():
+            time.sleep(0.01)
+        hangs = mark.exists()
+        mark.unlink(missing_ok=True)
+        if not hangs:
+            run.communicate()
+            return None
+        return run
+
+    def end(self, run, rank, number):
+        os.kill(rank_process(run.pid, rank), number)
+        try:
+            return run.communicate(timeout=100)
+        except subprocess.TimeoutExpired:
+            run.kill()
+            raise
+
+    def hidden(self):
+        return sorted(name for name in os.listdir(self.folder) if name.startswith("."))
+
+    def expect_clear_ends(self, *arguments, keeps=()):
+        output = arguments[arguments.index("-o") + 1]
+        run = self.run_tipp(1, *arguments)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        subprocess.run(["mv", output, "expected"], cwd=self.folder, check=True)
+        ended = 0
+        for call in (1, 4, 12, 40):
+            for hung, told, number in ((0, 1, signal.SIGINT), (1, 0, signal.SIGINT), (1, 1, signal.SIGKILL)):
+                run = self.hang(call, hung, *arguments)
+                if run is None:
+                    continue
+                ended += 1
+                out, err = self.end(run, told, number)
+                what = f"call {call}, rank {hung} hung, {number.name} to rank {told}: {err}"
+                self.assertEqual(run.returncode, {signal.SIGINT: 130, signal.SIGKILL: 137}[number], what)
+                self.assertIn(self.hidden(), ([], list(keeps)), what)
+                self.assertLessEqual(len([line for line in err.splitlines() if line.startswith("tipp:")]), 1, what)
+        self.assertGreater(ended, 3)
+        more = ["--resume"] if keeps else []
+        subprocess.run(["rm", "-rf", output], cwd=self.folder, check=True)
+        run = subprocess.run(on_ranks(2, *arguments, *more), cwd=self.folder, capture_output=True, text=True,
+                             timeout=250)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(subprocess.run(["diff", "-r", output, "expected"], cwd=self.folder).returncode, 0)
+        self.assertEqual(self.hidden(), [])
+
+    def test_ends_partition_on_all(self):
+        self.make_surface()
+        self.expect_clear_ends("partition", "flat", "-o", "out.tipp", "--tiling", "grid:2x2")
+
+    def test_ends_resample_on_all(self):
+        self.make_surface()
+        self.expect_clear_ends("resample", "mesh.tipp", "-o", "out.vti", "--dims", 30, 30, 1)
+
+    def test_ends_delaunay_out_of_core_on_all(self):
+        self.make_points(30000)
+        self.expect_clear_ends("delaunay", "points.npy", "-o", "out.tipp", "--partitions", "2x2",
+                               keeps=[".out.tipp.part"])
+
+    def test_ends_delaunay_on_all(self):
+        self.make_points()
+        for call in (1, 4):
+            for number, code in ((signal.SIGINT, 130), (signal.SIGKILL, 137)):
+                run = self.hang(call, 0, "delaunay", "points.npy", "-o", "out.npy")
+                if run is not None:
+                    _, err = self.end(run, 1, number)
+                    self.assertEqual(run.returncode, code, err)
+                    self.assertEqual(sorted(os.listdir(self.folder)), ["points.npy"], err)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:])
