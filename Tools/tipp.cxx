@@ -6,8 +6,13 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -54,6 +59,17 @@ int run(int argc, char** argv)
   return exitCode;
 }
 
+/// What is printed can be lost, too, as on a full disk.
+void requireWrittenOutput()
+{
+  std::cout.flush();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout)
+  {
+    throw std::runtime_error(
+      std::string("the standard output cannot be written (") + std::strerror(errno) + ").");
+  }
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -62,15 +78,17 @@ int main(int argc, char** argv)
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   try
   {
-    return run(argc, argv);
+    const int exitCode = run(argc, argv);
+    requireWrittenOutput();
+    return exitCode;
   }
   catch (const std::bad_alloc&)
   {
-    fmt::print(stderr, "tipp: there is not enough memory for this input.\n");
+    std::fputs("tipp: there is not enough memory for this input.\n", stderr);
   }
   catch (const std::exception& error)
   {
-    fmt::print(stderr, "tipp: {}\n", error.what());
+    std::fputs(("tipp: " + std::string(error.what()) + "\n").c_str(), stderr); // throws nothing
   }
   return tipp::Failure;
 }

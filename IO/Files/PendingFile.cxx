@@ -2,11 +2,14 @@
 #include "Files/PendingFile.h"
 
 #include "Files/IOError.h"
-#include "Files/OutputPath.h"
+#include "Files/WorkFolder.h"
 
+#include <cerrno>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace tipp
@@ -16,19 +19,31 @@ namespace fs = std::filesystem;
 
 PendingFile::PendingFile(const std::string& path)
 {
+  if (path.empty() || path.back() == '/')
+  {
+    throw IOError(path, "is the name of a folder, not an ordinary file; name a file to write.");
+  }
+  const fs::path target = outputPath(path);
   std::error_code failure;
-  if (fs::exists(path, failure) && !fs::is_regular_file(path, failure))
+  if (fs::exists(target, failure) && !fs::is_regular_file(target, failure))
   {
     throw IOError(path, "is not an ordinary file; name a file to write.");
   }
-  if (!fs::path(path).has_filename())
-  {
-    throw IOError(path, "its folder does not exist; create it or name another.");
-  }
-  const fs::path target = outputPath(path);
   this->Path = target.string();
-  const std::string name = "." + target.filename().string() + "." + std::to_string(getpid());
-  this->Temporary = (target.parent_path() / (name + ".tmp")).string();
+  this->Before = PathState::of(this->Path);
+  const std::string prefix =
+    (target.parent_path() / hiddenName(target.filename(), ".")).string() + std::to_string(getpid());
+  int descriptor = -1;
+  for (int number = 0; descriptor < 0; ++number)
+  {
+    this->Temporary = prefix + (number == 0 ? "" : "-" + std::to_string(number)) + ".tmp";
+    descriptor = open(this->Temporary.c_str(), O_WRONLY | O_CLOEXEC | O_CREAT | O_EXCL, 0666);
+    if (descriptor < 0 && errno != EEXIST)
+    {
+      failToWrite(path);
+    }
+  }
+  this->File.emplace(descriptor, path);
 }
 
 PendingFile::~PendingFile()
@@ -42,8 +57,13 @@ PendingFile::~PendingFile()
 
 void PendingFile::commit()
 {
-  moveIntoPlace(this->Temporary, this->Path);
-  this->Temporary.clear();
+  this->File->sync();
+  this->File->close();
+  const std::string finished = std::exchange(this->Temporary, "");
+  publish(finished, this->Path, this->Before, {});
+  std::error_code ignored;
+  fs::remove(finished, ignored); // what was there
+  syncToDisk(fs::path(this->Path).parent_path().string());
 }
 
 } // namespace tipp

@@ -4,7 +4,6 @@
 #include "Files/IOError.h"
 
 #include <array>
-#include <cerrno>
 #include <cstring>
 
 namespace tipp
@@ -97,32 +96,20 @@ void NpyReader::read(void* to, std::size_t bytes)
 
 NpyWriter::NpyWriter(
   const std::string& path, const std::string& descr, const std::vector<std::int64_t>& shape)
-  : Path(path)
-  , Pending(path)
-  , File(std::fopen(this->Pending.temporaryPath().c_str(), "wb"))
+  : Pending(path)
 {
-  if (!this->File)
-  {
-    throw IOError(path, std::string("cannot be written (") + std::strerror(errno) + ").");
-  }
   const std::string start = npyFileStart(descr, shape);
   this->write(start.data(), start.size());
 }
 
 void NpyWriter::write(const void* from, std::size_t bytes)
 {
-  if (bytes != 0 && std::fwrite(from, 1, bytes, this->File.get()) != bytes)
-  {
-    throw IOError(this->Path, std::string("cannot be written (") + std::strerror(errno) + ").");
-  }
+  this->Pending.file().write(this->End, from, bytes);
+  this->End += bytes;
 }
 
 void NpyWriter::close()
 {
-  if (std::fclose(this->File.release()) != 0)
-  {
-    throw IOError(this->Path, std::string("cannot be written (") + std::strerror(errno) + ").");
-  }
   this->Pending.commit();
 }
 

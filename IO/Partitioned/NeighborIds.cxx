@@ -30,7 +30,7 @@ namespace
 {
 
 constexpr std::size_t tupleBytes = 3 * sizeof(std::int64_t);
-constexpr std::size_t bufferBytes = std::size_t(1) << 20;
+constexpr std::size_t writeBufferBytes = std::size_t(1) << 20;
 
 /// Which of the file's arrays it is.
 std::size_t placeInFile(const PartitionedMesh& mesh, const PieceSummary& piece)
@@ -74,7 +74,7 @@ std::uint64_t NeighborWriter::bytesFor(const FinishedPiece& piece)
 {
   // Corners, neighbours and findNeighbors()' lists; a buffer.
   constexpr std::uint64_t perCell = 12 + 12 + 8;
-  return perCell * std::uint64_t(piece.Summary.Cells) + bufferBytes;
+  return perCell * std::uint64_t(piece.Summary.Cells) + writeBufferBytes;
 }
 
 void NeighborWriter::add(std::size_t number)
@@ -182,7 +182,7 @@ void NeighborWriter::write(std::size_t number, std::size_t begin, std::size_t en
   const std::vector<std::int64_t> parts = piece.Table.parts(this->Mesh, piece.Summary, false);
   const std::uint64_t skipped = begin == 0 ? 0 : std::uint64_t(parts[0]);
   const OutputFile file = OutputFile::shared(this->Mesh.piecePath(number));
-  ColumnWriter column(file, piece.Table.Offsets[a] + skipped * tupleBytes, bufferBytes);
+  ColumnWriter column(file, piece.Table.Offsets[a] + skipped * tupleBytes, writeBufferBytes);
   for (std::size_t part = begin; part < end; ++part)
   {
     for (std::int64_t i = 0; i < 3 * parts[part]; ++i)

@@ -7,6 +7,7 @@
 #include "Files/Extension.h"
 #include "Files/IOError.h"
 #include "Files/PendingFile.h"
+#include "Files/RequireApart.h"
 #include "Flat/FlatMesh.h"
 #include "Flat/RawArray.h"
 #include "Npy/NpyFile.h"
@@ -14,6 +15,7 @@
 #include "Partitioned/PartitionedMesh.h"
 #include "Vtk/ErrorKeeper.h"
 #include "Vtk/ReadDataSet.h"
+#include "Vtk/WriteXmlFile.h"
 #include "vtkPartitionedUnstructuredReader.h"
 #include "vtkRangeResampleFilter.h"
 
@@ -132,18 +134,7 @@ void configure(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
 void writeImage(const std::string& path, vtkImageData* image)
 {
   PendingFile pending(path);
-  vtkNew<ErrorKeeper> errors;
-  vtkNew<vtkXMLImageDataWriter> writer;
-  writer->AddObserver(vtkCommand::ErrorEvent, errors);
-  writer->SetInputData(image);
-  writer->SetFileName(pending.temporaryPath().c_str());
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToNone();
-  if (!writer->Write() || errors->HasError)
-  {
-    throw IOError(path, "cannot be written; check the disk's space and the folder's permissions.");
-  }
+  writeXmlFile<vtkXMLImageDataWriter>(path, pending, image);
   pending.commit();
 }
 
@@ -241,8 +232,11 @@ vtkSmartPointer<vtkDataSet> readMeshToSample(const ResampleArguments& arguments)
 
 int runResample(const ResampleArguments& arguments)
 {
-  // Before the work rather than after it.
-  const PendingFile writable(arguments.Output);
+  {
+    // Before the work rather than after it.
+    requireApart({ arguments.Output }, { arguments.Input });
+    const PendingFile writable(arguments.Output);
+  }
   watchForInterrupt();
   const vtkSmartPointer<vtkDataSet> mesh = readMeshToSample(arguments);
   vtkNew<vtkRangeResampleFilter> filter;

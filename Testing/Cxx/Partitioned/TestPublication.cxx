@@ -32,6 +32,19 @@ protected:
       openFlatMesh(this->Folder.path("flat")), this->Folder.path("mesh"), options);
   }
 
+  /// A finished mesh that was not put in its place.
+  std::string finished() const
+  {
+    for (const fs::directory_entry& entry : fs::directory_iterator(this->Folder.path("")))
+    {
+      if (entry.path().filename().string().rfind(".mesh.tmp.", 0) == 0)
+      {
+        return entry.path().string() + "/mesh";
+      }
+    }
+    return "";
+  }
+
   SourceMesh Source;
   TemporaryFolder Folder;
 };
@@ -117,6 +130,95 @@ TEST_F(Publication, RefusesAFolderOfOtherThings)
   this->Folder.file("mesh/thesis.tex", "years of work");
   expectIOError(this->Folder.path("mesh"), "no partitioned mesh", [this] { this->make(); });
   EXPECT_EQ("years of work", contentOf(this->Folder.path("mesh/thesis.tex")));
+}
+
+TEST_F(Publication, LeavesAFolderThatAppearsMeanwhile)
+{
+  PartitionOptions options;
+  const std::string notes = this->Folder.path("mesh/thesis.tex");
+  options.Progress = [&](double)
+  {
+    fs::create_directory(this->Folder.path("mesh"));
+    this->Folder.file("mesh/thesis.tex", "years of work");
+    return true;
+  };
+  expectIOError(this->Folder.path("mesh"), "has appeared since", [&] { this->make(options); });
+  EXPECT_EQ("years of work", contentOf(notes));
+  expectHolds(this->finished(), this->Source);
+  fs::rename(this->Folder.path("mesh"), this->Folder.path("other"));
+  this->make(); // does not clear away the finished one
+  expectHolds(this->finished(), this->Source);
+}
+
+TEST_F(Publication, LeavesAFileThatIsPutIntoTheOldMeshMeanwhile)
+{
+  this->make();
+  PartitionOptions options;
+  options.Progress = [&](double)
+  {
+    this->Folder.file("mesh/pieces/thesis.tex", "years of work");
+    return true;
+  };
+  expectIOError(
+    this->Folder.path("mesh"), "holds 'pieces/thesis.tex'", [&] { this->make(options); });
+  EXPECT_EQ("years of work", contentOf(this->Folder.path("mesh/pieces/thesis.tex")));
+  expectHolds(this->Folder.path("mesh"), this->Source);
+  expectHolds(this->finished(), this->Source);
+}
+
+TEST_F(Publication, LeavesAMeshThatTookTheOldOnesPlaceMeanwhile)
+{
+  this->make();
+  fs::copy(this->Folder.path("mesh"), this->Folder.path("copy"), fs::copy_options::recursive);
+  PartitionOptions options;
+  options.Progress = [&](double)
+  {
+    if (fs::exists(this->Folder.path("copy")))
+    {
+      fs::remove_all(this->Folder.path("mesh"));
+      fs::rename(this->Folder.path("copy"), this->Folder.path("mesh"));
+    }
+    return true;
+  };
+  expectIOError(this->Folder.path("mesh"), "has been changed since", [&] { this->make(options); });
+  expectHolds(this->Folder.path("mesh"), this->Source);
+  expectHolds(this->finished(), this->Source);
+}
+
+TEST_F(Publication, RefusesAnOldMeshThatHoldsOtherFiles)
+{
+  this->make();
+  this->Folder.file("mesh/notes.txt", "years of work");
+  expectIOError(this->Folder.path("mesh"), "holds 'notes.txt'", [this] { this->make(); });
+  EXPECT_EQ("years of work", contentOf(this->Folder.path("mesh/notes.txt")));
+  EXPECT_EQ(2U, this->Folder.fileCount());
+}
+
+TEST_F(Publication, ReplacesAnOldMeshWhosePiecesAreMissing)
+{
+  this->make();
+  fs::remove(this->Folder.path("mesh/pieces/000003.vtu"));
+  this->make();
+  expectHolds(this->Folder.path("mesh"), this->Source);
+}
+
+TEST_F(Publication, LeavesAUsersFolderOfAWorkFoldersName)
+{
+  fs::create_directories(this->Folder.path(".mesh.tmp.Ab3dEf"));
+  this->Folder.file(".mesh.tmp.Ab3dEf/thesis.tex", "years of work");
+  this->make();
+  EXPECT_EQ("years of work", contentOf(this->Folder.path(".mesh.tmp.Ab3dEf/thesis.tex")));
+}
+
+TEST_F(Publication, LeavesAUsersFileInALeftoverWorkFolder)
+{
+  fs::create_directories(this->Folder.path(".mesh.tmp.Ab3dEf/mesh/pieces"));
+  this->Folder.file(".mesh.tmp.Ab3dEf/.tipp-work", "");
+  this->Folder.file(".mesh.tmp.Ab3dEf/mesh/pieces/000000.vtu", "piece");
+  this->Folder.file(".mesh.tmp.Ab3dEf/mesh/thesis.tex", "years of work");
+  this->make();
+  EXPECT_FALSE(fs::exists(this->Folder.path(".mesh.tmp.Ab3dEf/mesh/pieces")));
+  EXPECT_EQ("years of work", contentOf(this->Folder.path(".mesh.tmp.Ab3dEf/mesh/thesis.tex")));
 }
 
 TEST_F(Publication, RefusesAFile)

@@ -64,12 +64,17 @@ void TippProcess::kill() const
   ::kill(this->Process, SIGKILL);
 }
 
-Outcome TippProcess::wait() const
+int TippProcess::exitCode() const
 {
   int status = 0;
   waitpid(this->Process, &status, 0);
-  return { WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status),
-    contentOf(this->Folder.path(".out")), contentOf(this->Folder.path(".err")) };
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+Outcome TippProcess::wait() const
+{
+  const int code = this->exitCode();
+  return { code, contentOf(this->Folder.path(".out")), contentOf(this->Folder.path(".err")) };
 }
 
 Outcome runTipp(const TemporaryFolder& folder, const std::vector<std::string>& arguments)

@@ -32,6 +32,8 @@ public:
   void interrupt() const;
   void kill() const;
   Outcome wait() const;
+  /// The same without what it printed.
+  int exitCode() const;
 
 private:
   const TemporaryFolder& Folder;
