@@ -24,7 +24,7 @@ void makeFolder(const std::string& path)
   fs::create_directory(path, failure);
   if (failure)
   {
-    throw IOError(path, "cannot be created (" + failure.message() + "); name another folder.");
+    throw IOError(path, "cannot be made (" + failure.message() + "); name another folder.");
   }
 }
 

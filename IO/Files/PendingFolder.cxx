@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <random>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -90,12 +91,21 @@ PendingFolder::PendingFolder(
 void PendingFolder::makeTemporary(const std::string& prefix)
 {
   this->clearLeftovers(prefix);
+  std::string folder;
   do
   {
-    this->Work = this->Parent + "/" + prefix + randomSuffix();
-  } while (mkdir(this->Work.c_str(), 0777) != 0 && errno == EEXIST);
-  this->Lock = lockFolder(this->Work);
-  if (this->Lock < 0)
+    folder = this->Parent + "/" + prefix + randomSuffix();
+    if (mkdir(folder.c_str(), 0777) == 0)
+    {
+      this->Work = folder;
+    }
+    else if (errno != EEXIST)
+    {
+      failToWrite(this->Path);
+    }
+  } while (this->Work.empty());
+  this->Lock.Descriptor = lockFolder(this->Work);
+  if (this->Lock.Descriptor < 0)
   {
     failToWrite(this->Path);
   }
@@ -108,7 +118,7 @@ void PendingFolder::openLasting(const std::string& folder)
   {
     struct stat opened = {};
     struct stat named = {};
-    return fstat(this->Lock, &opened) == 0 && stat(folder.c_str(), &named) == 0 &&
+    return fstat(this->Lock.Descriptor, &opened) == 0 && stat(folder.c_str(), &named) == 0 &&
       opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
   };
   for (;;)
@@ -117,15 +127,14 @@ void PendingFolder::openLasting(const std::string& folder)
     {
       failToWrite(this->Path);
     }
-    this->Lock = lockFolder(folder);
-    if (this->Lock >= 0 && isStillThere())
+    this->Lock.Descriptor = lockFolder(folder);
+    if (this->Lock.Descriptor >= 0 && isStillThere())
     {
       break;
     }
-    if (this->Lock >= 0)
+    if (this->Lock.Descriptor >= 0)
     {
-      close(this->Lock);
-      this->Lock = -1;
+      this->Lock.release();
     }
     else if (errno == EWOULDBLOCK)
     {
@@ -144,15 +153,19 @@ void PendingFolder::openLasting(const std::string& folder)
   this->Work = folder;
 }
 
+void PendingFolder::FolderLock::release()
+{
+  if (this->Descriptor >= 0)
+  {
+    close(std::exchange(this->Descriptor, -1));
+  }
+}
+
 PendingFolder::~PendingFolder()
 {
   if (!this->Work.empty() && !this->Kept)
   {
     removeWorkFolder(this->Work);
-  }
-  if (this->Lock >= 0)
-  {
-    close(this->Lock);
   }
 }
 

@@ -68,7 +68,19 @@ private:
   std::string Work;
   bool IsLasting;
   bool Kept = false;
-  int Lock = -1; ///< held as long as the process lives
+
+  /// Of the work folder: released even if the constructor throws.
+  struct FolderLock
+  {
+    FolderLock() = default;
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+    ~FolderLock() { this->release(); }
+    void release();
+
+    int Descriptor = -1;
+  };
+  FolderLock Lock;
 };
 
 } // namespace tipp

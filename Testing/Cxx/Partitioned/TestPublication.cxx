@@ -3,6 +3,7 @@
 #include "MeshChecks.h"
 #include "TemporaryFolder.h"
 
+#include "Files/PendingFolder.h"
 #include "Flat/FlatMesh.h"
 #include "Partitioning/PartitionMesh.h"
 
@@ -219,6 +220,25 @@ TEST_F(Publication, LeavesAUsersFileInALeftoverWorkFolder)
   this->make();
   EXPECT_FALSE(fs::exists(this->Folder.path(".mesh.tmp.Ab3dEf/mesh/pieces")));
   EXPECT_EQ("years of work", contentOf(this->Folder.path(".mesh.tmp.Ab3dEf/mesh/thesis.tex")));
+}
+
+TEST_F(Publication, TellsTheSameOfAUsersFolderEachTime)
+{
+  this->Folder.file(".mesh.part", "a file");
+  for (int time = 0; time < 2; ++time)
+  {
+    expectIOError(this->Folder.path(".mesh.part"), "is a file",
+      [&] { PendingFolder::lasting(this->Folder.path("mesh"), nullptr); });
+  }
+  fs::remove(this->Folder.path(".mesh.part"));
+  fs::create_directory(this->Folder.path(".mesh.part"));
+  this->Folder.file(".mesh.part/notes.txt", "years of work");
+  for (int time = 0; time < 2; ++time) // the lock is released
+  {
+    expectIOError(this->Folder.path(".mesh.part"), "is there already with other files",
+      [&] { PendingFolder::lasting(this->Folder.path("mesh"), nullptr); });
+  }
+  EXPECT_EQ("years of work", contentOf(this->Folder.path(".mesh.part/notes.txt")));
 }
 
 TEST_F(Publication, RefusesAFile)

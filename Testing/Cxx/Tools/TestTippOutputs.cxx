@@ -214,7 +214,7 @@ TEST_F(TippOutputs, OutputsMustDiffer)
 TEST_F(TippOutputs, ScratchFolderWithoutItsParentIsRefused)
 {
   this->expectRefused(
-    { "delaunay", "points.npy", "-o", "x.tipp", "--scratch", "no/such" }, "cannot be created");
+    { "delaunay", "points.npy", "-o", "x.tipp", "--scratch", "no/such" }, "cannot be made");
   EXPECT_FALSE(fs::exists(this->path("no")));
 }
 
