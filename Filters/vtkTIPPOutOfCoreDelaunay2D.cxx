@@ -2,6 +2,7 @@
 #include "vtkTIPPOutOfCoreDelaunay2D.h"
 
 #include "Files/IOError.h"
+#include "Files/RequireApart.h"
 #include "OutOfCore/OutOfCoreRanks.h"
 #include "Output/Monitor.h"
 #include "Output/OutOfCoreTable.h"
@@ -141,6 +142,7 @@ void vtkTIPPOutOfCoreDelaunay2D::Execute(vtkTable* output)
     {
       throw tipp::IOError("FileName is not set; name the folder to write.");
     }
+    tipp::requireApart({ path, tipp::scratchIn(options.Scratch) }, this->InputFileNames);
     return tipp::openPointStream(
       this->InputFileNames, { textOf(this->XColumn), textOf(this->YColumn) });
   };

@@ -9,8 +9,13 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -60,6 +65,17 @@ int run(int argc, char** argv)
   return exitCode;
 }
 
+/// What is printed can be lost, too, as on a full disk.
+void requireWrittenOutput()
+{
+  std::cout.flush();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout)
+  {
+    throw std::runtime_error(
+      std::string("the standard output cannot be written (") + std::strerror(errno) + ").");
+  }
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -71,6 +87,7 @@ int main(int argc, char** argv)
   try
   {
     const int exitCode = run(argc, argv);
+    requireWrittenOutput();
     tipp::endWatch();
     return exitCode;
   }

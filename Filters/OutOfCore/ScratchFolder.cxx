@@ -2,6 +2,7 @@
 #include "OutOfCore/ScratchFolder.h"
 
 #include "Files/IOError.h"
+#include "Files/WorkFolder.h"
 
 #include <filesystem>
 #include <vector>
@@ -16,10 +17,11 @@ namespace fs = std::filesystem;
 namespace
 {
 
+/// Not the folders around it: they are missing where the name is mistyped.
 void makeFolder(const std::string& path)
 {
   std::error_code failure;
-  fs::create_directories(path, failure);
+  fs::create_directory(path, failure);
   if (failure)
   {
     throw IOError(path, "cannot be made (" + failure.message() + "); name another folder.");
@@ -53,9 +55,10 @@ ScratchFolder::ScratchFolder(const PendingFolder& mesh, const std::string& other
   , Work(mesh.workPath())
   , Folder(other.empty() ? this->Work : other + "/" + fs::path(this->Work).filename().string())
 {
-  makeFolder(this->Folder);
   if (this->Folder != this->Work)
   {
+    makeFolder(other);
+    claimWorkFolder(this->Folder, "Temporary files of the run that makes " + this->Mesh + "\n");
     this->Listed.list(this->Folder);
   }
   this->keep(mesh.isKept());
@@ -79,10 +82,8 @@ void ScratchFolder::clear()
 {
   std::error_code failure;
   fs::remove(this->state(), failure); // a state without its plan would be one that has lost it
-  for (const fs::directory_entry& entry : fs::directory_iterator(this->Work, failure))
-  {
-    fs::remove_all(entry.path(), failure);
-  }
+  clearWorkFolder(this->Work);
+  makeFolder(this->Mesh);
   makeFolder(this->Mesh + "/pieces");
 }
 
@@ -120,7 +121,7 @@ void ScratchFolder::remove()
   }
   if (this->Folder != this->Work)
   {
-    fs::remove(this->Folder, ignored);
+    removeWorkFolder(this->Folder);
   }
 }
 

@@ -13,36 +13,37 @@
 
 namespace tipp
 {
-namespace
-{
 
-[[noreturn]] void failToWrite(const std::string& path)
+void failToWrite(const std::string& path)
 {
   const char* const advice =
     errno == ENOSPC || errno == EDQUOT ? "; free space on its disk or name another." : ".";
   throw IOError(path, std::string("cannot be written (") + std::strerror(errno) + ")" + advice);
 }
 
-} // namespace
-
-OutputFile::OutputFile(const std::string& path, int flags)
-  : Path(path)
-  , Descriptor(open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666))
+namespace
 {
-  if (this->Descriptor < 0)
+
+int openToWrite(const std::string& path, int flags)
+{
+  const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666);
+  if (descriptor < 0)
   {
     failToWrite(path);
   }
+  return descriptor;
 }
 
+} // namespace
+
 OutputFile::OutputFile(const std::string& path)
-  : OutputFile(path, O_CREAT | O_TRUNC)
+  : OutputFile(openToWrite(path, O_CREAT | O_TRUNC), path)
 {
 }
 
 OutputFile OutputFile::shared(const std::string& path)
 {
-  return { path, 0 };
+  return { openToWrite(path, 0), path };
 }
 
 OutputFile::~OutputFile()
@@ -87,6 +88,14 @@ void OutputFile::startWriteback() const
 {
   // A hint: syncToDisk() waits for it and reports what fails.
   static_cast<void>(sync_file_range(this->Descriptor, 0, 0, SYNC_FILE_RANGE_WRITE));
+}
+
+void OutputFile::sync() const
+{
+  if (fsync(this->Descriptor) != 0)
+  {
+    failToWrite(this->Path);
+  }
 }
 
 void syncToDisk(const std::string& path)

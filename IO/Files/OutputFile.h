@@ -17,6 +17,12 @@ class VTKTIPPIO_EXPORT OutputFile
 public:
   /// Throws IOError if it cannot be made.
   explicit OutputFile(const std::string& path);
+  /// Takes an open file; `name` stands for it in errors.
+  OutputFile(int descriptor, const std::string& name)
+    : Path(name)
+    , Descriptor(descriptor)
+  {
+  }
   /// Opens one that is there already, which other processes may write to as well.
   static OutputFile shared(const std::string& path);
   ~OutputFile();
@@ -31,13 +37,16 @@ public:
   void close();
   /// Has the system begin to write what it holds back.
   void startWriteback() const;
+  /// Returns when all that was written is safe on the disk; throws IOError.
+  void sync() const;
 
 private:
-  OutputFile(const std::string& path, int flags);
-
   std::string Path;
   int Descriptor;
 };
+
+/// Throws IOError with the reason that errno gives.
+[[noreturn]] VTKTIPPIO_EXPORT void failToWrite(const std::string& path);
 
 /// Returns when a file or folder is safe on its disk; throws IOError.
 VTKTIPPIO_EXPORT void syncToDisk(const std::string& path);

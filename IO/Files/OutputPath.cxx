@@ -2,9 +2,15 @@
 #include "Files/OutputPath.h"
 
 #include "Files/IOError.h"
+#include "Files/OutputFile.h"
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <system_error>
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace tipp
@@ -12,38 +18,186 @@ namespace tipp
 
 namespace fs = std::filesystem;
 
+namespace
+{
+
+/// Where links lead at last, even if nothing is there yet.
+fs::path linkTarget(const std::string& path, fs::path target)
+{
+  std::error_code failure;
+  constexpr int mostLinks = 40; // as many as the system follows
+  for (int i = 0; fs::is_symlink(target, failure); ++i)
+  {
+    if (i == mostLinks)
+    {
+      throw IOError(path, "is a link that leads to itself; name another file.");
+    }
+    target = (target.parent_path() / fs::read_symlink(target, failure)).lexically_normal();
+  }
+  return target;
+}
+
+} // namespace
+
 fs::path outputPath(const std::string& path)
 {
   std::error_code failure;
-  fs::path target = path.empty() ? fs::path() : fs::absolute(path).lexically_normal();
+  fs::path target = path.empty() ? fs::path() : fs::absolute(path);
   if (!target.has_filename())
   {
     target = target.parent_path(); // a slash at the end
   }
-  if (fs::is_symlink(target, failure))
-  {
-    target = fs::weakly_canonical(target, failure);
-  }
-  const fs::path folder = target.parent_path();
-  if (!target.has_filename() || !fs::is_directory(folder, failure))
+  target = linkTarget(path, target);
+  // Links among the folders come first: "link/.." is not where it seems to be.
+  const fs::path folder = fs::weakly_canonical(target.parent_path(), failure);
+  target = folder / target.filename();
+  if (!target.has_filename() || target.filename() == ".." || !fs::is_directory(folder, failure))
   {
     throw IOError(path, "its folder does not exist; create it or name another.");
+  }
+  if (target.filename() == ".")
+  {
+    target = folder;
   }
   if (access(folder.c_str(), W_OK) != 0)
   {
     throw IOError(path, "its folder cannot be written to; change its permissions or name another.");
   }
+  struct stat ignored = {};
+  if (lstat(target.c_str(), &ignored) != 0 && errno != ENOENT)
+  {
+    throw IOError(
+      path, std::string("cannot be written (") + std::strerror(errno) + "); name another.");
+  }
   return target;
 }
 
-void moveIntoPlace(const std::string& temporary, const std::string& path)
+PathState PathState::of(const std::string& path)
 {
-  std::error_code failure;
-  fs::rename(temporary, path, failure);
-  if (failure)
+  PathState state;
+  struct stat found = {};
+  if (lstat(path.c_str(), &found) != 0)
   {
-    throw IOError(path, "cannot be written (" + failure.message() + ").");
+    return state;
   }
+  state.Exists = true;
+  state.Device = found.st_dev;
+  state.Inode = found.st_ino;
+  if (S_ISREG(found.st_mode))
+  {
+    state.Size = found.st_size;
+    state.Seconds = found.st_mtim.tv_sec;
+    state.Nanoseconds = found.st_mtim.tv_nsec;
+  }
+  return state;
+}
+
+bool PathState::operator==(const PathState& other) const
+{
+  return this->Exists == other.Exists && this->Device == other.Device &&
+    this->Inode == other.Inode && this->Size == other.Size && this->Seconds == other.Seconds &&
+    this->Nanoseconds == other.Nanoseconds;
+}
+
+namespace
+{
+
+[[noreturn]] void refuseToReplace(
+  const std::string& temporary, const std::string& path, const std::string& reason)
+{
+  throw IOError(path, reason + ", so it is left alone; the finished output is " + temporary + ".");
+}
+
+[[noreturn]] void failToMove(const std::string& temporary, const std::string& path, int reason)
+{
+  refuseToReplace(
+    temporary, path, std::string("cannot be replaced (") + std::strerror(reason) + ")");
+}
+
+bool isUnsupported(int reason)
+{
+  return reason == EINVAL || reason == ENOSYS || reason == ENOTSUP;
+}
+
+int renameAs(const std::string& from, const std::string& to, unsigned flags)
+{
+  return renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0 ? 0 : errno;
+}
+
+/// Where nothing is.
+void moveToFree(const std::string& temporary, const std::string& path)
+{
+  int reason = renameAs(temporary, path, RENAME_NOREPLACE);
+  if (isUnsupported(reason))
+  {
+    reason = PathState::of(path).Exists ? EEXIST : renameAs(temporary, path, 0);
+  }
+  if (reason == EEXIST)
+  {
+    refuseToReplace(temporary, path, "has appeared since the run began");
+  }
+  if (reason != 0)
+  {
+    failToMove(temporary, path, reason);
+  }
+}
+
+/// Not every file system can exchange; then the old one is moved out of the way first.
+int exchangePaths(const std::string& temporary, const std::string& path)
+{
+  const int reason = renameAs(temporary, path, RENAME_EXCHANGE);
+  if (!isUnsupported(reason))
+  {
+    return reason;
+  }
+  const std::string old = temporary + ".old";
+  if (const int first = renameAs(path, old, 0))
+  {
+    return first;
+  }
+  if (const int second = renameAs(temporary, path, 0))
+  {
+    renameAs(old, path, 0);
+    return second;
+  }
+  return renameAs(old, temporary, 0);
+}
+
+} // namespace
+
+void publish(const std::string& temporary, const std::string& path, const PathState& before,
+  const std::function<std::string(const std::string&)>& objection)
+{
+  const PathState now = PathState::of(path);
+  if (!now.Exists)
+  {
+    moveToFree(temporary, path);
+    return;
+  }
+  const auto reasonToStay = [&](const std::string& at) -> std::string
+  {
+    return !before.Exists           ? "has appeared since the run began"
+      : PathState::of(at) != before ? "has been changed since the run began"
+      : objection                   ? objection(at)
+                                    : "";
+  };
+  std::string reason = reasonToStay(path);
+  if (reason.empty())
+  {
+    const int failure = exchangePaths(temporary, path);
+    if (failure != 0)
+    {
+      failToMove(temporary, path, failure);
+    }
+    // Somebody may have come in between.
+    reason = reasonToStay(temporary);
+    if (reason.empty())
+    {
+      return;
+    }
+    exchangePaths(temporary, path);
+  }
+  refuseToReplace(temporary, path, reason);
 }
 
 } // namespace tipp

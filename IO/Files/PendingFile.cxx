@@ -2,10 +2,14 @@
 #include "Files/PendingFile.h"
 
 #include "Files/IOError.h"
-#include "Files/OutputPath.h"
+#include "Files/WorkFolder.h"
 
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -20,19 +24,31 @@ namespace fs = std::filesystem;
 namespace
 {
 
-/// Removes files of that name with a process's number, ".NAME.NUMBER.tmp", that no process has
-/// locked.
+/// How a temporary file's name ends: a number and what only this class derives from the name, so
+/// that no file of the user's is taken for a leftover.
+std::string ending(const std::string& start, const std::string& number)
+{
+  std::uint32_t hash = 2166136261U; // FNV-1a
+  for (const char letter : start + number)
+  {
+    hash = (hash ^ std::uint8_t(letter)) * 16777619U;
+  }
+  char digits[9];
+  std::snprintf(digits, sizeof(digits), "%08x", hash);
+  return number + "-" + digits + ".tmp";
+}
+
+/// Removes the files of that start which killed processes have left: no process has them locked.
 void clearLeftovers(const fs::path& folder, const std::string& start)
 {
-  constexpr const char* end = ".tmp";
   std::error_code failure;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure))
   {
     const std::string name = entry.path().filename().string();
     const std::size_t digits = name.find_first_not_of("0123456789", start.size());
-    const bool isOurs = name.compare(0, start.size(), start) == 0 && digits > start.size() &&
-      digits != std::string::npos && name.compare(digits, std::string::npos, end) == 0;
-    const int file = isOurs ? open(entry.path().c_str(), O_RDONLY | O_CLOEXEC) : -1;
+    const bool isOurs = name.compare(0, start.size(), start) == 0 && digits != std::string::npos &&
+      name == start + ending(start, name.substr(start.size(), digits - start.size()));
+    const int file = isOurs ? open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW) : -1;
     if (file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0)
     {
       fs::remove(entry.path(), failure);
@@ -44,13 +60,13 @@ void clearLeftovers(const fs::path& folder, const std::string& start)
   }
 }
 
-/// Makes and locks the file; -1 if it cannot be made. Another process may take it for a leftover
-/// before it is locked.
+/// Makes and locks the file; -1 if it cannot be made, as when it is there. Another process may
+/// remove it as a leftover before it is locked; then it is made again.
 int makeLocked(const std::string& path)
 {
   for (;;)
   {
-    const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC | O_CREAT | O_EXCL, 0666);
     struct stat info = {};
     if (file < 0 || flock(file, LOCK_EX | LOCK_NB) != 0 ||
       (fstat(file, &info) == 0 && info.st_nlink > 0))
@@ -65,23 +81,33 @@ int makeLocked(const std::string& path)
 
 PendingFile::PendingFile(const std::string& path)
 {
+  if (path.empty() || path.back() == '/')
+  {
+    throw IOError(path, "is the name of a folder, not an ordinary file; name a file to write.");
+  }
+  const fs::path target = outputPath(path);
   std::error_code failure;
-  if (fs::exists(path, failure) && !fs::is_regular_file(path, failure))
+  if (fs::exists(target, failure) && !fs::is_regular_file(target, failure))
   {
     throw IOError(path, "is not an ordinary file; name a file to write.");
   }
-  if (!fs::path(path).has_filename())
-  {
-    throw IOError(path, "its folder does not exist; create it or name another.");
-  }
-  const fs::path target = outputPath(path);
   this->Path = target.string();
-  const std::string start = "." + target.filename().string() + ".";
+  this->Before = PathState::of(this->Path);
+  const std::string start = hiddenName(target.filename(), ".");
   clearLeftovers(target.parent_path(), start);
-  const std::string name = start + std::to_string(getpid()) + ".tmp";
-  this->Temporary = (target.parent_path() / name).string();
-  this->Lock = makeLocked(this->Temporary);
+  int descriptor = -1;
+  for (int more = 0; descriptor < 0; ++more)
+  {
+    const std::string number = std::to_string(getpid()) + (more == 0 ? "" : std::to_string(more));
+    this->Temporary = (target.parent_path() / (start + ending(start, number))).string();
+    descriptor = makeLocked(this->Temporary);
+    if (descriptor < 0 && errno != EEXIST)
+    {
+      failToWrite(path);
+    }
+  }
   this->Listed.list(this->Temporary);
+  this->File.emplace(descriptor, path);
 }
 
 PendingFile::~PendingFile()
@@ -91,16 +117,17 @@ PendingFile::~PendingFile()
     std::error_code ignored;
     fs::remove(this->Temporary, ignored);
   }
-  if (this->Lock >= 0)
-  {
-    close(this->Lock);
-  }
 }
 
 void PendingFile::commit()
 {
-  commitOutput(this->Path, [this] { moveIntoPlace(this->Temporary, this->Path); });
-  this->Temporary.clear();
+  this->File->sync();
+  this->File->close();
+  const std::string finished = std::exchange(this->Temporary, "");
+  commitOutput(this->Path, [&] { publish(finished, this->Path, this->Before, {}); });
+  std::error_code ignored;
+  fs::remove(finished, ignored); // what was there
+  syncToDisk(fs::path(this->Path).parent_path().string());
 }
 
 } // namespace tipp

@@ -2,38 +2,45 @@
 #ifndef tippPendingFile_h
 #define tippPendingFile_h
 
+#include "Files/OutputFile.h"
+#include "Files/OutputPath.h"
 #include "Files/TemporaryPath.h"
 #include "vtkTIPPIOModule.h"
 
+#include <optional>
 #include <string>
 
 namespace tipp
 {
 
-/// An output file under a temporary name in its own folder until commit() renames it; without
-/// commit() it goes away. So a failed or aborted run leaves nothing half-written, and what was at
-/// the path before stays. What a killed process has left, the next one for the same path removes.
+/// An output file under a temporary name in its own folder until commit() puts it in its place;
+/// without commit() it goes away. So a failed or aborted run leaves nothing half-written, and what
+/// was at the path before stays. What a killed process has left, the next one for the same path
+/// removes.
 class VTKTIPPIO_EXPORT PendingFile
 {
 public:
-  /// Throws IOError if the path's folder is missing or closed to us or the path is not an ordinary
-  /// file.
+  /// Throws IOError if the file cannot be created or something other than an ordinary file is at
+  /// the path.
   explicit PendingFile(const std::string& path);
   ~PendingFile();
   PendingFile(const PendingFile&) = delete;
   PendingFile& operator=(const PendingFile&) = delete;
 
   /// Write here.
+  const OutputFile& file() const { return *this->File; }
   const std::string& temporaryPath() const { return this->Temporary; }
 
-  /// Renames the temporary file to the path; throws IOError.
+  /// Puts the file in its place when it is safe on the disk. Throws IOError, also if what is at the
+  /// path has changed since the constructor; then the finished file stays beside it.
   void commit();
 
 private:
   std::string Path;
   std::string Temporary;
   TemporaryPath Listed;
-  int Lock = -1; ///< held as long as the process lives
+  PathState Before;
+  std::optional<OutputFile> File; ///< locked as long as it is open
 };
 
 } // namespace tipp

@@ -3,13 +3,14 @@
 
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
-#include "Files/OutputPath.h"
+#include "Files/WorkFolder.h"
 
+#include <algorithm>
 #include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
+#include <random>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -21,6 +22,38 @@ namespace tipp
 
 namespace fs = std::filesystem;
 
+namespace
+{
+
+constexpr std::size_t suffixLetters = 6;
+
+std::string randomSuffix()
+{
+  constexpr const char* letters = "0123456789abcdefghijklmnopqrstuvwxyz";
+  std::random_device random;
+  std::string suffix;
+  for (std::size_t i = 0; i < suffixLetters; ++i)
+  {
+    suffix += letters[random() % 36];
+  }
+  return suffix;
+}
+
+/// -1 if another process has it; else the lock is held until the descriptor is closed.
+int lockFolder(const std::string& folder)
+{
+  const int lock = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock >= 0 && flock(lock, LOCK_EX | LOCK_NB) != 0)
+  {
+    close(lock);
+    errno = EWOULDBLOCK;
+    return -1;
+  }
+  return lock;
+}
+
+} // namespace
+
 PendingFolder::PendingFolder(const std::string& path, const Replaceable* replaceable)
   : PendingFolder(path, replaceable, false)
 {
@@ -28,53 +61,65 @@ PendingFolder::PendingFolder(const std::string& path, const Replaceable* replace
 
 PendingFolder::PendingFolder(
   const std::string& path, const Replaceable* replaceable, bool isLasting)
+  : MayReplace(replaceable)
+  , IsLasting(isLasting)
 {
-  std::error_code failure;
   const fs::path target = outputPath(path);
-  const fs::path parent = target.parent_path();
-  const bool mayBeThere = fs::is_directory(target, failure) &&
-    (fs::is_empty(target, failure) || (replaceable && replaceable->Is(target.string())));
-  if (fs::exists(target, failure) && !mayBeThere)
-  {
-    throw IOError(path,
-      std::string("exists already") +
-        (replaceable ? std::string(" and is no ") + replaceable->Name : "") +
-        "; remove it or name another folder.");
-  }
   this->Path = target.string();
-  this->Parent = parent.string();
+  this->Parent = target.parent_path().string();
+  this->Before = PathState::of(this->Path);
+  const std::string objection = this->Before.Exists ? this->objectionTo(this->Path) : "";
+  if (!objection.empty())
+  {
+    throw IOError(path, objection + "; remove it or name another folder.");
+  }
   const std::string name = target.filename().string();
-  isLasting ? this->openLasting((parent / ("." + name + ".part")).string(), name)
-            : this->makeTemporary("." + name + ".tmp.");
+  isLasting ? this->openLasting(this->Parent + "/" + hiddenName(name, ".part"))
+            : this->makeTemporary(hiddenName(name, ".tmp."));
+  this->Temporary = this->Work + "/" + name;
+  mkdir(this->Temporary.c_str(), 0777);
+  std::error_code failure;
+  if (!fs::is_directory(this->Temporary, failure))
+  {
+    const int reason = errno;
+    removeWorkFolder(this->Work);
+    errno = reason;
+    failToWrite(path);
+  }
 }
 
 void PendingFolder::makeTemporary(const std::string& prefix)
 {
   this->clearLeftovers(prefix);
-  std::string name = this->Parent + "/" + prefix + "XXXXXX";
-  if (!mkdtemp(name.data()))
+  std::string folder;
+  do
   {
-    throw IOError(this->Path, std::string("cannot be written (") + std::strerror(errno) + ").");
+    folder = this->Parent + "/" + prefix + randomSuffix();
+    if (mkdir(folder.c_str(), 0777) == 0)
+    {
+      this->Work = folder;
+    }
+    else if (errno != EEXIST)
+    {
+      failToWrite(this->Path);
+    }
+  } while (this->Work.empty());
+  this->Lock.Descriptor = lockFolder(this->Work);
+  if (this->Lock.Descriptor < 0)
+  {
+    failToWrite(this->Path);
   }
-  this->Temporary = name;
-  this->Work = name;
-  this->Listed.list(name);
-  // mkdtemp() allows nobody else; an output is as open as other files.
-  const mode_t mask = umask(0);
-  umask(mask);
-  std::error_code failure;
-  fs::permissions(name, fs::perms(0777 & ~mask), failure);
-  this->Lock = open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  flock(this->Lock, LOCK_EX | LOCK_NB);
+  claimWorkFolder(this->Work, "");
+  this->Listed.list(this->Work);
 }
 
-void PendingFolder::openLasting(const std::string& folder, const std::string& name)
+void PendingFolder::openLasting(const std::string& folder)
 {
   const auto isStillThere = [&]
   {
     struct stat opened = {};
     struct stat named = {};
-    return fstat(this->Lock, &opened) == 0 && stat(folder.c_str(), &named) == 0 &&
+    return fstat(this->Lock.Descriptor, &opened) == 0 && stat(folder.c_str(), &named) == 0 &&
       opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
   };
   bool wasThere = false;
@@ -83,42 +128,49 @@ void PendingFolder::openLasting(const std::string& folder, const std::string& na
     wasThere = mkdir(folder.c_str(), 0777) != 0;
     if (wasThere && errno != EEXIST)
     {
-      throw IOError(this->Path, std::string("cannot be written (") + std::strerror(errno) + ").");
+      failToWrite(this->Path);
     }
-    this->Lock = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    const bool isOurs = this->Lock >= 0 && flock(this->Lock, LOCK_EX | LOCK_NB) == 0;
-    if (isOurs && isStillThere())
+    this->Lock.Descriptor = lockFolder(folder);
+    if (this->Lock.Descriptor >= 0 && isStillThere())
     {
       break;
     }
-    const bool wasRemoved = isOurs || (this->Lock < 0 && errno == ENOENT);
-    if (this->Lock >= 0)
+    if (this->Lock.Descriptor >= 0)
     {
-      close(this->Lock);
-      this->Lock = -1;
+      this->Lock.release();
     }
-    if (!wasRemoved) // else its maker has just ended
+    else if (errno == EWOULDBLOCK)
     {
       throw IOError(this->Path, "is being made by another process; wait for it or end it.");
     }
+    else if (errno == ENOTDIR)
+    {
+      throw IOError(folder, "is a file where the work folder of the run is to be; move it.");
+    }
+    else if (errno != ENOENT) // else its maker has just ended
+    {
+      failToWrite(folder);
+    }
   }
+  claimWorkFolder(folder, "");
   this->Work = folder;
   this->Listed.list(folder);
   this->keep(wasThere);
-  this->Temporary = folder + "/" + name;
-  mkdir(this->Temporary.c_str(), 0777);
+}
+
+void PendingFolder::FolderLock::release()
+{
+  if (this->Descriptor >= 0)
+  {
+    close(std::exchange(this->Descriptor, -1));
+  }
 }
 
 PendingFolder::~PendingFolder()
 {
   if (!this->Work.empty() && !this->Kept)
   {
-    std::error_code ignored;
-    fs::remove_all(this->Work, ignored);
-  }
-  if (this->Lock >= 0)
-  {
-    close(this->Lock);
+    removeWorkFolder(this->Work);
   }
 }
 
@@ -128,56 +180,82 @@ void PendingFolder::clearLeftovers(const std::string& prefix) const
   for (const fs::directory_entry& entry : fs::directory_iterator(this->Parent, failure))
   {
     const std::string name = entry.path().filename().string();
-    const bool ours = name.size() == prefix.size() + 6 &&
-      name.compare(0, prefix.size(), prefix) == 0 && entry.is_directory(failure);
-    const int folder = ours ? open(entry.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    const bool isNamedSo = name.size() == prefix.size() + suffixLetters &&
+      name.compare(0, prefix.size(), prefix) == 0 &&
+      entry.symlink_status(failure).type() == fs::file_type::directory;
     // Its maker lives if it is locked.
-    if (folder >= 0 && flock(folder, LOCK_EX | LOCK_NB) == 0)
+    const int lock = isNamedSo ? lockFolder(entry.path().string()) : -1;
+    if (lock >= 0)
     {
-      fs::remove_all(entry.path(), failure);
-    }
-    if (folder >= 0)
-    {
-      close(folder);
+      if (isWorkFolder(entry.path().string()))
+      {
+        removeWorkFolder(entry.path().string());
+      }
+      close(lock);
     }
   }
 }
 
-void PendingFolder::exchange() const
+/// Why a folder must not be replaced; empty if it may be.
+std::string PendingFolder::objectionTo(const std::string& folder) const
 {
-  if (renameat2(AT_FDCWD, this->Temporary.c_str(), AT_FDCWD, this->Path.c_str(), RENAME_EXCHANGE) ==
-    0)
-  {
-    return;
-  }
-  // Not every file system can exchange; then the old folder is moved out of the way first.
-  const std::string old = this->Temporary + ".old";
   std::error_code failure;
-  fs::rename(this->Path, old, failure);
-  if (!failure)
+  const bool isFolder = fs::symlink_status(folder, failure).type() == fs::file_type::directory;
+  if (isFolder && fs::is_empty(folder, failure))
   {
-    fs::rename(this->Temporary, this->Path, failure);
-    std::error_code ignored;
-    fs::rename(old, failure ? this->Path : this->Temporary, ignored);
+    return "";
   }
-  if (failure)
+  if (!isFolder || !this->MayReplace || !this->MayReplace->Is(folder))
   {
-    throw IOError(this->Path, "cannot be replaced (" + failure.message() + ").");
+    return std::string("exists already") +
+      (this->MayReplace ? std::string(" and is no ") + this->MayReplace->Name : "");
   }
+  std::vector<std::string> own;
+  try
+  {
+    own = this->MayReplace->Files(folder);
+  }
+  catch (const IOError& error)
+  {
+    return std::string("exists already, but its files are not known (") + error.what() + ")";
+  }
+  std::sort(own.begin(), own.end());
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, failure))
+  {
+    const std::string name = entry.path().string().substr(folder.size() + 1);
+    if (entry.symlink_status(failure).type() != fs::file_type::directory &&
+      !std::binary_search(own.begin(), own.end(), name))
+    {
+      return "exists already and holds '" + name + "', which is no file of a " +
+        this->MayReplace->Name;
+    }
+  }
+  return failure ? "cannot be looked through (" + failure.message() + ")" : "";
 }
 
 void PendingFolder::commit()
 {
-  std::error_code failure;
   syncToDisk(this->Temporary);
-  const bool replaces = fs::exists(this->Path, failure);
-  commitOutput(
-    this->Path, [&] { replaces ? this->exchange() : moveIntoPlace(this->Temporary, this->Path); });
-  syncToDisk(this->Parent);
-  if (replaces)
+  try
   {
-    fs::remove_all(this->Temporary, failure); // the old one
+    commitOutput(this->Path,
+      [this]
+      {
+        publish(this->Temporary, this->Path, this->Before,
+          [this](const std::string& folder) { return this->objectionTo(folder); });
+      });
   }
+  catch (const IOError&)
+  {
+    this->keep();
+    if (!this->IsLasting)
+    {
+      unmarkWorkFolder(this->Work); // so that no other run clears it away
+    }
+    throw;
+  }
+  syncToDisk(this->Parent);
+  // What was there is in the work folder now, and goes with it.
 }
 
 } // namespace tipp

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/TemporaryPath.h"
 
+#include "Files/WorkFolder.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -29,17 +31,20 @@ Listed& listed()
   return *all;
 }
 
-/// Other threads may still be writing into the folder.
+/// Other threads may still be writing into the folder. Of a folder only what runs write.
 void removePath(const std::string& path)
 {
   constexpr int mostTries = 100;
-  for (int i = 0; i < mostTries; ++i)
+  std::error_code failure;
+  for (int i = 0; i < mostTries && fs::exists(path, failure); ++i)
   {
-    std::error_code failure;
-    fs::remove_all(path, failure);
-    if (!failure)
+    if (fs::is_directory(path, failure))
     {
-      return;
+      removeWorkFolder(path);
+    }
+    else
+    {
+      fs::remove(path, failure);
     }
   }
 }

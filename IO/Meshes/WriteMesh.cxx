@@ -7,9 +7,8 @@
 #include "Meshes/FindNeighbors.h"
 #include "Meshes/MeshDataSet.h"
 #include "Npy/NpyFile.h"
-#include "Vtk/ErrorKeeper.h"
+#include "Vtk/WriteXmlFile.h"
 
-#include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkXMLPolyDataWriter.h"
@@ -53,19 +52,7 @@ template <typename Writer>
 bool writeXml(const std::string& path, vtkDataSet* data, const MeshOptions& options)
 {
   PendingFile pending(path);
-  vtkNew<Writer> writer;
-  vtkNew<ErrorKeeper> errors;
-  writer->AddObserver(vtkCommand::ErrorEvent, errors);
-  writer->SetFileName(pending.temporaryPath().c_str());
-  writer->SetInputData(data);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToNone();
-  writer->SetHeaderTypeToUInt64();
-  if (writer->Write() == 0 || errors->HasError)
-  {
-    throw IOError(path, "cannot be written; check the disk's space and the folder's permissions.");
-  }
+  writeXmlFile<Writer>(path, pending, data);
   if (isAborted(options))
   {
     return false;

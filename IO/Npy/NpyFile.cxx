@@ -5,7 +5,6 @@
 #include "Parallel/Poll.h"
 
 #include <array>
-#include <cerrno>
 #include <cstring>
 
 namespace tipp
@@ -98,14 +97,8 @@ void NpyReader::read(void* to, std::size_t bytes)
 
 NpyWriter::NpyWriter(
   const std::string& path, const std::string& descr, const std::vector<std::int64_t>& shape)
-  : Path(path)
-  , Pending(path)
-  , File(std::fopen(this->Pending.temporaryPath().c_str(), "wb"))
+  : Pending(path)
 {
-  if (!this->File)
-  {
-    throw IOError(path, std::string("cannot be written (") + std::strerror(errno) + ").");
-  }
   const std::string start = npyFileStart(descr, shape);
   this->write(start.data(), start.size());
 }
@@ -118,10 +111,8 @@ void NpyWriter::write(const void* from, std::size_t bytes)
   {
     poll();
     const std::size_t part = std::min(left, most);
-    if (std::fwrite(at, 1, part, this->File.get()) != part)
-    {
-      throw IOError(this->Path, std::string("cannot be written (") + std::strerror(errno) + ").");
-    }
+    this->Pending.file().write(this->End, at, part);
+    this->End += part;
     at += part;
     left -= part;
   }
@@ -129,10 +120,6 @@ void NpyWriter::write(const void* from, std::size_t bytes)
 
 void NpyWriter::close()
 {
-  if (std::fclose(this->File.release()) != 0)
-  {
-    throw IOError(this->Path, std::string("cannot be written (") + std::strerror(errno) + ").");
-  }
   this->Pending.commit();
 }
 

@@ -8,19 +8,11 @@
 #include "vtkTIPPIOModule.h"
 
 #include <cstdint>
-#include <cstdio>
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace tipp
 {
-
-struct CloseFile
-{
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using FileHandle = std::unique_ptr<std::FILE, CloseFile>;
 
 /// Reads a table of numbers from NumPy's .npy format, versions 1 to 3
 /// (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html): rows x columns,
@@ -73,9 +65,8 @@ public:
   void close();
 
 private:
-  std::string Path;
   PendingFile Pending;
-  FileHandle File;
+  std::uint64_t End = 0;
 };
 
 } // namespace tipp

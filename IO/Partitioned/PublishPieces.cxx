@@ -15,7 +15,31 @@
 namespace tipp
 {
 
-const Replaceable replaceableMesh{ "partitioned mesh", isPartitionedMesh };
+namespace
+{
+
+/// Only the index is read: a mesh whose pieces are missing or damaged can be replaced, too.
+std::vector<std::string> filesOf(const std::string& path)
+{
+  PartitionedMesh mesh;
+  mesh.Path = path;
+  const std::string index = mesh.indexPath();
+  const std::size_t pieces = parseIndex(readTextFile(index), index).Pieces.size();
+  std::vector<std::string> files;
+  for (std::size_t piece = 0; piece < pieces; ++piece)
+  {
+    files.push_back(pieceName(piece));
+  }
+  for (const std::string& file : { index, mesh.tablesPath(), mesh.pvtuPath() })
+  {
+    files.push_back(file.substr(path.size() + 1));
+  }
+  return files;
+}
+
+} // namespace
+
+const Replaceable replaceableMesh{ "partitioned mesh", isPartitionedMesh, filesOf };
 
 namespace
 {

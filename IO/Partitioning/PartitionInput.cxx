@@ -2,6 +2,8 @@
 #include "Partitioning/PartitionInput.h"
 
 #include "Files/IOError.h"
+#include "Files/PendingFolder.h"
+#include "Files/RequireApart.h"
 #include "Flat/FlattenDataSet.h"
 #include "Flat/WriteFlatMesh.h"
 #include "Partitioned/PieceLayout.h"
@@ -101,6 +103,11 @@ PartitionStatistics partitionInput(const std::string& input, const std::string& 
   ranks.attempt(
     [&]
     {
+      if (ranks.isFirst())
+      {
+        requireApart({ output }, { input });
+        const PendingFolder writable(output, &replaceableMesh); // before the work
+      }
       isFlat = isFlatMesh(input) || !isVtkFile(input);
       if (isFlat)
       {

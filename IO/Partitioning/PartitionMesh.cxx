@@ -177,6 +177,17 @@ void prepare(PartitionRun& run, const std::string& path)
   requireSpace(run, path);
 }
 
+/// The user knows the mesh's name, but not that of its temporary folder.
+std::string withName(std::string text, const std::string& folder, const std::string& name)
+{
+  for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at))
+  {
+    text.replace(at, folder.size(), name);
+    at += name.size();
+  }
+  return text;
+}
+
 void completeStatistics(PartitionRun& run)
 {
   PartitionStatistics& all = run.Statistics;
@@ -239,6 +250,10 @@ PartitionStatistics partitionMesh(const FlatMesh& mesh, const std::string& path,
   {
     run.Statistics.Aborted = true;
     return run.Statistics;
+  }
+  catch (const IOError& error)
+  {
+    throw IOError(withName(error.what(), run.Folder, path));
   }
   Stopwatch watch;
   completeStatistics(run);

@@ -8,6 +8,7 @@
 #include "Console/ProgressBar.h"
 #include "Files/Extension.h"
 #include "Files/PendingFile.h"
+#include "Files/RequireApart.h"
 #include "OutOfCore/OutOfCoreRanks.h"
 
 #include <fmt/format.h>
@@ -231,12 +232,14 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
   std::unique_ptr<ProgressBar> bar;
   const auto open = [&]
   {
-    if (isFirst && !arguments.Statistics.empty())
-    {
-      const PendingFile writable(arguments.Statistics); // before the work rather than after it
-    }
     if (isFirst)
     {
+      requireApart(
+        { arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, arguments.Inputs);
+      if (!arguments.Statistics.empty())
+      {
+        const PendingFile writable(arguments.Statistics); // before the work rather than after it
+      }
       bar = makeBar();
     }
     return openPointStream(arguments.Inputs, arguments.Columns);

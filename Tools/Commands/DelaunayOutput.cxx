@@ -4,6 +4,7 @@
 #include "Console/Interrupt.h"
 #include "Files/Extension.h"
 #include "Files/PendingFile.h"
+#include "Files/RequireApart.h"
 #include "Meshes/WriteMesh.h"
 
 #include <fmt/format.h>
@@ -63,6 +64,7 @@ bool writeResult(
 
 void requireWritable(const DelaunayArguments& arguments)
 {
+  requireApart({ arguments.Output, arguments.Statistics }, { arguments.Input });
   const PendingFile output(arguments.Output);
   if (!arguments.Statistics.empty())
   {

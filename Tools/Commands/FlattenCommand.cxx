@@ -5,6 +5,7 @@
 #include "Console/MpiSession.h"
 #include "Files/Extension.h"
 #include "Files/PendingFolder.h"
+#include "Files/RequireApart.h"
 #include "Flat/FlattenAdcirc.h"
 #include "Flat/FlattenDataSet.h"
 #include "Flat/WriteFlatMesh.h"
@@ -87,6 +88,9 @@ int runFlatten(const FlattenArguments& arguments)
 {
   {
     // Before the work rather than after it.
+    std::vector<std::string> inputs = arguments.Values;
+    inputs.push_back(arguments.Input);
+    requireApart({ arguments.Output }, inputs);
     const PendingFolder writable(arguments.Output);
   }
   if (isAdcircGrid(arguments.Input))

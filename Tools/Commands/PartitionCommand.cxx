@@ -7,6 +7,7 @@
 #include "Console/MpiSession.h"
 #include "Console/ProgressBar.h"
 #include "Files/PendingFile.h"
+#include "Files/RequireApart.h"
 #include "Partitioning/PartitionInput.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Partitioning/Ranks.h"
@@ -96,6 +97,7 @@ int runPartition(const PartitionArguments& arguments)
         {
           if (session.isFirst() && !arguments.Statistics.empty())
           {
+            requireApart({ arguments.Output, arguments.Statistics }, { arguments.Input });
             const PendingFile writable(arguments.Statistics);
           }
         });

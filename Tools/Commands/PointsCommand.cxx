@@ -5,6 +5,8 @@
 #include "Console/MpiSession.h"
 #include "Distributions/GeneratePoints.h"
 #include "Files/Extension.h"
+#include "Files/PendingFile.h"
+#include "Files/RequireApart.h"
 #include "Points/WritePoints.h"
 
 #include <CLI/CLI.hpp>
@@ -46,6 +48,10 @@ struct PointsArguments
 void runPoints(const PointsArguments& arguments)
 {
   const bool isLike = !arguments.Like.empty();
+  requireApart({ arguments.Output }, { arguments.Like });
+  {
+    const PendingFile writable(arguments.Output); // before the work rather than after it
+  }
   writePoints(arguments.Output,
     isLike ? pointsLike(arguments.Like, arguments.Count, arguments.Seed)
            : generatePoints(

@@ -9,6 +9,7 @@
 #include "Files/Extension.h"
 #include "Files/IOError.h"
 #include "Files/PendingFile.h"
+#include "Files/RequireApart.h"
 #include "Flat/FlatMesh.h"
 #include "Flat/RawArray.h"
 #include "Npy/NpyFile.h"
@@ -18,6 +19,7 @@
 #include "Vtk/ArrayNames.h"
 #include "Vtk/ErrorKeeper.h"
 #include "Vtk/ReadDataSet.h"
+#include "Vtk/WriteXmlFile.h"
 #include "vtkPartitionedUnstructuredReader.h"
 #include "vtkRangeResampleFilter.h"
 
@@ -155,18 +157,7 @@ void configure(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
 void writeImage(const std::string& path, vtkImageData* image)
 {
   PendingFile pending(path);
-  vtkNew<ErrorKeeper> errors;
-  vtkNew<vtkXMLImageDataWriter> writer;
-  writer->AddObserver(vtkCommand::ErrorEvent, errors);
-  writer->SetInputData(image);
-  writer->SetFileName(pending.temporaryPath().c_str());
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToNone();
-  if (!writer->Write() || errors->HasError)
-  {
-    throw IOError(path, "cannot be written; check the disk's space and the folder's permissions.");
-  }
+  writeXmlFile<vtkXMLImageDataWriter>(path, pending, image);
   pending.commit();
 }
 
@@ -317,7 +308,9 @@ void sample(const ResampleArguments& arguments, vtkRangeResampleFilter* filter, 
     {
       if (ranks.isFirst())
       {
-        const PendingFile writable(arguments.Output); // before the work rather than after it
+        // Before the work rather than after it.
+        requireApart({ arguments.Output }, { arguments.Input });
+        const PendingFile writable(arguments.Output);
       }
     });
   const vtkSmartPointer<vtkDataSet> mesh = readMeshToSample(arguments, ranks);

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <exception>
@@ -72,7 +73,8 @@ void say(const char* what, const std::string& consequence)
   if (!isSaid.exchange(true))
   {
     const char* const clear = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : ""; // a progress bar
-    fmt::print(stderr, "{}tipp: {}; {}.\n", clear, what, consequence);
+    // Throws nothing where stderr cannot be written.
+    std::fputs(fmt::format("{}tipp: {}; {}.\n", clear, what, consequence).c_str(), stderr);
   }
 }
 
@@ -144,7 +146,7 @@ int reportFailure()
   }
   if (!isSaid.exchange(true))
   {
-    fmt::print(stderr, "tipp: {}\n", reason);
+    std::fputs(("tipp: " + reason + "\n").c_str(), stderr);
   }
   return EXIT_FAILURE;
 }

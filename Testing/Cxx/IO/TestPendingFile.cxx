@@ -58,6 +58,75 @@ TEST_F(PendingFiles, LinkIsFollowed)
   EXPECT_EQ("new", contentOf(this->Path));
 }
 
+TEST_F(PendingFiles, LinkToNothingIsFollowed)
+{
+  const std::string link = this->Folder.path("link");
+  std::filesystem::create_symlink("target", link);
+  PendingFile pending(link);
+  write(pending.temporaryPath(), "new");
+  pending.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ("new", tipp::test::contentOf(this->Folder.path("target")));
+}
+
+TEST_F(PendingFiles, LinkToItselfIsRefused)
+{
+  const std::string link = this->Folder.path("link");
+  std::filesystem::create_symlink("link", link);
+  tipp::test::expectIOError(link, "leads to itself", [&]() { PendingFile{ link }; });
+}
+
+TEST_F(PendingFiles, FileThatAppearsMeanwhileIsLeftAlone)
+{
+  PendingFile pending(this->Path);
+  const std::string finished = pending.temporaryPath();
+  write(finished, "new");
+  write(this->Path, "a user's");
+  tipp::test::expectIOError(
+    this->Path, "appeared since the run began", [&]() { pending.commit(); });
+  EXPECT_EQ("a user's", tipp::test::contentOf(this->Path));
+  EXPECT_EQ("new", tipp::test::contentOf(finished));
+}
+
+TEST_F(PendingFiles, FolderThatAppearsMeanwhileIsLeftAlone)
+{
+  PendingFile pending(this->Path);
+  const std::string finished = pending.temporaryPath();
+  std::filesystem::create_directory(this->Path);
+  write(this->Path + "/notes", "a user's");
+  tipp::test::expectIOError(
+    this->Path, "appeared since the run began", [&]() { pending.commit(); });
+  EXPECT_EQ("a user's", tipp::test::contentOf(this->Path + "/notes"));
+  EXPECT_TRUE(std::filesystem::exists(finished));
+}
+
+TEST_F(PendingFiles, FileThatIsChangedMeanwhileIsLeftAlone)
+{
+  write(this->Path, "old");
+  PendingFile pending(this->Path);
+  write(this->Path, "a user's");
+  tipp::test::expectIOError(this->Path, "changed since the run began", [&]() { pending.commit(); });
+  EXPECT_EQ("a user's", tipp::test::contentOf(this->Path));
+}
+
+TEST_F(PendingFiles, LongestNameIsWritten)
+{
+  const std::string path = this->Folder.path(std::string(255, 'n'));
+  PendingFile pending(path);
+  write(pending.temporaryPath(), "new");
+  pending.commit();
+  EXPECT_EQ("new", tipp::test::contentOf(path));
+  const std::string longer = this->Folder.path(std::string(256, 'n'));
+  tipp::test::expectIOError(longer, "File name too long", [&]() { PendingFile{ longer }; });
+}
+
+TEST_F(PendingFiles, TwoForOnePathHaveTheirOwnFiles)
+{
+  const PendingFile one(this->Path);
+  const PendingFile other(this->Path);
+  EXPECT_NE(one.temporaryPath(), other.temporaryPath());
+}
+
 TEST_F(PendingFiles, MissingFolderIsReported)
 {
   const std::string path = this->Folder.path("absent/result");

@@ -193,6 +193,16 @@ TEST_F(OutOfCoreFilter, PutsSpilledPointsIntoTheScratchFolder)
   EXPECT_EQ(12, this->total("Pieces"));
 }
 
+TEST_F(OutOfCoreFilter, RefusesToReplaceItsInput)
+{
+  const std::string input = this->Folder.path("points.npy");
+  fs::create_hard_link(input, this->Folder.path("link.npy"));
+  const std::string before = contentOf(input);
+  this->Filter->SetFileName(this->Folder.path("link.npy").c_str());
+  EXPECT_NE(std::string::npos, this->failure().find("is also an input"));
+  EXPECT_EQ(before, contentOf(input));
+}
+
 TEST_F(OutOfCoreFilter, WarnsOfRejectedPointsAndOfNoTriangles)
 {
   writePoints(this->Folder.path("points.npy"), { 0, 0, 1, 1, NAN, 2, 3, 3 });

@@ -4,6 +4,7 @@
 #include "TemporaryFolder.h"
 
 #include "Partitioned/PartitionedMesh.h"
+#include "Vtk/ErrorKeeper.h"
 #include "vtkPartitionedUnstructuredReader.h"
 #include "vtkPartitionedUnstructuredWriter.h"
 
@@ -50,6 +51,18 @@ TEST_F(PartitionedWriter, WritesAgainAfterAnAbort)
   this->Writer->RemoveObserver(observer);
   EXPECT_EQ(1, this->Writer->Write());
   expectHolds(this->Folder.path("mesh"), this->Source);
+}
+
+TEST_F(PartitionedWriter, RefusesToReplaceItsInput)
+{
+  ASSERT_EQ(1, this->Writer->Write());
+  const auto before = filesOf(this->Folder.path("mesh"));
+  this->Writer->SetInputFileName(this->Folder.path("mesh/pieces/000000.vtu").c_str());
+  vtkNew<ErrorKeeper> errors;
+  this->Writer->AddObserver(vtkCommand::ErrorEvent, errors);
+  EXPECT_EQ(0, this->Writer->Write());
+  EXPECT_NE(std::string::npos, errors->Message.find("holds an input")) << errors->Message;
+  EXPECT_TRUE(before == filesOf(this->Folder.path("mesh")));
 }
 
 TEST_F(PartitionedWriter, TakesWhatTheReaderGives)

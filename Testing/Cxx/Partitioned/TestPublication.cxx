@@ -3,6 +3,7 @@
 #include "MeshChecks.h"
 #include "TemporaryFolder.h"
 
+#include "Files/PendingFolder.h"
 #include "Flat/FlatMesh.h"
 #include "Partitioning/PartitionMesh.h"
 
@@ -31,6 +32,19 @@ protected:
   {
     return partitionMesh(
       openFlatMesh(this->Folder.path("flat")), this->Folder.path("mesh"), options);
+  }
+
+  /// A finished mesh that was not put in its place.
+  std::string finished() const
+  {
+    for (const fs::directory_entry& entry : fs::directory_iterator(this->Folder.path("")))
+    {
+      if (entry.path().filename().string().rfind(".mesh.tmp.", 0) == 0)
+      {
+        return entry.path().string() + "/mesh";
+      }
+    }
+    return "";
   }
 
   SourceMesh Source;
@@ -166,6 +180,114 @@ TEST_F(Publication, RefusesAFolderOfOtherThings)
   this->Folder.file("mesh/thesis.tex", "years of work");
   expectIOError(this->Folder.path("mesh"), "no partitioned mesh", [this] { this->make(); });
   EXPECT_EQ("years of work", contentOf(this->Folder.path("mesh/thesis.tex")));
+}
+
+TEST_F(Publication, LeavesAFolderThatAppearsMeanwhile)
+{
+  PartitionOptions options;
+  const std::string notes = this->Folder.path("mesh/thesis.tex");
+  options.Progress = [&](double)
+  {
+    fs::create_directory(this->Folder.path("mesh"));
+    this->Folder.file("mesh/thesis.tex", "years of work");
+    return true;
+  };
+  expectIOError(this->Folder.path("mesh"), "has appeared since", [&] { this->make(options); });
+  EXPECT_EQ("years of work", contentOf(notes));
+  expectHolds(this->finished(), this->Source);
+  fs::rename(this->Folder.path("mesh"), this->Folder.path("other"));
+  this->make(); // does not clear away the finished one
+  expectHolds(this->finished(), this->Source);
+}
+
+TEST_F(Publication, LeavesAFileThatIsPutIntoTheOldMeshMeanwhile)
+{
+  this->make();
+  PartitionOptions options;
+  options.Progress = [&](double)
+  {
+    this->Folder.file("mesh/pieces/thesis.tex", "years of work");
+    return true;
+  };
+  expectIOError(
+    this->Folder.path("mesh"), "holds 'pieces/thesis.tex'", [&] { this->make(options); });
+  EXPECT_EQ("years of work", contentOf(this->Folder.path("mesh/pieces/thesis.tex")));
+  expectHolds(this->Folder.path("mesh"), this->Source);
+  expectHolds(this->finished(), this->Source);
+}
+
+TEST_F(Publication, LeavesAMeshThatTookTheOldOnesPlaceMeanwhile)
+{
+  this->make();
+  fs::copy(this->Folder.path("mesh"), this->Folder.path("copy"), fs::copy_options::recursive);
+  PartitionOptions options;
+  options.Progress = [&](double)
+  {
+    if (fs::exists(this->Folder.path("copy")))
+    {
+      fs::remove_all(this->Folder.path("mesh"));
+      fs::rename(this->Folder.path("copy"), this->Folder.path("mesh"));
+    }
+    return true;
+  };
+  expectIOError(this->Folder.path("mesh"), "has been changed since", [&] { this->make(options); });
+  expectHolds(this->Folder.path("mesh"), this->Source);
+  expectHolds(this->finished(), this->Source);
+}
+
+TEST_F(Publication, RefusesAnOldMeshThatHoldsOtherFiles)
+{
+  this->make();
+  this->Folder.file("mesh/notes.txt", "years of work");
+  expectIOError(this->Folder.path("mesh"), "holds 'notes.txt'", [this] { this->make(); });
+  EXPECT_EQ("years of work", contentOf(this->Folder.path("mesh/notes.txt")));
+  EXPECT_EQ(2U, this->Folder.fileCount());
+}
+
+TEST_F(Publication, ReplacesAnOldMeshWhosePiecesAreMissing)
+{
+  this->make();
+  fs::remove(this->Folder.path("mesh/pieces/000003.vtu"));
+  this->make();
+  expectHolds(this->Folder.path("mesh"), this->Source);
+}
+
+TEST_F(Publication, LeavesAUsersFolderOfAWorkFoldersName)
+{
+  fs::create_directories(this->Folder.path(".mesh.tmp.Ab3dEf"));
+  this->Folder.file(".mesh.tmp.Ab3dEf/thesis.tex", "years of work");
+  this->make();
+  EXPECT_EQ("years of work", contentOf(this->Folder.path(".mesh.tmp.Ab3dEf/thesis.tex")));
+}
+
+TEST_F(Publication, LeavesAUsersFileInALeftoverWorkFolder)
+{
+  fs::create_directories(this->Folder.path(".mesh.tmp.Ab3dEf/mesh/pieces"));
+  this->Folder.file(".mesh.tmp.Ab3dEf/.tipp-work", "");
+  this->Folder.file(".mesh.tmp.Ab3dEf/mesh/pieces/000000.vtu", "piece");
+  this->Folder.file(".mesh.tmp.Ab3dEf/mesh/thesis.tex", "years of work");
+  this->make();
+  EXPECT_FALSE(fs::exists(this->Folder.path(".mesh.tmp.Ab3dEf/mesh/pieces")));
+  EXPECT_EQ("years of work", contentOf(this->Folder.path(".mesh.tmp.Ab3dEf/mesh/thesis.tex")));
+}
+
+TEST_F(Publication, TellsTheSameOfAUsersFolderEachTime)
+{
+  this->Folder.file(".mesh.part", "a file");
+  for (int time = 0; time < 2; ++time)
+  {
+    expectIOError(this->Folder.path(".mesh.part"), "is a file",
+      [&] { PendingFolder::lasting(this->Folder.path("mesh"), nullptr); });
+  }
+  fs::remove(this->Folder.path(".mesh.part"));
+  fs::create_directory(this->Folder.path(".mesh.part"));
+  this->Folder.file(".mesh.part/notes.txt", "years of work");
+  for (int time = 0; time < 2; ++time) // the lock is released
+  {
+    expectIOError(this->Folder.path(".mesh.part"), "is there already with other files",
+      [&] { PendingFolder::lasting(this->Folder.path("mesh"), nullptr); });
+  }
+  EXPECT_EQ("years of work", contentOf(this->Folder.path(".mesh.part/notes.txt")));
 }
 
 TEST_F(Publication, RefusesAFile)

@@ -60,12 +60,17 @@ void TippProcess::signal(int number) const
   ::kill(this->Process, number);
 }
 
-Outcome TippProcess::wait() const
+int TippProcess::exitCode() const
 {
   int status = 0;
   waitpid(this->Process, &status, 0);
-  return { WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status),
-    contentOf(this->Folder.path(".out")), contentOf(this->Folder.path(".err")) };
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+Outcome TippProcess::wait() const
+{
+  const int code = this->exitCode();
+  return { code, contentOf(this->Folder.path(".out")), contentOf(this->Folder.path(".err")) };
 }
 
 void TippProcess::waitUntil(const std::function<bool()>& condition) const

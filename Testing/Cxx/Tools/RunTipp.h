@@ -41,6 +41,8 @@ public:
   /// As wait(), but kills the process if it is still there after a time far longer than it should
   /// be.
   Outcome waitOrKill() const;
+  /// The same without what it printed.
+  int exitCode() const;
 
 private:
   const TemporaryFolder& Folder;

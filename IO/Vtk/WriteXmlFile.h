@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippWriteXmlFile_h
+#define tippWriteXmlFile_h
+
+#include "Files/IOError.h"
+#include "Files/OutputStream.h"
+#include "Files/PendingFile.h"
+#include "Vtk/ErrorKeeper.h"
+
+#include "vtkDataObject.h"
+#include "vtkSmartPointer.h"
+
+#include <string>
+
+namespace tipp
+{
+
+/// One of VTK's XML writers, which writes to a stream of ours: with its own it ignores a disk that
+/// gets full as the file is closed.
+template <typename Writer>
+class StreamWriter : public Writer
+{
+public:
+  static vtkSmartPointer<StreamWriter> make(std::ostream& to)
+  {
+    auto* const writer = new StreamWriter(to);
+    writer->InitializeObjectBase();
+    return vtkSmartPointer<StreamWriter>::Take(writer);
+  }
+
+protected:
+  int StartFile() override
+  {
+    this->To.precision(11); // that of the writer's own files
+    this->Stream = &this->To;
+    return this->Writer::StartFile();
+  }
+
+private:
+  explicit StreamWriter(std::ostream& to)
+    : To(to)
+  {
+    this->WriteToOutputStringOn(); // so that it opens no file
+  }
+
+  std::ostream& To;
+};
+
+/// Writes a data set into the pending file, raw and appended. Throws IOError.
+template <typename Writer>
+void writeXmlFile(const std::string& path, const PendingFile& pending, vtkDataObject* data)
+{
+  OutputStream stream(pending.file());
+  const auto writer = StreamWriter<Writer>::make(stream);
+  vtkNew<ErrorKeeper> errors;
+  writer->AddObserver(vtkCommand::ErrorEvent, errors);
+  writer->SetInputData(data);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToNone();
+  writer->SetHeaderTypeToUInt64();
+  const bool isWritten = writer->Write() != 0 && !errors->HasError;
+  stream.finish();
+  if (!isWritten)
+  {
+    throw IOError(path, "cannot be written by VTK's writer.");
+  }
+}
+
+} // namespace tipp
+
+#endif
