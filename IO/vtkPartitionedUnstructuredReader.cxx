@@ -467,6 +467,8 @@ int vtkPartitionedUnstructuredReader::RequestData(
   catch (const tipp::WorkAborted&)
   {
     output->Initialize();
+    this->Inner->Source.reset(); // it may be half prepared
+    this->Inner->Cache.clear();
     return 1;
   }
   catch (const std::bad_alloc&)
