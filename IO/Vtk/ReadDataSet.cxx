@@ -9,6 +9,7 @@
 
 #include "vtkDataSet.h"
 #include "vtkDataSetReader.h"
+#include "vtkLogger.h"
 #include "vtkNew.h"
 #include "vtkOBJReader.h"
 #include "vtkOutputWindow.h"
@@ -41,12 +42,19 @@ class ErrorWindow
 public:
   explicit ErrorWindow(ErrorKeeper* errors)
     : Before(vtkOutputWindow::GetInstance())
+    , Verbosity(vtkLogger::GetCurrentVerbosityCutoff())
   {
+    // VTK's log prints all errors as well, whatever the window does.
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
     const auto window = vtkSmartPointer<Window>::New();
     window->Errors = errors;
     vtkOutputWindow::SetInstance(window);
   }
-  ~ErrorWindow() { vtkOutputWindow::SetInstance(this->Before); }
+  ~ErrorWindow()
+  {
+    vtkOutputWindow::SetInstance(this->Before);
+    vtkLogger::SetStderrVerbosity(this->Verbosity);
+  }
   ErrorWindow(const ErrorWindow&) = delete;
   ErrorWindow& operator=(const ErrorWindow&) = delete;
 
@@ -77,6 +85,7 @@ private:
   };
 
   vtkSmartPointer<vtkOutputWindow> Before;
+  vtkLogger::Verbosity Verbosity;
 };
 
 using ReadFunction = vtkSmartPointer<vtkDataSet> (*)(const std::string&);

@@ -80,6 +80,13 @@ struct ResampleArguments
   bool HasNoData = false;
 };
 
+[[noreturn]] void refuseName(
+  const ResampleArguments& arguments, const std::string& name, const std::set<std::string>& names)
+{
+  throw IOError(
+    arguments.Input, "has no array '" + name + "'" + listOfNames(names, "; it has ") + ".");
+}
+
 void chooseArrays(
   const ResampleArguments& arguments, vtkRangeResampleFilter* filter, vtkDataSet* mesh)
 {
@@ -98,8 +105,7 @@ void chooseArrays(
     {
       std::set<std::string> names = arrayNames(mesh->GetPointData());
       names.merge(arrayNames(mesh->GetCellData()));
-      throw IOError(
-        arguments.Input, "has no array '" + name + "'" + listOfNames(names, "; it has ") + ".");
+      refuseName(arguments, name, names);
     }
     vtkDataSetAttributes* const data =
       ofPoints ? static_cast<vtkDataSetAttributes*>(mesh->GetPointData()) : mesh->GetCellData();
@@ -208,15 +214,25 @@ vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments)
     reader->SetBounds(arguments.Bounds.data());
   }
   reader->UpdateInformation();
+  std::set<std::string> names;
   for (vtkDataArraySelection* const selection :
     { reader->GetPointDataArraySelection(), reader->GetCellDataArraySelection() })
   {
     for (int i = 0; !arguments.Arrays.empty() && i < selection->GetNumberOfArrays(); ++i)
     {
       const std::string name = selection->GetArrayName(i);
+      names.insert(name);
       const bool wanted =
         std::find(arguments.Arrays.begin(), arguments.Arrays.end(), name) != arguments.Arrays.end();
       selection->SetArraySetting(name.c_str(), wanted ? 1 : 0);
+    }
+  }
+  for (const std::string& name : arguments.Arrays)
+  {
+    // A reader that has failed has told no names, and says why below.
+    if (!errors->HasError && names.count(name) == 0)
+    {
+      refuseName(arguments, name, names);
     }
   }
   reader->Update();
