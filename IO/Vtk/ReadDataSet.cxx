@@ -29,6 +29,7 @@
 #include <atomic>
 #include <filesystem>
 #include <map>
+#include <stdexcept>
 
 namespace tipp
 {
@@ -159,7 +160,16 @@ vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path)
   checkVtkFile(path);
   const CurrentFile current(path);
   const ErrorWindow window(errors);
-  vtkSmartPointer<vtkDataSet> data = read->second(path);
+  vtkSmartPointer<vtkDataSet> data;
+  try
+  {
+    data = read->second(path);
+  }
+  catch (const std::length_error&) // of a reader that asked a vector for an absurd size
+  {
+    errors->HasError = true;
+    errors->Messages = { "a count in it is too large" };
+  }
   if (errors->HasError || !data)
   {
     std::string reason = errors->message();
