@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Vtk/ErrorKeeper.h"
 
+#include <algorithm>
 #include <cctype>
 #include <regex>
 
@@ -28,6 +29,10 @@ std::string plainMessage(const std::string& text)
   message = std::regex_replace(message, object, "");
   message.erase(std::min(message.find('\n'), message.size()));
   message = std::regex_replace(message, address, "");
+  // Names and words of a damaged file may hold anything.
+  std::replace_if(
+    message.begin(), message.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; },
+    '?');
   while (!message.empty() && std::isspace(static_cast<unsigned char>(message.back())) != 0)
   {
     message.pop_back();

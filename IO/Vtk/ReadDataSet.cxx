@@ -9,6 +9,7 @@
 
 #include "vtkDataSet.h"
 #include "vtkDataSetReader.h"
+#include "vtkLogger.h"
 #include "vtkNew.h"
 #include "vtkOBJReader.h"
 #include "vtkOutputWindow.h"
@@ -28,6 +29,7 @@
 #include <atomic>
 #include <filesystem>
 #include <map>
+#include <stdexcept>
 
 namespace tipp
 {
@@ -41,12 +43,19 @@ class ErrorWindow
 public:
   explicit ErrorWindow(ErrorKeeper* errors)
     : Before(vtkOutputWindow::GetInstance())
+    , Verbosity(vtkLogger::GetCurrentVerbosityCutoff())
   {
+    // VTK's log prints all errors as well, whatever the window does.
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
     const auto window = vtkSmartPointer<Window>::New();
     window->Errors = errors;
     vtkOutputWindow::SetInstance(window);
   }
-  ~ErrorWindow() { vtkOutputWindow::SetInstance(this->Before); }
+  ~ErrorWindow()
+  {
+    vtkOutputWindow::SetInstance(this->Before);
+    vtkLogger::SetStderrVerbosity(this->Verbosity);
+  }
   ErrorWindow(const ErrorWindow&) = delete;
   ErrorWindow& operator=(const ErrorWindow&) = delete;
 
@@ -77,6 +86,7 @@ private:
   };
 
   vtkSmartPointer<vtkOutputWindow> Before;
+  vtkLogger::Verbosity Verbosity;
 };
 
 using ReadFunction = vtkSmartPointer<vtkDataSet> (*)(const std::string&);
@@ -150,7 +160,16 @@ vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path)
   checkVtkFile(path);
   const CurrentFile current(path);
   const ErrorWindow window(errors);
-  vtkSmartPointer<vtkDataSet> data = read->second(path);
+  vtkSmartPointer<vtkDataSet> data;
+  try
+  {
+    data = read->second(path);
+  }
+  catch (const std::length_error&) // of a reader that asked a vector for an absurd size
+  {
+    errors->HasError = true;
+    errors->Messages = { "a count in it is too large" };
+  }
   if (errors->HasError || !data)
   {
     std::string reason = errors->message();

@@ -227,17 +227,30 @@ vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments, const 
       reader->UpdateInformation();
       requireGood();
     });
+  std::set<std::string> names;
   for (vtkDataArraySelection* const selection :
     { reader->GetPointDataArraySelection(), reader->GetCellDataArraySelection() })
   {
     for (int i = 0; !arguments.Arrays.empty() && i < selection->GetNumberOfArrays(); ++i)
     {
       const std::string name = selection->GetArrayName(i);
+      names.insert(name);
       const bool wanted =
         std::find(arguments.Arrays.begin(), arguments.Arrays.end(), name) != arguments.Arrays.end();
       selection->SetArraySetting(name.c_str(), wanted ? 1 : 0);
     }
   }
+  ranks.attempt(
+    [&]
+    {
+      for (const std::string& name : arguments.Arrays)
+      {
+        if (names.count(name) == 0)
+        {
+          refuseName(arguments, name, names);
+        }
+      }
+    });
   reader->UpdatePiece(ranks.rank(), ranks.count(), 0);
   ranks.attempt(requireGood);
   vtkSmartPointer<vtkDataSet> mesh = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));

@@ -147,6 +147,7 @@ TEST(PlainMessage, HasNoPlaceInTheSourceAndNoAddress)
   EXPECT_EQ(tipp::plainMessage("Warning: In a.cxx, line 1\nvtkThing (0x5): Bad.\nMore."), "Bad.");
   EXPECT_EQ(
     tipp::plainMessage("Algorithm vtkThing(0x55d0c2d3) failed"), "Algorithm vtkThing failed");
+  EXPECT_EQ(tipp::plainMessage("no \f type\r"), "no ? type?");
   EXPECT_EQ(tipp::plainMessage("plain"), "plain");
 }
 

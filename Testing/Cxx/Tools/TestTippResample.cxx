@@ -108,10 +108,14 @@ TEST_F(TippResample, HasTheArraysOfTheMeshAlone)
 
 TEST_F(TippResample, NamesTheArraysThatThereAre)
 {
-  const Outcome outcome = this->run(
-    { "resample", "mesh.vtu", "-o", "image.npy", "--arrays", "depth", "--dims", "8", "8", "1" });
-  EXPECT_EQ(1, outcome.ExitCode);
-  EXPECT_EQ("tipp: mesh.vtu: has no array 'depth'; it has 'height'.\n", outcome.Err);
+  ASSERT_EQ(0, this->run({ "flatten", "mesh.vtu", "-o", "flat" }).ExitCode);
+  for (const std::string& mesh : { std::string("mesh.vtu"), std::string("flat") })
+  {
+    const Outcome outcome = this->run(
+      { "resample", mesh, "-o", "image.npy", "--arrays", "depth", "--dims", "8", "8", "1" });
+    EXPECT_EQ(1, outcome.ExitCode);
+    EXPECT_EQ("tipp: " + mesh + ": has no array 'depth'; it has 'height'.\n", outcome.Err);
+  }
 }
 
 TEST_F(TippResample, SaysWhatFailedInOneSentence)
