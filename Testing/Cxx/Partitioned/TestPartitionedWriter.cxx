@@ -61,7 +61,7 @@ TEST_F(PartitionedWriter, RefusesToReplaceItsInput)
   vtkNew<ErrorKeeper> errors;
   this->Writer->AddObserver(vtkCommand::ErrorEvent, errors);
   EXPECT_EQ(0, this->Writer->Write());
-  EXPECT_NE(std::string::npos, errors->Message.find("holds an input")) << errors->Message;
+  EXPECT_NE(std::string::npos, errors->message().find("holds an input")) << errors->message();
   EXPECT_TRUE(before == filesOf(this->Folder.path("mesh")));
 }
 
