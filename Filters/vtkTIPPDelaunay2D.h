@@ -49,13 +49,13 @@
  * that share a point with the piece. Merged points are in no piece; with GenerateRepresentativeIds
  * the field data has the arrays "DuplicatePointIds", "DuplicateRepresentativeIds" and
  * "RejectedPointIds" (global ids) of those found on this rank. Port 1 has on every rank the same
- * table: rows for the first master's stages, if there is a master, and as field data, by rank, "RankComputeSeconds",
- * "RankWaitSeconds", "RankSendSeconds", "RankOwnedPoints" and "RankTriangles"; "MasterSeconds",
- * "LargestMasterMesh"; "MessageKind", "MessageCount" and "MessageBytes". If any rank fails, all do,
- * and the first one reports the error; also if it is upstream that fails on a rank, unless the
- * application has executives of its own (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView
- * has. Alpha, Tolerance, BoundingTriangulation and the best fitting
- * plane need a single rank.
+ * table: rows for the first master's stages, if there is a master, and as field data, by rank,
+ * "RankComputeSeconds", "RankWaitSeconds", "RankSendSeconds", "RankOwnedPoints" and
+ * "RankTriangles"; "MasterSeconds", "LargestMasterMesh"; "MessageKind", "MessageCount" and
+ * "MessageBytes". If any rank fails, all do, and the first one reports the error; also if it is
+ * upstream that fails on a rank, unless the application has executives of its own
+ * (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView has. Alpha, Tolerance,
+ * BoundingTriangulation and the best fitting plane need a single rank.
  *
  * An aborted run leaves both outputs empty. A failed one (out of memory, Transform missing) is
  * reported as an error and leaves them empty too.

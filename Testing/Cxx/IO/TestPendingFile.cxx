@@ -156,26 +156,36 @@ TEST_F(PendingFiles, FolderOrDeviceIsNoFile)
 
 TEST_F(PendingFiles, RemovesWhatAKilledProcessHasLeft)
 {
-  const std::string left = this->Folder.path(".result.123456789.tmp");
-  const std::string others = this->Folder.path(".result.old.tmp");
+  const std::string path = this->Folder.path("result");
+  const std::string left = PendingFile(path).temporaryPath();
+  ASSERT_FALSE(std::filesystem::exists(left));
   write(left, "half");
-  write(others, "whole");
   {
-    const PendingFile pending(this->Folder.path("result"));
+    const PendingFile pending(path);
   }
   EXPECT_FALSE(std::filesystem::exists(left));
-  EXPECT_TRUE(std::filesystem::exists(others));
+}
+
+/// Names that only look like those of temporary files.
+TEST_F(PendingFiles, LeavesFilesOfTheUser)
+{
+  for (const char* name : { ".result.123456789.tmp", ".result.old.tmp", ".result.12-0123abcd.tmp" })
+  {
+    write(this->Folder.path(name), "the user's");
+    {
+      const PendingFile pending(this->Folder.path("result"));
+    }
+    EXPECT_TRUE(std::filesystem::exists(this->Folder.path(name))) << name;
+  }
 }
 
 TEST_F(PendingFiles, LeavesWhatALivingProcessWrites)
 {
   const PendingFile pending(this->Folder.path("result"));
-  const std::string living = this->Folder.path(".result.123456789.tmp");
-  std::filesystem::rename(pending.temporaryPath(), living);
   {
     const PendingFile another(this->Folder.path("result"));
   }
-  EXPECT_TRUE(std::filesystem::exists(living));
+  EXPECT_TRUE(std::filesystem::exists(pending.temporaryPath()));
 }
 
 TEST_F(PendingFiles, PathWithoutAFolderIsInTheCurrentOne)
