@@ -3,8 +3,8 @@
 
 #include "Arrays/ScalarTypes.h"
 #include "Flat/Simplices.h"
-#include "Vtk/CheckDataSet.h"
 #include "Parallel/Poll.h"
+#include "Vtk/CheckDataSet.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

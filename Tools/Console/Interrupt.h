@@ -19,8 +19,8 @@ bool isInterrupted();
 /// Tells the user, once and on the first rank alone, and returns the exit code.
 int reportInterrupt(const std::string& consequence = "nothing was written");
 /// Says what the exception that is being handled tells, on the first rank alone, and returns the
-/// exit code. On ranks to be called before MPI ends: mpirun ends the first rank when another one has
-/// ended with a failure.
+/// exit code. On ranks to be called before MPI ends: mpirun ends the first rank when another one
+/// has ended with a failure.
 int reportFailure();
 /// To be called before the process reports its end: waits for ever if the thread is ending it, and
 /// keeps the thread from doing so otherwise.

@@ -76,7 +76,8 @@ TEST(Routing, SendsTheInitialMeshToTheFirstPartitions)
   const PartitionOrder order = scene.order();
   std::vector<Inbox> inboxes(16);
   Final final;
-  const std::int64_t sent = sendInitialMesh(scene.Mesh, order,
+  const std::int64_t sent = sendInitialMesh(
+    scene.Mesh, order,
     [&](PartitionIndex to, VertexMessage&& message)
     { inboxes[std::size_t(to)].put(std::move(message)); },
     final);
