@@ -127,8 +127,10 @@ void claimWorkFolder(const std::string& folder, const std::string& purpose)
   }
   if (!isNew && !isWorkFolder(folder))
   {
-    throw IOError(
-      folder, "is to hold temporary files, but it is there already with other files; move it.");
+    throw IOError(folder,
+      std::string(
+        "is to hold temporary files, but it is there already with other files and without ") +
+        markName + ", which marks the folders of runs; move it.");
   }
   if (isMarked(folder))
   {
