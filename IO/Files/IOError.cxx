@@ -1,22 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/IOError.h"
 
+#include <algorithm>
+#include <cctype>
+
 namespace tipp
 {
+namespace
+{
+
+/// Names and words of a damaged file may hold anything; a message is one line all the same.
+std::string onOneLine(std::string message)
+{
+  std::replace_if(
+    message.begin(), message.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; },
+    '?');
+  return message;
+}
+
+} // namespace
 
 IOError::IOError(const std::string& sentence)
-  : std::runtime_error(sentence)
+  : std::runtime_error(onOneLine(sentence))
 {
 }
 
 IOError::IOError(const std::string& path, const std::string& problem)
-  : std::runtime_error(path + ": " + problem)
+  : std::runtime_error(onOneLine(path + ": " + problem))
   , Path(path)
 {
 }
 
 IOError::IOError(const std::string& path, std::int64_t line, const std::string& problem)
-  : std::runtime_error(path + ", line " + std::to_string(line) + ": " + problem)
+  : std::runtime_error(onOneLine(path + ", line " + std::to_string(line) + ": " + problem))
   , Path(path)
 {
 }

@@ -79,7 +79,7 @@ int makeLocked(const std::string& path)
 
 } // namespace
 
-PendingFile::PendingFile(const std::string& path)
+PendingFile::PendingFile(const std::string& path, const std::optional<PathState>& before)
 {
   if (path.empty() || path.back() == '/')
   {
@@ -92,7 +92,7 @@ PendingFile::PendingFile(const std::string& path)
     throw IOError(path, "is not an ordinary file; name a file to write.");
   }
   this->Path = target.string();
-  this->Before = PathState::of(this->Path);
+  this->Before = before ? *before : PathState::of(this->Path);
   const std::string start = hiddenName(target.filename(), ".");
   clearLeftovers(target.parent_path(), start);
   int descriptor = -1;

@@ -21,11 +21,15 @@ class VTKTIPPIO_EXPORT PendingFile
 {
 public:
   /// Throws IOError if the file cannot be created or something other than an ordinary file is at
-  /// the path.
-  explicit PendingFile(const std::string& path);
+  /// the path. Before: what is at the path when the run begins, as before() of an earlier object
+  /// tells; commit() replaces nothing else. None: what is there now.
+  explicit PendingFile(
+    const std::string& path, const std::optional<PathState>& before = std::nullopt);
   ~PendingFile();
   PendingFile(const PendingFile&) = delete;
   PendingFile& operator=(const PendingFile&) = delete;
+
+  const PathState& before() const { return this->Before; }
 
   /// Write here.
   const OutputFile& file() const { return *this->File; }

@@ -28,7 +28,7 @@ bool isAborted(const MeshOptions& options)
 
 bool writeNpy(const std::string& path, TrianglesView triangles, const MeshOptions& options)
 {
-  NpyWriter writer(path, "<i8", { std::int64_t(triangles.size()), 3 });
+  NpyWriter writer(path, "<i8", { std::int64_t(triangles.size()), 3 }, options.Before);
   constexpr std::size_t chunkSize = 1 << 15;
   std::vector<std::int64_t> chunk(3 * std::min(chunkSize, triangles.size()));
   for (std::size_t first = 0; first < triangles.size(); first += chunkSize)
@@ -51,7 +51,7 @@ bool writeNpy(const std::string& path, TrianglesView triangles, const MeshOption
 template <typename Writer>
 bool writeXml(const std::string& path, vtkDataSet* data, const MeshOptions& options)
 {
-  PendingFile pending(path);
+  PendingFile pending(path, options.Before);
   writeXmlFile<Writer>(path, pending, data);
   if (isAborted(options))
   {

@@ -2,12 +2,14 @@
 #ifndef tippWriteMesh_h
 #define tippWriteMesh_h
 
+#include "Files/OutputPath.h"
 #include "Meshes/TrianglesView.h"
 #include "Points/PointTable.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,8 @@ struct MeshOptions
   /// Adds the cell array "NeighborIds": for each corner of a triangle the place of the triangle
   /// opposite to it among all, or -1.
   bool Neighbors = false;
+  /// What may be replaced, as for PendingFile.
+  std::optional<PathState> Before;
   /// Asked when all is written under a temporary name; true drops it.
   std::function<bool()> Aborted;
 };

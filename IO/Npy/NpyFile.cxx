@@ -95,9 +95,9 @@ void NpyReader::read(void* to, std::size_t bytes)
   this->Offset += bytes;
 }
 
-NpyWriter::NpyWriter(
-  const std::string& path, const std::string& descr, const std::vector<std::int64_t>& shape)
-  : Pending(path)
+NpyWriter::NpyWriter(const std::string& path, const std::string& descr,
+  const std::vector<std::int64_t>& shape, const std::optional<PathState>& before)
+  : Pending(path, before)
 {
   const std::string start = npyFileStart(descr, shape);
   this->write(start.data(), start.size());

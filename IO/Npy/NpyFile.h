@@ -57,9 +57,10 @@ private:
 class VTKTIPPIO_EXPORT NpyWriter
 {
 public:
-  /// `descr` is NumPy's name of the scalar type, as "<f8". Throws IOError.
-  NpyWriter(
-    const std::string& path, const std::string& descr, const std::vector<std::int64_t>& shape);
+  /// `descr` is NumPy's name of the scalar type, as "<f8"; `before` as for PendingFile. Throws
+  /// IOError.
+  NpyWriter(const std::string& path, const std::string& descr,
+    const std::vector<std::int64_t>& shape, const std::optional<PathState>& before = std::nullopt);
 
   void write(const void* from, std::size_t bytes);
   void close();

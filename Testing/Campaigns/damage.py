@@ -84,6 +84,14 @@ def make_points(rng, folder, tools, least, most):
                           cwd=folder), (0,))
 
 
+def count_of(folder):
+    """How many files a folder has, which a run may remove meanwhile."""
+    try:
+        return len(list(folder.iterdir()))
+    except OSError:
+        return 0
+
+
 def make_work(rng, folder, tools, command):
     """Leaves the work of a killed run; False if none is left."""
     library = kill_at_call(tools)
@@ -95,7 +103,7 @@ def make_work(rng, folder, tools, command):
         pieces = folder / ".mesh.tipp.part/mesh.tipp/pieces"
         enough = rng.randint(1, 12)
         while not killed.wait(0.004):
-            if not env and pieces.is_dir() and len(list(pieces.iterdir())) >= enough:
+            if not env and count_of(pieces) >= enough:
                 killed.signal(signal.SIGKILL, rng)
         killed.end()
         if (folder / ".mesh.tipp.part/.plan").exists() and not (folder / "mesh.tipp").exists():

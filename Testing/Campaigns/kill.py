@@ -67,8 +67,20 @@ class Killed:
             pass
 
     def end(self):
-        """Waits until all of its processes have ended. Returns the exit code and what it wrote to stderr."""
-        if not self.wait(60):
+        """Waits until all of its processes have ended. Returns the exit code and what it wrote to stderr.
+
+        Open MPI's mpirun now and then does not notice that all its ranks have ended. It is ended then, and that is
+        printed: none of the tool's processes lives any more.
+        """
+        lonely = 0
+        for _ in range(60):
+            if self.wait(1):
+                break
+            lonely = lonely + 1 if [pid for pid, _ in processes_of(self.process.pid)] == [self.process.pid] else 0
+            if lonely == 5 and self.command[0].endswith(("mpiexec", "mpirun")):
+                print("kill: mpirun outlived its ranks and was ended", flush=True)
+                self.process.kill()
+        else:
             for pid, _ in processes_of(self.process.pid):
                 os.kill(pid, signal.SIGKILL)
             self.process.wait()

@@ -90,7 +90,7 @@ int runDelaunay(const DelaunayArguments& arguments)
   {
     return runDelaunayOnRanks(arguments, session.controller());
   }
-  requireWritable(arguments);
+  const PathState before = requireWritable(arguments);
   DelaunayRun run;
   run.Input = arguments.Input;
   run.Output = arguments.Output;
@@ -104,7 +104,7 @@ int runDelaunay(const DelaunayArguments& arguments)
   }
   const Triangulation result = triangulatePoints(arguments, points);
   run.TriangulateSeconds = watch.restart();
-  if (result.Aborted || isInterrupted() || !writeResult(arguments, points, result))
+  if (result.Aborted || isInterrupted() || !writeResult(arguments, points, result, before))
   {
     return reportInterrupt();
   }

@@ -62,7 +62,7 @@ Triangulation gatherTriangles(Postbox& ranks, const DistributedTriangulation& mi
 
 /// A finished file or none: the first rank writes, the others wait for how it went.
 void writeOnFirst(Postbox& ranks, const DelaunayArguments& arguments, DelaunayRun& run,
-  const DistributedTriangulation& mine)
+  const DistributedTriangulation& mine, const PathState& before)
 {
   const Triangulation all = gatherTriangles(ranks, mine);
   if (ranks.rank() != 0)
@@ -73,7 +73,7 @@ void writeOnFirst(Postbox& ranks, const DelaunayArguments& arguments, DelaunayRu
   // An output of triangles alone has no use for them.
   const PointTable points =
     extensionOf(arguments.Output) == ".npy" ? PointTable() : readPointsFor(arguments);
-  if (!writeResult(arguments, points, all))
+  if (!writeResult(arguments, points, all, before))
   {
     throw RankFailure(0, true, "interrupted");
   }
@@ -88,10 +88,7 @@ void writeOnFirst(Postbox& ranks, const DelaunayArguments& arguments, DelaunayRu
 
 void runTogether(Postbox& ranks, const DelaunayArguments& arguments)
 {
-  if (ranks.rank() == 0)
-  {
-    requireWritable(arguments);
-  }
+  const PathState before = ranks.rank() == 0 ? requireWritable(arguments) : PathState();
   DelaunayRun run;
   run.Input = arguments.Input;
   run.Output = arguments.Output;
@@ -120,7 +117,7 @@ void runTogether(Postbox& ranks, const DelaunayArguments& arguments)
   bar.reset();
   run.Points = mine.AllPoints;
   run.TriangulateSeconds = watch.restart();
-  writeOnFirst(ranks, arguments, run, mine);
+  writeOnFirst(ranks, arguments, run, mine, before);
 }
 
 } // namespace

@@ -49,10 +49,11 @@ PointTable readPointsFor(const DelaunayArguments& arguments)
   return points;
 }
 
-bool writeResult(
-  const DelaunayArguments& arguments, const PointTable& points, const Triangulation& result)
+bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
+  const Triangulation& result, const PathState& before)
 {
   MeshOptions options;
+  options.Before = before;
   options.Aborted = isInterrupted;
   options.Neighbors = arguments.Neighbors;
   if (arguments.MapDuplicates)
@@ -62,7 +63,7 @@ bool writeResult(
   return writeMesh(arguments.Output, points, viewOf(result), options);
 }
 
-void requireWritable(const DelaunayArguments& arguments)
+PathState requireWritable(const DelaunayArguments& arguments)
 {
   requireApart({ arguments.Output, arguments.Statistics }, { arguments.Input });
   const PendingFile output(arguments.Output);
@@ -70,6 +71,7 @@ void requireWritable(const DelaunayArguments& arguments)
   {
     const PendingFile statistics(arguments.Statistics);
   }
+  return output.before();
 }
 
 void warnOfNoTriangles(const Triangulation& result)

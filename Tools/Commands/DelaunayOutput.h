@@ -3,6 +3,7 @@
 #define tippDelaunayOutput_h
 
 #include "Commands/DelaunayArguments.h"
+#include "Files/OutputPath.h"
 #include "Points/PointTable.h"
 #include "Triangulation/Triangulate.h"
 
@@ -13,11 +14,12 @@ namespace tipp
 PointTable readPointsFor(const DelaunayArguments& arguments);
 
 /// Throws IOError unless the files to write can be: before hours of work rather than after them.
-void requireWritable(const DelaunayArguments& arguments);
+/// Returns what is at the output's path, which alone writeResult() may replace.
+PathState requireWritable(const DelaunayArguments& arguments);
 
 /// False if the user has interrupted it; then there is no file.
-bool writeResult(
-  const DelaunayArguments& arguments, const PointTable& points, const Triangulation& result);
+bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
+  const Triangulation& result, const PathState& before);
 
 void warnOfNoTriangles(const Triangulation& result);
 

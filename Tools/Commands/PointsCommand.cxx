@@ -49,13 +49,12 @@ void runPoints(const PointsArguments& arguments)
 {
   const bool isLike = !arguments.Like.empty();
   requireApart({ arguments.Output }, { arguments.Like });
-  {
-    const PendingFile writable(arguments.Output); // before the work rather than after it
-  }
+  const PathState before = PendingFile(arguments.Output).before(); // rather than after the work
   writePoints(arguments.Output,
     isLike ? pointsLike(arguments.Like, arguments.Count, arguments.Seed)
            : generatePoints(
-               *distributionFromName(arguments.Distribution), arguments.Count, arguments.Seed));
+               *distributionFromName(arguments.Distribution), arguments.Count, arguments.Seed),
+    before);
   fmt::print("{} {} points, seed {}, in {}\n", arguments.Count,
     isLike ? "like '" + arguments.Like + "'" : arguments.Distribution, arguments.Seed,
     arguments.Output);

@@ -154,14 +154,14 @@ void configure(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
   filter->SetNoDataValue(arguments.NoData);
 }
 
-void writeImage(const std::string& path, vtkImageData* image)
+void writeImage(const std::string& path, vtkImageData* image, const PathState& before)
 {
-  PendingFile pending(path);
+  PendingFile pending(path, before);
   writeXmlFile<vtkXMLImageDataWriter>(path, pending, image);
   pending.commit();
 }
 
-void writeNpy(const ResampleArguments& arguments, vtkImageData* image)
+void writeNpy(const ResampleArguments& arguments, vtkImageData* image, const PathState& before)
 {
   vtkDataArray* const array = image->GetPointData()->GetArray(arguments.Arrays.front().c_str());
   int dimensions[3];
@@ -177,7 +177,7 @@ void writeNpy(const ResampleArguments& arguments, vtkImageData* image)
   {
     shape.push_back(array->GetNumberOfComponents());
   }
-  NpyWriter writer(arguments.Output, scalarDescr(*scalarOf(array->GetDataType())), shape);
+  NpyWriter writer(arguments.Output, scalarDescr(*scalarOf(array->GetDataType())), shape, before);
   writer.write(array->GetVoidPointer(0),
     std::size_t(array->GetNumberOfValues()) * std::size_t(array->GetDataTypeSize()));
   writer.close();
@@ -314,8 +314,11 @@ std::string reasonOf(std::string message)
   return "cannot be resampled: " + message;
 }
 
-void sample(const ResampleArguments& arguments, vtkRangeResampleFilter* filter, const Ranks& ranks)
+/// Returns what is at the output's path before.
+PathState sample(
+  const ResampleArguments& arguments, vtkRangeResampleFilter* filter, const Ranks& ranks)
 {
+  PathState before;
   ranks.attempt(
     [&]
     {
@@ -323,7 +326,7 @@ void sample(const ResampleArguments& arguments, vtkRangeResampleFilter* filter, 
       {
         // Before the work rather than after it.
         requireApart({ arguments.Output }, { arguments.Input });
-        const PendingFile writable(arguments.Output);
+        before = PendingFile(arguments.Output).before();
       }
     });
   const vtkSmartPointer<vtkDataSet> mesh = readMeshToSample(arguments, ranks);
@@ -367,6 +370,7 @@ void sample(const ResampleArguments& arguments, vtkRangeResampleFilter* filter, 
   {
     fmt::print(stderr, "tipp: warning: {}: {}\n", arguments.Input, warning);
   }
+  return before;
 }
 
 int runResample(const ResampleArguments& arguments)
@@ -374,9 +378,10 @@ int runResample(const ResampleArguments& arguments)
   const MpiSession session;
   const Ranks ranks(session.controller());
   vtkNew<vtkRangeResampleFilter> filter;
+  PathState before;
   try
   {
-    sample(arguments, filter, ranks);
+    before = sample(arguments, filter, ranks);
   }
   catch (const WorkAborted&)
   {
@@ -392,11 +397,11 @@ int runResample(const ResampleArguments& arguments)
   }
   if (extensionOf(arguments.Output) == ".npy")
   {
-    writeNpy(arguments, filter->GetOutput());
+    writeNpy(arguments, filter->GetOutput(), before);
   }
   else
   {
-    writeImage(arguments.Output, filter->GetOutput());
+    writeImage(arguments.Output, filter->GetOutput(), before);
   }
   summarize(arguments, filter);
   return Success;

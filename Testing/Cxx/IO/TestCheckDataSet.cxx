@@ -124,6 +124,33 @@ TEST(CheckDataSet, RefusesIdsInAllCellsOfASurface)
   }
 }
 
+/// VTK's GetCellType() crashes on these.
+TEST(CheckDataSet, RefusesCellsOfTooFewVertices)
+{
+  using Set = void (vtkPolyData::*)(vtkCellArray*);
+  const std::vector<std::pair<Set, vtkTypeInt64>> kinds = { { &vtkPolyData::SetVerts, 1 },
+    { &vtkPolyData::SetLines, 2 }, { &vtkPolyData::SetPolys, 3 }, { &vtkPolyData::SetStrips, 3 } };
+  for (const auto& [set, least] : kinds)
+  {
+    for (vtkTypeInt64 size = 0; size <= least; ++size)
+    {
+      CellIds ids{ 0, 1, 2 };
+      ids.resize(std::size_t(size));
+      vtkNew<vtkPolyData> surface;
+      surface->SetPoints(somePoints(4));
+      (surface->*set)(someCells({ 0, size }, ids));
+      if (size < least)
+      {
+        EXPECT_THROW(tipp::checkDataSet(surface, "the input"), tipp::IOError) << size;
+      }
+      else
+      {
+        EXPECT_NO_THROW(tipp::checkDataSet(surface, "the input")) << size;
+      }
+    }
+  }
+}
+
 TEST(CheckDataSet, RefusesCellsWithoutPoints)
 {
   const auto grid = twoTriangles();

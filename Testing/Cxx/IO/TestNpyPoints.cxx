@@ -62,7 +62,7 @@ TEST_F(NpyPoints, NoPointsAreAPointSetToo)
 TEST_F(NpyPoints, ThirdColumnIsZ)
 {
   const tipp::PointTable points =
-    readPoints(this->file(npyHeader("<f8", "(2, 3)"), bytesOf<double>({ 1, 2, 3, 4, 5, 6 })));
+    tipp::readPoints(this->file(npyHeader("<f8", "(2, 3)"), bytesOf<double>({ 1, 2, 3, 4, 5, 6 })));
   EXPECT_EQ((std::vector<double>{ 1, 2, 4, 5 }), points.XY);
   ASSERT_EQ(1U, points.Columns.size());
   EXPECT_EQ("z", points.Columns[0].Name);
@@ -72,7 +72,7 @@ TEST_F(NpyPoints, ThirdColumnIsZ)
 TEST_F(NpyPoints, Float32IsWidened)
 {
   const tipp::PointTable points =
-    readPoints(this->file(npyHeader("<f4", "(2, 2)"), bytesOf<float>({ 0.1F, 2, 3, 4 })));
+    tipp::readPoints(this->file(npyHeader("<f4", "(2, 2)"), bytesOf<float>({ 0.1F, 2, 3, 4 })));
   EXPECT_EQ((std::vector<double>{ double(0.1F), 2, 3, 4 }), points.XY);
 }
 
@@ -84,7 +84,7 @@ TEST_F(NpyPoints, ChunksOfALongFileFitTogether)
     values.push_back(float(i));
   }
   const tipp::PointTable points =
-    readPoints(this->file(npyHeader("<f4", "(100000, 3)"), bytesOf(values)));
+    tipp::readPoints(this->file(npyHeader("<f4", "(100000, 3)"), bytesOf(values)));
   for (std::size_t i = 0; i < 100000; ++i)
   {
     ASSERT_EQ(double(3 * i), points.XY[2 * i]);
@@ -156,6 +156,19 @@ TEST_F(NpyPoints, WrongTypesAreReported)
   {
     this->expectError(
       this->file(npyHeader(descr, "(2, 2)"), this->TwoPoints), "holds numbers of type");
+  }
+}
+
+TEST_F(NpyPoints, MessagesAreOneLineWhateverTheFileHolds)
+{
+  try
+  {
+    tipp::readPoints(this->file(npyHeader("<f\n\t\x01", "(2, 2)"), this->TwoPoints));
+    FAIL() << "nothing was thrown";
+  }
+  catch (const tipp::IOError& error)
+  {
+    EXPECT_EQ(std::string::npos, std::string(error.what()).find_first_of("\n\t\x01"));
   }
 }
 

@@ -7,8 +7,10 @@
 
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 namespace
 {
@@ -289,6 +291,26 @@ TEST_F(TippOutputs, UsersFilesInAMeshAreLeftAlone)
   this->Folder.file("mesh.tipp/notes.txt", "mine");
   this->expectRefused({ "partition", "flat", "-o", "mesh.tipp" }, "holds 'notes.txt'");
   this->expectRefused({ "delaunay", "points.npy", "-o", "mesh.tipp" }, "holds 'notes.txt'");
+}
+
+/// The run waits for its input in a pipe while the file appears.
+TEST_F(TippOutputs, FileThatAppearsDuringTheRunIsLeftAlone)
+{
+  for (const char* output : { "out.npy", "out.vtu", "out.vtp" })
+  {
+    const std::string pipe = this->path("pipe.csv");
+    ASSERT_EQ(0, mkfifo(pipe.c_str(), 0600));
+    const TippProcess process(this->Folder, { "delaunay", "pipe.csv", "-o", output });
+    std::ofstream input(pipe); // opens when the run reads, after it has looked at its output
+    this->Folder.file(output, "the user's");
+    input << "0,0\n1,0\n0,1\n" << std::flush;
+    input.close();
+    const Outcome outcome = process.waitOrKill();
+    EXPECT_EQ(1, outcome.ExitCode) << output;
+    EXPECT_NE(std::string::npos, outcome.Err.find(output)) << outcome.Err;
+    EXPECT_EQ("the user's", contentOf(this->path(output)));
+    fs::remove(pipe);
+  }
 }
 
 } // namespace
