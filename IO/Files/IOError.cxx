@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/IOError.h"
 
+#include "Files/TemporaryPath.h"
+
 #include <algorithm>
 #include <cctype>
 
@@ -26,13 +28,14 @@ IOError::IOError(const std::string& sentence)
 }
 
 IOError::IOError(const std::string& path, const std::string& problem)
-  : std::runtime_error(onOneLine(path + ": " + problem))
+  : std::runtime_error(onOneLine(shownPath(path) + ": " + problem))
   , Path(path)
 {
 }
 
 IOError::IOError(const std::string& path, std::int64_t line, const std::string& problem)
-  : std::runtime_error(onOneLine(path + ", line " + std::to_string(line) + ": " + problem))
+  : std::runtime_error(
+      onOneLine(shownPath(path) + ", line " + std::to_string(line) + ": " + problem))
   , Path(path)
 {
 }

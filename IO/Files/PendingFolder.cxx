@@ -77,6 +77,10 @@ PendingFolder::PendingFolder(
   isLasting ? this->openLasting(this->Parent + "/" + hiddenName(name, ".part"))
             : this->makeTemporary(hiddenName(name, ".tmp."));
   this->Temporary = this->Work + "/" + name;
+  if (!isLasting) // else its path is where the work is kept
+  {
+    this->Listed.showAs(this->Temporary, this->Path);
+  }
   mkdir(this->Temporary.c_str(), 0777);
   std::error_code failure;
   if (!fs::is_directory(this->Temporary, failure))

@@ -21,6 +21,9 @@ struct Listed
   std::mutex Mutex;
   std::map<std::string, int> Count; ///< one path may be listed twice
   std::map<std::string, bool> Kept;
+  /// A commit may fail with a message, so that needs a mutex of its own.
+  std::mutex FinalsMutex;
+  std::map<std::string, std::string> Finals; ///< by temporary folder
   bool HasOutput = false;
 };
 
@@ -65,6 +68,10 @@ void TemporaryPath::unlist()
   {
     return;
   }
+  {
+    const std::lock_guard<std::mutex> lock(listed().FinalsMutex);
+    listed().Finals.erase(this->Shown);
+  }
   const std::lock_guard<std::mutex> lock(listed().Mutex);
   if (--listed().Count[this->Path] == 0)
   {
@@ -74,10 +81,30 @@ void TemporaryPath::unlist()
   this->Path.clear();
 }
 
+void TemporaryPath::showAs(const std::string& temporary, const std::string& final)
+{
+  const std::lock_guard<std::mutex> lock(listed().FinalsMutex);
+  this->Shown = temporary;
+  listed().Finals[temporary] = final;
+}
+
 void TemporaryPath::keep(bool kept)
 {
   const std::lock_guard<std::mutex> lock(listed().Mutex);
   listed().Kept[this->Path] = kept;
+}
+
+std::string shownPath(const std::string& path)
+{
+  const std::lock_guard<std::mutex> lock(listed().FinalsMutex);
+  for (const auto& [temporary, final] : listed().Finals)
+  {
+    if (path.compare(0, temporary.size(), temporary) == 0)
+    {
+      return final + path.substr(temporary.size());
+    }
+  }
+  return path;
 }
 
 void commitOutput(const std::string& path, const std::function<void()>& move)

@@ -21,13 +21,19 @@ public:
   TemporaryPath& operator=(const TemporaryPath&) = delete;
 
   void list(const std::string& path);
+  /// Messages name what is in the folder `temporary` as what it becomes, in `final`.
+  void showAs(const std::string& temporary, const std::string& final);
   void unlist();
   /// A path that is kept stays when the process ends: a later run goes on with it.
   void keep(bool kept);
 
 private:
   std::string Path;
+  std::string Shown; ///< the folder that messages name otherwise
 };
+
+/// What a user knows a path as: that of the finished output, for one in a listed folder.
+VTKTIPPIO_EXPORT std::string shownPath(const std::string& path);
 
 /// Moves an output to `path` by `move`, which endTemporaryPaths() does not cut short.
 VTKTIPPIO_EXPORT void commitOutput(const std::string& path, const std::function<void()>& move);

@@ -267,6 +267,13 @@ TEST_F(TippOutputs, SlashAtTheEndNamesAFolder)
   this->expectRefused({ "delaunay", "points.npy", "-o", "x.npy/" }, "is the name of a folder");
 }
 
+TEST_F(TippOutputs, MessagesNameTheOutputAndNotItsTemporaryFiles)
+{
+  const Outcome flatten = this->runOnFullDisk({ "flatten", "mesh.vtu", "-o", "out" }, 4096);
+  this->expectFailed(flatten, "out/");
+  EXPECT_EQ(std::string::npos, flatten.Err.find(".tmp")) << flatten.Err;
+}
+
 TEST_F(TippOutputs, FileInPlaceOfTheWorkFolderIsNamed)
 {
   this->Folder.file(".x.tipp.part", "mine");
