@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Files/PendingFolder.h"
 #include "Files/RequireApart.h"
+#include "Files/TemporaryPath.h"
 #include "Flat/FlattenDataSet.h"
 #include "Flat/WriteFlatMesh.h"
 #include "Partitioned/PieceLayout.h"
@@ -59,6 +60,7 @@ PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
   // It goes away with this object, or before the next run if this one is killed.
   std::optional<PendingFolder> scratch;
   std::string folder;
+  std::string shown; // the same in messages of the rank that has made it
   try
   {
     ranks.attempt(
@@ -68,9 +70,17 @@ PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
         {
           scratch.emplace(output, &replaceableMesh);
           folder = scratch->temporaryPath() + "/flat";
+          shown = shownPath(folder);
           FlatContent content = flattenDataSet(data, name).Content;
           removeOwnIds(content);
-          writeFlatMesh(folder, content);
+          try
+          {
+            writeFlatMesh(folder, content);
+          }
+          catch (const IOError& error) // as of a full disk
+          {
+            throw IOError(inNameOf(error.what(), shown, output));
+          }
         }
       });
   }
@@ -81,6 +91,7 @@ PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
     return statistics;
   }
   folder = ranks.broadcast(folder);
+  shown = ranks.broadcast(shown);
   try
   {
     FlatMesh mesh;
@@ -89,7 +100,7 @@ PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
   }
   catch (const IOError& error)
   {
-    throw IOError(inNameOf(error.what(), folder, name));
+    throw IOError(inNameOf(inNameOf(error.what(), folder, name), shown, name));
   }
 }
 
