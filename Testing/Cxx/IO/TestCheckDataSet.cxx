@@ -52,7 +52,7 @@ vtkSmartPointer<vtkPoints> somePoints(int count)
   points->SetDataTypeToDouble();
   for (int i = 0; i < count; ++i)
   {
-    points->InsertNextPoint(i, i * i, 0);
+    points->InsertNextPoint(i, double(i) * i, 0);
   }
   return points;
 }
