@@ -97,14 +97,18 @@ void TemporaryPath::keep(bool kept)
 std::string shownPath(const std::string& path)
 {
   const std::lock_guard<std::mutex> lock(listed().FinalsMutex);
-  for (const auto& [temporary, final] : listed().Finals)
+  const auto& finals = listed().Finals;
+  std::string shown = path;
+  // Temporary folders may be nested. The innermost sorts last, and its final path is in the others.
+  for (auto entry = finals.rbegin(); entry != finals.rend(); ++entry)
   {
-    if (path.compare(0, temporary.size(), temporary) == 0)
+    const auto& [temporary, final] = *entry;
+    if (shown.compare(0, temporary.size(), temporary) == 0)
     {
-      return final + path.substr(temporary.size());
+      shown.replace(0, temporary.size(), final);
     }
   }
-  return path;
+  return shown;
 }
 
 void commitOutput(const std::string& path, const std::function<void()>& move)
