@@ -26,11 +26,9 @@
  * The output, also GetStatistics(), is a vtkTable about the run. It has a row for each phase, with
  * the columns Phase (its name) and Seconds (wall-clock), and as field data, one value each, Points,
  * Triangles, DuplicatePoints, RejectedPoints, Pieces, Partitions, WorkerVertices (vertices
- * triangulated by all workers together), PeakRimTriangles (most unfinished triangles at a time),
- * PeakRimBytes (of their vertices, in memory and in a file), RimSpilledBytes (written to that
- * file), PeakBorderBytes, AsideBytes (of borders, put into a file), SpilledBytes (of points),
- * MeshBytes (on disk), Threads, Resumed (1 if the run has gone on from another, else 0), and with
- * CountOnly TriangleSum.
+ * triangulated by all workers together), BoundaryBytes (of vertices that were sent from one piece
+ * to another), SpilledBytes (of points), MeshBytes (on disk), Threads, Resumed (1 if the run has
+ * gone on from another, else 0), and with CountOnly TriangleSum.
  *
  * The folder appears when it is whole, and takes the place of a partitioned mesh that is there
  * already. An error, or an abort, leaves what was there and an empty output; from the time when

@@ -14,34 +14,6 @@ namespace tipp
 namespace
 {
 
-/// A vertex as it travels.
-struct SentVertex
-{
-  Point2 Position;
-  std::int64_t Id;
-  std::uint64_t Label;
-};
-
-std::vector<SentVertex> packed(const std::vector<SeamVertex>& vertices)
-{
-  std::vector<SentVertex> result;
-  result.reserve(vertices.size());
-  for (const SeamVertex& v : vertices)
-  {
-    result.push_back({ v.Place, v.Id, v.Label });
-  }
-  return result;
-}
-
-void unpack(const std::vector<SentVertex>& sent, std::vector<SeamVertex>& vertices)
-{
-  vertices.reserve(vertices.size() + sent.size());
-  for (const SentVertex& v : sent)
-  {
-    vertices.push_back({ v.Position, v.Id, static_cast<std::uint32_t>(v.Label) });
-  }
-}
-
 /// Threads that end when the work ends, whatever ends it.
 class WorkerThreads
 {
@@ -129,7 +101,7 @@ void MasterlessRun<Id>::shareInitialMesh(std::vector<SeamVertex>& vertices)
   }
   ByteWriter writer;
   writer.array(regions);
-  writer.array(packed(initial));
+  write(writer, initial);
   ByteWriter all;
   for (const Bytes& part : this->Ranks.gather(writer.take()))
   {
@@ -145,7 +117,7 @@ void MasterlessRun<Id>::shareInitialMesh(std::vector<SeamVertex>& vertices)
       boxes.at(std::size_t(entry.Partition)) = entry.Box;
       used.at(std::size_t(entry.Partition)) = 1;
     }
-    unpack(reader.array<SentVertex>(), vertices);
+    read(reader, vertices);
   }
   this->Boxes = std::make_unique<Regions>(tiles, std::move(boxes), std::move(used));
 }
@@ -255,8 +227,7 @@ void MasterlessRun<Id>::finishPartition(
       if (ownerOf(to) == other)
       {
         writer.value(to);
-        writer.value(message.Triangles);
-        writer.array(packed(message.Vertices));
+        write(writer, message);
       }
     }
     outgoing.push_back({ other, writer.take() });
@@ -291,9 +262,10 @@ void MasterlessRun<Id>::receive(const Message& message)
   while (isGood && reader.left() > 0)
   {
     const auto to = reader.value<PartitionIndex>();
-    VertexMessage vertices{ sender, {}, reader.value<std::int64_t>() };
-    unpack(reader.array<SentVertex>(), vertices.Vertices);
-    isGood = isPartition(to) && this->Work.Owners[std::size_t(to)] == this->Ranks.rank();
+    VertexMessage vertices;
+    read(reader, vertices);
+    isGood = vertices.Sender == sender && isPartition(to) &&
+      this->Work.Owners[std::size_t(to)] == this->Ranks.rank();
     if (isGood)
     {
       this->Inboxes[std::size_t(to)].put(std::move(vertices));
@@ -367,11 +339,12 @@ template <typename Id>
 void MasterlessRun<Id>::repairHullOnFirst()
 {
   ByteWriter writer;
-  writer.array(packed(this->Boundary.HullVertices));
+  write(writer, this->Boundary.HullVertices);
   this->Boundary.HullVertices.clear();
   for (const Bytes& part : this->Ranks.gather(writer.take()))
   {
-    unpack(ByteReader(part).array<SentVertex>(), this->Boundary.HullVertices);
+    ByteReader reader(part);
+    read(reader, this->Boundary.HullVertices);
   }
   if (this->Ranks.rank() == 0)
   {

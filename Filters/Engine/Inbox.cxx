@@ -3,6 +3,54 @@
 
 namespace tipp
 {
+namespace
+{
+
+/// A vertex without padding.
+struct WrittenVertex
+{
+  Point2 Position;
+  std::int64_t Id;
+  std::uint64_t Label;
+};
+
+} // namespace
+
+void write(ByteWriter& writer, const std::vector<SeamVertex>& vertices)
+{
+  std::vector<WrittenVertex> written;
+  written.reserve(vertices.size());
+  for (const SeamVertex& v : vertices)
+  {
+    written.push_back({ v.Place, v.Id, v.Label });
+  }
+  writer.array(written);
+}
+
+void write(ByteWriter& writer, const VertexMessage& message)
+{
+  writer.value(message.Sender);
+  writer.value(message.Triangles);
+  write(writer, message.Vertices);
+}
+
+void read(ByteReader& reader, std::vector<SeamVertex>& vertices)
+{
+  const std::vector<WrittenVertex> written = reader.array<WrittenVertex>();
+  vertices.reserve(vertices.size() + written.size());
+  for (const WrittenVertex& v : written)
+  {
+    vertices.push_back({ v.Position, v.Id, static_cast<std::uint32_t>(v.Label) });
+  }
+}
+
+void read(ByteReader& reader, VertexMessage& message)
+{
+  message.Sender = reader.value<PartitionIndex>();
+  message.Triangles = reader.value<std::int64_t>();
+  message.Vertices.clear();
+  read(reader, message.Vertices);
+}
 
 std::vector<SeamVertex> UniqueVertices::collect(const std::vector<VertexMessage>& messages)
 {

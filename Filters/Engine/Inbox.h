@@ -2,6 +2,7 @@
 #ifndef tippInbox_h
 #define tippInbox_h
 
+#include "Messages/Bytes.h"
 #include "Triangulation/SeamTriangles.h"
 
 #include <algorithm>
@@ -18,10 +19,19 @@ namespace tipp
 /// (Lemma 6), each once.
 struct VertexMessage
 {
-  PartitionIndex Sender; ///< -1: the initial mesh
+  PartitionIndex Sender = -1; ///< -1: the initial mesh
   std::vector<SeamVertex> Vertices;
   std::int64_t Triangles = 0; ///< how many triangles these are the vertices of
 };
+
+/// @name Vertices and messages as bytes
+/// What was not written here throws std::runtime_error when it is read.
+///@{
+VTKTIPPFILTERS_EXPORT void write(ByteWriter& writer, const std::vector<SeamVertex>& vertices);
+VTKTIPPFILTERS_EXPORT void write(ByteWriter& writer, const VertexMessage& message);
+VTKTIPPFILTERS_EXPORT void read(ByteReader& reader, std::vector<SeamVertex>& vertices);
+VTKTIPPFILTERS_EXPORT void read(ByteReader& reader, VertexMessage& message);
+///@}
 
 /// All vertices of some messages, each once.
 class UniqueVertices

@@ -2,6 +2,7 @@
 #ifndef tippPartitionOrder_h
 #define tippPartitionOrder_h
 
+#include "Engine/ConflictGraph.h"
 #include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -29,9 +30,9 @@ struct SeamTriangles;
 /// direction helps inside the hull, which holds all regions.) So no later triangle and no later
 /// edge joins them, and their workers commute. More conflicts than there are do no harm.
 ///
-/// Partitions are coloured greedily, those with most conflicts first; a colour is a stage of the
-/// dissertation. They are ordered by window, where windows are given, then by colour and index. Any
-/// windows do: the triangles do not depend on the order.
+/// Partitions are coloured; a colour is a stage of the dissertation. They are ordered by window,
+/// where windows are given, then by colour and index. Any windows do: the triangles do not depend
+/// on the order.
 class VTKTIPPFILTERS_EXPORT PartitionOrder
 {
 public:
@@ -45,10 +46,11 @@ public:
     std::size_t size() const { return std::size_t(this->Last - this->First); }
   };
 
-  /// Orders the partitions that are to be triangulated: `isUsed` has one entry for each partition,
-  /// and so have the windows, unless there are none.
-  PartitionOrder(const std::vector<char>& isUsed, const SeamTriangles& initialMesh,
-    const std::vector<std::int32_t>& windows = {});
+  /// Orders the partitions that are to be triangulated: `isUsed` has one entry for each partition.
+  PartitionOrder(const std::vector<char>& isUsed, const SeamTriangles& initialMesh);
+
+  /// Orders them by window first; there is one for each partition.
+  void setWindows(const std::vector<std::int32_t>& windows);
 
   /// Used or not.
   std::size_t partitionCount() const { return this->Positions.size(); }
@@ -68,21 +70,24 @@ public:
   std::size_t colourSize(std::size_t colour) const { return this->ColourSizes[colour]; }
   std::size_t colourOf(PartitionIndex p) const { return this->Colours[std::size_t(p)]; }
 
+  /// Which partitions conflict; none where isTotal().
+  const ConflictGraph& conflicts() const { return this->Conflicts; }
+
   /// True if every partition counts as conflicting with every other.
   bool isTotal() const { return this->Total; }
 
 private:
   bool findConflicts(const SeamTriangles& initialMesh);
   void colour();
-  void orderConflicts();
+  template <typename Key>
+  void sort(const Key& key);
 
   std::vector<PartitionIndex> Sequence;
   std::vector<std::uint32_t> Positions;
   std::vector<std::uint32_t> Colours;
   std::vector<std::size_t> ColourSizes;
-  std::vector<std::size_t> Ends; ///< of each partition's conflicts, in Conflicts
-  std::vector<PartitionIndex> Conflicts;
-  std::vector<std::size_t> LaterBegins;
+  ConflictGraph Conflicts;
+  std::vector<std::size_t> EarlierCounts; ///< of each partition's conflicts
   bool Total = false;
 };
 

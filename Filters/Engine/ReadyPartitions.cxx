@@ -35,7 +35,7 @@ ReadyPartitions::ReadyPartitions(const PartitionOrder& order, bool barrierBetwee
 {
   if (!this->Barrier)
   {
-    this->awaitEarlier();
+    this->awaitEarlier(false);
     return;
   }
   for (auto& entry : this->Queue)
@@ -52,7 +52,8 @@ ReadyPartitions::ReadyPartitions(const PartitionOrder& order, bool barrierBetwee
   }
 }
 
-ReadyPartitions::ReadyPartitions(const PartitionOrder& order, const std::vector<char>& isOwn)
+ReadyPartitions::ReadyPartitions(
+  const PartitionOrder& order, const std::vector<char>& isOwn, bool waitForPoints)
   : Order(order)
   , Barrier(false)
   , Own(isOwn)
@@ -60,10 +61,10 @@ ReadyPartitions::ReadyPartitions(const PartitionOrder& order, const std::vector<
   , Queue(std::size_t(std::count_if(order.sequence().begin(), order.sequence().end(),
       [&](PartitionIndex p) { return isOwn[std::size_t(p)] != 0; })))
 {
-  this->awaitEarlier();
+  this->awaitEarlier(waitForPoints);
 }
 
-void ReadyPartitions::awaitEarlier()
+void ReadyPartitions::awaitEarlier(bool waitForPoints)
 {
   for (auto& entry : this->Queue)
   {
@@ -71,6 +72,7 @@ void ReadyPartitions::awaitEarlier()
   }
   for (const PartitionIndex p : this->Order.sequence())
   {
+    this->Awaited[std::size_t(p)] += waitForPoints ? 1 : 0;
     for (const PartitionIndex later : this->Order.later(p))
     {
       ++this->Awaited[std::size_t(later)];
@@ -78,7 +80,7 @@ void ReadyPartitions::awaitEarlier()
   }
   for (const PartitionIndex p : this->Order.sequence())
   {
-    if (this->Awaited[std::size_t(p)] == 0 && (this->Own.empty() || this->Own[std::size_t(p)]))
+    if (this->Awaited[std::size_t(p)] == 0 && this->isOwn(p))
     {
       this->release(p);
     }
@@ -134,11 +136,15 @@ void ReadyPartitions::finish(PartitionIndex p)
   }
   for (const PartitionIndex q : this->Order.later(p))
   {
-    if ((this->Own.empty() || this->Own[std::size_t(q)]) &&
-      this->Awaited[std::size_t(q)].fetch_sub(1, std::memory_order_acq_rel) == 1)
-    {
-      this->release(q);
-    }
+    this->countDown(q);
+  }
+}
+
+void ReadyPartitions::countDown(PartitionIndex p)
+{
+  if (this->isOwn(p) && this->Awaited[std::size_t(p)].fetch_sub(1, std::memory_order_acq_rel) == 1)
+  {
+    this->release(p);
   }
 }
 

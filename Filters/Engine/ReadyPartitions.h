@@ -22,8 +22,9 @@ public:
   /// order must have no windows then.
   ReadyPartitions(const PartitionOrder& order, bool barrierBetweenColours);
   /// Hands out only a rank's own partitions: `isOwn` has one entry for each partition, and there is
-  /// no barrier.
-  ReadyPartitions(const PartitionOrder& order, const std::vector<char>& isOwn);
+  /// no barrier. Where they wait for points, each also waits for setLoaded().
+  ReadyPartitions(
+    const PartitionOrder& order, const std::vector<char>& isOwn, bool waitForPoints = false);
 
   /// A ready partition; waits for one. -1 if all were handed out or the run was stopped.
   PartitionIndex take();
@@ -31,20 +32,25 @@ public:
   /// The partition is done, one's own or another rank's, and what it sends is in the inboxes.
   void finish(PartitionIndex p);
 
+  /// The points of a partition of this rank are in memory.
+  void setLoaded(PartitionIndex p) { this->countDown(p); }
+
   /// No further partition is handed out. The first reason is kept.
   void stop(const std::exception_ptr& reason = nullptr);
   bool isStopped() const { return this->Stopped.load(std::memory_order_relaxed); }
   std::exception_ptr failure() const { return this->Failure; }
 
 private:
-  void awaitEarlier();
+  void awaitEarlier(bool waitForPoints);
+  void countDown(PartitionIndex p);
+  bool isOwn(PartitionIndex p) const { return this->Own.empty() || this->Own[std::size_t(p)]; }
   void release(PartitionIndex p);
   void releaseColour(std::size_t colour);
 
   const PartitionOrder& Order;
   const bool Barrier;
   const std::vector<char> Own;                    ///< empty: all
-  std::vector<std::atomic<std::int32_t>> Awaited; ///< of each partition: earlier ones not done
+  std::vector<std::atomic<std::int32_t>> Awaited; ///< of each partition: what it waits for
   std::vector<std::atomic<std::int64_t>> LeftInColour;
   std::vector<std::atomic<PartitionIndex>> Queue; ///< -1 until filled
   std::atomic<std::size_t> QueueEnd{ 0 };

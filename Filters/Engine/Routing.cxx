@@ -38,7 +38,8 @@ void FinalBoundary<Id>::append(FinalBoundary&& other)
   this->Triangles.insert(this->Triangles.end(), other.Triangles.begin(), other.Triangles.end());
   this->HullVertices.insert(
     this->HullVertices.end(), other.HullVertices.begin(), other.HullVertices.end());
-  other = FinalBoundary();
+  other.Triangles.clear();
+  other.HullVertices.clear();
 }
 
 template <typename Id>
@@ -128,9 +129,8 @@ VertexMessage Routing<Id>::messageTo(std::uint32_t recipient, const Worker<Id>& 
 }
 
 template <typename Id>
-template <typename FinalId>
 std::int64_t Routing<Id>::send(
-  const Worker<Id>& worker, const DeliverMessage& deliver, FinalBoundary<FinalId>& final)
+  const Worker<Id>& worker, const DeliverMessage& deliver, FinalTaker& final)
 {
   this->sortByRecipient();
   const std::size_t nobody = this->Later.size();
@@ -151,9 +151,8 @@ std::int64_t Routing<Id>::send(
   return std::int64_t(sent);
 }
 
-template <typename Id>
 std::int64_t sendInitialMesh(const SeamTriangles& mesh, const PartitionOrder& order,
-  const DeliverMessage& deliver, FinalBoundary<Id>& final)
+  const DeliverMessage& deliver, FinalTaker& final)
 {
   std::vector<std::pair<PartitionIndex, std::size_t>> sent;
   for (std::size_t i = 0; i < mesh.size(); ++i)
@@ -195,15 +194,5 @@ template void repairHull(FinalBoundary<std::int32_t>&, const std::vector<SeamVer
 template void repairHull(FinalBoundary<std::int64_t>&, const std::vector<SeamVertex>&);
 template class Routing<std::int32_t>;
 template class Routing<std::int64_t>;
-template std::int64_t Routing<std::int32_t>::send(
-  const Worker<std::int32_t>&, const DeliverMessage&, FinalBoundary<std::int32_t>&);
-template std::int64_t Routing<std::int32_t>::send(
-  const Worker<std::int32_t>&, const DeliverMessage&, FinalBoundary<std::int64_t>&);
-template std::int64_t Routing<std::int64_t>::send(
-  const Worker<std::int64_t>&, const DeliverMessage&, FinalBoundary<std::int64_t>&);
-template std::int64_t sendInitialMesh(
-  const SeamTriangles&, const PartitionOrder&, const DeliverMessage&, FinalBoundary<std::int32_t>&);
-template std::int64_t sendInitialMesh(
-  const SeamTriangles&, const PartitionOrder&, const DeliverMessage&, FinalBoundary<std::int64_t>&);
 
 } // namespace tipp

@@ -19,15 +19,23 @@ namespace tipp
 /// Takes a message for a partition.
 using DeliverMessage = std::function<void(PartitionIndex, VertexMessage&&)>;
 
+/// Takes triangles on the boundaries of partitions that have become final.
+class FinalTaker
+{
+public:
+  virtual ~FinalTaker() = default;
+  virtual void add(const SeamTriangle& triangle) = 0;
+};
+
 /// What final triangles on the boundaries of partitions come to: the triangles of true points, and
 /// the true corners of those at artificial points, which the hull repair takes.
 template <typename Id>
-struct FinalBoundary
+struct FinalBoundary : public FinalTaker
 {
   std::vector<typename TriangleSink<Id>::Seam> Triangles;
   std::vector<SeamVertex> HullVertices; ///< some more than once
 
-  void add(const SeamTriangle& triangle);
+  void add(const SeamTriangle& triangle) override;
   void append(FinalBoundary&& other);
 };
 
@@ -58,9 +66,7 @@ public:
 
   /// Hands the message for each later partition that gets one to `deliver`, and adds the triangles
   /// that nobody gets to the final ones. Returns how many triangles were delivered.
-  template <typename FinalId>
-  std::int64_t send(
-    const Worker<Id>& worker, const DeliverMessage& deliver, FinalBoundary<FinalId>& final);
+  std::int64_t send(const Worker<Id>& worker, const DeliverMessage& deliver, FinalTaker& final);
 
 private:
   struct Triangle
@@ -83,9 +89,8 @@ private:
 };
 
 /// The same for the triangles of the initial mesh: each goes to the first partition that it meets.
-template <typename Id>
 std::int64_t sendInitialMesh(const SeamTriangles& mesh, const PartitionOrder& order,
-  const DeliverMessage& deliver, FinalBoundary<Id>& final);
+  const DeliverMessage& deliver, FinalTaker& final);
 
 } // namespace tipp
 

@@ -4,7 +4,8 @@
 #include "Files/IOError.h"
 #include "OutOfCore/Checkpoint.h"
 #include "OutOfCore/InputPasses.h"
-#include "OutOfCore/PieceHelper.h"
+#include "OutOfCore/PieceMessages.h"
+#include "OutOfCore/PieceRun.h"
 #include "OutOfCore/PreparedRun.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
@@ -85,8 +86,8 @@ int threadsOf(const OutOfCoreOptions& options)
 }
 
 /// Helps with the input until pieces can be worked on: false if there are none to help with.
-bool receivePrepared(
-  Postbox& ranks, const OpenPoints& open, const OutOfCoreOptions& options, PreparedRun& prepared)
+bool receivePrepared(Postbox& ranks, const OpenPoints& open, const OutOfCoreOptions& options,
+  PreparedRun& prepared, std::vector<char>& isDone)
 {
   const auto progress = [&](std::int64_t)
   {
@@ -108,6 +109,8 @@ bool receivePrepared(
   std::string points;
   archive(points);
   archive(prepared.Mesh.Path);
+  archive(prepared.Results);
+  archive(isDone);
   prepared.load(archive, points);
   return true;
 }
@@ -117,13 +120,15 @@ void help(Postbox& ranks, const OpenPoints& open, const OutOfCoreOptions& option
   requireSharedFolder(ranks, "");
   requireSharedFolder(ranks, "");
   PreparedRun prepared;
-  if (!receivePrepared(ranks, open, options, prepared))
+  std::vector<char> isDone;
+  if (!receivePrepared(ranks, open, options, prepared, isDone))
   {
     return;
   }
   const auto progress = [&](std::int64_t done)
   { return !options.Progress || options.Progress(double(done) / double(prepared.Survey.Points)); };
-  PieceHelper(prepared.work(), ranks, threadsOf(options), progress).run();
+  const MemoryPlan memory(options, prepared.Rows.Words);
+  PieceRun(prepared.work(), memory, threadsOf(options), progress, &ranks).run(isDone);
 }
 
 } // namespace
@@ -153,11 +158,14 @@ void requireSharedFolder(Postbox& ranks, const std::string& folder)
   ranks.barrier(); // then it may go
 }
 
-void sharePrepared(Postbox& ranks, PreparedRun& prepared, const std::string& points)
+void sharePrepared(
+  Postbox& ranks, PreparedRun& prepared, const std::string& points, const std::vector<char>& isDone)
 {
   SaveArchive archive;
   archive(points);
   archive(prepared.Mesh.Path);
+  archive(prepared.Results);
+  archive(isDone);
   prepared.save(archive);
   const Bytes bytes = archive.Writer.take();
   for (int to = 1; to < ranks.size(); ++to)

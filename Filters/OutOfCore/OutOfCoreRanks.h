@@ -18,10 +18,10 @@ class PreparedRun;
 using OpenPoints = std::function<std::unique_ptr<PointStream>()>;
 
 /// triangulateOutOfCore() on all ranks, each of which calls this with the same path and options:
-/// points are surveyed and spilled, pieces loaded, triangulated and their interiors written by all;
-/// the first one keeps what the ranks have in common. The files are those of one process. `open` is
-/// called on all ranks; where it throws an IOError or opens another input than on the first rank,
-/// that one reads this rank's part. The figures are on the first rank.
+/// points are surveyed and spilled, pieces loaded and triangulated and their interiors written by
+/// all; the first one makes the plan and completes the pieces at the end. The files are those of
+/// one process. `open` is called on all ranks; where it throws an IOError or opens another input
+/// than on the first rank, that one reads this rank's part. The figures are on the first rank.
 ///
 /// All ranks must see the folders. The memory limit and the threads are those of each rank. Throws
 /// RankFailure on all ranks; the statistics of a run that was ended by Progress on any rank have
@@ -34,9 +34,10 @@ VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCoreOnRanks(
 VTKTIPPFILTERS_EXPORT void requireSharedFolder(Postbox& ranks, const std::string& folder);
 
 /// Of the first rank: sends the others, which wait for it in triangulateOutOfCoreOnRanks(), what
-/// they need to work on pieces. `points`: the file they are spilled to.
-VTKTIPPFILTERS_EXPORT void sharePrepared(
-  Postbox& ranks, PreparedRun& prepared, const std::string& points);
+/// they need to work on pieces. `points`: the file they are spilled to; `isDone`: of each piece,
+/// whether it is done already.
+VTKTIPPFILTERS_EXPORT void sharePrepared(Postbox& ranks, PreparedRun& prepared,
+  const std::string& points, const std::vector<char>& isDone);
 
 } // namespace tipp
 

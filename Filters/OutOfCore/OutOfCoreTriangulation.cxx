@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "OutOfCore/Checkpoint.h"
+#include "OutOfCore/FinishPieces.h"
 #include "OutOfCore/InputPasses.h"
 #include "OutOfCore/OutOfCoreRanks.h"
 #include "OutOfCore/PieceRun.h"
@@ -38,7 +39,6 @@ void exchangeFigures(Archive& archive, OutOfCoreStatistics& statistics)
   archive(statistics.Pieces);
   archive(statistics.Partitions);
   archive(static_cast<PieceFigures&>(statistics));
-  archive(statistics.AsideBytes);
   archive(statistics.SpilledBytes);
   archive(statistics.MeshBytes);
 }
@@ -57,6 +57,7 @@ public:
   {
     this->Statistics.Threads = this->Threads;
     this->Prepared.Mesh.Path = options.CountOnly ? "" : this->Pending.temporaryPath();
+    this->Prepared.Results = this->Scratch.results();
   }
 
   OutOfCoreStatistics run()
@@ -219,7 +220,7 @@ private:
   std::string identity() const
   {
     const OutOfCoreOptions& options = this->Options;
-    return "TIPP out of core 7\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
+    return "TIPP out of core 8\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
       std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
       std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
       (options.Neighbors ? " linked" : "") + (options.CountOnly ? " counted" : "") + "\n" +
@@ -332,35 +333,76 @@ private:
 
   void triangulate()
   {
-    const bool isShared = !this->Prepared.Survey.Collinear && !this->Prepared.Plan->IsAlone;
-    if (this->Ranks && isShared)
+    if (this->Prepared.Survey.Collinear || this->Prepared.Plan->IsAlone)
     {
-      sharePrepared(*this->Ranks, this->Prepared, this->Scratch.points());
+      this->triangulateAlone();
+      this->endPhase("triangulate");
+      return;
     }
-    PieceRun pieces(
-      this->Prepared.work(), *this->Memory, this->Threads,
-      [this](std::int64_t done)
-      {
-        return !this->Options.Progress ||
-          this->Options.Progress(0.2 + 0.7 * double(done) / double(this->Prepared.Survey.Points));
-      },
-      isShared ? this->Ranks : nullptr);
-    if (isShared)
-    {
-      pieces.setCheckpoint(this->Scratch.state(), this->Scratch.aside(), this->Scratch.rim(),
-        [this](const std::string& sentence) { this->warn(sentence); });
-    }
-    const bool isDone = this->Prepared.Survey.Collinear ? pieces.writePointsAlone()
-      : this->Prepared.Plan->IsAlone                    ? pieces.triangulateAlone()
-                                                        : pieces.triangulate();
-    if (!isDone)
+    const PieceWork work = this->Prepared.work();
+    const std::vector<char> isDone = verifyResults(
+      work, this->Threads, [this](double) { return this->proceed(0.2); },
+      [this](const std::string& sentence) { this->warn(sentence); });
+    if (isDone.empty())
     {
       throw Aborted();
     }
-    static_cast<PieceFigures&>(this->Statistics) = pieces.figures();
-    this->Statistics.AsideBytes = pieces.asideBytes();
-    this->Finished = std::move(pieces.finished());
+    if (this->Ranks)
+    {
+      sharePrepared(*this->Ranks, this->Prepared, this->Scratch.points(), isDone);
+    }
+    const double all = double(this->Prepared.Survey.Points);
+    PieceRun pieces(
+      work, *this->Memory, this->Threads,
+      [&](std::int64_t done) { return this->proceed(0.2 + 0.65 * double(done) / all); },
+      this->Ranks);
+    if (!pieces.run(isDone))
+    {
+      throw Aborted();
+    }
+    this->Finished = finishPieces(
+      work, this->Threads, [this](double done) { return this->proceed(0.85 + 0.05 * done); },
+      this->Statistics);
+    if (this->Finished.empty())
+    {
+      throw Aborted();
+    }
     this->endPhase("triangulate");
+  }
+
+  bool proceed(double fraction) const
+  {
+    return !this->Options.Progress || this->Options.Progress(fraction);
+  }
+
+  /// Pieces that have no borders with others.
+  void triangulateAlone()
+  {
+    const PieceWork work = this->Prepared.work();
+    const double all = double(this->Prepared.Survey.Points);
+    const auto tellPoints = [&](std::int64_t done)
+    { return this->proceed(0.2 + 0.7 * double(done) / all); };
+    std::int64_t done = 0;
+    bool isGoingOn = true;
+    this->Finished.resize(std::size_t(work.Plan.pieces()));
+    for (PartitionIndex piece = 0; isGoingOn && piece < work.Plan.pieces(); ++piece)
+    {
+      LoadedPiece loaded(work, piece);
+      FinishedPiece& finished = this->Finished[work.Plan.number(piece)];
+      if (!this->Prepared.Survey.Collinear)
+      {
+        isGoingOn = loaded.triangulateAlone([&](std::size_t inserted)
+          { return tellPoints(std::int64_t(inserted)); },
+          this->Statistics, finished);
+        continue;
+      }
+      finished = loaded.writePointsAlone(this->Statistics);
+      isGoingOn = tellPoints(done += work.Points.count(piece));
+    }
+    if (!isGoingOn)
+    {
+      throw Aborted();
+    }
   }
 
   void count()

@@ -54,7 +54,6 @@ struct OutOfCoreStatistics : PieceFigures
   std::int64_t Rejected = 0;
   std::int64_t Pieces = 0;
   std::int64_t Partitions = 0;
-  std::uint64_t AsideBytes = 0; ///< of borders that were put into a file meanwhile
   std::uint64_t SpilledBytes = 0;
   std::uint64_t MeshBytes = 0;
   int Threads = 1;

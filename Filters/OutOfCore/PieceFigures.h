@@ -7,15 +7,19 @@
 namespace tipp
 {
 
-/// What a run has done, together with those before it that it resumes.
+/// What was done for a piece, or for all of them.
 struct PieceFigures
 {
   std::int64_t Duplicates = 0;
-  std::int64_t WorkerVertices = 0;
-  std::int64_t PeakRimTriangles = 0; ///< most unfinished triangles at a time
-  std::uint64_t PeakRimBytes = 0;    ///< of their vertices, in memory and in a file
-  std::uint64_t RimSpilledBytes = 0; ///< written to that file
-  std::uint64_t PeakBorderBytes = 0; ///< most that pieces kept of their borders at a time
+  std::int64_t WorkerVertices = 0; ///< that workers triangulated
+  std::uint64_t BoundaryBytes = 0; ///< of vertices that were sent to partitions of other pieces
+
+  void add(const PieceFigures& other)
+  {
+    this->Duplicates += other.Duplicates;
+    this->WorkerVertices += other.WorkerVertices;
+    this->BoundaryBytes += other.BoundaryBytes;
+  }
 };
 
 } // namespace tipp

@@ -42,7 +42,7 @@ std::uint64_t MemoryPlan::pieceBytes(std::int64_t points, std::size_t rowWords)
 
 MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords)
 {
-  // Of the two phases each has its share; the rest is for kernels, the rim and borders.
+  // Of the two phases each has its share; the rest is for kernels and boundaries.
   const std::uint64_t share = options.MemoryLimit / 5 * 2;
   // Two blocks of points, their labels and rows by piece.
   const std::size_t perPoint = 2 * 8 * (rowWords - 1) + 4 + 8 * rowWords;
@@ -51,8 +51,6 @@ MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords)
   this->SamplePoints = std::clamp<std::size_t>(
     std::size_t(options.MemoryLimit / 512), std::size_t(1) << 14, std::size_t(1) << 20);
   this->LoadedBytes = share;
-  this->BorderBytes = options.MemoryLimit / 10;
-  this->RimBytes = options.MemoryLimit / 10;
   // One that is written, two that are worked on and one that is loaded; never mind the threads, so
   // that the pieces are the same for any number of them.
   constexpr std::uint64_t together = 4;
@@ -90,11 +88,29 @@ PiecePlan::PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options,
     return;
   }
   this->chooseInitialPoints(survey);
-  this->HasLargeRim = !partitionsPay(this->initialMesh(threads));
+  this->HasLargeRim =
+    !partitionsPay(triangulateVertices(this->Partitions, this->initialVertices(), threads));
   if (!isGrid && fits && this->HasLargeRim)
   {
     this->takeAlone(survey);
   }
+  else if (this->HasLargeRim)
+  {
+    this->takeWholePieces(survey);
+  }
+}
+
+/// Where nearly all vertices are sent on and on, the fewer partitions the better.
+void PiecePlan::takeWholePieces(const InputSurvey& survey)
+{
+  for (PartitionIndex piece = 0; piece < this->pieces(); ++piece)
+  {
+    this->Inner[std::size_t(piece)] = Tiling::grid(this->Pieces.box(piece), 1, 1);
+  }
+  this->numberPartitions();
+  this->Artificial = makeArtificialPoints(this->Partitions);
+  this->Initial.clear();
+  this->chooseInitialPoints(survey);
 }
 
 void PiecePlan::takeAlone(const InputSurvey& survey)
@@ -158,7 +174,7 @@ void PiecePlan::chooseInitialPoints(const InputSurvey& survey)
     [](const InitialPoint& a, const InitialPoint& b) { return a.Id < b.Id; });
 }
 
-SeamTriangles PiecePlan::initialMesh(int threads) const
+std::vector<SeamVertex> PiecePlan::initialVertices() const
 {
   std::vector<SeamVertex> vertices;
   for (const InitialPoint& p : this->Initial)
@@ -166,7 +182,7 @@ SeamTriangles PiecePlan::initialMesh(int threads) const
     vertices.push_back(makeSeamVertex(this->Partitions, p.Partition, p.Place, p.InPieces));
   }
   vertices.insert(vertices.end(), this->Artificial.begin(), this->Artificial.end());
-  return triangulateVertices(this->Partitions, vertices, threads);
+  return vertices;
 }
 
 } // namespace tipp

@@ -28,8 +28,6 @@ struct VTKTIPPFILTERS_EXPORT MemoryPlan
   std::int64_t PiecePoints; ///< about
   std::int64_t PartitionPoints;
   std::uint64_t LoadedBytes; ///< of pieces in memory together
-  std::uint64_t BorderBytes; ///< that wait in memory together; more are put aside
-  std::uint64_t RimBytes;    ///< of the rim's vertices in memory; more are in a file
 
   /// What a piece takes while its points are triangulated and written, but for the kernels.
   static std::uint64_t pieceBytes(std::int64_t points, std::size_t rowWords);
@@ -75,14 +73,15 @@ struct VTKTIPPFILTERS_EXPORT PiecePlan
     return static_cast<std::size_t>(this->pieces() - 1 - piece);
   }
 
-  /// The initial mesh, once the initial points have their places.
-  SeamTriangles initialMesh(int threads) const;
+  /// What the initial mesh is made of, once the initial points have their places.
+  std::vector<SeamVertex> initialVertices() const;
 
 private:
   void choosePartitions(const InputSurvey& survey, const MemoryPlan& memory);
   void chooseInitialPoints(const InputSurvey& survey);
   void numberPartitions();
   void takeAlone(const InputSurvey& survey);
+  void takeWholePieces(const InputSurvey& survey);
 };
 
 } // namespace tipp

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/PieceRun.h"
 
+#include "OutOfCore/PieceMessages.h"
+
 #include <algorithm>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 namespace tipp
@@ -16,180 +16,280 @@ PieceRun::PieceRun(const PieceWork& work, const MemoryPlan& memory, int threads,
   , Threads(threads)
   , Progress(std::move(progress))
   , Post(ranks)
-  , Own(work)
-  , Ranks(std::size_t(ranks ? ranks->size() : 1))
-  , NextToLoad(work.Plan.pieces() - 1)
-  , Finished(std::size_t(work.Plan.pieces()))
+  , Inboxes(std::size_t(work.Plan.Partitions.size()))
+  , Pieces(std::size_t(work.Plan.pieces()))
 {
 }
 
-/// The next piece for the rank to load, if it has the memory; else -1.
-PartitionIndex PieceRun::takeToLoad(int rank)
+void PieceRun::prepare(const std::vector<char>& isDone)
 {
-  while (this->NextToLoad >= 0 && !this->Schedule->isToLoad(this->NextToLoad))
+  const PiecePlan& plan = this->Work.Plan;
+  this->Order = std::make_unique<PieceOrder>(plan, this->Work.Points, this->Threads);
+  const std::vector<PartitionIndex>& sequence = this->Order->sequence();
+  const std::size_t ranks = this->Post ? std::size_t(this->Post->size()) : 1;
+  std::vector<char> isToDo(this->Inboxes.size(), 0);
+  for (std::size_t i = 0; i < sequence.size(); ++i)
   {
-    --this->NextToLoad;
+    const PartitionIndex piece = sequence[i];
+    const PartitionIndex begin = plan.FirstPartition[std::size_t(piece)];
+    const PartitionIndex end = plan.FirstPartition[std::size_t(piece) + 1];
+    this->at(piece).Rank = int(i % ranks);
+    if (isDone[std::size_t(piece)])
+    {
+      this->PointsDone += this->Work.Points.count(piece);
+      continue;
+    }
+    this->at(piece).PartitionsLeft = end - begin;
+    this->PiecesLeft += this->isOwn(piece) || this->rank() == 0 ? 1 : 0;
+    std::fill(isToDo.begin() + begin, isToDo.begin() + end, char(this->isOwn(piece)));
   }
-  if (this->NextToLoad < 0)
+  // Each process makes the same messages and keeps those for its own pieces. A triangle at a point
+  // meets its partition, so those that meet none have no points that the hull repair wants.
+  FinalBoundary<std::int64_t> none;
+  sendInitialMesh(
+    this->Order->takeInitialMesh(), this->Order->partitions(),
+    [&](PartitionIndex to, VertexMessage&& message)
+    {
+      if (isToDo[std::size_t(to)])
+      {
+        this->at(this->pieceOf(to)).Pending.emplace_back(to, std::move(message));
+      }
+    },
+    none);
+  this->Ready = std::make_unique<ReadyPartitions>(this->Order->partitions(), isToDo, true);
+  for (PartitionIndex piece : sequence)
   {
-    return -1;
+    if (isDone[std::size_t(piece)])
+    {
+      this->setDone(piece);
+      const PartitionIndex end = plan.FirstPartition[std::size_t(piece) + 1];
+      for (PartitionIndex p = plan.FirstPartition[std::size_t(piece)]; p < end; ++p)
+      {
+        this->Ready->finish(p);
+      }
+    }
   }
-  const std::uint64_t bytes = this->Own.bytesOf(this->NextToLoad);
-  std::uint64_t& loaded = this->Ranks[std::size_t(rank)].LoadedBytes;
-  if (loaded > 0 && loaded + bytes > this->Memory.LoadedBytes)
+}
+
+/// Pieces without points may own triangles all the same.
+void PieceRun::writeEmptyPieces(const std::vector<char>& isDone)
+{
+  for (PartitionIndex piece = 0; this->rank() == 0 && piece < this->Work.Plan.pieces(); ++piece)
   {
-    return -1;
+    if (this->Work.Points.count(piece) == 0 && !isDone[std::size_t(piece)])
+    {
+      PieceResult result;
+      result.Interior = GrowingPiece(this->Work.Points.starts()[std::size_t(piece)], 0);
+      result.Interior.writeInterior(
+        this->Work.Mesh, this->Work.Plan.number(piece), this->Work.Rows, {});
+      writeResult(this->Work.resultPath(piece), result);
+    }
   }
-  loaded += bytes;
-  return this->NextToLoad--;
+}
+
+/// The piece's result is on disk.
+void PieceRun::setDone(PartitionIndex piece)
+{
+  this->at(piece).Result = std::make_unique<StoredResult>(this->Work.resultPath(piece));
+  for (const PartitionIndex other : this->Order->sequence())
+  {
+    SentMessages& pending = this->at(other).Pending;
+    const auto isOfPiece = [&](const SentMessages::value_type& sent)
+    { return sent.second.Sender >= 0 && this->pieceOf(sent.second.Sender) == piece; };
+    pending.erase(std::remove_if(pending.begin(), pending.end(), isOfPiece), pending.end());
+  }
 }
 
 void PieceRun::loadPieces()
 {
-  Lock lock(this->Mutex);
-  while (!this->Stopped && this->NextToLoad >= 0)
+  for (const PartitionIndex piece : this->Order->sequence())
   {
-    const PartitionIndex piece = this->takeToLoad(0);
-    if (piece < 0)
-    {
-      if (this->NextToLoad >= 0)
-      {
-        this->Changed.wait(lock);
-      }
-      continue;
-    }
-    const std::vector<PartitionIndex> finished = this->Schedule->finishedPartitions(piece);
-    lock.unlock();
-    this->Own.load(piece, finished);
-    lock.lock();
-    this->addLoaded(piece, 0, lock);
-  }
-}
-
-void PieceRun::addLoaded(PartitionIndex piece, int rank, Lock& lock)
-{
-  if (this->Schedule->addLoaded(piece, rank))
-  {
-    this->finishPiece(piece, lock);
-  }
-  this->Changed.notify_all();
-}
-
-PartitionIndex PieceRun::acquire(Place& place)
-{
-  Lock lock(this->Mutex);
-  for (;;)
-  {
-    if (this->Stopped || this->Schedule->allActivated())
-    {
-      return -1;
-    }
-    const PartitionIndex partition = this->Schedule->activateNext(place.Vertices);
-    if (partition >= 0)
-    {
-      return partition;
-    }
-    this->Changed.wait(lock);
-    this->tell(lock);
-  }
-}
-
-/// The caller's progress, in the caller's thread.
-void PieceRun::tell(Lock& lock)
-{
-  if (this->Stopped || this->PointsDone == this->PointsTold ||
-    std::this_thread::get_id() != this->Caller)
-  {
-    return;
-  }
-  const std::int64_t done = this->PointsTold = this->PointsDone;
-  lock.unlock();
-  const bool goesOn = this->Progress(done);
-  lock.lock();
-  this->Stopped = this->Stopped || !goesOn;
-  this->Changed.notify_all();
-}
-
-void PieceRun::bringBack(PartitionResult result)
-{
-  const PartitionIndex piece = this->Work.Plan.PieceOf[std::size_t(result.Partition)];
-  Lock lock(this->Mutex);
-  this->PointsDone += result.Points;
-  this->Figures.Duplicates += result.Duplicates;
-  this->Figures.WorkerVertices += result.Vertices;
-  const bool isWhole = this->Schedule->complete(std::move(result));
-  this->countRim();
-  this->Changed.notify_all();
-  this->tell(lock);
-  if (isWhole && !this->Stopped)
-  {
-    this->finishPiece(piece, lock);
-  }
-  this->writeBorders(lock);
-  this->saveSometimes();
-}
-
-void PieceRun::countRim()
-{
-  this->Figures.PeakRimTriangles =
-    std::max(this->Figures.PeakRimTriangles, std::int64_t(this->Schedule->rimTriangles()));
-  this->Figures.PeakRimBytes = std::max(this->Figures.PeakRimBytes, this->Schedule->rimBytes());
-  if (this->SpilledRim)
-  {
-    const std::uint64_t written = this->SpilledRim->written();
-    this->Figures.RimSpilledBytes += written - std::exchange(this->RimBytesCounted, written);
-  }
-}
-
-void PieceRun::takeInterior(PartitionIndex piece, GrowingPiece interior)
-{
-  this->Schedule->finishInterior(piece, std::move(interior));
-  const std::uint64_t bytes = this->Own.bytesOf(piece);
-  this->Ranks[std::size_t(this->Schedule->rankOf(piece))].LoadedBytes -= bytes;
-  this->BytesSinceSaved += bytes;
-  this->Figures.PeakBorderBytes =
-    std::max(this->Figures.PeakBorderBytes, this->Schedule->borderBytes());
-  this->Changed.notify_all();
-}
-
-void PieceRun::writeBorders(Lock& lock)
-{
-  while (!this->Stopped)
-  {
-    const PartitionIndex piece = this->Schedule->takeComplete();
-    if (piece < 0)
+    const bool isToDo = this->isOwn(piece) && this->at(piece).PartitionsLeft > 0;
+    if (isToDo && !this->waitForMemory(piece))
     {
       return;
     }
-    lock.unlock();
-    const std::size_t number = this->Work.Plan.number(piece);
-    FinishedPiece finished =
-      this->Schedule->border(piece).writeBorder(this->Work.Mesh, number, this->Work.Rows);
-    lock.lock();
-    this->Finished[number] = std::move(finished);
-    this->Schedule->finishBorder(piece);
+    if (isToDo)
+    {
+      this->load(piece);
+    }
+  }
+}
+
+/// Takes memory for the piece. False if the run was stopped.
+bool PieceRun::waitForMemory(PartitionIndex piece)
+{
+  const std::uint64_t bytes = LoadedPiece::bytesOf(this->Work, piece);
+  Lock lock(this->Mutex);
+  this->Changed.wait(lock,
+    [&]
+    {
+      return this->Ready->isStopped() || this->LoadedBytes == 0 ||
+        this->LoadedBytes + bytes <= this->Memory.LoadedBytes;
+    });
+  this->LoadedBytes += bytes;
+  return !this->Ready->isStopped();
+}
+
+void PieceRun::load(PartitionIndex piece)
+{
+  auto loaded = std::make_unique<LoadedPiece>(this->Work, piece);
+  std::vector<const StoredResult*> results;
+  {
+    // From now on messages for its partitions go to their inboxes; those of pieces that are not
+    // done come, or are pending.
+    const Lock lock(this->Mutex);
+    this->at(piece).Loaded = std::move(loaded);
+    for (auto& [to, message] : std::exchange(this->at(piece).Pending, {}))
+    {
+      this->Inboxes[std::size_t(to)].put(std::move(message));
+    }
+    for (const Piece& other : this->Pieces)
+    {
+      if (other.Result && other.Result->hasMessages(piece))
+      {
+        results.push_back(other.Result.get());
+      }
+    }
+  }
+  for (const StoredResult* result : results)
+  {
+    for (auto& [to, message] : result->readMessages(piece))
+    {
+      this->Inboxes.at(std::size_t(to)).put(std::move(message));
+    }
+  }
+  const PartitionIndex end = this->Work.Plan.FirstPartition[std::size_t(piece) + 1];
+  for (PartitionIndex p = this->Work.Plan.FirstPartition[std::size_t(piece)]; p < end; ++p)
+  {
+    this->Ready->setLoaded(p);
   }
 }
 
 void PieceRun::work()
 {
-  Place place;
-  for (;;)
+  LoadedPiece::Tools tools(*this->Order);
+  for (PartitionIndex p = this->Ready->take(); p >= 0; p = this->Ready->take())
   {
-    const PartitionIndex partition = this->acquire(place);
-    if (partition < 0)
+    LoadedPiece& piece = *this->at(this->pieceOf(p)).Loaded;
+    this->finishPartition(p, piece.triangulate(tools, p, this->Inboxes[std::size_t(p)].take()));
+    if (!this->tell())
     {
-      return;
+      this->stop(nullptr);
     }
-    this->bringBack(this->Own.triangulate(place, partition));
   }
+}
+
+void PieceRun::finishPartition(PartitionIndex p, SentMessages sent)
+{
+  const PartitionIndex piece = this->pieceOf(p);
+  bool isLast = false;
+  {
+    const Lock lock(this->Mutex);
+    this->PointsDone += this->at(piece).Loaded->pointsOf(p);
+    this->sendToRanks(p, sent);
+    for (auto& [to, message] : sent)
+    {
+      if (this->isOwn(this->pieceOf(to)))
+      {
+        this->deliver(to, std::move(message));
+      }
+    }
+    isLast = --this->at(piece).PartitionsLeft == 0;
+  }
+  this->Ready->finish(p);
+  if (isLast && !this->Ready->isStopped())
+  {
+    this->finishPiece(piece);
+  }
+}
+
+/// With the mutex. A partition is done, and what it sends: one message to each rank that has a
+/// later conflicting partition.
+void PieceRun::sendToRanks(PartitionIndex p, const SentMessages& sent)
+{
+  if (!this->hasOtherRanks())
+  {
+    return;
+  }
+  std::map<int, ByteWriter> writers;
+  for (const PartitionIndex q : this->Order->partitions().later(p))
+  {
+    const int to = this->at(this->pieceOf(q)).Rank;
+    if (to != this->rank() && writers.count(to) == 0)
+    {
+      writers[to].value(p);
+    }
+  }
+  for (const auto& [q, message] : sent)
+  {
+    const auto writer = writers.find(this->at(this->pieceOf(q)).Rank);
+    if (writer != writers.end())
+    {
+      writer->second.value(q);
+      write(writer->second, message);
+    }
+  }
+  for (auto& [to, writer] : writers)
+  {
+    this->ToSend.push_back({ to, PartitionMessage, writer.take() });
+  }
+}
+
+/// With the mutex.
+void PieceRun::deliver(PartitionIndex to, VertexMessage message)
+{
+  Piece& piece = this->at(this->pieceOf(to));
+  if (piece.Loaded)
+  {
+    this->Inboxes[std::size_t(to)].put(std::move(message));
+  }
+  else
+  {
+    piece.Pending.emplace_back(to, std::move(message));
+  }
+}
+
+void PieceRun::finishPiece(PartitionIndex piece)
+{
+  PieceResult result = this->at(piece).Loaded->write();
+  writeResult(this->Work.resultPath(piece), result);
+  const Lock lock(this->Mutex);
+  this->at(piece).Loaded.reset();
+  this->LoadedBytes -= LoadedPiece::bytesOf(this->Work, piece);
+  this->setDone(piece);
+  --this->PiecesLeft;
+  for (int to = 0; this->hasOtherRanks() && to < this->Post->size(); ++to)
+  {
+    if (to != this->rank())
+    {
+      ByteWriter writer;
+      writer.value(piece);
+      this->ToSend.push_back({ to, PieceMessage, writer.take() });
+    }
+  }
+  this->Changed.notify_all();
+}
+
+/// Progress, in the caller's thread. False if it ends the run.
+bool PieceRun::tell()
+{
+  if (std::this_thread::get_id() != this->Caller)
+  {
+    return true;
+  }
+  std::int64_t done = 0;
+  {
+    const Lock lock(this->Mutex);
+    done = this->PointsDone;
+  }
+  return std::exchange(this->PointsTold, done) == done || this->Progress(done);
 }
 
 void PieceRun::stop(const std::exception_ptr& reason)
 {
-  const std::lock_guard<std::mutex> lock(this->Mutex);
-  this->Stopped = true;
-  this->Failure = this->Failure ? this->Failure : reason;
+  this->Ready->stop(reason);
+  const Lock lock(this->Mutex); // or the loading thread could miss it
   this->Changed.notify_all();
 }
 
@@ -207,126 +307,37 @@ void PieceRun::guard(const std::function<void()>& body)
 
 void PieceRun::runThreads()
 {
-  const auto work = [this] { this->guard([this] { this->work(); }); };
   std::vector<std::thread> threads;
-  try
-  {
-    threads.emplace_back([this] { this->guard([this] { this->loadPieces(); }); });
-    for (int i = this->hasOtherRanks() ? 0 : 1; i < this->Threads; ++i)
+  this->guard(
+    [&]
     {
-      threads.emplace_back(work);
-    }
-  }
-  catch (...)
-  {
-    this->stop(std::current_exception());
-  }
-  this->hasOtherRanks() ? this->guard([this] { this->serve(); }) : work();
+      threads.emplace_back([this] { this->guard([this] { this->loadPieces(); }); });
+      for (int i = this->hasOtherRanks() ? 0 : 1; i < this->Threads; ++i)
+      {
+        threads.emplace_back([this] { this->guard([this] { this->work(); }); });
+      }
+      this->hasOtherRanks() ? this->coordinate() : this->work();
+    });
   for (std::thread& thread : threads)
   {
     thread.join();
   }
-  if (this->Failure)
+  if (this->Ready->failure())
   {
-    std::rethrow_exception(this->Failure);
-  }
-  Lock lock(this->Mutex);
-  this->tell(lock); // of what the other threads did last
-}
-
-/// What an earlier run has left unfinished must not take the place of this one's files. Pieces are
-/// written anew.
-void PieceRun::clearPieces()
-{
-  if (this->Work.Mesh.Path.empty())
-  {
-    return;
-  }
-  std::error_code ignored; // what cannot be removed cannot be written either
-  const auto folder = std::filesystem::path(this->Work.Mesh.piecePath(0)).parent_path();
-  std::filesystem::create_directories(folder, ignored);
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-  {
-    if (entry.path().extension() == GrowingPiece::NextName)
-    {
-      std::filesystem::remove(entry.path(), ignored);
-    }
+    std::rethrow_exception(this->Ready->failure());
   }
 }
 
-/// A run from the beginning.
-void PieceRun::start()
+bool PieceRun::run(const std::vector<char>& isDone)
 {
-  this->clearPieces();
-  this->Schedule = std::make_unique<PieceSchedule>(this->Work.Plan, this->Work.Points,
-    this->Work.Rows, this->Work.Plan.initialMesh(this->Threads));
-  this->useFiles();
-  // Pieces without points may own triangles all the same.
-  for (PartitionIndex piece = 0; piece < this->Work.Plan.pieces(); ++piece)
+  this->writeEmptyPieces(isDone);
+  this->prepare(isDone);
+  if (this->hasOtherRanks())
   {
-    if (this->Work.Points.count(piece) == 0)
-    {
-      GrowingPiece empty = this->Schedule->growing(piece);
-      empty.writeInterior(this->Work.Mesh, this->Work.Plan.number(piece), this->Work.Rows, {});
-      this->Schedule->finishInterior(piece, std::move(empty));
-    }
-  }
-}
-
-void PieceRun::useFiles()
-{
-  if (this->Aside)
-  {
-    this->Schedule->putAside(*this->Aside, this->Memory.BorderBytes);
-    this->Schedule->spillRim(*this->SpilledRim, this->Memory.RimBytes);
-  }
-}
-
-bool PieceRun::triangulate()
-{
-  if (!this->startFromCheckpoint())
-  {
-    this->start();
+    this->Post->barrier(); // a rank that is not set up yet could not tell what a message is about
   }
   this->runThreads();
-  Lock lock(this->Mutex);
-  if (!this->Stopped)
-  {
-    this->writeBorders(lock);
-    this->Schedule->repairHull();
-    this->writeBorders(lock);
-  }
-  if (!this->CheckpointPath.empty())
-  {
-    this->saveNow();
-  }
-  return !this->Stopped;
-}
-
-bool PieceRun::writePointsAlone()
-{
-  for (PartitionIndex piece = 0; piece < this->Work.Plan.pieces(); ++piece)
-  {
-    this->Figures.Duplicates +=
-      this->Own.writePointsAlone(piece, this->Finished[this->Work.Plan.number(piece)]);
-    this->PointsDone += this->Work.Points.count(piece);
-    if (!this->Progress(this->PointsDone))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-bool PieceRun::triangulateAlone()
-{
-  PartitionResult result;
-  const bool isDone = this->Own.triangulateAlone([this](std::size_t inserted)
-    { return this->Progress(std::int64_t(inserted)); },
-    result, this->Finished[0]);
-  this->Figures.Duplicates = result.Duplicates;
-  this->Figures.WorkerVertices = result.Vertices;
-  return isDone;
+  return !this->Ready->isStopped() && this->tell();
 }
 
 } // namespace tipp

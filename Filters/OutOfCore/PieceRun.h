@@ -2,107 +2,95 @@
 #ifndef tippPieceRun_h
 #define tippPieceRun_h
 
+#include "Engine/ReadyPartitions.h"
 #include "Messages/Postbox.h"
-#include "OutOfCore/LoadedPieces.h"
-#include "OutOfCore/PieceFigures.h"
-#include "OutOfCore/PieceSchedule.h"
-#include "Partitioned/PublishPieces.h"
+#include "OutOfCore/LoadedPiece.h"
 
 #include <condition_variable>
 #include <cstdint>
-#include <exception>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
-#include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 namespace tipp
 {
 
-/// The threads that load pieces, triangulate their partitions and write them; and on the first of
-/// several ranks the orders for the others, each of which has a PieceHelper.
+/// A rank's part of a triangulation out of core: it loads its pieces one after the other, as many
+/// at a time as there is memory for, triangulates their partitions by threads, and writes what
+/// comes of a piece when its last partition is done.
+///
+/// Pieces are dealt to ranks in order, and no rank is above the others. A message for a partition
+/// goes to the rank that has its piece; it is in memory until the sender's piece is on disk, unless
+/// the recipient's piece is loaded: then it is in an inbox. So memory holds what belongs to pieces
+/// that are being worked on, and all else is in the results of pieces that are done.
 class VTKTIPPFILTERS_EXPORT PieceRun
 {
 public:
-  /// `progress` is told how many points are triangulated, in the thread that this object is made
-  /// and run in; false ends the run. Ranks: null for this process alone.
+  /// `progress` is told how many points are triangulated, in the thread that runs this; false ends
+  /// the run. Ranks: null for this process alone.
   PieceRun(const PieceWork& work, const MemoryPlan& memory, int threads,
     std::function<bool(std::int64_t)> progress, Postbox* ranks = nullptr);
 
-  /// Saves its state to this file now and then, and where progress ends it; and goes on from there
-  /// if the file is there already. `aside`: a file for borders that there is no memory for; it
-  /// belongs to the saved state. `rim`: one for the rim, which does not. `warn` is told, in one
-  /// sentence, if what was saved is damaged: then all pieces are made again.
-  void setCheckpoint(const std::string& path, const std::string& aside, const std::string& rim,
-    std::function<void(const std::string&)> warn)
-  {
-    this->CheckpointPath = path;
-    this->Aside = std::make_unique<AsideFile>(aside);
-    this->SpilledRim = std::make_unique<VertexFile>(rim);
-    this->Warn = std::move(warn);
-  }
-
-  /// Writes all pieces' files. Throws IOError, and RankFailure. False if progress ended it.
-  bool triangulate();
-  /// The same of points on one line: there are no triangles.
-  bool writePointsAlone();
-  /// The same of a single partition without artificial points.
-  bool triangulateAlone();
-
-  /// By their numbers in the mesh.
-  std::vector<FinishedPiece>& finished() { return this->Finished; }
-
-  const PieceFigures& figures() const { return this->Figures; }
-  /// Of borders that were put aside.
-  std::uint64_t asideBytes() const { return this->Aside ? this->Aside->end() : 0; }
+  /// Writes the results of all pieces that are not done yet: `isDone` has an entry for each piece,
+  /// the same on all ranks. Throws IOError, and RankFailure. False if progress ended it. With
+  /// ranks, the first one returns when all are done, and the others when it tells them to end.
+  bool run(const std::vector<char>& isDone);
 
 private:
   using Lock = std::unique_lock<std::mutex>;
-  using Place = LoadedPieces::Place;
-  /// What is known of a rank, this one too.
-  struct Rank
+  /// A message to another rank.
+  struct Outgoing
   {
-    std::uint64_t LoadedBytes = 0;
-    bool IsReady = false; ///< another rank
-    int IdleThreads = 0;  ///< of another rank
-    bool IsLoading = false;
+    int Rank;
+    MessageKind Kind;
+    Bytes Content;
+  };
+  /// What is known of a piece.
+  struct Piece
+  {
+    int Rank = 0; ///< which triangulates it
+    PartitionIndex PartitionsLeft = 0;
+    std::unique_ptr<LoadedPiece> Loaded;
+    std::unique_ptr<StoredResult> Result; ///< once it is done; only of those for this rank
+    SentMessages Pending;                 ///< to its partitions, until it is loaded
   };
 
-  PartitionIndex takeToLoad(int rank);
-  void loadPieces();
-  void work();
-  PartitionIndex acquire(Place& place);
-  void tell(Lock& lock);
-  void addLoaded(PartitionIndex piece, int rank, Lock& lock);
-  void bringBack(PartitionResult result);
-  void countRim();
-  void finishPiece(PartitionIndex piece, Lock& lock);
-  void takeInterior(PartitionIndex piece, GrowingPiece interior);
-  void writeBorders(Lock& lock);
-  void stop(const std::exception_ptr& reason);
-  /// The body of a thread; what it throws ends the run.
-  void guard(const std::function<void()>& body);
-  void runThreads();
-  void start();
-  void clearPieces();
-  bool startFromCheckpoint();
-  void loadCheckpoint();
-  bool verifyWritten();
-  void isolateInteriors();
-  void useFiles();
-  void saveSometimes();
-  std::uint64_t saveNow();
-  void save(SaveArchive& archive);
+  int rank() const { return this->Post ? this->Post->rank() : 0; }
+  bool hasOtherRanks() const { return this->Post && this->Post->size() > 1; }
+  bool isOwn(PartitionIndex piece) const { return this->at(piece).Rank == this->rank(); }
+  Piece& at(PartitionIndex piece) { return this->Pieces[std::size_t(piece)]; }
+  const Piece& at(PartitionIndex piece) const { return this->Pieces[std::size_t(piece)]; }
+  PartitionIndex pieceOf(PartitionIndex partition) const
+  {
+    return this->Work.Plan.PieceOf[std::size_t(partition)];
+  }
 
-  /// @name Other ranks
+  void prepare(const std::vector<char>& isDone);
+  void writeEmptyPieces(const std::vector<char>& isDone);
+  void loadPieces();
+  bool waitForMemory(PartitionIndex piece);
+  void load(PartitionIndex piece);
+  void work();
+  void finishPartition(PartitionIndex p, SentMessages sent);
+  void sendToRanks(PartitionIndex p, const SentMessages& sent);
+  void deliver(PartitionIndex to, VertexMessage message);
+  void finishPiece(PartitionIndex piece);
+  void setDone(PartitionIndex piece);
+  bool tell();
+
+  void runThreads();
+  void guard(const std::function<void()>& body);
+  void stop(const std::exception_ptr& reason);
+
+  /// @name The thread that speaks to other ranks
   ///@{
-  bool hasOtherRanks() const { return this->Ranks.size() > 1; }
-  void serve();
-  void take(const Message& message);
-  bool giveOrders();
+  void coordinate();
+  bool sendAndReceive();
+  void receive(const Message& message);
+  void receivePartition(const Message& message);
   ///@}
 
   const PieceWork Work;
@@ -111,26 +99,19 @@ private:
   const std::function<bool(std::int64_t)> Progress;
   Postbox* const Post;
   const std::thread::id Caller = std::this_thread::get_id();
-  LoadedPieces Own;
-  std::vector<Rank> Ranks;
-  std::unique_ptr<PieceSchedule> Schedule;
+  std::unique_ptr<PieceOrder> Order;
+  std::unique_ptr<ReadyPartitions> Ready;
+  std::vector<Inbox> Inboxes; ///< of each partition; filled while its piece is loaded
 
-  std::mutex Mutex;
+  std::mutex Mutex; ///< for what follows
   std::condition_variable Changed;
-  std::string CheckpointPath;
-  std::function<void(const std::string&)> Warn;
-  std::unique_ptr<AsideFile> Aside;
-  std::unique_ptr<VertexFile> SpilledRim;
-  std::uint64_t RimBytesCounted = 0; ///< of those that this run has spilled
-  std::uint64_t BytesSinceSaved = 0; ///< of interiors
-  std::uint64_t SavedBytes = 0;      ///< of the last checkpoint
-  PartitionIndex NextToLoad;
-  PieceFigures Figures;
+  std::vector<Piece> Pieces;
+  std::size_t PiecesLeft = 0; ///< that this rank waits for
+  std::uint64_t LoadedBytes = 0;
   std::int64_t PointsDone = 0;
-  std::int64_t PointsTold = 0;
-  bool Stopped = false;
-  std::exception_ptr Failure;
-  std::vector<FinishedPiece> Finished;
+  std::int64_t PointsTold = -1;
+  bool IsEnded = false; ///< the first rank has told so
+  std::vector<Outgoing> ToSend;
 };
 
 } // namespace tipp

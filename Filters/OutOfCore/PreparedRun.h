@@ -3,8 +3,8 @@
 #define tippPreparedRun_h
 
 #include "OutOfCore/InputSurvey.h"
-#include "OutOfCore/LoadedPieces.h"
 #include "OutOfCore/PiecePlan.h"
+#include "OutOfCore/PieceResult.h"
 #include "OutOfCore/SpillPoints.h"
 #include "Partitioned/PartitionedMesh.h"
 
@@ -32,12 +32,14 @@ public:
 
   PieceWork work() const
   {
-    return { *this->Plan, *this->Spilled, this->Survey.Factor, this->Rows, this->Mesh };
+    return { *this->Plan, *this->Spilled, this->Survey.Factor, this->Rows, this->Mesh,
+      this->Results };
   }
 
   InputSurvey Survey;
   PointRowLayout Rows;
   PartitionedMesh Mesh;
+  std::string Results; ///< how the paths of pieces' results begin
   std::unique_ptr<PiecePlan> Plan;
   std::unique_ptr<SpilledPoints> Spilled;
 

@@ -75,13 +75,12 @@ ScratchFolder::~ScratchFolder()
 bool ScratchFolder::hasRun() const
 {
   std::error_code ignored;
-  return fs::exists(this->plan(), ignored) || fs::exists(this->state(), ignored);
+  return fs::exists(this->plan(), ignored) || !this->files(this->results()).empty();
 }
 
 void ScratchFolder::clear()
 {
-  std::error_code failure;
-  fs::remove(this->state(), failure); // a state without its plan would be one that has lost it
+  this->removeFiles(this->results()); // without a plan they would tell of one that was lost
   clearWorkFolder(this->Work);
   makeFolder(this->Mesh);
   makeFolder(this->Mesh + "/pieces");
@@ -101,27 +100,36 @@ void ScratchFolder::requireSpace(
 
 void ScratchFolder::remove()
 {
-  std::error_code ignored;
-  for (const std::string& name : { this->state(), this->aside(), this->rim() })
-  {
-    fs::remove(name, ignored);
-  }
-  const std::string points = fs::path(this->points()).filename().string() + ".";
-  std::vector<fs::path> parts;
-  for (const fs::directory_entry& entry : fs::directory_iterator(this->Folder, ignored))
-  {
-    if (entry.path().filename().string().compare(0, points.size(), points) == 0)
-    {
-      parts.push_back(entry.path());
-    }
-  }
-  for (const fs::path& part : parts)
-  {
-    fs::remove(part, ignored);
-  }
+  this->removeFiles(this->results());
+  this->removeFiles(this->points());
   if (this->Folder != this->Work)
   {
     removeWorkFolder(this->Folder);
+  }
+}
+
+/// Those in Folder whose paths begin like this, followed by a dot.
+std::vector<std::string> ScratchFolder::files(const std::string& begin) const
+{
+  const std::string prefix = fs::path(begin).filename().string() + ".";
+  std::vector<std::string> paths;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(this->Folder, ignored))
+  {
+    if (entry.path().filename().string().compare(0, prefix.size(), prefix) == 0)
+    {
+      paths.push_back(entry.path().string());
+    }
+  }
+  return paths;
+}
+
+void ScratchFolder::removeFiles(const std::string& begin) const
+{
+  for (const std::string& path : this->files(begin))
+  {
+    std::error_code ignored;
+    fs::remove(path, ignored);
   }
 }
 

@@ -6,16 +6,17 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace tipp
 {
 
 /// Where a run keeps what it needs until its mesh is in its place, beside the mesh in the making:
-/// the spilled points, the plan, the state to go on from and what of it is put aside.
+/// the spilled points, the plan, and the results of pieces.
 class ScratchFolder
 {
 public:
-  /// The points and what is put aside are there, too, if `other` is empty; else a folder of that
+  /// The points and the results are there, too, if `other` is empty; else a folder of that
   /// name is made there. Throws IOError.
   ScratchFolder(const PendingFolder& mesh, const std::string& other);
   /// Removes everything but after keep().
@@ -26,11 +27,10 @@ public:
   const std::string& folder() const { return this->Folder; }
   std::string points() const { return this->Folder + "/.points"; }
   std::string plan() const { return this->Work + "/.plan"; }
-  std::string state() const { return this->Work + "/.state"; }
-  std::string rim() const { return this->Folder + "/.rim"; }
-  std::string aside() const { return this->Folder + "/.aside"; }
+  /// How the paths of pieces' results begin.
+  std::string results() const { return this->Folder + "/.piece"; }
 
-  /// Whether there is a run to resume. A saved state without a plan is one whose plan was lost.
+  /// Whether there is a run to resume. Results without a plan are of one whose plan was lost.
   bool hasRun() const;
   /// Makes room for a new run, and its empty folder of pieces.
   void clear();
@@ -46,6 +46,9 @@ public:
   void remove();
 
 private:
+  std::vector<std::string> files(const std::string& begin) const;
+  void removeFiles(const std::string& begin) const;
+
   std::string Mesh;
   std::string Work;
   std::string Folder;

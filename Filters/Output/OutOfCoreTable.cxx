@@ -25,11 +25,7 @@ void fillOutOfCoreTable(const OutOfCoreStatistics& statistics, bool isCounted, v
   addTotal("Pieces", statistics.Pieces, totals);
   addTotal("Partitions", statistics.Partitions, totals);
   addTotal("WorkerVertices", statistics.WorkerVertices, totals);
-  addTotal("PeakRimTriangles", statistics.PeakRimTriangles, totals);
-  addTotal("PeakRimBytes", std::int64_t(statistics.PeakRimBytes), totals);
-  addTotal("RimSpilledBytes", std::int64_t(statistics.RimSpilledBytes), totals);
-  addTotal("PeakBorderBytes", std::int64_t(statistics.PeakBorderBytes), totals);
-  addTotal("AsideBytes", std::int64_t(statistics.AsideBytes), totals);
+  addTotal("BoundaryBytes", std::int64_t(statistics.BoundaryBytes), totals);
   addTotal("SpilledBytes", std::int64_t(statistics.SpilledBytes), totals);
   addTotal("MeshBytes", std::int64_t(statistics.MeshBytes), totals);
   addTotal("Threads", statistics.Threads, totals);

@@ -33,7 +33,7 @@ constexpr const char* markName = ".tipp-work";
 bool isOurs(const std::string& path)
 {
   static const std::regex ours(
-    "\\.(points|plan|state|aside|rim|ranks)(\\.[^/]*)?"
+    "\\.(points|plan|piece|ranks)(\\.[^/]*)?"
     "|[^/]+/\\.(homes|points|cells|shared|borrowers|borrowed|foreign)\\b.*"
     "|[^/]+/(index\\.json|tables\\.bin|mesh\\.pvtu)"
     "|[^/]+/pieces/[0-9]{6,}\\.vtu(\\.larger)?"

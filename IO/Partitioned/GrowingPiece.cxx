@@ -57,41 +57,6 @@ void GrowingPiece::setRow(std::int64_t place, const double* row, const PointRowL
     row, rows.Words, this->GhostRows.data() + std::size_t(this->Ghosts.at(place)) * rows.Words);
 }
 
-void GrowingPiece::addBorder(const GrowingPiece& other, const PointRowLayout& rows)
-{
-  const std::uint64_t begin = this->Borrowers.size();
-  this->Borrowers.insert(this->Borrowers.end(), other.Borrowers.begin(), other.Borrowers.end());
-  for (const SharedTriangle& triangle : other.Shared)
-  {
-    this->Shared.push_back({ triangle.Places, begin + triangle.BorrowerEnd });
-  }
-  for (std::size_t i = 0; i < other.GhostPlaces.size(); ++i)
-  {
-    if (this->needsRow(other.GhostPlaces[i]))
-    {
-      this->addRow(other.GhostPlaces[i], rows);
-      this->setRow(other.GhostPlaces[i], other.GhostRows.data() + i * rows.Words, rows);
-    }
-  }
-}
-
-void GrowingPiece::takeInterior(GrowingPiece other)
-{
-  this->Room = other.Room;
-  this->InteriorPoints = other.InteriorPoints;
-  this->InteriorSum = other.InteriorSum;
-  this->InteriorCells = other.InteriorCells;
-  this->Extent = other.Extent;
-  this->Checksums = std::move(other.Checksums);
-  this->RimPlaces = std::move(other.RimPlaces);
-  this->RimRows = std::move(other.RimRows);
-  this->RimTriangles = std::move(other.RimTriangles);
-  // They have grown, and are kept for long.
-  this->RimPlaces.shrink_to_fit();
-  this->RimRows.shrink_to_fit();
-  this->RimTriangles.shrink_to_fit();
-}
-
 const double* GrowingPiece::rimRow(std::int64_t place, const PointRowLayout& rows) const
 {
   const auto found = std::lower_bound(this->RimPlaces.begin(), this->RimPlaces.end(), place);
@@ -100,13 +65,6 @@ const double* GrowingPiece::rimRow(std::int64_t place, const PointRowLayout& row
     throw std::logic_error("a point of a triangle at the border is not on the rim");
   }
   return this->RimRows.data() + std::size_t(found - this->RimPlaces.begin()) * rows.Words;
-}
-
-std::size_t GrowingPiece::bytes() const
-{
-  return this->RimPlaces.size() * 8 + this->RimRows.size() * 8 + this->RimTriangles.size() * 12 +
-    this->Shared.size() * sizeof(SharedTriangle) + this->Borrowers.size() * 4 +
-    this->Ghosts.size() * 40 + this->GhostRows.size() * 8;
 }
 
 void GrowingPiece::numberPoints(

@@ -73,12 +73,7 @@ public:
   /// Makes room for the row, and fills it.
   void addRow(std::int64_t place, const PointRowLayout& rows);
   void setRow(std::int64_t place, const double* row, const PointRowLayout& rows);
-  /// Another object's for the same piece, with all rows there.
-  void addBorder(const GrowingPiece& other, const PointRowLayout& rows);
   ///@}
-
-  /// The same piece without anything.
-  GrowingPiece emptied() const { return { this->First, this->OwnPoints }; }
 
   struct Corners
   {
@@ -96,9 +91,6 @@ public:
   /// The first go. Throws IOError.
   void writeInterior(const PartitionedMesh& mesh, std::size_t number, const PointRowLayout& rows,
     const Interior& interior);
-
-  /// What another object for the same piece has kept of its interior, by the first go.
-  void takeInterior(GrowingPiece other);
 
   /// Of a triangle by its points' ids, whichever comes first.
   static std::uint64_t hashTriangle(std::int64_t a, std::int64_t b, std::int64_t c);
@@ -120,10 +112,8 @@ public:
   void isolateInterior(const PartitionedMesh& mesh, std::size_t number) const;
   ///@}
 
-  std::size_t bytes() const;
-
-  /// Shows all that it keeps to archive(), which takes numbers and vectors of them, to save or to
-  /// restore it: the interior's part, after the first go, and the border's.
+  /// Shows what it keeps of the interior, after the first go, to archive(), which takes numbers and
+  /// vectors of them, to save or to restore it.
   template <typename Archive>
   void exchangeInterior(Archive& archive)
   {
@@ -136,18 +126,6 @@ public:
     archive(this->RimPlaces);
     archive(this->RimRows);
     archive(this->RimTriangles);
-  }
-  template <typename Archive>
-  void exchangeBorder(Archive& archive)
-  {
-    archive(this->Shared);
-    archive(this->Borrowers);
-    archive(this->GhostPlaces);
-    archive(this->GhostRows);
-    for (std::size_t i = this->Ghosts.size(); i < this->GhostPlaces.size(); ++i)
-    {
-      this->Ghosts.emplace(this->GhostPlaces[i], std::int64_t(i));
-    }
   }
 
 private:

@@ -115,8 +115,8 @@ def make_work(rng, folder, tools, command):
 
 def require_kept(before, after, result, what):
     """A failed run has lost nothing that the next one needs."""
-    scratch = re.compile(r"\.rim$|\.next$")
-    lost = [name for name in before if name not in after and not scratch.search(name)]
+    made_again = re.compile(r"^\.piece\.|\.next$")
+    lost = [name for name in before if name not in after and not made_again.search(name)]
     lost += [name for name in before if name.startswith((".plan", ".points")) and before[name] != after.get(name)]
     if lost:
         raise Failure(f"{what}: {result}\n  lost or changed {', '.join(lost)}")

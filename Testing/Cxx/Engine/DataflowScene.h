@@ -44,7 +44,12 @@ struct DataflowScene
 
   PartitionOrder order(const std::vector<std::int32_t>& windows = {}) const
   {
-    return PartitionOrder(this->Boxes.areUsed(), this->Mesh, windows);
+    PartitionOrder order(this->Boxes.areUsed(), this->Mesh);
+    if (!windows.empty())
+    {
+      order.setWindows(windows);
+    }
+    return order;
   }
 
   Coordinates XY;

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run is made of: survey, plan, spill, schedule, checkpoints.
+// What a run is made of: survey, plan, spill, order, results, checkpoints.
 #include "OutOfCoreTesting.h"
 
 #include "ExpectIOError.h"
-#include "OutOfCore/AsideFile.h"
 #include "OutOfCore/Checkpoint.h"
+#include "OutOfCore/FinishPieces.h"
 #include "OutOfCore/InputPasses.h"
 #include "OutOfCore/InputSurvey.h"
-#include "OutOfCore/LoadedPieces.h"
-#include "OutOfCore/PieceMessages.h"
+#include "OutOfCore/PieceOrder.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceRun.h"
-#include "OutOfCore/PieceSchedule.h"
 #include "OutOfCore/PreparedRun.h"
 #include "Partitioned/NeighborIds.h"
 #include "Points/WritePoints.h"
@@ -28,7 +26,7 @@ namespace fs = std::filesystem;
 using namespace tipp;
 using namespace tipp::test;
 
-/// The steps of a run, up to its schedule, in pieces of 300 points and partitions of 80.
+/// The steps of a run, up to its pieces, in pieces of 300 points and partitions of 80.
 class Steps
 {
 public:
@@ -116,28 +114,63 @@ TEST(Checkpoint, DamagedAnywhereItIsRefused)
   EXPECT_THROW(readCheckpoint(path), IOError);
 }
 
-TEST(AsideFile, GivesBackItsParts)
+ByteWriter written(const std::vector<int>& numbers)
+{
+  ByteWriter writer;
+  writer.array(numbers);
+  return writer;
+}
+
+/// Sections {0, 3} and {2, 1}.
+void writeSections(const std::string& path)
+{
+  SectionFileWriter file(path);
+  file.add({ 2, 1 }, written({ 7, 8 }));
+  file.add({ 0, 3 }, written({ 9 }));
+  file.finish();
+}
+
+TEST(SectionFile, GivesBackEachSection)
 {
   const TemporaryFolder folder;
-  AsideFile file(folder.path("aside"));
-  std::vector<AsideFile::Part> parts;
-  for (const int number : { 7, 8, 9 })
+  writeSections(folder.path("file"));
+  const SectionFile file(folder.path("file"));
+  EXPECT_TRUE(file.has({ 2, 1 }));
+  EXPECT_FALSE(file.has({ 2, 3 }));
+  const Bytes bytes = file.read({ 2, 1 });
+  EXPECT_EQ((std::vector<int>{ 7, 8 }), ByteReader(bytes).array<int>());
+  expectIOError(folder.path("file"), "is damaged", [&] { file.read({ 1, 1 }); });
+}
+
+TEST(SectionFile, HasItsNameWhenItIsWhole)
+{
+  const TemporaryFolder folder;
+  SectionFileWriter file(folder.path("file"));
+  file.add({ 0, 0 }, written({ 1 }));
+  EXPECT_FALSE(fs::exists(folder.path("file")));
+  const std::uint64_t bytes = file.finish();
+  EXPECT_EQ(bytes, fs::file_size(folder.path("file")));
+  EXPECT_EQ(1U, folder.fileCount());
+}
+
+TEST(SectionFile, DamagedAnywhereItIsRefused)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.path("file");
+  writeSections(path);
+  const std::string content = contentOf(path);
+  const auto verify = [&] { SectionFile(path).verify(); };
+  for (std::size_t at = 0; at < content.size(); ++at)
   {
-    SaveArchive archive;
-    archive(std::vector<int>(100, number));
-    parts.push_back(file.put(archive));
+    std::string damaged = content;
+    damaged[at] ^= 1;
+    folder.file("file", damaged);
+    EXPECT_THROW(verify(), IOError) << at;
+    folder.file("file", content.substr(0, at));
+    EXPECT_THROW(verify(), IOError) << at;
   }
-  AsideFile later(folder.path("aside"));
-  later.goOnFrom(parts[1].Offset + parts[1].Bytes);
-  SaveArchive other;
-  other(std::vector<int>(100, 5));
-  EXPECT_EQ(parts[2].Offset, later.put(other).Offset);
-  const Bytes bytes = later.get(parts[1]);
-  LoadArchive archive(bytes);
-  std::vector<int> numbers;
-  archive(numbers);
-  EXPECT_EQ(std::vector<int>(100, 8), numbers);
-  expectIOError(folder.path("aside"), "is damaged", [&] { file.get(parts[2]); });
+  folder.file("file", content);
+  verify();
 }
 
 TEST(InputSurvey, CountsPointsAndTheirBounds)
@@ -348,94 +381,42 @@ TEST(SpilledPoints, DamagedAreRefusedPieceByPiece)
   }
 }
 
-TEST(PieceSchedule, ActivatesNothingBeforeAPieceIsLoaded)
+TEST(PieceOrder, TriangulatesOnePieceAfterTheOther)
 {
-  Steps steps(makePointSet("uniform", 4000));
+  Steps steps(makePointSet("clustered", 4000));
   PiecePlan plan = steps.plan();
   const SpilledPoints spilled = steps.spill(plan);
-  PieceSchedule schedule(plan, spilled, steps.Rows, plan.initialMesh(1));
-  std::vector<PlainVertex> vertices;
-  EXPECT_FALSE(schedule.allActivated());
-  EXPECT_EQ(-1, schedule.activateNext(vertices));
-  EXPECT_EQ(-1, schedule.takeComplete());
-  EXPECT_TRUE(schedule.isToLoad(0));
-  EXPECT_FALSE(schedule.addLoaded(0));
-  EXPECT_FALSE(schedule.isToLoad(0));
-  const PartitionIndex partition = schedule.activateNext(vertices);
-  ASSERT_GE(partition, 0);
-  EXPECT_EQ(0, plan.PieceOf[std::size_t(partition)]);
-  EXPECT_FALSE(vertices.empty());
-}
-
-TEST(PieceSchedule, GivesARankThePartitionsOfItsOwnPiecesOnly)
-{
-  Steps steps(makePointSet("uniform", 4000));
-  PiecePlan plan = steps.plan();
-  const SpilledPoints spilled = steps.spill(plan);
-  PieceSchedule schedule(plan, spilled, steps.Rows, plan.initialMesh(1));
-  const PartitionIndex last = plan.pieces() - 1;
-  schedule.addLoaded(0, 2);
-  schedule.addLoaded(last, 1);
-  std::vector<PlainVertex> vertices;
-  EXPECT_EQ(-1, schedule.activateNext(vertices, 0));
-  EXPECT_EQ(0, plan.PieceOf.at(std::size_t(schedule.activateNext(vertices, 2))));
-  EXPECT_EQ(last, plan.PieceOf.at(std::size_t(schedule.activateNext(vertices, 1))));
-}
-
-PartitionResult returned(const PartitionResult& result)
-{
-  PartitionResult back;
-  unpack(pack(result), back);
-  return back;
-}
-
-TEST(LoadedPieces, MakeTheInteriorOfFinishedPartitionsAgain)
-{
-  const Coordinates xy = makePointSet("duplicates", 4000);
-  Steps steps(xy);
-  PiecePlan plan = steps.plan();
-  const SpilledPoints spilled = steps.spill(plan);
-  PartitionedMesh mesh; // without a path: triangles are counted
-  mesh.Pieces.resize(std::size_t(plan.pieces()));
-  const PieceWork work{ plan, spilled, 1, steps.Rows, mesh };
-  PieceSchedule schedule(plan, spilled, steps.Rows, plan.initialMesh(1));
-  LoadedPieces pieces(work);
-  pieces.load(0, {});
-  schedule.addLoaded(0);
-  LoadedPieces::Place place;
-  bool isWhole = false;
-  while (!isWhole)
+  const PieceOrder order(plan, spilled, 1);
+  std::vector<PartitionIndex> pieces;
+  for (const PartitionIndex p : order.partitions().sequence())
   {
-    const PartitionIndex partition = schedule.activateNext(place.Vertices);
-    isWhole = schedule.complete(returned(pieces.triangulate(place, partition)));
+    const PartitionIndex piece = plan.PieceOf[std::size_t(p)];
+    if (pieces.empty() || pieces.back() != piece)
+    {
+      pieces.push_back(piece);
+    }
   }
-  const InteriorTask task = schedule.startInterior(0);
-  InteriorTask sent;
-  unpack(pack(task), sent);
-  const auto sumOf = [&](const InteriorTask& of)
-  { return pieces.writeInterior(of).writeBorder(mesh, plan.number(0), steps.Rows).TriangleSum; };
-  const std::uint64_t expected = sumOf(task);
-  LoadOrder order;
-  unpack(pack(LoadOrder{ 0, schedule.finishedPartitions(0) }), order);
-  EXPECT_EQ(plan.FirstPartition[1], PartitionIndex(order.Finished.size()));
-  pieces.load(order.Piece, order.Finished);
-  EXPECT_EQ(expected, sumOf(sent));
-  EXPECT_NE(0U, expected);
+  EXPECT_EQ(order.sequence(), pieces);
 }
 
-TEST(PieceMessages, CutShortAreRefused)
+TEST(PieceOrder, BeginsWithPiecesThatDoNotConflict)
 {
-  const Bytes whole = pack(PartitionTask{ 7, { { { 1, 2 }, 3 } } });
-  PartitionTask task;
-  unpack(whole, task);
-  EXPECT_EQ(7, task.Partition);
-  ASSERT_EQ(1U, task.Vertices.size());
-  EXPECT_EQ(3, task.Vertices[0].Id);
-  for (std::size_t size = 0; size < whole.size(); ++size)
+  Steps steps(makePointSet("uniform", 20000));
+  PiecePlan plan = steps.plan();
+  const SpilledPoints spilled = steps.spill(plan);
+  const PieceOrder order(plan, spilled, 1);
+  const std::vector<PartitionIndex> first(
+    order.sequence().begin(), order.sequence().begin() + plan.pieces() / 8);
+  for (const PartitionIndex p : order.partitions().sequence())
   {
-    Bytes part(size);
-    std::copy_n(whole.begin(), size, part.begin());
-    EXPECT_THROW(unpack(part, task), std::runtime_error) << size;
+    const PartitionIndex piece = plan.PieceOf[std::size_t(p)];
+    for (const PartitionIndex q : order.partitions().later(p))
+    {
+      const PartitionIndex other = plan.PieceOf[std::size_t(q)];
+      const auto isFirst = [&](PartitionIndex one)
+      { return std::find(first.begin(), first.end(), one) != first.end(); };
+      EXPECT_FALSE(piece != other && isFirst(piece) && isFirst(other));
+    }
   }
 }
 
@@ -465,27 +446,98 @@ TEST(PreparedRun, ComesBackOnAnotherRank)
   EXPECT_EQ(run.Spilled->starts(), back.work().Points.starts());
 }
 
-TEST(PieceRun, FinishesEveryPieceOrStopsWhereItIsTold)
+/// Pieces of points, the triangles of which are counted.
+class PieceRuns : public testing::Test
 {
-  const Coordinates xy = makePointSet("uniform", 4000);
-  Steps steps(xy);
-  PiecePlan plan = steps.plan();
-  const SpilledPoints spilled = steps.spill(plan);
-  const MemoryPlan memory = steps.memory();
-  PartitionedMesh mesh; // without a path: triangles are counted
-  mesh.Pieces.resize(std::size_t(plan.pieces()));
-  const PieceWork work{ plan, spilled, 1, steps.Rows, mesh };
-  PieceRun run(work, memory, 2, [](std::int64_t) { return true; });
-  EXPECT_TRUE(run.triangulate());
-  std::int64_t triangles = 0;
-  for (const FinishedPiece& piece : run.finished())
+protected:
+  bool run(
+    const std::vector<char>& isDone,
+    const std::function<bool(std::int64_t)>& progress = [](std::int64_t) { return true; })
   {
-    triangles += piece.Summary.Cells;
+    return PieceRun(this->Work, this->Memory, 2, progress).run(isDone);
   }
-  EXPECT_EQ(std::int64_t(reference(xy).Mesh.size()), triangles);
 
-  PieceRun stopped(work, memory, 2, [](std::int64_t done) { return done < 1000; });
-  EXPECT_FALSE(stopped.triangulate());
+  std::vector<char> doneNow() const
+  {
+    return verifyResults(this->Work, 2, {}, [](const std::string&) { ADD_FAILURE(); });
+  }
+
+  void expectAllTriangles() const
+  {
+    PieceFigures figures;
+    std::int64_t triangles = 0;
+    for (const FinishedPiece& piece : finishPieces(this->Work, 2, {}, figures))
+    {
+      triangles += piece.Summary.Cells;
+    }
+    EXPECT_EQ(std::int64_t(reference(this->XY).Mesh.size()), triangles);
+    EXPECT_GT(figures.BoundaryBytes, 0U);
+  }
+
+  PartitionedMesh meshWithoutPath() const
+  {
+    PartitionedMesh mesh;
+    mesh.Pieces.resize(std::size_t(this->Plan.pieces()));
+    return mesh;
+  }
+
+  const Coordinates XY = makePointSet("uniform", 4000);
+  Steps Of{ XY };
+  PiecePlan Plan = Of.plan();
+  const SpilledPoints Spilled = Of.spill(Plan);
+  const MemoryPlan Memory = Of.memory();
+  const PartitionedMesh Mesh = meshWithoutPath();
+  const PieceWork Work{ Plan, Spilled, 1, Of.Rows, Mesh, Of.Folder.path("result") };
+  const std::vector<char> None = std::vector<char>(std::size_t(Plan.pieces()), 0);
+};
+
+TEST_F(PieceRuns, LeaveAResultOfEveryPiece)
+{
+  EXPECT_EQ(this->None, this->doneNow());
+  EXPECT_TRUE(this->run(this->None));
+  EXPECT_EQ(std::vector<char>(this->None.size(), 1), this->doneNow());
+  this->expectAllTriangles();
+}
+
+TEST_F(PieceRuns, EndWhereTheyAreTold)
+{
+  EXPECT_FALSE(this->run(this->None, [](std::int64_t done) { return done < 1000; }));
+}
+
+TEST_F(PieceRuns, GoOnFromAnyResults)
+{
+  ASSERT_TRUE(this->run(this->None));
+  for (const std::size_t kept : { 2, 3, 5 })
+  {
+    for (std::size_t piece = 0; piece < this->None.size(); ++piece)
+    {
+      if (piece % kept != 0)
+      {
+        fs::remove(this->Work.resultPath(PartitionIndex(piece)));
+        fs::remove(this->Work.finishedPath(PartitionIndex(piece)));
+      }
+    }
+    const std::vector<char> done = this->doneNow();
+    EXPECT_NE(this->None, done);
+    EXPECT_TRUE(this->run(done));
+    this->expectAllTriangles();
+  }
+}
+
+TEST_F(PieceRuns, GiveTheSameResultsAgain)
+{
+  ASSERT_TRUE(this->run(this->None));
+  std::vector<std::string> results;
+  for (PartitionIndex piece = 0; piece < this->Plan.pieces(); ++piece)
+  {
+    results.push_back(contentOf(this->Work.resultPath(piece)));
+    fs::remove(this->Work.resultPath(piece));
+  }
+  ASSERT_TRUE(this->run(this->None));
+  for (PartitionIndex piece = 0; piece < this->Plan.pieces(); ++piece)
+  {
+    EXPECT_EQ(results[std::size_t(piece)].size(), contentOf(this->Work.resultPath(piece)).size());
+  }
 }
 
 } // namespace

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several ranks make the files of one process, and end together: PieceHelper, and the first rank's
-// side of a PieceRun, RunOnRanks.
+// Several ranks make the files of one process, and end together.
 #include "OutOfCoreTesting.h"
 
 #include "Files/IOError.h"
 #include "OutOfCore/OutOfCoreRanks.h"
-#include "OutOfCore/PieceHelper.h"
 #include "Points/WritePoints.h"
 
 #include "vtkErrorCode.h"
@@ -219,7 +217,7 @@ TEST_P(OutOfCoreRanks, GoOnWhereAnyNumberOfRanksWasEnded)
 INSTANTIATE_TEST_SUITE_P(PointSets, OutOfCoreRanks,
   testing::Values("uniform", "clustered", "coast", "duplicates", "lattice"));
 
-/// Where partitions do not pay, nearly all points are on the rim.
+/// Where partitions do not pay, nearly all vertices are sent from piece to piece.
 class OutOfCoreRanksWithALargeRim : public OutOfCoreRanks
 {
 };
@@ -236,7 +234,7 @@ TEST_P(OutOfCoreRanksWithALargeRim, MakeTheFilesOfOneProcess)
   EXPECT_TRUE(expected == this->takeFiles());
   if (this->isFirst())
   {
-    EXPECT_GT(together.RimSpilledBytes, 0U);
+    EXPECT_GT(together.BoundaryBytes, 0U);
   }
 }
 

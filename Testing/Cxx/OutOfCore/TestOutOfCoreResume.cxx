@@ -84,7 +84,7 @@ protected:
   void SetUp() override
   {
     writePoints(this->Folder.path("points.npy"), makePointSet("uniform", 2500));
-    this->Options.Progress = [](double fraction) { return fraction < 0.4; };
+    this->Options.Progress = [](double fraction) { return fraction < 0.6; };
     ASSERT_TRUE(this->run().Kept);
     this->Options.Progress = {};
   }
@@ -127,7 +127,7 @@ TEST_F(OutOfCoreBegun, NamesAMissingPlan)
   fs::remove(plan);
   this->Options.Resume = true;
   expectIOError(plan, "is missing", [this] { this->run(); });
-  EXPECT_TRUE(fs::exists(this->Folder.path(".mesh.tipp.part/.state")));
+  EXPECT_FALSE(fs::is_empty(this->Folder.path(".mesh.tipp.part/mesh.tipp/pieces")));
 }
 
 class OutOfCoreDamaged : public OutOfCoreBegun
@@ -149,6 +149,21 @@ protected:
     EXPECT_EQ(1U, warnings.size());
   }
 
+  /// Of the pieces that were finished.
+  std::vector<std::string> results() const
+  {
+    std::vector<std::string> paths;
+    for (const auto& entry : fs::directory_iterator(this->Folder.path(".mesh.tipp.part")))
+    {
+      if (entry.path().string().compare(0, this->Results.size(), this->Results) == 0)
+      {
+        paths.push_back(entry.path().string());
+      }
+    }
+    EXPECT_GT(paths.size(), 1U);
+    return paths;
+  }
+
   void change(const std::string& path) const
   {
     std::string content = contentOf(path);
@@ -160,6 +175,7 @@ protected:
   }
 
   const std::string Pieces = Folder.path(".mesh.tipp.part/mesh.tipp/pieces");
+  const std::string Results = Folder.path(".mesh.tipp.part/.piece.");
 };
 
 TEST_F(OutOfCoreDamaged, MakesPiecesAgainThatHaveChanged)
@@ -186,11 +202,20 @@ TEST_F(OutOfCoreDamaged, MakesPiecesAgainThatAreMissing)
   this->expectMadeAgain(this->Pieces);
 }
 
-TEST_F(OutOfCoreDamaged, MakesPiecesAgainWhereTheStateHasChanged)
+TEST_F(OutOfCoreDamaged, MakesPiecesAgainWhoseResultsHaveChanged)
 {
-  const std::string state = this->Folder.path(".mesh.tipp.part/.state");
-  this->change(state);
-  this->expectMadeAgain(state);
+  for (const std::string& result : this->results())
+  {
+    this->change(result);
+  }
+  this->expectMadeAgain(this->Results);
+}
+
+TEST_F(OutOfCoreDamaged, MakesAgainTheOneThatIsDamagedAlone)
+{
+  const std::string result = this->results().front();
+  this->change(result);
+  this->expectMadeAgain(result + ": is damaged or missing; its piece is made again");
 }
 
 TEST_F(OutOfCoreDamaged, LeavesNothingOfWhatIsAppendedToPieces)
@@ -288,7 +313,7 @@ protected:
 
 TEST_F(OutOfCoreWhole, IsPutInPlaceThoughItsPointsAreGone)
 {
-  for (const char* name : { ".points.0", ".state" })
+  for (const char* name : { ".points.0", ".piece.0", ".piece.1.finished" })
   {
     ASSERT_TRUE(fs::remove(this->Part + "/" + name)) << name;
   }

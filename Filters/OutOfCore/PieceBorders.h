@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPieceBorders_h
+#define tippPieceBorders_h
+
+#include "OutOfCore/PieceResult.h"
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace tipp
+{
+
+/// Leaves each vertex once, by id.
+void keepUnique(std::vector<SeamVertex>& vertices);
+
+/// Sorts triangles at the borders of pieces by the piece that owns them: of all that they meet, the
+/// first in the mesh. The others borrow them.
+class PieceBorders
+{
+public:
+  explicit PieceBorders(const PieceWork& work)
+    : Work(work)
+  {
+  }
+
+  void add(const SeamTriangle& triangle);
+  void appendTo(std::map<PartitionIndex, BorderTriangles>& borders) const;
+
+private:
+  void findMet(const SeamTriangle& triangle);
+
+  const PieceWork& Work;
+  std::map<PartitionIndex, BorderTriangles> Borders;
+  std::vector<std::int32_t> Met;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of PieceRun that speaks to other ranks.
+#include "OutOfCore/PieceMessages.h"
+#include "OutOfCore/PieceRun.h"
+
+#include <chrono>
+#include <stdexcept>
+
+namespace tipp
+{
+
+/// Until all pieces that this rank waits for are done, and on ranks other than the first until it
+/// says so.
+void PieceRun::coordinate()
+{
+  constexpr auto pause = std::chrono::microseconds(300);
+  for (;;)
+  {
+    const bool moved = this->sendAndReceive();
+    if (!this->tell())
+    {
+      throw RankFailure(this->rank(), true, "The run was stopped.");
+    }
+    {
+      const Lock lock(this->Mutex);
+      const bool isEnded = this->rank() == 0 ? this->PiecesLeft == 0 : this->IsEnded;
+      if (this->Ready->isStopped() || (isEnded && this->ToSend.empty()))
+      {
+        return;
+      }
+    }
+    if (!moved)
+    {
+      std::this_thread::sleep_for(pause);
+    }
+  }
+}
+
+/// False if there was nothing to do.
+bool PieceRun::sendAndReceive()
+{
+  std::vector<Outgoing> outgoing;
+  {
+    const Lock lock(this->Mutex);
+    outgoing.swap(this->ToSend);
+  }
+  bool moved = !outgoing.empty();
+  for (Outgoing& message : outgoing)
+  {
+    this->Post->post(message.Rank, message.Kind, std::move(message.Content));
+  }
+  for (Message message; this->Post->poll(message); moved = true)
+  {
+    this->receive(message);
+  }
+  return moved;
+}
+
+void PieceRun::receive(const Message& message)
+{
+  if (message.Kind == EndMessage)
+  {
+    this->IsEnded = true;
+    return;
+  }
+  if (message.Kind == PartitionMessage)
+  {
+    this->receivePartition(message);
+    return;
+  }
+  const auto piece = ByteReader(message.Content).value<PartitionIndex>();
+  const Lock lock(this->Mutex);
+  if (message.Kind != PieceMessage || piece < 0 || std::size_t(piece) >= this->Pieces.size() ||
+    this->at(piece).Rank != message.Source)
+  {
+    throw std::runtime_error("A message from another rank is damaged: no such piece.");
+  }
+  this->setDone(piece);
+  this->PiecesLeft -= this->rank() == 0 ? 1 : 0;
+}
+
+/// One of another rank's is done; and what it sends to this rank's.
+void PieceRun::receivePartition(const Message& message)
+{
+  ByteReader reader(message.Content);
+  const auto sender = reader.value<PartitionIndex>();
+  const auto isPartitionOf = [this](PartitionIndex p, int rank)
+  {
+    return p >= 0 && std::size_t(p) < this->Inboxes.size() &&
+      this->at(this->pieceOf(p)).Rank == rank;
+  };
+  bool isGood = isPartitionOf(sender, message.Source);
+  {
+    const Lock lock(this->Mutex);
+    while (isGood && reader.left() > 0)
+    {
+      const auto to = reader.value<PartitionIndex>();
+      VertexMessage vertices;
+      read(reader, vertices);
+      isGood = vertices.Sender == sender && isPartitionOf(to, this->rank());
+      if (isGood)
+      {
+        this->deliver(to, std::move(vertices));
+      }
+    }
+  }
+  if (!isGood)
+  {
+    throw std::runtime_error("A message from another rank is damaged: no such partition.");
+  }
+  this->Ready->finish(sender);
+}
+
+} // namespace tipp
