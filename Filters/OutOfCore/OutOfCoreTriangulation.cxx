@@ -264,9 +264,10 @@ private:
     std::vector<SampledPoint>().swap(survey.Sample); // = {} would keep the memory
     if (this->Prepared.Plan->HasLargeRim)
     {
-      constexpr std::uint64_t rim = 2 * 24; // a vertex, and room between vertices
+      // Each piece is sent nearly all points of those before it.
+      constexpr std::uint64_t sent = 32 / 2;
       constexpr std::uint64_t border = 64;
-      this->requireSpace(rim + border);
+      this->requireSpace(sent * std::uint64_t(this->Prepared.Plan->pieces()) + border);
     }
     this->Prepared.describeMesh();
     this->describePlan();

@@ -10,6 +10,46 @@
 namespace tipp
 {
 
+#ifdef TIPP_CHECKSUM_AVX2
+// Of ChecksumAvx2.cxx: the same numbers, sooner.
+XXH64_hash_t checksumAvx2(const void* data, size_t bytes);
+void updateChecksumAvx2(XXH3_state_t* state, const void* data, size_t bytes);
+#endif
+
+namespace
+{
+
+using Hash = XXH64_hash_t (*)(const void* data, size_t bytes);
+using Update = void (*)(XXH3_state_t* state, const void* data, size_t bytes);
+
+Hash chooseHash()
+{
+#ifdef TIPP_CHECKSUM_AVX2
+  if (__builtin_cpu_supports("avx2"))
+  {
+    return &checksumAvx2;
+  }
+#endif
+  return [](const void* data, size_t bytes) { return XXH3_64bits(data, bytes); };
+}
+
+Update chooseUpdate()
+{
+#ifdef TIPP_CHECKSUM_AVX2
+  if (__builtin_cpu_supports("avx2"))
+  {
+    return &updateChecksumAvx2;
+  }
+#endif
+  return [](XXH3_state_t* state, const void* data, size_t bytes)
+  { XXH3_64bits_update(state, data, bytes); };
+}
+
+const Hash hash = chooseHash();
+const Update update = chooseUpdate();
+
+} // namespace
+
 struct Checksum::State
 {
   XXH3_state_t Of;
@@ -17,7 +57,7 @@ struct Checksum::State
 
 std::uint64_t checksumOf(const void* data, std::size_t bytes)
 {
-  return XXH3_64bits(data, bytes);
+  return hash(data, bytes);
 }
 
 Checksum::Checksum()
@@ -30,7 +70,7 @@ Checksum::~Checksum() = default;
 
 void Checksum::add(const void* data, std::size_t bytes)
 {
-  XXH3_64bits_update(&this->Progress->Of, data, bytes);
+  update(&this->Progress->Of, data, bytes);
 }
 
 std::uint64_t Checksum::finish()
