@@ -3,7 +3,9 @@
 #define tippCollection_h
 
 #include "Distributed/DistributedTriangulation.h"
-#include "Distributed/RankRun.h"
+#include "Distributed/FinalTriangles.h"
+#include "Distributed/PointExchange.h"
+#include "Messages/Postbox.h"
 
 namespace tipp
 {

@@ -14,8 +14,8 @@ std::string nameOf(MessageKind kind)
 {
   const std::map<MessageKind, std::string> names = { { MessageKind::AllToAll, "all to all" },
     { MessageKind::Gather, "gather" }, { MessageKind::Broadcast, "broadcast" },
-    { MessageKind::Sum, "sum" }, { TaskMessage, "task" }, { ResultMessage, "result" },
-    { FinishedMessage, "finished" } };
+    { MessageKind::Sum, "sum" }, { PartitionDoneMessage, "partition done" },
+    { TaskMessage, "task" } };
   const auto name = names.find(kind);
   return name != names.end() ? name->second : "other";
 }

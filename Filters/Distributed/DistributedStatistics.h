@@ -31,18 +31,18 @@ struct RankStatistics
   double TotalSeconds = 0;
 };
 
-/// What a master did.
+/// What a master did, or, without one, what is known of the whole domain.
 struct MasterStatistics
 {
-  std::int32_t Area = 0; ///< 0: the whole domain; else a major partition's number, from 1
+  std::int32_t Area = 0; ///< 0: the whole domain; else the first of its major partitions, from 1
   std::int32_t Rank = 0;
   std::int32_t GroupSize = 0;   ///< ranks that worked for it
-  std::int64_t LargestMesh = 0; ///< triangles held at a time
+  std::int64_t LargestMesh = 0; ///< most triangles in the inboxes that it kept
   double Seconds = 0;
-  /// Processor time of the rank that computes longest between two barriers, summed over these: what
-  /// computing takes at least where each rank has a processor.
+  /// Of the whole domain: processor time of the rank that computes longest between two barriers,
+  /// summed over these: what computing takes at least where each rank has a processor.
   double PathSeconds = 0;
-  std::vector<TriangulationStatistics::Stage> Stages;
+  std::vector<TriangulationStatistics::Stage> Stages; ///< by colour, or by partition started
 };
 
 /// Sent between ranks, all together.

@@ -2,7 +2,6 @@
 #include "Distributed/DistributedTriangulation.h"
 
 #include "Distributed/Collection.h"
-#include "Distributed/MasterlessRun.h"
 #include "Distributed/Plan.h"
 #include "Distributed/RankRun.h"
 #include "Distributed/Survey.h"
@@ -121,8 +120,8 @@ private:
     }
     // Room for the points of other ranks.
     const bool fits = this->LocalCount < std::numeric_limits<std::int32_t>::max() / 2;
-    const bool done = fits ? this->triangulate<std::int32_t>(plan, exchange, counts, watch)
-                           : this->triangulate<std::int64_t>(plan, exchange, counts, watch);
+    const bool done = fits ? this->triangulate<std::int32_t>(plan, exchange, watch)
+                           : this->triangulate<std::int64_t>(plan, exchange, watch);
     if (!done)
     {
       this->triangulateAlone(survey.Bounds, watch);
@@ -131,8 +130,7 @@ private:
 
   /// False if partitions do not pay: nothing has been triangulated then.
   template <typename Id>
-  bool triangulate(const Plan& plan, const PointExchange& exchange,
-    const std::vector<std::int64_t>& counts, const Stopwatch& watch)
+  bool triangulate(const Plan& plan, const PointExchange& exchange, const Stopwatch& watch)
   {
     OwnedPoints<Id> points = exchange.exchange<Id>(this->Ranks, plan.Owners);
     this->Figures.ExchangeSeconds = watch.seconds();
@@ -142,19 +140,14 @@ private:
       this->triangulateOnFirst(points, plan.Leaves);
       return true;
     }
-    if (this->Options.isMasterless())
-    {
-      MasterlessRun<Id> run(this->Ranks, plan, points, this->Options, this->Threads);
-      return this->runAndCollect(run, plan, points);
-    }
-    RankRun<Id> run(this->Ranks, plan, points, counts, this->Options, this->Threads);
+    RankRun<Id> run(this->Ranks, plan, points, this->Options, this->Threads);
     const bool done = this->runAndCollect(run, plan, points);
     this->Masters = std::move(run.Masters);
     return done;
   }
 
-  template <typename Id, typename Run>
-  bool runAndCollect(Run& run, const Plan& plan, OwnedPoints<Id>& points)
+  template <typename Id>
+  bool runAndCollect(RankRun<Id>& run, const Plan& plan, OwnedPoints<Id>& points)
   {
     run.Statistics = this->Figures;
     run.run();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/MajorStages.h"
 
-#include "Triangulation/IndependentPartitions.h"
+#include "Engine/PartitionOrder.h"
 #include "Triangulation/InitialMesh.h"
 
 #include <algorithm>
@@ -61,28 +61,25 @@ std::vector<std::size_t> groupSizes(const std::vector<double>& weights, std::siz
 std::vector<std::vector<PartitionIndex>> predictStages(const Tiling& majors,
   const std::vector<Point2>& sample, const std::vector<std::int64_t>& majorCounts)
 {
-  std::vector<PartitionIndex> withPoints;
-  for (PartitionIndex p = 0; p < majors.size(); ++p)
-  {
-    if (majorCounts[std::size_t(p)] > 0)
-    {
-      withPoints.push_back(p);
-    }
-  }
   std::vector<SeamVertex> vertices = chooseVertices(majors, sample);
   const std::vector<SeamVertex> artificial = makeArtificialPoints(majors);
   vertices.insert(vertices.end(), artificial.begin(), artificial.end());
-  MeshReach mesh(majors.size(), triangulateVertices(majors, vertices, 1));
-  IndependentPartitions waiting(mesh, withPoints);
-  std::vector<std::vector<PartitionIndex>> stages;
-  while (!waiting.isEmpty())
+  std::vector<char> withPoints;
+  withPoints.reserve(majorCounts.size());
+  for (const std::int64_t count : majorCounts)
   {
-    stages.push_back(waiting.nextStage());
-    for (const PartitionIndex p : stages.back())
-    {
-      waiting.deactivate(p);
-    }
+    withPoints.push_back(count > 0);
   }
+  const PartitionOrder order(withPoints, triangulateVertices(majors, vertices, 1));
+  std::vector<std::vector<PartitionIndex>> stages(order.colourCount());
+  for (const PartitionIndex p : order.sequence())
+  {
+    stages[order.colourOf(p)].push_back(p);
+  }
+  // Major partitions without points have colours, too.
+  stages.erase(std::remove_if(stages.begin(), stages.end(),
+                 [](const std::vector<PartitionIndex>& stage) { return stage.empty(); }),
+    stages.end());
   return stages;
 }
 

@@ -182,6 +182,19 @@ void assignLeaves(Plan& plan, Area& area, const std::vector<std::int32_t>& group
 
 } // namespace
 
+std::vector<std::int32_t> Plan::masters() const
+{
+  std::vector<std::int32_t> masters(std::size_t(this->Leaves.size()), 0);
+  for (const Area& area : this->Areas)
+  {
+    if (area.hasLeaves())
+    {
+      std::fill_n(masters.begin() + area.FirstLeaf, area.Inner, area.Lead);
+    }
+  }
+  return masters;
+}
+
 void Plan::write(ByteWriter& writer) const
 {
   writer.value(std::uint64_t(this->Areas.size()));
@@ -270,7 +283,7 @@ Plan divide(const PlanInput& input, const DistributedOptions& options)
     const double points = double(sample.size()) * pointsPerSample;
     inner.push_back(divideBox(top.Boxes.box(p), std::move(sample), points, perPart, options));
     Area area;
-    area.Boxes = Tiling::around(input.Domain, inner.back());
+    area.Boxes = inner.back();
     area.Inner = inner.back().size();
     area.FirstLeaf = leaf;
     requireFewLeaves(std::int64_t(leaf) + area.Inner);

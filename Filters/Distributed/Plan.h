@@ -16,9 +16,9 @@ namespace tipp
 /// What one master looks after: partitions that are handed to workers, or to masters of their own.
 struct Area
 {
-  Tiling Boxes;                 ///< its partitions, then the rest of the domain in a few boxes
-  PartitionIndex Inner = 0;     ///< the number of its partitions
-  PartitionIndex FirstLeaf = 0; ///< of its partitions in the order of leaves
+  Tiling Boxes;                       ///< its partitions
+  PartitionIndex Inner = 0;           ///< the number of its partitions
+  PartitionIndex FirstLeaf = 0;       ///< of its partitions in the order of leaves
   std::vector<std::int32_t> Children; ///< the area of each partition; none: they are leaves
   std::vector<std::vector<std::int32_t>> Homes; ///< groups of ranks
   std::vector<std::int32_t> HomeOf;             ///< of each partition, the group that works on it
@@ -34,6 +34,9 @@ struct VTKTIPPFILTERS_EXPORT Plan
   Tiling Leaves;                    ///< all partitions that are triangulated, in one tiling
   std::vector<std::int32_t> Owners; ///< of each leaf, the rank that has its points
   bool IsAlone = false;             ///< one leaf: no initial mesh, no artificial points
+
+  /// With masters: of each leaf, the rank of its master.
+  std::vector<std::int32_t> masters() const;
 
   void write(ByteWriter& writer) const;
   static Plan read(ByteReader& reader);

@@ -1,347 +1,397 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/RankRun.h"
 
-#include "Distributed/InitialPoints.h"
 #include "Distributed/MessageKinds.h"
-#include "Distributed/TaskMessages.h"
-#include "Distributed/VertexLabelling.h"
 #include "Parallel/ProcessorWatch.h"
-#include "Triangulation/HullRepair.h"
 #include "Triangulation/InitialMesh.h"
+#include "Triangulation/PartitionSizes.h"
 
 #include <algorithm>
 #include <numeric>
+#include <thread>
 
 namespace tipp
 {
 namespace
 {
 
-bool placeLess(const PlainVertex& a, const PlainVertex& b)
+/// Threads that end when the work ends, whatever ends it.
+class WorkerThreads
 {
-  return lexicographicLess(a.Place, b.Place);
-}
-
-/// The known vertices, and the others that lie at none of their places: what the rest of the mesh
-/// knows keeps its ids.
-std::vector<PlainVertex> unite(
-  std::vector<PlainVertex> known, const std::vector<PlainVertex>& others)
-{
-  std::sort(known.begin(), known.end(), placeLess);
-  known.erase(std::unique(known.begin(), known.end(),
-                [](const PlainVertex& a, const PlainVertex& b) { return a.Id == b.Id; }),
-    known.end());
-  const std::size_t size = known.size();
-  for (const PlainVertex& v : others)
+public:
+  explicit WorkerThreads(ReadyPartitions& ready)
+    : Ready(ready)
   {
-    const auto end = known.begin() + std::ptrdiff_t(size);
-    if (!std::binary_search(known.begin(), end, v, placeLess))
+  }
+  ~WorkerThreads()
+  {
+    this->Ready.stop();
+    for (std::thread& thread : this->Threads)
     {
-      known.push_back(v);
+      thread.join();
     }
   }
-  return known;
-}
+  WorkerThreads(const WorkerThreads&) = delete;
+  WorkerThreads& operator=(const WorkerThreads&) = delete;
 
-std::vector<SeamVertex> labelled(const Tiling& tiling, const std::vector<PlainVertex>& vertices)
-{
-  std::vector<SeamVertex> result;
-  result.reserve(vertices.size());
-  for (const PlainVertex& v : vertices)
+  template <typename Work>
+  void start(const Work& work)
   {
-    result.push_back(makeSeamVertex(tiling, tiling.locate(v.Place), v.Place, v.Id));
+    this->Threads.emplace_back(
+      [this, work]()
+      {
+        try
+        {
+          work();
+        }
+        catch (...)
+        {
+          this->Ready.stop(std::current_exception());
+        }
+      });
   }
-  return result;
-}
 
-/// Those triangles that meet one of the area's own partitions.
-SeamTriangles thoseMeeting(const Area& area, const SeamTriangles& all)
+private:
+  ReadyPartitions& Ready;
+  std::vector<std::thread> Threads;
+};
+
+struct RegionEntry
 {
-  SeamTriangles kept;
-  kept.Vertices = all.Vertices;
-  for (std::size_t i = 0; i < all.size(); ++i)
-  {
-    if (std::any_of(
-          all.metBegin(i), all.metEnd(i), [&area](PartitionIndex p) { return p < area.Inner; }))
-    {
-      kept.add(all.Triangles[i], all.metBegin(i), all.metEnd(i));
-    }
-  }
-  return kept;
-}
+  Box2 Box;
+  PartitionIndex Partition;
+};
 
 } // namespace
 
 template <typename Id>
 RankRun<Id>::RankRun(Postbox& ranks, const Plan& plan, OwnedPoints<Id>& points,
-  const std::vector<std::int64_t>& leafCounts, const DistributedOptions& options, int threads)
-  : Ranks(ranks)
+  const DistributedOptions& options, int threads)
+  : InteriorCounts(static_cast<std::size_t>(plan.Leaves.size()), 0)
+  , Ranks(ranks)
   , Work(plan)
   , Points(points)
-  , LeafCounts(leafCounts)
   , Options(options)
   , Threads(threads)
-  , Workers(plan, points.Buckets, points.FirstIds[std::size_t(ranks.rank())], threads)
+  , FirstId(points.FirstIds[std::size_t(ranks.rank())])
+  , Inboxes(static_cast<std::size_t>(plan.Leaves.size()))
 {
 }
 
+/// Gathers all ranks' regions and initial points on all ranks.
 template <typename Id>
-std::vector<PartitionIndex> RankRun<Id>::withPoints(const Area& area) const
+void RankRun<Id>::shareInitialMesh(std::vector<SeamVertex>& vertices)
 {
-  std::vector<PartitionIndex> partitions;
-  for (PartitionIndex p = 0; p < area.Inner; ++p)
+  const Tiling& tiles = this->Work.Leaves;
+  const Regions own(tiles, this->Points.Buckets, this->Threads);
+  const int wanted = this->Options.InitialPointsPerPartition > 0
+    ? this->Options.InitialPointsPerPartition
+    : InitialPointsOfPartition;
+  std::vector<SeamVertex> initial = chooseInitialPoints(tiles, this->Points.Buckets, wanted);
+  std::vector<RegionEntry> regions;
+  for (PartitionIndex p = 0; p < tiles.size(); ++p)
   {
-    const Area& leaves =
-      area.hasLeaves() ? area : this->Work.Areas[std::size_t(area.Children[std::size_t(p)])];
-    const auto begin = this->LeafCounts.begin() + leaves.FirstLeaf + (area.hasLeaves() ? p : 0);
-    const auto end = begin + (area.hasLeaves() ? 1 : leaves.Inner);
-    if (std::any_of(begin, end, [](std::int64_t count) { return count > 0; }))
+    if (own.areUsed()[std::size_t(p)])
     {
-      partitions.push_back(p);
+      regions.push_back({ own[p], p });
     }
   }
-  return partitions;
-}
-
-/// A rank has a few partitions waiting, so that its threads need not: the more, the smaller they
-/// are. A shift has one for each thread.
-template <typename Id>
-int RankRun<Id>::capacity(const Area& area) const
-{
-  constexpr std::int64_t waitingPoints = 16384;
-  constexpr std::int64_t mostWaiting = 8;
-  if (!area.hasLeaves())
+  for (SeamVertex& v : initial)
   {
-    return 1;
+    v.Id += this->FirstId;
   }
-  if (this->Options.Order == RankSchedule::Stages)
+  ByteWriter writer;
+  writer.array(regions);
+  write(writer, initial);
+  ByteWriter all;
+  for (const Bytes& part : this->Ranks.gather(writer.take()))
   {
-    return this->Threads;
+    all.raw(part.data(), part.size());
   }
-  const auto begin = this->LeafCounts.begin() + area.FirstLeaf;
-  const std::int64_t points = std::accumulate(begin, begin + area.Inner, std::int64_t(0));
-  const std::int64_t mean = std::max<std::int64_t>(1, points / area.Inner);
-  return this->Threads + int(std::clamp<std::int64_t>(waitingPoints / mean, 1, mostWaiting));
+  const Bytes together = this->Ranks.broadcast(all.take());
+  std::vector<Box2> boxes(std::size_t(tiles.size()), Box2{});
+  std::vector<char> used(std::size_t(tiles.size()), 0);
+  for (ByteReader reader(together); reader.left() > 0;)
+  {
+    for (const RegionEntry& entry : reader.array<RegionEntry>())
+    {
+      boxes.at(std::size_t(entry.Partition)) = entry.Box;
+      used.at(std::size_t(entry.Partition)) = 1;
+    }
+    read(reader, vertices);
+  }
+  this->Boxes = std::make_unique<Regions>(tiles, std::move(boxes), std::move(used));
+}
+
+/// Of each partition, whether these give it to this rank, and it has points.
+template <typename Id>
+std::vector<char> RankRun<Id>::thoseOf(const std::vector<std::int32_t>& ranks) const
+{
+  std::vector<char> those(ranks.size(), 0);
+  for (std::size_t p = 0; p < those.size(); ++p)
+  {
+    those[p] = ranks[p] == this->Ranks.rank() && this->Boxes->areUsed()[p];
+  }
+  return those;
 }
 
 template <typename Id>
-void RankRun<Id>::beginDispatcher(std::int32_t index, const SeamTriangles& mesh)
+void RankRun<Id>::makeInitialMesh()
 {
-  const Area& area = this->Work.Areas[std::size_t(index)];
-  Active& active = this->Dispatchers[index];
-  active.Master = std::make_unique<Dispatcher>(
-    area, index, mesh, this->withPoints(area), this->Options.Order, this->capacity(area));
-}
-
-template <typename Id>
-void RankRun<Id>::beginTop()
-{
-  const ProcessorWatch watch;
-  const Tiling& boxes = this->Work.Areas.front().Boxes;
-  this->Artificial = makeArtificialPoints(boxes);
-  std::vector<SeamVertex> vertices = labelled(boxes, this->InitialPoints[0]);
+  std::vector<SeamVertex> vertices;
+  this->shareInitialMesh(vertices);
+  this->Artificial = makeArtificialPoints(this->Work.Leaves);
   vertices.insert(vertices.end(), this->Artificial.begin(), this->Artificial.end());
-  const SeamTriangles mesh = triangulateVertices(boxes, vertices, this->Threads);
+  const SeamTriangles mesh = triangulateVertices(*this->Boxes, vertices, this->Threads);
   const bool chosen = this->Options.Minor.isGiven() || this->Options.Major.isGiven();
   this->PartitionsPay = !this->Artificial.empty() && (chosen || partitionsPay(mesh));
   if (this->PartitionsPay)
   {
-    this->beginDispatcher(0, mesh);
-    this->Dispatchers[0].MoreSeconds += watch.seconds() - this->Dispatchers[0].Master->Seconds;
-  }
-}
-
-/// A major partition has come to this rank, its sub-master: refines the mesh (step 4.1).
-template <typename Id>
-void RankRun<Id>::beginArea(std::int32_t parent, Task task)
-{
-  const ProcessorWatch watch;
-  const std::int32_t index =
-    this->Work.Areas[std::size_t(parent)].Children[std::size_t(task.Partition)];
-  const Area& area = this->Work.Areas[std::size_t(index)];
-  const std::vector<PlainVertex> vertices =
-    unite(std::move(task.Vertices), this->InitialPoints[index]);
-  this->beginDispatcher(index,
-    thoseMeeting(
-      area, triangulateVertices(area.Boxes, labelled(area.Boxes, vertices), this->Threads)));
-  Active& active = this->Dispatchers[index];
-  active.Parent = parent;
-  active.Partition = task.Partition;
-  active.MoreSeconds = watch.seconds() - active.Master->Seconds;
-}
-
-template <typename Id>
-void RankRun<Id>::handleTask(Task task)
-{
-  if (this->Work.Areas[std::size_t(task.Area)].hasLeaves())
-  {
-    this->Workers.give(std::move(task));
-  }
-  else
-  {
-    const std::int32_t area = task.Area;
-    this->beginArea(area, std::move(task));
+    this->Order = std::make_unique<PartitionOrder>(this->Boxes->areUsed(), mesh);
+    this->decideWhoWaits();
+    this->sendInitial(mesh);
   }
 }
 
 template <typename Id>
-void RankRun<Id>::giveTo(std::int32_t rank, Task task)
+void RankRun<Id>::decideWhoWaits()
 {
-  if (rank == this->Ranks.rank())
+  using Waits = ReadyPartitions::Waits;
+  const bool isMasterless = this->Options.isMasterless();
+  const bool hasBarriers = this->Options.Order != RankSchedule::Dynamic;
+  this->Keepers = isMasterless ? this->Work.Owners : this->Work.masters();
+  this->InFlight.assign(std::size_t(this->Ranks.size()), 0);
+  this->Ready = std::make_unique<ReadyPartitions>(
+    *this->Order, hasBarriers ? Waits::ForColour : Waits::ForEarlier, this->thoseOf(this->Keepers));
+  if (!isMasterless)
   {
-    this->handleTask(std::move(task));
+    this->Started = std::make_unique<ReadyPartitions>(
+      *this->Order, Waits::ForLoad, this->thoseOf(this->Work.Owners));
   }
-  else
+  const int rank = this->Ranks.rank();
+  for (const PartitionIndex p : this->Order->sequence())
   {
-    this->Ranks.post(rank, TaskMessage, pack(task));
+    const bool isOwn = this->ownerOf(p) == rank;
+    const std::vector<std::int32_t> recipients = this->recipientsOf(p);
+    const bool isTold = std::find(recipients.begin(), recipients.end(), rank) != recipients.end();
+    this->LeftPartitions += isOwn ? 1 : 0;
+    this->AwaitedTasks += isOwn && this->keeperOf(p) != rank ? 1 : 0;
+    this->AwaitedMessages += !isOwn && isTold ? 1 : 0;
   }
 }
 
-/// A result goes to the master of its area.
+/// The ranks that want to know when p is done.
 template <typename Id>
-void RankRun<Id>::deliver(std::int32_t master, TaskResult result)
+std::vector<std::int32_t> RankRun<Id>::recipientsOf(PartitionIndex p) const
 {
-  if (master != this->Ranks.rank())
+  std::vector<std::int32_t> ranks;
+  if (this->hasMasters())
   {
-    this->Ranks.post(master, ResultMessage, pack(result));
-    return;
+    ranks.push_back(this->keeperOf(p));
   }
-  this->Dispatchers.at(result.Area).Master->complete(std::move(result));
+  for (const PartitionIndex q : this->Order->later(p))
+  {
+    ranks.push_back(this->keeperOf(q));
+  }
+  if (this->Options.Order != RankSchedule::Dynamic)
+  {
+    ranks.insert(ranks.end(), this->Keepers.begin(), this->Keepers.end());
+  }
+  std::sort(ranks.begin(), ranks.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  return ranks;
+}
+
+/// Each rank makes the same messages and keeps those for its inboxes; the first one keeps the
+/// triangles that are final already.
+template <typename Id>
+void RankRun<Id>::sendInitial(const SeamTriangles& mesh)
+{
+  FinalBoundary<std::int64_t> final;
+  sendInitialMesh(
+    mesh, *this->Order,
+    [&](PartitionIndex to, VertexMessage&& message)
+    {
+      if (this->keeperOf(to) == this->Ranks.rank())
+      {
+        this->put(to, std::move(message));
+      }
+    },
+    final);
+  if (this->Ranks.rank() == 0)
+  {
+    this->Boundary = std::move(final);
+  }
 }
 
 template <typename Id>
-void RankRun<Id>::handle(Message& message)
+void RankRun<Id>::put(PartitionIndex to, VertexMessage&& message)
 {
-  if (message.Kind == FinishedMessage)
+  this->KeptTriangles += message.Triangles;
+  this->Inboxes[std::size_t(to)].put(std::move(message));
+}
+
+/// One thread's work.
+template <typename Id>
+void RankRun<Id>::work(Contribution& part)
+{
+  Worker<Id> worker(this->Work.Leaves, this->Points.Buckets, this->FirstId);
+  Routing<Id> routing(*this->Order, *this->Boxes);
+  UniqueVertices unique;
+  part.Seconds.assign(this->Order->colourCount(), 0);
+  ReadyPartitions& source = this->source();
+  for (PartitionIndex p = source.take(); p >= 0; p = source.take())
   {
-    this->Finished = true;
-    return;
+    const ProcessorWatch watch;
+    routing.setPartition(p);
+    worker.triangulate(
+      p, unique.collect(this->Inboxes[std::size_t(p)].take()), (*this->Boxes)[p], routing);
+    std::vector<std::pair<PartitionIndex, VertexMessage>> sent;
+    routing.send(
+      worker,
+      [&](PartitionIndex to, VertexMessage&& message)
+      { sent.emplace_back(to, std::move(message)); },
+      part.Boundary);
+    this->InteriorCounts[std::size_t(p)] = worker.interiorCount();
+    part.WorkerVertices += std::int64_t(worker.vertexCount());
+    ++part.Partitions;
+    part.Duplicates.insert(
+      part.Duplicates.end(), worker.duplicates().begin(), worker.duplicates().end());
+    part.Seconds[this->Order->colourOf(p)] += watch.seconds();
+    this->finishPartition(p, std::move(sent));
   }
-  const ProcessorWatch watch;
+}
+
+/// Puts messages to partitions whose inboxes are here into these, and hands those to other ranks to
+/// the main thread.
+template <typename Id>
+void RankRun<Id>::finishPartition(
+  PartitionIndex p, std::vector<std::pair<PartitionIndex, VertexMessage>> sent)
+{
+  const int rank = this->Ranks.rank();
+  std::vector<Outgoing> outgoing;
+  bool isWantedHere = false;
+  for (const std::int32_t other : this->recipientsOf(p))
+  {
+    isWantedHere = isWantedHere || other == rank;
+    ByteWriter writer;
+    writer.value(p);
+    for (const auto& [to, message] : sent)
+    {
+      if (other != rank && this->keeperOf(to) == other)
+      {
+        writer.value(to);
+        write(writer, message);
+      }
+    }
+    if (other != rank)
+    {
+      outgoing.push_back({ other, writer.take() });
+    }
+  }
+  for (auto& [to, message] : sent)
+  {
+    if (this->keeperOf(to) == rank)
+    {
+      this->put(to, std::move(message));
+    }
+  }
+  this->PointsDone += this->Points.Buckets.count(p);
+  {
+    const std::lock_guard<std::mutex> lock(this->OutgoingMutex);
+    std::move(outgoing.begin(), outgoing.end(), std::back_inserter(this->ToSend));
+    if (isWantedHere && this->hasMasters())
+    {
+      this->DoneHere.push_back(p);
+    }
+  }
+  if (!this->hasMasters())
+  {
+    this->Ready->finish(p);
+  }
+  --this->LeftPartitions;
+}
+
+template <typename Id>
+void RankRun<Id>::receive(const Message& message)
+{
   if (message.Kind == TaskMessage)
   {
-    this->handleTask(unpackTask(message));
+    this->receiveTask(message);
     return;
   }
-  TaskResult result = unpackResult(message);
-  Active& active = this->Dispatchers.at(result.Area);
-  active.MoreSeconds += watch.seconds();
-  active.Master->complete(std::move(result));
-}
-
-template <typename Id>
-void RankRun<Id>::dispatchAll()
-{
-  // A dispatcher that finishes may let its parent go on, and tasks begin new ones.
-  for (bool again = true; again;)
-  {
-    again = false;
-    std::vector<std::int32_t> areas;
-    for (const auto& entry : this->Dispatchers)
-    {
-      areas.push_back(entry.first);
-    }
-    for (const std::int32_t index : areas)
-    {
-      std::vector<Task> begun; // dispatchers, once this one is through
-      Dispatcher& dispatcher = *this->Dispatchers.at(index).Master;
-      dispatcher.dispatch(
-        [&](std::int32_t rank, Task task)
-        {
-          if (rank == this->Ranks.rank() && !dispatcher.area().hasLeaves())
-          {
-            begun.push_back(std::move(task));
-          }
-          else
-          {
-            this->giveTo(rank, std::move(task));
-          }
-        });
-      for (Task& task : begun)
-      {
-        this->giveTo(this->Ranks.rank(), std::move(task));
-        again = true;
-      }
-      if (dispatcher.isDone())
-      {
-        this->finishArea(index);
-        again = true;
-      }
-    }
-  }
-}
-
-template <typename Id>
-void RankRun<Id>::keepFigures(const Dispatcher& dispatcher, std::int32_t index)
-{
-  MasterStatistics figures;
-  figures.Area = index;
-  figures.Rank = this->Ranks.rank();
-  std::vector<std::int32_t> group;
-  for (const auto& home : dispatcher.area().Homes)
-  {
-    group.insert(group.end(), home.begin(), home.end());
-  }
-  std::sort(group.begin(), group.end());
-  figures.GroupSize = std::int32_t(std::unique(group.begin(), group.end()) - group.begin());
-  figures.LargestMesh = std::int64_t(dispatcher.LargestMesh);
-  figures.PathSeconds = dispatcher.PathSeconds;
-  figures.Seconds = dispatcher.Seconds + this->Dispatchers.at(index).MoreSeconds;
-  for (const Dispatcher::Stage& stage : dispatcher.Stages)
-  {
-    figures.Stages.push_back({ stage.ActivePartitions, stage.MeshTriangles });
-  }
-  (index == 0 ? this->Statistics.MasterSeconds : this->Statistics.SubMasterSeconds) +=
-    figures.Seconds;
-  this->Masters.push_back(std::move(figures));
-}
-
-template <typename Id>
-void RankRun<Id>::finishArea(std::int32_t index)
-{
   const ProcessorWatch watch;
-  Active& active = this->Dispatchers.at(index);
-  Dispatcher& dispatcher = *active.Master;
-  this->Kept.append(std::move(dispatcher.Kept));
-  if (active.Parent < 0)
-  {
-    this->finishTop(dispatcher);
-    active.MoreSeconds += watch.seconds();
-    this->keepFigures(dispatcher, index);
-    this->Dispatchers.erase(index);
-    return;
-  }
-  const Area& parent = this->Work.Areas[std::size_t(active.Parent)];
-  const SeamTriangles seams = labelTriangles(parent.Boxes, dispatcher.Upward);
-  TaskResult result;
-  result.Area = active.Parent;
-  result.Partition = active.Partition;
-  result.WorkerVertices = dispatcher.WorkerVertices;
-  result.Seconds = dispatcher.PathSeconds;
-  result.Seams = SeamGrouping().group(seams, active.Partition);
-  active.MoreSeconds += watch.seconds();
-  this->keepFigures(dispatcher, index);
-  this->Dispatchers.erase(index);
-  this->deliver(parent.Lead, std::move(result));
+  this->receiveDone(message);
+  this->Figures.Seconds += watch.seconds();
 }
 
+/// Of another rank: a partition is done, and what it sends to partitions whose inboxes are here.
 template <typename Id>
-void RankRun<Id>::finishTop(Dispatcher& top)
+void RankRun<Id>::receiveDone(const Message& message)
 {
-  removeArtificialPoints(top.Upward, this->Artificial);
-  for (const SeamTriangle& triangle : top.Upward)
+  ByteReader reader(message.Content);
+  const auto sender = reader.value<PartitionIndex>();
+  const auto isPartition = [this](PartitionIndex p)
+  { return p >= 0 && std::size_t(p) < this->Inboxes.size(); };
+  bool isGood = message.Kind == PartitionDoneMessage && this->AwaitedMessages > 0 &&
+    isPartition(sender) && this->ownerOf(sender) == message.Source;
+  while (isGood && reader.left() > 0)
   {
-    this->Kept.push_back({ triangle[0].Id, triangle[1].Id, triangle[2].Id });
-  }
-  this->Statistics.WorkerVertices = top.WorkerVertices;
-  for (int rank = 0; rank < this->Ranks.size(); ++rank)
-  {
-    if (rank != this->Ranks.rank())
+    const auto to = reader.value<PartitionIndex>();
+    VertexMessage vertices;
+    read(reader, vertices);
+    isGood =
+      vertices.Sender == sender && isPartition(to) && this->keeperOf(to) == this->Ranks.rank();
+    if (isGood)
     {
-      this->Ranks.post(rank, FinishedMessage, Bytes());
+      this->put(to, std::move(vertices));
     }
   }
-  this->Finished = true;
+  if (!isGood)
+  {
+    throw std::runtime_error("A message from another rank is damaged: no such partition.");
+  }
+  --this->AwaitedMessages;
+  this->finish(sender);
+}
+
+/// A partition is done, here or on another rank.
+template <typename Id>
+void RankRun<Id>::finish(PartitionIndex p)
+{
+  this->Ready->finish(p);
+  if (this->hasMasters() && this->keeperOf(p) == this->Ranks.rank())
+  {
+    --this->InFlight[std::size_t(this->ownerOf(p))];
+    --this->AllInFlight;
+  }
+}
+
+/// False if there was nothing to do.
+template <typename Id>
+bool RankRun<Id>::sendAndReceive()
+{
+  std::vector<Outgoing> outgoing;
+  std::vector<PartitionIndex> done;
+  {
+    const std::lock_guard<std::mutex> lock(this->OutgoingMutex);
+    outgoing.swap(this->ToSend);
+    done.swap(this->DoneHere);
+  }
+  bool moved = !outgoing.empty() || !done.empty();
+  for (Outgoing& message : outgoing)
+  {
+    this->Ranks.post(message.Rank, PartitionDoneMessage, std::move(message.Content));
+  }
+  for (const PartitionIndex p : done)
+  {
+    this->finish(p);
+  }
+  for (Message message; this->Ranks.poll(message); moved = true)
+  {
+    this->receive(message);
+  }
+  return (this->hasMasters() && this->startReady()) || moved;
 }
 
 template <typename Id>
@@ -349,90 +399,98 @@ void RankRun<Id>::report()
 {
   this->SinceReport.restart();
   const double all = double(std::max<std::size_t>(1, this->Points.size()));
-  if (this->Options.Progress && !this->Options.Progress(double(this->Workers.PointsDone) / all))
+  if (this->Options.Progress && !this->Options.Progress(double(this->PointsDone) / all))
   {
     throw RankFailure(this->Ranks.rank(), true, "The run was stopped.");
   }
 }
 
-/// Takes in what has come; false if nothing had.
+/// The main thread, which alone speaks to other ranks.
 template <typename Id>
-bool RankRun<Id>::step()
+void RankRun<Id>::coordinate()
 {
-  bool moved = false;
-  Message message;
-  while (!this->Finished && this->Ranks.poll(message))
+  // Looking for messages takes the processor from a thread that computes.
+  constexpr auto pause = std::chrono::microseconds(300);
+  constexpr double untilReport = 0.05;
+  this->report();
+  const auto isGoingOn = [this]()
+  { return this->LeftPartitions > 0 || this->AwaitedMessages > 0 || this->AwaitedTasks > 0; };
+  while (isGoingOn() && !this->source().isStopped())
   {
-    this->handle(message);
-    moved = true;
+    if (!this->sendAndReceive())
+    {
+      std::this_thread::sleep_for(pause);
+    }
+    if (this->SinceReport.seconds() > untilReport)
+    {
+      this->report();
+    }
   }
-  for (TaskResult result; this->Workers.take(result); result = {})
-  {
-    ++this->Statistics.Partitions;
-    this->TaskSeconds = result.Seconds;
-    const std::int32_t master = this->Work.Areas[std::size_t(result.Area)].Lead;
-    this->deliver(master, std::move(result));
-    this->report();
-    moved = true;
-  }
-  if (moved)
-  {
-    this->dispatchAll();
-  }
-  return moved;
+  this->sendAndReceive();
+  this->report();
 }
 
+/// Lemma 3. The first rank has the triangles at the hull.
 template <typename Id>
-void RankRun<Id>::wait()
+void RankRun<Id>::repairHullOnFirst()
 {
-  // Whoever looks for messages takes the processor from a thread that computes.
-  constexpr double shortest = 150e-6;
-  constexpr double longest = 2e-3;
-  constexpr double withTasksWaiting = 1e-3;
-  constexpr double untilReport = 0.1; // for a master without work of its own too
-  if (this->SinceReport.seconds() > untilReport)
+  ByteWriter writer;
+  write(writer, this->Boundary.HullVertices);
+  this->Boundary.HullVertices.clear();
+  for (const Bytes& part : this->Ranks.gather(writer.take()))
   {
-    this->report();
+    ByteReader reader(part);
+    read(reader, this->Boundary.HullVertices);
   }
-  if (!this->Workers.isIdle())
+  if (this->Ranks.rank() == 0)
   {
-    const double least = this->Workers.hasTasksWaiting() ? withTasksWaiting : shortest;
-    this->Workers.waitFor(std::clamp(this->TaskSeconds / 4, least, longest));
-    return;
+    repairHull(this->Boundary, this->Artificial);
   }
-  const Stopwatch watch;
-  this->Ranks.pause();
-  this->Statistics.WaitSeconds += watch.seconds();
 }
 
 template <typename Id>
 void RankRun<Id>::run()
 {
-  this->InitialPoints =
-    gatherInitialPoints(this->Ranks, this->Work, this->Points, this->LeafCounts, this->Options);
-  if (this->Ranks.rank() == 0)
-  {
-    this->beginTop();
-  }
-  ByteWriter writer;
-  writer.value(char(this->PartitionsPay));
-  const Bytes pay = this->Ranks.broadcast(writer.take());
-  this->PartitionsPay = ByteReader(pay).value<char>() != 0;
+  this->makeInitialMesh();
   if (!this->PartitionsPay)
   {
     return;
   }
-  this->dispatchAll();
-  while (!this->Finished)
+  std::vector<Contribution> parts(std::size_t(this->Threads));
+  const Stopwatch watch;
   {
-    if (!this->step())
+    WorkerThreads threads(this->source());
+    for (Contribution& part : parts)
     {
-      this->wait();
+      threads.start([this, &part]() { this->work(part); });
     }
+    this->coordinate();
   }
-  this->Statistics.ComputeSeconds = this->Workers.Seconds;
-  this->Duplicates = std::move(this->Workers.Duplicates);
-  this->InteriorCounts = std::move(this->Workers.InteriorCounts);
+  if (this->source().failure())
+  {
+    std::rethrow_exception(this->source().failure());
+  }
+  const double seconds = watch.seconds();
+  for (Contribution& part : parts)
+  {
+    this->Boundary.append(std::move(part.Boundary));
+    this->Duplicates.insert(this->Duplicates.end(), part.Duplicates.begin(), part.Duplicates.end());
+    this->Statistics.WorkerVertices += part.WorkerVertices;
+    this->Statistics.Partitions += part.Partitions;
+    this->Statistics.ComputeSeconds +=
+      std::accumulate(part.Seconds.begin(), part.Seconds.end(), 0.0);
+  }
+  this->Statistics.WaitSeconds =
+    std::max(0.0, seconds - this->Statistics.ComputeSeconds / this->Threads);
+  if (this->hasMasters())
+  {
+    this->keepFigures(parts);
+  }
+  this->repairHullOnFirst();
+  for (const auto& triangle : this->Boundary.Triangles)
+  {
+    this->Kept.push_back(triangle.Ids);
+  }
 }
 
 template class RankRun<std::int32_t>;

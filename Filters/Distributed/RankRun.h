@@ -2,80 +2,134 @@
 #ifndef tippRankRun_h
 #define tippRankRun_h
 
-#include "Distributed/Dispatcher.h"
+#include "Distributed/DistributedOptions.h"
 #include "Distributed/DistributedStatistics.h"
 #include "Distributed/FinalTriangles.h"
-#include "Distributed/InitialPoints.h"
-#include "Distributed/LeafWorkers.h"
+#include "Distributed/Plan.h"
 #include "Distributed/PointExchange.h"
+#include "Engine/ReadyPartitions.h"
+#include "Engine/Regions.h"
+#include "Engine/Routing.h"
 #include "Messages/Postbox.h"
 #include "Parallel/Stopwatch.h"
 
-#include <map>
+#include <atomic>
 #include <memory>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 namespace tipp
 {
 
-/// A rank's part of the triangulation: its main thread answers messages, looks after the areas it
-/// is master of, and feeds its threads.
+/// A rank's part of the triangulation: it triangulates the partitions whose points it owns.
+///
+/// Every rank computes conflicts and order from the same initial mesh. The inbox of a partition is
+/// kept by one rank, its *keeper*, who learns when those that it waits for are done and then starts
+/// it: by default the owner of its points. With the dissertation's masters it is the first rank
+/// (Algorithm 1), or the lead of its major partition's group (Algorithm 3).
+///
+/// A finished partition is one message to each rank that keeps its inbox or that of a later
+/// conflicting partition: it carries the vertices for these, and says that the partition is done. A
+/// rank has finished when all that it owns and keeps is done; no protocol counts. Results do not
+/// depend on when messages arrive.
 template <typename Id>
 class RankRun
 {
 public:
   RankRun(Postbox& ranks, const Plan& plan, OwnedPoints<Id>& points,
-    const std::vector<std::int64_t>& leafCounts, const DistributedOptions& options, int threads);
+    const DistributedOptions& options, int threads);
 
-  /// Collective.
+  /// Collective. Throws RankFailure.
   void run();
 
   /// Boundary triangles that have become final on this rank, by internal ids.
   FinalTriangles Kept;
   std::vector<Duplicate> Duplicates;       ///< by internal ids
-  std::vector<std::size_t> InteriorCounts; ///< of each leaf
+  std::vector<std::size_t> InteriorCounts; ///< of each partition
   RankStatistics Statistics;
-  std::vector<MasterStatistics> Masters; ///< of the areas this rank was master of
-  bool PartitionsPay = true;             ///< known on all ranks; if not, nothing was done
+  std::vector<MasterStatistics> Masters; ///< what this rank knows of masters
+  bool PartitionsPay = true;             ///< the same on all ranks; if not, nothing was done
 
 private:
-  void beginTop();
-  void beginArea(std::int32_t parent, Task task);
-  void beginDispatcher(std::int32_t index, const SeamTriangles& mesh);
-  std::vector<PartitionIndex> withPoints(const Area& area) const;
-  int capacity(const Area& area) const;
-  void handle(Message& message);
-  void handleTask(Task task);
-  void deliver(std::int32_t master, TaskResult result);
-  void dispatchAll();
-  void giveTo(std::int32_t rank, Task task);
-  void finishArea(std::int32_t index);
-  void finishTop(Dispatcher& top);
-  void keepFigures(const Dispatcher& dispatcher, std::int32_t index);
-  bool step();
-  void wait();
-  void report();
-
-  struct Active
+  /// What the threads contribute, each by itself.
+  struct Contribution
   {
-    std::unique_ptr<Dispatcher> Master;
-    std::int32_t Parent = -1; ///< area, and
-    PartitionIndex Partition = 0;
-    double MoreSeconds = 0; ///< of the master's work outside the dispatcher
+    FinalBoundary<std::int64_t> Boundary;
+    std::vector<Duplicate> Duplicates;
+    std::int64_t WorkerVertices = 0;
+    std::int64_t Partitions = 0;
+    std::vector<double> Seconds; ///< of computing, by colour
   };
+
+  /// The messages of one finished partition to another rank.
+  struct Outgoing
+  {
+    int Rank;
+    Bytes Content;
+  };
+
+  void makeInitialMesh();
+  void shareInitialMesh(std::vector<SeamVertex>& vertices);
+  void decideWhoWaits();
+  void sendInitial(const SeamTriangles& mesh);
+  std::int32_t ownerOf(PartitionIndex p) const { return this->Work.Owners[std::size_t(p)]; }
+  std::int32_t keeperOf(PartitionIndex p) const { return this->Keepers[std::size_t(p)]; }
+  std::vector<char> thoseOf(const std::vector<std::int32_t>& ranks) const;
+  std::vector<std::int32_t> recipientsOf(PartitionIndex p) const;
+  /// What threads take partitions from.
+  ReadyPartitions& source() { return this->hasMasters() ? *this->Started : *this->Ready; }
+  void work(Contribution& part);
+  void finishPartition(
+    PartitionIndex p, std::vector<std::pair<PartitionIndex, VertexMessage>> sent);
+  void put(PartitionIndex to, VertexMessage&& message);
+  void finish(PartitionIndex p);
+  void receive(const Message& message);
+  void receiveDone(const Message& message);
+  bool sendAndReceive();
+  void coordinate();
+  void report();
+  void repairHullOnFirst();
+  void keepFigures(const std::vector<Contribution>& parts);
+
+  /// @name Of a master
+  ///@{
+  bool hasMasters() const { return this->Started != nullptr; }
+  bool startReady();
+  bool canStart(PartitionIndex p) const;
+  void start(PartitionIndex p);
+  void receiveTask(const Message& message);
+  ///@}
 
   Postbox& Ranks;
   const Plan& Work;
   OwnedPoints<Id>& Points;
-  const std::vector<std::int64_t>& LeafCounts;
   const DistributedOptions& Options;
   const int Threads;
-  LeafWorkers<Id> Workers;
-  InitialPointsOfAreas InitialPoints;
-  std::map<std::int32_t, Active> Dispatchers; ///< by area
+  const std::int64_t FirstId;
   std::vector<SeamVertex> Artificial;
-  bool Finished = false;
-  double TaskSeconds = 0; ///< that the last partition took
+  std::unique_ptr<Regions> Boxes;
+  std::unique_ptr<PartitionOrder> Order;
+  std::vector<std::int32_t> Keepers;        ///< of each partition
+  std::unique_ptr<ReadyPartitions> Ready;   ///< of those that this rank keeps
+  std::unique_ptr<ReadyPartitions> Started; ///< of those that it owns; null: these are the same
+  std::vector<Inbox> Inboxes;
+  FinalBoundary<std::int64_t> Boundary;
+  std::size_t AwaitedMessages = 0; ///< of other ranks' finished partitions
+  std::size_t AwaitedTasks = 0;
+  std::atomic<std::size_t> LeftPartitions{ 0 }; ///< of this rank, not done
+  std::atomic<std::size_t> PointsDone{ 0 };
+  std::mutex OutgoingMutex; ///< for the next two
+  std::vector<Outgoing> ToSend;
+  std::vector<PartitionIndex> DoneHere; ///< with masters: what the main thread is to finish
+
+  // Of a master.
+  std::vector<PartitionIndex> Waiting; ///< ready, but their ranks have enough to do
+  std::vector<int> InFlight;           ///< started and not done, of each rank
+  int AllInFlight = 0;
+  std::atomic<std::int64_t> KeptTriangles{ 0 }; ///< in the inboxes
+  MasterStatistics Figures;
+
   Stopwatch SinceReport;
 };
 

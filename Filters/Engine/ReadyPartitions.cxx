@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 namespace tipp
 {
@@ -26,56 +27,51 @@ void waitAWhile(int turn)
 
 } // namespace
 
-ReadyPartitions::ReadyPartitions(const PartitionOrder& order, bool barrierBetweenColours)
+ReadyPartitions::ReadyPartitions(const PartitionOrder& order, Waits waits, std::vector<char> isOwn)
   : Order(order)
-  , Barrier(barrierBetweenColours)
+  , For(waits)
+  , Own(std::move(isOwn))
   , Awaited(order.partitionCount())
-  , LeftInColour(barrierBetweenColours ? order.colourCount() : 0)
-  , Queue(order.sequence().size())
+  , LeftInColour(waits == Waits::ForColour ? order.colourCount() : 0)
+  , Queue(this->ownCount())
 {
-  if (!this->Barrier)
-  {
-    this->awaitEarlier(false);
-    return;
-  }
   for (auto& entry : this->Queue)
   {
     entry.store(-1, std::memory_order_relaxed);
   }
-  for (std::size_t colour = 0; colour < order.colourCount(); ++colour)
+  waits == Waits::ForColour ? this->countColours() : this->awaitEarlier();
+}
+
+std::size_t ReadyPartitions::ownCount() const
+{
+  const auto& sequence = this->Order.sequence();
+  return std::size_t(std::count_if(
+    sequence.begin(), sequence.end(), [this](PartitionIndex p) { return this->isOwn(p); }));
+}
+
+void ReadyPartitions::countColours()
+{
+  for (std::size_t colour = 0; colour < this->Order.colourCount(); ++colour)
   {
-    this->LeftInColour[colour] = std::int64_t(order.colourSize(colour));
+    this->LeftInColour[colour] = std::int64_t(this->Order.colourSize(colour));
   }
-  if (order.colourCount() > 0)
+  if (this->Order.colourCount() > 0)
   {
     this->releaseColour(0);
   }
 }
 
-ReadyPartitions::ReadyPartitions(
-  const PartitionOrder& order, const std::vector<char>& isOwn, bool waitForPoints)
-  : Order(order)
-  , Barrier(false)
-  , Own(isOwn)
-  , Awaited(order.partitionCount())
-  , Queue(std::size_t(std::count_if(order.sequence().begin(), order.sequence().end(),
-      [&](PartitionIndex p) { return isOwn[std::size_t(p)] != 0; })))
+void ReadyPartitions::awaitEarlier()
 {
-  this->awaitEarlier(waitForPoints);
-}
-
-void ReadyPartitions::awaitEarlier(bool waitForPoints)
-{
-  for (auto& entry : this->Queue)
-  {
-    entry.store(-1, std::memory_order_relaxed);
-  }
   for (const PartitionIndex p : this->Order.sequence())
   {
-    this->Awaited[std::size_t(p)] += waitForPoints ? 1 : 0;
-    for (const PartitionIndex later : this->Order.later(p))
+    this->Awaited[std::size_t(p)] += this->For == Waits::ForEarlier ? 0 : 1;
+    if (this->For != Waits::ForLoad)
     {
-      ++this->Awaited[std::size_t(later)];
+      for (const PartitionIndex later : this->Order.later(p))
+      {
+        ++this->Awaited[std::size_t(later)];
+      }
     }
   }
   for (const PartitionIndex p : this->Order.sequence())
@@ -87,14 +83,20 @@ void ReadyPartitions::awaitEarlier(bool waitForPoints)
   }
 }
 
-/// Where there are barriers, the order has no windows: a colour's partitions come in a row.
+/// The order has no windows: a colour's partitions come in a row.
 void ReadyPartitions::releaseColour(std::size_t colour)
 {
   const auto& sequence = this->Order.sequence();
   const auto first = std::partition_point(sequence.begin(), sequence.end(),
     [&](PartitionIndex p) { return this->Order.colourOf(p) < colour; });
   std::for_each(first, first + std::ptrdiff_t(this->Order.colourSize(colour)),
-    [this](PartitionIndex p) { this->release(p); });
+    [this](PartitionIndex p)
+    {
+      if (this->isOwn(p))
+      {
+        this->release(p);
+      }
+    });
 }
 
 void ReadyPartitions::release(PartitionIndex p)
@@ -122,9 +124,26 @@ PartitionIndex ReadyPartitions::take()
   return -1;
 }
 
+PartitionIndex ReadyPartitions::tryTake()
+{
+  const std::size_t ticket = this->Tickets.load(std::memory_order_relaxed);
+  const PartitionIndex p = ticket < this->Queue.size() && !this->isStopped()
+    ? this->Queue[ticket].load(std::memory_order_acquire)
+    : -1;
+  if (p >= 0)
+  {
+    this->Tickets.store(ticket + 1, std::memory_order_relaxed);
+  }
+  return p;
+}
+
 void ReadyPartitions::finish(PartitionIndex p)
 {
-  if (this->Barrier)
+  if (this->For == Waits::ForLoad)
+  {
+    return;
+  }
+  if (this->For == Waits::ForColour)
   {
     const std::size_t colour = this->Order.colourOf(p);
     const bool isLast = this->LeftInColour[colour].fetch_sub(1, std::memory_order_acq_rel) == 1;

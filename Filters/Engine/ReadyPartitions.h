@@ -18,16 +18,23 @@ namespace tipp
 class ReadyPartitions
 {
 public:
-  /// With a barrier between colours, a partition waits for all partitions of the colour before; the
-  /// order must have no windows then.
-  ReadyPartitions(const PartitionOrder& order, bool barrierBetweenColours);
-  /// Hands out only a rank's own partitions: `isOwn` has one entry for each partition, and there is
-  /// no barrier. Where they wait for points, each also waits for setLoaded().
-  ReadyPartitions(
-    const PartitionOrder& order, const std::vector<char>& isOwn, bool waitForPoints = false);
+  /// What else a partition waits for.
+  enum class Waits
+  {
+    ForEarlier,        ///< nothing else
+    ForEarlierAndLoad, ///< that setLoaded() is called
+    ForColour,         ///< all partitions of the colour before; the order must have no windows
+    ForLoad            ///< setLoaded() alone, and not for earlier ones
+  };
+
+  /// Hands out the partitions that `isOwn` has an entry other than 0 for; empty: all.
+  ReadyPartitions(const PartitionOrder& order, Waits waits, std::vector<char> isOwn = {});
 
   /// A ready partition; waits for one. -1 if all were handed out or the run was stopped.
   PartitionIndex take();
+
+  /// The same without waiting: -1 also if none is ready. For one thread alone.
+  PartitionIndex tryTake();
 
   /// The partition is done, one's own or another rank's, and what it sends is in the inboxes.
   void finish(PartitionIndex p);
@@ -41,14 +48,16 @@ public:
   std::exception_ptr failure() const { return this->Failure; }
 
 private:
-  void awaitEarlier(bool waitForPoints);
+  void awaitEarlier();
+  void countColours();
   void countDown(PartitionIndex p);
   bool isOwn(PartitionIndex p) const { return this->Own.empty() || this->Own[std::size_t(p)]; }
+  std::size_t ownCount() const;
   void release(PartitionIndex p);
   void releaseColour(std::size_t colour);
 
   const PartitionOrder& Order;
-  const bool Barrier;
+  const Waits For;
   const std::vector<char> Own;                    ///< empty: all
   std::vector<std::atomic<std::int32_t>> Awaited; ///< of each partition: what it waits for
   std::vector<std::atomic<std::int64_t>> LeftInColour;

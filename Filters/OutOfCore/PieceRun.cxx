@@ -56,7 +56,8 @@ void PieceRun::prepare(const std::vector<char>& isDone)
       }
     },
     none);
-  this->Ready = std::make_unique<ReadyPartitions>(this->Order->partitions(), isToDo, true);
+  this->Ready = std::make_unique<ReadyPartitions>(
+    this->Order->partitions(), ReadyPartitions::Waits::ForEarlierAndLoad, isToDo);
   for (PartitionIndex piece : sequence)
   {
     if (isDone[std::size_t(piece)])

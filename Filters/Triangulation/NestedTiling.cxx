@@ -59,59 +59,6 @@ Tiling Tiling::refined(const std::vector<Tiling>& inner) const
   return tiling;
 }
 
-Tiling Tiling::around(const Box2& domain, const Tiling& inner)
-{
-  const Box2& core = inner.Domain;
-  Tiling tiling;
-  tiling.Domain = domain;
-  tiling.Boxes.resize(inner.Boxes.size());
-  std::size_t depth = 0;
-  Box2 rest = domain;
-  std::int32_t open = -1; // the cut whose child the rest is to become
-  int side = 0;
-  const auto close = [&](std::int32_t place)
-  {
-    if (open >= 0)
-    {
-      tiling.Nodes[std::size_t(open)].Child[side] = place;
-    }
-  };
-  // Cuts the rest in two and keeps the half with the core, whose number `kept` is.
-  const auto cut = [&](int axis, double at, int kept, const Box2& other, const Box2& remaining)
-  {
-    const std::int32_t place = tiling.addCut(axis, at);
-    close(place);
-    open = place;
-    side = 1 - kept;
-    close(tiling.placeBox(other, tiling.size(), ++depth));
-    side = kept;
-    rest = remaining;
-  };
-  if (core.xmin > domain.xmin)
-  {
-    cut(0, core.xmin, 1, { rest.xmin, rest.ymin, core.xmin, rest.ymax },
-      { core.xmin, rest.ymin, rest.xmax, rest.ymax });
-  }
-  if (core.xmax < domain.xmax)
-  {
-    cut(0, core.xmax, 0, { core.xmax, rest.ymin, rest.xmax, rest.ymax },
-      { rest.xmin, rest.ymin, core.xmax, rest.ymax });
-  }
-  if (core.ymin > domain.ymin)
-  {
-    cut(1, core.ymin, 1, { rest.xmin, rest.ymin, rest.xmax, core.ymin },
-      { rest.xmin, core.ymin, rest.xmax, rest.ymax });
-  }
-  if (core.ymax < domain.ymax)
-  {
-    cut(1, core.ymax, 0, { rest.xmin, core.ymax, rest.xmax, rest.ymax },
-      { rest.xmin, rest.ymin, rest.xmax, core.ymax });
-  }
-  close(tiling.addTree(inner, 0, depth,
-    [&](PartitionIndex p, std::size_t d) { return tiling.placeBox(inner.box(p), p, d); }));
-  return tiling;
-}
-
 std::vector<char> Tiling::save() const
 {
   const std::uint64_t sizes[3] = { this->Depth, this->Nodes.size(), this->Boxes.size() };

@@ -31,9 +31,6 @@ public:
   /// Each box replaced by the boxes of a tiling of it, in order.
   Tiling refined(const std::vector<Tiling>& inner) const;
 
-  /// A tiling of a box inside the domain, and after its boxes, at most four more around them.
-  static Tiling around(const Box2& domain, const Tiling& inner);
-
   ///@{
   /// As bytes, to send to another rank.
   std::vector<char> save() const;

@@ -172,7 +172,9 @@ private:
     const PartitionOrder order(regions.areUsed(), initialMesh);
     const bool barrier = this->Options.Order == Schedule::Stages;
     Shared shared{ tiling, regions, order, std::vector<Inbox>(order.partitionCount()),
-      ReadyPartitions(order, barrier), {} };
+      ReadyPartitions(
+        order, barrier ? ReadyPartitions::Waits::ForColour : ReadyPartitions::Waits::ForEarlier),
+      {} };
     shared.Stages.resize(order.sequence().size());
     FinalBoundary<Id> boundary;
     shared.Unfinished = sendInitialMesh(initialMesh, order, shared.deliver(), boundary);

@@ -17,50 +17,6 @@ Box2 openBox(const Box2& box)
     std::nextafter(box.xmax, -HUGE_VAL), std::nextafter(box.ymax, -HUGE_VAL) };
 }
 
-/// Boundary triangles with all boxes of a tiling that they meet.
-class SeamCollector : public BoundaryTaker
-{
-public:
-  SeamCollector(const Tiling& tiling, SeamTriangles& seams)
-    : Boxes(tiling)
-    , Seams(seams)
-  {
-    this->Seams.clear();
-  }
-
-  void begin(DelaunayKernel::Index vertexEnd) override
-  {
-    this->Numbers.assign(std::size_t(vertexEnd), Unknown);
-  }
-
-  void add(const std::array<DelaunayKernel::Index, 3>& corners, const Circumdisk& disk) override
-  {
-    this->Seams.add(this->Boxes,
-      { this->number(corners[0]), this->number(corners[1]), this->number(corners[2]) }, disk);
-  }
-
-  /// The kernel's vertices that the triangles name, in the order of their numbers.
-  std::vector<DelaunayKernel::Index> Vertices;
-
-private:
-  static constexpr std::uint32_t Unknown = ~0U;
-
-  std::uint32_t number(DelaunayKernel::Index v)
-  {
-    std::uint32_t& number = this->Numbers[std::size_t(v)];
-    if (number == Unknown)
-    {
-      number = static_cast<std::uint32_t>(this->Vertices.size());
-      this->Vertices.push_back(v);
-    }
-    return number;
-  }
-
-  const Tiling& Boxes;
-  SeamTriangles& Seams;
-  std::vector<std::uint32_t> Numbers; ///< of the kernel's vertices
-};
-
 } // namespace
 
 template <typename Id>
@@ -96,18 +52,6 @@ void Worker<Id>::setTiling(const Tiling& tiling, PartitionIndex firstBucket)
 {
   this->Boxes = &tiling;
   this->FirstBucket = firstBucket;
-}
-
-template <typename Id>
-void Worker<Id>::triangulate(PartitionIndex partition, std::vector<SeamVertex>&& vertices)
-{
-  SeamCollector collector(*this->Boxes, this->Seams);
-  this->triangulate(partition, std::move(vertices), this->Boxes->box(partition), collector);
-  this->Seams.Vertices.reserve(collector.Vertices.size());
-  for (const DelaunayKernel::Index v : collector.Vertices)
-  {
-    this->Seams.Vertices.push_back(this->vertex(partition, v));
-  }
 }
 
 template <typename Id>

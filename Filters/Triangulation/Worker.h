@@ -46,9 +46,6 @@ public:
   void triangulate(PartitionIndex partition, std::vector<SeamVertex>&& vertices, const Box2& region,
     BoundaryTaker& boundary);
 
-  /// The same; the region is the partition's box, and seams() are the boundary triangles.
-  void triangulate(PartitionIndex partition, std::vector<SeamVertex>&& vertices);
-
   /// A vertex of the last partition's kernel.
   SeamVertex vertex(PartitionIndex partition, DelaunayKernel::Index v) const;
 
@@ -56,8 +53,6 @@ public:
   bool triangulateAlone(const DelaunayKernel::Monitor& proceed);
 
   std::size_t interiorCount() const { return this->InteriorCount; }
-  const SeamTriangles& seams() const { return this->Seams; }
-  SeamTriangles takeSeams() { return std::move(this->Seams); }
 
   /// Points of the partition at the place of another. The representative is the lowest id, unless
   /// it is an initial point, which other partitions know already.
@@ -87,7 +82,6 @@ private:
   std::vector<std::int64_t> KnownIds; ///< of own points that other partitions know; sorted
   std::vector<char> IsSeam;           ///< of each triangle of the kernel: not interior
   std::vector<DelaunayKernel::Index> Stack;
-  SeamTriangles Seams;
   std::vector<Duplicate> Duplicates;
   std::size_t InteriorCount = 0;
   std::size_t VertexCount = 0;

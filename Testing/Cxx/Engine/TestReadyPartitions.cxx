@@ -28,13 +28,45 @@ PartitionOrder pairOrder()
 
 class ReadyPartitionsWith : public testing::TestWithParam<bool>
 {
+protected:
+  static ReadyPartitions::Waits waits()
+  {
+    return GetParam() ? ReadyPartitions::Waits::ForColour : ReadyPartitions::Waits::ForEarlier;
+  }
 };
+
+TEST(ReadyPartitions, HandOutOwnPartitionsThatAreLoadedAndWhoseEarlierOnesAreDone)
+{
+  const PartitionOrder order = pairOrder();
+  const PartitionIndex first = order.sequence()[0];
+  const PartitionIndex second = order.sequence()[1];
+  std::vector<char> isOwn(2, 0);
+  isOwn[std::size_t(second)] = 1;
+  ReadyPartitions ready(order, ReadyPartitions::Waits::ForEarlierAndLoad, isOwn);
+  EXPECT_EQ(-1, ready.tryTake());
+  ready.setLoaded(second);
+  EXPECT_EQ(-1, ready.tryTake());
+  ready.finish(first); // another rank's
+  EXPECT_EQ(second, ready.tryTake());
+  EXPECT_EQ(-1, ready.take());
+}
+
+TEST(ReadyPartitions, HandOutWhatIsLoadedWhereNothingElseIsWaitedFor)
+{
+  const PartitionOrder order = pairOrder();
+  ReadyPartitions ready(order, ReadyPartitions::Waits::ForLoad);
+  EXPECT_EQ(-1, ready.tryTake());
+  ready.setLoaded(order.sequence()[1]);
+  EXPECT_EQ(order.sequence()[1], ready.take());
+  ready.finish(order.sequence()[1]);
+  EXPECT_EQ(-1, ready.tryTake());
+}
 
 TEST_P(ReadyPartitionsWith, EachPartitionIsHandedOutOnceAndAfterThoseBeforeIt)
 {
   const DataflowScene scene("uniform", 3000, 9, 8);
   const PartitionOrder order = scene.order();
-  ReadyPartitions ready(order, GetParam());
+  ReadyPartitions ready(order, this->waits());
   std::vector<std::atomic<int>> finished(order.partitionCount());
   std::atomic<int> wrong{ 0 };
   const auto work = [&]
@@ -76,7 +108,7 @@ TEST_P(ReadyPartitionsWith, EachPartitionIsHandedOutOnceAndAfterThoseBeforeIt)
 TEST_P(ReadyPartitionsWith, FinishingHandsOutTheNextConflictingPartition)
 {
   const PartitionOrder order = pairOrder();
-  ReadyPartitions ready(order, GetParam());
+  ReadyPartitions ready(order, this->waits());
   const PartitionIndex first = ready.take();
   EXPECT_EQ(order.sequence()[0], first);
   std::future<PartitionIndex> waiting =
@@ -89,7 +121,7 @@ TEST_P(ReadyPartitionsWith, FinishingHandsOutTheNextConflictingPartition)
 TEST_P(ReadyPartitionsWith, StoppingEndsAWaitingThread)
 {
   const PartitionOrder order = pairOrder();
-  ReadyPartitions ready(order, GetParam());
+  ReadyPartitions ready(order, this->waits());
   ASSERT_LE(0, ready.take());
   std::future<PartitionIndex> waiting =
     std::async(std::launch::async, [&ready] { return ready.take(); });
@@ -102,7 +134,7 @@ TEST_P(ReadyPartitionsWith, StoppingEndsAWaitingThread)
 TEST_P(ReadyPartitionsWith, TheFirstFailureIsKept)
 {
   const PartitionOrder order = pairOrder();
-  ReadyPartitions ready(order, GetParam());
+  ReadyPartitions ready(order, this->waits());
   for (const char* text : { "first", "second" })
   {
     ready.stop(std::make_exception_ptr(std::runtime_error(text)));
@@ -122,7 +154,7 @@ TEST_P(ReadyPartitionsWith, TheFirstFailureIsKept)
 TEST_P(ReadyPartitionsWith, WithoutPartitionsThereIsNothingToDo)
 {
   const PartitionOrder order({ 0, 0 }, SeamTriangles());
-  EXPECT_EQ(-1, ReadyPartitions(order, GetParam()).take());
+  EXPECT_EQ(-1, ReadyPartitions(order, this->waits()).take());
 }
 
 TEST_P(ReadyPartitionsWith, ATotalOrderIsHandedOutOneByOne)
@@ -137,7 +169,7 @@ TEST_P(ReadyPartitionsWith, ATotalOrderIsHandedOutOneByOne)
   mesh.add({ 0, 0, 0 }, all.data(), all.data() + count);
   const PartitionOrder order(std::vector<char>(count, 1), mesh);
   ASSERT_TRUE(order.isTotal());
-  ReadyPartitions ready(order, GetParam());
+  ReadyPartitions ready(order, this->waits());
   Partitions taken;
   for (PartitionIndex p = ready.take(); p >= 0; p = ready.take())
   {

@@ -5,7 +5,9 @@
 #include "Triangulation/Worker.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <utility>
 
 namespace
 {
@@ -22,6 +24,43 @@ Interior interiorOf(
   return Interior(ids, ids + 3 * worker.interiorCount());
 }
 
+/// A partition's boundary triangles, and which boxes of a tiling their circumdisks meet.
+class Boundary : public BoundaryTaker
+{
+public:
+  explicit Boundary(const Tiling& boxes)
+    : Boxes(boxes)
+  {
+  }
+
+  void begin(DelaunayKernel::Index) override { this->Found.clear(); }
+
+  void add(const std::array<DelaunayKernel::Index, 3>& corners, const Circumdisk& disk) override
+  {
+    this->Found.push_back({ corners, {} });
+    this->Boxes.visitMet(
+      disk, [this](PartitionIndex p) { this->Found.back().second.push_back(p); });
+  }
+
+  using Met = std::vector<PartitionIndex>;
+  std::vector<std::pair<SeamTriangle, Met>> triangles(
+    const Worker<std::int32_t>& worker, PartitionIndex p) const
+  {
+    std::vector<std::pair<SeamTriangle, Met>> triangles;
+    for (const auto& [corners, met] : this->Found)
+    {
+      triangles.push_back({ { worker.vertex(p, corners[0]), worker.vertex(p, corners[1]),
+                              worker.vertex(p, corners[2]) },
+        met });
+    }
+    return triangles;
+  }
+
+private:
+  const Tiling& Boxes;
+  std::vector<std::pair<std::array<DelaunayKernel::Index, 3>, Met>> Found;
+};
+
 /// All triangles that some unfinished partition meets, and those that are final.
 class UnfinishedMesh
 {
@@ -31,6 +70,14 @@ public:
     for (std::size_t i = 0; i < triangles.size(); ++i)
     {
       this->Entries.push_back({ triangles[i], { triangles.metBegin(i), triangles.metEnd(i) } });
+    }
+  }
+
+  void add(const std::vector<std::pair<SeamTriangle, Boundary::Met>>& triangles)
+  {
+    for (const auto& [triangle, met] : triangles)
+    {
+      this->Entries.push_back({ triangle, met });
     }
   }
 
@@ -132,9 +179,12 @@ public:
     std::sort(this->Inserted.begin(), this->Inserted.end());
     this->Inserted.erase(
       std::unique(this->Inserted.begin(), this->Inserted.end()), this->Inserted.end());
-    this->Work.triangulate(p, uniqueVertices(this->Mesh.thoseMeeting(p)));
+    Boundary boundary(this->Scene.Boxes);
+    this->Work.triangulate(
+      p, uniqueVertices(this->Mesh.thoseMeeting(p)), this->Scene.Boxes.box(p), boundary);
     this->Mesh.finish(p);
-    this->Mesh.add(this->Work.seams());
+    this->Seams = boundary.triangles(this->Work, p);
+    this->Mesh.add(this->Seams);
     return interiorOf(this->Scene.Buckets, p, this->Work);
   }
 
@@ -146,7 +196,12 @@ public:
   /// The last partition's interior triangles and the seams, by places in XY.
   Triangles made(const Interior& interior) const
   {
-    Triangles all = this->inXY(listOf(this->Work.seams()));
+    std::vector<SeamTriangle> seams;
+    for (const auto& entry : this->Seams)
+    {
+      seams.push_back(entry.first);
+    }
+    Triangles all = this->inXY(seams);
     for (std::size_t i = 0; i < interior.size(); i += 3)
     {
       all.push_back(canonical(interior[i], interior[i + 1], interior[i + 2]));
@@ -167,6 +222,7 @@ public:
   InitialScene Scene;
   UnfinishedMesh Mesh;
   Worker<std::int32_t> Work;
+  std::vector<std::pair<SeamTriangle, Boundary::Met>> Seams; ///< of the last partition
   Coordinates XY;
   Ids Inserted;
 };
@@ -294,7 +350,9 @@ std::size_t interiorCountWithCircle(double dx, double dy, double radius)
   UnfinishedMesh mesh;
   mesh.add(triangulateVertices(tiling, makeArtificialPoints(tiling), 1));
   Worker<std::int32_t> worker(tiling, buckets);
-  worker.triangulate(middle, uniqueVertices(mesh.thoseMeeting(middle)));
+  Boundary boundary(tiling);
+  worker.triangulate(
+    middle, uniqueVertices(mesh.thoseMeeting(middle)), tiling.box(middle), boundary);
   return worker.interiorCount();
 }
 
@@ -357,7 +415,8 @@ TEST(Worker, AnInitialPointStandsForLowerDuplicates)
     UnfinishedMesh mesh;
     mesh.add(triangulateVertices(tiling, vertices, 1));
     Worker<std::int32_t> worker(tiling, buckets);
-    worker.triangulate(p, uniqueVertices(mesh.thoseMeeting(p)));
+    Boundary boundary(tiling);
+    worker.triangulate(p, uniqueVertices(mesh.thoseMeeting(p)), tiling.box(p), boundary);
     ASSERT_EQ(2U, worker.duplicates().size());
     for (const Duplicate& duplicate : worker.duplicates())
     {

@@ -354,8 +354,7 @@ protected:
     ASSERT_EQ(0, made.ExitCode) << made.Err;
     const auto json = nlohmann::json::parse(contentOf(this->Folder.path("run.json")));
     EXPECT_EQ(count, json["points"].get<double>());
-    EXPECT_GT(json["rim_spilled_bytes"], 0);
-    EXPECT_GT(json["peak_rim_bytes"], 0);
+    EXPECT_GT(json["boundary_bytes"], 0);
     constexpr double onTop = 60e6;
     constexpr double perPoint = 300;
     EXPECT_LT(json["peak_memory_bytes"].get<double>(), 2 * 0x1p20 + onTop + perPoint * count);
