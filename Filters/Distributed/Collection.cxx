@@ -15,19 +15,25 @@ namespace
 {
 
 /// Each triangle to the rank that owns its vertex of lowest id.
-std::vector<IdTriangle> bringHome(
-  Postbox& ranks, const FinalTriangles& triangles, const std::vector<std::int64_t>& firstIds)
+std::vector<IdTriangle> bringHome(Postbox& ranks, const std::vector<IdTriangle>& triangles,
+  const std::vector<std::int64_t>& firstIds)
 {
   const auto owner = [&firstIds](const IdTriangle& triangle)
   { return ownerOf(*std::min_element(triangle.begin(), triangle.end()), firstIds); };
   std::vector<std::size_t> counts(static_cast<std::size_t>(ranks.size()), 0);
-  triangles.visit([&](const IdTriangle& triangle) { ++counts[owner(triangle)]; });
+  for (const IdTriangle& triangle : triangles)
+  {
+    ++counts[owner(triangle)];
+  }
   std::vector<std::vector<IdTriangle>> sorted(counts.size());
   for (std::size_t rank = 0; rank < counts.size(); ++rank)
   {
     sorted[rank].reserve(counts[rank]);
   }
-  triangles.visit([&](const IdTriangle& triangle) { sorted[owner(triangle)].push_back(triangle); });
+  for (const IdTriangle& triangle : triangles)
+  {
+    sorted[owner(triangle)].push_back(triangle);
+  }
   std::vector<IdTriangle> home;
   for (const std::vector<IdTriangle>& received : swapArrays(ranks, sorted))
   {
@@ -170,7 +176,7 @@ void preferLowestGlobalIds(
 }
 
 template <typename Id>
-void collect(Postbox& ranks, OwnedPoints<Id>& points, const FinalTriangles& kept,
+void collect(Postbox& ranks, OwnedPoints<Id>& points, const std::vector<IdTriangle>& kept,
   const std::vector<std::size_t>& interiorCounts, std::vector<Duplicate> duplicates,
   const Tiling& leaves, int threads, DistributedTriangulation& result)
 {
@@ -204,10 +210,10 @@ void collect(Postbox& ranks, OwnedPoints<Id>& points, const FinalTriangles& kept
   result.Foreign = fetchPoints(ranks, result.ForeignIds, points.FirstIds, result.Owned, rowSize);
 }
 
-template void collect(Postbox&, OwnedPoints<std::int32_t>&, const FinalTriangles&,
+template void collect(Postbox&, OwnedPoints<std::int32_t>&, const std::vector<IdTriangle>&,
   const std::vector<std::size_t>&, std::vector<Duplicate>, const Tiling&, int,
   DistributedTriangulation&);
-template void collect(Postbox&, OwnedPoints<std::int64_t>&, const FinalTriangles&,
+template void collect(Postbox&, OwnedPoints<std::int64_t>&, const std::vector<IdTriangle>&,
   const std::vector<std::size_t>&, std::vector<Duplicate>, const Tiling&, int,
   DistributedTriangulation&);
 

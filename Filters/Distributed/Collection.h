@@ -3,8 +3,8 @@
 #define tippCollection_h
 
 #include "Distributed/DistributedTriangulation.h"
-#include "Distributed/FinalTriangles.h"
 #include "Distributed/PointExchange.h"
+#include "Distributed/RankArrays.h"
 #include "Messages/Postbox.h"
 
 namespace tipp
@@ -14,7 +14,7 @@ namespace tipp
 /// vertex of lowest id, beside the interior ones; and the points of other ranks are fetched.
 /// Collective.
 template <typename Id>
-void collect(Postbox& ranks, OwnedPoints<Id>& points, const FinalTriangles& kept,
+void collect(Postbox& ranks, OwnedPoints<Id>& points, const std::vector<IdTriangle>& kept,
   const std::vector<std::size_t>& interiorCounts, std::vector<Duplicate> duplicates,
   const Tiling& leaves, int threads, DistributedTriangulation& result);
 
@@ -27,10 +27,10 @@ PointTuples fetchPoints(Postbox& ranks, const std::vector<std::int64_t>& ids,
 void preferLowestGlobalIds(
   PointTuples& points, std::int64_t firstId, std::vector<Duplicate>& duplicates);
 
-extern template void collect(Postbox&, OwnedPoints<std::int32_t>&, const FinalTriangles&,
+extern template void collect(Postbox&, OwnedPoints<std::int32_t>&, const std::vector<IdTriangle>&,
   const std::vector<std::size_t>&, std::vector<Duplicate>, const Tiling&, int,
   DistributedTriangulation&);
-extern template void collect(Postbox&, OwnedPoints<std::int64_t>&, const FinalTriangles&,
+extern template void collect(Postbox&, OwnedPoints<std::int64_t>&, const std::vector<IdTriangle>&,
   const std::vector<std::size_t>&, std::vector<Duplicate>, const Tiling&, int,
   DistributedTriangulation&);
 

@@ -3,7 +3,7 @@
 #define tippGhostTriangles_h
 
 #include "Distributed/DistributedTriangulation.h"
-#include "Distributed/FinalTriangles.h"
+#include "Distributed/RankArrays.h"
 
 #include <vector>
 

@@ -25,7 +25,7 @@ std::vector<SeamVertex> chooseVertices(const Tiling& majors, const std::vector<P
     const PartitionIndex major = majors.locate(p);
     if (taken[std::size_t(major)]++ < perMajor)
     {
-      vertices.push_back(makeSeamVertex(majors, major, p, std::int64_t(vertices.size())));
+      vertices.push_back({ p, std::int64_t(vertices.size()), major });
     }
   }
   return vertices;

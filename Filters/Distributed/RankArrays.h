@@ -5,12 +5,16 @@
 #include "Messages/Postbox.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <stdexcept>
 #include <vector>
 
 namespace tipp
 {
+
+/// A triangle by its vertices' ids.
+using IdTriangle = std::array<std::int64_t, 3>;
 
 /// The rank that owns a point: `firstIds` has the first id of each rank's, and the end.
 inline std::size_t ownerOf(std::int64_t id, const std::vector<std::int64_t>& firstIds)

@@ -4,9 +4,9 @@
 
 #include "Distributed/DistributedOptions.h"
 #include "Distributed/DistributedStatistics.h"
-#include "Distributed/FinalTriangles.h"
 #include "Distributed/Plan.h"
 #include "Distributed/PointExchange.h"
+#include "Distributed/RankArrays.h"
 #include "Engine/ReadyPartitions.h"
 #include "Engine/Regions.h"
 #include "Engine/Routing.h"
@@ -44,7 +44,7 @@ public:
   void run();
 
   /// Boundary triangles that have become final on this rank, by internal ids.
-  FinalTriangles Kept;
+  std::vector<IdTriangle> Kept;
   std::vector<Duplicate> Duplicates;       ///< by internal ids
   std::vector<std::size_t> InteriorCounts; ///< of each partition
   RankStatistics Statistics;

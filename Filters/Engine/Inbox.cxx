@@ -11,7 +11,7 @@ struct WrittenVertex
 {
   Point2 Position;
   std::int64_t Id;
-  std::uint64_t Label;
+  std::int64_t Partition;
 };
 
 } // namespace
@@ -22,7 +22,7 @@ void write(ByteWriter& writer, const std::vector<SeamVertex>& vertices)
   written.reserve(vertices.size());
   for (const SeamVertex& v : vertices)
   {
-    written.push_back({ v.Place, v.Id, v.Label });
+    written.push_back({ v.Place, v.Id, v.Partition });
   }
   writer.array(written);
 }
@@ -40,7 +40,7 @@ void read(ByteReader& reader, std::vector<SeamVertex>& vertices)
   vertices.reserve(vertices.size() + written.size());
   for (const WrittenVertex& v : written)
   {
-    vertices.push_back({ v.Position, v.Id, static_cast<std::uint32_t>(v.Label) });
+    vertices.push_back({ v.Position, v.Id, static_cast<PartitionIndex>(v.Partition) });
   }
 }
 

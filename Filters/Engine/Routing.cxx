@@ -29,7 +29,7 @@ void FinalBoundary<Id>::add(const SeamTriangle& triangle)
     [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; });
   this->Triangles.push_back({ TriangleSink<Id>::fromLowest({ static_cast<Id>(triangle[0].Id),
                                 static_cast<Id>(triangle[1].Id), static_cast<Id>(triangle[2].Id) }),
-    lowest->partition() });
+    lowest->Partition });
 }
 
 template <typename Id>

@@ -179,7 +179,7 @@ std::vector<SeamVertex> PiecePlan::initialVertices() const
   std::vector<SeamVertex> vertices;
   for (const InitialPoint& p : this->Initial)
   {
-    vertices.push_back(makeSeamVertex(this->Partitions, p.Partition, p.Place, p.InPieces));
+    vertices.push_back({ p.Place, p.InPieces, p.Partition });
   }
   vertices.insert(vertices.end(), this->Artificial.begin(), this->Artificial.end());
   return vertices;

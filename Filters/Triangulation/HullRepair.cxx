@@ -13,28 +13,6 @@ namespace tipp
 namespace
 {
 
-bool hasArtificialVertex(const SeamTriangle& triangle)
-{
-  return std::any_of(
-    triangle.begin(), triangle.end(), [](const SeamVertex& v) { return v.isArtificial(); });
-}
-
-std::vector<SeamVertex> trueVertices(
-  std::vector<SeamTriangle>::const_iterator begin, std::vector<SeamTriangle>::const_iterator end)
-{
-  std::vector<SeamVertex> vertices;
-  for (auto triangle = begin; triangle != end; ++triangle)
-  {
-    std::copy_if(triangle->begin(), triangle->end(), std::back_inserter(vertices),
-      [](const SeamVertex& v) { return !v.isArtificial(); });
-  }
-  const auto less = [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; };
-  const auto equal = [](const SeamVertex& a, const SeamVertex& b) { return a.Id == b.Id; };
-  std::sort(vertices.begin(), vertices.end(), less);
-  vertices.erase(std::unique(vertices.begin(), vertices.end(), equal), vertices.end());
-  return vertices;
-}
-
 bool contains(const Box2& box, Point2 p)
 {
   return box.xmin <= p.x && p.x <= box.xmax && box.ymin <= p.y && p.y <= box.ymax;
@@ -68,26 +46,6 @@ std::vector<std::array<std::uint32_t, 3>> hullTriangles(
     }
   }
   return triangles;
-}
-
-void removeArtificialPoints(
-  std::vector<SeamTriangle>& final, const std::vector<SeamVertex>& artificial)
-{
-  const auto firstRemoved = std::partition(final.begin(), final.end(),
-    [](const SeamTriangle& triangle) { return !hasArtificialVertex(triangle); });
-  const std::vector<SeamVertex> rim = trueVertices(firstRemoved, final.end());
-  final.erase(firstRemoved, final.end());
-
-  std::vector<Point2> points;
-  points.reserve(rim.size());
-  for (const SeamVertex& v : rim)
-  {
-    points.push_back(v.Place);
-  }
-  for (const std::array<std::uint32_t, 3>& corners : hullTriangles(std::move(points), artificial))
-  {
-    final.push_back({ rim[corners[0]], rim[corners[1]], rim[corners[2]] });
-  }
 }
 
 } // namespace tipp

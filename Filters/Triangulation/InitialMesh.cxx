@@ -92,8 +92,7 @@ std::vector<SeamVertex> makeArtificialPoints(const Tiling& tiling)
   const auto add = [&](double x, double y)
   {
     const Point2 p = { x, y };
-    vertices.push_back(
-      makeSeamVertex(tiling, tiling.locate(p), p, -1 - std::int64_t(vertices.size())));
+    vertices.push_back({ p, -1 - std::int64_t(vertices.size()), tiling.locate(p) });
   };
   const int columns = piecesOf(width, margin);
   for (int i = 0; i <= columns; ++i)
@@ -124,7 +123,7 @@ std::vector<SeamVertex> chooseInitialPoints(
     for (std::size_t i = 0; i < chosen; ++i)
     {
       const std::size_t at = (2 * i + 1) * count / (2 * chosen);
-      vertices.push_back(makeSeamVertex(tiling, p, buckets.points(p)[at], buckets.id(p, at)));
+      vertices.push_back({ buckets.points(p)[at], buckets.id(p, at), p });
     }
   }
   return vertices;

@@ -18,17 +18,11 @@ namespace tipp
 struct SeamVertex
 {
   Point2 Place;
-  std::int64_t Id; ///< of the input point; negative for an artificial one
-  /// Where it lies: four times its partition, plus its quadrant there. Two triangles that share a
-  /// vertex share its label, which is what independence is decided on.
-  std::uint32_t Label;
+  std::int64_t Id;          ///< of the input point; negative for an artificial one
+  PartitionIndex Partition; ///< where it lies
 
-  PartitionIndex partition() const { return static_cast<PartitionIndex>(this->Label / 4); }
   bool isArtificial() const { return this->Id < 0; }
 };
-
-SeamVertex makeSeamVertex(
-  const Tiling& tiling, PartitionIndex partition, Point2 p, std::int64_t id);
 
 using SeamTriangle = std::array<SeamVertex, 3>;
 
@@ -53,7 +47,6 @@ struct SeamTriangles
     return { this->Vertices[corners[0]], this->Vertices[corners[1]], this->Vertices[corners[2]] };
   }
 
-  void clear();
   /// A triangle of vertices that are there, or that will be; Boxes: a Tiling, or Regions.
   template <typename Boxes>
   void add(const Boxes& boxes, const Corners& corners, const Circumdisk& disk)

@@ -113,7 +113,7 @@ void Worker<Id>::separateOwnVertices(PartitionIndex partition)
   std::size_t kept = 0;
   for (const SeamVertex& v : this->Foreign)
   {
-    if (v.partition() == partition && !v.isArtificial())
+    if (v.Partition == partition && !v.isArtificial())
     {
       this->KnownIds.push_back(v.Id - this->FirstId);
     }
@@ -165,8 +165,7 @@ SeamVertex Worker<Id>::vertex(PartitionIndex partition, DelaunayKernel::Index v)
   {
     return this->Foreign[place - own];
   }
-  return makeSeamVertex(
-    *this->Boxes, partition, this->Kernel.point(v), this->FirstId + this->Ids[place]);
+  return { this->Kernel.point(v), this->FirstId + this->Ids[place], partition };
 }
 
 /// Walks over the triangles whose circumdisk is not inside the partition. They are connected: each

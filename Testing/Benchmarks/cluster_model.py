@@ -36,7 +36,7 @@ class Costs:
             handled += run["partitions"]
             remote = 1 - 1 / len(run["ranks"])
             if remote > 0 and not run["major_partitions"]:
-                sent = sum(t["bytes"] for t in run["traffic"] if t["kind"] in ("task", "result"))
+                sent = sum(t["bytes"] for t in run["traffic"] if t["kind"] in ("task", "partition done"))
                 task_bytes = max(task_bytes, sent / remote
                                  / boundary_units(run["points"], run["partitions"]))
         self.point = compute / points

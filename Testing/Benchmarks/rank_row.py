@@ -29,8 +29,8 @@ def main():
     # The rank that computes longest between two barriers, summed over these.
     path = sum(m["path_seconds"] for m in run["masters"] if m["area"] == 0)
     largest = max((m["largest_mesh"] for m in run["masters"]), default=0)
-    # Besides the points' own way to their owners: tasks and boundary triangles.
-    sent = sum(t["bytes"] for t in run["traffic"] if t["kind"] in ("task", "result"))
+    # Besides the points' own way to their owners: vertices of boundary triangles.
+    sent = sum(t["bytes"] for t in run["traffic"] if t["kind"] in ("task", "partition done"))
     row((sys.argv[1], f"{seconds:.3f}", f"{run['points'] / seconds:.0f}",
          f"{master / seconds:.2%}",
          f"{sum(m['seconds'] for m in run['masters'] if m['area'] > 0) / seconds:.2%}",

@@ -11,8 +11,8 @@ using Final = FinalBoundary<std::int64_t>;
 
 SeamTriangle triangleOf(std::int64_t a, std::int64_t b, std::int64_t c)
 {
-  return { SeamVertex{ { 0, 0 }, a, 4 }, SeamVertex{ { 1, 0 }, b, 8 },
-    SeamVertex{ { 0, 1 }, c, 12 } };
+  return { SeamVertex{ { 0, 0 }, a, 1 }, SeamVertex{ { 1, 0 }, b, 2 },
+    SeamVertex{ { 0, 1 }, c, 3 } };
 }
 
 TEST(FinalBoundary, TrianglesBeginWithTheLowestIdAndKeepTheirOrientation)
@@ -52,7 +52,7 @@ TEST(FinalBoundary, HullRepairCompletesTheTriangulation)
   const std::vector<Point2> points = asPoints(xy);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    vertices.push_back(makeSeamVertex(tiles, tiles.locate(points[i]), points[i], std::int64_t(i)));
+    vertices.push_back({ points[i], std::int64_t(i), tiles.locate(points[i]) });
   }
   Final final;
   for (const SeamTriangle& triangle : listOf(triangulateVertices(tiles, vertices, 1)))

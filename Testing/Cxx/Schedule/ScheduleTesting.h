@@ -49,38 +49,12 @@ inline Box2 boundsOf(const Coordinates& xy)
   return surveyPoints(view(xy), 1).Bounds;
 }
 
-/// A triangle of the seam whose vertices lie in the partitions named, and that belongs to others.
-/// Only labels matter where nothing is triangulated.
+/// A boundary triangle whose vertices lie in these partitions.
 inline SeamTriangle seamTriangle(
-  std::int64_t id, std::uint32_t labelA, std::uint32_t labelB, std::uint32_t labelC)
+  std::int64_t id, PartitionIndex a, PartitionIndex b, PartitionIndex c)
 {
-  return { SeamVertex{ { 0, 0 }, id, labelA }, SeamVertex{ { 1, 0 }, id + 1, labelB },
-    SeamVertex{ { 0, 1 }, id + 2, labelC } };
-}
-
-/// Triangles with the partitions that they belong to.
-inline SeamTriangles seamTriangles(
-  const std::vector<std::pair<SeamTriangle, std::vector<PartitionIndex>>>& list)
-{
-  SeamTriangles all;
-  std::map<std::pair<std::int64_t, std::uint32_t>, std::uint32_t> places;
-  for (const auto& entry : list)
-  {
-    SeamTriangles::Corners corners{};
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      const SeamVertex& v = entry.first[i];
-      const auto place = places.emplace(
-        std::make_pair(v.Id, v.Label), static_cast<std::uint32_t>(all.Vertices.size()));
-      corners[i] = place.first->second;
-      if (place.second)
-      {
-        all.Vertices.push_back(v);
-      }
-    }
-    all.add(corners, entry.second.data(), entry.second.data() + entry.second.size());
-  }
-  return all;
+  return { SeamVertex{ { 0, 0 }, id, a }, SeamVertex{ { 1, 0 }, id + 1, b },
+    SeamVertex{ { 0, 1 }, id + 2, c } };
 }
 
 inline std::vector<SeamTriangle> listOf(const SeamTriangles& seams)

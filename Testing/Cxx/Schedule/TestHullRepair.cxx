@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InitialScene.h"
 
-#include "Triangulation/HullRepair.h"
+#include "Engine/Routing.h"
 
 #include <algorithm>
 #include <random>
@@ -24,8 +24,7 @@ struct Enclosed
     const std::vector<Point2> points = asPoints(xy);
     for (std::size_t i = 0; i < points.size(); ++i)
     {
-      vertices.push_back(
-        makeSeamVertex(this->Boxes, this->Boxes.locate(points[i]), points[i], std::int64_t(i)));
+      vertices.push_back({ points[i], std::int64_t(i), this->Boxes.locate(points[i]) });
     }
     this->Final = listOf(triangulateVertices(this->Boxes, vertices, 1));
   }
@@ -35,11 +34,28 @@ struct Enclosed
   std::vector<SeamTriangle> Final;
 };
 
+/// What is left when the artificial points are gone.
+Triangles repaired(
+  const std::vector<SeamTriangle>& final, const std::vector<SeamVertex>& artificial)
+{
+  FinalBoundary<std::int64_t> boundary;
+  for (const SeamTriangle& triangle : final)
+  {
+    boundary.add(triangle);
+  }
+  repairHull(boundary, artificial);
+  Triangles triangles;
+  for (const auto& triangle : boundary.Triangles)
+  {
+    triangles.push_back(canonical(triangle.Ids[0], triangle.Ids[1], triangle.Ids[2]));
+  }
+  return sorted(std::move(triangles));
+}
+
 testing::AssertionResult isRepaired(const Coordinates& xy, int side)
 {
-  Enclosed scene(xy, side);
-  removeArtificialPoints(scene.Final, scene.Artificial);
-  return sameTriangles(xy, idsOf(scene.Final), reference(xy).Mesh);
+  const Enclosed scene(xy, side);
+  return sameTriangles(xy, repaired(scene.Final, scene.Artificial), reference(xy).Mesh);
 }
 
 class HullOf : public testing::TestWithParam<std::string>
@@ -114,8 +130,7 @@ TEST(HullRepair, CollinearPointsAreLeftWithoutTriangles)
   }
   Enclosed scene(xy, 3);
   ASSERT_FALSE(scene.Final.empty());
-  removeArtificialPoints(scene.Final, scene.Artificial);
-  EXPECT_TRUE(scene.Final.empty());
+  EXPECT_TRUE(repaired(scene.Final, scene.Artificial).empty());
 }
 
 TEST(HullRepair, TrianglesOfTruePointsStay)
@@ -130,17 +145,15 @@ TEST(HullRepair, TrianglesOfTruePointsStay)
     }
   }
   std::sort(before.begin(), before.end());
-  removeArtificialPoints(scene.Final, scene.Artificial);
-  const Triangles after = idsOf(scene.Final);
+  const Triangles after = repaired(scene.Final, scene.Artificial);
   EXPECT_TRUE(std::includes(after.begin(), after.end(), before.begin(), before.end()));
 }
 
 /// Cut off from the artificial points, as where a run has no triangles at them.
 TEST(HullRepair, WithoutTrianglesAtArtificialPointsNothingChanges)
 {
-  std::vector<SeamTriangle> final{ seamTriangle(1, 0, 0, 0), seamTriangle(4, 0, 0, 0) };
-  removeArtificialPoints(final, { SeamVertex{ { 9, 9 }, -1, 0 } });
-  EXPECT_EQ(2U, final.size());
+  const std::vector<SeamTriangle> final{ seamTriangle(1, 0, 0, 0), seamTriangle(4, 0, 0, 0) };
+  EXPECT_EQ(2U, repaired(final, { SeamVertex{ { 9, 9 }, -1, 0 } }).size());
 }
 
 } // namespace

@@ -127,7 +127,7 @@ TYPED_TEST(InitialPoints, AreEquallyManyAPartitionAndFewerWhereThereAreFewer)
   std::vector<int> counts(4, 0);
   for (const SeamVertex& v : chooseInitialPoints(tiling, buckets, 8))
   {
-    ++counts[std::size_t(v.partition())];
+    ++counts[std::size_t(v.Partition)];
   }
   EXPECT_EQ(8, counts[std::size_t(tiling.locate({ 0.2, 0.25 }))]);
   EXPECT_EQ(8, counts[std::size_t(tiling.locate({ 0.2, 0.75 }))]);
@@ -148,7 +148,7 @@ TYPED_TEST(InitialPoints, AreInputPointsEachChosenOnce)
     {
       ASSERT_LE(0, v.Id);
       EXPECT_EQ(points[std::size_t(v.Id)], v.Place);
-      EXPECT_EQ(tiling.locate(v.Place), v.partition());
+      EXPECT_EQ(tiling.locate(v.Place), v.Partition);
       EXPECT_TRUE(ids.insert(v.Id).second);
     }
     EXPECT_EQ(std::size_t(2 * std::min(perPartition, 50) + std::min(perPartition, 3)), ids.size());
@@ -224,7 +224,7 @@ TEST(InitialMesh, InitialPointsAtOnePlaceAreOneVertex)
   const std::size_t artificial = vertices.size();
   for (std::int64_t id = 0; id < 5; ++id)
   {
-    vertices.push_back(makeSeamVertex(tiling, 0, { 0.2, 0.3 }, id));
+    vertices.push_back({ { 0.2, 0.3 }, id, 0 });
   }
   std::set<std::int64_t> used;
   for (const SeamTriangle& t : listOf(triangulateVertices(tiling, vertices, 1)))

@@ -55,11 +55,11 @@ struct SinkRun
   std::vector<SeamTriangle> seams(std::size_t count)
   {
     std::vector<SeamTriangle> triangles;
-    const std::uint32_t labels[] = { 0, 8, 12 };
+    const PartitionIndex partitions[] = { 0, 2, 3 };
     for (std::size_t i = 0; i < count; ++i)
     {
       const std::int64_t id = 10 * std::int64_t(count - i);
-      triangles.push_back(seamTriangle(id, labels[i % 3], labels[i % 2], 0));
+      triangles.push_back(seamTriangle(id, partitions[i % 3], partitions[i % 2], 0));
       this->Expected.push_back(canonical(id, id + 1, id + 2));
     }
     return triangles;
@@ -159,8 +159,7 @@ TYPED_TEST(SinkOf, TheOrderDoesNotDependOnThatOfTheSeams)
 
 TYPED_TEST(SinkOf, SeamsStayCounterClockwise)
 {
-  const SeamTriangle t = { SeamVertex{ {}, 9, 0 }, SeamVertex{ {}, 4, 8 },
-    SeamVertex{ {}, 7, 12 } };
+  const SeamTriangle t = { SeamVertex{ {}, 9, 0 }, SeamVertex{ {}, 4, 2 }, SeamVertex{ {}, 7, 3 } };
   const Buffer<TypeParam> ids = this->Sink.assemble(finalOnes<TypeParam>({ t }), 1);
   EXPECT_EQ((std::vector<TypeParam>{ 4, 7, 9 }), std::vector<TypeParam>(ids.begin(), ids.end()));
 }

@@ -325,7 +325,7 @@ TEST(Worker, CountsItsOwnPointsAndTheVerticesAround)
   {
     for (const SeamVertex& v : t)
     {
-      if (v.isArtificial() || v.partition() != 0)
+      if (v.isArtificial() || v.Partition != 0)
       {
         foreign.push_back(v.Id);
       }
@@ -411,7 +411,7 @@ TEST(Worker, AnInitialPointStandsForLowerDuplicates)
   {
     auto buckets = bucketPoints<std::int32_t>(view(xy), tiling, 1);
     std::vector<SeamVertex> vertices = makeArtificialPoints(tiling);
-    vertices.push_back(makeSeamVertex(tiling, p, { 0.3, 0.2 }, known));
+    vertices.push_back({ { 0.3, 0.2 }, known, p });
     UnfinishedMesh mesh;
     mesh.add(triangulateVertices(tiling, vertices, 1));
     Worker<std::int32_t> worker(tiling, buckets);
