@@ -59,8 +59,14 @@ int run(int argc, char** argv)
   }
   catch (const CLI::ParseError& error)
   {
-    const int code = speaks ? app.exit(error) : app.exit(error, unsaid, unsaid);
-    return code == 0 ? tipp::Success : tipp::Usage;
+    if (!speaks)
+    {
+      // All ranks have the same arguments. mpirun ends the first one, before it has said what is
+      // wrong, if another has ended with a failure.
+      app.exit(error, unsaid, unsaid);
+      return tipp::Success;
+    }
+    return app.exit(error) == 0 ? tipp::Success : tipp::Usage;
   }
   return exitCode;
 }

@@ -34,18 +34,18 @@ public:
     return *this;
   }
 
-  /// By less than 256 places; digits beyond the range are lost.
-  Int256& operator<<=(unsigned places)
+  /// By less than 256 bits; bits beyond the range are lost.
+  Int256& operator<<=(unsigned bits)
   {
-    if (places >= 128)
+    if (bits >= 128)
     {
-      this->High = this->Low << (places - 128);
+      this->High = this->Low << (bits - 128);
       this->Low = 0;
     }
-    else if (places > 0)
+    else if (bits > 0)
     {
-      this->High = this->High << places | this->Low >> (128 - places);
-      this->Low <<= places;
+      this->High = this->High << bits | this->Low >> (128 - bits);
+      this->Low <<= bits;
     }
     return *this;
   }

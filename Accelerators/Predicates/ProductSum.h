@@ -69,19 +69,19 @@ public:
       [](const Place& a, const Place& b) { return a.Exponent > b.Exponent; });
     Int256 sum;
     int exponent = 0;
-    for (auto place = this->Order.begin(); place != end; ++place)
+    for (auto next = this->Order.begin(); next != end; ++next)
     {
       if (sum.sign() != 0)
       {
-        const int shift = exponent - place->Exponent;
+        const int shift = exponent - next->Exponent;
         if (sum.bitLength() + shift > Digits + CountDigits)
         {
           break;
         }
         sum <<= static_cast<unsigned>(shift);
       }
-      exponent = place->Exponent;
-      const Term& term = this->Terms[static_cast<std::size_t>(place->Term)];
+      exponent = next->Exponent;
+      const Term& term = this->Terms[static_cast<std::size_t>(next->Term)];
       sum += Int256::product(term.A, term.B);
     }
     return sum.sign();

@@ -94,7 +94,7 @@ public:
     }
     GrowingPiece growing = emptyPiece(this->Work, piece);
     this->Results[std::size_t(piece)]->readInterior(growing);
-    std::vector<std::int64_t> wanted; // places of points of other pieces
+    std::vector<std::int64_t> wanted; // other pieces' points, by index among all
     for (const auto& result : this->Results)
     {
       if (result->hasBorder(piece))
@@ -116,7 +116,7 @@ public:
   }
 
 private:
-  /// What takes the place of the triangles at artificial points is at the borders, too.
+  /// What replaces the triangles at artificial points is at the borders, too.
   void repairHull()
   {
     std::vector<SeamVertex> vertices;
@@ -151,12 +151,12 @@ private:
         { border.Borrowers.begin() + std::ptrdiff_t(begin),
           border.Borrowers.begin() + std::ptrdiff_t(end) });
       begin = end;
-      for (const std::int64_t place : border.Corners[i])
+      for (const std::int64_t point : border.Corners[i])
       {
-        if (growing.needsRow(place))
+        if (growing.needsRow(point))
         {
-          growing.addRow(place, this->Work.Rows);
-          wanted.push_back(place);
+          growing.addRow(point, this->Work.Rows);
+          wanted.push_back(point);
         }
       }
     }
@@ -169,17 +169,17 @@ private:
     const std::vector<std::int64_t>& starts = this->Work.Points.starts();
     PartitionIndex piece = -1;
     GrowingPiece other;
-    for (const std::int64_t place : wanted)
+    for (const std::int64_t point : wanted)
     {
       const auto of = static_cast<PartitionIndex>(
-        std::upper_bound(starts.begin(), starts.end(), place) - starts.begin() - 1);
+        std::upper_bound(starts.begin(), starts.end(), point) - starts.begin() - 1);
       if (of != piece)
       {
         piece = of;
         other = emptyPiece(this->Work, piece);
         this->Results.at(std::size_t(piece))->readInterior(other);
       }
-      growing.setRow(place, other.rimRow(place, this->Work.Rows), this->Work.Rows);
+      growing.setRow(point, other.rimRow(point, this->Work.Rows), this->Work.Rows);
     }
   }
 

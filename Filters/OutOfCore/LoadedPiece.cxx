@@ -20,9 +20,9 @@ bool isWorthKeeping(std::size_t vertices, std::size_t points)
   return vertices <= 2 * points + some;
 }
 
-/// Of points at one place the lowest is to stand for the others, also where another one was in the
-/// initial mesh: once their partition is triangulated, all triangles at them come from its worker,
-/// so all that is needed is to rename them there.
+/// Of points with the same coordinates the lowest is to stand for the others, also where another
+/// one was in the initial mesh: once their partition is triangulated, all triangles at them come
+/// from its worker, so all that is needed is to rename them there.
 class LowestPoints
 {
 public:
@@ -63,9 +63,9 @@ private:
 struct LoadedPiece::Finals : public FinalTaker
 {
   Finals(const LoadedPiece& piece, const LowestPoints& lowest)
-    : Of(piece)
+    : Borders(piece.Work)
+    , Of(piece)
     , Lowest(lowest)
-    , Borders(piece.Work)
   {
   }
 
@@ -97,6 +97,7 @@ struct LoadedPiece::Finals : public FinalTaker
   std::vector<std::array<std::int32_t, 3>> Seams;
   std::vector<SeamVertex> RimVertices;
   std::vector<SeamVertex> HullVertices;
+  PieceBorders Borders;
 
 private:
   bool isInterior(const SeamTriangle& triangle) const
@@ -126,9 +127,6 @@ private:
 
   const LoadedPiece& Of;
   const LowestPoints& Lowest;
-
-public:
-  PieceBorders Borders;
 };
 
 LoadedPiece::LoadedPiece(const PieceWork& work, PartitionIndex piece)

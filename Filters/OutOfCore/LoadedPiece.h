@@ -85,13 +85,13 @@ private:
 
   const PieceWork& Work;
   const PartitionIndex Piece;
-  const std::int64_t First; ///< place of the first point among all
+  const std::int64_t First; ///< index of the first point among all spilled ones
   Buffer<double> Rows;
   PointBuckets<std::int32_t> Buckets;
   std::vector<std::size_t> InteriorCounts; ///< triangles, of each partition
 
   std::mutex Mutex;                                               ///< for what follows
-  std::unordered_map<std::int32_t, std::int32_t> Representatives; ///< of points at others' places
+  std::unordered_map<std::int32_t, std::int32_t> Representatives; ///< of duplicates
   std::vector<std::uint8_t> Rim;                  ///< of each point: 1 if it is on the rim
   std::vector<std::array<std::int32_t, 3>> Seams; ///< between partitions, but of the interior
   PieceResult Result;

@@ -296,8 +296,9 @@ private:
     // Borders and ids of cells included; two triangles a point at most.
     const std::uint64_t stored =
       points * (24 + 8 + 1 + 8 * this->Prepared.Rows.Attributes.size() + 2 * cell) / 50 * 51;
+    constexpr std::uint64_t results = 4; // of pieces of 30,000 points
     this->Scratch.requireSpace(this->Path, this->Options.CountOnly ? 0 : stored,
-      points * (8 * this->Prepared.Rows.Words + more));
+      points * (8 * this->Prepared.Rows.Words + results + more));
   }
 
   void spill()

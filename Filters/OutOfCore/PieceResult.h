@@ -39,7 +39,8 @@ struct PieceWork
   }
 };
 
-/// Triangles at the border of the piece that owns them, by places of points among all.
+/// Triangles at the border of the piece that owns them, by indices among all spilled
+/// points.
 struct BorderTriangles
 {
   std::vector<std::array<std::int64_t, 3>> Corners;
@@ -57,8 +58,8 @@ using SentMessages = std::vector<std::pair<PartitionIndex, VertexMessage>>;
 /// A triangle is of the piece's interior if its circumdisk meets no other piece, and else of a
 /// border. Own points with a triangle of the latter kind, or with one that is not final or at an
 /// artificial point, are on the rim. They are known: by Lemma 6 the last partition of this piece
-/// that an unfinished triangle meets has just sent it, and a triangle that is made later takes the
-/// place of such ones.
+/// that an unfinished triangle meets has just sent it, and a triangle that is made later replaces
+/// such ones.
 struct PieceResult
 {
   GrowingPiece Interior;

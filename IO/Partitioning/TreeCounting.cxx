@@ -73,8 +73,16 @@ void TreeCounting::add(const CellsView& chunk, std::int64_t firstCell, std::int6
     return;
   }
   this->collectVisits(shape, chunk.Cells);
+  const std::size_t most =
+    std::max(std::size_t(1) << 17, 8 * (static_cast<std::size_t>(firstCell) + chunk.Cells));
   do
   {
+    if (this->Tree.size() > most)
+    {
+      throw IOError("More than " + std::to_string(limit) +
+        " cells overlap nearly everywhere, so that no " +
+        "boxes hold fewer; allow more cells a box.");
+    }
     this->refineOnce(shape);
   } while (this->markSplits(limit));
   this->Visits.clear();

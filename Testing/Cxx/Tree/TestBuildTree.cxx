@@ -3,12 +3,15 @@
 
 #include "ReferenceTree.h"
 
+#include "Files/IOError.h"
 #include "Partition/ClassifyCells.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 using tipp::BoxTiling;
 using tipp::buildTree;
@@ -200,6 +203,38 @@ TEST(BuildTree, TinyCellsAtOnePlaceEndAtTheGreatestDepth)
   TreeOptions shallow = options(cells, 10);
   shallow.MaxDepth = 5;
   EXPECT_EQ(buildTree(sourceOf(cells), cells.bounds(), shallow).Tiling.count(), 16);
+}
+
+// A lattice, one point of which is far away: its cells are as wide as the domain, and each other's
+// boxes never hold few of them.
+TEST(BuildTree, CellsThatOverlapEverywhereAreRefused)
+{
+  const auto pointAt = [](int i, int j)
+  {
+    return i == 1 && j == 1 ? std::array<double, 2>{ 2147483647, 3 }
+                            : std::array<double, 2>{ double(i), double(j) };
+  };
+  CellSet cells;
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      for (const auto& corner : { pointAt(i, j), pointAt(i + 1, j), pointAt(i + 1, j + 1),
+             pointAt(i, j), pointAt(i + 1, j + 1), pointAt(i, j + 1) })
+      {
+        cells.Coordinates.insert(cells.Coordinates.end(), corner.begin(), corner.end());
+      }
+    }
+  }
+  try
+  {
+    build(cells, 4);
+    ADD_FAILURE() << "a tree was built";
+  }
+  catch (const tipp::IOError& error)
+  {
+    EXPECT_NE(std::string::npos, std::string(error.what()).find("overlap")) << error.what();
+  }
 }
 
 TEST(BuildTree, NoCellsAreOneLeaf)
