@@ -14,7 +14,6 @@
 #include <cstring>
 #include <exception>
 #include <iostream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -51,19 +50,16 @@ int run(int argc, char** argv)
   tipp::addResampleCommand(app, exitCode);
   tipp::addPartitionCommand(app, exitCode);
   tipp::addCheckCommand(app, exitCode);
-  std::ostringstream unsaid; // the first rank says it
-  const bool speaks = tipp::startedRank() <= 0;
   try
   {
     app.parse(argc, argv);
   }
   catch (const CLI::ParseError& error)
   {
-    if (!speaks)
+    if (tipp::startedRank() > 0)
     {
       // All ranks have the same arguments. mpirun ends the first one, before it has said what is
       // wrong, if another has ended with a failure.
-      app.exit(error, unsaid, unsaid);
       return tipp::Success;
     }
     return app.exit(error) == 0 ? tipp::Success : tipp::Usage;

@@ -160,6 +160,10 @@ void RankRun<Id>::decideWhoWaits()
   const bool isMasterless = this->Options.isMasterless();
   const bool hasBarriers = this->Options.Order != RankSchedule::Dynamic;
   this->Keepers = isMasterless ? this->Work.Owners : this->Work.masters();
+  this->AllKeepers = this->Keepers;
+  std::sort(this->AllKeepers.begin(), this->AllKeepers.end());
+  this->AllKeepers.erase(
+    std::unique(this->AllKeepers.begin(), this->AllKeepers.end()), this->AllKeepers.end());
   this->InFlight.assign(std::size_t(this->Ranks.size()), 0);
   this->Ready = std::make_unique<ReadyPartitions>(
     *this->Order, hasBarriers ? Waits::ForColour : Waits::ForEarlier, this->thoseOf(this->Keepers));
@@ -195,7 +199,7 @@ std::vector<std::int32_t> RankRun<Id>::recipientsOf(PartitionIndex p) const
   }
   if (this->Options.Order != RankSchedule::Dynamic)
   {
-    ranks.insert(ranks.end(), this->Keepers.begin(), this->Keepers.end());
+    ranks.insert(ranks.end(), this->AllKeepers.begin(), this->AllKeepers.end());
   }
   std::sort(ranks.begin(), ranks.end());
   ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());

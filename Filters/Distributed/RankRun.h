@@ -111,6 +111,7 @@ private:
   std::unique_ptr<Regions> Boxes;
   std::unique_ptr<PartitionOrder> Order;
   std::vector<std::int32_t> Keepers;        ///< of each partition
+  std::vector<std::int32_t> AllKeepers;     ///< each rank once
   std::unique_ptr<ReadyPartitions> Ready;   ///< of those that this rank keeps
   std::unique_ptr<ReadyPartitions> Started; ///< of those that it owns; null: these are the same
   std::vector<Inbox> Inboxes;

@@ -94,6 +94,10 @@ void PieceRun::setDone(PartitionIndex piece)
   this->at(piece).Result = std::make_unique<StoredResult>(this->Work.resultPath(piece));
   for (const PartitionIndex other : this->Order->sequence())
   {
+    if (!this->at(piece).Result->hasMessages(other))
+    {
+      continue;
+    }
     SentMessages& pending = this->at(other).Pending;
     const auto isOfPiece = [&](const SentMessages::value_type& sent)
     { return sent.second.Sender >= 0 && this->pieceOf(sent.second.Sender) == piece; };

@@ -33,6 +33,21 @@ PartitionOrder orderOf(std::size_t partitions, const SeamTriangles& mesh)
   return PartitionOrder(std::vector<char>(partitions, 1), mesh);
 }
 
+/// A path of four, the middle of which has most conflicts, and one by itself.
+TEST(ConflictGraph, GivesDifferentColoursToWhatConflicts)
+{
+  std::vector<ConflictGraph::Pair> pairs;
+  for (const auto& [a, b] : { std::pair{ 0, 1 }, { 1, 2 }, { 2, 3 }, { 1, 2 } })
+  {
+    pairs.push_back(ConflictGraph::pairOf(a, b));
+    pairs.push_back(ConflictGraph::pairOf(b, a));
+  }
+  const ConflictGraph graph(5, pairs);
+  EXPECT_EQ(2, graph.end(1) - graph.begin(1));
+  EXPECT_EQ(0, graph.end(4) - graph.begin(4));
+  EXPECT_EQ((std::vector<std::uint32_t>{ 1, 0, 1, 0, 0 }), graph.colours());
+}
+
 TEST(PartitionOrder, PartitionsThatATriangleMeetsConflict)
 {
   const PartitionOrder order = orderOf(4, meshOf({ { 0, 2 }, { 1 }, { 3 } }, {}));
@@ -70,6 +85,22 @@ TEST(PartitionOrder, NoPartitionsAreNoSequence)
   const PartitionOrder order({ 0, 0 }, meshOf({ {} }, {}));
   EXPECT_TRUE(order.sequence().empty());
   EXPECT_EQ(0U, order.colourCount());
+}
+
+/// ConflictGraph: a path of four, the middle of which has most conflicts, and one by itself.
+TEST(ConflictGraph, ColoursDifferWhereThingsConflict)
+{
+  std::vector<ConflictGraph::Pair> pairs;
+  for (const auto& [a, b] : std::vector<std::pair<PartitionIndex, PartitionIndex>>{
+         { 0, 1 }, { 1, 2 }, { 2, 3 }, { 1, 2 } })
+  {
+    pairs.push_back(ConflictGraph::pairOf(a, b));
+    pairs.push_back(ConflictGraph::pairOf(b, a));
+  }
+  const ConflictGraph graph(5, pairs);
+  EXPECT_EQ(2, graph.end(1) - graph.begin(1));
+  EXPECT_EQ(0, graph.end(4) - graph.begin(4));
+  EXPECT_EQ((std::vector<std::uint32_t>{ 1, 0, 1, 0, 0 }), graph.colours());
 }
 
 class PartitionOrderOf : public testing::TestWithParam<std::string>
