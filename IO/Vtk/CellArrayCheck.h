@@ -39,25 +39,24 @@ public:
   {
   }
 
-  void offsets() const
+  /// That they ascend from 0 to at most the number of ids, and that each cell has at least so
+  /// many vertices, and, where types are given, as many as its type allows.
+  void offsets(std::int64_t least, const unsigned char* types) const
   {
     if (this->Cells == 0)
     {
       return;
     }
     forChunks(this->Cells, checkedAtOnce, this->Threads, {},
-      [this](std::int64_t begin, std::int64_t end, int)
+      [&](std::int64_t begin, std::int64_t end, int)
       {
-        // Negative if an offset or a difference is; without branches, so that it is vectorised.
-        Unsigned all = 0;
-        for (std::int64_t i = begin; i < end; ++i)
+        if (!types || !this->areAlike(types, begin, end))
         {
-          const auto next = Unsigned(this->Offsets[i + 1]);
-          all |= next | (next - Unsigned(this->Offsets[i]));
-        }
-        if (Id(all) < 0)
-        {
-          this->failAtOffset(begin, end);
+          this->requireSizes(begin, end, least);
+          for (std::int64_t i = begin; types && i < end; ++i)
+          {
+            this->requireSize(i, types[i]);
+          }
         }
       });
     if (this->Offsets[0] != 0 || std::int64_t(this->Offsets[this->Cells]) > this->Count)
@@ -88,43 +87,6 @@ public:
       });
   }
 
-  /// After offsets(); the size of each cell is one that its type allows.
-  void sizes(const unsigned char* types) const
-  {
-    forChunks(this->Cells, checkedAtOnce, this->Threads, {},
-      [&](std::int64_t begin, std::int64_t end, int)
-      {
-        const Id size = Id(cellSizeOf(types[begin]));
-        const bool uniform = size > 0 &&
-          std::memcmp(types + begin, types + begin + 1, std::size_t(end - begin - 1)) == 0;
-        Unsigned different = uniform ? 0 : 1;
-        for (std::int64_t i = begin; i < end && uniform; ++i)
-        {
-          different |= Unsigned(this->Offsets[i + 1]) - Unsigned(this->Offsets[i]) - Unsigned(size);
-        }
-        for (std::int64_t i = begin; i < end && different != 0; ++i)
-        {
-          this->requireSize(i, types[i]);
-        }
-      });
-  }
-
-  void sizesFrom(std::int64_t least) const
-  {
-    forChunks(this->Cells, checkedAtOnce, this->Threads, {},
-      [&](std::int64_t begin, std::int64_t end, int)
-      {
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          if (this->size(i) < least)
-          {
-            this->fail("have one of " + std::to_string(this->size(i)) + " vertices, number " +
-              std::to_string(i) + ", where " + std::to_string(least) + " are the least");
-          }
-        }
-      });
-  }
-
 private:
   using Unsigned = std::make_unsigned_t<Id>;
 
@@ -138,14 +100,45 @@ private:
     return std::int64_t(this->Offsets[cell + 1]) - std::int64_t(this->Offsets[cell]);
   }
 
-  void failAtOffset(std::int64_t begin, std::int64_t end) const
+  /// Whether the cells are of one type of a fixed size and have that size: most meshes are so, and
+  /// one pass over their offsets tells it.
+  bool areAlike(const unsigned char* types, std::int64_t begin, std::int64_t end) const
   {
+    const auto size = Unsigned(cellSizeOf(types[begin]));
+    if (size == 0 || this->Offsets[begin] < 0 || this->Offsets[end] < 0 ||
+      std::memcmp(types + begin, types + begin + 1, std::size_t(end - begin - 1)) != 0)
+    {
+      return false;
+    }
+    Unsigned different = 0; // without branches, so that it is vectorised
     for (std::int64_t i = begin; i < end; ++i)
+    {
+      different |= Unsigned(this->Offsets[i + 1]) - Unsigned(this->Offsets[i]) - size;
+    }
+    // No sum wraps around: between two offsets that are not negative there is not room for it.
+    static_assert(checkedAtOnce < (std::int64_t(1) << 24));
+    return different == 0;
+  }
+
+  void requireSizes(std::int64_t begin, std::int64_t end, std::int64_t least) const
+  {
+    Unsigned all = 0; // negative if an offset is, or if a size is below the least
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      const auto next = Unsigned(this->Offsets[i + 1]);
+      all |= next | (next - Unsigned(this->Offsets[i]) - Unsigned(least));
+    }
+    for (std::int64_t i = begin; Id(all) < 0 && i < end; ++i)
     {
       if (this->Offsets[i] < 0 || this->Offsets[i + 1] < this->Offsets[i])
       {
         this->fail("have offsets that do not ascend: " + std::to_string(this->Offsets[i + 1]) +
           " after " + std::to_string(this->Offsets[i]) + " at number " + std::to_string(i));
+      }
+      if (this->size(i) < least)
+      {
+        this->fail("have one of " + std::to_string(this->size(i)) + " vertices, number " +
+          std::to_string(i) + ", where " + std::to_string(least) + " are the least");
       }
     }
   }

@@ -307,10 +307,8 @@ private:
     }
     const auto check = [&](const auto& array)
     {
-      array.offsets();
+      array.offsets(least, types);
       array.ids(this->Data->GetNumberOfPoints());
-      types ? array.sizes(types) : void();
-      least > 0 ? array.sizesFrom(least) : void();
     };
     if (cells->IsStorage64Bit())
     {

@@ -55,7 +55,8 @@ def run(command, *, timeout=120, memory=4 * GIGABYTE, cwd=None, env=None):
     begin = time.monotonic()
     try:
         done = subprocess.run([str(word) for word in command], capture_output=True, text=True, errors="replace",
-                              timeout=timeout, cwd=cwd, env=env, preexec_fn=limit if memory else None)
+                              timeout=timeout, cwd=cwd, env=env, preexec_fn=limit if memory else None,
+                              restore_signals=False)  # a file that grows too large is an error, not a signal
     except subprocess.TimeoutExpired as expired:
         raise Failure(f"{' '.join(map(str, command))}: still running after {timeout} s") from expired
     return Result(command, done.returncode, done.stdout, done.stderr, time.monotonic() - begin)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Damaged input files of every format that a command reads. Each command must succeed, or end with a clear message
-and exit code 1 or 2, within 2 GB of memory and 20 s; the ids of a mesh that it writes must be in range."""
+and exit code 1 or 2, within 2 GB of memory, files of 256 MB and 20 s; the ids of a mesh that it writes must be in
+range."""
 import concurrent.futures
 import functools
 import os
@@ -19,6 +20,7 @@ MUTANTS = 40  # a trial
 AT_ONCE = 2
 SECONDS = 20
 MEMORY = 2 << 30
+FILE = 256 << 20  # so that points far apart do not make images that take the disk longer than the time limit
 HOSTILE = ["-1", "0", "1", "4", "255", "4294967296", "4294967299", "999999999999", "9000000000000000000",
            "18446744073709551616", "nan", "inf", "-inf", "1e308", "-1e308", "1e-320", "", "x", "2147483647", "-2147483648"]
 NUMBER = re.compile(rb"[-+]?[0-9]+\.?[0-9]*([eE][-+]?[0-9]+)?")
@@ -232,6 +234,7 @@ def mutant(job):
 def trial(random, folder, tools):
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, resource.RLIM_INFINITY))  # which the commands inherit
+    resource.setrlimit(resource.RLIMIT_FSIZE, (FILE, resource.RLIM_INFINITY))
     env = {**os.environ, "OMP_NUM_THREADS": "2", "OMP_WAIT_POLICY": "passive"}
     jobs = []
     for number in range(MUTANTS):
