@@ -146,6 +146,7 @@ void RankRun<Id>::keepFigures(const std::vector<Contribution>& parts)
   ByteWriter writer;
   writer.array(seconds);
   writer.array(this->Figures.Stages);
+  writer.value(this->Figures.LargestMesh);
   MasterStatistics whole;
   std::vector<double> longest(seconds.size(), 0);
   for (const Bytes& part : this->Ranks.gather(writer.take()))
@@ -155,6 +156,7 @@ void RankRun<Id>::keepFigures(const std::vector<Contribution>& parts)
     std::transform(other.begin(), other.end(), longest.begin(), longest.begin(),
       [](double a, double b) { return std::max(a, b); });
     addStages(reader.array<TriangulationStatistics::Stage>(), whole.Stages);
+    whole.LargestMesh = std::max(whole.LargestMesh, reader.value<std::int64_t>());
   }
   whole.PathSeconds = std::accumulate(longest.begin(), longest.end(), 0.0);
   const bool isSingle = this->Work.Areas.front().hasLeaves();
@@ -183,7 +185,6 @@ void RankRun<Id>::keepFigures(const std::vector<Contribution>& parts)
   if (rank == 0)
   {
     whole.GroupSize = isSingle ? this->Figures.GroupSize : std::int32_t(this->Ranks.size());
-    whole.LargestMesh = isSingle ? this->Figures.LargestMesh : 0;
     whole.Seconds = isSingle ? this->Figures.Seconds : 0;
     this->Masters.push_back(std::move(whole));
   }

@@ -250,7 +250,7 @@ void RankRun<Id>::work(Contribution& part)
     routing.setPartition(p);
     worker.triangulate(
       p, unique.collect(this->Inboxes[std::size_t(p)].take()), (*this->Boxes)[p], routing);
-    std::vector<std::pair<PartitionIndex, VertexMessage>> sent;
+    SentMessages sent;
     routing.send(
       worker,
       [&](PartitionIndex to, VertexMessage&& message)
@@ -269,8 +269,7 @@ void RankRun<Id>::work(Contribution& part)
 /// Puts messages to partitions whose inboxes are here into these, and hands those to other ranks to
 /// the main thread.
 template <typename Id>
-void RankRun<Id>::finishPartition(
-  PartitionIndex p, std::vector<std::pair<PartitionIndex, VertexMessage>> sent)
+void RankRun<Id>::finishPartition(PartitionIndex p, SentMessages sent)
 {
   const int rank = this->Ranks.rank();
   std::vector<Outgoing> outgoing;
@@ -278,19 +277,10 @@ void RankRun<Id>::finishPartition(
   for (const std::int32_t other : this->recipientsOf(p))
   {
     isWantedHere = isWantedHere || other == rank;
-    ByteWriter writer;
-    writer.value(p);
-    for (const auto& [to, message] : sent)
-    {
-      if (other != rank && this->keeperOf(to) == other)
-      {
-        writer.value(to);
-        write(writer, message);
-      }
-    }
     if (other != rank)
     {
-      outgoing.push_back({ other, writer.take() });
+      outgoing.push_back({ other,
+        writeDone(p, sent, [&](PartitionIndex to) { return this->keeperOf(to) == other; }) });
     }
   }
   for (auto& [to, message] : sent)
@@ -333,27 +323,19 @@ void RankRun<Id>::receive(const Message& message)
 template <typename Id>
 void RankRun<Id>::receiveDone(const Message& message)
 {
-  ByteReader reader(message.Content);
-  const auto sender = reader.value<PartitionIndex>();
-  const auto isPartition = [this](PartitionIndex p)
-  { return p >= 0 && std::size_t(p) < this->Inboxes.size(); };
-  bool isGood = message.Kind == PartitionDoneMessage && this->AwaitedMessages > 0 &&
-    isPartition(sender) && this->ownerOf(sender) == message.Source;
-  while (isGood && reader.left() > 0)
-  {
-    const auto to = reader.value<PartitionIndex>();
-    VertexMessage vertices;
-    read(reader, vertices);
-    isGood =
-      vertices.Sender == sender && isPartition(to) && this->keeperOf(to) == this->Ranks.rank();
-    if (isGood)
-    {
-      this->put(to, std::move(vertices));
-    }
-  }
+  PartitionIndex sender = -1;
+  SentMessages sent = readDone(message.Content, this->Inboxes.size(), sender);
+  const bool isGood = message.Kind == PartitionDoneMessage && this->AwaitedMessages > 0 &&
+    this->ownerOf(sender) == message.Source &&
+    std::all_of(sent.begin(), sent.end(),
+      [this](const auto& to) { return this->keeperOf(to.first) == this->Ranks.rank(); });
   if (!isGood)
   {
-    throw std::runtime_error("A message from another rank is damaged: no such partition.");
+    throw std::runtime_error("A message from another rank is damaged: it is for another one.");
+  }
+  for (auto& [to, vertices] : sent)
+  {
+    this->put(to, std::move(vertices));
   }
   --this->AwaitedMessages;
   this->finish(sender);
@@ -439,16 +421,16 @@ template <typename Id>
 void RankRun<Id>::repairHullOnFirst()
 {
   ByteWriter writer;
-  write(writer, this->Boundary.HullVertices);
-  this->Boundary.HullVertices.clear();
+  write(writer, std::exchange(this->Boundary.HullVertices, {}));
+  std::vector<SeamVertex> vertices;
   for (const Bytes& part : this->Ranks.gather(writer.take()))
   {
     ByteReader reader(part);
-    read(reader, this->Boundary.HullVertices);
+    read(reader, vertices);
   }
   if (this->Ranks.rank() == 0)
   {
-    repairHull(this->Boundary, this->Artificial);
+    repairHull(std::move(vertices), this->Artificial, this->Boundary);
   }
 }
 

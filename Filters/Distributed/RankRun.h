@@ -80,8 +80,7 @@ private:
   /// What threads take partitions from.
   ReadyPartitions& source() { return this->hasMasters() ? *this->Started : *this->Ready; }
   void work(Contribution& part);
-  void finishPartition(
-    PartitionIndex p, std::vector<std::pair<PartitionIndex, VertexMessage>> sent);
+  void finishPartition(PartitionIndex p, SentMessages sent);
   void put(PartitionIndex to, VertexMessage&& message);
   void finish(PartitionIndex p);
   void receive(const Message& message);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Engine/Inbox.h"
 
+#include <stdexcept>
+
 namespace tipp
 {
 namespace
@@ -50,6 +52,46 @@ void read(ByteReader& reader, VertexMessage& message)
   message.Triangles = reader.value<std::int64_t>();
   message.Vertices.clear();
   read(reader, message.Vertices);
+}
+
+Bytes writeDone(PartitionIndex sender, const SentMessages& sent,
+  const std::function<bool(PartitionIndex)>& isIncluded)
+{
+  ByteWriter writer;
+  writer.value(sender);
+  for (const auto& [to, message] : sent)
+  {
+    if (isIncluded(to))
+    {
+      writer.value(to);
+      write(writer, message);
+    }
+  }
+  return writer.take();
+}
+
+SentMessages readDone(const Bytes& bytes, std::size_t count, PartitionIndex& sender)
+{
+  ByteReader reader(bytes);
+  const auto requirePartition = [count](PartitionIndex p)
+  {
+    if (p < 0 || std::size_t(p) >= count)
+    {
+      throw std::runtime_error("A message from another rank is damaged: no such partition.");
+    }
+  };
+  sender = reader.value<PartitionIndex>();
+  requirePartition(sender);
+  SentMessages sent;
+  while (reader.left() > 0)
+  {
+    const auto to = reader.value<PartitionIndex>();
+    requirePartition(to);
+    sent.emplace_back(to, VertexMessage{});
+    read(reader, sent.back().second);
+    requirePartition(sent.back().second.Sender == sender ? sender : -1);
+  }
+  return sent;
 }
 
 std::vector<SeamVertex> UniqueVertices::collect(const std::vector<VertexMessage>& messages)

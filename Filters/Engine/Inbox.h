@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -31,6 +32,18 @@ VTKTIPPFILTERS_EXPORT void write(ByteWriter& writer, const std::vector<SeamVerte
 VTKTIPPFILTERS_EXPORT void write(ByteWriter& writer, const VertexMessage& message);
 VTKTIPPFILTERS_EXPORT void read(ByteReader& reader, std::vector<SeamVertex>& vertices);
 VTKTIPPFILTERS_EXPORT void read(ByteReader& reader, VertexMessage& message);
+///@}
+
+/// What a finished partition sends, each message with its recipient.
+using SentMessages = std::vector<std::pair<PartitionIndex, VertexMessage>>;
+
+/// @name A finished partition and what it sends to some of the others, as bytes
+/// `readDone` throws std::runtime_error for partitions that are not among `count`.
+///@{
+VTKTIPPFILTERS_EXPORT Bytes writeDone(PartitionIndex sender, const SentMessages& sent,
+  const std::function<bool(PartitionIndex)>& isIncluded);
+VTKTIPPFILTERS_EXPORT SentMessages readDone(
+  const Bytes& bytes, std::size_t count, PartitionIndex& sender);
 ///@}
 
 /// All vertices of some messages, each once.

@@ -18,11 +18,8 @@ constexpr std::uint32_t Nobody = ~0U;
 template <typename Id>
 void FinalBoundary<Id>::add(const SeamTriangle& triangle)
 {
-  const auto isArtificial = [](const SeamVertex& v) { return v.isArtificial(); };
-  if (std::any_of(triangle.begin(), triangle.end(), isArtificial))
+  if (takeHullVertices(triangle, this->HullVertices))
   {
-    std::copy_if(triangle.begin(), triangle.end(), std::back_inserter(this->HullVertices),
-      [&](const SeamVertex& v) { return !isArtificial(v); });
     return;
   }
   const auto lowest = std::min_element(triangle.begin(), triangle.end(),
@@ -42,23 +39,40 @@ void FinalBoundary<Id>::append(FinalBoundary&& other)
   other.HullVertices.clear();
 }
 
-template <typename Id>
-void repairHull(FinalBoundary<Id>& final, const std::vector<SeamVertex>& artificial)
+bool takeHullVertices(const SeamTriangle& triangle, std::vector<SeamVertex>& vertices)
 {
-  std::vector<SeamVertex>& hull = final.HullVertices;
-  const auto less = [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; };
-  const auto equal = [](const SeamVertex& a, const SeamVertex& b) { return a.Id == b.Id; };
-  std::sort(hull.begin(), hull.end(), less);
-  hull.erase(std::unique(hull.begin(), hull.end(), equal), hull.end());
+  const auto isArtificial = [](const SeamVertex& v) { return v.isArtificial(); };
+  const bool isHull = std::any_of(triangle.begin(), triangle.end(), isArtificial);
+  if (isHull)
+  {
+    std::remove_copy_if(
+      triangle.begin(), triangle.end(), std::back_inserter(vertices), isArtificial);
+  }
+  return isHull;
+}
+
+void keepUnique(std::vector<SeamVertex>& vertices)
+{
+  std::sort(vertices.begin(), vertices.end(),
+    [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; });
+  vertices.erase(std::unique(vertices.begin(), vertices.end(),
+                   [](const SeamVertex& a, const SeamVertex& b) { return a.Id == b.Id; }),
+    vertices.end());
+}
+
+void repairHull(
+  std::vector<SeamVertex> vertices, const std::vector<SeamVertex>& artificial, FinalTaker& final)
+{
+  keepUnique(vertices);
   std::vector<Point2> points;
-  points.reserve(hull.size());
-  for (const SeamVertex& v : hull)
+  points.reserve(vertices.size());
+  for (const SeamVertex& v : vertices)
   {
     points.push_back(v.Place);
   }
   for (const auto& corners : hullTriangles(std::move(points), artificial))
   {
-    final.add({ hull[corners[0]], hull[corners[1]], hull[corners[2]] });
+    final.add({ vertices[corners[0]], vertices[corners[1]], vertices[corners[2]] });
   }
 }
 
@@ -190,8 +204,6 @@ std::int64_t sendInitialMesh(const SeamTriangles& mesh, const PartitionOrder& or
 
 template struct FinalBoundary<std::int32_t>;
 template struct FinalBoundary<std::int64_t>;
-template void repairHull(FinalBoundary<std::int32_t>&, const std::vector<SeamVertex>&);
-template void repairHull(FinalBoundary<std::int64_t>&, const std::vector<SeamVertex>&);
 template class Routing<std::int32_t>;
 template class Routing<std::int64_t>;
 

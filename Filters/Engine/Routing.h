@@ -39,9 +39,17 @@ struct FinalBoundary : public FinalTaker
   void append(FinalBoundary&& other);
 };
 
-/// Adds the triangles that take the place of those at artificial points (Lemma 3, HullRepair.h).
-template <typename Id>
-void repairHull(FinalBoundary<Id>& final, const std::vector<SeamVertex>& artificial);
+/// If the triangle is at artificial points, adds its true corners to `vertices`, which the hull
+/// repair takes, and returns true.
+bool takeHullVertices(const SeamTriangle& triangle, std::vector<SeamVertex>& vertices);
+
+/// Leaves each vertex once, by id.
+void keepUnique(std::vector<SeamVertex>& vertices);
+
+/// Adds the triangles that take the place of those at artificial points (Lemma 3, HullRepair.h);
+/// `vertices` are the true corners of these.
+VTKTIPPFILTERS_EXPORT void repairHull(
+  std::vector<SeamVertex> vertices, const std::vector<SeamVertex>& artificial, FinalTaker& final);
 
 /// Sends the boundary triangles of one partition after another on their way.
 ///

@@ -4,7 +4,6 @@
 #include "Files/IOError.h"
 #include "OutOfCore/Checkpoint.h"
 #include "OutOfCore/PieceBorders.h"
-#include "Triangulation/HullRepair.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -125,18 +124,8 @@ private:
       const std::vector<SeamVertex> more = result->readHullVertices();
       vertices.insert(vertices.end(), more.begin(), more.end());
     }
-    keepUnique(vertices);
-    std::vector<Point2> points;
-    points.reserve(vertices.size());
-    for (const SeamVertex& v : vertices)
-    {
-      points.push_back(v.Place);
-    }
     PieceBorders borders(this->Work);
-    for (const auto& corners : hullTriangles(std::move(points), this->Work.Plan.Artificial))
-    {
-      borders.add({ vertices[corners[0]], vertices[corners[1]], vertices[corners[2]] });
-    }
+    tipp::repairHull(std::move(vertices), this->Work.Plan.Artificial, borders);
     borders.appendTo(this->Hull);
   }
 

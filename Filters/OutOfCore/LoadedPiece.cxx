@@ -76,8 +76,7 @@ struct LoadedPiece::Finals : public FinalTaker
     {
       v.Id = this->Lowest.renamed(v.Id);
     }
-    const bool isHull = std::any_of(
-      renamed.begin(), renamed.end(), [](const SeamVertex& v) { return v.isArtificial(); });
+    const bool isHull = takeHullVertices(renamed, this->HullVertices);
     if (!isHull && this->isInterior(renamed))
     {
       this->addSeam(renamed);
@@ -88,10 +87,7 @@ struct LoadedPiece::Finals : public FinalTaker
     if (!isHull)
     {
       this->Borders.add(renamed);
-      return;
     }
-    std::copy_if(renamed.begin(), renamed.end(), std::back_inserter(this->HullVertices),
-      [](const SeamVertex& v) { return !v.isArtificial(); });
   }
 
   std::vector<std::array<std::int32_t, 3>> Seams;

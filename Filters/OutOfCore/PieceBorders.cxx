@@ -20,15 +20,6 @@ Box3 boxOf(const Box2& box)
 
 } // namespace
 
-void keepUnique(std::vector<SeamVertex>& vertices)
-{
-  std::sort(vertices.begin(), vertices.end(),
-    [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; });
-  vertices.erase(std::unique(vertices.begin(), vertices.end(),
-                   [](const SeamVertex& a, const SeamVertex& b) { return a.Id == b.Id; }),
-    vertices.end());
-}
-
 /// The pieces that the triangle meets, by their numbers in the mesh, ascending.
 void PieceBorders::findMet(const SeamTriangle& triangle)
 {

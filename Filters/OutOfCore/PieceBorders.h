@@ -2,6 +2,7 @@
 #ifndef tippPieceBorders_h
 #define tippPieceBorders_h
 
+#include "Engine/Routing.h"
 #include "OutOfCore/PieceResult.h"
 
 #include <cstdint>
@@ -11,12 +12,9 @@
 namespace tipp
 {
 
-/// Leaves each vertex once, by id.
-void keepUnique(std::vector<SeamVertex>& vertices);
-
 /// Sorts triangles at the borders of pieces by the piece that owns them: of all that they meet, the
 /// first in the mesh. The others borrow them.
-class PieceBorders
+class PieceBorders : public FinalTaker
 {
 public:
   explicit PieceBorders(const PieceWork& work)
@@ -24,7 +22,7 @@ public:
   {
   }
 
-  void add(const SeamTriangle& triangle);
+  void add(const SeamTriangle& triangle) override;
   void appendTo(std::map<PartitionIndex, BorderTriangles>& borders) const;
 
 private:

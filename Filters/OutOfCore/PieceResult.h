@@ -49,7 +49,6 @@ struct BorderTriangles
 };
 
 /// Messages to partitions, with their recipients.
-using SentMessages = std::vector<std::pair<PartitionIndex, VertexMessage>>;
 
 /// What a piece whose partitions are all triangulated leaves for others, besides the interior's
 /// share of its file in the mesh. It is written once and not changed any more: which of these files

@@ -4,6 +4,7 @@
 #include "OutOfCore/PieceMessages.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace tipp
@@ -217,27 +218,17 @@ void PieceRun::sendToRanks(PartitionIndex p, const SentMessages& sent)
   {
     return;
   }
-  std::map<int, ByteWriter> writers;
+  const auto rankOf = [this](PartitionIndex q) { return this->at(this->pieceOf(q)).Rank; };
+  std::set<int> ranks;
   for (const PartitionIndex q : this->Order->partitions().later(p))
   {
-    const int to = this->at(this->pieceOf(q)).Rank;
-    if (to != this->rank() && writers.count(to) == 0)
-    {
-      writers[to].value(p);
-    }
+    ranks.insert(rankOf(q));
   }
-  for (const auto& [q, message] : sent)
+  ranks.erase(this->rank());
+  for (const int to : ranks)
   {
-    const auto writer = writers.find(this->at(this->pieceOf(q)).Rank);
-    if (writer != writers.end())
-    {
-      writer->second.value(q);
-      write(writer->second, message);
-    }
-  }
-  for (auto& [to, writer] : writers)
-  {
-    this->ToSend.push_back({ to, PartitionMessage, writer.take() });
+    this->ToSend.push_back({ to, PartitionMessage,
+      writeDone(p, sent, [&](PartitionIndex q) { return rankOf(q) == to; }) });
   }
 }
 

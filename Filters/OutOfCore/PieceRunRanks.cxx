@@ -3,6 +3,7 @@
 #include "OutOfCore/PieceMessages.h"
 #include "OutOfCore/PieceRun.h"
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 
@@ -82,31 +83,21 @@ void PieceRun::receive(const Message& message)
 /// One of another rank's is done; and what it sends to this rank's.
 void PieceRun::receivePartition(const Message& message)
 {
-  ByteReader reader(message.Content);
-  const auto sender = reader.value<PartitionIndex>();
-  const auto isPartitionOf = [this](PartitionIndex p, int rank)
+  PartitionIndex sender = -1;
+  SentMessages sent = readDone(message.Content, this->Inboxes.size(), sender);
+  const auto rankOf = [this](PartitionIndex p) { return this->at(this->pieceOf(p)).Rank; };
+  if (rankOf(sender) != message.Source ||
+    std::any_of(
+      sent.begin(), sent.end(), [&](const auto& to) { return rankOf(to.first) != this->rank(); }))
   {
-    return p >= 0 && std::size_t(p) < this->Inboxes.size() &&
-      this->at(this->pieceOf(p)).Rank == rank;
-  };
-  bool isGood = isPartitionOf(sender, message.Source);
+    throw std::runtime_error("A message from another rank is damaged: it is for another one.");
+  }
   {
     const Lock lock(this->Mutex);
-    while (isGood && reader.left() > 0)
+    for (auto& [to, vertices] : sent)
     {
-      const auto to = reader.value<PartitionIndex>();
-      VertexMessage vertices;
-      read(reader, vertices);
-      isGood = vertices.Sender == sender && isPartitionOf(to, this->rank());
-      if (isGood)
-      {
-        this->deliver(to, std::move(vertices));
-      }
+      this->deliver(to, std::move(vertices));
     }
-  }
-  if (!isGood)
-  {
-    throw std::runtime_error("A message from another rank is damaged: no such partition.");
   }
   this->Ready->finish(sender);
 }

@@ -212,7 +212,7 @@ private:
     }
     if (!this->Result.Aborted)
     {
-      repairHull(boundary, artificial);
+      repairHull(std::move(boundary.HullVertices), artificial, boundary);
       triangles.push_back(std::move(boundary.Triangles));
       this->endPhase("hull");
       this->finish(sink, triangles);

@@ -2,6 +2,7 @@
 #include "Partitioned/PieceTuples.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace tipp
@@ -54,8 +55,11 @@ void extendBounds(Bounds& bounds, const double* row, const PointRowLayout& rows)
   const double xyz[3] = { row[0], row[1], rows.Z < 0 ? 0 : row[rows.Z] };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    bounds[2 * axis] = std::min(bounds[2 * axis], xyz[axis]);
-    bounds[2 * axis + 1] = std::max(bounds[2 * axis + 1], xyz[axis]);
+    if (std::isfinite(xyz[axis])) // a height need not be
+    {
+      bounds[2 * axis] = std::min(bounds[2 * axis], xyz[axis]);
+      bounds[2 * axis + 1] = std::max(bounds[2 * axis + 1], xyz[axis]);
+    }
   }
 }
 

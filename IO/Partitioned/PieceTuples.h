@@ -21,7 +21,7 @@ inline bool holdsCellIds(const PieceArray& array)
 void copyPiecePoint(const PieceArray& array, const double* row, const PointRowLayout& rows,
   bool isGhost, std::int64_t representative, char* to);
 
-/// Makes room in the bounds for a row's point.
+/// Makes room in the bounds for a row's point; coordinates that are not finite take none.
 void extendBounds(Bounds& bounds, const double* row, const PointRowLayout& rows);
 
 /// What the arrays `offsets` and `types` hold of triangles in a row.

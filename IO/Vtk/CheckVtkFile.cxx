@@ -7,6 +7,7 @@
 #include "Flat/XmlScanner.h"
 #include "Vtk/ArrayNames.h"
 #include "Vtk/LegacyFileCheck.h"
+#include "Vtk/XmlDataCheck.h"
 
 #include <algorithm>
 #include <array>
@@ -36,7 +37,7 @@ bool isXml(const std::string& extension)
   return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
-/// The text up to the appended data.
+/// The text up to the appended data's tag.
 std::string readText(const InputFile& file)
 {
   constexpr std::uint64_t step = 1 << 16;
@@ -85,6 +86,12 @@ public:
     for (Tag tag; scanner.next(tag);)
     {
       this->take(tag);
+      if (this->isEncodedArray(tag))
+      {
+        const std::size_t begin = scanner.position();
+        this->requireWhole(this->Data.isWholeText(
+          std::string_view(text).substr(begin, text.find('<', begin) - begin)));
+      }
     }
     if (scanner.failed())
     {
@@ -92,9 +99,48 @@ public:
         "cannot be read as a VTK file (it is not well-formed XML at byte " +
           std::to_string(scanner.position()) + "); check that it is whole.");
     }
+    if (text.size() < this->File.size())
+    {
+      this->checkAppended(text.size());
+    }
   }
 
 private:
+  void requireWhole(bool isWhole) const
+  {
+    if (!isWhole)
+    {
+      this->fail("has arrays that are damaged or not all there");
+    }
+  }
+
+  static bool hasFormat(const Tag& tag, const char* format)
+  {
+    const std::string* const given = tag.find("format");
+    return given && *given == format;
+  }
+
+  bool isEncodedArray(const Tag& tag) const
+  {
+    return tag.What == Tag::Open && (tag.Name == "DataArray" || tag.Name == "Array") &&
+      hasFormat(tag, "binary");
+  }
+
+  /// The data after the tag at byte `begin`.
+  void checkAppended(std::uint64_t begin) const
+  {
+    constexpr std::uint64_t most = 4096;
+    std::string text(std::size_t(std::min(most, this->File.size() - begin)), '\0');
+    this->File.read(begin, text.data(), text.size());
+    XmlScanner scanner(text);
+    Tag tag;
+    const std::size_t data = scanner.next(tag) ? text.find('_', scanner.position()) : text.npos;
+    const std::string* const encoding = tag.find("encoding");
+    this->requireWhole(data != text.npos &&
+      this->Data.areWhole(
+        this->File, begin + data + 1, !encoding || *encoding == "base64", this->Offsets));
+  }
+
   [[noreturn]] void fail(const std::string& problem) const
   {
     throw IOError(this->File.path(), problem + advised);
@@ -115,7 +161,12 @@ private:
     if (tag.Name == "VTKFile")
     {
       const std::string* const compressor = tag.find("compressor");
-      this->Room *= compressor && !compressor->empty() ? compression : 1;
+      this->Data.IsCompressed = compressor && !compressor->empty();
+      this->Room *= this->Data.IsCompressed ? compression : 1;
+      const std::string* const order = tag.find("byte_order");
+      this->Data.IsBigEndian = order && *order == "BigEndian";
+      const std::string* const header = tag.find("header_type");
+      this->Data.HeaderBytes = header && *header == "UInt64" ? 8 : 4;
     }
     else if (tag.Name == "Piece")
     {
@@ -203,7 +254,7 @@ private:
     return points;
   }
 
-  void takeArray(const Tag& tag) const
+  void takeArray(const Tag& tag)
   {
     double components = 1;
     if (const std::string* const text = tag.find("NumberOfComponents"))
@@ -227,7 +278,11 @@ private:
       return;
     }
     double tuples = this->takeCount(tag, "NumberOfTuples");
-    this->takeCount(tag, "offset");
+    const double offset = this->takeCount(tag, "offset");
+    if (hasFormat(tag, "appended"))
+    {
+      this->Offsets.push_back(std::uint64_t(offset));
+    }
     if (this->Section == "PointData" || this->Section == "Points")
     {
       tuples = std::max(this->Points, 1.0);
@@ -255,6 +310,8 @@ private:
   double Points = 0;
   double Cells = 0;
   std::string Section;
+  XmlDataCheck Data;
+  std::vector<std::uint64_t> Offsets; ///< of the arrays in the appended data
 };
 
 } // namespace

@@ -1,162 +1,163 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Simulates tipp delaunay on clusters: masters, workers and messages, event by event.
+"""Simulates tipp delaunay on clusters, without a master: partitions, threads and messages, event by event.
 
-Usage: cluster_model.py STATISTICS.json...
+Usage: cluster_model.py [--costs STATISTICS.json] [--check STATISTICS.json...] [--points N...] TRACE...
 
-Each STATISTICS.json is what a run of `mpirun -np N tipp delaunay --stats` wrote. The costs of a
-partition, of a master's work and of messages are fitted to them; then the same runs are simulated,
-so that the model can be judged, and larger clusters are predicted.
+A TRACE is what `benchmarkOrder POINTS.npy RANKS` prints: the measured cost of each partition, the later partitions
+that it conflicts with, and how many vertices it sends to each. Costs of bringing points to their owners and triangles
+back are those of a measured run (--costs). Runs on several ranks (--check) are simulated on this machine's cores, so
+that the model can be judged.
 """
+import argparse
 import heapq
 import json
 import math
 import os
-import sys
 
 NETWORKS = {  # seconds a message, bytes a second and rank
     "1 Gb/s Ethernet": (50e-6, 1.1e8),
-    "fast interconnect": (2e-6, 1.0e10),
+    "10 Gb/s Ethernet": (20e-6, 1.1e9),
+    "within a machine": (2e-6, 4e9),
 }
-BYTES_PER_POINT = 24  # that travel to an owner: two coordinates and an id
+BYTES_OF_POINT = 24   # that travel to an owner: two coordinates and an id
+BYTES_OF_VERTEX = 32  # of a message
+NOTHING = (0.0, float("inf"))
+
+
+class Trace:
+    """The partitions of one triangulation, in their order."""
+
+    def __init__(self, path):
+        self.path = path
+        with open(path, encoding="ascii") as lines:
+            head = next(lines).split()
+            self.ranks, self.points = int(head[1]), int(head[3])
+            self.initial_seconds = float(next(lines).split()[3])
+            self.owner, self.seconds, self.later = [], [], []
+            numbers = {}
+            for line in lines:
+                words = line.split()
+                numbers[words[0]] = len(self.owner)
+                self.owner.append(int(words[1]))
+                self.seconds.append(float(words[2]))
+                self.later.append([pair.split(":") for pair in words[4:]])
+        self.later = [[(numbers[q], int(vertices)) for q, vertices in pairs] for pairs in self.later]
+
+    def compute(self):
+        return sum(self.seconds)
+
+
+def simulate(trace, cores, network, scale=1.0):
+    """Seconds until all partitions are triangulated, if rank r computes on core r % cores.
+
+    A core takes the partition that became ready first (Engine/ReadyPartitions.h). With `scale` times the points a
+    partition costs so much more and sends the square root of it more, for vertices are sent along its boundary.
+    """
+    latency, bandwidth = network
+    awaited = [0] * len(trace.owner)
+    for pairs in trace.later:
+        for q, _ in pairs:
+            awaited[q] += 1
+    ready = [[] for _ in range(cores)]  # (since when, partition)
+    ready_at = [0.0] * len(trace.owner)
+    free = [True] * cores
+    events = []  # (time, kind, partition): 0 is ready, 1 is done
+    for p, count in enumerate(awaited):
+        if count == 0:
+            heapq.heappush(events, (0.0, 0, p))
+    end = 0.0
+
+    def start(core, now):
+        if free[core] and ready[core]:
+            free[core] = False
+            p = heapq.heappop(ready[core])[1]
+            heapq.heappush(events, (now + trace.seconds[p] * scale, 1, p))
+
+    while events:
+        now, is_done, p = heapq.heappop(events)
+        core = trace.owner[p] % cores
+        if is_done:
+            end = now
+            free[core] = True
+            for q, vertices in trace.later[p]:
+                arrival = now
+                if trace.owner[q] != trace.owner[p]:
+                    arrival += latency + vertices * BYTES_OF_VERTEX * math.sqrt(scale) / bandwidth
+                ready_at[q] = max(ready_at[q], arrival)
+                awaited[q] -= 1
+                if awaited[q] == 0:
+                    heapq.heappush(events, (ready_at[q], 0, q))
+        else:
+            heapq.heappush(ready[core], (now, p))
+        start(core, now)
+    return end
 
 
 class Costs:
-    """What one thread needs, from the figures of measured runs."""
+    """What one thread needs for a point besides triangulating it, from a measured run."""
 
-    def __init__(self, runs):
-        points = compute = exchange = 0.0
-        master = handled = task_bytes = boundary = 0.0
-        for run in runs:
-            points += run["points"]
-            compute += sum(rank["compute_seconds"] for rank in run["ranks"])
-            exchange += sum(rank["exchange_seconds"] + rank["collect_seconds"]
-                            for rank in run["ranks"])
-            master += sum(m["seconds"] for m in run["masters"])
-            boundary += boundary_units(run["points"], run["partitions"])
-            handled += run["partitions"]
-            remote = 1 - 1 / len(run["ranks"])
-            if remote > 0 and not run["major_partitions"]:
-                sent = sum(t["bytes"] for t in run["traffic"] if t["kind"] in ("task", "partition done"))
-                task_bytes = max(task_bytes, sent / remote
-                                 / boundary_units(run["points"], run["partitions"]))
-        self.point = compute / points
-        self.exchange = exchange / points
-        self.boundary = master / max(boundary, 1.0)  # seconds of a master, a unit of boundary
-        self.bytes = task_bytes or 100.0             # both ways, a unit of boundary
+    def __init__(self, run):
+        ranks = run["ranks"]
+        self.exchange = sum(r["exchange_seconds"] + r["collect_seconds"] for r in ranks) / run["points"]
 
 
-def boundary_units(points, partitions):
-    """Boundary triangles of all partitions grow as the root of a partition's points."""
-    return partitions * math.sqrt(points / partitions)
-
-
-class Master:
-    """One who serves requests one after the other."""
-
-    def __init__(self):
-        self.free = 0.0
-        self.busy = 0.0
-
-    def serve(self, now, seconds):
-        begin = max(now, self.free)
-        self.free = begin + seconds
-        self.busy += seconds
-        return self.free
-
-
-def simulate_area(costs, points, partitions, workers, network, start=0.0):
-    """Time until one master's partitions are all triangulated by its workers, and its own work.
-
-    A quarter of the partitions left can be active together (table 2.1).
-    """
+def whole_run(trace, costs, points, network):
+    """Seconds of a run with so many points, in as many partitions as the trace has."""
     latency, bandwidth = network
-    size = points / partitions
-    unit = math.sqrt(size)
-    transfer = latency + costs.bytes * unit / 2 / bandwidth
-    serve = costs.boundary * unit / 2
-    master = Master()
-    left, active, now = partitions, 0, start
-    done = []
-    idle = workers
-    while left > 0 or active > 0:
-        limit = max(1, math.ceil(0.25 * (left + active)))
-        while idle > 0 and left > 0 and active < limit:
-            sent = master.serve(now, serve)
-            heapq.heappush(done, sent + transfer + size * costs.point + transfer)
-            left, active, idle = left - 1, active + 1, idle - 1
-        now = heapq.heappop(done)
-        now = master.serve(now, serve)
-        active, idle = active - 1, idle + 1
-    return now, master.busy
+    scale = points / trace.points
+    # Every rank makes the whole initial mesh, and gets its vertices.
+    exchange = (costs.exchange * points / trace.ranks + latency * trace.ranks
+                + (1 - 1 / trace.ranks) * points / trace.ranks * BYTES_OF_POINT / bandwidth)
+    initial = trace.initial_seconds + 8 * len(trace.owner) * BYTES_OF_VERTEX / bandwidth
+    return exchange + initial + simulate(trace, trace.ranks, network, scale)
 
 
-def predict(costs, points, ranks, network, design, per_partition=49152):
-    """Seconds in all, and the first master's share."""
-    latency, bandwidth = network
-    partitions = max(8 * ranks, round(points / per_partition))
-    exchange = (costs.exchange * points / ranks + latency * ranks
-                + (1 - 1 / ranks) * points / ranks * BYTES_PER_POINT / bandwidth)
-    initial = 8 * partitions * costs.point
-    if design == "single":
-        workers = ranks if ranks < 32 else ranks - 1
-        end, busy = simulate_area(costs, points, partitions, workers, network)
-        return exchange + initial + end, (initial + busy) / (exchange + initial + end)
-    majors = max(16, 2 * ranks)
-    groups = max(1, min(ranks, majors // 4))
-    group = ranks / groups
-    minors = max(1, partitions // majors)
-    one, _ = simulate_area(costs, points / majors, minors, max(1, int(group)), network,
-                           start=8 * minors * costs.point)
-    unit = math.sqrt(points / majors)
-    serve = costs.boundary * unit
-    shifts = math.ceil(majors / groups)
-    initial = 8 * majors * costs.point
-    top = initial + majors * serve
-    end = max(top, initial + shifts * (one + 2 * latency + costs.bytes * unit / bandwidth))
-    return exchange + end, top / (exchange + end)
+def alone(trace, costs, points):
+    """Seconds of the same run by one rank of one thread."""
+    return costs.exchange * points + trace.compute() * points / trace.points
 
 
-def check(costs, runs):
-    print(f"{'ranks':>5} {'points':>10} {'partitions':>10} {'masters':>7} "
-          f"{'measured s':>10} {'model s':>8}")
+def check(traces, costs, runs):
+    print(f"{'ranks':>5} {'points':>10} {'measured s':>10} {'model s':>8}")
     for run in runs:
         ranks = len(run["ranks"])
-        single = not run["major_partitions"]
-        network = (2e-6, 4e9)  # within one machine
+        trace = next((t for t in traces if t.ranks == ranks and t.points == run["points"]), None)
+        if trace is None:
+            print(f"{ranks:5} {run['points']:10}: no trace")
+            continue
         cores = min(ranks, os.cpu_count())
-        seconds, _ = predict(costs, run["points"], cores, network,
-                             "single" if single else "multi",
-                             run["points"] / run["partitions"])
-        print(f"{ranks:5} {run['points']:10} {run['partitions']:10} "
-              f"{'one' if single else 'many':>7} {run['seconds']:10.3f} {seconds:8.3f}")
-
-
-def tables(costs):
-    for name, network in NETWORKS.items():
-        for points in (10**9, 10**10, 10**11):
-            print(f"\n{points:.0e} points, {name}")
-            print(f"{'ranks':>6} {'one master s':>13} {'efficiency':>10} {'its share':>9} "
-                  f"{'many masters s':>15} {'efficiency':>10} {'its share':>9}")
-            alone = points * (costs.point + costs.exchange)
-            for ranks in (10, 32, 64, 128, 256, 512, 1024):
-                row = f"{ranks:6}"
-                for design, width in (("single", 13), ("multi", 15)):
-                    seconds, share = predict(costs, points, ranks, network, design)
-                    row += (f" {seconds:{width}.2f} {alone / ranks / seconds:10.0%} "
-                            f"{share:9.1%}")
-                print(row)
+        # Each rank makes the initial mesh: those of one core one after the other.
+        initial = trace.initial_seconds * math.ceil(ranks / cores)
+        seconds = (costs.exchange * trace.points / cores + initial
+                   + simulate(trace, cores, NETWORKS["within a machine"]))
+        print(f"{ranks:5} {run['points']:10} {run['seconds']:10.3f} {seconds:8.3f}")
 
 
 def main():
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    runs = [json.load(open(path, encoding="utf-8")) for path in sys.argv[1:]]
-    costs = Costs(runs)
-    print(f"{costs.point * 1e9:.0f} ns a point, {costs.exchange * 1e9:.0f} ns to bring it to its "
-          f"owner and its triangles back; a partition of n points costs its master "
-          f"{costs.boundary * 1e9:.0f} ns and the network {costs.bytes:.0f} bytes, times sqrt(n)\n")
-    check(costs, runs)
-    tables(costs)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("traces", metavar="TRACE", nargs="+")
+    parser.add_argument("--costs", metavar="STATISTICS.json")
+    parser.add_argument("--check", metavar="STATISTICS.json", nargs="*", default=[])
+    parser.add_argument("--points", type=float, nargs="*", default=[1e9, 1e10])
+    arguments = parser.parse_args()
+    traces = [Trace(path) for path in arguments.traces]
+    print(f"{'ranks':>5} {'points':>10} {'partitions':>10} {'efficiency of computing':>24}")
+    for trace in traces:
+        efficiency = trace.compute() / trace.ranks / simulate(trace, trace.ranks, NOTHING)
+        print(f"{trace.ranks:5} {trace.points:10} {len(trace.owner):10} {efficiency:24.3f}")
+    if not arguments.costs:
+        return
+    with open(arguments.costs, encoding="utf-8") as file:
+        costs = Costs(json.load(file))
+    print()
+    check(traces, costs, [json.load(open(path, encoding="utf-8")) for path in arguments.check])
+    print(f"\n{'ranks':>5} {'points':>8} {'network':>18} {'seconds':>9} {'efficiency':>10}")
+    for trace in traces:
+        for points in arguments.points:
+            for name, network in NETWORKS.items():
+                seconds = whole_run(trace, costs, points, network)
+                efficiency = alone(trace, costs, points) / trace.ranks / seconds
+                print(f"{trace.ranks:5} {points:8.0e} {name:>18} {seconds:9.3f} {efficiency:10.3f}")
 
 
 if __name__ == "__main__":

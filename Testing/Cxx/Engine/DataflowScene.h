@@ -155,7 +155,7 @@ private:
 
   void addBoundary(Triangles& all)
   {
-    repairHull(this->Final, this->Scene.Artificial);
+    repairHull(std::move(this->Final.HullVertices), this->Scene.Artificial, this->Final);
     for (const auto& triangle : this->Final.Triangles)
     {
       all.push_back(canonical(triangle.Ids[0], triangle.Ids[1], triangle.Ids[2]));

@@ -60,7 +60,7 @@ TEST(FinalBoundary, HullRepairCompletesTheTriangulation)
     final.add(triangle);
   }
   EXPECT_LT(final.Triangles.size(), reference(xy).Mesh.size());
-  repairHull(final, artificial);
+  repairHull(std::move(final.HullVertices), artificial, final);
   Triangles made;
   for (const auto& triangle : final.Triangles)
   {

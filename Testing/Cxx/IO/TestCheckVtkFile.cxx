@@ -6,8 +6,12 @@
 #include "Vtk/ReadDataSet.h"
 
 #include "vtkNew.h"
+#include "vtkXMLUnstructuredGridWriter.h"
 
 #include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
 
 namespace
 {
@@ -112,6 +116,75 @@ TEST_F(CheckVtkFile, ImagesLargerThanTheirFileAreRefused)
   this->expectRefusal("image.vti", image, "'heat'");
   this->expectRefusal(
     "range.vti", changed(image, "99999\"", "99999999999\""), "no range of points");
+}
+
+/// Files as VTK's writer makes them.
+class CheckVtkFileData : public CheckVtkFile
+{
+protected:
+  enum class Kind
+  {
+    Inline,
+    Encoded,
+    Raw
+  };
+
+  std::string written(Kind kind, bool isCompressed)
+  {
+    const std::string path = this->Folder.path("written.vtu");
+    vtkNew<vtkXMLUnstructuredGridWriter> writer;
+    writer->SetFileName(path.c_str());
+    writer->SetInputData(tipp::readDataSet(this->Folder.file("whole.vtu", wholeXml)));
+    kind == Kind::Inline ? writer->SetDataModeToBinary() : writer->SetDataModeToAppended();
+    writer->SetEncodeAppendedData(kind == Kind::Encoded);
+    writer->SetCompressorType(
+      isCompressed ? vtkXMLWriter::ZLIB : static_cast<int>(vtkXMLWriter::NONE));
+    writer->Write();
+    std::ifstream file(path, std::ios::binary);
+    return { std::istreambuf_iterator<char>(file), {} };
+  }
+
+  /// The text in the middle of the file's last array.
+  static std::size_t middle(const std::string& text, Kind kind)
+  {
+    return kind == Kind::Inline ? text.rfind("</DataArray>") - 20
+                                : text.rfind("</AppendedData>") - 20;
+  }
+};
+
+TEST_F(CheckVtkFileData, WhatVtkWritesPasses)
+{
+  for (const Kind kind : { Kind::Inline, Kind::Encoded, Kind::Raw })
+  {
+    for (const bool isCompressed : { false, true })
+    {
+      const std::string path = this->Folder.file("mesh.vtu", this->written(kind, isCompressed));
+      EXPECT_EQ(tipp::readDataSet(path)->GetNumberOfPoints(), 3);
+    }
+  }
+}
+
+TEST_F(CheckVtkFileData, TextThatIsNotBase64IsRefused)
+{
+  for (const Kind kind : { Kind::Inline, Kind::Encoded })
+  {
+    for (const char bad : { '\xff', '-', '=' })
+    {
+      std::string text = this->written(kind, false);
+      text[middle(text, kind)] = bad;
+      this->expectRefusal("bad.vtu", text, "damaged or not all there");
+    }
+  }
+}
+
+TEST_F(CheckVtkFileData, AnArrayThatEndsTooSoonIsRefused)
+{
+  for (const Kind kind : { Kind::Inline, Kind::Encoded, Kind::Raw })
+  {
+    std::string text = this->written(kind, false);
+    text.erase(middle(text, kind), 8);
+    this->expectRefusal("bad.vtu", text, "damaged or not all there");
+  }
 }
 
 TEST_F(CheckVtkFile, LegacyCountsThatTheFileCannotHoldAreRefused)

@@ -132,6 +132,19 @@ TEST(OutOfCore, CarriesColumnsOfAllFiles)
   }
 }
 
+TEST(OutOfCore, HeightsNeedNotBeFinite)
+{
+  for (const char* const height : { "inf", "-inf", "nan" })
+  {
+    const TemporaryFolder folder;
+    const std::string rows = std::string("x,y,z\n0,0,1\n1,0,") + height + "\n0,1,2\n";
+    const auto points = openPointStream({ folder.file("points.csv", rows) });
+    EXPECT_EQ(1, triangulateOutOfCore(*points, folder.path("mesh.tipp")).Triangles) << height;
+    const PartitionedMesh mesh = openPartitionedMesh(folder.path("mesh.tipp"));
+    EXPECT_EQ((Bounds{ 0, 1, 0, 1, 1, 2 }), mesh.Pieces.at(0).Extent) << height;
+  }
+}
+
 TEST(OutOfCore, RefusesFilesOfDifferentColumns)
 {
   const TemporaryFolder folder;

@@ -43,7 +43,7 @@ Triangles repaired(
   {
     boundary.add(triangle);
   }
-  repairHull(boundary, artificial);
+  repairHull(std::move(boundary.HullVertices), artificial, boundary);
   Triangles triangles;
   for (const auto& triangle : boundary.Triangles)
   {
