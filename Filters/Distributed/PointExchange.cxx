@@ -3,6 +3,7 @@
 
 #include "Parallel/ParallelFor.h"
 #include "Triangulation/PartitionFinder.h"
+#include "Triangulation/PopulatePages.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -18,6 +19,19 @@ std::size_t partBegin(std::size_t n, int part, int parts)
     std::min(n % std::size_t(parts), std::size_t(part));
 }
 
+/// Asks for the pages of memory all of which will be used.
+template <typename Item>
+void populate(Buffer<Item>& memory, int threads)
+{
+  const auto populatePart = [&](std::int64_t part)
+  {
+    const std::size_t begin = partBegin(memory.size(), int(part), threads);
+    const std::size_t end = partBegin(memory.size(), int(part) + 1, threads);
+    populatePages(memory.data() + begin, (end - begin) * sizeof(Item));
+  };
+  parallelFor(threads, threads, populatePart);
+}
+
 } // namespace
 
 PointExchange::PointExchange(const RankPoints& points, const Tiling& leaves, int threads)
@@ -28,6 +42,7 @@ PointExchange::PointExchange(const RankPoints& points, const Tiling& leaves, int
   , Counts(static_cast<std::size_t>(threads), std::vector<std::size_t>(this->Leaves, 0))
 {
   const std::size_t size = points.Points.size();
+  populate(this->Labels, threads);
   const PartitionFinder finder(leaves);
   const auto labelPart = [&](std::int64_t part)
   {
@@ -146,11 +161,15 @@ OwnedPoints<Id> PointExchange::exchange(
   owned.Places = Buffer<Point2>(total);
   owned.GlobalIds = Buffer<PointId>(total);
   owned.Rows = Buffer<char>(total * rowSize);
+  populate(owned.Places, this->Threads);
+  populate(owned.GlobalIds, this->Threads);
   const PointArrays home(owned.Places.data(), owned.GlobalIds.data(), owned.Rows.data());
   // Triangles with other ranks' points come on top of two a point; memory never touched is free.
   owned.Buckets = PointBuckets<Id>(arrangement.Starts, home.Places, total / 8);
 
   const Packing packing = this->planPacking(owners, arrangement);
+  parallelFor(this->Threads, this->Threads,
+    [&](std::int64_t part) { owned.Buckets.populate(int(part), this->Threads); });
   // What leaves is packed where triangles will be, if it fits: fresh memory takes time.
   Bytes messages(owned.Buckets.release());
   const bool isLent = packing.Size <= messages.size();

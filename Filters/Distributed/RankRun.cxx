@@ -396,16 +396,23 @@ template <typename Id>
 void RankRun<Id>::coordinate()
 {
   // Looking for messages takes the processor from a thread that computes.
-  constexpr auto pause = std::chrono::microseconds(300);
+  constexpr std::chrono::microseconds shortest(300);
+  constexpr std::chrono::microseconds longest(2000);
+  std::chrono::microseconds pause = shortest;
   constexpr double untilReport = 0.05;
   this->report();
   const auto isGoingOn = [this]()
   { return this->LeftPartitions > 0 || this->AwaitedMessages > 0 || this->AwaitedTasks > 0; };
   while (isGoingOn() && !this->source().isStopped())
   {
-    if (!this->sendAndReceive())
+    if (this->sendAndReceive())
+    {
+      pause = shortest;
+    }
+    else
     {
       std::this_thread::sleep_for(pause);
+      pause = std::min(2 * pause, longest);
     }
     if (this->SinceReport.seconds() > untilReport)
     {

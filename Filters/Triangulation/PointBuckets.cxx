@@ -129,7 +129,7 @@ PointBuckets<Id>::PointBuckets(
 template <typename Id>
 void PointBuckets<Id>::populate(int part, int parts)
 {
-  const auto [begin, end] = share(this->Memory.size(), part, parts);
+  const auto [begin, end] = share(6 * this->size(), part, parts);
   populatePages(this->Memory.data() + begin, (end - begin) * sizeof(Id));
 }
 
