@@ -4,6 +4,7 @@
 #include "Predicates/CellBox.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace tipp
 {
@@ -37,6 +38,12 @@ void PieceBorders::findMet(const SeamTriangle& triangle)
       }
     });
   std::sort(this->Met.begin(), this->Met.end());
+  if (this->Met.empty())
+  {
+    throw std::runtime_error(
+      "Points lie outside of the bounds that were found at first: the input has changed meanwhile; "
+      "start again.");
+  }
 }
 
 void PieceBorders::add(const SeamTriangle& triangle)
