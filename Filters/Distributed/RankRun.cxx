@@ -87,7 +87,8 @@ void RankRun<Id>::shareInitialMesh(std::vector<SeamVertex>& vertices)
   const int wanted = this->Options.InitialPointsPerPartition > 0
     ? this->Options.InitialPointsPerPartition
     : InitialPointsOfPartition;
-  std::vector<SeamVertex> initial = chooseInitialPoints(tiles, this->Points.Buckets, wanted);
+  std::vector<SeamVertex> initial =
+    chooseInitialPoints(tiles, this->Points.Buckets, wanted, this->Threads);
   std::vector<RegionEntry> regions;
   for (PartitionIndex p = 0; p < tiles.size(); ++p)
   {

@@ -4,6 +4,7 @@
 #include "Triangulation/SeamTriangles.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace tipp
@@ -43,22 +44,21 @@ PartitionOrder::PartitionOrder(const std::vector<char>& isUsed, const SeamTriang
   }
   this->Total = !this->findConflicts(initialMesh);
   this->colour();
-  this->sort([this](PartitionIndex p) { return this->colourOf(p); });
+  this->sort({});
 }
 
 void PartitionOrder::setWindows(const std::vector<std::int32_t>& windows)
 {
-  this->sort(
-    [&](PartitionIndex p) { return std::make_pair(windows[std::size_t(p)], this->colourOf(p)); });
+  this->sort(windows);
 }
 
-/// By this key and index.
-template <typename Key>
-void PartitionOrder::sort(const Key& key)
+/// No windows: all partitions are in one.
+void PartitionOrder::sort(const std::vector<std::int32_t>& windows)
 {
+  const auto key = [&](PartitionIndex p)
+  { return std::make_tuple(windows.empty() ? 0 : windows[std::size_t(p)], this->colourOf(p), p); };
   std::sort(this->Sequence.begin(), this->Sequence.end(),
-    [&](PartitionIndex a, PartitionIndex b)
-    { return std::make_pair(key(a), a) < std::make_pair(key(b), b); });
+    [&](PartitionIndex a, PartitionIndex b) { return key(a) < key(b); });
   for (std::size_t i = 0; i < this->Sequence.size(); ++i)
   {
     this->Positions[std::size_t(this->Sequence[i])] = static_cast<std::uint32_t>(i);
@@ -73,6 +73,29 @@ void PartitionOrder::sort(const Key& key)
     std::sort(begin, end, isBefore);
     this->EarlierCounts.push_back(std::size_t(std::lower_bound(begin, end, p, isBefore) - begin));
   }
+  this->sortByUrgency(windows);
+}
+
+void PartitionOrder::sortByUrgency(const std::vector<std::int32_t>& windows)
+{
+  this->Urgency = this->Sequence;
+  if (this->Total)
+  {
+    return; // one chain
+  }
+  std::vector<std::int32_t> chains(this->Positions.size(), 0); // of each partition and later ones
+  for (auto p = this->Sequence.rbegin(); p != this->Sequence.rend(); ++p)
+  {
+    for (const PartitionIndex q : this->later(*p))
+    {
+      chains[std::size_t(*p)] = std::max(chains[std::size_t(*p)], 1 + chains[std::size_t(q)]);
+    }
+  }
+  const auto key = [&](PartitionIndex p) {
+    return std::make_pair(windows.empty() ? 0 : windows[std::size_t(p)], -chains[std::size_t(p)]);
+  };
+  std::stable_sort(this->Urgency.begin(), this->Urgency.end(),
+    [&](PartitionIndex a, PartitionIndex b) { return key(a) < key(b); });
 }
 
 /// False if there are so many conflicts that a total order costs little: where points lie on a

@@ -57,6 +57,11 @@ public:
 
   /// All used partitions, in order.
   const std::vector<PartitionIndex>& sequence() const { return this->Sequence; }
+
+  /// The same partitions by urgency: within a window those come first that the longest chains of
+  /// conflicting later partitions wait for, as in list scheduling by critical path.
+  const std::vector<PartitionIndex>& byUrgency() const { return this->Urgency; }
+
   std::size_t position(PartitionIndex p) const { return this->Positions[std::size_t(p)]; }
 
   /// The conflicting partitions that come after p, in order.
@@ -79,10 +84,11 @@ public:
 private:
   bool findConflicts(const SeamTriangles& initialMesh);
   void colour();
-  template <typename Key>
-  void sort(const Key& key);
+  void sort(const std::vector<std::int32_t>& windows);
+  void sortByUrgency(const std::vector<std::int32_t>& windows);
 
   std::vector<PartitionIndex> Sequence;
+  std::vector<PartitionIndex> Urgency;
   std::vector<std::uint32_t> Positions;
   std::vector<std::uint32_t> Colours;
   std::vector<std::size_t> ColourSizes;

@@ -33,20 +33,19 @@ ReadyPartitions::ReadyPartitions(const PartitionOrder& order, Waits waits, std::
   , Own(std::move(isOwn))
   , Awaited(order.partitionCount())
   , LeftInColour(waits == Waits::ForColour ? order.colourCount() : 0)
-  , Queue(this->ownCount())
+  , Ranks(order.partitionCount(), 0)
+  , ReadyBits((order.sequence().size() + 63) / 64)
 {
-  for (auto& entry : this->Queue)
+  for (const PartitionIndex p : order.byUrgency())
   {
-    entry.store(-1, std::memory_order_relaxed);
+    if (this->isOwn(p))
+    {
+      this->Ranks[std::size_t(p)] = static_cast<std::uint32_t>(this->Urgency.size());
+      this->Urgency.push_back(p);
+    }
   }
+  this->Left = this->Urgency.size();
   waits == Waits::ForColour ? this->countColours() : this->awaitEarlier();
-}
-
-std::size_t ReadyPartitions::ownCount() const
-{
-  const auto& sequence = this->Order.sequence();
-  return std::size_t(std::count_if(
-    sequence.begin(), sequence.end(), [this](PartitionIndex p) { return this->isOwn(p); }));
 }
 
 void ReadyPartitions::countColours()
@@ -101,21 +100,16 @@ void ReadyPartitions::releaseColour(std::size_t colour)
 
 void ReadyPartitions::release(PartitionIndex p)
 {
-  const std::size_t end = this->QueueEnd.fetch_add(1, std::memory_order_relaxed);
-  this->Queue[end].store(p, std::memory_order_release);
+  const std::uint32_t rank = this->Ranks[std::size_t(p)];
+  this->ReadyBits[rank / 64].fetch_or(std::uint64_t(1) << rank % 64, std::memory_order_release);
 }
 
 PartitionIndex ReadyPartitions::take()
 {
-  const std::size_t ticket = this->Tickets.fetch_add(1, std::memory_order_relaxed);
-  if (ticket >= this->Queue.size())
-  {
-    return -1;
-  }
   for (int turn = 0; !this->isStopped(); ++turn)
   {
-    const PartitionIndex p = this->Queue[ticket].load(std::memory_order_acquire);
-    if (p >= 0)
+    const PartitionIndex p = this->tryTake();
+    if (p >= 0 || this->Left.load(std::memory_order_relaxed) == 0)
     {
       return p;
     }
@@ -126,15 +120,21 @@ PartitionIndex ReadyPartitions::take()
 
 PartitionIndex ReadyPartitions::tryTake()
 {
-  const std::size_t ticket = this->Tickets.load(std::memory_order_relaxed);
-  const PartitionIndex p = ticket < this->Queue.size() && !this->isStopped()
-    ? this->Queue[ticket].load(std::memory_order_acquire)
-    : -1;
-  if (p >= 0)
+  for (std::size_t i = 0; i < this->ReadyBits.size() && !this->isStopped(); ++i)
   {
-    this->Tickets.store(ticket + 1, std::memory_order_relaxed);
+    std::atomic<std::uint64_t>& bits = this->ReadyBits[i];
+    for (std::uint64_t seen = bits.load(std::memory_order_relaxed); seen != 0;)
+    {
+      const std::uint64_t lowest = seen & (~seen + 1);
+      seen = bits.fetch_and(~lowest, std::memory_order_acquire);
+      if ((seen & lowest) != 0)
+      {
+        this->Left.fetch_sub(1, std::memory_order_relaxed);
+        return this->Urgency[64 * i + std::size_t(__builtin_ctzll(lowest))];
+      }
+    }
   }
-  return p;
+  return -1;
 }
 
 void ReadyPartitions::finish(PartitionIndex p)

@@ -14,7 +14,8 @@ namespace tipp
 {
 
 /// Hands partitions to threads as soon as they are ready: all conflicting partitions that come
-/// before them in the order are done. Threads share counters and a queue, and no lock.
+/// before them in the order are done. Of those that are ready the most urgent is taken first.
+/// Threads share counters and a bit for each partition, and no lock.
 class ReadyPartitions
 {
 public:
@@ -33,7 +34,7 @@ public:
   /// A ready partition; waits for one. -1 if all were handed out or the run was stopped.
   PartitionIndex take();
 
-  /// The same without waiting: -1 also if none is ready. For one thread alone.
+  /// The same without waiting: -1 also if none is ready.
   PartitionIndex tryTake();
 
   /// The partition is done, one's own or another rank's, and what it sends is in the inboxes.
@@ -52,7 +53,6 @@ private:
   void countColours();
   void countDown(PartitionIndex p);
   bool isOwn(PartitionIndex p) const { return this->Own.empty() || this->Own[std::size_t(p)]; }
-  std::size_t ownCount() const;
   void release(PartitionIndex p);
   void releaseColour(std::size_t colour);
 
@@ -61,9 +61,10 @@ private:
   const std::vector<char> Own;                    ///< empty: all
   std::vector<std::atomic<std::int32_t>> Awaited; ///< of each partition: what it waits for
   std::vector<std::atomic<std::int64_t>> LeftInColour;
-  std::vector<std::atomic<PartitionIndex>> Queue; ///< -1 until filled
-  std::atomic<std::size_t> QueueEnd{ 0 };
-  std::atomic<std::size_t> Tickets{ 0 };
+  std::vector<PartitionIndex> Urgency;               ///< those to hand out, the most urgent first
+  std::vector<std::uint32_t> Ranks;                  ///< of each partition, its place there
+  std::vector<std::atomic<std::uint64_t>> ReadyBits; ///< by place there
+  std::atomic<std::size_t> Left;                     ///< not handed out yet
   std::atomic<bool> Stopped{ false };
   std::mutex FailureMutex;
   std::exception_ptr Failure;

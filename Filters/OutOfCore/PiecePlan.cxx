@@ -164,10 +164,15 @@ void PiecePlan::chooseInitialPoints(const InputSurvey& survey)
   }
   for (const std::vector<InitialPoint>& points : sampled)
   {
-    const std::size_t chosen = std::min(points.size(), std::size_t(InitialPointsOfPartition));
-    for (std::size_t i = 0; i < chosen; ++i)
+    std::vector<Point2> places;
+    for (const InitialPoint& p : points)
     {
-      this->Initial.push_back(points[(2 * i + 1) * points.size() / (2 * chosen)]);
+      places.push_back(p.Place);
+    }
+    for (const std::size_t i :
+      tipp::chooseInitialPoints(places.data(), places.size(), InitialPointsOfPartition))
+    {
+      this->Initial.push_back(points[i]);
     }
   }
   std::sort(this->Initial.begin(), this->Initial.end(),

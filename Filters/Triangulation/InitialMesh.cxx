@@ -2,10 +2,12 @@
 #include "Triangulation/InitialMesh.h"
 
 #include "Kernel/DelaunayKernel.h"
+#include "Kernel/Extent.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace tipp
 {
@@ -38,6 +40,34 @@ int piecesOf(double side, double spacing)
 {
   constexpr double most = 4096;
   return static_cast<int>(std::clamp(std::ceil(side / spacing), 1.0, most));
+}
+
+/// The first points with the least and the greatest x and y.
+std::vector<std::size_t> findOutmost(const Point2* points, std::size_t count)
+{
+  const Extent extent = extentOf(points, count);
+  const double bounds[4] = { extent.Low[0], extent.Low[1], extent.High[0], extent.High[1] };
+  constexpr std::size_t block = 16;
+  std::vector<std::size_t> found(4, count);
+  for (std::size_t begin = 0; begin < count; begin += block)
+  {
+    const std::size_t end = std::min(begin + block, count);
+    bool isAny = false; // without branches, so that it is vectorised
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      const Point2 p = points[i];
+      isAny |= (p.x == bounds[0]) | (p.y == bounds[1]) | (p.x == bounds[2]) | (p.y == bounds[3]);
+    }
+    for (std::size_t i = begin; isAny && i < end; ++i)
+    {
+      for (std::size_t side = 0; side < 4; ++side)
+      {
+        const double coordinate = side % 2 == 0 ? points[i].x : points[i].y;
+        found[side] = coordinate == bounds[side] ? std::min(found[side], i) : found[side];
+      }
+    }
+  }
+  return found;
 }
 
 /// The sets of finite triangles with a common edge, where they differ; each pair once. SetOf: of
@@ -111,18 +141,57 @@ std::vector<SeamVertex> makeArtificialPoints(const Tiling& tiling)
   return vertices;
 }
 
+std::vector<std::size_t> chooseInitialPoints(
+  const Point2* points, std::size_t count, std::size_t wanted)
+{
+  constexpr std::size_t sides = 4;
+  std::vector<std::size_t> chosen;
+  if (count <= wanted)
+  {
+    chosen.resize(count);
+    std::iota(chosen.begin(), chosen.end(), 0);
+    return chosen;
+  }
+  const auto isChosen = [&](std::size_t i)
+  { return std::find(chosen.begin(), chosen.end(), i) != chosen.end(); };
+  if (wanted >= 2 * sides)
+  {
+    for (const std::size_t i : findOutmost(points, count))
+    {
+      isChosen(i) ? void() : chosen.push_back(i);
+    }
+  }
+  const std::size_t spaced = wanted - chosen.size();
+  for (std::size_t i = 0; i < spaced; ++i)
+  {
+    std::size_t at = (2 * i + 1) * count / (2 * spaced);
+    while (isChosen(at))
+    {
+      at = (at + 1) % count;
+    }
+    chosen.push_back(at);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
 template <typename Id>
 std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition)
+  const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition, int threads)
 {
+  std::vector<std::vector<std::size_t>> chosen(std::size_t(tiling.size()));
+  parallelFor(tiling.size(), threads,
+    [&](std::int64_t i)
+    {
+      const auto p = static_cast<PartitionIndex>(i);
+      chosen[std::size_t(i)] =
+        chooseInitialPoints(buckets.points(p), buckets.count(p), std::size_t(perPartition));
+    });
   std::vector<SeamVertex> vertices;
   for (PartitionIndex p = 0; p < tiling.size(); ++p)
   {
-    const std::size_t count = buckets.count(p);
-    const std::size_t chosen = std::min(count, static_cast<std::size_t>(perPartition));
-    for (std::size_t i = 0; i < chosen; ++i)
+    for (const std::size_t at : chosen[std::size_t(p)])
     {
-      const std::size_t at = (2 * i + 1) * count / (2 * chosen);
       vertices.push_back({ buckets.points(p)[at], buckets.id(p, at), p });
     }
   }
@@ -186,8 +255,8 @@ bool partitionsPay(const SeamTriangles& initialMesh)
 template SeamTriangles triangulateVertices(const Tiling&, const std::vector<SeamVertex>&, int);
 template SeamTriangles triangulateVertices(const Regions&, const std::vector<SeamVertex>&, int);
 template std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling&, const PointBuckets<std::int32_t>&, int);
+  const Tiling&, const PointBuckets<std::int32_t>&, int, int);
 template std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling&, const PointBuckets<std::int64_t>&, int);
+  const Tiling&, const PointBuckets<std::int64_t>&, int, int);
 
 } // namespace tipp

@@ -16,10 +16,17 @@ namespace tipp
 /// and so on. Empty if the domain reaches too far for doubles to enclose it.
 std::vector<SeamVertex> makeArtificialPoints(const Tiling& tiling);
 
-/// Equally many points of each partition, evenly spaced in the input's order.
+/// Which of a partition's points the initial mesh takes: the outmost ones in x and y, and others
+/// that are evenly spaced in the input's order. With the outmost ones fewer disks over voids reach
+/// many partitions, so that chains of conflicting partitions are half as long where points are
+/// clustered. If few are wanted, evenly spaced ones alone.
+std::vector<std::size_t> chooseInitialPoints(
+  const Point2* points, std::size_t count, std::size_t wanted);
+
+/// So many of each partition's points.
 template <typename Id>
 std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition);
+  const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition, int threads);
 
 /// The Delaunay triangulation of vertices, with the boxes (a Tiling's, or Regions) that each
 /// triangle meets, and those that triangles with a common edge meet.
@@ -37,9 +44,9 @@ extern template SeamTriangles triangulateVertices(
 extern template SeamTriangles triangulateVertices(
   const Regions&, const std::vector<SeamVertex>&, int);
 extern template std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling&, const PointBuckets<std::int32_t>&, int);
+  const Tiling&, const PointBuckets<std::int32_t>&, int, int);
 extern template std::vector<SeamVertex> chooseInitialPoints(
-  const Tiling&, const PointBuckets<std::int64_t>&, int);
+  const Tiling&, const PointBuckets<std::int64_t>&, int, int);
 
 } // namespace tipp
 

@@ -75,7 +75,7 @@ public:
     this->checkSizes();
     this->endPhase("bucketing");
     std::vector<SeamVertex> initial =
-      chooseInitialPoints(tiling, this->Buckets, initialPointsPerPartition());
+      chooseInitialPoints(tiling, this->Buckets, initialPointsPerPartition(), this->PassThreads);
     this->Result.Statistics.InitialPoints = std::int64_t(initial.size());
     initial.insert(initial.end(), artificial.begin(), artificial.end());
     const Regions regions(tiling, this->Buckets, this->PassThreads);

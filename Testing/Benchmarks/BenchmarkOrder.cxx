@@ -66,7 +66,7 @@ struct SharedOut
   PointBuckets<std::int32_t> Buckets;
 };
 
-/// A line for each partition in order: its rank, seconds, points, and of each later conflicting
+/// A line for each partition in order: its rank, seconds, vertices, and of each later conflicting
 /// partition its number and how many vertices are sent to it.
 void printPartitions(SharedOut& shared)
 {
@@ -74,7 +74,7 @@ void printPartitions(SharedOut& shared)
   const ProcessorWatch initialWatch;
   const Regions regions(tiles, shared.Buckets, 1);
   std::vector<SeamVertex> initial =
-    chooseInitialPoints(tiles, shared.Buckets, InitialPointsOfPartition);
+    chooseInitialPoints(tiles, shared.Buckets, InitialPointsOfPartition, 1);
   const std::vector<SeamVertex> artificial = makeArtificialPoints(tiles);
   initial.insert(initial.end(), artificial.begin(), artificial.end());
   const SeamTriangles mesh = triangulateVertices(regions, initial, 1);
@@ -105,8 +105,8 @@ void printPartitions(SharedOut& shared)
       },
       final);
     const double seconds = watch.seconds();
-    std::printf("%d %d %.9f %zu", p, shared.Of.Owners[std::size_t(p)], seconds,
-      std::size_t(shared.Buckets.count(p)));
+    std::printf(
+      "%d %d %.9f %zu", p, shared.Of.Owners[std::size_t(p)], seconds, worker.vertexCount());
     for (const PartitionIndex q : order.later(p))
     {
       std::printf(" %d:%zu", q, sent[q]);

@@ -29,7 +29,7 @@ struct DataflowScene
     , Buckets(bucketPoints<std::int32_t>(view(this->XY), this->Tiles, 1))
     , Boxes(this->Tiles, this->Buckets, 1)
     , Artificial(makeArtificialPoints(this->Tiles))
-    , Initial(chooseInitialPoints(this->Tiles, this->Buckets, 8))
+    , Initial(chooseInitialPoints(this->Tiles, this->Buckets, 8, 1))
   {
     this->Initial.insert(this->Initial.end(), this->Artificial.begin(), this->Artificial.end());
     this->Mesh = triangulateVertices(this->Boxes, this->Initial, 1);

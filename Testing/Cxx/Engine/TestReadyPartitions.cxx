@@ -51,6 +51,22 @@ TEST(ReadyPartitions, HandOutOwnPartitionsThatAreLoadedAndWhoseEarlierOnesAreDon
   EXPECT_EQ(-1, ready.take());
 }
 
+TEST(ReadyPartitions, OfThoseThatAreReadyTheLongestChainComesFirst)
+{
+  // 0, 1 and 2 conflict with each other, 3 with nothing.
+  SeamTriangles mesh;
+  const PartitionIndex met[] = { 0, 1, 2 };
+  mesh.add({ 0, 0, 0 }, met, met + 3);
+  const PartitionOrder order({ 1, 1, 1, 1 }, mesh);
+  EXPECT_EQ((Partitions{ 0, 1, 3, 2 }), order.byUrgency());
+  ReadyPartitions ready(order, ReadyPartitions::Waits::ForEarlier);
+  EXPECT_EQ(0, ready.tryTake());
+  ready.finish(0);
+  EXPECT_EQ(1, ready.tryTake()); // before 3, which was ready sooner
+  EXPECT_EQ(3, ready.tryTake());
+  EXPECT_EQ(-1, ready.tryTake());
+}
+
 TEST(ReadyPartitions, HandOutWhatIsLoadedWhereNothingElseIsWaitedFor)
 {
   const PartitionOrder order = pairOrder();

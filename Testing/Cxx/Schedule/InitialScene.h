@@ -19,7 +19,7 @@ struct InitialScene
     , Boxes(Tiling::grid(boundsOf(this->XY), columns, rows))
     , Buckets(bucketPoints<std::int32_t>(view(this->XY), this->Boxes, 1))
     , Artificial(makeArtificialPoints(this->Boxes))
-    , Vertices(chooseInitialPoints(this->Boxes, this->Buckets, 8))
+    , Vertices(chooseInitialPoints(this->Boxes, this->Buckets, 8, 1))
   {
     this->Vertices.insert(this->Vertices.end(), this->Artificial.begin(), this->Artificial.end());
     this->Mesh = triangulateVertices(this->Boxes, this->Vertices, 1);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace
@@ -125,7 +126,7 @@ TYPED_TEST(InitialPoints, AreEquallyManyAPartitionAndFewerWhereThereAreFewer)
   const Tiling tiling = Tiling::grid({ 0, 0, 1, 1 }, 2, 2);
   auto buckets = bucketPoints<TypeParam>(view(xy), tiling, 1);
   std::vector<int> counts(4, 0);
-  for (const SeamVertex& v : chooseInitialPoints(tiling, buckets, 8))
+  for (const SeamVertex& v : chooseInitialPoints(tiling, buckets, 8, 1))
   {
     ++counts[std::size_t(v.Partition)];
   }
@@ -144,7 +145,7 @@ TYPED_TEST(InitialPoints, AreInputPointsEachChosenOnce)
   for (const int perPartition : { 1, 7, 49, 50, 1000 })
   {
     std::set<std::int64_t> ids;
-    for (const SeamVertex& v : chooseInitialPoints(tiling, buckets, perPartition))
+    for (const SeamVertex& v : chooseInitialPoints(tiling, buckets, perPartition, 1))
     {
       ASSERT_LE(0, v.Id);
       EXPECT_EQ(points[std::size_t(v.Id)], v.Place);
@@ -160,10 +161,33 @@ TYPED_TEST(InitialPoints, AreSpreadOverTheInputsOrder)
   const Coordinates xy = unevenPoints();
   const Tiling tiling = Tiling::grid({ 0, 0, 1, 1 }, 2, 1);
   auto buckets = bucketPoints<TypeParam>(view(xy), tiling, 1);
-  const std::vector<SeamVertex> chosen = chooseInitialPoints(tiling, buckets, 4);
+  const std::vector<SeamVertex> chosen = chooseInitialPoints(tiling, buckets, 4, 1);
   for (std::int64_t i = 0; i < 4; ++i)
   {
     EXPECT_EQ(12 + 25 * i, chosen[std::size_t(i)].Id);
+  }
+}
+
+TYPED_TEST(InitialPoints, AmongThemAreTheOutmostOfEachPartition)
+{
+  const Coordinates xy = makePointSet("clustered", 2000);
+  const Tiling tiling = Tiling::grid(test::boundsOf(xy), 3, 3);
+  auto buckets = bucketPoints<TypeParam>(view(xy), tiling, 1);
+  const Regions regions(tiling, buckets, 1);
+  std::map<PartitionIndex, Box2> reached;
+  for (const SeamVertex& v : chooseInitialPoints(tiling, buckets, 8, 2))
+  {
+    const Point2 p = v.Place;
+    Box2& box = reached.emplace(v.Partition, Box2{ p.x, p.y, p.x, p.y }).first->second;
+    box = { std::min(box.xmin, p.x), std::min(box.ymin, p.y), std::max(box.xmax, p.x),
+      std::max(box.ymax, p.y) };
+  }
+  for (const auto& [partition, box] : reached)
+  {
+    const Box2& region = regions[partition];
+    EXPECT_TRUE(box.xmin == region.xmin && box.ymin == region.ymin && box.xmax == region.xmax &&
+      box.ymax == region.ymax)
+      << partition;
   }
 }
 
@@ -241,7 +265,7 @@ SeamTriangles initialMeshOfEight(const std::string& set)
   const PointsView points = view(xy);
   const Tiling tiling = Tiling::balanced(test::boundsOf(xy), samplePoints(points, 8000), 8);
   std::vector<SeamVertex> vertices =
-    chooseInitialPoints(tiling, bucketPoints<std::int32_t>(points, tiling, 1), 8);
+    chooseInitialPoints(tiling, bucketPoints<std::int32_t>(points, tiling, 1), 8, 1);
   const std::vector<SeamVertex> artificial = makeArtificialPoints(tiling);
   vertices.insert(vertices.end(), artificial.begin(), artificial.end());
   return triangulateVertices(tiling, vertices, 1);
