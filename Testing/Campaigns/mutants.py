@@ -141,11 +141,11 @@ def make_input(random, folder, tipp):
         (folder / "piece.vtu").write_bytes(piece if first else mutate(random, piece))
         (folder / "mesh.pvtu").write_bytes(mutate(random, whole) if first else whole)
         return folder / "mesh.pvtu", True
-    files = seeds.points() if kind < 0.3 else seeds.meshes()
+    files = seeds.points() if kind < 0.36 else seeds.meshes()
     name = random.choice(sorted(files))
     path = folder / name
     path.write_bytes(mutate(random, files[name]))
-    return path, kind >= 0.3
+    return path, kind >= 0.36
 
 
 def make_command(random, path, has_cells, folder):

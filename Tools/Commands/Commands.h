@@ -22,6 +22,7 @@ enum ExitCode
 /// std::bad_alloc may come out of it.
 void addCheckCommand(CLI::App& app, int& exitCode);
 void addDelaunayCommand(CLI::App& app, int& exitCode);
+void addDemCommand(CLI::App& app, int& exitCode);
 void addDevicesCommand(CLI::App& app, int& exitCode);
 void addFlattenCommand(CLI::App& app, int& exitCode);
 void addPartitionCommand(CLI::App& app, int& exitCode);

@@ -12,10 +12,12 @@
 #include "Files/RequireApart.h"
 #include "Flat/FlatMesh.h"
 #include "Flat/RawArray.h"
+#include "Messages/Postbox.h"
 #include "Npy/NpyFile.h"
 #include "OpenCL/DeviceChoice.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioning/Ranks.h"
+#include "Resample/Elevation.h"
 #include "Vtk/ArrayNames.h"
 #include "Vtk/ErrorKeeper.h"
 #include "Vtk/ReadDataSet.h"
@@ -57,9 +59,11 @@ constexpr const char* footer =
         partitioned mesh of 'tipp partition' (its folder or index) or a flat one (a
         folder of .npy arrays), of which only the range of --bounds is read. Of arrays
         that vary in time the first step is taken.
+        The z of a surface is sampled as the array elevation, beside the others, unless
+        all points have the same.
 IMAGE   .vti: all arrays, vtkValidPointMask (1 where the mesh answers) and
-        vtkGhostType. .npy: one array (--arrays NAME) as float64 or whatever it
-        is, rows x columns, the first row at the lowest y; for a volume layers x
+        vtkGhostType. .npy: one array (--arrays NAME; without: elevation) as float64 or
+        whatever it is, rows x columns, the first row at the lowest y; for a volume layers x
         rows x columns. Components come last. NaN where no cell answers, unless
         --null gives another number.
 
@@ -294,6 +298,20 @@ vtkSmartPointer<vtkDataSet> readMeshToSample(const ResampleArguments& arguments,
   return mesh ? mesh : readRange(arguments, ranks);
 }
 
+/// With the heights of a surface among its arrays, so that they can be chosen by name.
+vtkSmartPointer<vtkDataSet> readWithElevation(
+  const ResampleArguments& arguments, const Ranks& ranks)
+{
+  vtkSmartPointer<vtkDataSet> mesh = readMeshToSample(arguments, ranks);
+  auto* const points = vtkPointSet::SafeDownCast(mesh);
+  Postbox postbox(ranks.controller());
+  if (haveElevation({ points }, postbox))
+  {
+    mesh = withElevation(points);
+  }
+  return mesh;
+}
+
 /// The filter's message, with what the user has set here instead of the filter's properties.
 std::string reasonOf(std::string message)
 {
@@ -329,7 +347,7 @@ PathState sample(
         before = PendingFile(arguments.Output).before();
       }
     });
-  const vtkSmartPointer<vtkDataSet> mesh = readMeshToSample(arguments, ranks);
+  const vtkSmartPointer<vtkDataSet> mesh = readWithElevation(arguments, ranks);
   filter->SetInputData(mesh);
   filter->SetController(ranks.controller());
   filter->GatherOnRootOn();
@@ -440,7 +458,7 @@ void addResampleCommand(CLI::App& app, int& exitCode)
                                  "Distance of samples along x, y and z; 0: one sample")
                                ->expected(3);
   delta->excludes(dimensions);
-  command->add_option("--arrays", arguments->Arrays, "Names of arrays; else all");
+  command->add_option("--arrays", arguments->Arrays, "Names of arrays; else all, and elevation");
   command
     ->add_option("--device", arguments->Device, "auto, openmp, opencl, opencl:INDEX or opencl:NAME")
     ->capture_default_str();
@@ -460,6 +478,10 @@ void addResampleCommand(CLI::App& app, int& exitCode)
       if (arguments->Dimensions.empty() && arguments->Delta.empty())
       {
         throw CLI::ValidationError("--dims", "or --delta is required");
+      }
+      if (extensionOf(arguments->Output) == ".npy" && arguments->Arrays.empty())
+      {
+        arguments->Arrays = { elevationName };
       }
       if (extensionOf(arguments->Output) == ".npy" && arguments->Arrays.size() != 1)
       {
