@@ -163,7 +163,7 @@ void vtkTIPPPointReader::Read(vtkInformation* info, vtkPolyData* output)
   const tipp::PointTable table = tipp::readPointsShare(this->FileNames, options, piece, pieces);
   this->NumberOfPointsLeftOut = table.LeftOut;
   // It shares the table's memory.
-  output->DeepCopy(tipp::makePolyData(table, {}));
+  output->DeepCopy(tipp::makePolyData(table, {}, {}));
   if (this->GenerateVertices)
   {
     addVertices(output);

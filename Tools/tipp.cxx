@@ -47,6 +47,7 @@ int run(int argc, char** argv)
   tipp::addDemCommand(app, exitCode);
   tipp::addDevicesCommand(app, exitCode);
   tipp::addFlattenCommand(app, exitCode);
+  tipp::addInfoCommand(app, exitCode);
   tipp::addPointsCommand(app, exitCode);
   tipp::addResampleCommand(app, exitCode);
   tipp::addPartitionCommand(app, exitCode);

@@ -86,7 +86,9 @@ PointTable readPoints(const std::string& path, const PointOptions& options)
   if (extension != ".14" && extension != ".grd" && !isVtkFile(path))
   {
     throw IOError(path,
-      "has no extension that tells a kind of point file; use .npy, .csv, .txt, .xyz, .las, .laz, "
+      "has no extension that tells a kind of point file; use .npy, .csv, .txt, .xyz (or these as "
+      ".gz, "
+      ".xz or .zst), .las, .laz, "
       ".14, .grd or one of VTK's.");
   }
   if (!options.X.empty() || !options.Y.empty())

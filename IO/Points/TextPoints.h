@@ -13,7 +13,7 @@ namespace tipp
 /// names the first is z and the others column<number>.
 PointTable readTextPoints(const std::string& path, const PointOptions& options);
 
-/// .csv, .txt and .xyz.
+/// .csv, .tsv, .txt, .xyz and .pts, and .gz, .xz and .zst, which are text compressed.
 bool isTextExtension(const std::string& extension);
 
 } // namespace tipp

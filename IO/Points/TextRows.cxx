@@ -181,6 +181,10 @@ bool TextRows::next()
 double TextRows::coordinate(std::size_t index) const
 {
   double value = 0;
+  if (isMissing(this->Row[index]))
+  {
+    return std::numeric_limits<double>::quiet_NaN(); // counted with the points that are not finite
+  }
   if (!parseNumber(this->Row[index], value))
   {
     constexpr std::size_t shown = 40;

@@ -25,6 +25,7 @@ void addDelaunayCommand(CLI::App& app, int& exitCode);
 void addDemCommand(CLI::App& app, int& exitCode);
 void addDevicesCommand(CLI::App& app, int& exitCode);
 void addFlattenCommand(CLI::App& app, int& exitCode);
+void addInfoCommand(CLI::App& app, int& exitCode);
 void addPartitionCommand(CLI::App& app, int& exitCode);
 void addPointsCommand(CLI::App& app, int& exitCode);
 void addResampleCommand(CLI::App& app, int& exitCode);

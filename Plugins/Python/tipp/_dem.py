@@ -2,9 +2,12 @@
 """tipp.dem: a raster of points."""
 from __future__ import annotations
 
+import contextlib
+import importlib.util
 import math
 import os
-from typing import TYPE_CHECKING, Any, Iterable, Mapping, NamedTuple, Sequence, Union
+import tempfile
+from typing import TYPE_CHECKING, Any, Iterable, Iterator, Mapping, NamedTuple, Sequence, Union
 
 import numpy as np
 
@@ -110,9 +113,14 @@ def dem(
     """
     size = check.number(resolution, "resolution")
     if not size > 0:
-        raise ValueError(f"resolution is {resolution}; give a number above 0.")
+        raise ValueError(f"resolution is {resolution!r}; give a number above 0.")
     limits = None if bounds is None else check.several(bounds, "bounds", 4, check.number)
     names = check.names(attributes, "attributes")
+    _check_selection(classes, returns, keep)
+    distance = check.number(max_edge, "max_edge", at_least=0)
+    aligned = check.flag(align, "align")
+    count = check.threads(threads)
+    check.flag(progress_bar, "progress_bar")
     crs = None
     if _are_files(points):
         if point_data is not None:
@@ -122,12 +130,11 @@ def dem(
         cloud = point_cloud(points, point_data)
         if np.shape(points)[1] == 2 and "elevation" in names:
             raise ValueError("points have no elevation; give an array of shape (n, 3) or other attributes.")
-    west, south, columns, rows = _grid(limits or _bounds_of(cloud), size, check.flag(align, "align"))
+    west, south, columns, rows = _grid(limits or _bounds_of(cloud), size, aligned)
     mesh = vtkTIPPDelaunay2D()
     mesh.SetInputData(cloud)
-    mesh.SetMaximumEdgeLength(check.number(max_edge, "max_edge", at_least=0))
-    mesh.SetNumberOfThreads(check.threads(threads))
-    check.flag(progress_bar, "progress_bar")
+    mesh.SetMaximumEdgeLength(distance)
+    mesh.SetNumberOfThreads(count)
     run(mesh, progress_bar)
     surface = mesh.GetOutput()
     point_arrays = surface.GetPointData()
@@ -137,10 +144,24 @@ def dem(
         if not point_arrays.HasArray(name):
             known = [point_arrays.GetArrayName(i) for i in range(point_arrays.GetNumberOfArrays())]
             raise KeyError(f"there is no attribute '{name}'; there are {known}.")
-    image = _sample(surface, names, (west, south, columns, rows), size, threads, progress_bar)
+    image = _sample(surface, names, (west, south, columns, rows), size, count, progress_bar)
     bands = [as_array(image, name).reshape(rows, columns)[::-1] for name in names]
     array = bands[0] if isinstance(attributes, str) else np.stack(bands)
     return Dem(array, (size, 0.0, west, 0.0, -size, south + rows * size), crs)
+
+
+def _sequence(values: Any, name: str) -> list[Any]:
+    if isinstance(values, (str, bytes, Mapping)) or not isinstance(values, Iterable):
+        raise TypeError(f"{name} is {values!r}; give a list.")
+    return list(values)
+
+
+def _check_selection(classes: Any, returns: Any, keep: Any) -> None:
+    for number in [] if classes is None else _sequence(classes, "classes"):
+        check.whole(number, "classes", at_most=255)
+    check.choice(returns, "returns", _RETURNS)
+    for flag in _sequence(keep, "keep"):
+        check.choice(flag, "keep", dict.fromkeys(_FLAGS, 0))
 
 
 def _are_files(points: Any) -> bool:
@@ -152,21 +173,45 @@ def _are_files(points: Any) -> bool:
 def _read(points: Any, names: list[str], classes: Any, returns: str, keep: Sequence[str]) -> tuple[Any, str | None]:
     paths = [check.path(p, "points") for p in ([points] if isinstance(points, (str, os.PathLike)) else points)]
     reader = vtkTIPPPointReader()
-    for path in paths:
-        reader.AddFileName(path)
     if classes is not None:
-        reader.SetClasses(",".join(str(check.whole(c, "classes", at_most=255)) for c in classes))
+        reader.SetClasses(",".join(str(check.whole(c, "classes", at_most=255)) for c in _sequence(classes, "classes")))
     reader.SetReturns(check.choice(returns, "returns", _RETURNS))
-    for flag in check.names(keep, "keep") if keep else []:
-        if flag not in _FLAGS:
-            raise ValueError(f"keep has '{flag}'; choose from {', '.join(_FLAGS)}.")
+    for flag in _sequence(keep, "keep"):
         getattr(reader, "SetKeep" + flag.capitalize())(True)
     reader.SetColumns(",".join(names))
     reader.SetGenerateVertices(False)
-    run(reader)
+    with _uncompressed(paths) as files:
+        for path in files:
+            reader.AddFileName(path)
+        run(reader)
     cloud = reader.GetOutput()
     text = cloud.GetFieldData().GetAbstractArray("CoordinateReferenceSystem")
     return cloud, text.GetValue(0) if text else None
+
+
+@contextlib.contextmanager
+def _uncompressed(paths: list[str]) -> Iterator[list[str]]:
+    """The files, with .laz files as temporary .las files, which laspy writes, where it is installed."""
+    compressed = [path for path in paths if path.lower().endswith(".laz")]
+    if not compressed or importlib.util.find_spec("laspy") is None:
+        yield paths
+        return
+    import laspy
+
+    with tempfile.TemporaryDirectory() as folder:
+        files = []
+        for number, path in enumerate(paths):
+            if path not in compressed:
+                files.append(path)
+                continue
+            files.append(os.path.join(folder, f"{number}.las"))
+            try:
+                with laspy.open(path) as source, laspy.open(files[-1], "w", header=source.header, do_compress=False) as to:
+                    for block in source.chunk_iterator(1_000_000):
+                        to.write_points(block)
+            except Exception as error:
+                raise RuntimeError(f"{path}: cannot be decompressed by laspy ({error}).") from None
+        yield files
 
 
 def _bounds_of(cloud: Any) -> list[float]:

@@ -193,6 +193,19 @@ TEST_F(TippDem, WritesAnImageThatResampleReadsBack)
   EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
 }
 
+TEST_F(TippDem, InfoTellsCountsBoundsAndDuplicates)
+{
+  this->Folder.file("points.csv", "x,y,z\n0,0,1\n10,0,-2\n0,10,\n0,0,4\n,3,1\n");
+  const Outcome outcome = this->run({ "info", "points.csv" });
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  for (const char* const line :
+    { "points      5, 1 without finite coordinates\n", "x           0 to 10, 1 missing\n",
+      "z           -2 to 4, 1 missing\n", "duplicates  1\n", "resolution  5," })
+  {
+    EXPECT_NE(std::string::npos, outcome.Out.find(line)) << line << outcome.Out;
+  }
+}
+
 TEST_F(TippDem, NamesAColumnThatIsNotThere)
 {
   this->makePoints(50);
