@@ -4,6 +4,7 @@
 #include "Arrays/ScalarTypes.h"
 #include "Dem/MakeDem.h"
 #include "Files/IOError.h"
+#include "Flat/RawArray.h"
 #include "Npy/NpyFile.h"
 #include "Vtk/WriteXmlFile.h"
 
