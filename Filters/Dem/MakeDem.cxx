@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include <unistd.h>
+
 namespace tipp
 {
 namespace
@@ -42,6 +44,21 @@ std::vector<double> takeXYZ(PointTable& points, const DemBands& bands)
   }
   std::vector<double>().swap(points.XY);
   return xyz;
+}
+
+/// Throws std::runtime_error if the pixels cannot be in this machine's memory.
+void requireMemory(const TerrainSettings& settings)
+{
+  const double each = 8 * double(settings.Bands.Bands.size()) + 1;
+  const double needed = each * double(settings.Grid.Columns) * double(settings.Grid.Rows);
+  const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+  if (needed > memory)
+  {
+    throw std::runtime_error("the raster has " + std::to_string(settings.Grid.Columns) + " x " +
+      std::to_string(settings.Grid.Rows) +
+      " pixels, more than the memory of this machine: give a " +
+      "larger resolution or smaller bounds, or --memory.");
+  }
 }
 
 SimplexMesh meshOf(const std::vector<double>& xyz, const Triangulation& triangulation)
@@ -83,6 +100,7 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
     throw std::runtime_error("there is no point with finite coordinates.");
   }
   settings = makeTerrainSettings(request, bounds, columns);
+  requireMemory(settings);
   DemFigures figures;
   figures.Points = std::int64_t(points.size());
   TriangulationOptions options;

@@ -68,7 +68,7 @@ class Dem(unittest.TestCase):
         for options, keywords in (([], {}), (["--bounds", 10, 60, 20, 50], {"bounds": (10, 60, 20, 50)}),
                                   (["--align", "bounds"], {"align": False}), (["--max-edge", 2], {"max_edge": 2})):
             self.run_tipp("dem", "points.npy", "-o", "dem.npy", "--resolution", 0.3, *options)
-            for points in (self.points, self.path("points.npy"), [self.path("points.npy")]):
+            for points in (self.points, tipp.delaunay_2d(self.points), self.path("points.npy"), [self.path("points.npy")]):
                 grid = tipp.dem(points, 0.3, **keywords).array
                 np.testing.assert_array_equal(np.load(self.path("dem.npy"))[::-1], grid, str(options))
 

@@ -182,7 +182,8 @@ void addValueOptions(CLI::App& command, DemArguments& arguments)
     .add_option("--attributes", arguments.Request.Bands,
       "The bands: elevation, columns of the points as intensity, and slope, aspect and hillshade "
       "of the triangles; without: elevation")
-    ->delimiter(',');
+    ->delimiter(',')
+    ->allow_extra_args(false);
   command
     .add_option("--max-edge", arguments.Request.MaximumEdge,
       "Triangles with an edge longer than this, in the plane, have no values")

@@ -42,6 +42,7 @@ void addPointOptions(CLI::App& command, PointOptions& options)
       },
       "Of LAS files the points of these classes, as 2,9; without: all")
     ->delimiter(',')
+    ->allow_extra_args(false)
     ->check(checkClass);
   command
     .add_option_function<std::string>(
@@ -68,6 +69,7 @@ void addPointOptions(CLI::App& command, PointOptions& options)
       },
       "Of LAS files also points with these flags: withheld, synthetic, overlap")
     ->delimiter(',')
+    ->allow_extra_args(false)
     ->check(CLI::IsMember({ "withheld", "synthetic", "overlap" }));
 }
 

@@ -66,7 +66,7 @@ def dem(
     Parameters
     ----------
     points
-        Coordinates of shape (n, 3), or one or more files: .las, .laz, .npy, .csv, .xyz or any that VTK
+        Coordinates of shape (n, 3), a vtkPointSet, or one or more files: .las, .laz, .npy, .csv, .xyz or any that VTK
         reads. .laz files that this build does not read are read by laspy, if it is installed.
     resolution
         Width and height of a pixel, in the units of the points.
@@ -126,6 +126,10 @@ def dem(
         if point_data is not None:
             raise ValueError("point_data goes with an array of points; files have columns of their own.")
         cloud, crs = _read(points, names, classes, returns, keep)
+    elif check.is_vtk_object(points):
+        if point_data is not None:
+            raise ValueError("point_data goes with an array of points; a data set has its own.")
+        cloud = check.data_object(points, "points", ("vtkPointSet",), "a vtkPointSet, an array or names of files")
     else:
         cloud = point_cloud(points, point_data)
         if np.shape(points)[1] == 2 and "elevation" in names:
@@ -217,6 +221,8 @@ def _uncompressed(paths: list[str]) -> Iterator[list[str]]:
 def _bounds_of(cloud: Any) -> list[float]:
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
+    if cloud.GetNumberOfPoints() == 0:
+        raise RuntimeError("There are no points.")
     xy = vtk_to_numpy(cloud.GetPoints().GetData())[:, :2]
     xy = xy[np.isfinite(xy).all(axis=1)]
     if len(xy) == 0:

@@ -79,6 +79,12 @@ TEST_F(TextPoints, CompressedFilesAreRead)
   tipp::test::expectIOError(bad, "cannot be decompressed by gzip", [&] { readPoints(bad); });
 }
 
+TEST_F(TextPoints, ALineOfCountsIsNoPoint)
+{
+  EXPECT_EQ((Values{ 1, 2, 3, 4 }), this->read("2 0\n1 2\n\n3 4\n").XY);
+  EXPECT_EQ((Values{ 3, 0, 1, 2, 3, 4 }), this->read("3 0\n1 2\n3 4\n").XY);
+}
+
 TEST_F(TextPoints, UsualNamesAreFoundInAnyOrderAndCase)
 {
   EXPECT_EQ((Values{ 1, 2 }), this->read("id,Y,X\n7,2,1\n").XY);

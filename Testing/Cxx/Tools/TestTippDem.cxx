@@ -206,6 +206,15 @@ TEST_F(TippDem, InfoTellsCountsBoundsAndDuplicates)
   }
 }
 
+TEST_F(TippDem, RefusesMorePixelsThanTheMemoryHolds)
+{
+  this->Folder.file("points.csv", "x,y,z\n0,0,1\n1000000,0,1\n0,1000000,1\n");
+  const Outcome outcome =
+    this->run({ "dem", "points.csv", "-o", "dem.npy", "--resolution", "0.1" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("10000000 x 10000000 pixels")) << outcome.Err;
+}
+
 TEST_F(TippDem, NamesAColumnThatIsNotThere)
 {
   this->makePoints(50);
@@ -217,6 +226,15 @@ TEST_F(TippDem, NamesAColumnThatIsNotThere)
   const Outcome flat = this->run({ "dem", "flat.csv", "-o", "dem.npy", "--resolution", "1" });
   EXPECT_EQ(1, flat.ExitCode);
   EXPECT_NE(std::string::npos, flat.Err.find("no column 'z'")) << flat.Err;
+}
+
+TEST_F(TippDem, ListsEndWithTheirWord)
+{
+  this->makePoints(50);
+  const Outcome outcome = this->run({ "dem", "--attributes", "elevation,slope", "points.csv", "-o",
+    "dem.npy", "--resolution", "50" });
+  EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+  EXPECT_EQ(8U, this->valuesOf("dem.npy").size());
 }
 
 TEST_F(TippDem, RefusesOptionsThatDoNotGoTogether)
