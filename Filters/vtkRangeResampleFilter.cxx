@@ -224,6 +224,7 @@ void vtkRangeResampleFilter::PrintSelf(ostream& os, vtkIndent indent)
   one("NullValue", this->NullValue);
   one("UseNoDataValue", this->UseNoDataValue);
   one("NoDataValue", this->NoDataValue);
+  one("SampleElevation", this->SampleElevation);
   one("PassFieldArrays", this->PassFieldArrays);
   one("Device", this->Device);
   one("DeviceIndex", this->DeviceIndex);

@@ -24,6 +24,7 @@
  * - floating-point numbers of points interpolated linearly in double precision and rounded once;
  * - whole numbers of points from the corner of largest weight;
  * - numbers of cells from the cell;
+ * - of a surface its z as "elevation", see SampleElevation;
  *
  * and "vtkValidPointMask" (char: 1 where a cell answers, 0 elsewhere) and "vtkGhostType", which
  * blanks the samples that no cell answers and the image's cells that have such a corner. Where no
@@ -164,6 +165,18 @@ public:
 
   ///@{
   /**
+   * Whether the z of a surface is sampled too, as the point array "elevation", beside the other
+   * arrays. On by default. It is left out where all points have the same z, where the input has an
+   * array of that name, where PointDataArraySelection disables it, and where surfaces are not
+   * sampled along z.
+   */
+  vtkSetMacro(SampleElevation, bool);
+  vtkGetMacro(SampleElevation, bool);
+  vtkBooleanMacro(SampleElevation, bool);
+  ///@}
+
+  ///@{
+  /**
    * Whether the input's field data is passed on. On by default.
    */
   vtkSetMacro(PassFieldArrays, bool);
@@ -265,6 +278,7 @@ protected:
   double NullValue = 0;
   bool UseNoDataValue = false;
   double NoDataValue = -99999;
+  bool SampleElevation = true;
   bool PassFieldArrays = true;
   int Device = DEVICE_AUTO;
   int DeviceIndex = -1;

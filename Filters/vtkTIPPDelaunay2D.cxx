@@ -126,6 +126,7 @@ void vtkTIPPDelaunay2D::CheckNumbers() const
     }
   };
   require(this->Alpha, "Alpha");
+  require(this->MaximumEdgeLength, "MaximumEdgeLength");
   require(this->Tolerance, "Tolerance");
   require(this->Offset, "Offset");
 }
@@ -249,6 +250,7 @@ tipp::Triangulation vtkTIPPDelaunay2D::Triangulate(vtkPoints* points, vtkAbstrac
   options.InitialPointsPerPartition = this->InitialPointsPerPartition;
   options.Order = this->Schedule == DYNAMIC ? tipp::Schedule::Dynamic : tipp::Schedule::Stages;
   options.Threads = this->NumberOfThreads;
+  options.MaximumEdge = this->MaximumEdgeLength;
   options.Progress = [&monitor](double fraction) { return monitor(fraction); };
 
   tipp::Triangulation triangulation;
@@ -284,7 +286,10 @@ void vtkTIPPDelaunay2D::Report(const tipp::Triangulation& triangulation, vtkIdTy
       numberOfPoints - this->NumberOfDuplicatePoints - this->NumberOfRejectedPoints;
     vtkWarningMacro("No triangles: of "
       << numberOfPoints << " points, " << distinct << " are finite and distinct"
-      << (distinct < 3 ? ", and it takes three." : ", and all are on one line."));
+      << (distinct < 3                     ? ", and it takes three."
+             : this->MaximumEdgeLength > 0 ? ", and all triangles have edges that are too long, or "
+                                             "all points are on one line."
+                                           : ", and all are on one line."));
   }
 }
 
@@ -328,6 +333,7 @@ void vtkTIPPDelaunay2D::PrintSelf(ostream& os, vtkIndent indent)
   const char* modes[] = { "XY Plane", "Transform Plane", "Best Fitting Plane" };
   auto onOff = [](vtkTypeBool flag) { return flag ? "On\n" : "Off\n"; };
   os << indent << "Alpha: " << this->Alpha << "\n";
+  os << indent << "MaximumEdgeLength: " << this->MaximumEdgeLength << "\n";
   os << indent << "AlphaTris: " << onOff(this->AlphaTris);
   os << indent << "AlphaLines: " << onOff(this->AlphaLines);
   os << indent << "AlphaVerts: " << onOff(this->AlphaVerts);

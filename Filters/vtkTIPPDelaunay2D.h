@@ -149,6 +149,15 @@ public:
 
   ///@{
   /**
+   * Triangles with an edge longer than this, in the plane and the units of the points, are left
+   * out; their points stay. 0 by default: none are. Unlike Alpha it makes no other cells.
+   */
+  vtkSetClampMacro(MaximumEdgeLength, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MaximumEdgeLength, double);
+  ///@}
+
+  ///@{
+  /**
    * Which cells are output while Alpha is not 0. They do not change what the others are. All are
    * on by default.
    */
@@ -368,6 +377,7 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   double Alpha = 0;
+  double MaximumEdgeLength = 0;
   vtkTypeBool AlphaTris = 1;
   vtkTypeBool AlphaLines = 1;
   vtkTypeBool AlphaVerts = 1;

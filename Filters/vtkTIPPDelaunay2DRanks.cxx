@@ -81,6 +81,7 @@ tipp::DistributedOptions vtkTIPPDelaunay2D::OptionsForRanks() const
 const char* vtkTIPPDelaunay2D::WhatNeedsOneRank() const
 {
   return this->Alpha != 0                                 ? "Alpha"
+    : this->MaximumEdgeLength > 0                         ? "MaximumEdgeLength"
     : this->Tolerance > 0                                 ? "Tolerance"
     : this->BoundingTriangulation                         ? "BoundingTriangulation"
     : this->GenerateNeighborIds                           ? "GenerateNeighborIds"

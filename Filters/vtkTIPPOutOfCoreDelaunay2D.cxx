@@ -162,6 +162,7 @@ tipp::OutOfCoreOptions vtkTIPPOutOfCoreDelaunay2D::Options() const
   options.Threads = this->NumberOfThreads;
   options.Columns = this->NumberOfPartitions[0];
   options.Rows = this->NumberOfPartitions[1];
+  options.MaximumEdge = this->MaximumEdgeLength;
   options.MapDuplicates = this->GenerateRepresentativeIds != 0;
   options.Neighbors = this->GenerateNeighborIds != 0;
   options.CountOnly = this->CountOnly != 0;
@@ -200,6 +201,7 @@ void vtkTIPPOutOfCoreDelaunay2D::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "NumberOfPartitions: " << this->NumberOfPartitions[0] << " x "
      << this->NumberOfPartitions[1] << "\n";
+  os << indent << "MaximumEdgeLength: " << this->MaximumEdgeLength << "\n";
   os << indent << "GenerateRepresentativeIds: " << onOff(this->GenerateRepresentativeIds);
   os << indent << "GenerateNeighborIds: " << onOff(this->GenerateNeighborIds);
   os << indent << "CountOnly: " << onOff(this->CountOnly);

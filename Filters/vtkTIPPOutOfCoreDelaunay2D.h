@@ -129,6 +129,15 @@ public:
 
   ///@{
   /**
+   * Triangles with an edge longer than this, in the plane and the units of the points, are left
+   * out; their points stay. 0 by default: none are.
+   */
+  vtkSetClampMacro(MaximumEdgeLength, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MaximumEdgeLength, double);
+  ///@}
+
+  ///@{
+  /**
    * Whether the mesh has the point array "RepresentativePointId": the global id of the point that
    * stands for it, which is its own but for merged points. Off by default.
    */
@@ -211,6 +220,7 @@ protected:
   char* FileName = nullptr;
   vtkTypeInt64 MemoryLimit = vtkTypeInt64(1) << 31;
   int NumberOfPartitions[2] = { 0, 0 };
+  double MaximumEdgeLength = 0;
   vtkTypeBool GenerateRepresentativeIds = 0;
   vtkTypeBool GenerateNeighborIds = 0;
   vtkTypeBool CountOnly = 0;

@@ -44,8 +44,10 @@ int run(int argc, char** argv)
   app.failure_message(describeMisuse);
   app.footer("'tipp COMMAND --help' tells a command's options, units and examples.\n");
   tipp::addDelaunayCommand(app, exitCode);
+  tipp::addDemCommand(app, exitCode);
   tipp::addDevicesCommand(app, exitCode);
   tipp::addFlattenCommand(app, exitCode);
+  tipp::addInfoCommand(app, exitCode);
   tipp::addPointsCommand(app, exitCode);
   tipp::addResampleCommand(app, exitCode);
   tipp::addPartitionCommand(app, exitCode);

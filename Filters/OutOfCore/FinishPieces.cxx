@@ -107,6 +107,13 @@ public:
       this->addBorder(hull->second, growing, wanted);
     }
     this->addRows(wanted, growing);
+    if (this->Work.Taker)
+    {
+      const GrowingPiece::BorderMesh border = growing.borderMesh(this->Work.Rows);
+      this->Work.Taker->take(std::to_string(this->Work.Plan.number(piece)) + ".border",
+        border.Rows.data(), this->Work.Rows, border.Rows.size() / this->Work.Rows.Words,
+        { { border.Corners.data(), border.Corners.size() / 3 } });
+    }
     FinishedPiece finished =
       growing.writeBorder(this->Work.Mesh, this->Work.Plan.number(piece), this->Work.Rows);
     // From now on the file may have another layout than the result says.

@@ -54,7 +54,7 @@ InputPasses::InputPasses(PointStream& points, Postbox* ranks, PassOptions option
   : Points(points)
   , Ranks(ranks)
   , Options(std::move(options))
-  , Total(points.divisible())
+  , Total(ranks ? points.divisible() : -1)
   , Parts(ranks && this->Total >= 0 ? ranks->size() : 1)
 {
 }

@@ -3,6 +3,7 @@
 
 #include "OutOfCore/PieceBorders.h"
 #include "Triangulation/DegenerateInput.h"
+#include "Triangulation/LongTriangles.h"
 
 #include <algorithm>
 #include <utility>
@@ -260,8 +261,32 @@ void LoadedPiece::markRim(const SeamVertex& v)
   }
 }
 
+void LoadedPiece::dropLong()
+{
+  const double longest = this->Work.MaximumEdge;
+  const auto pointOf = [this](std::int32_t id)
+  {
+    const double* const row = this->Rows.data() + std::size_t(id) * this->Work.Rows.Words;
+    return Point2{ row[0], row[1] };
+  };
+  for (PartitionIndex p = 0; p < this->Buckets.partitions(); ++p)
+  {
+    std::size_t& count = this->InteriorCounts[std::size_t(p)];
+    count = dropLongTriangles(this->Buckets.triangles(p), count, longest, pointOf);
+  }
+  if (!this->Seams.empty())
+  {
+    this->Seams.resize(
+      dropLongTriangles(this->Seams.front().data(), this->Seams.size(), longest, pointOf));
+  }
+}
+
 GrowingPiece LoadedPiece::writeInterior()
 {
+  if (this->Work.MaximumEdge > 0)
+  {
+    this->dropLong();
+  }
   GrowingPiece::Interior interior;
   interior.Rows = this->Rows.data();
   interior.Rim = this->Rim.data();
@@ -275,6 +300,11 @@ GrowingPiece LoadedPiece::writeInterior()
   if (!this->Seams.empty())
   {
     interior.Triangles.push_back({ this->Seams.front().data(), this->Seams.size() });
+  }
+  if (this->Work.Taker)
+  {
+    this->Work.Taker->take(std::to_string(this->Work.Plan.number(this->Piece)), this->Rows.data(),
+      this->Work.Rows, this->Rim.size(), interior.Triangles);
   }
   GrowingPiece growing(this->First, std::int64_t(this->Rim.size()));
   growing.writeInterior(

@@ -81,6 +81,7 @@ private:
   void take(const std::vector<Duplicate>& duplicates);
   bool owns(const SeamVertex& v) const;
   void markRim(const SeamVertex& v);
+  void dropLong();
   GrowingPiece writeInterior();
 
   const PieceWork& Work;

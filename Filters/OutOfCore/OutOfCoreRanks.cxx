@@ -120,6 +120,7 @@ void help(Postbox& ranks, const OpenPoints& open, const OutOfCoreOptions& option
   requireSharedFolder(ranks, "");
   requireSharedFolder(ranks, "");
   PreparedRun prepared;
+  prepared.MaximumEdge = options.MaximumEdge;
   std::vector<char> isDone;
   if (!receivePrepared(ranks, open, options, prepared, isDone))
   {

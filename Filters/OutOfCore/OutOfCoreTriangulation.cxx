@@ -10,6 +10,7 @@
 #include "OutOfCore/PieceRun.h"
 #include "OutOfCore/PreparedRun.h"
 #include "OutOfCore/ScratchFolder.h"
+#include "OutOfCore/TriangleTaker.h"
 #include "Parallel/ForChunks.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
@@ -58,6 +59,8 @@ public:
     this->Statistics.Threads = this->Threads;
     this->Prepared.Mesh.Path = options.CountOnly ? "" : this->Pending.temporaryPath();
     this->Prepared.Results = this->Scratch.results();
+    this->Prepared.Taker = options.Taker;
+    this->Prepared.MaximumEdge = options.MaximumEdge;
   }
 
   OutOfCoreStatistics run()
@@ -76,7 +79,9 @@ public:
       }
       if (!this->IsWhole)
       {
+        this->beginTaking();
         this->triangulate();
+        this->endTaking();
         this->Options.CountOnly ? this->count() : this->publish();
       }
       this->putInPlace();
@@ -161,7 +166,7 @@ private:
   {
     this->requireOurs(isOurs && this->Options.Resume);
     this->Prepared.load(archive, this->Scratch.points());
-    this->Memory = std::make_unique<MemoryPlan>(this->Options, this->Prepared.Rows.Words);
+    this->planMemory(this->Prepared.Rows.Words);
     this->describePlan();
   }
 
@@ -216,6 +221,15 @@ private:
     }
   }
 
+  void planMemory(std::size_t words)
+  {
+    // A taker copies coordinates and triangles of the piece that it is given.
+    const std::size_t more = this->Options.Taker ? 8 : 0;
+    this->Memory = std::make_unique<MemoryPlan>(this->Options, words + more);
+    this->Memory->LoadedBytes = this->Memory->LoadedBytes /
+      MemoryPlan::pieceBytes(1, words + more) * MemoryPlan::pieceBytes(1, words);
+  }
+
   /// What tells that it is the same run.
   std::string identity() const
   {
@@ -223,8 +237,9 @@ private:
     return "TIPP out of core 8\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
       std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
       std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
-      (options.Neighbors ? " linked" : "") + (options.CountOnly ? " counted" : "") + "\n" +
-      options.Scratch;
+      (options.Neighbors ? " linked" : "") + (options.CountOnly ? " counted" : "") +
+      (options.MaximumEdge > 0 ? " edges " + std::to_string(options.MaximumEdge) : "") + "\n" +
+      (options.Taker ? options.Taker->identity() : "") + "\n" + options.Scratch;
   }
 
   void savePlan()
@@ -243,17 +258,18 @@ private:
   {
     this->keep(false);
     this->Scratch.clear();
-    this->Memory = std::make_unique<MemoryPlan>(this->Options, 3 + this->Input.columns().size());
+    this->planMemory(3 + this->Input.columns().size());
     InputSurvey& survey = this->Prepared.Survey;
     survey = InputPasses(this->Input, this->Ranks,
       this->passOptions(
         [this](std::int64_t) {
           this->tell(0);
         })).survey();
+    this->Statistics.LeftOut = this->Input.leftOut();
     this->Prepared.describeColumns(
       this->Input.columns(), this->Options.MapDuplicates, this->Options.Neighbors);
     const std::size_t words = this->Prepared.Rows.Words;
-    this->Memory = std::make_unique<MemoryPlan>(this->Options, words);
+    this->planMemory(words);
     if (survey.Points == survey.Rejected)
     {
       throw IOError("There is no point with finite coordinates in the input, so nothing to write.");
@@ -405,6 +421,28 @@ private:
     {
       throw Aborted();
     }
+  }
+
+  void beginTaking()
+  {
+    if (this->Options.Taker)
+    {
+      const InputSurvey& survey = this->Prepared.Survey;
+      const double factor = survey.Factor;
+      this->Options.Taker->begin({ survey.Bounds.xmin / factor, survey.Bounds.ymin / factor,
+                                   survey.Bounds.xmax / factor, survey.Bounds.ymax / factor },
+        this->Input.columns(), this->Scratch.results());
+    }
+  }
+
+  void endTaking()
+  {
+    if (this->Options.Taker &&
+      !this->Options.Taker->end([this](double done) { return this->proceed(0.9 + 0.1 * done); }))
+    {
+      throw Aborted();
+    }
+    this->Options.Taker ? this->endPhase("raster") : void();
   }
 
   void count()

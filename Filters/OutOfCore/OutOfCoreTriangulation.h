@@ -15,6 +15,7 @@ namespace tipp
 {
 
 class Postbox;
+class TriangleTaker;
 
 struct OutOfCoreOptions
 {
@@ -24,12 +25,15 @@ struct OutOfCoreOptions
   int Rows = 0;
   std::int64_t PiecePoints = 0;     ///< about so many points a piece; 0: as memory allows
   std::int64_t PartitionPoints = 0; ///< about so many points for a worker at once; 0: chosen
+  double MaximumEdge = 0;           ///< triangles with a longer edge are left out; 0: none are
   /// Adds the point array RepresentativePointId.
   bool MapDuplicates = false;
   /// Adds the cell array NeighborIds.
   bool Neighbors = false;
   /// Counts and sums up the triangles instead of writing them.
   bool CountOnly = false;
+  /// Takes the triangles instead of the mesh; with it CountOnly is to be set.
+  TriangleTaker* Taker = nullptr;
   /// Goes on where a run that was killed or failed has been, if there is one for this path; else
   /// such a run is not touched and is an error.
   bool Resume = false;
@@ -52,6 +56,7 @@ struct OutOfCoreStatistics : PieceFigures
   std::int64_t Triangles = 0;
   std::uint64_t TriangleSum = 0; ///< where they are only counted: of GrowingPiece::hashTriangle()
   std::int64_t Rejected = 0;
+  std::int64_t LeftOut = 0; ///< points that the options of the input have left out
   std::int64_t Pieces = 0;
   std::int64_t Partitions = 0;
   std::uint64_t SpilledBytes = 0;

@@ -2,6 +2,7 @@
 #include "OutOfCore/PieceBorders.h"
 
 #include "Predicates/CellBox.h"
+#include "Triangulation/LongTriangles.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -48,6 +49,11 @@ void PieceBorders::findMet(const SeamTriangle& triangle)
 
 void PieceBorders::add(const SeamTriangle& triangle)
 {
+  const double longest = this->Work.MaximumEdge * this->Work.Factor;
+  if (longest > 0 && hasLongEdge(triangle[0].Place, triangle[1].Place, triangle[2].Place, longest))
+  {
+    return;
+  }
   this->findMet(triangle);
   const auto owner = static_cast<PartitionIndex>(this->Work.Plan.number(this->Met.front()));
   BorderTriangles& border = this->Borders[owner];

@@ -7,6 +7,7 @@
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/SectionFile.h"
 #include "OutOfCore/SpillPoints.h"
+#include "OutOfCore/TriangleTaker.h"
 #include "Partitioned/GrowingPiece.h"
 
 #include <array>
@@ -27,7 +28,9 @@ struct PieceWork
   double Factor; ///< of coordinates
   const PointRowLayout& Rows;
   const PartitionedMesh& Mesh;
-  std::string Results; ///< how the paths of pieces' results begin
+  std::string Results;            ///< how the paths of pieces' results begin
+  TriangleTaker* Taker = nullptr; ///< null: triangles go to the mesh
+  double MaximumEdge = 0;         ///< triangles with a longer edge are left out; 0: none are
 
   std::string resultPath(PartitionIndex piece) const
   {

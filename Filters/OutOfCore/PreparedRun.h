@@ -33,13 +33,15 @@ public:
   PieceWork work() const
   {
     return { *this->Plan, *this->Spilled, this->Survey.Factor, this->Rows, this->Mesh,
-      this->Results };
+      this->Results, this->Taker, this->MaximumEdge };
   }
 
   InputSurvey Survey;
   PointRowLayout Rows;
   PartitionedMesh Mesh;
   std::string Results; ///< how the paths of pieces' results begin
+  TriangleTaker* Taker = nullptr;
+  double MaximumEdge = 0;
   std::unique_ptr<PiecePlan> Plan;
   std::unique_ptr<SpilledPoints> Spilled;
 

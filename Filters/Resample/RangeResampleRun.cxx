@@ -16,9 +16,11 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -90,6 +92,15 @@ void vtkRangeResampleFilter::Run::start(vtkInformationVector* input, vtkInformat
     });
 }
 
+/// Collective.
+bool vtkRangeResampleFilter::Run::samplesElevation(
+  const std::vector<vtkPointSet*>& meshes, const std::vector<int>& axes) const
+{
+  return this->Filter->SampleElevation && axes == std::vector<int>{ 0, 1 } &&
+    this->Filter->PointDataArraySelection->ArrayIsEnabled(tipp::elevationName) &&
+    (this->Filter->NumberOfInputPieces > 1 || tipp::haveElevation(meshes, this->Ranks));
+}
+
 void vtkRangeResampleFilter::Run::makeImage(
   const std::vector<vtkPointSet*>& meshes, vtkInformation* outInfo)
 {
@@ -113,6 +124,7 @@ void vtkRangeResampleFilter::Run::makeImage(
     outInfo->Get(Pipeline::UPDATE_EXTENT(), this->Wanted.Extent.data());
     this->WantsAll = this->severalRanks() || this->Wanted.Extent == whole;
   }
+  this->AddsElevation = this->samplesElevation(meshes, axes);
   tipp::Lattice local = this->Wanted;
   if (this->severalRanks())
   {
@@ -172,7 +184,15 @@ void vtkRangeResampleFilter::Run::add(const std::vector<vtkPointSet*>& meshes)
       const double ofPiece = (double(i) + done) / double(meshes.size());
       return this->Progress((this->Piece + ofPiece) / this->Filter->NumberOfInputPieces);
     };
-    this->Stopped = !this->Image->add(meshes[i], report);
+    vtkSmartPointer<vtkPointSet> mesh = meshes[i];
+    if (this->AddsElevation)
+    {
+      mesh = tipp::withElevation(meshes[i]);
+      this->HasOwnElevation =
+        this->HasOwnElevation || meshes[i]->GetPointData()->HasArray(tipp::elevationName);
+      this->Filter->NumberOfInputPieces > 1 ? this->Heights.add(mesh) : void();
+    }
+    this->Stopped = !this->Image->add(mesh, report);
   }
 }
 
@@ -208,6 +228,7 @@ void vtkRangeResampleFilter::Run::makeOutput(vtkImageData* output)
     this->warn(*together);
     image = together.get();
   }
+  this->dropFlatElevation(*image);
   report.ExchangeSeconds = watch.restart();
   this->warn(*this->Image);
   report.Threads = this->settings(true).Threads;
@@ -218,6 +239,26 @@ void vtkRangeResampleFilter::Run::makeOutput(vtkImageData* output)
   this->warnOfCounts(*image, report.Hits);
   this->warnOfMissing(*image, this->Filter->PointDataArraySelection, false);
   this->warnOfMissing(*image, this->Filter->CellDataArraySelection, true);
+}
+
+/// With several pieces only the last one tells whether all points have the same z. Collective.
+void vtkRangeResampleFilter::Run::dropFlatElevation(tipp::SampledImage& image)
+{
+  if (!this->AddsElevation || this->Filter->NumberOfInputPieces == 1)
+  {
+    return;
+  }
+  this->Heights.gather(this->Ranks);
+  std::vector<std::int64_t> kept{ this->HasOwnElevation ? 1 : 0 };
+  this->Ranks.sum(kept);
+  if (kept[0] == 0 && (this->Heights.isFlat() || image.dimension() == 3))
+  {
+    std::vector<tipp::SampledImage::Array>& arrays = image.arrays();
+    arrays.erase(
+      std::remove_if(arrays.begin(), arrays.end(),
+        [](const tipp::SampledImage::Array& array) { return array.Name == tipp::elevationName; }),
+      arrays.end());
+  }
 }
 
 void vtkRangeResampleFilter::Run::warn(const tipp::SampledImage& image) const

@@ -6,6 +6,7 @@
 
 #include "Messages/Postbox.h"
 #include "Output/Monitor.h"
+#include "Resample/Elevation.h"
 #include "Resample/Lattice.h"
 #include "Resample/SampledImage.h"
 
@@ -42,7 +43,10 @@ private:
   void makeImage(const std::vector<vtkPointSet*>& meshes, vtkInformation* outInfo);
   void add(const std::vector<vtkPointSet*>& meshes);
   void makeOutput(vtkImageData* output);
+  void dropFlatElevation(tipp::SampledImage& image);
   tipp::SamplingSettings settings(bool merging) const;
+  bool samplesElevation(
+    const std::vector<vtkPointSet*>& meshes, const std::vector<int>& axes) const;
   std::vector<vtkPointSet*> meshesIn(vtkInformationVector* input) const;
   void warn(const tipp::SampledImage& image) const;
   void warnOfCounts(const tipp::SampledImage& image, std::int64_t hits);
@@ -52,6 +56,9 @@ private:
   tipp::Postbox& Ranks;
   tipp::Monitor Progress;
   int Piece = 0;
+  bool AddsElevation = false; ///< to each mesh
+  bool HasOwnElevation = false;
+  tipp::HeightRange Heights; ///< of the meshes that it was added to, with several pieces
   bool Stopped = false;
   bool WantsAll = true; ///< and not a part of the image
   std::exception_ptr Problem;

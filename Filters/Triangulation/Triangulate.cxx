@@ -9,6 +9,7 @@
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/DegenerateInput.h"
 #include "Triangulation/InitialMesh.h"
+#include "Triangulation/LongTriangles.h"
 #include "Triangulation/PartitionSizes.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/TriangleSink.h"
@@ -332,9 +333,7 @@ Tiling makeTiling(
     domain, samplePoints(points, SamplesPerPartition * static_cast<std::size_t>(count)), count);
 }
 
-} // namespace
-
-Triangulation triangulate(PointsView input, const TriangulationOptions& options)
+Triangulation triangulateAll(PointsView input, const TriangulationOptions& options)
 {
   Triangulation result;
   TriangulationStatistics& statistics = result.Statistics;
@@ -362,6 +361,23 @@ Triangulation triangulate(PointsView input, const TriangulationOptions& options)
   else
   {
     Run<std::int64_t>(points, options, result).run(tiling);
+  }
+  return result;
+}
+
+} // namespace
+
+Triangulation triangulate(PointsView input, const TriangulationOptions& options)
+{
+  Triangulation result = triangulateAll(input, options);
+  const auto pointOf = [&input](auto id) { return input[std::size_t(id)]; };
+  const auto drop = [&](auto& ids) {
+    ids.truncate(3 * dropLongTriangles(ids.data(), ids.size() / 3, options.MaximumEdge, pointOf));
+  };
+  if (options.MaximumEdge > 0)
+  {
+    drop(result.Ids32);
+    drop(result.Ids64);
   }
   return result;
 }

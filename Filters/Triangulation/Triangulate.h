@@ -29,6 +29,8 @@ struct TriangulationOptions
   int InitialPointsPerPartition = 0; ///< 0: chosen
   Schedule Order = Schedule::Dynamic;
   int Threads = 0; ///< 0: OpenMP's choice
+  /// Triangles with a longer edge are left out of the result; 0: none are.
+  double MaximumEdge = 0;
   /// Told the finished fraction now and then, from one thread at a time; false aborts the run.
   std::function<bool(double)> Progress;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/FileLines.h"
 
+#include "Files/Extension.h"
 #include "Files/IOError.h"
 
 #include <algorithm>
@@ -8,18 +9,56 @@
 #include <cstring>
 
 #include <sys/stat.h>
+#include <sys/wait.h>
 
 namespace tipp
 {
 
+namespace
+{
+
+/// The program that decompresses a file to its standard output; empty for other files.
+std::string decompressorOf(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  return extension == ".gz" ? "gzip"
+    : extension == ".xz"    ? "xz"
+    : extension == ".zst"   ? "zstd"
+                            : "";
+}
+
+/// The path as one word of a shell.
+std::string quoted(const std::string& path)
+{
+  std::string word = "'";
+  for (const char c : path)
+  {
+    word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  }
+  return word + "'";
+}
+
+} // namespace
+
 FileLines::FileLines(const std::string& path, std::size_t blockBytes)
   : Path(path)
+  , Program(decompressorOf(path))
   , File(std::fopen(path.c_str(), "rb"), std::fclose)
   , BlockBytes(blockBytes)
 {
   if (!this->File)
   {
     throw IOError(path, std::string("cannot be opened (") + std::strerror(errno) + ").");
+  }
+  if (!this->Program.empty())
+  {
+    const std::string command =
+      "exec " + this->Program + " -dc < " + quoted(path) + " 2> /dev/null";
+    this->File = { popen(command.c_str(), "r"), pclose };
+    if (!this->File)
+    {
+      throw IOError(path, "cannot be decompressed, since no process can be started.");
+    }
   }
   this->readOn();
   this->startText();
@@ -34,7 +73,8 @@ void FileLines::startText()
     throw IOError(this->Path, "is not a text file; give its extension as what it is.");
   }
   struct stat status = {};
-  if (this->End > 0 && fstat(fileno(this->File.get()), &status) == 0 && S_ISREG(status.st_mode))
+  if (this->End > 0 && this->File && fstat(fileno(this->File.get()), &status) == 0 &&
+    S_ISREG(status.st_mode))
   {
     const auto lines =
       std::count(this->Buffer.begin(), this->Buffer.begin() + std::ptrdiff_t(this->End), '\n');
@@ -52,6 +92,10 @@ void FileLines::startText()
 bool FileLines::readOn()
 {
   constexpr std::size_t longest = std::size_t(64) << 20;
+  if (!this->File)
+  {
+    return false;
+  }
   const std::size_t left = this->End - this->Begin;
   if (left > longest)
   {
@@ -69,7 +113,24 @@ bool FileLines::readOn()
   }
   this->Begin = 0;
   this->End = left + got;
+  if (got == 0 && !this->Program.empty())
+  {
+    this->endDecompression();
+  }
   return got > 0;
+}
+
+void FileLines::endDecompression()
+{
+  constexpr int notFound = 127; // what a shell says
+  const int status = pclose(this->File.release());
+  if (status != 0)
+  {
+    const bool isMissing = WIFEXITED(status) && WEXITSTATUS(status) == notFound;
+    throw IOError(this->Path,
+      isMissing ? "needs the program " + this->Program + ", which is not there; install it."
+                : "cannot be decompressed by " + this->Program + "; copy it again.");
+  }
 }
 
 bool FileLines::next(std::string_view& line)

@@ -16,7 +16,7 @@ namespace tipp
 {
 
 /// The lines of a text file of any size, without their ends (\n or \r\n) and without a byte order
-/// mark; a pipe will do.
+/// mark; a pipe will do. A file .gz, .xz or .zst is decompressed by the program gzip, xz or zstd.
 class VTKTIPPIO_EXPORT FileLines
 {
 public:
@@ -33,9 +33,11 @@ public:
 
 private:
   bool readOn();
+  void endDecompression();
   void startText();
 
   std::string Path;
+  std::string Program; ///< that decompresses; empty: none
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> File;
   const std::size_t BlockBytes;
   std::vector<char> Buffer;

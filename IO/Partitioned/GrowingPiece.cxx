@@ -57,6 +57,28 @@ void GrowingPiece::setRow(std::int64_t place, const double* row, const PointRowL
     row, rows.Words, this->GhostRows.data() + std::size_t(this->Ghosts.at(place)) * rows.Words);
 }
 
+GrowingPiece::BorderMesh GrowingPiece::borderMesh(const PointRowLayout& rows) const
+{
+  BorderMesh mesh;
+  std::unordered_map<std::int64_t, std::int32_t> known;
+  for (const SharedTriangle& triangle : this->Shared)
+  {
+    for (const std::int64_t place : triangle.Places)
+    {
+      const auto [found, isNew] = known.emplace(place, std::int32_t(known.size()));
+      if (isNew)
+      {
+        const double* const row = this->owns(place)
+          ? this->rimRow(place, rows)
+          : this->GhostRows.data() + std::size_t(this->Ghosts.at(place)) * rows.Words;
+        mesh.Rows.insert(mesh.Rows.end(), row, row + rows.Words);
+      }
+      mesh.Corners.push_back(found->second);
+    }
+  }
+  return mesh;
+}
+
 const double* GrowingPiece::rimRow(std::int64_t place, const PointRowLayout& rows) const
 {
   const auto found = std::lower_bound(this->RimPlaces.begin(), this->RimPlaces.end(), place);

@@ -73,6 +73,14 @@ public:
   /// Makes room for the row, and fills it.
   void addRow(std::int64_t place, const PointRowLayout& rows);
   void setRow(std::int64_t place, const double* row, const PointRowLayout& rows);
+
+  struct BorderMesh
+  {
+    std::vector<double> Rows;
+    std::vector<std::int32_t> Corners; ///< three a triangle: which row
+  };
+  /// The triangles that were added, when all rows are there.
+  BorderMesh borderMesh(const PointRowLayout& rows) const;
   ///@}
 
   struct Corners

@@ -3,6 +3,8 @@
 
 #include "Files/Extension.h"
 #include "Files/IOError.h"
+#include "Las/LasHeader.h"
+#include "Las/LasPoints.h"
 #include "Points/NpyPoints.h"
 #include "Points/ReadPoints.h"
 #include "Points/TextPoints.h"
@@ -136,6 +138,14 @@ std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointO
     return generatePointsAsWanted(generated);
   }
   const std::string extension = extensionOf(path);
+  if (isLasExtension(extension))
+  {
+    return openLasPoints(path, options);
+  }
+  if (options.Las.isGiven())
+  {
+    throw IOError(path, "has no classes and returns; these can be chosen in .las and .laz files.");
+  }
   if (extension == ".npy")
   {
     return std::make_unique<NpyFilePoints>(path, options);

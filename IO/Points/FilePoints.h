@@ -26,6 +26,10 @@ public:
   /// Leaves out the next ones.
   virtual void skip(std::int64_t) {}
   virtual std::vector<std::string> columns() const = 0;
+  /// How many points of the file the options have left out in the last whole pass.
+  virtual std::int64_t leftOut() const { return 0; }
+  /// The coordinate reference system: see PointStream.
+  virtual std::string crs() const { return ""; }
 };
 
 /// By the file's extension. Throws IOError.

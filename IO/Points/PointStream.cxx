@@ -47,7 +47,13 @@ public:
       this->Identity += identityOf(path);
       this->Files.push_back(openFilePoints(path, options));
     }
+    this->Identity += options.Las.text() + "\n";
+    for (const std::string& name : this->Files[0]->columns())
+    {
+      this->Kept.push_back(options.wants(name));
+    }
     this->requireSameColumns();
+    this->requireSameCrs();
   }
 
   bool next(PointBlock& block, std::size_t most) override
@@ -59,6 +65,7 @@ public:
       const auto left = std::uint64_t(this->End - this->Points);
       if (this->Files[this->At]->next(block, std::size_t(std::min<std::uint64_t>(most, left))))
       {
+        this->dropColumns(block);
         block.First = this->Points;
         this->Points += std::int64_t(block.size());
         return true;
@@ -72,7 +79,7 @@ public:
 
   void rewind() override
   {
-    if (this->identityNow() != this->Identity)
+    if (!this->areUnchanged())
     {
       throw IOError(this->Paths[0], "or another input has been changed meanwhile; start again.");
     }
@@ -105,7 +112,42 @@ public:
     this->End = end;
   }
 
-  std::vector<std::string> columns() const override { return this->Files[0]->columns(); }
+  std::vector<std::string> columns() const override
+  {
+    const std::vector<std::string> all = this->Files[0]->columns();
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      if (this->Kept[i])
+      {
+        names.push_back(all[i]);
+      }
+    }
+    return names;
+  }
+
+  std::int64_t leftOut() const override
+  {
+    std::int64_t points = 0;
+    for (const auto& file : this->Files)
+    {
+      points += file->leftOut();
+    }
+    return points;
+  }
+
+  std::string crs() const override
+  {
+    for (const auto& file : this->Files)
+    {
+      if (!file->crs().empty())
+      {
+        return file->crs();
+      }
+    }
+    return "";
+  }
+
   std::string identity() const override { return this->Identity; }
 
 private:
@@ -132,19 +174,47 @@ private:
     }
   }
 
-  std::string identityNow() const
+  /// A file without one is taken to be in that of the others.
+  void requireSameCrs() const
+  {
+    const std::string crs = this->crs();
+    for (std::size_t i = 0; i < this->Files.size(); ++i)
+    {
+      if (!this->Files[i]->crs().empty() && this->Files[i]->crs() != crs)
+      {
+        throw IOError(this->Paths[i],
+          "is in another coordinate reference system than the files before it; reproject it.");
+      }
+    }
+  }
+
+  void dropColumns(PointBlock& block) const
+  {
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < block.Columns.size(); ++i)
+    {
+      if (this->Kept[i] && next++ != i)
+      {
+        block.Columns[next - 1] = std::move(block.Columns[i]);
+      }
+    }
+    block.Columns.resize(next);
+  }
+
+  bool areUnchanged() const
   {
     std::string identity;
     for (const std::string& path : this->Paths)
     {
       identity += identityOf(path);
     }
-    return identity;
+    return this->Identity.compare(0, identity.size(), identity) == 0;
   }
 
   std::vector<std::string> Paths;
   std::vector<std::unique_ptr<FilePoints>> Files;
   std::string Identity;
+  std::vector<bool> Kept; ///< of the files' columns
   std::size_t At = 0;
   std::int64_t Points = 0;
   std::int64_t First = 0;

@@ -47,14 +47,20 @@ public:
   /// Names of the columns beside x and y.
   virtual std::vector<std::string> columns() const = 0;
 
+  /// How many points the options have left out in the last whole pass, as those of other classes.
+  virtual std::int64_t leftOut() const { return 0; }
+
+  /// The coordinate reference system of the points: WKT or "EPSG:code", or empty.
+  virtual std::string crs() const { return ""; }
+
   /// What tells whether it is the same input in another run: names, sizes and times of files.
   virtual std::string identity() const = 0;
 };
 
-/// One or more files, one after the other: .npy and text are read block by block, other formats a
-/// file as a whole, for each pass. Text takes a pass more, at once, which finds its numeric
-/// columns. The name "uniform:COUNT" stands for so many points that are uniform in the unit square
-/// and made as they are wanted. All must have the same columns. Throws IOError.
+/// One or more files, one after the other: .npy, .las and text are read block by block, other
+/// formats a file as a whole, for each pass. Text takes a pass more, at once, which finds its
+/// numeric columns. The name "uniform:COUNT" stands for so many points that are uniform in the unit
+/// square and made as they are wanted. All must have the same columns. Throws IOError.
 VTKTIPPIO_EXPORT std::unique_ptr<PointStream> openPointStream(
   const std::vector<std::string>& paths, const PointOptions& options = {});
 

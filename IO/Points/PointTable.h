@@ -5,6 +5,7 @@
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct PointTable
 
   std::vector<double> XY;
   std::vector<Column> Columns;
+  std::int64_t LeftOut = 0; ///< points that the options have left out
 
   VTKTIPPIO_EXPORT std::size_t size() const;
 };

@@ -4,8 +4,11 @@
 #include "Adcirc/AdcircGrid.h"
 #include "Files/Extension.h"
 #include "Files/IOError.h"
+#include "Las/LasHeader.h"
 #include "Points/DataSetPoints.h"
+#include "Points/FilePoints.h"
 #include "Points/NpyPoints.h"
+#include "Points/PointStream.h"
 #include "Points/TextPoints.h"
 #include "Vtk/ReadDataSet.h"
 
@@ -33,9 +36,45 @@ PointTable readFixedColumns(const std::string& path)
 
 } // namespace
 
+PointTable readAllPoints(PointStream& stream)
+{
+  constexpr std::size_t block = std::size_t(1) << 18;
+  PointTable table;
+  for (const std::string& name : stream.columns())
+  {
+    table.Columns.push_back({ name, {} });
+  }
+  forEachBlock(stream, block,
+    [&](const PointBlock& more)
+    {
+      table.XY.insert(table.XY.end(), more.XY.begin(), more.XY.end());
+      for (std::size_t i = 0; i < table.Columns.size(); ++i)
+      {
+        std::vector<double>& values = table.Columns[i].Values;
+        values.insert(values.end(), more.Columns[i].begin(), more.Columns[i].end());
+      }
+    });
+  table.LeftOut = stream.leftOut();
+  return table;
+}
+
+PointTable readPoints(const std::vector<std::string>& paths, const PointOptions& options)
+{
+  return paths.size() == 1 ? readPoints(paths[0], options)
+                           : readAllPoints(*openPointStream(paths, options));
+}
+
 PointTable readPoints(const std::string& path, const PointOptions& options)
 {
   const std::string extension = extensionOf(path);
+  if (isLasExtension(extension))
+  {
+    return readAllPoints(*openPointStream({ path }, options));
+  }
+  if (options.Las.isGiven())
+  {
+    throw IOError(path, "has no classes and returns; these can be chosen in .las and .laz files.");
+  }
   if (extension == ".npy")
   {
     return readNpyPoints(path, options);
@@ -47,8 +86,10 @@ PointTable readPoints(const std::string& path, const PointOptions& options)
   if (extension != ".14" && extension != ".grd" && !isVtkFile(path))
   {
     throw IOError(path,
-      "has no extension that tells a kind of point file; use .npy, .csv, .txt, .xyz, .14, .grd or "
-      "one of VTK's.");
+      "has no extension that tells a kind of point file; use .npy, .csv, .txt, .xyz (or these as "
+      ".gz, "
+      ".xz or .zst), .las, .laz, "
+      ".14, .grd or one of VTK's.");
   }
   if (!options.X.empty() || !options.Y.empty())
   {
@@ -58,13 +99,24 @@ PointTable readPoints(const std::string& path, const PointOptions& options)
 }
 
 PointTable readPointsShare(
-  const std::string& path, const PointOptions& options, int part, int parts)
+  const std::vector<std::string>& paths, const PointOptions& options, int part, int parts)
 {
-  if (extensionOf(path) == ".npy")
+  if (paths.size() == 1 && extensionOf(paths[0]) == ".npy")
   {
-    return readNpyPoints(path, options, part, parts);
+    return readNpyPoints(paths[0], options, part, parts);
   }
-  return part == 0 ? readPoints(path, options) : PointTable();
+  const bool isDivisible = std::all_of(paths.begin(), paths.end(),
+    [](const std::string& path)
+    { return extensionOf(path) == ".npy" || isLasExtension(extensionOf(path)); });
+  if (!isDivisible)
+  {
+    return part == 0 ? readPoints(paths, options) : PointTable();
+  }
+  const auto stream = openPointStream(paths, options);
+  const std::int64_t points = stream->divisible();
+  const auto pointBefore = [&](int p) { return points / parts * p + points % parts * p / parts; };
+  stream->limitTo(pointBefore(part), pointBefore(part + 1));
+  return readAllPoints(*stream);
 }
 
 } // namespace tipp

@@ -2,34 +2,57 @@
 #ifndef tippReadPoints_h
 #define tippReadPoints_h
 
+#include "Las/LasSelection.h"
 #include "Points/PointTable.h"
 #include "vtkTIPPIOModule.h"
 
+#include <algorithm>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace tipp
 {
 
-/// Which columns are x and y: a name as the file's header gives it, or a number counted from 0.
-/// Empty: by the usual names (x, y; lon, lat; longitude, latitude; easting, northing), else the
-/// first two.
+class PointStream;
+
 struct PointOptions
 {
+  /// Which columns are x and y: a name as the file's header gives it, or a number counted from 0.
+  /// Empty: by the usual names (x, y; lon, lat; longitude, latitude; easting, northing), else the
+  /// first two.
   std::string X;
   std::string Y;
+  LasSelection Las = {};
+  /// The further columns to read, of those that there are; without: all.
+  std::optional<std::vector<std::string>> Columns = {};
+
+  bool wants(const std::string& column) const
+  {
+    return !this->Columns ||
+      std::find(this->Columns->begin(), this->Columns->end(), column) != this->Columns->end();
+  }
 };
 
 /// Reads points by the file's extension:
 /// .npy (n x 2 or n x 3, float64 or float32); .csv, .txt, .xyz (one point a line, columns parted by
 /// comma, semicolon, tab or spaces, with or without a line of names or a line with the count
-/// first); .14, .grd (ADCIRC grids: nodes and depth); any format that VTK reads (points and
-/// point data, a column for each component). Throws IOError.
+/// first); .las, .laz (see LasPoints.h); .14, .grd (ADCIRC grids: nodes and depth); any format that
+/// VTK reads (points and point data, a column for each component). Throws IOError.
 VTKTIPPIO_EXPORT PointTable readPoints(const std::string& path, const PointOptions& options = {});
 
-/// A part's share of a file's points, of so many parts: consecutive points where a file can be read
-/// from its middle (.npy), else all for part 0 and none for the others. Throws IOError.
+/// The points of several files, one after the other. Throws IOError.
+VTKTIPPIO_EXPORT PointTable readPoints(
+  const std::vector<std::string>& paths, const PointOptions& options);
+
+/// All that is in a stream's limits. Throws IOError.
+VTKTIPPIO_EXPORT PointTable readAllPoints(PointStream& stream);
+
+/// A part's share of the files' points, of so many parts: consecutive points where files can be
+/// read from their middle (.npy, .las), else all for part 0 and none for the others. Throws
+/// IOError.
 VTKTIPPIO_EXPORT PointTable readPointsShare(
-  const std::string& path, const PointOptions& options, int part, int parts);
+  const std::vector<std::string>& paths, const PointOptions& options, int part, int parts);
 
 } // namespace tipp
 

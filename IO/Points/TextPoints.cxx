@@ -31,7 +31,8 @@ bool addValue(const TextRows& rows, NumericColumn& column)
 
 bool isTextExtension(const std::string& extension)
 {
-  return extension == ".csv" || extension == ".txt" || extension == ".xyz";
+  return extension == ".csv" || extension == ".tsv" || extension == ".txt" || extension == ".xyz" ||
+    extension == ".pts" || extension == ".gz" || extension == ".xz" || extension == ".zst";
 }
 
 PointTable readTextPoints(const std::string& path, const PointOptions& options)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 namespace tipp
@@ -110,7 +111,7 @@ void TextRows::readStart()
   this->Delimiter = findDelimiter(this->Line);
   this->split();
   std::int64_t count = 0;
-  if (this->Row.size() == 1 && parseInteger(this->Row[0], count))
+  if ((this->Row.size() == 1 && parseInteger(this->Row[0], count)) || this->startsWithCounts(count))
   {
     this->Count = count;
     this->requireLine();
@@ -132,6 +133,29 @@ void TextRows::readStart()
   {
     this->Names.clear(); // a title
   }
+}
+
+/// Numbers of points and of edges, of which there are none: the first line may be that, or a point,
+/// so the lines behind it are counted.
+bool TextRows::startsWithCounts(std::int64_t& points) const
+{
+  std::int64_t edges = -1;
+  std::error_code ignored;
+  if (this->Row.size() != 2 || !parseInteger(this->Row[0], points) || points < 1 ||
+    !parseInteger(this->Row[1], edges) || edges != 0 ||
+    !std::filesystem::is_regular_file(this->Path, ignored))
+  {
+    return false;
+  }
+  FileLines lines(this->Path);
+  std::string_view line;
+  std::int64_t count = -1; // without this one
+  while (lines.next(line) && count <= points)
+  {
+    const std::size_t start = line.find_first_not_of(" \t");
+    count += start != std::string_view::npos && line[start] != '#' ? 1 : 0;
+  }
+  return count == points;
 }
 
 /// A point has two numbers at least; names may hold one, as a year.
@@ -181,6 +205,10 @@ bool TextRows::next()
 double TextRows::coordinate(std::size_t index) const
 {
   double value = 0;
+  if (isMissing(this->Row[index]))
+  {
+    return std::numeric_limits<double>::quiet_NaN(); // counted with the points that are not finite
+  }
   if (!parseNumber(this->Row[index], value))
   {
     constexpr std::size_t shown = 40;

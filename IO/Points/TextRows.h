@@ -55,6 +55,7 @@ private:
   void requireLine();
   void split();
   void readStart();
+  bool startsWithCounts(std::int64_t& points) const;
   bool startsWithNames() const;
   void chooseColumns(const PointOptions& options);
   double coordinate(std::size_t index) const;

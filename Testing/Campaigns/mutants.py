@@ -141,17 +141,17 @@ def make_input(random, folder, tipp):
         (folder / "piece.vtu").write_bytes(piece if first else mutate(random, piece))
         (folder / "mesh.pvtu").write_bytes(mutate(random, whole) if first else whole)
         return folder / "mesh.pvtu", True
-    files = seeds.points() if kind < 0.3 else seeds.meshes()
+    files = seeds.points() if kind < 0.36 else seeds.meshes()
     name = random.choice(sorted(files))
     path = folder / name
     path.write_bytes(mutate(random, files[name]))
-    return path, kind >= 0.3
+    return path, kind >= 0.36
 
 
 def make_command(random, path, has_cells, folder):
     """The words after `tipp`, and what it writes."""
     is_file = path.is_file()
-    choices = ["delaunay", "delaunay", "like", "store"] if is_file else []
+    choices = ["delaunay", "delaunay", "dem", "info", "like", "store"] if is_file else []
     choices += ["check"] if is_file else []
     choices += ["resample", "resample", "partition", "flatten"] if has_cells else []
     command = random.choice(choices)
@@ -160,6 +160,12 @@ def make_command(random, path, has_cells, folder):
         return ["delaunay", path, "-o", out], out
     if command == "store":
         return ["delaunay", path, "-o", folder / "out.tipp"], folder / "out.tipp"
+    if command == "dem":
+        where = ["--resolution", "0.5", "--bounds", "0", "4", "0", "4"]
+        return ["dem", path, "-o", folder / random.choice(["out.npy", "out.vti", "out.tif"]), *where,
+                *random.choice([[], ["--memory", "8M"]])], None
+    if command == "info":
+        return ["info", path], None
     if command == "like":
         return ["points", "--like", path, "--count", "20", "-o", folder / "out.npy"], None
     if command == "check":

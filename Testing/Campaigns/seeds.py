@@ -314,7 +314,25 @@ def meshes():
     return files
 
 
+def las(minor, form):
+    """A LAS file of a version and point format, with the keys of a reference system before the points."""
+    keys = struct.pack("<12H", 1, 1, 0, 2, 3072, 0, 1, 26910, 4096, 0, 1, 5703)
+    record = struct.pack("<H16sHH32s", 0, b"LASF_Projection", 34735, len(keys), b"") + keys
+    size = 375 if minor == 4 else 227
+    length = {1: 28, 3: 34, 7: 36}[form]
+    header = bytearray(size)
+    header[:4] = b"LASF"
+    struct.pack_into("<BB", header, 24, 1, minor)
+    struct.pack_into("<HIIBHI", header, 94, size, size + len(record), 1, form, length, 0 if form > 5 else len(POINTS))
+    struct.pack_into("<6d", header, 131, 0.01, 0.01, 0.01, 0, 0, 0)
+    if minor == 4:
+        struct.pack_into("<Q", header, 247, len(POINTS))
+    body = b"".join(struct.pack("<3iHB", *(round(100 * c) for c in p), 9, 17 if form > 5 else 9).ljust(length, b"\2")
+                    for p in POINTS)
+    return bytes(header) + record + body
+
+
 def points():
     """Name -> bytes of files with points alone."""
-    return {"points.npy": npy("d", (len(POINTS), 2), flat(p[:2] for p in POINTS)),
+    return {"old.las": las(2, 3), "plain.las": las(1, 1), "new.las": las(4, 7), "points.npy": npy("d", (len(POINTS), 2), flat(p[:2] for p in POINTS)),
             "points.csv": table(",", "x,y,height"), "points.txt": table(" ", ""), "points.xyz": table(" ", "")}

@@ -47,15 +47,21 @@ ARRAY = ([None, "text", {}, np.zeros((3, 2), complex), vtkTable(), vtkImageData(
          [3, [], [1, 2], np.zeros((3, 5))])
 
 TABLE = {
-    "delaunay": {"points": ARRAY, "tol": LENGTH, "partitions": COUNTS, "schedule": (TEXT[0], ["random", ""]),
+    "delaunay": {"points": ARRAY, "tol": LENGTH, "max_edge": LENGTH, "partitions": COUNTS, "schedule": (TEXT[0], ["random", ""]),
                  "threads": THREADS, "progress_bar": FLAG},
-    "delaunay_2d": {"points": ARRAY, "tol": LENGTH, "alpha": LENGTH, "offset": LENGTH, "bound": FLAG,
+    "delaunay_2d": {"points": ARRAY, "tol": LENGTH, "max_edge": LENGTH, "alpha": LENGTH, "offset": LENGTH, "bound": FLAG,
                     "point_data": POINT_DATA, "partitions": COUNTS, "schedule": (TEXT[0], ["random"]),
                     "threads": THREADS, "progress_bar": FLAG},
     "delaunay_file": {"points": (PATH[0] + [[None], {"a": 1}], PATH[1]), "output": PATH,
                       "memory": (BYTES[0], BYTES[1] + ["", "2T", "1.5G", "9" * 40]), "partitions": COUNTS,
-                      "columns": COLUMNS, "map_duplicates": FLAG, "neighbors": FLAG, "count_only": FLAG,
+                      "columns": COLUMNS, "max_edge": LENGTH, "map_duplicates": FLAG, "neighbors": FLAG, "count_only": FLAG,
                       "resume": FLAG, "scratch": PATH, "threads": THREADS, "progress_bar": FLAG},
+    "dem": {"points": ([None, {}, np.zeros((3, 2), complex), vtkTable(), vtkImageData(), vtkPolyData, [None]],
+                       [3, [1, 2], np.zeros((3, 5)), np.zeros((4, 2))]),
+            "resolution": (NUMBER[0], NUMBER[1] + [0, -1]), "bounds": several([None, "1", True], [NAN, INF], 1.0, 4),
+            "align": FLAG, "attributes": NAMES, "point_data": POINT_DATA, "max_edge": LENGTH,
+            "classes": ([3, "2", [None], [1.5]], [[256], [-1]]), "returns": (TEXT[0], ["second"]),
+            "keep": ([3, 1.5, {"f": 1}, [None], [1]], [["good"]]), "threads": THREADS, "progress_bar": FLAG},
     "resample": {"mesh": DATA, "bounds": BOUNDS, "dimensions": DIMENSIONS, "spacing": SPACING,
                  "null_value": ANY_NUMBER, "no_data": ANY_NUMBER, "arrays": NAMES, "device": TEXT,
                  "threads": THREADS, "progress_bar": FLAG},
@@ -84,6 +90,7 @@ class Arguments(unittest.TestCase):
         return {
             "delaunay": {"points": POINTS}, "delaunay_2d": {"points": POINTS},
             "delaunay_file": {"points": self.points, "output": self.output}, "resample": {"mesh": self.mesh},
+            "dem": {"points": np.c_[POINTS, POINTS[:, 0]], "resolution": 0.1},
             "read": {"path": self.stored}, "write": {"mesh": self.mesh, "path": self.output},
             "as_array": {"data": self.mesh, "name": "f"},
         }[function]

@@ -3,6 +3,7 @@
 
 #include "Check/DelaunayChecker.h"
 #include "Commands/CheckPartitioned.h"
+#include "Commands/PointArguments.h"
 #include "Console/MpiSession.h"
 #include "Files/IOError.h"
 #include "Meshes/ReadMesh.h"
@@ -106,8 +107,7 @@ void addCheckCommand(CLI::App& app, int& exitCode)
     ->add_option("mesh", arguments->Mesh,
       "The triangles: .npy (m x 3 integers), .14, .grd, a VTK file or a partitioned mesh")
     ->required();
-  command->add_option("--x", arguments->Columns.X, "Column of x: a name, or a number from 0");
-  command->add_option("--y", arguments->Columns.Y, "Column of y: a name, or a number from 0");
+  addPointOptions(*command, arguments->Columns);
   command->add_flag("--tie-rule", arguments->Options.TieRule,
     "Also check that ties between co-circular points are broken by the lexicographic order of the "
     "points, which makes the triangulation unique");

@@ -27,6 +27,7 @@ struct DelaunayArguments
   std::string Minor = "auto";
   std::string Groups = "proportional";
   int InitialPoints = 0;
+  double MaximumEdge = 0; ///< 0: not given
   bool MapDuplicates = false;
   bool Neighbors = false;
   std::string Statistics;

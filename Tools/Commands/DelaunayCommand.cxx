@@ -7,6 +7,7 @@
 #include "Commands/DelaunayOutput.h"
 #include "Commands/DelaunayStatistics.h"
 #include "Commands/MemorySize.h"
+#include "Commands/PointArguments.h"
 #include "Console/Interrupt.h"
 #include "Console/MpiSession.h"
 #include "Console/ProgressBar.h"
@@ -28,14 +29,16 @@ namespace
 constexpr const char* footer =
   R"(INPUT   .npy (n x 2 or n x 3, float64 or float32); .csv, .txt, .xyz (one point a
         line, columns parted by comma, semicolon, tab or blanks; a line of names
-        or of the count is found); .14, .grd (ADCIRC); any VTK file.
-        With a .tipp output also several files, and uniform:COUNT for so many points
-        that are uniform in the unit square.
+        or of the count is found); .las (1.0 to 1.4), .laz with LASzip; .14, .grd
+        (ADCIRC); any VTK file. Several files are one set of points, if they have the
+        same columns. With a .tipp output also uniform:COUNT, for so many points that
+        are uniform in the unit square. Of LAS files, points flagged as withheld,
+        synthetic or overlap are left out unless --keep names the flag.
 OUTPUT  .vtp, .vtu (all points with their data, a column named z as third
         coordinate) or .npy (m x 3 int64: point ids, counted from 0,
         counter-clockwise); or .tipp, a partitioned mesh, made out of core: points
-        and triangles may be larger than memory. .npy and text are read in blocks,
-        other points as a whole.
+        and triangles may be larger than memory. .npy .las and text are read in
+        blocks, other points as a whole.
 
 Under mpirun the points are spread over the ranks, each with its threads; the
 first rank writes the output. --masters, --major, --minor and --groups choose how
@@ -48,6 +51,7 @@ triangulation alone; memory is in millions of bytes.
 
 Examples:
   tipp delaunay points.npy -o triangles.npy
+  tipp delaunay tile.las --class 2 -o ground.vtu
   tipp delaunay survey.csv --x easting --y northing -o survey.vtp --threads 4
   tipp delaunay fort.14 -o mesh.vtu --partitions 8x8 --stats run.json
   tipp delaunay west.npy east.npy -o mesh.tipp --memory 512M
@@ -65,6 +69,7 @@ TriangulationOptions makeOptions(const DelaunayArguments& arguments, ProgressBar
   options.InitialPointsPerPartition = arguments.InitialPoints;
   options.Order = arguments.Order == "dynamic" ? Schedule::Dynamic : Schedule::Stages;
   options.Threads = arguments.Threads;
+  options.MaximumEdge = arguments.MaximumEdge;
   options.Progress = [&bar](double fraction)
   {
     bar.update(fraction);
@@ -98,6 +103,7 @@ int runDelaunay(const DelaunayArguments& arguments)
   const PointTable points = readPointsFor(arguments);
   run.Points = std::int64_t(points.size());
   run.ReadSeconds = watch.restart();
+  reportLeftOut(points.LeftOut);
   if (isInterrupted())
   {
     return reportInterrupt();
@@ -189,15 +195,16 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
   auto arguments = std::make_shared<DelaunayArguments>();
   CLI::App* const command =
     app.add_subcommand("delaunay", "Triangulates points: exact 2D Delaunay, in parallel");
-  command
-    ->add_option("input", arguments->Inputs, "The points; of several files with a .tipp output")
-    ->required();
+  command->add_option("input", arguments->Inputs, "The points, of one or more files")->required();
   command->add_option("-o,--output", arguments->Output, "The triangles")
     ->required()
     ->check(checkOutput);
-  command->add_option("--x", arguments->Columns.X, "Column of x: a name, or a number from 0");
-  command->add_option("--y", arguments->Columns.Y, "Column of y: a name, or a number from 0");
+  addPointOptions(*command, arguments->Columns);
   addTuning(*command, *arguments);
+  command
+    ->add_option("--max-edge", arguments->MaximumEdge,
+      "Leaves out triangles with an edge longer than this, in the units of the points")
+    ->check(CLI::PositiveNumber);
   command->add_flag("--map-duplicates", arguments->MapDuplicates,
     "Add the point array RepresentativePointId to .vtp or .vtu: the id of the vertex that stands "
     "for a "

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <stdexcept>
 
 namespace tipp
 {
@@ -88,13 +89,17 @@ void writeOnFirst(Postbox& ranks, const DelaunayArguments& arguments, DelaunayRu
 
 void runTogether(Postbox& ranks, const DelaunayArguments& arguments)
 {
+  if (arguments.MaximumEdge > 0)
+  {
+    throw std::runtime_error("--max-edge needs one rank, or an output named .tipp.");
+  }
   const PathState before = ranks.rank() == 0 ? requireWritable(arguments) : PathState();
   DelaunayRun run;
   run.Input = arguments.Input;
   run.Output = arguments.Output;
   Stopwatch watch;
   const PointTable points =
-    readPointsShare(arguments.Input, arguments.Columns, ranks.rank(), ranks.size());
+    readPointsShare(arguments.Inputs, arguments.Columns, ranks.rank(), ranks.size());
   ranks.barrier();
   run.ReadSeconds = watch.restart();
   RankPoints input;

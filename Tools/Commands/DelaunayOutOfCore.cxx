@@ -3,6 +3,7 @@
 
 #include "Commands/Commands.h"
 #include "Commands/MemorySize.h"
+#include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Interrupt.h"
 #include "Console/ProgressBar.h"
@@ -42,6 +43,7 @@ OutOfCoreOptions makeOptions(const DelaunayArguments& arguments, std::unique_ptr
   options.Columns = grid.Columns;
   options.Rows = grid.Rows;
   options.Threads = arguments.Threads;
+  options.MaximumEdge = arguments.MaximumEdge;
   options.MapDuplicates = arguments.MapDuplicates;
   options.Neighbors = arguments.Neighbors;
   options.CountOnly = arguments.Sink == "count";
@@ -190,6 +192,7 @@ void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& s
   {
     writeReport(arguments, statistics, ranks);
   }
+  reportLeftOut(statistics.LeftOut);
   const bool isCounted = arguments.Sink == "count";
   fmt::print("{}{}\n", summarize(statistics, ranks),
     isCounted ? fmt::format(", checksum {:016x}", statistics.TriangleSum) : "");
@@ -214,7 +217,6 @@ std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments)
     : arguments.Sink != "mesh"     ? "--sink"
     : arguments.Resume             ? "--resume"
     : !arguments.Scratch.empty()   ? "--scratch"
-    : arguments.Inputs.size() > 1  ? "several inputs"
                                    : "";
 }
 

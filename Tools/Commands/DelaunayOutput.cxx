@@ -41,7 +41,7 @@ std::vector<std::int64_t> representatives(const Triangulation& result, std::size
 
 PointTable readPointsFor(const DelaunayArguments& arguments)
 {
-  PointTable points = readPoints(arguments.Input, arguments.Columns);
+  PointTable points = readPoints(arguments.Inputs, arguments.Columns);
   if (extensionOf(arguments.Output) == ".npy")
   {
     points.Columns.clear(); // only .vtp and .vtu keep them
@@ -65,7 +65,7 @@ bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
 
 PathState requireWritable(const DelaunayArguments& arguments)
 {
-  requireApart({ arguments.Output, arguments.Statistics }, { arguments.Input });
+  requireApart({ arguments.Output, arguments.Statistics }, arguments.Inputs);
   const PendingFile output(arguments.Output);
   if (!arguments.Statistics.empty())
   {

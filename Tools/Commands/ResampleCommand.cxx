@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
-#include "Arrays/ScalarTypes.h"
+#include "Commands/ResampleOutput.h"
 #include "Commands/ResampleShare.h"
 #include "Console/Interrupt.h"
 #include "Console/MpiSession.h"
@@ -12,14 +12,15 @@
 #include "Files/RequireApart.h"
 #include "Flat/FlatMesh.h"
 #include "Flat/RawArray.h"
-#include "Npy/NpyFile.h"
+#include "Messages/Postbox.h"
 #include "OpenCL/DeviceChoice.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioning/Ranks.h"
+#include "Raster/RasterFile.h"
+#include "Resample/Elevation.h"
 #include "Vtk/ArrayNames.h"
 #include "Vtk/ErrorKeeper.h"
 #include "Vtk/ReadDataSet.h"
-#include "Vtk/WriteXmlFile.h"
 #include "vtkPartitionedUnstructuredReader.h"
 #include "vtkRangeResampleFilter.h"
 
@@ -35,7 +36,6 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkTable.h"
-#include "vtkXMLImageDataWriter.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -57,11 +57,15 @@ constexpr const char* footer =
         partitioned mesh of 'tipp partition' (its folder or index) or a flat one (a
         folder of .npy arrays), of which only the range of --bounds is read. Of arrays
         that vary in time the first step is taken.
+        The z of a surface is sampled as the array elevation, beside the others, unless
+        all points have the same.
 IMAGE   .vti: all arrays, vtkValidPointMask (1 where the mesh answers) and
-        vtkGhostType. .npy: one array (--arrays NAME) as float64 or whatever it
-        is, rows x columns, the first row at the lowest y; for a volume layers x
+        vtkGhostType. .npy: one array (--arrays NAME; without: elevation) as float64 or
+        whatever it is, rows x columns, the first row at the lowest y; for a volume layers x
         rows x columns. Components come last. NaN where no cell answers, unless
-        --null gives another number.
+        --null gives another number. .tif: a GeoTIFF by GDAL, a band for each array,
+        whose pixels have the samples as centres; --null is its number for no value
+        (-9999).
 
 Under mpirun the ranks share the cells, and the first one writes the image. A VTK file is
 read by every rank; of a partitioned or flat mesh each reads its own part.
@@ -87,6 +91,7 @@ struct ResampleArguments
   bool HasNull = false;
   double NoData = 0;
   bool HasNoData = false;
+  std::string Crs;
 };
 
 [[noreturn]] void refuseName(
@@ -152,35 +157,6 @@ void configure(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
     arguments.HasNull || !npy ? arguments.Null : std::numeric_limits<double>::quiet_NaN());
   filter->SetUseNoDataValue(arguments.HasNoData);
   filter->SetNoDataValue(arguments.NoData);
-}
-
-void writeImage(const std::string& path, vtkImageData* image, const PathState& before)
-{
-  PendingFile pending(path, before);
-  writeXmlFile<vtkXMLImageDataWriter>(path, pending, image);
-  pending.commit();
-}
-
-void writeNpy(const ResampleArguments& arguments, vtkImageData* image, const PathState& before)
-{
-  vtkDataArray* const array = image->GetPointData()->GetArray(arguments.Arrays.front().c_str());
-  int dimensions[3];
-  image->GetDimensions(dimensions);
-  std::vector<std::int64_t> shape;
-  if (dimensions[2] > 1)
-  {
-    shape.push_back(dimensions[2]);
-  }
-  shape.push_back(dimensions[1]);
-  shape.push_back(dimensions[0]);
-  if (array->GetNumberOfComponents() > 1)
-  {
-    shape.push_back(array->GetNumberOfComponents());
-  }
-  NpyWriter writer(arguments.Output, scalarDescr(*scalarOf(array->GetDataType())), shape, before);
-  writer.write(array->GetVoidPointer(0),
-    std::size_t(array->GetNumberOfValues()) * std::size_t(array->GetDataTypeSize()));
-  writer.close();
 }
 
 void summarize(const ResampleArguments& arguments, vtkRangeResampleFilter* filter)
@@ -294,6 +270,20 @@ vtkSmartPointer<vtkDataSet> readMeshToSample(const ResampleArguments& arguments,
   return mesh ? mesh : readRange(arguments, ranks);
 }
 
+/// With the heights of a surface among its arrays, so that they can be chosen by name.
+vtkSmartPointer<vtkDataSet> readWithElevation(
+  const ResampleArguments& arguments, const Ranks& ranks)
+{
+  vtkSmartPointer<vtkDataSet> mesh = readMeshToSample(arguments, ranks);
+  auto* const points = vtkPointSet::SafeDownCast(mesh);
+  Postbox postbox(ranks.controller());
+  if (haveElevation({ points }, postbox))
+  {
+    mesh = withElevation(points);
+  }
+  return mesh;
+}
+
 /// The filter's message, with what the user has set here instead of the filter's properties.
 std::string reasonOf(std::string message)
 {
@@ -329,7 +319,7 @@ PathState sample(
         before = PendingFile(arguments.Output).before();
       }
     });
-  const vtkSmartPointer<vtkDataSet> mesh = readMeshToSample(arguments, ranks);
+  const vtkSmartPointer<vtkDataSet> mesh = readWithElevation(arguments, ranks);
   filter->SetInputData(mesh);
   filter->SetController(ranks.controller());
   filter->GatherOnRootOn();
@@ -397,7 +387,13 @@ int runResample(const ResampleArguments& arguments)
   }
   if (extensionOf(arguments.Output) == ".npy")
   {
-    writeNpy(arguments, filter->GetOutput(), before);
+    writeNpy(arguments.Output, arguments.Arrays.front(), filter->GetOutput(), before);
+  }
+  else if (isGeoTiff(arguments.Output))
+  {
+    constexpr double usual = -9999;
+    writeGeoTiff(arguments.Output, filter->GetOutput(), arguments.Crs,
+      arguments.HasNull ? arguments.Null : usual, std::max(arguments.Threads, 1), before);
   }
   else
   {
@@ -409,9 +405,7 @@ int runResample(const ResampleArguments& arguments)
 
 std::string checkOutput(const std::string& path)
 {
-  const std::string extension = extensionOf(path);
-  return extension == ".vti" || extension == ".npy" ? ""
-                                                    : "'" + path + "' does not end in .vti or .npy";
+  return isRasterFile(path) ? "" : "'" + path + "' does not end in .vti, .npy or .tif";
 }
 
 } // namespace
@@ -440,7 +434,7 @@ void addResampleCommand(CLI::App& app, int& exitCode)
                                  "Distance of samples along x, y and z; 0: one sample")
                                ->expected(3);
   delta->excludes(dimensions);
-  command->add_option("--arrays", arguments->Arrays, "Names of arrays; else all");
+  command->add_option("--arrays", arguments->Arrays, "Names of arrays; else all, and elevation");
   command
     ->add_option("--device", arguments->Device, "auto, openmp, opencl, opencl:INDEX or opencl:NAME")
     ->capture_default_str();
@@ -451,6 +445,7 @@ void addResampleCommand(CLI::App& app, int& exitCode)
     command->add_option("--null", arguments->Null, "What samples outside the mesh get");
   CLI::Option* const noData = command->add_option("--no-data", arguments->NoData,
     "Cells with a corner of this value answer nothing, as -99999 for dry nodes");
+  command->add_option("--crs", arguments->Crs, "Of a .tif the reference system, as EPSG:25832");
   command->footer(footer);
   command->callback(
     [arguments, null, noData, &exitCode]()
@@ -460,6 +455,10 @@ void addResampleCommand(CLI::App& app, int& exitCode)
       if (arguments->Dimensions.empty() && arguments->Delta.empty())
       {
         throw CLI::ValidationError("--dims", "or --delta is required");
+      }
+      if (extensionOf(arguments->Output) == ".npy" && arguments->Arrays.empty())
+      {
+        arguments->Arrays = { elevationName };
       }
       if (extensionOf(arguments->Output) == ".npy" && arguments->Arrays.size() != 1)
       {

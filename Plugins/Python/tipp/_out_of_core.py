@@ -40,6 +40,7 @@ def delaunay_file(
     memory: int | str = "2G",
     partitions: tuple[int, int] | None = None,
     columns: tuple[str | int, str | int] | None = None,
+    max_edge: float = 0.0,
     map_duplicates: bool = False,
     neighbors: bool = False,
     count_only: bool = False,
@@ -65,6 +66,8 @@ def delaunay_file(
         Columns and rows of a grid of pieces. None: boxes of equally many points.
     columns
         Which columns are x and y, by name or number from 0. None: by the usual names, else the first two.
+    max_edge
+        Triangles with an edge longer than this, in the units of the points, are left out. 0: none are.
     map_duplicates
         Whether the mesh gets the point array RepresentativePointId.
     neighbors
@@ -113,6 +116,7 @@ def delaunay_file(
         x, y = check.several(columns, "columns", 2, _column)
         algorithm.SetXColumn(x)
         algorithm.SetYColumn(y)
+    algorithm.SetMaximumEdgeLength(check.number(max_edge, "max_edge", at_least=0))
     algorithm.SetGenerateRepresentativeIds(check.flag(map_duplicates, "map_duplicates"))
     algorithm.SetGenerateNeighborIds(check.flag(neighbors, "neighbors"))
     algorithm.SetCountOnly(check.flag(count_only, "count_only"))

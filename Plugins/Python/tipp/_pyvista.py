@@ -9,6 +9,7 @@ import sys
 from types import ModuleType
 from typing import Any, Sequence
 
+from ._dem import dem
 from ._meshes import write
 from ._resample import resample
 from ._triangulate import delaunay_2d
@@ -23,6 +24,10 @@ class Accessor:
     def delaunay_2d(self, **options: Any) -> Any:
         """As tipp.delaunay_2d(mesh, ...)."""
         return delaunay_2d(self._dataset, **options)
+
+    def dem(self, resolution: float, **options: Any) -> Any:
+        """As tipp.dem(mesh, resolution, ...)."""
+        return dem(self._dataset, resolution, **options)
 
     def resample_to_image(self, *, bounds: Sequence[float] | None = None, **options: Any) -> Any:
         """As tipp.resample(mesh, ...)."""

@@ -24,6 +24,7 @@ def delaunay(
     points: ArrayLike,
     *,
     tol: float = 0.0,
+    max_edge: float = 0.0,
     partitions: tuple[int, int] | None = None,
     schedule: str = "dynamic",
     threads: int = 0,
@@ -39,6 +40,8 @@ def delaunay(
     tol
         Points no farther apart than this fraction of the bounding box's diagonal are merged. 0 merges
         points at the same place.
+    max_edge
+        Triangles with an edge longer than this, in the units of the points, are left out. 0: none are.
     partitions
         Columns and rows of a grid of partitions. None chooses. The triangles are the same.
     schedule
@@ -74,7 +77,7 @@ def delaunay(
     >>> tipp.delaunay(points).shape
     (199964, 3)
     """
-    mesh = delaunay_2d(points, tol=tol, partitions=partitions, schedule=schedule, threads=threads,
+    mesh = delaunay_2d(points, tol=tol, max_edge=max_edge, partitions=partitions, schedule=schedule, threads=threads,
                        progress_bar=progress_bar)
     return triangles_of(mesh)
 
@@ -83,6 +86,7 @@ def delaunay_2d(
     points: Any,
     *,
     tol: float = 0.0,
+    max_edge: float = 0.0,
     alpha: float = 0.0,
     offset: float = 1.0,
     bound: bool = False,
@@ -98,7 +102,7 @@ def delaunay_2d(
     ----------
     points
         A vtkPointSet, a PyVista data set with points, or an array as delaunay() takes.
-    tol, partitions, schedule, threads, progress_bar
+    tol, max_edge, partitions, schedule, threads, progress_bar
         As for delaunay().
     alpha
         With a radius, in the units of the points, triangles with a larger circumcircle are left out,
@@ -132,6 +136,7 @@ def delaunay_2d(
     algorithm = vtkTIPPDelaunay2D()
     algorithm.SetInputData(points if is_data else point_cloud(points, point_data))
     algorithm.SetTolerance(check.number(tol, "tol", at_least=0))
+    algorithm.SetMaximumEdgeLength(check.number(max_edge, "max_edge", at_least=0))
     algorithm.SetAlpha(check.number(alpha, "alpha", at_least=0))
     algorithm.SetOffset(check.number(offset, "offset", at_least=0))
     algorithm.SetBoundingTriangulation(check.flag(bound, "bound"))

@@ -45,10 +45,44 @@ TEST_F(TextPoints, DelimitersAreFound)
 
 TEST_F(TextPoints, ExtensionsOfTextAllRead)
 {
-  for (const char* name : { "points.csv", "points.txt", "points.xyz", "POINTS.CSV" })
+  for (const char* name :
+    { "points.csv", "points.txt", "points.xyz", "points.tsv", "points.pts", "POINTS.CSV" })
   {
     EXPECT_EQ((Values{ 1, 2 }), readPoints(this->Folder.file(name, "1 2\n")).XY) << name;
   }
+}
+
+TEST_F(TextPoints, BlankCoordinatesAreNotFinite)
+{
+  const Values xy = this->read("x,y\n1,2\n3,\n,4\n").XY;
+  ASSERT_EQ(6U, xy.size());
+  EXPECT_EQ(3, xy[2]);
+  EXPECT_TRUE(std::isnan(xy[3]));
+  EXPECT_TRUE(std::isnan(xy[4]));
+  EXPECT_EQ(4, xy[5]);
+}
+
+TEST_F(TextPoints, CompressedFilesAreRead)
+{
+  for (const char* const program : { "gzip", "xz" })
+  {
+    const std::string text = this->Folder.file("it's points.csv", "x,y,z\n1,2,3\n4,5,6\n");
+    const std::string extension = program == std::string("gzip") ? ".gz" : ".xz";
+    const std::string command = std::string(program) + " -f \"" + text + "\"";
+    if (std::system(command.c_str()) != 0)
+    {
+      GTEST_SKIP() << "there is no " << program;
+    }
+    EXPECT_EQ((Values{ 1, 2, 4, 5 }), readPoints(text + extension).XY);
+  }
+  const std::string bad = this->Folder.file("bad.csv.gz", "x,y\n1,2\n");
+  tipp::test::expectIOError(bad, "cannot be decompressed by gzip", [&] { readPoints(bad); });
+}
+
+TEST_F(TextPoints, ALineOfCountsIsNoPoint)
+{
+  EXPECT_EQ((Values{ 1, 2, 3, 4 }), this->read("2 0\n1 2\n\n3 4\n").XY);
+  EXPECT_EQ((Values{ 3, 0, 1, 2, 3, 4 }), this->read("3 0\n1 2\n3 4\n").XY);
 }
 
 TEST_F(TextPoints, UsualNamesAreFoundInAnyOrderAndCase)
@@ -155,7 +189,6 @@ TEST_F(TextPoints, IntegersThatADoubleCannotHoldAreReportedWithTheirLine)
 TEST_F(TextPoints, GarbageInACoordinateIsReportedWithItsLine)
 {
   this->expectError("x,y\n1,2\n3,four\n", "line 3: 'four' is not a number");
-  this->expectError("1,2\n3,\n", "line 2: '' is not a number");
   this->expectError("1;2\n1,5;2,5\n", "line 2: '1,5' is not a number");
 }
 

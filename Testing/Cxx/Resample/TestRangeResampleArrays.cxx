@@ -256,3 +256,51 @@ TEST(RangeResampleArrays, FieldDataIsPassedUnlessTurnedOff)
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetFieldData()->GetArray("TimeValue"), nullptr);
 }
+
+TEST(RangeResampleElevation, OfASurfaceIsSampled)
+{
+  Scene scene = jitteredScene(2, 6, 1);
+  for (std::size_t i = 0; i < scene.Points.size(); i += 3)
+  {
+    scene.Points[i + 2] = 5 + scene.Points[i] - 3 * scene.Points[i + 1];
+  }
+  const auto filter = unitFilter(2, 9);
+  filter->SetInputData(gridOf(scene));
+  filter->Update();
+  vtkImageData* const image = filter->GetOutput();
+  vtkDataArray* const samples = image->GetPointData()->GetArray("elevation");
+  ASSERT_TRUE(samples);
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    image->GetPoint(i, p);
+    EXPECT_NEAR(5 + p[0] - 3 * p[1], samples->GetTuple1(i), 1e-12);
+  }
+  filter->SampleElevationOff();
+  filter->Update();
+  EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray("elevation"));
+}
+
+TEST(RangeResampleElevation, GivesWayToAnArrayOfItsName)
+{
+  Scene scene = jitteredScene(2, 6, 1);
+  scene.Points[2] = 1;
+  const auto grid = gridOf(scene);
+  addArray<vtkIntArray>(grid->GetPointData(), "elevation", grid->GetNumberOfPoints());
+  const auto filter = unitFilter(2, 9);
+  filter->SetInputData(grid);
+  filter->Update();
+  EXPECT_TRUE(
+    vtkIntArray::SafeDownCast(filter->GetOutput()->GetPointData()->GetArray("elevation")));
+}
+
+TEST(RangeResampleElevation, OfAFlatSurfaceOrASolidIsLeftOut)
+{
+  for (const int dimension : { 2, 3 })
+  {
+    const auto filter = unitFilter(dimension, 9);
+    filter->SetInputData(gridOf(jitteredScene(dimension, 4, 1)));
+    filter->Update();
+    EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray("elevation")) << dimension;
+  }
+}

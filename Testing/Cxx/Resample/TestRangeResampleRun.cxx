@@ -19,22 +19,27 @@
 
 TEST(RangeResampleRun, ReadsPieceByPieceTheSameImage)
 {
-  const Scene scene = jitteredScene(2, 12, 3);
-  const auto filter = unitFilter(2, 33);
-  filter->SetInputData(gridOf(scene));
-  filter->Update();
-  vtkNew<vtkImageData> whole;
-  whole->DeepCopy(filter->GetOutput());
-  for (const int pieces : { 1, 2, 7, 64 })
+  for (const bool hasHeights : { false, true })
   {
-    vtkNew<PieceSource> source;
-    source->Cells = scene;
-    filter->SetInputConnection(source->GetOutputPort());
-    filter->SetNumberOfInputPieces(pieces);
+    Scene scene = jitteredScene(2, 12, 3);
+    scene.Points.back() = hasHeights ? 1 : 0;
+    const auto filter = unitFilter(2, 33);
+    filter->SetInputData(gridOf(scene));
     filter->Update();
-    EXPECT_EQ(source->Requests, pieces);
-    EXPECT_TRUE(sameArrays(whole, filter->GetOutput())) << pieces;
-    EXPECT_EQ(statistic(filter, "Cells"), scene.cells());
+    vtkNew<vtkImageData> whole;
+    whole->DeepCopy(filter->GetOutput());
+    EXPECT_EQ(hasHeights, whole->GetPointData()->HasArray("elevation"));
+    for (const int pieces : { 1, 2, 7, 64 })
+    {
+      vtkNew<PieceSource> source;
+      source->Cells = scene;
+      filter->SetInputConnection(source->GetOutputPort());
+      filter->SetNumberOfInputPieces(pieces);
+      filter->Update();
+      EXPECT_EQ(source->Requests, pieces);
+      EXPECT_TRUE(sameArrays(whole, filter->GetOutput())) << pieces;
+      EXPECT_EQ(statistic(filter, "Cells"), scene.cells());
+    }
   }
 }
 

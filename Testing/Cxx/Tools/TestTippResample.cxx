@@ -214,6 +214,24 @@ TEST_F(TippDamagedFile, ThatCrashesVtksReaderIsRefused)
   this->expectRefusal("bad.ply", "cannot be read as a VTK file (VTK's reader crashed)");
 }
 
+TEST_F(TippResample, SamplesTheHeightsOfASurface)
+{
+  this->Folder.file("hill.xyz", "0 0 1\n2 0 3\n0 2 5\n2 2 7\n");
+  ASSERT_EQ(0, this->run({ "delaunay", "hill.xyz", "-o", "hill.vtu" }).ExitCode);
+  const Outcome outcome =
+    this->run({ "resample", "hill.vtu", "-o", "hill.npy", "--dims", "3", "3", "1" });
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  const std::string file = contentOf(this->Folder.path("hill.npy"));
+  std::vector<double> heights(9);
+  std::copy_n(file.end() - 72, 72, reinterpret_cast<char*>(heights.data()));
+  EXPECT_EQ((std::vector<double>{ 1, 2, 3, 3, 4, 5, 5, 6, 7 }), heights);
+  const Outcome flat =
+    this->run({ "resample", "mesh.vtu", "-o", "flat.npy", "--dims", "3", "3", "1" });
+  EXPECT_EQ(1, flat.ExitCode);
+  EXPECT_NE(std::string::npos, flat.Err.find("has no array 'elevation'; it has 'height'"))
+    << flat.Err;
+}
+
 TEST_F(TippResample, NamesAnArrayThatIsNotThere)
 {
   for (const char* const mesh : { "mesh.vtu", "mesh.tipp" })

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Dem/DemBands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr const char* elevation = "elevation";
+
+const std::map<std::string, DemBand::Kind>& derivedKinds()
+{
+  static const std::map<std::string, DemBand::Kind> kinds = { { "slope", DemBand::Kind::Slope },
+    { "aspect", DemBand::Kind::Aspect }, { "hillshade", DemBand::Kind::Hillshade } };
+  return kinds;
+}
+
+double degrees(double radians)
+{
+  constexpr double pi = 3.14159265358979323846;
+  return radians * (180 / pi);
+}
+
+std::size_t find(const std::vector<std::string>& columns, const std::string& name)
+{
+  return std::size_t(std::find(columns.begin(), columns.end(), name) - columns.begin());
+}
+
+/// The end if there is none.
+std::size_t findElevation(const std::vector<std::string>& columns)
+{
+  for (const char* const name : { "z", "Z", elevation })
+  {
+    const std::size_t at = find(columns, name);
+    if (at < columns.size())
+    {
+      return at;
+    }
+  }
+  return columns.size();
+}
+
+[[noreturn]] void failToFind(const std::string& name, const std::vector<std::string>& columns)
+{
+  std::string list;
+  for (const std::string& column : columns)
+  {
+    list += (list.empty() ? "" : ", ") + column;
+  }
+  throw std::runtime_error("the points have no column '" + name + "'" +
+    (list.empty() ? ", and no other beside x and y." : "; they have " + list + "."));
+}
+
+/// How much the plane through three points rises along x and y.
+struct Gradient
+{
+  explicit Gradient(std::array<std::array<double, 3>, 3> corners)
+  {
+    // The same roundings for any order of the corners.
+    std::sort(corners.begin(), corners.end());
+    const auto& [a, b, c] = corners;
+    const double bx = b[0] - a[0];
+    const double by = b[1] - a[1];
+    const double bz = b[2] - a[2];
+    const double cx = c[0] - a[0];
+    const double cy = c[1] - a[1];
+    const double cz = c[2] - a[2];
+    const double area = bx * cy - by * cx;
+    this->X = (bz * cy - by * cz) / area;
+    this->Y = (bx * cz - bz * cx) / area;
+  }
+
+  double X;
+  double Y;
+};
+
+double shade(const Gradient& gradient)
+{
+  // Towards the light: from the north-west, 45 degrees high.
+  constexpr double x = -0.5;
+  constexpr double y = 0.5;
+  constexpr double z = 0.70710678118654752440;
+  const double length = std::sqrt(1 + gradient.X * gradient.X + gradient.Y * gradient.Y);
+  const double light = (z - gradient.X * x - gradient.Y * y) / length;
+  return 1 + 254 * std::max(0.0, light);
+}
+
+} // namespace
+
+std::vector<std::string> columnsForBands(const std::vector<std::string>& bands)
+{
+  std::vector<std::string> columns = { "z", "Z", elevation };
+  for (const std::string& band : bands)
+  {
+    if (band != elevation && derivedKinds().count(band) == 0)
+    {
+      columns.push_back(band);
+    }
+  }
+  return columns;
+}
+
+DemBands findBands(const std::vector<std::string>& bands, const std::vector<std::string>& columns)
+{
+  DemBands found;
+  found.Elevation = findElevation(columns);
+  found.HasElevation = found.Elevation < columns.size();
+  for (const std::string& name : bands)
+  {
+    DemBand band;
+    band.Name = name;
+    const auto derived = derivedKinds().find(name);
+    const bool isColumn = derived == derivedKinds().end();
+    band.Is = isColumn ? DemBand::Kind::Column : derived->second;
+    const bool needsElevation = !isColumn || name == elevation;
+    band.Column = needsElevation ? found.Elevation : find(columns, name);
+    if (band.Column >= columns.size())
+    {
+      failToFind(needsElevation ? "z" : name, columns);
+    }
+    found.Bands.push_back(band);
+  }
+  return found;
+}
+
+std::vector<std::string> DemBands::names() const
+{
+  std::vector<std::string> names;
+  for (const DemBand& band : this->Bands)
+  {
+    names.push_back(band.Name);
+  }
+  return names;
+}
+
+double derivedValue(DemBand::Kind kind, const std::array<std::array<double, 3>, 3>& corners)
+{
+  const Gradient gradient(corners);
+  switch (kind)
+  {
+    case DemBand::Kind::Slope:
+      return degrees(std::atan(std::hypot(gradient.X, gradient.Y)));
+    case DemBand::Kind::Aspect:
+    {
+      const double angle = degrees(std::atan2(-gradient.X, -gradient.Y));
+      const bool isFlat = gradient.X == 0 && gradient.Y == 0;
+      return isFlat ? std::numeric_limits<double>::quiet_NaN() : angle < 0 ? angle + 360 : angle;
+    }
+    default:
+      return shade(gradient);
+  }
+}
+
+} // namespace tipp

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Dem/MakeDem.h"
+
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include <unistd.h>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Box2 boundsOf(const std::vector<double>& xy)
+{
+  Box2 box{ infinity, infinity, -infinity, -infinity };
+  for (std::size_t i = 0; i < xy.size(); i += 2)
+  {
+    if (std::isfinite(xy[i]) && std::isfinite(xy[i + 1]))
+    {
+      box = { std::min(box.xmin, xy[i]), std::min(box.ymin, xy[i + 1]), std::max(box.xmax, xy[i]),
+        std::max(box.ymax, xy[i + 1]) };
+    }
+  }
+  return box;
+}
+
+/// In turn, with the memory of the two coordinates given back.
+std::vector<double> takeXYZ(PointTable& points, const DemBands& bands)
+{
+  std::vector<double> xyz(3 * points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    xyz[3 * i] = points.XY[2 * i];
+    xyz[3 * i + 1] = points.XY[2 * i + 1];
+    xyz[3 * i + 2] = bands.HasElevation ? points.Columns[bands.Elevation].Values[i] : 0;
+  }
+  std::vector<double>().swap(points.XY);
+  return xyz;
+}
+
+/// Throws std::runtime_error if the pixels cannot be in this machine's memory.
+void requireMemory(const TerrainSettings& settings)
+{
+  const double each = 8 * double(settings.Bands.Bands.size()) + 1;
+  const double needed = each * double(settings.Grid.Columns) * double(settings.Grid.Rows);
+  const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+  if (needed > memory)
+  {
+    throw std::runtime_error("the raster has " + std::to_string(settings.Grid.Columns) + " x " +
+      std::to_string(settings.Grid.Rows) +
+      " pixels, more than the memory of this machine: give a " +
+      "larger resolution or smaller bounds, or --memory.");
+  }
+}
+
+SimplexMesh meshOf(const std::vector<double>& xyz, const Triangulation& triangulation)
+{
+  SimplexMesh mesh;
+  mesh.Points = xyz.data();
+  mesh.PointCount = std::int64_t(xyz.size() / 3);
+  mesh.Wide = !triangulation.Ids64.empty();
+  mesh.Ids =
+    mesh.Wide ? static_cast<const void*>(triangulation.Ids64.data()) : triangulation.Ids32.data();
+  mesh.Cells = std::int64_t(triangulation.triangleCount());
+  return mesh;
+}
+
+} // namespace
+
+TerrainSettings makeTerrainSettings(
+  const DemRequest& request, const Box2& bounds, const std::vector<std::string>& columns)
+{
+  TerrainSettings settings;
+  settings.Grid =
+    makeRasterGrid(request.Raster, { bounds.xmin, bounds.xmax, bounds.ymin, bounds.ymax });
+  settings.Bands = findBands(request.Bands, columns);
+  settings.Threads = threadCount(request.Threads);
+  return settings;
+}
+
+DemFigures makeDem(PointTable points, const DemRequest& request,
+  const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples)
+{
+  std::vector<std::string> columns;
+  for (const PointTable::Column& column : points.Columns)
+  {
+    columns.push_back(column.Name);
+  }
+  const Box2 bounds = boundsOf(points.XY);
+  if (!(bounds.xmin <= bounds.xmax))
+  {
+    throw std::runtime_error("there is no point with finite coordinates.");
+  }
+  settings = makeTerrainSettings(request, bounds, columns);
+  requireMemory(settings);
+  DemFigures figures;
+  figures.Points = std::int64_t(points.size());
+  TriangulationOptions options;
+  options.Threads = request.Threads;
+  options.MaximumEdge = request.MaximumEdge;
+  options.Progress = [&progress](double done) { return !progress || progress(0.5 * done); };
+  const Triangulation triangulation =
+    triangulate(PointsView(points.XY.data(), points.size(), 2), options);
+  figures.Triangles = std::int64_t(triangulation.triangleCount());
+  figures.Duplicates = std::int64_t(triangulation.Duplicates.size());
+  figures.Rejected = std::int64_t(triangulation.Rejected.size());
+  figures.Aborted = triangulation.Aborted;
+  if (figures.Aborted)
+  {
+    return figures;
+  }
+  const std::vector<double> xyz = takeXYZ(points, settings.Bands);
+  TerrainPoints terrain;
+  terrain.XYZ = xyz.data();
+  terrain.Count = figures.Points;
+  for (const PointTable::Column& column : points.Columns)
+  {
+    terrain.Columns.push_back(column.Values.data());
+  }
+  const auto report = [&progress](double done) { return !progress || progress(0.5 + 0.3 * done); };
+  figures.Aborted = !sampleTerrain(settings, terrain, meshOf(xyz, triangulation), report, samples);
+  return figures;
+}
+
+ReadTile readFrom(const RasterGrid& grid, const SampledBands& samples)
+{
+  return [&grid, &samples](const RasterWindow& window, std::vector<std::vector<double>>& values)
+  {
+    values.resize(samples.Values.size());
+    for (std::size_t band = 0; band < values.size(); ++band)
+    {
+      values[band].resize(std::size_t(window.Columns * window.Rows));
+      for (std::int64_t row = 0; row < window.Rows; ++row)
+      {
+        const double* const from =
+          samples.Values[band].data() + (window.Row + row) * grid.Columns + window.Column;
+        std::copy_n(from, window.Columns, values[band].data() + row * window.Columns);
+      }
+    }
+  };
+}
+
+std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid, const ReadTile& readTile,
+  const std::function<bool(double)>& progress)
+{
+  std::vector<std::vector<double>> values;
+  std::int64_t filled = 0;
+  std::int64_t done = 0;
+  bool isWanted = true;
+  forEachTile(grid,
+    [&](const RasterWindow& window)
+    {
+      isWanted = isWanted && (!progress || progress(double(done) / double(grid.pixels())));
+      if (!isWanted)
+      {
+        return;
+      }
+      readTile(window, values);
+      std::vector<const double*> bands;
+      for (const std::vector<double>& band : values)
+      {
+        bands.push_back(band.data());
+      }
+      writer.write(window, bands);
+      filled += std::count_if(values.front().begin(), values.front().end(),
+        [](double value) { return !std::isnan(value); });
+      done += window.Columns * window.Rows;
+    });
+  return isWanted ? filled : -1;
+}
+
+} // namespace tipp

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippMakeDem_h
+#define tippMakeDem_h
+
+#include "Dem/TerrainSampler.h"
+#include "Points/PointTable.h"
+#include "Predicates/Box2.h"
+#include "Raster/RasterFile.h"
+#include "Triangulation/Triangulate.h"
+#include "vtkTIPPFiltersModule.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// What a raster of points is to be.
+struct DemRequest
+{
+  RasterRequest Raster;
+  std::vector<std::string> Bands = { "elevation" };
+  double MaximumEdge = 0; ///< triangles with a longer one are void; 0: none are
+  int Threads = 0;        ///< 0: OpenMP's choice
+};
+
+/// Of points with these columns between these bounds. Throws std::runtime_error.
+VTKTIPPFILTERS_EXPORT TerrainSettings makeTerrainSettings(
+  const DemRequest& request, const Box2& bounds, const std::vector<std::string>& columns);
+
+struct DemFigures
+{
+  std::int64_t Points = 0;
+  std::int64_t Triangles = 0;
+  std::int64_t Duplicates = 0;
+  std::int64_t Rejected = 0; ///< points that are not finite
+  bool Aborted = false;
+};
+
+/// A raster of points in memory: triangulates them and samples the triangles, as two steps would.
+/// Takes the points' memory. Throws std::runtime_error if there is no finite point.
+VTKTIPPFILTERS_EXPORT DemFigures makeDem(PointTable points, const DemRequest& request,
+  const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples);
+
+/// Gives the values of a tile.
+using ReadTile = std::function<void(const RasterWindow&, std::vector<std::vector<double>>&)>;
+
+/// One that reads from samples of a whole grid.
+VTKTIPPFILTERS_EXPORT ReadTile readFrom(const RasterGrid& grid, const SampledBands& samples);
+
+/// Writes all tiles, in the order that makes equal files of equal values. Returns the pixels whose
+/// first band has a value, or -1 if `progress` ended it. Throws IOError.
+VTKTIPPFILTERS_EXPORT std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid,
+  const ReadTile& readTile, const std::function<bool(double)>& progress);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippRasterSink_h
+#define tippRasterSink_h
+
+#include "Dem/MakeDem.h"
+#include "Dem/TileStore.h"
+#include "OutOfCore/TriangleTaker.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// Samples the triangles of a triangulation out of core, and forgets them. Pixels are kept in a
+/// file until all are known.
+class VTKTIPPFILTERS_EXPORT RasterSink : public TriangleTaker
+{
+public:
+  /// Makes the settings when the bounds and columns are known.
+  using MakeSettings =
+    std::function<TerrainSettings(const Box2& bounds, const std::vector<std::string>& columns)>;
+  /// Writes the raster from the values of tiles; false if `progress` ended it.
+  using WriteRaster = std::function<bool(const TerrainSettings& settings, const ReadTile& readTile,
+    const std::function<bool(double)>& progress)>;
+
+  RasterSink(std::string identity, MakeSettings makeSettings, WriteRaster writeRaster);
+
+  std::string identity() const override { return this->Identity; }
+  void begin(
+    const Box2& bounds, const std::vector<std::string>& columns, const std::string& files) override;
+  void take(const std::string& name, const double* rows, const PointRowLayout& layout,
+    std::size_t points, const std::vector<GrowingPiece::Corners>& triangles) override;
+  bool end(const std::function<bool(double)>& progress) override;
+
+private:
+  struct Part;
+  struct Tile;
+
+  void addTriangle(Part& part, const std::int32_t* corners) const;
+  void sampleTile(Part& part, const Tile& tile) const;
+  void saveBorder(const Part& part, const std::string& name) const;
+  void answerBorders();
+
+  const std::string Identity;
+  const MakeSettings Make;
+  const WriteRaster Write;
+  TerrainSettings Settings;
+  std::string Files;
+  std::unique_ptr<TileStore> Store;
+};
+
+} // namespace tipp
+
+#endif

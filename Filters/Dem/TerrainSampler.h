@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippTerrainSampler_h
+#define tippTerrainSampler_h
+
+#include "Dem/DemBands.h"
+#include "Raster/RasterGrid.h"
+#include "Resample/Lattice.h"
+#include "Resample/SimplexMesh.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace tipp
+{
+
+/// Points of triangles that are sampled.
+struct TerrainPoints
+{
+  const double* XYZ = nullptr; ///< x, y and elevation in turn
+  std::int64_t Count = 0;
+  std::vector<const double*> Columns; ///< as DemBand::Column counts them
+};
+
+struct TerrainSettings
+{
+  RasterGrid Grid;
+  DemBands Bands;
+  int Threads = 1;
+};
+
+/// The centres of a grid's pixels as samples, from the south-west on.
+Lattice latticeOf(const RasterGrid& grid);
+
+/// Values at pixels, NaN where there is none.
+struct SampledBands
+{
+  std::vector<std::vector<double>> Values; ///< of each band, by sample
+};
+
+/// Samples all triangles of a mesh, which do not overlap, at all pixels. `ids`: three a triangle,
+/// of 32 or 64 bits. False if `progress` ended it.
+bool sampleTerrain(const TerrainSettings& settings, const TerrainPoints& points,
+  const SimplexMesh& mesh, const std::function<bool(double)>& progress, SampledBands& samples);
+
+/// Samples some triangles of a mesh at the pixels of a part of the lattice, whose samples `keys`
+/// and `values` have. Of samples that no triangle contains but that lie on the border of these
+/// ones, the triangle of the lowest key answers, here or among others.
+void samplePart(const TerrainSettings& settings, const TerrainPoints& points,
+  const SimplexMesh& mesh, const Lattice& part, SampledBands& values,
+  std::vector<std::uint64_t>& keys);
+
+/// Whether a key from samplePart() is that of a triangle that contains the sample.
+bool isInsideKey(std::uint64_t key);
+/// The key of samples in no triangle.
+bool isNoKey(std::uint64_t key);
+
+} // namespace tipp
+
+#endif

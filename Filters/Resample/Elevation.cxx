@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Resample/Elevation.h"
+
+#include "Messages/Postbox.h"
+#include "Resample/SamplingRange.h"
+
+#include "vtkDataArray.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+
+namespace tipp
+{
+void HeightRange::add(vtkPointSet* mesh)
+{
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    mesh->GetPoint(i, p);
+    this->add(p[2]);
+  }
+}
+
+void HeightRange::gather(Postbox& ranks)
+{
+  ByteWriter writer;
+  writer.value(*this);
+  for (const Bytes& bytes : ranks.gather(writer.take()))
+  {
+    const auto other = ByteReader(bytes).value<HeightRange>();
+    this->add(other.Low);
+    this->add(other.High);
+  }
+  writer.value(*this);
+  *this = ByteReader(ranks.broadcast(writer.take())).value<HeightRange>();
+}
+
+bool haveElevation(const std::vector<vtkPointSet*>& meshes, Postbox& ranks)
+{
+  const bool surfaces = areSurfaces(meshes, ranks);
+  HeightRange heights;
+  for (vtkPointSet* mesh : meshes)
+  {
+    heights.add(mesh);
+  }
+  heights.gather(ranks);
+  return surfaces && !heights.isFlat();
+}
+
+vtkSmartPointer<vtkPointSet> withElevation(vtkPointSet* mesh)
+{
+  if (!mesh->GetPoints() || mesh->GetPointData()->HasArray(elevationName))
+  {
+    return mesh;
+  }
+  auto copy = vtkSmartPointer<vtkPointSet>::Take(mesh->NewInstance());
+  copy->ShallowCopy(mesh);
+  vtkDataArray* const points = mesh->GetPoints()->GetData();
+  const auto heights =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(points->GetDataType()));
+  heights->SetName(elevationName);
+  heights->SetNumberOfTuples(points->GetNumberOfTuples());
+  heights->CopyComponent(0, points, 2);
+  copy->GetPointData()->AddArray(heights);
+  return copy;
+}
+
+} // namespace tipp

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippLongTriangles_h
+#define tippLongTriangles_h
+
+#include "Predicates/Point2.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace tipp
+{
+
+/// Whether a triangle has an edge longer than this. The same for any order of the corners.
+inline bool hasLongEdge(Point2 a, Point2 b, Point2 c, double length)
+{
+  const auto isLong = [length](Point2 p, Point2 q)
+  {
+    const double dx = p.x - q.x;
+    const double dy = p.y - q.y;
+    return dx * dx + dy * dy > length * length;
+  };
+  return isLong(a, b) || isLong(b, c) || isLong(c, a);
+}
+
+/// Removes the triangles with an edge longer than `length`; the others keep their order. `pointOf`
+/// gives the coordinates of an id. Returns how many remain.
+template <typename Id, typename PointOf>
+std::size_t dropLongTriangles(Id* ids, std::size_t triangles, double length, const PointOf& pointOf)
+{
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangles; ++t)
+  {
+    const Id* const corners = ids + 3 * t;
+    if (!hasLongEdge(pointOf(corners[0]), pointOf(corners[1]), pointOf(corners[2]), length))
+    {
+      std::copy_n(corners, 3, ids + 3 * kept++);
+    }
+  }
+  return kept;
+}
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Las/LasPoints.h"
+
+#include "Files/IOError.h"
+#include "Las/LasHeader.h"
+#include "Las/LasRecords.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <vector>
+
+namespace tipp
+{
+namespace
+{
+
+template <typename T>
+T valueAt(const char* record, std::size_t offset)
+{
+  T value;
+  std::memcpy(&value, record + offset, sizeof(T));
+  return value;
+}
+
+/// Whether records are selected.
+class RecordFilter
+{
+public:
+  RecordFilter(const LasHeader& header, const LasSelection& selection)
+    : Extended(header.isExtended())
+    , Kind(selection.Kind)
+  {
+    this->IsClassKept.fill(selection.Classes.empty());
+    for (const int number : selection.Classes)
+    {
+      this->IsClassKept[std::size_t(number)] = true;
+    }
+    constexpr std::size_t overlapClass = 12;
+    const bool asksForOverlap =
+      std::count(selection.Classes.begin(), selection.Classes.end(), int(overlapClass)) > 0;
+    if (!this->Extended && !selection.KeepOverlap && !asksForOverlap)
+    {
+      this->IsClassKept[overlapClass] = false;
+    }
+    // Version 1.0 has no flags: the whole byte is the class.
+    this->ClassMask = this->Extended || header.Minor == 0 ? 255 : 31;
+    const unsigned synthetic = this->Extended ? 1 : 32;
+    const unsigned withheld = this->Extended ? 4 : 128;
+    const unsigned overlap = this->Extended ? 8 : 0;
+    this->LeftOut = header.Minor == 0 ? 0
+                                      : (selection.KeepSynthetic ? 0 : synthetic) |
+        (selection.KeepWithheld ? 0 : withheld) | (selection.KeepOverlap ? 0 : overlap);
+  }
+
+  unsigned classOf(const char* record) const
+  {
+    return valueAt<std::uint8_t>(record, this->Extended ? 16 : 15) & this->ClassMask;
+  }
+
+  bool keeps(const char* record) const
+  {
+    return this->IsClassKept[this->classOf(record)] &&
+      (valueAt<std::uint8_t>(record, 15) & this->LeftOut) == 0 && this->keepsReturn(record);
+  }
+
+private:
+  bool keepsReturn(const char* record) const
+  {
+    const unsigned byte = valueAt<std::uint8_t>(record, 14);
+    const unsigned number = this->Extended ? byte & 15U : byte & 7U;
+    const unsigned count = this->Extended ? byte >> 4 : (byte >> 3) & 7U;
+    return this->Kind == LasSelection::Returns::All ||
+      (this->Kind == LasSelection::Returns::First ? number <= 1 : number >= count);
+  }
+
+  bool Extended;
+  LasSelection::Returns Kind;
+  std::array<bool, 256> IsClassKept{};
+  unsigned ClassMask;
+  unsigned LeftOut;
+};
+
+/// A column beside x and y.
+struct LasColumn
+{
+  enum class Kind
+  {
+    Height,
+    Class,
+    Short, ///< 16 bits
+    Time
+  };
+  const char* Name;
+  Kind Is;
+  std::size_t Offset;
+};
+
+std::vector<LasColumn> columnsOf(const LasHeader& header)
+{
+  using Kind = LasColumn::Kind;
+  std::vector<LasColumn> columns = { { "z", Kind::Height, 8 }, { "intensity", Kind::Short, 12 },
+    { "classification", Kind::Class, 0 } };
+  const std::size_t afterBasics = header.isExtended() ? 22 : 20;
+  if (header.hasTime())
+  {
+    columns.push_back({ "gps_time", Kind::Time, afterBasics });
+  }
+  const std::size_t colour = afterBasics + (header.hasTime() ? 8 : 0);
+  if (header.hasColour())
+  {
+    columns.push_back({ "red", Kind::Short, colour });
+    columns.push_back({ "green", Kind::Short, colour + 2 });
+    columns.push_back({ "blue", Kind::Short, colour + 4 });
+  }
+  if (header.hasInfrared())
+  {
+    columns.push_back({ "nir", Kind::Short, colour + 6 });
+  }
+  return columns;
+}
+
+class LasFilePoints : public FilePoints
+{
+public:
+  LasFilePoints(const std::string& path, const PointOptions& options)
+    : Path(path)
+    , Header(readLasHeader(path))
+    , Filter(this->Header, options.Las)
+  {
+    openLasRecords(path, this->Header); // throws before there is work
+    for (const LasColumn& column : columnsOf(this->Header))
+    {
+      if (options.wants(column.Name))
+      {
+        this->Wanted.push_back(column);
+      }
+    }
+  }
+
+  bool next(PointBlock& block, std::size_t most) override
+  {
+    block.Columns.resize(this->Wanted.size());
+    std::size_t count = 0;
+    while (count < most && this->load())
+    {
+      const std::size_t length = this->Header.RecordLength;
+      for (; this->AtRecord < this->Loaded && count < most; ++this->AtRecord)
+      {
+        const char* const record = this->Raw.data() + this->AtRecord * length;
+        if (this->Filter.keeps(record))
+        {
+          this->append(record, block);
+          ++count;
+        }
+        else
+        {
+          ++this->Dropped;
+        }
+      }
+    }
+    return count > 0;
+  }
+
+  void rewind() override
+  {
+    this->Records.reset(); // opened again when it is wanted: there may be many files
+    this->Dropped = 0;
+    std::vector<char>().swap(this->Raw);
+    this->NextRecord = 0;
+    this->AtRecord = this->Loaded = 0;
+  }
+
+  std::int64_t divisible() const override
+  {
+    this->countKept();
+    return this->KeptBefore.back();
+  }
+
+  void skip(std::int64_t points) override
+  {
+    this->countKept();
+    const auto after = std::upper_bound(this->KeptBefore.begin(), this->KeptBefore.end(), points);
+    const std::int64_t chunk = after - this->KeptBefore.begin() - 1;
+    this->NextRecord = std::min(chunk * chunkRecords, this->Header.Points);
+    this->AtRecord = this->Loaded = 0;
+    std::int64_t left = points - this->KeptBefore[std::size_t(chunk)];
+    while (left > 0 && this->load())
+    {
+      for (; this->AtRecord < this->Loaded && left > 0; ++this->AtRecord)
+      {
+        left -=
+          this->Filter.keeps(this->Raw.data() + this->AtRecord * this->Header.RecordLength) ? 1 : 0;
+      }
+    }
+  }
+
+  std::vector<std::string> columns() const override
+  {
+    std::vector<std::string> names;
+    for (const LasColumn& column : this->Wanted)
+    {
+      names.emplace_back(column.Name);
+    }
+    return names;
+  }
+
+  std::int64_t leftOut() const override { return this->DroppedOfPass; }
+  std::string crs() const override { return this->Header.Crs; }
+
+private:
+  static constexpr std::int64_t chunkRecords = 1 << 14;
+
+  /// Has records that are not looked at yet; false at the end.
+  bool load()
+  {
+    if (this->AtRecord < this->Loaded)
+    {
+      return true;
+    }
+    const std::int64_t count = std::min(chunkRecords, this->Header.Points - this->NextRecord);
+    if (count == 0)
+    {
+      this->DroppedOfPass = this->Dropped;
+      return false;
+    }
+    if (!this->Records)
+    {
+      this->Records = openLasRecords(this->Path, this->Header);
+    }
+    this->Raw.resize(std::size_t(count) * this->Header.RecordLength);
+    this->Records->read(this->NextRecord, std::size_t(count), this->Raw.data());
+    this->NextRecord += count;
+    this->Loaded = std::size_t(count);
+    this->AtRecord = 0;
+    return true;
+  }
+
+  double coordinate(const char* record, std::size_t axis) const
+  {
+    return valueAt<std::int32_t>(record, 4 * axis) * this->Header.Scale[axis] +
+      this->Header.Offset[axis];
+  }
+
+  void append(const char* record, PointBlock& block) const
+  {
+    block.XY.push_back(this->coordinate(record, 0));
+    block.XY.push_back(this->coordinate(record, 1));
+    for (std::size_t i = 0; i < this->Wanted.size(); ++i)
+    {
+      const LasColumn& column = this->Wanted[i];
+      using Kind = LasColumn::Kind;
+      block.Columns[i].push_back(column.Is == Kind::Height ? this->coordinate(record, 2)
+          : column.Is == Kind::Class                       ? double(this->Filter.classOf(record))
+          : column.Is == Kind::Time                        ? valueAt<double>(record, column.Offset)
+                                    : double(valueAt<std::uint16_t>(record, column.Offset)));
+    }
+  }
+
+  /// How many points are selected before each chunk of records, and in all.
+  void countKept() const
+  {
+    if (!this->KeptBefore.empty())
+    {
+      return;
+    }
+    const auto records = openLasRecords(this->Path, this->Header);
+    std::vector<std::int64_t> before{ 0 };
+    std::vector<char> raw;
+    for (std::int64_t first = 0; first < this->Header.Points; first += chunkRecords)
+    {
+      const auto count = std::size_t(std::min(chunkRecords, this->Header.Points - first));
+      raw.resize(count * this->Header.RecordLength);
+      records->read(first, count, raw.data());
+      std::int64_t kept = before.back();
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        kept += this->Filter.keeps(raw.data() + i * this->Header.RecordLength) ? 1 : 0;
+      }
+      before.push_back(kept);
+    }
+    this->KeptBefore = std::move(before);
+  }
+
+  const std::string Path;
+  const LasHeader Header;
+  const RecordFilter Filter;
+  std::vector<LasColumn> Wanted;
+  std::unique_ptr<LasRecords> Records;
+  std::vector<char> Raw;
+  std::size_t Loaded = 0;   ///< records in Raw
+  std::size_t AtRecord = 0; ///< the next of them
+  std::int64_t NextRecord = 0;
+  std::int64_t Dropped = 0; ///< in this pass so far
+  std::int64_t DroppedOfPass = 0;
+  mutable std::vector<std::int64_t> KeptBefore;
+};
+
+} // namespace
+
+std::unique_ptr<FilePoints> openLasPoints(const std::string& path, const PointOptions& options)
+{
+  if (!options.X.empty() || !options.Y.empty())
+  {
+    throw IOError(path, "has fixed coordinates; columns can be chosen in .npy and text files.");
+  }
+  return std::make_unique<LasFilePoints>(path, options);
+}
+
+} // namespace tipp

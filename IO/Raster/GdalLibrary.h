@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippGdalLibrary_h
+#define tippGdalLibrary_h
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <cpl_string.h>
+#include <gdal.h>
+#include <ogr_srs_api.h>
+
+namespace tipp
+{
+
+/// The functions of GDAL that are used here.
+#define TIPP_GDAL_FUNCTIONS(X)                                                                     \
+  X(CPLErrorReset)                                                                                 \
+  X(CPLGetLastErrorMsg)                                                                            \
+  X(CPLGetLastErrorType)                                                                           \
+  X(CPLSetErrorHandler)                                                                            \
+  X(CPLQuietErrorHandler)                                                                          \
+  X(CSLDestroy)                                                                                    \
+  X(CSLSetNameValue)                                                                               \
+  X(GDALAllRegister)                                                                               \
+  X(GDALClose)                                                                                     \
+  X(GDALCreate)                                                                                    \
+  X(GDALCreateCopy)                                                                                \
+  X(GDALFlushCache)                                                                                \
+  X(GDALGetDriverByName)                                                                           \
+  X(GDALGetGeoTransform)                                                                           \
+  X(GDALGetProjectionRef)                                                                          \
+  X(GDALGetRasterBand)                                                                             \
+  X(GDALGetRasterXSize)                                                                            \
+  X(GDALGetRasterYSize)                                                                            \
+  X(GDALOpen)                                                                                      \
+  X(GDALRasterIO)                                                                                  \
+  X(GDALSetCacheMax64)                                                                             \
+  X(GDALSetDescription)                                                                            \
+  X(GDALSetGeoTransform)                                                                           \
+  X(GDALSetMetadataItem)                                                                           \
+  X(GDALSetRasterNoDataValue)                                                                      \
+  X(GDALSetRasterStatistics)                                                                       \
+  X(GDALSetSpatialRef)                                                                             \
+  X(OSRDestroySpatialReference)                                                                    \
+  X(OSRNewSpatialReference)                                                                        \
+  X(OSRSetFromUserInput)
+
+/// GDAL, opened at run time when it is first needed: it brings over a hundred other libraries,
+/// which every start of the tool would wait for.
+struct GdalLibrary
+{
+#define TIPP_DECLARE_FUNCTION(name) decltype(&::name) name = nullptr;
+  TIPP_GDAL_FUNCTIONS(TIPP_DECLARE_FUNCTION)
+#undef TIPP_DECLARE_FUNCTION
+};
+
+/// Opens it once a process. Throws IOError if it is not there.
+const GdalLibrary& gdal();
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Raster/RasterFile.h"
+
+#include "Files/Extension.h"
+#include "Files/IOError.h"
+#include "Npy/NpyHeader.h"
+
+#include <cstdio>
+#include <utility>
+
+namespace tipp
+{
+
+RasterWriter::~RasterWriter() = default;
+
+namespace
+{
+
+/// Bands one after the other, each row by row from the south, behind a text.
+class PlainWriter : public RasterWriter
+{
+public:
+  PlainWriter(const std::string& path, const RasterGrid& grid, const PathState& before)
+    : Pending(path, before)
+    , Grid(grid)
+  {
+  }
+
+  /// `lengths`: each band follows its size in bytes.
+  void start(const std::string& text, bool lengths, std::size_t bands)
+  {
+    this->put(0, text.data(), text.size());
+    this->Begin = text.size();
+    this->Gap = lengths ? sizeof(std::uint64_t) : 0;
+    for (std::size_t band = 0; lengths && band < bands; ++band)
+    {
+      const std::uint64_t size = this->bandBytes();
+      this->put(this->offset(band) - sizeof(size), &size, sizeof(size));
+    }
+  }
+  void end(const std::string& text, std::size_t bands)
+  {
+    this->put(this->offset(bands) - this->Gap, text.data(), text.size());
+  }
+
+  void write(const RasterWindow& window, const std::vector<const double*>& bands) override
+  {
+    const std::size_t bytes = sizeof(double) * std::size_t(window.Columns);
+    for (std::size_t band = 0; band < bands.size(); ++band)
+    {
+      for (std::int64_t row = 0; row < window.Rows; ++row)
+      {
+        const auto pixel = std::uint64_t((window.Row + row) * this->Grid.Columns + window.Column);
+        this->put(
+          this->offset(band) + sizeof(double) * pixel, bands[band] + row * window.Columns, bytes);
+      }
+    }
+  }
+
+  void close() override { this->Pending.commit(); }
+
+  std::uint64_t bandBytes() const { return sizeof(double) * std::uint64_t(this->Grid.pixels()); }
+
+private:
+  void put(std::uint64_t offset, const void* data, std::size_t bytes) const
+  {
+    this->Pending.file().write(offset, data, bytes);
+  }
+  std::uint64_t offset(std::size_t band) const
+  {
+    return this->Begin + this->Gap + band * (this->bandBytes() + this->Gap);
+  }
+
+  PendingFile Pending;
+  const RasterGrid Grid;
+  std::uint64_t Begin = 0;
+  std::uint64_t Gap = 0;
+};
+
+std::unique_ptr<RasterWriter> createNpy(
+  const std::string& path, const RasterDescription& description, const PathState& before)
+{
+  auto writer = std::make_unique<PlainWriter>(path, description.Grid, before);
+  std::vector<std::int64_t> shape;
+  if (description.Bands.size() > 1)
+  {
+    shape.push_back(std::int64_t(description.Bands.size()));
+  }
+  shape.push_back(description.Grid.Rows);
+  shape.push_back(description.Grid.Columns);
+  writer->start(npyFileStart("<f8", shape), false, description.Bands.size());
+  return writer;
+}
+
+std::string numbers(std::initializer_list<double> values)
+{
+  std::string text;
+  for (const double value : values)
+  {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.17g", value);
+    text += (text.empty() ? "" : " ") + std::string(number);
+  }
+  return text;
+}
+
+std::string escaped(const std::string& name)
+{
+  std::string text;
+  for (const char c : name)
+  {
+    text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
+  }
+  return text;
+}
+
+std::unique_ptr<RasterWriter> createVti(
+  const std::string& path, const RasterDescription& description, const PathState& before)
+{
+  const RasterGrid& grid = description.Grid;
+  auto writer = std::make_unique<PlainWriter>(path, grid, before);
+  const std::string extent =
+    "0 " + std::to_string(grid.Columns - 1) + " 0 " + std::to_string(grid.Rows - 1) + " 0 0";
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" "
+                     "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <ImageData "
+                     "WholeExtent=\"" +
+    extent + "\" Origin=\"" +
+    numbers({ grid.West + 0.5 * grid.Pixel[0], grid.South + 0.5 * grid.Pixel[1], 0 }) +
+    "\" Spacing=\"" + numbers({ grid.Pixel[0], grid.Pixel[1], 1 }) + "\">\n    <Piece Extent=\"" +
+    extent + "\">\n      <PointData Scalars=\"" + escaped(description.Bands.front()) + "\">\n";
+  for (std::size_t band = 0; band < description.Bands.size(); ++band)
+  {
+    text += "        <DataArray type=\"Float64\" Name=\"" + escaped(description.Bands[band]) +
+      "\" format=\"appended\" offset=\"" +
+      std::to_string(band * (writer->bandBytes() + sizeof(std::uint64_t))) + "\"/>\n";
+  }
+  text += "      </PointData>\n      <CellData/>\n    </Piece>\n  </ImageData>\n  <AppendedData "
+          "encoding=\"raw\">\n_";
+  writer->start(text, true, description.Bands.size());
+  writer->end("\n  </AppendedData>\n</VTKFile>\n", description.Bands.size());
+  return writer;
+}
+
+} // namespace
+
+bool isGeoTiff(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  return extension == ".tif" || extension == ".tiff";
+}
+
+bool isRasterFile(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  return isGeoTiff(path) || extension == ".npy" || extension == ".vti";
+}
+
+std::unique_ptr<RasterWriter> createRaster(
+  const std::string& path, const RasterDescription& description, const PathState& before)
+{
+  const std::string extension = extensionOf(path);
+  if (isGeoTiff(path))
+  {
+    return createGeoTiff(path, description, before);
+  }
+  if (extension == ".npy")
+  {
+    return createNpy(path, description, before);
+  }
+  if (extension == ".vti")
+  {
+    return createVti(path, description, before);
+  }
+  throw IOError(path, "has no extension that tells a kind of raster; use .tif, .npy or .vti.");
+}
+
+#ifndef TIPP_HAVE_GDAL
+namespace
+{
+
+[[noreturn]] void failWithoutGdal(const std::string& path)
+{
+  throw IOError(path,
+    "needs GDAL, and this program was built without it; install libgdal-dev and build it again, or "
+    "use .npy or .vti.");
+}
+
+} // namespace
+
+std::unique_ptr<RasterWriter> createGeoTiff(
+  const std::string& path, const RasterDescription&, const PathState&)
+{
+  failWithoutGdal(path);
+}
+
+RasterInfo readRasterInfo(const std::string& path)
+{
+  failWithoutGdal(path);
+}
+
+void requireCrs(const std::string& text)
+{
+  failWithoutGdal(text);
+}
+#endif
+
+} // namespace tipp

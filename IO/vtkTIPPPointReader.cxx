@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTIPPPointReader.h"
+
+#include "Files/IOError.h"
+#include "Meshes/MeshDataSet.h"
+#include "Points/PointStream.h"
+#include "Points/ReadPoints.h"
+
+#include "vtkCellArray.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
+
+#include <algorithm>
+#include <charconv>
+#include <exception>
+#include <limits>
+#include <sstream>
+
+vtkStandardNewMacro(vtkTIPPPointReader);
+
+namespace
+{
+
+std::string textOf(const char* text)
+{
+  return text ? text : "";
+}
+
+std::vector<std::string> partsOf(const char* text)
+{
+  std::vector<std::string> parts;
+  std::istringstream stream(textOf(text));
+  for (std::string part; std::getline(stream, part, ',');)
+  {
+    parts.push_back(part);
+  }
+  return parts;
+}
+
+int classOf(const std::string& text)
+{
+  int number = -1;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() || number < 0 ||
+    number > 255)
+  {
+    throw tipp::IOError("'" + text + "' is not a class; give numbers from 0 to 255, as 2,9.");
+  }
+  return number;
+}
+
+void addVertices(vtkPolyData* data)
+{
+  vtkNew<vtkCellArray> vertices;
+  vertices->AllocateExact(data->GetNumberOfPoints(), data->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    vertices->InsertNextCell(1, &i);
+  }
+  data->SetVerts(vertices);
+}
+
+} // namespace
+
+vtkTIPPPointReader::vtkTIPPPointReader()
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+vtkTIPPPointReader::~vtkTIPPPointReader()
+{
+  this->vtkTIPPPointReader::SetXColumn(nullptr);
+  this->vtkTIPPPointReader::SetYColumn(nullptr);
+  this->vtkTIPPPointReader::SetClasses(nullptr);
+  this->vtkTIPPPointReader::SetColumns(nullptr);
+}
+
+void vtkTIPPPointReader::AddFileName(const char* name)
+{
+  if (name && *name)
+  {
+    this->FileNames.emplace_back(name);
+    this->Modified();
+  }
+}
+
+void vtkTIPPPointReader::SetFileName(const char* name)
+{
+  if (name && this->FileNames == std::vector<std::string>{ name })
+  {
+    return;
+  }
+  this->ClearFileNames();
+  this->AddFileName(name);
+}
+
+void vtkTIPPPointReader::ClearFileNames()
+{
+  if (!this->FileNames.empty())
+  {
+    this->FileNames.clear();
+    this->Modified();
+  }
+}
+
+int vtkTIPPPointReader::GetNumberOfFileNames() const
+{
+  return int(this->FileNames.size());
+}
+
+const char* vtkTIPPPointReader::GetFileName(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfFileNames()
+    ? this->FileNames[std::size_t(index)].c_str()
+    : nullptr;
+}
+
+int vtkTIPPPointReader::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  outputVector->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  return 1;
+}
+
+tipp::PointOptions vtkTIPPPointReader::Options() const
+{
+  tipp::PointOptions options;
+  options.X = textOf(this->XColumn);
+  options.Y = textOf(this->YColumn);
+  for (const std::string& number : partsOf(this->Classes))
+  {
+    options.Las.Classes.push_back(classOf(number));
+  }
+  options.Las.Kind = tipp::LasSelection::Returns(this->Returns);
+  options.Las.KeepWithheld = this->KeepWithheld;
+  options.Las.KeepSynthetic = this->KeepSynthetic;
+  options.Las.KeepOverlap = this->KeepOverlap;
+  if (!textOf(this->Columns).empty())
+  {
+    options.Columns = partsOf(this->Columns);
+    options.Columns->insert(options.Columns->end(), { "z", "Z" });
+  }
+  return options;
+}
+
+void vtkTIPPPointReader::Read(vtkInformation* info, vtkPolyData* output)
+{
+  if (this->FileNames.empty())
+  {
+    throw tipp::IOError("There is no file name; set one.");
+  }
+  const int piece = std::max(0, info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()));
+  const int pieces =
+    std::max(1, info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()));
+  const tipp::PointOptions options = this->Options();
+  const std::string crs = tipp::openPointStream(this->FileNames, options)->crs();
+  const tipp::PointTable table = tipp::readPointsShare(this->FileNames, options, piece, pieces);
+  this->NumberOfPointsLeftOut = table.LeftOut;
+  // It shares the table's memory.
+  output->DeepCopy(tipp::makePolyData(table, {}, {}));
+  if (this->GenerateVertices)
+  {
+    addVertices(output);
+  }
+  if (!crs.empty())
+  {
+    vtkNew<vtkStringArray> array;
+    array->SetName("CoordinateReferenceSystem");
+    array->InsertNextValue(crs);
+    output->GetFieldData()->AddArray(array);
+  }
+}
+
+int vtkTIPPPointReader::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkPolyData* const output = vtkPolyData::GetData(outputVector, 0);
+  try
+  {
+    this->Read(outputVector->GetInformationObject(0), output);
+    return 1;
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorMacro("There is not enough memory for the points; read fewer files or columns.");
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+  }
+  output->Initialize();
+  return 0;
+}
+
+void vtkTIPPPointReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileNames:";
+  for (const std::string& name : this->FileNames)
+  {
+    os << " " << name;
+  }
+  os << "\n";
+  const auto line = [&](const char* name, const auto& value)
+  { os << indent << name << ": " << value << "\n"; };
+  line("XColumn", textOf(this->XColumn));
+  line("YColumn", textOf(this->YColumn));
+  line("Classes", textOf(this->Classes));
+  line("Columns", textOf(this->Columns));
+  line("Returns", this->Returns);
+  line("KeepWithheld", this->KeepWithheld);
+  line("KeepSynthetic", this->KeepSynthetic);
+  line("KeepOverlap", this->KeepOverlap);
+  line("GenerateVertices", this->GenerateVertices);
+  line("NumberOfPointsLeftOut", this->NumberOfPointsLeftOut);
+}

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTIPPPointReader
+ * @brief   reads points from LAS, text, .npy and other files
+ *
+ * vtkTIPPPointReader reads what `tipp delaunay` reads: .las (versions 1.0 to 1.4, all point
+ * formats), .laz where LASzip was there to build with, .csv, .txt, .xyz, .npy, .14, .grd and the
+ * files that VTK reads. The output is a vtkPolyData with the points of all files, in their order. A
+ * column named z is the third coordinate; the others are point data, float64. Of LAS files these
+ * are intensity, classification, gps_time, red, green, blue and nir, as far as the file has them.
+ *
+ * The coordinate reference system, where a LAS file has one, is the string array
+ * "CoordinateReferenceSystem" of the output's field data: WKT or "EPSG:code".
+ *
+ * A request for a piece is answered with a share of the points: of .las and .npy files with
+ * successive ones, of other files with all for the first piece and none for the others.
+ *
+ * @sa
+ * vtkTIPPDelaunay2D vtkTIPPOutOfCoreDelaunay2D
+ */
+
+#ifndef vtkTIPPPointReader_h
+#define vtkTIPPPointReader_h
+
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkTIPPIOModule.h" // For export macro
+
+#include <string> // For FileNames
+#include <vector> // For FileNames
+
+namespace tipp
+{
+struct PointOptions;
+}
+
+class VTKTIPPIO_EXPORT vtkTIPPPointReader : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkTIPPPointReader* New();
+  vtkTypeMacro(vtkTIPPPointReader, vtkPolyDataAlgorithm)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The files, which are one set of points; they must have the same columns. SetFileName() leaves
+   * one alone.
+   */
+  void AddFileName(const char* name);
+  void SetFileName(const char* name);
+  void ClearFileNames();
+  int GetNumberOfFileNames() const;
+  const char* GetFileName(int index) const;
+  ///@}
+
+  ///@{
+  /**
+   * Which columns of text and .npy files are x and y: a name as the file has it, or a number
+   * counted from 0. Empty or null (the default): by the usual names, else the first two.
+   */
+  vtkSetStringMacro(XColumn);
+  vtkGetStringMacro(XColumn);
+  vtkSetStringMacro(YColumn);
+  vtkGetStringMacro(YColumn);
+  ///@}
+
+  ///@{
+  /**
+   * Of LAS files the points of these classes, as "2,9". Empty or null (the default): of all.
+   */
+  vtkSetStringMacro(Classes);
+  vtkGetStringMacro(Classes);
+  ///@}
+
+  /**
+   * Which returns of a pulse.
+   */
+  enum ReturnType
+  {
+    RETURNS_ALL = 0,
+    RETURNS_FIRST = 1,
+    RETURNS_LAST = 2
+  };
+
+  ///@{
+  /**
+   * Of LAS files all returns (RETURNS_ALL, the default), the first or the last ones.
+   */
+  vtkSetClampMacro(Returns, int, RETURNS_ALL, RETURNS_LAST);
+  vtkGetMacro(Returns, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether points of LAS files that are flagged as withheld, as synthetic or as overlap (of the
+   * formats 0 to 5: of class 12) are read, too. Off by default.
+   */
+  vtkSetMacro(KeepWithheld, bool);
+  vtkGetMacro(KeepWithheld, bool);
+  vtkBooleanMacro(KeepWithheld, bool);
+  vtkSetMacro(KeepSynthetic, bool);
+  vtkGetMacro(KeepSynthetic, bool);
+  vtkBooleanMacro(KeepSynthetic, bool);
+  vtkSetMacro(KeepOverlap, bool);
+  vtkGetMacro(KeepOverlap, bool);
+  vtkBooleanMacro(KeepOverlap, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The names of the further columns to read, with commas between them. Empty or null (the
+   * default): all.
+   */
+  vtkSetStringMacro(Columns);
+  vtkGetStringMacro(Columns);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the output has a vertex cell for each point, without which it is not drawn. On by
+   * default.
+   */
+  vtkSetMacro(GenerateVertices, bool);
+  vtkGetMacro(GenerateVertices, bool);
+  vtkBooleanMacro(GenerateVertices, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Of the last update: how many points of the files were not selected.
+   */
+  vtkGetMacro(NumberOfPointsLeftOut, vtkTypeInt64);
+  ///@}
+
+protected:
+  vtkTIPPPointReader();
+  ~vtkTIPPPointReader() override;
+
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+  std::vector<std::string> FileNames;
+  char* XColumn = nullptr;
+  char* YColumn = nullptr;
+  char* Classes = nullptr;
+  char* Columns = nullptr;
+  int Returns = RETURNS_ALL;
+  bool KeepWithheld = false;
+  bool KeepSynthetic = false;
+  bool KeepOverlap = false;
+  bool GenerateVertices = true;
+  vtkTypeInt64 NumberOfPointsLeftOut = 0;
+
+private:
+  vtkTIPPPointReader(const vtkTIPPPointReader&) = delete;
+  void operator=(const vtkTIPPPointReader&) = delete;
+
+  tipp::PointOptions Options() const;
+  void Read(vtkInformation* info, vtkPolyData* output);
+};
+
+#endif

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`tipp dem` beside gdal_grid, startinpy and scipy, from a LAS file to a GeoTIFF, and within a limit of memory.
+
+Usage: dem_peers.py TIPP AUTZEN.las FOLDER [--tile N] [--points N] [--memory M] [--repeat R] [--slow]
+
+Every program runs in a process of its own, from file to file; wall-clock and processor seconds, and the largest
+memory. Peers that are not installed are named and left out.
+"""
+import argparse
+import importlib.util
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+HEADER = 227
+RECORD = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("intensity", "<u2"), ("returns", "u1"), ("class", "u1"),
+                   ("angle", "i1"), ("user", "u1"), ("source", "<u2"), ("time", "<f8")])
+
+SCIPY = """
+import sys, laspy, numpy, rasterio, scipy.interpolate
+las = laspy.read(sys.argv[1])
+chosen = numpy.asarray(las.classification) == 2
+x, y, z = (numpy.asarray(a)[chosen] for a in (las.x, las.y, las.z))
+west, south, columns, rows, size = (float(a) for a in sys.argv[3:])
+columns, rows = int(columns), int(rows)
+gx = west + size * (numpy.arange(columns) + 0.5)
+gy = south + size * (numpy.arange(rows) + 0.5)
+surface = scipy.interpolate.LinearNDInterpolator(numpy.c_[x, y], z)
+grid = numpy.vstack([surface(*numpy.meshgrid(gx, gy[i:i + 256])) for i in range(0, rows, 256)])
+"""
+STARTIN = """
+import sys, laspy, numpy, rasterio, startinpy
+las = laspy.read(sys.argv[1])
+chosen = numpy.asarray(las.classification) == 2
+west, south, columns, rows, size = (float(a) for a in sys.argv[3:])
+columns, rows = int(columns), int(rows)
+triangulation = startinpy.DT()
+triangulation.insert(numpy.c_[las.x, las.y, las.z][chosen], insertionstrategy="BBox")
+gx = west + size * (numpy.arange(columns) + 0.5)
+gy = south + size * (numpy.arange(rows) + 0.5)
+grid = numpy.vstack([numpy.asarray(triangulation.interpolate({"method": "TIN"}, numpy.c_[
+    numpy.tile(gx, len(part)), numpy.repeat(part, columns)], strict=False)).reshape(len(part), columns)
+    for part in (gy[i:i + 64] for i in range(0, rows, 64))])
+"""
+WRITE = """
+with rasterio.open(sys.argv[2], "w", driver="GTiff", width=columns, height=rows, count=1, dtype="float32", nodata=-9999,
+                   tiled=True, compress="deflate", predictor=3, zlevel=1, num_threads=2,
+                   transform=rasterio.Affine(size, 0, west, 0, -size, south + rows * size)) as out:
+    out.write(numpy.where(numpy.isnan(grid), -9999, grid).astype("float32")[::-1], 1)
+"""
+
+
+def make_tile(source, path, count, seed):
+    """Copies of the points side by side, each with jitter, as LAS 1.2 of format 1. Returns west, south and the sides."""
+    with open(source, "rb") as file:
+        data = file.read()
+    offset, length = struct.unpack_from("<I", data, 96)[0], struct.unpack_from("<H", data, 105)[0]
+    number = struct.unpack_from("<I", data, 107)[0]
+    raw = np.frombuffer(data, np.uint8, number * length, offset).reshape(number, length)
+    points = np.zeros(number, RECORD)
+    for name in RECORD.names[:8]:
+        at = RECORD.fields[name][1]
+        points[name] = raw[:, at:at + RECORD[name].itemsize].copy().view(RECORD[name])[:, 0]
+    copies = -(-count // number)
+    side = int(np.ceil(np.sqrt(copies)))
+    low = [int(points[a].min()) for a in "xy"]
+    step = [int(points[a].max()) - low[i] + 1 for i, a in enumerate("xy")]
+    random = np.random.default_rng(seed)
+    header = bytearray(data[:HEADER])
+    struct.pack_into("<HII", header, 94, HEADER, HEADER, 0)
+    struct.pack_into("<BHI", header, 104, 1, RECORD.itemsize, count)
+    left = count
+    with open(path, "wb") as file:
+        file.write(header)
+        for copy in range(copies):
+            block = points[:left].copy()
+            for i, axis in enumerate("xy"):
+                shift = (copy % side if i == 0 else copy // side) * step[i] - low[i]
+                block[axis] += shift + random.integers(-40, 41, len(block))
+            file.write(block.tobytes())
+            left -= len(block)
+    scale = struct.unpack_from("<3d", header, 131)
+    origin = struct.unpack_from("<3d", header, 155)
+    return origin[0], origin[1], side * step[0] * scale[0], -(-copies // side) * step[1] * scale[1]
+
+
+def measure(command, repeat=1):
+    """The fastest run's wall-clock and processor seconds, and its memory in MB; None if it fails."""
+    best = None
+    for _ in range(repeat):
+        start = time.perf_counter()
+        process = subprocess.Popen([str(word) for word in command], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        _, status, usage = os.wait4(process.pid, 0)
+        seconds = time.perf_counter() - start
+        if status != 0:
+            return None
+        run = seconds, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1e3
+        best = run if best is None or run[0] < best[0] else best
+    return best
+
+
+def row(name, run, ours=None):
+    if run is None:
+        print(f"{name:44} failed", flush=True)
+        return
+    ratio = f" {run[0] / ours[0]:7.1f} x {run[1] / ours[1]:7.1f} x" if ours else ""
+    print(f"{name:44} {run[0]:8.2f} s {run[1]:8.2f} s of processor {run[2]:8.0f} MB{ratio}", flush=True)
+
+
+def beside_peers(options, folder):
+    path = folder / f"tile-{options.tile}.las"
+    west, south, width, height = make_tile(options.autzen, path, options.tile, 1)
+    size = round(float(np.sqrt(width * height / (1.5 * options.tile))), 3)
+    columns, rows = int(width / size), int(height / size)
+    bounds = [west, west + columns * size, south, south + rows * size]
+    print(f"{options.tile} points, those of class 2 to {columns} x {rows} pixels, two threads")
+    output = folder / "out.tif"
+    ours = measure([options.tipp, "dem", path, "-o", output, "--class", 2, "--resolution", size, "--align", "bounds",
+                    "--threads", 2, "--bounds", *bounds], options.repeat)
+    row("tipp dem", ours)
+    if ours is None:
+        sys.exit(1)
+    for name, script, is_slow in (("startinpy", STARTIN, False), ("scipy", SCIPY, True)):
+        missing = [m for m in ("laspy", "rasterio", name) if importlib.util.find_spec(m) is None]
+        if missing:
+            print(f"{name}: left out, {', '.join(missing)} is not installed")
+        elif is_slow and not options.slow:
+            print(f"{name}: left out without --slow")
+        else:
+            row(name, measure([sys.executable, "-c", script + WRITE, path, output, west, south, columns, rows, size]), ours)
+    if shutil.which("gdal_grid") is None:
+        print("gdal_grid: left out, it is not installed")
+    elif not options.slow:
+        print("gdal_grid: left out without --slow")
+    else:
+        row("gdal_grid (linear, from .csv)", measure(gdal_command(options, folder, path, output, bounds, columns, rows)), ours)
+    output.unlink(missing_ok=True)
+
+
+def gdal_command(options, folder, path, output, bounds, columns, rows):
+    """It reads no LAS: the ground points as .csv, whose writing is not timed."""
+    ground = folder / "ground.csv"
+    data = np.fromfile(path, RECORD, offset=HEADER)
+    data = data[data["class"] & 31 == 2]
+    with open(path, "rb") as file:
+        header = file.read(HEADER)
+    scale, origin = struct.unpack_from("<3d", header, 131), struct.unpack_from("<3d", header, 155)
+    np.savetxt(ground, np.c_[tuple(data[a] * scale[i] + origin[i] for i, a in enumerate("xyz"))], "%.2f", ",", header="x,y,z",
+               comments="")
+    vrt = folder / "ground.vrt"
+    vrt.write_text(f"""<OGRVRTDataSource><OGRVRTLayer name="ground"><SrcDataSource>{ground}</SrcDataSource>
+<GeometryType>wkbPoint</GeometryType><GeometryField encoding="PointFromColumns" x="x" y="y" z="z"/>
+</OGRVRTLayer></OGRVRTDataSource>""")
+    return ["gdal_grid", "-q", "--config", "GDAL_NUM_THREADS", "ALL_CPUS", "-a", "linear:radius=0:nodata=-9999", "-ot",
+            "Float32", "-of", "GTiff", "-co", "TILED=YES", "-co", "COMPRESS=DEFLATE", "-txe", bounds[0], bounds[1], "-tye",
+            bounds[3], bounds[2], "-outsize", columns, rows, vrt, output]
+
+
+def within_memory(options, folder):
+    count = options.points // 4
+    paths = [folder / f"part-{count}-{i}.las" for i in range(4)]
+    for number, path in enumerate(paths):
+        west, south, width, height = make_tile(options.autzen, path, count, number)
+        # Side by side: the header's offset along x.
+        with open(path, "r+b") as file:
+            file.seek(155)
+            file.write(struct.pack("<d", west + number * width))
+    size = round(float(np.sqrt(4 * width * height / options.points)), 3)
+    keep = ["--keep", "overlap,synthetic,withheld", "--threads", 2, "--memory", options.memory]
+    print(f"{4 * count} points in four LAS files to {int(4 * width / size)} x {int(height / size)} pixels in {options.memory}")
+    counted = measure([options.tipp, "delaunay", *paths, "-o", folder / "out.tipp", "--sink", "count", *keep], options.repeat)
+    row("tipp delaunay --sink count", counted)
+    row("tipp dem", measure([options.tipp, "dem", *paths, "-o", folder / "out.tif", "--resolution", size, *keep],
+                            options.repeat), counted)
+    (folder / "out.tif").unlink(missing_ok=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__)
+    for name in ("tipp", "autzen", "folder"):
+        parser.add_argument(name)
+    parser.add_argument("--tile", type=int, default=15_000_000)
+    parser.add_argument("--points", type=int, default=20_000_000)
+    parser.add_argument("--memory", default="512M")
+    parser.add_argument("--repeat", type=int, default=2)
+    parser.add_argument("--slow", action="store_true")
+    options = parser.parse_args()
+    folder = pathlib.Path(options.folder)
+    beside_peers(options, folder)
+    within_memory(options, folder)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Raster/RasterFile.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace
+{
+
+using namespace tipp;
+
+RasterGrid gridFor(double resolution, const std::array<double, 4>& bounds, bool aligned = true)
+{
+  RasterRequest request;
+  request.Resolution = resolution;
+  request.Aligned = aligned;
+  return makeRasterGrid(request, bounds);
+}
+
+TEST(RasterGrid, CoversTheBoundsWithBordersAtMultiples)
+{
+  const RasterGrid grid = gridFor(10, { -3, 27, 11, 40 });
+  EXPECT_EQ(-10, grid.West);
+  EXPECT_EQ(10, grid.South);
+  EXPECT_EQ(4, grid.Columns);
+  EXPECT_EQ(3, grid.Rows);
+  EXPECT_EQ(40, grid.north());
+}
+
+TEST(RasterGrid, RoundingsMakeNoFurtherPixel)
+{
+  const RasterGrid grid = gridFor(0.1, { 0.3, 0.7, 0, 0.1 });
+  EXPECT_EQ(4, grid.Columns);
+  EXPECT_EQ(1, grid.Rows);
+}
+
+TEST(RasterGrid, BeginsAtTheBoundsOnRequest)
+{
+  const RasterGrid grid = gridFor(10, { -3, 27, 11, 40 }, false);
+  EXPECT_EQ(-3, grid.West);
+  EXPECT_EQ(11, grid.South);
+  EXPECT_EQ(3, grid.Columns);
+  EXPECT_EQ(3, grid.Rows);
+}
+
+TEST(RasterGrid, OfASinglePointIsAPixel)
+{
+  const RasterGrid grid = gridFor(2, { 4, 4, 6, 6 });
+  EXPECT_EQ(1, grid.Columns);
+  EXPECT_EQ(1, grid.Rows);
+}
+
+TEST(RasterGrid, RefusesBoundsThatAreNoRangeAndTooManyPixels)
+{
+  EXPECT_THROW(gridFor(1, { 1, 0, 0, 1 }), std::runtime_error);
+  EXPECT_THROW(gridFor(1e-9, { 0, 10, 0, 1 }), std::runtime_error);
+}
+
+TEST(RasterTiles, FollowEachOtherFromTheNorthWest)
+{
+  RasterGrid grid;
+  grid.Columns = 300;
+  grid.Rows = 500;
+  std::vector<RasterWindow> tiles;
+  forEachTile(grid, [&](const RasterWindow& tile) { tiles.push_back(tile); });
+  ASSERT_EQ(4U, tiles.size());
+  EXPECT_EQ(244, tiles[0].Row);
+  EXPECT_EQ(256, tiles[0].Columns);
+  EXPECT_EQ(256, tiles[1].Column);
+  EXPECT_EQ(44, tiles[1].Columns);
+  EXPECT_EQ(0, tiles[3].Row);
+  EXPECT_EQ(244, tiles[3].Rows);
+}
+
+} // namespace

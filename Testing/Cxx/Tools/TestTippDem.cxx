@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `tipp dem`: a raster of points.
+#include "RunTipp.h"
+
+#include "Distributions/Random.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <vector>
+
+namespace
+{
+
+using namespace tipp::test;
+
+using Words = std::vector<std::string>;
+
+/// Points of a hilly square of side 100, at whose corners there are points.
+class TippDem : public testing::Test
+{
+protected:
+  void makePoints(int count, const std::string& name = "points.csv", unsigned seed = 1) const
+  {
+    tipp::Random random(seed);
+    std::ofstream csv(this->Folder.path(name));
+    csv.precision(17);
+    csv << "x,y,z,intensity\n";
+    const auto add = [&](double x, double y)
+    { csv << x << "," << y << "," << height(x, y) << "," << 3 * x << "\n"; };
+    for (const double corner : { 0.0, 100.0 })
+    {
+      add(corner, 0);
+      add(corner, 100);
+    }
+    for (int i = 4; i < count; ++i)
+    {
+      const double x = 100 * random.uniform();
+      add(x, 100 * random.uniform());
+    }
+  }
+  static double height(double x, double y) { return 20 + x / 5 + 4 * std::sin(y / 9); }
+
+  Outcome run(const Words& words) const { return runTipp(this->Folder, words); }
+
+  /// Of a raster of points.csv.
+  void make(const std::string& output, const Words& more) const
+  {
+    Words words{ "dem", "points.csv", "-o", output };
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = this->run(words);
+    ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  }
+
+  std::string content(const std::string& name) const { return contentOf(this->Folder.path(name)); }
+
+  /// The numbers of an .npy file.
+  std::vector<double> valuesOf(const std::string& name) const
+  {
+    const std::string file = this->content(name);
+    unsigned short size;
+    std::memcpy(&size, file.data() + 8, sizeof size);
+    std::vector<double> values((file.size() - 10 - size) / sizeof(double));
+    std::memcpy(values.data(), file.data() + 10 + size, sizeof(double) * values.size());
+    return values;
+  }
+
+  TemporaryFolder Folder;
+};
+
+TEST_F(TippDem, MakesThePixelsOfTwoSteps)
+{
+  this->makePoints(3000);
+  ASSERT_EQ(0, this->run({ "delaunay", "points.csv", "-o", "mesh.vtu" }).ExitCode);
+  const Words range = { "--bounds", "0.125", "100.125", "0.125", "100.125", "0", "0", "--delta",
+    "0.25", "0.25", "0" };
+  Words words{ "resample", "mesh.vtu", "-o", "steps.npy" };
+  words.insert(words.end(), range.begin(), range.end());
+  ASSERT_EQ(0, this->run(words).ExitCode);
+  for (const char* const threads : { "1", "3" })
+  {
+    this->make("dem.npy",
+      { "--resolution", "0.25", "--bounds", "0", "100.25", "0", "100.25", "--threads", threads });
+    EXPECT_EQ(this->content("steps.npy"), this->content("dem.npy"));
+  }
+}
+
+TEST_F(TippDem, MakesTheSameFileForAnyMemoryAndDivisionOfTheInput)
+{
+  this->makePoints(30000);
+  std::ifstream csv(this->Folder.path("points.csv"));
+  std::ofstream first(this->Folder.path("a.csv"));
+  std::ofstream second(this->Folder.path("b.csv"));
+  std::string line;
+  for (int i = 0; std::getline(csv, line); ++i)
+  {
+    (i < 12000 || i == 0 ? first : second) << line << "\n";
+    i == 0 ? void(second << line << "\n") : void();
+  }
+  first.close();
+  second.close();
+  const Words options = { "--resolution", "0.2", "--attributes",
+    "elevation,intensity,slope,hillshade", "--max-edge", "2" };
+  this->make("dem.npy", options);
+  EXPECT_EQ(4U * 501 * 501, this->valuesOf("dem.npy").size() + 4 * (501 * 501 - 500 * 500));
+  for (const Words& input : { Words{ "points.csv" }, Words{ "a.csv", "b.csv" } })
+  {
+    Words words{ "dem", "-o", "small.npy", "--memory", "2M", "--stats", "s.json" };
+    words.insert(words.begin() + 1, input.begin(), input.end());
+    words.insert(words.end(), options.begin(), options.end());
+    const Outcome outcome = this->run(words);
+    ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+    EXPECT_EQ(this->content("dem.npy"), this->content("small.npy")) << input.size();
+  }
+  EXPECT_FALSE(std::filesystem::exists(this->Folder.path(".small.npy.pixels.part")));
+}
+
+TEST_F(TippDem, MakesTheSameWherePixelsLieOnPoints)
+{
+  std::ofstream csv(this->Folder.path("points.csv"));
+  csv << "x,y,z\n";
+  for (int i = 0; i < 120; ++i)
+  {
+    for (int j = 0; j < 120; ++j)
+    {
+      csv << i + 0.5 << "," << j + 0.5 << "," << i * j % 17 << "\n";
+    }
+  }
+  csv.close();
+  this->make("dem.npy", { "--resolution", "1" });
+  this->make("small.npy", { "--resolution", "1", "--memory", "2M" });
+  EXPECT_EQ(this->content("dem.npy"), this->content("small.npy"));
+  const std::vector<double> values = this->valuesOf("dem.npy");
+  ASSERT_EQ(120U * 120, values.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    ASSERT_EQ(double(i % 120 * (i / 120) % 17), values[i]); // the far border, too
+  }
+}
+
+TEST_F(TippDem, DerivesSlopeAspectAndHillshade)
+{
+  this->Folder.file("points.csv", "x,y,z\n0,0,10\n10,0,0\n0,10,10\n10,10,0\n"); // falls to the east
+  this->make("dem.npy", { "--resolution", "5", "--attributes", "slope,aspect,hillshade" });
+  const std::vector<double> values = this->valuesOf("dem.npy");
+  ASSERT_EQ(12U, values.size());
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    EXPECT_NEAR(45, values[i], 1e-12);
+    EXPECT_NEAR(90, values[4 + i], 1e-12);
+    EXPECT_NEAR(1 + 254 * (0.5 - std::sqrt(0.125)), values[8 + i], 1e-12);
+  }
+}
+
+TEST_F(TippDem, LeavesTrianglesWithLongEdgesVoid)
+{
+  this->Folder.file("points.csv", "x,y,z\n0,0,1\n2,0,1\n0,2,1\n2,2,1\n9,1,1\n");
+  this->make("dem.npy", { "--resolution", "1", "--max-edge", "3" });
+  const std::vector<double> values = this->valuesOf("dem.npy");
+  ASSERT_EQ(18U, values.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    EXPECT_EQ(i % 9 >= 2, std::isnan(values[i])) << i;
+  }
+}
+
+TEST_F(TippDem, AlignsPixelsToMultiplesOfTheResolution)
+{
+  this->Folder.file("points.csv", "x,y,z\n-3.5,7,1\n12,7,1\n-3.5,18,1\n");
+  this->make("dem.npy", { "--resolution", "5", "--stats", "s.json" });
+  nlohmann::json figures = nlohmann::json::parse(this->content("s.json"));
+  EXPECT_EQ(-5, figures["west"]);
+  EXPECT_EQ(5, figures["south"]);
+  EXPECT_EQ(4, figures["columns"]);
+  EXPECT_EQ(3, figures["rows"]);
+  this->make("dem.npy", { "--resolution", "5", "--align", "bounds", "--stats", "s.json" });
+  figures = nlohmann::json::parse(this->content("s.json"));
+  EXPECT_EQ(-3.5, figures["west"]);
+  EXPECT_EQ(7, figures["south"]);
+  EXPECT_EQ(4, figures["columns"]);
+  EXPECT_EQ(3, figures["rows"]);
+}
+
+TEST_F(TippDem, WritesAnImageThatResampleReadsBack)
+{
+  this->makePoints(500);
+  this->make("dem.vti", { "--resolution", "2", "--attributes", "elevation,intensity" });
+  const Outcome outcome =
+    this->run({ "points", "--like", "dem.vti", "--count", "3", "-o", "p.npy" });
+  EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+}
+
+TEST_F(TippDem, InfoTellsCountsBoundsAndDuplicates)
+{
+  this->Folder.file("points.csv", "x,y,z\n0,0,1\n10,0,-2\n0,10,\n0,0,4\n,3,1\n");
+  const Outcome outcome = this->run({ "info", "points.csv" });
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  for (const char* const line :
+    { "points      5, 1 without finite coordinates\n", "x           0 to 10, 1 missing\n",
+      "z           -2 to 4, 1 missing\n", "duplicates  1\n", "resolution  5," })
+  {
+    EXPECT_NE(std::string::npos, outcome.Out.find(line)) << line << outcome.Out;
+  }
+}
+
+TEST_F(TippDem, RefusesMorePixelsThanTheMemoryHolds)
+{
+  this->Folder.file("points.csv", "x,y,z\n0,0,1\n1000000,0,1\n0,1000000,1\n");
+  const Outcome outcome =
+    this->run({ "dem", "points.csv", "-o", "dem.npy", "--resolution", "0.1" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("10000000 x 10000000 pixels")) << outcome.Err;
+}
+
+TEST_F(TippDem, NamesAColumnThatIsNotThere)
+{
+  this->makePoints(50);
+  const Outcome outcome = this->run(
+    { "dem", "points.csv", "-o", "dem.npy", "--resolution", "1", "--attributes", "depth" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("no column 'depth'")) << outcome.Err;
+  this->Folder.file("flat.csv", "x,y\n0,0\n1,0\n0,1\n");
+  const Outcome flat = this->run({ "dem", "flat.csv", "-o", "dem.npy", "--resolution", "1" });
+  EXPECT_EQ(1, flat.ExitCode);
+  EXPECT_NE(std::string::npos, flat.Err.find("no column 'z'")) << flat.Err;
+}
+
+TEST_F(TippDem, ListsEndWithTheirWord)
+{
+  this->makePoints(50);
+  const Outcome outcome = this->run({ "dem", "--attributes", "elevation,slope", "points.csv", "-o",
+    "dem.npy", "--resolution", "50" });
+  EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+  EXPECT_EQ(8U, this->valuesOf("dem.npy").size());
+}
+
+TEST_F(TippDem, RefusesOptionsThatDoNotGoTogether)
+{
+  EXPECT_EQ(2, this->run({ "dem", "points.csv", "-o", "dem.npy" }).ExitCode);
+  EXPECT_EQ(2, this->run({ "dem", "points.csv", "-o", "dem.png", "--resolution", "1" }).ExitCode);
+  EXPECT_EQ(2,
+    this->run({ "dem", "points.csv", "-o", "dem.npy", "--resolution", "1", "--resume" }).ExitCode);
+}
+
+TEST_F(TippDem, ResumesAKilledRun)
+{
+  this->makePoints(30000);
+  this->make("whole.npy", { "--resolution", "0.2" });
+  const Words words{ "dem", "points.csv", "-o", "dem.npy", "--resolution", "0.2", "--memory", "2M",
+    "--threads", "2", "--resume" };
+  const auto results = [&]
+  {
+    std::size_t count = 0;
+    std::error_code ignored;
+    for (const auto& entry :
+      std::filesystem::directory_iterator(this->Folder.path(".dem.npy.pixels.part"), ignored))
+    {
+      (void)entry;
+      ++count;
+    }
+    return count;
+  };
+  for (std::size_t files = 4; files < 10; files += 2)
+  {
+    const TippProcess process(this->Folder, words);
+    process.waitUntil([&] { return results() >= files; });
+    process.kill();
+    process.wait();
+  }
+  const Outcome outcome = this->run(words);
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  EXPECT_EQ(this->content("whole.npy"), this->content("dem.npy"));
+  EXPECT_EQ(0U, results());
+}
+
+} // namespace

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""tipp.dem and `tipp dem` against exact arithmetic, GDAL and each other.
+
+Usage: TestDem.py TIPP [unittest arguments]
+"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from fractions import Fraction
+
+import numpy as np
+
+import tipp
+
+TIPP = os.path.abspath(sys.argv.pop(1))
+RANDOM = np.random.default_rng(4)
+
+
+def exact_height(corners, x, y):
+    """The plane through three points, in rational numbers, if they contain (x, y)."""
+    (ax, ay, az), (bx, by, bz), (cx, cy, cz) = [[Fraction(float(v)) for v in p] for p in corners]
+    x, y = Fraction(x), Fraction(y)
+    area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+    u = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / area
+    v = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / area
+    return az + u * (bz - az) + v * (cz - az) if u >= 0 and v >= 0 and u + v <= 1 else None
+
+
+class Dem(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        xy = RANDOM.random((4000, 2)) * 100
+        self.points = np.c_[xy, 5 * np.sin(xy[:, 0] / 9) + xy[:, 1] / 7]
+        np.save(self.path("points.npy"), self.points)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def run_tipp(self, *words):
+        run = subprocess.run([TIPP, *map(str, words)], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return run
+
+    def test_pixels_are_those_of_exact_arithmetic(self):
+        grid, transform, _ = tipp.dem(self.points, 0.7)
+        triangles = tipp.delaunay(self.points)
+        corners = self.points[triangles]
+        low, high = corners[:, :, :2].min(axis=1), corners[:, :, :2].max(axis=1)
+        width, _, west, _, height, north = transform
+        checked = 0
+        for row, column in RANDOM.integers(0, grid.shape, (400, 2)):
+            x, y = west + 0.5 * width + column * width, north + height * (row + 0.5)
+            near = np.flatnonzero((low <= [x + 1e-9, y + 1e-9]).all(axis=1) & (high >= [x - 1e-9, y - 1e-9]).all(axis=1))
+            heights = [h for h in (exact_height(corners[t], x, y) for t in near) if h is not None]
+            self.assertEqual(not heights, bool(np.isnan(grid[row, column])))
+            if heights:
+                self.assertLess(abs(Fraction(float(grid[row, column])) - heights[0]), 1e-12)
+                checked += 1
+        self.assertGreater(checked, 300)
+
+    def test_tool_and_package_make_the_same_pixels(self):
+        for options, keywords in (([], {}), (["--bounds", 10, 60, 20, 50], {"bounds": (10, 60, 20, 50)}),
+                                  (["--align", "bounds"], {"align": False}), (["--max-edge", 2], {"max_edge": 2})):
+            self.run_tipp("dem", "points.npy", "-o", "dem.npy", "--resolution", 0.3, *options)
+            for points in (self.points, tipp.delaunay_2d(self.points), self.path("points.npy"), [self.path("points.npy")]):
+                grid = tipp.dem(points, 0.3, **keywords).array
+                np.testing.assert_array_equal(np.load(self.path("dem.npy"))[::-1], grid, str(options))
+
+    def test_attributes_are_bands(self):
+        data = {"a": self.points[:, 0] * 2, "b": np.arange(len(self.points)).astype(float)}
+        bands = tipp.dem(self.points, 2, attributes=["elevation", "a"], point_data=data)
+        self.assertEqual(bands.array.shape, (2, 50, 50))
+        x = bands.transform[2] + 2 * (np.arange(50) + 0.5)
+        inside = ~np.isnan(bands.array[1])
+        np.testing.assert_allclose(bands.array[1][inside], np.broadcast_to(2 * x, (50, 50))[inside], rtol=1e-12)
+        with self.assertRaisesRegex(KeyError, "no attribute 'c'"):
+            tipp.dem(self.points, 2, attributes="c", point_data=data)
+
+    def test_failures_are_exceptions(self):
+        with self.assertRaisesRegex(RuntimeError, "cannot be opened"):
+            tipp.dem(self.path("none.las"), 1)
+        with self.assertRaisesRegex(ValueError, "no elevation"):
+            tipp.dem(self.points[:, :2], 1)
+
+    @unittest.skipIf(shutil.which("gdalinfo") is None, "no gdalinfo")
+    def test_gdal_reads_what_was_written(self):
+        self.run_tipp("dem", "points.npy", "-o", "dem.npy", "--resolution", 0.5)
+        self.run_tipp("dem", "points.npy", "-o", "dem.tif", "--resolution", 0.5, "--crs", "EPSG:25832+7837",
+                      "--type", "float64", "--nodata", -1)
+        info = json.loads(subprocess.run(["gdalinfo", "-json", self.path("dem.tif")], capture_output=True, text=True).stdout)
+        self.assertEqual(info["size"], [200, 200])
+        self.assertEqual(info["geoTransform"], [0, 0.5, 0, 100, 0, -0.5])
+        self.assertIn("COMPOUNDCRS", info["coordinateSystem"]["wkt"])
+        band = info["bands"][0]
+        self.assertEqual((band["type"], band["noDataValue"], band["description"]), ("Float64", -1, "elevation"))
+        subprocess.run(["gdal_translate", "-q", "-of", "ENVI", self.path("dem.tif"), self.path("raw")], check=True)
+        raw = np.fromfile(self.path("raw")).reshape(200, 200)
+        expected = np.load(self.path("dem.npy"))[::-1]
+        np.testing.assert_array_equal(raw, np.where(np.isnan(expected), -1, expected))
+        self.assertAlmostEqual(float(band["metadata"][""]["STATISTICS_MINIMUM"]), np.nanmin(expected), 12)
+        self.assertAlmostEqual(float(band["metadata"][""]["STATISTICS_STDDEV"]), np.nanstd(expected), 9)
+
+    @unittest.skipIf(shutil.which("gdalinfo") is None, "no gdalinfo")
+    def test_resample_writes_the_same_geotiff(self):
+        self.run_tipp("dem", "points.npy", "-o", "dem.tif", "--resolution", 0.5, "--crs", "EPSG:25832")
+        self.run_tipp("delaunay", "points.npy", "-o", "mesh.vtu")
+        self.run_tipp("resample", "mesh.vtu", "-o", "steps.tif", "--bounds", 0.25, 99.75, 0.25, 99.75, 0, 0, "--delta", 0.5,
+                      0.5, 0, "--crs", "EPSG:25832")
+        with open(self.path("dem.tif"), "rb") as a, open(self.path("steps.tif"), "rb") as b:
+            self.assertEqual(a.read(), b.read())
+
+    def test_long_edges_are_left_out(self):
+        xy = self.points[:, :2]
+        triangles = tipp.delaunay(xy)
+        edges = np.linalg.norm(xy[triangles] - xy[np.roll(triangles, 1, axis=1)], axis=2)
+        kept = triangles[(edges <= 2).all(axis=1)]
+        self.assertTrue(0 < len(kept) < len(triangles))
+        np.testing.assert_array_equal(tipp.delaunay(xy, max_edge=2), kept)
+        self.run_tipp("delaunay", "points.npy", "-o", "kept.npy", "--max-edge", 2)
+        np.testing.assert_array_equal(np.load(self.path("kept.npy")), kept)
+        counted = tipp.delaunay_file(self.path("points.npy"), self.path("mesh.tipp"), memory="1M", max_edge=2)
+        self.assertEqual(counted["triangles"], len(kept))
+        self.assertEqual(tipp.read(self.path("mesh.tipp")).GetNumberOfCells(), len(kept))
+
+    @unittest.skipIf(shutil.which("gdalinfo") is None, "no gdalinfo")
+    def test_pixels_can_be_those_of_another_raster(self):
+        self.run_tipp("dem", "points.npy", "-o", "a.tif", "--resolution", 0.5, "--bounds", 3, 40, 5, 30)
+        self.run_tipp("dem", "points.npy", "-o", "b.tif", "--like", "a.tif")
+        self.run_tipp("dem", "points.npy", "-o", "cog.tif", "--like", "a.tif", "--cog")
+        with open(self.path("a.tif"), "rb") as a, open(self.path("b.tif"), "rb") as b:
+            self.assertEqual(a.read(), b.read())
+        info = json.loads(subprocess.run(["gdalinfo", "-json", self.path("cog.tif")], capture_output=True, text=True).stdout)
+        self.assertEqual(info["metadata"]["IMAGE_STRUCTURE"]["LAYOUT"], "COG")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippDemArguments_h
+#define tippDemArguments_h
+
+#include "Dem/MakeDem.h"
+#include "Points/ReadPoints.h"
+#include "Raster/RasterFile.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// What `tipp dem` was asked for.
+struct DemArguments
+{
+  std::vector<std::string> Inputs;
+  std::string Output;
+  PointOptions Points;
+  DemRequest Request;
+  std::vector<double> Bounds;
+  std::string Like;
+  std::string Crs;
+  double NoData = -9999;
+  std::string Type = "float32";
+  std::string Compression = "deflate";
+  bool CloudOptimized = false;
+  std::string Statistics;
+  std::string Memory; ///< empty: not given
+  bool Resume = false;
+  std::string Scratch;
+};
+
+struct DemReport
+{
+  DemFigures Figures;
+  TerrainSettings Settings;
+  std::int64_t Filled = 0; ///< pixels with a value
+  double ReadSeconds = 0;
+  double MakeSeconds = 0;
+  double WriteSeconds = 0;
+};
+
+/// All but the grid and the bands, for points in this reference system. Throws IOError for what
+/// GDAL does not know.
+RasterDescription describeRaster(const DemArguments& arguments, const std::string& pointCrs);
+void describeGrid(const TerrainSettings& settings, RasterDescription& description);
+
+std::string summarize(const DemArguments& arguments, const DemReport& report);
+void writeDemReport(const DemArguments& arguments, const DemReport& report);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/Commands.h"
+
+#include "Commands/DemArguments.h"
+#include "Commands/DemOutOfCore.h"
+#include "Commands/MemorySize.h"
+#include "Commands/PointArguments.h"
+#include "Commands/Report.h"
+#include "Console/Interrupt.h"
+#include "Console/MpiSession.h"
+#include "Console/ProgressBar.h"
+#include "Files/IOError.h"
+#include "Files/RequireApart.h"
+#include "Parallel/Stopwatch.h"
+#include "Points/PointStream.h"
+
+#include "vtkMultiProcessController.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr const char* footer =
+  R"(INPUT   Points as 'tipp delaunay' takes them: .las, .laz, .npy, .csv, .txt, .xyz and
+        others, one or more files. The elevation is the column z or elevation.
+OUTPUT  .tif: a GeoTIFF, tiled and compressed, of float32. .npy: float64, rows x columns,
+        the lowest y first; for several bands these come before. .vti: an array of
+        float64 for each band. Where there is no triangle, a GeoTIFF has the number of
+        --nodata and the others NaN.
+
+A pixel has the value of the triangulated surface at its centre: those of 'tipp
+delaunay' and then 'tipp resample'. The raster covers the points; borders of pixels
+are at multiples of the resolution. Triangles are not stored.
+
+Without --memory all is done in memory. With it points, triangles and pixels may be
+larger than memory; they are kept in a folder beside the output, or that of --scratch.
+The pixels are the same.
+
+Examples:
+  tipp dem tiles/*.las -o dem.tif --resolution 1 --class 2
+  tipp dem survey.csv -o dem.tif --resolution 0.5 --max-edge 20 --crs EPSG:32633
+  tipp dem tile.las -o relief.tif --resolution 1 --attributes elevation,slope,hillshade
+  tipp dem tile.las -o same.tif --like other.tif
+  tipp dem tiles/*.las -o dem.tif --resolution 1 --memory 512M
+)";
+
+int finish(const DemArguments& arguments, const DemReport& report)
+{
+  if (!arguments.Statistics.empty())
+  {
+    writeDemReport(arguments, report);
+  }
+  fmt::print("{}\n", summarize(arguments, report));
+  if (report.Figures.Triangles == 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: no pixel has a value, since there are fewer than three distinct points or "
+      "all lie on one line.\n");
+  }
+  return Success;
+}
+
+int runInMemory(const DemArguments& arguments)
+{
+  const PathState before = PendingFile(arguments.Output).before();
+  Stopwatch watch;
+  DemReport report;
+  const auto stream = openPointStream(arguments.Inputs, arguments.Points);
+  const RasterDescription start = describeRaster(arguments, stream->crs());
+  PointTable points = readAllPoints(*stream);
+  reportLeftOut(points.LeftOut);
+  if (isInterrupted())
+  {
+    return reportInterrupt();
+  }
+  report.ReadSeconds = watch.restart();
+  auto bar = std::make_unique<ProgressBar>("Making the raster");
+  const auto progress = [&bar](double done)
+  {
+    bar->update(done);
+    return !isInterrupted();
+  };
+  SampledBands samples;
+  report.Figures =
+    makeDem(std::move(points), arguments.Request, progress, report.Settings, samples);
+  report.MakeSeconds = watch.restart();
+  if (report.Figures.Aborted || isInterrupted())
+  {
+    bar.reset();
+    return reportInterrupt();
+  }
+  RasterDescription description = start;
+  describeGrid(report.Settings, description);
+  const auto writer = createRaster(arguments.Output, description, before);
+  report.Filled = writeTiles(*writer, description.Grid, readFrom(report.Settings.Grid, samples),
+    [&](double done) { return progress(0.8 + 0.2 * done); });
+  bar.reset();
+  if (report.Filled < 0)
+  {
+    return reportInterrupt();
+  }
+  writer->close();
+  report.WriteSeconds = watch.restart();
+  return finish(arguments, report);
+}
+
+int runDem(const DemArguments& arguments)
+{
+  const MpiSession session;
+  if (session.controller() && session.controller()->GetNumberOfProcesses() > 1)
+  {
+    if (session.isFirst())
+    {
+      fmt::print(stderr, "tipp: 'tipp dem' runs on one rank alone; start it without mpirun.\n");
+    }
+    return session.isFirst() ? Usage : Success;
+  }
+  try
+  {
+    requireApart(
+      { arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, arguments.Inputs);
+    if (!arguments.Statistics.empty())
+    {
+      const PendingFile writable(arguments.Statistics); // before the work rather than after it
+    }
+    if (arguments.Memory.empty())
+    {
+      return runInMemory(arguments);
+    }
+    DemReport report;
+    const int code = runDemOutOfCore(arguments, report);
+    return code == Success ? finish(arguments, report) : code;
+  }
+  catch (const IOError&)
+  {
+    throw;
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw IOError(
+      arguments.Inputs.front(), std::string("cannot be made a raster: ") + error.what());
+  }
+}
+
+std::string checkOutput(const std::string& path)
+{
+  return isRasterFile(path) ? "" : "'" + path + "' does not end in .tif, .npy or .vti";
+}
+
+void addGridOptions(CLI::App& command, DemArguments& arguments)
+{
+  RasterRequest& raster = arguments.Request.Raster;
+  command
+    .add_option(
+      "--resolution", raster.Resolution, "Width and height of a pixel, in the units of the points")
+    ->check(CLI::PositiveNumber);
+  command
+    .add_option(
+      "--bounds", arguments.Bounds, "The range: xmin xmax ymin ymax; else that of the points")
+    ->expected(4);
+  command
+    .add_option_function<std::string>(
+      "--align", [&raster](const std::string& which) { raster.Aligned = which == "grid"; },
+      "Where borders of pixels are: grid, at multiples of the resolution (the default), or bounds, "
+      "from the lower left of the bounds on")
+    ->check(CLI::IsMember({ "grid", "bounds" }));
+  command.add_option("--like", arguments.Like,
+    "A raster whose pixels to take, instead of --resolution and --bounds");
+}
+
+void addValueOptions(CLI::App& command, DemArguments& arguments)
+{
+  command
+    .add_option("--attributes", arguments.Request.Bands,
+      "The bands: elevation, columns of the points as intensity, and slope, aspect and hillshade "
+      "of the triangles; without: elevation")
+    ->delimiter(',')
+    ->allow_extra_args(false);
+  command
+    .add_option("--max-edge", arguments.Request.MaximumEdge,
+      "Triangles with an edge longer than this, in the plane, have no values")
+    ->check(CLI::PositiveNumber);
+  command.add_option("--nodata", arguments.NoData, "What a GeoTIFF has where there is no triangle")
+    ->capture_default_str();
+  command.add_option("--crs", arguments.Crs,
+    "The coordinate reference system, as EPSG:25832; without: that of the LAS files or of --like");
+  command.add_option("--type", arguments.Type, "Of a GeoTIFF's values: float32 or float64")
+    ->check(CLI::IsMember({ "float32", "float64" }))
+    ->capture_default_str();
+  command
+    .add_option("--compress", arguments.Compression, "A GeoTIFF's: deflate, lzw, zstd or none")
+    ->check(CLI::IsMember({ "deflate", "lzw", "zstd", "none" }))
+    ->capture_default_str();
+  command.add_flag("--cog", arguments.CloudOptimized, "A cloud optimized GeoTIFF, with overviews");
+}
+
+void requireGood(const DemArguments& arguments)
+{
+  if (arguments.Like.empty() == (arguments.Request.Raster.Resolution == 0))
+  {
+    throw CLI::ValidationError(
+      "--resolution", arguments.Like.empty() ? "or --like is required" : "does not go with --like");
+  }
+  if (!arguments.Like.empty() && !arguments.Bounds.empty())
+  {
+    throw CLI::ValidationError("--bounds", "does not go with --like");
+  }
+  if (arguments.Memory.empty() && (arguments.Resume || !arguments.Scratch.empty()))
+  {
+    throw CLI::ValidationError(
+      arguments.Resume ? "--resume" : "--scratch", "needs --memory, with which files are kept");
+  }
+}
+
+} // namespace
+
+void addDemCommand(CLI::App& app, int& exitCode)
+{
+  auto arguments = std::make_shared<DemArguments>();
+  CLI::App* const command = app.add_subcommand(
+    "dem", "Makes a raster of points: the triangulated surface at the pixels' centres");
+  command->add_option("input", arguments->Inputs, "The points, of one or more files")->required();
+  command->add_option("-o,--output", arguments->Output, "The raster")
+    ->required()
+    ->check(checkOutput);
+  addGridOptions(*command, *arguments);
+  addValueOptions(*command, *arguments);
+  addPointOptions(*command, arguments->Points);
+  command
+    ->add_option("--threads", arguments->Request.Threads, "Number of threads; 0: OpenMP's choice")
+    ->check(CLI::Range(0, 4096))
+    ->capture_default_str();
+  command->add_option("--memory", arguments->Memory, "What the process may take, as 512M")
+    ->check(checkMemorySize);
+  command->add_flag("--resume", arguments->Resume,
+    "With --memory: goes on where a run that was killed, interrupted or failed has been");
+  command->add_option("--scratch", arguments->Scratch,
+    "With --memory: a folder for what is temporary; without: beside the output");
+  command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
+  command->footer(footer);
+  command->callback(
+    [arguments, &exitCode]()
+    {
+      requireGood(*arguments);
+      arguments->Points.Columns = columnsForBands(arguments->Request.Bands);
+      if (!arguments->Bounds.empty())
+      {
+        const std::vector<double>& bounds = arguments->Bounds;
+        arguments->Request.Raster.Bounds = { bounds[0], bounds[1], bounds[2], bounds[3] };
+      }
+      if (!arguments->Like.empty())
+      {
+        arguments->Request.Raster.Like = readRasterInfo(arguments->Like).Grid;
+      }
+      exitCode = runDem(*arguments);
+    });
+}
+
+} // namespace tipp

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/Commands.h"
+
+#include "Commands/PointArguments.h"
+#include "Console/Interrupt.h"
+#include "Console/MpiSession.h"
+#include "Files/Extension.h"
+#include "Las/LasHeader.h"
+#include "Parallel/Poll.h"
+#include "Points/PointStream.h"
+#include "Predicates/Point2.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr const char* footer =
+  R"(Reads all points of the files, as 'tipp delaunay' does, in blocks, and prints how many there
+are, their bounds, the columns with their ranges, the coordinate reference system, how many points
+share a place with another, and a resolution for 'tipp dem' that has about one point a pixel.
+
+Examples:
+  tipp info tile.las
+  tipp info tiles/*.las --class 2
+)";
+
+struct InfoArguments
+{
+  std::vector<std::string> Inputs;
+  PointOptions Points;
+};
+
+struct Range
+{
+  double Low = std::numeric_limits<double>::infinity();
+  double High = -std::numeric_limits<double>::infinity();
+  std::int64_t Missing = 0; ///< values that are not finite
+
+  void add(double value)
+  {
+    if (!std::isfinite(value))
+    {
+      ++this->Missing;
+      return;
+    }
+    this->Low = std::min(this->Low, value);
+    this->High = std::max(this->High, value);
+  }
+
+  std::string text() const
+  {
+    const std::string missing = this->Missing > 0 ? fmt::format(", {} missing", this->Missing) : "";
+    return this->Low <= this->High ? fmt::format("{} to {}{}", this->Low, this->High, missing)
+                                   : "no value";
+  }
+};
+
+struct Summary
+{
+  std::int64_t Points = 0;
+  std::int64_t NotFinite = 0;
+  Range X;
+  Range Y;
+  std::vector<Range> Columns;
+  /// Those that are finite, as long as they are few enough to look for equal ones.
+  std::vector<Point2> Places;
+};
+
+constexpr std::size_t mostPlaces = 20000000;
+
+Summary read(PointStream& stream)
+{
+  constexpr std::size_t block = std::size_t(1) << 18;
+  Summary summary;
+  summary.Columns.resize(stream.columns().size());
+  forEachBlock(stream, block,
+    [&](const PointBlock& points)
+    {
+      poll();
+      for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        const Point2 p{ points.XY[2 * i], points.XY[2 * i + 1] };
+        const bool isGood = std::isfinite(p.x) && std::isfinite(p.y);
+        summary.NotFinite += isGood ? 0 : 1;
+        summary.X.add(p.x);
+        summary.Y.add(p.y);
+        if (isGood && summary.Places.size() <= mostPlaces)
+        {
+          summary.Places.push_back(p);
+        }
+      }
+      for (std::size_t column = 0; column < points.Columns.size(); ++column)
+      {
+        for (const double value : points.Columns[column])
+        {
+          summary.Columns[column].add(value);
+        }
+      }
+      summary.Points += std::int64_t(points.size());
+    });
+  return summary;
+}
+
+std::string duplicatesOf(std::vector<Point2>& places)
+{
+  if (places.size() > mostPlaces)
+  {
+    return fmt::format("not counted, for more than {} points", mostPlaces);
+  }
+  std::sort(places.begin(), places.end(),
+    [](Point2 a, Point2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  const auto end = std::unique(
+    places.begin(), places.end(), [](Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; });
+  return std::to_string(places.end() - end);
+}
+
+/// 1, 2 or 5 times a power of ten, the nearest one.
+double roundNumber(double value)
+{
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  const double digit = value / power;
+  return power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
+}
+
+void describeLas(const std::string& path)
+{
+  const LasHeader header = readLasHeader(path);
+  fmt::print("{}: LAS 1.{}, point format {}{}, {} points\n", path, header.Minor, header.Format,
+    header.Compressed ? ", compressed" : "", header.Points);
+  if (header.HasUnknownCrs)
+  {
+    fmt::print("  its coordinate reference system has no EPSG code; give --crs where it matters\n");
+  }
+}
+
+int runInfo(const InfoArguments& arguments)
+{
+  for (const std::string& path : arguments.Inputs)
+  {
+    const std::string extension = extensionOf(path);
+    if (extension == ".las" || extension == ".laz")
+    {
+      describeLas(path);
+    }
+  }
+  const auto stream = openPointStream(arguments.Inputs, arguments.Points);
+  Summary summary = read(*stream);
+  if (isInterrupted())
+  {
+    return reportInterrupt();
+  }
+  reportLeftOut(stream->leftOut());
+  fmt::print("points      {}{}\n", summary.Points,
+    summary.NotFinite > 0 ? fmt::format(", {} without finite coordinates", summary.NotFinite) : "");
+  fmt::print("x           {}\ny           {}\n", summary.X.text(), summary.Y.text());
+  const std::vector<std::string> names = stream->columns();
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    fmt::print("{:<11} {}\n", names[i], summary.Columns[i].text());
+  }
+  const std::string crs = stream->crs();
+  fmt::print("CRS         {}\n", crs.empty() ? "not given" : crs);
+  fmt::print("duplicates  {}\n", duplicatesOf(summary.Places));
+  const double area = (summary.X.High - summary.X.Low) * (summary.Y.High - summary.Y.Low);
+  if (area > 0 && std::isfinite(area))
+  {
+    fmt::print("resolution  {}, for about a point a pixel\n",
+      roundNumber(std::sqrt(area / double(summary.Points))));
+  }
+  return Success;
+}
+
+} // namespace
+
+void addInfoCommand(CLI::App& app, int& exitCode)
+{
+  auto arguments = std::make_shared<InfoArguments>();
+  CLI::App* const command =
+    app.add_subcommand("info", "Tells what files of points hold: counts, bounds, columns");
+  command->add_option("input", arguments->Inputs, "The points, of one or more files")->required();
+  addPointOptions(*command, arguments->Points);
+  command->footer(footer);
+  command->callback(
+    [arguments, &exitCode]() { exitCode = isIdleRank() ? Success : runInfo(*arguments); });
+}
+
+} // namespace tipp
