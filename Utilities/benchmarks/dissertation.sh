@@ -29,7 +29,7 @@ case " all table2.1 figure3.4 figure3.6 figure3.5 figure3.8 model " in
   *) usage ;;
 esac
 
-build_targets tipp
+build_targets tipp benchmarkOrder
 tipp=$build/bin/tipp
 work=$build/dissertation
 mkdir -p "$work"
@@ -128,10 +128,19 @@ if wanted figure3.8; then
   fi
 fi
 if wanted model; then
-  echo "== Cluster model"
-  for n in $ranks; do
-    on_ranks "model-$n" "$n" "uniform-$points" --masters single >/dev/null
-    on_ranks "model-$n-4096" "$n" "uniform-$points" --masters single --minor 64x64 >/dev/null
+  echo "== Cluster model, without a master"
+  clusters="$ranks 64"
+  [ "$points" -lt 50000000 ] || clusters="$clusters 1024"
+  for n in $clusters; do
+    "$build/bin/benchmarkOrder" "$inputs/uniform-$points.npy" "$n" >"$work/order-$n.trace"
   done
-  /usr/bin/python3 Testing/Benchmarks/cluster_model.py "$work"/model-*.json
+  for n in $ranks; do
+    on_ranks "model-$n" "$n" "uniform-$points" >/dev/null
+  done
+  (
+    cd "$work"
+    # shellcheck disable=SC2046
+    /usr/bin/python3 "$top/Testing/Benchmarks/cluster_model.py" --costs "model-${ranks%% *}.json" \
+      --check $(printf 'model-%s.json ' $ranks) -- $(printf 'order-%s.trace ' $clusters)
+  )
 fi
