@@ -122,7 +122,7 @@ public:
       this->Plain = std::make_unique<PendingFile>(path + ".plain");
     }
     // Most memory goes to rows here; GDAL's own cache would take a part of the machine's.
-    gdal().GDALSetCacheMax64(std::int64_t(64) << 20);
+    gdal().GDALSetCacheMax64(std::int64_t(16) << 20);
     gdal().CPLErrorReset();
     OptionList options;
     this->setLayout(options);

@@ -158,6 +158,17 @@ class FirstRankAlone(Commands):
         self.make_surface()
         self.expect_once("check", "points.npy", "triangles.npy")
 
+    def test_points_are_described_once(self):
+        self.make_surface()
+        self.expect_once("info", "points.npy")
+
+    def test_dem_is_refused_in_one_sentence(self):
+        self.make_surface()
+        run = self.run_tipp(3, "dem", "points.npy", "-o", "dem.npy", "--resolution", 1)
+        self.assertEqual(run.returncode, 2)
+        self.assertEqual(run.stderr.count("runs on one rank alone"), 1, run.stderr)
+        self.assertFalse((self.folder / "dem.npy").exists())
+
     def test_devices_are_listed_once(self):
         self.expect_once("devices")
 

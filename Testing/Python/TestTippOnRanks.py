@@ -2,6 +2,7 @@
 """The command `tipp delaunay` under mpirun: TestTippOnRanks.py MPIEXEC TIPP"""
 import json
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -43,6 +44,29 @@ class TippOnRanks(unittest.TestCase):
             np.testing.assert_array_equal(self.triangles(ranks), alone)
         multi = self.triangles(3, "--masters", "multi", "--major", "2x2", "--minor", "3x3")
         np.testing.assert_array_equal(multi, alone)
+
+    def test_las_files_are_shared_among_ranks(self):
+        shared = np.random.default_rng(3).integers(0, 100000, (9000, 3))
+        for name, part in (("a.las", shared[:4000]), ("b.las", shared[4000:])):
+            self.write_las(name, part)
+        for output in ("out.npy", "mesh.tipp"):
+            more = ["--sink", "count"] if output == "mesh.tipp" else []
+            runs = [self.run_tipp(ranks, "a.las", "b.las", "-o", output, "--class", "2", *more) for ranks in (1, 3)]
+            self.assertEqual([run.returncode for run in runs], [0, 0], runs[1].stderr)
+            counts = [run.stdout.split(", ")[:3] for run in runs]
+            self.assertEqual(counts[0], counts[1])
+            self.assertTrue(counts[0][0].startswith("5999 points"), counts)
+
+    def write_las(self, name, points):
+        """Version 1.2, format 0; every third point is of class 1, the others of class 2."""
+        header = bytearray(227)
+        header[:4] = b"LASF"
+        struct.pack_into("<BB", header, 24, 1, 2)
+        struct.pack_into("<HIIBHI", header, 94, 227, 227, 0, 0, 20, len(points))
+        struct.pack_into("<6d", header, 131, 0.01, 0.01, 0.01, 0, 0, 0)
+        body = b"".join(struct.pack("<3iHBBbBH", *map(int, p), 0, 9, 1 if i % 3 == 0 else 2, 0, 0, 0)
+                        for i, p in enumerate(points))
+        (self.folder / name).write_bytes(bytes(header) + body)
 
     def test_statistics_tell_of_every_rank(self):
         self.triangles(3, "--stats", "run.json", "--masters", "multi", "--major", "2x2", "--minor", "3x3")
