@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -29,6 +30,9 @@ struct DelaunayArguments
   int InitialPoints = 0;
   bool MapDuplicates = false;
   bool Neighbors = false;
+  std::string Constraints; ///< a file; empty: none
+  bool RefuseCrossings = false;
+  std::vector<std::pair<double, double>> Holes; ///< x and y of points in holes
   std::string Statistics;
   // Of a run out of core:
   std::string Memory; ///< empty: not given

@@ -65,7 +65,8 @@ bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
 
 PathState requireWritable(const DelaunayArguments& arguments)
 {
-  requireApart({ arguments.Output, arguments.Statistics }, { arguments.Input });
+  requireApart({ arguments.Output, arguments.Statistics },
+    { arguments.Input, arguments.Constraints });
   const PendingFile output(arguments.Output);
   if (!arguments.Statistics.empty())
   {
