@@ -2,6 +2,8 @@
 #include "vtkTIPPDelaunay2D.h"
 
 #include "AlphaShape/AlphaShape.h"
+#include "Constraints/ConstraintOutput.h"
+#include "Constraints/TriangulateConstrained.h"
 #include "Merging/TriangulateMerged.h"
 #include "Output/CellBuffers.h"
 #include "Output/Monitor.h"
@@ -63,6 +65,21 @@ private:
   int Before;
 };
 
+/// A polygon without one of its corners would not tell what is inside.
+void requireClosed(tipp::PointsView points, const tipp::SourceConstraints& constraints)
+{
+  for (std::size_t i = constraints.PolygonBegin; i < constraints.Constraints.size(); ++i)
+  {
+    const auto id = std::size_t(constraints.Constraints[i].A);
+    if (id < points.size() && !tipp::isFinite(points[id]))
+    {
+      throw std::runtime_error("cell " + std::to_string(constraints.Cells[i]) +
+        " of the source, a polygon, has the corner " + std::to_string(id) +
+        ", which is NaN or infinite: remove the polygon or correct the point.");
+    }
+  }
+}
+
 std::vector<char> coveredPoints(const tipp::Triangulation& triangulation, vtkIdType points)
 {
   std::vector<char> covered(std::size_t(points), 0);
@@ -81,6 +98,7 @@ std::vector<char> coveredPoints(const tipp::Triangulation& triangulation, vtkIdT
 
 vtkTIPPDelaunay2D::vtkTIPPDelaunay2D()
 {
+  this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
   this->vtkTIPPDelaunay2D::SetController(vtkMultiProcessController::GetGlobalController());
 }
@@ -102,9 +120,13 @@ vtkMTimeType vtkTIPPDelaunay2D::GetMTime()
   return this->Transform ? std::max(own, this->Transform->GetMTime()) : own;
 }
 
-int vtkTIPPDelaunay2D::FillInputPortInformation(int, vtkInformation* info)
+int vtkTIPPDelaunay2D::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkPolyData");
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
   return 1;
 }
 
@@ -158,7 +180,7 @@ int vtkTIPPDelaunay2D::RequestData(
           vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) > 0;
       return this->ExecuteOnRanks(input, wantsGhosts, output, statistics) ? 1 : 0;
     }
-    return this->Execute(input, output, statistics) ? 1 : 0;
+    return this->Execute(input, vtkPolyData::GetData(inputVector[1]), output, statistics) ? 1 : 0;
   }
   catch (const std::bad_alloc&)
   {
@@ -174,16 +196,16 @@ int vtkTIPPDelaunay2D::RequestData(
   return 0;
 }
 
-bool vtkTIPPDelaunay2D::Execute(vtkPointSet* input, vtkPolyData* output, vtkTable* statistics)
+bool vtkTIPPDelaunay2D::Execute(
+  vtkPointSet* given, vtkPolyData* source, vtkPolyData* output, vtkTable* statistics)
 {
   this->NumberOfDuplicatePoints = 0;
   this->NumberOfRejectedPoints = 0;
-  tipp::checkPoints(input, "the input");
-  vtkSmartPointer<vtkPoints> points = input->GetPoints();
+  tipp::checkPoints(given, "the input");
   vtkSmartPointer<vtkAbstractTransform> toPlane = this->Transform;
   if (this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE)
   {
-    toPlane = tipp::bestFittingPlane(points);
+    toPlane = tipp::bestFittingPlane(given->GetPoints());
   }
   else if (this->ProjectionPlaneMode == VTK_SET_TRANSFORM_PLANE && !toPlane)
   {
@@ -195,47 +217,84 @@ bool vtkTIPPDelaunay2D::Execute(vtkPointSet* input, vtkPolyData* output, vtkTabl
   {
     vtkWarningMacro("No BoundingTriangulation: only the x-y plane has one, without a transform.");
   }
+  tipp::SourceConstraints constraints;
+  const vtkSmartPointer<vtkPointSet> input = source
+    ? this->ReadSource(given, source, toPlane, constraints)
+    : vtkSmartPointer<vtkPointSet>(given);
+  vtkSmartPointer<vtkPoints> points = input->GetPoints();
   const bool bounding = this->BoundingTriangulation && !toPlane && points;
   if (bounding)
   {
     points = tipp::appendBoundingPoints(points, this->Offset);
   }
 
-  tipp::Triangulation triangulation = this->Triangulate(points, toPlane);
+  tipp::ConstrainedTriangulation result = this->Triangulate(points, toPlane, constraints);
+  tipp::Triangulation& triangulation = result.Mesh;
   if (triangulation.Aborted)
   {
     return true;
   }
+  const auto& crossings = result.Constraints.Crossings;
+  const vtkIdType ownPoints = points ? points->GetNumberOfPoints() : 0;
+  if (!crossings.empty())
+  {
+    points = tipp::appendCrossings(points, crossings, !toPlane);
+  }
   const vtkIdType numberOfPoints = points ? points->GetNumberOfPoints() : 0;
   this->Report(triangulation, numberOfPoints);
+  this->CutOutside(result, constraints);
 
   const tipp::Stopwatch watch;
   const std::size_t triangles = triangulation.triangleCount();
   output->SetPoints(points);
-  if (!bounding)
+  if (!bounding && crossings.empty())
   {
     output->GetPointData()->PassData(input->GetPointData());
+  }
+  else if (!bounding)
+  {
+    tipp::interpolateCrossings(input->GetPointData(), ownPoints, crossings, output->GetPointData());
   }
   if (this->GenerateRepresentativeIds &&
     (this->NumberOfDuplicatePoints > 0 || this->NumberOfRejectedPoints > 0))
   {
     output->GetPointData()->AddArray(tipp::representativeIds(triangulation, numberOfPoints));
   }
-  if (this->GenerateNeighborIds && this->Alpha == 0)
+  const bool hasLines = source && this->ConstraintMarks == LINES;
+  if (this->GenerateNeighborIds && this->Alpha == 0 && !hasLines)
   {
     output->GetCellData()->AddArray(tipp::neighborArray(triangulation));
   }
   else if (this->GenerateNeighborIds)
   {
-    vtkWarningMacro("No NeighborIds: with Alpha not all triangles are output.");
+    vtkWarningMacro("No NeighborIds: " << (hasLines ? "the output has lines, too."
+                                                    : "with Alpha not all triangles are output."));
+  }
+  if (source && this->ConstraintMarks == EDGE_FLAGS && this->Alpha == 0)
+  {
+    output->GetCellData()->AddArray(
+      tipp::constraintEdgesArray(triangulation, result.Constraints.Pieces));
   }
   this->SetCells(triangulation, output);
+  if (hasLines && this->Alpha == 0)
+  {
+    tipp::addConstraintLines(result.Constraints, constraints.Cells, output);
+  }
+  else if (source && this->ConstraintMarks != NO_MARKS && this->Alpha != 0)
+  {
+    vtkWarningMacro("No marks of constraints: with Alpha not all triangles are output.");
+  }
   triangulation.Statistics.Phases.push_back({ "VTK output", watch.seconds() });
   tipp::fillStatisticsTable(triangulation, numberOfPoints, vtkIdType(triangles), statistics);
+  if (source)
+  {
+    tipp::addConstraintTotals(result.Constraints, constraints.Constraints.size(), statistics);
+  }
   return true;
 }
 
-tipp::Triangulation vtkTIPPDelaunay2D::Triangulate(vtkPoints* points, vtkAbstractTransform* toPlane)
+tipp::ConstrainedTriangulation vtkTIPPDelaunay2D::Triangulate(
+  vtkPoints* points, vtkAbstractTransform* toPlane, const tipp::SourceConstraints& constraints)
 {
   const tipp::Stopwatch watch;
   const tipp::ProjectedPoints projected(points, toPlane);
@@ -253,19 +312,29 @@ tipp::Triangulation vtkTIPPDelaunay2D::Triangulate(vtkPoints* points, vtkAbstrac
   options.MaximumEdge = this->MaximumEdgeLength;
   options.Progress = [&monitor](double fraction) { return monitor(fraction); };
 
-  tipp::Triangulation triangulation;
+  tipp::ConstrainedTriangulation result;
+  tipp::Triangulation& triangulation = result.Mesh;
   triangulation.Aborted = !monitor(0);
   if (triangulation.Aborted)
   {
-    return triangulation;
+    return result;
   }
-  triangulation = distance > 0 ? tipp::triangulateMerged(projected.view(), distance, options)
-                               : tipp::triangulate(projected.view(), options);
+  if (!constraints.Constraints.empty())
+  {
+    requireClosed(projected.view(), constraints);
+    result = tipp::triangulateConstrained(projected.view(), constraints.Constraints,
+      this->SplitCrossings ? tipp::CrossingRule::Split : tipp::CrossingRule::Refuse, options);
+  }
+  else
+  {
+    triangulation = distance > 0 ? tipp::triangulateMerged(projected.view(), distance, options)
+                                 : tipp::triangulate(projected.view(), options);
+  }
   // One partition alone is triangulated without a report.
   triangulation.Aborted = triangulation.Aborted || !monitor(1);
   auto& phases = triangulation.Statistics.Phases;
   phases.insert(phases.begin(), { "projection", projectionSeconds });
-  return triangulation;
+  return result;
 }
 
 void vtkTIPPDelaunay2D::Report(const tipp::Triangulation& triangulation, vtkIdType numberOfPoints)
@@ -344,6 +413,10 @@ void vtkTIPPDelaunay2D::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Transform: " << (this->Transform ? "specified\n" : "none\n");
   os << indent << "GenerateRepresentativeIds: " << onOff(this->GenerateRepresentativeIds);
   os << indent << "GenerateNeighborIds: " << onOff(this->GenerateNeighborIds);
+  const char* marks[] = { "None", "Lines", "Edge flags" };
+  os << indent << "MergeSourcePoints: " << onOff(this->MergeSourcePoints);
+  os << indent << "SplitCrossings: " << onOff(this->SplitCrossings);
+  os << indent << "ConstraintMarks: " << marks[this->ConstraintMarks] << "\n";
   os << indent << "NumberOfPartitions: " << this->NumberOfPartitions[0] << " x "
      << this->NumberOfPartitions[1] << "\n";
   os << indent << "InitialPointsPerPartition: " << this->InitialPointsPerPartition << "\n";

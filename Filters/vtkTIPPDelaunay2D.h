@@ -55,17 +55,27 @@
  * "MessageBytes". If any rank fails, all do, and the first one reports the error; also if it is
  * upstream that fails on a rank, unless the application has executives of its own
  * (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView has. Alpha, Tolerance,
- * BoundingTriangulation and the best fitting plane need a single rank.
+ * BoundingTriangulation, a source and the best fitting plane need a single rank.
  *
  * An aborted run leaves both outputs empty. A failed one (out of memory, Transform missing) is
  * reported as an error and leaves them empty too.
  *
- * What vtkDelaunay2D has and this filter has not: a second input with constraining edges and
- * polygons (SetSourceData, SetSourceConnection).
+ * With a second input, the source, the result is the constrained Delaunay triangulation, exact and
+ * unique too: every edge of the source's lines and polygons is a chain of edges of the output.
+ * Polygons also tell what is inside: of the triangles those stay that polygons go round
+ * counter-clockwise more often than clockwise; clockwise ones are holes. Where all are clockwise,
+ * all stays but the holes. The source's point ids are those of the first input's points (see
+ * MergeSourcePoints), whose coordinates count. Constraints may overlap, coincide and pass
+ * through points. Where two cross, there is a new point, after the input's (see SplitCrossings):
+ * its coordinates in the plane are those of the crossing, rounded, and its point data are
+ * interpolated along the edge of the lower number; the output's points are doubles then. Tolerance
+ * does not go with a source. The statistics have the field data Constraints, ConstraintEdges,
+ * CrossingPoints and CrossingRounds.
  *
  * What differs: Tolerance is 0 by default. A transform set while ProjectionPlaneMode is
  * VTK_BEST_FITTING_PLANE is ignored, not used instead of the plane. VTK_SET_TRANSFORM_PLANE
- * without a transform is an error. With Alpha, merged and rejected points are no vertices.
+ * without a transform is an error. With Alpha, merged and rejected points are no vertices. No
+ * constraint is lost, where vtkDelaunay2D may warn and go on; polygons inside of each other nest.
  *
  * Related publication: *Efficient Generating and Processing of Large-Scale Unstructured Meshes*,
  * dissertation, University of Mississippi, chapter 2 (Triangulation of Independent Partitions in
@@ -79,9 +89,11 @@
 #define vtkTIPPDelaunay2D_h
 
 #include "vtkPolyDataAlgorithm.h"
+#include "vtkSmartPointer.h"      // For smart pointer
 #include "vtkTIPPFiltersModule.h" // For export macro
 
 class vtkAbstractTransform;
+class vtkAlgorithmOutput;
 class vtkMultiProcessController;
 class vtkPoints;
 class vtkPointSet;
@@ -89,8 +101,10 @@ class vtkTable;
 
 namespace tipp
 {
+struct ConstrainedTriangulation;
 struct DistributedOptions;
 struct DistributedTriangulation;
+struct SourceConstraints;
 struct Triangulation;
 }
 
@@ -134,6 +148,58 @@ public:
     TREE = 0,     ///< boxes with equally many points
     THRESHOLD = 1 ///< square grids of boxes with about PointsPerPartition points (equation 3.1)
   };
+
+  /**
+   * How the output shows which edges are constraints.
+   */
+  enum ConstraintMarksType
+  {
+    NO_MARKS = 0,  ///< not at all
+    LINES = 1,     ///< lines before the triangles, and the cell array "ConstraintId"
+    EDGE_FLAGS = 2 ///< the cell array "ConstraintEdges"
+  };
+
+  ///@{
+  /**
+   * The source: lines and polygons whose edges are edges of the output. None by default.
+   */
+  void SetSourceData(vtkPolyData*);
+  void SetSourceConnection(vtkAlgorithmOutput*);
+  vtkPolyData* GetSource();
+  ///@}
+
+  ///@{
+  /**
+   * Whether the source has points of its own. Each that lies, in the plane, where one of the
+   * input's points lies is this one, the others are triangulated with the input's points and come
+   * after them, with the source's values of point arrays; arrays that it lacks are left out then,
+   * with a warning. Off by default: the source's point ids are those of the input.
+   */
+  vtkSetMacro(MergeSourcePoints, vtkTypeBool);
+  vtkGetMacro(MergeSourcePoints, vtkTypeBool);
+  vtkBooleanMacro(MergeSourcePoints, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether constraints that cross are split at a new point. Off: it is an error if two cross. On
+   * by default.
+   */
+  vtkSetMacro(SplitCrossings, vtkTypeBool);
+  vtkGetMacro(SplitCrossings, vtkTypeBool);
+  vtkBooleanMacro(SplitCrossings, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * A ConstraintMarksType; NO_MARKS by default. LINES: "ConstraintId" is the cell of the source
+   * that a line is a part of, and -1 of triangles; there are no NeighborIds. EDGE_FLAGS: for each
+   * corner of a triangle 1 if the edge opposite to it is a constraint's, else 0. With Alpha there
+   * are none, and a warning.
+   */
+  vtkSetClampMacro(ConstraintMarks, int, NO_MARKS, EDGE_FLAGS);
+  vtkGetMacro(ConstraintMarks, int);
+  ///@}
 
   ///@{
   /**
@@ -388,6 +454,9 @@ protected:
   int ProjectionPlaneMode = VTK_DELAUNAY_XY_PLANE;
   vtkTypeBool GenerateRepresentativeIds = 1;
   vtkTypeBool GenerateNeighborIds = 0;
+  vtkTypeBool MergeSourcePoints = 0;
+  vtkTypeBool SplitCrossings = 1;
+  int ConstraintMarks = NO_MARKS;
   int NumberOfPartitions[2] = { 0, 0 };
   int InitialPointsPerPartition = 0;
   int Schedule = DYNAMIC;
@@ -407,13 +476,18 @@ private:
   void operator=(const vtkTIPPDelaunay2D&) = delete;
 
   void CheckNumbers() const;
-  bool Execute(vtkPointSet* input, vtkPolyData* output, vtkTable* statistics);
+  bool Execute(vtkPointSet* input, vtkPolyData* source, vtkPolyData* output, vtkTable* statistics);
   bool HasSeveralRanks() const;
   bool ExecuteOnRanks(
     vtkPointSet* input, bool wantsGhosts, vtkPolyData* output, vtkTable* statistics);
   tipp::DistributedOptions OptionsForRanks() const;
-  const char* WhatNeedsOneRank() const;
-  tipp::Triangulation Triangulate(vtkPoints* points, vtkAbstractTransform* toPlane);
+  const char* WhatNeedsOneRank();
+  vtkSmartPointer<vtkPointSet> ReadSource(vtkPointSet* input, vtkPolyData* source,
+    vtkAbstractTransform* toPlane, tipp::SourceConstraints& constraints);
+  void CutOutside(
+    tipp::ConstrainedTriangulation& result, const tipp::SourceConstraints& constraints);
+  tipp::ConstrainedTriangulation Triangulate(
+    vtkPoints* points, vtkAbstractTransform* toPlane, const tipp::SourceConstraints& constraints);
   void Report(const tipp::Triangulation& triangulation, vtkIdType numberOfPoints);
   void SetCells(tipp::Triangulation& triangulation, vtkPolyData* output) const;
 };

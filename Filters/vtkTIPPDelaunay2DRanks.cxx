@@ -78,13 +78,14 @@ tipp::DistributedOptions vtkTIPPDelaunay2D::OptionsForRanks() const
   return options;
 }
 
-const char* vtkTIPPDelaunay2D::WhatNeedsOneRank() const
+const char* vtkTIPPDelaunay2D::WhatNeedsOneRank()
 {
   return this->Alpha != 0                                 ? "Alpha"
     : this->MaximumEdgeLength > 0                         ? "MaximumEdgeLength"
     : this->Tolerance > 0                                 ? "Tolerance"
     : this->BoundingTriangulation                         ? "BoundingTriangulation"
     : this->GenerateNeighborIds                           ? "GenerateNeighborIds"
+    : this->GetNumberOfInputConnections(1) > 0            ? "a source with constraints"
     : this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE ? "the best fitting plane"
                                                           : nullptr;
 }

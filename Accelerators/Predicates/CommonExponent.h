@@ -14,9 +14,11 @@ namespace tipp
 {
 
 /// Multiplies finite doubles by one power of two that makes them all integers, of any length.
-/// Exact for every finite double; 1e-310 beside 1e300 costs 2,000 bits.
+/// Exact for every finite double; 1e-310 beside 1e300 costs 2,000 bits. `exponent`, if any, becomes
+/// that of the integers' unit.
 template <std::size_t N>
-std::array<mpz_class, N> toCommonExponent(const std::array<double, N>& values)
+std::array<mpz_class, N> toCommonExponent(
+  const std::array<double, N>& values, int* exponent = nullptr)
 {
   constexpr int digits = 53;
   std::array<double, N> mantissas;
@@ -38,6 +40,10 @@ std::array<mpz_class, N> toCommonExponent(const std::array<double, N>& values)
       integers[i] = mantissas[i];
       integers[i] <<= static_cast<mp_bitcnt_t>(exponents[i] - lowest);
     }
+  }
+  if (exponent)
+  {
+    *exponent = lowest == INT_MAX ? 0 : lowest - digits;
   }
   return integers;
 }

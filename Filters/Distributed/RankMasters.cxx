@@ -191,9 +191,13 @@ void RankRun<Id>::keepFigures(const std::vector<Contribution>& parts)
 }
 
 template bool RankRun<std::int32_t>::startReady();
+template bool RankRun<std::int32_t>::canStart(PartitionIndex) const;
+template void RankRun<std::int32_t>::start(PartitionIndex);
 template void RankRun<std::int32_t>::receiveTask(const Message&);
 template void RankRun<std::int32_t>::keepFigures(const std::vector<Contribution>&);
 template bool RankRun<std::int64_t>::startReady();
+template bool RankRun<std::int64_t>::canStart(PartitionIndex) const;
+template void RankRun<std::int64_t>::start(PartitionIndex);
 template void RankRun<std::int64_t>::receiveTask(const Message&);
 template void RankRun<std::int64_t>::keepFigures(const std::vector<Contribution>&);
 

@@ -137,7 +137,7 @@ private:
     this->Result.Duplicates = worker.duplicates();
     this->Result.Statistics.WorkerVertices = std::int64_t(worker.vertexCount());
     this->endPhase("workers");
-    this->finish(sink, {});
+    this->finish(sink, {}, nullptr);
   }
 
   /// What the threads of a run share.
@@ -216,7 +216,7 @@ private:
       repairHull(std::move(boundary.HullVertices), artificial, boundary);
       triangles.push_back(std::move(boundary.Triangles));
       this->endPhase("hull");
-      this->finish(sink, triangles);
+      this->finish(sink, triangles, &regions);
     }
   }
 
@@ -284,13 +284,35 @@ private:
   }
 
   void finish(TriangleSink<Id>& sink,
-    const std::vector<std::vector<typename TriangleSink<Id>::Seam>>& boundary)
+    const std::vector<std::vector<typename TriangleSink<Id>::Seam>>& boundary,
+    const Regions* regions)
   {
     Buffer<Id> ids = sink.assemble(boundary, this->PassThreads);
+    if (regions)
+    {
+      this->addBlocks(sink, *regions, ids.size() / 3);
+    }
     preferLowestIds(ids, this->Result.Duplicates, this->PassThreads);
     idsOf<Id>(this->Result) = std::move(ids);
     this->endPhase("output");
     this->report(1);
+  }
+
+  /// A partition's interior triangles lie in its region, and are in the output side by side.
+  void addBlocks(const TriangleSink<Id>& sink, const Regions& regions, std::size_t triangles)
+  {
+    const double scale = 1 / this->Points.factor(); // a power of two
+    for (PartitionIndex p = 0; p < this->Buckets.partitions(); ++p)
+    {
+      const std::size_t begin = std::min(2 * this->Buckets.start(p), triangles);
+      const std::size_t end = std::min(begin + sink.interiorCount(p), triangles);
+      if (begin < end)
+      {
+        const Box2& box = regions[p];
+        this->Result.Blocks.push_back({ begin, end,
+          { box.xmin * scale, box.ymin * scale, box.xmax * scale, box.ymax * scale } });
+      }
+    }
   }
 
   PointsView Points;

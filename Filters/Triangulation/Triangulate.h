@@ -2,6 +2,7 @@
 #ifndef tippTriangulate_h
 #define tippTriangulate_h
 
+#include "Predicates/Box2.h"
 #include "Triangulation/Buffer.h"
 #include "Triangulation/PointsView.h"
 #include "vtkTIPPFiltersModule.h"
@@ -61,6 +62,14 @@ struct TriangulationStatistics
   int Threads = 0;
 };
 
+/// Triangles in a row, all of them in a box.
+struct TriangleBlock
+{
+  std::size_t Begin;
+  std::size_t End;
+  Box2 Box;
+};
+
 /// Counter-clockwise triangles of input point ids, three in a row.
 struct Triangulation
 {
@@ -68,6 +77,7 @@ struct Triangulation
   Buffer<std::int64_t> Ids64;
   std::vector<Duplicate> Duplicates; ///< by ascending Point
   std::vector<PointId> Rejected;     ///< NaN or infinite coordinates; ascending
+  std::vector<TriangleBlock> Blocks; ///< most triangles, by ascending position; none where unknown
   TriangulationStatistics Statistics;
   bool Aborted = false;
 

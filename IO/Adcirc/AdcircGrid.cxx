@@ -36,7 +36,65 @@ public:
     return std::move(this->Grid);
   }
 
+  /// After read(): the open boundaries, then those of land.
+  void readBoundaries(AdcircGrid& grid)
+  {
+    for (const bool isLand : { false, true })
+    {
+      this->Rows.next(1, "the number of boundaries");
+      const std::int64_t boundaries = this->Rows.integer(0);
+      this->Rows.next(1, "the number of boundary nodes");
+      for (std::int64_t i = 0; i < boundaries; ++i)
+      {
+        this->readBoundary(isLand, grid);
+      }
+    }
+  }
+
 private:
+  void readBoundary(bool isLand, AdcircGrid& grid)
+  {
+    this->Rows.next(isLand ? 2 : 1, "the number of a boundary's nodes and its kind");
+    const std::int64_t count = this->Rows.integer(0);
+    const std::int64_t kind = isLand ? this->Rows.integer(1) % 10 : 0;
+    constexpr std::int64_t island = 1;
+    constexpr std::int64_t weir = 4; // and 5: a second node each, on its back
+    const bool isWeir = kind == weir || kind == weir + 1;
+    std::vector<std::int64_t> front;
+    std::vector<std::int64_t> back;
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      this->Rows.next(isWeir ? 2 : 1, "a node of a boundary");
+      front.push_back(this->node(grid, 0));
+      if (isWeir)
+      {
+        back.push_back(this->node(grid, 1));
+      }
+    }
+    if (kind == island && !front.empty() && front.front() != front.back())
+    {
+      front.push_back(front.front());
+    }
+    for (const auto& nodes : { front, back })
+    {
+      for (std::size_t i = 1; i < nodes.size(); ++i)
+      {
+        grid.BoundaryEdges.push_back({ nodes[i - 1], nodes[i] });
+      }
+    }
+  }
+
+  std::int64_t node(const AdcircGrid& grid, std::size_t field) const
+  {
+    const std::int64_t number = this->Rows.integer(field);
+    const auto node = grid.IndexOf.find(number);
+    if (node == grid.IndexOf.end())
+    {
+      this->Rows.fail("names node " + std::to_string(number) + ", which is not given.");
+    }
+    return node->second;
+  }
+
   void readNodes(std::int64_t count)
   {
     this->Grid.XY.reserve(2 * std::size_t(count));
@@ -67,13 +125,7 @@ private:
       }
       for (std::size_t corner = 2; corner < 5; ++corner)
       {
-        const std::int64_t number = this->Rows.integer(corner);
-        const auto node = this->Grid.IndexOf.find(number);
-        if (node == this->Grid.IndexOf.end())
-        {
-          this->Rows.fail("names node " + std::to_string(number) + ", which is not given.");
-        }
-        this->Grid.Triangles.push_back(node->second);
+        this->Grid.Triangles.push_back(this->node(this->Grid, corner));
       }
     }
   }
@@ -88,6 +140,15 @@ AdcircGrid readAdcircGrid(const std::string& path)
 {
   const std::string text = readTextFile(path);
   return AdcircReader(path, text).read();
+}
+
+AdcircGrid readAdcircGridAndBoundaries(const std::string& path)
+{
+  const std::string text = readTextFile(path);
+  AdcircReader reader(path, text);
+  AdcircGrid grid = reader.read();
+  reader.readBoundaries(grid);
+  return grid;
 }
 
 } // namespace tipp

@@ -4,6 +4,7 @@
 
 #include "vtkTIPPIOModule.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <unordered_map>
@@ -13,8 +14,8 @@ namespace tipp
 {
 
 /// Nodes and triangles of an ADCIRC grid (fort.14, https://adcirc.org): a title; the numbers of
-/// elements and nodes; a line `id x y depth` a node; a line `id 3 a b c` an element. The boundary
-/// lists after them are not read.
+/// elements and nodes; a line `id x y depth` a node; a line `id 3 a b c` an element; and lists of
+/// the nodes of boundaries.
 struct AdcircGrid
 {
   std::vector<double> XY;              ///< of the nodes, in the order of the file
@@ -22,10 +23,15 @@ struct AdcircGrid
   std::vector<std::int64_t> Triangles; ///< three indices into the nodes, counted from 0
   /// The index of each node number; these may have gaps and any order.
   std::unordered_map<std::int64_t, std::int64_t> IndexOf;
+  /// Pairs of nodes that follow each other on a boundary; those of islands are closed.
+  std::vector<std::array<std::int64_t, 2>> BoundaryEdges;
 };
 
-/// Throws IOError.
+/// Without the boundaries. Throws IOError.
 VTKTIPPIO_EXPORT AdcircGrid readAdcircGrid(const std::string& path);
+
+/// All of it. Throws IOError.
+AdcircGrid readAdcircGridAndBoundaries(const std::string& path);
 
 } // namespace tipp
 

@@ -2,6 +2,7 @@
 #ifndef tippBenchmarkEngines_h
 #define tippBenchmarkEngines_h
 
+#include "Constraints/TriangulateConstrained.h"
 #include "Triangulation/Triangulate.h"
 
 #include <cstdint>
@@ -45,6 +46,15 @@ Run runSweep(const std::vector<double>& xy);
 Run runCgal(const std::vector<double>& xy);
 /// vtkDelaunay2D with its defaults.
 Run runVtk(const std::vector<double>& xy);
+
+///@{
+/// With constraints: tipp::triangulateConstrained, CGAL's Constrained_Delaunay_triangulation_2
+/// without intersections, vtkDelaunay2D with a source.
+Run runConstrained(const std::vector<double>& xy, const std::vector<Constraint>& segments,
+  const TriangulationOptions& options);
+Run runCgalConstrained(const std::vector<double>& xy, const std::vector<Constraint>& segments);
+Run runVtkConstrained(const std::vector<double>& xy, const std::vector<Constraint>& segments);
+///@}
 
 } // namespace benchmark
 } // namespace tipp

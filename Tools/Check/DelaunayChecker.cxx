@@ -40,7 +40,15 @@ public:
     this->checkPoints();
     this->gatherEdges();
     this->checkEdges();
-    if (!this->Options.BoundaryFree)
+    if (this->Options.IsCut)
+    {
+      this->Report.UnusedPoints = 0;
+      const auto constraints = std::remove_if(this->Boundary.begin(), this->Boundary.end(),
+        [this](const DirectedEdge& edge) { return this->isConstraint(edge.From, edge.To); });
+      this->Boundary.erase(constraints, this->Boundary.end());
+      this->Report.OpenBoundary = check::countOffHull(this->XY, this->Boundary);
+    }
+    else if (!this->Options.BoundaryFree)
     {
       this->checkHull();
     }
@@ -217,10 +225,17 @@ private:
     const bool isMutual =
       this->isNeighbor(h, std::int64_t(twin / 3)) && this->isNeighbor(twin, std::int64_t(h / 3));
     this->Report.BadNeighbors += isMutual ? 0 : 1;
-    if (this->States[h / 3] == State::Sound && this->States[twin / 3] == State::Sound)
+    if (this->States[h / 3] == State::Sound && this->States[twin / 3] == State::Sound &&
+      !this->isConstraint(this->from(h), this->to(h)))
     {
       this->checkCircle(h, this->opposite(twin));
     }
+  }
+
+  bool isConstraint(std::int64_t a, std::int64_t b) const
+  {
+    return std::binary_search(this->Options.Constraints.begin(), this->Options.Constraints.end(),
+      FixedEdge{ std::min(a, b), std::max(a, b) });
   }
 
   /// Whether the half-edge's triangle says so, or nothing.
@@ -261,7 +276,7 @@ private:
   const std::vector<double>& XY;
   const std::vector<std::int64_t>& Ids;
   const std::vector<std::int64_t>& Neighbors;
-  const CheckOptions Options;
+  const CheckOptions& Options;
   CheckReport Report;
   std::vector<State> States;
   std::vector<bool> Used;
@@ -288,6 +303,8 @@ std::vector<std::string> CheckReport::faults() const
     { this->UnusedPoints, "distinct points are in no triangle" },
     { this->TwinVertices, "vertices lie where another vertex lies" },
     { this->BadHullEdges, "boundary edges are not in one convex chain" },
+    { this->LostConstraints, "constraints are no chain of edges" },
+    { this->OpenBoundary, "boundary edges are neither constraints nor of the convex hull" },
     { this->BadNeighbors, "edges have triangles that name other neighbours" },
     { this->EulerMismatch, "triangles too many (negative: too few) by Euler's count" },
   };

@@ -4,7 +4,10 @@
 #include "Check/ExactTests.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <set>
 
 namespace tipp
 {
@@ -85,6 +88,51 @@ std::int64_t countHullFaults(const std::vector<double>& xy, std::vector<Directed
     [](const DirectedEdge& a, const DirectedEdge& b)
     { return a.From < b.From || (a.From == b.From && a.To < b.To); });
   return edges.empty() ? 0 : Chain(xy, edges).countFaults();
+}
+
+std::int64_t countOffHull(const std::vector<double>& xy, const std::vector<DirectedEdge>& edges)
+{
+  if (edges.empty())
+  {
+    return 0;
+  }
+  std::vector<Position> points;
+  for (std::size_t i = 0; i + 1 < xy.size(); i += 2)
+  {
+    if (std::isfinite(xy[i]) && std::isfinite(xy[i + 1]))
+    {
+      points.push_back({ xy[i], xy[i + 1] });
+    }
+  }
+  std::sort(points.begin(), points.end(), isBefore);
+  const auto isSame = [](Position a, Position b) { return a.x == b.x && a.y == b.y; };
+  points.erase(std::unique(points.begin(), points.end(), isSame), points.end());
+  // The lower chain from left to right, then the upper one back.
+  std::set<std::array<double, 4>> hull;
+  for (int side = 0; side < 2; ++side)
+  {
+    std::vector<Position> chain;
+    for (const Position& p : points)
+    {
+      while (chain.size() > 1 && turn(chain[chain.size() - 2], chain.back(), p) < 0)
+      {
+        chain.pop_back();
+      }
+      chain.push_back(p);
+    }
+    for (std::size_t i = 1; i < chain.size(); ++i)
+    {
+      hull.insert({ chain[i - 1].x, chain[i - 1].y, chain[i].x, chain[i].y });
+    }
+    std::reverse(points.begin(), points.end());
+  }
+  return std::count_if(edges.begin(), edges.end(),
+    [&](const DirectedEdge& edge)
+    {
+      const std::size_t from = 2 * std::size_t(edge.From);
+      const std::size_t to = 2 * std::size_t(edge.To);
+      return hull.count({ xy[from], xy[from + 1], xy[to], xy[to + 1] }) == 0;
+    });
 }
 
 } // namespace check

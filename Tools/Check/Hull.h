@@ -20,6 +20,10 @@ struct DirectedEdge
 /// allowed: 0 if they are. The edges come out sorted by From.
 std::int64_t countHullFaults(const std::vector<double>& xy, std::vector<DirectedEdge>& edges);
 
+/// How many of the edges are not edges of the convex hull of the finite points, with all points
+/// that lie on it.
+std::int64_t countOffHull(const std::vector<double>& xy, const std::vector<DirectedEdge>& edges);
+
 } // namespace check
 } // namespace tipp
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Check/ConstraintChecker.h"
 #include "Check/DelaunayChecker.h"
 #include "Commands/CheckPartitioned.h"
 #include "Commands/PointArguments.h"
 #include "Console/MpiSession.h"
+#include "Constraints/ReadConstraintFile.h"
 #include "Files/IOError.h"
 #include "Meshes/ReadMesh.h"
 #include "Partitioned/PartitionedMesh.h"
@@ -14,7 +16,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <system_error>
 
@@ -31,12 +35,16 @@ distinct point a vertex. Where the mesh has the cell array NeighborIds, the two
 triangles of every edge name each other. A partitioned mesh is read piece by
 piece and may be larger than memory. Exit code 0: no fault, 1: faults or a file that cannot
 be read, 2: wrong usage.
+With constraints, their edges need not be locally Delaunay, and the mesh may have
+more points after the given ones; where constraints have polygons or holes, each edge of
+its boundary must be one of theirs or of the convex hull. Which triangles lie inside is not checked.
 
 Examples:
   tipp check points.npy triangles.npy
   tipp check survey.csv --x easting --y northing mesh.vtp --tie-rule
   tipp check fort.14 fort.14 --boundary-free
   tipp check points.npy mesh.tipp
+  tipp check survey.csv survey.vtp --constraints breaklines.vtp --tie-rule
 )";
 
 struct CheckArguments
@@ -44,6 +52,7 @@ struct CheckArguments
   std::string Points;
   std::string Mesh;
   PointOptions Columns;
+  std::string Constraints; ///< a file; empty: none
   CheckOptions Options;
 };
 
@@ -66,16 +75,82 @@ void requireSamePoints(
   }
 }
 
+/// The points of constraints among those of the mesh: the first at each position, or -1.
+std::vector<std::array<std::int64_t, 2>> constraintsAmong(
+  const std::vector<double>& xy, const ConstraintTable& table)
+{
+  if (table.XY.empty())
+  {
+    return table.Edges;
+  }
+  std::map<std::pair<double, double>, std::int64_t> positions;
+  for (std::size_t i = 0; i < xy.size() / 2; ++i)
+  {
+    positions.emplace(std::make_pair(xy[2 * i], xy[2 * i + 1]), std::int64_t(i));
+  }
+  std::vector<std::array<std::int64_t, 2>> constraints;
+  for (const auto& edge : table.Edges)
+  {
+    std::array<std::int64_t, 2> ids;
+    for (std::size_t end = 0; end < 2; ++end)
+    {
+      const auto own = 2 * std::size_t(edge[end]);
+      const auto at = positions.find({ table.XY[own], table.XY[own + 1] });
+      ids[end] = at == positions.end() ? -1 : at->second;
+    }
+    constraints.push_back(ids);
+  }
+  return constraints;
+}
+
+/// A mesh whose first points are the given ones.
+CheckReport checkConstrained(
+  const CheckArguments& arguments, const PointTable& points, const TriangleMesh& mesh)
+{
+  const std::vector<double>& xy = mesh.XY.empty() ? points.XY : mesh.XY;
+  if (xy.size() < points.XY.size() ||
+    !std::equal(points.XY.begin(), points.XY.end(), xy.begin(), isSame))
+  {
+    throw IOError(arguments.Mesh,
+      fmt::format("its first {} points are not those of {}; check it against the points that it "
+                  "was made from.",
+        points.size(), arguments.Points));
+  }
+  const ConstraintTable table = readConstraintFile(arguments.Constraints);
+  std::vector<std::array<std::int64_t, 2>> constraints = constraintsAmong(xy, table);
+  const std::int64_t count = std::int64_t(xy.size() / 2);
+  const auto lost = std::remove_if(constraints.begin(), constraints.end(),
+    [count](const auto& ids)
+    { return std::min(ids[0], ids[1]) < 0 || std::max(ids[0], ids[1]) >= count; });
+  const std::int64_t missing = constraints.end() - lost;
+  constraints.erase(lost, constraints.end());
+  ConstraintChains chains = findConstraintChains(xy, mesh.Triangles, constraints);
+  CheckOptions options = arguments.Options;
+  options.Constraints = std::move(chains.Edges);
+  options.IsCut = options.IsCut || table.PolygonBegin < table.Edges.size() || !table.Holes.empty();
+  CheckReport report = checkDelaunay(xy, mesh.Triangles, options, mesh.Neighbors);
+  report.LostConstraints = chains.Lost + missing;
+  return report;
+}
+
 CheckReport check(const CheckArguments& arguments)
 {
   std::error_code ignored;
   // No other kind of mesh is a folder here; one without its index is named as such.
   if (isPartitionedMesh(arguments.Mesh) || std::filesystem::is_directory(arguments.Mesh, ignored))
   {
+    if (!arguments.Constraints.empty())
+    {
+      throw CLI::ValidationError("--constraints", "does not go with a partitioned mesh");
+    }
     return checkPartitioned(arguments.Points, arguments.Columns, arguments.Mesh, arguments.Options);
   }
   const PointTable points = readPoints(arguments.Points, arguments.Columns);
   TriangleMesh mesh = readMesh(arguments.Mesh);
+  if (!arguments.Constraints.empty())
+  {
+    return checkConstrained(arguments, points, mesh);
+  }
   requireSamePoints(arguments, points.XY, mesh.XY);
   mesh.XY = {};
   return checkDelaunay(points.XY, mesh.Triangles, arguments.Options, mesh.Neighbors);
@@ -113,6 +188,12 @@ void addCheckCommand(CLI::App& app, int& exitCode)
     "points, which makes the triangulation unique");
   command->add_flag("--boundary-free", arguments->Options.BoundaryFree,
     "The mesh has a boundary of its own: do not check the hull and Euler's count");
+  command->add_option("--constraints", arguments->Constraints,
+    "A file of segments that must be edges, as of 'tipp delaunay'; the mesh may have more points, "
+    "after "
+    "the given ones");
+  command->add_flag("--cut", arguments->Options.IsCut,
+    "With --constraints: triangles outside of them are removed, as by --hole");
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]() { exitCode = isIdleRank() ? Success : runCheck(*arguments); });

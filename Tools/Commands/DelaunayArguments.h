@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -30,6 +31,9 @@ struct DelaunayArguments
   double MaximumEdge = 0; ///< 0: not given
   bool MapDuplicates = false;
   bool Neighbors = false;
+  std::string Constraints; ///< a file; empty: none
+  bool RefuseCrossings = false;
+  std::vector<std::pair<double, double>> Holes; ///< x and y of points in holes
   std::string Statistics;
   // Of a run out of core:
   std::string Memory; ///< empty: not given

@@ -2,6 +2,7 @@
 #include "Commands/Commands.h"
 
 #include "Commands/DelaunayArguments.h"
+#include "Commands/DelaunayConstraints.h"
 #include "Commands/DelaunayOnRanks.h"
 #include "Commands/DelaunayOutOfCore.h"
 #include "Commands/DelaunayOutput.h"
@@ -40,6 +41,12 @@ OUTPUT  .vtp, .vtu (all points with their data, a column named z as third
         and triangles may be larger than memory. .npy .las and text are read in
         blocks, other points as a whole.
 
+CONSTRAINTS  .poly (Triangle); .csv, .txt (a segment a line: x and y of both ends, or
+        two ids of points counted from 0); .14, .grd (ADCIRC: the boundaries); any VTK
+        file: lines, and polygons, of which counter-clockwise ones keep their inside
+        and clockwise ones are holes. Its points that are not in INPUT are added.
+        Constraints need all points in memory of one process.
+
 Under mpirun the points are spread over the ranks, each with its threads; the
 first rank writes the output. --masters, --major, --minor and --groups choose how
 the ranks share the work. A .tipp output is written by all ranks, which must all
@@ -53,6 +60,7 @@ Examples:
   tipp delaunay points.npy -o triangles.npy
   tipp delaunay tile.las --class 2 -o ground.vtu
   tipp delaunay survey.csv --x easting --y northing -o survey.vtp --threads 4
+  tipp delaunay survey.csv -o survey.vtp --constraints breaklines.vtp
   tipp delaunay fort.14 -o mesh.vtu --partitions 8x8 --stats run.json
   tipp delaunay west.npy east.npy -o mesh.tipp --memory 512M
   tipp delaunay west.npy east.npy -o mesh.tipp --memory 512M --resume
@@ -78,9 +86,15 @@ TriangulationOptions makeOptions(const DelaunayArguments& arguments, ProgressBar
   return options;
 }
 
-Triangulation triangulatePoints(const DelaunayArguments& arguments, const PointTable& points)
+/// With constraints new points are appended, and `report` tells about them.
+Triangulation triangulatePoints(
+  const DelaunayArguments& arguments, PointTable& points, std::string& report)
 {
   ProgressBar bar("Triangulating");
+  if (!arguments.Constraints.empty())
+  {
+    return triangulateWithConstraints(arguments, points, makeOptions(arguments, bar), report);
+  }
   return triangulate(PointsView(points.XY.data(), points.size(), 2), makeOptions(arguments, bar));
 }
 
@@ -100,7 +114,7 @@ int runDelaunay(const DelaunayArguments& arguments)
   run.Input = arguments.Input;
   run.Output = arguments.Output;
   Stopwatch watch;
-  const PointTable points = readPointsFor(arguments);
+  PointTable points = readPointsFor(arguments);
   run.Points = std::int64_t(points.size());
   run.ReadSeconds = watch.restart();
   reportLeftOut(points.LeftOut);
@@ -108,7 +122,8 @@ int runDelaunay(const DelaunayArguments& arguments)
   {
     return reportInterrupt();
   }
-  const Triangulation result = triangulatePoints(arguments, points);
+  std::string constraintReport;
+  const Triangulation result = triangulatePoints(arguments, points, constraintReport);
   run.TriangulateSeconds = watch.restart();
   if (result.Aborted || isInterrupted() || !writeResult(arguments, points, result, before))
   {
@@ -120,6 +135,10 @@ int runDelaunay(const DelaunayArguments& arguments)
     writeStatistics(arguments.Statistics, run, result);
   }
   fmt::print("{}\n", summarize(run, result));
+  if (!constraintReport.empty())
+  {
+    fmt::print("{}\n", constraintReport);
+  }
   warnOfNoTriangles(result);
   return Success;
 }
@@ -188,6 +207,42 @@ void addTuning(CLI::App& command, DelaunayArguments& arguments)
     ->capture_default_str();
 }
 
+void addConstraints(CLI::App& command, DelaunayArguments& arguments)
+{
+  command.add_option("--constraints", arguments.Constraints,
+    "A file of segments that must be edges, and of polygons whose inside alone is kept");
+  command.add_flag("--refuse-crossings", arguments.RefuseCrossings,
+    "An error if two constraints cross; without: they are split at a new point");
+  command
+    .add_option("--hole", arguments.Holes,
+      "x and y of a point in a hole, whose triangles are removed up to the constraints around it; "
+      "may be given several times")
+    ->allow_extra_args(false);
+}
+
+void requireConstraintsInMemory(const DelaunayArguments& arguments)
+{
+  if (arguments.Constraints.empty())
+  {
+    if (arguments.RefuseCrossings || !arguments.Holes.empty())
+    {
+      throw CLI::ValidationError(
+        arguments.RefuseCrossings ? "--refuse-crossings" : "--hole", "needs --constraints");
+    }
+    return;
+  }
+  if (isOutOfCore(arguments))
+  {
+    throw CLI::ValidationError("--constraints",
+      "does not go with an output named .tipp, since constraints need all points in memory");
+  }
+  if (arguments.isForRanks() || startedRank() >= 0)
+  {
+    throw CLI::ValidationError(
+      "--constraints", "needs a single process: run it without mpirun and options for ranks");
+  }
+}
+
 } // namespace
 
 void addDelaunayCommand(CLI::App& app, int& exitCode)
@@ -212,6 +267,7 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
   command->add_flag("--neighbors", arguments->Neighbors,
     "Add the cell array NeighborIds to .vtp, .vtu or .tipp: three ids a triangle, those of the "
     "triangles opposite its corners, -1 at the hull");
+  addConstraints(*command, *arguments);
   command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
   command
     ->add_option("--memory", arguments->Memory,
@@ -248,6 +304,7 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
       }
       arguments->Input = arguments->Inputs.front();
       const std::string misplaced = misplacedOutOfCoreOption(*arguments);
+      requireConstraintsInMemory(*arguments);
       if (isOutOfCore(*arguments) && arguments->isForRanks())
       {
         throw CLI::ValidationError(

@@ -65,7 +65,9 @@ bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
 
 PathState requireWritable(const DelaunayArguments& arguments)
 {
-  requireApart({ arguments.Output, arguments.Statistics }, arguments.Inputs);
+  std::vector<std::string> inputs = arguments.Inputs;
+  inputs.push_back(arguments.Constraints);
+  requireApart({ arguments.Output, arguments.Statistics }, inputs);
   const PendingFile output(arguments.Output);
   if (!arguments.Statistics.empty())
   {

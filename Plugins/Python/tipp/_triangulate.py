@@ -2,10 +2,11 @@
 """tipp.delaunay and tipp.delaunay_2d."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Mapping
+from typing import TYPE_CHECKING, Any, Iterable, Mapping
 
 from . import _arguments as check
 from ._arrays import point_cloud, triangles_of, wrapped_like
+from ._constraints import source_of
 from ._run import run
 from .vtkTIPPFilters import vtkTIPPDelaunay2D
 
@@ -17,6 +18,14 @@ _SCHEDULES = {
     "stages": vtkTIPPDelaunay2D.STAGES,
     "dynamic": vtkTIPPDelaunay2D.DYNAMIC,
     "producer-consumer": vtkTIPPDelaunay2D.PRODUCER_CONSUMER,
+}
+
+
+_CROSSINGS = {"split": 1, "refuse": 0}
+_MARKS = {
+    "none": vtkTIPPDelaunay2D.NO_MARKS,
+    "lines": vtkTIPPDelaunay2D.LINES,
+    "flags": vtkTIPPDelaunay2D.EDGE_FLAGS,
 }
 
 
@@ -91,6 +100,11 @@ def delaunay_2d(
     offset: float = 1.0,
     bound: bool = False,
     point_data: Mapping[str, ArrayLike] | None = None,
+    edge_source: Any = None,
+    edges: ArrayLike | None = None,
+    polygons: Iterable[Any] | None = None,
+    crossings: str = "split",
+    marks: str = "none",
     partitions: tuple[int, int] | None = None,
     schedule: str = "dynamic",
     threads: int = 0,
@@ -113,6 +127,20 @@ def delaunay_2d(
         Whether to triangulate eight points on a circle around the others with them.
     point_data
         With an array of points: arrays of values at them, by name.
+    edge_source
+        A vtkPolyData or a PyVista one, whose lines and polygons are constraints: their edges are edges
+        of the triangulation. Their ids are those of `points`.
+    edges
+        Constraints as an (m, 2) array of point ids.
+    polygons
+        Closed polygons: sequences of point ids; or, with new points where none of `points` is, arrays of
+        coordinates of shape (k, 2) or (k, 3), or polygons of Shapely with their holes. Counter-clockwise
+        ones keep what is inside, clockwise ones are holes; Shapely's are turned as they have to be.
+    crossings
+        "split": constraints that cross get a new point there, after the others. "refuse": a RuntimeError.
+    marks
+        How the mesh shows constraints. "lines": as lines, with the cell array ConstraintId. "flags": in the
+        cell array ConstraintEdges, for each corner whether the edge opposite to it is a constraint. "none".
 
     Returns
     -------
@@ -127,6 +155,10 @@ def delaunay_2d(
     Examples
     --------
     >>> mesh = tipp.delaunay_2d(xyz, point_data={"depth": depth})
+
+    With breaklines between points, inside of a boundary:
+
+    >>> mesh = tipp.delaunay_2d(xyz, edges=[[0, 17], [17, 5]], polygons=[[2, 40, 31, 8]])
     """
     is_data = check.is_vtk_object(points)
     if is_data and point_data is not None:
@@ -134,7 +166,14 @@ def delaunay_2d(
     if is_data:
         check.data_object(points, "points", ("vtkPointSet",), "a vtkPointSet or an array")
     algorithm = vtkTIPPDelaunay2D()
-    algorithm.SetInputData(points if is_data else point_cloud(points, point_data))
+    data = points if is_data else point_cloud(points, point_data)
+    algorithm.SetInputData(data)
+    source, has_points = source_of(data, edge_source, edges, polygons)
+    if source is not None:
+        algorithm.SetSourceData(source)
+        algorithm.SetMergeSourcePoints(has_points)
+    algorithm.SetSplitCrossings(check.choice(crossings, "crossings", _CROSSINGS))
+    algorithm.SetConstraintMarks(check.choice(marks, "marks", _MARKS))
     algorithm.SetTolerance(check.number(tol, "tol", at_least=0))
     algorithm.SetMaximumEdgeLength(check.number(max_edge, "max_edge", at_least=0))
     algorithm.SetAlpha(check.number(alpha, "alpha", at_least=0))

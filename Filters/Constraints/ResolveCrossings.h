@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippResolveCrossings_h
+#define tippResolveCrossings_h
+
+#include "Constraints/Constraint.h"
+#include "Triangulation/PointsView.h"
+#include "vtkTIPPFiltersModule.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+enum class CrossingRule
+{
+  Split, ///< two constraints that cross are split at a new point
+  Refuse ///< an error
+};
+
+/// A new point where two constraints cross.
+struct CrossingPoint
+{
+  Point2 Position;
+  PointId A;       ///< It lies between these two, which come before it, on the constraint
+  PointId B;       ///< of lower number,
+  double Fraction; ///< this far from A to B.
+  std::array<std::int64_t, 2> Constraints; ///< the lower first
+};
+
+/// Constraints none of which crosses another, except at points of both.
+struct ResolvedConstraints
+{
+  std::vector<ConstraintPiece> Pieces;  ///< constraint by constraint, each from its A to its B
+  std::vector<CrossingPoint> Crossings; ///< their ids follow those of the input's points
+  int Rounds = 0;                       ///< of splitting
+  std::int64_t NotFinite = 0;           ///< constraints left out: an end that is NaN or infinite
+  std::int64_t ZeroLength = 0;          ///< left out: both ends at one position
+};
+
+/// Splits constraints where they cross: a crossing, rounded to doubles, becomes a point of both.
+/// This is snap rounding (Hobby 1999) on the grid of doubles: a constraint that crosses others is
+/// led through all ends and crossings of constraints that points of it would be rounded to, so that
+/// it moves by half a unit in the last place of its coordinates at most. Throws
+/// std::invalid_argument for an id that no point has and, where crossings are refused, for the
+/// first one.
+///
+/// The grid of doubles is not uniform, so that parts may still cross; these crossings are rounded
+/// and split too, in further rounds, each of which may move a constraint by half a unit more. It
+/// ends: a part only passes through points in its bounding box, so its own parts have smaller ones,
+/// and there are finitely many boxes whose corners are doubles. More than 100 rounds are an error,
+/// which takes constraints that are within a unit of each other over many orders of magnitude.
+VTKTIPPFILTERS_EXPORT ResolvedConstraints resolveCrossings(
+  PointsView points, const std::vector<Constraint>& constraints, CrossingRule rule, int threads);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippSegmentTree_h
+#define tippSegmentTree_h
+
+#include "Predicates/Box2.h"
+#include "Predicates/Point2.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+inline Box2 boxOf(Point2 a, Point2 b)
+{
+  return { std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.x, b.x), std::max(a.y, b.y) };
+}
+
+inline bool overlap(const Box2& a, const Box2& b)
+{
+  return a.xmin <= b.xmax && b.xmin <= a.xmax && a.ymin <= b.ymax && b.ymin <= a.ymax;
+}
+
+/// Whether the line through a and b may meet the closed box: false only if it certainly does not.
+inline bool lineMayMeet(Point2 a, Point2 b, const Box2& box)
+{
+  // Every sum and product below has a relative error of 2^-53; this is ninety of them.
+  constexpr double relative = 1e-14;
+  constexpr double absolute = 1e-300;    // for products that underflow
+  constexpr double smallest = 0x1p-1070; // for halves of denormal numbers
+  const double dx = b.x - a.x;
+  const double dy = b.y - a.y;
+  const double centerX = box.xmin / 2 + box.xmax / 2;
+  const double centerY = box.ymin / 2 + box.ymax / 2;
+  const double halfX = box.xmax / 2 - box.xmin / 2;
+  const double halfY = box.ymax / 2 - box.ymin / 2;
+  const double distance = std::fabs(dx * (centerY - a.y) - dy * (centerX - a.x));
+  const double reach = std::fabs(dx) * halfY + std::fabs(dy) * halfX;
+  const double error = relative *
+      (std::fabs(dx) * (std::fabs(centerY) + std::fabs(a.y) + halfY) +
+        std::fabs(dy) * (std::fabs(centerX) + std::fabs(a.x) + halfX)) +
+    smallest * (std::fabs(dx) + std::fabs(dy)) + absolute;
+  return !(distance > reach + error); // also after an overflow
+}
+
+/// Segments by where they lie: a packed tree of bounding boxes over segments sorted along a curve.
+class SegmentTree
+{
+public:
+  struct Item
+  {
+    Point2 A;
+    Point2 B;
+    std::int64_t Id; ///< its position in the list that the tree was made of
+  };
+
+  /// Ids need not be set.
+  explicit SegmentTree(std::vector<Item> segments);
+
+  const std::vector<Item>& items() const { return this->Items; }
+
+  /// visit(item) for every segment whose bounding box overlaps the box, until it returns false.
+  template <typename Visit>
+  void visitNear(const Box2& box, const Visit& visit) const
+  {
+    this->visitNodes([&box](const Box2& node) { return overlap(box, node); },
+      [&](const Item& item) { return !overlap(box, boxOf(item.A, item.B)) || visit(item); });
+  }
+
+  /// The same for those whose bounding box a segment may meet.
+  template <typename Visit>
+  void visitNear(const Item& segment, const Visit& visit) const
+  {
+    const Box2 box = boxOf(segment.A, segment.B);
+    const auto isNear = [&](const Box2& node)
+    { return overlap(box, node) && lineMayMeet(segment.A, segment.B, node); };
+    this->visitNodes(isNear,
+      [&](const Item& item) { return !overlap(box, boxOf(item.A, item.B)) || visit(item); });
+  }
+
+private:
+  static constexpr std::size_t Fanout = 8;
+
+  template <typename IsNear, typename Visit>
+  void visitNodes(const IsNear& isNear, const Visit& visit) const
+  {
+    if (!this->Levels.empty())
+    {
+      this->visitNode(this->Levels.size() - 1, 0, isNear, visit);
+    }
+  }
+
+  template <typename IsNear, typename Visit>
+  bool visitNode(
+    std::size_t level, std::size_t node, const IsNear& isNear, const Visit& visit) const
+  {
+    if (!isNear(this->Levels[level][node]))
+    {
+      return true;
+    }
+    const std::size_t below = level == 0 ? this->Items.size() : this->Levels[level - 1].size();
+    const std::size_t end = std::min(below, (node + 1) * Fanout);
+    for (std::size_t i = node * Fanout; i < end; ++i)
+    {
+      if (!(level == 0 ? visit(this->Items[i]) : this->visitNode(level - 1, i, isNear, visit)))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  std::vector<Item> Items;
+  std::vector<std::vector<Box2>> Levels; ///< boxes of items, boxes of these, ... the root
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippSourceConstraints_h
+#define tippSourceConstraints_h
+
+#include "Constraints/Constraint.h"
+#include "Triangulation/PointsView.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <cstddef>
+#include <vector>
+
+class vtkAbstractTransform;
+class vtkPointSet;
+class vtkPolyData;
+
+namespace tipp
+{
+
+/// The lines and polygons of a data set as constraints between points of a triangulation.
+struct SourceConstraints
+{
+  std::vector<Constraint> Constraints;
+  std::vector<vtkIdType> Cells; ///< of each constraint: the cell that it is an edge of
+  std::size_t PolygonBegin = 0; ///< constraints from here on are edges of polygons
+};
+
+/// Ids: of each point of the source, the point that it is in the triangulation. Empty: the same.
+SourceConstraints readConstraints(vtkPolyData* source, const std::vector<PointId>& ids);
+
+/// A data set with the points of a source.
+struct JoinedPoints
+{
+  vtkSmartPointer<vtkPointSet> Data; ///< the input, or a new data set if there are new points
+  std::vector<PointId> Ids;          ///< of the source's points: where they are
+  std::size_t NewPoints = 0;         ///< after the input's
+  std::size_t LostArrays = 0;        ///< of the input, that the source has no values of
+};
+
+/// A point of the source at the position, in the plane, of one of the input's is that one (the
+/// first), each other position is a new point. New points have the source's values of point arrays;
+/// arrays that the source lacks are left out if there are new points.
+JoinedPoints joinPoints(vtkPointSet* input, vtkPolyData* source, vtkAbstractTransform* toPlane);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Constrained triangulation beside its peers: benchmarkConstraints POINTS SEGMENTS [REPEAT [vtk]].
+// The segments are edges of the triangulation of every eighth point, so that they do not cross;
+// with SEGMENTS = 1 one goes across everything. Points in memory to triangles in memory.
+#include "Engines.h"
+#include "Measure.h"
+#include "PointSets.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <functional>
+#include <string>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::benchmark;
+
+std::vector<Constraint> makeSegments(std::vector<double>& xy, std::size_t wanted)
+{
+  std::vector<Constraint> segments;
+  if (wanted == 1)
+  {
+    xy.insert(xy.end(), { -0.01, 0.31, 1.01, 0.72 });
+    const PointId last = PointId(xy.size() / 2 - 1);
+    return { { last - 1, last } };
+  }
+  constexpr std::size_t step = 8;
+  std::vector<double> sparse;
+  for (std::size_t i = 0; i < xy.size() / 2; i += step)
+  {
+    sparse.insert(sparse.end(), { xy[2 * i], xy[2 * i + 1] });
+  }
+  const Triangulation mesh = triangulate(PointsView(sparse.data(), sparse.size() / 2, 2));
+  const auto id = [](std::int32_t place) { return PointId(place) * PointId(step); };
+  const std::size_t edges = mesh.Ids32.size() / 2; // each is in two triangles
+  const std::size_t every = std::max<std::size_t>(1, edges / wanted);
+  std::size_t count = 0;
+  for (std::size_t h = 0; h < mesh.Ids32.size() && segments.size() < wanted; ++h)
+  {
+    const std::int32_t a = mesh.Ids32[h];
+    const std::int32_t b = mesh.Ids32[h % 3 == 2 ? h - 2 : h + 1];
+    if (a < b && count++ % every == 0)
+    {
+      segments.push_back({ id(a), id(b) });
+    }
+  }
+  return segments;
+}
+
+void report(const char* name, int repeat, const std::function<Run()>& work)
+{
+  Measurement best;
+  for (int i = 0; i < repeat; ++i)
+  {
+    const Measurement m = measure(work);
+    best = i == 0 || m.Result.Seconds < best.Result.Seconds ? m : best;
+  }
+  std::printf("%-28s %9.3f s %12lld triangles  %016llx  %8.0f MB\n", name, best.Result.Seconds,
+    (long long)best.Result.Triangles, (unsigned long long)best.Result.Checksum, best.PeakMegabytes);
+  std::fflush(stdout);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  if (argc < 3)
+  {
+    std::fputs("usage: benchmarkConstraints POINTS SEGMENTS [REPEAT [vtk]]\n", stderr);
+    return 2;
+  }
+  try
+  {
+    std::vector<double> xy =
+      test::makePointSet("uniform", std::size_t(std::strtod(argv[1], nullptr)));
+    const auto wanted = std::size_t(std::strtod(argv[2], nullptr));
+    const int repeat = argc > 3 ? std::atoi(argv[3]) : 3;
+    std::vector<Constraint> segments;
+    // In a process of its own: this one must not start threads.
+    setenv("OMP_NUM_THREADS", "1", 1);
+    segments = makeSegments(xy, wanted);
+    std::printf("%zu points, %zu segments\n", xy.size() / 2, segments.size());
+    report("CGAL, 1 thread", repeat, [&] { return runCgalConstrained(xy, segments); });
+    for (const int threads : { 1, 2 })
+    {
+      TriangulationOptions options;
+      options.Threads = threads;
+      const std::string suffix = std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+      report(("TIPP without, " + suffix).c_str(), repeat, [&] { return runCore(xy, options); });
+      report(
+        ("TIPP, " + suffix).c_str(), repeat, [&] { return runConstrained(xy, segments, options); });
+    }
+    if (argc > 4)
+    {
+      report("vtkDelaunay2D", 1, [&] { return runVtkConstrained(xy, segments); });
+    }
+    return 0;
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "benchmarkConstraints: %s\n", error.what());
+    return 1;
+  }
+}

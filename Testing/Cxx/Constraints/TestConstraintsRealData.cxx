@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Real boundaries and breaklines.
+#include "Comparison.h"
+#include "ConstrainedOracle.h"
+#include "RealData.h"
+
+#include <fstream>
+#include <string>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+
+/// A closed polygon of a file that begins with the number of its corners.
+Coordinates readPolygon(const std::string& path)
+{
+  std::ifstream file(path);
+  std::size_t count = 0;
+  int attributes = 0;
+  file >> count >> attributes;
+  Coordinates xy(2 * count);
+  for (double& value : xy)
+  {
+    file >> value;
+  }
+  EXPECT_TRUE(file) << path;
+  return xy;
+}
+
+std::vector<Constraint> closedChain(const Coordinates& xy)
+{
+  const std::int64_t count = std::int64_t(xy.size() / 2);
+  std::vector<Constraint> chain;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    chain.push_back({ i, (i + 1) % count });
+  }
+  return chain;
+}
+
+class RealConstraints : public testing::TestWithParam<std::string>
+{
+};
+
+TEST_P(RealConstraints, PolygonIsInTheTriangulation)
+{
+  TIPP_REQUIRE_REAL_DATA(path, "constraints/" + GetParam() + ".txt");
+  const Coordinates xy = readPolygon(path);
+  const std::vector<Constraint> chain = closedChain(xy);
+  EXPECT_TRUE(isConstrained(xy, chain, triangulateConstrained(view(xy), chain)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, RealConstraints, testing::Values("LakeSuperior", "Sweden"),
+  [](const auto& info) { return info.param; });
+
+/// The edges of a mesh as constraints leave no choice: the mesh comes back.
+void expectElementsBack(const std::string& path)
+{
+  const AdcircMesh mesh = readAdcirc(path);
+  std::vector<Constraint> edges;
+  Triangles elements;
+  for (const Triangle& t : mesh.Elements)
+  {
+    elements.push_back(canonical(t[0], t[1], t[2]));
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      edges.push_back({ t[i], t[(i + 1) % 3] });
+    }
+  }
+  const ConstrainedTriangulation result =
+    triangulateConstrained(view(mesh.Nodes), edges, CrossingRule::Refuse);
+  const Triangles triangles = trianglesOf(result.Mesh);
+  elements = sorted(std::move(elements));
+  EXPECT_TRUE(std::includes(triangles.begin(), triangles.end(), elements.begin(), elements.end()));
+  EXPECT_TRUE(isConstrained(mesh.Nodes, edges, result));
+}
+
+TEST(RealConstraints, GiveBackEveryElementOfEC95d)
+{
+  TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
+  expectElementsBack(path);
+}
+
+TEST(RealConstraints, GiveBackEveryElementOfInternalOverflow)
+{
+  TIPP_REQUIRE_REAL_DATA(path, "adcirc/internal_overflow/internal_overflow.grd");
+  expectElementsBack(path);
+}
+
+/// Shorelines come one after the other, each closed by a point equal to its first.
+TEST(RealConstraints, ShorelinesAreInTheTriangulation)
+{
+  TIPP_REQUIRE_REAL_DATA(path, "coast/gshhg-2.3.7-full-ec95d-box.lonlat.txt.xz");
+  Coordinates xy = readCompressedTable(path, ' ', false, 0, 1);
+  constexpr std::size_t most = 20000; // what the oracle has time for
+  xy.resize(2 * most);
+  std::vector<Constraint> constraints;
+  for (std::size_t i = 1; i < most; ++i)
+  {
+    const double dx = xy[2 * i] - xy[2 * i - 2];
+    const double dy = xy[2 * i + 1] - xy[2 * i - 1];
+    constexpr double longest = 0.05; // degrees: a longer step leads to another shoreline
+    if (dx * dx + dy * dy < longest * longest)
+    {
+      constraints.push_back({ std::int64_t(i - 1), std::int64_t(i) });
+    }
+  }
+  EXPECT_TRUE(isConstrained(xy, constraints, triangulateConstrained(view(xy), constraints)));
+}
+
+} // namespace

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Constraints that cross.
+#include "Comparison.h"
+#include "ConstrainedOracle.h"
+
+#include "Predicates/SegmentCrossing.h"
+
+#include <gmpxx.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+
+ConstrainedTriangulation triangulateSplit(const Coordinates& xy,
+  const std::vector<Constraint>& constraints, CrossingRule crossings = CrossingRule::Split)
+{
+  return triangulateConstrained(view(xy), constraints, crossings);
+}
+
+TEST(SegmentCrossing, NeedsAPointInsideBoth)
+{
+  EXPECT_TRUE(crossProperly({ 0, 0 }, { 2, 2 }, { 0, 2 }, { 2, 0 }));
+  EXPECT_FALSE(crossProperly({ 0, 0 }, { 2, 2 }, { 1, 1 }, { 2, 0 })) << "an end on the other one";
+  EXPECT_FALSE(crossProperly({ 0, 0 }, { 2, 2 }, { 1, 1 }, { 3, 3 })) << "on one line";
+  EXPECT_FALSE(crossProperly({ 0, 0 }, { 2, 2 }, { 5, 0 }, { 0, 5 })) << "beyond an end";
+}
+
+/// No double is nearer to the exact coordinate.
+void expectNearest(double rounded, const mpq_class& exact)
+{
+  const auto off = [&exact](double value) -> mpq_class { return abs(mpq_class(value) - exact); };
+  EXPECT_TRUE(off(rounded) <= off(std::nextafter(rounded, HUGE_VAL))) << rounded;
+  EXPECT_TRUE(off(rounded) <= off(std::nextafter(rounded, -HUGE_VAL))) << rounded;
+}
+
+TEST(SegmentCrossing, IsRoundedToNearest)
+{
+  std::mt19937_64 random(5);
+  for (const int exponent : { 0, -1040, -1070, 900 })
+  {
+    for (int i = 0; i < 2000; ++i)
+    {
+      const auto draw = [&] { return std::ldexp(double(random() % 4001) - 2000, exponent); };
+      const Point2 a{ draw(), draw() };
+      const Point2 b{ draw(), draw() };
+      const Point2 c{ draw(), draw() };
+      const Point2 d{ draw(), draw() };
+      if (!crossProperly(a, b, c, d))
+      {
+        continue;
+      }
+      const mpq_class abX = mpq_class(b.x) - a.x;
+      const mpq_class abY = mpq_class(b.y) - a.y;
+      const mpq_class cdX = mpq_class(d.x) - c.x;
+      const mpq_class cdY = mpq_class(d.y) - c.y;
+      const mpq_class part =
+        ((mpq_class(c.x) - a.x) * cdY - (mpq_class(c.y) - a.y) * cdX) / (abX * cdY - abY * cdX);
+      const Point2 p = crossingPoint(a, b, c, d);
+      expectNearest(p.x, mpq_class(a.x) + part * abX);
+      expectNearest(p.y, mpq_class(a.y) + part * abY);
+    }
+  }
+}
+
+TEST(Crossings, BecomePoints)
+{
+  const Coordinates xy{ 0, 0, 4, 4, 0, 4, 4, 0, 2, 9 };
+  const std::vector<Constraint> constraints{ { 0, 1 }, { 2, 3 } };
+  const ConstrainedTriangulation result = triangulateSplit(xy, constraints);
+  EXPECT_TRUE(isConstrained(xy, constraints, result));
+  ASSERT_EQ(1u, result.Constraints.Crossings.size());
+  const CrossingPoint& crossing = result.Constraints.Crossings.front();
+  EXPECT_EQ((Point2{ 2, 2 }), crossing.Position);
+  EXPECT_EQ(0, crossing.A);
+  EXPECT_EQ(1, crossing.B);
+  EXPECT_EQ(0.5, crossing.Fraction);
+  EXPECT_EQ((std::array<std::int64_t, 2>{ 0, 1 }), crossing.Constraints);
+  EXPECT_EQ(1, result.Constraints.Rounds);
+}
+
+TEST(Crossings, OfManyAtOnePlaceAreOnePoint)
+{
+  Coordinates xy;
+  std::vector<Constraint> constraints;
+  for (int i = 0; i < 5; ++i)
+  {
+    xy.insert(xy.end(), { -2.0 + i, -3, 2.0 - i, 3 });
+    constraints.push_back({ 2 * i, 2 * i + 1 });
+  }
+  const ConstrainedTriangulation result = triangulateSplit(xy, constraints);
+  EXPECT_TRUE(isConstrained(xy, constraints, result));
+  EXPECT_EQ(1u, result.Constraints.Crossings.size());
+}
+
+TEST(Crossings, OfAnEdgeThatIsAConstraintAreFound)
+{
+  // The short one is an edge of the Delaunay triangulation, which the other one crosses.
+  const Coordinates xy{ 0, -1, 0, 1, -9, 0, 9, 0.5 };
+  const std::vector<Constraint> constraints{ { 2, 3 }, { 0, 1 } };
+  const ConstrainedTriangulation result = triangulateSplit(xy, constraints);
+  EXPECT_TRUE(isConstrained(xy, constraints, result));
+  EXPECT_EQ(1u, result.Constraints.Crossings.size());
+}
+
+TEST(Crossings, AreRefusedNamingTheFirst)
+{
+  const Coordinates xy{ 0, 0, 4, 4, 0, 4, 4, 0, 9, 0, 9, 1 };
+  try
+  {
+    triangulateSplit(xy, { { 4, 5 }, { 0, 1 }, { 3, 2 } }, CrossingRule::Refuse);
+    FAIL();
+  }
+  catch (const std::invalid_argument& error)
+  {
+    EXPECT_STREQ("constraint 1 (points 0 and 1) crosses constraint 2 (points 3 and 2) at (2, 2): "
+                 "have crossings split, or remove one of the two.",
+      error.what());
+  }
+}
+
+TEST(Crossings, AreNotRefusedWhereThereAreNone)
+{
+  const Coordinates xy{ 0, 0, 4, 4, 0, 4, 2, 2 };
+  const std::vector<Constraint> constraints{ { 0, 1 }, { 2, 3 } };
+  EXPECT_TRUE(
+    isConstrained(xy, constraints, triangulateSplit(xy, constraints, CrossingRule::Refuse)));
+}
+
+TEST(Crossings, OfLongSegmentsAreSplitUntilNothingCrosses)
+{
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> coordinate(0, 1);
+  Coordinates xy;
+  std::vector<Constraint> constraints;
+  for (int i = 0; i < 120; ++i)
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      xy.push_back(coordinate(random));
+    }
+    constraints.push_back({ 2 * i, 2 * i + 1 });
+  }
+  const ConstrainedTriangulation result = triangulateSplit(xy, constraints);
+  EXPECT_TRUE(isConstrained(xy, constraints, result));
+  EXPECT_GT(result.Constraints.Crossings.size(), 1000u);
+}
+
+/// Segments one unit in the last place beside each other: crossings are rounded far along them.
+TEST(Crossings, OfNearlyParallelSegmentsEnd)
+{
+  Coordinates xy;
+  std::vector<Constraint> constraints;
+  for (int i = 0; i < 12; ++i)
+  {
+    const double low = 1 + i * 0x1p-52;
+    const double high = 1 + (11 - i) * 0x1p-52;
+    xy.insert(xy.end(), { 0.5, low, 1.5, high });
+    constraints.push_back({ 2 * i, 2 * i + 1 });
+  }
+  xy.insert(xy.end(), { 1, 1, 1, 3, 1, 1 + 0x1p-52 });
+  const ConstrainedTriangulation result = triangulateSplit(xy, constraints);
+  EXPECT_TRUE(isConstrained(xy, constraints, result));
+  EXPECT_GT(result.Constraints.Crossings.size() + 1, 1u);
+}
+
+} // namespace

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Constraints/ReadConstraintFile.h"
+#include "ExpectIOError.h"
+#include "SharedData.h"
+#include "TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using tipp::ConstraintTable;
+using Edges = std::vector<std::array<std::int64_t, 2>>;
+using Numbers = std::vector<double>;
+
+class ConstraintFile : public testing::Test
+{
+protected:
+  ConstraintTable read(const std::string& name, const std::string& content) const
+  {
+    return tipp::readConstraintFile(this->Folder.file(name, content));
+  }
+
+  void expectError(
+    const std::string& name, const std::string& content, const std::string& words) const
+  {
+    const std::string path = this->Folder.file(name, content);
+    tipp::test::expectIOError(path, words, [&]() { tipp::readConstraintFile(path); });
+  }
+
+  const tipp::test::TemporaryFolder Folder;
+};
+
+TEST_F(ConstraintFile, CsvOfCoordinates)
+{
+  const ConstraintTable table = this->read("a.csv", "x1,y1,x2,y2\n0,1,2,3\n4,5,6,7\n");
+  EXPECT_EQ((Numbers{ 0, 1, 2, 3, 4, 5, 6, 7 }), table.XY);
+  EXPECT_EQ((Edges{ { 0, 1 }, { 2, 3 } }), table.Edges);
+  EXPECT_EQ(2u, table.PolygonBegin);
+}
+
+TEST_F(ConstraintFile, CsvOfIds)
+{
+  const ConstraintTable table = this->read("a.csv", "0,7\n7,2\n");
+  EXPECT_TRUE(table.XY.empty());
+  EXPECT_EQ((Edges{ { 0, 7 }, { 7, 2 } }), table.Edges);
+}
+
+TEST_F(ConstraintFile, CsvThatIsNeitherIsAnError)
+{
+  this->expectError("a.csv", "1,2,3\n4,5,6\n", "has 3 columns");
+  this->expectError("a.csv", "1,2.5\n", "is no whole number");
+  this->expectError("a.csv", "-1,2\n", "is no whole number");
+}
+
+TEST_F(ConstraintFile, PolyWithVertices)
+{
+  const ConstraintTable table = this->read("a.poly",
+    "# a triangle with a hole\n3 2 0 1\n1 0 0 9\n2 4 0 9\n\n3 0 4 9 # the last\n2 1\n1 1 2 9\n2 3 "
+    "1 9\n"
+    "1\n1 0.5 0.25\n");
+  EXPECT_EQ((Numbers{ 0, 0, 4, 0, 0, 4 }), table.XY);
+  EXPECT_EQ((Edges{ { 0, 1 }, { 2, 0 } }), table.Edges);
+  EXPECT_EQ((Numbers{ 0.5, 0.25 }), table.Holes);
+}
+
+TEST_F(ConstraintFile, PolyWithVerticesInANodeFile)
+{
+  this->Folder.file("a.node", "3 2 0 0\n0 0 0\n1 4 0\n2 0 4\n");
+  const ConstraintTable table = this->read("a.poly", "0 2 0 0\n1 0\n0 2 1\n0\n");
+  EXPECT_EQ((Numbers{ 0, 0, 4, 0, 0, 4 }), table.XY);
+  EXPECT_EQ((Edges{ { 2, 1 } }), table.Edges);
+}
+
+TEST_F(ConstraintFile, DamagedPolyIsAnError)
+{
+  const std::string vertices = "2 2 0 0\n1 0 0\n2 4 0\n";
+  this->expectError("a.poly", "", "ends before the number of vertices");
+  this->expectError("a.poly", "2 2 0 0\n1 0 0\n", "ends before a vertex");
+  this->expectError("a.poly", "2 2 0 0\n1 0 0\n3 4 0\n", "numbers a vertex otherwise");
+  this->expectError("a.poly", vertices + "1 0\n1 1 3\n0\n", "names a vertex that is not given");
+  this->expectError("a.poly", vertices + "1 0\n1 1 x\n0\n", "has a field that is no number");
+  this->expectError("a.poly", vertices + "1 0\n1 1.5 2\n0\n", "no whole number");
+  this->expectError("a.poly", vertices + "99999999 0\n", "announces 99999999 lines");
+  this->expectError("a.poly", vertices + "0 0\n1\n1 5\n", "has too few fields for a hole");
+}
+
+TEST_F(ConstraintFile, BoundariesOfAnAdcircGrid)
+{
+  const std::string grid = "title\n1 4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 1 0\n1 3 1 2 3\n";
+  const ConstraintTable table = this->read("fort.14",
+    grid +
+      "1 = open\n2 = nodes\n2 0\n1\n2\n3 = land\n7\n2 0\n2\n3\n3 21\n1\n2\n4\n1 24\n3 4 0.5 1 1\n");
+  EXPECT_EQ(8u, table.XY.size());
+  EXPECT_EQ((Edges{ { 0, 1 }, { 1, 2 }, { 0, 1 }, { 1, 3 }, { 3, 0 } }), table.Edges);
+  this->expectError("fort.14", grid, "ends before the number of boundaries");
+  this->expectError("fort.14", grid + "0\n0\n0\n0\n", "has no boundaries");
+  this->expectError("fort.14", grid + "1\n2\n2\n1\n9\n", "names node 9, which is not given");
+}
+
+TEST_F(ConstraintFile, BoundariesOfARealGridAreChains)
+{
+  TIPP_REQUIRE_DATA(path, "adcirc/internal_overflow/internal_overflow.grd");
+  const ConstraintTable table = tipp::readConstraintFile(path);
+  EXPECT_GT(table.Edges.size(), 300u);
+}
+
+TEST_F(ConstraintFile, LinesAndPolygonsOfAVtkFile)
+{
+  const ConstraintTable table = this->read("a.vtk",
+    "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n0 0 5\n1 0 6\n1 1 "
+    "7\n0 1 8\n"
+    "LINES 1 4\n3 0 1 2\nPOLYGONS 1 4\n3 0 2 3\n");
+  EXPECT_EQ((Edges{ { 0, 1 }, { 1, 2 }, { 0, 2 }, { 2, 3 }, { 3, 0 } }), table.Edges);
+  EXPECT_EQ(2u, table.PolygonBegin);
+  EXPECT_EQ((Numbers{ 5, 6, 7, 8 }), table.Height);
+}
+
+TEST_F(ConstraintFile, UnknownExtensionIsAnError)
+{
+  this->expectError("a.shp", "", "has no extension that tells a kind of constraints");
+}
+
+} // namespace

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// tipp delaunay --constraints
+#include "RunTipp.h"
+
+#include "Meshes/ReadMesh.h"
+#include "Points/ReadPoints.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+
+using namespace tipp::test;
+using Words = std::vector<std::string>;
+
+/// A square, and in it a smaller one around a point.
+class TippConstraints : public testing::Test
+{
+protected:
+  TippConstraints()
+  {
+    this->Folder.file(
+      "points.csv", "x,y,z\n0,0,0\n8,0,0\n8,8,8\n0,8,8\n3,3,0\n5,3,0\n5,5,0\n3,5,0\n4,4.25,0\n");
+    this->Folder.file("cross.csv", "x1,y1,x2,y2\n0,0,8,8\n0,8,8,0\n");
+  }
+
+  Outcome delaunay(const Words& more) const
+  {
+    Words arguments{ "delaunay", "points.csv" };
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runTipp(this->Folder, arguments);
+  }
+
+  void expectUsageError(const Words& more, const std::string& words) const
+  {
+    const Outcome outcome = this->delaunay(more);
+    EXPECT_EQ(2, outcome.ExitCode) << outcome.Err;
+    EXPECT_NE(std::string::npos, outcome.Err.find(words)) << outcome.Err;
+  }
+
+  double area(const std::string& name) const
+  {
+    const tipp::TriangleMesh mesh = tipp::readMesh(this->Folder.path(name));
+    double area = 0;
+    for (std::size_t i = 0; i < mesh.Triangles.size(); i += 3)
+    {
+      const double* p[3];
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        p[k] = &mesh.XY[2 * std::size_t(mesh.Triangles[i + k])];
+      }
+      area +=
+        ((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0])) / 2;
+    }
+    return area;
+  }
+
+  const TemporaryFolder Folder;
+};
+
+TEST_F(TippConstraints, CrossingIsAddedAndTold)
+{
+  const Outcome outcome = this->delaunay({ "-o", "mesh.vtp", "--constraints", "cross.csv" });
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  // The middle splits the first one too: it goes through two corners of the smaller square.
+  EXPECT_NE(std::string::npos, outcome.Out.find("2 constraints of 8 edges, 1 crossings"))
+    << outcome.Out;
+  const tipp::PointTable points = tipp::readPoints(this->Folder.path("mesh.vtp"));
+  ASSERT_EQ(10u, points.size());
+  EXPECT_EQ(4, points.XY[18]);
+  EXPECT_EQ(4, points.XY[19]);
+  EXPECT_EQ(64, this->area("mesh.vtp"));
+}
+
+TEST_F(TippConstraints, CrossingIsRefused)
+{
+  const Outcome outcome =
+    this->delaunay({ "-o", "mesh.vtp", "--constraints", "cross.csv", "--refuse-crossings" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("cross.csv")) << outcome.Err;
+  EXPECT_NE(std::string::npos, outcome.Err.find("crosses constraint 1")) << outcome.Err;
+}
+
+TEST_F(TippConstraints, NewPointsNeedAnOutputThatHoldsThem)
+{
+  const Outcome outcome = this->delaunay({ "-o", "mesh.npy", "--constraints", "cross.csv" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("adds 1 points")) << outcome.Err;
+}
+
+TEST_F(TippConstraints, PolygonsKeepTheirInside)
+{
+  this->Folder.file("square.vtk",
+    "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n3 3 1\n5 3 1\n5 5 "
+    "1\n3 5 1\n"
+    "POLYGONS 1 5\n4 0 1 2 3\n");
+  ASSERT_EQ(0, this->delaunay({ "-o", "mesh.vtp", "--constraints", "square.vtk" }).ExitCode);
+  EXPECT_EQ(4, this->area("mesh.vtp"));
+}
+
+TEST_F(TippConstraints, HolesAreRemovedBySeeds)
+{
+  this->Folder.file(
+    "square.poly", "4 2 0 0\n1 3 3\n2 5 3\n3 5 5\n4 3 5\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
+  const Words constraints{ "-o", "mesh.vtp", "--constraints", "square.poly" };
+  ASSERT_EQ(0, this->delaunay(constraints).ExitCode);
+  EXPECT_EQ(64, this->area("mesh.vtp"));
+  Words hole = constraints;
+  hole.insert(hole.end(), { "--hole", "4", "4" });
+  const Outcome outcome = this->delaunay(hole);
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  EXPECT_EQ(60, this->area("mesh.vtp"));
+  hole = constraints;
+  hole.insert(hole.end(), { "--hole", "9", "4" });
+  EXPECT_EQ(1, this->delaunay(hole).ExitCode);
+}
+
+TEST_F(TippConstraints, OptionsThatDoNotGoTogetherAreUsageErrors)
+{
+  this->expectUsageError({ "-o", "mesh.vtp", "--refuse-crossings" }, "needs --constraints");
+  this->expectUsageError({ "-o", "mesh.vtp", "--hole", "1", "2" }, "needs --constraints");
+  this->expectUsageError(
+    { "-o", "mesh.tipp", "--constraints", "cross.csv" }, "does not go with an output named .tipp");
+  this->expectUsageError({ "-o", "mesh.vtp", "--constraints", "cross.csv", "--masters", "single" },
+    "needs a single process");
+}
+
+TEST_F(TippConstraints, CheckProvesThem)
+{
+  ASSERT_EQ(0, this->delaunay({ "-o", "mesh.vtp", "--constraints", "cross.csv" }).ExitCode);
+  const auto check = [this](const Words& more)
+  {
+    Words arguments{ "check", "points.csv", "mesh.vtp", "--tie-rule" };
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runTipp(this->Folder, arguments);
+  };
+  const Outcome good = check({ "--constraints", "cross.csv" });
+  EXPECT_EQ(0, good.ExitCode) << good.Out << good.Err;
+  EXPECT_EQ(1, check({}).ExitCode) << "a point more";
+  this->Folder.file("other.csv", "0,5\n");
+  const Outcome lost = check({ "--constraints", "other.csv" });
+  EXPECT_EQ(1, lost.ExitCode);
+  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are no chain of edges")) << lost.Out;
+}
+
+TEST_F(TippConstraints, CheckTakesAMeshThatIsCut)
+{
+  this->Folder.file("square.poly",
+    "4 2 0 0\n1 3 3\n2 5 3\n3 5 5\n4 3 5\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n1\n1 4 4\n");
+  ASSERT_EQ(0, this->delaunay({ "-o", "mesh.vtp", "--constraints", "square.poly" }).ExitCode);
+  const Outcome outcome =
+    runTipp(this->Folder, { "check", "points.csv", "mesh.vtp", "--constraints", "square.poly" });
+  EXPECT_EQ(0, outcome.ExitCode) << outcome.Out << outcome.Err;
+}
+
+TEST_F(TippConstraints, MissingFileIsNamed)
+{
+  const Outcome outcome = this->delaunay({ "-o", "mesh.vtp", "--constraints", "lost.csv" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("lost.csv")) << outcome.Err;
+}
+
+} // namespace

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws point sets, constraints and options, triangulates, and compares with the oracle. A case is
+// known by its number and the seed: 'fuzzConstraints --seed S --case N' repeats one.
+#include "Comparison.h"
+#include "ConstrainedOracle.h"
+#include "DegeneratePoints.h"
+#include "FuzzDriver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+
+std::vector<Constraint> drawConstraints(Engine& random, std::size_t points)
+{
+  std::vector<Constraint> constraints;
+  if (points > 0)
+  {
+    const std::size_t count = random() % (random() % 3 == 0 ? 20 : 5);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      constraints.push_back({ PointId(random() % points), PointId(random() % points) });
+    }
+  }
+  return constraints;
+}
+
+TriangulationOptions drawOptions(Engine& random)
+{
+  TriangulationOptions options;
+  const int sides[] = { 0, 1, 2, 5 };
+  options.Columns = options.Rows = sides[random() % 4];
+  options.Threads = random() % 8 == 0 ? 2 : 1;
+  return options;
+}
+
+/// Whether coordinates differ by so many orders of magnitude that constraints which are within a
+/// unit in the last place of each other may be refused.
+bool isWide(const Coordinates& xy)
+{
+  double least = HUGE_VAL;
+  double most = 0;
+  for (const double value : xy)
+  {
+    if (std::isfinite(value) && value != 0)
+    {
+      least = std::min(least, std::fabs(value));
+      most = std::max(most, std::fabs(value));
+    }
+  }
+  constexpr double wide = 1e9;
+  return most / least > wide;
+}
+
+testing::AssertionResult check(const Coordinates& xy, const std::vector<Constraint>& constraints,
+  const TriangulationOptions& options)
+{
+  try
+  {
+    return isConstrained(
+      xy, constraints, triangulateConstrained(view(xy), constraints, CrossingRule::Split, options));
+  }
+  catch (const std::invalid_argument& error)
+  {
+    return isWide(xy) ? testing::AssertionSuccess() : testing::AssertionFailure() << error.what();
+  }
+  catch (const std::exception& error)
+  {
+    return testing::AssertionFailure() << "an exception: " << error.what();
+  }
+}
+
+/// Draws and compares one case; prints it if it fails.
+bool passes(std::uint64_t seed, std::uint64_t number)
+{
+  std::seed_seq both{ seed, number };
+  Engine random(both);
+  const Coordinates xy = drawDegeneratePoints(random);
+  const std::vector<Constraint> constraints = drawConstraints(random, xy.size() / 2);
+  const TriangulationOptions options = drawOptions(random);
+  const auto outcome = check(xy, constraints, options);
+  if (outcome)
+  {
+    return true;
+  }
+  std::printf("case %llu of seed %llu, %s: %s\n", (unsigned long long)number,
+    (unsigned long long)seed, describe(options).c_str(), outcome.message());
+  for (std::size_t i = 0; i < xy.size(); i += 2)
+  {
+    std::printf("  %a, %a, // %zu: %.17g %.17g\n", xy[i], xy[i + 1], i / 2, xy[i], xy[i + 1]);
+  }
+  for (const Constraint& constraint : constraints)
+  {
+    std::printf("  { %lld, %lld },\n", (long long)constraint.A, (long long)constraint.B);
+  }
+  return false;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  return fuzz("fuzzConstraints", argc, argv, passes);
+}
