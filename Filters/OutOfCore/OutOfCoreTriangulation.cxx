@@ -17,6 +17,7 @@
 #include "Partitioned/NeighborIds.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 
 namespace tipp
@@ -28,6 +29,14 @@ namespace
 struct Aborted
 {
 };
+
+/// Different for different numbers.
+std::string exactText(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
 
 /// What the statistics of a whole mesh say whichever process has finished it.
 template <typename Archive>
@@ -238,7 +247,7 @@ private:
       std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
       std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
       (options.Neighbors ? " linked" : "") + (options.CountOnly ? " counted" : "") +
-      (options.MaximumEdge > 0 ? " edges " + std::to_string(options.MaximumEdge) : "") + "\n" +
+      (options.MaximumEdge > 0 ? " edges " + exactText(options.MaximumEdge) : "") + "\n" +
       (options.Taker ? options.Taker->identity() : "") + "\n" + options.Scratch;
   }
 

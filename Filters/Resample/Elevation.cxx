@@ -3,6 +3,7 @@
 
 #include "Messages/Postbox.h"
 #include "Resample/SamplingRange.h"
+#include "Vtk/CheckDataSet.h"
 
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
@@ -11,9 +12,18 @@
 
 namespace tipp
 {
+
 void HeightRange::add(vtkPointSet* mesh)
 {
-  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  const vtkIdType points = mesh->GetNumberOfPoints();
+  if (points > 0 && allPointsFinite(mesh))
+  {
+    const double* const bounds = mesh->GetBounds(); // which VTK keeps
+    this->add(bounds[4]);
+    this->add(bounds[5]);
+    return;
+  }
+  for (vtkIdType i = 0; i < points; ++i)
   {
     double p[3];
     mesh->GetPoint(i, p);
