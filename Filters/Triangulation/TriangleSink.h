@@ -27,10 +27,7 @@ public:
     this->InteriorCounts[std::size_t(p)] = count;
   }
 
-  std::size_t interiorCount(PartitionIndex p) const
-  {
-    return this->InteriorCounts[std::size_t(p)];
-  }
+  std::size_t interiorCount(PartitionIndex p) const { return this->InteriorCounts[std::size_t(p)]; }
 
   using Corners = std::array<Id, 3>;
   struct Seam

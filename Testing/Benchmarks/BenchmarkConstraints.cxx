@@ -6,11 +6,13 @@
 #include "Measure.h"
 #include "PointSets.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace
 {
@@ -33,7 +35,9 @@ std::vector<Constraint> makeSegments(std::vector<double>& xy, std::size_t wanted
   {
     sparse.insert(sparse.end(), { xy[2 * i], xy[2 * i + 1] });
   }
-  const Triangulation mesh = triangulate(PointsView(sparse.data(), sparse.size() / 2, 2));
+  TriangulationOptions alone; // this process must not start threads, for measure() forks
+  alone.Threads = 1;
+  const Triangulation mesh = triangulate(PointsView(sparse.data(), sparse.size() / 2, 2), alone);
   const auto id = [](std::int32_t place) { return PointId(place) * PointId(step); };
   const std::size_t edges = mesh.Ids32.size() / 2; // each is in two triangles
   const std::size_t every = std::max<std::size_t>(1, edges / wanted);
@@ -78,10 +82,7 @@ int main(int argc, char** argv)
       test::makePointSet("uniform", std::size_t(std::strtod(argv[1], nullptr)));
     const auto wanted = std::size_t(std::strtod(argv[2], nullptr));
     const int repeat = argc > 3 ? std::atoi(argv[3]) : 3;
-    std::vector<Constraint> segments;
-    // In a process of its own: this one must not start threads.
-    setenv("OMP_NUM_THREADS", "1", 1);
-    segments = makeSegments(xy, wanted);
+    const std::vector<Constraint> segments = makeSegments(xy, wanted);
     std::printf("%zu points, %zu segments\n", xy.size() / 2, segments.size());
     report("CGAL, 1 thread", repeat, [&] { return runCgalConstrained(xy, segments); });
     for (const int threads : { 1, 2 })

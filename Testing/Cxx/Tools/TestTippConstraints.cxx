@@ -139,7 +139,7 @@ TEST_F(TippConstraints, CheckProvesThem)
   const Outcome good = check({ "--constraints", "cross.csv" });
   EXPECT_EQ(0, good.ExitCode) << good.Out << good.Err;
   EXPECT_EQ(1, check({}).ExitCode) << "a point more";
-  this->Folder.file("other.csv", "0,5\n");
+  this->Folder.file("other.csv", "0,8\n");
   const Outcome lost = check({ "--constraints", "other.csv" });
   EXPECT_EQ(1, lost.ExitCode);
   EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are no chain of edges")) << lost.Out;
