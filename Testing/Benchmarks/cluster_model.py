@@ -45,6 +45,9 @@ class Trace:
                 self.vertices.append(int(words[3]))
                 self.later.append([pair.split(":") for pair in words[4:]])
         self.later = [[(numbers[q], int(vertices)) for q, vertices in pairs] for pairs in self.later]
+        self.chain = [0] * len(self.owner)  # how many partitions wait for each, one after the other
+        for p in reversed(range(len(self.owner))):
+            self.chain[p] = max((1 + self.chain[q] for q, _ in self.later[p]), default=0)
 
     def compute(self):
         return sum(self.seconds)
@@ -78,7 +81,7 @@ def read_traces(paths):
 def simulate(trace, cores, network, scale=1.0):
     """Seconds until all partitions are triangulated, if rank r computes on core r % cores.
 
-    A core takes the partition that became ready first (Engine/ReadyPartitions.h). With `scale` times the points a
+    A core takes the partition that the longest chain waits for (Engine/ReadyPartitions.h). With `scale` times the points a
     partition costs so much more and sends the square root of it more, for vertices are sent along its boundary.
     """
     latency, bandwidth = network
@@ -86,7 +89,7 @@ def simulate(trace, cores, network, scale=1.0):
     for pairs in trace.later:
         for q, _ in pairs:
             awaited[q] += 1
-    ready = [[] for _ in range(cores)]  # (since when, partition)
+    ready = [[] for _ in range(cores)]  # (minus the chain, partition)
     ready_at = [0.0] * len(trace.owner)
     free = [True] * cores
     events = []  # (time, kind, partition): 0 is ready, 1 is done
@@ -116,7 +119,7 @@ def simulate(trace, cores, network, scale=1.0):
                 if awaited[q] == 0:
                     heapq.heappush(events, (ready_at[q], 0, q))
         else:
-            heapq.heappush(ready[core], (now, p))
+            heapq.heappush(ready[core], (-trace.chain[p], p))
         start(core, now)
     return end
 

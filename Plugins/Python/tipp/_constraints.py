@@ -29,7 +29,8 @@ def source_of(
         return check.data_object(edge_source, "edge_source", ("vtkPolyData",), "a vtkPolyData"), False
     if edges is None and polygons is None:
         return None, False
-    lines = [] if edges is None else _edges(edges)
+    count = data.GetNumberOfPoints()
+    lines = [] if edges is None else _edges(edges, count)
     by_id: list[np.ndarray] = []
     by_place: list[np.ndarray] = []
     for number, polygon in enumerate([] if polygons is None else _polygons(polygons)):
@@ -38,6 +39,7 @@ def source_of(
         for ring in rings:
             array = taken(ring, name)
             if array.ndim == 1 and array.dtype.kind in "iu":
+                _require_ids(array, count, name)
                 by_id.append(array)
             elif array.ndim == 2 and array.shape[1] in (2, 3) and array.dtype.kind in "fiu":
                 by_place.append(_spatial(array))
@@ -55,10 +57,17 @@ def _polygons(polygons: Any) -> Iterable[Any]:
     return polygons
 
 
-def _edges(edges: ArrayLike) -> list[np.ndarray]:
+def _require_ids(ids: np.ndarray, count: int, name: str) -> None:
+    wrong = ids[(ids < 0) | (ids >= count)]
+    if wrong.size > 0:
+        raise ValueError(f"{name} name point {wrong.flat[0]}, but there are {count} points; ids count from 0.")
+
+
+def _edges(edges: ArrayLike, count: int) -> list[np.ndarray]:
     array = taken(edges, "edges")
     if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
         raise ValueError(f"edges have the shape {array.shape} and type {array.dtype}; give point ids of shape (m, 2).")
+    _require_ids(array, count, "edges")
     return list(array)
 
 

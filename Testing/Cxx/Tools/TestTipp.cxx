@@ -127,7 +127,7 @@ class TippFailure
 
 const Misuse failures[] = {
   { "MissingInput", { "delaunay", "absent.npy", "-o", "out.npy" }, "absent.npy: cannot be opened" },
-  { "InputOfUnknownKind", { "delaunay", "absent.abc", "-o", "out.npy" }, "absent.las: has no ext" },
+  { "InputOfUnknownKind", { "delaunay", "absent.abc", "-o", "out.npy" }, "absent.abc: has no ext" },
   { "BrokenVtkFile", { "delaunay", "broken.vtp", "-o", "out.npy" }, "syntax error" },
   { "BrokenLegacyFile", { "delaunay", "broken.vtk", "-o", "out.npy" }, "Unrecognized file type" },
   { "BrokenPlyFile", { "delaunay", "broken.ply", "-o", "out.npy" }, "PLY" },
