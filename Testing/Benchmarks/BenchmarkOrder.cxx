@@ -71,10 +71,10 @@ struct SharedOut
 void printPartitions(SharedOut& shared)
 {
   const Tiling& tiles = shared.Of.Leaves;
-  const ProcessorWatch initialWatch;
   const Regions regions(tiles, shared.Buckets, 1);
   std::vector<SeamVertex> initial =
     chooseInitialPoints(tiles, shared.Buckets, InitialPointsOfPartition, 1);
+  const ProcessorWatch initialWatch; // from here on every rank does the same for all partitions
   const std::vector<SeamVertex> artificial = makeArtificialPoints(tiles);
   initial.insert(initial.end(), artificial.begin(), artificial.end());
   const SeamTriangles mesh = triangulateVertices(regions, initial, 1);
