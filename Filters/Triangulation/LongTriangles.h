@@ -5,6 +5,7 @@
 #include "Predicates/Point2.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace tipp
@@ -15,9 +16,10 @@ inline bool hasLongEdge(Point2 a, Point2 b, Point2 c, double length)
 {
   const auto isLong = [length](Point2 p, Point2 q)
   {
-    const double dx = p.x - q.x;
-    const double dy = p.y - q.y;
-    return dx * dx + dy * dy > length * length;
+    const double dx = std::fabs(p.x - q.x);
+    const double dy = std::fabs(p.y - q.y);
+    // Most edges are short. Squares could overflow.
+    return dx + dy > length && std::hypot(dx, dy) > length;
   };
   return isLong(a, b) || isLong(b, c) || isLong(c, a);
 }

@@ -2,6 +2,7 @@
 #include "ScheduleTesting.h"
 
 #include "Engine/Routing.h"
+#include "Triangulation/LongTriangles.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
@@ -90,6 +91,18 @@ class SinkOf
 };
 
 TYPED_TEST_SUITE(SinkOf, IdTypes, IdNames);
+
+TEST(LongTriangles, AreToldAtAnyMagnitude)
+{
+  for (const double unit : { 1e-300, 1.0, 1e300 })
+  {
+    const Point2 a{ 0, 0 };
+    const Point2 b{ 3 * unit, 0 };
+    const Point2 c{ 0, 4 * unit };
+    EXPECT_FALSE(hasLongEdge(a, b, c, 5.001 * unit)) << unit;
+    EXPECT_TRUE(hasLongEdge(a, b, c, 4.999 * unit)) << unit;
+  }
+}
 
 TYPED_TEST(SinkOf, InteriorTrianglesAndSeamsAreAllThere)
 {
