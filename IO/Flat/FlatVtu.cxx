@@ -4,9 +4,9 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Flat/VtuHeader.h"
+#include "Vtk/Compatibility.h"
 
 #include "vtkCellType.h"
-#include "vtkCellTypes.h"
 
 #include <algorithm>
 
@@ -48,8 +48,7 @@ int checkTypes(const InputFile& file, const RawArray& types)
       if (type != first || (type != VTK_TRIANGLE && type != VTK_TETRA))
       {
         throw IOError(file.path(),
-          "holds a cell (cell " + std::to_string(cell) + ", " +
-            vtkCellTypes::GetClassNameFromTypeId(type) +
+          "holds a cell (cell " + std::to_string(cell) + ", " + cellTypeName(type) +
             ") where all must be triangles or all tetrahedra; 'tipp flatten' cuts other cells into "
             "these.");
       }
