@@ -1,20 +1,5 @@
-# tipp_optional_part(<name> <found> <advice>)
-# Sets TIPP_HAS_<name> by the option TIPP_USE_<name> (AUTO, ON, OFF) and whether what it needs is found.
-function (tipp_optional_part name found advice)
-  set(wanted "${TIPP_USE_${name}}")
-  if (NOT wanted MATCHES "^(AUTO|ON|OFF|TRUE|FALSE|YES|NO|1|0)$")
-    message(FATAL_ERROR "TIPP_USE_${name} is '${wanted}'; give AUTO, ON or OFF.")
-  endif ()
-  set(has OFF)
-  if (found AND (wanted STREQUAL "AUTO" OR wanted))
-    set(has ON)
-  elseif (wanted STREQUAL "AUTO")
-    message(STATUS "Without ${name}: ${advice}")
-  elseif (wanted)
-    message(FATAL_ERROR "TIPP_USE_${name} is ${wanted}, but ${advice}")
-  endif ()
-  set(TIPP_HAS_${name} "${has}" PARENT_SCOPE)
-endfunction ()
+# TIPP_HAS_MPI and TIPP_HAS_OPENCL: what is found of the parts that TIPP can do without.
+include(TIPPOptionalPart)
 
 set(found OFF)
 if (TARGET VTK::ParallelMPI AND TARGET VTK::mpi)

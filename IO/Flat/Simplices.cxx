@@ -3,7 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Parallel/Poll.h"
-#include "Vtk/Compatibility.h"
+#include "Vtk/CellTypeName.h"
 
 #include "vtkCell.h"
 #include "vtkCellType.h"
@@ -141,7 +141,7 @@ private:
     if (!quadratic && !this->Cell->IsLinear())
     {
       throw IOError(this->Path,
-        std::string("holds a curved cell (") + cellTypeName(type) +
+        "holds a curved cell (" + cellTypeName(type) +
           ") that cannot be cut along its own points; make it linear first.");
     }
     if (this->Result.CellSize == 4 && !quadratic)

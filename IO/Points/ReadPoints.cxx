@@ -4,12 +4,9 @@
 #include "Adcirc/AdcircGrid.h"
 #include "Files/Extension.h"
 #include "Files/IOError.h"
-#include "Points/DataSetPoints.h"
 #include "Points/NpyPoints.h"
 #include "Points/TextPoints.h"
-#include "Vtk/ReadDataSet.h"
-
-#include "vtkDataSet.h"
+#include "Vtk/VtkFiles.h"
 
 #include <utility>
 
@@ -22,7 +19,7 @@ PointTable readFixedColumns(const std::string& path)
 {
   if (isVtkFile(path))
   {
-    return pointsOf(readDataSet(path));
+    return readVtkPoints(path);
   }
   AdcircGrid grid = readAdcircGrid(path);
   PointTable table;

@@ -10,12 +10,6 @@
 #include "vtkUnstructuredGrid.h"
 #include "vtkVersionMacros.h"
 
-#if __has_include("vtkCellTypeUtilities.h") // VTK 9.6
-#include "vtkCellTypeUtilities.h"
-#else
-#include "vtkCellTypes.h"
-#endif
-
 // VTK 9.3 and ParaView 5.11 have vtkAlgorithm::CheckAbort() and leave AbortExecute as it is;
 // before, an execution began by resetting it.
 #define TIPP_VTK_CHECKS_ABORT (VTK_VERSION_NUMBER > VTK_VERSION_CHECK(9, 2, 20221101))
@@ -48,21 +42,11 @@ inline void beginExecution([[maybe_unused]] vtkAlgorithm* algorithm)
 #endif
 }
 
-/// The name of the class of cells of a type.
-inline const char* cellTypeName(int type)
-{
-#if __has_include("vtkCellTypeUtilities.h")
-  return vtkCellTypeUtilities::GetClassNameFromTypeId(type);
-#else
-  return vtkCellTypes::GetClassNameFromTypeId(type);
-#endif
-}
-
 /// The types of cells as the grid stores them: in VTK 9.6 also by an array that computes its
 /// values.
 inline vtkDataArray* storedCellTypes(vtkUnstructuredGrid* grid)
 {
-#if __has_include("vtkCellTypeUtilities.h")
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
   return grid->GetCellTypes();
 #else
   return grid->GetCellTypesArray();

@@ -9,6 +9,7 @@ import sys
 from types import ModuleType
 from typing import Any, Sequence
 
+from ._arguments import flag
 from ._meshes import write
 from ._resample import resample
 from ._triangulate import delaunay_2d
@@ -20,9 +21,16 @@ class Accessor:
     def __init__(self, dataset: Any):
         self._dataset = dataset
 
-    def delaunay_2d(self, **options: Any) -> Any:
-        """As tipp.delaunay_2d(mesh, ...)."""
-        return delaunay_2d(self._dataset, **options)
+    def delaunay_2d(self, *, inplace: bool = False, edge_source: Any = None, **options: Any) -> Any:
+        """As tipp.delaunay_2d(mesh, ...); with `inplace` the data set becomes the result."""
+        if edge_source is not None:
+            raise ValueError("edge_source is given, but tipp has no constrained triangulation; "
+                             "use PyVista's delaunay_2d.")
+        result = delaunay_2d(self._dataset, **options)
+        if not flag(inplace, "inplace"):
+            return result
+        self._dataset.copy_from(result, deep=False)
+        return self._dataset
 
     def resample_to_image(self, *, bounds: Sequence[float] | None = None, **options: Any) -> Any:
         """As tipp.resample(mesh, ...)."""

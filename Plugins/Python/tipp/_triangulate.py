@@ -5,19 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Mapping
 
 from . import _arguments as check
-from ._arrays import point_cloud, triangles_of, wrapped_like
-from ._run import run
-from .vtkTIPPFilters import vtkTIPPDelaunay2D
+from . import _engine
+from ._progress import ProgressBar, progress_of
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike
 
-_SCHEDULES = {
-    "stages": vtkTIPPDelaunay2D.STAGES,
-    "dynamic": vtkTIPPDelaunay2D.DYNAMIC,
-    "producer-consumer": vtkTIPPDelaunay2D.PRODUCER_CONSUMER,
-}
+_SCHEDULES = {"stages": 0, "dynamic": 1, "producer-consumer": 2}
 
 
 def delaunay(
@@ -27,7 +22,7 @@ def delaunay(
     partitions: tuple[int, int] | None = None,
     schedule: str = "dynamic",
     threads: int = 0,
-    progress_bar: bool = False,
+    progress_bar: ProgressBar = False,
 ) -> np.ndarray:
     """Exact Delaunay triangulation of points in the x-y plane.
 
@@ -46,7 +41,8 @@ def delaunay(
     threads
         OpenMP threads; 0 is OpenMP's choice.
     progress_bar
-        Whether to show progress on the standard error stream.
+        Whether to show progress on the standard error stream; or a function that is told the fraction done, and
+        ends the run by returning False.
 
     Returns
     -------
@@ -74,9 +70,8 @@ def delaunay(
     >>> tipp.delaunay(points).shape
     (199964, 3)
     """
-    mesh = delaunay_2d(points, tol=tol, partitions=partitions, schedule=schedule, threads=threads,
-                       progress_bar=progress_bar)
-    return triangles_of(mesh)
+    options = _options(tol, partitions, schedule, threads)
+    return _engine.delaunay(points, options, progress_of(progress_bar))
 
 
 def delaunay_2d(
@@ -90,7 +85,7 @@ def delaunay_2d(
     partitions: tuple[int, int] | None = None,
     schedule: str = "dynamic",
     threads: int = 0,
-    progress_bar: bool = False,
+    progress_bar: ProgressBar = False,
 ) -> Any:
     """Exact Delaunay triangulation as a mesh; the keywords are those of PyVista's delaunay_2d.
 
@@ -113,7 +108,8 @@ def delaunay_2d(
     Returns
     -------
     vtkPolyData or pyvista.PolyData
-        The input's points and point data, and triangles. A PyVista input makes a PyVista output.
+        The input's points and point data, and triangles. A PyVista input makes a PyVista output. Without VTK a
+        tipp.Mesh.
 
     Raises
     ------
@@ -124,21 +120,22 @@ def delaunay_2d(
     --------
     >>> mesh = tipp.delaunay_2d(xyz, point_data={"depth": depth})
     """
-    is_data = check.is_vtk_object(points)
-    if is_data and point_data is not None:
-        raise ValueError("point_data goes with an array of points; a data set has its own.")
-    if is_data:
+    options = _options(tol, partitions, schedule, threads)
+    options["alpha"] = check.number(alpha, "alpha", at_least=0)
+    options["offset"] = check.number(offset, "offset", at_least=0)
+    options["bound"] = check.flag(bound, "bound")
+    if check.is_vtk_object(points):
+        if point_data is not None:
+            raise ValueError("point_data goes with an array of points; a data set has its own.")
         check.data_object(points, "points", ("vtkPointSet",), "a vtkPointSet or an array")
-    algorithm = vtkTIPPDelaunay2D()
-    algorithm.SetInputData(points if is_data else point_cloud(points, point_data))
-    algorithm.SetTolerance(check.number(tol, "tol", at_least=0))
-    algorithm.SetAlpha(check.number(alpha, "alpha", at_least=0))
-    algorithm.SetOffset(check.number(offset, "offset", at_least=0))
-    algorithm.SetBoundingTriangulation(check.flag(bound, "bound"))
-    if partitions is not None:
-        algorithm.SetNumberOfPartitions(*check.several(partitions, "partitions", 2, check.whole))
-    algorithm.SetSchedule(check.choice(schedule, "schedule", _SCHEDULES))
-    algorithm.SetNumberOfThreads(check.threads(threads))
-    check.flag(progress_bar, "progress_bar")
-    run(algorithm, progress_bar)
-    return wrapped_like(algorithm.GetOutput(), points)
+    return _engine.delaunay_2d(points, point_data, options, progress_of(progress_bar))
+
+
+def _options(tol: Any, partitions: Any, schedule: Any, threads: Any) -> dict[str, Any]:
+    """What delaunay() and delaunay_2d() have in common, checked."""
+    return {
+        "tolerance": check.number(tol, "tol", at_least=0),
+        "partitions": (0, 0) if partitions is None else tuple(check.several(partitions, "partitions", 2, check.whole)),
+        "schedule": check.choice(schedule, "schedule", _SCHEDULES),
+        "threads": check.threads(threads),
+    }
