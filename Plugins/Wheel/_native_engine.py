@@ -81,7 +81,13 @@ def _triangulated(points: np.ndarray, options: dict[str, Any], progress: Progres
 
 
 def delaunay(points: Any, options: dict[str, Any], progress: Progress | None) -> np.ndarray:
-    return _triangulated(_plain(coordinates(points)), options, progress)["triangles"]
+    if check.is_vtk_object(points):
+        from ._vtk import xyz_of
+
+        array = xyz_of(points)
+    else:
+        array = coordinates(points)
+    return _triangulated(_plain(array), options, progress)["triangles"]
 
 
 def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any], progress: Progress | None) -> Any:

@@ -71,6 +71,7 @@ def delaunay(
     (199964, 3)
     """
     options = _options(tol, partitions, schedule, threads)
+    _require_points(points)
     return _engine.delaunay(points, options, progress_of(progress_bar))
 
 
@@ -127,8 +128,13 @@ def delaunay_2d(
     if check.is_vtk_object(points):
         if point_data is not None:
             raise ValueError("point_data goes with an array of points; a data set has its own.")
-        check.data_object(points, "points", ("vtkPointSet",), "a vtkPointSet or an array")
+    _require_points(points)
     return _engine.delaunay_2d(points, point_data, options, progress_of(progress_bar))
+
+
+def _require_points(points: Any) -> None:
+    if check.is_vtk_object(points):
+        check.data_object(points, "points", ("vtkPointSet",), "a vtkPointSet or an array")
 
 
 def _options(tol: Any, partitions: Any, schedule: Any, threads: Any) -> dict[str, Any]:
