@@ -37,8 +37,18 @@ if (TIPP_SANITIZE MATCHES "thread")
   list(APPEND CMAKE_BUILD_RPATH "${tipp_archer_directory}")
 endif ()
 
+# What a target such as TIPP::TIPPIO stands for: VTK 9.7 names the targets of modules after their libraries.
+function (tipp_real_target result target)
+  get_target_property(aliased "${target}" ALIASED_TARGET)
+  if (aliased)
+    set(target "${aliased}")
+  endif ()
+  set(${result} "${target}" PARENT_SCOPE)
+endfunction ()
+
 # Our own targets only: VTK's generated wrappers do not compile without warnings.
 function (tipp_warnings target)
+  tipp_real_target(target "${target}")
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic)
   # GCC takes what a unity build includes for headers, whose anonymous namespaces it warns of.
   if (CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

@@ -5,6 +5,7 @@
 set(tipp_embed_kernel_script "${CMAKE_CURRENT_LIST_DIR}/EmbedKernel.cmake")
 
 function (tipp_embed_kernels target)
+  tipp_real_target(real_target "${target}")
   set(headers "")
   foreach (file IN LISTS ARGN)
     set(source "${CMAKE_CURRENT_SOURCE_DIR}/${file}")
@@ -17,8 +18,9 @@ function (tipp_embed_kernels target)
       DEPENDS ${parts} "${tipp_embed_kernel_script}"
       COMMENT "Embedding ${file}"
       VERBATIM)
-    target_sources(${target} PRIVATE "${header}")
+    target_sources(${real_target} PRIVATE "${header}")
     list(APPEND headers "${header}")
   endforeach ()
-  add_custom_target(${target}_kernels DEPENDS ${headers})
+  string(REPLACE "TIPP::" "" name "${target}")
+  add_custom_target(${name}_kernels DEPENDS ${headers})
 endfunction ()

@@ -5,6 +5,9 @@ set(tipp_package_destination "${CMAKE_INSTALL_LIBDIR}/cmake/TIPP")
 string(REPLACE "TIPP::" "" tipp_components "${tipp_modules}")
 string(REPLACE ";" ", " tipp_components "${tipp_components}")
 string(REPLACE ";" " " tipp_vtk_components "${TIPP_VTK_COMPONENTS}")
+if (TIPP_HAS_MPI)
+  string(APPEND tipp_vtk_components " ParallelMPI")
+endif ()
 
 configure_package_config_file(
   "${CMAKE_CURRENT_LIST_DIR}/TIPPConfig.cmake.in" "${CMAKE_BINARY_DIR}/TIPPConfig.cmake"

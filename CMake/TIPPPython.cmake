@@ -32,7 +32,19 @@ unset(CMAKE_UNITY_BUILD) # the cached one again
 
 # All that the package imports.
 add_custom_target(tipp_python)
-set(tipp_python_imports "")
+set(tipp_python_imports "from ._vtk_version import require as _require_vtk\n\n_require_vtk(\"${VTK_VERSION}\")\n")
+set(tipp_python_classes [=[[
+    "vtkPartitionedUnstructuredReader",
+    "vtkPartitionedUnstructuredWriter",
+    "vtkRangeResampleFilter",
+    "vtkTIPPDelaunay2D",
+    "vtkTIPPOutOfCoreDelaunay2D",
+    "vtkTIPPPointReader",
+]]=])
+set(tipp_python_more_imports "")
+set(tipp_python_summary
+  "and the VTK classes that these use: vtkTIPPDelaunay2D, vtkTIPPOutOfCoreDelaunay2D,\nvtkRangeResampleFilter, vtkTIPPPointReader, vtkPartitionedUnstructuredReader and\nvtkPartitionedUnstructuredWriter.")
+set(tipp_engine _vtk_engine)
 foreach (module IN LISTS tipp_wrapped_modules)
   string(REPLACE "TIPP::" "vtk" library "${module}")
   add_dependencies(tipp_python "${library}Python")
@@ -41,12 +53,13 @@ endforeach ()
 set(tipp_python_source "${PROJECT_SOURCE_DIR}/Plugins/Python/tipp")
 set(tipp_python_package "${CMAKE_BINARY_DIR}/${tipp_python_destination}/tipp")
 configure_file("${tipp_python_source}/__init__.py.in" "${tipp_python_package}/__init__.py" @ONLY)
+configure_file("${tipp_python_source}/_engine.py.in" "${tipp_python_package}/_engine.py" @ONLY)
 file(GLOB tipp_python_files CONFIGURE_DEPENDS
   "${tipp_python_source}/*.py" "${tipp_python_source}/py.typed")
 foreach (file IN LISTS tipp_python_files)
   configure_file("${file}" "${tipp_python_package}" COPYONLY)
 endforeach ()
-install(FILES "${tipp_python_package}/__init__.py" ${tipp_python_files}
+install(FILES "${tipp_python_package}/__init__.py" "${tipp_python_package}/_engine.py" ${tipp_python_files}
   DESTINATION "${tipp_python_destination}/tipp"
   COMPONENT python)
 

@@ -10,8 +10,9 @@
 #include "Output/NeighborArray.h"
 #include "Output/RepresentativeIds.h"
 #include "Output/StatisticsTable.h"
-#include "Parallel/ParallelFor.h"
+#include "Output/TriangulationWarnings.h"
 #include "Parallel/Stopwatch.h"
+#include "Parallel/ThreadLimit.h"
 #include "Projection/BestFittingPlane.h"
 #include "Projection/BoundingPoints.h"
 #include "Projection/FiniteBounds.h"
@@ -33,8 +34,6 @@
 #include "vtkTable.h"
 #include "vtkTransform.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -46,24 +45,6 @@ vtkCxxSetObjectMacro(vtkTIPPDelaunay2D, Controller, vtkMultiProcessController);
 
 namespace
 {
-
-/// The calling thread's OpenMP regions have so many threads while this object lives; 0 changes
-/// nothing.
-class ThreadLimit
-{
-public:
-  explicit ThreadLimit(int threads)
-    : Before(omp_get_max_threads())
-  {
-    omp_set_num_threads(tipp::threadCount(threads));
-  }
-  ~ThreadLimit() { omp_set_num_threads(this->Before); }
-  ThreadLimit(const ThreadLimit&) = delete;
-  void operator=(const ThreadLimit&) = delete;
-
-private:
-  int Before;
-};
 
 /// A polygon without one of its corners would not tell what is inside.
 void requireClosed(tipp::PointsView points, const tipp::SourceConstraints& constraints)
@@ -169,7 +150,7 @@ int vtkTIPPDelaunay2D::RequestData(
   vtkPointSet* input = vtkPointSet::GetData(inputVector[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
   vtkTable* statistics = vtkTable::GetData(outputVector, 1);
-  const ThreadLimit limit(this->NumberOfThreads);
+  const tipp::ThreadLimit limit(this->NumberOfThreads);
   try
   {
     this->CheckNumbers();
@@ -341,24 +322,10 @@ void vtkTIPPDelaunay2D::Report(const tipp::Triangulation& triangulation, vtkIdTy
 {
   this->NumberOfDuplicatePoints = vtkIdType(triangulation.Duplicates.size());
   this->NumberOfRejectedPoints = vtkIdType(triangulation.Rejected.size());
-  if (this->NumberOfRejectedPoints > 0)
+  for (const std::string& warning :
+    tipp::warningsOf(triangulation, numberOfPoints, this->MaximumEdgeLength > 0))
   {
-    vtkWarningMacro(
-      << this->NumberOfRejectedPoints << " of " << numberOfPoints
-      << " points have a NaN or infinite coordinate and are in no triangle; the first "
-         "is point "
-      << triangulation.Rejected.front() << ".");
-  }
-  if (triangulation.triangleCount() == 0)
-  {
-    const vtkIdType distinct =
-      numberOfPoints - this->NumberOfDuplicatePoints - this->NumberOfRejectedPoints;
-    vtkWarningMacro("No triangles: of "
-      << numberOfPoints << " points, " << distinct << " are finite and distinct"
-      << (distinct < 3                     ? ", and it takes three."
-             : this->MaximumEdgeLength > 0 ? ", and all triangles have edges that are too long, or "
-                                             "all points are on one line."
-                                           : ", and all are on one line."));
+    vtkWarningMacro(<< warning);
   }
 }
 
@@ -371,8 +338,10 @@ void vtkTIPPDelaunay2D::SetCells(tipp::Triangulation& triangulation, vtkPolyData
       output->SetPolys(tipp::takeCells(std::move(ids), 3));
       return;
     }
-    auto shape = tipp::alphaShape(ids, output->GetPoints(), this->Alpha,
-      coveredPoints(triangulation, output->GetNumberOfPoints()));
+    const auto pointAt = [points = output->GetPoints()](tipp::PointId id, double* p)
+    { points->GetPoint(vtkIdType(id), p); };
+    auto shape = tipp::alphaShape(
+      ids, pointAt, this->Alpha, coveredPoints(triangulation, output->GetNumberOfPoints()));
     if (this->AlphaTris)
     {
       output->SetPolys(tipp::takeCells(std::move(shape.Triangles), 3));

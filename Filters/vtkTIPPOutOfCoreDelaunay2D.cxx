@@ -6,6 +6,7 @@
 #include "OutOfCore/OutOfCoreRanks.h"
 #include "Output/Monitor.h"
 #include "Output/OutOfCoreTable.h"
+#include "Output/TriangulationWarnings.h"
 
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
@@ -173,15 +174,9 @@ tipp::OutOfCoreOptions vtkTIPPOutOfCoreDelaunay2D::Options() const
 
 void vtkTIPPOutOfCoreDelaunay2D::Report(const tipp::OutOfCoreStatistics& statistics)
 {
-  if (statistics.Rejected > 0)
+  for (const std::string& warning : tipp::warningsOf(statistics))
   {
-    vtkWarningMacro(<< statistics.Rejected << " of " << statistics.Points
-                    << " points have a NaN or infinite coordinate and are left out.");
-  }
-  if (statistics.Triangles == 0)
-  {
-    vtkWarningMacro("No triangles: there are fewer than three distinct points, or all are on one "
-                    "line.");
+    vtkWarningMacro(<< warning);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "Reading/PieceCache.h"
 #include "Reading/PieceSource.h"
 #include "Reading/RangeFilter.h"
+#include "Vtk/Compatibility.h"
 
 #include "vtkDataArraySelection.h"
 #include "vtkDataObject.h"
@@ -449,7 +450,7 @@ int vtkPartitionedUnstructuredReader::RequestData(
     [this]
     {
       this->UpdateProgress(this->GetProgress());
-      return this->GetAbortExecute() == 0;
+      return !tipp::abortRequested(this);
     });
   try
   {

@@ -5,6 +5,7 @@
 #include "Partitioning/GatherDataSets.h"
 #include "Partitioning/PartitionInput.h"
 #include "Partitioning/Ranks.h"
+#include "Vtk/Compatibility.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkAlgorithmOutput.h"
@@ -81,10 +82,10 @@ vtkTypeBool vtkPartitionedUnstructuredWriter::ProcessRequest(
 int vtkPartitionedUnstructuredWriter::Write()
 {
   this->Written = false;
-  this->SetAbortExecute(0);
+  tipp::beginExecution(this);
   if (this->InputFileName && *this->InputFileName)
   {
-    this->WriteData();
+    this->WritePartitioned();
   }
   else if (this->Controller && this->Controller->GetNumberOfProcesses() > 1)
   {
@@ -128,7 +129,20 @@ void vtkPartitionedUnstructuredWriter::RequireInput()
   }
 }
 
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 7, 0)
+bool vtkPartitionedUnstructuredWriter::WriteDataAndReturn()
+{
+  this->WritePartitioned();
+  return this->Written;
+}
+#else
 void vtkPartitionedUnstructuredWriter::WriteData()
+{
+  this->WritePartitioned();
+}
+#endif
+
+void vtkPartitionedUnstructuredWriter::WritePartitioned()
 {
   try
   {
@@ -167,7 +181,7 @@ void vtkPartitionedUnstructuredWriter::Partition()
   options.Progress = [this](double fraction)
   {
     this->UpdateProgress(fraction);
-    return this->GetAbortExecute() == 0;
+    return !tipp::abortRequested(this);
   };
   tipp::PartitionStatistics statistics;
   if (this->InputFileName && *this->InputFileName)

@@ -37,7 +37,8 @@
 #ifndef vtkPartitionedUnstructuredWriter_h
 #define vtkPartitionedUnstructuredWriter_h
 
-#include "vtkTIPPIOModule.h" // For export macro
+#include "vtkTIPPIOModule.h"  // For export macro
+#include "vtkVersionMacros.h" // For VTK_VERSION_NUMBER
 #include "vtkWriter.h"
 
 class vtkMultiProcessController;
@@ -139,7 +140,11 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 7, 0)
+  bool WriteDataAndReturn() override;
+#else
   void WriteData() override;
+#endif
 
 private:
   vtkPartitionedUnstructuredWriter(const vtkPartitionedUnstructuredWriter&) = delete;
@@ -147,6 +152,7 @@ private:
 
   void WriteOnRanks();
   void RequireInput();
+  void WritePartitioned();
   void Partition();
 
   char* FileName = nullptr;

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds and passes every check, or the ones named: sh Utilities/test.sh [STEP...]
-# Steps: format build tests asan; and, by name only for they take long, tsan, paraview, tidy and analysis.
+# Steps: format build tests asan; and, by name only for they take long, tsan, paraview, wheel, tidy and analysis.
 # Each ends with one line; the first failure stops the run.
 set -eu
 
@@ -37,11 +37,17 @@ check_paraview() {
   sh Utilities/build.sh paraview && ctest --preset default --label-regex '^paraview$'
 }
 
+# A wheel, of the Python that PYTHON names, and its tests in clean environments; needs PyPI.
+check_wheel() {
+  rm -rf wheels && sh Utilities/wheel.sh wheels "${PYTHON:-python3}" &&
+    sh Utilities/wheel-test.sh wheels/tipp-*.whl "${PYTHON:-python3}"
+}
+
 for step in ${*:-format build tests asan}; do
   case $step in
-    format | build | tests | asan | tsan | paraview | tidy | analysis) ;;
+    format | build | tests | asan | tsan | paraview | wheel | tidy | analysis) ;;
     *)
-      echo "Unknown step '$step'; the steps are: format build tests asan tsan paraview tidy analysis." >&2
+      echo "Unknown step '$step'; the steps are: format build tests asan tsan paraview wheel tidy analysis." >&2
       exit 2
       ;;
   esac

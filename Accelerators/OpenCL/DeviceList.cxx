@@ -2,7 +2,6 @@
 #include "OpenCL/DeviceList.h"
 
 #include "OpenCL/AcceleratorError.h"
-#include "OpenCL/Drivers.h"
 
 #include <algorithm>
 #include <cctype>
@@ -91,11 +90,6 @@ const DeviceDescription& deviceOf(
 
 } // namespace
 
-const std::vector<DeviceDescription>& listDevices()
-{
-  return drivers().descriptions();
-}
-
 std::optional<DeviceDescription> chooseDevice(
   const DeviceChoice& choice, const std::vector<DeviceDescription>& devices)
 {
@@ -110,8 +104,7 @@ std::optional<DeviceDescription> chooseDevice(
   }
   if (devices.empty())
   {
-    throw AcceleratorError("This machine has no OpenCL device: install the device's OpenCL driver "
-                           "(pocl-opencl-icd makes one of the processor), or use OpenMP.");
+    throw AcceleratorError(noDeviceAdvice());
   }
   const DeviceDescription& device = deviceOf(choice, devices);
   if (!device.Double)

@@ -36,6 +36,9 @@ struct DeviceDescription
 /// driver is installed. Looked for once a process; later calls give the same list.
 VTKTIPPACCELERATORS_EXPORT const std::vector<DeviceDescription>& listDevices();
 
+/// A sentence for users on a machine without OpenCL devices: what is missing and what to do.
+VTKTIPPACCELERATORS_EXPORT std::string noDeviceAdvice();
+
 /// The device that a choice means among `devices`, or nothing if OpenMP is to be used. Throws
 /// AcceleratorError, which names the devices there are, if the chosen device is missing or has no
 /// double precision. For Auto that is never an error.

@@ -116,4 +116,15 @@ Drivers& drivers()
   return *instance;
 }
 
+const std::vector<DeviceDescription>& listDevices()
+{
+  return drivers().descriptions();
+}
+
+std::string noDeviceAdvice()
+{
+  return "This machine has no OpenCL device: install the device's OpenCL driver (pocl-opencl-icd "
+         "makes one of the processor), or use OpenMP.";
+}
+
 } // namespace tipp

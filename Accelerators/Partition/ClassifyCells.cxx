@@ -5,6 +5,8 @@
 #include "Partition/ClassifyOnDevice.h"
 #include "Partition/ClassifyOnThreads.h"
 
+#include <utility>
+
 namespace tipp
 {
 
@@ -12,9 +14,9 @@ Membership classifyCells(
   const CellsView& cells, const BoxTiling& tiling, const ClassifyOptions& options)
 {
   const CellShape shape(cells, tiling.dimension());
-  ComputeDevice* device = ComputeDevice::open(options.Device);
-  return device != nullptr ? classifyOnDevice(*device, cells, tiling, shape, options.DeviceMemory)
-                           : classifyOnThreads(cells, tiling, shape, options.Threads);
+  std::optional<Membership> onDevice =
+    classifyOnDevice(options.Device, cells, tiling, shape, options.DeviceMemory);
+  return onDevice ? std::move(*onDevice) : classifyOnThreads(cells, tiling, shape, options.Threads);
 }
 
 } // namespace tipp

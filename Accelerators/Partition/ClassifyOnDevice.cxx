@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partition/ClassifyOnDevice.h"
 
+#include "OpenCL/ComputeDevice.h"
 #include "Partition/Classify.cl.h"
 #include "Partition/ClassifyOnThreads.h"
 
@@ -273,10 +274,13 @@ private:
 
 } // namespace
 
-Membership classifyOnDevice(ComputeDevice& device, const CellsView& cells, const BoxTiling& tiling,
-  const CellShape& shape, std::uint64_t memory)
+std::optional<Membership> classifyOnDevice(const DeviceChoice& choice, const CellsView& cells,
+  const BoxTiling& tiling, const CellShape& shape, std::uint64_t memory)
 {
-  return DeviceClassification(device, cells, tiling, shape, memory).run();
+  ComputeDevice* const device = ComputeDevice::open(choice);
+  return device
+    ? std::optional<Membership>(DeviceClassification(*device, cells, tiling, shape, memory).run())
+    : std::nullopt;
 }
 
 } // namespace tipp

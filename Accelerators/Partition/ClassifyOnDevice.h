@@ -2,16 +2,20 @@
 #ifndef tippClassifyOnDevice_h
 #define tippClassifyOnDevice_h
 
-#include "OpenCL/ComputeDevice.h"
+#include "OpenCL/DeviceChoice.h"
 #include "Partition/CellShape.h"
+
+#include <cstdint>
+#include <optional>
 
 namespace tipp
 {
 
 /// classifyCells() on an OpenCL device, in pieces that need at most `memory` bytes of it beside the
-/// tiling (0: half of what it has). What the device cannot decide is decided here.
-Membership classifyOnDevice(ComputeDevice& device, const CellsView& cells, const BoxTiling& tiling,
-  const CellShape& shape, std::uint64_t memory);
+/// tiling (0: half of what it has). What the device cannot decide is decided here. Nothing if the
+/// choice is OpenMP. Throws AcceleratorError.
+std::optional<Membership> classifyOnDevice(const DeviceChoice& choice, const CellsView& cells,
+  const BoxTiling& tiling, const CellShape& shape, std::uint64_t memory);
 
 } // namespace tipp
 

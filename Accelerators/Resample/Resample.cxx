@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/Resample.h"
 
+#include "OpenCL/AcceleratorError.h"
 #include "Parallel/Stopwatch.h"
 #include "Resample/CellVisitor.h"
+#include "Resample/DeviceResampler.h"
 #include "Resample/DirectSampling.h"
-#include "Resample/ResampleOnDevice.h"
-#include "Resample/SampleOnDevice.h"
 
 #include <memory>
 #include <string>
@@ -57,7 +57,7 @@ public:
       this->fill(claims.Cells.get());
       this->Result.InterpolationSeconds += this->lap();
     }
-    this->Result.Device = this->Device ? this->Device->description().Name : "OpenMP";
+    this->Result.Device = this->deviceName();
     return this->Result;
   }
 
@@ -67,12 +67,10 @@ private:
     const bool small = this->Mesh.Cells + this->Window.samples() < worthATransfer;
     if (this->Options.Device.Kind != tipp::Device::Auto || !small)
     {
-      this->Device = ComputeDevice::open(this->Options.Device);
+      this->Device = DeviceResampler::open(this->Mesh, this->Options);
     }
     if (this->Device)
     {
-      this->Pieces = std::make_unique<MeshPieces>(
-        *this->Device, this->Mesh, this->Options.Threads, this->Options.DeviceMemory);
       this->Transferred = this->Device->transferSeconds();
       this->Watch.restart();
     }
@@ -81,7 +79,7 @@ private:
   /// False if it takes more: cells overlap, or a device has more to do than one walk can.
   bool sampleAtOnce()
   {
-    if (this->Device && !canSampleOnDevice(this->Attributes))
+    if (this->Device && !this->Device->canSample(this->Attributes))
     {
       return false;
     }
@@ -99,8 +97,8 @@ private:
       this->tryDevice(
         [&]
         {
-          sampled = sampleOnDevice(*this->Pieces, this->Grid, this->Attributes, options.Valid,
-            partOf(this->Options.Progress, 0, 0.9));
+          sampled = this->Device->sample(
+            this->Grid, this->Attributes, options.Valid, partOf(this->Options.Progress, 0, 0.9));
         });
     }
     options.Progress =
@@ -112,7 +110,7 @@ private:
     this->Result.Aborted = direct.Aborted;
     this->Result.InterpolationSeconds = direct.FinishSeconds;
     this->Result.ClaimSeconds = this->lap() - direct.FinishSeconds;
-    this->Result.Device = this->Device ? this->Device->description().Name : "OpenMP";
+    this->Result.Device = this->deviceName();
     return !direct.Overlapping;
   }
 
@@ -128,6 +126,8 @@ private:
     }
     return std::max(0.0, this->Watch.restart() - transfer);
   }
+
+  std::string deviceName() const { return this->Device ? this->Device->name() : "OpenMP"; }
 
   /// If the device fails, it is not asked again.
   template <typename Work>
@@ -150,8 +150,7 @@ private:
     Claims claims;
     if (this->Device)
     {
-      this->tryDevice(
-        [&] { claims = claimOnDevice(*this->Pieces, this->Window.lattice(), report); });
+      this->tryDevice([&] { claims = this->Device->claim(this->Window.lattice(), report); });
     }
     return this->Device
       ? std::move(claims)
@@ -167,7 +166,7 @@ private:
       this->tryDevice(
         [&]
         {
-          completed = interpolateOnDevice(*this->Pieces, this->Window, claims, this->Attributes,
+          completed = this->Device->interpolate(this->Window, claims, this->Attributes,
             this->Options.Keys != nullptr, partOf(report, 0, 0.7));
         });
     }
@@ -192,9 +191,8 @@ private:
   const Lattice& Grid;
   const std::vector<Attribute>& Attributes;
   const ResampleOptions& Options;
-  SampleWindow Window; ///< the samples that are looked at
-  ComputeDevice* Device = nullptr;
-  std::unique_ptr<MeshPieces> Pieces; ///< with a Device
+  SampleWindow Window;                     ///< the samples that are looked at
+  std::unique_ptr<DeviceResampler> Device; ///< null: OpenMP
   Stopwatch Watch;
   double Transferred = 0; ///< what the device's transfers had taken at the last lap
   ResampleResult Result;

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AlphaShape/AlphaShape.h"
 
-#include "vtkMath.h"
-#include "vtkPoints.h"
-
 #include <algorithm>
 #include <utility>
 
@@ -22,55 +19,61 @@ Edge<Id> edgeOf(const Id* triangle, int i)
   return std::minmax({ triangle[i], triangle[(i + 1) % 3] });
 }
 
+double squaredDistance(const double a[3], const double b[3])
+{
+  return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+    (a[2] - b[2]) * (a[2] - b[2]);
+}
+
 double squaredCircumradius(const double a[3], const double b[3], const double c[3])
 {
-  double ab[3];
-  double ac[3];
-  double normal[3];
-  vtkMath::Subtract(b, a, ab);
-  vtkMath::Subtract(c, a, ac);
-  vtkMath::Cross(ab, ac, normal);
+  const double ab[3] = { b[0] - a[0], b[1] - a[1], b[2] - a[2] };
+  const double ac[3] = { c[0] - a[0], c[1] - a[1], c[2] - a[2] };
+  const double normal[3] = { ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2],
+    ab[0] * ac[1] - ab[1] * ac[0] };
+  const double squaredNormal =
+    normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
   // r = |ab| |bc| |ca| / (4 area), and the normal is twice the area long.
-  return vtkMath::Distance2BetweenPoints(a, b) * vtkMath::Distance2BetweenPoints(b, c) *
-    vtkMath::Distance2BetweenPoints(c, a) / (4 * vtkMath::Dot(normal, normal));
+  return squaredDistance(a, b) * squaredDistance(b, c) * squaredDistance(c, a) /
+    (4 * squaredNormal);
 }
 
 template <typename Id>
-bool isSmall(const Id* triangle, vtkPoints* points, double alpha)
+bool isSmall(const Id* triangle, const PointAt& pointAt, double alpha)
 {
   double p[3][3];
   for (int i = 0; i < 3; ++i)
   {
-    points->GetPoint(vtkIdType(triangle[i]), p[i]);
+    pointAt(PointId(triangle[i]), p[i]);
   }
   return squaredCircumradius(p[0], p[1], p[2]) <= alpha * alpha;
 }
 
 template <typename Id>
-bool isShort(Edge<Id> edge, vtkPoints* points, double alpha)
+bool isShort(Edge<Id> edge, const PointAt& pointAt, double alpha)
 {
   double p[2][3];
-  points->GetPoint(vtkIdType(edge.first), p[0]);
-  points->GetPoint(vtkIdType(edge.second), p[1]);
-  return 0.25 * vtkMath::Distance2BetweenPoints(p[0], p[1]) <= alpha * alpha;
+  pointAt(PointId(edge.first), p[0]);
+  pointAt(PointId(edge.second), p[1]);
+  return 0.25 * squaredDistance(p[0], p[1]) <= alpha * alpha;
 }
 
 template <typename Id>
-std::vector<char> smallTriangles(const Buffer<Id>& triangles, vtkPoints* points, double alpha)
+std::vector<char> smallTriangles(const Buffer<Id>& triangles, const PointAt& pointAt, double alpha)
 {
   std::vector<char> kept(triangles.size() / 3);
   const std::int64_t count = std::int64_t(kept.size());
 #pragma omp parallel for
   for (std::int64_t t = 0; t < count; ++t)
   {
-    kept[t] = isSmall(triangles.data() + 3 * t, points, alpha);
+    kept[t] = isSmall(triangles.data() + 3 * t, pointAt, alpha);
   }
   return kept;
 }
 
 template <typename Id>
 std::vector<Edge<Id>> shortEdgesOfDropped(
-  const Buffer<Id>& triangles, const std::vector<char>& kept, vtkPoints* points, double alpha)
+  const Buffer<Id>& triangles, const std::vector<char>& kept, const PointAt& pointAt, double alpha)
 {
   std::vector<Edge<Id>> edges;
   for (std::size_t t = 0; t < kept.size(); ++t)
@@ -78,7 +81,7 @@ std::vector<Edge<Id>> shortEdgesOfDropped(
     for (int i = 0; i < 3 && !kept[t]; ++i)
     {
       const Edge<Id> edge = edgeOf(triangles.data() + 3 * t, i);
-      if (isShort(edge, points, alpha))
+      if (isShort(edge, pointAt, alpha))
       {
         edges.push_back(edge);
       }
@@ -158,12 +161,12 @@ Buffer<Id> uncovered(const std::vector<char>& covered)
 
 template <typename Id>
 AlphaShape<Id> alphaShape(
-  const Buffer<Id>& triangles, vtkPoints* points, double alpha, std::vector<char> covered)
+  const Buffer<Id>& triangles, const PointAt& pointAt, double alpha, std::vector<char> covered)
 {
-  const std::vector<char> kept = smallTriangles(triangles, points, alpha);
+  const std::vector<char> kept = smallTriangles(triangles, pointAt, alpha);
   AlphaShape<Id> shape;
   shape.Triangles = compacted(triangles, kept);
-  shape.Lines = linesOutside(shortEdgesOfDropped(triangles, kept, points, alpha), shape.Triangles);
+  shape.Lines = linesOutside(shortEdgesOfDropped(triangles, kept, pointAt, alpha), shape.Triangles);
   for (const Buffer<Id>* cells : { &shape.Triangles, &shape.Lines })
   {
     for (Id point : *cells)
@@ -176,8 +179,8 @@ AlphaShape<Id> alphaShape(
 }
 
 template AlphaShape<std::int32_t> alphaShape(
-  const Buffer<std::int32_t>&, vtkPoints*, double, std::vector<char>);
+  const Buffer<std::int32_t>&, const PointAt&, double, std::vector<char>);
 template AlphaShape<std::int64_t> alphaShape(
-  const Buffer<std::int64_t>&, vtkPoints*, double, std::vector<char>);
+  const Buffer<std::int64_t>&, const PointAt&, double, std::vector<char>);
 
 } // namespace tipp

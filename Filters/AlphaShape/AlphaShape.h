@@ -4,12 +4,14 @@
 
 #include "Triangulation/Triangulate.h"
 
+#include <functional>
 #include <vector>
-
-class vtkPoints;
 
 namespace tipp
 {
+
+/// Writes the x, y and z of a point; from any thread.
+using PointAt = std::function<void(PointId, double*)>;
 
 /// What is left of a triangulation at a radius: cells of 3, 2 and 1 point ids in a row.
 template <typename Id>
@@ -24,12 +26,12 @@ struct AlphaShape
 /// rejected points). A triangle without area in space counts as infinitely large.
 template <typename Id>
 AlphaShape<Id> alphaShape(
-  const Buffer<Id>& triangles, vtkPoints* points, double alpha, std::vector<char> covered);
+  const Buffer<Id>& triangles, const PointAt& pointAt, double alpha, std::vector<char> covered);
 
 extern template AlphaShape<std::int32_t> alphaShape(
-  const Buffer<std::int32_t>&, vtkPoints*, double, std::vector<char>);
+  const Buffer<std::int32_t>&, const PointAt&, double, std::vector<char>);
 extern template AlphaShape<std::int64_t> alphaShape(
-  const Buffer<std::int64_t>&, vtkPoints*, double, std::vector<char>);
+  const Buffer<std::int64_t>&, const PointAt&, double, std::vector<char>);
 
 } // namespace tipp
 

@@ -3,8 +3,6 @@
 
 #include "Parallel/Stopwatch.h"
 
-#include "vtkMPIController.h"
-
 #include <algorithm>
 #include <array>
 #include <thread>
@@ -44,31 +42,25 @@ struct Postbox::Outgoing
 {
   Bytes Head;
   std::shared_ptr<Bytes> Content;
-  std::vector<vtkMPICommunicator::Request> Requests;
+  std::vector<std::unique_ptr<RankTransport::Sending>> Parts;
 
   bool hasLeft()
   {
-    while (!this->Requests.empty() && this->Requests.back().Test())
+    while (!this->Parts.empty() && this->Parts.back()->hasLeft())
     {
-      this->Requests.pop_back();
+      this->Parts.pop_back();
     }
-    return this->Requests.empty();
+    return this->Parts.empty();
   }
 };
 
 Postbox::Postbox(vtkMultiProcessController* controller)
+  : Transport(RankTransport::open(controller))
 {
-  if (controller && controller->GetNumberOfProcesses() > 1)
+  if (this->Transport)
   {
-    if (!vtkMPIController::SafeDownCast(controller))
-    {
-      throw std::invalid_argument(std::string("The controller is a ") + controller->GetClassName() +
-        "; several ranks need a vtkMPIController.");
-    }
-    this->Rank = controller->GetLocalProcessId();
-    this->Size = controller->GetNumberOfProcesses();
-    this->Controller.TakeReference(
-      vtkMPIController::SafeDownCast(controller->PartitionController(0, this->Rank)));
+    this->Rank = this->Transport->rank();
+    this->Size = this->Transport->size();
   }
   this->HasParted.assign(std::size_t(this->Size), 0);
 }
@@ -124,10 +116,7 @@ void Postbox::sendTo(
     std::memcpy(outgoing.Head.data() + sizeof(Head), content, size);
   }
   const auto send = [&](const char* data, std::size_t bytes, int tag)
-  {
-    outgoing.Requests.emplace_back();
-    this->Controller->NoBlockSend(data, static_cast<int>(bytes), to, tag, outgoing.Requests.back());
-  };
+  { outgoing.Parts.push_back(this->Transport->send(data, bytes, to, tag)); };
   send(outgoing.Head.data(), outgoing.Head.size(), HeadTag);
   if (!complete)
   {
@@ -149,21 +138,17 @@ void Postbox::testOutgoing()
 
 bool Postbox::probe(Arrival& arrival)
 {
-  if (!this->Controller)
+  if (!this->Transport)
   {
     return false;
   }
   this->testOutgoing();
-  int found = 0;
   int size = 0;
-  const char* const type = nullptr;
-  this->Controller->Iprobe(
-    vtkMultiProcessController::ANY_SOURCE, HeadTag, &found, &arrival.Source, type, &size);
-  if (!found)
+  if (!this->Transport->probe(HeadTag, arrival.Source, size))
   {
     return false;
   }
-  this->Controller->Receive(arrival.First.data(), size, arrival.Source, HeadTag);
+  this->Transport->receive(arrival.First.data(), std::size_t(size), arrival.Source, HeadTag);
   std::memcpy(&arrival.About, arrival.First.data(), sizeof(Head));
   return true;
 }
@@ -200,8 +185,7 @@ bool Postbox::receive(Message& message, const InParts* inParts)
   for (std::size_t at = 0; at < size; at += LargestPart)
   {
     const std::size_t part = std::min(LargestPart, size - at);
-    this->Controller->Receive(
-      message.Content.data() + at, static_cast<vtkIdType>(part), arrival.Source, PartTag);
+    this->Transport->receive(message.Content.data() + at, part, arrival.Source, PartTag);
   }
   return true;
 }
@@ -229,7 +213,7 @@ void Postbox::receiveParts(const Arrival& arrival, const TakePart& takePart)
   for (std::size_t at = 0; at < arrival.About.Size; at += LargestPart)
   {
     const std::size_t part = std::min(LargestPart, std::size_t(arrival.About.Size) - at);
-    this->Controller->Receive(Taken, static_cast<vtkIdType>(part), arrival.Source, PartTag);
+    this->Transport->receive(Taken, part, arrival.Source, PartTag);
     if (!failure)
     {
       take(part);
@@ -269,7 +253,7 @@ void Postbox::discardParts(const Arrival& arrival)
   for (std::size_t at = 0; at < arrival.About.Size; at += LargestPart)
   {
     const std::size_t part = std::min(LargestPart, std::size_t(arrival.About.Size) - at);
-    this->Controller->Receive(Taken, static_cast<vtkIdType>(part), arrival.Source, PartTag);
+    this->Transport->receive(Taken, part, arrival.Source, PartTag);
   }
 }
 

@@ -3,9 +3,8 @@
 #define tippPostbox_h
 
 #include "Messages/Bytes.h"
+#include "Messages/RankTransport.h"
 #include "vtkTIPPFiltersModule.h"
-
-#include "vtkSmartPointer.h"
 
 #include <chrono>
 #include <cstdint>
@@ -18,7 +17,6 @@
 #include <string>
 #include <vector>
 
-class vtkMPIController;
 class vtkMultiProcessController;
 
 namespace tipp
@@ -200,8 +198,7 @@ private:
   void noteFailure(const Message& message);
   [[noreturn]] void partAfterFailure();
 
-  /// A communicator of its own, so that no other message of the program is taken for one of ours.
-  vtkSmartPointer<vtkMPIController> Controller;
+  std::unique_ptr<RankTransport> Transport; ///< null: one rank
   int Rank = 0;
   int Size = 1;
   std::deque<Message> Inbox;

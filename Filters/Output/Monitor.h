@@ -2,7 +2,7 @@
 #ifndef tippMonitor_h
 #define tippMonitor_h
 
-#include "Compatibility.h"
+#include "Vtk/Compatibility.h"
 
 #include "vtkAlgorithm.h"
 

@@ -3,6 +3,7 @@
 
 #include "Arrays/ScalarTypes.h"
 #include "Parallel/ForChunks.h"
+#include "Resample/SamplingLattice.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -19,13 +20,10 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <numeric>
 #include <set>
 #include <stdexcept>
 #include <string>
-
-#include <unistd.h>
 
 namespace tipp
 {
@@ -174,16 +172,7 @@ void refuseTooLarge(const Lattice& local, const Lattice& wanted, bool exchanging
   };
   const double needed =
     count(local) * (arrays + claims + keys) + (exchanging ? count(wanted) * (arrays + keys) : 0);
-  const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
-  if (needed > memory)
-  {
-    char text[256];
-    std::snprintf(text, sizeof text,
-      "%.0f samples need at least %.1f GB of memory, and this machine has %.1f GB: use a smaller "
-      "range, fewer samples or fewer arrays.",
-      std::max(count(local), count(wanted)), needed / 1e9, memory / 1e9);
-    throw std::runtime_error(text);
-  }
+  requireMemory(std::max(count(local), count(wanted)), needed);
 }
 
 std::int64_t fillImage(SampledImage& samples, int threads, vtkImageData* image)

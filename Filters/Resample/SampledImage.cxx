@@ -4,6 +4,7 @@
 #include "Arrays/ScalarTypes.h"
 #include "Parallel/Stopwatch.h"
 #include "Resample/ToScalar.h"
+#include "Vtk/Compatibility.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -81,7 +82,7 @@ SampledImage::SampledImage(const Lattice& lattice, SamplingSettings settings)
   , Settings(std::move(settings))
 {
   this->Mask->SetName("vtkValidPointMask");
-  if (!this->Mask->Resize(vtkIdType(lattice.samples())))
+  if (!reserveTuples(this->Mask, vtkIdType(lattice.samples())))
   {
     throw std::bad_alloc();
   }
@@ -114,7 +115,7 @@ SampledImage::Array& SampledImage::addArray(
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type)) };
   array.Samples->SetName(name.c_str());
   array.Samples->SetNumberOfComponents(components);
-  if (!array.Samples->Resize(vtkIdType(this->samples())))
+  if (!reserveTuples(array.Samples, vtkIdType(this->samples())))
   {
     throw std::bad_alloc();
   }

@@ -3,6 +3,7 @@
 
 #include "Resample/CellPulling.h"
 #include "Vtk/CheckDataSet.h"
+#include "Vtk/Compatibility.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -46,7 +47,7 @@ vtkCellArray* uniformCells(vtkPointSet* mesh, int type)
 {
   if (auto* grid = vtkUnstructuredGrid::SafeDownCast(mesh))
   {
-    vtkUnsignedCharArray* types = grid->GetCellTypesArray();
+    const auto types = cellTypes(grid);
     if (!types || types->GetNumberOfValues() == 0)
     {
       return nullptr;
@@ -72,8 +73,9 @@ bool takeUniform(vtkPointSet* mesh, int type, SimplexSet& simplices)
   {
     return false;
   }
-  simplices.Mesh.Ids = cells->GetConnectivityArray()->GetVoidPointer(0);
-  simplices.Mesh.Wide = cells->IsStorage64Bit();
+  simplices.Stored = PlainIds(cells->GetConnectivityArray());
+  simplices.Mesh.Ids = simplices.Stored.data();
+  simplices.Mesh.Wide = simplices.Stored.isWide();
   simplices.Mesh.Cells = cells->GetNumberOfCells();
   return true;
 }

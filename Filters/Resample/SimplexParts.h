@@ -3,6 +3,7 @@
 #define tippSimplexParts_h
 
 #include "Resample/SimplexMesh.h"
+#include "Vtk/PlainIds.h"
 
 #include "vtkSmartPointer.h"
 
@@ -21,6 +22,7 @@ struct SimplexSet
 {
   SimplexMesh Mesh;
   std::vector<std::int64_t> Ids;     ///< what Mesh.Ids points to, if the cells had to be cut up
+  PlainIds Stored;                   ///< what Mesh.Ids points to, if they did not
   std::vector<std::int64_t> Parents; ///< the cell that each is a part of; empty: the same number
   std::vector<unsigned char> Hidden; ///< what Mesh.Hidden points to
 };

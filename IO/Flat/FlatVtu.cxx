@@ -4,9 +4,7 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Flat/VtuHeader.h"
-
-#include "vtkCellType.h"
-#include "vtkCellTypes.h"
+#include "Vtk/CellTypeName.h"
 
 #include <algorithm>
 
@@ -14,6 +12,10 @@ namespace tipp
 {
 namespace
 {
+
+// VTK_TRIANGLE and VTK_TETRA.
+constexpr int triangleType = 5;
+constexpr int tetrahedronType = 10;
 
 /// Calls check(index, value) for every value of an array, of which little is in memory at a time.
 template <typename Value, typename Check>
@@ -40,21 +42,20 @@ int checkTypes(const InputFile& file, const RawArray& types)
   {
     throw IOError(file.path(), "holds cell types that are not one byte each; write it again.");
   }
-  int first = VTK_TRIANGLE;
+  int first = triangleType;
   forEach<std::uint8_t>(file, types,
     [&](std::int64_t cell, std::uint8_t type)
     {
       first = cell == 0 ? type : first;
-      if (type != first || (type != VTK_TRIANGLE && type != VTK_TETRA))
+      if (type != first || (type != triangleType && type != tetrahedronType))
       {
         throw IOError(file.path(),
-          "holds a cell (cell " + std::to_string(cell) + ", " +
-            vtkCellTypes::GetClassNameFromTypeId(type) +
+          "holds a cell (cell " + std::to_string(cell) + ", " + cellTypeName(type) +
             ") where all must be triangles or all tetrahedra; 'tipp flatten' cuts other cells into "
             "these.");
       }
     });
-  return first == VTK_TRIANGLE ? 3 : 4;
+  return first == triangleType ? 3 : 4;
 }
 
 template <typename Value>

@@ -74,7 +74,7 @@ FlatArray gathered(const FlatArray& all, const std::vector<std::int64_t>& parent
   return some;
 }
 
-FlatArray pointsOf(vtkDataSet* data)
+FlatArray coordinatesOf(vtkDataSet* data)
 {
   auto* const set = vtkPointSet::SafeDownCast(data);
   if (set && set->GetPoints())
@@ -140,7 +140,7 @@ Flattened flattenDataSet(vtkDataSet* data, const std::string& path)
   FlatContent& content = flattened.Content;
   content.CellSize = simplices.CellSize;
   content.Cells = std::move(simplices.Ids);
-  content.Points = pointsOf(data);
+  content.Points = coordinatesOf(data);
   content.PointData = arraysOf(data->GetPointData(), flattened.ArraysLeftOut);
   content.CellData = arraysOf(data->GetCellData(), flattened.ArraysLeftOut);
   const bool changed = !flattened.Cut.empty() || !flattened.LeftOut.empty();

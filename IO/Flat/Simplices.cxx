@@ -3,10 +3,10 @@
 
 #include "Files/IOError.h"
 #include "Parallel/Poll.h"
+#include "Vtk/CellTypeName.h"
 
 #include "vtkCell.h"
 #include "vtkCellType.h"
-#include "vtkCellTypes.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkGenericCell.h"
@@ -73,7 +73,7 @@ public:
       }
       else if (dimensionOf(type, this->Cell) != dimension)
       {
-        ++this->Result.LeftOut[vtkCellTypes::GetClassNameFromTypeId(type)];
+        ++this->Result.LeftOut[cellTypeName(type)];
       }
       else
       {
@@ -128,7 +128,7 @@ private:
     {
       this->Data->GetCell(cell, this->Cell);
       this->cutOther(type);
-      ++this->Result.Cut[vtkCellTypes::GetClassNameFromTypeId(type)];
+      ++this->Result.Cut[cellTypeName(type)];
     }
     const std::size_t made =
       (this->Result.Ids.size() - before) / std::size_t(this->Result.CellSize);
@@ -141,7 +141,7 @@ private:
     if (!quadratic && !this->Cell->IsLinear())
     {
       throw IOError(this->Path,
-        std::string("holds a curved cell (") + vtkCellTypes::GetClassNameFromTypeId(type) +
+        "holds a curved cell (" + cellTypeName(type) +
           ") that cannot be cut along its own points; make it linear first.");
     }
     if (this->Result.CellSize == 4 && !quadratic)

@@ -5,14 +5,11 @@
 #include "Files/Extension.h"
 #include "Files/IOError.h"
 #include "Las/LasHeader.h"
-#include "Points/DataSetPoints.h"
 #include "Points/FilePoints.h"
 #include "Points/NpyPoints.h"
 #include "Points/PointStream.h"
 #include "Points/TextPoints.h"
-#include "Vtk/ReadDataSet.h"
-
-#include "vtkDataSet.h"
+#include "Vtk/VtkFiles.h"
 
 #include <utility>
 
@@ -25,7 +22,7 @@ PointTable readFixedColumns(const std::string& path)
 {
   if (isVtkFile(path))
   {
-    return pointsOf(readDataSet(path));
+    return readVtkPoints(path);
   }
   AdcircGrid grid = readAdcircGrid(path);
   PointTable table;

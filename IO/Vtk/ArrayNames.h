@@ -2,6 +2,7 @@
 #ifndef tippArrayNames_h
 #define tippArrayNames_h
 
+#include "Files/ShownText.h"
 #include "vtkTIPPIOModule.h"
 
 #include <set>
@@ -14,14 +15,6 @@ namespace tipp
 
 /// The names of the arrays; those without a name are left out.
 VTKTIPPIO_EXPORT std::set<std::string> arrayNames(vtkFieldData* data);
-
-/// A text of a file as it can stand in a message: one line, and not too long.
-VTKTIPPIO_EXPORT std::string shownText(const std::string& text);
-
-/// `intro` and the names in quotes, for a message that says what there is: "; there are 'a', 'b'".
-/// After twenty it says how many more there are. "; there are none" without names.
-VTKTIPPIO_EXPORT std::string listOfNames(
-  const std::set<std::string>& names, const std::string& intro);
 
 } // namespace tipp
 

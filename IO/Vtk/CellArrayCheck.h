@@ -5,8 +5,7 @@
 #include "Files/IOError.h"
 #include "Parallel/ForChunks.h"
 #include "Vtk/CellSizes.h"
-
-#include "vtkAOSDataArrayTemplate.h"
+#include "Vtk/PlainIds.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -27,12 +26,12 @@ template <typename Id>
 class CellArrayCheck
 {
 public:
-  CellArrayCheck(vtkAOSDataArrayTemplate<Id>* offsets, vtkAOSDataArrayTemplate<Id>* ids,
-    const std::string& name, const std::string& what, int threads)
-    : Offsets(offsets->GetPointer(0))
-    , Cells(std::max<std::int64_t>(offsets->GetNumberOfValues() - 1, 0))
-    , Ids(ids->GetPointer(0))
-    , Count(ids->GetNumberOfValues())
+  CellArrayCheck(
+    const PlainCells& cells, const std::string& name, const std::string& what, int threads)
+    : Offsets(static_cast<const Id*>(cells.Offsets.data()))
+    , Cells(std::max<std::int64_t>(cells.Offsets.count() - 1, 0))
+    , Ids(static_cast<const Id*>(cells.Ids.data()))
+    , Count(cells.Ids.count())
     , Name(name)
     , What(what)
     , Threads(threads)
@@ -66,11 +65,11 @@ public:
     }
   }
 
-  /// After offsets().
-  void ids(std::int64_t points) const
+  /// After offsets(): the ids are those of `count` items, as "point".
+  void ids(std::int64_t count, const std::string& item) const
   {
     const std::int64_t used = this->Cells > 0 ? std::int64_t(this->Offsets[this->Cells]) : 0;
-    const auto last = Unsigned(std::min<std::int64_t>(points - 1, std::numeric_limits<Id>::max()));
+    const auto last = Unsigned(std::min<std::int64_t>(count - 1, std::numeric_limits<Id>::max()));
     forChunks(used, checkedAtOnce, this->Threads, {},
       [&](std::int64_t begin, std::int64_t end, int)
       {
@@ -80,9 +79,9 @@ public:
           const auto id = Unsigned(this->Ids[i]);
           all |= id | (last - id);
         }
-        if (points == 0 || Id(all) < 0)
+        if (count == 0 || Id(all) < 0)
         {
-          this->failAtId(begin, points);
+          this->failAtId(begin, count, item);
         }
       });
   }
@@ -143,15 +142,15 @@ private:
     }
   }
 
-  void failAtId(std::int64_t begin, std::int64_t points) const
+  void failAtId(std::int64_t begin, std::int64_t count, const std::string& item) const
   {
-    const auto isGood = [&](Id id) { return id >= 0 && std::int64_t(id) < points; };
+    const auto isGood = [&](Id id) { return id >= 0 && std::int64_t(id) < count; };
     const Id* const bad = std::find_if_not(this->Ids + begin, this->Ids + this->Count, isGood);
     const Id* const offset =
       std::upper_bound(this->Offsets, this->Offsets + this->Cells, Id(bad - this->Ids));
-    this->fail("refer to point " + std::to_string(*bad) + " at number " +
-      std::to_string(offset - this->Offsets - 1) + ", but there are " + std::to_string(points) +
-      " points");
+    this->fail("refer to " + item + " " + std::to_string(*bad) + " at number " +
+      std::to_string(offset - this->Offsets - 1) + ", but there are " + std::to_string(count) +
+      " " + item + "s");
   }
 
   void requireSize(std::int64_t cell, int type) const

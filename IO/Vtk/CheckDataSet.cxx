@@ -5,8 +5,8 @@
 #include "Parallel/ParallelFor.h"
 #include "Vtk/ArrayNames.h"
 #include "Vtk/CellArrayCheck.h"
+#include "Vtk/Compatibility.h"
 
-#include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -55,9 +55,14 @@ public:
     if (auto* const grid = vtkUnstructuredGrid::SafeDownCast(data))
     {
       this->add(grid->GetCells());
-      this->add(grid->GetCellTypesArray());
+#if TIPP_VTK_FACES_ARE_CELLS
+      this->add(grid->GetPolyhedronFaces());
+      this->add(grid->GetPolyhedronFaceLocations());
+#else
       this->add(grid->GetFaces());
       this->add(grid->GetFaceLocations());
+#endif
+      this->add(storedCellTypes(grid));
     }
   }
 
@@ -245,7 +250,7 @@ private:
     {
       return;
     }
-    vtkUnsignedCharArray* const types = grid->GetCellTypesArray();
+    const auto types = cellTypes(grid);
     const std::int64_t typed = types ? types->GetNumberOfValues() : 0;
     if (typed != count)
     {
@@ -256,10 +261,36 @@ private:
     const unsigned char* const begin = types->GetPointer(0);
     if (std::memchr(begin, VTK_POLYHEDRON, std::size_t(count)))
     {
-      for (std::int64_t cell = 0; cell < count; ++cell)
+      this->checkPolyhedra(grid, begin, count);
+    }
+  }
+
+#if TIPP_VTK_FACES_ARE_CELLS
+  /// The faces of all polyhedra are a cell array; another one lists those of each cell.
+  void checkPolyhedra(
+    vtkUnstructuredGrid* grid, const unsigned char* types, std::int64_t count) const
+  {
+    vtkCellArray* const faces = grid->GetPolyhedronFaces();
+    vtkCellArray* const lists = grid->GetPolyhedronFaceLocations();
+    const std::int64_t listed = lists ? lists->GetNumberOfCells() : 0;
+    this->checkCellArray(faces, "faces of polyhedra", 1);
+    this->checkCellArray(
+      lists, "lists of faces", 0, nullptr, "face", faces ? faces->GetNumberOfCells() : 0);
+    for (std::int64_t cell = 0; cell < count; ++cell)
+    {
+      if (types[cell] == VTK_POLYHEDRON && (cell >= listed || lists->GetCellSize(cell) < 1))
       {
-        begin[cell] == VTK_POLYHEDRON ? this->checkFaces(grid, cell) : void();
+        this->fail("its polyhedron " + std::to_string(cell) + " has faces that are not all there");
       }
+    }
+  }
+#else
+  void checkPolyhedra(
+    vtkUnstructuredGrid* grid, const unsigned char* types, std::int64_t count) const
+  {
+    for (std::int64_t cell = 0; cell < count; ++cell)
+    {
+      types[cell] == VTK_POLYHEDRON ? this->checkFaces(grid, cell) : void();
     }
   }
 
@@ -297,9 +328,17 @@ private:
     }
   }
 
-  /// No array is none of the cells.
+#endif
+
   void checkCellArray(vtkCellArray* cells, const std::string& what, std::int64_t least,
     const unsigned char* types = nullptr) const
+  {
+    this->checkCellArray(cells, what, least, types, "point", this->Data->GetNumberOfPoints());
+  }
+
+  /// Its ids are those of `count` items. A null array has no cells.
+  void checkCellArray(vtkCellArray* cells, const std::string& what, std::int64_t least,
+    const unsigned char* types, const std::string& item, std::int64_t count) const
   {
     if (!cells)
     {
@@ -308,17 +347,16 @@ private:
     const auto check = [&](const auto& array)
     {
       array.offsets(least, types);
-      array.ids(this->Data->GetNumberOfPoints());
+      array.ids(count, item);
     };
-    if (cells->IsStorage64Bit())
+    const PlainCells plain(cells);
+    if (plain.Ids.isWide())
     {
-      check(CellArrayCheck<vtkTypeInt64>(cells->GetOffsetsArray64(),
-        cells->GetConnectivityArray64(), this->Name, what, this->Threads));
+      check(CellArrayCheck<std::int64_t>(plain, this->Name, what, this->Threads));
     }
     else
     {
-      check(CellArrayCheck<vtkTypeInt32>(cells->GetOffsetsArray32(),
-        cells->GetConnectivityArray32(), this->Name, what, this->Threads));
+      check(CellArrayCheck<std::int32_t>(plain, this->Name, what, this->Threads));
     }
   }
 

@@ -2,8 +2,10 @@
 #ifndef tippReadDataSet_h
 #define tippReadDataSet_h
 
-#include "vtkSmartPointer.h"
+#include "Vtk/VtkFiles.h"
 #include "vtkTIPPIOModule.h"
+
+#include "vtkSmartPointer.h"
 
 #include <string>
 
@@ -11,10 +13,6 @@ class vtkDataSet;
 
 namespace tipp
 {
-
-/// Whether readDataSet knows the extension: .vtp .vtu .vti .vts .vtr and their parallel kinds
-/// (.pvtp ...), .vtk, .ply, .stl, .obj.
-VTKTIPPIO_EXPORT bool isVtkFile(const std::string& path);
 
 /// Reads a data set with VTK's readers. Throws IOError, with VTK's own words if they fail. The file
 /// and the data set have passed checkVtkFile() and checkDataSet().

@@ -101,7 +101,7 @@ class Arguments(unittest.TestCase):
             ({"edge_source": tipp.delaunay_2d(SQUARES), "edges": [[0, 1]]}, ValueError, "edge_source does not go"),
             ({"crossings": "keep"}, ValueError, "crossings is 'keep'"),
             ({"marks": "dots"}, ValueError, "marks is 'dots'"),
-            ({"edges": [[0, 9]]}, ValueError, "edges name point 9, but there are 9 points"),
+            ({"edges": [[0, 9]]}, ValueError, "edges: there is no point 9, for there are 9 points"),
         ]
         for arguments, error, text in cases:
             with self.subTest(text=text), self.assertRaisesRegex(error, text):

@@ -30,8 +30,7 @@ void printDevices()
 {
   if (listDevices().empty())
   {
-    fmt::print(
-      "no OpenCL device: install its driver; pocl-opencl-icd makes one of the processor\n");
+    fmt::print("{}\n", noDeviceAdvice());
   }
   for (const DeviceDescription& device : listDevices())
   {

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Console/MpiSession.h"
 
-#include "vtkMPIController.h"
 #include "vtkMultiProcessController.h"
 
+#ifdef TIPP_USE_MPI
+#include "vtkMPIController.h"
+
 #include <mpi.h>
+#endif
 
 #include <cstdlib>
+#include <stdexcept>
 
 namespace tipp
 {
@@ -31,16 +35,22 @@ MpiSession::MpiSession()
   {
     return;
   }
+#ifdef TIPP_USE_MPI
   // FUNNELED: threads beside a main thread that alone speaks MPI.
   int provided = MPI_THREAD_SINGLE;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   this->Controller = vtkMPIController::New();
   this->Controller->Initialize(nullptr, nullptr, 1);
   vtkMultiProcessController::SetGlobalController(this->Controller);
+#else
+  throw std::runtime_error("this tipp was built without MPI and cannot run on several ranks; start "
+                           "it without mpirun, or build it with -DTIPP_USE_MPI=ON.");
+#endif
 }
 
 MpiSession::~MpiSession()
 {
+#ifdef TIPP_USE_MPI
   if (this->Controller)
   {
     vtkMultiProcessController::SetGlobalController(nullptr);
@@ -48,6 +58,7 @@ MpiSession::~MpiSession()
     this->Controller->Delete();
     MPI_Finalize();
   }
+#endif
 }
 
 vtkMultiProcessController* MpiSession::controller() const

@@ -2,7 +2,6 @@
 #ifndef tippMpiSession_h
 #define tippMpiSession_h
 
-class vtkMPIController;
 class vtkMultiProcessController;
 
 namespace tipp
@@ -17,7 +16,8 @@ inline bool isIdleRank()
   return startedRank() > 0;
 }
 
-/// MPI while this lives, if mpirun or a batch system has started the process; else nothing.
+/// MPI while this lives, if mpirun or a batch system has started the process; else nothing. Throws
+/// std::runtime_error if that is so in a build without MPI.
 class MpiSession
 {
 public:
@@ -32,7 +32,7 @@ public:
   bool isFirst() const;
 
 private:
-  vtkMPIController* Controller = nullptr;
+  vtkMultiProcessController* Controller = nullptr;
 };
 
 } // namespace tipp

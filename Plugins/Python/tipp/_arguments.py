@@ -86,6 +86,13 @@ def names(value: Any, name: str) -> list[str]:
     return [str(one) for one in result]
 
 
+def require_arrays(wanted: list[str] | None, known: list[str], what: str) -> None:
+    """Raises KeyError for a name that the mesh does not have."""
+    for name in wanted or []:
+        if name not in known:
+            raise KeyError(f"the mesh has no {what} array '{name}'; it has {known}.")
+
+
 def text(value: Any, name: str) -> str:
     if not isinstance(value, str):
         raise TypeError(f"{name} is {_shown(value)}; give a text.")

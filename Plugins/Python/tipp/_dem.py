@@ -2,20 +2,14 @@
 """tipp.dem: a raster of points."""
 from __future__ import annotations
 
-import contextlib
-import importlib.util
-import math
 import os
-import tempfile
-from typing import TYPE_CHECKING, Any, Iterable, Iterator, Mapping, NamedTuple, Sequence, Union
+from typing import TYPE_CHECKING, Any, Iterable, Mapping, NamedTuple, Sequence, Union
 
 import numpy as np
 
 from . import _arguments as check
-from ._arrays import as_array, point_cloud
-from ._run import run
-from .vtkTIPPFilters import vtkRangeResampleFilter, vtkTIPPDelaunay2D
-from .vtkTIPPIO import vtkTIPPPointReader
+from . import _engine
+from ._progress import ProgressBar, progress_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -59,7 +53,7 @@ def dem(
     returns: str = "all",
     keep: Sequence[str] = (),
     threads: int = 0,
-    progress_bar: bool = False,
+    progress_bar: ProgressBar = False,
 ) -> Dem:
     """A raster of elevations: the exactly triangulated surface of points at the pixels' centres.
 
@@ -87,7 +81,8 @@ def dem(
     threads
         OpenMP threads; 0 is OpenMP's choice.
     progress_bar
-        Whether to show progress on the standard error stream.
+        Whether to show progress on the standard error stream; or a function that is told the fraction done, and
+        ends the run by returning False.
 
     Returns
     -------
@@ -114,44 +109,30 @@ def dem(
     size = check.number(resolution, "resolution")
     if not size > 0:
         raise ValueError(f"resolution is {resolution!r}; give a number above 0.")
-    limits = None if bounds is None else check.several(bounds, "bounds", 4, check.number)
     names = check.names(attributes, "attributes")
     _check_selection(classes, returns, keep)
-    distance = check.number(max_edge, "max_edge", at_least=0)
-    aligned = check.flag(align, "align")
-    count = check.threads(threads)
-    check.flag(progress_bar, "progress_bar")
-    crs = None
+    options = {
+        "resolution": size,
+        "bounds": None if bounds is None else check.several(bounds, "bounds", 4, check.number),
+        "align": check.flag(align, "align"),
+        "attributes": names,
+        "max_edge": check.number(max_edge, "max_edge", at_least=0),
+        "classes": None if classes is None else _sequence(classes, "classes"),
+        "returns": _RETURNS[returns],
+        "keep": _sequence(keep, "keep"),
+        "threads": check.threads(threads),
+    }
+    progress = progress_of(progress_bar)
     if _are_files(points):
         if point_data is not None:
             raise ValueError("point_data goes with an array of points; files have columns of their own.")
-        cloud, crs = _read(points, names, classes, returns, keep)
+        points = [check.path(p, "points") for p in ([points] if isinstance(points, (str, os.PathLike)) else points)]
     elif check.is_vtk_object(points):
         if point_data is not None:
             raise ValueError("point_data goes with an array of points; a data set has its own.")
-        cloud = check.data_object(points, "points", ("vtkPointSet",), "a vtkPointSet, an array or names of files")
-    else:
-        cloud = point_cloud(points, point_data)
-        if np.shape(points)[1] == 2 and "elevation" in names:
-            raise ValueError("points have no elevation; give an array of shape (n, 3) or other attributes.")
-    west, south, columns, rows = _grid(limits or _bounds_of(cloud), size, aligned)
-    mesh = vtkTIPPDelaunay2D()
-    mesh.SetInputData(cloud)
-    mesh.SetMaximumEdgeLength(distance)
-    mesh.SetNumberOfThreads(count)
-    run(mesh, progress_bar)
-    surface = mesh.GetOutput()
-    point_arrays = surface.GetPointData()
-    if "elevation" in names and not point_arrays.HasArray("elevation"):
-        _add_elevation(surface)
-    for name in names:
-        if not point_arrays.HasArray(name):
-            known = [point_arrays.GetArrayName(i) for i in range(point_arrays.GetNumberOfArrays())]
-            raise KeyError(f"there is no attribute '{name}'; there are {known}.")
-    image = _sample(surface, names, (west, south, columns, rows), size, count, progress_bar)
-    bands = [as_array(image, name).reshape(rows, columns)[::-1] for name in names]
-    array = bands[0] if isinstance(attributes, str) else np.stack(bands)
-    return Dem(array, (size, 0.0, west, 0.0, -size, south + rows * size), crs)
+        check.data_object(points, "points", ("vtkPointSet",), "a vtkPointSet, an array or names of files")
+    bands, transform, crs = _engine.dem(points, point_data, options, progress)
+    return Dem(bands[0] if isinstance(attributes, str) else np.stack(bands), transform, crs)
 
 
 def _sequence(values: Any, name: str) -> list[Any]:
@@ -172,105 +153,3 @@ def _are_files(points: Any) -> bool:
     is_list = isinstance(points, Iterable) and not isinstance(points, (str, bytes, os.PathLike, np.ndarray))
     first = next(iter(points), None) if is_list and isinstance(points, (list, tuple)) else points
     return isinstance(first, (str, os.PathLike))
-
-
-def _read(points: Any, names: list[str], classes: Any, returns: str, keep: Sequence[str]) -> tuple[Any, str | None]:
-    paths = [check.path(p, "points") for p in ([points] if isinstance(points, (str, os.PathLike)) else points)]
-    reader = vtkTIPPPointReader()
-    if classes is not None:
-        reader.SetClasses(",".join(str(check.whole(c, "classes", at_most=255)) for c in _sequence(classes, "classes")))
-    reader.SetReturns(check.choice(returns, "returns", _RETURNS))
-    for flag in _sequence(keep, "keep"):
-        getattr(reader, "SetKeep" + flag.capitalize())(True)
-    reader.SetColumns(",".join(names))
-    reader.SetGenerateVertices(False)
-    with _uncompressed(paths) as files:
-        for path in files:
-            reader.AddFileName(path)
-        run(reader)
-    cloud = reader.GetOutput()
-    text = cloud.GetFieldData().GetAbstractArray("CoordinateReferenceSystem")
-    return cloud, text.GetValue(0) if text else None
-
-
-@contextlib.contextmanager
-def _uncompressed(paths: list[str]) -> Iterator[list[str]]:
-    """The files, with .laz files as temporary .las files, which laspy writes, where it is installed."""
-    compressed = [path for path in paths if path.lower().endswith(".laz")]
-    if not compressed or importlib.util.find_spec("laspy") is None:
-        yield paths
-        return
-    import laspy
-
-    with tempfile.TemporaryDirectory() as folder:
-        files = []
-        for number, path in enumerate(paths):
-            if path not in compressed:
-                files.append(path)
-                continue
-            files.append(os.path.join(folder, f"{number}.las"))
-            try:
-                with laspy.open(path) as source, laspy.open(files[-1], "w", header=source.header, do_compress=False) as to:
-                    for block in source.chunk_iterator(1_000_000):
-                        to.write_points(block)
-            except Exception as error:
-                raise RuntimeError(f"{path}: cannot be decompressed by laspy ({error}).") from None
-        yield files
-
-
-def _bounds_of(cloud: Any) -> list[float]:
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-
-    if cloud.GetNumberOfPoints() == 0:
-        raise RuntimeError("There are no points.")
-    xy = vtk_to_numpy(cloud.GetPoints().GetData())[:, :2]
-    xy = xy[np.isfinite(xy).all(axis=1)]
-    if len(xy) == 0:
-        raise RuntimeError("There is no point with finite coordinates.")
-    low, high = xy.min(axis=0), xy.max(axis=0)
-    return [float(low[0]), float(high[0]), float(low[1]), float(high[1])]
-
-
-def _grid(bounds: list[float], size: float, aligned: bool) -> tuple[float, float, int, int]:
-    """West, south, columns and rows: those of `tipp dem`."""
-
-    def cover(low: float, high: float) -> tuple[float, int]:
-        if low > high:
-            raise ValueError(f"bounds go from {low} to {high}; give the lower one first.")
-        origin = math.floor(low / size + 1e-9) * size if aligned else low
-        return origin, max(1, math.ceil((high - origin) / size - 1e-9))
-
-    (west, columns), (south, rows) = cover(*bounds[:2]), cover(*bounds[2:])
-    return west, south, columns, rows
-
-
-def _add_elevation(surface: Any) -> None:
-    points = surface.GetPoints().GetData()
-    elevation = points.NewInstance()
-    elevation.SetName("elevation")
-    elevation.SetNumberOfTuples(points.GetNumberOfTuples())
-    elevation.CopyComponent(0, points, 2)
-    surface.GetPointData().AddArray(elevation)
-
-
-def _sample(surface: Any, names: list[str], grid: tuple[float, float, int, int], size: float, threads: int,
-            progress_bar: bool) -> Any:
-    west, south, columns, rows = grid
-    low = west + 0.5 * size, south + 0.5 * size
-    sampler = vtkRangeResampleFilter()
-    sampler.SetInputDataObject(surface)
-    sampler.SetUseInputBounds(False)
-    # Half a step more on the far side, so that roundings do not cost the last column or row.
-    sampler.SetSamplingBounds(low[0], low[0] + (columns - 0.5) * size, low[1], low[1] + (rows - 0.5) * size, 0, 0)
-    sampler.SetSamplingDimensions(1, 1, 1)
-    sampler.SetDelta(size, size, 0)
-    sampler.SetNullValue(math.nan)
-    sampler.SetDeviceChoice("openmp")
-    sampler.SetNumberOfThreads(threads)
-    selection = sampler.GetPointDataArraySelection()
-    selection.SetUnknownArraySetting(0)
-    for name in names:
-        selection.EnableArray(name)
-    sampler.GetCellDataArraySelection().SetUnknownArraySetting(0)
-    run(sampler, progress_bar)
-    return sampler.GetOutput()

@@ -7,22 +7,11 @@ import os
 from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
 from . import _arguments as check
-from ._run import run
-from .vtkTIPPIO import vtkPartitionedUnstructuredReader, vtkPartitionedUnstructuredWriter
+from . import _engine
+from ._progress import ProgressBar, progress_of
 
 if TYPE_CHECKING:
     from vtkmodules.vtkCommonDataModel import vtkDataObject
-
-
-def _keep_only(selection: Any, wanted: list[str] | None, what: str) -> None:
-    if wanted is None:
-        return
-    known = [selection.GetArrayName(i) for i in range(selection.GetNumberOfArrays())]
-    for name in wanted:
-        if name not in known:
-            raise KeyError(f"the mesh has no {what} array '{name}'; it has {known}.")
-    for name in known:
-        selection.SetArraySetting(name, name in wanted)
 
 
 def read(
@@ -36,7 +25,7 @@ def read(
     merge: bool = True,
     tiling: str = "grid:4x4",
     memory_limit: int = 1 << 31,
-    progress_bar: bool = False,
+    progress_bar: ProgressBar = False,
 ) -> vtkDataObject:
     """Reads a partitioned or flat mesh, or the part of it that meets a range.
 
@@ -61,12 +50,14 @@ def read(
     memory_limit
         Bytes that loading a flat mesh may take besides its pieces.
     progress_bar
-        Whether to show progress on the standard error stream.
+        Whether to show progress on the standard error stream; or a function that is told the fraction done, and
+        ends the run by returning False.
 
     Returns
     -------
     vtkUnstructuredGrid or vtkPartitionedDataSet
-        What pyvista.wrap takes. Within tipp.ranks() each rank has its own pieces.
+        What pyvista.wrap takes. Within tipp.ranks() each rank has its own pieces. Without VTK a tipp.Mesh, or a
+        list of them.
 
     Raises
     ------
@@ -79,26 +70,17 @@ def read(
     --------
     >>> part = tipp.read("mesh.tipp", bounds=(0.2, 0.4, 0.5, 0.7, 0, 0))
     """
-    reader = vtkPartitionedUnstructuredReader()
-    reader.SetFileName(check.path(path, "path"))
-    if bounds is not None:
-        reader.SetBounds(*check.several(bounds, "bounds", 6, _bound))
-    reader.SetBorrowerMode(reader.OWNED_AND_BORROWED if check.flag(borrowed, "borrowed") else reader.OWNED)
-    reader.SetMergePieces(check.flag(merge, "merge"))
-    reader.SetTiling(check.text(tiling, "tiling"))
-    reader.SetMemoryLimit(check.memory(memory_limit, "memory_limit"))
-    check.flag(progress_bar, "progress_bar")
-    time = None if time is None else check.number(time, "time")
-    of_points = None if point_arrays is None else check.names(point_arrays, "point_arrays")
-    of_cells = None if cell_arrays is None else check.names(cell_arrays, "cell_arrays")
-    run(reader, call=reader.UpdateInformation)
-    _keep_only(reader.GetPointDataArraySelection(), of_points, "point")
-    _keep_only(reader.GetCellDataArraySelection(), of_cells, "cell")
-    controller = reader.GetController()
-    rank = controller.GetLocalProcessId() if controller else 0
-    size = controller.GetNumberOfProcesses() if controller else 1
-    run(reader, progress_bar, lambda: _update(reader, rank, size, time))
-    return reader.GetOutputDataObject(0)
+    options = {
+        "bounds": None if bounds is None else check.several(bounds, "bounds", 6, _bound),
+        "borrowed": check.flag(borrowed, "borrowed"),
+        "merge": check.flag(merge, "merge"),
+        "tiling": check.text(tiling, "tiling"),
+        "memory_limit": check.memory(memory_limit, "memory_limit"),
+        "time": None if time is None else check.number(time, "time"),
+        "point_arrays": None if point_arrays is None else check.names(point_arrays, "point_arrays"),
+        "cell_arrays": None if cell_arrays is None else check.names(cell_arrays, "cell_arrays"),
+    }
+    return _engine.read(check.path(path, "path"), options, progress_of(progress_bar))
 
 
 def _bound(value: Any, name: str) -> float:
@@ -106,13 +88,6 @@ def _bound(value: Any, name: str) -> float:
     if math.isnan(result):
         raise ValueError(f"{name} is nan; give a number.")
     return result
-
-
-def _update(reader: vtkPartitionedUnstructuredReader, rank: int, size: int, time: float | None) -> None:
-    if time is None:
-        reader.UpdatePiece(rank, size, 0)
-    else:
-        reader.UpdateTimeStep(time, rank, size, 0)
 
 
 def write(
@@ -123,7 +98,7 @@ def write(
     duplicate_borrowers: bool = False,
     memory_limit: int = 1 << 31,
     threads: int = 0,
-    progress_bar: bool = False,
+    progress_bar: ProgressBar = False,
 ) -> None:
     """Writes a mesh as a partitioned mesh.
 
@@ -144,7 +119,8 @@ def write(
     threads
         OpenMP threads; 0 is OpenMP's choice.
     progress_bar
-        Whether to show progress on the standard error stream.
+        Whether to show progress on the standard error stream; or a function that is told the fraction done, and
+        ends the run by returning False.
 
     Raises
     ------
@@ -155,15 +131,12 @@ def write(
     --------
     >>> tipp.write(mesh, "mesh.tipp", tiling="quadtree:100000")
     """
-    writer = vtkPartitionedUnstructuredWriter()
     if isinstance(mesh, (str, bytes, os.PathLike)):
-        writer.SetInputFileName(check.path(mesh, "mesh"))
-    else:
-        writer.SetInputData(check.data_object(mesh, "mesh", ("vtkDataObject",), "a VTK data set or a path"))
-    writer.SetFileName(check.path(path, "path"))
-    writer.SetTiling(check.text(tiling, "tiling"))
-    writer.SetDuplicateBorrowers(check.flag(duplicate_borrowers, "duplicate_borrowers"))
-    writer.SetMemoryLimit(check.memory(memory_limit, "memory_limit"))
-    writer.SetNumberOfThreads(check.threads(threads))
-    check.flag(progress_bar, "progress_bar")
-    run(writer, progress_bar, writer.Write)
+        mesh = check.path(mesh, "mesh")
+    options = {
+        "tiling": check.text(tiling, "tiling"),
+        "duplicate_borrowers": check.flag(duplicate_borrowers, "duplicate_borrowers"),
+        "memory_limit": check.memory(memory_limit, "memory_limit"),
+        "threads": check.threads(threads),
+    }
+    _engine.write(mesh, check.path(path, "path"), options, progress_of(progress_bar))

@@ -6,23 +6,10 @@ import os
 from typing import Any, Iterable, Mapping, Sequence, Union
 
 from . import _arguments as check
-from ._run import run
-from .vtkTIPPFilters import vtkTIPPOutOfCoreDelaunay2D
+from . import _engine
+from ._progress import ProgressBar, progress_of
 
 _Path = Union[str, "os.PathLike[str]"]
-
-_FIGURES = {
-    "points": "Points",
-    "triangles": "Triangles",
-    "duplicates": "DuplicatePoints",
-    "rejected": "RejectedPoints",
-    "pieces": "Pieces",
-    "spilled_bytes": "SpilledBytes",
-    "mesh_bytes": "MeshBytes",
-    "resumed": "Resumed",
-    "triangle_sum": "TriangleSum",
-}
-
 
 def _paths(points: Any) -> list[str]:
     is_list = isinstance(points, Iterable) and not isinstance(points, (str, bytes, os.PathLike, Mapping))
@@ -47,7 +34,7 @@ def delaunay_file(
     resume: bool = False,
     scratch: _Path | None = None,
     threads: int = 0,
-    progress_bar: bool = False,
+    progress_bar: ProgressBar = False,
 ) -> dict[str, int]:
     """Exact Delaunay triangulation of points in files into a partitioned mesh, in bounded memory.
 
@@ -82,7 +69,8 @@ def delaunay_file(
     threads
         Threads; 0 is OpenMP's choice.
     progress_bar
-        Whether to show progress on the standard error stream.
+        Whether to show progress on the standard error stream; or a function that is told the fraction done, and
+        ends the run by returning False.
 
     Returns
     -------
@@ -105,26 +93,16 @@ def delaunay_file(
     199973
     >>> part = tipp.read("mesh.tipp", bounds=(0.2, 0.4, 0.5, 0.7, 0, 0))
     """
-    algorithm = vtkTIPPOutOfCoreDelaunay2D()
-    for path in _paths(points):
-        algorithm.AddInputFileName(path)
-    algorithm.SetFileName(check.path(output, "output"))
-    algorithm.SetMemoryLimit(check.memory(memory, "memory"))
-    if partitions is not None:
-        algorithm.SetNumberOfPartitions(*check.several(partitions, "partitions", 2, check.whole))
-    if columns is not None:
-        x, y = check.several(columns, "columns", 2, _column)
-        algorithm.SetXColumn(x)
-        algorithm.SetYColumn(y)
-    algorithm.SetMaximumEdgeLength(check.number(max_edge, "max_edge", at_least=0))
-    algorithm.SetGenerateRepresentativeIds(check.flag(map_duplicates, "map_duplicates"))
-    algorithm.SetGenerateNeighborIds(check.flag(neighbors, "neighbors"))
-    algorithm.SetCountOnly(check.flag(count_only, "count_only"))
-    algorithm.SetResume(check.flag(resume, "resume"))
-    algorithm.SetScratchFolder(None if scratch is None else check.path(scratch, "scratch"))
-    algorithm.SetNumberOfThreads(check.threads(threads))
-    check.flag(progress_bar, "progress_bar")
-    run(algorithm, progress_bar)
-    totals = algorithm.GetOutput().GetFieldData()
-    arrays = {key: totals.GetArray(name) for key, name in _FIGURES.items()}
-    return {key: array.GetValue(0) for key, array in arrays.items() if array is not None}
+    options = {
+        "memory": check.memory(memory, "memory"),
+        "partitions": (0, 0) if partitions is None else tuple(check.several(partitions, "partitions", 2, check.whole)),
+        "columns": ("", "") if columns is None else tuple(check.several(columns, "columns", 2, _column)),
+        "max_edge": check.number(max_edge, "max_edge", at_least=0),
+        "map_duplicates": check.flag(map_duplicates, "map_duplicates"),
+        "neighbors": check.flag(neighbors, "neighbors"),
+        "count_only": check.flag(count_only, "count_only"),
+        "resume": check.flag(resume, "resume"),
+        "scratch": "" if scratch is None else check.path(scratch, "scratch"),
+        "threads": check.threads(threads),
+    }
+    return _engine.delaunay_file(_paths(points), check.path(output, "output"), options, progress_of(progress_bar))

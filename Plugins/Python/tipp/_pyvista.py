@@ -9,6 +9,7 @@ import sys
 from types import ModuleType
 from typing import Any, Sequence
 
+from ._arguments import flag
 from ._dem import dem
 from ._meshes import write
 from ._resample import resample
@@ -21,9 +22,13 @@ class Accessor:
     def __init__(self, dataset: Any):
         self._dataset = dataset
 
-    def delaunay_2d(self, **options: Any) -> Any:
-        """As tipp.delaunay_2d(mesh, ...)."""
-        return delaunay_2d(self._dataset, **options)
+    def delaunay_2d(self, *, inplace: bool = False, **options: Any) -> Any:
+        """As tipp.delaunay_2d(mesh, ...); with `inplace` the data set becomes the result."""
+        result = delaunay_2d(self._dataset, **options)
+        if not flag(inplace, "inplace"):
+            return result
+        self._dataset.copy_from(result, deep=False)
+        return self._dataset
 
     def dem(self, resolution: float, **options: Any) -> Any:
         """As tipp.dem(mesh, resolution, ...)."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 import contextlib
 from typing import Any, Iterator
 
+from . import _engine
+
 
 @contextlib.contextmanager
 def ranks() -> Iterator[Any]:
@@ -24,6 +26,7 @@ def ranks() -> Iterator[Any]:
     ...     piece = tipp.delaunay_2d(my_points)
     ...     total = world.allreduce(piece.GetNumberOfCells())
     """
+    _engine.require_ranks()
     from mpi4py import MPI  # before VTK's controller is initialised
     from vtkmodules.vtkParallelMPI import vtkMPIController
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Any, Iterable, Sequence
 
 from . import _arguments as check
-from ._arrays import wrapped_like
-from ._run import run
-from .vtkTIPPFilters import vtkRangeResampleFilter
+from . import _engine
+from ._progress import ProgressBar, progress_of
 
 
 def resample(
@@ -21,7 +20,7 @@ def resample(
     arrays: str | Iterable[str] | None = None,
     device: str = "auto",
     threads: int = 0,
-    progress_bar: bool = False,
+    progress_bar: ProgressBar = False,
 ) -> Any:
     """Samples a mesh of triangles or tetrahedra on a regular grid.
 
@@ -30,10 +29,10 @@ def resample(
     mesh
         A vtkPointSet with cells, a composite of such, or a PyVista data set.
     bounds
-        (x from, x to, y from, y to, z from, z to), both ends included, in the mesh's units. None: the
-        mesh's box.
+        (x from, x to, y from, y to, z from, z to), both ends included, in the mesh's units; z may be left
+        out for surfaces. None: the mesh's box.
     dimensions
-        The number of samples along x, y and z. 0 keeps the distance of the first axis with a number;
+        The number of samples along x, y and z, or x and y for one along z. 0 keeps the distance of the first axis with a number;
         along z it means one sample for surfaces. None: (256, 0, 0).
     spacing
         The distance between samples along x, y and z instead, from the lower bound on; 0 along an
@@ -49,13 +48,14 @@ def resample(
     threads
         OpenMP threads; 0 is OpenMP's choice.
     progress_bar
-        Whether to show progress on the standard error stream.
+        Whether to show progress on the standard error stream; or a function that is told the fraction done, and
+        ends the run by returning False.
 
     Returns
     -------
     vtkImageData or pyvista.ImageData
         With the arrays, and vtkValidPointMask, which is 1 where a cell answers. as_array() gives its
-        rows. A PyVista input makes a PyVista output.
+        rows. A PyVista input makes a PyVista output. Without VTK a tipp.Image.
 
     Raises
     ------
@@ -72,38 +72,24 @@ def resample(
     --------
     >>> image = tipp.resample(mesh, bounds=(0, 10, 0, 5, 0, 0), dimensions=(1000, 500, 1))
     """
-    check.data_object(mesh, "mesh", ("vtkPointSet", "vtkCompositeDataSet"), "a mesh or a composite of meshes")
-    algorithm = vtkRangeResampleFilter()
-    algorithm.SetInputDataObject(mesh)
-    if bounds is not None:
-        algorithm.SetUseInputBounds(False)
-        algorithm.SetSamplingBounds(*check.several(bounds, "bounds", 6, check.number))
-    if spacing is not None:
-        algorithm.SetDelta(*check.several(spacing, "spacing", 3, check.number, at_least=0))
+    options: dict[str, Any] = {
+        "bounds": None if bounds is None else _along_axes(bounds, "bounds", 6, check.number),
+        "spacing": None if spacing is None else _along_axes(spacing, "spacing", 3, check.number, at_least=0),
+    }
     if dimensions is None:
         dimensions = (1, 1, 1) if spacing is not None else (256, 0, 0)
-    algorithm.SetSamplingDimensions(*check.several(dimensions, "dimensions", 3, check.whole))
-    algorithm.SetNullValue(check.number(null_value, "null_value", finite=False))
-    if no_data is not None:
-        algorithm.SetUseNoDataValue(True)
-        algorithm.SetNoDataValue(check.number(no_data, "no_data", finite=False))
-    if arrays is not None:
-        _select(algorithm, mesh, check.names(arrays, "arrays"))
-    check.text(device, "device")
-    check.flag(progress_bar, "progress_bar")
-    algorithm.SetNumberOfThreads(check.threads(threads))
-    run(algorithm, call=lambda: algorithm.SetDeviceChoice(device))
-    run(algorithm, progress_bar)
-    return wrapped_like(algorithm.GetOutput(), mesh)
+    options["dimensions"] = _along_axes(dimensions, "dimensions", 3, check.whole)
+    options["null_value"] = check.number(null_value, "null_value", finite=False)
+    options["no_data"] = None if no_data is None else check.number(no_data, "no_data", finite=False)
+    options["arrays"] = None if arrays is None else check.names(arrays, "arrays")
+    options["device"] = check.text(device, "device")
+    options["threads"] = check.threads(threads)
+    return _engine.resample(mesh, options, progress_of(progress_bar))
 
 
-def _select(algorithm: vtkRangeResampleFilter, mesh: Any, names: list[str]) -> None:
-    """Samples these arrays only; a name that the mesh has not is a warning of the filter's."""
-    of_cells = hasattr(mesh, "GetCellData") and mesh.GetCellData()
-    for selection, wanted in (
-        (algorithm.GetPointDataArraySelection(), [n for n in names if not (of_cells and of_cells.HasArray(n))]),
-        (algorithm.GetCellDataArraySelection(), [n for n in names if of_cells and of_cells.HasArray(n)]),
-    ):
-        selection.SetUnknownArraySetting(0)
-        for name in wanted:
-            selection.EnableArray(name)
+def _along_axes(values: Any, name: str, count: int, convert: Any, **limits: Any) -> list[Any]:
+    """Values for x, y and z; those for z may be left out in the plane."""
+    if isinstance(values, Sequence) and not isinstance(values, (str, bytes)) and len(values) == count * 2 // 3:
+        of_z = {"bounds": [0, 0], "spacing": [0], "dimensions": [1]}[name]
+        values = [*values, *of_z]
+    return check.several(values, name, count, convert, **limits)

@@ -5,16 +5,14 @@ from __future__ import annotations
 import contextlib
 import re
 import signal
-import sys
 import threading
 import warnings
 from typing import TYPE_CHECKING, Any, Callable, Iterator
 
+from ._progress import STOPPED, Progress, finish
+
 if TYPE_CHECKING:
     from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
-
-_BAR = 40  # characters
-
 
 class Interrupted:
     """While it is entered, Ctrl-C aborts the algorithm; leaving it then raises KeyboardInterrupt.
@@ -47,12 +45,6 @@ class Interrupted:
             raise KeyboardInterrupt
 
 
-def _show(fraction: float) -> None:
-    done = int(_BAR * min(max(fraction, 0.0), 1.0))
-    sys.stderr.write(f"\r[{'#' * done}{' ' * (_BAR - done)}] {100 * fraction:3.0f} %")
-    sys.stderr.flush()
-
-
 @contextlib.contextmanager
 def _observed(subject: Any, event: str, callback: Callable[..., None]) -> Iterator[None]:
     tag = subject.AddObserver(event, callback)
@@ -73,7 +65,7 @@ def _first_sentence(text: str) -> str:
     return " ".join(text.split())
 
 
-def run(algorithm: vtkAlgorithm, progress_bar: bool = False, call: Callable[[], Any] | None = None) -> Any:
+def run(algorithm: vtkAlgorithm, progress: Progress | None = None, call: Callable[[], Any] | None = None) -> Any:
     """Updates the algorithm, or does `call`. Its errors become a RuntimeError, its warnings Python's."""
     errors: list[str] = []
     notes: list[str] = []
@@ -84,9 +76,20 @@ def run(algorithm: vtkAlgorithm, progress_bar: bool = False, call: Callable[[], 
     def on_warning(_object: Any, _event: str, text: str) -> None:
         notes.append(_first_sentence(text))
 
+    raised: list[BaseException] = []
+
     def on_progress(_object: Any, _event: str) -> None:
-        if progress_bar:
-            _show(algorithm.GetProgress())
+        if progress is None or raised:
+            return
+        try:  # VTK ends the program on an exception in a callback
+            stopped = progress(algorithm.GetProgress()) is False
+        except BaseException as error:  # pylint: disable=broad-except
+            raised.append(error)
+        else:
+            if stopped:
+                raised.append(RuntimeError(STOPPED))
+        if raised:
+            algorithm.SetAbortExecute(1)
 
     on_error.CallDataType = on_warning.CallDataType = "string0"  # type: ignore[attr-defined]
     with contextlib.ExitStack() as stack:
@@ -96,8 +99,9 @@ def run(algorithm: vtkAlgorithm, progress_bar: bool = False, call: Callable[[], 
         stack.enter_context(_observed(algorithm, "ProgressEvent", on_progress))
         stack.enter_context(Interrupted(algorithm))
         result = call() if call else algorithm.Update()
-    if progress_bar:
-        sys.stderr.write("\n")
+    finish(progress)
+    if raised:
+        raise raised[0]
     for note in notes:
         warnings.warn(note, RuntimeWarning, stacklevel=3)
     if errors:

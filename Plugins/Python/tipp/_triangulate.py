@@ -5,28 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Iterable, Mapping
 
 from . import _arguments as check
-from ._arrays import point_cloud, triangles_of, wrapped_like
-from ._constraints import source_of
-from ._run import run
-from .vtkTIPPFilters import vtkTIPPDelaunay2D
+from . import _engine
+from ._progress import ProgressBar, progress_of
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike
 
-_SCHEDULES = {
-    "stages": vtkTIPPDelaunay2D.STAGES,
-    "dynamic": vtkTIPPDelaunay2D.DYNAMIC,
-    "producer-consumer": vtkTIPPDelaunay2D.PRODUCER_CONSUMER,
-}
-
-
+_SCHEDULES = {"stages": 0, "dynamic": 1, "producer-consumer": 2}
 _CROSSINGS = {"split": 1, "refuse": 0}
-_MARKS = {
-    "none": vtkTIPPDelaunay2D.NO_MARKS,
-    "lines": vtkTIPPDelaunay2D.LINES,
-    "flags": vtkTIPPDelaunay2D.EDGE_FLAGS,
-}
+_MARKS = {"none": 0, "lines": 1, "flags": 2}
 
 
 def delaunay(
@@ -37,7 +25,7 @@ def delaunay(
     partitions: tuple[int, int] | None = None,
     schedule: str = "dynamic",
     threads: int = 0,
-    progress_bar: bool = False,
+    progress_bar: ProgressBar = False,
 ) -> np.ndarray:
     """Exact Delaunay triangulation of points in the x-y plane.
 
@@ -58,7 +46,8 @@ def delaunay(
     threads
         OpenMP threads; 0 is OpenMP's choice.
     progress_bar
-        Whether to show progress on the standard error stream.
+        Whether to show progress on the standard error stream; or a function that is told the fraction done, and
+        ends the run by returning False.
 
     Returns
     -------
@@ -86,9 +75,9 @@ def delaunay(
     >>> tipp.delaunay(points).shape
     (199964, 3)
     """
-    mesh = delaunay_2d(points, tol=tol, max_edge=max_edge, partitions=partitions, schedule=schedule, threads=threads,
-                       progress_bar=progress_bar)
-    return triangles_of(mesh)
+    options = _options(tol, max_edge, partitions, schedule, threads)
+    _require_points(points)
+    return _engine.delaunay(points, options, progress_of(progress_bar))
 
 
 def delaunay_2d(
@@ -108,7 +97,7 @@ def delaunay_2d(
     partitions: tuple[int, int] | None = None,
     schedule: str = "dynamic",
     threads: int = 0,
-    progress_bar: bool = False,
+    progress_bar: ProgressBar = False,
 ) -> Any:
     """Exact Delaunay triangulation as a mesh; the keywords are those of PyVista's delaunay_2d.
 
@@ -145,7 +134,8 @@ def delaunay_2d(
     Returns
     -------
     vtkPolyData or pyvista.PolyData
-        The input's points and point data, and triangles. A PyVista input makes a PyVista output.
+        The input's points and point data, and triangles. A PyVista input makes a PyVista output. Without VTK a
+        tipp.Mesh.
 
     Raises
     ------
@@ -160,29 +150,31 @@ def delaunay_2d(
 
     >>> mesh = tipp.delaunay_2d(xyz, edges=[[0, 17], [17, 5]], polygons=[[2, 40, 31, 8]])
     """
-    is_data = check.is_vtk_object(points)
-    if is_data and point_data is not None:
-        raise ValueError("point_data goes with an array of points; a data set has its own.")
-    if is_data:
+    options = _options(tol, max_edge, partitions, schedule, threads)
+    options["alpha"] = check.number(alpha, "alpha", at_least=0)
+    options["offset"] = check.number(offset, "offset", at_least=0)
+    options["bound"] = check.flag(bound, "bound")
+    if check.is_vtk_object(points):
+        if point_data is not None:
+            raise ValueError("point_data goes with an array of points; a data set has its own.")
+    _require_points(points)
+    options["edge_source"], options["edges"], options["polygons"] = edge_source, edges, polygons
+    options["crossings"] = check.choice(crossings, "crossings", _CROSSINGS)
+    options["marks"] = check.choice(marks, "marks", _MARKS)
+    return _engine.delaunay_2d(points, point_data, options, progress_of(progress_bar))
+
+
+def _require_points(points: Any) -> None:
+    if check.is_vtk_object(points):
         check.data_object(points, "points", ("vtkPointSet",), "a vtkPointSet or an array")
-    algorithm = vtkTIPPDelaunay2D()
-    data = points if is_data else point_cloud(points, point_data)
-    algorithm.SetInputData(data)
-    source, has_points = source_of(data, edge_source, edges, polygons)
-    if source is not None:
-        algorithm.SetSourceData(source)
-        algorithm.SetMergeSourcePoints(has_points)
-    algorithm.SetSplitCrossings(check.choice(crossings, "crossings", _CROSSINGS))
-    algorithm.SetConstraintMarks(check.choice(marks, "marks", _MARKS))
-    algorithm.SetTolerance(check.number(tol, "tol", at_least=0))
-    algorithm.SetMaximumEdgeLength(check.number(max_edge, "max_edge", at_least=0))
-    algorithm.SetAlpha(check.number(alpha, "alpha", at_least=0))
-    algorithm.SetOffset(check.number(offset, "offset", at_least=0))
-    algorithm.SetBoundingTriangulation(check.flag(bound, "bound"))
-    if partitions is not None:
-        algorithm.SetNumberOfPartitions(*check.several(partitions, "partitions", 2, check.whole))
-    algorithm.SetSchedule(check.choice(schedule, "schedule", _SCHEDULES))
-    algorithm.SetNumberOfThreads(check.threads(threads))
-    check.flag(progress_bar, "progress_bar")
-    run(algorithm, progress_bar)
-    return wrapped_like(algorithm.GetOutput(), points)
+
+
+def _options(tol: Any, max_edge: Any, partitions: Any, schedule: Any, threads: Any) -> dict[str, Any]:
+    """What delaunay() and delaunay_2d() have in common, checked."""
+    return {
+        "tolerance": check.number(tol, "tol", at_least=0),
+        "max_edge": check.number(max_edge, "max_edge", at_least=0),
+        "partitions": (0, 0) if partitions is None else tuple(check.several(partitions, "partitions", 2, check.whole)),
+        "schedule": check.choice(schedule, "schedule", _SCHEDULES),
+        "threads": check.threads(threads),
+    }

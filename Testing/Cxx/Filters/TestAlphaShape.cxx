@@ -34,9 +34,14 @@ public:
     return buffer;
   }
 
+  PointAt pointAt() const
+  {
+    return [this](PointId id, double* p) { this->Points->GetPoint(vtkIdType(id), p); };
+  }
+
   AlphaShape<std::int32_t> shape(double alpha) const
   {
-    return alphaShape(triangles<std::int32_t>(), this->Points, alpha, std::vector<char>(5, 0));
+    return alphaShape(triangles<std::int32_t>(), this->pointAt(), alpha, std::vector<char>(5, 0));
   }
 
   template <typename Id>
@@ -80,14 +85,14 @@ TEST_F(AlphaShapeTest, WhatNothingCoversIsAVertex)
 
 TEST_F(AlphaShapeTest, CoveredPointsAreNoVertices)
 {
-  const auto shape = alphaShape(triangles<std::int32_t>(), this->Points, 0.1, { 0, 1, 0, 0, 1 });
+  const auto shape = alphaShape(triangles<std::int32_t>(), this->pointAt(), 0.1, { 0, 1, 0, 0, 1 });
   EXPECT_EQ((List{ 0, 2, 3 }), list(shape.Vertices));
 }
 
 TEST_F(AlphaShapeTest, IdsOfEitherSizeGiveTheSame)
 {
   const auto wide =
-    alphaShape(triangles<std::int64_t>(), this->Points, 0.6, std::vector<char>(5, 0));
+    alphaShape(triangles<std::int64_t>(), this->pointAt(), 0.6, std::vector<char>(5, 0));
   EXPECT_EQ(list(this->shape(0.6).Lines), list(wide.Lines));
 }
 
@@ -95,8 +100,8 @@ TEST_F(AlphaShapeTest, ATriangleWithoutAreaIsInfinitelyLarge)
 {
   this->Points->SetPoint(2, 2, 0, 0);
   EXPECT_EQ(List{},
-    list(
-      alphaShape(triangles<std::int32_t>(), this->Points, 1.2, std::vector<char>(5, 0)).Triangles));
+    list(alphaShape(triangles<std::int32_t>(), this->pointAt(), 1.2, std::vector<char>(5, 0))
+           .Triangles));
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CellStorages.h"
 #include "ExpectIOError.h"
 #include "Vtk/CheckDataSet.h"
 
@@ -103,6 +104,20 @@ TEST(CheckDataSet, RefusesIdsOfPointsThatAreNotThere)
   }
   expectRefusal(someGrid({ VTK_TRIANGLE }, someCells<vtkTypeInt32Array>({ 0, 3 }, { 0, 4, 1 })),
     "refer to point 4");
+}
+
+TEST(CheckDataSet, RefusesABadIdInEveryStorageOfCells)
+{
+  for (const auto& [name, storage] : cellStorages())
+  {
+    SCOPED_TRACE(name);
+    EXPECT_NO_THROW(tipp::checkDataSet(
+      someGrid({ VTK_TRIANGLE, VTK_TRIANGLE }, storedCells(storage, { 0, 1, 2, 0, 2, 3 }, 3)),
+      "the input"));
+    expectRefusal(
+      someGrid({ VTK_TRIANGLE, VTK_TRIANGLE }, storedCells(storage, { 0, 1, 2, 0, 2, 4 }, 3)),
+      "its cells refer to point 4 at number 1, but there are 4 points");
+  }
 }
 
 TEST(CheckDataSet, RefusesIdsInAllCellsOfASurface)
@@ -211,6 +226,26 @@ TEST(CheckDataSet, RefusesPolygonsOfTwoPoints)
 
 TEST(CheckDataSet, RefusesFacesOfPolyhedraThatAreCutOrReferToNoPoint)
 {
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 4, 0)
+  const auto polyhedron = [](const CellIds& ends, const CellIds& ids, const CellIds& list)
+  {
+    const auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+    grid->SetPoints(somePoints(4));
+    vtkNew<vtkUnsignedCharArray> types;
+    types->InsertNextValue(VTK_POLYHEDRON);
+    grid->SetPolyhedralCells(types.Get(), someCells({ 0, 4 }, { 0, 1, 2, 3 }),
+      someCells({ 0, vtkTypeInt64(list.size()) }, list), someCells(ends, ids));
+    return grid;
+  };
+  const CellIds ends = { 0, 3, 6, 9, 12 };
+  const CellIds whole = { 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2 };
+  EXPECT_NO_THROW(tipp::checkDataSet(polyhedron(ends, whole, { 0, 1, 2, 3 }), "the input"));
+  CellIds bad = whole;
+  bad[1] = 9;
+  expectRefusal(polyhedron(ends, bad, { 0, 1, 2, 3 }), "its faces of polyhedra refer to point 9");
+  expectRefusal(polyhedron(ends, whole, { 0, 1, 2, 4 }), "its lists of faces refer to face 4");
+  expectRefusal(polyhedron(ends, whole, {}), "faces that are not all there");
+#else
   const auto polyhedron = [](const CellIds& faces)
   {
     const auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
@@ -230,6 +265,7 @@ TEST(CheckDataSet, RefusesFacesOfPolyhedraThatAreCutOrReferToNoPoint)
   bad[6] = 999999999999;
   expectRefusal(polyhedron(bad), "refers to point 999999999999");
   expectRefusal(polyhedron({ 4, 3, 0, 2, 1 }), "faces that are not all there");
+#endif
 }
 
 TEST(CheckDataSet, RefusesGridsWithTooFewPoints)

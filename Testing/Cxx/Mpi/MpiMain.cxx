@@ -1,10 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // main() of a test program that runs on several ranks: every rank runs every test, and the program
-// fails if a test fails on any rank. The global controller is VTK's MPI controller.
-#include "vtkMPIController.h"
+// fails if a test fails on any rank. The global controller is VTK's MPI controller; in a build
+// without MPI, that of one rank.
 #include "vtkNew.h"
 
 #include <gtest/gtest.h>
+
+#ifndef TIPP_USE_MPI
+
+#include "vtkDummyController.h"
+
+int main(int argc, char* argv[])
+{
+  testing::InitGoogleTest(&argc, argv);
+  vtkNew<vtkDummyController> controller;
+  vtkMultiProcessController::SetGlobalController(controller);
+  const int failed = RUN_ALL_TESTS();
+  vtkMultiProcessController::SetGlobalController(nullptr);
+  return failed;
+}
+
+#else
+
+#include "vtkMPIController.h"
+
 #include <mpi.h>
 
 namespace
@@ -54,3 +73,5 @@ int main(int argc, char* argv[])
   MPI_Finalize();
   return failedAnywhere;
 }
+
+#endif

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CellStorages.h"
 #include "RangeResampleTesting.h"
 
 #include "vtkCellData.h"
@@ -119,6 +120,42 @@ TEST(RangeResampleCells, HexahedraLeaveNoHolesThoughTheirFacesAreNotPlanar)
 {
   CubeGrid cubes;
   expectFilled(sampleCubes(cubes, [&](const auto& ids) { cubes.add(VTK_HEXAHEDRON, ids); }));
+}
+
+/// Whichever way VTK stores the cells.
+TEST(RangeResampleCells, EveryStorageOfCellsMakesTheSameImage)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> linear;
+  linear->SetName("linear");
+  for (const double p : { 0., 0., 0., 1., 0., 0., 0., 1., 0., 1., 1., 0., 0., 0., 1. })
+  {
+    linear->InsertNextValue(p);
+  }
+  linear->SetNumberOfComponents(3);
+  points->SetData(linear);
+  const std::vector<std::pair<int, std::vector<std::int64_t>>> meshes = {
+    { VTK_TRIANGLE, { 0, 1, 2, 2, 1, 3 } }, { VTK_TETRA, { 0, 1, 2, 4, 1, 2, 3, 4 } }
+  };
+  for (const auto& [type, ids] : meshes)
+  {
+    const bool flat = type == VTK_TRIANGLE;
+    std::vector<vtkSmartPointer<vtkImageData>> images;
+    for (const auto& [name, storage] : cellStorages())
+    {
+      vtkNew<vtkUnstructuredGrid> grid;
+      grid->SetPoints(points);
+      grid->SetCells(type, storedCells(storage, ids, flat ? 3 : 4));
+      grid->GetPointData()->AddArray(linear);
+      const auto filter = unitFilter(flat ? 2 : 3, 9);
+      filter->SetInputData(grid);
+      filter->Update();
+      images.emplace_back(filter->GetOutput());
+      EXPECT_GT(countValid(images.back()), flat ? 80 : 250) << name;
+      EXPECT_TRUE(sameArrays(images.front(), images.back())) << name;
+    }
+  }
 }
 
 TEST(RangeResampleCells, WedgesLeaveNoHoles)

@@ -9,7 +9,8 @@ from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 from . import _arguments as check
-from ._arrays import taken, vtk_points
+from ._arrays import taken
+from ._vtk import vtk_points
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -60,7 +61,7 @@ def _polygons(polygons: Any) -> Iterable[Any]:
 def _require_ids(ids: np.ndarray, count: int, name: str) -> None:
     wrong = ids[(ids < 0) | (ids >= count)]
     if wrong.size > 0:
-        raise ValueError(f"{name} name point {wrong.flat[0]}, but there are {count} points; ids count from 0.")
+        raise ValueError(f"{name}: there is no point {wrong.flat[0]}, for there are {count} points; ids count from 0.")
 
 
 def _edges(edges: ArrayLike, count: int) -> list[np.ndarray]:

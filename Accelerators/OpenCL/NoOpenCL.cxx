@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What stands for Drivers.cxx and everything that runs on a device in a build without OpenCL.
+#include "OpenCL/DeviceList.h"
+#include "Partition/ClassifyOnDevice.h"
+#include "Resample/DeviceResampler.h"
+
+namespace tipp
+{
+
+const std::vector<DeviceDescription>& listDevices()
+{
+  static const std::vector<DeviceDescription> none;
+  return none;
+}
+
+std::string noDeviceAdvice()
+{
+  return "TIPP was built without OpenCL: use OpenMP, or build it with -DTIPP_USE_OPENCL=ON.";
+}
+
+std::optional<Membership> classifyOnDevice(
+  const DeviceChoice& choice, const CellsView&, const BoxTiling&, const CellShape&, std::uint64_t)
+{
+  chooseDevice(choice, listDevices()); // an error, if it is to be a device
+  return std::nullopt;
+}
+
+std::unique_ptr<DeviceResampler> DeviceResampler::open(
+  const SimplexMesh&, const ResampleOptions& options)
+{
+  chooseDevice(options.Device, listDevices());
+  return nullptr;
+}
+
+} // namespace tipp

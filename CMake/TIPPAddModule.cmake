@@ -1,0 +1,32 @@
+# tipp_add_module(<name> [CLASSES <class>...] [NEEDS <module>...] CORE <source>... VTK <source>...
+#   [WITHOUT_VTK <source>...])
+# A VTK module of the CORE and VTK sources. In the build for the Python wheel, which has no VTK, a static library of
+# the CORE and WITHOUT_VTK sources, linked with the modules that it NEEDS (for VTK they stand in vtk.module).
+function (tipp_add_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "CLASSES;NEEDS;CORE;VTK;WITHOUT_VTK")
+  if (NOT TIPP_BUILD_WHEEL)
+    if (arg_CLASSES)
+      list(PREPEND arg_CLASSES CLASSES)
+    endif ()
+    vtk_module_add_module(${name} ${arg_CLASSES} SOURCES ${arg_CORE} ${arg_VTK})
+    return ()
+  endif ()
+  string(REPLACE "TIPP::" "" target "${name}")
+  string(TOUPPER "VTK${target}" macro)
+  file(CONFIGURE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/vtk${target}Module.h"
+    CONTENT "#define ${macro}_EXPORT\n#define ${macro}_NO_EXPORT\n")
+  add_library(${target} STATIC ${arg_CORE} ${arg_WITHOUT_VTK})
+  add_library(${name} ALIAS ${target})
+  target_include_directories(${target} PUBLIC "${CMAKE_CURRENT_SOURCE_DIR}" "${CMAKE_CURRENT_BINARY_DIR}")
+  target_link_libraries(${target} PUBLIC ${arg_NEEDS})
+endfunction ()
+
+# tipp_link_module(<name> <library>...)
+function (tipp_link_module name)
+  if (TIPP_BUILD_WHEEL)
+    tipp_real_target(target "${name}")
+    target_link_libraries(${target} PUBLIC ${ARGN})
+  else ()
+    vtk_module_link(${name} PRIVATE ${ARGN})
+  endif ()
+endfunction ()

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Resample/SamplingLattice.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace tipp
+{
+
+std::array<int, 3> chosenDimensions(
+  const std::array<double, 6>& bounds, std::array<int, 3> dimensions, bool surfaces)
+{
+  const auto length = [&](std::size_t axis) { return bounds[2 * axis + 1] - bounds[2 * axis]; };
+  std::optional<double> step;
+  for (std::size_t axis = 0; axis < 3 && !step; ++axis)
+  {
+    if (dimensions[axis] > 0)
+    {
+      step = length(axis) / std::max(dimensions[axis] - 1, 1);
+    }
+  }
+  if (!step)
+  {
+    throw std::runtime_error(
+      "SamplingDimensions have no number above 0: give one along an axis at least.");
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (dimensions[axis] == 0)
+    {
+      const bool one =
+        (axis == 2 && surfaces) || !(*step > 0); // bounds without sense are told of later
+      const double steps = one ? 0 : std::max(std::round(length(axis) / *step), 0.0);
+      if (!(steps < std::numeric_limits<int>::max()))
+      {
+        throw std::runtime_error("more than 2147483647 samples along " +
+          std::string(1, "xyz"[axis]) + " would be as far apart as those of the first axis: give " +
+          "the number of samples along it.");
+      }
+      dimensions[axis] = int(steps) + 1;
+    }
+  }
+  return dimensions;
+}
+
+std::array<int, 3> rangeDimensions(const std::array<double, 6>& bounds,
+  const std::array<int, 3>& dimensions, const std::array<double, 3>& delta)
+{
+  std::array<int, 3> result = dimensions;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::string name(1, "xyz"[axis]);
+    const double low = bounds[2 * axis];
+    const double high = bounds[2 * axis + 1];
+    if (!std::isfinite(high - low) || low > high)
+    {
+      throw std::runtime_error("the range along " + name + " is from " + std::to_string(low) +
+        " to " + std::to_string(high) + ": give finite bounds, the lower one first.");
+    }
+    if (!std::isfinite(delta[axis]) || delta[axis] < 0)
+    {
+      throw std::runtime_error("Delta along " + name + " is " + std::to_string(delta[axis]) +
+        ": give a distance above 0, or 0 to use SamplingDimensions.");
+    }
+    if (delta[axis] > 0)
+    {
+      const double steps = std::floor((high - low) / delta[axis]);
+      if (!(steps < std::numeric_limits<int>::max()))
+      {
+        throw std::runtime_error(
+          "more than 2147483647 samples along " + name + ": give a larger Delta.");
+      }
+      result[axis] = int(steps) + 1;
+    }
+    if (result[axis] < 1)
+    {
+      throw std::runtime_error("SamplingDimensions along " + name + " is " +
+        std::to_string(result[axis]) + ": give 1 or more.");
+    }
+  }
+  return result;
+}
+
+Lattice rangeLattice(const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
+  const std::array<double, 3>& delta)
+{
+  const std::array<int, 3> counts = rangeDimensions(bounds, dimensions, delta);
+  Lattice lattice;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double low = bounds[2 * axis];
+    const double high = bounds[2 * axis + 1];
+    const double steps = counts[axis] - 1;
+    lattice.Min[axis] = low;
+    lattice.Extent[2 * axis + 1] = counts[axis] - 1;
+    if (delta[axis] > 0)
+    {
+      lattice.Delta[axis] = delta[axis];
+    }
+    else if (counts[axis] > 1)
+    {
+      lattice.Delta[axis] = (high - low) / steps;
+      // A rounding must not put the last sample out of the range.
+      while (lattice.Delta[axis] > 0 && low + steps * lattice.Delta[axis] > high)
+      {
+        lattice.Delta[axis] = std::nextafter(lattice.Delta[axis], 0.0);
+      }
+    }
+    else
+    {
+      lattice.Delta[axis] = high > low ? high - low : 1;
+    }
+  }
+  return lattice;
+}
+
+std::vector<int> surfaceAxes(const std::array<int, 3>& dimensions)
+{
+  if (dimensions[2] == 1 || (dimensions[0] > 1 && dimensions[1] > 1))
+  {
+    return { 0, 1 };
+  }
+  return dimensions[1] == 1 ? std::vector<int>{ 0, 2 } : std::vector<int>{ 1, 2 };
+}
+
+void requireMemory(double samples, double bytes)
+{
+  const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+  if (bytes > memory)
+  {
+    char text[256];
+    std::snprintf(text, sizeof text,
+      "%.0f samples need at least %.1f GB of memory, and this machine has %.1f GB: use a smaller "
+      "range, fewer samples or fewer arrays.",
+      samples, bytes / 1e9, memory / 1e9);
+    throw std::runtime_error(text);
+  }
+}
+
+} // namespace tipp

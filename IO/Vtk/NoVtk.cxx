@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What stands for VtkFiles.cxx and CellTypeName.cxx in a build without VTK.
+#include "Vtk/VtkFiles.h"
+
+#include "Files/Extension.h"
+#include "Files/IOError.h"
+#include "Vtk/CellTypeName.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tipp
+{
+
+bool isVtkFile(const std::string& path)
+{
+  constexpr std::array<const char*, 14> extensions = { ".vtp", ".vtu", ".vti", ".vts", ".vtr",
+    ".pvtp", ".pvtu", ".pvti", ".pvts", ".pvtr", ".vtk", ".ply", ".stl", ".obj" };
+  return std::find(extensions.begin(), extensions.end(), extensionOf(path)) != extensions.end();
+}
+
+PointTable readVtkPoints(const std::string& path)
+{
+  throw IOError(path,
+    "is a file that VTK reads, and this tipp was built without VTK; read it in Python with VTK or "
+    "PyVista, and give its points.");
+}
+
+std::string cellTypeName(int type)
+{
+  return "type " + std::to_string(type);
+}
+
+} // namespace tipp

@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""NumPy arrays as VTK's and back, without copies where VTK allows."""
+from __future__ import annotations
+
+import ctypes
+import mmap
+import os
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING, Any, Mapping
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkFloatArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import (
+    vtkCellArray,
+    vtkDataObject,
+    vtkImageData,
+    vtkPartitionedDataSet,
+    vtkPolyData,
+    vtkUnstructuredGrid,
+)
+
+from ._arrays import attribute, attributes, coordinates
+from ._data import Image, Mesh
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+    from vtkmodules.vtkCommonCore import vtkDataArray
+
+_BLOCK = 4096  # rows
+_SHARE = 64 * _BLOCK  # of a thread, at a time
+_MOST_THREADS = 8
+_MADV_POPULATE_WRITE = 23  # Linux 5.14
+
+
+def vtk_points(points: ArrayLike) -> vtkPoints:
+    """VTK's points of an (n, 2) or (n, 3) array.
+
+    They share the memory of a writable (n, 3) array of float32 or float64 in C order; any other array is
+    copied once.
+    """
+    array = coordinates(points)
+    kind = array.dtype if array.dtype in (np.float32, np.float64) else np.dtype(np.float64)
+    is_shared = (array.shape[1] == 3 and array.dtype == kind and array.flags.c_contiguous and array.flags.writeable)
+    result = vtkPoints()
+    result.SetData(numpy_to_vtk(array) if is_shared else _copied(array, kind))
+    return result
+
+
+def _copied(points: np.ndarray, kind: np.dtype) -> vtkDataArray:
+    """x, y and z, or 0, in memory of VTK's.
+
+    NumPy would ask for huge pages, whose first touch takes several times as long in a virtual machine that gives
+    free memory back. Threads share the copying, block by block, which keeps to the cache; small pages are asked for
+    many at once.
+    """
+    result = vtkFloatArray() if kind == np.float32 else vtkDoubleArray()
+    result.SetNumberOfComponents(3)
+    result.SetNumberOfTuples(len(points))
+    if len(points) == 0:
+        return result
+    target = vtk_to_numpy(result)
+
+    def fill(first: int) -> None:
+        last = min(first + _SHARE, len(points))
+        _touch(target[first:last])
+        for begin in range(first, last, _BLOCK):
+            rows = slice(begin, begin + _BLOCK)
+            for axis in range(3):
+                target[rows, axis] = points[rows, axis] if axis < points.shape[1] else 0
+
+    shares = range(0, len(points), _SHARE)
+    with ThreadPoolExecutor(min(_MOST_THREADS, len(os.sched_getaffinity(0)))) as threads:
+        list(map(fill, shares) if len(shares) == 1 else threads.map(fill, shares))
+    return result
+
+
+def _touch(array: np.ndarray) -> None:
+    """Has Linux map the memory of an array that will be written; older versions do not know how and need not."""
+    if sys.platform == "linux":
+        begin = array.__array_interface__["data"][0]
+        page = begin // mmap.PAGESIZE * mmap.PAGESIZE
+        ctypes.CDLL(None).madvise(ctypes.c_void_p(page), ctypes.c_size_t(begin + array.nbytes - page),
+                                  _MADV_POPULATE_WRITE)
+
+
+def vtk_array(name: str, values: ArrayLike) -> Any:
+    """A named VTK array of one value or one row for each point.
+
+    It shares the memory of values, if they are writable, contiguous and of a type that VTK has.
+    """
+    array = attribute(name, values)
+    result = numpy_to_vtk(array if array.flags.writeable else array.copy())
+    result.SetName(name)
+    return result
+
+
+def point_cloud(points: ArrayLike, point_data: Mapping[str, ArrayLike] | None = None) -> vtkPolyData:
+    """Points and values at them as a data set; see vtk_points for copies."""
+    cloud = vtkPolyData()
+    cloud.SetPoints(vtk_points(points))
+    for name, array in attributes(point_data, cloud.GetNumberOfPoints()).items():
+        cloud.GetPointData().AddArray(vtk_array(name, array))
+    return cloud
+
+
+def triangles_of(mesh: vtkPolyData) -> np.ndarray:
+    """The (n, 3) point ids of a mesh of triangles, in the memory of the mesh."""
+    return vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+
+
+def wrapped_like(result: vtkDataObject, source: Any) -> Any:
+    """The result as a PyVista object, if the source is one."""
+    pyvista = sys.modules.get("pyvista")
+    if pyvista is not None and isinstance(source, pyvista.DataObject):
+        return pyvista.wrap(result)
+    return result
+
+
+# What the wheel needs besides.
+
+_TYPES = {3: 5, 4: 10}  # VTK_TRIANGLE and VTK_TETRA, by their number of corners
+
+
+def xyz_of(data: Any) -> np.ndarray:
+    """The coordinates of a vtkPointSet's points."""
+    points = data.GetPoints()
+    return vtk_to_numpy(points.GetData()) if points and points.GetNumberOfPoints() else np.empty((0, 3))
+
+
+def cells_of(ids: np.ndarray) -> vtkCellArray:
+    """Cells of as many points as the array has columns, in its memory."""
+    count, size = ids.shape
+    cells = vtkCellArray()
+    cells.SetData(numpy_to_vtk(np.arange(0, size * count + 1, size, dtype=ids.dtype)), numpy_to_vtk(ids.reshape(-1)))
+    return cells
+
+
+def _add_arrays(arrays: dict[str, np.ndarray], target: Any) -> None:
+    for name, values in arrays.items():
+        array = vtk_array(name, values)
+        if name in ("GlobalPointIds", "GlobalCellIds"):
+            target.SetGlobalIds(numpy_to_vtk(values, array_type=12))  # VTK_ID_TYPE
+            target.GetGlobalIds().SetName(name)
+        else:
+            target.AddArray(array)
+
+
+def grid_of(mesh: Mesh | None) -> vtkUnstructuredGrid:
+    grid = vtkUnstructuredGrid()
+    if mesh is not None:
+        grid.SetPoints(vtk_points(mesh.points))
+        grid.SetCells(_TYPES[mesh.cells.shape[1]], cells_of(mesh.cells))
+        _add_arrays(mesh.point_data, grid.GetPointData())
+        _add_arrays(mesh.cell_data, grid.GetCellData())
+    return grid
+
+
+def partitioned(grids: list[vtkUnstructuredGrid]) -> vtkPartitionedDataSet:
+    result = vtkPartitionedDataSet()
+    result.SetNumberOfPartitions(len(grids))
+    for i, grid in enumerate(grids):
+        result.SetPartition(i, grid)
+    return result
+
+
+def image_of(image: Image) -> vtkImageData:
+    result = vtkImageData()
+    result.SetDimensions(*image.dimensions)
+    result.SetOrigin(*image.origin)
+    result.SetSpacing(*image.spacing)
+    _add_arrays(image.point_data, result.GetPointData())
+    _add_ghosts(image, result)
+    return result
+
+
+def _add_ghosts(image: Image, result: vtkImageData) -> None:
+    """Hides the points without an answer and the cells that have such a corner."""
+    valid = image.array("vtkValidPointMask").reshape(image.dimensions[::-1]) != 0
+    hidden_point, hidden_cell = 2, 32  # vtkDataSetAttributes
+    of_points = np.where(valid, 0, hidden_point).astype(np.uint8)
+    for axis in range(3):
+        if valid.shape[axis] > 1:
+            valid = np.delete(valid, -1, axis) & np.delete(valid, 0, axis)
+    of_cells = np.where(valid, 0, hidden_cell).astype(np.uint8)
+    result.GetPointData().AddArray(vtk_array("vtkGhostType", of_points.ravel()))
+    result.GetCellData().AddArray(vtk_array("vtkGhostType", of_cells.ravel()))
+
+
+def _arrays_of(data: Any) -> dict[str, np.ndarray]:
+    """The named arrays of numbers."""
+    arrays = (data.GetArray(i) for i in range(data.GetNumberOfArrays()))
+    return {array.GetName(): vtk_to_numpy(array) for array in arrays if array is not None and array.GetName()}
+
+
+def simplices_of(data: Any) -> Mesh:
+    """The triangles or tetrahedra of a data set, in its memory. Raises RuntimeError for other cells."""
+    if data.IsA("vtkPolyData"):
+        cells, kinds = data.GetPolys(), {5}
+        is_uniform = cells.GetNumberOfCells() == data.GetNumberOfCells() and cells.IsHomogeneous() in (-1, 0, 3)
+    elif data.IsA("vtkUnstructuredGrid"):
+        cells = data.GetCells()
+        kinds = {data.GetCellType(0)} if data.GetNumberOfCells() else {5}
+        is_uniform = kinds <= {5, 10} and (data.GetNumberOfCells() == 0 or bool(data.IsHomogeneous()))
+    else:
+        cells, kinds, is_uniform = None, set(), False
+    if not is_uniform:
+        raise RuntimeError(f"the mesh is a {data.GetClassName()} with other cells than triangles alone or tetrahedra "
+                           "alone; make them so first, as by PyVista's triangulate().")
+    corners = 4 if kinds == {10} else 3
+    ids = vtk_to_numpy(cells.GetConnectivityArray()) if cells.GetNumberOfCells() else np.empty(0, np.int64)
+    return Mesh(xyz_of(data), ids.reshape(-1, corners), _arrays_of(data.GetPointData()), _arrays_of(data.GetCellData()))

@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the functions run in a package built with VTK: its wrapped filters. Arguments have been checked."""
+from __future__ import annotations
+
+from typing import Any, Callable
+
+import numpy as np
+
+from . import _arguments as check
+from ._progress import Progress
+from ._run import run
+from ._vtk import point_cloud, triangles_of, wrapped_like
+from ._vtk_constraints import source_of
+from ._vtk_dem import dem
+from .vtkTIPPFilters import vtkRangeResampleFilter, vtkTIPPDelaunay2D, vtkTIPPOutOfCoreDelaunay2D
+from .vtkTIPPIO import vtkPartitionedUnstructuredReader, vtkPartitionedUnstructuredWriter
+
+__all__ = ["delaunay", "delaunay_2d", "delaunay_file", "dem", "read", "require_ranks", "resample", "write"]
+
+_FIGURES = {
+    "points": "Points",
+    "triangles": "Triangles",
+    "duplicates": "DuplicatePoints",
+    "rejected": "RejectedPoints",
+    "pieces": "Pieces",
+    "spilled_bytes": "SpilledBytes",
+    "mesh_bytes": "MeshBytes",
+    "resumed": "Resumed",
+    "triangle_sum": "TriangleSum",
+}
+
+
+def require_ranks() -> None:
+    """Raises where the package cannot work on several ranks."""
+
+
+def delaunay(points: Any, options: dict[str, Any], progress: Progress | None) -> np.ndarray:
+    return triangles_of(_triangulated(points, None, options, progress).GetOutput())
+
+
+def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any], progress: Progress | None) -> Any:
+    def add(algorithm: vtkTIPPDelaunay2D) -> None:
+        source, has_points = source_of(
+            algorithm.GetInput(), options["edge_source"], options["edges"], options["polygons"])
+        if source is not None:
+            algorithm.SetSourceData(source)
+            algorithm.SetMergeSourcePoints(has_points)
+        algorithm.SetSplitCrossings(options["crossings"])
+        algorithm.SetConstraintMarks(options["marks"])
+        algorithm.SetAlpha(options["alpha"])
+        algorithm.SetOffset(options["offset"])
+        algorithm.SetBoundingTriangulation(options["bound"])
+
+    return wrapped_like(_triangulated(points, point_data, options, progress, add).GetOutput(), points)
+
+
+def _triangulated(points: Any, point_data: Any, options: dict[str, Any], progress: Progress | None,
+                  add: Callable[[vtkTIPPDelaunay2D], None] = lambda algorithm: None) -> vtkTIPPDelaunay2D:
+    """The filter after its run; add() sets more than every triangulation has."""
+    algorithm = vtkTIPPDelaunay2D()
+    algorithm.SetInputData(points if check.is_vtk_object(points) else point_cloud(points, point_data))
+    algorithm.SetTolerance(options["tolerance"])
+    algorithm.SetMaximumEdgeLength(options["max_edge"])
+    algorithm.SetNumberOfPartitions(*options["partitions"])
+    algorithm.SetSchedule(options["schedule"])
+    algorithm.SetNumberOfThreads(options["threads"])
+    add(algorithm)
+    run(algorithm, progress)
+    return algorithm
+
+
+def delaunay_file(
+    paths: list[str], output: str, options: dict[str, Any], progress: Progress | None
+) -> dict[str, int]:
+    algorithm = vtkTIPPOutOfCoreDelaunay2D()
+    for path in paths:
+        algorithm.AddInputFileName(path)
+    algorithm.SetFileName(output)
+    algorithm.SetMemoryLimit(options["memory"])
+    algorithm.SetNumberOfPartitions(*options["partitions"])
+    algorithm.SetXColumn(options["columns"][0])
+    algorithm.SetYColumn(options["columns"][1])
+    algorithm.SetMaximumEdgeLength(options["max_edge"])
+    algorithm.SetGenerateRepresentativeIds(options["map_duplicates"])
+    algorithm.SetGenerateNeighborIds(options["neighbors"])
+    algorithm.SetCountOnly(options["count_only"])
+    algorithm.SetResume(options["resume"])
+    algorithm.SetScratchFolder(options["scratch"] or None)
+    algorithm.SetNumberOfThreads(options["threads"])
+    run(algorithm, progress)
+    totals = algorithm.GetOutput().GetFieldData()
+    arrays = {key: totals.GetArray(name) for key, name in _FIGURES.items()}
+    return {key: array.GetValue(0) for key, array in arrays.items() if array is not None}
+
+
+def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> Any:
+    check.data_object(mesh, "mesh", ("vtkPointSet", "vtkCompositeDataSet"), "a mesh or a composite of meshes")
+    algorithm = vtkRangeResampleFilter()
+    algorithm.SetInputDataObject(mesh)
+    if options["bounds"] is not None:
+        algorithm.SetUseInputBounds(False)
+        algorithm.SetSamplingBounds(*options["bounds"])
+    if options["spacing"] is not None:
+        algorithm.SetDelta(*options["spacing"])
+    algorithm.SetSamplingDimensions(*options["dimensions"])
+    algorithm.SetNullValue(options["null_value"])
+    if options["no_data"] is not None:
+        algorithm.SetUseNoDataValue(True)
+        algorithm.SetNoDataValue(options["no_data"])
+    if options["arrays"] is not None:
+        _select(algorithm, mesh, options["arrays"])
+    algorithm.SetNumberOfThreads(options["threads"])
+    run(algorithm, call=lambda: algorithm.SetDeviceChoice(options["device"]))
+    run(algorithm, progress)
+    return wrapped_like(algorithm.GetOutput(), mesh)
+
+
+def _select(algorithm: vtkRangeResampleFilter, mesh: Any, names: list[str]) -> None:
+    """Samples these arrays only; a name that the mesh has not is a warning of the filter's."""
+    of_cells = hasattr(mesh, "GetCellData") and mesh.GetCellData()
+    for selection, wanted in (
+        (algorithm.GetPointDataArraySelection(), [n for n in names if not (of_cells and of_cells.HasArray(n))]),
+        (algorithm.GetCellDataArraySelection(), [n for n in names if of_cells and of_cells.HasArray(n)]),
+    ):
+        selection.SetUnknownArraySetting(0)
+        for name in wanted:
+            selection.EnableArray(name)
+
+
+def read(path: str, options: dict[str, Any], progress: Progress | None) -> Any:
+    reader = vtkPartitionedUnstructuredReader()
+    reader.SetFileName(path)
+    if options["bounds"] is not None:
+        reader.SetBounds(*options["bounds"])
+    reader.SetBorrowerMode(reader.OWNED_AND_BORROWED if options["borrowed"] else reader.OWNED)
+    reader.SetMergePieces(options["merge"])
+    reader.SetTiling(options["tiling"])
+    reader.SetMemoryLimit(options["memory_limit"])
+    run(reader, call=reader.UpdateInformation)
+    _keep_only(reader.GetPointDataArraySelection(), options["point_arrays"], "point")
+    _keep_only(reader.GetCellDataArraySelection(), options["cell_arrays"], "cell")
+    controller = reader.GetController()
+    rank = controller.GetLocalProcessId() if controller else 0
+    size = controller.GetNumberOfProcesses() if controller else 1
+    run(reader, progress, lambda: _update(reader, rank, size, options["time"]))
+    return reader.GetOutputDataObject(0)
+
+
+def _keep_only(selection: Any, wanted: list[str] | None, what: str) -> None:
+    if wanted is None:
+        return
+    known = [selection.GetArrayName(i) for i in range(selection.GetNumberOfArrays())]
+    check.require_arrays(wanted, known, what)
+    for name in known:
+        selection.SetArraySetting(name, name in wanted)
+
+
+def _update(reader: vtkPartitionedUnstructuredReader, rank: int, size: int, time: float | None) -> None:
+    if time is None:
+        reader.UpdatePiece(rank, size, 0)
+    else:
+        reader.UpdateTimeStep(time, rank, size, 0)
+
+
+def write(mesh: Any, path: str, options: dict[str, Any], progress: Progress | None) -> None:
+    writer = vtkPartitionedUnstructuredWriter()
+    if isinstance(mesh, str):
+        writer.SetInputFileName(mesh)
+    else:
+        writer.SetInputData(check.data_object(mesh, "mesh", ("vtkDataObject",), "a VTK data set or a path"))
+    writer.SetFileName(path)
+    writer.SetTiling(options["tiling"])
+    writer.SetDuplicateBorrowers(options["duplicate_borrowers"])
+    writer.SetMemoryLimit(options["memory_limit"])
+    writer.SetNumberOfThreads(options["threads"])
+    run(writer, progress, writer.Write)

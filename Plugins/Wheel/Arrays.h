@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPythonArrays_h
+#define tippPythonArrays_h
+
+#include "Arrays/Scalar.h"
+#include "Partitioned/RawBuffer.h"
+#include "Triangulation/Buffer.h"
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <cstdlib>
+#include <initializer_list>
+#include <stdexcept>
+#include <string>
+
+namespace tipp::python
+{
+
+namespace nb = nanobind;
+
+/// A NumPy array to read, of any type. The Python side sees to it that it is in C order.
+using InputArray = nb::ndarray<nb::ro, nb::device::cpu, nb::c_contig>;
+
+inline Scalar scalarOf(nb::dlpack::dtype type)
+{
+  using Code = nb::dlpack::dtype_code;
+  const bool isReal = type.code == std::uint8_t(Code::Float);
+  const bool isSigned = type.code == std::uint8_t(Code::Int);
+  switch (type.bits)
+  {
+    case 8:
+      return isSigned ? Scalar::Int8 : Scalar::UInt8;
+    case 16:
+      return isSigned ? Scalar::Int16 : Scalar::UInt16;
+    case 32:
+      return isReal ? Scalar::Float32 : isSigned ? Scalar::Int32 : Scalar::UInt32;
+    default:
+      return isReal ? Scalar::Float64 : isSigned ? Scalar::Int64 : Scalar::UInt64;
+  }
+}
+
+inline std::size_t bytesOf(Scalar scalar)
+{
+  std::size_t bytes = 0;
+  withScalar(scalar, [&](auto value) { bytes = sizeof(value); });
+  return bytes;
+}
+
+/// A NumPy array over memory from malloc(), which it frees.
+inline nb::object owningArray(void* memory, Scalar scalar, const std::vector<std::size_t>& shape)
+{
+  const nb::capsule owner(memory, [](void* p) noexcept { std::free(p); });
+  nb::object result;
+  withScalar(scalar,
+    [&](auto value)
+    {
+      using Value = decltype(value);
+      result = nb::cast(nb::ndarray<nb::numpy, Value>(
+        static_cast<Value*>(memory), shape.size(), shape.data(), owner));
+    });
+  return result;
+}
+
+template <typename Value>
+constexpr Scalar scalarType();
+template <>
+constexpr Scalar scalarType<std::int32_t>()
+{
+  return Scalar::Int32;
+}
+template <>
+constexpr Scalar scalarType<std::int64_t>()
+{
+  return Scalar::Int64;
+}
+
+/// The buffer as rows of a NumPy array, without a copy.
+template <typename Value>
+nb::object arrayOf(Buffer<Value>&& buffer, std::size_t columns)
+{
+  const std::size_t rows = buffer.size() / columns;
+  void* memory = buffer.release();
+  return owningArray(memory ? memory : std::malloc(1), scalarType<Value>(), { rows, columns });
+}
+
+inline nb::object arrayOf(RawBuffer&& buffer, Scalar scalar, std::size_t columns)
+{
+  const std::size_t rows = buffer.size() / bytesOf(scalar) / columns;
+  return owningArray(buffer.release(), scalar,
+    columns == 1 ? std::vector<std::size_t>{ rows } : std::vector<std::size_t>{ rows, columns });
+}
+
+} // namespace tipp::python
+
+#endif

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Arrays.h"
+#include "Functions.h"
+#include "Reporter.h"
+
+#include "Files/IOError.h"
+#include "Files/RequireApart.h"
+#include "Flat/FlatMesh.h"
+#include "Messages/Postbox.h"
+#include "OutOfCore/OutOfCoreRanks.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "Output/TriangulationWarnings.h"
+#include "Parallel/Poll.h"
+#include "Partitioning/PartitionContent.h"
+#include "Partitioning/PartitionMesh.h"
+#include "Reading/AssemblePiece.h"
+#include "Reading/PieceSource.h"
+#include "Reading/RangeFilter.h"
+#include "Vtk/VtkFiles.h"
+
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+
+namespace tipp::python
+{
+namespace
+{
+
+using Strings = std::vector<std::string>;
+
+nb::dict figuresOf(const OutOfCoreStatistics& statistics, bool countOnly)
+{
+  nb::dict result;
+  result["points"] = statistics.Points;
+  result["triangles"] = statistics.Triangles;
+  result["duplicates"] = statistics.Duplicates;
+  result["rejected"] = statistics.Rejected;
+  result["pieces"] = statistics.Pieces;
+  result["spilled_bytes"] = statistics.SpilledBytes;
+  result["mesh_bytes"] = statistics.MeshBytes;
+  result["resumed"] = statistics.Resumed ? 1 : 0;
+  if (countOnly)
+  {
+    result["triangle_sum"] = statistics.TriangleSum;
+  }
+  return result;
+}
+
+nb::tuple triangulateFiles(const Strings& inputs, const std::string& output, std::uint64_t memory,
+  int columns, int rows, const std::string& x, const std::string& y, double maximumEdge,
+  bool mapDuplicates, bool neighbors, bool countOnly, bool resume, const std::string& scratch,
+  int threads, nb::object progress)
+{
+  Reporter reporter(std::move(progress));
+  Strings warnings;
+  OutOfCoreOptions options;
+  options.MemoryLimit = memory;
+  options.Threads = threads;
+  options.Columns = columns;
+  options.Rows = rows;
+  options.MaximumEdge = maximumEdge;
+  options.MapDuplicates = mapDuplicates;
+  options.Neighbors = neighbors;
+  options.CountOnly = countOnly;
+  options.Resume = resume;
+  options.Scratch = scratch;
+  options.Progress = reporter.function();
+  options.Warn = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  OutOfCoreStatistics statistics;
+  withoutLock(
+    [&]
+    {
+      Postbox alone(nullptr);
+      statistics = triangulateOutOfCoreOnRanks(
+        alone,
+        [&]
+        {
+          requireApart({ output, scratchIn(scratch) }, inputs);
+          return openPointStream(inputs, { x, y });
+        },
+        output, options);
+    });
+  reporter.raiseIfStopped();
+  const Strings more = warningsOf(statistics);
+  warnings.insert(warnings.end(), more.begin(), more.end());
+  return nb::make_tuple(figuresOf(statistics, countOnly), warnings);
+}
+
+std::unique_ptr<PieceSource> openSource(
+  const std::string& path, const std::string& tiling, std::uint64_t memory)
+{
+  SourceOptions options;
+  const std::optional<TilingChoice> choice = TilingChoice::parse(tiling);
+  if (!choice)
+  {
+    throw IOError(
+      "Tiling is '" + tiling + "'; it is grid:COLUMNSxROWS[xLAYERS] or quadtree:CELLS.");
+  }
+  options.Tiling = *choice;
+  options.MemoryLimit = memory;
+  return openPieceSource(path, options);
+}
+
+/// The names of a mesh's arrays of points and of cells.
+nb::tuple arrayNames(const std::string& path, const std::string& tiling, std::uint64_t memory)
+{
+  const auto source = withoutLock([&] { return openSource(path, tiling, memory); });
+  Strings names[2];
+  for (const StoredArray& array : source->mesh().Arrays)
+  {
+    Strings& list = names[array.OfPoints ? 0 : 1];
+    if (std::find(list.begin(), list.end(), array.Name) == list.end())
+    {
+      list.push_back(array.Name);
+    }
+  }
+  return nb::make_tuple(names[0], names[1]);
+}
+
+nb::dict dictOf(Piece&& piece)
+{
+  const auto cells = std::size_t(piece.CellSize);
+  nb::dict result;
+  nb::dict ofPoints;
+  nb::dict ofCells;
+  ofPoints["GlobalPointIds"] = arrayOf(std::move(piece.PointIds), Scalar::Int64, 1);
+  ofPoints["vtkGhostType"] = arrayOf(std::move(piece.PointGhosts), Scalar::UInt8, 1);
+  ofCells["GlobalCellIds"] = arrayOf(std::move(piece.CellIds), Scalar::Int64, 1);
+  if (piece.OwnedCells < piece.Cells)
+  {
+    RawBuffer ghosts(std::size_t(piece.Cells));
+    std::fill_n(ghosts.as<std::uint8_t>(), piece.OwnedCells, std::uint8_t(0));
+    std::fill_n(ghosts.as<std::uint8_t>() + piece.OwnedCells, piece.Cells - piece.OwnedCells,
+      std::uint8_t(1));
+    ofCells["vtkGhostType"] = arrayOf(std::move(ghosts), Scalar::UInt8, 1);
+  }
+  for (Piece::Attribute& attribute : piece.Attributes)
+  {
+    nb::dict& data = attribute.Description.OfPoints ? ofPoints : ofCells;
+    data[attribute.Description.Name.c_str()] = arrayOf(std::move(attribute.Values),
+      attribute.Description.Type, std::size_t(attribute.Description.Components));
+  }
+  result["points"] = arrayOf(std::move(piece.Coordinates), piece.PointType, 3);
+  result["cells"] =
+    arrayOf(std::move(piece.Connectivity), piece.WideIds ? Scalar::Int64 : Scalar::Int32, cells);
+  result["point_data"] = ofPoints;
+  result["cell_data"] = ofCells;
+  return result;
+}
+
+bool isIn(const std::optional<Strings>& names, const std::string& name)
+{
+  return !names || std::find(names->begin(), names->end(), name) != names->end();
+}
+
+std::vector<Piece> readRange(
+  PieceSource& source, const std::optional<Bounds>& bounds, PieceOptions options, bool borrowed)
+{
+  source.prepare(Ranks(nullptr));
+  std::vector<std::size_t> numbers(source.mesh().Pieces.size());
+  std::iota(numbers.begin(), numbers.end(), std::size_t(0));
+  std::optional<RangeFilter> range;
+  if (bounds)
+  {
+    range.emplace(source.mesh(), *bounds);
+    numbers = range->pieces();
+  }
+  options.Borrowed = borrowed || range;
+  std::vector<Piece> pieces = source.read(numbers, options);
+  for (std::size_t i = 0; range && i < pieces.size(); ++i)
+  {
+    pieces[i] = range->apply(pieces[i], numbers[i], borrowed);
+  }
+  return pieces;
+}
+
+std::vector<Piece> merged(std::vector<Piece> pieces)
+{
+  if (pieces.size() < 2)
+  {
+    return pieces;
+  }
+  std::vector<const Piece*> pointers;
+  pointers.reserve(pieces.size());
+  for (const Piece& piece : pieces)
+  {
+    pointers.push_back(&piece);
+  }
+  std::vector<Piece> one;
+  one.push_back(mergePieces(pointers));
+  return one;
+}
+
+nb::list readMesh(const std::string& path, const std::optional<Bounds>& bounds,
+  std::optional<double> time, const std::optional<Strings>& pointArrays,
+  const std::optional<Strings>& cellArrays, bool borrowed, bool merge, const std::string& tiling,
+  std::uint64_t memory, nb::object progress)
+{
+  Reporter reporter(std::move(progress));
+  std::vector<Piece> pieces;
+  try
+  {
+    withoutLock(
+      [&]
+      {
+        const PollScope polled([&] { return reporter(0); });
+        const auto source = openSource(path, tiling, memory);
+        const std::vector<double>& times = source->mesh().Times;
+        PieceOptions options;
+        if (time)
+        {
+          const auto after = std::upper_bound(times.begin(), times.end(), *time);
+          options.Step = std::max(int(after - times.begin()) - 1, 0);
+        }
+        for (const StoredArray& array : source->mesh().Arrays)
+        {
+          options.Wanted.push_back(isIn(array.OfPoints ? pointArrays : cellArrays, array.Name));
+        }
+        pieces = readRange(*source, bounds, options, borrowed);
+        pieces = merge ? merged(std::move(pieces)) : std::move(pieces);
+      });
+  }
+  catch (const WorkAborted&)
+  {
+    reporter.raiseIfStopped();
+  }
+  reporter(1);
+  reporter.raiseIfStopped();
+  nb::list result;
+  for (Piece& piece : pieces)
+  {
+    result.append(dictOf(std::move(piece)));
+  }
+  return result;
+}
+
+PartitionOptions partitionOptions(const std::string& tiling, bool duplicateBorrowers,
+  std::uint64_t memory, int threads, Reporter& reporter)
+{
+  const std::optional<TilingChoice> choice = TilingChoice::parse(tiling);
+  if (!choice)
+  {
+    throw IOError(
+      "Tiling is '" + tiling + "'; it is grid:COLUMNSxROWS[xLAYERS] or quadtree:CELLS.");
+  }
+  PartitionOptions options;
+  options.Tiling = *choice;
+  options.DuplicateBorrowers = duplicateBorrowers;
+  options.MemoryLimit = memory;
+  options.Device.Kind = Device::OpenMP;
+  options.Threads = threads;
+  options.Progress = reporter.function();
+  return options;
+}
+
+void partitionFile(const std::string& input, const std::string& output, const std::string& tiling,
+  bool duplicateBorrowers, std::uint64_t memory, int threads, nb::object progress)
+{
+  Reporter reporter(std::move(progress));
+  const PartitionOptions options =
+    partitionOptions(tiling, duplicateBorrowers, memory, threads, reporter);
+  withoutLock(
+    [&]
+    {
+      requireApart({ output }, { input });
+      if (isVtkFile(input) && !isFlatMesh(input))
+      {
+        readVtkPoints(input); // says what to do
+      }
+      partitionMesh(openFlatMesh(input), output, options);
+    });
+  reporter.raiseIfStopped();
+}
+
+FlatArray flatArray(const std::string& name, const InputArray& array)
+{
+  FlatArray result;
+  result.Name = name;
+  result.Type = scalarOf(array.dtype());
+  result.Components = array.ndim() > 1 ? int(array.shape(1)) : 1;
+  result.Tuples = std::int64_t(array.shape(0));
+  result.Values = array.data();
+  return result;
+}
+
+using NamedArrays = std::vector<std::pair<std::string, InputArray>>;
+
+std::vector<FlatArray> flatArrays(const nb::dict& arrays, NamedArrays& kept)
+{
+  std::vector<FlatArray> result;
+  for (const auto& [name, array] : arrays)
+  {
+    kept.emplace_back(nb::cast<std::string>(name), nb::cast<InputArray>(array));
+    result.push_back(flatArray(kept.back().first, kept.back().second));
+  }
+  return result;
+}
+
+void partitionArrays(const InputArray& points, const InputArray& cells, const nb::dict& pointData,
+  const nb::dict& cellData, const std::string& output, const std::string& tiling,
+  bool duplicateBorrowers, std::uint64_t memory, int threads, nb::object progress)
+{
+  Reporter reporter(std::move(progress));
+  const PartitionOptions options =
+    partitionOptions(tiling, duplicateBorrowers, memory, threads, reporter);
+  NamedArrays kept;
+  FlatContent content;
+  content.CellSize = int(cells.shape(1));
+  content.Points = flatArray("points", points);
+  content.PointData = flatArrays(pointData, kept);
+  content.CellData = flatArrays(cellData, kept);
+  withoutLock(
+    [&]
+    {
+      content.Cells.resize(cells.size());
+      withScalar(scalarOf(cells.dtype()),
+        [&](auto value)
+        {
+          const auto* const ids = static_cast<const decltype(value)*>(cells.data());
+          std::transform(ids, ids + cells.size(), content.Cells.begin(),
+            [](auto id) { return std::int64_t(id); });
+        });
+      partitionContent([&] { return content; }, "the mesh", output, options);
+    });
+  reporter.raiseIfStopped();
+}
+
+} // namespace
+
+void addFileFunctions(nb::module_& module)
+{
+  const auto progress = nb::arg("progress").none();
+  module.def("triangulate_files", &triangulateFiles, nb::arg("inputs"), nb::arg("output"),
+    nb::arg("memory"), nb::arg("columns"), nb::arg("rows"), nb::arg("x"), nb::arg("y"),
+    nb::arg("maximum_edge"), nb::arg("map_duplicates"), nb::arg("neighbors"), nb::arg("count_only"),
+    nb::arg("resume"), nb::arg("scratch"), nb::arg("threads"), progress);
+  module.def("array_names", &arrayNames, nb::arg("path"), nb::arg("tiling"), nb::arg("memory"));
+  module.def("read", &readMesh, nb::arg("path"), nb::arg("bounds").none(), nb::arg("time").none(),
+    nb::arg("point_arrays").none(), nb::arg("cell_arrays").none(), nb::arg("borrowed"),
+    nb::arg("merge"), nb::arg("tiling"), nb::arg("memory"), progress);
+  module.def("partition_file", &partitionFile, nb::arg("input"), nb::arg("output"),
+    nb::arg("tiling"), nb::arg("duplicate_borrowers"), nb::arg("memory"), nb::arg("threads"),
+    progress);
+  module.def("partition_arrays", &partitionArrays, nb::arg("points"), nb::arg("cells"),
+    nb::arg("point_data"), nb::arg("cell_data"), nb::arg("output"), nb::arg("tiling"),
+    nb::arg("duplicate_borrowers"), nb::arg("memory"), nb::arg("threads"), progress);
+}
+
+} // namespace tipp::python

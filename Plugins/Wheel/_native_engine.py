@@ -1,0 +1,301 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the functions run in the wheel: the cores over NumPy arrays. Arguments have been checked.
+
+Data sets of VTK and PyVista, of any version, are taken and returned where VTK is installed.
+"""
+from __future__ import annotations
+
+import functools
+import importlib.util
+import os
+import sys
+import warnings
+from typing import Any, Iterable
+
+import numpy as np
+
+from . import _arguments as check
+from . import _core
+from ._arrays import attributes, coordinates
+from ._data import Image, Mesh
+from ._progress import Progress, finish
+
+__all__ = ["delaunay", "delaunay_2d", "delaunay_file", "dem", "read", "require_ranks", "resample", "write"]
+
+_HIDDEN = 32  # vtkDataSetAttributes::HIDDENCELL
+_GHOSTS = "vtkGhostType"
+_OWN_IDS = ("GlobalPointIds", "GlobalCellIds")
+
+
+def require_ranks() -> None:
+    raise RuntimeError("tipp.ranks() needs a TIPP that was built with MPI and VTK; the wheel works on one rank.")
+
+
+@functools.lru_cache(maxsize=None)
+def _has_vtk() -> bool:
+    return importlib.util.find_spec("vtkmodules") is not None
+
+
+def _warn(sentences: Iterable[str]) -> None:
+    """Warnings at the line that called the package."""
+    level = 1
+    here = os.path.dirname(__file__)
+    frame: Any = sys._getframe()
+    while frame is not None and os.path.dirname(frame.f_code.co_filename) == here:
+        frame, level = frame.f_back, level + 1
+    for sentence in sentences:
+        warnings.warn(sentence, RuntimeWarning, stacklevel=level)
+
+
+def _plain(points: np.ndarray) -> np.ndarray:
+    """In C order, as float32 or float64."""
+    return np.ascontiguousarray(points, points.dtype if points.dtype == np.float32 else np.float64)
+
+
+def _box(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The lowest and the highest coordinates of the points that are finite."""
+    finite = points
+    if len(points) and not np.isfinite(points.sum()):
+        finite = points[np.isfinite(points).all(axis=1)]
+    if len(finite) == 0:
+        return np.zeros(3), np.zeros(3)
+    low, high = np.zeros(3), np.zeros(3)
+    low[: points.shape[1]], high[: points.shape[1]] = finite.min(axis=0), finite.max(axis=0)
+    return low, high
+
+
+def _diagonal(points: np.ndarray) -> float:
+    low, high = _box(points)
+    return float(np.sqrt(((high - low) ** 2).sum()))
+
+
+def _triangulated(points: np.ndarray, options: dict[str, Any], progress: Progress | None) -> dict[str, Any]:
+    tolerance = options["tolerance"]
+    result = _core.triangulate(
+        points, tolerance * _diagonal(points) if tolerance > 0 else 0.0, options["max_edge"], *options["partitions"],
+        options["schedule"] == 0, options["threads"], False, progress)
+    finish(progress)
+    if result["warnings"]:
+        _warn(result["warnings"])
+    return result
+
+
+def delaunay(points: Any, options: dict[str, Any], progress: Progress | None) -> np.ndarray:
+    if check.is_vtk_object(points):
+        from ._vtk import xyz_of
+
+        array = xyz_of(points)
+    else:
+        array = coordinates(points)
+    return _triangulated(_plain(array), options, progress)["triangles"]
+
+
+def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any], progress: Progress | None) -> Any:
+    if any(options[name] is not None for name in ("edge_source", "edges", "polygons")):
+        raise RuntimeError("constraints need a TIPP that was built with VTK; the wheel has none.")
+    if check.is_vtk_object(points):
+        return _delaunay_of_data_set(points, options, progress)
+    if isinstance(points, Mesh):
+        point_data = {**points.point_data, **(point_data or {})}
+        points = points.points
+    if _has_vtk():
+        from ._vtk import point_cloud
+
+        return _delaunay_of_data_set(point_cloud(points, point_data), options, progress)
+    array = _plain(coordinates(points))
+    data = attributes(point_data, len(array))
+    array, triangles, lines, vertices = _meshed(array, options, progress)
+    space = array if array.shape[1] == 3 else np.column_stack([array, np.zeros(len(array), array.dtype)])
+    return Mesh(space, triangles, {} if options["bound"] else data, {}, lines, vertices)
+
+
+def _meshed(points: np.ndarray, options: dict[str, Any], progress: Progress | None) -> tuple[Any, ...]:
+    """Points, triangles, and with alpha lines and vertices."""
+    if options["bound"]:
+        points = _with_circle(points, options["offset"])
+    result = _triangulated(points, options, progress)
+    if options["alpha"] == 0:
+        return points, result["triangles"], None, None
+    covered = np.zeros(len(points), np.uint8)
+    covered[result["duplicates"][:, 0]] = 1
+    covered[result["rejected"]] = 1
+    return (points, *_core.alpha_shape(points, result["triangles"], options["alpha"], covered))
+
+
+def _with_circle(points: np.ndarray, offset: float) -> np.ndarray:
+    """The points and eight on a circle around them."""
+    low, high = _box(points)
+    centre, radius = 0.5 * low + 0.5 * high, offset * _diagonal(points)
+    angles = 2 * np.pi * np.arange(8) / 8
+    circle = np.column_stack([centre[0] + radius * np.cos(angles), centre[1] + radius * np.sin(angles),
+                              np.full(8, centre[2])])
+    return np.vstack([points.astype(np.float64), circle[:, : points.shape[1]]])
+
+
+def _delaunay_of_data_set(data: Any, options: dict[str, Any], progress: Progress | None) -> Any:
+    from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+    from ._vtk import cells_of, vtk_points, wrapped_like, xyz_of
+
+    array, triangles, lines, vertices = _meshed(_plain(xyz_of(data)), options, progress)
+    mesh = vtkPolyData()
+    if options["bound"]:
+        mesh.SetPoints(vtk_points(array))
+    else:
+        if data.GetPoints():
+            mesh.SetPoints(data.GetPoints())
+        mesh.GetPointData().PassData(data.GetPointData())
+    mesh.SetPolys(cells_of(triangles))
+    if lines is not None:
+        mesh.SetLines(cells_of(lines))
+        mesh.SetVerts(cells_of(vertices))
+    return wrapped_like(mesh, data)
+
+
+def delaunay_file(
+    paths: list[str], output: str, options: dict[str, Any], progress: Progress | None
+) -> dict[str, int]:
+    if not output:
+        raise RuntimeError("FileName is not set; name the folder to write.")
+    figures, sentences = _core.triangulate_files(
+        paths, output, options["memory"], *options["partitions"], *options["columns"], options["max_edge"], options["map_duplicates"],
+        options["neighbors"], options["count_only"], options["resume"], options["scratch"], options["threads"],
+        progress)
+    finish(progress)
+    _warn(sentences)
+    return figures
+
+
+def dem(points: Any, point_data: Any, options: dict[str, Any],
+        progress: Progress | None) -> tuple[list[np.ndarray], tuple[float, ...], str | None]:
+    raise RuntimeError("tipp.dem() needs a TIPP that was built with VTK; the wheel has none.")
+
+
+def read(path: str, options: dict[str, Any], progress: Progress | None) -> Any:
+    of_points, of_cells = _core.array_names(path, options["tiling"], options["memory_limit"])
+    check.require_arrays(options["point_arrays"], of_points, "point")
+    check.require_arrays(options["cell_arrays"], of_cells, "cell")
+    bounds = options["bounds"]
+    if bounds is not None and bounds[0] > bounds[1]:
+        bounds = None  # everything, as the reader's default
+    if bounds is not None and (bounds[2] > bounds[3] or bounds[4] > bounds[5]):
+        raise RuntimeError("Bounds have from > to along y or z; set from <= to, or from > to along x for everything.")
+    pieces = _core.read(path, bounds, options["time"], options["point_arrays"], options["cell_arrays"],
+                        options["borrowed"], options["merge"], options["tiling"], options["memory_limit"], progress)
+    finish(progress)
+    meshes = [Mesh(**piece) for piece in pieces]
+    if not _has_vtk():
+        empty = Mesh(np.empty((0, 3)), np.empty((0, 3), np.int32))
+        return (meshes or [empty])[0] if options["merge"] else meshes
+    from ._vtk import grid_of, partitioned
+
+    grids = [grid_of(mesh) for mesh in meshes]
+    return (grids or [grid_of(None)])[0] if options["merge"] else partitioned(grids)
+
+
+def write(mesh: Any, path: str, options: dict[str, Any], progress: Progress | None) -> None:
+    how = (path, options["tiling"], options["duplicate_borrowers"], options["memory_limit"], options["threads"],
+           progress)
+    if isinstance(mesh, str):
+        _core.partition_file(mesh, *how)
+    else:
+        mesh = _simplices(mesh, "mesh", ("vtkDataObject",), "a VTK data set or a path")
+        cells, cell_data = mesh.cells, mesh.cell_data
+        if _GHOSTS in cell_data:
+            owned = cell_data[_GHOSTS] == 0
+            cells, cell_data = cells[owned], {name: values[owned] for name, values in cell_data.items()}
+        _core.partition_arrays(_plain(mesh.points), np.ascontiguousarray(cells), _numbers(mesh.point_data),
+                               _numbers(cell_data), *how)
+    finish(progress)
+
+
+def _numbers(data: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The arrays that are stored: numbers, but for those that a partitioned mesh has of its own."""
+    return {name: np.ascontiguousarray(values) for name, values in data.items()
+            if name not in (_GHOSTS, *_OWN_IDS) and values.dtype.kind in "iuf"}
+
+
+def _simplices(mesh: Any, name: str, kinds: tuple[str, ...], wanted: str) -> Mesh:
+    """A data set of triangles or tetrahedra as arrays, checked."""
+    if not isinstance(mesh, Mesh):
+        check.data_object(mesh, name, kinds, wanted)
+        from ._vtk import simplices_of
+
+        mesh = simplices_of(mesh)
+    cells = np.asarray(mesh.cells)
+    if cells.ndim != 2 or cells.shape[1] not in (3, 4) or cells.dtype.kind not in "iu":
+        raise RuntimeError("the mesh's cells are no (n, 3) triangles or (n, 4) tetrahedra of whole numbers.")
+    if len(cells) and not 0 <= cells.min() <= cells.max() < len(mesh.points):
+        raise RuntimeError(f"the mesh's cells refer to points from {cells.min()} to {cells.max()}, but there are "
+                           f"{len(mesh.points)} points; repair it or write it again.")
+    if cells.dtype not in (np.int32, np.int64):
+        cells = cells.astype(np.int64)
+    return Mesh(mesh.points, np.ascontiguousarray(cells), mesh.point_data, mesh.cell_data)
+
+
+def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> Any:
+    source = mesh
+    mesh = _simplices(mesh, "mesh", ("vtkPointSet",), "a mesh")
+    points = _plain(np.asarray(mesh.points))
+    low, high = _box(points)
+    bounds = options["bounds"] if options["bounds"] is not None else np.column_stack([low, high]).ravel().tolist()
+    if options["bounds"] is None and not np.isfinite(points).all(axis=1).any():
+        raise RuntimeError("the input has no points with finite coordinates, so its bounds give no range: "
+                           "give bounds.")
+    chosen = _chosen(mesh, options["arrays"])
+    hidden, sentences = _hidden(mesh, points, options, chosen[0])
+    origin, spacing, dimensions, samples, mask, more = _core.resample(
+        points, mesh.cells, hidden, list(chosen[0].values()), list(chosen[1].values()), bounds,
+        options["dimensions"], options["spacing"] or [0.0, 0.0, 0.0], options["null_value"], options["device"],
+        options["threads"], progress)
+    finish(progress)
+    if len(mesh.cells) and not mask.any():
+        sentences.append("No sample lies in a cell of the mesh: check the range and the number of samples.")
+    _warn([*sentences, *more])
+    arrays = dict(zip([*chosen[0], *chosen[1]], samples))
+    image = Image(tuple(origin), tuple(spacing), dimensions, {**arrays, "vtkValidPointMask": mask})
+    if isinstance(source, Mesh) and not _has_vtk():
+        return image
+    from ._vtk import image_of, wrapped_like
+
+    return wrapped_like(image_of(image), source)
+
+
+def _chosen(mesh: Mesh, names: list[str] | None) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    """The arrays to sample, of points and of cells."""
+    result: tuple[dict[str, np.ndarray], dict[str, np.ndarray]] = ({}, {})
+    for chosen, data in zip(result, (mesh.point_data, mesh.cell_data)):
+        for name, values in data.items():
+            if name != _GHOSTS and values.dtype.kind in "iuf" and (names is None or name in names):
+                chosen[name] = np.ascontiguousarray(values)
+    missing = [name for name in names or [] if name not in result[0] and name not in result[1]]
+    for name in missing:
+        _warn([f"There is no point array '{name}' in the input, so it is not sampled; there are "
+               f"{', '.join(repr(known) for known in mesh.point_data) or 'none'}."])
+    return result
+
+
+def _hidden(mesh: Mesh, points: np.ndarray, options: dict[str, Any],
+            arrays: dict[str, np.ndarray]) -> tuple[np.ndarray | None, list[str]]:
+    """A mark for each cell that answers nothing, and what to warn of."""
+    marks = np.zeros(len(mesh.cells), bool)
+    sentences = []
+    if _GHOSTS in mesh.cell_data:
+        marks |= (mesh.cell_data[_GHOSTS] & _HIDDEN) != 0
+    axes = slice(0, 2 if mesh.cells.shape[1] == 3 else 3)
+    finite = np.isfinite(points[:, axes]).all(axis=1)
+    if not finite.all():
+        bad = ~finite[mesh.cells].all(axis=1) & ~marks
+        marks |= bad
+        count = int(bad.sum())
+        if count:
+            sentences.append(f"{count} cell has a corner with a NaN or infinite coordinate and yields no value."
+                             if count == 1 else
+                             f"{count} cells have a corner with a NaN or infinite coordinate and yield no value.")
+    if options["no_data"] is not None:
+        for values in arrays.values():
+            equal = values == values.dtype.type(options["no_data"]) if values.dtype.kind == "f" else (
+                values == options["no_data"])
+            equal = equal.any(axis=1) if equal.ndim == 2 else equal
+            marks |= equal[mesh.cells].any(axis=1)
+    return (marks.astype(np.uint8) if marks.any() else None), sentences

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A build without OpenCL.
+#include "ExpectAcceleratorError.h"
+#include "OpenCL/DeviceList.h"
+
+#include <gtest/gtest.h>
+
+TEST(WithoutOpenCL, TheListIsEmpty)
+{
+  EXPECT_TRUE(tipp::listDevices().empty());
+}
+
+TEST(WithoutOpenCL, AutoIsOpenMP)
+{
+  EXPECT_FALSE(tipp::chooseDevice({}, tipp::listDevices()));
+}
+
+TEST(WithoutOpenCL, AskingForADeviceIsAnErrorThatTellsOfTheBuild)
+{
+  expectAcceleratorError([]
+    { tipp::chooseDevice(tipp::parseDeviceChoice("opencl"), tipp::listDevices()); },
+    "TIPP was built without OpenCL: use OpenMP");
+}

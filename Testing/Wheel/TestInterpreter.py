@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The wheel as a guest of Python: threads, forks, layouts of arrays, memory, progress, Ctrl-C, help."""
+import multiprocessing
+import os
+import pickle
+import pydoc
+import resource
+import signal
+import subprocess
+import sys
+import threading
+import unittest
+
+import numpy as np
+
+import tipp
+
+
+def random_points(count, columns=2, kind=np.float64):
+    return np.random.default_rng(7).random((count, columns)).astype(kind)
+
+
+def canonical(triangles):
+    return np.sort(np.sort(triangles, axis=1).view("i4,i4,i4"), axis=0)
+
+
+def resident():
+    """Bytes of this process in memory."""
+    with open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[1]) * resource.getpagesize()
+
+
+def count_in_child(points, queue):
+    queue.put(len(tipp.delaunay(points)))
+
+
+class Interpreter(unittest.TestCase):
+    def test_every_layout_of_an_array_gives_the_same_triangles(self):
+        wide = random_points(2000, 6)
+        expected = canonical(tipp.delaunay(np.ascontiguousarray(wide[:, 1:3])))
+        layouts = {
+            "columns of a wider array": wide[:, 1:3],
+            "Fortran's order": np.asfortranarray(wide[:, 1:3]),
+            "the other byte order": wide[:, 1:3].astype(">f8"),
+            "read-only": np.ascontiguousarray(wide[:, 1:3]),
+            "a transposed array": np.ascontiguousarray(wide[:, 1:3].T).T,
+            "lists": wide[:, 1:3].tolist(),
+            "three columns": np.column_stack([wide[:, 1:3], wide[:, 5]]),
+            "every second row": np.repeat(wide[:, 1:3], 2, axis=0)[::2],
+        }
+        layouts["read-only"].setflags(write=False)
+        for name, points in layouts.items():
+            with self.subTest(name):
+                np.testing.assert_array_equal(expected, canonical(tipp.delaunay(points)))
+        np.testing.assert_array_equal(expected, canonical(tipp.delaunay(wide[::-1, 1:3][::-1])))
+
+    def test_sixteen_threads_of_python_triangulate_at_once(self):
+        points = random_points(5000)
+        expected = tipp.delaunay(points)
+        results = [None] * 16
+
+        def work(i):
+            results[i] = tipp.delaunay(points)
+
+        threads = [threading.Thread(target=work, args=(i,)) for i in range(16)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for result in results:
+            np.testing.assert_array_equal(canonical(expected), canonical(result))
+
+    def test_a_forked_child_triangulates_after_its_parent_has(self):
+        points = random_points(50_000)
+        expected = len(tipp.delaunay(points))
+        context = multiprocessing.get_context("fork")
+        queue = context.Queue()
+        # With one thread: GNU's OpenMP library cannot start threads in a child of a process that had some.
+        child = context.Process(target=lambda: queue.put(len(tipp.delaunay(points, threads=1))))
+        child.start()
+        self.assertEqual(expected, queue.get(timeout=60))
+        child.join(60)
+
+    def test_a_spawned_child_triangulates(self):
+        points = random_points(1000)
+        context = multiprocessing.get_context("spawn")
+        queue = context.Queue()
+        child = context.Process(target=count_in_child, args=(points, queue))
+        child.start()
+        self.assertEqual(len(tipp.delaunay(points)), queue.get(timeout=60))
+        child.join(60)
+
+    def test_many_small_calls_leave_memory_flat(self):
+        points = random_points(20)
+
+        def calls(count):
+            for _ in range(count):
+                tipp.delaunay(points, threads=1)
+
+        calls(20_000)
+        before = resident()
+        calls(int(os.environ.get("TIPP_SMALL_CALLS", "100000")))
+        self.assertLess(resident() - before, 4 << 20)
+
+    def test_references_are_given_back(self):
+        points = random_points(1000)
+        triangles = tipp.delaunay(points)
+        before = sys.getrefcount(points)
+        for _ in range(100):
+            triangles = tipp.delaunay(points, progress_bar=lambda done: True)
+        self.assertEqual(before, sys.getrefcount(points))
+        self.assertEqual(2, sys.getrefcount(triangles))
+
+    def test_results_are_pickled(self):
+        mesh = tipp.Delaunay(random_points(100))
+        mesh.find_simplex([[0.5, 0.5]])
+        again = pickle.loads(pickle.dumps(mesh))
+        np.testing.assert_array_equal(mesh.simplices, again.simplices)
+        np.testing.assert_array_equal(mesh.find_simplex([[0.5, 0.5]]), again.find_simplex([[0.5, 0.5]]))
+        flat = tipp.Mesh(mesh.points, mesh.simplices)
+        np.testing.assert_array_equal(flat.cells, pickle.loads(pickle.dumps(flat)).cells)
+
+    def test_a_progress_function_hears_of_the_run_and_can_stop_it(self):
+        points = random_points(200_000)
+        heard = []
+        tipp.delaunay(points, progress_bar=heard.append)
+        self.assertEqual((sorted(heard), 1.0), (heard, heard[-1]))
+        with self.assertRaisesRegex(RuntimeError, "progress callback stopped the run"):
+            tipp.delaunay(points, progress_bar=lambda done: False)
+        with self.assertRaisesRegex(ZeroDivisionError, "division"):
+            tipp.delaunay(points, progress_bar=lambda done: 1 / 0)
+
+    def test_ctrl_c_is_a_keyboard_interrupt(self):
+        code = ("import numpy, os, signal, tipp\n"
+                "signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell may have it ignored\n"
+                "p = numpy.random.default_rng(1).random((300_000, 2))\n"
+                "def send(done):\n    os.kill(os.getpid(), signal.SIGINT)\n"
+                "tipp.delaunay(p, progress_bar=send)\n")
+        run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        self.assertEqual("KeyboardInterrupt", run.stderr.splitlines()[-1])
+        self.assertEqual(-signal.SIGINT, run.returncode)
+
+    def test_help_is_short_and_complete(self):
+        text = pydoc.render_doc(tipp, renderer=pydoc.plaintext)
+        for name in ("delaunay_2d", "delaunay_file", "resample", "read", "write"):
+            self.assertIn(f"{name}(", text)
+        package = os.path.dirname(tipp.__file__)
+        self.assertTrue(os.path.exists(os.path.join(package, "py.typed")))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The wheel beside today's VTK and PyVista."""
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+import pyvista
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkVersion
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkUnstructuredGrid
+
+import tipp
+
+
+def terrain(count=2000):
+    points = np.random.default_rng(2).random((count, 3))
+    cloud = pyvista.PolyData(points)
+    cloud["height"] = points[:, 0] + points[:, 1]
+    return cloud
+
+
+class PyVista(unittest.TestCase):
+    def test_a_data_set_has_the_accessor_without_an_import_of_tipp(self):
+        code = ("import numpy, pyvista; c = pyvista.PolyData(numpy.random.default_rng(1).random((500, 3)));"
+                "print(c.tipp.delaunay_2d().n_cells > 900)")
+        run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        self.assertEqual("True", run.stdout.strip(), run.stderr)
+
+    def test_a_pyvista_mesh_makes_a_pyvista_mesh_that_shares_its_points(self):
+        cloud = terrain()
+        mesh = cloud.tipp.delaunay_2d()
+        self.assertIsInstance(mesh, pyvista.PolyData)
+        self.assertTrue(np.shares_memory(cloud.points, mesh.points))
+        np.testing.assert_array_equal(cloud["height"], mesh["height"])
+        self.assertTrue(mesh.is_all_triangles)
+
+    def test_triangles_are_those_of_pyvista_which_loses_some_at_the_hull(self):
+        points = terrain(500).points
+        points[:, 2] = 0
+        cloud = pyvista.PolyData(points)
+        mine, theirs = ({tuple(sorted(t)) for t in mesh.regular_faces.tolist()}
+                        for mesh in (cloud.tipp.delaunay_2d(), cloud.delaunay_2d()))
+        self.assertGreater(len(mine & theirs), 0.9 * len(mine))
+
+    def test_inplace_changes_the_data_set(self):
+        cloud = terrain()
+        self.assertIs(cloud, cloud.tipp.delaunay_2d(inplace=True))
+        self.assertGreater(cloud.n_cells, 3000)
+
+    def test_edge_source_is_refused_in_one_sentence(self):
+        with self.assertRaisesRegex(ValueError, "^edge_source is given, but [^.]*[.]"):
+            terrain().tipp.delaunay_2d(edge_source=pyvista.PolyData())
+
+    def test_a_mesh_is_resampled_to_a_pyvista_image(self):
+        image = terrain().tipp.delaunay_2d().tipp.resample_to_image(bounds=(0.2, 0.8, 0.2, 0.8), dimensions=(7, 7))
+        self.assertIsInstance(image, pyvista.ImageData)
+        x, y = np.meshgrid(np.linspace(0.2, 0.8, 7), np.linspace(0.2, 0.8, 7))
+        np.testing.assert_allclose(tipp.as_array(image, "height"), x + y, atol=1e-12)
+
+    def test_every_storage_of_cells_is_sampled_alike(self):
+        mesh = terrain(300).tipp.delaunay_2d()
+        ids = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).astype(np.int64)
+        expected = tipp.as_array(tipp.resample(mesh, dimensions=(9, 9)), "height")
+        for convert in ("Use32BitStorage", "Use64BitStorage", "UseFixedSize32BitStorage", "UseFixedSize64BitStorage"):
+            cells = vtkCellArray()
+            if not hasattr(cells, convert):
+                continue
+            getattr(cells, convert)(*([3] if "Fixed" in convert else []))
+            for triangle in ids.reshape(-1, 3).tolist():
+                cells.InsertNextCell(3, triangle)
+            copy = vtkPolyData()
+            copy.SetPoints(mesh.GetPoints())
+            copy.SetPolys(cells)
+            copy.GetPointData().ShallowCopy(mesh.GetPointData())
+            with self.subTest(convert, vtk=vtkVersion.GetVTKVersion()):
+                np.testing.assert_array_equal(expected, tipp.as_array(tipp.resample(copy, dimensions=(9, 9)), "height"))
+
+    def test_a_mesh_is_stored_and_read_again(self):
+        import tempfile
+
+        with tempfile.TemporaryDirectory() as folder:
+            mesh = terrain().tipp.delaunay_2d()
+            mesh.tipp.save(f"{folder}/mesh.tipp")
+            part = tipp.read(f"{folder}/mesh.tipp", bounds=(0, 0.5, 0, 0.5, 0, 0))
+            self.assertIsInstance(part, vtkUnstructuredGrid)
+            wrapped = pyvista.wrap(part)
+            self.assertTrue(0 < wrapped.n_cells < mesh.n_cells)
+            np.testing.assert_allclose(wrapped["height"], wrapped.points[:, :2].sum(axis=1), atol=1e-12)
+            self.assertEqual(part.GetNumberOfCells(), tipp.as_array(part, "GlobalCellIds").size)
+
+    def test_other_cells_are_refused_with_advice(self):
+        with self.assertRaisesRegex(RuntimeError, "triangulate"):
+            tipp.resample(pyvista.Plane(), dimensions=(3, 3))
+
+
+if __name__ == "__main__":
+    unittest.main()

