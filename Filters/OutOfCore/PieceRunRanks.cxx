@@ -76,6 +76,11 @@ void PieceRun::receive(const Message& message)
   {
     throw std::runtime_error("A message from another rank is damaged: no such piece.");
   }
+  if (this->PiecesLeft == 0)
+  {
+    return; // no piece of this rank's wants the result, which the first rank may have removed by
+            // now
+  }
   this->setDone(piece);
   this->PiecesLeft -= this->rank() == 0 ? 1 : 0;
 }

@@ -12,9 +12,11 @@
 #include "vtkTIPPOutOfCoreDelaunay2D.h"
 #include "vtkTable.h"
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <thread>
 
 namespace
 {
@@ -337,6 +339,28 @@ TEST_F(OutOfCoreRanks, CountTheTrianglesOfOneProcess)
   const OutOfCoreStatistics together = this->runTogether();
   EXPECT_EQ(alone.TriangleSum, together.TriangleSum);
   EXPECT_EQ(alone.Triangles, together.Triangles);
+}
+
+/// The first rank puts the mesh in place, and what it was made of is gone, before a slow one has
+/// heard of the last pieces.
+TEST_F(OutOfCoreRanks, SlowOnesMayLearnOfPiecesWhenTheseAreGone)
+{
+  this->makePoints("uniform", 200); // two pieces: the first rank has the last one
+  this->runAlone();
+  const Files expected = this->takeFiles();
+  this->Options.Progress = [this](double)
+  {
+    if (!this->isFirst())
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    return true;
+  };
+  for (int round = 0; round < 3; ++round)
+  {
+    EXPECT_EQ("", this->failure());
+    EXPECT_TRUE(expected == this->takeFiles());
+  }
 }
 
 TEST_F(OutOfCoreRanks, AllEndWithTheReasonOfTheOneThatFails)
