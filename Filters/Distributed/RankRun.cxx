@@ -62,6 +62,67 @@ struct RegionEntry
   PartitionIndex Partition;
 };
 
+/// What the ranks give, one after the other.
+Bytes joinedOnAllRanks(Postbox& ranks, Bytes&& own)
+{
+  ByteWriter all;
+  for (const Bytes& part : ranks.gather(std::move(own)))
+  {
+    all.raw(part.data(), part.size());
+  }
+  return ranks.broadcast(all.take());
+}
+
+Bytes bytesOf(const SeamTriangles& triangles)
+{
+  ByteWriter writer;
+  writer.array(triangles.Triangles);
+  writer.array(triangles.SetOf);
+  writer.value(std::uint64_t(triangles.Sets.size()));
+  for (std::uint32_t set = 0; set < triangles.Sets.size(); ++set)
+  {
+    const PartitionIndex* const begin = triangles.Sets.begin(set);
+    writer.array(begin, std::size_t(triangles.Sets.end(set) - begin));
+  }
+  return writer.take();
+}
+
+SeamTriangles trianglesOf(ByteReader& reader)
+{
+  SeamTriangles triangles;
+  triangles.Triangles = reader.array<SeamTriangles::Corners>();
+  triangles.SetOf = reader.array<std::uint32_t>();
+  const auto sets = reader.value<std::uint64_t>();
+  for (std::uint64_t i = 0; i < sets; ++i)
+  {
+    const std::vector<PartitionIndex> members = reader.array<PartitionIndex>();
+    triangles.Sets.number(members.data(), members.data() + members.size());
+  }
+  return triangles;
+}
+
+/// Every rank triangulates all initial points; which partitions the triangles meet takes longer,
+/// and is shared out where there are enough of them.
+InitialMeshShare shareOf(Postbox& ranks, std::size_t vertices)
+{
+  constexpr std::size_t leastOfARank = 256;
+  if (ranks.size() == 1 || vertices < leastOfARank * std::size_t(ranks.size()))
+  {
+    return {};
+  }
+  const auto exchange = [&ranks](SeamTriangles&& own)
+  {
+    std::vector<SeamTriangles> all;
+    const Bytes together = joinedOnAllRanks(ranks, bytesOf(own));
+    for (ByteReader reader(together); reader.left() > 0;)
+    {
+      all.push_back(trianglesOf(reader));
+    }
+    return all;
+  };
+  return { ranks.rank(), ranks.size(), exchange };
+}
+
 } // namespace
 
 template <typename Id>
@@ -104,12 +165,7 @@ void RankRun<Id>::shareInitialMesh(std::vector<SeamVertex>& vertices)
   ByteWriter writer;
   writer.array(regions);
   write(writer, initial);
-  ByteWriter all;
-  for (const Bytes& part : this->Ranks.gather(writer.take()))
-  {
-    all.raw(part.data(), part.size());
-  }
-  const Bytes together = this->Ranks.broadcast(all.take());
+  const Bytes together = joinedOnAllRanks(this->Ranks, writer.take());
   std::vector<Box2> boxes(std::size_t(tiles.size()), Box2{});
   std::vector<char> used(std::size_t(tiles.size()), 0);
   for (ByteReader reader(together); reader.left() > 0;)
@@ -143,7 +199,8 @@ void RankRun<Id>::makeInitialMesh()
   this->shareInitialMesh(vertices);
   this->Artificial = makeArtificialPoints(this->Work.Leaves);
   vertices.insert(vertices.end(), this->Artificial.begin(), this->Artificial.end());
-  const SeamTriangles mesh = triangulateVertices(*this->Boxes, vertices, this->Threads);
+  const SeamTriangles mesh = triangulateVertices(
+    *this->Boxes, vertices, this->Threads, shareOf(this->Ranks, vertices.size()));
   const bool chosen = this->Options.Minor.isGiven() || this->Options.Major.isGiven();
   this->PartitionsPay = !this->Artificial.empty() && (chosen || partitionsPay(mesh));
   if (this->PartitionsPay)

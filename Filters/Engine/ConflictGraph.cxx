@@ -7,24 +7,46 @@
 namespace tipp
 {
 
-void ConflictGraph::makeUnique(std::vector<Pair>& pairs)
+/// Sorting each one's neighbours is faster than sorting all pairs: they are few, and in the cache.
+void ConflictGraph::add(const std::vector<Pair>& pairs)
 {
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-}
-
-ConflictGraph::ConflictGraph(std::size_t count, std::vector<Pair> pairs)
-  : Ends(count, 0)
-{
-  makeUnique(pairs);
-  this->Neighbours.reserve(pairs.size());
-  for (const Pair pair : pairs)
+  std::vector<std::size_t> ends(this->size() + 1, 0);
+  for (std::size_t i = 0; i < this->size(); ++i)
   {
-    this->Neighbours.push_back(static_cast<PartitionIndex>(pair & 0xffffffffU));
-    this->Ends[std::size_t(pair >> 32)] = this->Neighbours.size();
+    const auto p = static_cast<PartitionIndex>(i);
+    ends[i + 1] = std::size_t(this->end(p) - this->begin(p));
   }
-  std::partial_sum(this->Ends.begin(), this->Ends.end(), this->Ends.begin(),
-    [](std::size_t before, std::size_t end) { return std::max(before, end); });
+  for (const auto& [a, b] : pairs)
+  {
+    ++ends[std::size_t(a) + 1];
+  }
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<PartitionIndex> all(ends.back());
+  // From here on, where the next neighbour of each goes: at last the ends.
+  for (std::size_t i = 0; i < this->size(); ++i)
+  {
+    const auto p = static_cast<PartitionIndex>(i);
+    ends[i] = std::size_t(
+      std::copy(this->begin(p), this->end(p), all.begin() + std::ptrdiff_t(ends[i])) - all.begin());
+  }
+  for (const auto& [a, b] : pairs)
+  {
+    all[ends[std::size_t(a)]++] = b;
+  }
+  std::size_t begin = 0;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < this->size(); ++i)
+  {
+    const auto first = all.begin() + std::ptrdiff_t(begin);
+    const auto last = all.begin() + std::ptrdiff_t(ends[i]);
+    begin = ends[i];
+    std::sort(first, last);
+    const auto to = all.begin() + std::ptrdiff_t(kept);
+    kept = std::size_t(std::unique_copy(first, last, to) - all.begin());
+    this->Ends[i] = kept;
+  }
+  all.resize(kept);
+  this->Neighbours = std::move(all);
 }
 
 std::vector<std::uint32_t> ConflictGraph::colours() const

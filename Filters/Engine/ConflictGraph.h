@@ -17,17 +17,20 @@ namespace tipp
 class VTKTIPPFILTERS_EXPORT ConflictGraph
 {
 public:
-  /// Two things that conflict, in 64 bits, so that pairs are sorted fast.
-  using Pair = std::uint64_t;
-  static Pair pairOf(PartitionIndex a, PartitionIndex b)
-  {
-    return std::uint64_t(std::uint32_t(a)) << 32 | std::uint32_t(b);
-  }
-  static void makeUnique(std::vector<Pair>& pairs);
+  using Pair = std::pair<PartitionIndex, PartitionIndex>;
 
   ConflictGraph() = default;
-  /// Of `count` things. There are both (a, b) and (b, a), each as often as you like.
-  ConflictGraph(std::size_t count, std::vector<Pair> pairs);
+  /// Of `count` things, without conflicts so far.
+  explicit ConflictGraph(std::size_t count)
+    : Ends(count, 0)
+  {
+  }
+
+  /// Adds conflicts: both (a, b) and (b, a), each as often as you like.
+  void add(const std::vector<Pair>& pairs);
+
+  /// How many neighbours all have together.
+  std::size_t neighbourCount() const { return this->Neighbours.size(); }
 
   std::size_t size() const { return this->Ends.size(); }
 

@@ -12,18 +12,41 @@ namespace tipp
 namespace
 {
 
-/// Adds both (a, b) and (b, a) for all a of one set and b of the other.
+bool isIn(PartitionIndex p, const PartitionSets& sets, std::uint32_t set)
+{
+  return std::find(sets.begin(set), sets.end(set), p) != sets.end(set);
+}
+
+/// Adds both (a, b) and (b, a) for all a and b of a set.
+void addConflicts(
+  const PartitionSets& sets, std::uint32_t set, std::vector<ConflictGraph::Pair>& pairs)
+{
+  for (const PartitionIndex* a = sets.begin(set); a != sets.end(set); ++a)
+  {
+    for (const PartitionIndex* b = sets.begin(set); b != a; ++b)
+    {
+      pairs.emplace_back(*a, *b);
+      pairs.emplace_back(*b, *a);
+    }
+  }
+}
+
+/// The same for a of one set alone and b of the other alone.
 void addConflicts(const PartitionSets& sets, std::uint32_t one, std::uint32_t other,
   std::vector<ConflictGraph::Pair>& pairs)
 {
   for (const PartitionIndex* a = sets.begin(one); a != sets.end(one); ++a)
   {
+    if (isIn(*a, sets, other))
+    {
+      continue;
+    }
     for (const PartitionIndex* b = sets.begin(other); b != sets.end(other); ++b)
     {
-      if (*a != *b)
+      if (!isIn(*b, sets, one))
       {
-        pairs.push_back(ConflictGraph::pairOf(*a, *b));
-        pairs.push_back(ConflictGraph::pairOf(*b, *a));
+        pairs.emplace_back(*a, *b);
+        pairs.emplace_back(*b, *a);
       }
     }
   }
@@ -102,38 +125,43 @@ void PartitionOrder::sortByUrgency(const std::vector<std::int32_t>& windows)
 /// circle, each disk meets nearly all partitions.
 bool PartitionOrder::findConflicts(const SeamTriangles& initialMesh)
 {
-  constexpr std::size_t mostUnsorted = std::size_t(1) << 22;
+  constexpr std::size_t most = std::size_t(1) << 22; // pairs that wait
   constexpr std::size_t mostOfAPartition = 256;
   const std::size_t limit = mostOfAPartition * std::max<std::size_t>(4096, this->Positions.size());
   const PartitionSets& sets = initialMesh.Sets;
+  this->Conflicts = ConflictGraph(this->Positions.size());
   std::vector<ConflictGraph::Pair> pairs;
-  std::size_t unique = 0;
-  const auto add = [&](std::uint32_t one, std::uint32_t other)
+  const auto isWithinLimit = [&](std::size_t pairsThatWait)
   {
-    addConflicts(sets, one, other, pairs);
-    if (pairs.size() > 2 * unique + mostUnsorted)
+    if (pairs.size() > this->Conflicts.neighbourCount() + pairsThatWait)
     {
-      ConflictGraph::makeUnique(pairs);
-      unique = pairs.size();
+      this->Conflicts.add(pairs);
+      pairs.clear();
     }
-    return unique <= limit;
+    return this->Conflicts.neighbourCount() <= limit;
   };
   for (std::uint32_t set = 0; set < sets.size(); ++set)
   {
     const std::size_t size = std::size_t(sets.end(set) - sets.begin(set));
-    if (size * size > limit || !add(set, set))
+    if (size * size > limit)
+    {
+      return false;
+    }
+    addConflicts(sets, set, pairs);
+    if (!isWithinLimit(most))
     {
       return false;
     }
   }
   for (const auto& [one, other] : initialMesh.AdjacentSets)
   {
-    if (!add(one, other))
+    addConflicts(sets, one, other, pairs);
+    if (!isWithinLimit(most))
     {
       return false;
     }
   }
-  this->Conflicts = ConflictGraph(this->Positions.size(), std::move(pairs));
+  this->Conflicts.add(pairs);
   return true;
 }
 

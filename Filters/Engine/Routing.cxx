@@ -168,7 +168,8 @@ std::int64_t Routing<Id>::send(
 std::int64_t sendInitialMesh(const SeamTriangles& mesh, const PartitionOrder& order,
   const DeliverMessage& deliver, FinalTaker& final)
 {
-  std::vector<std::pair<PartitionIndex, std::size_t>> sent;
+  std::vector<PartitionIndex> recipients(mesh.size(), -1);
+  std::vector<std::size_t> ends(order.partitionCount() + 1, 0); // of each partition's triangles
   for (std::size_t i = 0; i < mesh.size(); ++i)
   {
     if (mesh.metBegin(i) == mesh.metEnd(i))
@@ -177,18 +178,28 @@ std::int64_t sendInitialMesh(const SeamTriangles& mesh, const PartitionOrder& or
     }
     else
     {
-      sent.emplace_back(order.first(mesh.metBegin(i), mesh.metEnd(i)), i);
+      recipients[i] = order.first(mesh.metBegin(i), mesh.metEnd(i));
+      ++ends[std::size_t(recipients[i]) + 1];
     }
   }
-  std::sort(sent.begin(), sent.end());
-  std::vector<PartitionIndex> sentTo(mesh.Vertices.size(), -1);
-  for (auto at = sent.begin(); at != sent.end();)
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<std::size_t> sent(ends.back()); // triangles by recipient
+  for (std::size_t i = 0; i < mesh.size(); ++i)
   {
-    const PartitionIndex recipient = at->first;
-    VertexMessage message{ -1, {}, 0 };
-    for (; at != sent.end() && at->first == recipient; ++at, ++message.Triangles)
+    if (recipients[i] >= 0)
     {
-      for (const std::uint32_t v : mesh.Triangles[at->second])
+      sent[ends[std::size_t(recipients[i])]++] = i;
+    }
+  }
+  std::vector<PartitionIndex> sentTo(mesh.Vertices.size(), -1);
+  auto at = sent.begin();
+  for (PartitionIndex recipient = 0; at != sent.end(); ++recipient)
+  {
+    VertexMessage message{ -1, {}, 0 };
+    for (; at != sent.begin() + std::ptrdiff_t(ends[std::size_t(recipient)]);
+         ++at, ++message.Triangles)
+    {
+      for (const std::uint32_t v : mesh.Triangles[*at])
       {
         if (sentTo[v] != recipient)
         {
@@ -197,7 +208,10 @@ std::int64_t sendInitialMesh(const SeamTriangles& mesh, const PartitionOrder& or
         }
       }
     }
-    deliver(recipient, std::move(message));
+    if (message.Triangles > 0)
+    {
+      deliver(recipient, std::move(message));
+    }
   }
   return std::int64_t(sent.size());
 }

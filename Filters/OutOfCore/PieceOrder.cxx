@@ -37,11 +37,10 @@ std::vector<ConflictGraph::Pair> conflictsOfPieces(
     {
       if (pieceOf[std::size_t(*q)] != piece)
       {
-        pairs.push_back(ConflictGraph::pairOf(piece, pieceOf[std::size_t(*q)]));
+        pairs.emplace_back(piece, pieceOf[std::size_t(*q)]);
       }
     }
   }
-  ConflictGraph::makeUnique(pairs);
   return pairs;
 }
 
@@ -64,8 +63,8 @@ PieceOrder::PieceOrder(const PiecePlan& plan, const SpilledPoints& points, int t
 
 void PieceOrder::orderPieces(const PiecePlan& plan)
 {
-  const ConflictGraph conflicts(
-    std::size_t(plan.pieces()), conflictsOfPieces(this->Partitions, plan.PieceOf));
+  ConflictGraph conflicts(std::size_t(plan.pieces()));
+  conflicts.add(conflictsOfPieces(this->Partitions, plan.PieceOf));
   const std::vector<std::uint32_t> colours = conflicts.colours();
   std::stable_sort(this->Sequence.begin(), this->Sequence.end(),
     [&](PartitionIndex a, PartitionIndex b)

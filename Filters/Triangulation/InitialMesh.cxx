@@ -70,8 +70,8 @@ std::vector<std::size_t> findOutmost(const Point2* points, std::size_t count)
   return found;
 }
 
-/// The sets of finite triangles with a common edge, where they differ; each pair once. SetOf: of
-/// the finite triangles, in the kernel's order.
+/// The sets of finite triangles with a common edge, where they differ. SetOf: of the finite
+/// triangles, in the kernel's order.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> adjacentSets(
   const DelaunayKernel& kernel, const std::vector<std::uint32_t>& setOf)
 {
@@ -99,9 +99,38 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> adjacentSets(
       }
     }
   }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
+}
+
+/// The finite triangles from one of the kernel's on, and the boxes that each meets.
+template <typename Boxes>
+SeamTriangles findMetBoxes(
+  const Boxes& boxes, const DelaunayKernel& kernel, std::int64_t begin, std::int64_t end)
+{
+  SeamTriangles found;
+  const HalfEdgeMesh& mesh = kernel.mesh();
+  for (std::int64_t t = begin; t < end; ++t)
+  {
+    if (kernel.isInfinite(static_cast<DelaunayKernel::Index>(8 * t)))
+    {
+      continue;
+    }
+    const DelaunayKernel::Index* v = mesh.slots() + 8 * t;
+    const SeamTriangles::Corners corners = { kernel.place(v[0]), kernel.place(v[1]),
+      kernel.place(v[2]) };
+    found.add(
+      boxes, corners, Circumdisk(kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2])));
+  }
+  return found;
+}
+
+SeamTriangles joined(std::vector<SeamTriangles>&& parts)
+{
+  for (std::size_t i = 1; i < parts.size(); ++i)
+  {
+    parts[0].appendTriangles(parts[i]);
+  }
+  return std::move(parts[0]);
 }
 
 } // namespace
@@ -199,8 +228,8 @@ std::vector<SeamVertex> chooseInitialPoints(
 }
 
 template <typename Boxes>
-SeamTriangles triangulateVertices(
-  const Boxes& boxes, const std::vector<SeamVertex>& vertices, int threads)
+SeamTriangles triangulateVertices(const Boxes& boxes, const std::vector<SeamVertex>& vertices,
+  int threads, const InitialMeshShare& share)
 {
   std::vector<Point2> points;
   points.reserve(vertices.size());
@@ -211,34 +240,24 @@ SeamTriangles triangulateVertices(
   DelaunayKernel kernel;
   kernel.insert(points.data(), points.size());
 
-  const HalfEdgeMesh& mesh = kernel.mesh();
-  const std::int64_t triangles = mesh.end() / 8;
-  std::vector<SeamTriangles> parts(static_cast<std::size_t>(threads));
-  const auto collect = [&](std::int64_t part)
-  {
-    const std::int64_t end = triangles * (part + 1) / threads;
-    for (std::int64_t t = triangles * part / threads; t < end; ++t)
+  const std::int64_t triangles = kernel.mesh().end() / 8;
+  const std::int64_t parts = std::int64_t(threads) * share.Count;
+  std::vector<SeamTriangles> own(static_cast<std::size_t>(threads));
+  parallelFor(threads, threads,
+    [&](std::int64_t i)
     {
-      if (kernel.isInfinite(static_cast<DelaunayKernel::Index>(8 * t)))
-      {
-        continue;
-      }
-      const DelaunayKernel::Index* v = mesh.slots() + 8 * t;
-      const SeamTriangles::Corners corners = { kernel.place(v[0]), kernel.place(v[1]),
-        kernel.place(v[2]) };
-      parts[std::size_t(part)].add(
-        boxes, corners, Circumdisk(kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2])));
-    }
-  };
-  parallelFor(threads, threads, collect);
-  SeamTriangles& all = parts[0];
-  for (std::size_t i = 1; i < parts.size(); ++i)
+      const std::int64_t part = std::int64_t(threads) * share.Index + i;
+      own[std::size_t(i)] =
+        findMetBoxes(boxes, kernel, triangles * part / parts, triangles * (part + 1) / parts);
+    });
+  SeamTriangles all = joined(std::move(own));
+  if (share.Count > 1)
   {
-    all.appendTriangles(parts[i]);
+    all = joined(share.Exchange(std::move(all)));
   }
   all.Vertices = vertices;
   all.AdjacentSets = adjacentSets(kernel, all.SetOf);
-  return std::move(all);
+  return all;
 }
 
 bool partitionsPay(const SeamTriangles& initialMesh)
@@ -252,8 +271,10 @@ bool partitionsPay(const SeamTriangles& initialMesh)
   return met <= most * initialMesh.size();
 }
 
-template SeamTriangles triangulateVertices(const Tiling&, const std::vector<SeamVertex>&, int);
-template SeamTriangles triangulateVertices(const Regions&, const std::vector<SeamVertex>&, int);
+template SeamTriangles triangulateVertices(
+  const Tiling&, const std::vector<SeamVertex>&, int, const InitialMeshShare&);
+template SeamTriangles triangulateVertices(
+  const Regions&, const std::vector<SeamVertex>&, int, const InitialMeshShare&);
 template std::vector<SeamVertex> chooseInitialPoints(
   const Tiling&, const PointBuckets<std::int32_t>&, int, int);
 template std::vector<SeamVertex> chooseInitialPoints(

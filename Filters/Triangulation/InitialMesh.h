@@ -6,6 +6,7 @@
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/SeamTriangles.h"
 
+#include <functional>
 #include <vector>
 
 namespace tipp
@@ -28,11 +29,20 @@ template <typename Id>
 std::vector<SeamVertex> chooseInitialPoints(
   const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition, int threads);
 
+/// Which of the initial mesh's triangles to find the boxes of, where ranks share that out.
+struct InitialMeshShare
+{
+  int Index = 0;
+  int Count = 1;
+  /// Of this share's triangles makes those of all shares, in order; needed for several.
+  std::function<std::vector<SeamTriangles>(SeamTriangles&&)> Exchange;
+};
+
 /// The Delaunay triangulation of vertices, with the boxes (a Tiling's, or Regions) that each
 /// triangle meets, and those that triangles with a common edge meet.
 template <typename Boxes>
-SeamTriangles triangulateVertices(
-  const Boxes& boxes, const std::vector<SeamVertex>& vertices, int threads);
+SeamTriangles triangulateVertices(const Boxes& boxes, const std::vector<SeamVertex>& vertices,
+  int threads, const InitialMeshShare& share = {});
 
 /// Circumdisks that meet many partitions each (points on a circle, a parabola, a line and one
 /// beside it: 3.5 and more partitions each, by measurement) would bring nearly all vertices to
@@ -40,9 +50,9 @@ SeamTriangles triangulateVertices(
 bool partitionsPay(const SeamTriangles& initialMesh);
 
 extern template SeamTriangles triangulateVertices(
-  const Tiling&, const std::vector<SeamVertex>&, int);
+  const Tiling&, const std::vector<SeamVertex>&, int, const InitialMeshShare&);
 extern template SeamTriangles triangulateVertices(
-  const Regions&, const std::vector<SeamVertex>&, int);
+  const Regions&, const std::vector<SeamVertex>&, int, const InitialMeshShare&);
 extern template std::vector<SeamVertex> chooseInitialPoints(
   const Tiling&, const PointBuckets<std::int32_t>&, int, int);
 extern template std::vector<SeamVertex> chooseInitialPoints(

@@ -13,9 +13,16 @@ void SeamTriangles::add(
 
 void SeamTriangles::appendTriangles(const SeamTriangles& others)
 {
-  for (std::size_t i = 0; i < others.size(); ++i)
+  std::vector<std::uint32_t> numbers;
+  for (std::uint32_t set = 0; set < others.Sets.size(); ++set)
   {
-    this->add(others.Triangles[i], others.metBegin(i), others.metEnd(i));
+    numbers.push_back(this->Sets.number(others.Sets.begin(set), others.Sets.end(set)));
+  }
+  this->Triangles.insert(this->Triangles.end(), others.Triangles.begin(), others.Triangles.end());
+  this->SetOf.reserve(this->SetOf.size() + others.SetOf.size());
+  for (const std::uint32_t set : others.SetOf)
+  {
+    this->SetOf.push_back(numbers[set]);
   }
 }
 

@@ -36,8 +36,8 @@ struct SeamTriangles
   std::vector<Corners> Triangles;
   std::vector<std::uint32_t> SetOf; ///< of each triangle: the partitions that it meets
   PartitionSets Sets;
-  /// The sets of two triangles with a common edge, where they differ; each pair once. Only
-  /// triangulateVertices() fills it.
+  /// The sets of two triangles with a common edge, where they differ. Only triangulateVertices()
+  /// fills it.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> AdjacentSets;
 
   std::size_t size() const { return this->Triangles.size(); }

@@ -37,6 +37,7 @@ Box2 boundsOf(const PointsView& points)
 struct SharedOut
 {
   SharedOut(const PointsView& points, int ranks, int perRank)
+    : Ranks(ranks)
   {
     const auto count = std::int64_t(points.size());
     DistributedOptions options;
@@ -62,9 +63,31 @@ struct SharedOut
     assign(this->Of, input, counts, options);
   }
 
+  int Ranks;
   Plan Of;
   PointBuckets<std::int32_t> Buckets;
 };
+
+/// The mesh as the ranks exchange it, and how many bytes that is.
+std::vector<SeamTriangles> sharesOf(const SeamTriangles& mesh, int ranks, std::size_t& bytes)
+{
+  std::vector<SeamTriangles> shares(static_cast<std::size_t>(ranks));
+  for (std::size_t i = 0; i < mesh.size(); ++i)
+  {
+    shares[i * shares.size() / mesh.size()].add(
+      mesh.Triangles[i], mesh.metBegin(i), mesh.metEnd(i));
+  }
+  bytes = mesh.size() * (sizeof(SeamTriangles::Corners) + sizeof(std::uint32_t));
+  for (const SeamTriangles& share : shares)
+  {
+    for (std::uint32_t set = 0; set < share.Sets.size(); ++set)
+    {
+      const std::ptrdiff_t members = share.Sets.end(set) - share.Sets.begin(set);
+      bytes += sizeof(std::uint64_t) + std::size_t(members) * sizeof(PartitionIndex);
+    }
+  }
+  return shares;
+}
 
 /// A line for each partition in order: its rank, seconds, vertices, and of each later conflicting
 /// partition its number and how many vertices are sent to it.
@@ -74,18 +97,26 @@ void printPartitions(SharedOut& shared)
   const Regions regions(tiles, shared.Buckets, 1);
   std::vector<SeamVertex> initial =
     chooseInitialPoints(tiles, shared.Buckets, InitialPointsOfPartition, 1);
-  const ProcessorWatch initialWatch; // from here on every rank does the same for all partitions
   const std::vector<SeamVertex> artificial = makeArtificialPoints(tiles);
   initial.insert(initial.end(), artificial.begin(), artificial.end());
-  const SeamTriangles mesh = triangulateVertices(regions, initial, 1);
+  std::size_t bytes = 0;
+  std::vector<SeamTriangles> shares;
+  InitialMeshShare share;
+  if (shared.Ranks > 1)
+  {
+    shares = sharesOf(triangulateVertices(regions, initial, 1), shared.Ranks, bytes);
+    share = { 0, shared.Ranks, [&](SeamTriangles&&) { return std::move(shares); } };
+  }
+  const ProcessorWatch initialWatch; // what every rank does
+  const SeamTriangles mesh = triangulateVertices(regions, initial, 1, share);
   const PartitionOrder order(regions.areUsed(), mesh);
   std::vector<Inbox> inboxes(order.partitionCount());
   FinalBoundary<std::int64_t> final;
   const DeliverMessage deliver = [&](PartitionIndex to, VertexMessage&& message)
   { inboxes[std::size_t(to)].put(std::move(message)); };
   sendInitialMesh(mesh, order, deliver, final);
-  std::printf("initial %zu points %.6f seconds %zu colours\n", initial.size(),
-    initialWatch.seconds(), order.colourCount());
+  std::printf("initial %zu points %.6f seconds %zu colours %zu bytes exchanged\n", initial.size(),
+    initialWatch.seconds(), order.colourCount(), bytes);
 
   Worker<std::int32_t> worker(tiles, shared.Buckets);
   Routing<std::int32_t> routing(order, regions);

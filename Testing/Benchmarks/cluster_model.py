@@ -34,7 +34,8 @@ class Trace:
         with open(path, encoding="ascii") as lines:
             head = next(lines).split()
             self.ranks, self.points = int(head[1]), int(head[3])
-            self.initial_seconds = float(next(lines).split()[3])
+            initial = next(lines).split()
+            self.initial_seconds, self.initial_bytes = float(initial[3]), int(initial[7])
             self.owner, self.seconds, self.vertices, self.later = [], [], [], []
             numbers = {}
             for line in lines:
@@ -136,10 +137,12 @@ def whole_run(trace, costs, points, network):
     """Seconds of a run with so many points, in as many partitions as the trace has."""
     latency, bandwidth = network
     scale = points / trace.points
-    # Every rank makes the whole initial mesh, and gets its vertices.
+    # Every rank makes the whole initial mesh. Its vertices, and which partitions its triangles meet, are brought
+    # together on one rank and from there to all.
     exchange = (costs.exchange * points / trace.ranks + latency * trace.ranks
                 + (1 - 1 / trace.ranks) * points / trace.ranks * BYTES_OF_POINT / bandwidth)
-    initial = trace.initial_seconds + 8 * len(trace.owner) * BYTES_OF_VERTEX / bandwidth
+    gathered = 8 * len(trace.owner) * BYTES_OF_VERTEX + trace.initial_bytes
+    initial = trace.initial_seconds + 2 * gathered / bandwidth
     return exchange + initial + simulate(trace, trace.ranks, network, scale)
 
 

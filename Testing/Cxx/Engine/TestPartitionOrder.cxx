@@ -39,10 +39,12 @@ TEST(ConflictGraph, GivesDifferentColoursToWhatConflicts)
   std::vector<ConflictGraph::Pair> pairs;
   for (const auto& [a, b] : { std::pair{ 0, 1 }, { 1, 2 }, { 2, 3 }, { 1, 2 } })
   {
-    pairs.push_back(ConflictGraph::pairOf(a, b));
-    pairs.push_back(ConflictGraph::pairOf(b, a));
+    pairs.emplace_back(a, b);
+    pairs.emplace_back(b, a);
   }
-  const ConflictGraph graph(5, pairs);
+  ConflictGraph graph(5);
+  graph.add({ pairs.begin(), pairs.begin() + 4 });
+  graph.add({ pairs.begin() + 4, pairs.end() });
   EXPECT_EQ(2, graph.end(1) - graph.begin(1));
   EXPECT_EQ(0, graph.end(4) - graph.begin(4));
   EXPECT_EQ((std::vector<std::uint32_t>{ 1, 0, 1, 0, 0 }), graph.colours());
@@ -94,10 +96,12 @@ TEST(ConflictGraph, ColoursDifferWhereThingsConflict)
   for (const auto& [a, b] : std::vector<std::pair<PartitionIndex, PartitionIndex>>{
          { 0, 1 }, { 1, 2 }, { 2, 3 }, { 1, 2 } })
   {
-    pairs.push_back(ConflictGraph::pairOf(a, b));
-    pairs.push_back(ConflictGraph::pairOf(b, a));
+    pairs.emplace_back(a, b);
+    pairs.emplace_back(b, a);
   }
-  const ConflictGraph graph(5, pairs);
+  ConflictGraph graph(5);
+  graph.add({ pairs.begin(), pairs.begin() + 4 });
+  graph.add({ pairs.begin() + 4, pairs.end() });
   EXPECT_EQ(2, graph.end(1) - graph.begin(1));
   EXPECT_EQ(0, graph.end(4) - graph.begin(4));
   EXPECT_EQ((std::vector<std::uint32_t>{ 1, 0, 1, 0, 0 }), graph.colours());
