@@ -46,7 +46,7 @@ def resident_bytes():
 
 def copies_of(points):
     before = resident_bytes()
-    cloud = tipp._arrays.point_cloud(points)
+    cloud = tipp._vtk.point_cloud(points)
     copies = (resident_bytes() - before) / (len(points) * 24)
     assert cloud.GetNumberOfPoints() == len(points)
     return copies
@@ -67,7 +67,7 @@ def main():
     repeats = int(sys.argv[2]) if len(sys.argv) > 2 else 5
     points = np.random.default_rng(1).random((count, 3))
     flat = points[:, :2].copy()
-    cloud = tipp._arrays.point_cloud(points)
+    cloud = tipp._vtk.point_cloud(points)
     copies = {"(n, 3)": copies_of(points), "(n, 2)": copies_of(flat)}
     filters = tipp._triangulate.vtkTIPPDelaunay2D = Remembered()
 
