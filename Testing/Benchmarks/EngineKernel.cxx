@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Engines.h"
 
-#include "Kernel/SweepKernel.h"
+#include "SweepKernel.h"
 
 #include <array>
 #include <chrono>

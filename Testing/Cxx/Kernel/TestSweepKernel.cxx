@@ -2,7 +2,7 @@
 // The sweep makes the triangles of CGAL and of the kernel, and keeps no more than its front.
 #include "KernelTesting.h"
 
-#include "Kernel/SweepKernel.h"
+#include "SweepKernel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,9 @@
 #define tippSweepKernel_h
 
 #include "Kernel/DelaunayKernel.h"
-#include "Kernel/SweepStrips.h"
 #include "Predicates/Box2.h"
 #include "Predicates/Point2.h"
-#include "vtkTIPPFiltersModule.h"
+#include "SweepStrips.h"
 
 #include <array>
 #include <cstddef>
@@ -26,7 +25,7 @@ namespace tipp
 /// vertices, R being the box of all points that are not inserted yet. Triangles whose closed
 /// circumdisk meets R before the strip are right, and those that still meet it after the strip are
 /// the next front.
-class VTKTIPPFILTERS_EXPORT SweepKernel
+class SweepKernel
 {
 public:
   /// Counter-clockwise; places of points in their array.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Kernel/SweepKernel.h"
+#include "SweepKernel.h"
 
 #include "Predicates/Circumdisk.h"
 #include "Predicates/Orientation.h"

@@ -4,7 +4,6 @@
 
 #include "Predicates/Box2.h"
 #include "Predicates/Point2.h"
-#include "vtkTIPPFiltersModule.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +14,7 @@ namespace tipp
 
 /// Points in vertical strips of about equally many, from left to right; points of one x are in one
 /// strip.
-class VTKTIPPFILTERS_EXPORT SweepStrips
+class SweepStrips
 {
 public:
   SweepStrips(const Point2* points, std::size_t count, std::size_t pointsInStrip);

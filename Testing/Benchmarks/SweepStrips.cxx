@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Kernel/SweepStrips.h"
+#include "SweepStrips.h"
 
 #include <algorithm>
 #include <limits>
