@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Dem/DemBands.h"
 
+#include "Points/ElevationColumn.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -30,20 +32,6 @@ double degrees(double radians)
 std::size_t find(const std::vector<std::string>& columns, const std::string& name)
 {
   return std::size_t(std::find(columns.begin(), columns.end(), name) - columns.begin());
-}
-
-/// The end if there is none.
-std::size_t findElevation(const std::vector<std::string>& columns)
-{
-  for (const char* const name : { "z", "Z", elevation })
-  {
-    const std::size_t at = find(columns, name);
-    if (at < columns.size())
-    {
-      return at;
-    }
-  }
-  return columns.size();
 }
 
 [[noreturn]] void failToFind(const std::string& name, const std::vector<std::string>& columns)

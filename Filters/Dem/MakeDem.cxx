@@ -99,6 +99,7 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   {
     throw std::runtime_error("there is no point with finite coordinates.");
   }
+  requireElevation(request.Duplicates, columns);
   settings = makeTerrainSettings(request, bounds, columns);
   requireMemory(settings);
   DemFigures figures;
@@ -117,6 +118,8 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   {
     return figures;
   }
+  figures.DisagreeingPlaces =
+    resolveDuplicates(points, triangulation.Duplicates, request.Duplicates);
   const std::vector<double> xyz = takeXYZ(points, settings.Bands);
   TerrainPoints terrain;
   terrain.XYZ = xyz.data();

@@ -3,6 +3,7 @@
 #define tippMakeDem_h
 
 #include "Dem/TerrainSampler.h"
+#include "Duplicates/ResolveDuplicates.h"
 #include "Points/PointTable.h"
 #include "Predicates/Box2.h"
 #include "Raster/RasterFile.h"
@@ -23,6 +24,7 @@ struct DemRequest
   std::vector<std::string> Bands = { "elevation" };
   double MaximumEdge = 0; ///< triangles with a longer one are void; 0: none are
   int Threads = 0;        ///< 0: OpenMP's choice
+  DuplicateRule Duplicates = DuplicateRule::First;
 };
 
 /// Of points with these columns between these bounds. Throws std::runtime_error.
@@ -34,7 +36,8 @@ struct DemFigures
   std::int64_t Points = 0;
   std::int64_t Triangles = 0;
   std::int64_t Duplicates = 0;
-  std::int64_t Rejected = 0; ///< points that are not finite
+  std::int64_t DisagreeingPlaces = 0; ///< of several points with different elevations
+  std::int64_t Rejected = 0;          ///< points that are not finite
   bool Aborted = false;
 };
 

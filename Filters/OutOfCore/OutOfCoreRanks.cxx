@@ -121,6 +121,7 @@ void help(Postbox& ranks, const OpenPoints& open, const OutOfCoreOptions& option
   requireSharedFolder(ranks, "");
   PreparedRun prepared;
   prepared.MaximumEdge = options.MaximumEdge;
+  prepared.Duplicates = options.Duplicates;
   std::vector<char> isDone;
   if (!receivePrepared(ranks, open, options, prepared, isDone))
   {

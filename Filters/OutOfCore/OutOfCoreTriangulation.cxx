@@ -70,6 +70,7 @@ public:
     this->Prepared.Results = this->Scratch.results();
     this->Prepared.Taker = options.Taker;
     this->Prepared.MaximumEdge = options.MaximumEdge;
+    this->Prepared.Duplicates = options.Duplicates;
   }
 
   OutOfCoreStatistics run()
@@ -243,12 +244,15 @@ private:
   std::string identity() const
   {
     const OutOfCoreOptions& options = this->Options;
-    return "TIPP out of core 8\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
+    return "TIPP out of core 9\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
       std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
       std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
       (options.Neighbors ? " linked" : "") + (options.CountOnly ? " counted" : "") +
-      (options.MaximumEdge > 0 ? " edges " + exactText(options.MaximumEdge) : "") + "\n" +
-      (options.Taker ? options.Taker->identity() : "") + "\n" + options.Scratch;
+      (options.MaximumEdge > 0 ? " edges " + exactText(options.MaximumEdge) : "") +
+      (options.Duplicates != DuplicateRule::First
+          ? " duplicates " + std::to_string(int(options.Duplicates))
+          : "") +
+      "\n" + (options.Taker ? options.Taker->identity() : "") + "\n" + options.Scratch;
   }
 
   void savePlan()
@@ -275,10 +279,12 @@ private:
           this->tell(0);
         })).survey();
     this->Statistics.LeftOut = this->Input.leftOut();
+    this->Statistics.ThinnedOut = this->Input.thinnedOut();
     this->Prepared.describeColumns(
       this->Input.columns(), this->Options.MapDuplicates, this->Options.Neighbors);
     const std::size_t words = this->Prepared.Rows.Words;
     this->planMemory(words);
+    requireElevation(this->Options.Duplicates, this->Input.columns());
     if (survey.Points == survey.Rejected)
     {
       throw IOError("There is no point with finite coordinates in the input, so nothing to write.");

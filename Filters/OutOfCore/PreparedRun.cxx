@@ -21,6 +21,7 @@ void PreparedRun::exchangeInput(Archive& archive)
   archive(this->Survey.Bounds);
   archive(this->Survey.Factor);
   archive(this->Survey.Collinear);
+  archive(this->Columns);
   archive(this->Rows.Words);
   archive(this->Rows.Z);
   archive(this->Rows.Attributes);
@@ -62,6 +63,7 @@ void PreparedRun::load(LoadArchive& archive, const std::string& points)
 void PreparedRun::describeColumns(
   const std::vector<std::string>& columns, bool mapDuplicates, bool hasNeighbors)
 {
+  this->Columns = columns;
   this->Rows.Words = 3 + columns.size();
   for (std::size_t i = 0; i < columns.size(); ++i)
   {

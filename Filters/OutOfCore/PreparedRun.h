@@ -7,6 +7,7 @@
 #include "OutOfCore/PieceResult.h"
 #include "OutOfCore/SpillPoints.h"
 #include "Partitioned/PartitionedMesh.h"
+#include "Points/ElevationColumn.h"
 
 #include <memory>
 #include <string>
@@ -33,7 +34,8 @@ public:
   PieceWork work() const
   {
     return { *this->Plan, *this->Spilled, this->Survey.Factor, this->Rows, this->Mesh,
-      this->Results, this->Taker, this->MaximumEdge };
+      this->Results, this->Taker, this->MaximumEdge, this->Duplicates,
+      findElevation(this->Columns) };
   }
 
   InputSurvey Survey;
@@ -42,6 +44,8 @@ public:
   std::string Results; ///< how the paths of pieces' results begin
   TriangleTaker* Taker = nullptr;
   double MaximumEdge = 0;
+  DuplicateRule Duplicates = DuplicateRule::First;
+  std::vector<std::string> Columns; ///< of the input, beside x and y
   std::unique_ptr<PiecePlan> Plan;
   std::unique_ptr<SpilledPoints> Spilled;
 

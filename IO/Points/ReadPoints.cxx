@@ -41,6 +41,14 @@ PointTable readAllPoints(PointStream& stream)
   {
     table.Columns.push_back({ name, {} });
   }
+  // Untouched memory is not committed, but the system refuses what it could never commit.
+  constexpr std::int64_t mostReserved = std::int64_t(1) << 26;
+  const auto most = std::size_t(std::min(stream.most(), mostReserved));
+  table.XY.reserve(2 * most);
+  for (PointTable::Column& column : table.Columns)
+  {
+    column.Values.reserve(most);
+  }
   forEachBlock(stream, block,
     [&](const PointBlock& more)
     {
@@ -52,6 +60,7 @@ PointTable readAllPoints(PointStream& stream)
       }
     });
   table.LeftOut = stream.leftOut();
+  table.ThinnedOut = stream.thinnedOut();
   return table;
 }
 
@@ -64,7 +73,7 @@ PointTable readPoints(const std::vector<std::string>& paths, const PointOptions&
 PointTable readPoints(const std::string& path, const PointOptions& options)
 {
   const std::string extension = extensionOf(path);
-  if (isLasExtension(extension))
+  if (isLasExtension(extension) || options.Thin.isGiven())
   {
     return readAllPoints(*openPointStream({ path }, options));
   }
@@ -98,6 +107,10 @@ PointTable readPoints(const std::string& path, const PointOptions& options)
 PointTable readPointsShare(
   const std::vector<std::string>& paths, const PointOptions& options, int part, int parts)
 {
+  if (options.Thin.isGiven())
+  {
+    return part == 0 ? readPoints(paths, options) : PointTable();
+  }
   if (paths.size() == 1 && extensionOf(paths[0]) == ".npy")
   {
     return readNpyPoints(paths[0], options, part, parts);

@@ -117,7 +117,7 @@ int runDelaunay(const DelaunayArguments& arguments)
   PointTable points = readPointsFor(arguments);
   run.Points = std::int64_t(points.size());
   run.ReadSeconds = watch.restart();
-  reportLeftOut(points.LeftOut);
+  reportLeftOut(points.LeftOut, points.ThinnedOut);
   if (isInterrupted())
   {
     return reportInterrupt();
@@ -125,6 +125,7 @@ int runDelaunay(const DelaunayArguments& arguments)
   std::string constraintReport;
   const Triangulation result = triangulatePoints(arguments, points, constraintReport);
   run.TriangulateSeconds = watch.restart();
+  run.DisagreeingPlaces = resolveDuplicates(points, result.Duplicates, arguments.Duplicates);
   if (result.Aborted || isInterrupted() || !writeResult(arguments, points, result, before))
   {
     return reportInterrupt();
@@ -255,6 +256,7 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
     ->required()
     ->check(checkOutput);
   addPointOptions(*command, arguments->Columns);
+  addDuplicatesOption(*command, arguments->Duplicates);
   addTuning(*command, *arguments);
   command
     ->add_option("--max-edge", arguments->MaximumEdge,
@@ -292,6 +294,11 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
         throw CLI::ValidationError(
           "--map-duplicates", "needs an output of points, so .vtp or .vtu");
       }
+      if (arguments->Duplicates != DuplicateRule::First && extensionOf(arguments->Output) == ".npy")
+      {
+        throw CLI::ValidationError(
+          "--duplicates", "needs an output of points with data, so .vtp, .vtu or .tipp");
+      }
       if (arguments->Neighbors && extensionOf(arguments->Output) == ".npy")
       {
         throw CLI::ValidationError(
@@ -303,6 +310,7 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
           "--partitions", "does not go with --masters, --major and --minor; give --minor");
       }
       arguments->Input = arguments->Inputs.front();
+      arguments->Columns.Threads = arguments->Threads;
       const std::string misplaced = misplacedOutOfCoreOption(*arguments);
       requireConstraintsInMemory(*arguments);
       if (isOutOfCore(*arguments) && arguments->isForRanks())

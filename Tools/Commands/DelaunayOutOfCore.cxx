@@ -45,6 +45,7 @@ OutOfCoreOptions makeOptions(const DelaunayArguments& arguments, std::unique_ptr
   options.Threads = arguments.Threads;
   options.MaximumEdge = arguments.MaximumEdge;
   options.MapDuplicates = arguments.MapDuplicates;
+  options.Duplicates = arguments.Duplicates;
   options.Neighbors = arguments.Neighbors;
   options.CountOnly = arguments.Sink == "count";
   options.Resume = arguments.Resume;
@@ -148,6 +149,7 @@ void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& 
     { "triangles", statistics.Triangles },
     { "triangle_sum", fmt::format("{:016x}", statistics.TriangleSum) },
     { "duplicates", statistics.Duplicates },
+    { "disagreeing_places", statistics.DisagreeingPlaces },
     { "rejected", statistics.Rejected },
     { "pieces", statistics.Pieces },
     { "partitions", statistics.Partitions },
@@ -178,11 +180,12 @@ std::string summarize(const OutOfCoreStatistics& statistics, const std::vector<P
   const std::string rejected =
     statistics.Rejected == 0 ? "" : fmt::format(", {} rejected", statistics.Rejected);
   const std::string each = ranks.size() == 1 ? "" : " on a rank at most";
-  return fmt::format("{} points, {} triangles, {} duplicates{}, {} pieces, {:.0f} MB, {:.3f} s, "
+  return fmt::format("{} points, {} triangles, {}{}, {} pieces, {:.0f} MB, {:.3f} s, "
                      "{:.0f} points/s, peak memory {:.0f} MB{}",
-    statistics.Points, statistics.Triangles, statistics.Duplicates, rejected, statistics.Pieces,
-    double(statistics.MeshBytes) / 1e6, seconds, double(statistics.Points) / seconds,
-    double(largestMemory(ranks)) / 1e6, each);
+    statistics.Points, statistics.Triangles,
+    describeDuplicates(statistics.Duplicates, statistics.DisagreeingPlaces), rejected,
+    statistics.Pieces, double(statistics.MeshBytes) / 1e6, seconds,
+    double(statistics.Points) / seconds, double(largestMemory(ranks)) / 1e6, each);
 }
 
 void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& statistics,
@@ -192,7 +195,7 @@ void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& s
   {
     writeReport(arguments, statistics, ranks);
   }
-  reportLeftOut(statistics.LeftOut);
+  reportLeftOut(statistics.LeftOut, statistics.ThinnedOut);
   const bool isCounted = arguments.Sink == "count";
   fmt::print("{}{}\n", summarize(statistics, ranks),
     isCounted ? fmt::format(", checksum {:016x}", statistics.TriangleSum) : "");
@@ -240,7 +243,9 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
       }
       bar = makeBar();
     }
-    return openPointStream(arguments.Inputs, arguments.Columns);
+    PointOptions points = arguments.Columns;
+    setThinningFile(points, arguments.Scratch, arguments.Output);
+    return openPointStream(arguments.Inputs, points);
   };
   try
   {

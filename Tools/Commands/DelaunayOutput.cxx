@@ -42,6 +42,12 @@ std::vector<std::int64_t> representatives(const Triangulation& result, std::size
 PointTable readPointsFor(const DelaunayArguments& arguments)
 {
   PointTable points = readPoints(arguments.Inputs, arguments.Columns);
+  std::vector<std::string> names;
+  for (const PointTable::Column& column : points.Columns)
+  {
+    names.push_back(column.Name);
+  }
+  requireElevation(arguments.Duplicates, names);
   if (extensionOf(arguments.Output) == ".npy")
   {
     points.Columns.clear(); // only .vtp and .vtu keep them

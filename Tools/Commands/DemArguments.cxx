@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/DemArguments.h"
 
+#include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 
 #include <fmt/format.h>
@@ -41,10 +42,11 @@ std::string summarize(const DemArguments& arguments, const DemReport& report)
   const std::string rejected =
     figures.Rejected == 0 ? "" : fmt::format(", {} rejected", figures.Rejected);
   return fmt::format(
-    "{} points, {} triangles, {} duplicates{}, {} x {} pixels, {} with a value, {:.3f} s, peak "
+    "{} points, {} triangles, {}{}, {} x {} pixels, {} with a value, {:.3f} s, peak "
     "memory {:.0f} MB, in {}",
-    figures.Points, figures.Triangles, figures.Duplicates, rejected, grid.Columns, grid.Rows,
-    report.Filled, report.ReadSeconds + report.MakeSeconds + report.WriteSeconds,
+    figures.Points, figures.Triangles,
+    describeDuplicates(figures.Duplicates, figures.DisagreeingPlaces), rejected, grid.Columns,
+    grid.Rows, report.Filled, report.ReadSeconds + report.MakeSeconds + report.WriteSeconds,
     double(peakMemoryBytes()) / 1e6, arguments.Output);
 }
 
@@ -58,6 +60,7 @@ void writeDemReport(const DemArguments& arguments, const DemReport& report)
       { "points", report.Figures.Points },
       { "triangles", report.Figures.Triangles },
       { "duplicates", report.Figures.Duplicates },
+      { "disagreeing_places", report.Figures.DisagreeingPlaces },
       { "rejected", report.Figures.Rejected },
       { "columns", grid.Columns },
       { "rows", grid.Rows },

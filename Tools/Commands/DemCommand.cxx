@@ -76,7 +76,7 @@ int runInMemory(const DemArguments& arguments)
   const auto stream = openPointStream(arguments.Inputs, arguments.Points);
   const RasterDescription start = describeRaster(arguments, stream->crs());
   PointTable points = readAllPoints(*stream);
-  reportLeftOut(points.LeftOut);
+  reportLeftOut(points.LeftOut, points.ThinnedOut);
   if (isInterrupted())
   {
     return reportInterrupt();
@@ -234,6 +234,7 @@ void addDemCommand(CLI::App& app, int& exitCode)
   addGridOptions(*command, *arguments);
   addValueOptions(*command, *arguments);
   addPointOptions(*command, arguments->Points);
+  addDuplicatesOption(*command, arguments->Request.Duplicates);
   command
     ->add_option("--threads", arguments->Request.Threads, "Number of threads; 0: OpenMP's choice")
     ->check(CLI::Range(0, 4096))
@@ -250,6 +251,7 @@ void addDemCommand(CLI::App& app, int& exitCode)
     [arguments, &exitCode]()
     {
       requireGood(*arguments);
+      arguments->Points.Threads = arguments->Request.Threads;
       arguments->Points.Columns = columnsForBands(arguments->Request.Bands);
       if (!arguments->Bounds.empty())
       {

@@ -59,7 +59,9 @@ int runDemOutOfCore(const DemArguments& arguments, DemReport& report)
   // Large blocks go back to the system when they are freed, whatever was freed before.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
   const PathState before = PendingFile(arguments.Output).before();
-  const auto stream = openPointStream(arguments.Inputs, arguments.Points);
+  PointOptions points = arguments.Points;
+  setThinningFile(points, arguments.Scratch, arguments.Output);
+  const auto stream = openPointStream(arguments.Inputs, points);
   const RasterDescription description = describeRaster(arguments, stream->crs());
   std::unique_ptr<ProgressBar> bar = makeBar();
   RasterSink sink(
@@ -81,6 +83,7 @@ int runDemOutOfCore(const DemArguments& arguments, DemReport& report)
   options.MemoryLimit = *parseMemorySize(arguments.Memory);
   options.Threads = arguments.Request.Threads;
   options.MaximumEdge = arguments.Request.MaximumEdge;
+  options.Duplicates = arguments.Request.Duplicates;
   options.CountOnly = true;
   options.Taker = &sink;
   options.Resume = arguments.Resume;
@@ -107,10 +110,11 @@ int runDemOutOfCore(const DemArguments& arguments, DemReport& report)
     return reportInterrupt(
       statistics.Kept ? "the same command with --resume goes on" : "nothing was written");
   }
-  reportLeftOut(statistics.LeftOut);
+  reportLeftOut(statistics.LeftOut, statistics.ThinnedOut);
   report.Figures.Points = statistics.Points;
   report.Figures.Triangles = statistics.Triangles;
   report.Figures.Duplicates = statistics.Duplicates;
+  report.Figures.DisagreeingPlaces = statistics.DisagreeingPlaces;
   report.Figures.Rejected = statistics.Rejected;
   for (const OutOfCoreStatistics::Phase& phase : statistics.Phases)
   {
