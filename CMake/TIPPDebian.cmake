@@ -35,6 +35,8 @@ else ()
   set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
     "VTK modules for exact Delaunay triangulation, partitioned meshes and resampling")
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
+  # GDAL's library, which is opened when a GeoTIFF is written; the package's own name has its version.
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS gdal-bin)
 
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libtipp-dev)
   set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers and CMake package of TIPP's VTK modules")

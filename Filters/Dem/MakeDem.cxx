@@ -152,7 +152,7 @@ ReadTile readFrom(const RasterGrid& grid, const SampledBands& samples)
 }
 
 std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid, const ReadTile& readTile,
-  const std::function<bool(double)>& progress)
+  const std::function<bool(double)>& progress, const DemBands& bands)
 {
   std::vector<std::vector<double>> values;
   std::int64_t filled = 0;
@@ -167,14 +167,15 @@ std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid, const Read
         return;
       }
       readTile(window, values);
-      std::vector<const double*> bands;
-      for (const std::vector<double>& band : values)
-      {
-        bands.push_back(band.data());
-      }
-      writer.write(window, bands);
       filled += std::count_if(values.front().begin(), values.front().end(),
         [](double value) { return !std::isnan(value); });
+      fillVoids(bands, values);
+      std::vector<const double*> rows;
+      for (const std::vector<double>& band : values)
+      {
+        rows.push_back(band.data());
+      }
+      writer.write(window, rows);
       done += window.Columns * window.Rows;
     });
   return isWanted ? filled : -1;

@@ -89,7 +89,7 @@ public:
       }
       if (!this->IsWhole)
       {
-        this->beginTaking();
+        this->Prepared.beginTaking();
         this->triangulate();
         this->endTaking();
         this->Options.CountOnly ? this->count() : this->publish();
@@ -233,11 +233,7 @@ private:
 
   void planMemory(std::size_t words)
   {
-    // A taker copies coordinates and triangles of the piece that it is given.
-    const std::size_t more = this->Options.Taker ? 8 : 0;
-    this->Memory = std::make_unique<MemoryPlan>(this->Options, words + more);
-    this->Memory->LoadedBytes = this->Memory->LoadedBytes /
-      MemoryPlan::pieceBytes(1, words + more) * MemoryPlan::pieceBytes(1, words);
+    this->Memory = std::make_unique<MemoryPlan>(this->Options, words);
   }
 
   /// What tells that it is the same run.
@@ -329,7 +325,7 @@ private:
       points * (24 + 8 + 1 + 8 * this->Prepared.Rows.Attributes.size() + 2 * cell) / 50 * 51;
     constexpr std::uint64_t results = 4; // of pieces of 30,000 points
     this->Scratch.requireSpace(this->Path, this->Options.CountOnly ? 0 : stored,
-      points * (8 * this->Prepared.Rows.Words + results + more));
+      points * (8 * this->Prepared.Rows.Words + results + more) + this->Prepared.takenBytes());
   }
 
   void spill()
@@ -435,18 +431,6 @@ private:
     if (!isGoingOn)
     {
       throw Aborted();
-    }
-  }
-
-  void beginTaking()
-  {
-    if (this->Options.Taker)
-    {
-      const InputSurvey& survey = this->Prepared.Survey;
-      const double factor = survey.Factor;
-      this->Options.Taker->begin({ survey.Bounds.xmin / factor, survey.Bounds.ymin / factor,
-                                   survey.Bounds.xmax / factor, survey.Bounds.ymax / factor },
-        this->Input.columns(), this->Scratch.results());
     }
   }
 

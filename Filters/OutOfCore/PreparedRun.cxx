@@ -100,6 +100,25 @@ void PreparedRun::describeMesh()
   }
 }
 
+Box2 PreparedRun::inputBounds() const
+{
+  const Bounds bounds = this->boundsOf(this->Survey.Bounds);
+  return { bounds[0], bounds[2], bounds[1], bounds[3] };
+}
+
+void PreparedRun::beginTaking() const
+{
+  if (this->Taker)
+  {
+    this->Taker->begin(this->inputBounds(), this->Columns, this->Results);
+  }
+}
+
+std::uint64_t PreparedRun::takenBytes() const
+{
+  return this->Taker ? this->Taker->fileBytes(this->inputBounds(), this->Columns) : 0;
+}
+
 Bounds PreparedRun::boundsOf(const Box2& box) const
 {
   const double factor = this->Survey.Factor;

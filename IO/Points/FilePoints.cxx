@@ -3,6 +3,7 @@
 
 #include "Files/Extension.h"
 #include "Files/IOError.h"
+#include "Files/UnknownKind.h"
 #include "Las/LasHeader.h"
 #include "Las/LasPoints.h"
 #include "Points/NpyPoints.h"
@@ -156,7 +157,12 @@ std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointO
   {
     return std::make_unique<NpyFilePoints>(path, options);
   }
-  if (isTextExtension(extension))
+  const std::string advice = conversionAdvice(path);
+  if (!advice.empty())
+  {
+    throw IOError(path, advice);
+  }
+  if (isTextPath(path))
   {
     return streamTextPoints(path, options);
   }

@@ -3,6 +3,7 @@
 
 #include "Files/Extension.h"
 #include "Files/IOError.h"
+#include "Files/StandardInput.h"
 #include "Points/FilePoints.h"
 #include "Points/ThinnedPoints.h"
 
@@ -29,7 +30,7 @@ std::string identityOf(const std::string& path)
     return path + "\n";
   }
   struct stat status = {};
-  if (stat(path.c_str(), &status) != 0)
+  if (stat(openablePath(path).c_str(), &status) != 0)
   {
     throw IOError(path, "cannot be opened; check its name.");
   }

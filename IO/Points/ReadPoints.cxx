@@ -4,6 +4,7 @@
 #include "Adcirc/AdcircGrid.h"
 #include "Files/Extension.h"
 #include "Files/IOError.h"
+#include "Files/UnknownKind.h"
 #include "Las/LasHeader.h"
 #include "Points/FilePoints.h"
 #include "Points/NpyPoints.h"
@@ -85,17 +86,15 @@ PointTable readPoints(const std::string& path, const PointOptions& options)
   {
     return readNpyPoints(path, options);
   }
-  if (isTextExtension(extension))
+  if (isTextPath(path) && conversionAdvice(path).empty())
   {
     return readTextPoints(path, options);
   }
   if (extension != ".14" && extension != ".grd" && !isVtkFile(path))
   {
-    throw IOError(path,
+    refuseKind(path,
       "has no extension that tells a kind of point file; use .npy, .csv, .txt, .xyz (or these as "
-      ".gz, "
-      ".xz or .zst), .las, .laz, "
-      ".14, .grd or one of VTK's.");
+      ".gz, .xz or .zst), .las, .laz, .14, .grd or one of VTK's.");
   }
   if (!options.X.empty() || !options.Y.empty())
   {

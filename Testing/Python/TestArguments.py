@@ -66,6 +66,7 @@ TABLE = {
                        [3, [1, 2], np.zeros((3, 5)), np.zeros((4, 2))]),
             "resolution": (NUMBER[0], NUMBER[1] + [0, -1]), "bounds": several([None, "1", True], [NAN, INF], 1.0, 4),
             "align": FLAG, "attributes": NAMES, "point_data": POINT_DATA, "max_edge": LENGTH,
+            "duplicates": (TEXT[0], ["second"]), "thin": ([3, "2", [None, "min"], [1.5, 2]], [[0, "min"], [1], [1, "good"]]),
             "classes": ([3, "2", [None], [1.5]], [[256], [-1]]), "returns": (TEXT[0], ["second"]),
             "keep": ([3, 1.5, {"f": 1}, [None], [1]], [["good"]]), "threads": THREADS, "progress_bar": FLAG},
     "resample": {"mesh": DATA, "bounds": BOUNDS, "dimensions": DIMENSIONS, "spacing": SPACING,

@@ -28,7 +28,7 @@ namespace
 {
 
 constexpr const char* footer =
-  R"(INPUT   .npy (n x 2 or n x 3, float64 or float32); .csv, .txt, .xyz (one point a
+  R"(INPUT   - for text from standard input; .npy (n x 2 or n x 3, float64 or float32); .csv, .txt, .xyz (one point a
         line, columns parted by comma, semicolon, tab or blanks; a line of names
         or of the count is found); .las (1.0 to 1.4), .laz with LASzip; .14, .grd
         (ADCIRC); any VTK file. Several files are one set of points, if they have the
@@ -37,7 +37,8 @@ constexpr const char* footer =
         synthetic or overlap are left out unless --keep names the flag.
 OUTPUT  .vtp, .vtu (all points with their data, a column named z as third
         coordinate) or .npy (m x 3 int64: point ids, counted from 0,
-        counter-clockwise); or .tipp, a partitioned mesh, made out of core: points
+        counter-clockwise); .14 (ADCIRC: node numbers and boundaries of a .14 input are
+        kept; depth is the column depth or else minus z); or .tipp, a partitioned mesh, made out of core: points
         and triangles may be larger than memory. .npy .las and text are read in
         blocks, other points as a whole.
 
@@ -148,7 +149,7 @@ std::string checkOutput(const std::string& path)
 {
   return isMeshFile(path) || extensionOf(path) == ".tipp"
     ? ""
-    : "'" + path + "' does not end in .vtp, .vtu, .npy or .tipp";
+    : "'" + path + "' does not end in .vtp, .vtu, .npy, .14 or .tipp";
 }
 
 std::string checkPartitions(const std::string& text)
@@ -289,7 +290,7 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
   command->callback(
     [arguments, &exitCode]()
     {
-      if (arguments->MapDuplicates && extensionOf(arguments->Output) == ".npy")
+      if (arguments->MapDuplicates && !holdsArrays(arguments->Output))
       {
         throw CLI::ValidationError(
           "--map-duplicates", "needs an output of points, so .vtp or .vtu");
@@ -299,7 +300,7 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
         throw CLI::ValidationError(
           "--duplicates", "needs an output of points with data, so .vtp, .vtu or .tipp");
       }
-      if (arguments->Neighbors && extensionOf(arguments->Output) == ".npy")
+      if (arguments->Neighbors && !holdsArrays(arguments->Output))
       {
         throw CLI::ValidationError(
           "--neighbors", "needs an output of cells with data, so .vtp, .vtu or .tipp");

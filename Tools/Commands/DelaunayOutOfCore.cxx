@@ -3,36 +3,25 @@
 
 #include "Commands/Commands.h"
 #include "Commands/MemorySize.h"
+#include "Commands/OutOfCoreRun.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
-#include "Console/Interrupt.h"
-#include "Console/ProgressBar.h"
 #include "Files/Extension.h"
 #include "Files/PendingFile.h"
 #include "Files/RequireApart.h"
-#include "OutOfCore/OutOfCoreRanks.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <memory>
 #include <numeric>
 #include <vector>
-
-#include <malloc.h>
 
 namespace tipp
 {
 namespace
 {
 
-std::unique_ptr<ProgressBar> makeBar()
-{
-  return std::make_unique<ProgressBar>("Triangulating");
-}
-
-OutOfCoreOptions makeOptions(const DelaunayArguments& arguments, std::unique_ptr<ProgressBar>& bar)
+OutOfCoreOptions makeOptions(const DelaunayArguments& arguments)
 {
   const GridSize grid = *parseGrid(arguments.Partitions);
   OutOfCoreOptions options;
@@ -50,38 +39,7 @@ OutOfCoreOptions makeOptions(const DelaunayArguments& arguments, std::unique_ptr
   options.CountOnly = arguments.Sink == "count";
   options.Resume = arguments.Resume;
   options.Scratch = arguments.Scratch;
-  options.Progress = [&bar](double fraction)
-  {
-    if (bar)
-    {
-      bar->update(fraction);
-    }
-    return !isInterrupted();
-  };
-  options.Warn = [&bar](const std::string& sentence)
-  {
-    bar.reset();
-    fmt::print(stderr, "tipp: warning: {}\n", sentence);
-    bar = makeBar();
-  };
   return options;
-}
-
-/// What the process has read and written so far, in bytes: "rchar" and "wchar" of Linux's
-/// /proc/self/io.
-std::int64_t movedBytes(const std::string& name)
-{
-  std::ifstream file("/proc/self/io");
-  std::string label;
-  std::int64_t bytes = 0;
-  while (file >> label >> bytes)
-  {
-    if (label == name + ":")
-    {
-      return bytes;
-    }
-  }
-  return 0;
 }
 
 double totalSeconds(const OutOfCoreStatistics& statistics)
@@ -92,27 +50,6 @@ double totalSeconds(const OutOfCoreStatistics& statistics)
     sum += phase.Seconds;
   }
   return sum;
-}
-
-/// What a process has used, which /proc and the system know.
-struct ProcessUsage
-{
-  std::int64_t PeakMemory = peakMemoryBytes();
-  std::int64_t Read = movedBytes("rchar");
-  std::int64_t Written = movedBytes("wchar");
-};
-
-/// On the first rank, of all.
-std::vector<ProcessUsage> gatherUsage(Postbox& ranks)
-{
-  ByteWriter writer;
-  writer.value(ProcessUsage());
-  std::vector<ProcessUsage> all;
-  for (const Bytes& bytes : ranks.gather(writer.take()))
-  {
-    all.push_back(ByteReader(bytes).value<ProcessUsage>());
-  }
-  return all;
 }
 
 std::vector<std::int64_t> listOf(
@@ -131,12 +68,6 @@ std::int64_t sumOf(const std::vector<ProcessUsage>& ranks, std::int64_t ProcessU
 {
   const std::vector<std::int64_t> list = listOf(ranks, value);
   return std::accumulate(list.begin(), list.end(), std::int64_t(0));
-}
-
-std::int64_t largestMemory(const std::vector<ProcessUsage>& ranks)
-{
-  const std::vector<std::int64_t> list = listOf(ranks, &ProcessUsage::PeakMemory);
-  return *std::max_element(list.begin(), list.end());
 }
 
 void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& statistics,
@@ -225,15 +156,10 @@ std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments)
 
 int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessController* controller)
 {
-  // Large blocks go back to the system when they are freed, whatever was freed before.
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);
   Postbox ranks(controller);
-  const bool isFirst = ranks.rank() == 0;
-  OutOfCoreStatistics statistics;
-  std::unique_ptr<ProgressBar> bar;
   const auto open = [&]
   {
-    if (isFirst)
+    if (ranks.rank() == 0)
     {
       requireApart(
         { arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, arguments.Inputs);
@@ -241,35 +167,20 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
       {
         const PendingFile writable(arguments.Statistics); // before the work rather than after it
       }
-      bar = makeBar();
     }
     PointOptions points = arguments.Columns;
     setThinningFile(points, arguments.Scratch, arguments.Output);
     return openPointStream(arguments.Inputs, points);
   };
-  try
+  OutOfCoreStatistics statistics;
+  const int code = runOutOfCore(
+    ranks, "Triangulating", open, arguments.Output, makeOptions(arguments), statistics);
+  if (code != Success)
   {
-    statistics =
-      triangulateOutOfCoreOnRanks(ranks, open, arguments.Output, makeOptions(arguments, bar));
-  }
-  catch (const RankFailure& failure)
-  {
-    bar.reset();
-    if (isFirst)
-    {
-      fmt::print(stderr, "tipp: {}{}\n",
-        ranks.size() > 1 ? fmt::format("rank {}: ", failure.Rank) : "", failure.what());
-    }
-    return Failure;
-  }
-  bar.reset();
-  if (statistics.Aborted)
-  {
-    return reportInterrupt(
-      statistics.Kept ? "the same command with --resume goes on" : "nothing was written");
+    return code;
   }
   const std::vector<ProcessUsage> usage = gatherUsage(ranks);
-  if (isFirst)
+  if (ranks.rank() == 0)
   {
     reportMade(arguments, statistics, usage);
   }

@@ -37,7 +37,18 @@ std::vector<std::int64_t> representatives(const Triangulation& result, std::size
   return ids;
 }
 
+bool isAdcircFile(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  return extension == ".14" || extension == ".grd";
+}
+
 } // namespace
+
+bool holdsArrays(const std::string& path)
+{
+  return extensionOf(path) != ".npy" && !isAdcircFile(path);
+}
 
 PointTable readPointsFor(const DelaunayArguments& arguments)
 {
@@ -62,6 +73,10 @@ bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
   options.Before = before;
   options.Aborted = isInterrupted;
   options.Neighbors = arguments.Neighbors;
+  if (arguments.Inputs.size() == 1 && points.ThinnedOut == 0 && isAdcircFile(arguments.Input))
+  {
+    options.AdcircLike = arguments.Input;
+  }
   if (arguments.MapDuplicates)
   {
     options.Representatives = representatives(result, points.size());

@@ -4,6 +4,9 @@
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 
+#include "Files/PendingFile.h"
+#include "Files/RequireApart.h"
+
 #include <fmt/format.h>
 
 namespace tipp
@@ -35,6 +38,9 @@ void describeGrid(const TerrainSettings& settings, RasterDescription& descriptio
   description.Bands = settings.Bands.names();
 }
 
+namespace
+{
+
 std::string summarize(const DemArguments& arguments, const DemReport& report)
 {
   const RasterGrid& grid = report.Settings.Grid;
@@ -43,11 +49,12 @@ std::string summarize(const DemArguments& arguments, const DemReport& report)
     figures.Rejected == 0 ? "" : fmt::format(", {} rejected", figures.Rejected);
   return fmt::format(
     "{} points, {} triangles, {}{}, {} x {} pixels, {} with a value, {:.3f} s, peak "
-    "memory {:.0f} MB, in {}",
+    "memory {:.0f} MB{}, in {}",
     figures.Points, figures.Triangles,
     describeDuplicates(figures.Duplicates, figures.DisagreeingPlaces), rejected, grid.Columns,
     grid.Rows, report.Filled, report.ReadSeconds + report.MakeSeconds + report.WriteSeconds,
-    double(peakMemoryBytes()) / 1e6, arguments.Output);
+    double(report.PeakMemory) / 1e6, report.Ranks == 1 ? "" : " on a rank at most",
+    arguments.Output);
 }
 
 void writeDemReport(const DemArguments& arguments, const DemReport& report)
@@ -73,8 +80,36 @@ void writeDemReport(const DemArguments& arguments, const DemReport& report)
       { "make_seconds", report.MakeSeconds },
       { "write_seconds", report.WriteSeconds },
       { "threads", report.Settings.Threads },
-      { "peak_memory_bytes", peakMemoryBytes() },
+      { "ranks", report.Ranks },
+      { "peak_memory_bytes", report.PeakMemory },
     });
+}
+
+} // namespace
+
+void requireDemWritable(const DemArguments& arguments)
+{
+  requireApart(
+    { arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, arguments.Inputs);
+  if (!arguments.Statistics.empty())
+  {
+    const PendingFile writable(arguments.Statistics);
+  }
+}
+
+void finishDem(const DemArguments& arguments, const DemReport& report)
+{
+  if (!arguments.Statistics.empty())
+  {
+    writeDemReport(arguments, report);
+  }
+  fmt::print("{}\n", summarize(arguments, report));
+  if (report.Figures.Triangles == 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: no pixel has a value, since there are fewer than three distinct points or "
+      "all lie on one line.\n");
+  }
 }
 
 } // namespace tipp

@@ -41,6 +41,8 @@ struct DemReport
   double ReadSeconds = 0;
   double MakeSeconds = 0;
   double WriteSeconds = 0;
+  std::int64_t PeakMemory = 0; ///< of the process, or the largest of all ranks
+  int Ranks = 1;
 };
 
 /// All but the grid and the bands, for points in this reference system. Throws IOError for what
@@ -48,8 +50,11 @@ struct DemReport
 RasterDescription describeRaster(const DemArguments& arguments, const std::string& pointCrs);
 void describeGrid(const TerrainSettings& settings, RasterDescription& description);
 
-std::string summarize(const DemArguments& arguments, const DemReport& report);
-void writeDemReport(const DemArguments& arguments, const DemReport& report);
+/// Throws IOError if an output is an input or cannot be written: before the work.
+void requireDemWritable(const DemArguments& arguments);
+
+/// Prints the summary, and writes the statistics if they are asked for.
+void finishDem(const DemArguments& arguments, const DemReport& report);
 
 } // namespace tipp
 

@@ -42,7 +42,8 @@ are at multiples of the resolution. Triangles are not stored.
 
 Without --memory all is done in memory. With it points, triangles and pixels may be
 larger than memory; they are kept in a folder beside the output, or that of --scratch.
-The pixels are the same.
+The pixels are the same. Under mpirun the work is shared among the ranks in this way,
+each with the memory of --memory, or 2G; all must see these folders.
 
 Examples:
   tipp dem tiles/*.las -o dem.tif --resolution 1 --class 2
@@ -50,23 +51,8 @@ Examples:
   tipp dem tile.las -o relief.tif --resolution 1 --attributes elevation,slope,hillshade
   tipp dem tile.las -o same.tif --like other.tif
   tipp dem tiles/*.las -o dem.tif --resolution 1 --memory 512M
+  mpirun -np 4 tipp dem tiles/*.las -o dem.tif --resolution 1 --memory 512M
 )";
-
-int finish(const DemArguments& arguments, const DemReport& report)
-{
-  if (!arguments.Statistics.empty())
-  {
-    writeDemReport(arguments, report);
-  }
-  fmt::print("{}\n", summarize(arguments, report));
-  if (report.Figures.Triangles == 0)
-  {
-    fmt::print(stderr,
-      "tipp: warning: no pixel has a value, since there are fewer than three distinct points or "
-      "all lie on one line.\n");
-  }
-  return Success;
-}
 
 int runInMemory(const DemArguments& arguments)
 {
@@ -100,8 +86,9 @@ int runInMemory(const DemArguments& arguments)
   RasterDescription description = start;
   describeGrid(report.Settings, description);
   const auto writer = createRaster(arguments.Output, description, before);
-  report.Filled = writeTiles(*writer, description.Grid, readFrom(report.Settings.Grid, samples),
-    [&](double done) { return progress(0.8 + 0.2 * done); });
+  report.Filled = writeTiles(
+    *writer, description.Grid, readFrom(report.Settings.Grid, samples),
+    [&](double done) { return progress(0.8 + 0.2 * done); }, report.Settings.Bands);
   bar.reset();
   if (report.Filled < 0)
   {
@@ -109,35 +96,24 @@ int runInMemory(const DemArguments& arguments)
   }
   writer->close();
   report.WriteSeconds = watch.restart();
-  return finish(arguments, report);
+  report.PeakMemory = peakMemoryBytes();
+  finishDem(arguments, report);
+  return Success;
 }
 
 int runDem(const DemArguments& arguments)
 {
   const MpiSession session;
-  if (session.controller() && session.controller()->GetNumberOfProcesses() > 1)
-  {
-    if (session.isFirst())
-    {
-      fmt::print(stderr, "tipp: 'tipp dem' runs on one rank alone; start it without mpirun.\n");
-    }
-    return session.isFirst() ? Usage : Success;
-  }
+  const bool isOnRanks = session.controller() && session.controller()->GetNumberOfProcesses() > 1;
   try
   {
-    requireApart(
-      { arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, arguments.Inputs);
-    if (!arguments.Statistics.empty())
+    if (isOnRanks || !arguments.Memory.empty())
     {
-      const PendingFile writable(arguments.Statistics); // before the work rather than after it
+      DemReport report;
+      return runDemOutOfCore(arguments, session.controller(), report);
     }
-    if (arguments.Memory.empty())
-    {
-      return runInMemory(arguments);
-    }
-    DemReport report;
-    const int code = runDemOutOfCore(arguments, report);
-    return code == Success ? finish(arguments, report) : code;
+    requireDemWritable(arguments);
+    return runInMemory(arguments);
   }
   catch (const IOError&)
   {
@@ -180,8 +156,8 @@ void addValueOptions(CLI::App& command, DemArguments& arguments)
 {
   command
     .add_option("--attributes", arguments.Request.Bands,
-      "The bands: elevation, columns of the points as intensity, and slope, aspect and hillshade "
-      "of the triangles; without: elevation")
+      "The bands: elevation, columns of the points as intensity, slope, aspect and hillshade "
+      "of the triangles, and void (1 where there is no triangle, else 0); without: elevation")
     ->delimiter(',')
     ->allow_extra_args(false);
   command

@@ -15,7 +15,8 @@ from . import _arguments as check
 from ._arrays import as_array
 from ._progress import Progress
 from ._run import run
-from ._vtk import point_cloud
+from ._terrain import DERIVED, derived, distinct, thinned
+from ._vtk import point_cloud, triangles_of, vtk_array, xyz_of
 from .vtkTIPPFilters import vtkRangeResampleFilter, vtkTIPPDelaunay2D
 from .vtkTIPPIO import vtkTIPPPointReader
 
@@ -30,8 +31,10 @@ def dem(points: Any, point_data: Any, options: dict[str, Any],
         cloud, crs = _read(points, options)
     else:
         cloud = point_cloud(points, point_data)
-        if np.shape(points)[1] == 2 and "elevation" in names:
+        if np.shape(points)[1] == 2 and _needs_elevation(options):
             raise ValueError("points have no elevation; give an array of shape (n, 3) or other attributes.")
+    if options["thin"] or options["duplicates"] != "first":
+        cloud = _selected(cloud, options)
     west, south, columns, rows = _grid(options["bounds"] or _bounds_of(cloud), size, options["align"])
     mesh = vtkTIPPDelaunay2D()
     mesh.SetInputData(cloud)
@@ -43,11 +46,14 @@ def dem(points: Any, point_data: Any, options: dict[str, Any],
     if "elevation" in names and not point_arrays.HasArray("elevation"):
         _add_elevation(surface)
     for name in names:
-        if not point_arrays.HasArray(name):
+        if name in DERIVED:
+            _add_derived(surface, name)
+        elif not point_arrays.HasArray(name):
             known = [point_arrays.GetArrayName(i) for i in range(point_arrays.GetNumberOfArrays())]
             raise KeyError(f"there is no attribute '{name}'; there are {known}.")
     image = _sample(surface, names, (west, south, columns, rows), size, options["threads"], progress)
     bands = [as_array(image, name).reshape(rows, columns)[::-1] for name in names]
+    bands = [np.where(np.isnan(band), 1.0, band) if name == "void" else band for name, band in zip(names, bands)]
     return bands, (size, 0.0, west, 0.0, -size, south + rows * size), crs
 
 
@@ -120,6 +126,30 @@ def _grid(bounds: list[float], size: float, aligned: bool) -> tuple[float, float
     return west, south, columns, rows
 
 
+def _needs_elevation(options: dict[str, Any]) -> bool:
+    rules = {options["duplicates"], *(options["thin"] or ())[1:]}
+    return not {"elevation", "slope", "aspect", "hillshade"}.isdisjoint(options["attributes"]) or not rules.isdisjoint({"min", "max"})
+
+
+def _selected(cloud: Any, options: dict[str, Any]) -> Any:
+    """The points that thinning keeps, one at each place, with the data that are numbers."""
+    arrays = cloud.GetPointData()
+    names = [arrays.GetArrayName(i) for i in range(arrays.GetNumberOfArrays()) if arrays.GetArray(i)]
+    data = {name: as_array(cloud, name) for name in names if arrays.GetArray(name).GetNumberOfComponents() == 1}
+    xyz = xyz_of(cloud).astype(np.float64)
+    if options["thin"]:
+        kept = thinned(xyz, *options["thin"])
+        xyz, data = xyz[kept], {name: values[kept] for name, values in data.items()}
+    if options["duplicates"] != "first":
+        _, xyz, data = distinct(xyz, data, options["duplicates"])
+    return point_cloud(xyz, data)
+
+
+def _add_derived(surface: Any, name: str) -> None:
+    corners = xyz_of(surface).astype(np.float64)[triangles_of(surface)]
+    surface.GetCellData().AddArray(vtk_array(name, derived(name, corners)))
+
+
 def _add_elevation(surface: Any) -> None:
     points = surface.GetPoints().GetData()
     elevation = points.NewInstance()
@@ -145,8 +175,9 @@ def _sample(surface: Any, names: list[str], grid: tuple[float, float, int, int],
     sampler.SetNumberOfThreads(threads)
     selection = sampler.GetPointDataArraySelection()
     selection.SetUnknownArraySetting(0)
+    of_cells = sampler.GetCellDataArraySelection()
+    of_cells.SetUnknownArraySetting(0)
     for name in names:
-        selection.EnableArray(name)
-    sampler.GetCellDataArraySelection().SetUnknownArraySetting(0)
+        (of_cells if name in DERIVED else selection).EnableArray(name)
     run(sampler, progress)
     return sampler.GetOutput()

@@ -215,6 +215,27 @@ TEST_F(TippDem, RefusesMorePixelsThanTheMemoryHolds)
   EXPECT_NE(std::string::npos, outcome.Err.find("10000000 x 10000000 pixels")) << outcome.Err;
 }
 
+TEST_F(TippDem, TellsWhereThereIsNoTriangle)
+{
+  this->Folder.file("points.csv", "x,y\n0,0\n4,0\n0,4\n");
+  for (const Words& more : { Words{}, Words{ "--memory", "2M" } })
+  {
+    Words words = { "--resolution", "2", "--attributes", "void" };
+    words.insert(words.end(), more.begin(), more.end());
+    this->make("dem.npy", words);
+    EXPECT_EQ((std::vector<double>{ 0, 0, 0, 1 }), this->valuesOf("dem.npy"));
+  }
+}
+
+TEST_F(TippDem, RefusesMorePixelsThanTheDiskHolds)
+{
+  this->makePoints(100);
+  const Outcome outcome = this->run(
+    { "dem", "points.csv", "-o", "dem.npy", "--resolution", "0.00001", "--memory", "2M" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("MB free")) << outcome.Err;
+}
+
 TEST_F(TippDem, NamesAColumnThatIsNotThere)
 {
   this->makePoints(50);
