@@ -32,6 +32,7 @@ struct DelaunayArguments
   bool MapDuplicates = false;
   bool Neighbors = false;
   std::string Constraints; ///< a file; empty: none
+  std::string Boundary;    ///< the same
   bool RefuseCrossings = false;
   std::vector<std::pair<double, double>> Holes; ///< x and y of points in holes
   std::string Statistics;
