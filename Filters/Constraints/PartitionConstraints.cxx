@@ -385,15 +385,18 @@ private:
     std::sort(this->Noted.begin(), this->Noted.end());
     Index slot = 0;
     std::size_t interior = 0; // before this slot
-    const std::lock_guard<std::mutex> lock(this->Of.Mutex);
+    this->Crossings.clear();
     for (const auto& [triangle, piece] : this->Noted)
     {
       for (; slot < triangle; slot += 8)
       {
         interior += this->isInterior(slot) ? 1 : 0;
       }
-      this->Of.Crossings.push_back({ piece, partition, interior });
+      this->Crossings.push_back({ piece, partition, interior });
     }
+    const std::lock_guard<std::mutex> lock(this->Of.Mutex);
+    this->Of.Crossings.insert(
+      this->Of.Crossings.end(), this->Crossings.begin(), this->Crossings.end());
     this->Of.Touches.insert(this->Of.Touches.end(), this->Touches.begin(), this->Touches.end());
     this->Touches.clear();
   }
@@ -407,6 +410,7 @@ private:
   std::vector<std::pair<std::int64_t, Index>> EndVertices;
   std::vector<std::int64_t> Entries; ///< of pieces with an end here: as PieceEnds has them
   std::vector<std::pair<Index, std::int64_t>> Noted; ///< triangles that pieces cross
+  std::vector<Crossing> Crossings;
   std::vector<CrossedTriangles::Touch> Touches;
 };
 
