@@ -108,8 +108,9 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   options.Threads = request.Threads;
   options.MaximumEdge = request.MaximumEdge;
   options.Progress = [&progress](double done) { return !progress || progress(0.5 * done); };
-  const Triangulation triangulation =
-    triangulate(PointsView(points.XY.data(), points.size(), 2), options);
+  const Triangulation triangulation = request.Constraints
+    ? std::move(triangulateTable(points, *request.Constraints, options).Mesh)
+    : triangulate(PointsView(points.XY.data(), points.size(), 2), options);
   figures.Triangles = std::int64_t(triangulation.triangleCount());
   figures.Duplicates = std::int64_t(triangulation.Duplicates.size());
   figures.Rejected = std::int64_t(triangulation.Rejected.size());
@@ -123,7 +124,7 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   const std::vector<double> xyz = takeXYZ(points, settings.Bands);
   TerrainPoints terrain;
   terrain.XYZ = xyz.data();
-  terrain.Count = figures.Points;
+  terrain.Count = std::int64_t(xyz.size() / 3); // with those of the constraints
   for (const PointTable::Column& column : points.Columns)
   {
     terrain.Columns.push_back(column.Values.data());

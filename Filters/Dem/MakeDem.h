@@ -2,6 +2,7 @@
 #ifndef tippMakeDem_h
 #define tippMakeDem_h
 
+#include "Constraints/TableConstraints.h"
 #include "Dem/TerrainSampler.h"
 #include "Duplicates/ResolveDuplicates.h"
 #include "Points/PointTable.h"
@@ -11,6 +12,7 @@
 #include "vtkTIPPFiltersModule.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,7 @@ struct DemRequest
   double MaximumEdge = 0; ///< triangles with a longer one are void; 0: none are
   int Threads = 0;        ///< 0: OpenMP's choice
   DuplicateRule Duplicates = DuplicateRule::First;
+  std::optional<TableConstraints> Constraints; ///< breaklines and a boundary
 };
 
 /// Of points with these columns between these bounds. Throws std::runtime_error.
@@ -42,7 +45,8 @@ struct DemFigures
 };
 
 /// A raster of points in memory: triangulates them and samples the triangles, as two steps would.
-/// Takes the points' memory. Throws std::runtime_error if there is no finite point.
+/// Takes the points' memory. Throws std::runtime_error if there is no finite point, and
+/// std::invalid_argument for constraints.
 VTKTIPPFILTERS_EXPORT DemFigures makeDem(PointTable points, const DemRequest& request,
   const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples);
 

@@ -5,10 +5,12 @@
 #include "Predicates/Box2.h"
 #include "Triangulation/Buffer.h"
 #include "Triangulation/PointsView.h"
+#include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,8 @@ namespace tipp
 {
 
 using PointId = std::int64_t;
+
+class PartitionEditor;
 
 enum class Schedule
 {
@@ -32,6 +36,8 @@ struct TriangulationOptions
   int Threads = 0; ///< 0: OpenMP's choice
   /// Triangles with a longer edge are left out of the result; 0: none are.
   double MaximumEdge = 0;
+  /// For each thread an editor of interior triangles. Factor: by which coordinates are multiplied.
+  std::function<std::unique_ptr<PartitionEditor>(double factor)> MakeEditor;
   /// Told the finished fraction now and then, from one thread at a time; false aborts the run.
   std::function<bool(double)> Progress;
 };
@@ -65,6 +71,7 @@ struct TriangulationStatistics
 /// Triangles in a row, all of them in a box.
 struct TriangleBlock
 {
+  PartitionIndex Partition; ///< whose first interior triangles they are, in their order
   std::size_t Begin;
   std::size_t End;
   Box2 Box;

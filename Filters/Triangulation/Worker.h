@@ -3,12 +3,14 @@
 #define tippWorker_h
 
 #include "Kernel/KernelPool.h"
+#include "Triangulation/PartitionEditor.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/SeamTriangles.h"
 #include "Triangulation/Triangulate.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -40,6 +42,9 @@ public:
   /// From now on partitions are those of another tiling, the first of which has this bucket.
   void setTiling(const Tiling& tiling, PartitionIndex firstBucket);
 
+  /// From now on interior triangles are edited before they are written; null: as they are.
+  void setEditor(std::unique_ptr<PartitionEditor> editor) { this->Editor = std::move(editor); }
+
   /// Triangulates the partition's points and the vertices of the triangles that meet its region,
   /// each once. Writes the interior triangles, whose order and number depend on the partition's
   /// points alone, over these points, and gives the boundary triangles to `boundary`.
@@ -65,6 +70,8 @@ private:
   PartitionIndex bucket(PartitionIndex partition) const { return this->FirstBucket + partition; }
   void takeIds(PartitionIndex bucket);
   void resolveDuplicates();
+  void nameVertices();
+  void edit(PartitionIndex partition);
   void findBoundary(const Box2& box, const Box2& region, BoundaryTaker& boundary);
   template <typename IsInterior>
   void writeTriangles(PartitionIndex bucket, const IsInterior& isInterior);
@@ -73,6 +80,7 @@ private:
   PointBuckets<Id>& Buckets;
   const std::int64_t FirstId;
   PartitionIndex FirstBucket = 0;
+  std::unique_ptr<PartitionEditor> Editor;
   PooledKernel Pooled;
   DelaunayKernel& Kernel;
   std::vector<Id> Ids; ///< of the partition's own points

@@ -34,6 +34,7 @@ struct DelaunayArguments
   DuplicateRule Duplicates = DuplicateRule::First;
   bool Neighbors = false;
   std::string Constraints; ///< a file; empty: none
+  std::string Boundary;    ///< the same
   bool RefuseCrossings = false;
   std::vector<std::pair<double, double>> Holes; ///< x and y of points in holes
   std::string Statistics;

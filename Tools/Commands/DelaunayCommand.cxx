@@ -92,7 +92,7 @@ Triangulation triangulatePoints(
   const DelaunayArguments& arguments, PointTable& points, std::string& report)
 {
   ProgressBar bar("Triangulating");
-  if (!arguments.Constraints.empty())
+  if (!arguments.Constraints.empty() || !arguments.Boundary.empty())
   {
     return triangulateWithConstraints(arguments, points, makeOptions(arguments, bar), report);
   }
@@ -213,6 +213,8 @@ void addConstraints(CLI::App& command, DelaunayArguments& arguments)
 {
   command.add_option("--constraints", arguments.Constraints,
     "A file of segments that must be edges, and of polygons whose inside alone is kept");
+  command.add_option("--boundary", arguments.Boundary,
+    "A file of closed lines: only the triangles inside of them are kept");
   command.add_flag("--refuse-crossings", arguments.RefuseCrossings,
     "An error if two constraints cross; without: they are split at a new point");
   command
@@ -224,7 +226,8 @@ void addConstraints(CLI::App& command, DelaunayArguments& arguments)
 
 void requireConstraintsInMemory(const DelaunayArguments& arguments)
 {
-  if (arguments.Constraints.empty())
+  const char* const option = arguments.Constraints.empty() ? "--boundary" : "--constraints";
+  if (arguments.Constraints.empty() && arguments.Boundary.empty())
   {
     if (arguments.RefuseCrossings || !arguments.Holes.empty())
     {
@@ -235,13 +238,13 @@ void requireConstraintsInMemory(const DelaunayArguments& arguments)
   }
   if (isOutOfCore(arguments))
   {
-    throw CLI::ValidationError("--constraints",
+    throw CLI::ValidationError(option,
       "does not go with an output named .tipp, since constraints need all points in memory");
   }
   if (arguments.isForRanks() || startedRank() >= 0)
   {
     throw CLI::ValidationError(
-      "--constraints", "needs a single process: run it without mpirun and options for ranks");
+      option, "needs a single process: run it without mpirun and options for ranks");
   }
 }
 

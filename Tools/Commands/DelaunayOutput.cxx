@@ -88,6 +88,7 @@ PathState requireWritable(const DelaunayArguments& arguments)
 {
   std::vector<std::string> inputs = arguments.Inputs;
   inputs.push_back(arguments.Constraints);
+  inputs.push_back(arguments.Boundary);
   requireApart({ arguments.Output, arguments.Statistics }, inputs);
   const PendingFile output(arguments.Output);
   if (!arguments.Statistics.empty())

@@ -89,8 +89,9 @@ void writeDemReport(const DemArguments& arguments, const DemReport& report)
 
 void requireDemWritable(const DemArguments& arguments)
 {
-  requireApart(
-    { arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, arguments.Inputs);
+  std::vector<std::string> inputs = arguments.Inputs;
+  inputs.insert(inputs.end(), { arguments.Breaklines, arguments.Boundary });
+  requireApart({ arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, inputs);
   if (!arguments.Statistics.empty())
   {
     const PendingFile writable(arguments.Statistics);

@@ -27,6 +27,8 @@ struct DemArguments
   std::string Type = "float32";
   std::string Compression = "deflate";
   bool CloudOptimized = false;
+  std::string Breaklines; ///< a file; empty: none
+  std::string Boundary;   ///< the same
   std::string Statistics;
   std::string Memory; ///< empty: not given
   bool Resume = false;

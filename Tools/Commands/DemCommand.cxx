@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Commands/DelaunayConstraints.h"
 #include "Commands/DemArguments.h"
 #include "Commands/DemOutOfCore.h"
 #include "Commands/MemorySize.h"
@@ -9,19 +10,24 @@
 #include "Console/Interrupt.h"
 #include "Console/MpiSession.h"
 #include "Console/ProgressBar.h"
+#include "Constraints/ReadConstraintFile.h"
 #include "Files/IOError.h"
 #include "Files/RequireApart.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/PointStream.h"
+#include "Vtk/VtkFiles.h"
 
 #include "vtkMultiProcessController.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <stdexcept>
+#include <utility>
 
 namespace tipp
 {
@@ -50,6 +56,7 @@ Examples:
   tipp dem survey.csv -o dem.tif --resolution 0.5 --max-edge 20 --crs EPSG:32633
   tipp dem tile.las -o relief.tif --resolution 1 --attributes elevation,slope,hillshade
   tipp dem tile.las -o same.tif --like other.tif
+  tipp dem tile.las -o dem.tif --resolution 1 --breaklines rivers.csv --boundary area.vtp
   tipp dem tiles/*.las -o dem.tif --resolution 1 --memory 512M
   mpirun -np 4 tipp dem tiles/*.las -o dem.tif --resolution 1 --memory 512M
 )";
@@ -107,6 +114,16 @@ int runDem(const DemArguments& arguments)
   const bool isOnRanks = session.controller() && session.controller()->GetNumberOfProcesses() > 1;
   try
   {
+    if (isOnRanks && arguments.Request.Constraints)
+    {
+      if (session.isFirst())
+      {
+        fmt::print(stderr,
+          "tipp: breaklines and boundaries need all points in memory; start 'tipp dem' without "
+          "mpirun.\n");
+      }
+      return session.isFirst() ? Usage : Success;
+    }
     if (isOnRanks || !arguments.Memory.empty())
     {
       DemReport report;
@@ -119,10 +136,53 @@ int runDem(const DemArguments& arguments)
   {
     throw;
   }
+  catch (const std::invalid_argument& error)
+  {
+    throw IOError(
+      arguments.Breaklines.empty() ? arguments.Boundary : arguments.Breaklines, error.what());
+  }
   catch (const std::runtime_error& error)
   {
     throw IOError(
       arguments.Inputs.front(), std::string("cannot be made a raster: ") + error.what());
+  }
+}
+
+void addConstraintOptions(CLI::App& command, DemArguments& arguments)
+{
+  command.add_option("--breaklines", arguments.Breaklines,
+    "A file of lines that are edges of triangles; their points have the file's heights, or those "
+    "of "
+    "the surface without them");
+  command.add_option("--boundary", arguments.Boundary,
+    "A file of closed lines: pixels have values inside of them only");
+}
+
+/// Reads them.
+void takeConstraints(DemArguments& arguments)
+{
+  TableConstraints constraints;
+  constraints.TakesSurface = true;
+  if (!arguments.Breaklines.empty())
+  {
+    constraints.Lines = readConstraintFile(arguments.Breaklines);
+    constraints.Lines.PolygonBegin = constraints.Lines.Edges.size(); // polygons are lines, too
+    constraints.Lines.Holes.clear();
+    std::vector<double>& heights = constraints.Lines.Height;
+    if (isVtkFile(arguments.Breaklines) &&
+      std::all_of(heights.begin(), heights.end(), [](double height) { return height == 0; }))
+    {
+      heights.clear(); // all points of a VTK file have a third coordinate
+    }
+  }
+  if (!arguments.Boundary.empty())
+  {
+    constraints.Boundary = readBoundary(arguments.Boundary);
+    constraints.Boundary.Height.clear();
+  }
+  if (!arguments.Breaklines.empty() || !arguments.Boundary.empty())
+  {
+    arguments.Request.Constraints = std::move(constraints);
   }
 }
 
@@ -189,6 +249,11 @@ void requireGood(const DemArguments& arguments)
   {
     throw CLI::ValidationError("--bounds", "does not go with --like");
   }
+  if (!arguments.Memory.empty() && !(arguments.Breaklines.empty() && arguments.Boundary.empty()))
+  {
+    throw CLI::ValidationError(arguments.Breaklines.empty() ? "--boundary" : "--breaklines",
+      "does not go with --memory, since constraints need all points in memory");
+  }
   if (arguments.Memory.empty() && (arguments.Resume || !arguments.Scratch.empty()))
   {
     throw CLI::ValidationError(
@@ -209,6 +274,7 @@ void addDemCommand(CLI::App& app, int& exitCode)
     ->check(checkOutput);
   addGridOptions(*command, *arguments);
   addValueOptions(*command, *arguments);
+  addConstraintOptions(*command, *arguments);
   addPointOptions(*command, arguments->Points);
   addDuplicatesOption(*command, arguments->Request.Duplicates);
   command
@@ -238,6 +304,7 @@ void addDemCommand(CLI::App& app, int& exitCode)
       {
         arguments->Request.Raster.Like = readRasterInfo(arguments->Like).Grid;
       }
+      takeConstraints(*arguments);
       exitCode = runDem(*arguments);
     });
 }
