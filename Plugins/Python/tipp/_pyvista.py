@@ -24,11 +24,13 @@ class Accessor:
 
     def delaunay_2d(self, *, inplace: bool = False, **options: Any) -> Any:
         """As tipp.delaunay_2d(mesh, ...); with `inplace` the data set becomes the result."""
+        is_inplace = flag(inplace, "inplace")
         result = delaunay_2d(self._dataset, **options)
-        if not flag(inplace, "inplace"):
+        if not is_inplace:
             return result
-        self._dataset.copy_from(result, deep=False)
-        return self._dataset
+        mesh, *statistics = result if isinstance(result, tuple) else (result,)
+        self._dataset.copy_from(mesh, deep=False)
+        return (self._dataset, *statistics) if statistics else self._dataset
 
     def dem(self, resolution: float, **options: Any) -> Any:
         """As tipp.dem(mesh, resolution, ...)."""
