@@ -56,6 +56,11 @@ class Filter(VTKPythonAlgorithmBase):
         info.Set(vtkDataObject.DATA_TYPE_NAME(), self.OUTPUTS[port])
         return 1
 
+    def SetInputData(self, *port_and_data: Any) -> None:
+        """Of a port, or of the first one."""
+        *port, data = port_and_data
+        self.SetInputDataObject(port[0] if port else 0, data)
+
     def GetOutput(self, port: int = 0) -> Any:
         return self.GetOutputDataObject(port)
 

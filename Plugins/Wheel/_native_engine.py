@@ -57,7 +57,10 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
     data = attributes(point_data, len(array))
     mesh, statistics, _ = _meshed(array, data, options, progress)
     if mesh.points.shape[1] == 2:
-        mesh.points = np.column_stack([mesh.points, np.zeros(len(mesh.points), mesh.points.dtype)])
+        spatial = np.zeros((len(mesh.points), 3), mesh.points.dtype)
+        for axis in range(2):  # quicker than both at once
+            spatial[:, axis] = mesh.points[:, axis]
+        mesh.points = spatial
     return mesh, statistics
 
 

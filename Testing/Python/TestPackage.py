@@ -463,6 +463,11 @@ class Package(unittest.TestCase):
                 program = f"import {first}, {second}; print(type(pyvista.DataSet().tipp).__name__)"
                 self.assertEqual(self.run_python(program, pyvista=release), "Accessor")
 
+    def test_looking_for_pyvista_does_not_keep_the_accessor_from_it(self):
+        program = ("import importlib.util, tipp; importlib.util.find_spec('pyvista'); import pyvista;"
+                   "print(type(pyvista.DataSet().tipp).__name__)")
+        self.assertEqual(self.run_python(program, pyvista=self.NEW), "Accessor")
+
     @unittest.skipIf("site-packages" in tipp.__file__, "the package lies where PyVista does")
     def test_a_missing_pyvista_is_missing_as_ever(self):
         program = """

@@ -56,14 +56,17 @@ def register(pyvista: ModuleType) -> None:
 class _Loader(importlib.abc.Loader):
     """Loads a module as its own loader does, then registers."""
 
-    def __init__(self, loader: Any):
+    def __init__(self, loader: Any, finder: _Finder):
         self._loader = loader
+        self._finder = finder
 
     def create_module(self, spec: importlib.machinery.ModuleSpec) -> ModuleType | None:
         return self._loader.create_module(spec)
 
     def exec_module(self, module: ModuleType) -> None:
         self._loader.exec_module(module)
+        if self._finder in sys.meta_path:
+            sys.meta_path.remove(self._finder)
         register(module)
 
 
@@ -74,9 +77,12 @@ class _Finder(importlib.abc.MetaPathFinder):
         if name != "pyvista":
             return None
         sys.meta_path.remove(self)
-        spec = importlib.util.find_spec(name)
+        try:
+            spec = importlib.util.find_spec(name)
+        finally:
+            sys.meta_path.insert(0, self)  # the search need not be for an import
         if spec is not None and spec.loader is not None:
-            spec.loader = _Loader(spec.loader)
+            spec.loader = _Loader(spec.loader, self)
         return spec
 
 
