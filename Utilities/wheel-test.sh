@@ -36,8 +36,8 @@ runs alone Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutV
   Testing/Wheel/TestInterpreter.py
 environment oldest 'numpy<2'
 runs oldest Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutVtk.py
-environment scipy numpy scipy
-runs scipy Testing/Wheel/TestScipyHabits.py
+environment scipy numpy scipy scikit-learn
+runs scipy Testing/Wheel/TestScipyHabits.py Testing/Wheel/TestTwoOpenMP.py
 environment pyvista 'vtk>=9.7,<9.8' pyvista
 runs pyvista Testing/Wheel/TestPyVista.py Testing/Wheel/TestFilters.py Testing/Python/TestArguments.py Testing/Python/TestArrays.py \
   Testing/Python/TestCheck.py Testing/Python/TestConstraints.py Testing/Python/TestPackage.py
