@@ -2,9 +2,28 @@
 """Thinning, equal places and what triangles tell of a terrain: as `tipp dem` has them."""
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 DERIVED = ("slope", "aspect", "hillshade", "void")
+
+
+def needs_elevation(options: dict[str, Any]) -> bool:
+    rules = {options["duplicates"], *(options["thin"] or ())[1:]}
+    wanted = {"elevation", *DERIVED[:3]}
+    return not wanted.isdisjoint(options["attributes"]) or not rules.isdisjoint({"min", "max"})
+
+
+def selected(xyz: np.ndarray, data: dict[str, np.ndarray],
+             options: dict[str, Any]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """The points that thinning keeps, one at each place, and their data."""
+    if options["thin"]:
+        kept = thinned(xyz, *options["thin"])
+        xyz, data = xyz[kept], {name: values[kept] for name, values in data.items()}
+    if options["duplicates"] != "first":
+        _, xyz, data = distinct(xyz, data, options["duplicates"])
+    return xyz, data
 
 
 def thinned(xyz: np.ndarray, cell: float, rule: str) -> np.ndarray:
