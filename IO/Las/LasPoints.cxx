@@ -176,6 +176,10 @@ public:
     const std::int64_t chunk = after - this->KeptBefore.begin() - 1;
     this->NextRecord = std::min(chunk * chunkRecords, this->Header.Points);
     std::int64_t left = points - this->KeptBefore[std::size_t(chunk)];
+    if (left == 0)
+    {
+      return;
+    }
     const std::int64_t count = std::min(chunkRecords, this->Header.Points - this->NextRecord);
     std::vector<char> raw(std::size_t(count) * this->Header.RecordLength);
     openLasRecords(this->Path, this->Header)
@@ -265,7 +269,7 @@ private:
   /// Moves points within a block, to a place that is not behind.
   static void move(PointBlock& block, std::size_t from, std::size_t to, std::size_t count)
   {
-    if (from == to)
+    if (from == to || count == 0)
     {
       return;
     }
