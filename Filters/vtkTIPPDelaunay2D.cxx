@@ -224,6 +224,11 @@ bool vtkTIPPDelaunay2D::Execute(
   const vtkIdType numberOfPoints = points ? points->GetNumberOfPoints() : 0;
   this->Report(triangulation, numberOfPoints);
   this->CutOutside(result, constraints);
+  if (source && this->MaximumEdgeLength > 0)
+  {
+    const tipp::ProjectedPoints projected(points, toPlane);
+    tipp::leaveOutLong(projected.view(), this->MaximumEdgeLength, triangulation);
+  }
 
   const tipp::Stopwatch watch;
   const std::size_t triangles = triangulation.triangleCount();
@@ -303,6 +308,7 @@ tipp::ConstrainedTriangulation vtkTIPPDelaunay2D::Triangulate(
   if (!constraints.Constraints.empty())
   {
     requireClosed(projected.view(), constraints);
+    options.MaximumEdge = 0; // not before what is outside is cut away
     result = tipp::triangulateConstrained(projected.view(), constraints.Constraints,
       this->SplitCrossings ? tipp::CrossingRule::Split : tipp::CrossingRule::Refuse, options);
   }

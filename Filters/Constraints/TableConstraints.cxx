@@ -154,12 +154,15 @@ ConstrainedTriangulation triangulateTable(
   {
     takeSurface(given, options, points);
   }
+  TriangulationOptions complete = options;
+  complete.MaximumEdge = 0;
   ConstrainedTriangulation result =
-    triangulateConstrained(viewOf(points.XY), all, constraints.Crossings, options);
+    triangulateConstrained(viewOf(points.XY), all, constraints.Crossings, complete);
   if (!result.Mesh.Aborted)
   {
     appendCrossings(result.Constraints.Crossings, points);
     cutOutside(constraints, points, result);
+    leaveOutLong(viewOf(points.XY), options.MaximumEdge, result.Mesh);
   }
   return result;
 }

@@ -27,19 +27,6 @@ std::vector<Point2> allPoints(PointsView points, const std::vector<CrossingPoint
   return all;
 }
 
-void dropLong(PointsView points, double longest, Triangulation& mesh)
-{
-  const auto pointOf = [&points](auto id) { return points[std::size_t(id)]; };
-  const auto drop = [&](auto& ids)
-  { ids.truncate(3 * dropLongTriangles(ids.data(), ids.size() / 3, longest, pointOf)); };
-  if (longest > 0)
-  {
-    drop(mesh.Ids32);
-    drop(mesh.Ids64);
-    mesh.Blocks.clear();
-  }
-}
-
 } // namespace
 
 ConstrainedTriangulation triangulateConstrained(PointsView input,
@@ -71,10 +58,23 @@ ConstrainedTriangulation triangulateConstrained(PointsView input,
   {
     watch.restart();
     constrain(points, result.Mesh, result.Constraints.Pieces, inserted, threads);
-    dropLong(points, options.MaximumEdge, result.Mesh);
+    leaveOutLong(points, options.MaximumEdge, result.Mesh);
     all.push_back({ "constraints", watch.seconds() });
   }
   return result;
+}
+
+void leaveOutLong(PointsView points, double longest, Triangulation& mesh)
+{
+  const auto pointOf = [&points](auto id) { return points[std::size_t(id)]; };
+  const auto drop = [&](auto& ids)
+  { ids.truncate(3 * dropLongTriangles(ids.data(), ids.size() / 3, longest, pointOf)); };
+  if (longest > 0)
+  {
+    drop(mesh.Ids32);
+    drop(mesh.Ids64);
+    mesh.Blocks.clear();
+  }
 }
 
 } // namespace tipp

@@ -26,6 +26,10 @@ VTKTIPPFILTERS_EXPORT ConstrainedTriangulation triangulateConstrained(PointsView
   const std::vector<Constraint>& constraints, CrossingRule crossings = CrossingRule::Split,
   const TriangulationOptions& options = {});
 
+/// Removes the triangles with an edge longer than this; 0: none. Not before what is inside of
+/// polygons is known, for which the triangles must be connected.
+VTKTIPPFILTERS_EXPORT void leaveOutLong(PointsView points, double longest, Triangulation& mesh);
+
 } // namespace tipp
 
 #endif

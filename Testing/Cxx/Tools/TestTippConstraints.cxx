@@ -127,6 +127,16 @@ TEST_F(TippConstraints, BoundaryRemovesWhatIsOutside)
   EXPECT_EQ(32, this->area("mesh.vtp"));
 }
 
+/// Only the smaller square is left, which no triangle joins to the boundary any more.
+TEST_F(TippConstraints, BoundaryGoesWithALongestEdge)
+{
+  this->Folder.file("square.csv", "x1,y1,x2,y2\n1,1,7,1\n7,1,7,7\n7,7,1,7\n1,7,1,1\n");
+  const Outcome outcome =
+    this->delaunay({ "-o", "mesh.vtp", "--boundary", "square.csv", "--max-edge", "2.5" });
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  EXPECT_EQ(4, this->area("mesh.vtp"));
+}
+
 TEST_F(TippConstraints, BoundaryGoesWithConstraints)
 {
   this->Folder.file("square.csv", "x1,y1,x2,y2\n1,1,7,1\n7,1,7,7\n7,7,1,7\n1,7,1,1\n");
