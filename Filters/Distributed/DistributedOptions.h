@@ -21,19 +21,19 @@ enum class Division
 {
   Tree,      ///< boxes that hold equally many points
   Threshold, ///< m x m boxes with m = sqrt(N / T) for N points (equation 3.1)
-  Grid       ///< the same columns and rows everywhere
+  Grid       ///< the same number of columns and rows everywhere
 };
 
 enum class GroupSizes
 {
-  Proportional, ///< ranks and partitions are shared out by points (equation 3.2)
-  Equal         ///< by number
+  Proportional, ///< ranks and partitions in proportion to points (equation 3.2)
+  Equal         ///< equal numbers
 };
 
 enum class RankSchedule
 {
-  Stages,           ///< shifts of independent partitions, a barrier after each (Algorithm 1)
-  ProducerConsumer, ///< a worker that is done asks for more; a barrier after each stage
+  Stages,           ///< waves of independent partitions, a barrier after each (Algorithm 1)
+  ProducerConsumer, ///< a free worker asks for the next; a barrier after each stage
   Dynamic           ///< no barrier
 };
 
@@ -54,15 +54,16 @@ struct DistributedOptions
   }
 
   Masters Design = Masters::Auto;
-  GridSize Major; ///< not given: a tree of a chosen number of boxes
+  GridSize Major; ///< default: a tree with an automatic number of boxes
   Division MinorDivision = Division::Tree;
   GridSize Minor;             ///< for Division::Grid; with one master, the partitions
-  std::int64_t Threshold = 0; ///< T, points a minor partition; 0: chosen
+  std::int64_t Threshold = 0; ///< T, points per minor partition; 0: chosen
   GroupSizes Groups = GroupSizes::Proportional;
   RankSchedule Order = RankSchedule::Dynamic;
   int InitialPointsPerPartition = 0; ///< 0: chosen
   int Threads = 0;                   ///< of each rank; 0: OpenMP's choice
-  /// Told this rank's finished fraction now and then; false ends the run on all ranks.
+  /// Called now and then with this rank's finished fraction (0 to 1); returning false ends the run
+  /// on all ranks.
   std::function<bool(double)> Progress;
 };
 
