@@ -58,7 +58,8 @@ bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monit
   this->PlaceEnd += static_cast<std::uint32_t>(count);
   this->Predicates.restart(this->Points.data(), this->Points.size());
 
-  // Euler: n vertices and the infinite one have 2 n - 2 triangles. The cavity writes to one beyond.
+  // Euler: n vertices and the infinite one have 2 n - 2 triangles. The cavity writes one beyond
+  // them.
   this->Mesh.reserve(2 * this->Points.size());
   if (!this->hasTriangles() && !this->makeFirstTriangle(this->Pending))
   {
@@ -78,8 +79,8 @@ bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monit
   return true;
 }
 
-/// Finds three points that are not collinear, moves them to the front and makes their triangle and
-/// its three infinite neighbours.
+/// Finds three points that are not collinear, moves them to the front, and creates their triangle
+/// and its three infinite neighbours. Returns false if all points are collinear.
 bool DelaunayKernel::makeFirstTriangle(Index first)
 {
   const Index end = this->vertexEnd();
