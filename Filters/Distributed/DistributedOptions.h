@@ -8,6 +8,7 @@
 namespace tipp
 {
 
+/// Who starts partitions.
 enum class Masters
 {
   Auto,   ///< no master; several where a grid of major partitions is given, or one for schedules
@@ -24,12 +25,14 @@ enum class Division
   Grid       ///< the same number of columns and rows everywhere
 };
 
+/// How many ranks and partitions a major partition gets.
 enum class GroupSizes
 {
   Proportional, ///< ranks and partitions in proportion to points (equation 3.2)
   Equal         ///< equal numbers
 };
 
+/// When ranks get partitions.
 enum class RankSchedule
 {
   Stages,           ///< waves of independent partitions, a barrier after each (Algorithm 1)
@@ -37,6 +40,7 @@ enum class RankSchedule
   Dynamic           ///< no barrier
 };
 
+/// The size of a grid of partitions; not given by default.
 struct GridSize
 {
   int Columns = 0;
@@ -45,6 +49,7 @@ struct GridSize
   std::int64_t size() const { return std::int64_t(this->Columns) * this->Rows; }
 };
 
+/// Options of triangulateDistributed(); none of them changes the set of triangles.
 struct DistributedOptions
 {
   bool isMasterless() const

@@ -54,6 +54,7 @@ struct TrafficStatistics
   std::int64_t Bytes = 0;
 };
 
+/// The statistics of all ranks.
 struct DistributedStatistics
 {
   std::vector<RankStatistics> Ranks;     ///< by rank

@@ -15,6 +15,7 @@
 namespace tipp
 {
 
+/// Points with their global ids and data; the arrays have the same order.
 struct PointTuples
 {
   Buffer<Point2> Places;

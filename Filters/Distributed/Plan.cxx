@@ -347,7 +347,7 @@ void assign(Plan& plan, const PlanInput& input, const std::vector<std::int64_t>&
       top.Homes.push_back(group);
     }
     top.HomeOf[std::size_t(p)] = place.first->second;
-    if (majorCounts[std::size_t(p)] == 0) // in no stage
+    if (majorCounts[std::size_t(p)] == 0) // it is in no stage
     {
       assignLeaves(plan, plan.Areas[std::size_t(top.Children[std::size_t(p)])], group, leafCounts,
         options, load);

@@ -42,6 +42,7 @@ struct VTKTIPPFILTERS_EXPORT Plan
   static Plan read(ByteReader& reader);
 };
 
+/// What a plan depends on.
 struct PlanInput
 {
   Box2 Domain{};

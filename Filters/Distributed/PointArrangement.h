@@ -60,6 +60,7 @@ public:
   void requireComplete() const;
 
 private:
+  /// A byte range of the destination that is not filled yet.
   struct Place
   {
     char* To;

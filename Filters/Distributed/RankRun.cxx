@@ -242,7 +242,7 @@ void RankRun<Id>::decideWhoWaits()
   }
 }
 
-/// The ranks that must be told when p is done.
+/// The ranks that get a message when p is done.
 template <typename Id>
 std::vector<std::int32_t> RankRun<Id>::recipientsOf(PartitionIndex p) const
 {

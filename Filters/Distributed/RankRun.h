@@ -92,7 +92,7 @@ private:
   void repairHullOnFirst();
   void keepFigures(const std::vector<Contribution>& parts);
 
-  /// @name Of a master
+  /// @name Functions of a master
   ///@{
   bool hasMasters() const { return this->Started != nullptr; }
   bool startReady();
@@ -128,7 +128,7 @@ private:
   std::vector<PartitionIndex> Waiting; ///< ready, but their ranks are busy
   std::vector<int> InFlight;           ///< by rank: started and not done
   int AllInFlight = 0;
-  std::atomic<std::int64_t> KeptTriangles{ 0 }; ///< in the inboxes
+  std::atomic<std::int64_t> KeptTriangles{ 0 }; ///< triangles in the inboxes
   MasterStatistics Figures;
 
   Stopwatch SinceReport;
