@@ -15,8 +15,8 @@ namespace tipp
 
 struct SeamTriangles;
 
-/// Which partitions conflict, and the order in which conflicting ones are triangulated. A function
-/// of the initial mesh alone, so that every rank computes the same one.
+/// Which partitions conflict, and the order in which conflicting ones are triangulated. Both
+/// depend only on the initial mesh, so every rank computes the same.
 ///
 /// Lemma 5: P and Q conflict if one triangle of the initial mesh meets both, or of two triangles
 /// with a common edge one meets P and the other Q. If they do not conflict, no disk that is empty
@@ -28,11 +28,11 @@ struct SeamTriangles;
 /// and the line uw would separate H_p from H_q inside F: a contradiction. A vertex of F is a
 /// triangle at a, an edge of F two triangles with a common edge. Where F is unbounded, no unbounded
 /// direction helps inside the hull, which holds all regions.) So no later triangle and no later
-/// edge joins them, and their workers commute. More conflicts than there are do no harm.
+/// edge joins them, and their workers commute. Additional conflicts are harmless.
 ///
-/// Partitions are coloured; a colour is a stage of the dissertation. They are ordered by window,
-/// where windows are given, then by colour and index. Any windows do: the triangles do not depend
-/// on the order.
+/// Partitions are coloured; a colour is a stage of the dissertation. They are ordered by window, if
+/// windows are given, then by colour and index. Windows may be chosen freely: the triangles do not
+/// depend on the order.
 class VTKTIPPFILTERS_EXPORT PartitionOrder
 {
 public:
