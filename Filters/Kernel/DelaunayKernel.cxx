@@ -128,8 +128,8 @@ bool DelaunayKernel::makeFirstTriangle(Index first)
   for (Index i = 0; i < 3; ++i)
   {
     this->Mesh.link(i, 8 * (i + 1));
-    // Edge (Infinite, w) of infinite triangle i + 1 = (Infinite, w, u) is edge (w, Infinite) of the
-    // one whose last corner is w, the next.
+    // The twin of edge (Infinite, w) of infinite triangle i + 1 = (Infinite, w, u) is edge (w,
+    // Infinite) of the next infinite triangle, whose last corner is w.
     this->Mesh.link(8 * (i + 1) + 2, 8 * ((i + 1) % 3 + 1) + 1);
   }
   this->Mesh.setEnd(32);

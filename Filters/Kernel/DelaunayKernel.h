@@ -31,6 +31,7 @@ public:
   using Index = HalfEdgeMesh::Index;
   static constexpr Index Infinite = InfiniteVertex;
 
+  /// A point that is not a vertex, because another one has its coordinates.
   struct Duplicate
   {
     std::uint32_t Point; ///< its index, counted over all insert() calls since clear()
@@ -41,6 +42,7 @@ public:
   DelaunayKernel(const DelaunayKernel&) = delete;
   DelaunayKernel& operator=(const DelaunayKernel&) = delete;
 
+  /// Removes all points and triangles; keeps the memory.
   void clear();
 
   /// Reserves memory for `points` points in total, so that inserting them reallocates nothing.

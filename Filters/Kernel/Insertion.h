@@ -36,6 +36,7 @@ struct InsertionScene
 using InsertVertices = void (*)(
   const InsertionScene& scene, HalfEdgeMesh::Index first, HalfEdgeMesh::Index end);
 
+/// Returns the version compiled for the best permitted instruction set of this processor.
 InsertVertices chooseInsertion(Instructions instructions);
 
 } // namespace tipp

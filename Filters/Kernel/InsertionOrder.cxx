@@ -44,7 +44,7 @@ inline std::uint32_t quantise(double distance, double scale)
 {
   constexpr double last = (1U << Levels) - 1;
   const double cell = distance * scale;
-  // NaN (an extent of zero, or beyond the range of doubles) goes to cell 0: slower, never wrong.
+  // NaN (the extent is zero or exceeds the range of doubles) gives cell 0: slower, but correct.
   const double atLeast = cell > 0 ? cell : 0;
   return static_cast<std::uint32_t>(static_cast<std::int32_t>(atLeast < last ? atLeast : last));
 }

@@ -31,6 +31,8 @@ public:
   /// Sets the coordinates of `count` vertices, the infinite one first. The caller owns them.
   void restart(const Point2* points, std::size_t count);
 
+  /// The sign of the orientation of the vertices a, b and the point p: positive if p is to the
+  /// left.
   int orientation(HalfEdgeMesh::Index a, HalfEdgeMesh::Index b, Point2 p);
 
   /// Whether p is inside the circumdisk of the triangle with these corners (an array of three
