@@ -103,7 +103,7 @@ private:
   std::function<void(const char*, std::size_t)> Sink;
 };
 
-/// Reads what a ByteWriter wrote; throws std::runtime_error rather than read beyond the end.
+/// Reads what a ByteWriter wrote. Throws std::runtime_error instead of reading beyond the end.
 class ByteReader
 {
 public:

@@ -34,6 +34,7 @@ enum class MessageKind : std::uint32_t
   FirstFree
 };
 
+/// A received message.
 struct Message
 {
   int Source = 0;
@@ -93,9 +94,9 @@ public:
 
   ///@{
   /// Collective.
-  std::vector<Bytes> allToAll(std::vector<Bytes> contents); ///< one to each rank, one from each
-  std::vector<Bytes> gather(Bytes content);                 ///< on rank 0 one from each rank
-  Bytes broadcast(Bytes content);                           ///< rank 0's
+  std::vector<Bytes> allToAll(std::vector<Bytes> contents); ///< one to and from each rank
+  std::vector<Bytes> gather(Bytes content);                 ///< by rank on rank 0, else empty
+  Bytes broadcast(Bytes content);                           ///< returns rank 0's
   void sum(std::vector<std::int64_t>& values);
   void barrier();
   ///@}
@@ -159,6 +160,7 @@ public:
     this->partAfterFailure();
   }
 
+  /// The number of messages and of their bytes.
   struct Traffic
   {
     std::int64_t Messages = 0;
