@@ -25,6 +25,7 @@ template <typename Id>
 class BucketWriter
 {
 public:
+  /// The destination of a bucket's items; the caller owns the memory.
   struct Bucket
   {
     Point2* Points; ///< fastest if Points and Ids are aligned to LineBytes

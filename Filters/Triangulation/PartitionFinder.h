@@ -34,6 +34,7 @@ public:
     std::vector<std::size_t>& counts) const;
 
 private:
+  /// A rectangular block of grid cells.
   struct Block
   {
     std::uint32_t Begin[2]; ///< first column and row

@@ -19,6 +19,7 @@ struct PointSurvey
   std::vector<std::int64_t> Rejected; ///< ids of points that are not finite; ascending
 };
 
+/// Returns the bounds of the finite points, and the indices of the others.
 PointSurvey surveyPoints(PointsView points, int threads);
 
 /// Returns about `count` finite points, evenly spaced in the input's order.
@@ -51,6 +52,7 @@ public:
   {
     return this->Elsewhere ? static_cast<Id>(this->start(p) + at) : this->heldIds(p)[at];
   }
+  /// Copies the ids of a partition's points to `ids`, which is resized.
   void copyIds(PartitionIndex p, std::vector<Id>& ids) const;
   Id* triangles(PartitionIndex p) { return this->Memory.data() + 6 * this->start(p); }
 
@@ -104,6 +106,7 @@ private:
   Buffer<Id> Memory;
 };
 
+/// Sorts the finite points by partition, stably. Ids are indices into `points`.
 template <typename Id>
 PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threads);
 

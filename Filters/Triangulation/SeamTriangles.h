@@ -57,6 +57,7 @@ struct SeamTriangles
     boxes.visitMet(disk, [this](PartitionIndex partition) { this->Found.push_back(partition); });
     this->add(corners, this->Found.data(), this->Found.data() + this->Found.size());
   }
+  /// Adds a triangle that meets the partitions [metBegin, metEnd).
   void add(const Corners& corners, const PartitionIndex* metBegin, const PartitionIndex* metEnd);
   /// Appends the triangles of `others`, which must have the same vertices.
   void appendTriangles(const SeamTriangles& others);

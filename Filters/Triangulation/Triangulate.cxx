@@ -273,8 +273,8 @@ private:
     return stages;
   }
 
-  /// Reports progress, one thread at a time, so that the fraction increases; not after a report was
-  /// answered with a stop. Returns false if the run is to stop.
+  /// Reports progress, one thread at a time, so that the fraction increases. Does nothing after the
+  /// callback has returned false. Returns false if the run is to stop.
   bool reportFinished(std::size_t points)
   {
     const std::lock_guard<std::mutex> lock(this->ReportMutex);

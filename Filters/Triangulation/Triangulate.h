@@ -15,14 +15,18 @@
 namespace tipp
 {
 
+/// A point's id: an index into the input points, or a global id of the caller, as stated at each
+/// use.
 using PointId = std::int64_t;
 
+/// When partitions are started.
 enum class Schedule
 {
   Stages, ///< a barrier after each set of independent partitions (Algorithm 1)
   Dynamic ///< a partition starts as soon as it is independent of all active ones
 };
 
+/// Options of triangulate(). Only MaximumEdge changes the set of triangles.
 struct TriangulationOptions
 {
   int Columns = 0; ///< with Rows, a grid of partitions; 0: a tiling chosen for the points
@@ -38,12 +42,14 @@ struct TriangulationOptions
   std::function<bool(double)> Progress;
 };
 
+/// A point with the coordinates of another, its representative. Both are input point ids.
 struct Duplicate
 {
   PointId Point;
   PointId Representative; ///< the lowest id with the same coordinates
 };
 
+/// Counts and times of a run.
 struct TriangulationStatistics
 {
   struct Stage
@@ -87,9 +93,9 @@ struct Triangulation
 };
 
 /// Returns the Delaunay triangulation of the distinct finite points, ties broken by their
-/// lexicographic order: the same set of triangles for every option, and the same as CGAL's. Ids are
-/// indices into `points`. There are no triangles if there are fewer than three distinct points or
-/// all are collinear.
+/// lexicographic order: the same set of triangles as CGAL's, for all options except MaximumEdge.
+/// Ids are indices into `points`. There are no triangles if there are fewer than three distinct
+/// points or all are collinear.
 VTKTIPPFILTERS_EXPORT Triangulation triangulate(
   PointsView points, const TriangulationOptions& options = {});
 
