@@ -19,7 +19,10 @@ if (TIPP_BUILD_PARAVIEW_PLUGIN)
   set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
   set(CPACK_PACKAGE_NAME paraview-tipp)
   set(CPACK_DEBIAN_PACKAGE_NAME paraview-tipp)
-  set(CPACK_DEBIAN_PACKAGE_DEPENDS "paraview (>= 5.11), paraview (<< 5.12)")
+  # The libraries that it is built against are those of one minor version.
+  math(EXPR next_minor "${ParaView_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS "paraview (>= ${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}), \
+paraview (<< ${ParaView_VERSION_MAJOR}.${next_minor})")
   set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
     "ParaView plugin for exact Delaunay triangulation, partitioned meshes and resampling")
   set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_BINARY_DIR}/${tipp_library_destination}")
@@ -35,6 +38,8 @@ else ()
   set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
     "VTK modules for exact Delaunay triangulation, partitioned meshes and resampling")
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
+  # GDAL's library, which is opened when a GeoTIFF is written; the package's own name has its version.
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS gdal-bin)
 
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libtipp-dev)
   set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers and CMake package of TIPP's VTK modules")

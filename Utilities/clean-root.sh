@@ -1,20 +1,30 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Tries this on a bare Debian, made anew in FOLDER/root: sh Utilities/clean-root.sh FOLDER WHAT
+# Tries this on a bare Debian in FOLDER/root: sh Utilities/clean-root.sh RELEASE FOLDER WHAT
 #   demo      the README's first command, on the last commit, timed
-#   packages  the Debian packages: made here, installed there by apt, and used
-# Needs root and debootstrap.
+#   test      the README's second command, on the last commit, timed
+#   packages  the Debian packages of the last commit: made there, installed by apt on another bare one, and used
+# RELEASE is bookworm (Debian 12) or trixie (Debian 13). Needs root and debootstrap.
 set -eu
 
-[ $# -eq 2 ] || {
-  sed -n '3,6s/^# \{0,1\}//p' "$0" >&2
+[ $# -eq 3 ] || {
+  sed -n '3,7s/^# \{0,1\}//p' "$0" >&2
   exit 2
 }
 top=$(cd "$(dirname "$0")/.." && pwd)
-case $2 in
-  demo | packages) ;;
+release=$1
+what=$3
+case $release in
+  bookworm | trixie) ;;
   *)
-    echo "clean-root.sh: '$2' is neither demo nor packages." >&2
+    echo "clean-root.sh: '$release' is neither bookworm nor trixie." >&2
+    exit 2
+    ;;
+esac
+case $what in
+  demo | packages | test) ;;
+  *)
+    echo "clean-root.sh: '$what' is neither demo, packages nor test." >&2
     exit 2
     ;;
 esac
@@ -33,29 +43,55 @@ inside() { # COMMAND
   chroot "$root" env -i HOME=/tmp PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive sh -euc "$1"
 }
 
-mkdir -p "$1"
-folder=$(cd "$1" && pwd)
-root=$folder/root
-leave
-rm -rf --one-file-system "$root"
-echo "== A bare Debian in $root"
-debootstrap --variant=minbase --include=ca-certificates bookworm "$root" http://deb.debian.org/debian > "$folder/debootstrap.log"
-trap leave EXIT
-mount --bind /dev "$root/dev"
-mount -t proc proc "$root/proc"
+# A bare Debian, from the one that FOLDER keeps.
+make_root() {
+  leave
+  rm -rf --one-file-system "$root"
+  cp -a "$base" "$root"
+  mount --bind /dev "$root/dev"
+  mount -t proc proc "$root/proc"
+}
+# The last commit, in the root's /tmp/tipp.
+bring_sources() {
+  git clone -q --no-hardlinks "file://$top" "$root/tmp/tipp"
+}
 
-case $2 in
+mkdir -p "$2"
+folder=$(cd "$2" && pwd)
+root=$folder/root
+base=$folder/$release
+trap leave EXIT
+if [ ! -e "$base/complete" ]; then
+  echo "== A bare Debian in $base"
+  rm -rf --one-file-system "$base"
+  debootstrap --variant=minbase --include=ca-certificates "$release" "$base" http://deb.debian.org/debian \
+    > "$folder/debootstrap.log"
+  touch "$base/complete"
+fi
+make_root
+
+case $what in
   demo)
-    git -C "$top" archive --prefix=tipp/ HEAD | tar -x -C "$root/tmp"
+    bring_sources
     begin=$(date +%s)
     inside "cd /tmp/tipp && sh Utilities/demo.sh"
     echo "clean-root.sh: from the bare machine to the picture took $(($(date +%s) - begin)) s"
     ;;
+  test)
+    bring_sources
+    begin=$(date +%s)
+    inside "cd /tmp/tipp && sh Utilities/test.sh"
+    echo "clean-root.sh: from the bare machine to all tests passed took $(($(date +%s) - begin)) s"
+    ;;
   packages)
+    bring_sources
+    inside "cd /tmp/tipp && sh Utilities/package.sh /tmp/packages"
     rm -rf "$folder/packages"
-    sh "$top/Utilities/package.sh" "$folder/packages"
-    mkdir "$root/tmp/packages"
-    cp "$folder"/packages/*.deb "$root/tmp/packages"
+    cp -r "$root/tmp/packages" "$folder/packages"
+    cp -r "$root/tmp/tipp/Examples/Cxx" "$folder/packages/consumer"
+    # Another bare one, which has nothing but what the packages depend on.
+    make_root
+    cp -r "$folder/packages" "$root/tmp/packages"
     inside "apt-get update -q && apt-get install -q -y --no-install-recommends /tmp/packages/*.deb g++ cmake"
     echo "== The tool"
     inside "cd /tmp && tipp points --distribution uniform --count 1000 -o points.npy &&
@@ -63,8 +99,7 @@ case $2 in
     echo "== Python"
     inside "cd /tmp && python3 -c 'import numpy, tipp; print(len(tipp.delaunay(numpy.load(\"points.npy\"))), \"triangles\")'"
     echo "== C++"
-    cp -r "$top/Examples/Cxx" "$root/tmp/consumer"
-    inside "cmake -S /tmp/consumer -B /tmp/consumer/build && cmake --build /tmp/consumer/build"
+    inside "cmake -S /tmp/packages/consumer -B /tmp/consumer && cmake --build /tmp/consumer"
     ;;
 esac
-echo "clean-root.sh: $2 works"
+echo "clean-root.sh: $what works on $release"

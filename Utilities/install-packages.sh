@@ -10,8 +10,12 @@ if ! command -v dpkg-query > /dev/null; then
   exit 0
 fi
 
+# A release that the list does not name is served like the newest one.
+release=$(sed -n 's/^VERSION_CODENAME=//p' /etc/os-release)
+[ "$release" = bookworm ] || release=trixie
+
 missing=""
-for package in $(sed 's/#.*//' "$list"); do
+for package in $(sed 's/#.*//' "$list" | awk -v release="$release" 'NF && (NF == 1 || $2 == release) { print $1 }'); do
   case $(dpkg-query --show --showformat='${Status}' "$package" 2> /dev/null || true) in
     *" installed") ;;
     *) missing="$missing $package" ;;

@@ -1,12 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Lays out Debian's ParaView 5.11 in a folder, for pvbatch and for building the plugin:
+# Lays out Debian's ParaView in a folder, for pvbatch and for building the plugin:
 #   sh Utilities/paraview.sh FOLDER
 # Debian's python3-paraview would remove python3-vtk9, which this project is built with. So that package is
 # unpacked into FOLDER/python3-paraview, and FOLDER/prefix is a tree of links in which ParaView's CMake package is
 # complete. Then
 #   PYTHONPATH=FOLDER/python3-paraview/usr/lib/python3/dist-packages pvbatch SCRIPT.py
-#   cmake -DParaView_DIR=FOLDER/prefix/usr/lib/ARCHITECTURE/cmake/paraview-5.11 ...
+#   cmake -DParaView_DIR=FOLDER/prefix/usr/lib/ARCHITECTURE/cmake/paraview-VERSION ...
 set -eu
 
 [ $# -eq 1 ] || {
@@ -40,9 +40,9 @@ for path in "/usr/lib/$architecture"/*; do
 done
 for path in "/usr/lib/$architecture/cmake"/*; do
   case ${path##*/} in
-    vtk-9.1) ;;
+    vtk-*) ;;
     # A copy, since a CMake package finds its prefix from where it really lies.
-    paraview-5.11) cp -r "$path" "$libraries/cmake/" ;;
+    paraview-*) cp -r "$path" "$libraries/cmake/" ;;
     *) ln -s "$path" "$libraries/cmake/" ;;
   esac
 done
@@ -53,6 +53,11 @@ for root in "" "$folder/python3-paraview"; do
   for path in "$root/usr/bin"/*; do
     [ ! -e "$path" ] || ln -sf "$path" prefix/usr/bin/
   done
+done
+# Debian 13 names Python's modules after its Python; CMake's targets do not.
+find python3-paraview -name '*.cpython-*.so' | while read -r module; do
+  plain=${module%%.cpython-*}.so
+  [ -e "$plain" ] || ln -s "${module##*/}" "$plain"
 done
 ln -s "$folder/python3-paraview/usr/lib/python3/dist-packages" prefix/usr/lib/python3/dist-packages
 touch complete

@@ -32,11 +32,12 @@ runs() {
 }
 
 environment alone numpy
-runs alone Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestInterpreter.py
+runs alone Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutVtk.py Testing/Python/TestCheck.py \
+  Testing/Wheel/TestInterpreter.py
 environment oldest 'numpy<2'
-runs oldest Testing/Wheel/TestWithoutVtk.py
-environment scipy numpy scipy
-runs scipy Testing/Wheel/TestScipyHabits.py
+runs oldest Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutVtk.py
+environment scipy numpy scipy scikit-learn
+runs scipy Testing/Wheel/TestScipyHabits.py Testing/Wheel/TestTwoOpenMP.py
 environment pyvista 'vtk>=9.7,<9.8' pyvista
-runs pyvista Testing/Wheel/TestPyVista.py Testing/Python/TestArguments.py Testing/Python/TestArrays.py \
-  Testing/Python/TestPackage.py
+runs pyvista Testing/Wheel/TestPyVista.py Testing/Wheel/TestFilters.py Testing/Python/TestArguments.py Testing/Python/TestArrays.py \
+  Testing/Python/TestCheck.py Testing/Python/TestConstraints.py Testing/Python/TestPackage.py

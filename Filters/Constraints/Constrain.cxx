@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/Constrain.h"
 
+#include "Constraints/ConstraintEdges.h"
 #include "Constraints/ConstraintRegion.h"
 #include "Constraints/CrossedTriangles.h"
-#include "Constraints/SegmentTree.h"
 #include "Parallel/ForChunks.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -186,13 +187,15 @@ class JobWorker
 public:
   using Corners = std::array<PointId, 3>;
 
+  /// Known: constraints that may be edges between the jobs' triangles.
   JobWorker(PointsView points, Id* triangles, const CrossedTriangles& crossed, const Jobs& jobs,
-    const SplitPieces& split)
+    const SplitPieces& split, const ConstraintEdges& known)
     : Points(points)
     , Triangles(triangles)
     , Crossed(crossed)
     , All(jobs)
     , Split(split)
+    , Known(known)
   {
   }
 
@@ -207,6 +210,7 @@ public:
     std::for_each(this->All.Triangles.begin(job), this->All.Triangles.end(job),
       [this](std::int64_t t) { this->addTriangle(this->corners(t)); });
     this->Region.finish();
+    this->Region.fixEdges([this](PointId a, PointId b) { return this->Known.contains(a, b); });
     std::for_each(this->All.Pieces.begin(job), this->All.Pieces.end(job),
       [this](std::int64_t piece) { this->insertPiece(std::size_t(piece)); });
     this->New.clear();
@@ -282,27 +286,41 @@ private:
   const CrossedTriangles& Crossed;
   const Jobs& All;
   const SplitPieces& Split;
+  const ConstraintEdges& Known;
   ConstraintRegion Region;
   std::vector<Corners> New;
 };
 
+/// The parts both of whose ends are vertices of crossed triangles.
+template <typename Id>
+ConstraintEdges edgesNear(
+  const CrossedTriangles& crossed, const Id* triangles, const std::vector<ConstraintPiece>& parts)
+{
+  constexpr std::size_t marks = std::size_t(1) << 20; // by the ids' last digits
+  std::vector<char> isVertex(marks, 0);
+  for (const std::int64_t t : crossed.Triangles)
+  {
+    std::for_each_n(triangles + 3 * t, 3, [&](Id id) { isVertex[std::size_t(id) % marks] = 1; });
+  }
+  std::vector<ConstraintPiece> near;
+  std::copy_if(parts.begin(), parts.end(), std::back_inserter(near),
+    [&](const ConstraintPiece& part)
+    { return isVertex[std::size_t(part.A) % marks] && isVertex[std::size_t(part.B) % marks]; });
+  return ConstraintEdges(near);
+}
+
 template <typename Id>
 void constrainTriangles(PointsView points, Buffer<Id>& ids,
-  const std::vector<TriangleBlock>& blocks, std::vector<ConstraintPiece>& pieces, int threads)
+  const std::vector<TriangleBlock>& blocks, std::vector<ConstraintPiece>& pieces,
+  const PartitionConstraints& inserted, int threads)
 {
-  std::vector<SegmentTree::Item> items;
-  items.reserve(pieces.size());
-  for (const ConstraintPiece& piece : pieces)
-  {
-    items.push_back({ points[std::size_t(piece.A)], points[std::size_t(piece.B)], 0 });
-  }
-  const SegmentTree tree(std::move(items));
   const CrossedTriangles crossed =
-    findCrossedTriangles(points, ids.data(), ids.size() / 3, blocks, pieces, tree, threads);
+    findCrossedTriangles(points, ids.data(), ids.size() / 3, blocks, pieces, inserted, threads);
   const Jobs jobs = makeJobs(crossed, pieces.size());
   SplitPieces split = splitPieces(points, pieces, crossed.Touches);
+  const ConstraintEdges known = edgesNear(crossed, ids.data(), split.Parts);
   std::vector<JobWorker<Id>> workers(
-    std::size_t(threads), JobWorker<Id>(points, ids.data(), crossed, jobs, split));
+    std::size_t(threads), JobWorker<Id>(points, ids.data(), crossed, jobs, split, known));
   constexpr std::int64_t chunk = 256;
   forChunks(std::int64_t(jobs.Count), chunk, threads, {},
     [&](std::int64_t begin, std::int64_t end, int thread)
@@ -316,8 +334,8 @@ void constrainTriangles(PointsView points, Buffer<Id>& ids,
 }
 
 /// Lets the pieces name the points that stand for their ends.
-void nameRepresentatives(
-  const std::vector<Duplicate>& duplicates, std::vector<ConstraintPiece>& pieces)
+void nameRepresentatives(const std::vector<Duplicate>& duplicates,
+  std::vector<ConstraintPiece>& pieces, std::vector<CrossedTriangles::Touch>& touches)
 {
   const auto representative = [&](PointId id)
   {
@@ -332,26 +350,32 @@ void nameRepresentatives(
       piece.A = representative(piece.A);
       piece.B = representative(piece.B);
     }
+    for (CrossedTriangles::Touch& touch : touches)
+    {
+      touch.Vertex = representative(touch.Vertex);
+    }
   }
 }
 
 } // namespace
 
 void constrain(PointsView points, Triangulation& triangulation,
-  std::vector<ConstraintPiece>& pieces, int threads)
+  std::vector<ConstraintPiece>& pieces, PartitionConstraints& inserted, int threads)
 {
-  nameRepresentatives(triangulation.Duplicates, pieces);
+  nameRepresentatives(triangulation.Duplicates, pieces, inserted.touches());
   if (pieces.empty() || triangulation.triangleCount() == 0)
   {
     return;
   }
   if (triangulation.Ids64.empty())
   {
-    constrainTriangles(points, triangulation.Ids32, triangulation.Blocks, pieces, threads);
+    constrainTriangles(
+      points, triangulation.Ids32, triangulation.Blocks, pieces, inserted, threads);
   }
   else
   {
-    constrainTriangles(points, triangulation.Ids64, triangulation.Blocks, pieces, threads);
+    constrainTriangles(
+      points, triangulation.Ids64, triangulation.Blocks, pieces, inserted, threads);
   }
 }
 

@@ -53,4 +53,18 @@ int ConstraintEdges::balance(PointId a, PointId b) const
   return a < b ? sum : -sum;
 }
 
+int ConstraintEdges::count(PointId a, PointId b) const
+{
+  const Ends ends = std::minmax(a, b);
+  int sum = 0;
+  if (this->mayContain(ends.first))
+  {
+    for (auto edge = this->find(ends); edge != this->Edges.end() && edge->Ids == ends; ++edge)
+    {
+      ++sum;
+    }
+  }
+  return sum;
+}
+
 } // namespace tipp

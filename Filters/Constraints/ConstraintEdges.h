@@ -22,6 +22,9 @@ public:
   /// How many more constraints go from a to b than from b to a.
   int balance(PointId a, PointId b) const;
 
+  /// How many constraints join the two.
+  int count(PointId a, PointId b) const;
+
 private:
   using Ends = std::pair<PointId, PointId>; ///< the lower first
   struct Edge

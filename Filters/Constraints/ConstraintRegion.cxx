@@ -44,8 +44,6 @@ void ConstraintRegion::finish()
   this->Corners.resize(halfEdges);
   this->Twins.resize(halfEdges);
   this->Fixed.assign(halfEdges, 0);
-  this->IsRemoved.assign(halfEdges / 3, 0);
-  this->NewInner.assign(halfEdges, None);
   this->Out.resize(this->Vertices.size());
   for (std::size_t h = 0; h < halfEdges; ++h)
   {
@@ -183,214 +181,50 @@ ConstraintRegion::Index ConstraintRegion::sweep(Index first, Index b, bool& isEd
   return None;
 }
 
-void ConstraintRegion::remove(Index half, std::vector<Index>& removed)
-{
-  this->IsRemoved[std::size_t(half / 3)] = 1;
-  removed.push_back(half / 3);
-}
-
-ConstraintRegion::Link ConstraintRegion::makeLink(Index to, Index inner) const
-{
-  return { to, this->twin(inner), inner, this->Fixed[std::size_t(inner)] != 0, false };
-}
-
-void ConstraintRegion::markDangling(Chain& chain)
-{
-  for (Link& link : chain)
-  {
-    link.IsDangling = link.Outer >= 0 && this->IsRemoved[std::size_t(link.Outer / 3)];
-  }
-}
-
 /// Inserts ab, which begins in the triangle of `first`, a half-edge from a.
 void ConstraintRegion::insertAcross(Index a, Index b, Index first)
 {
-  std::vector<Index> removed;
-  Chain left;  // from a to b
-  Chain right; // from b to a, in reverse order; each link's To is the vertex that it comes from
-  this->remove(first, removed);
-  right.push_back(this->makeLink(this->to(first), first));
-  left.push_back(this->makeLink(this->from(previous(first)), previous(first)));
-  for (Index crossed = next(first);;)
+  this->Crossed.assign(1, next(first));
+  for (;;)
   {
+    const Index crossed = this->Crossed.back();
     const Index half = this->twin(crossed);
-    if (half < 0 || this->Fixed[std::size_t(crossed)])
+    if (half < 0 || this->isFixed(crossed))
     {
       throw std::logic_error("A constraint leaves its region or crosses another one.");
     }
-    this->remove(half, removed);
-    const Index onRight = next(half); // from the right to the new vertex
-    const Index onLeft = previous(half);
-    const Index apex = this->to(onRight);
-    const int side = apex == b ? 0 : this->turn(a, b, apex);
-    if (side <= 0)
-    {
-      right.push_back(this->makeLink(apex, onRight));
-    }
-    if (side >= 0)
-    {
-      left.push_back(this->makeLink(apex, onLeft));
-    }
+    const Index apex = this->from(previous(half));
     if (apex == b)
     {
       break;
     }
+    const int side = this->turn(a, b, apex);
     if (side == 0)
     {
       throw std::logic_error("A vertex lies on a constraint that was not split there.");
     }
-    crossed = side > 0 ? onRight : onLeft;
+    this->Crossed.push_back(side > 0 ? next(half) : previous(half));
   }
-  // Each link to the vertex where it goes, from b on.
-  std::reverse(right.begin(), right.end());
-  for (std::size_t i = 0; i + 1 < right.size(); ++i)
-  {
-    right[i].To = right[i + 1].To;
-  }
-  right.back().To = a;
-  this->markDangling(left);
-  this->markDangling(right);
-  for (const Index t : removed)
-  {
-    this->IsRemoved[std::size_t(t)] = 0;
-  }
-  const Index onLeft = this->fill(a, left, removed);
-  const Index onRight = this->fill(b, right, removed);
-  this->join(onLeft, onRight);
-  this->fix(onLeft);
-  this->legalize();
+  this->Inserter.insert(*this, a, b, this->Crossed);
 }
 
-/// Triangulates between a chain and the segment of its ends. Returns the half-edge of the segment.
-ConstraintRegion::Index ConstraintRegion::fill(
-  Index from, const Chain& chain, std::vector<Index>& slots)
+void ConstraintRegion::setCorners(Index slot, const std::array<Index, 3>& corners)
 {
-  Chain rest; // the vertex before its first link is `from`
-  for (const Link& link : chain)
-  {
-    rest.push_back(link);
-    while (rest.size() > 1)
-    {
-      const Link& second = rest.back();
-      const Link& first = rest[rest.size() - 2];
-      const Index x = rest.size() == 2 ? from : rest[rest.size() - 3].To;
-      if (this->turn(x, first.To, second.To) >= 0)
-      {
-        break;
-      }
-      const Index half = this->makeTriangle(first, x, second, slots.back());
-      slots.pop_back();
-      this->Suspects.push_back(half);
-      const Index to = second.To;
-      rest.resize(rest.size() - 2);
-      rest.push_back({ to, half, None, false, false });
-    }
-  }
-  if (rest.size() != 1)
-  {
-    throw std::logic_error("A constraint's cavity cannot be triangulated.");
-  }
-  this->Suspects.pop_back(); // the segment
-  return rest.front().Outer;
-}
-
-/// The triangle on the right of two links; returns the half-edge that replaces them.
-ConstraintRegion::Index ConstraintRegion::makeTriangle(
-  const Link& first, Index from, const Link& second, Index slot)
-{
-  const Index half = 3 * slot;
-  const std::array<Index, 3> corners{ from, second.To, first.To };
   for (Index i = 0; i < 3; ++i)
   {
     const Index v = corners[std::size_t(i)];
-    this->Corners[std::size_t(half + i)] = v;
-    this->Fixed[std::size_t(half + i)] = 0;
-    this->Out[std::size_t(v)] = half + i;
-  }
-  this->attach(half + 1, second);
-  this->attach(half + 2, first);
-  return half;
-}
-
-/// Joins a new half-edge with what was on the other side of the removed one.
-void ConstraintRegion::attach(Index half, const Link& link)
-{
-  this->Fixed[std::size_t(half)] = link.IsFixed;
-  if (!link.IsDangling)
-  {
-    this->join(half, link.Outer);
-    return;
-  }
-  const Index other = std::exchange(this->NewInner[std::size_t(link.Outer)], None);
-  if (other == None)
-  {
-    this->NewInner[std::size_t(link.OldInner)] = half;
-  }
-  else
-  {
-    this->join(half, other);
+    this->Corners[std::size_t(3 * slot + i)] = v;
+    this->Fixed[std::size_t(3 * slot + i)] = 0;
+    this->Out[std::size_t(v)] = 3 * slot + i;
   }
 }
 
-void ConstraintRegion::legalize()
+bool ConstraintRegion::mustFlip(Index half) const
 {
-  while (!this->Suspects.empty())
-  {
-    const Index h = this->Suspects.back();
-    this->Suspects.pop_back();
-    const Index g = this->twin(h);
-    if (g >= 0 && !this->Fixed[std::size_t(h)] &&
-      inCirclePerturbed(this->at(this->from(h)), this->at(this->to(h)),
-        this->at(this->from(previous(h))), this->at(this->from(previous(g)))))
-    {
-      this->flip(h);
-    }
-  }
-}
-
-/// Replaces an edge by the other diagonal of its two triangles.
-void ConstraintRegion::flip(Index h)
-{
-  const Index g = this->twin(h);
-  // p, q: the edge; r on its left, s on its right.
-  const Index p = this->from(h);
-  const Index q = this->to(h);
-  const Index r = this->from(previous(h));
-  const Index s = this->from(previous(g));
-  struct Side
-  {
-    Index Twin;
-    char IsFixed;
-  };
-  const auto side = [this](Index half) {
-    return Side{ this->twin(half), this->Fixed[std::size_t(half)] };
-  };
-  const Side qr = side(next(h));
-  const Side rp = side(previous(h));
-  const Side ps = side(next(g));
-  const Side sq = side(previous(g));
-  const Index one = 3 * (h / 3);   // p, s, r
-  const Index other = 3 * (g / 3); // s, q, r
-  const std::array<std::pair<Index, Index>, 6> corners{ { { one, p }, { one + 1, s },
-    { one + 2, r }, { other, s }, { other + 1, q }, { other + 2, r } } };
-  for (const auto& [half, v] : corners)
-  {
-    this->Corners[std::size_t(half)] = v;
-    this->Out[std::size_t(v)] = half;
-  }
-  const auto place = [this](Index half, const Side& old)
-  {
-    this->join(half, old.Twin);
-    this->Fixed[std::size_t(half)] = old.IsFixed;
-    this->Suspects.push_back(half);
-  };
-  place(one, ps);
-  place(one + 2, rp);
-  place(other, sq);
-  place(other + 1, qr);
-  this->join(one + 1, other + 2);
-  this->Fixed[std::size_t(one + 1)] = 0;
-  this->Fixed[std::size_t(other + 2)] = 0;
+  const Index twin = this->twin(half);
+  return twin >= 0 && !this->isFixed(half) &&
+    inCirclePerturbed(this->at(this->from(half)), this->at(this->to(half)),
+      this->at(this->from(previous(half))), this->at(this->from(previous(twin))));
 }
 
 } // namespace tipp

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/CrossedTriangles.h"
 
+#include "Constraints/PartitionConstraints.h"
+#include "Constraints/SegmentTree.h"
 #include "Parallel/ForChunks.h"
 #include "Predicates/Orientation.h"
 
@@ -17,6 +19,29 @@ struct TriangleRange
 {
   std::size_t Begin;
   std::size_t End;
+  PartitionIndex Partition; ///< whose interior triangles they are, or -1
+};
+
+/// What a scan finds.
+struct Found
+{
+  struct Crossing
+  {
+    std::int64_t Triangle;
+    std::int64_t Piece;
+
+    bool operator<(const Crossing& other) const
+    {
+      return this->Triangle != other.Triangle ? this->Triangle < other.Triangle
+                                              : this->Piece < other.Piece;
+    }
+    bool operator==(const Crossing& other) const
+    {
+      return this->Triangle == other.Triangle && this->Piece == other.Piece;
+    }
+  };
+  std::vector<Crossing> Crossings;
+  std::vector<CrossedTriangles::Touch> Touches;
 };
 
 /// A raster over some triangles: which segments are near each of its cells.
@@ -160,22 +185,23 @@ public:
   static constexpr std::size_t MostTriangles = 2048;
 
   Scan(PointsView points, const Id* corners, const std::vector<ConstraintPiece>& pieces,
-    const SegmentTree& tree)
+    const SegmentTree& tree, const PartitionConstraints& inserted)
     : Points(points)
     , Corners(corners)
     , Pieces(pieces)
     , Tree(tree)
+    , Inserted(inserted)
   {
   }
 
-  void scan(TriangleRange range, CrossedTriangles& found)
+  void scan(TriangleRange range, Found& found)
   {
     const Box2 box = this->load(range);
     this->Segments.clear();
     this->Tree.visitNear(box,
       [&](const SegmentTree::Item& item)
       {
-        if (lineMayMeet(item.A, item.B, box))
+        if (!this->Inserted.isKnown(item.Id, range.Partition) && lineMayMeet(item.A, item.B, box))
         {
           this->Segments.push_back(&item);
         }
@@ -210,11 +236,10 @@ private:
     return box;
   }
 
-  void scanTriangle(std::size_t t, const Point2* p, CrossedTriangles& found)
+  void scanTriangle(std::size_t t, const Point2* p, Found& found)
   {
     const Box2 box{ std::min({ p[0].x, p[1].x, p[2].x }), std::min({ p[0].y, p[1].y, p[2].y }),
       std::max({ p[0].x, p[1].x, p[2].x }), std::max({ p[0].y, p[1].y, p[2].y }) };
-    const std::size_t before = found.Pieces.size();
     this->Raster.visitNear(box,
       [&](std::size_t s)
       {
@@ -224,15 +249,10 @@ private:
           this->LastTriangle[s] = t;
           if (this->crosses(segment, this->Corners + 3 * t, p, found.Touches))
           {
-            found.Pieces.push_back(segment.Id);
+            found.Crossings.push_back({ std::int64_t(t), segment.Id });
           }
         }
       });
-    if (found.Pieces.size() > before)
-    {
-      found.Triangles.push_back(std::int64_t(t));
-      found.Starts.push_back(std::int64_t(before));
-    }
   }
 
   /// Whether the segment, whose ends are vertices, meets the triangle's interior; and corners
@@ -276,63 +296,84 @@ private:
   const Id* Corners;
   const std::vector<ConstraintPiece>& Pieces;
   const SegmentTree& Tree;
+  const PartitionConstraints& Inserted;
   std::vector<Point2> Positions;
   std::vector<const SegmentTree::Item*> Segments;
   std::vector<std::size_t> LastTriangle; ///< that each segment was tested with
   SegmentRaster Raster;
 };
 
-/// The triangles in ranges of a few, without blocks that no segment is near.
-std::vector<TriangleRange> makeRanges(
-  std::size_t triangles, const std::vector<TriangleBlock>& blocks, const SegmentTree& tree)
+/// The triangles in ranges of a few, without blocks that only known pieces are near, or none.
+std::vector<TriangleRange> makeRanges(std::size_t triangles,
+  const std::vector<TriangleBlock>& blocks, const SegmentTree& tree,
+  const PartitionConstraints& inserted)
 {
   constexpr std::size_t most = Scan<std::int32_t>::MostTriangles;
   std::vector<TriangleRange> ranges;
-  const auto append = [&ranges](std::size_t begin, std::size_t end)
+  const auto append = [&ranges](std::size_t begin, std::size_t end, PartitionIndex partition)
   {
     for (std::size_t i = begin; i < end; i += most)
     {
-      ranges.push_back({ i, std::min(i + most, end) });
+      ranges.push_back({ i, std::min(i + most, end), partition });
     }
   };
+  constexpr PartitionIndex none = -1;
   std::size_t done = 0;
   for (const TriangleBlock& block : blocks)
   {
-    append(done, block.Begin);
+    append(done, block.Begin, none);
     bool isNear = false;
     tree.visitNear(block.Box,
       [&](const SegmentTree::Item& item)
       {
-        isNear = lineMayMeet(item.A, item.B, block.Box);
+        isNear =
+          !inserted.isKnown(item.Id, block.Partition) && lineMayMeet(item.A, item.B, block.Box);
         return !isNear;
       });
     if (isNear)
     {
-      append(block.Begin, block.End);
+      append(block.Begin, block.End, block.Partition);
     }
     done = block.End;
   }
-  append(done, triangles);
+  append(done, triangles, none);
   return ranges;
 }
 
-/// In the order of the ranges.
-CrossedTriangles joined(std::vector<CrossedTriangles>& parts)
+/// The noted crossings of triangles in blocks; the other triangles have been scanned.
+void addNoted(
+  const PartitionConstraints& inserted, const std::vector<TriangleBlock>& blocks, Found& found)
 {
-  CrossedTriangles all;
-  for (CrossedTriangles& part : parts)
+  for (const PartitionConstraints::Crossing& crossing : inserted.crossings())
   {
-    const std::int64_t shift = std::int64_t(all.Pieces.size());
-    all.Triangles.insert(all.Triangles.end(), part.Triangles.begin(), part.Triangles.end());
-    for (const std::int64_t start : part.Starts)
+    const auto block = std::lower_bound(blocks.begin(), blocks.end(), crossing.Partition,
+      [](const TriangleBlock& one, PartitionIndex wanted) { return one.Partition < wanted; });
+    if (block != blocks.end() && block->Partition == crossing.Partition &&
+      block->Begin + crossing.Triangle < block->End)
     {
-      all.Starts.push_back(shift + start);
+      found.Crossings.push_back({ std::int64_t(block->Begin + crossing.Triangle), crossing.Piece });
     }
-    all.Pieces.insert(all.Pieces.end(), part.Pieces.begin(), part.Pieces.end());
-    all.Touches.insert(all.Touches.end(), part.Touches.begin(), part.Touches.end());
-    part = {};
+  }
+}
+
+/// By triangle; each once.
+CrossedTriangles sorted(Found& found)
+{
+  std::vector<Found::Crossing>& crossings = found.Crossings;
+  std::sort(crossings.begin(), crossings.end());
+  crossings.erase(std::unique(crossings.begin(), crossings.end()), crossings.end());
+  CrossedTriangles all;
+  for (const Found::Crossing& crossing : crossings)
+  {
+    if (all.Triangles.empty() || all.Triangles.back() != crossing.Triangle)
+    {
+      all.Triangles.push_back(crossing.Triangle);
+      all.Starts.push_back(std::int64_t(all.Pieces.size()));
+    }
+    all.Pieces.push_back(crossing.Piece);
   }
   all.Starts.push_back(std::int64_t(all.Pieces.size()));
+  all.Touches = std::move(found.Touches);
   using Touch = CrossedTriangles::Touch;
   std::sort(all.Touches.begin(), all.Touches.end(),
     [](const Touch& a, const Touch& b)
@@ -344,25 +385,53 @@ CrossedTriangles joined(std::vector<CrossedTriangles>& parts)
   return all;
 }
 
+/// The segments of pieces that were not inserted; their Ids are those of pieces.
+SegmentTree treeOfOthers(PointsView points, const std::vector<ConstraintPiece>& pieces,
+  const PartitionConstraints& inserted)
+{
+  std::vector<SegmentTree::Item> items;
+  for (std::size_t p = 0; p < pieces.size(); ++p)
+  {
+    if (!inserted.isDone(p))
+    {
+      items.push_back(
+        { points[std::size_t(pieces[p].A)], points[std::size_t(pieces[p].B)], std::int64_t(p) });
+    }
+  }
+  return SegmentTree(std::move(items));
+}
+
 } // namespace
 
 template <typename Id>
 CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std::size_t triangles,
   const std::vector<TriangleBlock>& blocks, const std::vector<ConstraintPiece>& pieces,
-  const SegmentTree& tree, int threads)
+  const PartitionConstraints& inserted, int threads)
 {
-  const std::vector<TriangleRange> ranges = makeRanges(triangles, blocks, tree);
-  std::vector<Scan<Id>> scans(std::size_t(threads), Scan<Id>(points, corners, pieces, tree));
-  std::vector<CrossedTriangles> parts(ranges.size());
+  const SegmentTree tree = treeOfOthers(points, pieces, inserted);
+  const std::vector<TriangleRange> ranges = makeRanges(triangles, blocks, tree, inserted);
+  std::vector<Scan<Id>> scans(
+    std::size_t(threads), Scan<Id>(points, corners, pieces, tree, inserted));
+  std::vector<Found> parts(static_cast<std::size_t>(threads));
   forChunks(std::int64_t(ranges.size()), 1, threads, {},
     [&](std::int64_t i, std::int64_t, int thread)
-    { scans[std::size_t(thread)].scan(ranges[std::size_t(i)], parts[std::size_t(i)]); });
-  return joined(parts);
+    { scans[std::size_t(thread)].scan(ranges[std::size_t(i)], parts[std::size_t(thread)]); });
+  Found all;
+  all.Touches = inserted.touches();
+  addNoted(inserted, blocks, all);
+  for (const Found& part : parts)
+  {
+    all.Crossings.insert(all.Crossings.end(), part.Crossings.begin(), part.Crossings.end());
+    all.Touches.insert(all.Touches.end(), part.Touches.begin(), part.Touches.end());
+  }
+  return sorted(all);
 }
 
 template CrossedTriangles findCrossedTriangles(PointsView, const std::int32_t*, std::size_t,
-  const std::vector<TriangleBlock>&, const std::vector<ConstraintPiece>&, const SegmentTree&, int);
+  const std::vector<TriangleBlock>&, const std::vector<ConstraintPiece>&,
+  const PartitionConstraints&, int);
 template CrossedTriangles findCrossedTriangles(PointsView, const std::int64_t*, std::size_t,
-  const std::vector<TriangleBlock>&, const std::vector<ConstraintPiece>&, const SegmentTree&, int);
+  const std::vector<TriangleBlock>&, const std::vector<ConstraintPiece>&,
+  const PartitionConstraints&, int);
 
 } // namespace tipp

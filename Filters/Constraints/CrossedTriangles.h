@@ -3,7 +3,6 @@
 #define tippCrossedTriangles_h
 
 #include "Constraints/Constraint.h"
-#include "Constraints/SegmentTree.h"
 #include "Triangulation/PointsView.h"
 
 #include <cstdint>
@@ -11,6 +10,8 @@
 
 namespace tipp
 {
+
+class PartitionConstraints;
 
 /// What constraints do to the triangles of a triangulation.
 struct CrossedTriangles
@@ -28,18 +29,21 @@ struct CrossedTriangles
   std::vector<Touch> Touches; ///< sorted by piece and vertex, each once
 };
 
-/// Finds them. The tree has the pieces' segments in their order; pieces and triangles name vertices
-/// by the same ids. Blocks are boxes known to hold some of the triangles, by ascending position:
-/// where no piece is near, these are not looked at.
+/// Finds them, but for pieces that were inserted already. Pieces and triangles name vertices by the
+/// same ids. Blocks are boxes known to hold some of the triangles, by ascending position: where no
+/// piece is near, these are not looked at. Inserted: what is known since the points were
+/// triangulated.
 template <typename Id>
 CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std::size_t triangles,
   const std::vector<TriangleBlock>& blocks, const std::vector<ConstraintPiece>& pieces,
-  const SegmentTree& tree, int threads);
+  const PartitionConstraints& inserted, int threads);
 
 extern template CrossedTriangles findCrossedTriangles(PointsView, const std::int32_t*, std::size_t,
-  const std::vector<TriangleBlock>&, const std::vector<ConstraintPiece>&, const SegmentTree&, int);
+  const std::vector<TriangleBlock>&, const std::vector<ConstraintPiece>&,
+  const PartitionConstraints&, int);
 extern template CrossedTriangles findCrossedTriangles(PointsView, const std::int64_t*, std::size_t,
-  const std::vector<TriangleBlock>&, const std::vector<ConstraintPiece>&, const SegmentTree&, int);
+  const std::vector<TriangleBlock>&, const std::vector<ConstraintPiece>&,
+  const PartitionConstraints&, int);
 
 } // namespace tipp
 

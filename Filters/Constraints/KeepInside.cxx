@@ -39,10 +39,13 @@ std::vector<std::int64_t> neighborsOf(const Buffer<Id>& ids)
   return neighbors;
 }
 
-/// How often the polygons go round each triangle: counter-clockwise ones count 1, others -1.
+/// How often the polygons go round each triangle: counter-clockwise ones count 1, others -1. By the
+/// other rule all count 1, so that odd numbers are inside.
 template <typename Id>
-std::vector<int> windings(const Buffer<Id>& ids, const ConstraintEdges& edges)
+std::vector<int> windings(const Buffer<Id>& ids, const ConstraintEdges& edges, InsideRule rule)
 {
+  const auto crossed = [&](PointId a, PointId b)
+  { return rule == InsideRule::Winding ? edges.balance(a, b) : edges.count(a, b); };
   const std::vector<std::int64_t> neighbors = neighborsOf(ids);
   const auto from = [&](std::size_t corner) { return PointId(ids[corner]); };
   std::vector<int> result(ids.size() / 3, 0);
@@ -64,7 +67,7 @@ std::vector<int> windings(const Buffer<Id>& ids, const ConstraintEdges& edges)
     if (neighbors[c] < 0)
     {
       const std::size_t a = nextCorner(c);
-      enter(c / 3, edges.balance(from(a), from(nextCorner(a))));
+      enter(c / 3, crossed(from(a), from(nextCorner(a))));
       break; // all others are reached from there
     }
   }
@@ -77,8 +80,7 @@ std::vector<int> windings(const Buffer<Id>& ids, const ConstraintEdges& edges)
       if (neighbors[c] >= 0)
       {
         const std::size_t a = nextCorner(c);
-        enter(std::size_t(neighbors[c]),
-          result[triangle] - edges.balance(from(a), from(nextCorner(a))));
+        enter(std::size_t(neighbors[c]), result[triangle] - crossed(from(a), from(nextCorner(a))));
       }
     }
   }
@@ -86,9 +88,14 @@ std::vector<int> windings(const Buffer<Id>& ids, const ConstraintEdges& edges)
 }
 
 template <typename Id>
-void keepWound(Buffer<Id>& ids, const std::vector<ConstraintPiece>& polygonEdges)
+void keepWound(Buffer<Id>& ids, const std::vector<ConstraintPiece>& polygonEdges, InsideRule rule)
 {
-  const std::vector<int> windings = tipp::windings(ids, ConstraintEdges(polygonEdges));
+  const std::vector<int> windings = tipp::windings(ids, ConstraintEdges(polygonEdges), rule);
+  if (rule == InsideRule::EvenOdd)
+  {
+    keepTriangles(ids, [&](std::size_t t) { return windings[t] % 2 != 0; });
+    return;
+  }
   const bool onlyHoles =
     std::none_of(windings.begin(), windings.end(), [](int winding) { return winding > 0; });
   const int least = onlyHoles ? 0 : 1;
@@ -156,10 +163,11 @@ void removeFrom(PointsView points, Buffer<Id>& ids, const std::vector<Constraint
 
 } // namespace
 
-void keepInside(Triangulation& triangulation, const std::vector<ConstraintPiece>& polygonEdges)
+void keepInside(
+  Triangulation& triangulation, const std::vector<ConstraintPiece>& polygonEdges, InsideRule rule)
 {
-  triangulation.Ids64.empty() ? keepWound(triangulation.Ids32, polygonEdges)
-                              : keepWound(triangulation.Ids64, polygonEdges);
+  triangulation.Ids64.empty() ? keepWound(triangulation.Ids32, polygonEdges, rule)
+                              : keepWound(triangulation.Ids64, polygonEdges, rule);
   triangulation.Blocks.clear();
 }
 

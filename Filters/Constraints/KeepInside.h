@@ -11,11 +11,17 @@
 namespace tipp
 {
 
+enum class InsideRule
+{
+  /// Inside is what the polygons go round counter-clockwise more often than clockwise. Where that
+  /// is nothing, all polygons are holes: then all is inside but what they go round clockwise.
+  Winding,
+  EvenOdd ///< inside is what an odd number of polygons goes round
+};
+
 /// Removes the triangles outside of closed polygons, whose edges are edges of the triangulation.
-/// What is kept is what the polygons go round counter-clockwise more often than clockwise. Where
-/// that is nothing, all polygons are holes: then all is kept but what they go round clockwise.
-VTKTIPPFILTERS_EXPORT void keepInside(
-  Triangulation& triangulation, const std::vector<ConstraintPiece>& polygonEdges);
+VTKTIPPFILTERS_EXPORT void keepInside(Triangulation& triangulation,
+  const std::vector<ConstraintPiece>& polygonEdges, InsideRule rule = InsideRule::Winding);
 
 /// Removes the triangles that can be reached from seed points without crossing a constraint. Throws
 /// std::invalid_argument for a seed in no triangle.

@@ -22,6 +22,26 @@ namespace
 /// Two pieces that cross; the lower number first.
 using Crossing = std::array<std::int64_t, 2>;
 
+/// Tells segments that are short beside the box of all.
+auto isShortAmong(const std::vector<SegmentTree::Item>& all)
+{
+  Box2 box{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+  for (const SegmentTree::Item& item : all)
+  {
+    const Box2 its = boxOf(item.A, item.B);
+    box = { std::min(box.xmin, its.xmin), std::min(box.ymin, its.ymin),
+      std::max(box.xmax, its.xmax), std::max(box.ymax, its.ymax) };
+  }
+  constexpr double part = 1.0 / 64;
+  const double width = part * (box.xmax / 2 - box.xmin / 2); // halves, for a difference overflows
+  const double height = part * (box.ymax / 2 - box.ymin / 2);
+  return [width, height](const SegmentTree::Item& item)
+  {
+    return std::fabs(item.B.x / 2 - item.A.x / 2) <= width &&
+      std::fabs(item.B.y / 2 - item.A.y / 2) <= height;
+  };
+}
+
 class Resolver
 {
 public:
@@ -64,12 +84,7 @@ public:
       {
         this->refuse(crossings.front());
       }
-      if (++this->Result.Rounds > MostRounds)
-      {
-        throw std::invalid_argument(
-          "constraints that lie within a unit in the last place of each other still cross after " +
-          std::to_string(MostRounds) + " rounds of splitting: remove some of them.");
-      }
+      ++this->Result.Rounds;
       this->split(crossings);
     }
   }
@@ -93,52 +108,68 @@ private:
                                    : this->Result.Crossings[std::size_t(id) - input].Position;
   }
 
-  /// Sorted.
+  /// Sorted. Short pieces are compared group by group, the few long ones with all others one by
+  /// one, since a group with a long piece would be near everything.
   std::vector<Crossing> findCrossings() const
   {
     const std::vector<ConstraintPiece>& pieces = this->Result.Pieces;
-    std::vector<SegmentTree::Item> items;
-    items.reserve(pieces.size());
+    std::vector<SegmentTree::Item> all;
+    all.reserve(pieces.size());
     for (const ConstraintPiece& piece : pieces)
     {
-      items.push_back({ this->at(piece.A), this->at(piece.B), 0 });
+      all.push_back({ this->at(piece.A), this->at(piece.B), std::int64_t(all.size()) });
     }
-    const SegmentTree tree(std::move(items));
+    const auto firstLong = std::stable_partition(all.begin(), all.end(), isShortAmong(all));
+    const SegmentTree longOnes(std::vector<SegmentTree::Item>(firstLong, all.end()));
+    all.erase(firstLong, all.end());
+    const SegmentTree shortOnes(std::move(all));
+    const auto groups = std::int64_t(shortOnes.groups());
     std::vector<std::vector<Crossing>> found(std::size_t(this->Threads));
-    constexpr std::int64_t chunk = 1024;
-    forChunks(std::int64_t(pieces.size()), chunk, this->Threads, {},
+    constexpr std::int64_t chunk = 128;
+    forChunks(groups + std::int64_t(longOnes.items().size()), chunk, this->Threads, {},
       [&](std::int64_t begin, std::int64_t end, int thread)
       {
-        for (std::int64_t i = begin; i < end; ++i)
+        std::vector<Crossing>& its = found[std::size_t(thread)];
+        const auto compare = [&](const SegmentTree::Item& one, const SegmentTree::Item& other)
+        { this->compare(one, other, its); };
+        for (std::int64_t i = begin; i < std::min(end, groups); ++i)
         {
-          this->findCrossings(tree, tree.items()[std::size_t(i)], found[std::size_t(thread)]);
+          shortOnes.visitPairs(std::size_t(i), compare);
+        }
+        for (std::int64_t i = std::max(begin, groups); i < end; ++i)
+        {
+          const SegmentTree::Item& one = longOnes.items()[std::size_t(i - groups)];
+          const auto compareWith = [&](const SegmentTree::Item& other)
+          {
+            compare(one, other);
+            return true;
+          };
+          shortOnes.visitNear(one, compareWith);
+          longOnes.visitNear(one,
+            [&](const SegmentTree::Item& other)
+            { return other.Id <= one.Id || compareWith(other); });
         }
       });
-    std::vector<Crossing> all;
+    std::vector<Crossing> crossings;
     for (const std::vector<Crossing>& part : found)
     {
-      all.insert(all.end(), part.begin(), part.end());
+      crossings.insert(crossings.end(), part.begin(), part.end());
     }
-    std::sort(all.begin(), all.end());
-    return all;
+    std::sort(crossings.begin(), crossings.end());
+    return crossings;
   }
 
-  void findCrossings(
-    const SegmentTree& tree, const SegmentTree::Item& one, std::vector<Crossing>& found) const
+  void compare(const SegmentTree::Item& one, const SegmentTree::Item& other,
+    std::vector<Crossing>& found) const
   {
     const ConstraintPiece& piece = this->Result.Pieces[std::size_t(one.Id)];
-    tree.visitNear(one,
-      [&](const SegmentTree::Item& other)
-      {
-        const ConstraintPiece& its = this->Result.Pieces[std::size_t(other.Id)];
-        const bool isConnected =
-          piece.A == its.A || piece.A == its.B || piece.B == its.A || piece.B == its.B;
-        if (one.Id < other.Id && !isConnected && crossProperly(one.A, one.B, other.A, other.B))
-        {
-          found.push_back({ one.Id, other.Id });
-        }
-        return true;
-      });
+    const ConstraintPiece& its = this->Result.Pieces[std::size_t(other.Id)];
+    const bool isConnected =
+      piece.A == its.A || piece.A == its.B || piece.B == its.A || piece.B == its.B;
+    if (!isConnected && crossProperly(one.A, one.B, other.A, other.B))
+    {
+      found.push_back({ std::min(one.Id, other.Id), std::max(one.Id, other.Id) });
+    }
   }
 
   [[noreturn]] void refuse(const Crossing& crossing) const
@@ -175,8 +206,7 @@ private:
   {
     const ConstraintPiece& one = this->Result.Pieces[std::size_t(crossing[0])];
     const ConstraintPiece& other = this->Result.Pieces[std::size_t(crossing[1])];
-    const Point2 position =
-      crossingPoint(this->at(one.A), this->at(one.B), this->at(other.A), this->at(other.B));
+    const Point2 position = this->positionOf(one, other);
     for (const PointId end : { one.A, one.B, other.A, other.B })
     {
       if (this->at(end) == position)
@@ -195,6 +225,37 @@ private:
     return known->second;
   }
 
+  /// Where two pieces cross, rounded to doubles; to a coarser grid after some rounds.
+  Point2 positionOf(const ConstraintPiece& one, const ConstraintPiece& other) const
+  {
+    const Point2 a = this->at(one.A);
+    const Point2 b = this->at(one.B);
+    const Point2 c = this->at(other.A);
+    const Point2 d = this->at(other.B);
+    const Point2 p = crossingPoint(a, b, c, d);
+    const int coarser = this->Result.Rounds - RoundsOfDoubles;
+    return coarser <= 0 ? p
+                        : Point2{ rounded(p.x, { a.x, b.x }, { c.x, d.x }, coarser),
+                            rounded(p.y, { a.y, b.y }, { c.y, d.y }, coarser) };
+  }
+
+  /// A coordinate of a crossing as a multiple of the largest end's unit in the last place times a
+  /// power of two; but between the ends of both.
+  static double rounded(
+    double value, std::pair<double, double> one, std::pair<double, double> other, int coarser)
+  {
+    const auto [low, high] = std::minmax(one.first, one.second);
+    const auto [itsLow, itsHigh] = std::minmax(other.first, other.second);
+    const double largest =
+      std::max({ std::fabs(low), std::fabs(high), std::fabs(itsLow), std::fabs(itsHigh) });
+    constexpr int whole = 60; // then all is rounded to 0
+    const double unit =
+      std::ldexp(largest - std::nextafter(largest, 0), std::min(coarser, whole) - 1);
+    const double multiple = unit > 0 && std::isfinite(unit) ? std::nearbyint(value / unit) : 0;
+    return std::clamp(
+      multiple == 0 ? 0 : multiple * unit, std::max(low, itsLow), std::min(high, itsHigh));
+  }
+
   void split(const std::vector<Crossing>& crossings)
   {
     std::vector<std::vector<PointId>> through(this->Result.Pieces.size());
@@ -208,7 +269,7 @@ private:
     std::vector<SegmentTree::Item> items;
     for (const PointId vertex : vertices)
     {
-      items.push_back({ this->at(vertex), this->at(vertex), 0 });
+      items.push_back({ this->at(vertex), this->at(vertex), std::int64_t(items.size()) });
     }
     const SegmentTree tree(std::move(items));
     const std::vector<ConstraintPiece> wholes = std::move(this->Result.Pieces);
@@ -303,7 +364,7 @@ private:
     this->Result.Pieces.push_back({ from, whole.B, whole.Constraint });
   }
 
-  static constexpr int MostRounds = 100;
+  static constexpr int RoundsOfDoubles = 10; ///< then crossings are rounded to coarser grids
 
   PointsView Points;
   ResolvedConstraints& Result;

@@ -48,9 +48,14 @@ struct ResolvedConstraints
 ///
 /// The grid of doubles is not uniform, so that parts may still cross; these crossings are rounded
 /// and split too, in further rounds, each of which may move a constraint by half a unit more. It
-/// ends: a part only passes through points in its bounding box, so its own parts have smaller ones,
-/// and there are finitely many boxes whose corners are doubles. More than 100 rounds are an error,
-/// which takes constraints that are within a unit of each other over many orders of magnitude.
+/// ends: a crossing is rounded to a point in the bounding boxes of both parts that cross, so that
+/// it is not an end of both, and a part that it splits becomes parts with smaller boxes; and there
+/// are finitely many boxes whose corners are doubles.
+///
+/// That could take long where constraints are within a unit of each other over many orders of
+/// magnitude. So after ten rounds units are those of the largest end, and twice as large in each
+/// further round. When they are larger than all coordinates, crossings only combine coordinates
+/// that are there: few rounds are left.
 VTKTIPPFILTERS_EXPORT ResolvedConstraints resolveCrossings(
   PointsView points, const std::vector<Constraint>& constraints, CrossingRule rule, int threads);
 

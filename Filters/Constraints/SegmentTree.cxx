@@ -61,8 +61,7 @@ SegmentTree::SegmentTree(std::vector<Item> segments)
   this->Items.reserve(segments.size());
   for (const auto& place : order)
   {
-    this->Items.push_back(
-      { segments[place.second].A, segments[place.second].B, std::int64_t(place.second) });
+    this->Items.push_back(segments[place.second]);
   }
   std::vector<Box2> boxes;
   for (const Item& item : this->Items)

@@ -55,10 +55,9 @@ public:
   {
     Point2 A;
     Point2 B;
-    std::int64_t Id; ///< its position in the list that the tree was made of
+    std::int64_t Id; ///< the caller's
   };
 
-  /// Ids need not be set.
   explicit SegmentTree(std::vector<Item> segments);
 
   const std::vector<Item>& items() const { return this->Items; }
@@ -80,6 +79,32 @@ public:
     { return overlap(box, node) && lineMayMeet(segment.A, segment.B, node); };
     this->visitNodes(isNear,
       [&](const Item& item) { return !overlap(box, boxOf(item.A, item.B)) || visit(item); });
+  }
+
+  /// Groups of neighbours, for visitPairs().
+  std::size_t groups() const { return this->Levels.empty() ? 0 : this->Levels.front().size(); }
+
+  /// visit(item, item) for all pairs whose bounding boxes overlap, of an item of a group and one of
+  /// this or a later group. For short segments: one search serves the whole group.
+  template <typename Visit>
+  void visitPairs(std::size_t group, const Visit& visit) const
+  {
+    const Box2& box = this->Levels.front()[group];
+    const Item* const begin = this->Items.data() + group * Fanout;
+    const Item* const end = this->Items.data() + std::min(this->Items.size(), (group + 1) * Fanout);
+    this->visitNodes([&box](const Box2& node) { return overlap(box, node); },
+      [&](const Item& other)
+      {
+        const Box2 its = boxOf(other.A, other.B);
+        if (&other >= begin && overlap(box, its))
+        {
+          for (const Item* one = begin; one != end && one != &other; ++one)
+          {
+            overlap(its, boxOf(one->A, one->B)) ? visit(*one, other) : void();
+          }
+        }
+        return true;
+      });
   }
 
 private:

@@ -2,8 +2,10 @@
 #include "Constraints/TriangulateConstrained.h"
 
 #include "Constraints/Constrain.h"
+#include "Constraints/PartitionConstraints.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
+#include "Triangulation/LongTriangles.h"
 
 #include <utility>
 
@@ -25,6 +27,19 @@ std::vector<Point2> allPoints(PointsView points, const std::vector<CrossingPoint
   return all;
 }
 
+void dropLong(PointsView points, double longest, Triangulation& mesh)
+{
+  const auto pointOf = [&points](auto id) { return points[std::size_t(id)]; };
+  const auto drop = [&](auto& ids)
+  { ids.truncate(3 * dropLongTriangles(ids.data(), ids.size() / 3, longest, pointOf)); };
+  if (longest > 0)
+  {
+    drop(mesh.Ids32);
+    drop(mesh.Ids64);
+    mesh.Blocks.clear();
+  }
+}
+
 } // namespace
 
 ConstrainedTriangulation triangulateConstrained(PointsView input,
@@ -35,7 +50,7 @@ ConstrainedTriangulation triangulateConstrained(PointsView input,
   const int threads = threadCount(options.Threads);
   Stopwatch watch;
   result.Constraints = resolveCrossings(input, constraints, crossings, threads);
-  const double crossingSeconds = watch.restart();
+  std::vector<TriangulationStatistics::Phase> phases{ { "crossings", watch.restart() } };
 
   std::vector<Point2> room;
   PointsView points = input;
@@ -44,14 +59,20 @@ ConstrainedTriangulation triangulateConstrained(PointsView input,
     room = allPoints(input, result.Constraints.Crossings);
     points = PointsView(&room.front().x, room.size(), 2);
   }
-  result.Mesh = triangulate(points, options);
-  auto& phases = result.Mesh.Statistics.Phases;
-  phases.insert(phases.begin(), { "crossings", crossingSeconds });
+  PartitionConstraints inserted(points, result.Constraints.Pieces);
+  TriangulationOptions own = options;
+  own.MaximumEdge = 0; // triangles are left out at the end
+  own.MakeEditor = [&inserted](double factor) { return inserted.makeEditor(factor); };
+  phases.push_back({ "pieces", watch.restart() });
+  result.Mesh = triangulate(points, own);
+  auto& all = result.Mesh.Statistics.Phases;
+  all.insert(all.begin(), phases.begin(), phases.end());
   if (!result.Mesh.Aborted)
   {
     watch.restart();
-    constrain(points, result.Mesh, result.Constraints.Pieces, threads);
-    phases.push_back({ "constraints", watch.seconds() });
+    constrain(points, result.Mesh, result.Constraints.Pieces, inserted, threads);
+    dropLong(points, options.MaximumEdge, result.Mesh);
+    all.push_back({ "constraints", watch.seconds() });
   }
   return result;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Dem/DemBands.h"
 
+#include "Points/ElevationColumn.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,7 +19,8 @@ constexpr const char* elevation = "elevation";
 const std::map<std::string, DemBand::Kind>& derivedKinds()
 {
   static const std::map<std::string, DemBand::Kind> kinds = { { "slope", DemBand::Kind::Slope },
-    { "aspect", DemBand::Kind::Aspect }, { "hillshade", DemBand::Kind::Hillshade } };
+    { "aspect", DemBand::Kind::Aspect }, { "hillshade", DemBand::Kind::Hillshade },
+    { "void", DemBand::Kind::Void } };
   return kinds;
 }
 
@@ -30,20 +33,6 @@ double degrees(double radians)
 std::size_t find(const std::vector<std::string>& columns, const std::string& name)
 {
   return std::size_t(std::find(columns.begin(), columns.end(), name) - columns.begin());
-}
-
-/// The end if there is none.
-std::size_t findElevation(const std::vector<std::string>& columns)
-{
-  for (const char* const name : { "z", "Z", elevation })
-  {
-    const std::size_t at = find(columns, name);
-    if (at < columns.size())
-    {
-      return at;
-    }
-  }
-  return columns.size();
 }
 
 [[noreturn]] void failToFind(const std::string& name, const std::vector<std::string>& columns)
@@ -118,9 +107,9 @@ DemBands findBands(const std::vector<std::string>& bands, const std::vector<std:
     const auto derived = derivedKinds().find(name);
     const bool isColumn = derived == derivedKinds().end();
     band.Is = isColumn ? DemBand::Kind::Column : derived->second;
-    const bool needsElevation = !isColumn || name == elevation;
+    const bool needsElevation = (!isColumn && band.Is != DemBand::Kind::Void) || name == elevation;
     band.Column = needsElevation ? found.Elevation : find(columns, name);
-    if (band.Column >= columns.size())
+    if (band.Is != DemBand::Kind::Void && band.Column >= columns.size())
     {
       failToFind(needsElevation ? "z" : name, columns);
     }
@@ -139,11 +128,25 @@ std::vector<std::string> DemBands::names() const
   return names;
 }
 
+void fillVoids(const DemBands& bands, std::vector<std::vector<double>>& values)
+{
+  for (std::size_t i = 0; i < bands.Bands.size(); ++i)
+  {
+    if (bands.Bands[i].Is == DemBand::Kind::Void)
+    {
+      std::replace_if(
+        values[i].begin(), values[i].end(), [](double value) { return std::isnan(value); }, 1.0);
+    }
+  }
+}
+
 double derivedValue(DemBand::Kind kind, const std::array<std::array<double, 3>, 3>& corners)
 {
   const Gradient gradient(corners);
   switch (kind)
   {
+    case DemBand::Kind::Void:
+      return 0;
     case DemBand::Kind::Slope:
       return degrees(std::atan(std::hypot(gradient.X, gradient.Y)));
     case DemBand::Kind::Aspect:

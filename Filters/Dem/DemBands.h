@@ -17,10 +17,11 @@ struct DemBand
 {
   enum class Kind
   {
-    Column,   ///< a column of the points, linear in each triangle
-    Slope,    ///< of the triangle, in degrees
-    Aspect,   ///< where it descends to, in degrees from the north, clockwise; NaN where it is flat
-    Hillshade ///< 1 to 255, the light coming from the north-west at 45 degrees
+    Column,    ///< a column of the points, linear in each triangle
+    Slope,     ///< of the triangle, in degrees
+    Aspect,    ///< where it descends to, in degrees from the north, clockwise; NaN where it is flat
+    Hillshade, ///< 1 to 255, the light coming from the north-west at 45 degrees
+    Void       ///< 0; where there is no triangle 1, see fillVoids()
   };
   std::string Name;
   Kind Is = Kind::Column;
@@ -44,6 +45,9 @@ struct DemBands
 };
 VTKTIPPFILTERS_EXPORT DemBands findBands(
   const std::vector<std::string>& bands, const std::vector<std::string>& columns);
+
+/// Sets the values of Kind::Void where there is no triangle, which are NaN before.
+void fillVoids(const DemBands& bands, std::vector<std::vector<double>>& values);
 
 /// The value of a band that is not a column, in the triangle of these corners (x, y, z), in any
 /// order.

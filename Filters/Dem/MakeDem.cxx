@@ -99,6 +99,7 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   {
     throw std::runtime_error("there is no point with finite coordinates.");
   }
+  requireElevation(request.Duplicates, columns);
   settings = makeTerrainSettings(request, bounds, columns);
   requireMemory(settings);
   DemFigures figures;
@@ -107,8 +108,9 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   options.Threads = request.Threads;
   options.MaximumEdge = request.MaximumEdge;
   options.Progress = [&progress](double done) { return !progress || progress(0.5 * done); };
-  const Triangulation triangulation =
-    triangulate(PointsView(points.XY.data(), points.size(), 2), options);
+  const Triangulation triangulation = request.Constraints
+    ? std::move(triangulateTable(points, *request.Constraints, options).Mesh)
+    : triangulate(PointsView(points.XY.data(), points.size(), 2), options);
   figures.Triangles = std::int64_t(triangulation.triangleCount());
   figures.Duplicates = std::int64_t(triangulation.Duplicates.size());
   figures.Rejected = std::int64_t(triangulation.Rejected.size());
@@ -117,10 +119,12 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   {
     return figures;
   }
+  figures.DisagreeingPlaces =
+    resolveDuplicates(points, triangulation.Duplicates, request.Duplicates);
   const std::vector<double> xyz = takeXYZ(points, settings.Bands);
   TerrainPoints terrain;
   terrain.XYZ = xyz.data();
-  terrain.Count = figures.Points;
+  terrain.Count = std::int64_t(xyz.size() / 3); // with those of the constraints
   for (const PointTable::Column& column : points.Columns)
   {
     terrain.Columns.push_back(column.Values.data());
@@ -149,7 +153,7 @@ ReadTile readFrom(const RasterGrid& grid, const SampledBands& samples)
 }
 
 std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid, const ReadTile& readTile,
-  const std::function<bool(double)>& progress)
+  const std::function<bool(double)>& progress, const DemBands& bands)
 {
   std::vector<std::vector<double>> values;
   std::int64_t filled = 0;
@@ -164,14 +168,15 @@ std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid, const Read
         return;
       }
       readTile(window, values);
-      std::vector<const double*> bands;
-      for (const std::vector<double>& band : values)
-      {
-        bands.push_back(band.data());
-      }
-      writer.write(window, bands);
       filled += std::count_if(values.front().begin(), values.front().end(),
         [](double value) { return !std::isnan(value); });
+      fillVoids(bands, values);
+      std::vector<const double*> rows;
+      for (const std::vector<double>& band : values)
+      {
+        rows.push_back(band.data());
+      }
+      writer.write(window, rows);
       done += window.Columns * window.Rows;
     });
   return isWanted ? filled : -1;

@@ -2,7 +2,9 @@
 #ifndef tippMakeDem_h
 #define tippMakeDem_h
 
+#include "Constraints/TableConstraints.h"
 #include "Dem/TerrainSampler.h"
+#include "Duplicates/ResolveDuplicates.h"
 #include "Points/PointTable.h"
 #include "Predicates/Box2.h"
 #include "Raster/RasterFile.h"
@@ -10,6 +12,7 @@
 #include "vtkTIPPFiltersModule.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +26,8 @@ struct DemRequest
   std::vector<std::string> Bands = { "elevation" };
   double MaximumEdge = 0; ///< triangles with a longer one are void; 0: none are
   int Threads = 0;        ///< 0: OpenMP's choice
+  DuplicateRule Duplicates = DuplicateRule::First;
+  std::optional<TableConstraints> Constraints; ///< breaklines and a boundary
 };
 
 /// Of points with these columns between these bounds. Throws std::runtime_error.
@@ -34,12 +39,14 @@ struct DemFigures
   std::int64_t Points = 0;
   std::int64_t Triangles = 0;
   std::int64_t Duplicates = 0;
-  std::int64_t Rejected = 0; ///< points that are not finite
+  std::int64_t DisagreeingPlaces = 0; ///< of several points with different elevations
+  std::int64_t Rejected = 0;          ///< points that are not finite
   bool Aborted = false;
 };
 
 /// A raster of points in memory: triangulates them and samples the triangles, as two steps would.
-/// Takes the points' memory. Throws std::runtime_error if there is no finite point.
+/// Takes the points' memory. Throws std::runtime_error if there is no finite point, and
+/// std::invalid_argument for constraints.
 VTKTIPPFILTERS_EXPORT DemFigures makeDem(PointTable points, const DemRequest& request,
   const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples);
 
@@ -49,10 +56,12 @@ using ReadTile = std::function<void(const RasterWindow&, std::vector<std::vector
 /// One that reads from samples of a whole grid.
 VTKTIPPFILTERS_EXPORT ReadTile readFrom(const RasterGrid& grid, const SampledBands& samples);
 
-/// Writes all tiles, in the order that makes equal files of equal values. Returns the pixels whose
-/// first band has a value, or -1 if `progress` ended it. Throws IOError.
+/// Writes all tiles, in the order that makes equal files of equal values. `bands`: those whose
+/// voids are to be filled, see fillVoids(). Returns the pixels whose first band has a value from a
+/// triangle, or -1 if `progress` ended it. Throws IOError.
 VTKTIPPFILTERS_EXPORT std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid,
-  const ReadTile& readTile, const std::function<bool(double)>& progress);
+  const ReadTile& readTile, const std::function<bool(double)>& progress,
+  const DemBands& bands = {});
 
 } // namespace tipp
 

@@ -28,16 +28,26 @@ struct BorderSample
   std::uint64_t Key;
 };
 
-/// The samples whose centres may lie from low to high, and one more on either side for roundings.
+/// The samples whose centres may lie from low to high, with a margin for roundings.
 std::pair<std::int64_t, std::int64_t> samplesBetween(
-  double low, double high, double origin, double size, std::int64_t count)
+  double low, double high, double origin, double size, double margin, std::int64_t count)
 {
   const double last = double(count - 1);
-  const double first = std::floor((low - origin) / size - 0.5) - 1;
-  const double end = std::ceil((high - origin) / size - 0.5) + 1;
-  // In this order of arguments NaN gives no samples.
-  return { std::int64_t(std::min(std::max(0.0, first), last + 1)),
-    std::int64_t(std::max(-1.0, std::min(last, end))) };
+  const double first = (low - origin) / size - 0.5 - margin;
+  const double end = (high - origin) / size - 0.5 + margin;
+  // In this order of arguments NaN gives no samples. Numbers below 0 are rounded to it.
+  const auto ceiled = [](double value)
+  { return std::int64_t(value) + (double(std::int64_t(value)) < value ? 1 : 0); };
+  return { ceiled(std::min(std::max(0.0, first), last + 1)),
+    end >= 0 ? std::int64_t(std::min(last, end)) : -1 };
+}
+
+/// How far roundings may move a coordinate, in samples.
+double marginOf(double origin, double size, std::int64_t count)
+{
+  constexpr double rounding = 0x1p-50;
+  const double largest = std::max(std::fabs(origin), std::fabs(origin + size * double(count)));
+  return 1e-6 + rounding * largest / size;
 }
 
 } // namespace
@@ -71,17 +81,32 @@ struct RasterSink::Part
   std::string Border;                                          ///< BorderSamples and their values
 };
 
-RasterSink::RasterSink(std::string identity, MakeSettings makeSettings, WriteRaster writeRaster)
-  : Identity(std::move(identity))
-  , Make(std::move(makeSettings))
+RasterSink::RasterSink(MakeSettings makeSettings, WriteRaster writeRaster)
+  : Make(std::move(makeSettings))
   , Write(std::move(writeRaster))
 {
+}
+
+std::uint64_t RasterSink::fileBytes(
+  const Box2& bounds, const std::vector<std::string>& columns) const
+{
+  const TerrainSettings settings = this->Make(bounds, columns);
+  return sizeof(double) * std::uint64_t(settings.Grid.Columns) * std::uint64_t(settings.Grid.Rows) *
+    settings.Bands.Bands.size();
+}
+
+void RasterSink::findMargins()
+{
+  const RasterGrid& grid = this->Settings.Grid;
+  this->Margins = { marginOf(grid.West, grid.Pixel[0], grid.Columns),
+    marginOf(grid.South, grid.Pixel[1], grid.Rows) };
 }
 
 void RasterSink::begin(
   const Box2& bounds, const std::vector<std::string>& columns, const std::string& files)
 {
   this->Settings = this->Make(bounds, columns);
+  this->findMargins();
   this->Files = files;
   this->Store = std::make_unique<TileStore>(
     files + ".pixels", this->Settings.Grid, this->Settings.Bands.Bands.size());
@@ -106,8 +131,12 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
   part.Points.Columns.resize(part.Columns.size());
   for (const DemBand& band : bands.Bands)
   {
+    if (band.Is != DemBand::Kind::Column)
+    {
+      continue;
+    }
     std::vector<double>& column = part.Columns[band.Column];
-    if (band.Is == DemBand::Kind::Column && column.empty())
+    if (column.empty())
     {
       column.resize(points);
       for (std::size_t i = 0; i < points; ++i)
@@ -139,9 +168,9 @@ void RasterSink::addTriangle(Part& part, const std::int32_t* corners) const
   const double* const b = &part.XYZ[3 * std::size_t(corners[1])];
   const double* const c = &part.XYZ[3 * std::size_t(corners[2])];
   const auto [column, lastColumn] = samplesBetween(std::min({ a[0], b[0], c[0] }),
-    std::max({ a[0], b[0], c[0] }), grid.West, grid.Pixel[0], grid.Columns);
+    std::max({ a[0], b[0], c[0] }), grid.West, grid.Pixel[0], this->Margins[0], grid.Columns);
   const auto [row, lastRow] = samplesBetween(std::min({ a[1], b[1], c[1] }),
-    std::max({ a[1], b[1], c[1] }), grid.South, grid.Pixel[1], grid.Rows);
+    std::max({ a[1], b[1], c[1] }), grid.South, grid.Pixel[1], this->Margins[1], grid.Rows);
   if (column > lastColumn || row > lastRow)
   {
     return;

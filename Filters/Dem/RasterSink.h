@@ -6,6 +6,8 @@
 #include "Dem/TileStore.h"
 #include "OutOfCore/TriangleTaker.h"
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -26,9 +28,15 @@ public:
   using WriteRaster = std::function<bool(const TerrainSettings& settings, const ReadTile& readTile,
     const std::function<bool(double)>& progress)>;
 
-  RasterSink(std::string identity, MakeSettings makeSettings, WriteRaster writeRaster);
+  /// `writeRaster` is called on the first rank.
+  RasterSink(MakeSettings makeSettings, WriteRaster writeRaster);
+
+  /// Of what else than the points must be the same in a resumed run; on the first rank.
+  void setIdentity(const std::string& identity) { this->Identity = identity; }
 
   std::string identity() const override { return this->Identity; }
+  std::uint64_t fileBytes(
+    const Box2& bounds, const std::vector<std::string>& columns) const override;
   void begin(
     const Box2& bounds, const std::vector<std::string>& columns, const std::string& files) override;
   void take(const std::string& name, const double* rows, const PointRowLayout& layout,
@@ -39,15 +47,17 @@ private:
   struct Part;
   struct Tile;
 
+  void findMargins();
   void addTriangle(Part& part, const std::int32_t* corners) const;
   void sampleTile(Part& part, const Tile& tile) const;
   void saveBorder(const Part& part, const std::string& name) const;
   void answerBorders();
 
-  const std::string Identity;
+  std::string Identity;
   const MakeSettings Make;
   const WriteRaster Write;
   TerrainSettings Settings;
+  std::array<double, 2> Margins{}; ///< along x and y, how far roundings may move a coordinate
   std::string Files;
   std::unique_ptr<TileStore> Store;
 };

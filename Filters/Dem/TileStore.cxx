@@ -68,12 +68,47 @@ std::uint64_t TileStore::offset(std::int64_t column, std::int64_t row, std::size
     ((std::uint64_t(tile) * this->Bands + band) * tilePixels + std::uint64_t(pixel));
 }
 
-std::mutex& TileStore::mutexOf(std::int64_t column, std::int64_t row)
+/// Keeps other threads and processes away from the tile of a pixel.
+class TileStore::Lock
 {
-  const std::int64_t fromNorth = this->Grid.Rows - 1 - row;
-  const auto mixed = std::uint64_t(fromNorth / RasterTileSize * 7 + column / RasterTileSize);
-  return this->Mutexes[mixed % this->Mutexes.size()];
-}
+public:
+  Lock(const TileStore& store, std::int64_t column, std::int64_t row)
+    : Store(store)
+    , Begin(store.offset(column / RasterTileSize * RasterTileSize,
+        store.Grid.Rows - 1 - (store.Grid.Rows - 1 - row) / RasterTileSize * RasterTileSize, 0))
+    , Length(sizeof(double) * std::uint64_t(tilePixels) * store.Bands)
+    , Thread(store.Mutexes[this->Begin / this->Length % store.Mutexes.size()])
+  {
+    if (!this->setFileLock(F_WRLCK))
+    {
+      failToWrite(store.Path);
+    }
+  }
+  ~Lock() { this->setFileLock(F_UNLCK); }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+private:
+  bool setFileLock(short type) const
+  {
+    struct flock lock = {};
+    lock.l_type = type;
+    lock.l_whence = SEEK_SET;
+    lock.l_start = off_t(this->Begin);
+    lock.l_len = off_t(this->Length);
+    int result = 0;
+    do
+    {
+      result = fcntl(this->Store.Descriptor, F_SETLKW, &lock);
+    } while (result < 0 && errno == EINTR);
+    return result == 0;
+  }
+
+  const TileStore& Store;
+  const std::uint64_t Begin;
+  const std::uint64_t Length;
+  const std::lock_guard<std::mutex> Thread;
+};
 
 /// As stored; what lies beyond the end of the file is 0.
 void TileStore::readAt(std::uint64_t offset, double* values, std::size_t count) const
@@ -126,7 +161,7 @@ void TileStore::writeAt(std::uint64_t offset, const double* values, std::size_t 
 void TileStore::set(const RasterWindow& window, const std::vector<unsigned char>& isSet,
   const std::vector<std::vector<double>>& values)
 {
-  const std::lock_guard<std::mutex> lock(this->mutexOf(window.Column, window.Row));
+  const Lock lock(*this, window.Column, window.Row);
   const auto width = std::size_t(window.Columns);
   // Its rows lie one after the other, the northernmost first.
   const std::size_t stored = std::size_t(window.Rows - 1) * std::size_t(RasterTileSize) + width;
@@ -156,7 +191,7 @@ void TileStore::setIfMissing(std::int64_t pixel, const double* values)
 {
   const std::int64_t column = pixel % this->Grid.Columns;
   const std::int64_t row = pixel / this->Grid.Columns;
-  const std::lock_guard<std::mutex> lock(this->mutexOf(column, row));
+  const Lock lock(*this, column, row);
   std::uint64_t bits = 0;
   double word = 0;
   this->readAt(this->offset(column, row, 0), &word, 1);
@@ -171,6 +206,7 @@ void TileStore::setIfMissing(std::int64_t pixel, const double* values)
 
 void TileStore::read(const RasterWindow& tile, std::vector<std::vector<double>>& values) const
 {
+  const Lock lock(*this, tile.Column, tile.Row);
   const auto width = std::size_t(tile.Columns);
   values.resize(this->Bands);
   for (std::size_t band = 0; band < this->Bands; ++band)

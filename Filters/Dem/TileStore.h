@@ -15,8 +15,8 @@ namespace tipp
 {
 
 /// The pixels of a raster in a file on disk, tile by tile, so that few of them are in memory.
-/// Pixels without a value take no space. Values may be set by several threads at once, and again
-/// after the process was killed, to the same values.
+/// Pixels without a value take no space. Values may be set by several threads and processes at
+/// once, and again after a process was killed, to the same values.
 class VTKTIPPFILTERS_EXPORT TileStore
 {
 public:
@@ -39,7 +39,7 @@ public:
 
 private:
   std::uint64_t offset(std::int64_t column, std::int64_t row, std::size_t band) const;
-  std::mutex& mutexOf(std::int64_t column, std::int64_t row);
+  class Lock;
   void readAt(std::uint64_t offset, double* values, std::size_t count) const;
   void writeAt(std::uint64_t offset, const double* values, std::size_t count) const;
 
@@ -47,7 +47,7 @@ private:
   const RasterGrid Grid;
   const std::size_t Bands;
   int Descriptor;
-  std::array<std::mutex, 64> Mutexes; ///< each of some tiles
+  mutable std::array<std::mutex, 64> Mutexes; ///< each of some tiles
 };
 
 } // namespace tipp

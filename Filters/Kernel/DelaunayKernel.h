@@ -68,6 +68,8 @@ public:
 
   /// All triangles, including those at the infinite vertex.
   const HalfEdgeMesh& mesh() const { return this->Mesh; }
+  /// After a change only clear() may follow.
+  HalfEdgeMesh& meshToEdit() { return this->Mesh; }
   bool isInfinite(Index triangle) const
   {
     const Index* v = this->Mesh.slots() + triangle;

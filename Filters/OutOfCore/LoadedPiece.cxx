@@ -281,6 +281,24 @@ void LoadedPiece::dropLong()
   }
 }
 
+/// Gives representatives the values of their places; `figures` counts the places that disagree.
+void LoadedPiece::resolveDuplicates(PieceFigures& figures)
+{
+  std::vector<Duplicate> duplicates;
+  for (const auto& [point, representative] : this->Representatives)
+  {
+    duplicates.push_back({ point, representative });
+  }
+  std::vector<ValueColumn> columns;
+  const std::size_t words = this->Work.Rows.Words;
+  for (std::size_t word = 2; word + 1 < words; ++word)
+  {
+    columns.push_back({ this->Rows.data() + word, words });
+  }
+  figures.DisagreeingPlaces += tipp::resolveDuplicates(
+    std::move(duplicates), columns, this->Work.Elevation, this->Work.Duplicates);
+}
+
 GrowingPiece LoadedPiece::writeInterior()
 {
   if (this->Work.MaximumEdge > 0)
@@ -314,6 +332,7 @@ GrowingPiece LoadedPiece::writeInterior()
 
 PieceResult LoadedPiece::write()
 {
+  this->resolveDuplicates(this->Result.Figures);
   this->Result.Interior = this->writeInterior();
   this->Rows = Buffer<double>();
   this->Buckets = PointBuckets<std::int32_t>();
@@ -331,6 +350,7 @@ FinishedPiece LoadedPiece::writePointsAlone(PieceFigures& figures)
   }
   this->take(duplicates);
   figures.Duplicates += std::int64_t(duplicates.size());
+  this->resolveDuplicates(figures);
   return this->writeInterior().writeBorder(
     this->Work.Mesh, this->Work.Plan.number(this->Piece), this->Work.Rows);
 }
@@ -347,6 +367,7 @@ bool LoadedPiece::triangulateAlone(
   this->take(worker.duplicates());
   figures.Duplicates = std::int64_t(worker.duplicates().size());
   figures.WorkerVertices = std::int64_t(worker.vertexCount());
+  this->resolveDuplicates(figures);
   finished =
     this->writeInterior().writeBorder(this->Work.Mesh, this->Work.Plan.number(0), this->Work.Rows);
   return true;

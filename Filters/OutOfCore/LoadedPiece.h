@@ -82,6 +82,7 @@ private:
   bool owns(const SeamVertex& v) const;
   void markRim(const SeamVertex& v);
   void dropLong();
+  void resolveDuplicates(PieceFigures& figures);
   GrowingPiece writeInterior();
 
   const PieceWork& Work;

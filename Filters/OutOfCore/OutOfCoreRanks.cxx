@@ -120,12 +120,15 @@ void help(Postbox& ranks, const OpenPoints& open, const OutOfCoreOptions& option
   requireSharedFolder(ranks, "");
   requireSharedFolder(ranks, "");
   PreparedRun prepared;
+  prepared.Taker = options.Taker;
   prepared.MaximumEdge = options.MaximumEdge;
+  prepared.Duplicates = options.Duplicates;
   std::vector<char> isDone;
   if (!receivePrepared(ranks, open, options, prepared, isDone))
   {
     return;
   }
+  prepared.beginTaking();
   const auto progress = [&](std::int64_t done)
   { return !options.Progress || options.Progress(double(done) / double(prepared.Survey.Points)); };
   const MemoryPlan memory(options, prepared.Rows.Words);

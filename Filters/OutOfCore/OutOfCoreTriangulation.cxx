@@ -70,6 +70,7 @@ public:
     this->Prepared.Results = this->Scratch.results();
     this->Prepared.Taker = options.Taker;
     this->Prepared.MaximumEdge = options.MaximumEdge;
+    this->Prepared.Duplicates = options.Duplicates;
   }
 
   OutOfCoreStatistics run()
@@ -88,7 +89,7 @@ public:
       }
       if (!this->IsWhole)
       {
-        this->beginTaking();
+        this->Prepared.beginTaking();
         this->triangulate();
         this->endTaking();
         this->Options.CountOnly ? this->count() : this->publish();
@@ -232,23 +233,22 @@ private:
 
   void planMemory(std::size_t words)
   {
-    // A taker copies coordinates and triangles of the piece that it is given.
-    const std::size_t more = this->Options.Taker ? 8 : 0;
-    this->Memory = std::make_unique<MemoryPlan>(this->Options, words + more);
-    this->Memory->LoadedBytes = this->Memory->LoadedBytes /
-      MemoryPlan::pieceBytes(1, words + more) * MemoryPlan::pieceBytes(1, words);
+    this->Memory = std::make_unique<MemoryPlan>(this->Options, words);
   }
 
   /// What tells that it is the same run.
   std::string identity() const
   {
     const OutOfCoreOptions& options = this->Options;
-    return "TIPP out of core 8\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
+    return "TIPP out of core 9\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
       std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
       std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
       (options.Neighbors ? " linked" : "") + (options.CountOnly ? " counted" : "") +
-      (options.MaximumEdge > 0 ? " edges " + exactText(options.MaximumEdge) : "") + "\n" +
-      (options.Taker ? options.Taker->identity() : "") + "\n" + options.Scratch;
+      (options.MaximumEdge > 0 ? " edges " + exactText(options.MaximumEdge) : "") +
+      (options.Duplicates != DuplicateRule::First
+          ? " duplicates " + std::to_string(int(options.Duplicates))
+          : "") +
+      "\n" + (options.Taker ? options.Taker->identity() : "") + "\n" + options.Scratch;
   }
 
   void savePlan()
@@ -275,10 +275,12 @@ private:
           this->tell(0);
         })).survey();
     this->Statistics.LeftOut = this->Input.leftOut();
+    this->Statistics.ThinnedOut = this->Input.thinnedOut();
     this->Prepared.describeColumns(
       this->Input.columns(), this->Options.MapDuplicates, this->Options.Neighbors);
     const std::size_t words = this->Prepared.Rows.Words;
     this->planMemory(words);
+    requireElevation(this->Options.Duplicates, this->Input.columns());
     if (survey.Points == survey.Rejected)
     {
       throw IOError("There is no point with finite coordinates in the input, so nothing to write.");
@@ -323,7 +325,7 @@ private:
       points * (24 + 8 + 1 + 8 * this->Prepared.Rows.Attributes.size() + 2 * cell) / 50 * 51;
     constexpr std::uint64_t results = 4; // of pieces of 30,000 points
     this->Scratch.requireSpace(this->Path, this->Options.CountOnly ? 0 : stored,
-      points * (8 * this->Prepared.Rows.Words + results + more));
+      points * (8 * this->Prepared.Rows.Words + results + more) + this->Prepared.takenBytes());
   }
 
   void spill()
@@ -429,18 +431,6 @@ private:
     if (!isGoingOn)
     {
       throw Aborted();
-    }
-  }
-
-  void beginTaking()
-  {
-    if (this->Options.Taker)
-    {
-      const InputSurvey& survey = this->Prepared.Survey;
-      const double factor = survey.Factor;
-      this->Options.Taker->begin({ survey.Bounds.xmin / factor, survey.Bounds.ymin / factor,
-                                   survey.Bounds.xmax / factor, survey.Bounds.ymax / factor },
-        this->Input.columns(), this->Scratch.results());
     }
   }
 

@@ -2,6 +2,7 @@
 #ifndef tippOutOfCoreTriangulation_h
 #define tippOutOfCoreTriangulation_h
 
+#include "Duplicates/ResolveDuplicates.h"
 #include "OutOfCore/PieceFigures.h"
 #include "Points/PointStream.h"
 #include "vtkTIPPFiltersModule.h"
@@ -26,6 +27,8 @@ struct OutOfCoreOptions
   std::int64_t PiecePoints = 0;     ///< about so many points a piece; 0: as memory allows
   std::int64_t PartitionPoints = 0; ///< about so many points for a worker at once; 0: chosen
   double MaximumEdge = 0;           ///< triangles with a longer edge are left out; 0: none are
+  /// Which values a place of several points has.
+  DuplicateRule Duplicates = DuplicateRule::First;
   /// Adds the point array RepresentativePointId.
   bool MapDuplicates = false;
   /// Adds the cell array NeighborIds.
@@ -57,6 +60,7 @@ struct OutOfCoreStatistics : PieceFigures
   std::uint64_t TriangleSum = 0; ///< where they are only counted: of GrowingPiece::hashTriangle()
   std::int64_t Rejected = 0;
   std::int64_t LeftOut = 0; ///< points that the options of the input have left out
+  std::int64_t ThinnedOut = 0;
   std::int64_t Pieces = 0;
   std::int64_t Partitions = 0;
   std::uint64_t SpilledBytes = 0;

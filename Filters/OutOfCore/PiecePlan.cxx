@@ -40,8 +40,10 @@ std::uint64_t MemoryPlan::pieceBytes(std::int64_t points, std::size_t rowWords)
   return std::uint64_t(points) * (8 * rowWords + 24 + 4 + 1);
 }
 
-MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords)
+MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t words)
 {
+  // A taker copies coordinates and triangles of the piece that it is given.
+  const std::size_t rowWords = words + (options.Taker ? 8 : 0);
   // Of the two phases each has its share; the rest is for kernels and boundaries.
   const std::uint64_t share = options.MemoryLimit / 5 * 2;
   // Two blocks of points, their labels and rows by piece.
@@ -50,7 +52,7 @@ MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords)
   this->BlockPoints = std::clamp<std::size_t>(std::size_t(share) / perPoint, 1 << 14, mostPoints);
   this->SamplePoints = std::clamp<std::size_t>(
     std::size_t(options.MemoryLimit / 512), std::size_t(1) << 14, std::size_t(1) << 20);
-  this->LoadedBytes = share;
+  this->LoadedBytes = share / pieceBytes(1, rowWords) * pieceBytes(1, words);
   // One that is written, two that are worked on and one that is loaded; never mind the threads, so
   // that the pieces are the same for any number of them.
   constexpr std::uint64_t together = 4;

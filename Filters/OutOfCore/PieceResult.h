@@ -2,6 +2,7 @@
 #ifndef tippPieceResult_h
 #define tippPieceResult_h
 
+#include "Duplicates/ResolveDuplicates.h"
 #include "Engine/Inbox.h"
 #include "OutOfCore/PieceFigures.h"
 #include "OutOfCore/PiecePlan.h"
@@ -31,6 +32,8 @@ struct PieceWork
   std::string Results;            ///< how the paths of pieces' results begin
   TriangleTaker* Taker = nullptr; ///< null: triangles go to the mesh
   double MaximumEdge = 0;         ///< triangles with a longer edge are left out; 0: none are
+  DuplicateRule Duplicates = DuplicateRule::First;
+  std::size_t Elevation = 0; ///< among the columns of rows; their number if there is none
 
   std::string resultPath(PartitionIndex piece) const
   {

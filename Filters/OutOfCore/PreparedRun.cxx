@@ -21,6 +21,7 @@ void PreparedRun::exchangeInput(Archive& archive)
   archive(this->Survey.Bounds);
   archive(this->Survey.Factor);
   archive(this->Survey.Collinear);
+  archive(this->Columns);
   archive(this->Rows.Words);
   archive(this->Rows.Z);
   archive(this->Rows.Attributes);
@@ -62,6 +63,7 @@ void PreparedRun::load(LoadArchive& archive, const std::string& points)
 void PreparedRun::describeColumns(
   const std::vector<std::string>& columns, bool mapDuplicates, bool hasNeighbors)
 {
+  this->Columns = columns;
   this->Rows.Words = 3 + columns.size();
   for (std::size_t i = 0; i < columns.size(); ++i)
   {
@@ -96,6 +98,25 @@ void PreparedRun::describeMesh()
   {
     mesh.Pieces[this->Plan->number(piece)].Box = this->boundsOf(this->Plan->Pieces.box(piece));
   }
+}
+
+Box2 PreparedRun::inputBounds() const
+{
+  const Bounds bounds = this->boundsOf(this->Survey.Bounds);
+  return { bounds[0], bounds[2], bounds[1], bounds[3] };
+}
+
+void PreparedRun::beginTaking() const
+{
+  if (this->Taker)
+  {
+    this->Taker->begin(this->inputBounds(), this->Columns, this->Results);
+  }
+}
+
+std::uint64_t PreparedRun::takenBytes() const
+{
+  return this->Taker ? this->Taker->fileBytes(this->inputBounds(), this->Columns) : 0;
 }
 
 Bounds PreparedRun::boundsOf(const Box2& box) const

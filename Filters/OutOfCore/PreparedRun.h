@@ -7,7 +7,9 @@
 #include "OutOfCore/PieceResult.h"
 #include "OutOfCore/SpillPoints.h"
 #include "Partitioned/PartitionedMesh.h"
+#include "Points/ElevationColumn.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,11 +32,18 @@ public:
   /// `points`: the file they are spilled to. Throws IOError if it is not that one.
   void load(LoadArchive& archive, const std::string& points);
 
+  /// Has the taker, if there is one, begin.
+  void beginTaking() const;
+
   PieceWork work() const
   {
     return { *this->Plan, *this->Spilled, this->Survey.Factor, this->Rows, this->Mesh,
-      this->Results, this->Taker, this->MaximumEdge };
+      this->Results, this->Taker, this->MaximumEdge, this->Duplicates,
+      findElevation(this->Columns) };
   }
+
+  /// Of what the taker keeps on disk.
+  std::uint64_t takenBytes() const;
 
   InputSurvey Survey;
   PointRowLayout Rows;
@@ -42,6 +51,8 @@ public:
   std::string Results; ///< how the paths of pieces' results begin
   TriangleTaker* Taker = nullptr;
   double MaximumEdge = 0;
+  DuplicateRule Duplicates = DuplicateRule::First;
+  std::vector<std::string> Columns; ///< of the input, beside x and y
   std::unique_ptr<PiecePlan> Plan;
   std::unique_ptr<SpilledPoints> Spilled;
 
@@ -49,6 +60,7 @@ private:
   template <typename Archive>
   void exchangeInput(Archive& archive);
   Bounds boundsOf(const Box2& box) const;
+  Box2 inputBounds() const;
 };
 
 } // namespace tipp

@@ -6,6 +6,7 @@
 #include "Predicates/Box2.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -23,8 +24,12 @@ public:
   /// What tells that it does the same in another run.
   virtual std::string identity() const = 0;
 
-  /// Before the first triangles, when the points are known. `files`: how the paths of files begin
-  /// that stay until the end of the run.
+  /// About how many bytes of disk it needs where its files are.
+  virtual std::uint64_t fileBytes(
+    const Box2& bounds, const std::vector<std::string>& columns) const = 0;
+
+  /// Before the first triangles, when the points are known; on all ranks. `files`: how the paths of
+  /// files begin that stay until the end of the run; all ranks see them.
   virtual void begin(
     const Box2& bounds, const std::vector<std::string>& columns, const std::string& files) = 0;
 
@@ -33,7 +38,7 @@ public:
   virtual void take(const std::string& name, const double* rows, const PointRowLayout& layout,
     std::size_t points, const std::vector<GrowingPiece::Corners>& triangles) = 0;
 
-  /// When all are taken. False if `progress` ended it.
+  /// When all are taken; on the first rank. False if `progress` ended it.
   virtual bool end(const std::function<bool(double)>& progress) = 0;
 };
 

@@ -126,6 +126,7 @@ private:
     this->Result.Statistics.Partitions = 1;
     TriangleSink<Id> sink(this->Buckets);
     Worker<Id> worker(tiling, this->Buckets);
+    this->setEditor(worker);
     const double all = double(this->Buckets.size());
     this->Result.Aborted = !worker.triangulateAlone(
       [this, all](std::size_t inserted) { return this->report(double(inserted) / all); });
@@ -137,7 +138,7 @@ private:
     this->Result.Duplicates = worker.duplicates();
     this->Result.Statistics.WorkerVertices = std::int64_t(worker.vertexCount());
     this->endPhase("workers");
-    this->finish(sink, {}, nullptr);
+    this->finish(sink, {}, nullptr, tiling.domain());
   }
 
   /// The data that the threads of a run share.
@@ -216,13 +217,22 @@ private:
       repairHull(std::move(boundary.HullVertices), artificial, boundary);
       triangles.push_back(std::move(boundary.Triangles));
       this->endPhase("hull");
-      this->finish(sink, triangles, &regions);
+      this->finish(sink, triangles, &regions, tiling.domain());
+    }
+  }
+
+  void setEditor(Worker<Id>& worker) const
+  {
+    if (this->Options.MakeEditor)
+    {
+      worker.setEditor(this->Options.MakeEditor(this->Points.factor()));
     }
   }
 
   void workAsOneThread(Shared& shared, TriangleSink<Id>& sink, Contribution& part)
   {
     Worker<Id> worker(shared.Tiles, this->Buckets);
+    this->setEditor(worker);
     Routing<Id> routing(shared.Order, shared.Boxes);
     UniqueVertices unique;
     const DeliverMessage deliver = shared.deliver();
@@ -286,13 +296,10 @@ private:
 
   void finish(TriangleSink<Id>& sink,
     const std::vector<std::vector<typename TriangleSink<Id>::Seam>>& boundary,
-    const Regions* regions)
+    const Regions* regions, const Box2& domain)
   {
     Buffer<Id> ids = sink.assemble(boundary, this->PassThreads);
-    if (regions)
-    {
-      this->addBlocks(sink, *regions, ids.size() / 3);
-    }
+    this->addBlocks(sink, regions, domain, ids.size() / 3);
     preferLowestIds(ids, this->Result.Duplicates, this->PassThreads);
     idsOf<Id>(this->Result) = std::move(ids);
     this->endPhase("output");
@@ -301,7 +308,8 @@ private:
 
   /// Adds a block for each partition: its interior triangles lie in its region and are contiguous
   /// in the output.
-  void addBlocks(const TriangleSink<Id>& sink, const Regions& regions, std::size_t triangles)
+  void addBlocks(
+    const TriangleSink<Id>& sink, const Regions* regions, const Box2& domain, std::size_t triangles)
   {
     const double scale = 1 / this->Points.factor(); // a power of two
     for (PartitionIndex p = 0; p < this->Buckets.partitions(); ++p)
@@ -310,8 +318,8 @@ private:
       const std::size_t end = std::min(begin + sink.interiorCount(p), triangles);
       if (begin < end)
       {
-        const Box2& box = regions[p];
-        this->Result.Blocks.push_back({ begin, end,
+        const Box2& box = regions ? (*regions)[p] : domain;
+        this->Result.Blocks.push_back({ p, begin, end,
           { box.xmin * scale, box.ymin * scale, box.xmax * scale, box.ymax * scale } });
       }
     }

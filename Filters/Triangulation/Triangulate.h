@@ -5,10 +5,12 @@
 #include "Predicates/Box2.h"
 #include "Triangulation/Buffer.h"
 #include "Triangulation/PointsView.h"
+#include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,8 @@ namespace tipp
 /// use.
 using PointId = std::int64_t;
 
+class PartitionEditor;
+
 /// When partitions are started.
 enum class Schedule
 {
@@ -26,7 +30,7 @@ enum class Schedule
   Dynamic ///< a partition starts as soon as it is independent of all active ones
 };
 
-/// Options of triangulate(). Only MaximumEdge changes the set of triangles.
+/// Options of triangulate(). Only MaximumEdge and MakeEditor change the set of triangles.
 struct TriangulationOptions
 {
   int Columns = 0; ///< with Rows, a grid of partitions; 0: a tiling chosen for the points
@@ -37,6 +41,9 @@ struct TriangulationOptions
   /// Triangles with a longer edge are removed from the result, in the points' unit of length; 0:
   /// none.
   double MaximumEdge = 0;
+  /// Makes an editor of interior triangles, called once for each thread. Coordinates have been
+  /// multiplied by `factor`.
+  std::function<std::unique_ptr<PartitionEditor>(double factor)> MakeEditor;
   /// Called now and then with the finished fraction (0 to 1), by one thread at a time; returning
   /// false aborts the run.
   std::function<bool(double)> Progress;
@@ -73,6 +80,7 @@ struct TriangulationStatistics
 /// A range [Begin, End) of triangles that all lie in a box.
 struct TriangleBlock
 {
+  PartitionIndex Partition; ///< whose first interior triangles they are, in their order
   std::size_t Begin;
   std::size_t End;
   Box2 Box;

@@ -76,6 +76,8 @@ void Worker<Id>::triangulate(PartitionIndex partition, std::vector<SeamVertex>&&
   this->resolveDuplicates();
   boundary.begin(this->Kernel.vertexEnd());
   this->findBoundary(this->Boxes->box(partition), region, boundary);
+  this->nameVertices();
+  this->edit(partition);
   this->writeTriangles(
     bucket, [this](DelaunayKernel::Index t) { return !this->IsSeam[std::size_t(t / 8)]; });
   if (isLarge)
@@ -96,6 +98,16 @@ bool Worker<Id>::triangulateAlone(const DelaunayKernel::Monitor& proceed)
   }
   this->VertexCount = static_cast<std::size_t>(this->Kernel.vertexEnd()) - 1;
   this->resolveDuplicates();
+  this->nameVertices();
+  if (this->Editor)
+  {
+    this->IsSeam.resize(static_cast<std::size_t>(this->Kernel.mesh().end() / 8));
+    for (DelaunayKernel::Index t = 0; t < this->Kernel.mesh().end(); t += 8)
+    {
+      this->IsSeam[std::size_t(t / 8)] = this->Kernel.isInfinite(t) ? 1 : 0;
+    }
+    this->edit(0);
+  }
   this->writeTriangles(0, [this](DelaunayKernel::Index t) { return !this->Kernel.isInfinite(t); });
   return true;
 }
@@ -218,8 +230,7 @@ void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryTaker
 }
 
 template <typename Id>
-template <typename IsInterior>
-void Worker<Id>::writeTriangles(PartitionIndex bucket, const IsInterior& isInterior)
+void Worker<Id>::nameVertices()
 {
   // Each vertex has about six triangles, close together in memory; its point is anywhere in memory.
   const std::size_t own = this->Ids.size();
@@ -229,6 +240,22 @@ void Worker<Id>::writeTriangles(PartitionIndex bucket, const IsInterior& isInter
     const std::size_t place = this->Kernel.place(static_cast<DelaunayKernel::Index>(v));
     this->VertexIds[v] = place < own ? this->Ids[place] : Id(-1);
   }
+}
+
+template <typename Id>
+void Worker<Id>::edit(PartitionIndex partition)
+{
+  if (this->Editor)
+  {
+    this->Editor->edit(PartitionEditor::Partition<Id>{
+      partition, this->Kernel, this->VertexIds.data(), this->IsSeam.data() });
+  }
+}
+
+template <typename Id>
+template <typename IsInterior>
+void Worker<Id>::writeTriangles(PartitionIndex bucket, const IsInterior& isInterior)
+{
   const DelaunayKernel::Index* slots = this->Kernel.mesh().slots();
   const Id* ids = this->VertexIds.data();
   Id* const interior = this->Buckets.triangles(bucket);

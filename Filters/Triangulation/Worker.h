@@ -3,12 +3,14 @@
 #define tippWorker_h
 
 #include "Kernel/KernelPool.h"
+#include "Triangulation/PartitionEditor.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/SeamTriangles.h"
 #include "Triangulation/Triangulate.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -41,6 +43,9 @@ public:
   /// From now on, partition indices are those of `tiling`; its partition 0 is bucket `firstBucket`.
   void setTiling(const Tiling& tiling, PartitionIndex firstBucket);
 
+  /// Sets the editor of interior triangles, called before they are written; null: no editor.
+  void setEditor(std::unique_ptr<PartitionEditor> editor) { this->Editor = std::move(editor); }
+
   /// Triangulates the partition's points and `vertices`, which are the vertices, each once, of the
   /// triangles that meet its region. Overwrites these points with the interior triangles, whose
   /// order and number depend only on the partition's points, and passes the boundary triangles to
@@ -68,6 +73,8 @@ private:
   PartitionIndex bucket(PartitionIndex partition) const { return this->FirstBucket + partition; }
   void takeIds(PartitionIndex bucket);
   void resolveDuplicates();
+  void nameVertices();
+  void edit(PartitionIndex partition);
   void findBoundary(const Box2& box, const Box2& region, BoundaryTaker& boundary);
   template <typename IsInterior>
   void writeTriangles(PartitionIndex bucket, const IsInterior& isInterior);
@@ -76,6 +83,7 @@ private:
   PointBuckets<Id>& Buckets;
   const std::int64_t FirstId;
   PartitionIndex FirstBucket = 0;
+  std::unique_ptr<PartitionEditor> Editor;
   PooledKernel Pooled;
   DelaunayKernel& Kernel;
   std::vector<Id> Ids; ///< ids of the partition's own points

@@ -51,6 +51,15 @@ public:
     }
   }
 
+  /// Brings another reader of the same text, which has read the title, to where this one is.
+  void skipLinesOf(LineReader& lines) const
+  {
+    std::string_view line;
+    while (lines.lineNumber() < this->Rows.lineNumber() && lines.next(line))
+    {
+    }
+  }
+
 private:
   void readBoundary(bool isLand, AdcircGrid& grid)
   {
@@ -140,6 +149,29 @@ AdcircGrid readAdcircGrid(const std::string& path)
 {
   const std::string text = readTextFile(path);
   return AdcircReader(path, text).read();
+}
+
+AdcircFrame readAdcircFrame(const std::string& path)
+{
+  const std::string text = readTextFile(path);
+  AdcircReader reader(path, text);
+  const AdcircGrid grid = reader.read();
+  AdcircFrame frame;
+  LineReader lines(text);
+  std::string_view line;
+  lines.next(line);
+  frame.Title = line;
+  frame.NodeNumbers.resize(grid.IndexOf.size());
+  for (const auto& [number, index] : grid.IndexOf)
+  {
+    frame.NodeNumbers[std::size_t(index)] = number;
+  }
+  reader.skipLinesOf(lines);
+  while (lines.next(line))
+  {
+    frame.Boundaries += std::string(line) + "\n";
+  }
+  return frame;
 }
 
 AdcircGrid readAdcircGridAndBoundaries(const std::string& path)

@@ -27,6 +27,17 @@ struct AdcircGrid
   std::vector<std::array<std::int64_t, 2>> BoundaryEdges;
 };
 
+/// What a grid has besides nodes and elements.
+struct AdcircFrame
+{
+  std::string Title;
+  std::vector<std::int64_t> NodeNumbers; ///< in the order of the file
+  std::string Boundaries;                ///< the lines behind the elements, as they are
+};
+
+/// Throws IOError.
+AdcircFrame readAdcircFrame(const std::string& path);
+
 /// Without the boundaries. Throws IOError.
 VTKTIPPIO_EXPORT AdcircGrid readAdcircGrid(const std::string& path);
 

@@ -33,6 +33,8 @@ public:
     return this->Total - std::int64_t(this->Lines.lineNumber());
   }
 
+  std::int64_t lineNumber() const { return this->Lines.lineNumber(); }
+
   [[noreturn]] void fail(const std::string& problem) const;
 
 private:

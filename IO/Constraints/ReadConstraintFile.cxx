@@ -3,6 +3,7 @@
 
 #include "Adcirc/AdcircGrid.h"
 #include "Constraints/PolyFile.h"
+#include "Constraints/VectorFile.h"
 #include "Files/Extension.h"
 #include "Files/IOError.h"
 #include "Points/ReadPoints.h"
@@ -13,6 +14,8 @@
 #include "vtkIdList.h"
 #include "vtkNew.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -48,14 +51,20 @@ ConstraintTable readCsv(const std::string& path)
       table.Edges.push_back(edge);
     }
   }
-  else if (rows.Columns.size() == 2)
+  else if (rows.Columns.size() == 2 || rows.Columns.size() == 4)
   {
+    const bool hasHeights = rows.Columns.size() == 4;
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
+      const auto column = [&](std::size_t c) { return rows.Columns[c].Values[i]; };
       const auto id = std::int64_t(table.XY.size() / 2);
-      table.XY.insert(table.XY.end(),
-        { rows.XY[2 * i], rows.XY[2 * i + 1], rows.Columns[0].Values[i],
-          rows.Columns[1].Values[i] });
+      const std::size_t end = hasHeights ? 1 : 0; // the column of the second end's x
+      table.XY.insert(
+        table.XY.end(), { rows.XY[2 * i], rows.XY[2 * i + 1], column(end), column(end + 1) });
+      if (hasHeights)
+      {
+        table.Height.insert(table.Height.end(), { column(0), column(3) });
+      }
       table.Edges.push_back({ id, id + 1 });
     }
   }
@@ -63,8 +72,8 @@ ConstraintTable readCsv(const std::string& path)
   {
     throw IOError(path,
       "has " + std::to_string(2 + rows.Columns.size()) +
-        " columns; segments take two, which are ids of points, or four, the coordinates of both "
-        "ends.");
+        " columns; segments take two, which are ids of points, four, x and y of both ends, or six, "
+        "x, y and z of both.");
   }
   table.PolygonBegin = table.Edges.size();
   return table;
@@ -127,7 +136,25 @@ ConstraintTable readVtk(const std::string& path)
   return table;
 }
 
+/// Whether GDAL reads it.
+bool isVectorFile(const std::string& extension)
+{
+  const std::array<const char*, 5> extensions{ ".gpkg", ".shp", ".geojson", ".json", ".fgb" };
+  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
 } // namespace
+
+#ifndef TIPP_HAVE_GDAL
+
+ConstraintTable readVectorFile(const std::string& path)
+{
+  throw IOError(path,
+    "needs GDAL, and this program was built without it; install libgdal-dev and build it again, or "
+    "give .csv, .poly or .vtp.");
+}
+
+#endif
 
 ConstraintTable readConstraintFile(const std::string& path)
 {
@@ -144,13 +171,17 @@ ConstraintTable readConstraintFile(const std::string& path)
   {
     return readBoundaries(path);
   }
+  if (isVectorFile(extension))
+  {
+    return readVectorFile(path);
+  }
   if (isVtkFile(path))
   {
     return readVtk(path);
   }
   throw IOError(path,
-    "has no extension that tells a kind of constraints; use .poly, .csv, .txt, .14, .grd, .vtp or "
-    "another kind of VTK file.");
+    "has no extension that tells a kind of constraints; use .poly, .csv, .txt, .14, .grd, .gpkg, "
+    ".shp, .geojson, .fgb, .vtp or another kind of VTK file.");
 }
 
 } // namespace tipp

@@ -3,6 +3,7 @@
 
 #include "Files/Extension.h"
 #include "Files/IOError.h"
+#include "Files/StandardInput.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -43,7 +44,7 @@ std::string quoted(const std::string& path)
 FileLines::FileLines(const std::string& path, std::size_t blockBytes)
   : Path(path)
   , Program(decompressorOf(path))
-  , File(std::fopen(path.c_str(), "rb"), std::fclose)
+  , File(std::fopen(openablePath(path).c_str(), "rb"), std::fclose)
   , BlockBytes(blockBytes)
 {
   if (!this->File)

@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Las/LasHeader.h"
 #include "Las/LasRecords.h"
+#include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <array>
@@ -127,6 +128,7 @@ public:
     : Path(path)
     , Header(readLasHeader(path))
     , Filter(this->Header, options.Las)
+    , Threads(threadCount(options.Threads))
   {
     openLasRecords(path, this->Header); // throws before there is work
     for (const LasColumn& column : columnsOf(this->Header))
@@ -141,34 +143,24 @@ public:
   bool next(PointBlock& block, std::size_t most) override
   {
     block.Columns.resize(this->Wanted.size());
-    std::size_t count = 0;
-    while (count < most && this->load())
+    std::size_t points = 0;
+    while (points <= most / 2 && this->NextRecord < this->Header.Points)
     {
-      const std::size_t length = this->Header.RecordLength;
-      for (; this->AtRecord < this->Loaded && count < most; ++this->AtRecord)
-      {
-        const char* const record = this->Raw.data() + this->AtRecord * length;
-        if (this->Filter.keeps(record))
-        {
-          this->append(record, block);
-          ++count;
-        }
-        else
-        {
-          ++this->Dropped;
-        }
-      }
+      points = this->append(block, points, most - points);
     }
-    return count > 0;
+    if (this->NextRecord == this->Header.Points)
+    {
+      this->DroppedOfPass = this->Dropped;
+    }
+    return points > 0;
   }
 
   void rewind() override
   {
     this->Records.reset(); // opened again when it is wanted: there may be many files
+    std::vector<Share>().swap(this->Shares);
     this->Dropped = 0;
-    std::vector<char>().swap(this->Raw);
     this->NextRecord = 0;
-    this->AtRecord = this->Loaded = 0;
   }
 
   std::int64_t divisible() const override
@@ -183,15 +175,16 @@ public:
     const auto after = std::upper_bound(this->KeptBefore.begin(), this->KeptBefore.end(), points);
     const std::int64_t chunk = after - this->KeptBefore.begin() - 1;
     this->NextRecord = std::min(chunk * chunkRecords, this->Header.Points);
-    this->AtRecord = this->Loaded = 0;
     std::int64_t left = points - this->KeptBefore[std::size_t(chunk)];
-    while (left > 0 && this->load())
+    const std::int64_t count = std::min(chunkRecords, this->Header.Points - this->NextRecord);
+    std::vector<char> raw(std::size_t(count) * this->Header.RecordLength);
+    openLasRecords(this->Path, this->Header)
+      ->read(this->NextRecord, std::size_t(count), raw.data());
+    for (const char* record = raw.data(); left > 0 && record < raw.data() + raw.size();
+         record += this->Header.RecordLength)
     {
-      for (; this->AtRecord < this->Loaded && left > 0; ++this->AtRecord)
-      {
-        left -=
-          this->Filter.keeps(this->Raw.data() + this->AtRecord * this->Header.RecordLength) ? 1 : 0;
-      }
+      left -= this->Filter.keeps(record) ? 1 : 0;
+      ++this->NextRecord;
     }
   }
 
@@ -205,35 +198,106 @@ public:
     return names;
   }
 
+  std::int64_t most() const override { return this->Header.Points; }
   std::int64_t leftOut() const override { return this->DroppedOfPass; }
   std::string crs() const override { return this->Header.Crs; }
 
 private:
   static constexpr std::int64_t chunkRecords = 1 << 14;
 
-  /// Has records that are not looked at yet; false at the end.
-  bool load()
+  /// Records that one thread decodes.
+  struct Share
   {
-    if (this->AtRecord < this->Loaded)
-    {
-      return true;
-    }
-    const std::int64_t count = std::min(chunkRecords, this->Header.Points - this->NextRecord);
-    if (count == 0)
-    {
-      this->DroppedOfPass = this->Dropped;
-      return false;
-    }
+    std::int64_t First = 0;
+    std::int64_t Count = 0;
+    std::size_t To = 0;            ///< where its points are in the block
+    std::size_t Points = 0;        ///< those that are selected
+    std::vector<char> Raw;         ///< some of the records
+    std::vector<const char*> Kept; ///< of these
+  };
+
+  /// Appends the selected ones of the next `most` records to the points that the block has, and
+  /// returns how many it has then.
+  std::size_t append(PointBlock& block, std::size_t points, std::size_t most)
+  {
+    const std::int64_t count =
+      std::min<std::int64_t>(std::int64_t(most), this->Header.Points - this->NextRecord);
+    // LAZ records are decompressed one after the other.
+    const std::int64_t shares = this->Header.Compressed
+      ? 1
+      : std::clamp<std::int64_t>(count / chunkRecords, 1, this->Threads);
+    resize(block, points + std::size_t(count));
+    this->Shares.resize(std::size_t(shares));
     if (!this->Records)
     {
       this->Records = openLasRecords(this->Path, this->Header);
     }
-    this->Raw.resize(std::size_t(count) * this->Header.RecordLength);
-    this->Records->read(this->NextRecord, std::size_t(count), this->Raw.data());
+    parallelFor(shares, int(shares),
+      [&](std::int64_t i)
+      {
+        Share& share = this->Shares[std::size_t(i)];
+        const std::int64_t begin = count * i / shares;
+        share.First = this->NextRecord + begin;
+        share.Count = count * (i + 1) / shares - begin;
+        share.To = points + std::size_t(begin);
+        this->decode(share, block);
+      });
+    for (const Share& share : this->Shares)
+    {
+      move(block, share.To, points, share.Points);
+      points += share.Points;
+      this->Dropped += share.Count - std::int64_t(share.Points);
+    }
+    resize(block, points);
     this->NextRecord += count;
-    this->Loaded = std::size_t(count);
-    this->AtRecord = 0;
-    return true;
+    return points;
+  }
+
+  static void resize(PointBlock& block, std::size_t points)
+  {
+    block.XY.resize(2 * points);
+    for (std::vector<double>& column : block.Columns)
+    {
+      column.resize(points);
+    }
+  }
+
+  /// Moves points within a block, to a place that is not behind.
+  static void move(PointBlock& block, std::size_t from, std::size_t to, std::size_t count)
+  {
+    if (from == to)
+    {
+      return;
+    }
+    std::memmove(&block.XY[2 * to], &block.XY[2 * from], 2 * count * sizeof(double));
+    for (std::vector<double>& column : block.Columns)
+    {
+      std::memmove(&column[to], &column[from], count * sizeof(double));
+    }
+  }
+
+  /// Writes the selected points of a share to their places in the block.
+  void decode(Share& share, PointBlock& block) const
+  {
+    const std::size_t length = this->Header.RecordLength;
+    share.Points = 0;
+    for (std::int64_t done = 0; done < share.Count; done += chunkRecords)
+    {
+      const auto count = std::size_t(std::min(chunkRecords, share.Count - done));
+      share.Raw.resize(count * length);
+      this->Records->read(share.First + done, count, share.Raw.data());
+      share.Kept.clear();
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        const char* const record = share.Raw.data() + i * length;
+        if (this->Filter.keeps(record))
+        {
+          share.Kept.push_back(record);
+        }
+      }
+      this->write(share.Kept, block, share.To + share.Points);
+      share.Points += share.Kept.size();
+    }
   }
 
   double coordinate(const char* record, std::size_t axis) const
@@ -242,18 +306,36 @@ private:
       this->Header.Offset[axis];
   }
 
-  void append(const char* record, PointBlock& block) const
+  void write(const std::vector<const char*>& records, PointBlock& block, std::size_t to) const
   {
-    block.XY.push_back(this->coordinate(record, 0));
-    block.XY.push_back(this->coordinate(record, 1));
+    double* xy = block.XY.data() + 2 * to;
+    for (const char* const record : records)
+    {
+      *xy++ = this->coordinate(record, 0);
+      *xy++ = this->coordinate(record, 1);
+    }
     for (std::size_t i = 0; i < this->Wanted.size(); ++i)
     {
       const LasColumn& column = this->Wanted[i];
-      using Kind = LasColumn::Kind;
-      block.Columns[i].push_back(column.Is == Kind::Height ? this->coordinate(record, 2)
-          : column.Is == Kind::Class                       ? double(this->Filter.classOf(record))
-          : column.Is == Kind::Time                        ? valueAt<double>(record, column.Offset)
-                                    : double(valueAt<std::uint16_t>(record, column.Offset)));
+      double* const values = block.Columns[i].data() + to;
+      const auto fill = [&](const auto& valueOf)
+      { std::transform(records.begin(), records.end(), values, valueOf); };
+      switch (column.Is)
+      {
+        case LasColumn::Kind::Height:
+          fill([this](const char* record) { return this->coordinate(record, 2); });
+          break;
+        case LasColumn::Kind::Class:
+          fill([this](const char* record) { return double(this->Filter.classOf(record)); });
+          break;
+        case LasColumn::Kind::Time:
+          fill([&](const char* record) { return valueAt<double>(record, column.Offset); });
+          break;
+        case LasColumn::Kind::Short:
+          fill([&](const char* record)
+            { return double(valueAt<std::uint16_t>(record, column.Offset)); });
+          break;
+      }
     }
   }
 
@@ -285,11 +367,10 @@ private:
   const std::string Path;
   const LasHeader Header;
   const RecordFilter Filter;
+  const int Threads;
   std::vector<LasColumn> Wanted;
   std::unique_ptr<LasRecords> Records;
-  std::vector<char> Raw;
-  std::size_t Loaded = 0;   ///< records in Raw
-  std::size_t AtRecord = 0; ///< the next of them
+  std::vector<Share> Shares;
   std::int64_t NextRecord = 0;
   std::int64_t Dropped = 0; ///< in this pass so far
   std::int64_t DroppedOfPass = 0;

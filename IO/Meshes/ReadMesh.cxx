@@ -4,6 +4,7 @@
 #include "Adcirc/AdcircGrid.h"
 #include "Files/Extension.h"
 #include "Files/IOError.h"
+#include "Files/UnknownKind.h"
 #include "Npy/NpyFile.h"
 #include "Points/DataSetPoints.h"
 #include "Vtk/ReadDataSet.h"
@@ -119,7 +120,7 @@ TriangleMesh readMesh(const std::string& path)
   {
     return readVtkMesh(path);
   }
-  throw IOError(
+  refuseKind(
     path, "has no extension that tells a kind of mesh file; use .npy, .14, .grd or one of VTK's.");
 }
 

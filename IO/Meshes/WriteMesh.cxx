@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes/WriteMesh.h"
 
+#include "Adcirc/WriteAdcirc.h"
 #include "Files/Extension.h"
 #include "Files/IOError.h"
 #include "Files/PendingFile.h"
@@ -74,7 +75,8 @@ std::vector<std::int64_t> neighborsOf(TrianglesView triangles)
 bool isMeshFile(const std::string& path)
 {
   const std::string extension = extensionOf(path);
-  return extension == ".npy" || extension == ".vtp" || extension == ".vtu";
+  return extension == ".npy" || extension == ".vtp" || extension == ".vtu" ||
+    isAdcircExtension(extension);
 }
 
 bool writeMesh(const std::string& path, const PointTable& points, TrianglesView triangles,
@@ -84,6 +86,11 @@ bool writeMesh(const std::string& path, const PointTable& points, TrianglesView 
   if (extension == ".npy")
   {
     return writeNpy(path, triangles, options);
+  }
+  if (isAdcircExtension(extension))
+  {
+    return writeAdcircGrid(
+      path, points, triangles, options.AdcircLike, options.Before, options.Aborted);
   }
   const std::vector<std::int64_t> neighbors =
     options.Neighbors ? neighborsOf(triangles) : std::vector<std::int64_t>();
@@ -98,7 +105,8 @@ bool writeMesh(const std::string& path, const PointTable& points, TrianglesView 
     const auto data = makeUnstructuredGrid(points, triangles, more);
     return writeXml<vtkXMLUnstructuredGridWriter>(path, data, options);
   }
-  throw IOError(path, "has no extension that tells a kind of mesh file; use .npy, .vtp or .vtu.");
+  throw IOError(
+    path, "has no extension that tells a kind of mesh file; use .npy, .vtp, .vtu or .14.");
 }
 
 } // namespace tipp

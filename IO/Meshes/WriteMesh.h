@@ -23,6 +23,9 @@ struct MeshOptions
   /// Adds the cell array "NeighborIds": for each corner of a triangle the place of the triangle
   /// opposite to it among all, or -1.
   bool Neighbors = false;
+  /// An ADCIRC grid whose nodes are the first points: another that is written keeps its title,
+  /// numbers of nodes and boundaries. Empty: none.
+  std::string AdcircLike;
   /// What may be replaced, as for PendingFile.
   std::optional<PathState> Before;
   /// Asked when all is written under a temporary name; true drops it.
@@ -34,8 +37,8 @@ VTKTIPPIO_EXPORT bool isMeshFile(const std::string& path);
 
 /// Writes triangles by the path's extension: .npy (m x 3 int64 point ids; points are not written),
 /// .vtp or .vtu (appended raw binary: all points, the column named z as third coordinate or else 0,
-/// the other columns as point data). The file appears whole or not at all: false if Aborted said
-/// so; throws IOError.
+/// the other columns as point data), or .14, .grd (an ADCIRC grid, see WriteAdcirc.h). The file
+/// appears whole or not at all: false if Aborted said so; throws IOError.
 VTKTIPPIO_EXPORT bool writeMesh(const std::string& path, const PointTable& points,
   TrianglesView triangles, const MeshOptions& options = {});
 

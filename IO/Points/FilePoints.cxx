@@ -3,6 +3,7 @@
 
 #include "Files/Extension.h"
 #include "Files/IOError.h"
+#include "Files/UnknownKind.h"
 #include "Las/LasHeader.h"
 #include "Las/LasPoints.h"
 #include "Points/NpyPoints.h"
@@ -36,7 +37,11 @@ public:
       return false;
     }
     block.XY.resize(2 * count);
-    block.Columns.assign(this->File->further().size(), std::vector<double>(count));
+    block.Columns.resize(this->File->further().size());
+    for (std::vector<double>& column : block.Columns)
+    {
+      column.resize(count);
+    }
     this->File->read(
       count, block.XY.data(), block.Columns.empty() ? nullptr : block.Columns[0].data());
     this->Row += std::int64_t(count);
@@ -90,15 +95,17 @@ public:
     {
       return false;
     }
-    const auto part = [&](const std::vector<double>& values, std::size_t width)
+    const auto take =
+      [&](const std::vector<double>& values, std::size_t width, std::vector<double>& to)
     {
       const auto begin = values.begin() + std::ptrdiff_t(width * this->At);
-      return std::vector<double>(begin, begin + std::ptrdiff_t(width * count));
+      to.assign(begin, begin + std::ptrdiff_t(width * count));
     };
-    block.XY = part(this->Table->XY, 2);
-    for (const PointTable::Column& column : this->Table->Columns)
+    take(this->Table->XY, 2, block.XY);
+    block.Columns.resize(this->Table->Columns.size());
+    for (std::size_t i = 0; i < block.Columns.size(); ++i)
     {
-      block.Columns.push_back(part(column.Values, 1));
+      take(this->Table->Columns[i].Values, 1, block.Columns[i]);
     }
     this->At += count;
     return true;
@@ -150,7 +157,12 @@ std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointO
   {
     return std::make_unique<NpyFilePoints>(path, options);
   }
-  if (isTextExtension(extension))
+  const std::string advice = conversionAdvice(path);
+  if (!advice.empty())
+  {
+    throw IOError(path, advice);
+  }
+  if (isTextPath(path))
   {
     return streamTextPoints(path, options);
   }

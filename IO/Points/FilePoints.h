@@ -18,7 +18,8 @@ class FilePoints
 {
 public:
   virtual ~FilePoints() = default;
-  /// Appends to an empty block; false at the end.
+  /// Appends to a block without points; false at the end. The block's columns have the memory of
+  /// the one before.
   virtual bool next(PointBlock& block, std::size_t most) = 0;
   virtual void rewind() = 0;
   /// The number of points if skip() takes no time, else -1.
@@ -26,6 +27,8 @@ public:
   /// Leaves out the next ones.
   virtual void skip(std::int64_t) {}
   virtual std::vector<std::string> columns() const = 0;
+  /// There are no more points than this; 0: not known.
+  virtual std::int64_t most() const { return 0; }
   /// How many points of the file the options have left out in the last whole pass.
   virtual std::int64_t leftOut() const { return 0; }
   /// The coordinate reference system: see PointStream.

@@ -3,7 +3,9 @@
 
 #include "Files/Extension.h"
 #include "Files/IOError.h"
+#include "Files/StandardInput.h"
 #include "Points/FilePoints.h"
+#include "Points/ThinnedPoints.h"
 
 #include <algorithm>
 #include <array>
@@ -28,7 +30,7 @@ std::string identityOf(const std::string& path)
     return path + "\n";
   }
   struct stat status = {};
-  if (stat(path.c_str(), &status) != 0)
+  if (stat(openablePath(path).c_str(), &status) != 0)
   {
     throw IOError(path, "cannot be opened; check its name.");
   }
@@ -61,7 +63,10 @@ public:
     while (this->At < this->Files.size() && this->Points < this->End)
     {
       block.XY.clear();
-      block.Columns.clear();
+      for (std::vector<double>& column : block.Columns)
+      {
+        column.clear();
+      }
       const auto left = std::uint64_t(this->End - this->Points);
       if (this->Files[this->At]->next(block, std::size_t(std::min<std::uint64_t>(most, left))))
       {
@@ -104,6 +109,20 @@ public:
       points += file->divisible();
     }
     return points;
+  }
+
+  std::int64_t most() const override
+  {
+    std::int64_t points = 0;
+    for (const auto& file : this->Files)
+    {
+      if (file->most() <= 0)
+      {
+        return 0;
+      }
+      points += file->most();
+    }
+    return std::min(points, this->End - this->First);
   }
 
   void limitTo(std::int64_t first, std::int64_t end) override
@@ -230,7 +249,13 @@ std::unique_ptr<PointStream> openPointStream(
   {
     throw IOError("There are no files of points; name one at least.");
   }
-  return std::make_unique<FileSequence>(paths, options);
+  if (!options.Thin.isGiven())
+  {
+    return std::make_unique<FileSequence>(paths, options);
+  }
+  PointOptions all = options;
+  all.Thin = {};
+  return thinPoints(std::make_unique<FileSequence>(paths, all), options.Thin);
 }
 
 void forEachBlock(

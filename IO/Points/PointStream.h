@@ -50,6 +50,12 @@ public:
   /// How many points the options have left out in the last whole pass, as those of other classes.
   virtual std::int64_t leftOut() const { return 0; }
 
+  /// There are no more points than this; 0: not known.
+  virtual std::int64_t most() const { return 0; }
+
+  /// How many points thinning has left out, once they are read.
+  virtual std::int64_t thinnedOut() const { return 0; }
+
   /// The coordinate reference system of the points: WKT or "EPSG:code", or empty.
   virtual std::string crs() const { return ""; }
 

@@ -23,7 +23,8 @@ struct PointTable
 
   std::vector<double> XY;
   std::vector<Column> Columns;
-  std::int64_t LeftOut = 0; ///< points that the options have left out
+  std::int64_t LeftOut = 0;    ///< points that the options have left out
+  std::int64_t ThinnedOut = 0; ///< points that thinning has left out
 
   VTKTIPPIO_EXPORT std::size_t size() const;
 };

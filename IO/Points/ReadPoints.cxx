@@ -4,6 +4,7 @@
 #include "Adcirc/AdcircGrid.h"
 #include "Files/Extension.h"
 #include "Files/IOError.h"
+#include "Files/UnknownKind.h"
 #include "Las/LasHeader.h"
 #include "Points/FilePoints.h"
 #include "Points/NpyPoints.h"
@@ -41,6 +42,14 @@ PointTable readAllPoints(PointStream& stream)
   {
     table.Columns.push_back({ name, {} });
   }
+  // Untouched memory is not committed, but the system refuses what it could never commit.
+  constexpr std::int64_t mostReserved = std::int64_t(1) << 26;
+  const auto most = std::size_t(std::min(stream.most(), mostReserved));
+  table.XY.reserve(2 * most);
+  for (PointTable::Column& column : table.Columns)
+  {
+    column.Values.reserve(most);
+  }
   forEachBlock(stream, block,
     [&](const PointBlock& more)
     {
@@ -52,6 +61,7 @@ PointTable readAllPoints(PointStream& stream)
       }
     });
   table.LeftOut = stream.leftOut();
+  table.ThinnedOut = stream.thinnedOut();
   return table;
 }
 
@@ -64,7 +74,7 @@ PointTable readPoints(const std::vector<std::string>& paths, const PointOptions&
 PointTable readPoints(const std::string& path, const PointOptions& options)
 {
   const std::string extension = extensionOf(path);
-  if (isLasExtension(extension))
+  if (isLasExtension(extension) || options.Thin.isGiven())
   {
     return readAllPoints(*openPointStream({ path }, options));
   }
@@ -76,17 +86,15 @@ PointTable readPoints(const std::string& path, const PointOptions& options)
   {
     return readNpyPoints(path, options);
   }
-  if (isTextExtension(extension))
+  if (isTextPath(path) && conversionAdvice(path).empty())
   {
     return readTextPoints(path, options);
   }
   if (extension != ".14" && extension != ".grd" && !isVtkFile(path))
   {
-    throw IOError(path,
+    refuseKind(path,
       "has no extension that tells a kind of point file; use .npy, .csv, .txt, .xyz (or these as "
-      ".gz, "
-      ".xz or .zst), .las, .laz, "
-      ".14, .grd or one of VTK's.");
+      ".gz, .xz or .zst), .las, .laz, .14, .grd or one of VTK's.");
   }
   if (!options.X.empty() || !options.Y.empty())
   {
@@ -98,6 +106,10 @@ PointTable readPoints(const std::string& path, const PointOptions& options)
 PointTable readPointsShare(
   const std::vector<std::string>& paths, const PointOptions& options, int part, int parts)
 {
+  if (options.Thin.isGiven())
+  {
+    return part == 0 ? readPoints(paths, options) : PointTable();
+  }
   if (paths.size() == 1 && extensionOf(paths[0]) == ".npy")
   {
     return readNpyPoints(paths[0], options, part, parts);

@@ -4,6 +4,7 @@
 
 #include "Las/LasSelection.h"
 #include "Points/PointTable.h"
+#include "Points/Thinning.h"
 #include "vtkTIPPIOModule.h"
 
 #include <algorithm>
@@ -24,6 +25,8 @@ struct PointOptions
   std::string X;
   std::string Y;
   LasSelection Las = {};
+  Thinning Thin = {}; ///< of the points of all files together
+  int Threads = 1;    ///< that decode LAS files; 0: OpenMP's choice
   /// The further columns to read, of those that there are; without: all.
   std::optional<std::vector<std::string>> Columns = {};
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Points/TextPoints.h"
 
+#include "Files/Extension.h"
 #include "Points/TextRows.h"
 
 #include <utility>
@@ -29,10 +30,12 @@ bool addValue(const TextRows& rows, NumericColumn& column)
 
 } // namespace
 
-bool isTextExtension(const std::string& extension)
+bool isTextPath(const std::string& path)
 {
-  return extension == ".csv" || extension == ".tsv" || extension == ".txt" || extension == ".xyz" ||
-    extension == ".pts" || extension == ".gz" || extension == ".xz" || extension == ".zst";
+  const std::string extension = extensionOf(path);
+  return path == "-" || extension == ".csv" || extension == ".tsv" || extension == ".txt" ||
+    extension == ".xyz" || extension == ".pts" || extension == ".gz" || extension == ".xz" ||
+    extension == ".zst";
 }
 
 PointTable readTextPoints(const std::string& path, const PointOptions& options)

@@ -2,6 +2,7 @@
 #include "Points/TextRows.h"
 
 #include "Files/IOError.h"
+#include "Files/StandardInput.h"
 #include "Files/TextFile.h"
 
 #include <algorithm>
@@ -15,8 +16,42 @@ namespace tipp
 namespace
 {
 
+/// A number with a decimal comma, as "-1,5".
+bool parseDecimalComma(std::string_view field, double& value)
+{
+  constexpr std::size_t longest = 64;
+  field = trimField(field);
+  const std::size_t comma = field.find(',');
+  const auto isDigit = [&](std::size_t at)
+  { return at < field.size() && field[at] >= '0' && field[at] <= '9'; };
+  if (comma == std::string_view::npos || comma == 0 || field.size() > longest ||
+    !isDigit(comma - 1) || !isDigit(comma + 1) || field.find('.') != std::string_view::npos)
+  {
+    return false;
+  }
+  std::string text(field);
+  text[comma] = '.';
+  return parseNumber(text, value);
+}
+
+/// Whether blanks part the fields, which have decimal commas, as in "1,5 2,5".
+bool hasDecimalCommas(std::string_view line)
+{
+  std::vector<std::string_view> fields;
+  splitFields(line, ' ', fields);
+  double value = 0;
+  return fields.size() > 1 &&
+    std::all_of(fields.begin(), fields.end(),
+      [&](std::string_view field)
+      { return parseNumber(field, value) || parseDecimalComma(field, value); });
+}
+
 char findDelimiter(std::string_view line)
 {
+  if (line.find(';') == std::string_view::npos && hasDecimalCommas(line))
+  {
+    return line.find('\t') != std::string_view::npos ? '\t' : ' ';
+  }
   for (const char candidate : { ';', ',', '\t' })
   {
     if (line.find(candidate) != std::string_view::npos)
@@ -143,7 +178,7 @@ bool TextRows::startsWithCounts(std::int64_t& points) const
   std::error_code ignored;
   if (this->Row.size() != 2 || !parseInteger(this->Row[0], points) || points < 1 ||
     !parseInteger(this->Row[1], edges) || edges != 0 ||
-    !std::filesystem::is_regular_file(this->Path, ignored))
+    !std::filesystem::is_regular_file(openablePath(this->Path), ignored))
   {
     return false;
   }
@@ -163,7 +198,7 @@ bool TextRows::startsWithNames() const
 {
   double value;
   return std::count_if(this->Row.begin(), this->Row.end(),
-           [&](std::string_view field) { return parseNumber(field, value); }) < 2;
+           [&](std::string_view field) { return this->parse(field, value); }) < 2;
 }
 
 void TextRows::chooseColumns(const PointOptions& options)
@@ -202,6 +237,11 @@ bool TextRows::next()
   return true;
 }
 
+bool TextRows::parse(std::string_view field, double& value) const
+{
+  return parseNumber(field, value) || (this->Delimiter != ',' && parseDecimalComma(field, value));
+}
+
 double TextRows::coordinate(std::size_t index) const
 {
   double value = 0;
@@ -209,7 +249,7 @@ double TextRows::coordinate(std::size_t index) const
   {
     return std::numeric_limits<double>::quiet_NaN(); // counted with the points that are not finite
   }
-  if (!parseNumber(this->Row[index], value))
+  if (!this->parse(this->Row[index], value))
   {
     constexpr std::size_t shown = 40;
     throw IOError(this->Path, this->Lines.lineNumber(),
@@ -229,7 +269,7 @@ double TextRows::coordinate(std::size_t index) const
 TextRows::Value TextRows::value(const Column& column, double& value) const
 {
   const std::string_view field = this->Row[column.Index];
-  if (parseNumber(field, value))
+  if (this->parse(field, value))
   {
     return Value::Number;
   }

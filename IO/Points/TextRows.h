@@ -58,6 +58,7 @@ private:
   bool startsWithCounts(std::int64_t& points) const;
   bool startsWithNames() const;
   void chooseColumns(const PointOptions& options);
+  bool parse(std::string_view field, double& value) const;
   double coordinate(std::size_t index) const;
   void checkCount() const;
 

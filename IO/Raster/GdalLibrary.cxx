@@ -18,8 +18,8 @@ GdalLibrary openGdal()
   void* const library = dlopen(TIPP_GDAL_LIBRARY, RTLD_NOW | RTLD_LOCAL);
   if (!library)
   {
-    throw IOError("GeoTIFF files need the library GDAL (" TIPP_GDAL_LIBRARY
-                  "), which cannot be opened; install it, or use .npy or .vti.");
+    throw IOError("GeoTIFF and other files of GIS need the library GDAL (" TIPP_GDAL_LIBRARY
+                  "), which cannot be opened; install it, or use another format.");
   }
   GdalLibrary functions;
   const auto find = [&](auto& function, const char* name)

@@ -6,6 +6,7 @@
 #include <cpl_error.h>
 #include <cpl_string.h>
 #include <gdal.h>
+#include <ogr_api.h>
 #include <ogr_srs_api.h>
 
 namespace tipp
@@ -24,6 +25,8 @@ namespace tipp
   X(GDALClose)                                                                                     \
   X(GDALCreate)                                                                                    \
   X(GDALCreateCopy)                                                                                \
+  X(GDALDatasetGetLayer)                                                                           \
+  X(GDALDatasetGetLayerCount)                                                                      \
   X(GDALFlushCache)                                                                                \
   X(GDALGetDriverByName)                                                                           \
   X(GDALGetGeoTransform)                                                                           \
@@ -32,6 +35,7 @@ namespace tipp
   X(GDALGetRasterXSize)                                                                            \
   X(GDALGetRasterYSize)                                                                            \
   X(GDALOpen)                                                                                      \
+  X(GDALOpenEx)                                                                                    \
   X(GDALRasterIO)                                                                                  \
   X(GDALSetCacheMax64)                                                                             \
   X(GDALSetDescription)                                                                            \
@@ -40,6 +44,22 @@ namespace tipp
   X(GDALSetRasterNoDataValue)                                                                      \
   X(GDALSetRasterStatistics)                                                                       \
   X(GDALSetSpatialRef)                                                                             \
+  X(OGR_F_Destroy)                                                                                 \
+  X(OGR_F_GetGeometryRef)                                                                          \
+  X(OGR_G_DestroyGeometry)                                                                         \
+  X(OGR_G_GetGeometryCount)                                                                        \
+  X(OGR_G_GetGeometryRef)                                                                          \
+  X(OGR_G_GetGeometryType)                                                                         \
+  X(OGR_G_GetLinearGeometry)                                                                       \
+  X(OGR_G_GetPointCount)                                                                           \
+  X(OGR_G_GetX)                                                                                    \
+  X(OGR_G_GetY)                                                                                    \
+  X(OGR_G_GetZ)                                                                                    \
+  X(OGR_G_HasCurveGeometry)                                                                        \
+  X(OGR_G_Is3D)                                                                                    \
+  X(OGR_GT_Flatten)                                                                                \
+  X(OGR_L_GetNextFeature)                                                                          \
+  X(OGR_L_ResetReading)                                                                            \
   X(OSRDestroySpatialReference)                                                                    \
   X(OSRNewSpatialReference)                                                                        \
   X(OSRSetFromUserInput)

@@ -122,7 +122,8 @@ public:
       this->Plain = std::make_unique<PendingFile>(path + ".plain");
     }
     // Most memory goes to rows here; GDAL's own cache would take a part of the machine's.
-    gdal().GDALSetCacheMax64(std::int64_t(16) << 20);
+    const std::int64_t megabytes = description.CloudOptimized ? 16 : 4;
+    gdal().GDALSetCacheMax64(megabytes << 20);
     gdal().CPLErrorReset();
     OptionList options;
     this->setLayout(options);

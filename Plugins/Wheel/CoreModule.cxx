@@ -29,7 +29,9 @@ NB_MODULE(_core, module)
       }
     });
   tipp::python::addTriangulateFunctions(module);
+  tipp::python::addConstraintFunctions(module);
   tipp::python::addFileFunctions(module);
   tipp::python::addLocatorClass(module);
+  tipp::python::addPointFunctions(module);
   tipp::python::addResampleFunction(module);
 }

@@ -134,6 +134,15 @@ nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
     arrayOf(std::move(samples.back()), Scalar::Int8, 1), warnings);
 }
 
+/// Origin, spacing and numbers of samples.
+nb::tuple latticeOf(const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
+  const std::array<double, 3>& delta)
+{
+  const Lattice lattice = rangeLattice(bounds, dimensions, delta);
+  return nb::make_tuple(
+    lattice.Min, lattice.Delta, nb::make_tuple(lattice.size(0), lattice.size(1), lattice.size(2)));
+}
+
 } // namespace
 
 void addResampleFunction(nb::module_& module)
@@ -142,6 +151,8 @@ void addResampleFunction(nb::module_& module)
     nb::arg("hidden").none(), nb::arg("point_arrays"), nb::arg("cell_arrays"), nb::arg("bounds"),
     nb::arg("dimensions"), nb::arg("delta"), nb::arg("null_value"), nb::arg("device"),
     nb::arg("threads"), nb::arg("progress").none());
+  module.def(
+    "range_lattice", &latticeOf, nb::arg("bounds"), nb::arg("dimensions"), nb::arg("delta"));
 }
 
 } // namespace tipp::python

@@ -2,67 +2,17 @@
 #include "Arrays.h"
 #include "Functions.h"
 #include "Reporter.h"
+#include "TriangulationDict.h"
 
 #include "AlphaShape/AlphaShape.h"
 #include "Merging/TriangulateMerged.h"
-#include "Meshes/FindNeighbors.h"
-#include "Output/TriangulationWarnings.h"
 #include "Parallel/ThreadLimit.h"
 #include "Triangulation/Triangulate.h"
-
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/vector.h>
-
-#include <cstring>
 
 namespace tipp::python
 {
 namespace
 {
-
-PointsView viewOf(const InputArray& points)
-{
-  const std::size_t count = points.shape(0);
-  const std::size_t stride = points.shape(1);
-  return scalarOf(points.dtype()) == Scalar::Float32
-    ? PointsView(static_cast<const float*>(points.data()), count, stride)
-    : PointsView(static_cast<const double*>(points.data()), count, stride);
-}
-
-nb::object duplicatesArray(const std::vector<Duplicate>& duplicates)
-{
-  static_assert(sizeof(Duplicate) == 2 * sizeof(std::int64_t), "two ids in a row");
-  Buffer<std::int64_t> pairs(2 * duplicates.size());
-  if (!duplicates.empty())
-  {
-    std::memcpy(pairs.data(), duplicates.data(), duplicates.size() * sizeof(Duplicate));
-  }
-  return arrayOf(std::move(pairs), 2);
-}
-
-nb::object rejectedArray(const std::vector<PointId>& rejected)
-{
-  RawBuffer ids(rejected.size() * sizeof(PointId));
-  if (!rejected.empty())
-  {
-    std::memcpy(ids.data(), rejected.data(), ids.size());
-  }
-  return arrayOf(std::move(ids), Scalar::Int64, 1);
-}
-
-nb::object neighborsArray(const Triangulation& triangulation)
-{
-  const std::size_t triangles = triangulation.triangleCount();
-  Buffer<std::int64_t> neighbors(3 * triangles);
-  withoutLock(
-    [&]
-    {
-      triangulation.Ids64.empty()
-        ? findNeighbors(triangulation.Ids32.data(), triangles, neighbors.data())
-        : findNeighbors(triangulation.Ids64.data(), triangles, neighbors.data());
-    });
-  return arrayOf(std::move(neighbors), 3);
-}
 
 nb::dict triangulatePoints(const InputArray& points, double distance, double maximumEdge,
   int columns, int rows, bool stages, int threads, bool neighbors, nb::object progress)
@@ -86,17 +36,7 @@ nb::dict triangulatePoints(const InputArray& points, double distance, double max
     });
   reporter(1);
   reporter.raiseIfStopped();
-  nb::dict result;
-  result["duplicates"] = duplicatesArray(triangulation.Duplicates);
-  result["rejected"] = rejectedArray(triangulation.Rejected);
-  result["warnings"] = warningsOf(triangulation, std::int64_t(points.shape(0)), maximumEdge > 0);
-  if (neighbors)
-  {
-    result["neighbors"] = neighborsArray(triangulation);
-  }
-  result["triangles"] = triangulation.Ids64.empty() ? arrayOf(std::move(triangulation.Ids32), 3)
-                                                    : arrayOf(std::move(triangulation.Ids64), 3);
-  return result;
+  return triangulationDict(std::move(triangulation), points.shape(0), maximumEdge > 0, neighbors);
 }
 
 template <typename Id, typename Scalar>

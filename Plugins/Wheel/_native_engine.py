@@ -5,19 +5,17 @@ Data sets of VTK and PyVista, of any version, are taken and returned where VTK i
 """
 from __future__ import annotations
 
-import functools
-import importlib.util
-import os
-import sys
-import warnings
-from typing import Any, Iterable
+from typing import Any
 
 import numpy as np
 
 from . import _arguments as check
 from . import _core
+from . import _native_constraints as constraints
 from ._arrays import attributes, coordinates
 from ._data import Image, Mesh
+from ._native_dem import dem
+from ._native_run import box, diagonal, has_vtk, plain, triangulated, warn
 from ._progress import Progress, finish
 
 __all__ = ["delaunay", "delaunay_2d", "delaunay_file", "dem", "read", "require_ranks", "resample", "write"]
@@ -31,55 +29,6 @@ def require_ranks() -> None:
     raise RuntimeError("tipp.ranks() needs a TIPP that was built with MPI and VTK; the wheel works on one rank.")
 
 
-@functools.lru_cache(maxsize=None)
-def _has_vtk() -> bool:
-    return importlib.util.find_spec("vtkmodules") is not None
-
-
-def _warn(sentences: Iterable[str]) -> None:
-    """Warnings at the line that called the package."""
-    level = 1
-    here = os.path.dirname(__file__)
-    frame: Any = sys._getframe()
-    while frame is not None and os.path.dirname(frame.f_code.co_filename) == here:
-        frame, level = frame.f_back, level + 1
-    for sentence in sentences:
-        warnings.warn(sentence, RuntimeWarning, stacklevel=level)
-
-
-def _plain(points: np.ndarray) -> np.ndarray:
-    """In C order, as float32 or float64."""
-    return np.ascontiguousarray(points, points.dtype if points.dtype == np.float32 else np.float64)
-
-
-def _box(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The lowest and the highest coordinates of the points that are finite."""
-    finite = points
-    if len(points) and not np.isfinite(points.sum()):
-        finite = points[np.isfinite(points).all(axis=1)]
-    if len(finite) == 0:
-        return np.zeros(3), np.zeros(3)
-    low, high = np.zeros(3), np.zeros(3)
-    low[: points.shape[1]], high[: points.shape[1]] = finite.min(axis=0), finite.max(axis=0)
-    return low, high
-
-
-def _diagonal(points: np.ndarray) -> float:
-    low, high = _box(points)
-    return float(np.sqrt(((high - low) ** 2).sum()))
-
-
-def _triangulated(points: np.ndarray, options: dict[str, Any], progress: Progress | None) -> dict[str, Any]:
-    tolerance = options["tolerance"]
-    result = _core.triangulate(
-        points, tolerance * _diagonal(points) if tolerance > 0 else 0.0, options["max_edge"], *options["partitions"],
-        options["schedule"] == 0, options["threads"], False, progress)
-    finish(progress)
-    if result["warnings"]:
-        _warn(result["warnings"])
-    return result
-
-
 def delaunay(points: Any, options: dict[str, Any], progress: Progress | None) -> np.ndarray:
     if check.is_vtk_object(points):
         from ._vtk import xyz_of
@@ -87,69 +36,109 @@ def delaunay(points: Any, options: dict[str, Any], progress: Progress | None) ->
         array = xyz_of(points)
     else:
         array = coordinates(points)
-    return _triangulated(_plain(array), options, progress)["triangles"]
+    result = triangulated(plain(array), options, progress)
+    if result["warnings"]:
+        warn(result["warnings"])
+    return result["triangles"]
 
 
-def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any], progress: Progress | None) -> Any:
-    if any(options[name] is not None for name in ("edge_source", "edges", "polygons")):
-        raise RuntimeError("constraints need a TIPP that was built with VTK; the wheel has none.")
+def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
+                progress: Progress | None) -> tuple[Any, dict[str, Any]]:
     if check.is_vtk_object(points):
         return _delaunay_of_data_set(points, options, progress)
     if isinstance(points, Mesh):
         point_data = {**points.point_data, **(point_data or {})}
         points = points.points
-    if _has_vtk():
+    if has_vtk():
         from ._vtk import point_cloud
 
         return _delaunay_of_data_set(point_cloud(points, point_data), options, progress)
-    array = _plain(coordinates(points))
+    array = plain(coordinates(points))
     data = attributes(point_data, len(array))
-    array, triangles, lines, vertices = _meshed(array, options, progress)
-    space = array if array.shape[1] == 3 else np.column_stack([array, np.zeros(len(array), array.dtype)])
-    return Mesh(space, triangles, {} if options["bound"] else data, {}, lines, vertices)
+    mesh, statistics, _ = _meshed(array, data, options, progress)
+    if mesh.points.shape[1] == 2:
+        spatial = np.zeros((len(mesh.points), 3), mesh.points.dtype)
+        for axis in range(2):  # quicker than both at once
+            spatial[:, axis] = mesh.points[:, axis]
+        mesh.points = spatial
+    return mesh, statistics
 
 
-def _meshed(points: np.ndarray, options: dict[str, Any], progress: Progress | None) -> tuple[Any, ...]:
-    """Points, triangles, and with alpha lines and vertices."""
+def _meshed(points: np.ndarray, data: dict[str, np.ndarray], options: dict[str, Any],
+            progress: Progress | None) -> tuple[Mesh, dict[str, Any], bool]:
+    """A mesh, with the points' number of columns, its statistics, and whether its points are the given ones."""
+    given = points
+    segments = constraints.segments_of(points, data, options)
+    if segments is not None:
+        points, data = segments.points, data if segments.point_data is None else segments.point_data
     if options["bound"]:
-        points = _with_circle(points, options["offset"])
-    result = _triangulated(points, options, progress)
-    if options["alpha"] == 0:
-        return points, result["triangles"], None, None
-    covered = np.zeros(len(points), np.uint8)
-    covered[result["duplicates"][:, 0]] = 1
-    covered[result["rejected"]] = 1
-    return (points, *_core.alpha_shape(points, result["triangles"], options["alpha"], covered))
+        points, data = _with_circle(points, options["offset"]), {}
+    is_marked = segments is not None and options["marks"] != 0
+    has_lines = is_marked and options["marks"] == 1
+    has_all = options["alpha"] == 0
+    wants_neighbors = options["neighbors"] and has_all and not has_lines
+    chosen = {**options, "neighbors": wants_neighbors}
+    if segments is None:
+        result = triangulated(points, chosen, progress)
+    else:
+        result = constraints.triangulated(segments, points, chosen, progress)
+        crossings = result["crossings"]
+        points = constraints.with_crossings(points, crossings)
+        if len(crossings):
+            data = {name: constraints.interpolated(values, crossings) for name, values in data.items()}
+    sentences = list(result["warnings"])
+    mesh = Mesh(points, result["triangles"], dict(data))
+    if options["map_duplicates"] and (len(result["duplicates"]) or len(result["rejected"])):
+        mesh.point_data["RepresentativePointId"] = _representatives(len(points), result)
+    if wants_neighbors:
+        mesh.cell_data["NeighborIds"] = result["neighbors"]
+    elif options["neighbors"]:
+        sentences.append("No NeighborIds: " + ("the output has lines, too." if has_lines else
+                                               "with alpha not all triangles are output."))
+    if not has_all:
+        covered = np.zeros(len(points), np.uint8)
+        covered[result["duplicates"][:, 0]] = 1
+        covered[result["rejected"]] = 1
+        mesh.cells, mesh.lines, mesh.vertices = _core.alpha_shape(points, mesh.cells, options["alpha"], covered)
+        if is_marked:
+            sentences.append("No marks of constraints: with alpha not all triangles are output.")
+    elif has_lines:
+        pieces = result["pieces"]
+        mesh.lines = np.ascontiguousarray(pieces[:, :2]).astype(mesh.cells.dtype, copy=False)
+        mesh.line_data["ConstraintId"] = segments.cells[pieces[:, 2]].astype(np.int64)
+    elif is_marked:
+        mesh.cell_data["ConstraintEdges"] = result["marks"]
+    if sentences:
+        warn(sentences)
+    return mesh, result["statistics"], mesh.points is given
+
+
+def _representatives(count: int, result: dict[str, Any]) -> np.ndarray:
+    ids = np.arange(count)
+    point, kept = result["duplicates"].T
+    ids[point] = kept
+    ids[result["rejected"]] = -1
+    return ids
 
 
 def _with_circle(points: np.ndarray, offset: float) -> np.ndarray:
     """The points and eight on a circle around them."""
-    low, high = _box(points)
-    centre, radius = 0.5 * low + 0.5 * high, offset * _diagonal(points)
+    low, high = box(points)
+    centre, radius = 0.5 * low + 0.5 * high, offset * diagonal(points)
     angles = 2 * np.pi * np.arange(8) / 8
     circle = np.column_stack([centre[0] + radius * np.cos(angles), centre[1] + radius * np.sin(angles),
                               np.full(8, centre[2])])
     return np.vstack([points.astype(np.float64), circle[:, : points.shape[1]]])
 
 
-def _delaunay_of_data_set(data: Any, options: dict[str, Any], progress: Progress | None) -> Any:
-    from vtkmodules.vtkCommonDataModel import vtkPolyData
+def _delaunay_of_data_set(data: Any, options: dict[str, Any],
+                          progress: Progress | None) -> tuple[Any, dict[str, Any]]:
+    from ._vtk import arrays_of, surface_of, wrapped_like, xyz_of
 
-    from ._vtk import cells_of, vtk_points, wrapped_like, xyz_of
-
-    array, triangles, lines, vertices = _meshed(_plain(xyz_of(data)), options, progress)
-    mesh = vtkPolyData()
-    if options["bound"]:
-        mesh.SetPoints(vtk_points(array))
-    else:
-        if data.GetPoints():
-            mesh.SetPoints(data.GetPoints())
-        mesh.GetPointData().PassData(data.GetPointData())
-    mesh.SetPolys(cells_of(triangles))
-    if lines is not None:
-        mesh.SetLines(cells_of(lines))
-        mesh.SetVerts(cells_of(vertices))
-    return wrapped_like(mesh, data)
+    has_constraints = any(options[name] is not None for name in ("edge_source", "edges", "polygons"))
+    arrays = arrays_of(data.GetPointData()) if has_constraints else {}
+    mesh, statistics, is_same = _meshed(plain(xyz_of(data)), arrays, options, progress)
+    return wrapped_like(surface_of(mesh, None if options["bound"] or not is_same else data), data), statistics
 
 
 def delaunay_file(
@@ -162,13 +151,8 @@ def delaunay_file(
         options["neighbors"], options["count_only"], options["resume"], options["scratch"], options["threads"],
         progress)
     finish(progress)
-    _warn(sentences)
+    warn(sentences)
     return figures
-
-
-def dem(points: Any, point_data: Any, options: dict[str, Any],
-        progress: Progress | None) -> tuple[list[np.ndarray], tuple[float, ...], str | None]:
-    raise RuntimeError("tipp.dem() needs a TIPP that was built with VTK; the wheel has none.")
 
 
 def read(path: str, options: dict[str, Any], progress: Progress | None) -> Any:
@@ -184,7 +168,7 @@ def read(path: str, options: dict[str, Any], progress: Progress | None) -> Any:
                         options["borrowed"], options["merge"], options["tiling"], options["memory_limit"], progress)
     finish(progress)
     meshes = [Mesh(**piece) for piece in pieces]
-    if not _has_vtk():
+    if not has_vtk():
         empty = Mesh(np.empty((0, 3)), np.empty((0, 3), np.int32))
         return (meshes or [empty])[0] if options["merge"] else meshes
     from ._vtk import grid_of, partitioned
@@ -204,7 +188,7 @@ def write(mesh: Any, path: str, options: dict[str, Any], progress: Progress | No
         if _GHOSTS in cell_data:
             owned = cell_data[_GHOSTS] == 0
             cells, cell_data = cells[owned], {name: values[owned] for name, values in cell_data.items()}
-        _core.partition_arrays(_plain(mesh.points), np.ascontiguousarray(cells), _numbers(mesh.point_data),
+        _core.partition_arrays(plain(mesh.points), np.ascontiguousarray(cells), _numbers(mesh.point_data),
                                _numbers(cell_data), *how)
     finish(progress)
 
@@ -236,8 +220,8 @@ def _simplices(mesh: Any, name: str, kinds: tuple[str, ...], wanted: str) -> Mes
 def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> Any:
     source = mesh
     mesh = _simplices(mesh, "mesh", ("vtkPointSet",), "a mesh")
-    points = _plain(np.asarray(mesh.points))
-    low, high = _box(points)
+    points = plain(np.asarray(mesh.points))
+    low, high = box(points)
     bounds = options["bounds"] if options["bounds"] is not None else np.column_stack([low, high]).ravel().tolist()
     if options["bounds"] is None and not np.isfinite(points).all(axis=1).any():
         raise RuntimeError("the input has no points with finite coordinates, so its bounds give no range: "
@@ -251,10 +235,10 @@ def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> A
     finish(progress)
     if len(mesh.cells) and not mask.any():
         sentences.append("No sample lies in a cell of the mesh: check the range and the number of samples.")
-    _warn([*sentences, *more])
+    warn([*sentences, *more])
     arrays = dict(zip([*chosen[0], *chosen[1]], samples))
     image = Image(tuple(origin), tuple(spacing), dimensions, {**arrays, "vtkValidPointMask": mask})
-    if isinstance(source, Mesh) and not _has_vtk():
+    if isinstance(source, Mesh) and not has_vtk():
         return image
     from ._vtk import image_of, wrapped_like
 
@@ -270,7 +254,7 @@ def _chosen(mesh: Mesh, names: list[str] | None) -> tuple[dict[str, np.ndarray],
                 chosen[name] = np.ascontiguousarray(values)
     missing = [name for name in names or [] if name not in result[0] and name not in result[1]]
     for name in missing:
-        _warn([f"There is no point array '{name}' in the input, so it is not sampled; there are "
+        warn([f"There is no point array '{name}' in the input, so it is not sampled; there are "
                f"{', '.join(repr(known) for known in mesh.point_data) or 'none'}."])
     return result
 

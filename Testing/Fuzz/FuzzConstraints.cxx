@@ -48,14 +48,6 @@ testing::AssertionResult check(const Coordinates& xy, const std::vector<Constrai
     return isConstrained(
       xy, constraints, triangulateConstrained(view(xy), constraints, CrossingRule::Split, options));
   }
-  catch (const std::invalid_argument& error)
-  {
-    // Constraints that are within a unit of each other where they pass by zero may be refused.
-    const std::string text = error.what();
-    return text.find("rounds of splitting") != std::string::npos
-      ? testing::AssertionSuccess()
-      : testing::AssertionFailure() << text;
-  }
   catch (const std::exception& error)
   {
     return testing::AssertionFailure() << "an exception: " << error.what();

@@ -18,6 +18,11 @@ ours.UpdatePipeline()
 print("triangles:", ours.GetDataInformation().GetNumberOfCells())
 print("statistics:", OutputPort(ours, 1).GetDataInformation().GetDataClassName())
 
+diagonal = Line(Point1=(-0.5, -0.5, 0), Point2=(0.5, 0.5, 0), Resolution=1)
+constrained = TIPPDelaunay2D(Input=points, Source=diagonal, ConstraintMarks="Lines")
+constrained.UpdatePipeline()
+print("with lines:", constrained.GetDataInformation().GetNumberOfCells())
+
 ours, theirs = RangeResample(Input=ours), ResampleToImage(Input=points)
 print("missing of ResampleToImage:", sorted(properties(theirs) - properties(ours)))
 print("devices:", ours.GetProperty("Device").GetAvailable()[:2])
@@ -42,6 +47,7 @@ EXPECTED = [
     "missing of Delaunay2D: []",
     "triangles: 400",
     "statistics: vtkTable",
+    "with lines: 410",
     "missing of ResampleToImage: []",
     "devices: ['auto', 'openmp']",
     "samples: (0, 255, 0, 255, 0, 0)",

@@ -19,7 +19,8 @@ def triangles(mesh):
 
 def area(mesh):
     a, b, c = (vtk_to_numpy(mesh.GetPoints().GetData())[corner, :2] for corner in triangles(mesh).T)
-    return float(np.sum(np.cross(b - a, c - a)) / 2)
+    (px, py), (qx, qy) = (b - a).T, (c - a).T
+    return float(np.sum(px * qy - py * qx) / 2)
 
 
 def has_edge(mesh, a, b):

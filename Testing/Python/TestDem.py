@@ -6,6 +6,7 @@ Usage: TestDem.py TIPP [unittest arguments]
 import json
 import os
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -71,6 +72,50 @@ class Dem(unittest.TestCase):
             for points in (self.points, tipp.delaunay_2d(self.points), self.path("points.npy"), [self.path("points.npy")]):
                 grid = tipp.dem(points, 0.3, **keywords).array
                 np.testing.assert_array_equal(np.load(self.path("dem.npy"))[::-1], grid, str(options))
+
+    def test_bands_of_triangles_are_those_of_the_tool(self):
+        names = ["slope", "aspect", "hillshade", "void", "elevation"]
+        bands = tipp.dem(self.points, 0.5, attributes=names, max_edge=4).array
+        self.run_tipp("dem", "points.npy", "-o", "dem.npy", "--resolution", 0.5, "--attributes", ",".join(names), "--max-edge", 4)
+        np.testing.assert_allclose(bands, np.load(self.path("dem.npy"))[:, ::-1], rtol=1e-12)
+        self.assertEqual(set(np.unique(bands[3])), {0.0, 1.0})
+
+    def test_equal_places_and_thinning_are_those_of_the_tool(self):
+        self.points[:, :2] = np.round(self.points[:, :2])
+        np.save(self.path("points.npy"), self.points)
+        grids = []
+        for options, keywords in ([(["--duplicates", rule], {"duplicates": rule}) for rule in ("first", "min", "max", "mean")] +
+                                  [(["--thin", f"2.5:{rule}"], {"thin": (2.5, rule)}) for rule in ("min", "max", "nearest")]):
+            self.run_tipp("dem", "points.npy", "-o", "dem.npy", "--resolution", 0.7, *options)
+            for points in (self.points, self.path("points.npy")):
+                grids.append(tipp.dem(points, 0.7, **keywords).array)
+                np.testing.assert_array_equal(np.load(self.path("dem.npy"))[::-1], grids[-1], str(options))
+        self.assertEqual(len({grid.tobytes() for grid in grids}), 7)
+
+    def write_las(self, name, integers):
+        """LAS 1.2 of format 0 with steps of 0.01."""
+        header = bytearray(227)
+        struct.pack_into("<4s", header, 0, b"LASF")
+        struct.pack_into("<BB", header, 24, 1, 2)
+        struct.pack_into("<HIIBHI", header, 94, 227, 227, 0, 0, 20, len(integers))
+        struct.pack_into("<6d", header, 131, 0.01, 0.01, 0.01, 1000, 2000, 0)
+        records = np.zeros(len(integers), [("xyz", "<i4", 3), ("intensity", "<u2"), ("bytes", "u1", 6)])
+        records["xyz"] = integers
+        records["bytes"][:, 1] = 2  # the class
+        with open(self.path(name), "wb") as file:
+            file.write(header + records.tobytes())
+
+    def test_tiles_share_the_points_on_their_borders(self):
+        places = RANDOM.integers(0, 4000, (20000, 2))
+        places[:200, 0] = 2000
+        integers = np.c_[places, (places[:, 0] * 7 + places[:, 1] ** 2 // 900) % 3000]
+        self.write_las("whole.las", integers)
+        self.write_las("west.las", integers[integers[:, 0] <= 2000])
+        self.write_las("east.las", integers[integers[:, 0] >= 2000])
+        for memory in ([], ["--memory", "2M"]):
+            for files in (["whole.las"], ["west.las", "east.las"], ["east.las", "west.las"]):
+                self.run_tipp("dem", *files, "-o", files[0] + ".npy", "--resolution", 0.15, "--duplicates", "max", *memory)
+                np.testing.assert_array_equal(np.load(self.path("whole.las.npy")), np.load(self.path(files[0] + ".npy")))
 
     def test_attributes_are_bands(self):
         data = {"a": self.points[:, 0] * 2, "b": np.arange(len(self.points)).astype(float)}

@@ -3,6 +3,7 @@
 import inspect
 import os
 import pathlib
+import pydoc
 import signal
 import subprocess
 import sys
@@ -30,6 +31,12 @@ def edges_of(triangles):
 
 def address(array):
     return array.__array_interface__["data"][0]
+
+
+def public():
+    """What users see of the package."""
+    return [(name, thing) for name, thing in vars(tipp).items()
+            if not name.startswith("_") and not inspect.ismodule(thing)]
 
 
 def memory_of(kind):
@@ -134,6 +141,43 @@ class Delaunay(unittest.TestCase):
         np.testing.assert_array_equal(tipp.as_array(again, "v"), np.arange(50))
         with self.assertRaisesRegex(ValueError, "has its own"):
             tipp.delaunay_2d(mesh, point_data={"w": np.arange(50)})
+
+
+class MeshOptions(unittest.TestCase):
+    def setUp(self):
+        self.points = np.vstack([random_points(400, 2), random_points(400, 2)[:3], [[np.nan, 0]]])
+
+    def mesh(self, **options):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return tipp.delaunay_2d(self.points, **options)
+
+    def test_representatives_are_the_lowest_points_at_a_place(self):
+        ids = tipp.as_array(self.mesh(map_duplicates=True), "RepresentativePointId")
+        self.assertEqual([*range(400), 0, 1, 2, -1], ids.tolist())
+
+    def test_neighbors_name_each_other(self):
+        mesh = self.mesh(neighbors=True)
+        neighbors = tipp.as_array(mesh, "NeighborIds")
+        triangles = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+        for triangle, beside in enumerate(neighbors):
+            for corner, other in enumerate(beside):
+                if other >= 0:
+                    self.assertIn(triangle, neighbors[other])
+                    self.assertNotIn(triangles[triangle][corner], triangles[other])
+        self.assertEqual(len(edges_of(triangles)), (neighbors >= 0).sum() // 2 + (neighbors < 0).sum())
+
+    def test_statistics_count_what_there_is(self):
+        mesh, statistics = self.mesh(return_statistics=True)
+        expected = {"points": 404, "triangles": mesh.GetNumberOfPolys(), "duplicates": 3, "rejected": 1}
+        self.assertEqual(expected, {name: statistics[name] for name in expected})
+        self.assertGreater(statistics["partitions"], 0)
+        self.assertTrue(all(seconds >= 0 for seconds in statistics["seconds"].values()))
+
+    def test_statistics_count_constraints(self):
+        square = [[0, 0], [4, 0], [4, 4], [0, 4]]
+        _, statistics = tipp.delaunay_2d(square, edges=[[0, 2], [1, 3]], return_statistics=True)
+        self.assertEqual((2, 4, 1), tuple(statistics[n] for n in ("constraints", "constraint_edges", "crossing_points")))
 
 
 class Resample(unittest.TestCase):
@@ -371,8 +415,7 @@ class Interrupt(unittest.TestCase):
 
 class Package(unittest.TestCase):
     def test_every_public_function_is_documented_and_has_type_hints(self):
-        for name in tipp.__all__:
-            thing = getattr(tipp, name)
+        for name, thing in public():
             self.assertTrue(inspect.getdoc(thing), name)
             if inspect.isfunction(thing):
                 parameters = inspect.signature(thing).parameters
@@ -380,6 +423,13 @@ class Package(unittest.TestCase):
                 self.assertEqual(missing, [], name)
                 undocumented = [p for p in parameters if p not in inspect.getdoc(thing)]
                 self.assertEqual(undocumented, [], name)
+
+    def test_help_is_an_overview(self):
+        text = pydoc.render_doc(tipp, renderer=pydoc.plaintext)
+        self.assertLess(text.count("\n"), 300)
+        for name, thing in public():
+            if inspect.isfunction(thing):
+                self.assertIn(f"{name}(", text)
 
     def run_python(self, program, **files):
         with tempfile.TemporaryDirectory() as folder:
@@ -412,6 +462,11 @@ class Package(unittest.TestCase):
             for release in (self.OLD, self.NEW):
                 program = f"import {first}, {second}; print(type(pyvista.DataSet().tipp).__name__)"
                 self.assertEqual(self.run_python(program, pyvista=release), "Accessor")
+
+    def test_looking_for_pyvista_does_not_keep_the_accessor_from_it(self):
+        program = ("import importlib.util, tipp; importlib.util.find_spec('pyvista'); import pyvista;"
+                   "print(type(pyvista.DataSet().tipp).__name__)")
+        self.assertEqual(self.run_python(program, pyvista=self.NEW), "Accessor")
 
     @unittest.skipIf("site-packages" in tipp.__file__, "the package lies where PyVista does")
     def test_a_missing_pyvista_is_missing_as_ever(self):

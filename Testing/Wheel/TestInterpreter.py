@@ -140,8 +140,9 @@ class Interpreter(unittest.TestCase):
         self.assertEqual("KeyboardInterrupt", run.stderr.splitlines()[-1])
         self.assertEqual(-signal.SIGINT, run.returncode)
 
-    def test_help_is_short_and_complete(self):
+    def test_help_is_an_overview_and_types_are_there(self):
         text = pydoc.render_doc(tipp, renderer=pydoc.plaintext)
+        self.assertLess(text.count("\n"), 300)
         for name in ("delaunay_2d", "delaunay_file", "resample", "read", "write"):
             self.assertIn(f"{name}(", text)
         package = os.path.dirname(tipp.__file__)

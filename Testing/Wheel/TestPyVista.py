@@ -48,9 +48,17 @@ class PyVista(unittest.TestCase):
         self.assertIs(cloud, cloud.tipp.delaunay_2d(inplace=True))
         self.assertGreater(cloud.n_cells, 3000)
 
-    def test_edge_source_is_refused_in_one_sentence(self):
-        with self.assertRaisesRegex(ValueError, "^edge_source is given, but [^.]*[.]"):
-            terrain().tipp.delaunay_2d(edge_source=pyvista.PolyData())
+    def test_edge_source_gives_edges(self):
+        cloud = terrain(200)
+        source = pyvista.PolyData(cloud.points, lines=[2, 3, 150, 3, 7, 8, 9])
+        mesh = cloud.tipp.delaunay_2d(edge_source=source, marks="lines")
+        ids = tipp.as_array(mesh, "ConstraintId")
+        self.assertEqual({-1, 0, 1}, set(ids.tolist()))
+        self.assertEqual(mesh.n_lines, int((ids >= 0).sum()))
+
+    def test_an_edge_source_of_other_type_is_refused_in_one_sentence(self):
+        with self.assertRaisesRegex(TypeError, "^edge_source is [^.]*[.]"):
+            terrain().tipp.delaunay_2d(edge_source=[[0, 1]])
 
     def test_a_mesh_is_resampled_to_a_pyvista_image(self):
         image = terrain().tipp.delaunay_2d().tipp.resample_to_image(bounds=(0.2, 0.8, 0.2, 0.8), dimensions=(7, 7))

@@ -3,6 +3,7 @@
 #define tippDelaunayArguments_h
 
 #include "Distributed/DistributedOptions.h"
+#include "Duplicates/ResolveDuplicates.h"
 #include "Points/ReadPoints.h"
 
 #include <optional>
@@ -30,8 +31,10 @@ struct DelaunayArguments
   int InitialPoints = 0;
   double MaximumEdge = 0; ///< 0: not given
   bool MapDuplicates = false;
+  DuplicateRule Duplicates = DuplicateRule::First;
   bool Neighbors = false;
   std::string Constraints; ///< a file; empty: none
+  std::string Boundary;    ///< the same
   bool RefuseCrossings = false;
   std::vector<std::pair<double, double>> Holes; ///< x and y of points in holes
   std::string Statistics;

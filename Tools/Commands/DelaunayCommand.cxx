@@ -28,7 +28,7 @@ namespace
 {
 
 constexpr const char* footer =
-  R"(INPUT   .npy (n x 2 or n x 3, float64 or float32); .csv, .txt, .xyz (one point a
+  R"(INPUT   - for text from standard input; .npy (n x 2 or n x 3, float64 or float32); .csv, .txt, .xyz (one point a
         line, columns parted by comma, semicolon, tab or blanks; a line of names
         or of the count is found); .las (1.0 to 1.4), .laz with LASzip; .14, .grd
         (ADCIRC); any VTK file. Several files are one set of points, if they have the
@@ -37,7 +37,8 @@ constexpr const char* footer =
         synthetic or overlap are left out unless --keep names the flag.
 OUTPUT  .vtp, .vtu (all points with their data, a column named z as third
         coordinate) or .npy (m x 3 int64: point ids, counted from 0,
-        counter-clockwise); or .tipp, a partitioned mesh, made out of core: points
+        counter-clockwise); .14 (ADCIRC: node numbers and boundaries of a .14 input are
+        kept; depth is the column depth or else minus z); or .tipp, a partitioned mesh, made out of core: points
         and triangles may be larger than memory. .npy .las and text are read in
         blocks, other points as a whole.
 
@@ -91,7 +92,7 @@ Triangulation triangulatePoints(
   const DelaunayArguments& arguments, PointTable& points, std::string& report)
 {
   ProgressBar bar("Triangulating");
-  if (!arguments.Constraints.empty())
+  if (!arguments.Constraints.empty() || !arguments.Boundary.empty())
   {
     return triangulateWithConstraints(arguments, points, makeOptions(arguments, bar), report);
   }
@@ -117,7 +118,7 @@ int runDelaunay(const DelaunayArguments& arguments)
   PointTable points = readPointsFor(arguments);
   run.Points = std::int64_t(points.size());
   run.ReadSeconds = watch.restart();
-  reportLeftOut(points.LeftOut);
+  reportLeftOut(points.LeftOut, points.ThinnedOut);
   if (isInterrupted())
   {
     return reportInterrupt();
@@ -125,6 +126,7 @@ int runDelaunay(const DelaunayArguments& arguments)
   std::string constraintReport;
   const Triangulation result = triangulatePoints(arguments, points, constraintReport);
   run.TriangulateSeconds = watch.restart();
+  run.DisagreeingPlaces = resolveDuplicates(points, result.Duplicates, arguments.Duplicates);
   if (result.Aborted || isInterrupted() || !writeResult(arguments, points, result, before))
   {
     return reportInterrupt();
@@ -147,7 +149,7 @@ std::string checkOutput(const std::string& path)
 {
   return isMeshFile(path) || extensionOf(path) == ".tipp"
     ? ""
-    : "'" + path + "' does not end in .vtp, .vtu, .npy or .tipp";
+    : "'" + path + "' does not end in .vtp, .vtu, .npy, .14 or .tipp";
 }
 
 std::string checkPartitions(const std::string& text)
@@ -211,6 +213,8 @@ void addConstraints(CLI::App& command, DelaunayArguments& arguments)
 {
   command.add_option("--constraints", arguments.Constraints,
     "A file of segments that must be edges, and of polygons whose inside alone is kept");
+  command.add_option("--boundary", arguments.Boundary,
+    "A file of closed lines: only the triangles inside of them are kept");
   command.add_flag("--refuse-crossings", arguments.RefuseCrossings,
     "An error if two constraints cross; without: they are split at a new point");
   command
@@ -222,7 +226,8 @@ void addConstraints(CLI::App& command, DelaunayArguments& arguments)
 
 void requireConstraintsInMemory(const DelaunayArguments& arguments)
 {
-  if (arguments.Constraints.empty())
+  const char* const option = arguments.Constraints.empty() ? "--boundary" : "--constraints";
+  if (arguments.Constraints.empty() && arguments.Boundary.empty())
   {
     if (arguments.RefuseCrossings || !arguments.Holes.empty())
     {
@@ -233,13 +238,13 @@ void requireConstraintsInMemory(const DelaunayArguments& arguments)
   }
   if (isOutOfCore(arguments))
   {
-    throw CLI::ValidationError("--constraints",
+    throw CLI::ValidationError(option,
       "does not go with an output named .tipp, since constraints need all points in memory");
   }
   if (arguments.isForRanks() || startedRank() >= 0)
   {
     throw CLI::ValidationError(
-      "--constraints", "needs a single process: run it without mpirun and options for ranks");
+      option, "needs a single process: run it without mpirun and options for ranks");
   }
 }
 
@@ -255,6 +260,7 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
     ->required()
     ->check(checkOutput);
   addPointOptions(*command, arguments->Columns);
+  addDuplicatesOption(*command, arguments->Duplicates);
   addTuning(*command, *arguments);
   command
     ->add_option("--max-edge", arguments->MaximumEdge,
@@ -287,12 +293,17 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
   command->callback(
     [arguments, &exitCode]()
     {
-      if (arguments->MapDuplicates && extensionOf(arguments->Output) == ".npy")
+      if (arguments->MapDuplicates && !holdsArrays(arguments->Output))
       {
         throw CLI::ValidationError(
           "--map-duplicates", "needs an output of points, so .vtp or .vtu");
       }
-      if (arguments->Neighbors && extensionOf(arguments->Output) == ".npy")
+      if (arguments->Duplicates != DuplicateRule::First && extensionOf(arguments->Output) == ".npy")
+      {
+        throw CLI::ValidationError(
+          "--duplicates", "needs an output of points with data, so .vtp, .vtu or .tipp");
+      }
+      if (arguments->Neighbors && !holdsArrays(arguments->Output))
       {
         throw CLI::ValidationError(
           "--neighbors", "needs an output of cells with data, so .vtp, .vtu or .tipp");
@@ -303,6 +314,7 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
           "--partitions", "does not go with --masters, --major and --minor; give --minor");
       }
       arguments->Input = arguments->Inputs.front();
+      arguments->Columns.Threads = arguments->Threads;
       const std::string misplaced = misplacedOutOfCoreOption(*arguments);
       requireConstraintsInMemory(*arguments);
       if (isOutOfCore(*arguments) && arguments->isForRanks())

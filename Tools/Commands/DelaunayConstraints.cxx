@@ -1,105 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/DelaunayConstraints.h"
 
-#include "Constraints/KeepInside.h"
-#include "Constraints/MatchPositions.h"
 #include "Constraints/ReadConstraintFile.h"
-#include "Constraints/TriangulateConstrained.h"
+#include "Constraints/TableConstraints.h"
 #include "Files/Extension.h"
 #include "Files/IOError.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <stdexcept>
 
 namespace tipp
 {
 namespace
 {
-
-PointsView viewOf(const std::vector<double>& xy)
-{
-  return PointsView(xy.data(), xy.size() / 2, 2);
-}
-
-/// The table's edges as constraints between the points; its other points are appended to them.
-std::vector<Constraint> joinTable(const ConstraintTable& table, PointTable& points)
-{
-  std::vector<Constraint> constraints;
-  if (table.XY.empty())
-  {
-    for (const auto& edge : table.Edges)
-    {
-      constraints.push_back({ edge[0], edge[1] });
-    }
-    return constraints;
-  }
-  const MatchedPositions matched = matchPositions(viewOf(points.XY), viewOf(table.XY));
-  for (const std::size_t own : matched.New)
-  {
-    points.XY.push_back(table.XY[2 * own]);
-    points.XY.push_back(table.XY[2 * own + 1]);
-    for (PointTable::Column& column : points.Columns)
-    {
-      const bool isHeight = column.Name == "z" && !table.Height.empty();
-      column.Values.push_back(isHeight ? table.Height[own] : std::nan(""));
-    }
-  }
-  for (const auto& edge : table.Edges)
-  {
-    constraints.push_back({ matched.Ids[std::size_t(edge[0])], matched.Ids[std::size_t(edge[1])] });
-  }
-  return constraints;
-}
-
-void appendCrossings(const std::vector<CrossingPoint>& crossings, PointTable& points)
-{
-  for (const CrossingPoint& crossing : crossings)
-  {
-    points.XY.push_back(crossing.Position.x);
-    points.XY.push_back(crossing.Position.y);
-    for (PointTable::Column& column : points.Columns)
-    {
-      const double a = column.Values[std::size_t(crossing.A)];
-      const double b = column.Values[std::size_t(crossing.B)];
-      column.Values.push_back((1 - crossing.Fraction) * a + crossing.Fraction * b);
-    }
-  }
-}
-
-/// A polygon without one of its edges would not tell what is inside.
-void cutOutside(
-  const ConstraintTable& table, const PointTable& points, ConstrainedTriangulation& result)
-{
-  const std::vector<ConstraintPiece>& pieces = result.Constraints.Pieces;
-  std::vector<ConstraintPiece> polygonEdges;
-  for (const ConstraintPiece& piece : pieces)
-  {
-    if (std::size_t(piece.Constraint) >= table.PolygonBegin)
-    {
-      polygonEdges.push_back(piece);
-    }
-  }
-  if (!polygonEdges.empty() && result.Constraints.NotFinite > 0)
-  {
-    throw std::invalid_argument(
-      "it has polygons, and a point that is NaN or infinite; correct the point.");
-  }
-  std::vector<Point2> holes;
-  for (std::size_t i = 0; i < table.Holes.size(); i += 2)
-  {
-    holes.push_back({ table.Holes[i], table.Holes[i + 1] });
-  }
-  if (!holes.empty())
-  {
-    removeHoles(viewOf(points.XY), result.Mesh, pieces, holes);
-  }
-  if (!polygonEdges.empty() && result.Mesh.triangleCount() > 0)
-  {
-    keepInside(result.Mesh, polygonEdges);
-  }
-}
 
 std::string describe(const ResolvedConstraints& resolved, std::size_t constraints)
 {
@@ -114,25 +28,45 @@ std::string describe(const ResolvedConstraints& resolved, std::size_t constraint
 
 } // namespace
 
+ConstraintTable readBoundary(const std::string& path)
+{
+  ConstraintTable boundary = readConstraintFile(path);
+  try
+  {
+    requireClosedBoundary(boundary);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw IOError(path, error.what());
+  }
+  return boundary;
+}
+
 Triangulation triangulateWithConstraints(const DelaunayArguments& arguments, PointTable& points,
   const TriangulationOptions& options, std::string& report)
 {
-  ConstraintTable table = readConstraintFile(arguments.Constraints);
+  TableConstraints constraints;
+  if (!arguments.Constraints.empty())
+  {
+    constraints.Lines = readConstraintFile(arguments.Constraints);
+  }
   for (const auto& [x, y] : arguments.Holes)
   {
-    table.Holes.insert(table.Holes.end(), { x, y });
+    constraints.Lines.Holes.insert(constraints.Lines.Holes.end(), { x, y });
   }
+  if (!arguments.Boundary.empty())
+  {
+    constraints.Boundary = readBoundary(arguments.Boundary);
+  }
+  constraints.Crossings = arguments.RefuseCrossings ? CrossingRule::Refuse : CrossingRule::Split;
   const std::size_t given = points.size();
-  const std::vector<Constraint> constraints = joinTable(table, points);
   try
   {
-    ConstrainedTriangulation result = triangulateConstrained(viewOf(points.XY), constraints,
-      arguments.RefuseCrossings ? CrossingRule::Refuse : CrossingRule::Split, options);
+    ConstrainedTriangulation result = triangulateTable(points, constraints, options);
     if (result.Mesh.Aborted)
     {
       return std::move(result.Mesh);
     }
-    appendCrossings(result.Constraints.Crossings, points);
     if (points.size() > given && extensionOf(arguments.Output) == ".npy")
     {
       throw std::invalid_argument(
@@ -140,13 +74,14 @@ Triangulation triangulateWithConstraints(const DelaunayArguments& arguments, Poi
                     "name it .vtp or .vtu.",
           points.size() - given, arguments.Input));
     }
-    cutOutside(table, points, result);
-    report = describe(result.Constraints, constraints.size());
+    report = describe(
+      result.Constraints, constraints.Lines.Edges.size() + constraints.Boundary.Edges.size());
     return std::move(result.Mesh);
   }
   catch (const std::invalid_argument& error)
   {
-    throw IOError(arguments.Constraints, error.what());
+    throw IOError(
+      arguments.Constraints.empty() ? arguments.Boundary : arguments.Constraints, error.what());
   }
 }
 

@@ -3,6 +3,7 @@
 #define tippDelaunayConstraints_h
 
 #include "Commands/DelaunayArguments.h"
+#include "Constraints/ConstraintTable.h"
 #include "Points/PointTable.h"
 #include "Triangulation/Triangulate.h"
 
@@ -11,10 +12,14 @@
 namespace tipp
 {
 
-/// Triangulates with the constraints that --constraints names. The points of their file that are
-/// not among the points come after these, then the points where constraints cross. A column of the
-/// new points is what the constraints' file has as height, if it is named z; else NaN. A column of
-/// a crossing is interpolated. `report` becomes a line about the constraints. Throws IOError.
+/// Reads the closed lines of a boundary. Throws IOError.
+ConstraintTable readBoundary(const std::string& path);
+
+/// Triangulates with the constraints that --constraints and --boundary name. The points of their
+/// files that are not among the points come after these, then the points where constraints cross. A
+/// column of the new points is what the constraints' file has as height, if it is named z; else
+/// NaN. A column of a crossing is interpolated. `report` becomes a line about the constraints.
+/// Throws IOError.
 Triangulation triangulateWithConstraints(const DelaunayArguments& arguments, PointTable& points,
   const TriangulationOptions& options, std::string& report);
 

@@ -72,8 +72,9 @@ void writeOnFirst(Postbox& ranks, const DelaunayArguments& arguments, DelaunayRu
   }
   Stopwatch watch;
   // An output of triangles alone has no use for them.
-  const PointTable points =
+  PointTable points =
     extensionOf(arguments.Output) == ".npy" ? PointTable() : readPointsFor(arguments);
+  run.DisagreeingPlaces = resolveDuplicates(points, all.Duplicates, arguments.Duplicates);
   if (!writeResult(arguments, points, all, before))
   {
     throw RankFailure(0, true, "interrupted");

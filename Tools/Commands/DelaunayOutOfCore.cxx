@@ -3,36 +3,25 @@
 
 #include "Commands/Commands.h"
 #include "Commands/MemorySize.h"
+#include "Commands/OutOfCoreRun.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
-#include "Console/Interrupt.h"
-#include "Console/ProgressBar.h"
 #include "Files/Extension.h"
 #include "Files/PendingFile.h"
 #include "Files/RequireApart.h"
-#include "OutOfCore/OutOfCoreRanks.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <memory>
 #include <numeric>
 #include <vector>
-
-#include <malloc.h>
 
 namespace tipp
 {
 namespace
 {
 
-std::unique_ptr<ProgressBar> makeBar()
-{
-  return std::make_unique<ProgressBar>("Triangulating");
-}
-
-OutOfCoreOptions makeOptions(const DelaunayArguments& arguments, std::unique_ptr<ProgressBar>& bar)
+OutOfCoreOptions makeOptions(const DelaunayArguments& arguments)
 {
   const GridSize grid = *parseGrid(arguments.Partitions);
   OutOfCoreOptions options;
@@ -45,42 +34,12 @@ OutOfCoreOptions makeOptions(const DelaunayArguments& arguments, std::unique_ptr
   options.Threads = arguments.Threads;
   options.MaximumEdge = arguments.MaximumEdge;
   options.MapDuplicates = arguments.MapDuplicates;
+  options.Duplicates = arguments.Duplicates;
   options.Neighbors = arguments.Neighbors;
   options.CountOnly = arguments.Sink == "count";
   options.Resume = arguments.Resume;
   options.Scratch = arguments.Scratch;
-  options.Progress = [&bar](double fraction)
-  {
-    if (bar)
-    {
-      bar->update(fraction);
-    }
-    return !isInterrupted();
-  };
-  options.Warn = [&bar](const std::string& sentence)
-  {
-    bar.reset();
-    fmt::print(stderr, "tipp: warning: {}\n", sentence);
-    bar = makeBar();
-  };
   return options;
-}
-
-/// What the process has read and written so far, in bytes: "rchar" and "wchar" of Linux's
-/// /proc/self/io.
-std::int64_t movedBytes(const std::string& name)
-{
-  std::ifstream file("/proc/self/io");
-  std::string label;
-  std::int64_t bytes = 0;
-  while (file >> label >> bytes)
-  {
-    if (label == name + ":")
-    {
-      return bytes;
-    }
-  }
-  return 0;
 }
 
 double totalSeconds(const OutOfCoreStatistics& statistics)
@@ -91,27 +50,6 @@ double totalSeconds(const OutOfCoreStatistics& statistics)
     sum += phase.Seconds;
   }
   return sum;
-}
-
-/// What a process has used, which /proc and the system know.
-struct ProcessUsage
-{
-  std::int64_t PeakMemory = peakMemoryBytes();
-  std::int64_t Read = movedBytes("rchar");
-  std::int64_t Written = movedBytes("wchar");
-};
-
-/// On the first rank, of all.
-std::vector<ProcessUsage> gatherUsage(Postbox& ranks)
-{
-  ByteWriter writer;
-  writer.value(ProcessUsage());
-  std::vector<ProcessUsage> all;
-  for (const Bytes& bytes : ranks.gather(writer.take()))
-  {
-    all.push_back(ByteReader(bytes).value<ProcessUsage>());
-  }
-  return all;
 }
 
 std::vector<std::int64_t> listOf(
@@ -132,12 +70,6 @@ std::int64_t sumOf(const std::vector<ProcessUsage>& ranks, std::int64_t ProcessU
   return std::accumulate(list.begin(), list.end(), std::int64_t(0));
 }
 
-std::int64_t largestMemory(const std::vector<ProcessUsage>& ranks)
-{
-  const std::vector<std::int64_t> list = listOf(ranks, &ProcessUsage::PeakMemory);
-  return *std::max_element(list.begin(), list.end());
-}
-
 void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& statistics,
   const std::vector<ProcessUsage>& ranks)
 {
@@ -148,6 +80,7 @@ void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& 
     { "triangles", statistics.Triangles },
     { "triangle_sum", fmt::format("{:016x}", statistics.TriangleSum) },
     { "duplicates", statistics.Duplicates },
+    { "disagreeing_places", statistics.DisagreeingPlaces },
     { "rejected", statistics.Rejected },
     { "pieces", statistics.Pieces },
     { "partitions", statistics.Partitions },
@@ -178,11 +111,12 @@ std::string summarize(const OutOfCoreStatistics& statistics, const std::vector<P
   const std::string rejected =
     statistics.Rejected == 0 ? "" : fmt::format(", {} rejected", statistics.Rejected);
   const std::string each = ranks.size() == 1 ? "" : " on a rank at most";
-  return fmt::format("{} points, {} triangles, {} duplicates{}, {} pieces, {:.0f} MB, {:.3f} s, "
+  return fmt::format("{} points, {} triangles, {}{}, {} pieces, {:.0f} MB, {:.3f} s, "
                      "{:.0f} points/s, peak memory {:.0f} MB{}",
-    statistics.Points, statistics.Triangles, statistics.Duplicates, rejected, statistics.Pieces,
-    double(statistics.MeshBytes) / 1e6, seconds, double(statistics.Points) / seconds,
-    double(largestMemory(ranks)) / 1e6, each);
+    statistics.Points, statistics.Triangles,
+    describeDuplicates(statistics.Duplicates, statistics.DisagreeingPlaces), rejected,
+    statistics.Pieces, double(statistics.MeshBytes) / 1e6, seconds,
+    double(statistics.Points) / seconds, double(largestMemory(ranks)) / 1e6, each);
 }
 
 void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& statistics,
@@ -192,7 +126,7 @@ void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& s
   {
     writeReport(arguments, statistics, ranks);
   }
-  reportLeftOut(statistics.LeftOut);
+  reportLeftOut(statistics.LeftOut, statistics.ThinnedOut);
   const bool isCounted = arguments.Sink == "count";
   fmt::print("{}{}\n", summarize(statistics, ranks),
     isCounted ? fmt::format(", checksum {:016x}", statistics.TriangleSum) : "");
@@ -222,15 +156,10 @@ std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments)
 
 int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessController* controller)
 {
-  // Large blocks go back to the system when they are freed, whatever was freed before.
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);
   Postbox ranks(controller);
-  const bool isFirst = ranks.rank() == 0;
-  OutOfCoreStatistics statistics;
-  std::unique_ptr<ProgressBar> bar;
   const auto open = [&]
   {
-    if (isFirst)
+    if (ranks.rank() == 0)
     {
       requireApart(
         { arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, arguments.Inputs);
@@ -238,33 +167,20 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
       {
         const PendingFile writable(arguments.Statistics); // before the work rather than after it
       }
-      bar = makeBar();
     }
-    return openPointStream(arguments.Inputs, arguments.Columns);
+    PointOptions points = arguments.Columns;
+    setThinningFile(points, arguments.Scratch, arguments.Output);
+    return openPointStream(arguments.Inputs, points);
   };
-  try
+  OutOfCoreStatistics statistics;
+  const int code = runOutOfCore(
+    ranks, "Triangulating", open, arguments.Output, makeOptions(arguments), statistics);
+  if (code != Success)
   {
-    statistics =
-      triangulateOutOfCoreOnRanks(ranks, open, arguments.Output, makeOptions(arguments, bar));
-  }
-  catch (const RankFailure& failure)
-  {
-    bar.reset();
-    if (isFirst)
-    {
-      fmt::print(stderr, "tipp: {}{}\n",
-        ranks.size() > 1 ? fmt::format("rank {}: ", failure.Rank) : "", failure.what());
-    }
-    return Failure;
-  }
-  bar.reset();
-  if (statistics.Aborted)
-  {
-    return reportInterrupt(
-      statistics.Kept ? "the same command with --resume goes on" : "nothing was written");
+    return code;
   }
   const std::vector<ProcessUsage> usage = gatherUsage(ranks);
-  if (isFirst)
+  if (ranks.rank() == 0)
   {
     reportMade(arguments, statistics, usage);
   }

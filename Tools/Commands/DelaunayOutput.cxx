@@ -37,11 +37,28 @@ std::vector<std::int64_t> representatives(const Triangulation& result, std::size
   return ids;
 }
 
+bool isAdcircFile(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  return extension == ".14" || extension == ".grd";
+}
+
 } // namespace
+
+bool holdsArrays(const std::string& path)
+{
+  return extensionOf(path) != ".npy" && !isAdcircFile(path);
+}
 
 PointTable readPointsFor(const DelaunayArguments& arguments)
 {
   PointTable points = readPoints(arguments.Inputs, arguments.Columns);
+  std::vector<std::string> names;
+  for (const PointTable::Column& column : points.Columns)
+  {
+    names.push_back(column.Name);
+  }
+  requireElevation(arguments.Duplicates, names);
   if (extensionOf(arguments.Output) == ".npy")
   {
     points.Columns.clear(); // only .vtp and .vtu keep them
@@ -56,6 +73,10 @@ bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
   options.Before = before;
   options.Aborted = isInterrupted;
   options.Neighbors = arguments.Neighbors;
+  if (arguments.Inputs.size() == 1 && points.ThinnedOut == 0 && isAdcircFile(arguments.Input))
+  {
+    options.AdcircLike = arguments.Input;
+  }
   if (arguments.MapDuplicates)
   {
     options.Representatives = representatives(result, points.size());
@@ -67,6 +88,7 @@ PathState requireWritable(const DelaunayArguments& arguments)
 {
   std::vector<std::string> inputs = arguments.Inputs;
   inputs.push_back(arguments.Constraints);
+  inputs.push_back(arguments.Boundary);
   requireApart({ arguments.Output, arguments.Statistics }, inputs);
   const PendingFile output(arguments.Output);
   if (!arguments.Statistics.empty())

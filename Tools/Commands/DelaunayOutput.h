@@ -11,6 +11,9 @@ namespace tipp
 {
 
 /// The whole input, without columns that the output does not keep.
+/// Whether such an output holds arrays of points and cells; not .npy and .14.
+bool holdsArrays(const std::string& path);
+
 PointTable readPointsFor(const DelaunayArguments& arguments);
 
 /// Throws IOError unless the files to write can be: before hours of work rather than after them.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/DelaunayStatistics.h"
 
+#include "Commands/PointArguments.h"
 #include "Commands/RankStatistics.h"
 #include "Commands/Report.h"
 
@@ -22,6 +23,7 @@ nlohmann::ordered_json describeRun(const DelaunayRun& run)
     { "input", run.Input },
     { "output", run.Output },
     { "points", run.Points },
+    { "disagreeing_places", run.DisagreeingPlaces },
     { "read_seconds", run.ReadSeconds },
     { "triangulate_seconds", run.TriangulateSeconds },
     { "write_seconds", run.WriteSeconds },
@@ -36,10 +38,11 @@ std::string summarize(const DelaunayRun& run, const Triangulation& result)
 {
   const std::string rejected =
     result.Rejected.empty() ? "" : fmt::format(", {} rejected", result.Rejected.size());
-  return fmt::format("{} points, {} triangles, {} duplicates{}, {:.3f} s, {:.0f} points/s, peak "
+  return fmt::format("{} points, {} triangles, {}{}, {:.3f} s, {:.0f} points/s, peak "
                      "memory {:.0f} MB",
-    run.Points, result.triangleCount(), result.Duplicates.size(), rejected, run.TriangulateSeconds,
-    pointsPerSecond(run), double(peakMemoryBytes()) / 1e6);
+    run.Points, result.triangleCount(),
+    describeDuplicates(std::int64_t(result.Duplicates.size()), run.DisagreeingPlaces), rejected,
+    run.TriangulateSeconds, pointsPerSecond(run), double(peakMemoryBytes()) / 1e6);
 }
 
 void writeStatistics(const std::string& path, const DelaunayRun& run, const Triangulation& result)

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/DemArguments.h"
 
+#include "Commands/PointArguments.h"
 #include "Commands/Report.h"
+
+#include "Files/PendingFile.h"
+#include "Files/RequireApart.h"
 
 #include <fmt/format.h>
 
@@ -34,6 +38,9 @@ void describeGrid(const TerrainSettings& settings, RasterDescription& descriptio
   description.Bands = settings.Bands.names();
 }
 
+namespace
+{
+
 std::string summarize(const DemArguments& arguments, const DemReport& report)
 {
   const RasterGrid& grid = report.Settings.Grid;
@@ -41,11 +48,13 @@ std::string summarize(const DemArguments& arguments, const DemReport& report)
   const std::string rejected =
     figures.Rejected == 0 ? "" : fmt::format(", {} rejected", figures.Rejected);
   return fmt::format(
-    "{} points, {} triangles, {} duplicates{}, {} x {} pixels, {} with a value, {:.3f} s, peak "
-    "memory {:.0f} MB, in {}",
-    figures.Points, figures.Triangles, figures.Duplicates, rejected, grid.Columns, grid.Rows,
-    report.Filled, report.ReadSeconds + report.MakeSeconds + report.WriteSeconds,
-    double(peakMemoryBytes()) / 1e6, arguments.Output);
+    "{} points, {} triangles, {}{}, {} x {} pixels, {} with a value, {:.3f} s, peak "
+    "memory {:.0f} MB{}, in {}",
+    figures.Points, figures.Triangles,
+    describeDuplicates(figures.Duplicates, figures.DisagreeingPlaces), rejected, grid.Columns,
+    grid.Rows, report.Filled, report.ReadSeconds + report.MakeSeconds + report.WriteSeconds,
+    double(report.PeakMemory) / 1e6, report.Ranks == 1 ? "" : " on a rank at most",
+    arguments.Output);
 }
 
 void writeDemReport(const DemArguments& arguments, const DemReport& report)
@@ -58,6 +67,7 @@ void writeDemReport(const DemArguments& arguments, const DemReport& report)
       { "points", report.Figures.Points },
       { "triangles", report.Figures.Triangles },
       { "duplicates", report.Figures.Duplicates },
+      { "disagreeing_places", report.Figures.DisagreeingPlaces },
       { "rejected", report.Figures.Rejected },
       { "columns", grid.Columns },
       { "rows", grid.Rows },
@@ -70,8 +80,37 @@ void writeDemReport(const DemArguments& arguments, const DemReport& report)
       { "make_seconds", report.MakeSeconds },
       { "write_seconds", report.WriteSeconds },
       { "threads", report.Settings.Threads },
-      { "peak_memory_bytes", peakMemoryBytes() },
+      { "ranks", report.Ranks },
+      { "peak_memory_bytes", report.PeakMemory },
     });
+}
+
+} // namespace
+
+void requireDemWritable(const DemArguments& arguments)
+{
+  std::vector<std::string> inputs = arguments.Inputs;
+  inputs.insert(inputs.end(), { arguments.Breaklines, arguments.Boundary });
+  requireApart({ arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, inputs);
+  if (!arguments.Statistics.empty())
+  {
+    const PendingFile writable(arguments.Statistics);
+  }
+}
+
+void finishDem(const DemArguments& arguments, const DemReport& report)
+{
+  if (!arguments.Statistics.empty())
+  {
+    writeDemReport(arguments, report);
+  }
+  fmt::print("{}\n", summarize(arguments, report));
+  if (report.Figures.Triangles == 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: no pixel has a value, since there are fewer than three distinct points or "
+      "all lie on one line.\n");
+  }
 }
 
 } // namespace tipp

@@ -27,6 +27,8 @@ struct DemArguments
   std::string Type = "float32";
   std::string Compression = "deflate";
   bool CloudOptimized = false;
+  std::string Breaklines; ///< a file; empty: none
+  std::string Boundary;   ///< the same
   std::string Statistics;
   std::string Memory; ///< empty: not given
   bool Resume = false;
@@ -41,6 +43,8 @@ struct DemReport
   double ReadSeconds = 0;
   double MakeSeconds = 0;
   double WriteSeconds = 0;
+  std::int64_t PeakMemory = 0; ///< of the process, or the largest of all ranks
+  int Ranks = 1;
 };
 
 /// All but the grid and the bands, for points in this reference system. Throws IOError for what
@@ -48,8 +52,11 @@ struct DemReport
 RasterDescription describeRaster(const DemArguments& arguments, const std::string& pointCrs);
 void describeGrid(const TerrainSettings& settings, RasterDescription& description);
 
-std::string summarize(const DemArguments& arguments, const DemReport& report);
-void writeDemReport(const DemArguments& arguments, const DemReport& report);
+/// Throws IOError if an output is an input or cannot be written: before the work.
+void requireDemWritable(const DemArguments& arguments);
+
+/// Prints the summary, and writes the statistics if they are asked for.
+void finishDem(const DemArguments& arguments, const DemReport& report);
 
 } // namespace tipp
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Commands/DelaunayConstraints.h"
 #include "Commands/DemArguments.h"
 #include "Commands/DemOutOfCore.h"
 #include "Commands/MemorySize.h"
@@ -9,19 +10,24 @@
 #include "Console/Interrupt.h"
 #include "Console/MpiSession.h"
 #include "Console/ProgressBar.h"
+#include "Constraints/ReadConstraintFile.h"
 #include "Files/IOError.h"
 #include "Files/RequireApart.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/PointStream.h"
+#include "Vtk/VtkFiles.h"
 
 #include "vtkMultiProcessController.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <stdexcept>
+#include <utility>
 
 namespace tipp
 {
@@ -42,31 +48,18 @@ are at multiples of the resolution. Triangles are not stored.
 
 Without --memory all is done in memory. With it points, triangles and pixels may be
 larger than memory; they are kept in a folder beside the output, or that of --scratch.
-The pixels are the same.
+The pixels are the same. Under mpirun the work is shared among the ranks in this way,
+each with the memory of --memory, or 2G; all must see these folders.
 
 Examples:
   tipp dem tiles/*.las -o dem.tif --resolution 1 --class 2
   tipp dem survey.csv -o dem.tif --resolution 0.5 --max-edge 20 --crs EPSG:32633
   tipp dem tile.las -o relief.tif --resolution 1 --attributes elevation,slope,hillshade
   tipp dem tile.las -o same.tif --like other.tif
+  tipp dem tile.las -o dem.tif --resolution 1 --breaklines rivers.csv --boundary area.vtp
   tipp dem tiles/*.las -o dem.tif --resolution 1 --memory 512M
+  mpirun -np 4 tipp dem tiles/*.las -o dem.tif --resolution 1 --memory 512M
 )";
-
-int finish(const DemArguments& arguments, const DemReport& report)
-{
-  if (!arguments.Statistics.empty())
-  {
-    writeDemReport(arguments, report);
-  }
-  fmt::print("{}\n", summarize(arguments, report));
-  if (report.Figures.Triangles == 0)
-  {
-    fmt::print(stderr,
-      "tipp: warning: no pixel has a value, since there are fewer than three distinct points or "
-      "all lie on one line.\n");
-  }
-  return Success;
-}
 
 int runInMemory(const DemArguments& arguments)
 {
@@ -76,7 +69,7 @@ int runInMemory(const DemArguments& arguments)
   const auto stream = openPointStream(arguments.Inputs, arguments.Points);
   const RasterDescription start = describeRaster(arguments, stream->crs());
   PointTable points = readAllPoints(*stream);
-  reportLeftOut(points.LeftOut);
+  reportLeftOut(points.LeftOut, points.ThinnedOut);
   if (isInterrupted())
   {
     return reportInterrupt();
@@ -100,8 +93,9 @@ int runInMemory(const DemArguments& arguments)
   RasterDescription description = start;
   describeGrid(report.Settings, description);
   const auto writer = createRaster(arguments.Output, description, before);
-  report.Filled = writeTiles(*writer, description.Grid, readFrom(report.Settings.Grid, samples),
-    [&](double done) { return progress(0.8 + 0.2 * done); });
+  report.Filled = writeTiles(
+    *writer, description.Grid, readFrom(report.Settings.Grid, samples),
+    [&](double done) { return progress(0.8 + 0.2 * done); }, report.Settings.Bands);
   bar.reset();
   if (report.Filled < 0)
   {
@@ -109,44 +103,86 @@ int runInMemory(const DemArguments& arguments)
   }
   writer->close();
   report.WriteSeconds = watch.restart();
-  return finish(arguments, report);
+  report.PeakMemory = peakMemoryBytes();
+  finishDem(arguments, report);
+  return Success;
 }
 
 int runDem(const DemArguments& arguments)
 {
   const MpiSession session;
-  if (session.controller() && session.controller()->GetNumberOfProcesses() > 1)
-  {
-    if (session.isFirst())
-    {
-      fmt::print(stderr, "tipp: 'tipp dem' runs on one rank alone; start it without mpirun.\n");
-    }
-    return session.isFirst() ? Usage : Success;
-  }
+  const bool isOnRanks = session.controller() && session.controller()->GetNumberOfProcesses() > 1;
   try
   {
-    requireApart(
-      { arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, arguments.Inputs);
-    if (!arguments.Statistics.empty())
+    if (isOnRanks && arguments.Request.Constraints)
     {
-      const PendingFile writable(arguments.Statistics); // before the work rather than after it
+      if (session.isFirst())
+      {
+        fmt::print(stderr,
+          "tipp: breaklines and boundaries need all points in memory; start 'tipp dem' without "
+          "mpirun.\n");
+      }
+      return session.isFirst() ? Usage : Success;
     }
-    if (arguments.Memory.empty())
+    if (isOnRanks || !arguments.Memory.empty())
     {
-      return runInMemory(arguments);
+      DemReport report;
+      return runDemOutOfCore(arguments, session.controller(), report);
     }
-    DemReport report;
-    const int code = runDemOutOfCore(arguments, report);
-    return code == Success ? finish(arguments, report) : code;
+    requireDemWritable(arguments);
+    return runInMemory(arguments);
   }
   catch (const IOError&)
   {
     throw;
   }
+  catch (const std::invalid_argument& error)
+  {
+    throw IOError(
+      arguments.Breaklines.empty() ? arguments.Boundary : arguments.Breaklines, error.what());
+  }
   catch (const std::runtime_error& error)
   {
     throw IOError(
       arguments.Inputs.front(), std::string("cannot be made a raster: ") + error.what());
+  }
+}
+
+void addConstraintOptions(CLI::App& command, DemArguments& arguments)
+{
+  command.add_option("--breaklines", arguments.Breaklines,
+    "A file of lines that are edges of triangles; their points have the file's heights, or those "
+    "of "
+    "the surface without them");
+  command.add_option("--boundary", arguments.Boundary,
+    "A file of closed lines: pixels have values inside of them only");
+}
+
+/// Reads them.
+void takeConstraints(DemArguments& arguments)
+{
+  TableConstraints constraints;
+  constraints.TakesSurface = true;
+  if (!arguments.Breaklines.empty())
+  {
+    constraints.Lines = readConstraintFile(arguments.Breaklines);
+    constraints.Lines.PolygonBegin = constraints.Lines.Edges.size(); // polygons are lines, too
+    constraints.Lines.Holes.clear();
+    std::vector<double>& heights = constraints.Lines.Height;
+    if (isVtkFile(arguments.Breaklines) &&
+      std::all_of(heights.begin(), heights.end(), [](double height) { return height == 0; }))
+    {
+      heights.clear(); // all points of a VTK file have a third coordinate
+    }
+  }
+  if (!arguments.Boundary.empty())
+  {
+    constraints.Boundary = readBoundary(arguments.Boundary);
+    constraints.Boundary.Height.clear();
+  }
+  if (!arguments.Breaklines.empty() || !arguments.Boundary.empty())
+  {
+    arguments.Request.Constraints = std::move(constraints);
   }
 }
 
@@ -180,8 +216,8 @@ void addValueOptions(CLI::App& command, DemArguments& arguments)
 {
   command
     .add_option("--attributes", arguments.Request.Bands,
-      "The bands: elevation, columns of the points as intensity, and slope, aspect and hillshade "
-      "of the triangles; without: elevation")
+      "The bands: elevation, columns of the points as intensity, slope, aspect and hillshade "
+      "of the triangles, and void (1 where there is no triangle, else 0); without: elevation")
     ->delimiter(',')
     ->allow_extra_args(false);
   command
@@ -213,6 +249,11 @@ void requireGood(const DemArguments& arguments)
   {
     throw CLI::ValidationError("--bounds", "does not go with --like");
   }
+  if (!arguments.Memory.empty() && !(arguments.Breaklines.empty() && arguments.Boundary.empty()))
+  {
+    throw CLI::ValidationError(arguments.Breaklines.empty() ? "--boundary" : "--breaklines",
+      "does not go with --memory, since constraints need all points in memory");
+  }
   if (arguments.Memory.empty() && (arguments.Resume || !arguments.Scratch.empty()))
   {
     throw CLI::ValidationError(
@@ -233,7 +274,9 @@ void addDemCommand(CLI::App& app, int& exitCode)
     ->check(checkOutput);
   addGridOptions(*command, *arguments);
   addValueOptions(*command, *arguments);
+  addConstraintOptions(*command, *arguments);
   addPointOptions(*command, arguments->Points);
+  addDuplicatesOption(*command, arguments->Request.Duplicates);
   command
     ->add_option("--threads", arguments->Request.Threads, "Number of threads; 0: OpenMP's choice")
     ->check(CLI::Range(0, 4096))
@@ -250,6 +293,7 @@ void addDemCommand(CLI::App& app, int& exitCode)
     [arguments, &exitCode]()
     {
       requireGood(*arguments);
+      arguments->Points.Threads = arguments->Request.Threads;
       arguments->Points.Columns = columnsForBands(arguments->Request.Bands);
       if (!arguments->Bounds.empty())
       {
@@ -260,6 +304,7 @@ void addDemCommand(CLI::App& app, int& exitCode)
       {
         arguments->Request.Raster.Like = readRasterInfo(arguments->Like).Grid;
       }
+      takeConstraints(*arguments);
       exitCode = runDem(*arguments);
     });
 }

@@ -3,16 +3,17 @@
 
 #include "Commands/Commands.h"
 #include "Commands/MemorySize.h"
+#include "Commands/OutOfCoreRun.h"
 #include "Commands/PointArguments.h"
-#include "Console/Interrupt.h"
-#include "Console/ProgressBar.h"
 #include "Dem/RasterSink.h"
-#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "Files/IOError.h"
 #include "Points/PointStream.h"
 
 #include <fmt/format.h>
 
-#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <malloc.h>
 
@@ -47,75 +48,94 @@ std::string identityOf(const DemArguments& arguments, const RasterDescription& d
 /// Of the folder beside the output that a run keeps its files in.
 constexpr const char* workSuffix = ".pixels";
 
-std::unique_ptr<ProgressBar> makeBar()
-{
-  return std::make_unique<ProgressBar>("Making the raster");
-}
-
 } // namespace
 
-int runDemOutOfCore(const DemArguments& arguments, DemReport& report)
+int runDemOutOfCore(
+  const DemArguments& arguments, vtkMultiProcessController* controller, DemReport& report)
 {
-  // Large blocks go back to the system when they are freed, whatever was freed before.
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);
-  const PathState before = PendingFile(arguments.Output).before();
-  const auto stream = openPointStream(arguments.Inputs, arguments.Points);
-  const RasterDescription description = describeRaster(arguments, stream->crs());
-  std::unique_ptr<ProgressBar> bar = makeBar();
+  Postbox ranks(controller);
+  const bool isFirst = ranks.rank() == 0;
+  PathState before;
+  RasterDescription description;
   RasterSink sink(
-    identityOf(arguments, description),
     [&](const Box2& bounds, const std::vector<std::string>& columns)
-    { return makeTerrainSettings(arguments.Request, bounds, columns); },
+    {
+      try
+      {
+        return makeTerrainSettings(arguments.Request, bounds, columns);
+      }
+      catch (const std::runtime_error& error)
+      {
+        throw IOError(
+          arguments.Inputs.front(), std::string("cannot be made a raster: ") + error.what());
+      }
+    },
     [&](const TerrainSettings& settings, const ReadTile& readTile,
       const std::function<bool(double)>& progress)
     {
+      malloc_trim(0); // what pieces have freed
       RasterDescription whole = description;
       describeGrid(settings, whole);
       report.Settings = settings;
       const auto writer = createRaster(arguments.Output, whole, before);
-      report.Filled = writeTiles(*writer, settings.Grid, readTile, progress);
+      report.Filled = writeTiles(*writer, settings.Grid, readTile, progress, settings.Bands);
       report.Filled < 0 ? void() : writer->close();
       return report.Filled >= 0;
     });
+  const auto open = [&]
+  {
+    if (isFirst)
+    {
+      requireDemWritable(arguments);
+      before = PendingFile(arguments.Output).before();
+    }
+    PointOptions points = arguments.Points;
+    setThinningFile(points, arguments.Scratch, arguments.Output);
+    auto stream = openPointStream(arguments.Inputs, points);
+    if (isFirst)
+    {
+      description = describeRaster(arguments, stream->crs());
+      sink.setIdentity(identityOf(arguments, description));
+    }
+    return stream;
+  };
   OutOfCoreOptions options;
-  options.MemoryLimit = *parseMemorySize(arguments.Memory);
+  if (!arguments.Memory.empty())
+  {
+    options.MemoryLimit = *parseMemorySize(arguments.Memory);
+  }
   options.Threads = arguments.Request.Threads;
   options.MaximumEdge = arguments.Request.MaximumEdge;
+  options.Duplicates = arguments.Request.Duplicates;
   options.CountOnly = true;
   options.Taker = &sink;
   options.Resume = arguments.Resume;
   options.Scratch = arguments.Scratch;
-  options.Progress = [&bar](double fraction)
+  OutOfCoreStatistics statistics;
+  const int code = runOutOfCore(
+    ranks, "Making the raster", open, arguments.Output + workSuffix, options, statistics);
+  if (code != Success)
   {
-    if (bar)
-    {
-      bar->update(fraction);
-    }
-    return !isInterrupted();
-  };
-  options.Warn = [&bar](const std::string& sentence)
-  {
-    bar.reset();
-    fmt::print(stderr, "tipp: warning: {}\n", sentence);
-    bar = makeBar();
-  };
-  const OutOfCoreStatistics statistics =
-    triangulateOutOfCore(*stream, arguments.Output + workSuffix, options);
-  bar.reset();
-  if (statistics.Aborted)
-  {
-    return reportInterrupt(
-      statistics.Kept ? "the same command with --resume goes on" : "nothing was written");
+    return code;
   }
-  reportLeftOut(statistics.LeftOut);
+  const std::vector<ProcessUsage> usage = gatherUsage(ranks);
+  if (!isFirst)
+  {
+    return Success;
+  }
+  reportLeftOut(statistics.LeftOut, statistics.ThinnedOut);
+  report.PeakMemory = largestMemory(usage);
+  report.Ranks = ranks.size();
   report.Figures.Points = statistics.Points;
   report.Figures.Triangles = statistics.Triangles;
   report.Figures.Duplicates = statistics.Duplicates;
+  report.Figures.DisagreeingPlaces = statistics.DisagreeingPlaces;
   report.Figures.Rejected = statistics.Rejected;
   for (const OutOfCoreStatistics::Phase& phase : statistics.Phases)
   {
     report.MakeSeconds += phase.Seconds;
   }
+  finishDem(arguments, report);
   return Success;
 }
 

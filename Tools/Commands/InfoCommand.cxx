@@ -152,13 +152,15 @@ int runInfo(const InfoArguments& arguments)
       describeLas(path);
     }
   }
-  const auto stream = openPointStream(arguments.Inputs, arguments.Points);
+  PointOptions options = arguments.Points;
+  options.Threads = 0;
+  const auto stream = openPointStream(arguments.Inputs, options);
   Summary summary = read(*stream);
   if (isInterrupted())
   {
     return reportInterrupt();
   }
-  reportLeftOut(stream->leftOut());
+  reportLeftOut(stream->leftOut(), stream->thinnedOut());
   fmt::print("points      {}{}\n", summary.Points,
     summary.NotFinite > 0 ? fmt::format(", {} without finite coordinates", summary.NotFinite) : "");
   fmt::print("x           {}\ny           {}\n", summary.X.text(), summary.Y.text());

@@ -5,7 +5,11 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +26,35 @@ std::string checkClass(const std::string& text)
   return parsed.ec == std::errc() && parsed.ptr == end && number >= 0 && number <= 255
     ? ""
     : "'" + text + "' is not a class; give numbers from 0 to 255, as 2,9";
+}
+
+/// Nothing if the text is not CELL:RULE.
+std::optional<Thinning> parseThinning(const std::string& text)
+{
+  const std::map<std::string, Thinning::Rule> rules = { { "min", Thinning::Rule::Lowest },
+    { "max", Thinning::Rule::Highest }, { "nearest", Thinning::Rule::Nearest } };
+  Thinning thinning;
+  const char* const end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, thinning.Cell);
+  if (parsed.ec != std::errc() || parsed.ptr == end || *parsed.ptr != ':' || !(thinning.Cell > 0) ||
+    !std::isfinite(thinning.Cell))
+  {
+    return std::nullopt;
+  }
+  const auto rule = rules.find(std::string(parsed.ptr + 1, end));
+  if (rule == rules.end())
+  {
+    return std::nullopt;
+  }
+  thinning.Keep = rule->second;
+  return thinning;
+}
+
+std::string checkThinning(const std::string& text)
+{
+  return parseThinning(text)
+    ? ""
+    : "'" + text + "' is not the side of a square and min, max or nearest, as 0.5:min";
 }
 
 } // namespace
@@ -71,9 +104,36 @@ void addPointOptions(CLI::App& command, PointOptions& options)
     ->delimiter(',')
     ->allow_extra_args(false)
     ->check(CLI::IsMember({ "withheld", "synthetic", "overlap" }));
+  command
+    .add_option_function<std::string>(
+      "--thin", [&options](const std::string& text) { options.Thin = *parseThinning(text); },
+      "Keeps one point in each square of this side, as 0.5:min: min, max (the lowest or highest), "
+      "or nearest (to the middle)")
+    ->check(checkThinning);
 }
 
-void reportLeftOut(std::int64_t points)
+void addDuplicatesOption(CLI::App& command, DuplicateRule& rule)
+{
+  const std::map<std::string, DuplicateRule> rules = { { "first", DuplicateRule::First },
+    { "min", DuplicateRule::Lowest }, { "max", DuplicateRule::Highest },
+    { "mean", DuplicateRule::Mean } };
+  command
+    .add_option_function<std::string>(
+      "--duplicates", [&rule, rules](const std::string& name) { rule = rules.at(name); },
+      "Of several points at one place the values of the first, of the lowest (min) or highest "
+      "(max), or the mean of each column; without: first")
+    ->check(CLI::IsMember({ "first", "min", "max", "mean" }));
+}
+
+void setThinningFile(PointOptions& options, const std::string& scratch, const std::string& output)
+{
+  namespace fs = std::filesystem;
+  const fs::path path(output);
+  const fs::path folder = scratch.empty() ? path.parent_path() : fs::path(scratch);
+  options.Thin.File = (folder / ("." + path.filename().string() + ".squares")).string();
+}
+
+void reportLeftOut(std::int64_t points, std::int64_t thinnedOut)
 {
   if (points > 0)
   {
@@ -82,6 +142,19 @@ void reportLeftOut(std::int64_t points)
       "withheld, synthetic or overlap.\n",
       points);
   }
+  if (thinnedOut > 0)
+  {
+    fmt::print(stderr, "tipp: {} points are left out by thinning.\n", thinnedOut);
+  }
+}
+
+std::string describeDuplicates(std::int64_t duplicates, std::int64_t disagreeing)
+{
+  const std::string places = disagreeing == 0
+    ? ""
+    : fmt::format(
+        ", {} place{} with different elevations", disagreeing, disagreeing == 1 ? "" : "s");
+  return fmt::format("{} duplicates{}", duplicates, places);
 }
 
 } // namespace tipp

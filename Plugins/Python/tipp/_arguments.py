@@ -17,6 +17,8 @@ _MOST_THREADS = 4096
 
 def number(value: Any, name: str, *, at_least: float = -math.inf, finite: bool = True) -> float:
     """A real number. Without `finite` it may be infinite or NaN."""
+    if type(value) is float and at_least <= value < math.inf:  # the usual one, for small calls to be quick
+        return value
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} is {_shown(value)}; give a number.")
     try:
@@ -115,7 +117,7 @@ def path(value: Any, name: str) -> str:
 
 
 def is_vtk_object(value: Any) -> bool:
-    return callable(getattr(value, "IsA", None)) and not isinstance(value, type)
+    return type(value) is not np.ndarray and callable(getattr(value, "IsA", None)) and not isinstance(value, type)
 
 
 def data_object(value: Any, name: str, kinds: Iterable[str], wanted: str) -> Any:

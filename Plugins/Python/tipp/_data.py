@@ -14,11 +14,12 @@ class Data:
     cell_data: dict[str, np.ndarray]
 
     def array(self, name: str) -> np.ndarray:
-        """An array of the points, else of the cells."""
-        for arrays in (self.point_data, self.cell_data):
+        """An array of the points, else of the cells, else of a mesh's lines."""
+        groups = [self.point_data, self.cell_data, getattr(self, "line_data", {})]
+        for arrays in groups:
             if name in arrays:
                 return arrays[name]
-        raise KeyError(f"there is no array '{name}'; there are {[*self.point_data, *self.cell_data]}.")
+        raise KeyError(f"there is no array '{name}'; there are {[known for arrays in groups for known in arrays]}.")
 
 
 @dataclass
@@ -26,7 +27,8 @@ class Mesh(Data):
     """A mesh of triangles or tetrahedra.
 
     `points` are (n, 3) coordinates, `cells` (m, 3) or (m, 4) point ids; `lines` and `vertices` are what
-    delaunay_2d(alpha=...) leaves besides triangles.
+    delaunay_2d(alpha=...) leaves besides triangles. With marks="lines", `lines` are those of the constraints and
+    `line_data["ConstraintId"]` tells which.
     """
 
     points: np.ndarray
@@ -35,6 +37,7 @@ class Mesh(Data):
     cell_data: dict[str, np.ndarray] = field(default_factory=dict)
     lines: np.ndarray | None = None
     vertices: np.ndarray | None = None
+    line_data: dict[str, np.ndarray] = field(default_factory=dict)
 
 
 @dataclass

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 _Path = Union[str, "os.PathLike[str]"]
 _RETURNS = {"all": 0, "first": 1, "last": 2}
+_DUPLICATES = ("first", "min", "max", "mean")
+_THINNINGS = ("min", "max", "nearest")
 _FLAGS = ("withheld", "synthetic", "overlap")
 
 
@@ -49,6 +51,8 @@ def dem(
     attributes: str | Sequence[str] = "elevation",
     point_data: Mapping[str, ArrayLike] | None = None,
     max_edge: float = 0.0,
+    duplicates: str = "first",
+    thin: tuple[float, str] | None = None,
     classes: Sequence[int] | None = None,
     returns: str = "all",
     keep: Sequence[str] = (),
@@ -70,11 +74,18 @@ def dem(
         Whether borders of pixels are at multiples of the resolution; else the first ones are at the
         bounds.
     attributes
-        The bands: "elevation" and names of point_data or of columns of the files.
+        The bands: "elevation" and names of point_data or of columns of the files; "slope" and "aspect" (in degrees),
+        "hillshade" (1 to 255) of the triangles, and "void" (1 where there is no triangle, else 0).
     point_data
         With an array of points: arrays of values at them, by name.
     max_edge
         Triangles with an edge longer than this, in the plane, have no values. 0: all have.
+    duplicates
+        Of several points at one place the values of the "first", of the lowest ("min") or highest ("max"), or of each
+        column the "mean".
+    thin
+        (side, rule): keeps one point in each square of this side: the lowest ("min"), the highest ("max"), or the
+        "nearest" to its middle.
     classes, returns, keep
         Of LAS files: the classes to read (None: all), the returns ("all", "first" or "last"), and which
         flagged points are read, too ("withheld", "synthetic", "overlap").
@@ -117,6 +128,8 @@ def dem(
         "align": check.flag(align, "align"),
         "attributes": names,
         "max_edge": check.number(max_edge, "max_edge", at_least=0),
+        "duplicates": _name(duplicates, "duplicates", _DUPLICATES),
+        "thin": None if thin is None else _thinning(thin),
         "classes": None if classes is None else _sequence(classes, "classes"),
         "returns": _RETURNS[returns],
         "keep": _sequence(keep, "keep"),
@@ -133,6 +146,21 @@ def dem(
         check.data_object(points, "points", ("vtkPointSet",), "a vtkPointSet, an array or names of files")
     bands, transform, crs = _engine.dem(points, point_data, options, progress)
     return Dem(bands[0] if isinstance(attributes, str) else np.stack(bands), transform, crs)
+
+
+def _name(value: Any, name: str, choices: Sequence[str]) -> str:
+    check.choice(value, name, dict.fromkeys(choices, 0))
+    return value
+
+
+def _thinning(thin: Any) -> tuple[float, str]:
+    pair = _sequence(thin, "thin")
+    if len(pair) != 2:
+        raise ValueError(f"thin is {thin!r}; give a side and a rule, as (0.5, 'min').")
+    side = check.number(pair[0], "thin")
+    if not side > 0:
+        raise ValueError(f"thin is {thin!r}; give a side above 0.")
+    return side, _name(pair[1], "thin", _THINNINGS)
 
 
 def _sequence(values: Any, name: str) -> list[Any]:

@@ -24,11 +24,13 @@ class Accessor:
 
     def delaunay_2d(self, *, inplace: bool = False, **options: Any) -> Any:
         """As tipp.delaunay_2d(mesh, ...); with `inplace` the data set becomes the result."""
+        is_inplace = flag(inplace, "inplace")
         result = delaunay_2d(self._dataset, **options)
-        if not flag(inplace, "inplace"):
+        if not is_inplace:
             return result
-        self._dataset.copy_from(result, deep=False)
-        return self._dataset
+        mesh, *statistics = result if isinstance(result, tuple) else (result,)
+        self._dataset.copy_from(mesh, deep=False)
+        return (self._dataset, *statistics) if statistics else self._dataset
 
     def dem(self, resolution: float, **options: Any) -> Any:
         """As tipp.dem(mesh, resolution, ...)."""
@@ -54,14 +56,17 @@ def register(pyvista: ModuleType) -> None:
 class _Loader(importlib.abc.Loader):
     """Loads a module as its own loader does, then registers."""
 
-    def __init__(self, loader: Any):
+    def __init__(self, loader: Any, finder: _Finder):
         self._loader = loader
+        self._finder = finder
 
     def create_module(self, spec: importlib.machinery.ModuleSpec) -> ModuleType | None:
         return self._loader.create_module(spec)
 
     def exec_module(self, module: ModuleType) -> None:
         self._loader.exec_module(module)
+        if self._finder in sys.meta_path:
+            sys.meta_path.remove(self._finder)
         register(module)
 
 
@@ -72,9 +77,12 @@ class _Finder(importlib.abc.MetaPathFinder):
         if name != "pyvista":
             return None
         sys.meta_path.remove(self)
-        spec = importlib.util.find_spec(name)
+        try:
+            spec = importlib.util.find_spec(name)
+        finally:
+            sys.meta_path.insert(0, self)  # the search need not be for an import
         if spec is not None and spec.loader is not None:
-            spec.loader = _Loader(spec.loader)
+            spec.loader = _Loader(spec.loader, self)
         return spec
 
 

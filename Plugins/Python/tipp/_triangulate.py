@@ -94,6 +94,9 @@ def delaunay_2d(
     polygons: Iterable[Any] | None = None,
     crossings: str = "split",
     marks: str = "none",
+    map_duplicates: bool = True,
+    neighbors: bool = False,
+    return_statistics: bool = False,
     partitions: tuple[int, int] | None = None,
     schedule: str = "dynamic",
     threads: int = 0,
@@ -130,6 +133,15 @@ def delaunay_2d(
     marks
         How the mesh shows constraints. "lines": as lines, with the cell array ConstraintId. "flags": in the
         cell array ConstraintEdges, for each corner whether the edge opposite to it is a constraint. "none".
+    map_duplicates
+        Whether the mesh gets the point array RepresentativePointId, if points are at one place or not finite: the
+        lowest id there, or -1.
+    neighbors
+        Whether the mesh gets the cell array NeighborIds: for each corner of a triangle the one opposite to it, -1
+        at the border.
+    return_statistics
+        Whether to return (mesh, statistics): a dictionary of counts (points, triangles, duplicates, rejected,
+        partitions, threads, constraints, crossing_points, ...) and the seconds of each phase.
 
     Returns
     -------
@@ -161,7 +173,11 @@ def delaunay_2d(
     options["edge_source"], options["edges"], options["polygons"] = edge_source, edges, polygons
     options["crossings"] = check.choice(crossings, "crossings", _CROSSINGS)
     options["marks"] = check.choice(marks, "marks", _MARKS)
-    return _engine.delaunay_2d(points, point_data, options, progress_of(progress_bar))
+    options["map_duplicates"] = check.flag(map_duplicates, "map_duplicates")
+    options["neighbors"] = check.flag(neighbors, "neighbors")
+    wants_statistics = check.flag(return_statistics, "return_statistics")
+    mesh, statistics = _engine.delaunay_2d(points, point_data, options, progress_of(progress_bar))
+    return (mesh, statistics) if wants_statistics else mesh
 
 
 def _require_points(points: Any) -> None:

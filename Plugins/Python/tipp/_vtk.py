@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Mapping
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkFloatArray, vtkPoints
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkFloatArray, vtkIdTypeArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import (
     vtkCellArray,
     vtkDataObject,
@@ -137,6 +137,44 @@ def cells_of(ids: np.ndarray) -> vtkCellArray:
     return cells
 
 
+def cell_lists(cells: vtkCellArray) -> list[np.ndarray]:
+    """The point ids of each cell."""
+    legacy = vtkIdTypeArray()
+    cells.ExportLegacyFormat(legacy)
+    values = vtk_to_numpy(legacy).astype(np.int64)
+    lists = []
+    at = 0
+    while at < len(values):  # a count, then as many ids
+        lists.append(values[at + 1:at + 1 + values[at]])
+        at += 1 + int(values[at])
+    return lists
+
+
+def surface_of(mesh: Mesh, data: Any) -> vtkPolyData:
+    """A mesh of triangles, with the points and point data of a data set, if they are the same, for its own."""
+    result = vtkPolyData()
+    if data is None:
+        result.SetPoints(vtk_points(mesh.points))
+    else:
+        if data.GetPoints():
+            result.SetPoints(data.GetPoints())
+        result.GetPointData().PassData(data.GetPointData())
+    for name, values in mesh.point_data.items():
+        if data is None or not result.GetPointData().HasArray(name):
+            result.GetPointData().AddArray(vtk_array(name, values))
+    result.SetPolys(cells_of(mesh.cells))
+    if mesh.vertices is not None:
+        result.SetVerts(cells_of(mesh.vertices))
+    if mesh.lines is not None:
+        result.SetLines(cells_of(mesh.lines))
+    for name, values in mesh.cell_data.items():
+        result.GetCellData().AddArray(vtk_array(name, values))
+    for name, values in mesh.line_data.items():
+        triangles = np.full(len(mesh.cells), -1, values.dtype)  # cells are counted with lines first
+        result.GetCellData().AddArray(vtk_array(name, np.concatenate([values, triangles])))
+    return result
+
+
 def _add_arrays(arrays: dict[str, np.ndarray], target: Any) -> None:
     for name, values in arrays.items():
         array = vtk_array(name, values)
@@ -188,7 +226,7 @@ def _add_ghosts(image: Image, result: vtkImageData) -> None:
     result.GetCellData().AddArray(vtk_array("vtkGhostType", of_cells.ravel()))
 
 
-def _arrays_of(data: Any) -> dict[str, np.ndarray]:
+def arrays_of(data: Any) -> dict[str, np.ndarray]:
     """The named arrays of numbers."""
     arrays = (data.GetArray(i) for i in range(data.GetNumberOfArrays()))
     return {array.GetName(): vtk_to_numpy(array) for array in arrays if array is not None and array.GetName()}
@@ -210,4 +248,4 @@ def simplices_of(data: Any) -> Mesh:
                            "alone; make them so first, as by PyVista's triangulate().")
     corners = 4 if kinds == {10} else 3
     ids = vtk_to_numpy(cells.GetConnectivityArray()) if cells.GetNumberOfCells() else np.empty(0, np.int64)
-    return Mesh(xyz_of(data), ids.reshape(-1, corners), _arrays_of(data.GetPointData()), _arrays_of(data.GetCellData()))
+    return Mesh(xyz_of(data), ids.reshape(-1, corners), arrays_of(data.GetPointData()), arrays_of(data.GetCellData()))

@@ -2,99 +2,35 @@
 """Constraints of a triangulation as the source of vtkTIPPDelaunay2D."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterable, Iterator
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
-from . import _arguments as check
-from ._arrays import taken
+from ._constraints import constraints_of
 from ._vtk import vtk_points
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
     from vtkmodules.vtkCommonDataModel import vtkPointSet
 
 
-def source_of(
-    data: vtkPointSet,
-    edge_source: Any,
-    edges: ArrayLike | None,
-    polygons: Iterable[Any] | None,
-) -> tuple[vtkPolyData | None, bool]:
+def source_of(data: vtkPointSet, options: dict[str, Any]) -> tuple[vtkPolyData | None, bool]:
     """What the arguments of delaunay_2d() name together, or None; and whether it has points of its own."""
-    if edge_source is not None:
-        if edges is not None or polygons is not None:
-            raise ValueError("edge_source does not go with edges and polygons; give one or the others.")
-        return check.data_object(edge_source, "edge_source", ("vtkPolyData",), "a vtkPolyData"), False
-    if edges is None and polygons is None:
-        return None, False
-    count = data.GetNumberOfPoints()
-    lines = [] if edges is None else _edges(edges, count)
-    by_id: list[np.ndarray] = []
-    by_place: list[np.ndarray] = []
-    for number, polygon in enumerate([] if polygons is None else _polygons(polygons)):
-        name = f"polygons[{number}]"
-        rings = list(_rings(polygon)) if hasattr(polygon, "geom_type") else [polygon]
-        for ring in rings:
-            array = taken(ring, name)
-            if array.ndim == 1 and array.dtype.kind in "iu":
-                _require_ids(array, count, name)
-                by_id.append(array)
-            elif array.ndim == 2 and array.shape[1] in (2, 3) and array.dtype.kind in "fiu":
-                by_place.append(_spatial(array))
-            else:
-                raise ValueError(f"{name} has the shape {array.shape} and type {array.dtype}; give point ids, or "
-                                 "coordinates of shape (k, 2) or (k, 3).")
-    return _assemble(data, lines, by_id, by_place)
-
-
-def _polygons(polygons: Any) -> Iterable[Any]:
-    if hasattr(polygons, "geom_type"):
-        return [polygons]
-    if isinstance(polygons, (str, bytes)) or not isinstance(polygons, Iterable):
-        raise TypeError("polygons are no list; give a list of polygons.")
-    return polygons
-
-
-def _require_ids(ids: np.ndarray, count: int, name: str) -> None:
-    wrong = ids[(ids < 0) | (ids >= count)]
-    if wrong.size > 0:
-        raise ValueError(f"{name}: there is no point {wrong.flat[0]}, for there are {count} points; ids count from 0.")
-
-
-def _edges(edges: ArrayLike, count: int) -> list[np.ndarray]:
-    array = taken(edges, "edges")
-    if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
-        raise ValueError(f"edges have the shape {array.shape} and type {array.dtype}; give point ids of shape (m, 2).")
-    _require_ids(array, count, "edges")
-    return list(array)
-
-
-def _rings(polygon: Any) -> Iterator[np.ndarray]:
-    """Of Shapely's polygons the outer rings counter-clockwise and the inner ones clockwise."""
-    if polygon.geom_type == "MultiPolygon":
-        for part in polygon.geoms:
-            yield from _rings(part)
-        return
-    if polygon.geom_type != "Polygon":
-        raise TypeError(f"polygons have a Shapely {polygon.geom_type}; give a Polygon or a MultiPolygon.")
-    if not polygon.is_empty:
-        yield _turned(polygon.exterior, True)
-        for ring in polygon.interiors:
-            yield _turned(ring, False)
-
-
-def _turned(ring: Any, counter_clockwise: bool) -> np.ndarray:
-    corners = np.asarray(ring.coords)[:-1]  # the last one is the first
-    return corners if ring.is_ccw == counter_clockwise else corners[::-1]
-
-
-def _spatial(corners: np.ndarray) -> np.ndarray:
-    spatial = np.zeros((len(corners), 3))
-    spatial[:, :corners.shape[1]] = corners
-    return spatial
+    constraints = constraints_of(
+        data.GetNumberOfPoints(), options["edge_source"], options["edges"], options["polygons"])
+    if constraints is None:
+        return options["edge_source"], False
+    source = vtkPolyData()
+    has_points = len(constraints.corners) > 0
+    if has_points:
+        # Ids mean the input's points, so that these come first.
+        points = data.GetPoints()
+        own = vtk_to_numpy(points.GetData()) if points is not None else np.zeros((0, 3))
+        source.SetPoints(vtk_points(np.concatenate([own.astype(np.float64), constraints.corners])))
+    source.SetLines(_cells(constraints.lines))
+    source.SetPolys(_cells(constraints.polygons))
+    return source, has_points
 
 
 def _cells(lists: list[np.ndarray]) -> vtkCellArray:
@@ -103,23 +39,3 @@ def _cells(lists: list[np.ndarray]) -> vtkCellArray:
     ids = np.concatenate(lists).astype(np.int64) if lists else np.zeros(0, np.int64)
     cells.SetData(numpy_to_vtkIdTypeArray(offsets, deep=True), numpy_to_vtkIdTypeArray(ids, deep=True))
     return cells
-
-
-def _assemble(
-    data: vtkPointSet,
-    lines: list[np.ndarray],
-    by_id: list[np.ndarray],
-    by_place: list[np.ndarray],
-) -> tuple[vtkPolyData, bool]:
-    source = vtkPolyData()
-    polygons = by_id
-    if by_place:
-        # Ids mean the input's points, so that these come first.
-        points = data.GetPoints()
-        own = vtk_to_numpy(points.GetData()) if points is not None else np.zeros((0, 3))
-        source.SetPoints(vtk_points(np.concatenate([own.astype(np.float64), *by_place])))
-        starts = np.cumsum([len(own), *(len(corners) for corners in by_place)])
-        polygons = by_id + [np.arange(first, first + len(c)) for first, c in zip(starts, by_place)]
-    source.SetLines(_cells(lines))
-    source.SetPolys(_cells(polygons))
-    return source, bool(by_place)

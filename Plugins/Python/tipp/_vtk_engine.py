@@ -28,6 +28,20 @@ _FIGURES = {
     "resumed": "Resumed",
     "triangle_sum": "TriangleSum",
 }
+_STATISTICS = {
+    "points": "Points",
+    "triangles": "Triangles",
+    "duplicates": "DuplicatePoints",
+    "rejected": "RejectedPoints",
+    "partitions": "Partitions",
+    "initial_points": "InitialPoints",
+    "worker_vertices": "WorkerVertices",
+    "threads": "Threads",
+    "constraints": "Constraints",
+    "constraint_edges": "ConstraintEdges",
+    "crossing_points": "CrossingPoints",
+    "crossing_rounds": "CrossingRounds",
+}
 
 
 def require_ranks() -> None:
@@ -38,10 +52,10 @@ def delaunay(points: Any, options: dict[str, Any], progress: Progress | None) ->
     return triangles_of(_triangulated(points, None, options, progress).GetOutput())
 
 
-def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any], progress: Progress | None) -> Any:
+def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
+                progress: Progress | None) -> tuple[Any, dict[str, Any]]:
     def add(algorithm: vtkTIPPDelaunay2D) -> None:
-        source, has_points = source_of(
-            algorithm.GetInput(), options["edge_source"], options["edges"], options["polygons"])
+        source, has_points = source_of(algorithm.GetInput(), options)
         if source is not None:
             algorithm.SetSourceData(source)
             algorithm.SetMergeSourcePoints(has_points)
@@ -50,8 +64,21 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any], progress:
         algorithm.SetAlpha(options["alpha"])
         algorithm.SetOffset(options["offset"])
         algorithm.SetBoundingTriangulation(options["bound"])
+        algorithm.SetGenerateRepresentativeIds(options["map_duplicates"])
+        algorithm.SetGenerateNeighborIds(options["neighbors"])
 
-    return wrapped_like(_triangulated(points, point_data, options, progress, add).GetOutput(), points)
+    algorithm = _triangulated(points, point_data, options, progress, add)
+    return wrapped_like(algorithm.GetOutput(), points), _statistics(algorithm.GetStatistics().GetFieldData())
+
+
+def _statistics(totals: Any) -> dict[str, Any]:
+    arrays = {totals.GetAbstractArray(i).GetName(): totals.GetAbstractArray(i)
+              for i in range(totals.GetNumberOfArrays())}
+    result: dict[str, Any] = {key: arrays[name].GetValue(0) for key, name in _STATISTICS.items() if name in arrays}
+    names, seconds = arrays.get("PhaseName"), arrays.get("PhaseSeconds")
+    if names is not None and seconds is not None:
+        result["seconds"] = {names.GetValue(i): seconds.GetValue(i) for i in range(names.GetNumberOfValues())}
+    return result
 
 
 def _triangulated(points: Any, point_data: Any, options: dict[str, Any], progress: Progress | None,

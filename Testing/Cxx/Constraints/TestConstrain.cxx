@@ -4,6 +4,7 @@
 #include "ConstrainedOracle.h"
 
 #include "Predicates/SegmentCrossing.h"
+#include "Triangulation/LongTriangles.h"
 
 #include <algorithm>
 #include <random>
@@ -112,6 +113,32 @@ TEST(Constrain, TakesLongSegmentsAcrossEverything)
   options.Columns = options.Rows = 6;
   EXPECT_TRUE(isConstrained(
     xy, constraints, triangulateConstrained(view(xy), constraints, CrossingRule::Split, options)));
+}
+
+/// Triangles are left out when the constraints are in, and not before.
+TEST(Constrain, LeavesOutLongTrianglesAtTheEnd)
+{
+  Coordinates xy = makePointSet("uniform", 2000);
+  xy.insert(xy.end(), { -0.1, 0.3, 1.1, 0.7 });
+  const std::vector<Constraint> constraints{ { 2000, 2001 } };
+  TriangulationOptions options;
+  options.Columns = options.Rows = 3;
+  const auto all = triangulateConstrained(view(xy), constraints, CrossingRule::Split, options).Mesh;
+  constexpr double longest = 0.04;
+  const auto isLong = [&xy](const Triangle& t)
+  {
+    const auto at = [&xy](std::int64_t id) {
+      return Point2{ xy[2 * std::size_t(id)], xy[2 * std::size_t(id) + 1] };
+    };
+    return hasLongEdge(at(t[0]), at(t[1]), at(t[2]), longest);
+  };
+  Triangles expected = trianglesOf(all);
+  expected.erase(std::remove_if(expected.begin(), expected.end(), isLong), expected.end());
+  options.MaximumEdge = longest;
+  const auto some =
+    triangulateConstrained(view(xy), constraints, CrossingRule::Split, options).Mesh;
+  ASSERT_LT(expected.size(), all.triangleCount());
+  EXPECT_TRUE(sameTriangles(xy, trianglesOf(some), expected));
 }
 
 /// The same bytes, not only the same triangles.

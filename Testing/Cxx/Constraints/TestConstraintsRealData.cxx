@@ -4,6 +4,8 @@
 #include "ConstrainedOracle.h"
 #include "RealData.h"
 
+#include "Constraints/KeepInside.h"
+
 #include <fstream>
 #include <string>
 
@@ -56,9 +58,8 @@ INSTANTIATE_TEST_SUITE_P(Files, RealConstraints, testing::Values("LakeSuperior",
   [](const auto& info) { return info.param; });
 
 /// The edges of a mesh as constraints leave no choice: the mesh comes back.
-void expectElementsBack(const std::string& path)
+void expectElementsBack(const AdcircMesh& mesh)
 {
-  const AdcircMesh mesh = readAdcirc(path);
   std::vector<Constraint> edges;
   Triangles elements;
   for (const Triangle& t : mesh.Elements)
@@ -80,13 +81,72 @@ void expectElementsBack(const std::string& path)
 TEST(RealConstraints, GiveBackEveryElementOfEC95d)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
-  expectElementsBack(path);
+  expectElementsBack(readAdcirc(path));
 }
 
 TEST(RealConstraints, GiveBackEveryElementOfInternalOverflow)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/internal_overflow/internal_overflow.grd");
-  expectElementsBack(path);
+  expectElementsBack(readAdcirc(path));
+}
+
+/// A mesh of FreeFem: vertices, triangles and edges of the border, each with a label.
+struct FreeFemMesh
+{
+  AdcircMesh Mesh;
+  std::vector<Constraint> Border;
+};
+
+FreeFemMesh readFreeFem(const std::string& path)
+{
+  std::ifstream file(path);
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+  std::size_t edges = 0;
+  double label = 0;
+  file >> vertices >> triangles >> edges;
+  FreeFemMesh result;
+  for (std::size_t i = 0; i < vertices; ++i)
+  {
+    double x = 0;
+    double y = 0;
+    file >> x >> y >> label;
+    result.Mesh.Nodes.insert(result.Mesh.Nodes.end(), { x, y });
+  }
+  for (std::size_t i = 0; i < triangles; ++i)
+  {
+    std::int64_t a = 0;
+    std::int64_t b = 0;
+    std::int64_t c = 0;
+    file >> a >> b >> c >> label;
+    result.Mesh.Elements.push_back({ a - 1, b - 1, c - 1 });
+  }
+  for (std::size_t i = 0; i < edges; ++i)
+  {
+    Constraint edge{};
+    file >> edge.A >> edge.B >> label;
+    result.Border.push_back({ edge.A - 1, edge.B - 1 });
+  }
+  EXPECT_TRUE(file) << path;
+  return result;
+}
+
+TEST(RealConstraints, GiveBackEveryElementOfLacLeman)
+{
+  TIPP_REQUIRE_REAL_DATA(path, "constraints/lac-leman-v4.msh");
+  expectElementsBack(readFreeFem(path).Mesh);
+}
+
+/// The lake's shore and those of its islands, whichever way round they go.
+TEST(RealConstraints, BorderOfLacLemanCutsTheLake)
+{
+  TIPP_REQUIRE_REAL_DATA(path, "constraints/lac-leman-v4.msh");
+  const FreeFemMesh lake = readFreeFem(path);
+  ConstrainedTriangulation result =
+    triangulateConstrained(view(lake.Mesh.Nodes), lake.Border, CrossingRule::Refuse);
+  keepInside(result.Mesh, result.Constraints.Pieces, InsideRule::EvenOdd);
+  // By Euler's formula all triangulations of the lake have as many.
+  EXPECT_EQ(lake.Mesh.Elements.size(), result.Mesh.triangleCount());
 }
 
 /// Shorelines come one after the other, each closed by a point equal to its first.

@@ -151,6 +151,55 @@ TEST(Crossings, OfLongSegmentsAreSplitUntilNothingCrosses)
   EXPECT_GT(result.Constraints.Crossings.size(), 1000u);
 }
 
+/// Short segments are compared in groups, long ones one by one.
+TEST(Crossings, OfShortAndLongSegmentsAreAllFound)
+{
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> coordinate(0, 1);
+  Coordinates xy;
+  std::vector<Constraint> constraints;
+  for (int i = 0; i < 1500; ++i)
+  {
+    const double x = coordinate(random);
+    const double y = coordinate(random);
+    const double length = i % 100 == 0 ? 1 : 0.03;
+    xy.insert(xy.end(), { x, y, x + length * coordinate(random), y + length * coordinate(random) });
+    constraints.push_back({ 2 * i, 2 * i + 1 });
+  }
+  const ResolvedConstraints resolved =
+    resolveCrossings(view(xy), constraints, CrossingRule::Split, 2);
+  ASSERT_EQ(resolved.Rounds, 1);
+  std::size_t expected = 0;
+  const auto at = [&xy](std::int64_t id) {
+    return Point2{ xy[2 * std::size_t(id)], xy[2 * std::size_t(id) + 1] };
+  };
+  for (std::size_t i = 0; i < constraints.size(); ++i)
+  {
+    for (std::size_t k = 0; k < i; ++k)
+    {
+      expected += crossProperly(at(constraints[i].A), at(constraints[i].B), at(constraints[k].A),
+                    at(constraints[k].B))
+        ? 1
+        : 0;
+    }
+  }
+  EXPECT_EQ(resolved.Crossings.size(), expected);
+}
+
+/// Parts that cross again a unit further, over twelve orders of magnitude: rounded to doubles alone
+/// they do so in over 300 rounds.
+TEST(Crossings, OfNearlyParallelSegmentsOverOrdersOfMagnitudeEnd)
+{
+  const Coordinates xy{ 0x1.d1a94a200cp+0, 0x1.d1a94a2004p+0, 0x1.d1a94a200ep+0, 0x1.d1a94a2006p+0,
+    0x1.d1a94a201cp+0, 0x1.d1a94a200ap+39, 0x1.d1a94a2004p+39, 0x1.d1a94a2p+39, 0x1.d1a94a2012p+39,
+    0x1.d1a94a2008p+39 };
+  const std::vector<Constraint> constraints{ { 2, 1 }, { 3, 2 }, { 3, 0 }, { 1, 0 }, { 2, 0 },
+    { 4, 1 }, { 4, 3 }, { 1, 3 } };
+  const ConstrainedTriangulation result = triangulateSplit(xy, constraints);
+  EXPECT_TRUE(isConstrained(xy, constraints, result));
+  EXPECT_LT(result.Constraints.Rounds, 30);
+}
+
 /// Segments one unit in the last place beside each other: crossings are rounded far along them.
 TEST(Crossings, OfNearlyParallelSegmentsEnd)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/ReadConstraintFile.h"
 #include "ExpectIOError.h"
+#include "Files/IOError.h"
 #include "SharedData.h"
 #include "TemporaryFolder.h"
 
@@ -30,6 +31,15 @@ protected:
 
   const tipp::test::TemporaryFolder Folder;
 };
+
+TEST_F(ConstraintFile, CsvOfCoordinatesAndHeights)
+{
+  const ConstraintTable table =
+    this->read("a.csv", "x1,y1,z1,x2,y2,z2\n0,1,-5,2,3,-6\n4,5,-7,6,7,-8\n");
+  EXPECT_EQ((Numbers{ 0, 1, 2, 3, 4, 5, 6, 7 }), table.XY);
+  EXPECT_EQ((Numbers{ -5, -6, -7, -8 }), table.Height);
+  EXPECT_EQ((Edges{ { 0, 1 }, { 2, 3 } }), table.Edges);
+}
 
 TEST_F(ConstraintFile, CsvOfCoordinates)
 {
@@ -118,7 +128,56 @@ TEST_F(ConstraintFile, LinesAndPolygonsOfAVtkFile)
 
 TEST_F(ConstraintFile, UnknownExtensionIsAnError)
 {
-  this->expectError("a.shp", "", "has no extension that tells a kind of constraints");
+  this->expectError("a.xyz", "", "has no extension that tells a kind of constraints");
+}
+
+/// Of files that GDAL reads.
+class ConstraintVectorFile : public ConstraintFile
+{
+protected:
+  void SetUp() override
+  {
+    try
+    {
+      this->read("empty.geojson", R"({"type": "FeatureCollection", "features": []})");
+    }
+    catch (const tipp::IOError& error)
+    {
+      GTEST_SKIP() << error.what();
+    }
+  }
+};
+
+TEST_F(ConstraintVectorFile, GeoJsonLinesAndHeights)
+{
+  const ConstraintTable table = this->read("a.geojson",
+    R"({"type": "FeatureCollection", "features": [
+      {"type": "Feature", "properties": {}, "geometry":
+        {"type": "LineString", "coordinates": [[0, 1, 5], [2, 3, 6], [4, 5, 7]]}},
+      {"type": "Feature", "properties": {}, "geometry":
+        {"type": "MultiLineString", "coordinates": [[[6, 7], [8, 9]]]}},
+      {"type": "Feature", "properties": {}, "geometry": null}]})");
+  EXPECT_EQ((Numbers{ 0, 1, 2, 3, 4, 5, 6, 7, 8, 9 }), table.XY);
+  EXPECT_EQ((Edges{ { 0, 1 }, { 1, 2 }, { 3, 4 } }), table.Edges);
+  EXPECT_EQ(3u, table.PolygonBegin);
+  ASSERT_EQ(5u, table.Height.size());
+  EXPECT_EQ(6, table.Height[1]);
+}
+
+/// Rings are turned: here the outer one is clockwise, and so is the hole.
+TEST_F(ConstraintVectorFile, GeoJsonPolygonsWithHoles)
+{
+  const ConstraintTable table = this->read("a.geojson",
+    R"({"type": "Polygon", "coordinates": [
+      [[0, 0], [0, 9], [9, 0], [0, 0]], [[1, 1], [1, 2], [2, 1], [1, 1]]]})");
+  EXPECT_EQ(0u, table.PolygonBegin);
+  EXPECT_EQ((Edges{ { 1, 0 }, { 2, 1 }, { 3, 2 }, { 4, 5 }, { 5, 6 }, { 6, 7 } }), table.Edges);
+  EXPECT_TRUE(table.Height.empty());
+}
+
+TEST_F(ConstraintVectorFile, GeoJsonThatIsDamaged)
+{
+  this->expectError("a.geojson", "{ \"type\": ", "cannot be read as lines or polygons");
 }
 
 } // namespace

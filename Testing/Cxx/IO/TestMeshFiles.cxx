@@ -207,7 +207,7 @@ TEST_F(MeshFiles, CellsThatAreNoTrianglesAreReported)
 TEST_F(MeshFiles, UnknownExtensionIsReported)
 {
   const std::string path = this->Folder.path("mesh.stl2");
-  tipp::test::expectIOError(
-    path, "use .npy, .vtp or .vtu", [&]() { tipp::writeMesh(path, this->Points, this->view32()); });
+  tipp::test::expectIOError(path, "use .npy, .vtp, .vtu or .14",
+    [&]() { tipp::writeMesh(path, this->Points, this->view32()); });
   tipp::test::expectIOError(path, "no extension", [&]() { readMesh(path); });
 }

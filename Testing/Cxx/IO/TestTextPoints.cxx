@@ -189,7 +189,7 @@ TEST_F(TextPoints, IntegersThatADoubleCannotHoldAreReportedWithTheirLine)
 TEST_F(TextPoints, GarbageInACoordinateIsReportedWithItsLine)
 {
   this->expectError("x,y\n1,2\n3,four\n", "line 3: 'four' is not a number");
-  this->expectError("1;2\n1,5;2,5\n", "line 2: '1,5' is not a number");
+  this->expectError("1;2\n1.000,5;2,5\n", "line 2: '1.000,5' is not a number");
 }
 
 TEST_F(TextPoints, LineWithAnotherNumberOfColumnsIsReported)

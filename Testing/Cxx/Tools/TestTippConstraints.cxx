@@ -117,12 +117,43 @@ TEST_F(TippConstraints, HolesAreRemovedBySeeds)
   EXPECT_EQ(1, this->delaunay(hole).ExitCode);
 }
 
+/// Whichever way round the lines go; an inner ring is a hole.
+TEST_F(TippConstraints, BoundaryRemovesWhatIsOutside)
+{
+  this->Folder.file("ring.csv",
+    "x1,y1,x2,y2\n1,1,7,1\n7,7,7,1\n7,7,1,7\n1,7,1,1\n3,3,5,3\n5,3,5,5\n5,5,3,5\n3,5,3,3\n");
+  const Outcome outcome = this->delaunay({ "-o", "mesh.vtp", "--boundary", "ring.csv" });
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  EXPECT_EQ(32, this->area("mesh.vtp"));
+}
+
+TEST_F(TippConstraints, BoundaryGoesWithConstraints)
+{
+  this->Folder.file("square.csv", "x1,y1,x2,y2\n1,1,7,1\n7,1,7,7\n7,7,1,7\n1,7,1,1\n");
+  const Outcome outcome =
+    this->delaunay({ "-o", "mesh.vtp", "--constraints", "cross.csv", "--boundary", "square.csv" });
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  EXPECT_EQ(36, this->area("mesh.vtp"));
+  EXPECT_NE(std::string::npos, outcome.Out.find("6 constraints")) << outcome.Out;
+}
+
+TEST_F(TippConstraints, BoundaryMustBeClosed)
+{
+  this->Folder.file("open.csv", "x1,y1,x2,y2\n1,1,7,1\n7,1,7,7\n");
+  const Outcome outcome = this->delaunay({ "-o", "mesh.vtp", "--boundary", "open.csv" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("not closed: a line ends at (1, 1)"))
+    << outcome.Err;
+}
+
 TEST_F(TippConstraints, OptionsThatDoNotGoTogetherAreUsageErrors)
 {
   this->expectUsageError({ "-o", "mesh.vtp", "--refuse-crossings" }, "needs --constraints");
   this->expectUsageError({ "-o", "mesh.vtp", "--hole", "1", "2" }, "needs --constraints");
   this->expectUsageError(
     { "-o", "mesh.tipp", "--constraints", "cross.csv" }, "does not go with an output named .tipp");
+  this->expectUsageError(
+    { "-o", "mesh.tipp", "--boundary", "cross.csv" }, "does not go with an output named .tipp");
   this->expectUsageError({ "-o", "mesh.vtp", "--constraints", "cross.csv", "--masters", "single" },
     "needs a single process");
 }

@@ -215,6 +215,27 @@ TEST_F(TippDem, RefusesMorePixelsThanTheMemoryHolds)
   EXPECT_NE(std::string::npos, outcome.Err.find("10000000 x 10000000 pixels")) << outcome.Err;
 }
 
+TEST_F(TippDem, TellsWhereThereIsNoTriangle)
+{
+  this->Folder.file("points.csv", "x,y\n0,0\n4,0\n0,4\n");
+  for (const Words& more : { Words{}, Words{ "--memory", "2M" } })
+  {
+    Words words = { "--resolution", "2", "--attributes", "void" };
+    words.insert(words.end(), more.begin(), more.end());
+    this->make("dem.npy", words);
+    EXPECT_EQ((std::vector<double>{ 0, 0, 0, 1 }), this->valuesOf("dem.npy"));
+  }
+}
+
+TEST_F(TippDem, RefusesMorePixelsThanTheDiskHolds)
+{
+  this->makePoints(100);
+  const Outcome outcome = this->run(
+    { "dem", "points.csv", "-o", "dem.npy", "--resolution", "0.00001", "--memory", "2M" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("MB free")) << outcome.Err;
+}
+
 TEST_F(TippDem, NamesAColumnThatIsNotThere)
 {
   this->makePoints(50);
@@ -274,6 +295,83 @@ TEST_F(TippDem, ResumesAKilledRun)
   ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
   EXPECT_EQ(this->content("whole.npy"), this->content("dem.npy"));
   EXPECT_EQ(0U, results());
+}
+
+/// Points of a valley between two slopes, but for the line at its bottom.
+class TippDemBreaklines : public TippDem
+{
+protected:
+  TippDemBreaklines()
+  {
+    this->Folder.file("points.csv",
+      "x,y,z\n0,0,10\n0,10,10\n10,0,10\n10,10,10\n0.5,3,9.5\n0.5,7,9.5\n9.5,3,9.5\n9.5,7,9.5\n");
+    this->Folder.file("hard.csv", "x1,y1,z1,x2,y2,z2\n5,0,0,5,10,0\n");
+    this->Folder.file("soft.csv", "x1,y1,x2,y2\n5,0,5,10\n");
+    this->Folder.file("inside.csv", "x1,y1,x2,y2\n2,2,8,2\n8,2,8,8\n8,8,2,8\n2,8,2,2\n");
+    this->Folder.file("open.csv", "x1,y1,x2,y2\n2,2,8,2\n8,2,8,8\n");
+  }
+
+  std::vector<double> values(const Words& more) const
+  {
+    Words words{ "--resolution", "1" };
+    words.insert(words.end(), more.begin(), more.end());
+    this->make("dem.npy", words);
+    return this->valuesOf("dem.npy");
+  }
+};
+
+TEST_F(TippDemBreaklines, OfGivenHeightShapeTheSurface)
+{
+  const std::vector<double> plain = this->values({});
+  const std::vector<double> valley = this->values({ "--breaklines", "hard.csv" });
+  EXPECT_GT(plain[54], 9) << "across";
+  for (const std::size_t row : { 0, 4, 9 })
+  {
+    EXPECT_LT(valley[10 * row + 4], 2) << "beside the line";
+    EXPECT_LT(valley[10 * row + 5], 2) << "beside the line";
+  }
+}
+
+TEST_F(TippDemBreaklines, WithoutHeightTakeThatOfTheSurface)
+{
+  for (const double value : this->values({ "--breaklines", "soft.csv" }))
+  {
+    EXPECT_GE(value, 9.5);
+    EXPECT_LE(value, 10);
+  }
+}
+
+TEST_F(TippDemBreaklines, BoundaryLeavesPixelsOutsideWithoutValue)
+{
+  const std::vector<double> plain = this->values({});
+  const std::vector<double> inside = this->values({ "--boundary", "inside.csv" });
+  for (std::size_t row = 0; row < 10; ++row)
+  {
+    for (std::size_t column = 0; column < 10; ++column)
+    {
+      const bool isInside = row >= 2 && row < 8 && column >= 2 && column < 8;
+      const double value = inside[10 * row + column];
+      EXPECT_EQ(!isInside, std::isnan(value)) << row << " " << column;
+    }
+  }
+  EXPECT_GE(plain.size(), inside.size());
+}
+
+TEST_F(TippDemBreaklines, RefusesABoundaryThatIsNotClosed)
+{
+  const Outcome outcome = this->run(
+    { "dem", "points.csv", "-o", "dem.npy", "--resolution", "1", "--boundary", "open.csv" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("not closed: a line ends at (2, 2)"))
+    << outcome.Err;
+}
+
+TEST_F(TippDemBreaklines, RefusesAMemoryLimit)
+{
+  const Outcome outcome = this->run({ "dem", "points.csv", "-o", "dem.npy", "--resolution", "1",
+    "--breaklines", "soft.csv", "--memory", "8M" });
+  EXPECT_EQ(2, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("does not go with --memory")) << outcome.Err;
 }
 
 } // namespace

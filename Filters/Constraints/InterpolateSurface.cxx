@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Constraints/InterpolateSurface.h"
+
+#include "Constraints/SegmentTree.h"
+#include "Parallel/ForChunks.h"
+#include "Parallel/ParallelFor.h"
+#include "Predicates/Orientation.h"
+
+#include <cmath>
+#include <limits>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr std::int64_t NoTriangle = std::numeric_limits<std::int64_t>::max();
+
+std::array<double, 3> weightsOf(const std::array<Point2, 3>& corners, Point2 p)
+{
+  std::array<double, 3> weights{};
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const Point2 a = corners[(i + 1) % 3];
+    const Point2 b = corners[(i + 2) % 3];
+    weights[i] = std::fabs((a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x));
+    sum += weights[i];
+  }
+  for (double& weight : weights)
+  {
+    weight = sum > 0 ? weight / sum : 1.0 / 3;
+  }
+  return weights;
+}
+
+template <typename Id>
+std::vector<SurfacePlace> place(
+  PointsView surface, const Buffer<Id>& ids, PointsView all, int threads)
+{
+  const std::size_t given = surface.size();
+  std::vector<SegmentTree::Item> items;
+  for (std::size_t i = given; i < all.size(); ++i)
+  {
+    if (isFinite(all[i]))
+    {
+      items.push_back({ all[i], all[i], std::int64_t(i - given) });
+    }
+  }
+  const SegmentTree tree(std::move(items));
+  const auto cornersOf = [&](std::int64_t t)
+  {
+    const Id* const corners = ids.data() + 3 * t;
+    return std::array<Point2, 3>{ surface[std::size_t(corners[0])],
+      surface[std::size_t(corners[1])], surface[std::size_t(corners[2])] };
+  };
+  std::vector<std::vector<std::int64_t>> firstOf(
+    std::size_t(threads), std::vector<std::int64_t>(all.size() - given, NoTriangle));
+  constexpr std::int64_t chunk = 4096;
+  forChunks(std::int64_t(ids.size() / 3), chunk, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int thread)
+    {
+      for (std::int64_t t = begin; t < end; ++t)
+      {
+        const std::array<Point2, 3> p = cornersOf(t);
+        const Box2 box{ std::min({ p[0].x, p[1].x, p[2].x }), std::min({ p[0].y, p[1].y, p[2].y }),
+          std::max({ p[0].x, p[1].x, p[2].x }), std::max({ p[0].y, p[1].y, p[2].y }) };
+        tree.visitNear(box,
+          [&](const SegmentTree::Item& item)
+          {
+            std::int64_t& first = firstOf[std::size_t(thread)][std::size_t(item.Id)];
+            if (t < first && orientation(p[0], p[1], item.A) >= 0 &&
+              orientation(p[1], p[2], item.A) >= 0 && orientation(p[2], p[0], item.A) >= 0)
+            {
+              first = t;
+            }
+            return true;
+          });
+      }
+    });
+  std::vector<SurfacePlace> places(all.size() - given);
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    std::int64_t first = NoTriangle;
+    for (const std::vector<std::int64_t>& its : firstOf)
+    {
+      first = std::min(first, its[i]);
+    }
+    if (first != NoTriangle)
+    {
+      const Id* const corners = ids.data() + 3 * first;
+      places[i] = { { PointId(corners[0]), PointId(corners[1]), PointId(corners[2]) },
+        weightsOf(cornersOf(first), all[given + i]) };
+    }
+  }
+  return places;
+}
+
+} // namespace
+
+double SurfacePlace::valueOf(const std::vector<double>& values) const
+{
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    // A corner without weight may be one without value.
+    if (this->Weights[i] > 0)
+    {
+      sum += this->Weights[i] * values[std::size_t(this->Corners[i])];
+    }
+  }
+  return this->Corners[0] < 0 ? std::nan("") : sum;
+}
+
+std::vector<SurfacePlace> placeOnSurface(
+  PointsView surface, const Triangulation& triangles, PointsView all, int threads)
+{
+  return triangles.Ids64.empty() ? place(surface, triangles.Ids32, all, threadCount(threads))
+                                 : place(surface, triangles.Ids64, all, threadCount(threads));
+}
+
+} // namespace tipp

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPartitionConstraints_h
+#define tippPartitionConstraints_h
+
+#include "Constraints/Constraint.h"
+#include "Constraints/CrossedTriangles.h"
+#include "Triangulation/PartitionEditor.h"
+#include "Triangulation/PointsView.h"
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace tipp
+{
+
+/// Points that are ends of pieces, by their ids, and the pieces that end there.
+class PieceEnds
+{
+public:
+  PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pieces);
+
+  bool has(PointId id) const
+  {
+    return (this->Words[std::size_t(id) / 64].Bits >> (std::size_t(id) % 64) & 1) != 0;
+  }
+
+  /// visit(twice the piece, and 1 more for its B).
+  template <typename Visit>
+  void visit(PointId id, const Visit& visit) const
+  {
+    const std::size_t rank = this->rank(id);
+    for (std::int64_t i = this->Starts[rank]; i < this->Starts[rank + 1]; ++i)
+    {
+      visit(this->Entries[std::size_t(i)]);
+    }
+  }
+
+private:
+  struct Word
+  {
+    std::uint64_t Bits = 0;
+    std::uint64_t Before = 0; ///< bits of the words before
+  };
+
+  /// Of an id that it has: its place among those.
+  std::size_t rank(PointId id) const;
+
+  std::vector<Word> Words;
+  std::vector<std::int64_t> Starts; ///< by rank, and the end
+  std::vector<std::int64_t> Entries;
+};
+
+/// Inserts pieces of constraints while the points are triangulated. Where a partition has both ends
+/// of a piece and all triangles that it crosses are interior ones, the piece is inserted into the
+/// partition's mesh, which is in the processor's cache and knows neighbours. Interior triangles are
+/// final, and jobs of different partitions have no triangle in common: so the result is that of
+/// inserting pieces afterwards. All others are left, and the interior triangles that they cross are
+/// noted.
+class PartitionConstraints
+{
+public:
+  PartitionConstraints(PointsView points, const std::vector<ConstraintPiece>& pieces);
+
+  /// For a thread. Factor: by which its kernel's coordinates are multiplied.
+  std::unique_ptr<PartitionEditor> makeEditor(double factor);
+
+  bool isDone(std::size_t piece) const { return this->Done[piece] != 0; }
+
+  /// Whether one of the piece's ends is the partition's: then crossings() has all interior
+  /// triangles there that it crosses.
+  bool isKnown(std::int64_t piece, PartitionIndex partition) const
+  {
+    const Ends& ends = this->EndsOf[std::size_t(piece)];
+    return partition >= 0 && (ends.Partition[0] == partition || ends.Partition[1] == partition);
+  }
+
+  struct Crossing
+  {
+    std::int64_t Piece;
+    PartitionIndex Partition;
+    std::size_t Triangle; ///< counted among the partition's interior ones
+  };
+  const std::vector<Crossing>& crossings() const { return this->Crossings; }
+  /// Vertices on pieces, those that are left, too.
+  std::vector<CrossedTriangles::Touch>& touches() { return this->Touches; }
+  const std::vector<CrossedTriangles::Touch>& touches() const { return this->Touches; }
+
+private:
+  class Editor;
+
+  /// Each end is written by the thread that has its partition, while others read.
+  struct Ends
+  {
+    std::array<std::atomic<PartitionIndex>, 2> Partition{ -1, -1 };
+    std::array<DelaunayKernel::Index, 2> Vertex{};
+  };
+
+  PointsView Points;
+  const std::vector<ConstraintPiece>& Pieces;
+  PieceEnds EndPoints;
+  std::vector<Ends> EndsOf;
+  std::vector<char> Done;
+  std::mutex Mutex;
+  std::vector<Crossing> Crossings;
+  std::vector<CrossedTriangles::Touch> Touches;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippSegmentInserter_h
+#define tippSegmentInserter_h
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace tipp
+{
+
+/// Inserts segments one by one into a constrained Delaunay triangulation.
+///
+/// A segment replaces the triangles that it crosses (Anglada 1997). On each side of it their
+/// vertices are a chain from one end to the other. An ear of the chain is cut off until the segment
+/// is left. There always is one: every vertex sees the segment along an edge that was crossed,
+/// these lines of sight do not meet, and so three vertices in a row that turn away from the segment
+/// enclose nothing. Then edges are flipped until all are locally Delaunay, as in CGAL's
+/// triangulation.
+///
+/// Mesh: counter-clockwise triangles in slots, with the half-edge half(slot, i) from corner i to
+/// the next; next(), previous(), from(), to(), twin() and slotOf() of half-edges; setCorners(slot,
+/// corners), which frees the slot's edges; join(half, other) for twins; isFixed(half) and
+/// setFixed(half, fixed) on one side; turn(a, b, c) of vertices; and mustFlip(half), false for
+/// edges that are fixed or have one triangle.
+template <typename Mesh>
+class SegmentInserter
+{
+public:
+  using Index = std::int32_t;
+
+  /// Makes ab an edge. Crossed: the half-edges that it crosses, from a on, each in the triangle
+  /// that it leaves there; none of them is fixed.
+  void insert(Mesh& mesh, Index a, Index b, const std::vector<Index>& crossed)
+  {
+    this->makeChains(mesh, a, crossed);
+    if (!this->NewInner.empty())
+    {
+      this->NewInner.clear();
+    }
+    const Index onLeft = this->fill(mesh, a, this->Left);
+    const Index onRight = this->fill(mesh, b, this->Right);
+    mesh.join(onLeft, onRight);
+    mesh.setFixed(onLeft, true);
+    mesh.setFixed(onRight, true);
+    this->legalize(mesh);
+  }
+
+private:
+  static constexpr Index None = -1;
+
+  /// An edge of a chain, from the vertex before to this one, with the cavity on its right.
+  struct Link
+  {
+    Index To;
+    Index Outer;     ///< the half-edge on its left
+    Index OldInner;  ///< the half-edge of the removed triangle on its right
+    bool IsFixed;    ///< an inserted segment
+    bool IsDangling; ///< the cavity is on both sides
+  };
+  using Chain = std::vector<Link>;
+
+  static Link makeLink(const Mesh& mesh, Index to, Index inner)
+  {
+    return { to, mesh.twin(inner), inner, mesh.isFixed(inner), false };
+  }
+
+  /// What the segment leaves on its two sides.
+  void makeChains(const Mesh& mesh, Index a, const std::vector<Index>& crossed)
+  {
+    this->Removed.assign(1, mesh.slotOf(crossed.front()));
+    // From a to b.
+    this->Left.assign(1, makeLink(mesh, mesh.to(crossed.front()), mesh.next(crossed.front())));
+    // From b to a, in reverse order; each link's To is the vertex that it comes from.
+    this->Right.assign(
+      1, makeLink(mesh, mesh.from(crossed.front()), mesh.previous(crossed.front())));
+    for (std::size_t i = 0; i < crossed.size(); ++i)
+    {
+      const Index half = mesh.twin(crossed[i]);
+      this->Removed.push_back(mesh.slotOf(half));
+      const Index onRight = mesh.next(half); // from the right to the new vertex
+      const Index onLeft = mesh.previous(half);
+      const Index apex = mesh.to(onRight);
+      const Index leftBy = i + 1 < crossed.size() ? crossed[i + 1] : None;
+      if (leftBy != onRight)
+      {
+        this->Right.push_back(makeLink(mesh, apex, onRight));
+      }
+      if (leftBy != onLeft)
+      {
+        this->Left.push_back(makeLink(mesh, apex, onLeft));
+      }
+    }
+    // Each link to the vertex where it goes, from b on.
+    std::reverse(this->Right.begin(), this->Right.end());
+    for (std::size_t i = 0; i + 1 < this->Right.size(); ++i)
+    {
+      this->Right[i].To = this->Right[i + 1].To;
+    }
+    this->Right.back().To = a;
+    this->markDangling(mesh);
+  }
+
+  /// An edge with the cavity on both sides is in the chains twice, once for each of its half-edges.
+  void markDangling(const Mesh& mesh)
+  {
+    this->Sorted = this->Removed;
+    std::sort(this->Sorted.begin(), this->Sorted.end());
+    for (Chain* chain : { &this->Left, &this->Right })
+    {
+      for (Link& link : *chain)
+      {
+        link.IsDangling = link.Outer >= 0 &&
+          std::binary_search(this->Sorted.begin(), this->Sorted.end(), mesh.slotOf(link.Outer));
+      }
+    }
+  }
+
+  /// Triangulates between a chain and the segment of its ends. Returns the half-edge of the
+  /// segment.
+  Index fill(Mesh& mesh, Index from, const Chain& chain)
+  {
+    Chain& rest = this->Rest; // the vertex before its first link is `from`
+    rest.clear();
+    for (const Link& link : chain)
+    {
+      rest.push_back(link);
+      while (rest.size() > 1)
+      {
+        const Link second = rest.back();
+        const Link first = rest[rest.size() - 2];
+        const Index x = rest.size() == 2 ? from : rest[rest.size() - 3].To;
+        if (mesh.turn(x, first.To, second.To) >= 0)
+        {
+          break;
+        }
+        const Index half = this->makeTriangle(mesh, first, x, second);
+        this->Suspects.push_back(half);
+        rest.resize(rest.size() - 2);
+        rest.push_back({ second.To, half, None, false, false });
+      }
+    }
+    if (rest.size() != 1)
+    {
+      throw std::logic_error("A constraint's cavity cannot be triangulated.");
+    }
+    this->Suspects.pop_back(); // the segment
+    return rest.front().Outer;
+  }
+
+  /// The triangle on the right of two links; returns the half-edge that replaces them.
+  Index makeTriangle(Mesh& mesh, const Link& first, Index from, const Link& second)
+  {
+    const Index slot = this->Removed.back();
+    this->Removed.pop_back();
+    mesh.setCorners(slot, { from, second.To, first.To });
+    this->attach(mesh, mesh.half(slot, 1), second);
+    this->attach(mesh, mesh.half(slot, 2), first);
+    return mesh.half(slot, 0);
+  }
+
+  /// Joins a new half-edge with what was on the other side of the removed one.
+  void attach(Mesh& mesh, Index half, const Link& link)
+  {
+    mesh.setFixed(half, link.IsFixed);
+    if (!link.IsDangling)
+    {
+      mesh.join(half, link.Outer);
+      return;
+    }
+    const auto other = this->NewInner.find(link.Outer);
+    if (other == this->NewInner.end())
+    {
+      this->NewInner.emplace(link.OldInner, half);
+    }
+    else
+    {
+      mesh.join(half, other->second);
+    }
+  }
+
+  void legalize(Mesh& mesh)
+  {
+    while (!this->Suspects.empty())
+    {
+      const Index h = this->Suspects.back();
+      this->Suspects.pop_back();
+      if (mesh.mustFlip(h))
+      {
+        this->flip(mesh, h);
+      }
+    }
+  }
+
+  /// Replaces an edge by the other diagonal of its two triangles.
+  void flip(Mesh& mesh, Index h)
+  {
+    const Index g = mesh.twin(h);
+    // p, q: the edge; r on its left, s on its right.
+    const Index p = mesh.from(h);
+    const Index q = mesh.to(h);
+    const Index r = mesh.from(mesh.previous(h));
+    const Index s = mesh.from(mesh.previous(g));
+    struct Side
+    {
+      Index Twin;
+      bool IsFixed;
+    };
+    const auto side = [&mesh](Index half) { return Side{ mesh.twin(half), mesh.isFixed(half) }; };
+    const Side qr = side(mesh.next(h));
+    const Side rp = side(mesh.previous(h));
+    const Side ps = side(mesh.next(g));
+    const Side sq = side(mesh.previous(g));
+    const Index one = mesh.slotOf(h);
+    const Index other = mesh.slotOf(g);
+    mesh.setCorners(one, { p, s, r });
+    mesh.setCorners(other, { s, q, r });
+    const auto place = [this, &mesh](Index half, const Side& old)
+    {
+      mesh.join(half, old.Twin);
+      mesh.setFixed(half, old.IsFixed);
+      this->Suspects.push_back(half);
+    };
+    place(mesh.half(one, 0), ps);
+    place(mesh.half(one, 2), rp);
+    place(mesh.half(other, 0), sq);
+    place(mesh.half(other, 1), qr);
+    mesh.join(mesh.half(one, 1), mesh.half(other, 2));
+  }
+
+  std::vector<Index> Removed; ///< slots of crossed triangles that are not filled again yet
+  std::vector<Index> Sorted;
+  Chain Left;
+  Chain Right;
+  Chain Rest;
+  std::vector<Index> Suspects;               ///< half-edges that may have to be flipped
+  std::unordered_map<Index, Index> NewInner; ///< of old half-edges at dangling edges: the new ones
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Constraints/TableConstraints.h"
+
+#include "Constraints/InterpolateSurface.h"
+#include "Constraints/KeepInside.h"
+#include "Constraints/MatchPositions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+PointsView viewOf(const std::vector<double>& xy)
+{
+  return PointsView(xy.data(), xy.size() / 2, 2);
+}
+
+bool isHeight(const PointTable::Column& column)
+{
+  return column.Name == "z" || column.Name == "Z" || column.Name == "elevation";
+}
+
+/// Appends the table's points that are not there, and its edges to the constraints.
+void join(const ConstraintTable& table, PointTable& points, std::vector<Constraint>& constraints)
+{
+  if (table.XY.empty()) // its edges name the points
+  {
+    for (const auto& edge : table.Edges)
+    {
+      constraints.push_back({ edge[0], edge[1] });
+    }
+    return;
+  }
+  const MatchedPositions matched = matchPositions(viewOf(points.XY), viewOf(table.XY));
+  for (const std::size_t own : matched.New)
+  {
+    points.XY.push_back(table.XY[2 * own]);
+    points.XY.push_back(table.XY[2 * own + 1]);
+    for (PointTable::Column& column : points.Columns)
+    {
+      column.Values.push_back(
+        isHeight(column) && !table.Height.empty() ? table.Height[own] : std::nan(""));
+    }
+  }
+  for (const auto& edge : table.Edges)
+  {
+    constraints.push_back({ matched.Ids[std::size_t(edge[0])], matched.Ids[std::size_t(edge[1])] });
+  }
+}
+
+/// Fills what is NaN of the points from `given` on by the surface of those before.
+void takeSurface(std::size_t given, const TriangulationOptions& options, PointTable& points)
+{
+  const PointsView all = viewOf(points.XY);
+  const auto isMissing = [given](const PointTable::Column& column)
+  {
+    return std::any_of(column.Values.begin() + std::ptrdiff_t(given), column.Values.end(),
+      [](double value) { return std::isnan(value); });
+  };
+  if (std::none_of(points.Columns.begin(), points.Columns.end(), isMissing))
+  {
+    return;
+  }
+  TriangulationOptions plain;
+  plain.Threads = options.Threads;
+  const PointsView before(points.XY.data(), given, 2);
+  const std::vector<SurfacePlace> places =
+    placeOnSurface(before, triangulate(before, plain), all, options.Threads);
+  for (PointTable::Column& column : points.Columns)
+  {
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      double& value = column.Values[given + i];
+      value = std::isnan(value) ? places[i].valueOf(column.Values) : value;
+    }
+  }
+}
+
+void appendCrossings(const std::vector<CrossingPoint>& crossings, PointTable& points)
+{
+  for (const CrossingPoint& crossing : crossings)
+  {
+    points.XY.push_back(crossing.Position.x);
+    points.XY.push_back(crossing.Position.y);
+    for (PointTable::Column& column : points.Columns)
+    {
+      const double a = column.Values[std::size_t(crossing.A)];
+      const double b = column.Values[std::size_t(crossing.B)];
+      column.Values.push_back((1 - crossing.Fraction) * a + crossing.Fraction * b);
+    }
+  }
+}
+
+std::vector<ConstraintPiece> piecesOf(
+  const std::vector<ConstraintPiece>& pieces, std::size_t begin, std::size_t end)
+{
+  std::vector<ConstraintPiece> some;
+  std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(some),
+    [begin, end](const ConstraintPiece& piece)
+    { return std::size_t(piece.Constraint) >= begin && std::size_t(piece.Constraint) < end; });
+  return some;
+}
+
+void cutOutside(
+  const TableConstraints& constraints, const PointTable& points, ConstrainedTriangulation& result)
+{
+  const std::vector<ConstraintPiece>& pieces = result.Constraints.Pieces;
+  const std::size_t lines = constraints.Lines.Edges.size();
+  const auto polygonEdges = piecesOf(pieces, constraints.Lines.PolygonBegin, lines);
+  const auto boundary = piecesOf(pieces, lines, lines + constraints.Boundary.Edges.size());
+  // One of them without one of its edges would not tell what is inside.
+  if (!(polygonEdges.empty() && boundary.empty()) && result.Constraints.NotFinite > 0)
+  {
+    throw std::invalid_argument(
+      "it has polygons, and a point that is NaN or infinite; correct the point.");
+  }
+  const std::vector<double>& seeds = constraints.Lines.Holes;
+  std::vector<Point2> holes;
+  for (std::size_t i = 0; i < seeds.size(); i += 2)
+  {
+    holes.push_back({ seeds[i], seeds[i + 1] });
+  }
+  if (!holes.empty())
+  {
+    removeHoles(viewOf(points.XY), result.Mesh, pieces, holes);
+  }
+  if (!boundary.empty() && result.Mesh.triangleCount() > 0)
+  {
+    keepInside(result.Mesh, boundary, InsideRule::EvenOdd);
+  }
+  if (!polygonEdges.empty() && result.Mesh.triangleCount() > 0)
+  {
+    keepInside(result.Mesh, polygonEdges);
+  }
+}
+
+} // namespace
+
+ConstrainedTriangulation triangulateTable(
+  PointTable& points, const TableConstraints& constraints, const TriangulationOptions& options)
+{
+  const std::size_t given = points.size();
+  std::vector<Constraint> all;
+  join(constraints.Lines, points, all);
+  join(constraints.Boundary, points, all);
+  if (constraints.TakesSurface)
+  {
+    takeSurface(given, options, points);
+  }
+  ConstrainedTriangulation result =
+    triangulateConstrained(viewOf(points.XY), all, constraints.Crossings, options);
+  if (!result.Mesh.Aborted)
+  {
+    appendCrossings(result.Constraints.Crossings, points);
+    cutOutside(constraints, points, result);
+  }
+  return result;
+}
+
+void requireClosedBoundary(const ConstraintTable& boundary)
+{
+  if (boundary.Edges.empty() || boundary.XY.empty())
+  {
+    throw std::invalid_argument(
+      "it has no lines with coordinates, so it is no boundary; give closed lines or polygons.");
+  }
+  std::map<std::pair<double, double>, int> ends; // odd ones are open
+  for (const auto& edge : boundary.Edges)
+  {
+    for (const std::int64_t end : edge)
+    {
+      const auto at = 2 * std::size_t(end);
+      ++ends[{ boundary.XY[at], boundary.XY[at + 1] }];
+    }
+  }
+  const auto open =
+    std::find_if(ends.begin(), ends.end(), [](const auto& end) { return end.second % 2 != 0; });
+  if (open != ends.end())
+  {
+    std::ostringstream text;
+    text << "the boundary is not closed: a line ends at (" << open->first.first << ", "
+         << open->first.second << "); close it there.";
+    throw std::invalid_argument(text.str());
+  }
+}
+
+} // namespace tipp

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippTableConstraints_h
+#define tippTableConstraints_h
+
+#include "Constraints/ConstraintTable.h"
+#include "Constraints/TriangulateConstrained.h"
+#include "Points/PointTable.h"
+#include "vtkTIPPFiltersModule.h"
+
+namespace tipp
+{
+
+/// What constrains the triangulation of a table of points, as files give it.
+struct TableConstraints
+{
+  ConstraintTable Lines;    ///< with polygons and holes; perhaps none
+  ConstraintTable Boundary; ///< closed lines, which are constraints, too; perhaps none
+  CrossingRule Crossings = CrossingRule::Split;
+  /// Whether new points have the values of the surface of the others where no height is given: of
+  /// its triangle there, or NaN outside of it. Else these are NaN.
+  bool TakesSurface = false;
+};
+
+/// The constrained Delaunay triangulation of the points and those of the constraints, which are
+/// appended to the table unless they are there already, and then the crossings. A column named z, Z
+/// or elevation has the constraints' heights.
+///
+/// Triangles are removed outside of polygons, in holes, and outside of the boundary: a triangle is
+/// inside if a way out of it crosses the boundary's lines an odd number of times. Throws
+/// std::invalid_argument.
+VTKTIPPFILTERS_EXPORT ConstrainedTriangulation triangulateTable(
+  PointTable& points, const TableConstraints& constraints, const TriangulationOptions& options);
+
+/// Throws std::invalid_argument unless the lines of a boundary are closed.
+VTKTIPPFILTERS_EXPORT void requireClosedBoundary(const ConstraintTable& boundary);
+
+} // namespace tipp
+
+#endif

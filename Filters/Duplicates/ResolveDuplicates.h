@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippResolveDuplicates_h
+#define tippResolveDuplicates_h
+
+#include "Points/PointTable.h"
+#include "Triangulation/Triangulate.h"
+#include "vtkTIPPFiltersModule.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// Which values count where several points have one place.
+enum class DuplicateRule
+{
+  First,   ///< those of the first point
+  Lowest,  ///< those of the first point of the lowest elevation
+  Highest, ///< those of the first point of the highest elevation
+  Mean     ///< of each column the mean of the values that there are
+};
+
+/// Throws IOError if there is no elevation and the rule needs one.
+VTKTIPPFILTERS_EXPORT void requireElevation(
+  DuplicateRule rule, const std::vector<std::string>& columns);
+
+/// One value a point.
+struct ValueColumn
+{
+  double* Values;
+  std::size_t Stride;
+
+  double& operator[](std::int64_t point) const
+  {
+    return this->Values[std::size_t(point) * this->Stride];
+  }
+};
+
+/// Gives each representative the values of its place. Returns the number of places whose points
+/// disagree: in the elevation, or in any column if there is none. `elevation`: among the columns;
+/// their number if there is none.
+std::int64_t resolveDuplicates(std::vector<Duplicate> duplicates,
+  const std::vector<ValueColumn>& columns, std::size_t elevation, DuplicateRule rule);
+
+VTKTIPPFILTERS_EXPORT std::int64_t resolveDuplicates(
+  PointTable& points, std::vector<Duplicate> duplicates, DuplicateRule rule);
+
+} // namespace tipp
+
+#endif

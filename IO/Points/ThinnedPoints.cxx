@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Points/ThinnedPoints.h"
+
+#include "Files/IOError.h"
+#include "Files/TemporaryPath.h"
+#include "Parallel/Poll.h"
+#include "Partitioning/Spill.h"
+#include "Points/ElevationColumn.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// A point that may be the one to keep in its square: the one of lowest rank.
+struct Candidate
+{
+  double Column; ///< of the square
+  double Row;
+  double Rank;
+  std::int64_t Id;
+};
+
+std::uint64_t hashOf(const Candidate& candidate)
+{
+  std::uint64_t words[2];
+  const double square[2] = { candidate.Column + 0.0, candidate.Row + 0.0 }; // -0 is 0
+  std::memcpy(words, square, sizeof words);
+  std::uint64_t hash = words[0] * 0x9e3779b97f4a7c15U;
+  hash = (hash ^ (hash >> 29) ^ words[1]) * 0xbf58476d1ce4e5b9U;
+  return hash ^ (hash >> 32);
+}
+
+/// The best candidate of each square.
+class SquareTable
+{
+public:
+  SquareTable() { this->Slots.resize(std::size_t(1) << 10, empty); }
+
+  void offer(const Candidate& candidate)
+  {
+    if (2 * (this->Count + 1) > this->Slots.size())
+    {
+      this->grow();
+    }
+    Candidate& slot = this->slotOf(candidate);
+    this->Count += slot.Id < 0 ? 1 : 0;
+    const bool isBetter =
+      candidate.Rank < slot.Rank || (candidate.Rank == slot.Rank && candidate.Id < slot.Id);
+    if (slot.Id < 0 || isBetter)
+    {
+      slot = candidate;
+    }
+  }
+
+  template <typename Visit>
+  void forEach(const Visit& visit) const
+  {
+    for (const Candidate& slot : this->Slots)
+    {
+      slot.Id >= 0 ? visit(slot.Id) : void();
+    }
+  }
+
+private:
+  static constexpr Candidate empty{ 0, 0, 0, -1 };
+
+  Candidate& slotOf(const Candidate& candidate)
+  {
+    std::size_t at = hashOf(candidate) & (this->Slots.size() - 1);
+    while (this->Slots[at].Id >= 0 &&
+      (this->Slots[at].Column != candidate.Column || this->Slots[at].Row != candidate.Row))
+    {
+      at = (at + 1) & (this->Slots.size() - 1);
+    }
+    return this->Slots[at];
+  }
+
+  void grow()
+  {
+    std::vector<Candidate> old(2 * this->Slots.size(), empty);
+    old.swap(this->Slots);
+    for (const Candidate& candidate : old)
+    {
+      if (candidate.Id >= 0)
+      {
+        this->slotOf(candidate) = candidate;
+      }
+    }
+  }
+
+  std::vector<Candidate> Slots; ///< a power of two; half of them are empty at least
+  std::size_t Count = 0;
+};
+
+class ThinnedPoints : public PointStream
+{
+public:
+  ThinnedPoints(std::unique_ptr<PointStream> points, const Thinning& thinning)
+    : All(std::move(points))
+    , Rule(thinning)
+    , Elevation(findElevation(this->All->columns()))
+  {
+    if (thinning.Keep != Thinning::Rule::Nearest && this->Elevation == this->All->columns().size())
+    {
+      throw IOError("The points have no column z or elevation, by which to choose the lowest or "
+                    "highest of a square; thin by 'nearest'.");
+    }
+  }
+
+  bool next(PointBlock& block, std::size_t most) override
+  {
+    this->decide();
+    while (this->All->next(block, most))
+    {
+      this->keepChosen(block);
+      if (block.size() > 0)
+      {
+        block.First = this->Points;
+        this->Points += std::int64_t(block.size());
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void rewind() override
+  {
+    this->decide();
+    this->All->rewind();
+    this->Points = 0;
+  }
+
+  /// The number of points is not known before the first pass, and parts cannot be read alone.
+  std::int64_t divisible() const override { return -1; }
+  void limitTo(std::int64_t, std::int64_t) override {}
+
+  std::vector<std::string> columns() const override { return this->All->columns(); }
+  std::int64_t leftOut() const override { return this->All->leftOut(); }
+  std::int64_t thinnedOut() const override { return this->Seen - this->KeptCount; }
+  std::string crs() const override { return this->All->crs(); }
+
+  std::string identity() const override
+  {
+    char text[64];
+    std::snprintf(text, sizeof text, "thin %.17g %d\n", this->Rule.Cell, int(this->Rule.Keep));
+    return this->All->identity() + text;
+  }
+
+private:
+  static constexpr std::size_t blockPoints = std::size_t(1) << 16;
+
+  /// Finds the points to keep, in a pass over all of them.
+  void decide()
+  {
+    if (this->IsDecided)
+    {
+      return;
+    }
+    this->Rule.File.empty() ? this->decideInMemory() : this->decideOnDisk();
+    this->IsDecided = true;
+    this->All->rewind();
+  }
+
+  void decideInMemory()
+  {
+    SquareTable squares;
+    this->forEachCandidate(
+      [&](const std::vector<Candidate>& candidates)
+      {
+        for (const Candidate& candidate : candidates)
+        {
+          squares.offer(candidate);
+        }
+      });
+    squares.forEach([this](std::int64_t id) { this->keep(id); });
+  }
+
+  /// Squares are sorted into a file by their hash, so that few are in memory at a time.
+  void decideOnDisk()
+  {
+    constexpr std::size_t keys = 1024;
+    const std::string path = this->Rule.File + ".0"; // as Spill names it
+    TemporaryPath listed;
+    listed.list(path);
+    struct Remove
+    {
+      const std::string& Path;
+      ~Remove()
+      {
+        std::error_code ignored;
+        std::filesystem::remove(this->Path, ignored);
+      }
+    };
+    const Remove remove{ path };
+    Spill spill(this->Rule.File, 0, keys, sizeof(Candidate));
+    this->forEachCandidate(
+      [&](const std::vector<Candidate>& candidates)
+      {
+        spill.add(
+          candidates.size(), 1, [&](std::size_t i) { return hashOf(candidates[i]) >> 20 & 1023; },
+          [&](std::size_t i, char* row) { std::memcpy(row, &candidates[i], sizeof(Candidate)); });
+      });
+    Spill sorted(this->Rule.File, keys, sizeof(Candidate),
+      std::vector<std::vector<std::uint64_t>>{ spill.close() });
+    for (std::size_t key = 0; key < keys; ++key)
+    {
+      poll();
+      SquareTable squares;
+      sorted.read(key, blockPoints,
+        [&](const char* rows, std::size_t count)
+        {
+          for (std::size_t i = 0; i < count; ++i)
+          {
+            Candidate candidate;
+            std::memcpy(&candidate, rows + i * sizeof candidate, sizeof candidate);
+            squares.offer(candidate);
+          }
+        });
+      squares.forEach([this](std::int64_t id) { this->keep(id); });
+    }
+  }
+
+  template <typename Take>
+  void forEachCandidate(const Take& take)
+  {
+    std::vector<Candidate> candidates;
+    forEachBlock(*this->All, blockPoints,
+      [&](const PointBlock& block)
+      {
+        poll();
+        const std::size_t end = std::size_t(block.First) + block.size();
+        this->Kept.resize((end + 63) / 64, 0);
+        candidates.clear();
+        for (std::size_t i = 0; i < block.size(); ++i)
+        {
+          const std::int64_t id = block.First + std::int64_t(i);
+          std::isfinite(block.XY[2 * i]) && std::isfinite(block.XY[2 * i + 1])
+            ? candidates.push_back(this->candidateOf(block, i, id))
+            : this->keep(id);
+        }
+        take(candidates);
+        this->Seen = std::int64_t(end);
+      });
+  }
+
+  Candidate candidateOf(const PointBlock& block, std::size_t i, std::int64_t id) const
+  {
+    const double cell = this->Rule.Cell;
+    const double x = block.XY[2 * i] / cell;
+    const double y = block.XY[2 * i + 1] / cell;
+    const double column = std::floor(x);
+    const double row = std::floor(y);
+    double rank = 0;
+    if (this->Rule.Keep == Thinning::Rule::Nearest)
+    {
+      const double dx = x - column - 0.5;
+      const double dy = y - row - 0.5;
+      rank = dx * dx + dy * dy;
+    }
+    else
+    {
+      const double z = block.Columns[this->Elevation][i];
+      rank = std::isnan(z)                          ? std::numeric_limits<double>::infinity()
+        : this->Rule.Keep == Thinning::Rule::Lowest ? z
+                                                    : -z;
+    }
+    return { column, row, rank, id };
+  }
+
+  void keep(std::int64_t id)
+  {
+    this->Kept[std::size_t(id) / 64] |= std::uint64_t(1) << (id % 64);
+    ++this->KeptCount;
+  }
+
+  void keepChosen(PointBlock& block) const
+  {
+    std::size_t to = 0;
+    for (std::size_t i = 0; i < block.size(); ++i)
+    {
+      const std::size_t id = std::size_t(block.First) + i;
+      if ((this->Kept[id / 64] >> (id % 64) & 1) == 0)
+      {
+        continue;
+      }
+      block.XY[2 * to] = block.XY[2 * i];
+      block.XY[2 * to + 1] = block.XY[2 * i + 1];
+      for (std::vector<double>& column : block.Columns)
+      {
+        column[to] = column[i];
+      }
+      ++to;
+    }
+    block.XY.resize(2 * to);
+    for (std::vector<double>& column : block.Columns)
+    {
+      column.resize(to);
+    }
+  }
+
+  const std::unique_ptr<PointStream> All;
+  const Thinning Rule;
+  const std::size_t Elevation;
+  std::vector<std::uint64_t> Kept; ///< a bit a point
+  bool IsDecided = false;
+  std::int64_t Seen = 0;
+  std::int64_t KeptCount = 0;
+  std::int64_t Points = 0; ///< of this pass so far
+};
+
+} // namespace
+
+std::unique_ptr<PointStream> thinPoints(
+  std::unique_ptr<PointStream> points, const Thinning& thinning)
+{
+  return std::make_unique<ThinnedPoints>(std::move(points), thinning);
+}
+
+} // namespace tipp

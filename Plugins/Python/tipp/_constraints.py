@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The constraints that delaunay_2d() takes, checked, as lists of point ids."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Iterable, Iterator, NamedTuple
+
+import numpy as np
+
+from . import _arguments as check
+from ._arrays import taken
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+
+class Constraints(NamedTuple):
+    """Lines and polygons. Ids from the number of points on name the further corners."""
+
+    lines: list[np.ndarray]
+    polygons: list[np.ndarray]
+    corners: np.ndarray
+    """(k, 3) coordinates"""
+
+
+def constraints_of(
+    count: int,
+    edge_source: Any,
+    edges: ArrayLike | None,
+    polygons: Iterable[Any] | None,
+) -> Constraints | None:
+    """What the arguments name together, for so many points; None without edges and polygons."""
+    if edge_source is not None:
+        if edges is not None or polygons is not None:
+            raise ValueError("edge_source does not go with edges and polygons; give one or the others.")
+        check.data_object(edge_source, "edge_source", ("vtkPolyData",), "a vtkPolyData")
+        return None
+    if edges is None and polygons is None:
+        return None
+    lines = [] if edges is None else _edges(edges, count)
+    by_id: list[np.ndarray] = []
+    by_place: list[np.ndarray] = []
+    for number, polygon in enumerate([] if polygons is None else _polygons(polygons)):
+        name = f"polygons[{number}]"
+        rings = list(_rings(polygon)) if hasattr(polygon, "geom_type") else [polygon]
+        for ring in rings:
+            array = taken(ring, name)
+            if array.ndim == 1 and array.dtype.kind in "iu":
+                _require_ids(array, count, name)
+                by_id.append(array)
+            elif array.ndim == 2 and array.shape[1] in (2, 3) and array.dtype.kind in "fiu":
+                by_place.append(_spatial(array))
+            else:
+                raise ValueError(f"{name} has the shape {array.shape} and type {array.dtype}; give point ids, or "
+                                 "coordinates of shape (k, 2) or (k, 3).")
+    starts = np.cumsum([count, *(len(corners) for corners in by_place)])
+    by_id += [np.arange(first, first + len(corners)) for first, corners in zip(starts, by_place)]
+    return Constraints(lines, by_id, np.concatenate([np.zeros((0, 3)), *by_place]))
+
+
+def _polygons(polygons: Any) -> Iterable[Any]:
+    if hasattr(polygons, "geom_type"):
+        return [polygons]
+    if isinstance(polygons, (str, bytes)) or not isinstance(polygons, Iterable):
+        raise TypeError("polygons are no list; give a list of polygons.")
+    return polygons
+
+
+def _require_ids(ids: np.ndarray, count: int, name: str) -> None:
+    wrong = ids[(ids < 0) | (ids >= count)]
+    if wrong.size > 0:
+        raise ValueError(f"{name}: there is no point {wrong.flat[0]}, for there are {count} points; ids count from 0.")
+
+
+def _edges(edges: ArrayLike, count: int) -> list[np.ndarray]:
+    array = taken(edges, "edges")
+    if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
+        raise ValueError(f"edges have the shape {array.shape} and type {array.dtype}; give point ids of shape (m, 2).")
+    _require_ids(array, count, "edges")
+    return list(array)
+
+
+def _rings(polygon: Any) -> Iterator[np.ndarray]:
+    """Of Shapely's polygons the outer rings counter-clockwise and the inner ones clockwise."""
+    if polygon.geom_type == "MultiPolygon":
+        for part in polygon.geoms:
+            yield from _rings(part)
+        return
+    if polygon.geom_type != "Polygon":
+        raise TypeError(f"polygons have a Shapely {polygon.geom_type}; give a Polygon or a MultiPolygon.")
+    if not polygon.is_empty:
+        yield _turned(polygon.exterior, True)
+        for ring in polygon.interiors:
+            yield _turned(ring, False)
+
+
+def _turned(ring: Any, counter_clockwise: bool) -> np.ndarray:
+    corners = np.asarray(ring.coords)[:-1]  # the last one is the first
+    return corners if ring.is_ccw == counter_clockwise else corners[::-1]
+
+
+def _spatial(corners: np.ndarray) -> np.ndarray:
+    spatial = np.zeros((len(corners), 3))
+    spatial[:, :corners.shape[1]] = corners
+    return spatial

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Arrays.h"
+#include "Functions.h"
+#include "Reporter.h"
+#include "TriangulationDict.h"
+
+#include "Constraints/ConstraintEdges.h"
+#include "Constraints/KeepInside.h"
+#include "Constraints/MatchPositions.h"
+#include "Constraints/TriangulateConstrained.h"
+#include "Output/TriangulationWarnings.h"
+#include "Parallel/ThreadLimit.h"
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+
+namespace tipp::python
+{
+namespace
+{
+
+template <typename Value>
+nb::object idsOf(const std::vector<Value>& values, std::size_t columns)
+{
+  Buffer<std::int64_t> ids(values.size() * sizeof(Value) / sizeof(std::int64_t));
+  if (!values.empty())
+  {
+    std::memcpy(ids.data(), values.data(), values.size() * sizeof(Value));
+  }
+  return arrayOf(std::move(ids), columns);
+}
+
+/// The id that each of the others has among the points, and which of them are new.
+nb::tuple matchedPositions(const InputArray& points, const InputArray& others)
+{
+  const MatchedPositions matched =
+    withoutLock([&] { return matchPositions(viewOf(points), viewOf(others)); });
+  return nb::make_tuple(idsOf(matched.Ids, 1), idsOf(matched.New, 1));
+}
+
+std::vector<Constraint> constraintsOf(const InputArray& pairs)
+{
+  static_assert(sizeof(Constraint) == 2 * sizeof(std::int64_t), "two ids in a row");
+  std::vector<Constraint> result(pairs.shape(0));
+  if (!result.empty())
+  {
+    std::memcpy(result.data(), pairs.data(), result.size() * sizeof(Constraint));
+  }
+  return result;
+}
+
+/// (k, 5): x, y, the two points that a crossing lies between, and its fraction of the way.
+nb::object crossingsArray(const std::vector<CrossingPoint>& crossings)
+{
+  constexpr std::size_t columns = 5;
+  RawBuffer values(columns * crossings.size() * sizeof(double));
+  double* row = values.as<double>();
+  for (const CrossingPoint& crossing : crossings)
+  {
+    row[0] = crossing.Position.x;
+    row[1] = crossing.Position.y;
+    row[2] = double(crossing.A);
+    row[3] = double(crossing.B);
+    row[4] = crossing.Fraction;
+    row += columns;
+  }
+  return arrayOf(std::move(values), Scalar::Float64, columns);
+}
+
+/// For each corner whether the edge opposite to it is one of a constraint.
+template <typename Id>
+nb::object edgeMarks(const Buffer<Id>& ids, const ConstraintEdges& edges)
+{
+  RawBuffer marks(ids.size());
+  for (std::size_t t = 0; t < ids.size(); t += 3)
+  {
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      marks.as<unsigned char>()[t + i] =
+        edges.contains(ids[t + (i + 1) % 3], ids[t + (i + 2) % 3]) ? 1 : 0;
+    }
+  }
+  return arrayOf(std::move(marks), Scalar::UInt8, 3);
+}
+
+/// The pieces of polygons, which are the constraints from `begin` on, tell what is kept.
+void keepInside(ConstrainedTriangulation& result, std::size_t begin)
+{
+  std::vector<ConstraintPiece> edges;
+  std::copy_if(result.Constraints.Pieces.begin(), result.Constraints.Pieces.end(),
+    std::back_inserter(edges),
+    [&](const ConstraintPiece& piece) { return std::size_t(piece.Constraint) >= begin; });
+  if (result.Mesh.triangleCount() > 0)
+  {
+    tipp::keepInside(result.Mesh, edges);
+  }
+}
+
+nb::dict triangulateWithConstraints(const InputArray& points, const InputArray& pairs,
+  std::size_t polygonBegin, bool split, bool marks, double maximumEdge, int columns, int rows,
+  bool stages, int threads, bool neighbors, nb::object progress)
+{
+  Reporter reporter(std::move(progress));
+  TriangulationOptions options;
+  options.MaximumEdge = maximumEdge;
+  options.Columns = columns;
+  options.Rows = rows;
+  options.Order = stages ? Schedule::Stages : Schedule::Dynamic;
+  options.Threads = threads;
+  options.Progress = reporter.function();
+  const std::vector<Constraint> constraints = constraintsOf(pairs);
+  ConstrainedTriangulation result = withoutLock(
+    [&]
+    {
+      const ThreadLimit limit(threads);
+      return triangulateConstrained(
+        viewOf(points), constraints, split ? CrossingRule::Split : CrossingRule::Refuse, options);
+    });
+  reporter(1);
+  reporter.raiseIfStopped();
+  const ResolvedConstraints& resolved = result.Constraints;
+  // Warnings are those of the triangulation before it is cut.
+  const std::size_t count = points.shape(0) + resolved.Crossings.size();
+  const std::vector<std::string> warnings =
+    warningsOf(result.Mesh, std::int64_t(count), maximumEdge > 0);
+  if (polygonBegin < constraints.size())
+  {
+    withoutLock([&] { keepInside(result, polygonBegin); });
+  }
+  nb::object flags = nb::none();
+  if (marks)
+  {
+    const ConstraintEdges edges(resolved.Pieces);
+    flags = result.Mesh.Ids64.empty() ? edgeMarks(result.Mesh.Ids32, edges)
+                                      : edgeMarks(result.Mesh.Ids64, edges);
+  }
+  nb::dict dict = triangulationDict(std::move(result.Mesh), count, maximumEdge > 0, neighbors);
+  dict["warnings"] = warnings;
+  dict["marks"] = flags;
+  dict["pieces"] = idsOf(resolved.Pieces, 3);
+  dict["crossings"] = crossingsArray(resolved.Crossings);
+  dict["not_finite"] = resolved.NotFinite;
+  nb::object statistics = dict["statistics"];
+  statistics["constraints"] = constraints.size();
+  statistics["constraint_edges"] = resolved.Pieces.size();
+  statistics["crossing_points"] = resolved.Crossings.size();
+  statistics["crossing_rounds"] = resolved.Rounds;
+  return dict;
+}
+
+} // namespace
+
+void addConstraintFunctions(nb::module_& module)
+{
+  module.def("match_positions", &matchedPositions, nb::arg("points"), nb::arg("others"));
+  module.def("triangulate_constrained", &triangulateWithConstraints, nb::arg("points"),
+    nb::arg("pairs"), nb::arg("polygon_begin"), nb::arg("split"), nb::arg("marks"),
+    nb::arg("maximum_edge"), nb::arg("columns"), nb::arg("rows"), nb::arg("stages"),
+    nb::arg("threads"), nb::arg("neighbors"), nb::arg("progress").none());
+}
+
+} // namespace tipp::python

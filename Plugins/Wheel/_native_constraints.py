@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Constraints in the wheel: the core over ids, and what happens to the values at points."""
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from . import _core
+from ._constraints import constraints_of
+from ._progress import Progress, finish
+
+
+class Segments(NamedTuple):
+    """Edges between points, and the points and values with the corners that are new."""
+
+    points: np.ndarray
+    point_data: dict[str, np.ndarray] | None
+    """None: that of the input."""
+    pairs: np.ndarray
+    """(m, 2) ids"""
+    cells: np.ndarray
+    """Of each edge the number of its line or polygon."""
+    polygon_begin: int
+    """Edges from here on are those of polygons."""
+    warnings: list[str]
+
+
+def segments_of(points: np.ndarray, data: dict[str, np.ndarray], options: dict[str, Any]) -> Segments | None:
+    """What the arguments of delaunay_2d() name together; None without constraints."""
+    source = options["edge_source"]
+    constraints = constraints_of(len(points), source, options["edges"], options["polygons"])
+    if constraints is None and source is None:
+        return None
+    if options["tolerance"] > 0:
+        raise RuntimeError("tol does not go with constraints: set it to 0, which merges points at one position.")
+    if constraints is not None:
+        lines, polygons, corners = constraints
+        first, own = 0, {}
+    else:
+        lines, polygons, corners, own = _read_source(source, len(points), options.get("merge_source_points", False))
+        first = source.GetNumberOfVerts()
+    pairs, cells, begin = _pairs(lines, polygons)
+    if len(pairs) and not 0 <= pairs.min() <= pairs.max() < len(points) + len(corners):
+        wrong = np.flatnonzero((pairs < 0).any(axis=1) | (pairs >= len(points)).any(axis=1))[0]
+        raise RuntimeError(f"cell {first + cells[wrong]} of the source names point {pairs[wrong].max()}, but the input "
+                           f"has {len(points)} points: the source's ids are the input's.")
+    joined, warnings = None, []
+    if len(corners):
+        count = len(points)
+        ids, new = _core.match_positions(points, corners)
+        ids, new = ids.ravel(), new.ravel()
+        pairs = np.concatenate([np.arange(count), ids])[pairs]
+        if len(new):
+            kind = np.promote_types(points.dtype, corners.dtype)
+            points = np.concatenate([points.astype(kind), corners[new, : points.shape[1]]])
+            joined = {name: np.concatenate([values, own[name][new]]) for name, values in data.items()
+                      if name in own and own[name].dtype == values.dtype and own[name].shape[1:] == values.shape[1:]}
+            lost = len(data) - len(joined)
+            if lost:
+                warnings.append(f"{lost} point arrays of the input are left out: the source has {len(new)} new points "
+                                "and no values of these arrays.")
+    pairs = np.ascontiguousarray(pairs, np.int64)
+    _require_closed(points, pairs, first + cells, begin)
+    return Segments(points, joined, pairs, first + cells, begin, warnings)
+
+
+def _read_source(source: Any, count: int, has_own_points: bool) -> tuple[Any, ...]:
+    """Lines, polygons, and the points and values that the source has of its own, whose ids follow the input's."""
+    from ._vtk import arrays_of, cell_lists, xyz_of
+
+    lines, polygons = cell_lists(source.GetLines()), cell_lists(source.GetPolys())
+    if not has_own_points or source.GetNumberOfPoints() == 0:
+        return lines, polygons, np.zeros((0, 3)), {}
+    shifted = [[ids + count for ids in cells] for cells in (lines, polygons)]
+    return (*shifted, np.ascontiguousarray(xyz_of(source)), arrays_of(source.GetPointData()))
+
+
+def _pairs(lines: Any, polygons: Any) -> tuple[np.ndarray, np.ndarray, int]:
+    """The edges of lines and closed polygons, the number of each one's cell, and where polygons begin."""
+    parts = [np.column_stack([ids[:-1], ids[1:]]) for ids in lines]
+    begin = sum(len(part) for part in parts)
+    parts += [np.column_stack([ids, np.roll(ids, -1)]) for ids in polygons]
+    cells = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
+    return np.concatenate([np.zeros((0, 2), np.int64), *parts]).astype(np.int64), cells, begin
+
+
+def _require_closed(points: np.ndarray, pairs: np.ndarray, cells: np.ndarray, begin: int) -> None:
+    """A polygon without one of its corners would not tell what is inside."""
+    wrong = begin + np.flatnonzero(~np.isfinite(points[pairs[begin:, 0], :2]).all(axis=1))
+    if len(wrong):
+        raise RuntimeError(f"cell {cells[wrong[0]]} of the source, a polygon, has the corner {pairs[wrong[0], 0]}, "
+                           "which is NaN or infinite: remove the polygon or correct the point.")
+
+
+def triangulated(segments: Segments, points: np.ndarray, options: dict[str, Any],
+                 progress: Progress | None) -> dict[str, Any]:
+    """The core's result. Points are those of the segments, perhaps with more after them."""
+    result = _core.triangulate_constrained(
+        points, segments.pairs, segments.polygon_begin, options["crossings"] == 1,
+        options["marks"] == 2 and options["alpha"] == 0, options["max_edge"], *options["partitions"],
+        options["schedule"] == 0, options["threads"], options["neighbors"], progress)
+    finish(progress)
+    result["warnings"] = [*segments.warnings, *result["warnings"]]
+    if result["not_finite"]:
+        result["warnings"].append(f"{result['not_finite']} edges of the source have an end that is NaN or infinite and "
+                                  "are left out.")
+    return result
+
+
+def with_crossings(points: np.ndarray, crossings: np.ndarray) -> np.ndarray:
+    """In double precision, the crossings last: exact in x and y, z interpolated."""
+    if len(crossings) == 0:
+        return points
+    result = interpolated(points.astype(np.float64), crossings)
+    result[len(points):, :2] = crossings[:, :2]
+    return result
+
+
+def interpolated(values: np.ndarray, crossings: np.ndarray) -> np.ndarray:
+    """Values at points, and after them those at crossings, linear between the two points that each lies between."""
+    count = len(values)
+    ends, fraction = crossings[:, 2:4].astype(np.int64), crossings[:, 4]
+    result = np.empty((count + len(crossings), *values.shape[1:]), values.dtype)
+    result[:count] = values
+    pending = np.arange(len(crossings))
+    while len(pending):
+        # A crossing may lie between others, which come first.
+        is_pending = np.zeros(len(result), bool)
+        is_pending[count + pending] = True
+        is_ready = ~is_pending[ends[pending]].any(axis=1)
+        now, pending = pending[is_ready], pending[~is_ready]
+        share = fraction[now].reshape(-1, *[1] * (values.ndim - 1))
+        between = result[ends[now, 0]] * (1 - share) + result[ends[now, 1]] * share
+        if values.dtype.kind in "iu":
+            between = np.trunc(between + np.copysign(0.5, between))
+        result[count + now] = between
+    return result

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Kinds of files that commands read and write.
+#include "RunTipp.h"
+
+#include "Points/ReadPoints.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <vector>
+
+namespace
+{
+
+using namespace tipp::test;
+
+using Words = std::vector<std::string>;
+
+class TippFormats : public testing::Test
+{
+protected:
+  Outcome run(const Words& words) const
+  {
+    Outcome outcome = runTipp(this->Folder, words);
+    EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+    return outcome;
+  }
+  std::string content(const std::string& name) const { return contentOf(this->Folder.path(name)); }
+
+  /// With its standard input from a file.
+  int runWithInput(const std::string& input, const std::string& words) const
+  {
+    const std::string command = "cd '" + this->Folder.path("") + "' && " TIPP_EXECUTABLE " " +
+      words + " < " + input + " > out.txt 2>&1";
+    return std::system(command.c_str());
+  }
+
+  TemporaryFolder Folder;
+};
+
+constexpr const char* boundaries = "1 = number of open boundaries\n"
+                                   "2 = total number of open boundary nodes\n"
+                                   "2 = number of nodes of boundary 1\n"
+                                   "10\n20\n"
+                                   "1 = number of land boundaries\n"
+                                   "2 = total number of land boundary nodes\n"
+                                   "1 24 = a weir\n"
+                                   "30 40 1.5 1.0 1.0\n";
+
+TEST_F(TippFormats, AnAdcircGridKeepsItsNodesAndBoundaries)
+{
+  this->Folder.file("fort.14",
+    std::string("A title\n1 4\n10 0 0 3.25\n20 4 0 -1\n40 4 4 0.1\n30 0 4 2\n1 3 10 20 40\n") +
+      boundaries);
+  this->run({ "delaunay", "fort.14", "-o", "out.14" });
+  const std::string out = this->content("out.14");
+  EXPECT_EQ(0U, out.find("A title\n2 4\n10 0 0 3.25\n20 4 0 -1\n40 4 4 0.1\n30 0 4 2\n1 3 "))
+    << out;
+  EXPECT_EQ(out.size() - std::string(boundaries).size(), out.find(boundaries)) << out;
+  this->run({ "delaunay", "fort.14", "-o", "triangles.npy" });
+  this->run({ "check", "fort.14", "out.14" });
+}
+
+TEST_F(TippFormats, AnAdcircGridOfOtherPointsHasDepthsAndNoBoundaries)
+{
+  this->Folder.file("points.csv", "x,y,z\n0,0,1\n1,0,-2.5\n0,1,0\n");
+  this->run({ "delaunay", "points.csv", "-o", "out.14" });
+  EXPECT_NE(std::string::npos,
+    this->content("out.14").find(
+      "\n1 3\n1 0 0 -1\n2 1 0 2.5\n3 0 1 0\n1 3 1 2 3\n0 = number of open boundaries\n"))
+    << this->content("out.14");
+}
+
+TEST_F(TippFormats, AnAdcircGridHoldsNoPointThatIsNotFinite)
+{
+  this->Folder.file("points.csv", "x,y,z\n0,0,1\n1,0,2\n0,1,0\nnan,1,1\n");
+  const Outcome outcome = runTipp(this->Folder, { "delaunay", "points.csv", "-o", "out.14" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("cannot hold point 3")) << outcome.Err;
+  EXPECT_FALSE(std::filesystem::exists(this->Folder.path("out.14")));
+}
+
+TEST_F(TippFormats, AnAdcircGridHoldsNoArrays)
+{
+  this->Folder.file("points.csv", "x,y\n0,0\n1,0\n0,1\n");
+  for (const std::string option : { "--neighbors", "--map-duplicates" })
+  {
+    EXPECT_EQ(
+      2, runTipp(this->Folder, { "delaunay", "points.csv", "-o", "out.14", option }).ExitCode);
+  }
+}
+
+TEST_F(TippFormats, PointsComeFromTheStandardInput)
+{
+  std::ofstream csv(this->Folder.path("points.csv"));
+  csv << "x,y,z\n";
+  for (int i = 0; i < 3000; ++i)
+  {
+    csv << i * 37 % 101 << "," << i * 53 % 97 << "," << i % 11 << "\n";
+  }
+  csv.close();
+  this->run({ "delaunay", "points.csv", "-o", "file.vtu" });
+  EXPECT_EQ(0, this->runWithInput("points.csv", "delaunay - -o input.vtu"))
+    << this->content("out.txt");
+  EXPECT_EQ(this->content("file.vtu"), this->content("input.vtu"));
+  this->run({ "dem", "points.csv", "-o", "file.npy", "--resolution", "1" });
+  for (const std::string memory : { "", " --memory 2M" })
+  {
+    EXPECT_EQ(0, this->runWithInput("points.csv", "dem - -o input.npy --resolution 1" + memory))
+      << this->content("out.txt");
+    EXPECT_EQ(this->content("file.npy"), this->content("input.npy"));
+  }
+}
+
+TEST_F(TippFormats, NumbersMayHaveDecimalCommas)
+{
+  const std::vector<double> xy = { 1.5, 2.25, -3, 4.5 };
+  for (const char* const text : { "x;y;z\n1,5;2,25;7\n-3;4,5;8,5\n", "1,5 2,25 7\n-3,0 4,5 8,5\n",
+         "x\ty\tz\n1,5\t2,25\t7\n-3\t4,5\t8,5\n" })
+  {
+    const tipp::PointTable points = tipp::readPoints(this->Folder.file("points.txt", text));
+    EXPECT_EQ(xy, points.XY) << text;
+    EXPECT_EQ((std::vector<double>{ 7, 8.5 }), points.Columns.at(0).Values) << text;
+  }
+  // Commas that part columns stay what they are.
+  EXPECT_EQ((std::vector<double>{ 1, 5, 3, 4 }),
+    tipp::readPoints(this->Folder.file("plain.txt", "1, 5, 2\n3, 4, 7\n")).XY);
+}
+
+TEST_F(TippFormats, OtherKindsNameTheCommandThatConvertsThem)
+{
+  const std::vector<std::pair<std::string, std::string>> kinds = {
+    { "mesh.ex2", "'meshio convert mesh.ex2 out.vtu'" },
+    { "mesh.node", "'meshio convert mesh.node out.vtu'" },
+    { "mesh.msh", "'meshio convert mesh.msh out.vtu'" },
+    { "mesh.xml.gz", "'gunzip mesh.xml.gz && meshio convert mesh.xml out.vtu'" },
+    { "points.shp", "'ogr2ogr -f CSV -lco GEOMETRY=AS_XYZ out.csv points.shp'" },
+  };
+  for (const auto& [name, command] : kinds)
+  {
+    this->Folder.file(name, "1 2 3\n");
+    for (const Words& words : { Words{ "delaunay", name, "-o", "out.vtu" },
+           Words{ "dem", name, "-o", "out.npy", "--resolution", "1" } })
+    {
+      const Outcome outcome = runTipp(this->Folder, words);
+      EXPECT_EQ(1, outcome.ExitCode) << name;
+      EXPECT_NE(std::string::npos, outcome.Err.find(command)) << outcome.Err;
+    }
+  }
+}
+
+} // namespace

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command `tipp dem` under mpirun: TestDemOnRanks.py MPIEXEC TIPP"""
+import json
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+MPIEXEC, TIPP = sys.argv[1:3]
+
+
+class DemOnRanks(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def make_points(self, count):
+        numbers = random.Random(1)
+        with open(self.folder / "points.csv", "w", encoding="ascii") as file:
+            file.write("x,y,z,intensity\n")
+            for i in range(count):
+                # Some places are shared, and some pixels' centres are points.
+                x, y = (numbers.randrange(4000) / 40 for _ in range(2))
+                file.write(f"{x},{y},{(x - y) ** 2 / 50},{i % 255}\n")
+
+    def command(self, ranks, output, *arguments):
+        launcher = [MPIEXEC, "--oversubscribe", "--bind-to", "none", "-n", str(ranks)] if ranks > 1 else []
+        return [*launcher, TIPP, "dem", "points.csv", "-o", output, "--resolution", "0.25", "--threads", "1", "--attributes",
+                "elevation,intensity,slope", "--duplicates", "mean", *arguments]
+
+    def make(self, ranks, output, *arguments):
+        run = subprocess.run(self.command(ranks, output, *arguments), cwd=self.folder, capture_output=True, text=True,
+                             timeout=250)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return (self.folder / output).read_bytes()
+
+    def test_every_number_of_ranks_gives_the_same_bytes(self):
+        self.make_points(60000)
+        alone = self.make(1, "alone.npy")
+        for ranks in (2, 3):
+            self.assertEqual(self.make(ranks, "shared.npy", "--memory", "2M", "--stats", "run.json"), alone)
+            figures = json.loads((self.folder / "run.json").read_text())
+            self.assertEqual(figures["ranks"], ranks)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["alone.npy", "points.csv", "run.json", "shared.npy"])
+
+    def test_ranks_need_no_limit_of_memory(self):
+        self.make_points(3000)
+        self.assertEqual(self.make(2, "shared.npy"), self.make(1, "alone.npy"))
+
+    def test_killed_ranks_are_followed_by_others(self):
+        self.make_points(60000)
+        alone = self.make(1, "alone.npy")
+        arguments = ("--memory", "2M", "--resume")
+        for number in range(6):
+            # A session of its own, all of which is killed.
+            run = subprocess.Popen(self.command(2 + number % 2, "shared.npy", *arguments), cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+            time.sleep(0.5 + 0.1 * number)
+            try:
+                os.killpg(run.pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+            run.wait()
+        for _ in range(100):
+            run = subprocess.run(self.command(3, "shared.npy", *arguments), cwd=self.folder, capture_output=True, text=True,
+                                 timeout=250)
+            if "another process" not in run.stderr:
+                break
+            time.sleep(0.1)  # mpirun's children notice a little later that it is gone
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual((self.folder / "shared.npy").read_bytes(), alone)
+
+    def test_a_failure_is_one_sentence(self):
+        self.make_points(100)
+        run = subprocess.run(self.command(2, "shared.npy", "--attributes", "colour"), cwd=self.folder, capture_output=True,
+                             text=True, timeout=250)
+        self.assertEqual(run.returncode, 1, run.stderr)
+        complaints = [line for line in run.stderr.splitlines() if line.startswith("tipp:")]
+        self.assertEqual(len(complaints), 1, run.stderr)
+        self.assertIn("no column 'colour'", complaints[0])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The wheel's VTK filters in pipelines of the VTK that is installed."""
+import os
+import tempfile
+import unittest
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkIdList
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkUnstructuredGrid
+from vtkmodules.vtkFiltersSources import vtkPointSource
+
+import tipp
+from tipp._vtk import point_cloud, triangles_of
+
+
+def cloud(count=500):
+    points = np.random.default_rng(8).random((count, 3))
+    return point_cloud(points, {"height": points[:, 0] + points[:, 1]})
+
+
+def polygon(ids, corners=None):
+    cells = vtkCellArray()
+    one = vtkIdList()
+    for i in ids:
+        one.InsertNextId(i)
+    cells.InsertNextCell(one)
+    source = point_cloud(corners) if corners is not None else vtkPolyData()
+    source.SetPolys(cells)
+    return source
+
+
+class Delaunay2D(unittest.TestCase):
+    def setUp(self):
+        self.filter = tipp.vtkTIPPDelaunay2D()
+        self.errors = []
+
+        def on_error(_object, _event, text):
+            self.errors.append(text)
+
+        on_error.CallDataType = "string0"
+        self.filter.AddObserver("ErrorEvent", on_error)
+
+    def test_a_pipeline_updates_when_its_source_changes(self):
+        source = vtkPointSource()
+        source.SetNumberOfPoints(100)
+        self.filter.SetInputConnection(source.GetOutputPort())
+        self.filter.Update()
+        self.assertEqual(100, self.filter.GetOutput().GetNumberOfPoints())
+        source.SetNumberOfPoints(200)
+        self.filter.Update()
+        self.assertEqual(200, self.filter.GetOutput().GetNumberOfPoints())
+
+    def test_properties_are_those_of_the_class(self):
+        self.assertEqual((0.0, 1.0, (0, 0), 1), (self.filter.GetAlpha(), self.filter.GetOffset(),
+                                                 self.filter.GetNumberOfPartitions(), self.filter.GetSchedule()))
+        before = self.filter.GetMTime()
+        self.filter.SetNumberOfPartitions(3, 2)
+        self.filter.GenerateNeighborIdsOn()
+        self.filter.SetTolerance(7.0)
+        self.assertEqual(((3, 2), True, 1.0), (self.filter.GetNumberOfPartitions(), self.filter.GetGenerateNeighborIds(),
+                                               self.filter.GetTolerance()))
+        self.assertGreater(self.filter.GetMTime(), before)
+        with self.assertRaisesRegex(TypeError, "NumberOfPartitions has 3 values; give 2"):
+            self.filter.SetNumberOfPartitions(1, 2, 3)
+
+    def test_the_mesh_is_that_of_the_function(self):
+        points = cloud()
+        self.filter.SetInputData(points)
+        self.filter.SetGenerateNeighborIds(True)
+        self.filter.Update()
+        mesh = self.filter.GetOutput()
+        expected = tipp.delaunay_2d(points, neighbors=True)
+        np.testing.assert_array_equal(triangles_of(expected), triangles_of(mesh))
+        np.testing.assert_array_equal(tipp.as_array(expected, "NeighborIds"), tipp.as_array(mesh, "NeighborIds"))
+        totals = self.filter.GetStatistics().GetFieldData()
+        self.assertEqual(mesh.GetNumberOfPolys(), totals.GetArray("Triangles").GetValue(0))
+        self.assertEqual(0, self.filter.GetNumberOfDuplicatePoints())
+
+    def test_a_source_constrains(self):
+        self.filter.SetInputData(cloud(100))
+        self.filter.SetSourceData(polygon([3, 40, 70]))
+        self.filter.SetConstraintMarks(tipp.vtkTIPPDelaunay2D.LINES)
+        self.filter.Update()
+        self.assertGreater(self.filter.GetOutput().GetNumberOfLines(), 2)
+        self.assertEqual([], self.errors)
+
+    def test_points_of_a_source_join_those_of_the_input(self):
+        self.filter.SetInputData(cloud(100))
+        corners = np.array([[-1.0, -1, 0], [2, -1, 0], [2, 2, 0], [-1, 2, 0]])
+        self.filter.SetSourceData(polygon(range(4), corners))
+        self.filter.MergeSourcePointsOn()
+        self.filter.Update()
+        self.assertEqual(104, self.filter.GetOutput().GetNumberOfPoints())
+        a, b, c = vtk_to_numpy(self.filter.GetOutput().GetPoints().GetData())[triangles_of(self.filter.GetOutput()).T]
+        areas = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+        self.assertAlmostEqual(9.0, areas.sum() / 2)
+
+    def test_failures_are_errors_of_vtk_and_leave_no_exception(self):
+        self.filter.SetInputData(cloud(100))
+        self.filter.SetSourceData(polygon([3, 40, 700]))
+        self.filter.Update()
+        self.assertRegex(self.errors[0], "names point 700, but the input has 100 points")
+        self.filter.SetSourceData(polygon([3, 40, 70]))
+        self.filter.SetAlpha(float("nan"))
+        self.filter.Update()
+        self.assertRegex(self.errors[-1], "^Alpha is nan; give a finite number.$|returned failure")
+
+    def test_progress_is_told_and_abort_ends_the_run(self):
+        self.filter.SetInputData(cloud(200_000))
+        heard = []
+        tag = self.filter.AddObserver("ProgressEvent", lambda *_: heard.append(self.filter.GetProgress()))
+        self.filter.Update()
+        self.assertGreater(len(heard), 2)
+        self.filter.RemoveObserver(tag)
+        self.filter.AddObserver("ProgressEvent", lambda *_: self.filter.SetAbortExecute(1))
+        self.filter.Modified()
+        self.filter.Update()
+        self.assertEqual(([], 0), (self.errors, self.filter.GetOutput().GetNumberOfPolys()))
+
+
+class Meshes(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = os.path.join(folder.name, "mesh.tipp")
+        self.points = os.path.join(folder.name, "points.npy")
+        self.triangulation = tipp.vtkTIPPDelaunay2D()
+        self.triangulation.SetInputData(cloud())
+
+    def test_an_image_is_the_functions(self):
+        sampler = tipp.vtkRangeResampleFilter()
+        sampler.SetInputConnection(self.triangulation.GetOutputPort())
+        sampler.SetSamplingDimensions(9, 7, 1)
+        sampler.UpdateInformation()
+        self.assertEqual((0, 8, 0, 6, 0, 0), sampler.GetOutputInformation(0).Get(
+            tipp._filters.vtkStreamingDemandDrivenPipeline.WHOLE_EXTENT()))
+        sampler.Update()
+        expected = tipp.resample(self.triangulation.GetOutput(), dimensions=(9, 7, 1))
+        np.testing.assert_array_equal(tipp.as_array(expected, "height"), tipp.as_array(sampler.GetOutput(), "height"))
+
+    def test_a_mesh_is_written_and_a_part_of_it_read(self):
+        writer = tipp.vtkPartitionedUnstructuredWriter()
+        writer.SetInputConnection(self.triangulation.GetOutputPort())
+        writer.SetFileName(self.path)
+        self.assertEqual(1, writer.Write())
+        reader = tipp.vtkPartitionedUnstructuredReader()
+        self.assertEqual((1, 0), (reader.CanReadFile(self.path), reader.CanReadFile(self.path + "x")))
+        reader.SetFileName(self.path)
+        reader.UpdateInformation()
+        self.assertEqual("height", reader.GetPointDataArraySelection().GetArrayName(0))
+        reader.Update()
+        whole = reader.GetOutput()
+        self.assertIsInstance(whole, vtkUnstructuredGrid)
+        count = whole.GetNumberOfCells()
+        self.assertEqual(self.triangulation.GetOutput().GetNumberOfPolys(), count)
+        reader.SetBounds(0, 0.2, 0, 0.2, 0, 0)
+        reader.GetPointDataArraySelection().DisableArray("height")
+        reader.Update()
+        self.assertLess(reader.GetOutput().GetNumberOfCells(), count / 3)
+        self.assertFalse(reader.GetOutput().GetPointData().HasArray("height"))
+
+    def test_points_in_files_are_read_and_triangulated_out_of_core(self):
+        np.save(self.points, np.random.default_rng(1).random((3000, 3)))
+        reader = tipp.vtkTIPPPointReader()
+        reader.SetFileName(self.points)
+        reader.Update()
+        self.assertEqual(3000, reader.GetOutput().GetNumberOfPoints())
+        outside = tipp.vtkTIPPOutOfCoreDelaunay2D()
+        outside.AddInputFileName(self.points)
+        outside.SetFileName(self.path)
+        outside.SetMemoryLimit(64 << 20)
+        outside.Update()
+        count = outside.GetStatistics().GetFieldData().GetArray("Triangles").GetValue(0)
+        self.triangulation.SetInputConnection(reader.GetOutputPort())
+        self.triangulation.Update()
+        self.assertEqual(self.triangulation.GetOutput().GetNumberOfPolys(), count)
+
+
+if __name__ == "__main__":
+    unittest.main()
