@@ -101,9 +101,9 @@ struct Triangulation
 };
 
 /// Returns the Delaunay triangulation of the distinct finite points, ties broken by their
-/// lexicographic order: the same set of triangles as CGAL's, for all options except MaximumEdge.
-/// Ids are indices into `points`. There are no triangles if there are fewer than three distinct
-/// points or all are collinear.
+/// lexicographic order: the same set of triangles as CGAL's, for all options except MaximumEdge and
+/// MakeEditor. Ids are indices into `points`. There are no triangles if there are fewer than three
+/// distinct points or all are collinear.
 VTKTIPPFILTERS_EXPORT Triangulation triangulate(
   PointsView points, const TriangulationOptions& options = {});
 
