@@ -11,7 +11,7 @@ namespace
 {
 
 template <typename Id>
-using Edge = std::pair<Id, Id>; // the lower id first
+using Edge = std::pair<Id, Id>; // point ids, the lower first
 
 template <typename Id>
 Edge<Id> edgeOf(const Id* triangle, int i)
@@ -33,7 +33,7 @@ double squaredCircumradius(const double a[3], const double b[3], const double c[
     ab[0] * ac[1] - ab[1] * ac[0] };
   const double squaredNormal =
     normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
-  // r = |ab| |bc| |ca| / (4 area), and the normal is twice the area long.
+  // r = |ab| |bc| |ca| / (4 area); the normal's length is twice the area.
   return squaredDistance(a, b) * squaredDistance(b, c) * squaredDistance(c, a) /
     (4 * squaredNormal);
 }
@@ -92,7 +92,7 @@ std::vector<Edge<Id>> shortEdgesOfDropped(
   return edges;
 }
 
-/// The edges, in order, that no kept triangle has.
+/// Returns the edges that belong to no kept triangle, in their order.
 template <typename Id>
 Buffer<Id> linesOutside(const std::vector<Edge<Id>>& edges, const Buffer<Id>& keptTriangles)
 {

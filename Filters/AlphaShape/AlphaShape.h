@@ -10,20 +10,21 @@
 namespace tipp
 {
 
-/// Writes the x, y and z of a point; from any thread.
+/// Writes the x, y and z of a point, given its id, to the array; must be thread-safe.
 using PointAt = std::function<void(PointId, double*)>;
 
-/// What is left of a triangulation at a radius: cells of 3, 2 and 1 point ids in a row.
+/// The alpha shape of a triangulation: cells with 3, 2 and 1 point ids each, concatenated.
 template <typename Id>
 struct AlphaShape
 {
-  Buffer<Id> Triangles; ///< circumradius in space at most alpha; in the order given
-  Buffer<Id> Lines;     ///< at most 2 alpha long, in no such triangle; ascending
-  Buffer<Id> Vertices;  ///< in neither; ascending
+  Buffer<Id> Triangles; ///< circumradius in 3D at most alpha; in input order
+  Buffer<Id> Lines;     ///< edges at most 2 alpha long of no such triangle; ascending
+  Buffer<Id> Vertices;  ///< points of neither; ascending
 };
 
-/// `covered` has one entry for each point, not 0 for those that can be no vertex (duplicates and
-/// rejected points). A triangle without area in space counts as infinitely large.
+/// Computes the alpha shape. `covered` has one entry for each point: not 0 if it cannot be a vertex
+/// (a duplicate or rejected point). A triangle without area in 3D counts as infinitely large.
+/// `alpha` is in the points' unit of length.
 template <typename Id>
 AlphaShape<Id> alphaShape(
   const Buffer<Id>& triangles, const PointAt& pointAt, double alpha, std::vector<char> covered);

@@ -14,7 +14,7 @@ namespace tipp
 namespace
 {
 
-/// Each triangle to the rank that owns its vertex of lowest id.
+/// Sends each triangle to the rank that owns its vertex of lowest id. Ids are internal ids.
 std::vector<IdTriangle> bringHome(Postbox& ranks, const std::vector<IdTriangle>& triangles,
   const std::vector<std::int64_t>& firstIds)
 {
@@ -56,7 +56,7 @@ std::vector<std::int64_t> foreignIds(
   return ids;
 }
 
-/// The same triangles by places in Owned and Foreign.
+/// Converts internal ids to indices into Owned and, after these, Foreign.
 template <typename Id>
 std::vector<typename TriangleSink<Id>::Seam> localised(const std::vector<IdTriangle>& triangles,
   const std::vector<std::int64_t>& foreign, std::int64_t firstOwn, const Buffer<Point2>& places,
@@ -148,7 +148,7 @@ void preferLowestGlobalIds(
   PointTuples& points, std::int64_t firstId, std::vector<Duplicate>& duplicates)
 {
   const std::size_t rowSize = points.size() > 0 ? points.Rows.size() / points.size() : 0;
-  std::map<std::size_t, std::size_t> lowest; // by representative: the point of lowest global id
+  std::map<std::size_t, std::size_t> lowest; // by representative: lowest global id's
   for (const Duplicate& duplicate : duplicates)
   {
     const std::size_t representative = std::size_t(duplicate.Representative - firstId);

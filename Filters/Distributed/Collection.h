@@ -10,20 +10,21 @@
 namespace tipp
 {
 
-/// What comes after all partitions are finished: boundary triangles go to the rank that owns their
-/// vertex of lowest id, beside the interior ones; and the points of other ranks are fetched.
-/// Collective.
+/// The step after all partitions are done: sends boundary triangles to the rank that owns their
+/// vertex of lowest id, where the interior triangles are, and fetches the points of other ranks
+/// that these need. Collective.
 template <typename Id>
 void collect(Postbox& ranks, OwnedPoints<Id>& points, const std::vector<IdTriangle>& kept,
   const std::vector<std::size_t>& interiorCounts, std::vector<Duplicate> duplicates,
   const Tiling& leaves, int threads, DistributedTriangulation& result);
 
-/// Asks the owners for the points named by ascending id. Collective.
+/// Fetches points from their owners. `ids` are internal ids, ascending; `firstIds` has each rank's
+/// first id, and the end. Collective.
 PointTuples fetchPoints(Postbox& ranks, const std::vector<std::int64_t>& ids,
   const std::vector<std::int64_t>& firstIds, const PointTuples& own, std::size_t rowSize);
 
-/// Among points at one place the representative's place in the output gets the data of the point
-/// with the lowest global id. Duplicates are by internal ids, and by global ones afterwards.
+/// For coincident points, gives the representative's entry in `points` the data of the point with
+/// the lowest global id. The duplicates have internal ids on entry and global ids on return.
 void preferLowestGlobalIds(
   PointTuples& points, std::int64_t firstId, std::vector<Duplicate>& duplicates);
 

@@ -8,6 +8,7 @@
 namespace tipp
 {
 
+/// Who starts partitions.
 enum class Masters
 {
   Auto,   ///< no master; several where a grid of major partitions is given, or one for schedules
@@ -21,22 +22,25 @@ enum class Division
 {
   Tree,      ///< boxes that hold equally many points
   Threshold, ///< m x m boxes with m = sqrt(N / T) for N points (equation 3.1)
-  Grid       ///< the same columns and rows everywhere
+  Grid       ///< the same number of columns and rows everywhere
 };
 
+/// How many ranks and partitions a major partition gets.
 enum class GroupSizes
 {
-  Proportional, ///< ranks and partitions are shared out by points (equation 3.2)
-  Equal         ///< by number
+  Proportional, ///< ranks and partitions in proportion to points (equation 3.2)
+  Equal         ///< equal numbers
 };
 
+/// When ranks get partitions.
 enum class RankSchedule
 {
-  Stages,           ///< shifts of independent partitions, a barrier after each (Algorithm 1)
-  ProducerConsumer, ///< a worker that is done asks for more; a barrier after each stage
+  Stages,           ///< waves of independent partitions, a barrier after each (Algorithm 1)
+  ProducerConsumer, ///< a free worker asks for the next; a barrier after each stage
   Dynamic           ///< no barrier
 };
 
+/// The size of a grid of partitions; not given by default.
 struct GridSize
 {
   int Columns = 0;
@@ -45,6 +49,7 @@ struct GridSize
   std::int64_t size() const { return std::int64_t(this->Columns) * this->Rows; }
 };
 
+/// Options of triangulateDistributed(); none of them changes the set of triangles.
 struct DistributedOptions
 {
   bool isMasterless() const
@@ -54,15 +59,16 @@ struct DistributedOptions
   }
 
   Masters Design = Masters::Auto;
-  GridSize Major; ///< not given: a tree of a chosen number of boxes
+  GridSize Major; ///< default: a tree with an automatic number of boxes
   Division MinorDivision = Division::Tree;
   GridSize Minor;             ///< for Division::Grid; with one master, the partitions
-  std::int64_t Threshold = 0; ///< T, points a minor partition; 0: chosen
+  std::int64_t Threshold = 0; ///< T, points per minor partition; 0: chosen
   GroupSizes Groups = GroupSizes::Proportional;
   RankSchedule Order = RankSchedule::Dynamic;
   int InitialPointsPerPartition = 0; ///< 0: chosen
   int Threads = 0;                   ///< of each rank; 0: OpenMP's choice
-  /// Told this rank's finished fraction now and then; false ends the run on all ranks.
+  /// Called now and then with this rank's finished fraction (0 to 1); returning false ends the run
+  /// on all ranks.
   std::function<bool(double)> Progress;
 };
 

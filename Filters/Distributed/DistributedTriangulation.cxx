@@ -21,7 +21,7 @@ namespace tipp
 namespace
 {
 
-/// The first rank's plan, to all.
+/// Returns the first rank's plan on all ranks. Collective.
 Plan broadcastPlan(Postbox& ranks, const Plan& plan)
 {
   ByteWriter writer;
@@ -34,7 +34,7 @@ Plan broadcastPlan(Postbox& ranks, const Plan& plan)
   return Plan::read(reader);
 }
 
-/// One rank's run of the algorithm, step by step.
+/// One rank's run of the algorithm; its member functions are the steps.
 class DistributedRun
 {
 public:
@@ -118,7 +118,7 @@ private:
     {
       this->LocalCount += plan.Owners[leaf] == this->Ranks.rank() ? counts[leaf] : 0;
     }
-    // Room for the points of other ranks.
+    // Half of the id range is left for other ranks' points.
     const bool fits = this->LocalCount < std::numeric_limits<std::int32_t>::max() / 2;
     const bool done = fits ? this->triangulate<std::int32_t>(plan, exchange, watch)
                            : this->triangulate<std::int64_t>(plan, exchange, watch);
@@ -128,7 +128,7 @@ private:
     }
   }
 
-  /// False if partitions do not pay: nothing has been triangulated then.
+  /// Returns false, with nothing triangulated, if partitioning does not pay.
   template <typename Id>
   bool triangulate(const Plan& plan, const PointExchange& exchange, const Stopwatch& watch)
   {
@@ -176,7 +176,7 @@ private:
     this->triangulateOnFirst(points, plan.Leaves);
   }
 
-  /// The first rank has all points.
+  /// Triangulates on the first rank, which has all points.
   template <typename Id>
   void triangulateOnFirst(OwnedPoints<Id>& points, const Tiling& leaves)
   {
@@ -205,7 +205,7 @@ private:
       this->Result);
   }
 
-  /// No triangles: only the duplicates are found.
+  /// Finds the duplicates only, for input without triangles.
   void sortOutOnly(const Box2& bounds)
   {
     const Plan plan = planAlone(bounds);

@@ -15,6 +15,7 @@
 namespace tipp
 {
 
+/// Points with their global ids and data; the arrays have the same order.
 struct PointTuples
 {
   Buffer<Point2> Places;
@@ -23,23 +24,24 @@ struct PointTuples
   std::size_t size() const { return this->Places.size(); }
 };
 
-/// A rank's part of a triangulation. Its triangles name the rank's own points, and after them
-/// those of other ranks that it has triangles with, by their places in Owned and Foreign.
+/// A rank's part of a triangulation. Corners are local indices: of Owned, the rank's own points,
+/// and after them of Foreign, the other ranks' points that its triangles use. An internal id is a
+/// point's index among all ranks' owned points, rank by rank; a global id is the caller's.
 struct DistributedTriangulation
 {
-  Buffer<std::int32_t> Ids32; ///< used when every place fits
+  Buffer<std::int32_t> Ids32; ///< used if every index fits
   Buffer<std::int64_t> Ids64;
-  PointTuples Owned; ///< also points that no triangle here has
+  PointTuples Owned; ///< includes points without triangles on this rank
   PointTuples Foreign;
   std::size_t RowSize = 0;
-  std::vector<std::int64_t> ForeignIds; ///< counted over all ranks' owned points; ascending
-  std::vector<std::int64_t> FirstIds;   ///< of each rank's owned points in that count; and the end
+  std::vector<std::int64_t> ForeignIds; ///< internal ids of Foreign; ascending
+  std::vector<std::int64_t> FirstIds;   ///< first internal id of each rank, and the end
 
-  std::int64_t FirstTriangle = 0;    ///< the number of this rank's first triangle among all
-  std::vector<Duplicate> Duplicates; ///< found here, by global ids
-  std::vector<PointId> Rejected;     ///< brought by this rank, by global ids
+  std::int64_t FirstTriangle = 0;    ///< index of this rank's first triangle among all ranks'
+  std::vector<Duplicate> Duplicates; ///< found on this rank; global ids
+  std::vector<PointId> Rejected;     ///< of this rank's input; global ids
 
-  std::int64_t AllPoints = 0; ///< of all ranks together
+  std::int64_t AllPoints = 0; ///< sum over all ranks
   std::int64_t AllTriangles = 0;
   std::int64_t AllDuplicates = 0;
   std::int64_t AllRejected = 0;
@@ -48,9 +50,10 @@ struct DistributedTriangulation
   std::size_t triangleCount() const { return (this->Ids32.size() + this->Ids64.size()) / 3; }
 };
 
-/// The Delaunay triangulation of all ranks' points: the set of triangles that triangulate() makes
-/// of them. Of points at one place, on whatever ranks, the one of lowest global id stands for all.
-/// Collective; throws RankFailure on all ranks if any rank fails or its Progress stops the run.
+/// Returns this rank's part of the Delaunay triangulation of all ranks' points: together the ranks
+/// have the triangles that triangulate() returns. Of coincident points, on any ranks, the one with
+/// the lowest global id represents all. Collective; throws RankFailure on all ranks if any rank
+/// fails or its Progress stops the run.
 VTKTIPPFILTERS_EXPORT DistributedTriangulation triangulateDistributed(
   Postbox& ranks, const RankPoints& points, const DistributedOptions& options = {});
 

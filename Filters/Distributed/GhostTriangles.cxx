@@ -14,7 +14,7 @@ namespace tipp
 namespace
 {
 
-/// For each vertex that this rank shares, the other ranks that have triangles at it.
+/// For each vertex that this rank shares, by internal id, the other ranks with triangles at it.
 using Users = std::map<std::int64_t, std::vector<std::int32_t>>;
 
 struct SharedVertex
@@ -23,7 +23,8 @@ struct SharedVertex
   std::int64_t User;
 };
 
-/// Owners hear from the ranks that use their points, and tell each of the others.
+/// Sends the points used to their owners, and each owner sends the using ranks to all of them.
+/// Collective.
 Users findUsers(
   Postbox& ranks, const DistributedTriangulation& mine, const std::vector<IdTriangle>& triangles)
 {

@@ -10,24 +10,24 @@
 namespace tipp
 {
 
-/// Other ranks' triangles that share a vertex with one of this rank's: one layer.
+/// One layer of ghosts: other ranks' triangles that share a vertex with one of this rank's.
 struct GhostTriangles
 {
-  std::vector<IdTriangle> Triangles;  ///< counting all ranks' owned points
-  std::vector<std::int64_t> Numbers;  ///< among all triangles, as FirstTriangle
-  std::vector<std::int64_t> PointIds; ///< of their points that this rank has not; ascending
-  PointTuples Points;                 ///< the same points
+  std::vector<IdTriangle> Triangles;  ///< by internal ids
+  std::vector<std::int64_t> Numbers;  ///< indices among all ranks' triangles
+  std::vector<std::int64_t> PointIds; ///< internal ids of the points this rank lacks; ascending
+  PointTuples Points;                 ///< the points of PointIds
 };
 
-/// Collective.
+/// Returns the ghosts of this rank's triangles. Collective.
 VTKTIPPFILTERS_EXPORT GhostTriangles fetchGhosts(
   Postbox& ranks, const DistributedTriangulation& mine);
 
-/// The triangles of a rank by ids that count all ranks' owned points.
+/// A rank's triangles by internal ids: indices among all ranks' owned points.
 VTKTIPPFILTERS_EXPORT std::vector<IdTriangle> trianglesByIds(
   const DistributedTriangulation& mine, int rank);
 
-/// Everything on the first rank; nothing is left on the others. Collective.
+/// Moves everything to the first rank; the others return an empty triangulation. Collective.
 VTKTIPPFILTERS_EXPORT DistributedTriangulation gatherOnFirst(
   Postbox& ranks, DistributedTriangulation mine);
 

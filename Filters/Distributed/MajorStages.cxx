@@ -14,7 +14,7 @@ namespace
 
 using Ranks = std::vector<std::int32_t>;
 
-/// Of each major partition some points of the sample.
+/// Some sample points of each major partition.
 std::vector<SeamVertex> chooseVertices(const Tiling& majors, const std::vector<Point2>& sample)
 {
   constexpr int perMajor = 8;
@@ -31,7 +31,7 @@ std::vector<SeamVertex> chooseVertices(const Tiling& majors, const std::vector<P
   return vertices;
 }
 
-/// So many of the ranks to each, at least one, in proportion to the weights: largest remainders.
+/// Distributes `ranks` ranks in proportion to the weights, at least one each: largest remainders.
 std::vector<std::size_t> groupSizes(const std::vector<double>& weights, std::size_t ranks)
 {
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -76,7 +76,7 @@ std::vector<std::vector<PartitionIndex>> predictStages(const Tiling& majors,
   {
     stages[order.colourOf(p)].push_back(p);
   }
-  // Major partitions without points have colours, too.
+  // Major partitions without points have colours as well.
   stages.erase(std::remove_if(stages.begin(), stages.end(),
                  [](const std::vector<PartitionIndex>& stage) { return stage.empty(); }),
     stages.end());

@@ -11,14 +11,15 @@
 namespace tipp
 {
 
-/// The sets of major partitions that are likely to be active together, by the conflicts in a mesh
-/// of the sample. Points can so go to their workers before the triangulation begins.
+/// Predicts which major partitions will be active together, from the conflicts in a mesh of the
+/// sample, so that points can be sent to their workers before the triangulation begins. Returns the
+/// stages, each a set of major partitions with points.
 std::vector<std::vector<PartitionIndex>> predictStages(const Tiling& majors,
   const std::vector<Point2>& sample, const std::vector<std::int64_t>& majorCounts);
 
-/// For each major partition of a stage the ranks of the group that works on it. In a stage with
-/// fewer major partitions than ranks each group has several ranks, in proportion to the points
-/// (equation 3.2); else a group is one rank, the one with the fewest points so far (its load).
+/// Chooses the group of ranks for each major partition of a stage. If a stage has fewer major
+/// partitions than ranks, each group has several ranks, in proportion to the points (equation 3.2);
+/// else a group is one rank, the one with the lowest load, its points so far.
 void formGroups(const std::vector<PartitionIndex>& active,
   const std::vector<std::int64_t>& majorCounts, const std::vector<std::int32_t>& ranks,
   const DistributedOptions& options, std::vector<double> load,

@@ -12,9 +12,9 @@ constexpr MessageKind kindAfter(std::uint32_t n)
   return static_cast<MessageKind>(static_cast<std::uint32_t>(MessageKind::FirstFree) + n);
 }
 
-/// A partition is done, and what it sends.
+/// A partition is done; with the messages that it sends.
 constexpr MessageKind PartitionDoneMessage = kindAfter(0);
-/// With masters: a partition to triangulate, with what was in its inbox.
+/// With masters: a partition to triangulate, with its inbox.
 constexpr MessageKind TaskMessage = kindAfter(1);
 
 } // namespace tipp

@@ -47,7 +47,7 @@ void requireFewLeaves(std::int64_t leaves)
   }
 }
 
-/// One box's partitions; `points` of the domain's lie in it.
+/// Divides a box, which contains about `points` points, into partitions.
 Tiling divideBox(const Box2& box, std::vector<Point2> sample, double points, std::int64_t perPart,
   const DistributedOptions& options)
 {
@@ -64,7 +64,7 @@ Tiling divideBox(const Box2& box, std::vector<Point2> sample, double points, std
   return Tiling::balanced(box, std::move(sample), partsFor(points, perPart));
 }
 
-/// Groups of some ranks each, several major partitions to a group.
+/// Chooses the number of major partitions: several per group of ranks.
 int chooseMajors(int ranks)
 {
   constexpr int fewest = 16;
@@ -81,7 +81,8 @@ std::vector<std::vector<Point2>> samplesByBox(const Tiling& tiling, const std::v
   return samples;
 }
 
-/// Consecutive shares of the weights, as equal as they go: the part that each item belongs to.
+/// Splits the items into `parts` consecutive shares of nearly equal weight; returns each item's
+/// share.
 std::vector<std::int32_t> shareOut(const std::vector<double>& weights, std::size_t parts)
 {
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -97,7 +98,7 @@ std::vector<std::int32_t> shareOut(const std::vector<double>& weights, std::size
   return shares;
 }
 
-/// What a partition counts when they are shared out.
+/// The partitions' weights for distributing them among ranks.
 std::vector<double> weightsOf(
   const std::int64_t* begin, const std::int64_t* end, const DistributedOptions& options)
 {
@@ -140,8 +141,8 @@ Area readArea(ByteReader& reader)
   return area;
 }
 
-/// The leaves of an area, shared out to a group of ranks. Shares are of whole leaves: the largest
-/// goes to the rank that has the least load so far.
+/// Assigns an area's leaves to a group of ranks. A share is a set of whole leaves; the largest
+/// share goes to the rank with the lowest load so far.
 void assignLeaves(Plan& plan, Area& area, const std::vector<std::int32_t>& group,
   const std::vector<std::int64_t>& leafCounts, const DistributedOptions& options,
   std::vector<double>& load)
@@ -307,7 +308,7 @@ void assign(Plan& plan, const PlanInput& input, const std::vector<std::int64_t>&
   std::vector<double> load(all.size(), 0);
   if (top.hasLeaves())
   {
-    // Beside many ranks the first one is the master alone.
+    // With many ranks, the first one is only the master.
     constexpr int masterAlone = 32;
     if (input.Ranks >= masterAlone && !options.isMasterless())
     {
@@ -346,7 +347,7 @@ void assign(Plan& plan, const PlanInput& input, const std::vector<std::int64_t>&
       top.Homes.push_back(group);
     }
     top.HomeOf[std::size_t(p)] = place.first->second;
-    if (majorCounts[std::size_t(p)] == 0) // in no stage
+    if (majorCounts[std::size_t(p)] == 0) // it is in no stage
     {
       assignLeaves(plan, plan.Areas[std::size_t(top.Children[std::size_t(p)])], group, leafCounts,
         options, load);

@@ -22,7 +22,8 @@ void requireSize(std::size_t actual, std::size_t expected)
   }
 }
 
-/// What each rank tells of this one's leaves.
+/// Sends the counts to the leaves' owners; returns by rank the counts of this rank's leaves.
+/// Collective.
 std::vector<std::vector<std::uint64_t>> tellCounts(
   Postbox& ranks, const std::vector<std::int32_t>& owners, const std::vector<std::int64_t>& counts)
 {

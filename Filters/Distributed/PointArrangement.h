@@ -13,7 +13,7 @@
 namespace tipp
 {
 
-/// What travels with points, array by array.
+/// The arrays of points and their data, as sent in messages. Does not own the memory.
 struct PointArrays
 {
   Point2* Places;
@@ -26,48 +26,48 @@ struct PointArrays
     , Rows(rows)
   {
   }
-  /// Those of so many points that lie there one after the other.
+  /// The arrays of `points` points that are stored one after the other in `memory`.
   PointArrays(char* memory, std::size_t points);
 
-  /// Of a message of so many points.
+  /// The size of a message with `points` points, in bytes.
   static std::size_t bytes(std::size_t points, std::size_t rowSize);
 };
 
-/// Where a rank's points come to lie: leaf by leaf, and in each leaf the points of the ranks in
-/// their order.
+/// The order of a rank's points: by leaf, and within each leaf by source rank.
 struct PointArrangement
 {
-  /// Each rank tells its number of points in each leaf to the leaf's owner. Collective.
+  /// Sends the number of points in each leaf to the leaf's owner. Collective.
   PointArrangement(Postbox& ranks, const std::vector<std::int32_t>& owners,
     const std::vector<std::int64_t>& counts);
 
   std::int32_t Rank;
-  std::vector<std::vector<std::uint64_t>> Counts; ///< from each rank, for each leaf of this one
-  std::vector<std::vector<std::size_t>> Firsts;   ///< the place of the first of these
-  std::vector<std::size_t> Starts;                ///< of all leaves, and the end
+  std::vector<std::vector<std::uint64_t>> Counts; ///< by source rank and leaf of this rank
+  std::vector<std::vector<std::size_t>> Firsts;   ///< index of the first of these points
+  std::vector<std::size_t> Starts;                ///< index of each leaf's first point, and the end
 };
 
-/// Brings what comes from another rank, part by part, to its places.
+/// Copies what is received from another rank, part by part, to its position.
 class PointLanding
 {
 public:
   PointLanding(const PointArrangement& arrangement, std::size_t source, const PointArrays& home,
     std::size_t rowSize);
 
-  /// Throws std::runtime_error if it is more than the rank told.
+  /// Copies the next part. Throws std::runtime_error if the rank sent more than it announced.
   void take(const char* part, std::size_t size);
 
-  /// Throws std::runtime_error if it was less.
+  /// Throws std::runtime_error if the rank sent less than it announced.
   void requireComplete() const;
 
 private:
+  /// A byte range of the destination that is not filled yet.
   struct Place
   {
     char* To;
     std::size_t Size;
   };
 
-  std::vector<Place> Left; ///< the next one last
+  std::vector<Place> Left; ///< in reverse order
 };
 
 } // namespace tipp

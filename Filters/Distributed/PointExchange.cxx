@@ -19,7 +19,7 @@ std::size_t partBegin(std::size_t n, int part, int parts)
     std::min(n % std::size_t(parts), std::size_t(part));
 }
 
-/// Asks for the pages of memory all of which will be used.
+/// Commits the pages of memory that will be used completely.
 template <typename Item>
 void populate(Buffer<Item>& memory, int threads)
 {
@@ -130,7 +130,7 @@ PointExchange::Packing PointExchange::planPacking(
   return packing;
 }
 
-/// The own points go to their places at once, the others into messages.
+/// Copies this rank's own points to their positions, and the others into messages.
 void PointExchange::pack(const std::vector<std::int32_t>& owners, const Packing& packing,
   const PointArrays& home, char* messages) const
 {
@@ -164,13 +164,14 @@ OwnedPoints<Id> PointExchange::exchange(
   populate(owned.Places, this->Threads);
   populate(owned.GlobalIds, this->Threads);
   const PointArrays home(owned.Places.data(), owned.GlobalIds.data(), owned.Rows.data());
-  // Triangles with other ranks' points come on top of two a point; memory never touched is free.
+  // Triangles with other ranks' points are in addition to two per point. Untouched pages are not
+  // committed.
   owned.Buckets = PointBuckets<Id>(arrangement.Starts, home.Places, total / 8);
 
   const Packing packing = this->planPacking(owners, arrangement);
   parallelFor(this->Threads, this->Threads,
     [&](std::int64_t part) { owned.Buckets.populate(int(part), this->Threads); });
-  // What leaves is packed where triangles will be, if it fits: fresh memory takes time.
+  // Messages are packed into the triangles' memory if they fit: fresh memory takes time.
   Bytes messages(owned.Buckets.release());
   const bool isLent = packing.Size <= messages.size();
   if (!isLent)

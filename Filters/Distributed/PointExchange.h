@@ -14,13 +14,13 @@
 namespace tipp
 {
 
-/// The points that a rank brings along.
+/// A rank's input points. Does not own the memory.
 struct RankPoints
 {
   PointsView Points;
-  const PointId* GlobalIds = nullptr; ///< null: FirstId and upwards
+  const PointId* GlobalIds = nullptr; ///< null: consecutive ids from FirstId
   PointId FirstId = 0;
-  /// What travels with each point, so many bytes: pack(point, to) writes them.
+  /// Data sent with each point: RowSize bytes, which PackRow(point index, to) writes.
   std::size_t RowSize = 0;
   std::function<void(std::size_t, char*)> PackRow;
 
@@ -30,41 +30,42 @@ struct RankPoints
   }
 };
 
-/// The points of the leaves that a rank owns, leaf by leaf.
+/// The points of the leaves that a rank owns, ordered by leaf.
 template <typename Id>
 struct OwnedPoints
 {
-  PointBuckets<Id> Buckets; ///< of all leaves; empty those of other owners
+  PointBuckets<Id> Buckets; ///< of all leaves; empty for leaves of other owners
   Buffer<Point2> Places;
   Buffer<PointId> GlobalIds;
   Buffer<char> Rows;
-  std::vector<std::int64_t> FirstIds; ///< of each rank, counting all ranks' points; and the end
+  std::vector<std::int64_t> FirstIds; ///< first internal id of each rank, and the end
 
   std::size_t size() const { return this->Places.size(); }
 };
 
-/// The points' way to their owners, in one all-to-all.
+/// Sends points to their owners in one all-to-all exchange.
 class PointExchange
 {
 public:
-  /// Finds each point's leaf.
+  /// Finds each point's leaf. `points` must outlive this object.
   PointExchange(const RankPoints& points, const Tiling& leaves, int threads);
 
-  /// This rank's points in each leaf.
+  /// The number of this rank's points in each leaf.
   std::vector<std::int64_t> counts() const;
 
-  /// Collective. `owners` has a rank for each leaf.
+  /// Sends each point to its leaf's owner and returns the points received. `owners` has the rank of
+  /// each leaf. Collective.
   template <typename Id>
   OwnedPoints<Id> exchange(Postbox& ranks, const std::vector<std::int32_t>& owners) const;
 
 private:
-  /// Where in the messages, and how much.
+  /// The layout of the outgoing messages.
   struct Packing
   {
-    std::vector<std::size_t> Sizes;  ///< points to each rank
-    std::vector<std::size_t> Begins; ///< of each leaf, among its owner's points from here
+    std::vector<std::size_t> Sizes;  ///< number of points to each rank
+    std::vector<std::size_t> Begins; ///< index of each leaf's first point in its owner's message
     std::vector<Postbox::Stretch> Messages;
-    std::size_t Size = 0; ///< of all messages, in bytes
+    std::size_t Size = 0; ///< bytes of all messages
   };
 
   Packing planPacking(
@@ -77,7 +78,7 @@ private:
   const std::size_t Leaves;
   const int Threads;
   Buffer<std::uint32_t> Labels;
-  std::vector<std::vector<std::size_t>> Counts; ///< of each thread's part
+  std::vector<std::vector<std::size_t>> Counts; ///< by thread and leaf
 };
 
 extern template OwnedPoints<std::int32_t> PointExchange::exchange(

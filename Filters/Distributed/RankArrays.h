@@ -13,10 +13,11 @@
 namespace tipp
 {
 
-/// A triangle by its vertices' ids.
+/// A triangle: three internal ids, indices among all ranks' owned points.
 using IdTriangle = std::array<std::int64_t, 3>;
 
-/// The rank that owns a point: `firstIds` has the first id of each rank's, and the end.
+/// The rank that owns a point with an internal id; `firstIds` has each rank's first id, and the
+/// end. Throws std::runtime_error if no rank owns it.
 inline std::size_t ownerOf(std::int64_t id, const std::vector<std::int64_t>& firstIds)
 {
   const auto next = std::upper_bound(firstIds.begin(), firstIds.end(), id);
@@ -27,7 +28,7 @@ inline std::size_t ownerOf(std::int64_t id, const std::vector<std::int64_t>& fir
   return std::size_t(next - firstIds.begin()) - 1;
 }
 
-/// An array to each rank, and one from each. Collective.
+/// Sends one array to each rank; returns one from each rank. Collective.
 template <typename T>
 std::vector<std::vector<T>> swapArrays(Postbox& ranks, const std::vector<std::vector<T>>& toRanks)
 {

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// The part of RankRun that is of masters: who start the partitions whose inboxes they keep.
+// The masters' part of RankRun. A master starts the partitions whose inboxes it keeps.
 #include "Distributed/MessageKinds.h"
 #include "Distributed/RankRun.h"
 #include "Parallel/ProcessorWatch.h"
@@ -15,7 +14,7 @@ namespace tipp
 namespace
 {
 
-/// Those of several masters, step by step.
+/// Adds the stages of several masters, stage by stage.
 void addStages(const std::vector<TriangulationStatistics::Stage>& more,
   std::vector<TriangulationStatistics::Stage>& stages)
 {
@@ -29,8 +28,8 @@ void addStages(const std::vector<TriangulationStatistics::Stage>& more,
 
 } // namespace
 
-/// With barriers, a rank gets no more than it has threads for, and in shifts (Algorithm 1) all
-/// that was started is done before more is.
+/// Whether a partition may start now. With barriers, a rank gets at most one partition per thread;
+/// in waves (Algorithm 1), all started partitions must be done first.
 template <typename Id>
 bool RankRun<Id>::canStart(PartitionIndex p) const
 {
@@ -38,7 +37,7 @@ bool RankRun<Id>::canStart(PartitionIndex p) const
     this->InFlight[std::size_t(this->ownerOf(p))] < this->Threads;
 }
 
-/// Starts what can be started. False if there is nothing.
+/// Starts all partitions that may start. Returns false if there are none.
 template <typename Id>
 bool RankRun<Id>::startReady()
 {
@@ -91,7 +90,7 @@ void RankRun<Id>::start(PartitionIndex p)
   }
   else
   {
-    if (colour >= this->Figures.Stages.size()) // its first one
+    if (colour >= this->Figures.Stages.size()) // the colour's first partition
     {
       this->Figures.Stages.resize(colour);
       this->Figures.Stages.push_back({ 0, kept });
@@ -111,7 +110,7 @@ void RankRun<Id>::start(PartitionIndex p)
   this->Ranks.post(owner, TaskMessage, writer.take());
 }
 
-/// From the partition's keeper.
+/// Receives a partition to triangulate from its keeper.
 template <typename Id>
 void RankRun<Id>::receiveTask(const Message& message)
 {
@@ -129,7 +128,7 @@ void RankRun<Id>::receiveTask(const Message& message)
   this->Started->setLoaded(p);
 }
 
-/// Collective.
+/// Collects the statistics. Collective.
 template <typename Id>
 void RankRun<Id>::keepFigures(const std::vector<Contribution>& parts)
 {

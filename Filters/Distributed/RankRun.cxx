@@ -15,7 +15,7 @@ namespace tipp
 namespace
 {
 
-/// Threads that end when the work ends, whatever ends it.
+/// Threads that are joined when the work ends, also by an exception.
 class WorkerThreads
 {
 public:
@@ -62,7 +62,7 @@ struct RegionEntry
   PartitionIndex Partition;
 };
 
-/// What the ranks give, one after the other.
+/// Returns all ranks' bytes, concatenated by rank, on all ranks. Collective.
 Bytes joinedOnAllRanks(Postbox& ranks, Bytes&& own)
 {
   ByteWriter all;
@@ -101,8 +101,8 @@ SeamTriangles trianglesOf(ByteReader& reader)
   return triangles;
 }
 
-/// Every rank triangulates all initial points; which partitions the triangles meet takes longer,
-/// and is shared out where there are enough of them.
+/// Every rank triangulates all initial points. Finding the partitions that the triangles meet takes
+/// longer, and is distributed if there are enough triangles.
 InitialMeshShare shareOf(Postbox& ranks, std::size_t vertices)
 {
   constexpr std::size_t leastOfARank = 256;
@@ -180,7 +180,7 @@ void RankRun<Id>::shareInitialMesh(std::vector<SeamVertex>& vertices)
   this->Boxes = std::make_unique<Regions>(tiles, std::move(boxes), std::move(used));
 }
 
-/// Of each partition, whether these give it to this rank, and it has points.
+/// By partition: whether `ranks` assigns it to this rank, and it has points.
 template <typename Id>
 std::vector<char> RankRun<Id>::thoseOf(const std::vector<std::int32_t>& ranks) const
 {
@@ -242,7 +242,7 @@ void RankRun<Id>::decideWhoWaits()
   }
 }
 
-/// The ranks that want to know when p is done.
+/// The ranks that get a message when p is done.
 template <typename Id>
 std::vector<std::int32_t> RankRun<Id>::recipientsOf(PartitionIndex p) const
 {
@@ -264,7 +264,7 @@ std::vector<std::int32_t> RankRun<Id>::recipientsOf(PartitionIndex p) const
   return ranks;
 }
 
-/// Each rank makes the same messages and keeps those for its inboxes; the first one keeps the
+/// Each rank computes the same messages and keeps those for its inboxes; the first rank keeps the
 /// triangles that are final already.
 template <typename Id>
 void RankRun<Id>::sendInitial(const SeamTriangles& mesh)
@@ -293,7 +293,7 @@ void RankRun<Id>::put(PartitionIndex to, VertexMessage&& message)
   this->Inboxes[std::size_t(to)].put(std::move(message));
 }
 
-/// One thread's work.
+/// A worker thread's loop.
 template <typename Id>
 void RankRun<Id>::work(Contribution& part)
 {
@@ -324,8 +324,7 @@ void RankRun<Id>::work(Contribution& part)
   }
 }
 
-/// Puts messages to partitions whose inboxes are here into these, and hands those to other ranks to
-/// the main thread.
+/// Adds messages to the inboxes on this rank, and queues those to other ranks for the main thread.
 template <typename Id>
 void RankRun<Id>::finishPartition(PartitionIndex p, SentMessages sent)
 {
@@ -377,7 +376,8 @@ void RankRun<Id>::receive(const Message& message)
   this->Figures.Seconds += watch.seconds();
 }
 
-/// Of another rank: a partition is done, and what it sends to partitions whose inboxes are here.
+/// Receives the message that another rank's partition is done, and what it sends to inboxes on this
+/// rank.
 template <typename Id>
 void RankRun<Id>::receiveDone(const Message& message)
 {
@@ -399,7 +399,7 @@ void RankRun<Id>::receiveDone(const Message& message)
   this->finish(sender);
 }
 
-/// A partition is done, here or on another rank.
+/// Marks a partition of this or another rank as done.
 template <typename Id>
 void RankRun<Id>::finish(PartitionIndex p)
 {
@@ -411,7 +411,7 @@ void RankRun<Id>::finish(PartitionIndex p)
   }
 }
 
-/// False if there was nothing to do.
+/// Sends queued messages and receives arrived ones. Returns false if there were none.
 template <typename Id>
 bool RankRun<Id>::sendAndReceive()
 {
@@ -449,11 +449,11 @@ void RankRun<Id>::report()
   }
 }
 
-/// The main thread, which alone speaks to other ranks.
+/// The main thread's loop; only this thread communicates with other ranks.
 template <typename Id>
 void RankRun<Id>::coordinate()
 {
-  // Looking for messages takes the processor from a thread that computes.
+  // Polling takes processor time from a thread that computes.
   constexpr std::chrono::microseconds shortest(300);
   constexpr std::chrono::microseconds longest(2000);
   std::chrono::microseconds pause = shortest;
@@ -481,7 +481,7 @@ void RankRun<Id>::coordinate()
   this->report();
 }
 
-/// Lemma 3. The first rank has the triangles at the hull.
+/// Repairs the hull (Lemma 3). The first rank has the triangles at the hull.
 template <typename Id>
 void RankRun<Id>::repairHullOnFirst()
 {

@@ -24,15 +24,16 @@ namespace tipp
 
 /// A rank's part of the triangulation: it triangulates the partitions whose points it owns.
 ///
-/// Every rank computes conflicts and order from the same initial mesh. The inbox of a partition is
-/// kept by one rank, its *keeper*, who learns when those that it waits for are done and then starts
-/// it: by default the owner of its points. With the dissertation's masters it is the first rank
-/// (Algorithm 1), or the lead of its major partition's group (Algorithm 3).
+/// Every rank computes conflicts and order from the same initial mesh. One rank, the *keeper*,
+/// stores a partition's inbox, is told when the partitions that this one waits for are done, and
+/// then starts it. By default it is the owner of the partition's points. With the dissertation's
+/// masters it is the first rank (Algorithm 1), or the lead of its major partition's group
+/// (Algorithm 3).
 ///
 /// A finished partition is one message to each rank that keeps its inbox or that of a later
-/// conflicting partition: it carries the vertices for these, and says that the partition is done. A
-/// rank has finished when all that it owns and keeps is done; no protocol counts. Results do not
-/// depend on when messages arrive.
+/// conflicting partition: it contains the vertices for these, and marks the partition as done. A
+/// rank has finished when all partitions that it owns or keeps are done; no termination protocol is
+/// needed. Results do not depend on when messages arrive.
 template <typename Id>
 class RankRun
 {
@@ -40,7 +41,7 @@ public:
   RankRun(Postbox& ranks, const Plan& plan, OwnedPoints<Id>& points,
     const DistributedOptions& options, int threads);
 
-  /// Collective. Throws RankFailure.
+  /// Runs the triangulation. Collective. Throws RankFailure.
   void run();
 
   /// Boundary triangles that have become final on this rank, by internal ids.
@@ -48,21 +49,21 @@ public:
   std::vector<Duplicate> Duplicates;       ///< by internal ids
   std::vector<std::size_t> InteriorCounts; ///< of each partition
   RankStatistics Statistics;
-  std::vector<MasterStatistics> Masters; ///< what this rank knows of masters
-  bool PartitionsPay = true;             ///< the same on all ranks; if not, nothing was done
+  std::vector<MasterStatistics> Masters; ///< of the masters on this rank
+  bool PartitionsPay = true;             ///< the same on all ranks; if false, nothing was done
 
 private:
-  /// What the threads contribute, each by itself.
+  /// A thread's part of the result.
   struct Contribution
   {
     FinalBoundary<std::int64_t> Boundary;
     std::vector<Duplicate> Duplicates;
     std::int64_t WorkerVertices = 0;
     std::int64_t Partitions = 0;
-    std::vector<double> Seconds; ///< of computing, by colour
+    std::vector<double> Seconds; ///< computing time, by colour
   };
 
-  /// The messages of one finished partition to another rank.
+  /// A finished partition's messages to another rank.
   struct Outgoing
   {
     int Rank;
@@ -77,7 +78,7 @@ private:
   std::int32_t keeperOf(PartitionIndex p) const { return this->Keepers[std::size_t(p)]; }
   std::vector<char> thoseOf(const std::vector<std::int32_t>& ranks) const;
   std::vector<std::int32_t> recipientsOf(PartitionIndex p) const;
-  /// What threads take partitions from.
+  /// The queue from which threads take partitions.
   ReadyPartitions& source() { return this->hasMasters() ? *this->Started : *this->Ready; }
   void work(Contribution& part);
   void finishPartition(PartitionIndex p, SentMessages sent);
@@ -91,7 +92,7 @@ private:
   void repairHullOnFirst();
   void keepFigures(const std::vector<Contribution>& parts);
 
-  /// @name Of a master
+  /// @name Functions of a master
   ///@{
   bool hasMasters() const { return this->Started != nullptr; }
   bool startReady();
@@ -110,24 +111,24 @@ private:
   std::unique_ptr<Regions> Boxes;
   std::unique_ptr<PartitionOrder> Order;
   std::vector<std::int32_t> Keepers;        ///< of each partition
-  std::vector<std::int32_t> AllKeepers;     ///< each rank once
-  std::unique_ptr<ReadyPartitions> Ready;   ///< of those that this rank keeps
-  std::unique_ptr<ReadyPartitions> Started; ///< of those that it owns; null: these are the same
+  std::vector<std::int32_t> AllKeepers;     ///< the different ranks in Keepers
+  std::unique_ptr<ReadyPartitions> Ready;   ///< partitions that this rank keeps
+  std::unique_ptr<ReadyPartitions> Started; ///< partitions that it owns; null: same as Ready
   std::vector<Inbox> Inboxes;
   FinalBoundary<std::int64_t> Boundary;
-  std::size_t AwaitedMessages = 0; ///< of other ranks' finished partitions
+  std::size_t AwaitedMessages = 0; ///< messages of other ranks' finished partitions
   std::size_t AwaitedTasks = 0;
-  std::atomic<std::size_t> LeftPartitions{ 0 }; ///< of this rank, not done
+  std::atomic<std::size_t> LeftPartitions{ 0 }; ///< partitions of this rank that are not done
   std::atomic<std::size_t> PointsDone{ 0 };
-  std::mutex OutgoingMutex; ///< for the next two
+  std::mutex OutgoingMutex; ///< guards the next two
   std::vector<Outgoing> ToSend;
-  std::vector<PartitionIndex> DoneHere; ///< with masters: what the main thread is to finish
+  std::vector<PartitionIndex> DoneHere; ///< with masters: partitions for the main thread to finish
 
-  // Of a master.
-  std::vector<PartitionIndex> Waiting; ///< ready, but their ranks have enough to do
-  std::vector<int> InFlight;           ///< started and not done, of each rank
+  // Used by masters only.
+  std::vector<PartitionIndex> Waiting; ///< ready, but their ranks are busy
+  std::vector<int> InFlight;           ///< by rank: started and not done
   int AllInFlight = 0;
-  std::atomic<std::int64_t> KeptTriangles{ 0 }; ///< in the inboxes
+  std::atomic<std::int64_t> KeptTriangles{ 0 }; ///< triangles in the inboxes
   MasterStatistics Figures;
 
   Stopwatch SinceReport;

@@ -12,7 +12,8 @@ namespace tipp
 namespace
 {
 
-/// What the first rank hears of a rank's points. Of points on one line the two ends tell all.
+/// What a rank sends to the first rank about its points. Two points represent a rank's points if
+/// these are collinear.
 struct RankSurvey
 {
   Box2 Bounds;
@@ -102,7 +103,7 @@ Survey surveyRanks(Postbox& ranks, PointsView points, int threads)
   survey.Bounds = verdict.Bounds;
   survey.IsCollinear = verdict.IsCollinear != 0;
 
-  // All ranks scale, or none.
+  // Either all ranks scale, or none.
   const PointsView moderate = withModerateMagnitude(points, survey.Bounds);
   std::vector<std::int64_t> kept = { moderate.factor() == 1 };
   ranks.sum(kept);

@@ -12,19 +12,20 @@
 namespace tipp
 {
 
-/// What all ranks know of all points after a first look.
+/// The result of the first pass over all ranks' points.
 struct Survey
 {
-  PointsView Points;                  ///< this rank's, at a moderate magnitude
+  PointsView Points;                  ///< this rank's, scaled to a moderate magnitude
   Box2 Bounds{};                      ///< of all ranks' finite points
-  std::vector<std::int64_t> Rejected; ///< of this rank's points, those that are not finite
+  std::vector<std::int64_t> Rejected; ///< indices of this rank's points that are not finite
   bool IsCollinear = false;           ///< all finite points on one line, or fewer than three
 };
 
-/// Collective.
+/// Surveys all ranks' points. Collective.
 Survey surveyRanks(Postbox& ranks, PointsView points, int threads);
 
-/// On the first rank about `wanted` of all ranks' points, evenly spaced on each. Collective.
+/// Returns, on the first rank, about `wanted` of all ranks' points, evenly spaced on each rank.
+/// Surveys all ranks' points. Collective.
 std::vector<Point2> gatherSample(
   Postbox& ranks, PointsView points, std::int64_t allPoints, std::size_t wanted);
 

@@ -7,7 +7,7 @@
 namespace tipp
 {
 
-/// Sorting each one's neighbours is faster than sorting all pairs: they are few, and in the cache.
+/// Sorting each node's neighbours is faster than sorting all pairs: they are few, and in the cache.
 void ConflictGraph::add(const std::vector<Pair>& pairs)
 {
   std::vector<std::size_t> ends(this->size() + 1, 0);
@@ -22,7 +22,7 @@ void ConflictGraph::add(const std::vector<Pair>& pairs)
   }
   std::partial_sum(ends.begin(), ends.end(), ends.begin());
   std::vector<PartitionIndex> all(ends.back());
-  // From here on, where the next neighbour of each goes: at last the ends.
+  // Now the position of each node's next neighbour; in the end one past its last.
   for (std::size_t i = 0; i < this->size(); ++i)
   {
     const auto p = static_cast<PartitionIndex>(i);
@@ -58,7 +58,7 @@ std::vector<std::uint32_t> ConflictGraph::colours() const
     { return this->end(a) - this->begin(a) > this->end(b) - this->begin(b); });
   constexpr std::uint32_t none = ~0U;
   std::vector<std::uint32_t> colours(this->size(), none);
-  std::vector<PartitionIndex> takenFor; // of each colour, which it was last refused for
+  std::vector<PartitionIndex> takenFor; // by colour: the last node that could not have it
   for (const PartitionIndex p : order)
   {
     for (const PartitionIndex* neighbour = this->begin(p); neighbour != this->end(p); ++neighbour)

@@ -13,28 +13,28 @@
 namespace tipp
 {
 
-/// Which of some things conflict: partitions, or pieces of them. Symmetric.
+/// An undirected graph: which partitions, or which pieces (sets of partitions), conflict.
 class VTKTIPPFILTERS_EXPORT ConflictGraph
 {
 public:
   using Pair = std::pair<PartitionIndex, PartitionIndex>;
 
   ConflictGraph() = default;
-  /// Of `count` things, without conflicts so far.
+  /// A graph of `count` nodes without conflicts.
   explicit ConflictGraph(std::size_t count)
     : Ends(count, 0)
   {
   }
 
-  /// Adds conflicts: both (a, b) and (b, a), each as often as you like.
+  /// Adds conflicts. Both (a, b) and (b, a) must be given; repetitions are allowed.
   void add(const std::vector<Pair>& pairs);
 
-  /// How many neighbours all have together.
+  /// The sum of all nodes' neighbour counts.
   std::size_t neighbourCount() const { return this->Neighbours.size(); }
 
   std::size_t size() const { return this->Ends.size(); }
 
-  /// @name Those that conflict with one
+  /// @name The neighbours of p, in ascending order
   ///@{
   const PartitionIndex* begin(PartitionIndex p) const
   {
@@ -54,12 +54,12 @@ public:
   }
   ///@}
 
-  /// Of each thing, a colour that no conflicting one has, counted from 0 on. Greedy: those with
-  /// most conflicts first.
+  /// Returns each node's colour, counted from 0; conflicting nodes have different colours. Greedy,
+  /// nodes with most conflicts first.
   std::vector<std::uint32_t> colours() const;
 
 private:
-  std::vector<std::size_t> Ends; ///< of each one's neighbours
+  std::vector<std::size_t> Ends; ///< one past each node's last entry in Neighbours
   std::vector<PartitionIndex> Neighbours;
 };
 

@@ -16,17 +16,17 @@
 namespace tipp
 {
 
-/// What a partition sends to a later one: the vertices of the boundary triangles that it hands over
+/// What a partition sends to a later one: the vertices of the boundary triangles that it passes on
 /// (Lemma 6), each once.
 struct VertexMessage
 {
   PartitionIndex Sender = -1; ///< -1: the initial mesh
   std::vector<SeamVertex> Vertices;
-  std::int64_t Triangles = 0; ///< how many triangles these are the vertices of
+  std::int64_t Triangles = 0; ///< the number of triangles that these are the vertices of
 };
 
-/// @name Vertices and messages as bytes
-/// What was not written here throws std::runtime_error when it is read.
+/// @name Serialisation of vertices and messages
+/// Reading throws std::runtime_error if the bytes were not written by these functions.
 ///@{
 VTKTIPPFILTERS_EXPORT void write(ByteWriter& writer, const std::vector<SeamVertex>& vertices);
 VTKTIPPFILTERS_EXPORT void write(ByteWriter& writer, const VertexMessage& message);
@@ -34,11 +34,12 @@ VTKTIPPFILTERS_EXPORT void read(ByteReader& reader, std::vector<SeamVertex>& ver
 VTKTIPPFILTERS_EXPORT void read(ByteReader& reader, VertexMessage& message);
 ///@}
 
-/// What a finished partition sends, each message with its recipient.
+/// All messages of a finished partition, each with its recipient.
 using SentMessages = std::vector<std::pair<PartitionIndex, VertexMessage>>;
 
-/// @name A finished partition and what it sends to some of the others, as bytes
-/// `readDone` throws std::runtime_error for partitions that are not among `count`.
+/// @name Serialisation of a finished partition's messages
+/// `writeDone` writes the messages whose recipient satisfies `isIncluded`. `readDone` returns the
+/// messages and sets `sender`; it throws std::runtime_error if a partition is not below `count`.
 ///@{
 VTKTIPPFILTERS_EXPORT Bytes writeDone(PartitionIndex sender, const SentMessages& sent,
   const std::function<bool(PartitionIndex)>& isIncluded);
@@ -46,18 +47,18 @@ VTKTIPPFILTERS_EXPORT SentMessages readDone(
   const Bytes& bytes, std::size_t count, PartitionIndex& sender);
 ///@}
 
-/// All vertices of some messages, each once.
+/// Collects the vertices of several messages, each once.
 class UniqueVertices
 {
 public:
   std::vector<SeamVertex> collect(const std::vector<VertexMessage>& messages);
 
 private:
-  std::vector<std::uint32_t> HashTable; ///< of indices of vertices; kept for its memory
+  std::vector<std::uint32_t> HashTable; ///< vertex indices; a member to reuse its memory
 };
 
-/// The messages that wait for one partition. Any thread may put one in, without a lock; the thread
-/// that triangulates the partition takes them all out once all senders are done.
+/// The messages sent to one partition. Any thread may add one, without a lock. The thread that
+/// triangulates the partition takes them all once all senders are done.
 class Inbox
 {
 public:
@@ -75,7 +76,7 @@ public:
     }
   }
 
-  /// All messages, by sender: in which order they came in does not matter.
+  /// Removes and returns all messages, sorted by sender: the order of arrival does not matter.
   std::vector<VertexMessage> take()
   {
     std::vector<VertexMessage> messages = this->takeNodes();

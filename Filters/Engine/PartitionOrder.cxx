@@ -31,7 +31,8 @@ void addConflicts(
   }
 }
 
-/// The same for a of one set alone and b of the other alone.
+/// Adds both (a, b) and (b, a) for all a that are only in the set `one` and b only in the set
+/// `other`.
 void addConflicts(const PartitionSets& sets, std::uint32_t one, std::uint32_t other,
   std::vector<ConflictGraph::Pair>& pairs)
 {
@@ -75,7 +76,7 @@ void PartitionOrder::setWindows(const std::vector<std::int32_t>& windows)
   this->sort(windows);
 }
 
-/// No windows: all partitions are in one.
+/// Without windows, all partitions are in one.
 void PartitionOrder::sort(const std::vector<std::int32_t>& windows)
 {
   const auto key = [&](PartitionIndex p)
@@ -106,7 +107,7 @@ void PartitionOrder::sortByUrgency(const std::vector<std::int32_t>& windows)
   {
     return; // one chain
   }
-  std::vector<std::int32_t> chains(this->Positions.size(), 0); // of each partition and later ones
+  std::vector<std::int32_t> chains(this->Positions.size(), 0); // longest from each one
   for (auto p = this->Sequence.rbegin(); p != this->Sequence.rend(); ++p)
   {
     for (const PartitionIndex q : this->later(*p))
@@ -121,11 +122,11 @@ void PartitionOrder::sortByUrgency(const std::vector<std::int32_t>& windows)
     [&](PartitionIndex a, PartitionIndex b) { return key(a) < key(b); });
 }
 
-/// False if there are so many conflicts that a total order costs little: where points lie on a
-/// circle, each disk meets nearly all partitions.
+/// Returns false if there are so many conflicts that a total order costs little: if points are
+/// co-circular, each disk meets nearly all partitions.
 bool PartitionOrder::findConflicts(const SeamTriangles& initialMesh)
 {
-  constexpr std::size_t most = std::size_t(1) << 22; // pairs that wait
+  constexpr std::size_t most = std::size_t(1) << 22; // pairs collected before they are added
   constexpr std::size_t mostOfAPartition = 256;
   const std::size_t limit = mostOfAPartition * std::max<std::size_t>(4096, this->Positions.size());
   const PartitionSets& sets = initialMesh.Sets;

@@ -15,8 +15,8 @@ namespace tipp
 
 struct SeamTriangles;
 
-/// Which partitions conflict, and the order in which conflicting ones are triangulated. A function
-/// of the initial mesh alone, so that every rank computes the same one.
+/// Which partitions conflict, and the order in which conflicting ones are triangulated. Both
+/// depend only on the initial mesh, so every rank computes the same.
 ///
 /// Lemma 5: P and Q conflict if one triangle of the initial mesh meets both, or of two triangles
 /// with a common edge one meets P and the other Q. If they do not conflict, no disk that is empty
@@ -28,11 +28,11 @@ struct SeamTriangles;
 /// and the line uw would separate H_p from H_q inside F: a contradiction. A vertex of F is a
 /// triangle at a, an edge of F two triangles with a common edge. Where F is unbounded, no unbounded
 /// direction helps inside the hull, which holds all regions.) So no later triangle and no later
-/// edge joins them, and their workers commute. More conflicts than there are do no harm.
+/// edge joins them, and their workers commute. Additional conflicts are harmless.
 ///
-/// Partitions are coloured; a colour is a stage of the dissertation. They are ordered by window,
-/// where windows are given, then by colour and index. Any windows do: the triangles do not depend
-/// on the order.
+/// Partitions are coloured; a colour is a stage of the dissertation. They are ordered by window, if
+/// windows are given, then by colour and index. Windows may be chosen freely: the triangles do not
+/// depend on the order.
 class VTKTIPPFILTERS_EXPORT PartitionOrder
 {
 public:
@@ -46,20 +46,21 @@ public:
     std::size_t size() const { return std::size_t(this->Last - this->First); }
   };
 
-  /// Orders the partitions that are to be triangulated: `isUsed` has one entry for each partition.
+  /// Orders the partitions that are to be triangulated. `isUsed` has one entry for each partition:
+  /// 0 if it has no points.
   PartitionOrder(const std::vector<char>& isUsed, const SeamTriangles& initialMesh);
 
-  /// Orders them by window first; there is one for each partition.
+  /// Orders the partitions by window first. `windows` has one entry for each partition.
   void setWindows(const std::vector<std::int32_t>& windows);
 
-  /// Used or not.
+  /// The number of all partitions, used or not.
   std::size_t partitionCount() const { return this->Positions.size(); }
 
   /// All used partitions, in order.
   const std::vector<PartitionIndex>& sequence() const { return this->Sequence; }
 
-  /// The same partitions by urgency: within a window those come first that the longest chains of
-  /// conflicting later partitions wait for, as in list scheduling by critical path.
+  /// The same partitions by urgency: within a window, partitions that the longest chains of
+  /// conflicting later partitions wait for come first, as in critical-path list scheduling.
   const std::vector<PartitionIndex>& byUrgency() const { return this->Urgency; }
 
   std::size_t position(PartitionIndex p) const { return this->Positions[std::size_t(p)]; }
@@ -67,15 +68,15 @@ public:
   /// The conflicting partitions that come after p, in order.
   Range later(PartitionIndex p) const;
 
-  /// Of a set that is not empty, the partition that comes first.
+  /// The first partition, in the order, of the non-empty range [begin, end).
   PartitionIndex first(const PartitionIndex* begin, const PartitionIndex* end) const;
 
   std::size_t colourCount() const { return this->ColourSizes.size(); }
-  /// How many partitions have a colour, counted from 0 on; none of them conflict.
+  /// The number of partitions of a colour, counted from 0; partitions of a colour do not conflict.
   std::size_t colourSize(std::size_t colour) const { return this->ColourSizes[colour]; }
   std::size_t colourOf(PartitionIndex p) const { return this->Colours[std::size_t(p)]; }
 
-  /// Which partitions conflict; none where isTotal().
+  /// The conflicts; empty if isTotal().
   const ConflictGraph& conflicts() const { return this->Conflicts; }
 
   /// True if every partition counts as conflicting with every other.
@@ -93,7 +94,7 @@ private:
   std::vector<std::uint32_t> Colours;
   std::vector<std::size_t> ColourSizes;
   ConflictGraph Conflicts;
-  std::vector<std::size_t> EarlierCounts; ///< of each partition's conflicts
+  std::vector<std::size_t> EarlierCounts; ///< conflicting partitions before each
   bool Total = false;
 };
 

@@ -11,7 +11,7 @@ namespace tipp
 namespace
 {
 
-/// A short wait leaves the core to another thread; longer ones let it rest.
+/// First yields the core to another thread, then sleeps.
 void waitAWhile(int turn)
 {
   constexpr int yields = 32;
@@ -82,7 +82,7 @@ void ReadyPartitions::awaitEarlier()
   }
 }
 
-/// The order has no windows: a colour's partitions come in a row.
+/// The order has no windows, so the partitions of a colour are consecutive.
 void ReadyPartitions::releaseColour(std::size_t colour)
 {
   const auto& sequence = this->Order.sequence();

@@ -13,37 +13,41 @@
 namespace tipp
 {
 
-/// Hands partitions to threads as soon as they are ready: all conflicting partitions that come
-/// before them in the order are done. Of those that are ready the most urgent is taken first.
-/// Threads share counters and a bit for each partition, and no lock.
+/// Hands out partitions to threads as soon as they are ready: when all conflicting partitions
+/// before them in the order are done. The most urgent ready partition is taken first. Threads share
+/// atomic counters and a bit for each partition, and no lock.
 class ReadyPartitions
 {
 public:
-  /// What else a partition waits for.
+  /// What a partition waits for.
   enum class Waits
   {
-    ForEarlier,        ///< nothing else
-    ForEarlierAndLoad, ///< that setLoaded() is called
-    ForColour,         ///< all partitions of the colour before; the order must have no windows
-    ForLoad            ///< setLoaded() alone, and not for earlier ones
+    ForEarlier,        ///< conflicting partitions before it
+    ForEarlierAndLoad, ///< those, and setLoaded()
+    ForColour,         ///< all partitions of the previous colour; the order must have no windows
+    ForLoad            ///< setLoaded() only
   };
 
-  /// Hands out the partitions that `isOwn` has an entry other than 0 for; empty: all.
+  /// Hands out the partitions whose entry in `isOwn` is not 0; all partitions if it is empty.
+  /// `order` must outlive this object.
   ReadyPartitions(const PartitionOrder& order, Waits waits, std::vector<char> isOwn = {});
 
-  /// A ready partition; waits for one. -1 if all were handed out or the run was stopped.
+  /// Returns a ready partition and waits until there is one. Returns -1 if all were handed out or
+  /// the run was stopped.
   PartitionIndex take();
 
-  /// The same without waiting: -1 also if none is ready.
+  /// Returns a ready partition, or -1 if none is ready now, all were handed out or the run was
+  /// stopped.
   PartitionIndex tryTake();
 
-  /// The partition is done, one's own or another rank's, and what it sends is in the inboxes.
+  /// Marks a partition of this or another rank as done. Call it when its messages are in the
+  /// inboxes.
   void finish(PartitionIndex p);
 
-  /// The points of a partition of this rank are in memory.
+  /// Marks the points of a partition of this rank as loaded.
   void setLoaded(PartitionIndex p) { this->countDown(p); }
 
-  /// No further partition is handed out. The first reason is kept.
+  /// Stops handing out partitions. The first reason is kept.
   void stop(const std::exception_ptr& reason = nullptr);
   bool isStopped() const { return this->Stopped.load(std::memory_order_relaxed); }
   std::exception_ptr failure() const { return this->Failure; }
@@ -59,12 +63,12 @@ private:
   const PartitionOrder& Order;
   const Waits For;
   const std::vector<char> Own;                    ///< empty: all
-  std::vector<std::atomic<std::int32_t>> Awaited; ///< of each partition: what it waits for
+  std::vector<std::atomic<std::int32_t>> Awaited; ///< events each partition waits for
   std::vector<std::atomic<std::int64_t>> LeftInColour;
-  std::vector<PartitionIndex> Urgency;               ///< those to hand out, the most urgent first
-  std::vector<std::uint32_t> Ranks;                  ///< of each partition, its place there
-  std::vector<std::atomic<std::uint64_t>> ReadyBits; ///< by place there
-  std::atomic<std::size_t> Left;                     ///< not handed out yet
+  std::vector<PartitionIndex> Urgency; ///< the partitions to hand out, the most urgent first
+  std::vector<std::uint32_t> Ranks;    ///< by partition: its position in Urgency
+  std::vector<std::atomic<std::uint64_t>> ReadyBits; ///< by position in Urgency
+  std::atomic<std::size_t> Left;                     ///< partitions not handed out yet
   std::atomic<bool> Stopped{ false };
   std::mutex FailureMutex;
   std::exception_ptr Failure;

@@ -11,16 +11,16 @@
 namespace tipp
 {
 
-/// The region of each partition: the bounding box of its points. The lemmas only ask that a region
-/// holds its partition's points, and the smaller the regions are, the fewer triangles meet them.
+/// The region of each partition: the bounding box of its points. The lemmas only require that a
+/// region contains its partition's points; smaller regions meet fewer triangles.
 class Regions
 {
 public:
-  /// The tiling must outlive this.
+  /// Computes the regions. The tiling must outlive this object.
   template <typename Id>
   Regions(const Tiling& tiling, const PointBuckets<Id>& buckets, int threads);
 
-  /// Of boxes that are known. Used: of each partition, whether it has points.
+  /// Takes known boxes. `used` has one entry for each partition: 0 if it has no points.
   Regions(const Tiling& tiling, std::vector<Box2> boxes, std::vector<char> used)
     : Tiles(tiling)
     , Boxes(std::move(boxes))
@@ -31,10 +31,10 @@ public:
   PartitionIndex size() const { return static_cast<PartitionIndex>(this->Boxes.size()); }
   const Box2& operator[](PartitionIndex p) const { return this->Boxes[std::size_t(p)]; }
 
-  /// Of each partition: whether it has points, and so a region.
+  /// By partition: not 0 if it has points, and so a region.
   const std::vector<char>& areUsed() const { return this->Used; }
 
-  /// visit(partition) for every region that the closed disk meets.
+  /// Calls visit(partition) for every region that the closed disk meets.
   template <typename Visit>
   void visitMet(const Circumdisk& disk, Visit&& visit) const
   {

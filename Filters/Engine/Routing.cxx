@@ -105,7 +105,7 @@ void Routing<Id>::add(const std::array<DelaunayKernel::Index, 3>& corners, const
   this->Triangles.push_back({ static_cast<std::uint32_t>(next - this->Later.begin()), corners });
 }
 
-/// Sorts the triangles by recipient.
+/// Sorts the triangles by recipient, with a counting sort.
 template <typename Id>
 void Routing<Id>::sortByRecipient()
 {
@@ -120,7 +120,7 @@ void Routing<Id>::sortByRecipient()
   {
     this->Sorted[--this->Ends[triangle->Recipient]] = triangle->Corners;
   }
-  // What were ends are now begins.
+  // The entries, ends before, are begins now.
 }
 
 template <typename Id>
@@ -183,7 +183,7 @@ std::int64_t sendInitialMesh(const SeamTriangles& mesh, const PartitionOrder& or
     }
   }
   std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  std::vector<std::size_t> sent(ends.back()); // triangles by recipient
+  std::vector<std::size_t> sent(ends.back()); // triangle indices by recipient
   for (std::size_t i = 0; i < mesh.size(); ++i)
   {
     if (recipients[i] >= 0)

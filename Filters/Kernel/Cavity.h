@@ -13,7 +13,7 @@
 namespace tipp
 {
 
-/// The triangles that one insertion destroys, and those that take their place (Bowyer 1981, Watson
+/// Replaces the triangles in conflict with an inserted vertex, its cavity (Bowyer 1981, Watson
 /// 1981).
 class Cavity
 {
@@ -22,14 +22,15 @@ public:
 
   Cavity();
 
-  /// Destroys the triangles in conflict with the vertex, beginning with the one found, and joins it
-  /// to every edge around them; the new triangles are in the places of those destroyed, two more at
-  /// the end. The mesh has room for three more. Returns one of the new triangles, a finite one.
+  /// Removes the triangles in conflict with `vertex`, starting at `found`, and connects the vertex
+  /// to every edge of the cavity's boundary. The new triangles reuse the indices of the removed
+  /// ones; two more are appended to the mesh, which must have capacity for three more. Returns a
+  /// new triangle that is finite.
   Index retriangulate(HalfEdgeMesh& mesh, const Point2* points, KernelPredicates& predicates,
     const Location& found, Index vertex);
 
 private:
-  /// The apexes of the triangles behind a pair.
+  /// The apexes of the triangles across the two edges of a pair.
   struct ApexPair
   {
     Pair X;
@@ -40,13 +41,13 @@ private:
     Index First;
     Index Second;
   };
-  /// New triangles side by side, counter-clockwise around p.
+  /// Consecutive new triangles, counter-clockwise around p.
   struct Fan
   {
     Index First;
     Index Last;
   };
-  /// A pair to go on with later, and the new triangles that follow those behind it.
+  /// A pair of edges to process later, and the new triangles that follow those found across it.
   struct Deferred
   {
     EdgePair Edges;
@@ -56,8 +57,8 @@ private:
   class Growth;
   void grow();
 
-  // Larger than any insertion has needed yet.
-  std::vector<Index> Places; ///< for new triangles: the two at the end, then the destroyed ones'
+  // Kept larger than any insertion so far has needed.
+  std::vector<Index> Places; ///< indices for new triangles: the two appended, then the removed
   std::vector<Deferred> Stack;
 };
 

@@ -9,13 +9,13 @@
 namespace tipp
 {
 
-/// One run of retriangulate(): local, so that its counters stay in registers.
+/// One call of retriangulate(): a local object, so that its counters stay in registers.
 ///
-/// The cavity has no vertex inside, so its dual is a tree: no triangle is met twice and no marks
-/// are needed. Of t destroyed triangles, depth-first, at most t + 2 edges around are known, so a
-/// place is free for the new triangle at each of them as soon as it is found. The edges still to
-/// come lie in one gap of the ring, between the fan Before and the fan After; where two triangles
-/// behind an edge pair are in conflict, the second one's gap is deferred.
+/// The cavity has no vertex inside, so its dual is a tree: no triangle is visited twice and no
+/// marks are needed. After the removal of t triangles, depth-first, at most t + 2 boundary edges
+/// are known, so an index is free for each new triangle as soon as its edge is found. The edges
+/// still to be found lie in one gap of the ring, between the fan Before and the fan After. If both
+/// triangles across an edge pair are in conflict, the second one's gap is deferred.
 class Cavity::Growth
 {
 public:
@@ -121,7 +121,7 @@ private:
     this->After = { this->None, this->None };
   }
 
-  /// The new triangle (vertex, start, stop) at an edge around the cavity.
+  /// Adds the triangle (vertex, start, stop) at an edge of the cavity's boundary; returns it.
   Index add(Index outer, Index start, Index stop)
   {
     const Index t = *this->NextPlace++;
@@ -134,8 +134,8 @@ private:
     return t;
   }
 
-  /// Half-edges 1 of the triangle before and 2 of that after; the others of the twins' slots are
-  /// HalfEdgeMesh's repetitions. Links with None are written beyond the end of the mesh.
+  /// Makes half-edge 1 of `before` and half-edge 2 of `after` twins. The writes to neighbouring
+  /// slots are HalfEdgeMesh's copies. A link with None writes beyond the end of the mesh.
   void link(Index before, Index after)
   {
     Index* const last = this->Slot + HalfEdgeMesh::offset(before);
@@ -144,7 +144,7 @@ private:
     first[6] = first[3] = before + 1;
   }
 
-  /// The last of the fan After, or another triangle if it is empty.
+  /// The last triangle of the fan After; `other` if the fan is empty.
   Index lastAfterOr(Index other) const
   {
     const bool isEmpty = this->After.First == this->None;
@@ -184,7 +184,7 @@ private:
     return t;
   }
 
-  /// The third edge of the first triangle, in both lanes.
+  /// Processes the third edge of the first triangle, copied to both lanes.
   void addLast(const Location& at)
   {
     const EdgePair last = at.Edges.closing(at.LastCross, at.LastOuter);
@@ -200,8 +200,8 @@ private:
     }
   }
 
-  /// Bit i: the triangle behind edge i is in conflict with p. Of the in-circle determinant's terms
-  /// only those with the apex are new.
+  /// Returns a mask: bit i is set if the triangle across edge i is in conflict with p. Only the
+  /// terms of the in-circle determinant that contain the apex are computed.
   unsigned test(const EdgePair& pair, ApexPair& apex)
   {
     apex.First = this->Slot[HalfEdgeMesh::offset(pair.FirstOuter)];
@@ -229,9 +229,9 @@ private:
     return ~signsOf(det);
   }
 
-  /// For the lanes that are not decided. Most often it is the hull's outside that is behind an
-  /// edge: not in conflict, if p is to the left. Static, as a call with this object would keep it
-  /// in memory.
+  /// The conflict mask, with the lanes that the filter left undecided evaluated exactly. Mostly the
+  /// triangle across such an edge is infinite: no conflict if p is to the left. Static, because a
+  /// call on this object would force it into memory.
   [[gnu::noinline]] static unsigned testExactly(KernelPredicates& predicates, const Index* slot,
     Point2 p, Index first, Index second, unsigned decided, unsigned isLeft, unsigned inside)
   {
@@ -251,7 +251,8 @@ private:
     return inside;
   }
 
-  /// The two edges behind the first edge, whose triangle is in conflict; and behind the second.
+  /// The other two edges of the triangle across the first edge, and across the second, which is in
+  /// conflict.
   EdgePair behindFirst(const EdgePair& e, const ApexPair& v) const
   {
     return { low(e.StartX, v.X), low(e.StartY, v.Y), low(e.StartLift, v.Lift), low(v.X, e.StopX),
@@ -273,10 +274,10 @@ private:
   KernelPredicates& Predicates;
   const Pair P;
   const Index Vertex;
-  const Index None; ///< in place of a triangle
-  Index Last;       ///< of Before
+  const Index None; ///< no triangle
+  Index Last;       ///< the last triangle of the fan Before
   Fan After;
-  // In the cavity's arrays.
+  // Pointers into the cavity's arrays.
   const Index* NextPlace;
   Index* PlaceEnd;
   Deferred* StackEnd;

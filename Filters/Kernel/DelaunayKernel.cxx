@@ -58,7 +58,8 @@ bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monit
   this->PlaceEnd += static_cast<std::uint32_t>(count);
   this->Predicates.restart(this->Points.data(), this->Points.size());
 
-  // Euler: n vertices and the infinite one have 2 n - 2 triangles. The cavity writes to one beyond.
+  // Euler: n vertices and the infinite one have 2 n - 2 triangles. The cavity writes one beyond
+  // them.
   this->Mesh.reserve(2 * this->Points.size());
   if (!this->hasTriangles() && !this->makeFirstTriangle(this->Pending))
   {
@@ -78,8 +79,8 @@ bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monit
   return true;
 }
 
-/// Finds three points that are not collinear, moves them to the front and makes their triangle and
-/// its three infinite neighbours.
+/// Finds three points that are not collinear, moves them to the front, and creates their triangle
+/// and its three infinite neighbours. Returns false if all points are collinear.
 bool DelaunayKernel::makeFirstTriangle(Index first)
 {
   const Index end = this->vertexEnd();
@@ -127,8 +128,8 @@ bool DelaunayKernel::makeFirstTriangle(Index first)
   for (Index i = 0; i < 3; ++i)
   {
     this->Mesh.link(i, 8 * (i + 1));
-    // Edge (Infinite, w) of infinite triangle i + 1 = (Infinite, w, u) is edge (w, Infinite) of the
-    // one whose last corner is w, the next.
+    // The twin of edge (Infinite, w) of infinite triangle i + 1 = (Infinite, w, u) is edge (w,
+    // Infinite) of the next infinite triangle, whose last corner is w.
     this->Mesh.link(8 * (i + 1) + 2, 8 * ((i + 1) % 3 + 1) + 1);
   }
   this->Mesh.setEnd(32);

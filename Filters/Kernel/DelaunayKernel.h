@@ -19,50 +19,54 @@
 namespace tipp
 {
 
-/// One box's Delaunay triangulation: incremental insertion (Bowyer 1981, Watson 1981) in biased
-/// randomised rounds, with a vertex at infinity, exact predicates, and ties broken by the points'
-/// lexicographic order (Lemma 4). Single-threaded; meant to be used again for many boxes.
+/// The Delaunay triangulation of one box: incremental insertion (Bowyer 1981, Watson 1981) in
+/// biased randomised rounds, with a vertex at infinity, exact predicates, and ties broken by the
+/// points' lexicographic order (Lemma 4). Single-threaded; reusable for many boxes.
 ///
-/// Points come in batches. A batch's triangles that no later batch destroys keep their places, so
-/// that their order does not depend on the later batches.
+/// Points are inserted in batches. Triangles of a batch that no later batch destroys keep their
+/// indices, so their order does not depend on the later batches.
 class VTKTIPPFILTERS_EXPORT DelaunayKernel
 {
 public:
   using Index = HalfEdgeMesh::Index;
   static constexpr Index Infinite = InfiniteVertex;
 
+  /// A point that is not a vertex, because another one has its coordinates.
   struct Duplicate
   {
-    std::uint32_t Point; ///< its place in the order of insert()
-    Index Vertex;        ///< the vertex that stands for it
+    std::uint32_t Point; ///< its index, counted over all insert() calls since clear()
+    Index Vertex;        ///< the vertex with the same coordinates
   };
 
   explicit DelaunayKernel(Instructions instructions = Instructions::Best);
   DelaunayKernel(const DelaunayKernel&) = delete;
   DelaunayKernel& operator=(const DelaunayKernel&) = delete;
 
+  /// Removes all points and triangles; keeps the memory.
   void clear();
 
-  /// Room for so many points in all, so that inserting them moves nothing. Memory that is not used
-  /// is none of the system's.
+  /// Reserves memory for `points` points in total, so that inserting them reallocates nothing.
+  /// Untouched pages are not committed.
   void reserve(std::size_t points);
 
-  /// Gives the triangles' memory back. Vertices stay; but only clear() may follow.
+  /// Frees the triangles' memory. Vertices stay; only clear() may be called next.
   void releaseTriangles() { this->Mesh.release(); }
 
-  /// The memory that its points and triangles take, most of what it keeps.
+  /// Bytes allocated for points and triangles, most of what the kernel holds.
   std::size_t bytes() const;
 
-  /// Asked now and then with the number of points inserted so far; false ends the insertion.
+  /// Called now and then with the number of points inserted so far; returning false ends the
+  /// insertion.
   using Monitor = std::function<bool(std::size_t)>;
 
-  /// False if the monitor ended it: then only clear() makes sense.
+  /// Inserts `count` points. Returns false if `proceed` returned false; only clear() may be called
+  /// then.
   bool insert(const Point2* points, std::size_t count, const Monitor& proceed = {});
 
-  /// False as long as all points are collinear: then there are no triangles.
+  /// False while all inserted points are collinear: there are no triangles yet.
   bool hasTriangles() const { return this->Mesh.end() > 0; }
 
-  /// All triangles, those at the infinite vertex too.
+  /// All triangles, including those at the infinite vertex.
   const HalfEdgeMesh& mesh() const { return this->Mesh; }
   /// After a change only clear() may follow.
   HalfEdgeMesh& meshToEdit() { return this->Mesh; }
@@ -73,7 +77,7 @@ public:
   }
   Point2 point(Index vertex) const { return this->Points[vertex]; }
 
-  /// The place of a vertex's point, counted over all points inserted since clear().
+  /// The index of the vertex's point, counted over all points inserted since clear().
   std::uint32_t place(Index vertex) const { return this->Places[vertex]; }
   Index vertexEnd() const { return static_cast<Index>(this->Points.size()); }
 
@@ -88,7 +92,7 @@ private:
   Uninitialised<std::uint32_t> Places;
   std::vector<Duplicate> Duplicates;
   std::uint32_t PlaceEnd = 0;
-  Index Pending = 1; ///< vertices from here on wait for a point off the line of all before
+  Index Pending = 1; ///< first vertex not inserted yet: all points before it are collinear
   Index Recent = 0;  ///< a finite triangle near the last insertion
   InsertionOrder Order;
   KernelPredicates Predicates;

@@ -9,16 +9,16 @@
 namespace tipp
 {
 
-/// From a vertex to the point p that is being inserted, in the lanes x and y.
+/// The vector from a vertex to the point p that is being inserted; lanes x and y.
 inline Pair towards(Pair p, const Point2* points, HalfEdgeMesh::Index vertex)
 {
   return p - pairAt(&points[HalfEdgeMesh::offset(vertex)].x);
 }
 
-/// A vertex as seen from p.
+/// A vertex relative to p.
 struct Corner
 {
-  double X; ///< from it to p
+  double X; ///< vector from the vertex to p
   double Y;
   double Lift;
   HalfEdgeMesh::Index Vertex;
@@ -35,8 +35,8 @@ inline double cross(const Corner& a, const Corner& b)
   return a.X * b.Y - a.Y * b.X;
 }
 
-/// Two edges side by side, (first, second) in every pair, counter-clockwise around p: from the
-/// vertex Start to Middle, and on to Stop. Vectors go from the vertices to p.
+/// Two consecutive edges, one in each lane of every pair, counter-clockwise around p: from the
+/// vertex Start to Middle, and from Middle to Stop. Vectors point from the vertices to p.
 struct EdgePair
 {
   using Index = HalfEdgeMesh::Index;
@@ -48,7 +48,7 @@ struct EdgePair
   Pair StopY;
   Pair StopLift;
   Pair Cross; ///< start x stop
-  // The half-edges on their other sides; no array, which would keep all this out of registers.
+  // Their twins. Not an array, which would keep the struct out of registers.
   Index FirstOuter;
   Index SecondOuter;
   Index Start;

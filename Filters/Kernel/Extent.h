@@ -12,7 +12,7 @@
 namespace tipp
 {
 
-/// The smallest and the largest coordinates of points, NaN left out.
+/// The smallest and the largest coordinates of points; NaN is ignored.
 struct Extent
 {
   Pair Low;
@@ -20,11 +20,11 @@ struct Extent
   bool AllFinite;
 };
 
-/// Of no points: from infinity to minus infinity.
+/// Returns the extent of `count` points; for none, Low is infinity and High is minus infinity.
 inline Extent extentOf(const Point2* points, std::size_t count)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  constexpr std::size_t lanes = 4; // so that no comparison waits for the one before
+  constexpr std::size_t lanes = 4; // independent chains of comparisons
   const Pair none{ infinity, infinity };
   std::array<Pair, lanes> low;
   std::array<Pair, lanes> high;

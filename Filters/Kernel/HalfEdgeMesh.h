@@ -11,11 +11,11 @@
 namespace tipp
 {
 
-/// Triangles of 32 bytes in one array: slots 0..2 hold the vertices, counter-clockwise, and slots
-/// 4..6 the neighbours. A half-edge is named by the slot of the vertex opposite to it, h = 8 t + i,
-/// and slot h + 4 holds its twin, so that the neighbour's apex is one load away. Slots 3 and 7
-/// repeat slots 6 and 4: the twins of the previous and of the next half-edge are in h + 3 and h + 5
-/// without a look at which of the three h is.
+/// Triangles in one array, 32 bytes (8 slots) each: slots 0..2 hold the vertices,
+/// counter-clockwise, and slots 4..6 the neighbours. A half-edge is identified by the slot of the
+/// vertex opposite to it, h = 8 t + i, and slot h + 4 holds its twin, so that the neighbour's apex
+/// is one load away. Slots 3 and 7 repeat slots 6 and 4, so that the twins of the previous and of
+/// the next half-edge are in h + 3 and h + 5 whichever of the three h is.
 class HalfEdgeMesh
 {
 public:
@@ -23,15 +23,16 @@ public:
 
   static Index triangleOf(Index h) { return h & ~7; }
 
-  /// Names are never negative, and extending them without a sign is free on most processors.
+  /// Converts a half-edge to an array offset. Half-edges are never negative, and zero-extension is
+  /// free on most processors.
   static std::size_t offset(Index name) { return std::uint32_t(name); }
 
   static Index twinOf(const Index* slots, Index h) { return slots[offset(h) + 4]; }
   static Index twinOfNext(const Index* slots, Index h) { return slots[offset(h) + 5]; }
   static Index twinOfPrevious(const Index* slots, Index h) { return slots[offset(h) + 3]; }
 
-  /// The repeated slot of half-edge 0 is 7, that of 2 is 3; 1 has none, and its own is written
-  /// twice.
+  /// The copy of half-edge 0's slot is slot 7, that of half-edge 2's is slot 3. Half-edge 1 has
+  /// none; its own slot is written twice.
   static void setTwin(Index* slots, Index h, Index twin)
   {
     slots[offset(h) + 4] = twin;
@@ -44,18 +45,18 @@ public:
   Index* slots() { return this->Slots.data(); }
   const Index* slots() const { return this->Slots.data(); }
 
-  /// The end of the triangles, as the name (8 t) that the next one gets.
+  /// One past the last triangle: 8 t, where t is the number of triangles.
   Index end() const { return this->End; }
   void setEnd(Index end) { this->End = end; }
 
   void clear() { this->End = 0; }
 
-  /// Gives the memory back, too.
+  /// Removes all triangles and frees their memory.
   void release() { *this = HalfEdgeMesh(); }
 
   std::size_t bytes() const { return this->Slots.size() * sizeof(Index); }
 
-  /// Room for so many triangles in all; the names of those there stay.
+  /// Reserves memory for `triangles` triangles in total. Existing triangles keep their indices.
   void reserve(std::size_t triangles)
   {
     if (8 * triangles <= this->Slots.size())

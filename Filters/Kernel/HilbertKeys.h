@@ -10,24 +10,24 @@
 namespace tipp
 {
 
-/// Places along a Hilbert curve of 16 levels, for many cells side by side: there is no branch and
-/// no table, so that compilers make vectors of it.
+/// Positions along a Hilbert curve of 16 levels. Without branches and tables, so that compilers
+/// vectorise loops over many cells.
 ///
-/// On its way from the coarsest bits of x and y to the finest the curve is in one of four states
-/// (s, f): whether the two are exchanged, and whether they are complemented. At a level with bits x
-/// and y, u = g ^ x and v = g ^ y with g = f ^ s (x ^ y) are the bits as the curve sees them, the
-/// key gets the bits u and u ^ v = x ^ y, and the next state is
+/// From the coarsest bits of x and y to the finest, the curve is in one of four states (s, f):
+/// whether x and y are swapped, and whether they are complemented. At a level with bits x and y, u
+/// = g ^ x and v = g ^ y with g = f ^ s (x ^ y) are the bits in the curve's frame, the key gets the
+/// bits u and u ^ v = x ^ y, and the next state is
 ///   s' = s ^ !v     = s !d ^ f    ^ !y
 ///   f' = f ^ u !v   = s d  ^ f !d ^ x !y     where d = x ^ y,
-/// an affine function over GF(2). So the states at all levels come from the levels' functions by
-/// composing ever longer runs of them (Hillis, Steele 1986), one bit of a word a level.
+/// an affine function over GF(2). So the states at all levels follow from the levels' functions by
+/// composing runs of doubling length (Hillis, Steele 1986), with one bit of a word for each level.
 struct HilbertSteps
 {
   std::uint32_t SS, SF, FS, FF; ///< s' = SS s ^ SF f ^ S, f' = FS s ^ FF f ^ F
   std::uint32_t S, F;
 
-  /// Each level's function after that of the run that ends `levels` coarser. What is shifted in
-  /// from beyond the coarsest level leads to the first state, (0, 0), as it should.
+  /// Composes each level's function with that of the run that ends `levels` levels coarser. The
+  /// bits shifted in beyond the coarsest level give the initial state, (0, 0).
   HilbertSteps composed(unsigned levels) const
   {
     const HilbertSteps e{ this->SS >> levels, this->SF >> levels, this->FS >> levels,
@@ -39,7 +39,7 @@ struct HilbertSteps
   }
 };
 
-/// The lower 16 bits to the even places.
+/// Moves the lower 16 bits to the even bit positions.
 inline std::uint32_t spreadBits(std::uint32_t bits)
 {
   bits = (bits | bits << 8) & 0x00ff00ffU;
@@ -48,7 +48,7 @@ inline std::uint32_t spreadBits(std::uint32_t bits)
   return (bits | bits << 1) & 0x55555555U;
 }
 
-/// x and y are below 2^16.
+/// The position of cell (x, y) along the curve; x and y must be below 2^16.
 inline std::uint32_t hilbertKey(std::uint32_t x, std::uint32_t y)
 {
   constexpr std::uint32_t all = 0xffff;

@@ -35,7 +35,8 @@ inline void insertInto(const InsertionScene& scene, Index first, Index end)
   scene.Recent = recent;
 }
 
-// All that is inline becomes part of each of these, and so is compiled for its instructions.
+// `flatten` inlines all calls into each of these functions, so that everything is compiled for its
+// instruction set.
 
 [[gnu::flatten]] void insertCommon(const InsertionScene& scene, Index first, Index end)
 {

@@ -13,10 +13,10 @@
 namespace tipp
 {
 
-/// What insertions work on.
+/// The data that insertions read and change. Vertex 0 is the infinite one.
 struct InsertionScene
 {
-  /// A vertex at the place of another, which stands for it.
+  /// A vertex with the coordinates of another one, its representative.
   struct Coincidence
   {
     HalfEdgeMesh::Index Vertex;
@@ -24,17 +24,19 @@ struct InsertionScene
   };
 
   HalfEdgeMesh& Mesh;
-  const Point2* Points; ///< of the vertices, the infinite one first
+  const Point2* Points; ///< coordinates of the vertices, the infinite one first
   KernelPredicates& Predicates;
   Cavity& Opened;
   HalfEdgeMesh::Index& Recent; ///< a finite triangle near the last insertion
   std::vector<Coincidence>& Coincidences;
 };
 
-/// Inserts vertices one after another into a mesh that has triangles and room for two more each.
+/// Inserts vertices [first, end) in order into a mesh that has triangles, and capacity for two more
+/// for each vertex.
 using InsertVertices = void (*)(
   const InsertionScene& scene, HalfEdgeMesh::Index first, HalfEdgeMesh::Index end);
 
+/// Returns the version compiled for the best permitted instruction set of this processor.
 InsertVertices chooseInsertion(Instructions instructions);
 
 } // namespace tipp

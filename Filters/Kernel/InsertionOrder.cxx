@@ -21,7 +21,7 @@ constexpr unsigned RoundBits = 4;
 constexpr std::size_t PointsInBlock = 256;
 static_assert(RoundBits + KeyBits + IndexBits == 64, "an entry is one word");
 
-/// Rounds before the last: so many that the first holds a few dozen points.
+/// The number of rounds before the last, chosen so that the first holds a few dozen points.
 unsigned earlierRounds(std::size_t count)
 {
   unsigned rounds = 0;
@@ -32,7 +32,7 @@ unsigned earlierRounds(std::size_t count)
   return rounds;
 }
 
-/// Murmur3's last step.
+/// Murmur3's finaliser.
 inline std::uint32_t mix(std::uint32_t z)
 {
   z = (z ^ z >> 16) * 0x85ebca6bU;
@@ -44,12 +44,12 @@ inline std::uint32_t quantise(double distance, double scale)
 {
   constexpr double last = (1U << Levels) - 1;
   const double cell = distance * scale;
-  // NaN (an extent of zero, or beyond the range of doubles) goes to cell 0: slower, never wrong.
+  // NaN (the extent is zero or exceeds the range of doubles) gives cell 0: slower, but correct.
   const double atLeast = cell > 0 ? cell : 0;
   return static_cast<std::uint32_t>(static_cast<std::int32_t>(atLeast < last ? atLeast : last));
 }
 
-/// Steps of one kind for a block of points, each a loop that compilers make vectors of.
+/// Computes the entries of a block in several loops, each of which compilers vectorise.
 inline void fillBlock(const Point2* points, std::size_t first, std::size_t count, Pair low,
   double scale, unsigned lastRound, std::uint64_t* entries)
 {
@@ -102,8 +102,7 @@ struct Run
   std::size_t End;
 };
 
-/// Adds the runs of three and more entries that are equal above bit `lowest`. The entries are those
-/// of the range `within`.
+/// Adds the runs of three or more entries in `within` that are equal above bit `lowest`.
 void addRuns(
   const Uninitialised<std::uint64_t>& entries, Run within, unsigned lowest, std::vector<Run>& runs)
 {
@@ -122,8 +121,9 @@ void addRuns(
   }
 }
 
-/// For each point the key in the points' own bounding box above its index. False where that tells
-/// no points apart: they are at one place, or the box is too large or too small for doubles.
+/// Computes each point's key in the points' own bounding box, with its index in the low bits.
+/// Returns false if that distinguishes no points: all coincide, or the box is too large or too
+/// small for doubles.
 bool fillKeys(const std::vector<Point2>& points, Uninitialised<std::uint64_t>& keys)
 {
   const Extent extent = extentOf(points.data(), points.size());
@@ -143,7 +143,7 @@ bool fillKeys(const std::vector<Point2>& points, Uninitialised<std::uint64_t>& k
   return true;
 }
 
-// Each is compiled for its instructions with all that is inline.
+// `flatten` inlines all calls, so that everything is compiled for the function's instruction set.
 
 [[gnu::flatten]] void fillCommon(const Point2* points, std::size_t count, std::uint64_t* entries)
 {
@@ -165,7 +165,7 @@ InsertionOrder::InsertionOrder(Instructions instructions)
 {
 }
 
-/// Least digits first, from bit `lowest` of the entries on.
+/// Radix sort by the bits of the entries from `lowest` up, least significant digit first.
 template <unsigned passes>
 void InsertionOrder::sortByDigits(unsigned lowest, unsigned digitBits)
 {
@@ -200,8 +200,8 @@ void InsertionOrder::sortByDigits(unsigned lowest, unsigned digitBits)
   }
 }
 
-/// Whether more than a few neighbours in the order differ below bit `lowest` alone. Every fourth
-/// tells.
+/// Whether more than a few neighbours in the order differ only below bit `lowest`. Samples every
+/// fourth.
 bool InsertionOrder::hasManyTies(unsigned lowest) const
 {
   constexpr std::size_t step = 4;
@@ -226,8 +226,8 @@ void InsertionOrder::compute(const Point2* points, std::size_t count)
 #else
   fillCommon(points, count, this->Entries.data());
 #endif
-  // Two passes tell evenly spread points apart; clusters need the finer levels as well. Counters of
-  // large digits would cost more than they save for a few points.
+  // Two passes distinguish evenly spread points; clusters need the finer levels as well. Histograms
+  // of large digits would cost more than they save for a few points.
   constexpr std::size_t many = 16384;
   const unsigned digitBits = count < many ? 11 : 12;
   const unsigned lowest = 64 - 2 * digitBits;
@@ -243,7 +243,8 @@ void InsertionOrder::compute(const Point2* points, std::size_t count)
 }
 
 /// Sorts points of one round that share a cell of the finest level along a curve in their own
-/// bounding box, until no cell is shared: coordinates may be hundreds of binary digits apart.
+/// bounding box, and repeats this until no cell is shared: coordinates may differ by hundreds of
+/// powers of two.
 void InsertionOrder::refineTies(const Point2* points)
 {
   std::vector<Run> runs;

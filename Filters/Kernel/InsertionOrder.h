@@ -13,17 +13,17 @@ namespace tipp
 {
 
 /// The order in which a box's points are inserted: biased randomised rounds (Amenta, Choi, Rote
-/// 2003), each along a Hilbert curve. One point in eight goes to an earlier round than the last.
-/// Depends on coordinates and positions in the array alone.
+/// 2003), each along a Hilbert curve. One point in eight goes to a round before the last. The order
+/// depends only on the coordinates and on the points' indices in the array.
 class InsertionOrder
 {
 public:
   explicit InsertionOrder(Instructions instructions = Instructions::Best);
 
-  /// Valid until the next call.
+  /// Computes the order of `count` points. It is valid until the next call.
   void compute(const Point2* points, std::size_t count);
 
-  /// Room for so many points.
+  /// Reserves memory for `points` points.
   void reserve(std::size_t points)
   {
     this->Entries.reserve(points);
@@ -32,13 +32,13 @@ public:
 
   std::size_t size() const { return this->Entries.size(); }
 
-  /// The index of the point to insert k-th.
+  /// The index of the k-th point to insert.
   std::uint32_t operator[](std::size_t k) const
   {
     return static_cast<std::uint32_t>(this->Entries[k]) & IndexMask;
   }
 
-  /// Gives large memory back; then the permutation is gone.
+  /// Frees the memory if it is large; the order is invalid then.
   void releaseIfLarge();
 
   std::size_t bytes() const
@@ -57,7 +57,7 @@ private:
   void refineTies(const Point2* points);
 
   const Instructions Allowed;
-  Uninitialised<std::uint64_t> Entries; ///< round, key and index, from the highest bits down
+  Uninitialised<std::uint64_t> Entries; ///< round, key and index, highest bits first
   Uninitialised<std::uint64_t> Scratch;
 };
 

@@ -5,16 +5,16 @@
 namespace tipp
 {
 
-/// Which of the processor's instructions the kernel may use. The triangles are the same, bit for
-/// bit: no multiplication and addition are contracted in either.
+/// Which instruction set the kernel may use. The triangles are identical, bit for bit: neither
+/// version contracts a multiplication and an addition.
 enum class Instructions
 {
-  Common, ///< what every processor of the architecture has
-  Best    ///< what this one has
+  Common, ///< the architecture's baseline
+  Best    ///< the best one that this processor supports
 };
 
 #ifdef __x86_64__
-/// Whether code compiled for AVX2 and the bit manipulations that came with it may run.
+/// Whether code compiled for AVX2, BMI and BMI2 may run.
 inline bool hasAvx2(Instructions instructions)
 {
   return instructions == Instructions::Best && __builtin_cpu_supports("avx2") &&

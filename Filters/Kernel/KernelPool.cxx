@@ -13,7 +13,7 @@ namespace
 class Pool
 {
 public:
-  /// Null if there is none.
+  /// Returns a kernel that is not in use, or null.
   std::unique_ptr<DelaunayKernel> take()
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
@@ -47,7 +47,7 @@ public:
 
   Pool()
   {
-    // Destructors give kernels back, so that growing must not throw.
+    // Destructors return kernels to the pool, so returning one must not throw.
     constexpr std::size_t most = 64;
     this->Kernels.reserve(most);
   }

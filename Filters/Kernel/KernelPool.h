@@ -11,8 +11,9 @@
 namespace tipp
 {
 
-/// A kernel whose memory outlives it: the next one gets it, up to 16 MiB in the whole process. For
-/// 10,000 points the first touch of fresh memory would take a fifth of the time.
+/// A kernel that takes its memory from a pool and returns it there on destruction; the pool keeps
+/// up to 16 MiB in the whole process. For 10,000 points the first touch of fresh memory would take
+/// a fifth of the time.
 class VTKTIPPFILTERS_EXPORT PooledKernel
 {
 public:

@@ -44,7 +44,7 @@ int KernelPredicates::orientation(HalfEdgeMesh::Index ia, HalfEdgeMesh::Index ib
 {
   const Point2 a = this->Points[ia];
   const Point2 b = this->Points[ib];
-  // Some failures come with any input; the grid pays where there are many.
+  // Any input makes a few filters fail; the coordinate grid pays only if there are many failures.
   constexpr std::size_t few = 32;
   return ++this->Turns > few ? this->grid().orientation(a, b, p) : orientationExact(a, b, p);
 }

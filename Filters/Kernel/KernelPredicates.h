@@ -11,31 +11,33 @@
 namespace tipp
 {
 
-/// The kernel's vertex at infinity, whose coordinates are NaN.
+/// The vertex at infinity; its coordinates are NaN.
 constexpr HalfEdgeMesh::Index InfiniteVertex = 0;
 
-// Bounds of the kernel's filters on the original doubles, for vectors from the inserted point (see
-// Predicates/ for the proofs). The absolute term covers underflow; overflow and NaN fail every
-// comparison and so go to the exact answers below.
+// Error bounds of the kernel's floating-point filters on the original doubles, for vectors from the
+// inserted point (see Predicates/ for the proofs). The absolute term covers underflow. Overflow and
+// NaN fail every comparison, so that the exact predicates below decide.
 constexpr double TurnFilterBound = 3.3306690738754716e-16;
 constexpr double CircleFilterBound = 3.4 * 1.1102230246251565e-16;
 constexpr double UnderflowBound = 1e-300;
 
-/// The exact answers where the kernel's filters have none.
+/// Exact predicates for what the kernel's floating-point filters cannot decide.
 class KernelPredicates
 {
 public:
   KernelPredicates() = default;
   KernelPredicates(const Point2* points, std::size_t count) { this->restart(points, count); }
 
-  /// With the coordinates of so many vertices, the infinite one first.
+  /// Sets the coordinates of `count` vertices, the infinite one first. The caller owns them.
   void restart(const Point2* points, std::size_t count);
 
+  /// The sign of the orientation of the vertices a, b and the point p: positive if p is to the
+  /// left.
   int orientation(HalfEdgeMesh::Index a, HalfEdgeMesh::Index b, Point2 p);
 
-  /// Whether p is inside the circumdisk of the triangle with these corners (three slots), ties
-  /// broken. That of an infinite triangle is the open half-plane beyond its hull edge, and the open
-  /// edge itself.
+  /// Whether p is inside the circumdisk of the triangle with these corners (an array of three
+  /// vertices), ties broken (Lemma 4). The circumdisk of an infinite triangle is the open
+  /// half-plane beyond its hull edge, and that edge without its ends.
   bool isInConflict(const HalfEdgeMesh::Index* corners, Point2 p);
 
 private:
@@ -45,7 +47,7 @@ private:
   std::size_t Count = 0;
   CoordinateGrid Grid;
   bool GridIsCurrent = false;
-  std::size_t Turns = 0; ///< asked for since restart()
+  std::size_t Turns = 0; ///< calls of orientation() since restart()
 };
 
 } // namespace tipp

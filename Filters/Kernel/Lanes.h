@@ -13,7 +13,7 @@ namespace tipp
 using Pair = double __attribute__((vector_size(16)));
 using PairMask = long long __attribute__((vector_size(16)));
 
-/// Of two doubles that lie side by side in memory, anywhere.
+/// Loads two consecutive doubles at any alignment.
 inline Pair pairAt(const double* lanes)
 {
   using InMemory = double __attribute__((vector_size(16), aligned(8), may_alias));
@@ -26,7 +26,7 @@ inline Pair magnitude(Pair a)
 }
 
 ///@{
-/// a < b ? a : b, and a > b ? a : b: with a NaN among them, b.
+/// a < b ? a : b, and a > b ? a : b; b if one of them is NaN.
 inline Pair lower(Pair a, Pair b)
 {
 #ifdef __SSE2__
@@ -45,7 +45,7 @@ inline Pair higher(Pair a, Pair b)
 }
 ///@}
 
-/// Bit 0 for the first lane, bit 1 for the second.
+/// The mask as bits: bit 0 for the first lane, bit 1 for the second.
 inline unsigned bitsOf(PairMask mask)
 {
 #ifdef __SSE2__
@@ -55,7 +55,7 @@ inline unsigned bitsOf(PairMask mask)
 #endif
 }
 
-/// The same for the lanes that are negative; any bit for one that is NaN.
+/// A bit for each negative lane, as in bitsOf(); unspecified for NaN.
 inline unsigned signsOf(Pair a)
 {
 #ifdef __SSE2__
@@ -65,7 +65,7 @@ inline unsigned signsOf(Pair a)
 #endif
 }
 
-/// The first lanes of both, and the second.
+/// The first lanes of both, or the second.
 inline Pair low(Pair a, Pair b)
 {
   return __builtin_shufflevector(a, b, 0, 2);

@@ -17,10 +17,10 @@ struct Location
 {
   HalfEdgeMesh::Index Triangle;
   EdgePair Edges;                ///< two of its edges
-  HalfEdgeMesh::Index LastOuter; ///< of the third, from Stop to Start
+  HalfEdgeMesh::Index LastOuter; ///< the twin of the third edge, from Stop to Start
   double LastCross;
-  bool LastIsOutside;          ///< the triangle behind that is known not to be in conflict
-  HalfEdgeMesh::Index EqualTo; ///< the vertex at p; then there is no conflict, or InfiniteVertex
+  bool LastIsOutside;          ///< the triangle across that edge is known not to be in conflict
+  HalfEdgeMesh::Index EqualTo; ///< vertex with p's coordinates, or InfiniteVertex if none
 };
 
 /// Finds a triangle in conflict with a point.
@@ -38,9 +38,9 @@ public:
   {
   }
 
-  /// Walks from a finite triangle towards p until a triangle is in conflict with it: the one that
-  /// holds p at the latest, or the infinite triangle at a hull edge that p lies beyond. In a
-  /// Delaunay triangulation such a walk ends (Devillers, Pion, Teillaud 2002).
+  /// Walks from the finite triangle `start` towards p to the first triangle in conflict with p: at
+  /// the latest the one that contains p, or the infinite triangle at a hull edge that p lies
+  /// beyond. In a Delaunay triangulation this walk terminates (Devillers, Pion, Teillaud 2002).
   Location from(Index start)
   {
     const Index* const v = this->Slot + HalfEdgeMesh::offset(start);
@@ -67,8 +67,8 @@ public:
 private:
   Corner corner(Index vertex) const { return Corner::of(this->P, this->Points, vertex); }
 
-  /// Of the first triangle's edges, takes one that p lies beyond as that from C to A, to which B
-  /// is then to be found.
+  /// Chooses an edge of the first triangle that p lies beyond as the edge from C to A, whose
+  /// opposite vertex B is to be found next.
   void leave(const Index* v)
   {
     if (this->isRight(this->B, this->C, this->BC))
@@ -118,7 +118,7 @@ private:
     }
   }
 
-  /// A vertex at p is on the circle, and ends the walk as well.
+  /// A vertex with p's coordinates is on the circle, and ends the walk as well.
   bool isInConflict()
   {
     const double det = this->A.Lift * this->BC + this->B.Lift * this->CA + this->C.Lift * this->AB;
@@ -135,7 +135,8 @@ private:
     return det > 0;
   }
 
-  /// Static, as a call with this object would keep it in memory.
+  /// The corner with p's coordinates, if any. Static, because a call on this object would force it
+  /// into memory.
   [[gnu::noinline]] static Index vertexAt(const Index* corners, const Point2* points, Point2 p)
   {
     for (Index i = 0; i < 3; ++i)
@@ -148,8 +149,8 @@ private:
     return InfiniteVertex;
   }
 
-  /// Whether p is to the right of the edge from u to w, of which |ux wy| + |uy wx| is at most half
-  /// the sum of their lifts.
+  /// Whether p is to the right of the edge from u to w. |ux wy| + |uy wx| is at most half the sum
+  /// of their lifts.
   bool isRight(const Corner& u, const Corner& w, double turn)
   {
     const double bound = TurnFilterBound * (u.Lift + w.Lift) + UnderflowBound;

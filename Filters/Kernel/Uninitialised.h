@@ -10,7 +10,8 @@
 namespace tipp
 {
 
-/// Leaves elements without a value as they are: writing zeros first costs as much as what follows.
+/// Leaves value-initialised elements uninitialised: writing zeros first costs as much as the work
+/// that follows.
 template <typename T>
 class UninitialisedAllocator : public std::allocator<T>
 {

@@ -25,14 +25,15 @@ double largestCoordinate(PointsView points)
   return largest;
 }
 
-/// Chains of kept points by the hash of their cell. Cells are at least twice as wide as the
-/// distance, so the points close to a place are in the cells within half a cell's width.
+/// A hash grid: lists of kept points by the hash of their cell. Cells are at least twice as wide as
+/// the distance, so the points close to a position are in the cells within half a cell's width of
+/// it.
 class HashGrid
 {
 public:
   HashGrid(std::size_t capacity, double distance, double largestCoordinate)
     : Distance(distance)
-    // So wide that cells count below 2^41 from the origin, where `slack` outweighs rounding.
+    // Wide enough that cell indices are below 2^41, where `slack` exceeds the rounding errors.
     , Cell(std::max(
         { 2 * distance, std::ldexp(largestCoordinate, -40), std::numeric_limits<double>::min() }))
     , Coordinates(2 * capacity)
@@ -46,7 +47,7 @@ public:
     this->First.assign(slots, -1);
   }
 
-  /// The first kept point no farther than the distance; -1 if there is none.
+  /// Returns the id of the first kept point within the distance, or -1.
   PointId find(Point2 p) const
   {
     constexpr double slack = 1.0 / 1024;

@@ -47,7 +47,7 @@ void renumber(Triangulation& result, const Buffer<PointId>& originals)
 Triangulation triangulateMerged(
   PointsView points, double distance, const TriangulationOptions& options)
 {
-  constexpr double mergingShare = 0.2; // of the reported progress
+  constexpr double mergingShare = 0.2; // fraction of the reported progress
   TriangulationOptions scaled = options;
   std::function<bool(double)> mergingProgress;
   if (options.Progress)

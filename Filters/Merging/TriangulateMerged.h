@@ -7,23 +7,25 @@
 namespace tipp
 {
 
-/// The points left when, by ascending id, each one no farther than a distance from one kept
-/// before it was merged into that one.
+/// The points that are left after merging: by ascending id, each point within the distance of a
+/// point kept before it is merged into that one.
 struct MergedPoints
 {
   Buffer<double> Coordinates; ///< x, y of the kept points
-  Buffer<PointId> Ids;        ///< their ids before merging, ascending
+  Buffer<PointId> Ids;        ///< input point indices of the kept points, ascending
   std::vector<Duplicate> Duplicates;
-  std::vector<PointId> Rejected; ///< NaN or infinite coordinates
+  std::vector<PointId> Rejected; ///< input indices of points with NaN or infinite coordinates
   bool Aborted = false;
 };
 
-/// One pass over a hash grid; `progress`, if any, may end it with false. The result depends on
-/// the points and their order alone.
+/// Merges close points in one pass with a hash grid. `distance` is in the points' unit of length.
+/// If `progress` returns false, the pass ends and the result is Aborted. The result depends only on
+/// the points and their order.
 VTKTIPPFILTERS_EXPORT MergedPoints mergeClosePoints(
   PointsView points, double distance, const std::function<bool(double)>& progress = {});
 
-/// triangulate() of the points that mergeClosePoints() keeps, in the ids of `points`.
+/// Calls triangulate() for the points that mergeClosePoints() keeps; the result's ids are indices
+/// into `points`.
 VTKTIPPFILTERS_EXPORT Triangulation triangulateMerged(
   PointsView points, double distance, const TriangulationOptions& options = {});
 

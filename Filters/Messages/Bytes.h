@@ -19,7 +19,7 @@ namespace tipp
 
 using Bytes = Buffer<char>;
 
-/// Puts values and arrays of them one after the other.
+/// Serialises values and arrays into consecutive bytes.
 class ByteWriter
 {
 public:
@@ -30,7 +30,7 @@ public:
     this->raw(&v, sizeof(T));
   }
 
-  /// The count, then the values.
+  /// Writes the count, then the values.
   template <typename T>
   void array(const T* values, std::size_t count)
   {
@@ -65,8 +65,8 @@ public:
     this->Size += size;
   }
 
-  /// From now on what is written goes there, a stretch at a time, instead of into memory; the last
-  /// one with flush().
+  /// From now on passes what is written to `sink`, block by block, instead of keeping it in memory.
+  /// flush() passes the last block.
   void setSink(std::function<void(const char* data, std::size_t size)> sink)
   {
     this->Sink = std::move(sink);
@@ -98,12 +98,12 @@ public:
 private:
   static constexpr std::size_t heldBytes = std::size_t(1) << 16;
 
-  Bytes Written; ///< room for more
+  Bytes Written; ///< allocated larger than Size
   std::size_t Size = 0;
   std::function<void(const char*, std::size_t)> Sink;
 };
 
-/// Reads what a ByteWriter wrote; throws std::runtime_error rather than read beyond the end.
+/// Reads what a ByteWriter wrote. Throws std::runtime_error instead of reading beyond the end.
 class ByteReader
 {
 public:

@@ -18,7 +18,7 @@ int CollectivePipeline::ForwardUpstream(vtkInformation* request)
   const int own = this->Superclass::ForwardUpstream(request);
   vtkMultiProcessController* ranks =
     this->GetAlgorithm() && this->Controller ? this->Controller() : nullptr;
-  // A rank that fails before the data is asked for will not come here again; the others will.
+  // A rank that fails before the data request will not reach this point again; the others will.
   if (!ranks || ranks->GetNumberOfProcesses() < 2 || (own && !request->Has(REQUEST_DATA())))
   {
     return own;

@@ -12,11 +12,11 @@ class vtkMultiProcessController;
 namespace tipp
 {
 
-/// The executive of a filter whose ranks execute together. If on one rank what is upstream fails,
-/// that rank would never come to execute and the others would wait for it for ever; so before they
-/// execute the ranks agree whether all can, and else the filter fails on all of them.
+/// The executive of a filter whose ranks execute together. If the upstream pipeline fails on one
+/// rank, that rank would not execute, and the others would wait for it forever. So the ranks first
+/// agree whether all can execute; otherwise the filter fails on all of them.
 ///
-/// This costs a reduction for each execution. All ranks must update the filter, as they must
+/// This costs one reduction per execution. All ranks must update the filter, which they must do
 /// anyway.
 class VTKTIPPFILTERS_EXPORT CollectivePipeline : public vtkCompositeDataPipeline
 {
@@ -24,7 +24,7 @@ public:
   static CollectivePipeline* New();
   vtkTypeMacro(CollectivePipeline, vtkCompositeDataPipeline)
 
-  /// Asked for the filter's controller before each execution; may give null.
+  /// Returns the filter's controller, or null; called before each execution.
   std::function<vtkMultiProcessController*()> Controller;
 
 protected:

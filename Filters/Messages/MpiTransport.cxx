@@ -22,8 +22,8 @@ public:
 class MpiTransport : public RankTransport
 {
 public:
-  /// With a communicator of its own, so that no other message of the program is taken for one of
-  /// ours.
+  /// Uses its own communicator, so that its messages are not mixed with the program's other
+  /// messages.
   explicit MpiTransport(vtkMPIController* all)
     : Rank(all->GetLocalProcessId())
     , Size(all->GetNumberOfProcesses())

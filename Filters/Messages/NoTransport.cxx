@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// What stands for MpiTransport.cxx in a build without MPI.
+// Replaces MpiTransport.cxx in a build without MPI.
 #include "Messages/RankTransport.h"
 
 #include "Partitioning/Ranks.h"

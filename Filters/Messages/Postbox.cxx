@@ -17,20 +17,20 @@ constexpr int PartTag = 2;
 constexpr std::size_t LargestPart = std::size_t(1) << 20;
 constexpr std::size_t LargestInHead = std::size_t(1) << 16;
 
-// For messages that are taken in part by part, that nobody wants any more, or that there is no
-// memory for: taking them in must not fail, or their senders would wait for ever.
+// Buffer for messages that are received part by part, that are discarded, or that there is no
+// memory for: receiving them must not fail, or their senders would wait forever.
 char Taken[LargestPart];
 
 struct Head
 {
   std::uint64_t Size;
   MessageKind Kind;
-  std::uint32_t IsComplete; ///< the content follows in the same message
+  std::uint32_t IsComplete; ///< the content is in the same message
 };
 
 } // namespace
 
-/// A message's first part, which has been taken in.
+/// The first part of a message, already received.
 struct Postbox::Arrival
 {
   int Source = 0;
@@ -65,7 +65,7 @@ Postbox::Postbox(vtkMultiProcessController* controller)
   this->HasParted.assign(std::size_t(this->Size), 0);
 }
 
-/// What is on its way must not be freed. Whoever waits for it still does.
+/// Buffers must not be freed before their sends complete. Receivers still wait for these messages.
 Postbox::~Postbox()
 {
   this->flush();
@@ -190,7 +190,7 @@ bool Postbox::receive(Message& message, const InParts* inParts)
   return true;
 }
 
-/// All parts are taken in, also when nobody can take them any more.
+/// Receives all parts, even if `takePart` fails.
 void Postbox::receiveParts(const Arrival& arrival, const TakePart& takePart)
 {
   if (arrival.About.IsComplete)
@@ -225,7 +225,7 @@ void Postbox::receiveParts(const Arrival& arrival, const TakePart& takePart)
   }
 }
 
-/// Takes in the next message, and returns whether it tells of a failure; others are discarded.
+/// Receives the next message; returns whether it reports a failure. Other messages are discarded.
 bool Postbox::receiveOfFailure(Message& message)
 {
   Arrival arrival;
@@ -259,7 +259,7 @@ void Postbox::discardParts(const Arrival& arrival)
 
 bool Postbox::poll(Message& message)
 {
-  // A rank that is further on may have begun a collective call already.
+  // A rank that is ahead may have started a collective call already.
   const auto isCallers = [](const Message& m) { return m.Kind >= MessageKind::FirstFree; };
   const auto kept = std::find_if(this->Inbox.begin(), this->Inbox.end(), isCallers);
   if (kept != this->Inbox.end())
@@ -279,7 +279,7 @@ bool Postbox::poll(Message& message)
   return false;
 }
 
-/// Throws if the message tells of a failure.
+/// Receives the next message, if any. Throws if it reports a failure.
 bool Postbox::receiveGood(Message& message, const InParts* inParts)
 {
   if (!this->receive(message, inParts))
@@ -386,8 +386,8 @@ void Postbox::tellFailure(bool aborted, const std::string& reason)
   }
 }
 
-/// Every rank says farewell to every other and takes in all that comes before the others'
-/// farewells: nothing of this run is left for the next, and all know of the same failures.
+/// Sends a shutdown message ('farewell') to every other rank and receives all messages up to
+/// theirs: no message of this run is left for the next, and all ranks know the same failures.
 void Postbox::partAfterFailure()
 {
   for (int to = 0; to < this->Size; ++to)

@@ -22,11 +22,11 @@ class vtkMultiProcessController;
 namespace tipp
 {
 
-/// What a message is about. Kinds from FirstFree on are the callers' own.
+/// The kind of a message. Kinds from FirstFree on are the callers'.
 enum class MessageKind : std::uint32_t
 {
-  Failure,  ///< a rank has failed; the text tells why
-  Farewell, ///< the last message of a rank after a failure
+  Failure,  ///< a rank has failed; the content is the reason
+  Farewell, ///< shutdown message: a rank's last one after a failure
   AllToAll,
   Gather,
   Broadcast,
@@ -34,6 +34,7 @@ enum class MessageKind : std::uint32_t
   FirstFree
 };
 
+/// A received message.
 struct Message
 {
   int Source = 0;
@@ -41,7 +42,7 @@ struct Message
   Bytes Content;
 };
 
-/// Some rank has failed: all ranks throw this, with the same text.
+/// Thrown by all ranks, with the same text, if any rank fails.
 class RankFailure : public std::runtime_error
 {
 public:
@@ -51,21 +52,20 @@ public:
     , Aborted(aborted)
   {
   }
-  int Rank;     ///< the lowest one that failed
-  bool Aborted; ///< the user wished to stop; nothing is wrong
+  int Rank;     ///< the lowest rank that failed
+  bool Aborted; ///< the user stopped the run; not an error
 };
 
-/// Messages between the ranks of a controller: sending never waits, messages may be of any size,
-/// and whoever waits for one learns of another rank's failure instead of waiting for ever. One
-/// thread of each rank may speak, the one that speaks MPI.
+/// Messages between the ranks of a controller. Sending does not block, messages may have any size,
+/// and a rank that waits for a message is told of another rank's failure instead of waiting
+/// forever. Only one thread of each rank may use it, the one that calls MPI.
 ///
-/// All ranks make a Postbox together and call the collective methods in the same order. A wait
-/// sleeps rather than spins, so that ranks may share a core.
+/// All ranks construct it together and call the collective methods in the same order. A wait sleeps
+/// instead of spinning, so that ranks may share a core.
 class VTKTIPPFILTERS_EXPORT Postbox
 {
 public:
-  /// Throws std::invalid_argument if there are several ranks without MPI between them. Null: one
-  /// rank.
+  /// Null: one rank. Throws std::invalid_argument if the controller has several ranks without MPI.
   explicit Postbox(vtkMultiProcessController* controller);
   ~Postbox();
   Postbox(const Postbox&) = delete;
@@ -74,31 +74,34 @@ public:
   int rank() const { return this->Rank; }
   int size() const { return this->Size; }
 
-  /// To any rank, oneself too. Messages from one rank to another arrive in the order of posting.
+  /// Sends a message to any rank, including this one. Messages from one rank to another arrive in
+  /// the order of posting.
   void post(int to, MessageKind kind, Bytes content);
 
-  /// The next message, if one is there. Throws RankFailure.
+  /// Receives the next message into `message`; returns false if none has arrived. Throws
+  /// RankFailure.
   bool poll(Message& message);
 
-  /// The next message of a kind from a rank; others are kept for later.
+  /// Waits for the next message of a kind from a rank; other messages are kept for later. Throws
+  /// RankFailure.
   Message wait(MessageKind kind, int from);
 
-  /// Waits until all posted messages have left.
+  /// Waits until all sends have completed.
   void flush();
 
-  /// A moment's sleep, longer the more often it is called without a message in between.
+  /// Sleeps briefly; longer after each call without a message in between.
   void pause();
 
   ///@{
   /// Collective.
-  std::vector<Bytes> allToAll(std::vector<Bytes> contents); ///< one to each rank, one from each
-  std::vector<Bytes> gather(Bytes content);                 ///< on rank 0 one from each rank
-  Bytes broadcast(Bytes content);                           ///< rank 0's
+  std::vector<Bytes> allToAll(std::vector<Bytes> contents); ///< one to and from each rank
+  std::vector<Bytes> gather(Bytes content);                 ///< by rank on rank 0, else empty
+  Bytes broadcast(Bytes content);                           ///< returns rank 0's
   void sum(std::vector<std::int64_t>& values);
   void barrier();
   ///@}
 
-  /// So many bytes of a memory.
+  /// A byte range of a buffer.
   struct Stretch
   {
     std::size_t Begin = 0;
@@ -106,15 +109,16 @@ public:
   };
   using TakePart = std::function<void(int from, const char* part, std::size_t size)>;
 
-  /// As allToAll(), of messages that lie in one memory, a stretch for each of the other ranks. It
-  /// comes back when they have left. What comes is handed on part by part, so that none of it need
-  /// be in memory as a whole: a rank's parts in order, those of several ranks by turns.
+  /// Like allToAll(), for messages stored in one buffer, one byte range for each other rank.
+  /// Returns the buffer once all sends have completed. Received messages are passed to `takePart`
+  /// in parts, so that none has to be in memory as a whole: the parts of one rank in order, those
+  /// of different ranks interleaved.
   Bytes allToAllInParts(
     Bytes memory, const std::vector<Stretch>& contents, const TakePart& takePart);
 
-  /// Runs the work on every rank. If it throws anywhere, it ends everywhere, and every rank throws
-  /// the same RankFailure; no message is left behind. Within the work of another call it just runs
-  /// the work, for that call sees to the rest. Collective.
+  /// Runs `work` on every rank. If it throws on any rank, it ends on all ranks, every rank throws
+  /// the same RankFailure, and no message is left. A nested call just runs `work`; the outer call
+  /// handles failures. Collective.
   template <typename Work>
   void together(Work&& work)
   {
@@ -127,7 +131,7 @@ public:
     try
     {
       work();
-      this->barrier(); // nobody leaves while another may still fail
+      this->barrier(); // no rank leaves while another may still fail
       this->flush();
       this->IsTogether = false;
       return;
@@ -156,12 +160,13 @@ public:
     this->partAfterFailure();
   }
 
+  /// The number of messages and of their bytes.
   struct Traffic
   {
     std::int64_t Messages = 0;
     std::int64_t Bytes = 0;
   };
-  /// Sent to other ranks, by kind.
+  /// Messages and bytes sent to other ranks, by kind.
   const std::map<MessageKind, Traffic>& traffic() const { return this->Sent; }
   double sendingSeconds() const { return this->SendingSeconds; }
 
@@ -169,7 +174,7 @@ private:
   struct Outgoing;
   struct Arrival;
 
-  /// Who is to take the parts of messages, and from which ranks.
+  /// The receiver of message parts, and the ranks that they are awaited from.
   struct InParts
   {
     const TakePart& Take;
@@ -207,7 +212,7 @@ private:
   double SendingSeconds = 0;
   int Pauses = 0;
   bool IsTogether = false;
-  bool Told = false; ///< the others know of this rank's failure
+  bool Told = false; ///< the other ranks have been told of this rank's failure
   std::unique_ptr<RankFailure> Failure;
   std::vector<char> HasParted;
 };

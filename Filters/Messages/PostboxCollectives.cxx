@@ -10,7 +10,7 @@ std::vector<Bytes> Postbox::allToAll(std::vector<Bytes> contents)
 {
   std::vector<Bytes> received(static_cast<std::size_t>(this->Size));
   received[std::size_t(this->Rank)] = std::move(contents[std::size_t(this->Rank)]);
-  // Each rank begins with the next one, so that not all send to the same.
+  // Each rank starts with the next rank, so that not all send to the same one.
   for (int step = 1; step < this->Size; ++step)
   {
     const int to = (this->Rank + step) % this->Size;
@@ -35,7 +35,7 @@ Bytes Postbox::allToAllInParts(
   }
   InParts inParts{ takePart, std::vector<char>(std::size_t(this->Size), 1) };
   inParts.IsAwaited[std::size_t(this->Rank)] = 0;
-  // Some may have come while this rank waited for something else.
+  // Some may have arrived while this rank waited for another message.
   for (auto kept = this->Inbox.begin(); kept != this->Inbox.end();)
   {
     if (!inParts.concerns(*kept))
@@ -83,7 +83,7 @@ std::vector<Bytes> Postbox::gather(Bytes content)
   return received;
 }
 
-/// Along a binomial tree: a rank gets it from the one without its lowest bit.
+/// Along a binomial tree: a rank receives from the rank whose number lacks its lowest set bit.
 Bytes Postbox::broadcast(Bytes content)
 {
   int bit = 1;

@@ -20,7 +20,7 @@ vtkSmartPointer<Array> takeArray(Buffer<Value> buffer)
   auto array = vtkSmartPointer<Array>::New();
   if (!buffer.empty())
   {
-    // Where long and long long both have 64 bits, VTK's type is the other one of the two.
+    // If long and long long both have 64 bits, VTK's type may be the one that Value is not.
     static_assert(sizeof(Value) == sizeof(typename Array::ValueType), "same integers");
     const vtkIdType size = vtkIdType(buffer.size());
     void* memory = buffer.release();

@@ -15,9 +15,9 @@ class vtkCellArray;
 namespace tipp
 {
 
-/// Cells of `cellSize` point ids each over the very memory of `ids`. Ids of 32 bits make 32-bit
-/// cells unless the last offset exceeds `largestOffset32`, for VTK stores ids and offsets in one
-/// type; they are copied into 64 bits then.
+/// Returns cells of `cellSize` point ids each that take over the memory of `ids`. 32-bit ids give
+/// 32-bit cells unless the last offset exceeds `largestOffset32`: VTK stores ids and offsets in one
+/// type, so they are then copied to 64 bits.
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkCellArray> takeCells(Buffer<std::int32_t> ids,
   int cellSize, std::int64_t largestOffset32 = std::numeric_limits<std::int32_t>::max());
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkCellArray> takeCells(

@@ -13,8 +13,8 @@
 namespace tipp
 {
 
-/// Passes progress on to an algorithm and the wish to stop back, from any thread; observers hear
-/// of it in the thread that made this object only.
+/// Reports progress to an algorithm and returns whether to continue; callable from any thread.
+/// Observers are called only in the thread that constructed this object.
 class Monitor
 {
 public:
@@ -24,10 +24,10 @@ public:
   {
   }
 
-  /// False if the work is to stop.
+  /// Returns false if the work is to stop.
   bool operator()(double fraction)
   {
-    constexpr double share = 0.95; // the rest is for making the output
+    constexpr double share = 0.95; // the rest is for creating the output
     if (std::this_thread::get_id() == this->Owner)
     {
       this->Done = std::max(this->Done, share * fraction);

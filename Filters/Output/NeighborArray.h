@@ -11,7 +11,8 @@ class vtkIdTypeArray;
 namespace tipp
 {
 
-/// "NeighborIds": for each corner of a triangle the place of the triangle opposite to it, or -1.
+/// Returns the array "NeighborIds": for each corner of a triangle the index of the triangle across
+/// the opposite edge, or -1.
 vtkSmartPointer<vtkIdTypeArray> neighborArray(const Triangulation& triangulation);
 
 } // namespace tipp

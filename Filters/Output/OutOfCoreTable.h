@@ -9,8 +9,8 @@ class vtkTable;
 namespace tipp
 {
 
-/// Fills the empty table: a row for each phase, the run's totals as field data.
-/// vtkTIPPOutOfCoreDelaunay2D's documentation names the columns and arrays.
+/// Fills the empty table: a row for each phase, and the run's totals as field data.
+/// vtkTIPPOutOfCoreDelaunay2D's documentation lists the columns and arrays.
 void fillOutOfCoreTable(const OutOfCoreStatistics& statistics, bool isCounted, vtkTable* table);
 
 } // namespace tipp

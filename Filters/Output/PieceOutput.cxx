@@ -21,7 +21,7 @@ namespace tipp
 namespace
 {
 
-/// Where the points of a piece come from, in the order of its points.
+/// The sources of a piece's points, in the order of its points.
 class PiecePoints
 {
 public:
@@ -72,7 +72,8 @@ public:
                       : this->Count + rankOf(this->Ghosts->PointIds, id);
   }
 
-  /// visit(point of the piece, tuples, place there, whether it is this rank's own).
+  /// Calls visit(point index in the piece, tuples, index in tuples, whether this rank owns the
+  /// point).
   template <typename Visit>
   void forEach(Visit&& visit) const
   {
@@ -97,7 +98,7 @@ private:
   {
     return std::lower_bound(ids.begin(), ids.end(), id) - ids.begin();
   }
-  /// Among owned and foreign points, or -1.
+  /// The index of an internal id among owned and then foreign points, or -1.
   std::ptrdiff_t placeOf(std::int64_t id) const
   {
     const std::ptrdiff_t own = std::ptrdiff_t(this->Mine.Owned.size());
@@ -114,7 +115,7 @@ private:
   const DistributedTriangulation& Mine;
   const GhostTriangles* Ghosts;
   const std::int64_t FirstOwn;
-  std::vector<std::int64_t> Places; ///< of owned, then foreign points: in the piece, or -1
+  std::vector<std::int64_t> Places; ///< of owned, then foreign points: index in the piece, or -1
   std::int64_t Count = 0;
 };
 

@@ -10,8 +10,8 @@ class vtkPolyData;
 namespace tipp
 {
 
-/// A rank's triangles as a dataset: the points they use with their data, global ids of points and
-/// cells; and if there are ghosts (null: none were asked for), the array vtkGhostType.
+/// Fills `output` with a rank's triangles: the points that they use with their data, and global ids
+/// of points and cells. `ghosts`, if not null, are added with the array vtkGhostType.
 void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& rows,
   const GhostTriangles* ghosts, vtkPolyData* output);
 

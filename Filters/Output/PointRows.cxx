@@ -124,7 +124,7 @@ PointRows::PointRows(Postbox& ranks, vtkPointSet* input)
   }
   if (this->GivenIds)
   {
-    vtkNew<vtkIdTypeArray> exact; // a double would round beyond 2^53
+    vtkNew<vtkIdTypeArray> exact; // a double would round ids beyond 2^53
     exact->DeepCopy(ids);
     const vtkIdType* values = exact->GetPointer(0);
     this->GlobalIds.assign(values, values + exact->GetNumberOfTuples());

@@ -16,12 +16,12 @@ class vtkPointSet;
 namespace tipp
 {
 
-/// A dataset's points and point data as rows of bytes, so that they can travel with the points: the
-/// coordinates in space, and the arrays that every rank with points has.
+/// A dataset's points and point data as rows of bytes, to send with the points: the 3D coordinates,
+/// and the arrays that every rank with points has.
 class PointRows
 {
 public:
-  /// Collective: ranks agree on arrays.
+  /// Chooses the arrays that all ranks have. Collective.
   PointRows(Postbox& ranks, vtkPointSet* input);
 
   struct Column
@@ -36,7 +36,7 @@ public:
   bool hasGlobalIds() const { return this->GivenIds; }
   bool areDoubles() const { return this->Doubles; }
 
-  /// Fills in ids and rows. Valid while this object lives.
+  /// Sets the ids and rows of `points`, which refer to this object and are valid while it exists.
   void describe(RankPoints& points) const;
 
 private:

@@ -10,10 +10,10 @@ class vtkTable;
 namespace tipp
 {
 
-/// Fills the empty table; vtkTIPPDelaunay2D's documentation names the columns and arrays.
+/// Fills the empty table; vtkTIPPDelaunay2D's documentation lists the columns and arrays.
 void fillRankTable(const DistributedTriangulation& mine, vtkTable* table);
 
-/// The duplicates and rejected points found on this rank, as field data by global ids.
+/// Adds the duplicates and rejected points found on this rank as field data, by global ids.
 void addAccounts(const DistributedTriangulation& mine, vtkPolyData* output);
 
 } // namespace tipp

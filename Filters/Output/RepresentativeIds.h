@@ -11,8 +11,8 @@ class vtkIdTypeArray;
 namespace tipp
 {
 
-/// For each point the id of the point that stands for it: its own, for a duplicate its
-/// representative's, for a rejected point -1.
+/// Returns for each of `points` input points the id of its representative: its own id, for a
+/// duplicate the representative's, for a rejected point -1.
 vtkSmartPointer<vtkIdTypeArray> representativeIds(
   const Triangulation& triangulation, std::int64_t points);
 

@@ -15,7 +15,7 @@
 namespace tipp
 {
 
-/// An array of what get(item) gives for each item.
+/// Returns an array with the value get(item) for each item.
 template <typename Array, typename Items, typename Get>
 vtkSmartPointer<Array> arrayOf(const char* name, const Items& items, Get&& get)
 {
@@ -40,7 +40,7 @@ inline void addTotal(const char* name, std::int64_t value, vtkFieldData* totals)
     idsOf(name, std::vector<std::int64_t>{ value }, [](std::int64_t v) { return v; }));
 }
 
-/// A row for each stage.
+/// Adds a row for each stage.
 inline void addStages(const std::vector<TriangulationStatistics::Stage>& stages, vtkTable* table)
 {
   using Stage = TriangulationStatistics::Stage;

@@ -12,7 +12,7 @@
 namespace tipp
 {
 
-/// What a user should know of a triangulation of so many points: one sentence each.
+/// Returns the warnings about a triangulation of `points` points, one sentence each.
 std::vector<std::string> warningsOf(
   const Triangulation& triangulation, std::int64_t points, bool longEdgesLeftOut);
 std::vector<std::string> warningsOf(const OutOfCoreStatistics& statistics);

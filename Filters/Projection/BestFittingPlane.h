@@ -10,8 +10,9 @@ class vtkTransform;
 namespace tipp
 {
 
-/// Moves the points' least-squares plane to the plane z = 0 and their centroid to the origin.
-/// Points with a NaN or infinite coordinate do not count; null without any other.
+/// Returns the transform that moves the points' least-squares plane to the plane z = 0 and their
+/// centroid to the origin. Points with a NaN or infinite coordinate are ignored; returns null if
+/// there are no others.
 vtkSmartPointer<vtkTransform> bestFittingPlane(vtkPoints* points);
 
 } // namespace tipp

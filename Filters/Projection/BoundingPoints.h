@@ -9,8 +9,8 @@ class vtkPoints;
 namespace tipp
 {
 
-/// The points in double precision, and after them eight on a circle about the centre of their
-/// bounding box, at its middle height; the radius is `offset` times the box's diagonal.
+/// Returns the points in double precision, followed by eight points on a circle around the centre
+/// of their bounding box, at its middle height. The radius is `offset` times the box's diagonal.
 vtkSmartPointer<vtkPoints> appendBoundingPoints(vtkPoints* points, double offset);
 
 } // namespace tipp

@@ -9,8 +9,9 @@ class vtkPoints;
 namespace tipp
 {
 
-/// The bounding box of the points whose three coordinates are finite; a single NaN or infinity
-/// must not decide how large a tolerance or a bounding circle is. All zero without such points.
+/// The bounding box of the points whose three coordinates are finite, so that a single NaN or
+/// infinity does not determine a tolerance or a bounding circle. All zero if there are no such
+/// points.
 struct FiniteBounds
 {
   std::array<double, 3> Low{ 0, 0, 0 };

@@ -13,15 +13,15 @@ class vtkPoints;
 namespace tipp
 {
 
-/// A dataset's points as the plane of the triangulation sees them. Float and double points that
-/// lie as x, y, z in memory are viewed there, all others are converted to double once.
+/// A dataset's points projected to the plane of the triangulation. Float and double points stored
+/// as x, y, z are viewed without a copy; others are converted to double.
 class ProjectedPoints
 {
 public:
-  /// A null transform drops z; a null vtkPoints is no points.
+  /// A null transform drops z; null points are no points.
   ProjectedPoints(vtkPoints* points, vtkAbstractTransform* toPlane);
 
-  /// Valid while this object lives.
+  /// The projected points; valid while this object exists.
   PointsView view() const { return this->View; }
 
 private:

@@ -13,7 +13,7 @@ namespace
 using Corner = CellPulling::Corner;
 using Face = CellPulling::Face;
 
-/// The place in `face` of its least corner.
+/// The index in `face` of its lexicographically least corner.
 std::size_t leastOf(const std::vector<Corner>& corners, const Face& face)
 {
   const auto less = [&](int a, int b)
@@ -28,7 +28,7 @@ Point3 crossProduct(Point3 a, Point3 b, Point3 c)
   return { u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x };
 }
 
-/// Whether the triangles abc and acd of a quad turn the same way.
+/// Whether the triangles abc and acd of a quad have the same orientation.
 bool cutsInside(Point3 a, Point3 b, Point3 c, Point3 d)
 {
   const Point3 u = crossProduct(a, b, c);

@@ -18,7 +18,7 @@ void HeightRange::add(vtkPointSet* mesh)
   const vtkIdType points = mesh->GetNumberOfPoints();
   if (points > 0 && allPointsFinite(mesh))
   {
-    const double* const bounds = mesh->GetBounds(); // which VTK keeps
+    const double* const bounds = mesh->GetBounds(); // cached by VTK
     this->add(bounds[4]);
     this->add(bounds[5]);
     return;

@@ -16,10 +16,10 @@ namespace tipp
 
 class Postbox;
 
-/// The name of the point array that holds the heights of a surface.
+/// The name of the point array with the heights of a surface.
 constexpr const char* elevationName = "elevation";
 
-/// The lowest and the highest z of points, of those that are finite.
+/// The lowest and the highest finite z of points.
 struct HeightRange
 {
   double Low = HUGE_VAL;
@@ -31,16 +31,16 @@ struct HeightRange
     this->High = std::isfinite(z) ? std::max(this->High, z) : this->High;
   }
   VTKTIPPFILTERS_EXPORT void add(vtkPointSet* mesh);
-  /// Adds those of all ranks. Collective.
+  /// Combines the ranges of all ranks, on all ranks. Collective.
   VTKTIPPFILTERS_EXPORT void gather(Postbox& ranks);
 
   bool isFlat() const { return !(this->Low < this->High); }
 };
 
-/// Whether the meshes of all ranks are surfaces, and their points differ in z. Collective.
+/// Whether the meshes of all ranks are surfaces whose points differ in z. Collective.
 VTKTIPPFILTERS_EXPORT bool haveElevation(const std::vector<vtkPointSet*>& meshes, Postbox& ranks);
 
-/// A shallow copy of the mesh with its z as the point array "elevation", in the type of the
+/// Returns a shallow copy of the mesh with z as the point array "elevation", in the type of the
 /// coordinates; the mesh itself if it has an array of that name.
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPointSet> withElevation(vtkPointSet* mesh);
 

@@ -38,8 +38,8 @@ std::int64_t samplesOf(const Extent& extent)
   return samples;
 }
 
-/// Calls work(first, count) for the rows of a part of an extent, with the first sample's number
-/// in that extent.
+/// Calls work(first, count) for each row of `part`; `first` is the index of the row's first sample
+/// in `whole`.
 template <typename Work>
 void forRows(const Extent& whole, const Extent& part, const Work& work)
 {
@@ -66,7 +66,7 @@ char* bytesOf(const SampledImage::Array& array)
   return static_cast<char*>(array.Samples->GetVoidPointer(0));
 }
 
-/// What every rank knows of every other.
+/// What all ranks know of each rank.
 struct RankNote
 {
   Extent Local;
@@ -89,7 +89,7 @@ public:
   {
     this->shareNotes();
     this->merge(this->Rank, this->pack(this->Rank));
-    // In each round the ranks pair up, so that few messages lie in memory at a time.
+    // The ranks exchange in pairs, so that few messages are in memory at a time.
     for (int round = 0; round < this->Ranks.size(); ++round)
     {
       const int partner = (round - this->Rank + this->Ranks.size()) % this->Ranks.size();
@@ -140,7 +140,7 @@ private:
     }
   }
 
-  /// Adds a rank's arrays to the result and gives the names of those of the result's that it has.
+  /// Adds the arrays of a rank to the result; returns the names of those that the rank has.
   std::vector<std::string> learnArrays(ByteReader& reader)
   {
     std::vector<std::string> names;
@@ -178,7 +178,7 @@ private:
     return std::find(names.begin(), names.end(), name) != names.end();
   }
 
-  /// What goes from a rank to another: empty if nothing does.
+  /// The extent that one rank sends to another; may be empty.
   Extent part(int from, int to) const
   {
     const RankNote& note = this->Notes[std::size_t(from)];
@@ -289,7 +289,7 @@ private:
   int Rank;
   int Dimension = 0;
   std::vector<RankNote> Notes;
-  std::vector<std::vector<std::string>> Has; ///< for each rank the names of its arrays
+  std::vector<std::vector<std::string>> Has; ///< by rank: the names of its arrays
 };
 
 } // namespace

@@ -9,10 +9,10 @@ namespace tipp
 
 class Postbox;
 
-/// Puts together what all ranks have sampled: `result` gets, for the extent of its lattice, the
-/// sample of lowest key of any rank, and warnings of arrays that differ between ranks. Extents
-/// differ and may be empty. Both images are Merging. One message goes from each rank to each whose
-/// extents overlap. Collective.
+/// Combines the samples of all ranks: for each sample of its lattice's extent, `result` gets the
+/// one with the lowest key of any rank. Adds warnings about arrays that differ between ranks.
+/// Extents may differ and be empty. Both images must be Merging. Each rank sends one message to
+/// each rank whose extent overlaps. Collective.
 void exchangeSamples(SampledImage& local, SampledImage& result, Postbox& ranks);
 
 } // namespace tipp

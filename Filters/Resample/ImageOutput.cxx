@@ -30,7 +30,7 @@ namespace tipp
 namespace
 {
 
-/// The bytes of one sample of all selected arrays.
+/// The number of bytes per sample of all selected arrays.
 double bytesOfArrays(const std::vector<vtkPointSet*>& meshes, const SamplingSettings& settings)
 {
   double bytes = 0;
@@ -55,7 +55,7 @@ double bytesOfArrays(const std::vector<vtkPointSet*>& meshes, const SamplingSett
   return bytes;
 }
 
-/// The ghosts of points or cells, not yet filled.
+/// Adds an uninitialised ghost array for points or cells; `data` owns it.
 unsigned char* addGhosts(vtkDataSetAttributes* data, std::int64_t count)
 {
   vtkNew<vtkUnsignedCharArray> ghosts;
@@ -65,9 +65,10 @@ unsigned char* addGhosts(vtkDataSetAttributes* data, std::int64_t count)
   return ghosts->GetPointer(0);
 }
 
-// In functions of their own, where the compiler knows that bytes are written to nothing else.
+// Separate functions, so that the compiler can assume that the bytes written alias nothing.
 
-/// For as many points as a byte can count. Returns how many are valid.
+/// Marks invalid points as hidden. `count` must fit into a byte. Returns the number of valid
+/// points.
 unsigned char hidePoints(
   const unsigned char* valid, std::int64_t count, unsigned char* __restrict ghosts)
 {
@@ -80,7 +81,7 @@ unsigned char hidePoints(
   return hits;
 }
 
-/// Whether four rows of points are all valid, one by one.
+/// Computes for each column whether the points of all four rows are valid.
 void joinRows(
   const unsigned char* const (&rows)[4], std::int64_t count, unsigned char* __restrict valid)
 {
@@ -94,7 +95,7 @@ void joinRows(
   }
 }
 
-/// Cells between two columns of points each, `right` apart.
+/// Hides cells with invalid points; a cell's columns of points are `right` apart.
 void hideCells(const unsigned char* valid, std::int64_t right, std::int64_t count,
   unsigned char* __restrict ghosts)
 {
@@ -105,7 +106,7 @@ void hideCells(const unsigned char* valid, std::int64_t right, std::int64_t coun
   }
 }
 
-/// Points that are not valid are hidden. Returns how many are valid.
+/// Hides the points that are not valid. Returns the number of valid points.
 std::int64_t fillPointGhosts(
   const unsigned char* valid, std::int64_t size, int threads, unsigned char* ghosts)
 {
@@ -113,7 +114,7 @@ std::int64_t fillPointGhosts(
   forChunks(size, 1 << 16, threads, {},
     [&](std::int64_t begin, std::int64_t end, int thread)
     {
-      constexpr std::int64_t few = 1 << 7; // whose count fits a byte, in which lanes are added
+      constexpr std::int64_t few = 1 << 7; // the count fits into a byte; lanes are summed in bytes
       std::int64_t count = 0;
       for (std::int64_t first = begin; first < end; first += few)
       {
@@ -159,7 +160,7 @@ void fillCellGhosts(const unsigned char* valid, int threads, vtkImageData* image
 void refuseTooLarge(const Lattice& local, const Lattice& wanted, bool exchanging,
   const std::vector<vtkPointSet*>& meshes, const SamplingSettings& settings)
 {
-  // The claims, the mask and the two arrays of ghosts that go with it.
+  // Bytes per sample: the claims; the mask with its two ghost arrays.
   constexpr double claims = 4;
   constexpr double mask = 3;
   const double arrays = bytesOfArrays(meshes, settings) + mask;

@@ -13,14 +13,14 @@ class vtkTable;
 namespace tipp
 {
 
-/// Throws std::runtime_error, with the bytes it takes, if the samples do not fit into this
-/// machine's memory. `local` is what is sampled here, `wanted` what is put out; `exchanging` if
-/// they are two.
+/// Throws std::runtime_error, stating the bytes needed, if the samples do not fit into this
+/// machine's memory. `local` is the lattice sampled on this rank, `wanted` the lattice of its
+/// output; `exchanging` is true if they differ.
 void refuseTooLarge(const Lattice& local, const Lattice& wanted, bool exchanging,
   const std::vector<vtkPointSet*>& meshes, const SamplingSettings& settings);
 
 /// Moves the arrays into the image, with vtkValidPointMask and vtkGhostType. Returns the number of
-/// samples that are answered.
+/// valid samples.
 std::int64_t fillImage(SampledImage& samples, int threads, vtkImageData* image);
 
 struct SamplingReport
@@ -33,7 +33,7 @@ struct SamplingReport
   double OutputSeconds = 0;
 };
 
-/// As the field data of an empty table.
+/// Writes the report to the field data of an empty table.
 void fillTable(const SamplingReport& report, vtkTable* table);
 
 } // namespace tipp

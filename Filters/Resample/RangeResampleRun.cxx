@@ -29,7 +29,7 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 namespace
 {
 
-/// What to do where memory is short is another thing here than for a triangulation.
+/// Runs `work`; replaces std::bad_alloc by an error with advice for resampling.
 template <typename Work>
 void withMemoryAdvice(const Work& work)
 {
@@ -46,7 +46,7 @@ void withMemoryAdvice(const Work& work)
 
 } // namespace
 
-/// None if the input has no data yet.
+/// The meshes of the input; empty if it has no data yet.
 std::vector<vtkPointSet*> vtkRangeResampleFilter::Run::meshesIn(vtkInformationVector* input) const
 {
   vtkDataObject* const data = vtkDataObject::GetData(input);
@@ -92,7 +92,7 @@ void vtkRangeResampleFilter::Run::start(vtkInformationVector* input, vtkInformat
     });
 }
 
-/// Collective.
+/// Whether the elevation of the meshes is to be sampled. Collective.
 bool vtkRangeResampleFilter::Run::samplesElevation(
   const std::vector<vtkPointSet*>& meshes, const std::vector<int>& axes) const
 {
@@ -167,7 +167,7 @@ void vtkRangeResampleFilter::Run::addPieces(vtkInformationVector* input)
         this->Problem = std::current_exception();
       }
     }
-    // Sources may need all ranks to ask.
+    // Sources may require that all ranks request all pieces.
     if ((this->Problem || this->Stopped) && !this->severalRanks())
     {
       return;
@@ -241,7 +241,8 @@ void vtkRangeResampleFilter::Run::makeOutput(vtkImageData* output)
   this->warnOfMissing(*image, this->Filter->CellDataArraySelection, true);
 }
 
-/// With several pieces only the last one tells whether all points have the same z. Collective.
+/// Removes the elevation array if all points have the same z. With several pieces this is known
+/// only after the last one. Collective.
 void vtkRangeResampleFilter::Run::dropFlatElevation(tipp::SampledImage& image)
 {
   if (!this->AddsElevation || this->Filter->NumberOfInputPieces == 1)
@@ -269,7 +270,7 @@ void vtkRangeResampleFilter::Run::warn(const tipp::SampledImage& image) const
   }
 }
 
-/// Of all ranks, on the first one. Collective.
+/// Warns on the first rank of counts summed over all ranks. Collective.
 void vtkRangeResampleFilter::Run::warnOfCounts(const tipp::SampledImage& image, std::int64_t hits)
 {
   std::vector<std::int64_t> sums{ this->Image->statistics().NotFinite,

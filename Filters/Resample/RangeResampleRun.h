@@ -18,7 +18,7 @@ class vtkDataArraySelection;
 class vtkImageData;
 class vtkPointSet;
 
-/// One update.
+/// One execution of the filter.
 class vtkRangeResampleFilter::Run
 {
 public:
@@ -30,12 +30,13 @@ public:
   }
 
   ///@{
-  /// Throws tipp::RankFailure, on all ranks. Collective.
+  /// Begin and end of the execution. Throw tipp::RankFailure on all ranks. Collective.
   void start(vtkInformationVector* input, vtkInformation* outInfo);
   void finish(vtkImageData* output);
   ///@}
 
-  /// Asks for all pieces and adds them. What fails here is told in finish(), where all ranks meet.
+  /// Requests all pieces and adds them. Errors are reported in finish(), where all ranks
+  /// synchronise.
   void addPieces(vtkInformationVector* input);
 
 private:
@@ -56,13 +57,13 @@ private:
   tipp::Postbox& Ranks;
   tipp::Monitor Progress;
   int Piece = 0;
-  bool AddsElevation = false; ///< to each mesh
+  bool AddsElevation = false; ///< the elevation array is added to each mesh
   bool HasOwnElevation = false;
-  tipp::HeightRange Heights; ///< of the meshes that it was added to, with several pieces
+  tipp::HeightRange Heights; ///< of the meshes with an added elevation, for several pieces
   bool Stopped = false;
-  bool WantsAll = true; ///< and not a part of the image
+  bool WantsAll = true; ///< the whole image, not a part
   std::exception_ptr Problem;
-  tipp::Lattice Wanted; ///< of this rank
+  tipp::Lattice Wanted; ///< this rank's output lattice
   std::unique_ptr<tipp::SampledImage> Image;
 };
 

@@ -22,7 +22,7 @@ namespace tipp
 namespace
 {
 
-/// Writes the null value into tuples begin..end - 1.
+/// Writes the null value into tuples [begin, end).
 void fillNull(vtkDataArray* array, double null, std::int64_t begin, std::int64_t end)
 {
   withScalar(*scalarOf(array->GetDataType()),
@@ -35,7 +35,7 @@ void fillNull(vtkDataArray* array, double null, std::int64_t begin, std::int64_t
     });
 }
 
-/// Marks the points whose value in the array is `value`.
+/// Marks the points with a component equal to `value`.
 void markEqual(vtkDataArray* array, double value, std::vector<bool>& marked)
 {
   withScalar(*scalarOf(array->GetDataType()),
@@ -46,7 +46,8 @@ void markEqual(vtkDataArray* array, double value, std::vector<bool>& marked)
       const std::size_t components = std::size_t(array->GetNumberOfComponents());
       for (std::size_t i = 0; i < marked.size() * components; ++i)
       {
-        // A float32 is compared with the nearest one; a whole number need not be in reach of T.
+        // A float is compared with `value` rounded to float; for integers, `value` may be out of
+        // T's range.
         const bool equal = std::is_floating_point_v<T> ? values[i] == toScalar<T>(value)
                                                        : double(values[i]) == value;
         marked[i / components] = marked[i / components] || equal;
@@ -62,7 +63,7 @@ void addTo(ClaimStatistics& sum, const ClaimStatistics& more)
   sum.OverlappingClaims += more.OverlappingClaims;
 }
 
-/// The array itself if its values lie tuple after tuple in memory, else a copy that does so.
+/// Returns the array itself if its tuples are contiguous in memory, else a contiguous copy.
 vtkSmartPointer<vtkDataArray> plain(vtkDataArray* array)
 {
   if (array->HasStandardMemoryLayout())
@@ -277,7 +278,7 @@ std::vector<Attribute> SampledImage::attributesOf(vtkPointSet* mesh)
   return attributes;
 }
 
-/// Null if the mesh has none that can be sampled.
+/// The mesh's array to sample into `array`, or null if it has none of a suitable type.
 vtkDataArray* SampledImage::valuesOf(vtkPointSet* mesh, const Array& array)
 {
   vtkDataSetAttributes* data = mesh->GetPointData();

@@ -23,16 +23,16 @@ class vtkPointSet;
 namespace tipp
 {
 
-/// What is sampled, and how.
+/// The settings of a sampling.
 struct SamplingSettings
 {
   std::function<bool(bool ofCells, const std::string& name)> Selected;
-  std::vector<int> Axes = { 0, 1 }; ///< the two that triangles are sampled along
+  std::vector<int> Axes = { 0, 1 }; ///< the two axes of the plane that triangles are sampled in
   double NullValue = 0;
-  std::optional<double> NoData; ///< cells with a corner of this value answer nothing
+  std::optional<double> NoData; ///< cells with such a corner yield no value
   DeviceChoice Device;
   int Threads = 1;
-  bool Merging = false; ///< more than one mesh is added, here or on other ranks
+  bool Merging = false; ///< several meshes are added, on this or other ranks
 };
 
 struct SamplingStatistics
@@ -48,13 +48,13 @@ struct SamplingStatistics
   std::string Device;
 };
 
-/// The samples of a lattice's extent, gathered from any number of meshes.
+/// The samples of a lattice's extent, collected from any number of meshes.
 class SampledImage
 {
 public:
   SampledImage(const Lattice& lattice, SamplingSettings settings);
 
-  /// One array of the samples.
+  /// An array of the samples.
   struct Array
   {
     std::string Name;
@@ -62,36 +62,36 @@ public:
     vtkSmartPointer<vtkDataArray> Samples;
   };
 
-  /// Adds what a mesh answers. False if `progress` stopped it. Meshes with three-dimensional cells
-  /// put aside what triangles have answered; triangles after them are ignored.
+  /// Samples a mesh. Returns false if `progress` stopped it. A mesh with three-dimensional cells
+  /// discards all samples of triangles; triangles added after it are ignored.
   bool add(vtkPointSet* mesh, const Report& progress);
 
   const Lattice& lattice() const { return this->Grid; }
-  int dimension() const { return this->Dimension; } ///< of the cells; 0: none so far
+  int dimension() const { return this->Dimension; } ///< of the cells; 0: no cells so far
   std::vector<Array>& arrays() { return this->Arrays; }
   const std::vector<Array>& arrays() const { return this->Arrays; }
   const SamplingStatistics& statistics() const { return this->Statistics; }
-  /// The named arrays of the meshes added, sampled or not.
+  /// The names of the arrays of all meshes added, whether sampled or not.
   const std::set<std::string>& namesOf(bool ofCells) const { return this->Names[ofCells ? 1 : 0]; }
   const std::vector<std::string>& warnings() const { return this->Warnings; }
 
   std::int64_t samples() const { return this->Mask->GetNumberOfValues(); }
-  /// 1 for each sample that is answered, 0 for the others.
+  /// By sample: 1 if it has a value, else 0.
   unsigned char* valid() const;
-  /// The same, as the image has it.
+  /// The same as VTK array, for the image.
   vtkCharArray* mask() const { return this->Mask; }
-  /// One a sample if Merging; else none.
+  /// By sample: the key of its cell; null unless Merging.
   CellKey* keys() { return this->Keys.get(); }
 
-  /// Call when all is added: gives samples their null values if there was nothing to add, and
-  /// repeats triangles' samples along the axis that they are projected along.
+  /// Must be called after the last mesh. Sets samples to their null values if no mesh was sampled,
+  /// and copies triangles' samples along the axis of their projection.
   void finish();
 
-  /// An array of NullValue for all samples, added to those there are.
+  /// Adds an array with NullValue for all samples.
   Array& addNullArray(const std::string& name, bool ofCells, int type, int components);
   void setNull(const Array& array, std::int64_t sample) const;
   Array* findArray(const std::string& name);
-  /// Whether an array can be sampled into one of its name; if not, a warning is kept.
+  /// Whether an array of this type can be sampled into `array`; if not, adds a warning.
   bool accepts(const Array& array, bool ofCells, int type, int components);
 
 private:
@@ -111,7 +111,7 @@ private:
   int Dimension = 0;
   bool HasSamples = false;
   std::vector<Array> Arrays;
-  std::vector<vtkSmartPointer<vtkDataArray>> Values; ///< kept while a mesh is sampled
+  std::vector<vtkSmartPointer<vtkDataArray>> Values; ///< owns arrays while a mesh is sampled
   vtkNew<vtkCharArray> Mask;
   std::unique_ptr<CellKey[]> Keys;
   SamplingStatistics Statistics;

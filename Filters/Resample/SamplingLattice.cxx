@@ -36,7 +36,7 @@ std::array<int, 3> chosenDimensions(
     if (dimensions[axis] == 0)
     {
       const bool one =
-        (axis == 2 && surfaces) || !(*step > 0); // bounds without sense are told of later
+        (axis == 2 && surfaces) || !(*step > 0); // invalid bounds are reported later on
       const double steps = one ? 0 : std::max(std::round(length(axis) / *step), 0.0);
       if (!(steps < std::numeric_limits<int>::max()))
       {
@@ -107,7 +107,7 @@ Lattice rangeLattice(const std::array<double, 6>& bounds, const std::array<int, 
     else if (counts[axis] > 1)
     {
       lattice.Delta[axis] = (high - low) / steps;
-      // A rounding must not put the last sample out of the range.
+      // Rounding must not move the last sample out of the range.
       while (lattice.Delta[axis] > 0 && low + steps * lattice.Delta[axis] > high)
       {
         lattice.Delta[axis] = std::nextafter(lattice.Delta[axis], 0.0);

@@ -10,26 +10,27 @@
 namespace tipp
 {
 
-/// Puts numbers where `dimensions` is 0: as many samples as put them as far apart as along the
-/// first axis that has a number, but one along z for surfaces. Throws std::runtime_error if all are
-/// 0.
+/// Returns `dimensions` with each 0 replaced by the number of samples that gives the spacing of the
+/// first axis with a number; by 1 along z for surfaces. Throws std::runtime_error if all are 0.
 std::array<int, 3> chosenDimensions(
   const std::array<double, 6>& bounds, std::array<int, 3> dimensions, bool surfaces);
 
-/// The number of samples along each axis of a range: by delta where it is above 0, else
-/// `dimensions`. Throws std::runtime_error for a range or a number that makes no sense.
+/// Returns the number of samples along each axis of a range: from the spacing `delta` if it is
+/// above 0, else `dimensions`. Throws std::runtime_error for an invalid range or number.
 std::array<int, 3> rangeDimensions(const std::array<double, 6>& bounds,
   const std::array<int, 3>& dimensions, const std::array<double, 3>& delta);
 
-/// The whole lattice of a range. Where `dimensions` counts, the last sample is not beyond the
-/// range.
+/// Returns the lattice of a range. Along axes that use `dimensions`, the last sample is not beyond
+/// the range.
 Lattice rangeLattice(const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
   const std::array<double, 3>& delta);
 
-/// The two axes that surface cells are sampled along: all but the last with one sample, or z.
+/// Returns the two axes that surface cells are sampled along: all except the last axis with one
+/// sample, or except z.
 std::vector<int> surfaceAxes(const std::array<int, 3>& dimensions);
 
-/// Throws std::runtime_error if this machine does not have the bytes that so many samples need.
+/// Throws std::runtime_error if this machine does not have the `bytes` bytes that `samples` samples
+/// need.
 void requireMemory(double samples, double bytes);
 
 } // namespace tipp

@@ -23,7 +23,7 @@ namespace tipp
 namespace
 {
 
-/// Of the points that are finite along the axes.
+/// The bounding box of the points that are finite along the axes.
 vtkBoundingBox boxOf(const std::vector<vtkPointSet*>& meshes, const std::vector<int>& axes)
 {
   vtkBoundingBox box;
@@ -31,7 +31,7 @@ vtkBoundingBox boxOf(const std::vector<vtkPointSet*>& meshes, const std::vector<
   {
     if (allPointsFinite(mesh))
     {
-      // Without points they are from 1 to -1.
+      // Without points VTK's bounds are from 1 to -1.
       mesh->GetNumberOfPoints() > 0 ? box.AddBounds(mesh->GetBounds()) : void();
       continue;
     }
@@ -128,7 +128,7 @@ Lattice cropped(
       last = first - 1;
       continue;
     }
-    // A step more on either side makes up for the roundings.
+    // One more step on either side covers rounding errors.
     const double delta = lattice.Delta[axis];
     const double low = std::floor((box.GetBound(2 * axis) - lattice.Min[axis]) / delta) - 1;
     const double high = std::ceil((box.GetBound(2 * axis + 1) - lattice.Min[axis]) / delta) + 1;

@@ -17,7 +17,7 @@ namespace tipp
 
 class Postbox;
 
-/// A class's triple as values.
+/// Copies a C array, such as a VTK property, into a std::array.
 template <std::size_t N, typename T>
 std::array<T, N> toArray(const T (&values)[N])
 {
@@ -26,18 +26,19 @@ std::array<T, N> toArray(const T (&values)[N])
   return result;
 }
 
-/// The meshes of a data object: itself or its leaves, in order. Throws std::runtime_error if one is
-/// no vtkPointSet or does not pass checkCells().
+/// Returns the meshes of a data object: itself, or its leaves in order. Throws std::runtime_error
+/// if one is not a vtkPointSet or fails checkCells().
 std::vector<vtkPointSet*> meshesOf(vtkDataObject* data, int threads);
 
-/// Whether the meshes of all ranks have no cell with a volume. Collective.
+/// Whether no mesh of any rank has a three-dimensional cell. Collective.
 bool areSurfaces(const std::vector<vtkPointSet*>& meshes, Postbox& ranks);
 
-/// The bounding box of the meshes of all ranks. Throws std::runtime_error on all ranks if there is
-/// no point. Collective.
+/// Returns the bounding box of all ranks' meshes (xmin, xmax, ymin, ...). Throws std::runtime_error
+/// on all ranks if there are no points. Collective.
 std::array<double, 6> boundsOf(const std::vector<vtkPointSet*>& meshes, Postbox& ranks);
 
-/// The part of the lattice that the meshes' boxes meet along the axes, and all of it along others.
+/// Returns the part of the lattice that the meshes' bounding boxes meet along `axes`; along other
+/// axes it is not cropped.
 Lattice cropped(
   const Lattice& lattice, const std::vector<vtkPointSet*>& meshes, const std::vector<int>& axes);
 

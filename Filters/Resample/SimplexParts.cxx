@@ -42,7 +42,7 @@ vtkSmartPointer<vtkDataArray> coordinatesOf(vtkPointSet* mesh)
   return copy;
 }
 
-/// The array of cells, if they all are of the type.
+/// The mesh's cell array if all cells have the type, else null.
 vtkCellArray* uniformCells(vtkPointSet* mesh, int type)
 {
   if (auto* grid = vtkUnstructuredGrid::SafeDownCast(mesh))
@@ -52,7 +52,7 @@ vtkCellArray* uniformCells(vtkPointSet* mesh, int type)
     {
       return nullptr;
     }
-    // Each like the next: the fastest way through many bytes.
+    // Compares each byte with the next one, the fastest way for many bytes.
     const unsigned char* const begin = types->GetPointer(0);
     const std::size_t pairs = std::size_t(types->GetNumberOfValues()) - 1;
     const bool uniform = *begin == type && std::memcmp(begin, begin + 1, pairs) == 0;
@@ -80,7 +80,7 @@ bool takeUniform(vtkPointSet* mesh, int type, SimplexSet& simplices)
   return true;
 }
 
-/// Cuts cells of any type up.
+/// Cuts cells of any type into simplices.
 class Cutter
 {
 public:
@@ -153,7 +153,7 @@ private:
     ids.insert(ids.end(), this->Ids->begin(), this->Ids->end());
   }
 
-  /// A simplex as it is.
+  /// Appends a cell that is a simplex.
   void append(SimplexSet& simplices, vtkIdType cell)
   {
     this->Mesh->GetCellPoints(cell, this->Ids);
@@ -168,7 +168,7 @@ private:
   vtkNew<vtkGenericCell> Cell;
 };
 
-/// One a cell, if vtkGhostType hides any; else none.
+/// By cell: whether vtkGhostType hides it; empty if it hides none.
 std::vector<unsigned char> hiddenCells(vtkPointSet* mesh)
 {
   std::vector<unsigned char> hidden;
@@ -187,7 +187,7 @@ std::vector<unsigned char> hiddenCells(vtkPointSet* mesh)
   return hidden;
 }
 
-/// Hides the cells that have such a corner, and counts those that were not hidden yet.
+/// Hides the cells with a corner that is not finite, and counts those that were not hidden before.
 void hideNotFinite(vtkPointSet* mesh, const std::vector<int>& axes, SimplexParts& parts,
   std::vector<unsigned char>& hidden)
 {
@@ -235,7 +235,7 @@ void finish(SimplexSet& simplices, int dimension, const SimplexParts& parts)
 
 bool hasVolumes(vtkPointSet* mesh)
 {
-  // In polygonal meshes no cell has one.
+  // Polygonal meshes have no three-dimensional cells.
   const vtkIdType cells = vtkPolyData::SafeDownCast(mesh) ? 0 : mesh->GetNumberOfCells();
   vtkNew<vtkGenericCell> cell;
   int known = VTK_EMPTY_CELL;

@@ -16,39 +16,39 @@ class vtkPointSet;
 namespace tipp
 {
 
-/// Simplices of one dimension made of a data set's cells. Its arrays are the data set's own where
-/// they can be; the data set must outlive it.
+/// Simplices of one dimension made from a data set's cells. Shares the data set's arrays if
+/// possible; the data set must outlive it.
 struct SimplexSet
 {
   SimplexMesh Mesh;
-  std::vector<std::int64_t> Ids;     ///< what Mesh.Ids points to, if the cells had to be cut up
-  PlainIds Stored;                   ///< what Mesh.Ids points to, if they did not
-  std::vector<std::int64_t> Parents; ///< the cell that each is a part of; empty: the same number
-  std::vector<unsigned char> Hidden; ///< what Mesh.Hidden points to
+  std::vector<std::int64_t> Ids;     ///< the array behind Mesh.Ids if cells were cut
+  PlainIds Stored;                   ///< the array behind Mesh.Ids if no cell was cut
+  std::vector<std::int64_t> Parents; ///< cell of each simplex; empty: the same index
+  std::vector<unsigned char> Hidden; ///< the array behind Mesh.Hidden
 };
 
-/// All cells of a data set.
+/// The simplices of all cells of a data set.
 struct SimplexParts
 {
   SimplexSet Triangles;
   SimplexSet Tetrahedra;
   std::int64_t Thin = 0;      ///< vertices and lines, which cover no sample
-  std::int64_t NotFinite = 0; ///< cells left out for a corner whose coordinates are not finite
+  std::int64_t NotFinite = 0; ///< cells left out because a corner is not finite
 
   vtkSmartPointer<vtkDataArray> Coordinates; ///< float or double
 };
 
-/// Triangles and tetrahedra as they are; other cells cut up. Hexahedra, voxels, wedges, pyramids,
-/// quads and pixels are cut by their lexicographically least corners, so that neighbours agree and
-/// neither order nor ids matter; other types as VTK does it. Cells that vtkGhostType hides are left
-/// out, and those with a corner that is NaN or infinite along one of the axes that count: `axes`,
-/// or all three if the mesh has cells with a volume. The mesh has passed checkCells().
+/// Returns the simplices of a mesh that has passed checkCells(). Hexahedra, voxels, wedges,
+/// pyramids, quads and pixels are cut from their lexicographically least corners, so that
+/// neighbours agree and neither order nor ids matter; other types are cut by VTK. Cells that
+/// vtkGhostType hides are left out, and so are cells with a corner that is NaN or infinite along an
+/// axis: along `axes`, or along all three if the mesh has three-dimensional cells.
 SimplexParts makeSimplices(vtkPointSet* mesh, const std::vector<int>& axes, int threads);
 
-/// Whether it has cells with a volume.
+/// Whether the mesh has three-dimensional cells.
 bool hasVolumes(vtkPointSet* mesh);
 
-/// Hides the simplices that have a corner marked.
+/// Hides the simplices with a marked corner; `markedPoints` is indexed by point id.
 void hideMarked(SimplexSet& simplices, const std::vector<bool>& markedPoints);
 
 } // namespace tipp

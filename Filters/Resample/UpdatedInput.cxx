@@ -32,7 +32,7 @@ vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInform
 void askForPiece(vtkInformation* inInfo, int piece, int pieces)
 {
   inInfo->Remove(Pipeline::UPDATE_EXTENT());
-  if (inInfo->Has(Pipeline::WHOLE_EXTENT())) // a structured grid
+  if (inInfo->Has(Pipeline::WHOLE_EXTENT())) // structured data
   {
     inInfo->Set(Pipeline::UPDATE_EXTENT(), inInfo->Get(Pipeline::WHOLE_EXTENT()), 6);
   }

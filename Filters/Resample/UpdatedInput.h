@@ -9,11 +9,11 @@ class vtkInformation;
 namespace tipp
 {
 
-/// Brings this rank's piece of a filter's input up to date before the pipeline asks for it, at the
-/// time that `outInfo` asks for, if any. Null if the input fails.
+/// Updates this rank's piece of a filter's input before the pipeline requests it, at the time step
+/// that `outInfo` requests, if any. Returns null if the input fails.
 vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInformation* outInfo);
 
-/// Asks a filter's input for a piece.
+/// Requests a piece of a filter's input.
 void askForPiece(vtkInformation* inInfo, int piece, int pieces);
 
 } // namespace tipp

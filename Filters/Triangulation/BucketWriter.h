@@ -17,18 +17,20 @@
 namespace tipp
 {
 
-/// Distributes points and their ids among many buckets. Each bucket's gather in lines of its own
-/// and go to memory as whole cache lines past the cache: a line that one store after another fills
-/// would first have to be read (software write-combining; Balkesen, Teubner, Alonso, Oezsu 2013).
+/// Distributes points and their ids among many buckets. Each bucket's items are collected in a
+/// buffer of one cache line, which is written to memory as a whole, bypassing the cache: a line
+/// filled by one store after another would first have to be read (software write-combining;
+/// Balkesen, Teubner, Alonso, Oezsu 2013).
 template <typename Id>
 class BucketWriter
 {
 public:
+  /// The destination of a bucket's items; the caller owns the memory.
   struct Bucket
   {
-    Point2* Points; ///< written fastest if these and the ids begin at multiples of LineBytes
+    Point2* Points; ///< fastest if Points and Ids are aligned to LineBytes
     Id* Ids;
-    std::size_t Next; ///< the first to write
+    std::size_t Next; ///< index of the next item to write
   };
   static constexpr std::size_t LineBytes = 64;
 
@@ -59,7 +61,7 @@ public:
     }
   }
 
-  /// Writes the lines that are not full. Without it they are lost.
+  /// Writes the lines that are not full; without this call they are lost.
   void finish()
   {
     for (std::size_t bucket = 0; bucket < this->Buckets.size(); ++bucket)
@@ -75,7 +77,7 @@ public:
       }
     }
 #ifdef __SSE2__
-    _mm_sfence(); // other threads are to see it
+    _mm_sfence(); // make the stores visible to other threads
 #endif
   }
 
@@ -90,7 +92,8 @@ private:
     Id Ids[IdsInLine];
   };
 
-  /// A line's items before `end`; but not those before the first one, which are another's.
+  /// Writes a line's items up to `end`, except those before `first`, which belong to another
+  /// writer.
   template <typename Item>
   static void write(const Item* line, Item* items, std::size_t first, std::size_t end)
   {

@@ -12,8 +12,8 @@
 namespace tipp
 {
 
-/// An uninitialised array whose memory can be handed over (free() releases it). No huge pages are
-/// asked for: in a virtual machine whose host takes free memory back, their first touch is slower.
+/// An uninitialised array that owns its memory and can release it (free() frees it). It asks for no
+/// huge pages: in a virtual machine whose host reclaims free memory, their first touch is slower.
 template <typename T>
 class Buffer
 {
@@ -36,7 +36,7 @@ public:
     return *this;
   }
 
-  /// The same memory as an array of another type, as many as fit.
+  /// Takes over another array's memory; the size is as many elements as fit.
   template <typename U>
   explicit Buffer(Buffer<U>&& other) noexcept
     : Size(other.size() * sizeof(U) / sizeof(T))
@@ -55,10 +55,10 @@ public:
   const T* begin() const { return this->data(); }
   const T* end() const { return this->data() + this->Size; }
 
-  /// Keeps the first `size` elements.
+  /// Shortens the array to its first `size` elements; the memory stays allocated.
   void truncate(std::size_t size) { this->Size = size; }
 
-  /// The caller owns the memory and frees it with free().
+  /// Returns the memory; the caller owns it and frees it with free().
   T* release()
   {
     this->Size = 0;

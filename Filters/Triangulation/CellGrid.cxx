@@ -8,7 +8,7 @@ namespace tipp
 namespace
 {
 
-/// Without a branch, so that compilers make vectors of it.
+/// Without branches, so that compilers vectorise it.
 inline void findCells(const CellGrid::Axis& columns, const CellGrid::Axis& rows,
   const Point2* points, std::size_t count, std::uint32_t* cells)
 {
@@ -20,12 +20,12 @@ inline void findCells(const CellGrid::Axis& columns, const CellGrid::Axis& rows,
   {
     const Point2 p = points[i];
     const std::uint32_t cell = row(p.y) * width + column(p.x);
-    const double nothing = (p.x - p.x) + (p.y - p.y); // NaN if any is not finite
+    const double nothing = (p.x - p.x) + (p.y - p.y); // NaN if a coordinate is not finite
     cells[i] = nothing == 0 ? cell : outside;
   }
 }
 
-// Each is compiled for its instructions with all that is inline.
+// `flatten` inlines all calls, so that everything is compiled for the function's instruction set.
 
 [[gnu::flatten]] void findCommon(const CellGrid::Axis& columns, const CellGrid::Axis& rows,
   const Point2* points, std::size_t count, std::uint32_t* cells)

@@ -13,12 +13,13 @@
 namespace tipp
 {
 
-/// Equal cells over a box, row by row, and one after the last for points that are not finite.
+/// A grid of equal cells over a box, numbered row by row; the number after the last is that of
+/// points that are not finite.
 class VTKTIPPFILTERS_EXPORT CellGrid
 {
 public:
-  /// Columns or rows. A coordinate's cell rises with it, whatever is rounded, so that a cut at a
-  /// coordinate has all lower cells below it and all higher ones above.
+  /// The columns or the rows. The cell is a monotone function of the coordinate despite rounding,
+  /// so a cut at a coordinate has all lower cells below it and all higher cells above it.
   struct Axis
   {
     double Low = 0;
@@ -33,7 +34,7 @@ public:
     {
       const double cell = (x - this->Low) * this->Scale;
       const double last = static_cast<std::int32_t>(this->Last);
-      const double atLeast = cell > 0 ? cell : 0; // NaN, too
+      const double atLeast = cell > 0 ? cell : 0; // also for NaN
       return static_cast<std::uint32_t>(static_cast<std::int32_t>(atLeast < last ? atLeast : last));
     }
   };
@@ -44,7 +45,8 @@ public:
   const Axis& rows() const { return this->Rows; }
   std::size_t size() const { return std::size_t(this->Columns.size()) * this->Rows.size(); }
 
-  /// The points' cells; those of points beyond the box are at its border.
+  /// Computes the cell of each of `count` points. Points outside the box get the nearest border
+  /// cell.
   void find(const Point2* points, std::size_t count, std::uint32_t* cells,
     Instructions instructions = Instructions::Best) const;
 

@@ -10,7 +10,7 @@ namespace tipp
 {
 PointsView withModerateMagnitude(PointsView points, const Box2& bounds)
 {
-  // Determinants have degree four in the coordinates, and errors reach 53 bits further down.
+  // Determinants have degree four in the coordinates, and rounding errors are 53 bits smaller.
   constexpr int moderate = 200;
   constexpr int largestShift = 1000;
   const double largest = std::max({ std::fabs(bounds.xmin), std::fabs(bounds.xmax),
@@ -81,7 +81,7 @@ std::vector<Duplicate> sortOutDuplicates(PointsView points)
       return p == q ? a < b : lexicographicLess(p, q);
     });
   std::vector<Duplicate> duplicates;
-  PointId first = 0; // of the points at one place
+  PointId first = 0; // the lowest of the coincident points
   for (std::size_t i = 0; i < order.size(); ++i)
   {
     if (i == 0 || !(place(order[i]) == place(order[i - 1])))

@@ -12,19 +12,20 @@
 namespace tipp
 {
 
-/// Very small or very large coordinates, products of which would under- or overflow, times a power
-/// of two that brings them near 1: exact, and the filters work again. The points as they are where
-/// that would lose digits (a wide range of magnitudes) or is not needed.
+/// Scales very small or very large coordinates, whose products would underflow or overflow, by a
+/// power of two that brings them near 1. This is exact, and the floating-point filters work again.
+/// Returns the points unchanged if scaling would lose digits (a wide range of magnitudes) or is not
+/// needed.
 PointsView withModerateMagnitude(PointsView points, const Box2& bounds);
 
-/// Whether points that come one by one lie on one line.
+/// Tests whether points, added one at a time, are collinear.
 class CollinearityTest
 {
 public:
-  /// False as soon as three finite points do not; then it always is.
+  /// Adds a point. Returns false once three finite points added are not collinear.
   bool add(Point2 p);
 
-  /// Two of the points, or fewer, that lie on the line; instead of all, where all do.
+  /// Returns up to two distinct points of the line; they stand for all points if all are collinear.
   std::vector<Point2> line() const { return { this->Line, this->Line + this->Found }; }
 
 private:
@@ -33,11 +34,12 @@ private:
   Point2 Line[2]{};
 };
 
-/// True if the finite points lie on one line, or there are fewer than three. Looks at no more
-/// points than it needs.
+/// Whether the finite points are collinear or fewer than three. Stops at the first point off the
+/// line.
 bool areCollinear(PointsView points);
 
-/// The duplicates of finite points, by sorting: for input that is not triangulated.
+/// Returns the duplicates among the finite points, found by sorting, for input without triangles.
+/// Ids are point indices.
 std::vector<Duplicate> sortOutDuplicates(PointsView points);
 
 } // namespace tipp

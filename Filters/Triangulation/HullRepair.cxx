@@ -25,7 +25,7 @@ std::vector<std::array<std::uint32_t, 3>> hullTriangles(
 {
   DelaunayKernel kernel;
   kernel.insert(vertices.data(), vertices.size());
-  std::vector<Point2>().swap(vertices); // the kernel has them; there may be very many
+  std::vector<Point2>().swap(vertices); // the kernel has copied them; there may be many
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (DelaunayKernel::Index t = 0; t < kernel.mesh().end(); t += 8)
   {

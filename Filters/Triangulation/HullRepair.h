@@ -12,8 +12,9 @@ namespace tipp
 {
 
 /// Removes the artificial points (Lemma 3): the triangles at them are replaced by those triangles
-/// of the Delaunay triangulation of their true vertices that an artificial point is in conflict
-/// with. Vertices: these, each once. Returns corners by their places among them.
+/// of the Delaunay triangulation of their true vertices that are in conflict with an artificial
+/// point. `vertices` are these true vertices, each once. Returns the corners of the replacement
+/// triangles as indices into `vertices`.
 std::vector<std::array<std::uint32_t, 3>> hullTriangles(
   std::vector<Point2> vertices, const std::vector<SeamVertex>& artificial);
 

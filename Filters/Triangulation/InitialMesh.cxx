@@ -25,7 +25,8 @@ double meanLongSide(const Tiling& tiling)
   return sum;
 }
 
-/// The margin, but at least some units in the last place: coordinates may be large and close.
+/// Moves a bound outward by the margin, but at least by a few units in the last place: coordinates
+/// may be large and close together.
 double outward(double bound, double direction, double margin)
 {
   double moved = bound + direction * margin;
@@ -42,7 +43,7 @@ int piecesOf(double side, double spacing)
   return static_cast<int>(std::clamp(std::ceil(side / spacing), 1.0, most));
 }
 
-/// The first points with the least and the greatest x and y.
+/// Returns the indices of the first points with the smallest and the largest x and y.
 std::vector<std::size_t> findOutmost(const Point2* points, std::size_t count)
 {
   const Extent extent = extentOf(points, count);
@@ -52,7 +53,7 @@ std::vector<std::size_t> findOutmost(const Point2* points, std::size_t count)
   for (std::size_t begin = 0; begin < count; begin += block)
   {
     const std::size_t end = std::min(begin + block, count);
-    bool isAny = false; // without branches, so that it is vectorised
+    bool isAny = false; // without branches, so that compilers vectorise it
     for (std::size_t i = begin; i < end; ++i)
     {
       const Point2 p = points[i];
@@ -70,8 +71,8 @@ std::vector<std::size_t> findOutmost(const Point2* points, std::size_t count)
   return found;
 }
 
-/// The sets of finite triangles with a common edge, where they differ. SetOf: of the finite
-/// triangles, in the kernel's order.
+/// Returns the pairs of different sets of adjacent finite triangles. `setOf` is indexed by finite
+/// triangle, in the kernel's order.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> adjacentSets(
   const DelaunayKernel& kernel, const std::vector<std::uint32_t>& setOf)
 {
@@ -102,7 +103,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> adjacentSets(
   return pairs;
 }
 
-/// The finite triangles from one of the kernel's on, and the boxes that each meets.
+/// The finite triangles among the kernel's triangles [begin, end), and the boxes that each meets.
 template <typename Boxes>
 SeamTriangles findMetBoxes(
   const Boxes& boxes, const DelaunayKernel& kernel, std::int64_t begin, std::int64_t end)

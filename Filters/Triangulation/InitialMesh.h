@@ -12,41 +12,41 @@
 namespace tipp
 {
 
-/// Artificial points at the corners of a rectangle around the domain and along its edges (chapter
-/// 2.4.1), as far from the domain and from each other as partitions are wide. Their ids are -1, -2
-/// and so on. Empty if the domain reaches too far for doubles to enclose it.
+/// Returns artificial points at the corners and along the edges of a rectangle around the domain
+/// (chapter 2.4.1). Their distance from the domain and from each other is the width of a partition.
+/// Their ids are -1, -2 and so on. Empty if the domain is too large for doubles to enclose it.
 std::vector<SeamVertex> makeArtificialPoints(const Tiling& tiling);
 
-/// Which of a partition's points the initial mesh takes: the outmost ones in x and y, and others
-/// that are evenly spaced in the input's order. With the outmost ones fewer disks over voids reach
-/// many partitions, so that chains of conflicting partitions are half as long where points are
-/// clustered. If few are wanted, evenly spaced ones alone.
+/// Chooses a partition's points for the initial mesh, and returns their indices in `points`: the
+/// extreme ones in x and y, and others evenly spaced in the input's order. With the extreme points,
+/// fewer disks over voids meet many partitions, which halves the chains of conflicting partitions
+/// of clustered points. If `wanted` is small, only evenly spaced points are chosen.
 std::vector<std::size_t> chooseInitialPoints(
   const Point2* points, std::size_t count, std::size_t wanted);
 
-/// So many of each partition's points.
+/// Chooses `perPartition` points of each partition; their ids are the buckets' ids.
 template <typename Id>
 std::vector<SeamVertex> chooseInitialPoints(
   const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition, int threads);
 
-/// Which of the initial mesh's triangles to find the boxes of, where ranks share that out.
+/// The share of the initial mesh's triangles whose boxes this rank finds.
 struct InitialMeshShare
 {
   int Index = 0;
   int Count = 1;
-  /// Of this share's triangles makes those of all shares, in order; needed for several.
+  /// Takes this share's triangles and returns those of all shares, in order; required if Count > 1.
   std::function<std::vector<SeamTriangles>(SeamTriangles&&)> Exchange;
 };
 
-/// The Delaunay triangulation of vertices, with the boxes (a Tiling's, or Regions) that each
-/// triangle meets, and those that triangles with a common edge meet.
+/// The Delaunay triangulation of the vertices, with the boxes (of a Tiling or Regions) that each
+/// triangle meets, and the pairs of sets that adjacent triangles meet.
 template <typename Boxes>
 SeamTriangles triangulateVertices(const Boxes& boxes, const std::vector<SeamVertex>& vertices,
   int threads, const InitialMeshShare& share = {});
 
-/// Circumdisks that meet many partitions each (points on a circle, a parabola, a line and one
-/// beside it: 3.5 and more partitions each, by measurement) would bring nearly all vertices to
-/// every worker. Ordinary points give 1.5 to 2.8.
+/// Whether partitioning pays. If circumdisks meet many partitions each (points on a circle or a
+/// parabola, or on a line with one beside it: 3.5 and more partitions each, by measurement), every
+/// worker would get nearly all vertices. Ordinary points give 1.5 to 2.8.
 bool partitionsPay(const SeamTriangles& initialMesh);
 
 extern template SeamTriangles triangulateVertices(

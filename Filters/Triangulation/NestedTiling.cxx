@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Tilings made of others, and tilings as bytes.
+// Nested tilings, and the serialisation of tilings.
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>
@@ -9,7 +8,7 @@
 namespace tipp
 {
 
-/// A box whose number is not the next one.
+/// Adds a box whose partition index is not the next one. Returns its node.
 std::int32_t Tiling::placeBox(const Box2& box, PartitionIndex partition, std::size_t depth)
 {
   const std::int32_t place = static_cast<std::int32_t>(this->Nodes.size());
@@ -20,7 +19,8 @@ std::int32_t Tiling::placeBox(const Box2& box, PartitionIndex partition, std::si
   return place;
 }
 
-/// A copy of another tiling's cuts below a node; makeBox(partition, depth) stands for its boxes.
+/// Copies another tiling's cuts below the node `from`; makeBox(partition, depth) replaces its
+/// boxes. Returns the copied root.
 template <typename MakeBox>
 std::int32_t Tiling::addTree(
   const Tiling& tree, std::int32_t from, std::size_t depth, const MakeBox& makeBox)

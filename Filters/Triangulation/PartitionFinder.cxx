@@ -10,7 +10,7 @@ namespace tipp
 namespace
 {
 
-/// So many that few cells are in several boxes, but the grid stays in the processor's cache.
+/// Chosen so that few cells lie in several boxes, but the grid stays in the processor's cache.
 std::uint32_t cellsAlongASide(PartitionIndex boxes)
 {
   constexpr double perBox = 32;
@@ -29,7 +29,7 @@ PartitionFinder::PartitionFinder(const Tiling& tiling)
   this->fill(0, { { 0, 0 }, { this->Cells.columns().size(), this->Cells.rows().size() } });
 }
 
-/// All of the block's cells reach the node.
+/// Fills the starts of a block of cells, all of which reach the node.
 void PartitionFinder::fill(std::int32_t node, const Block& block)
 {
   if (block.Begin[0] >= block.End[0] || block.Begin[1] >= block.End[1])
@@ -37,7 +37,7 @@ void PartitionFinder::fill(std::int32_t node, const Block& block)
     return;
   }
   const Tiling::Node& cut = this->Boxes.node(node);
-  Block cells = block; // those of a box, or with points on both sides of the cut
+  Block cells = block; // the cells in a box, or on both sides of the cut
   if (!cut.isBox())
   {
     const std::uint32_t at =
@@ -72,7 +72,7 @@ void PartitionFinder::locate(
     const Point2* const block = points + begin;
     std::uint32_t* const found = partitions + begin;
     this->Cells.find(block, size, cells.data());
-    // No branch: what few cells leave open comes later.
+    // Without branches; the few cells that lie in several boxes are processed below.
     std::size_t openCount = 0;
     for (std::size_t i = 0; i < size; ++i)
     {

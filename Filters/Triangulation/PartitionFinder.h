@@ -14,25 +14,27 @@
 namespace tipp
 {
 
-/// Finds the partitions of very many points: a grid of cells over the domain tells how far down the
-/// tiling's tree all points of a cell go together, for most cells to a box.
+/// Finds the partitions of many points. A grid of cells over the domain stores how far down the
+/// tiling's tree all points of a cell share their path; for most cells this is to a box.
 class VTKTIPPFILTERS_EXPORT PartitionFinder
 {
 public:
-  /// The tiling has to stay as it is.
+  /// The tiling must outlive this object and not change.
   explicit PartitionFinder(const Tiling& tiling);
 
-  /// The label of a point that is not finite.
+  /// The partition index returned for a point that is not finite.
   static constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
 
-  /// With None for those that are not finite.
+  /// Computes the partition of each point; None if the point is not finite.
   void locate(const Point2* points, std::size_t count, std::uint32_t* partitions) const;
 
-  /// Labels points [begin, end) with their partitions, and adds them to the partitions' counts.
+  /// Writes the partition of each point of [begin, end) to `labels`, which is indexed by input
+  /// point, and adds the points to the partitions' counts.
   void label(PointsView points, std::size_t begin, std::size_t end, std::uint32_t* labels,
     std::vector<std::size_t>& counts) const;
 
 private:
+  /// A rectangular block of grid cells.
   struct Block
   {
     std::uint32_t Begin[2]; ///< first column and row
@@ -43,8 +45,8 @@ private:
 
   const Tiling& Boxes;
   CellGrid Cells;
-  /// Of each cell: the node to begin with, or ~ the partition that all of it is in. The cell after
-  /// the last is that of points that are not finite; it is as if undecided.
+  /// By cell: the node to start at, or ~p if all of it is in partition p. The cell after the last
+  /// is that of points that are not finite; it is treated as undecided.
   std::vector<std::int32_t> Starts;
 };
 

@@ -36,7 +36,7 @@ bool PartitionSets::isEqual(
   return std::equal(this->begin(set), this->end(set), first, last);
 }
 
-/// Where the list is in the table, or where it belongs.
+/// The list's slot in the hash table, or the slot where to insert it.
 std::uint32_t& PartitionSets::slot(const PartitionIndex* first, const PartitionIndex* last)
 {
   std::size_t at = hashOf(first, last) & (this->Table.size() - 1);

@@ -12,13 +12,13 @@
 namespace tipp
 {
 
-/// Lists of partitions, each kept once and known by a number: many triangles meet the same ones.
+/// Stores sets of partitions, each once, and numbers them: many triangles meet the same partitions.
 class VTKTIPPFILTERS_EXPORT PartitionSets
 {
 public:
   void clear();
 
-  /// The list's number; numbers are given from 0 on, as lists come.
+  /// Returns the set's number, counted from 0; adds the set if it is new.
   std::uint32_t number(const PartitionIndex* first, const PartitionIndex* last);
 
   std::size_t size() const { return this->Ends.size(); }
@@ -36,10 +36,10 @@ private:
   std::uint32_t& slot(const PartitionIndex* first, const PartitionIndex* last);
   void enlargeTable();
 
-  std::vector<PartitionIndex> Members; ///< of all, one after the other
-  std::vector<std::size_t> Ends;       ///< in Members
+  std::vector<PartitionIndex> Members; ///< of all sets, concatenated
+  std::vector<std::size_t> Ends;       ///< one past each set's last entry in Members
   std::vector<std::uint32_t> Table;    ///< hash table of numbers
-  std::uint32_t Last = 0;              ///< the number given last: often the next, too
+  std::uint32_t Last = 0;              ///< the number returned last, often repeated
 };
 
 } // namespace tipp

@@ -9,23 +9,23 @@
 namespace tipp
 {
 
-/// Points of a partition that workers are fastest with, by measurement.
+/// Points in a partition for which workers are fastest, by measurement.
 constexpr std::int64_t BestPointsInPartition = 49152;
-/// With fewer, a worker's overhead shows.
+/// With fewer points in a partition, a worker's overhead is noticeable.
 constexpr std::int64_t FewestPointsInPartition = 4096;
-/// Partitions for each thread, so that there is something to do until the end.
+/// Partitions per thread; enough to keep all threads busy until the end.
 constexpr std::int64_t PartitionsPerThread = 8;
-/// Of each partition's points, in the initial mesh.
+/// Points of each partition in the initial mesh.
 constexpr int InitialPointsOfPartition = 8;
-/// Of a partition's points, to balance a tiling.
+/// Sample points per partition for balancing a tiling.
 constexpr std::size_t SamplesPerPartition = 64;
-/// Of a tiling; more would only cost memory.
+/// The maximum number of partitions in a tiling; more would only cost memory.
 constexpr std::int64_t MostPartitions = std::int64_t(1) << 24;
 
-/// The kernel's half-edges have 32 bits.
+/// Throws std::length_error if a partition has too many points for the kernel's 32-bit half-edges.
 inline void requireFitsKernel(std::size_t pointsInPartition)
 {
-  constexpr std::size_t most = 100'000'000; // with room to spare
+  constexpr std::size_t most = 100'000'000; // well below the limit
   if (pointsInPartition > most)
   {
     throw std::length_error("A partition would hold " + std::to_string(pointsInPartition) +

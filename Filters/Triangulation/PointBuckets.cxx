@@ -16,7 +16,7 @@ namespace tipp
 namespace
 {
 
-/// The share of n items that is the part's, of so many parts.
+/// The range [begin, end) of n items that is share `part` of `parts` equal shares.
 std::pair<std::size_t, std::size_t> share(std::size_t n, int part, int parts)
 {
   return { n / std::size_t(parts) * std::size_t(part) +
@@ -163,7 +163,7 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
   };
   parallelFor(threads, threads, labelPart);
 
-  // From here on places are those of each part's next point within its partition.
+  // From here on: the position of each part's next point within its partition.
   std::vector<std::size_t> starts = { 0 };
   for (std::size_t partition = 0; partition < partitions; ++partition)
   {

@@ -12,30 +12,31 @@
 namespace tipp
 {
 
-/// What one pass over the points tells.
+/// The result of one pass over the points.
 struct PointSurvey
 {
   Box2 Bounds{};                      ///< of the finite points
-  std::vector<std::int64_t> Rejected; ///< NaN or infinite coordinates; ascending
+  std::vector<std::int64_t> Rejected; ///< ids of points that are not finite; ascending
 };
 
+/// Returns the bounds of the finite points, and the indices of the others.
 PointSurvey surveyPoints(PointsView points, int threads);
 
-/// Evenly spaced finite points, about `count`.
+/// Returns about `count` finite points, evenly spaced in the input's order.
 std::vector<Point2> samplePoints(PointsView points, std::size_t count);
 
-/// The finite points and their ids, partition by partition, in the input's order within each; and
-/// in the same memory, once a partition's points are no longer needed, its triangles. There is room
-/// for two triangles a point, more than a planar triangulation has (Euler).
+/// The finite points and their ids, grouped by partition, in the input's order within each
+/// partition. Once a partition's points are no longer needed, the same memory holds its triangles.
+/// There is memory for two triangles per point, more than a planar triangulation has (Euler).
 template <typename Id>
 class PointBuckets
 {
 public:
   PointBuckets() = default;
-  /// Starts: of each partition, counted in points, and the end.
+  /// `starts` has the index of each partition's first point, and the number of points at the end.
   explicit PointBuckets(std::vector<std::size_t> starts);
-  /// Of points that lie in the buckets' order elsewhere, and whose ids are their places there.
-  /// More: room for so many triangles after the last partition's.
+  /// Refers to points that are stored elsewhere in the buckets' order; their ids are their indices
+  /// in `points`. `more` is the number of additional triangles to allocate memory for, at the end.
   PointBuckets(std::vector<std::size_t> starts, const Point2* points, std::size_t more);
 
   PartitionIndex partitions() const { return static_cast<PartitionIndex>(this->Starts.size() - 1); }
@@ -51,30 +52,32 @@ public:
   {
     return this->Elsewhere ? static_cast<Id>(this->start(p) + at) : this->heldIds(p)[at];
   }
+  /// Copies the ids of a partition's points to `ids`, which is resized.
   void copyIds(PartitionIndex p, std::vector<Id>& ids) const;
   Id* triangles(PartitionIndex p) { return this->Memory.data() + 6 * this->start(p); }
 
   ///@{
-  /// To be filled.
+  /// Uninitialised memory for a partition's points and ids.
   Point2* pointsToFill(PartitionIndex p) { return const_cast<Point2*>(this->held(p)); }
   Id* idsToFill(PartitionIndex p) { return const_cast<Id*>(this->heldIds(p)); }
   ///@}
 
-  /// Has the system provide a part of the memory, all of which will be used.
+  /// Commits the pages of part `part` of `parts` of the memory, all of which will be used.
   void populate(int part, int parts);
 
-  /// All partitions' triangles, with gaps between them.
+  /// Returns the memory: all partitions' triangles, with gaps between them.
   Buffer<Id> release() { return std::move(this->Memory); }
 
-  /// What was released, whose content does not matter: the points lie elsewhere.
+  /// Takes back released memory, with any content: the points must be stored elsewhere.
   void takeBack(Buffer<Id> memory) { this->Memory = std::move(memory); }
 
 private:
   static_assert(sizeof(Point2) + sizeof(Id) <= 6 * sizeof(Id), "the points fit");
 
   ///@{
-  /// Points and ids begin at cache lines, for BucketWriter, where there are so many of them that
-  /// what triangles need more than they leaves room for that.
+  /// Points and ids are aligned to cache lines, for BucketWriter, if the partition has enough
+  /// points: the triangles' memory is larger than the points need, and the difference must hold the
+  /// padding.
   std::uintptr_t alignment(PartitionIndex p) const
   {
     constexpr std::size_t line = 64;
@@ -103,10 +106,12 @@ private:
   Buffer<Id> Memory;
 };
 
+/// Sorts the finite points by partition, stably. Ids are indices into `points`.
 template <typename Id>
 PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threads);
 
-/// One bucket for all: the points stay where they are, if they lie side by side and are all finite.
+/// Puts all points into one bucket. The points are not copied if they are contiguous and all
+/// finite.
 template <typename Id>
 PointBuckets<Id> bucketTogether(PointsView points, const Box2& bounds, bool allFinite, int threads);
 

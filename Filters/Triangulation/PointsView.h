@@ -11,8 +11,8 @@
 namespace tipp
 {
 
-/// Points where they lie in memory: x and y are the first two of every `stride` scalars, times a
-/// factor.
+/// A view of points in memory: x and y are the first two of every `stride` scalars, times a factor.
+/// It does not own the memory.
 class PointsView
 {
 public:
@@ -41,7 +41,7 @@ public:
       : Point2{ this->Floats[at] * this->Factor, this->Floats[at + 1] * this->Factor };
   }
 
-  /// The points themselves, if they lie side by side as they are to be, or nullptr.
+  /// The points as an array if they are contiguous doubles and the factor is 1, else nullptr.
   const Point2* contiguous() const
   {
     static_assert(sizeof(Point2) == 2 * sizeof(double), "a point is its coordinates");
@@ -49,7 +49,8 @@ public:
                                                   : nullptr;
   }
 
-  /// The same points times a factor; exact if it is a power of two and nothing under- or overflows.
+  /// The same points times a factor; exact if it is a power of two and nothing underflows or
+  /// overflows.
   PointsView scaled(double factor) const
   {
     PointsView view = *this;
@@ -57,7 +58,7 @@ public:
     return view;
   }
 
-  /// visit(index, point) for begin <= index < end, in order.
+  /// Calls visit(index, point) for begin <= index < end, in order.
   template <typename Visit>
   void forEach(std::size_t begin, std::size_t end, Visit&& visit) const
   {
@@ -71,7 +72,8 @@ public:
     }
   }
 
-  /// visit(index of the first, points, count) for blocks of points side by side, in order.
+  /// Calls visit(index of the first point, points, count) for contiguous blocks of points, in
+  /// order.
   template <typename Visit>
   void forBlocks(std::size_t begin, std::size_t end, const Visit& visit) const
   {

@@ -18,10 +18,10 @@ void populatePages(void* memory, std::size_t bytes)
   const auto begin = reinterpret_cast<std::uintptr_t>(memory);
   const std::uintptr_t first = (begin + page - 1) / page * page;
   const std::uintptr_t last = (begin + bytes) / page * page;
-  // For a few pages the call costs what it saves.
+  // For a few pages the call costs as much as it saves.
   if (last > first + 8 * page)
   {
-    // A failure is no loss: the pages come at their first touch.
+    // A failure is harmless: the pages are then committed when first touched.
     static_cast<void>(madvise(static_cast<char*>(memory) + (first - begin),
       std::size_t(last - first), MADV_POPULATE_WRITE));
   }

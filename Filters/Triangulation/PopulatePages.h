@@ -9,9 +9,8 @@
 namespace tipp
 {
 
-/// Has the system provide the pages of fresh memory at once, which takes less time than a fault at
-/// the first touch of each. What is in memory stays, and where systems cannot do it, nothing
-/// happens.
+/// Commits the pages of fresh memory at once, which is faster than a page fault at the first touch
+/// of each. The content stays. Does nothing if the system does not support it.
 VTKTIPPFILTERS_EXPORT void populatePages(void* memory, std::size_t bytes);
 
 } // namespace tipp

@@ -14,30 +14,32 @@
 namespace tipp
 {
 
-/// A vertex that knows enough to be sent to any worker.
+/// A vertex with the data that any worker needs. 'Seam' stands for boundary: a seam triangle is a
+/// triangle that is not interior to one partition.
 struct SeamVertex
 {
   Point2 Place;
-  std::int64_t Id;          ///< of the input point; negative for an artificial one
-  PartitionIndex Partition; ///< where it lies
+  std::int64_t Id;          ///< the input point's id; negative for artificial points
+  PartitionIndex Partition; ///< the partition that contains it
 
   bool isArtificial() const { return this->Id < 0; }
 };
 
 using SeamTriangle = std::array<SeamVertex, 3>;
 
-/// Triangles, and for each the partitions its circumdisk meets. Small: where points lie on a circle
-/// there are as many as points, and each meets all partitions.
+/// Triangles, and for each the partitions that its circumdisk meets. The sets are shared to save
+/// memory: for co-circular points there are as many triangles as points, and each meets all
+/// partitions.
 struct SeamTriangles
 {
-  using Corners = std::array<std::uint32_t, 3>; ///< places among the vertices
+  using Corners = std::array<std::uint32_t, 3>; ///< indices into Vertices
 
-  std::vector<SeamVertex> Vertices; ///< each once; some perhaps of no triangle
+  std::vector<SeamVertex> Vertices; ///< each once; some may belong to no triangle
   std::vector<Corners> Triangles;
-  std::vector<std::uint32_t> SetOf; ///< of each triangle: the partitions that it meets
+  std::vector<std::uint32_t> SetOf; ///< by triangle: its set's number in Sets
   PartitionSets Sets;
-  /// The sets of two triangles with a common edge, where they differ. Only triangulateVertices()
-  /// fills it.
+  /// The pairs of different sets of triangles with a common edge. Only triangulateVertices() fills
+  /// it.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> AdjacentSets;
 
   std::size_t size() const { return this->Triangles.size(); }
@@ -47,7 +49,7 @@ struct SeamTriangles
     return { this->Vertices[corners[0]], this->Vertices[corners[1]], this->Vertices[corners[2]] };
   }
 
-  /// A triangle of vertices that are there, or that will be; Boxes: a Tiling, or Regions.
+  /// Adds a triangle of vertices that are present or will be added. `Boxes` is Tiling or Regions.
   template <typename Boxes>
   void add(const Boxes& boxes, const Corners& corners, const Circumdisk& disk)
   {
@@ -55,8 +57,9 @@ struct SeamTriangles
     boxes.visitMet(disk, [this](PartitionIndex partition) { this->Found.push_back(partition); });
     this->add(corners, this->Found.data(), this->Found.data() + this->Found.size());
   }
+  /// Adds a triangle that meets the partitions [metBegin, metEnd).
   void add(const Corners& corners, const PartitionIndex* metBegin, const PartitionIndex* metEnd);
-  /// Another one's triangles, of the same vertices.
+  /// Appends the triangles of `others`, which must have the same vertices.
   void appendTriangles(const SeamTriangles& others);
 
   const PartitionIndex* metBegin(std::size_t i) const { return this->Sets.begin(this->SetOf[i]); }

@@ -18,7 +18,8 @@ std::pair<Box2, Box2> cutBox(const Box2& box, int axis, double at)
   return halves;
 }
 
-/// A place inside (low, high) that splits off `part` of it, or high where none is representable.
+/// A coordinate inside (low, high) that splits off the fraction `part`; high if none is
+/// representable.
 double between(double low, double high, double part)
 {
   return std::clamp(low * (1 - part) + high * part, low, high);
@@ -26,8 +27,8 @@ double between(double low, double high, double part)
 
 } // namespace
 
-/// Several points go down side by side: no branch depends on a point, and the loads of different
-/// points overlap.
+/// Several points descend the tree together: no branch depends on a point, and the loads of
+/// different points overlap.
 void Tiling::locate(const Point2* points, std::size_t count, std::uint32_t* partitions) const
 {
   constexpr std::size_t lanes = 8;
@@ -122,7 +123,7 @@ Tiling Tiling::balanced(const Box2& domain, std::vector<Point2> sample, int coun
   return tiling;
 }
 
-/// Cuts the longer side, half way between two neighbouring points of the sample.
+/// Cuts the longer side half way between two neighbouring sample points. Returns the node.
 std::int32_t Tiling::cutSample(
   const Box2& box, Point2* begin, Point2* end, int count, std::size_t depth)
 {

@@ -17,22 +17,22 @@ namespace tipp
 
 using PartitionIndex = std::int32_t;
 
-/// The partitions' boxes: a domain cut in two again and again. Every point belongs to exactly one
-/// (on a cut, to the upper one); the boxes themselves are closed and share their borders.
+/// The partitions' boxes: a domain cut in two repeatedly. Every point belongs to exactly one
+/// partition (a point on a cut to the upper one); the boxes are closed and share their borders.
 class VTKTIPPFILTERS_EXPORT Tiling
 {
 public:
-  /// Equal boxes, columns x rows. Throws std::length_error beyond MostPartitions.
+  /// Equal boxes, `columns` x `rows`. Throws std::length_error beyond MostPartitions.
   static Tiling grid(const Box2& domain, int columns, int rows);
 
-  /// About `count` boxes that hold equally many of the sample's points.
+  /// About `count` boxes that contain equally many of the sample's points.
   static Tiling balanced(const Box2& domain, std::vector<Point2> sample, int count);
 
-  /// Each box replaced by the boxes of a tiling of it, in order.
+  /// Replaces each box by the boxes of a tiling of it; `inner` is indexed by box.
   Tiling refined(const std::vector<Tiling>& inner) const;
 
   ///@{
-  /// As bytes, to send to another rank.
+  /// Serialisation, for messages.
   std::vector<char> save() const;
   static Tiling load(const std::vector<char>& bytes);
   ///@}
@@ -41,7 +41,7 @@ public:
   const Box2& box(PartitionIndex i) const { return this->Boxes[static_cast<std::size_t>(i)]; }
   const Box2& domain() const { return this->Domain; }
 
-  /// The partitions of some points; of very many, PartitionFinder is faster.
+  /// Computes the partition of each of `count` points; for many points PartitionFinder is faster.
   void locate(const Point2* points, std::size_t count, std::uint32_t* partitions) const;
 
   PartitionIndex locate(Point2 p) const
@@ -51,7 +51,7 @@ public:
     return static_cast<PartitionIndex>(partition);
   }
 
-  /// visit(partition) for every box that the closed disk meets.
+  /// Calls visit(partition) for every box that the closed disk meets.
   template <typename Visit>
   void visitMet(const Circumdisk& disk, Visit&& visit) const
   {
@@ -65,7 +65,7 @@ public:
       });
   }
 
-  /// visit(partition) for every box that meets the bounds, and perhaps some others.
+  /// Calls visit(partition) for every box that meets the bounds, and perhaps for some others.
   template <typename Visit>
   void visitNear(const Box2& bounds, Visit&& visit) const
   {
@@ -94,7 +94,7 @@ public:
 private:
   friend class PartitionFinder;
 
-  /// A cut, or a box; a box is its own child, so that searches of any length can go on.
+  /// A cut or a box. A box is its own child, so that a search may take more steps than needed.
   struct Node
   {
     double At;
@@ -104,10 +104,10 @@ private:
 
     bool isBox() const { return this->Partition >= 0; }
   };
-  // Every cut halves the number of boxes, which fits 31 bits.
+  // Every cut halves the number of boxes, which fits into 31 bits.
   static constexpr std::size_t MaximumDepth = 64;
 
-  /// The partition of a point that is known to be beyond a node.
+  /// The partition of a point that is known to be below the node `from`.
   PartitionIndex locate(Point2 p, std::int32_t from) const
   {
     const double coordinates[2] = { p.x, p.y };
@@ -130,7 +130,7 @@ private:
   const Node& node(std::int32_t i) const { return this->Nodes[static_cast<std::size_t>(i)]; }
 
   Box2 Domain{};
-  std::size_t Depth = 0;   ///< most cuts between the root and a box
+  std::size_t Depth = 0;   ///< maximum number of cuts from the root to a box
   std::vector<Node> Nodes; ///< the first is the root
   std::vector<Box2> Boxes;
 };

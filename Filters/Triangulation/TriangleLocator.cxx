@@ -42,7 +42,7 @@ TriangleLocator<Id>::TriangleLocator(
   }
   constexpr double trianglesPerCell = 4;
   this->Side = std::size_t(std::ceil(std::sqrt(double(triangles) / trianglesPerCell)));
-  // Halved, the extent of any finite points is finite.
+  // The extent of finite points may overflow; half of it does not.
   const auto perUnit = [this](double low, double high)
   { return 0.5 * double(this->Side) / (0.5 * high - 0.5 * low); };
   this->PerUnit = { perUnit(this->Low.x, high.x), perUnit(this->Low.y, high.y) };
@@ -94,7 +94,7 @@ std::int64_t TriangleLocator<Id>::find(Point2 point) const
     for (int i = 0; i < 3 && next == triangle; ++i)
     {
       const auto neighbor = std::int64_t(this->Neighbors[3 * triangle + i]);
-      // The walk has just come over that edge.
+      // The walk has just crossed that edge.
       const bool isKnown = neighbor == before && neighbor >= 0;
       if (!isKnown && orientation(p[(i + 1) % 3], p[(i + 2) % 3], point) < 0)
       {

@@ -12,21 +12,22 @@
 namespace tipp
 {
 
-/// Finds the triangle of a Delaunay triangulation that contains a point, exactly: a grid knows a
-/// triangle near by, and from there a walk crosses each edge that the point lies beyond. On
-/// Delaunay triangulations such a walk ends.
+/// Finds the triangle of a Delaunay triangulation that contains a point, exactly: a grid gives a
+/// triangle nearby, and a walk from there crosses each edge that the point lies beyond. In a
+/// Delaunay triangulation this walk terminates.
 template <typename Id>
 class TriangleLocator
 {
 public:
-  /// Three corners a triangle, and for each corner the neighbour over the opposite edge, or -1. All
-  /// of it is referred to, not copied.
+  /// `corners` has three point indices per triangle; `neighbors` has for each corner the triangle
+  /// across the opposite edge, or -1. The arrays are referenced, not copied.
   TriangleLocator(PointsView points, const Id* corners, const Id* neighbors, std::size_t triangles);
 
-  /// The triangle that the point is in or on, or -1 if it is outside or not finite.
+  /// Returns the index of a triangle that contains the point (closed), or -1 if the point is
+  /// outside or not finite.
   std::int64_t find(Point2 point) const;
 
-  /// Of a triangle's corners, whose weighted sum the point is.
+  /// Computes the point's barycentric coordinates in a triangle.
   void weights(std::int64_t triangle, Point2 point, double (&weights)[3]) const;
 
   const Id* corners(std::int64_t triangle) const { return this->Corners + 3 * triangle; }
@@ -38,10 +39,10 @@ private:
   PointsView Points;
   const Id* Corners;
   const Id* Neighbors;
-  std::size_t Side = 1; ///< columns, and rows, of the grid
+  std::size_t Side = 1; ///< the grid has Side x Side cells
   Point2 Low{ 0, 0 };
-  Point2 PerUnit{ 0, 0 }; ///< grid cells for a unit of length
-  std::vector<Id> Nearby; ///< a triangle for each cell of the grid; empty without triangles
+  Point2 PerUnit{ 0, 0 }; ///< grid cells per unit of length
+  std::vector<Id> Nearby; ///< by grid cell: a triangle near it; empty without triangles
 };
 
 extern template class TriangleLocator<std::int32_t>;

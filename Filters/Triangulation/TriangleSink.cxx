@@ -76,7 +76,7 @@ Buffer<Id> TriangleSink<Id>::assemble(const std::vector<std::vector<Seam>>& seam
   }
   const auto copyTriangle = [&ids](std::size_t to, const Id* corners)
   { std::copy(corners, corners + 3, ids.data() + 3 * to); };
-  // Interior triangles that lie beyond the end, last partition first, fill what the seams leave.
+  // Interior triangles beyond the end, last partition first, are moved to the gaps that are left.
   std::size_t donor = this->InteriorCounts.size();
   std::size_t donorAt = 0;
   std::size_t donorBegin = 0;
@@ -131,7 +131,7 @@ void preferLowestIds(Buffer<Id>& ids, std::vector<Duplicate>& duplicates, int th
         duplicate = { duplicate.Point == it->second ? it->first : duplicate.Point, it->second };
       }
     }
-    // Few ids change: a small table, which stays in the cache, keeps most from being looked up.
+    // Few ids change: a small table in the cache avoids most look-ups.
     constexpr std::size_t tableSize = 1 << 14;
     std::vector<char> mayChange(tableSize, 0);
     for (const auto& change : lowest)

@@ -13,9 +13,9 @@
 namespace tipp
 {
 
-/// The final triangles in a row: the partitions' interior triangles where they were written, and
-/// the seams' in the gaps. The order depends on the points and the partitions alone, not on the
-/// schedule.
+/// Assembles the final triangles into one array: the partitions' interior triangles where they were
+/// written, and the boundary ('seam') triangles in the gaps. The order depends only on the points
+/// and the partitions, not on the schedule.
 template <typename Id>
 class TriangleSink
 {
@@ -32,15 +32,15 @@ public:
   using Corners = std::array<Id, 3>;
   struct Seam
   {
-    Corners Ids;              ///< the lowest first
-    PartitionIndex Partition; ///< of that one
+    Corners Ids;              ///< point ids, the lowest first
+    PartitionIndex Partition; ///< partition of the point with the lowest id
   };
-  /// The corners in their order, from the lowest id on.
+  /// Rotates the corners so that the lowest id is first.
   static Corners fromLowest(const Corners& ids);
 
-  /// Takes the buckets' memory. The seams come in several lists; their vertices must be true
-  /// points; some may be points that are not in the buckets, so that there can be more than two
-  /// triangles a point.
+  /// Returns the triangles, three point ids each, in the buckets' memory. `seams` are several lists
+  /// of boundary triangles without artificial corners. Their vertices need not be in the buckets,
+  /// so there can be more than two triangles per point.
   Buffer<Id> assemble(const std::vector<std::vector<Seam>>& seams, int threads);
 
 private:
@@ -50,8 +50,8 @@ private:
   std::vector<std::size_t> InteriorCounts;
 };
 
-/// Exchanges ids in finished triangles: for each duplicate that is lower than the point which
-/// stands for it, and in the duplicates themselves. Sorts these.
+/// Makes the lowest id of coincident points the representative, in the finished triangles and in
+/// the duplicates; sorts the duplicates.
 template <typename Id>
 void preferLowestIds(Buffer<Id>& ids, std::vector<Duplicate>& duplicates, int threads);
 

@@ -42,14 +42,14 @@ Buffer<std::int64_t>& idsOf(Triangulation& result)
   return result.Ids64;
 }
 
-/// Waking a thread costs more than a short pass.
+/// For a short pass, waking threads costs more than they save.
 int threadsForPass(std::size_t points, int threads)
 {
   constexpr std::size_t shortest = 32768;
   return static_cast<int>(std::min(static_cast<std::size_t>(threads), 1 + points / shortest));
 }
 
-/// One run of the algorithm, step by step.
+/// One run of the algorithm; its member functions are the steps.
 template <typename Id>
 class Run
 {
@@ -116,7 +116,7 @@ private:
     return !this->Options.Progress || this->Options.Progress(fraction);
   }
 
-  /// All points at once: no partitions, no artificial points.
+  /// Triangulates all points at once, without partitions and artificial points.
   void triangulateAlone(const Tiling& tiling)
   {
     this->Buckets = bucketTogether<Id>(
@@ -141,7 +141,7 @@ private:
     this->finish(sink, {}, nullptr, tiling.domain());
   }
 
-  /// What the threads of a run share.
+  /// The data that the threads of a run share.
   struct Shared
   {
     const Tiling& Tiles;
@@ -151,7 +151,7 @@ private:
     ReadyPartitions Ready;
     std::vector<TriangulationStatistics::Stage> Stages; ///< by partition started, or by colour
     std::atomic<std::int64_t> Active{ 0 };
-    std::atomic<std::int64_t> Unfinished{ 0 }; ///< triangles in inboxes and with workers
+    std::atomic<std::int64_t> Unfinished{ 0 }; ///< triangles in inboxes and workers
 
     DeliverMessage deliver()
     {
@@ -160,7 +160,7 @@ private:
     }
   };
 
-  /// What a thread contributes to the result.
+  /// A thread's part of the result.
   struct Contribution
   {
     FinalBoundary<Id> Boundary;
@@ -263,7 +263,7 @@ private:
     }
   }
 
-  /// One entry a colour if there are barriers between colours, else one a partition.
+  /// Returns one entry per colour if there are barriers between colours, else one per partition.
   static std::vector<TriangulationStatistics::Stage> stagesOf(
     const std::vector<TriangulationStatistics::Stage>& started, const PartitionOrder& order,
     bool barrier)
@@ -283,7 +283,8 @@ private:
     return stages;
   }
 
-  /// Threads report one at a time, so that the fraction rises; none after one was told to stop.
+  /// Reports progress, one thread at a time, so that the fraction increases. Does nothing after the
+  /// callback has returned false. Returns false if the run is to stop.
   bool reportFinished(std::size_t points)
   {
     const std::lock_guard<std::mutex> lock(this->ReportMutex);
@@ -305,7 +306,8 @@ private:
     this->report(1);
   }
 
-  /// A partition's interior triangles lie in its region, and are in the output side by side.
+  /// Adds a block for each partition: its interior triangles lie in its region and are contiguous
+  /// in the output.
   void addBlocks(
     const TriangleSink<Id>& sink, const Regions* regions, const Box2& domain, std::size_t triangles)
   {
@@ -327,7 +329,7 @@ private:
   const TriangulationOptions& Options;
   Triangulation& Result;
   const int Threads;
-  const int PassThreads; ///< for passes over all points
+  const int PassThreads; ///< threads for passes over all points
   PointBuckets<Id> Buckets;
   std::mutex ReportMutex;
   std::size_t PointsDone = 0;
@@ -335,7 +337,8 @@ private:
   Stopwatch Watch;
 };
 
-/// Partitions of the size that workers are fastest at, but enough of them for all threads.
+/// Chooses partitions of the size for which workers are fastest, but enough of them for all
+/// threads.
 int choosePartitionCount(std::size_t points, int threads)
 {
   constexpr std::size_t alone = 32768;

@@ -17,43 +17,52 @@
 namespace tipp
 {
 
+/// A point's id: an index into the input points, or a global id of the caller, as stated at each
+/// use.
 using PointId = std::int64_t;
 
 class PartitionEditor;
 
+/// When partitions are started.
 enum class Schedule
 {
   Stages, ///< a barrier after each set of independent partitions (Algorithm 1)
   Dynamic ///< a partition starts as soon as it is independent of all active ones
 };
 
+/// Options of triangulate(). Only MaximumEdge and MakeEditor change the set of triangles.
 struct TriangulationOptions
 {
   int Columns = 0; ///< with Rows, a grid of partitions; 0: a tiling chosen for the points
   int Rows = 0;
-  int InitialPointsPerPartition = 0; ///< 0: chosen
+  int InitialPointsPerPartition = 0; ///< 0: chosen automatically
   Schedule Order = Schedule::Dynamic;
   int Threads = 0; ///< 0: OpenMP's choice
-  /// Triangles with a longer edge are left out of the result; 0: none are.
+  /// Triangles with a longer edge are removed from the result, in the points' unit of length; 0:
+  /// none.
   double MaximumEdge = 0;
-  /// For each thread an editor of interior triangles. Factor: by which coordinates are multiplied.
+  /// Makes an editor of interior triangles, called once for each thread. Coordinates have been
+  /// multiplied by `factor`.
   std::function<std::unique_ptr<PartitionEditor>(double factor)> MakeEditor;
-  /// Told the finished fraction now and then, from one thread at a time; false aborts the run.
+  /// Called now and then with the finished fraction (0 to 1), by one thread at a time; returning
+  /// false aborts the run.
   std::function<bool(double)> Progress;
 };
 
+/// A point with the coordinates of another, its representative. Both are input point ids.
 struct Duplicate
 {
   PointId Point;
-  PointId Representative; ///< the lowest id at the same place
+  PointId Representative; ///< the lowest id with the same coordinates
 };
 
+/// Counts and times of a run.
 struct TriangulationStatistics
 {
   struct Stage
   {
     std::int64_t ActivePartitions;
-    std::int64_t MeshTriangles; ///< unfinished triangles in memory when the stage began
+    std::int64_t MeshTriangles; ///< triangles not final in memory when the stage began
   };
   struct Phase
   {
@@ -64,11 +73,11 @@ struct TriangulationStatistics
   std::vector<Phase> Phases;
   std::int64_t Partitions = 0;
   std::int64_t InitialPoints = 0;
-  std::int64_t WorkerVertices = 0; ///< triangulated by all workers together
+  std::int64_t WorkerVertices = 0; ///< sum over all workers
   int Threads = 0;
 };
 
-/// Triangles in a row, all of them in a box.
+/// A range [Begin, End) of triangles that all lie in a box.
 struct TriangleBlock
 {
   PartitionIndex Partition; ///< whose first interior triangles they are, in their order
@@ -77,23 +86,24 @@ struct TriangleBlock
   Box2 Box;
 };
 
-/// Counter-clockwise triangles of input point ids, three in a row.
+/// The triangles: three input point ids each, counter-clockwise.
 struct Triangulation
 {
   Buffer<std::int32_t> Ids32; ///< used when every id fits
   Buffer<std::int64_t> Ids64;
   std::vector<Duplicate> Duplicates; ///< by ascending Point
-  std::vector<PointId> Rejected;     ///< NaN or infinite coordinates; ascending
-  std::vector<TriangleBlock> Blocks; ///< most triangles, by ascending position; none where unknown
+  std::vector<PointId> Rejected;     ///< ids of points with NaN or infinite coordinates; ascending
+  std::vector<TriangleBlock> Blocks; ///< cover most triangles, ascending; empty if unknown
   TriangulationStatistics Statistics;
   bool Aborted = false;
 
   std::size_t triangleCount() const { return (this->Ids32.size() + this->Ids64.size()) / 3; }
 };
 
-/// The Delaunay triangulation of the distinct finite points, ties broken by their lexicographic
-/// order: the same set of triangles for every option, and CGAL's. No triangles if there are fewer
-/// than three distinct points or all are collinear.
+/// Returns the Delaunay triangulation of the distinct finite points, ties broken by their
+/// lexicographic order: the same set of triangles as CGAL's, for all options except MaximumEdge and
+/// MakeEditor. Ids are indices into `points`. There are no triangles if there are fewer than three
+/// distinct points or all are collinear.
 VTKTIPPFILTERS_EXPORT Triangulation triangulate(
   PointsView points, const TriangulationOptions& options = {});
 

@@ -10,7 +10,7 @@ namespace tipp
 namespace
 {
 
-/// The disks inside this closed box do not touch the closed boxes around it.
+/// The largest closed box such that disks inside it do not touch the boxes around `box`.
 Box2 openBox(const Box2& box)
 {
   return { std::nextafter(box.xmin, HUGE_VAL), std::nextafter(box.ymin, HUGE_VAL),
@@ -29,8 +29,8 @@ Worker<Id>::Worker(const Tiling& tiling, PointBuckets<Id>& buckets, std::int64_t
   this->reserve();
 }
 
-/// For the largest partition and what comes to it: fresh memory, which takes the system time, is
-/// asked for once.
+/// Reserves memory for the largest partition and its inbox at once, because fresh memory takes
+/// time.
 template <typename Id>
 void Worker<Id>::reserve()
 {
@@ -63,10 +63,10 @@ void Worker<Id>::triangulate(PartitionIndex partition, std::vector<SeamVertex>&&
   this->separateOwnVertices(partition);
   this->takeIds(bucket);
   this->Kernel.clear();
-  // The own points first: their interior triangles then do not depend on the foreign ones.
+  // The partition's own points first: their interior triangles then do not depend on other points.
   this->Kernel.insert(this->Buckets.points(bucket), this->Buckets.count(bucket));
   this->Kernel.insert(this->ForeignPoints.data(), this->ForeignPoints.size());
-  // Otherwise memory is kept for the next partition.
+  // Small memory is kept for the next partition.
   const bool isLarge = this->Kernel.bytes() > PooledKernel::MostBytesKept;
   if (isLarge)
   {
@@ -180,9 +180,10 @@ SeamVertex Worker<Id>::vertex(PartitionIndex partition, DelaunayKernel::Index v)
   return { this->Kernel.point(v), this->FirstId + this->Ids[place], partition };
 }
 
-/// Walks over the triangles whose circumdisk is not inside the partition. They are connected: each
-/// point outside has a cavity that is, and a path outside from point to point changes the cavity
-/// by one neighbour at a time. So only the seam and one row of interior triangles are looked at.
+/// Visits the triangles whose circumdisk is not inside the partition. They are connected: each
+/// point outside has a cavity that is connected, and on a path outside from point to point the
+/// cavity changes by one neighbouring triangle at a time. So only these and the interior triangles
+/// adjacent to them are visited.
 template <typename Id>
 void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryTaker& boundary)
 {
@@ -231,7 +232,7 @@ void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryTaker
 template <typename Id>
 void Worker<Id>::nameVertices()
 {
-  // Each vertex has six triangles or so, next to one another; its point is anywhere.
+  // Each vertex has about six triangles, close together in memory; its point is anywhere in memory.
   const std::size_t own = this->Ids.size();
   this->VertexIds.resize(static_cast<std::size_t>(this->Kernel.vertexEnd()));
   for (std::size_t v = 1; v < this->VertexIds.size(); ++v)

@@ -17,50 +17,53 @@
 namespace tipp
 {
 
-/// Takes the triangles on a partition's boundary: those whose circumdisk meets its region, and
-/// which are not interior.
+/// Receives a partition's boundary triangles: those whose circumdisk meets its region and that are
+/// not interior.
 class BoundaryTaker
 {
 public:
   virtual ~BoundaryTaker() = default;
 
-  /// Before the first triangle. The kernel's vertices are 0 to vertexEnd - 1.
+  /// Called before the first triangle. The kernel's vertices are 0 to vertexEnd - 1.
   virtual void begin(DelaunayKernel::Index vertexEnd) = 0;
-  /// Corners: the kernel's vertices, counter-clockwise.
+  /// Called for each triangle; `corners` are the kernel's vertices, counter-clockwise.
   virtual void add(const std::array<DelaunayKernel::Index, 3>& corners, const Circumdisk& disk) = 0;
 };
 
 /// Triangulates one partition at a time (Lemma 1): its points, and the vertices of the triangles
-/// that belong to it. Keeps its memory from one partition to the next.
+/// that meet it. Keeps its memory from one partition to the next.
 template <typename Id>
 class Worker
 {
 public:
-  /// The buckets' ids are counted from a first id on: seams and duplicates have it added.
+  /// `firstId` is added to the buckets' ids in boundary vertices and duplicates, which other ranks
+  /// see.
   Worker(const Tiling& tiling, PointBuckets<Id>& buckets, std::int64_t firstId = 0);
 
-  /// From now on partitions are those of another tiling, the first of which has this bucket.
+  /// From now on, partition indices are those of `tiling`; its partition 0 is bucket `firstBucket`.
   void setTiling(const Tiling& tiling, PartitionIndex firstBucket);
 
-  /// From now on interior triangles are edited before they are written; null: as they are.
+  /// Sets the editor of interior triangles, called before they are written; null: no editor.
   void setEditor(std::unique_ptr<PartitionEditor> editor) { this->Editor = std::move(editor); }
 
-  /// Triangulates the partition's points and the vertices of the triangles that meet its region,
-  /// each once. Writes the interior triangles, whose order and number depend on the partition's
-  /// points alone, over these points, and gives the boundary triangles to `boundary`.
+  /// Triangulates the partition's points and `vertices`, which are the vertices, each once, of the
+  /// triangles that meet its region. Overwrites these points with the interior triangles, whose
+  /// order and number depend only on the partition's points, and passes the boundary triangles to
+  /// `boundary`.
   void triangulate(PartitionIndex partition, std::vector<SeamVertex>&& vertices, const Box2& region,
     BoundaryTaker& boundary);
 
-  /// A vertex of the last partition's kernel.
+  /// A vertex of the kernel after the last triangulate().
   SeamVertex vertex(PartitionIndex partition, DelaunayKernel::Index v) const;
 
-  /// The only partition, number 0: all triangles are interior. False if the monitor ended it.
+  /// Triangulates partition 0, the only one: all triangles are interior. Returns false if the
+  /// monitor stopped it.
   bool triangulateAlone(const DelaunayKernel::Monitor& proceed);
 
   std::size_t interiorCount() const { return this->InteriorCount; }
 
-  /// Points of the partition at the place of another. The representative is the lowest id, unless
-  /// it is an initial point, which other partitions know already.
+  /// Points of the partition with the coordinates of another. The representative is the one with
+  /// the lowest id, unless it is an initial point, which other partitions know already.
   const std::vector<Duplicate>& duplicates() const { return this->Duplicates; }
   std::size_t vertexCount() const { return this->VertexCount; }
 
@@ -83,12 +86,12 @@ private:
   std::unique_ptr<PartitionEditor> Editor;
   PooledKernel Pooled;
   DelaunayKernel& Kernel;
-  std::vector<Id> Ids; ///< of the partition's own points
+  std::vector<Id> Ids; ///< ids of the partition's own points
   std::vector<Id> VertexIds;
-  std::vector<SeamVertex> Foreign; ///< vertices that came with the triangles, but for own ones
+  std::vector<SeamVertex> Foreign; ///< vertices from the inbox, except own points
   std::vector<Point2> ForeignPoints;
-  std::vector<std::int64_t> KnownIds; ///< of own points that other partitions know; sorted
-  std::vector<char> IsSeam;           ///< of each triangle of the kernel: not interior
+  std::vector<std::int64_t> KnownIds; ///< ids of own points that other partitions know; sorted
+  std::vector<char> IsSeam;           ///< by triangle of the kernel: not interior
   std::vector<DelaunayKernel::Index> Stack;
   std::vector<Duplicate> Duplicates;
   std::size_t InteriorCount = 0;
