@@ -23,7 +23,8 @@ PointsView viewOf(const std::vector<double>& xy)
   return PointsView(xy.data(), xy.size() / 2, 2);
 }
 
-/// The table's edges as constraints between the points; its other points are appended to them.
+/// Returns the table's edges as constraints between the points; points of the table that are not
+/// among `points` are appended to them.
 std::vector<Constraint> joinTable(const ConstraintTable& table, PointTable& points)
 {
   std::vector<Constraint> constraints;
@@ -68,7 +69,7 @@ void appendCrossings(const std::vector<CrossingPoint>& crossings, PointTable& po
   }
 }
 
-/// A polygon without one of its edges would not tell what is inside.
+/// Fails if an edge of a polygon is missing, because then its inside is undefined.
 void cutOutside(
   const ConstraintTable& table, const PointTable& points, ConstrainedTriangulation& result)
 {

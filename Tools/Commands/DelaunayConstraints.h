@@ -11,10 +11,10 @@
 namespace tipp
 {
 
-/// Triangulates with the constraints that --constraints names. The points of their file that are
-/// not among the points come after these, then the points where constraints cross. A column of the
-/// new points is what the constraints' file has as height, if it is named z; else NaN. A column of
-/// a crossing is interpolated. `report` becomes a line about the constraints. Throws IOError.
+/// Triangulates with the constraints that --constraints names. Points of their file that are not
+/// among the points are appended, then the points where constraints cross. A column of an appended
+/// point is the height in the constraints' file if the column is named z, else NaN; a column of a
+/// crossing is interpolated. `report` receives a line about the constraints. Throws IOError.
 Triangulation triangulateWithConstraints(const DelaunayArguments& arguments, PointTable& points,
   const TriangulationOptions& options, std::string& report);
 

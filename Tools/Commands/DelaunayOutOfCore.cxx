@@ -66,7 +66,7 @@ OutOfCoreOptions makeOptions(const DelaunayArguments& arguments, std::unique_ptr
   return options;
 }
 
-/// What the process has read and written so far, in bytes: "rchar" and "wchar" of Linux's
+/// The bytes that the process has read or written so far: "rchar" or "wchar" of Linux's
 /// /proc/self/io.
 std::int64_t movedBytes(const std::string& name)
 {
@@ -93,7 +93,7 @@ double totalSeconds(const OutOfCoreStatistics& statistics)
   return sum;
 }
 
-/// What a process has used, which /proc and the system know.
+/// A process's resource usage, from /proc and getrusage().
 struct ProcessUsage
 {
   std::int64_t PeakMemory = peakMemoryBytes();
@@ -101,7 +101,7 @@ struct ProcessUsage
   std::int64_t Written = movedBytes("wchar");
 };
 
-/// On the first rank, of all.
+/// Gathers the usage of all ranks on the first.
 std::vector<ProcessUsage> gatherUsage(Postbox& ranks)
 {
   ByteWriter writer;
@@ -222,7 +222,7 @@ std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments)
 
 int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessController* controller)
 {
-  // Large blocks go back to the system when they are freed, whatever was freed before.
+  // A fixed threshold: large blocks are always returned to the system when they are freed.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
   Postbox ranks(controller);
   const bool isFirst = ranks.rank() == 0;
@@ -236,7 +236,8 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
         { arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, arguments.Inputs);
       if (!arguments.Statistics.empty())
       {
-        const PendingFile writable(arguments.Statistics); // before the work rather than after it
+        // fails early if the file cannot be written
+        const PendingFile writable(arguments.Statistics);
       }
       bar = makeBar();
     }
