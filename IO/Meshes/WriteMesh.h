@@ -18,24 +18,25 @@ namespace tipp
 
 struct MeshOptions
 {
-  /// One id a point, written as the point array "RepresentativePointId"; empty: no such array.
+  /// One point id per point, written as the point array "RepresentativePointId"; empty: no such
+  /// array.
   std::vector<std::int64_t> Representatives;
-  /// Adds the cell array "NeighborIds": for each corner of a triangle the place of the triangle
-  /// opposite to it among all, or -1.
+  /// Adds the cell array "NeighborIds": for each corner of a triangle the index of the triangle
+  /// opposite to it, or -1.
   bool Neighbors = false;
-  /// What may be replaced, as for PendingFile.
+  /// The state of the path that may be replaced, as for PendingFile.
   std::optional<PathState> Before;
-  /// Asked when all is written under a temporary name; true drops it.
+  /// Called once all is written under a temporary name; returning true discards it.
   std::function<bool()> Aborted;
 };
 
-/// Whether writeMesh knows the extension.
+/// Whether writeMesh() supports the extension.
 VTKTIPPIO_EXPORT bool isMeshFile(const std::string& path);
 
-/// Writes triangles by the path's extension: .npy (m x 3 int64 point ids; points are not written),
-/// .vtp or .vtu (appended raw binary: all points, the column named z as third coordinate or else 0,
-/// the other columns as point data). The file appears whole or not at all: false if Aborted said
-/// so; throws IOError.
+/// Writes triangles in the format of the path's extension: .npy (m x 3 int64 point ids; points are
+/// not written), .vtp or .vtu (appended raw binary: all points, the column named z as third
+/// coordinate or else 0, the other columns as point data). The file is published only when it is
+/// complete. Returns false if Aborted returned true; throws IOError.
 VTKTIPPIO_EXPORT bool writeMesh(const std::string& path, const PointTable& points,
   TrianglesView triangles, const MeshOptions& options = {});
 
