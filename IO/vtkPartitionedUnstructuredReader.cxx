@@ -41,29 +41,29 @@ vtkCxxSetObjectMacro(vtkPartitionedUnstructuredReader, Controller, vtkMultiProce
 namespace
 {
 
-/// A piece that nobody else needs, or one of the cache's.
+/// A piece that this request owns, or one shared with the cache.
 struct HeldPiece
 {
   std::shared_ptr<const tipp::Piece> Shared;
   tipp::Piece Own; ///< if Shared is null
 
   const tipp::Piece& get() const { return this->Shared ? *this->Shared : this->Own; }
-  /// For VTK's arrays to take over.
+  /// Returns a piece whose memory VTK's arrays can take ownership of.
   tipp::Piece take()
   {
     return this->Shared ? tipp::mergePieces({ this->Shared.get() }) : std::move(this->Own);
   }
 };
 
-/// What a request reads.
+/// The pieces of a request.
 struct Fetched
 {
   std::vector<HeldPiece> Pieces;
-  std::int64_t Read = 0;  ///< of these, those that were not in the cache
-  std::int64_t Bytes = 0; ///< read
+  std::int64_t Read = 0;  ///< number of pieces that were not in the cache
+  std::int64_t Bytes = 0; ///< bytes read
 };
 
-/// Changes when a file of the mesh does.
+/// Changes when a file of the mesh changes.
 std::string fileStamp(const std::string& path)
 {
   namespace fs = std::filesystem;
@@ -90,7 +90,7 @@ std::string fileStamp(const std::string& path)
   return stamp;
 }
 
-/// The last step not after the time, or the first.
+/// The last step that is not after the time, or the first step.
 int stepAt(const std::vector<double>& times, double time)
 {
   const auto after = std::upper_bound(times.begin(), times.end(), time);
@@ -102,7 +102,7 @@ int stepAt(const std::vector<double>& times, double time)
 class vtkPartitionedUnstructuredReader::Internals
 {
 public:
-  std::string Opened; ///< what Source was made of
+  std::string Opened; ///< the path that Source was opened with
   std::unique_ptr<tipp::PieceSource> Source;
   tipp::PieceCache Cache;
 };
@@ -225,7 +225,7 @@ void vtkPartitionedUnstructuredReader::DescribeArrays()
 {
   for (const tipp::StoredArray& array : this->Inner->Source->mesh().Arrays)
   {
-    // Leaves an array alone that it knows.
+    // Does not change the setting of a known array.
     (array.OfPoints ? this->PointDataArraySelection : this->CellDataArraySelection)
       ->AddArray(array.Name.c_str());
   }
@@ -253,7 +253,7 @@ int vtkPartitionedUnstructuredReader::RequestInformation(
   }
   catch (const std::exception& error)
   {
-    // Among several ranks the others wait in RequestData, which finds the same again.
+    // With several ranks the others wait in RequestData, which will meet the same error.
     if (this->Controller && this->Controller->GetNumberOfProcesses() > 1)
     {
       return 1;
@@ -266,7 +266,7 @@ int vtkPartitionedUnstructuredReader::RequestInformation(
 namespace
 {
 
-/// What one request asks for.
+/// The parameters of one request.
 struct Request
 {
   int Piece = 0;
@@ -291,7 +291,7 @@ struct Request
       info->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) > 0;
   }
 
-  /// Its share of the pieces, by weight.
+  /// This rank's share of the pieces, by weight.
   std::vector<std::size_t> shareOf(
     const std::vector<std::size_t>& numbers, const std::vector<std::int64_t>& weights) const
   {
@@ -312,8 +312,8 @@ struct Request
   }
 };
 
-/// The pieces, from the cache or the source, the missing ones in one go. `keep`: the cache has
-/// room.
+/// Returns the pieces from the cache or the source; all missing ones are read together. `keep`: add
+/// them to the cache.
 Fetched fetch(tipp::PieceSource& source, tipp::PieceCache& cache,
   const std::vector<std::size_t>& numbers, const tipp::PieceOptions& options, bool keep)
 {
@@ -468,7 +468,7 @@ int vtkPartitionedUnstructuredReader::RequestData(
   catch (const tipp::WorkAborted&)
   {
     output->Initialize();
-    this->Inner->Source.reset(); // it may be half prepared
+    this->Inner->Source.reset(); // a failed prepare() may have left it incomplete
     this->Inner->Cache.clear();
     return 1;
   }

@@ -27,7 +27,7 @@ vtkCxxSetObjectMacro(vtkPartitionedUnstructuredWriter, Controller, vtkMultiProce
 namespace
 {
 
-/// Each rank brings its own piece, where vtkWriter would ask for everything on all.
+/// Each rank requests its own piece; vtkWriter would request the whole data set on all.
 void askForPiece(vtkInformation* input, vtkMultiProcessController* ranks)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
@@ -98,7 +98,7 @@ int vtkPartitionedUnstructuredWriter::Write()
   return this->Written ? 1 : 0;
 }
 
-/// A rank without an input would leave the others waiting for it.
+/// Collective: a rank without an input must take part, or the others would wait for it.
 void vtkPartitionedUnstructuredWriter::WriteOnRanks()
 {
   try

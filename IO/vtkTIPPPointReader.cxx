@@ -162,7 +162,7 @@ void vtkTIPPPointReader::Read(vtkInformation* info, vtkPolyData* output)
   const std::string crs = tipp::openPointStream(this->FileNames, options)->crs();
   const tipp::PointTable table = tipp::readPointsShare(this->FileNames, options, piece, pieces);
   this->NumberOfPointsLeftOut = table.LeftOut;
-  // It shares the table's memory.
+  // A deep copy, because the arrays share the table's memory.
   output->DeepCopy(tipp::makePolyData(table, {}, {}));
   if (this->GenerateVertices)
   {

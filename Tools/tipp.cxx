@@ -60,8 +60,8 @@ int run(int argc, char** argv)
   {
     if (tipp::startedRank() > 0)
     {
-      // All ranks have the same arguments. mpirun ends the first one, before it has said what is
-      // wrong, if another has ended with a failure.
+      // All ranks have the same arguments, and only the first reports the error: mpirun would end
+      // it before it has, if another rank failed.
       return tipp::Success;
     }
     return app.exit(error) == 0 ? tipp::Success : tipp::Usage;
@@ -69,7 +69,7 @@ int run(int argc, char** argv)
   return exitCode;
 }
 
-/// What is printed can be lost, too, as on a full disk.
+/// Checks standard output, which may be lost, too, for example on a full disk.
 void requireWrittenOutput()
 {
   std::cout.flush();
@@ -84,7 +84,7 @@ void requireWrittenOutput()
 
 int main(int argc, char** argv)
 {
-  // What VTK's readers have to say comes in our own sentence.
+  // VTK's errors are reported as our own messages.
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   tipp::reportReaderCrashes();
   tipp::watchForInterrupt(tipp::startedRank());

@@ -7,7 +7,7 @@
 namespace tipp
 {
 
-/// The numbers that an array is made of.
+/// The type of an array's values.
 enum class Scalar
 {
   Int8,
@@ -22,7 +22,7 @@ enum class Scalar
   Float64
 };
 
-/// Calls work(value) with a value of the C++ type.
+/// Calls work(value) with a value of the corresponding C++ type.
 template <typename Work>
 void withScalar(Scalar type, const Work& work)
 {

@@ -10,10 +10,10 @@
 namespace tipp
 {
 
-/// The kind of numbers of a VTK_... type; nothing for bits and what is no number.
+/// The Scalar of a VTK_... type; nullopt for bits and types that are not numeric.
 VTKTIPPACCELERATORS_EXPORT std::optional<Scalar> scalarOf(int vtkType);
 
-/// The other way round.
+/// The inverse of scalarOf().
 VTKTIPPACCELERATORS_EXPORT int vtkTypeOf(Scalar type);
 
 } // namespace tipp

@@ -10,7 +10,7 @@
 namespace tipp
 {
 
-/// A computation that its device cannot do, or whose input makes no sense. what() is one sentence
+/// Thrown if a device cannot do a computation, or if the input is invalid. what() is one sentence
 /// for the user: which device or input, what is wrong and what to do.
 class VTKTIPPACCELERATORS_EXPORT AcceleratorError : public std::runtime_error
 {

@@ -14,7 +14,7 @@ namespace tipp
 namespace
 {
 
-// What users meet; the specification's other codes tell of faults in a program.
+// The errors that users meet; the specification's other codes indicate programming errors.
 std::string meaningOf(cl_int code)
 {
   switch (code)
@@ -124,7 +124,7 @@ cl::Buffer ComputeDevice::input(const void* data, std::size_t bytes) const
   return this->run(
     [&]
     {
-      // The flag promises that nothing is written.
+      // CL_MEM_READ_ONLY: kernels do not write through the const_cast pointer.
       return cl::Buffer(
         this->Context, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, bytes, const_cast<void*>(data));
     });
@@ -174,11 +174,11 @@ void ComputeDevice::enqueue(const cl::Kernel& kernel, std::size_t items) const
 {
   if (this->Description.Type == DeviceType::Cpu)
   {
-    // Between loops OpenMP's threads spin for some milliseconds, on processors that the device
+    // After a parallel loop OpenMP's threads spin for some milliseconds, on cores that the device
     // needs.
     omp_pause_resource_all(omp_pause_soft);
   }
-  // Counts are rounded up to whole groups: some drivers choose groups of one for a prime number.
+  // Rounded up to whole groups: for a prime number some drivers choose groups of one.
   constexpr std::size_t usual = 64;
   const auto own = kernel.getWorkGroupInfo<CL_KERNEL_COMPILE_WORK_GROUP_SIZE>(this->Device);
   const std::size_t group = own[0] == 0 ? usual : own[0];

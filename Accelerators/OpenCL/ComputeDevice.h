@@ -18,22 +18,22 @@ namespace tipp
 {
 
 /// The text of a .cl file, which the build embeds into the library as a header (see
-/// tipp_embed_kernels): `#include "Folder/Name.cl.h"` gives `const KernelSource NameKernels`.
+/// tipp_embed_kernels): `#include "Folder/Name.cl.h"` defines `const KernelSource NameKernels`.
 struct KernelSource
 {
-  const char* Name; ///< tells programs apart
+  const char* Name; ///< identifies the program
   const char* Text;
 };
 
 /// An open OpenCL device: a context, an in-order queue, and the programs built for it.
 ///
-/// There is one for each device and process, and any thread may use it. Failures of OpenCL are
-/// thrown as AcceleratorError if the calls stand in run().
+/// There is one per device and process, and any thread may use it. OpenCL errors inside run() are
+/// thrown as AcceleratorError.
 class VTKTIPPACCELERATORS_EXPORT ComputeDevice
 {
 public:
-  /// The device that a choice means, opened; nullptr if OpenMP is to be used. Throws
-  /// AcceleratorError as chooseDevice() does, or if the device cannot be opened.
+  /// Opens the chosen device; returns nullptr if OpenMP is to be used. The device is not owned by
+  /// the caller. Throws AcceleratorError as chooseDevice() does, or if the device cannot be opened.
   static ComputeDevice* open(const DeviceChoice& choice);
 
   ComputeDevice(DeviceDescription description, const cl::Device& device, bool sharesHostMemory);
@@ -47,12 +47,11 @@ public:
   /// Whether buffers over memory of this process need no copy.
   bool sharesHostMemory() const { return this->SharesHostMemory; }
 
-  /// A kernel of its own for the caller, of a program that is built once a process with these
-  /// options of the compiler.
+  /// Returns a new kernel for the caller. Its program is built once per process for each set of
+  /// compiler options.
   cl::Kernel kernel(const KernelSource& source, const char* name, const std::string& options = "");
 
-  /// Puts a kernel with these arguments into the queue, for `items` work items or up to a group
-  /// more.
+  /// Enqueues a kernel with these arguments for `items` work items, rounded up to whole groups.
   template <typename... Arguments>
   void launch(cl::Kernel& kernel, std::size_t items, const Arguments&... arguments) const
   {
@@ -69,11 +68,12 @@ public:
       });
   }
 
-  /// `bytes` of this process for a kernel to read: without a copy where the memory is shared. They
-  /// must stay until the kernels that read them have finished. At least one byte is allocated.
+  /// A buffer of `bytes` bytes of this process for kernels to read, without a copy if the memory is
+  /// shared. The data must stay valid until the kernels that read them have finished. At least one
+  /// byte is allocated.
   cl::Buffer input(const void* data, std::size_t bytes) const;
 
-  /// Room for `bytes` on the device. At least one byte is allocated.
+  /// An uninitialised buffer of `bytes` bytes on the device. At least one byte is allocated.
   cl::Buffer room(std::size_t bytes) const;
 
   ///@{
@@ -82,11 +82,11 @@ public:
   void read(const cl::Buffer& buffer, void* data, std::size_t bytes) const;
   ///@}
 
-  /// What all copies have taken so far, as the device tells it.
+  /// Total time of all copies, measured by the device.
   double transferSeconds() const { return 1e-9 * double(this->TransferNanoseconds); }
 
-  /// Calls `work` and makes an AcceleratorError of what OpenCL throws, once the queue is empty:
-  /// then nothing uses the caller's memory any more.
+  /// Calls `work`. If OpenCL throws, waits until the queue is empty, so that nothing uses the
+  /// caller's memory any more, and throws an AcceleratorError.
   template <typename Work>
   auto run(Work&& work) const -> decltype(work())
   {

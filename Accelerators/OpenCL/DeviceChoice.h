@@ -9,7 +9,7 @@
 namespace tipp
 {
 
-/// What runs a computation over flat arrays.
+/// The back end of a computation over flat arrays.
 enum class Device
 {
   Auto,   ///< the first OpenCL GPU with double precision, else OpenMP
@@ -21,17 +21,17 @@ enum class Device
 struct DeviceChoice
 {
   Device Kind = Device::Auto;
-  /// With OpenCL: the device's place in listDevices(), or -1.
+  /// With OpenCL: the device's index in listDevices(), or -1.
   int Index = -1;
-  /// With OpenCL and no Index: a part of the device's name, in any case; empty for the first GPU
-  /// with double precision, or else the first device with it.
+  /// With OpenCL and no Index: a substring of the device's name, ignoring case; empty for the first
+  /// GPU with double precision, or else the first device with it.
   std::string Name;
-  /// With OpenCL: use a processor like a graphics card, with copies of all data and small work
-  /// items. Slower; for tests of what cards do on machines without one.
+  /// With OpenCL: use a CPU device like a graphics card, with copies of all data and small work
+  /// items. Slower; for testing the code paths of cards on machines without one.
   bool AsCard = false;
 };
 
-/// Reads "auto", "openmp", "opencl", "opencl:INDEX" or "opencl:NAME" (see DeviceChoice). Throws
+/// Parses "auto", "openmp", "opencl", "opencl:INDEX" or "opencl:NAME" (see DeviceChoice). Throws
 /// AcceleratorError for anything else. A NAME of digits alone is an INDEX.
 VTKTIPPACCELERATORS_EXPORT DeviceChoice parseDeviceChoice(const std::string& text);
 

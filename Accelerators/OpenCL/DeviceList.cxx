@@ -46,7 +46,7 @@ const DeviceDescription& deviceNamed(
     {
       continue;
     }
-    // Of several devices with such a name the first that is of use here.
+    // Of several devices with matching names, take the first with double precision.
     if (found == nullptr || (!found->Double && device.Double))
     {
       found = &device;

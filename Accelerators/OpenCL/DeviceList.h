@@ -20,34 +20,34 @@ enum class DeviceType
   Other
 };
 
-/// What a user needs to know of an OpenCL device to choose it.
+/// The properties of an OpenCL device that matter to users.
 struct DeviceDescription
 {
-  int Index = 0;        ///< its place in listDevices()
-  std::string Name;     ///< as its driver gives it, without outer spaces
+  int Index = 0;        ///< index in listDevices()
+  std::string Name;     ///< as reported by its driver, trimmed
   std::string Platform; ///< the driver's name
   DeviceType Type = DeviceType::Other;
-  std::uint64_t Memory = 0;        ///< bytes in all
-  std::uint64_t LargestBuffer = 0; ///< bytes that one allocation can have
-  bool Double = false;             ///< whether it computes in double precision
+  std::uint64_t Memory = 0;        ///< total memory in bytes
+  std::uint64_t LargestBuffer = 0; ///< maximum size of a buffer in bytes
+  bool Double = false;             ///< whether it supports double precision
 };
 
-/// The OpenCL devices of this machine: platform by platform, in the drivers' order. Empty where no
-/// driver is installed. Looked for once a process; later calls give the same list.
+/// The OpenCL devices of this machine, by platform, in the drivers' order. Empty if no driver is
+/// installed. They are enumerated once per process.
 VTKTIPPACCELERATORS_EXPORT const std::vector<DeviceDescription>& listDevices();
 
-/// A sentence for users on a machine without OpenCL devices: what is missing and what to do.
+/// A sentence for users of a machine without OpenCL devices: what is missing and what to do.
 VTKTIPPACCELERATORS_EXPORT std::string noDeviceAdvice();
 
-/// The device that a choice means among `devices`, or nothing if OpenMP is to be used. Throws
-/// AcceleratorError, which names the devices there are, if the chosen device is missing or has no
-/// double precision. For Auto that is never an error.
+/// The chosen device among `devices`; nullopt if OpenMP is to be used. Throws AcceleratorError,
+/// which lists the available devices, if the chosen device is missing or has no double precision.
+/// Auto never throws.
 VTKTIPPACCELERATORS_EXPORT std::optional<DeviceDescription> chooseDevice(
   const DeviceChoice& choice, const std::vector<DeviceDescription>& devices);
 
-/// What a user can choose from these devices, as parseDeviceChoice() reads it: "auto", "openmp" and
-/// for each device with double precision "opencl:NAME", or "opencl:INDEX" where its name means
-/// another one.
+/// The choices that these devices offer, in the syntax of parseDeviceChoice(): "auto", "openmp" and
+/// for each device with double precision "opencl:NAME", or "opencl:INDEX" if its name selects
+/// another device.
 VTKTIPPACCELERATORS_EXPORT std::vector<std::string> deviceChoices(
   const std::vector<DeviceDescription>& devices);
 

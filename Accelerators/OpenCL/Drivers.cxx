@@ -47,7 +47,7 @@ std::vector<cl::Platform> platforms()
   }
   catch (const cl::Error&)
   {
-    // What the loader answers where no driver is installed.
+    // The loader throws this if no driver is installed.
     result.clear();
   }
   return result;
@@ -62,7 +62,7 @@ std::vector<cl::Device> devicesOf(const cl::Platform& platform)
   }
   catch (const cl::Error&)
   {
-    // A driver without its device, as on a machine whose card was taken out.
+    // A driver without a device, for example after a card was removed.
     result.clear();
   }
   return result;
@@ -85,7 +85,7 @@ Drivers::Drivers()
       }
       catch (const cl::Error&)
       {
-        // A device that cannot even be described is not offered.
+        // Skip devices that cannot be queried.
         continue;
       }
     }
@@ -111,7 +111,7 @@ ComputeDevice& Drivers::open(int index, bool asCard)
 
 Drivers& drivers()
 {
-  // Never destroyed: at the end of the process the drivers' own libraries may be gone already.
+  // Never destroyed: at exit the drivers' own libraries may be unloaded already.
   static Drivers* const instance = new Drivers;
   return *instance;
 }

@@ -13,7 +13,7 @@
 namespace tipp
 {
 
-/// The OpenCL devices of all installed drivers, and what was opened of them.
+/// The OpenCL devices of all installed drivers, and those of them that are open.
 class Drivers
 {
 public:
@@ -21,7 +21,7 @@ public:
 
   const std::vector<DeviceDescription>& descriptions() const { return this->Descriptions; }
 
-  /// The device, opened when it is first asked for; `asCard`: see DeviceChoice. Any thread may ask.
+  /// Returns the device, opened on the first call; `asCard`: see DeviceChoice. Thread-safe.
   ComputeDevice& open(int index, bool asCard);
 
 private:
@@ -31,7 +31,7 @@ private:
   std::vector<std::unique_ptr<ComputeDevice>> Opened; ///< each as it is, and as a card
 };
 
-/// Those of this process, found on the first call.
+/// The drivers of this process, enumerated on the first call.
 Drivers& drivers();
 
 } // namespace tipp

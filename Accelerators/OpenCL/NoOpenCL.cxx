@@ -21,7 +21,7 @@ std::string noDeviceAdvice()
 std::optional<Membership> classifyOnDevice(
   const DeviceChoice& choice, const CellsView&, const BoxTiling&, const CellShape&, std::uint64_t)
 {
-  chooseDevice(choice, listDevices()); // an error, if it is to be a device
+  chooseDevice(choice, listDevices()); // throws if a device was chosen
   return std::nullopt;
 }
 

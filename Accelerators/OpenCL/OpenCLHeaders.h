@@ -2,7 +2,7 @@
 #ifndef tippOpenCLHeaders_h
 #define tippOpenCLHeaders_h
 
-// OpenCL 1.2 is what every driver offers, PoCL and those of NVIDIA included.
+// Every driver supports OpenCL 1.2, including PoCL and NVIDIA's.
 #define CL_TARGET_OPENCL_VERSION 120
 #define CL_HPP_TARGET_OPENCL_VERSION 120
 #define CL_HPP_MINIMUM_OPENCL_VERSION 120

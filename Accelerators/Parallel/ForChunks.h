@@ -13,10 +13,12 @@
 namespace tipp
 {
 
-/// Asked now and then by the calling thread with the fraction done; false stops the work.
+/// A progress callback, called by the calling thread now and then with the fraction done; returning
+/// false stops the work.
 using Report = std::function<bool(double)>;
 
-/// The part of the work from `begin` to `end` as a report of its own; `report` must outlive it.
+/// A callback for the part of the work from `begin` to `end`, fractions of the whole; `report` must
+/// outlive it.
 inline Report partOf(const Report& report, double begin, double end)
 {
   if (!report)
@@ -26,9 +28,9 @@ inline Report partOf(const Report& report, double begin, double end)
   return [&report, begin, end](double done) { return report(begin + done * (end - begin)); };
 }
 
-/// Calls body(begin, end, thread) for pieces of 0..count of at most `chunk`, each piece once, by as
-/// many threads, whichever is free, begun in order. If bodies throw, what the lowest of them threw
-/// comes out of here, as in a plain loop. False if `report` stopped it.
+/// Calls body(begin, end, thread) once for each chunk of at most `chunk` indices of [0, count).
+/// Threads take chunks dynamically, in order. If bodies throw, the exception of the lowest chunk is
+/// rethrown, as in a serial loop. Returns false if `report` stopped the loop.
 template <typename Body>
 bool forChunks(
   std::int64_t count, std::int64_t chunk, int threads, const Report& report, const Body& body)
@@ -74,7 +76,7 @@ bool forChunks(
   {
     std::rethrow_exception(error);
   }
-  // The calling thread may have come too late for any piece.
+  // The other threads may have taken all chunks before the calling thread started.
   return wanted && (!report || report(1));
 }
 

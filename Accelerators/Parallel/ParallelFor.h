@@ -7,16 +7,17 @@
 namespace tipp
 {
 
-/// As many threads as asked for, 0: OpenMP's choice; but no more than can be of use. Without that
-/// limit a large number ends the process: OpenMP reports no failure to start a thread.
+/// The number of threads to use: as requested (0: OpenMP's default), but at most the larger of 64
+/// and 4 per processor. Without that limit a large number ends the process: OpenMP does not report
+/// that a thread cannot be started.
 inline int threadCount(int threads)
 {
   const int most = std::max(64, 4 * omp_get_num_procs());
   return std::min(threads > 0 ? threads : omp_get_max_threads(), most);
 }
 
-/// work(0) ... work(count - 1) on several threads (0: OpenMP's choice), begun in that order. If
-/// some throw, what the lowest of them threw comes out of here, as in a plain loop.
+/// Calls work(0) ... work(count - 1) on several threads (0: OpenMP's default), started in that
+/// order. If some throw, the exception of the lowest index is rethrown, as in a serial loop.
 template <typename Work>
 void parallelFor(std::int64_t count, int threads, const Work& work)
 {

@@ -10,12 +10,13 @@
 namespace tipp
 {
 
-/// Thrown by work that is told to stop: not an error, but the user's wish.
+/// Thrown by work that the user has stopped; not an error.
 struct WorkAborted
 {
 };
 
-/// While it lives, poll() on its thread asks `goesOn`. The innermost one counts.
+/// While the object lives, poll() on its thread calls `goesOn`. Scopes may be nested; the innermost
+/// is used.
 class VTKTIPPACCELERATORS_EXPORT PollScope
 {
 public:
@@ -30,12 +31,12 @@ private:
   PollScope* Outer;
 };
 
-/// To be called every few thousand items by all work that may take long, wherever it is: throws
-/// WorkAborted if the user wants to stop. Without a scope, as on the threads of a parallel loop
-/// other than the calling one, it does nothing.
+/// To be called every few thousand items by all work that may take long: throws WorkAborted if the
+/// user wants to stop. Without a PollScope on the same thread, as on the other threads of a
+/// parallel loop, it does nothing.
 VTKTIPPACCELERATORS_EXPORT void poll();
 
-/// In a loop over small items: polls at some of them.
+/// For loops over small items: polls at some of them.
 inline void pollAt(std::int64_t item)
 {
   if ((item & 0x3fff) == 0)

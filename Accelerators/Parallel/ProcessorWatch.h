@@ -7,12 +7,12 @@
 namespace tipp
 {
 
-/// Unlike a Stopwatch it does not count the times when other threads had the processor: what a
-/// part of the work costs where there are more threads than cores.
+/// Measures the CPU time of the calling thread. Unlike a Stopwatch it excludes time when other
+/// threads use the core, so it measures a part of the work even with more threads than cores.
 class ProcessorWatch
 {
 public:
-  /// Of the calling thread, since the start.
+  /// CPU seconds of the calling thread since the start.
   double seconds() const { return now() - this->Start; }
 
 private:

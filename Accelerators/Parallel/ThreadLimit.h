@@ -9,7 +9,8 @@
 namespace tipp
 {
 
-/// While it lives, the calling thread's OpenMP regions have this many threads; 0: OpenMP's choice.
+/// While the object lives, the calling thread's OpenMP regions use this many threads; 0: OpenMP's
+/// default.
 class ThreadLimit
 {
 public:

@@ -29,7 +29,7 @@ int childCountOf(int axes)
   return (axes & 1 ? 2 : 1) * (axes & 2 ? 2 : 1) * (axes & 4 ? 2 : 1);
 }
 
-// Never outside [low, high], however large these are.
+// Always within [low, high], without overflow.
 double middleOf(double low, double high)
 {
   const double sum = low + high;
@@ -166,7 +166,7 @@ Box3 BoxTiling::childBox(int dimension, const Box3& domain, const Box3& box, int
   return childOf(axesOf(dimension, domain), box, which);
 }
 
-// Depth first, which numbers the leaves along the Morton curve.
+// Depth-first, which numbers the leaves along the Morton curve.
 void BoxTiling::makeTree(const std::vector<std::int32_t>& firstChild)
 {
   struct Pending
@@ -182,7 +182,7 @@ void BoxTiling::makeTree(const std::vector<std::int32_t>& firstChild)
   this->Children.assign(firstChild.size(), 0);
   this->Middles.assign(3 * firstChild.size(), 0.0);
   std::vector<Pending> stack = { { 0, 0, this->Domain } };
-  // A node that is reached twice makes more visits than there are nodes.
+  // If a node is reached twice, there are more visits than nodes.
   std::size_t visits = 0;
   while (!stack.empty())
   {

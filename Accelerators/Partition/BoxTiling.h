@@ -15,31 +15,32 @@ namespace tipp
 {
 
 /// A tiling of a closed domain by closed boxes, which share their borders: a regular grid, or the
-/// leaves of a quadtree or octree. Held as flat arrays, so that a device can have them too.
+/// leaves of a quadtree or octree. Stored as flat arrays, so that devices can use it.
 ///
 /// Boxes are numbered from 0: in a grid x fastest, in a tree along the Morton curve (a node's lower
-/// half before its upper half, x fastest). An axis along which the domain has no extent is not cut.
+/// half before its upper half, x fastest). An axis along which the domain has no extent is not
+/// split.
 class VTKTIPPACCELERATORS_EXPORT BoxTiling
 {
 public:
-  /// A tree is no deeper than this: its smallest boxes are 2^-24 of the domain long.
+  /// The maximum depth of a tree: its smallest boxes have 2^-24 of the domain's lengths.
   static constexpr int MaxDepth = 24;
 
-  /// nx x ny (x nz) boxes of equal size. Throws AcceleratorError if the domain is not finite or
-  /// turned inside out, a number is not positive, or there are 2^31 boxes or more.
+  /// A grid of nx x ny (x nz) boxes of equal size. Throws AcceleratorError if the domain is not
+  /// finite or inverted, a number is not positive, or there are 2^31 boxes or more.
   static BoxTiling grid(int dimension, const Box3& domain, const std::array<int, 3>& boxes);
 
-  /// The leaves of a tree whose nodes are cut in the middle of every axis of some extent.
-  /// firstChild has an entry for each node, the root first: -1 for a leaf, else the index of the
-  /// first of childCount() successive children, which is larger than the node's own. Throws
-  /// AcceleratorError for a domain as above or nodes that are no such tree.
+  /// The leaves of a tree whose nodes are bisected along every axis with some extent. firstChild
+  /// has an entry for each node, the root first: -1 for a leaf, else the index of the first of
+  /// childCount() consecutive children, which is larger than the node's own. Throws
+  /// AcceleratorError for an invalid domain as above or an invalid tree.
   static BoxTiling tree(
     int dimension, const Box3& domain, const std::vector<std::int32_t>& firstChild);
 
-  /// Children of a node of such a tree: 2 for each axis with some extent.
+  /// The number of children of an inner node: 2 for each axis with some extent, multiplied.
   static int childCount(int dimension, const Box3& domain);
 
-  /// The `which`-th child of a node that takes up `box`.
+  /// The box of child `which` of a node with the given box.
   static Box3 childBox(int dimension, const Box3& domain, const Box3& box, int which);
 
   int dimension() const { return this->Dimension; }
@@ -48,7 +49,8 @@ public:
   const Box3& box(std::int64_t id) const { return this->Boxes[static_cast<std::size_t>(id)]; }
   bool isGrid() const { return this->Children.empty(); }
 
-  /// Calls visit(id) for each box that the given closed box meets, with rising ids.
+  /// Calls visit(id) for each box of the tiling that the closed box meets, in ascending order of
+  /// ids.
   template <typename Visit>
   void forEachMeeting(const Box3& box, Visit&& visit) const
   {
@@ -63,14 +65,14 @@ public:
   }
 
   /// @name The flat arrays
-  ///@{
-  /// Of a grid: boxes along each axis, and their n + 1 borders, axis after axis.
+  /// @{
+  /// Of a grid: the number of boxes along each axis, and their n + 1 borders, axis after axis.
   const std::array<int, 3>& counts() const { return this->Counts; }
   const std::vector<double>& cuts() const { return this->Cuts; }
-  /// Of a tree, by node: the first child, or -1 - id for a leaf; and three cuts.
+  /// Of a tree, per node: the first child, or -1 - id for a leaf; and three coordinates of cuts.
   const std::vector<std::int32_t>& children() const { return this->Children; }
   const std::vector<double>& middles() const { return this->Middles; }
-  /// The axes that a tree cuts, bit by bit.
+  /// The bit mask of the axes that a tree splits.
   int axes() const { return this->Axes; }
   ///@}
 
@@ -86,21 +88,21 @@ private:
   void makeGridBoxes();
   void makeTree(const std::vector<std::int32_t>& firstChild);
 
-  // Near the box that begins at or before value; any box would do.
+  // An estimate of the box that contains the value; any result is corrected later.
   int guess(std::size_t axis, double value) const
   {
     const double place = (value - this->Domain.Min[axis]) * this->BoxesPerUnit[axis];
     const int last = this->Counts[axis] - 1;
-    // False for NaN.
+    // The comparison is false for NaN.
     return place > 0.0 ? (place < last ? static_cast<int>(place) : last) : 0;
   }
 
-  // Boxes along an axis that [low, high] meets; empty (First > Last) outside the domain.
+  // The boxes along an axis that [low, high] meets; empty (First > Last) outside the domain.
   Range rangeAlong(std::size_t axis, double low, double high) const
   {
     const double* cuts = this->Cuts.data() + this->CutStart[axis];
     const int n = this->Counts[axis];
-    // The first box that ends at low or later.
+    // The first box whose end is not below low.
     int first = this->guess(axis, low);
     while (first > 0 && cuts[first] >= low)
     {
@@ -110,7 +112,7 @@ private:
     {
       ++first;
     }
-    // The last that begins at high or earlier.
+    // The last box whose begin is not above high.
     int last = this->guess(axis, high);
     while (last + 1 < n && cuts[last + 1] <= high)
     {
@@ -151,7 +153,7 @@ private:
         return;
       }
     }
-    // A node leaves at most 7 siblings for later on each level.
+    // Each level pushes at most 7 siblings.
     std::array<std::int32_t, 7 * MaxDepth + 1> stack;
     std::size_t size = 0;
     stack[size++] = 0;
@@ -168,12 +170,12 @@ private:
     }
   }
 
-  // Those that the box meets; it meets the node, so only the cuts matter.
+  // Pushes the children that the box meets; since it meets the node, only the cuts matter.
   void pushChildren(
     std::int32_t node, const Box3& box, std::int32_t* stack, std::size_t& size) const
   {
     const double* middle = this->Middles.data() + 3 * static_cast<std::size_t>(node);
-    // Bit by bit of a child's number: it may be 0, it may be 1.
+    // For each axis whether the box meets the lower half, and the upper half.
     int lower = 0;
     int upper = 0;
     int bit = 0;
@@ -192,7 +194,7 @@ private:
       stack[size++] = child + upper;
       return;
     }
-    // With falling numbers, so that they come back with rising ones.
+    // In descending order, so that they are popped in ascending order.
     for (int which = this->ChildCount - 1; which >= 0; --which)
     {
       if ((which & ~upper) == 0 && (~which & ~lower & (this->ChildCount - 1)) == 0)

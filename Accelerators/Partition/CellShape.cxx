@@ -41,7 +41,7 @@ bool CellShape::meetsInSpace(const double* corner, const Box3& box) const
   const auto point = [corner](int i) {
     return Point3{ corner[3 * i], corner[3 * i + 1], corner[3 * i + 2] };
   };
-  // A triangle in space is a flat tetrahedron.
+  // A triangle in space is treated as a flat tetrahedron.
   return tetrahedronMeetsBox(point(0), point(1), point(2), point(this->Cells.Corners - 1), box);
 }
 

@@ -11,11 +11,11 @@
 namespace tipp
 {
 
-/// Bounds of cells and exact tests of them against boxes, in the plane or in space.
+/// Bounds of cells, and exact tests of cells against boxes, in 2D or 3D.
 class VTKTIPPACCELERATORS_EXPORT CellShape
 {
 public:
-  /// Throws AcceleratorError if the tiling's and the cells' dimensions do not go together.
+  /// Throws AcceleratorError if the dimensions of tiling and cells do not match.
   CellShape(const CellsView& cells, int dimension);
 
   const double* cell(std::size_t index) const
@@ -23,7 +23,7 @@ public:
     return this->Cells.Coordinates + index * this->Stride;
   }
 
-  /// The cell's bounding box; false if a coordinate is not finite.
+  /// Computes the cell's bounding box; returns false if a coordinate is not finite.
   bool bounds(const double* corner, Box3& box) const
   {
     if (this->Dimension == 3)
@@ -35,7 +35,7 @@ public:
                                       : boundsOf<2, 3, 3>(corner, box);
   }
 
-  /// Whether the cell and the box share a point. Exact.
+  /// Whether the cell and the box share a point, decided exactly.
   bool meets(const double* corner, const Box3& box) const
   {
     return this->Dimension == 2 ? this->meetsInPlane(corner, box) : this->meetsInSpace(corner, box);
@@ -57,7 +57,7 @@ private:
         const double value = corner[i * Components + axis];
         low = value < low ? value : low;
         high = value > high ? value : high;
-        // Zero, or NaN from the first value that is not finite on.
+        // Zero, or NaN if any value is not finite.
         check += value * 0.0;
       }
       box.Min[axis] = low;
@@ -71,7 +71,7 @@ private:
 
   CellsView Cells;
   int Dimension;
-  std::size_t Stride; // doubles a cell
+  std::size_t Stride; // doubles per cell
 };
 
 } // namespace tipp

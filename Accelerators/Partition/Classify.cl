@@ -9,9 +9,9 @@
 #define MEET 1
 #define UNDECIDED 2
 
-// 2^-53, what one rounding is off by at most, relatively.
+// 2^-53, the maximum relative error of one rounding.
 #define EPSILON 0x1p-53
-// More than all the products of an expression lose below the range of normal numbers.
+// More than the error of all of an expression's products below the normal range.
 #define UNDERFLOW 1e-300
 
 typedef struct
@@ -20,7 +20,7 @@ typedef struct
   double high[3];
 } Box;
 
-// What a tiling is made of; see BoxTiling.h for the arrays.
+// A tiling's arrays; see BoxTiling.h.
 typedef struct
 {
   int dimension;
@@ -77,9 +77,10 @@ bool meetsDomain(const Tiling* tiling, const Box* box)
   return meets;
 }
 
-// ---- Candidates: how many, the last one, and where `ids` is given all of them, with rising ids
+// ---- Candidates: their number, the last one, and all of them if `ids` is given, ascending
 
-// The first of n rising values that is not below (strict: that is above) the given one.
+// The index of the first of n ascending values that is not below (strict: that is above) the given
+// one.
 int firstFrom(global const double* values, int n, double value, bool strict)
 {
   int first = 0;
@@ -139,7 +140,7 @@ bool childMeets(const Tiling* tiling, int node, int which, const Box* box)
 
 int listInTree(const Tiling* tiling, const Box* box, global int* ids, int* last)
 {
-  // As BoxTiling::visitTree: 7 siblings on each of 24 levels.
+  // As in BoxTiling::visitTree: 7 siblings on each of 24 levels.
   int stack[7 * 24 + 1];
   int size = 0;
   int count = 0;
@@ -180,10 +181,10 @@ int listOf(const Tiling* tiling, const Box* box, global int* ids, int* last)
 
 // ---- Separating axes, with bounds of the rounding errors
 
-// Intervals of the cell's and the box's values along an axis, each end off by at most `error`.
+// Compares the intervals of cell and box along an axis, each end with an error of at most `error`.
 int compareAlongAxis(double cellLow, double cellHigh, double boxLow, double boxHigh, double error)
 {
-  // An overflow leaves the question open.
+  // After an overflow the result is undecided.
   if (!isfinite(error) || !isfinite(cellLow + cellHigh) || !isfinite(boxLow + boxHigh))
   {
     return UNDECIDED;
@@ -259,7 +260,7 @@ bool holds(double2 low, double2 high, double2 p)
   return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y;
 }
 
-// The cell's bounding box meets the box, by exact comparisons, before these are called.
+// The caller has checked, by exact comparisons, that the cell's bounding box meets the box.
 int testInPlane(global const double* cell, int components, double2 low, double2 high)
 {
   const double2 a = (double2)(cell[0], cell[1]);
@@ -290,7 +291,7 @@ int testInSpace(global const double* cell, int corners, double3 low, double3 hig
   double2 shadow[4];
   for (int i = 0; i < 4; ++i)
   {
-    // A triangle in space is a flat tetrahedron.
+    // A triangle in space is treated as a flat tetrahedron.
     p[i] = pointOf(cell + 3 * min(i, corners - 1));
     if (holds(low.xy, high.xy, p[i].xy) && low.z <= p[i].z && p[i].z <= high.z)
     {
@@ -328,8 +329,8 @@ int testInSpace(global const double* cell, int corners, double3 low, double3 hig
   const Tiling name = { dimension, axes, children, (int3)(nx, ny, nz), cuts, nodes, middles,       \
     { domain[0], domain[1], domain[2] }, { domain[3], domain[4], domain[5] } }
 
-// For each cell: 1 and its owner, if it lies in one box; 0, if it has no place; else how many boxes
-// must be tested, or -1 for one, where the bounding box reaches out of the domain.
+// Per cell: 1 and its owner, if it lies in one box; 0, if it lies outside or is not finite; else
+// the number of boxes to test, or -1 for one, if the bounding box extends beyond the domain.
 kernel void countCandidates(TILING_ARGUMENTS, global const double* cells, int corners,
   int components, uint count, global int* counts, global int* owners)
 {
@@ -351,7 +352,7 @@ kernel void countCandidates(TILING_ARGUMENTS, global const double* cells, int co
   owners[cell] = last;
 }
 
-// The candidates of the cells listed[i]: in ids from starts[i] on, each with its cell.
+// Writes the candidates of the cells listed[i] to ids from starts[i] on, and the cell of each.
 kernel void listCandidates(TILING_ARGUMENTS, global const double* cells, int corners,
   int components, uint count, global const uint* listed, global const ulong* starts,
   global int* ids, global uint* idCells)
@@ -373,7 +374,7 @@ kernel void listCandidates(TILING_ARGUMENTS, global const double* cells, int cor
   }
 }
 
-// Each candidate by itself, since cells have more or fewer of them.
+// One work item per candidate, because cells have different numbers of them.
 kernel void testCandidates(int dimension, global const double* boxes, global const double* cells,
   int corners, int components, ulong count, global const int* ids, global const uint* idCells,
   global uchar* verdicts)

@@ -13,37 +13,39 @@
 namespace tipp
 {
 
-/// Cells with their corners' coordinates, cell after cell and corner after corner.
+/// A view of cells as their corners' coordinates, cell after cell and corner after corner. Not
+/// owned.
 struct CellsView
 {
-  int Dimension; ///< coordinates of a corner: 2 or 3
-  int Corners;   ///< of a cell: 3 for triangles, 4 for tetrahedra (these in 3 dimensions)
+  int Dimension; ///< coordinates per corner: 2 or 3
+  int Corners;   ///< per cell: 3 for triangles, 4 for tetrahedra (only in 3D)
   const double* Coordinates;
   std::size_t Cells;
 };
 
-/// For each cell the partitions that it shares a point with: the lowest one owns it, the others
-/// borrow it.
+/// For each cell the partitions that it shares a point with: the one of lowest index owns it, the
+/// others borrow it.
 struct Membership
 {
-  std::vector<std::int32_t> Owner;         ///< by cell
-  std::vector<std::int64_t> BorrowerStart; ///< by cell, and the end: its part of Borrowers
-  std::vector<std::int32_t> Borrowers;     ///< rising within a cell
+  std::vector<std::int32_t> Owner; ///< per cell
+  /// per cell, and the end: start of its range in Borrowers
+  std::vector<std::int64_t> BorrowerStart;
+  std::vector<std::int32_t> Borrowers; ///< ascending for each cell
 };
 
 struct ClassifyOptions
 {
   DeviceChoice Device;
-  /// OpenMP threads; 0 for as many as OpenMP would take.
+  /// OpenMP threads; 0 for OpenMP's default.
   int Threads = 0;
-  /// Bytes of the device's memory to use at most; 0 for half of it. Larger inputs are cut.
+  /// Maximum number of bytes of device memory; 0 for half of it. Larger inputs are processed in
+  /// pieces.
   std::uint64_t DeviceMemory = 0;
 };
 
-/// Finds each cell's partitions (algorithm 5 of the dissertation). A partition is a closed box, and
-/// so is a cell a closed set: touching counts. Decided exactly, so that the result does not depend
-/// on the device, the number of threads or the memory. A tiling of the plane takes triangles in
-/// space by their x and y.
+/// Finds each cell's partitions (Algorithm 5 of the dissertation). Partitions and cells are closed
+/// sets: touching counts as meeting. Decided exactly, so the result does not depend on the device,
+/// the number of threads or the memory. A 2D tiling uses only x and y of triangles in space.
 ///
 /// Throws AcceleratorError if a coordinate is not finite, a cell lies outside the tiling's domain,
 /// or the device is missing or fails.

@@ -13,7 +13,7 @@ namespace tipp
 namespace
 {
 
-// The verdicts of Classify.cl.
+// The results of Classify.cl.
 enum Verdict : std::uint8_t
 {
   Apart = 0,
@@ -21,8 +21,8 @@ enum Verdict : std::uint8_t
   Undecided = 2
 };
 
-// Bytes on the device for a candidate (its id, its cell, its verdict) and for a cell that has some
-// (its number, where its candidates begin).
+// Bytes on the device per candidate (its id, cell and verdict), and per cell with candidates (its
+// index, and its first candidate).
 constexpr std::uint64_t BytesPerCandidate = 4 + 4 + 1;
 constexpr std::uint64_t BytesPerListedCell = 4 + 8;
 
@@ -61,7 +61,7 @@ struct DeviceTiling
 
 static_assert(sizeof(Box3) == 6 * sizeof(double), "Classify.cl reads boxes as six doubles");
 
-// Cells that must be tested, and where each one's candidates begin.
+// Cells to be tested, and the index of each cell's first candidate.
 struct Listed
 {
   std::vector<cl_uint> Cells;
@@ -93,7 +93,7 @@ public:
   {
     const DeviceDescription& description = device.description();
     const std::uint64_t all = memory != 0 ? memory : description.Memory / 2;
-    // One half for the cells, one for their candidates; no buffer is larger than either.
+    // Half for the cells, half for their candidates; no buffer exceeds either.
     this->Room = std::min(all / 2, description.LargestBuffer);
     this->CellBytes = sizeof(double) * static_cast<std::size_t>(cells.Corners * cells.Dimension);
     const std::uint64_t most = this->Room / (this->CellBytes + 8);
@@ -117,8 +117,8 @@ private:
   {
     this->Coordinates = this->Device.input(this->Shape.cell(first), count * this->CellBytes);
     this->countCandidates(first, count);
-    // Where cells without a test stand, their borrowers' place depends on those before them: cells
-    // are finished in order.
+    // Cells must be finished in order: the start of a cell's borrowers depends on the cells before
+    // it.
     std::size_t finished = 0;
     Listed listed;
     for (std::size_t i = 0; i < count; ++i)
@@ -126,7 +126,7 @@ private:
       const int n = this->Counts[i];
       if (n == 0)
       {
-        // Unless one before it has no place either.
+        // An earlier cell may be invalid as well, and is then reported.
         this->testListed(first, listed);
         this->finish(first, finished, i, listed);
         failForCell(this->Shape, first + i);
@@ -179,7 +179,7 @@ private:
     }
     if (candidates * BytesPerCandidate > this->Room)
     {
-      // A single cell with more candidates than the device has room for.
+      // A single cell with more candidates than fit on the device.
       this->listHere(first + listed.Cells[0]);
       return;
     }
@@ -210,7 +210,7 @@ private:
     this->Tiling.forEachMeeting(bounds, [&](std::int32_t id) { this->Ids[i++] = id; });
   }
 
-  // Owners and borrowers of the piece's cells from `begin` to `end`; empties the list.
+  // Sets owners and borrowers of the piece's cells [begin, end); clears the list.
   std::size_t finish(std::size_t first, std::size_t begin, std::size_t end, Listed& listed)
   {
     std::size_t next = 0;

@@ -11,9 +11,9 @@
 namespace tipp
 {
 
-/// classifyCells() on an OpenCL device, in pieces that need at most `memory` bytes of it beside the
-/// tiling (0: half of what it has). What the device cannot decide is decided here. Nothing if the
-/// choice is OpenMP. Throws AcceleratorError.
+/// classifyCells() on an OpenCL device, in pieces that need at most `memory` bytes of it besides
+/// the tiling (0: half of its memory). What the device leaves undecided is decided on the CPU.
+/// Returns nullopt if the choice is OpenMP. Throws AcceleratorError.
 std::optional<Membership> classifyOnDevice(const DeviceChoice& choice, const CellsView& cells,
   const BoxTiling& tiling, const CellShape& shape, std::uint64_t memory);
 

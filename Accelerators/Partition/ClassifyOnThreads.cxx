@@ -15,8 +15,8 @@ namespace
 
 constexpr std::size_t BlockSize = 16384;
 
-// Cells are taken in blocks; a block's borrowers wait in a buffer of its own until it is known
-// where they belong.
+// Classifies cells in blocks; a block's borrowers are buffered until their position in the result
+// is known.
 class BlockwiseClassification
 {
 public:
@@ -46,7 +46,7 @@ public:
   }
 
 private:
-  // Fills Owner, Borrowers[block], and in BorrowerStart the ends counted from the block's begin.
+  // Fills Owner, Borrowers[block], and in BorrowerStart the ends relative to the block.
   void classify(std::size_t block)
   {
     std::vector<std::int32_t>& borrowers = this->Borrowers[block];
@@ -73,8 +73,8 @@ private:
           only = id;
           ++candidates;
         });
-      // A cell with one candidate is met by it if it lies in the domain at all; the domain's border
-      // is where a bounding box may reach further than its cell.
+      // A single candidate meets the cell if the cell meets the domain. That needs a test only if
+      // the bounding box extends beyond the domain.
       if (candidates == 1 && this->inDomain(bounds))
       {
         return only;

@@ -7,8 +7,8 @@
 namespace tipp
 {
 
-/// Tells of the first cell that has no place in the tiling: a coordinate is not finite, or all of
-/// it lies outside.
+/// Throws the error for the first invalid cell: a coordinate is not finite, or the cell lies
+/// outside the domain.
 [[noreturn]] void failForCell(const CellShape& shape, std::size_t cell);
 
 /// classifyCells() on OpenMP threads.

@@ -10,9 +10,8 @@
 namespace tipp
 {
 
-/// The lowest and the highest binary digit that any of a set of doubles has.
-/// With n = bits() and scale(), every one of them times scale() is an integer below 2^n in
-/// magnitude.
+/// The lowest and the highest binary digit of a set of doubles. With n = bits() and scale(), each
+/// of them times scale() is an integer below 2^n in magnitude.
 class BitSpan
 {
 public:
@@ -21,7 +20,7 @@ public:
     std::uint64_t pattern;
     std::memcpy(&pattern, &value, sizeof pattern);
     const int exponent = static_cast<int>(pattern >> 52) & 0x7ff;
-    // The implicit bit stops the count at 52 for powers of two.
+    // The implicit bit bounds the count of trailing zeros by 52.
     const std::uint64_t mantissa = pattern | (std::uint64_t{ 1 } << 52);
     int low = exponent + __builtin_ctzll(mantissa);
     // Zero has no digit. Denormals get a position below all others: they have no scale.
@@ -30,22 +29,23 @@ public:
     this->High = exponent > this->High ? exponent : this->High;
   }
 
-  /// Whether all digits lie within `count` places and can be scaled to integers without rounding.
+  /// Whether the digits span at most `count` bits and the values can be scaled to integers without
+  /// rounding.
   bool fits(int count) const { return this->bits() <= count && this->scalable(); }
 
-  /// Digits from the lowest to the highest place; not positive if all values are zero.
+  /// The number of bits from the lowest to the highest digit; not positive if all values are zero.
   int bits() const { return this->High + 53 - this->Low; }
 
-  /// False with denormals, and where the scale would not be a normal number.
+  /// False if there are denormals, or if the scale would not be a normal number.
   bool scalable() const
   {
     return this->Low == None || (this->Low >= LowestPlace && this->High < 2046);
   }
 
-  /// The power of two that makes integers of the values; scalable() must hold.
+  /// The power of two that scales the values to integers; scalable() must be true.
   double scale() const
   {
-    // The lowest place is 2^(Low - 1075); the exponent field of its reciprocal is 2098 - Low.
+    // The lowest digit is 2^(Low - 1075); the exponent field of its reciprocal is 2098 - Low.
     const int field = this->Low == None ? 1023 : 2098 - this->Low;
     const std::uint64_t pattern = static_cast<std::uint64_t>(field) << 52;
     double result;
@@ -62,8 +62,8 @@ private:
   int High = 0;
 };
 
-/// The difference in units of 1/scale, as an integer. Exact when scale comes from a BitSpan that
-/// has both parts of the difference and spans at most 63 bits.
+/// The difference in units of 1/scale, as an integer. Exact if scale comes from a BitSpan that
+/// includes both parts of the difference and spans at most 63 bits.
 inline std::int64_t scaledToInteger(ExactDifference difference, double scale)
 {
   return static_cast<std::int64_t>(difference.head * scale) +

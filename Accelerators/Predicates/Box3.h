@@ -7,8 +7,8 @@
 namespace tipp
 {
 
-/// A closed axis-aligned box with finite bounds, Min[i] <= Max[i]; it may be flat. In the plane
-/// Min[2] = Max[2] = 0.
+/// A closed axis-aligned box with finite bounds, Min[i] <= Max[i]; it may be flat. In 2D Min[2] =
+/// Max[2] = 0.
 struct Box3
 {
   std::array<double, 3> Min = {};

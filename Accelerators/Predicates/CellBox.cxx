@@ -12,7 +12,7 @@ namespace tipp
 namespace
 {
 
-// A rectangle: a box seen along an axis.
+// A rectangle: the projection of a box along an axis.
 struct Shadow
 {
   Point2 Min;
@@ -27,7 +27,7 @@ bool contains(const Shadow& box, Point2 p)
 // +1 or -1 if the rectangle lies strictly on that side of the directed line ab, else 0.
 int strictSide(Point2 a, Point2 b, const Shadow& box)
 {
-  // The corners furthest to the left and furthest to the right of the line.
+  // The rectangle's extreme corners to the left and to the right of the line.
   const bool east = b.x > a.x;
   const bool north = b.y > a.y;
   const Point2 left = { north ? box.Min.x : box.Max.x, east ? box.Max.y : box.Min.y };
@@ -40,7 +40,7 @@ int strictSide(Point2 a, Point2 b, const Shadow& box)
 }
 
 // Whether a line parallel to ab lies strictly between the rectangle and the points: the rectangle
-// strictly on one side of ab, none of the other points on that side.
+// is strictly on one side of ab, and none of the other points is on that side.
 template <std::size_t N>
 bool edgeSeparates(Point2 a, Point2 b, const std::array<Point2, N>& others, const Shadow& box)
 {
@@ -50,7 +50,7 @@ bool edgeSeparates(Point2 a, Point2 b, const std::array<Point2, N>& others, cons
       others.begin(), others.end(), [&](Point2 other) { return orientation(a, b, other) == side; });
 }
 
-// The six edges of the tetrahedron, seen along one axis.
+// Tests the six edges of the tetrahedron, projected along one axis.
 bool edgesSeparate(const std::array<Point2, 4>& p, const Shadow& box)
 {
   return edgeSeparates<2>(p[0], p[1], { p[2], p[3] }, box) ||
@@ -61,11 +61,11 @@ bool edgesSeparate(const std::array<Point2, 4>& p, const Shadow& box)
     edgeSeparates<2>(p[2], p[3], { p[0], p[1] }, box);
 }
 
-// Whether the plane of a, b, c has the box strictly on one side and d not on that side.
+// Whether the box lies strictly on one side of the plane of a, b, c, and d does not.
 bool faceSeparates(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Box3& box)
 {
-  // Where the normal points along each axis, and so the box's furthest corners along it.
+  // The signs of the normal's components, and so the box's extreme corners along it.
   const int x = orientation({ a.y, a.z }, { b.y, b.z }, { c.y, c.z });
   const int y = orientation({ a.z, a.x }, { b.z, b.x }, { c.z, c.x });
   const int z = orientation({ a.x, a.y }, { b.x, b.y }, { c.x, c.y });

@@ -10,16 +10,17 @@
 namespace tipp
 {
 
-// Two convex sets are apart if and only if a line, or a plane, lies strictly between them that is
-// parallel to a side of one of them or to an edge of each (the separating axes of Gottschalk, Lin
-// and Manocha, OBBTree, 1996). Each axis is a handful of orientation tests, and these are exact.
+// Two convex sets are disjoint if and only if a line, or in 3D a plane, that is parallel to a side
+// of one of them or to an edge of each lies strictly between them (the separating axes of
+// Gottschalk, Lin and Manocha, OBBTree, 1996). Each axis takes a few orientation tests, which are
+// exact.
 
 /// Whether the closed triangle and the closed box share a point, in x and y; touching counts. Exact
-/// for finite coordinates, also where the triangle or the box is a segment or a point.
+/// for finite coordinates, also if the triangle or the box is a segment or a point.
 VTKTIPPACCELERATORS_EXPORT bool triangleMeetsBox(Point2 a, Point2 b, Point2 c, const Box3& box);
 
 /// Whether the closed tetrahedron and the closed box share a point; touching counts. Exact for
-/// finite coordinates, also where one is flat: with c = d this is a triangle in space.
+/// finite coordinates, also if one is flat: with c = d this is a triangle in space.
 VTKTIPPACCELERATORS_EXPORT bool tetrahedronMeetsBox(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Box3& box);
 

@@ -26,8 +26,8 @@ Box2 widened(Point2 centre, double x, double y)
   return { centre.x - x, centre.y - y, centre.x + x, centre.y + y };
 }
 
-// The triangle and the box over one power of two; a box bound that is infinite is replaced by zero
-// and must not be asked for.
+// The triangle and the box scaled by one power of two to integers. An infinite bound of the box is
+// replaced by zero and must not be used.
 struct ExactCircumdisk
 {
   ExactCircumdisk(Point2 a, Point2 b, Point2 c, const Box2& box)
@@ -51,7 +51,7 @@ struct ExactCircumdisk
     this->Top = d2 * (n[9] - n[1]) - wy;
   }
 
-  // All of these times 2d. How far the centre is inside of each side of the box:
+  // All scaled by 2d. The distance of the centre from each side of the box, positive inside:
   mpz_class Left;
   mpz_class Bottom;
   mpz_class Right;
@@ -115,7 +115,7 @@ bool Circumdisk::computeIntervals()
   const double yError = error * (std::fabs(u.x) * v2 + std::fabs(v.x) * u2);
   const double radius = std::sqrt(x * x + y * y);
   const double radiusError = xError + yError + 24.0 * Epsilon * radius;
-  // Squares of the radius and of distances like it stay finite; also false for NaN.
+  // Squares of the radius and of similar distances stay finite; also false for NaN.
   if (!(radius + radiusError <= 1e150))
   {
     return false;
@@ -134,7 +134,7 @@ bool Circumdisk::computeIntervals()
   return true;
 }
 
-// Intervals that answer nothing, so that every question goes to exact arithmetic.
+// Intervals that decide nothing, so that every test uses exact arithmetic.
 void Circumdisk::leaveOpen()
 {
   this->Centre = { -Infinity, -Infinity, Infinity, Infinity };
@@ -150,7 +150,7 @@ bool Circumdisk::meetsExactly(const Box2& box) const
   mpz_class distance = 0;
   const auto addGap = [&distance](const mpz_class& depth, double bound)
   {
-    // At most one side of an axis has the centre beyond it.
+    // The centre lies beyond at most one side of each axis.
     if (std::isfinite(bound) && depth < 0)
     {
       distance += depth * depth;

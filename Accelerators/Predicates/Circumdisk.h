@@ -11,20 +11,20 @@
 namespace tipp
 {
 
-/// The closed disk through the corners of a triangle, made once and tested against many boxes,
-/// exactly.
+/// The closed disk through the corners of a triangle, computed once and tested exactly against many
+/// boxes.
 ///
-/// Holds its centre and radius as intervals of doubles; what they leave open, integers of any
-/// length decide. Needs finite corners in counter-clockwise order.
+/// Stores its centre and radius as intervals of doubles; if these leave a test undecided,
+/// arbitrary-precision integers decide. Corners must be finite and in counter-clockwise order.
 class VTKTIPPACCELERATORS_EXPORT Circumdisk
 {
 public:
   Circumdisk(Point2 a, Point2 b, Point2 c);
 
-  /// Whether disk and box have a point in common; touching counts.
+  /// Whether disk and box share a point; touching counts.
   bool meets(const Box2& box) const
   {
-    // Distance from the centre to the nearest point of the box, at least and at most.
+    // Lower and upper bound of the distance from the centre to the nearest point of the box.
     const double xNear = gap(box.xmin - this->Centre.xmax, this->Centre.xmin - box.xmax);
     const double yNear = gap(box.ymin - this->Centre.ymax, this->Centre.ymin - box.ymax);
     if (xNear * xNear + yNear * yNear > this->LargestSquare)
@@ -49,7 +49,7 @@ public:
     return !reachesOut && this->liesInsideExactly(box);
   }
 
-  /// A box that holds the disk: rounded outward, and infinite where doubles cannot tell.
+  /// A box that contains the disk: rounded outward, and infinite if doubles cannot bound it.
   Box2 bounds() const { return this->Outer; }
 
 private:
@@ -65,9 +65,9 @@ private:
   Point2 A;
   Point2 B;
   Point2 C;
-  Box2 Centre;           // interval of the centre
-  Box2 Outer;            // holds the disk's bounding box
-  Box2 Inner;            // each side is reached or passed by the disk
+  Box2 Centre;           // interval that contains the centre
+  Box2 Outer;            // contains the disk's bounding box
+  Box2 Inner;            // the disk reaches or crosses each side
   double SmallestSquare; // interval of the squared radius,
   double LargestSquare;  // widened by the rounding of the squared distances in meets()
 };

@@ -13,9 +13,9 @@
 namespace tipp
 {
 
-/// Multiplies finite doubles by one power of two that makes them all integers, of any length.
-/// Exact for every finite double; 1e-310 beside 1e300 costs 2,000 bits. `exponent`, if any, becomes
-/// that of the integers' unit.
+/// Multiplies finite doubles by one power of two that makes them all integers of arbitrary length.
+/// Exact for every finite double; 1e-310 and 1e300 together take 2,000 bits. `exponent`, if not
+/// null, receives the exponent of the integers' unit.
 template <std::size_t N>
 std::array<mpz_class, N> toCommonExponent(
   const std::array<double, N>& values, int* exponent = nullptr)

@@ -68,7 +68,7 @@ Exactness modeOf(double size, double scale)
   return units < std::ldexp(1.0, Int256Digits) ? Exactness::Int256 : Exactness::General;
 }
 
-// The difference in units where doubles hold every difference: up to 53 digits.
+// The difference in units if doubles represent every difference exactly: up to 53 digits.
 std::int64_t units(double x, double y, double scale)
 {
   return static_cast<std::int64_t>((x - y) * scale);
@@ -96,8 +96,8 @@ void CoordinateGrid::analyse(const Point2* points, std::size_t count)
   {
     return;
   }
-  // Differences of any two points are differences of their differences to the first one: multiples
-  // of the same unit.
+  // The difference of any two points is the difference of their differences to the first one, and
+  // so a multiple of the same unit.
   const Point2 reference = points[0];
   BitSpan span;
   Extent x = { reference.x, reference.x };

@@ -5,7 +5,7 @@
 namespace tipp
 {
 
-/// head + tail is the difference of two doubles, exactly.
+/// head + tail equals the difference of two doubles exactly.
 struct ExactDifference
 {
   double head;

@@ -11,15 +11,15 @@ namespace tipp
 namespace
 {
 
-// The determinant of the rows (x, y, x^2 + y^2, 1) over the coordinates themselves: differences of
-// coordinates with exponents far apart have too many digits.
+// Computed with the coordinates themselves, because differences of coordinates with very different
+// exponents have too many digits.
 int inCircleAnyLength(Point2 a, Point2 b, Point2 c, Point2 p)
 {
   const BinaryNumber x[4] = { binaryNumber(a.x), binaryNumber(b.x), binaryNumber(c.x),
     binaryNumber(p.x) };
   const BinaryNumber y[4] = { binaryNumber(a.y), binaryNumber(b.y), binaryNumber(c.y),
     binaryNumber(p.y) };
-  // The even permutations of the four rows; exchanging the first two makes the odd ones.
+  // The even permutations of the four rows; swapping the first two gives the odd ones.
   constexpr unsigned char even[12][3] = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 1, 0, 3 },
     { 1, 2, 0 }, { 1, 3, 2 }, { 2, 0, 1 }, { 2, 1, 3 }, { 2, 3, 0 }, { 3, 0, 2 }, { 3, 1, 0 },
     { 3, 2, 1 } };

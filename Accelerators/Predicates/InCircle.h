@@ -32,7 +32,7 @@ inline InCircleValue inCircleValue(Point2 a, Point2 b, Point2 c, Point2 p)
   return { determinant, aLift + bLift + cLift };
 }
 
-/// No less than the error of the determinant, for any coordinates; infinite or NaN after overflow.
+/// An upper bound of the determinant's error for any coordinates; infinite or NaN after overflow.
 //
 // Shewchuk 1997, section 4.4: |error| <= (10 + 96 e) e P, e = 2^-53, P the permanent, where P sums
 // lift(a) (|bx cy| + |cx by|) and its like. By Cauchy-Schwarz |bx cy| + |cx by| <= |b| |c|
@@ -50,11 +50,11 @@ inline double inCircleErrorBound(double lifts)
   return relative * (lifts * lifts) + absolute;
 }
 
-/// The same as inCircle(), straight by exact arithmetic: for callers whose own filter has failed.
+/// As inCircle(), but directly in exact arithmetic: for callers whose own filter has failed.
 VTKTIPPACCELERATORS_EXPORT int inCircleExact(Point2 a, Point2 b, Point2 c, Point2 p);
 
-/// Where p lies to the circle through a, b, c, which turn counter-clockwise. Exact for all finite
-/// coordinates: +1 strictly inside, 0 on the circle, -1 outside.
+/// The position of p relative to the circle through a, b, c, which must turn counter-clockwise.
+/// Exact for all finite coordinates: +1 strictly inside, 0 on the circle, -1 outside.
 inline int inCircle(Point2 a, Point2 b, Point2 c, Point2 p)
 {
   const InCircleValue value = inCircleValue(a, b, c, p);
@@ -70,7 +70,7 @@ inline int inCircle(Point2 a, Point2 b, Point2 c, Point2 p)
   return inCircleExact(a, b, c, p);
 }
 
-/// The tie rule alone: whether p counts as inside when it lies on the circle of a, b, c.
+/// The tie rule alone: whether p counts as inside if it lies on the circle of a, b, c.
 //
 // Devillers and Teillaud, Perturbations for Delaunay and weighted Delaunay 3D triangulations, 2011:
 // lift the lexicographically largest of the four points by the largest infinitesimal. Then p is
@@ -88,8 +88,8 @@ inline bool tieIsInside(Point2 a, Point2 b, Point2 c, Point2 p)
   return orientation(largest == a ? p : a, largest == b ? p : b, largest == c ? p : c) > 0;
 }
 
-/// Exact in-circle with ties broken by coordinates alone, as CGAL's Delaunay_triangulation_2 does:
-/// the triangulation of a point set is unique under it.
+/// Exact in-circle test with ties broken by coordinates alone, as CGAL's Delaunay_triangulation_2
+/// does: it makes the triangulation of a point set unique.
 inline bool inCirclePerturbed(Point2 a, Point2 b, Point2 c, Point2 p)
 {
   const int side = inCircle(a, b, c, p);

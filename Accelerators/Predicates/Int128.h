@@ -5,7 +5,7 @@
 namespace tipp
 {
 
-// GCC and Clang have 128-bit integers as an extension; named here once so that -Wpedantic holds.
+// 128-bit integers are an extension of GCC and Clang; __extension__ avoids -Wpedantic warnings.
 __extension__ typedef __int128 Int128;
 __extension__ typedef unsigned __int128 UInt128;
 

@@ -9,20 +9,21 @@
 namespace tipp
 {
 
-/// A two's complement integer of 256 bits: just enough of one for the sign of a sum of products.
-/// Sums wrap modulo 2^256, so partial sums may exceed the range as long as the last one does not.
+/// A 256-bit two's complement integer with the operations that the sign of a sum of products needs.
+/// Sums wrap modulo 2^256, so partial sums may exceed the range if the final sum does not.
 class Int256
 {
 public:
   Int256() = default;
 
-  /// The full product, exact for every pair of operands.
+  /// The full product, exact for all operands.
   static Int256 product(Int128 a, Int128 b)
   {
     const UInt128 ua = static_cast<UInt128>(a);
     const UInt128 ub = static_cast<UInt128>(b);
     Int256 result = unsignedProduct(ua, ub);
-    // Read as unsigned, a negative operand is 2^128 too large: take the other one off the top half.
+    // As an unsigned number a negative operand is too large by 2^128: subtract the other operand
+    // from the upper half.
     result.High -= (a < 0 ? ub : 0) + (b < 0 ? ua : 0);
     return result;
   }

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 // Signs of the two determinants over integer differences, in the narrowest integers that hold them.
-// Digits is the number of binary digits of every difference: |difference| < 2^Digits.
+// The suffix is the number of binary digits of every difference: |difference| < 2^digits.
 namespace tipp
 {
 

@@ -11,8 +11,8 @@ namespace tipp
 namespace
 {
 
-// Over the coordinates themselves: differences of coordinates with exponents far apart have too
-// many digits.
+// Computed with the coordinates themselves, because differences of coordinates with very different
+// exponents have too many digits.
 int orientationAnyLength(Point2 a, Point2 b, Point2 c)
 {
   const BinaryNumber x[3] = { binaryNumber(a.x), binaryNumber(b.x), binaryNumber(c.x) };

@@ -10,8 +10,7 @@
 namespace tipp
 {
 
-/// The same as orientation(), straight by exact arithmetic: for callers whose own filter has
-/// failed.
+/// As orientation(), but directly in exact arithmetic: for callers whose own filter has failed.
 VTKTIPPACCELERATORS_EXPORT int orientationExact(Point2 a, Point2 b, Point2 c);
 
 /// Exact for all finite coordinates: +1 if a, b, c turn counter-clockwise, -1 if clockwise, 0 if
@@ -21,14 +20,14 @@ inline int orientation(Point2 a, Point2 b, Point2 c)
   // (3 + 16 e) e, e = 2^-53: Shewchuk, Adaptive Precision Floating-Point Arithmetic, 1997,
   // section 4.3.
   constexpr double relative = 3.3306690738754716e-16;
-  // The bound supposes no underflow. Three roundings below the normal range (two products, the
+  // The bound assumes no underflow. Three roundings below the normal range (two products, the
   // bound) add at most 2^-1075 each; a difference never underflows.
   constexpr double absolute = 1e-300;
   const double left = (a.x - c.x) * (b.y - c.y);
   const double right = (a.y - c.y) * (b.x - c.x);
   const double determinant = left - right;
   const double bound = relative * (std::fabs(left) + std::fabs(right)) + absolute;
-  // An overflow makes the bound infinite or NaN, and both comparisons false.
+  // After an overflow the bound is infinite or NaN, and both comparisons are false.
   if (determinant > bound)
   {
     return 1;

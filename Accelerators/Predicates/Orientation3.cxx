@@ -13,7 +13,7 @@ namespace tipp
 namespace
 {
 
-// Each product has one difference of each axis, so that the axes may have different powers of two.
+// Each product has one difference of each axis, so each axis may have its own power of two.
 int orientationAnyLength(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
 {
   const auto x = toCommonExponent<4>({ a.x, b.x, c.x, d.x });
@@ -66,7 +66,7 @@ int orientationOfIntegers(const std::array<std::int64_t, 3>& x,
 
 int orientation3Exact(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
 {
-  // Most that are coplanar are so along an axis: borders of boxes and their samples.
+  // Most coplanar points are so along an axis: box borders and samples on them.
   const auto level = [&](double Point3::*axis)
   { return a.*axis == d.*axis && b.*axis == d.*axis && c.*axis == d.*axis; };
   if (level(&Point3::x) || level(&Point3::y) || level(&Point3::z))

@@ -10,7 +10,7 @@
 namespace tipp
 {
 
-/// The same as orientation3(), straight by exact arithmetic.
+/// As orientation3(), but directly in exact arithmetic.
 VTKTIPPACCELERATORS_EXPORT int orientation3Exact(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
@@ -37,9 +37,9 @@ inline int orientation3(const Point3& a, const Point3& b, const Point3& c, const
   const double permanent = std::fabs(az) * (std::fabs(bx * cy) + std::fabs(cx * by)) +
     std::fabs(bz) * (std::fabs(cx * ay) + std::fabs(ax * cy)) +
     std::fabs(cz) * (std::fabs(ax * by) + std::fabs(bx * ay));
-  // Of a product below the normal range at most 2^-1075 is lost, and a height multiplies that.
+  // A product below the normal range loses at most 2^-1075, which is multiplied by a height.
   const double bound = relative * permanent + 1e-300 * (1.0 + heights);
-  // An overflow makes the bound infinite or NaN, and both comparisons false.
+  // After an overflow the bound is infinite or NaN, and both comparisons are false.
   if (minus > bound)
   {
     return -1;

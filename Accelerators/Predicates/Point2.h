@@ -23,7 +23,7 @@ inline bool isFinite(Point2 p)
   return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
-// The order that every tie rule of the project stands on.
+// The order that all tie rules of the project use.
 inline bool lexicographicLess(Point2 a, Point2 b)
 {
   return a.x < b.x || (a.x == b.x && a.y < b.y);

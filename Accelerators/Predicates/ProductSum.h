@@ -30,7 +30,7 @@ inline BinaryNumber binaryNumber(double value)
   return { static_cast<std::int64_t>(fraction * 0x1p53), exponent - digits };
 }
 
-/// The mantissas' product must fit 127 digits.
+/// The product of the mantissas must fit in 127 digits.
 inline BinaryNumber operator*(const BinaryNumber& a, const BinaryNumber& b)
 {
   return { a.Mantissa * b.Mantissa, a.Exponent + b.Exponent };
@@ -41,8 +41,8 @@ inline BinaryNumber operator-(const BinaryNumber& a)
   return { -a.Mantissa, a.Exponent };
 }
 
-/// The exact sign of a sum of up to `Most` products whose exponents may lie thousands of digits
-/// apart. The product of two mantissas must be below 2^Digits.
+/// The exact sign of a sum of up to `Most` products whose exponents may differ by thousands. The
+/// product of two mantissas must be below 2^Digits.
 //
 // Terms are added from the largest exponent down. As soon as the sum is larger than all remaining
 // terms together can be, its sign is known. Until then it has at most Digits + CountDigits digits

@@ -13,14 +13,14 @@ namespace
 {
 
 constexpr int MantissaDigits = 53;
-constexpr int LowestExponent = -1074; ///< of the last digit of a double
+constexpr int LowestExponent = -1074; ///< exponent of the lowest digit of a double
 
 int digits(const mpz_class& value)
 {
   return int(mpz_sizeinbase(value.get_mpz_t(), 2));
 }
 
-/// numerator / denominator * 2^exponent, rounded to the nearest double once.
+/// numerator / denominator * 2^exponent, rounded once to the nearest double.
 double roundedQuotient(mpz_class numerator, mpz_class denominator, int exponent)
 {
   const int sign = sgn(numerator) * sgn(denominator);

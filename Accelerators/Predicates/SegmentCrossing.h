@@ -22,8 +22,8 @@ inline bool crossProperly(Point2 a, Point2 b, Point2 c, Point2 d)
   return sideOfA != 0 && orientation(c, d, b) == -sideOfA;
 }
 
-/// The point where ab and cd, which cross properly, cross; each coordinate is rounded to the
-/// nearest double, to the even one of two. So it lies in the bounding boxes of both.
+/// The crossing point of ab and cd, which must cross properly. Each coordinate is rounded to the
+/// nearest double, ties to even; so the point lies in the bounding boxes of both.
 VTKTIPPACCELERATORS_EXPORT Point2 crossingPoint(Point2 a, Point2 b, Point2 c, Point2 d);
 
 } // namespace tipp

@@ -7,19 +7,19 @@
 namespace tipp
 {
 
-/// An array of a mesh and the array of samples to fill from it.
+/// An array of a mesh, and the array of samples to compute from it.
 struct Attribute
 {
-  /// Of the points, or the cells; Components a tuple. Null: all are NullValue.
+  /// Values of the points, or the cells; Components per tuple. Null: all samples get NullValue.
   const void* Values = nullptr;
-  void* Samples = nullptr; ///< as many Components for each sample
+  void* Samples = nullptr; ///< Components per sample
   Scalar Type = Scalar::Float64;
   int Components = 1;
   bool OfCells = false;
-  double NullValue = 0; ///< what samples in no cell get
+  double NullValue = 0; ///< value of samples outside of all cells
 };
 
-/// Whether it is interpolated: numbers of points that are not whole.
+/// Whether the array is interpolated linearly: a point array of floating-point numbers.
 inline bool isInterpolated(const Attribute& attribute)
 {
   return !attribute.OfCells &&

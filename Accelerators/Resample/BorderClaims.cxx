@@ -10,7 +10,7 @@ namespace tipp
 namespace
 {
 
-/// Each thread sorts a share of them, and then the shares are merged.
+/// Each thread sorts a part, then the parts are merged.
 void sort(std::vector<Touch>& touches, int threads)
 {
   const auto border = [&](std::int64_t share)
@@ -23,13 +23,13 @@ void sort(std::vector<Touch>& touches, int threads)
   }
 }
 
-/// The one of lowest key of the cells that touch a sample.
+/// Of the cells that touch a sample, the one of lowest key.
 template <typename Access>
 std::int32_t lowestCell(
   const Access& cells, const LatticeAxes& axes, const Touch* begin, const Touch* end)
 {
   std::pair<CellKey, std::int32_t> lowest(noCellKey, begin->Cell);
-  // Most are alone.
+  // Most samples are touched by one cell only.
   for (const Touch* touch = begin; end - begin > 1 && touch < end; ++touch)
   {
     const int rank = borderRank(cells, axes, touch->Sample, touch->Cell);

@@ -13,7 +13,7 @@
 namespace tipp
 {
 
-/// A sample on the border of a cell that does not answer it.
+/// A sample on the border of a cell that does not claim it.
 struct Touch
 {
   std::int64_t Sample;
@@ -25,7 +25,7 @@ struct Touch
   }
 };
 
-/// Touches of samples that no cell has answered so far.
+/// Touches of samples that no cell has claimed so far.
 class TouchList
 {
 public:
@@ -42,7 +42,7 @@ public:
     }
   }
 
-  /// Most samples that one cell touches another answers: call now and then.
+  /// Removes the touches of samples that another cell has claimed; call now and then.
   template <typename IsClaimed>
   void tidy(const IsClaimed& isClaimed)
   {
@@ -88,7 +88,7 @@ int borderRank(
   }
 }
 
-/// Which of the touching cells answers each sample, by ascending sample; no other cell does.
+/// Returns which of the touching cells claims each sample, by ascending sample; no other cell does.
 VTKTIPPACCELERATORS_EXPORT std::vector<BorderClaim> borderClaims(
   const SimplexMesh& mesh, const LatticeAxes& axes, std::vector<Touch> touches, int threads);
 

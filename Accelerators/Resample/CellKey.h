@@ -12,10 +12,10 @@
 namespace tipp
 {
 
-/// Of the cells that contain a sample, the one with the lowest key answers it. A key's highest four
-/// bits are the cell's moveRank() there; the others are a hash of its corners' coordinates, so that
-/// cells that overlap are told apart alike whatever their order, ids and pieces are. Equal keys are
-/// copies of one cell.
+/// Of the cells that contain a sample, the one with the lowest key claims it. A key's highest four
+/// bits are the cell's moveRank() at the sample; the others are a hash of its corners' coordinates,
+/// so that the choice between overlapping cells does not depend on order, ids and pieces. Equal
+/// keys mean copies of one cell.
 using CellKey = std::uint64_t;
 
 constexpr CellKey noCellKey = ~CellKey(0);

@@ -12,8 +12,8 @@
 namespace tipp
 {
 
-/// What a kernel that does the cells of a piece tells of them beside the samples: how many it has
-/// claimed, and which it leaves, for they are large or in doubt.
+/// What a kernel returns for the cells of a piece besides the samples: the number of samples
+/// claimed, and the cells that it has not finished because they are large or undecided.
 class CellLists
 {
 public:
@@ -31,7 +31,7 @@ public:
   CellLists(const CellLists&) = delete;
   CellLists& operator=(const CellLists&) = delete;
 
-  cl_int share() const { return this->Share; } ///< cells that an item does
+  cl_int share() const { return this->Share; } ///< cells per work item
   std::int64_t items() const { return this->Items; }
 
   /// @name Arguments of the kernel
@@ -52,10 +52,10 @@ public:
   }
 
   /// @name After fetch()
-  ///@{
-  /// Numbered as in the piece.
+  /// @{
+  /// Indices in the piece.
   std::vector<std::int32_t> largeCells() const { return this->listed(this->Large, 0, 0); }
-  /// Numbered as in the mesh.
+  /// Indices in the mesh.
   std::vector<std::int32_t> doubtfulCells() const
   {
     return this->listed(this->Doubtful, 1, this->First);

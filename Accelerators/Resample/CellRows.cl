@@ -7,7 +7,7 @@
 #define ROWS 1
 #define DOUBT 2
 
-// Without branches, of which many would be mispredicted: truths are 0 or -1.
+// Without branches, many of which would be mispredicted: a mask is 0 or -1.
 int anyOf(int4 truths)
 {
   const int2 pairs = truths.lo | truths.hi;
@@ -30,22 +30,22 @@ typedef struct
   int4 end;
 } Box;
 
-// How many rows a cell's box has.
+// The number of rows in a cell's box.
 int rowsOf(const Box* box)
 {
   return (box->end.y - box->begin.y) * (box->end.z - box->begin.z);
 }
 
-// How many samples a cell's box has.
+// The number of samples in a cell's box.
 long samplesOf(const Box* box)
 {
   return (long)(box->end.x - box->begin.x) * rowsOf(box);
 }
 
-// Rows of a cell that are done side by side.
+// Number of rows of a cell processed together.
 #define ROWS_AT_ONCE (CORNERS == 3 ? 4 : 8)
 
-// What rows of a cell answer; a row without samples does not begin before it ends.
+// The samples that rows of a cell claim; a row without samples has end <= begin.
 typedef struct
 {
   int begin[ROWS_AT_ONCE];
@@ -54,7 +54,7 @@ typedef struct
   int layer[ROWS_AT_ONCE];
 } Spans;
 
-// Of a row's first sample.
+// The index of a row's first sample.
 long placeOfRow(int row, int layer, Axis x, Axis y)
 {
   return ((long)layer * (long)y.s7 + row) * (long)x.s7;

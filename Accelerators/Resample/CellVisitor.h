@@ -70,11 +70,11 @@ struct SampleRow
   int Layer;
 };
 
-/// Walks over the samples of all cells, each thread with a sink of its own:
-/// sink.visit(samples) for each cell whose box has samples, with their number;
-/// sink.claim(row, begin, count, cell) for samples of a row that a cell answers, if count is above
-/// 0; sink.touch(row, begin, count, cell) for those on a cell's border that it does not answer;
-/// sink.addExactTests(count); sink.endChunk() now and then.
+/// Visits the samples of all cells, each thread with a sink of its own. Calls sink.visit(samples)
+/// for each cell whose box has samples, with their number; sink.claim(row, begin, count, cell) for
+/// samples of a row that a cell claims, if count is above 0; sink.touch(row, begin, count, cell)
+/// for those on a cell's border that it does not claim; sink.addExactTests(count); and
+/// sink.endChunk() now and then.
 template <typename Access, typename Sink>
 class CellVisitor
 {
@@ -89,7 +89,7 @@ public:
   {
   }
 
-  /// False if `report` stopped it.
+  /// Returns false if `report` stopped it.
   bool run(const Report& report)
   {
     constexpr std::int64_t chunk = 4096;
@@ -106,16 +106,16 @@ private:
   using Rows = typename CellGeometry<Dimension>::Rows;
   using Corners = typename CellGeometry<Dimension>::Corners;
 
-  /// Cells of more samples are shared out among the threads, in parts of about so many samples.
+  /// Cells with more samples are split among the threads, in parts of about this many samples.
   static constexpr std::int64_t LargeCell = 1 << 16;
   static constexpr std::int64_t LargePart = 1 << 14;
-  /// So many cells are told outside or not, and points of the others asked for, at a time.
+  /// Number of cells whose points are prefetched together, unless the cells are outside.
   static constexpr std::int64_t Ahead = 32;
 
   struct Part
   {
     std::int32_t Cell;
-    std::int64_t RowBegin; ///< counted from the first of the cell's first layer
+    std::int64_t RowBegin; ///< relative to the first row of the cell's first layer
     std::int64_t RowEnd;
   };
 
@@ -191,7 +191,7 @@ private:
     return this->Mesh.Hidden && this->Mesh.Hidden[cell] != 0;
   }
 
-  /// A bit for each hidden one of the cells from `first` on.
+  /// A bit mask of the hidden cells from `first` on.
   unsigned hiddenLanes(std::int64_t first) const
   {
     unsigned hidden = 0;
@@ -202,7 +202,7 @@ private:
     return hidden;
   }
 
-  /// False, and nothing done, if it is a large cell.
+  /// Returns false, having done nothing, for a large cell.
   template <typename CellLanes>
   [[gnu::always_inline]] bool visitLane(
     const CellLanes& lanes, int lane, std::int64_t cell, Rows& rows, Sink& sink)
@@ -238,7 +238,7 @@ private:
     return true;
   }
 
-  /// Most tetrahedra that are small beside the samples' distances have one row at most.
+  /// Most tetrahedra that are small compared with the spacing have at most one row.
   template <typename CellLanes>
   [[gnu::always_inline]] void visitSingleRows(
     const CellLanes& lanes, std::int64_t first, Rows& rows, Sink& sink)
@@ -262,7 +262,7 @@ private:
     }
   }
 
-  /// Where samples are as far from each other as tetrahedra are large, most boxes have one.
+  /// If the spacing is about the size of the tetrahedra, most boxes have one sample.
   template <typename CellLanes>
   [[gnu::always_inline]] void visitSingleSamples(
     const CellLanes& lanes, std::int64_t first, Rows& rows, int thread)
@@ -310,7 +310,7 @@ private:
     samples > LargeCell ? this->defer(rows, part, thread) : this->visitRows(rows, part, sink);
   }
 
-  /// Tells, in turns, which of the cells are outside, and asks for the points of the others.
+  /// Finds which of the cells are outside, and prefetches the points of the others.
   [[gnu::always_inline]] void prefetch(
     std::int64_t begin, std::int64_t end, bool (&outside)[2 * Ahead]) const
   {

@@ -6,7 +6,7 @@
 #include "TriangleRows.cl"
 #include "TetrahedronRows.cl"
 
-// Claims some rows of a cell; returns the number of samples, or -1 if that is in doubt.
+// Claims some rows of a cell; returns the number of samples, or -1 if that is undecided.
 INLINE int claimRows(const Cell* cell, int first, int last, Axis x, Axis y, int name, global int* claims)
 {
   int total = 0;
@@ -40,8 +40,9 @@ INLINE int setCellOf(Cell* cell, const Mesh* mesh, long number, Axis x, Axis y, 
   return state == ROWS ? setRows(cell, points, x, y, z) : state;
 }
 
-// Each item does `share` cells in a row. Cells with more than `largest` samples in their boxes and
-// cells in doubt go to the lists; `lengths` has the lists' lengths. A cell of a list counts nothing.
+// Each work item processes `share` consecutive cells. Cells with more than `largest` samples in
+// their boxes and undecided cells are appended to the lists, whose lengths are in `lengths`. The
+// samples of listed cells are not counted.
 kernel void claimCells(global const Real* points, global const Id* ids, int u, int v, Axis x, Axis y, Axis z, long cells, long firstCell, int share,
   long largest, global const uchar* hidden, int hasHidden, global int* claims,
   global uint* counts, global int* large, global int* doubtful, global int* lengths)
@@ -83,7 +84,8 @@ kernel void claimCells(global const Real* points, global const Id* ids, int u, i
   counts[item] = total;
 }
 
-// One large cell, a row an item; counts[row] is what it claims, or -1 if that is in doubt.
+// One large cell, a work item per row; counts[row] is the number of samples claimed, or -1 if that
+// is undecided.
 kernel void claimLarge(global const Real* points, global const Id* ids, int u, int v, Axis x, Axis y, Axis z, long number, long firstCell, int rows,
   global int* claims, global int* counts)
 {

@@ -17,12 +17,12 @@ namespace
 
 constexpr std::int32_t unclaimed = -1;
 
-/// What a thread keeps of the first walk. Cells that do not overlap write to different samples;
-/// if some do overlap, more samples are claimed than there are, and another walk decides.
+/// A thread's state in the first walk. Cells that do not overlap write to different samples; if
+/// some overlap, more samples are claimed than there are, and another walk decides.
 class FirstWalk
 {
 public:
-  /// `names`: what the cells are called in the claims; null: as they are.
+  /// `names`: maps a cell's index to the number to store; null: the index itself.
   explicit FirstWalk(std::int32_t* claims, const std::int32_t* names = nullptr)
     : Claims(claims)
     , Names(names)
@@ -42,7 +42,8 @@ public:
     std::int32_t* const claims = this->Claims + row.First + begin;
     for (int i = 0; i < count; ++i)
     {
-      // An ordinary store; but cells that overlap may be in two threads at once.
+      // Relaxed atomic, compiled to an ordinary store: overlapping cells may be processed by two
+      // threads.
       __atomic_store_n(claims + i, name, __ATOMIC_RELAXED);
     }
   }
@@ -89,7 +90,7 @@ void lowerTo(CellKey* to, CellKey key)
   }
 }
 
-/// Of overlapping cells: calls settle(sample, cell, key) for what each claims.
+/// For overlapping cells: calls settle(sample, cell, key) for each sample that each claims.
 template <typename Access>
 class OverlapWalk
 {
@@ -127,7 +128,7 @@ private:
   CellKey KnownKey = noCellKey;
 };
 
-/// As numbers without a sign: unclaimed is the largest.
+/// Compared as unsigned numbers, so that -1, unclaimed, is the largest.
 void lowerTo(std::int32_t* to, std::int32_t cell)
 {
   std::int32_t known = __atomic_load_n(to, __ATOMIC_RELAXED);
@@ -288,7 +289,7 @@ Claims finishClaims(const SimplexMesh& mesh, const Lattice& lattice, int threads
 namespace
 {
 
-/// Merges claims first..last - 1; the keys are found `shift` further.
+/// Merges claims [first, last); their keys are at an offset of `shift`.
 template <typename Access>
 void mergeRun(const Access& access, const LatticeAxes& axes, Claims& claims, std::int64_t first,
   std::int64_t last, std::int64_t shift, CellKey* keys)

@@ -8,9 +8,9 @@
 namespace tipp
 {
 
-/// By which move a closed cell that contains a sample comes to contain it properly: 0 for (e, e^2,
-/// e^3); m for the move mirrored along x if m has bit 0, along y if bit 1, along z if bit 2; and
-/// `closedOnly` if by none of them. Of the cells at a sample the one of lowest rank answers it.
+/// The rank of the move by which a closed cell that contains a sample comes to contain it properly:
+/// 0 for (e, e^2, e^3); m for the move mirrored along x if m has bit 0, along y if bit 1, along z
+/// if bit 2; `closedOnly` if none does. Of the cells at a sample the one of lowest rank claims it.
 constexpr int closedOnly = 8;
 
 /// Exact. The corners are in any order; the triangle has an area and contains the sample.

@@ -13,20 +13,21 @@
 namespace tipp
 {
 
-/// Neighbours that one work item does: some on a CPU, where items are not side by side in lanes.
+/// Number of consecutive cells or samples per work item: several on a CPU, whose items do not run
+/// in SIMD lanes.
 inline cl_int shareOf(const ComputeDevice& device)
 {
   return device.description().Type == DeviceType::Cpu ? 32 : 1;
 }
 
-/// Cells with more samples in their boxes are done by an item a row. A CPU waits longer for a
-/// kernel to begin than others wait for one large cell.
+/// Cells with more samples in their boxes are processed with a work item per row. On a CPU,
+/// starting a kernel costs more than waiting for one large cell.
 inline cl_long largestCellOf(const ComputeDevice& device)
 {
   return device.description().Type == DeviceType::Cpu ? 1 << 16 : 1 << 12;
 }
 
-/// An array of this process that kernels write to: in place where the memory is shared.
+/// An array of this process that kernels write to: in place if the memory is shared.
 class OutputArray
 {
 public:
@@ -82,7 +83,7 @@ inline cl_double8 axisArgument(const LatticeAxis& axis)
     axis.errorOffset(), axis.delta(), double(axis.size()) } };
 }
 
-/// Whether kernels sample it.
+/// Whether kernels can sample the attribute.
 inline bool isForDevice(const Attribute& attribute)
 {
   return attribute.Values && isInterpolated(attribute);
@@ -93,7 +94,7 @@ inline std::size_t tupleBytes(const Attribute& attribute)
   return std::size_t(attribute.Components) * (attribute.Type == Scalar::Float32 ? 4 : 8);
 }
 
-/// How many rows of samples a cell's box has.
+/// The number of rows of samples in a cell's box.
 inline std::int64_t rowsOfCell(const SimplexMesh& mesh, const LatticeAxes& axes, std::int64_t cell)
 {
   std::int64_t rows = 0;

@@ -17,14 +17,14 @@ namespace tipp
 class DeviceResampler
 {
 public:
-  /// On the device that the options choose; null if OpenMP is to be used.
+  /// Opens the device that the options choose; null if OpenMP is to be used.
   static std::unique_ptr<DeviceResampler> open(
     const SimplexMesh& mesh, const ResampleOptions& options);
 
   virtual ~DeviceResampler() = default;
 
   virtual std::string name() const = 0;
-  /// What all transfers to and from the device have taken so far.
+  /// Total time of all transfers to and from the device.
   virtual double transferSeconds() const = 0;
 
   ///@{

@@ -13,31 +13,31 @@ struct DirectResult
 {
   ClaimStatistics Statistics;
   double FinishSeconds = 0; ///< for null values and the mesh's border, after the walk
-  bool Overlapping = false; ///< cells claim the same samples: nothing is decided
+  bool Overlapping = false; ///< cells claim the same samples: the result is undefined
   bool Aborted = false;
 };
 
-/// What claimSamples() and interpolate() do, in one walk over the cells, which are read once. Right
-/// for cells that do not overlap; for others it tells. All samples are filled; `options.Valid` is
-/// not null.
+/// Does the work of claimSamples() and interpolate() in one walk, which reads each cell once.
+/// Correct for cells that do not overlap; otherwise it sets Overlapping. All samples are filled;
+/// `options.Valid` must not be null.
 VTKTIPPACCELERATORS_EXPORT DirectResult sampleDirectly(const SimplexMesh& mesh,
   const Lattice& lattice, const std::vector<Attribute>& attributes,
   const InterpolationOptions& options);
 
-/// What a device has done of that.
+/// The part of that work that a device has done.
 struct SampledCells
 {
-  std::int64_t Claimed = 0;       ///< the sum of samples that the cells claim but for the open ones
-  std::vector<std::int32_t> Open; ///< cells that are not done, or in part
+  std::int64_t Claimed = 0; ///< number of samples that cells claim, without those of open cells
+  std::vector<std::int32_t> Open; ///< cells that are not processed, or only in part
   bool Aborted = false;
 };
 
-/// Finishes what a device has begun, with arrays of points alone.
+/// Completes the work of a device; all attributes must be point arrays.
 DirectResult finishDirectly(const SimplexMesh& mesh, const Lattice& lattice,
   const std::vector<Attribute>& attributes, const InterpolationOptions& options,
   const SampledCells& sampled);
 
-/// No sample is valid.
+/// Marks all samples as not valid.
 void clearMask(std::int64_t samples, int threads, unsigned char* valid);
 
 } // namespace tipp

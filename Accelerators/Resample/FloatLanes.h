@@ -10,7 +10,7 @@
 namespace tipp
 {
 
-/// Eight numbers of single precision side by side, and eight truths or whole numbers.
+/// Eight single-precision numbers in SIMD lanes, and eight masks or integers.
 using FloatLanes = float __attribute__((vector_size(32)));
 using FloatLaneInts = std::int32_t __attribute__((vector_size(32)));
 
@@ -20,12 +20,12 @@ constexpr int floatLaneCount = 8;
 {
   return FloatLanes{} + value;
 }
-/// The larger, or b.
+/// The larger; b if one is NaN.
 [[gnu::always_inline]] inline FloatLanes most(FloatLanes a, FloatLanes b)
 {
   return a > b ? a : b;
 }
-/// The smaller, or b.
+/// The smaller; b if one is NaN.
 [[gnu::always_inline]] inline FloatLanes least(FloatLanes a, FloatLanes b)
 {
   return a < b ? a : b;
@@ -61,7 +61,7 @@ constexpr int floatLaneCount = 8;
 #endif
 }
 
-/// Four numbers rounded to single precision.
+/// Rounds four numbers to single precision.
 [[gnu::always_inline]] inline void storeFloats(Lanes from, float (&to)[laneCount])
 {
   using Half = float __attribute__((vector_size(16)));

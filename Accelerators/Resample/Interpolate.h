@@ -18,13 +18,14 @@ namespace tipp
 struct InterpolationOptions
 {
   int Threads = 1;
-  /// Whether samples that no cell claims get the NullValue; else they keep what they have.
+  /// Whether samples that no cell claims get the NullValue; otherwise they are not changed.
   bool FillUnclaimed = true;
-  /// Whether floating-point arrays of points are there already.
+  /// Whether floating-point point arrays have been sampled already.
   bool SkipInterpolated = false;
-  /// The cell of the attributes' arrays that each simplex is a part of; null: it is one itself.
+  /// For each simplex the index of its cell in the attributes' arrays; null: its own index.
   const std::int64_t* Parents = nullptr;
-  /// One a sample, set to 1 where a cell claims it, and with FillUnclaimed to 0 elsewhere; or null.
+  /// Mask, one value per sample: set to 1 if a cell claims it, and with FillUnclaimed to 0
+  /// otherwise; may be null.
   unsigned char* Valid = nullptr;
   Report Progress;
 };

@@ -7,17 +7,17 @@
 #include <cstdint>
 #include <cstring>
 
-// Functions of lanes are always inlined, so how they would be called does not matter.
+// Functions of lanes are always inlined, so their calling convention does not matter.
 #pragma GCC diagnostic ignored "-Wpsabi"
 #ifndef __clang__
-// GCC 12 takes arrays of lanes for uninitialised, even where they are.
+// GCC 12 reports arrays of lanes as uninitialised even if they are not.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 
 namespace tipp
 {
 
-/// Four numbers side by side, and four truths: 0 or -1.
+/// Four numbers in SIMD lanes, and four masks: 0 or -1.
 using Lanes = double __attribute__((vector_size(32)));
 using LaneTruths = std::int64_t __attribute__((vector_size(32)));
 using LaneInts = std::int32_t __attribute__((vector_size(16)));
@@ -38,12 +38,12 @@ inline bool hasAvx2()
 {
   return Lanes{ value, value, value, value };
 }
-/// The larger, or b.
+/// The larger; b if one is NaN.
 [[gnu::always_inline]] inline Lanes most(Lanes a, Lanes b)
 {
   return a > b ? a : b;
 }
-/// The smaller, or b.
+/// The smaller; b if one is NaN.
 [[gnu::always_inline]] inline Lanes least(Lanes a, Lanes b)
 {
   return a < b ? a : b;
@@ -85,7 +85,7 @@ inline bool hasAvx2()
 #endif
 }
 
-/// Places along a LatticeAxis: LatticeAxis::place(), error() and certain() for lanes.
+/// Positions along a LatticeAxis: LatticeAxis::place(), error() and certain() for lanes.
 class AxisLanes
 {
 public:
@@ -122,7 +122,7 @@ public:
     return loadLanes(this->Axis.data() + first);
   }
 
-  /// As coordinate() tells them, of samples with these numbers.
+  /// The coordinates of samples with these indices, as coordinate() returns them.
   [[gnu::always_inline]] Lanes coordinates(Lanes numbers) const
   {
     return this->Min + (numbers + this->First) * this->Delta;
@@ -185,7 +185,7 @@ private:
   }
 };
 
-/// What rows of one cell answer, or a row of each of some cells.
+/// The samples claimed in several rows of one cell, or in one row of each of several cells.
 template <int N>
 struct RowSpans
 {
@@ -199,14 +199,14 @@ struct RowSpans
   }
 
   unsigned Open;     ///< a bit for each row that has samples
-  unsigned Doubtful; ///< a bit for each row that is to be asked exactly; else it is as told
+  unsigned Doubtful; ///< a bit for each row that needs exact tests; the others are decided
   std::int32_t Begin[N];
   std::int32_t Size[N];
   std::int32_t Row[N];
   std::int32_t Layer[N];
 };
 
-/// For the first `count` lanes.
+/// The mask of the first `count` lanes.
 [[gnu::always_inline]] inline LaneTruths firstLanes(int count)
 {
   return LaneTruths{ 0, 1, 2, 3 } < count;

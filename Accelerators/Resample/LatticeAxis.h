@@ -11,7 +11,7 @@
 namespace tipp
 {
 
-/// Indices of samples, Begin included, End not.
+/// The half-open range [Begin, End) of sample indices.
 struct IndexRange
 {
   int Begin;
@@ -20,7 +20,8 @@ struct IndexRange
   bool empty() const { return this->Begin >= this->End; }
   int size() const { return this->End - this->Begin; }
 
-  /// The test holds for some indices from Begin on, or none, and not beyond them.
+  /// Returns the first index for which the test is false, or End; it must be true before that index
+  /// and false from there on.
   template <typename Test>
   int firstWhereNot(const Test& test) const
   {
@@ -34,15 +35,16 @@ struct IndexRange
   }
 };
 
-/// How many samples of a row lie strictly before a line or plane that crosses it, and with those on
-/// it.
+/// Where a line or plane crosses a row: the number of samples strictly before the crossing, and the
+/// number including those on it.
 struct Crossing
 {
   int Before;
   int WithOn;
 };
 
-/// One axis of a lattice: the coordinates of its samples, and where among them others lie.
+/// One axis of a lattice: the coordinates of its samples, and the position of other coordinates
+/// among them.
 class LatticeAxis
 {
 public:
@@ -73,8 +75,8 @@ public:
   /// The coordinates, and four more.
   const double* data() const { return this->Coordinates.data(); }
 
-  /// Where v lies, in steps, rounded: 1 at the first sample. Clamped to numbers whose whole part is
-  /// 0 below all samples and size() above them.
+  /// The position of v in steps, rounded: 1 at the first sample. Clamped to numbers whose integer
+  /// part is 0 below all samples and size() above them.
   double place(double v) const
   {
     return this->clamp((v - this->Min) * this->Inverse - this->First + 1);
@@ -82,27 +84,28 @@ public:
   // In this order of arguments NaN becomes 0.5.
   double clamp(double place) const { return std::min(this->Limit, std::max(0.5, place)); }
   double inverse() const { return this->Inverse; }
-  /// The lattice's own: not that of the first sample, if that has another index than 0.
+  /// The lattice's origin, not the first sample's coordinate, which differs if its index is not 0.
   double origin() const { return this->Min; }
   double firstIndex() const { return this->First; }
 
-  /// How far place() may be wrong for crossings of lines with rows, computed within a cell whose
-  /// coordinates reach to +-reach, and the samples' own coordinates, in steps. A crossing takes ten
-  /// roundings, each of 2^-53 of twice `reach` and Min at the most; this counts 64.
+  /// A bound, in steps, of the error of place() for crossings of lines with rows, computed in a
+  /// cell whose coordinates lie within +-reach, including the error of the samples' own
+  /// coordinates. A crossing takes ten roundings, each of at most 2^-53 of twice `reach` and Min;
+  /// the bound counts 64.
   double error(double reach) const { return reach * this->ErrorScale + this->ErrorOffset; }
   double errorScale() const { return this->ErrorScale; }
   double errorOffset() const { return this->ErrorOffset; }
   double limit() const { return this->Limit; }
   double delta() const { return this->Delta; }
 
-  /// Whether the whole part of a place with this error is certain. Never with an error that is half
-  /// or more, infinite, or not a number.
+  /// Whether the integer part of a position with this error is certain. False if the error is half
+  /// or more, infinite, or NaN.
   static bool certain(double place, double error)
   {
     return std::fabs(place - int(place) - 0.5) < 0.5 - error;
   }
 
-  /// The only sample that a place with an error below one half does not tell the side of; -1 or
+  /// The only sample whose side a position with an error below one half leaves undecided; -1 or
   /// size() if there is none.
   static int doubtful(double place)
   {
@@ -110,8 +113,8 @@ public:
     return place - whole < 0.5 ? whole - 1 : whole;
   }
 
-  /// The samples before a crossing at a place that is not certain, those of `columns` being in
-  /// question. side(i) is exact: 1 before it, 0 on it, -1 beyond.
+  /// The samples before a crossing whose position is uncertain, searched among `columns`. side(i)
+  /// is exact: 1 before it, 0 on it, -1 beyond.
   template <typename Side>
   Crossing crossing(double place, double error, IndexRange columns, const Side& side) const
   {
@@ -129,7 +132,7 @@ public:
     return { where > 0 ? i + 1 : i, where >= 0 ? i + 1 : i };
   }
 
-  /// The samples from low to high, both included; `error` as from error() with a reach to both.
+  /// The samples in the closed interval [low, high]; `error` as from error() with a reach to both.
   [[gnu::always_inline]] IndexRange range(double low, double high, double error) const
   {
     const double begin = this->place(low);
@@ -144,7 +147,7 @@ public:
   /// 64 roundings of numbers up to 1.
   static constexpr double Roundings = 7.1054273576010019e-15; // 2^-47
 
-  /// As range() where that is not certain.
+  /// As range(), if that is uncertain.
   [[gnu::noinline]] IndexRange exactRange(double low, double high) const
   {
     const auto begin = this->Coordinates.begin();
@@ -167,11 +170,11 @@ private:
   std::vector<double> Coordinates;
 };
 
-/// Samples of a cell along a row: those it answers, and those it contains beyond them.
+/// A cell's samples in a row: those it claims, and those on its border beyond them.
 struct RowSpan
 {
   int Begin;
-  int End;       ///< those it answers are Begin..End - 1; none if End <= Begin
+  int End;       ///< claimed: [Begin, End); none if End <= Begin
   int ClosedEnd; ///< those from max(Begin, End) before this lie on its border
 };
 

@@ -15,34 +15,34 @@
 namespace tipp
 {
 
-/// How a mesh goes to a device: whole, or cell by cell in pieces of so many.
+/// How a mesh is sent to a device: as a whole, or in pieces of this many cells.
 struct DevicePieces
 {
   bool Whole;
   std::int64_t Cells;
 };
 
-/// For a device with `others` bytes beside the mesh and point arrays of `tuple` bytes a point.
-/// `memory` is how many bytes may be used, 0: half of the device's. Throws AcceleratorError if no
-/// cell fits.
+/// For a device with `others` bytes in use besides the mesh and point arrays of `tuple` bytes per
+/// point. `memory` is the maximum number of bytes, 0: half of the device's memory. Throws
+/// AcceleratorError if no cell fits.
 DevicePieces piecesOnDevice(const ComputeDevice& device, const SimplexMesh& mesh, std::size_t tuple,
   std::size_t others, std::uint64_t memory);
 
 /// Some cells of a mesh for the kernels of ClaimSamples.cl: all, with the mesh's own points, or a
-/// piece, with the corners of each cell side by side.
+/// piece, with each cell's corners stored consecutively.
 class MeshOnDevice
 {
 public:
   /// The whole mesh.
   MeshOnDevice(const ComputeDevice& device, const SimplexMesh& mesh);
-  /// A piece, gathered by the threads.
+  /// A piece, gathered by the CPU's threads.
   MeshOnDevice(const ComputeDevice& device, const SimplexMesh& mesh, std::int64_t first,
     std::int64_t count, int threads);
 
-  /// A point array for these points.
+  /// Sends a point array for these points.
   cl::Buffer values(const SimplexMesh& mesh, const void* values, std::size_t tupleBytes) const;
 
-  /// Tells the compiler of the kernels the types of the mesh.
+  /// The compiler options that define the mesh's types.
   std::string compilerOptions() const;
 
   std::int64_t first() const { return this->First; }
@@ -63,19 +63,19 @@ private:
   std::int64_t Count;
   bool Whole;
   int Threads;
-  std::vector<double> Gathered; ///< must last as long as Points
+  std::vector<double> Gathered; ///< must outlive Points
   std::vector<std::int32_t> Numbers;
   mutable std::vector<std::vector<char>> GatheredValues;
 };
 
-/// A mesh that goes to a device once or more, whole if it fits; then it stays there.
+/// A mesh that is sent to a device, piece by piece, or as a whole if it fits; then it stays there.
 class MeshPieces
 {
 public:
   MeshPieces(ComputeDevice& device, const SimplexMesh& mesh, int threads, std::uint64_t memory);
 
-  /// Calls work(piece) for all cells, beside what piecesOnDevice() is told of. False if `report`
-  /// stopped it. Throws AcceleratorError.
+  /// Calls work(piece) for all cells, with memory as computed by piecesOnDevice(). Returns false if
+  /// `report` stopped it. Throws AcceleratorError.
   template <typename Work>
   bool forEach(std::size_t tuple, std::size_t others, const Report& report, const Work& work)
   {

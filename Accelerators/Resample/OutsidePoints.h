@@ -13,9 +13,9 @@
 namespace tipp
 {
 
-/// The sides of a lattice that a mesh's points lie beyond. A cell whose points all lie beyond one
-/// has no samples; that is found in a byte a point, where the points themselves, in no order, would
-/// each be far from the last in memory.
+/// For each point a mask of the lattice's sides that it lies beyond. A cell whose points all lie
+/// beyond one side has no samples. The test reads a byte per point, where the points themselves
+/// would be random accesses to memory.
 template <typename Access>
 class OutsidePoints
 {
@@ -36,7 +36,7 @@ public:
     }
   }
 
-  /// Finds the sides, if most points are outside; else there are none.
+  /// Computes the masks if most points are outside; otherwise there are none.
   void find(int threads)
   {
     if (!this->Worthwhile || !this->mostAreOutside())

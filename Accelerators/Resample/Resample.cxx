@@ -16,7 +16,7 @@ namespace tipp
 namespace
 {
 
-/// Fewer cells and samples together are done before a device has its data.
+/// With fewer cells and samples in total, threads finish before a device has received its data.
 constexpr std::int64_t worthATransfer = 1000000;
 
 class Resampler
@@ -76,7 +76,7 @@ private:
     }
   }
 
-  /// False if it takes more: cells overlap, or a device has more to do than one walk can.
+  /// Returns false if more steps are needed: cells overlap, or the device cannot do it in one walk.
   bool sampleAtOnce()
   {
     if (this->Device && !this->Device->canSample(this->Attributes))
@@ -114,7 +114,7 @@ private:
     return !direct.Overlapping;
   }
 
-  /// Seconds since the last lap, but those of transfers, which are counted apart.
+  /// Seconds since the last lap without those of transfers, which are counted separately.
   double lap()
   {
     double transfer = 0;
@@ -129,7 +129,7 @@ private:
 
   std::string deviceName() const { return this->Device ? this->Device->name() : "OpenMP"; }
 
-  /// If the device fails, it is not asked again.
+  /// If the device fails, it is not used again.
   template <typename Work>
   void tryDevice(const Work& work)
   {
@@ -191,10 +191,10 @@ private:
   const Lattice& Grid;
   const std::vector<Attribute>& Attributes;
   const ResampleOptions& Options;
-  SampleWindow Window;                     ///< the samples that are looked at
+  SampleWindow Window;                     ///< the samples that are considered
   std::unique_ptr<DeviceResampler> Device; ///< null: OpenMP
   Stopwatch Watch;
-  double Transferred = 0; ///< what the device's transfers had taken at the last lap
+  double Transferred = 0; ///< the device's transfer time at the last lap
   ResampleResult Result;
 };
 

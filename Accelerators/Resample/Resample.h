@@ -13,13 +13,14 @@ namespace tipp
 struct ResampleOptions
 {
   DeviceChoice Device = { tipp::Device::OpenMP, -1, "" };
-  std::uint64_t DeviceMemory = 0; ///< bytes of an OpenCL device to use; 0: half of them
+  std::uint64_t DeviceMemory = 0; ///< bytes of an OpenCL device to use; 0: half of its memory
   int Threads = 1;
-  /// One a sample, of the cells that answer so far (noCellKey: none): the mesh is a part of a
-  /// whole, only adds what has lower keys, and costs what its own box covers. Null: it is all there
-  /// is, and samples that it does not answer get the attributes' NullValue.
+  /// If the mesh is a part of a larger one: per sample the key of the cell that claims it so far
+  /// (noCellKey: none). Only samples with lower keys are changed, and the cost depends on the
+  /// part's own box. Null: the mesh is complete, and samples that no cell claims get the
+  /// attributes' NullValue.
   CellKey* Keys = nullptr;
-  /// One a sample, 1 if a cell answers it. With Keys the caller clears it.
+  /// Mask, 1 for samples that a cell claims. With Keys the caller must clear it.
   unsigned char* Valid = nullptr;
   const std::int64_t* Parents = nullptr; ///< see InterpolationOptions
   Report Progress;
@@ -28,19 +29,19 @@ struct ResampleOptions
 struct ResampleResult
 {
   ClaimStatistics Statistics;
-  /// Where threads do it and the mesh is all there is, most of the interpolation is counted here.
+  /// If threads resample a complete mesh, this includes most of the interpolation.
   double ClaimSeconds = 0;
   double InterpolationSeconds = 0;
-  double TransferSeconds = 0; ///< to and from an OpenCL device; the others are without them
-  /// "OpenMP", or an OpenCL device's name; empty if a part has no samples to find.
+  double TransferSeconds = 0; ///< to and from an OpenCL device; not included in the others
+  /// "OpenMP", or an OpenCL device's name; empty if a part has no samples.
   std::string Device;
-  std::string Warning; ///< why it is not the device asked for; else empty
+  std::string Warning; ///< why another device than the requested one was used; else empty
   bool Aborted = false;
 };
 
-/// Samples a mesh on a lattice: see claimSamples() and interpolate(). The attributes' arrays have
-/// the lattice's samples, the first axis fastest; for triangles those of its two `mesh.Axes`. If an
-/// OpenCL device is missing or fails, OpenMP does it all, and Warning tells.
+/// Samples a mesh on a lattice: see claimSamples() and interpolate(). The attributes' sample arrays
+/// have the lattice's samples, the first axis fastest; for triangles those of its two `mesh.Axes`.
+/// If an OpenCL device is missing or fails, OpenMP does all the work, and Warning gives the reason.
 VTKTIPPACCELERATORS_EXPORT ResampleResult resample(const SimplexMesh& mesh, const Lattice& lattice,
   const std::vector<Attribute>& attributes, const ResampleOptions& options);
 

@@ -8,15 +8,14 @@
 namespace tipp
 {
 
-/// claimSamples() on an OpenCL device: what its filters decide, it decides; the threads of this
-/// process do the cells in doubt and those at the border. The same claims; the statistics count
-/// the cells in doubt only. Throws AcceleratorError.
+/// claimSamples() on an OpenCL device. The device's filters decide most cells; threads of this
+/// process do the undecided ones and those at the border. The claims are the same; the statistics
+/// count only the undecided cells. Throws AcceleratorError.
 Claims claimOnDevice(MeshPieces& mesh, const Lattice& lattice, const Report& report);
 
-/// The attributes of floating-point numbers of points where `claims` has a cell; like
-/// interpolate() otherwise. Other samples keep what they have if `keeps`, else they are undefined;
-/// only the window's go to the device and back.
-/// False if `report` stopped it. Throws AcceleratorError.
+/// Interpolates floating-point point arrays at samples that a cell claims in `claims`; otherwise as
+/// interpolate(). If `keeps`, the other samples are not changed, else they are undefined; only the
+/// window's samples are transferred. Returns false if `report` stopped it. Throws AcceleratorError.
 bool interpolateOnDevice(MeshPieces& mesh, const SampleWindow& window, const std::int32_t* claims,
   const std::vector<Attribute>& attributes, bool keeps, const Report& report);
 

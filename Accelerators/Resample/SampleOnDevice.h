@@ -10,11 +10,10 @@
 namespace tipp
 {
 
-/// Whether sampleOnDevice() can do all of the arrays: a few of points and of numbers that are not
-/// whole.
+/// Whether sampleOnDevice() supports all of the arrays: a few floating-point point arrays.
 bool canSampleOnDevice(const std::vector<Attribute>& attributes);
 
-/// sampleDirectly() on an OpenCL device, to be finished by finishDirectly(). Throws
+/// sampleDirectly() on an OpenCL device; finishDirectly() completes the result. Throws
 /// AcceleratorError.
 SampledCells sampleOnDevice(MeshPieces& mesh, const Lattice& lattice,
   const std::vector<Attribute>& attributes, unsigned char* valid, const Report& report);

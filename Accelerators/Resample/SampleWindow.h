@@ -12,8 +12,8 @@
 namespace tipp
 {
 
-/// A box of a lattice's samples, and where these lie among all of them. A part of a mesh then costs
-/// what its own box holds, not what the whole image does.
+/// A box of a lattice's samples, and its position in the lattice. With it the cost of a part of a
+/// mesh depends on the part's own box, not on the whole image.
 ///
 /// For triangles the samples are those of the lattice's two `mesh.Axes`.
 class VTKTIPPACCELERATORS_EXPORT SampleWindow
@@ -21,23 +21,23 @@ class VTKTIPPACCELERATORS_EXPORT SampleWindow
 public:
   /// All samples.
   SampleWindow(const SimplexMesh& mesh, const Lattice& lattice);
-  /// Those that the mesh's cells may answer, which are found exactly.
+  /// The samples that the mesh's cells may claim, decided exactly.
   static SampleWindow around(const SimplexMesh& mesh, const Lattice& lattice, int threads);
 
-  /// The window's samples: the very same as the whole lattice's.
+  /// The window's samples, bit for bit those of the whole lattice.
   const Lattice& lattice() const { return this->Part; }
   std::int64_t samples() const { return this->Width * this->Height * this->Layers; }
   bool isWhole() const { return this->Whole; }
 
-  /// The first sample of the window's row of this number among all samples.
+  /// The index, among all samples, of the first sample of row `row` of the window.
   std::int64_t place(std::int64_t row) const
   {
     return this->First +
       ((row / this->Height) * this->AllHeight + row % this->Height) * this->AllWidth;
   }
 
-  /// Calls work(first, last, shift) for runs of the window's samples begin..end - 1, of which
-  /// first..last - 1 lie at first + shift and so on among all samples.
+  /// Calls work(first, last, shift) for runs [first, last) of the window's samples [begin, end); in
+  /// the whole lattice they have the indices from first + shift on.
   template <typename Work>
   void forRuns(std::int64_t begin, std::int64_t end, const Work& work) const
   {
@@ -64,7 +64,7 @@ private:
   std::int64_t Layers = 0;
   std::int64_t AllWidth;
   std::int64_t AllHeight;
-  std::int64_t First = 0; ///< of the window's samples among all
+  std::int64_t First = 0; ///< index among all samples of the window's first
   bool Whole = true;
 };
 

@@ -11,22 +11,23 @@
 namespace tipp
 {
 
-/// Triangles or tetrahedra where they lie in memory.
+/// A view of triangles or tetrahedra in the caller's arrays. Not owned.
 struct SimplexMesh
 {
-  const void* Points = nullptr; ///< x, y, z in a row
+  const void* Points = nullptr; ///< x, y, z per point
   bool Float = false;           ///< Points are float32, else float64
-  const void* Ids = nullptr;    ///< three or four point ids a cell
+  const void* Ids = nullptr;    ///< three or four point indices per cell
   bool Wide = false;            ///< Ids are int64, else int32
   std::int64_t Cells = 0;
   std::int64_t PointCount = 0;
-  const unsigned char* Hidden = nullptr; ///< a cell with other than 0 answers nothing; may be null
-  /// 3 for tetrahedra. 2 for triangles, of which the two coordinates along Axes count.
+  /// cells with a value other than 0 claim nothing; may be null
+  const unsigned char* Hidden = nullptr;
+  /// 3 for tetrahedra. 2 for triangles, of which only the two coordinates along Axes are used.
   int Dimension = 2;
   int Axes[2] = { 0, 1 };
 };
 
-/// Access to a SimplexMesh's cells, its types being known.
+/// Typed access to the cells of a SimplexMesh.
 template <int D, typename Scalar, typename Id>
 class SimplexAccess
 {
@@ -60,7 +61,7 @@ public:
     }
   }
 
-  /// Those coordinates of a point that count.
+  /// The coordinates of a point that are used.
   [[gnu::always_inline]] void coordinates(std::int64_t id, double (&coordinates)[D]) const
   {
     const Scalar* p = this->Points + 3 * id;
@@ -76,8 +77,8 @@ public:
     return { double(p[0]), double(p[1]), double(p[2]) };
   }
 
-  /// Asks for a cell's points, whose places in memory need not follow any order. Always inlined: a
-  /// call of a function that does no more than that may be left out by the compiler.
+  /// Prefetches a cell's points, which may be anywhere in memory. Always inlined, because a
+  /// compiler may drop a call to a function that only prefetches.
   [[gnu::always_inline]] void prefetch(std::int64_t cell) const
   {
     for (int i = 0; i < Corners; ++i)

@@ -9,7 +9,7 @@
 namespace tipp
 {
 
-/// TetrahedronRows for four tetrahedra at a time, as far as rounding does not matter.
+/// TetrahedronRows for four tetrahedra at a time, for rows that rounding leaves decided.
 class TetrahedronLanes
 {
 public:

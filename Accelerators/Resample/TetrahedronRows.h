@@ -11,10 +11,10 @@
 namespace tipp
 {
 
-/// The samples of a lattice that a tetrahedron answers after the move by (e, e^2, e^3).
+/// The samples of a lattice that a tetrahedron claims after the move by (e, e^2, e^3).
 ///
 /// A row along x crosses the planes of the four faces. The samples strictly before a plane are
-/// counted by evaluating the crossing, and where rounding could change the count, by an exact
+/// counted by evaluating the crossing, and if rounding could change the count, by an exact
 /// predicate: see TriangleRows.
 class TetrahedronRows
 {

@@ -8,16 +8,16 @@
 namespace tipp
 {
 
-/// Barycentric weights of samples in a thin triangle (D = 2) or tetrahedron (D = 3): those of the
-/// corners but the first, which has the rest.
+/// Barycentric weights of samples in a thin triangle (D = 2) or tetrahedron (D = 3): those of all
+/// corners but the first, whose weight is the remainder.
 ///
-/// Elimination with complete pivoting keeps what matters: the weighted sum of the corners is the
-/// sample to a few roundings, so that linear fields come back exact, however thin the cell is.
+/// Elimination with complete pivoting has a small residual: the weighted sum of the corners is the
+/// sample to a few roundings, so linear fields are reproduced, however thin the cell is.
 template <int D>
 class ThinWeights
 {
 public:
-  /// The edges from the first corner to each of the others.
+  /// `edges`: from the first corner to each of the others.
   explicit ThinWeights(const double (&edges)[D][D])
   {
     for (int axis = 0; axis < D; ++axis)
@@ -30,7 +30,8 @@ public:
     this->eliminate();
   }
 
-  /// Of a sample, which lies so far from the first corner: weights[i] is that of corner i + 1.
+  /// Computes the weights of the sample at `offset` from the first corner: weights[i] is that of
+  /// corner i + 1.
   void solve(const double (&offset)[D], double (&weights)[D]) const
   {
     double right[D];

@@ -9,7 +9,7 @@
 namespace tipp
 {
 
-/// The nearest value of a type to a number; 0 for NaN in a type of whole numbers.
+/// Converts a number to the nearest value of a type; NaN becomes 0 in integer types.
 template <typename T>
 T toScalar(double value)
 {
@@ -23,7 +23,7 @@ T toScalar(double value)
     {
       return 0;
     }
-    // The largest whole number rounds up where it has more digits than a double.
+    // The largest integer rounds up if it has more digits than a double.
     if (value >= double(std::numeric_limits<T>::max()))
     {
       return std::numeric_limits<T>::max();

@@ -8,7 +8,7 @@
 namespace tipp
 {
 
-/// TriangleRows for four triangles at a time, as far as rounding does not matter.
+/// TriangleRows for four triangles at a time, for rows that rounding leaves decided.
 class TriangleLanes
 {
 public:

@@ -8,14 +8,14 @@
 namespace tipp
 {
 
-/// The samples of a plane lattice that a triangle answers after the move by (e, e^2).
+/// The samples of a 2D lattice that a triangle claims after the move by (e, e^2).
 ///
 /// A row crosses two edges. The samples strictly to the left of an edge are counted by evaluating
-/// the crossing; where rounding could change the count, the one sample in doubt is decided by an
-/// exact predicate. Both triangles at an edge count the same samples, so one of them answers each.
+/// the crossing; if rounding could change the count, the one sample in doubt is decided by an exact
+/// predicate. Both triangles at an edge count the same samples, so exactly one of them claims each.
 ///
-/// The common path is written without branches that depend on the triangle's shape: half of them
-/// would be mispredicted.
+/// The common path has no branches that depend on the triangle's shape: half of them would be
+/// mispredicted.
 class TriangleRows
 {
 public:
@@ -68,7 +68,7 @@ public:
     return this->exactSpan(edge, y, atLong, atShort);
   }
 
-  /// Exact tests so far.
+  /// Number of exact tests so far.
   std::int64_t exactTests() const { return this->ExactTests; }
 
 private:

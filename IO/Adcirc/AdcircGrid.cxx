@@ -36,7 +36,7 @@ public:
     return std::move(this->Grid);
   }
 
-  /// After read(): the open boundaries, then those of land.
+  /// Call after read(): the open boundaries, then the land boundaries.
   void readBoundaries(AdcircGrid& grid)
   {
     for (const bool isLand : { false, true })
@@ -67,7 +67,7 @@ private:
     const std::int64_t count = this->Rows.integer(0);
     const std::int64_t kind = isLand ? this->Rows.integer(1) % 10 : 0;
     constexpr std::int64_t island = 1;
-    constexpr std::int64_t weir = 4; // and 5: a second node each, on its back
+    constexpr std::int64_t weir = 4; // 4 and 5: paired nodes on both sides of a weir
     const bool isWeir = kind == weir || kind == weir + 1;
     std::vector<std::int64_t> front;
     std::vector<std::int64_t> back;

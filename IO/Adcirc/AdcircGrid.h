@@ -14,16 +14,16 @@ namespace tipp
 {
 
 /// Nodes and triangles of an ADCIRC grid (fort.14, https://adcirc.org): a title; the numbers of
-/// elements and nodes; a line `id x y depth` a node; a line `id 3 a b c` an element; and lists of
-/// the nodes of boundaries.
+/// elements and nodes; a line `id x y depth` per node; a line `id 3 a b c` per element; and lists
+/// of the nodes of boundaries.
 struct AdcircGrid
 {
   std::vector<double> XY;              ///< of the nodes, in the order of the file
   std::vector<double> Depth;           ///< below the datum, positive downwards
-  std::vector<std::int64_t> Triangles; ///< three indices into the nodes, counted from 0
-  /// The index of each node number; these may have gaps and any order.
+  std::vector<std::int64_t> Triangles; ///< three node indices, from 0, per triangle
+  /// The index of each node number; numbers may have gaps and be in any order.
   std::unordered_map<std::int64_t, std::int64_t> IndexOf;
-  /// Pairs of nodes that follow each other on a boundary; those of islands are closed.
+  /// Pairs of consecutive boundary nodes, as indices; boundaries of islands are closed.
   std::vector<std::array<std::int64_t, 2>> BoundaryEdges;
 };
 
@@ -41,7 +41,7 @@ AdcircFrame readAdcircFrame(const std::string& path);
 /// Without the boundaries. Throws IOError.
 VTKTIPPIO_EXPORT AdcircGrid readAdcircGrid(const std::string& path);
 
-/// All of it. Throws IOError.
+/// Reads the whole grid. Throws IOError.
 AdcircGrid readAdcircGridAndBoundaries(const std::string& path);
 
 } // namespace tipp

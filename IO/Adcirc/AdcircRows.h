@@ -13,21 +13,21 @@
 namespace tipp
 {
 
-/// The lines of one of ADCIRC's text files, as rows of numbers; what is wrong with one is an
-/// IOError that names its line.
+/// Reads the lines of an ADCIRC text file as rows of numbers; errors are IOErrors that name the
+/// line.
 class AdcircRows
 {
 public:
-  /// `kind` completes "check that it is ...". Both texts must outlive this.
+  /// `kind` completes "check that it is ...". `path` and `text` must outlive this object.
   AdcircRows(const std::string& path, std::string_view text, std::string kind);
 
   void skipTitle();
-  /// Makes the next line the row, with so many fields at least; `what` is for errors.
+  /// Reads the next line, which must have at least `fields` fields; `what` is for errors.
   void next(std::size_t fields, const char* what);
   std::size_t fields() const { return this->Row.size(); }
   std::int64_t integer(std::size_t field) const;
   double number(std::size_t field) const;
-  /// At most, after the row.
+  /// An upper bound of the number of lines after the row.
   std::int64_t remainingLines() const
   {
     return this->Total - std::int64_t(this->Lines.lineNumber());
@@ -41,7 +41,7 @@ private:
   const std::string& Path;
   std::string Kind;
   LineReader Lines;
-  std::int64_t Total; ///< counted once: files are long
+  std::int64_t Total; ///< computed once, because files are long
   std::vector<std::string_view> Row;
 };
 

@@ -27,7 +27,7 @@ public:
     this->Nodes = this->Rows.integer(1);
     const std::int64_t components = this->Rows.integer(4);
     const std::int64_t lines = this->Rows.remainingLines();
-    // A step has one line at least; how many nodes it gives is seen there.
+    // A step has at least one line; the number of its nodes is checked when it is read.
     if (steps < 1 || steps > lines || this->Nodes < 1 || this->Nodes > lines || components < 1 ||
       components > 3)
     {
@@ -78,7 +78,7 @@ private:
     }
   }
 
-  /// The place in the grid of the node of that number, which a step may give once.
+  /// The index in the grid of a node number, which a step may give once.
   std::size_t nodeOf(std::int64_t number, std::int64_t step)
   {
     const auto node = this->Grid.IndexOf.find(number);
@@ -100,7 +100,7 @@ private:
   const AdcircGrid& Grid;
   AdcircRows Rows;
   std::int64_t Nodes = 0;
-  std::vector<std::int64_t> LastStep; ///< that gave a node, or -1
+  std::vector<std::int64_t> LastStep; ///< the last step that gave the node, or -1
   AdcircValues Result;
 };
 

@@ -13,20 +13,20 @@ namespace tipp
 {
 
 /// Values at the nodes of an ADCIRC grid (https://adcirc.org; fort.63, fort.64, maxele.63 ...): a
-/// title; the numbers of steps and nodes, two numbers that are not used, and how many values a node
-/// has; for each step a line of time and time step, and a line `node value...` a node. A step may
-/// give a number of nodes and a default on its first line, and then only the nodes that differ.
-/// Nodes go by the grid's numbers. Where fewer steps are there than announced, as in a run that was
-/// stopped, the file is refused.
+/// title; the numbers of steps and nodes, two unused numbers, and the number of values per node;
+/// for each step a line of time and time step, and a line `node value...` per node. A step may give
+/// a number of nodes and a default value on its first line, and then only the nodes that differ.
+/// Nodes are identified by the grid's node numbers. A file with fewer steps than announced, as from
+/// an interrupted run, is rejected.
 struct AdcircValues
 {
   int Components = 1;
   std::vector<double> Times; ///< of the steps, in seconds
   std::vector<double>
-    Values; ///< step by step, in the order of the grid's nodes; -99999 where a node is dry
+    Values; ///< step by step, in the order of the grid's nodes; -99999 at dry nodes
 };
 
-/// Throws IOError, for the output of another grid too.
+/// Throws IOError, also if the values belong to another grid.
 VTKTIPPIO_EXPORT AdcircValues readAdcircValues(const std::string& path, const AdcircGrid& grid);
 
 } // namespace tipp

@@ -111,7 +111,7 @@ private:
     this->subdivide(middle, b, points - 1 - left);
   }
 
-  // normal() makes two numbers at a time.
+  // normal() returns two numbers at a time.
   double normal()
   {
     if (this->HasSpare)

@@ -10,7 +10,7 @@
 namespace tipp
 {
 
-/// Distribution::Coast.
+/// Generates Distribution::Coast; x and y interleaved.
 std::vector<double> generateCoast(std::int64_t count, Random& random);
 
 } // namespace tipp

@@ -13,7 +13,7 @@
 namespace tipp
 {
 
-/// Point sets to test and measure with.
+/// Point sets for tests and benchmarks.
 enum class Distribution
 {
   /// Independent and uniform in the unit square.
@@ -25,7 +25,7 @@ enum class Distribution
   /// the centre and unbounded (Blelloch, Hardwick, Miller and Talmor, Algorithmica 24, 1999; as in
   /// the Problem Based Benchmark Suite).
   Kuzmin,
-  /// Integer points row by row, ceil(sqrt(count)) a row: many co-circular points. No randomness.
+  /// Integer points row by row, ceil(sqrt(count)) per row: many co-circular points. Not random.
   Lattice,
   /// Fractal shorelines, as of a storm-surge grid in degrees: closed polylines by midpoint
   /// displacement with unevenly deep subdivision, from a few continents down to islets around
@@ -38,12 +38,13 @@ enum class Distribution
   Collinear
 };
 
-/// `count` points, x and y interleaved: for one seed the same numbers on every platform. Throws
-/// std::invalid_argument if count is negative or above 2^40 (coordinates would no longer be exact).
+/// Returns `count` points, x and y interleaved; a seed gives the same numbers on every platform.
+/// Throws std::invalid_argument if count is negative or above 2^40 (coordinates would no longer be
+/// exact).
 VTKTIPPIO_EXPORT std::vector<double> generatePoints(
   Distribution distribution, std::int64_t count, std::uint64_t seed);
 
-/// In lower case, as on the command line.
+/// The name in lower case, as on the command line.
 VTKTIPPIO_EXPORT std::string distributionName(Distribution distribution);
 VTKTIPPIO_EXPORT std::optional<Distribution> distributionFromName(std::string_view name);
 VTKTIPPIO_EXPORT std::vector<std::string> distributionNames();

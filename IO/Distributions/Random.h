@@ -9,9 +9,9 @@
 namespace tipp
 {
 
-/// xoshiro256++ (Blackman and Vigna, 2021), seeded through splitmix64. All that is derived from it
-/// uses the basic operations and the square root alone, which IEEE 754 rounds correctly, so the
-/// numbers are the same on every platform; std:: distributions and libm's log are not.
+/// xoshiro256++ (Blackman and Vigna, 2021), seeded through splitmix64. Everything derived from it
+/// uses only the basic operations and the square root, which IEEE 754 rounds correctly, so the
+/// numbers are the same on every platform; those of std:: distributions and libm's log are not.
 class Random
 {
 public:

@@ -9,7 +9,7 @@
 namespace tipp
 {
 
-/// A path's extension in lower case with its dot, as ".vtp"; empty if there is none.
+/// Returns a path's extension in lower case with its dot, such as ".vtp"; empty if there is none.
 VTKTIPPIO_EXPORT std::string extensionOf(const std::string& path);
 
 } // namespace tipp

@@ -18,7 +18,8 @@ namespace tipp
 namespace
 {
 
-/// The program that decompresses a file to its standard output; empty for other files.
+/// The program that decompresses a file to its standard output; empty if the file is not
+/// compressed.
 std::string decompressorOf(const std::string& path)
 {
   const std::string extension = extensionOf(path);
@@ -28,7 +29,7 @@ std::string decompressorOf(const std::string& path)
                             : "";
 }
 
-/// The path as one word of a shell.
+/// Quotes a path for the shell.
 std::string quoted(const std::string& path)
 {
   std::string word = "'";
@@ -65,7 +66,7 @@ FileLines::FileLines(const std::string& path, std::size_t blockBytes)
   this->startText();
 }
 
-/// What the first block tells.
+/// Skips the byte order mark and estimates the number of lines.
 void FileLines::startText()
 {
   constexpr std::size_t looked = 4096;
@@ -89,7 +90,7 @@ void FileLines::startText()
   }
 }
 
-/// Reads the next bytes behind what is left. False at the end.
+/// Appends the next bytes to the buffer. Returns false at the end.
 bool FileLines::readOn()
 {
   constexpr std::size_t longest = std::size_t(64) << 20;
@@ -123,7 +124,7 @@ bool FileLines::readOn()
 
 void FileLines::endDecompression()
 {
-  constexpr int notFound = 127; // what a shell says
+  constexpr int notFound = 127; // the shell's exit status
   const int status = pclose(this->File.release());
   if (status != 0)
   {
@@ -136,7 +137,7 @@ void FileLines::endDecompression()
 
 bool FileLines::next(std::string_view& line)
 {
-  std::size_t looked = 0; // bytes without an end of line
+  std::size_t looked = 0; // bytes already searched for an end of line
   for (;;)
   {
     const std::string_view rest(this->Buffer.data() + this->Begin, this->End - this->Begin);
@@ -152,9 +153,9 @@ bool FileLines::next(std::string_view& line)
       {
         return false;
       }
-      end = looked; // the last one
+      end = looked; // the last line has no end of line
     }
-    // readOn() may have moved it.
+    // readOn() may have moved the buffer.
     line = std::string_view(this->Buffer.data() + this->Begin, end);
     this->Begin = std::min(this->Begin + end + 1, this->End);
     if (!line.empty() && line.back() == '\r')

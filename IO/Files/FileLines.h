@@ -15,20 +15,21 @@
 namespace tipp
 {
 
-/// The lines of a text file of any size, without their ends (\n or \r\n) and without a byte order
-/// mark; a pipe will do. A file .gz, .xz or .zst is decompressed by the program gzip, xz or zstd.
+/// Reads the lines of a text file of any size or of a pipe, without their ends (\n or \r\n) and
+/// without a byte order mark. A .gz, .xz or .zst file is decompressed by the program gzip, xz or
+/// zstd.
 class VTKTIPPIO_EXPORT FileLines
 {
 public:
-  /// Reads so many bytes at a time. Throws IOError if the file cannot be read or is not text.
+  /// Reads blocks of `blockBytes` bytes. Throws IOError if the file cannot be read or is not text.
   explicit FileLines(const std::string& path, std::size_t blockBytes = std::size_t(1) << 20);
 
-  /// The line stays until the next call. False at the end. Throws IOError, also for a line of more
-  /// than 64 MiB.
+  /// Reads the next line, valid until the next call. Returns false at the end. Throws IOError if
+  /// the file cannot be read or a line exceeds 64 MiB.
   bool next(std::string_view& line);
   std::int64_t lineNumber() const { return this->Number; }
 
-  /// About how many lines the file has, by its size and first block; 0 for a pipe.
+  /// The approximate number of lines, from the file's size and first block; 0 for a pipe.
   std::int64_t expectedLines() const { return this->Expected; }
 
 private:
@@ -37,11 +38,11 @@ private:
   void startText();
 
   std::string Path;
-  std::string Program; ///< that decompresses; empty: none
+  std::string Program; ///< the decompressor; empty: none
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> File;
   const std::size_t BlockBytes;
   std::vector<char> Buffer;
-  std::size_t Begin = 0; ///< of what has not been given out
+  std::size_t Begin = 0; ///< of the bytes that have not been returned
   std::size_t End = 0;
   std::int64_t Number = 0;
   std::int64_t Expected = 0;

@@ -11,7 +11,7 @@ namespace tipp
 namespace
 {
 
-/// Names and words of a damaged file may hold anything; a message is one line all the same.
+/// Text from a damaged file may hold any bytes; a message must stay on one line.
 std::string onOneLine(std::string message)
 {
   std::replace_if(

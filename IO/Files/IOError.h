@@ -11,8 +11,8 @@
 namespace tipp
 {
 
-/// A file that cannot be read or written. what() is one sentence for the user: which file, where in
-/// it, what is wrong and what to do.
+/// Thrown if a file cannot be read or written. what() is one sentence for the user: which file,
+/// where in it, what is wrong and what to do.
 class VTKTIPPIO_EXPORT IOError : public std::runtime_error
 {
 public:
@@ -21,7 +21,7 @@ public:
   IOError(const std::string& path, std::int64_t line, const std::string& problem);
   ~IOError() override;
 
-  /// The file or folder, or empty.
+  /// The file or folder; empty if there is none.
   const std::string& path() const { return this->Path; }
 
 private:

@@ -16,7 +16,7 @@ namespace tipp
 
 InputFile::InputFile(const std::string& path)
   : Path(path)
-  // Not to wait for the other end of a pipe, which is refused below.
+  // O_NONBLOCK: opening a pipe, which is refused below, must not wait for its writer.
   , Descriptor(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK))
 {
   if (this->Descriptor < 0)
@@ -41,7 +41,7 @@ InputFile::~InputFile()
 
 void InputFile::read(std::uint64_t offset, void* to, std::size_t bytes) const
 {
-  // One call of the system moves less than 2 GiB.
+  // A system call transfers less than 2 GiB.
   constexpr std::size_t most = std::size_t(1) << 30;
   auto* at = static_cast<char*>(to);
   while (bytes > 0)

@@ -13,11 +13,11 @@
 namespace tipp
 {
 
-/// An ordinary file open for reads at any place, from any number of threads at once.
+/// A regular file open for reading at any offset. Threads may read concurrently.
 class VTKTIPPIO_EXPORT InputFile
 {
 public:
-  /// Throws IOError if it cannot be opened or is not an ordinary file.
+  /// Throws IOError if the file cannot be opened or is not a regular file.
   explicit InputFile(const std::string& path);
   ~InputFile();
   InputFile(const InputFile&) = delete;
@@ -25,10 +25,10 @@ public:
 
   const std::string& path() const { return this->Path; }
   int descriptor() const { return this->Descriptor; }
-  /// In bytes, when it was opened.
+  /// The size in bytes at the time of opening.
   std::uint64_t size() const { return this->Size; }
 
-  /// Exactly these bytes; throws IOError if the file ends before.
+  /// Reads exactly `bytes` bytes from `offset`, in bytes; throws IOError if the file ends before.
   void read(std::uint64_t offset, void* to, std::size_t bytes) const;
   /// The same in blocks that fit in the processor's cache: calls take(data, bytes) for each.
   template <typename Take>

@@ -56,7 +56,7 @@ OutputFile::~OutputFile()
 
 void OutputFile::write(std::uint64_t offset, const void* from, std::size_t bytes) const
 {
-  // One call of the system moves less than 2 GiB.
+  // A system call transfers less than 2 GiB.
   constexpr std::size_t most = std::size_t(1) << 30;
   const char* at = static_cast<const char*>(from);
   while (bytes > 0)
@@ -86,7 +86,7 @@ void OutputFile::close()
 
 void OutputFile::startWriteback() const
 {
-  // A hint: syncToDisk() waits for it and reports what fails.
+  // Only a hint: syncToDisk() waits and reports failures.
   static_cast<void>(sync_file_range(this->Descriptor, 0, 0, SYNC_FILE_RANGE_WRITE));
 }
 

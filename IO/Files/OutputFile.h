@@ -11,33 +11,33 @@
 namespace tipp
 {
 
-/// A new file open for writes at any place, from any number of threads at once.
+/// A new file open for writing at any offset. Threads may write concurrently.
 class VTKTIPPIO_EXPORT OutputFile
 {
 public:
-  /// Throws IOError if it cannot be made.
+  /// Creates the file; throws IOError if that fails.
   explicit OutputFile(const std::string& path);
-  /// Takes an open file; `name` stands for it in errors.
+  /// Takes ownership of an open descriptor; errors call the file `name`.
   OutputFile(int descriptor, const std::string& name)
     : Path(name)
     , Descriptor(descriptor)
   {
   }
-  /// Opens one that is there already, which other processes may write to as well.
+  /// Opens an existing file, which other processes may write at the same time.
   static OutputFile shared(const std::string& path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   const std::string& path() const { return this->Path; }
-  /// Throws IOError, as for a full disk.
+  /// Writes `bytes` bytes at `offset`, in bytes. Throws IOError, for example if the disk is full.
   void write(std::uint64_t offset, const void* from, std::size_t bytes) const;
-  /// No more writes. Throws IOError also for what the system could not write until now; other
-  /// machines that open the file afterwards see all of it.
+  /// Closes the file. Throws IOError also for delayed write errors. Other machines that open the
+  /// file afterwards see all of it.
   void close();
-  /// Has the system begin to write what it holds back.
+  /// Starts writing cached data to the disk, without waiting.
   void startWriteback() const;
-  /// Returns when all that was written is safe on the disk; throws IOError.
+  /// Returns once all data are on the disk; throws IOError.
   void sync() const;
 
 private:
@@ -45,13 +45,13 @@ private:
   int Descriptor;
 };
 
-/// Throws IOError with the reason that errno gives.
+/// Throws IOError with the reason in errno.
 [[noreturn]] VTKTIPPIO_EXPORT void failToWrite(const std::string& path);
 
-/// Returns when a file or folder is safe on its disk; throws IOError.
+/// Returns once a file or folder is on its disk; throws IOError.
 VTKTIPPIO_EXPORT void syncToDisk(const std::string& path);
 
-/// Writes a whole file and returns when it is safe; throws IOError.
+/// Writes a whole file and returns once it is on the disk; throws IOError.
 VTKTIPPIO_EXPORT void writeWholeFile(const std::string& path, const std::string& content);
 
 } // namespace tipp

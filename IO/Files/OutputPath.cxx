@@ -21,11 +21,11 @@ namespace fs = std::filesystem;
 namespace
 {
 
-/// Where links lead at last, even if nothing is there yet.
+/// Follows links to the end, even if their target does not exist.
 fs::path linkTarget(const std::string& path, fs::path target)
 {
   std::error_code failure;
-  constexpr int mostLinks = 40; // as many as the system follows
+  constexpr int mostLinks = 40; // Linux's own limit
   for (int i = 0; fs::is_symlink(target, failure); ++i)
   {
     if (i == mostLinks)
@@ -45,10 +45,10 @@ fs::path outputPath(const std::string& path)
   fs::path target = path.empty() ? fs::path() : fs::absolute(path);
   if (!target.has_filename())
   {
-    target = target.parent_path(); // a slash at the end
+    target = target.parent_path(); // the path ended with a slash
   }
   target = linkTarget(path, target);
-  // Links among the folders come first: "link/.." is not where it seems to be.
+  // Resolve links among the folders first: "link/.." is not the link's own folder.
   const fs::path folder = fs::weakly_canonical(target.parent_path(), failure);
   target = folder / target.filename();
   if (!target.has_filename() || target.filename() == ".." || !fs::is_directory(folder, failure))
@@ -124,7 +124,7 @@ int renameAs(const std::string& from, const std::string& to, unsigned flags)
   return renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0 ? 0 : errno;
 }
 
-/// Where nothing is.
+/// Moves to a path that must not exist.
 void moveToFree(const std::string& temporary, const std::string& path)
 {
   int reason = renameAs(temporary, path, RENAME_NOREPLACE);
@@ -142,7 +142,7 @@ void moveToFree(const std::string& temporary, const std::string& path)
   }
 }
 
-/// Not every file system can exchange; then the old one is moved out of the way first.
+/// File systems without an atomic exchange: the old one is first moved out of the way.
 int exchangePaths(const std::string& temporary, const std::string& path)
 {
   const int reason = renameAs(temporary, path, RENAME_EXCHANGE);
@@ -189,7 +189,7 @@ void publish(const std::string& temporary, const std::string& path, const PathSt
     {
       failToMove(temporary, path, failure);
     }
-    // Somebody may have come in between.
+    // Another process may have written there in between.
     reason = reasonToStay(temporary);
     if (reason.empty())
     {

@@ -35,7 +35,7 @@ OutputStream::Buffer::Buffer(const OutputFile& file)
   this->setp(this->Bytes.data(), this->Bytes.data() + this->Bytes.size());
 }
 
-/// After a failure nothing more is written: the file is lost in any case.
+/// Writes nothing after a failure: the file is unusable in any case.
 bool OutputStream::Buffer::write(const char* from, std::size_t count)
 {
   if (!this->Failure.empty())

@@ -14,14 +14,14 @@
 namespace tipp
 {
 
-/// A seekable stream into an OutputFile. Whoever writes to it need not check its state: finish()
-/// reports the first write that failed, even if the state was cleared since.
+/// A seekable stream into an OutputFile. Writers need not check its state: finish() reports the
+/// first write that failed, even if the state was cleared since.
 class VTKTIPPIO_EXPORT OutputStream : public std::ostream
 {
 public:
   explicit OutputStream(const OutputFile& file);
 
-  /// Writes what is buffered. Throws IOError if this or any write before failed.
+  /// Writes what is buffered. Throws IOError if this or any earlier write failed.
   void finish();
 
 private:
@@ -43,8 +43,8 @@ private:
 
     const OutputFile& File;
     std::vector<char> Bytes;
-    std::uint64_t Start = 0; ///< where the buffer's first byte goes
-    std::uint64_t End = 0;   ///< of the file so far, without the buffer
+    std::uint64_t Start = 0; ///< offset in the file of the buffer's first byte
+    std::uint64_t End = 0;   ///< size of the file so far, without the buffer
     std::string Failure;
   };
 

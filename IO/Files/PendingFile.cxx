@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 namespace
 {
 
-/// How a temporary file's name ends: a number and what only this class derives from the name, so
-/// that no file of the user's is taken for a leftover.
+/// The suffix of a temporary file's name: a number, and a hash of the name that no user's file has
+/// by chance, so that only leftovers are removed.
 std::string ending(const std::string& start, const std::string& number)
 {
   std::uint32_t hash = 2166136261U; // FNV-1a
@@ -38,7 +38,8 @@ std::string ending(const std::string& start, const std::string& number)
   return number + "-" + digits + ".tmp";
 }
 
-/// Removes the files of that start which killed processes have left: no process has them locked.
+/// Removes the files with this prefix that killed processes have left: those that no process has
+/// locked.
 void clearLeftovers(const fs::path& folder, const std::string& start)
 {
   std::error_code failure;
@@ -60,8 +61,8 @@ void clearLeftovers(const fs::path& folder, const std::string& start)
   }
 }
 
-/// Makes and locks the file; -1 if it cannot be made, as when it is there. Another process may
-/// remove it as a leftover before it is locked; then it is made again.
+/// Creates and locks the file; returns -1 if it cannot be created, for example because it exists.
+/// Another process may remove it as a leftover before it is locked; then it is created again.
 int makeLocked(const std::string& path)
 {
   for (;;)
@@ -126,7 +127,7 @@ void PendingFile::commit()
   const std::string finished = std::exchange(this->Temporary, "");
   commitOutput(this->Path, [&] { publish(finished, this->Path, this->Before, {}); });
   std::error_code ignored;
-  fs::remove(finished, ignored); // what was there
+  fs::remove(finished, ignored); // the previous file
   syncToDisk(fs::path(this->Path).parent_path().string());
 }
 

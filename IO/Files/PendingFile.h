@@ -13,16 +13,16 @@
 namespace tipp
 {
 
-/// An output file under a temporary name in its own folder until commit() puts it in its place;
-/// without commit() it goes away. So a failed or aborted run leaves nothing half-written, and what
-/// was at the path before stays. What a killed process has left, the next one for the same path
-/// removes.
+/// An output file with a temporary name in its own folder, which commit() moves to its path;
+/// without commit() the destructor removes it. So a failed or aborted run leaves no partial file,
+/// and the previous file stays. What a killed process has left is removed by the next run for the
+/// same path.
 class VTKTIPPIO_EXPORT PendingFile
 {
 public:
-  /// Throws IOError if the file cannot be created or something other than an ordinary file is at
-  /// the path. Before: what is at the path when the run begins, as before() of an earlier object
-  /// tells; commit() replaces nothing else. None: what is there now.
+  /// Throws IOError if the file cannot be created or something other than a regular file is at the
+  /// path. `before` is the path's state when the run began, from before() of an earlier object;
+  /// commit() replaces nothing else. nullopt: the present state.
   explicit PendingFile(
     const std::string& path, const std::optional<PathState>& before = std::nullopt);
   ~PendingFile();
@@ -31,12 +31,12 @@ public:
 
   const PathState& before() const { return this->Before; }
 
-  /// Write here.
+  /// The temporary file to write to.
   const OutputFile& file() const { return *this->File; }
   const std::string& temporaryPath() const { return this->Temporary; }
 
-  /// Puts the file in its place when it is safe on the disk. Throws IOError, also if what is at the
-  /// path has changed since the constructor; then the finished file stays beside it.
+  /// Moves the file to its path once it is on the disk. Throws IOError if that fails or if the path
+  /// has changed since the constructor; then the finished file keeps its temporary name.
   void commit();
 
 private:
@@ -44,7 +44,7 @@ private:
   std::string Temporary;
   TemporaryPath Listed;
   PathState Before;
-  std::optional<OutputFile> File; ///< locked as long as it is open
+  std::optional<OutputFile> File; ///< locked while it is open
 };
 
 } // namespace tipp

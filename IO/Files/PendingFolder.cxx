@@ -39,7 +39,7 @@ std::string randomSuffix()
   return suffix;
 }
 
-/// -1 if another process has it; else the lock is held until the descriptor is closed.
+/// Locks the folder until the descriptor is closed; returns -1 if another process has locked it.
 int lockFolder(const std::string& folder)
 {
   const int lock = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -77,7 +77,7 @@ PendingFolder::PendingFolder(
   isLasting ? this->openLasting(this->Parent + "/" + hiddenName(name, ".part"))
             : this->makeTemporary(hiddenName(name, ".tmp."));
   this->Temporary = this->Work + "/" + name;
-  if (!isLasting) // else its path is where the work is kept
+  if (!isLasting) // for a lasting one, messages show where the work is kept
   {
     this->Listed.showAs(this->Temporary, this->Path);
   }
@@ -151,7 +151,7 @@ void PendingFolder::openLasting(const std::string& folder)
     {
       throw IOError(folder, "is a file where the work folder of the run is to be; move it.");
     }
-    else if (errno != ENOENT) // else its maker has just ended
+    else if (errno != ENOENT) // ENOENT: its owner has just finished
     {
       failToWrite(folder);
     }
@@ -187,7 +187,7 @@ void PendingFolder::clearLeftovers(const std::string& prefix) const
     const bool isNamedSo = name.size() == prefix.size() + suffixLetters &&
       name.compare(0, prefix.size(), prefix) == 0 &&
       entry.symlink_status(failure).type() == fs::file_type::directory;
-    // Its maker lives if it is locked.
+    // Locked: its owner is still running.
     const int lock = isNamedSo ? lockFolder(entry.path().string()) : -1;
     if (lock >= 0)
     {
@@ -200,7 +200,7 @@ void PendingFolder::clearLeftovers(const std::string& prefix) const
   }
 }
 
-/// Why a folder must not be replaced; empty if it may be.
+/// Returns why a folder must not be replaced; empty if it may be.
 std::string PendingFolder::objectionTo(const std::string& folder) const
 {
   std::error_code failure;
@@ -254,12 +254,12 @@ void PendingFolder::commit()
     this->keep();
     if (!this->IsLasting)
     {
-      unmarkWorkFolder(this->Work); // so that no other run clears it away
+      unmarkWorkFolder(this->Work); // so that no other run removes it
     }
     throw;
   }
   syncToDisk(this->Parent);
-  // What was there is in the work folder now, and goes with it.
+  // The previous output is in the work folder now, and is removed with it.
 }
 
 } // namespace tipp

@@ -13,28 +13,28 @@
 namespace tipp
 {
 
-/// What a folder that is there already must be to be replaced.
+/// The condition under which an existing folder may be replaced.
 struct Replaceable
 {
   const char* Name; ///< as "partitioned mesh"
   std::function<bool(const std::string& path)> Is;
-  /// The files that make up such a folder, relative to it; throws IOError if they are not known. A
-  /// folder that has others is not replaced.
+  /// Returns the files that make up such a folder, relative to it; throws IOError if that is
+  /// unknown. A folder with any other file is not replaced.
   std::function<std::vector<std::string>(const std::string& path)> Files;
 };
 
-/// An output folder in a hidden work folder beside its path until commit(). Without commit() it
-/// goes away; what a killed process has left, the next one for the same path clears away. A work
-/// folder is marked as made here, and only files that runs write are removed from it.
+/// An output folder in a hidden work folder beside its path until commit(). Without commit() it is
+/// removed; what a killed process has left is removed by the next run for the same path. A work
+/// folder is marked as created here, and only files that runs write are removed from it.
 class VTKTIPPIO_EXPORT PendingFolder
 {
 public:
-  /// Throws IOError if the path's own folder is missing or closed to us, or if there is something
-  /// at the path other than an empty folder or, where it is given, what may be replaced.
+  /// Throws IOError if the parent folder is missing or not writable, or if the path holds something
+  /// other than an empty folder or, if `replaceable` is given, a replaceable one.
   explicit PendingFolder(const std::string& path, const Replaceable* replaceable = nullptr);
-  /// In a work folder whose name stays the same, ".NAME.part": that may be there already, from a
-  /// run that did not end, and is then kept until keep(false); after keep() it stays. What is in it
-  /// beside the output is never published. Throws IOError also if another process has it.
+  /// Uses a work folder with a fixed name, ".NAME.part". It may exist, left by an interrupted run,
+  /// and is then kept until keep(false); after keep() it stays. Files in it beside the output are
+  /// never published. Throws IOError also if another process uses it.
   static PendingFolder lasting(const std::string& path, const Replaceable* replaceable)
   {
     return { path, replaceable, true };
@@ -43,9 +43,9 @@ public:
   PendingFolder(const PendingFolder&) = delete;
   PendingFolder& operator=(const PendingFolder&) = delete;
 
-  /// Write in here.
+  /// The folder to write to.
   const std::string& temporaryPath() const { return this->Temporary; }
-  /// The work folder around it.
+  /// The work folder that contains it.
   const std::string& workPath() const { return this->Work; }
   bool isKept() const { return this->Kept; }
   void keep(bool kept = true)
@@ -54,9 +54,9 @@ public:
     this->Listed.keep(kept);
   }
 
-  /// Puts it in the path's place in one step and removes what was there. What is in it must be safe
-  /// on the disk, if it is to be so afterwards. Throws IOError, also if what is at the path is not
-  /// what was there at first or is not to be replaced; then the finished folder stays where it is.
+  /// Moves the folder to its path in one step and removes what was there. The caller must have
+  /// synced its files for them to survive a crash. Throws IOError, also if what is at the path has
+  /// changed or must not be replaced; then the finished folder stays in the work folder.
   void commit();
 
 private:
@@ -76,7 +76,7 @@ private:
   bool IsLasting;
   bool Kept = false;
 
-  /// Of the work folder: released even if the constructor throws.
+  /// The work folder's lock; a member, so that it is released even if the constructor throws.
   struct FolderLock
   {
     FolderLock() = default;

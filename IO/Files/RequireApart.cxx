@@ -24,14 +24,14 @@ fs::path resolved(const std::string& path)
   return whole.has_filename() ? whole : whole.parent_path();
 }
 
-/// Where an output will be, even if a link to nothing leads there.
+/// The path that the output will have once links are resolved, even if the target does not exist.
 fs::path placeOf(const std::string& output)
 {
   try
   {
     return outputPath(output);
   }
-  catch (const IOError&) // is reported when it is opened
+  catch (const IOError&) // reported when the output is opened
   {
     return resolved(output);
   }
@@ -43,7 +43,7 @@ bool isWithin(const fs::path& path, const fs::path& folder)
     folder.end();
 }
 
-/// The pieces that one of VTK's files for parallel readers names: "Source" attributes.
+/// The files that a parallel VTK XML file (.pvtu ...) refers to: its "Source" attributes.
 std::vector<std::string> piecesNamedBy(const std::string& path)
 {
   const std::string text = readTextFile(path);
@@ -58,7 +58,7 @@ std::vector<std::string> piecesNamedBy(const std::string& path)
   return pieces;
 }
 
-/// The file itself, or those of a flat or partitioned mesh.
+/// The file itself, or the files of a flat or partitioned mesh.
 std::vector<std::string> filesOfInput(const std::string& path)
 {
   std::error_code failure;
@@ -91,7 +91,7 @@ std::vector<std::string> filesOfInput(const std::string& path)
   return files;
 }
 
-/// Of an output that exists, or it is no input.
+/// Checks an output that exists; one that does not cannot be an input.
 void requireNoInput(const std::string& output, const std::string& input)
 {
   std::error_code failure;

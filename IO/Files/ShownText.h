@@ -10,11 +10,11 @@
 namespace tipp
 {
 
-/// A text of a file as it can stand in a message: one line, and not too long.
+/// Formats text from a file for a message: on one line, and shortened if it is long.
 VTKTIPPIO_EXPORT std::string shownText(const std::string& text);
 
-/// `intro` and the names in quotes, for a message that says what there is: "; there are 'a', 'b'".
-/// After twenty it says how many more there are. "; there are none" without names.
+/// Returns `intro` and the quoted names, for a message that lists alternatives: "; there are 'a',
+/// 'b'". After twenty names it gives the number of the others. Without names: "; there are none".
 VTKTIPPIO_EXPORT std::string listOfNames(
   const std::set<std::string>& names, const std::string& intro);
 

@@ -19,22 +19,22 @@ namespace fs = std::filesystem;
 struct Listed
 {
   std::mutex Mutex;
-  std::map<std::string, int> Count; ///< one path may be listed twice
+  std::map<std::string, int> Count; ///< a path may be listed twice
   std::map<std::string, bool> Kept;
-  /// A commit may fail with a message, so that needs a mutex of its own.
+  /// A separate mutex, because a failing commit builds a message, which looks up these paths.
   std::mutex FinalsMutex;
-  std::map<std::string, std::string> Finals; ///< by temporary folder
+  std::map<std::string, std::string> Finals; ///< final path of each temporary folder
   bool HasOutput = false;
 };
 
-/// Never destroyed: a signal may come while the program's statics are.
+/// Never destroyed: a signal may come while static objects are destroyed.
 Listed& listed()
 {
   static auto* const all = new Listed;
   return *all;
 }
 
-/// Other threads may still be writing into the folder. Of a folder only what runs write.
+/// Other threads may still write into the folder. Only files that runs write are removed from it.
 void removePath(const std::string& path)
 {
   constexpr int mostTries = 100;
@@ -99,7 +99,8 @@ std::string shownPath(const std::string& path)
   const std::lock_guard<std::mutex> lock(listed().FinalsMutex);
   const auto& finals = listed().Finals;
   std::string shown = path;
-  // Temporary folders may be nested. The innermost sorts last, and its final path is in the others.
+  // Temporary folders may be nested. The innermost sorts last; its final path lies in the outer
+  // one.
   for (auto entry = finals.rbegin(); entry != finals.rend(); ++entry)
   {
     const auto& [temporary, final] = *entry;
@@ -123,7 +124,7 @@ void commitOutput(const std::string& path, const std::function<void()>& move)
 
 EndedPaths endTemporaryPaths()
 {
-  listed().Mutex.lock(); // for ever
+  listed().Mutex.lock(); // never released
   EndedPaths ended;
   ended.HasOutput = listed().HasOutput;
   for (const auto& [path, count] : listed().Count)

@@ -10,8 +10,9 @@
 namespace tipp
 {
 
-/// Lists a temporary file or folder while it lives, so that whoever ends the process without
-/// unwinding, as on a signal, can remove it. It removes nothing itself.
+/// Registers a temporary file or folder while the object lives, so that code that ends the process
+/// without unwinding, such as a signal handler's thread, can remove it. The object itself removes
+/// nothing.
 class VTKTIPPIO_EXPORT TemporaryPath
 {
 public:
@@ -21,31 +22,31 @@ public:
   TemporaryPath& operator=(const TemporaryPath&) = delete;
 
   void list(const std::string& path);
-  /// Messages name what is in the folder `temporary` as what it becomes, in `final`.
+  /// From now on messages show paths in the folder `temporary` as paths in `final`.
   void showAs(const std::string& temporary, const std::string& final);
   void unlist();
-  /// A path that is kept stays when the process ends: a later run goes on with it.
+  /// A kept path is not removed when the process ends: a later run resumes from it.
   void keep(bool kept);
 
 private:
   std::string Path;
-  std::string Shown; ///< the folder that messages name otherwise
+  std::string Shown; ///< the folder that messages replace by its final path
 };
 
-/// What a user knows a path as: that of the finished output, for one in a listed folder.
+/// Returns the path to show to the user: for a path in a registered folder, the finished output's.
 VTKTIPPIO_EXPORT std::string shownPath(const std::string& path);
 
-/// Moves an output to `path` by `move`, which endTemporaryPaths() does not cut short.
+/// Runs `move`, which moves an output to `path`; endTemporaryPaths() does not interrupt it.
 VTKTIPPIO_EXPORT void commitOutput(const std::string& path, const std::function<void()>& move);
 
 struct EndedPaths
 {
-  bool HasOutput = false; ///< an output outside of the listed paths was committed
-  bool HasKept = false;   ///< a listed path was kept
+  bool HasOutput = false; ///< an output outside of the registered paths was committed
+  bool HasKept = false;   ///< a registered path was kept
 };
 
-/// Removes all listed paths but those that are kept. Afterwards no output can be committed and no
-/// path listed or unlisted: threads that try wait for ever. To be called just before the process
+/// Removes all registered paths that are not kept. Afterwards no output can be committed and no
+/// path registered or released: threads that try block for ever. Call it just before the process
 /// ends.
 VTKTIPPIO_EXPORT EndedPaths endTemporaryPaths();
 

@@ -139,7 +139,7 @@ bool parseNumber(std::string_view field, double& value)
   const auto [stop, error] = std::from_chars(field.data(), end, value);
   if (error == std::errc::result_out_of_range && stop == end)
   {
-    value = std::strtod(std::string(field).c_str(), nullptr); // 0 or infinity, as is nearest
+    value = std::strtod(std::string(field).c_str(), nullptr); // rounds to 0 or infinity
     return true;
   }
   return error == std::errc() && stop == end;

@@ -10,10 +10,12 @@
 namespace tipp
 {
 
-/// The whole of a text file; a pipe will do. Throws IOError if it cannot be read or is not text.
+/// Returns the content of a text file or of a pipe. Throws IOError if it cannot be read or is not
+/// text.
 std::string readTextFile(const std::string& path);
 
-/// Lines of a text, without their ends (\n or \r\n) and without a byte order mark.
+/// Iterates over the lines of a text, without their ends (\n or \r\n) and without a byte order
+/// mark.
 class LineReader
 {
 public:
@@ -22,7 +24,7 @@ public:
   bool next(std::string_view& line);
   std::int64_t lineNumber() const { return this->Number; }
 
-  /// No more lines than this are left.
+  /// An upper bound of the number of lines left.
   std::int64_t remainingLines() const;
 
 private:
@@ -30,15 +32,15 @@ private:
   std::int64_t Number = 0;
 };
 
-/// A whole field as a number, blanks and quotes around it aside.
+/// Parses a whole field as a number, ignoring blanks and quotes around it.
 bool parseNumber(std::string_view field, double& value);
 bool parseInteger(std::string_view field, std::int64_t& value);
 
 /// Splits a line at a delimiter, or at any run of blanks if the delimiter is a space. A field in
-/// double quotes may hold the delimiter.
+/// double quotes may contain the delimiter.
 void splitFields(std::string_view line, char delimiter, std::vector<std::string_view>& fields);
 
-/// Without blanks and one pair of quotes around it.
+/// Removes blanks and one pair of quotes around the field.
 std::string_view trimField(std::string_view field);
 
 } // namespace tipp

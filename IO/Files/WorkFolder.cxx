@@ -28,8 +28,8 @@ namespace
 
 constexpr const char* markName = ".tipp-work";
 
-/// Paths of files that runs write into their work folders: what is temporary, and the mesh or flat
-/// folder in the making.
+/// Whether runs write files of that name into their work folders: temporary files, and the
+/// unfinished mesh or flat folder.
 bool isOurs(const std::string& path)
 {
   static const std::regex ours(
@@ -59,7 +59,7 @@ void clear(const fs::path& folder, const std::string& prefix)
     if (type == fs::file_type::directory)
     {
       clear(entry.path(), name + "/");
-      fs::remove(entry.path(), failure); // unless something is left in it
+      fs::remove(entry.path(), failure); // fails if something is left in it
     }
     else if (type == fs::file_type::regular && isOurs(name))
     {
@@ -78,7 +78,7 @@ bool hasFiles(const std::string& folder)
       return true;
     }
   }
-  return bool(failure); // else one could not look
+  return bool(failure); // also true if the folder could not be listed
 }
 
 std::string markOf(const std::string& folder)
@@ -97,7 +97,7 @@ bool isMarked(const std::string& folder)
 std::string hiddenName(const std::string& name, const std::string& ending)
 {
   constexpr std::size_t longest = 255;
-  constexpr std::size_t reserved = 24; // what is appended, as a process's number
+  constexpr std::size_t reserved = 24; // room for a suffix such as a process id
   if (name.size() + ending.size() + 1 + reserved <= longest)
   {
     return "." + name + ending;

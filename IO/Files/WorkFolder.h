@@ -9,25 +9,25 @@
 namespace tipp
 {
 
-/// "." + name + ending, cut so that the whole and some more letters still make a file name; names
-/// that differ stay different.
+/// Returns "." + name + ending, shortened so that with a suffix it is still a valid file name;
+/// different names give different results.
 VTKTIPPIO_EXPORT std::string hiddenName(const std::string& name, const std::string& ending);
 
-/// Makes a folder for temporary files, or takes the one that is there if it is empty or was made
-/// here for the same purpose: a file in it, which holds `purpose`, marks it. Throws IOError.
+/// Creates a folder for temporary files, or reuses an existing one if it is empty or was created
+/// here for the same purpose: a file in it that holds `purpose` marks it. Throws IOError.
 VTKTIPPIO_EXPORT void claimWorkFolder(const std::string& folder, const std::string& purpose);
 
-/// Whether a folder is marked, or has no files.
+/// Whether a folder is marked or holds no files.
 bool isWorkFolder(const std::string& folder);
 
-/// From now on the folder and what is in it belongs to the user.
+/// Removes the mark: from now on the folder and its content belong to the user.
 void unmarkWorkFolder(const std::string& folder);
 
-/// Removes the files that runs write and the folders that are empty then, but not the folder
-/// itself. Other files stay: somebody else has put them there.
+/// Removes the files that runs write and folders that become empty, but not the folder itself.
+/// Other files stay, since they are not ours.
 VTKTIPPIO_EXPORT void clearWorkFolder(const std::string& folder);
 
-/// Does the same, and removes the mark and the folder if nothing else is left in it.
+/// As clearWorkFolder(), and removes the mark, and the folder if nothing else is left in it.
 VTKTIPPIO_EXPORT void removeWorkFolder(const std::string& folder);
 
 } // namespace tipp

@@ -9,11 +9,11 @@
 namespace tipp
 {
 
-/// An array's name as a file's, without extension: slashes, control characters, per cent signs and
-/// a leading dot become % and two hexadecimal digits.
+/// Returns the file name, without extension, for an array: slashes, control characters, per cent
+/// signs and a leading dot become % and two hexadecimal digits.
 VTKTIPPIO_EXPORT std::string arrayFileName(const std::string& name);
 
-/// The other way round; a % without two hexadecimal digits after it stands for itself.
+/// The inverse of arrayFileName(). A % that two hexadecimal digits do not follow is kept.
 VTKTIPPIO_EXPORT std::string arrayNameOf(const std::string& fileName);
 
 } // namespace tipp

@@ -14,7 +14,7 @@ namespace tipp
 namespace
 {
 
-// A block of 32-bit ids stays in the innermost cache while it is widened.
+// A block of 32-bit ids stays in the L1 cache while it is widened.
 constexpr std::int64_t blockIds = 4096;
 
 } // namespace
@@ -53,7 +53,7 @@ void CellReader::read(std::int64_t first, std::int64_t cells, std::int64_t* ids)
   }
   const std::int64_t firstId = first * this->CellSize;
   const std::int64_t count = cells * this->CellSize;
-  // Blocks for each thread, so large that the calls of the system do not count.
+  // Blocks per thread, enough to amortise the system calls.
   constexpr std::int64_t share = 64 * blockIds;
   parallelFor((count + share - 1) / share, this->Threads,
     [&](std::int64_t i)
@@ -82,7 +82,7 @@ void CellReader::readBlock(std::int64_t firstId, std::int64_t count, std::int64_
   {
     this->File.read(offset, ids, std::size_t(count) * size);
   }
-  // A negative id is a large one if it is taken without its sign.
+  // As unsigned numbers, negative ids are large.
   std::uint64_t largest = 0;
   for (std::int64_t i = 0; i < count; ++i)
   {

@@ -12,23 +12,23 @@
 namespace tipp
 {
 
-/// Reads the cells of a flat mesh in chunks, as 64-bit vertex ids that are checked.
+/// Reads the cells of a flat mesh in chunks, as 64-bit point indices, and checks these.
 class VTKTIPPIO_EXPORT CellReader
 {
 public:
-  /// Cells from `first` up to, but without, `last`; -1: up to the end. `threads`: 0 is OpenMP's
-  /// choice. Throws IOError if the file cannot be opened, std::out_of_range for cells beyond the
-  /// mesh.
+  /// Reads the cells in [first, last); last = -1 means the end. `threads` = 0 is OpenMP's default.
+  /// Throws IOError if the file cannot be opened, std::out_of_range if the range exceeds the mesh.
   explicit CellReader(
     const FlatMesh& mesh, std::int64_t first = 0, std::int64_t last = -1, int threads = 0);
 
-  /// The next chunk of at most `cells` cells (1 or more), CellSize ids each; false at the end. Its
-  /// first cell is firstCell(). Throws IOError that names the first cell with an id that is
-  /// negative or not that of a point.
+  /// Reads the next chunk of at most `cells` cells (1 or more), CellSize point indices each;
+  /// returns false at the end. The chunk's first cell is firstCell(). Throws IOError naming the
+  /// first cell with a point index that is out of range.
   bool next(std::int64_t cells, std::vector<std::int64_t>& ids);
   std::int64_t firstCell() const { return this->First; }
 
-  /// Any cells, without moving on; `ids` has room for CellSize ids each.
+  /// Reads cells [first, first + cells) without changing the position of next(). `ids` has room for
+  /// cells * CellSize point indices.
   void read(std::int64_t first, std::int64_t cells, std::int64_t* ids) const;
 
 private:

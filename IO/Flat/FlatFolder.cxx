@@ -83,7 +83,7 @@ std::vector<double> readTimes(const std::string& folder)
   return times;
 }
 
-/// n, n x 1 ... from an axis on; 0 if it is no such array.
+/// The number of components if the shape from `axis` on is (n), (n, 1) or (n, c); 0 otherwise.
 std::int64_t componentsFrom(const NpyArray& file, std::size_t axis, std::int64_t tuples)
 {
   const std::size_t dimensions = file.Shape.size();
@@ -99,7 +99,7 @@ void openData(const std::string& path, std::int64_t tuples, std::int64_t steps, 
 {
   const NpyArray file = openNpyArray(path);
   const std::string name = arrayNameOf(fs::path(path).stem().string());
-  // A leading axis of time comes first where both would fit.
+  // If both layouts fit, the first axis is time.
   const std::int64_t varying = steps > 0 && !file.Shape.empty() && file.Shape[0] == steps
     ? componentsFrom(file, 1, tuples)
     : 0;
@@ -126,7 +126,7 @@ void openData(const std::string& path, std::int64_t tuples, std::int64_t steps, 
   }
 }
 
-/// The .npy files of a folder by name, so that the arrays' order is the same on every machine.
+/// The folder's .npy files sorted by name, so that the arrays' order is the same on every machine.
 std::vector<std::string> arrayFiles(const std::string& folder)
 {
   std::vector<std::string> paths;

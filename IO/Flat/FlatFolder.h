@@ -7,7 +7,7 @@
 namespace tipp
 {
 
-/// openFlatMesh for a folder.
+/// Implements openFlatMesh for a folder.
 FlatMesh openFlatFolder(const std::string& path);
 bool isFlatFolder(const std::string& path);
 

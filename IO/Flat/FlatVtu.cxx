@@ -17,7 +17,7 @@ namespace
 constexpr int triangleType = 5;
 constexpr int tetrahedronType = 10;
 
-/// Calls check(index, value) for every value of an array, of which little is in memory at a time.
+/// Calls check(index, value) for each value of an array, which is read block by block.
 template <typename Value, typename Check>
 void forEach(const InputFile& file, const RawArray& array, const Check& check)
 {
@@ -35,7 +35,8 @@ void forEach(const InputFile& file, const RawArray& array, const Check& check)
   }
 }
 
-/// Vertices a cell, all cells being of one type.
+/// Returns the number of points per cell; throws IOError unless all cells are triangles or all are
+/// tetrahedra.
 int checkTypes(const InputFile& file, const RawArray& types)
 {
   if (scalarSize(types.Type) != 1 || types.Components != 1)

@@ -7,7 +7,7 @@
 namespace tipp
 {
 
-/// openFlatMesh for a .vtu file.
+/// Implements openFlatMesh for a .vtu file.
 FlatMesh openFlatVtu(const std::string& path);
 bool isFlatVtu(const std::string& path);
 

@@ -19,7 +19,7 @@ FlatArray floats(std::string name, std::vector<double> values, int components, s
   return { std::move(name), Scalar::Float64, components, tuples, 0, kept->data(), kept };
 }
 
-/// ADCIRC's own names, fort.63 and the like, mean something with their number only.
+/// ADCIRC's own names, such as fort.63, keep their extension: the number tells what they hold.
 std::string nameOf(const std::string& path)
 {
   const std::filesystem::path file(path);

@@ -27,7 +27,7 @@ namespace
 
 constexpr const char* parentName = "vtkOriginalCellIds";
 
-/// The array, or a copy whose values lie one after the other, in bytes for single bits.
+/// The array itself if its values are contiguous, else a contiguous copy; single bits become bytes.
 vtkSmartPointer<vtkDataArray> plain(vtkDataArray* array)
 {
   const bool bits = array->GetDataType() == VTK_BIT;
@@ -44,7 +44,7 @@ vtkSmartPointer<vtkDataArray> plain(vtkDataArray* array)
 
 FlatArray flatArray(vtkDataArray* from)
 {
-  // Shared, so that copies of the array hold one reference together.
+  // Copies of the FlatArray share one reference to the VTK array.
   const auto kept = std::make_shared<vtkSmartPointer<vtkDataArray>>(plain(from));
   vtkDataArray* const array = *kept;
   FlatArray flat;
@@ -57,7 +57,7 @@ FlatArray flatArray(vtkDataArray* from)
   return flat;
 }
 
-/// The tuples of the parents, one after the other.
+/// Copies the tuples of the parent cells, in the order of `parents`.
 FlatArray gathered(const FlatArray& all, const std::vector<std::int64_t>& parents)
 {
   FlatArray some = all;
@@ -105,7 +105,7 @@ std::vector<FlatArray> arraysOf(vtkDataSetAttributes* attributes, std::vector<st
     const char* const name = attributes->GetAbstractArray(i)->GetName();
     if (name && std::strcmp(name, vtkDataSetAttributes::GhostArrayName()) == 0)
     {
-      continue; // no ghost cell is left
+      continue; // the ghost cells have been removed
     }
     if (!array || array->GetNumberOfComponents() < 1)
     {
@@ -150,7 +150,7 @@ Flattened flattenDataSet(vtkDataSet* data, const std::string& path)
     array = changed ? gathered(array, simplices.Parents) : array;
     named = named || array.Name == parentName;
   }
-  // Ids that the input brings tell of an earlier cut, and stay.
+  // "vtkOriginalCellIds" in the input come from an earlier cut and are kept.
   if (changed && !named)
   {
     content.CellData.push_back(parentArray(std::move(simplices.Parents)));

@@ -14,19 +14,19 @@ class vtkDataSet;
 namespace tipp
 {
 
-/// What flattening a data set has made of it.
+/// The result of flattenDataSet().
 struct Flattened
 {
   FlatContent Content;                         ///< refers to the data set, which must outlive it
   std::map<std::string, std::int64_t> Cut;     ///< as in Simplices
   std::map<std::string, std::int64_t> LeftOut; ///< as in Simplices
-  std::vector<std::string> ArraysLeftOut;      ///< those that hold no numbers
+  std::vector<std::string> ArraysLeftOut;      ///< arrays that are not numeric
 };
 
-/// The data set's simplices, points (float32 where they are, else float64) and arrays of numbers
-/// but for vtkGhostType, for ghost cells are left out.
-/// Where cells are cut or left out, the cell data "vtkOriginalCellIds" tell the cell that each
-/// simplex comes from. Throws IOError as simplicesOf does.
+/// Converts a data set's simplices, points (float32 if the input's are, else float64) and numeric
+/// arrays. Ghost cells and vtkGhostType are left out. If cells are cut or left out, the cell data
+/// "vtkOriginalCellIds" hold the index of each simplex's cell in `data`. Throws IOError as
+/// simplicesOf does.
 VTKTIPPIO_EXPORT Flattened flattenDataSet(vtkDataSet* data, const std::string& path);
 
 } // namespace tipp

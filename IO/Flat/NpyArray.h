@@ -9,7 +9,7 @@
 namespace tipp
 {
 
-/// An .npy file as an array in place.
+/// An .npy file whose array is used in place.
 struct NpyArray
 {
   std::string Path;
@@ -17,11 +17,12 @@ struct NpyArray
   Scalar Type = Scalar::Float64;
   std::vector<std::int64_t> Shape;
 
-  /// As "3 x 4".
+  /// For messages, such as "3 x 4".
   std::string shapeText() const;
 };
 
-/// Reads the header and checks it against the file's size; throws IOError. Booleans come as UInt8.
+/// Reads the header and checks it against the file's size; throws IOError. Booleans are read as
+/// UInt8.
 NpyArray openNpyArray(const std::string& path);
 
 } // namespace tipp

@@ -15,7 +15,7 @@ struct ScalarFacts
   const char* Descr;
 };
 
-// In the order of Scalar.
+// In the order of the enumerators of Scalar.
 constexpr ScalarFacts facts[] = {
   { 1, "Int8", "|i1" },
   { 1, "UInt8", "|u1" },

@@ -13,22 +13,22 @@
 namespace tipp
 {
 
-/// In bytes.
+/// The size of a value in bytes.
 VTKTIPPIO_EXPORT std::size_t scalarSize(Scalar type);
-/// As VTK's XML files name it: "Int8" ... "Float64".
+/// The name in VTK's XML files: "Int8" ... "Float64".
 VTKTIPPIO_EXPORT const char* scalarName(Scalar type);
-/// As NumPy names it: "|i1", "<f8".
+/// The name in NumPy: "|i1", "<f8".
 VTKTIPPIO_EXPORT const char* scalarDescr(Scalar type);
-/// Back from either; nothing for any other text.
+/// The inverse of both; nullopt for any other text.
 std::optional<Scalar> scalarFromName(const std::string& name);
 std::optional<Scalar> scalarFromDescr(const std::string& descr);
 
-/// The tuples of one array where they lie in a file: little-endian, one after the other.
+/// An array's tuples in a file: little-endian and contiguous.
 struct RawArray
 {
   std::string Name;
   std::string Path;
-  std::uint64_t Offset = 0; ///< of the first tuple in the file, in bytes
+  std::uint64_t Offset = 0; ///< of the first tuple from the file's start, in bytes
   Scalar Type = Scalar::Float64;
   int Components = 1;
   std::int64_t Tuples = 0;

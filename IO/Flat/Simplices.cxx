@@ -35,7 +35,7 @@ int dimensionOf(int type, vtkGenericCell* cell)
   return type == VTK_EMPTY_CELL ? -1 : cell->GetCellDimension();
 }
 
-/// The boundary's points in their order around it.
+/// The point ids of the face's boundary, in order around it.
 Ids cornersOf(vtkCell* face)
 {
   Ids corners(face->GetPointIds()->begin(), face->GetPointIds()->end());

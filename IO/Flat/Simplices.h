@@ -17,24 +17,25 @@ namespace tipp
 /// A data set's cells as triangles or tetrahedra over its own points.
 struct Simplices
 {
-  int CellSize = 3;              ///< 4 if the data set has cells with a volume
-  std::vector<std::int64_t> Ids; ///< CellSize point ids each, tetrahedra with positive volume
-  /// The cell that each comes from; empty if each is the cell of its own number.
+  int CellSize = 3; ///< 4 if the data set has cells with a volume, else 3
+  /// CellSize point ids per simplex; tetrahedra have positive volume
+  std::vector<std::int64_t> Ids;
+  /// The id of each simplex's cell in the data set; empty if it equals the simplex's index.
   std::vector<std::int64_t> Parents;
   std::map<std::string, std::int64_t>
-    Cut; ///< cells that were cut into several, by VTK's class name
-  /// Cells left out, by what they are: those of a lower dimension than others (points, lines, and
-  /// triangles beside tetrahedra), empty ones, and ghosts, which stand for another piece's cells.
+    Cut; ///< number of cells that were cut into several, by VTK's class name
+  /// Number of cells left out, by kind: those of a lower dimension than others (points, lines, and
+  /// triangles beside tetrahedra), empty ones, and ghosts, whose owner is another piece.
   std::map<std::string, std::int64_t> LeftOut;
 
   std::int64_t count() const { return std::int64_t(this->Ids.size()) / this->CellSize; }
 };
 
-/// Faces are cut by fans around their point of lowest id, and volumes by joining their own point of
-/// lowest id to all other faces, so that neighbours agree. (Known as pulling; Dompierre and others,
-/// "How to Subdivide Pyramids, Prisms, and Hexahedra into Tetrahedra", 1999.) Throws IOError with
-/// the path if there is nothing with an area or a volume, or a curved cell other than a quadratic
-/// triangle or tetrahedron.
+/// Converts cells to simplices. A face is cut into a fan around its point of lowest id; a volume is
+/// cut by joining its point of lowest id to all faces without that point, so that neighbours agree.
+/// (Known as pulling; Dompierre and others, "How to Subdivide Pyramids, Prisms, and Hexahedra into
+/// Tetrahedra", 1999.) Throws IOError with the path if no cell has an area or a volume, or if a
+/// curved cell is not a quadratic triangle or tetrahedron.
 VTKTIPPIO_EXPORT Simplices simplicesOf(vtkDataSet* data, const std::string& path);
 
 } // namespace tipp

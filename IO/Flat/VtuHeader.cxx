@@ -32,11 +32,11 @@ std::optional<Value> parse(const std::string* text)
   return error == std::errc() && stop == end ? std::make_optional(value) : std::nullopt;
 }
 
-/// The XML part up to the appended data, and where these start in the file.
+/// The XML text up to the appended data, and the offset of these in the file.
 struct XmlPart
 {
   std::string Text;
-  std::size_t AppendedTag = 0; ///< where it stands in the text
+  std::size_t AppendedTag = 0; ///< offset of the tag in the text
   std::uint64_t DataStart = 0;
 };
 
@@ -66,7 +66,7 @@ XmlPart readXmlPart(const InputFile& file)
       part.Text.resize(mark);
       return part;
     }
-    // The tag or the mark may come with the next bytes, but not far away.
+    // The tag or the '_' may lie in the bytes that follow, but not far away.
     if (at - tag > 4096)
     {
       break;
@@ -88,7 +88,7 @@ public:
   {
     const XmlPart part = readXmlPart(this->File);
     this->DataStart = part.DataStart;
-    // First, for what an encoding makes of the counts before the data is nonsense.
+    // Checked first: in an encoded file the byte counts are meaningless.
     this->requireRaw(part.Text.substr(part.AppendedTag));
     XmlScanner scanner(part.Text);
     for (Tag tag; scanner.next(tag);)
@@ -172,7 +172,7 @@ private:
   {
     const auto points = parse<std::int64_t>(tag.find("NumberOfPoints"));
     const auto cells = parse<std::int64_t>(tag.find("NumberOfCells"));
-    // A count of one byte an element is the least that the file must hold.
+    // Each element takes one byte or more, which bounds the count by the file's size.
     const auto size = std::int64_t(std::min<std::uint64_t>(
       this->File.size(), std::uint64_t(std::numeric_limits<std::int64_t>::max())));
     if (!points || !cells || *points < 0 || *cells < 0 || *points > size || *cells > size)
@@ -214,7 +214,7 @@ private:
     this->fail("holds an array of type '" + (type ? *type : "") + "', which is no type of number.");
   }
 
-  /// Where the array lies, with as many tuples as the count of bytes before it tells.
+  /// The array's position in the file; the byte count before its data gives the number of tuples.
   RawArray locate(const Tag& tag, Scalar type, const std::string& name) const
   {
     const std::string* const format = tag.find("format");

@@ -12,8 +12,9 @@ namespace tipp
 
 class InputFile;
 
-/// What the XML part of a .vtu file with appended raw data says. Arrays are in place: their counts
-/// are checked against the file's size and against the counts of bytes before the data.
+/// The content of the XML part of a .vtu file with appended raw data. Arrays are used in place:
+/// their counts have been checked against the file's size and against the byte counts before the
+/// data.
 struct VtuHeader
 {
   std::int64_t Points = 0;
@@ -21,12 +22,12 @@ struct VtuHeader
   std::vector<RawArray> PointData;
   std::vector<RawArray> CellData;
   RawArray Coordinates;
-  RawArray Connectivity; ///< its Tuples follow from its count of bytes
+  RawArray Connectivity; ///< its Tuples follow from the byte count
   RawArray Offsets;
   RawArray Types;
 };
 
-/// Throws IOError for anything but one piece of appended, raw, uncompressed, little-endian data.
+/// Throws IOError unless the file is one piece of appended, raw, uncompressed, little-endian data.
 VtuHeader readVtuHeader(const InputFile& file);
 
 } // namespace tipp

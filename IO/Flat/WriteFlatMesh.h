@@ -14,16 +14,17 @@
 namespace tipp
 {
 
-/// An array in memory, to be written: tuples of some components, or of a step each.
+/// An array in memory to be written: Tuples x Components values, or Steps times as many if it
+/// varies in time.
 struct FlatArray
 {
   std::string Name;
   Scalar Type = Scalar::Float64;
   int Components = 1;
   std::int64_t Tuples = 0;
-  std::int64_t Steps = 0; ///< 0: it does not vary in time
+  std::int64_t Steps = 0; ///< 0: the array does not vary in time
   const void* Values = nullptr;
-  std::shared_ptr<const void> Owner; ///< keeps Values alive, where it must
+  std::shared_ptr<const void> Owner; ///< owns Values, or null if the caller does
 };
 
 struct FlatContent
@@ -36,8 +37,9 @@ struct FlatContent
   std::vector<double> Times;
 };
 
-/// Writes the folder that openFlatMesh opens; ids as int32 where they fit. The folder appears whole
-/// or not at all: false if `aborted`, asked between arrays, said so; throws IOError.
+/// Writes a folder that openFlatMesh can open; point indices as int32 if they fit. The folder is
+/// published only when it is complete. Returns false if `aborted`, called between arrays, returned
+/// true; throws IOError.
 VTKTIPPIO_EXPORT bool writeFlatMesh(
   const std::string& path, const FlatContent& content, const std::function<bool()>& aborted = {});
 

@@ -28,8 +28,8 @@ void appendUtf8(std::uint32_t code, std::string& to)
   }
 }
 
-/// Appends what a reference at the text's beginning stands for, and returns its length; 0 if there
-/// is none. Knows numbers and the five names of XML itself.
+/// Appends the character that a reference at the text's start denotes, and returns the reference's
+/// length; 0 if there is none. Supports character numbers and XML's five predefined names.
 std::size_t takeReference(std::string_view text, std::string& to)
 {
   constexpr std::array<std::pair<std::string_view, char>, 5> entities = { {
@@ -64,7 +64,7 @@ std::size_t takeReference(std::string_view text, std::string& to)
   return end + 1;
 }
 
-/// What is no reference stands as it is.
+/// Replaces references; anything else is copied.
 std::string decode(std::string_view text)
 {
   std::string decoded;

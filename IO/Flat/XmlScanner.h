@@ -11,8 +11,8 @@
 namespace tipp
 {
 
-/// The tags of an XML text, one after the other; what stands between them is passed over. Knows as
-/// much of XML as VTK's writers use: no document types, no sections of character data.
+/// Iterates over the tags of an XML text; text between tags is skipped. Supports the subset of XML
+/// that VTK's writers use: no document types, no CDATA sections.
 class XmlScanner
 {
 public:
@@ -22,13 +22,13 @@ public:
     {
       Open,
       Close,
-      Empty ///< opens and closes
+      Empty ///< <name/>
     };
     Kind What = Open;
     std::string Name;
     std::vector<std::pair<std::string, std::string>> Attributes;
 
-    /// Null if there is no such attribute.
+    /// The attribute's value; null if there is no such attribute.
     const std::string* find(std::string_view name) const;
   };
 
@@ -37,10 +37,11 @@ public:
   {
   }
 
-  /// False at the text's end, and for good where the text is not well formed: failed() tells.
+  /// Reads the next tag. Returns false at the text's end, and from then on if the text is not well
+  /// formed; see failed().
   bool next(Tag& tag);
   bool failed() const { return this->Failed; }
-  /// How far it has come, in bytes.
+  /// The number of bytes consumed.
   std::size_t position() const { return this->At; }
 
 private:

@@ -12,14 +12,14 @@
 namespace tipp
 {
 
-/// The bitmap: whether there are ids of a chunk in each segment of the vertices, an element a
-/// segment. segment(id - low) is below `segments`.
+/// Returns the bitmap of active segments, one element per segment: whether a chunk has ids in it.
+/// segment(id - low) is less than `segments`.
 template <typename Segment>
 std::vector<char> findActive(const std::int64_t* ids, std::size_t count, std::int64_t low,
   std::size_t segments, int threads, const Segment& segment)
 {
   constexpr std::size_t least = 1 << 18;
-  // As many as there are threads at most, for each has a bitmap.
+  // Each thread has a bitmap of its own, so the number of threads bounds the number of bitmaps.
   const std::size_t shares =
     std::max<std::size_t>(std::min(std::size_t(threadCount(threads)), count / least), 1);
   std::vector<std::vector<char>> parts(shares);
@@ -27,7 +27,7 @@ std::vector<char> findActive(const std::int64_t* ids, std::size_t count, std::in
     [&](std::int64_t part)
     {
       std::vector<char> own(segments, 0);
-      char* const active = own.data(); // which writing a char cannot change
+      char* const active = own.data(); // a local, since writing a char may alias a member
       const std::size_t end = count * (std::size_t(part) + 1) / shares;
       for (std::size_t i = count * std::size_t(part) / shares; i < end; ++i)
       {

@@ -38,8 +38,8 @@ IdRange unite(const IdRange& a, const IdRange& b)
 
 IdRange rangeOf(const std::int64_t* ids, std::size_t count)
 {
-  constexpr std::size_t lanes = 4;   // each minimum waits for the one before
-  constexpr std::size_t ahead = 512; // the processor itself stops at the end of a page
+  constexpr std::size_t lanes = 4; // independent minima, so that they need not wait for each other
+  constexpr std::size_t ahead = 512; // the hardware prefetcher stops at page boundaries
   IdRange parts[lanes] = { noIds, noIds, noIds, noIds };
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes)
@@ -137,7 +137,7 @@ void TupleBuffers::resize(const ArrayFiles& files, std::int64_t tuples)
   this->Buffers.clear();
   for (std::size_t a = 0; a < files.count(); ++a)
   {
-    // Not cleared: it is filled by a read before it is used.
+    // Not cleared: a read fills it before it is used.
     this->Buffers.emplace_back(new char[std::size_t(tuples) * files.tupleBytes(a)]);
   }
   this->Tuples = tuples;

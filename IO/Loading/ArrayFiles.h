@@ -12,14 +12,14 @@
 namespace tipp
 {
 
-/// The ids' least and greatest; Low is above High if there are no ids.
+/// The least and greatest id; Low > High if there are no ids.
 struct IdRange
 {
   std::int64_t Low;
   std::int64_t High;
 };
 
-/// Arrays of equally many tuples with their files open, and what all loaders do with them.
+/// Open files of arrays with the same number of tuples, and the operations that all loaders share.
 class ArrayFiles
 {
 public:
@@ -31,14 +31,14 @@ public:
   const InputFile& file(std::size_t a) const { return *this->Files[a]; }
   std::size_t tupleBytes(std::size_t a) const { return this->Arrays[a].tupleBytes(); }
   std::int64_t tuples() const { return this->Tuples; }
-  /// Of one tuple of every array.
+  /// The bytes of one tuple of every array.
   std::size_t recordBytes() const { return this->RecordBytes; }
 
-  /// Throws IOError that names an id which is not that of a tuple.
+  /// Returns the range of ids. Throws IOError naming an id that is not a tuple's index.
   IdRange range(const std::int64_t* ids, std::size_t count, int threads) const;
 
-  /// Tuples of one array that follow each other, and counts that as a read. Of very many tuples
-  /// each thread reads a part: where files are cached, reading is copying.
+  /// Reads consecutive tuples of array `a`, and counts that as one read. Large reads are split over
+  /// threads: if the file is cached, reading is copying.
   void read(std::size_t a, std::int64_t first, std::int64_t tuples, void* to, int threads,
     LoadCounters& counters) const;
 
@@ -49,7 +49,7 @@ private:
   std::size_t RecordBytes = 0;
 };
 
-/// Memory for some tuples of every array.
+/// Buffers for a number of tuples of every array.
 class TupleBuffers
 {
 public:

@@ -16,7 +16,7 @@ BlockCache::BlockCache(std::uint32_t slots)
   : Slots(std::size_t(slots) + 1)
   , End(slots)
 {
-  // At most half full, so that a search looks at few entries in a row.
+  // At most half full, so that probe sequences are short.
   int bits = 1;
   while ((std::size_t(1) << bits) < 2 * std::size_t(slots))
   {
@@ -69,7 +69,7 @@ BlockCache::Place BlockCache::use(std::uint64_t block)
   if (this->Slots[slot].Block != nothing)
   {
     this->erase(this->Slots[slot].Block);
-    // The gap may have closed before the place that was found.
+    // Erasing may have moved the entry that was found.
     for (at = this->home(block); this->Table[at] != empty; at = (at + 1) & mask)
     {
     }
@@ -87,7 +87,8 @@ void BlockCache::forget(std::uint32_t slot)
   this->Slots[slot].Block = nothing;
 }
 
-// Knuth's algorithm 6.4 R: entries after the gap move up into it, unless that is before their home.
+// Knuth's algorithm 6.4 R: later entries move into the gap unless that precedes their hash
+// position.
 void BlockCache::erase(std::uint64_t block)
 {
   const std::size_t mask = this->Table.size() - 1;

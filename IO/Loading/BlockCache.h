@@ -8,28 +8,28 @@
 namespace tipp
 {
 
-/// Which of many blocks are held in a few slots: a hash table from blocks to slots, and a doubly
-/// linked list of the slots, the most recently used one first.
+/// An LRU cache's bookkeeping: a hash table from block numbers to slots, and a doubly linked list
+/// of the slots, the most recently used first.
 class BlockCache
 {
 public:
   struct Place
   {
     std::uint32_t Slot;
-    bool Miss; ///< the slot is the block's from now on, but does not hold it yet
+    bool Miss; ///< the slot is assigned to the block, but the caller has yet to fill it
   };
 
-  /// 1 to 2^30 slots.
+  /// `slots` is in [1, 2^30].
   explicit BlockCache(std::uint32_t slots);
 
-  /// The block's slot, which becomes the most recently used one. A block that is not held takes the
-  /// place of the one that was used least recently.
+  /// Returns the block's slot and makes it the most recently used one. A block that is not cached
+  /// replaces the least recently used one.
   Place use(std::uint64_t block);
 
-  /// After a miss whose block could not be read: the slot holds nothing.
+  /// Empties the slot; call it if the block of a miss could not be read.
   void forget(std::uint32_t slot);
 
-  /// Fetches into the processor's cache what use(block) will look at first.
+  /// Prefetches the table entry that use(block) will read first.
   void prefetch(std::uint64_t block) const { __builtin_prefetch(&this->Table[this->home(block)]); }
 
 private:
@@ -50,10 +50,10 @@ private:
 
   static constexpr std::uint64_t nothing = ~std::uint64_t(0);
 
-  std::vector<Slot> Slots; ///< one more than asked for: the list's two ends
+  std::vector<Slot> Slots; ///< one more than requested: the list's sentinel
   std::vector<std::uint32_t> Table;
   int TableShift;
-  std::uint32_t End; ///< the slot that is both ends
+  std::uint32_t End; ///< the sentinel's slot
 };
 
 } // namespace tipp

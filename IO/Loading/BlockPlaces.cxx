@@ -35,10 +35,10 @@ void BlockPlaces::add(const Run& run)
 
 bool BlockPlaces::find(const std::int64_t* ids, std::size_t count, std::uint32_t* places)
 {
-  constexpr std::size_t ahead = 512; // the processor itself stops at the end of a page
+  constexpr std::size_t ahead = 512; // the hardware prefetcher stops at page boundaries
   const std::int64_t most = std::min(std::int64_t(count), this->Room - this->Used);
   const auto tuples = std::uint64_t(this->Tuples);
-  const int shift = this->Shift; // which writing a place cannot change
+  const int shift = this->Shift; // a local, since writing positions may alias a member
   const std::uint64_t inBlock = this->mask();
   const std::uint32_t* const blocks = this->Places.data();
   this->Found.clear();
@@ -56,7 +56,7 @@ bool BlockPlaces::find(const std::int64_t* ids, std::size_t count, std::uint32_t
   return true;
 }
 
-/// Seldom called: find() is faster without it.
+/// Rarely called; inlining it makes find() slower.
 [[gnu::noinline]] bool BlockPlaces::addFound(std::uint64_t block, std::int64_t most)
 {
   const std::int64_t before = std::int64_t(this->Found.size()) << this->Shift;

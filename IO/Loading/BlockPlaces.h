@@ -12,8 +12,8 @@
 namespace tipp
 {
 
-/// Where in a buffer blocks of tuples are that stay for the next chunks. A block is 2^shift tuples.
-/// Blocks are only added, until all are forgotten.
+/// The positions, in a buffer, of the blocks of tuples that are kept for the next chunks. A block
+/// is 2^shift tuples. Blocks are only added, until all are dropped.
 class BlockPlaces
 {
 public:
@@ -24,30 +24,32 @@ public:
   }
 
   bool isEmpty() const { return this->Used == 0; }
-  std::int64_t used() const { return this->Used; } ///< tuples of the buffer
-  std::int64_t room() const { return this->Room; } ///< for tuples in the buffer
-  /// Only while it is empty: the buffer of another size does not keep what it holds.
+  std::int64_t used() const { return this->Used; } ///< tuples in use in the buffer
+  std::int64_t room() const { return this->Room; } ///< capacity of the buffer in tuples
+  /// Only while no block is held: a buffer of another size does not keep its content.
   void setRoom(std::int64_t tuples) { this->Room = tuples; }
   void forget();
 
-  /// Gives the places of tuples whose blocks are held. A copy of what that takes, which writing
-  /// places cannot change.
+  /// Returns a function from the index of a tuple whose block is held to its position in the
+  /// buffer. It works on copies, which writing positions cannot alias.
   auto finder() const
   {
     return [places = this->Places.data(), shift = this->Shift, mask = this->mask()](
              std::uint64_t id) { return places[id >> shift] + (id & mask); };
   }
 
-  /// Those of the active blocks, from that of tuple `low` on, that are not held.
+  /// Returns, for each block, whether it is active and not held. `active` starts at the block of
+  /// tuple `low`.
   std::vector<char> missing(const std::vector<char>& active, std::int64_t low);
-  /// A run of whole blocks is behind those that were held.
+  /// Adds a run of whole blocks, positioned after those already held.
   void add(const Run& run);
 
-  /// The places of tuples, among them those of blocks that are not held but get their place here;
-  /// these are to be read next. False, and there are no such blocks, if they had more tuples than
-  /// there is room for or there are ids, or if an id is not that of a tuple.
+  /// Writes the buffer position of each id's tuple to `places`. Blocks that are not held are
+  /// assigned a position, and the caller must read them next, see found(). Returns false, and adds
+  /// no block, if there is no room for them, if they have more tuples than there are ids, or if an
+  /// id is not a tuple's index.
   bool find(const std::int64_t* ids, std::size_t count, std::uint32_t* places);
-  /// What is to be read after find(), in the order of their places.
+  /// The runs to read after find(), in the order of their positions.
   std::vector<Run> found() const;
   void keepFound();
   void loseFound();
@@ -60,7 +62,7 @@ private:
 
   int Shift;
   std::int64_t Tuples;
-  std::vector<std::uint32_t> Places; ///< of each block
+  std::vector<std::uint32_t> Places; ///< position of each block
   std::int64_t Used = 0;
   std::int64_t Room = 0;
   std::vector<std::uint64_t> Found; ///< blocks that are to be read

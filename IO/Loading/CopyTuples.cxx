@@ -12,7 +12,7 @@ namespace
 template <std::size_t Bytes>
 using Size = std::integral_constant<std::size_t, Bytes>;
 
-/// Calls work(bytes) with a compile-time constant for the usual sizes.
+/// Calls work(bytes), with a compile-time constant for the usual sizes.
 template <typename Work>
 void withSize(std::size_t bytes, const Work& work)
 {

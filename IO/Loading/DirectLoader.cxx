@@ -20,7 +20,7 @@ class DirectLoader : public VertexLoader
 public:
   DirectLoader(ArrayFiles files, std::int64_t m, int threads)
     : Files(std::move(files))
-    // Places in the buffers are numbers of 32 bits.
+    // Positions in the buffers are 32-bit numbers.
     , M(std::min<std::int64_t>(m, std::numeric_limits<std::uint32_t>::max()))
     , Threads(threads)
   {

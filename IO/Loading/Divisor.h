@@ -7,7 +7,7 @@
 namespace tipp
 {
 
-/// Divides numbers below 2^63 by one known before, at the cost of a multiplication.
+/// Divides numbers below 2^63 by an invariant divisor, at the cost of a multiplication.
 class Divisor
 {
 public:
@@ -20,7 +20,7 @@ public:
   std::uint64_t quotient(std::uint64_t dividend) const
   {
     __extension__ using Wide = unsigned __int128;
-    // The reciprocal is less than two too small, so the product's upper half at most one.
+    // The reciprocal is too small by less than two, so the quotient by at most one.
     const auto low = std::uint64_t(Wide(dividend) * this->Reciprocal >> 64);
     return low + (dividend - low * this->Value >= this->Value ? 1 : 0);
   }

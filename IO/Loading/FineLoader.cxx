@@ -27,7 +27,8 @@ namespace
 
 constexpr int mostShift = 10;
 
-/// Bytes between two runs that are read along sooner than another read is begun.
+/// Gaps of fewer bytes between two runs are read along with them: that is cheaper than another
+/// read.
 constexpr std::int64_t gapBytes = 4096;
 
 class FineLoader : public VertexLoader
@@ -35,7 +36,7 @@ class FineLoader : public VertexLoader
 public:
   FineLoader(ArrayFiles files, std::int64_t m, int threads)
     : Files(std::move(files))
-    // Places in the buffers are numbers of 32 bits.
+    // Positions in the buffers are 32-bit numbers.
     , M(std::min<std::int64_t>(m, std::numeric_limits<std::uint32_t>::max()))
     , Threads(threads)
     , Gap(gapBytes / std::int64_t(std::max<std::size_t>(this->Files.recordBytes(), 1)))
@@ -58,8 +59,9 @@ public:
     this->Counts.UsefulBytes += std::int64_t(count * this->Files.recordBytes());
     Chunk chunk = { ids, count, range.Low >> this->Shift << this->Shift, range.High, {} };
     const std::size_t blocks = std::size_t((range.High - chunk.Low) >> this->Shift) + 1;
-    constexpr std::int64_t sparse = 128; // tuples that are read along with each that is wanted
-    bool isSparse = blocks > count;      // then to look for active blocks is more work than to sort
+    constexpr std::int64_t sparse = 128; // tuples read per tuple wanted
+    // then the scan for active blocks costs more than sorting the ids
+    bool isSparse = blocks > count;
     if (!isSparse)
     {
       this->findActiveBlocks(chunk, blocks);
@@ -69,7 +71,7 @@ public:
     }
     if (isSparse && !this->wantsAll())
     {
-      constexpr std::int64_t page = 4096; // which a read of one tuple costs about
+      constexpr std::int64_t page = 4096; // the approximate cost, in bytes, of reading one tuple
       this->Spent += std::int64_t(count) * page;
       this->loadSparse(chunk, out);
       return;
@@ -86,9 +88,9 @@ private:
   {
     const std::int64_t* Ids;
     std::size_t Count;
-    std::int64_t Low; ///< where the block of the lowest id begins
+    std::int64_t Low; ///< first tuple of the block with the lowest id
     std::int64_t High;
-    std::vector<char> Active; ///< of each block: has ids
+    std::vector<char> Active; ///< per block: whether it has ids
   };
 
   static int shiftFor(std::int64_t m)
@@ -101,11 +103,11 @@ private:
     return shift;
   }
 
-  /// The usual chunk of neighbours, whose blocks are held but for a few: its ids are looked at
-  /// once. False, and nothing done, if it is another one.
+  /// The usual case: a chunk near the previous ones, most of whose blocks are held. It takes one
+  /// pass over the ids. Returns false, having loaded nothing, in other cases.
   bool loadFromHeld(const std::int64_t* ids, std::size_t count, void* const* out)
   {
-    constexpr std::size_t few = 1 << 16; // more are for several threads
+    constexpr std::size_t few = 1 << 16; // larger chunks use several threads
     if (count > few || this->Held.isEmpty())
     {
       return false;
@@ -147,7 +149,7 @@ private:
     ++this->Counts.Passes;
   }
 
-  /// Tuples of the blocks that hold so many.
+  /// The number of tuples in the blocks that hold `tuples` tuples.
   std::int64_t wholeBlocks(std::int64_t tuples) const
   {
     return (((tuples - 1) >> this->Shift) + 1) << this->Shift;
@@ -161,7 +163,7 @@ private:
     {
       return;
     }
-    constexpr std::int64_t dense = 2; // ids for each tuple, of which hardly one is not wanted
+    constexpr std::int64_t dense = 2; // ids per tuple; then nearly all tuples are wanted
     chunk.Active = std::int64_t(chunk.Count) / dense > chunk.High - chunk.Low
       ? std::vector<char>(blocks, 1)
       : findActive(chunk.Ids, chunk.Count, chunk.Low, blocks, this->Threads,
@@ -173,7 +175,8 @@ private:
     return tuples * std::int64_t(this->Files.recordBytes());
   }
 
-  /// Whether all fits, and as much has been read as there is: from then on what is read stays.
+  /// Whether all tuples fit and as many bytes have been read as there are: from then on all blocks
+  /// that are read are kept.
   bool wantsAll() const
   {
     return this->fitsWhole() && this->Spent > this->bytesOf(this->Files.tuples());
@@ -206,14 +209,16 @@ private:
       { return placeOf(std::uint64_t(ids[i])); });
   }
 
-  /// Tuples of blocks that stay for the next chunks: neighbouring ones share many.
+  /// The number of tuples in blocks that are kept for the next chunks: neighbouring chunks share
+  /// many.
   std::int64_t kept() const
   {
-    constexpr std::int64_t enough = 1 << 18; // more would leave the processor's cache
+    constexpr std::int64_t enough = 1 << 18; // more would exceed the processor's cache
     return this->wantsAll() ? this->M : std::min(this->M, enough);
   }
 
-  /// Reads runs of blocks behind those that are held; none are if the runs do not fit there.
+  /// Reads runs of blocks to the positions after those held; drops all held blocks first if the
+  /// runs do not fit.
   void hold(const std::vector<Run>& runs)
   {
     if (this->Held.isEmpty())
@@ -230,13 +235,14 @@ private:
     ++this->Counts.Passes;
   }
 
-  /// More than M tuples: so many at a time, and where each id's tuple goes is found before.
+  /// For more than M tuples: loads group by group, at most M tuples each. Each id's group and
+  /// position are computed first.
   void loadGroups(const Chunk& chunk, std::vector<Run> runs, void* const* out)
   {
     const int shift = this->Shift;
     const std::int64_t block = std::int64_t(1) << shift;
     const RunPlan plan(std::move(runs), this->M, block, chunk.Low);
-    std::vector<std::uint32_t> starts(chunk.Active.size()); // of each block, and its group
+    std::vector<std::uint32_t> starts(chunk.Active.size()); // position of each block, and its group
     std::vector<std::uint32_t> groups(chunk.Active.size());
     for (std::size_t i = 0; i < plan.Runs.size(); ++i)
     {
@@ -259,7 +265,7 @@ private:
     this->loadMoves(plan, out);
   }
 
-  /// Few ids far apart: single tuples are read.
+  /// For a few ids far apart: reads single tuples.
   void loadSparse(const Chunk& chunk, void* const* out)
   {
     this->Held.forget();
@@ -270,7 +276,8 @@ private:
       return;
     }
     const RunPlan plan(runsOfIds(unique.Sorted, this->Gap), this->M, 1, chunk.Low);
-    std::vector<std::uint32_t> places(unique.Sorted.size()); // of each number, and its group
+    // position of each distinct id, and its group
+    std::vector<std::uint32_t> places(unique.Sorted.size());
     std::vector<std::uint32_t> groups(unique.Sorted.size());
     std::size_t run = 0;
     for (const auto& [id, number] : unique.Sorted)
@@ -298,24 +305,24 @@ private:
     this->loadMoves(plan, out);
   }
 
-  /// Tuples that the cache holds: half of M, the rest is for what is read.
+  /// The cache's capacity in tuples: half of M, since the tuples that are read take the other half.
   std::int64_t cached() const
   {
-    constexpr std::int64_t most = 1 << 16; // few enough for the processor's cache
+    constexpr std::int64_t most = 1 << 16; // still fits in the processor's cache
     return std::min(this->M / 2, most);
   }
 
-  /// Neighbouring chunks share vertices: so those of the last chunks stay.
+  /// Neighbouring chunks share vertices, so the tuples of the last chunks are kept.
   void loadCached(const UniqueIds& unique, const Chunk& chunk, void* const* out)
   {
     if (!this->Cache)
     {
-      this->Buffers = TupleBuffers(); // both would be more than M
+      this->Buffers = TupleBuffers(); // both together would exceed M
       this->Held.setRoom(0);
       this->Cache = std::make_unique<TupleCache>(this->Files, std::uint32_t(this->cached()));
     }
-    std::vector<std::uint32_t> slots(unique.Sorted.size());      // of each number
-    std::vector<std::pair<std::int64_t, std::uint32_t>> missing; // and their slots
+    std::vector<std::uint32_t> slots(unique.Sorted.size());      // slot of each distinct id
+    std::vector<std::pair<std::int64_t, std::uint32_t>> missing; // ids and their slots
     for (const auto& [id, number] : unique.Sorted)
     {
       const BlockCache::Place place = this->Cache->use(id);
@@ -407,12 +414,12 @@ private:
   int Threads;
   std::int64_t Gap; ///< in tuples
   int Shift;        ///< a block is 2^Shift tuples
-  BlockPlaces Held; ///< in the buffers
+  BlockPlaces Held; ///< blocks in the buffers
   LoadCounters Counts;
   TupleBuffers Buffers;
-  std::int64_t Spent = 0;            ///< bytes read, about
-  RawVector<std::uint32_t> Sources;  ///< of a chunk's tuples, in the buffers
-  std::unique_ptr<TupleCache> Cache; ///< once there was a chunk of few ids far apart
+  std::int64_t Spent = 0;            ///< approximate number of bytes read
+  RawVector<std::uint32_t> Sources;  ///< position of each of the chunk's tuples in the buffers
+  std::unique_ptr<TupleCache> Cache; ///< created by the first chunk of a few ids far apart
   GroupedMoves Moves;
 };
 

@@ -12,11 +12,11 @@
 namespace tipp
 {
 
-/// Tuples whose places are found before any is copied.
+/// The number of tuples whose positions are computed before they are copied.
 constexpr std::size_t tuplesAtATime = 2048;
 
-/// Copies all tuples of a chunk: the one at source(i), a number of 32 bits, in
-/// the buffers to place i.
+/// Copies all tuples of a chunk: tuple source(i) of the buffers, a 32-bit position, to tuple i of
+/// the output.
 template <typename Source>
 void gatherAll(std::size_t count, const ArrayFiles& files, TupleBuffers& buffers, void* const* out,
   int threads, const Source& source)

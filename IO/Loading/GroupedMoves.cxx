@@ -26,8 +26,8 @@ bool GroupedMoves::isWide() const
 
 void GroupedMoves::reset(std::size_t count, std::size_t groups)
 {
-  constexpr std::size_t least = 8192; // 128 KB of points in a plane
-  constexpr std::size_t ofEach = 16;  // tuples of each group, lest the starts take much memory
+  constexpr std::size_t least = 8192; // 128 KiB of 2D points
+  constexpr std::size_t ofEach = 16;  // tuples per group, so that the array of starts stays small
   this->Count = count;
   this->Groups = groups;
   this->BlockSize = std::max(least, ofEach * groups);
@@ -121,7 +121,7 @@ void GroupedMoves::gather(std::size_t group, bool isLast, const ArrayFiles& file
     });
 }
 
-/// Puts a block in order whose tuples are all there but those of one group.
+/// Puts a block in order when only one group's tuples are missing.
 void GroupedMoves::complete(std::size_t block, std::size_t group, const char* from, char* to,
   std::size_t bytes, std::vector<char>& room) const
 {

@@ -15,7 +15,7 @@
 namespace tipp
 {
 
-/// Numbers that are all written before they are read, and so not cleared.
+/// An uninitialised array of numbers, all of which are written before they are read.
 template <typename Number>
 class RawVector
 {
@@ -26,7 +26,7 @@ public:
     if (count > this->Room)
     {
       this->Room = 0;
-      this->Numbers.reset(); // not two at a time
+      this->Numbers.reset(); // so that the old and the new array do not exist together
       this->Numbers.reset(new Number[count]);
       this->Room = count;
     }
@@ -37,14 +37,14 @@ private:
   std::size_t Room = 0;
 };
 
-/// Where the tuples of a chunk come from, group by group: a group is what is in the buffers
-/// together. The chunk is cut into blocks that fit into the processor's cache. In each block of the
-/// caller's arrays the tuples of a group first lie together, so that hardly a line of memory is
-/// written by several groups; with the last group, the tuples of each block are put in order.
+/// The source positions of a chunk's tuples, group by group; a group is what the buffers hold at
+/// the same time. The chunk is cut into blocks that fit in the processor's cache. In each block of
+/// the caller's arrays the tuples are first stored by group, so that few cache lines are written by
+/// several groups; the last group puts the tuples of each block in order.
 class GroupedMoves
 {
 public:
-  /// where(i) gives the group of the chunk's i-th id, and its place in the buffers.
+  /// where(i) returns the group of the chunk's i-th id and its position in the buffers.
   template <typename Where>
   void sort(std::size_t count, std::size_t groups, int threads, const Where& where)
   {
@@ -68,23 +68,23 @@ public:
       });
   }
 
-  /// The groups of which tuples are wanted, ascending.
+  /// The groups that have tuples in the chunk, ascending.
   std::vector<std::size_t> wanted() const;
 
-  /// Brings a group's tuples from the buffers into the blocks. Groups may come in any order, each
-  /// once; with the last one the chunk is complete.
+  /// Copies a group's tuples from the buffers into the blocks. Each group is to be passed once, in
+  /// any order; the last one completes the chunk.
   void gather(std::size_t group, bool isLast, const ArrayFiles& files, TupleBuffers& buffers,
     void* const* out, int threads) const;
 
 private:
-  /// What a thread needs to sort a block.
+  /// A thread's workspace for sorting a block.
   struct BlockSort
   {
     void reset(std::size_t size, std::size_t groups);
 
     std::vector<std::uint32_t> GroupOf;
     std::vector<std::uint32_t> Sources;
-    std::vector<std::uint32_t> Next; ///< counts, then the next place, of each group
+    std::vector<std::uint32_t> Next; ///< per group: first its count, then its next position
   };
 
   void reset(std::size_t count, std::size_t groups);
@@ -112,13 +112,13 @@ private:
   std::size_t Groups = 0;
   std::size_t BlockSize = 0;
   std::size_t Blocks = 0;
-  /// In the buffers, of each block by group.
+  /// Positions in the buffers, for each block sorted by group.
   RawVector<std::uint32_t> Sources;
-  /// Of each id, among its block's; which of them, isWide tells.
+  /// The position of each id within its block; isWide says which of the two arrays is in use.
   RawVector<std::uint16_t> Places;
   RawVector<std::uint32_t> WidePlaces;
   std::vector<std::uint32_t> Starts; ///< of each group in each block, and the block's size
-  std::vector<char> InOrder;         ///< of each block: is of one group, and has no places
+  std::vector<char> InOrder;         ///< per block: it has one group only, and so no positions
 };
 
 } // namespace tipp

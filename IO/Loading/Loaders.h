@@ -7,7 +7,7 @@
 namespace tipp
 {
 
-/// One each for the kinds of Loader, over the same files; `m` is at least 1.
+/// One function per kind of Loader, over the same files; `m` is at least 1.
 std::unique_ptr<VertexLoader> makeDirectLoader(ArrayFiles files, std::int64_t m, int threads);
 std::unique_ptr<VertexLoader> makeFineLoader(ArrayFiles files, std::int64_t m, int threads);
 std::unique_ptr<VertexLoader> makeLruLoader(ArrayFiles files, std::int64_t m, std::int64_t blocks);

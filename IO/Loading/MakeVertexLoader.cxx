@@ -16,7 +16,7 @@ constexpr std::array<const char*, 5> names = { "auto", "direct", "fine", "lru", 
 
 constexpr std::uint64_t defaultMemoryLimit = std::uint64_t(512) << 20;
 
-/// Mapped files share the memory with what the caller holds; so they fit well into half of it.
+/// Mapped files share the memory with the caller's data, so they may take at most half of it.
 bool fitsWell(const ArrayFiles& files, std::uint64_t memoryLimit)
 {
   return std::uint64_t(files.tuples()) <=

@@ -16,8 +16,8 @@ namespace tipp
 namespace
 {
 
-/// An array mapped into memory. A file that is cut off while it is mapped ends the process
-/// (SIGBUS), as with every mapped file.
+/// An array mapped into memory. Truncating the file while it is mapped ends the process (SIGBUS),
+/// as for any mapped file.
 class Mapping
 {
 public:
@@ -35,7 +35,7 @@ public:
         std::string("cannot be mapped into memory (") + std::strerror(errno) +
           "); choose another loader.");
     }
-    // Read ahead in long strides rather than a page at a time in the order of the ids.
+    // Read ahead sequentially rather than page by page in the order of the ids.
     madvise(this->Start, this->Bytes, MADV_WILLNEED);
     this->Tuples = static_cast<const char*>(this->Start) + inside;
   }
@@ -75,7 +75,7 @@ public:
       {
         const std::size_t begin = std::size_t(i) * share;
         const std::size_t size = std::min(share, count - begin);
-        // The ids are known not to be negative.
+        // Safe: range() has checked that no id is negative.
         const auto* const own = reinterpret_cast<const std::uint64_t*>(ids + begin);
         for (std::size_t a = 0; a < this->Mappings.size(); ++a)
         {

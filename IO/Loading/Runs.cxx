@@ -61,7 +61,7 @@ std::vector<std::size_t> groupRuns(
   {
     while (run.Size > room)
     {
-      // A whole number of blocks, and not a sliver of a run.
+      // A whole number of blocks, so that no tiny run remains.
       const std::int64_t end = run.First + room - (run.First + room - low) % block;
       const std::int64_t size = end - run.First;
       if (size > 0)

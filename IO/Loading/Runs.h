@@ -10,28 +10,28 @@
 namespace tipp
 {
 
-/// Consecutive tuples that are read at once.
+/// Consecutive tuples that one read loads.
 struct Run
 {
   std::int64_t First;
   std::int64_t Size;
 };
 
-/// Active blocks of `block` tuples as runs, from tuple `low` up to `high`. Runs with less than
-/// `gap` tuples between them become one.
+/// Returns the active blocks, of `block` tuples each, as runs within [low, high). Runs less than
+/// `gap` tuples apart are merged.
 std::vector<Run> runsOfBlocks(const std::vector<char>& active, std::int64_t block, std::int64_t low,
   std::int64_t high, std::int64_t gap);
 
-/// The same for single ids, which come first in their pairs and ascend.
+/// The same for single ids, the first members of the pairs, in ascending order.
 std::vector<Run> runsOfIds(
   const std::vector<std::pair<std::int64_t, std::uint32_t>>& ids, std::int64_t gap);
 
-/// Cuts runs into groups of at most m tuples: the index in the cut runs where each group begins,
-/// and the number of runs at the end. A run is cut at a multiple of `block` tuples from `low`.
+/// Cuts runs into groups of at most m tuples. Returns the index of each group's first run in the
+/// cut runs, and then the number of runs. Runs are cut at multiples of `block` tuples from `low`.
 std::vector<std::size_t> groupRuns(
   std::vector<Run>& runs, std::int64_t m, std::int64_t block, std::int64_t low);
 
-/// Runs in groups, and where each run is packed in its group's buffer.
+/// Runs in groups, and each run's position in the buffer of its group.
 struct RunPlan
 {
   RunPlan(std::vector<Run> runs, std::int64_t m, std::int64_t block, std::int64_t low);
@@ -39,9 +39,9 @@ struct RunPlan
   std::size_t groups() const { return this->Starts.size() - 1; }
 
   std::vector<tipp::Run> Runs;
-  std::vector<std::size_t> Starts;    ///< of the groups, and the number of runs
-  std::vector<std::uint32_t> Packed;  ///< of each run; m is below 2^32
-  std::vector<std::uint32_t> GroupOf; ///< of each run
+  std::vector<std::size_t> Starts;    ///< first run of each group, and the number of runs
+  std::vector<std::uint32_t> Packed;  ///< position of each run in tuples; m is below 2^32
+  std::vector<std::uint32_t> GroupOf; ///< group of each run
 };
 
 } // namespace tipp

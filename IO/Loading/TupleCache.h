@@ -11,7 +11,7 @@
 namespace tipp
 {
 
-/// The tuples that were wanted last, each by itself, in a fixed number of slots.
+/// An LRU cache of single tuples, with a fixed number of slots.
 class TupleCache
 {
 public:
@@ -21,8 +21,8 @@ public:
     this->Tuples.resize(files, slots);
   }
 
-  /// The tuple's slot. After a miss it is to be filled; if that fails, the cache is not to be used
-  /// any more.
+  /// Returns the tuple's slot. After a miss the caller must fill it; if that fails, the cache must
+  /// not be used any more.
   BlockCache::Place use(std::int64_t id) { return this->Places.use(std::uint64_t(id)); }
 
   void fill(std::uint32_t slot, const ArrayFiles& files, TupleBuffers& from, std::size_t place)

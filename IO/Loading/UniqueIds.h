@@ -10,15 +10,16 @@
 namespace tipp
 {
 
-/// The ids of a chunk without repetition: a vertex is in several cells of a chunk, six of a plane
-/// mesh's triangles.
+/// The distinct ids of a chunk: a vertex belongs to several cells, to six triangles on average in a
+/// planar mesh.
 struct UniqueIds
 {
-  /// Throws std::length_error for 2^32 ids or more. None is negative.
+  /// Throws std::length_error for 2^32 ids or more. Ids must not be negative.
   UniqueIds(const std::int64_t* ids, std::size_t count);
 
-  std::vector<std::pair<std::int64_t, std::uint32_t>> Sorted; ///< each id and its number
-  std::vector<std::uint32_t> Numbers;                         ///< of the chunk's ids
+  /// each distinct id and its number, sorted by id
+  std::vector<std::pair<std::int64_t, std::uint32_t>> Sorted;
+  std::vector<std::uint32_t> Numbers; ///< the number of each of the chunk's ids
 };
 
 } // namespace tipp

@@ -14,43 +14,45 @@
 namespace tipp
 {
 
-/// What a loader has done since it was made.
+/// What a loader has done since its construction.
 struct LoadCounters
 {
-  std::int64_t Reads = 0;       ///< calls to read from a file
-  std::int64_t Bytes = 0;       ///< read from files
-  std::int64_t UsefulBytes = 0; ///< given to the caller, a vertex as often as it was asked for
-  std::int64_t Passes = 0;      ///< segments (Direct) or groups of runs (Fine) held in memory
+  std::int64_t Reads = 0; ///< read calls
+  std::int64_t Bytes = 0; ///< bytes read from files
+  /// bytes returned to the caller; repeated vertices count repeatedly
+  std::int64_t UsefulBytes = 0;
+  std::int64_t Passes = 0;      ///< segments (Direct) or groups of runs (Fine) that were loaded
   std::int64_t CacheMisses = 0; ///< blocks that the cache did not hold (Lru)
 };
 
 enum class Loader
 {
-  Auto,   ///< Mmap if the arrays fit well into the memory limit, else Fine
+  Auto,   ///< Mmap if the arrays fit well within the memory limit, else Fine
   Direct, ///< Direct Load, Algorithm 4 of the dissertation
-  Fine,   ///< Direct Load with a bit for about 1,024 vertices instead of one for M
-  Lru,    ///< a cache of blocks, the least recently used one being replaced
-  Mmap    ///< the files are mapped into memory
+  Fine,   ///< Direct Load with a bit per 1,024 or so vertices instead of one per M
+  Lru,    ///< a cache of blocks with least-recently-used replacement
+  Mmap    ///< memory-mapped files
 };
 
-/// "auto", "direct", "fine", "lru", "mmap"; throws std::invalid_argument for any other name.
+/// Parses "auto", "direct", "fine", "lru" or "mmap"; throws std::invalid_argument for any other
+/// name.
 VTKTIPPIO_EXPORT Loader loaderFromName(const std::string& name);
 VTKTIPPIO_EXPORT const char* loaderName(Loader kind);
 
 struct LoaderOptions
 {
   Loader Kind = Loader::Auto;
-  /// Vertices in memory at once (the dissertation's vertex memory threshold); 0: as many as fit in
-  /// MemoryLimit. Mmap knows no such limit.
+  /// Vertices in memory at once (the dissertation's vertex memory threshold M); 0: as many as fit
+  /// in MemoryLimit. Mmap ignores it.
   std::int64_t M = 0;
-  std::int64_t Blocks = 262144; ///< that Lru's M vertices are divided into
-  /// In bytes, for the vertices held; 0: 512 MiB.
+  std::int64_t Blocks = 262144; ///< number of blocks that Lru divides its M vertices into
+  /// Bytes for the vertices in memory; 0: 512 MiB.
   std::uint64_t MemoryLimit = 0;
-  int Threads = 0; ///< 0: OpenMP's choice. Lru works on one.
+  int Threads = 0; ///< 0: OpenMP's default. Lru uses one.
 };
 
-/// Loads tuples of arrays that lie in files by their ids, in any order: the "load" phase of a
-/// partitioner, a chunk of cells a call. The result does not depend on the kind of loader, its
+/// Loads tuples of arrays in files by their index in the array, in any order: the "load" phase of a
+/// partitioner, one call per chunk of cells. The result does not depend on the kind of loader, its
 /// options or the number of threads.
 class VTKTIPPIO_EXPORT VertexLoader
 {
@@ -60,15 +62,16 @@ public:
   VertexLoader(const VertexLoader&) = delete;
   VertexLoader& operator=(const VertexLoader&) = delete;
 
-  /// out[a] + i * tupleBytes of array a gets tuple ids[i] of that array. Throws IOError if a file
-  /// cannot be read or an id is not that of a tuple.
+  /// Copies tuple ids[i] of array a to out[a] + i * tupleBytes, for all i and a. Throws IOError if
+  /// a file cannot be read or an id is not a tuple's index.
   virtual void load(const std::int64_t* ids, std::size_t count, void* const* out) = 0;
   virtual const LoadCounters& counters() const = 0;
   virtual Loader kind() const = 0;
 };
 
-/// A loader of arrays that all have the same number of tuples. Throws IOError if a file cannot be
-/// opened or does not hold its array whole; std::invalid_argument if the arrays differ in tuples.
+/// Creates a loader of arrays with equal numbers of tuples. Throws IOError if a file cannot be
+/// opened or is too short for its array; std::invalid_argument if the arrays' numbers of tuples
+/// differ.
 VTKTIPPIO_EXPORT std::unique_ptr<VertexLoader> makeVertexLoader(
   std::vector<RawArray> arrays, const LoaderOptions& options = {});
 

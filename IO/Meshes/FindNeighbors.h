@@ -9,16 +9,17 @@
 namespace tipp
 {
 
-/// Of triangles that meet edge to edge and turn the same way: for each corner the triangle over the
-/// edge opposite to it, by its place among them, or -1. Three times their number fits into Place.
+/// For triangles that meet edge to edge and have the same orientation: finds for each corner the
+/// index of the triangle across the opposite edge, or -1. Three times the number of triangles must
+/// fit in Place.
 ///
-/// Edges without a second triangle so far stand in lists, which are found by a hash of the ends and
-/// linked in `neighbors` itself.
+/// Edges whose second triangle has not been found are kept in lists, which are found by a hash of
+/// the ends and linked in `neighbors` itself.
 template <typename Id, typename Place>
 void findNeighbors(const Id* corners, std::size_t triangles, Place* neighbors)
 {
   constexpr Place none = -1;
-  // A link to half-edge h is -2 - h, below any triangle; so none ends a list and is no neighbour.
+  // A link to half-edge h is -2 - h, so it is neither a triangle nor -1, the end of a list.
   const auto link = [](Place halfEdge) { return Place(-2 - halfEdge); };
   const auto from = [&](std::size_t h) { return corners[h % 3 == 2 ? h - 2 : h + 1]; };
   const auto to = [&](std::size_t h) { return corners[h % 3 == 0 ? h + 2 : h - 1]; };
@@ -32,7 +33,7 @@ void findNeighbors(const Id* corners, std::size_t triangles, Place* neighbors)
   {
     const Id a = from(h);
     const Id b = to(h);
-    // Near for near points, and spread for the many edges of one point.
+    // Nearby points have nearby hashes, and the many edges of one point are spread.
     constexpr std::size_t stride = 5;
     Place& first =
       newest[(std::size_t(std::min(a, b)) + stride * std::size_t(std::max(a, b))) & (lists - 1)];

@@ -19,8 +19,8 @@ namespace tipp
 namespace
 {
 
-// Writers take non-const arrays, but only read them. std::int64_t and VTK's 64-bit integer are the
-// same but in name (long and long long).
+// Writers take non-const arrays, but only read them. std::int64_t and VTK's 64-bit integer differ
+// only in name (long and long long).
 template <typename Array, typename Value>
 vtkSmartPointer<Array> borrow(const Value* values, std::size_t count)
 {

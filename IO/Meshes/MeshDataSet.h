@@ -16,16 +16,16 @@ class vtkUnstructuredGrid;
 namespace tipp
 {
 
-/// What a data set has besides columns of points; each may be null or empty.
+/// The content of a data set besides columns of points; each may be null or empty.
 struct MeshData
 {
-  const std::vector<std::int64_t>* Representatives = nullptr; ///< one id a point
-  const std::vector<std::int64_t>* Neighbors = nullptr;       ///< three ids a triangle
+  const std::vector<std::int64_t>* Representatives = nullptr; ///< one point id per point
+  const std::vector<std::int64_t>* Neighbors = nullptr;       ///< three triangle ids per triangle
 };
 
-/// Data sets over the caller's memory (only the coordinates and the cells' offsets are copies):
-/// they must not outlive it, and are for writers, which do not change it. A column named z is the
-/// third coordinate, the others are point data.
+/// Creates data sets over the caller's memory (only coordinates and cell offsets are copies): they
+/// must not outlive it, and are for writers, which do not change it. A column named z is the third
+/// coordinate, the others are point data.
 vtkSmartPointer<vtkPolyData> makePolyData(
   const PointTable& points, TrianglesView triangles, const MeshData& more);
 vtkSmartPointer<vtkUnstructuredGrid> makeUnstructuredGrid(

@@ -55,14 +55,14 @@ TriangleMesh readNpyMesh(const std::string& path)
     case NpyReader::Type::UInt32:
       readIds<std::uint32_t>(reader, mesh.Triangles);
       break;
-    default: // as stored; unsigned ids above 2^63 turn negative, so out of range as they are
+    default: // as stored; unsigned ids from 2^63 on become negative, and so remain out of range
       reader.read(mesh.Triangles.data(), mesh.Triangles.size() * sizeof(std::int64_t));
   }
   return mesh;
 }
 
-/// Of the several classes of 64-bit integers VTK's readers take another than its writers. None if
-/// they are not three integers a triangle.
+/// VTK's readers use another class of 64-bit integers than its writers. Empty unless the array has
+/// three integers per triangle.
 std::vector<std::int64_t> neighborsOf(vtkDataArray* array)
 {
   const int type = array->GetDataType();

@@ -13,9 +13,9 @@ namespace tipp
 
 struct TriangleMesh
 {
-  std::vector<std::int64_t> Triangles; ///< three point ids a triangle, as the file gives them
-  std::vector<double> XY;              ///< the file's own points; none in an .npy file
-  std::vector<std::int64_t> Neighbors; ///< three a triangle, where it has NeighborIds
+  std::vector<std::int64_t> Triangles; ///< three point ids per triangle, as stored in the file
+  std::vector<double> XY;              ///< the file's own points; empty for an .npy file
+  std::vector<std::int64_t> Neighbors; ///< three per triangle, if the file has NeighborIds
 };
 
 /// Reads triangles from .npy (m x 3 integers), .14 or .grd (ADCIRC) or a VTK file (.vtp, .vtu,

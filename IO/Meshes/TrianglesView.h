@@ -8,7 +8,7 @@
 namespace tipp
 {
 
-/// Triangles where they lie in memory: three point ids in a row, of 32 or 64 bits.
+/// A view of triangles in the caller's memory: three consecutive point ids each, of 32 or 64 bits.
 class TrianglesView
 {
 public:
@@ -29,12 +29,12 @@ public:
   std::int64_t id(std::size_t triangle, int corner) const
   {
     const std::size_t at = 3 * triangle + std::size_t(corner);
-    // Where there is a triangle, one of the two is set.
+    // If there is a triangle, one of the two pointers is set.
     return this->Ids32 ? this->Ids32[at]
                        : this->Ids64[at]; // NOLINT(clang-analyzer-core.NullDereference)
   }
 
-  /// Where they lie; null if the ids are of the other size.
+  /// The ids; null if they have the other size.
   const std::int32_t* ids32() const { return this->Ids32; }
   const std::int64_t* ids64() const { return this->Ids64; }
 

@@ -18,21 +18,22 @@ namespace tipp
 
 struct MeshOptions
 {
-  /// One id a point, written as the point array "RepresentativePointId"; empty: no such array.
+  /// One point id per point, written as the point array "RepresentativePointId"; empty: no such
+  /// array.
   std::vector<std::int64_t> Representatives;
-  /// Adds the cell array "NeighborIds": for each corner of a triangle the place of the triangle
-  /// opposite to it among all, or -1.
+  /// Adds the cell array "NeighborIds": for each corner of a triangle the index of the triangle
+  /// opposite to it, or -1.
   bool Neighbors = false;
   /// An ADCIRC grid whose nodes are the first points: another that is written keeps its title,
   /// numbers of nodes and boundaries. Empty: none.
   std::string AdcircLike;
   /// What may be replaced, as for PendingFile.
   std::optional<PathState> Before;
-  /// Asked when all is written under a temporary name; true drops it.
+  /// Called once all is written under a temporary name; returning true discards it.
   std::function<bool()> Aborted;
 };
 
-/// Whether writeMesh knows the extension.
+/// Whether writeMesh() supports the extension.
 VTKTIPPIO_EXPORT bool isMeshFile(const std::string& path);
 
 /// Writes triangles by the path's extension: .npy (m x 3 int64 point ids; points are not written),

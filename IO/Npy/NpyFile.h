@@ -16,8 +16,8 @@ namespace tipp
 
 /// Reads a table of numbers from NumPy's .npy format, versions 1 to 3
 /// (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html): rows x columns,
-/// little-endian, C order. The header is checked whole and against the file's size before any
-/// memory is taken.
+/// little-endian, C order. The header is checked completely, also against the file's size, before
+/// memory is allocated.
 class VTKTIPPIO_EXPORT NpyReader
 {
 public:
@@ -31,7 +31,7 @@ public:
     UInt64
   };
 
-  /// Throws IOError for anything but such a table.
+  /// Throws IOError unless the file is such a table.
   explicit NpyReader(const std::string& path);
 
   Type type() const { return this->Scalar; }
@@ -39,10 +39,10 @@ public:
   std::int64_t rows() const { return this->Rows; }
   std::int64_t columns() const { return this->Columns; }
 
-  /// Leaves out the next rows; throws IOError.
+  /// Skips the next rows; throws IOError.
   void skipRows(std::int64_t rows);
 
-  /// The next bytes of the data; throws IOError.
+  /// Reads the next `bytes` bytes of the data; throws IOError.
   void read(void* to, std::size_t bytes);
 
 private:
@@ -53,11 +53,11 @@ private:
   std::int64_t Columns = 0;
 };
 
-/// Writes such an array, of any shape; the file appears when close() has been called.
+/// Writes such an array of any shape; close() publishes the file.
 class VTKTIPPIO_EXPORT NpyWriter
 {
 public:
-  /// `descr` is NumPy's name of the scalar type, as "<f8"; `before` as for PendingFile. Throws
+  /// `descr` is NumPy's name of the scalar type, such as "<f8"; `before` as for PendingFile. Throws
   /// IOError.
   NpyWriter(const std::string& path, const std::string& descr,
     const std::vector<std::int64_t>& shape, const std::optional<PathState>& before = std::nullopt);

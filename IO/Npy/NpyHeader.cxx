@@ -15,7 +15,7 @@ namespace
 
 constexpr char magic[] = "\x93NUMPY";
 constexpr std::size_t magicSize = 6;
-// NumPy itself refuses headers above 10,000 bytes.
+// NumPy itself rejects headers above 10,000 bytes.
 constexpr std::uint64_t headerLimit = 10000;
 
 class Scanner

@@ -21,14 +21,16 @@ struct NpyHeader
   std::vector<std::int64_t> Shape;
 };
 
-/// Nothing if the text is not such a dictionary with exactly the three keys and plain values, no
-/// extent of the shape being negative.
+/// Parses the dictionary; nullopt unless it has exactly the three keys with plain values, and no
+/// negative extent.
 std::optional<NpyHeader> parseNpyHeader(std::string_view text);
 
-/// Reads the dictionary of a file of version 1 to 3 and tells where its data start; throws IOError.
+/// Reads the dictionary of a file of version 1 to 3 and the offset of its data in bytes; throws
+/// IOError.
 NpyHeader readNpyHeader(const InputFile& file, std::uint64_t& dataOffset);
 
-/// All that stands before the data of a file of version 1, which start at a multiple of 64 bytes.
+/// Returns the bytes before the data of a file of version 1; the data start at a multiple of 64
+/// bytes.
 std::string npyFileStart(const std::string& descr, const std::vector<std::int64_t>& shape);
 
 } // namespace tipp

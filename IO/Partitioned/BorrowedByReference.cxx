@@ -98,7 +98,7 @@ void BorrowedByReference::matchPoints(
   std::sort(distinct.begin(), distinct.end());
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
   const IdMap borrowed(distinct.data(), nullptr, distinct.size());
-  // Where each distinct one is in the piece: among its own points, or behind them.
+  // The index of each distinct point in the piece: among its own points, or after them.
   std::vector<std::int64_t> places(distinct.size(), -1);
   const std::int64_t own = this->Own.summary().Points;
   for (std::int64_t i = 0; i < own; ++i)

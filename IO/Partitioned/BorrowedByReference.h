@@ -12,29 +12,29 @@
 namespace tipp
 {
 
-/// The cells that a piece borrows, and their points, out of their owners' files. An owner keeps the
-/// cells that the same pieces borrow together, and so their points: each group of an array is one
-/// read.
+/// Reads the cells that a piece borrows, and their points, from their owners' files. An owner
+/// stores cells with the same set of borrowers contiguously, and so their points: each group of an
+/// array is one read.
 class BorrowedByReference
 {
 public:
-  /// Reads the borrowed cells' and points' ids; `ownIds` are the piece's own points'. Throws
-  /// IOError.
+  /// Reads the borrowed cells' and points' global ids; `ownIds` are the global ids of the piece's
+  /// own points. Throws IOError.
   BorrowedByReference(const PartitionedMesh& mesh, const PieceFile& piece,
     const std::int64_t* ownIds, ReadCounters& counters);
 
-  /// The points that are not among the piece's own, and the cells.
+  /// Number of points that are not among the piece's own, and of cells.
   std::int64_t pointCount() const { return std::int64_t(this->NewPoints.size()); }
   std::int64_t cellCount() const { return std::int64_t(this->CellOrder.size()); }
 
-  /// Adds them to a piece whose buffers have room for them.
+  /// Appends them to a piece whose buffers have room for them.
   void fill(Piece& piece) const;
 
 private:
   struct Run
   {
-    std::int64_t InOwner; ///< first tuple there
-    std::int64_t First;   ///< among all that is borrowed
+    std::int64_t InOwner; ///< first tuple in the owner's array
+    std::int64_t First;   ///< index among all borrowed tuples
     std::int64_t Count;
     std::size_t Part;
   };
@@ -61,13 +61,14 @@ private:
   ReadCounters& Counters;
   std::deque<PieceFile> Files;
   std::vector<Source> Sources;
-  std::int64_t Candidates = 0;           ///< borrowed points as read
-  std::int64_t BorrowedCells = 0;        ///< borrowed cells as read
-  std::vector<std::int64_t> PointPlaces; ///< in the piece, of each candidate
+  std::int64_t Candidates = 0;           ///< borrowed points, as read
+  std::int64_t BorrowedCells = 0;        ///< borrowed cells, as read
+  std::vector<std::int64_t> PointPlaces; ///< index in the piece of each candidate
   std::vector<std::int64_t> NewPoints;   ///< global ids, ascending
-  std::vector<std::int64_t> CellOrder;   ///< borrowed cells as read, by global id
-  std::vector<std::int64_t> CellPlaces;  ///< in the piece, of each borrowed cell as read
-  std::vector<std::int64_t> CellIds;     ///< as read
+  /// indices of the borrowed cells, as read, sorted by global id
+  std::vector<std::int64_t> CellOrder;
+  std::vector<std::int64_t> CellPlaces; ///< index in the piece of each borrowed cell, as read
+  std::vector<std::int64_t> CellIds;    ///< global ids, as read
 };
 
 } // namespace tipp

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/Checksum.h"
 
-// All of it in this file alone, so that nothing is linked.
+// Compiled into this file, so that no library is needed.
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
@@ -11,7 +11,7 @@ namespace tipp
 {
 
 #ifdef TIPP_CHECKSUM_AVX2
-// Of ChecksumAvx2.cxx: the same numbers, sooner.
+// In ChecksumAvx2.cxx: the same checksum, computed faster.
 XXH64_hash_t checksumAvx2(const void* data, size_t bytes);
 void updateChecksumAvx2(XXH3_state_t* state, const void* data, size_t bytes);
 #endif

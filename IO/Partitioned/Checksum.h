@@ -12,10 +12,10 @@
 namespace tipp
 {
 
-/// XXH3 with 64 bits and no seed (https://github.com/Cyan4973/xxHash).
+/// Returns the XXH3 checksum with 64 bits and no seed (https://github.com/Cyan4973/xxHash).
 VTKTIPPIO_EXPORT std::uint64_t checksumOf(const void* data, std::size_t bytes);
 
-/// The same of bytes that come one part after the other.
+/// Computes the same checksum of bytes that are added part by part.
 class VTKTIPPIO_EXPORT Checksum
 {
 public:
@@ -25,7 +25,7 @@ public:
   Checksum& operator=(const Checksum&) = delete;
 
   void add(const void* data, std::size_t bytes);
-  /// Of all since the last call, and starts again.
+  /// Returns the checksum of all bytes since the last call, and resets the state.
   std::uint64_t finish();
 
 private:
@@ -33,7 +33,8 @@ private:
   std::unique_ptr<State> Progress;
 };
 
-/// 16 hexadecimal digits in lower case, and back; false for anything else.
+/// Converts to 16 hexadecimal digits in lower case, and back; the latter returns false for any
+/// other text.
 VTKTIPPIO_EXPORT std::string checksumText(std::uint64_t checksum);
 VTKTIPPIO_EXPORT bool parseChecksum(const std::string& text, std::uint64_t& checksum);
 

@@ -12,17 +12,18 @@
 namespace tipp
 {
 
-/// Writes one array of a file from its first byte to its last through a buffer, a checksum for each
-/// of its parts.
+/// Writes one array of a file sequentially through a buffer, and computes a checksum for each of
+/// its parts.
 class ColumnWriter
 {
 public:
   ColumnWriter(const OutputFile& file, std::uint64_t offset, std::size_t bufferBytes);
 
-  /// Room for the next bytes, which must be filled before the next call. Throws IOError.
+  /// Returns the buffer for the next bytes, which the caller must fill before the next call. Throws
+  /// IOError.
   char* extend(std::size_t bytes);
   void endPart();
-  /// Writes what has come so far.
+  /// Writes the buffered bytes.
   void flush();
   std::vector<std::uint64_t>& checksums() { return this->Checksums; }
 

@@ -18,7 +18,8 @@ constexpr std::size_t blockTuples = 4096;
 constexpr std::size_t bufferBytes = std::size_t(1) << 20;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Calls visit(corners by their numbers, whether one of them is on the rim) for each triangle.
+/// Calls visit(corners as indices in the piece, whether one of them is a rim point) for each
+/// triangle.
 template <typename Visit>
 void forEachTriangle(const GrowingPiece::Interior& interior,
   const std::vector<std::int32_t>& numbers, const Visit& visit)
@@ -111,7 +112,7 @@ void GrowingPiece::numberPoints(
   this->InteriorPoints = next;
 }
 
-/// Puts aside those at the rim.
+/// Counts the interior's triangles, and keeps those at rim points.
 std::int64_t GrowingPiece::countInterior(
   const Interior& interior, const std::vector<std::int32_t>& numbers)
 {
@@ -128,7 +129,7 @@ std::int64_t GrowingPiece::countInterior(
   return count;
 }
 
-/// The border is not known yet: room for what it usually is, and more.
+/// The border's size is not known yet: reserves more than it usually takes.
 void GrowingPiece::makeRoom(const PartitionedMesh& mesh, std::size_t number)
 {
   const auto rim = std::int64_t(this->RimPlaces.size());
@@ -170,7 +171,7 @@ void GrowingPiece::writeInteriorArray(const OutputFile& file, const PieceArray& 
 {
   if (holdsCellIds(array))
   {
-    checksums.push_back(0); // when they are known
+    checksums.push_back(0); // filled in once they are known
     return;
   }
   ColumnWriter column(file, offset, bufferBytes);
@@ -229,7 +230,7 @@ std::uint64_t GrowingPiece::hashTriangle(std::int64_t a, std::int64_t b, std::in
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
     return x ^ (x >> 31);
   };
-  // A sum over directed edges does not depend on which corner comes first.
+  // A sum over directed edges is independent of which corner comes first.
   const auto edge = [&](std::int64_t from, std::int64_t to)
   { return mix(mix(std::uint64_t(from)) + std::uint64_t(to)); };
   return mix(edge(a, b) + edge(b, c) + edge(c, a));

@@ -19,12 +19,13 @@
 namespace tipp
 {
 
-/// How points stand in rows of 8-byte words: x, y, further columns, and at last the id.
+/// The layout of points in rows of 8-byte words: x, y, further columns, and last the global id.
 struct PointRowLayout
 {
   std::size_t Words = 3;
-  int Z = -1;                  ///< the word that is the third coordinate, or -1: it is 0
-  std::vector<int> Attributes; ///< of the mesh's arrays: the word, or -1: the representative's id
+  int Z = -1; ///< the word that is the third coordinate; -1: it is 0
+  /// the word of each of the mesh's point arrays; -1: the representative's id
+  std::vector<int> Attributes;
 
   std::int64_t id(const double* row) const
   {
@@ -34,18 +35,18 @@ struct PointRowLayout
   }
 };
 
-/// A piece of triangles whose file is written in two goes: nearly all as soon as the piece's own
-/// points are triangulated, and the rest, which concerns the border alone, when its neighbours are.
-/// In between it keeps the border.
+/// A piece of triangles whose file is written in two steps: the interior as soon as the piece's own
+/// points are triangulated, and the border once its neighbours are. In between the object keeps the
+/// border in memory.
 ///
-/// Without a file, where the mesh has no path, the triangles are counted and summed up only.
+/// If the mesh has no path, no file is written: the triangles are only counted and hashed.
 ///
-/// *Rim* points are own points that the border's triangles have; the caller tells which. Points go
-/// by places here: the own ones have those from `first` on.
+/// *Rim* points are own points that the border's triangles use; the caller says which. Points are
+/// identified by index: the own ones have consecutive indices from `first` on.
 class VTKTIPPIO_EXPORT GrowingPiece
 {
 public:
-  /// What follows the name of a piece's file in that of a file that is to take its place.
+  /// Suffix of the file that will replace a piece's file.
   static constexpr const char* NextName = ".next";
 
   GrowingPiece() = default;
@@ -61,67 +62,69 @@ public:
   }
 
   /// @name The border
-  ///@{
-  /// A triangle that the piece owns and these other pieces borrow, ascending; perhaps none.
+  /// @{
+  /// Adds a triangle that the piece owns and the other pieces `borrowers`, ascending, borrow; the
+  /// list may be empty.
   void addTriangle(
     const std::array<std::int64_t, 3>& places, const std::vector<std::int32_t>& borrowers);
-  /// Whether a row is missing, that of another piece's point.
+  /// Whether the row of another piece's point is missing.
   bool needsRow(std::int64_t place) const
   {
     return !this->owns(place) && this->Ghosts.count(place) == 0;
   }
-  /// Makes room for the row, and fills it.
+  /// Allocates the row, and fills it.
   void addRow(std::int64_t place, const PointRowLayout& rows);
   void setRow(std::int64_t place, const double* row, const PointRowLayout& rows);
 
   struct BorderMesh
   {
     std::vector<double> Rows;
-    std::vector<std::int32_t> Corners; ///< three a triangle: which row
+    std::vector<std::int32_t> Corners; ///< three row indices per triangle
   };
-  /// The triangles that were added, when all rows are there.
+  /// Returns the triangles that were added; all rows must have been added.
   BorderMesh borderMesh(const PointRowLayout& rows) const;
   ///@}
 
   struct Corners
   {
-    const std::int32_t* Begin; ///< three a triangle, counted from the first own point
+    const std::int32_t* Begin; ///< three per triangle: indices from the first own point
     std::size_t Triangles;
   };
   struct Interior
   {
     const double* Rows = nullptr;      ///< of the own points
-    const std::uint8_t* Rim = nullptr; ///< of each own point: 1 if it is one of the rim's
-    std::vector<Corners> Triangles;    ///< all but the border's
-    /// Own points at the place of another: for each, that other; counted from the first.
+    const std::uint8_t* Rim = nullptr; ///< per own point: 1 if it is a rim point
+    std::vector<Corners> Triangles;    ///< all except the border's
+    /// Duplicates: maps an own point to the own point with the same coordinates that represents it;
+    /// indices from the first own point.
     const std::unordered_map<std::int32_t, std::int32_t>* Representatives = nullptr;
   };
-  /// The first go. Throws IOError.
+  /// The first step: writes the interior. Throws IOError.
   void writeInterior(const PartitionedMesh& mesh, std::size_t number, const PointRowLayout& rows,
     const Interior& interior);
 
-  /// Of a triangle by its points' ids, whichever comes first.
+  /// Returns a hash of a triangle's point ids that is independent of which corner comes first.
   static std::uint64_t hashTriangle(std::int64_t a, std::int64_t b, std::int64_t c);
 
-  /// The row of an own rim point, after the first go.
+  /// Returns the row of an own rim point; only after writeInterior().
   const double* rimRow(std::int64_t place, const PointRowLayout& rows) const;
 
-  /// The second go, when no triangle will be added any more. All of the file is there but the
-  /// global ids of cells and of their neighbours. May be done again. Throws IOError.
+  /// The second step, once all triangles have been added: completes the file, except for the global
+  /// ids of cells and of their neighbours. May be repeated. Throws IOError.
   FinishedPiece writeBorder(
     const PartitionedMesh& mesh, std::size_t number, const PointRowLayout& rows) const;
 
-  /// @name A file that an earlier process has left after the first go
-  ///@{
-  /// Checks what it holds of the interior; throws IOError.
+  /// @name A file that an earlier process has left after the first step
+  /// @{
+  /// Verifies the interior's part of the file; throws IOError.
   void verifyInterior(const PartitionedMesh& mesh, std::size_t number) const;
-  /// Replaces it by a file of the interior alone: that process may have written parts of the
-  /// border, and what damage there is elsewhere would stay. Throws IOError.
+  /// Replaces the file by one of the interior alone, because the earlier process may have written
+  /// parts of the border, and other parts may be damaged. Throws IOError.
   void isolateInterior(const PartitionedMesh& mesh, std::size_t number) const;
   ///@}
 
-  /// Shows what it keeps of the interior, after the first go, to archive(), which takes numbers and
-  /// vectors of them, to save or to restore it.
+  /// Serialises what the object keeps of the interior, after the first step: archive() saves or
+  /// restores numbers and vectors of them.
   template <typename Archive>
   void exchangeInterior(Archive& archive)
   {
@@ -140,7 +143,7 @@ private:
   struct SharedTriangle
   {
     std::array<std::int64_t, 3> Places;
-    std::uint64_t BorrowerEnd; ///< in Borrowers
+    std::uint64_t BorrowerEnd; ///< end of its range in Borrowers
   };
   struct Border;
   friend struct Border;
@@ -159,34 +162,34 @@ private:
   std::int64_t First = 0;
   std::int64_t OwnPoints = 0;
 
-  // Of the interior, after the first go.
+  // Of the interior, after the first step.
   PieceSummary Room;                    ///< counts that the file has room for
-  std::int64_t InteriorPoints = 0;      ///< own points but the rim's
-  std::uint64_t InteriorSum = 0;        ///< of hashes, without a file: of RimTriangles too
-  std::int64_t InteriorCells = 0;       ///< triangles of these alone
+  std::int64_t InteriorPoints = 0;      ///< own points without the rim's
+  std::uint64_t InteriorSum = 0;        ///< of hashes; without a file, including RimTriangles
+  std::int64_t InteriorCells = 0;       ///< triangles of these points alone
   Bounds Extent{};                      ///< of the own points
   std::vector<std::uint64_t> Checksums; ///< of each array's first part
-  std::vector<std::int64_t> RimPlaces;  ///< ascending
+  std::vector<std::int64_t> RimPlaces;  ///< indices of rim points, ascending
   std::vector<double> RimRows;
-  /// Triangles of the interior at the rim: numbers in the piece, or -1 - k for the k-th rim point.
+  /// Interior triangles that use rim points: indices in the piece, or -1 - k for the k-th rim
+  /// point.
   std::vector<std::array<std::int32_t, 3>> RimTriangles;
 
   // Of the border.
   std::vector<SharedTriangle> Shared;
   std::vector<std::int32_t> Borrowers;
   std::vector<std::int64_t> GhostPlaces;
-  std::unordered_map<std::int64_t, std::int64_t> Ghosts; ///< of places: which row
+  std::unordered_map<std::int64_t, std::int64_t> Ghosts; ///< row of each point index
   std::vector<double> GhostRows;
 };
 
-/// Checks every byte of a finished piece's file, which an earlier process has left, but for global
-/// ids of cells and of their neighbours. Throws IOError.
+/// Verifies every byte of a finished piece's file that an earlier process has left, except for the
+/// global ids of cells and of their neighbours. Throws IOError.
 VTKTIPPIO_EXPORT void verifyFinished(
   const PartitionedMesh& mesh, std::size_t number, const FinishedPiece& piece);
 
-/// Writes the global ids of a finished piece's cells, which follow each other from `first` on, and
-/// completes its file and table, but for a NeighborWriter's array. May be done again. Throws
-/// IOError.
+/// Writes the global ids of a finished piece's cells, consecutive from `first` on, and completes
+/// its file and table, except for a NeighborWriter's array. May be repeated. Throws IOError.
 VTKTIPPIO_EXPORT void writeCellIds(
   const PartitionedMesh& mesh, std::size_t number, std::int64_t first, FinishedPiece& piece);
 

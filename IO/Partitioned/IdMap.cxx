@@ -68,7 +68,7 @@ std::int64_t IdMap::search(const std::vector<Entry<Number>>& entries, std::uint6
   const std::size_t slot = std::size_t(key >> this->Shift);
   std::uint32_t from = this->Starts[slot];
   std::uint32_t to = this->Starts[slot + 1];
-  // Ids without gaps in one place and with many elsewhere share entries.
+  // If ids are dense in one part of the range and sparse in another, many may share an entry.
   while (to - from > 8)
   {
     const std::uint32_t middle = from + (to - from) / 2;

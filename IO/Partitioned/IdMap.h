@@ -11,19 +11,19 @@
 namespace tipp
 {
 
-/// From ids to values, both not negative. Looking up takes a table of about one id an entry, and a
-/// search among the few ids that share an entry: two cache lines a look-up.
+/// A map from ids to values, neither negative. A look-up uses a table with about one id per entry,
+/// and a search among the few ids that share an entry: two cache lines.
 class VTKTIPPIO_EXPORT IdMap
 {
 public:
   IdMap() = default;
-  /// `ids` ascend; ids[i] has the value values[i], or i if `values` is null.
+  /// `ids` must ascend; ids[i] maps to values[i], or to i if `values` is null.
   IdMap(const std::int64_t* ids, const std::int64_t* values, std::size_t count);
 
-  /// -1 if there is no such id.
+  /// The id's value; -1 if the id is not in the map.
   std::int64_t find(std::int64_t id) const;
 
-  /// Writes the values of ids; false if one has none.
+  /// Writes the values of `count` ids; returns false if an id is not in the map.
   bool translate(const std::int64_t* ids, std::size_t count, std::int32_t* values) const;
   bool translate(const std::int64_t* ids, std::size_t count, std::int64_t* values) const;
 
@@ -31,7 +31,7 @@ private:
   template <typename Number>
   struct Entry
   {
-    Number Id; ///< less the least
+    Number Id; ///< minus the least id
     Number Value;
   };
   template <typename Number>
@@ -43,10 +43,10 @@ private:
   bool translateAll(const std::int64_t* ids, std::size_t count, Value* values) const;
 
   std::int64_t Least = 0;
-  std::uint64_t Range = 0; ///< from the least to the greatest
+  std::uint64_t Range = 0; ///< greatest id minus least id
   int Shift = 0;
-  std::vector<std::uint32_t> Starts; ///< of each value of the upper bits; one more at the end
-  // One of them, the first where everything fits in 32 bits.
+  std::vector<std::uint32_t> Starts; ///< first entry for each value of the upper bits, and the end
+  // Only one is used; the first if everything fits in 32 bits.
   std::vector<Entry<std::uint32_t>> Narrow;
   std::vector<Entry<std::uint64_t>> Wide;
 };

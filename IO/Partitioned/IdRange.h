@@ -10,7 +10,7 @@
 namespace tipp
 {
 
-/// Whether all ids are from 0 to before the limit.
+/// Whether all ids are in [0, limit).
 template <typename Id>
 bool areBelow(const Id* ids, std::size_t count, std::int64_t limit)
 {

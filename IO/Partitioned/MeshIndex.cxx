@@ -18,13 +18,13 @@ namespace tipp
 namespace
 {
 
-// Reading is quicker without the order.
+// Reading is faster without preserving the order.
 using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr const char* formatName = "TIPP partitioned mesh";
 constexpr int formatVersion = 1;
-// The text's last line but one; its checksum is of all before the comma.
+// Start of the text's last line but one; the checksum covers all bytes before the comma.
 constexpr const char* checksumStart = ",\n\"xxh3\": \"";
 constexpr const char* checksumEnd = "\"\n}\n";
 
@@ -49,7 +49,7 @@ OrderedJson packArray(const StoredArray& array)
     { "step", array.Step } };
 }
 
-/// Takes fields out of an index; each error names the field.
+/// Reads the fields of an index; each error names the field.
 class Fields
 {
 public:
@@ -68,7 +68,8 @@ public:
         "; copy or make the mesh again.");
   }
 
-  /// The problem in two parts: an index has thousands of fields, and few fail.
+  /// The problem comes in two parts, so that no text is built for the thousands of fields that
+  /// pass.
   void require(bool holds, const char* problem, const char* name = "") const
   {
     if (!holds)
@@ -105,7 +106,7 @@ public:
     return value;
   }
 
-  /// An empty list is what holds nothing.
+  /// An empty list denotes empty bounds.
   Bounds bounds(const char* name) const
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -281,7 +282,7 @@ std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu)
   {
     json["arrays"].push_back(packArray(array));
   }
-  // One line a field, and one a piece.
+  // One line per field, and one per piece.
   std::string text = "{";
   for (const auto& [name, value] : json.items())
   {

@@ -11,11 +11,11 @@
 namespace tipp
 {
 
-/// index.json's text, its checksum included; `pvtu` is mesh.pvtu's.
+/// Returns the text of index.json including its checksum; `pvtu` is the text of mesh.pvtu.
 std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu);
 
-/// Reads such a text; `path` is the index's, for errors. Checks all that needs no other file and
-/// throws IOError. PartitionedMesh::Path is left empty.
+/// Parses such a text; `path` is the index's, for errors. Checks everything that needs no other
+/// file and throws IOError. PartitionedMesh::Path is left empty.
 VTKTIPPIO_EXPORT PartitionedMesh parseIndex(const std::string& text, const std::string& path);
 
 } // namespace tipp

@@ -32,7 +32,7 @@ namespace
 constexpr std::size_t tupleBytes = 3 * sizeof(std::int64_t);
 constexpr std::size_t writeBufferBytes = std::size_t(1) << 20;
 
-/// Which of the file's arrays it is.
+/// The array's index among the arrays of the piece's file.
 std::size_t placeInFile(const PartitionedMesh& mesh, const PieceSummary& piece)
 {
   const std::int64_t attribute = findNeighborIds(mesh);
@@ -42,7 +42,7 @@ std::size_t placeInFile(const PartitionedMesh& mesh, const PieceSummary& piece)
   return std::size_t(found - arrays.begin());
 }
 
-/// The parts from `part` to before `end` of an array.
+/// Reads parts [part, end) of an array.
 template <typename Value>
 std::vector<Value> readParts(
   const PieceFile& file, PieceRole role, std::size_t part, std::size_t end)
@@ -72,7 +72,7 @@ NeighborWriter::NeighborWriter(const PartitionedMesh& mesh, std::vector<Finished
 
 std::uint64_t NeighborWriter::bytesFor(const FinishedPiece& piece)
 {
-  // Corners, neighbours and findNeighbors()' lists; a buffer.
+  // Corners, neighbours and findNeighbors()' lists, and a buffer.
   constexpr std::uint64_t perCell = 12 + 12 + 8;
   return perCell * std::uint64_t(piece.Summary.Cells) + writeBufferBytes;
 }
@@ -102,8 +102,8 @@ void NeighborWriter::add(std::size_t number)
   }
 }
 
-/// A triangle of part 0 has its neighbours in its piece, and so has a border's over an edge with a
-/// point of part 0, or none.
+/// A triangle of part 0 has all its neighbours in its piece; so has a border triangle across an
+/// edge with a point of part 0, or it has none there.
 std::vector<NeighborWriter::OpenEdge> NeighborWriter::findOpenEdges(const PieceFile& file,
   const std::vector<std::int32_t>& corners, const std::vector<std::int32_t>& neighbors)
 {
@@ -125,7 +125,7 @@ std::vector<NeighborWriter::OpenEdge> NeighborWriter::findOpenEdges(const PieceF
   return open;
 }
 
-/// Returns the borders for which nothing waits any more.
+/// Returns the borders that have no open edge any more.
 std::vector<std::pair<std::size_t, NeighborWriter::Border>> NeighborWriter::match(
   std::size_t number, Border border, const std::vector<OpenEdge>& open)
 {
@@ -173,7 +173,7 @@ void NeighborWriter::writeBorder(std::size_t number, const Border& border)
   this->write(number, 1, parts, [at = border.Values.begin()]() mutable { return *at++; });
 }
 
-/// Those parts of the array, value by value, and their checksums.
+/// Writes these parts of the array, value by value, and their checksums.
 template <typename Next>
 void NeighborWriter::write(std::size_t number, std::size_t begin, std::size_t end, Next next)
 {

@@ -18,31 +18,31 @@ namespace tipp
 
 class PieceFile;
 
-/// An array of triangles: for each corner the global id of the cell over the edge opposite to it,
-/// or -1 where there is none.
+/// A cell array of triangles: for each corner the global id of the cell across the opposite edge;
+/// -1 if there is none.
 VTKTIPPIO_EXPORT extern const StoredArray neighborIdsArray;
 
-/// Its number among the mesh's arrays, or -1.
+/// Its index among the mesh's arrays, or -1.
 VTKTIPPIO_EXPORT std::int64_t findNeighborIds(const PartitionedMesh& mesh);
 
-/// Writes that array into the files of growing pieces, when their cells are numbered: the array is
-/// one of the mesh's, and there is room for it in each file.
+/// Writes that array into the files of growing pieces once their cells have global ids: the mesh
+/// must list the array, and each file must have room for it.
 ///
-/// Two pieces' triangles meet at edges of their borders only. Such an edge waits for the other
-/// piece, and with it what the piece's border holds of the array.
+/// Triangles of two pieces meet only at edges of the pieces' borders. Such an edge is kept until
+/// the other piece is added, and with it the border's values of the array.
 class VTKTIPPIO_EXPORT NeighborWriter
 {
 public:
-  /// The pieces' cells have ids that follow each other, piece by piece.
+  /// Cell ids must be consecutive, piece by piece.
   NeighborWriter(const PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces);
 
-  /// Each piece once, by any number of threads together. Near ones after each other keep little
-  /// waiting. Throws IOError.
+  /// Adds a piece; each must be added once, by any thread. If neighbouring pieces are added one
+  /// soon after the other, few edges are kept. Throws IOError.
   void add(std::size_t number);
-  /// When all are added: what has waited in vain is the hull. Throws IOError.
+  /// Call once all pieces are added: the edges that are still open are the hull's. Throws IOError.
   void finish();
 
-  /// What add() takes.
+  /// The memory that add() needs.
   static std::uint64_t bytesFor(const FinishedPiece& piece);
 
 private:
@@ -50,14 +50,14 @@ private:
   struct OpenEdge
   {
     Edge Ends;
-    std::size_t At; ///< in the border's values
+    std::size_t At; ///< index in the border's values
   };
-  /// What a piece's border has of the array.
+  /// A piece border's values of the array.
   struct Border
   {
     std::int64_t FirstCell = 0;
     std::vector<std::int64_t> Values;
-    std::size_t Open = 0; ///< so many wait
+    std::size_t Open = 0; ///< number of open edges
 
     std::int64_t cellOf(std::size_t at) const { return this->FirstCell + std::int64_t(at / 3); }
     void set(std::size_t at, std::int64_t cell)
@@ -82,9 +82,9 @@ private:
 
   const PartitionedMesh& Mesh;
   std::vector<FinishedPiece>& Pieces;
-  std::vector<std::int64_t> FirstCells; ///< of each piece
+  std::vector<std::int64_t> FirstCells; ///< global id of each piece's first cell
   std::mutex Mutex;
-  std::map<std::size_t, Border> Borders; ///< of pieces with edges that wait
+  std::map<std::size_t, Border> Borders; ///< of pieces with open edges
   std::map<Edge, Waiting> Edges;
 };
 

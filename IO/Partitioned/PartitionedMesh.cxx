@@ -45,8 +45,7 @@ std::string readText(const std::string& path)
   return text;
 }
 
-/// The sizes of a folder's files: a mesh may have very many, so paths are not resolved again and
-/// again.
+/// The sizes of a folder's files. A mesh may have very many, so the folder's path is resolved once.
 class SizesInFolder
 {
 public:

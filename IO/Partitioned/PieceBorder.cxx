@@ -15,21 +15,21 @@
 namespace tipp
 {
 
-/// The points and triangles at the border in the order in which the file has them.
+/// The border's points and triangles in the order of the file.
 struct GrowingPiece::Border
 {
   struct Point
   {
-    int Group; ///< place of its set
+    int Group; ///< index of its set of borrowers
     std::int64_t Id;
     const double* Row;
     bool IsGhost;
-    std::size_t Index; ///< of the rim's points, then the ghosts
+    std::size_t Index; ///< index of a rim point, or after these of a ghost
   };
   struct Cell
   {
     int Group;
-    std::array<std::int32_t, 3> Points; ///< numbers in the piece, the lowest first
+    std::array<std::int32_t, 3> Points; ///< indices in the piece, the lowest first
   };
 
   std::vector<Point> Points;
@@ -61,11 +61,11 @@ private:
     return std::size_t(found - rim.begin());
   }
 
-  /// What points are needed for: the union of their triangles' borrowers.
+  /// A point's set of borrowers is the union of its triangles' sets.
   void uniteSets()
   {
     this->SetOf.assign(this->Of.RimPlaces.size() + this->Of.Ghosts.size(), 0);
-    this->Sets.number({}); // number 0, and the first of all
+    this->Sets.number({}); // the empty set gets number 0, and sorts first
     std::size_t begin = 0;
     for (const SharedTriangle& triangle : this->Of.Shared)
     {
@@ -167,7 +167,7 @@ private:
 namespace
 {
 
-/// Puts the file that is to take this one's place there, if there is one.
+/// Moves the next file to this path, if there is one.
 void takeNextFile(const std::string& path)
 {
   std::error_code failure;
@@ -182,7 +182,7 @@ void takeNextFile(const std::string& path)
   }
 }
 
-/// The border's share of an array, group by group.
+/// Writes the border's part of an array, group by group.
 template <typename Item, typename Copy>
 std::vector<std::uint64_t> writeGroups(const OutputFile& file, std::uint64_t offset,
   std::size_t tupleBytes, const std::vector<Item>& items, const Copy& copy)
@@ -206,7 +206,7 @@ std::vector<std::uint64_t> writeGroups(const OutputFile& file, std::uint64_t off
 
 } // namespace
 
-/// Copies the interior into the next file. The present one stays, so that this can be done again.
+/// Copies the interior into the next file. The present one is kept, so that this can be repeated.
 void GrowingPiece::copyInterior(
   const std::string& path, const PieceLayout& from, const PieceLayout& to) const
 {
@@ -288,7 +288,7 @@ FinishedPiece GrowingPiece::writeBorder(
   }
   if (summary.Extent[4] > summary.Extent[5])
   {
-    summary.Extent[4] = summary.Extent[5] = 0; // no third coordinate is a number
+    summary.Extent[4] = summary.Extent[5] = 0; // without a third coordinate z is 0
   }
   if (hasWideIds(mesh, summary))
   {

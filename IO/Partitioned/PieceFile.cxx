@@ -127,7 +127,7 @@ void PieceFile::verify(std::size_t array, std::size_t first, std::size_t end) co
   { return this->Table.Offsets[array] + std::uint64_t(starts[part]) * tuple; };
   std::size_t part = first;
   Checksum sum;
-  // One pass over all parts, which may be many and small.
+  // One pass over all parts, because there may be many small ones.
   const std::uint64_t bytes = placeOf(end) - placeOf(first);
   ++this->Counters.Reads;
   this->Counters.Bytes += std::int64_t(bytes);
@@ -146,7 +146,7 @@ void PieceFile::verify(std::size_t array, std::size_t first, std::size_t end) co
       sum.add(data, std::size_t(blockEnd - at));
       at = blockEnd;
     });
-  for (; part < end; ++part) // without tuples
+  for (; part < end; ++part) // the last parts may have no tuples
   {
     this->requirePart(array, part, sum.finish());
   }

@@ -14,48 +14,48 @@
 namespace tipp
 {
 
-/// What reading a piece took.
+/// The cost of reading a piece.
 struct ReadCounters
 {
   std::int64_t Reads = 0;
   std::int64_t Bytes = 0;
 };
 
-/// A piece's file, open to be read part by part.
+/// A piece's open file, which is read part by part.
 class PieceFile
 {
 public:
-  /// Reads its table and checks the file's header; throws IOError.
+  /// Reads the piece's table and checks the file's header; throws IOError.
   PieceFile(const PartitionedMesh& mesh, std::size_t number, ReadCounters& counters);
-  /// Of a mesh that is not published: with the summary, which must stay, and table that it will
-  /// have.
+  /// For a mesh that is not published: with the summary, which must outlive this, and the table
+  /// that the piece will have.
   PieceFile(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& summary,
     PieceTable table, ReadCounters& counters);
 
   const PieceSummary& summary() const { return this->Summary; }
   const PieceTable& table() const { return this->Table; }
   const std::vector<PieceArray>& arrays() const { return this->Arrays; }
-  /// The first tuple of each part of the arrays of points, or of cells; one more at the end.
+  /// The first tuple of each part of the arrays of points, or of cells, and the end of the last.
   const std::vector<std::int64_t>& partStarts(bool ofPoints) const
   {
     return ofPoints ? this->PointParts : this->CellParts;
   }
 
-  /// The number of the array with a role other than data.
+  /// The index of the array with a role other than data.
   std::size_t find(PieceRole role) const;
-  /// The number of the array of an attribute of the mesh.
+  /// The index of the array of an attribute of the mesh.
   std::size_t findAttribute(std::size_t attribute) const;
 
-  /// Reads the parts from `first` to before `end` of an array in one go and checks their
-  /// checksums; throws IOError.
+  /// Reads parts [first, end) of an array with one read and verifies their checksums; throws
+  /// IOError.
   void read(std::size_t array, std::size_t first, std::size_t end, void* to) const;
 
-  /// Reads these parts only to check their checksums; throws IOError.
+  /// Verifies the checksums of these parts; throws IOError.
   void verify(std::size_t array, std::size_t first, std::size_t end) const;
-  /// Checks every byte of the file, but for arrays that have no checksums yet; throws IOError.
+  /// Verifies every byte of the file, except for arrays that have no checksums yet; throws IOError.
   void verifyAll() const;
 
-  /// Throws IOError unless the global ids, which came from the file, are from 0 to before `limit`.
+  /// Throws IOError unless all global ids, which the file holds, are in [0, limit).
   void requireIds(const std::int64_t* ids, std::size_t count, std::int64_t limit) const;
 
   [[noreturn]] void fail(const std::string& problem) const;

@@ -24,7 +24,7 @@ namespace tipp
 namespace
 {
 
-/// An array that takes over the buffer.
+/// Creates an array that takes ownership of the buffer.
 vtkSmartPointer<vtkDataArray> takeOver(
   RawBuffer&& buffer, vtkSmartPointer<vtkDataArray> array, int components, std::int64_t tuples)
 {

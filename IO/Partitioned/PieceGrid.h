@@ -12,8 +12,8 @@ class vtkUnstructuredGrid;
 namespace tipp
 {
 
-/// The piece as VTK's data set, which takes over its memory: global ids as such, vtkGhostType of
-/// points, and of cells if the piece has borrowed ones.
+/// Converts a piece to a VTK data set that takes ownership of its memory: global ids as such,
+/// vtkGhostType of points, and of cells if the piece has borrowed ones.
 VTKTIPPIO_EXPORT vtkSmartPointer<vtkUnstructuredGrid> makeGrid(Piece&& piece);
 
 } // namespace tipp

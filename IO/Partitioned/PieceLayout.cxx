@@ -41,14 +41,14 @@ std::string escaped(const std::string& text)
   return out;
 }
 
-/// What describes an array alike in a piece and in the .pvtu.
+/// The attributes that describe an array both in a piece and in the .pvtu.
 std::string describe(const PieceArray& array)
 {
-  // VTK knows of no tuples in the connectivity.
+  // VTK's connectivity has one component.
   const int components = array.Role == PieceRole::Connectivity ? 1 : array.Components;
   std::string text = std::string(" type=\"") + scalarName(array.Type) + "\" Name=\"" +
     escaped(array.Name) + "\" NumberOfComponents=\"" + std::to_string(components) + "\"";
-  // VTK takes global ids from arrays of its own type of ids alone.
+  // VTK accepts global ids only in arrays of vtkIdType.
   const bool ids = array.Role == PieceRole::PointIds || array.Role == PieceRole::CellIds;
   return ids ? text + " IdType=\"1\"" : text;
 }
@@ -114,7 +114,7 @@ std::string pieceSections(const PieceLayout& layout)
   return text;
 }
 
-/// The XML before the padding; offsets are those in the appended data.
+/// The XML before the padding; offsets are relative to the appended data.
 std::string headerText(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& piece,
   const PieceLayout& layout)
 {
@@ -192,7 +192,7 @@ PieceLayout layOutPiece(const PartitionedMesh& mesh, std::size_t number, const P
 {
   PieceLayout layout;
   layout.Arrays = pieceArrays(mesh, piece);
-  // Each array begins at a multiple of 8 after its size; first as seen from the appended data.
+  // Each array starts at a multiple of 8, relative to the appended data, after its size.
   std::uint64_t at = 0;
   for (const PieceArray& array : layout.Arrays)
   {
@@ -204,7 +204,7 @@ PieceLayout layOutPiece(const PartitionedMesh& mesh, std::size_t number, const P
   }
   std::string& header = layout.Header;
   header = headerText(mesh, number, piece, layout);
-  // The data begin after the underscore, at a multiple of 8.
+  // The data begin after the underscore, at a multiple of 8 in the file.
   const std::size_t size = room ? headerText(mesh, number, *room, layout).size() : header.size();
   header.append(size + 7 - size % 8 - header.size(), ' ');
   header += '_';

@@ -13,7 +13,7 @@
 namespace tipp
 {
 
-/// What an array of a piece's file holds.
+/// The content of an array of a piece's file.
 enum class PieceRole
 {
   Points,
@@ -34,7 +34,7 @@ struct PieceArray
   std::string Name;
   Scalar Type;
   int Components;
-  std::int64_t Attribute = -1; ///< of PartitionedMesh::Arrays, for data
+  std::int64_t Attribute = -1; ///< for Role Data: index in PartitionedMesh::Arrays
 
   bool ofPoints() const { return this->Role <= PieceRole::PointData; }
   std::size_t tupleBytes() const { return std::size_t(this->Components) * scalarSize(this->Type); }
@@ -46,40 +46,41 @@ extern const char* const cellIdsName;
 extern const char* const ghostsName;
 
 /// An attribute's name in the pieces: "level step 7" for a step of one that varies in time. VTK's
-/// own attribute TimeStep is of no use: its reader, up to version 9.2 at least, adds the cells once
-/// more for each step that it reads.
+/// own attribute TimeStep is not used: its reader, up to version 9.2 at least, appends the cells
+/// again for each step that it reads.
 std::string storedName(const StoredArray& array);
 
-/// Whether the piece's own ids need 64 bits: where a point's number or the connectivity's length
-/// does not fit in 31.
+/// Whether the piece's local ids need 64 bits: a point index or the length of the connectivity
+/// exceeds 31 bits.
 bool hasWideIds(const PartitionedMesh& mesh, const PieceSummary& piece);
 
-/// The arrays of a piece in the order in which its file has them.
+/// The arrays of a piece in the order of its file.
 VTKTIPPIO_EXPORT std::vector<PieceArray> pieceArrays(
   const PartitionedMesh& mesh, const PieceSummary& piece);
 
-/// How many tuples an array of the piece has, those of borrowed cells that lie in it too.
+/// The number of tuples of an array in the piece's file, including those of duplicated borrowed
+/// cells.
 std::int64_t storedTuples(
   const PartitionedMesh& mesh, const PieceSummary& piece, const PieceArray& array);
 
-/// Where everything lies in a piece's file.
+/// The offsets, in bytes, of all sections of a piece's file.
 struct PieceLayout
 {
   std::string Header; ///< the XML up to the first array's size
   std::vector<PieceArray> Arrays;
-  std::vector<std::uint64_t> Offsets; ///< of each array's data; its size, 8 bytes, is before it
+  std::vector<std::uint64_t> Offsets; ///< of each array's data; the 8 bytes before hold its size
   std::uint64_t End = 0;              ///< of the last array, where the footer begins
 };
 
-/// What follows the last array.
+/// The text after the last array.
 extern const char* const pieceFooter;
 
-/// With `room`, arrays begin where they would in a piece of those counts, which are no smaller: so
-/// the first tuples can be written before the last are known.
+/// If `room` is given, the arrays are laid out for these counts, which must be no smaller: so the
+/// first tuples can be written before the final counts are known.
 PieceLayout layOutPiece(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& piece,
   const PieceSummary* room = nullptr);
 
-/// The .pvtu over all pieces.
+/// The text of the .pvtu file that lists all pieces.
 std::string pvtuText(const PartitionedMesh& mesh);
 
 } // namespace tipp

@@ -44,7 +44,7 @@ void packBorrowed(const std::vector<BorrowedGroup>& groups, std::vector<std::uin
       "; copy or make the mesh again.");
 }
 
-/// Takes words from a table one by one; every one is checked by who takes it.
+/// Reads a table word by word; the caller checks each of them.
 class TableReader
 {
 public:
@@ -69,7 +69,7 @@ public:
     return this->Words[this->At++];
   }
 
-  /// At most `limit`.
+  /// Reads a number of at most `limit`.
   std::int64_t number(std::int64_t limit, const char* what)
   {
     const std::uint64_t value = this->word();
@@ -80,7 +80,7 @@ public:
     return std::int64_t(value);
   }
 
-  /// A count of things of that many words each, which must be there.
+  /// Reads a count of items of `wordsEach` words each, which the table must have.
   std::size_t count(std::size_t wordsEach, const char* what)
   {
     const std::size_t left = this->Words.size() - this->At;
@@ -121,7 +121,7 @@ std::vector<LentGroup> takeGroups(
       }
       to = std::int32_t(last = piece);
     }
-    // Tuples that nobody borrows may come first, as part 0 has them.
+    // Only the first group may have no borrowers, because part 0 is for such tuples.
     if (group.Count == 0 || (group.To.empty() && &group != groups.data()))
     {
       in.fail("has an empty lent group");

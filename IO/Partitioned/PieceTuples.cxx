@@ -55,7 +55,7 @@ void extendBounds(Bounds& bounds, const double* row, const PointRowLayout& rows)
   const double xyz[3] = { row[0], row[1], rows.Z < 0 ? 0 : row[rows.Z] };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if (std::isfinite(xyz[axis])) // a height need not be
+    if (std::isfinite(xyz[axis])) // a z coordinate may be NaN or infinite
     {
       bounds[2 * axis] = std::min(bounds[2 * axis], xyz[axis]);
       bounds[2 * axis + 1] = std::max(bounds[2 * axis + 1], xyz[axis]);

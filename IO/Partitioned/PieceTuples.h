@@ -10,21 +10,21 @@
 namespace tipp
 {
 
-/// Whether an array of a growing piece is of global ids of cells, which are known last: there are
-/// no data of cells but their neighbours' ids.
+/// Whether an array of a growing piece holds global ids of cells, which are known last: no cell
+/// data are stored but the neighbours' ids.
 inline bool holdsCellIds(const PieceArray& array)
 {
   return array.Role == PieceRole::CellIds || array.Role == PieceRole::CellData;
 }
 
-/// What an array of points holds of a row.
+/// Copies a row's values of a point array.
 void copyPiecePoint(const PieceArray& array, const double* row, const PointRowLayout& rows,
   bool isGhost, std::int64_t representative, char* to);
 
-/// Makes room in the bounds for a row's point; coordinates that are not finite take none.
+/// Extends the bounds by a row's point; coordinates that are not finite are ignored.
 void extendBounds(Bounds& bounds, const double* row, const PointRowLayout& rows);
 
-/// What the arrays `offsets` and `types` hold of triangles in a row.
+/// Fills the arrays `offsets` and `types` for `count` consecutive triangles.
 void fillPieceCells(const PieceArray& array, std::int64_t first, std::size_t count, char* to);
 
 } // namespace tipp

@@ -14,20 +14,22 @@
 namespace tipp
 {
 
-/// Writes a piece's file, whose counts are known, array by array as their tuples come.
+/// Writes a piece's file, whose counts are known, array by array in the order of tuples.
 class PieceWriter
 {
 public:
-  /// `bufferBytes` for each array. Throws IOError.
+  /// `bufferBytes` is per array. Throws IOError.
   PieceWriter(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& summary,
     std::size_t bufferBytes);
 
   const std::vector<PieceArray>& arrays() const { return this->Layout.Arrays; }
-  /// Where the next bytes of an array go; to be filled before the next call for it.
+  /// Returns the buffer for the next bytes of an array, to be filled before the next call for this
+  /// array.
   char* extend(std::size_t array, std::size_t bytes) { return this->Columns[array].extend(bytes); }
   void endPart(bool ofPoints);
 
-  /// Completes the file and what its table says of it: offsets and checksums. Returns its size.
+  /// Completes the file, and the offsets and checksums in its table. Returns the file's size in
+  /// bytes.
   std::uint64_t finish(PieceTable& table);
 
 private:

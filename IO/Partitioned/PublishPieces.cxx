@@ -18,7 +18,7 @@ namespace tipp
 namespace
 {
 
-/// Only the index is read: a mesh whose pieces are missing or damaged can be replaced, too.
+/// Reads only the index, so that a mesh with missing or damaged pieces can be replaced, too.
 std::vector<std::string> filesOf(const std::string& path)
 {
   PartitionedMesh mesh;
@@ -44,7 +44,7 @@ const Replaceable replaceableMesh{ "partitioned mesh", isPartitionedMesh, filesO
 namespace
 {
 
-/// Tells each piece what the others lend it.
+/// Fills in each piece's borrowed groups.
 void addBorrowed(std::vector<FinishedPiece>& pieces, bool duplicated)
 {
   const auto eachGroup =

@@ -10,14 +10,13 @@
 namespace tipp
 {
 
-/// Memory from malloc, not set to anything, that an array of VTK can take over
-/// (VTK_DATA_ARRAY_FREE).
+/// Uninitialised memory from malloc that a VTK array can take ownership of (VTK_DATA_ARRAY_FREE).
 class RawBuffer
 {
 public:
   RawBuffer() = default;
   explicit RawBuffer(std::size_t bytes)
-    // malloc(0) may give nothing, which VTK takes for no array.
+    // malloc(0) may return null, which VTK does not accept as an array.
     : Memory(std::malloc(bytes == 0 ? 1 : bytes))
     , Bytes(bytes)
   {
@@ -35,7 +34,7 @@ public:
   }
   std::size_t size() const { return this->Bytes; }
 
-  /// To be freed by the caller.
+  /// Releases ownership; the caller must free() the memory.
   void* release() { return this->Memory.release(); }
 
 private:

@@ -14,8 +14,8 @@ namespace tipp
 namespace
 {
 
-/// The end of the parts that hold the first `stored` tuples of an array. Parts that come last may
-/// be empty.
+/// The end of the parts that hold the first `stored` tuples of an array. The last parts may be
+/// empty.
 std::size_t endOfParts(const PieceFile& file, bool ofPoints, std::int64_t stored)
 {
   const std::vector<std::int64_t>& starts = file.partStarts(ofPoints);
@@ -27,7 +27,7 @@ std::size_t endOfParts(const PieceFile& file, bool ofPoints, std::int64_t stored
   return end;
 }
 
-/// Reads what the piece's own file has of one array; the rest of the buffer is left alone.
+/// Reads one array's tuples in the piece's own file; the rest of the buffer stays uninitialised.
 RawBuffer readOwn(
   const PieceFile& file, std::size_t array, std::int64_t stored, std::int64_t tuples)
 {
@@ -37,8 +37,8 @@ RawBuffer readOwn(
   return buffer;
 }
 
-/// What only VTK's readers need: the result does not depend on it, but a damaged file is refused
-/// whichever of its arrays it is.
+/// Verifies the arrays that only VTK's readers need. The result does not depend on them, but a
+/// damaged file must be refused whichever array is affected.
 void verifyUnused(const PieceFile& file, std::int64_t stored)
 {
   const std::size_t end = endOfParts(file, false, stored);
@@ -64,7 +64,7 @@ void requireLocalIds(const PieceFile& file, const Piece& piece, std::int64_t cel
   }
 }
 
-/// 32 bits in the file and 64 wanted, as borrowed cells made the piece grow.
+/// Converts ids from 32 to 64 bits if borrowed cells have made the piece too large for 32.
 void widen(Piece& piece, std::int64_t cells)
 {
   const std::size_t count = std::size_t(cells) * std::size_t(piece.CellSize);

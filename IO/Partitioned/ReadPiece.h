@@ -16,17 +16,17 @@ namespace tipp
 
 struct PieceOptions
 {
-  bool Borrowed = true; ///< the cells that the piece borrows too, as ghosts
-  /// Which of PartitionedMesh::Arrays are read; empty: all.
+  bool Borrowed = true; ///< also read the borrowed cells, as ghosts
+  /// For each of PartitionedMesh::Arrays whether to read it; empty: all.
   std::vector<bool> Wanted;
-  int Step = 0; ///< of arrays that vary in time, only this step is read
+  int Step = 0; ///< the step to read of arrays that vary in time
 
-  /// Whether it asks for that one of the mesh's arrays.
+  /// Whether the mesh's array with this index is to be read.
   bool wants(const PartitionedMesh& mesh, std::size_t attribute) const;
 };
 
-/// A piece in memory. Points and cells each come in ascending order of their global ids within the
-/// parts of which a piece consists; borrowed cells and the points that only they have come last.
+/// A piece in memory. Within each of a piece's parts, points and cells are in ascending order of
+/// their global ids; borrowed cells, and the points that only these use, come last.
 struct Piece
 {
   struct Attribute
@@ -37,20 +37,21 @@ struct Piece
 
   int CellSize = 3;
   Scalar PointType = Scalar::Float64;
-  bool WideIds = false; ///< connectivity: std::int64_t or std::int32_t
+  /// connectivity: std::int64_t if true, else std::int32_t; indices within the piece
+  bool WideIds = false;
   std::int64_t Points = 0;
-  std::int64_t OwnedPoints = 0; ///< those before the points of borrowed cells alone
+  std::int64_t OwnedPoints = 0; ///< the points before those of borrowed cells alone
   std::int64_t Cells = 0;
   std::int64_t OwnedCells = 0;
-  RawBuffer Coordinates; ///< 3 a point
-  RawBuffer PointIds;    ///< global, std::int64_t
-  RawBuffer PointGhosts; ///< std::uint8_t; 1: the point belongs to another piece
+  RawBuffer Coordinates; ///< 3 per point
+  RawBuffer PointIds;    ///< global ids, std::int64_t
+  RawBuffer PointGhosts; ///< std::uint8_t; 1: another piece owns the point
   RawBuffer Connectivity;
-  RawBuffer CellIds; ///< global, std::int64_t; cells from OwnedCells on are ghosts
+  RawBuffer CellIds; ///< global ids, std::int64_t; cells from OwnedCells on are ghosts
   std::vector<Attribute> Attributes;
   ReadCounters Counters;
 
-  /// The point of the piece that is the corner of that number of a cell.
+  /// Returns the index within the piece of a cell's corner; `number` is the corner's.
   std::int64_t corner(std::int64_t cell, int number) const
   {
     const auto at = std::size_t(cell * this->CellSize + number);
@@ -59,10 +60,9 @@ struct Piece
   }
 };
 
-/// Reads a piece: each of its arrays that is wanted in one go. Borrowed cells that are stored by
-/// reference are read from their owners' files, which keep them and their points together; the
-/// result is the same as of duplicated ones. Throws IOError. Any number of threads may read pieces
-/// of one mesh at once.
+/// Reads a piece, each requested array with one read. Borrowed cells that are stored by reference
+/// are read from their owners' files, where they and their points are contiguous; the result is the
+/// same as with duplicated ones. Throws IOError. Threads may read pieces of a mesh concurrently.
 VTKTIPPIO_EXPORT Piece readPiece(
   const PartitionedMesh& mesh, std::size_t number, const PieceOptions& options = {});
 

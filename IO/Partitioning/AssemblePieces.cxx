@@ -19,7 +19,7 @@ namespace tipp
 namespace
 {
 
-/// [first, last) of this rank.
+/// This rank's pieces: [first, last).
 std::pair<std::size_t, std::size_t> shareOfPieces(const PartitionRun& run)
 {
   std::vector<std::int64_t> weights;
@@ -43,14 +43,14 @@ std::size_t bufferBytes(const PartitionRun& run)
 std::vector<FinishedPiece> assembleShare(PartitionRun& run)
 {
   const auto [first, last] = shareOfPieces(run);
-  // The heaviest first, so that threads end together.
+  // The heaviest first, for load balance.
   std::vector<std::size_t> order(last - first);
   std::iota(order.begin(), order.end(), first);
   std::stable_sort(order.begin(), order.end(),
     [&](std::size_t a, std::size_t b) { return run.Cells->rows(a) > run.Cells->rows(b); });
   std::vector<FinishedPiece> finished(order.size());
   std::atomic<std::size_t> done{ 0 };
-  // Progress is for the calling thread alone, which waits; it hears of every stretch.
+  // Only the calling thread may report progress; it does so after each batch.
   const std::size_t stretch = std::max<std::size_t>(std::size_t(run.Threads), order.size() / 16);
   for (std::size_t at = 0; at < order.size(); at += stretch)
   {
@@ -69,7 +69,7 @@ std::vector<FinishedPiece> assembleShare(PartitionRun& run)
   return finished;
 }
 
-/// A finished piece on its way to the first rank: its summary and, as in tables.bin, its table.
+/// Serialises a finished piece for the first rank: its summary and, as in tables.bin, its table.
 void pack(const FinishedPiece& piece, std::string& bytes)
 {
   const std::vector<std::uint64_t> table = packTable(piece.Table);
@@ -79,7 +79,7 @@ void pack(const FinishedPiece& piece, std::string& bytes)
   bytes.append(reinterpret_cast<const char*>(table.data()), table.size() * 8);
 }
 
-/// All pieces in order, out of what this program has packed on all ranks.
+/// All pieces in order, from the bytes that pack() made on all ranks.
 std::vector<FinishedPiece> unpack(const std::vector<std::string>& all, PartitionedMesh& mesh)
 {
   std::vector<FinishedPiece> pieces;
@@ -121,7 +121,7 @@ void assemblePieces(PartitionRun& run)
   run.Team.attempt(
     [&]
     {
-      // The system has been writing since the first piece was complete.
+      // The data have been written back to the disk since the first piece was complete.
       const auto [first, last] = shareOfPieces(run);
       for (std::size_t piece = first; piece < last; ++piece)
       {

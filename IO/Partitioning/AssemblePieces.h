@@ -7,8 +7,8 @@ namespace tipp
 
 struct PartitionRun;
 
-/// Writes the pieces' files, each rank a share of equal weight, then, on the first rank, tables,
-/// .pvtu and index; all are safe on the disk on return. A call of all ranks. Throws IOError.
+/// Writes the pieces' files, each rank a share of equal weight; then the first rank writes tables,
+/// .pvtu and index. All are synced on return. Collective. Throws IOError.
 void assemblePieces(PartitionRun& run);
 
 } // namespace tipp

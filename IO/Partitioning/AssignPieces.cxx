@@ -13,8 +13,8 @@ std::int64_t weightOf(const std::vector<std::int64_t>& weights, std::size_t piec
   return std::max<std::int64_t>(weights[piece], 0);
 }
 
-// Runs of at most `most`, each as long as it can be while every later rank still gets a piece.
-// The last rank takes what is left.
+// Greedy runs of weight at most `most`, leaving at least one piece for each later rank. The last
+// rank gets the rest.
 std::vector<std::size_t> runsOf(
   const std::vector<std::int64_t>& weights, std::size_t ranks, std::int64_t most)
 {
@@ -31,7 +31,7 @@ std::vector<std::size_t> runsOf(
       sum += weightOf(weights, piece);
       ++piece;
     }
-    // Fewer pieces than ranks: one each, as long as there are some.
+    // With fewer pieces than ranks, the first ranks get one each.
     piece = std::min(std::max(piece, first + 1), weights.size());
     starts.push_back(piece);
   }
@@ -67,7 +67,7 @@ std::vector<std::size_t> assignPieces(const std::vector<std::int64_t>& weights, 
     low = std::max(low, weightOf(weights, piece));
     high += weightOf(weights, piece);
   }
-  // The lightest heaviest run, by halving.
+  // Bisection for the least possible weight of the heaviest run.
   while (low < high)
   {
     const std::int64_t most = low + (high - low) / 2;

@@ -71,11 +71,11 @@ private:
     return (mine + this->ChunkCells - 1) / this->ChunkCells;
   }
 
-  // Whether one reading of one chunk is all: then the counts of new nodes are whole too.
+  // Whether all cells are in one chunk on one rank: then one pass counts new nodes completely, too.
   bool isRead() const { return this->Team.count() == 1 && this->chunks() <= 1; }
 
-  // When this rank splits a leaf by what it has seen of it so far. From the second pass on a leaf
-  // with more cells than the threshold has more than this on some rank.
+  // The number of cells above which this rank splits a leaf, by its own counts so far. A leaf with
+  // more cells than the threshold in total exceeds this on some rank from the second pass on.
   std::int64_t limit(int pass) const
   {
     const std::int64_t all = this->Options.Threshold;
@@ -104,7 +104,7 @@ private:
     return counting.counts();
   }
 
-  // A share of one chunk stays in memory.
+  // If the share is one chunk, it stays in memory.
   void readChunk(std::int64_t first, std::int64_t count)
   {
     if (this->InMemory == std::make_pair(first, count))
@@ -131,7 +131,7 @@ private:
       { return SplitTree::merged(a, b, childCount); }));
   }
 
-  // Leaves with too many cells of all ranks together, though with few of each. The same on all
+  // Splits leaves whose total over all ranks exceeds the threshold. The result is the same on all
   // ranks.
   bool splitLargeLeaves(SplitTree& tree, const NodeCounts& counts) const
   {

@@ -16,20 +16,21 @@
 namespace tipp
 {
 
-/// A stretch of tuples of several arrays in memory, to be put together row by row.
+/// A range of tuples of several arrays in memory, copied out row by row. A row is one tuple of each
+/// array.
 class Columns
 {
 public:
   /// Throws IOError if a file cannot be opened.
   explicit Columns(std::vector<RawArray> arrays);
 
-  /// Of a row: a tuple of each array.
+  /// The size of a row in bytes.
   std::size_t rowBytes() const { return this->RowBytes; }
 
-  /// Throws IOError.
+  /// Reads tuples [first, first + count) of each array. Throws IOError.
   void read(std::int64_t first, std::int64_t count, int threads);
 
-  /// The tuples at a place in the stretch, one array after the other.
+  /// Copies the row at index `place` of the range to `to`; returns the end of the copy.
   char* copyRow(std::size_t place, char* to) const
   {
     for (std::size_t a = 0; a < this->Arrays.size(); ++a)

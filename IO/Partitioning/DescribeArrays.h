@@ -10,9 +10,9 @@
 namespace tipp
 {
 
-/// Gives `result` the flat mesh's attributes as its arrays, one for each step of those that vary in
-/// time, and returns where they lie, in the same order. Throws IOError where two names would be the
-/// same in the pieces.
+/// Lists the flat mesh's attributes in result.Arrays, one for each step of those that vary in time,
+/// and returns their arrays in the same order. Throws IOError if two names would be equal in the
+/// pieces.
 std::vector<RawArray> describeArrays(const FlatMesh& mesh, PartitionedMesh& result);
 
 } // namespace tipp

@@ -24,8 +24,8 @@ struct Chunk
   std::int64_t First = 0;
   std::size_t Cells = 0;
   std::vector<std::int64_t> Ids;
-  std::vector<std::int32_t> Homes;   ///< of the vertices, cell by cell
-  std::vector<std::int32_t> Inside;  ///< the partition that a cell lies in, or -1
+  std::vector<std::int32_t> Homes;   ///< owners of the vertices, cell by cell
+  std::vector<std::int32_t> Inside;  ///< the partition that contains the cell, or -1
   std::vector<std::uint32_t> Border; ///< cells that meet several partitions
 };
 
@@ -184,7 +184,7 @@ void CellDistribution::spillBorder(const Chunk& chunk, std::size_t first, std::s
       const auto borrowers = std::uint32_t(members.BorrowerStart[i + 1] - members.BorrowerStart[i]);
       std::memcpy(to, &borrowers, 4);
     });
-  // The cell of each of all borrowers.
+  // For each entry of the borrowers, the cell's index in the chunk.
   std::vector<std::uint32_t> cells;
   for (std::size_t i = 0; i < count; ++i)
   {

@@ -7,12 +7,12 @@ namespace tipp
 
 struct PartitionRun;
 
-/// Reads this rank's share of the cells chunk by chunk and spills each to the pieces that own and
-/// borrow it, and the vertices that these need from other partitions. A call of all ranks. Throws
+/// Reads this rank's share of the cells chunk by chunk and spills each cell to the pieces that own
+/// and borrow it, and the vertices that these need from other partitions. Collective. Throws
 /// IOError.
 ///
-/// A cell whose vertices all have the same home, and no other, lies inside that partition, which is
-/// convex. Any other cell meets two partitions at least, and which is decided by its coordinates.
+/// A cell whose vertices all lie in one partition only lies inside that partition, which is convex.
+/// Any other cell meets at least two partitions, which its coordinates determine.
 void distributeCells(PartitionRun& run);
 
 } // namespace tipp

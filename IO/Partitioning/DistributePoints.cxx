@@ -14,10 +14,10 @@ namespace tipp
 namespace
 {
 
-/// A point on its way to a piece.
+/// A copy of a point for a piece.
 struct Copy
 {
-  std::uint32_t Place; ///< in the chunk
+  std::uint32_t Place; ///< the point's index in the chunk
   std::int32_t Piece;
   std::uint64_t Flags;
 };

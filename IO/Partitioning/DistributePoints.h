@@ -7,8 +7,8 @@ namespace tipp
 
 struct PartitionRun;
 
-/// Reads this rank's share of the points in one pass and spills each to its home and to the other
-/// pieces that need it. A call of all ranks. Throws IOError.
+/// Reads this rank's share of the points in one pass and spills each to its owner and to the other
+/// pieces that need it. Collective. Throws IOError.
 void distributePoints(PartitionRun& run);
 
 } // namespace tipp

@@ -8,16 +8,16 @@
 namespace tipp
 {
 
-/// A vertex that a piece needs beside those in its box.
+/// A ghost point: a vertex that a piece needs but does not own.
 struct ForeignPoint
 {
   std::int64_t Point;
   std::int32_t Piece;
-  std::int32_t GhostOnly; ///< 0 or 1
+  std::int32_t GhostOnly; ///< 1 if only borrowed cells use it, else 0
 };
 
-/// Sorts them by point, then piece, and keeps one of each; several cells may have asked for it, and
-/// one that is owned outweighs all borrowed ones.
+/// Sorts by point, then piece, and removes duplicates: several cells may need a point. A point that
+/// an owned cell uses is not GhostOnly.
 void makeDistinct(std::vector<ForeignPoint>& points);
 
 } // namespace tipp

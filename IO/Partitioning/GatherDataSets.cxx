@@ -102,7 +102,7 @@ vtkSmartPointer<vtkDataSet> gatherDataSets(
       received.emplace_back(set);
     }
   }
-  // None at all is found out when it is flattened.
+  // If there is no data set at all, flattening it fails.
   return ranks.isFirst() ? (received.empty() ? mine : unite(received)) : nullptr;
 }
 

@@ -11,9 +11,9 @@ class vtkMultiProcessController;
 namespace tipp
 {
 
-/// All ranks' data sets, or those of vtkPartitionedDataSets, as one on the first rank; null on the
-/// others. Points at exactly the same place in different ones become one. Throws IOError, on all
-/// ranks, if there is no data set at all.
+/// Merges all ranks' data sets, or those in vtkPartitionedDataSets, into one on the first rank;
+/// returns null on the others. Points of different data sets with equal coordinates are merged.
+/// Throws IOError, on all ranks, if there is no data set at all.
 vtkSmartPointer<vtkDataSet> gatherDataSets(
   vtkDataObject* data, vtkMultiProcessController* controller);
 

@@ -14,28 +14,28 @@
 namespace tipp
 {
 
-/// The sets of pieces that borrow from one piece, each by a number.
+/// Numbers the distinct sets of pieces that borrow from one piece.
 class VTKTIPPIO_EXPORT LentSets
 {
 public:
-  /// Of an ascending list.
+  /// Returns the number of a set, which is given as an ascending list.
   int number(const std::vector<std::int32_t>& set);
-  /// Of the union of two sets; -1 is the empty one.
+  /// Returns the number of the union of two sets; -1 is the empty set.
   int unite(int a, int b);
   const std::vector<std::int32_t>& set(int number) const
   {
     return *this->Sets[static_cast<std::size_t>(number)];
   }
   std::size_t size() const { return this->Sets.size(); }
-  /// The groups of things that have the sets of these numbers (-1: none), in lexicographic order,
-  /// and of each set its place among them, or -1.
+  /// Items grouped by the number of their set (-1: none), in lexicographic order of the sets, and
+  /// for each set its index among the groups, or -1.
   struct Grouping
   {
     std::vector<LentGroup> Groups;
     std::vector<int> PlaceOf;
   };
   Grouping groups(const std::vector<int>& setOf) const;
-  /// The place of each set, by number, in the lexicographic order of all.
+  /// For each set, by number, its rank in the lexicographic order of all.
   std::vector<int> places() const;
 
 private:

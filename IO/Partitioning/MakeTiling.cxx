@@ -17,7 +17,8 @@ namespace tipp
 namespace
 {
 
-/// Chunks of cells with all coordinates, for the tree, which has no homes yet.
+/// Loads chunks of cells with their coordinates, for building the tree: the points' owners are not
+/// known yet.
 class LoadedCells
 {
 public:
@@ -74,7 +75,7 @@ BoxTiling makeTiling(const FlatMesh& mesh, const TilingChoice& choice, const Loa
   if (choice.Threshold == 0)
   {
     std::array<int, 3> boxes = choice.Boxes;
-    // The plane has no third axis to cut.
+    // In 2D there is no third axis to split.
     boxes[2] = dimension == 2 ? 1 : boxes[2];
     requirePieces(std::int64_t(boxes[0]) * boxes[1] * boxes[2], mesh);
     return BoxTiling::grid(dimension, domain, boxes);

@@ -15,13 +15,13 @@
 namespace tipp
 {
 
-/// The chosen tiling of the mesh's domain. `chunkCells` are held at once, with all coordinates
-/// twice, while a tree is made. A call of all ranks. Throws IOError, for more than mostPieces boxes
-/// too.
+/// Returns the chosen tiling of the mesh's domain. While a tree is built, `chunkCells` cells are in
+/// memory, with their coordinates twice. Collective. Throws IOError, also for more than mostPieces
+/// boxes.
 BoxTiling makeTiling(const FlatMesh& mesh, const TilingChoice& choice, const LoaderOptions& loading,
   std::int64_t chunkCells, int threads, const Ranks& ranks, const Box3& domain);
 
-/// Gives the mesh the domain and a piece, whose counts are not known yet, for each box.
+/// Sets the mesh's domain, and adds a piece with unknown counts for each box.
 void setPieces(PartitionedMesh& mesh, const Box3& domain, const BoxTiling& tiling);
 
 } // namespace tipp

@@ -17,7 +17,8 @@ namespace tipp
 namespace
 {
 
-/// Drops the ids of a partitioned mesh that the data set was read from: this one has its own.
+/// Removes the ids of the partitioned mesh that the data set was read from: the new one gets its
+/// own.
 void removeOwnIds(FlatContent& content)
 {
   const auto drop = [](std::vector<FlatArray>& arrays, const std::string& name)
@@ -30,7 +31,7 @@ void removeOwnIds(FlatContent& content)
   drop(content.CellData, cellIdsName);
 }
 
-/// The message with the input's name where it names a file of the temporary flat mesh.
+/// Replaces paths in the temporary flat mesh by the input's name.
 std::string inNameOf(std::string message, const std::string& folder, const std::string& name)
 {
   const std::size_t begin = message.find(folder);
@@ -50,10 +51,10 @@ PartitionStatistics partitionContent(const std::function<FlatContent()>& make,
 {
   const Ranks ranks(controller);
   const PollScope polled([&options] { return !options.Progress || options.Progress(0); });
-  // It goes away with this object, or before the next run if this one is killed.
+  // Removed with this object, or by the next run if this one is killed.
   std::optional<PendingFolder> scratch;
   std::string folder;
-  std::string shown; // the same in messages of the rank that has made it
+  std::string shown; // its path in messages, as the first rank shows it
   try
   {
     ranks.attempt(
@@ -70,7 +71,7 @@ PartitionStatistics partitionContent(const std::function<FlatContent()>& make,
           {
             writeFlatMesh(folder, content);
           }
-          catch (const IOError& error) // as of a full disk
+          catch (const IOError& error) // for example, the disk is full
           {
             throw IOError(inNameOf(error.what(), shown, output));
           }

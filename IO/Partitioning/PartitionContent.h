@@ -11,9 +11,9 @@
 namespace tipp
 {
 
-/// partitionMesh for a mesh in memory, which the first rank makes and lays down as a flat mesh
-/// beside the output for as long as the run lasts; `name` is for errors. A partitioned mesh's own
-/// ids are dropped. Throws IOError, on all ranks if on one.
+/// As partitionMesh(), for a mesh in memory: the first rank calls `make` and writes its result to a
+/// temporary flat mesh beside the output. `name` is for errors. A partitioned mesh's own ids are
+/// dropped. Throws IOError, on all ranks if on one.
 VTKTIPPIO_EXPORT PartitionStatistics partitionContent(const std::function<FlatContent()>& make,
   const std::string& name, const std::string& output, const PartitionOptions& options,
   vtkMultiProcessController* controller = nullptr);

@@ -37,7 +37,8 @@ PartitionStatistics partitionInput(const std::string& input, const std::string& 
       if (ranks.isFirst())
       {
         requireApart({ output }, { input });
-        const PendingFolder writable(output, &replaceableMesh); // before the work
+        // fails early if the output cannot be written
+        const PendingFolder writable(output, &replaceableMesh);
       }
       isFlat = isFlatMesh(input) || !isVtkFile(input);
       if (isFlat)

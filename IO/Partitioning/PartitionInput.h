@@ -13,15 +13,15 @@ class vtkMultiProcessController;
 namespace tipp
 {
 
-/// partitionMesh for a flat mesh, or for any file that readDataSet knows, which the first rank
-/// reads. Throws IOError, on all ranks if on one.
+/// As partitionMesh(), for a flat mesh or any file that readDataSet() supports, which the first
+/// rank reads. Throws IOError, on all ranks if on one.
 VTKTIPPIO_EXPORT PartitionStatistics partitionInput(const std::string& input,
   const std::string& output, const PartitionOptions& options,
   vtkMultiProcessController* controller = nullptr);
 
-/// partitionMesh for the first rank's data set (null on the others), which is laid down as a flat
-/// mesh beside the output for as long as the run lasts; `name` is for errors. Cells other than
-/// triangles and tetrahedra are cut into these; ghosts and a partitioned mesh's ids are dropped.
+/// As partitionMesh(), for the first rank's data set (null on the others), which is written to a
+/// temporary flat mesh beside the output; `name` is for errors. Cells other than triangles and
+/// tetrahedra are cut into these; ghosts and a partitioned mesh's ids are dropped.
 VTKTIPPIO_EXPORT PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
   const std::string& output, const PartitionOptions& options,
   vtkMultiProcessController* controller = nullptr);

@@ -82,7 +82,7 @@ void layOutRows(PartitionRun& run)
   rows.PointBytes = 8 + run.Mesh.Points.tupleBytes() + tupleBytes(run.PointData);
 }
 
-/// A quarter of the memory for a chunk, as the loader has one, too.
+/// A chunk may take a quarter of the memory limit, like the loader.
 void chooseChunks(PartitionRun& run)
 {
   const RowLayout& rows = run.Rows;
@@ -269,7 +269,7 @@ PartitionStatistics partitionMesh(const FlatMesh& mesh, const std::string& path,
   run.Statistics.Phases.push_back({ "publish", watch.restart() });
   if (ranks.isFirst() && options.Progress)
   {
-    // Too late to stop: the mesh is there.
+    // The mesh is already published, so a request to abort is ignored.
     static_cast<void>(options.Progress(1));
   }
   return run.Statistics;

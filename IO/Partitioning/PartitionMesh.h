@@ -22,17 +22,18 @@ namespace tipp
 struct PartitionOptions
 {
   TilingChoice Tiling;
-  /// Copies borrowed cells to their borrowers' pieces; else those refer to the owner's.
+  /// Whether borrowed cells are copied to their borrowers' pieces; if not, pieces refer to the
+  /// owner's.
   bool DuplicateBorrowers = false;
-  /// In bytes, of each rank; the loaders', the chunks' and the pieces' buffers keep within it.
+  /// In bytes per rank; bounds the buffers of loaders, chunks and pieces together.
   std::uint64_t MemoryLimit = std::uint64_t(2) << 30;
-  LoaderOptions Loading;        ///< MemoryLimit in it is set from the above
-  std::int64_t ChunkCells = 0;  ///< 0: as many as fit
-  std::int64_t ChunkPoints = 0; ///< 0: as many as fit
-  DeviceChoice Device;          ///< that classifies cells
-  int Threads = 0;              ///< 0: OpenMP's choice
+  LoaderOptions Loading;        ///< its MemoryLimit is derived from the above
+  std::int64_t ChunkCells = 0;  ///< 0: as many as fit in memory
+  std::int64_t ChunkPoints = 0; ///< 0: as many as fit in memory
+  DeviceChoice Device;          ///< the device that classifies cells
+  int Threads = 0;              ///< 0: OpenMP's default
   /// Called on every rank's calling thread, every few thousand points or cells, with the fraction
-  /// done; false ends the run on all ranks.
+  /// done; returning false aborts the run on all ranks.
   std::function<bool(double)> Progress;
 };
 
@@ -47,32 +48,33 @@ struct PartitionStatistics
   std::int64_t Cells = 0;
   std::int64_t Pieces = 0;
   std::int64_t BorderCells = 0;   ///< cells that meet more than one partition
-  std::int64_t BorrowedCells = 0; ///< one for each borrower
-  std::int64_t CopiedPoints = 0;  ///< points stored in pieces that they do not belong to
+  std::int64_t BorrowedCells = 0; ///< a cell counts once per borrower
+  std::int64_t CopiedPoints = 0;  ///< ghost points stored in pieces
   std::uint64_t SpilledBytes = 0; ///< on all ranks
   std::uint64_t MeshBytes = 0;    ///< of all files
   int Ranks = 1;
   int Threads = 1;
-  std::string Loader; ///< that was taken
+  std::string Loader; ///< the loader that was used
   LoadCounters Loads; ///< of all ranks
   std::vector<Phase> Phases;
   bool Aborted = false; ///< by Progress; nothing was written
 };
 
-/// A partitioned mesh gives way to a new one.
+/// A new mesh may replace a partitioned mesh.
 extern const Replaceable replaceableMesh;
 
-/// Makes the partitioned mesh `path` of a flat mesh, within the memory limit. The files depend on
-/// the mesh, the tiling and the kind of borrowers alone, byte for byte. All is written to a hidden
-/// folder beside `path`, which takes the path's place when it is whole and safe on the disk; a
-/// partitioned mesh that was there stays until then.
+/// Partitions a flat mesh and writes it to `path`, within the memory limit. The files depend only
+/// on the mesh, the tiling and DuplicateBorrowers, byte for byte. They are written to a hidden
+/// folder beside `path`, which is moved to `path` once it is complete and synced; a partitioned
+/// mesh at `path` is kept until then.
 ///
-/// With a controller its ranks share the work; all must call it and see the same files. Throws
-/// IOError, on all ranks if on one.
+/// With a controller its ranks share the work; all must call this function and have access to the
+/// same files. Throws IOError, on all ranks if on one.
 ///
-/// A chunk of cells is loaded, classified and updated as in Algorithm 5 of the dissertation, but
-/// what is loaded is the partition of each vertex, 4 bytes, and only cells whose vertices do not
-/// lie inside one partition need coordinates. Vertices then go to the pieces in one more pass.
+/// A chunk of cells is loaded, classified and updated as in Algorithm 5 of the dissertation. But
+/// instead of coordinates it loads the partition of each vertex, 4 bytes, and coordinates only of
+/// cells whose vertices do not all lie inside one partition. One more pass distributes the points
+/// to the pieces.
 VTKTIPPIO_EXPORT PartitionStatistics partitionMesh(const FlatMesh& mesh, const std::string& path,
   const PartitionOptions& options = {}, vtkMultiProcessController* controller = nullptr);
 

@@ -18,19 +18,19 @@
 namespace tipp
 {
 
-/// How cells and points stand in the rows that are spilled. Nothing in them is aligned.
+/// The layout of cells and points in the rows that are spilled. Rows are not aligned.
 struct RowLayout
 {
   int Corners = 3;
-  int Dimension = 2;          ///< of the tiling
-  std::size_t IdBytes = 4;    ///< of ids in rows of cells: 8 where 31 bits do not do
-  std::size_t CellBytes = 0;  ///< the cell's id, its vertices', its attributes
-  std::size_t CellData = 0;   ///< where its attributes begin
+  int Dimension = 2;          ///< the tiling's
+  std::size_t IdBytes = 4;    ///< size of an id in a cell's row: 8 if 31 bits do not suffice
+  std::size_t CellBytes = 0;  ///< the cell's id, its vertices' ids, its attributes
+  std::size_t CellData = 0;   ///< offset of its attributes
   std::size_t PointBytes = 0; ///< 8 bytes of id and flags, coordinates, attributes
 
   /// Flags in the two lowest bits of a point's id.
   static constexpr std::uint64_t Foreign = 1;   ///< the point belongs to another piece
-  static constexpr std::uint64_t GhostOnly = 2; ///< no owned cell of the piece has it
+  static constexpr std::uint64_t GhostOnly = 2; ///< no owned cell of the piece uses it
 
   char* putId(std::int64_t id, char* to) const
   {
@@ -45,10 +45,10 @@ struct RowLayout
   }
 };
 
-/// One run of partitionMesh on one rank: what its phases share.
+/// The state that the phases of partitionMesh() share on one rank.
 struct PartitionRun
 {
-  /// `folder` is the temporary one.
+  /// `folder` is the temporary output folder.
   PartitionRun(const FlatMesh& mesh, const PartitionOptions& options, const Ranks& ranks,
     const std::string& folder);
 
@@ -58,20 +58,22 @@ struct PartitionRun
   int Threads;
   std::string Folder;
   RowLayout Rows;
-  PartitionedMesh Result; ///< all but the pieces' counts is known before the cells are read
+  PartitionedMesh Result; ///< complete except for the pieces' counts before the cells are read
   std::optional<BoxTiling> Tiling;
-  std::vector<RawArray> PointData; ///< as Result.Arrays names them, the steps of series too
+  /// the arrays that Result.Arrays lists, including the steps of series
+  std::vector<RawArray> PointData;
   std::vector<RawArray> CellData;
   std::int64_t ChunkCells = 1;
   std::int64_t ChunkPoints = 1;
   PartitionStatistics Statistics;
-  double Fraction = 0; ///< that is done
+  double Fraction = 0; ///< fraction of the work done
 
   // Keyed by piece; ForeignPoints by chunk of points.
-  std::optional<Spill> Cells;         ///< those that lie in one partition
-  std::optional<Spill> SharedCells;   ///< owned, followed by 4 bytes: the number of borrowers
-  std::optional<Spill> Borrowers;     ///< of SharedCells, one after the other, 4 bytes each
-  std::optional<Spill> BorrowedCells; ///< where they are duplicated
+  std::optional<Spill> Cells; ///< cells that lie in one partition
+  /// owned and borrowed, followed by 4 bytes: the number of borrowers
+  std::optional<Spill> SharedCells;
+  std::optional<Spill> Borrowers;     ///< of SharedCells, consecutively, 4 bytes each
+  std::optional<Spill> BorrowedCells; ///< if they are duplicated
   std::optional<Spill> ForeignPoints;
   std::optional<Spill> Points;
 
@@ -79,7 +81,7 @@ struct PartitionRun
   RawArray homes() const;
   LoaderOptions loaderOptions() const;
   std::size_t pieces() const { return this->Result.Pieces.size(); }
-  /// Tells the caller how far the run is. Throws WorkAborted when told to stop.
+  /// Reports the progress. Throws WorkAborted if the caller asks to stop.
   void report(double fraction);
 };
 

@@ -12,7 +12,7 @@ namespace tipp
 namespace
 {
 
-// Rows in flight between a spill and the arrays: few enough to stay in a core's cache.
+// Rows copied at a time from a spill to the arrays: few enough for the L2 cache.
 constexpr std::size_t blockRows = 2048;
 
 std::uint64_t wordAt(const char* row)
@@ -161,9 +161,9 @@ void PieceAssembly::writePoints()
   this->Summary.Extent = { infinity, -infinity, infinity, -infinity, infinity, -infinity };
   const Spill& points = *this->Run.Points;
   const std::size_t rowBytes = points.rowBytes();
-  // Those of later parts wait until the first part is complete.
+  // Rows of later parts are kept until the first part is complete.
   std::vector<char> waiting;
-  std::vector<std::pair<std::int64_t, std::size_t>> order; // place, row in `waiting`
+  std::vector<std::pair<std::int64_t, std::size_t>> order; // index, row in `waiting`
   std::size_t point = 0;
   RowPointers block;
   points.read(this->Piece, blockRows,
@@ -229,7 +229,7 @@ void PieceAssembly::writeCells()
   this->Writer->endPart(false);
 
   const std::vector<int> places = this->Sets.places();
-  std::vector<std::pair<int, const char*>> shared; // in each set they ascend already
+  std::vector<std::pair<int, const char*>> shared; // ascending within each set
   for (std::size_t i = 0; i < this->CellSets.size(); ++i)
   {
     shared.emplace_back(places[std::size_t(this->CellSets[i])],

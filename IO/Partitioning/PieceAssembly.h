@@ -16,8 +16,8 @@
 namespace tipp
 {
 
-/// Writes one piece's file from what has been spilled for it. In memory are only its points' ids,
-/// its lent and borrowed cells and their points; all else streams through.
+/// Writes one piece's file from its spilled rows. Only its points' ids, its lent and borrowed cells
+/// and their points are held in memory; the rest is streamed.
 class PieceAssembly
 {
 public:
@@ -29,7 +29,8 @@ public:
   {
   }
 
-  /// Throws IOError. Afterwards summary() and table() are complete but for what it borrows.
+  /// Writes the file. Throws IOError. Afterwards summary() and table() are complete except for the
+  /// borrowed groups.
   void assemble();
 
   const PieceSummary& summary() const { return this->Summary; }
@@ -62,14 +63,14 @@ private:
   std::size_t Corners;
   PieceSummary Summary;
   PieceTable Table;
-  std::vector<std::int64_t> PointIds; ///< global, ascending
+  std::vector<std::int64_t> PointIds; ///< global ids, ascending
   std::vector<std::uint8_t> PointFlags;
   std::vector<char> SharedRows;
-  std::vector<int> CellSets; ///< of each shared cell
+  std::vector<int> CellSets; ///< set of each shared cell
   LentSets Sets;
-  std::vector<int> PointSets;       ///< of each point, or -1
-  std::vector<int> PointGroupOf;    ///< of each set: its place among the points' groups, or -1
-  std::vector<std::int64_t> Places; ///< of each point in the piece
+  std::vector<int> PointSets;       ///< set of each point, or -1
+  std::vector<int> PointGroupOf;    ///< per set: its index among the points' groups, or -1
+  std::vector<std::int64_t> Places; ///< index of each point in the piece
   IdMap Local;
   std::optional<PieceWriter> Writer;
   std::int64_t CellsWritten = 0;

@@ -12,7 +12,7 @@ namespace tipp
 namespace
 {
 
-/// `bytes` at `offset` of each row, one after the other.
+/// Copies `bytes` bytes at `offset` of each row to consecutive memory.
 template <std::size_t Bytes>
 void copyFixed(const std::vector<const char*>& rows, std::size_t offset, char* to)
 {
@@ -43,7 +43,7 @@ void copyBytes(
   }
 }
 
-/// Coordinates of two or three components as three; the third of a plane is 0.
+/// Converts coordinates of two or three components to three; in 2D the third is 0.
 void copyCoordinates(const std::vector<const char*>& rows, const RawArray& points, char* to)
 {
   const std::size_t bytes = points.tupleBytes();
@@ -58,7 +58,7 @@ void copyCoordinates(const std::vector<const char*>& rows, const RawArray& point
 
 } // namespace
 
-/// Where an attribute is in a row.
+/// The offset of an attribute in a row.
 std::size_t PieceAssembly::dataOffset(const PieceArray& array) const
 {
   const bool ofPoints = array.ofPoints();

@@ -27,8 +27,7 @@ void takeCoordinatesAs(
   }
 }
 
-/// The first `dimension` coordinates of points as they stand in a file; 0 for what it does not
-/// have.
+/// Copies the first `dimension` coordinates of points as a file stores them; missing ones are 0.
 inline void takeCoordinates(
   const RawArray& points, const char* raw, std::size_t count, int dimension, double* to)
 {

@@ -16,7 +16,7 @@ namespace tipp
 namespace
 {
 
-// One message of VTK's holds at most 2^31 - 1 values.
+// A VTK message holds at most 2^31 - 1 values.
 constexpr std::size_t mostAtOnce = std::size_t(1) << 30;
 
 constexpr int reduceTag = 4096;
@@ -30,7 +30,7 @@ void broadcastBytes(vtkMultiProcessController* controller, std::string& bytes, i
   }
 }
 
-/// Sized alike everywhere; then its bytes are `from`'s.
+/// Broadcasts the size first, then the bytes of rank `from`.
 void broadcastText(vtkMultiProcessController* controller, std::string& text, int from)
 {
   vtkTypeInt64 size = vtkTypeInt64(text.size());
@@ -169,7 +169,7 @@ std::string Ranks::reduce(const std::string& bytes,
       }
       catch (...)
       {
-        // The others wait for a message in any case.
+        // Rethrown later, because the partner waits for a message in any case.
         failure = std::current_exception();
       }
     }

@@ -16,7 +16,7 @@ namespace
 
 using Words = std::vector<std::uint64_t>;
 
-/// Takes numbers from a list, which may end early.
+/// Reads numbers from a list, which may end early.
 class WordReader
 {
 public:
@@ -49,7 +49,7 @@ void append(Words& words, const Words& more)
   words.insert(words.end(), more.begin(), more.end());
 }
 
-/// Of a key's rows in several files.
+/// Combines the checksums of a key's rows in several files.
 std::uint64_t combined(std::uint64_t sum, std::uint64_t next)
 {
   const std::array<std::uint64_t, 2> both{ sum, next };
@@ -184,7 +184,7 @@ void Spill::write(const std::vector<std::uint32_t>& starts, int threads)
 Words Spill::close()
 {
   std::vector<char>().swap(this->Buffer);
-  this->Out->close(); // or other machines might not see all rows
+  this->Out->close(); // else other machines might not see all rows
   this->Out.reset();
   Words words(this->Rows.begin(), this->Rows.end());
   words.push_back(this->Sums.size());

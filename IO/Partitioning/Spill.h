@@ -19,53 +19,55 @@
 namespace tipp
 {
 
-/// Rows of equal size on their way from chunks of a mesh to the pieces: a distribution sort by a
-/// key through a file of each rank. Within a key the rows stay in the order of their chunks, and of
+/// A distribution sort on disk: rows of equal size from chunks of a mesh are sorted by a key, the
+/// piece, through a file of each rank. Rows of a key stay in the order of the chunks, and of the
 /// ranks.
 ///
-/// A chunk's rows stand in the file by key, behind the list of where each key's begin. So memory
-/// has a number for each key and one for each chunk, but none for each pair of them.
+/// The file holds a chunk's rows sorted by key, preceded by a list of each key's first row. So
+/// memory holds a number per key and one per chunk, but none per pair of them.
 class VTKTIPPIO_EXPORT Spill
 {
 public:
-  /// `keys`: the number of keys. Makes the rank's file, "PATH.RANK"; throws IOError.
+  /// `keys` is the number of keys. Creates the rank's file, "PATH.RANK"; throws IOError.
   Spill(const std::string& path, int rank, std::size_t keys, std::size_t rowBytes);
 
-  /// One that other processes have written: save() told it all after exchange(). Throws
-  /// IOError.
+  /// Opens a spill that other processes have written, from what save() returned after exchange().
+  /// Throws IOError.
   Spill(const std::string& path, std::size_t keys, std::size_t rowBytes,
     const std::vector<std::uint64_t>& saved);
   std::vector<std::uint64_t> save() const;
 
-  /// One that others have written: what close() told on each, in the order of the ranks.
+  /// Opens a spill that other ranks have written, from what close() returned on each, in the order
+  /// of the ranks.
   Spill(const std::string& path, std::size_t keys, std::size_t rowBytes,
     const std::vector<std::vector<std::uint64_t>>& ranks);
 
   std::size_t rowBytes() const { return this->RowBytes; }
-  /// In this rank's file; after exchange() in all ranks'.
+  /// Bytes in this rank's file; after exchange() in all ranks' files.
   std::uint64_t bytes() const;
 
-  /// Adds a chunk: key of each of `count` items, or -1 to leave it out; fill(item, to) writes the
-  /// item's row. Both are called by several threads. Throws IOError.
+  /// Adds a chunk of `count` items: key(item) returns an item's key, or -1 to skip it; fill(item,
+  /// to) writes its row. Both are called by several threads. Throws IOError.
   template <typename Key, typename Fill>
   void add(std::size_t count, int threads, const Key& keyOf, const Fill& fill);
 
-  /// From now on checksums of rows are taken, key by key, and kept with what save() tells: to be
-  /// verified where rows are read. Before all chunks; on all ranks.
+  /// Enables checksums of the rows per key; save() stores them, and reading verifies them. Call it
+  /// before adding chunks, on all ranks.
   void protect();
 
-  /// After all chunks: has every rank know all rows. A call of all ranks. Throws IOError on all.
+  /// Call after all chunks: makes all ranks' rows known to every rank. Collective. Throws IOError
+  /// on all.
   void exchange(const Ranks& ranks);
-  /// The same where the caller carries what it tells, to make one of what all ranks have written.
+  /// The same without communication: returns what the constructor above needs from each rank.
   std::vector<std::uint64_t> close();
 
   std::int64_t rows(std::size_t key) const { return this->Rows[key]; }
-  /// Gives the key's rows, a block of at most `most` at a time, in order. Throws IOError, after the
-  /// last block also where they are not those that were added.
+  /// Passes the key's rows in order, in blocks of at most `most` rows. Throws IOError; if the
+  /// checksum does not match, after the last block.
   void read(std::size_t key, std::size_t most,
     const std::function<void(const char* rows, std::size_t count)>& take) const;
   std::vector<char> readAll(std::size_t key) const;
-  /// All of the key's rows; there must be room for them.
+  /// Reads all of the key's rows; `to` must have room for them.
   void readAll(std::size_t key, void* to) const;
 
 private:
@@ -73,7 +75,7 @@ private:
   struct File
   {
     std::uint64_t Bytes = 0;
-    std::vector<std::uint64_t> Chunks; ///< where each begins
+    std::vector<std::uint64_t> Chunks; ///< offset of each chunk
   };
   struct Room
   {
@@ -96,11 +98,11 @@ private:
   std::size_t Keys;
   std::size_t RowBytes;
   std::optional<OutputFile> Out;               ///< until close()
-  File Mine;                                   ///< then, too
-  std::vector<std::int64_t> Rows;              ///< of each key; of this rank until join()
-  std::vector<char> Buffer;                    ///< a chunk; kept from one chunk to the next
-  std::vector<std::unique_ptr<Checksum>> Sums; ///< of each key, after protect() and until close()
-  std::vector<std::uint64_t> Checksums;        ///< from exchange() on; none: rows are not protected
+  File Mine;                                   ///< until close()
+  std::vector<std::int64_t> Rows;              ///< number per key; this rank's until join()
+  std::vector<char> Buffer;                    ///< a chunk's; reused
+  std::vector<std::unique_ptr<Checksum>> Sums; ///< per key, after protect() and until close()
+  std::vector<std::uint64_t> Checksums;        ///< from exchange() on; empty: not protected
   std::vector<File> Files;                     ///< from exchange() on
 };
 
@@ -118,7 +120,7 @@ template <typename Key, typename Fill>
 void Spill::addChunk(
   std::size_t first, std::size_t count, int threads, const Key& keyOf, const Fill& fill)
 {
-  // A counting sort: each thread counts, then places, one stretch of the items.
+  // A counting sort: each thread counts and then copies one range of the items.
   const std::size_t stretches = std::size_t(threads);
   std::vector<std::vector<std::uint32_t>> places(
     stretches, std::vector<std::uint32_t>(this->Keys, 0));

@@ -12,7 +12,7 @@ namespace
 
 constexpr std::size_t MostNodes = std::size_t(1) << 24;
 
-// Reads two structures side by side.
+// Traverses two structures in parallel.
 class StructureMerger
 {
 public:
@@ -108,7 +108,7 @@ SplitTree::SplitTree(int dimension, const Box3& domain)
 SplitTree::SplitTree(int dimension, const Box3& domain, const std::string& structure)
   : SplitTree(dimension, domain)
 {
-  // Nodes that wait for their letter, the next one last.
+  // Stack of nodes whose letter has not been read, the next one last.
   std::vector<std::int32_t> waiting = { 0 };
   for (const char letter : structure)
   {

@@ -21,7 +21,7 @@ namespace
 constexpr std::int64_t blockPoints = 1 << 16;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Runs work(first point, count, coordinates) over this rank's share in blocks.
+/// Calls work(first point, count, coordinates) for blocks of this rank's share.
 template <typename Work>
 void forEachBlock(const FlatMesh& mesh, const Ranks& ranks, int threads, const Work& work)
 {

@@ -12,13 +12,13 @@
 namespace tipp
 {
 
-/// The bounding box of all points, in as many dimensions as the cells have; 0 in the third of
-/// triangles. Throws IOError naming the first point with a coordinate that is not finite. A call of
-/// all ranks.
+/// Returns the bounding box of all points in the cells' dimension; for triangles z is 0. Throws
+/// IOError naming the first point with a coordinate that is not finite. Collective.
 Box3 surveyPoints(const FlatMesh& mesh, const Ranks& ranks, int threads);
 
-/// Writes each point's home, the first partition whose closed box holds it, to a file of 4 bytes a
-/// point: its id, or -1 - id if others hold the point too. A call of all ranks.
+/// Writes each point's owner, the first partition whose closed box contains it, to a file of 4
+/// bytes per point: the partition's index, or -1 - index if others contain the point, too.
+/// Collective.
 void writeHomes(const FlatMesh& mesh, const BoxTiling& tiling, const std::string& path,
   const Ranks& ranks, int threads);
 

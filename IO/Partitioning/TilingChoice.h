@@ -12,16 +12,17 @@
 namespace tipp
 {
 
-/// How the domain is cut into partitions.
+/// How the domain is split into partitions.
 struct TilingChoice
 {
-  /// Of a regular grid.
+  /// The boxes along each axis of a regular grid.
   std::array<int, 3> Boxes{ 4, 4, 1 };
-  /// Not 0: a quadtree, or octree, whose nodes are split, down to BoxTiling::MaxDepth, if more
-  /// cells than this meet them. Only cells no longer than the node count.
+  /// If not 0: a quadtree or octree; a node that more cells meet is split, down to
+  /// BoxTiling::MaxDepth. Only cells no longer than the node count.
   std::int64_t Threshold = 0;
 
-  /// "grid:4x4", "grid:4x4x2", "quadtree:100000" or "octree:100000"; nothing for any other text.
+  /// Parses "grid:4x4", "grid:4x4x2", "quadtree:100000" or "octree:100000"; nullopt for any other
+  /// text.
   VTKTIPPIO_EXPORT static std::optional<TilingChoice> parse(const std::string& text);
   VTKTIPPIO_EXPORT std::string text(int dimension) const;
 };

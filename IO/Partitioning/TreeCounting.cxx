@@ -48,7 +48,7 @@ bool isWithin(const Box3& a, const Box3& b)
 
 } // namespace
 
-// What one thread counts, and the visits it makes.
+// A thread's counts, and the visits that it records.
 struct TreeCounting::Stretch
 {
   std::size_t Begin;
@@ -141,7 +141,7 @@ void TreeCounting::countAll(const CellShape& shape, std::size_t cells, std::int6
   this->sum(stretches);
 }
 
-// Counts the cell in all nodes that it meets. Where leaves are marked, only notes those of them.
+// Counts the cell in all nodes that it meets. If leaves are marked, records visits to these only.
 void TreeCounting::visitTree(const CellShape& shape, std::uint32_t index, Stretch& stretch) const
 {
   MeasuredCell cell;
@@ -231,7 +231,7 @@ void TreeCounting::collectVisits(const CellShape& shape, std::size_t cells)
   this->takeVisits(stretches);
 }
 
-// Splits the marked leaves and counts in their children the cells that visited them.
+// Splits the marked leaves and counts the cells that visited them in their children.
 void TreeCounting::refineOnce(const CellShape& shape)
 {
   for (std::size_t place = 0, end = this->Tree.size(); place < end; ++place)

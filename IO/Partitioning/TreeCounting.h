@@ -16,8 +16,8 @@ namespace tipp
 /// Cells of each node of a tree.
 struct NodeCounts
 {
-  std::vector<std::int64_t> Meeting; ///< those that share a point with its closed box
-  std::vector<std::int64_t> Fitting; ///< of these, those no longer than the box
+  std::vector<std::int64_t> Meeting; ///< cells that share a point with its closed box
+  std::vector<std::int64_t> Fitting; ///< of these, the cells no longer than the box
 
   void resize(std::size_t nodes)
   {
@@ -27,15 +27,15 @@ struct NodeCounts
 };
 
 /// Counts cells in the nodes of a tree that grows meanwhile: a leaf with more than `limit` fitting
-/// cells is split, again and again, and the chunk's cells go to its children. Cells of chunks
-/// before are not counted in those.
+/// cells is split repeatedly, and the chunk's cells are counted in its children. Cells of earlier
+/// chunks are not counted in those.
 class VTKTIPPIO_EXPORT TreeCounting
 {
 public:
   TreeCounting(SplitTree& tree, int maxDepth, int threads);
 
-  /// The chunk's first cell is the mesh's cell firstCell. Throws IOError if a coordinate is not
-  /// finite or a cell lies outside the domain.
+  /// firstCell is the index in the mesh of the chunk's first cell. Throws IOError if a coordinate
+  /// is not finite or a cell lies outside the domain.
   void add(const CellsView& chunk, std::int64_t firstCell, std::int64_t limit);
 
   const NodeCounts& counts() const { return this->Counts; }
@@ -63,7 +63,7 @@ private:
   int Threads;
   NodeCounts Counts;
   std::vector<std::uint8_t> Marked; // leaves to be split
-  std::vector<Visit> Visits;        // of cells to these
+  std::vector<Visit> Visits;        // of cells to the marked leaves
 };
 
 } // namespace tipp

@@ -17,13 +17,13 @@ namespace
 
 struct PointOfPiece
 {
-  std::int64_t Id; ///< global
+  std::int64_t Id; ///< global id
   std::uint32_t Piece;
   std::uint8_t Ghost;
   std::int64_t Point;
 };
 
-/// Sorts values that come in a few ascending runs, as a piece's ids do.
+/// Sorts values that consist of a few ascending runs, as a piece's ids do.
 template <typename Value, typename Less>
 void sortRuns(std::vector<Value>& values, const Less& less)
 {
@@ -54,7 +54,7 @@ void sortRuns(std::vector<Value>& values, const Less& less)
   }
 }
 
-/// Tuples of one of the pieces, and where they go.
+/// Tuples of one of the pieces, and their targets.
 struct TupleMoves
 {
   std::vector<std::uint64_t> Sources;
@@ -99,7 +99,7 @@ public:
   }
 
 private:
-  /// Appends the cells' points that are not there yet, by global id.
+  /// Appends the cells' points that are not in the result yet, by global id.
   void pick(const std::vector<CellOfPiece>& cells, bool allPoints)
   {
     if (cells.empty() && !allPoints)
@@ -138,11 +138,11 @@ private:
 
   void number(std::vector<PointOfPiece>& found)
   {
-    // The copy that is no ghost comes first.
+    // Of a point's copies the one that is not a ghost comes first.
     sortRuns(found,
       [](const PointOfPiece& a, const PointOfPiece& b)
       { return std::tie(a.Id, a.Ghost, a.Piece) < std::tie(b.Id, b.Ghost, b.Piece); });
-    // Those of the cells before, sorted: a copy of one of them in another piece is no new point.
+    // Points of the previous cells, sorted: their copies in other pieces are not new points.
     const std::size_t before = this->Points.size();
     for (std::size_t i = 0; i < found.size(); ++i)
     {
@@ -234,7 +234,7 @@ private:
     }
   }
 
-  /// An array of `count` tuples; data(piece) has those of a piece.
+  /// Appends an array of `count` tuples; data(piece) returns a piece's own values.
   template <typename Data>
   RawBuffer gather(const std::vector<TupleMoves>& moves, std::size_t count, std::size_t bytes,
     const Data& data) const
@@ -252,7 +252,8 @@ private:
   static constexpr std::int64_t wanted = -2;
 
   std::vector<const Piece*> Pieces;
-  std::vector<std::vector<std::int64_t>> Places; ///< in the result; or absent, or wanted
+  /// of each piece's points: index in the result, or absent, or wanted
+  std::vector<std::vector<std::int64_t>> Places;
   std::vector<PointOfPiece> Points;
   std::vector<CellOfPiece> Cells;
 };

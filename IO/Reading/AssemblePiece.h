@@ -11,20 +11,20 @@
 namespace tipp
 {
 
-/// A cell of one of several pieces.
+/// A cell of one of several pieces, by its index in the piece.
 struct CellOfPiece
 {
   std::size_t Piece;
   std::int64_t Cell;
 };
 
-/// One piece of some cells of several, with each point once, known by its global id. A point is no
-/// ghost in it if it is none in one of the pieces. `allPoints` keeps those of the pieces' own
-/// points, too, that no cell uses.
+/// Builds one piece from cells of several pieces, with each point once, identified by its global
+/// id. A point is a ghost only if it is one in all pieces that have it. `allPoints` also keeps the
+/// pieces' own points that no cell uses.
 Piece assemblePiece(const std::vector<const Piece*>& pieces, const std::vector<CellOfPiece>& owned,
   const std::vector<CellOfPiece>& ghosts, bool allPoints);
 
-/// The pieces as one, cells in the pieces' order. A cell that one of them owns is no ghost.
+/// Merges pieces; cells are in the pieces' order. A cell that one of them owns is no ghost.
 Piece mergePieces(const std::vector<const Piece*>& pieces);
 
 } // namespace tipp

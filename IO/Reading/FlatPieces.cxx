@@ -22,7 +22,7 @@ namespace tipp
 namespace
 {
 
-/// A's ids and B's, each once; both ascend.
+/// The union of a and b, both ascending.
 std::vector<std::int64_t> united(
   const std::vector<std::int64_t>& a, const std::vector<std::int64_t>& b)
 {
@@ -45,7 +45,7 @@ RawBuffer bufferOf(const std::vector<std::int64_t>& values)
   return buffer;
 }
 
-/// 3 coordinates a point from 2, the third 0.
+/// Converts 2 coordinates per point to 3, the third 0.
 RawBuffer withThird(const RawBuffer& flat, std::int64_t points, std::size_t scalar)
 {
   RawBuffer three(std::size_t(points) * 3 * scalar);
@@ -81,7 +81,8 @@ LoaderOptions FlatPieces::loading() const
   return loading;
 }
 
-/// Of a chunk with its coordinates: as many as fit into a quarter of the memory.
+/// The number of cells in a chunk: with their coordinates they fit in a quarter of the memory
+/// limit.
 std::int64_t FlatPieces::chunkCells() const
 {
   const auto corners = std::size_t(this->Flat.CellSize);
@@ -93,7 +94,7 @@ std::int64_t FlatPieces::chunkCells() const
 
 void FlatPieces::prepare(const Ranks& ranks)
 {
-  // All together or none, for what follows is the work of all.
+  // All ranks or none must go on, because the next step is collective.
   if (ranks.sum({ this->Tiling ? 0 : 1 })[0] == 0)
   {
     return;
@@ -121,8 +122,8 @@ void FlatPieces::prepare(const Ranks& ranks)
   this->PointCounts = ranks.sum(counts);
 }
 
-/// Calls visit(point, home) for points in ascending order. A point's home is the first partition
-/// that holds it.
+/// Calls visit(point, owner) for points in ascending order. A point's owner is the first partition
+/// that contains it.
 template <typename Visit>
 void FlatPieces::forEachHome(std::int64_t first, std::int64_t last, const Visit& visit) const
 {

@@ -12,8 +12,8 @@
 namespace tipp
 {
 
-/// The pieces of a flat mesh, made in memory: chunk by chunk the cells' coordinates are loaded by
-/// Direct Load and the cells classified; those of the pieces asked for stay.
+/// The pieces of a flat mesh, made in memory: chunk by chunk, Direct Load loads the coordinates of
+/// cells, and the cells are classified; those of the requested pieces are kept.
 class FlatPieces : public PieceSource
 {
 public:
@@ -25,11 +25,11 @@ public:
     const std::vector<std::size_t>& numbers, const PieceOptions& options) override;
 
 private:
-  /// What is known of a piece before its arrays are loaded.
+  /// A piece before its arrays are loaded. Ids are indices in the flat mesh.
   struct Draft
   {
-    std::vector<std::int64_t> Cells;   ///< owned
-    std::vector<std::int64_t> Corners; ///< of those, CellSize global ids each
+    std::vector<std::int64_t> Cells;   ///< owned cells
+    std::vector<std::int64_t> Corners; ///< CellSize point ids for each of these cells
     std::vector<std::int64_t> Borrowed;
     std::vector<std::int64_t> BorrowedCorners;
     std::vector<std::int64_t> HomePoints; ///< ascending, as all the others
@@ -49,7 +49,7 @@ private:
 
   FlatMesh Flat;
   SourceOptions Options;
-  std::vector<RawArray> Arrays; ///< where those of Mesh.Arrays lie
+  std::vector<RawArray> Arrays; ///< the data of Mesh.Arrays
   std::optional<BoxTiling> Tiling;
   std::vector<std::int64_t> PointCounts; ///< of each piece
 };

@@ -13,11 +13,11 @@
 namespace tipp
 {
 
-/// The last used pieces of one mesh.
+/// An LRU cache of the pieces of one mesh.
 class VTKTIPPIO_EXPORT PieceCache
 {
 public:
-  /// What was read of a piece.
+  /// Identifies what was read of a piece.
   struct Key
   {
     std::size_t Number;
@@ -32,10 +32,10 @@ public:
     }
   };
 
-  /// Null if it is not there.
+  /// Null if the piece is not cached.
   std::shared_ptr<const Piece> find(const Key& key);
   void keep(const Key& key, std::shared_ptr<const Piece> piece);
-  /// Drops the pieces that were used longest ago, down to so many.
+  /// Drops the least recently used pieces until `pieces` are left.
   void shrink(std::size_t pieces);
   void clear() { this->Entries.clear(); }
 
@@ -45,7 +45,7 @@ private:
     Key What;
     std::shared_ptr<const Piece> Held;
   };
-  std::list<Entry> Entries; ///< the last used one first
+  std::list<Entry> Entries; ///< the most recently used one first
 };
 
 } // namespace tipp

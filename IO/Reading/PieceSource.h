@@ -19,12 +19,12 @@ namespace tipp
 struct SourceOptions
 {
   TilingChoice Tiling; ///< of a flat mesh; a partitioned one has its own
-  std::uint64_t MemoryLimit = std::uint64_t(2) << 30; ///< in bytes, besides the pieces themselves
-  int Threads = 0;                                    ///< 0: OpenMP's choice
+  std::uint64_t MemoryLimit = std::uint64_t(2) << 30; ///< in bytes, without the pieces themselves
+  int Threads = 0;                                    ///< 0: OpenMP's default
 };
 
-/// Where pieces come from: a partitioned mesh on disk, or a flat one that is partitioned as it is
-/// read. Both give the same pieces, but for the order of the points and cells in them.
+/// A source of pieces: a partitioned mesh on disk, or a flat mesh that is partitioned as it is
+/// read. Both give the same pieces, except for the order of points and cells in them.
 class PieceSource
 {
 public:
@@ -33,14 +33,14 @@ public:
   PieceSource(const PieceSource&) = delete;
   PieceSource& operator=(const PieceSource&) = delete;
 
-  /// Arrays and times are known from the beginning, pieces once they are prepared.
+  /// Arrays and times are known after construction, pieces after prepare().
   const PartitionedMesh& mesh() const { return this->Mesh; }
 
-  /// A call of all ranks, before weights() and read(). Throws IOError.
+  /// Collective; must precede weights() and read(). Throws IOError.
   virtual void prepare(const Ranks& ranks) = 0;
-  /// How much work each piece is, for a fair share.
+  /// The work that each piece takes, for load balancing.
   virtual std::vector<std::int64_t> weights() const = 0;
-  /// The pieces of these numbers. Throws IOError.
+  /// Returns the pieces with these indices. Throws IOError.
   virtual std::vector<Piece> read(
     const std::vector<std::size_t>& numbers, const PieceOptions& options) = 0;
 
@@ -48,7 +48,7 @@ protected:
   PartitionedMesh Mesh;
 };
 
-/// Opens either kind; throws IOError.
+/// Opens a partitioned or a flat mesh; throws IOError.
 std::unique_ptr<PieceSource> openPieceSource(
   const std::string& path, const SourceOptions& options = {});
 

@@ -14,7 +14,7 @@ namespace tipp
 namespace
 {
 
-constexpr std::uint8_t insideRange = 0x80; ///< in place of sides
+constexpr std::uint8_t insideRange = 0x80; ///< used instead of the bits of sides
 
 bool boxesMeet(const Box3& a, const Box3& b)
 {
@@ -47,7 +47,7 @@ Box3 boxOf(const PartitionedMesh& mesh, const Bounds& bounds)
   Box3 box;
   for (std::size_t axis = 0; axis < (mesh.CellSize == 3 ? 2 : 3); ++axis)
   {
-    // Infinite bounds are all that a double can hold, for predicates want finite ones.
+    // Infinite bounds become the largest double, because predicates need finite numbers.
     constexpr double most = std::numeric_limits<double>::max();
     box.Min[axis] = std::clamp(bounds[2 * axis], -most, most);
     box.Max[axis] = std::clamp(bounds[2 * axis + 1], -most, most);
@@ -59,7 +59,8 @@ RangeFilter::RangeFilter(const PartitionedMesh& mesh, const Bounds& range)
   : Mesh(mesh)
   , Range(boxOf(mesh, range))
 {
-  // Beyond the domain there is nothing to meet; predicates like bounds of the mesh's own size.
+  // Clip to the domain, outside of which there are no cells, so that the predicates get numbers of
+  // the mesh's own magnitude.
   const Box3 domain = boxOf(mesh, mesh.Domain);
   const bool apart = !boxesMeet(this->Range, domain);
   for (std::size_t axis = 0; axis < 3 && !apart; ++axis)
@@ -161,7 +162,7 @@ std::vector<std::uint8_t> RangeFilter::sidesOfPoints(const Piece& piece) const
   {
     const std::array<double, 3> xyz = pointOf(piece, point);
     int beyond = 0;
-    bool within = true; // not for NaN
+    bool within = true; // false for NaN
     for (std::size_t axis = 0; axis < axes; ++axis)
     {
       beyond |= int(xyz[axis] < this->Range.Min[axis]) << (2 * axis);

@@ -13,23 +13,23 @@
 namespace tipp
 {
 
-/// A closed box that cells must share a point with, decided exactly; triangles by x and y alone.
+/// Selects cells that share a point with a closed box, decided exactly; triangles by x and y alone.
 class RangeFilter
 {
 public:
   RangeFilter(const PartitionedMesh& mesh, const Bounds& range);
 
-  /// The pieces whose partition the range meets, ascending.
+  /// The indices of the pieces whose partition meets the range, ascending.
   const std::vector<std::size_t>& pieces() const { return this->Open; }
 
-  /// The cells of a piece that meet the range, and their points. The piece comes with its borrowed
-  /// cells: one whose owner is not among pieces() belongs to the lowest of those that it meets, and
-  /// likewise a point. `borrowed`: the other borrowed ones stay, as ghosts.
+  /// Returns the cells of a piece that meet the range, and their points. `piece` must include its
+  /// borrowed cells: a cell whose owner is not among pieces() is assigned to the lowest of those
+  /// that it meets; likewise a point. `borrowed`: keep the other borrowed cells as ghosts.
   Piece apply(const Piece& piece, std::size_t number, bool borrowed) const;
 
 private:
   bool meets(const Piece& piece, std::int64_t cell, const Box3& box) const;
-  /// A bit of each point for each side of the range that it lies beyond.
+  /// For each point a bit mask of the sides of the range that it lies outside of.
   std::vector<std::uint8_t> sidesOfPoints(const Piece& piece) const;
   bool meetsRange(
     const Piece& piece, std::int64_t cell, const std::vector<std::uint8_t>& sides) const;
@@ -41,7 +41,7 @@ private:
   std::vector<std::size_t> Open;
 };
 
-/// A piece's box; in the plane with nothing along z.
+/// Converts a piece's bounds to a box; in 2D the z range is [0, 0].
 Box3 boxOf(const PartitionedMesh& mesh, const Bounds& bounds);
 
 } // namespace tipp

@@ -13,7 +13,7 @@ class vtkFieldData;
 namespace tipp
 {
 
-/// The names of the arrays; those without a name are left out.
+/// The names of the arrays; unnamed ones are skipped.
 VTKTIPPIO_EXPORT std::set<std::string> arrayNames(vtkFieldData* data);
 
 } // namespace tipp

@@ -17,11 +17,11 @@
 namespace tipp
 {
 
-/// Values that a thread checks at a time.
+/// Number of values that a thread checks at a time.
 constexpr std::int64_t checkedAtOnce = 1 << 16;
 constexpr const char* repairAdvice = "; repair it or write it again.";
 
-/// The cells of one vtkCellArray, with ids of type Id.
+/// Checks the cells of one vtkCellArray with ids of type Id.
 template <typename Id>
 class CellArrayCheck
 {
@@ -38,8 +38,8 @@ public:
   {
   }
 
-  /// That they ascend from 0 to at most the number of ids, and that each cell has at least so
-  /// many vertices, and, where types are given, as many as its type allows.
+  /// Checks that offsets ascend from 0 to at most the number of ids, and that each cell has at
+  /// least `least` vertices and, if types are given, as many as its type allows.
   void offsets(std::int64_t least, const unsigned char* types) const
   {
     if (this->Cells == 0)
@@ -65,7 +65,8 @@ public:
     }
   }
 
-  /// After offsets(): the ids are those of `count` items, as "point".
+  /// Call after offsets(): checks that all ids are in [0, count); `item` is for errors, such as
+  /// "point".
   void ids(std::int64_t count, const std::string& item) const
   {
     const std::int64_t used = this->Cells > 0 ? std::int64_t(this->Offsets[this->Cells]) : 0;
@@ -73,7 +74,7 @@ public:
     forChunks(used, checkedAtOnce, this->Threads, {},
       [&](std::int64_t begin, std::int64_t end, int)
       {
-        Unsigned all = 0; // negative if an id is, or is above the last one
+        Unsigned all = 0; // negative if an id is, or is too large
         for (std::int64_t i = begin; i < end; ++i)
         {
           const auto id = Unsigned(this->Ids[i]);
@@ -99,8 +100,8 @@ private:
     return std::int64_t(this->Offsets[cell + 1]) - std::int64_t(this->Offsets[cell]);
   }
 
-  /// Whether the cells are of one type of a fixed size and have that size: most meshes are so, and
-  /// one pass over their offsets tells it.
+  /// Whether all cells are of one type of fixed size and have that size: most meshes are like that,
+  /// and one pass over the offsets is enough.
   bool areAlike(const unsigned char* types, std::int64_t begin, std::int64_t end) const
   {
     const auto size = Unsigned(cellSizeOf(types[begin]));
@@ -114,14 +115,14 @@ private:
     {
       different |= Unsigned(this->Offsets[i + 1]) - Unsigned(this->Offsets[i]) - size;
     }
-    // No sum wraps around: between two offsets that are not negative there is not room for it.
+    // No sum wraps around: two non-negative offsets are too close for that.
     static_assert(checkedAtOnce < (std::int64_t(1) << 24));
     return different == 0;
   }
 
   void requireSizes(std::int64_t begin, std::int64_t end, std::int64_t least) const
   {
-    Unsigned all = 0; // negative if an offset is, or if a size is below the least
+    Unsigned all = 0; // negative if an offset is, or if a size is below the minimum
     for (std::int64_t i = begin; i < end; ++i)
     {
       const auto next = Unsigned(this->Offsets[i + 1]);

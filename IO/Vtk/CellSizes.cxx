@@ -33,7 +33,7 @@ bool varies(int type)
   }
 }
 
-/// The least size of a type that varies.
+/// The least number of vertices of a type whose number varies.
 std::int64_t leastSize(int type)
 {
   switch (type)
@@ -73,8 +73,8 @@ int tabulated(int type)
   return type >= 0 && type < 256 ? sizes[std::size_t(type)] : unknown;
 }
 
-/// Whether the vertices of a cell of higher order make up a whole one of the same order along all
-/// its edges.
+/// Whether the number of vertices fits a cell of higher order with the same order along all its
+/// edges.
 bool isHigherOrder(int type, std::int64_t size)
 {
   for (std::int64_t n = 1; n <= size; ++n)

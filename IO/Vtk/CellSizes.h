@@ -7,13 +7,13 @@
 namespace tipp
 {
 
-/// Whether VTK has cells of this type.
+/// Whether VTK has this cell type.
 bool isCellType(int type);
 
-/// How many vertices all cells of a type have; 0 if the number varies.
+/// The number of vertices of a cell type; 0 if it varies.
 int cellSizeOf(int type);
 
-/// Whether a cell of the type can have so many vertices.
+/// Whether a cell of the type can have `size` vertices.
 bool isCellSize(int type, std::int64_t size);
 
 } // namespace tipp

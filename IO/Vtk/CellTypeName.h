@@ -9,7 +9,7 @@
 namespace tipp
 {
 
-/// VTK's name of a type of cells; its number in a build without VTK.
+/// VTK's name of a cell type; its number in a build without VTK.
 VTKTIPPIO_EXPORT std::string cellTypeName(int type);
 
 } // namespace tipp

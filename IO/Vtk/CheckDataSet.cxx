@@ -35,8 +35,8 @@ namespace tipp
 namespace
 {
 
-/// What a data set is made of, as one number: times of modification, places in memory and sizes.
-/// Its own time of modification alone does not tell that its cells have been replaced.
+/// A hash of a data set's modification times, addresses and sizes. Its own modification time does
+/// not change when its cells are replaced.
 class Stamp
 {
 public:
@@ -66,7 +66,7 @@ public:
     }
   }
 
-  /// Whether an earlier one with the key's name, kept in the data set's information, is the same.
+  /// Whether the stamp stored under the key in the data set's information equals this one.
   bool isKept(vtkDataSet* data, vtkInformationUnsignedLongKey* key) const
   {
     vtkInformation* const info = data->GetInformation();
@@ -217,7 +217,7 @@ private:
     std::int64_t due = 1;
     for (int axis = 0; axis < 3; ++axis)
     {
-      // A product beyond the points is too large, whatever comes after.
+      // Once the product exceeds the number of points, the data set is invalid.
       due = due > points ? due : due * std::max(dimensions[axis], 0);
     }
     if (due > points)
@@ -266,7 +266,7 @@ private:
   }
 
 #if TIPP_VTK_FACES_ARE_CELLS
-  /// The faces of all polyhedra are a cell array; another one lists those of each cell.
+  /// The faces of all polyhedra are one cell array; another lists the faces of each cell.
   void checkPolyhedra(
     vtkUnstructuredGrid* grid, const unsigned char* types, std::int64_t count) const
   {
@@ -294,7 +294,8 @@ private:
     }
   }
 
-  /// Of one polyhedron: a count of faces, and of each a count of vertices and the ids.
+  /// Checks one polyhedron's face stream: the number of faces, and for each the number of vertices
+  /// and their ids.
   void checkFaces(vtkUnstructuredGrid* grid, std::int64_t cell) const
   {
     vtkIdTypeArray* const places = grid->GetFaceLocations();
@@ -336,7 +337,7 @@ private:
     this->checkCellArray(cells, what, least, types, "point", this->Data->GetNumberOfPoints());
   }
 
-  /// Its ids are those of `count` items. A null array has no cells.
+  /// Its ids must be in [0, count). A null array has no cells.
   void checkCellArray(vtkCellArray* cells, const std::string& what, std::int64_t least,
     const unsigned char* types, const std::string& item, std::int64_t count) const
   {
@@ -365,7 +366,7 @@ private:
   int Threads;
 };
 
-/// Whether all of them are finite: a sum of the exponents' highest values overflows into the sign.
+/// Whether all values are finite: adding to the highest exponents overflows into the sign bit.
 template <typename Bits, typename Real>
 bool areFinite(const Real* values, std::int64_t count, int threads)
 {

@@ -17,16 +17,16 @@ namespace tipp
 /// The points, and that no point array has fewer tuples than there are points.
 VTKTIPPIO_EXPORT void checkPoints(vtkDataSet* data, const std::string& name);
 
-/// The cells: offsets ascend and end within the vertex ids, types are known and fit the number of
-/// vertices, and all ids are of points that exist. A data set that has not been modified since is
-/// not checked again. `threads` is 0 for OpenMP's choice.
+/// Checks the cells: offsets ascend and end within the vertex ids, types are known and fit the
+/// number of vertices, and all ids are of points that exist. A data set that has not been modified
+/// since its last check is not checked again. `threads` = 0 is OpenMP's default.
 VTKTIPPIO_EXPORT void checkCells(vtkDataSet* data, const std::string& name, int threads = 0);
 
-/// Both, and that no cell array has fewer tuples than there are cells.
+/// Checks points and cells, and that no cell array has fewer tuples than there are cells.
 VTKTIPPIO_EXPORT void checkDataSet(vtkDataSet* data, const std::string& name, int threads = 0);
 ///@}
 
-/// Whether no coordinate is NaN or infinite. That there is none is kept as by checkCells().
+/// Whether all coordinates are finite. A positive result is cached as by checkCells().
 VTKTIPPIO_EXPORT bool allPointsFinite(vtkDataSet* data, int threads = 0);
 
 } // namespace tipp

@@ -27,7 +27,7 @@ using Tag = XmlScanner::Tag;
 
 constexpr const char* advised = "; copy or write it again.";
 
-/// No compressor of VTK's writers but lzma makes a block shorter by more.
+/// The maximum compression ratio of VTK's compressors except lzma.
 constexpr double compression = 1100;
 
 bool isXml(const std::string& extension)
@@ -37,7 +37,7 @@ bool isXml(const std::string& extension)
   return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
-/// The text up to the appended data's tag.
+/// The text up to the tag of the appended data.
 std::string readText(const InputFile& file)
 {
   constexpr std::uint64_t step = 1 << 16;
@@ -126,7 +126,7 @@ private:
       hasFormat(tag, "binary");
   }
 
-  /// The data after the tag at byte `begin`.
+  /// Checks the data after the tag at byte `begin`.
   void checkAppended(std::uint64_t begin) const
   {
     constexpr std::uint64_t most = 4096;
@@ -192,7 +192,7 @@ private:
     {
       const std::string path =
         (std::filesystem::path(this->File.path()).parent_path() / *source).string();
-      // A file that is missing is told of by its reader.
+      // The reader reports a missing file.
       if (std::filesystem::is_regular_file(path) && extensionOf(path).substr(0, 2) != ".p")
       {
         checkVtkFile(path);
@@ -220,7 +220,7 @@ private:
     return double(*count);
   }
 
-  /// Which have no array of their own in an image.
+  /// The number of points of an image, which has no array for them.
   double pointsOf(const Tag& tag, const char* key) const
   {
     const std::string& text = *tag.find(key);
@@ -245,7 +245,7 @@ private:
       points *= std::max(length, 0.0);
       count = length > std::numeric_limits<int>::max() ? 0 : count;
     }
-    // Beyond, products of dimensions overflow.
+    // Larger products of dimensions would overflow.
     if (count != 6 || points > 1e18)
     {
       this->fail(
@@ -305,7 +305,7 @@ private:
   }
 
   const InputFile File;
-  double Room; ///< the most values of a byte each that the file can hold
+  double Room; ///< the most one-byte values that the file can hold
   double Whole = 0;
   double Points = 0;
   double Cells = 0;

@@ -10,8 +10,8 @@ namespace tipp
 {
 
 /// Reads the headers in a VTK file, XML or legacy, and throws IOError if they give counts that the
-/// file's bytes cannot hold: VTK's readers would ask for that memory, or count to that number. Of a
-/// parallel file its pieces' files are checked, too. Files of other kinds pass.
+/// file's size cannot hold: VTK's readers would allocate that much memory, or loop that often. Of a
+/// parallel file its pieces' files are checked, too. Files of other kinds are accepted.
 VTKTIPPIO_EXPORT void checkVtkFile(const std::string& path);
 
 } // namespace tipp

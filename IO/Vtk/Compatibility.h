@@ -2,7 +2,7 @@
 #ifndef tippCompatibility_h
 #define tippCompatibility_h
 
-// What differs between the VTK releases that TIPP is built against, from 9.1 to 9.7.
+// Differences between the VTK releases that TIPP is built against, from 9.1 to 9.7.
 
 #include "vtkAlgorithm.h"
 #include "vtkSmartPointer.h"
@@ -10,11 +10,11 @@
 #include "vtkUnstructuredGrid.h"
 #include "vtkVersionMacros.h"
 
-// VTK 9.3 and ParaView 5.11 have vtkAlgorithm::CheckAbort() and leave AbortExecute as it is;
-// before, an execution began by resetting it.
+// VTK 9.3 and ParaView 5.11 have vtkAlgorithm::CheckAbort() and do not change AbortExecute; earlier
+// ones reset it when an execution begins.
 #define TIPP_VTK_CHECKS_ABORT (VTK_VERSION_NUMBER > VTK_VERSION_CHECK(9, 2, 20221101))
 
-// VTK 9.4 keeps the faces of polyhedra in cell arrays.
+// VTK 9.4 stores the faces of polyhedra in cell arrays.
 #define TIPP_VTK_FACES_ARE_CELLS (VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 4, 0))
 
 // VTK 9.7 has writers override WriteDataAndReturn(), and arrays reserve memory by ReserveTuples().
@@ -23,7 +23,7 @@
 namespace tipp
 {
 
-/// Whether the user asked the running algorithm to stop; since VTK 9.3 also by way of a filter
+/// Whether the user has asked the running algorithm to stop; since VTK 9.3 also through a filter
 /// upstream.
 inline bool abortRequested(vtkAlgorithm* algorithm)
 {
@@ -34,7 +34,7 @@ inline bool abortRequested(vtkAlgorithm* algorithm)
 #endif
 }
 
-/// For what executes without VTK's pipeline: does what the pipeline does to AbortExecute.
+/// Resets AbortExecute as VTK's pipeline does, for executions outside of it.
 inline void beginExecution([[maybe_unused]] vtkAlgorithm* algorithm)
 {
 #if !TIPP_VTK_CHECKS_ABORT
@@ -42,8 +42,7 @@ inline void beginExecution([[maybe_unused]] vtkAlgorithm* algorithm)
 #endif
 }
 
-/// The types of cells as the grid stores them: in VTK 9.6 also by an array that computes its
-/// values.
+/// The cell types as the grid stores them: in VTK 9.6 that may be an implicit array.
 inline vtkDataArray* storedCellTypes(vtkUnstructuredGrid* grid)
 {
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
@@ -53,7 +52,7 @@ inline vtkDataArray* storedCellTypes(vtkUnstructuredGrid* grid)
 #endif
 }
 
-/// The type of each cell in plain memory; null if the grid has none.
+/// The type of each cell in contiguous memory; null if the grid has none.
 inline vtkSmartPointer<vtkUnsignedCharArray> cellTypes(vtkUnstructuredGrid* grid)
 {
   vtkDataArray* const types = storedCellTypes(grid);

@@ -12,7 +12,7 @@ void ErrorKeeper::Execute(vtkObject*, unsigned long event, void* text)
 {
   this->HasError = this->HasError || event == vtkCommand::ErrorEvent;
   const std::string message = plainMessage(text ? static_cast<const char*>(text) : "");
-  // The pipeline's own word adds nothing to what failed before.
+  // The pipeline's own message adds nothing to the error before it.
   const bool isEcho = message.find("returned failure for request") != std::string::npos;
   if (!message.empty() && !isEcho)
   {
@@ -29,7 +29,7 @@ std::string plainMessage(const std::string& text)
   message = std::regex_replace(message, object, "");
   message.erase(std::min(message.find('\n'), message.size()));
   message = std::regex_replace(message, address, "");
-  // Names and words of a damaged file may hold anything.
+  // Text from a damaged file may hold any bytes.
   std::replace_if(
     message.begin(), message.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; },
     '?');

@@ -11,8 +11,8 @@
 namespace tipp
 {
 
-/// Observes ErrorEvent and WarningEvent: keeps the texts instead of printing them, without the
-/// source file, line, class and address that VTK puts before them.
+/// Observes ErrorEvent and WarningEvent: collects the messages instead of printing them, without
+/// the prefix of source file, line, class and address.
 class VTKTIPPIO_EXPORT ErrorKeeper : public vtkCommand
 {
 public:
@@ -20,14 +20,14 @@ public:
 
   void Execute(vtkObject*, unsigned long event, void* text) override;
 
-  /// The first one, which says most; empty if there was none.
+  /// The first message, which is the most specific; empty if there was none.
   std::string message() const { return this->Messages.empty() ? "" : this->Messages.front(); }
 
   bool HasError = false;
   std::vector<std::string> Messages;
 };
 
-/// What VTK's text "ERROR: In file, line n\nclass (address): what went wrong\n\n" says, in one
+/// Extracts the message from VTK's "ERROR: In file, line n\nclass (address): message\n\n", on one
 /// line.
 VTKTIPPIO_EXPORT std::string plainMessage(const std::string& text);
 

@@ -46,7 +46,7 @@ std::optional<std::int64_t> numberIn(std::string_view word)
                                                                    : std::nullopt;
 }
 
-/// The words of a line that may be a header; none if it is too long, as binary data are.
+/// The words of a line that may be a header; none if the line is too long, as in binary data.
 Words wordsOf(std::string_view line)
 {
   Words words;
@@ -110,12 +110,12 @@ private:
     throw IOError(this->Path, problem + advice);
   }
 
-  /// A count of the line, of things of so many values each.
+  /// The count in a word of the line; each item has `each` values.
   double count(const Words& words, std::size_t place, double each = 1) const
   {
     const std::optional<std::int64_t> value =
       place < words.size() ? numberIn(words[place]) : std::make_optional<std::int64_t>(0);
-    // What is no number, VTK tells.
+    // VTK reports words that are not numbers.
     if (value && (*value < 0 || double(*value) * each > double(this->Text.size())))
     {
       this->fail("gives '" + shownText(std::string(words[place])) + "' after '" +
@@ -195,14 +195,14 @@ private:
       }
       points *= value ? double(*value) : 1;
     }
-    // Beyond, products of dimensions overflow.
+    // Larger products of dimensions would overflow.
     if (points > 1e18)
     {
       this->fail("gives DIMENSIONS that are no number of points");
     }
   }
 
-  /// Before version 5 cells are a row of numbers: of each a count, and so many ids.
+  /// Before version 5 cells are a list of numbers: for each cell a count, and that many ids.
   void walk(const std::string& key, std::int64_t cells, std::int64_t size)
   {
     const std::string_view rest = std::string_view(this->Text).substr(this->At);

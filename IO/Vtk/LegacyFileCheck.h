@@ -7,8 +7,8 @@
 namespace tipp
 {
 
-/// checkVtkFile() for a legacy file (.vtk). It also walks through the cells of a file before
-/// version 5, whose counts VTK follows without a check.
+/// Implements checkVtkFile() for a legacy file (.vtk). It also traverses the cells of a file before
+/// version 5, whose counts VTK does not check.
 void checkLegacyFile(const std::string& path);
 
 } // namespace tipp

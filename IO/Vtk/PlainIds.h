@@ -14,9 +14,9 @@ class vtkDataArray;
 namespace tipp
 {
 
-/// The integers of a VTK array as signed integers of 32 or 64 bits in plain memory: the array's own
-/// memory if that is their form, else a copy. What is asked is the array itself, since a
-/// vtkCellArray of VTK 9.6 has more kinds of storage than its IsStorage64Bit() tells apart.
+/// The integers of a VTK array as signed 32-bit or 64-bit integers in contiguous memory: the
+/// array's own memory if it has that form, else a copy. The array itself is inspected, since a
+/// vtkCellArray of VTK 9.6 has more kinds of storage than its IsStorage64Bit() distinguishes.
 class VTKTIPPIO_EXPORT PlainIds
 {
 public:
@@ -25,11 +25,11 @@ public:
   explicit PlainIds(vtkDataArray* array);
 
   const void* data() const;
-  /// Whether they have 64 bits.
+  /// Whether the integers have 64 bits.
   bool isWide() const;
   std::int64_t count() const;
 
-  /// As ids of 64 bits, which copies those of 32.
+  /// As 64-bit integers; 32-bit ones are copied.
   PlainIds widened() const;
 
 private:
@@ -41,7 +41,7 @@ struct VTKTIPPIO_EXPORT PlainCells
 {
   explicit PlainCells(vtkCellArray* cells);
 
-  PlainIds Offsets; ///< one more than cells
+  PlainIds Offsets; ///< number of cells + 1
   PlainIds Ids;
 };
 

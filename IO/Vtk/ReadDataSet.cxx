@@ -36,8 +36,7 @@ namespace tipp
 namespace
 {
 
-/// Takes, while it lives, what VTK would print: readers have further objects at work whose errors
-/// they do not hand on.
+/// Captures what VTK would print: readers use internal objects whose errors they do not forward.
 class ErrorWindow
 {
 public:
@@ -45,7 +44,7 @@ public:
     : Before(vtkOutputWindow::GetInstance())
     , Verbosity(vtkLogger::GetCurrentVerbosityCutoff())
   {
-    // VTK's log prints all errors as well, whatever the window does.
+    // VTK's log prints all errors as well, independently of the window.
     vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
     const auto window = vtkSmartPointer<Window>::New();
     window->Errors = errors;
@@ -123,7 +122,7 @@ const std::map<std::string, ReadFunction>& readFunctions()
 
 std::atomic<const char*> currentFile{ nullptr };
 
-/// Names the file while this object lives.
+/// Registers the file being read.
 class CurrentFile
 {
 public:
@@ -165,7 +164,7 @@ vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path)
   {
     data = read->second(path);
   }
-  catch (const std::length_error&) // of a reader that asked a vector for an absurd size
+  catch (const std::length_error&) // thrown if a reader resizes a vector to an absurd size
   {
     errors->HasError = true;
     errors->Messages = { "a count in it is too large" };

@@ -10,12 +10,12 @@
 namespace tipp
 {
 
-/// Whether VTK reads files of this extension: .vtp .vtu .vti .vts .vtr and their parallel kinds
+/// Whether VTK reads files with this extension: .vtp .vtu .vti .vts .vtr and their parallel kinds
 /// (.pvtp ...), .vtk, .ply, .stl, .obj.
 VTKTIPPIO_EXPORT bool isVtkFile(const std::string& path);
 
-/// The points of such a file, as pointsOf() gives them. Throws IOError, also in a build without
-/// VTK.
+/// Reads the points of such a file, as pointsOf() returns them. Throws IOError, also in a build
+/// without VTK.
 VTKTIPPIO_EXPORT PointTable readVtkPoints(const std::string& path);
 
 } // namespace tipp

@@ -15,8 +15,8 @@
 namespace tipp
 {
 
-/// One of VTK's XML writers, which writes to a stream of ours: with its own it ignores a disk that
-/// gets full as the file is closed.
+/// An XML writer of VTK that writes to our stream: with its own it does not notice that the disk is
+/// full when the file is closed.
 template <typename Writer>
 class StreamWriter : public Writer
 {
@@ -31,7 +31,7 @@ public:
 protected:
   int StartFile() override
   {
-    this->To.precision(11); // that of the writer's own files
+    this->To.precision(11); // the precision of the writer's own files
     this->Stream = &this->To;
     return this->Writer::StartFile();
   }

@@ -39,7 +39,7 @@ bool isSpace(char c)
   return c == ' ' || c == '\n' || c == '\r' || c == '\t';
 }
 
-/// Takes the text of one array part by part.
+/// Parses the base64 text of one array part by part.
 class Base64Text
 {
 public:
@@ -58,7 +58,7 @@ public:
   }
 
   bool isBase64() const { return this->IsGood; }
-  /// Whether there is one header, with nothing behind the padding at the end.
+  /// Whether there is one header, and nothing after the padding.
   bool isOneArray() const
   {
     return this->IsGood && !this->IsInterrupted && this->Count % 4 == 0 &&
@@ -78,7 +78,7 @@ private:
     this->IsGood = this->IsGood && value != notBase64;
     if (value == padding)
     {
-      // The header may be encoded by itself.
+      // The header may be encoded separately.
       this->IsEnding = this->IsEnding || this->Count >= this->HeaderEnd;
       ++this->Padding;
     }
@@ -131,7 +131,7 @@ std::uint64_t XmlDataCheck::number(const unsigned char* bytes) const
 template <typename Text>
 bool XmlDataCheck::isWhole(const Text& text) const
 {
-  // Blocks that are compressed have checksums of their own.
+  // Compressed blocks have checksums of their own.
   return this->IsCompressed ? text.isBase64()
                             : text.isOneArray() && this->number(text.header()) <= text.byteCount();
 }
@@ -168,7 +168,7 @@ bool XmlDataCheck::isWholeEncoded(
 bool XmlDataCheck::areWhole(const InputFile& file, std::uint64_t begin, bool isEncoded,
   std::vector<std::uint64_t> offsets) const
 {
-  constexpr std::uint64_t most = 4096; // from the data's end to the file's
+  constexpr std::uint64_t most = 4096; // from the end of the data to the end of the file
   std::string tail(std::min(most, file.size() - begin), '\0');
   file.read(file.size() - tail.size(), tail.data(), tail.size());
   const std::size_t close = tail.rfind("</AppendedData");

@@ -11,20 +11,20 @@
 namespace tipp
 {
 
-/// Whether the arrays of a VTK XML file are all there. VTK's readers do not look: where text is not
-/// base64, or ends too soon, they leave values as they were in memory.
+/// Checks that the arrays of a VTK XML file are complete. VTK's readers do not: if text is not
+/// base64, or ends early, they leave values uninitialised.
 class XmlDataCheck
 {
 public:
-  /// From the file's VTKFile element.
+  /// Attributes of the file's VTKFile element.
   bool IsCompressed = false;
   bool IsBigEndian = false;
   std::uint64_t HeaderBytes = 4; ///< of the number of bytes before each array
 
-  /// Of an array in base64 between its tags.
+  /// Checks an array in base64 between its tags.
   bool isWholeText(std::string_view text) const;
 
-  /// Of the arrays that begin at these offsets after the '_' at byte `begin`.
+  /// Checks the arrays at these offsets after the '_' at byte `begin`.
   bool areWhole(const InputFile& file, std::uint64_t begin, bool isEncoded,
     std::vector<std::uint64_t> offsets) const;
 

@@ -40,12 +40,12 @@ public:
     this->Edges.erase(std::unique(this->Edges.begin(), this->Edges.end()), this->Edges.end());
     for (const FixedEdge& edge : this->Edges)
     {
-      // Of several points at one position the mesh uses one.
+      // Of points with equal coordinates the mesh uses one.
       this->VertexAt[{ this->x(edge[0]), this->y(edge[0]) }] = edge[0];
     }
   }
 
-  /// Appends the edges of the chain; false if there is none.
+  /// Appends the edges of the constraint's chain; returns false if there is none.
   bool find(std::int64_t first, std::int64_t last, std::vector<FixedEdge>& edges)
   {
     if (!this->isFinite(first) || !this->isFinite(last) || this->isSame(first, last))
@@ -60,7 +60,7 @@ public:
     }
     this->A = a->second;
     this->B = b->second;
-    // Depth first: where vertices are a few units apart, a way may be a dead end.
+    // Depth-first search: if vertices are a few units apart, a path may be a dead end.
     std::vector<Ids> open{ this->onward(this->A) };
     Ids way{ this->A };
     while (!open.empty() && way.back() != this->B)
@@ -113,7 +113,7 @@ private:
     return next;
   }
 
-  /// Whether p comes before q on the way: by neither coordinate after it.
+  /// Whether p precedes q along the constraint in both coordinates.
   bool isBefore(std::int64_t p, std::int64_t q) const
   {
     const double signX = this->x(this->B) < this->x(this->A) ? -1 : 1;
@@ -143,7 +143,7 @@ private:
   const std::vector<double>& XY;
   std::vector<FixedEdge> Edges; ///< in both directions, sorted
   std::map<std::pair<double, double>, std::int64_t> VertexAt;
-  std::int64_t A = 0; ///< the ends of the present constraint
+  std::int64_t A = 0; ///< the ends of the current constraint
   std::int64_t B = 0;
 };
 

@@ -18,7 +18,7 @@ namespace
 using check::DirectedEdge;
 using check::Position;
 
-// Index is std::uint32_t where every id and every half-edge fits: half the memory.
+// Index is std::uint32_t if all ids and half-edges fit: that halves the memory.
 template <typename Index>
 class Checker
 {
@@ -59,11 +59,11 @@ private:
   enum class State : char
   {
     Sound,
-    BadTurn, // its edges count, its circle does not
-    BadIds   // nothing of it can be used
+    BadTurn, // its edges count, its circumcircle does not
+    BadIds   // the triangle cannot be used at all
   };
 
-  // Half-edge h goes from corner h % 3 of triangle h / 3 to the next corner. Each is filed under
+  // Half-edge h goes from corner h % 3 of triangle h / 3 to the next corner. Each is stored under
   // the lower of its two ids.
   struct HalfEdge
   {
@@ -118,7 +118,7 @@ private:
     }
   }
 
-  // Every place must be a vertex, by one id only; collinear points have no triangles to be in.
+  // Each distinct point must be a vertex under one id only, unless the points are collinear.
   void checkPoints()
   {
     struct Placed
@@ -238,7 +238,8 @@ private:
       FixedEdge{ std::min(a, b), std::max(a, b) });
   }
 
-  /// Whether the half-edge's triangle says so, or nothing.
+  /// Whether the half-edge's triangle names `triangle` as its neighbour, or there is nothing to
+  /// compare.
   bool isNeighbor(std::size_t h, std::int64_t triangle) const
   {
     return this->Neighbors.empty() || this->Neighbors[h % 3 == 0 ? h + 2 : h - 1] == triangle;

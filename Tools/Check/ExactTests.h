@@ -7,7 +7,7 @@ namespace tipp
 namespace check
 {
 
-/// The checker's own point and tests: it shares none with the algorithm that it checks.
+/// The checker's own point type and tests: it shares no code with the algorithm that it checks.
 struct Position
 {
   double x;

@@ -25,8 +25,8 @@ public:
   {
   }
 
-  // Follows the chain from its first edge. Turning left everywhere it may still go round several
-  // times; then it has several lexicographic minima.
+  // Follows the chain from its first edge. A chain that always turns left may still wind around
+  // several times; then it has several lexicographic minima.
   std::int64_t countFaults() const
   {
     std::int64_t faults = 0;
@@ -67,7 +67,7 @@ private:
     return { this->XY[2 * std::size_t(id)], this->XY[2 * std::size_t(id) + 1] };
   }
 
-  // Null if none or several start there.
+  // Null if no edge or several edges start there.
   const DirectedEdge* edgeFrom(std::int64_t id) const
   {
     const auto [first, last] =

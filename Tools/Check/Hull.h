@@ -16,12 +16,12 @@ struct DirectedEdge
   std::int64_t To;
 };
 
-/// How many edges keep them from being one closed convex counter-clockwise chain, collinear runs
-/// allowed: 0 if they are. The edges come out sorted by From.
+/// Counts the edges that keep `edges` from being one closed convex counter-clockwise chain,
+/// collinear runs allowed; 0 if they are one. Sorts the edges by From.
 std::int64_t countHullFaults(const std::vector<double>& xy, std::vector<DirectedEdge>& edges);
 
-/// How many of the edges are not edges of the convex hull of the finite points, with all points
-/// that lie on it.
+/// Counts the edges that are not edges of the convex hull of the finite points, where all points on
+/// the hull are vertices of it.
 std::int64_t countOffHull(const std::vector<double>& xy, const std::vector<DirectedEdge>& edges);
 
 } // namespace check

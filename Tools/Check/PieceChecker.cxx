@@ -76,8 +76,8 @@ void PieceChecker::checkTriangles(const CheckedPiece& piece)
   }
 }
 
-/// All triangles that have one of the piece's points are in the piece, and points at one place are
-/// in one piece.
+/// All triangles at one of the piece's own points are in the piece, and points with equal
+/// coordinates are in one piece.
 void PieceChecker::checkPoints(const CheckedPiece& piece)
 {
   std::vector<bool> used(piece.Ids.size(), false);
@@ -226,7 +226,7 @@ void PieceChecker::checkPair(const Edge& a, const Edge& b)
   }
 }
 
-/// Those between pieces; what is left is the hull.
+/// Matches the edges between pieces; those that remain are the hull's.
 void PieceChecker::matchEdges()
 {
   std::sort(this->Open.begin(), this->Open.end(),

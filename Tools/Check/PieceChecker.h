@@ -12,20 +12,22 @@
 namespace tipp
 {
 
-/// One piece of a mesh, with the triangles that other pieces own but that have one of its points.
+/// One piece of a mesh, including the triangles that other pieces own but that have one of its
+/// points.
 struct CheckedPiece
 {
-  std::vector<double> XY;              ///< of its points, those of other pieces too
-  std::vector<std::int64_t> Ids;       ///< of the points in the whole mesh
-  std::vector<bool> IsOwn;             ///< of the points: the piece's, or another's
-  std::vector<std::int32_t> Triangles; ///< three numbers of points each
-  std::int64_t OwnTriangles = 0;       ///< the first so many
-  std::vector<std::int64_t> CellIds;   ///< of own triangles in the whole mesh
-  std::vector<std::int64_t> Neighbors; ///< what these say: opposite each corner; empty: nothing
+  std::vector<double> XY;              ///< of its points, including ghost points
+  std::vector<std::int64_t> Ids;       ///< global ids of the points
+  std::vector<bool> IsOwn;             ///< per point: whether the piece owns it
+  std::vector<std::int32_t> Triangles; ///< three indices in the piece each
+  std::int64_t OwnTriangles = 0;       ///< number of own triangles, which come first
+  std::vector<std::int64_t> CellIds;   ///< global ids of the own triangles
+  /// global ids of their neighbours, one opposite each corner; empty: not stored
+  std::vector<std::int64_t> Neighbors;
 };
 
-/// checkDelaunay() of a mesh that comes piece by piece: in memory are one piece and the edges
-/// between pieces.
+/// checkDelaunay() of a mesh that is added piece by piece: only one piece and the edges between
+/// pieces are in memory.
 class PieceChecker
 {
 public:
@@ -35,25 +37,25 @@ public:
   }
 
   void add(const CheckedPiece& piece);
-  /// After all pieces.
+  /// Call after all pieces.
   CheckReport finish();
 
-  /// Of the ids and places of all points that pieces own: equal sums are those of equal points, but
-  /// for a chance of 2^-64.
+  /// A hash of the ids and coordinates of all points that pieces own: equal sums mean equal points,
+  /// except with a probability of 2^-64.
   std::uint64_t pointSum() const { return this->PointSum; }
   static std::uint64_t hashPoint(std::int64_t id, double x, double y);
 
 private:
-  /// An edge of a triangle, and what lies off it.
+  /// An edge of a triangle, and the opposite vertex.
   struct Edge
   {
     std::array<std::int64_t, 2> Ids; ///< the lower first
     bool IsReversed;                 ///< the triangle goes from the higher to the lower
     std::array<check::Position, 2> Ends;
     check::Position Opposite;
-    bool IsSound; ///< a triangle that turns counter-clockwise
+    bool IsSound; ///< a counter-clockwise triangle
     std::int64_t Cell;
-    std::int64_t Neighbor; ///< as the triangle says
+    std::int64_t Neighbor; ///< as stored with the triangle
   };
 
   void checkTriangles(const CheckedPiece& piece);
@@ -65,12 +67,12 @@ private:
 
   CheckOptions Options;
   CheckReport Report;
-  std::vector<char> IsSound; ///< of the present piece's triangles
+  std::vector<char> IsSound; ///< of the current piece's triangles
   std::vector<char> IsGood;  ///< its points exist
   std::vector<Edge> Open;    ///< edges without a second triangle so far
   std::uint64_t PointSum = 0;
   bool IsCollinear = true;
-  std::vector<check::Position> Line; ///< two points, where all so far are on their line
+  std::vector<check::Position> Line; ///< two points, if all points so far lie on their line
 };
 
 } // namespace tipp

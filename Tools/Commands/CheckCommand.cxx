@@ -56,13 +56,13 @@ struct CheckArguments
   CheckOptions Options;
 };
 
-// NaN equals nothing, but stands for itself here.
+// Here NaN equals NaN.
 bool isSame(double a, double b)
 {
   return a == b || (a != a && b != b);
 }
 
-// A mesh that brings its own points must bring these.
+// If the mesh stores points, they must equal these.
 void requireSamePoints(
   const CheckArguments& arguments, const std::vector<double>& xy, const std::vector<double>& own)
 {
@@ -75,7 +75,8 @@ void requireSamePoints(
   }
 }
 
-/// The points of constraints among those of the mesh: the first at each position, or -1.
+/// The constraints' points as indices of the mesh's points: the first with equal coordinates, or
+/// -1.
 std::vector<std::array<std::int64_t, 2>> constraintsAmong(
   const std::vector<double>& xy, const ConstraintTable& table)
 {
@@ -103,7 +104,7 @@ std::vector<std::array<std::int64_t, 2>> constraintsAmong(
   return constraints;
 }
 
-/// A mesh whose first points are the given ones.
+/// Checks a mesh whose first points are the input points.
 CheckReport checkConstrained(
   const CheckArguments& arguments, const PointTable& points, const TriangleMesh& mesh)
 {
@@ -136,7 +137,7 @@ CheckReport checkConstrained(
 CheckReport check(const CheckArguments& arguments)
 {
   std::error_code ignored;
-  // No other kind of mesh is a folder here; one without its index is named as such.
+  // No other kind of mesh is a folder; the error for a missing index is clear.
   if (isPartitionedMesh(arguments.Mesh) || std::filesystem::is_directory(arguments.Mesh, ignored))
   {
     if (!arguments.Constraints.empty())

@@ -10,8 +10,8 @@
 namespace tipp
 {
 
-/// checkDelaunay() of a partitioned mesh, of which one piece at a time is in memory, and of points
-/// that are read block by block. Throws IOError, also if the mesh's points are not these.
+/// checkDelaunay() of a partitioned mesh and of points that are read block by block; one piece at a
+/// time is in memory. Throws IOError, also if the mesh's points are not these.
 CheckReport checkPartitioned(const std::string& points, const PointOptions& columns,
   const std::string& mesh, const CheckOptions& options);
 

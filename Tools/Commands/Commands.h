@@ -18,8 +18,8 @@ enum ExitCode
   Usage = 2
 };
 
-/// Each adds its subcommand, which leaves its exit code in `exitCode` when it has run; IOError and
-/// std::bad_alloc may come out of it.
+/// Each function adds its subcommand, which sets `exitCode` when it has run; it may throw IOError
+/// and std::bad_alloc.
 void addCheckCommand(CLI::App& app, int& exitCode);
 void addDelaunayCommand(CLI::App& app, int& exitCode);
 void addDemCommand(CLI::App& app, int& exitCode);

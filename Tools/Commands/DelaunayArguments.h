@@ -14,7 +14,7 @@
 namespace tipp
 {
 
-/// What `tipp delaunay` was asked for.
+/// The options of `tipp delaunay`.
 struct DelaunayArguments
 {
   std::vector<std::string> Inputs;
@@ -44,14 +44,14 @@ struct DelaunayArguments
   bool Resume = false;
   std::string Scratch;
 
-  /// Something is asked for that only masters and workers have; one rank can be all of them.
+  /// Whether an option is given that only a run on ranks has; a single rank can run it, too.
   bool isForRanks() const
   {
     return this->Masters != "auto" || this->Major != "auto" || this->Minor != "auto";
   }
 };
 
-/// "auto" is a grid of no columns and rows; nothing if the text is neither that nor a grid.
+/// Parses "auto" (no columns and rows) or a grid; nullopt for any other text.
 std::optional<GridSize> parseGrid(const std::string& text);
 
 struct MinorChoice

@@ -87,7 +87,7 @@ TriangulationOptions makeOptions(const DelaunayArguments& arguments, ProgressBar
   return options;
 }
 
-/// With constraints new points are appended, and `report` tells about them.
+/// With constraints new points are appended, and `report` receives a line about them.
 Triangulation triangulatePoints(
   const DelaunayArguments& arguments, PointTable& points, std::string& report)
 {

@@ -22,7 +22,7 @@ namespace tipp
 namespace
 {
 
-/// All ranks' triangles and duplicates by global ids, on the first rank.
+/// Gathers all ranks' triangles and duplicates, by global ids, on the first rank.
 Triangulation gatherTriangles(Postbox& ranks, const DistributedTriangulation& mine)
 {
   const std::int64_t own = std::int64_t(mine.Owned.size());
@@ -61,7 +61,7 @@ Triangulation gatherTriangles(Postbox& ranks, const DistributedTriangulation& mi
   return result;
 }
 
-/// A finished file or none: the first rank writes, the others wait for how it went.
+/// The first rank writes the file, completely or not at all; the others wait for its outcome.
 void writeOnFirst(Postbox& ranks, const DelaunayArguments& arguments, DelaunayRun& run,
   const DistributedTriangulation& mine, const PathState& before)
 {

@@ -165,7 +165,8 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
         { arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, arguments.Inputs);
       if (!arguments.Statistics.empty())
       {
-        const PendingFile writable(arguments.Statistics); // before the work rather than after it
+        // fails early if the file cannot be written
+        const PendingFile writable(arguments.Statistics);
       }
     }
     PointOptions points = arguments.Columns;

@@ -11,14 +11,15 @@ class vtkMultiProcessController;
 namespace tipp
 {
 
-/// Whether the output is a partitioned mesh, which is made out of core.
+/// Whether the output is a partitioned mesh, which is computed out of core.
 bool isOutOfCore(const DelaunayArguments& arguments);
 
-/// `tipp delaunay` with such an output on the ranks of a controller, or on this process alone
-/// (null); the exit code, the same on all ranks.
+/// Runs `tipp delaunay` with such an output on the ranks of a controller, or on this process alone
+/// (null). Returns the exit code, the same on all ranks.
 int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessController* controller);
 
-/// The options that only such an output has, but that were given with another; empty if none.
+/// Returns the given options that are valid only for such an output, if the output is another one;
+/// empty if there are none.
 std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments);
 
 } // namespace tipp

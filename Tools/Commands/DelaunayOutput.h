@@ -16,11 +16,11 @@ bool holdsArrays(const std::string& path);
 
 PointTable readPointsFor(const DelaunayArguments& arguments);
 
-/// Throws IOError unless the files to write can be: before hours of work rather than after them.
-/// Returns what is at the output's path, which alone writeResult() may replace.
+/// Throws IOError unless the output files can be written; call it before the work. Returns the
+/// state of the output's path; writeResult() replaces nothing else.
 PathState requireWritable(const DelaunayArguments& arguments);
 
-/// False if the user has interrupted it; then there is no file.
+/// Returns false if the user interrupted it; then no file is written.
 bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
   const Triangulation& result, const PathState& before);
 

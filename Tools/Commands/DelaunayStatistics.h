@@ -11,23 +11,23 @@
 namespace tipp
 {
 
-/// What a run of `tipp delaunay` tells about itself.
+/// What `tipp delaunay` reports of a run besides the result's own statistics.
 struct DelaunayRun
 {
   std::string Input;
   std::string Output;
   std::int64_t DisagreeingPlaces = 0; ///< of several points with different elevations
   std::int64_t Points = 0;
-  double ReadSeconds = 0; ///< all seconds are wall clock
+  double ReadSeconds = 0; ///< all times are wall-clock seconds
   double TriangulateSeconds = 0;
   double WriteSeconds = 0;
 };
 
-/// One line: points, triangles, duplicates, rejected if any, seconds and points per second of the
-/// triangulation alone, peak memory of the process.
+/// One line: points, triangles, duplicates, rejected points if any, seconds and points per second
+/// of the triangulation alone, and peak memory of the process.
 std::string summarize(const DelaunayRun& run, const Triangulation& result);
 
-/// The same and all of TriangulationStatistics as a JSON file; throws IOError.
+/// Writes the same and all of TriangulationStatistics to a JSON file; throws IOError.
 void writeStatistics(const std::string& path, const DelaunayRun& run, const Triangulation& result);
 
 ///@{

@@ -87,7 +87,7 @@ bool writeContent(const FlattenArguments& arguments, const FlatContent& content)
 int runFlatten(const FlattenArguments& arguments)
 {
   {
-    // Before the work rather than after it.
+    // Checked before the work.
     std::vector<std::string> inputs = arguments.Values;
     inputs.push_back(arguments.Input);
     requireApart({ arguments.Output }, inputs);

@@ -71,7 +71,7 @@ struct Summary
   Range X;
   Range Y;
   std::vector<Range> Columns;
-  /// Those that are finite, as long as they are few enough to look for equal ones.
+  /// The finite points, unless there are too many to search for duplicates.
   std::vector<Point2> Places;
 };
 
@@ -123,7 +123,7 @@ std::string duplicatesOf(std::vector<Point2>& places)
   return std::to_string(places.end() - end);
 }
 
-/// 1, 2 or 5 times a power of ten, the nearest one.
+/// The nearest of 1, 2 or 5 times a power of ten.
 double roundNumber(double value)
 {
   const double power = std::pow(10, std::floor(std::log10(value)));

@@ -9,11 +9,11 @@
 namespace tipp
 {
 
-/// Bytes, or with K, M, G units of 2^10, 2^20, 2^30 of them, as "512M"; nothing for other texts
-/// and for 0.
+/// Parses a number of bytes, or with the suffix K, M, G of 2^10, 2^20, 2^30 bytes, such as "512M";
+/// nullopt for any other text and for 0.
 std::optional<std::uint64_t> parseMemorySize(const std::string& text);
 
-/// For the command line: empty, or what is wrong.
+/// A validator for the command line: returns an error message, or an empty string.
 std::string checkMemorySize(const std::string& text);
 
 } // namespace tipp

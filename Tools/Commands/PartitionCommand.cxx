@@ -90,7 +90,7 @@ int runPartition(const PartitionArguments& arguments)
   PartitionStatistics statistics;
   try
   {
-    // Before the work rather than after it, and on all ranks if on one.
+    // Checked before the work; a failure on one rank fails on all.
     Ranks(session.controller())
       .attempt(
         [&]

@@ -49,7 +49,8 @@ void runPoints(const PointsArguments& arguments)
 {
   const bool isLike = !arguments.Like.empty();
   requireApart({ arguments.Output }, { arguments.Like });
-  const PathState before = PendingFile(arguments.Output).before(); // rather than after the work
+  // fails early if the file cannot be written
+  const PathState before = PendingFile(arguments.Output).before();
   writePoints(arguments.Output,
     isLike ? pointsLike(arguments.Like, arguments.Count, arguments.Seed)
            : generatePoints(

@@ -14,7 +14,8 @@ std::vector<double> pointsLike(const std::string& path, std::int64_t count, std:
 {
   const PointTable table = readPoints(path);
   TriangulationOptions options;
-  options.Threads = 1; // the triangles' order, and so the points, are those of every machine
+  // the order of the triangles, and so the points, must be the same on every machine
+  options.Threads = 1;
   const Triangulation mesh = triangulate(PointsView(table.XY.data(), table.size(), 2), options);
   const std::int64_t triangles = std::int64_t(mesh.triangleCount());
   if (triangles == 0)

@@ -9,10 +9,10 @@
 namespace tipp
 {
 
-/// `count` points, x and y interleaved, distributed as those of a file: each uniform in a triangle
-/// of the file's Delaunay triangulation, every triangle equally often, so that places with small
-/// triangles stay dense (the dissertation's chapter 3.3.3 makes its storm-surge meshes larger in
-/// this way). Throws IOError, and std::runtime_error if the file's points have no triangles.
+/// Returns `count` points, x and y interleaved, distributed like those of a file: each is uniform
+/// in a triangle of the file's Delaunay triangulation; all triangles are equally likely, so that
+/// dense areas stay dense (the dissertation's chapter 3.3.3 enlarges its storm-surge meshes in this
+/// way). Throws IOError, and std::runtime_error if the file's points have no triangles.
 std::vector<double> pointsLike(const std::string& path, std::int64_t count, std::uint64_t seed);
 
 } // namespace tipp

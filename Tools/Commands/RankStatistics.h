@@ -9,7 +9,7 @@
 namespace tipp
 {
 
-/// The figures of a run on ranks: of each rank, each master and each kind of message.
+/// The statistics of a run on ranks: per rank, per master and per kind of message.
 nlohmann::ordered_json describe(const DistributedStatistics& statistics);
 
 } // namespace tipp

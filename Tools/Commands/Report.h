@@ -10,10 +10,10 @@
 namespace tipp
 {
 
-/// Of this process, so far.
+/// The peak memory of this process so far.
 std::int64_t peakMemoryBytes();
 
-/// Throws IOError.
+/// Writes a JSON file; throws IOError.
 void writeJson(const std::string& path, const nlohmann::ordered_json& json);
 
 } // namespace tipp

@@ -149,7 +149,7 @@ void configure(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
     filter->SetSamplingDimensions(1, 1, 1);
     filter->SetDelta(arguments.Delta.data());
   }
-  parseDeviceChoice(arguments.Device); // throws where the filter would report
+  parseDeviceChoice(arguments.Device); // throws here what the filter would only report
   filter->SetDeviceChoice(arguments.Device.c_str());
   filter->SetNumberOfThreads(arguments.Threads);
   const bool npy = extensionOf(arguments.Output) == ".npy";
@@ -175,7 +175,7 @@ void summarize(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
     figures->GetAbstractArray("Device")->GetVariantValue(0).ToString(), arguments.Output);
 }
 
-/// Only the range and the arrays that are asked for, of a partitioned or a flat mesh.
+/// Reads only the requested range and arrays of a partitioned or a flat mesh.
 vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments, const Ranks& ranks)
 {
   vtkNew<ErrorKeeper> errors;
@@ -183,7 +183,7 @@ vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments, const 
   reader->AddObserver(vtkCommand::ErrorEvent, errors);
   reader->SetController(ranks.controller());
   reader->SetFileName(arguments.Input.c_str());
-  // Of a flat mesh, all of which is looked at in any case.
+  // For a flat mesh, which is read completely in any case.
   reader->SetTiling(ranks.count() == 1 ? "grid:1x1" : "grid:16x16");
   reader->SetNumberOfThreads(arguments.Threads);
   if (!arguments.Bounds.empty())
@@ -230,7 +230,7 @@ vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments, const 
   reader->UpdatePiece(ranks.rank(), ranks.count(), 0);
   ranks.attempt(requireGood);
   vtkSmartPointer<vtkDataSet> mesh = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
-  // What the reader adds is no field to sample.
+  // Arrays that the reader adds are not fields to sample.
   for (vtkDataSetAttributes* const data :
     { static_cast<vtkDataSetAttributes*>(mesh->GetPointData()),
       static_cast<vtkDataSetAttributes*>(mesh->GetCellData()) })
@@ -244,14 +244,14 @@ vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments, const 
   return mesh;
 }
 
-/// This rank's part of it. A call of all ranks.
+/// This rank's part of the mesh. Collective.
 vtkSmartPointer<vtkDataSet> readMeshToSample(const ResampleArguments& arguments, const Ranks& ranks)
 {
   vtkSmartPointer<vtkDataSet> mesh;
   ranks.attempt(
     [&]
     {
-      // A .vtu may be flat, too; VTK's reader takes those of other cells as well.
+      // A .vtu file may be a flat mesh; if its cells are of other types, VTK's reader reads it.
       const bool stored = isPartitionedMesh(arguments.Input) ||
         (isFlatMesh(arguments.Input) && !isVtkFile(arguments.Input));
       if (!stored)
@@ -266,11 +266,11 @@ vtkSmartPointer<vtkDataSet> readMeshToSample(const ResampleArguments& arguments,
         hideOtherShares(mesh, ranks);
       }
     });
-  // A rank that does not see the mesh has failed with readDataSet().
+  // If a rank cannot read the mesh, readDataSet() has thrown.
   return mesh ? mesh : readRange(arguments, ranks);
 }
 
-/// With the heights of a surface among its arrays, so that they can be chosen by name.
+/// Adds the heights of a surface as an array, so that they can be selected by name.
 vtkSmartPointer<vtkDataSet> readWithElevation(
   const ResampleArguments& arguments, const Ranks& ranks)
 {
@@ -284,7 +284,7 @@ vtkSmartPointer<vtkDataSet> readWithElevation(
   return mesh;
 }
 
-/// The filter's message, with what the user has set here instead of the filter's properties.
+/// Replaces the filter's property names in a message by the command's options.
 std::string reasonOf(std::string message)
 {
   const std::vector<std::pair<std::string, std::string>> names = {
@@ -304,7 +304,7 @@ std::string reasonOf(std::string message)
   return "cannot be resampled: " + message;
 }
 
-/// Returns what is at the output's path before.
+/// Returns the state of the output's path before the work.
 PathState sample(
   const ResampleArguments& arguments, vtkRangeResampleFilter* filter, const Ranks& ranks)
 {
@@ -314,7 +314,7 @@ PathState sample(
     {
       if (ranks.isFirst())
       {
-        // Before the work rather than after it.
+        // Checked before the work.
         requireApart({ arguments.Output }, { arguments.Input });
         before = PendingFile(arguments.Output).before();
       }

@@ -42,7 +42,7 @@ RasterGrid gridOf(const std::string& path, vtkImageData* image)
   return grid;
 }
 
-/// The arrays of one component, NaN where no cell answers.
+/// The arrays with one component; NaN at samples that no cell contains.
 SampledBands bandsOf(vtkImageData* image, std::vector<std::string>& names)
 {
   vtkPointData* const data = image->GetPointData();

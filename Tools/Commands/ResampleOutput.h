@@ -11,14 +11,14 @@ class vtkImageData;
 namespace tipp
 {
 
-/// Writes all of an image as a .vti file. Throws IOError.
+/// Writes an image with all arrays to a .vti file. Throws IOError.
 void writeImage(const std::string& path, vtkImageData* image, const PathState& before);
 
-/// Writes one array of an image. Throws IOError.
+/// Writes one array of an image to a .npy file. Throws IOError.
 void writeNpy(
   const std::string& path, const std::string& name, vtkImageData* image, const PathState& before);
 
-/// Writes an image of one layer as a GeoTIFF: a sample is the centre of a pixel, and an array a
+/// Writes an image of one layer as a GeoTIFF: a sample is the centre of a pixel, and an array is a
 /// band. Throws IOError.
 void writeGeoTiff(const std::string& path, vtkImageData* image, const std::string& crs,
   double noData, int threads, const PathState& before);

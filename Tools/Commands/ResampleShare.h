@@ -12,11 +12,11 @@ class vtkDataSet;
 namespace tipp
 {
 
-/// Of a mesh that every rank has read as a whole, hides the cells of the other ranks' shares.
+/// If every rank has read the whole mesh: hides the cells of the other ranks' shares.
 void hideOtherShares(vtkDataSet* mesh, const Ranks& ranks);
 
-/// What each name is in the mesh of all ranks: 'p' for an array of the points, 'c' of the cells, '
-/// ' for none. Ranks without a cell may lack arrays that others have. A call of all ranks.
+/// For each name what it is in the mesh of all ranks: 'p' for a point array, 'c' for a cell array,
+/// ' ' for neither. Ranks without a cell may lack arrays that others have. Collective.
 std::string associationsOf(
   const std::vector<std::string>& arrays, vtkDataSet* mesh, const Ranks& ranks);
 

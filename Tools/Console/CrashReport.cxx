@@ -14,7 +14,7 @@ namespace tipp
 namespace
 {
 
-// Nothing but write() and _exit() is allowed in a signal handler.
+// A signal handler may only call write(), _exit() and the like.
 void print(const char* text)
 {
   [[maybe_unused]] const auto written = write(STDERR_FILENO, text, std::strlen(text));
@@ -25,7 +25,7 @@ extern "C" void onCrash(int signal)
   const char* const path = fileBeingRead();
   if (!path)
   {
-    // The default action is in place again; it ends the program when this returns.
+    // The default action, which has been restored, ends the program when this returns.
     raise(signal);
     return;
   }
@@ -41,7 +41,7 @@ extern "C" void onCrash(int signal)
 
 void reportReaderCrashes()
 {
-  // A stack of its own, as a reader may have used up the other one.
+  // A separate stack, because a reader may have exhausted the normal one.
   static char stack[1 << 16];
   stack_t alternative = {};
   alternative.ss_sp = stack;
@@ -49,7 +49,7 @@ void reportReaderCrashes()
   sigaltstack(&alternative, nullptr);
   for (const int signal : { SIGSEGV, SIGBUS, SIGFPE, SIGABRT })
   {
-    // A sanitizer's own report says more.
+    // A sanitizer's own report is more useful.
     struct sigaction present = {};
     if (sigaction(signal, nullptr, &present) != 0 || present.sa_handler != SIG_DFL)
     {

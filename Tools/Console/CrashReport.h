@@ -5,8 +5,8 @@
 namespace tipp
 {
 
-/// From now on a crash of VTK's readers ends the program with a message that names the file, and
-/// exit code 1. Other crashes end it as they would without this.
+/// Installs signal handlers: a crash of VTK's readers then ends the program with a message that
+/// names the file, and exit code 1. Other crashes are not affected.
 void reportReaderCrashes();
 
 } // namespace tipp

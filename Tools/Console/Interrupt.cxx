@@ -34,8 +34,8 @@ std::atomic<bool> isSaid{ false };
 bool isRank = false;
 sem_t signals;
 
-/// Whoever has it decides how the process ends. Never destroyed, for the thread may still run when
-/// statics are.
+/// The thread that holds it decides how the process ends. Never destroyed, because the thread may
+/// still run while static objects are destroyed.
 std::mutex& ending()
 {
   static auto* const mutex = new std::mutex;
@@ -55,7 +55,7 @@ void waitForSignal()
   }
 }
 
-/// Gives the work time to end by itself.
+/// Gives the work time to stop by itself.
 void waitForGrace()
 {
   timespec until = {};
@@ -72,15 +72,15 @@ void say(const char* what, const std::string& consequence)
 {
   if (!isSaid.exchange(true))
   {
-    const char* const clear = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : ""; // a progress bar
-    // Throws nothing where stderr cannot be written.
+    const char* const clear = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : ""; // clears a progress bar
+    // Does not throw if stderr cannot be written.
     std::fputs(fmt::format("{}tipp: {}; {}.\n", clear, what, consequence).c_str(), stderr);
   }
 }
 
 [[noreturn]] void endProcess()
 {
-  ending().lock(); // for ever
+  ending().lock(); // never released
   const EndedPaths paths = endTemporaryPaths();
   say(interrupted ? "interrupted"
       : isRank    ? "ended by SIGTERM, which mpirun sends to all ranks when one has ended"
@@ -156,7 +156,7 @@ void endWatch()
   static bool hasEnded = false; // of the main thread
   if (!hasEnded)
   {
-    ending().lock(); // for ever
+    ending().lock(); // never released
     hasEnded = true;
   }
 }

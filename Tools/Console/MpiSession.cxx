@@ -29,14 +29,14 @@ int startedRank()
 
 MpiSession::MpiSession()
 {
-  // MPI_Init() of a process that nobody has started as a rank costs time and can fail for want of a
+  // MPI_Init() in a process that was not started as a rank takes time, and may fail without a
   // network.
   if (startedRank() < 0)
   {
     return;
   }
 #ifdef TIPP_USE_MPI
-  // FUNNELED: threads beside a main thread that alone speaks MPI.
+  // FUNNELED: only the main thread calls MPI.
   int provided = MPI_THREAD_SINGLE;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   this->Controller = vtkMPIController::New();

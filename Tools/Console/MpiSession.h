@@ -7,17 +7,19 @@ class vtkMultiProcessController;
 namespace tipp
 {
 
-/// The rank that mpirun or a batch system started this process as; -1: none. Known before MPI is.
+/// The rank that mpirun or a batch system started this process as; -1: none. Does not need MPI to
+/// be initialised.
 int startedRank();
 
-/// Whether this process is a rank with nothing to do in a command that the first one does alone.
+/// Whether this process is a rank other than the first, which has no work in a command that runs on
+/// the first rank only.
 inline bool isIdleRank()
 {
   return startedRank() > 0;
 }
 
-/// MPI while this lives, if mpirun or a batch system has started the process; else nothing. Throws
-/// std::runtime_error if that is so in a build without MPI.
+/// Initialises MPI for the object's lifetime if mpirun or a batch system started the process.
+/// Throws std::runtime_error if that is so in a build without MPI.
 class MpiSession
 {
 public:
@@ -26,9 +28,9 @@ public:
   MpiSession(const MpiSession&) = delete;
   MpiSession& operator=(const MpiSession&) = delete;
 
-  /// Null for a process alone.
+  /// Null for a process without MPI. Not owned by the caller.
   vtkMultiProcessController* controller() const;
-  /// Of all ranks, the one that speaks.
+  /// Whether this is the first rank, the one that prints messages.
   bool isFirst() const;
 
 private:

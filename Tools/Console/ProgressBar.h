@@ -10,7 +10,7 @@
 namespace tipp
 {
 
-/// A line on stderr that goes away in the end; nothing at all if stderr is not a terminal.
+/// A progress line on stderr, cleared at the end; prints nothing if stderr is not a terminal.
 class ProgressBar
 {
 public:
@@ -19,7 +19,7 @@ public:
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// The fraction that is done; redrawn when the percentage changes or a second has gone by.
+  /// Sets the fraction done; redraws when the percentage changes or a second has passed.
   void update(double fraction);
 
 private:

@@ -12,7 +12,7 @@ namespace
 
 std::string textOf(double exactly)
 {
-  const double seconds = exactly - 1e-6; // so that a rounding error is not a second
+  const double seconds = exactly - 1e-6; // so that a rounding error does not add a second
   if (seconds < 60)
   {
     return fmt::format("about {:.0f} s left", std::ceil(seconds));

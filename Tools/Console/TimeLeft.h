@@ -7,13 +7,13 @@
 namespace tipp
 {
 
-/// Guesses how long a task will go on, from what has been done since the first report: what a
-/// resumed task had done before took no time of this one.
+/// Estimates the remaining time of a task from the progress since the first report: work that an
+/// earlier, interrupted run did is not counted.
 class TimeLeft
 {
 public:
-  /// Empty while there is too little to tell by, else as "about 12 min left". `seconds`: on a clock
-  /// of the caller's.
+  /// Returns text such as "about 12 min left"; empty while there is too little data. `seconds` is
+  /// the time on any clock of the caller's.
   std::string update(double fraction, double seconds);
 
 private:
