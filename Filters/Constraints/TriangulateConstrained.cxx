@@ -31,7 +31,7 @@ std::vector<Point2> allPoints(PointsView points, const std::vector<CrossingPoint
 
 ConstrainedTriangulation triangulateConstrained(PointsView input,
   const std::vector<Constraint>& constraints, CrossingRule crossings,
-  const TriangulationOptions& options)
+  const TriangulationOptions& options, const std::function<void(ConstrainedTriangulation&)>& cut)
 {
   ConstrainedTriangulation result;
   const int threads = threadCount(options.Threads);
@@ -58,6 +58,10 @@ ConstrainedTriangulation triangulateConstrained(PointsView input,
   {
     watch.restart();
     constrain(points, result.Mesh, result.Constraints.Pieces, inserted, threads);
+    if (cut)
+    {
+      cut(result);
+    }
     leaveOutLong(points, options.MaximumEdge, result.Mesh);
     all.push_back({ "constraints", watch.seconds() });
   }

@@ -6,6 +6,7 @@
 #include "Constraints/ResolveCrossings.h"
 #include "vtkTIPPFiltersModule.h"
 
+#include <functional>
 #include <vector>
 
 namespace tipp
@@ -21,10 +22,12 @@ struct ConstrainedTriangulation
 /// The constrained Delaunay triangulation of the distinct finite points: every constraint is a
 /// chain of edges, and a triangle's circumdisk holds no vertex that it sees past the constraints;
 /// ties are broken as without constraints. The same set of triangles for every option and order.
-/// Throws as resolveCrossings() does.
+/// Throws as resolveCrossings() does. `cut` may remove triangles, as those outside of polygons; it
+/// is called before triangles with too long an edge are removed.
 VTKTIPPFILTERS_EXPORT ConstrainedTriangulation triangulateConstrained(PointsView points,
   const std::vector<Constraint>& constraints, CrossingRule crossings = CrossingRule::Split,
-  const TriangulationOptions& options = {});
+  const TriangulationOptions& options = {},
+  const std::function<void(ConstrainedTriangulation&)>& cut = {});
 
 /// Removes the triangles with an edge longer than this; 0: none. Not before what is inside of
 /// polygons is known, for which the triangles must be connected.

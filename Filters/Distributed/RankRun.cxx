@@ -2,6 +2,7 @@
 #include "Distributed/RankRun.h"
 
 #include "Distributed/MessageKinds.h"
+#include "Distributed/ShareInitialMesh.h"
 #include "Parallel/ProcessorWatch.h"
 #include "Triangulation/InitialMesh.h"
 #include "Triangulation/PartitionSizes.h"
@@ -61,67 +62,6 @@ struct RegionEntry
   Box2 Box;
   PartitionIndex Partition;
 };
-
-/// Returns all ranks' bytes, concatenated by rank, on all ranks. Collective.
-Bytes joinedOnAllRanks(Postbox& ranks, Bytes&& own)
-{
-  ByteWriter all;
-  for (const Bytes& part : ranks.gather(std::move(own)))
-  {
-    all.raw(part.data(), part.size());
-  }
-  return ranks.broadcast(all.take());
-}
-
-Bytes bytesOf(const SeamTriangles& triangles)
-{
-  ByteWriter writer;
-  writer.array(triangles.Triangles);
-  writer.array(triangles.SetOf);
-  writer.value(std::uint64_t(triangles.Sets.size()));
-  for (std::uint32_t set = 0; set < triangles.Sets.size(); ++set)
-  {
-    const PartitionIndex* const begin = triangles.Sets.begin(set);
-    writer.array(begin, std::size_t(triangles.Sets.end(set) - begin));
-  }
-  return writer.take();
-}
-
-SeamTriangles trianglesOf(ByteReader& reader)
-{
-  SeamTriangles triangles;
-  triangles.Triangles = reader.array<SeamTriangles::Corners>();
-  triangles.SetOf = reader.array<std::uint32_t>();
-  const auto sets = reader.value<std::uint64_t>();
-  for (std::uint64_t i = 0; i < sets; ++i)
-  {
-    const std::vector<PartitionIndex> members = reader.array<PartitionIndex>();
-    triangles.Sets.number(members.data(), members.data() + members.size());
-  }
-  return triangles;
-}
-
-/// Every rank triangulates all initial points. Finding the partitions that the triangles meet takes
-/// longer, and is distributed if there are enough triangles.
-InitialMeshShare shareOf(Postbox& ranks, std::size_t vertices)
-{
-  constexpr std::size_t leastOfARank = 256;
-  if (ranks.size() == 1 || vertices < leastOfARank * std::size_t(ranks.size()))
-  {
-    return {};
-  }
-  const auto exchange = [&ranks](SeamTriangles&& own)
-  {
-    std::vector<SeamTriangles> all;
-    const Bytes together = joinedOnAllRanks(ranks, bytesOf(own));
-    for (ByteReader reader(together); reader.left() > 0;)
-    {
-      all.push_back(trianglesOf(reader));
-    }
-    return all;
-  };
-  return { ranks.rank(), ranks.size(), exchange };
-}
 
 } // namespace
 

@@ -113,24 +113,28 @@ nb::dict triangulateWithConstraints(const InputArray& points, const InputArray& 
   options.Threads = threads;
   options.Progress = reporter.function();
   const std::vector<Constraint> constraints = constraintsOf(pairs);
+  const std::size_t given = points.shape(0);
+  std::vector<std::string> warnings; // about the triangulation before it is cut
+  const auto cut = [&](ConstrainedTriangulation& whole)
+  {
+    const auto count = std::int64_t(given + whole.Constraints.Crossings.size());
+    warnings = warningsOf(whole.Mesh, count, maximumEdge > 0);
+    if (polygonBegin < constraints.size())
+    {
+      keepInside(whole, polygonBegin);
+    }
+  };
   ConstrainedTriangulation result = withoutLock(
     [&]
     {
       const ThreadLimit limit(threads);
-      return triangulateConstrained(
-        viewOf(points), constraints, split ? CrossingRule::Split : CrossingRule::Refuse, options);
+      return triangulateConstrained(viewOf(points), constraints,
+        split ? CrossingRule::Split : CrossingRule::Refuse, options, cut);
     });
   reporter(1);
   reporter.raiseIfStopped();
   const ResolvedConstraints& resolved = result.Constraints;
-  // Warnings are those of the triangulation before it is cut.
-  const std::size_t count = points.shape(0) + resolved.Crossings.size();
-  const std::vector<std::string> warnings =
-    warningsOf(result.Mesh, std::int64_t(count), maximumEdge > 0);
-  if (polygonBegin < constraints.size())
-  {
-    withoutLock([&] { keepInside(result, polygonBegin); });
-  }
+  const std::size_t count = given + resolved.Crossings.size();
   nb::object flags = nb::none();
   if (marks)
   {

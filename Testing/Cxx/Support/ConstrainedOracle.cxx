@@ -122,21 +122,30 @@ double oracleUnit(double value)
 }
 
 /// Whether a point lies on a constraint, but for rounding: by half a unit in the last place of the
-/// constraint's coordinates in each round.
+/// constraint's coordinates in each of the first ten rounds; later by half of 1, 2, 4 ... units of
+/// any point's coordinates.
 bool isNearLine(const Coordinates& xy, const Constraint& constraint, std::int64_t id, int rounds)
 {
   const auto x = [&](std::int64_t i) { return mpq_class(xy[std::size_t(2 * i)]); };
   const auto y = [&](std::int64_t i) { return mpq_class(xy[std::size_t(2 * i + 1)]); };
+  constexpr int roundsOfDoubles = 10;
+  const bool isCoarse = rounds > roundsOfDoubles;
   const auto unit = [&](std::size_t axis)
   {
-    const double a = std::fabs(xy[std::size_t(2 * constraint.A) + axis]);
-    const double b = std::fabs(xy[std::size_t(2 * constraint.B) + axis]);
-    return mpq_class(oracleUnit(std::max(a, b)));
+    double largest = std::max(std::fabs(xy[std::size_t(2 * constraint.A) + axis]),
+      std::fabs(xy[std::size_t(2 * constraint.B) + axis]));
+    for (std::size_t i = axis; isCoarse && i < xy.size(); i += 2)
+    {
+      largest = std::max(largest, std::isfinite(xy[i]) ? std::fabs(xy[i]) : 0);
+    }
+    return mpq_class(oracleUnit(largest));
   };
   const mpq_class dx = x(constraint.B) - x(constraint.A);
   const mpq_class dy = y(constraint.B) - y(constraint.A);
   const mpq_class off = dx * (y(id) - y(constraint.A)) - dy * (x(id) - x(constraint.A));
-  const mpq_class units = mpq_class(rounds) * mpq_class(0.500001); // the last digit is an estimate
+  const double all = std::min(rounds, roundsOfDoubles) +
+    (isCoarse ? std::ldexp(1, std::min(rounds - roundsOfDoubles, 1000)) : 0);
+  const mpq_class units = mpq_class(all) * mpq_class(0.500001); // the last digit is an estimate
   return abs(off) <= units * (abs(dx) * unit(1) + abs(dy) * unit(0));
 }
 
