@@ -66,6 +66,7 @@ class Trace:
     def merge(self, other):
         """Keeps the lower cost of each partition: what else the machine does only adds to it."""
         self.seconds = list(map(min, self.seconds, other.seconds))
+        self.initial_seconds = min(self.initial_seconds, other.initial_seconds)
 
 
 def read_traces(paths):
