@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds and passes every check, or the ones named: sh Utilities/test.sh [STEP...]
-# Steps: format build tests asan; and, by name only for they take long, tsan, paraview, wheel, tidy and analysis.
+# Steps: format build tests; and, by name only since they take long: asan, tsan, paraview, wheel, tidy and analysis.
 # Each ends with one line; the first failure stops the run.
 set -eu
 
@@ -43,7 +43,7 @@ check_wheel() {
     sh Utilities/wheel-test.sh wheels/tipp-*.whl "${PYTHON:-python3}"
 }
 
-for step in ${*:-format build tests asan}; do
+for step in ${*:-format build tests}; do
   case $step in
     format | build | tests | asan | tsan | paraview | wheel | tidy | analysis) ;;
     *)
