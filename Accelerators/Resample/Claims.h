@@ -48,7 +48,7 @@ struct Claims
 /// closed set. Exact for finite coordinates; a cell without area or volume or with a coordinate
 /// that is not finite claims nothing. Of cells with the same corners the first claims.
 ///
-/// For triangles the samples are those of the lattice's two `mesh.Axes`; the third is ignored. The
+/// Triangles are sampled in the plane of the two axes `mesh.Axes`; the third one is ignored. The
 /// number of cells must be below 2^31. The result does not depend on the number of threads.
 VTKTIPPACCELERATORS_EXPORT Claims claimSamples(
   const SimplexMesh& mesh, const Lattice& lattice, int threads, const Report& report = {});
@@ -59,7 +59,8 @@ Claims finishClaims(const SimplexMesh& mesh, const Lattice& lattice, int threads
   std::unique_ptr<std::int32_t[]> claims, std::int64_t claimed,
   const std::vector<std::int32_t>& open, const Report& report);
 
-/// Lowers `keys` to those of the claims, and removes claims whose key is not lower: so several
+/// Sets each sample's key to the lower of its own and the claim's, and removes claims that are not
+/// lower. Several
 /// parts of a mesh can add their samples to the same arrays, in any order. The claims are of the
 /// window's samples, the keys of all.
 VTKTIPPACCELERATORS_EXPORT void mergeClaims(

@@ -27,7 +27,7 @@ inline cl_long largestCellOf(const ComputeDevice& device)
   return device.description().Type == DeviceType::Cpu ? 1 << 16 : 1 << 12;
 }
 
-/// An array of this process that kernels write to: in place if the memory is shared.
+/// A host array that kernels write to. It is not copied if host and device share memory.
 class OutputArray
 {
 public:

@@ -85,7 +85,7 @@ inline bool hasAvx2()
 #endif
 }
 
-/// Positions along a LatticeAxis: LatticeAxis::place(), error() and certain() for lanes.
+/// LatticeAxis::place(), error() and certain() for four coordinates at a time.
 class AxisLanes
 {
 public:

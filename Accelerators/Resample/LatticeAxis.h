@@ -88,7 +88,7 @@ public:
   double origin() const { return this->Min; }
   double firstIndex() const { return this->First; }
 
-  /// A bound, in steps, of the error of place() for crossings of lines with rows, computed in a
+  /// An upper bound, in steps, on the error of place() for crossings of lines and rows in a
   /// cell whose coordinates lie within +-reach, including the error of the samples' own
   /// coordinates. A crossing takes ten roundings, each of at most 2^-53 of twice `reach` and Min;
   /// the bound counts 64.

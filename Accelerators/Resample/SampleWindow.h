@@ -24,7 +24,7 @@ public:
   /// The samples that the mesh's cells may claim, decided exactly.
   static SampleWindow around(const SimplexMesh& mesh, const Lattice& lattice, int threads);
 
-  /// The window's samples, bit for bit those of the whole lattice.
+  /// The lattice of the window. Its coordinates are bitwise equal to the whole lattice's.
   const Lattice& lattice() const { return this->Part; }
   std::int64_t samples() const { return this->Width * this->Height * this->Layers; }
   bool isWhole() const { return this->Whole; }
