@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRangeResampleFilter.h"
 
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 #include "OpenCL/DeviceList.h"
 #include "Resample/RangeResampleRun.h"
 #include "Resample/SamplingRange.h"
@@ -93,7 +93,7 @@ int vtkRangeResampleFilter::FillInputPortInformation(int, vtkInformation* info)
 
 /// SamplingDimensions, with numbers where they are 0.
 std::array<int, 3> vtkRangeResampleFilter::Dimensions(const std::array<double, 6>& bounds,
-  const std::vector<vtkPointSet*>& meshes, tipp::Postbox& ranks) const
+  const std::vector<vtkPointSet*>& meshes, tipp::Communicator& ranks) const
 {
   const std::array<int, 3> given = tipp::toArray(this->SamplingDimensions);
   if (std::count(given.begin(), given.end(), 0) == 0)
@@ -129,7 +129,7 @@ int vtkRangeResampleFilter::RequestInformation(
           "with NumberOfInputPieces above 1 the input is not known in time: turn UseInputBounds "
           "off, set SamplingBounds, and give SamplingDimensions a number along every axis.");
       }
-      tipp::Postbox ranks(this->Controller);
+      tipp::Communicator ranks(this->Controller);
       vtkDataObject* const input = tipp::updatedInput(this, ranks.rank(), ranks.size(), outInfo);
       ranks.together(
         [&]
@@ -178,7 +178,7 @@ int vtkRangeResampleFilter::RequestData(
   output->Initialize();
   try
   {
-    tipp::Postbox ranks(this->Controller);
+    tipp::Communicator ranks(this->Controller);
     Run run(this, ranks);
     run.start(inputs[0], outInfo);
     run.addPieces(inputs[0]);

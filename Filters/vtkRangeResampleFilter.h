@@ -72,7 +72,7 @@ class vtkTable;
 
 namespace tipp
 {
-class Postbox;
+class Communicator;
 }
 
 class VTKTIPPFILTERS_EXPORT vtkRangeResampleFilter : public vtkImageAlgorithm
@@ -295,7 +295,7 @@ private:
   class Run;
 
   std::array<int, 3> Dimensions(const std::array<double, 6>& bounds,
-    const std::vector<vtkPointSet*>& meshes, tipp::Postbox& ranks) const;
+    const std::vector<vtkPointSet*>& meshes, tipp::Communicator& ranks) const;
 
   vtkNew<vtkTable> Statistics;
   vtkNew<vtkStringArray> DeviceChoices;

@@ -95,7 +95,7 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(
 {
   this->NumberOfDuplicatePoints = 0;
   this->NumberOfRejectedPoints = 0;
-  tipp::Postbox ranks(this->Controller);
+  tipp::Communicator ranks(this->Controller);
   tipp::DistributedTriangulation mine;
   const auto run = [&]()
   {

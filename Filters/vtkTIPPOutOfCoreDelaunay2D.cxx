@@ -132,7 +132,7 @@ int vtkTIPPOutOfCoreDelaunay2D::RequestData(
 void vtkTIPPOutOfCoreDelaunay2D::Execute(vtkTable* output)
 {
   const std::string path = textOf(this->FileName);
-  tipp::Postbox ranks(this->Controller);
+  tipp::Communicator ranks(this->Controller);
   tipp::Monitor monitor(this);
   tipp::OutOfCoreOptions options = this->Options();
   options.Progress = [&monitor](double fraction) { return monitor(fraction); };

@@ -227,7 +227,7 @@ private:
     }
     this->Mesh.begin(partition.Kernel);
     this->placeEnds(partition.Number);
-    this->IsSeam = partition.IsSeam;
+    this->IsBoundary = partition.IsBoundary;
     const auto idOf = [&](Index v) { return PointId(partition.Ids[v]); };
     // First all that can be inserted, for this changes what the others cross.
     std::size_t left = 0;
@@ -332,7 +332,7 @@ private:
     }
   }
 
-  bool isInterior(Index slot) const { return !this->IsSeam[std::size_t(slot / 8)]; }
+  bool isInterior(Index slot) const { return !this->IsBoundary[std::size_t(slot / 8)]; }
 
   bool insert(Index from, const Walk& walk)
   {
@@ -406,7 +406,7 @@ private:
   KernelMeshEdit Mesh;
   Walker Finder;
   SegmentInserter<KernelMeshEdit> Inserter;
-  const char* IsSeam = nullptr;
+  const char* IsBoundary = nullptr;
   std::vector<std::pair<std::int64_t, Index>> EndVertices;
   std::vector<std::int64_t> Entries; ///< of pieces with an end here: as PieceEnds has them
   std::vector<std::pair<Index, std::int64_t>> Noted; ///< triangles that pieces cross

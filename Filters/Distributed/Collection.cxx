@@ -15,7 +15,7 @@ namespace
 {
 
 /// Sends each triangle to the rank that owns its vertex of lowest id. Ids are internal ids.
-std::vector<IdTriangle> bringHome(Postbox& ranks, const std::vector<IdTriangle>& triangles,
+std::vector<IdTriangle> bringHome(Communicator& ranks, const std::vector<IdTriangle>& triangles,
   const std::vector<std::int64_t>& firstIds)
 {
   const auto owner = [&firstIds](const IdTriangle& triangle)
@@ -58,11 +58,11 @@ std::vector<std::int64_t> foreignIds(
 
 /// Converts internal ids to indices into Owned and, after these, Foreign.
 template <typename Id>
-std::vector<typename TriangleSink<Id>::Seam> localised(const std::vector<IdTriangle>& triangles,
-  const std::vector<std::int64_t>& foreign, std::int64_t firstOwn, const Buffer<Point2>& places,
-  const Tiling& leaves)
+std::vector<typename TriangleSink<Id>::FinalTriangle> localised(
+  const std::vector<IdTriangle>& triangles, const std::vector<std::int64_t>& foreign,
+  std::int64_t firstOwn, const Buffer<Point2>& places, const Tiling& leaves)
 {
-  std::vector<typename TriangleSink<Id>::Seam> local;
+  std::vector<typename TriangleSink<Id>::FinalTriangle> local;
   local.reserve(triangles.size());
   const std::int64_t own = std::int64_t(places.size());
   for (const IdTriangle& triangle : triangles)
@@ -89,7 +89,7 @@ std::vector<typename TriangleSink<Id>::Seam> localised(const std::vector<IdTrian
 
 } // namespace
 
-PointTuples fetchPoints(Postbox& ranks, const std::vector<std::int64_t>& ids,
+PointTuples fetchPoints(Communicator& ranks, const std::vector<std::int64_t>& ids,
   const std::vector<std::int64_t>& firstIds, const PointTuples& own, std::size_t rowSize)
 {
   std::vector<std::vector<std::int64_t>> requests;
@@ -176,15 +176,15 @@ void preferLowestGlobalIds(
 }
 
 template <typename Id>
-void collect(Postbox& ranks, OwnedPoints<Id>& points, const std::vector<IdTriangle>& kept,
+void collect(Communicator& ranks, OwnedPoints<Id>& points, const std::vector<IdTriangle>& kept,
   const std::vector<std::size_t>& interiorCounts, std::vector<Duplicate> duplicates,
   const Tiling& leaves, int threads, DistributedTriangulation& result)
 {
   const std::size_t rowSize = result.RowSize;
   const std::int64_t firstOwn = points.FirstIds[std::size_t(ranks.rank())];
   result.FirstIds = points.FirstIds;
-  const std::vector<IdTriangle> seams = bringHome(ranks, kept, points.FirstIds);
-  result.ForeignIds = foreignIds(seams, firstOwn, firstOwn + std::int64_t(points.size()));
+  const std::vector<IdTriangle> boundary = bringHome(ranks, kept, points.FirstIds);
+  result.ForeignIds = foreignIds(boundary, firstOwn, firstOwn + std::int64_t(points.size()));
 
   TriangleSink<Id> sink(points.Buckets);
   for (std::size_t leaf = 0; leaf < interiorCounts.size(); ++leaf)
@@ -192,7 +192,7 @@ void collect(Postbox& ranks, OwnedPoints<Id>& points, const std::vector<IdTriang
     sink.setInteriorCount(static_cast<PartitionIndex>(leaf), interiorCounts[leaf]);
   }
   Buffer<Id> ids = sink.assemble(
-    { localised<Id>(seams, result.ForeignIds, firstOwn, points.Places, leaves) }, threads);
+    { localised<Id>(boundary, result.ForeignIds, firstOwn, points.Places, leaves) }, threads);
   if constexpr (sizeof(Id) == 4)
   {
     result.Ids32 = std::move(ids);
@@ -210,10 +210,10 @@ void collect(Postbox& ranks, OwnedPoints<Id>& points, const std::vector<IdTriang
   result.Foreign = fetchPoints(ranks, result.ForeignIds, points.FirstIds, result.Owned, rowSize);
 }
 
-template void collect(Postbox&, OwnedPoints<std::int32_t>&, const std::vector<IdTriangle>&,
+template void collect(Communicator&, OwnedPoints<std::int32_t>&, const std::vector<IdTriangle>&,
   const std::vector<std::size_t>&, std::vector<Duplicate>, const Tiling&, int,
   DistributedTriangulation&);
-template void collect(Postbox&, OwnedPoints<std::int64_t>&, const std::vector<IdTriangle>&,
+template void collect(Communicator&, OwnedPoints<std::int64_t>&, const std::vector<IdTriangle>&,
   const std::vector<std::size_t>&, std::vector<Duplicate>, const Tiling&, int,
   DistributedTriangulation&);
 

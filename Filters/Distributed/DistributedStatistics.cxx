@@ -47,7 +47,7 @@ MasterStatistics readMaster(ByteReader& reader)
 } // namespace
 
 DistributedStatistics gatherStatistics(
-  Postbox& ranks, const RankStatistics& own, const std::vector<MasterStatistics>& masters)
+  Communicator& ranks, const RankStatistics& own, const std::vector<MasterStatistics>& masters)
 {
   ByteWriter writer;
   writer.value(own);
@@ -69,7 +69,7 @@ DistributedStatistics gatherStatistics(
   }
   const Bytes everything = ranks.broadcast(all.take());
   DistributedStatistics statistics;
-  std::map<MessageKind, Postbox::Traffic> traffic;
+  std::map<MessageKind, Communicator::Traffic> traffic;
   ByteReader parts(everything);
   while (parts.left() > 0)
   {
@@ -82,8 +82,8 @@ DistributedStatistics gatherStatistics(
     }
     for (std::uint64_t n = reader.value<std::uint64_t>(); n > 0; --n)
     {
-      Postbox::Traffic& sum = traffic[reader.value<MessageKind>()];
-      const auto sent = reader.value<Postbox::Traffic>();
+      Communicator::Traffic& sum = traffic[reader.value<MessageKind>()];
+      const auto sent = reader.value<Communicator::Traffic>();
       sum.Messages += sent.Messages;
       sum.Bytes += sent.Bytes;
     }

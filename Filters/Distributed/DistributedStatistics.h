@@ -2,7 +2,7 @@
 #ifndef tippDistributedStatistics_h
 #define tippDistributedStatistics_h
 
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 #include "Triangulation/Triangulate.h"
 
 #include <cstdint>
@@ -68,7 +68,7 @@ struct DistributedStatistics
 
 /// Gathers all ranks' statistics on all ranks. Collective.
 DistributedStatistics gatherStatistics(
-  Postbox& ranks, const RankStatistics& own, const std::vector<MasterStatistics>& masters);
+  Communicator& ranks, const RankStatistics& own, const std::vector<MasterStatistics>& masters);
 
 } // namespace tipp
 

@@ -22,7 +22,7 @@ namespace
 {
 
 /// Returns the first rank's plan on all ranks. Collective.
-Plan broadcastPlan(Postbox& ranks, const Plan& plan)
+Plan broadcastPlan(Communicator& ranks, const Plan& plan)
 {
   ByteWriter writer;
   if (ranks.rank() == 0)
@@ -38,7 +38,7 @@ Plan broadcastPlan(Postbox& ranks, const Plan& plan)
 class DistributedRun
 {
 public:
-  DistributedRun(Postbox& ranks, const RankPoints& points, const DistributedOptions& options,
+  DistributedRun(Communicator& ranks, const RankPoints& points, const DistributedOptions& options,
     DistributedTriangulation& result)
     : Ranks(ranks)
     , Input(points)
@@ -256,7 +256,7 @@ private:
     statistics.ThreadsPerRank = this->Threads;
   }
 
-  Postbox& Ranks;
+  Communicator& Ranks;
   RankPoints Input;
   const DistributedOptions& Options;
   DistributedTriangulation& Result;
@@ -269,7 +269,7 @@ private:
 } // namespace
 
 DistributedTriangulation triangulateDistributed(
-  Postbox& ranks, const RankPoints& points, const DistributedOptions& options)
+  Communicator& ranks, const RankPoints& points, const DistributedOptions& options)
 {
   DistributedTriangulation result;
   ranks.together([&]() { DistributedRun(ranks, points, options, result).run(); });

@@ -5,7 +5,7 @@
 #include "Distributed/DistributedOptions.h"
 #include "Distributed/DistributedStatistics.h"
 #include "Distributed/PointExchange.h"
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 #include "Triangulation/Buffer.h"
 #include "Triangulation/Triangulate.h"
 
@@ -55,7 +55,7 @@ struct DistributedTriangulation
 /// the lowest global id represents all. Collective; throws RankFailure on all ranks if any rank
 /// fails or its Progress stops the run.
 VTKTIPPFILTERS_EXPORT DistributedTriangulation triangulateDistributed(
-  Postbox& ranks, const RankPoints& points, const DistributedOptions& options = {});
+  Communicator& ranks, const RankPoints& points, const DistributedOptions& options = {});
 
 } // namespace tipp
 

@@ -25,8 +25,8 @@ struct SharedVertex
 
 /// Sends the points used to their owners, and each owner sends the using ranks to all of them.
 /// Collective.
-Users findUsers(
-  Postbox& ranks, const DistributedTriangulation& mine, const std::vector<IdTriangle>& triangles)
+Users findUsers(Communicator& ranks, const DistributedTriangulation& mine,
+  const std::vector<IdTriangle>& triangles)
 {
   const std::int64_t firstOwn = mine.FirstIds[std::size_t(ranks.rank())];
   std::vector<std::vector<std::int64_t>> asked(std::size_t(ranks.size()));
@@ -107,7 +107,7 @@ std::vector<IdTriangle> trianglesByIds(const DistributedTriangulation& mine, int
   return triangles;
 }
 
-GhostTriangles fetchGhosts(Postbox& ranks, const DistributedTriangulation& mine)
+GhostTriangles fetchGhosts(Communicator& ranks, const DistributedTriangulation& mine)
 {
   struct Sent
   {
@@ -159,7 +159,7 @@ GhostTriangles fetchGhosts(Postbox& ranks, const DistributedTriangulation& mine)
   return ghosts;
 }
 
-DistributedTriangulation gatherOnFirst(Postbox& ranks, DistributedTriangulation mine)
+DistributedTriangulation gatherOnFirst(Communicator& ranks, DistributedTriangulation mine)
 {
   ByteWriter writer;
   writer.array(trianglesByIds(mine, ranks.rank()));

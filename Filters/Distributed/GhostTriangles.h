@@ -21,7 +21,7 @@ struct GhostTriangles
 
 /// Returns the ghosts of this rank's triangles. Collective.
 VTKTIPPFILTERS_EXPORT GhostTriangles fetchGhosts(
-  Postbox& ranks, const DistributedTriangulation& mine);
+  Communicator& ranks, const DistributedTriangulation& mine);
 
 /// A rank's triangles by internal ids: indices among all ranks' owned points.
 VTKTIPPFILTERS_EXPORT std::vector<IdTriangle> trianglesByIds(
@@ -29,7 +29,7 @@ VTKTIPPFILTERS_EXPORT std::vector<IdTriangle> trianglesByIds(
 
 /// Moves everything to the first rank; the others return an empty triangulation. Collective.
 VTKTIPPFILTERS_EXPORT DistributedTriangulation gatherOnFirst(
-  Postbox& ranks, DistributedTriangulation mine);
+  Communicator& ranks, DistributedTriangulation mine);
 
 } // namespace tipp
 

@@ -15,11 +15,11 @@ namespace
 using Ranks = std::vector<std::int32_t>;
 
 /// Some sample points of each major partition.
-std::vector<SeamVertex> chooseVertices(const Tiling& majors, const std::vector<Point2>& sample)
+std::vector<BoundaryVertex> chooseVertices(const Tiling& majors, const std::vector<Point2>& sample)
 {
   constexpr int perMajor = 8;
   std::vector<int> taken(static_cast<std::size_t>(majors.size()), 0);
-  std::vector<SeamVertex> vertices;
+  std::vector<BoundaryVertex> vertices;
   for (const Point2& p : sample)
   {
     const PartitionIndex major = majors.locate(p);
@@ -61,8 +61,8 @@ std::vector<std::size_t> groupSizes(const std::vector<double>& weights, std::siz
 std::vector<std::vector<PartitionIndex>> predictStages(const Tiling& majors,
   const std::vector<Point2>& sample, const std::vector<std::int64_t>& majorCounts)
 {
-  std::vector<SeamVertex> vertices = chooseVertices(majors, sample);
-  const std::vector<SeamVertex> artificial = makeArtificialPoints(majors);
+  std::vector<BoundaryVertex> vertices = chooseVertices(majors, sample);
+  const std::vector<BoundaryVertex> artificial = makeArtificialPoints(majors);
   vertices.insert(vertices.end(), artificial.begin(), artificial.end());
   std::vector<char> withPoints;
   withPoints.reserve(majorCounts.size());

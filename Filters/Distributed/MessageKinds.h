@@ -2,7 +2,7 @@
 #ifndef tippMessageKinds_h
 #define tippMessageKinds_h
 
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 
 namespace tipp
 {

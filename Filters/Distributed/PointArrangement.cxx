@@ -24,8 +24,8 @@ void requireSize(std::size_t actual, std::size_t expected)
 
 /// Sends the counts to the leaves' owners; returns by rank the counts of this rank's leaves.
 /// Collective.
-std::vector<std::vector<std::uint64_t>> tellCounts(
-  Postbox& ranks, const std::vector<std::int32_t>& owners, const std::vector<std::int64_t>& counts)
+std::vector<std::vector<std::uint64_t>> tellCounts(Communicator& ranks,
+  const std::vector<std::int32_t>& owners, const std::vector<std::int64_t>& counts)
 {
   std::vector<ByteWriter> writers(static_cast<std::size_t>(ranks.size()));
   for (std::size_t leaf = 0; leaf < owners.size(); ++leaf)
@@ -63,8 +63,8 @@ std::size_t PointArrays::bytes(std::size_t points, std::size_t rowSize)
   return points * (sizeof(Point2) + sizeof(PointId) + rowSize);
 }
 
-PointArrangement::PointArrangement(
-  Postbox& ranks, const std::vector<std::int32_t>& owners, const std::vector<std::int64_t>& counts)
+PointArrangement::PointArrangement(Communicator& ranks, const std::vector<std::int32_t>& owners,
+  const std::vector<std::int64_t>& counts)
   : Rank(ranks.rank())
   , Counts(tellCounts(ranks, owners, counts))
   , Firsts(this->Counts.size())

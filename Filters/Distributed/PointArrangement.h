@@ -3,7 +3,7 @@
 #define tippPointArrangement_h
 
 #include "Messages/Bytes.h"
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 #include "Predicates/Point2.h"
 #include "Triangulation/Triangulate.h"
 
@@ -37,7 +37,7 @@ struct PointArrays
 struct PointArrangement
 {
   /// Sends the number of points in each leaf to the leaf's owner. Collective.
-  PointArrangement(Postbox& ranks, const std::vector<std::int32_t>& owners,
+  PointArrangement(Communicator& ranks, const std::vector<std::int32_t>& owners,
     const std::vector<std::int64_t>& counts);
 
   std::int32_t Rank;

@@ -137,7 +137,7 @@ void PointExchange::pack(const std::vector<std::int32_t>& owners, const Packing&
   std::vector<PointArrays> arrays;
   for (std::size_t to = 0; to < packing.Sizes.size(); ++to)
   {
-    const Postbox::Stretch& message = packing.Messages[to];
+    const Communicator::Stretch& message = packing.Messages[to];
     arrays.push_back(
       message.Size == 0 ? home : PointArrays(messages + message.Begin, packing.Sizes[to]));
   }
@@ -152,7 +152,7 @@ void PointExchange::pack(const std::vector<std::int32_t>& owners, const Packing&
 
 template <typename Id>
 OwnedPoints<Id> PointExchange::exchange(
-  Postbox& ranks, const std::vector<std::int32_t>& owners) const
+  Communicator& ranks, const std::vector<std::int32_t>& owners) const
 {
   const std::size_t rowSize = this->Input.RowSize;
   const PointArrangement arrangement(ranks, owners, this->counts());
@@ -211,8 +211,8 @@ OwnedPoints<Id> PointExchange::exchange(
 }
 
 template OwnedPoints<std::int32_t> PointExchange::exchange(
-  Postbox&, const std::vector<std::int32_t>&) const;
+  Communicator&, const std::vector<std::int32_t>&) const;
 template OwnedPoints<std::int64_t> PointExchange::exchange(
-  Postbox&, const std::vector<std::int32_t>&) const;
+  Communicator&, const std::vector<std::int32_t>&) const;
 
 } // namespace tipp

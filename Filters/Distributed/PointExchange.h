@@ -4,7 +4,7 @@
 
 #include "Distributed/Plan.h"
 #include "Distributed/PointArrangement.h"
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/Triangulate.h"
 
@@ -56,7 +56,7 @@ public:
   /// Sends each point to its leaf's owner and returns the points received. `owners` has the rank of
   /// each leaf. Collective.
   template <typename Id>
-  OwnedPoints<Id> exchange(Postbox& ranks, const std::vector<std::int32_t>& owners) const;
+  OwnedPoints<Id> exchange(Communicator& ranks, const std::vector<std::int32_t>& owners) const;
 
 private:
   /// The layout of the outgoing messages.
@@ -64,7 +64,7 @@ private:
   {
     std::vector<std::size_t> Sizes;  ///< number of points to each rank
     std::vector<std::size_t> Begins; ///< index of each leaf's first point in its owner's message
-    std::vector<Postbox::Stretch> Messages;
+    std::vector<Communicator::Stretch> Messages;
     std::size_t Size = 0; ///< bytes of all messages
   };
 
@@ -82,9 +82,9 @@ private:
 };
 
 extern template OwnedPoints<std::int32_t> PointExchange::exchange(
-  Postbox&, const std::vector<std::int32_t>&) const;
+  Communicator&, const std::vector<std::int32_t>&) const;
 extern template OwnedPoints<std::int64_t> PointExchange::exchange(
-  Postbox&, const std::vector<std::int32_t>&) const;
+  Communicator&, const std::vector<std::int32_t>&) const;
 
 } // namespace tipp
 

@@ -2,7 +2,7 @@
 #ifndef tippRankArrays_h
 #define tippRankArrays_h
 
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 
 #include <algorithm>
 #include <array>
@@ -30,7 +30,8 @@ inline std::size_t ownerOf(std::int64_t id, const std::vector<std::int64_t>& fir
 
 /// Sends one array to each rank; returns one from each rank. Collective.
 template <typename T>
-std::vector<std::vector<T>> swapArrays(Postbox& ranks, const std::vector<std::vector<T>>& toRanks)
+std::vector<std::vector<T>> swapArrays(
+  Communicator& ranks, const std::vector<std::vector<T>>& toRanks)
 {
   std::vector<Bytes> messages;
   for (const std::vector<T>& values : toRanks)

@@ -66,7 +66,7 @@ struct RegionEntry
 } // namespace
 
 template <typename Id>
-RankRun<Id>::RankRun(Postbox& ranks, const Plan& plan, OwnedPoints<Id>& points,
+RankRun<Id>::RankRun(Communicator& ranks, const Plan& plan, OwnedPoints<Id>& points,
   const DistributedOptions& options, int threads)
   : InteriorCounts(static_cast<std::size_t>(plan.Leaves.size()), 0)
   , Ranks(ranks)
@@ -81,14 +81,14 @@ RankRun<Id>::RankRun(Postbox& ranks, const Plan& plan, OwnedPoints<Id>& points,
 
 /// Gathers all ranks' regions and initial points on all ranks.
 template <typename Id>
-void RankRun<Id>::shareInitialMesh(std::vector<SeamVertex>& vertices)
+void RankRun<Id>::shareInitialMesh(std::vector<BoundaryVertex>& vertices)
 {
   const Tiling& tiles = this->Work.Leaves;
   const Regions own(tiles, this->Points.Buckets, this->Threads);
   const int wanted = this->Options.InitialPointsPerPartition > 0
     ? this->Options.InitialPointsPerPartition
     : InitialPointsOfPartition;
-  std::vector<SeamVertex> initial =
+  std::vector<BoundaryVertex> initial =
     chooseInitialPoints(tiles, this->Points.Buckets, wanted, this->Threads);
   std::vector<RegionEntry> regions;
   for (PartitionIndex p = 0; p < tiles.size(); ++p)
@@ -98,7 +98,7 @@ void RankRun<Id>::shareInitialMesh(std::vector<SeamVertex>& vertices)
       regions.push_back({ own[p], p });
     }
   }
-  for (SeamVertex& v : initial)
+  for (BoundaryVertex& v : initial)
   {
     v.Id += this->FirstId;
   }
@@ -135,11 +135,11 @@ std::vector<char> RankRun<Id>::thoseOf(const std::vector<std::int32_t>& ranks) c
 template <typename Id>
 void RankRun<Id>::makeInitialMesh()
 {
-  std::vector<SeamVertex> vertices;
+  std::vector<BoundaryVertex> vertices;
   this->shareInitialMesh(vertices);
   this->Artificial = makeArtificialPoints(this->Work.Leaves);
   vertices.insert(vertices.end(), this->Artificial.begin(), this->Artificial.end());
-  const SeamTriangles mesh = triangulateVertices(
+  const BoundaryTriangles mesh = triangulateVertices(
     *this->Boxes, vertices, this->Threads, shareOf(this->Ranks, vertices.size()));
   const bool chosen = this->Options.Minor.isGiven() || this->Options.Major.isGiven();
   this->PartitionsPay = !this->Artificial.empty() && (chosen || partitionsPay(mesh));
@@ -207,7 +207,7 @@ std::vector<std::int32_t> RankRun<Id>::recipientsOf(PartitionIndex p) const
 /// Each rank computes the same messages and keeps those for its inboxes; the first rank keeps the
 /// triangles that are final already.
 template <typename Id>
-void RankRun<Id>::sendInitial(const SeamTriangles& mesh)
+void RankRun<Id>::sendInitial(const BoundaryTriangles& mesh)
 {
   FinalBoundary<std::int64_t> final;
   sendInitialMesh(
@@ -427,7 +427,7 @@ void RankRun<Id>::repairHullOnFirst()
 {
   ByteWriter writer;
   write(writer, std::exchange(this->Boundary.HullVertices, {}));
-  std::vector<SeamVertex> vertices;
+  std::vector<BoundaryVertex> vertices;
   for (const Bytes& part : this->Ranks.gather(writer.take()))
   {
     ByteReader reader(part);

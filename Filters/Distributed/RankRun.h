@@ -10,7 +10,7 @@
 #include "Engine/ReadyPartitions.h"
 #include "Engine/Regions.h"
 #include "Engine/Routing.h"
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 #include "Parallel/Stopwatch.h"
 
 #include <atomic>
@@ -38,7 +38,7 @@ template <typename Id>
 class RankRun
 {
 public:
-  RankRun(Postbox& ranks, const Plan& plan, OwnedPoints<Id>& points,
+  RankRun(Communicator& ranks, const Plan& plan, OwnedPoints<Id>& points,
     const DistributedOptions& options, int threads);
 
   /// Runs the triangulation. Collective. Throws RankFailure.
@@ -71,9 +71,9 @@ private:
   };
 
   void makeInitialMesh();
-  void shareInitialMesh(std::vector<SeamVertex>& vertices);
+  void shareInitialMesh(std::vector<BoundaryVertex>& vertices);
   void decideWhoWaits();
-  void sendInitial(const SeamTriangles& mesh);
+  void sendInitial(const BoundaryTriangles& mesh);
   std::int32_t ownerOf(PartitionIndex p) const { return this->Work.Owners[std::size_t(p)]; }
   std::int32_t keeperOf(PartitionIndex p) const { return this->Keepers[std::size_t(p)]; }
   std::vector<char> thoseOf(const std::vector<std::int32_t>& ranks) const;
@@ -101,13 +101,13 @@ private:
   void receiveTask(const Message& message);
   ///@}
 
-  Postbox& Ranks;
+  Communicator& Ranks;
   const Plan& Work;
   OwnedPoints<Id>& Points;
   const DistributedOptions& Options;
   const int Threads;
   const std::int64_t FirstId;
-  std::vector<SeamVertex> Artificial;
+  std::vector<BoundaryVertex> Artificial;
   std::unique_ptr<Regions> Boxes;
   std::unique_ptr<PartitionOrder> Order;
   std::vector<std::int32_t> Keepers;        ///< of each partition

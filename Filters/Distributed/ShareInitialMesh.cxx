@@ -10,7 +10,7 @@ namespace tipp
 namespace
 {
 
-Bytes bytesOf(const SeamTriangles& triangles)
+Bytes bytesOf(const BoundaryTriangles& triangles)
 {
   ByteWriter writer;
   writer.array(triangles.Triangles);
@@ -24,10 +24,10 @@ Bytes bytesOf(const SeamTriangles& triangles)
   return writer.take();
 }
 
-SeamTriangles trianglesOf(ByteReader& reader)
+BoundaryTriangles trianglesOf(ByteReader& reader)
 {
-  SeamTriangles triangles;
-  triangles.Triangles = reader.array<SeamTriangles::Corners>();
+  BoundaryTriangles triangles;
+  triangles.Triangles = reader.array<BoundaryTriangles::Corners>();
   triangles.SetOf = reader.array<std::uint32_t>();
   const auto sets = reader.value<std::uint64_t>();
   for (std::uint64_t i = 0; i < sets; ++i)
@@ -40,7 +40,7 @@ SeamTriangles trianglesOf(ByteReader& reader)
 
 } // namespace
 
-Bytes joinedOnAllRanks(Postbox& ranks, Bytes&& own)
+Bytes joinedOnAllRanks(Communicator& ranks, Bytes&& own)
 {
   ByteWriter all;
   for (const Bytes& part : ranks.gather(std::move(own)))
@@ -50,16 +50,16 @@ Bytes joinedOnAllRanks(Postbox& ranks, Bytes&& own)
   return ranks.broadcast(all.take());
 }
 
-InitialMeshShare shareOf(Postbox& ranks, std::size_t vertices)
+InitialMeshShare shareOf(Communicator& ranks, std::size_t vertices)
 {
   constexpr std::size_t leastOfARank = 256;
   if (ranks.size() == 1 || vertices < leastOfARank * std::size_t(ranks.size()))
   {
     return {};
   }
-  const auto exchange = [&ranks](SeamTriangles&& own)
+  const auto exchange = [&ranks](BoundaryTriangles&& own)
   {
-    std::vector<SeamTriangles> all;
+    std::vector<BoundaryTriangles> all;
     const Bytes together = joinedOnAllRanks(ranks, bytesOf(own));
     for (ByteReader reader(together); reader.left() > 0;)
     {

@@ -83,7 +83,7 @@ Verdict judge(const std::vector<Bytes>& surveys)
 
 } // namespace
 
-Survey surveyRanks(Postbox& ranks, PointsView points, int threads)
+Survey surveyRanks(Communicator& ranks, PointsView points, int threads)
 {
   PointSurvey local = surveyPoints(points, threads);
   Survey survey;
@@ -118,7 +118,7 @@ Survey surveyRanks(Postbox& ranks, PointsView points, int threads)
 }
 
 std::vector<Point2> gatherSample(
-  Postbox& ranks, PointsView points, std::int64_t allPoints, std::size_t wanted)
+  Communicator& ranks, PointsView points, std::int64_t allPoints, std::size_t wanted)
 {
   const double share = double(points.size()) / double(std::max<std::int64_t>(1, allPoints));
   ByteWriter writer;

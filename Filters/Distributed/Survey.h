@@ -2,7 +2,7 @@
 #ifndef tippSurvey_h
 #define tippSurvey_h
 
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 #include "Predicates/Box2.h"
 #include "Triangulation/PointsView.h"
 
@@ -22,12 +22,12 @@ struct Survey
 };
 
 /// Surveys all ranks' points. Collective.
-Survey surveyRanks(Postbox& ranks, PointsView points, int threads);
+Survey surveyRanks(Communicator& ranks, PointsView points, int threads);
 
 /// Returns, on the first rank, about `wanted` of all ranks' points, evenly spaced on each rank.
 /// Surveys all ranks' points. Collective.
 std::vector<Point2> gatherSample(
-  Postbox& ranks, PointsView points, std::int64_t allPoints, std::size_t wanted);
+  Communicator& ranks, PointsView points, std::int64_t allPoints, std::size_t wanted);
 
 } // namespace tipp
 

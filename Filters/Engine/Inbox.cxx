@@ -18,13 +18,13 @@ struct WrittenVertex
 
 } // namespace
 
-void write(ByteWriter& writer, const std::vector<SeamVertex>& vertices)
+void write(ByteWriter& writer, const std::vector<BoundaryVertex>& vertices)
 {
   std::vector<WrittenVertex> written;
   written.reserve(vertices.size());
-  for (const SeamVertex& v : vertices)
+  for (const BoundaryVertex& v : vertices)
   {
-    written.push_back({ v.Place, v.Id, v.Partition });
+    written.push_back({ v.Position, v.Id, v.Partition });
   }
   writer.array(written);
 }
@@ -36,7 +36,7 @@ void write(ByteWriter& writer, const VertexMessage& message)
   write(writer, message.Vertices);
 }
 
-void read(ByteReader& reader, std::vector<SeamVertex>& vertices)
+void read(ByteReader& reader, std::vector<BoundaryVertex>& vertices)
 {
   const std::vector<WrittenVertex> written = reader.array<WrittenVertex>();
   vertices.reserve(vertices.size() + written.size());
@@ -94,7 +94,7 @@ SentMessages readDone(const Bytes& bytes, std::size_t count, PartitionIndex& sen
   return sent;
 }
 
-std::vector<SeamVertex> UniqueVertices::collect(const std::vector<VertexMessage>& messages)
+std::vector<BoundaryVertex> UniqueVertices::collect(const std::vector<VertexMessage>& messages)
 {
   std::size_t count = 0;
   for (const VertexMessage& message : messages)
@@ -108,11 +108,11 @@ std::vector<SeamVertex> UniqueVertices::collect(const std::vector<VertexMessage>
   }
   constexpr std::uint32_t empty = ~0U;
   this->HashTable.assign(size, empty);
-  std::vector<SeamVertex> vertices;
+  std::vector<BoundaryVertex> vertices;
   vertices.reserve(count);
   for (const VertexMessage& message : messages)
   {
-    for (const SeamVertex& v : message.Vertices)
+    for (const BoundaryVertex& v : message.Vertices)
     {
       std::size_t at = ((std::uint64_t(v.Id) * 0x9e3779b97f4a7c15U) >> 32) & (size - 1);
       while (this->HashTable[at] != empty && vertices[this->HashTable[at]].Id != v.Id)

@@ -3,7 +3,7 @@
 #define tippInbox_h
 
 #include "Messages/Bytes.h"
-#include "Triangulation/SeamTriangles.h"
+#include "Triangulation/BoundaryTriangles.h"
 
 #include <algorithm>
 #include <atomic>
@@ -21,16 +21,16 @@ namespace tipp
 struct VertexMessage
 {
   PartitionIndex Sender = -1; ///< -1: the initial mesh
-  std::vector<SeamVertex> Vertices;
+  std::vector<BoundaryVertex> Vertices;
   std::int64_t Triangles = 0; ///< the number of triangles that these are the vertices of
 };
 
 /// @name Serialisation of vertices and messages
 /// Reading throws std::runtime_error if the bytes were not written by these functions.
 ///@{
-VTKTIPPFILTERS_EXPORT void write(ByteWriter& writer, const std::vector<SeamVertex>& vertices);
+VTKTIPPFILTERS_EXPORT void write(ByteWriter& writer, const std::vector<BoundaryVertex>& vertices);
 VTKTIPPFILTERS_EXPORT void write(ByteWriter& writer, const VertexMessage& message);
-VTKTIPPFILTERS_EXPORT void read(ByteReader& reader, std::vector<SeamVertex>& vertices);
+VTKTIPPFILTERS_EXPORT void read(ByteReader& reader, std::vector<BoundaryVertex>& vertices);
 VTKTIPPFILTERS_EXPORT void read(ByteReader& reader, VertexMessage& message);
 ///@}
 
@@ -51,7 +51,7 @@ VTKTIPPFILTERS_EXPORT SentMessages readDone(
 class UniqueVertices
 {
 public:
-  std::vector<SeamVertex> collect(const std::vector<VertexMessage>& messages);
+  std::vector<BoundaryVertex> collect(const std::vector<VertexMessage>& messages);
 
 private:
   std::vector<std::uint32_t> HashTable; ///< vertex indices; a member to reuse its memory

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Engine/PartitionOrder.h"
 
-#include "Triangulation/SeamTriangles.h"
+#include "Triangulation/BoundaryTriangles.h"
 
 #include <algorithm>
 #include <tuple>
@@ -55,7 +55,8 @@ void addConflicts(const PartitionSets& sets, std::uint32_t one, std::uint32_t ot
 
 } // namespace
 
-PartitionOrder::PartitionOrder(const std::vector<char>& isUsed, const SeamTriangles& initialMesh)
+PartitionOrder::PartitionOrder(
+  const std::vector<char>& isUsed, const BoundaryTriangles& initialMesh)
   : Positions(isUsed.size(), 0)
   , Colours(isUsed.size(), 0)
 {
@@ -124,7 +125,7 @@ void PartitionOrder::sortByUrgency(const std::vector<std::int32_t>& windows)
 
 /// Returns false if there are so many conflicts that a total order costs little: if points are
 /// co-circular, each disk meets nearly all partitions.
-bool PartitionOrder::findConflicts(const SeamTriangles& initialMesh)
+bool PartitionOrder::findConflicts(const BoundaryTriangles& initialMesh)
 {
   constexpr std::size_t most = std::size_t(1) << 22; // pairs collected before they are added
   constexpr std::size_t mostOfAPartition = 256;

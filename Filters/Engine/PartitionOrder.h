@@ -13,7 +13,7 @@
 namespace tipp
 {
 
-struct SeamTriangles;
+struct BoundaryTriangles;
 
 /// Which partitions conflict, and the order in which conflicting ones are triangulated. Both
 /// depend only on the initial mesh, so every rank computes the same.
@@ -48,7 +48,7 @@ public:
 
   /// Orders the partitions that are to be triangulated. `isUsed` has one entry for each partition:
   /// 0 if it has no points.
-  PartitionOrder(const std::vector<char>& isUsed, const SeamTriangles& initialMesh);
+  PartitionOrder(const std::vector<char>& isUsed, const BoundaryTriangles& initialMesh);
 
   /// Orders the partitions by window first. `windows` has one entry for each partition.
   void setWindows(const std::vector<std::int32_t>& windows);
@@ -83,7 +83,7 @@ public:
   bool isTotal() const { return this->Total; }
 
 private:
-  bool findConflicts(const SeamTriangles& initialMesh);
+  bool findConflicts(const BoundaryTriangles& initialMesh);
   void colour();
   void sort(const std::vector<std::int32_t>& windows);
   void sortByUrgency(const std::vector<std::int32_t>& windows);

@@ -16,14 +16,14 @@ constexpr std::uint32_t Nobody = ~0U;
 } // namespace
 
 template <typename Id>
-void FinalBoundary<Id>::add(const SeamTriangle& triangle)
+void FinalBoundary<Id>::add(const BoundaryTriangle& triangle)
 {
   if (takeHullVertices(triangle, this->HullVertices))
   {
     return;
   }
   const auto lowest = std::min_element(triangle.begin(), triangle.end(),
-    [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; });
+    [](const BoundaryVertex& a, const BoundaryVertex& b) { return a.Id < b.Id; });
   this->Triangles.push_back({ TriangleSink<Id>::fromLowest({ static_cast<Id>(triangle[0].Id),
                                 static_cast<Id>(triangle[1].Id), static_cast<Id>(triangle[2].Id) }),
     lowest->Partition });
@@ -39,9 +39,9 @@ void FinalBoundary<Id>::append(FinalBoundary&& other)
   other.HullVertices.clear();
 }
 
-bool takeHullVertices(const SeamTriangle& triangle, std::vector<SeamVertex>& vertices)
+bool takeHullVertices(const BoundaryTriangle& triangle, std::vector<BoundaryVertex>& vertices)
 {
-  const auto isArtificial = [](const SeamVertex& v) { return v.isArtificial(); };
+  const auto isArtificial = [](const BoundaryVertex& v) { return v.isArtificial(); };
   const bool isHull = std::any_of(triangle.begin(), triangle.end(), isArtificial);
   if (isHull)
   {
@@ -51,24 +51,24 @@ bool takeHullVertices(const SeamTriangle& triangle, std::vector<SeamVertex>& ver
   return isHull;
 }
 
-void keepUnique(std::vector<SeamVertex>& vertices)
+void keepUnique(std::vector<BoundaryVertex>& vertices)
 {
   std::sort(vertices.begin(), vertices.end(),
-    [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; });
+    [](const BoundaryVertex& a, const BoundaryVertex& b) { return a.Id < b.Id; });
   vertices.erase(std::unique(vertices.begin(), vertices.end(),
-                   [](const SeamVertex& a, const SeamVertex& b) { return a.Id == b.Id; }),
+                   [](const BoundaryVertex& a, const BoundaryVertex& b) { return a.Id == b.Id; }),
     vertices.end());
 }
 
-void repairHull(
-  std::vector<SeamVertex> vertices, const std::vector<SeamVertex>& artificial, FinalTaker& final)
+void repairHull(std::vector<BoundaryVertex> vertices, const std::vector<BoundaryVertex>& artificial,
+  FinalTaker& final)
 {
   keepUnique(vertices);
   std::vector<Point2> points;
   points.reserve(vertices.size());
-  for (const SeamVertex& v : vertices)
+  for (const BoundaryVertex& v : vertices)
   {
-    points.push_back(v.Place);
+    points.push_back(v.Position);
   }
   for (const auto& corners : hullTriangles(std::move(points), artificial))
   {
@@ -165,7 +165,7 @@ std::int64_t Routing<Id>::send(
   return std::int64_t(sent);
 }
 
-std::int64_t sendInitialMesh(const SeamTriangles& mesh, const PartitionOrder& order,
+std::int64_t sendInitialMesh(const BoundaryTriangles& mesh, const PartitionOrder& order,
   const DeliverMessage& deliver, FinalTaker& final)
 {
   std::vector<PartitionIndex> recipients(mesh.size(), -1);

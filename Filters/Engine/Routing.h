@@ -24,7 +24,7 @@ class FinalTaker
 {
 public:
   virtual ~FinalTaker() = default;
-  virtual void add(const SeamTriangle& triangle) = 0;
+  virtual void add(const BoundaryTriangle& triangle) = 0;
 };
 
 /// Collects final boundary triangles: triangles without artificial corners as they are, and of the
@@ -32,24 +32,24 @@ public:
 template <typename Id>
 struct FinalBoundary : public FinalTaker
 {
-  std::vector<typename TriangleSink<Id>::Seam> Triangles;
-  std::vector<SeamVertex> HullVertices; ///< may contain repetitions
+  std::vector<typename TriangleSink<Id>::FinalTriangle> Triangles;
+  std::vector<BoundaryVertex> HullVertices; ///< may contain repetitions
 
-  void add(const SeamTriangle& triangle) override;
+  void add(const BoundaryTriangle& triangle) override;
   void append(FinalBoundary&& other);
 };
 
 /// If the triangle has an artificial corner, adds its true corners to `vertices`, which the hull
 /// repair needs, and returns true.
-bool takeHullVertices(const SeamTriangle& triangle, std::vector<SeamVertex>& vertices);
+bool takeHullVertices(const BoundaryTriangle& triangle, std::vector<BoundaryVertex>& vertices);
 
 /// Sorts the vertices by id and removes repetitions.
-void keepUnique(std::vector<SeamVertex>& vertices);
+void keepUnique(std::vector<BoundaryVertex>& vertices);
 
 /// Adds to `final` the triangles that replace those with artificial corners (Lemma 3,
 /// HullRepair.h). `vertices` are the true corners of these, with repetitions allowed.
-VTKTIPPFILTERS_EXPORT void repairHull(
-  std::vector<SeamVertex> vertices, const std::vector<SeamVertex>& artificial, FinalTaker& final);
+VTKTIPPFILTERS_EXPORT void repairHull(std::vector<BoundaryVertex> vertices,
+  const std::vector<BoundaryVertex>& artificial, FinalTaker& final);
 
 /// Routes the boundary triangles of a partition, one partition after another.
 ///
@@ -99,7 +99,7 @@ private:
 
 /// Sends each triangle of the initial mesh to the first partition that it meets, or to `final` if
 /// there is none. Returns the number of triangles delivered.
-std::int64_t sendInitialMesh(const SeamTriangles& mesh, const PartitionOrder& order,
+std::int64_t sendInitialMesh(const BoundaryTriangles& mesh, const PartitionOrder& order,
   const DeliverMessage& deliver, FinalTaker& final);
 
 } // namespace tipp

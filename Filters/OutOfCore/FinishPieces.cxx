@@ -125,10 +125,10 @@ private:
   /// What replaces the triangles at artificial points is at the borders, too.
   void repairHull()
   {
-    std::vector<SeamVertex> vertices;
+    std::vector<BoundaryVertex> vertices;
     for (const auto& result : this->Results)
     {
-      const std::vector<SeamVertex> more = result->readHullVertices();
+      const std::vector<BoundaryVertex> more = result->readHullVertices();
       vertices.insert(vertices.end(), more.begin(), more.end());
     }
     PieceBorders borders(this->Work);

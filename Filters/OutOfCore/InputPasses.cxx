@@ -50,7 +50,7 @@ void exchange(Archive& archive, double& number)
 
 } // namespace
 
-InputPasses::InputPasses(PointStream& points, Postbox* ranks, PassOptions options)
+InputPasses::InputPasses(PointStream& points, Communicator* ranks, PassOptions options)
   : Points(points)
   , Ranks(ranks)
   , Options(std::move(options))
@@ -178,7 +178,7 @@ std::unique_ptr<SpilledPoints> InputPasses::spill(
 }
 
 InputHelper::InputHelper(
-  Postbox& ranks, std::function<std::unique_ptr<PointStream>()> open, PassOptions options)
+  Communicator& ranks, std::function<std::unique_ptr<PointStream>()> open, PassOptions options)
   : Ranks(ranks)
   , Open(std::move(open))
   , Options(std::move(options))

@@ -2,7 +2,7 @@
 #ifndef tippInputPasses_h
 #define tippInputPasses_h
 
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 #include "OutOfCore/InputSurvey.h"
 #include "OutOfCore/PieceMessages.h"
 #include "OutOfCore/PiecePlan.h"
@@ -35,7 +35,7 @@ class VTKTIPPFILTERS_EXPORT InputPasses
 {
 public:
   /// Ranks: null for this process alone.
-  InputPasses(PointStream& points, Postbox* ranks, PassOptions options);
+  InputPasses(PointStream& points, Communicator* ranks, PassOptions options);
 
   InputSurvey survey();
   /// Tells the plan's initial points their places. `file`: to which a number is added for each
@@ -52,7 +52,7 @@ private:
   std::function<void(std::int64_t)> progress();
 
   PointStream& Points;
-  Postbox* const Ranks;
+  Communicator* const Ranks;
   const PassOptions Options;
   const std::int64_t Total; ///< points, or -1
   const int Parts;
@@ -65,7 +65,7 @@ class VTKTIPPFILTERS_EXPORT InputHelper
 public:
   /// Progress throws to end the run. The rest of the options come from the first rank.
   InputHelper(
-    Postbox& ranks, std::function<std::unique_ptr<PointStream>()> open, PassOptions options);
+    Communicator& ranks, std::function<std::unique_ptr<PointStream>()> open, PassOptions options);
 
   /// Does what the first rank wants; false if the message is about something else.
   bool take(const Message& message);
@@ -76,7 +76,7 @@ private:
   SaveArchive factor(LoadArchive& order);
   SaveArchive spill(LoadArchive& order);
 
-  Postbox& Ranks;
+  Communicator& Ranks;
   const std::function<std::unique_ptr<PointStream>()> Open;
   PassOptions Options;
   std::unique_ptr<PointStream> Points; ///< limited to this rank's part; null if it is another input

@@ -69,7 +69,7 @@ public:
   std::vector<SampledPoint> take()
   {
     this->Picks.erase(std::remove_if(this->Picks.begin(), this->Picks.end(),
-                        [](const SampledPoint& p) { return !isFinite(p.Place); }),
+                        [](const SampledPoint& p) { return !isFinite(p.Position); }),
       this->Picks.end());
     return std::move(this->Picks);
   }
@@ -140,7 +140,7 @@ void applyFactor(InputSurvey& survey, double factor)
     survey.Bounds.xmax * factor, survey.Bounds.ymax * factor };
   for (SampledPoint& p : survey.Sample)
   {
-    p.Place = { p.Place.x * factor, p.Place.y * factor };
+    p.Position = { p.Position.x * factor, p.Position.y * factor };
   }
 }
 

@@ -18,7 +18,7 @@ namespace tipp
 struct SampledPoint
 {
   std::int64_t Id; ///< its place in the stream
-  Point2 Place;
+  Point2 Position;
 };
 
 /// What one pass over a stream tells.

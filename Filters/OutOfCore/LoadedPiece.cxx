@@ -70,38 +70,38 @@ struct LoadedPiece::Finals : public FinalTaker
   {
   }
 
-  void add(const SeamTriangle& triangle) override
+  void add(const BoundaryTriangle& triangle) override
   {
-    SeamTriangle renamed = triangle;
-    for (SeamVertex& v : renamed)
+    BoundaryTriangle renamed = triangle;
+    for (BoundaryVertex& v : renamed)
     {
       v.Id = this->Lowest.renamed(v.Id);
     }
     const bool isHull = takeHullVertices(renamed, this->HullVertices);
     if (!isHull && this->isInterior(renamed))
     {
-      this->addSeam(renamed);
+      this->addBoundary(renamed);
       return;
     }
     std::copy_if(renamed.begin(), renamed.end(), std::back_inserter(this->RimVertices),
-      [this](const SeamVertex& v) { return this->Of.owns(v); });
+      [this](const BoundaryVertex& v) { return this->Of.owns(v); });
     if (!isHull)
     {
       this->Borders.add(renamed);
     }
   }
 
-  std::vector<std::array<std::int32_t, 3>> Seams;
-  std::vector<SeamVertex> RimVertices;
-  std::vector<SeamVertex> HullVertices;
+  std::vector<std::array<std::int32_t, 3>> BoundaryTriangles;
+  std::vector<BoundaryVertex> RimVertices;
+  std::vector<BoundaryVertex> HullVertices;
   PieceBorders Borders;
 
 private:
-  bool isInterior(const SeamTriangle& triangle) const
+  bool isInterior(const BoundaryTriangle& triangle) const
   {
     bool isInterior = true;
     this->Of.Work.Plan.Pieces.visitMet(
-      Circumdisk(triangle[0].Place, triangle[1].Place, triangle[2].Place),
+      Circumdisk(triangle[0].Position, triangle[1].Position, triangle[2].Position),
       [&](PartitionIndex piece)
       {
         isInterior =
@@ -110,7 +110,7 @@ private:
     return isInterior;
   }
 
-  void addSeam(const SeamTriangle& triangle)
+  void addBoundary(const BoundaryTriangle& triangle)
   {
     std::array<std::int32_t, 3> corners{};
     for (std::size_t i = 0; i < 3; ++i)
@@ -119,7 +119,7 @@ private:
     }
     // Which corner comes first depends on the worker.
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    this->Seams.push_back(corners);
+    this->BoundaryTriangles.push_back(corners);
   }
 
   const LoadedPiece& Of;
@@ -145,7 +145,7 @@ std::uint64_t LoadedPiece::bytesOf(const PieceWork& work, PartitionIndex piece)
   return MemoryPlan::pieceBytes(work.Points.count(piece), work.Rows.Words);
 }
 
-bool LoadedPiece::owns(const SeamVertex& v) const
+bool LoadedPiece::owns(const BoundaryVertex& v) const
 {
   return v.Id >= this->First && v.Id < this->First + std::int64_t(this->Rim.size());
 }
@@ -188,7 +188,7 @@ SentMessages LoadedPiece::triangulate(
     worker,
     [&](PartitionIndex to, VertexMessage&& message)
     {
-      for (SeamVertex& v : message.Vertices)
+      for (BoundaryVertex& v : message.Vertices)
       {
         v.Id = lowest.renamed(v.Id);
       }
@@ -219,8 +219,9 @@ SentMessages LoadedPiece::triangulate(
 
 void LoadedPiece::take(const Finals& finals, const SentMessages& sent)
 {
-  this->Seams.insert(this->Seams.end(), finals.Seams.begin(), finals.Seams.end());
-  for (const SeamVertex& v : finals.RimVertices)
+  this->BoundaryTriangles.insert(this->BoundaryTriangles.end(), finals.BoundaryTriangles.begin(),
+    finals.BoundaryTriangles.end());
+  for (const BoundaryVertex& v : finals.RimVertices)
   {
     this->markRim(v);
   }
@@ -234,11 +235,11 @@ void LoadedPiece::take(const Finals& finals, const SentMessages& sent)
     {
       continue;
     }
-    for (const SeamVertex& v : message.Vertices)
+    for (const BoundaryVertex& v : message.Vertices)
     {
       this->markRim(v);
     }
-    this->Result.Figures.BoundaryBytes += message.Vertices.size() * sizeof(SeamVertex);
+    this->Result.Figures.BoundaryBytes += message.Vertices.size() * sizeof(BoundaryVertex);
     this->Result.Sent[piece].emplace_back(to, message);
   }
 }
@@ -253,7 +254,7 @@ void LoadedPiece::take(const std::vector<Duplicate>& duplicates)
   this->Result.Figures.Duplicates += std::int64_t(duplicates.size());
 }
 
-void LoadedPiece::markRim(const SeamVertex& v)
+void LoadedPiece::markRim(const BoundaryVertex& v)
 {
   if (this->owns(v))
   {
@@ -274,10 +275,10 @@ void LoadedPiece::dropLong()
     std::size_t& count = this->InteriorCounts[std::size_t(p)];
     count = dropLongTriangles(this->Buckets.triangles(p), count, longest, pointOf);
   }
-  if (!this->Seams.empty())
+  if (!this->BoundaryTriangles.empty())
   {
-    this->Seams.resize(
-      dropLongTriangles(this->Seams.front().data(), this->Seams.size(), longest, pointOf));
+    this->BoundaryTriangles.resize(dropLongTriangles(
+      this->BoundaryTriangles.front().data(), this->BoundaryTriangles.size(), longest, pointOf));
   }
 }
 
@@ -314,10 +315,11 @@ GrowingPiece LoadedPiece::writeInterior()
     interior.Triangles.push_back(
       { this->Buckets.triangles(p), this->InteriorCounts[std::size_t(p)] });
   }
-  std::sort(this->Seams.begin(), this->Seams.end());
-  if (!this->Seams.empty())
+  std::sort(this->BoundaryTriangles.begin(), this->BoundaryTriangles.end());
+  if (!this->BoundaryTriangles.empty())
   {
-    interior.Triangles.push_back({ this->Seams.front().data(), this->Seams.size() });
+    interior.Triangles.push_back(
+      { this->BoundaryTriangles.front().data(), this->BoundaryTriangles.size() });
   }
   if (this->Work.Taker)
   {

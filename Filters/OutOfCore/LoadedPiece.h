@@ -76,11 +76,11 @@ private:
   struct Finals;
 
   void prepare(Tools& tools);
-  std::vector<SeamVertex> uniqueVertices(Tools& tools, const std::vector<VertexMessage>& inbox);
+  std::vector<BoundaryVertex> uniqueVertices(Tools& tools, const std::vector<VertexMessage>& inbox);
   void take(const Finals& finals, const SentMessages& sent);
   void take(const std::vector<Duplicate>& duplicates);
-  bool owns(const SeamVertex& v) const;
-  void markRim(const SeamVertex& v);
+  bool owns(const BoundaryVertex& v) const;
+  void markRim(const BoundaryVertex& v);
   void dropLong();
   void resolveDuplicates(PieceFigures& figures);
   GrowingPiece writeInterior();
@@ -94,8 +94,9 @@ private:
 
   std::mutex Mutex;                                               ///< for what follows
   std::unordered_map<std::int32_t, std::int32_t> Representatives; ///< of duplicates
-  std::vector<std::uint8_t> Rim;                  ///< of each point: 1 if it is on the rim
-  std::vector<std::array<std::int32_t, 3>> Seams; ///< between partitions, but of the interior
+  std::vector<std::uint8_t> Rim; ///< of each point: 1 if it is on the rim
+  std::vector<std::array<std::int32_t, 3>>
+    BoundaryTriangles; ///< between partitions, but of the interior
   PieceResult Result;
 };
 

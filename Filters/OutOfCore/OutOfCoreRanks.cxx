@@ -55,7 +55,7 @@ Bytes bytesOf(const std::string& text)
 }
 
 /// Of a rank other than the first, before there are pieces.
-void report(const Postbox& ranks, const OutOfCoreOptions& options)
+void report(const Communicator& ranks, const OutOfCoreOptions& options)
 {
   if (options.Progress && !options.Progress(0))
   {
@@ -63,7 +63,7 @@ void report(const Postbox& ranks, const OutOfCoreOptions& options)
   }
 }
 
-Message waitForOrder(Postbox& ranks, const OutOfCoreOptions& options)
+Message waitForOrder(Communicator& ranks, const OutOfCoreOptions& options)
 {
   constexpr double moment = 0.1;
   Stopwatch sinceReport;
@@ -86,7 +86,7 @@ int threadsOf(const OutOfCoreOptions& options)
 }
 
 /// Helps with the input until pieces can be worked on: false if there are none to help with.
-bool receivePrepared(Postbox& ranks, const OpenPoints& open, const OutOfCoreOptions& options,
+bool receivePrepared(Communicator& ranks, const OpenPoints& open, const OutOfCoreOptions& options,
   PreparedRun& prepared, std::vector<char>& isDone)
 {
   const auto progress = [&](std::int64_t)
@@ -115,7 +115,7 @@ bool receivePrepared(Postbox& ranks, const OpenPoints& open, const OutOfCoreOpti
   return true;
 }
 
-void help(Postbox& ranks, const OpenPoints& open, const OutOfCoreOptions& options)
+void help(Communicator& ranks, const OpenPoints& open, const OutOfCoreOptions& options)
 {
   requireSharedFolder(ranks, "");
   requireSharedFolder(ranks, "");
@@ -137,7 +137,7 @@ void help(Postbox& ranks, const OpenPoints& open, const OutOfCoreOptions& option
 
 } // namespace
 
-void requireSharedFolder(Postbox& ranks, const std::string& folder)
+void requireSharedFolder(Communicator& ranks, const std::string& folder)
 {
   const bool isFirst = ranks.rank() == 0;
   const Mark mark(isFirst ? folder + "/.ranks" : "");
@@ -162,8 +162,8 @@ void requireSharedFolder(Postbox& ranks, const std::string& folder)
   ranks.barrier(); // then it may go
 }
 
-void sharePrepared(
-  Postbox& ranks, PreparedRun& prepared, const std::string& points, const std::vector<char>& isDone)
+void sharePrepared(Communicator& ranks, PreparedRun& prepared, const std::string& points,
+  const std::vector<char>& isDone)
 {
   SaveArchive archive;
   archive(points);
@@ -181,8 +181,8 @@ void sharePrepared(
   }
 }
 
-OutOfCoreStatistics triangulateOutOfCoreOnRanks(
-  Postbox& ranks, const OpenPoints& open, const std::string& path, const OutOfCoreOptions& options)
+OutOfCoreStatistics triangulateOutOfCoreOnRanks(Communicator& ranks, const OpenPoints& open,
+  const std::string& path, const OutOfCoreOptions& options)
 {
   OutOfCoreStatistics statistics;
   const auto work = [&]

@@ -2,7 +2,7 @@
 #ifndef tippOutOfCoreRanks_h
 #define tippOutOfCoreRanks_h
 
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Points/PointStream.h"
 
@@ -25,18 +25,18 @@ using OpenPoints = std::function<std::unique_ptr<PointStream>()>;
 ///
 /// All ranks must see the folders. The memory limit and the threads are those of each rank. Throws
 /// RankFailure on all ranks; the statistics of a run that was ended by Progress on any rank have
-/// Aborted on all. Not to be called within Postbox::together().
-VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCoreOnRanks(
-  Postbox& ranks, const OpenPoints& open, const std::string& path, const OutOfCoreOptions& options);
+/// Aborted on all. Not to be called within Communicator::together().
+VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCoreOnRanks(Communicator& ranks,
+  const OpenPoints& open, const std::string& path, const OutOfCoreOptions& options);
 
 /// Whether all ranks see a folder of the first rank, by a file that is there for a moment;
 /// collective. Throws IOError on a rank that does not.
-VTKTIPPFILTERS_EXPORT void requireSharedFolder(Postbox& ranks, const std::string& folder);
+VTKTIPPFILTERS_EXPORT void requireSharedFolder(Communicator& ranks, const std::string& folder);
 
 /// Of the first rank: sends the others, which wait for it in triangulateOutOfCoreOnRanks(), what
 /// they need to work on pieces. `points`: the file they are spilled to; `isDone`: of each piece,
 /// whether it is done already.
-VTKTIPPFILTERS_EXPORT void sharePrepared(Postbox& ranks, PreparedRun& prepared,
+VTKTIPPFILTERS_EXPORT void sharePrepared(Communicator& ranks, PreparedRun& prepared,
   const std::string& points, const std::vector<char>& isDone);
 
 } // namespace tipp

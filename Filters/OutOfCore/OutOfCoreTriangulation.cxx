@@ -56,7 +56,8 @@ void exchangeFigures(Archive& archive, OutOfCoreStatistics& statistics)
 class Run
 {
 public:
-  Run(PointStream& points, const std::string& path, const OutOfCoreOptions& options, Postbox* ranks)
+  Run(PointStream& points, const std::string& path, const OutOfCoreOptions& options,
+    Communicator* ranks)
     : Input(points)
     , Ranks(ranks)
     , Path(path)
@@ -542,7 +543,7 @@ private:
   }
 
   PointStream& Input;
-  Postbox* const Ranks; ///< null: this process alone
+  Communicator* const Ranks; ///< null: this process alone
   const std::string Path;
   const OutOfCoreOptions& Options;
   const int Threads;
@@ -560,8 +561,8 @@ private:
 
 } // namespace
 
-OutOfCoreStatistics triangulateOutOfCore(
-  PointStream& points, const std::string& path, const OutOfCoreOptions& options, Postbox* ranks)
+OutOfCoreStatistics triangulateOutOfCore(PointStream& points, const std::string& path,
+  const OutOfCoreOptions& options, Communicator* ranks)
 {
   return Run(points, path, options, ranks && ranks->size() > 1 ? ranks : nullptr).run();
 }

@@ -15,7 +15,7 @@
 namespace tipp
 {
 
-class Postbox;
+class Communicator;
 class TriangleTaker;
 
 struct OutOfCoreOptions
@@ -85,7 +85,7 @@ struct OutOfCoreStatistics : PieceFigures
 ///
 /// Ranks: others that work with this first one, see triangulateOutOfCoreOnRanks(); null: none.
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCore(PointStream& points,
-  const std::string& path, const OutOfCoreOptions& options = {}, Postbox* ranks = nullptr);
+  const std::string& path, const OutOfCoreOptions& options = {}, Communicator* ranks = nullptr);
 
 } // namespace tipp
 

@@ -23,11 +23,11 @@ Box3 boxOf(const Box2& box)
 } // namespace
 
 /// The pieces that the triangle meets, by their numbers in the mesh, ascending.
-void PieceBorders::findMet(const SeamTriangle& triangle)
+void PieceBorders::findMet(const BoundaryTriangle& triangle)
 {
-  const Point2 a = triangle[0].Place;
-  const Point2 b = triangle[1].Place;
-  const Point2 c = triangle[2].Place;
+  const Point2 a = triangle[0].Position;
+  const Point2 b = triangle[1].Position;
+  const Point2 c = triangle[2].Position;
   const PiecePlan& plan = this->Work.Plan;
   this->Met.clear();
   plan.Pieces.visitMet(Circumdisk(a, b, c),
@@ -47,10 +47,11 @@ void PieceBorders::findMet(const SeamTriangle& triangle)
   }
 }
 
-void PieceBorders::add(const SeamTriangle& triangle)
+void PieceBorders::add(const BoundaryTriangle& triangle)
 {
   const double longest = this->Work.MaximumEdge * this->Work.Factor;
-  if (longest > 0 && hasLongEdge(triangle[0].Place, triangle[1].Place, triangle[2].Place, longest))
+  if (longest > 0 &&
+    hasLongEdge(triangle[0].Position, triangle[1].Position, triangle[2].Position, longest))
   {
     return;
   }

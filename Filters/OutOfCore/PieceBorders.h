@@ -22,11 +22,11 @@ public:
   {
   }
 
-  void add(const SeamTriangle& triangle) override;
+  void add(const BoundaryTriangle& triangle) override;
   void appendTo(std::map<PartitionIndex, BorderTriangles>& borders) const;
 
 private:
-  void findMet(const SeamTriangle& triangle);
+  void findMet(const BoundaryTriangle& triangle);
 
   const PieceWork& Work;
   std::map<PartitionIndex, BorderTriangles> Borders;

@@ -6,7 +6,7 @@
 #include "Engine/Regions.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/SpillPoints.h"
-#include "Triangulation/SeamTriangles.h"
+#include "Triangulation/BoundaryTriangles.h"
 
 #include <utility>
 #include <vector>
@@ -31,13 +31,13 @@ public:
   /// Of all partitions.
   const Regions& regions() const { return this->Boxes; }
   /// Given once.
-  SeamTriangles takeInitialMesh() { return std::move(this->InitialMesh); }
+  BoundaryTriangles takeInitialMesh() { return std::move(this->InitialMesh); }
 
 private:
   void orderPieces(const PiecePlan& plan);
 
   Regions Boxes;
-  SeamTriangles InitialMesh;
+  BoundaryTriangles InitialMesh;
   PartitionOrder Partitions;
   std::vector<PartitionIndex> Sequence;
 };

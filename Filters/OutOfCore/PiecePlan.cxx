@@ -19,7 +19,7 @@ std::vector<Point2> placesOf(const std::vector<SampledPoint>& sample)
   places.reserve(sample.size());
   for (const SampledPoint& p : sample)
   {
-    places.push_back(p.Place);
+    places.push_back(p.Position);
   }
   return places;
 }
@@ -131,7 +131,7 @@ void PiecePlan::choosePartitions(const InputSurvey& survey, const MemoryPlan& me
   std::vector<std::vector<Point2>> samples(std::size_t(this->pieces()));
   for (const SampledPoint& p : survey.Sample)
   {
-    samples[std::size_t(this->Pieces.locate(p.Place))].push_back(p.Place);
+    samples[std::size_t(this->Pieces.locate(p.Position))].push_back(p.Position);
   }
   const double each = double(survey.Points - survey.Rejected) / double(survey.Sample.size());
   for (PartitionIndex piece = 0; piece < this->pieces(); ++piece)
@@ -161,15 +161,15 @@ void PiecePlan::chooseInitialPoints(const InputSurvey& survey)
   std::vector<std::vector<InitialPoint>> sampled(std::size_t(this->Partitions.size()));
   for (const SampledPoint& p : survey.Sample)
   {
-    const PartitionIndex partition = this->Partitions.locate(p.Place);
-    sampled[std::size_t(partition)].push_back({ p.Id, p.Place, partition });
+    const PartitionIndex partition = this->Partitions.locate(p.Position);
+    sampled[std::size_t(partition)].push_back({ p.Id, p.Position, partition });
   }
   for (const std::vector<InitialPoint>& points : sampled)
   {
     std::vector<Point2> places;
     for (const InitialPoint& p : points)
     {
-      places.push_back(p.Place);
+      places.push_back(p.Position);
     }
     for (const std::size_t i :
       tipp::chooseInitialPoints(places.data(), places.size(), InitialPointsOfPartition))
@@ -181,12 +181,12 @@ void PiecePlan::chooseInitialPoints(const InputSurvey& survey)
     [](const InitialPoint& a, const InitialPoint& b) { return a.Id < b.Id; });
 }
 
-std::vector<SeamVertex> PiecePlan::initialVertices() const
+std::vector<BoundaryVertex> PiecePlan::initialVertices() const
 {
-  std::vector<SeamVertex> vertices;
+  std::vector<BoundaryVertex> vertices;
   for (const InitialPoint& p : this->Initial)
   {
-    vertices.push_back({ p.Place, p.InPieces, p.Partition });
+    vertices.push_back({ p.Position, p.InPieces, p.Partition });
   }
   vertices.insert(vertices.end(), this->Artificial.begin(), this->Artificial.end());
   return vertices;

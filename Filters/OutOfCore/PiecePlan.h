@@ -4,7 +4,7 @@
 
 #include "OutOfCore/InputSurvey.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
-#include "Triangulation/SeamTriangles.h"
+#include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -37,7 +37,7 @@ struct VTKTIPPFILTERS_EXPORT MemoryPlan
 struct InitialPoint
 {
   std::int64_t Id; ///< in the stream
-  Point2 Place;
+  Point2 Position;
   PartitionIndex Partition;
   std::int64_t InPieces = -1; ///< its place when all points are in the order of pieces
 };
@@ -56,7 +56,7 @@ struct VTKTIPPFILTERS_EXPORT PiecePlan
   Tiling Partitions;                          ///< all together
   std::vector<PartitionIndex> FirstPartition; ///< of each piece; one more at the end
   std::vector<std::int32_t> PieceOf;          ///< of each partition
-  std::vector<SeamVertex> Artificial;
+  std::vector<BoundaryVertex> Artificial;
   std::vector<InitialPoint> Initial; ///< by id
   /// One piece of one partition, no artificial points: partitions do not pay for such points, or
   /// doubles cannot enclose them.
@@ -74,7 +74,7 @@ struct VTKTIPPFILTERS_EXPORT PiecePlan
   }
 
   /// What the initial mesh is made of, once the initial points have their places.
-  std::vector<SeamVertex> initialVertices() const;
+  std::vector<BoundaryVertex> initialVertices() const;
 
 private:
   void choosePartitions(const InputSurvey& survey, const MemoryPlan& memory);

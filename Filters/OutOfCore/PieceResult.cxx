@@ -91,11 +91,11 @@ BorderTriangles StoredResult::readBorder(PartitionIndex owner) const
   return border;
 }
 
-std::vector<SeamVertex> StoredResult::readHullVertices() const
+std::vector<BoundaryVertex> StoredResult::readHullVertices() const
 {
   const Bytes bytes = this->File.read({ HullSection, 0 });
   ByteReader reader(bytes);
-  std::vector<SeamVertex> vertices;
+  std::vector<BoundaryVertex> vertices;
   read(reader, vertices);
   return vertices;
 }

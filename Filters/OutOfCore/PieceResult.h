@@ -69,7 +69,7 @@ struct PieceResult
 {
   GrowingPiece Interior;
   PieceFigures Figures;
-  std::vector<SeamVertex> HullVertices;              ///< of triangles at artificial points
+  std::vector<BoundaryVertex> HullVertices;          ///< of triangles at artificial points
   std::map<PartitionIndex, BorderTriangles> Borders; ///< by the piece that owns them
   std::map<PartitionIndex, SentMessages> Sent;       ///< by the recipient's piece
 };
@@ -92,7 +92,7 @@ public:
   SentMessages readMessages(PartitionIndex to) const;
   bool hasBorder(PartitionIndex owner) const;
   BorderTriangles readBorder(PartitionIndex owner) const;
-  std::vector<SeamVertex> readHullVertices() const;
+  std::vector<BoundaryVertex> readHullVertices() const;
   PieceFigures readFigures() const;
   /// `interior`: the piece, with nothing in it yet.
   void readInterior(GrowingPiece& interior) const;

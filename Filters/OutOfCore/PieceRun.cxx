@@ -11,7 +11,7 @@ namespace tipp
 {
 
 PieceRun::PieceRun(const PieceWork& work, const MemoryPlan& memory, int threads,
-  std::function<bool(std::int64_t)> progress, Postbox* ranks)
+  std::function<bool(std::int64_t)> progress, Communicator* ranks)
   : Work(work)
   , Memory(memory)
   , Threads(threads)

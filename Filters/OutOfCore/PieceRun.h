@@ -3,7 +3,7 @@
 #define tippPieceRun_h
 
 #include "Engine/ReadyPartitions.h"
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 #include "OutOfCore/LoadedPiece.h"
 
 #include <condition_variable>
@@ -31,7 +31,7 @@ public:
   /// `progress` is told how many points are triangulated, in the thread that runs this; false ends
   /// the run. Ranks: null for this process alone.
   PieceRun(const PieceWork& work, const MemoryPlan& memory, int threads,
-    std::function<bool(std::int64_t)> progress, Postbox* ranks = nullptr);
+    std::function<bool(std::int64_t)> progress, Communicator* ranks = nullptr);
 
   /// Writes the results of all pieces that are not done yet: `isDone` has an entry for each piece,
   /// the same on all ranks. Throws IOError, and RankFailure. False if progress ended it. With
@@ -96,7 +96,7 @@ private:
   const MemoryPlan& Memory;
   const int Threads;
   const std::function<bool(std::int64_t)> Progress;
-  Postbox* const Post;
+  Communicator* const Post;
   const std::thread::id Caller = std::this_thread::get_id();
   std::unique_ptr<PieceOrder> Order;
   std::unique_ptr<ReadyPartitions> Ready;

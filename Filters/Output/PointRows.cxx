@@ -70,7 +70,7 @@ bool same(const PointRows::Column& a, const PointRows::Column& b)
 
 } // namespace
 
-PointRows::PointRows(Postbox& ranks, vtkPointSet* input)
+PointRows::PointRows(Communicator& ranks, vtkPointSet* input)
 {
   const bool hasPoints = input->GetNumberOfPoints() > 0;
   vtkDataArray* ids = hasPoints ? input->GetPointData()->GetGlobalIds() : nullptr;

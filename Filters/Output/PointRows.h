@@ -3,7 +3,7 @@
 #define tippPointRows_h
 
 #include "Distributed/PointExchange.h"
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 
 #include "vtkSmartPointer.h"
 
@@ -22,7 +22,7 @@ class PointRows
 {
 public:
   /// Chooses the arrays that all ranks have. Collective.
-  PointRows(Postbox& ranks, vtkPointSet* input);
+  PointRows(Communicator& ranks, vtkPointSet* input);
 
   struct Column
   {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/Elevation.h"
 
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 #include "Resample/SamplingRange.h"
 #include "Vtk/CheckDataSet.h"
 
@@ -31,7 +31,7 @@ void HeightRange::add(vtkPointSet* mesh)
   }
 }
 
-void HeightRange::gather(Postbox& ranks)
+void HeightRange::gather(Communicator& ranks)
 {
   ByteWriter writer;
   writer.value(*this);
@@ -45,7 +45,7 @@ void HeightRange::gather(Postbox& ranks)
   *this = ByteReader(ranks.broadcast(writer.take())).value<HeightRange>();
 }
 
-bool haveElevation(const std::vector<vtkPointSet*>& meshes, Postbox& ranks)
+bool haveElevation(const std::vector<vtkPointSet*>& meshes, Communicator& ranks)
 {
   const bool surfaces = areSurfaces(meshes, ranks);
   HeightRange heights;

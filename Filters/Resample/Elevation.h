@@ -14,7 +14,7 @@ class vtkPointSet;
 namespace tipp
 {
 
-class Postbox;
+class Communicator;
 
 /// The name of the point array with the heights of a surface.
 constexpr const char* elevationName = "elevation";
@@ -32,13 +32,14 @@ struct HeightRange
   }
   VTKTIPPFILTERS_EXPORT void add(vtkPointSet* mesh);
   /// Combines the ranges of all ranks, on all ranks. Collective.
-  VTKTIPPFILTERS_EXPORT void gather(Postbox& ranks);
+  VTKTIPPFILTERS_EXPORT void gather(Communicator& ranks);
 
   bool isFlat() const { return !(this->Low < this->High); }
 };
 
 /// Whether the meshes of all ranks are surfaces whose points differ in z. Collective.
-VTKTIPPFILTERS_EXPORT bool haveElevation(const std::vector<vtkPointSet*>& meshes, Postbox& ranks);
+VTKTIPPFILTERS_EXPORT bool haveElevation(
+  const std::vector<vtkPointSet*>& meshes, Communicator& ranks);
 
 /// Returns a shallow copy of the mesh with z as the point array "elevation", in the type of the
 /// coordinates; the mesh itself if it has an array of that name.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/ExchangeSamples.h"
 
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 
 #include "vtkDataArray.h"
 
@@ -77,7 +77,7 @@ struct RankNote
 class Exchange
 {
 public:
-  Exchange(SampledImage& local, SampledImage& result, Postbox& ranks)
+  Exchange(SampledImage& local, SampledImage& result, Communicator& ranks)
     : Local(local)
     , Result(result)
     , Ranks(ranks)
@@ -285,7 +285,7 @@ private:
 
   SampledImage& Local;
   SampledImage& Result;
-  Postbox& Ranks;
+  Communicator& Ranks;
   int Rank;
   int Dimension = 0;
   std::vector<RankNote> Notes;
@@ -294,7 +294,7 @@ private:
 
 } // namespace
 
-void exchangeSamples(SampledImage& local, SampledImage& result, Postbox& ranks)
+void exchangeSamples(SampledImage& local, SampledImage& result, Communicator& ranks)
 {
   Exchange(local, result, ranks).run();
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/RangeResampleRun.h"
 
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Resample/ExchangeSamples.h"

@@ -4,7 +4,7 @@
 
 #include "vtkRangeResampleFilter.h"
 
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 #include "Output/Monitor.h"
 #include "Resample/Elevation.h"
 #include "Resample/Lattice.h"
@@ -22,7 +22,7 @@ class vtkPointSet;
 class vtkRangeResampleFilter::Run
 {
 public:
-  Run(vtkRangeResampleFilter* filter, tipp::Postbox& ranks)
+  Run(vtkRangeResampleFilter* filter, tipp::Communicator& ranks)
     : Filter(filter)
     , Ranks(ranks)
     , Progress(filter)
@@ -54,7 +54,7 @@ private:
   void warnOfMissing(tipp::SampledImage& image, vtkDataArraySelection* selection, bool ofCells);
 
   vtkRangeResampleFilter* Filter;
-  tipp::Postbox& Ranks;
+  tipp::Communicator& Ranks;
   tipp::Monitor Progress;
   int Piece = 0;
   bool AddsElevation = false; ///< the elevation array is added to each mesh

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/SamplingRange.h"
 
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 #include "Resample/SimplexParts.h"
 #include "Vtk/CheckDataSet.h"
 
@@ -78,7 +78,7 @@ std::vector<vtkPointSet*> meshesOf(vtkDataObject* data, int threads)
   return meshes;
 }
 
-bool areSurfaces(const std::vector<vtkPointSet*>& meshes, Postbox& ranks)
+bool areSurfaces(const std::vector<vtkPointSet*>& meshes, Communicator& ranks)
 {
   int volumes = 0;
   for (vtkPointSet* mesh : meshes)
@@ -90,7 +90,7 @@ bool areSurfaces(const std::vector<vtkPointSet*>& meshes, Postbox& ranks)
   return all.front() == 0;
 }
 
-std::array<double, 6> boundsOf(const std::vector<vtkPointSet*>& meshes, Postbox& ranks)
+std::array<double, 6> boundsOf(const std::vector<vtkPointSet*>& meshes, Communicator& ranks)
 {
   vtkBoundingBox box = boxOf(meshes, { 0, 1, 2 });
   std::array<double, 6> bounds;

@@ -15,7 +15,7 @@ class vtkPointSet;
 namespace tipp
 {
 
-class Postbox;
+class Communicator;
 
 /// Copies a C array, such as a VTK property, into a std::array.
 template <std::size_t N, typename T>
@@ -31,11 +31,11 @@ std::array<T, N> toArray(const T (&values)[N])
 std::vector<vtkPointSet*> meshesOf(vtkDataObject* data, int threads);
 
 /// Whether no mesh of any rank has a three-dimensional cell. Collective.
-bool areSurfaces(const std::vector<vtkPointSet*>& meshes, Postbox& ranks);
+bool areSurfaces(const std::vector<vtkPointSet*>& meshes, Communicator& ranks);
 
 /// Returns the bounding box of all ranks' meshes (xmin, xmax, ymin, ...). Throws std::runtime_error
 /// on all ranks if there are no points. Collective.
-std::array<double, 6> boundsOf(const std::vector<vtkPointSet*>& meshes, Postbox& ranks);
+std::array<double, 6> boundsOf(const std::vector<vtkPointSet*>& meshes, Communicator& ranks);
 
 /// Returns the part of the lattice that the meshes' bounding boxes meet along `axes`; along other
 /// axes it is not cropped.

@@ -21,7 +21,7 @@ bool contains(const Box2& box, Point2 p)
 } // namespace
 
 std::vector<std::array<std::uint32_t, 3>> hullTriangles(
-  std::vector<Point2> vertices, const std::vector<SeamVertex>& artificial)
+  std::vector<Point2> vertices, const std::vector<BoundaryVertex>& artificial)
 {
   DelaunayKernel kernel;
   kernel.insert(vertices.data(), vertices.size());
@@ -39,8 +39,8 @@ std::vector<std::array<std::uint32_t, 3>> hullTriangles(
     const Point2 c = kernel.point(v[2]);
     const Box2 bounds = Circumdisk(a, b, c).bounds();
     if (std::any_of(artificial.begin(), artificial.end(),
-          [&](const SeamVertex& z)
-          { return contains(bounds, z.Place) && inCirclePerturbed(a, b, c, z.Place); }))
+          [&](const BoundaryVertex& z)
+          { return contains(bounds, z.Position) && inCirclePerturbed(a, b, c, z.Position); }))
     {
       triangles.push_back({ kernel.place(v[0]), kernel.place(v[1]), kernel.place(v[2]) });
     }

@@ -2,7 +2,7 @@
 #ifndef tippHullRepair_h
 #define tippHullRepair_h
 
-#include "Triangulation/SeamTriangles.h"
+#include "Triangulation/BoundaryTriangles.h"
 
 #include <array>
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace tipp
 /// point. `vertices` are these true vertices, each once. Returns the corners of the replacement
 /// triangles as indices into `vertices`.
 std::vector<std::array<std::uint32_t, 3>> hullTriangles(
-  std::vector<Point2> vertices, const std::vector<SeamVertex>& artificial);
+  std::vector<Point2> vertices, const std::vector<BoundaryVertex>& artificial);
 
 } // namespace tipp
 

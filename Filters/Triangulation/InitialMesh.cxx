@@ -105,10 +105,10 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> adjacentSets(
 
 /// The finite triangles among the kernel's triangles [begin, end), and the boxes that each meets.
 template <typename Boxes>
-SeamTriangles findMetBoxes(
+BoundaryTriangles findMetBoxes(
   const Boxes& boxes, const DelaunayKernel& kernel, std::int64_t begin, std::int64_t end)
 {
-  SeamTriangles found;
+  BoundaryTriangles found;
   const HalfEdgeMesh& mesh = kernel.mesh();
   for (std::int64_t t = begin; t < end; ++t)
   {
@@ -117,7 +117,7 @@ SeamTriangles findMetBoxes(
       continue;
     }
     const DelaunayKernel::Index* v = mesh.slots() + 8 * t;
-    const SeamTriangles::Corners corners = { kernel.place(v[0]), kernel.place(v[1]),
+    const BoundaryTriangles::Corners corners = { kernel.place(v[0]), kernel.place(v[1]),
       kernel.place(v[2]) };
     found.add(
       boxes, corners, Circumdisk(kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2])));
@@ -125,7 +125,7 @@ SeamTriangles findMetBoxes(
   return found;
 }
 
-SeamTriangles joined(std::vector<SeamTriangles>&& parts)
+BoundaryTriangles joined(std::vector<BoundaryTriangles>&& parts)
 {
   for (std::size_t i = 1; i < parts.size(); ++i)
   {
@@ -136,7 +136,7 @@ SeamTriangles joined(std::vector<SeamTriangles>&& parts)
 
 } // namespace
 
-std::vector<SeamVertex> makeArtificialPoints(const Tiling& tiling)
+std::vector<BoundaryVertex> makeArtificialPoints(const Tiling& tiling)
 {
   const double margin = meanLongSide(tiling);
   const Box2& domain = tiling.domain();
@@ -144,7 +144,7 @@ std::vector<SeamVertex> makeArtificialPoints(const Tiling& tiling)
     outward(domain.xmax, 1, margin), outward(domain.ymax, 1, margin) };
   const double width = frame.xmax - frame.xmin;
   const double height = frame.ymax - frame.ymin;
-  std::vector<SeamVertex> vertices;
+  std::vector<BoundaryVertex> vertices;
   if (!std::isfinite(width) || !std::isfinite(height))
   {
     return vertices;
@@ -206,7 +206,7 @@ std::vector<std::size_t> chooseInitialPoints(
 }
 
 template <typename Id>
-std::vector<SeamVertex> chooseInitialPoints(
+std::vector<BoundaryVertex> chooseInitialPoints(
   const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition, int threads)
 {
   std::vector<std::vector<std::size_t>> chosen(std::size_t(tiling.size()));
@@ -217,7 +217,7 @@ std::vector<SeamVertex> chooseInitialPoints(
       chosen[std::size_t(i)] =
         chooseInitialPoints(buckets.points(p), buckets.count(p), std::size_t(perPartition));
     });
-  std::vector<SeamVertex> vertices;
+  std::vector<BoundaryVertex> vertices;
   for (PartitionIndex p = 0; p < tiling.size(); ++p)
   {
     for (const std::size_t at : chosen[std::size_t(p)])
@@ -229,21 +229,21 @@ std::vector<SeamVertex> chooseInitialPoints(
 }
 
 template <typename Boxes>
-SeamTriangles triangulateVertices(const Boxes& boxes, const std::vector<SeamVertex>& vertices,
-  int threads, const InitialMeshShare& share)
+BoundaryTriangles triangulateVertices(const Boxes& boxes,
+  const std::vector<BoundaryVertex>& vertices, int threads, const InitialMeshShare& share)
 {
   std::vector<Point2> points;
   points.reserve(vertices.size());
-  for (const SeamVertex& v : vertices)
+  for (const BoundaryVertex& v : vertices)
   {
-    points.push_back(v.Place);
+    points.push_back(v.Position);
   }
   DelaunayKernel kernel;
   kernel.insert(points.data(), points.size());
 
   const std::int64_t triangles = kernel.mesh().end() / 8;
   const std::int64_t parts = std::int64_t(threads) * share.Count;
-  std::vector<SeamTriangles> own(static_cast<std::size_t>(threads));
+  std::vector<BoundaryTriangles> own(static_cast<std::size_t>(threads));
   parallelFor(threads, threads,
     [&](std::int64_t i)
     {
@@ -251,7 +251,7 @@ SeamTriangles triangulateVertices(const Boxes& boxes, const std::vector<SeamVert
       own[std::size_t(i)] =
         findMetBoxes(boxes, kernel, triangles * part / parts, triangles * (part + 1) / parts);
     });
-  SeamTriangles all = joined(std::move(own));
+  BoundaryTriangles all = joined(std::move(own));
   if (share.Count > 1)
   {
     all = joined(share.Exchange(std::move(all)));
@@ -261,7 +261,7 @@ SeamTriangles triangulateVertices(const Boxes& boxes, const std::vector<SeamVert
   return all;
 }
 
-bool partitionsPay(const SeamTriangles& initialMesh)
+bool partitionsPay(const BoundaryTriangles& initialMesh)
 {
   constexpr std::size_t most = 3;
   std::size_t met = 0;
@@ -272,13 +272,13 @@ bool partitionsPay(const SeamTriangles& initialMesh)
   return met <= most * initialMesh.size();
 }
 
-template SeamTriangles triangulateVertices(
-  const Tiling&, const std::vector<SeamVertex>&, int, const InitialMeshShare&);
-template SeamTriangles triangulateVertices(
-  const Regions&, const std::vector<SeamVertex>&, int, const InitialMeshShare&);
-template std::vector<SeamVertex> chooseInitialPoints(
+template BoundaryTriangles triangulateVertices(
+  const Tiling&, const std::vector<BoundaryVertex>&, int, const InitialMeshShare&);
+template BoundaryTriangles triangulateVertices(
+  const Regions&, const std::vector<BoundaryVertex>&, int, const InitialMeshShare&);
+template std::vector<BoundaryVertex> chooseInitialPoints(
   const Tiling&, const PointBuckets<std::int32_t>&, int, int);
-template std::vector<SeamVertex> chooseInitialPoints(
+template std::vector<BoundaryVertex> chooseInitialPoints(
   const Tiling&, const PointBuckets<std::int64_t>&, int, int);
 
 } // namespace tipp

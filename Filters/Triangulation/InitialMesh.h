@@ -3,8 +3,8 @@
 #define tippInitialMesh_h
 
 #include "Engine/Regions.h"
+#include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/PointBuckets.h"
-#include "Triangulation/SeamTriangles.h"
 
 #include <functional>
 #include <vector>
@@ -15,7 +15,7 @@ namespace tipp
 /// Returns artificial points at the corners and along the edges of a rectangle around the domain
 /// (chapter 2.4.1). Their distance from the domain and from each other is the width of a partition.
 /// Their ids are -1, -2 and so on. Empty if the domain is too large for doubles to enclose it.
-std::vector<SeamVertex> makeArtificialPoints(const Tiling& tiling);
+std::vector<BoundaryVertex> makeArtificialPoints(const Tiling& tiling);
 
 /// Chooses a partition's points for the initial mesh, and returns their indices in `points`: the
 /// extreme ones in x and y, and others evenly spaced in the input's order. With the extreme points,
@@ -26,7 +26,7 @@ std::vector<std::size_t> chooseInitialPoints(
 
 /// Chooses `perPartition` points of each partition; their ids are the buckets' ids.
 template <typename Id>
-std::vector<SeamVertex> chooseInitialPoints(
+std::vector<BoundaryVertex> chooseInitialPoints(
   const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition, int threads);
 
 /// The share of the initial mesh's triangles whose boxes this rank finds.
@@ -35,27 +35,27 @@ struct InitialMeshShare
   int Index = 0;
   int Count = 1;
   /// Takes this share's triangles and returns those of all shares, in order; required if Count > 1.
-  std::function<std::vector<SeamTriangles>(SeamTriangles&&)> Exchange;
+  std::function<std::vector<BoundaryTriangles>(BoundaryTriangles&&)> Exchange;
 };
 
 /// The Delaunay triangulation of the vertices, with the boxes (of a Tiling or Regions) that each
 /// triangle meets, and the pairs of sets that adjacent triangles meet.
 template <typename Boxes>
-SeamTriangles triangulateVertices(const Boxes& boxes, const std::vector<SeamVertex>& vertices,
-  int threads, const InitialMeshShare& share = {});
+BoundaryTriangles triangulateVertices(const Boxes& boxes,
+  const std::vector<BoundaryVertex>& vertices, int threads, const InitialMeshShare& share = {});
 
 /// Whether partitioning pays. If circumdisks meet many partitions each (points on a circle or a
 /// parabola, or on a line with one beside it: 3.5 and more partitions each, by measurement), every
 /// worker would get nearly all vertices. Ordinary points give 1.5 to 2.8.
-bool partitionsPay(const SeamTriangles& initialMesh);
+bool partitionsPay(const BoundaryTriangles& initialMesh);
 
-extern template SeamTriangles triangulateVertices(
-  const Tiling&, const std::vector<SeamVertex>&, int, const InitialMeshShare&);
-extern template SeamTriangles triangulateVertices(
-  const Regions&, const std::vector<SeamVertex>&, int, const InitialMeshShare&);
-extern template std::vector<SeamVertex> chooseInitialPoints(
+extern template BoundaryTriangles triangulateVertices(
+  const Tiling&, const std::vector<BoundaryVertex>&, int, const InitialMeshShare&);
+extern template BoundaryTriangles triangulateVertices(
+  const Regions&, const std::vector<BoundaryVertex>&, int, const InitialMeshShare&);
+extern template std::vector<BoundaryVertex> chooseInitialPoints(
   const Tiling&, const PointBuckets<std::int32_t>&, int, int);
-extern template std::vector<SeamVertex> chooseInitialPoints(
+extern template std::vector<BoundaryVertex> chooseInitialPoints(
   const Tiling&, const PointBuckets<std::int64_t>&, int, int);
 
 } // namespace tipp

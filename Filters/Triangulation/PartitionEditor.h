@@ -15,7 +15,7 @@ namespace tipp
 class PartitionEditor
 {
 public:
-  /// Ids: of the kernel's vertices from 1 on; -1 for those of other partitions. IsSeam: of each
+  /// Ids: of the kernel's vertices from 1 on; -1 for those of other partitions. IsBoundary: of each
   /// triangle of the kernel, whether it is not interior.
   template <typename Id>
   struct Partition
@@ -23,7 +23,7 @@ public:
     PartitionIndex Number;
     DelaunayKernel& Kernel;
     const Id* Ids;
-    const char* IsSeam;
+    const char* IsBoundary;
   };
 
   virtual ~PartitionEditor() = default;

@@ -22,16 +22,16 @@ typename TriangleSink<Id>::Corners TriangleSink<Id>::fromLowest(const Corners& i
 }
 
 template <typename Id>
-std::vector<typename TriangleSink<Id>::Corners> TriangleSink<Id>::sortSeams(
-  const std::vector<std::vector<Seam>>& seams, int threads) const
+std::vector<typename TriangleSink<Id>::Corners> TriangleSink<Id>::sortBoundary(
+  const std::vector<std::vector<FinalTriangle>>& boundary, int threads) const
 {
   const std::size_t partitions = this->InteriorCounts.size();
   std::vector<std::size_t> places(partitions + 1, 0);
-  for (const std::vector<Seam>& list : seams)
+  for (const std::vector<FinalTriangle>& list : boundary)
   {
-    for (const Seam& seam : list)
+    for (const FinalTriangle& triangle : list)
     {
-      ++places[std::size_t(seam.Partition) + 1];
+      ++places[std::size_t(triangle.Partition) + 1];
     }
   }
   for (std::size_t p = 0; p < partitions; ++p)
@@ -40,11 +40,11 @@ std::vector<typename TriangleSink<Id>::Corners> TriangleSink<Id>::sortSeams(
   }
   const std::vector<std::size_t> begins = places;
   std::vector<Corners> sorted(begins.back());
-  for (const std::vector<Seam>& list : seams)
+  for (const std::vector<FinalTriangle>& list : boundary)
   {
-    for (const Seam& seam : list)
+    for (const FinalTriangle& triangle : list)
     {
-      sorted[places[std::size_t(seam.Partition)]++] = seam.Ids;
+      sorted[places[std::size_t(triangle.Partition)]++] = triangle.Ids;
     }
   }
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 16)
@@ -57,9 +57,10 @@ std::vector<typename TriangleSink<Id>::Corners> TriangleSink<Id>::sortSeams(
 }
 
 template <typename Id>
-Buffer<Id> TriangleSink<Id>::assemble(const std::vector<std::vector<Seam>>& seams, int threads)
+Buffer<Id> TriangleSink<Id>::assemble(
+  const std::vector<std::vector<FinalTriangle>>& boundary, int threads)
 {
-  const std::vector<Corners> sorted = this->sortSeams(seams, threads);
+  const std::vector<Corners> sorted = this->sortBoundary(boundary, threads);
   std::size_t total = sorted.size();
   for (const std::size_t count : this->InteriorCounts)
   {
@@ -91,19 +92,19 @@ Buffer<Id> TriangleSink<Id>::assemble(const std::vector<std::vector<Seam>>& seam
     }
     return ids.data() + 3 * --donorAt;
   };
-  auto seam = sorted.begin();
+  auto next = sorted.begin();
   for (PartitionIndex p = 0; p < this->Buckets.partitions(); ++p)
   {
     const std::size_t gap = 2 * this->Buckets.start(p) + this->InteriorCounts[std::size_t(p)];
     const std::size_t gapEnd = std::min(2 * this->Buckets.start(p + 1), total);
     for (std::size_t at = gap; at < gapEnd; ++at)
     {
-      copyTriangle(at, seam != sorted.end() ? (seam++)->data() : nextBeyond());
+      copyTriangle(at, next != sorted.end() ? (next++)->data() : nextBeyond());
     }
   }
   for (std::size_t at = room; at < total; ++at)
   {
-    copyTriangle(at, (seam++)->data());
+    copyTriangle(at, (next++)->data());
   }
   ids.truncate(3 * total);
   return ids;

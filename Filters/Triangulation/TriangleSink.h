@@ -2,9 +2,9 @@
 #ifndef tippTriangleSink_h
 #define tippTriangleSink_h
 
+#include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/Buffer.h"
 #include "Triangulation/PointBuckets.h"
-#include "Triangulation/SeamTriangles.h"
 #include "Triangulation/Triangulate.h"
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace tipp
 {
 
 /// Assembles the final triangles into one array: the partitions' interior triangles where they were
-/// written, and the boundary ('seam') triangles in the gaps. The order depends only on the points
+/// written, and the boundary triangles in the gaps. The order depends only on the points
 /// and the partitions, not on the schedule.
 template <typename Id>
 class TriangleSink
@@ -30,7 +30,7 @@ public:
   std::size_t interiorCount(PartitionIndex p) const { return this->InteriorCounts[std::size_t(p)]; }
 
   using Corners = std::array<Id, 3>;
-  struct Seam
+  struct FinalTriangle
   {
     Corners Ids;              ///< point ids, the lowest first
     PartitionIndex Partition; ///< partition of the point with the lowest id
@@ -38,13 +38,14 @@ public:
   /// Rotates the corners so that the lowest id is first.
   static Corners fromLowest(const Corners& ids);
 
-  /// Returns the triangles, three point ids each, in the buckets' memory. `seams` are several lists
-  /// of boundary triangles without artificial corners. Their vertices need not be in the buckets,
-  /// so there can be more than two triangles per point.
-  Buffer<Id> assemble(const std::vector<std::vector<Seam>>& seams, int threads);
+  /// Returns the triangles, three point ids each, in the buckets' memory. `boundary` are several
+  /// lists of boundary triangles without artificial corners. Their vertices need not be in the
+  /// buckets, so there can be more than two triangles per point.
+  Buffer<Id> assemble(const std::vector<std::vector<FinalTriangle>>& boundary, int threads);
 
 private:
-  std::vector<Corners> sortSeams(const std::vector<std::vector<Seam>>& seams, int threads) const;
+  std::vector<Corners> sortBoundary(
+    const std::vector<std::vector<FinalTriangle>>& boundary, int threads) const;
 
   PointBuckets<Id>& Buckets;
   std::vector<std::size_t> InteriorCounts;

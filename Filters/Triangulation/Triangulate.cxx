@@ -66,7 +66,7 @@ public:
   void run(const Tiling& tiling)
   {
     this->Result.Statistics.Partitions = tiling.size();
-    const std::vector<SeamVertex> artificial = makeArtificialPoints(tiling);
+    const std::vector<BoundaryVertex> artificial = makeArtificialPoints(tiling);
     if (tiling.size() == 1 || artificial.empty())
     {
       this->triangulateAlone(tiling);
@@ -75,12 +75,12 @@ public:
     this->Buckets = bucketPoints<Id>(this->Points, tiling, this->PassThreads);
     this->checkSizes();
     this->endPhase("bucketing");
-    std::vector<SeamVertex> initial =
+    std::vector<BoundaryVertex> initial =
       chooseInitialPoints(tiling, this->Buckets, initialPointsPerPartition(), this->PassThreads);
     this->Result.Statistics.InitialPoints = std::int64_t(initial.size());
     initial.insert(initial.end(), artificial.begin(), artificial.end());
     const Regions regions(tiling, this->Buckets, this->PassThreads);
-    const SeamTriangles initialMesh = triangulateVertices(regions, initial, this->PassThreads);
+    const BoundaryTriangles initialMesh = triangulateVertices(regions, initial, this->PassThreads);
     if (!this->hasGrid() && !partitionsPay(initialMesh))
     {
       this->triangulateAlone(tiling);
@@ -168,8 +168,8 @@ private:
     std::size_t WorkerVertices = 0;
   };
 
-  void work(const Tiling& tiling, const Regions& regions, const SeamTriangles& initialMesh,
-    const std::vector<SeamVertex>& artificial)
+  void work(const Tiling& tiling, const Regions& regions, const BoundaryTriangles& initialMesh,
+    const std::vector<BoundaryVertex>& artificial)
   {
     const PartitionOrder order(regions.areUsed(), initialMesh);
     const bool barrier = this->Options.Order == Schedule::Stages;
@@ -202,7 +202,7 @@ private:
     TriangulationStatistics& statistics = this->Result.Statistics;
     statistics.Stages = stagesOf(shared.Stages, order, barrier);
     this->Result.Aborted = shared.Ready.isStopped();
-    std::vector<std::vector<typename TriangleSink<Id>::Seam>> triangles;
+    std::vector<std::vector<typename TriangleSink<Id>::FinalTriangle>> triangles;
     for (Contribution& part : parts)
     {
       boundary.HullVertices.insert(boundary.HullVertices.end(), part.Boundary.HullVertices.begin(),
@@ -295,7 +295,7 @@ private:
   }
 
   void finish(TriangleSink<Id>& sink,
-    const std::vector<std::vector<typename TriangleSink<Id>::Seam>>& boundary,
+    const std::vector<std::vector<typename TriangleSink<Id>::FinalTriangle>>& boundary,
     const Regions* regions, const Box2& domain)
   {
     Buffer<Id> ids = sink.assemble(boundary, this->PassThreads);

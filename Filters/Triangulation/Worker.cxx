@@ -44,7 +44,7 @@ void Worker<Id>::reserve()
   this->Kernel.reserve(vertices);
   this->Ids.reserve(largest);
   this->VertexIds.reserve(vertices + 1);
-  this->IsSeam.reserve(2 * vertices);
+  this->IsBoundary.reserve(2 * vertices);
 }
 
 template <typename Id>
@@ -55,7 +55,7 @@ void Worker<Id>::setTiling(const Tiling& tiling, PartitionIndex firstBucket)
 }
 
 template <typename Id>
-void Worker<Id>::triangulate(PartitionIndex partition, std::vector<SeamVertex>&& vertices,
+void Worker<Id>::triangulate(PartitionIndex partition, std::vector<BoundaryVertex>&& vertices,
   const Box2& region, BoundaryTaker& boundary)
 {
   this->Foreign = std::move(vertices);
@@ -79,7 +79,7 @@ void Worker<Id>::triangulate(PartitionIndex partition, std::vector<SeamVertex>&&
   this->nameVertices();
   this->edit(partition);
   this->writeTriangles(
-    bucket, [this](DelaunayKernel::Index t) { return !this->IsSeam[std::size_t(t / 8)]; });
+    bucket, [this](DelaunayKernel::Index t) { return !this->IsBoundary[std::size_t(t / 8)]; });
   if (isLarge)
   {
     this->Kernel.releaseTriangles();
@@ -101,10 +101,10 @@ bool Worker<Id>::triangulateAlone(const DelaunayKernel::Monitor& proceed)
   this->nameVertices();
   if (this->Editor)
   {
-    this->IsSeam.resize(static_cast<std::size_t>(this->Kernel.mesh().end() / 8));
+    this->IsBoundary.resize(static_cast<std::size_t>(this->Kernel.mesh().end() / 8));
     for (DelaunayKernel::Index t = 0; t < this->Kernel.mesh().end(); t += 8)
     {
-      this->IsSeam[std::size_t(t / 8)] = this->Kernel.isInfinite(t) ? 1 : 0;
+      this->IsBoundary[std::size_t(t / 8)] = this->Kernel.isInfinite(t) ? 1 : 0;
     }
     this->edit(0);
   }
@@ -123,7 +123,7 @@ void Worker<Id>::separateOwnVertices(PartitionIndex partition)
 {
   this->KnownIds.clear();
   std::size_t kept = 0;
-  for (const SeamVertex& v : this->Foreign)
+  for (const BoundaryVertex& v : this->Foreign)
   {
     if (v.Partition == partition && !v.isArtificial())
     {
@@ -138,9 +138,9 @@ void Worker<Id>::separateOwnVertices(PartitionIndex partition)
   std::sort(this->KnownIds.begin(), this->KnownIds.end());
   this->ForeignPoints.clear();
   this->ForeignPoints.reserve(kept);
-  for (const SeamVertex& v : this->Foreign)
+  for (const BoundaryVertex& v : this->Foreign)
   {
-    this->ForeignPoints.push_back(v.Place);
+    this->ForeignPoints.push_back(v.Position);
   }
 }
 
@@ -169,7 +169,7 @@ void Worker<Id>::resolveDuplicates()
 }
 
 template <typename Id>
-SeamVertex Worker<Id>::vertex(PartitionIndex partition, DelaunayKernel::Index v) const
+BoundaryVertex Worker<Id>::vertex(PartitionIndex partition, DelaunayKernel::Index v) const
 {
   const std::size_t place = this->Kernel.place(v);
   const std::size_t own = this->Ids.size();
@@ -189,14 +189,14 @@ void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryTaker
 {
   const HalfEdgeMesh& mesh = this->Kernel.mesh();
   const Box2 open = openBox(box);
-  this->IsSeam.assign(static_cast<std::size_t>(mesh.end() / 8), 0);
+  this->IsBoundary.assign(static_cast<std::size_t>(mesh.end() / 8), 0);
   DelaunayKernel::Index start = 0;
   while (!this->Kernel.isInfinite(start))
   {
     start += 8;
   }
   this->Stack.assign(1, start);
-  this->IsSeam[std::size_t(start / 8)] = 1;
+  this->IsBoundary[std::size_t(start / 8)] = 1;
   while (!this->Stack.empty())
   {
     const DelaunayKernel::Index t = this->Stack.back();
@@ -204,8 +204,8 @@ void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryTaker
     for (DelaunayKernel::Index i = 0; i < 3; ++i)
     {
       const DelaunayKernel::Index neighbour = HalfEdgeMesh::triangleOf(mesh.twin(t + i));
-      char& isSeam = this->IsSeam[std::size_t(neighbour / 8)];
-      if (isSeam)
+      char& isBoundary = this->IsBoundary[std::size_t(neighbour / 8)];
+      if (isBoundary)
       {
         continue;
       }
@@ -223,7 +223,7 @@ void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryTaker
           boundary.add({ v[0], v[1], v[2] }, disk);
         }
       }
-      isSeam = 1;
+      isBoundary = 1;
       this->Stack.push_back(neighbour);
     }
   }
@@ -248,7 +248,7 @@ void Worker<Id>::edit(PartitionIndex partition)
   if (this->Editor)
   {
     this->Editor->edit(PartitionEditor::Partition<Id>{
-      partition, this->Kernel, this->VertexIds.data(), this->IsSeam.data() });
+      partition, this->Kernel, this->VertexIds.data(), this->IsBoundary.data() });
   }
 }
 

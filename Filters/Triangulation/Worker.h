@@ -3,9 +3,9 @@
 #define tippWorker_h
 
 #include "Kernel/KernelPool.h"
+#include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/PartitionEditor.h"
 #include "Triangulation/PointBuckets.h"
-#include "Triangulation/SeamTriangles.h"
 #include "Triangulation/Triangulate.h"
 
 #include <array>
@@ -50,11 +50,11 @@ public:
   /// triangles that meet its region. Overwrites these points with the interior triangles, whose
   /// order and number depend only on the partition's points, and passes the boundary triangles to
   /// `boundary`.
-  void triangulate(PartitionIndex partition, std::vector<SeamVertex>&& vertices, const Box2& region,
-    BoundaryTaker& boundary);
+  void triangulate(PartitionIndex partition, std::vector<BoundaryVertex>&& vertices,
+    const Box2& region, BoundaryTaker& boundary);
 
   /// A vertex of the kernel after the last triangulate().
-  SeamVertex vertex(PartitionIndex partition, DelaunayKernel::Index v) const;
+  BoundaryVertex vertex(PartitionIndex partition, DelaunayKernel::Index v) const;
 
   /// Triangulates partition 0, the only one: all triangles are interior. Returns false if the
   /// monitor stopped it.
@@ -88,10 +88,10 @@ private:
   DelaunayKernel& Kernel;
   std::vector<Id> Ids; ///< ids of the partition's own points
   std::vector<Id> VertexIds;
-  std::vector<SeamVertex> Foreign; ///< vertices from the inbox, except own points
+  std::vector<BoundaryVertex> Foreign; ///< vertices from the inbox, except own points
   std::vector<Point2> ForeignPoints;
   std::vector<std::int64_t> KnownIds; ///< ids of own points that other partitions know; sorted
-  std::vector<char> IsSeam;           ///< by triangle of the kernel: not interior
+  std::vector<char> IsBoundary;       ///< by triangle of the kernel: not interior
   std::vector<DelaunayKernel::Index> Stack;
   std::vector<Duplicate> Duplicates;
   std::size_t InteriorCount = 0;

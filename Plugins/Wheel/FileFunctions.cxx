@@ -6,7 +6,7 @@
 #include "Files/IOError.h"
 #include "Files/RequireApart.h"
 #include "Flat/FlatMesh.h"
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 #include "OutOfCore/OutOfCoreRanks.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Output/TriangulationWarnings.h"
@@ -77,7 +77,7 @@ nb::tuple triangulateFiles(const Strings& inputs, const std::string& output, std
   withoutLock(
     [&]
     {
-      Postbox alone(nullptr);
+      Communicator alone(nullptr);
       statistics = triangulateOutOfCoreOnRanks(
         alone,
         [&]

@@ -69,16 +69,17 @@ struct SharedOut
 };
 
 /// The mesh as the ranks exchange it, and how many bytes that is.
-std::vector<SeamTriangles> sharesOf(const SeamTriangles& mesh, int ranks, std::size_t& bytes)
+std::vector<BoundaryTriangles> sharesOf(
+  const BoundaryTriangles& mesh, int ranks, std::size_t& bytes)
 {
-  std::vector<SeamTriangles> shares(static_cast<std::size_t>(ranks));
+  std::vector<BoundaryTriangles> shares(static_cast<std::size_t>(ranks));
   for (std::size_t i = 0; i < mesh.size(); ++i)
   {
     shares[i * shares.size() / mesh.size()].add(
       mesh.Triangles[i], mesh.metBegin(i), mesh.metEnd(i));
   }
-  bytes = mesh.size() * (sizeof(SeamTriangles::Corners) + sizeof(std::uint32_t));
-  for (const SeamTriangles& share : shares)
+  bytes = mesh.size() * (sizeof(BoundaryTriangles::Corners) + sizeof(std::uint32_t));
+  for (const BoundaryTriangles& share : shares)
   {
     for (std::uint32_t set = 0; set < share.Sets.size(); ++set)
     {
@@ -95,20 +96,20 @@ void printPartitions(SharedOut& shared)
 {
   const Tiling& tiles = shared.Of.Leaves;
   const Regions regions(tiles, shared.Buckets, 1);
-  std::vector<SeamVertex> initial =
+  std::vector<BoundaryVertex> initial =
     chooseInitialPoints(tiles, shared.Buckets, InitialPointsOfPartition, 1);
-  const std::vector<SeamVertex> artificial = makeArtificialPoints(tiles);
+  const std::vector<BoundaryVertex> artificial = makeArtificialPoints(tiles);
   initial.insert(initial.end(), artificial.begin(), artificial.end());
   std::size_t bytes = 0;
-  std::vector<SeamTriangles> shares;
+  std::vector<BoundaryTriangles> shares;
   InitialMeshShare share;
   if (shared.Ranks > 1)
   {
     shares = sharesOf(triangulateVertices(regions, initial, 1), shared.Ranks, bytes);
-    share = { 0, shared.Ranks, [&](SeamTriangles&&) { return std::move(shares); } };
+    share = { 0, shared.Ranks, [&](BoundaryTriangles&&) { return std::move(shares); } };
   }
   const ProcessorWatch initialWatch; // what every rank does
-  const SeamTriangles mesh = triangulateVertices(regions, initial, 1, share);
+  const BoundaryTriangles mesh = triangulateVertices(regions, initial, 1, share);
   const PartitionOrder order(regions.areUsed(), mesh);
   std::vector<Inbox> inboxes(order.partitionCount());
   FinalBoundary<std::int64_t> final;

@@ -8,7 +8,7 @@
 #include "Console/ProgressBar.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "Files/Extension.h"
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 #include "Parallel/Stopwatch.h"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ namespace
 {
 
 /// Gathers all ranks' triangles and duplicates, by global ids, on the first rank.
-Triangulation gatherTriangles(Postbox& ranks, const DistributedTriangulation& mine)
+Triangulation gatherTriangles(Communicator& ranks, const DistributedTriangulation& mine)
 {
   const std::int64_t own = std::int64_t(mine.Owned.size());
   Bytes ids(mine.triangleCount() * 3 * sizeof(std::int64_t));
@@ -62,7 +62,7 @@ Triangulation gatherTriangles(Postbox& ranks, const DistributedTriangulation& mi
 }
 
 /// The first rank writes the file, completely or not at all; the others wait for its outcome.
-void writeOnFirst(Postbox& ranks, const DelaunayArguments& arguments, DelaunayRun& run,
+void writeOnFirst(Communicator& ranks, const DelaunayArguments& arguments, DelaunayRun& run,
   const DistributedTriangulation& mine, const PathState& before)
 {
   const Triangulation all = gatherTriangles(ranks, mine);
@@ -88,7 +88,7 @@ void writeOnFirst(Postbox& ranks, const DelaunayArguments& arguments, DelaunayRu
   warnOfNoTriangles(all);
 }
 
-void runTogether(Postbox& ranks, const DelaunayArguments& arguments)
+void runTogether(Communicator& ranks, const DelaunayArguments& arguments)
 {
   if (arguments.MaximumEdge > 0)
   {
@@ -130,7 +130,7 @@ void runTogether(Postbox& ranks, const DelaunayArguments& arguments)
 
 int runDelaunayOnRanks(const DelaunayArguments& arguments, vtkMultiProcessController* controller)
 {
-  Postbox ranks(controller);
+  Communicator ranks(controller);
   try
   {
     ranks.together([&]() { runTogether(ranks, arguments); });

@@ -156,7 +156,7 @@ std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments)
 
 int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessController* controller)
 {
-  Postbox ranks(controller);
+  Communicator ranks(controller);
   const auto open = [&]
   {
     if (ranks.rank() == 0)

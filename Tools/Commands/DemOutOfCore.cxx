@@ -53,7 +53,7 @@ constexpr const char* workSuffix = ".pixels";
 int runDemOutOfCore(
   const DemArguments& arguments, vtkMultiProcessController* controller, DemReport& report)
 {
-  Postbox ranks(controller);
+  Communicator ranks(controller);
   const bool isFirst = ranks.rank() == 0;
   PathState before;
   RasterDescription description;

@@ -39,7 +39,7 @@ std::int64_t movedBytes(const std::string& name)
 
 } // namespace
 
-int runOutOfCore(Postbox& ranks, const std::string& title, const OpenPoints& open,
+int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints& open,
   const std::string& path, OutOfCoreOptions options, OutOfCoreStatistics& statistics)
 {
   // Large blocks go back to the system when they are freed, whatever was freed before.
@@ -95,7 +95,7 @@ ProcessUsage::ProcessUsage()
 {
 }
 
-std::vector<ProcessUsage> gatherUsage(Postbox& ranks)
+std::vector<ProcessUsage> gatherUsage(Communicator& ranks)
 {
   ByteWriter writer;
   writer.value(ProcessUsage());

@@ -14,7 +14,7 @@ namespace tipp
 /// triangulateOutOfCoreOnRanks() with a progress bar of this title, warnings, and Ctrl-C. `open` is
 /// called on all ranks. Returns Success on all ranks, or the exit code of a failed or interrupted
 /// run, about which the user has been told.
-int runOutOfCore(Postbox& ranks, const std::string& title, const OpenPoints& open,
+int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints& open,
   const std::string& path, OutOfCoreOptions options, OutOfCoreStatistics& statistics);
 
 /// What a process has used, which /proc and the system know.
@@ -28,7 +28,7 @@ struct ProcessUsage
 };
 
 /// On the first rank, of all; collective.
-std::vector<ProcessUsage> gatherUsage(Postbox& ranks);
+std::vector<ProcessUsage> gatherUsage(Communicator& ranks);
 
 std::int64_t largestMemory(const std::vector<ProcessUsage>& ranks);
 

@@ -12,7 +12,7 @@
 #include "Files/RequireApart.h"
 #include "Flat/FlatMesh.h"
 #include "Flat/RawArray.h"
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 #include "OpenCL/DeviceChoice.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioning/Ranks.h"
@@ -276,8 +276,8 @@ vtkSmartPointer<vtkDataSet> readWithElevation(
 {
   vtkSmartPointer<vtkDataSet> mesh = readMeshToSample(arguments, ranks);
   auto* const points = vtkPointSet::SafeDownCast(mesh);
-  Postbox postbox(ranks.controller());
-  if (haveElevation({ points }, postbox))
+  Communicator communicator(ranks.controller());
+  if (haveElevation({ points }, communicator))
   {
     mesh = withElevation(points);
   }

@@ -98,7 +98,7 @@ private:
 
 Gathered triangulateShares(const Coordinates& xy, Share share, const DistributedOptions& options)
 {
-  Postbox box(vtkMultiProcessController::GetGlobalController());
+  Communicator box(vtkMultiProcessController::GetGlobalController());
   const RankShare mine = shareOf(xy, share, box.rank(), box.size());
   RankPoints points;
   points.Points = PointsView(mine.XY.data(), mine.GlobalIds.size(), 2);

@@ -151,7 +151,7 @@ std::vector<PieceCell> cellsOf(vtkPolyData* mesh)
 /// All ranks' cells, on rank 0.
 std::vector<std::vector<PieceCell>> gatherCells(vtkPolyData* mesh)
 {
-  Postbox box(vtkMultiProcessController::GetGlobalController());
+  Communicator box(vtkMultiProcessController::GetGlobalController());
   ByteWriter writer;
   writer.array(cellsOf(mesh));
   std::vector<std::vector<PieceCell>> all;

@@ -115,7 +115,7 @@ TEST(DistributedInputs, PartitionsThatDoNotPay)
 TEST(DistributedInputs, RowsTravelWithTheirPoints)
 {
   const Coordinates xy = makePointSet("uniform", 2000);
-  Postbox box(vtkMultiProcessController::GetGlobalController());
+  Communicator box(vtkMultiProcessController::GetGlobalController());
   const RankShare mine = shareOf(xy, Share::RoundRobin, box.rank(), box.size());
   RankPoints points;
   points.Points = PointsView(mine.XY.data(), mine.GlobalIds.size(), 2);
@@ -143,7 +143,7 @@ TEST(DistributedInputs, RowsTravelWithTheirPoints)
 
 TEST(DistributedInputs, GlobalIdsAreCountedOverRanksWhenNoneAreGiven)
 {
-  Postbox box(vtkMultiProcessController::GetGlobalController());
+  Communicator box(vtkMultiProcessController::GetGlobalController());
   const Coordinates xy = makePointSet("uniform", 500, std::uint64_t(box.rank()) + 1);
   RankPoints points;
   points.Points = PointsView(xy.data(), xy.size() / 2, 2);
@@ -160,7 +160,7 @@ TEST(DistributedInputs, GlobalIdsAreCountedOverRanksWhenNoneAreGiven)
 TEST(GhostTriangles, AreTheOthersTrianglesAtOwnVerticesEachOnce)
 {
   const Coordinates xy = makePointSet("uniform", 3000);
-  Postbox box(vtkMultiProcessController::GetGlobalController());
+  Communicator box(vtkMultiProcessController::GetGlobalController());
   const RankShare mine = shareOf(xy, Share::RoundRobin, box.rank(), box.size());
   RankPoints points;
   points.Points = PointsView(mine.XY.data(), mine.GlobalIds.size(), 2);
@@ -211,7 +211,7 @@ class DistributedDesign : public testing::TestWithParam<Masters>
 TEST_P(DistributedDesign, StoppingOneRankStopsAll)
 {
   const Coordinates xy = makePointSet("uniform", 20000);
-  Postbox box(vtkMultiProcessController::GetGlobalController());
+  Communicator box(vtkMultiProcessController::GetGlobalController());
   const RankShare mine = shareOf(xy, Share::RoundRobin, box.rank(), box.size());
   RankPoints points;
   points.Points = PointsView(mine.XY.data(), mine.GlobalIds.size(), 2);
@@ -233,7 +233,7 @@ TEST_P(DistributedDesign, AFailureOnOneRankIsEveryRanks)
   const Coordinates xy = makePointSet("uniform", 20000);
   const auto run = [&](bool fails)
   {
-    Postbox box(vtkMultiProcessController::GetGlobalController());
+    Communicator box(vtkMultiProcessController::GetGlobalController());
     const RankShare mine = shareOf(xy, Share::RoundRobin, box.rank(), box.size());
     RankPoints points;
     points.Points = PointsView(mine.XY.data(), mine.GlobalIds.size(), 2);

@@ -82,7 +82,7 @@ class PointExchangeOf : public testing::TestWithParam<int>
 
 TEST_P(PointExchangeOf, OwnersGetAllRanksPointsLeafByLeafInTheOrderOfRanks)
 {
-  Postbox box(vtkMultiProcessController::GetGlobalController());
+  Communicator box(vtkMultiProcessController::GetGlobalController());
   const Tiling tiling = leaves();
   const std::vector<std::int32_t> owners = ownersOf(box.size());
   const Share mine(box.rank());
@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(Threads, PointExchangeOf, testing::Values(1, 3));
 
 TEST(PointLanding, MoreOrFewerPointsThanTheirRankToldAreRefused)
 {
-  Postbox box(vtkMultiProcessController::GetGlobalController());
+  Communicator box(vtkMultiProcessController::GetGlobalController());
   const std::vector<std::int32_t> owners(1, 0);
   const PointArrangement arrangement(box, owners, { 2 });
   if (box.rank() == 0)

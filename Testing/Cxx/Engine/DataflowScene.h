@@ -56,9 +56,9 @@ struct DataflowScene
   Tiling Tiles;
   PointBuckets<std::int32_t> Buckets;
   Regions Boxes;
-  std::vector<SeamVertex> Artificial;
-  std::vector<SeamVertex> Initial; ///< the artificial ones last
-  SeamTriangles Mesh;
+  std::vector<BoundaryVertex> Artificial;
+  std::vector<BoundaryVertex> Initial; ///< the artificial ones last
+  BoundaryTriangles Mesh;
 };
 
 /// A run of one thread that takes any ready partition, and keeps what the run tells.

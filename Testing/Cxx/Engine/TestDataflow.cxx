@@ -63,12 +63,12 @@ TEST_P(Dataflow, NoTriangleMeetsPartitionsThatDoNotConflict)
   const PartitionOrder order = scene.order();
   Coordinates xy = scene.XY;
   Ids inserted;
-  for (const SeamVertex& v : scene.Initial)
+  for (const BoundaryVertex& v : scene.Initial)
   {
     inserted.push_back(v.isArtificial() ? std::int64_t(xy.size() / 2) : v.Id);
     if (v.isArtificial())
     {
-      xy.insert(xy.end(), { v.Place.x, v.Place.y });
+      xy.insert(xy.end(), { v.Position.x, v.Position.y });
     }
   }
   const std::vector<Point2> points = asPoints(xy);
@@ -117,7 +117,7 @@ TEST_P(Dataflow, AnInboxHoldsEachVertexOfASenderOnce)
         EXPECT_TRUE(conflict(order, message.Sender, p));
       }
       std::set<std::int64_t> ids;
-      for (const SeamVertex& v : message.Vertices)
+      for (const BoundaryVertex& v : message.Vertices)
       {
         EXPECT_TRUE(ids.insert(v.Id).second);
       }
@@ -141,7 +141,7 @@ std::vector<Sent> inboxesOf(DataflowScene& scene, const PartitionOrder& order, s
     for (const VertexMessage& message : inbox)
     {
       std::vector<std::int64_t> ids;
-      for (const SeamVertex& v : message.Vertices)
+      for (const BoundaryVertex& v : message.Vertices)
       {
         ids.push_back(v.Id);
       }

@@ -22,10 +22,10 @@ VertexMessage messageOf(PartitionIndex sender, const std::vector<std::int64_t>& 
   return message;
 }
 
-std::vector<std::int64_t> idsOf(const std::vector<SeamVertex>& vertices)
+std::vector<std::int64_t> idsOf(const std::vector<BoundaryVertex>& vertices)
 {
   std::vector<std::int64_t> ids;
-  for (const SeamVertex& v : vertices)
+  for (const BoundaryVertex& v : vertices)
   {
     ids.push_back(v.Id);
   }

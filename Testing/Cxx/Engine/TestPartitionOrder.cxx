@@ -13,10 +13,10 @@ using Partitions = std::vector<PartitionIndex>;
 
 /// A mesh of made-up triangles that meet these partitions; neighbours: pairs of triangles that have
 /// a common edge.
-SeamTriangles meshOf(const std::vector<Partitions>& met,
+BoundaryTriangles meshOf(const std::vector<Partitions>& met,
   const std::vector<std::pair<std::size_t, std::size_t>>& neighbours)
 {
-  SeamTriangles mesh;
+  BoundaryTriangles mesh;
   for (const Partitions& partitions : met)
   {
     mesh.add({ 0, 0, 0 }, partitions.data(), partitions.data() + partitions.size());
@@ -28,7 +28,7 @@ SeamTriangles meshOf(const std::vector<Partitions>& met,
   return mesh;
 }
 
-PartitionOrder orderOf(std::size_t partitions, const SeamTriangles& mesh)
+PartitionOrder orderOf(std::size_t partitions, const BoundaryTriangles& mesh)
 {
   return PartitionOrder(std::vector<char>(partitions, 1), mesh);
 }

@@ -20,7 +20,7 @@ using Partitions = std::vector<PartitionIndex>;
 /// Two partitions that conflict.
 PartitionOrder pairOrder()
 {
-  SeamTriangles mesh;
+  BoundaryTriangles mesh;
   const PartitionIndex both[] = { 0, 1 };
   mesh.add({ 0, 0, 0 }, both, both + 2);
   return PartitionOrder({ 1, 1 }, mesh);
@@ -54,7 +54,7 @@ TEST(ReadyPartitions, HandOutOwnPartitionsThatAreLoadedAndWhoseEarlierOnesAreDon
 TEST(ReadyPartitions, OfThoseThatAreReadyTheLongestChainComesFirst)
 {
   // 0, 1 and 2 conflict with each other, 3 with nothing.
-  SeamTriangles mesh;
+  BoundaryTriangles mesh;
   const PartitionIndex met[] = { 0, 1, 2 };
   mesh.add({ 0, 0, 0 }, met, met + 3);
   const PartitionOrder order({ 1, 1, 1, 1 }, mesh);
@@ -169,7 +169,7 @@ TEST_P(ReadyPartitionsWith, TheFirstFailureIsKept)
 
 TEST_P(ReadyPartitionsWith, WithoutPartitionsThereIsNothingToDo)
 {
-  const PartitionOrder order({ 0, 0 }, SeamTriangles());
+  const PartitionOrder order({ 0, 0 }, BoundaryTriangles());
   EXPECT_EQ(-1, ReadyPartitions(order, this->waits()).take());
 }
 
@@ -181,7 +181,7 @@ TEST_P(ReadyPartitionsWith, ATotalOrderIsHandedOutOneByOne)
   {
     all[std::size_t(p)] = p;
   }
-  SeamTriangles mesh;
+  BoundaryTriangles mesh;
   mesh.add({ 0, 0, 0 }, all.data(), all.data() + count);
   const PartitionOrder order(std::vector<char>(count, 1), mesh);
   ASSERT_TRUE(order.isTotal());

@@ -9,15 +9,15 @@ using namespace tipp::test;
 
 using Final = FinalBoundary<std::int64_t>;
 
-SeamTriangle triangleOf(std::int64_t a, std::int64_t b, std::int64_t c)
+BoundaryTriangle triangleOf(std::int64_t a, std::int64_t b, std::int64_t c)
 {
-  return { SeamVertex{ { 0, 0 }, a, 1 }, SeamVertex{ { 1, 0 }, b, 2 },
-    SeamVertex{ { 0, 1 }, c, 3 } };
+  return { BoundaryVertex{ { 0, 0 }, a, 1 }, BoundaryVertex{ { 1, 0 }, b, 2 },
+    BoundaryVertex{ { 0, 1 }, c, 3 } };
 }
 
 TEST(FinalBoundary, TrianglesBeginWithTheLowestIdAndKeepTheirOrientation)
 {
-  SeamTriangle triangle = triangleOf(9, 4, 7);
+  BoundaryTriangle triangle = triangleOf(9, 4, 7);
   for (int turn = 0; turn < 3; ++turn)
   {
     Final final;
@@ -36,7 +36,7 @@ TEST(FinalBoundary, OfTrianglesAtArtificialPointsTheTrueCornersAreKept)
   final.add(triangleOf(-1, -2, 3));
   EXPECT_TRUE(final.Triangles.empty());
   std::vector<std::int64_t> ids;
-  for (const SeamVertex& v : final.HullVertices)
+  for (const BoundaryVertex& v : final.HullVertices)
   {
     ids.push_back(v.Id);
   }
@@ -47,15 +47,15 @@ TEST(FinalBoundary, HullRepairCompletesTheTriangulation)
 {
   const Coordinates xy = makePointSet("uniform", 300);
   const Tiling tiles = Tiling::grid(test::boundsOf(xy), 3, 3);
-  const std::vector<SeamVertex> artificial = makeArtificialPoints(tiles);
-  std::vector<SeamVertex> vertices = artificial;
+  const std::vector<BoundaryVertex> artificial = makeArtificialPoints(tiles);
+  std::vector<BoundaryVertex> vertices = artificial;
   const std::vector<Point2> points = asPoints(xy);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     vertices.push_back({ points[i], std::int64_t(i), tiles.locate(points[i]) });
   }
   Final final;
-  for (const SeamTriangle& triangle : listOf(triangulateVertices(tiles, vertices, 1)))
+  for (const BoundaryTriangle& triangle : listOf(triangulateVertices(tiles, vertices, 1)))
   {
     final.add(triangle);
   }

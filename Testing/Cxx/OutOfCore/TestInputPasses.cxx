@@ -59,7 +59,7 @@ TEST(InputSurvey, IsTheSameHoweverTheInputIsDivided)
     for (std::size_t i = 0; i < survey.Sample.size(); ++i)
     {
       ASSERT_EQ(expected.Sample[i].Id, survey.Sample[i].Id);
-      ASSERT_TRUE(expected.Sample[i].Place == survey.Sample[i].Place);
+      ASSERT_TRUE(expected.Sample[i].Position == survey.Sample[i].Position);
     }
   }
 }

@@ -203,7 +203,7 @@ TEST(InputSurvey, SamplesTheSamePointsInBlocksOfAnySize)
     {
       const auto id = std::size_t(survey.Sample[i].Id);
       ASSERT_EQ(expected.Sample[i].Id, survey.Sample[i].Id);
-      ASSERT_TRUE(survey.Sample[i].Place == (Point2{ xy[2 * id], xy[2 * id + 1] }));
+      ASSERT_TRUE(survey.Sample[i].Position == (Point2{ xy[2 * id], xy[2 * id + 1] }));
     }
   }
 }

@@ -97,7 +97,7 @@ protected:
 
   OutOfCoreStatistics runTogether()
   {
-    Postbox ranks(this->Controller); // is of no use after a failure
+    Communicator ranks(this->Controller); // is of no use after a failure
     return triangulateOutOfCoreOnRanks(
       ranks, [this] { return this->open(); }, this->mesh(), this->Options);
   }
@@ -144,7 +144,7 @@ protected:
   }
 
   vtkMultiProcessController* const Controller = vtkMultiProcessController::GetGlobalController();
-  Postbox Ranks;
+  Communicator Ranks;
   /// Whether there were spilled points of the last rank's when all were.
   bool lastRankSpills()
   {
@@ -445,7 +445,7 @@ TEST_F(OutOfCoreRanks, SayWhichFolderIsNotShared)
   const TemporaryFolder elsewhere;
   fs::current_path(this->isFirst() ? this->Folder->path("") : elsewhere.path(""));
   std::string reason;
-  Postbox ranks(this->Controller);
+  Communicator ranks(this->Controller);
   try
   {
     ranks.together([&] { requireSharedFolder(ranks, "shared"); });

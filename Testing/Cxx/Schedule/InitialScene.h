@@ -41,9 +41,9 @@ struct InitialScene
   Coordinates XY;
   Tiling Boxes;
   PointBuckets<std::int32_t> Buckets;
-  std::vector<SeamVertex> Artificial;
-  std::vector<SeamVertex> Vertices; ///< the artificial ones last
-  SeamTriangles Mesh;
+  std::vector<BoundaryVertex> Artificial;
+  std::vector<BoundaryVertex> Vertices; ///< the artificial ones last
+  BoundaryTriangles Mesh;
 };
 
 } // namespace test

@@ -5,8 +5,8 @@
 #include "Comparison.h"
 
 #include "Predicates/InCircle.h"
+#include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/PointBuckets.h"
-#include "Triangulation/SeamTriangles.h"
 
 #include <map>
 #include <string>
@@ -50,27 +50,27 @@ inline Box2 boundsOf(const Coordinates& xy)
 }
 
 /// A boundary triangle whose vertices lie in these partitions.
-inline SeamTriangle seamTriangle(
+inline BoundaryTriangle boundaryTriangle(
   std::int64_t id, PartitionIndex a, PartitionIndex b, PartitionIndex c)
 {
-  return { SeamVertex{ { 0, 0 }, id, a }, SeamVertex{ { 1, 0 }, id + 1, b },
-    SeamVertex{ { 0, 1 }, id + 2, c } };
+  return { BoundaryVertex{ { 0, 0 }, id, a }, BoundaryVertex{ { 1, 0 }, id + 1, b },
+    BoundaryVertex{ { 0, 1 }, id + 2, c } };
 }
 
-inline std::vector<SeamTriangle> listOf(const SeamTriangles& seams)
+inline std::vector<BoundaryTriangle> listOf(const BoundaryTriangles& boundary)
 {
-  std::vector<SeamTriangle> list;
-  for (std::size_t i = 0; i < seams.size(); ++i)
+  std::vector<BoundaryTriangle> list;
+  for (std::size_t i = 0; i < boundary.size(); ++i)
   {
-    list.push_back(seams[i]);
+    list.push_back(boundary[i]);
   }
   return list;
 }
 
-inline Triangles idsOf(const std::vector<SeamTriangle>& seams)
+inline Triangles idsOf(const std::vector<BoundaryTriangle>& boundary)
 {
   Triangles triangles;
-  for (const SeamTriangle& t : seams)
+  for (const BoundaryTriangle& t : boundary)
   {
     triangles.push_back(canonical(t[0].Id, t[1].Id, t[2].Id));
   }

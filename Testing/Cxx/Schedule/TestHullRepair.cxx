@@ -20,7 +20,7 @@ struct Enclosed
     : Boxes(Tiling::grid(boundsOf(xy), side, side))
     , Artificial(makeArtificialPoints(this->Boxes))
   {
-    std::vector<SeamVertex> vertices = this->Artificial;
+    std::vector<BoundaryVertex> vertices = this->Artificial;
     const std::vector<Point2> points = asPoints(xy);
     for (std::size_t i = 0; i < points.size(); ++i)
     {
@@ -30,16 +30,16 @@ struct Enclosed
   }
 
   Tiling Boxes;
-  std::vector<SeamVertex> Artificial;
-  std::vector<SeamTriangle> Final;
+  std::vector<BoundaryVertex> Artificial;
+  std::vector<BoundaryTriangle> Final;
 };
 
 /// What is left when the artificial points are gone.
 Triangles repaired(
-  const std::vector<SeamTriangle>& final, const std::vector<SeamVertex>& artificial)
+  const std::vector<BoundaryTriangle>& final, const std::vector<BoundaryVertex>& artificial)
 {
   FinalBoundary<std::int64_t> boundary;
-  for (const SeamTriangle& triangle : final)
+  for (const BoundaryTriangle& triangle : final)
   {
     boundary.add(triangle);
   }
@@ -137,7 +137,7 @@ TEST(HullRepair, TrianglesOfTruePointsStay)
 {
   Enclosed scene(makePointSet("uniform", 300), 4);
   Triangles before;
-  for (const SeamTriangle& t : scene.Final)
+  for (const BoundaryTriangle& t : scene.Final)
   {
     if (!t[0].isArtificial() && !t[1].isArtificial() && !t[2].isArtificial())
     {
@@ -152,8 +152,9 @@ TEST(HullRepair, TrianglesOfTruePointsStay)
 /// Cut off from the artificial points, as where a run has no triangles at them.
 TEST(HullRepair, WithoutTrianglesAtArtificialPointsNothingChanges)
 {
-  const std::vector<SeamTriangle> final{ seamTriangle(1, 0, 0, 0), seamTriangle(4, 0, 0, 0) };
-  EXPECT_EQ(2U, repaired(final, { SeamVertex{ { 9, 9 }, -1, 0 } }).size());
+  const std::vector<BoundaryTriangle> final{ boundaryTriangle(1, 0, 0, 0),
+    boundaryTriangle(4, 0, 0, 0) };
+  EXPECT_EQ(2U, repaired(final, { BoundaryVertex{ { 9, 9 }, -1, 0 } }).size());
 }
 
 } // namespace

@@ -12,12 +12,12 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-Box2 frameOf(const std::vector<SeamVertex>& vertices)
+Box2 frameOf(const std::vector<BoundaryVertex>& vertices)
 {
   Coordinates xy;
-  for (const SeamVertex& v : vertices)
+  for (const BoundaryVertex& v : vertices)
   {
-    xy.insert(xy.end(), { v.Place.x, v.Place.y });
+    xy.insert(xy.end(), { v.Position.x, v.Position.y });
   }
   return test::boundsOf(xy);
 }
@@ -47,13 +47,13 @@ TEST(ArtificialPoints, StandAtTheRectanglesCorners)
 {
   for (const Box2& domain : Domains)
   {
-    const std::vector<SeamVertex> points = makeArtificialPoints(Tiling::grid(domain, 4, 4));
+    const std::vector<BoundaryVertex> points = makeArtificialPoints(Tiling::grid(domain, 4, 4));
     const Box2 frame = frameOf(points);
     for (const Point2 corner : { Point2{ frame.xmin, frame.ymin }, Point2{ frame.xmax, frame.ymin },
            Point2{ frame.xmin, frame.ymax }, Point2{ frame.xmax, frame.ymax } })
     {
-      EXPECT_TRUE(std::any_of(
-        points.begin(), points.end(), [&](const SeamVertex& v) { return v.Place == corner; }));
+      EXPECT_TRUE(std::any_of(points.begin(), points.end(),
+        [&](const BoundaryVertex& v) { return v.Position == corner; }));
     }
   }
 }
@@ -62,12 +62,12 @@ TEST(ArtificialPoints, NoneIsInsideTheRectangle)
 {
   for (const Box2& domain : Domains)
   {
-    const std::vector<SeamVertex> points = makeArtificialPoints(Tiling::grid(domain, 4, 4));
+    const std::vector<BoundaryVertex> points = makeArtificialPoints(Tiling::grid(domain, 4, 4));
     const Box2 frame = frameOf(points);
-    for (const SeamVertex& v : points)
+    for (const BoundaryVertex& v : points)
     {
-      EXPECT_TRUE(v.Place.x == frame.xmin || v.Place.x == frame.xmax || v.Place.y == frame.ymin ||
-        v.Place.y == frame.ymax);
+      EXPECT_TRUE(v.Position.x == frame.xmin || v.Position.x == frame.xmax ||
+        v.Position.y == frame.ymin || v.Position.y == frame.ymax);
     }
   }
 }
@@ -76,9 +76,9 @@ TEST(ArtificialPoints, IdsAreNegativeAndUnique)
 {
   for (const Box2& domain : Domains)
   {
-    const std::vector<SeamVertex> points = makeArtificialPoints(Tiling::grid(domain, 8, 8));
+    const std::vector<BoundaryVertex> points = makeArtificialPoints(Tiling::grid(domain, 8, 8));
     std::set<std::int64_t> ids;
-    for (const SeamVertex& v : points)
+    for (const BoundaryVertex& v : points)
     {
       EXPECT_TRUE(v.isArtificial());
       ids.insert(v.Id);
@@ -90,7 +90,8 @@ TEST(ArtificialPoints, IdsAreNegativeAndUnique)
 
 TEST(ArtificialPoints, StandAsFarApartAsPartitionsAreWide)
 {
-  const std::vector<SeamVertex> points = makeArtificialPoints(Tiling::grid({ 0, 0, 8, 8 }, 8, 8));
+  const std::vector<BoundaryVertex> points =
+    makeArtificialPoints(Tiling::grid({ 0, 0, 8, 8 }, 8, 8));
   // A square of side 10 with points one apart.
   EXPECT_EQ(40U, points.size());
 }
@@ -126,7 +127,7 @@ TYPED_TEST(InitialPoints, AreEquallyManyAPartitionAndFewerWhereThereAreFewer)
   const Tiling tiling = Tiling::grid({ 0, 0, 1, 1 }, 2, 2);
   auto buckets = bucketPoints<TypeParam>(view(xy), tiling, 1);
   std::vector<int> counts(4, 0);
-  for (const SeamVertex& v : chooseInitialPoints(tiling, buckets, 8, 1))
+  for (const BoundaryVertex& v : chooseInitialPoints(tiling, buckets, 8, 1))
   {
     ++counts[std::size_t(v.Partition)];
   }
@@ -145,11 +146,11 @@ TYPED_TEST(InitialPoints, AreInputPointsEachChosenOnce)
   for (const int perPartition : { 1, 7, 49, 50, 1000 })
   {
     std::set<std::int64_t> ids;
-    for (const SeamVertex& v : chooseInitialPoints(tiling, buckets, perPartition, 1))
+    for (const BoundaryVertex& v : chooseInitialPoints(tiling, buckets, perPartition, 1))
     {
       ASSERT_LE(0, v.Id);
-      EXPECT_EQ(points[std::size_t(v.Id)], v.Place);
-      EXPECT_EQ(tiling.locate(v.Place), v.Partition);
+      EXPECT_EQ(points[std::size_t(v.Id)], v.Position);
+      EXPECT_EQ(tiling.locate(v.Position), v.Partition);
       EXPECT_TRUE(ids.insert(v.Id).second);
     }
     EXPECT_EQ(std::size_t(2 * std::min(perPartition, 50) + std::min(perPartition, 3)), ids.size());
@@ -161,7 +162,7 @@ TYPED_TEST(InitialPoints, AreSpreadOverTheInputsOrder)
   const Coordinates xy = unevenPoints();
   const Tiling tiling = Tiling::grid({ 0, 0, 1, 1 }, 2, 1);
   auto buckets = bucketPoints<TypeParam>(view(xy), tiling, 1);
-  const std::vector<SeamVertex> chosen = chooseInitialPoints(tiling, buckets, 4, 1);
+  const std::vector<BoundaryVertex> chosen = chooseInitialPoints(tiling, buckets, 4, 1);
   for (std::int64_t i = 0; i < 4; ++i)
   {
     EXPECT_EQ(12 + 25 * i, chosen[std::size_t(i)].Id);
@@ -175,9 +176,9 @@ TYPED_TEST(InitialPoints, AmongThemAreTheOutmostOfEachPartition)
   auto buckets = bucketPoints<TypeParam>(view(xy), tiling, 1);
   const Regions regions(tiling, buckets, 1);
   std::map<PartitionIndex, Box2> reached;
-  for (const SeamVertex& v : chooseInitialPoints(tiling, buckets, 8, 2))
+  for (const BoundaryVertex& v : chooseInitialPoints(tiling, buckets, 8, 2))
   {
-    const Point2 p = v.Place;
+    const Point2 p = v.Position;
     Box2& box = reached.emplace(v.Partition, Box2{ p.x, p.y, p.x, p.y }).first->second;
     box = { std::min(box.xmin, p.x), std::min(box.ymin, p.y), std::max(box.xmax, p.x),
       std::max(box.ymax, p.y) };
@@ -196,12 +197,12 @@ TEST(InitialMesh, IsTheDelaunayTriangulationOfItsVertices)
   const InitialScene scene("clustered", 2000, 5, 5);
   Coordinates xy;
   Ids all;
-  for (const SeamVertex& v : scene.Vertices)
+  for (const BoundaryVertex& v : scene.Vertices)
   {
     all.push_back(std::int64_t(xy.size() / 2));
-    xy.insert(xy.end(), { v.Place.x, v.Place.y });
+    xy.insert(xy.end(), { v.Position.x, v.Position.y });
   }
-  std::vector<SeamVertex> numbered = scene.Vertices;
+  std::vector<BoundaryVertex> numbered = scene.Vertices;
   for (std::size_t i = 0; i < numbered.size(); ++i)
   {
     numbered[i].Id = std::int64_t(i);
@@ -216,7 +217,7 @@ TEST(InitialMesh, IsTheDelaunayTriangulationOfItsVertices)
 TEST(InitialMesh, IsInTheSameOrderForAnyNumberOfThreads)
 {
   const InitialScene scene("uniform", 1000, 4, 4);
-  const SeamTriangles more = triangulateVertices(scene.Boxes, scene.Vertices, 3);
+  const BoundaryTriangles more = triangulateVertices(scene.Boxes, scene.Vertices, 3);
   ASSERT_EQ(scene.Mesh.size(), more.size());
   for (std::size_t i = 0; i < more.size(); ++i)
   {
@@ -244,14 +245,14 @@ TEST(InitialMesh, EveryPartitionHasTrianglesThatBelongToIt)
 TEST(InitialMesh, InitialPointsAtOnePlaceAreOneVertex)
 {
   const Tiling tiling = Tiling::grid({ 0, 0, 1, 1 }, 2, 2);
-  std::vector<SeamVertex> vertices = makeArtificialPoints(tiling);
+  std::vector<BoundaryVertex> vertices = makeArtificialPoints(tiling);
   const std::size_t artificial = vertices.size();
   for (std::int64_t id = 0; id < 5; ++id)
   {
     vertices.push_back({ { 0.2, 0.3 }, id, 0 });
   }
   std::set<std::int64_t> used;
-  for (const SeamTriangle& t : listOf(triangulateVertices(tiling, vertices, 1)))
+  for (const BoundaryTriangle& t : listOf(triangulateVertices(tiling, vertices, 1)))
   {
     used.insert({ t[0].Id, t[1].Id, t[2].Id });
   }
@@ -259,14 +260,14 @@ TEST(InitialMesh, InitialPointsAtOnePlaceAreOneVertex)
 }
 
 /// The initial mesh of eight partitions of equally many points.
-SeamTriangles initialMeshOfEight(const std::string& set)
+BoundaryTriangles initialMeshOfEight(const std::string& set)
 {
   const Coordinates xy = makePointSet(set, 40'000);
   const PointsView points = view(xy);
   const Tiling tiling = Tiling::balanced(test::boundsOf(xy), samplePoints(points, 8000), 8);
-  std::vector<SeamVertex> vertices =
+  std::vector<BoundaryVertex> vertices =
     chooseInitialPoints(tiling, bucketPoints<std::int32_t>(points, tiling, 1), 8, 1);
-  const std::vector<SeamVertex> artificial = makeArtificialPoints(tiling);
+  const std::vector<BoundaryVertex> artificial = makeArtificialPoints(tiling);
   vertices.insert(vertices.end(), artificial.begin(), artificial.end());
   return triangulateVertices(tiling, vertices, 1);
 }

@@ -18,8 +18,8 @@ using namespace tipp::test;
 
 /// In two lists, as two threads make them.
 template <typename Id>
-std::vector<std::vector<typename TriangleSink<Id>::Seam>> finalOnes(
-  const std::vector<SeamTriangle>& triangles)
+std::vector<std::vector<typename TriangleSink<Id>::FinalTriangle>> finalOnes(
+  const std::vector<BoundaryTriangle>& triangles)
 {
   FinalBoundary<Id> final[2];
   for (std::size_t i = 0; i < triangles.size(); ++i)
@@ -53,14 +53,14 @@ struct SinkRun
   }
 
   /// Made-up triangles whose lowest vertices lie in all partitions with points.
-  std::vector<SeamTriangle> seams(std::size_t count)
+  std::vector<BoundaryTriangle> boundary(std::size_t count)
   {
-    std::vector<SeamTriangle> triangles;
+    std::vector<BoundaryTriangle> triangles;
     const PartitionIndex partitions[] = { 0, 2, 3 };
     for (std::size_t i = 0; i < count; ++i)
     {
       const std::int64_t id = 10 * std::int64_t(count - i);
-      triangles.push_back(seamTriangle(id, partitions[i % 3], partitions[i % 2], 0));
+      triangles.push_back(boundaryTriangle(id, partitions[i % 3], partitions[i % 2], 0));
       this->Expected.push_back(canonical(id, id + 1, id + 2));
     }
     return triangles;
@@ -104,10 +104,10 @@ TEST(LongTriangles, AreToldAtAnyMagnitude)
   }
 }
 
-TYPED_TEST(SinkOf, InteriorTrianglesAndSeamsAreAllThere)
+TYPED_TEST(SinkOf, InteriorAndBoundaryTrianglesAreAllThere)
 {
   // There is room for 10, 0, 6 and 8 triangles.
-  for (const std::size_t seamCount : { 0, 1, 2, 5, 9, 13 })
+  for (const std::size_t boundaryCount : { 0, 1, 2, 5, 9, 13 })
   {
     for (const auto& [first, third, last] : { std::tuple{ 0, 0, 0 }, { 3, 2, 5 }, { 10, 0, 0 },
            { 0, 6, 0 }, { 0, 0, 8 }, { 1, 6, 3 }, { 2, 1, 8 } })
@@ -116,7 +116,7 @@ TYPED_TEST(SinkOf, InteriorTrianglesAndSeamsAreAllThere)
       run.writeInterior(0, std::size_t(first));
       run.writeInterior(2, std::size_t(third));
       run.writeInterior(3, std::size_t(last));
-      run.expectAll(run.Sink.assemble(finalOnes<TypeParam>(run.seams(seamCount)), 2));
+      run.expectAll(run.Sink.assemble(finalOnes<TypeParam>(run.boundary(boundaryCount)), 2));
     }
   }
 }
@@ -126,7 +126,7 @@ TYPED_TEST(SinkOf, ThereIsRoomForTwoTrianglesAPoint)
   this->writeInterior(0, 10);
   this->writeInterior(2, 4);
   this->writeInterior(3, 3);
-  this->expectAll(this->Sink.assemble(finalOnes<TypeParam>(this->seams(7)), 1));
+  this->expectAll(this->Sink.assemble(finalOnes<TypeParam>(this->boundary(7)), 1));
 }
 
 TYPED_TEST(SinkOf, NothingIsEmpty)
@@ -138,12 +138,12 @@ TYPED_TEST(SinkOf, InteriorTrianglesStayWhereTheyAre)
 {
   this->writeInterior(0, 4);
   const std::vector<TypeParam> before(this->Buckets.triangles(0), this->Buckets.triangles(0) + 12);
-  const Buffer<TypeParam> ids = this->Sink.assemble(finalOnes<TypeParam>(this->seams(5)), 1);
+  const Buffer<TypeParam> ids = this->Sink.assemble(finalOnes<TypeParam>(this->boundary(5)), 1);
   EXPECT_EQ(before, std::vector<TypeParam>(ids.begin(), ids.begin() + 12));
 }
 
 /// In whatever order workers brought them.
-TYPED_TEST(SinkOf, TheOrderDoesNotDependOnThatOfTheSeams)
+TYPED_TEST(SinkOf, TheOrderDoesNotDependOnThatOfTheBoundary)
 {
   std::mt19937_64 random(2);
   std::vector<TypeParam> expected;
@@ -153,26 +153,27 @@ TYPED_TEST(SinkOf, TheOrderDoesNotDependOnThatOfTheSeams)
     run.writeInterior(0, 3);
     run.writeInterior(2, 5);
     run.writeInterior(3, 1);
-    std::vector<SeamTriangle> seams = run.seams(9);
+    std::vector<BoundaryTriangle> boundary = run.boundary(9);
     if (draw > 0)
     {
-      std::shuffle(seams.begin(), seams.end(), random);
+      std::shuffle(boundary.begin(), boundary.end(), random);
     }
-    for (SeamTriangle& t : seams)
+    for (BoundaryTriangle& t : boundary)
     {
       // The same triangle from another corner.
       std::rotate(t.begin(), t.begin() + draw % 3, t.end());
     }
-    const Buffer<TypeParam> ids = run.Sink.assemble(finalOnes<TypeParam>(seams), 1 + draw % 3);
+    const Buffer<TypeParam> ids = run.Sink.assemble(finalOnes<TypeParam>(boundary), 1 + draw % 3);
     const std::vector<TypeParam> now(ids.begin(), ids.end());
     expected = draw == 0 ? now : expected;
     ASSERT_EQ(expected, now);
   }
 }
 
-TYPED_TEST(SinkOf, SeamsStayCounterClockwise)
+TYPED_TEST(SinkOf, BoundaryStaysCounterClockwise)
 {
-  const SeamTriangle t = { SeamVertex{ {}, 9, 0 }, SeamVertex{ {}, 4, 2 }, SeamVertex{ {}, 7, 3 } };
+  const BoundaryTriangle t = { BoundaryVertex{ {}, 9, 0 }, BoundaryVertex{ {}, 4, 2 },
+    BoundaryVertex{ {}, 7, 3 } };
   const Buffer<TypeParam> ids = this->Sink.assemble(finalOnes<TypeParam>({ t }), 1);
   EXPECT_EQ((std::vector<TypeParam>{ 4, 7, 9 }), std::vector<TypeParam>(ids.begin(), ids.end()));
 }

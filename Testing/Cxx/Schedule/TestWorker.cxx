@@ -43,10 +43,10 @@ public:
   }
 
   using Met = std::vector<PartitionIndex>;
-  std::vector<std::pair<SeamTriangle, Met>> triangles(
+  std::vector<std::pair<BoundaryTriangle, Met>> triangles(
     const Worker<std::int32_t>& worker, PartitionIndex p) const
   {
-    std::vector<std::pair<SeamTriangle, Met>> triangles;
+    std::vector<std::pair<BoundaryTriangle, Met>> triangles;
     for (const auto& [corners, met] : this->Found)
     {
       triangles.push_back({ { worker.vertex(p, corners[0]), worker.vertex(p, corners[1]),
@@ -65,7 +65,7 @@ private:
 class UnfinishedMesh
 {
 public:
-  void add(const SeamTriangles& triangles)
+  void add(const BoundaryTriangles& triangles)
   {
     for (std::size_t i = 0; i < triangles.size(); ++i)
     {
@@ -73,7 +73,7 @@ public:
     }
   }
 
-  void add(const std::vector<std::pair<SeamTriangle, Boundary::Met>>& triangles)
+  void add(const std::vector<std::pair<BoundaryTriangle, Boundary::Met>>& triangles)
   {
     for (const auto& [triangle, met] : triangles)
     {
@@ -89,9 +89,9 @@ public:
       this->Entries.end());
   }
 
-  std::vector<SeamTriangle> thoseMeeting(PartitionIndex p) const
+  std::vector<BoundaryTriangle> thoseMeeting(PartitionIndex p) const
   {
-    std::vector<SeamTriangle> triangles;
+    std::vector<BoundaryTriangle> triangles;
     for (const Entry& entry : this->Entries)
     {
       if (entry.meets(p))
@@ -103,9 +103,9 @@ public:
   }
 
   /// When all partitions are finished, these are all that were added last.
-  std::vector<SeamTriangle> all() const
+  std::vector<BoundaryTriangle> all() const
   {
-    std::vector<SeamTriangle> triangles;
+    std::vector<BoundaryTriangle> triangles;
     for (const Entry& entry : this->Entries)
     {
       triangles.push_back(entry.Triangle);
@@ -116,7 +116,7 @@ public:
 private:
   struct Entry
   {
-    SeamTriangle Triangle;
+    BoundaryTriangle Triangle;
     std::vector<PartitionIndex> Met;
 
     bool meets(PartitionIndex p) const
@@ -128,17 +128,17 @@ private:
   std::vector<Entry> Entries;
 };
 
-std::vector<SeamVertex> uniqueVertices(const std::vector<SeamTriangle>& triangles)
+std::vector<BoundaryVertex> uniqueVertices(const std::vector<BoundaryTriangle>& triangles)
 {
-  std::vector<SeamVertex> vertices;
-  for (const SeamTriangle& triangle : triangles)
+  std::vector<BoundaryVertex> vertices;
+  for (const BoundaryTriangle& triangle : triangles)
   {
     vertices.insert(vertices.end(), triangle.begin(), triangle.end());
   }
   std::sort(vertices.begin(), vertices.end(),
-    [](const SeamVertex& a, const SeamVertex& b) { return a.Id < b.Id; });
+    [](const BoundaryVertex& a, const BoundaryVertex& b) { return a.Id < b.Id; });
   vertices.erase(std::unique(vertices.begin(), vertices.end(),
-                   [](const SeamVertex& a, const SeamVertex& b) { return a.Id == b.Id; }),
+                   [](const BoundaryVertex& a, const BoundaryVertex& b) { return a.Id == b.Id; }),
     vertices.end());
   return vertices;
 }
@@ -155,12 +155,12 @@ public:
   {
     this->Mesh.add(this->Scene.Mesh);
     // Artificial points come after the true ones, so that both are named by their place.
-    for (const SeamVertex& v : this->Scene.Artificial)
+    for (const BoundaryVertex& v : this->Scene.Artificial)
     {
       this->Inserted.push_back(std::int64_t(this->XY.size() / 2));
-      this->XY.insert(this->XY.end(), { v.Place.x, v.Place.y });
+      this->XY.insert(this->XY.end(), { v.Position.x, v.Position.y });
     }
-    for (const SeamVertex& v : this->Scene.Vertices)
+    for (const BoundaryVertex& v : this->Scene.Vertices)
     {
       if (!v.isArtificial())
       {
@@ -183,25 +183,25 @@ public:
     this->Work.triangulate(
       p, uniqueVertices(this->Mesh.thoseMeeting(p)), this->Scene.Boxes.box(p), boundary);
     this->Mesh.finish(p);
-    this->Seams = boundary.triangles(this->Work, p);
-    this->Mesh.add(this->Seams);
+    this->BoundaryTriangles = boundary.triangles(this->Work, p);
+    this->Mesh.add(this->BoundaryTriangles);
     return interiorOf(this->Scene.Buckets, p, this->Work);
   }
 
-  std::int64_t idIn(const SeamVertex& v) const
+  std::int64_t idIn(const BoundaryVertex& v) const
   {
     return v.isArtificial() ? std::int64_t(this->Scene.XY.size() / 2) - 1 - v.Id : v.Id;
   }
 
-  /// The last partition's interior triangles and the seams, by places in XY.
+  /// The last partition's interior triangles and the boundary, by places in XY.
   Triangles made(const Interior& interior) const
   {
-    std::vector<SeamTriangle> seams;
-    for (const auto& entry : this->Seams)
+    std::vector<BoundaryTriangle> boundary;
+    for (const auto& entry : this->BoundaryTriangles)
     {
-      seams.push_back(entry.first);
+      boundary.push_back(entry.first);
     }
-    Triangles all = this->inXY(seams);
+    Triangles all = this->inXY(boundary);
     for (std::size_t i = 0; i < interior.size(); i += 3)
     {
       all.push_back(canonical(interior[i], interior[i + 1], interior[i + 2]));
@@ -209,10 +209,10 @@ public:
     return sorted(std::move(all));
   }
 
-  Triangles inXY(const std::vector<SeamTriangle>& seams) const
+  Triangles inXY(const std::vector<BoundaryTriangle>& boundary) const
   {
     Triangles all;
-    for (const SeamTriangle& t : seams)
+    for (const BoundaryTriangle& t : boundary)
     {
       all.push_back(canonical(this->idIn(t[0]), this->idIn(t[1]), this->idIn(t[2])));
     }
@@ -222,7 +222,8 @@ public:
   InitialScene Scene;
   UnfinishedMesh Mesh;
   Worker<std::int32_t> Work;
-  std::vector<std::pair<SeamTriangle, Boundary::Met>> Seams; ///< of the last partition
+  std::vector<std::pair<BoundaryTriangle, Boundary::Met>>
+    BoundaryTriangles; ///< of the last partition
   Coordinates XY;
   Ids Inserted;
 };
@@ -247,7 +248,7 @@ TEST_P(WorkerOn, MakesTheTrianglesThatBelongToItsPartition)
 }
 
 /// Lemma 2: what is final when all are through is the triangulation, without a gap.
-TEST_P(WorkerOn, InteriorTrianglesAndFinalSeamsAreTheTriangulation)
+TEST_P(WorkerOn, InteriorTrianglesAndFinalBoundaryTrianglesAreTheTriangulation)
 {
   WorkerRun run(GetParam(), 800, 4);
   Triangles all;
@@ -259,8 +260,8 @@ TEST_P(WorkerOn, InteriorTrianglesAndFinalSeamsAreTheTriangulation)
       all.push_back(canonical(interior[i], interior[i + 1], interior[i + 2]));
     }
   }
-  const Triangles seams = run.inXY(run.Mesh.all());
-  all.insert(all.end(), seams.begin(), seams.end());
+  const Triangles boundary = run.inXY(run.Mesh.all());
+  all.insert(all.end(), boundary.begin(), boundary.end());
   EXPECT_TRUE(sameTriangles(run.XY, sorted(std::move(all)), delaunay(run.XY, run.Inserted)));
 }
 
@@ -321,9 +322,9 @@ TEST(Worker, CountsItsOwnPointsAndTheVerticesAround)
 {
   WorkerRun run("uniform", 500, 2);
   Ids foreign;
-  for (const SeamTriangle& t : run.Mesh.thoseMeeting(0))
+  for (const BoundaryTriangle& t : run.Mesh.thoseMeeting(0))
   {
-    for (const SeamVertex& v : t)
+    for (const BoundaryVertex& v : t)
     {
       if (v.isArtificial() || v.Partition != 0)
       {
@@ -410,7 +411,7 @@ TEST(Worker, AnInitialPointStandsForLowerDuplicates)
   for (const std::int64_t known : { 1, 2, 3 })
   {
     auto buckets = bucketPoints<std::int32_t>(view(xy), tiling, 1);
-    std::vector<SeamVertex> vertices = makeArtificialPoints(tiling);
+    std::vector<BoundaryVertex> vertices = makeArtificialPoints(tiling);
     vertices.push_back({ { 0.3, 0.2 }, known, p });
     UnfinishedMesh mesh;
     mesh.add(triangulateVertices(tiling, vertices, 1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 
 #include "Parallel/Stopwatch.h"
 
@@ -31,14 +31,14 @@ struct Head
 } // namespace
 
 /// The first part of a message, already received.
-struct Postbox::Arrival
+struct Communicator::Arrival
 {
   int Source = 0;
   Head About = {};
   std::array<char, sizeof(Head) + LargestInHead> First;
 };
 
-struct Postbox::Outgoing
+struct Communicator::Outgoing
 {
   Bytes Head;
   std::shared_ptr<Bytes> Content;
@@ -54,7 +54,7 @@ struct Postbox::Outgoing
   }
 };
 
-Postbox::Postbox(vtkMultiProcessController* controller)
+Communicator::Communicator(vtkMultiProcessController* controller)
   : Transport(RankTransport::open(controller))
 {
   if (this->Transport)
@@ -66,12 +66,12 @@ Postbox::Postbox(vtkMultiProcessController* controller)
 }
 
 /// Buffers must not be freed before their sends complete. Receivers still wait for these messages.
-Postbox::~Postbox()
+Communicator::~Communicator()
 {
   this->flush();
 }
 
-void Postbox::post(int to, MessageKind kind, Bytes content)
+void Communicator::post(int to, MessageKind kind, Bytes content)
 {
   if (to == this->Rank)
   {
@@ -82,7 +82,7 @@ void Postbox::post(int to, MessageKind kind, Bytes content)
   this->postStretch(to, kind, std::make_shared<Bytes>(std::move(content)), whole);
 }
 
-void Postbox::postStretch(
+void Communicator::postStretch(
   int to, MessageKind kind, const std::shared_ptr<Bytes>& memory, const Stretch& stretch)
 {
   const Stopwatch watch;
@@ -94,13 +94,13 @@ void Postbox::postStretch(
   this->SendingSeconds += watch.seconds();
 }
 
-void Postbox::sendTo(int to, MessageKind kind, Bytes content)
+void Communicator::sendTo(int to, MessageKind kind, Bytes content)
 {
   const Stretch whole{ 0, content.size() };
   this->sendTo(to, kind, std::make_shared<Bytes>(std::move(content)), whole);
 }
 
-void Postbox::sendTo(
+void Communicator::sendTo(
   int to, MessageKind kind, const std::shared_ptr<Bytes>& memory, const Stretch& stretch)
 {
   const char* const content = memory->data() + stretch.Begin;
@@ -128,7 +128,7 @@ void Postbox::sendTo(
   }
 }
 
-void Postbox::testOutgoing()
+void Communicator::testOutgoing()
 {
   for (auto it = this->Unsent.begin(); it != this->Unsent.end();)
   {
@@ -136,7 +136,7 @@ void Postbox::testOutgoing()
   }
 }
 
-bool Postbox::probe(Arrival& arrival)
+bool Communicator::probe(Arrival& arrival)
 {
   if (!this->Transport)
   {
@@ -153,7 +153,7 @@ bool Postbox::probe(Arrival& arrival)
   return true;
 }
 
-bool Postbox::receive(Message& message, const InParts* inParts)
+bool Communicator::receive(Message& message, const InParts* inParts)
 {
   Arrival arrival;
   if (!this->probe(arrival))
@@ -191,7 +191,7 @@ bool Postbox::receive(Message& message, const InParts* inParts)
 }
 
 /// Receives all parts, even if `takePart` fails.
-void Postbox::receiveParts(const Arrival& arrival, const TakePart& takePart)
+void Communicator::receiveParts(const Arrival& arrival, const TakePart& takePart)
 {
   if (arrival.About.IsComplete)
   {
@@ -226,14 +226,14 @@ void Postbox::receiveParts(const Arrival& arrival, const TakePart& takePart)
 }
 
 /// Receives the next message; returns whether it reports a failure. Other messages are discarded.
-bool Postbox::receiveOfFailure(Message& message)
+bool Communicator::receiveOfFailure(Message& message)
 {
   Arrival arrival;
   while (this->probe(arrival))
   {
     message.Source = arrival.Source;
     message.Kind = arrival.About.Kind;
-    if (message.Kind == MessageKind::Failure || message.Kind == MessageKind::Farewell)
+    if (message.Kind == MessageKind::Failure || message.Kind == MessageKind::Shutdown)
     {
       message.Content = Bytes(arrival.About.Size);
       std::copy_n(arrival.First.data() + sizeof(Head), arrival.About.Size, message.Content.data());
@@ -244,7 +244,7 @@ bool Postbox::receiveOfFailure(Message& message)
   return false;
 }
 
-void Postbox::discardParts(const Arrival& arrival)
+void Communicator::discardParts(const Arrival& arrival)
 {
   if (arrival.About.IsComplete)
   {
@@ -257,7 +257,7 @@ void Postbox::discardParts(const Arrival& arrival)
   }
 }
 
-bool Postbox::poll(Message& message)
+bool Communicator::poll(Message& message)
 {
   // A rank that is ahead may have started a collective call already.
   const auto isCallers = [](const Message& m) { return m.Kind >= MessageKind::FirstFree; };
@@ -280,14 +280,14 @@ bool Postbox::poll(Message& message)
 }
 
 /// Receives the next message, if any. Throws if it reports a failure.
-bool Postbox::receiveGood(Message& message, const InParts* inParts)
+bool Communicator::receiveGood(Message& message, const InParts* inParts)
 {
   if (!this->receive(message, inParts))
   {
     return false;
   }
   this->Pauses = 0;
-  if (message.Kind == MessageKind::Failure || message.Kind == MessageKind::Farewell)
+  if (message.Kind == MessageKind::Failure || message.Kind == MessageKind::Shutdown)
   {
     this->noteFailure(message);
     throw *this->Failure;
@@ -295,7 +295,7 @@ bool Postbox::receiveGood(Message& message, const InParts* inParts)
   return true;
 }
 
-Message Postbox::wait(MessageKind kind, int from)
+Message Communicator::wait(MessageKind kind, int from)
 {
   const auto wanted = [kind, from](const Message& m) { return m.Kind == kind && m.Source == from; };
   const auto kept = std::find_if(this->Inbox.begin(), this->Inbox.end(), wanted);
@@ -321,7 +321,7 @@ Message Postbox::wait(MessageKind kind, int from)
   }
 }
 
-void Postbox::flush()
+void Communicator::flush()
 {
   while (!this->Unsent.empty())
   {
@@ -333,7 +333,7 @@ void Postbox::flush()
   }
 }
 
-void Postbox::pause()
+void Communicator::pause()
 {
   constexpr int yields = 16;
   constexpr int longest = 200; // microseconds
@@ -347,7 +347,7 @@ void Postbox::pause()
     std::chrono::microseconds(std::min(10 * (this->Pauses - yields), longest)));
 }
 
-void Postbox::note(int rank, bool aborted, const std::string& reason)
+void Communicator::note(int rank, bool aborted, const std::string& reason)
 {
   if (!this->Failure || rank < this->Failure->Rank)
   {
@@ -355,7 +355,7 @@ void Postbox::note(int rank, bool aborted, const std::string& reason)
   }
 }
 
-void Postbox::noteFailure(const Message& message)
+void Communicator::noteFailure(const Message& message)
 {
   if (message.Kind == MessageKind::Failure)
   {
@@ -370,7 +370,7 @@ void Postbox::noteFailure(const Message& message)
   }
 }
 
-void Postbox::tellFailure(bool aborted, const std::string& reason)
+void Communicator::tellFailure(bool aborted, const std::string& reason)
 {
   this->Told = true;
   this->note(this->Rank, aborted, reason);
@@ -386,15 +386,15 @@ void Postbox::tellFailure(bool aborted, const std::string& reason)
   }
 }
 
-/// Sends a shutdown message ('farewell') to every other rank and receives all messages up to
-/// theirs: no message of this run is left for the next, and all ranks know the same failures.
-void Postbox::partAfterFailure()
+/// Sends a shutdown message ('shutdown message') to every other rank and receives all messages up
+/// to theirs: no message of this run is left for the next, and all ranks know the same failures.
+void Communicator::partAfterFailure()
 {
   for (int to = 0; to < this->Size; ++to)
   {
     if (to != this->Rank)
     {
-      this->sendTo(to, MessageKind::Farewell, Bytes());
+      this->sendTo(to, MessageKind::Shutdown, Bytes());
     }
   }
   this->HasParted[std::size_t(this->Rank)] = 1;

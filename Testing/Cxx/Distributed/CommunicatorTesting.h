@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippPostboxTesting_h
-#define tippPostboxTesting_h
+#ifndef tippCommunicatorTesting_h
+#define tippCommunicatorTesting_h
 
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 
 #include "vtkMultiProcessController.h"
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Triangulation/SeamTriangles.h"
+#include "Triangulation/BoundaryTriangles.h"
 
 namespace tipp
 {
 
-void SeamTriangles::add(
+void BoundaryTriangles::add(
   const Corners& corners, const PartitionIndex* metBegin, const PartitionIndex* metEnd)
 {
   this->Triangles.push_back(corners);
   this->SetOf.push_back(this->Sets.number(metBegin, metEnd));
 }
 
-void SeamTriangles::appendTriangles(const SeamTriangles& others)
+void BoundaryTriangles::appendTriangles(const BoundaryTriangles& others)
 {
   std::vector<std::uint32_t> numbers;
   for (std::uint32_t set = 0; set < others.Sets.size(); ++set)

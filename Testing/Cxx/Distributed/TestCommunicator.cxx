@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PostboxTesting.h"
+#include "CommunicatorTesting.h"
 
 #include <numeric>
 
@@ -11,18 +11,18 @@ using namespace tipp::test;
 
 constexpr MessageKind Note = MessageKind::FirstFree;
 
-TEST(Postbox, NoControllerIsOneRank)
+TEST(Communicator, NoControllerIsOneRank)
 {
-  Postbox box(nullptr);
+  Communicator box(nullptr);
   EXPECT_EQ(box.size(), 1);
   EXPECT_EQ(box.rank(), 0);
   box.post(0, Note, filled(3, 'a'));
   EXPECT_EQ(box.wait(Note, 0).Content.size(), 3u);
 }
 
-TEST(Postbox, MessagesOfARankArriveInOrder)
+TEST(Communicator, MessagesOfARankArriveInOrder)
 {
-  Postbox box(controller());
+  Communicator box(controller());
   const int next = (box.rank() + 1) % box.size();
   const int previous = (box.rank() + box.size() - 1) % box.size();
   const std::size_t sizes[] = { 0, 10, 300000, 1, 70000, 2 };
@@ -42,9 +42,9 @@ TEST(Postbox, MessagesOfARankArriveInOrder)
   box.barrier();
 }
 
-TEST(Postbox, LargeMessagesCross)
+TEST(Communicator, LargeMessagesCross)
 {
-  Postbox box(controller());
+  Communicator box(controller());
   constexpr std::size_t size = 20'000'000;
   for (int to = 0; to < box.size(); ++to)
   {
@@ -60,11 +60,11 @@ TEST(Postbox, LargeMessagesCross)
   box.barrier();
 }
 
-TEST(Postbox, AFailureEndsTheOthersWaiting)
+TEST(Communicator, AFailureEndsTheOthersWaiting)
 {
   for (int failing = 0; failing < controller()->GetNumberOfProcesses(); ++failing)
   {
-    Postbox box(controller());
+    Communicator box(controller());
     try
     {
       box.together(
@@ -86,12 +86,12 @@ TEST(Postbox, AFailureEndsTheOthersWaiting)
   }
 }
 
-TEST(Postbox, AFailureLeavesNoLargeMessageBehind)
+TEST(Communicator, AFailureLeavesNoLargeMessageBehind)
 {
   constexpr std::size_t size = 40'000'000;
   for (int run = 0; run < 2; ++run)
   {
-    Postbox box(controller());
+    Communicator box(controller());
     const auto work = [&]()
     {
       box.post((box.rank() + 1) % box.size(), Note, filled(size, 'x'));
@@ -101,9 +101,9 @@ TEST(Postbox, AFailureLeavesNoLargeMessageBehind)
   }
 }
 
-TEST(Postbox, WorkWithinWorkFailsOnceOnAllRanks)
+TEST(Communicator, WorkWithinWorkFailsOnceOnAllRanks)
 {
-  Postbox box(controller());
+  Communicator box(controller());
   const auto inner = [&]()
   {
     if (box.rank() == box.size() - 1)
@@ -124,9 +124,9 @@ TEST(Postbox, WorkWithinWorkFailsOnceOnAllRanks)
   }
 }
 
-TEST(Postbox, OfSeveralFailuresAllRanksHearOfTheLowestRanks)
+TEST(Communicator, OfSeveralFailuresAllRanksHearOfTheLowestRanks)
 {
-  Postbox box(controller());
+  Communicator box(controller());
   try
   {
     box.together([&]() { throw std::runtime_error("rank " + std::to_string(box.rank())); });
@@ -138,9 +138,9 @@ TEST(Postbox, OfSeveralFailuresAllRanksHearOfTheLowestRanks)
   }
 }
 
-TEST(Postbox, TellsWhatWasSentByKind)
+TEST(Communicator, TellsWhatWasSentByKind)
 {
-  Postbox box(controller());
+  Communicator box(controller());
   box.post((box.rank() + 1) % box.size(), Note, filled(100, 'x'));
   box.wait(Note, (box.rank() + box.size() - 1) % box.size());
   const auto sent = box.traffic().find(Note);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Messages/Postbox.h"
+#include "Messages/Communicator.h"
 
 #include <algorithm>
 
 namespace tipp
 {
 
-std::vector<Bytes> Postbox::allToAll(std::vector<Bytes> contents)
+std::vector<Bytes> Communicator::allToAll(std::vector<Bytes> contents)
 {
   std::vector<Bytes> received(static_cast<std::size_t>(this->Size));
   received[std::size_t(this->Rank)] = std::move(contents[std::size_t(this->Rank)]);
@@ -24,7 +24,7 @@ std::vector<Bytes> Postbox::allToAll(std::vector<Bytes> contents)
   return received;
 }
 
-Bytes Postbox::allToAllInParts(
+Bytes Communicator::allToAllInParts(
   Bytes memory, const std::vector<Stretch>& contents, const TakePart& takePart)
 {
   const auto shared = std::make_shared<Bytes>(std::move(memory));
@@ -67,7 +67,7 @@ Bytes Postbox::allToAllInParts(
   return std::move(*shared);
 }
 
-std::vector<Bytes> Postbox::gather(Bytes content)
+std::vector<Bytes> Communicator::gather(Bytes content)
 {
   std::vector<Bytes> received;
   if (this->Rank != 0)
@@ -84,7 +84,7 @@ std::vector<Bytes> Postbox::gather(Bytes content)
 }
 
 /// Along a binomial tree: a rank receives from the rank whose number lacks its lowest set bit.
-Bytes Postbox::broadcast(Bytes content)
+Bytes Communicator::broadcast(Bytes content)
 {
   int bit = 1;
   while (bit < this->Size && !(this->Rank & bit))
@@ -107,7 +107,7 @@ Bytes Postbox::broadcast(Bytes content)
   return content;
 }
 
-void Postbox::sum(std::vector<std::int64_t>& values)
+void Communicator::sum(std::vector<std::int64_t>& values)
 {
   const auto pack = [](const std::vector<std::int64_t>& v)
   {
@@ -136,7 +136,7 @@ void Postbox::sum(std::vector<std::int64_t>& values)
   values = ByteReader(total).array<std::int64_t>();
 }
 
-void Postbox::barrier()
+void Communicator::barrier()
 {
   std::vector<std::int64_t> none;
   this->sum(none);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PostboxTesting.h"
+#include "CommunicatorTesting.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -11,9 +11,9 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-TEST(PostboxCollectives, AllToAllGivesEachRankItsOwn)
+TEST(CommunicatorCollectives, AllToAllGivesEachRankItsOwn)
 {
-  Postbox box(controller());
+  Communicator box(controller());
   std::vector<Bytes> contents;
   for (int to = 0; to < box.size(); ++to)
   {
@@ -33,7 +33,7 @@ TEST(PostboxCollectives, AllToAllGivesEachRankItsOwn)
 /// A stretch for each other rank, of bytes that tell who sent them, and room between them.
 struct InOneMemory
 {
-  InOneMemory(const Postbox& box, std::size_t size)
+  InOneMemory(const Communicator& box, std::size_t size)
     : Memory(std::size_t(box.size()) * (size + 8))
   {
     for (int to = 0; to < box.size(); ++to)
@@ -44,12 +44,12 @@ struct InOneMemory
   }
 
   Bytes Memory;
-  std::vector<Postbox::Stretch> Contents;
+  std::vector<Communicator::Stretch> Contents;
 };
 
-TEST(PostboxCollectives, AllToAllInPartsHandsOnAllAndGivesTheMemoryBack)
+TEST(CommunicatorCollectives, AllToAllInPartsHandsOnAllAndGivesTheMemoryBack)
 {
-  Postbox box(controller());
+  Communicator box(controller());
   for (const std::size_t size : { 0, 5, 70'000, 3'000'001 })
   {
     InOneMemory sent(box, size);
@@ -70,9 +70,9 @@ TEST(PostboxCollectives, AllToAllInPartsHandsOnAllAndGivesTheMemoryBack)
   box.barrier();
 }
 
-TEST(PostboxCollectives, PartsThatComeWhileARankIsBehindAreNotLost)
+TEST(CommunicatorCollectives, PartsThatComeWhileARankIsBehindAreNotLost)
 {
-  Postbox box(controller());
+  Communicator box(controller());
   constexpr std::size_t size = 200'000;
   for (int i = 0; box.rank() == 0 && i < 100; ++i)
   {
@@ -91,12 +91,12 @@ TEST(PostboxCollectives, PartsThatComeWhileARankIsBehindAreNotLost)
   box.barrier();
 }
 
-TEST(PostboxCollectives, ATakerThatFailsEndsAllRanksAndLeavesNothingBehind)
+TEST(CommunicatorCollectives, ATakerThatFailsEndsAllRanksAndLeavesNothingBehind)
 {
   constexpr std::size_t size = 5'000'000;
   for (int run = 0; run < 2; ++run)
   {
-    Postbox box(controller());
+    Communicator box(controller());
     const auto work = [&]()
     {
       InOneMemory sent(box, size);
@@ -116,9 +116,9 @@ TEST(PostboxCollectives, ATakerThatFailsEndsAllRanksAndLeavesNothingBehind)
   }
 }
 
-TEST(PostboxCollectives, GatherComesByRank)
+TEST(CommunicatorCollectives, GatherComesByRank)
 {
-  Postbox box(controller());
+  Communicator box(controller());
   const std::vector<Bytes> all = box.gather(filled(std::size_t(box.rank()) + 1, 'g'));
   ASSERT_EQ(all.size(), box.rank() == 0 ? std::size_t(box.size()) : 0u);
   for (std::size_t from = 0; from < all.size(); ++from)
@@ -128,9 +128,9 @@ TEST(PostboxCollectives, GatherComesByRank)
   box.barrier();
 }
 
-TEST(PostboxCollectives, BroadcastAndSumReachEveryRank)
+TEST(CommunicatorCollectives, BroadcastAndSumReachEveryRank)
 {
-  Postbox box(controller());
+  Communicator box(controller());
   for (std::size_t size : { 0, 1, 100000 })
   {
     const Bytes got = box.broadcast(box.rank() == 0 ? filled(size, 'q') : Bytes());

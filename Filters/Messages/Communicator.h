@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippPostbox_h
-#define tippPostbox_h
+#ifndef tippCommunicator_h
+#define tippCommunicator_h
 
 #include "Messages/Bytes.h"
 #include "Messages/RankTransport.h"
@@ -26,7 +26,7 @@ namespace tipp
 enum class MessageKind : std::uint32_t
 {
   Failure,  ///< a rank has failed; the content is the reason
-  Farewell, ///< shutdown message: a rank's last one after a failure
+  Shutdown, ///< shutdown message: a rank's last one after a failure
   AllToAll,
   Gather,
   Broadcast,
@@ -62,14 +62,14 @@ public:
 ///
 /// All ranks construct it together and call the collective methods in the same order. A wait sleeps
 /// instead of spinning, so that ranks may share a core.
-class VTKTIPPFILTERS_EXPORT Postbox
+class VTKTIPPFILTERS_EXPORT Communicator
 {
 public:
   /// Null: one rank. Throws std::invalid_argument if the controller has several ranks without MPI.
-  explicit Postbox(vtkMultiProcessController* controller);
-  ~Postbox();
-  Postbox(const Postbox&) = delete;
-  void operator=(const Postbox&) = delete;
+  explicit Communicator(vtkMultiProcessController* controller);
+  ~Communicator();
+  Communicator(const Communicator&) = delete;
+  void operator=(const Communicator&) = delete;
 
   int rank() const { return this->Rank; }
   int size() const { return this->Size; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippSeamTriangles_h
-#define tippSeamTriangles_h
+#ifndef tippBoundaryTriangles_h
+#define tippBoundaryTriangles_h
 
 #include "Triangulation/PartitionSets.h"
 #include "Triangulation/Tiling.h"
@@ -14,27 +14,27 @@
 namespace tipp
 {
 
-/// A vertex with the data that any worker needs. 'Seam' stands for boundary: a seam triangle is a
+/// A vertex with the data that any worker needs. A boundary triangle is a
 /// triangle that is not interior to one partition.
-struct SeamVertex
+struct BoundaryVertex
 {
-  Point2 Place;
+  Point2 Position;
   std::int64_t Id;          ///< the input point's id; negative for artificial points
   PartitionIndex Partition; ///< the partition that contains it
 
   bool isArtificial() const { return this->Id < 0; }
 };
 
-using SeamTriangle = std::array<SeamVertex, 3>;
+using BoundaryTriangle = std::array<BoundaryVertex, 3>;
 
 /// Triangles, and for each the partitions that its circumdisk meets. The sets are shared to save
 /// memory: for co-circular points there are as many triangles as points, and each meets all
 /// partitions.
-struct SeamTriangles
+struct BoundaryTriangles
 {
   using Corners = std::array<std::uint32_t, 3>; ///< indices into Vertices
 
-  std::vector<SeamVertex> Vertices; ///< each once; some may belong to no triangle
+  std::vector<BoundaryVertex> Vertices; ///< each once; some may belong to no triangle
   std::vector<Corners> Triangles;
   std::vector<std::uint32_t> SetOf; ///< by triangle: its set's number in Sets
   PartitionSets Sets;
@@ -43,7 +43,7 @@ struct SeamTriangles
   std::vector<std::pair<std::uint32_t, std::uint32_t>> AdjacentSets;
 
   std::size_t size() const { return this->Triangles.size(); }
-  SeamTriangle operator[](std::size_t i) const
+  BoundaryTriangle operator[](std::size_t i) const
   {
     const Corners& corners = this->Triangles[i];
     return { this->Vertices[corners[0]], this->Vertices[corners[1]], this->Vertices[corners[2]] };
@@ -60,7 +60,7 @@ struct SeamTriangles
   /// Adds a triangle that meets the partitions [metBegin, metEnd).
   void add(const Corners& corners, const PartitionIndex* metBegin, const PartitionIndex* metEnd);
   /// Appends the triangles of `others`, which must have the same vertices.
-  void appendTriangles(const SeamTriangles& others);
+  void appendTriangles(const BoundaryTriangles& others);
 
   const PartitionIndex* metBegin(std::size_t i) const { return this->Sets.begin(this->SetOf[i]); }
   const PartitionIndex* metEnd(std::size_t i) const { return this->Sets.end(this->SetOf[i]); }
