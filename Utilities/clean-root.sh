@@ -38,7 +38,7 @@ fi
 # Mounts left behind would make removal dangerous.
 leave() {
   for mount in ccache var/cache/apt/archives proc dev; do
-    umount "$root/$mount" 2> /dev/null || true
+    ! mountpoint -q "$root/$mount" || umount "$root/$mount"
   done
 }
 inside() { # COMMAND
