@@ -49,13 +49,12 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
     if isinstance(points, Mesh):
         point_data = {**points.point_data, **(point_data or {})}
         points = points.points
-    if has_vtk():
-        from ._vtk import point_cloud
-
-        return _delaunay_of_data_set(point_cloud(points, point_data), options, progress)
     array = plain(coordinates(points))
-    data = attributes(point_data, len(array))
-    mesh, statistics, _ = _meshed(array, data, options, progress)
+    mesh, statistics, _ = _meshed(array, attributes(point_data, len(array)), options, progress)
+    if has_vtk():
+        from ._vtk import surface_of
+
+        return surface_of(mesh, None), statistics
     if mesh.points.shape[1] == 2:
         spatial = np.zeros((len(mesh.points), 3), mesh.points.dtype)
         for axis in range(2):  # quicker than both at once
