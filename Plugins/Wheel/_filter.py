@@ -5,12 +5,16 @@ from __future__ import annotations
 import warnings
 from typing import Any, Callable
 
-from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-from vtkmodules.vtkCommonCore import vtkDataArraySelection, vtkDoubleArray, vtkIdTypeArray, vtkOutputWindow
-from vtkmodules.vtkCommonDataModel import vtkDataObject
-from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
-
 from ._progress import STOPPED
+from ._vtkmodules import (
+    VTKPythonAlgorithmBase,
+    vtkAlgorithm,
+    vtkDataArraySelection,
+    vtkDataObject,
+    vtkDoubleArray,
+    vtkIdTypeArray,
+    vtkOutputWindow,
+)
 
 
 class Filter(VTKPythonAlgorithmBase):

@@ -7,23 +7,22 @@ from __future__ import annotations
 
 from typing import Any
 
-from vtkmodules.vtkCommonCore import vtkStringArray
-from vtkmodules.vtkCommonDataModel import (
+from . import _arguments as check
+from . import _core, _native_dem, _native_engine
+from ._filter import Filter, add_total
+from ._vtk import point_cloud
+from ._vtkmodules import (
     vtkDataObject,
     vtkDataSet,
     vtkImageData,
     vtkPartitionedDataSet,
     vtkPointSet,
     vtkPolyData,
+    vtkStreamingDemandDrivenPipeline,
+    vtkStringArray,
     vtkTable,
     vtkUnstructuredGrid,
 )
-from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
-
-from . import _arguments as check
-from . import _core, _native_dem, _native_engine
-from ._filter import Filter, add_total
-from ._vtk import point_cloud
 
 _GIGABYTE = 1 << 30
 

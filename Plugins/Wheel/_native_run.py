@@ -2,8 +2,6 @@
 """What the wheel's functions have in common: points as the core takes them, a triangulation, warnings."""
 from __future__ import annotations
 
-import functools
-import importlib.util
 import os
 import sys
 import warnings
@@ -13,11 +11,11 @@ import numpy as np
 
 from . import _core
 from ._progress import Progress, finish
+from ._vtkmodules import root
 
 
-@functools.lru_cache(maxsize=None)
 def has_vtk() -> bool:
-    return importlib.util.find_spec("vtkmodules") is not None
+    return root() is not None
 
 
 def warn(sentences: Iterable[str]) -> None:

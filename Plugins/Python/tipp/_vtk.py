@@ -10,26 +10,25 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any, Mapping
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import (
-    vtkDoubleArray,
-    vtkFloatArray,
-    vtkIdTypeArray,
-    vtkPoints,
-    vtkTypeInt32Array,
-    vtkTypeInt64Array,
-)
-from vtkmodules.vtkCommonDataModel import (
-    vtkCellArray,
-    vtkDataObject,
-    vtkImageData,
-    vtkPartitionedDataSet,
-    vtkPolyData,
-    vtkUnstructuredGrid,
-)
 
 from ._arrays import attribute, attributes, coordinates
 from ._data import Image, Mesh
+from ._vtkmodules import (
+    numpy_to_vtk,
+    vtk_to_numpy,
+    vtkCellArray,
+    vtkDataObject,
+    vtkDoubleArray,
+    vtkFloatArray,
+    vtkIdTypeArray,
+    vtkImageData,
+    vtkPartitionedDataSet,
+    vtkPoints,
+    vtkPolyData,
+    vtkTypeInt32Array,
+    vtkTypeInt64Array,
+    vtkUnstructuredGrid,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
