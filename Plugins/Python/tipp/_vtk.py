@@ -21,8 +21,7 @@ from vtkmodules.vtkCommonDataModel import (
     vtkUnstructuredGrid,
 )
 
-from ._arrays import attribute, attributes, coordinates
-from ._data import Image, Mesh
+from ._arrays import attribute, attributes, coordinates, Image, Mesh
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
