@@ -2,7 +2,6 @@
 #ifndef tippExactIntegers_h
 #define tippExactIntegers_h
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -145,8 +144,14 @@ public:
     if (a.Mantissa != 0 && b.Mantissa != 0)
     {
       this->Terms[this->Count] = { a.Mantissa, b.Mantissa };
-      this->Order[this->Count] = { a.Exponent + b.Exponent, static_cast<int>(this->Count) };
-      ++this->Count;
+      // They are few: each is inserted where it belongs.
+      const int exponent = a.Exponent + b.Exponent;
+      std::size_t at = this->Count++;
+      for (; at > 0 && this->Order[at - 1].Exponent < exponent; --at)
+      {
+        this->Order[at] = this->Order[at - 1];
+      }
+      this->Order[at] = { exponent, static_cast<int>(this->Count - 1) };
     }
   }
 
@@ -154,8 +159,6 @@ public:
   int sign()
   {
     const auto end = this->Order.begin() + static_cast<std::ptrdiff_t>(this->Count);
-    std::sort(this->Order.begin(), end,
-      [](const Entry& a, const Entry& b) { return a.Exponent > b.Exponent; });
     Int256 sum;
     int exponent = 0;
     for (auto next = this->Order.begin(); next != end; ++next)
@@ -193,7 +196,7 @@ private:
   };
 
   std::array<Term, Most> Terms;
-  std::array<Entry, Most> Order;
+  std::array<Entry, Most> Order; ///< falling exponents
   std::size_t Count = 0;
 };
 

@@ -8,17 +8,28 @@ from __future__ import annotations
 import warnings
 from typing import Any, Callable
 
-from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-from vtkmodules.vtkCommonCore import (
-    vtkDataArraySelection, vtkDoubleArray, vtkIdTypeArray, vtkOutputWindow, vtkStringArray)
-from vtkmodules.vtkCommonDataModel import (
-    vtkDataObject, vtkDataSet, vtkImageData, vtkPartitionedDataSet, vtkPointSet, vtkPolyData, vtkTable, vtkUnstructuredGrid)
-from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
-
 from . import _arguments as check
 from . import _core, _native_engine
 from ._arguments import STOPPED
 from ._vtk import point_cloud
+from ._vtkmodules import (
+    VTKPythonAlgorithmBase,
+    vtkAlgorithm,
+    vtkDataArraySelection,
+    vtkDataObject,
+    vtkDataSet,
+    vtkDoubleArray,
+    vtkIdTypeArray,
+    vtkImageData,
+    vtkOutputWindow,
+    vtkPartitionedDataSet,
+    vtkPointSet,
+    vtkPolyData,
+    vtkStreamingDemandDrivenPipeline,
+    vtkStringArray,
+    vtkTable,
+    vtkUnstructuredGrid,
+)
 
 
 class Filter(VTKPythonAlgorithmBase):

@@ -5,8 +5,6 @@ Data sets of VTK and PyVista, of any version, are taken and returned where VTK i
 """
 from __future__ import annotations
 
-import functools
-import importlib.util
 import math
 import os
 import sys
@@ -21,6 +19,7 @@ from . import _native_constraints as constraints
 from ._arrays import attributes, coordinates, Image, Mesh
 from ._arguments import finish, Progress
 from ._rasters import bounds_of, derived, DERIVED, grid_over, needs_elevation, sampling_of, selected, uncompressed
+from ._vtkmodules import root
 
 __all__ = ["delaunay", "delaunay_2d", "delaunay_file", "dem", "read", "require_ranks", "resample", "write"]
 
@@ -29,9 +28,8 @@ _GHOSTS = "vtkGhostType"
 _OWN_IDS = ("GlobalPointIds", "GlobalCellIds")
 
 
-@functools.lru_cache(maxsize=None)
 def has_vtk() -> bool:
-    return importlib.util.find_spec("vtkmodules") is not None
+    return root() is not None
 
 
 def warn(sentences: Iterable[str]) -> None:
@@ -160,13 +158,12 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
     if isinstance(points, Mesh):
         point_data = {**points.point_data, **(point_data or {})}
         points = points.points
-    if has_vtk():
-        from ._vtk import point_cloud
-
-        return _delaunay_of_data_set(point_cloud(points, point_data), options, progress)
     array = plain(coordinates(points))
-    data = attributes(point_data, len(array))
-    mesh, statistics, _ = _meshed(array, data, options, progress)
+    mesh, statistics, _ = _meshed(array, attributes(point_data, len(array)), options, progress)
+    if has_vtk():
+        from ._vtk import surface_of
+
+        return surface_of(mesh, None), statistics
     if mesh.points.shape[1] == 2:
         spatial = np.zeros((len(mesh.points), 3), mesh.points.dtype)
         for axis in range(2):  # quicker than both at once

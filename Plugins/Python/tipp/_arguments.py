@@ -62,6 +62,8 @@ def memory(value: Any, name: str) -> int:
 
 
 def flag(value: Any, name: str) -> bool:
+    if value is True or value is False:
+        return value
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError(f"{name} is {_shown(value)}; give True or False.")
     return bool(value)

@@ -167,7 +167,7 @@ def as_array(data: Any, name: str) -> np.ndarray:
     if isinstance(data, Data):
         return data.array(name)
     data_object(data, "data", ("vtkDataSet",), "a VTK data set")
-    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from ._vtkmodules import vtk_to_numpy
 
     of_points, of_cells = data.GetPointData(), data.GetCellData()
     array = of_points.GetArray(name) or of_cells.GetArray(name)
