@@ -19,9 +19,9 @@ _MODULES = ("vtkCommonCore", "vtkCommonDataModel", "vtkCommonExecutionModel", "u
 def root() -> str | None:
     """The package of VTK's modules: PyVista's, if PyVista is imported, for objects of both do not mix; else what is
     installed; None without VTK."""
-    pyvista = sys.modules.get("pyvista")
-    if pyvista is not None:
-        packages = {base.__module__.split(".")[0] for base in pyvista.PolyData.__mro__}
+    mesh = getattr(sys.modules.get("pyvista"), "PolyData", None)
+    if mesh is not None:
+        packages = {base.__module__.split(".")[0] for base in mesh.__mro__}
         return "cvista" if "cvista" in packages else "vtkmodules"  # cvista names some bases as vtkmodules does
     return next((name for name in _PACKAGES if importlib.util.find_spec(name)), None)
 
