@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any, Mapping
 
 import numpy as np
 
-from ._arrays import attribute, attributes, coordinates
-from ._data import Image, Mesh
+from ._arrays import attribute, attributes, coordinates, Image, Mesh
 from ._vtkmodules import (
     numpy_to_vtk,
     vtk_to_numpy,
