@@ -4,9 +4,9 @@
 #include "Reporter.h"
 #include "TriangulationDict.h"
 
-#include "Constraints/ConstraintEdges.h"
+#include "Constraints/Constraint.h"
+#include "Constraints/ConstraintPoints.h"
 #include "Constraints/KeepInside.h"
-#include "Constraints/MatchPositions.h"
 #include "Constraints/TriangulateConstrained.h"
 #include "Output/TriangulationWarnings.h"
 #include "Parallel/ThreadLimit.h"

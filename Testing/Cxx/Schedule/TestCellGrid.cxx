@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Triangulation/CellGrid.h"
+#include "Triangulation/PartitionFinder.h"
 
 #include <gtest/gtest.h>
 
