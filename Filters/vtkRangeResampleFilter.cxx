@@ -3,9 +3,9 @@
 
 #include "Messages/Communicator.h"
 #include "OpenCL/DeviceList.h"
-#include "Resample/RangeResampleRun.h"
-#include "Resample/SamplingRange.h"
-#include "Resample/UpdatedInput.h"
+#include "Sampling/RangeResampleRun.h"
+#include "Sampling/SamplingRange.h"
+#include "Sampling/UpdatedInput.h"
 
 #include "vtkCommand.h"
 #include "vtkDataArraySelection.h"

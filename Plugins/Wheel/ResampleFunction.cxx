@@ -5,7 +5,7 @@
 
 #include "Parallel/ParallelFor.h"
 #include "Resample/Resample.h"
-#include "Resample/SamplingLattice.h"
+#include "Sampling/SamplingLattice.h"
 
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>

@@ -17,7 +17,7 @@
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioning/Ranks.h"
 #include "Raster/RasterFile.h"
-#include "Resample/Elevation.h"
+#include "Sampling/Elevation.h"
 #include "Vtk/ArrayNames.h"
 #include "Vtk/ErrorKeeper.h"
 #include "Vtk/ReadDataSet.h"

@@ -2,7 +2,7 @@
 #ifndef tippExchangeSamples_h
 #define tippExchangeSamples_h
 
-#include "Resample/SampledImage.h"
+#include "Sampling/SampledImage.h"
 
 namespace tipp
 {

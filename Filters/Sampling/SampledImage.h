@@ -3,7 +3,7 @@
 #define tippSampledImage_h
 
 #include "Resample/Resample.h"
-#include "Resample/SimplexParts.h"
+#include "Sampling/SimplexParts.h"
 
 #include "vtkCharArray.h"
 #include "vtkNew.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/UpdatedInput.h"
+#include "Sampling/UpdatedInput.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkInformation.h"

@@ -6,9 +6,9 @@
 
 #include "Messages/Communicator.h"
 #include "Output/Monitor.h"
-#include "Resample/Elevation.h"
 #include "Resample/Lattice.h"
-#include "Resample/SampledImage.h"
+#include "Sampling/Elevation.h"
+#include "Sampling/SampledImage.h"
 
 #include <exception>
 #include <memory>

@@ -2,7 +2,7 @@
 #ifndef tippImageOutput_h
 #define tippImageOutput_h
 
-#include "Resample/SampledImage.h"
+#include "Sampling/SampledImage.h"
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/SampledImage.h"
+#include "Sampling/SampledImage.h"
 
 #include "Arrays/ScalarTypes.h"
 #include "Parallel/Stopwatch.h"

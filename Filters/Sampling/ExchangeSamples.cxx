@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/ExchangeSamples.h"
+#include "Sampling/ExchangeSamples.h"
 
 #include "Messages/Communicator.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/RangeResampleRun.h"
+#include "Sampling/RangeResampleRun.h"
 
 #include "Messages/Communicator.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
-#include "Resample/ExchangeSamples.h"
-#include "Resample/ImageOutput.h"
-#include "Resample/SamplingRange.h"
-#include "Resample/UpdatedInput.h"
+#include "Sampling/ExchangeSamples.h"
+#include "Sampling/ImageOutput.h"
+#include "Sampling/SamplingRange.h"
+#include "Sampling/UpdatedInput.h"
 #include "Vtk/ArrayNames.h"
 
 #include "vtkAlgorithmOutput.h"

@@ -2,7 +2,7 @@
 #ifndef tippSamplingRange_h
 #define tippSamplingRange_h
 
-#include "Resample/SamplingLattice.h"
+#include "Sampling/SamplingLattice.h"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/ImageOutput.h"
+#include "Sampling/ImageOutput.h"
 
 #include "Arrays/ScalarTypes.h"
 #include "Parallel/ForChunks.h"
-#include "Resample/SamplingLattice.h"
+#include "Sampling/SamplingLattice.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

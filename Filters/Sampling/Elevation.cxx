@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/Elevation.h"
+#include "Sampling/Elevation.h"
 
 #include "Messages/Communicator.h"
-#include "Resample/SamplingRange.h"
+#include "Sampling/SamplingRange.h"
 #include "Vtk/CheckDataSet.h"
 
 #include "vtkDataArray.h"

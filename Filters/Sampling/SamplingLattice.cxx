@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/SamplingLattice.h"
+#include "Sampling/SamplingLattice.h"
 
 #include <unistd.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/SimplexParts.h"
+#include "Sampling/SimplexParts.h"
 
-#include "Resample/CellPulling.h"
+#include "Sampling/CellPulling.h"
 #include "Vtk/CheckDataSet.h"
 #include "Vtk/Compatibility.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/CellPulling.h"
+#include "Sampling/CellPulling.h"
 
 #include "vtkCellType.h"
 

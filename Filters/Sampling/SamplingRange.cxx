@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/SamplingRange.h"
+#include "Sampling/SamplingRange.h"
 
 #include "Messages/Communicator.h"
-#include "Resample/SimplexParts.h"
+#include "Sampling/SimplexParts.h"
 #include "Vtk/CheckDataSet.h"
 
 #include "vtkBoundingBox.h"
