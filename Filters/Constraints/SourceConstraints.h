@@ -4,6 +4,7 @@
 
 #include "Constraints/Constraint.h"
 #include "Constraints/ResolveCrossings.h"
+#include "Output/RunStatistics.h"
 #include "Triangulation/PointsView.h"
 
 #include "vtkSmartPointer.h"
@@ -17,7 +18,6 @@ class vtkPointData;
 class vtkPoints;
 class vtkPointSet;
 class vtkPolyData;
-class vtkTable;
 class vtkUnsignedCharArray;
 
 namespace tipp
@@ -68,9 +68,9 @@ vtkSmartPointer<vtkUnsignedCharArray> constraintEdgesArray(
 void addConstraintLines(const ResolvedConstraints& constraints,
   const std::vector<vtkIdType>& sourceCells, vtkPolyData* output);
 
-/// As field data of the table.
+/// Adds the numbers of constraints, edges and crossings.
 void addConstraintTotals(
-  const ResolvedConstraints& resolved, std::size_t constraints, vtkTable* table);
+  const ResolvedConstraints& resolved, std::size_t constraints, RunStatistics& statistics);
 
 } // namespace tipp
 

@@ -4,7 +4,6 @@
 #include "Constraints/ConstraintRegion.h"
 #include "Constraints/CrossedTriangles.h"
 #include "Constraints/PartitionConstraints.h"
-#include "Parallel/ForChunks.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/TriangleSink.h"

@@ -2,7 +2,6 @@
 #ifndef tippLanes_h
 #define tippLanes_h
 
-#include "Predicates/Box2.h"
 #include "Predicates/Point2.h"
 
 #include <array>

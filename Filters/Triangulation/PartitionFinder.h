@@ -3,7 +3,6 @@
 #define tippPartitionFinder_h
 
 #include "Kernel/Lanes.h"
-#include "Predicates/Box2.h"
 #include "Predicates/Point2.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Tiling.h"

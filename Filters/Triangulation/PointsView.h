@@ -2,7 +2,6 @@
 #ifndef tippPointsView_h
 #define tippPointsView_h
 
-#include "Predicates/Box2.h"
 #include "Predicates/Point2.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // partitions, one after the other, and prints for each what cluster_model.py needs to know.
 #include "Distributed/Plan.h"
 #include "Engine/Routing.h"
-#include "Parallel/ProcessorWatch.h"
+#include "Parallel/Stopwatch.h"
 #include "Points/ReadPoints.h"
 #include "Triangulation/InitialMesh.h"
 #include "Triangulation/Tiling.h"
