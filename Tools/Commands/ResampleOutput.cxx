@@ -6,6 +6,7 @@
 #include "Files/IOError.h"
 #include "Flat/RawArray.h"
 #include "Npy/NpyFile.h"
+#include "Parallel/ParallelFor.h"
 #include "Vtk/WriteXmlFile.h"
 
 #include "vtkDataArray.h"
@@ -114,7 +115,8 @@ void writeGeoTiff(const std::string& path, vtkImageData* image, const std::strin
   description.NoData = noData;
   description.Threads = threads;
   const auto writer = createRaster(path, description, before);
-  writeTiles(*writer, description.Grid, readFrom(description.Grid, bands), {});
+  writeTiles(
+    *writer, description.Grid, readFrom(description.Grid, bands), {}, threadCount(threads));
   writer->close();
 }
 
