@@ -179,12 +179,6 @@ private:
       tiffField(33550, Type::Double, std::vector<double>{ grid.Pixel[0], grid.Pixel[1], 0 }));
     this->Fields.push_back(
       tiffField(33922, Type::Double, std::vector<double>{ 0, 0, 0, grid.West, grid.north(), 0 }));
-    if (this->Description.Crs.empty())
-    {
-      // Nothing but that a pixel is an area.
-      this->Fields.push_back(
-        tiffField(34735, Type::Short, std::vector<std::uint16_t>{ 1, 1, 0, 1, 1025, 0, 1, 1 }));
-    }
     this->Fields.push_back(textField(42112, this->metadata()));
     this->Fields.push_back(textField(42113, textOf(this->Description.NoData)));
   }
