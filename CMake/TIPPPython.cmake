@@ -32,7 +32,7 @@ unset(CMAKE_UNITY_BUILD) # the cached one again
 
 # All that the package imports.
 add_custom_target(tipp_python)
-set(tipp_python_imports "from ._vtk_version import require as _require_vtk\n\n_require_vtk(\"${VTK_VERSION}\")\n")
+set(tipp_python_imports "from ._run import require as _require_vtk\n\n_require_vtk(\"${VTK_VERSION}\")\n")
 set(tipp_python_more_imports "")
 set(tipp_python_summary
   "and the VTK classes that these use: vtkTIPPDelaunay2D, vtkTIPPOutOfCoreDelaunay2D,\nvtkRangeResampleFilter, vtkTIPPPointReader, vtkPartitionedUnstructuredReader and\nvtkPartitionedUnstructuredWriter.")

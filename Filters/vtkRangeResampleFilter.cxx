@@ -2,10 +2,9 @@
 #include "vtkRangeResampleFilter.h"
 
 #include "Messages/Communicator.h"
-#include "OpenCL/DeviceList.h"
+#include "OpenCL/Devices.h"
 #include "Sampling/RangeResampleRun.h"
 #include "Sampling/SamplingRange.h"
-#include "Sampling/UpdatedInput.h"
 
 #include "vtkCommand.h"
 #include "vtkDataArraySelection.h"

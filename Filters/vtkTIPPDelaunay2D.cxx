@@ -7,12 +7,9 @@
 #include "Merging/TriangulateMerged.h"
 #include "Output/CellBuffers.h"
 #include "Output/Monitor.h"
-#include "Output/NeighborArray.h"
-#include "Output/RepresentativeIds.h"
 #include "Output/StatisticsTable.h"
-#include "Output/TriangulationWarnings.h"
+#include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
-#include "Parallel/ThreadLimit.h"
 #include "Projection/BestFittingPlane.h"
 #include "Projection/BoundingPoints.h"
 #include "Projection/FiniteBounds.h"
@@ -271,11 +268,12 @@ bool vtkTIPPDelaunay2D::Execute(
     vtkWarningMacro("No marks of constraints: with Alpha not all triangles are output.");
   }
   triangulation.Statistics.Phases.push_back({ "VTK output", watch.seconds() });
-  tipp::fillStatisticsTable(triangulation, numberOfPoints, vtkIdType(triangles), statistics);
+  tipp::RunStatistics run = tipp::statisticsOf(triangulation, numberOfPoints, vtkIdType(triangles));
   if (source)
   {
-    tipp::addConstraintTotals(result.Constraints, constraints.Constraints.size(), statistics);
+    tipp::addConstraintTotals(result.Constraints, constraints.Constraints.size(), run);
   }
+  tipp::fillStatisticsTable(run, statistics);
   return true;
 }
 

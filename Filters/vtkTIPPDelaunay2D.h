@@ -17,7 +17,7 @@
  * and precision, with all point data) and triangles of their ids. Points that are in no triangle
  * stay in the output. The ids take 32 bits each where they fit, and on several ranks always 64.
  *
- * Points at the same place are merged into the one of lowest id. Points with a NaN or infinite
+ * Coincident points are merged into the one of lowest id. Points with a NaN or infinite
  * coordinate in the plane are rejected, with one warning. If there is a merged or rejected
  * point, the output has the point array "RepresentativePointId" (see GenerateRepresentativeIds).
  * Fewer than three distinct points, or points all on one line, make an output without triangles
@@ -41,7 +41,7 @@
  *
  * With a Controller of several ranks all of them update the filter together; they triangulate all
  * their input points together, whichever rank holds which, into one exact triangulation, the same
- * for every number of ranks. Points of all ranks at the same place are merged. Each rank's output
+ * for every number of ranks. Coincident points of all ranks are merged. Each rank's output
  * is a piece: its triangles, each of which is on one rank, and the points that they use, with the
  * point data that all ranks with points have. "GlobalPointIds" are the input's global ids, or else
  * count the points from the first rank on; "GlobalCellIds" are 0, 1, ... over all ranks. If ghost
@@ -242,7 +242,7 @@ public:
   /**
    * A point no farther, in the plane, from a kept point of lower id is merged into it; as a
    * fraction of the diagonal of the points' bounding box. 0 (the default) merges points at the
-   * same place only. Other values cost a serial pass over the points.
+   * same position only. Other values cost a serial pass over the points.
    */
   vtkSetClampMacro(Tolerance, double, 0.0, 1.0);
   vtkGetMacro(Tolerance, double);

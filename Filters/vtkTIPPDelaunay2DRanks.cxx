@@ -7,8 +7,7 @@
 #include "Messages/CollectivePipeline.h"
 #include "Output/Monitor.h"
 #include "Output/PieceOutput.h"
-#include "Output/PointRows.h"
-#include "Output/RankTable.h"
+#include "Output/StatisticsTable.h"
 #include "Projection/ProjectedPoints.h"
 #include "Vtk/CheckDataSet.h"
 
@@ -136,7 +135,7 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(
     {
       tipp::addAccounts(mine, output);
     }
-    tipp::fillRankTable(mine, statistics);
+    tipp::fillStatisticsTable(tipp::statisticsOf(mine), statistics);
   };
   try
   {

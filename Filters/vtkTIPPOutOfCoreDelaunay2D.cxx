@@ -5,8 +5,7 @@
 #include "Files/RequireApart.h"
 #include "OutOfCore/OutOfCoreRanks.h"
 #include "Output/Monitor.h"
-#include "Output/OutOfCoreTable.h"
-#include "Output/TriangulationWarnings.h"
+#include "Output/StatisticsTable.h"
 
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
@@ -152,7 +151,7 @@ void vtkTIPPOutOfCoreDelaunay2D::Execute(vtkTable* output)
   if (!statistics.Aborted && ranks.rank() == 0)
   {
     this->Report(statistics);
-    tipp::fillOutOfCoreTable(statistics, options.CountOnly, output);
+    tipp::fillStatisticsTable(tipp::statisticsOf(statistics, options.CountOnly), output);
   }
 }
 

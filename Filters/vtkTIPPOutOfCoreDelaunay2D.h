@@ -17,8 +17,8 @@
  *
  * The triangles are those of vtkTIPPDelaunay2D and of `tipp delaunay`: exact, counter-clockwise,
  * the same for every MemoryLimit and number of threads; the files are the same for every number of
- * threads. Global ids of points are their places in the input. A column z is the third coordinate,
- * other columns and point data become point arrays. Points at the same place are merged into the
+ * threads. A point's global id is its index in the input. A column z is the third coordinate,
+ * other columns and point data become point arrays. Coincident points are merged into the
  * one of lowest id; points with a NaN or infinite x or y are left out, with one warning.
  * Documentation/OutOfCore.md tells how it works, what it needs on the disk, and the formats of
  * files.
@@ -30,7 +30,7 @@
  * to another), SpilledBytes (of points), MeshBytes (on disk), Threads, Resumed (1 if the run has
  * gone on from another, else 0), and with CountOnly TriangleSum.
  *
- * The folder appears when it is whole, and takes the place of a partitioned mesh that is there
+ * The folder appears when it is whole, and replaces a partitioned mesh of that name
  * already. An error, or an abort, leaves what was there and an empty output; from the time when
  * points are spilled the work is kept in a hidden folder beside it, from which Resume goes on.
  * Errors: an input that cannot be read or has changed meanwhile, other columns than the first

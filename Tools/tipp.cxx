@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
-#include "Console/CrashReport.h"
-#include "Console/Interrupt.h"
 #include "Console/MpiSession.h"
+#include "Console/Signals.h"
 
 #include "vtkLogger.h"
 

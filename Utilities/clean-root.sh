@@ -4,11 +4,13 @@
 #   demo      the README's first command, on the last commit, timed
 #   test      the README's second command, on the last commit, timed
 #   packages  the Debian packages of the last commit: made there, installed by apt on another bare one, and used
-# RELEASE is bookworm (Debian 12) or trixie (Debian 13). Needs root and debootstrap.
+#   plugin    the same of the package of the ParaView plugin
+# RELEASE is bookworm (Debian 12) or trixie (Debian 13). Needs root and debootstrap. Later runs use the packages of Debian
+# that FOLDER keeps. If CCACHE_DIR is set, the compiler cache in that folder is used; CMAKE_BUILD_PARALLEL_LEVEL limits compilers.
 set -eu
 
 [ $# -eq 3 ] || {
-  sed -n '3,7s/^# \{0,1\}//p' "$0" >&2
+  sed -n '3,9s/^# \{0,1\}//p' "$0" >&2
   exit 2
 }
 top=$(cd "$(dirname "$0")/.." && pwd)
@@ -22,9 +24,9 @@ case $release in
     ;;
 esac
 case $what in
-  demo | packages | test) ;;
+  demo | packages | plugin | test) ;;
   *)
-    echo "clean-root.sh: '$what' is neither demo, packages nor test." >&2
+    echo "clean-root.sh: '$what' is neither demo, packages, plugin nor test." >&2
     exit 2
     ;;
 esac
@@ -35,12 +37,14 @@ fi
 
 # Mounts left behind would make removal dangerous.
 leave() {
-  for mount in proc dev; do
-    umount "$root/$mount" 2> /dev/null || true
+  for mount in ccache var/cache/apt/archives proc dev; do
+    ! mountpoint -q "$root/$mount" || umount "$root/$mount"
   done
 }
 inside() { # COMMAND
-  chroot "$root" env -i HOME=/tmp PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive sh -euc "$1"
+  chroot "$root" env -i HOME=/tmp PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive \
+    CCACHE_DIR=/ccache CCACHE_BASEDIR=/tmp/tipp CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}" \
+    sh -euc "$1"
 }
 
 # A bare Debian, from the one that FOLDER keeps.
@@ -50,10 +54,20 @@ make_root() {
   cp -a "$base" "$root"
   mount --bind /dev "$root/dev"
   mount -t proc proc "$root/proc"
+  mkdir -p "$folder/archives-$release/partial"
+  mount --bind "$folder/archives-$release" "$root/var/cache/apt/archives"
+}
+# As if the machine had a compiler cache, which the build uses by itself.
+bring_ccache() {
+  [ -n "${CCACHE_DIR:-}" ] || return 0
+  mkdir -p "$CCACHE_DIR" "$root/ccache"
+  mount --bind "$CCACHE_DIR" "$root/ccache"
+  inside "apt-get update -q && apt-get install -q -y --no-install-recommends ccache"
 }
 # The last commit, in the root's /tmp/tipp.
 bring_sources() {
   git clone -q --no-hardlinks "file://$top" "$root/tmp/tipp"
+  bring_ccache
 }
 
 mkdir -p "$2"
@@ -86,12 +100,12 @@ case $what in
   packages)
     bring_sources
     inside "cd /tmp/tipp && sh Utilities/package.sh /tmp/packages"
-    rm -rf "$folder/packages"
-    cp -r "$root/tmp/packages" "$folder/packages"
-    cp -r "$root/tmp/tipp/Examples/Cxx" "$folder/packages/consumer"
+    rm -rf "$folder/packages-$release"
+    cp -r "$root/tmp/packages" "$folder/packages-$release"
+    cp -r "$root/tmp/tipp/Examples/Cxx" "$folder/packages-$release/consumer"
     # Another bare one, which has nothing but what the packages depend on.
     make_root
-    cp -r "$folder/packages" "$root/tmp/packages"
+    cp -r "$folder/packages-$release" "$root/tmp/packages"
     inside "apt-get update -q && apt-get install -q -y --no-install-recommends /tmp/packages/*.deb g++ cmake"
     echo "== The tool"
     inside "cd /tmp && tipp points --distribution uniform --count 1000 -o points.npy &&
@@ -100,6 +114,22 @@ case $what in
     inside "cd /tmp && python3 -c 'import numpy, tipp; print(len(tipp.delaunay(numpy.load(\"points.npy\"))), \"triangles\")'"
     echo "== C++"
     inside "cmake -S /tmp/packages/consumer -B /tmp/consumer && cmake --build /tmp/consumer"
+    ;;
+  plugin)
+    bring_sources
+    inside "cd /tmp/tipp && sh Utilities/package.sh /tmp/packages paraview"
+    mkdir -p "$folder/packages-$release"
+    cp "$root"/tmp/packages/paraview-tipp_*.deb "$folder/packages-$release"
+    make_root
+    cp "$folder/packages-$release"/paraview-tipp_*.deb "$root/tmp"
+    cat > "$root/tmp/plugin.py" << 'EOF'
+from paraview.simple import *
+mesh = TIPPDelaunay2D(Input=Plane())
+mesh.UpdatePipeline()
+print("loaded:", mesh.GetDataInformation().GetNumberOfCells(), "triangles")
+EOF
+    inside "apt-get update -q && apt-get install -q -y --no-install-recommends /tmp/paraview-tipp_*.deb python3-paraview xvfb xauth"
+    inside "cd /tmp && PV_PLUGIN_CONFIG_FILE=\$(dpkg -L paraview-tipp | grep tipp.plugins.xml) xvfb-run -a pvbatch plugin.py | grep 'loaded: 2'"
     ;;
 esac
 echo "clean-root.sh: $what works on $release"

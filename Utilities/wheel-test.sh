@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Tests a wheel in clean environments with what PyPI has today:
 #   sh Utilities/wheel-test.sh WHEEL [PYTHON]
-# without VTK, beside scipy, with VTK and PyVista, and with the oldest NumPy that Python has.
+# without VTK, beside scipy, with VTK and PyVista, with PyVista's back end cvista, and with the oldest NumPy that Python has.
 set -eu
 
 wheel=$(realpath "$1")
@@ -41,3 +41,8 @@ runs scipy Testing/Wheel/TestScipyHabits.py Testing/Wheel/TestTwoOpenMP.py
 environment pyvista 'vtk>=9.7,<9.8' pyvista
 runs pyvista Testing/Wheel/TestPyVista.py Testing/Wheel/TestFilters.py Testing/Python/TestArguments.py Testing/Python/TestArrays.py \
   Testing/Python/TestCheck.py Testing/Python/TestConstraints.py Testing/Python/TestPackage.py
+# cvista has no wheels for Python 3.11.
+if "$python" -c 'import sys; sys.exit(sys.version_info < (3, 12))'; then
+  environment cvista 'pyvista[cvista]>=0.49'
+  runs cvista Testing/Wheel/TestPyVista.py
+fi

@@ -2,7 +2,13 @@
 #ifndef tippScalar_h
 #define tippScalar_h
 
+#include "vtkTIPPAcceleratorsModule.h"
+
+#include <cmath>
 #include <cstdint>
+#include <limits>
+#include <optional>
+#include <type_traits>
 
 namespace tipp
 {
@@ -52,6 +58,39 @@ void withScalar(Scalar type, const Work& work)
   }
   // NOLINTEND(bugprone-branch-clone)
 }
+
+/// Converts a number to the nearest value of a type; NaN becomes 0 in integer types.
+template <typename T>
+T toScalar(double value)
+{
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    return T(value);
+  }
+  else
+  {
+    if (std::isnan(value))
+    {
+      return 0;
+    }
+    // The largest integer rounds up if it has more digits than a double.
+    if (value >= double(std::numeric_limits<T>::max()))
+    {
+      return std::numeric_limits<T>::max();
+    }
+    if (value <= double(std::numeric_limits<T>::lowest()))
+    {
+      return std::numeric_limits<T>::lowest();
+    }
+    return T(std::nearbyint(value));
+  }
+}
+
+/// The Scalar of a VTK_... type; nullopt for bits and types that are not numeric.
+VTKTIPPACCELERATORS_EXPORT std::optional<Scalar> scalarOf(int vtkType);
+
+/// The inverse of scalarOf().
+VTKTIPPACCELERATORS_EXPORT int vtkTypeOf(Scalar type);
 
 } // namespace tipp
 

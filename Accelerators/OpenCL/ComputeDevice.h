@@ -2,10 +2,15 @@
 #ifndef tippComputeDevice_h
 #define tippComputeDevice_h
 
-#include "OpenCL/AcceleratorError.h"
-#include "OpenCL/DeviceList.h"
-#include "OpenCL/OpenCLHeaders.h"
+#include "OpenCL/Devices.h"
 #include "vtkTIPPAcceleratorsModule.h"
+
+// Every driver supports OpenCL 1.2, including PoCL and NVIDIA's.
+#define CL_TARGET_OPENCL_VERSION 120
+#define CL_HPP_TARGET_OPENCL_VERSION 120
+#define CL_HPP_MINIMUM_OPENCL_VERSION 120
+#define CL_HPP_ENABLE_EXCEPTIONS
+#include <CL/opencl.hpp>
 
 #include <atomic>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partition/BoxTiling.h"
 
-#include "OpenCL/AcceleratorError.h"
+#include "OpenCL/Devices.h"
 
 #include <cmath>
 #include <limits>

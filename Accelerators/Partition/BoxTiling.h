@@ -2,7 +2,7 @@
 #ifndef tippBoxTiling_h
 #define tippBoxTiling_h
 
-#include "Predicates/Box3.h"
+#include "Predicates/Point3.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
 #include <algorithm>
@@ -91,10 +91,10 @@ private:
   // An estimate of the box that contains the value; any result is corrected later.
   int guess(std::size_t axis, double value) const
   {
-    const double place = (value - this->Domain.Min[axis]) * this->BoxesPerUnit[axis];
+    const double position = (value - this->Domain.Min[axis]) * this->BoxesPerUnit[axis];
     const int last = this->Counts[axis] - 1;
     // The comparison is false for NaN.
-    return place > 0.0 ? (place < last ? static_cast<int>(place) : last) : 0;
+    return position > 0.0 ? (position < last ? static_cast<int>(position) : last) : 0;
   }
 
   // The boxes along an axis that [low, high] meets; empty (First > Last) outside the domain.

@@ -2,11 +2,14 @@
 #ifndef tippCellShape_h
 #define tippCellShape_h
 
+#include "OpenCL/Devices.h"
 #include "Partition/ClassifyCells.h"
 #include "Predicates/CellBox.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 
 namespace tipp
 {
@@ -73,6 +76,20 @@ private:
   int Dimension;
   std::size_t Stride; // doubles per cell
 };
+
+/// Throws the error for the first invalid cell: a coordinate is not finite, or the cell lies
+/// outside the domain.
+[[noreturn]] void failForCell(const CellShape& shape, std::size_t cell);
+
+/// classifyCells() on OpenMP threads.
+Membership classifyOnThreads(
+  const CellsView& cells, const BoxTiling& tiling, const CellShape& shape, int threads);
+
+/// classifyCells() on an OpenCL device, in pieces that need at most `memory` bytes of it besides
+/// the tiling (0: half of its memory). What the device leaves undecided is decided on the CPU.
+/// Returns nullopt if the choice is OpenMP. Throws AcceleratorError.
+std::optional<Membership> classifyOnDevice(const DeviceChoice& choice, const CellsView& cells,
+  const BoxTiling& tiling, const CellShape& shape, std::uint64_t memory);
 
 } // namespace tipp
 

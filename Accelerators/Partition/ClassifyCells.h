@@ -2,7 +2,7 @@
 #ifndef tippClassifyCells_h
 #define tippClassifyCells_h
 
-#include "OpenCL/DeviceChoice.h"
+#include "OpenCL/Devices.h"
 #include "Partition/BoxTiling.h"
 #include "vtkTIPPAcceleratorsModule.h"
 

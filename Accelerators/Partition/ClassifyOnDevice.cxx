@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partition/ClassifyOnDevice.h"
+#include "Partition/CellShape.h"
 
 #include "OpenCL/ComputeDevice.h"
 #include "Partition/Classify.cl.h"
-#include "Partition/ClassifyOnThreads.h"
 
 #include <cmath>
 #include <utility>

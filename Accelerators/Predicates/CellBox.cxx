@@ -2,7 +2,6 @@
 #include "Predicates/CellBox.h"
 
 #include "Predicates/Orientation.h"
-#include "Predicates/Orientation3.h"
 
 #include <algorithm>
 #include <array>

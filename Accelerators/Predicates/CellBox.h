@@ -2,7 +2,6 @@
 #ifndef tippCellBox_h
 #define tippCellBox_h
 
-#include "Predicates/Box3.h"
 #include "Predicates/Point2.h"
 #include "Predicates/Point3.h"
 #include "vtkTIPPAcceleratorsModule.h"

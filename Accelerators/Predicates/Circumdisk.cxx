@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Predicates/Circumdisk.h"
 
-#include "Predicates/CommonExponent.h"
+#include "Predicates/ExactDoubles.h"
 
 #include <cmath>
 #include <limits>

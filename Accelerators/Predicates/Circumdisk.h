@@ -2,7 +2,6 @@
 #ifndef tippCircumdisk_h
 #define tippCircumdisk_h
 
-#include "Predicates/Box2.h"
 #include "Predicates/Point2.h"
 #include "vtkTIPPAcceleratorsModule.h"
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Predicates/CoordinateGrid.h"
 
-#include "Predicates/BitSpan.h"
-#include "Predicates/ExactDifference.h"
+#include "Predicates/ExactDoubles.h"
+#include "Predicates/ExactIntegers.h"
 #include "Predicates/InCircle.h"
-#include "Predicates/IntegerSigns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +18,7 @@ namespace
 // three are below 3 * 2^(2k+1) * 2^(2k+1) < 2^(4k+4): at k = 12, 52 bits, exact in doubles.
 // Orientation needs 2k+1 = 25.
 constexpr int DoublesDigits = 12;
-// See IntegerSigns.h.
+// See ExactIntegers.h.
 constexpr int Int128Digits = 31;
 constexpr int Int256Digits = 63;
 

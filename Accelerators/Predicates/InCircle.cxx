@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Predicates/InCircle.h"
 
-#include "Predicates/BitSpan.h"
-#include "Predicates/ExactDifference.h"
-#include "Predicates/IntegerSigns.h"
-#include "Predicates/ProductSum.h"
+#include "Predicates/ExactDoubles.h"
+#include "Predicates/ExactIntegers.h"
 
 namespace tipp
 {

@@ -29,6 +29,15 @@ inline bool lexicographicLess(Point2 a, Point2 b)
   return a.x < b.x || (a.x == b.x && a.y < b.y);
 }
 
+/// A closed axis-aligned box. Its bounds may be infinite; xmin <= xmax and ymin <= ymax.
+struct Box2
+{
+  double xmin;
+  double ymin;
+  double xmax;
+  double ymax;
+};
+
 } // namespace tipp
 
 #endif

@@ -2,8 +2,8 @@
 #ifndef tippCellVisitor_h
 #define tippCellVisitor_h
 
-#include "Parallel/ForChunks.h"
-#include "Resample/LatticeAxis.h"
+#include "Parallel/ParallelFor.h"
+#include "Resample/Lattice.h"
 #include "Resample/OutsidePoints.h"
 #include "Resample/SimplexMesh.h"
 #include "Resample/TetrahedronLanes.h"
@@ -349,12 +349,12 @@ private:
     for (std::int64_t i = part.RowBegin; i < part.RowEnd; ++i)
     {
       const RowSpan span = rows.span(row, layer);
-      const SampleRow place = this->sampleRow(row, layer);
-      sink.claim(place, span.Begin, span.End - span.Begin, part.Cell);
+      const SampleRow samples = this->sampleRow(row, layer);
+      sink.claim(samples, span.Begin, span.End - span.Begin, part.Cell);
       const int border = std::max(span.Begin, span.End);
       if (span.ClosedEnd > border)
       {
-        sink.touch(place, border, span.ClosedEnd - border, part.Cell);
+        sink.touch(samples, border, span.ClosedEnd - border, part.Cell);
       }
       if (++row == rows.rows().End)
       {

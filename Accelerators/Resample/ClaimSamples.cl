@@ -3,8 +3,6 @@
 // a list, for the host to do exactly. Host side: ResampleOnDevice.cxx.
 #include "LatticeAndMesh.cl"
 #include "CellRows.cl"
-#include "TriangleRows.cl"
-#include "TetrahedronRows.cl"
 
 // Claims some rows of a cell; returns the number of samples, or -1 if that is undecided.
 INLINE int claimRows(const Cell* cell, int first, int last, Axis x, Axis y, int name, global int* claims)
@@ -19,7 +17,7 @@ INLINE int claimRows(const Cell* cell, int first, int last, Axis x, Axis y, int 
     }
     for (int i = 0; i < min(ROWS_AT_ONCE, last - first); ++i)
     {
-      const long row = placeOfRow(spans.row[i], spans.layer[i], x, y);
+      const long row = indexOfRow(spans.row[i], spans.layer[i], x, y);
       for (int column = spans.begin[i]; column < spans.end[i]; ++column)
       {
         claims[row + column] = name;

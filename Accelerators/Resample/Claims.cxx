@@ -4,7 +4,7 @@
 #include "Resample/BorderClaims.h"
 #include "Resample/CellKey.h"
 #include "Resample/CellVisitor.h"
-#include "Resample/PartMesh.h"
+#include "Resample/SimplexMesh.h"
 
 #include <algorithm>
 #include <functional>

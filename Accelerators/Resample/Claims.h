@@ -2,7 +2,7 @@
 #ifndef tippClaims_h
 #define tippClaims_h
 
-#include "Parallel/ForChunks.h"
+#include "Parallel/ParallelFor.h"
 #include "Resample/CellKey.h"
 #include "Resample/Lattice.h"
 #include "Resample/SampleWindow.h"

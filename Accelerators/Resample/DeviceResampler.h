@@ -28,7 +28,7 @@ public:
   virtual double transferSeconds() const = 0;
 
   ///@{
-  /// See SampleOnDevice.h.
+  /// See ResampleOnDevice.h.
   virtual bool canSample(const std::vector<Attribute>& attributes) const = 0;
   virtual SampledCells sample(const Lattice& lattice, const std::vector<Attribute>& attributes,
     unsigned char* valid, const Report& report) = 0;

@@ -5,7 +5,7 @@
 #include "Resample/BorderClaims.h"
 #include "Resample/CellVisitor.h"
 #include "Resample/FillBlock.h"
-#include "Resample/PartMesh.h"
+#include "Resample/SimplexMesh.h"
 
 #include <algorithm>
 #include <cstring>
@@ -83,12 +83,12 @@ public:
   {
     this->Claimed += this->Block.size();
     unsigned char* const valid = this->Options.Valid;
-    const std::int64_t* const places = this->Block.places();
+    const std::int64_t* const indices = this->Block.indices();
     const int size = this->Block.size();
     for (int j = 0; j < size; ++j)
     {
       // An ordinary store; but cells that overlap may be in two threads at once.
-      __atomic_store_n(valid + places[j], 1, __ATOMIC_RELAXED);
+      __atomic_store_n(valid + indices[j], 1, __ATOMIC_RELAXED);
     }
     fillBlock(this->Block, this->Weighs, this->Attributes, this->Options);
     this->Block.clear();

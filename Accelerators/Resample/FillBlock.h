@@ -2,9 +2,9 @@
 #ifndef tippFillBlock_h
 #define tippFillBlock_h
 
+#include "Arrays/Scalar.h"
 #include "Resample/Interpolate.h"
 #include "Resample/SampleBlock.h"
-#include "Resample/ToScalar.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -71,7 +71,7 @@ private:
   /// An ordinary store; but cells that overlap may be in two threads at once.
   static void store(T* to, T value) { __atomic_store(to, &value, __ATOMIC_RELAXED); }
 
-  T* sample(int j) const { return this->Samples + this->Weighed.places()[j] * this->Components; }
+  T* sample(int j) const { return this->Samples + this->Weighed.indices()[j] * this->Components; }
 
   void take(int j, const T* from)
   {
@@ -94,7 +94,7 @@ private:
   {
     Gradients gradients[Block::Capacity / laneCount + 1];
     Line lines[Block::Capacity];
-    const LaneTruths useful = this->findGradients(component, gradients);
+    const LaneMask useful = this->findGradients(component, gradients);
     for (int run = 0; run < this->Weighed.runs(); ++run)
     {
       const int group = this->Weighed.groupOfRun(run);
@@ -109,7 +109,7 @@ private:
       lines[run] = { gradient.First[lane] + sum, gradient.Rise[0][lane] };
     }
     // By pointers of their own, which stores do not make the compiler load again.
-    const std::int64_t* const places = this->Weighed.places();
+    const std::int64_t* const indices = this->Weighed.indices();
     const std::int32_t* const runs = this->Weighed.runsOfSamples();
     const double* const offsets = this->Weighed.offsets();
     T* const samples = this->Samples + component;
@@ -118,7 +118,7 @@ private:
     for (int j = 0; j < size; ++j)
     {
       const Line& line = lines[runs[j]];
-      store(samples + places[j] * components, T(line.First + line.Rise * offsets[j]));
+      store(samples + indices[j] * components, T(line.First + line.Rise * offsets[j]));
     }
     if (any(~useful))
     {
@@ -127,11 +127,11 @@ private:
   }
 
   /// Of all groups; tells where they are of use.
-  [[gnu::always_inline]] LaneTruths findGradients(int component, Gradients* gradients) const
+  [[gnu::always_inline]] LaneMask findGradients(int component, Gradients* gradients) const
   {
     constexpr int ahead = 8;
     const int count = (this->Weighed.groups() + laneCount - 1) / laneCount;
-    LaneTruths useful = LaneTruths{} - 1;
+    LaneMask useful = LaneMask{} - 1;
     for (int i = 0; i < count; ++i)
     {
       if (i % ahead == 0)
@@ -157,7 +157,7 @@ private:
 
   /// Whether samples may be found by gradients: not in thin cells, and not if these are infinite,
   /// or NaN, which the samples need not be.
-  [[gnu::always_inline]] static LaneTruths isUseful(
+  [[gnu::always_inline]] static LaneMask isUseful(
     const GroupLanes<Access>& group, const Gradients& gradient)
   {
     Lanes sum = gradient.Rise[0] - gradient.Rise[0];
@@ -168,7 +168,7 @@ private:
     return ~group.Thin & (sum == 0);
   }
 
-  [[gnu::always_inline]] Lanes valuesAt(LaneTruths ids, int component) const
+  [[gnu::always_inline]] Lanes valuesAt(LaneMask ids, int component) const
   {
     const T* const values = this->Values + component;
     const std::int64_t components = this->Components;
@@ -180,7 +180,7 @@ private:
   {
     for (int i = begin; i < end; ++i)
     {
-      for (const LaneTruths& ids : this->Weighed.groupLanes(i).Ids)
+      for (const LaneMask& ids : this->Weighed.groupLanes(i).Ids)
       {
         for (int lane = 0; lane < laneCount; ++lane)
         {
@@ -196,7 +196,7 @@ private:
     for (int j = 0; j < this->Weighed.size(); ++j)
     {
       const int group = this->Weighed.groupOf(j);
-      const LaneTruths useful =
+      const LaneMask useful =
         isUseful(this->Weighed.groupLanes(group / laneCount), gradients[group / laneCount]);
       if (useful[group % laneCount] != 0)
       {

@@ -47,7 +47,8 @@ void forCellRuns(const Access& access, const LatticeAxes& axes, const SampleWind
   {
     const std::int64_t line = i / width;
     const std::int64_t rowBegin = line * width;
-    const SampleRow row{ window.place(line), int(line % axes.V.size()), int(line / axes.V.size()) };
+    const SampleRow row{ window.indexOf(line), int(line % axes.V.size()),
+      int(line / axes.V.size()) };
     const std::int64_t rowEnd = std::min(end, rowBegin + width);
     while (i < rowEnd)
     {

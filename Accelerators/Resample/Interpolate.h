@@ -2,8 +2,8 @@
 #ifndef tippInterpolate_h
 #define tippInterpolate_h
 
-#include "Parallel/ForChunks.h"
-#include "Resample/Attribute.h"
+#include "Arrays/Scalar.h"
+#include "Parallel/ParallelFor.h"
 #include "Resample/Claims.h"
 #include "Resample/SampleWindow.h"
 #include "Resample/SimplexMesh.h"
@@ -14,6 +14,25 @@
 
 namespace tipp
 {
+
+/// An array of a mesh, and the array of samples to compute from it.
+struct Attribute
+{
+  /// Values of the points, or the cells; Components per tuple. Null: all samples get NullValue.
+  const void* Values = nullptr;
+  void* Samples = nullptr; ///< Components per sample
+  Scalar Type = Scalar::Float64;
+  int Components = 1;
+  bool OfCells = false;
+  double NullValue = 0; ///< value of samples outside of all cells
+};
+
+/// Whether the array is interpolated linearly: a point array of floating-point numbers.
+inline bool isInterpolated(const Attribute& attribute)
+{
+  return !attribute.OfCells &&
+    (attribute.Type == Scalar::Float32 || attribute.Type == Scalar::Float64);
+}
 
 struct InterpolationOptions
 {

@@ -228,9 +228,9 @@ kernel void weighSamples(global const Real* points, global const Id* ids, int u,
     }
     if (cell != known)
     {
-      double places[4][3];
-      loadSorted(&mesh, cell, places, sorted);
-      setWeights(&w, d, places);
+      double corners[4][3];
+      loadSorted(&mesh, cell, corners, sorted);
+      setWeights(&w, d, corners);
       known = cell;
     }
     const long row = (first + i) / (long)x.s7;
@@ -266,8 +266,8 @@ kernel void interpolateArray(global const uchar* values, int isFloat, int compon
     double at[4];
     for (int corner = 0; corner < CORNERS; ++corner)
     {
-      const long place = cornerIds[i * CORNERS + corner] * (long)components + component;
-      at[corner] = isFloat ? ((global const float*)values)[place] : ((global const double*)values)[place];
+      const long index = cornerIds[i * CORNERS + corner] * (long)components + component;
+      at[corner] = isFloat ? ((global const float*)values)[index] : ((global const double*)values)[index];
     }
     double sum = weights[i * d] * (at[1] - at[0]);
     for (int axis = 1; axis < d; ++axis)

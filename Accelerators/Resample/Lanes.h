@@ -2,7 +2,7 @@
 #ifndef tippLanes_h
 #define tippLanes_h
 
-#include "Resample/LatticeAxis.h"
+#include "Resample/Lattice.h"
 
 #include <cstdint>
 #include <cstring>
@@ -19,7 +19,7 @@ namespace tipp
 
 /// Four numbers in SIMD lanes, and four masks: 0 or -1.
 using Lanes = double __attribute__((vector_size(32)));
-using LaneTruths = std::int64_t __attribute__((vector_size(32)));
+using LaneMask = std::int64_t __attribute__((vector_size(32)));
 using LaneInts = std::int32_t __attribute__((vector_size(16)));
 
 constexpr int laneCount = 4;
@@ -50,7 +50,7 @@ inline bool hasAvx2()
 }
 [[gnu::always_inline]] inline Lanes absolute(Lanes a)
 {
-  const LaneTruths bits = LaneTruths(a) & ~(LaneTruths{} + INT64_MIN);
+  const LaneMask bits = LaneMask(a) & ~(LaneMask{} + INT64_MIN);
   return Lanes(bits);
 }
 [[gnu::always_inline]] inline LaneInts toInts(Lanes a)
@@ -61,9 +61,9 @@ inline bool hasAvx2()
 {
   return __builtin_convertvector(toInts(a), Lanes);
 }
-[[gnu::always_inline]] inline bool any(LaneTruths truths)
+[[gnu::always_inline]] inline bool any(LaneMask mask)
 {
-  return (truths[0] | truths[1] | truths[2] | truths[3]) != 0;
+  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
 }
 [[gnu::always_inline]] inline Lanes loadLanes(const double* from)
 {
@@ -73,19 +73,19 @@ inline bool hasAvx2()
 }
 
 /// A bit for each lane.
-[[gnu::always_inline]] inline unsigned laneBits(LaneTruths truths)
+[[gnu::always_inline]] inline unsigned laneBits(LaneMask mask)
 {
 #ifdef __SSE2__
   using Half = double __attribute__((vector_size(16)));
   Half halves[2];
-  std::memcpy(halves, &truths, sizeof truths);
+  std::memcpy(halves, &mask, sizeof mask);
   return unsigned(__builtin_ia32_movmskpd(halves[0]) | __builtin_ia32_movmskpd(halves[1]) << 2);
 #else
-  return unsigned((truths[0] & 1) | (truths[1] & 2) | (truths[2] & 4) | (truths[3] & 8));
+  return unsigned((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
 #endif
 }
 
-/// LatticeAxis::place(), error() and certain() for four coordinates at a time.
+/// LatticeAxis::position(), error() and certain() for four coordinates at a time.
 class AxisLanes
 {
 public:
@@ -101,21 +101,21 @@ public:
   {
   }
 
-  [[gnu::always_inline]] Lanes place(Lanes v) const
+  [[gnu::always_inline]] Lanes position(Lanes v) const
   {
     return this->clamp((v - this->Min) * this->Inverse - this->First + 1);
   }
-  [[gnu::always_inline]] Lanes clamp(Lanes place) const
+  [[gnu::always_inline]] Lanes clamp(Lanes position) const
   {
-    return least(most(place, allLanes(0.5)), allLanes(this->Limit));
+    return least(most(position, allLanes(0.5)), allLanes(this->Limit));
   }
   [[gnu::always_inline]] Lanes error(Lanes low, Lanes high) const
   {
     return most(-low, high) * this->ErrorScale + this->ErrorOffset;
   }
-  [[gnu::always_inline]] static LaneTruths certain(Lanes place, Lanes wholePart, Lanes error)
+  [[gnu::always_inline]] static LaneMask certain(Lanes position, Lanes wholePart, Lanes error)
   {
-    return absolute(place - wholePart - 0.5) < 0.5 - error;
+    return absolute(position - wholePart - 0.5) < 0.5 - error;
   }
   [[gnu::always_inline]] Lanes coordinates(int first) const
   {
@@ -152,11 +152,11 @@ struct RangeLanes
   [[gnu::always_inline]] RangeLanes(const AxisLanes& axis, Lanes low, Lanes high)
     : Error(axis.error(low, high))
   {
-    const Lanes begin = axis.place(low);
-    const Lanes end = axis.place(high);
+    const Lanes begin = axis.position(low);
+    const Lanes end = axis.position(high);
     this->Begin = whole(begin);
     this->End = whole(end);
-    const LaneTruths certain = AxisLanes::certain(begin, this->Begin, this->Error) &
+    const LaneMask certain = AxisLanes::certain(begin, this->Begin, this->Error) &
       AxisLanes::certain(end, this->End, this->Error);
     any(~certain) ? this->findExactly(axis, low, high, certain) : void();
     this->Empty = this->Begin >= this->End;
@@ -167,11 +167,11 @@ struct RangeLanes
   Lanes Error;
   Lanes Begin;
   Lanes End;
-  LaneTruths Empty;
+  LaneMask Empty;
 
 private:
   [[gnu::always_inline]] void findExactly(
-    const AxisLanes& axis, Lanes low, Lanes high, LaneTruths certain)
+    const AxisLanes& axis, Lanes low, Lanes high, LaneMask certain)
   {
     for (int lane = 0; lane < laneCount; ++lane)
     {
@@ -207,10 +207,202 @@ struct RowSpans
 };
 
 /// The mask of the first `count` lanes.
-[[gnu::always_inline]] inline LaneTruths firstLanes(int count)
+[[gnu::always_inline]] inline LaneMask firstLanes(int count)
 {
-  return LaneTruths{ 0, 1, 2, 3 } < count;
+  return LaneMask{ 0, 1, 2, 3 } < count;
 }
+
+/// Eight single-precision numbers in SIMD lanes, and eight masks or integers.
+using FloatLanes = float __attribute__((vector_size(32)));
+using FloatLaneInts = std::int32_t __attribute__((vector_size(32)));
+
+constexpr int floatLaneCount = 8;
+
+[[gnu::always_inline]] inline FloatLanes allFloats(float value)
+{
+  return FloatLanes{} + value;
+}
+/// The larger; b if one is NaN.
+[[gnu::always_inline]] inline FloatLanes most(FloatLanes a, FloatLanes b)
+{
+  return a > b ? a : b;
+}
+/// The smaller; b if one is NaN.
+[[gnu::always_inline]] inline FloatLanes least(FloatLanes a, FloatLanes b)
+{
+  return a < b ? a : b;
+}
+[[gnu::always_inline]] inline FloatLanes absolute(FloatLanes a)
+{
+  return FloatLanes(FloatLaneInts(a) & ~(FloatLaneInts{} + INT32_MIN));
+}
+[[gnu::always_inline]] inline FloatLaneInts toInts(FloatLanes a)
+{
+  return __builtin_convertvector(a, FloatLaneInts);
+}
+[[gnu::always_inline]] inline FloatLanes toFloats(FloatLaneInts a)
+{
+  return __builtin_convertvector(a, FloatLanes);
+}
+
+/// A bit for each lane.
+[[gnu::always_inline]] inline unsigned floatLaneBits(FloatLaneInts mask)
+{
+#ifdef __SSE__
+  using Half = float __attribute__((vector_size(16)));
+  Half halves[2];
+  std::memcpy(halves, &mask, sizeof mask);
+  return unsigned(__builtin_ia32_movmskps(halves[0]) | __builtin_ia32_movmskps(halves[1]) << 4);
+#else
+  unsigned bits = 0;
+  for (int lane = 0; lane < floatLaneCount; ++lane)
+  {
+    bits |= unsigned(mask[lane] & 1) << lane;
+  }
+  return bits;
+#endif
+}
+
+/// Rounds four numbers to single precision.
+[[gnu::always_inline]] inline void storeFloats(Lanes from, float (&to)[laneCount])
+{
+  using Half = float __attribute__((vector_size(16)));
+  const Half floats = __builtin_convertvector(from, Half);
+  std::memcpy(to, &floats, sizeof floats);
+}
+
+/// The corners of four cells in the lexicographic order of their coordinates, and by how much the
+/// barycentric weights of all but the first rise along each axis.
+///
+/// Aligned for functions that are compiled for wider instructions than others.
+template <typename Access>
+struct alignas(32) GroupLanes
+{
+  static constexpr int D = Access::Dimension;
+
+  /// Takes four cells.
+  [[gnu::always_inline]] void set(const Access& access, const std::int32_t* cells)
+  {
+    for (int corner = 0; corner <= D; ++corner)
+    {
+      double p[laneCount][D];
+      for (int lane = 0; lane < laneCount; ++lane)
+      {
+        const std::int64_t id = access.ids(cells[lane])[corner];
+        this->Ids[corner][lane] = id;
+        access.coordinates(id, p[lane]);
+      }
+      for (int axis = 0; axis < D; ++axis)
+      {
+        this->Corners[corner][axis] = Lanes{ p[0][axis], p[1][axis], p[2][axis], p[3][axis] };
+      }
+    }
+    this->sort();
+    this->findNormals();
+  }
+
+  LaneMask Ids[D + 1];
+  Lanes Corners[D + 1][D];
+  Lanes Normals[D][D]; ///< of each corner but the first, along each axis
+  LaneMask Thin;       ///< where roundings would show in the Normals
+
+private:
+  [[gnu::always_inline]] void sort()
+  {
+    if constexpr (D == 2)
+    {
+      this->order(0, 1);
+      this->order(1, 2);
+      this->order(0, 1);
+    }
+    else
+    {
+      this->order(0, 1);
+      this->order(2, 3);
+      this->order(0, 2);
+      this->order(1, 3);
+      this->order(1, 2);
+    }
+  }
+
+  /// Exchanges corners so that i comes before j.
+  [[gnu::always_inline]] void order(int i, int j)
+  {
+    LaneMask swap = {};
+    for (int axis = D - 1; axis >= 0; --axis)
+    {
+      const Lanes a = this->Corners[i][axis];
+      const Lanes b = this->Corners[j][axis];
+      swap = (b < a) | ((b == a) & swap);
+    }
+    for (int axis = 0; axis < D; ++axis)
+    {
+      exchange(swap, this->Corners[i][axis], this->Corners[j][axis]);
+    }
+    exchange(swap, this->Ids[i], this->Ids[j]);
+  }
+
+  template <typename T>
+  [[gnu::always_inline]] static void exchange(LaneMask swap, T& a, T& b)
+  {
+    const T first = a;
+    a = swap ? b : a;
+    b = swap ? first : b;
+  }
+
+  [[gnu::always_inline]] void findNormals()
+  {
+    Lanes edges[D][D]; // of each corner but the first, from that
+    Lanes product = allLanes(1);
+    for (int axis = 0; axis < D; ++axis)
+    {
+      Lanes largest = {};
+      for (int i = 0; i < D; ++i)
+      {
+        edges[i][axis] = this->Corners[i + 1][axis] - this->Corners[0][axis];
+        largest = most(absolute(edges[i][axis]), largest);
+      }
+      product *= largest;
+    }
+    const Lanes determinant = this->cofactors(edges);
+    // Thinner than that, the roundings of the determinants would show in the thirteenth digit.
+    this->Thin = ~(absolute(determinant) * 64 > product) | (product < 1e-280);
+    const Lanes inverse = 1 / determinant;
+    for (int i = 0; i < D; ++i)
+    {
+      for (int axis = 0; axis < D; ++axis)
+      {
+        this->Normals[i][axis] *= inverse;
+      }
+    }
+  }
+
+  /// Makes the Normals the columns of the adjugate, and returns the determinant.
+  [[gnu::always_inline]] Lanes cofactors(const Lanes (&e)[D][D])
+  {
+    auto& n = this->Normals;
+    if constexpr (D == 2)
+    {
+      n[0][0] = e[1][1];
+      n[0][1] = -e[1][0];
+      n[1][0] = -e[0][1];
+      n[1][1] = e[0][0];
+      return e[0][0] * e[1][1] - e[1][0] * e[0][1];
+    }
+    else
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        const auto& u = e[(i + 1) % 3];
+        const auto& v = e[(i + 2) % 3];
+        n[i][0] = u[1] * v[2] - u[2] * v[1];
+        n[i][1] = u[2] * v[0] - u[0] * v[2];
+        n[i][2] = u[0] * v[1] - u[1] * v[0];
+      }
+      return n[0][0] * e[0][0] + n[0][1] * e[0][1] + n[0][2] * e[0][2];
+    }
+  }
+};
 
 } // namespace tipp
 

@@ -2,8 +2,11 @@
 #ifndef tippLattice_h
 #define tippLattice_h
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <vector>
 
 namespace tipp
 {
@@ -23,6 +26,173 @@ struct Lattice
   }
   std::int64_t samples() const { return this->size(0) * this->size(1) * this->size(2); }
   bool empty() const { return this->size(0) < 1 || this->size(1) < 1 || this->size(2) < 1; }
+};
+
+/// The half-open range [Begin, End) of sample indices.
+struct IndexRange
+{
+  int Begin;
+  int End;
+
+  bool empty() const { return this->Begin >= this->End; }
+  int size() const { return this->End - this->Begin; }
+
+  /// Returns the first index for which the test is false, or End; it must be true before that index
+  /// and false from there on.
+  template <typename Test>
+  int firstWhereNot(const Test& test) const
+  {
+    int low = this->Begin;
+    for (int high = this->End; low < high;)
+    {
+      const int middle = low + (high - low) / 2;
+      test(middle) ? low = middle + 1 : high = middle;
+    }
+    return low;
+  }
+};
+
+/// Where a line or plane crosses a row: the number of samples strictly before the crossing, and the
+/// number including those on it.
+struct RowCrossing
+{
+  int Before;
+  int WithOn;
+};
+
+/// One axis of a lattice: the coordinates of its samples, and the position of other coordinates
+/// among them.
+class LatticeAxis
+{
+public:
+  LatticeAxis(const Lattice& lattice, int axis)
+    : Min(lattice.Min[axis])
+    , Delta(lattice.Delta[axis])
+    , Inverse(1.0 / lattice.Delta[axis])
+    , First(lattice.Extent[2 * axis])
+    , Limit(double(lattice.size(axis)) + 0.5)
+    , Count(int(lattice.size(axis)))
+    , Coordinates(std::size_t(this->Count) + Padding)
+  {
+    for (std::size_t i = 0; i < this->Coordinates.size(); ++i)
+    {
+      this->Coordinates[i] = this->Min + (double(i) + this->First) * lattice.Delta[axis];
+    }
+    this->ErrorScale = Roundings * std::fabs(this->Inverse);
+    this->ErrorOffset = this->ErrorScale * std::fabs(this->Min);
+    // A step of 0 makes it infinite: every estimate then counts for nothing.
+    if (!(this->Inverse > 0 && this->ErrorScale < 1e270))
+    {
+      this->ErrorScale = this->ErrorOffset = HUGE_VAL;
+    }
+  }
+
+  int size() const { return this->Count; }
+  double operator[](int i) const { return this->Coordinates[std::size_t(i)]; }
+  /// The coordinates, and four more.
+  const double* data() const { return this->Coordinates.data(); }
+
+  /// The position of v in steps, rounded: 1 at the first sample. Clamped to numbers whose integer
+  /// part is 0 below all samples and size() above them.
+  double position(double v) const
+  {
+    return this->clamp((v - this->Min) * this->Inverse - this->First + 1);
+  }
+  // In this order of arguments NaN becomes 0.5.
+  double clamp(double position) const { return std::min(this->Limit, std::max(0.5, position)); }
+  double inverse() const { return this->Inverse; }
+  /// The lattice's origin, not the first sample's coordinate, which differs if its index is not 0.
+  double origin() const { return this->Min; }
+  double firstIndex() const { return this->First; }
+
+  /// An upper bound, in steps, on the error of position() for crossings of lines and rows in a
+  /// cell whose coordinates lie within +-reach, including the error of the samples' own
+  /// coordinates. A crossing takes ten roundings, each of at most 2^-53 of twice `reach` and Min;
+  /// the bound counts 64.
+  double error(double reach) const { return reach * this->ErrorScale + this->ErrorOffset; }
+  double errorScale() const { return this->ErrorScale; }
+  double errorOffset() const { return this->ErrorOffset; }
+  double limit() const { return this->Limit; }
+  double delta() const { return this->Delta; }
+
+  /// Whether the integer part of a position with this error is certain. False if the error is half
+  /// or more, infinite, or NaN.
+  static bool certain(double position, double error)
+  {
+    return std::fabs(position - int(position) - 0.5) < 0.5 - error;
+  }
+
+  /// The only sample whose side a position with an error below one half leaves undecided; -1 or
+  /// size() if there is none.
+  static int doubtful(double position)
+  {
+    const int whole = int(position);
+    return position - whole < 0.5 ? whole - 1 : whole;
+  }
+
+  /// The samples before a crossing whose position is uncertain, searched among `columns`. side(i)
+  /// is exact: 1 before it, 0 on it, -1 beyond.
+  template <typename Side>
+  RowCrossing crossing(double position, double error, IndexRange columns, const Side& side) const
+  {
+    if (!(error < 0.5))
+    {
+      return { columns.firstWhereNot([&](int i) { return side(i) > 0; }),
+        columns.firstWhereNot([&](int i) { return side(i) >= 0; }) };
+    }
+    const int i = doubtful(position);
+    if (i < 0 || i >= this->size())
+    {
+      return { int(position), int(position) };
+    }
+    const int where = side(i);
+    return { where > 0 ? i + 1 : i, where >= 0 ? i + 1 : i };
+  }
+
+  /// The samples in the closed interval [low, high]; `error` as from error() with a reach to both.
+  [[gnu::always_inline]] IndexRange range(double low, double high, double error) const
+  {
+    const double begin = this->position(low);
+    const double end = this->position(high);
+    if ((int(certain(begin, error)) & int(certain(end, error))) != 0) // & : one branch
+    {
+      return { int(begin), int(end) };
+    }
+    return this->exactRange(low, high);
+  }
+
+  /// 64 roundings of numbers up to 1.
+  static constexpr double Roundings = 7.1054273576010019e-15; // 2^-47
+
+  /// As range(), if that is uncertain.
+  [[gnu::noinline]] IndexRange exactRange(double low, double high) const
+  {
+    const auto begin = this->Coordinates.begin();
+    const auto end = begin + this->Count;
+    return { int(std::lower_bound(begin, end, low) - begin),
+      int(std::upper_bound(begin, end, high) - begin) };
+  }
+
+private:
+  static constexpr std::size_t Padding = 4;
+
+  double Min;
+  double Delta;
+  double Inverse;
+  double First;
+  double Limit;
+  double ErrorScale;
+  double ErrorOffset;
+  int Count;
+  std::vector<double> Coordinates;
+};
+
+/// A cell's samples in a row: those it claims, and those on its border beyond them.
+struct RowSpan
+{
+  int Begin;
+  int End;       ///< claimed: [Begin, End); none if End <= Begin
+  int ClosedEnd; ///< those from max(Begin, End) before this lie on its border
 };
 
 } // namespace tipp

@@ -30,16 +30,16 @@ double4 coordinatesOf(Axis axis, int4 i)
 {
   return axis.s0 + (convert_double4(i) + axis.s2) * axis.s6;
 }
-// Where v lies, in steps: see LatticeAxis.h.
+// Where v lies, in steps: see Lattice.h.
 double4 placesOf(Axis axis, double4 v)
 {
-  const double4 place = (v - axis.s0) * axis.s1 - axis.s2 + 1;
-  return CLAMPED(place, (double4)(0.5), (double4)(axis.s3));
+  const double4 position = (v - axis.s0) * axis.s1 - axis.s2 + 1;
+  return CLAMPED(position, (double4)(0.5), (double4)(axis.s3));
 }
-// Whether the whole parts of these places are certain.
-long4 certain(double4 place, double4 error)
+// Whether the whole parts of these positions are certain.
+long4 certain(double4 position, double4 error)
 {
-  return fabs(place - convert_double4(convert_int4(place)) - 0.5) < 0.5 - error;
+  return fabs(position - convert_double4(convert_int4(position)) - 0.5) < 0.5 - error;
 }
 
 // Four axes side by side.
@@ -66,8 +66,8 @@ INLINE Axes axesOf(Axis a, Axis b, Axis c, Axis d)
 // The samples nearest to v. Where errors are less than half a step, all others' sides of v are known.
 INLINE int4 nearestTo(const Axes* axes, double4 v)
 {
-  const double4 place = (v - axes->origin) * axes->inverse + (0.5 - axes->first);
-  return convert_int4(CLAMPED(place, (double4)(0), axes->last));
+  const double4 position = (v - axes->origin) * axes->inverse + (0.5 - axes->first);
+  return convert_int4(CLAMPED(position, (double4)(0), axes->last));
 }
 // As coordinateOf().
 INLINE double4 samplesAt(const Axes* axes, int4 i)

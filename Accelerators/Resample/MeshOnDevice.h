@@ -3,7 +3,7 @@
 #define tippMeshOnDevice_h
 
 #include "OpenCL/ComputeDevice.h"
-#include "Parallel/ForChunks.h"
+#include "Parallel/ParallelFor.h"
 #include "Resample/SimplexMesh.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 #ifndef tippOutsidePoints_h
 #define tippOutsidePoints_h
 
-#include "Parallel/ForChunks.h"
-#include "Resample/LatticeAxis.h"
+#include "Parallel/ParallelFor.h"
+#include "Resample/Lattice.h"
 #include "Resample/SimplexMesh.h"
 
 #include <algorithm>

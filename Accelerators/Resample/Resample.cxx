@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/Resample.h"
 
-#include "OpenCL/AcceleratorError.h"
+#include "OpenCL/Devices.h"
 #include "Parallel/Stopwatch.h"
 #include "Resample/CellVisitor.h"
 #include "Resample/DeviceResampler.h"

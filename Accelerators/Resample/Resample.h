@@ -2,7 +2,7 @@
 #ifndef tippResample_h
 #define tippResample_h
 
-#include "OpenCL/DeviceChoice.h"
+#include "OpenCL/Devices.h"
 #include "Resample/Interpolate.h"
 
 #include <string>

@@ -2,11 +2,22 @@
 #ifndef tippResampleOnDevice_h
 #define tippResampleOnDevice_h
 
+#include "Resample/DirectSampling.h"
 #include "Resample/MeshOnDevice.h"
 #include "Resample/Resample.h"
 
+#include <vector>
+
 namespace tipp
 {
+
+/// Whether sampleOnDevice() supports all of the arrays: a few floating-point point arrays.
+bool canSampleOnDevice(const std::vector<Attribute>& attributes);
+
+/// sampleDirectly() on an OpenCL device; finishDirectly() completes the result. Throws
+/// AcceleratorError.
+SampledCells sampleOnDevice(MeshPieces& mesh, const Lattice& lattice,
+  const std::vector<Attribute>& attributes, unsigned char* valid, const Report& report);
 
 /// claimSamples() on an OpenCL device. The device's filters decide most cells; threads of this
 /// process do the undecided ones and those at the border. The claims are the same; the statistics

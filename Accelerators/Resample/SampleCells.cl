@@ -3,13 +3,11 @@
 // An item does SHARE cells, step by step for all of them, so that what it reads from memory, in no
 // order, does not have to be waited for one by one.
 // A cell for which rounding could change a count, or whose weights take more than determinants, goes
-// to a list, for the host. Host side: SampleOnDevice.cxx.
+// to a list, for the host. Host side: ResampleOnDevice.cxx.
 #include "LatticeAndMesh.cl"
 #include "CellRows.cl"
-#include "TriangleRows.cl"
-#include "TetrahedronRows.cl"
 
-// The numbers of all arrays at one point: SampleOnDevice.cxx sees to it that there are no more.
+// The numbers of all arrays at one point: ResampleOnDevice.cxx sees to it that there are no more.
 #define CHANNELS 8
 
 typedef struct
@@ -69,7 +67,7 @@ typedef struct
 typedef double Values[CHANNELS][CORNERS];
 
 // The corners' numbers in the lexicographic order of their points, and how the weights of all but the
-// first rise: see GroupLanes.h. DOUBT for a thin cell.
+// first rise: see Lanes.h. DOUBT for a thin cell.
 INLINE int setNormals(const double3* points, int* ids, double3* origin, double3* normals)
 {
   double3 p[4];
@@ -203,12 +201,12 @@ INLINE int fillRows(const Gradients* gradients, const Spans* spans, int count, A
       continue;
     }
     total += end - begin;
-    const long place = placeOfRow(spans->row[i], spans->layer[i], x, y);
+    const long index = indexOfRow(spans->row[i], spans->layer[i], x, y);
     for (int column = begin; column < end; ++column)
     {
-      valid[place + column] = 1;
+      valid[index + column] = 1;
     }
-    fillRow(gradients, place, begin, end, coordinateOf(y, spans->row[i]),
+    fillRow(gradients, index, begin, end, coordinateOf(y, spans->row[i]),
       CORNERS == 4 ? coordinateOf(z, spans->layer[i]) : 0, x);
   }
   return total;

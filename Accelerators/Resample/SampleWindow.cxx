@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/SampleWindow.h"
 
-#include "Parallel/ForChunks.h"
-#include "Resample/LatticeAxis.h"
+#include "Parallel/ParallelFor.h"
+#include "Resample/Lattice.h"
 
 #include <array>
 #include <cmath>

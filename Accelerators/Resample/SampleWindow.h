@@ -30,7 +30,7 @@ public:
   bool isWhole() const { return this->Whole; }
 
   /// The index, among all samples, of the first sample of row `row` of the window.
-  std::int64_t place(std::int64_t row) const
+  std::int64_t indexOf(std::int64_t row) const
   {
     return this->First +
       ((row / this->Height) * this->AllHeight + row % this->Height) * this->AllWidth;
@@ -50,7 +50,7 @@ public:
     {
       const std::int64_t row = begin / this->Width;
       const std::int64_t last = std::min(end, (row + 1) * this->Width);
-      work(begin, last, this->place(row) - row * this->Width);
+      work(begin, last, this->indexOf(row) - row * this->Width);
       begin = last;
     }
   }

@@ -2,7 +2,6 @@
 #ifndef tippTetrahedronLanes_h
 #define tippTetrahedronLanes_h
 
-#include "Resample/FloatLanes.h"
 #include "Resample/Lanes.h"
 #include "Resample/TetrahedronRows.h"
 
@@ -47,7 +46,7 @@ public:
     const RangeLanes layers(this->Z, low, high);
     const Corner size{ right - left, back - front, high - low };
     this->Nothing = columns.Empty | rows.Empty | layers.Empty;
-    const LaneTruths single = (columns.End - columns.Begin == 1) & (rows.End - rows.Begin == 1) &
+    const LaneMask single = (columns.End - columns.Begin == 1) & (rows.End - rows.Begin == 1) &
       (layers.End - layers.Begin == 1);
     this->Single = !any(~(single | this->Nothing));
     if (this->nothing())
@@ -116,14 +115,14 @@ public:
       first[lane] = this->Columns[lane].Begin;
       last[lane] = this->Columns[lane].End;
     }
-    RowLanes rows{ first, last, LaneTruths{} - 1 };
+    RowLanes rows{ first, last, LaneMask{} - 1 };
     for (const Face& face : this->Faces)
     {
       this->cut(rows, first, last,
-        face.Place - (face.PerY * (y - face.AY) + face.PerZ * (z - face.AZ)), face.Error,
+        face.Position - (face.PerY * (y - face.AY) + face.PerZ * (z - face.AZ)), face.Error,
         face.Forward);
     }
-    const LaneTruths open = (rows.Begin < rows.End) & ~this->Nothing;
+    const LaneMask open = (rows.Begin < rows.End) & ~this->Nothing;
     RowSpans<laneCount> spans;
     spans.Open = laneBits(open);
     // What is in doubt matters only where the other faces leave something.
@@ -181,10 +180,10 @@ public:
     FloatLanes end = allFloats(width + 0.5F);
     for (const Cut& cut : this->Cuts)
     {
-      const FloatLanes place =
-        cut.Place[lane] - (cut.PerRow[lane] * along + cut.PerLayer[lane] * up);
-      begin = most(place + cut.NotBegin[lane], begin);
-      end = least(place + cut.NotEnd[lane], end);
+      const FloatLanes position =
+        cut.Position[lane] - (cut.PerRow[lane] * along + cut.PerLayer[lane] * up);
+      begin = most(position + cut.NotBegin[lane], begin);
+      end = least(position + cut.NotEnd[lane], end);
     }
     begin = least(begin, allFloats(width + 0.5F));
     end = most(end, allFloats(0.5F));
@@ -211,20 +210,20 @@ private:
   /// As in TetrahedronRows.
   struct Face
   {
-    Lanes Place;
+    Lanes Position;
     Lanes PerY;
     Lanes PerZ;
     Lanes AY;
     Lanes AZ;
     Lanes Error;
-    LaneTruths Forward;
+    LaneMask Forward;
   };
 
   /// A face for spans(): where it crosses the first row, in steps from the box's first column, and
   /// how many steps before that for each row and each layer.
   struct Cut
   {
-    float Place[laneCount];
+    float Position[laneCount];
     float PerRow[laneCount];
     float PerLayer[laneCount];
     float NotBegin[laneCount]; ///< -Beyond if rows do not begin at the face
@@ -240,32 +239,32 @@ private:
   {
     Lanes Begin;
     Lanes End;
-    LaneTruths Certain;
+    LaneMask Certain;
   };
 
   /// `first` has the box's first column and the coordinates of its first row.
   [[gnu::always_inline]] void prepareCut(
     int i, const Corner& first, Lanes rows, Lanes layers, Lanes& worst)
   {
-    // A place takes seven roundings of 2^-24 of these numbers; this counts eight.
+    // A position takes seven roundings of 2^-24 of these numbers; this counts eight.
     constexpr double roundings = 0x1p-21;
     // Farther than that from certain, single precision is of no use.
     constexpr double useless = 0.25;
     const Face& face = this->Faces[i];
-    const Lanes place =
-      face.Place - (face.PerY * (first.y - face.AY) + face.PerZ * (first.z - face.AZ)) - first.x;
+    const Lanes position =
+      face.Position - (face.PerY * (first.y - face.AY) + face.PerZ * (first.z - face.AZ)) - first.x;
     const Lanes perRow = face.PerY * this->Y.delta();
     const Lanes perLayer = face.PerZ * this->Z.delta();
     // Steps from the first row meet the others' coordinates but for the errors of their axes. With
     // them the error of PerY and PerZ counts twice.
     const Lanes error = 2 * face.Error + absolute(perRow) * this->RowError +
       absolute(perLayer) * this->LayerError +
-      roundings * (absolute(place) + absolute(perRow) * rows + absolute(perLayer) * layers);
-    const LaneTruths good = error < useless;
+      roundings * (absolute(position) + absolute(perRow) * rows + absolute(perLayer) * layers);
+    const LaneMask good = error < useless;
     const Lanes none = {};
     worst = good ? most(error, worst) : allLanes(1);
     Cut& cut = this->Cuts[i];
-    storeFloats(good ? place : none, cut.Place);
+    storeFloats(good ? position : none, cut.Position);
     storeFloats(good ? perRow : none, cut.PerRow);
     storeFloats(good ? perLayer : none, cut.PerLayer);
     storeFloats((good & face.Forward) ? none : allLanes(-Beyond), cut.NotBegin);
@@ -273,20 +272,26 @@ private:
   }
 
   [[gnu::always_inline]] FloatLaneInts certain(
-    int lane, FloatLanes place, FloatLaneInts whole) const
+    int lane, FloatLanes position, FloatLaneInts whole) const
   {
-    return absolute(place - toFloats(whole) - 0.5F) < this->Certainty[lane];
+    return absolute(position - toFloats(whole) - 0.5F) < this->Certainty[lane];
   }
 
   [[gnu::always_inline]] void cut(
-    RowLanes& rows, Lanes first, Lanes last, Lanes crossing, Lanes error, LaneTruths forward) const
+    RowLanes& rows, Lanes first, Lanes last, Lanes crossing, Lanes error, LaneMask forward) const
   {
-    const Lanes place = this->X.clamp(crossing);
-    const Lanes before = whole(place);
-    const LaneTruths sure = AxisLanes::certain(place, before, error);
+    const Lanes position = this->X.clamp(crossing);
+    const Lanes before = whole(position);
+    const LaneMask sure = AxisLanes::certain(position, before, error);
     rows.Certain &= sure;
     rows.Begin = most((sure & forward) ? before : first, rows.Begin);
     rows.End = least((sure & ~forward) ? before : last, rows.End);
+  }
+
+  /// Not a lambda, which would not be compiled for the caller's instruction set.
+  [[gnu::always_inline]] static Lanes minor(const Corner& a, const Corner& b)
+  {
+    return a.x * b.y - b.x * a.y;
   }
 
   [[gnu::always_inline]] void setSamples(const Corner (&corners)[4], const Corner& size,
@@ -299,13 +304,12 @@ private:
     {
       p[i] = { corners[i].x - sample.x, corners[i].y - sample.y, corners[i].z - sample.z };
     }
-    const auto minor = [&p](int i, int j) { return p[i].x * p[j].y - p[j].x * p[i].y; };
-    const Lanes m01 = minor(0, 1);
-    const Lanes m02 = minor(0, 2);
-    const Lanes m03 = minor(0, 3);
-    const Lanes m12 = minor(1, 2);
-    const Lanes m13 = minor(1, 3);
-    const Lanes m23 = minor(2, 3);
+    const Lanes m01 = minor(p[0], p[1]);
+    const Lanes m02 = minor(p[0], p[2]);
+    const Lanes m03 = minor(p[0], p[3]);
+    const Lanes m12 = minor(p[1], p[2]);
+    const Lanes m13 = minor(p[1], p[3]);
+    const Lanes m23 = minor(p[2], p[3]);
     // By how much each corner weighs, times the volume, which may be negative.
     const Lanes weights[4] = { p[1].z * m23 - p[2].z * m13 + p[3].z * m12,
       p[2].z * m03 - p[0].z * m23 - p[3].z * m02, p[0].z * m13 - p[1].z * m03 + p[3].z * m01,
@@ -313,20 +317,20 @@ private:
     // None of the six products exceeds the box's volume, and each takes eight roundings: 48.
     const Lanes bound =
       LatticeAxis::Roundings * size.x * size.y * size.z + Smallest * (1.0 + size.z);
-    LaneTruths allAbove = LaneTruths{} - 1;
-    LaneTruths allBelow = allAbove;
-    LaneTruths anyAbove = {};
-    LaneTruths anyBelow = {};
+    LaneMask allAbove = LaneMask{} - 1;
+    LaneMask allBelow = allAbove;
+    LaneMask anyAbove = {};
+    LaneMask anyBelow = {};
     for (const Lanes& weight : weights)
     {
-      const LaneTruths above = weight > bound;
-      const LaneTruths below = weight < -bound;
+      const LaneMask above = weight > bound;
+      const LaneMask below = weight < -bound;
       allAbove &= above;
       allBelow &= below;
       anyAbove |= above;
       anyBelow |= below;
     }
-    const LaneTruths outside = (anyAbove & anyBelow) | this->Nothing;
+    const LaneMask outside = (anyAbove & anyBelow) | this->Nothing;
     this->Samples.Open = laneBits(~outside);
     this->Samples.Doubtful = laneBits(~(outside | allAbove | allBelow));
     this->Samples.set(
@@ -368,7 +372,7 @@ private:
     const Lanes bound = 7.7715611723761e-16 * permanent + 1e-300 * (1.0 + heights);
     // Beside NaN and infinity this is false.
     this->Fast = absolute(minus) > bound;
-    const LaneTruths swap = minus > 0;
+    const LaneMask swap = minus > 0;
     const Corner first = p[0];
     p[0] = { swap ? p[1].x : first.x, swap ? p[1].y : first.y, swap ? p[1].z : first.z };
     p[1] = { swap ? first.x : p[1].x, swap ? first.y : p[1].y, swap ? first.z : p[1].z };
@@ -385,7 +389,7 @@ private:
     const Lanes nz = u.x * v.y - u.y * v.x;
     const Lanes scale = this->X.inverse() / nx;
     Face& face = this->Faces[i];
-    face.Place = (a.x - this->X.origin()) * this->X.inverse() - this->X.firstIndex() + 1;
+    face.Position = (a.x - this->X.origin()) * this->X.inverse() - this->X.firstIndex() + 1;
     face.PerY = ny * scale;
     face.PerZ = nz * scale;
     face.AY = a.y;
@@ -393,7 +397,7 @@ private:
     face.Forward = nx > 0;
     const Lanes area = roundings * size.y * size.z;
     const Lanes error = columnError + (area * size.x + Smallest) * absolute(scale);
-    const LaneTruths good = (absolute(nx) > area + Smallest) &
+    const LaneMask good = (absolute(nx) > area + Smallest) &
       (error + absolute(face.PerY) + absolute(face.PerZ) < HUGE_VAL);
     face.Error = good ? error : allLanes(HUGE_VAL);
   }
@@ -401,8 +405,8 @@ private:
   AxisLanes X;
   AxisLanes Y;
   AxisLanes Z;
-  LaneTruths Nothing;
-  LaneTruths Fast;
+  LaneMask Nothing;
+  LaneMask Fast;
   bool Single = false;
   RowSpans<laneCount> Samples;
   Face Faces[4];

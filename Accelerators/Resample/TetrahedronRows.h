@@ -3,8 +3,7 @@
 #define tippTetrahedronRows_h
 
 #include "Predicates/Orientation.h"
-#include "Predicates/Orientation3.h"
-#include "Resample/LatticeAxis.h"
+#include "Resample/Lattice.h"
 
 #include <utility>
 
@@ -61,11 +60,11 @@ public:
     RowSpan span{ this->Columns.Begin, this->Columns.End, this->Columns.End };
     for (const Face& face : this->Faces)
     {
-      const double place =
-        this->X.clamp(face.Place - (face.PerY * (y - face.A.y) + face.PerZ * (z - face.A.z)));
-      if (LatticeAxis::certain(place, face.Error))
+      const double position =
+        this->X.clamp(face.Position - (face.PerY * (y - face.A.y) + face.PerZ * (z - face.A.z)));
+      if (LatticeAxis::certain(position, face.Error))
       {
-        const int count = int(place);
+        const int count = int(position);
         if (face.Direction > 0)
         {
           span.Begin = std::max(span.Begin, count);
@@ -78,7 +77,7 @@ public:
       }
       else
       {
-        this->exactSpan(face, y, z, place, span);
+        this->exactSpan(face, y, z, position, span);
       }
       if (span.Begin >= span.ClosedEnd)
       {
@@ -97,8 +96,8 @@ private:
     Point3 A;
     Point3 B;
     Point3 C;
-    double Place; ///< where on the row through A the plane is crossed, in steps
-    double PerY;  ///< and how many steps before that for each unit of y and z
+    double Position; ///< where on the row through A the plane is crossed, in steps
+    double PerY;     ///< and how many steps before that for each unit of y and z
     double PerZ;
     double Error;
     int Direction; ///< sign of the inner normal's x
@@ -164,7 +163,7 @@ private:
     const double ny = uz * vx - ux * vz;
     const double nz = ux * vy - uy * vx;
     const double scale = this->X.inverse() / nx;
-    face.Place = (a.x - this->X.origin()) * this->X.inverse() - this->X.firstIndex() + 1;
+    face.Position = (a.x - this->X.origin()) * this->X.inverse() - this->X.firstIndex() + 1;
     face.PerY = ny * scale;
     face.PerZ = nz * scale;
     if (std::fabs(nx) > roundings * depth * height + smallest)
@@ -182,7 +181,7 @@ private:
   }
 
   [[gnu::noinline]] void exactSpan(
-    const Face& face, double y, double z, double place, RowSpan& span) const
+    const Face& face, double y, double z, double position, RowSpan& span) const
   {
     if (face.Direction == 0)
     {
@@ -191,7 +190,7 @@ private:
     }
     // Inner samples have a positive sign: before a face that looks forward they have a negative
     // one.
-    const Crossing crossing = this->X.crossing(place, face.Error, this->Columns,
+    const RowCrossing crossing = this->X.crossing(position, face.Error, this->Columns,
       [&](int i)
       {
         ++this->ExactTests;

@@ -64,21 +64,21 @@ public:
   {
     const IndexRange rows = this->rows(lane);
     const int row = rows.Begin + first;
-    const LaneTruths wanted = firstLanes(rows.End - row);
+    const LaneMask wanted = firstLanes(rows.End - row);
     const Lanes y = this->V.coordinates(row);
-    const LaneTruths upper = y >= this->Y[1][lane];
+    const LaneMask upper = y >= this->Y[1][lane];
     const Lanes lowX = upper ? allLanes(this->X[1][lane]) : allLanes(this->X[0][lane]);
     const Lanes lowY = upper ? allLanes(this->Y[1][lane]) : allLanes(this->Y[0][lane]);
     const Lanes slope = upper ? allLanes(this->Slopes[2][lane]) : allLanes(this->Slopes[1][lane]);
     const Lanes atLong =
-      this->U.place(this->X[0][lane] + (y - this->Y[0][lane]) * this->Slopes[0][lane]);
-    const Lanes atShort = this->U.place(lowX + (y - lowY) * slope);
+      this->U.position(this->X[0][lane] + (y - this->Y[0][lane]) * this->Slopes[0][lane]);
+    const Lanes atShort = this->U.position(lowX + (y - lowY) * slope);
     const Lanes error = allLanes(this->Error[lane]);
     const Lanes wholeLong = whole(atLong);
     const Lanes wholeShort = whole(atShort);
-    const LaneTruths certain = AxisLanes::certain(atLong, wholeLong, error) &
+    const LaneMask certain = AxisLanes::certain(atLong, wholeLong, error) &
       AxisLanes::certain(atShort, wholeShort, error) & (y < this->Y[2][lane]);
-    const LaneTruths longIsLeft = LaneTruths{} + this->LongIsLeft[lane];
+    const LaneMask longIsLeft = LaneMask{} + this->LongIsLeft[lane];
     const Lanes begin = longIsLeft ? wholeLong : wholeShort;
     const Lanes end = longIsLeft ? wholeShort : wholeLong;
     RowSpans<laneCount> spans;
@@ -101,7 +101,7 @@ private:
   /// Exchanges corners so that i is not above j.
   [[gnu::always_inline]] static void order(Lanes (&x)[3], Lanes (&y)[3], int i, int j)
   {
-    const LaneTruths swap = y[j] < y[i];
+    const LaneMask swap = y[j] < y[i];
     const Lanes xi = swap ? x[j] : x[i];
     const Lanes yi = swap ? y[j] : y[i];
     x[j] = swap ? x[i] : x[j];
@@ -138,9 +138,9 @@ private:
 
   AxisLanes U;
   AxisLanes V;
-  LaneTruths Nothing;
-  LaneTruths Fast;
-  LaneTruths LongIsLeft;
+  LaneMask Nothing;
+  LaneMask Fast;
+  LaneMask LongIsLeft;
   Lanes X[3]; ///< of the corners, from the lowest to the highest
   Lanes Y[3];
   Lanes Slopes[3]; ///< from the lowest to the highest corner, and of the edges below and above the

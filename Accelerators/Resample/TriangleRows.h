@@ -3,7 +3,7 @@
 #define tippTriangleRows_h
 
 #include "Predicates/Orientation.h"
-#include "Resample/LatticeAxis.h"
+#include "Resample/Lattice.h"
 
 namespace tipp
 {
@@ -55,8 +55,8 @@ public:
   {
     const double y = this->V[row];
     const Edge& edge = this->Short[y >= this->Middle];
-    const double atLong = this->place(this->Long, y);
-    const double atShort = this->place(edge, y);
+    const double atLong = this->position(this->Long, y);
+    const double atShort = this->position(edge, y);
     if ((int(LatticeAxis::certain(atLong, this->Error)) &
           int(LatticeAxis::certain(atShort, this->Error)) & int(y < this->Long.High.y)) != 0)
     {
@@ -127,9 +127,9 @@ private:
       std::isfinite(c.x) && std::isfinite(c.y);
   }
 
-  double place(const Edge& edge, double y) const
+  double position(const Edge& edge, double y) const
   {
-    return this->U.place(edge.Low.x + (y - edge.Low.y) * edge.Slope);
+    return this->U.position(edge.Low.x + (y - edge.Low.y) * edge.Slope);
   }
 
   [[gnu::noinline]] RowSpan exactSpan(
@@ -139,10 +139,10 @@ private:
     {
       return this->top();
     }
-    const Crossing atLongEdge = this->crossing(this->Long, y, atLong);
-    const Crossing atShortEdge = this->crossing(edge, y, atShort);
-    const Crossing& left = this->LongIsLeft ? atLongEdge : atShortEdge;
-    const Crossing& right = this->LongIsLeft ? atShortEdge : atLongEdge;
+    const RowCrossing atLongEdge = this->crossing(this->Long, y, atLong);
+    const RowCrossing atShortEdge = this->crossing(edge, y, atShort);
+    const RowCrossing& left = this->LongIsLeft ? atLongEdge : atShortEdge;
+    const RowCrossing& right = this->LongIsLeft ? atShortEdge : atLongEdge;
     return { left.Before, right.Before, right.WithOn };
   }
 
@@ -158,13 +158,13 @@ private:
   }
 
   /// The samples of the row y left of the edge.
-  Crossing crossing(const Edge& edge, double y, double place) const
+  RowCrossing crossing(const Edge& edge, double y, double position) const
   {
-    if (LatticeAxis::certain(place, this->Error))
+    if (LatticeAxis::certain(position, this->Error))
     {
-      return { int(place), int(place) };
+      return { int(position), int(position) };
     }
-    return this->U.crossing(place, this->Error, this->Columns,
+    return this->U.crossing(position, this->Error, this->Columns,
       [&](int i)
       {
         ++this->ExactTests;

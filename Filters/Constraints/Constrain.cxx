@@ -4,7 +4,7 @@
 #include "Constraints/ConstraintEdges.h"
 #include "Constraints/ConstraintRegion.h"
 #include "Constraints/CrossedTriangles.h"
-#include "Parallel/ForChunks.h"
+#include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,6 @@
 
 #include "Constraints/ConstraintEdges.h"
 #include "Output/CellBuffers.h"
-#include "Output/TableArrays.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -121,13 +120,12 @@ void addConstraintLines(const ResolvedConstraints& constraints,
 }
 
 void addConstraintTotals(
-  const ResolvedConstraints& resolved, std::size_t constraints, vtkTable* table)
+  const ResolvedConstraints& resolved, std::size_t constraints, RunStatistics& statistics)
 {
-  vtkFieldData* const totals = table->GetFieldData();
-  addTotal("Constraints", std::int64_t(constraints), totals);
-  addTotal("ConstraintEdges", std::int64_t(resolved.Pieces.size()), totals);
-  addTotal("CrossingPoints", std::int64_t(resolved.Crossings.size()), totals);
-  addTotal("CrossingRounds", resolved.Rounds, totals);
+  statistics.add("constraints", "Constraints", std::int64_t(constraints));
+  statistics.add("constraint_edges", "ConstraintEdges", std::int64_t(resolved.Pieces.size()));
+  statistics.add("crossing_points", "CrossingPoints", std::int64_t(resolved.Crossings.size()));
+  statistics.add("crossing_rounds", "CrossingRounds", resolved.Rounds);
 }
 
 } // namespace tipp

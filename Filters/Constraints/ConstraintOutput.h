@@ -4,13 +4,13 @@
 
 #include "Constraints/ResolveCrossings.h"
 #include "Constraints/SourceConstraints.h"
+#include "Output/RunStatistics.h"
 
 #include "vtkSmartPointer.h"
 
 class vtkPointData;
 class vtkPoints;
 class vtkPolyData;
-class vtkTable;
 class vtkUnsignedCharArray;
 
 namespace tipp
@@ -36,9 +36,9 @@ vtkSmartPointer<vtkUnsignedCharArray> constraintEdgesArray(
 void addConstraintLines(const ResolvedConstraints& constraints,
   const std::vector<vtkIdType>& sourceCells, vtkPolyData* output);
 
-/// As field data of the table.
+/// Adds the numbers of constraints, edges and crossings.
 void addConstraintTotals(
-  const ResolvedConstraints& resolved, std::size_t constraints, vtkTable* table);
+  const ResolvedConstraints& resolved, std::size_t constraints, RunStatistics& statistics);
 
 } // namespace tipp
 

@@ -3,7 +3,7 @@
 
 #include "Constraints/PartitionConstraints.h"
 #include "Constraints/SegmentTree.h"
-#include "Parallel/ForChunks.h"
+#include "Parallel/ParallelFor.h"
 #include "Predicates/Orientation.h"
 
 #include <algorithm>

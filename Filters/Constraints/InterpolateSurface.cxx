@@ -2,7 +2,6 @@
 #include "Constraints/InterpolateSurface.h"
 
 #include "Constraints/SegmentTree.h"
-#include "Parallel/ForChunks.h"
 #include "Parallel/ParallelFor.h"
 #include "Predicates/Orientation.h"
 

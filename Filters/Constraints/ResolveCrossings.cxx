@@ -2,8 +2,8 @@
 #include "Constraints/ResolveCrossings.h"
 
 #include "Constraints/SegmentTree.h"
-#include "Parallel/ForChunks.h"
-#include "Predicates/SegmentCrossing.h"
+#include "Parallel/ParallelFor.h"
+#include "Predicates/Orientation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 #ifndef tippSegmentTree_h
 #define tippSegmentTree_h
 
-#include "Predicates/Box2.h"
 #include "Predicates/Point2.h"
 
 #include <algorithm>

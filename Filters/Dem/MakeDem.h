@@ -6,7 +6,7 @@
 #include "Dem/TerrainSampler.h"
 #include "Duplicates/ResolveDuplicates.h"
 #include "Points/PointTable.h"
-#include "Predicates/Box2.h"
+#include "Predicates/Point2.h"
 #include "Raster/RasterFile.h"
 #include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Dem/TerrainSampler.h"
 
-#include "Parallel/ForChunks.h"
+#include "Parallel/ParallelFor.h"
 #include "Resample/CellKey.h"
 #include "Resample/Resample.h"
 

@@ -1,7 +1,7 @@
 // The masters' part of RankRun. A master starts the partitions whose inboxes it keeps.
 #include "Distributed/MessageKinds.h"
 #include "Distributed/RankRun.h"
-#include "Parallel/ProcessorWatch.h"
+#include "Parallel/Stopwatch.h"
 
 #include <algorithm>
 #include <functional>

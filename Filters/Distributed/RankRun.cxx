@@ -3,7 +3,7 @@
 
 #include "Distributed/MessageKinds.h"
 #include "Distributed/ShareInitialMesh.h"
-#include "Parallel/ProcessorWatch.h"
+#include "Parallel/Stopwatch.h"
 #include "Triangulation/InitialMesh.h"
 #include "Triangulation/PartitionSizes.h"
 

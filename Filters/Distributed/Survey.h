@@ -3,7 +3,7 @@
 #define tippSurvey_h
 
 #include "Messages/Communicator.h"
-#include "Predicates/Box2.h"
+#include "Predicates/Point2.h"
 #include "Triangulation/PointsView.h"
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 #define tippFinishPieces_h
 
 #include "OutOfCore/PieceResult.h"
-#include "Parallel/ForChunks.h"
+#include "Parallel/ParallelFor.h"
 
 #include <functional>
 #include <string>

@@ -3,7 +3,6 @@
 #define tippInputSurvey_h
 
 #include "Points/PointStream.h"
-#include "Predicates/Box2.h"
 #include "Predicates/Point2.h"
 #include "vtkTIPPFiltersModule.h"
 

@@ -11,7 +11,6 @@
 #include "OutOfCore/PreparedRun.h"
 #include "OutOfCore/ScratchFolder.h"
 #include "OutOfCore/TriangleTaker.h"
-#include "Parallel/ForChunks.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Partitioned/NeighborIds.h"

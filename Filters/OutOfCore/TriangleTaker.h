@@ -3,7 +3,7 @@
 #define tippTriangleTaker_h
 
 #include "Partitioned/GrowingPiece.h"
-#include "Predicates/Box2.h"
+#include "Predicates/Point2.h"
 
 #include <cstddef>
 #include <cstdint>

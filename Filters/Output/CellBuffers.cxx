@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Output/CellBuffers.h"
 
+#include "Meshes/FindNeighbors.h"
+
 #include "vtkCellArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
@@ -78,6 +81,42 @@ vtkSmartPointer<vtkCellArray> takeCells(
 vtkSmartPointer<vtkCellArray> takeCells(Buffer<std::int64_t> ids, int cellSize)
 {
   return makeCells<vtkTypeInt64Array>(std::move(ids), cellSize);
+}
+
+vtkSmartPointer<vtkIdTypeArray> neighborArray(const Triangulation& triangulation)
+{
+  const std::size_t triangles = triangulation.triangleCount();
+  auto array = vtkSmartPointer<vtkIdTypeArray>::New();
+  array->SetName("NeighborIds");
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(vtkIdType(triangles));
+  vtkIdType* const neighbors = array->GetPointer(0);
+  triangulation.Ids64.empty() ? findNeighbors(triangulation.Ids32.data(), triangles, neighbors)
+                              : findNeighbors(triangulation.Ids64.data(), triangles, neighbors);
+  return array;
+}
+
+vtkSmartPointer<vtkIdTypeArray> representativeIds(
+  const Triangulation& triangulation, std::int64_t points)
+{
+  Buffer<vtkIdType> ids{ std::size_t(points) };
+#pragma omp parallel for
+  for (std::int64_t i = 0; i < points; ++i)
+  {
+    ids[i] = i;
+  }
+  for (const Duplicate& duplicate : triangulation.Duplicates)
+  {
+    ids[duplicate.Point] = duplicate.Representative;
+  }
+  for (PointId rejected : triangulation.Rejected)
+  {
+    ids[rejected] = -1;
+  }
+  auto array = vtkSmartPointer<vtkIdTypeArray>::New();
+  array->SetName("RepresentativePointId");
+  array->SetArray(ids.release(), points, 0, vtkIdTypeArray::VTK_DATA_ARRAY_FREE);
+  return array;
 }
 
 } // namespace tipp

@@ -3,6 +3,7 @@
 #define tippCellBuffers_h
 
 #include "Triangulation/Buffer.h"
+#include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include "vtkSmartPointer.h"
@@ -11,6 +12,7 @@
 #include <limits>
 
 class vtkCellArray;
+class vtkIdTypeArray;
 
 namespace tipp
 {
@@ -22,6 +24,15 @@ VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkCellArray> takeCells(Buffer<std::int32_
   int cellSize, std::int64_t largestOffset32 = std::numeric_limits<std::int32_t>::max());
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkCellArray> takeCells(
   Buffer<std::int64_t> ids, int cellSize);
+
+/// Returns the array "NeighborIds": for each corner of a triangle the index of the triangle across
+/// the opposite edge, or -1.
+vtkSmartPointer<vtkIdTypeArray> neighborArray(const Triangulation& triangulation);
+
+/// Returns for each of `points` input points the id of its representative: its own id, for a
+/// duplicate the representative's, for a rejected point -1.
+vtkSmartPointer<vtkIdTypeArray> representativeIds(
+  const Triangulation& triangulation, std::int64_t points);
 
 } // namespace tipp
 

@@ -5,10 +5,12 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
@@ -21,6 +23,146 @@ namespace tipp
 namespace
 {
 
+std::vector<PointRows::Column> columnsOf(vtkPointSet* input)
+{
+  std::vector<PointRows::Column> columns;
+  vtkPointData* data = input->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = data->GetArray(i);
+    const bool isOwn = array && array != data->GetGlobalIds() && array->GetName() &&
+      std::string(array->GetName()) != vtkDataSetAttributes::GhostArrayName();
+    if (isOwn && array->GetDataTypeSize() > 0)
+    {
+      const int components = array->GetNumberOfComponents();
+      columns.push_back({ array->GetName(), array->GetDataType(), components,
+        std::size_t(components) * std::size_t(array->GetDataTypeSize()) });
+    }
+  }
+  return columns;
+}
+
+void write(const std::vector<PointRows::Column>& columns, ByteWriter& writer)
+{
+  writer.value(std::uint64_t(columns.size()));
+  for (const PointRows::Column& column : columns)
+  {
+    writer.text(column.Name);
+    writer.value(column.Type);
+    writer.value(column.Components);
+    writer.value(std::uint64_t(column.Size));
+  }
+}
+
+std::vector<PointRows::Column> readColumns(ByteReader& reader)
+{
+  std::vector<PointRows::Column> columns;
+  for (std::uint64_t n = reader.value<std::uint64_t>(); n > 0; --n)
+  {
+    PointRows::Column column;
+    column.Name = reader.text();
+    column.Type = reader.value<int>();
+    column.Components = reader.value<int>();
+    column.Size = reader.value<std::uint64_t>();
+    columns.push_back(column);
+  }
+  return columns;
+}
+
+bool same(const PointRows::Column& a, const PointRows::Column& b)
+{
+  return a.Name == b.Name && a.Type == b.Type && a.Components == b.Components;
+}
+
+} // namespace
+
+PointRows::PointRows(Communicator& ranks, vtkPointSet* input)
+{
+  const bool hasPoints = input->GetNumberOfPoints() > 0;
+  vtkDataArray* ids = hasPoints ? input->GetPointData()->GetGlobalIds() : nullptr;
+  ByteWriter writer;
+  writer.value(char(hasPoints));
+  writer.value(char(ids != nullptr));
+  writer.value(char(hasPoints && input->GetPoints()->GetDataType() != VTK_FLOAT));
+  write(hasPoints ? columnsOf(input) : std::vector<Column>(), writer);
+  ByteWriter agreed;
+  bool first = true;
+  bool allIds = true;
+  bool anyDoubles = false;
+  std::vector<Column> common;
+  for (const Bytes& bytes : ranks.gather(writer.take()))
+  {
+    ByteReader reader(bytes);
+    if (!reader.value<char>())
+    {
+      continue;
+    }
+    allIds = reader.value<char>() && allIds;
+    anyDoubles = reader.value<char>() || anyDoubles;
+    const std::vector<Column> columns = readColumns(reader);
+    common.erase(std::remove_if(common.begin(), common.end(),
+                   [&](const Column& column)
+                   {
+                     return std::none_of(columns.begin(), columns.end(),
+                       [&](const Column& other) { return same(column, other); });
+                   }),
+      common.end());
+    common = first ? columns : common;
+    first = false;
+  }
+  agreed.value(char(allIds && !first));
+  agreed.value(char(anyDoubles));
+  write(common, agreed);
+  const Bytes bytes = ranks.broadcast(agreed.take());
+  ByteReader reader(bytes);
+  this->GivenIds = reader.value<char>() != 0;
+  this->Doubles = reader.value<char>() != 0;
+  this->Columns = readColumns(reader);
+  if (!hasPoints)
+  {
+    return;
+  }
+  this->Coordinates = input->GetPoints()->GetData();
+  for (const Column& column : this->Columns)
+  {
+    this->Arrays.push_back(input->GetPointData()->GetArray(column.Name.c_str()));
+    this->Values.push_back(static_cast<const char*>(this->Arrays.back()->GetVoidPointer(0)));
+  }
+  if (this->GivenIds)
+  {
+    vtkNew<vtkIdTypeArray> exact; // a double would round ids beyond 2^53
+    exact->DeepCopy(ids);
+    const vtkIdType* values = exact->GetPointer(0);
+    this->GlobalIds.assign(values, values + exact->GetNumberOfTuples());
+  }
+}
+
+void PointRows::describe(RankPoints& points) const
+{
+  points.GlobalIds = this->GlobalIds.empty() ? nullptr : this->GlobalIds.data();
+  points.RowSize = 3 * sizeof(double);
+  for (const Column& column : this->Columns)
+  {
+    points.RowSize += column.Size;
+  }
+  points.PackRow = [this](std::size_t i, char* to)
+  {
+    double position[3];
+    this->Coordinates->GetTuple(vtkIdType(i), position);
+    std::memcpy(to, position, sizeof(position));
+    to += sizeof(position);
+    for (std::size_t c = 0; c < this->Columns.size(); ++c)
+    {
+      const std::size_t size = this->Columns[c].Size;
+      std::memcpy(to, this->Values[c] + i * size, size);
+      to += size;
+    }
+  };
+}
+
+namespace
+{
+
 /// The sources of a piece's points, in the order of its points.
 class PiecePoints
 {
@@ -29,13 +171,13 @@ public:
     : Mine(mine)
     , Ghosts(ghosts)
     , FirstOwn(mine.FirstIds[std::size_t(rank)])
-    , Places(mine.Owned.size() + mine.Foreign.size(), -1)
+    , Indices(mine.Owned.size() + mine.Foreign.size(), -1)
   {
     const auto mark = [this](const auto& ids)
     {
-      for (const auto place : ids)
+      for (const auto index : ids)
       {
-        this->Places[std::size_t(place)] = 0;
+        this->Indices[std::size_t(index)] = 0;
       }
     };
     mark(mine.Ids32);
@@ -46,17 +188,17 @@ public:
       {
         for (const std::int64_t id : triangle)
         {
-          const std::ptrdiff_t place = this->placeOf(id);
-          if (place >= 0)
+          const std::ptrdiff_t index = this->localIndexOf(id);
+          if (index >= 0)
           {
-            this->Places[std::size_t(place)] = 0;
+            this->Indices[std::size_t(index)] = 0;
           }
         }
       }
     }
-    for (std::int64_t& place : this->Places)
+    for (std::int64_t& index : this->Indices)
     {
-      place = place < 0 ? -1 : this->Count++;
+      index = index < 0 ? -1 : this->Count++;
     }
   }
 
@@ -64,11 +206,11 @@ public:
   {
     return this->Count + (this->Ghosts ? std::int64_t(this->Ghosts->PointIds.size()) : 0);
   }
-  std::int64_t ofPlace(std::size_t place) const { return this->Places[place]; }
+  std::int64_t ofLocalIndex(std::size_t index) const { return this->Indices[index]; }
   std::int64_t ofId(std::int64_t id) const
   {
-    const std::ptrdiff_t place = this->placeOf(id);
-    return place >= 0 ? this->Places[std::size_t(place)]
+    const std::ptrdiff_t index = this->localIndexOf(id);
+    return index >= 0 ? this->Indices[std::size_t(index)]
                       : this->Count + rankOf(this->Ghosts->PointIds, id);
   }
 
@@ -78,12 +220,12 @@ public:
   void forEach(Visit&& visit) const
   {
     const std::size_t own = this->Mine.Owned.size();
-    for (std::size_t i = 0; i < this->Places.size(); ++i)
+    for (std::size_t i = 0; i < this->Indices.size(); ++i)
     {
-      if (this->Places[i] >= 0)
+      if (this->Indices[i] >= 0)
       {
         const bool isOwn = i < own;
-        visit(this->Places[i], isOwn ? this->Mine.Owned : this->Mine.Foreign, isOwn ? i : i - own,
+        visit(this->Indices[i], isOwn ? this->Mine.Owned : this->Mine.Foreign, isOwn ? i : i - own,
           isOwn);
       }
     }
@@ -99,7 +241,7 @@ private:
     return std::lower_bound(ids.begin(), ids.end(), id) - ids.begin();
   }
   /// The index of an internal id among owned and then foreign points, or -1.
-  std::ptrdiff_t placeOf(std::int64_t id) const
+  std::ptrdiff_t localIndexOf(std::int64_t id) const
   {
     const std::ptrdiff_t own = std::ptrdiff_t(this->Mine.Owned.size());
     if (id >= this->FirstOwn && id < this->FirstOwn + own)
@@ -115,7 +257,7 @@ private:
   const DistributedTriangulation& Mine;
   const GhostTriangles* Ghosts;
   const std::int64_t FirstOwn;
-  std::vector<std::int64_t> Places; ///< of owned, then foreign points: index in the piece, or -1
+  std::vector<std::int64_t> Indices; ///< of owned, then foreign points: index in the piece, or -1
   std::int64_t Count = 0;
 };
 
@@ -146,10 +288,10 @@ void fillPoints(const PiecePoints& piece, const PointRows& rows, std::size_t row
     [&](std::int64_t to, const PointTuples& tuples, std::size_t at, bool isOwn)
     {
       const char* row = tuples.Rows.data() + at * rowSize;
-      double place[3];
-      std::memcpy(place, row, sizeof(place));
-      row += sizeof(place);
-      points->SetPoint(to, place);
+      double position[3];
+      std::memcpy(position, row, sizeof(position));
+      row += sizeof(position);
+      points->SetPoint(to, position);
       ids->SetValue(to, tuples.GlobalIds[at]);
       ghost->SetValue(to, isOwn ? 0 : vtkDataSetAttributes::DUPLICATEPOINT);
       for (std::size_t c = 0; c < values.size(); ++c)
@@ -180,9 +322,9 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
   std::int64_t* to = corners.data();
   const auto add = [&](const auto& ids)
   {
-    for (const auto place : ids)
+    for (const auto index : ids)
     {
-      *to++ = piece.ofPlace(std::size_t(place));
+      *to++ = piece.ofLocalIndex(std::size_t(index));
     }
   };
   add(mine.Ids32);

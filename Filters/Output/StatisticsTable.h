@@ -2,17 +2,20 @@
 #ifndef tippStatisticsTable_h
 #define tippStatisticsTable_h
 
-#include "Triangulation/Triangulate.h"
+#include "Output/RunStatistics.h"
 
+class vtkPolyData;
 class vtkTable;
 
 namespace tipp
 {
 
-/// Fills the empty table: a row for each stage, and the run's totals and phases as field data.
-/// vtkTIPPDelaunay2D's documentation lists the columns and arrays.
-void fillStatisticsTable(
-  const Triangulation& triangulation, std::int64_t points, std::int64_t triangles, vtkTable* table);
+/// Fills the empty table: the rows of the statistics' table, and all else as field data. The
+/// documentation of vtkTIPPDelaunay2D and vtkTIPPOutOfCoreDelaunay2D lists the arrays.
+void fillStatisticsTable(const RunStatistics& statistics, vtkTable* table);
+
+/// Adds the duplicates and rejected points found on this rank as field data, by global ids.
+void addAccounts(const DistributedTriangulation& mine, vtkPolyData* output);
 
 } // namespace tipp
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Sampling/ExchangeSamples.h"
+#include "Sampling/SampledImage.h"
 
 #include "Messages/Communicator.h"
 

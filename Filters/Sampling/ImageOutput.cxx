@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Sampling/ImageOutput.h"
+#include "Sampling/SampledImage.h"
 
-#include "Arrays/ScalarTypes.h"
-#include "Parallel/ForChunks.h"
+#include "Arrays/Scalar.h"
+#include "Parallel/ParallelFor.h"
 #include "Sampling/SamplingLattice.h"
 
 #include "vtkCellData.h"

@@ -2,13 +2,13 @@
 #ifndef tippRangeResampleRun_h
 #define tippRangeResampleRun_h
 
-#include "vtkRangeResampleFilter.h"
-
 #include "Messages/Communicator.h"
 #include "Output/Monitor.h"
 #include "Resample/Lattice.h"
 #include "Sampling/Elevation.h"
 #include "Sampling/SampledImage.h"
+
+#include "vtkRangeResampleFilter.h"
 
 #include <exception>
 #include <memory>
@@ -17,6 +17,9 @@
 class vtkDataArraySelection;
 class vtkImageData;
 class vtkPointSet;
+class vtkAlgorithm;
+class vtkDataObject;
+class vtkInformation;
 
 /// One execution of the filter.
 class vtkRangeResampleFilter::Run
@@ -66,5 +69,17 @@ private:
   tipp::Lattice Wanted; ///< this rank's output lattice
   std::unique_ptr<tipp::SampledImage> Image;
 };
+
+namespace tipp
+{
+
+/// Updates this rank's piece of a filter's input before the pipeline requests it, at the time step
+/// that `outInfo` requests, if any. Returns null if the input fails.
+vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInformation* outInfo);
+
+/// Requests a piece of a filter's input.
+void askForPiece(vtkInformation* inInfo, int piece, int pieces);
+
+} // namespace tipp
 
 #endif

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sampling/SampledImage.h"
 
-#include "Arrays/ScalarTypes.h"
+#include "Arrays/Scalar.h"
 #include "Parallel/Stopwatch.h"
-#include "Resample/ToScalar.h"
 #include "Vtk/Compatibility.h"
 
 #include "vtkCellData.h"

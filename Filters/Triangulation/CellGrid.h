@@ -3,7 +3,6 @@
 #define tippCellGrid_h
 
 #include "Kernel/Instructions.h"
-#include "Predicates/Box2.h"
 #include "Predicates/Point2.h"
 #include "vtkTIPPFiltersModule.h"
 

@@ -2,7 +2,6 @@
 #ifndef tippDegenerateInput_h
 #define tippDegenerateInput_h
 
-#include "Predicates/Box2.h"
 #include "Predicates/Point2.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Triangulate.h"

@@ -2,7 +2,6 @@
 #ifndef tippTiling_h
 #define tippTiling_h
 
-#include "Predicates/Box2.h"
 #include "Predicates/Circumdisk.h"
 #include "Predicates/Point2.h"
 #include "vtkTIPPFiltersModule.h"

@@ -2,7 +2,7 @@
 #ifndef tippTriangulate_h
 #define tippTriangulate_h
 
-#include "Predicates/Box2.h"
+#include "Predicates/Point2.h"
 #include "Triangulation/Buffer.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Tiling.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Flat/FlattenDataSet.h"
 
-#include "Arrays/ScalarTypes.h"
+#include "Arrays/Scalar.h"
 #include "Flat/Simplices.h"
 #include "Parallel/Poll.h"
 #include "Vtk/CheckDataSet.h"

@@ -3,7 +3,6 @@
 #define tippGroupedMoves_h
 
 #include "Loading/ArrayFiles.h"
-#include "Parallel/ForChunks.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/PieceGrid.h"
 
-#include "Arrays/ScalarTypes.h"
+#include "Arrays/Scalar.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

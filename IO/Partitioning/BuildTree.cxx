@@ -2,7 +2,7 @@
 #include "Partitioning/BuildTree.h"
 
 #include "Files/IOError.h"
-#include "OpenCL/AcceleratorError.h"
+#include "OpenCL/Devices.h"
 #include "Partitioning/Ranks.h"
 #include "Partitioning/SplitTree.h"
 #include "Partitioning/TreeCounting.h"

@@ -8,7 +8,7 @@
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioning/Ranks.h"
 #include "Partitioning/TilingChoice.h"
-#include "Predicates/Box3.h"
+#include "Predicates/Point3.h"
 
 #include <cstdint>
 

@@ -5,7 +5,7 @@
 #include "Files/PendingFolder.h"
 #include "Flat/FlatMesh.h"
 #include "Loading/VertexLoader.h"
-#include "OpenCL/DeviceChoice.h"
+#include "OpenCL/Devices.h"
 #include "Partitioning/TilingChoice.h"
 #include "vtkTIPPIOModule.h"
 

@@ -5,7 +5,7 @@
 #include "Flat/FlatMesh.h"
 #include "Partition/BoxTiling.h"
 #include "Partitioning/Ranks.h"
-#include "Predicates/Box3.h"
+#include "Predicates/Point3.h"
 
 #include <string>
 

@@ -4,7 +4,7 @@
 
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/ReadPiece.h"
-#include "Predicates/Box3.h"
+#include "Predicates/Point3.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,7 +3,7 @@
 #define tippCellArrayCheck_h
 
 #include "Files/IOError.h"
-#include "Parallel/ForChunks.h"
+#include "Parallel/ParallelFor.h"
 #include "Vtk/CellSizes.h"
 #include "Vtk/PlainIds.h"
 

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Arrays.h"
-#include "Functions.h"
-#include "Reporter.h"
-#include "TriangulationDict.h"
+#include "Binding.h"
 
 #include "Constraints/ConstraintEdges.h"
 #include "Constraints/KeepInside.h"
 #include "Constraints/MatchPositions.h"
 #include "Constraints/TriangulateConstrained.h"
-#include "Output/TriangulationWarnings.h"
-#include "Parallel/ThreadLimit.h"
+#include "Output/RunStatistics.h"
+#include "Parallel/ParallelFor.h"
 
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>

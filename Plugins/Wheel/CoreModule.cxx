@@ -1,11 +1,55 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // tipp._core: the cores over NumPy arrays, for the engine in Python. Arguments are checked there.
-#include "Functions.h"
+#include "Binding.h"
 
 #include "Parallel/ParallelFor.h"
 
 #include <new>
 #include <stdexcept>
+
+namespace tipp::python
+{
+
+bool Reporter::operator()(double fraction)
+{
+  if (this->Stopped || std::this_thread::get_id() != this->Owner)
+  {
+    return !this->Stopped;
+  }
+  const nb::gil_scoped_acquire lock;
+  try
+  {
+    if (PyErr_CheckSignals() != 0)
+    {
+      throw nb::python_error();
+    }
+    if (!this->Callable.is_none())
+    {
+      const nb::object answer = this->Callable(fraction);
+      this->Stopped = answer.ptr() == Py_False;
+    }
+  }
+  catch (...)
+  {
+    this->Raised = std::current_exception();
+    this->Stopped = true;
+  }
+  return !this->Stopped;
+}
+
+void Reporter::raiseIfStopped() const
+{
+  if (this->Raised)
+  {
+    std::rethrow_exception(this->Raised);
+  }
+  if (this->Stopped)
+  {
+    throw std::runtime_error("the progress callback stopped the run.");
+  }
+}
+
+} // namespace tipp::python
 
 NB_MODULE(_core, module)
 {

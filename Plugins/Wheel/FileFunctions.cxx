@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Arrays.h"
-#include "Functions.h"
-#include "Reporter.h"
+#include "Binding.h"
 
 #include "Files/IOError.h"
 #include "Files/RequireApart.h"
@@ -9,10 +7,12 @@
 #include "Messages/Communicator.h"
 #include "OutOfCore/OutOfCoreRanks.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
-#include "Output/TriangulationWarnings.h"
+#include "Output/RunStatistics.h"
 #include "Parallel/Poll.h"
 #include "Partitioning/PartitionContent.h"
 #include "Partitioning/PartitionMesh.h"
+#include "Points/PointStream.h"
+#include "Points/ReadPoints.h"
 #include "Reading/AssemblePiece.h"
 #include "Reading/PieceSource.h"
 #include "Reading/RangeFilter.h"
@@ -24,12 +24,64 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
 
 namespace tipp::python
 {
+namespace
+{
+
+using Strings = std::vector<std::string>;
+
+nb::object copyOf(const std::vector<double>& values, std::size_t columns)
+{
+  RawBuffer buffer(values.size() * sizeof(double));
+  if (!values.empty())
+  {
+    std::memcpy(buffer.data(), values.data(), buffer.size());
+  }
+  return arrayOf(std::move(buffer), Scalar::Float64, columns);
+}
+
+/// Returns (n, 2) coordinates, the columns by name, and the reference system or an empty text.
+nb::tuple readPointFiles(const Strings& paths, const std::optional<Strings>& columns,
+  const std::vector<int>& classes, int returns, const Strings& keep)
+{
+  const auto isKept = [&keep](const char* flag)
+  { return std::find(keep.begin(), keep.end(), flag) != keep.end(); };
+  PointOptions options;
+  options.Columns = columns;
+  options.Las.Classes = classes;
+  options.Las.Kind = LasSelection::Returns(returns);
+  options.Las.KeepWithheld = isKept("withheld");
+  options.Las.KeepSynthetic = isKept("synthetic");
+  options.Las.KeepOverlap = isKept("overlap");
+  std::string crs;
+  const PointTable table = withoutLock(
+    [&]
+    {
+      crs = openPointStream(paths, options)->crs();
+      return readPoints(paths, options);
+    });
+  nb::dict named;
+  for (const PointTable::Column& column : table.Columns)
+  {
+    named[column.Name.c_str()] = copyOf(column.Values, 1);
+  }
+  return nb::make_tuple(copyOf(table.XY, 2), named, crs);
+}
+
+} // namespace
+
+void addPointFunctions(nb::module_& module)
+{
+  module.def("read_points", &readPointFiles, nb::arg("paths"), nb::arg("columns").none(),
+    nb::arg("classes"), nb::arg("returns"), nb::arg("keep"));
+}
+
 namespace
 {
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Arrays.h"
-#include "Functions.h"
-#include "Reporter.h"
+#include "Binding.h"
 
 #include "Parallel/ParallelFor.h"
 #include "Resample/Resample.h"

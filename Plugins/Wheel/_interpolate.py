@@ -26,13 +26,13 @@ class Delaunay:
     ----------
     points : (n, 2) float64
     simplices : (m, 3) int32
-        Point ids, counter-clockwise. The lowest of several points at one place is the one in triangles.
+        Point ids, counter-clockwise. Of coincident points the one of lowest id is in triangles.
     neighbors : (m, 3) int32
         For each corner the triangle over the opposite edge; -1 at the hull.
     convex_hull : (k, 2) int32
         The edges of the hull.
     coplanar : (d, 3) int32
-        The points left out because a lower one is at their place, a triangle at it, and that one.
+        The points left out because one of lower id has their coordinates, a triangle at it, and that one.
 
     Raises
     ------

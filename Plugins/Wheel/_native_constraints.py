@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _core
 from ._constraints import constraints_of
-from ._progress import Progress, finish
+from ._arguments import Progress, finish
 
 
 class Segments(NamedTuple):

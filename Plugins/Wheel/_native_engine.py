@@ -5,24 +5,133 @@ Data sets of VTK and PyVista, of any version, are taken and returned where VTK i
 """
 from __future__ import annotations
 
-from typing import Any
+import math
+import os
+import sys
+import warnings
+from typing import Any, Iterable
 
 import numpy as np
 
 from . import _arguments as check
 from . import _core
 from . import _native_constraints as constraints
-from ._arrays import attributes, coordinates
-from ._data import Image, Mesh
-from ._native_dem import dem
-from ._native_run import box, diagonal, has_vtk, plain, triangulated, warn
-from ._progress import Progress, finish
+from ._arrays import attributes, coordinates, Image, Mesh
+from ._arguments import finish, Progress
+from ._rasters import bounds_of, derived, DERIVED, grid_over, needs_elevation, sampling_of, selected, uncompressed
+from ._vtkmodules import root
 
 __all__ = ["delaunay", "delaunay_2d", "delaunay_file", "dem", "read", "require_ranks", "resample", "write"]
 
 _HIDDEN = 32  # vtkDataSetAttributes::HIDDENCELL
 _GHOSTS = "vtkGhostType"
 _OWN_IDS = ("GlobalPointIds", "GlobalCellIds")
+
+
+def has_vtk() -> bool:
+    return root() is not None
+
+
+def warn(sentences: Iterable[str]) -> None:
+    """Warnings at the line that called the package."""
+    level = 1
+    here = os.path.dirname(__file__)
+    frame: Any = sys._getframe()
+    while frame is not None and os.path.dirname(frame.f_code.co_filename) == here:
+        frame, level = frame.f_back, level + 1
+    for sentence in sentences:
+        warnings.warn(sentence, RuntimeWarning, stacklevel=level)
+
+
+def plain(points: np.ndarray) -> np.ndarray:
+    """In C order, as float32 or float64."""
+    return np.ascontiguousarray(points, points.dtype if points.dtype == np.float32 else np.float64)
+
+
+def box(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The lowest and the highest coordinates of the points that are finite."""
+    finite = points
+    if len(points) and not np.isfinite(points.sum()):
+        finite = points[np.isfinite(points).all(axis=1)]
+    if len(finite) == 0:
+        return np.zeros(3), np.zeros(3)
+    low, high = np.zeros(3), np.zeros(3)
+    low[: points.shape[1]], high[: points.shape[1]] = finite.min(axis=0), finite.max(axis=0)
+    return low, high
+
+
+def diagonal(points: np.ndarray) -> float:
+    low, high = box(points)
+    return float(np.sqrt(((high - low) ** 2).sum()))
+
+
+def triangulated(points: np.ndarray, options: dict[str, Any], progress: Progress | None) -> dict[str, Any]:
+    tolerance = options["tolerance"]
+    result = _core.triangulate(
+        points, tolerance * diagonal(points) if tolerance > 0 else 0.0, options["max_edge"], *options["partitions"],
+        options["schedule"] == 0, options["threads"], options.get("neighbors", False), progress)
+    finish(progress)
+    return result
+
+
+_TRIANGULATION = {"tolerance": 0.0, "partitions": (0, 0), "schedule": 1}
+
+
+def dem(points: Any, point_data: Any, options: dict[str, Any],
+        progress: Progress | None) -> tuple[list[np.ndarray], tuple[float, ...], str | None]:
+    """The bands of the attributes from the north to the south, their transform and the CRS of points in files."""
+    names, size, crs = options["attributes"], options["resolution"], None
+    if check.is_vtk_object(points):
+        from ._vtk import arrays_of, xyz_of
+
+        array, data = plain(xyz_of(points)), arrays_of(points.GetPointData())
+    elif isinstance(points, list) and points and isinstance(points[0], str):
+        array, data, crs = read_points(points, options)
+    else:
+        array = plain(coordinates(points))
+        data = attributes(point_data, len(array))
+        if array.shape[1] == 2 and needs_elevation(options):
+            raise ValueError("points have no elevation; give an array of shape (n, 3) or other attributes.")
+    if array.shape[1] == 2:
+        array = np.column_stack([array, np.zeros(len(array), array.dtype)])
+    if options["thin"] or options["duplicates"] != "first":
+        single = {name: values for name, values in data.items() if values.ndim == 1}
+        array, data = selected(array.astype(np.float64), single, options)
+    grid = grid_over(options["bounds"] or bounds_of(array[:, :2]), size, options["align"])
+    if "elevation" in names and "elevation" not in data:
+        data = {**data, "elevation": np.ascontiguousarray(array[:, 2])}
+    of_points = [name for name in names if name not in DERIVED]
+    of_triangles = [name for name in names if name in DERIVED]
+    for name in of_points:
+        if name not in data:
+            raise KeyError(f"there is no attribute '{name}'; there are {[*data]}.")
+    half = None if progress is None else lambda done: progress(0.5 * done)
+    result = triangulated(array, {**_TRIANGULATION, **options}, half)
+    corners = array.astype(np.float64)[result["triangles"]] if of_triangles else None
+    rest = None if progress is None else lambda done: progress(0.5 + 0.5 * done)
+    *_, samples, _, notes = _core.resample(
+        np.ascontiguousarray(array), result["triangles"], None,
+        [np.ascontiguousarray(data[name]) for name in of_points],
+        [np.ascontiguousarray(derived(name, corners)) for name in of_triangles], sampling_of(grid, size), [1, 1, 1], [size, size, 0.0],
+        math.nan, "openmp", options["threads"], rest)
+    finish(progress)
+    warn([*result["warnings"], *notes])
+    west, south, columns, rows = grid
+    sampled = {name: band.reshape(rows, columns)[::-1] for name, band in zip([*of_points, *of_triangles], samples)}
+    if "void" in sampled:
+        sampled["void"] = np.where(np.isnan(sampled["void"]), 1.0, sampled["void"])
+    bands = [sampled[name] for name in names]
+    return bands, (size, 0.0, west, 0.0, -size, south + rows * size), crs or None
+
+
+def read_points(paths: list[str], options: dict[str, Any]) -> tuple[np.ndarray, dict[str, np.ndarray], str]:
+    """Coordinates (n, 3), the columns by name, and the coordinate reference system."""
+    names = options["attributes"]
+    wanted = None if names is None else [*(name for name in names if name not in DERIVED), "z", "Z"]
+    with uncompressed(paths) as files:
+        xy, columns, crs = _core.read_points(files, wanted, options["classes"] or [], options["returns"], options["keep"])
+    z = next((columns.pop(name) for name in ("z", "Z") if name in columns), np.zeros(len(xy)))
+    return np.column_stack([xy, z]), columns, crs
 
 
 def require_ranks() -> None:
@@ -49,13 +158,12 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
     if isinstance(points, Mesh):
         point_data = {**points.point_data, **(point_data or {})}
         points = points.points
-    if has_vtk():
-        from ._vtk import point_cloud
-
-        return _delaunay_of_data_set(point_cloud(points, point_data), options, progress)
     array = plain(coordinates(points))
-    data = attributes(point_data, len(array))
-    mesh, statistics, _ = _meshed(array, data, options, progress)
+    mesh, statistics, _ = _meshed(array, attributes(point_data, len(array)), options, progress)
+    if has_vtk():
+        from ._vtk import surface_of
+
+        return surface_of(mesh, None), statistics
     if mesh.points.shape[1] == 2:
         spatial = np.zeros((len(mesh.points), 3), mesh.points.dtype)
         for axis in range(2):  # quicker than both at once

@@ -4,7 +4,7 @@
 #include "Distributed/Plan.h"
 #include "Engine/Regions.h"
 #include "Engine/Routing.h"
-#include "Parallel/ProcessorWatch.h"
+#include "Parallel/Stopwatch.h"
 #include "Points/ReadPoints.h"
 #include "Triangulation/InitialMesh.h"
 #include "Triangulation/PartitionSizes.h"

@@ -4,7 +4,7 @@
 #include "Flat/CellReader.h"
 #include "Flat/FlatMesh.h"
 #include "Loading/VertexLoader.h"
-#include "OpenCL/DeviceList.h"
+#include "OpenCL/Devices.h"
 #include "Partition/ClassifyCells.h"
 #include "Partitioning/BuildTree.h"
 #include "Partitioning/PointCoordinates.h"

@@ -3,7 +3,6 @@
 #define tippSweepKernel_h
 
 #include "Kernel/DelaunayKernel.h"
-#include "Predicates/Box2.h"
 #include "Predicates/Point2.h"
 #include "SweepStrips.h"
 

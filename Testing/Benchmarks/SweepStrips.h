@@ -2,7 +2,6 @@
 #ifndef tippSweepStrips_h
 #define tippSweepStrips_h
 
-#include "Predicates/Box2.h"
 #include "Predicates/Point2.h"
 
 #include <cstddef>

@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 
 import tipp
-from tipp._exact import in_circles, orientations
+from tipp._check import in_circles, orientations
 
 RANDOM = np.random.default_rng(6)
 

@@ -353,7 +353,7 @@ class Files(unittest.TestCase):
             if fraction > 0.4:
                 signal.raise_signal(signal.SIGINT)
 
-        with unittest.mock.patch("tipp._progress._show", press), self.assertRaises(KeyboardInterrupt):
+        with unittest.mock.patch("tipp._arguments._show", press), self.assertRaises(KeyboardInterrupt):
             tipp.delaunay_file(self.input, self.output, memory="1M", progress_bar=True)
         self.assertFalse(os.path.exists(self.output))
         with self.assertRaisesRegex(RuntimeError, "resume it"):
@@ -384,7 +384,7 @@ class Interrupt(unittest.TestCase):
             if len(calls) == call:
                 signal.raise_signal(signal.SIGINT)
 
-        with unittest.mock.patch("tipp._progress._show", show), self.assertRaises(KeyboardInterrupt):
+        with unittest.mock.patch("tipp._arguments._show", show), self.assertRaises(KeyboardInterrupt):
             work()
         return len(calls)
 

@@ -1,16 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The wheel beside today's VTK and PyVista."""
+"""The wheel beside PyVista, with either of its back ends: VTK or cvista."""
 import subprocess
 import sys
 import unittest
 
 import numpy as np
 import pyvista
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkVersion
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkUnstructuredGrid
 
 import tipp
+from tipp._vtkmodules import vtk_to_numpy, vtkCellArray, vtkPolyData, vtkUnstructuredGrid, vtkVersion
 
 
 def terrain(count=2000):

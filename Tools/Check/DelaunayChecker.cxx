@@ -2,13 +2,16 @@
 #include "Check/DelaunayChecker.h"
 
 #include "Check/ExactTests.h"
-#include "Check/Hull.h"
+
+#include <gmpxx.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace tipp
 {
@@ -140,16 +143,17 @@ private:
     bool collinear = true;
     for (std::size_t first = 0, last = 0; first < points.size(); first = last)
     {
-      const Position place = points[first].At;
+      const Position position = points[first].At;
       std::int64_t used = 0;
-      for (last = first; last < points.size() && !check::isBefore(place, points[last].At); ++last)
+      for (last = first; last < points.size() && !check::isBefore(position, points[last].At);
+           ++last)
       {
         used += points[last].Used ? 1 : 0;
       }
       ++this->Report.DistinctPoints;
       this->Report.UnusedPoints += used == 0 ? 1 : 0;
       this->Report.TwinVertices += std::max<std::int64_t>(used - 1, 0);
-      collinear = collinear && check::turn(points.front().At, place, points.back().At) == 0;
+      collinear = collinear && check::turn(points.front().At, position, points.back().At) == 0;
     }
     if (collinear && this->Ids.empty())
     {
@@ -329,6 +333,159 @@ CheckReport checkDelaunay(const std::vector<double>& xy, const std::vector<std::
     return Checker<std::uint32_t>(xy, triangles, options, neighbors).run();
   }
   return Checker<std::uint64_t>(xy, triangles, options, neighbors).run();
+}
+
+namespace
+{
+
+using Ids = std::vector<std::int64_t>;
+
+class ChainFinder
+{
+public:
+  ChainFinder(const std::vector<double>& xy, const Ids& triangles)
+    : XY(xy)
+  {
+    const std::int64_t points = std::int64_t(xy.size() / 2);
+    for (std::size_t i = 0; i + 2 < triangles.size(); i += 3)
+    {
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const std::int64_t a = triangles[i + k];
+        const std::int64_t b = triangles[i + (k + 1) % 3];
+        if (std::min(a, b) >= 0 && std::max(a, b) < points)
+        {
+          this->Edges.push_back({ a, b });
+          this->Edges.push_back({ b, a });
+        }
+      }
+    }
+    std::sort(this->Edges.begin(), this->Edges.end());
+    this->Edges.erase(std::unique(this->Edges.begin(), this->Edges.end()), this->Edges.end());
+    for (const FixedEdge& edge : this->Edges)
+    {
+      // Of points with equal coordinates the mesh uses one.
+      this->VertexAt[{ this->x(edge[0]), this->y(edge[0]) }] = edge[0];
+    }
+  }
+
+  /// Appends the edges of the constraint's chain; returns false if there is none.
+  bool find(std::int64_t first, std::int64_t last, std::vector<FixedEdge>& edges)
+  {
+    if (!this->isFinite(first) || !this->isFinite(last) || this->isSame(first, last))
+    {
+      return true;
+    }
+    const auto a = this->VertexAt.find({ this->x(first), this->y(first) });
+    const auto b = this->VertexAt.find({ this->x(last), this->y(last) });
+    if (a == this->VertexAt.end() || b == this->VertexAt.end())
+    {
+      return false;
+    }
+    this->A = a->second;
+    this->B = b->second;
+    // Depth-first search: if vertices are a few units apart, a path may be a dead end.
+    std::vector<Ids> open{ this->onward(this->A) };
+    Ids way{ this->A };
+    while (!open.empty() && way.back() != this->B)
+    {
+      if (open.back().empty())
+      {
+        open.pop_back();
+        way.pop_back();
+        continue;
+      }
+      way.push_back(open.back().back());
+      open.back().pop_back();
+      open.push_back(way.back() == this->B ? Ids{} : this->onward(way.back()));
+    }
+    for (std::size_t i = 1; i < way.size(); ++i)
+    {
+      edges.push_back({ std::min(way[i - 1], way[i]), std::max(way[i - 1], way[i]) });
+    }
+    return !open.empty();
+  }
+
+private:
+  double x(std::int64_t id) const { return this->XY[2 * std::size_t(id)]; }
+  double y(std::int64_t id) const { return this->XY[2 * std::size_t(id) + 1]; }
+  bool isFinite(std::int64_t id) const
+  {
+    return std::isfinite(this->x(id)) && std::isfinite(this->y(id));
+  }
+  bool isSame(std::int64_t a, std::int64_t b) const
+  {
+    return this->x(a) == this->x(b) && this->y(a) == this->y(b);
+  }
+
+  /// Neighbours on the constraint that are nearer to its end, the nearest to the vertex last.
+  Ids onward(std::int64_t vertex) const
+  {
+    Ids next;
+    auto edge = std::lower_bound(this->Edges.begin(), this->Edges.end(), FixedEdge{ vertex, -1 });
+    for (; edge != this->Edges.end() && (*edge)[0] == vertex; ++edge)
+    {
+      const std::int64_t id = (*edge)[1];
+      if (this->isBefore(vertex, id) && (id == this->B || this->isBefore(id, this->B)) &&
+        this->isOnConstraint(id))
+      {
+        next.push_back(id);
+      }
+    }
+    std::sort(next.begin(), next.end(),
+      [this](std::int64_t p, std::int64_t q) { return this->isBefore(q, p); });
+    return next;
+  }
+
+  /// Whether p precedes q along the constraint in both coordinates.
+  bool isBefore(std::int64_t p, std::int64_t q) const
+  {
+    const double signX = this->x(this->B) < this->x(this->A) ? -1 : 1;
+    const double signY = this->y(this->B) < this->y(this->A) ? -1 : 1;
+    return signX * this->x(p) <= signX * this->x(q) && signY * this->y(p) <= signY * this->y(q) &&
+      !this->isSame(p, q);
+  }
+
+  static mpq_class twoUnits(double a, double b)
+  {
+    const double largest = std::max(std::fabs(a), std::fabs(b));
+    return 2 * (mpq_class(std::nextafter(largest, HUGE_VAL)) - mpq_class(largest));
+  }
+
+  bool isOnConstraint(std::int64_t id) const
+  {
+    const mpq_class ax(this->x(this->A));
+    const mpq_class ay(this->y(this->A));
+    const mpq_class dx = mpq_class(this->x(this->B)) - ax;
+    const mpq_class dy = mpq_class(this->y(this->B)) - ay;
+    const mpq_class off = dx * (mpq_class(this->y(id)) - ay) - dy * (mpq_class(this->x(id)) - ax);
+    return off == 0 ||
+      abs(off) <= abs(dx) * twoUnits(this->y(this->A), this->y(this->B)) +
+        abs(dy) * twoUnits(this->x(this->A), this->x(this->B));
+  }
+
+  const std::vector<double>& XY;
+  std::vector<FixedEdge> Edges; ///< in both directions, sorted
+  std::map<std::pair<double, double>, std::int64_t> VertexAt;
+  std::int64_t A = 0; ///< the ends of the current constraint
+  std::int64_t B = 0;
+};
+
+} // namespace
+
+ConstraintChains findConstraintChains(const std::vector<double>& xy,
+  const std::vector<std::int64_t>& triangles,
+  const std::vector<std::array<std::int64_t, 2>>& constraints)
+{
+  ConstraintChains chains;
+  ChainFinder finder(xy, triangles);
+  for (const auto& constraint : constraints)
+  {
+    chains.Lost += finder.find(constraint[0], constraint[1], chains.Edges) ? 0 : 1;
+  }
+  std::sort(chains.Edges.begin(), chains.Edges.end());
+  chains.Edges.erase(std::unique(chains.Edges.begin(), chains.Edges.end()), chains.Edges.end());
+  return chains;
 }
 
 } // namespace tipp

@@ -3,6 +3,12 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <set>
+
 namespace tipp
 {
 namespace check
@@ -28,6 +34,131 @@ int inCircle(Position a, Position b, Position c, Position d)
 {
   return static_cast<int>(
     Kernel::Side_of_oriented_circle_2()(point(a), point(b), point(c), point(d)));
+}
+
+} // namespace check
+namespace check
+{
+namespace
+{
+
+class Chain
+{
+public:
+  Chain(const std::vector<double>& xy, const std::vector<DirectedEdge>& edges)
+    : XY(xy)
+    , Edges(edges)
+  {
+  }
+
+  // Follows the chain from its first edge. A chain that always turns left may still wind around
+  // several times; then it has several lexicographic minima.
+  std::int64_t countFaults() const
+  {
+    std::int64_t faults = 0;
+    std::int64_t minima = 0;
+    std::size_t length = 0;
+    const DirectedEdge* edge = this->Edges.data();
+    do
+    {
+      const DirectedEdge* const next = this->edgeFrom(edge->To);
+      if (!next)
+      {
+        return this->rest(length);
+      }
+      const Position a = this->at(edge->From);
+      const Position b = this->at(edge->To);
+      const Position c = this->at(next->To);
+      faults += turnsWrongly(a, b, c) ? 1 : 0;
+      minima += isBefore(b, a) && isBefore(b, c) ? 1 : 0;
+      edge = next;
+      ++length;
+    } while (edge != this->Edges.data() && length < this->Edges.size());
+    const bool closed = edge == this->Edges.data();
+    return faults + (closed ? this->rest(length) : std::int64_t(this->Edges.size())) +
+      (minima == 1 ? 0 : 1);
+  }
+
+private:
+  std::int64_t rest(std::size_t length) const { return std::int64_t(this->Edges.size() - length); }
+
+  static bool turnsWrongly(Position a, Position b, Position c)
+  {
+    const int turned = turn(a, b, c);
+    return turned < 0 || (turned == 0 && isBefore(a, b) != isBefore(b, c));
+  }
+
+  Position at(std::int64_t id) const
+  {
+    return { this->XY[2 * std::size_t(id)], this->XY[2 * std::size_t(id) + 1] };
+  }
+
+  // Null if no edge or several edges start there.
+  const DirectedEdge* edgeFrom(std::int64_t id) const
+  {
+    const auto [first, last] =
+      std::equal_range(this->Edges.begin(), this->Edges.end(), DirectedEdge{ id, 0 },
+        [](const DirectedEdge& a, const DirectedEdge& b) { return a.From < b.From; });
+    return last - first == 1 ? &*first : nullptr;
+  }
+
+  const std::vector<double>& XY;
+  const std::vector<DirectedEdge>& Edges;
+};
+
+} // namespace
+
+std::int64_t countHullFaults(const std::vector<double>& xy, std::vector<DirectedEdge>& edges)
+{
+  std::sort(edges.begin(), edges.end(),
+    [](const DirectedEdge& a, const DirectedEdge& b)
+    { return a.From < b.From || (a.From == b.From && a.To < b.To); });
+  return edges.empty() ? 0 : Chain(xy, edges).countFaults();
+}
+
+std::int64_t countOffHull(const std::vector<double>& xy, const std::vector<DirectedEdge>& edges)
+{
+  if (edges.empty())
+  {
+    return 0;
+  }
+  std::vector<Position> points;
+  for (std::size_t i = 0; i + 1 < xy.size(); i += 2)
+  {
+    if (std::isfinite(xy[i]) && std::isfinite(xy[i + 1]))
+    {
+      points.push_back({ xy[i], xy[i + 1] });
+    }
+  }
+  std::sort(points.begin(), points.end(), isBefore);
+  const auto isSame = [](Position a, Position b) { return a.x == b.x && a.y == b.y; };
+  points.erase(std::unique(points.begin(), points.end(), isSame), points.end());
+  // The lower chain from left to right, then the upper one back.
+  std::set<std::array<double, 4>> hull;
+  for (int side = 0; side < 2; ++side)
+  {
+    std::vector<Position> chain;
+    for (const Position& p : points)
+    {
+      while (chain.size() > 1 && turn(chain[chain.size() - 2], chain.back(), p) < 0)
+      {
+        chain.pop_back();
+      }
+      chain.push_back(p);
+    }
+    for (std::size_t i = 1; i < chain.size(); ++i)
+    {
+      hull.insert({ chain[i - 1].x, chain[i - 1].y, chain[i].x, chain[i].y });
+    }
+    std::reverse(points.begin(), points.end());
+  }
+  return std::count_if(edges.begin(), edges.end(),
+    [&](const DirectedEdge& edge)
+    {
+      const std::size_t from = 2 * std::size_t(edge.From);
+      const std::size_t to = 2 * std::size_t(edge.To);
+      return hull.count({ xy[from], xy[from + 1], xy[to], xy[to + 1] }) == 0;
+    });
 }
 
 } // namespace check

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Check/PieceChecker.h"
 
-#include "Check/Hull.h"
+#include "Check/ExactTests.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,9 +106,9 @@ void PieceChecker::checkPoints(const CheckedPiece& piece)
     [&](std::int32_t a, std::int32_t b) { return check::isBefore(at(piece, a), at(piece, b)); });
   for (std::size_t first = 0, last = 0; first < own.size(); first = last)
   {
-    const Position place = at(piece, own[first]);
+    const Position position = at(piece, own[first]);
     std::int64_t vertices = 0;
-    for (last = first; last < own.size() && isSame(place, at(piece, own[last])); ++last)
+    for (last = first; last < own.size() && isSame(position, at(piece, own[last])); ++last)
     {
       vertices += used[std::size_t(own[last])] ? 1 : 0;
     }
@@ -117,11 +117,11 @@ void PieceChecker::checkPoints(const CheckedPiece& piece)
     this->Report.TwinVertices += std::max<std::int64_t>(vertices - 1, 0);
     if (this->Line.size() < 2)
     {
-      this->Line.push_back(place);
+      this->Line.push_back(position);
     }
     else if (this->IsCollinear)
     {
-      this->IsCollinear = check::turn(this->Line[0], this->Line[1], place) == 0;
+      this->IsCollinear = check::turn(this->Line[0], this->Line[1], position) == 0;
     }
   }
 }
@@ -268,7 +268,7 @@ CheckReport PieceChecker::finish()
   {
     return this->Report;
   }
-  std::unordered_map<std::int64_t, std::int64_t> places;
+  std::unordered_map<std::int64_t, std::int64_t> indices;
   std::vector<double> xy;
   std::vector<check::DirectedEdge> hull;
   for (const Edge& edge : this->Open)
@@ -276,7 +276,7 @@ CheckReport PieceChecker::finish()
     std::int64_t ends[2];
     for (std::size_t i = 0; i < 2; ++i)
     {
-      const auto [found, isNew] = places.emplace(edge.Ids[i], std::int64_t(xy.size() / 2));
+      const auto [found, isNew] = indices.emplace(edge.Ids[i], std::int64_t(xy.size() / 2));
       if (isNew)
       {
         xy.push_back(edge.Ends[i].x);

@@ -2,14 +2,19 @@
 #ifndef tippDelaunayArguments_h
 #define tippDelaunayArguments_h
 
+#include "Constraints/ConstraintTable.h"
 #include "Distributed/DistributedOptions.h"
 #include "Duplicates/ResolveDuplicates.h"
+#include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
+#include "Triangulation/Triangulate.h"
 
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+class vtkMultiProcessController;
 
 namespace tipp
 {
@@ -63,6 +68,33 @@ struct MinorChoice
 std::optional<MinorChoice> parseMinor(const std::string& text);
 
 DistributedOptions makeDistributedOptions(const DelaunayArguments& arguments);
+
+/// Reads the closed lines of a boundary. Throws IOError.
+ConstraintTable readBoundary(const std::string& path);
+
+/// Triangulates with the constraints that --constraints and --boundary name. The points of their
+/// files that are not among the points come after these, then the points where constraints cross. A
+/// column of the new points is what the constraints' file has as height, if it is named z; else
+/// NaN. A column of a crossing is interpolated. `report` becomes a line about the constraints.
+/// Throws IOError.
+Triangulation triangulateWithConstraints(const DelaunayArguments& arguments, PointTable& points,
+  const TriangulationOptions& options, std::string& report);
+
+/// Runs `tipp delaunay` on the ranks of a controller, or on this process alone (null). Every rank
+/// reads its share of the points; the first one writes the output and prints messages. Returns the
+/// exit code, the same on all ranks.
+int runDelaunayOnRanks(const DelaunayArguments& arguments, vtkMultiProcessController* controller);
+
+/// Whether the output is a partitioned mesh, which is computed out of core.
+bool isOutOfCore(const DelaunayArguments& arguments);
+
+/// Runs `tipp delaunay` with such an output on the ranks of a controller, or on this process alone
+/// (null). Returns the exit code, the same on all ranks.
+int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessController* controller);
+
+/// Returns the given options that are valid only for such an output, if the output is another one;
+/// empty if there are none.
+std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments);
 
 } // namespace tipp
 

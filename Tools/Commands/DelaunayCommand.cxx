@@ -2,16 +2,12 @@
 #include "Commands/Commands.h"
 
 #include "Commands/DelaunayArguments.h"
-#include "Commands/DelaunayConstraints.h"
-#include "Commands/DelaunayOnRanks.h"
-#include "Commands/DelaunayOutOfCore.h"
 #include "Commands/DelaunayOutput.h"
-#include "Commands/DelaunayStatistics.h"
-#include "Commands/MemorySize.h"
 #include "Commands/PointArguments.h"
-#include "Console/Interrupt.h"
+#include "Commands/Report.h"
 #include "Console/MpiSession.h"
 #include "Console/ProgressBar.h"
+#include "Console/Signals.h"
 #include "Files/Extension.h"
 #include "Meshes/WriteMesh.h"
 #include "Parallel/Stopwatch.h"
@@ -141,7 +137,7 @@ int runDelaunay(const DelaunayArguments& arguments)
   {
     fmt::print("{}\n", constraintReport);
   }
-  warnOfNoTriangles(result);
+  warnOfNoTriangles(std::int64_t(result.triangleCount()));
   return Success;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Commands/DelaunayOnRanks.h"
+#include "Commands/DelaunayArguments.h"
 
 #include "Commands/Commands.h"
 #include "Commands/DelaunayOutput.h"
-#include "Commands/DelaunayStatistics.h"
-#include "Console/Interrupt.h"
+#include "Commands/Report.h"
 #include "Console/ProgressBar.h"
+#include "Console/Signals.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "Files/Extension.h"
 #include "Messages/Communicator.h"
@@ -27,13 +27,13 @@ Triangulation gatherTriangles(Communicator& ranks, const DistributedTriangulatio
 {
   const std::int64_t own = std::int64_t(mine.Owned.size());
   Bytes ids(mine.triangleCount() * 3 * sizeof(std::int64_t));
-  const auto fill = [&](const auto& places)
+  const auto fill = [&](const auto& indices)
   {
     auto* to = reinterpret_cast<std::int64_t*>(ids.data());
-    for (const std::int64_t place : places)
+    for (const std::int64_t index : indices)
     {
-      *to++ = place < own ? mine.Owned.GlobalIds[std::size_t(place)]
-                          : mine.Foreign.GlobalIds[std::size_t(place - own)];
+      *to++ = index < own ? mine.Owned.GlobalIds[std::size_t(index)]
+                          : mine.Foreign.GlobalIds[std::size_t(index - own)];
     }
   };
   mine.Ids32.empty() ? fill(mine.Ids64) : fill(mine.Ids32);
@@ -85,7 +85,7 @@ void writeOnFirst(Communicator& ranks, const DelaunayArguments& arguments, Delau
     writeStatistics(arguments.Statistics, run, mine);
   }
   fmt::print("{}\n", summarize(run, all, mine.Statistics));
-  warnOfNoTriangles(all);
+  warnOfNoTriangles(mine.AllTriangles);
 }
 
 void runTogether(Communicator& ranks, const DelaunayArguments& arguments)

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Commands/DelaunayOutOfCore.h"
+#include "Commands/DelaunayArguments.h"
 
 #include "Commands/Commands.h"
-#include "Commands/MemorySize.h"
-#include "Commands/OutOfCoreRun.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Files/Extension.h"
@@ -73,35 +71,17 @@ std::int64_t sumOf(const std::vector<ProcessUsage>& ranks, std::int64_t ProcessU
 void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& statistics,
   const std::vector<ProcessUsage>& ranks)
 {
-  nlohmann::ordered_json json = {
-    { "input", arguments.Inputs },
-    { "output", arguments.Output },
-    { "points", statistics.Points },
-    { "triangles", statistics.Triangles },
-    { "triangle_sum", fmt::format("{:016x}", statistics.TriangleSum) },
-    { "duplicates", statistics.Duplicates },
-    { "disagreeing_places", statistics.DisagreeingPlaces },
-    { "rejected", statistics.Rejected },
-    { "pieces", statistics.Pieces },
-    { "partitions", statistics.Partitions },
-    { "worker_vertices", statistics.WorkerVertices },
-    { "boundary_bytes", statistics.BoundaryBytes },
-    { "spilled_bytes", statistics.SpilledBytes },
-    { "mesh_bytes", statistics.MeshBytes },
+  const nlohmann::ordered_json usage = {
     { "read_bytes", sumOf(ranks, &ProcessUsage::Read) },
     { "written_bytes", sumOf(ranks, &ProcessUsage::Written) },
-    { "resumed", statistics.Resumed },
     { "seconds", totalSeconds(statistics) },
     { "peak_memory_bytes", largestMemory(ranks) },
     { "rank_memory_bytes", listOf(ranks, &ProcessUsage::PeakMemory) },
     { "ranks", ranks.size() },
-    { "threads", statistics.Threads },
-    { "phases", nlohmann::ordered_json::array() },
   };
-  for (const OutOfCoreStatistics::Phase& phase : statistics.Phases)
-  {
-    json["phases"].push_back({ { "name", phase.Name }, { "seconds", phase.Seconds } });
-  }
+  nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output } };
+  json.update(jsonOf(statisticsOf(statistics, arguments.Sink == "count")));
+  json.update(usage);
   writeJson(arguments.Statistics, json);
 }
 
@@ -130,12 +110,7 @@ void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& s
   const bool isCounted = arguments.Sink == "count";
   fmt::print("{}{}\n", summarize(statistics, ranks),
     isCounted ? fmt::format(", checksum {:016x}", statistics.TriangleSum) : "");
-  if (statistics.Triangles == 0)
-  {
-    fmt::print(stderr,
-      "tipp: warning: no triangles, since there are fewer than three distinct points or all lie on "
-      "one line.\n");
-  }
+  warnOfNoTriangles(statistics.Triangles);
 }
 
 } // namespace

@@ -2,7 +2,9 @@
 #include "Commands/DelaunayOutput.h"
 
 #include "Adcirc/AdcircGrid.h"
-#include "Console/Interrupt.h"
+#include "Commands/PointArguments.h"
+#include "Commands/Report.h"
+#include "Console/Signals.h"
 #include "Files/Extension.h"
 #include "Files/PendingFile.h"
 #include "Files/RequireApart.h"
@@ -119,14 +121,66 @@ PathState requireWritable(const DelaunayArguments& arguments)
   return output.before();
 }
 
-void warnOfNoTriangles(const Triangulation& result)
+namespace
 {
-  if (result.triangleCount() == 0)
+
+double pointsPerSecond(const DelaunayRun& run)
+{
+  return run.TriangulateSeconds > 0 ? double(run.Points) / run.TriangulateSeconds : 0;
+}
+
+nlohmann::ordered_json describeRun(const DelaunayRun& run)
+{
+  return {
+    { "input", run.Input },
+    { "output", run.Output },
+    { "points", run.Points },
+    { "disagreeing_places", run.DisagreeingPlaces },
+    { "read_seconds", run.ReadSeconds },
+    { "triangulate_seconds", run.TriangulateSeconds },
+    { "write_seconds", run.WriteSeconds },
+    { "points_per_second", pointsPerSecond(run) },
+    { "peak_memory_bytes", peakMemoryBytes() },
+  };
+}
+
+} // namespace
+
+std::string summarize(const DelaunayRun& run, const Triangulation& result)
+{
+  const std::string rejected =
+    result.Rejected.empty() ? "" : fmt::format(", {} rejected", result.Rejected.size());
+  return fmt::format("{} points, {} triangles, {}{}, {:.3f} s, {:.0f} points/s, peak "
+                     "memory {:.0f} MB",
+    run.Points, result.triangleCount(),
+    describeDuplicates(std::int64_t(result.Duplicates.size()), run.DisagreeingPlaces), rejected,
+    run.TriangulateSeconds, pointsPerSecond(run), double(peakMemoryBytes()) / 1e6);
+}
+
+void writeStatistics(const std::string& path, const DelaunayRun& run, const Triangulation& result)
+{
+  nlohmann::ordered_json json = describeRun(run);
+  json.update(jsonOf(statisticsOf(result, run.Points, std::int64_t(result.triangleCount()))));
+  writeJson(path, json);
+}
+
+std::string summarize(
+  const DelaunayRun& run, const Triangulation& all, const DistributedStatistics& statistics)
+{
+  return fmt::format("{}, {} ranks of {} threads", summarize(run, all), statistics.Ranks.size(),
+    statistics.ThreadsPerRank);
+}
+
+void writeStatistics(
+  const std::string& path, const DelaunayRun& run, const DistributedTriangulation& result)
+{
+  nlohmann::ordered_json json = describeRun(run);
+  json.update(jsonOf(statisticsOf(result)));
+  for (std::size_t i = 0; i < result.Statistics.Masters.size(); ++i)
   {
-    fmt::print(stderr,
-      "tipp: warning: no triangles, since there are fewer than three distinct points or all lie on "
-      "one line.\n");
+    json["masters"][i]["stages"] = jsonOf(stagesOf(result.Statistics.Masters[i].Stages));
   }
+  writeJson(path, json);
 }
 
 } // namespace tipp

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+class vtkMultiProcessController;
+
 namespace tipp
 {
 
@@ -57,6 +59,11 @@ void requireDemWritable(const DemArguments& arguments);
 
 /// Prints the summary, and writes the statistics if they are asked for.
 void finishDem(const DemArguments& arguments, const DemReport& report);
+
+/// `tipp dem` with a limit of memory, on the ranks of a controller or on this process alone (null).
+/// Returns the exit code, the same on all ranks.
+int runDemOutOfCore(
+  const DemArguments& arguments, vtkMultiProcessController* controller, DemReport& report);
 
 } // namespace tipp
 

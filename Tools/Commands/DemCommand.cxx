@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
-#include "Commands/DelaunayConstraints.h"
+#include "Commands/DelaunayArguments.h"
 #include "Commands/DemArguments.h"
-#include "Commands/DemOutOfCore.h"
-#include "Commands/MemorySize.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
-#include "Console/Interrupt.h"
 #include "Console/MpiSession.h"
 #include "Console/ProgressBar.h"
+#include "Console/Signals.h"
 #include "Constraints/ReadConstraintFile.h"
 #include "Files/IOError.h"
 #include "Files/RequireApart.h"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Commands/DemOutOfCore.h"
+#include "Commands/DemArguments.h"
 
 #include "Commands/Commands.h"
-#include "Commands/MemorySize.h"
-#include "Commands/OutOfCoreRun.h"
 #include "Commands/PointArguments.h"
+#include "Commands/Report.h"
 #include "Dem/RasterSink.h"
 #include "Files/IOError.h"
 #include "Points/PointStream.h"

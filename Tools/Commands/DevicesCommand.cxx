@@ -2,7 +2,7 @@
 #include "Commands/Commands.h"
 
 #include "Console/MpiSession.h"
-#include "OpenCL/DeviceList.h"
+#include "OpenCL/Devices.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
-#include "Console/Interrupt.h"
 #include "Console/MpiSession.h"
+#include "Console/Signals.h"
 #include "Files/Extension.h"
 #include "Files/PendingFolder.h"
 #include "Files/RequireApart.h"

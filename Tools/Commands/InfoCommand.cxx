@@ -2,8 +2,8 @@
 #include "Commands/Commands.h"
 
 #include "Commands/PointArguments.h"
-#include "Console/Interrupt.h"
 #include "Console/MpiSession.h"
+#include "Console/Signals.h"
 #include "Files/Extension.h"
 #include "Las/LasHeader.h"
 #include "Parallel/Poll.h"
@@ -26,7 +26,7 @@ namespace
 constexpr const char* footer =
   R"(Reads all points of the files, as 'tipp delaunay' does, in blocks, and prints how many there
 are, their bounds, the columns with their ranges, the coordinate reference system, how many points
-share a place with another, and a resolution for 'tipp dem' that has about one point a pixel.
+have the coordinates of another, and a resolution for 'tipp dem' that has about one point a pixel.
 
 Examples:
   tipp info tile.las
@@ -72,10 +72,10 @@ struct Summary
   Range Y;
   std::vector<Range> Columns;
   /// The finite points, unless there are too many to search for duplicates.
-  std::vector<Point2> Places;
+  std::vector<Point2> Compared;
 };
 
-constexpr std::size_t mostPlaces = 20000000;
+constexpr std::size_t mostCompared = 20000000;
 
 Summary read(PointStream& stream)
 {
@@ -93,9 +93,9 @@ Summary read(PointStream& stream)
         summary.NotFinite += isGood ? 0 : 1;
         summary.X.add(p.x);
         summary.Y.add(p.y);
-        if (isGood && summary.Places.size() <= mostPlaces)
+        if (isGood && summary.Compared.size() <= mostCompared)
         {
-          summary.Places.push_back(p);
+          summary.Compared.push_back(p);
         }
       }
       for (std::size_t column = 0; column < points.Columns.size(); ++column)
@@ -110,17 +110,17 @@ Summary read(PointStream& stream)
   return summary;
 }
 
-std::string duplicatesOf(std::vector<Point2>& places)
+std::string duplicatesOf(std::vector<Point2>& points)
 {
-  if (places.size() > mostPlaces)
+  if (points.size() > mostCompared)
   {
-    return fmt::format("not counted, for more than {} points", mostPlaces);
+    return fmt::format("not counted, for more than {} points", mostCompared);
   }
-  std::sort(places.begin(), places.end(),
+  std::sort(points.begin(), points.end(),
     [](Point2 a, Point2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
   const auto end = std::unique(
-    places.begin(), places.end(), [](Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; });
-  return std::to_string(places.end() - end);
+    points.begin(), points.end(), [](Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; });
+  return std::to_string(points.end() - end);
 }
 
 /// The nearest of 1, 2 or 5 times a power of ten.
@@ -171,7 +171,7 @@ int runInfo(const InfoArguments& arguments)
   }
   const std::string crs = stream->crs();
   fmt::print("CRS         {}\n", crs.empty() ? "not given" : crs);
-  fmt::print("duplicates  {}\n", duplicatesOf(summary.Places));
+  fmt::print("duplicates  {}\n", duplicatesOf(summary.Compared));
   const double area = (summary.X.High - summary.X.Low) * (summary.Y.High - summary.Y.Low);
   if (area > 0 && std::isfinite(area))
   {

@@ -1,9 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Report.h"
 
+#include "Commands/Commands.h"
+#include "Console/ProgressBar.h"
+#include "Console/Signals.h"
 #include "Files/PendingFile.h"
 
+#include <fmt/format.h>
+#include <malloc.h>
 #include <sys/resource.h>
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <utility>
 
 namespace tipp
 {
@@ -15,6 +25,47 @@ std::int64_t peakMemoryBytes()
   return std::int64_t(usage.ru_maxrss) * 1024; // Linux counts in KiB
 }
 
+nlohmann::ordered_json jsonOf(const FigureList& list)
+{
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const Figures& column : list.Columns)
+  {
+    const auto add = [&](const auto& values)
+    {
+      for (std::size_t i = 0; i < values.size() && !column.Key.empty(); ++i)
+      {
+        rows[i][column.Key] = values[i];
+      }
+    };
+    std::visit(add, column.Values);
+  }
+  return rows;
+}
+
+nlohmann::ordered_json jsonOf(const RunStatistics& statistics)
+{
+  FigureList totals{ "", false, statistics.Totals };
+  nlohmann::ordered_json json = jsonOf(totals)[0];
+  for (const FigureList& list : statistics.Lists)
+  {
+    if (!list.Key.empty())
+    {
+      json[list.Key] = jsonOf(list);
+    }
+  }
+  return json;
+}
+
+void warnOfNoTriangles(std::int64_t triangles)
+{
+  if (triangles == 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: no triangles, since there are fewer than three distinct points or all lie on "
+      "one line.\n");
+  }
+}
+
 void writeJson(const std::string& path, const nlohmann::ordered_json& json)
 {
   PendingFile pending(path);
@@ -23,6 +74,103 @@ void writeJson(const std::string& path, const nlohmann::ordered_json& json)
     json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
   pending.file().write(0, text.data(), text.size());
   pending.commit();
+}
+
+namespace
+{
+
+/// What the process has read and written so far, in bytes: "rchar" and "wchar" of Linux's
+/// /proc/self/io.
+std::int64_t movedBytes(const std::string& name)
+{
+  std::ifstream file("/proc/self/io");
+  std::string label;
+  std::int64_t bytes = 0;
+  while (file >> label >> bytes)
+  {
+    if (label == name + ":")
+    {
+      return bytes;
+    }
+  }
+  return 0;
+}
+
+} // namespace
+
+int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints& open,
+  const std::string& path, OutOfCoreOptions options, OutOfCoreStatistics& statistics)
+{
+  // Large blocks go back to the system when they are freed, whatever was freed before.
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  const bool isFirst = ranks.rank() == 0;
+  std::unique_ptr<ProgressBar> bar;
+  const auto start = [&] { bar = std::make_unique<ProgressBar>(title); };
+  options.Progress = [&bar](double fraction)
+  {
+    if (bar)
+    {
+      bar->update(fraction);
+    }
+    return !isInterrupted();
+  };
+  options.Warn = [&](const std::string& sentence)
+  {
+    bar.reset();
+    fmt::print(stderr, "tipp: warning: {}\n", sentence);
+    start();
+  };
+  const auto openFirst = [&]
+  {
+    auto points = open();
+    isFirst ? start() : void();
+    return points;
+  };
+  try
+  {
+    statistics = triangulateOutOfCoreOnRanks(ranks, openFirst, path, options);
+  }
+  catch (const RankFailure& failure)
+  {
+    bar.reset();
+    if (isFirst)
+    {
+      fmt::print(stderr, "tipp: {}{}\n",
+        ranks.size() > 1 ? fmt::format("rank {}: ", failure.Rank) : "", failure.what());
+    }
+    return Failure;
+  }
+  bar.reset();
+  return statistics.Aborted
+    ? reportInterrupt(
+        statistics.Kept ? "the same command with --resume goes on" : "nothing was written")
+    : Success;
+}
+
+ProcessUsage::ProcessUsage()
+  : PeakMemory(peakMemoryBytes())
+  , Read(movedBytes("rchar"))
+  , Written(movedBytes("wchar"))
+{
+}
+
+std::vector<ProcessUsage> gatherUsage(Communicator& ranks)
+{
+  ByteWriter writer;
+  writer.value(ProcessUsage());
+  std::vector<ProcessUsage> all;
+  for (const Bytes& bytes : ranks.gather(writer.take()))
+  {
+    all.push_back(ByteReader(bytes).value<ProcessUsage>());
+  }
+  return all;
+}
+
+std::int64_t largestMemory(const std::vector<ProcessUsage>& ranks)
+{
+  return std::max_element(ranks.begin(), ranks.end(),
+    [](const ProcessUsage& a, const ProcessUsage& b) { return a.PeakMemory < b.PeakMemory; })
+    ->PeakMemory;
 }
 
 } // namespace tipp

@@ -2,10 +2,14 @@
 #ifndef tippReport_h
 #define tippReport_h
 
+#include "OutOfCore/OutOfCoreRanks.h"
+#include "Output/RunStatistics.h"
+
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace tipp
 {
@@ -13,8 +17,37 @@ namespace tipp
 /// The peak memory of this process so far.
 std::int64_t peakMemoryBytes();
 
+/// The figures of a run that have a Key: totals, and for each list an array of objects.
+nlohmann::ordered_json jsonOf(const RunStatistics& statistics);
+/// An object for each row of a list.
+nlohmann::ordered_json jsonOf(const FigureList& list);
+
+/// Prints a warning if a run has made no triangles.
+void warnOfNoTriangles(std::int64_t triangles);
+
 /// Writes a JSON file; throws IOError.
 void writeJson(const std::string& path, const nlohmann::ordered_json& json);
+
+/// triangulateOutOfCoreOnRanks() with a progress bar of this title, warnings, and Ctrl-C. `open` is
+/// called on all ranks. Returns Success on all ranks, or the exit code of a failed or interrupted
+/// run, about which the user has been told.
+int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints& open,
+  const std::string& path, OutOfCoreOptions options, OutOfCoreStatistics& statistics);
+
+/// What a process has used, which /proc and the system know.
+struct ProcessUsage
+{
+  ProcessUsage();
+
+  std::int64_t PeakMemory;
+  std::int64_t Read;
+  std::int64_t Written;
+};
+
+/// On the first rank, of all; collective.
+std::vector<ProcessUsage> gatherUsage(Communicator& ranks);
+
+std::int64_t largestMemory(const std::vector<ProcessUsage>& ranks);
 
 } // namespace tipp
 

@@ -3,10 +3,13 @@
 #define tippResampleOutput_h
 
 #include "Files/PendingFile.h"
+#include "Partitioning/Ranks.h"
 
 #include <string>
+#include <vector>
 
 class vtkImageData;
+class vtkDataSet;
 
 namespace tipp
 {
@@ -22,6 +25,14 @@ void writeNpy(
 /// band. Throws IOError.
 void writeGeoTiff(const std::string& path, vtkImageData* image, const std::string& crs,
   double noData, int threads, const PathState& before);
+
+/// If every rank has read the whole mesh: hides the cells of the other ranks' shares.
+void hideOtherShares(vtkDataSet* mesh, const Ranks& ranks);
+
+/// For each name what it is in the mesh of all ranks: 'p' for a point array, 'c' for a cell array,
+/// ' ' for neither. Ranks without a cell may lack arrays that others have. Collective.
+std::string associationsOf(
+  const std::vector<std::string>& arrays, vtkDataSet* mesh, const Ranks& ranks);
 
 } // namespace tipp
 

@@ -2,13 +2,26 @@
 #ifndef tippProgressBar_h
 #define tippProgressBar_h
 
-#include "Console/TimeLeft.h"
 #include "Parallel/Stopwatch.h"
 
 #include <string>
 
 namespace tipp
 {
+
+/// Estimates the remaining time of a task from the progress since the first report: work that an
+/// earlier, interrupted run did is not counted.
+class TimeLeft
+{
+public:
+  /// Returns text such as "about 12 min left"; empty while there is too little data. `seconds` is
+  /// the time on any clock of the caller's.
+  std::string update(double fraction, double seconds);
+
+private:
+  double FirstFraction = -1;
+  double FirstSeconds = 0;
+};
 
 /// A progress line on stderr, cleared at the end; prints nothing if stderr is not a terminal.
 class ProgressBar

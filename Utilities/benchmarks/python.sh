@@ -20,7 +20,7 @@ sh Utilities/build.sh default --target tipp_python
 echo "== python3"
 PYTHONPATH="$top/build/lib/python3/dist-packages" \
   /usr/bin/python3 Testing/Benchmarks/python_overhead.py "$points" "$repeat"
-plugin=$top/build-paraview/lib/paraview-5.11/plugins/TIPPPlugin
+plugin=$(ls -d "$top"/build-paraview/lib/paraview-*/plugins/TIPPPlugin 2> /dev/null | tail -n 1)
 if [ -d "$plugin/python/tipp" ]; then
   echo "== pvbatch"
   PYTHONPATH="$plugin/python:$top/build-paraview/debian/python3-paraview/usr/lib/python3/dist-packages" \

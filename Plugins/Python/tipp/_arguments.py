@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks of arguments: each returns the value in the type that VTK takes, or raises one sentence that names it."""
+"""Checks of arguments, and progress: a bar, or a function of the user's."""
 from __future__ import annotations
 
 import math
@@ -7,7 +7,8 @@ import numbers
 import operator
 import os
 import re
-from typing import Any, Iterable, Mapping
+import sys
+from typing import Any, Callable, Iterable, Mapping, Union
 
 import numpy as np
 
@@ -61,6 +62,8 @@ def memory(value: Any, name: str) -> int:
 
 
 def flag(value: Any, name: str) -> bool:
+    if value is True or value is False:
+        return value
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError(f"{name} is {_shown(value)}; give True or False.")
     return bool(value)
@@ -138,3 +141,30 @@ def _shown(value: Any) -> str:
         shown = ""
     shown = " ".join(shown.split())
     return shown if shown and len(shown) <= 60 else f"of type {type(value).__name__}"
+
+
+Progress = Callable[[float], Any]
+"""Told the fraction done; the run ends if it returns False or raises."""
+ProgressBar = Union[bool, Progress]
+
+STOPPED = "the progress callback stopped the run."
+_BAR = 40  # characters
+
+
+def _show(fraction: float) -> None:
+    done = int(_BAR * min(max(fraction, 0.0), 1.0))
+    sys.stderr.write(f"\r[{'#' * done}{' ' * (_BAR - done)}] {100 * fraction:3.0f} %")
+    sys.stderr.flush()
+
+
+def progress_of(progress_bar: Any) -> Progress | None:
+    """What `progress_bar` asks for: True, False or a function."""
+    if callable(progress_bar) and not isinstance(progress_bar, type):
+        return progress_bar
+    return _show if flag(progress_bar, "progress_bar") else None
+
+
+def finish(progress: Progress | None) -> None:
+    """Ends the line of a bar."""
+    if progress is _show:
+        sys.stderr.write("\n")

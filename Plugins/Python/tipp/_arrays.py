@@ -1,16 +1,66 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the functions take as arrays, and the arrays of data sets."""
+"""Arrays of points and values; meshes and images of arrays for Pythons without VTK."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Mapping, TYPE_CHECKING
 
 import numpy as np
 
 from ._arguments import data_object, text
-from ._data import Data
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
+
+
+class Data:
+    """What Mesh and Image have in common."""
+
+    point_data: dict[str, np.ndarray]
+    cell_data: dict[str, np.ndarray]
+
+    def array(self, name: str) -> np.ndarray:
+        """An array of the points, else of the cells, else of a mesh's lines."""
+        groups = [self.point_data, self.cell_data, getattr(self, "line_data", {})]
+        for arrays in groups:
+            if name in arrays:
+                return arrays[name]
+        raise KeyError(f"there is no array '{name}'; there are {[known for arrays in groups for known in arrays]}.")
+
+
+@dataclass
+class Mesh(Data):
+    """A mesh of triangles or tetrahedra.
+
+    `points` are (n, 3) coordinates, `cells` (m, 3) or (m, 4) point ids; `lines` and `vertices` are what
+    delaunay_2d(alpha=...) leaves besides triangles. With marks="lines", `lines` are those of the constraints and
+    `line_data["ConstraintId"]` tells which.
+    """
+
+    points: np.ndarray
+    cells: np.ndarray
+    point_data: dict[str, np.ndarray] = field(default_factory=dict)
+    cell_data: dict[str, np.ndarray] = field(default_factory=dict)
+    lines: np.ndarray | None = None
+    vertices: np.ndarray | None = None
+    line_data: dict[str, np.ndarray] = field(default_factory=dict)
+
+
+@dataclass
+class Image(Data):
+    """Samples at origin + index * spacing; as_array() gives them in the image's shape."""
+
+    origin: tuple[float, float, float]
+    spacing: tuple[float, float, float]
+    dimensions: tuple[int, int, int]
+    point_data: dict[str, np.ndarray] = field(default_factory=dict)
+    cell_data: dict[str, np.ndarray] = field(default_factory=dict)
+
+    def array(self, name: str) -> np.ndarray:
+        """An array in the image's shape, (z, y, x) without axes of one sample."""
+        values = super().array(name)
+        shape = [n for n in reversed(self.dimensions) if n > 1] or [1]
+        return values.reshape(*shape, *values.shape[1:])
 
 
 _DOUBLE = np.dtype(np.float64)
@@ -117,7 +167,7 @@ def as_array(data: Any, name: str) -> np.ndarray:
     if isinstance(data, Data):
         return data.array(name)
     data_object(data, "data", ("vtkDataSet",), "a VTK data set")
-    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from ._vtkmodules import vtk_to_numpy
 
     of_points, of_cells = data.GetPointData(), data.GetCellData()
     array = of_points.GetArray(name) or of_cells.GetArray(name)

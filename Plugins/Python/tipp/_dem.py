@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _arguments as check
 from . import _engine
-from ._progress import ProgressBar, progress_of
+from ._arguments import ProgressBar, progress_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -82,7 +82,7 @@ def dem(
     max_edge
         Triangles with an edge longer than this, in the plane, have no values. 0: all have.
     duplicates
-        Of several points at one place the values of the "first", of the lowest ("min") or highest ("max"), or of each
+        Of several points at one position the values of the "first", of the lowest ("min") or highest ("max"), or of each
         column the "mean".
     thin
         (side, rule): keeps one point in each square of this side: the lowest ("min"), the highest ("max"), or the

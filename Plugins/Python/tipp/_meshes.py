@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
 from . import _arguments as check
 from . import _engine
-from ._progress import ProgressBar, progress_of
+from ._arguments import ProgressBar, progress_of
 
 if TYPE_CHECKING:
     from vtkmodules.vtkCommonDataModel import vtkDataObject

@@ -7,7 +7,7 @@ from typing import Any, Iterable, Mapping, Sequence, Union
 
 from . import _arguments as check
 from . import _engine
-from ._progress import ProgressBar, progress_of
+from ._arguments import ProgressBar, progress_of
 
 _Path = Union[str, "os.PathLike[str]"]
 
@@ -42,7 +42,7 @@ def delaunay_file(
     ----------
     points
         One or more files, which are one input: .npy, .csv, .xyz or any that VTK reads. Global ids of
-        the mesh's points are places in it. A column z is the third coordinate, others become point
+        the mesh's points are indices into it. A column z is the third coordinate, others become point
         arrays.
     output
         The folder to write, by custom NAME.tipp. A partitioned mesh there is replaced.

@@ -6,7 +6,7 @@ from typing import Any, Iterable, Sequence
 
 from . import _arguments as check
 from . import _engine
-from ._progress import ProgressBar, progress_of
+from ._arguments import ProgressBar, progress_of
 
 
 def resample(

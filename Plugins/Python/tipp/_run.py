@@ -7,12 +7,26 @@ import re
 import signal
 import threading
 import warnings
-from typing import TYPE_CHECKING, Any, Callable, Iterator
+from typing import Any, Callable, Iterator, TYPE_CHECKING
 
-from ._progress import STOPPED, Progress, finish
+from ._arguments import finish, Progress, STOPPED
 
 if TYPE_CHECKING:
     from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
+
+
+def require(built: str) -> None:
+    """Raises ImportError if vtkmodules are of another release than `built`."""
+    try:
+        from vtkmodules.vtkCommonCore import vtkVersion
+    except ImportError as error:
+        raise ImportError(f"tipp needs the Python modules of VTK {built}, which it was built with, "
+                          f"but they cannot be imported ({error}).") from None
+    found = vtkVersion.GetVTKVersion()
+    if found.split(".")[:2] != built.split(".")[:2]:
+        raise ImportError(f"tipp was built with VTK {built} and cannot be used beside VTK {found}, which Python finds; "
+                          "take that one off the path, or use the wheel of tipp, which works with any.")
+
 
 class Interrupted:
     """While it is entered, Ctrl-C aborts the algorithm; leaving it then raises KeyboardInterrupt.

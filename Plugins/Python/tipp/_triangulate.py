@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Mapping
 
 from . import _arguments as check
 from . import _engine
-from ._progress import ProgressBar, progress_of
+from ._arguments import ProgressBar, progress_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -36,7 +36,7 @@ def delaunay(
         float64 in C order is not copied, any other once. Masked coordinates are NaN.
     tol
         Points no farther apart than this fraction of the bounding box's diagonal are merged. 0 merges
-        points at the same place.
+        coincident points.
     max_edge
         Triangles with an edge longer than this, in the units of the points, are left out. 0: none are.
     partitions
@@ -134,7 +134,7 @@ def delaunay_2d(
         How the mesh shows constraints. "lines": as lines, with the cell array ConstraintId. "flags": in the
         cell array ConstraintEdges, for each corner whether the edge opposite to it is a constraint. "none".
     map_duplicates
-        Whether the mesh gets the point array RepresentativePointId, if points are at one place or not finite: the
+        Whether the mesh gets the point array RepresentativePointId, if points are coincident or not finite: the
         lowest id there, or -1.
     neighbors
         Whether the mesh gets the cell array NeighborIds: for each corner of a triangle the one opposite to it, -1

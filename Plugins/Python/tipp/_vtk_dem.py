@@ -9,10 +9,9 @@ import numpy as np
 
 from . import _arguments as check
 from ._arrays import as_array
-from ._progress import Progress
-from ._rasters import bounds_of, grid_over, sampling_of, uncompressed
+from ._arguments import Progress
+from ._rasters import bounds_of, derived, DERIVED, grid_over, needs_elevation, sampling_of, selected, uncompressed
 from ._run import run
-from ._terrain import DERIVED, derived, needs_elevation, selected
 from ._vtk import point_cloud, triangles_of, vtk_array, xyz_of
 from .vtkTIPPFilters import vtkRangeResampleFilter, vtkTIPPDelaunay2D
 from .vtkTIPPIO import vtkTIPPPointReader
@@ -80,7 +79,7 @@ def _bounds_of(cloud: Any) -> list[float]:
 
 
 def _selected(cloud: Any, options: dict[str, Any]) -> Any:
-    """The points that thinning keeps, one at each place, with the data that are numbers."""
+    """The points that thinning keeps, one at each position, with the data that are numbers."""
     arrays = cloud.GetPointData()
     names = [arrays.GetArrayName(i) for i in range(arrays.GetNumberOfArrays()) if arrays.GetArray(i)]
     data = {name: as_array(cloud, name) for name in names if arrays.GetArray(name).GetNumberOfComponents() == 1}

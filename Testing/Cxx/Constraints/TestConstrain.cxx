@@ -3,7 +3,7 @@
 #include "Comparison.h"
 #include "ConstrainedOracle.h"
 
-#include "Predicates/SegmentCrossing.h"
+#include "Predicates/Orientation.h"
 #include "Triangulation/LongTriangles.h"
 
 #include <algorithm>

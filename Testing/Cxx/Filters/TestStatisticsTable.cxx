@@ -30,7 +30,7 @@ public:
     statistics.Threads = 2;
     this->Run.Duplicates = { { 7, 3 } };
     this->Run.Rejected = { 5, 6 };
-    fillStatisticsTable(this->Run, 1000, 1990, this->Table);
+    fillStatisticsTable(statisticsOf(this->Run, 1000, 1990), this->Table);
   }
 
   double total(const char* name) const
@@ -79,7 +79,7 @@ TEST_F(StatisticsTableTest, PhasesAreNamesAndSeconds)
 TEST_F(StatisticsTableTest, ARunWithoutStagesHasColumnsAndNoRows)
 {
   vtkNew<vtkTable> table;
-  fillStatisticsTable(Triangulation(), 0, 0, table);
+  fillStatisticsTable(statisticsOf(Triangulation(), 0, 0), table);
   EXPECT_EQ(3, table->GetNumberOfColumns());
   EXPECT_EQ(0, table->GetNumberOfRows());
 }

@@ -2,7 +2,7 @@
 #ifndef tippExpectAcceleratorError_h
 #define tippExpectAcceleratorError_h
 
-#include "OpenCL/AcceleratorError.h"
+#include "OpenCL/Devices.h"
 
 #include <gtest/gtest.h>
 

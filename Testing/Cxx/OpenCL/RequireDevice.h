@@ -2,7 +2,7 @@
 #ifndef tippRequireDevice_h
 #define tippRequireDevice_h
 
-#include "OpenCL/DeviceList.h"
+#include "OpenCL/Devices.h"
 
 #include <algorithm>
 

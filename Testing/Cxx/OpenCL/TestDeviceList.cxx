@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OpenCL/DeviceList.h"
+#include "OpenCL/Devices.h"
 
 #include "ExpectAcceleratorError.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A build without OpenCL.
 #include "ExpectAcceleratorError.h"
-#include "OpenCL/DeviceList.h"
+#include "OpenCL/Devices.h"
 
 #include <gtest/gtest.h>
 

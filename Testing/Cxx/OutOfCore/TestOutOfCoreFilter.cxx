@@ -2,7 +2,7 @@
 // vtkTIPPOutOfCoreDelaunay2D in a pipeline.
 #include "OutOfCoreTesting.h"
 
-#include "Output/OutOfCoreTable.h"
+#include "Output/StatisticsTable.h"
 #include "Points/WritePoints.h"
 #include "vtkPartitionedUnstructuredReader.h"
 #include "vtkTIPPOutOfCoreDelaunay2D.h"
@@ -244,7 +244,7 @@ TEST(OutOfCoreTable, HasARowForEachPhase)
   statistics.Phases = { { "survey", 1.5 }, { "spill", 2.5 } };
   statistics.TriangleSum = ~std::uint64_t(0);
   vtkNew<vtkTable> table;
-  fillOutOfCoreTable(statistics, true, table);
+  fillStatisticsTable(statisticsOf(statistics, true), table);
   ASSERT_EQ(2, table->GetNumberOfRows());
   EXPECT_EQ("spill", table->GetValueByName(1, "Phase").ToString());
   EXPECT_EQ(2.5, table->GetValueByName(1, "Seconds").ToDouble());

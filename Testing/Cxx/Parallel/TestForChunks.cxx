@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Parallel/ForChunks.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 

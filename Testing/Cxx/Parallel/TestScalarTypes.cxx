@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Arrays/ScalarTypes.h"
+#include "Arrays/Scalar.h"
 
 #include "vtkType.h"
 

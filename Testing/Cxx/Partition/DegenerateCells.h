@@ -2,7 +2,6 @@
 #ifndef tippDegenerateCells_h
 #define tippDegenerateCells_h
 
-#include "Predicates/Box3.h"
 #include "Predicates/Point3.h"
 
 #include <array>

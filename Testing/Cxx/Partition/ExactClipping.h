@@ -2,7 +2,6 @@
 #ifndef tippExactClipping_h
 #define tippExactClipping_h
 
-#include "Predicates/Box3.h"
 #include "Predicates/Point3.h"
 
 #include <array>

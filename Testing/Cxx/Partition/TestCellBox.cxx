@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Predicates/CellBox.h"
-#include "Predicates/Orientation3.h"
+#include "Predicates/Orientation.h"
 
 #include "DegenerateCells.h"
 #include "ExactClipping.h"

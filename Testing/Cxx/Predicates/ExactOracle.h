@@ -2,7 +2,6 @@
 #ifndef tippExactOracle_h
 #define tippExactOracle_h
 
-#include "Predicates/Box2.h"
 #include "Predicates/Point2.h"
 
 #include <CGAL/Gmpq.h>

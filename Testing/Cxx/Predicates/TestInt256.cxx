@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Predicates/Int256.h"
+#include "Predicates/ExactIntegers.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "MessageCounter.h"
 #include "PieceSource.h"
 #include "RangeResampleTesting.h"
-#include "Sampling/UpdatedInput.h"
+#include "Sampling/RangeResampleRun.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"

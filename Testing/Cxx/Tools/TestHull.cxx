@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Check/Hull.h"
+#include "Check/ExactTests.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Console/TimeLeft.h"
+#include "Console/ProgressBar.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes/ReadMesh.h"
-#include "OpenCL/DeviceList.h"
+#include "OpenCL/Devices.h"
 #include "Points/ReadPoints.h"
 #include "Points/WritePoints.h"
 #include "RunTipp.h"

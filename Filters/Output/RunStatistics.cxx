@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Output/RunStatistics.h"
+
+#include <cstdio>
+#include <numeric>
+#include <type_traits>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// Returns the values of a member of all items; integers become 64 bits wide.
+template <typename Item, typename Value>
+Figures column(
+  const char* key, const char* array, const std::vector<Item>& items, Value Item::*member)
+{
+  using Stored = std::conditional_t<std::is_integral_v<Value>, std::int64_t, Value>;
+  std::vector<Stored> values;
+  values.reserve(items.size());
+  for (const Item& item : items)
+  {
+    values.push_back(Stored(item.*member));
+  }
+  return { key, array, std::move(values) };
+}
+
+template <typename Phase>
+FigureList phasesOf(
+  const std::vector<Phase>& phases, bool isTable, const char* name, const char* seconds)
+{
+  return { "phases", isTable,
+    { column("name", name, phases, &Phase::Name),
+      column("seconds", seconds, phases, &Phase::Seconds) } };
+}
+
+FigureList ranksOf(const std::vector<RankStatistics>& ranks)
+{
+  using Rank = RankStatistics;
+  return { "ranks", false,
+    { column("input_points", "", ranks, &Rank::InputPoints),
+      column("owned_points", "RankOwnedPoints", ranks, &Rank::OwnedPoints),
+      column("triangles", "RankTriangles", ranks, &Rank::Triangles),
+      column("partitions", "", ranks, &Rank::Partitions),
+      column("worker_vertices", "", ranks, &Rank::WorkerVertices),
+      column("exchange_seconds", "", ranks, &Rank::ExchangeSeconds),
+      column("compute_seconds", "RankComputeSeconds", ranks, &Rank::ComputeSeconds),
+      column("wait_seconds", "RankWaitSeconds", ranks, &Rank::WaitSeconds),
+      column("send_seconds", "RankSendSeconds", ranks, &Rank::SendSeconds),
+      column("master_seconds", "RankMasterSeconds", ranks, &Rank::MasterSeconds),
+      column("sub_master_seconds", "RankSubMasterSeconds", ranks, &Rank::SubMasterSeconds),
+      column("collect_seconds", "", ranks, &Rank::CollectSeconds),
+      column("total_seconds", "", ranks, &Rank::TotalSeconds) } };
+}
+
+FigureList mastersOf(const std::vector<MasterStatistics>& masters)
+{
+  using Master = MasterStatistics;
+  return { "masters", false,
+    { column("area", "", masters, &Master::Area), column("rank", "", masters, &Master::Rank),
+      column("group_size", "", masters, &Master::GroupSize),
+      column("largest_mesh", "", masters, &Master::LargestMesh),
+      column("seconds", "", masters, &Master::Seconds),
+      column("path_seconds", "", masters, &Master::PathSeconds) } };
+}
+
+FigureList trafficOf(const std::vector<TrafficStatistics>& traffic)
+{
+  using Traffic = TrafficStatistics;
+  return { "traffic", false,
+    { column("kind", "MessageKind", traffic, &Traffic::Kind),
+      column("messages", "MessageCount", traffic, &Traffic::Messages),
+      column("bytes", "MessageBytes", traffic, &Traffic::Bytes) } };
+}
+
+std::string hexadecimal(std::uint64_t value)
+{
+  char text[17];
+  std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(value));
+  return text;
+}
+
+} // namespace
+
+FigureList stagesOf(const std::vector<TriangulationStatistics::Stage>& stages)
+{
+  using Stage = TriangulationStatistics::Stage;
+  std::vector<std::int64_t> numbers(stages.size());
+  std::iota(numbers.begin(), numbers.end(), std::int64_t(0));
+  return { "stages", true,
+    { { "", "Stage", std::move(numbers) },
+      column("active_partitions", "ActivePartitions", stages, &Stage::ActivePartitions),
+      column("mesh_triangles", "MeshTriangles", stages, &Stage::MeshTriangles) } };
+}
+
+RunStatistics statisticsOf(
+  const Triangulation& triangulation, std::int64_t points, std::int64_t triangles)
+{
+  const TriangulationStatistics& statistics = triangulation.Statistics;
+  RunStatistics run;
+  run.add("points", "Points", points);
+  run.add("triangles", "Triangles", triangles);
+  run.add("duplicates", "DuplicatePoints", std::int64_t(triangulation.Duplicates.size()));
+  run.add("rejected", "RejectedPoints", std::int64_t(triangulation.Rejected.size()));
+  run.add("threads", "Threads", statistics.Threads);
+  run.add("partitions", "Partitions", statistics.Partitions);
+  run.add("initial_points", "InitialPoints", statistics.InitialPoints);
+  run.add("worker_vertices", "WorkerVertices", statistics.WorkerVertices);
+  run.Lists = { phasesOf(statistics.Phases, false, "PhaseName", "PhaseSeconds"),
+    stagesOf(statistics.Stages) };
+  return run;
+}
+
+RunStatistics statisticsOf(const OutOfCoreStatistics& statistics, bool isCounted)
+{
+  RunStatistics run;
+  run.add("points", "Points", statistics.Points);
+  run.add("triangles", "Triangles", statistics.Triangles);
+  run.Totals.push_back(
+    { "triangle_sum", "", std::vector<std::string>{ hexadecimal(statistics.TriangleSum) } });
+  if (isCounted)
+  {
+    run.Totals.push_back(
+      { "", "TriangleSum", std::vector<std::uint64_t>{ statistics.TriangleSum } });
+  }
+  run.add("duplicates", "DuplicatePoints", statistics.Duplicates);
+  run.add("disagreeing_places", "", statistics.DisagreeingPlaces);
+  run.add("rejected", "RejectedPoints", statistics.Rejected);
+  run.add("pieces", "Pieces", statistics.Pieces);
+  run.add("partitions", "Partitions", statistics.Partitions);
+  run.add("worker_vertices", "WorkerVertices", statistics.WorkerVertices);
+  run.add("boundary_bytes", "BoundaryBytes", std::int64_t(statistics.BoundaryBytes));
+  run.add("spilled_bytes", "SpilledBytes", std::int64_t(statistics.SpilledBytes));
+  run.add("mesh_bytes", "MeshBytes", std::int64_t(statistics.MeshBytes));
+  run.Totals.push_back({ "resumed", "Resumed", std::vector<bool>{ statistics.Resumed } });
+  run.add("threads", "Threads", statistics.Threads);
+  run.Lists = { phasesOf(statistics.Phases, true, "Phase", "Seconds") };
+  return run;
+}
+
+RunStatistics statisticsOf(const DistributedTriangulation& mine)
+{
+  const DistributedStatistics& statistics = mine.Statistics;
+  // Only a master of the whole domain is in the table.
+  const bool hasMaster = !statistics.Masters.empty() && statistics.Masters.front().Area == 0;
+  const MasterStatistics master = hasMaster ? statistics.Masters.front() : MasterStatistics();
+  RunStatistics run;
+  run.add("points", "Points", mine.AllPoints);
+  run.add("triangles", "Triangles", mine.AllTriangles);
+  run.add("duplicates", "DuplicatePoints", mine.AllDuplicates);
+  run.add("rejected", "RejectedPoints", mine.AllRejected);
+  run.Totals.push_back({ "seconds", "", std::vector<double>{ statistics.Seconds } });
+  run.add("threads_per_rank", "Threads", statistics.ThreadsPerRank);
+  run.add("partitions", "Partitions", statistics.Partitions);
+  run.add("major_partitions", "MajorPartitions", statistics.MajorPartitions);
+  run.add("", "LargestMasterMesh", master.LargestMesh);
+  run.Totals.push_back({ "", "MasterSeconds", std::vector<double>{ master.Seconds } });
+  FigureList stages = stagesOf(master.Stages);
+  stages.Key.clear(); // JSON has each master's
+  run.Lists = { ranksOf(statistics.Ranks), mastersOf(statistics.Masters),
+    trafficOf(statistics.Traffic), std::move(stages) };
+  return run;
+}
+
+std::vector<std::string> warningsOf(
+  const Triangulation& triangulation, std::int64_t points, bool longEdgesLeftOut)
+{
+  std::vector<std::string> warnings;
+  const auto rejected = std::int64_t(triangulation.Rejected.size());
+  if (rejected > 0)
+  {
+    warnings.push_back(std::to_string(rejected) + " of " + std::to_string(points) +
+      " points have a NaN or infinite coordinate and are in no triangle; the first is point " +
+      std::to_string(triangulation.Rejected.front()) + ".");
+  }
+  if (triangulation.triangleCount() == 0)
+  {
+    const std::int64_t distinct = points - std::int64_t(triangulation.Duplicates.size()) - rejected;
+    warnings.push_back("No triangles: of " + std::to_string(points) + " points, " +
+      std::to_string(distinct) + " are finite and distinct" +
+      (distinct < 3          ? ", and it takes three."
+          : longEdgesLeftOut ? ", and all triangles have edges that are too long, or all points "
+                               "are on one line."
+                             : ", and all are on one line."));
+  }
+  return warnings;
+}
+
+std::vector<std::string> warningsOf(const OutOfCoreStatistics& statistics)
+{
+  std::vector<std::string> warnings;
+  if (statistics.Rejected > 0)
+  {
+    warnings.push_back(std::to_string(statistics.Rejected) + " of " +
+      std::to_string(statistics.Points) +
+      " points have a NaN or infinite coordinate and are left out.");
+  }
+  if (statistics.Triangles == 0)
+  {
+    warnings.emplace_back(
+      "No triangles: there are fewer than three distinct points, or all are on one line.");
+  }
+  return warnings;
+}
+
+} // namespace tipp

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""VTK's classes: of `vtkmodules`, or of `cvista`, a VTK that PyVista can use in its place.
+
+`from ._vtkmodules import vtkPoints` takes the class from the module of VTK that has it.
+"""
+from __future__ import annotations
+
+import functools
+import importlib
+import importlib.util
+import sys
+from typing import Any
+
+_PACKAGES = ("vtkmodules", "cvista")
+_MODULES = ("vtkCommonCore", "vtkCommonDataModel", "vtkCommonExecutionModel", "util.numpy_support", "util.vtkAlgorithm")
+
+
+@functools.lru_cache(maxsize=None)
+def root() -> str | None:
+    """The package of VTK's modules: PyVista's, if PyVista is imported, for objects of both do not mix; else what is
+    installed; None without VTK."""
+    mesh = getattr(sys.modules.get("pyvista"), "PolyData", None)
+    if mesh is not None:
+        packages = {base.__module__.split(".")[0] for base in mesh.__mro__}
+        return "cvista" if "cvista" in packages else "vtkmodules"  # cvista names some bases as vtkmodules does
+    return next((name for name in _PACKAGES if importlib.util.find_spec(name)), None)
+
+
+def __getattr__(name: str) -> Any:
+    if name.startswith("__"):
+        raise AttributeError(name)
+    if root() is None:
+        raise ModuleNotFoundError("VTK is not installed.")
+    modules = (importlib.import_module(f"{root()}.{module}") for module in _MODULES)
+    found = next((module for module in modules if hasattr(module, name)), None)
+    if found is None:
+        raise AttributeError(f"VTK has no {name}.")
+    return getattr(found, name)

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPythonBinding_h
+#define tippPythonBinding_h
+
+#include "Arrays/Scalar.h"
+#include "Partitioned/RawBuffer.h"
+#include "Triangulation/Buffer.h"
+#include "Triangulation/Triangulate.h"
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <cstdlib>
+#include <exception>
+#include <functional>
+#include <initializer_list>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace tipp::python
+{
+
+namespace nb = nanobind;
+
+/// A NumPy array to read, of any type. The Python side sees to it that it is in C order.
+using InputArray = nb::ndarray<nb::ro, nb::device::cpu, nb::c_contig>;
+
+inline Scalar scalarOf(nb::dlpack::dtype type)
+{
+  using Code = nb::dlpack::dtype_code;
+  const bool isReal = type.code == std::uint8_t(Code::Float);
+  const bool isSigned = type.code == std::uint8_t(Code::Int);
+  switch (type.bits)
+  {
+    case 8:
+      return isSigned ? Scalar::Int8 : Scalar::UInt8;
+    case 16:
+      return isSigned ? Scalar::Int16 : Scalar::UInt16;
+    case 32:
+      return isReal ? Scalar::Float32 : isSigned ? Scalar::Int32 : Scalar::UInt32;
+    default:
+      return isReal ? Scalar::Float64 : isSigned ? Scalar::Int64 : Scalar::UInt64;
+  }
+}
+
+inline std::size_t bytesOf(Scalar scalar)
+{
+  std::size_t bytes = 0;
+  withScalar(scalar, [&](auto value) { bytes = sizeof(value); });
+  return bytes;
+}
+
+/// A NumPy array over memory from malloc(), which it frees.
+inline nb::object owningArray(void* memory, Scalar scalar, const std::vector<std::size_t>& shape)
+{
+  const nb::capsule owner(memory, [](void* p) noexcept { std::free(p); });
+  nb::object result;
+  withScalar(scalar,
+    [&](auto value)
+    {
+      using Value = decltype(value);
+      result = nb::cast(nb::ndarray<nb::numpy, Value>(
+        static_cast<Value*>(memory), shape.size(), shape.data(), owner));
+    });
+  return result;
+}
+
+template <typename Value>
+constexpr Scalar scalarType();
+template <>
+constexpr Scalar scalarType<std::int32_t>()
+{
+  return Scalar::Int32;
+}
+template <>
+constexpr Scalar scalarType<std::int64_t>()
+{
+  return Scalar::Int64;
+}
+
+/// The buffer as rows of a NumPy array, without a copy.
+template <typename Value>
+nb::object arrayOf(Buffer<Value>&& buffer, std::size_t columns)
+{
+  const std::size_t rows = buffer.size() / columns;
+  void* memory = buffer.release();
+  return owningArray(memory ? memory : std::malloc(1), scalarType<Value>(), { rows, columns });
+}
+
+inline nb::object arrayOf(RawBuffer&& buffer, Scalar scalar, std::size_t columns)
+{
+  const std::size_t rows = buffer.size() / bytesOf(scalar) / columns;
+  return owningArray(buffer.release(), scalar,
+    columns == 1 ? std::vector<std::size_t>{ rows } : std::vector<std::size_t>{ rows, columns });
+}
+
+/// Passes progress to a Python callable, or None, and asks Python whether to go on: on Ctrl-C, and
+/// if the callable raises or returns False, the work ends. Only the thread that made it, which has
+/// given Python's lock away, speaks with Python.
+class Reporter
+{
+public:
+  explicit Reporter(nb::object callable)
+    : Callable(std::move(callable))
+    , Owner(std::this_thread::get_id())
+  {
+  }
+
+  /// False if the work is to stop.
+  bool operator()(double fraction);
+
+  /// As the cores take it; must not outlive this.
+  std::function<bool(double)> function()
+  {
+    return [this](double fraction) { return (*this)(fraction); };
+  }
+
+  /// Raises what stopped the work. Call it with Python's lock.
+  void raiseIfStopped() const;
+
+private:
+  nb::object Callable;
+  std::thread::id Owner;
+  bool Stopped = false;
+  std::exception_ptr Raised;
+};
+
+/// Calls work() without Python's lock.
+template <typename Work>
+auto withoutLock(const Work& work)
+{
+  const nb::gil_scoped_release released;
+  return work();
+}
+
+/// Points of shape (n, 2) or (n, 3), float32 or float64, where they lie.
+PointsView viewOf(const InputArray& points);
+
+/// A triangulation of so many points for Python: triangles, duplicates, rejected, warnings,
+/// statistics and, if wanted, neighbors. Takes the triangles' memory.
+nb::dict triangulationDict(
+  Triangulation&& triangulation, std::size_t points, bool longEdgesLeftOut, bool wantsNeighbors);
+
+void addTriangulateFunctions(nb::module_& module);
+void addConstraintFunctions(nb::module_& module);
+void addFileFunctions(nb::module_& module);
+void addLocatorClass(nb::module_& module);
+void addPointFunctions(nb::module_& module);
+void addResampleFunction(nb::module_& module);
+
+} // namespace tipp::python
+
+#endif

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Twice the areas of triangles: x and y of three corners each. Host side: DeviceKernel.cxx.
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+
+kernel void twiceAreas(global const double* corners, uint triangles, global double* areas)
+{
+  const uint t = get_global_id(0);
+  if (t >= triangles)
+  {
+    return; // whole groups are started
+  }
+  const double2 a = vload2(3 * t, corners);
+  const double2 u = vload2(3 * t + 1, corners) - a;
+  const double2 v = vload2(3 * t + 2, corners) - a;
+  areas[t] = u.x * v.y - u.y * v.x;
+}

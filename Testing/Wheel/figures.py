@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures of the wheel beside scipy, VTK and the Debian build, each with the bound that it is to keep.
+
+Usage: python figures.py WHEEL WITH_PEERS ALONE DEBIAN [POINTS [QUERIES [REPEATS]]]
+WITH_PEERS and ALONE are Pythons that have the wheel: the one with VTK 9.7, PyVista and scipy, the other with NumPy alone.
+DEBIAN is the folder of the Debian build's Python package, or -. Run by Utilities/benchmark.sh, which makes them.
+
+Each figure is measured in a process of its own; of repeated runs the least time counts.
+"""
+import json
+import os
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+THREADS = 2
+
+
+def least(call, repeats):
+    times = []
+    for _ in range(repeats):
+        begin = time.perf_counter()
+        call()
+        times.append(time.perf_counter() - begin)
+    return min(times)
+
+
+def points_of(count):
+    return np.random.default_rng(1).random((count, 2))
+
+
+def measure_triangulation(count, repeats):
+    """Seconds of tipp.delaunay(), in whichever Python has tipp."""
+    import tipp
+
+    points = points_of(count)
+    tipp.delaunay(points[:1000], threads=THREADS)
+    return {"seconds": least(lambda: tipp.delaunay(points, threads=THREADS), repeats)}
+
+
+def measure_scipy(count):
+    from scipy.spatial import Delaunay
+
+    points = points_of(count)
+    return {"seconds": least(lambda: Delaunay(points), 1)}
+
+
+def measure_vtk(count):
+    """PyVista's delaunay_2d with vtkDelaunay2D's quicker order, which PyVista has no keyword for."""
+    import pyvista
+    from vtkmodules.vtkFiltersCore import vtkDelaunay2D
+
+    cloud = pyvista.PolyData(np.column_stack([points_of(count), np.zeros(count)]))
+
+    def run():
+        algorithm = vtkDelaunay2D()
+        if hasattr(algorithm, "UseHilbertSorterOn"):
+            algorithm.UseHilbertSorterOn()
+        algorithm.SetInputData(cloud)
+        algorithm.Update()
+        return pyvista.wrap(algorithm.GetOutput())
+
+    return {"seconds": least(run, 1), "hilbert": hasattr(vtkDelaunay2D, "UseHilbertSorterOn")}
+
+
+def measure_interpolation(count, queries, repeats):
+    """Seconds of samples at scattered places, when both have their triangulations."""
+    import scipy.interpolate
+    import tipp
+
+    points = points_of(count)
+    values = np.sin(9 * points[:, 0]) * np.cos(7 * points[:, 1])
+    places = np.random.default_rng(2).random((queries, 2))
+    mine = tipp.LinearNDInterpolator(points, values, threads=1)
+    mine(places[:10])
+    result = {"tipp": least(lambda: mine(places), repeats)}
+    theirs = scipy.interpolate.LinearNDInterpolator(points, values)
+    theirs(places[:10])
+    result["scipy"] = least(lambda: theirs(places), 1)
+    sample = places[:10_000]
+    difference = np.abs(mine(sample) - theirs(sample))
+    assert np.nanmax(difference) < 1e-9 and np.isfinite(difference).mean() > 0.99
+    return result
+
+
+def measure_small_calls(calls):
+    """Of 1,000 points, with one thread: seconds of a call, and what of them is not the triangulation's."""
+    import tipp
+
+    points = np.random.default_rng(1).random((1000, 2))
+    whole, beside = [], []
+    for _ in range(calls):
+        begin = time.perf_counter()
+        _, statistics = tipp.delaunay_2d(points, threads=1, return_statistics=True)
+        seconds = time.perf_counter() - begin
+        whole.append(seconds)
+        beside.append(seconds - sum(statistics["seconds"].values()))
+    return {"call": float(np.median(whole)), "overhead": float(np.median(beside))}
+
+
+def run(python, *arguments, package=None):
+    environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", "OMP_NUM_THREADS": str(THREADS)}
+    environment.pop("PYTHONPATH", None)
+    if package:
+        environment["PYTHONPATH"] = package
+    command = [python, __file__, "--measure", *map(str, arguments)]
+    return json.loads(subprocess.run(command, env=environment, check=True, stdout=subprocess.PIPE).stdout)
+
+
+def show(what, figure, bound, is_kept):
+    print(f"{what:62} {figure:>28}  {bound:16} {'kept' if is_kept else 'MISSED'}", flush=True)
+
+
+def report(wheel, peers, alone, debian, count, queries, repeats):
+    size = os.path.getsize(wheel) / 1e6
+    show("size of the wheel", f"{size:.2f} MB", "< 3 MB", size < 3)
+
+    runs = [{"wheel": run(peers, "triangulation", count, 3)["seconds"],
+             "debian": run("/usr/bin/python3", "triangulation", count, 3, package=debian)["seconds"]
+             if debian != "-" else np.nan} for _ in range(repeats)]
+    mine = min(one["wheel"] for one in runs)
+    theirs = min(one["debian"] for one in runs)
+    name = f"tipp.delaunay of {count} points, {THREADS} threads"
+    scipy = run(peers, "scipy", count)["seconds"]
+    show(f"{name}, beside scipy", f"{mine:.3f} s, {scipy:.2f} s: {scipy / mine:.1f}x", ">= 40x", scipy >= 40 * mine)
+    vtk = run(peers, "vtk", count)
+    order = "Hilbert order" if vtk["hilbert"] else "no Hilbert order"
+    show(f"{name}, beside VTK ({order})", f"{mine:.3f} s, {vtk['seconds']:.2f} s: {vtk['seconds'] / mine:.1f}x",
+         ">= 30x", vtk["seconds"] >= 30 * mine)
+    if debian != "-":
+        show(f"{name}, beside the Debian build", f"{mine:.3f} s, {theirs:.3f} s: {mine / theirs:.3f}",
+             "<= 1.05", mine <= 1.05 * theirs)
+
+    samples = run(peers, "interpolation", count, queries, repeats)
+    ratio = samples["scipy"] / samples["tipp"]
+    show(f"{queries} samples of {count} points, 1 thread, beside scipy",
+         f"{samples['tipp']:.2f} s, {samples['scipy']:.2f} s: {ratio:.1f}x", ">= 5x", ratio >= 5)
+
+    for python, kind in ((alone, "tipp.Mesh"), (peers, "vtkPolyData")):
+        small = [run(python, "small_calls", 2000) for _ in range(repeats)]
+        call, overhead = (1e6 * min(one[key] for one in small) for key in ("call", "overhead"))
+        show(f"delaunay_2d of 1000 points to a {kind}", f"{call:.0f} us", "< 600 us", call < 600)
+        show(f"delaunay_2d of 1000 points to a {kind}, overhead", f"{overhead:.1f} us", "< 20 us", overhead < 20)
+
+
+def main():
+    if sys.argv[1:2] == ["--measure"]:
+        measure = globals()["measure_" + sys.argv[2]]
+        print(json.dumps(measure(*map(int, sys.argv[3:]))))
+    elif len(sys.argv) < 5:
+        sys.exit(__doc__)
+    else:
+        numbers = [int(value) for value in sys.argv[5:]]
+        defaults = [1_000_000, 4_000_000, 5]
+        report(*sys.argv[1:5], *numbers, *defaults[len(numbers):])
+
+
+main()

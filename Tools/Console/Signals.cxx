@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Console/Signals.h"
+
+#include "Commands/Commands.h"
+#include "Files/TemporaryPath.h"
+#include "Vtk/ReadDataSet.h"
+
+#include <fmt/format.h>
+#include <semaphore.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <exception>
+#include <mutex>
+#include <new>
+#include <thread>
+
+namespace tipp
+{
+namespace
+{
+
+// A signal handler may only call write(), _exit() and the like.
+void print(const char* text)
+{
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, text, std::strlen(text));
+}
+
+extern "C" void onCrash(int signal)
+{
+  const char* const path = fileBeingRead();
+  if (!path)
+  {
+    // The default action, which has been restored, ends the program when this returns.
+    raise(signal);
+    return;
+  }
+  print("tipp: ");
+  print(path);
+  print(
+    ": cannot be read as a VTK file (VTK's reader crashed); check that it is whole and that its "
+    "extension is right.\n");
+  _exit(Failure);
+}
+
+} // namespace
+
+void reportReaderCrashes()
+{
+  // A separate stack, because a reader may have exhausted the normal one.
+  static char stack[1 << 16];
+  stack_t alternative = {};
+  alternative.ss_sp = stack;
+  alternative.ss_size = sizeof stack;
+  sigaltstack(&alternative, nullptr);
+  for (const int signal : { SIGSEGV, SIGBUS, SIGFPE, SIGABRT })
+  {
+    // A sanitizer's own report is more useful.
+    struct sigaction present = {};
+    if (sigaction(signal, nullptr, &present) != 0 || present.sa_handler != SIG_DFL)
+    {
+      continue;
+    }
+    struct sigaction action = {};
+    action.sa_handler = onCrash;
+    action.sa_flags = SA_ONSTACK | SA_RESETHAND;
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+namespace
+{
+
+constexpr long grace = 300'000'000; // nanoseconds
+
+std::atomic<bool> interrupted{ false };
+std::atomic<bool> terminated{ false };
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
+std::atomic<bool> isSaid{ false };
+bool isRank = false;
+sem_t signals;
+
+/// The thread that holds it decides how the process ends. Never destroyed, because the thread may
+/// still run while static objects are destroyed.
+std::mutex& ending()
+{
+  static auto* const mutex = new std::mutex;
+  return *mutex;
+}
+
+extern "C" void onSignal(int number)
+{
+  (number == SIGTERM ? terminated : interrupted) = true;
+  sem_post(&signals);
+}
+
+void waitForSignal()
+{
+  while (sem_wait(&signals) != 0 && errno == EINTR)
+  {
+  }
+}
+
+/// Gives the work time to stop by itself.
+void waitForGrace()
+{
+  timespec until = {};
+  clock_gettime(CLOCK_REALTIME, &until);
+  until.tv_nsec += grace;
+  until.tv_sec += until.tv_nsec / 1'000'000'000;
+  until.tv_nsec %= 1'000'000'000;
+  while (sem_timedwait(&signals, &until) != 0 && errno == EINTR)
+  {
+  }
+}
+
+void say(const char* what, const std::string& consequence)
+{
+  if (!isSaid.exchange(true))
+  {
+    const char* const clear = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : ""; // clears a progress bar
+    // Does not throw if stderr cannot be written.
+    std::fputs(fmt::format("{}tipp: {}; {}.\n", clear, what, consequence).c_str(), stderr);
+  }
+}
+
+[[noreturn]] void endProcess()
+{
+  ending().lock(); // never released
+  const EndedPaths paths = endTemporaryPaths();
+  say(interrupted ? "interrupted"
+      : isRank    ? "ended by SIGTERM, which mpirun sends to all ranks when one has ended"
+                  : "ended by SIGTERM",
+    paths.HasOutput   ? "the output was already written"
+      : paths.HasKept ? "the same command with --resume goes on"
+                      : "nothing was written");
+  std::fflush(stderr);
+  _exit(interrupted ? interruptedExitCode : 128 + SIGTERM);
+}
+
+void watch()
+{
+  waitForSignal();
+  if (!terminated)
+  {
+    waitForGrace();
+  }
+  endProcess();
+}
+
+} // namespace
+
+void watchForInterrupt(int rank)
+{
+  isSaid = rank > 0;
+  isRank = rank >= 0;
+  sem_init(&signals, 0, 0);
+  struct sigaction action = {};
+  action.sa_handler = onSignal;
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  std::thread(watch).detach();
+}
+
+bool isInterrupted()
+{
+  return interrupted;
+}
+
+int reportInterrupt(const std::string& consequence)
+{
+  say("interrupted", consequence);
+  return interruptedExitCode;
+}
+
+int reportFailure()
+{
+  endWatch();
+  std::string reason;
+  try
+  {
+    throw;
+  }
+  catch (const std::bad_alloc&)
+  {
+    reason = "there is not enough memory for this input.";
+  }
+  catch (const std::exception& error)
+  {
+    reason = error.what();
+  }
+  if (!isSaid.exchange(true))
+  {
+    std::fputs(("tipp: " + reason + "\n").c_str(), stderr);
+  }
+  return EXIT_FAILURE;
+}
+
+void endWatch()
+{
+  static bool hasEnded = false; // of the main thread
+  if (!hasEnded)
+  {
+    ending().lock(); // never released
+    hasEnded = true;
+  }
+}
+
+} // namespace tipp

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippSignals_h
+#define tippSignals_h
+
+#include <string>
+
+namespace tipp
+{
+
+/// The shell's exit code of a program that Ctrl-C ended.
+constexpr int interruptedExitCode = 130;
+
+/// Makes Ctrl-C (SIGINT) set a flag for isInterrupted(). If the process still runs a moment later,
+/// or at a second signal or SIGTERM, a separate thread removes the temporary files, prints one
+/// sentence and ends the process. So commands need not poll the flag often, or at all. `rank` is
+/// the process's rank, or -1; only the first rank prints.
+void watchForInterrupt(int rank);
+bool isInterrupted();
+/// Prints a message, once and only on the first rank, and returns the exit code.
+int reportInterrupt(const std::string& consequence = "nothing was written");
+/// Prints the message of the exception being handled, only on the first rank, and returns the exit
+/// code. With several ranks, call it before MPI_Finalize(): mpirun ends the first rank once another
+/// one has failed.
+int reportFailure();
+/// Call it before the process reports its outcome: blocks for ever if the thread is ending the
+/// process, and otherwise keeps it from doing so.
+void endWatch();
+
+/// Installs signal handlers: a crash of VTK's readers then ends the program with a message that
+/// names the file, and exit code 1. Other crashes are not affected.
+void reportReaderCrashes();
+
+} // namespace tipp
+
+#endif
