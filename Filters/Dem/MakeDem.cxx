@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Dem/MakeDem.h"
 
-#include "Parallel/ForChunks.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -158,7 +157,7 @@ std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid, const Read
   const std::function<bool(double)>& progress, int threads, const DemBands& bands)
 {
   std::atomic<std::int64_t> filled{ 0 };
-  const bool isDone = forChunks(tileCount(grid), 1, threads, progress,
+  const bool isDone = forChunks(tileCount(grid), 1, threadCount(threads), progress,
     [&](std::int64_t number, std::int64_t, int)
     {
       const RasterWindow window = tileOf(grid, number);

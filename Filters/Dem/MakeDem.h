@@ -58,7 +58,7 @@ VTKTIPPFILTERS_EXPORT ReadTile readFrom(const RasterGrid& grid, const SampledBan
 
 /// Writes all tiles. `bands`: those whose voids are to be filled, see fillVoids(). Returns the
 /// pixels whose first band has a value from a triangle, or -1 if `progress` ended it. `readTile` is
-/// called by several threads at once. Throws IOError.
+/// called by several threads at once. `threads`: 0 is OpenMP's choice. Throws IOError.
 VTKTIPPFILTERS_EXPORT std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid,
   const ReadTile& readTile, const std::function<bool(double)>& progress, int threads,
   const DemBands& bands = {});

@@ -6,7 +6,6 @@
 #include "Files/IOError.h"
 #include "Flat/RawArray.h"
 #include "Npy/NpyFile.h"
-#include "Parallel/ParallelFor.h"
 #include "Vtk/WriteXmlFile.h"
 
 #include "vtkCellData.h"
@@ -169,8 +168,7 @@ void writeGeoTiff(const std::string& path, vtkImageData* image, const std::strin
   description.NoData = noData;
   description.Threads = threads;
   const auto writer = createRaster(path, description, before);
-  writeTiles(
-    *writer, description.Grid, readFrom(description.Grid, bands), {}, threadCount(threads));
+  writeTiles(*writer, description.Grid, readFrom(description.Grid, bands), {}, threads);
   writer->close();
 }
 
