@@ -2,7 +2,7 @@
 #include "vtkTIPPDelaunay2D.h"
 
 #include "AlphaShape/AlphaShape.h"
-#include "Constraints/ConstraintOutput.h"
+#include "Constraints/SourceConstraints.h"
 #include "Constraints/TriangulateConstrained.h"
 #include "Merging/TriangulateMerged.h"
 #include "Output/CellBuffers.h"
@@ -10,9 +10,6 @@
 #include "Output/StatisticsTable.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
-#include "Projection/BestFittingPlane.h"
-#include "Projection/BoundingPoints.h"
-#include "Projection/FiniteBounds.h"
 #include "Projection/ProjectedPoints.h"
 #include "Vtk/CheckDataSet.h"
 

@@ -2,7 +2,6 @@
 // vtkTIPPDelaunay2D with a source of constraints.
 #include "vtkTIPPDelaunay2D.h"
 
-#include "Constraints/ConstraintOutput.h"
 #include "Constraints/KeepInside.h"
 #include "Constraints/SourceConstraints.h"
 #include "Constraints/TriangulateConstrained.h"

@@ -92,6 +92,22 @@ std::vector<Edge<Id>> shortEdgesOfDropped(
   return edges;
 }
 
+/// Selects the groups of `size` ids, ids(0), ids(1) and so on, whose mark is `wanted`, in order.
+template <typename Ids, typename Id>
+void select(const Ids& ids, std::size_t size, const std::vector<char>& marks, char wanted,
+  Buffer<Id>& selected)
+{
+  selected = Buffer<Id>(size * std::size_t(std::count(marks.begin(), marks.end(), wanted)));
+  Id* out = selected.data();
+  for (std::size_t i = 0; i < marks.size(); ++i)
+  {
+    for (std::size_t k = 0; k < size && marks[i] == wanted; ++k)
+    {
+      *out++ = ids(size * i + k);
+    }
+  }
+}
+
 /// Returns the edges that belong to no kept triangle, in their order.
 template <typename Id>
 Buffer<Id> linesOutside(const std::vector<Edge<Id>>& edges, const Buffer<Id>& keptTriangles)
@@ -113,48 +129,10 @@ Buffer<Id> linesOutside(const std::vector<Edge<Id>>& edges, const Buffer<Id>& ke
       }
     }
   }
-  Buffer<Id> lines(2 * std::size_t(std::count(inside.begin(), inside.end(), 0)));
-  std::size_t at = 0;
-  for (std::size_t e = 0; e < edges.size(); ++e)
-  {
-    if (!inside[e])
-    {
-      lines[at++] = edges[e].first;
-      lines[at++] = edges[e].second;
-    }
-  }
+  Buffer<Id> lines;
+  select([&](std::size_t i) { return i % 2 == 0 ? edges[i / 2].first : edges[i / 2].second; }, 2,
+    inside, 0, lines);
   return lines;
-}
-
-template <typename Id>
-Buffer<Id> compacted(const Buffer<Id>& triangles, const std::vector<char>& kept)
-{
-  Buffer<Id> result(3 * std::size_t(std::count(kept.begin(), kept.end(), 1)));
-  std::size_t at = 0;
-  for (std::size_t t = 0; t < kept.size(); ++t)
-  {
-    if (kept[t])
-    {
-      std::copy_n(triangles.data() + 3 * t, 3, result.data() + at);
-      at += 3;
-    }
-  }
-  return result;
-}
-
-template <typename Id>
-Buffer<Id> uncovered(const std::vector<char>& covered)
-{
-  Buffer<Id> result(std::size_t(std::count(covered.begin(), covered.end(), 0)));
-  std::size_t at = 0;
-  for (std::size_t p = 0; p < covered.size(); ++p)
-  {
-    if (!covered[p])
-    {
-      result[at++] = Id(p);
-    }
-  }
-  return result;
 }
 
 } // namespace
@@ -165,7 +143,7 @@ AlphaShape<Id> alphaShape(
 {
   const std::vector<char> kept = smallTriangles(triangles, pointAt, alpha);
   AlphaShape<Id> shape;
-  shape.Triangles = compacted(triangles, kept);
+  select([&](std::size_t i) { return triangles[i]; }, 3, kept, 1, shape.Triangles);
   shape.Lines = linesOutside(shortEdgesOfDropped(triangles, kept, pointAt, alpha), shape.Triangles);
   for (const Buffer<Id>* cells : { &shape.Triangles, &shape.Lines })
   {
@@ -174,7 +152,7 @@ AlphaShape<Id> alphaShape(
       covered[std::size_t(point)] = 1;
     }
   }
-  shape.Vertices = uncovered<Id>(covered);
+  select([](std::size_t i) { return Id(i); }, 1, covered, 0, shape.Vertices);
   return shape;
 }
 

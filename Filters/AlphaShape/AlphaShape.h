@@ -29,11 +29,6 @@ template <typename Id>
 AlphaShape<Id> alphaShape(
   const Buffer<Id>& triangles, const PointAt& pointAt, double alpha, std::vector<char> covered);
 
-extern template AlphaShape<std::int32_t> alphaShape(
-  const Buffer<std::int32_t>&, const PointAt&, double, std::vector<char>);
-extern template AlphaShape<std::int64_t> alphaShape(
-  const Buffer<std::int64_t>&, const PointAt&, double, std::vector<char>);
-
 } // namespace tipp
 
 #endif

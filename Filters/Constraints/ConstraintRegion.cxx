@@ -208,14 +208,14 @@ void ConstraintRegion::insertAcross(Index a, Index b, Index first)
   this->Inserter.insert(*this, a, b, this->Crossed);
 }
 
-void ConstraintRegion::setCorners(Index slot, const std::array<Index, 3>& corners)
+void ConstraintRegion::setCorners(Index triangle, const std::array<Index, 3>& corners)
 {
   for (Index i = 0; i < 3; ++i)
   {
     const Index v = corners[std::size_t(i)];
-    this->Corners[std::size_t(3 * slot + i)] = v;
-    this->Fixed[std::size_t(3 * slot + i)] = 0;
-    this->Out[std::size_t(v)] = 3 * slot + i;
+    this->Corners[std::size_t(3 * triangle + i)] = v;
+    this->Fixed[std::size_t(3 * triangle + i)] = 0;
+    this->Out[std::size_t(v)] = 3 * triangle + i;
   }
 }
 

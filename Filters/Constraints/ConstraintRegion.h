@@ -76,11 +76,11 @@ private:
   /// @name The mesh of the inserter
   ///@{
   friend class SegmentInserter<ConstraintRegion>;
-  static Index half(Index slot, Index corner) { return 3 * slot + corner; }
-  static Index slotOf(Index h) { return h / 3; }
+  static Index half(Index triangle, Index corner) { return 3 * triangle + corner; }
+  static Index triangleOf(Index h) { return h / 3; }
   bool isFixed(Index h) const { return this->Fixed[std::size_t(h)] != 0; }
   void setFixed(Index h, bool isFixed) { this->Fixed[std::size_t(h)] = isFixed ? 1 : 0; }
-  void setCorners(Index slot, const std::array<Index, 3>& corners);
+  void setCorners(Index triangle, const std::array<Index, 3>& corners);
   bool mustFlip(Index half) const;
   ///@}
 

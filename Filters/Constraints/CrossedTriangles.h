@@ -13,7 +13,7 @@ namespace tipp
 
 class PartitionConstraints;
 
-/// What constraints do to the triangles of a triangulation.
+/// The triangles that constraints cross, and the vertices that they touch.
 struct CrossedTriangles
 {
   /// A vertex in the interior of a piece.
@@ -29,21 +29,14 @@ struct CrossedTriangles
   std::vector<Touch> Touches; ///< sorted by piece and vertex, each once
 };
 
-/// Finds them, but for pieces that were inserted already. Pieces and triangles name vertices by the
-/// same ids. Blocks are boxes known to hold some of the triangles, by ascending position: where no
-/// piece is near, these are not looked at. Inserted: what is known since the points were
-/// triangulated.
+/// Finds the triangles that pieces cross, except pieces that were inserted already. Pieces and
+/// triangles use the same vertex ids. `blocks` are boxes that hold some of the triangles, by
+/// ascending position: blocks with no piece near are skipped. `inserted` has what was found while
+/// the points were triangulated.
 template <typename Id>
 CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std::size_t triangles,
   const std::vector<TriangleBlock>& blocks, const std::vector<ConstraintPiece>& pieces,
   const PartitionConstraints& inserted, int threads);
-
-extern template CrossedTriangles findCrossedTriangles(PointsView, const std::int32_t*, std::size_t,
-  const std::vector<TriangleBlock>&, const std::vector<ConstraintPiece>&,
-  const PartitionConstraints&, int);
-extern template CrossedTriangles findCrossedTriangles(PointsView, const std::int64_t*, std::size_t,
-  const std::vector<TriangleBlock>&, const std::vector<ConstraintPiece>&,
-  const PartitionConstraints&, int);
 
 } // namespace tipp
 

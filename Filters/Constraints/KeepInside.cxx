@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/KeepInside.h"
 
-#include "Constraints/ConstraintEdges.h"
+#include "Constraints/Constraint.h"
 #include "Meshes/FindNeighbors.h"
 #include "Predicates/Orientation.h"
+#include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -15,19 +16,10 @@ namespace tipp
 namespace
 {
 
-/// Keeps the triangles that isKept(triangle), in their order.
 template <typename Id, typename IsKept>
 void keepTriangles(Buffer<Id>& ids, const IsKept& isKept)
 {
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < ids.size() / 3; ++t)
-  {
-    if (isKept(t))
-    {
-      std::copy_n(ids.data() + 3 * t, 3, ids.data() + 3 * kept++);
-    }
-  }
-  ids.truncate(3 * kept);
+  ids.truncate(3 * tipp::keepTriangles(ids.data(), ids.size() / 3, isKept));
 }
 
 /// For each corner of a triangle the triangle opposite to it, or -1.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/PartitionConstraints.h"
 
-#include "Constraints/KernelMeshEdit.h"
 #include "Constraints/SegmentInserter.h"
+#include "Kernel/MeshEditor.h"
 
 #include <algorithm>
 
@@ -56,7 +56,7 @@ struct Line
 class Walker
 {
 public:
-  explicit Walker(const KernelMeshEdit& mesh)
+  explicit Walker(const MeshEditor& mesh)
     : Mesh(mesh)
   {
   }
@@ -151,7 +151,7 @@ private:
     }
   }
 
-  const KernelMeshEdit& Mesh;
+  const MeshEditor& Mesh;
   std::vector<Index> Crossed;
 };
 
@@ -332,7 +332,10 @@ private:
     }
   }
 
-  bool isInterior(Index slot) const { return !this->IsBoundary[std::size_t(slot / 8)]; }
+  bool isInterior(Index triangle) const
+  {
+    return !this->IsBoundary[DelaunayKernel::number(triangle)];
+  }
 
   bool insert(Index from, const Walk& walk)
   {
@@ -345,13 +348,13 @@ private:
       const Index twin = this->Mesh.twin(walk.Edge);
       this->Mesh.setFixed(walk.Edge, true);
       this->Mesh.setFixed(twin, true);
-      return this->isInterior(this->Mesh.slotOf(walk.Edge)) ||
-        this->isInterior(this->Mesh.slotOf(twin));
+      return this->isInterior(this->Mesh.triangleOf(walk.Edge)) ||
+        this->isInterior(this->Mesh.triangleOf(twin));
     }
     const std::vector<Index>& crossed = this->Finder.crossed();
-    const bool isInside = this->isInterior(this->Mesh.slotOf(crossed.front())) &&
+    const bool isInside = this->isInterior(this->Mesh.triangleOf(crossed.front())) &&
       std::all_of(crossed.begin(), crossed.end(),
-        [this](Index h) { return this->isInterior(this->Mesh.slotOf(this->Mesh.twin(h))); });
+        [this](Index h) { return this->isInterior(this->Mesh.triangleOf(this->Mesh.twin(h))); });
     if (isInside)
     {
       this->Inserter.insert(this->Mesh, from, walk.Vertex, crossed);
@@ -361,20 +364,20 @@ private:
 
   bool note(std::size_t piece)
   {
-    const auto noteTriangle = [this, piece](Index slot)
+    const auto noteTriangle = [this, piece](Index triangle)
     {
-      if (this->isInterior(slot))
+      if (this->isInterior(triangle))
       {
-        this->Noted.push_back({ slot, std::int64_t(piece) });
+        this->Noted.push_back({ DelaunayKernel::number(triangle), std::int64_t(piece) });
       }
     };
     const std::vector<Index>& crossed = this->Finder.crossed();
     if (!crossed.empty())
     {
-      noteTriangle(this->Mesh.slotOf(crossed.front()));
+      noteTriangle(this->Mesh.triangleOf(crossed.front()));
       for (const Index h : crossed)
       {
-        noteTriangle(this->Mesh.slotOf(this->Mesh.twin(h)));
+        noteTriangle(this->Mesh.triangleOf(this->Mesh.twin(h)));
       }
     }
     return false;
@@ -383,14 +386,14 @@ private:
   void publish(PartitionIndex partition)
   {
     std::sort(this->Noted.begin(), this->Noted.end());
-    Index slot = 0;
-    std::size_t interior = 0; // before this slot
+    std::size_t at = 0;
+    std::size_t interior = 0; // among the triangles before `at`
     this->Crossings.clear();
     for (const auto& [triangle, piece] : this->Noted)
     {
-      for (; slot < triangle; slot += 8)
+      for (; at < triangle; ++at)
       {
-        interior += this->isInterior(slot) ? 1 : 0;
+        interior += this->IsBoundary[at] ? 0 : 1;
       }
       this->Crossings.push_back({ piece, partition, interior });
     }
@@ -403,13 +406,13 @@ private:
 
   PartitionConstraints& Of;
   const double Factor;
-  KernelMeshEdit Mesh;
+  MeshEditor Mesh;
   Walker Finder;
-  SegmentInserter<KernelMeshEdit> Inserter;
+  SegmentInserter<MeshEditor> Inserter;
   const char* IsBoundary = nullptr;
   std::vector<std::pair<std::int64_t, Index>> EndVertices;
   std::vector<std::int64_t> Entries; ///< of pieces with an end here: as PieceEnds has them
-  std::vector<std::pair<Index, std::int64_t>> Noted; ///< triangles that pieces cross
+  std::vector<std::pair<std::size_t, std::int64_t>> Noted; ///< crossed triangles, by number
   std::vector<Crossing> Crossings;
   std::vector<CrossedTriangles::Touch> Touches;
 };

@@ -4,8 +4,8 @@
 
 #include "Constraints/Constraint.h"
 #include "Constraints/CrossedTriangles.h"
-#include "Triangulation/PartitionEditor.h"
 #include "Triangulation/PointsView.h"
+#include "Triangulation/Worker.h"
 
 #include <array>
 #include <atomic>
@@ -17,7 +17,7 @@
 namespace tipp
 {
 
-/// Points that are ends of pieces, by their ids, and the pieces that end there.
+/// The points that are ends of pieces, by id, and the pieces that end at each.
 class PieceEnds
 {
 public:
@@ -28,7 +28,8 @@ public:
     return (this->Words[std::size_t(id) / 64].Bits >> (std::size_t(id) % 64) & 1) != 0;
   }
 
-  /// visit(twice the piece, and 1 more for its B).
+  /// Calls visit(entry) for each piece that ends at the point: twice the piece's number for its end
+  /// A, and one more for its end B.
   template <typename Visit>
   void visit(PointId id, const Visit& visit) const
   {
@@ -46,7 +47,7 @@ private:
     std::uint64_t Before = 0; ///< bits of the words before
   };
 
-  /// Of an id that it has: its place among those.
+  /// The position of an id, which must be an end, among all ends.
   std::size_t rank(PointId id) const;
 
   std::vector<Word> Words;
@@ -54,24 +55,24 @@ private:
   std::vector<std::int64_t> Entries;
 };
 
-/// Inserts pieces of constraints while the points are triangulated. Where a partition has both ends
-/// of a piece and all triangles that it crosses are interior ones, the piece is inserted into the
-/// partition's mesh, which is in the processor's cache and knows neighbours. Interior triangles are
-/// final, and jobs of different partitions have no triangle in common: so the result is that of
-/// inserting pieces afterwards. All others are left, and the interior triangles that they cross are
-/// noted.
+/// Inserts pieces of constraints while the points are triangulated. If a partition contains both
+/// ends of a piece, and all triangles that the piece crosses are interior, it is inserted into the
+/// partition's mesh, which is in the processor's cache and has neighbours. Interior triangles are
+/// final, and different partitions have no triangle in common, so the result is the same as if the
+/// pieces were inserted afterwards. Other pieces are left for later, and the interior triangles
+/// that they cross are recorded.
 class PartitionConstraints
 {
 public:
   PartitionConstraints(PointsView points, const std::vector<ConstraintPiece>& pieces);
 
-  /// For a thread. Factor: by which its kernel's coordinates are multiplied.
+  /// Makes a thread's editor. The kernel's coordinates have been multiplied by `factor`.
   std::unique_ptr<PartitionEditor> makeEditor(double factor);
 
   bool isDone(std::size_t piece) const { return this->Done[piece] != 0; }
 
-  /// Whether one of the piece's ends is the partition's: then crossings() has all interior
-  /// triangles there that it crosses.
+  /// Whether one of the piece's ends lies in the partition: then crossings() has all interior
+  /// triangles of the partition that the piece crosses.
   bool isKnown(std::int64_t piece, PartitionIndex partition) const
   {
     const Ends& ends = this->EndsOf[std::size_t(piece)];
@@ -85,7 +86,7 @@ public:
     std::size_t Triangle; ///< counted among the partition's interior ones
   };
   const std::vector<Crossing>& crossings() const { return this->Crossings; }
-  /// Vertices on pieces, those that are left, too.
+  /// Vertices in the interior of pieces, also of those that are left for later.
   std::vector<CrossedTriangles::Touch>& touches() { return this->Touches; }
   const std::vector<CrossedTriangles::Touch>& touches() const { return this->Touches; }
 

@@ -28,9 +28,7 @@ auto isShortAmong(const std::vector<SegmentTree::Item>& all)
   Box2 box{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
   for (const SegmentTree::Item& item : all)
   {
-    const Box2 its = boxOf(item.A, item.B);
-    box = { std::min(box.xmin, its.xmin), std::min(box.ymin, its.ymin),
-      std::max(box.xmax, its.xmax), std::max(box.ymax, its.ymax) };
+    box = unionOf(box, boxOf(item.A, item.B));
   }
   constexpr double part = 1.0 / 64;
   const double width = part * (box.xmax / 2 - box.xmin / 2); // halves, for a difference overflows

@@ -23,11 +23,11 @@ namespace tipp
 /// enclose nothing. Then edges are flipped until all are locally Delaunay, as in CGAL's
 /// triangulation.
 ///
-/// Mesh: counter-clockwise triangles in slots, with the half-edge half(slot, i) from corner i to
-/// the next; next(), previous(), from(), to(), twin() and slotOf() of half-edges; setCorners(slot,
-/// corners), which frees the slot's edges; join(half, other) for twins; isFixed(half) and
-/// setFixed(half, fixed) on one side; turn(a, b, c) of vertices; and mustFlip(half), false for
-/// edges that are fixed or have one triangle.
+/// `Mesh` has counter-clockwise triangles and the half-edge half(triangle, i) from corner i to the
+/// next; next(), previous(), from(), to(), twin() and triangleOf() of half-edges;
+/// setCorners(triangle, corners), which removes the triangle's connections; join(half, other) for
+/// twins; isFixed(half) and setFixed(half, fixed) for one side of an edge; turn(a, b, c) of
+/// vertices; and mustFlip(half), false for edges that are fixed or have one triangle.
 template <typename Mesh>
 class SegmentInserter
 {
@@ -39,7 +39,7 @@ public:
   void insert(Mesh& mesh, Index a, Index b, const std::vector<Index>& crossed)
   {
     this->makeChains(mesh, a, crossed);
-    if (!this->NewInner.empty())
+    if (!this->NewInner.empty()) // clear() is slow even then
     {
       this->NewInner.clear();
     }
@@ -73,7 +73,7 @@ private:
   /// What the segment leaves on its two sides.
   void makeChains(const Mesh& mesh, Index a, const std::vector<Index>& crossed)
   {
-    this->Removed.assign(1, mesh.slotOf(crossed.front()));
+    this->Removed.assign(1, mesh.triangleOf(crossed.front()));
     // From a to b.
     this->Left.assign(1, makeLink(mesh, mesh.to(crossed.front()), mesh.next(crossed.front())));
     // From b to a, in reverse order; each link's To is the vertex that it comes from.
@@ -82,7 +82,7 @@ private:
     for (std::size_t i = 0; i < crossed.size(); ++i)
     {
       const Index half = mesh.twin(crossed[i]);
-      this->Removed.push_back(mesh.slotOf(half));
+      this->Removed.push_back(mesh.triangleOf(half));
       const Index onRight = mesh.next(half); // from the right to the new vertex
       const Index onLeft = mesh.previous(half);
       const Index apex = mesh.to(onRight);
@@ -116,7 +116,7 @@ private:
       for (Link& link : *chain)
       {
         link.IsDangling = link.Outer >= 0 &&
-          std::binary_search(this->Sorted.begin(), this->Sorted.end(), mesh.slotOf(link.Outer));
+          std::binary_search(this->Sorted.begin(), this->Sorted.end(), mesh.triangleOf(link.Outer));
       }
     }
   }
@@ -156,12 +156,12 @@ private:
   /// The triangle on the right of two links; returns the half-edge that replaces them.
   Index makeTriangle(Mesh& mesh, const Link& first, Index from, const Link& second)
   {
-    const Index slot = this->Removed.back();
+    const Index triangle = this->Removed.back();
     this->Removed.pop_back();
-    mesh.setCorners(slot, { from, second.To, first.To });
-    this->attach(mesh, mesh.half(slot, 1), second);
-    this->attach(mesh, mesh.half(slot, 2), first);
-    return mesh.half(slot, 0);
+    mesh.setCorners(triangle, { from, second.To, first.To });
+    this->attach(mesh, mesh.half(triangle, 1), second);
+    this->attach(mesh, mesh.half(triangle, 2), first);
+    return mesh.half(triangle, 0);
   }
 
   /// Joins a new half-edge with what was on the other side of the removed one.
@@ -216,24 +216,24 @@ private:
     const Side rp = side(mesh.previous(h));
     const Side ps = side(mesh.next(g));
     const Side sq = side(mesh.previous(g));
-    const Index one = mesh.slotOf(h);
-    const Index other = mesh.slotOf(g);
+    const Index one = mesh.triangleOf(h);
+    const Index other = mesh.triangleOf(g);
     mesh.setCorners(one, { p, s, r });
     mesh.setCorners(other, { s, q, r });
-    const auto place = [this, &mesh](Index half, const Side& old)
+    const auto setSide = [this, &mesh](Index half, const Side& old)
     {
       mesh.join(half, old.Twin);
       mesh.setFixed(half, old.IsFixed);
       this->Suspects.push_back(half);
     };
-    place(mesh.half(one, 0), ps);
-    place(mesh.half(one, 2), rp);
-    place(mesh.half(other, 0), sq);
-    place(mesh.half(other, 1), qr);
+    setSide(mesh.half(one, 0), ps);
+    setSide(mesh.half(one, 2), rp);
+    setSide(mesh.half(other, 0), sq);
+    setSide(mesh.half(other, 1), qr);
     mesh.join(mesh.half(one, 1), mesh.half(other, 2));
   }
 
-  std::vector<Index> Removed; ///< slots of crossed triangles that are not filled again yet
+  std::vector<Index> Removed; ///< crossed triangles that are not used again yet
   std::vector<Index> Sorted;
   Chain Left;
   Chain Right;

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/SegmentTree.h"
 
+#include "Triangulation/PointsView.h"
+
 #include <utility>
 
 namespace tipp
 {
 namespace
 {
-
-Box2 together(const Box2& a, const Box2& b)
-{
-  return { std::min(a.xmin, b.xmin), std::min(a.ymin, b.ymin), std::max(a.xmax, b.xmax),
-    std::max(a.ymax, b.ymax) };
-}
 
 /// The bits of a number, each followed by a zero.
 std::uint64_t spread(std::uint64_t bits)
@@ -50,7 +46,7 @@ SegmentTree::SegmentTree(std::vector<Item> segments)
   Box2 all = boxOf(segments.front().A, segments.front().B);
   for (const Item& item : segments)
   {
-    all = together(all, boxOf(item.A, item.B));
+    all = unionOf(all, boxOf(item.A, item.B));
   }
   std::vector<std::pair<std::uint64_t, std::size_t>> order(segments.size());
   for (std::size_t i = 0; i < segments.size(); ++i)
@@ -59,9 +55,9 @@ SegmentTree::SegmentTree(std::vector<Item> segments)
   }
   std::sort(order.begin(), order.end());
   this->Items.reserve(segments.size());
-  for (const auto& place : order)
+  for (const auto& entry : order)
   {
-    this->Items.push_back(segments[place.second]);
+    this->Items.push_back(segments[entry.second]);
   }
   std::vector<Box2> boxes;
   for (const Item& item : this->Items)
@@ -74,7 +70,7 @@ SegmentTree::SegmentTree(std::vector<Item> segments)
     for (std::size_t i = 0; i < boxes.size(); ++i)
     {
       i % Fanout == 0 ? level.push_back(boxes[i])
-                      : void(level.back() = together(level.back(), boxes[i]));
+                      : void(level.back() = unionOf(level.back(), boxes[i]));
     }
     this->Levels.push_back(level);
     boxes = std::move(level);

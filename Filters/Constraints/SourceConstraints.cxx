@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/SourceConstraints.h"
 
-#include "Constraints/MatchPositions.h"
+#include "Constraints/ConstraintPoints.h"
+#include "Output/CellBuffers.h"
 #include "Projection/ProjectedPoints.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdList.h"
@@ -13,11 +15,13 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <utility>
 
 namespace tipp
 {
+
 namespace
 {
 
@@ -118,6 +122,119 @@ JoinedPoints joinPoints(vtkPointSet* input, vtkPolyData* source, vtkAbstractTran
     joined->GetPointData(), result.LostArrays);
   result.Data = joined;
   return result;
+}
+
+namespace
+{
+
+template <typename Id>
+void markEdges(const Buffer<Id>& ids, const ConstraintEdges& edges, unsigned char* marks)
+{
+  const std::int64_t triangles = std::int64_t(ids.size() / 3);
+#pragma omp parallel for
+  for (std::int64_t t = 0; t < triangles; ++t)
+  {
+    const Id* const corners = ids.data() + 3 * t;
+    for (int i = 0; i < 3; ++i)
+    {
+      marks[3 * t + i] = edges.contains(corners[(i + 1) % 3], corners[(i + 2) % 3]) ? 1 : 0;
+    }
+  }
+}
+
+} // namespace
+
+vtkSmartPointer<vtkPoints> appendCrossings(
+  vtkPoints* points, const std::vector<CrossingPoint>& crossings, bool isPlaneXY)
+{
+  const vtkIdType count = points->GetNumberOfPoints();
+  vtkNew<vtkDoubleArray> scalars;
+  scalars->SetNumberOfComponents(3);
+  scalars->SetNumberOfTuples(count + vtkIdType(crossings.size()));
+  scalars->InsertTuples(0, count, 0, points->GetData());
+  vtkIdType next = count;
+  for (const CrossingPoint& crossing : crossings)
+  {
+    double a[3];
+    double b[3];
+    double p[3];
+    scalars->GetTuple(crossing.A, a);
+    scalars->GetTuple(crossing.B, b);
+    for (int i = 0; i < 3; ++i)
+    {
+      p[i] = (1 - crossing.Fraction) * a[i] + crossing.Fraction * b[i];
+    }
+    if (isPlaneXY)
+    {
+      p[0] = crossing.Position.x;
+      p[1] = crossing.Position.y;
+    }
+    scalars->SetTuple(next++, p);
+  }
+  auto extended = vtkSmartPointer<vtkPoints>::New();
+  extended->SetData(scalars);
+  return extended;
+}
+
+void interpolateCrossings(vtkPointData* from, vtkIdType points,
+  const std::vector<CrossingPoint>& crossings, vtkPointData* to)
+{
+  const vtkIdType total = points + vtkIdType(crossings.size());
+  to->InterpolateAllocate(from, total);
+  to->SetNumberOfTuples(total);
+  to->CopyData(from, 0, points, 0);
+  vtkIdType next = points;
+  for (const CrossingPoint& crossing : crossings)
+  {
+    for (int i = 0; i < to->GetNumberOfArrays(); ++i)
+    {
+      vtkAbstractArray* const array = to->GetAbstractArray(i);
+      array->InterpolateTuple(next, crossing.A, array, crossing.B, array, crossing.Fraction);
+    }
+    ++next;
+  }
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> constraintEdgesArray(
+  const Triangulation& triangulation, const std::vector<ConstraintPiece>& pieces)
+{
+  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  array->SetName("ConstraintEdges");
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(vtkIdType(triangulation.triangleCount()));
+  const ConstraintEdges edges(pieces);
+  triangulation.Ids64.empty() ? markEdges(triangulation.Ids32, edges, array->GetPointer(0))
+                              : markEdges(triangulation.Ids64, edges, array->GetPointer(0));
+  return array;
+}
+
+void addConstraintLines(const ResolvedConstraints& constraints,
+  const std::vector<vtkIdType>& sourceCells, vtkPolyData* output)
+{
+  const std::size_t edges = constraints.Pieces.size();
+  Buffer<std::int64_t> ids(2 * edges);
+  vtkNew<vtkIdTypeArray> numbers;
+  numbers->SetName("ConstraintId");
+  numbers->SetNumberOfTuples(vtkIdType(edges) + output->GetNumberOfPolys());
+  numbers->FillValue(-1);
+  for (std::size_t i = 0; i < edges; ++i)
+  {
+    const ConstraintPiece& piece = constraints.Pieces[i];
+    ids[2 * i] = piece.A;
+    ids[2 * i + 1] = piece.B;
+    numbers->SetValue(vtkIdType(i), sourceCells[std::size_t(piece.Constraint)]);
+  }
+  output->SetLines(takeCells(std::move(ids), 2));
+  output->GetCellData()->AddArray(numbers);
+}
+
+void addConstraintTotals(
+  const ResolvedConstraints& resolved, std::size_t constraints, RunStatistics& statistics)
+{
+  statistics.add("constraints", "Constraints", std::int64_t(constraints));
+  statistics.add("constraint_edges", "ConstraintEdges", std::int64_t(resolved.Pieces.size()));
+  statistics.add("crossing_points", "CrossingPoints", std::int64_t(resolved.Crossings.size()));
+  statistics.add("crossing_rounds", "CrossingRounds", resolved.Rounds);
 }
 
 } // namespace tipp

@@ -3,6 +3,8 @@
 #define tippSourceConstraints_h
 
 #include "Constraints/Constraint.h"
+#include "Constraints/ResolveCrossings.h"
+#include "Output/RunStatistics.h"
 #include "Triangulation/PointsView.h"
 
 #include "vtkSmartPointer.h"
@@ -12,8 +14,11 @@
 #include <vector>
 
 class vtkAbstractTransform;
+class vtkPointData;
+class vtkPoints;
 class vtkPointSet;
 class vtkPolyData;
+class vtkUnsignedCharArray;
 
 namespace tipp
 {
@@ -42,6 +47,30 @@ struct JoinedPoints
 /// first), each other position is a new point. New points have the source's values of point arrays;
 /// arrays that the source lacks are left out if there are new points.
 JoinedPoints joinPoints(vtkPointSet* input, vtkPolyData* source, vtkAbstractTransform* toPlane);
+
+/// The points and, in double precision after them, the crossings. The plane is x and y, in which
+/// they are exact, unless there is a transform; other coordinates are interpolated.
+vtkSmartPointer<vtkPoints> appendCrossings(
+  vtkPoints* points, const std::vector<CrossingPoint>& crossings, bool isPlaneXY);
+
+/// Point data of the points and, interpolated along the constraint of lower number, of the
+/// crossings.
+void interpolateCrossings(vtkPointData* from, vtkIdType points,
+  const std::vector<CrossingPoint>& crossings, vtkPointData* to);
+
+/// "ConstraintEdges": for each corner of a triangle 1 if the edge opposite to it is one of a
+/// constraint, else 0.
+vtkSmartPointer<vtkUnsignedCharArray> constraintEdgesArray(
+  const Triangulation& triangulation, const std::vector<ConstraintPiece>& pieces);
+
+/// Adds the edges of constraints as lines, before the triangles, with the cell array
+/// "ConstraintId": the source's cell, and -1 of triangles.
+void addConstraintLines(const ResolvedConstraints& constraints,
+  const std::vector<vtkIdType>& sourceCells, vtkPolyData* output);
+
+/// Adds the numbers of constraints, edges and crossings.
+void addConstraintTotals(
+  const ResolvedConstraints& resolved, std::size_t constraints, RunStatistics& statistics);
 
 } // namespace tipp
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/TableConstraints.h"
 
-#include "Constraints/InterpolateSurface.h"
+#include "Constraints/ConstraintPoints.h"
 #include "Constraints/KeepInside.h"
-#include "Constraints/MatchPositions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,14 +70,14 @@ void takeSurface(std::size_t given, const TriangulationOptions& options, PointTa
   TriangulationOptions plain;
   plain.Threads = options.Threads;
   const PointsView before(points.XY.data(), given, 2);
-  const std::vector<SurfacePlace> places =
-    placeOnSurface(before, triangulate(before, plain), all, options.Threads);
+  const std::vector<SurfacePosition> positions =
+    locateOnSurface(before, triangulate(before, plain), all, options.Threads);
   for (PointTable::Column& column : points.Columns)
   {
-    for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t i = 0; i < positions.size(); ++i)
     {
       double& value = column.Values[given + i];
-      value = std::isnan(value) ? places[i].valueOf(column.Values) : value;
+      value = std::isnan(value) ? positions[i].valueOf(column.Values) : value;
     }
   }
 }

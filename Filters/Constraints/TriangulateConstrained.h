@@ -29,10 +29,6 @@ VTKTIPPFILTERS_EXPORT ConstrainedTriangulation triangulateConstrained(PointsView
   const TriangulationOptions& options = {},
   const std::function<void(ConstrainedTriangulation&)>& cut = {});
 
-/// Removes the triangles with an edge longer than this; 0: none. Not before what is inside of
-/// polygons is known, for which the triangles must be connected.
-VTKTIPPFILTERS_EXPORT void leaveOutLong(PointsView points, double longest, Triangulation& mesh);
-
 } // namespace tipp
 
 #endif

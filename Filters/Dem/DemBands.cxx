@@ -20,8 +20,14 @@ const std::map<std::string, DemBand::Kind>& derivedKinds()
 {
   static const std::map<std::string, DemBand::Kind> kinds = { { "slope", DemBand::Kind::Slope },
     { "aspect", DemBand::Kind::Aspect }, { "hillshade", DemBand::Kind::Hillshade },
-    { "void", DemBand::Kind::Void } };
+    { "density", DemBand::Kind::Density }, { "void", DemBand::Kind::Void } };
   return kinds;
+}
+
+bool needsElevation(DemBand::Kind kind)
+{
+  return kind == DemBand::Kind::Slope || kind == DemBand::Kind::Aspect ||
+    kind == DemBand::Kind::Hillshade;
 }
 
 double degrees(double radians)
@@ -63,10 +69,12 @@ struct Gradient
     const double area = bx * cy - by * cx;
     this->X = (bz * cy - by * cz) / area;
     this->Y = (bx * cz - bz * cx) / area;
+    this->TwiceArea = std::fabs(area);
   }
 
   double X;
   double Y;
+  double TwiceArea;
 };
 
 double shade(const Gradient& gradient)
@@ -107,11 +115,11 @@ DemBands findBands(const std::vector<std::string>& bands, const std::vector<std:
     const auto derived = derivedKinds().find(name);
     const bool isColumn = derived == derivedKinds().end();
     band.Is = isColumn ? DemBand::Kind::Column : derived->second;
-    const bool needsElevation = (!isColumn && band.Is != DemBand::Kind::Void) || name == elevation;
-    band.Column = needsElevation ? found.Elevation : find(columns, name);
-    if (band.Is != DemBand::Kind::Void && band.Column >= columns.size())
+    const bool isOfElevation = needsElevation(band.Is) || name == elevation;
+    band.Column = isOfElevation ? found.Elevation : find(columns, name);
+    if ((isColumn || isOfElevation) && band.Column >= columns.size())
     {
-      failToFind(needsElevation ? "z" : name, columns);
+      failToFind(isOfElevation ? "z" : name, columns);
     }
     found.Bands.push_back(band);
   }
@@ -147,6 +155,8 @@ double derivedValue(DemBand::Kind kind, const std::array<std::array<double, 3>, 
   {
     case DemBand::Kind::Void:
       return 0;
+    case DemBand::Kind::Density:
+      return 1 / gradient.TwiceArea;
     case DemBand::Kind::Slope:
       return degrees(std::atan(std::hypot(gradient.X, gradient.Y)));
     case DemBand::Kind::Aspect:

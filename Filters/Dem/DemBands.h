@@ -21,6 +21,7 @@ struct DemBand
     Slope,     ///< of the triangle, in degrees
     Aspect,    ///< where it descends to, in degrees from the north, clockwise; NaN where it is flat
     Hillshade, ///< 1 to 255, the light coming from the north-west at 45 degrees
+    Density,   ///< points a square unit of x and y: half a point in each triangle
     Void       ///< 0; where there is no triangle 1, see fillVoids()
   };
   std::string Name;

@@ -4,6 +4,7 @@
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -153,20 +154,14 @@ ReadTile readFrom(const RasterGrid& grid, const SampledBands& samples)
 }
 
 std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid, const ReadTile& readTile,
-  const std::function<bool(double)>& progress, const DemBands& bands)
+  const std::function<bool(double)>& progress, int threads, const DemBands& bands)
 {
-  std::vector<std::vector<double>> values;
-  std::int64_t filled = 0;
-  std::int64_t done = 0;
-  bool isWanted = true;
-  forEachTile(grid,
-    [&](const RasterWindow& window)
+  std::atomic<std::int64_t> filled{ 0 };
+  const bool isDone = forChunks(tileCount(grid), 1, threadCount(threads), progress,
+    [&](std::int64_t number, std::int64_t, int)
     {
-      isWanted = isWanted && (!progress || progress(double(done) / double(grid.pixels())));
-      if (!isWanted)
-      {
-        return;
-      }
+      const RasterWindow window = tileOf(grid, number);
+      std::vector<std::vector<double>> values;
       readTile(window, values);
       filled += std::count_if(values.front().begin(), values.front().end(),
         [](double value) { return !std::isnan(value); });
@@ -177,9 +172,8 @@ std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid, const Read
         rows.push_back(band.data());
       }
       writer.write(window, rows);
-      done += window.Columns * window.Rows;
     });
-  return isWanted ? filled : -1;
+  return isDone ? filled.load() : -1;
 }
 
 } // namespace tipp

@@ -56,11 +56,11 @@ using ReadTile = std::function<void(const RasterWindow&, std::vector<std::vector
 /// One that reads from samples of a whole grid.
 VTKTIPPFILTERS_EXPORT ReadTile readFrom(const RasterGrid& grid, const SampledBands& samples);
 
-/// Writes all tiles, in the order that makes equal files of equal values. `bands`: those whose
-/// voids are to be filled, see fillVoids(). Returns the pixels whose first band has a value from a
-/// triangle, or -1 if `progress` ended it. Throws IOError.
+/// Writes all tiles. `bands`: those whose voids are to be filled, see fillVoids(). Returns the
+/// pixels whose first band has a value from a triangle, or -1 if `progress` ended it. `readTile` is
+/// called by several threads at once. `threads`: 0 is OpenMP's choice. Throws IOError.
 VTKTIPPFILTERS_EXPORT std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid,
-  const ReadTile& readTile, const std::function<bool(double)>& progress,
+  const ReadTile& readTile, const std::function<bool(double)>& progress, int threads,
   const DemBands& bands = {});
 
 } // namespace tipp

@@ -74,11 +74,26 @@ struct RasterSink::Tile
 /// What is sampled together.
 struct RasterSink::Part
 {
+  /// Most triangles are at the tile of the one before.
+  Tile& tileAt(std::int64_t row, std::int64_t column)
+  {
+    const Place place(row, column);
+    if (place != this->LastPlace)
+    {
+      this->LastTile = &this->Tiles[place];
+      this->LastPlace = place;
+    }
+    return *this->LastTile;
+  }
+
   std::vector<double> XYZ;
   std::vector<std::vector<double>> Columns; ///< only those that bands need
   TerrainPoints Points;
-  std::map<std::pair<std::int64_t, std::int64_t>, Tile> Tiles; ///< by row from the north, column
-  std::string Border;                                          ///< BorderSamples and their values
+  using Place = std::pair<std::int64_t, std::int64_t>; ///< row from the north, column
+  std::map<Place, Tile> Tiles;
+  Place LastPlace{ -1, -1 };
+  Tile* LastTile = nullptr;
+  std::string Border; ///< BorderSamples and their values
 };
 
 RasterSink::RasterSink(MakeSettings makeSettings, WriteRaster writeRaster)
@@ -91,7 +106,8 @@ std::uint64_t RasterSink::fileBytes(
   const Box2& bounds, const std::vector<std::string>& columns) const
 {
   const TerrainSettings settings = this->Make(bounds, columns);
-  return sizeof(double) * std::uint64_t(settings.Grid.Columns) * std::uint64_t(settings.Grid.Rows) *
+  return (settings.IsSingle ? sizeof(float) : sizeof(double)) *
+    std::uint64_t(settings.Grid.Columns) * std::uint64_t(settings.Grid.Rows) *
     settings.Bands.Bands.size();
 }
 
@@ -108,8 +124,8 @@ void RasterSink::begin(
   this->Settings = this->Make(bounds, columns);
   this->findMargins();
   this->Files = files;
-  this->Store = std::make_unique<TileStore>(
-    files + ".pixels", this->Settings.Grid, this->Settings.Bands.Bands.size());
+  this->Store = std::make_unique<TileStore>(files + ".pixels", this->Settings.Grid,
+    this->Settings.Bands.Bands.size(), this->Settings.IsSingle);
 }
 
 void RasterSink::take(const std::string& name, const double* rows, const PointRowLayout& layout,
@@ -183,7 +199,7 @@ void RasterSink::addTriangle(Part& part, const std::int32_t* corners) const
     const std::int64_t low = std::max<std::int64_t>(high - RasterTileSize + 1, 0);
     for (std::int64_t i = column / RasterTileSize; i <= lastColumn / RasterTileSize; ++i)
     {
-      Tile& tile = part.Tiles[{ tileRow, i }];
+      Tile& tile = part.tileAt(tileRow, i);
       tile.Ids.insert(tile.Ids.end(), corners, corners + 3);
       const std::int64_t west = i * RasterTileSize;
       tile.extend(std::max(column, west), std::min(lastColumn, west + RasterTileSize - 1),

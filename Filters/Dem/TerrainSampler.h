@@ -27,6 +27,7 @@ struct TerrainSettings
   RasterGrid Grid;
   DemBands Bands;
   int Threads = 1;
+  bool IsSingle = false; ///< 32 bits of each value are enough
 };
 
 /// The centres of a grid's pixels as samples, from the south-west on.

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -19,30 +20,46 @@ namespace
 
 constexpr std::int64_t tilePixels = RasterTileSize * RasterTileSize;
 
-/// What is stored of a value: 0, as in the holes of a file, for a pixel that has none.
-std::uint64_t encode(double value)
+/// NaNs that no computation makes.
+constexpr std::uint64_t missingOf(std::uint64_t)
 {
-  std::uint64_t bits;
-  std::memcpy(&bits, &value, sizeof bits);
-  constexpr std::uint64_t missing = 0xfff8dead00000000u; // a NaN that no computation makes
-  return bits ^ missing;
+  return 0xfff8dead00000000u;
+}
+constexpr std::uint32_t missingOf(std::uint32_t)
+{
+  return 0xffc0deadu;
 }
 
-double decode(std::uint64_t stored)
+template <typename Word>
+using NumberOf = std::conditional_t<sizeof(Word) == sizeof(float), float, double>;
+
+/// What is stored of a value: 0, as in the holes of a file, for a pixel that has none.
+template <typename Word>
+Word encode(double value)
 {
-  constexpr std::uint64_t missing = 0xfff8dead00000000u;
-  const std::uint64_t bits = stored ^ missing;
-  double value;
-  std::memcpy(&value, &bits, sizeof value);
-  return stored == 0 ? std::numeric_limits<double>::quiet_NaN() : value;
+  const auto number = NumberOf<Word>(value);
+  Word bits;
+  std::memcpy(&bits, &number, sizeof bits);
+  return bits ^ missingOf(Word());
+}
+
+template <typename Word>
+double decode(Word stored)
+{
+  const Word bits = stored ^ missingOf(Word());
+  NumberOf<Word> number;
+  std::memcpy(&number, &bits, sizeof number);
+  return stored == 0 ? std::numeric_limits<double>::quiet_NaN() : double(number);
 }
 
 } // namespace
 
-TileStore::TileStore(const std::string& path, const RasterGrid& grid, std::size_t bands)
+TileStore::TileStore(
+  const std::string& path, const RasterGrid& grid, std::size_t bands, bool isSingle)
   : Path(path)
   , Grid(grid)
   , Bands(bands)
+  , IsSingle(isSingle)
   , Descriptor(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666))
 {
   if (this->Descriptor < 0)
@@ -58,25 +75,27 @@ TileStore::~TileStore()
 
 /// Tiles are counted from the north-west, so that each has the rows of a tile of the raster's file;
 /// in a tile rows are those from the north.
+template <typename Word>
 std::uint64_t TileStore::offset(std::int64_t column, std::int64_t row, std::size_t band) const
 {
   const std::int64_t fromNorth = this->Grid.Rows - 1 - row;
   const std::int64_t across = (this->Grid.Columns + RasterTileSize - 1) / RasterTileSize;
   const std::int64_t tile = fromNorth / RasterTileSize * across + column / RasterTileSize;
   const std::int64_t pixel = fromNorth % RasterTileSize * RasterTileSize + column % RasterTileSize;
-  return sizeof(std::uint64_t) *
+  return sizeof(Word) *
     ((std::uint64_t(tile) * this->Bands + band) * tilePixels + std::uint64_t(pixel));
 }
 
 /// Keeps other threads and processes away from the tile of a pixel.
+template <typename Word>
 class TileStore::Lock
 {
 public:
   Lock(const TileStore& store, std::int64_t column, std::int64_t row)
     : Store(store)
-    , Begin(store.offset(column / RasterTileSize * RasterTileSize,
+    , Begin(store.template offset<Word>(column / RasterTileSize * RasterTileSize,
         store.Grid.Rows - 1 - (store.Grid.Rows - 1 - row) / RasterTileSize * RasterTileSize, 0))
-    , Length(sizeof(double) * std::uint64_t(tilePixels) * store.Bands)
+    , Length(sizeof(Word) * std::uint64_t(tilePixels) * store.Bands)
     , Thread(store.Mutexes[this->Begin / this->Length % store.Mutexes.size()])
   {
     if (!this->setFileLock(F_WRLCK))
@@ -110,14 +129,13 @@ private:
   const std::lock_guard<std::mutex> Thread;
 };
 
-/// As stored; what lies beyond the end of the file is 0.
-void TileStore::readAt(std::uint64_t offset, double* values, std::size_t count) const
+/// What lies beyond the end of the file is 0.
+void TileStore::readAt(std::uint64_t offset, void* words, std::size_t bytes) const
 {
-  auto* at = reinterpret_cast<char*>(values);
-  std::size_t left = sizeof(double) * count;
-  while (left > 0)
+  auto* at = static_cast<char*>(words);
+  while (bytes > 0)
   {
-    const ssize_t got = pread(this->Descriptor, at, left, off_t(offset));
+    const ssize_t got = pread(this->Descriptor, at, bytes, off_t(offset));
     if (got < 0 && errno == EINTR)
     {
       continue;
@@ -128,22 +146,21 @@ void TileStore::readAt(std::uint64_t offset, double* values, std::size_t count) 
     }
     if (got == 0)
     {
-      std::memset(at, 0, left);
+      std::memset(at, 0, bytes);
       return;
     }
     at += got;
     offset += std::uint64_t(got);
-    left -= std::size_t(got);
+    bytes -= std::size_t(got);
   }
 }
 
-void TileStore::writeAt(std::uint64_t offset, const double* values, std::size_t count) const
+void TileStore::writeAt(std::uint64_t offset, const void* words, std::size_t bytes) const
 {
-  const auto* at = reinterpret_cast<const char*>(values);
-  std::size_t left = sizeof(double) * count;
-  while (left > 0)
+  const auto* at = static_cast<const char*>(words);
+  while (bytes > 0)
   {
-    const ssize_t put = pwrite(this->Descriptor, at, left, off_t(offset));
+    const ssize_t put = pwrite(this->Descriptor, at, bytes, off_t(offset));
     if (put < 0 && errno == EINTR)
     {
       continue;
@@ -154,76 +171,87 @@ void TileStore::writeAt(std::uint64_t offset, const double* values, std::size_t 
     }
     at += put;
     offset += std::uint64_t(put);
-    left -= std::size_t(put);
+    bytes -= std::size_t(put);
   }
 }
 
-void TileStore::set(const RasterWindow& window, const std::vector<unsigned char>& isSet,
+template <typename Word>
+void TileStore::setAs(const RasterWindow& window, const std::vector<unsigned char>& isSet,
   const std::vector<std::vector<double>>& values)
 {
-  const Lock lock(*this, window.Column, window.Row);
+  const Lock<Word> lock(*this, window.Column, window.Row);
   const auto width = std::size_t(window.Columns);
   // Its rows lie one after the other, the northernmost first.
-  const std::size_t stored = std::size_t(window.Rows - 1) * std::size_t(RasterTileSize) + width;
-  std::vector<double> rows(stored);
+  std::vector<Word> rows(std::size_t(window.Rows - 1) * std::size_t(RasterTileSize) + width);
   for (std::size_t band = 0; band < this->Bands; ++band)
   {
-    const std::uint64_t at = this->offset(window.Column, window.Row + window.Rows - 1, band);
-    this->readAt(at, rows.data(), stored);
+    const std::uint64_t at = this->offset<Word>(window.Column, window.Row + window.Rows - 1, band);
+    this->readAt(at, rows.data(), rows.size() * sizeof(Word));
     for (std::size_t row = 0; row < std::size_t(window.Rows); ++row)
     {
-      double* const to =
+      Word* const to =
         rows.data() + (std::size_t(window.Rows) - 1 - row) * std::size_t(RasterTileSize);
       for (std::size_t i = 0; i < width; ++i)
       {
-        if (isSet[row * width + i] != 0)
-        {
-          const std::uint64_t bits = encode(values[band][row * width + i]);
-          std::memcpy(to + i, &bits, sizeof bits);
-        }
+        to[i] = isSet[row * width + i] != 0 ? encode<Word>(values[band][row * width + i]) : to[i];
       }
     }
-    this->writeAt(at, rows.data(), stored);
+    this->writeAt(at, rows.data(), rows.size() * sizeof(Word));
   }
 }
 
-void TileStore::setIfMissing(std::int64_t pixel, const double* values)
+template <typename Word>
+void TileStore::setIfMissingAs(std::int64_t pixel, const double* values)
 {
   const std::int64_t column = pixel % this->Grid.Columns;
   const std::int64_t row = pixel / this->Grid.Columns;
-  const Lock lock(*this, column, row);
-  std::uint64_t bits = 0;
-  double word = 0;
-  this->readAt(this->offset(column, row, 0), &word, 1);
-  std::memcpy(&bits, &word, sizeof bits);
-  for (std::size_t band = 0; bits == 0 && band < this->Bands; ++band)
+  const Lock<Word> lock(*this, column, row);
+  Word first = 0;
+  this->readAt(this->offset<Word>(column, row, 0), &first, sizeof first);
+  for (std::size_t band = 0; first == 0 && band < this->Bands; ++band)
   {
-    const std::uint64_t encoded = encode(values[band]);
-    std::memcpy(&word, &encoded, sizeof word);
-    this->writeAt(this->offset(column, row, band), &word, 1);
+    const auto word = encode<Word>(values[band]);
+    this->writeAt(this->offset<Word>(column, row, band), &word, sizeof word);
   }
 }
 
-void TileStore::read(const RasterWindow& tile, std::vector<std::vector<double>>& values) const
+template <typename Word>
+void TileStore::readAs(const RasterWindow& tile, std::vector<std::vector<double>>& values) const
 {
-  const Lock lock(*this, tile.Column, tile.Row);
+  const Lock<Word> lock(*this, tile.Column, tile.Row);
   const auto width = std::size_t(tile.Columns);
+  std::vector<Word> words(width);
   values.resize(this->Bands);
   for (std::size_t band = 0; band < this->Bands; ++band)
   {
     values[band].resize(width * std::size_t(tile.Rows));
     for (std::int64_t row = 0; row < tile.Rows; ++row)
     {
-      double* const to = values[band].data() + std::size_t(row) * width;
-      this->readAt(this->offset(tile.Column, tile.Row + row, band), to, width);
-      for (std::size_t i = 0; i < width; ++i)
-      {
-        std::uint64_t bits;
-        std::memcpy(&bits, to + i, sizeof bits);
-        to[i] = decode(bits);
-      }
+      this->readAt(
+        this->offset<Word>(tile.Column, tile.Row + row, band), words.data(), width * sizeof(Word));
+      std::transform(words.begin(), words.end(),
+        values[band].begin() + std::ptrdiff_t(std::size_t(row) * width), decode<Word>);
     }
   }
+}
+
+void TileStore::set(const RasterWindow& window, const std::vector<unsigned char>& isSet,
+  const std::vector<std::vector<double>>& values)
+{
+  this->IsSingle ? this->setAs<std::uint32_t>(window, isSet, values)
+                 : this->setAs<std::uint64_t>(window, isSet, values);
+}
+
+void TileStore::setIfMissing(std::int64_t pixel, const double* values)
+{
+  this->IsSingle ? this->setIfMissingAs<std::uint32_t>(pixel, values)
+                 : this->setIfMissingAs<std::uint64_t>(pixel, values);
+}
+
+void TileStore::read(const RasterWindow& tile, std::vector<std::vector<double>>& values) const
+{
+  this->IsSingle ? this->readAs<std::uint32_t>(tile, values)
+                 : this->readAs<std::uint64_t>(tile, values);
 }
 
 } // namespace tipp

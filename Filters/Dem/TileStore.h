@@ -20,8 +20,8 @@ namespace tipp
 class VTKTIPPFILTERS_EXPORT TileStore
 {
 public:
-  /// Opens the file, or creates it. Throws IOError.
-  TileStore(const std::string& path, const RasterGrid& grid, std::size_t bands);
+  /// Opens the file, or creates it. `isSingle`: values are kept in 32 bits. Throws IOError.
+  TileStore(const std::string& path, const RasterGrid& grid, std::size_t bands, bool isSingle);
   ~TileStore();
   TileStore(const TileStore&) = delete;
   TileStore& operator=(const TileStore&) = delete;
@@ -38,14 +38,24 @@ public:
   void read(const RasterWindow& tile, std::vector<std::vector<double>>& values) const;
 
 private:
+  template <typename Word>
   std::uint64_t offset(std::int64_t column, std::int64_t row, std::size_t band) const;
+  template <typename Word>
+  void setAs(const RasterWindow& window, const std::vector<unsigned char>& isSet,
+    const std::vector<std::vector<double>>& values);
+  template <typename Word>
+  void setIfMissingAs(std::int64_t pixel, const double* values);
+  template <typename Word>
+  void readAs(const RasterWindow& tile, std::vector<std::vector<double>>& values) const;
+  template <typename Word>
   class Lock;
-  void readAt(std::uint64_t offset, double* values, std::size_t count) const;
-  void writeAt(std::uint64_t offset, const double* values, std::size_t count) const;
+  void readAt(std::uint64_t offset, void* words, std::size_t bytes) const;
+  void writeAt(std::uint64_t offset, const void* words, std::size_t bytes) const;
 
   const std::string Path;
   const RasterGrid Grid;
   const std::size_t Bands;
+  const bool IsSingle;
   int Descriptor;
   mutable std::array<std::mutex, 64> Mutexes; ///< each of some tiles
 };

@@ -7,7 +7,7 @@
 #include "Distributed/Survey.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
-#include "Triangulation/DegenerateInput.h"
+#include "Triangulation/PointSurvey.h"
 #include "Triangulation/Worker.h"
 
 #include <omp.h>

@@ -2,7 +2,7 @@
 #include "Distributed/Plan.h"
 
 #include "Distributed/MajorStages.h"
-#include "Triangulation/PartitionSizes.h"
+#include "Triangulation/Tiling.h"
 
 #include <algorithm>
 #include <cmath>

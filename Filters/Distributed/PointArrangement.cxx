@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/PointArrangement.h"
 
-#include "Triangulation/PartitionSizes.h"
+#include "Triangulation/Tiling.h"
 
 #include <algorithm>
 #include <cstring>

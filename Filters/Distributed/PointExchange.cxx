@@ -3,7 +3,7 @@
 
 #include "Parallel/ParallelFor.h"
 #include "Triangulation/PartitionFinder.h"
-#include "Triangulation/PopulatePages.h"
+#include "Triangulation/PointBuckets.h"
 
 #include <algorithm>
 #include <cstddef>

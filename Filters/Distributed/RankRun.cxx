@@ -5,7 +5,7 @@
 #include "Distributed/ShareInitialMesh.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/InitialMesh.h"
-#include "Triangulation/PartitionSizes.h"
+#include "Triangulation/Tiling.h"
 
 #include <algorithm>
 #include <numeric>

@@ -8,10 +8,10 @@
 #include "Distributed/PointExchange.h"
 #include "Distributed/RankArrays.h"
 #include "Engine/ReadyPartitions.h"
-#include "Engine/Regions.h"
 #include "Engine/Routing.h"
 #include "Messages/Communicator.h"
 #include "Parallel/Stopwatch.h"
+#include "Triangulation/Tiling.h"
 
 #include <atomic>
 #include <memory>

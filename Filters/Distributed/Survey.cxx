@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/Survey.h"
 
-#include "Triangulation/DegenerateInput.h"
 #include "Triangulation/PointBuckets.h"
+#include "Triangulation/PointSurvey.h"
 
 #include <algorithm>
 #include <cmath>

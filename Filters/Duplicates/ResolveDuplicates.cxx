@@ -15,13 +15,13 @@ namespace tipp
 namespace
 {
 
-/// The points of one place, the representative first.
-using Place = std::vector<std::int64_t>;
+/// Coincident points, the representative first.
+using Group = std::vector<std::int64_t>;
 
-bool disagrees(const Place& place, const ValueColumn& column)
+bool disagrees(const Group& group, const ValueColumn& column)
 {
-  const double first = column[place.front()];
-  return std::any_of(place.begin(), place.end(),
+  const double first = column[group.front()];
+  return std::any_of(group.begin(), group.end(),
     [&](std::int64_t point)
     {
       const double value = column[point];
@@ -29,31 +29,31 @@ bool disagrees(const Place& place, const ValueColumn& column)
     });
 }
 
-bool disagrees(const Place& place, const std::vector<ValueColumn>& columns, std::size_t elevation)
+bool disagrees(const Group& group, const std::vector<ValueColumn>& columns, std::size_t elevation)
 {
   return elevation < columns.size()
-    ? disagrees(place, columns[elevation])
+    ? disagrees(group, columns[elevation])
     : std::any_of(columns.begin(), columns.end(),
-        [&](const ValueColumn& column) { return disagrees(place, column); });
+        [&](const ValueColumn& column) { return disagrees(group, column); });
 }
 
 /// The first of those with the least value times `sign`; NaN comes after all numbers.
-std::int64_t findLeast(const Place& place, const ValueColumn& column, double sign)
+std::int64_t findLeast(const Group& group, const ValueColumn& column, double sign)
 {
   const auto valueOf = [&](std::int64_t point)
   {
     const double value = sign * column[point];
     return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
   };
-  return *std::min_element(place.begin(), place.end(),
+  return *std::min_element(group.begin(), group.end(),
     [&](std::int64_t a, std::int64_t b) { return valueOf(a) < valueOf(b); });
 }
 
-double meanOf(const Place& place, const ValueColumn& column)
+double meanOf(const Group& group, const ValueColumn& column)
 {
   double sum = 0;
   std::int64_t count = 0;
-  for (const std::int64_t point : place)
+  for (const std::int64_t point : group)
   {
     const double value = column[point];
     sum += std::isnan(value) ? 0 : value;
@@ -62,7 +62,7 @@ double meanOf(const Place& place, const ValueColumn& column)
   return sum / double(count); // NaN if there is none
 }
 
-void resolve(const Place& place, const std::vector<ValueColumn>& columns, std::size_t elevation,
+void resolve(const Group& group, const std::vector<ValueColumn>& columns, std::size_t elevation,
   DuplicateRule rule)
 {
   if (rule == DuplicateRule::First)
@@ -70,12 +70,12 @@ void resolve(const Place& place, const std::vector<ValueColumn>& columns, std::s
     return;
   }
   const std::int64_t chosen = rule == DuplicateRule::Mean
-    ? place.front()
-    : findLeast(place, columns[elevation], rule == DuplicateRule::Lowest ? 1 : -1);
+    ? group.front()
+    : findLeast(group, columns[elevation], rule == DuplicateRule::Lowest ? 1 : -1);
   for (const ValueColumn& column : columns)
   {
-    column[place.front()] =
-      rule == DuplicateRule::Mean ? meanOf(place, column) : double(column[chosen]);
+    column[group.front()] =
+      rule == DuplicateRule::Mean ? meanOf(group, column) : double(column[chosen]);
   }
 }
 
@@ -87,7 +87,7 @@ void requireElevation(DuplicateRule rule, const std::vector<std::string>& column
   if (isNeeded && findElevation(columns) == columns.size())
   {
     throw IOError("The points have no column z or elevation, by which to choose the lowest or "
-                  "highest of a place; use 'first' or 'mean'.");
+                  "highest of coincident points; use 'first' or 'mean'.");
   }
 }
 
@@ -98,17 +98,17 @@ std::int64_t resolveDuplicates(std::vector<Duplicate> duplicates,
     [](const Duplicate& a, const Duplicate& b)
     { return std::tie(a.Representative, a.Point) < std::tie(b.Representative, b.Point); });
   std::int64_t disagreeing = 0;
-  Place place;
+  Group group;
   for (std::size_t i = 0; i < duplicates.size();)
   {
     const std::int64_t representative = duplicates[i].Representative;
-    place.assign(1, representative);
+    group.assign(1, representative);
     for (; i < duplicates.size() && duplicates[i].Representative == representative; ++i)
     {
-      place.push_back(duplicates[i].Point);
+      group.push_back(duplicates[i].Point);
     }
-    disagreeing += disagrees(place, columns, elevation) ? 1 : 0;
-    resolve(place, columns, elevation, rule);
+    disagreeing += disagrees(group, columns, elevation) ? 1 : 0;
+    resolve(group, columns, elevation, rule);
   }
   return disagreeing;
 }

@@ -14,7 +14,7 @@
 namespace tipp
 {
 
-/// Which values count where several points have one place.
+/// Which values are kept if several points coincide.
 enum class DuplicateRule
 {
   First,   ///< those of the first point
@@ -27,7 +27,7 @@ enum class DuplicateRule
 VTKTIPPFILTERS_EXPORT void requireElevation(
   DuplicateRule rule, const std::vector<std::string>& columns);
 
-/// One value a point.
+/// A column of values, one for each point; it does not own them.
 struct ValueColumn
 {
   double* Values;
@@ -39,9 +39,10 @@ struct ValueColumn
   }
 };
 
-/// Gives each representative the values of its place. Returns the number of places whose points
-/// disagree: in the elevation, or in any column if there is none. `elevation`: among the columns;
-/// their number if there is none.
+/// Gives each representative the values that the rule selects among the points that coincide with
+/// it. Returns the number of representatives whose coincident points disagree: in the elevation, or
+/// in any column if there is none. `elevation` is the index of its column, or the number of
+/// columns.
 std::int64_t resolveDuplicates(std::vector<Duplicate> duplicates,
   const std::vector<ValueColumn>& columns, std::size_t elevation, DuplicateRule rule);
 

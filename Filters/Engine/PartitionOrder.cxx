@@ -4,11 +4,60 @@
 #include "Triangulation/BoundaryTriangles.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
 namespace tipp
 {
+
+void ConflictGraph::add(const std::vector<Pair>& pairs)
+{
+  for (const auto& [a, b] : pairs)
+  {
+    this->neighbours(a).push_back(b);
+    this->neighbours(b).push_back(a);
+  }
+  this->Count = 0;
+  for (std::vector<PartitionIndex>& neighbours : this->Neighbours)
+  {
+    std::sort(neighbours.begin(), neighbours.end());
+    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+    this->Count += neighbours.size();
+  }
+}
+
+std::vector<std::uint32_t> ConflictGraph::colours() const
+{
+  std::vector<PartitionIndex> order(this->size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+    [this](PartitionIndex a, PartitionIndex b)
+    { return this->neighbours(a).size() > this->neighbours(b).size(); });
+  constexpr std::uint32_t none = ~0U;
+  std::vector<std::uint32_t> colours(this->size(), none);
+  std::vector<PartitionIndex> takenFor; // by colour: the last node that could not have it
+  for (const PartitionIndex p : order)
+  {
+    for (const PartitionIndex neighbour : this->neighbours(p))
+    {
+      const std::uint32_t taken = colours[std::size_t(neighbour)];
+      if (taken != none)
+      {
+        takenFor[taken] = p;
+      }
+    }
+    const auto free = std::find_if(
+      takenFor.begin(), takenFor.end(), [p](PartitionIndex taken) { return taken != p; });
+    colours[std::size_t(p)] = static_cast<std::uint32_t>(free - takenFor.begin());
+    if (free == takenFor.end())
+    {
+      takenFor.push_back(-1);
+    }
+  }
+  return colours;
+}
+
 namespace
 {
 
@@ -17,7 +66,7 @@ bool isIn(PartitionIndex p, const PartitionSets& sets, std::uint32_t set)
   return std::find(sets.begin(set), sets.end(set), p) != sets.end(set);
 }
 
-/// Adds both (a, b) and (b, a) for all a and b of a set.
+/// Adds the pairs of members of a set.
 void addConflicts(
   const PartitionSets& sets, std::uint32_t set, std::vector<ConflictGraph::Pair>& pairs)
 {
@@ -26,13 +75,11 @@ void addConflicts(
     for (const PartitionIndex* b = sets.begin(set); b != a; ++b)
     {
       pairs.emplace_back(*a, *b);
-      pairs.emplace_back(*b, *a);
     }
   }
 }
 
-/// Adds both (a, b) and (b, a) for all a that are only in the set `one` and b only in the set
-/// `other`.
+/// Adds the pairs of a member only of the set `one` and a member only of the set `other`.
 void addConflicts(const PartitionSets& sets, std::uint32_t one, std::uint32_t other,
   std::vector<ConflictGraph::Pair>& pairs)
 {
@@ -47,7 +94,6 @@ void addConflicts(const PartitionSets& sets, std::uint32_t one, std::uint32_t ot
       if (!isIn(*b, sets, one))
       {
         pairs.emplace_back(*a, *b);
-        pairs.emplace_back(*b, *a);
       }
     }
   }
@@ -93,10 +139,10 @@ void PartitionOrder::sort(const std::vector<std::int32_t>& windows)
   this->EarlierCounts.clear();
   for (PartitionIndex p = 0; std::size_t(p) < this->Conflicts.size(); ++p)
   {
-    PartitionIndex* const begin = this->Conflicts.begin(p);
-    PartitionIndex* const end = this->Conflicts.end(p);
-    std::sort(begin, end, isBefore);
-    this->EarlierCounts.push_back(std::size_t(std::lower_bound(begin, end, p, isBefore) - begin));
+    std::vector<PartitionIndex>& all = this->Conflicts.neighbours(p);
+    std::sort(all.begin(), all.end(), isBefore);
+    this->EarlierCounts.push_back(
+      std::size_t(std::lower_bound(all.begin(), all.end(), p, isBefore) - all.begin()));
   }
   this->sortByUrgency(windows);
 }
@@ -127,15 +173,15 @@ void PartitionOrder::sortByUrgency(const std::vector<std::int32_t>& windows)
 /// co-circular, each disk meets nearly all partitions.
 bool PartitionOrder::findConflicts(const BoundaryTriangles& initialMesh)
 {
-  constexpr std::size_t most = std::size_t(1) << 22; // pairs collected before they are added
+  constexpr std::size_t most = std::size_t(1) << 22; // neighbours collected before they are added
   constexpr std::size_t mostOfAPartition = 256;
   const std::size_t limit = mostOfAPartition * std::max<std::size_t>(4096, this->Positions.size());
   const PartitionSets& sets = initialMesh.Sets;
   this->Conflicts = ConflictGraph(this->Positions.size());
   std::vector<ConflictGraph::Pair> pairs;
-  const auto isWithinLimit = [&](std::size_t pairsThatWait)
+  const auto isWithinLimit = [&]
   {
-    if (pairs.size() > this->Conflicts.neighbourCount() + pairsThatWait)
+    if (2 * pairs.size() > this->Conflicts.neighbourCount() + most)
     {
       this->Conflicts.add(pairs);
       pairs.clear();
@@ -150,7 +196,7 @@ bool PartitionOrder::findConflicts(const BoundaryTriangles& initialMesh)
       return false;
     }
     addConflicts(sets, set, pairs);
-    if (!isWithinLimit(most))
+    if (!isWithinLimit())
     {
       return false;
     }
@@ -158,7 +204,7 @@ bool PartitionOrder::findConflicts(const BoundaryTriangles& initialMesh)
   for (const auto& [one, other] : initialMesh.AdjacentSets)
   {
     addConflicts(sets, one, other, pairs);
-    if (!isWithinLimit(most))
+    if (!isWithinLimit())
     {
       return false;
     }
@@ -194,7 +240,8 @@ PartitionOrder::Range PartitionOrder::later(PartitionIndex p) const
     return { all + this->position(p) + 1, all + this->Sequence.size() };
   }
   const std::size_t earlier = this->EarlierCounts[std::size_t(p)];
-  return { this->Conflicts.begin(p) + earlier, this->Conflicts.end(p) };
+  const std::vector<PartitionIndex>& all = this->Conflicts.neighbours(p);
+  return { all.data() + earlier, all.data() + all.size() };
 }
 
 PartitionIndex PartitionOrder::first(const PartitionIndex* begin, const PartitionIndex* end) const

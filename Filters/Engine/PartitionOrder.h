@@ -2,16 +2,56 @@
 #ifndef tippPartitionOrder_h
 #define tippPartitionOrder_h
 
-#include "Engine/ConflictGraph.h"
 #include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace tipp
 {
+
+/// An undirected graph: which partitions, or which pieces (sets of partitions), conflict.
+class VTKTIPPFILTERS_EXPORT ConflictGraph
+{
+public:
+  using Pair = std::pair<PartitionIndex, PartitionIndex>;
+
+  /// A graph of `count` nodes without conflicts.
+  explicit ConflictGraph(std::size_t count = 0)
+    : Neighbours(count)
+  {
+  }
+
+  /// Adds conflicts; repetitions are allowed.
+  void add(const std::vector<Pair>& pairs);
+
+  std::size_t size() const { return this->Neighbours.size(); }
+  /// The sum of all nodes' neighbour counts.
+  std::size_t neighbourCount() const { return this->Count; }
+
+  /// @name The neighbours of p: in ascending order, until the caller sorts them
+  ///@{
+  std::vector<PartitionIndex>& neighbours(PartitionIndex p)
+  {
+    return this->Neighbours[std::size_t(p)];
+  }
+  const std::vector<PartitionIndex>& neighbours(PartitionIndex p) const
+  {
+    return this->Neighbours[std::size_t(p)];
+  }
+  ///@}
+
+  /// Returns each node's colour, counted from 0; conflicting nodes have different colours. Greedy,
+  /// nodes with most conflicts first.
+  std::vector<std::uint32_t> colours() const;
+
+private:
+  std::vector<std::vector<PartitionIndex>> Neighbours;
+  std::size_t Count = 0;
+};
 
 struct BoundaryTriangles;
 

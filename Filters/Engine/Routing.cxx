@@ -1,19 +1,141 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Engine/Routing.h"
 
-#include "Triangulation/HullRepair.h"
+#include "Kernel/DelaunayKernel.h"
+#include "Predicates/Circumdisk.h"
+#include "Predicates/InCircle.h"
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
+#include <utility>
 
 namespace tipp
 {
+
 namespace
 {
 
-constexpr std::uint32_t Nobody = ~0U;
+/// A vertex without padding.
+struct WrittenVertex
+{
+  Point2 Position;
+  std::int64_t Id;
+  std::int64_t Partition;
+};
 
 } // namespace
+
+void write(ByteWriter& writer, const std::vector<BoundaryVertex>& vertices)
+{
+  std::vector<WrittenVertex> written;
+  written.reserve(vertices.size());
+  for (const BoundaryVertex& v : vertices)
+  {
+    written.push_back({ v.Position, v.Id, v.Partition });
+  }
+  writer.array(written);
+}
+
+void write(ByteWriter& writer, const VertexMessage& message)
+{
+  writer.value(message.Sender);
+  writer.value(message.Triangles);
+  write(writer, message.Vertices);
+}
+
+void read(ByteReader& reader, std::vector<BoundaryVertex>& vertices)
+{
+  const std::vector<WrittenVertex> written = reader.array<WrittenVertex>();
+  vertices.reserve(vertices.size() + written.size());
+  for (const WrittenVertex& v : written)
+  {
+    vertices.push_back({ v.Position, v.Id, static_cast<PartitionIndex>(v.Partition) });
+  }
+}
+
+void read(ByteReader& reader, VertexMessage& message)
+{
+  message.Sender = reader.value<PartitionIndex>();
+  message.Triangles = reader.value<std::int64_t>();
+  message.Vertices.clear();
+  read(reader, message.Vertices);
+}
+
+Bytes writeDone(PartitionIndex sender, const SentMessages& sent,
+  const std::function<bool(PartitionIndex)>& isIncluded)
+{
+  ByteWriter writer;
+  writer.value(sender);
+  for (const auto& [to, message] : sent)
+  {
+    if (isIncluded(to))
+    {
+      writer.value(to);
+      write(writer, message);
+    }
+  }
+  return writer.take();
+}
+
+SentMessages readDone(const Bytes& bytes, std::size_t count, PartitionIndex& sender)
+{
+  ByteReader reader(bytes);
+  const auto requirePartition = [count](PartitionIndex p)
+  {
+    if (p < 0 || std::size_t(p) >= count)
+    {
+      throw std::runtime_error("A message from another rank is damaged: no such partition.");
+    }
+  };
+  sender = reader.value<PartitionIndex>();
+  requirePartition(sender);
+  SentMessages sent;
+  while (reader.left() > 0)
+  {
+    const auto to = reader.value<PartitionIndex>();
+    requirePartition(to);
+    sent.emplace_back(to, VertexMessage{});
+    read(reader, sent.back().second);
+    requirePartition(sent.back().second.Sender == sender ? sender : -1);
+  }
+  return sent;
+}
+
+std::vector<BoundaryVertex> UniqueVertices::collect(const std::vector<VertexMessage>& messages)
+{
+  std::size_t count = 0;
+  for (const VertexMessage& message : messages)
+  {
+    count += message.Vertices.size();
+  }
+  std::size_t size = 64;
+  while (size < 2 * count)
+  {
+    size *= 2;
+  }
+  constexpr std::uint32_t empty = ~0U;
+  this->HashTable.assign(size, empty);
+  std::vector<BoundaryVertex> vertices;
+  vertices.reserve(count);
+  for (const VertexMessage& message : messages)
+  {
+    for (const BoundaryVertex& v : message.Vertices)
+    {
+      std::size_t at = ((std::uint64_t(v.Id) * 0x9e3779b97f4a7c15U) >> 32) & (size - 1);
+      while (this->HashTable[at] != empty && vertices[this->HashTable[at]].Id != v.Id)
+      {
+        at = (at + 1) & (size - 1);
+      }
+      if (this->HashTable[at] == empty)
+      {
+        this->HashTable[at] = static_cast<std::uint32_t>(vertices.size());
+        vertices.push_back(v);
+      }
+    }
+  }
+  return vertices;
+}
 
 template <typename Id>
 void FinalBoundary<Id>::add(const BoundaryTriangle& triangle)
@@ -64,16 +186,90 @@ void repairHull(std::vector<BoundaryVertex> vertices, const std::vector<Boundary
   FinalTaker& final)
 {
   keepUnique(vertices);
-  std::vector<Point2> points;
-  points.reserve(vertices.size());
-  for (const BoundaryVertex& v : vertices)
+  std::vector<std::array<std::uint32_t, 3>> triangles;
   {
-    points.push_back(v.Position);
+    // There may be many vertices: their copies are freed as soon as possible.
+    DelaunayKernel kernel;
+    kernel.insert(positionsOf(vertices).data(), vertices.size());
+    kernel.forEachTriangle(
+      [&](DelaunayKernel::Index t)
+      {
+        if (kernel.isInfinite(t))
+        {
+          return;
+        }
+        const auto [u, v, w] = kernel.corners(t);
+        const Point2 a = kernel.point(u);
+        const Point2 b = kernel.point(v);
+        const Point2 c = kernel.point(w);
+        const Box2 bounds = Circumdisk(a, b, c).bounds();
+        const auto isInConflict = [&](const BoundaryVertex& z)
+        {
+          const Point2 p = z.Position;
+          return bounds.xmin <= p.x && p.x <= bounds.xmax && bounds.ymin <= p.y &&
+            p.y <= bounds.ymax && inCirclePerturbed(a, b, c, p);
+        };
+        if (std::any_of(artificial.begin(), artificial.end(), isInConflict))
+        {
+          triangles.push_back({ kernel.pointIndex(u), kernel.pointIndex(v), kernel.pointIndex(w) });
+        }
+      });
   }
-  for (const auto& corners : hullTriangles(std::move(points), artificial))
+  for (const auto& corners : triangles)
   {
     final.add({ vertices[corners[0]], vertices[corners[1]], vertices[corners[2]] });
   }
+}
+
+void OutgoingTriangles::clear(std::size_t vertexEnd)
+{
+  this->Triangles.clear();
+  this->SentTo.assign(vertexEnd, ~0U);
+}
+
+template <typename VertexOf, typename Deliver>
+std::int64_t OutgoingTriangles::send(PartitionIndex sender, std::size_t recipients,
+  const VertexOf& vertexOf, const Deliver& deliver, FinalTaker& final)
+{
+  // A counting sort: Ends are the recipients' begins before the triangles are copied.
+  this->Ends.assign(recipients + 2, 0);
+  for (const Triangle& triangle : this->Triangles)
+  {
+    ++this->Ends[std::size_t(triangle.Recipient) + 1];
+  }
+  std::partial_sum(this->Ends.begin(), this->Ends.end(), this->Ends.begin());
+  const std::size_t sent = this->Ends[recipients];
+  this->Sorted.resize(this->Triangles.size());
+  for (const Triangle& triangle : this->Triangles)
+  {
+    this->Sorted[this->Ends[triangle.Recipient]++] = triangle.Vertices;
+  }
+  std::size_t at = 0;
+  for (std::size_t recipient = 0; at < sent; ++recipient)
+  {
+    VertexMessage message{ sender, {}, std::int64_t(this->Ends[recipient] - at) };
+    for (; at < this->Ends[recipient]; ++at)
+    {
+      for (const DelaunayKernel::Index v : this->Sorted[at])
+      {
+        if (this->SentTo[std::size_t(v)] != recipient)
+        {
+          this->SentTo[std::size_t(v)] = static_cast<std::uint32_t>(recipient);
+          message.Vertices.push_back(vertexOf(v));
+        }
+      }
+    }
+    if (message.Triangles > 0)
+    {
+      deliver(recipient, std::move(message));
+    }
+  }
+  for (; at < this->Sorted.size(); ++at)
+  {
+    const Corners& v = this->Sorted[at];
+    final.add({ vertexOf(v[0]), vertexOf(v[1]), vertexOf(v[2]) });
+  }
+  return std::int64_t(sent);
 }
 
 template <typename Id>
@@ -93,8 +289,7 @@ void Routing<Id>::setPartition(PartitionIndex p)
 template <typename Id>
 void Routing<Id>::begin(DelaunayKernel::Index vertexEnd)
 {
-  this->Triangles.clear();
-  this->SentTo.assign(std::size_t(vertexEnd), Nobody);
+  this->Triangles.clear(std::size_t(vertexEnd));
 }
 
 template <typename Id>
@@ -102,118 +297,40 @@ void Routing<Id>::add(const std::array<DelaunayKernel::Index, 3>& corners, const
 {
   const auto next = std::find_if(this->Later.begin(), this->Later.end(),
     [&](PartitionIndex q) { return disk.meets(this->Boxes[q]); });
-  this->Triangles.push_back({ static_cast<std::uint32_t>(next - this->Later.begin()), corners });
-}
-
-/// Sorts the triangles by recipient, with a counting sort.
-template <typename Id>
-void Routing<Id>::sortByRecipient()
-{
-  this->Ends.assign(this->Later.size() + 1, 0);
-  for (const Triangle& triangle : this->Triangles)
-  {
-    ++this->Ends[triangle.Recipient];
-  }
-  std::partial_sum(this->Ends.begin(), this->Ends.end(), this->Ends.begin());
-  this->Sorted.resize(this->Triangles.size());
-  for (auto triangle = this->Triangles.rbegin(); triangle != this->Triangles.rend(); ++triangle)
-  {
-    this->Sorted[--this->Ends[triangle->Recipient]] = triangle->Corners;
-  }
-  // The entries, ends before, are begins now.
-}
-
-template <typename Id>
-VertexMessage Routing<Id>::messageTo(std::uint32_t recipient, const Worker<Id>& worker)
-{
-  const std::size_t end = this->Ends[recipient + 1];
-  VertexMessage message{ this->Sender, {}, std::int64_t(end - this->Ends[recipient]) };
-  for (std::size_t i = this->Ends[recipient]; i < end; ++i)
-  {
-    for (const DelaunayKernel::Index v : this->Sorted[i])
-    {
-      if (this->SentTo[std::size_t(v)] != recipient)
-      {
-        this->SentTo[std::size_t(v)] = recipient;
-        message.Vertices.push_back(worker.vertex(this->Sender, v));
-      }
-    }
-  }
-  return message;
+  this->Triangles.add(std::size_t(next - this->Later.begin()), corners);
 }
 
 template <typename Id>
 std::int64_t Routing<Id>::send(
   const Worker<Id>& worker, const DeliverMessage& deliver, FinalTaker& final)
 {
-  this->sortByRecipient();
-  const std::size_t nobody = this->Later.size();
-  const std::size_t sent = this->Ends[nobody];
-  for (std::uint32_t recipient = 0; recipient < nobody; ++recipient)
-  {
-    if (this->Ends[recipient] < this->Ends[recipient + 1])
-    {
-      deliver(this->Later.begin()[recipient], this->messageTo(recipient, worker));
-    }
-  }
-  for (std::size_t i = sent; i < this->Sorted.size(); ++i)
-  {
-    const auto& v = this->Sorted[i];
-    final.add({ worker.vertex(this->Sender, v[0]), worker.vertex(this->Sender, v[1]),
-      worker.vertex(this->Sender, v[2]) });
-  }
-  return std::int64_t(sent);
+  return this->Triangles.send(
+    this->Sender, this->Later.size(),
+    [&](DelaunayKernel::Index v) { return worker.vertex(this->Sender, v); },
+    [&](std::size_t recipient, VertexMessage&& message)
+    { deliver(this->Later.begin()[recipient], std::move(message)); },
+    final);
 }
 
 std::int64_t sendInitialMesh(const BoundaryTriangles& mesh, const PartitionOrder& order,
   const DeliverMessage& deliver, FinalTaker& final)
 {
-  std::vector<PartitionIndex> recipients(mesh.size(), -1);
-  std::vector<std::size_t> ends(order.partitionCount() + 1, 0); // of each partition's triangles
+  using Index = DelaunayKernel::Index;
+  OutgoingTriangles triangles;
+  triangles.clear(mesh.Vertices.size());
   for (std::size_t i = 0; i < mesh.size(); ++i)
   {
-    if (mesh.metBegin(i) == mesh.metEnd(i))
-    {
-      final.add(mesh[i]);
-    }
-    else
-    {
-      recipients[i] = order.first(mesh.metBegin(i), mesh.metEnd(i));
-      ++ends[std::size_t(recipients[i]) + 1];
-    }
+    const auto [u, v, w] = mesh.Triangles[i];
+    triangles.add(mesh.metBegin(i) == mesh.metEnd(i)
+        ? order.partitionCount()
+        : std::size_t(order.first(mesh.metBegin(i), mesh.metEnd(i))),
+      { Index(u), Index(v), Index(w) });
   }
-  std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  std::vector<std::size_t> sent(ends.back()); // triangle indices by recipient
-  for (std::size_t i = 0; i < mesh.size(); ++i)
-  {
-    if (recipients[i] >= 0)
-    {
-      sent[ends[std::size_t(recipients[i])]++] = i;
-    }
-  }
-  std::vector<PartitionIndex> sentTo(mesh.Vertices.size(), -1);
-  auto at = sent.begin();
-  for (PartitionIndex recipient = 0; at != sent.end(); ++recipient)
-  {
-    VertexMessage message{ -1, {}, 0 };
-    for (; at != sent.begin() + std::ptrdiff_t(ends[std::size_t(recipient)]);
-         ++at, ++message.Triangles)
-    {
-      for (const std::uint32_t v : mesh.Triangles[*at])
-      {
-        if (sentTo[v] != recipient)
-        {
-          sentTo[v] = recipient;
-          message.Vertices.push_back(mesh.Vertices[v]);
-        }
-      }
-    }
-    if (message.Triangles > 0)
-    {
-      deliver(recipient, std::move(message));
-    }
-  }
-  return std::int64_t(sent.size());
+  return triangles.send(
+    -1, order.partitionCount(), [&](Index v) { return mesh.Vertices[std::size_t(v)]; },
+    [&](std::size_t recipient, VertexMessage&& message)
+    { deliver(static_cast<PartitionIndex>(recipient), std::move(message)); },
+    final);
 }
 
 template struct FinalBoundary<std::int32_t>;

@@ -2,19 +2,115 @@
 #ifndef tippRouting_h
 #define tippRouting_h
 
-#include "Engine/Inbox.h"
 #include "Engine/PartitionOrder.h"
-#include "Engine/Regions.h"
+#include "Messages/Bytes.h"
+#include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/Tiling.h"
 #include "Triangulation/TriangleSink.h"
 #include "Triangulation/Worker.h"
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace tipp
 {
+
+/// What a partition sends to a later one: the vertices of the boundary triangles that it passes on
+/// (Lemma 6), each once.
+struct VertexMessage
+{
+  PartitionIndex Sender = -1; ///< -1: the initial mesh
+  std::vector<BoundaryVertex> Vertices;
+  std::int64_t Triangles = 0; ///< the number of triangles that these are the vertices of
+};
+
+/// @name Serialisation of vertices and messages
+/// Reading throws std::runtime_error if the bytes were not written by these functions.
+///@{
+VTKTIPPFILTERS_EXPORT void write(ByteWriter& writer, const std::vector<BoundaryVertex>& vertices);
+VTKTIPPFILTERS_EXPORT void write(ByteWriter& writer, const VertexMessage& message);
+VTKTIPPFILTERS_EXPORT void read(ByteReader& reader, std::vector<BoundaryVertex>& vertices);
+VTKTIPPFILTERS_EXPORT void read(ByteReader& reader, VertexMessage& message);
+///@}
+
+/// All messages of a finished partition, each with its recipient.
+using SentMessages = std::vector<std::pair<PartitionIndex, VertexMessage>>;
+
+/// @name Serialisation of a finished partition's messages
+/// `writeDone` writes the messages whose recipient satisfies `isIncluded`. `readDone` returns the
+/// messages and sets `sender`; it throws std::runtime_error if a partition is not below `count`.
+///@{
+VTKTIPPFILTERS_EXPORT Bytes writeDone(PartitionIndex sender, const SentMessages& sent,
+  const std::function<bool(PartitionIndex)>& isIncluded);
+VTKTIPPFILTERS_EXPORT SentMessages readDone(
+  const Bytes& bytes, std::size_t count, PartitionIndex& sender);
+///@}
+
+/// Collects the vertices of several messages, each once.
+class UniqueVertices
+{
+public:
+  std::vector<BoundaryVertex> collect(const std::vector<VertexMessage>& messages);
+
+private:
+  std::vector<std::uint32_t> HashTable; ///< vertex indices; a member to reuse its memory
+};
+
+/// The messages sent to one partition. Any thread may add one, without a lock. The thread that
+/// triangulates the partition takes them all once all senders are done.
+class Inbox
+{
+public:
+  Inbox() = default;
+  Inbox(const Inbox&) = delete;
+  Inbox& operator=(const Inbox&) = delete;
+  ~Inbox() { this->takeNodes(); }
+
+  void put(VertexMessage&& message)
+  {
+    Node* const node = new Node{ std::move(message), this->Last.load(std::memory_order_relaxed) };
+    while (!this->Last.compare_exchange_weak(
+      node->Before, node, std::memory_order_release, std::memory_order_relaxed))
+    {
+    }
+  }
+
+  /// Removes and returns all messages, sorted by sender: the order of arrival does not matter.
+  std::vector<VertexMessage> take()
+  {
+    std::vector<VertexMessage> messages = this->takeNodes();
+    std::sort(messages.begin(), messages.end(),
+      [](const VertexMessage& a, const VertexMessage& b) { return a.Sender < b.Sender; });
+    return messages;
+  }
+
+private:
+  struct Node
+  {
+    VertexMessage Message;
+    Node* Before;
+  };
+
+  std::vector<VertexMessage> takeNodes()
+  {
+    std::vector<VertexMessage> messages;
+    for (Node* node = this->Last.exchange(nullptr, std::memory_order_acquire); node;)
+    {
+      const std::unique_ptr<Node> taken(node);
+      messages.push_back(std::move(taken->Message));
+      node = taken->Before;
+    }
+    return messages;
+  }
+
+  std::atomic<Node*> Last{ nullptr };
+};
 
 /// Delivers a message to a partition's inbox.
 using DeliverMessage = std::function<void(PartitionIndex, VertexMessage&&)>;
@@ -46,10 +142,46 @@ bool takeHullVertices(const BoundaryTriangle& triangle, std::vector<BoundaryVert
 /// Sorts the vertices by id and removes repetitions.
 void keepUnique(std::vector<BoundaryVertex>& vertices);
 
-/// Adds to `final` the triangles that replace those with artificial corners (Lemma 3,
-/// HullRepair.h). `vertices` are the true corners of these, with repetitions allowed.
+/// Removes the artificial points (Lemma 3): adds to `final` the triangles that replace those with
+/// artificial corners, namely those triangles of the Delaunay triangulation of the true corners
+/// that are in conflict with an artificial point. `vertices` are these true corners, with
+/// repetitions allowed.
 VTKTIPPFILTERS_EXPORT void repairHull(std::vector<BoundaryVertex> vertices,
   const std::vector<BoundaryVertex>& artificial, FinalTaker& final);
+
+/// Triangles to be sent, each to one recipient, by their vertices' indices.
+class OutgoingTriangles
+{
+public:
+  using Corners = std::array<DelaunayKernel::Index, 3>;
+
+  /// Removes all triangles. Vertices of the next ones are below `vertexEnd`.
+  void clear(std::size_t vertexEnd);
+
+  void add(std::size_t recipient, const Corners& corners)
+  {
+    this->Triangles.push_back({ static_cast<std::uint32_t>(recipient), corners });
+  }
+
+  /// Calls deliver(recipient, message) for each recipient below `recipients` that gets triangles,
+  /// in ascending order. Triangles whose recipient is `recipients` have none, and go to `final`.
+  /// vertexOf(index) returns a vertex. Returns the number of triangles delivered.
+  template <typename VertexOf, typename Deliver>
+  std::int64_t send(PartitionIndex sender, std::size_t recipients, const VertexOf& vertexOf,
+    const Deliver& deliver, FinalTaker& final);
+
+private:
+  struct Triangle
+  {
+    std::uint32_t Recipient;
+    Corners Vertices;
+  };
+
+  std::vector<Triangle> Triangles;
+  std::vector<std::size_t> Ends;     ///< by recipient, in Sorted
+  std::vector<Corners> Sorted;       ///< by recipient
+  std::vector<std::uint32_t> SentTo; ///< by vertex: the last recipient it was sent to
+};
 
 /// Routes the boundary triangles of a partition, one partition after another.
 ///
@@ -78,23 +210,11 @@ public:
   std::int64_t send(const Worker<Id>& worker, const DeliverMessage& deliver, FinalTaker& final);
 
 private:
-  struct Triangle
-  {
-    std::uint32_t Recipient; ///< index in Later; Later's size: none
-    std::array<DelaunayKernel::Index, 3> Corners;
-  };
-
-  void sortByRecipient();
-  VertexMessage messageTo(std::uint32_t recipient, const Worker<Id>& worker);
-
   const PartitionOrder& Order;
   const Regions& Boxes;
   PartitionIndex Sender = 0;
   PartitionOrder::Range Later{ nullptr, nullptr };
-  std::vector<Triangle> Triangles;
-  std::vector<std::array<DelaunayKernel::Index, 3>> Sorted; ///< by recipient
-  std::vector<std::size_t> Ends;     ///< per recipient, then of the final ones, in Sorted
-  std::vector<std::uint32_t> SentTo; ///< by vertex: the last recipient it was sent to
+  OutgoingTriangles Triangles; ///< recipients are indices in Later; its size: none
 };
 
 /// Sends each triangle of the initial mesh to the first partition that it meets, or to `final` if

@@ -5,13 +5,16 @@
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
+#include <utility>
+#include <vector>
 
 namespace tipp
 {
 
 DelaunayKernel::DelaunayKernel(Instructions instructions)
   : Order(instructions)
-  , Insertion(chooseInsertion(instructions))
+  , Allowed(instructions)
 {
   this->clear();
 }
@@ -21,9 +24,9 @@ void DelaunayKernel::clear()
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   this->Mesh.clear();
   this->Points.assign(1, Point2{ nan, nan });
-  this->Places.assign(1, 0);
+  this->PointIndices.assign(1, 0);
   this->Duplicates.clear();
-  this->PlaceEnd = 0;
+  this->PointEnd = 0;
   this->Pending = 1;
   this->Recent = 0;
 }
@@ -32,14 +35,14 @@ void DelaunayKernel::reserve(std::size_t points)
 {
   this->Mesh.reserve(2 * (points + 1));
   this->Points.reserve(points + 1);
-  this->Places.reserve(points + 1);
+  this->PointIndices.reserve(points + 1);
   this->Order.reserve(points);
 }
 
 std::size_t DelaunayKernel::bytes() const
 {
   return this->Mesh.bytes() + this->Order.bytes() + this->Points.capacity() * sizeof(Point2) +
-    this->Places.capacity() * sizeof(std::uint32_t);
+    this->PointIndices.capacity() * sizeof(std::uint32_t);
 }
 
 bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monitor& proceed)
@@ -47,15 +50,15 @@ bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monit
   this->Order.compute(points, count);
   const Index first = this->vertexEnd();
   this->Points.resize(this->Points.size() + count);
-  this->Places.resize(this->Places.size() + count);
+  this->PointIndices.resize(this->PointIndices.size() + count);
   for (std::size_t i = 0; i < count; ++i)
   {
-    const std::uint32_t place = this->Order[i];
-    this->Points[first + i] = points[place];
-    this->Places[first + i] = this->PlaceEnd + place;
+    const std::uint32_t point = this->Order[i];
+    this->Points[first + i] = points[point];
+    this->PointIndices[first + i] = this->PointEnd + point;
   }
   this->Order.releaseIfLarge();
-  this->PlaceEnd += static_cast<std::uint32_t>(count);
+  this->PointEnd += static_cast<std::uint32_t>(count);
   this->Predicates.restart(this->Points.data(), this->Points.size());
 
   // Euler: n vertices and the infinite one have 2 n - 2 triangles. The cavity writes one beyond
@@ -84,10 +87,10 @@ bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monit
 bool DelaunayKernel::makeFirstTriangle(Index first)
 {
   const Index end = this->vertexEnd();
-  const auto moveTo = [this](Index place, Index from)
+  const auto moveTo = [this](Index to, Index from)
   {
-    std::swap(this->Points[place], this->Points[from]);
-    std::swap(this->Places[place], this->Places[from]);
+    std::swap(this->Points[to], this->Points[from]);
+    std::swap(this->PointIndices[to], this->PointIndices[from]);
   };
   Index second = first + 1;
   while (second < end && this->Points[second] == this->Points[first])
@@ -140,13 +143,92 @@ bool DelaunayKernel::makeFirstTriangle(Index first)
 void DelaunayKernel::insertVertices(Index first, Index end)
 {
   this->Coincidences.clear();
-  this->Insertion({ this->Mesh, this->Points.data(), this->Predicates, this->Opened, this->Recent,
-                    this->Coincidences },
-    first, end);
+  tipp::insertVertices({ this->Mesh, this->Points.data(), this->Predicates, this->Opened,
+                         this->Recent, this->Coincidences },
+    first, end, this->Allowed);
   for (const InsertionScene::Coincidence& found : this->Coincidences)
   {
-    this->Duplicates.push_back({ this->Places[std::size_t(found.Vertex)], found.Representative });
+    this->Duplicates.push_back(
+      { this->PointIndices[std::size_t(found.Vertex)], found.Representative });
   }
+}
+
+namespace
+{
+
+class Pool
+{
+public:
+  /// Returns a kernel that is not in use, or null.
+  std::unique_ptr<DelaunayKernel> take()
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    if (this->Kernels.empty())
+    {
+      return nullptr;
+    }
+    std::unique_ptr<DelaunayKernel> kernel = std::move(this->Kernels.back());
+    this->Kernels.pop_back();
+    this->Bytes -= kernel->bytes();
+    return kernel;
+  }
+
+  void give(std::unique_ptr<DelaunayKernel> kernel)
+  {
+    const std::size_t bytes = kernel->bytes();
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    if (this->Kernels.size() < this->Kernels.capacity() &&
+      this->Bytes + bytes <= PooledKernel::MostBytesKept)
+    {
+      this->Bytes += bytes;
+      this->Kernels.push_back(std::move(kernel));
+    }
+  }
+
+  std::size_t bytes()
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    return this->Bytes;
+  }
+
+  Pool()
+  {
+    // Destructors return kernels to the pool, so returning one must not throw.
+    constexpr std::size_t most = 64;
+    this->Kernels.reserve(most);
+  }
+
+private:
+  std::mutex Mutex;
+  std::vector<std::unique_ptr<DelaunayKernel>> Kernels;
+  std::size_t Bytes = 0;
+};
+
+Pool& pool()
+{
+  static Pool one;
+  return one;
+}
+
+} // namespace
+
+PooledKernel::PooledKernel()
+  : Kernel(pool().take())
+{
+  if (!this->Kernel)
+  {
+    this->Kernel = std::make_unique<DelaunayKernel>();
+  }
+}
+
+PooledKernel::~PooledKernel()
+{
+  pool().give(std::move(this->Kernel));
+}
+
+std::size_t PooledKernel::bytesKept()
+{
+  return pool().bytes();
 }
 
 } // namespace tipp

@@ -1,11 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Kernel/Insertion.h"
 
-#include "Kernel/CavityGrowth.h"
 #include "Kernel/PointLocation.h"
 
 namespace tipp
 {
+
+Cavity::Cavity()
+  : Free(64)
+  , Stack(64)
+{
+}
+
+[[gnu::noinline]] void Cavity::grow()
+{
+  const std::size_t size = 2 * this->Free.size();
+  this->Free.resize(size);
+  this->Stack.resize(size);
+}
+
 namespace
 {
 
@@ -35,34 +48,12 @@ inline void insertInto(const InsertionScene& scene, Index first, Index end)
   scene.Recent = recent;
 }
 
-// `flatten` inlines all calls into each of these functions, so that everything is compiled for its
-// instruction set.
-
-[[gnu::flatten]] void insertCommon(const InsertionScene& scene, Index first, Index end)
-{
-  insertInto(scene, first, end);
-}
-
-#ifdef __x86_64__
-[[gnu::flatten, gnu::target("avx2,bmi,bmi2")]] void insertAvx2(
-  const InsertionScene& scene, Index first, Index end)
-{
-  insertInto(scene, first, end);
-}
-#endif
-
 } // namespace
 
-InsertVertices chooseInsertion(Instructions instructions)
+void insertVertices(const InsertionScene& scene, HalfEdgeMesh::Index first, HalfEdgeMesh::Index end,
+  Instructions instructions)
 {
-#ifdef __x86_64__
-  if (hasAvx2(instructions))
-  {
-    return insertAvx2;
-  }
-#endif
-  static_cast<void>(instructions);
-  return insertCommon;
+  runWith(instructions, [&] { insertInto(scene, first, end); });
 }
 
 } // namespace tipp

@@ -4,8 +4,8 @@
 
 #include "Kernel/Cavity.h"
 #include "Kernel/HalfEdgeMesh.h"
-#include "Kernel/Instructions.h"
 #include "Kernel/KernelPredicates.h"
+#include "Kernel/Lanes.h"
 #include "Predicates/Point2.h"
 
 #include <vector>
@@ -33,11 +33,8 @@ struct InsertionScene
 
 /// Inserts vertices [first, end) in order into a mesh that has triangles, and capacity for two more
 /// for each vertex.
-using InsertVertices = void (*)(
-  const InsertionScene& scene, HalfEdgeMesh::Index first, HalfEdgeMesh::Index end);
-
-/// Returns the version compiled for the best permitted instruction set of this processor.
-InsertVertices chooseInsertion(Instructions instructions);
+void insertVertices(const InsertionScene& scene, HalfEdgeMesh::Index first, HalfEdgeMesh::Index end,
+  Instructions instructions);
 
 } // namespace tipp
 

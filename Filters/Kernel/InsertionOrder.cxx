@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Kernel/InsertionOrder.h"
 
-#include "Kernel/Extent.h"
-#include "Kernel/HilbertKeys.h"
+#include "Kernel/Lanes.h"
 
 #include <algorithm>
 #include <array>
@@ -77,8 +76,8 @@ inline void fillBlock(const Point2* points, std::size_t first, std::size_t count
   }
   for (std::size_t i = 0; i < count; ++i)
   {
-    const std::uint64_t place = std::uint64_t(round[i]) << KeyBits | x[i];
-    entries[first + i] = place << IndexBits | (first + i);
+    const std::uint64_t roundAndKey = std::uint64_t(round[i]) << KeyBits | x[i];
+    entries[first + i] = roundAndKey << IndexBits | (first + i);
   }
 }
 
@@ -143,21 +142,6 @@ bool fillKeys(const std::vector<Point2>& points, Uninitialised<std::uint64_t>& k
   return true;
 }
 
-// `flatten` inlines all calls, so that everything is compiled for the function's instruction set.
-
-[[gnu::flatten]] void fillCommon(const Point2* points, std::size_t count, std::uint64_t* entries)
-{
-  fillEntries(points, count, entries);
-}
-
-#ifdef __x86_64__
-[[gnu::flatten, gnu::target("avx2,bmi,bmi2")]] void fillAvx2(
-  const Point2* points, std::size_t count, std::uint64_t* entries)
-{
-  fillEntries(points, count, entries);
-}
-#endif
-
 } // namespace
 
 InsertionOrder::InsertionOrder(Instructions instructions)
@@ -221,11 +205,7 @@ void InsertionOrder::compute(const Point2* points, std::size_t count)
   {
     return;
   }
-#ifdef __x86_64__
-  (hasAvx2(this->Allowed) ? fillAvx2 : fillCommon)(points, count, this->Entries.data());
-#else
-  fillCommon(points, count, this->Entries.data());
-#endif
+  runWith(this->Allowed, [&] { fillEntries(points, count, this->Entries.data()); });
   // Two passes distinguish evenly spread points; clusters need the finer levels as well. Histograms
   // of large digits would cost more than they save for a few points.
   constexpr std::size_t many = 16384;

@@ -2,15 +2,67 @@
 #ifndef tippInsertionOrder_h
 #define tippInsertionOrder_h
 
-#include "Kernel/Instructions.h"
-#include "Kernel/Uninitialised.h"
+#include "Kernel/Lanes.h"
 #include "Predicates/Point2.h"
+#include "Triangulation/Buffer.h"
 
 #include <cstddef>
 #include <cstdint>
 
+// Inline: InsertionOrder.cxx compiles it for several sets of instructions.
+
 namespace tipp
 {
+
+/// Positions along a Hilbert curve of 16 levels. Without branches and tables, so that compilers
+/// vectorise loops over many cells.
+///
+/// From the coarsest bits of x and y to the finest, the curve is in one of four states (s, f):
+/// whether x and y are swapped, and whether they are complemented. At a level with bits x and y, u
+/// = g ^ x and v = g ^ y with g = f ^ s (x ^ y) are the bits in the curve's frame, the key gets the
+/// bits u and u ^ v = x ^ y, and the next state is
+///   s' = s ^ !v     = s !d ^ f    ^ !y
+///   f' = f ^ u !v   = s d  ^ f !d ^ x !y     where d = x ^ y,
+/// an affine function over GF(2). So the states at all levels follow from the levels' functions by
+/// composing runs of doubling length (Hillis, Steele 1986), with one bit of a word for each level.
+struct HilbertSteps
+{
+  std::uint32_t SS, SF, FS, FF; ///< s' = SS s ^ SF f ^ S, f' = FS s ^ FF f ^ F
+  std::uint32_t S, F;
+
+  /// Composes each level's function with that of the run that ends `levels` levels coarser. The
+  /// bits shifted in beyond the coarsest level give the initial state, (0, 0).
+  HilbertSteps composed(unsigned levels) const
+  {
+    const HilbertSteps e{ this->SS >> levels, this->SF >> levels, this->FS >> levels,
+      this->FF >> levels, this->S >> levels, this->F >> levels };
+    return { (this->SS & e.SS) ^ (this->SF & e.FS), (this->SS & e.SF) ^ (this->SF & e.FF),
+      (this->FS & e.SS) ^ (this->FF & e.FS), (this->FS & e.SF) ^ (this->FF & e.FF),
+      (this->SS & e.S) ^ (this->SF & e.F) ^ this->S,
+      (this->FS & e.S) ^ (this->FF & e.F) ^ this->F };
+  }
+};
+
+/// Moves the lower 16 bits to the even bit positions.
+inline std::uint32_t spreadBits(std::uint32_t bits)
+{
+  bits = (bits | bits << 8) & 0x00ff00ffU;
+  bits = (bits | bits << 4) & 0x0f0f0f0fU;
+  bits = (bits | bits << 2) & 0x33333333U;
+  return (bits | bits << 1) & 0x55555555U;
+}
+
+/// The position of cell (x, y) along the curve; x and y must be below 2^16.
+inline std::uint32_t hilbertKey(std::uint32_t x, std::uint32_t y)
+{
+  constexpr std::uint32_t all = 0xffff;
+  const std::uint32_t d = x ^ y;
+  const HilbertSteps level{ ~d & all, all, d, ~d & all, ~y & all, x & ~y };
+  const HilbertSteps run = level.composed(1).composed(2).composed(4).composed(8);
+  const std::uint32_t s = run.S >> 1;
+  const std::uint32_t f = run.F >> 1;
+  return spreadBits(f ^ (s & d) ^ x) << 1 | spreadBits(d);
+}
 
 /// The order in which a box's points are inserted: biased randomised rounds (Amenta, Choi, Rote
 /// 2003), each along a Hilbert curve. One point in eight goes to a round before the last. The order

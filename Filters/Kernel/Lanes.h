@@ -2,12 +2,58 @@
 #ifndef tippLanes_h
 #define tippLanes_h
 
+#include "Predicates/Point2.h"
+
+#include <array>
+#include <cstddef>
+#include <limits>
+
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
 
 namespace tipp
 {
+
+/// Which instruction set the kernel may use. The triangles are identical, bit for bit: neither
+/// version contracts a multiplication and an addition.
+enum class Instructions
+{
+  Common, ///< the architecture's baseline
+  Best    ///< the best one that this processor supports
+};
+
+/// @name Running work() compiled for an instruction set
+/// `flatten` inlines all calls into these functions, so that everything is compiled for it.
+///@{
+template <typename Work>
+[[gnu::flatten]] void runCommon(const Work& work)
+{
+  work();
+}
+#ifdef __x86_64__
+template <typename Work>
+[[gnu::flatten, gnu::target("avx2,bmi,bmi2")]] void runAvx2(const Work& work)
+{
+  work();
+}
+#endif
+
+template <typename Work>
+void runWith(Instructions instructions, const Work& work)
+{
+#ifdef __x86_64__
+  if (instructions == Instructions::Best && __builtin_cpu_supports("avx2") &&
+    __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2"))
+  {
+    runAvx2(work);
+    return;
+  }
+#endif
+  static_cast<void>(instructions);
+  runCommon(work);
+}
+///@}
 
 /// Two doubles side by side.
 using Pair = double __attribute__((vector_size(16)));
@@ -73,6 +119,56 @@ inline Pair low(Pair a, Pair b)
 inline Pair high(Pair a, Pair b)
 {
   return __builtin_shufflevector(a, b, 1, 3);
+}
+
+/// The smallest and the largest coordinates of points; NaN is ignored.
+struct Extent
+{
+  Pair Low;
+  Pair High;
+  bool AllFinite;
+
+  Box2 box() const { return { this->Low[0], this->Low[1], this->High[0], this->High[1] }; }
+};
+
+/// Returns the extent of `count` points; for none, Low is infinity and High is minus infinity.
+inline Extent extentOf(const Point2* points, std::size_t count)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr std::size_t lanes = 4; // independent chains of comparisons
+  const Pair none{ infinity, infinity };
+  std::array<Pair, lanes> low;
+  std::array<Pair, lanes> high;
+  std::array<PairMask, lanes> finite;
+  low.fill(none);
+  high.fill(-none);
+  finite.fill(PairMask{ -1, -1 });
+  const auto add = [&](std::size_t lane, Point2 point)
+  {
+    const Pair p{ point.x, point.y };
+    low[lane] = lower(p, low[lane]);
+    high[lane] = higher(p, high[lane]);
+    finite[lane] &= magnitude(p) < none;
+  };
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes)
+  {
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+    {
+      add(lane, points[i + lane]);
+    }
+  }
+  for (; i < count; ++i)
+  {
+    add(0, points[i]);
+  }
+  for (std::size_t lane = 1; lane < lanes; ++lane)
+  {
+    low[0] = lower(low[lane], low[0]);
+    high[0] = higher(high[lane], high[0]);
+    finite[0] &= finite[lane];
+  }
+  return { low[0], high[0], bitsOf(finite[0]) == 3 };
 }
 
 } // namespace tipp

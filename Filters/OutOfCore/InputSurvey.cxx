@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/InputSurvey.h"
 
-#include "Triangulation/DegenerateInput.h"
 #include "Triangulation/PointBuckets.h"
+#include "Triangulation/PointSurvey.h"
 #include "Triangulation/PointsView.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 #include "OutOfCore/LoadedPiece.h"
 
 #include "OutOfCore/PieceBorders.h"
-#include "Triangulation/DegenerateInput.h"
-#include "Triangulation/LongTriangles.h"
+#include "Triangulation/PointSurvey.h"
+#include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
 #include <utility>

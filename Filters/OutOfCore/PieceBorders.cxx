@@ -2,7 +2,7 @@
 #include "OutOfCore/PieceBorders.h"
 
 #include "Predicates/CellBox.h"
-#include "Triangulation/LongTriangles.h"
+#include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
 #include <stdexcept>

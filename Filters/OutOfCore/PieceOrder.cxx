@@ -33,11 +33,11 @@ std::vector<ConflictGraph::Pair> conflictsOfPieces(
   for (PartitionIndex p = 0; std::size_t(p) < conflicts.size(); ++p)
   {
     const std::int32_t piece = pieceOf[std::size_t(p)];
-    for (const PartitionIndex* q = conflicts.begin(p); q != conflicts.end(p); ++q)
+    for (const PartitionIndex q : conflicts.neighbours(p))
     {
-      if (pieceOf[std::size_t(*q)] != piece)
+      if (pieceOf[std::size_t(q)] != piece)
       {
-        pairs.emplace_back(piece, pieceOf[std::size_t(*q)]);
+        pairs.emplace_back(piece, pieceOf[std::size_t(q)]);
       }
     }
   }

@@ -3,10 +3,10 @@
 #define tippPieceOrder_h
 
 #include "Engine/PartitionOrder.h"
-#include "Engine/Regions.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/SpillPoints.h"
 #include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/Tiling.h"
 
 #include <utility>
 #include <vector>

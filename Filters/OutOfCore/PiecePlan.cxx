@@ -3,7 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Triangulation/InitialMesh.h"
-#include "Triangulation/PartitionSizes.h"
+#include "Triangulation/Tiling.h"
 
 #include <algorithm>
 #include <limits>

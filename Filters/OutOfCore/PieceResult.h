@@ -3,7 +3,7 @@
 #define tippPieceResult_h
 
 #include "Duplicates/ResolveDuplicates.h"
-#include "Engine/Inbox.h"
+#include "Engine/Routing.h"
 #include "OutOfCore/PieceFigures.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/SectionFile.h"

@@ -6,9 +6,12 @@
 
 #include "vtkSmartPointer.h"
 
+#include <array>
+
 class vtkAbstractTransform;
 class vtkDataArray;
 class vtkPoints;
+class vtkTransform;
 
 namespace tipp
 {
@@ -28,6 +31,29 @@ private:
   vtkSmartPointer<vtkDataArray> Scalars;
   PointsView View;
 };
+
+/// Returns the transform that moves the points' least-squares plane to the plane z = 0 and their
+/// centroid to the origin. Points with a NaN or infinite coordinate are ignored; returns null if
+/// there are no others.
+vtkSmartPointer<vtkTransform> bestFittingPlane(vtkPoints* points);
+
+/// The bounding box of the points whose three coordinates are finite, so that a single NaN or
+/// infinity does not determine a tolerance or a bounding circle. All zero if there are no such
+/// points.
+struct FiniteBounds
+{
+  std::array<double, 3> Low{ 0, 0, 0 };
+  std::array<double, 3> High{ 0, 0, 0 };
+
+  double center(int axis) const;
+  double diagonal() const;
+};
+
+FiniteBounds finiteBounds(vtkPoints* points);
+
+/// Returns the points in double precision, followed by eight points on a circle around the centre
+/// of their bounding box, at its middle height. The radius is `offset` times the box's diagonal.
+vtkSmartPointer<vtkPoints> appendBoundingPoints(vtkPoints* points, double offset);
 
 } // namespace tipp
 

@@ -2,20 +2,45 @@
 #ifndef tippBoundaryTriangles_h
 #define tippBoundaryTriangles_h
 
-#include "Triangulation/PartitionSets.h"
 #include "Triangulation/Tiling.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 namespace tipp
 {
 
-/// A vertex with the data that any worker needs. A boundary triangle is a
-/// triangle that is not interior to one partition.
+/// Stores sets of partitions, each once, and numbers them: many triangles meet the same partitions.
+class VTKTIPPFILTERS_EXPORT PartitionSets
+{
+public:
+  /// Returns the set's number, counted from 0; adds the set if it is new.
+  std::uint32_t number(const PartitionIndex* first, const PartitionIndex* last);
+
+  std::size_t size() const { return this->Ends.size(); }
+  const PartitionIndex* begin(std::uint32_t set) const
+  {
+    return this->Members.data() + (set == 0 ? 0 : this->Ends[set - 1]);
+  }
+  const PartitionIndex* end(std::uint32_t set) const
+  {
+    return this->Members.data() + this->Ends[set];
+  }
+
+private:
+  std::vector<PartitionIndex> Members; ///< of all sets, concatenated
+  std::vector<std::size_t> Ends;       ///< one past each set's last entry in Members
+  std::unordered_multimap<std::uint64_t, std::uint32_t> ByHash; ///< numbers
+  std::uint32_t Last = 0; ///< the number returned last, often repeated
+};
+
+/// A vertex with the data that any worker needs. A boundary triangle is a triangle that is not
+/// interior to one partition.
 struct BoundaryVertex
 {
   Point2 Position;
@@ -26,6 +51,8 @@ struct BoundaryVertex
 };
 
 using BoundaryTriangle = std::array<BoundaryVertex, 3>;
+
+std::vector<Point2> positionsOf(const std::vector<BoundaryVertex>& vertices);
 
 /// Triangles, and for each the partitions that its circumdisk meets. The sets are shared to save
 /// memory: for co-circular points there are as many triangles as points, and each meets all
@@ -49,24 +76,18 @@ struct BoundaryTriangles
     return { this->Vertices[corners[0]], this->Vertices[corners[1]], this->Vertices[corners[2]] };
   }
 
-  /// Adds a triangle of vertices that are present or will be added. `Boxes` is Tiling or Regions.
-  template <typename Boxes>
-  void add(const Boxes& boxes, const Corners& corners, const Circumdisk& disk)
+  /// Adds a triangle of vertices that are present or will be added; it meets the partitions
+  /// [metBegin, metEnd).
+  void add(const Corners& corners, const PartitionIndex* metBegin, const PartitionIndex* metEnd)
   {
-    this->Found.clear();
-    boxes.visitMet(disk, [this](PartitionIndex partition) { this->Found.push_back(partition); });
-    this->add(corners, this->Found.data(), this->Found.data() + this->Found.size());
+    this->Triangles.push_back(corners);
+    this->SetOf.push_back(this->Sets.number(metBegin, metEnd));
   }
-  /// Adds a triangle that meets the partitions [metBegin, metEnd).
-  void add(const Corners& corners, const PartitionIndex* metBegin, const PartitionIndex* metEnd);
   /// Appends the triangles of `others`, which must have the same vertices.
   void appendTriangles(const BoundaryTriangles& others);
 
   const PartitionIndex* metBegin(std::size_t i) const { return this->Sets.begin(this->SetOf[i]); }
   const PartitionIndex* metEnd(std::size_t i) const { return this->Sets.end(this->SetOf[i]); }
-
-private:
-  std::vector<PartitionIndex> Found;
 };
 
 } // namespace tipp

@@ -8,6 +8,7 @@
 #include <memory>
 #include <new>
 #include <utility>
+#include <vector>
 
 namespace tipp
 {
@@ -88,6 +89,34 @@ private:
   std::unique_ptr<T, Free> Data;
   std::size_t Size = 0;
 };
+
+/// Leaves value-initialised elements uninitialised: writing zeros first costs as much as the work
+/// that follows.
+template <typename T>
+class UninitialisedAllocator : public std::allocator<T>
+{
+public:
+  template <typename U>
+  struct rebind
+  {
+    using other = UninitialisedAllocator<U>;
+  };
+
+  template <typename U>
+  void construct(U* memory)
+  {
+    ::new (static_cast<void*>(memory)) U;
+  }
+  template <typename U, typename... Arguments>
+  void construct(U* memory, Arguments&&... arguments)
+  {
+    ::new (static_cast<void*>(memory)) U{ std::forward<Arguments>(arguments)... };
+  }
+};
+
+/// A vector whose resize() writes nothing.
+template <typename T>
+using Uninitialised = std::vector<T, UninitialisedAllocator<T>>;
 
 } // namespace tipp
 

@@ -2,10 +2,10 @@
 #include "Triangulation/InitialMesh.h"
 
 #include "Kernel/DelaunayKernel.h"
-#include "Kernel/Extent.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -13,6 +13,8 @@ namespace tipp
 {
 namespace
 {
+
+using Index = DelaunayKernel::Index;
 
 double meanLongSide(const Tiling& tiling)
 {
@@ -44,27 +46,20 @@ int piecesOf(double side, double spacing)
 }
 
 /// Returns the indices of the first points with the smallest and the largest x and y.
-std::vector<std::size_t> findOutmost(const Point2* points, std::size_t count)
+std::array<std::size_t, 4> findOutmost(const Point2* points, std::size_t count)
 {
-  const Extent extent = extentOf(points, count);
-  const double bounds[4] = { extent.Low[0], extent.Low[1], extent.High[0], extent.High[1] };
-  constexpr std::size_t block = 16;
-  std::vector<std::size_t> found(4, count);
-  for (std::size_t begin = 0; begin < count; begin += block)
+  std::array<std::size_t, 4> found{ 0, 0, 0, 0 };
+  std::array<double, 4> least;
+  least.fill(HUGE_VAL);
+  for (std::size_t i = 0; i < count; ++i)
   {
-    const std::size_t end = std::min(begin + block, count);
-    bool isAny = false; // without branches, so that compilers vectorise it
-    for (std::size_t i = begin; i < end; ++i)
+    const std::array<double, 4> keys{ points[i].x, points[i].y, -points[i].x, -points[i].y };
+    for (std::size_t side = 0; side < keys.size(); ++side)
     {
-      const Point2 p = points[i];
-      isAny |= (p.x == bounds[0]) | (p.y == bounds[1]) | (p.x == bounds[2]) | (p.y == bounds[3]);
-    }
-    for (std::size_t i = begin; isAny && i < end; ++i)
-    {
-      for (std::size_t side = 0; side < 4; ++side)
+      if (keys[side] < least[side])
       {
-        const double coordinate = side % 2 == 0 ? points[i].x : points[i].y;
-        found[side] = coordinate == bounds[side] ? std::min(found[side], i) : found[side];
+        least[side] = keys[side];
+        found[side] = i;
       }
     }
   }
@@ -77,50 +72,46 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> adjacentSets(
   const DelaunayKernel& kernel, const std::vector<std::uint32_t>& setOf)
 {
   constexpr std::uint32_t none = ~0U;
-  const HalfEdgeMesh& mesh = kernel.mesh();
-  std::vector<std::uint32_t> sets(std::size_t(mesh.end() / 8), none);
+  std::vector<std::uint32_t> sets(kernel.triangleCount(), none);
   auto set = setOf.begin();
-  for (DelaunayKernel::Index t = 0; t < mesh.end(); t += 8)
-  {
-    if (!kernel.isInfinite(t))
-    {
-      sets[std::size_t(t / 8)] = *set++;
-    }
-  }
+  kernel.forEachTriangle(
+    [&](Index t) { sets[DelaunayKernel::number(t)] = kernel.isInfinite(t) ? none : *set++; });
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  for (DelaunayKernel::Index t = 0; t < mesh.end(); t += 8)
-  {
-    for (DelaunayKernel::Index i = 0; i < 3; ++i)
+  kernel.forEachTriangle(
+    [&](Index t)
     {
-      const std::uint32_t one = sets[std::size_t(t / 8)];
-      const std::uint32_t other = sets[std::size_t(HalfEdgeMesh::triangleOf(mesh.twin(t + i)) / 8)];
-      if (one < other && other != none)
+      const std::uint32_t one = sets[DelaunayKernel::number(t)];
+      for (Index i = 0; i < 3; ++i)
       {
-        pairs.emplace_back(one, other);
+        const std::uint32_t other = sets[DelaunayKernel::number(kernel.neighbour(t, i))];
+        if (one < other && other != none)
+        {
+          pairs.emplace_back(one, other);
+        }
       }
-    }
-  }
+    });
   return pairs;
 }
 
-/// The finite triangles among the kernel's triangles [begin, end), and the boxes that each meets.
-template <typename Boxes>
-BoundaryTriangles findMetBoxes(
-  const Boxes& boxes, const DelaunayKernel& kernel, std::int64_t begin, std::int64_t end)
+/// The finite triangles among the kernel's triangles [begin, end), by number, and the regions that
+/// each meets.
+BoundaryTriangles findMetRegions(
+  const Regions& regions, const DelaunayKernel& kernel, std::size_t begin, std::size_t end)
 {
   BoundaryTriangles found;
-  const HalfEdgeMesh& mesh = kernel.mesh();
-  for (std::int64_t t = begin; t < end; ++t)
+  std::vector<PartitionIndex> met;
+  for (std::size_t number = begin; number < end; ++number)
   {
-    if (kernel.isInfinite(static_cast<DelaunayKernel::Index>(8 * t)))
+    const Index t = DelaunayKernel::triangle(number);
+    if (!kernel.isInfinite(t))
     {
-      continue;
+      const auto [a, b, c] = kernel.corners(t);
+      met.clear();
+      regions.visitMet(Circumdisk(kernel.point(a), kernel.point(b), kernel.point(c)),
+        [&met](PartitionIndex p) { met.push_back(p); });
+      found.add({ kernel.pointIndex(a), kernel.pointIndex(b), kernel.pointIndex(c) }, met.data(),
+        met.data() + met.size());
     }
-    const DelaunayKernel::Index* v = mesh.slots() + 8 * t;
-    const BoundaryTriangles::Corners corners = { kernel.place(v[0]), kernel.place(v[1]),
-      kernel.place(v[2]) };
-    found.add(
-      boxes, corners, Circumdisk(kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2])));
   }
   return found;
 }
@@ -228,28 +219,19 @@ std::vector<BoundaryVertex> chooseInitialPoints(
   return vertices;
 }
 
-template <typename Boxes>
-BoundaryTriangles triangulateVertices(const Boxes& boxes,
+BoundaryTriangles triangulateVertices(const Regions& regions,
   const std::vector<BoundaryVertex>& vertices, int threads, const InitialMeshShare& share)
 {
-  std::vector<Point2> points;
-  points.reserve(vertices.size());
-  for (const BoundaryVertex& v : vertices)
-  {
-    points.push_back(v.Position);
-  }
+  const std::vector<Point2> points = positionsOf(vertices);
   DelaunayKernel kernel;
   kernel.insert(points.data(), points.size());
-
-  const std::int64_t triangles = kernel.mesh().end() / 8;
-  const std::int64_t parts = std::int64_t(threads) * share.Count;
   std::vector<BoundaryTriangles> own(static_cast<std::size_t>(threads));
   parallelFor(threads, threads,
     [&](std::int64_t i)
     {
-      const std::int64_t part = std::int64_t(threads) * share.Index + i;
-      own[std::size_t(i)] =
-        findMetBoxes(boxes, kernel, triangles * part / parts, triangles * (part + 1) / parts);
+      const auto [begin, end] =
+        evenShare(kernel.triangleCount(), threads * share.Index + int(i), threads * share.Count);
+      own[std::size_t(i)] = findMetRegions(regions, kernel, begin, end);
     });
   BoundaryTriangles all = joined(std::move(own));
   if (share.Count > 1)
@@ -272,10 +254,6 @@ bool partitionsPay(const BoundaryTriangles& initialMesh)
   return met <= most * initialMesh.size();
 }
 
-template BoundaryTriangles triangulateVertices(
-  const Tiling&, const std::vector<BoundaryVertex>&, int, const InitialMeshShare&);
-template BoundaryTriangles triangulateVertices(
-  const Regions&, const std::vector<BoundaryVertex>&, int, const InitialMeshShare&);
 template std::vector<BoundaryVertex> chooseInitialPoints(
   const Tiling&, const PointBuckets<std::int32_t>&, int, int);
 template std::vector<BoundaryVertex> chooseInitialPoints(

@@ -2,9 +2,9 @@
 #ifndef tippInitialMesh_h
 #define tippInitialMesh_h
 
-#include "Engine/Regions.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/PointBuckets.h"
+#include "Triangulation/Tiling.h"
 
 #include <functional>
 #include <vector>
@@ -29,7 +29,7 @@ template <typename Id>
 std::vector<BoundaryVertex> chooseInitialPoints(
   const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition, int threads);
 
-/// The share of the initial mesh's triangles whose boxes this rank finds.
+/// The share of the initial mesh's triangles for which this rank finds the regions that they meet.
 struct InitialMeshShare
 {
   int Index = 0;
@@ -38,25 +38,15 @@ struct InitialMeshShare
   std::function<std::vector<BoundaryTriangles>(BoundaryTriangles&&)> Exchange;
 };
 
-/// The Delaunay triangulation of the vertices, with the boxes (of a Tiling or Regions) that each
-/// triangle meets, and the pairs of sets that adjacent triangles meet.
-template <typename Boxes>
-BoundaryTriangles triangulateVertices(const Boxes& boxes,
+/// The Delaunay triangulation of the vertices, with the regions that each triangle meets, and the
+/// pairs of sets that adjacent triangles meet.
+BoundaryTriangles triangulateVertices(const Regions& regions,
   const std::vector<BoundaryVertex>& vertices, int threads, const InitialMeshShare& share = {});
 
 /// Whether partitioning pays. If circumdisks meet many partitions each (points on a circle or a
 /// parabola, or on a line with one beside it: 3.5 and more partitions each, by measurement), every
 /// worker would get nearly all vertices. Ordinary points give 1.5 to 2.8.
 bool partitionsPay(const BoundaryTriangles& initialMesh);
-
-extern template BoundaryTriangles triangulateVertices(
-  const Tiling&, const std::vector<BoundaryVertex>&, int, const InitialMeshShare&);
-extern template BoundaryTriangles triangulateVertices(
-  const Regions&, const std::vector<BoundaryVertex>&, int, const InitialMeshShare&);
-extern template std::vector<BoundaryVertex> chooseInitialPoints(
-  const Tiling&, const PointBuckets<std::int32_t>&, int, int);
-extern template std::vector<BoundaryVertex> chooseInitialPoints(
-  const Tiling&, const PointBuckets<std::int64_t>&, int, int);
 
 } // namespace tipp
 

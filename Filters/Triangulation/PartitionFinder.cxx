@@ -10,6 +10,23 @@ namespace tipp
 namespace
 {
 
+/// Without branches, so that compilers vectorise it.
+inline void findCells(const CellGrid::Axis& columns, const CellGrid::Axis& rows,
+  const Point2* points, std::size_t count, std::uint32_t* cells)
+{
+  const CellGrid::Axis column = columns;
+  const CellGrid::Axis row = rows;
+  const std::uint32_t width = column.size();
+  const std::uint32_t outside = width * row.size();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const Point2 p = points[i];
+    const std::uint32_t cell = row(p.y) * width + column(p.x);
+    const double nothing = (p.x - p.x) + (p.y - p.y); // NaN if a coordinate is not finite
+    cells[i] = nothing == 0 ? cell : outside;
+  }
+}
+
 /// Chosen so that few cells lie in several boxes, but the grid stays in the processor's cache.
 std::uint32_t cellsAlongASide(PartitionIndex boxes)
 {
@@ -20,6 +37,29 @@ std::uint32_t cellsAlongASide(PartitionIndex boxes)
 }
 
 } // namespace
+
+CellGrid::Axis::Axis(double low, double high, std::uint32_t count)
+{
+  const double scale = count / (high - low);
+  if (std::isfinite(scale))
+  {
+    this->Low = low;
+    this->Scale = scale;
+    this->Last = count - 1;
+  }
+}
+
+CellGrid::CellGrid(const Box2& box, std::uint32_t perSide)
+  : Columns(box.xmin, box.xmax, perSide)
+  , Rows(box.ymin, box.ymax, perSide)
+{
+}
+
+void CellGrid::find(
+  const Point2* points, std::size_t count, std::uint32_t* cells, Instructions instructions) const
+{
+  runWith(instructions, [&] { findCells(this->Columns, this->Rows, points, count, cells); });
+}
 
 PartitionFinder::PartitionFinder(const Tiling& tiling)
   : Boxes(tiling)
@@ -99,14 +139,13 @@ void PartitionFinder::label(PointsView points, std::size_t begin, std::size_t en
     {
       std::uint32_t* const to = labels + first;
       this->locate(block, count, to);
-      std::for_each(to, to + count,
-        [&counts](std::uint32_t partition)
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        if (to[i] != None)
         {
-          if (partition != None)
-          {
-            ++counts[partition];
-          }
-        });
+          ++counts[to[i]];
+        }
+      }
     });
 }
 

@@ -1,113 +1,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation/PointBuckets.h"
 
-#include "Kernel/Extent.h"
+#include "Kernel/Lanes.h"
 #include "Parallel/ParallelFor.h"
 #include "Triangulation/BucketWriter.h"
 #include "Triangulation/PartitionFinder.h"
-#include "Triangulation/PopulatePages.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#include <unistd.h>
+#endif
 
 namespace tipp
 {
-namespace
+#ifdef MADV_POPULATE_WRITE
+void populatePages(void* memory, std::size_t bytes)
 {
-
-/// The range [begin, end) of n items that is share `part` of `parts` equal shares.
-std::pair<std::size_t, std::size_t> share(std::size_t n, int part, int parts)
-{
-  return { n / std::size_t(parts) * std::size_t(part) +
-      std::min(n % std::size_t(parts), std::size_t(part)),
-    n / std::size_t(parts) * std::size_t(part + 1) +
-      std::min(n % std::size_t(parts), std::size_t(part + 1)) };
+  static const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  const auto begin = reinterpret_cast<std::uintptr_t>(memory);
+  const std::uintptr_t first = (begin + page - 1) / page * page;
+  const std::uintptr_t last = (begin + bytes) / page * page;
+  // For a few pages the call costs as much as it saves.
+  if (last > first + 8 * page)
+  {
+    // A failure is harmless: the pages are then committed when first touched.
+    static_cast<void>(madvise(static_cast<char*>(memory) + (first - begin),
+      std::size_t(last - first), MADV_POPULATE_WRITE));
+  }
 }
+#else
+void populatePages(void*, std::size_t) {}
+#endif
 
-struct PartSurvey
+template <typename Id>
+Regions::Regions(const Tiling& tiling, const PointBuckets<Id>& buckets, int threads)
+  : Tiles(tiling)
+  , Boxes(std::size_t(tiling.size()))
+  , Used(std::size_t(tiling.size()), 0)
 {
-  Box2 Bounds{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
-  std::vector<std::int64_t> Rejected;
-
-  void add(std::size_t first, const Point2* points, std::size_t count)
-  {
-    const Extent extent = extentOf(points, count);
-    if (extent.AllFinite)
+  parallelFor(tiling.size(), threads,
+    [&](std::int64_t i)
     {
-      this->extend(extent);
-      return;
-    }
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      if (isFinite(points[i]))
-      {
-        this->extend(extentOf(points + i, 1));
-      }
-      else
-      {
-        this->Rejected.push_back(static_cast<std::int64_t>(first + i));
-      }
-    }
-  }
-
-  void extend(const Extent& extent)
-  {
-    this->Bounds.xmin = std::min(this->Bounds.xmin, extent.Low[0]);
-    this->Bounds.ymin = std::min(this->Bounds.ymin, extent.Low[1]);
-    this->Bounds.xmax = std::max(this->Bounds.xmax, extent.High[0]);
-    this->Bounds.ymax = std::max(this->Bounds.ymax, extent.High[1]);
-  }
-};
-
-PartSurvey surveyPart(PointsView points, std::size_t begin, std::size_t end)
-{
-  PartSurvey survey;
-  points.forBlocks(begin, end,
-    [&survey](std::size_t first, const Point2* block, std::size_t count)
-    { survey.add(first, block, count); });
-  return survey;
-}
-
-} // namespace
-
-PointSurvey surveyPoints(PointsView points, int threads)
-{
-  std::vector<PartSurvey> parts(static_cast<std::size_t>(threads));
-  const auto survey = [&](std::int64_t part)
-  {
-    const auto [begin, end] = share(points.size(), int(part), threads);
-    parts[std::size_t(part)] = surveyPart(points, begin, end);
-  };
-  parallelFor(threads, threads, survey);
-  PointSurvey all;
-  all.Bounds = PartSurvey().Bounds;
-  for (const PartSurvey& part : parts)
-  {
-    all.Bounds.xmin = std::min(all.Bounds.xmin, part.Bounds.xmin);
-    all.Bounds.ymin = std::min(all.Bounds.ymin, part.Bounds.ymin);
-    all.Bounds.xmax = std::max(all.Bounds.xmax, part.Bounds.xmax);
-    all.Bounds.ymax = std::max(all.Bounds.ymax, part.Bounds.ymax);
-    all.Rejected.insert(all.Rejected.end(), part.Rejected.begin(), part.Rejected.end());
-  }
-  return all;
-}
-
-std::vector<Point2> samplePoints(PointsView points, std::size_t count)
-{
-  std::vector<Point2> sample;
-  sample.reserve(count);
-  const double step = std::max(1.0, double(points.size()) / double(count));
-  const std::size_t samples = std::min(count, points.size());
-  for (std::size_t i = 0; i < samples; ++i)
-  {
-    const Point2 p = points[static_cast<std::size_t>((double(i) + 0.5) * step)];
-    if (isFinite(p))
-    {
-      sample.push_back(p);
-    }
-  }
-  return sample;
+      const auto p = static_cast<PartitionIndex>(i);
+      this->Boxes[std::size_t(i)] = extentOf(buckets.points(p), buckets.count(p)).box();
+      this->Used[std::size_t(i)] = buckets.count(p) > 0;
+    });
 }
 
 template <typename Id>
@@ -129,7 +69,7 @@ PointBuckets<Id>::PointBuckets(
 template <typename Id>
 void PointBuckets<Id>::populate(int part, int parts)
 {
-  const auto [begin, end] = share(6 * this->size(), part, parts);
+  const auto [begin, end] = evenShare(6 * this->size(), part, parts);
   populatePages(this->Memory.data() + begin, (end - begin) * sizeof(Id));
 }
 
@@ -153,13 +93,14 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
   const std::size_t partitions = static_cast<std::size_t>(tiling.size());
   const PartitionFinder finder(tiling);
   Buffer<std::uint32_t> labels(points.size());
-  std::vector<std::vector<std::size_t>> places(
+  // By part of the input and partition: at first the part's number of points there.
+  std::vector<std::vector<std::size_t>> nextOf(
     static_cast<std::size_t>(threads), std::vector<std::size_t>(partitions, 0));
   const auto labelPart = [&](std::int64_t part)
   {
-    const auto [begin, end] = share(points.size(), int(part), threads);
+    const auto [begin, end] = evenShare(points.size(), int(part), threads);
     populatePages(labels.data() + begin, (end - begin) * sizeof(std::uint32_t));
-    finder.label(points, begin, end, labels.data(), places[std::size_t(part)]);
+    finder.label(points, begin, end, labels.data(), nextOf[std::size_t(part)]);
   };
   parallelFor(threads, threads, labelPart);
 
@@ -168,10 +109,10 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
   for (std::size_t partition = 0; partition < partitions; ++partition)
   {
     std::size_t sum = 0;
-    for (std::vector<std::size_t>& place : places)
+    for (std::vector<std::size_t>& next : nextOf)
     {
-      const std::size_t count = place[partition];
-      place[partition] = sum;
+      const std::size_t count = next[partition];
+      next[partition] = sum;
       sum += count;
     }
     starts.push_back(starts.back() + sum);
@@ -186,10 +127,10 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
     for (PartitionIndex p = 0; p < tiling.size(); ++p)
     {
       toFill.push_back({ buckets.pointsToFill(p), buckets.idsToFill(p),
-        places[std::size_t(part)][std::size_t(p)] });
+        nextOf[std::size_t(part)][std::size_t(p)] });
     }
     BucketWriter<Id> writer(std::move(toFill));
-    const auto [begin, end] = share(points.size(), int(part), threads);
+    const auto [begin, end] = evenShare(points.size(), int(part), threads);
     points.forEach(begin, end,
       [&](std::size_t id, Point2 p)
       {
@@ -222,7 +163,7 @@ PointBuckets<Id> bucketTogether(PointsView points, const Box2& bounds, bool allF
   Id* const ids = buckets.idsToFill(0);
   const auto copyPart = [&](std::int64_t part)
   {
-    const auto [begin, end] = share(points.size(), int(part), threads);
+    const auto [begin, end] = evenShare(points.size(), int(part), threads);
     buckets.populate(int(part), threads);
     points.forEach(begin, end, [to](std::size_t id, Point2 p) { to[id] = p; });
     std::iota(ids + begin, ids + end, static_cast<Id>(begin));
@@ -231,6 +172,8 @@ PointBuckets<Id> bucketTogether(PointsView points, const Box2& bounds, bool allF
   return buckets;
 }
 
+template Regions::Regions(const Tiling&, const PointBuckets<std::int32_t>&, int);
+template Regions::Regions(const Tiling&, const PointBuckets<std::int64_t>&, int);
 template class PointBuckets<std::int32_t>;
 template class PointBuckets<std::int64_t>;
 template PointBuckets<std::int32_t> bucketPoints(PointsView, const Tiling&, int);

@@ -6,24 +6,16 @@
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Tiling.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace tipp
 {
 
-/// The result of one pass over the points.
-struct PointSurvey
-{
-  Box2 Bounds{};                      ///< of the finite points
-  std::vector<std::int64_t> Rejected; ///< ids of points that are not finite; ascending
-};
-
-/// Returns the bounds of the finite points, and the indices of the others.
-PointSurvey surveyPoints(PointsView points, int threads);
-
-/// Returns about `count` finite points, evenly spaced in the input's order.
-std::vector<Point2> samplePoints(PointsView points, std::size_t count);
+/// Commits the pages of fresh memory at once, which is faster than a page fault at the first touch
+/// of each. The content stays. Does nothing if the system does not support it.
+VTKTIPPFILTERS_EXPORT void populatePages(void* memory, std::size_t bytes);
 
 /// The finite points and their ids, grouped by partition, in the input's order within each
 /// partition. Once a partition's points are no longer needed, the same memory holds its triangles.
@@ -114,13 +106,6 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
 /// finite.
 template <typename Id>
 PointBuckets<Id> bucketTogether(PointsView points, const Box2& bounds, bool allFinite, int threads);
-
-extern template class PointBuckets<std::int32_t>;
-extern template class PointBuckets<std::int64_t>;
-extern template PointBuckets<std::int32_t> bucketPoints(PointsView, const Tiling&, int);
-extern template PointBuckets<std::int64_t> bucketPoints(PointsView, const Tiling&, int);
-extern template PointBuckets<std::int32_t> bucketTogether(PointsView, const Box2&, bool, int);
-extern template PointBuckets<std::int64_t> bucketTogether(PointsView, const Box2&, bool, int);
 
 } // namespace tipp
 

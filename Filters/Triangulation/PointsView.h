@@ -7,9 +7,24 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 
 namespace tipp
 {
+
+/// The smallest box that holds both.
+inline Box2 unionOf(const Box2& a, const Box2& b)
+{
+  return { std::min(a.xmin, b.xmin), std::min(a.ymin, b.ymin), std::max(a.xmax, b.xmax),
+    std::max(a.ymax, b.ymax) };
+}
+
+/// The range [begin, end) of n items that is share `part` of `parts` equal shares.
+inline std::pair<std::size_t, std::size_t> evenShare(std::size_t n, int part, int parts)
+{
+  return { n * std::size_t(part) / std::size_t(parts),
+    n * std::size_t(part + 1) / std::size_t(parts) };
+}
 
 /// A view of points in memory: x and y are the first two of every `stride` scalars, times a factor.
 /// It does not own the memory.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation/Tiling.h"
 
-#include "Triangulation/PartitionSizes.h"
+#include "Messages/Bytes.h"
 
 #include <algorithm>
 
@@ -27,52 +27,27 @@ double between(double low, double high, double part)
 
 } // namespace
 
-/// Several points descend the tree together: no branch depends on a point, and the loads of
-/// different points overlap.
-void Tiling::locate(const Point2* points, std::size_t count, std::uint32_t* partitions) const
+std::int32_t Tiling::addBox(const Box2& box, PartitionIndex partition)
 {
-  constexpr std::size_t lanes = 8;
-  const Node* const nodes = this->Nodes.data();
-  std::size_t begin = 0;
-  for (; begin + lanes <= count; begin += lanes)
-  {
-    const Node* at[lanes];
-    for (std::size_t i = 0; i < lanes; ++i)
-    {
-      at[i] = nodes;
-    }
-    for (std::size_t level = 0; level < this->Depth; ++level)
-    {
-      for (std::size_t i = 0; i < lanes; ++i)
-      {
-        const double* const coordinates = &points[begin + i].x;
-        at[i] = nodes + at[i]->Child[coordinates[at[i]->Axis] >= at[i]->At];
-      }
-    }
-    for (std::size_t i = 0; i < lanes; ++i)
-    {
-      partitions[begin + i] = static_cast<std::uint32_t>(at[i]->Partition);
-    }
-  }
-  for (; begin < count; ++begin)
-  {
-    partitions[begin] = static_cast<std::uint32_t>(this->locate(points[begin], 0));
-  }
+  const auto node = static_cast<std::int32_t>(this->Nodes.size());
+  this->Nodes.push_back({ 0, 0, { node, node }, partition });
+  this->Boxes.resize(std::max(this->Boxes.size(), std::size_t(partition) + 1));
+  this->Boxes[std::size_t(partition)] = box;
+  return node;
 }
 
-std::int32_t Tiling::addBox(const Box2& box, std::size_t depth)
+/// Adds a cut, and then what first() and second() add below it. Returns its node.
+template <typename MakeFirst, typename MakeSecond>
+std::int32_t Tiling::addCut(
+  int axis, double at, const MakeFirst& makeFirst, const MakeSecond& makeSecond)
 {
-  const std::int32_t place = static_cast<std::int32_t>(this->Nodes.size());
-  this->Nodes.push_back({ 0, 0, { place, place }, this->size() });
-  this->Boxes.push_back(box);
-  this->Depth = std::max(this->Depth, depth);
-  return place;
-}
-
-std::int32_t Tiling::addCut(int axis, double at)
-{
+  const auto cut = static_cast<std::int32_t>(this->Nodes.size());
   this->Nodes.push_back({ at, axis, { 0, 0 }, -1 });
-  return static_cast<std::int32_t>(this->Nodes.size() - 1);
+  const std::int32_t first = makeFirst();
+  const std::int32_t second = makeSecond();
+  this->Nodes[std::size_t(cut)].Child[0] = first;
+  this->Nodes[std::size_t(cut)].Child[1] = second;
+  return cut;
 }
 
 Tiling Tiling::grid(const Box2& domain, int columns, int rows)
@@ -84,53 +59,44 @@ Tiling Tiling::grid(const Box2& domain, int columns, int rows)
   }
   Tiling tiling;
   tiling.Domain = domain;
-  tiling.cutGrid(domain, columns, rows, 0);
+  tiling.cutGrid(domain, columns, rows);
   return tiling;
 }
 
-std::int32_t Tiling::cutGrid(const Box2& box, int columns, int rows, std::size_t depth)
+std::int32_t Tiling::cutGrid(const Box2& box, int columns, int rows)
 {
   if (columns == 1 && rows == 1)
   {
-    return this->addBox(box, depth);
+    return this->addBox(box, this->size());
   }
   const int axis = columns >= rows ? 0 : 1;
   const int count = axis == 0 ? columns : rows;
   const int lower = count / 2;
-  const double low = axis == 0 ? box.xmin : box.ymin;
-  const double high = axis == 0 ? box.xmax : box.ymax;
-  const double at = between(low, high, double(lower) / count);
+  const double at = axis == 0 ? between(box.xmin, box.xmax, double(lower) / count)
+                              : between(box.ymin, box.ymax, double(lower) / count);
   const auto halves = cutBox(box, axis, at);
-  const std::int32_t place = this->addCut(axis, at);
   const auto child = [&](const Box2& half, int part)
-  {
-    return axis == 0 ? this->cutGrid(half, part, rows, depth + 1)
-                     : this->cutGrid(half, columns, part, depth + 1);
-  };
-  const std::int32_t first = child(halves.first, lower);
-  const std::int32_t second = child(halves.second, count - lower);
-  Node& cut = this->Nodes[static_cast<std::size_t>(place)];
-  cut.Child[0] = first;
-  cut.Child[1] = second;
-  return place;
+  { return axis == 0 ? this->cutGrid(half, part, rows) : this->cutGrid(half, columns, part); };
+  return this->addCut(
+    axis, at, [&] { return child(halves.first, lower); },
+    [&] { return child(halves.second, count - lower); });
 }
 
 Tiling Tiling::balanced(const Box2& domain, std::vector<Point2> sample, int count)
 {
   Tiling tiling;
   tiling.Domain = domain;
-  tiling.cutSample(domain, sample.data(), sample.data() + sample.size(), count, 0);
+  tiling.cutSample(domain, sample.data(), sample.data() + sample.size(), count);
   return tiling;
 }
 
 /// Cuts the longer side half way between two neighbouring sample points. Returns the node.
-std::int32_t Tiling::cutSample(
-  const Box2& box, Point2* begin, Point2* end, int count, std::size_t depth)
+std::int32_t Tiling::cutSample(const Box2& box, Point2* begin, Point2* end, int count)
 {
   const std::ptrdiff_t lower = (end - begin) * (count / 2) / std::max(count, 1);
   if (count <= 1 || lower == 0)
   {
-    return this->addBox(box, depth);
+    return this->addBox(box, this->size());
   }
   const int axis = box.xmax - box.xmin >= box.ymax - box.ymin ? 0 : 1;
   const auto along = [axis](const Point2& p) { return axis == 0 ? p.x : p.y; };
@@ -138,16 +104,75 @@ std::int32_t Tiling::cutSample(
   Point2* middle = begin + lower;
   std::nth_element(begin, middle, end, less);
   const double at = between(along(*std::max_element(begin, middle, less)), along(*middle), 0.5);
-
   const auto halves = cutBox(box, axis, at);
-  const std::int32_t place = this->addCut(axis, at);
-  const std::int32_t first = this->cutSample(halves.first, begin, middle, count / 2, depth + 1);
-  const std::int32_t second =
-    this->cutSample(halves.second, middle, end, count - count / 2, depth + 1);
-  Node& cut = this->Nodes[static_cast<std::size_t>(place)];
-  cut.Child[0] = first;
-  cut.Child[1] = second;
-  return place;
+  return this->addCut(
+    axis, at, [&] { return this->cutSample(halves.first, begin, middle, count / 2); },
+    [&] { return this->cutSample(halves.second, middle, end, count - count / 2); });
+}
+
+/// Copies another tiling's cuts below the node `from`; makeBox(partition) replaces its boxes.
+/// Returns the copied root.
+template <typename MakeBox>
+std::int32_t Tiling::addTree(const Tiling& tree, std::int32_t from, const MakeBox& makeBox)
+{
+  const Node node = tree.node(from);
+  return node.isBox()
+    ? makeBox(node.Partition)
+    : this->addCut(
+        node.Axis, node.At, [&] { return this->addTree(tree, node.Child[0], makeBox); },
+        [&] { return this->addTree(tree, node.Child[1], makeBox); });
+}
+
+Tiling Tiling::refined(const std::vector<Tiling>& inner) const
+{
+  Tiling tiling;
+  tiling.Domain = this->Domain;
+  std::vector<PartitionIndex> firsts = { 0 };
+  for (const Tiling& part : inner)
+  {
+    firsts.push_back(firsts.back() + part.size());
+  }
+  tiling.addTree(*this, 0,
+    [&](PartitionIndex outer)
+    {
+      const Tiling& part = inner[std::size_t(outer)];
+      const PartitionIndex first = firsts[std::size_t(outer)];
+      return tiling.addTree(
+        part, 0, [&](PartitionIndex p) { return tiling.addBox(part.box(p), first + p); });
+    });
+  return tiling;
+}
+
+std::vector<char> Tiling::save() const
+{
+  ByteWriter writer;
+  writer.value(this->Domain);
+  writer.value(std::uint64_t(MaximumDepth)); // not used; it is part of the format
+  writer.value(std::uint64_t(this->Nodes.size()));
+  writer.value(std::uint64_t(this->Boxes.size()));
+  writer.raw(this->Nodes.data(), this->Nodes.size() * sizeof(Node));
+  writer.raw(this->Boxes.data(), this->Boxes.size() * sizeof(Box2));
+  return { writer.data(), writer.data() + writer.size() };
+}
+
+Tiling Tiling::load(const std::vector<char>& bytes)
+{
+  ByteReader reader(bytes.data(), bytes.size());
+  Tiling tiling;
+  tiling.Domain = reader.value<Box2>();
+  reader.value<std::uint64_t>();
+  const auto nodes = reader.value<std::uint64_t>();
+  const auto boxes = reader.value<std::uint64_t>();
+  const auto read = [&reader](auto& items, std::uint64_t count)
+  {
+    const std::size_t size = sizeof(items[0]);
+    const char* const from = reader.raw(count > reader.left() / size ? SIZE_MAX : count * size);
+    items.resize(count);
+    std::copy_n(from, count * size, reinterpret_cast<char*>(items.data()));
+  };
+  read(tiling.Nodes, nodes);
+  read(tiling.Boxes, boxes);
+  return tiling;
 }
 
 } // namespace tipp

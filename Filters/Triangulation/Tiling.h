@@ -9,10 +9,39 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace tipp
 {
+
+/// Points in a partition for which workers are fastest, by measurement.
+constexpr std::int64_t BestPointsInPartition = 49152;
+/// With fewer points in a partition, a worker's overhead is noticeable.
+constexpr std::int64_t FewestPointsInPartition = 4096;
+/// Partitions per thread; enough to keep all threads busy until the end.
+constexpr std::int64_t PartitionsPerThread = 8;
+/// Points of each partition in the initial mesh.
+constexpr int InitialPointsOfPartition = 8;
+/// Sample points per partition for balancing a tiling.
+constexpr std::size_t SamplesPerPartition = 64;
+/// The maximum number of partitions in a tiling; more would only cost memory.
+constexpr std::int64_t MostPartitions = std::int64_t(1) << 24;
+
+/// Throws std::length_error if a partition has too many points for the kernel's 32-bit half-edges.
+inline void requireFitsKernel(std::size_t pointsInPartition)
+{
+  constexpr std::size_t most = 100'000'000; // well below the limit
+  if (pointsInPartition > most)
+  {
+    throw std::length_error("A partition would hold " + std::to_string(pointsInPartition) +
+      " points, more than " + std::to_string(most) +
+      ": too many points are close together for the number of partitions, or they are all on one "
+      "line.");
+  }
+}
 
 using PartitionIndex = std::int32_t;
 
@@ -40,15 +69,10 @@ public:
   const Box2& box(PartitionIndex i) const { return this->Boxes[static_cast<std::size_t>(i)]; }
   const Box2& domain() const { return this->Domain; }
 
-  /// Computes the partition of each of `count` points; for many points PartitionFinder is faster.
-  void locate(const Point2* points, std::size_t count, std::uint32_t* partitions) const;
+  const std::vector<Box2>& boxes() const { return this->Boxes; }
 
-  PartitionIndex locate(Point2 p) const
-  {
-    std::uint32_t partition;
-    this->locate(&p, 1, &partition);
-    return static_cast<PartitionIndex>(partition);
-  }
+  /// The partition of a point; for many points PartitionFinder is faster.
+  PartitionIndex locate(Point2 p) const { return this->locate(p, 0); }
 
   /// Calls visit(partition) for every box that the closed disk meets.
   template <typename Visit>
@@ -93,12 +117,12 @@ public:
 private:
   friend class PartitionFinder;
 
-  /// A cut or a box. A box is its own child, so that a search may take more steps than needed.
+  /// A cut or a box.
   struct Node
   {
     double At;
     std::int32_t Axis;
-    std::int32_t Child[2]; ///< below the cut, and from it on
+    std::int32_t Child[2]; ///< below the cut, and from it on; of a box, the box itself
     PartitionIndex Partition;
 
     bool isBox() const { return this->Partition >= 0; }
@@ -118,20 +142,70 @@ private:
     return at->Partition;
   }
 
-  std::int32_t cutGrid(const Box2& box, int columns, int rows, std::size_t depth);
-  std::int32_t cutSample(const Box2& box, Point2* begin, Point2* end, int count, std::size_t depth);
-  std::int32_t addBox(const Box2& box, std::size_t depth);
-  std::int32_t addCut(int axis, double at);
+  std::int32_t cutGrid(const Box2& box, int columns, int rows);
+  std::int32_t cutSample(const Box2& box, Point2* begin, Point2* end, int count);
+  std::int32_t addBox(const Box2& box, PartitionIndex partition);
+  template <typename MakeFirst, typename MakeSecond>
+  std::int32_t addCut(int axis, double at, const MakeFirst& first, const MakeSecond& second);
   template <typename MakeBox>
-  std::int32_t addTree(
-    const Tiling& tree, std::int32_t from, std::size_t depth, const MakeBox& makeBox);
-  std::int32_t placeBox(const Box2& box, PartitionIndex partition, std::size_t depth);
+  std::int32_t addTree(const Tiling& tree, std::int32_t from, const MakeBox& makeBox);
   const Node& node(std::int32_t i) const { return this->Nodes[static_cast<std::size_t>(i)]; }
 
   Box2 Domain{};
-  std::size_t Depth = 0;   ///< maximum number of cuts from the root to a box
   std::vector<Node> Nodes; ///< the first is the root
   std::vector<Box2> Boxes;
+};
+
+template <typename Id>
+class PointBuckets;
+
+/// The region of each partition: a box that contains its points, by default their bounding box. The
+/// lemmas require no more; smaller regions meet fewer triangles.
+class Regions
+{
+public:
+  /// The bounding boxes of the partitions' points. The tiling must outlive this object.
+  template <typename Id>
+  Regions(const Tiling& tiling, const PointBuckets<Id>& buckets, int threads);
+
+  /// Takes known boxes. `used` has one entry for each partition: 0 if it has no points.
+  Regions(const Tiling& tiling, std::vector<Box2> boxes, std::vector<char> used)
+    : Tiles(tiling)
+    , Boxes(std::move(boxes))
+    , Used(std::move(used))
+  {
+  }
+
+  /// The tiling's boxes.
+  Regions(const Tiling& tiling) // NOLINT(google-explicit-constructor)
+    : Regions(tiling, tiling.boxes(), std::vector<char>(std::size_t(tiling.size()), 1))
+  {
+  }
+
+  PartitionIndex size() const { return static_cast<PartitionIndex>(this->Boxes.size()); }
+  const Box2& operator[](PartitionIndex p) const { return this->Boxes[std::size_t(p)]; }
+
+  /// By partition: not 0 if it has points, and so a region.
+  const std::vector<char>& areUsed() const { return this->Used; }
+
+  /// Calls visit(partition) for every region that the closed disk meets.
+  template <typename Visit>
+  void visitMet(const Circumdisk& disk, Visit&& visit) const
+  {
+    this->Tiles.visitNear(disk.bounds(),
+      [&](PartitionIndex p)
+      {
+        if (this->Used[std::size_t(p)] && disk.meets((*this)[p]))
+        {
+          visit(p);
+        }
+      });
+  }
+
+private:
+  const Tiling& Tiles;
+  std::vector<Box2> Boxes;
+  std::vector<char> Used;
 };
 
 } // namespace tipp

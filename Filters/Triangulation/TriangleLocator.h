@@ -45,9 +45,6 @@ private:
   std::vector<Id> Nearby; ///< by grid cell: a triangle near it; empty without triangles
 };
 
-extern template class TriangleLocator<std::int32_t>;
-extern template class TriangleLocator<std::int64_t>;
-
 } // namespace tipp
 
 #endif

@@ -2,6 +2,7 @@
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
+#include <numeric>
 #include <unordered_map>
 
 namespace tipp
@@ -21,37 +22,34 @@ typename TriangleSink<Id>::Corners TriangleSink<Id>::fromLowest(const Corners& i
   return { ids[first], ids[(first + 1) % 3], ids[(first + 2) % 3] };
 }
 
+/// The boundary triangles by partition, sorted within each.
 template <typename Id>
 std::vector<typename TriangleSink<Id>::Corners> TriangleSink<Id>::sortBoundary(
   const std::vector<std::vector<FinalTriangle>>& boundary, int threads) const
 {
   const std::size_t partitions = this->InteriorCounts.size();
-  std::vector<std::size_t> places(partitions + 1, 0);
+  std::vector<std::size_t> ends(partitions + 1, 0); // of each partition's triangles, shifted by one
   for (const std::vector<FinalTriangle>& list : boundary)
   {
     for (const FinalTriangle& triangle : list)
     {
-      ++places[std::size_t(triangle.Partition) + 1];
+      ++ends[std::size_t(triangle.Partition) + 1];
     }
   }
-  for (std::size_t p = 0; p < partitions; ++p)
-  {
-    places[p + 1] += places[p];
-  }
-  const std::vector<std::size_t> begins = places;
-  std::vector<Corners> sorted(begins.back());
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<Corners> sorted(ends.back());
   for (const std::vector<FinalTriangle>& list : boundary)
   {
     for (const FinalTriangle& triangle : list)
     {
-      sorted[places[std::size_t(triangle.Partition)]++] = triangle.Ids;
+      sorted[ends[std::size_t(triangle.Partition)]++] = triangle.Ids;
     }
   }
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 16)
   for (std::size_t p = 0; p < partitions; ++p)
   {
-    std::sort(
-      sorted.begin() + std::ptrdiff_t(begins[p]), sorted.begin() + std::ptrdiff_t(begins[p + 1]));
+    const std::size_t begin = p == 0 ? 0 : ends[p - 1];
+    std::sort(sorted.begin() + std::ptrdiff_t(begin), sorted.begin() + std::ptrdiff_t(ends[p]));
   }
   return sorted;
 }
@@ -61,12 +59,8 @@ Buffer<Id> TriangleSink<Id>::assemble(
   const std::vector<std::vector<FinalTriangle>>& boundary, int threads)
 {
   const std::vector<Corners> sorted = this->sortBoundary(boundary, threads);
-  std::size_t total = sorted.size();
-  for (const std::size_t count : this->InteriorCounts)
-  {
-    total += count;
-  }
-
+  const std::size_t total =
+    std::accumulate(this->InteriorCounts.begin(), this->InteriorCounts.end(), sorted.size());
   const std::size_t room = 2 * this->Buckets.size();
   Buffer<Id> ids = this->Buckets.release();
   if (3 * total > ids.size())

@@ -2,16 +2,63 @@
 #ifndef tippTriangleSink_h
 #define tippTriangleSink_h
 
+#include "Predicates/Point2.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/Buffer.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/Triangulate.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace tipp
 {
+
+/// Whether a triangle has an edge longer than `length`. Does not depend on the order of the
+/// corners.
+inline bool hasLongEdge(Point2 a, Point2 b, Point2 c, double length)
+{
+  const auto isLong = [length](Point2 p, Point2 q)
+  {
+    const double dx = std::fabs(p.x - q.x);
+    const double dy = std::fabs(p.y - q.y);
+    // The sum decides for most edges, which are short. Squares could overflow.
+    return dx + dy > length && std::hypot(dx, dy) > length;
+  };
+  return isLong(a, b) || isLong(b, c) || isLong(c, a);
+}
+
+/// Keeps the triangles for which isKept(index) is true, in their order. `ids` has three per
+/// triangle. Returns the number of triangles left.
+template <typename Id, typename IsKept>
+std::size_t keepTriangles(Id* ids, std::size_t triangles, const IsKept& isKept)
+{
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangles; ++t)
+  {
+    if (isKept(t))
+    {
+      std::copy_n(ids + 3 * t, 3, ids + 3 * kept++);
+    }
+  }
+  return kept;
+}
+
+/// Removes the triangles with an edge longer than `length`; `pointOf` returns the coordinates of an
+/// id. Otherwise like keepTriangles().
+template <typename Id, typename PointOf>
+std::size_t dropLongTriangles(Id* ids, std::size_t triangles, double length, const PointOf& pointOf)
+{
+  return keepTriangles(ids, triangles,
+    [&](std::size_t t)
+    {
+      const Id* const corners = ids + 3 * t;
+      return !hasLongEdge(pointOf(corners[0]), pointOf(corners[1]), pointOf(corners[2]), length);
+    });
+}
 
 /// Assembles the final triangles into one array: the partitions' interior triangles where they were
 /// written, and the boundary triangles in the gaps. The order depends only on the points
@@ -55,11 +102,6 @@ private:
 /// the duplicates; sorts the duplicates.
 template <typename Id>
 void preferLowestIds(Buffer<Id>& ids, std::vector<Duplicate>& duplicates, int threads);
-
-extern template class TriangleSink<std::int32_t>;
-extern template class TriangleSink<std::int64_t>;
-extern template void preferLowestIds(Buffer<std::int32_t>&, std::vector<Duplicate>&, int);
-extern template void preferLowestIds(Buffer<std::int64_t>&, std::vector<Duplicate>&, int);
 
 } // namespace tipp
 

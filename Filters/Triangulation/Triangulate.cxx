@@ -3,15 +3,13 @@
 
 #include "Engine/PartitionOrder.h"
 #include "Engine/ReadyPartitions.h"
-#include "Engine/Regions.h"
 #include "Engine/Routing.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
-#include "Triangulation/DegenerateInput.h"
 #include "Triangulation/InitialMesh.h"
-#include "Triangulation/LongTriangles.h"
-#include "Triangulation/PartitionSizes.h"
 #include "Triangulation/PointBuckets.h"
+#include "Triangulation/PointSurvey.h"
+#include "Triangulation/Tiling.h"
 #include "Triangulation/TriangleSink.h"
 #include "Triangulation/Worker.h"
 
@@ -29,15 +27,11 @@ namespace tipp
 namespace
 {
 
-template <typename Id>
-Buffer<Id>& idsOf(Triangulation& result);
-template <>
-Buffer<std::int32_t>& idsOf(Triangulation& result)
+Buffer<std::int32_t>& idsOf(Triangulation& result, std::int32_t)
 {
   return result.Ids32;
 }
-template <>
-Buffer<std::int64_t>& idsOf(Triangulation& result)
+Buffer<std::int64_t>& idsOf(Triangulation& result, std::int64_t)
 {
   return result.Ids64;
 }
@@ -301,7 +295,7 @@ private:
     Buffer<Id> ids = sink.assemble(boundary, this->PassThreads);
     this->addBlocks(sink, regions, domain, ids.size() / 3);
     preferLowestIds(ids, this->Result.Duplicates, this->PassThreads);
-    idsOf<Id>(this->Result) = std::move(ids);
+    idsOf(this->Result, Id()) = std::move(ids);
     this->endPhase("output");
     this->report(1);
   }
@@ -403,16 +397,24 @@ Triangulation triangulateAll(PointsView input, const TriangulationOptions& optio
 Triangulation triangulate(PointsView input, const TriangulationOptions& options)
 {
   Triangulation result = triangulateAll(input, options);
-  const auto pointOf = [&input](auto id) { return input[std::size_t(id)]; };
-  const auto drop = [&](auto& ids) {
-    ids.truncate(3 * dropLongTriangles(ids.data(), ids.size() / 3, options.MaximumEdge, pointOf));
-  };
-  if (options.MaximumEdge > 0)
-  {
-    drop(result.Ids32);
-    drop(result.Ids64);
-  }
+  leaveOutLong(input, options.MaximumEdge, result);
   return result;
+}
+
+void leaveOutLong(PointsView points, double longest, Triangulation& mesh)
+{
+  const auto drop = [&](auto& ids)
+  {
+    ids.truncate(3 *
+      dropLongTriangles(ids.data(), ids.size() / 3, longest,
+        [&points](auto id) { return points[std::size_t(id)]; }));
+  };
+  if (longest > 0)
+  {
+    drop(mesh.Ids32);
+    drop(mesh.Ids64);
+    mesh.Blocks.clear();
+  }
 }
 
 } // namespace tipp

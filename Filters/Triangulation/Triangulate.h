@@ -107,6 +107,11 @@ struct Triangulation
 VTKTIPPFILTERS_EXPORT Triangulation triangulate(
   PointsView points, const TriangulationOptions& options = {});
 
+/// Removes the triangles with an edge longer than `longest`, in the points' unit of length; 0:
+/// none. Afterwards triangles may be unconnected, so what is inside of polygons must be found
+/// before.
+VTKTIPPFILTERS_EXPORT void leaveOutLong(PointsView points, double longest, Triangulation& mesh);
+
 } // namespace tipp
 
 #endif

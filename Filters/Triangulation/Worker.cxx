@@ -10,6 +10,8 @@ namespace tipp
 namespace
 {
 
+using Index = DelaunayKernel::Index;
+
 /// The largest closed box such that disks inside it do not touch the boxes around `box`.
 Box2 openBox(const Box2& box)
 {
@@ -58,28 +60,27 @@ template <typename Id>
 void Worker<Id>::triangulate(PartitionIndex partition, std::vector<BoundaryVertex>&& vertices,
   const Box2& region, BoundaryTaker& boundary)
 {
-  this->Foreign = std::move(vertices);
   const PartitionIndex bucket = this->bucket(partition);
-  this->separateOwnVertices(partition);
-  this->takeIds(bucket);
+  this->separateGhosts(partition, std::move(vertices));
+  this->Buckets.copyIds(bucket, this->Ids);
   this->Kernel.clear();
   // The partition's own points first: their interior triangles then do not depend on other points.
   this->Kernel.insert(this->Buckets.points(bucket), this->Buckets.count(bucket));
-  this->Kernel.insert(this->ForeignPoints.data(), this->ForeignPoints.size());
+  this->Kernel.insert(this->GhostPoints.data(), this->GhostPoints.size());
   // Small memory is kept for the next partition.
   const bool isLarge = this->Kernel.bytes() > PooledKernel::MostBytesKept;
   if (isLarge)
   {
-    std::vector<Point2>().swap(this->ForeignPoints);
+    std::vector<Point2>().swap(this->GhostPoints);
   }
   this->VertexCount = static_cast<std::size_t>(this->Kernel.vertexEnd()) - 1;
   this->resolveDuplicates();
   boundary.begin(this->Kernel.vertexEnd());
   this->findBoundary(this->Boxes->box(partition), region, boundary);
-  this->nameVertices();
+  this->setVertexIds();
   this->edit(partition);
   this->writeTriangles(
-    bucket, [this](DelaunayKernel::Index t) { return !this->IsBoundary[std::size_t(t / 8)]; });
+    bucket, [this](Index t) { return !this->IsBoundary[DelaunayKernel::number(t)]; });
   if (isLarge)
   {
     this->Kernel.releaseTriangles();
@@ -90,7 +91,7 @@ template <typename Id>
 bool Worker<Id>::triangulateAlone(const DelaunayKernel::Monitor& proceed)
 {
   this->KnownIds.clear();
-  this->takeIds(0);
+  this->Buckets.copyIds(0, this->Ids);
   this->Kernel.clear();
   if (!this->Kernel.insert(this->Buckets.points(0), this->Buckets.count(0), proceed))
   {
@@ -98,32 +99,27 @@ bool Worker<Id>::triangulateAlone(const DelaunayKernel::Monitor& proceed)
   }
   this->VertexCount = static_cast<std::size_t>(this->Kernel.vertexEnd()) - 1;
   this->resolveDuplicates();
-  this->nameVertices();
+  this->setVertexIds();
   if (this->Editor)
   {
-    this->IsBoundary.resize(static_cast<std::size_t>(this->Kernel.mesh().end() / 8));
-    for (DelaunayKernel::Index t = 0; t < this->Kernel.mesh().end(); t += 8)
-    {
-      this->IsBoundary[std::size_t(t / 8)] = this->Kernel.isInfinite(t) ? 1 : 0;
-    }
+    this->IsBoundary.clear();
+    this->Kernel.forEachTriangle(
+      [this](Index t) { this->IsBoundary.push_back(this->Kernel.isInfinite(t)); });
     this->edit(0);
   }
-  this->writeTriangles(0, [this](DelaunayKernel::Index t) { return !this->Kernel.isInfinite(t); });
+  this->writeTriangles(0, [this](Index t) { return !this->Kernel.isInfinite(t); });
   return true;
 }
 
+/// Of the vertices, own points are only noted as known to others.
 template <typename Id>
-void Worker<Id>::takeIds(PartitionIndex bucket)
+void Worker<Id>::separateGhosts(PartitionIndex partition, std::vector<BoundaryVertex>&& vertices)
 {
-  this->Buckets.copyIds(bucket, this->Ids);
-}
-
-template <typename Id>
-void Worker<Id>::separateOwnVertices(PartitionIndex partition)
-{
+  this->Ghosts = std::move(vertices);
   this->KnownIds.clear();
+  this->GhostPoints.clear();
   std::size_t kept = 0;
-  for (const BoundaryVertex& v : this->Foreign)
+  for (const BoundaryVertex& v : this->Ghosts)
   {
     if (v.Partition == partition && !v.isArtificial())
     {
@@ -131,17 +127,12 @@ void Worker<Id>::separateOwnVertices(PartitionIndex partition)
     }
     else
     {
-      this->Foreign[kept++] = v;
+      this->GhostPoints.push_back(v.Position);
+      this->Ghosts[kept++] = v;
     }
   }
-  this->Foreign.resize(kept);
+  this->Ghosts.resize(kept);
   std::sort(this->KnownIds.begin(), this->KnownIds.end());
-  this->ForeignPoints.clear();
-  this->ForeignPoints.reserve(kept);
-  for (const BoundaryVertex& v : this->Foreign)
-  {
-    this->ForeignPoints.push_back(v.Position);
-  }
 }
 
 template <typename Id>
@@ -155,7 +146,7 @@ void Worker<Id>::resolveDuplicates()
   for (const DelaunayKernel::Duplicate& duplicate : found)
   {
     Id& id = ids[duplicate.Point];
-    Id& representative = ids[this->Kernel.place(duplicate.Vertex)];
+    Id& representative = ids[this->Kernel.pointIndex(duplicate.Vertex)];
     if (isKnown(id) || (id < representative && !isKnown(representative)))
     {
       std::swap(id, representative);
@@ -164,20 +155,20 @@ void Worker<Id>::resolveDuplicates()
   for (const DelaunayKernel::Duplicate& duplicate : found)
   {
     this->Duplicates.push_back({ this->FirstId + ids[duplicate.Point],
-      this->FirstId + ids[this->Kernel.place(duplicate.Vertex)] });
+      this->FirstId + ids[this->Kernel.pointIndex(duplicate.Vertex)] });
   }
 }
 
 template <typename Id>
-BoundaryVertex Worker<Id>::vertex(PartitionIndex partition, DelaunayKernel::Index v) const
+BoundaryVertex Worker<Id>::vertex(PartitionIndex partition, Index v) const
 {
-  const std::size_t place = this->Kernel.place(v);
+  const std::size_t point = this->Kernel.pointIndex(v);
   const std::size_t own = this->Ids.size();
-  if (place >= own)
+  if (point >= own)
   {
-    return this->Foreign[place - own];
+    return this->Ghosts[point - own];
   }
-  return { this->Kernel.point(v), this->FirstId + this->Ids[place], partition };
+  return { this->Kernel.point(v), this->FirstId + this->Ids[point], partition };
 }
 
 /// Visits the triangles whose circumdisk is not inside the partition. They are connected: each
@@ -187,31 +178,30 @@ BoundaryVertex Worker<Id>::vertex(PartitionIndex partition, DelaunayKernel::Inde
 template <typename Id>
 void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryTaker& boundary)
 {
-  const HalfEdgeMesh& mesh = this->Kernel.mesh();
   const Box2 open = openBox(box);
-  this->IsBoundary.assign(static_cast<std::size_t>(mesh.end() / 8), 0);
-  DelaunayKernel::Index start = 0;
-  while (!this->Kernel.isInfinite(start))
+  this->IsBoundary.assign(this->Kernel.triangleCount(), 0);
+  std::size_t first = 0;
+  while (!this->Kernel.isInfinite(DelaunayKernel::triangle(first)))
   {
-    start += 8;
+    ++first;
   }
-  this->Stack.assign(1, start);
-  this->IsBoundary[std::size_t(start / 8)] = 1;
+  this->Stack.assign(1, DelaunayKernel::triangle(first));
+  this->IsBoundary[first] = 1;
   while (!this->Stack.empty())
   {
-    const DelaunayKernel::Index t = this->Stack.back();
+    const Index t = this->Stack.back();
     this->Stack.pop_back();
-    for (DelaunayKernel::Index i = 0; i < 3; ++i)
+    for (Index i = 0; i < 3; ++i)
     {
-      const DelaunayKernel::Index neighbour = HalfEdgeMesh::triangleOf(mesh.twin(t + i));
-      char& isBoundary = this->IsBoundary[std::size_t(neighbour / 8)];
+      const Index neighbour = this->Kernel.neighbour(t, i);
+      char& isBoundary = this->IsBoundary[DelaunayKernel::number(neighbour)];
       if (isBoundary)
       {
         continue;
       }
       if (!this->Kernel.isInfinite(neighbour))
       {
-        const DelaunayKernel::Index* v = mesh.slots() + neighbour;
+        const std::array<Index, 3> v = this->Kernel.corners(neighbour);
         const Circumdisk disk(
           this->Kernel.point(v[0]), this->Kernel.point(v[1]), this->Kernel.point(v[2]));
         if (disk.inside(open))
@@ -220,7 +210,7 @@ void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryTaker
         }
         if (disk.meets(region))
         {
-          boundary.add({ v[0], v[1], v[2] }, disk);
+          boundary.add(v, disk);
         }
       }
       isBoundary = 1;
@@ -230,15 +220,15 @@ void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryTaker
 }
 
 template <typename Id>
-void Worker<Id>::nameVertices()
+void Worker<Id>::setVertexIds()
 {
   // Each vertex has about six triangles, close together in memory; its point is anywhere in memory.
   const std::size_t own = this->Ids.size();
   this->VertexIds.resize(static_cast<std::size_t>(this->Kernel.vertexEnd()));
   for (std::size_t v = 1; v < this->VertexIds.size(); ++v)
   {
-    const std::size_t place = this->Kernel.place(static_cast<DelaunayKernel::Index>(v));
-    this->VertexIds[v] = place < own ? this->Ids[place] : Id(-1);
+    const std::size_t point = this->Kernel.pointIndex(static_cast<Index>(v));
+    this->VertexIds[v] = point < own ? this->Ids[point] : Id(-1);
   }
 }
 
@@ -256,20 +246,20 @@ template <typename Id>
 template <typename IsInterior>
 void Worker<Id>::writeTriangles(PartitionIndex bucket, const IsInterior& isInterior)
 {
-  const DelaunayKernel::Index* slots = this->Kernel.mesh().slots();
-  const Id* ids = this->VertexIds.data();
+  const Id* const ids = this->VertexIds.data();
   Id* const interior = this->Buckets.triangles(bucket);
   Id* out = interior;
-  for (DelaunayKernel::Index t = 0; t < this->Kernel.mesh().end(); t += 8)
-  {
-    if (isInterior(t))
+  this->Kernel.forEachTriangle(
+    [&](Index t)
     {
-      for (DelaunayKernel::Index i = 0; i < 3; ++i)
+      if (isInterior(t))
       {
-        *out++ = ids[slots[t + i]];
+        for (const Index v : this->Kernel.corners(t))
+        {
+          *out++ = ids[v];
+        }
       }
-    }
-  }
+    });
   this->InteriorCount = static_cast<std::size_t>(out - interior) / 3;
 }
 

@@ -2,10 +2,10 @@
 #ifndef tippWorker_h
 #define tippWorker_h
 
-#include "Kernel/KernelPool.h"
+#include "Kernel/DelaunayKernel.h"
 #include "Triangulation/BoundaryTriangles.h"
-#include "Triangulation/PartitionEditor.h"
 #include "Triangulation/PointBuckets.h"
+#include "Triangulation/Tiling.h"
 #include "Triangulation/Triangulate.h"
 
 #include <array>
@@ -16,6 +16,25 @@
 
 namespace tipp
 {
+
+/// Changes the interior triangles of partitions in the kernel's mesh, before they are written.
+/// Their number and their union must stay. Each thread has its own editor.
+class PartitionEditor
+{
+public:
+  template <typename Id>
+  struct Partition
+  {
+    PartitionIndex Number;
+    DelaunayKernel& Kernel;
+    const Id* Ids;          ///< by kernel vertex, from 1 on; -1 for those of other partitions
+    const char* IsBoundary; ///< by number of the kernel's triangle: not 0 if it is not interior
+  };
+
+  virtual ~PartitionEditor() = default;
+  virtual void edit(const Partition<std::int32_t>& partition) = 0;
+  virtual void edit(const Partition<std::int64_t>& partition) = 0;
+};
 
 /// Receives a partition's boundary triangles: those whose circumdisk meets its region and that are
 /// not interior.
@@ -69,11 +88,10 @@ public:
 
 private:
   void reserve();
-  void separateOwnVertices(PartitionIndex partition);
+  void separateGhosts(PartitionIndex partition, std::vector<BoundaryVertex>&& vertices);
   PartitionIndex bucket(PartitionIndex partition) const { return this->FirstBucket + partition; }
-  void takeIds(PartitionIndex bucket);
   void resolveDuplicates();
-  void nameVertices();
+  void setVertexIds();
   void edit(PartitionIndex partition);
   void findBoundary(const Box2& box, const Box2& region, BoundaryTaker& boundary);
   template <typename IsInterior>
@@ -86,20 +104,17 @@ private:
   std::unique_ptr<PartitionEditor> Editor;
   PooledKernel Pooled;
   DelaunayKernel& Kernel;
-  std::vector<Id> Ids; ///< ids of the partition's own points
-  std::vector<Id> VertexIds;
-  std::vector<BoundaryVertex> Foreign; ///< vertices from the inbox, except own points
-  std::vector<Point2> ForeignPoints;
+  std::vector<Id> Ids;                ///< ids of the partition's own points
+  std::vector<Id> VertexIds;          ///< by kernel vertex; -1 for ghosts
+  std::vector<BoundaryVertex> Ghosts; ///< vertices from the inbox, except own points
+  std::vector<Point2> GhostPoints;
   std::vector<std::int64_t> KnownIds; ///< ids of own points that other partitions know; sorted
-  std::vector<char> IsBoundary;       ///< by triangle of the kernel: not interior
+  std::vector<char> IsBoundary;       ///< by number of the kernel's triangle
   std::vector<DelaunayKernel::Index> Stack;
   std::vector<Duplicate> Duplicates;
   std::size_t InteriorCount = 0;
   std::size_t VertexCount = 0;
 };
-
-extern template class Worker<std::int32_t>;
-extern template class Worker<std::int64_t>;
 
 } // namespace tipp
 

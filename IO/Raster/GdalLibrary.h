@@ -5,6 +5,7 @@
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_string.h>
+#include <cpl_vsi.h>
 #include <gdal.h>
 #include <ogr_api.h>
 #include <ogr_srs_api.h>
@@ -27,22 +28,16 @@ namespace tipp
   X(GDALCreateCopy)                                                                                \
   X(GDALDatasetGetLayer)                                                                           \
   X(GDALDatasetGetLayerCount)                                                                      \
-  X(GDALFlushCache)                                                                                \
   X(GDALGetDriverByName)                                                                           \
   X(GDALGetGeoTransform)                                                                           \
   X(GDALGetProjectionRef)                                                                          \
-  X(GDALGetRasterBand)                                                                             \
   X(GDALGetRasterXSize)                                                                            \
   X(GDALGetRasterYSize)                                                                            \
   X(GDALOpen)                                                                                      \
   X(GDALOpenEx)                                                                                    \
-  X(GDALRasterIO)                                                                                  \
   X(GDALSetCacheMax64)                                                                             \
-  X(GDALSetDescription)                                                                            \
   X(GDALSetGeoTransform)                                                                           \
   X(GDALSetMetadataItem)                                                                           \
-  X(GDALSetRasterNoDataValue)                                                                      \
-  X(GDALSetRasterStatistics)                                                                       \
   X(GDALSetSpatialRef)                                                                             \
   X(OGR_F_Destroy)                                                                                 \
   X(OGR_F_GetGeometryRef)                                                                          \
@@ -62,7 +57,9 @@ namespace tipp
   X(OGR_L_ResetReading)                                                                            \
   X(OSRDestroySpatialReference)                                                                    \
   X(OSRNewSpatialReference)                                                                        \
-  X(OSRSetFromUserInput)
+  X(OSRSetFromUserInput)                                                                           \
+  X(VSIGetMemFileBuffer)                                                                           \
+  X(VSIUnlink)
 
 /// GDAL, opened at run time when it is first needed: it brings over a hundred other libraries,
 /// which every start of the tool would wait for.

@@ -1,111 +1,80 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Raster/GdalRaster.h"
 #include "Raster/RasterFile.h"
-
-#include "Files/IOError.h"
-#include "Raster/GdalLibrary.h"
+#include "Raster/TiledTiff.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <utility>
 
 namespace tipp
 {
 namespace
 {
 
-/// Fails with what GDAL says.
-[[noreturn]] void fail(const std::string& path, const std::string& what)
-{
-  std::string reason = gdal().CPLGetLastErrorMsg();
-  reason = reason.substr(0, reason.find('\n'));
-  while (!reason.empty() && reason.back() == '.')
-  {
-    reason.pop_back();
-  }
-  throw IOError(path, what + (reason.empty() ? "." : " (" + reason + ")."));
-}
-
-/// A list of NAME=VALUE, as GDAL takes options.
-class OptionList
-{
-public:
-  OptionList() = default;
-  ~OptionList() { gdal().CSLDestroy(this->List); }
-  OptionList(const OptionList&) = delete;
-  OptionList& operator=(const OptionList&) = delete;
-
-  void set(const char* name, const std::string& value)
-  {
-    this->List = gdal().CSLSetNameValue(this->List, name, value.c_str());
-  }
-  char** list() const { return this->List; }
-
-private:
-  char** List = nullptr;
-};
-
-class SpatialReference
-{
-public:
-  explicit SpatialReference(const std::string& text)
-    : Reference(gdal().OSRNewSpatialReference(nullptr))
-  {
-    gdal().CPLErrorReset();
-    if (gdal().OSRSetFromUserInput(this->Reference, text.c_str()) != OGRERR_NONE)
-    {
-      gdal().OSRDestroySpatialReference(this->Reference);
-      const std::string start = text.substr(0, 60);
-      throw IOError("'" + start +
-        "' is no coordinate reference system that GDAL knows; give --crs "
-        "EPSG:CODE.");
-    }
-  }
-  ~SpatialReference() { gdal().OSRDestroySpatialReference(this->Reference); }
-  SpatialReference(const SpatialReference&) = delete;
-  SpatialReference& operator=(const SpatialReference&) = delete;
-
-  OGRSpatialReferenceH handle() const { return this->Reference; }
-
-private:
-  OGRSpatialReferenceH Reference;
-};
-
 /// Of the values of a band.
 struct BandSums
 {
   double Least = std::numeric_limits<double>::infinity();
   double Most = -std::numeric_limits<double>::infinity();
-  double Sum = 0;
-  double Squares = 0; ///< of differences from the first value
-  double First = 0;
-  std::int64_t Count = 0;
+  double Mean = 0;
+  double Squares = 0; ///< of differences from the mean
+  double Count = 0;
 
   void add(double value)
   {
-    this->First = this->Count == 0 ? value : this->First;
-    const double difference = value - this->First;
     this->Least = std::min(this->Least, value);
     this->Most = std::max(this->Most, value);
-    this->Sum += difference;
-    this->Squares += difference * difference;
-    ++this->Count;
+    this->Count += 1;
+    const double difference = value - this->Mean;
+    this->Mean += difference / this->Count;
+    this->Squares += difference * (value - this->Mean);
   }
-  double mean() const { return this->First + this->Sum / double(this->Count); }
-  double deviation() const
+  void add(const BandSums& other)
   {
-    const double mean = this->Sum / double(this->Count);
-    return std::sqrt(std::max(0.0, this->Squares / double(this->Count) - mean * mean));
+    if (other.Count == 0)
+    {
+      return;
+    }
+    this->Least = std::min(this->Least, other.Least);
+    this->Most = std::max(this->Most, other.Most);
+    const double count = this->Count + other.Count;
+    const double difference = other.Mean - this->Mean;
+    this->Mean += difference * (other.Count / count);
+    this->Squares += other.Squares + difference * difference * (this->Count * other.Count / count);
+    this->Count = count;
   }
+  double deviation() const { return std::sqrt(this->Squares / this->Count); }
 };
 
-struct CloseDataSet
+std::string textOf(double value)
 {
-  void operator()(void* data) const { gdal().GDALClose(data); }
-};
-using DataSet = std::unique_ptr<void, CloseDataSet>;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
 
+std::string escaped(const std::string& name)
+{
+  std::string text;
+  for (const char c : name)
+  {
+    text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  }
+  return text;
+}
+
+TiffField textField(std::uint16_t tag, const std::string& text)
+{
+  return { tag, TiffField::Type::Text, text + '\0' };
+}
+
+/// Compresses tiles in the threads that write them, and puts them into the file in order.
 class GeoTiffWriter : public RasterWriter
 {
 public:
@@ -113,170 +82,141 @@ public:
     const std::string& path, const RasterDescription& description, const PathState& before)
     : Path(path)
     , Description(description)
+    , IsConverted(description.CloudOptimized ||
+        !(description.Compression == "none" ||
+          (description.Compression == "deflate" && canDeflateTiles())))
     , Pending(path, before)
     , Sums(description.Bands.size())
   {
-    const RasterGrid& grid = description.Grid;
-    if (description.CloudOptimized)
+    if (this->IsConverted)
     {
       this->Plain = std::make_unique<PendingFile>(path + ".plain");
     }
-    // Most memory goes to rows here; GDAL's own cache would take a part of the machine's.
-    const std::int64_t megabytes = description.CloudOptimized ? 16 : 4;
-    gdal().GDALSetCacheMax64(megabytes << 20);
-    gdal().CPLErrorReset();
-    OptionList options;
-    this->setLayout(options);
-    this->Data.reset(gdal().GDALCreate(gdal().GDALGetDriverByName("GTiff"),
-      (this->Plain ? *this->Plain : this->Pending).temporaryPath().c_str(), int(grid.Columns),
-      int(grid.Rows), int(description.Bands.size()), description.Double ? GDT_Float64 : GDT_Float32,
-      options.list()));
-    if (!this->Data)
+    if (!description.Crs.empty())
     {
-      fail(path, "cannot be written as a GeoTIFF");
+      this->Fields = geoKeysOf(description.Crs);
     }
-    this->describe();
+    this->Tiff = std::make_unique<TiledTiff>((this->Plain ? *this->Plain : this->Pending).file(),
+      description.Grid, description.Bands.size(), description.Double,
+      !this->IsConverted && description.Compression == "deflate");
   }
 
   void write(const RasterWindow& window, const std::vector<const double*>& bands) override
   {
-    const auto width = std::size_t(window.Columns);
-    const auto count = std::size_t(window.Rows);
-    this->Pixels.resize(width * count);
-    for (std::size_t band = 0; band < bands.size(); ++band)
+    std::vector<EncodedTile> tile;
+    for (const double* const band : bands)
     {
-      for (std::size_t row = 0; row < count; ++row)
+      tile.push_back(this->Description.Double ? this->encode<double>(window, band)
+                                              : this->encode<float>(window, band));
+    }
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->Waiting.emplace(tileNumber(this->Description.Grid, window), std::move(tile));
+    while (!this->Waiting.empty() && this->Waiting.begin()->first == this->Written)
+    {
+      const std::vector<EncodedTile>& next = this->Waiting.begin()->second;
+      for (std::size_t band = 0; band < next.size(); ++band)
       {
-        this->encode(bands[band] + row * width, width,
-          this->Pixels.data() + (count - 1 - row) * width, this->Sums[band]);
+        this->Tiff->append(band, next[band].Bytes);
+        this->Sums[band].add(next[band].Sums);
       }
-      const CPLErr error =
-        gdal().GDALRasterIO(gdal().GDALGetRasterBand(this->Data.get(), int(band) + 1), GF_Write,
-          int(window.Column), int(this->Description.Grid.Rows - window.Row - window.Rows),
-          int(width), int(count), this->Pixels.data(), int(width), int(count), GDT_Float64, 0, 0);
-      if (error != CE_None)
-      {
-        fail(this->Path, "cannot be written");
-      }
+      this->Waiting.erase(this->Waiting.begin());
+      ++this->Written;
     }
   }
 
   void close() override
   {
-    for (std::size_t band = 0; band < this->Sums.size(); ++band)
+    this->addFields();
+    this->Tiff->finish(std::move(this->Fields));
+    if (this->Plain)
     {
-      const BandSums& sums = this->Sums[band];
-      if (sums.Count > 0)
-      {
-        gdal().GDALSetRasterStatistics(gdal().GDALGetRasterBand(this->Data.get(), int(band) + 1),
-          sums.Least, sums.Most, sums.mean(), sums.deviation());
-      }
-    }
-    gdal().CPLErrorReset();
-    this->Plain ? this->makeCloudOptimized() : void();
-    this->Data.reset();
-    if (gdal().CPLGetLastErrorType() == CE_Failure || gdal().CPLGetLastErrorType() == CE_Fatal)
-    {
-      fail(this->Path, "cannot be written");
+      convertGeoTiff(
+        this->Plain->temporaryPath(), this->Pending.temporaryPath(), this->Description, this->Path);
     }
     this->Pending.commit();
   }
 
 private:
-  void setCompression(OptionList& options) const
+  struct EncodedTile
   {
-    const std::string& compression = this->Description.Compression;
-    std::string name = compression;
-    std::transform(name.begin(), name.end(), name.begin(),
-      [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    options.set("COMPRESS", name);
-    options.set("NUM_THREADS", std::to_string(this->Description.Threads));
-    options.set("BIGTIFF", "IF_SAFER");
-  }
+    std::string Bytes;
+    BandSums Sums;
+  };
 
-  void setLayout(OptionList& options) const
+  /// Beyond the border of the raster a tile has no data.
+  template <typename T>
+  EncodedTile encode(const RasterWindow& window, const double* values) const
   {
-    options.set("TILED", "YES");
-    if (this->Plain)
+    constexpr auto side = std::size_t(RasterTileSize);
+    const T noData = T(this->Description.NoData);
+    std::string bytes(side * side * sizeof(T), '\0');
+    T* const pixels = reinterpret_cast<T*>(bytes.data());
+    std::fill(pixels, pixels + side * side, noData);
+    EncodedTile tile;
+    for (std::int64_t row = 0; row < window.Rows; ++row)
     {
-      options.set("BIGTIFF", "IF_SAFER");
-      return;
-    }
-    this->setCompression(options);
-    if (this->Description.Compression != "none")
-    {
-      options.set("PREDICTOR", "3"); // for floating-point numbers
-      options.set("INTERLEAVE", "BAND");
-    }
-    if (this->Description.Compression == "deflate")
-    {
-      options.set("ZLEVEL", "1"); // higher ones take twice the time for a few per cent
-    }
-  }
-
-  void describe() const
-  {
-    const RasterGrid& grid = this->Description.Grid;
-    void* const data = this->Data.get();
-    double transform[6] = { grid.West, grid.Pixel[0], 0, grid.north(), 0, -grid.Pixel[1] };
-    bool good = gdal().GDALSetGeoTransform(data, transform) == CE_None;
-    gdal().GDALSetMetadataItem(data, "AREA_OR_POINT", "Area", nullptr);
-    if (!this->Description.Crs.empty())
-    {
-      const SpatialReference reference(this->Description.Crs);
-      good = gdal().GDALSetSpatialRef(data, reference.handle()) == CE_None && good;
-    }
-    for (std::size_t band = 0; band < this->Description.Bands.size(); ++band)
-    {
-      const GDALRasterBandH handle = gdal().GDALGetRasterBand(data, int(band) + 1);
-      gdal().GDALSetDescription(handle, this->Description.Bands[band].c_str());
-      good = gdal().GDALSetRasterNoDataValue(handle, this->Description.NoData) == CE_None && good;
-    }
-    if (!good)
-    {
-      fail(this->Path, "cannot be described as a GeoTIFF");
-    }
-  }
-
-  /// A row as the file has it.
-  void encode(const double* from, std::size_t width, double* to, BandSums& sums) const
-  {
-    for (std::size_t i = 0; i < width; ++i)
-    {
-      const double value = this->Description.Double ? from[i] : double(float(from[i]));
-      if (std::isnan(value))
+      const double* const from = values + row * window.Columns;
+      T* const to = pixels + std::size_t(window.Rows - 1 - row) * side;
+      for (std::int64_t i = 0; i < window.Columns; ++i)
       {
-        to[i] = this->Description.NoData;
-        continue;
+        if (!std::isnan(from[i]))
+        {
+          to[i] = T(from[i]);
+          tile.Sums.add(double(to[i]));
+        }
       }
-      to[i] = value;
-      sums.add(value);
     }
+    tile.Bytes = this->Tiff->encode(std::move(bytes));
+    return tile;
   }
 
-  void makeCloudOptimized()
+  /// Where the raster is, what its bands are called, and their statistics, as GDAL looks for them.
+  void addFields()
   {
-    gdal().GDALFlushCache(this->Data.get());
-    OptionList options;
-    this->setCompression(options);
-    options.set("PREDICTOR", this->Description.Compression == "none" ? "NO" : "YES");
-    options.set("STATISTICS", "YES");
-    const DataSet copy(gdal().GDALCreateCopy(gdal().GDALGetDriverByName("COG"),
-      this->Pending.temporaryPath().c_str(), this->Data.get(), 0, options.list(), nullptr,
-      nullptr));
-    if (!copy)
+    using Type = TiffField::Type;
+    const RasterGrid& grid = this->Description.Grid;
+    this->Fields.push_back(
+      tiffField(33550, Type::Double, std::vector<double>{ grid.Pixel[0], grid.Pixel[1], 0 }));
+    this->Fields.push_back(
+      tiffField(33922, Type::Double, std::vector<double>{ 0, 0, 0, grid.West, grid.north(), 0 }));
+    this->Fields.push_back(textField(42112, this->metadata()));
+    this->Fields.push_back(textField(42113, textOf(this->Description.NoData)));
+  }
+
+  std::string metadata() const
+  {
+    std::string text = "<GDALMetadata>\n";
+    for (std::size_t band = 0; band < this->Sums.size(); ++band)
     {
-      fail(this->Path, "cannot be written as a cloud optimized GeoTIFF");
+      const auto add = [&](const char* name, const std::string& value, const char* more = "")
+      {
+        text += std::string("  <Item name=\"") + name + "\" sample=\"" + std::to_string(band) +
+          "\"" + more + ">" + value + "</Item>\n";
+      };
+      add("DESCRIPTION", escaped(this->Description.Bands[band]), " role=\"description\"");
+      const BandSums& sums = this->Sums[band];
+      if (sums.Count > 0)
+      {
+        add("STATISTICS_MAXIMUM", textOf(sums.Most));
+        add("STATISTICS_MEAN", textOf(sums.Mean));
+        add("STATISTICS_MINIMUM", textOf(sums.Least));
+        add("STATISTICS_STDDEV", textOf(sums.deviation()));
+      }
     }
+    return text + "</GDALMetadata>\n";
   }
 
   const std::string Path;
   const RasterDescription Description;
+  const bool IsConverted; ///< by GDAL, from a plain file
   PendingFile Pending;
-  std::unique_ptr<PendingFile> Plain; ///< what a cloud optimized one is copied from
+  std::unique_ptr<PendingFile> Plain; ///< only if converted
+  std::vector<TiffField> Fields;
+  std::unique_ptr<TiledTiff> Tiff;
+  std::mutex Mutex;                                         ///< for what follows
+  std::map<std::int64_t, std::vector<EncodedTile>> Waiting; ///< for the tiles before them
+  std::int64_t Written = 0;                                 ///< tiles
   std::vector<BandSums> Sums;
-  DataSet Data;               ///< closed before the files go away
-  std::vector<double> Pixels; ///< of a window
 };
 
 } // namespace
@@ -285,37 +225,6 @@ std::unique_ptr<RasterWriter> createGeoTiff(
   const std::string& path, const RasterDescription& description, const PathState& before)
 {
   return std::make_unique<GeoTiffWriter>(path, description, before);
-}
-
-RasterInfo readRasterInfo(const std::string& path)
-{
-  gdal().CPLErrorReset();
-  const DataSet data(gdal().GDALOpen(path.c_str(), GA_ReadOnly));
-  if (!data)
-  {
-    fail(path, "cannot be read as a raster");
-  }
-  double transform[6];
-  if (gdal().GDALGetGeoTransform(data.get(), transform) != CE_None || transform[2] != 0 ||
-    transform[4] != 0 || !(transform[1] > 0) || !(transform[5] < 0))
-  {
-    throw IOError(path, "is no raster whose rows run from west to east and from north to south.");
-  }
-  RasterInfo info;
-  RasterGrid& grid = info.Grid;
-  grid.Columns = gdal().GDALGetRasterXSize(data.get());
-  grid.Rows = gdal().GDALGetRasterYSize(data.get());
-  grid.Pixel = { transform[1], -transform[5] };
-  grid.West = transform[0];
-  grid.South = transform[3] + double(grid.Rows) * transform[5];
-  const char* const crs = gdal().GDALGetProjectionRef(data.get());
-  info.Crs = crs ? crs : "";
-  return info;
-}
-
-void requireCrs(const std::string& text)
-{
-  const SpatialReference reference(text);
 }
 
 } // namespace tipp

@@ -4,6 +4,7 @@
 #include "Files/Extension.h"
 #include "Files/IOError.h"
 #include "Npy/NpyHeader.h"
+#include "Raster/GdalRaster.h"
 
 #include <cstdio>
 #include <utility>
@@ -187,8 +188,13 @@ namespace
 
 } // namespace
 
-std::unique_ptr<RasterWriter> createGeoTiff(
-  const std::string& path, const RasterDescription&, const PathState&)
+const std::vector<TiffField>& geoKeysOf(const std::string& crs)
+{
+  failWithoutGdal(crs);
+}
+
+void convertGeoTiff(
+  const std::string&, const std::string&, const RasterDescription&, const std::string& path)
 {
   failWithoutGdal(path);
 }

@@ -36,14 +36,15 @@ struct RasterWindow
   std::int64_t Rows = 0;
 };
 
-/// A raster file that is written window by window, and is at its path when it is whole.
+/// A raster file that is written tile by tile, and is at its path when it is whole.
 class VTKTIPPIO_EXPORT RasterWriter
 {
 public:
   virtual ~RasterWriter();
 
-  /// Each window once: for each band its values row by row, the most southern first. NaN where
-  /// there is none. Throws IOError.
+  /// Each tile of the grid once (see tileOf()): for each band its values row by row, the most
+  /// southern first, NaN where there is none. Several threads may write at once; tiles that are
+  /// early wait in memory. Throws IOError.
   virtual void write(const RasterWindow& window, const std::vector<const double*>& bands) = 0;
 
   /// Puts the file in its place. Throws IOError.
@@ -54,19 +55,29 @@ public:
 /// from the north on, each row from the west on.
 constexpr std::int64_t RasterTileSize = 256;
 
-/// Calls visit(window) for each tile of a grid in that order.
-template <typename Visit>
-void forEachTile(const RasterGrid& grid, const Visit& visit)
+inline std::int64_t tileCount(const RasterGrid& grid)
 {
-  for (std::int64_t top = grid.Rows; top > 0; top -= RasterTileSize)
-  {
-    const std::int64_t row = std::max<std::int64_t>(top - RasterTileSize, 0);
-    for (std::int64_t column = 0; column < grid.Columns; column += RasterTileSize)
-    {
-      visit(
-        RasterWindow{ column, row, std::min(RasterTileSize, grid.Columns - column), top - row });
-    }
-  }
+  const auto along = [](std::int64_t pixels)
+  { return (pixels + RasterTileSize - 1) / RasterTileSize; };
+  return along(grid.Columns) * along(grid.Rows);
+}
+
+/// The tile of a number from 0 on.
+inline RasterWindow tileOf(const RasterGrid& grid, std::int64_t number)
+{
+  const std::int64_t across = (grid.Columns + RasterTileSize - 1) / RasterTileSize;
+  const std::int64_t column = number % across * RasterTileSize;
+  const std::int64_t top = grid.Rows - number / across * RasterTileSize;
+  const std::int64_t row = std::max<std::int64_t>(top - RasterTileSize, 0);
+  return { column, row, std::min(RasterTileSize, grid.Columns - column), top - row };
+}
+
+/// The number of the tile of a window.
+inline std::int64_t tileNumber(const RasterGrid& grid, const RasterWindow& window)
+{
+  const std::int64_t across = (grid.Columns + RasterTileSize - 1) / RasterTileSize;
+  const std::int64_t fromNorth = grid.Rows - window.Row - window.Rows;
+  return fromNorth / RasterTileSize * across + window.Column / RasterTileSize;
 }
 
 /// By the file's extension: .tif (GDAL), .npy (float64, rows x columns, the most southern row

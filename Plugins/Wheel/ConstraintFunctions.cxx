@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Binding.h"
 
-#include "Constraints/ConstraintEdges.h"
+#include "Constraints/Constraint.h"
+#include "Constraints/ConstraintPoints.h"
 #include "Constraints/KeepInside.h"
-#include "Constraints/MatchPositions.h"
 #include "Constraints/TriangulateConstrained.h"
 #include "Output/RunStatistics.h"
 #include "Parallel/ParallelFor.h"

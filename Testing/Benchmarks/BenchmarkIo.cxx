@@ -89,12 +89,18 @@ int main(int argc, char** argv)
       benchmarkBorrowing(arguments);
       return 0;
     }
+    if (subject == "points" && !arguments.Meshes.empty())
+    {
+      benchmarkPoints(arguments);
+      return 0;
+    }
     std::fputs(
       "usage: benchmarkIo loaders [--repeat R] [--threads T] [--parts P,P...] [--chunks C,C...] "
       "RANDOM-MESH LOCAL-MESH\n"
       "       benchmarkIo classify [--repeat R] [--threads T] MESH\n"
       "       benchmarkIo reading [--repeat R] [--threads T] ONE.vtu PARTITIONED-MESH\n"
       "       benchmarkIo borrowing [--repeat R] LENT-MESH COPIED-MESH\n"
+      "       benchmarkIo points [--repeat R] [--threads T] FILE...\n"
       "M is the number of vertices over P; chunks are in cells.\n",
       stderr);
     return 2;

@@ -46,15 +46,16 @@ Run runKernel(const std::vector<double>& xy)
     {
       DelaunayKernel kernel;
       kernel.insert(points, count);
-      const DelaunayKernel::Index* const slots = kernel.mesh().slots();
-      for (DelaunayKernel::Index t = 0; t < kernel.mesh().end(); t += 8)
-      {
-        if (!kernel.isInfinite(t))
+      kernel.forEachTriangle(
+        [&](DelaunayKernel::Index t)
         {
-          triangles.push_back(
-            { kernel.place(slots[t]), kernel.place(slots[t + 1]), kernel.place(slots[t + 2]) });
-        }
-      }
+          if (!kernel.isInfinite(t))
+          {
+            const auto [a, b, c] = kernel.corners(t);
+            triangles.push_back(
+              { kernel.pointIndex(a), kernel.pointIndex(b), kernel.pointIndex(c) });
+          }
+        });
     });
 }
 

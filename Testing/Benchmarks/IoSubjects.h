@@ -35,6 +35,9 @@ void benchmarkReading(const IoArguments& arguments);
 /// second.
 void benchmarkBorrowing(const IoArguments& arguments);
 
+/// Reading the points of files; `arguments.Meshes` names them.
+void benchmarkPoints(const IoArguments& arguments);
+
 } // namespace benchmark
 } // namespace tipp
 

@@ -62,7 +62,7 @@ void SweepKernel::triangulate(const Point2* points, std::size_t count, const Sin
       continue;
     }
     this->nameDuplicates();
-    this->States.assign(std::size_t(this->Kernel.mesh().end() / 8), State::Unknown);
+    this->States.assign(this->Kernel.triangleCount(), State::Unknown);
     if (next < strips.size())
     {
       this->findFront(strips.boxFrom(next));
@@ -92,7 +92,7 @@ void SweepKernel::nameDuplicates()
   for (const DelaunayKernel::Duplicate& found : this->Kernel.duplicates())
   {
     std::uint32_t& place = this->Places[found.Point];
-    std::uint32_t& representative = this->Places[this->Kernel.place(found.Vertex)];
+    std::uint32_t& representative = this->Places[this->Kernel.pointIndex(found.Vertex)];
     if (place < representative)
     {
       std::swap(place, representative);
@@ -101,13 +101,13 @@ void SweepKernel::nameDuplicates()
   for (const DelaunayKernel::Duplicate& found : this->Kernel.duplicates())
   {
     this->Duplicates.push_back(
-      { this->Places[found.Point], this->Places[this->Kernel.place(found.Vertex)] });
+      { this->Places[found.Point], this->Places[this->Kernel.pointIndex(found.Vertex)] });
   }
 }
 
 bool SweepKernel::meets(Index triangle, const Box2& box) const
 {
-  const Index* v = this->Kernel.mesh().slots() + triangle;
+  const std::array<Index, 3> v = this->Kernel.corners(triangle);
   for (std::size_t i = 0; i < 3; ++i)
   {
     if (v[i] == DelaunayKernel::Infinite)
@@ -125,22 +125,22 @@ bool SweepKernel::meets(Index triangle, const Box2& box) const
 /// it, so one of them is infinite.
 void SweepKernel::findFront(const Box2& ahead)
 {
-  const HalfEdgeMesh& mesh = this->Kernel.mesh();
-  Index start = 0;
-  while (!this->Kernel.isInfinite(start) || !this->meets(start, ahead))
+  std::size_t first = 0;
+  while (!this->Kernel.isInfinite(DelaunayKernel::triangle(first)) ||
+    !this->meets(DelaunayKernel::triangle(first), ahead))
   {
-    start += 8;
+    ++first;
   }
-  this->Stack.assign(1, start);
-  this->States[std::size_t(start / 8)] = State::Front;
+  this->Stack.assign(1, DelaunayKernel::triangle(first));
+  this->States[first] = State::Front;
   while (!this->Stack.empty())
   {
     const Index t = this->Stack.back();
     this->Stack.pop_back();
-    for (Index h = t; h < t + 3; ++h)
+    for (Index i = 0; i < 3; ++i)
     {
-      const Index neighbour = HalfEdgeMesh::triangleOf(mesh.twin(h));
-      State& state = this->States[std::size_t(neighbour / 8)];
+      const Index neighbour = this->Kernel.neighbour(t, i);
+      State& state = this->States[DelaunayKernel::number(neighbour)];
       if (state == State::Unknown)
       {
         state = this->meets(neighbour, ahead) ? State::Front : State::Final;
@@ -158,33 +158,36 @@ void SweepKernel::findFront(const Box2& ahead)
 void SweepKernel::collectFinal(const Box2& before)
 {
   this->Finished.clear();
-  const Index* const slots = this->Kernel.mesh().slots();
-  for (Index t = 0; t < this->Kernel.mesh().end(); t += 8)
-  {
-    if (this->States[std::size_t(t / 8)] == State::Front || this->Kernel.isInfinite(t))
+  this->Kernel.forEachTriangle(
+    [&](Index t)
     {
-      continue;
-    }
-    const std::array<std::uint32_t, 3> places = { this->Kernel.place(slots[t]),
-      this->Kernel.place(slots[t + 1]), this->Kernel.place(slots[t + 2]) };
-    const bool isOld = *std::max_element(places.begin(), places.end()) < this->FrontSize;
-    if (!isOld || this->meets(t, before))
-    {
-      this->Finished.push_back(
-        { this->Places[places[0]], this->Places[places[1]], this->Places[places[2]] });
-    }
-  }
+      if (this->States[DelaunayKernel::number(t)] == State::Front || this->Kernel.isInfinite(t))
+      {
+        return;
+      }
+      const auto [u, v, w] = this->Kernel.corners(t);
+      const std::array<std::uint32_t, 3> places = { this->Kernel.pointIndex(u),
+        this->Kernel.pointIndex(v), this->Kernel.pointIndex(w) };
+      const bool isOld = *std::max_element(places.begin(), places.end()) < this->FrontSize;
+      if (!isOld || this->meets(t, before))
+      {
+        this->Finished.push_back(
+          { this->Places[places[0]], this->Places[places[1]], this->Places[places[2]] });
+      }
+    });
 }
 
 void SweepKernel::collectFront()
 {
-  const Index* const slots = this->Kernel.mesh().slots();
   std::vector<bool> isFront(std::size_t(this->Kernel.vertexEnd()), false);
   for (std::size_t t = 0; t < this->States.size(); ++t)
   {
-    for (std::size_t i = 0; this->States[t] == State::Front && i < 3; ++i)
+    if (this->States[t] == State::Front)
     {
-      isFront[std::size_t(slots[8 * t + i])] = true;
+      for (const Index v : this->Kernel.corners(DelaunayKernel::triangle(t)))
+      {
+        isFront[std::size_t(v)] = true;
+      }
     }
   }
   std::vector<Point2> points;
@@ -194,7 +197,7 @@ void SweepKernel::collectFront()
     if (isFront[std::size_t(v)])
     {
       points.push_back(this->Kernel.point(v));
-      places.push_back(this->Places[this->Kernel.place(v)]);
+      places.push_back(this->Places[this->Kernel.pointIndex(v)]);
     }
   }
   this->Points.swap(points);

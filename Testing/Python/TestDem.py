@@ -74,7 +74,7 @@ class Dem(unittest.TestCase):
                 np.testing.assert_array_equal(np.load(self.path("dem.npy"))[::-1], grid, str(options))
 
     def test_bands_of_triangles_are_those_of_the_tool(self):
-        names = ["slope", "aspect", "hillshade", "void", "elevation"]
+        names = ["slope", "aspect", "hillshade", "void", "elevation", "density"]
         bands = tipp.dem(self.points, 0.5, attributes=names, max_edge=4).array
         self.run_tipp("dem", "points.npy", "-o", "dem.npy", "--resolution", 0.5, "--attributes", ",".join(names), "--max-edge", 4)
         np.testing.assert_allclose(bands, np.load(self.path("dem.npy"))[:, ::-1], rtol=1e-12)

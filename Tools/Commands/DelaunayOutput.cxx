@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/DelaunayOutput.h"
 
+#include "Adcirc/AdcircGrid.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Signals.h"
@@ -11,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <numeric>
 
 namespace tipp
@@ -45,6 +48,20 @@ bool isAdcircFile(const std::string& path)
   return extension == ".14" || extension == ".grd";
 }
 
+/// Boundaries are lists of nodes, which are there only where no point was left out.
+void warnOfLostBoundaries(const DelaunayArguments& arguments)
+{
+  const std::string boundaries = readAdcircFrame(arguments.Input).Boundaries;
+  constexpr std::ptrdiff_t linesOfNone = 4; // counts alone
+  if (std::count(boundaries.begin(), boundaries.end(), '\n') > linesOfNone)
+  {
+    fmt::print(stderr,
+      "tipp: warning: {} has none of the boundaries of {}, since --thin has left out some of its "
+      "nodes.\n",
+      arguments.Output, arguments.Input);
+  }
+}
+
 } // namespace
 
 bool holdsArrays(const std::string& path)
@@ -75,9 +92,13 @@ bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
   options.Before = before;
   options.Aborted = isInterrupted;
   options.Neighbors = arguments.Neighbors;
-  if (arguments.Inputs.size() == 1 && points.ThinnedOut == 0 && isAdcircFile(arguments.Input))
+  if (arguments.Inputs.size() == 1 && isAdcircFile(arguments.Input))
   {
-    options.AdcircLike = arguments.Input;
+    points.ThinnedOut == 0 ? void(options.AdcircLike = arguments.Input) : void();
+    if (points.ThinnedOut > 0 && isAdcircFile(arguments.Output))
+    {
+      warnOfLostBoundaries(arguments);
+    }
   }
   if (arguments.MapDuplicates)
   {

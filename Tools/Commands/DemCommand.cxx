@@ -93,7 +93,8 @@ int runInMemory(const DemArguments& arguments)
   const auto writer = createRaster(arguments.Output, description, before);
   report.Filled = writeTiles(
     *writer, description.Grid, readFrom(report.Settings.Grid, samples),
-    [&](double done) { return progress(0.8 + 0.2 * done); }, report.Settings.Bands);
+    [&](double done) { return progress(0.8 + 0.2 * done); }, report.Settings.Threads,
+    report.Settings.Bands);
   bar.reset();
   if (report.Filled < 0)
   {
@@ -214,8 +215,9 @@ void addValueOptions(CLI::App& command, DemArguments& arguments)
 {
   command
     .add_option("--attributes", arguments.Request.Bands,
-      "The bands: elevation, columns of the points as intensity, slope, aspect and hillshade "
-      "of the triangles, and void (1 where there is no triangle, else 0); without: elevation")
+      "The bands: elevation, columns of the points as intensity, slope, aspect, hillshade "
+      "and density (points a square unit) of the triangles, and void (1 where there is no "
+      "triangle, else 0); without: elevation")
     ->delimiter(',')
     ->allow_extra_args(false);
   command

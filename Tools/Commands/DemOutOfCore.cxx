@@ -25,7 +25,7 @@ namespace
 std::string identityOf(const DemArguments& arguments, const RasterDescription& description)
 {
   const RasterRequest& raster = arguments.Request.Raster;
-  std::string text = fmt::format("raster {} {} {} {} {} {} {}", raster.Resolution, raster.Aligned,
+  std::string text = fmt::format("raster tiles {} {} {} {} {} {} {}", raster.Resolution, raster.Aligned,
     description.NoData, description.Double, description.Compression, description.CloudOptimized,
     description.Crs);
   for (const double bound : arguments.Bounds)
@@ -61,7 +61,9 @@ int runDemOutOfCore(
     {
       try
       {
-        return makeTerrainSettings(arguments.Request, bounds, columns);
+        TerrainSettings settings = makeTerrainSettings(arguments.Request, bounds, columns);
+        settings.IsSingle = isGeoTiff(arguments.Output) && arguments.Type == "float32";
+        return settings;
       }
       catch (const std::runtime_error& error)
       {
@@ -77,7 +79,8 @@ int runDemOutOfCore(
       describeGrid(settings, whole);
       report.Settings = settings;
       const auto writer = createRaster(arguments.Output, whole, before);
-      report.Filled = writeTiles(*writer, settings.Grid, readTile, progress, settings.Bands);
+      report.Filled =
+        writeTiles(*writer, settings.Grid, readTile, progress, settings.Threads, settings.Bands);
       report.Filled < 0 ? void() : writer->close();
       return report.Filled >= 0;
     });

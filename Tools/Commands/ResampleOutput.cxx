@@ -168,7 +168,7 @@ void writeGeoTiff(const std::string& path, vtkImageData* image, const std::strin
   description.NoData = noData;
   description.Threads = threads;
   const auto writer = createRaster(path, description, before);
-  writeTiles(*writer, description.Grid, readFrom(description.Grid, bands), {});
+  writeTiles(*writer, description.Grid, readFrom(description.Grid, bands), {}, threads);
   writer->close();
 }
 

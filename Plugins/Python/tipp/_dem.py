@@ -75,7 +75,8 @@ def dem(
         bounds.
     attributes
         The bands: "elevation" and names of point_data or of columns of the files; "slope" and "aspect" (in degrees),
-        "hillshade" (1 to 255) of the triangles, and "void" (1 where there is no triangle, else 0).
+        "hillshade" (1 to 255) of the triangles, "density" (points a square unit, half a point in each triangle), and
+        "void" (1 where there is no triangle, else 0).
     point_data
         With an array of points: arrays of values at them, by name.
     max_edge

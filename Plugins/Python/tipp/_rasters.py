@@ -69,7 +69,7 @@ def uncompressed(paths: list[str]) -> Iterator[list[str]]:
         yield files
 
 
-DERIVED = ("slope", "aspect", "hillshade", "void")
+DERIVED = ("slope", "aspect", "hillshade", "void", "density")
 
 
 def needs_elevation(options: dict[str, Any]) -> bool:
@@ -122,6 +122,8 @@ def derived(kind: str, corners: np.ndarray) -> np.ndarray:
     a, b, c = np.moveaxis(np.take_along_axis(corners, order[..., None], axis=1), 1, 0)
     (bx, by, bz), (cx, cy, cz) = (b - a).T, (c - a).T
     area = bx * cy - by * cx
+    if kind == "density":
+        return 1 / np.abs(area)
     x, y = (bz * cy - by * cz) / area, (bx * cz - bz * cx) / area
     if kind == "slope":
         return np.arctan(np.hypot(x, y)) * (180 / np.pi)

@@ -4,7 +4,7 @@
 #include "ConstrainedOracle.h"
 
 #include "Predicates/Orientation.h"
-#include "Triangulation/LongTriangles.h"
+#include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
 #include <random>

@@ -5,10 +5,9 @@
 #include "ScheduleTesting.h"
 
 #include "Engine/PartitionOrder.h"
-#include "Engine/Regions.h"
 #include "Engine/Routing.h"
-#include "Triangulation/HullRepair.h"
 #include "Triangulation/InitialMesh.h"
+#include "Triangulation/Tiling.h"
 #include "Triangulation/Worker.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Engine/Inbox.h"
+#include "Engine/Routing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bounds, bounding points and views of a dataset's points.
-#include "Projection/BoundingPoints.h"
-#include "Projection/FiniteBounds.h"
 #include "Projection/ProjectedPoints.h"
 
 #include "vtkFloatArray.h"

@@ -62,9 +62,13 @@ TEST(RasterTiles, FollowEachOtherFromTheNorthWest)
   RasterGrid grid;
   grid.Columns = 300;
   grid.Rows = 500;
+  ASSERT_EQ(4, tileCount(grid));
   std::vector<RasterWindow> tiles;
-  forEachTile(grid, [&](const RasterWindow& tile) { tiles.push_back(tile); });
-  ASSERT_EQ(4U, tiles.size());
+  for (std::int64_t number = 0; number < 4; ++number)
+  {
+    tiles.push_back(tileOf(grid, number));
+    EXPECT_EQ(number, tileNumber(grid, tiles.back()));
+  }
   EXPECT_EQ(244, tiles[0].Row);
   EXPECT_EQ(256, tiles[0].Columns);
   EXPECT_EQ(256, tiles[1].Column);

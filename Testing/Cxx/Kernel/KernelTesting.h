@@ -68,7 +68,7 @@ inline Triangles finiteTriangles(const DelaunayKernel& kernel)
     if (!kernel.isInfinite(t))
     {
       const auto place = [&](DelaunayKernel::Index i)
-      { return std::int64_t(kernel.place(kernel.mesh().vertex(t + i))); };
+      { return std::int64_t(kernel.pointIndex(kernel.mesh().vertex(t + i))); };
       triangles.push_back(canonical(place(0), place(1), place(2)));
     }
   }
@@ -85,7 +85,7 @@ inline Ids representatives(const DelaunayKernel& kernel)
   }
   for (const DelaunayKernel::Duplicate& duplicate : kernel.duplicates())
   {
-    ids[duplicate.Point] = std::int64_t(kernel.place(duplicate.Vertex));
+    ids[duplicate.Point] = std::int64_t(kernel.pointIndex(duplicate.Vertex));
   }
   return ids;
 }

@@ -131,7 +131,8 @@ TEST_P(Kernel, AClearedKernelMakesTheSameInTheSamePlaces)
     {
       ASSERT_EQ(this->Made.mesh().vertex(h), used.mesh().vertex(h));
       ASSERT_EQ(this->Made.mesh().twin(h), used.mesh().twin(h));
-      ASSERT_EQ(this->Made.place(this->Made.mesh().vertex(h)), used.place(used.mesh().vertex(h)));
+      ASSERT_EQ(
+        this->Made.pointIndex(this->Made.mesh().vertex(h)), used.pointIndex(used.mesh().vertex(h)));
     }
   }
   EXPECT_EQ(representatives(this->Made), representatives(used));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Kernel/HilbertKeys.h"
+#include "Kernel/InsertionOrder.h"
 
 #include <gtest/gtest.h>
 

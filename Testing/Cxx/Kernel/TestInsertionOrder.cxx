@@ -114,7 +114,8 @@ TEST(InsertionOrder, TheFirstPointsAreSpreadOverSortedInput)
 {
   const std::size_t count = 20000;
   std::vector<Point2> points = pointSet("uniform", count);
-  std::sort(points.begin(), points.end(), lexicographicLess);
+  std::sort(
+    points.begin(), points.end(), [](Point2 a, Point2 b) { return lexicographicLess(a, b); });
   const Order order = orderOf(points);
   std::size_t low = 0;
   for (std::size_t i = 0; i < count / 8; ++i)

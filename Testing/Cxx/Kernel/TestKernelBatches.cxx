@@ -111,7 +111,7 @@ TEST(KernelBatches, PlacesCountOverAllBatches)
   std::vector<Point2> byPlace(5);
   for (Index v = 1; v < kernel.vertexEnd(); ++v)
   {
-    byPlace[kernel.place(v)] = kernel.point(v);
+    byPlace[kernel.pointIndex(v)] = kernel.point(v);
   }
   const Points expected = together(triangle(), { { 1, 1 }, { 9, 9 } });
   for (std::size_t i = 0; i < 5; ++i)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "KernelTesting.h"
 
-#include "Kernel/KernelPool.h"
+#include "Kernel/DelaunayKernel.h"
 
 namespace
 {

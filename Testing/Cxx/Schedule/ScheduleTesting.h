@@ -7,6 +7,7 @@
 #include "Predicates/InCircle.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/PointBuckets.h"
+#include "Triangulation/PointSurvey.h"
 
 #include <map>
 #include <string>

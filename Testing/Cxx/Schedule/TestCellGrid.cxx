@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Triangulation/CellGrid.h"
+#include "Triangulation/PartitionFinder.h"
 
 #include <gtest/gtest.h>
 
@@ -61,7 +61,8 @@ TEST_P(CellGridTest, ACellRisesWithTheCoordinate)
     points.push_back({ x, 0.5 });
     points.push_back({ x + 0.3, 0.5 });
   }
-  std::sort(points.begin(), points.end(), lexicographicLess);
+  std::sort(
+    points.begin(), points.end(), [](Point2 a, Point2 b) { return lexicographicLess(a, b); });
   const std::vector<std::uint32_t> cells = find(grid, points);
   EXPECT_TRUE(std::is_sorted(cells.begin(), cells.end()));
 }

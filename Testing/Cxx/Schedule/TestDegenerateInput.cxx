@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ScheduleTesting.h"
 
-#include "Triangulation/DegenerateInput.h"
+#include "Triangulation/PointSurvey.h"
 
 #include <cmath>
 

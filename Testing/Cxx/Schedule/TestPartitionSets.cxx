@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Triangulation/PartitionSets.h"
+#include "Triangulation/BoundaryTriangles.h"
 
 #include <gtest/gtest.h>
 
@@ -49,17 +49,6 @@ TEST(PartitionSets, KeepsWhatIsInAList)
   {
     EXPECT_EQ(entry.first, List(sets.begin(entry.second), sets.end(entry.second)));
   }
-}
-
-TEST(PartitionSets, BeginsAgainWhenItIsCleared)
-{
-  PartitionSets sets;
-  numberOf(sets, { 1 });
-  numberOf(sets, { 2 });
-  sets.clear();
-  EXPECT_EQ(0U, sets.size());
-  EXPECT_EQ(0U, numberOf(sets, { 2 }));
-  EXPECT_EQ(1U, numberOf(sets, { 1 }));
 }
 
 } // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ScheduleTesting.h"
 
-#include "Triangulation/PartitionSizes.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>
@@ -89,27 +88,6 @@ TEST(Tiling, EveryPointIsInTheClosedBoxItIsFoundIn)
     {
       ASSERT_TRUE(holds(tiling.box(tiling.locate(p)), p));
     }
-  }
-}
-
-TEST(Tiling, ManyPointsAreFoundWhereEachIsAlone)
-{
-  // Boxes at different depths; half of the points lie on cuts.
-  const Tiling tiling = Tiling::grid({ 0, 0, 5, 3 }, 5, 3);
-  std::vector<Point2> points;
-  for (int i = 0; i < 100; ++i)
-  {
-    points.push_back({ i * 7 % 21 / 4.0, i * 5 % 13 / 4.0 });
-  }
-  for (const std::size_t count : { 0, 1, 7, 8, 9, 15, 16, 17, 99, 100 })
-  {
-    std::vector<std::uint32_t> found(count + 1, 12345);
-    tiling.locate(points.data(), count, found.data());
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      ASSERT_EQ(tiling.locate(points[i]), PartitionIndex(found[i])) << i << " of " << count;
-    }
-    EXPECT_EQ(12345U, found[count]) << "beyond the end";
   }
 }
 

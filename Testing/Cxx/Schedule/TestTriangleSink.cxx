@@ -2,7 +2,6 @@
 #include "ScheduleTesting.h"
 
 #include "Engine/Routing.h"
-#include "Triangulation/LongTriangles.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>

@@ -155,6 +155,13 @@ TEST_F(TippDem, DerivesSlopeAspectAndHillshade)
   }
 }
 
+TEST_F(TippDem, DensityIsHalfAPointInEachTriangle)
+{
+  this->Folder.file("points.csv", "x,y\n0,0\n4,0\n0,4\n");
+  this->make("dem.npy", { "--resolution", "2", "--attributes", "density" });
+  EXPECT_EQ(1.0 / 16, this->valuesOf("dem.npy").front());
+}
+
 TEST_F(TippDem, LeavesTrianglesWithLongEdgesVoid)
 {
   this->Folder.file("points.csv", "x,y,z\n0,0,1\n2,0,1\n0,2,1\n2,2,1\n9,1,1\n");

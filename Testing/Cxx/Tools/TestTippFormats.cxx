@@ -61,6 +61,25 @@ TEST_F(TippFormats, AnAdcircGridKeepsItsNodesAndBoundaries)
   this->run({ "check", "fort.14", "out.14" });
 }
 
+TEST_F(TippFormats, ThinningAnAdcircGridWarnsOfItsBoundaries)
+{
+  const std::string grid = "A title\n1 4\n10 0 0 3\n20 4 0 -1\n40 4 4 1\n30 0 4 2\n1 3 10 20 40\n";
+  this->Folder.file("fort.14", grid + boundaries);
+  this->Folder.file("none.14", grid);
+  const Outcome outcome =
+    runTipp(this->Folder, { "delaunay", "fort.14", "-o", "out.14", "--thin", "3:nearest" });
+  EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+  EXPECT_EQ(std::string::npos, outcome.Err.find("boundaries")) << outcome.Err;
+  for (const std::string input : { "fort.14", "none.14" })
+  {
+    const Outcome thinned =
+      runTipp(this->Folder, { "delaunay", input, "-o", "out.14", "--thin", "100:nearest" });
+    EXPECT_EQ(0, thinned.ExitCode) << thinned.Err;
+    EXPECT_EQ(input == "fort.14", thinned.Err.find("boundaries") != std::string::npos)
+      << thinned.Err;
+  }
+}
+
 TEST_F(TippFormats, AnAdcircGridOfOtherPointsHasDepthsAndNoBoundaries)
 {
   this->Folder.file("points.csv", "x,y,z\n0,0,1\n1,0,-2.5\n0,1,0\n");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/InterpolateSurface.h"
+#include "Constraints/ConstraintPoints.h"
 
 #include "Constraints/SegmentTree.h"
 #include "Parallel/ParallelFor.h"
@@ -7,9 +7,49 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace tipp
 {
+
+MatchedPositions matchPositions(PointsView points, PointsView others)
+{
+  // The few others are looked up for each of the many points.
+  std::map<std::pair<double, double>, PointId> positions;
+  constexpr PointId none = -1;
+  for (std::size_t i = 0; i < others.size(); ++i)
+  {
+    if (isFinite(others[i])) // NaN cannot be ordered
+    {
+      positions.emplace(std::make_pair(others[i].x, others[i].y), none);
+    }
+  }
+  points.forEach(0, points.size(),
+    [&](std::size_t i, Point2 p)
+    {
+      const auto position = isFinite(p) ? positions.find({ p.x, p.y }) : positions.end();
+      if (position != positions.end() && position->second == none)
+      {
+        position->second = PointId(i);
+      }
+    });
+  MatchedPositions result;
+  for (std::size_t i = 0; i < others.size(); ++i)
+  {
+    PointId unmatched = none;
+    PointId& id =
+      isFinite(others[i]) ? positions.find({ others[i].x, others[i].y })->second : unmatched;
+    if (id == none)
+    {
+      id = PointId(points.size() + result.New.size());
+      result.New.push_back(i);
+    }
+    result.Ids.push_back(id);
+  }
+  return result;
+}
+
 namespace
 {
 
@@ -34,7 +74,7 @@ std::array<double, 3> weightsOf(const std::array<Point2, 3>& corners, Point2 p)
 }
 
 template <typename Id>
-std::vector<SurfacePlace> place(
+std::vector<SurfacePosition> locate(
   PointsView surface, const Buffer<Id>& ids, PointsView all, int threads)
 {
   const std::size_t given = surface.size();
@@ -77,8 +117,8 @@ std::vector<SurfacePlace> place(
           });
       }
     });
-  std::vector<SurfacePlace> places(all.size() - given);
-  for (std::size_t i = 0; i < places.size(); ++i)
+  std::vector<SurfacePosition> positions(all.size() - given);
+  for (std::size_t i = 0; i < positions.size(); ++i)
   {
     std::int64_t first = NoTriangle;
     for (const std::vector<std::int64_t>& its : firstOf)
@@ -88,16 +128,16 @@ std::vector<SurfacePlace> place(
     if (first != NoTriangle)
     {
       const Id* const corners = ids.data() + 3 * first;
-      places[i] = { { PointId(corners[0]), PointId(corners[1]), PointId(corners[2]) },
+      positions[i] = { { PointId(corners[0]), PointId(corners[1]), PointId(corners[2]) },
         weightsOf(cornersOf(first), all[given + i]) };
     }
   }
-  return places;
+  return positions;
 }
 
 } // namespace
 
-double SurfacePlace::valueOf(const std::vector<double>& values) const
+double SurfacePosition::valueOf(const std::vector<double>& values) const
 {
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i)
@@ -111,11 +151,11 @@ double SurfacePlace::valueOf(const std::vector<double>& values) const
   return this->Corners[0] < 0 ? std::nan("") : sum;
 }
 
-std::vector<SurfacePlace> placeOnSurface(
+std::vector<SurfacePosition> locateOnSurface(
   PointsView surface, const Triangulation& triangles, PointsView all, int threads)
 {
-  return triangles.Ids64.empty() ? place(surface, triangles.Ids32, all, threadCount(threads))
-                                 : place(surface, triangles.Ids64, all, threadCount(threads));
+  return triangles.Ids64.empty() ? locate(surface, triangles.Ids32, all, threadCount(threads))
+                                 : locate(surface, triangles.Ids64, all, threadCount(threads));
 }
 
 } // namespace tipp

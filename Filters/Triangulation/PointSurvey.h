@@ -1,15 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippDegenerateInput_h
-#define tippDegenerateInput_h
+#ifndef tippPointSurvey_h
+#define tippPointSurvey_h
 
 #include "Predicates/Point2.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Triangulate.h"
 
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace tipp
 {
+
+/// The result of one pass over the points.
+struct PointSurvey
+{
+  Box2 Bounds{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL }; ///< of the finite points
+  std::vector<std::int64_t> Rejected; ///< ids of points that are not finite; ascending
+};
+
+/// Returns the bounds of the finite points, and the indices of the others.
+PointSurvey surveyPoints(PointsView points, int threads);
+
+/// Returns about `count` finite points, evenly spaced in the input's order.
+std::vector<Point2> samplePoints(PointsView points, std::size_t count);
 
 /// Scales very small or very large coordinates, whose products would underflow or overflow, by a
 /// power of two that brings them near 1. This is exact, and the floating-point filters work again.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippKernelMeshEdit_h
-#define tippKernelMeshEdit_h
+#ifndef tippMeshEditor_h
+#define tippMeshEditor_h
 
 #include "Kernel/DelaunayKernel.h"
 #include "Predicates/InCircle.h"
@@ -13,17 +13,19 @@
 namespace tipp
 {
 
-/// A kernel's mesh as the mesh of a SegmentInserter: a slot is the name of a triangle, and
-/// half-edge h is opposite to the corner at h.
-class KernelMeshEdit
+/// Changes the triangles of a DelaunayKernel; the mesh of a SegmentInserter. Half-edges and
+/// triangles are named by indices that only this class interprets.
+class MeshEditor
 {
 public:
   using Index = DelaunayKernel::Index;
 
+  /// Begins to edit a kernel's mesh, which must outlive the edits. After a change only the kernel's
+  /// clear() may follow.
   void begin(DelaunayKernel& kernel)
   {
     this->Kernel = &kernel;
-    this->Mesh = &kernel.meshToEdit();
+    this->Mesh = &kernel.Mesh;
     const Index end = this->Mesh->end();
     this->Fixed.assign(std::size_t(end / 8), 0);
     this->Out.assign(std::size_t(kernel.vertexEnd()), NoHalf);
@@ -36,8 +38,11 @@ public:
     }
   }
 
-  static Index half(Index slot, Index corner) { return corner == 0 ? slot + 2 : slot + corner - 1; }
-  static Index slotOf(Index h) { return HalfEdgeMesh::triangleOf(h); }
+  static Index half(Index triangle, Index corner)
+  {
+    return corner == 0 ? triangle + 2 : triangle + corner - 1;
+  }
+  static Index triangleOf(Index h) { return HalfEdgeMesh::triangleOf(h); }
   static Index next(Index h) { return (h & 7) == 2 ? h - 2 : h + 1; }
   static Index previous(Index h) { return (h & 7) == 0 ? h + 2 : h - 1; }
   Index from(Index h) const { return this->Mesh->vertex(next(h)); }
@@ -46,11 +51,10 @@ public:
   Index twin(Index h) const { return this->Mesh->twin(h); }
   Point2 at(Index v) const { return this->Kernel->point(v); }
 
-  /// Of a vertex: whether it has triangles. One at the place of another has none.
+  /// Whether a vertex has triangles. One with the coordinates of another has none.
   bool isUsed(Index v) const { return this->out(v) != NoHalf; }
-  /// A half-edge from there.
+  /// A half-edge from the vertex.
   Index out(Index v) const { return this->Out[std::size_t(v)]; }
-  bool isInfinite(Index slot) const { return this->Kernel->isInfinite(slot); }
 
   void join(Index h, Index g) { this->Mesh->link(h, g); }
   bool isFixed(Index h) const { return (this->Fixed[std::size_t(h / 8)] >> (h & 7) & 1) != 0; }
@@ -60,14 +64,14 @@ public:
     const unsigned bit = 1U << (h & 7);
     bits = static_cast<unsigned char>(isFixed ? bits | bit : bits & ~bit);
   }
-  void setCorners(Index slot, const std::array<Index, 3>& corners)
+  void setCorners(Index triangle, const std::array<Index, 3>& corners)
   {
-    Index* const slots = this->Mesh->slots() + slot;
-    this->Fixed[std::size_t(slot / 8)] = 0;
+    Index* const slots = this->Mesh->slots() + triangle;
+    this->Fixed[std::size_t(triangle / 8)] = 0;
     for (Index i = 0; i < 3; ++i)
     {
       slots[i] = corners[std::size_t(i)];
-      this->Out[std::size_t(slots[i])] = half(slot, i);
+      this->Out[std::size_t(slots[i])] = half(triangle, i);
     }
   }
 
@@ -88,8 +92,8 @@ private:
 
   DelaunayKernel* Kernel = nullptr;
   HalfEdgeMesh* Mesh = nullptr;
-  std::vector<unsigned char> Fixed; ///< of each triangle: a bit for each half-edge
-  std::vector<Index> Out;           ///< of each vertex: a half-edge from there
+  std::vector<unsigned char> Fixed; ///< by triangle: a bit for each half-edge
+  std::vector<Index> Out;           ///< by vertex: a half-edge from it
 };
 
 } // namespace tipp

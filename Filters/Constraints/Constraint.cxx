@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/ConstraintEdges.h"
+#include "Constraints/Constraint.h"
 
 #include <algorithm>
 

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippConstraintPoints_h
+#define tippConstraintPoints_h
+
+#include "Triangulation/PointsView.h"
+#include "Triangulation/Triangulate.h"
+#include "vtkTIPPFiltersModule.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace tipp
+{
+
+/// The ids of other points among those of a triangulation.
+struct MatchedPositions
+{
+  std::vector<PointId> Ids;     ///< by other point: the first point at its position, or a new id
+  std::vector<std::size_t> New; ///< the other points with new ids, which follow those of the points
+};
+
+VTKTIPPFILTERS_EXPORT MatchedPositions matchPositions(PointsView points, PointsView others);
+
+/// Where a point lies on a triangulated surface.
+struct SurfacePosition
+{
+  std::array<PointId, 3> Corners{ -1, -1, -1 }; ///< -1: it lies outside
+  std::array<double, 3> Weights{};
+
+  /// The point's value, linear in the triangle; NaN outside.
+  double valueOf(const std::vector<double>& values) const;
+};
+
+/// Locates the points of `all` after the first surface.size() ones. If several triangles contain a
+/// point, the first is chosen.
+std::vector<SurfacePosition> locateOnSurface(
+  PointsView surface, const Triangulation& triangles, PointsView all, int threads);
+
+} // namespace tipp
+
+#endif

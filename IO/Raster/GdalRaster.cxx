@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Raster/GdalRaster.h"
+
+#include "Files/ChildProcess.h"
+#include "Files/IOError.h"
+#include "Raster/GdalLibrary.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+
+namespace tipp
+{
+namespace
+{
+
+/// Fails with what GDAL says.
+[[noreturn]] void fail(const std::string& path, const std::string& what)
+{
+  std::string reason = gdal().CPLGetLastErrorMsg();
+  reason = reason.substr(0, reason.find('\n'));
+  while (!reason.empty() && reason.back() == '.')
+  {
+    reason.pop_back();
+  }
+  throw IOError(path, what + (reason.empty() ? "." : " (" + reason + ")."));
+}
+
+/// A list of NAME=VALUE, as GDAL takes options.
+class OptionList
+{
+public:
+  OptionList() = default;
+  ~OptionList() { gdal().CSLDestroy(this->List); }
+  OptionList(const OptionList&) = delete;
+  OptionList& operator=(const OptionList&) = delete;
+
+  void set(const char* name, const std::string& value)
+  {
+    this->List = gdal().CSLSetNameValue(this->List, name, value.c_str());
+  }
+  char** list() const { return this->List; }
+
+private:
+  char** List = nullptr;
+};
+
+class SpatialReference
+{
+public:
+  explicit SpatialReference(const std::string& text)
+    : Reference(gdal().OSRNewSpatialReference(nullptr))
+  {
+    gdal().CPLErrorReset();
+    if (gdal().OSRSetFromUserInput(this->Reference, text.c_str()) != OGRERR_NONE)
+    {
+      gdal().OSRDestroySpatialReference(this->Reference);
+      const std::string start = text.substr(0, 60);
+      throw IOError("'" + start +
+        "' is no coordinate reference system that GDAL knows; give --crs "
+        "EPSG:CODE.");
+    }
+  }
+  ~SpatialReference() { gdal().OSRDestroySpatialReference(this->Reference); }
+  SpatialReference(const SpatialReference&) = delete;
+  SpatialReference& operator=(const SpatialReference&) = delete;
+
+  OGRSpatialReferenceH handle() const { return this->Reference; }
+
+private:
+  OGRSpatialReferenceH Reference;
+};
+
+struct CloseDataSet
+{
+  void operator()(void* data) const { gdal().GDALClose(data); }
+};
+using DataSet = std::unique_ptr<void, CloseDataSet>;
+
+template <typename T>
+T valueAt(const std::string& bytes, std::size_t offset)
+{
+  T value;
+  if (offset + sizeof value > bytes.size())
+  {
+    throw IOError("GDAL has made a GeoTIFF that ends too early.");
+  }
+  std::memcpy(&value, bytes.data() + offset, sizeof value);
+  return value;
+}
+
+/// A GeoTIFF of one pixel in this system, as GDAL makes it.
+std::string smallGeoTiff(const std::string& crs)
+{
+  const SpatialReference reference(crs);
+  const char* const path = "/vsimem/tipp-geokeys.tif";
+  DataSet data(
+    gdal().GDALCreate(gdal().GDALGetDriverByName("GTiff"), path, 1, 1, 1, GDT_Byte, nullptr));
+  double transform[6] = { 0, 1, 0, 0, 0, -1 };
+  if (!data || gdal().GDALSetGeoTransform(data.get(), transform) != CE_None ||
+    gdal().GDALSetSpatialRef(data.get(), reference.handle()) != CE_None)
+  {
+    fail(crs.substr(0, 60), "cannot be described as a GeoTIFF");
+  }
+  gdal().GDALSetMetadataItem(data.get(), "AREA_OR_POINT", "Area", nullptr);
+  data.reset();
+  vsi_l_offset size = 0;
+  const GByte* const bytes = gdal().VSIGetMemFileBuffer(path, &size, FALSE);
+  std::string content(reinterpret_cast<const char*>(bytes), bytes ? std::size_t(size) : 0);
+  gdal().VSIUnlink(path);
+  return content;
+}
+
+/// The fields of the GeoTIFF standard in a little-endian TIFF.
+std::vector<TiffField> readGeoKeys(const std::string& tiff)
+{
+  const std::map<std::uint16_t, std::size_t> tags = { { 34735, sizeof(std::uint16_t) },
+    { 34736, sizeof(double) }, { 34737, 1 } };
+  std::vector<TiffField> fields;
+  const std::size_t directory = valueAt<std::uint32_t>(tiff, 4);
+  for (std::size_t i = 0; i < valueAt<std::uint16_t>(tiff, directory); ++i)
+  {
+    const std::size_t at = directory + 2 + 12 * i;
+    const auto tag = tags.find(valueAt<std::uint16_t>(tiff, at));
+    if (tag == tags.end())
+    {
+      continue;
+    }
+    const std::size_t size = tag->second * valueAt<std::uint32_t>(tiff, at + 4);
+    const std::size_t begin = size <= 4 ? at + 8 : valueAt<std::uint32_t>(tiff, at + 8);
+    fields.push_back(
+      { tag->first, static_cast<TiffField::Type>(valueAt<std::uint16_t>(tiff, at + 2)),
+        tiff.substr(std::min(begin, tiff.size()), size) });
+  }
+  return fields;
+}
+
+std::string upperCase(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(),
+    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+} // namespace
+
+const std::vector<TiffField>& geoKeysOf(const std::string& crs)
+{
+  static std::mutex mutex;
+  static std::map<std::string, std::vector<TiffField>> known;
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto found = known.find(crs);
+  return found != known.end()
+    ? found->second
+    : known.emplace(crs, readGeoKeys(runInChild([&crs] { return smallGeoTiff(crs); })))
+        .first->second;
+}
+
+void convertGeoTiff(const std::string& from, const std::string& to,
+  const RasterDescription& description, const std::string& path)
+{
+  constexpr std::int64_t cacheBytes = 16 << 20; // GDAL's own would be a part of the machine's
+  gdal().GDALSetCacheMax64(cacheBytes);
+  gdal().CPLErrorReset();
+  OptionList options;
+  options.set("COMPRESS", upperCase(description.Compression));
+  options.set("NUM_THREADS", std::to_string(description.Threads));
+  options.set("BIGTIFF", "IF_SAFER");
+  const bool isCompressed = description.Compression != "none";
+  if (description.CloudOptimized)
+  {
+    options.set("PREDICTOR", isCompressed ? "YES" : "NO");
+    options.set("STATISTICS", "YES");
+  }
+  else
+  {
+    options.set("TILED", "YES");
+    options.set("PREDICTOR", "3"); // for floating-point numbers
+    options.set("INTERLEAVE", "BAND");
+  }
+  const DataSet plain(gdal().GDALOpen(from.c_str(), GA_ReadOnly));
+  DataSet copy(plain ? gdal().GDALCreateCopy(
+                         gdal().GDALGetDriverByName(description.CloudOptimized ? "COG" : "GTiff"),
+                         to.c_str(), plain.get(), 0, options.list(), nullptr, nullptr)
+                     : nullptr);
+  if (!copy)
+  {
+    fail(path, "cannot be written as a GeoTIFF of this kind");
+  }
+  copy.reset();
+  if (gdal().CPLGetLastErrorType() == CE_Failure || gdal().CPLGetLastErrorType() == CE_Fatal)
+  {
+    fail(path, "cannot be written");
+  }
+}
+
+RasterInfo readRasterInfo(const std::string& path)
+{
+  gdal().CPLErrorReset();
+  const DataSet data(gdal().GDALOpen(path.c_str(), GA_ReadOnly));
+  if (!data)
+  {
+    fail(path, "cannot be read as a raster");
+  }
+  double transform[6];
+  if (gdal().GDALGetGeoTransform(data.get(), transform) != CE_None || transform[2] != 0 ||
+    transform[4] != 0 || !(transform[1] > 0) || !(transform[5] < 0))
+  {
+    throw IOError(path, "is no raster whose rows run from west to east and from north to south.");
+  }
+  RasterInfo info;
+  RasterGrid& grid = info.Grid;
+  grid.Columns = gdal().GDALGetRasterXSize(data.get());
+  grid.Rows = gdal().GDALGetRasterYSize(data.get());
+  grid.Pixel = { transform[1], -transform[5] };
+  grid.West = transform[0];
+  grid.South = transform[3] + double(grid.Rows) * transform[5];
+  const char* const crs = gdal().GDALGetProjectionRef(data.get());
+  info.Crs = crs ? crs : "";
+  return info;
+}
+
+void requireCrs(const std::string& text)
+{
+  geoKeysOf(text);
+}
+
+} // namespace tipp

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippGdalRaster_h
+#define tippGdalRaster_h
+
+#include "Raster/RasterFile.h"
+#include "Raster/TiledTiff.h"
+
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// What GDAL does for rasters. All throw IOError if it fails or is not there.
+
+/// The fields of a TIFF that tell a coordinate reference system. GDAL, whose libraries take tens of
+/// megabytes, is opened in a process of its own.
+const std::vector<TiffField>& geoKeysOf(const std::string& crs);
+
+/// Copies a GeoTIFF to `to`, compressed and laid out as described. Errors name `path`.
+void convertGeoTiff(const std::string& from, const std::string& to,
+  const RasterDescription& description, const std::string& path);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippTiledTiff_h
+#define tippTiledTiff_h
+
+#include "Files/OutputFile.h"
+#include "Raster/RasterFile.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// A field of a TIFF file's directory.
+struct TiffField
+{
+  enum class Type : std::uint16_t
+  {
+    Text = 2,
+    Short = 3,
+    Long = 4,
+    Double = 12,
+    Long8 = 16
+  };
+  std::uint16_t Tag = 0;
+  Type Is = Type::Short;
+  std::string Bytes; ///< the values, little-endian
+};
+
+template <typename T>
+TiffField tiffField(std::uint16_t tag, TiffField::Type type, const std::vector<T>& values)
+{
+  return { tag, type,
+    std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)) };
+}
+
+/// Writes a TIFF file of floating-point bands, each in tiles of its own, from the north-west on.
+/// It becomes a BigTIFF where offsets need 64 bits.
+class TiledTiff
+{
+public:
+  /// `file` must outlive this object.
+  TiledTiff(const OutputFile& file, const RasterGrid& grid, std::size_t bands, bool isDouble,
+    bool isDeflated);
+
+  /// The bytes of a tile as the file stores them. `pixels`: RasterTileSize rows of RasterTileSize
+  /// values, the most northern first, of the file's type. Thread-safe.
+  std::string encode(std::string pixels) const;
+
+  /// Appends the next tile of a band to the file. Throws IOError.
+  void append(std::size_t band, const std::string& tile);
+
+  /// Completes the file with a directory of these fields and those of the pixels. Throws IOError.
+  void finish(std::vector<TiffField> fields);
+
+private:
+  std::vector<TiffField> pixelFields() const;
+
+  const OutputFile& File;
+  const RasterGrid Grid;
+  const bool IsDouble;
+  const bool IsDeflated;
+  std::uint64_t End; ///< of what is written
+  struct Band
+  {
+    std::vector<std::uint64_t> Offsets; ///< of its tiles
+    std::vector<std::uint64_t> Sizes;
+  };
+  std::vector<Band> Bands;
+};
+
+/// Whether this program can deflate tiles itself.
+bool canDeflateTiles();
+
+} // namespace tipp
+
+#endif

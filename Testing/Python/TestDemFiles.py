@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`tipp dem` between the libraries that people read and write such files with: laspy and rasterio.
+
+Usage: TestDemFiles.py TIPP [unittest arguments]
+"""
+import importlib.util
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+TIPP = os.path.abspath(sys.argv.pop(1))
+RANDOM = np.random.default_rng(7)
+
+VERSIONS = {"1.1": (0, 1), "1.2": (0, 1, 2, 3), "1.3": (0, 1, 2, 3, 4, 5), "1.4": tuple(range(11))}
+
+
+def needs(name):
+    return unittest.skipIf(importlib.util.find_spec(name) is None, f"{name} is not installed")
+
+
+class DemFiles(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def run_tipp(self, *words):
+        return subprocess.run([TIPP, *map(str, words)], cwd=self.folder, capture_output=True, text=True)
+
+    def dem(self, *words):
+        run = self.run_tipp("dem", *words)
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+    def save_points(self, count=3000, low=(0, 0), side=100):
+        xy = np.asarray(low) + RANDOM.random((count, 2)) * side
+        points = np.c_[xy, 5 * np.sin(xy[:, 0] / 9) + xy[:, 1] / 7]
+        np.save(self.path("points.npy"), points)
+        return points
+
+    @needs("laspy")
+    def test_las_files_that_laspy_writes_are_read(self):
+        import laspy
+
+        for version, formats in VERSIONS.items():
+            for form in formats:
+                with self.subTest(version=version, format=form):
+                    header = laspy.LasHeader(point_format=form, version=version)
+                    header.scales, header.offsets = [0.01, 0.02, 0.001], [500000, 4000000, -10]
+                    las = laspy.LasData(header)
+                    las.X, las.Y = RANDOM.integers(-5000, 5000, (2, 2000), np.int32)
+                    las.Z = RANDOM.integers(-9000, 9000, 2000, np.int32)
+                    las.intensity = RANDOM.integers(0, 65536, 2000, np.uint16)
+                    las.classification = np.where(np.arange(2000) % 3, 2, 6).astype(np.uint8)
+                    las.write(self.path("points.las"))
+                    ground = np.arange(2000) % 3 > 0
+                    np.save(self.path("ground.npy"), np.c_[las.x, las.y, las.z][ground])
+                    self.dem("points.las", "-o", "las.npy", "--resolution", 3, "--class", 2)
+                    self.dem("ground.npy", "-o", "npy.npy", "--resolution", 3)
+                    np.testing.assert_array_equal(np.load(self.path("las.npy")), np.load(self.path("npy.npy")))
+                    self.dem("points.las", "-o", "las.npy", "--resolution", 3, "--attributes", "intensity")
+                    self.assertLess(np.nanmax(np.load(self.path("las.npy"))), 65536)
+
+    @needs("rasterio")
+    def test_rasterio_reads_what_is_written(self):
+        import rasterio
+
+        self.save_points()
+        grid = ["--resolution", 0.25, "--attributes", "elevation,slope,void"]
+        self.dem("points.npy", "-o", "dem.npy", *grid)
+        expected = np.load(self.path("dem.npy"))[:, ::-1]
+        for number, options in enumerate((
+                [], ["--type", "float64"], ["--compress", "none"], ["--compress", "lzw"], ["--compress", "zstd"], ["--cog"],
+                ["--memory", "64M"], ["--memory", "64M", "--type", "float64"], ["--memory", "64M", "--threads", 3])):
+            with self.subTest(options=options):
+                path = self.path(f"dem-{number}.tif")
+                self.dem("points.npy", "-o", path, *grid, *options, "--crs", "EPSG:25832+7837", "--nodata", -1)
+                kind = "float64" if "float64" in options else "float32"
+                values = np.where(np.isnan(expected), -1, expected).astype(kind)
+                with rasterio.open(path) as raster:
+                    np.testing.assert_array_equal(raster.read(), values)
+                    self.assertEqual(raster.dtypes, (kind,) * 3)
+                    self.assertEqual(raster.nodata, -1)
+                    self.assertEqual(raster.descriptions, ("elevation", "slope", "void"))
+                    self.assertEqual(tuple(raster.transform)[:6], (0.25, 0, 0, 0, -0.25, 100))
+                    self.assertEqual(raster.crs, rasterio.crs.CRS.from_user_input("EPSG:25832+7837"))
+                    self.assertEqual(raster.tags()["AREA_OR_POINT"], "Area")
+                    tags = raster.tags(1)
+                    inside = values[0][values[0] != -1].astype(float)
+                    self.assertAlmostEqual(float(tags["STATISTICS_MEAN"]), inside.mean(), 3)
+                    self.assertAlmostEqual(float(tags["STATISTICS_STDDEV"]), inside.std(), 3)
+
+    @needs("rasterio")
+    def test_a_raster_without_reference_system_has_its_place(self):
+        import rasterio
+
+        self.save_points(low=(-30, 1000))
+        self.dem("points.npy", "-o", "dem.tif", "--resolution", 1)
+        with rasterio.open(self.path("dem.tif")) as raster:
+            self.assertIsNone(raster.crs)
+            self.assertEqual(tuple(raster.transform)[:6], (1, 0, -30, 0, -1, 1100))
+            self.assertEqual(raster.shape, (100, 100))
+
+    def test_files_are_equal_for_any_threads_and_memory(self):
+        self.save_points(20000)
+        contents = set()
+        for options in (["--threads", 1], ["--threads", 4], ["--memory", "2M", "--threads", 1], ["--memory", "4M", "--threads", 4]):
+            self.dem("points.npy", "-o", "dem.tif", "--resolution", 0.15, "--attributes", "elevation,density", *options)
+            with open(self.path("dem.tif"), "rb") as file:
+                contents.add(file.read())
+        self.assertEqual(len(contents), 1)
+
+    @needs("rasterio")
+    def test_points_across_the_antimeridian_stay_together(self):
+        import rasterio
+
+        self.save_points(low=(179.5, -17), side=1)
+        self.dem("points.npy", "-o", "dem.tif", "--resolution", 0.01, "--crs", "EPSG:4326")
+        with rasterio.open(self.path("dem.tif")) as raster:
+            self.assertEqual(raster.bounds.left, 179.5)
+            self.assertAlmostEqual(raster.bounds.right, 180.5)
+
+    def test_files_without_points_are_refused(self):
+        header = bytearray(227)
+        header[:4] = b"LASF"
+        header[24:26] = 1, 2
+        header[94:96] = header[96:98] = (227).to_bytes(2, "little")
+        header[105] = 20
+        header[131:155] = np.full(3, 0.01).tobytes()
+        with open(self.path("none.las"), "wb") as file:
+            file.write(header)
+        with open(self.path("none.csv"), "w") as file:
+            file.write("x,y,z\n")
+        for name in ("none.las", "none.csv"):
+            for memory in ([], ["--memory", "8M"]):
+                with self.subTest(name=name, memory=memory):
+                    run = self.run_tipp("dem", name, "-o", "dem.tif", "--resolution", 1, *memory)
+                    self.assertEqual(run.returncode, 1)
+                    self.assertRegex(run.stderr, "no point|cannot be made a raster")
+                    self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+                    self.assertFalse(os.path.exists(self.path("dem.tif")))
+
+
+if __name__ == "__main__":
+    unittest.main()
