@@ -11,7 +11,7 @@
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Projection/ProjectedPoints.h"
-#include "Vtk/CheckDataSet.h"
+#include "Vtk/ReadDataSet.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkCellArray.h"

@@ -9,7 +9,7 @@
 #include "Output/PieceOutput.h"
 #include "Output/StatisticsTable.h"
 #include "Projection/ProjectedPoints.h"
-#include "Vtk/CheckDataSet.h"
+#include "Vtk/ReadDataSet.h"
 
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"

@@ -5,7 +5,7 @@
 #include "Constraints/KeepInside.h"
 #include "Constraints/SourceConstraints.h"
 #include "Constraints/TriangulateConstrained.h"
-#include "Vtk/CheckDataSet.h"
+#include "Vtk/ReadDataSet.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkAlgorithmOutput.h"

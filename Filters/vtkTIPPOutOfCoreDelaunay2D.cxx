@@ -2,7 +2,7 @@
 #include "vtkTIPPOutOfCoreDelaunay2D.h"
 
 #include "Files/IOError.h"
-#include "Files/RequireApart.h"
+#include "Files/OutputPath.h"
 #include "OutOfCore/OutOfCoreRanks.h"
 #include "Output/Monitor.h"
 #include "Output/StatisticsTable.h"

@@ -6,7 +6,7 @@
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 #include "Partitioned/PieceGrid.h"
-#include "Partitioning/AssignPieces.h"
+#include "Partitioning/PartitionMesh.h"
 #include "Reading/AssemblePiece.h"
 #include "Reading/PieceCache.h"
 #include "Reading/PieceSource.h"
@@ -15,6 +15,7 @@
 
 #include "vtkDataArraySelection.h"
 #include "vtkDataObject.h"
+#include "vtkDataObjectTypes.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMath.h"
@@ -29,6 +30,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -177,15 +179,8 @@ int vtkPartitionedUnstructuredReader::RequestDataObject(
   const int wanted = this->MergePieces ? VTK_UNSTRUCTURED_GRID : VTK_PARTITIONED_DATA_SET;
   if (!present || present->GetDataObjectType() != wanted)
   {
-    vtkSmartPointer<vtkDataObject> output;
-    if (this->MergePieces)
-    {
-      output = vtkSmartPointer<vtkUnstructuredGrid>::New();
-    }
-    else
-    {
-      output = vtkSmartPointer<vtkPartitionedDataSet>::New();
-    }
+    const auto output =
+      vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(wanted));
     info->Set(vtkDataObject::DATA_OBJECT(), output);
   }
   return 1;
@@ -319,7 +314,6 @@ Fetched fetch(tipp::PieceSource& source, tipp::PieceCache& cache,
 {
   Fetched fetched;
   std::vector<std::size_t> missing;
-  std::vector<std::size_t> places;
   const auto keyOf = [&options](std::size_t number) {
     return tipp::PieceCache::Key{ number, options.Borrowed, options.Wanted, options.Step };
   };
@@ -329,22 +323,20 @@ Fetched fetch(tipp::PieceSource& source, tipp::PieceCache& cache,
     if (!fetched.Pieces.back().Shared)
     {
       missing.push_back(number);
-      places.push_back(fetched.Pieces.size() - 1);
     }
   }
   std::vector<tipp::Piece> read = source.read(missing, options);
-  for (std::size_t i = 0; i < missing.size(); ++i)
+  auto unshared = fetched.Pieces.begin();
+  for (std::size_t i = 0; i < missing.size(); ++i, ++unshared)
   {
+    unshared = std::find_if(
+      unshared, fetched.Pieces.end(), [](const HeldPiece& piece) { return !piece.Shared; });
     fetched.Bytes += read[i].Counters.Bytes;
-    HeldPiece& piece = fetched.Pieces[places[i]];
+    unshared->Own = std::move(read[i]);
     if (keep)
     {
-      piece.Shared = std::make_shared<const tipp::Piece>(std::move(read[i]));
-      cache.keep(keyOf(missing[i]), piece.Shared);
-    }
-    else
-    {
-      piece.Own = std::move(read[i]);
+      unshared->Shared = std::make_shared<const tipp::Piece>(std::move(unshared->Own));
+      cache.keep(keyOf(missing[i]), unshared->Shared);
     }
   }
   fetched.Read = std::int64_t(missing.size());
@@ -402,10 +394,7 @@ void vtkPartitionedUnstructuredReader::ReadPieces(vtkInformation* outInfo)
   const bool borrowed = request.Borrowed || this->BorrowerMode == OWNED_AND_BORROWED;
   std::optional<tipp::RangeFilter> range;
   std::vector<std::size_t> numbers(mesh.Pieces.size());
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-  {
-    numbers[i] = i;
-  }
+  std::iota(numbers.begin(), numbers.end(), std::size_t(0));
   if (this->HasBounds())
   {
     const double* const b = this->Bounds;

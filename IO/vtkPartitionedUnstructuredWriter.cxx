@@ -2,8 +2,7 @@
 #include "vtkPartitionedUnstructuredWriter.h"
 
 #include "Files/IOError.h"
-#include "Partitioning/GatherDataSets.h"
-#include "Partitioning/PartitionInput.h"
+#include "Partitioning/PartitionDataSet.h"
 #include "Partitioning/Ranks.h"
 #include "Vtk/Compatibility.h"
 

@@ -11,9 +11,9 @@
  * The mesh is the input, a vtkDataSet or a vtkPartitionedDataSet of some, or, with InputFileName, a
  * mesh in a file of any size: a folder of .npy arrays or a .vtu file with appended, raw,
  * uncompressed data. Cells of an input other than triangles and tetrahedra are cut into these,
- * ghost cells and cells of a lower dimension are left out. Points at the same place in different
- * data sets become one. Its arrays GlobalPointIds, GlobalCellIds and vtkGhostType, if it has any,
- * are not stored: the partitioned mesh has its own.
+ * ghost cells and cells of a lower dimension are left out. Points with equal coordinates in
+ * different data sets become one. Its arrays GlobalPointIds, GlobalCellIds and vtkGhostType, if it
+ * has any, are not stored: the partitioned mesh has its own.
  *
  * A partition is a closed box. A cell is owned by the first partition that it shares a point with,
  * decided exactly; the others that it meets borrow it, by reference or, with DuplicateBorrowers, as
@@ -89,7 +89,7 @@ public:
 
   ///@{
   /**
-   * Bytes that each rank may take, the input aside. Default 2 GiB.
+   * Bytes that each rank may take, not counting the input. Default 2 GiB.
    */
   vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MemoryLimit, vtkTypeInt64);

@@ -2,7 +2,7 @@
 #include "vtkTIPPPointReader.h"
 
 #include "Files/IOError.h"
-#include "Meshes/MeshDataSet.h"
+#include "Meshes/MeshFiles.h"
 #include "Points/PointStream.h"
 #include "Points/ReadPoints.h"
 

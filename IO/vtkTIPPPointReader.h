@@ -3,17 +3,17 @@
  * @class   vtkTIPPPointReader
  * @brief   reads points from LAS, text, .npy and other files
  *
- * vtkTIPPPointReader reads what `tipp delaunay` reads: .las (versions 1.0 to 1.4, all point
- * formats), .laz where LASzip was there to build with, .csv, .txt, .xyz, .npy, .14, .grd and the
+ * vtkTIPPPointReader reads the files that `tipp delaunay` reads: .las (versions 1.0 to 1.4, all
+ * point formats), .laz (if built with LASzip), .csv, .txt, .xyz, .npy, .14, .grd and the
  * files that VTK reads. The output is a vtkPolyData with the points of all files, in their order. A
  * column named z is the third coordinate; the others are point data, float64. Of LAS files these
- * are intensity, classification, gps_time, red, green, blue and nir, as far as the file has them.
+ * are intensity, classification, gps_time, red, green, blue and nir, if the file has them.
  *
- * The coordinate reference system, where a LAS file has one, is the string array
- * "CoordinateReferenceSystem" of the output's field data: WKT or "EPSG:code".
+ * If a LAS file has a coordinate reference system, it is the string array
+ * "CoordinateReferenceSystem" in the output's field data: WKT or "EPSG:code".
  *
- * A request for a piece is answered with a share of the points: of .las and .npy files with
- * successive ones, of other files with all for the first piece and none for the others.
+ * A request for a piece returns a share of the points: consecutive points of .las and .npy files;
+ * of other files all points for the first piece and none for the others.
  *
  * @sa
  * vtkTIPPDelaunay2D vtkTIPPOutOfCoreDelaunay2D
@@ -42,8 +42,8 @@ public:
 
   ///@{
   /**
-   * The files, which are one set of points; they must have the same columns. SetFileName() leaves
-   * one alone.
+   * The files, which are read as one set of points; they must have the same columns. SetFileName()
+   * replaces all files by one.
    */
   void AddFileName(const char* name);
   void SetFileName(const char* name);
@@ -54,8 +54,8 @@ public:
 
   ///@{
   /**
-   * Which columns of text and .npy files are x and y: a name as the file has it, or a number
-   * counted from 0. Empty or null (the default): by the usual names, else the first two.
+   * The columns of text and .npy files that are x and y: a name in the file, or a number counted
+   * from 0. Empty or null (the default): found by the usual names, else the first two.
    */
   vtkSetStringMacro(XColumn);
   vtkGetStringMacro(XColumn);
@@ -65,14 +65,14 @@ public:
 
   ///@{
   /**
-   * Of LAS files the points of these classes, as "2,9". Empty or null (the default): of all.
+   * The classes of LAS points to read, such as "2,9". Empty or null (the default): all.
    */
   vtkSetStringMacro(Classes);
   vtkGetStringMacro(Classes);
   ///@}
 
   /**
-   * Which returns of a pulse.
+   * The returns of a pulse.
    */
   enum ReturnType
   {
@@ -83,7 +83,7 @@ public:
 
   ///@{
   /**
-   * Of LAS files all returns (RETURNS_ALL, the default), the first or the last ones.
+   * The returns of LAS files to read: all (RETURNS_ALL, the default), the first or the last.
    */
   vtkSetClampMacro(Returns, int, RETURNS_ALL, RETURNS_LAST);
   vtkGetMacro(Returns, int);
@@ -107,8 +107,8 @@ public:
 
   ///@{
   /**
-   * The names of the further columns to read, with commas between them. Empty or null (the
-   * default): all.
+   * Names of the columns besides x and y to read, separated by commas. Empty or null (the default):
+   * all.
    */
   vtkSetStringMacro(Columns);
   vtkGetStringMacro(Columns);
@@ -126,7 +126,7 @@ public:
 
   ///@{
   /**
-   * Of the last update: how many points of the files were not selected.
+   * The number of points that were not selected in the last update.
    */
   vtkGetMacro(NumberOfPointsLeftOut, vtkTypeInt64);
   ///@}

@@ -2,7 +2,7 @@
 #include "Constraints/KeepInside.h"
 
 #include "Constraints/Constraint.h"
-#include "Meshes/FindNeighbors.h"
+#include "Meshes/Triangles.h"
 #include "Predicates/Orientation.h"
 #include "Triangulation/TriangleSink.h"
 

@@ -2,7 +2,7 @@
 #ifndef tippTableConstraints_h
 #define tippTableConstraints_h
 
-#include "Constraints/ConstraintTable.h"
+#include "Constraints/ReadConstraintFile.h"
 #include "Constraints/TriangulateConstrained.h"
 #include "Points/PointTable.h"
 #include "vtkTIPPFiltersModule.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Dem/DemBands.h"
 
-#include "Points/ElevationColumn.h"
+#include "Points/PointTable.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #define tippTerrainSampler_h
 
 #include "Dem/DemBands.h"
-#include "Raster/RasterGrid.h"
+#include "Raster/RasterFile.h"
 #include "Resample/Lattice.h"
 #include "Resample/SimplexMesh.h"
 

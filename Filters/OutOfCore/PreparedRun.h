@@ -7,7 +7,7 @@
 #include "OutOfCore/PieceResult.h"
 #include "OutOfCore/SpillPoints.h"
 #include "Partitioned/PartitionedMesh.h"
-#include "Points/ElevationColumn.h"
+#include "Points/PointTable.h"
 
 #include <cstdint>
 #include <memory>

@@ -2,7 +2,7 @@
 #include "OutOfCore/ScratchFolder.h"
 
 #include "Files/IOError.h"
-#include "Files/WorkFolder.h"
+#include "Files/TemporaryFiles.h"
 
 #include <filesystem>
 #include <vector>

@@ -2,7 +2,7 @@
 #ifndef tippScratchFolder_h
 #define tippScratchFolder_h
 
-#include "Files/PendingFolder.h"
+#include "Files/PendingOutput.h"
 
 #include <cstdint>
 #include <string>

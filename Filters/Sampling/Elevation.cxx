@@ -3,7 +3,7 @@
 
 #include "Messages/Communicator.h"
 #include "Sampling/SamplingRange.h"
-#include "Vtk/CheckDataSet.h"
+#include "Vtk/ReadDataSet.h"
 
 #include "vtkDataArray.h"
 #include "vtkPointData.h"

@@ -6,7 +6,7 @@
 #include "Parallel/Stopwatch.h"
 #include "Sampling/SampledImage.h"
 #include "Sampling/SamplingRange.h"
-#include "Vtk/ArrayNames.h"
+#include "Vtk/VtkMessages.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkAlgorithmOutput.h"

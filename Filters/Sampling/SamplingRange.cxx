@@ -3,7 +3,7 @@
 
 #include "Messages/Communicator.h"
 #include "Sampling/SimplexParts.h"
-#include "Vtk/CheckDataSet.h"
+#include "Vtk/ReadDataSet.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCompositeDataIterator.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sampling/SimplexParts.h"
 
-#include "Vtk/CheckDataSet.h"
 #include "Vtk/Compatibility.h"
+#include "Vtk/ReadDataSet.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

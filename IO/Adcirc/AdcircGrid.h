@@ -2,16 +2,56 @@
 #ifndef tippAdcircGrid_h
 #define tippAdcircGrid_h
 
+#include "Files/OutputPath.h"
+#include "Files/TextFile.h"
+#include "Meshes/Triangles.h"
+#include "Points/PointTable.h"
 #include "vtkTIPPIOModule.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
 namespace tipp
 {
+
+/// Reads the lines of an ADCIRC text file as rows of numbers; errors are IOErrors that name the
+/// line.
+class AdcircRows
+{
+public:
+  /// `kind` completes "check that it is ...". `path` and `text` must outlive this object.
+  AdcircRows(const std::string& path, std::string_view text, std::string kind);
+
+  void skipTitle();
+  /// Reads the next line, which must have at least `fields` fields; `what` is for errors.
+  void next(std::size_t fields, const char* what);
+  std::size_t fields() const { return this->Row.size(); }
+  std::int64_t integer(std::size_t field) const;
+  double number(std::size_t field) const;
+  /// An upper bound of the number of lines after the row.
+  std::int64_t remainingLines() const
+  {
+    return this->Total - std::int64_t(this->Lines.lineNumber());
+  }
+
+  std::int64_t lineNumber() const { return this->Lines.lineNumber(); }
+
+  [[noreturn]] void fail(const std::string& problem) const;
+
+private:
+  const std::string& Path;
+  std::string Kind;
+  LineReader Lines;
+  std::int64_t Total; ///< computed once, because files are long
+  std::vector<std::string_view> Row;
+};
 
 /// Nodes and triangles of an ADCIRC grid (fort.14, https://adcirc.org): a title; the numbers of
 /// elements and nodes; a line `id x y depth` per node; a line `id 3 a b c` per element; and lists
@@ -27,22 +67,33 @@ struct AdcircGrid
   std::vector<std::array<std::int64_t, 2>> BoundaryEdges;
 };
 
-/// What a grid has besides nodes and elements.
+/// The parts of a grid file besides nodes and elements.
 struct AdcircFrame
 {
   std::string Title;
   std::vector<std::int64_t> NodeNumbers; ///< in the order of the file
-  std::string Boundaries;                ///< the lines behind the elements, as they are
+  std::string Boundaries;                ///< the lines after the elements, unchanged
 };
 
 /// Throws IOError.
 AdcircFrame readAdcircFrame(const std::string& path);
 
-/// Without the boundaries. Throws IOError.
+/// Reads nodes and triangles only. Throws IOError.
 VTKTIPPIO_EXPORT AdcircGrid readAdcircGrid(const std::string& path);
 
 /// Reads the whole grid. Throws IOError.
 AdcircGrid readAdcircGridAndBoundaries(const std::string& path);
+
+/// Whether the extension is .14 or .grd.
+bool isAdcircExtension(const std::string& extension);
+
+/// Writes points and triangles as an ADCIRC grid. The depth of a node is the column depth, else the
+/// negated elevation, else 0. `like`: a grid whose nodes are the first points; its title, numbers
+/// of nodes and lists of boundaries are kept. Without it (empty) nodes are counted from 1, and
+/// there are no boundaries. Returns false if `aborted` returned true; throws IOError.
+bool writeAdcircGrid(const std::string& path, const PointTable& points, TrianglesView triangles,
+  const std::string& like, const std::optional<PathState>& before,
+  const std::function<bool()>& aborted);
 
 } // namespace tipp
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/PolyFile.h"
+#include "Constraints/ReadConstraintFile.h"
 
 #include "Files/IOError.h"
 #include "Files/TextFile.h"
@@ -24,7 +24,7 @@ public:
   {
   }
 
-  /// False at the end of the file.
+  /// Returns false at the end of the file.
   bool next()
   {
     std::string_view line;
@@ -79,7 +79,7 @@ public:
     return std::int64_t(value);
   }
 
-  /// The first field as a number of rows that follow.
+  /// The first field: the number of rows that follow.
   std::int64_t count() const
   {
     const std::int64_t result = this->integer(0);
@@ -102,7 +102,7 @@ private:
   std::vector<double> Row;
 };
 
-/// Vertices by numbers that begin at 0 or 1.
+/// Vertices, numbered from 0 or 1.
 struct Vertices
 {
   std::vector<double> XY;

@@ -2,9 +2,7 @@
 #include "Constraints/ReadConstraintFile.h"
 
 #include "Adcirc/AdcircGrid.h"
-#include "Constraints/PolyFile.h"
-#include "Constraints/VectorFile.h"
-#include "Files/Extension.h"
+#include "Files/FileKind.h"
 #include "Files/IOError.h"
 #include "Points/ReadPoints.h"
 #include "Vtk/ReadDataSet.h"
@@ -136,7 +134,7 @@ ConstraintTable readVtk(const std::string& path)
   return table;
 }
 
-/// Whether GDAL reads it.
+/// Whether GDAL reads files with this extension.
 bool isVectorFile(const std::string& extension)
 {
   const std::array<const char*, 5> extensions{ ".gpkg", ".shp", ".geojson", ".json", ".fgb" };

@@ -2,21 +2,45 @@
 #ifndef tippReadConstraintFile_h
 #define tippReadConstraintFile_h
 
-#include "Constraints/ConstraintTable.h"
 #include "vtkTIPPIOModule.h"
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace tipp
 {
 
+/// Segments and polygons read from a file.
+struct ConstraintTable
+{
+  std::vector<double>
+    XY; ///< x and y of the file's own points; empty: ids refer to the points to triangulate
+  std::vector<double> Height; ///< of these points, if the file has three coordinates
+  std::vector<std::array<std::int64_t, 2>> Edges; ///< point ids
+  std::size_t PolygonBegin = 0; ///< edges from this index on belong to closed polygons
+  std::vector<double> Holes;    ///< x and y of points in holes
+};
+
 /// Reads constraints by the file's extension:
 /// .poly (Triangle: vertices, or those of the .node file beside it, segments and holes);
-/// .csv, .txt (a segment a line: x and y, or x, y and z of both ends, or two ids of points counted
-/// from 0); .14, .grd (ADCIRC: the boundaries of the grid); .gpkg, .shp, .geojson, .json, .fgb
-/// (lines and polygons of a GIS); any VTK file (its lines, and its polygons as polygons). Throws
-/// IOError.
+/// .csv, .txt (one segment per line: x and y, or x, y and z of both ends, or two ids of points
+/// counted from 0); .14, .grd (ADCIRC: the boundaries of the grid); .gpkg, .shp, .geojson, .json,
+/// .fgb (lines and polygons of a GIS); any VTK file (its lines, and its polygons as polygons).
+/// Throws IOError.
 VTKTIPPIO_EXPORT ConstraintTable readConstraintFile(const std::string& path);
+
+/// A .poly file of Shewchuk's Triangle (https://www.cs.cmu.edu/~quake/triangle.poly.html):
+/// vertices, segments and holes; later lines are ignored. If it has no vertices, those of the .node
+/// file of the same name are read. Throws IOError.
+ConstraintTable readPolyFile(const std::string& path);
+
+/// Reads the lines and polygons of all layers, by GDAL. Outer rings of polygons come out
+/// counter-clockwise, the others clockwise, whatever their orientation in the file; missing heights
+/// are NaN. Throws IOError.
+ConstraintTable readVectorFile(const std::string& path);
 
 } // namespace tipp
 

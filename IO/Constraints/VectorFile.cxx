@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/VectorFile.h"
+#include "Constraints/ReadConstraintFile.h"
 
 #include "Files/IOError.h"
 #include "Raster/GdalLibrary.h"
@@ -75,7 +75,7 @@ private:
     }
   }
 
-  /// Returns where its points begin.
+  /// Returns the index of its first point.
   std::size_t addLine(OGRGeometryH line, Edges& edges)
   {
     const auto first = std::int64_t(this->Table.XY.size() / 2);

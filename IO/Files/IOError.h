@@ -5,6 +5,7 @@
 #include "vtkTIPPIOModule.h"
 
 #include <cstdint>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -27,6 +28,14 @@ public:
 private:
   std::string Path;
 };
+
+/// Formats text from a file for a message: on one line, and shortened if it is long.
+VTKTIPPIO_EXPORT std::string shownText(const std::string& text);
+
+/// Returns `intro` and the quoted names, for a message that lists alternatives: "; there are 'a',
+/// 'b'". After twenty names it gives the number of the others. Without names: "; there are none".
+VTKTIPPIO_EXPORT std::string listOfNames(
+  const std::set<std::string>& names, const std::string& intro);
 
 } // namespace tipp
 

@@ -2,10 +2,13 @@
 #ifndef tippOutputPath_h
 #define tippOutputPath_h
 
+#include "vtkTIPPIOModule.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace tipp
 {
@@ -36,6 +39,19 @@ struct PathState
 /// `objection`, called with the path of what would be removed, returns a reason.
 void publish(const std::string& temporary, const std::string& path, const PathState& before,
   const std::function<std::string(const std::string&)>& objection);
+
+/// Throws IOError if an output is also an input or another output, under any name or link, or is a
+/// folder that holds one. Folders and .pvtu files stand for the files that they consist of; empty
+/// names are ignored. Call it before any work.
+VTKTIPPIO_EXPORT void requireApart(
+  const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
+
+/// Returns the entry for the list of outputs that stands for a run's files in a scratch folder,
+/// which may hold other outputs.
+inline std::string scratchIn(const std::string& folder)
+{
+  return folder.empty() ? "" : folder + "/.scratch";
+}
 
 } // namespace tipp
 

@@ -2,13 +2,22 @@
 #ifndef tippTextFile_h
 #define tippTextFile_h
 
+#include "vtkTIPPIOModule.h"
+
+#include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace tipp
 {
+
+/// The path at which a text input can be opened, as often as needed: for "-", the standard input,
+/// that of a temporary copy, made when it is first asked for; else the path itself. Throws IOError.
+std::string openablePath(const std::string& path);
 
 /// Returns the content of a text file or of a pipe. Throws IOError if it cannot be read or is not
 /// text.
@@ -42,6 +51,39 @@ void splitFields(std::string_view line, char delimiter, std::vector<std::string_
 
 /// Removes blanks and one pair of quotes around the field.
 std::string_view trimField(std::string_view field);
+
+/// Reads the lines of a text file of any size or of a pipe, without their ends (\n or \r\n) and
+/// without a byte order mark. A .gz, .xz or .zst file is decompressed by the program gzip, xz or
+/// zstd.
+class VTKTIPPIO_EXPORT FileLines
+{
+public:
+  /// Reads blocks of `blockBytes` bytes. Throws IOError if the file cannot be read or is not text.
+  explicit FileLines(const std::string& path, std::size_t blockBytes = std::size_t(1) << 20);
+
+  /// Reads the next line, valid until the next call. Returns false at the end. Throws IOError if
+  /// the file cannot be read or a line exceeds 64 MiB.
+  bool next(std::string_view& line);
+  std::int64_t lineNumber() const { return this->Number; }
+
+  /// The approximate number of lines, from the file's size and first block; 0 for a pipe.
+  std::int64_t expectedLines() const { return this->Expected; }
+
+private:
+  bool readOn();
+  void endDecompression();
+  void startText();
+
+  std::string Path;
+  std::string Program; ///< the decompressor; empty: none
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> File;
+  const std::size_t BlockBytes;
+  std::vector<char> Buffer;
+  std::size_t Begin = 0; ///< of the bytes that have not been returned
+  std::size_t End = 0;
+  std::int64_t Number = 0;
+  std::int64_t Expected = 0;
+};
 
 } // namespace tipp
 

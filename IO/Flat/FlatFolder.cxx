@@ -1,21 +1,133 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Flat/FlatFolder.h"
 
-#include "Files/Extension.h"
+#include "Files/FileKind.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Flat/ArrayFileName.h"
-#include "Flat/NpyArray.h"
+#include "Files/PendingOutput.h"
+#include "Flat/FlatMesh.h"
+#include "Npy/NpyFile.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <vector>
 
 namespace tipp
 {
+std::string arrayFileName(const std::string& name)
+{
+  constexpr char digits[] = "0123456789ABCDEF";
+  std::string file;
+  for (const char c : name)
+  {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '/' || c == '\\' || c == '%' || byte < 0x20 || byte == 0x7f ||
+      (c == '.' && file.empty()))
+    {
+      file += { '%', digits[byte >> 4], digits[byte & 15] };
+    }
+    else
+    {
+      file += c;
+    }
+  }
+  return file;
+}
+
+std::string arrayNameOf(const std::string& fileName)
+{
+  std::string name;
+  for (std::size_t i = 0; i < fileName.size(); ++i)
+  {
+    unsigned int byte = 0;
+    const char* const digits = fileName.data() + i + 1;
+    if (fileName[i] == '%' && i + 2 < fileName.size() &&
+      std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2)
+    {
+      name += static_cast<char>(byte);
+      i += 2;
+    }
+    else
+    {
+      name += fileName[i];
+    }
+  }
+  return name;
+}
+
 namespace
 {
+
+/// An .npy file whose array is used in place.
+struct NpyArray
+{
+  std::string Path;
+  std::uint64_t Offset = 0;
+  Scalar Type = Scalar::Float64;
+  std::vector<std::int64_t> Shape;
+
+  /// For messages, such as "3 x 4".
+  std::string shapeText() const;
+};
+
+Scalar scalarOf(const std::string& descr, const std::string& path)
+{
+  if (descr == "|b1")
+  {
+    return Scalar::UInt8;
+  }
+  if (const std::optional<Scalar> type = scalarFromDescr(descr))
+  {
+    return *type;
+  }
+  throw IOError(path,
+    "holds elements of type '" + descr +
+      "'; save it as little-endian integers, float32 or float64.");
+}
+
+std::string NpyArray::shapeText() const
+{
+  std::string text;
+  for (const std::int64_t extent : this->Shape)
+  {
+    text += (text.empty() ? "" : " x ") + std::to_string(extent);
+  }
+  return text.empty() ? "a single number" : text;
+}
+
+/// Reads the header and checks it against the file's size; throws IOError. Booleans are read as
+/// UInt8.
+NpyArray openNpyArray(const std::string& path)
+{
+  const InputFile file(path);
+  NpyArray array;
+  array.Path = path;
+  const NpyHeader header = readNpyHeader(file, array.Offset);
+  array.Shape = header.Shape;
+  array.Type = scalarOf(header.Descr, path);
+  if (header.FortranOrder && header.Shape.size() > 1)
+  {
+    throw IOError(path, "is in Fortran order; save numpy.ascontiguousarray of it.");
+  }
+  std::int64_t expected = std::int64_t(scalarSize(array.Type));
+  bool overflow = false;
+  for (const std::int64_t extent : array.Shape)
+  {
+    overflow = __builtin_mul_overflow(expected, extent, &expected) || overflow;
+  }
+  const std::uint64_t present = file.size() - array.Offset;
+  if (overflow || std::uint64_t(expected) != present)
+  {
+    throw IOError(path,
+      "holds " + std::to_string(present) + " bytes of data where its header's " +
+        array.shapeText() + " elements need " +
+        (overflow ? "more than 2^63" : std::to_string(expected)) + "; copy or save it again.");
+  }
+  return array;
+}
 
 namespace fs = std::filesystem;
 
@@ -186,6 +298,88 @@ bool isFlatFolder(const std::string& path)
   std::error_code failure;
   return fs::is_regular_file(path + "/cells.npy", failure) &&
     fs::is_regular_file(path + "/points.npy", failure);
+}
+
+namespace
+{
+
+void writeArray(const std::string& path, const FlatArray& array, bool table)
+{
+  std::vector<std::int64_t> shape;
+  if (array.Steps > 0)
+  {
+    shape.push_back(array.Steps);
+  }
+  shape.push_back(array.Tuples);
+  if (array.Components > 1 || table)
+  {
+    shape.push_back(array.Components);
+  }
+  NpyWriter writer(path, scalarDescr(array.Type), shape);
+  const std::size_t tuples =
+    std::size_t(array.Tuples) * std::size_t(std::max<std::int64_t>(array.Steps, 1));
+  writer.write(array.Values, tuples * std::size_t(array.Components) * scalarSize(array.Type));
+  writer.close();
+}
+
+void writeCells(const std::string& path, const FlatContent& content)
+{
+  const std::int64_t count = std::int64_t(content.Cells.size()) / content.CellSize;
+  FlatArray array{ "cells", Scalar::Int64, content.CellSize, count, 0, content.Cells.data(), {} };
+  std::vector<std::int32_t> narrow;
+  if (content.Points.Tuples <= std::numeric_limits<std::int32_t>::max())
+  {
+    narrow.assign(content.Cells.begin(), content.Cells.end());
+    array.Type = Scalar::Int32;
+    array.Values = narrow.data();
+  }
+  writeArray(path, array, true);
+}
+
+bool writeData(const std::string& folder, const std::vector<FlatArray>& arrays,
+  const std::function<bool()>& aborted)
+{
+  std::filesystem::create_directory(folder);
+  for (const FlatArray& array : arrays)
+  {
+    if (aborted && aborted())
+    {
+      return false;
+    }
+    const std::string path = folder + "/" + arrayFileName(array.Name) + ".npy";
+    if (array.Name.empty() || std::filesystem::exists(path))
+    {
+      throw IOError(folder,
+        "cannot hold the array '" + array.Name +
+          "', which has no name or that of another; rename it.");
+    }
+    writeArray(path, array, false);
+  }
+  return true;
+}
+
+} // namespace
+
+bool writeFlatMesh(
+  const std::string& path, const FlatContent& content, const std::function<bool()>& aborted)
+{
+  PendingFolder folder(path);
+  const std::string& in = folder.temporaryPath();
+  writeCells(in + "/cells.npy", content);
+  writeArray(in + "/points.npy", content.Points, true);
+  if (!content.Times.empty())
+  {
+    const auto steps = std::int64_t(content.Times.size());
+    writeArray(
+      in + "/time.npy", { "time", Scalar::Float64, 1, steps, 0, content.Times.data(), {} }, false);
+  }
+  if (!writeData(in + "/point_data", content.PointData, aborted) ||
+    !writeData(in + "/cell_data", content.CellData, aborted) || (aborted && aborted()))
+  {
+    return false;
+  }
+  folder.commit();
+  return true;
 }
 
 } // namespace tipp

@@ -2,14 +2,41 @@
 #ifndef tippFlatMesh_h
 #define tippFlatMesh_h
 
-#include "Flat/RawArray.h"
+#include "Arrays/Scalar.h"
 #include "vtkTIPPIOModule.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace tipp
 {
+
+/// The size of a value in bytes.
+VTKTIPPIO_EXPORT std::size_t scalarSize(Scalar type);
+/// The name in VTK's XML files: "Int8" ... "Float64".
+VTKTIPPIO_EXPORT const char* scalarName(Scalar type);
+/// The name in NumPy: "|i1", "<f8".
+VTKTIPPIO_EXPORT const char* scalarDescr(Scalar type);
+/// The inverse of both; nullopt for any other text.
+std::optional<Scalar> scalarFromName(const std::string& name);
+std::optional<Scalar> scalarFromDescr(const std::string& descr);
+
+/// An array's tuples in a file: little-endian and contiguous.
+struct RawArray
+{
+  std::string Name;
+  std::string Path;
+  std::uint64_t Offset = 0; ///< of the first tuple from the file's start, in bytes
+  Scalar Type = Scalar::Float64;
+  int Components = 1;
+  std::int64_t Tuples = 0;
+
+  std::size_t tupleBytes() const { return std::size_t(this->Components) * scalarSize(this->Type); }
+  std::uint64_t bytes() const { return std::uint64_t(this->Tuples) * this->tupleBytes(); }
+};
 
 /// A mesh of triangles or of tetrahedra as arrays in files. Nothing is loaded, so the mesh may be
 /// larger than memory. The sizes of all arrays have been checked against their files. Point indices
@@ -43,6 +70,14 @@ VTKTIPPIO_EXPORT FlatMesh openFlatMesh(const std::string& path);
 /// Whether the path looks like a flat mesh: a folder that has cells.npy and points.npy, or a .vtu
 /// file with an appended raw, uncompressed header. Opening it may still fail.
 VTKTIPPIO_EXPORT bool isFlatMesh(const std::string& path);
+
+/// The two functions for each of the two: see FlatFolder.cxx and FlatVtu.cxx.
+///@{
+FlatMesh openFlatFolder(const std::string& path);
+bool isFlatFolder(const std::string& path);
+FlatMesh openFlatVtu(const std::string& path);
+bool isFlatVtu(const std::string& path);
+///@}
 
 } // namespace tipp
 

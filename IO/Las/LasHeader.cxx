@@ -3,11 +3,12 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Las/LasCrs.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <string>
 #include <vector>
 
 namespace tipp
@@ -15,10 +16,156 @@ namespace tipp
 namespace
 {
 
+/// The byte ranges of a LAS file's variable length records.
+struct LasRecordRanges
+{
+  std::uint64_t Begin = 0;
+  std::uint64_t End = 0;
+  std::uint32_t Count = 0;
+  std::uint64_t ExtendedBegin = 0;
+  std::uint32_t ExtendedCount = 0;
+};
+
+struct LasCrs
+{
+  std::string Text;       ///< WKT, "EPSG:code" or "EPSG:code+code"; may be empty
+  bool IsUnknown = false; ///< there is one, but neither as WKT nor as EPSG codes
+};
+
+template <typename T>
+T valueAt(const std::vector<char>& bytes, std::size_t offset)
+{
+  T value;
+  std::memcpy(&value, bytes.data() + offset, sizeof(T));
+  return value;
+}
+
+std::vector<char> readBytes(const InputFile& file, std::uint64_t offset, std::size_t size)
+{
+  std::vector<char> bytes(size);
+  file.read(offset, bytes.data(), size);
+  return bytes;
+}
+
+class CrsFinder
+{
+public:
+  explicit CrsFinder(const InputFile& file)
+    : File(file)
+  {
+  }
+
+  /// `header`: bytes before a record's content; `wide`: its length has 64 bits.
+  void search(std::uint64_t at, std::uint64_t end, std::uint32_t count, bool wide)
+  {
+    const std::size_t header = wide ? 60 : 54;
+    constexpr std::uint64_t longest = std::uint64_t(1) << 24;
+    for (std::uint32_t i = 0; i < count && at <= end && end - at >= header; ++i)
+    {
+      const std::vector<char> bytes = readBytes(this->File, at, header);
+      const std::uint64_t length =
+        wide ? valueAt<std::uint64_t>(bytes, 20) : valueAt<std::uint16_t>(bytes, 20);
+      at += header;
+      if (length > end - at)
+      {
+        return;
+      }
+      const bool isProjection = std::strncmp(bytes.data() + 2, "LASF_Projection", 16) == 0;
+      if (isProjection && length <= longest)
+      {
+        this->take(
+          valueAt<std::uint16_t>(bytes, 18), readBytes(this->File, at, std::size_t(length)));
+      }
+      at += length;
+    }
+  }
+
+  /// Later versions write WKT, possibly with keys as well.
+  LasCrs result() const
+  {
+    if (!this->Wkt.empty())
+    {
+      return { this->Wkt, false };
+    }
+    const int horizontal = this->Projected > 0 ? this->Projected : this->Geographic;
+    if (horizontal <= 0)
+    {
+      return { "", this->HasKeys };
+    }
+    const std::string vertical =
+      this->Vertical > 0 ? "+" + std::to_string(this->Vertical) : std::string();
+    return { "EPSG:" + std::to_string(horizontal) + vertical, false };
+  }
+
+private:
+  void take(int record, const std::vector<char>& content)
+  {
+    constexpr int wkt = 2112;
+    constexpr int keys = 34735;
+    if (record == wkt)
+    {
+      this->Wkt.assign(content.begin(), std::find(content.begin(), content.end(), '\0'));
+    }
+    if (record == keys)
+    {
+      this->takeKeys(content);
+    }
+  }
+
+  /// GeoTIFF's key directory has four 16-bit numbers per key: its id, the location of its value (0:
+  /// here), the count, and the value.
+  void takeKeys(const std::vector<char>& content)
+  {
+    constexpr int userDefined = 32767;
+    const std::size_t entries = content.size() / 8;
+    for (std::size_t i = 1; i < entries; ++i)
+    {
+      const auto number = [&](std::size_t j)
+      { return int(valueAt<std::uint16_t>(content, 8 * i + 2 * j)); };
+      if (number(1) != 0 || number(3) == 0)
+      {
+        continue;
+      }
+      const int code = number(3) == userDefined ? -1 : number(3);
+      int* const slot = number(0) == 3072 ? &this->Projected
+        : number(0) == 2048               ? &this->Geographic
+        : number(0) == 4096               ? &this->Vertical
+                                          : nullptr;
+      if (slot)
+      {
+        *slot = code;
+        this->HasKeys = true;
+      }
+    }
+    // With a user-defined projection, the geographic system is not that of the points.
+    this->Geographic = this->Projected < 0 ? -1 : this->Geographic;
+  }
+
+  const InputFile& File;
+  std::string Wkt;
+  int Projected = 0; ///< 0: none; -1: not an EPSG code
+  int Geographic = 0;
+  int Vertical = 0;
+  bool HasKeys = false;
+};
+
+/// Finds the coordinate reference system in the records. Damaged records count as absent, since the
+/// points can be read without them.
+LasCrs readLasCrs(const InputFile& file, const LasRecordRanges& records)
+{
+  CrsFinder finder(file);
+  finder.search(records.Begin, std::min(records.End, file.size()), records.Count, false);
+  if (records.ExtendedBegin > 0)
+  {
+    finder.search(records.ExtendedBegin, file.size(), records.ExtendedCount, true);
+  }
+  return finder.result();
+}
+
 constexpr std::size_t shortHeader = 227; ///< of versions 1.0 to 1.2
 constexpr std::size_t longHeader = 375;  ///< of version 1.4
 
-/// The fewest bytes of a record, of each format.
+/// The least number of bytes of a record, by format.
 constexpr std::array<std::size_t, 11> recordLengths = { 20, 28, 26, 34, 57, 63, 30, 36, 38, 59,
   67 };
 
@@ -127,16 +274,16 @@ LasHeader readLasHeader(const std::string& path)
   readFormat(fields, path, header);
   readTransform(fields, path, header);
   readCount(fields, path, file.size(), size, header);
-  LasRecordPlaces places;
-  places.Begin = size;
-  places.End = header.PointOffset;
-  places.Count = fields.at<std::uint32_t>(100);
+  LasRecordRanges records;
+  records.Begin = size;
+  records.End = header.PointOffset;
+  records.Count = fields.at<std::uint32_t>(100);
   if (header.Minor >= 4)
   {
-    places.ExtendedBegin = fields.at<std::uint64_t>(235);
-    places.ExtendedCount = fields.at<std::uint32_t>(243);
+    records.ExtendedBegin = fields.at<std::uint64_t>(235);
+    records.ExtendedCount = fields.at<std::uint32_t>(243);
   }
-  const LasCrs crs = readLasCrs(file, places);
+  const LasCrs crs = readLasCrs(file, records);
   header.Crs = crs.Text;
   header.HasUnknownCrs = crs.IsUnknown;
   return header;

@@ -7,12 +7,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 
 namespace tipp
 {
 
-/// What the header of a LAS file, version 1.0 to 1.4, says of its points.
+/// The header of a LAS file, version 1.0 to 1.4.
 struct LasHeader
 {
   int Minor = 0;           ///< of the version, 1.Minor
@@ -23,10 +24,10 @@ struct LasHeader
   std::int64_t Points = 0;
   std::array<double, 3> Scale{};
   std::array<double, 3> Offset{};
-  std::array<double, 6> Bounds{}; ///< as the header has them: xmin, xmax, ymin and so on
-  /// WKT or "EPSG:code" or "EPSG:code+code"; empty if there is none that is understood.
+  std::array<double, 6> Bounds{}; ///< xmin, xmax, ymin ... as the header states them
+  /// WKT, "EPSG:code" or "EPSG:code+code"; empty if there is none or it is not understood.
   std::string Crs;
-  bool HasUnknownCrs = false; ///< there are records of a CRS, but not of a usable kind
+  bool HasUnknownCrs = false; ///< there are records of a CRS, but of no supported kind
 
   bool hasTime() const { return this->Format == 1 || (this->Format >= 3); }
   bool hasColour() const
@@ -38,11 +39,27 @@ struct LasHeader
   bool isExtended() const { return this->Format >= 6; } ///< 256 classes, 15 returns
 };
 
-/// Throws IOError for a file that is not of the format or announces more than it holds.
+/// Reads and checks the header. Throws IOError if the file is not LAS or has less data than the
+/// header announces.
 VTKTIPPIO_EXPORT LasHeader readLasHeader(const std::string& path);
 
-/// .las and .laz.
+/// Whether the extension is .las or .laz.
 bool isLasExtension(const std::string& extension);
+
+/// Reads point records, in the layout of the LAS specification.
+class LasRecords
+{
+public:
+  virtual ~LasRecords() = default;
+  /// Reads records [first, first + count), which must exist. Throws IOError.
+  virtual void read(std::int64_t first, std::size_t count, char* records) = 0;
+};
+
+/// Opens the records of a LAS or LAZ file. Throws IOError, also for LAZ in a build without LASzip.
+std::unique_ptr<LasRecords> openLasRecords(const std::string& path, const LasHeader& header);
+
+/// Implements openLasRecords for a LAZ file, with LASzip.
+std::unique_ptr<LasRecords> openLazRecords(const std::string& path, const LasHeader& header);
 
 } // namespace tipp
 

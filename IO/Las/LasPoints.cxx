@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Las/LasPoints.h"
+#include "Points/FilePoints.h"
 
 #include "Files/IOError.h"
 #include "Las/LasHeader.h"
-#include "Las/LasRecords.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -130,7 +129,7 @@ public:
     , Filter(this->Header, options.Las)
     , Threads(threadCount(options.Threads))
   {
-    openLasRecords(path, this->Header); // throws before there is work
+    openLasRecords(path, this->Header); // to report errors early
     for (const LasColumn& column : columnsOf(this->Header))
     {
       if (options.wants(column.Name))
@@ -157,7 +156,7 @@ public:
 
   void rewind() override
   {
-    this->Records.reset(); // opened again when it is wanted: there may be many files
+    this->Records.reset(); // reopened when needed: there may be many files
     std::vector<Share>().swap(this->Shares);
     this->Dropped = 0;
     this->NextRecord = 0;
@@ -214,14 +213,14 @@ private:
   {
     std::int64_t First = 0;
     std::int64_t Count = 0;
-    std::size_t To = 0;            ///< where its points are in the block
-    std::size_t Points = 0;        ///< those that are selected
-    std::vector<char> Raw;         ///< some of the records
-    std::vector<const char*> Kept; ///< of these
+    std::size_t To = 0;            ///< index of its first point in the block
+    std::size_t Points = 0;        ///< number of selected points
+    std::vector<char> Raw;         ///< a part of the records
+    std::vector<const char*> Kept; ///< the selected records among these
   };
 
-  /// Appends the selected ones of the next `most` records to the points that the block has, and
-  /// returns how many it has then.
+  /// Appends the selected of the next `most` records to the block; returns the number of points it
+  /// then has.
   std::size_t append(PointBlock& block, std::size_t points, std::size_t most)
   {
     const std::int64_t count =
@@ -266,7 +265,7 @@ private:
     }
   }
 
-  /// Moves points within a block, to a place that is not behind.
+  /// Moves points within a block, towards its beginning.
   static void move(PointBlock& block, std::size_t from, std::size_t to, std::size_t count)
   {
     if (from == to || count == 0)
@@ -280,7 +279,7 @@ private:
     }
   }
 
-  /// Writes the selected points of a share to their places in the block.
+  /// Writes the selected points of a share to their positions in the block.
   void decode(Share& share, PointBlock& block) const
   {
     const std::size_t length = this->Header.RecordLength;
@@ -343,7 +342,7 @@ private:
     }
   }
 
-  /// How many points are selected before each chunk of records, and in all.
+  /// The number of points selected before each chunk of records, and in total.
   void countKept() const
   {
     if (!this->KeptBefore.empty())

@@ -3,14 +3,42 @@
 #define tippArrayFiles_h
 
 #include "Files/InputFile.h"
-#include "Flat/RawArray.h"
+#include "Flat/FlatMesh.h"
 #include "Loading/VertexLoader.h"
+#include "Parallel/ParallelFor.h"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace tipp
 {
+
+/// Divides numbers below 2^63 by an invariant divisor, at the cost of a multiplication.
+class Divisor
+{
+public:
+  explicit Divisor(std::uint64_t divisor)
+    : Value(divisor)
+    , Reciprocal(~std::uint64_t(0) / divisor)
+  {
+  }
+
+  std::uint64_t quotient(std::uint64_t dividend) const
+  {
+    __extension__ using Wide = unsigned __int128;
+    // The reciprocal is too small by less than two, so the quotient by at most one.
+    const auto low = std::uint64_t(Wide(dividend) * this->Reciprocal >> 64);
+    return low + (dividend - low * this->Value >= this->Value ? 1 : 0);
+  }
+
+private:
+  std::uint64_t Value;
+  std::uint64_t Reciprocal;
+};
 
 /// The least and greatest id; Low > High if there are no ids.
 struct IdRange
@@ -60,6 +88,54 @@ private:
   std::vector<std::unique_ptr<char[]>> Buffers;
   std::int64_t Tuples = 0;
 };
+
+/// One function per kind of Loader, over the same files; `m` is at least 1.
+std::unique_ptr<VertexLoader> makeDirectLoader(ArrayFiles files, std::int64_t m, int threads);
+std::unique_ptr<VertexLoader> makeFineLoader(ArrayFiles files, std::int64_t m, int threads);
+std::unique_ptr<VertexLoader> makeLruLoader(ArrayFiles files, std::int64_t m, std::int64_t blocks);
+std::unique_ptr<VertexLoader> makeMmapLoader(ArrayFiles files, int threads);
+
+/// to[targets[i]] = from[sources[i]]; positions are in tuples of `bytes` bytes.
+void scatterTuples(const char* from, const std::uint64_t* sources, char* to,
+  const std::uint64_t* targets, std::size_t count, std::size_t bytes);
+
+/// to[i] = from[sources[i]]; positions are in tuples of `bytes` bytes. Source is an integer of 16,
+/// 32 or 64 bits.
+template <typename Source>
+void gatherTuples(
+  const char* from, const Source* sources, char* to, std::size_t count, std::size_t bytes);
+
+/// The number of tuples whose positions are computed before they are copied.
+constexpr std::size_t tuplesAtATime = 2048;
+
+/// Copies all tuples of a chunk: tuple source(i) of the buffers, a 32-bit position, to tuple i of
+/// the output.
+template <typename Source>
+void gatherAll(std::size_t count, const ArrayFiles& files, TupleBuffers& buffers, void* const* out,
+  int threads, const Source& source)
+{
+  constexpr std::size_t share = 1 << 17;
+  parallelFor(std::int64_t((count + share - 1) / share), threads,
+    [&](std::int64_t part)
+    {
+      const std::size_t end = std::min((std::size_t(part) + 1) * share, count);
+      std::array<std::uint32_t, tuplesAtATime> sources;
+      for (std::size_t first = std::size_t(part) * share; first < end; first += tuplesAtATime)
+      {
+        const std::size_t size = std::min(tuplesAtATime, end - first);
+        for (std::size_t i = 0; i < size; ++i)
+        {
+          sources[i] = std::uint32_t(source(first + i));
+        }
+        for (std::size_t a = 0; a < files.count(); ++a)
+        {
+          const std::size_t bytes = files.tupleBytes(a);
+          gatherTuples(buffers.data(a), sources.data(), static_cast<char*>(out[a]) + first * bytes,
+            size, bytes);
+        }
+      }
+    });
+}
 
 } // namespace tipp
 

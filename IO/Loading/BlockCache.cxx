@@ -48,10 +48,10 @@ void BlockCache::linkFirst(std::uint32_t slot)
   this->Slots[this->End].After = slot;
 }
 
-BlockCache::Place BlockCache::use(std::uint64_t block)
+BlockCache::Found BlockCache::use(std::uint64_t block)
 {
   const std::size_t mask = this->Table.size() - 1;
-  std::size_t at = this->home(block);
+  std::size_t at = this->bucketOf(block);
   for (; this->Table[at] != empty; at = (at + 1) & mask)
   {
     const std::uint32_t slot = this->Table[at];
@@ -70,7 +70,7 @@ BlockCache::Place BlockCache::use(std::uint64_t block)
   {
     this->erase(this->Slots[slot].Block);
     // Erasing may have moved the entry that was found.
-    for (at = this->home(block); this->Table[at] != empty; at = (at + 1) & mask)
+    for (at = this->bucketOf(block); this->Table[at] != empty; at = (at + 1) & mask)
     {
     }
   }
@@ -92,15 +92,15 @@ void BlockCache::forget(std::uint32_t slot)
 void BlockCache::erase(std::uint64_t block)
 {
   const std::size_t mask = this->Table.size() - 1;
-  std::size_t gap = this->home(block);
+  std::size_t gap = this->bucketOf(block);
   while (this->Slots[this->Table[gap]].Block != block)
   {
     gap = (gap + 1) & mask;
   }
   for (std::size_t at = (gap + 1) & mask; this->Table[at] != empty; at = (at + 1) & mask)
   {
-    const std::size_t home = this->home(this->Slots[this->Table[at]].Block);
-    if (((at - home) & mask) >= ((at - gap) & mask))
+    const std::size_t bucket = this->bucketOf(this->Slots[this->Table[at]].Block);
+    if (((at - bucket) & mask) >= ((at - gap) & mask))
     {
       this->Table[gap] = this->Table[at];
       gap = at;

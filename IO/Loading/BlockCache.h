@@ -2,7 +2,10 @@
 #ifndef tippBlockCache_h
 #define tippBlockCache_h
 
+#include "Loading/ArrayFiles.h"
+
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace tipp
@@ -13,7 +16,7 @@ namespace tipp
 class BlockCache
 {
 public:
-  struct Place
+  struct Found
   {
     std::uint32_t Slot;
     bool Miss; ///< the slot is assigned to the block, but the caller has yet to fill it
@@ -24,13 +27,16 @@ public:
 
   /// Returns the block's slot and makes it the most recently used one. A block that is not cached
   /// replaces the least recently used one.
-  Place use(std::uint64_t block);
+  Found use(std::uint64_t block);
 
   /// Empties the slot; call it if the block of a miss could not be read.
   void forget(std::uint32_t slot);
 
   /// Prefetches the table entry that use(block) will read first.
-  void prefetch(std::uint64_t block) const { __builtin_prefetch(&this->Table[this->home(block)]); }
+  void prefetch(std::uint64_t block) const
+  {
+    __builtin_prefetch(&this->Table[this->bucketOf(block)]);
+  }
 
 private:
   struct Slot
@@ -40,7 +46,7 @@ private:
     std::uint32_t After;
   };
 
-  std::size_t home(std::uint64_t block) const
+  std::size_t bucketOf(std::uint64_t block) const
   {
     return std::size_t(block * 0x9E3779B97F4A7C15U >> this->TableShift);
   }
@@ -54,6 +60,36 @@ private:
   std::vector<std::uint32_t> Table;
   int TableShift;
   std::uint32_t End; ///< the sentinel's slot
+};
+
+/// An LRU cache of single tuples, with a fixed number of slots.
+class TupleCache
+{
+public:
+  TupleCache(const ArrayFiles& files, std::uint32_t slots)
+    : Slots(slots)
+  {
+    this->Tuples.resize(files, slots);
+  }
+
+  /// Returns the tuple's slot. After a miss the caller must fill it; if that fails, the cache must
+  /// not be used any more.
+  BlockCache::Found use(std::int64_t id) { return this->Slots.use(std::uint64_t(id)); }
+
+  void fill(std::uint32_t slot, const ArrayFiles& files, TupleBuffers& from, std::size_t index)
+  {
+    for (std::size_t a = 0; a < files.count(); ++a)
+    {
+      const std::size_t bytes = files.tupleBytes(a);
+      std::memcpy(this->Tuples.data(a) + slot * bytes, from.data(a) + index * bytes, bytes);
+    }
+  }
+
+  TupleBuffers& tuples() { return this->Tuples; }
+
+private:
+  BlockCache Slots;
+  TupleBuffers Tuples;
 };
 
 } // namespace tipp

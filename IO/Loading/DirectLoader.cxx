@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Direct Load: Algorithm 4 of the dissertation "Efficient Generating and Processing of Large-Scale
 // Unstructured Meshes".
-#include "Loading/Divisor.h"
-#include "Loading/GatherAll.h"
+#include "Loading/ArrayFiles.h"
 #include "Loading/GroupedMoves.h"
-#include "Loading/Loaders.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Direct Load with a fine bitmap: what is active is known for about 1,024 vertices rather than for
-// M, so that a chunk whose vertices lie together reads little else; active runs that are near each
-// other are read at once, and packed up to M vertices a pass. Blocks of a single pass stay for the
-// next chunks; of vertices that are few and far apart each is read by itself, and kept likewise.
-// Where all vertices fit into M, all that is read stays from when as much has been read as there
-// is.
-#include "Loading/ActiveSegments.h"
-#include "Loading/BlockPlaces.h"
-#include "Loading/CopyTuples.h"
-#include "Loading/GatherAll.h"
+// Direct Load with a fine bitmap: one bit per 1,024 or so vertices instead of one per M, so that a
+// chunk whose vertices are close together reads little else. Active runs near each other are read
+// at once and packed, up to M vertices a pass. Blocks of a single pass stay in memory for the next
+// chunks. If the vertices are few and far apart, each is read by itself and cached. If all vertices
+// fit into M, all blocks are kept once as many bytes have been read as there are.
+#include "Loading/ArrayFiles.h"
+#include "Loading/BlockCache.h"
 #include "Loading/GroupedMoves.h"
-#include "Loading/Loaders.h"
+#include "Loading/HeldBlocks.h"
 #include "Loading/Runs.h"
-#include "Loading/TupleCache.h"
-#include "Loading/UniqueIds.h"
 
 #include <algorithm>
 #include <limits>
@@ -277,7 +272,7 @@ private:
     }
     const RunPlan plan(runsOfIds(unique.Sorted, this->Gap), this->M, 1, chunk.Low);
     // position of each distinct id, and its group
-    std::vector<std::uint32_t> places(unique.Sorted.size());
+    std::vector<std::uint32_t> positions(unique.Sorted.size());
     std::vector<std::uint32_t> groups(unique.Sorted.size());
     std::size_t run = 0;
     for (const auto& [id, number] : unique.Sorted)
@@ -286,21 +281,21 @@ private:
       {
         ++run;
       }
-      places[number] = plan.Packed[run] + std::uint32_t(id - plan.Runs[run].First);
+      positions[number] = plan.Packed[run] + std::uint32_t(id - plan.Runs[run].First);
       groups[number] = plan.GroupOf[run];
     }
     if (plan.groups() == 1)
     {
       this->readGroup(plan, 0);
       gatherAll(chunk.Count, this->Files, this->Buffers, out, this->Threads,
-        [&](std::size_t i) { return std::uint64_t(places[unique.Numbers[i]]); });
+        [&](std::size_t i) { return std::uint64_t(positions[unique.Numbers[i]]); });
       return;
     }
     this->Moves.sort(chunk.Count, plan.groups(), this->Threads,
       [&](std::size_t i)
       {
         const std::uint32_t number = unique.Numbers[i];
-        return std::make_pair(groups[number], places[number]);
+        return std::make_pair(groups[number], positions[number]);
       });
     this->loadMoves(plan, out);
   }
@@ -325,11 +320,11 @@ private:
     std::vector<std::pair<std::int64_t, std::uint32_t>> missing; // ids and their slots
     for (const auto& [id, number] : unique.Sorted)
     {
-      const BlockCache::Place place = this->Cache->use(id);
-      slots[number] = place.Slot;
-      if (place.Miss)
+      const BlockCache::Found found = this->Cache->use(id);
+      slots[number] = found.Slot;
+      if (found.Miss)
       {
-        missing.emplace_back(id, place.Slot);
+        missing.emplace_back(id, found.Slot);
       }
     }
     try
@@ -414,7 +409,7 @@ private:
   int Threads;
   std::int64_t Gap; ///< in tuples
   int Shift;        ///< a block is 2^Shift tuples
-  BlockPlaces Held; ///< blocks in the buffers
+  HeldBlocks Held;  ///< blocks in the buffers
   LoadCounters Counts;
   TupleBuffers Buffers;
   std::int64_t Spent = 0;            ///< approximate number of bytes read

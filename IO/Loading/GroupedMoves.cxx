@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Loading/GroupedMoves.h"
 
-#include "Loading/CopyTuples.h"
+#include "Loading/ArrayFiles.h"
 
 #include <limits>
 #include <numeric>
@@ -35,11 +35,11 @@ void GroupedMoves::reset(std::size_t count, std::size_t groups)
   this->Starts.resize(this->Blocks * (groups + 1));
   this->InOrder.resize(this->Blocks);
   this->Sources.reserve(count);
-  this->Places.reserve(this->isWide() ? 0 : count);
-  this->WidePlaces.reserve(this->isWide() ? count : 0);
+  this->Positions.reserve(this->isWide() ? 0 : count);
+  this->WidePositions.reserve(this->isWide() ? count : 0);
 }
 
-void GroupedMoves::place(std::size_t block, BlockSort& own)
+void GroupedMoves::sortByGroup(std::size_t block, BlockSort& own)
 {
   const std::size_t size = this->sizeOf(block);
   const std::size_t first = block * this->BlockSize;
@@ -55,23 +55,23 @@ void GroupedMoves::place(std::size_t block, BlockSort& own)
   }
   else if (this->isWide())
   {
-    this->place(own, size, sources, this->WidePlaces.data() + first);
+    this->sortByGroup(own, size, sources, this->WidePositions.data() + first);
   }
   else
   {
-    this->place(own, size, sources, this->Places.data() + first);
+    this->sortByGroup(own, size, sources, this->Positions.data() + first);
   }
 }
 
-template <typename Place>
-void GroupedMoves::place(
-  BlockSort& own, std::size_t size, std::uint32_t* sources, Place* places) const
+template <typename Position>
+void GroupedMoves::sortByGroup(
+  BlockSort& own, std::size_t size, std::uint32_t* sources, Position* positions) const
 {
   for (std::size_t i = 0; i < size; ++i)
   {
-    const std::uint32_t place = own.Next[own.GroupOf[i]]++;
-    sources[place] = own.Sources[i];
-    places[i] = Place(place);
+    const std::uint32_t position = own.Next[own.GroupOf[i]]++;
+    sources[position] = own.Sources[i];
+    positions[i] = Position(position);
   }
 }
 
@@ -139,11 +139,11 @@ void GroupedMoves::complete(std::size_t block, std::size_t group, const char* fr
   std::copy_n(to + end * bytes, (size - end) * bytes, room.data() + end * bytes);
   if (this->isWide())
   {
-    gatherTuples(room.data(), this->WidePlaces.data() + first, to, size, bytes);
+    gatherTuples(room.data(), this->WidePositions.data() + first, to, size, bytes);
   }
   else
   {
-    gatherTuples(room.data(), this->Places.data() + first, to, size, bytes);
+    gatherTuples(room.data(), this->Positions.data() + first, to, size, bytes);
   }
 }
 

@@ -63,7 +63,7 @@ public:
           own.Sources[i] = source;
           ++own.Next[std::size_t(group) + 1];
         }
-        this->place(std::size_t(block), own);
+        this->sortByGroup(std::size_t(block), own);
       });
   }
 
@@ -87,9 +87,10 @@ private:
   };
 
   void reset(std::size_t count, std::size_t groups);
-  void place(std::size_t block, BlockSort& own);
-  template <typename Place>
-  void place(BlockSort& own, std::size_t size, std::uint32_t* sources, Place* places) const;
+  void sortByGroup(std::size_t block, BlockSort& own);
+  template <typename Position>
+  void sortByGroup(
+    BlockSort& own, std::size_t size, std::uint32_t* sources, Position* positions) const;
   void complete(std::size_t block, std::size_t group, const char* from, char* to, std::size_t bytes,
     std::vector<char>& room) const;
 
@@ -114,8 +115,8 @@ private:
   /// Positions in the buffers, for each block sorted by group.
   RawVector<std::uint32_t> Sources;
   /// The position of each id within its block; isWide says which of the two arrays is in use.
-  RawVector<std::uint16_t> Places;
-  RawVector<std::uint32_t> WidePlaces;
+  RawVector<std::uint16_t> Positions;
+  RawVector<std::uint32_t> WidePositions;
   std::vector<std::uint32_t> Starts; ///< of each group in each block, and the block's size
   std::vector<char> InOrder;         ///< per block: it has one group only, and so no positions
 };

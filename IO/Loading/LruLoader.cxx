@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The cache that Direct Load is compared with (dissertation, section 4.5.1): M vertices in blocks
 // of equal size, the least recently used one being replaced.
+#include "Loading/ArrayFiles.h"
 #include "Loading/BlockCache.h"
-#include "Loading/Divisor.h"
-#include "Loading/Loaders.h"
 
 #include <algorithm>
 #include <cstring>
@@ -60,13 +59,13 @@ private:
 
   std::uint32_t slotOf(std::uint64_t block)
   {
-    const BlockCache::Place place = this->Cache.use(block);
-    if (place.Miss)
+    const BlockCache::Found found = this->Cache.use(block);
+    if (found.Miss)
     {
       ++this->Counts.CacheMisses;
-      this->readBlock(std::int64_t(block) * this->Block, place.Slot);
+      this->readBlock(std::int64_t(block) * this->Block, found.Slot);
     }
-    return place.Slot;
+    return found.Slot;
   }
 
   void readBlock(std::int64_t first, std::uint32_t slot)

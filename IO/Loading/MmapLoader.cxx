@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/IOError.h"
-#include "Loading/CopyTuples.h"
-#include "Loading/Loaders.h"
+#include "Loading/ArrayFiles.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>

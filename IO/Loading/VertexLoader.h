@@ -2,7 +2,7 @@
 #ifndef tippVertexLoader_h
 #define tippVertexLoader_h
 
-#include "Flat/RawArray.h"
+#include "Flat/FlatMesh.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>

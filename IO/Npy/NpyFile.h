@@ -3,16 +3,39 @@
 #define tippNpyFile_h
 
 #include "Files/InputFile.h"
-#include "Files/PendingFile.h"
-#include "Npy/NpyHeader.h"
+#include "Files/PendingOutput.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tipp
 {
+
+class InputFile;
+
+/// The dictionary at the start of an .npy file.
+struct NpyHeader
+{
+  std::string Descr; ///< as "<f8"
+  bool FortranOrder = false;
+  std::vector<std::int64_t> Shape;
+};
+
+/// Parses the dictionary; nullopt unless it has exactly the three keys with plain values, and no
+/// negative extent.
+std::optional<NpyHeader> parseNpyHeader(std::string_view text);
+
+/// Reads the dictionary of a file of version 1 to 3 and the offset of its data in bytes; throws
+/// IOError.
+NpyHeader readNpyHeader(const InputFile& file, std::uint64_t& dataOffset);
+
+/// Returns the bytes before the data of a file of version 1; the data start at a multiple of 64
+/// bytes.
+std::string npyFileStart(const std::string& descr, const std::vector<std::int64_t>& shape);
 
 /// Reads a table of numbers from NumPy's .npy format, versions 1 to 3
 /// (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html): rows x columns,
@@ -69,6 +92,11 @@ private:
   PendingFile Pending;
   std::uint64_t End = 0;
 };
+
+/// Writes x and y interleaved as an .npy file of n x 2 float64; `before` as for PendingFile. Throws
+/// IOError.
+VTKTIPPIO_EXPORT void writePoints(const std::string& path, const std::vector<double>& xy,
+  const std::optional<PathState>& before = std::nullopt);
 
 } // namespace tipp
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/NeighborIds.h"
 
-#include "Meshes/FindNeighbors.h"
+#include "Meshes/Triangles.h"
 #include "Partitioned/ColumnWriter.h"
 #include "Partitioned/PieceFile.h"
 

@@ -2,7 +2,7 @@
 #ifndef tippPartitionedMesh_h
 #define tippPartitionedMesh_h
 
-#include "Flat/RawArray.h"
+#include "Flat/FlatMesh.h"
 #include "vtkTIPPIOModule.h"
 
 #include <array>

@@ -6,7 +6,7 @@
 #include "Partitioned/GrowingPiece.h"
 #include "Partitioned/PieceFile.h"
 #include "Partitioned/PieceTuples.h"
-#include "Partitioning/LentSets.h"
+#include "Partitioning/SharingSets.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -99,7 +99,7 @@ private:
 
   void orderPoints(const PointRowLayout& rows)
   {
-    this->Places = this->Sets.places();
+    this->Places = this->Sets.sortedIndices();
     this->InOrder.resize(this->Places.size());
     for (std::size_t set = 0; set < this->Places.size(); ++set)
     {
@@ -156,7 +156,7 @@ private:
   }
 
   const GrowingPiece& Of;
-  LentSets Sets;
+  SharingSets Sets;
   std::vector<int> SetOf; ///< of each point
   std::vector<int> CellSets;
   std::vector<int> Places; ///< of sets, in lexicographic order

@@ -2,7 +2,7 @@
 #ifndef tippPublishPieces_h
 #define tippPublishPieces_h
 
-#include "Files/PendingFolder.h"
+#include "Files/PendingOutput.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceTable.h"
 #include "vtkTIPPIOModule.h"

@@ -3,9 +3,9 @@
 
 #include "Files/IOError.h"
 #include "OpenCL/Devices.h"
+#include "Partitioning/CellCounter.h"
 #include "Partitioning/Ranks.h"
-#include "Partitioning/SplitTree.h"
-#include "Partitioning/TreeCounting.h"
+#include "Partitioning/RefinementTree.h"
 
 #include <algorithm>
 #include <string>
@@ -33,12 +33,12 @@ public:
 
   PartitionTree run()
   {
-    SplitTree tree(this->Options.Dimension, this->Domain);
+    RefinementTree tree(this->Options.Dimension, this->Domain);
     for (int pass = 1;; ++pass)
     {
       NodeCounts counts;
       std::string structure;
-      SplitTree mine = tree;
+      RefinementTree mine = tree;
       this->Team.attempt(
         [&]
         {
@@ -52,7 +52,7 @@ public:
       const std::string merged = this->mergeStructures(structure);
       if (merged != tree.structure())
       {
-        tree = SplitTree(this->Options.Dimension, this->Domain, merged);
+        tree = RefinementTree(this->Options.Dimension, this->Domain, merged);
         continue;
       }
       counts.Meeting = this->Team.sum(counts.Meeting);
@@ -88,9 +88,9 @@ private:
     return std::max<std::int64_t>(pass == 1 ? early : part, 1);
   }
 
-  NodeCounts countShare(SplitTree& tree, std::int64_t limit)
+  NodeCounts countShare(RefinementTree& tree, std::int64_t limit)
   {
-    TreeCounting counting(tree, this->MaxDepth, this->Options.Threads);
+    CellCounter counting(tree, this->MaxDepth, this->Options.Threads);
     counting.add({ this->Cells.Dimension, this->Cells.Corners, nullptr, 0 }, 0, limit);
     for (std::int64_t first = this->Share.first; first < this->Share.second;
          first += this->ChunkCells)
@@ -128,18 +128,18 @@ private:
     const int childCount = BoxTiling::childCount(this->Options.Dimension, this->Domain);
     return this->Team.broadcast(this->Team.reduce(mine,
       [childCount](const std::string& a, const std::string& b)
-      { return SplitTree::merged(a, b, childCount); }));
+      { return RefinementTree::merged(a, b, childCount); }));
   }
 
   // Splits leaves whose total over all ranks exceeds the threshold. The result is the same on all
   // ranks.
-  bool splitLargeLeaves(SplitTree& tree, const NodeCounts& counts) const
+  bool splitLargeLeaves(RefinementTree& tree, const NodeCounts& counts) const
   {
     bool any = false;
-    for (std::size_t place = 0, end = tree.size(); place < end; ++place)
+    for (std::size_t index = 0, end = tree.size(); index < end; ++index)
     {
-      const auto node = static_cast<std::int32_t>(place);
-      if (tree.isLeaf(node) && counts.Fitting[place] > this->Options.Threshold &&
+      const auto node = static_cast<std::int32_t>(index);
+      if (tree.isLeaf(node) && counts.Fitting[index] > this->Options.Threshold &&
         tree.canSplit(node, this->MaxDepth))
       {
         tree.split(node);
@@ -149,7 +149,7 @@ private:
     return any;
   }
 
-  PartitionTree finish(const SplitTree& tree, const NodeCounts& counts, int passes) const
+  PartitionTree finish(const RefinementTree& tree, const NodeCounts& counts, int passes) const
   {
     std::vector<std::int32_t> leaves;
     PartitionTree result = {

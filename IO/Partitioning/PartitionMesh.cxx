@@ -2,59 +2,63 @@
 #include "Partitioning/PartitionMesh.h"
 
 #include "Files/IOError.h"
+#include "Files/PendingOutput.h"
+#include "Files/TemporaryFiles.h"
 #include "Parallel/ParallelFor.h"
+#include "Parallel/Poll.h"
 #include "Parallel/Stopwatch.h"
+#include "Partitioned/PieceLayout.h"
 #include "Partitioned/PublishPieces.h"
-#include "Partitioning/AssemblePieces.h"
-#include "Partitioning/DescribeArrays.h"
-#include "Partitioning/DistributeCells.h"
-#include "Partitioning/DistributePoints.h"
-#include "Partitioning/MakeTiling.h"
-#include "Partitioning/PartitionRun.h"
-#include "Partitioning/SurveyPoints.h"
+#include "Partitioning/MeshTiling.h"
+#include "Partitioning/PartitionJob.h"
+#include "Partitioning/Ranks.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <optional>
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace tipp
 {
 
 namespace fs = std::filesystem;
 
-PartitionRun::PartitionRun(const FlatMesh& mesh, const PartitionOptions& options,
-  const Ranks& ranks, const std::string& folder)
-  : Mesh(mesh)
-  , Options(options)
-  , Team(ranks)
-  , Threads(threadCount(options.Threads))
-  , Folder(folder)
+std::vector<RawArray> describeArrays(const FlatMesh& mesh, PartitionedMesh& result)
 {
-}
-
-RawArray PartitionRun::homes() const
-{
-  RawArray array;
-  array.Name = "homes";
-  array.Path = this->scratch("homes");
-  array.Type = Scalar::Int32;
-  array.Tuples = this->Mesh.Points.Tuples;
-  return array;
-}
-
-LoaderOptions PartitionRun::loaderOptions() const
-{
-  LoaderOptions options = this->Options.Loading;
-  options.MemoryLimit = this->Options.MemoryLimit / 4;
-  options.Threads = this->Threads;
-  return options;
-}
-
-void PartitionRun::report(double fraction)
-{
-  this->Fraction = fraction;
-  poll();
+  std::vector<RawArray> arrays;
+  std::set<std::pair<bool, std::string>> names{ { true, pointIdsName }, { true, ghostsName },
+    { false, cellIdsName }, { false, ghostsName } };
+  const auto add = [&](const RawArray& array, bool ofPoints, int step)
+  {
+    const StoredArray stored{ array.Name, ofPoints, array.Type, array.Components, step };
+    if (!names.emplace(ofPoints, storedName(stored)).second)
+    {
+      throw IOError(mesh.Path,
+        "has two arrays named " + storedName(stored) +
+          ", or one named as the partitioned mesh names its own; rename it.");
+    }
+    result.Arrays.push_back(stored);
+    arrays.push_back(array);
+  };
+  for (const bool ofPoints : { true, false })
+  {
+    for (const RawArray& array : ofPoints ? mesh.PointData : mesh.CellData)
+    {
+      add(array, ofPoints, -1);
+    }
+    for (const std::vector<RawArray>& series : ofPoints ? mesh.PointSeries : mesh.CellSeries)
+    {
+      for (std::size_t step = 0; step < series.size(); ++step)
+      {
+        add(series[step], ofPoints, int(step));
+      }
+    }
+  }
+  return arrays;
 }
 
 namespace
@@ -70,23 +74,23 @@ std::size_t tupleBytes(const std::vector<RawArray>& arrays)
   return bytes;
 }
 
-void layOutRows(PartitionRun& run)
+void layOutRows(PartitionJob& job)
 {
-  RowLayout& rows = run.Rows;
-  rows.Corners = run.Mesh.CellSize;
-  rows.Dimension = run.Mesh.CellSize - 1;
+  RowLayout& rows = job.Rows;
+  rows.Corners = job.Mesh.CellSize;
+  rows.Dimension = job.Mesh.CellSize - 1;
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-  rows.IdBytes = std::max(run.Mesh.Points.Tuples, run.Mesh.Cells.Tuples) <= most ? 4 : 8;
+  rows.IdBytes = std::max(job.Mesh.Points.Tuples, job.Mesh.Cells.Tuples) <= most ? 4 : 8;
   rows.CellData = rows.IdBytes * std::size_t(1 + rows.Corners);
-  rows.CellBytes = rows.CellData + tupleBytes(run.CellData);
-  rows.PointBytes = 8 + run.Mesh.Points.tupleBytes() + tupleBytes(run.PointData);
+  rows.CellBytes = rows.CellData + tupleBytes(job.CellData);
+  rows.PointBytes = 8 + job.Mesh.Points.tupleBytes() + tupleBytes(job.PointData);
 }
 
 /// A chunk may take a quarter of the memory limit, like the loader.
-void chooseChunks(PartitionRun& run)
+void chooseChunks(PartitionJob& job)
 {
-  const RowLayout& rows = run.Rows;
-  const std::uint64_t share = std::max<std::uint64_t>(run.Options.MemoryLimit / 4, 1);
+  const RowLayout& rows = job.Rows;
+  const std::uint64_t share = std::max<std::uint64_t>(job.Options.MemoryLimit / 4, 1);
   const std::size_t corners = std::size_t(rows.Corners);
   const std::size_t perCell = corners * 12 + 12 + 2 * rows.CellBytes;
   const std::size_t perPoint = 20 + 2 * rows.PointBytes;
@@ -96,28 +100,28 @@ void chooseChunks(PartitionRun& run)
     const auto fitting = std::int64_t(share / bytes);
     return asked > 0 ? std::min(asked, most) : std::clamp<std::int64_t>(fitting, 1024, most);
   };
-  run.ChunkCells = choose(run.Options.ChunkCells, perCell);
-  run.ChunkPoints = choose(run.Options.ChunkPoints, perPoint);
+  job.ChunkCells = choose(job.Options.ChunkCells, perCell);
+  job.ChunkPoints = choose(job.Options.ChunkPoints, perPoint);
 }
 
-/// What the mesh and the spilled rows take at most, but for borders.
-std::uint64_t neededBytes(const PartitionRun& run)
+/// An upper bound of the bytes of the mesh and the spilled rows, without those at borders.
+std::uint64_t neededBytes(const PartitionJob& job)
 {
-  const auto points = std::uint64_t(run.Mesh.Points.Tuples);
-  const auto cells = std::uint64_t(run.Mesh.Cells.Tuples);
-  const auto corners = std::uint64_t(run.Rows.Corners);
-  const std::uint64_t spilled = cells * run.Rows.CellBytes + points * (run.Rows.PointBytes + 4);
+  const auto points = std::uint64_t(job.Mesh.Points.Tuples);
+  const auto cells = std::uint64_t(job.Mesh.Cells.Tuples);
+  const auto corners = std::uint64_t(job.Rows.Corners);
+  const std::uint64_t spilled = cells * job.Rows.CellBytes + points * (job.Rows.PointBytes + 4);
   const std::uint64_t stored =
-    cells * (corners * 4 + 4 + 1 + 8 + 1 + run.Rows.CellBytes - run.Rows.CellData) +
-    points * (3 * scalarSize(run.Mesh.Points.Type) + 9 + tupleBytes(run.PointData));
+    cells * (corners * 4 + 4 + 1 + 8 + 1 + job.Rows.CellBytes - job.Rows.CellData) +
+    points * (3 * scalarSize(job.Mesh.Points.Type) + 9 + tupleBytes(job.PointData));
   return spilled + stored;
 }
 
-void requireSpace(const PartitionRun& run, const std::string& path)
+void requireSpace(const PartitionJob& job, const std::string& path)
 {
   std::error_code failure;
-  const fs::space_info space = fs::space(run.Folder, failure);
-  const std::uint64_t needed = neededBytes(run);
+  const fs::space_info space = fs::space(job.Folder, failure);
+  const std::uint64_t needed = neededBytes(job);
   if (!failure && space.available < needed)
   {
     throw IOError(path,
@@ -128,21 +132,21 @@ void requireSpace(const PartitionRun& run, const std::string& path)
   }
 }
 
-void cutDomain(PartitionRun& run)
+void cutDomain(PartitionJob& job)
 {
-  const Box3 domain = surveyPoints(run.Mesh, run.Team, run.Threads);
+  const Box3 domain = boundsOfPoints(job.Mesh, job.Team, job.Threads);
   // A chunk here has its coordinates in memory twice beside its ids.
-  const std::int64_t chunk = std::max<std::int64_t>(1, run.ChunkCells / 4);
-  run.Tiling.emplace(makeTiling(
-    run.Mesh, run.Options.Tiling, run.loaderOptions(), chunk, run.Threads, run.Team, domain));
-  setPieces(run.Result, domain, *run.Tiling);
-  writeHomes(run.Mesh, *run.Tiling, run.homes().Path, run.Team, run.Threads);
+  const std::int64_t chunk = std::max<std::int64_t>(1, job.ChunkCells / 4);
+  job.Tiling.emplace(makeTiling(
+    job.Mesh, job.Options.Tiling, job.loaderOptions(), chunk, job.Threads, job.Team, domain));
+  setPieces(job.Result, domain, *job.Tiling);
+  writeOwners(job.Mesh, *job.Tiling, job.owners().Path, job.Team, job.Threads);
 }
 
-void removeScratch(const PartitionRun& run)
+void removeScratch(const PartitionJob& job)
 {
   std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(run.Folder, ignored))
+  for (const fs::directory_entry& entry : fs::directory_iterator(job.Folder, ignored))
   {
     if (entry.path().filename().string()[0] == '.')
     {
@@ -151,30 +155,30 @@ void removeScratch(const PartitionRun& run)
   }
 }
 
-void prepare(PartitionRun& run, const std::string& path)
+void prepare(PartitionJob& job, const std::string& path)
 {
-  const FlatMesh& mesh = run.Mesh;
+  const FlatMesh& mesh = job.Mesh;
   if (mesh.Points.Tuples == 0)
   {
     throw IOError(mesh.Path, "has no points, so there is nothing to partition.");
   }
-  PartitionedMesh& result = run.Result;
-  result.Path = run.Folder;
+  PartitionedMesh& result = job.Result;
+  result.Path = job.Folder;
   result.CellSize = mesh.CellSize;
   result.PointType = mesh.Points.Type;
-  result.Duplicated = run.Options.DuplicateBorrowers;
+  result.Duplicated = job.Options.DuplicateBorrowers;
   result.Points = mesh.Points.Tuples;
   result.Cells = mesh.Cells.Tuples;
-  result.Tiling = run.Options.Tiling.text(mesh.CellSize - 1);
+  result.Tiling = job.Options.Tiling.text(mesh.CellSize - 1);
   result.Times = mesh.Times;
   const std::vector<RawArray> arrays = describeArrays(mesh, result);
   for (std::size_t i = 0; i < arrays.size(); ++i)
   {
-    (result.Arrays[i].OfPoints ? run.PointData : run.CellData).push_back(arrays[i]);
+    (result.Arrays[i].OfPoints ? job.PointData : job.CellData).push_back(arrays[i]);
   }
-  layOutRows(run);
-  chooseChunks(run);
-  requireSpace(run, path);
+  layOutRows(job);
+  chooseChunks(job);
+  requireSpace(job, path);
 }
 
 /// The user knows the mesh's name, but not that of its temporary folder.
@@ -188,10 +192,10 @@ std::string withName(std::string text, const std::string& folder, const std::str
   return text;
 }
 
-void completeStatistics(PartitionRun& run)
+void completeStatistics(PartitionJob& job)
 {
-  PartitionStatistics& all = run.Statistics;
-  const std::vector<std::int64_t> sums = run.Team.sum({ all.BorderCells, all.BorrowedCells,
+  PartitionStatistics& all = job.Statistics;
+  const std::vector<std::int64_t> sums = job.Team.sum({ all.BorderCells, all.BorrowedCells,
     all.CopiedPoints, std::int64_t(all.SpilledBytes), all.Loads.Reads, all.Loads.Bytes,
     all.Loads.UsefulBytes, all.Loads.Passes, all.Loads.CacheMisses });
   all.BorderCells = sums[0];
@@ -199,27 +203,27 @@ void completeStatistics(PartitionRun& run)
   all.CopiedPoints = sums[2];
   all.SpilledBytes = std::uint64_t(sums[3]);
   all.Loads = { sums[4], sums[5], sums[6], sums[7], sums[8] };
-  all.Points = run.Mesh.Points.Tuples;
-  all.Cells = run.Mesh.Cells.Tuples;
-  all.Pieces = std::int64_t(run.pieces());
-  all.Ranks = run.Team.count();
-  all.Threads = run.Threads;
+  all.Points = job.Mesh.Points.Tuples;
+  all.Cells = job.Mesh.Cells.Tuples;
+  all.Pieces = std::int64_t(job.pieces());
+  all.Ranks = job.Team.count();
+  all.Threads = job.Threads;
 }
 
-void runPhases(PartitionRun& run, const std::string& path)
+void runPhases(PartitionJob& job, const std::string& path)
 {
   Stopwatch watch;
   const auto endPhase = [&](const char* name) {
-    run.Statistics.Phases.push_back({ name, watch.restart() });
+    job.Statistics.Phases.push_back({ name, watch.restart() });
   };
-  run.Team.attempt([&] { prepare(run, path); });
-  cutDomain(run);
+  job.Team.attempt([&] { prepare(job, path); });
+  cutDomain(job);
   endPhase("tile");
-  distributeCells(run);
+  distributeCells(job);
   endPhase("classify cells");
-  distributePoints(run);
+  distributePoints(job);
   endPhase("distribute points");
-  assemblePieces(run);
+  writePieces(job);
   endPhase("write pieces");
 }
 
@@ -239,40 +243,124 @@ PartitionStatistics partitionMesh(const FlatMesh& mesh, const std::string& path,
         fs::create_directory(pending->temporaryPath() + "/pieces");
       }
     });
-  PartitionRun run(mesh, options, ranks, ranks.broadcast(pending ? pending->temporaryPath() : ""));
+  PartitionJob job(mesh, options, ranks, ranks.broadcast(pending ? pending->temporaryPath() : ""));
   const PollScope polled(
-    [&run] { return !run.Options.Progress || run.Options.Progress(run.Fraction); });
+    [&job] { return !job.Options.Progress || job.Options.Progress(job.Fraction); });
   try
   {
-    runPhases(run, path);
+    runPhases(job, path);
   }
   catch (const WorkAborted&)
   {
-    run.Statistics.Aborted = true;
-    return run.Statistics;
+    job.Statistics.Aborted = true;
+    return job.Statistics;
   }
   catch (const IOError& error)
   {
-    throw IOError(withName(error.what(), run.Folder, path));
+    throw IOError(withName(error.what(), job.Folder, path));
   }
   Stopwatch watch;
-  completeStatistics(run);
+  completeStatistics(job);
   ranks.attempt(
     [&]
     {
       if (pending)
       {
-        removeScratch(run);
+        removeScratch(job);
         pending->commit();
       }
     });
-  run.Statistics.Phases.push_back({ "publish", watch.restart() });
+  job.Statistics.Phases.push_back({ "publish", watch.restart() });
   if (ranks.isFirst() && options.Progress)
   {
     // The mesh is already published, so a request to abort is ignored.
     static_cast<void>(options.Progress(1));
   }
-  return run.Statistics;
+  return job.Statistics;
+}
+
+namespace
+{
+
+/// Removes the ids of the partitioned mesh that the data set was read from: the new one gets its
+/// own.
+void removeOwnIds(FlatContent& content)
+{
+  const auto drop = [](std::vector<FlatArray>& arrays, const std::string& name)
+  {
+    arrays.erase(std::remove_if(arrays.begin(), arrays.end(),
+                   [&](const FlatArray& array) { return array.Name == name; }),
+      arrays.end());
+  };
+  drop(content.PointData, pointIdsName);
+  drop(content.CellData, cellIdsName);
+}
+
+/// Replaces paths in the temporary flat mesh by the input's name.
+std::string inNameOf(std::string message, const std::string& folder, const std::string& name)
+{
+  const std::size_t begin = message.find(folder);
+  if (begin != std::string::npos)
+  {
+    const std::size_t end = std::min(message.find_first_of(":,", begin), message.size());
+    message.replace(begin, end - begin, name);
+  }
+  return message;
+}
+
+} // namespace
+
+PartitionStatistics partitionInMemory(const std::function<FlatContent()>& make,
+  const std::string& name, const std::string& output, const PartitionOptions& options,
+  vtkMultiProcessController* controller)
+{
+  const Ranks ranks(controller);
+  const PollScope polled([&options] { return !options.Progress || options.Progress(0); });
+  // Removed with this object, or by the next run if this one is killed.
+  std::optional<PendingFolder> scratch;
+  std::string folder;
+  std::string shown; // its path in messages, as the first rank shows it
+  try
+  {
+    ranks.attempt(
+      [&]
+      {
+        if (ranks.isFirst())
+        {
+          scratch.emplace(output, &replaceableMesh);
+          folder = scratch->temporaryPath() + "/flat";
+          shown = shownPath(folder);
+          FlatContent content = make();
+          removeOwnIds(content);
+          try
+          {
+            writeFlatMesh(folder, content);
+          }
+          catch (const IOError& error) // for example, the disk is full
+          {
+            throw IOError(inNameOf(error.what(), shown, output));
+          }
+        }
+      });
+  }
+  catch (const WorkAborted&)
+  {
+    PartitionStatistics statistics;
+    statistics.Aborted = true;
+    return statistics;
+  }
+  folder = ranks.broadcast(folder);
+  shown = ranks.broadcast(shown);
+  try
+  {
+    FlatMesh mesh;
+    ranks.attempt([&] { mesh = openFlatMesh(folder); });
+    return partitionMesh(mesh, output, options, controller);
+  }
+  catch (const IOError& error)
+  {
+    throw IOError(inNameOf(inNameOf(error.what(), folder, name), shown, name));
+  }
 }
 
 } // namespace tipp

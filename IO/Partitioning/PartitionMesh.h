@@ -2,13 +2,16 @@
 #ifndef tippPartitionMesh_h
 #define tippPartitionMesh_h
 
-#include "Files/PendingFolder.h"
+#include "Files/PendingOutput.h"
+#include "Flat/FlatFolder.h"
 #include "Flat/FlatMesh.h"
 #include "Loading/VertexLoader.h"
 #include "OpenCL/Devices.h"
-#include "Partitioning/TilingChoice.h"
+#include "Partitioned/PartitionedMesh.h"
+#include "Partitioning/MeshTiling.h"
 #include "vtkTIPPIOModule.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -77,6 +80,25 @@ extern const Replaceable replaceableMesh;
 /// to the pieces.
 VTKTIPPIO_EXPORT PartitionStatistics partitionMesh(const FlatMesh& mesh, const std::string& path,
   const PartitionOptions& options = {}, vtkMultiProcessController* controller = nullptr);
+
+/// As partitionMesh(), for a mesh in memory: the first rank calls `make` and writes its result to a
+/// temporary flat mesh beside the output. `name` is for errors. A partitioned mesh's own ids are
+/// dropped. Throws IOError, on all ranks if on one.
+VTKTIPPIO_EXPORT PartitionStatistics partitionInMemory(const std::function<FlatContent()>& make,
+  const std::string& name, const std::string& output, const PartitionOptions& options,
+  vtkMultiProcessController* controller = nullptr);
+
+/// Lists the flat mesh's attributes in result.Arrays, one for each step of those that vary in time,
+/// and returns their arrays in the same order. Throws IOError if two names would be equal in the
+/// pieces.
+std::vector<RawArray> describeArrays(const FlatMesh& mesh, PartitionedMesh& result);
+
+/// Assigns each rank a run of consecutive pieces, which are numbered along the Morton curve, so
+/// that the heaviest run is as light as possible. Returns ranks + 1 numbers: rank r has pieces
+/// [result[r], result[r + 1]). If there are more ranks than pieces, the last ranks get empty runs;
+/// no other run is empty. Negative weights count as 0; `ranks` below 1 as 1.
+VTKTIPPIO_EXPORT std::vector<std::size_t> assignPieces(
+  const std::vector<std::int64_t>& weights, int ranks);
 
 } // namespace tipp
 

@@ -121,29 +121,34 @@ void Spill::addChunk(
   std::size_t first, std::size_t count, int threads, const Key& keyOf, const Fill& fill)
 {
   // A counting sort: each thread counts and then copies one range of the items.
-  const std::size_t stretches = std::size_t(threads);
-  std::vector<std::vector<std::uint32_t>> places(
-    stretches, std::vector<std::uint32_t>(this->Keys, 0));
-  const auto stretchOf = [&](std::size_t i) { return first + count * i / stretches; };
-#pragma omp parallel for num_threads(threads) schedule(static, 1)
-  for (std::size_t s = 0; s < stretches; ++s)
+  const std::size_t ranges = std::size_t(threads);
+  std::vector<std::vector<std::uint32_t>> positions(
+    ranges, std::vector<std::uint32_t>(this->Keys, 0));
+  const auto beginOf = [&](std::size_t i) { return first + count * i / ranges; };
+  // Calls take(item, position) for each item that has a key; `position` is the key's in the range.
+  const auto forEachItem = [&](const auto& take)
   {
-    std::vector<std::uint32_t>& mine = places[s];
-    for (std::size_t i = stretchOf(s); i < stretchOf(s + 1); ++i)
+#pragma omp parallel for num_threads(threads) schedule(static, 1)
+    for (std::size_t s = 0; s < ranges; ++s)
     {
-      const std::int64_t key = keyOf(i);
-      if (key >= 0)
+      std::vector<std::uint32_t>& mine = positions[s];
+      for (std::size_t i = beginOf(s); i < beginOf(s + 1); ++i)
       {
-        ++mine[std::size_t(key)];
+        const std::int64_t key = keyOf(i);
+        if (key >= 0)
+        {
+          take(i, mine[std::size_t(key)]);
+        }
       }
     }
-  }
+  };
+  forEachItem([](std::size_t, std::uint32_t& position) { ++position; });
   std::vector<std::uint32_t> starts{ 0 };
   starts.reserve(this->Keys + 1);
   std::uint32_t total = 0;
   for (std::size_t key = 0; key < this->Keys; ++key)
   {
-    for (std::vector<std::uint32_t>& mine : places)
+    for (std::vector<std::uint32_t>& mine : positions)
     {
       const std::uint32_t here = mine[key];
       mine[key] = total;
@@ -153,19 +158,8 @@ void Spill::addChunk(
   }
   this->Buffer.resize(this->listBytes() + std::size_t(total) * this->RowBytes);
   char* const rows = this->Buffer.data() + this->listBytes();
-#pragma omp parallel for num_threads(threads) schedule(static, 1)
-  for (std::size_t s = 0; s < stretches; ++s)
-  {
-    std::vector<std::uint32_t>& mine = places[s];
-    for (std::size_t i = stretchOf(s); i < stretchOf(s + 1); ++i)
-    {
-      const std::int64_t key = keyOf(i);
-      if (key >= 0)
-      {
-        fill(i, rows + std::size_t(mine[std::size_t(key)]++) * this->RowBytes);
-      }
-    }
-  }
+  forEachItem([&](std::size_t i, std::uint32_t& position)
+    { fill(i, rows + std::size_t(position++) * this->RowBytes); });
   this->write(starts, threads);
 }
 

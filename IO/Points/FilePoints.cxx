@@ -1,21 +1,165 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Points/FilePoints.h"
 
-#include "Files/Extension.h"
+#include "Distributions/Random.h"
+#include "Files/FileKind.h"
 #include "Files/IOError.h"
-#include "Files/UnknownKind.h"
 #include "Las/LasHeader.h"
-#include "Las/LasPoints.h"
-#include "Points/NpyPoints.h"
 #include "Points/ReadPoints.h"
 #include "Points/TextPoints.h"
 
 #include <algorithm>
+#include <charconv>
 #include <optional>
 #include <utility>
 
 namespace tipp
 {
+
+NpyPointRows::NpyPointRows(const std::string& path, const PointOptions& options)
+  : Reader(path)
+  , Width(std::size_t(std::max<std::int64_t>(this->Reader.columns(), 0)))
+{
+  if ((this->Width != 2 && this->Width != 3) || !this->Reader.isFloat())
+  {
+    throw IOError(path, "does not hold points; save n x 2 or n x 3 numbers of float64 or float32.");
+  }
+  std::vector<std::string> names{ "x", "y", "z" };
+  names.resize(this->Width);
+  this->Choice = chooseColumns(path, names, this->Width, options);
+  if (this->Width == 3)
+  {
+    this->Further.push_back(names[3 - this->Choice.X - this->Choice.Y]);
+  }
+}
+
+void NpyPointRows::read(std::size_t count, double* xy, double* further)
+{
+  if (this->Reader.type() == NpyReader::Type::Float32)
+  {
+    this->readRows<float>(count, xy, further);
+  }
+  else if (this->Width == 2 && this->Choice.X == 0)
+  {
+    this->Reader.read(xy, 2 * count * sizeof(double)); // as stored
+  }
+  else
+  {
+    this->readRows<double>(count, xy, further);
+  }
+}
+
+template <typename Scalar>
+void NpyPointRows::readRows(std::size_t count, double* xy, double* further)
+{
+  constexpr std::size_t rowsAtOnce = 1 << 15;
+  const std::size_t third = 3 - this->Choice.X - this->Choice.Y; // only used with three columns
+  std::vector<Scalar> rows(this->Width * std::min(rowsAtOnce, count));
+  for (std::size_t first = 0; first < count; first += rowsAtOnce)
+  {
+    const std::size_t size = std::min(rowsAtOnce, count - first);
+    this->Reader.read(rows.data(), size * this->Width * sizeof(Scalar));
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      const Scalar* const row = &rows[i * this->Width];
+      xy[2 * (first + i)] = row[this->Choice.X];
+      xy[2 * (first + i) + 1] = row[this->Choice.Y];
+      if (further)
+      {
+        further[first + i] = row[third];
+      }
+    }
+  }
+}
+
+PointTable readNpyPoints(const std::string& path, const PointOptions& options, int part, int parts)
+{
+  NpyPointRows file(path, options);
+  const auto rowBefore = [&](int p)
+  { return file.rows() / parts * p + file.rows() % parts * p / parts; };
+  const auto rows = std::size_t(rowBefore(part + 1) - rowBefore(part));
+  file.skip(rowBefore(part));
+  PointTable table;
+  table.XY.resize(2 * rows);
+  for (const std::string& name : file.further())
+  {
+    table.Columns.push_back({ name, std::vector<double>(rows) });
+  }
+  file.read(
+    rows, table.XY.data(), table.Columns.empty() ? nullptr : table.Columns[0].Values.data());
+  return table;
+}
+
+namespace
+{
+
+/// The points of Distribution::Uniform with seed 1, generated block by block.
+class GeneratedPoints : public FilePoints
+{
+public:
+  explicit GeneratedPoints(std::int64_t count)
+    : Count(count)
+  {
+  }
+
+  bool next(PointBlock& block, std::size_t most) override
+  {
+    const auto count = std::size_t(std::min(std::int64_t(most), this->Count - this->At));
+    block.XY.resize(2 * count);
+    for (double& coordinate : block.XY)
+    {
+      coordinate = this->Numbers.uniform();
+    }
+    this->At += std::int64_t(count);
+    return count > 0;
+  }
+
+  void rewind() override
+  {
+    this->Numbers = Random(1);
+    this->At = 0;
+  }
+
+  std::int64_t divisible() const override { return this->Count; }
+
+  void skip(std::int64_t points) override
+  {
+    for (std::int64_t i = 0; i < 2 * points; ++i)
+    {
+      this->Numbers.bits(); // one number per coordinate; cheap beside what is done with a point
+    }
+    this->At += points;
+  }
+
+  std::vector<std::string> columns() const override { return {}; }
+
+private:
+  std::int64_t Count;
+  std::int64_t At = 0;
+  Random Numbers{ 1 };
+};
+
+} // namespace
+
+std::int64_t generatedCount(const std::string& name)
+{
+  const std::string start = "uniform:";
+  std::int64_t count = 0;
+  const char* const end = name.data() + name.size();
+  if (name.compare(0, start.size(), start) != 0)
+  {
+    return 0;
+  }
+  const auto [stop, error] = std::from_chars(name.data() + start.size(), end, count);
+  constexpr std::int64_t most = std::int64_t(1) << 40;
+  return error == std::errc() && stop == end && count > 0 && count <= most ? count : 0;
+}
+
+std::unique_ptr<FilePoints> streamUniformPoints(std::int64_t count)
+{
+  return std::make_unique<GeneratedPoints>(count);
+}
+
 namespace
 {
 
@@ -71,7 +215,7 @@ private:
   std::int64_t Row = 0;
 };
 
-/// A file that only comes as a whole; it is read when its first point is wanted.
+/// A file that can only be read as a whole, which the first call of next() does.
 class WholeFilePoints : public FilePoints
 {
 public:
@@ -142,7 +286,7 @@ std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointO
   const std::int64_t generated = generatedCount(path);
   if (generated > 0)
   {
-    return generatePointsAsWanted(generated);
+    return streamUniformPoints(generated);
   }
   const std::string extension = extensionOf(path);
   if (isLasExtension(extension))

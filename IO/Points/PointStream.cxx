@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Points/PointStream.h"
 
-#include "Files/Extension.h"
+#include "Files/FileKind.h"
 #include "Files/IOError.h"
-#include "Files/StandardInput.h"
+#include "Files/TextFile.h"
 #include "Points/FilePoints.h"
-#include "Points/ThinnedPoints.h"
 
 #include <algorithm>
 #include <array>
@@ -75,7 +74,7 @@ public:
         this->Points += std::int64_t(block.size());
         return true;
       }
-      this->Files[this->At]->rewind(); // gives its memory back
+      this->Files[this->At]->rewind(); // frees its memory
       ++this->At;
     }
     this->requireSameColumns();
@@ -193,7 +192,7 @@ private:
     }
   }
 
-  /// A file without one is taken to be in that of the others.
+  /// A file without a reference system is taken to be in that of the others.
   void requireSameCrs() const
   {
     const std::string crs = this->crs();

@@ -15,65 +15,72 @@
 namespace tipp
 {
 
-/// Points that follow each other in a stream.
+/// Consecutive points of a stream.
 struct PointBlock
 {
-  std::int64_t First = 0; ///< the id of the first: its place in the stream
+  std::int64_t First = 0; ///< id of the first point: its index in the stream
   std::vector<double> XY;
-  std::vector<std::vector<double>> Columns; ///< as PointStream::columns() has them
+  std::vector<std::vector<double>> Columns; ///< in the order of PointStream::columns()
 
   std::size_t size() const { return this->XY.size() / 2; }
 };
 
-/// Points from files of any size, block by block and as often as wanted. Not for several threads at
-/// once.
+/// Reads points from files of any size, block by block, in any number of passes. Not thread-safe.
 class VTKTIPPIO_EXPORT PointStream
 {
 public:
   virtual ~PointStream();
 
-  /// The next points, at most so many; false at the end. Throws IOError.
+  /// Reads the next points, at most `most`; returns false at the end. Throws IOError.
   virtual bool next(PointBlock& block, std::size_t most) = 0;
 
-  /// Starts again. Throws IOError if a file is another than at first.
+  /// Starts a new pass. Throws IOError if a file has changed since the first one.
   virtual void rewind() = 0;
 
-  /// The number of points, if a part of them can be read without reading what is before; else -1.
+  /// The number of points if reading can start at any of them, else -1.
   virtual std::int64_t divisible() const = 0;
 
-  /// From the next rewind() on there are only those from the first one to before the end.
+  /// Limits the passes from the next rewind() on to points [first, end).
   virtual void limitTo(std::int64_t first, std::int64_t end) = 0;
 
   /// Names of the columns beside x and y.
   virtual std::vector<std::string> columns() const = 0;
 
-  /// How many points the options have left out in the last whole pass, as those of other classes.
+  /// The number of points that the options rejected in the last complete pass, for example by their
+  /// class.
   virtual std::int64_t leftOut() const { return 0; }
 
-  /// There are no more points than this; 0: not known.
+  /// An upper bound of the number of points; 0: unknown.
   virtual std::int64_t most() const { return 0; }
 
-  /// How many points thinning has left out, once they are read.
+  /// The number of points that thinning removed, known after the first pass.
   virtual std::int64_t thinnedOut() const { return 0; }
 
   /// The coordinate reference system of the points: WKT or "EPSG:code", or empty.
   virtual std::string crs() const { return ""; }
 
-  /// What tells whether it is the same input in another run: names, sizes and times of files.
+  /// Identifies the input across runs: names, sizes and times of the files.
   virtual std::string identity() const = 0;
 };
 
-/// One or more files, one after the other: .npy, .las and text are read block by block, other
-/// formats a file as a whole, for each pass. Text takes a pass more, at once, which finds its
-/// numeric columns. The name "uniform:COUNT" stands for so many points that are uniform in the unit
-/// square and made as they are wanted. All must have the same columns. Throws IOError.
+/// Opens one or more files as one stream, in their order; all must have the same columns. In each
+/// pass .npy, .las and text files are read block by block, other formats as a whole. Opening a text
+/// file reads it once to find its numeric columns. The name "uniform:COUNT" stands for that many
+/// points, uniform in the unit square, which are generated block by block. Throws IOError.
 VTKTIPPIO_EXPORT std::unique_ptr<PointStream> openPointStream(
   const std::vector<std::string>& paths, const PointOptions& options = {});
 
-/// All points from the start on; reads the next block while take() has one. The block may be
-/// changed.
+/// Makes a whole pass: calls take() with each block, and reads the next one meanwhile. take() may
+/// change the block.
 VTKTIPPIO_EXPORT void forEachBlock(
   PointStream& points, std::size_t most, const std::function<void(PointBlock&)>& take);
+
+/// Returns the points of a stream that thinning keeps, in their order. Of equally good points the
+/// first is kept; points that are not finite are all kept. The first pass reads the stream twice.
+/// Memory: one bit per point, and the squares. Throws IOError if the rule needs an elevation and
+/// there is none.
+std::unique_ptr<PointStream> thinPoints(
+  std::unique_ptr<PointStream> points, const Thinning& thinning);
 
 } // namespace tipp
 

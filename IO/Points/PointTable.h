@@ -2,8 +2,7 @@
 #ifndef tippPointTable_h
 #define tippPointTable_h
 
-#include "vtkTIPPIOModule.h"
-
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -12,22 +11,37 @@
 namespace tipp
 {
 
-/// Points as a file gives them: x and y interleaved, and the further numeric columns by name.
+/// Points read from a file: x and y interleaved, and the other numeric columns by name.
 struct PointTable
 {
   struct Column
   {
     std::string Name;
-    std::vector<double> Values; ///< one a point
+    std::vector<double> Values; ///< one per point
   };
 
   std::vector<double> XY;
   std::vector<Column> Columns;
-  std::int64_t LeftOut = 0;    ///< points that the options have left out
-  std::int64_t ThinnedOut = 0; ///< points that thinning has left out
+  std::int64_t LeftOut = 0;    ///< points that the options rejected
+  std::int64_t ThinnedOut = 0; ///< points that thinning removed
 
-  VTKTIPPIO_EXPORT std::size_t size() const;
+  std::size_t size() const { return this->XY.size() / 2; }
 };
+
+/// Returns the index of the elevation column, which is named z, Z or elevation; the number of
+/// columns if there is none.
+inline std::size_t findElevation(const std::vector<std::string>& columns)
+{
+  for (const char* const name : { "z", "Z", "elevation" })
+  {
+    const auto found = std::find(columns.begin(), columns.end(), name);
+    if (found != columns.end())
+    {
+      return std::size_t(found - columns.begin());
+    }
+  }
+  return columns.size();
+}
 
 } // namespace tipp
 

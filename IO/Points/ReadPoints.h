@@ -2,18 +2,70 @@
 #ifndef tippReadPoints_h
 #define tippReadPoints_h
 
-#include "Las/LasSelection.h"
 #include "Points/PointTable.h"
-#include "Points/Thinning.h"
 #include "vtkTIPPIOModule.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace tipp
 {
+
+/// Which points of a LAS file are read.
+struct LasSelection
+{
+  enum class Returns
+  {
+    All,
+    First,
+    Last
+  };
+
+  std::vector<int> Classes; ///< empty: all
+  Returns Kind = Returns::All;
+  bool KeepWithheld = false;
+  bool KeepSynthetic = false;
+  /// Points of a swath that another one overlaps: a flag in formats 6 to 10, class 12 in others.
+  bool KeepOverlap = false;
+
+  /// Whether something is selected that only LAS files have.
+  bool isGiven() const { return !this->Classes.empty() || this->Kind != Returns::All; }
+
+  /// A text that is equal for equal selections.
+  std::string text() const
+  {
+    std::string text = std::to_string(int(this->Kind)) + (this->KeepWithheld ? "w" : "") +
+      (this->KeepSynthetic ? "s" : "") + (this->KeepOverlap ? "o" : "");
+    for (const int number : this->Classes)
+    {
+      text += "," + std::to_string(number);
+    }
+    return text;
+  }
+};
+
+/// One point is kept in each square of a grid whose lines are at multiples of the cell size.
+struct Thinning
+{
+  enum class Rule
+  {
+    Lowest,
+    Highest,
+    Nearest ///< to the centre of the square
+  };
+
+  double Cell = 0; ///< 0: all points are kept
+  Rule Keep = Rule::Nearest;
+  /// The beginning of the path of a temporary file for the squares, if they may not fit in memory;
+  /// empty: they are kept in memory.
+  std::string File;
+
+  bool isGiven() const { return this->Cell > 0; }
+};
 
 class PointStream;
 
@@ -25,9 +77,9 @@ struct PointOptions
   std::string X;
   std::string Y;
   LasSelection Las = {};
-  Thinning Thin = {}; ///< of the points of all files together
-  int Threads = 1;    ///< that decode LAS files; 0: OpenMP's choice
-  /// The further columns to read, of those that there are; without: all.
+  Thinning Thin = {}; ///< applied to the points of all files together
+  int Threads = 1;    ///< threads that decode LAS files; 0: OpenMP's default
+  /// Names of the columns besides x and y to read, if the file has them; nullopt: all.
   std::optional<std::vector<std::string>> Columns = {};
 
   bool wants(const std::string& column) const
@@ -38,24 +90,34 @@ struct PointOptions
 };
 
 /// Reads points by the file's extension:
-/// .npy (n x 2 or n x 3, float64 or float32); .csv, .txt, .xyz (one point a line, columns parted by
-/// comma, semicolon, tab or spaces, with or without a line of names or a line with the count
-/// first); .las, .laz (see LasPoints.h); .14, .grd (ADCIRC grids: nodes and depth); any format that
-/// VTK reads (points and point data, a column for each component). Throws IOError.
+/// .npy (n x 2 or n x 3, float64 or float32); .csv, .txt, .xyz (one point per line, columns
+/// separated by comma, semicolon, tab or spaces, with or without a first line of names or with the
+/// count); .las, .laz (see openLasPoints); .14, .grd (ADCIRC grids: nodes and depth); any format
+/// that VTK reads (points and point data, a column for each component). Throws IOError.
 VTKTIPPIO_EXPORT PointTable readPoints(const std::string& path, const PointOptions& options = {});
 
-/// The points of several files, one after the other. Throws IOError.
+/// Reads the points of several files, in their order. Throws IOError.
 VTKTIPPIO_EXPORT PointTable readPoints(
   const std::vector<std::string>& paths, const PointOptions& options);
 
-/// All that is in a stream's limits. Throws IOError.
+/// Reads all points within the stream's limits. Throws IOError.
 VTKTIPPIO_EXPORT PointTable readAllPoints(PointStream& stream);
 
-/// A part's share of the files' points, of so many parts: consecutive points where files can be
-/// read from their middle (.npy, .las), else all for part 0 and none for the others. Throws
-/// IOError.
+/// Reads share `part` of `parts` of the files' points: consecutive points if reading can start at
+/// any of them (.npy, .las), else all for part 0 and none for the others. Throws IOError.
 VTKTIPPIO_EXPORT PointTable readPointsShare(
   const std::vector<std::string>& paths, const PointOptions& options, int part, int parts);
+
+struct ColumnChoice
+{
+  std::size_t X = 0;
+  std::size_t Y = 1;
+};
+
+/// Finds x and y among a file's columns; `names` is empty or as long as `count`. Throws IOError if
+/// there are fewer than two columns or the options ask for one that is not there.
+ColumnChoice chooseColumns(const std::string& path, const std::vector<std::string>& names,
+  std::size_t count, const PointOptions& options);
 
 } // namespace tipp
 

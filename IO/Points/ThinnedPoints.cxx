@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Points/ThinnedPoints.h"
+#include "Points/PointStream.h"
 
 #include "Files/IOError.h"
-#include "Files/TemporaryPath.h"
+#include "Files/TemporaryFiles.h"
 #include "Parallel/Poll.h"
 #include "Partitioning/Spill.h"
-#include "Points/ElevationColumn.h"
+#include "Points/PointTable.h"
 
 #include <cmath>
 #include <cstdio>
@@ -19,7 +19,7 @@ namespace tipp
 namespace
 {
 
-/// A point that may be the one to keep in its square: the one of lowest rank.
+/// A candidate for the point to keep in a square: the one of lowest rank is kept.
 struct Candidate
 {
   double Column; ///< of the square
@@ -96,7 +96,7 @@ private:
     }
   }
 
-  std::vector<Candidate> Slots; ///< a power of two; half of them are empty at least
+  std::vector<Candidate> Slots; ///< a power of two; at least half of them are empty
   std::size_t Count = 0;
 };
 
@@ -138,7 +138,7 @@ public:
     this->Points = 0;
   }
 
-  /// The number of points is not known before the first pass, and parts cannot be read alone.
+  /// The number of points is unknown before the first pass, so reading cannot start at any of them.
   std::int64_t divisible() const override { return -1; }
   void limitTo(std::int64_t, std::int64_t) override {}
 
@@ -187,7 +187,7 @@ private:
   void decideOnDisk()
   {
     constexpr std::size_t keys = 1024;
-    const std::string path = this->Rule.File + ".0"; // as Spill names it
+    const std::string path = this->Rule.File + ".0"; // the name that Spill gives it
     TemporaryPath listed;
     listed.list(path);
     struct Remove
@@ -309,7 +309,7 @@ private:
   const std::unique_ptr<PointStream> All;
   const Thinning Rule;
   const std::size_t Elevation;
-  std::vector<std::uint64_t> Kept; ///< a bit a point
+  std::vector<std::uint64_t> Kept; ///< one bit per point
   bool IsDecided = false;
   std::int64_t Seen = 0;
   std::int64_t KeptCount = 0;

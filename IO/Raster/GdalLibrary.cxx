@@ -35,7 +35,7 @@ GdalLibrary openGdal()
 #define TIPP_FIND_FUNCTION(name) find(functions.name, #name);
   TIPP_GDAL_FUNCTIONS(TIPP_FIND_FUNCTION)
 #undef TIPP_FIND_FUNCTION
-  // What GDAL has to say comes in our own sentences.
+  // GDAL must not print: its messages become part of ours.
   functions.CPLSetErrorHandler(functions.CPLQuietErrorHandler);
   functions.GDALAllRegister();
   return functions;

@@ -13,7 +13,7 @@
 namespace tipp
 {
 
-/// The functions of GDAL that are used here.
+/// The functions of GDAL that TIPP uses.
 #define TIPP_GDAL_FUNCTIONS(X)                                                                     \
   X(CPLErrorReset)                                                                                 \
   X(CPLGetLastErrorMsg)                                                                            \
@@ -61,8 +61,8 @@ namespace tipp
   X(VSIGetMemFileBuffer)                                                                           \
   X(VSIUnlink)
 
-/// GDAL, opened at run time when it is first needed: it brings over a hundred other libraries,
-/// which every start of the tool would wait for.
+/// GDAL, loaded when it is first needed: it depends on over a hundred libraries, which would delay
+/// every start of the tool.
 struct GdalLibrary
 {
 #define TIPP_DECLARE_FUNCTION(name) decltype(&::name) name = nullptr;
@@ -70,7 +70,7 @@ struct GdalLibrary
 #undef TIPP_DECLARE_FUNCTION
 };
 
-/// Opens it once a process. Throws IOError if it is not there.
+/// Loads GDAL once per process. Throws IOError if it is not installed.
 const GdalLibrary& gdal();
 
 } // namespace tipp

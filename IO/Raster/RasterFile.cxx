@@ -1,23 +1,72 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Raster/RasterFile.h"
 
-#include "Files/Extension.h"
+#include "Files/FileKind.h"
 #include "Files/IOError.h"
-#include "Npy/NpyHeader.h"
+#include "Npy/NpyFile.h"
 #include "Raster/GdalRaster.h"
 
+#include <cmath>
 #include <cstdio>
+#include <limits>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace tipp
 {
+namespace
+{
+
+struct GridAxis
+{
+  double Origin;
+  std::int64_t Count;
+};
+
+/// Returns the number of pixels that cover a range, at least one.
+GridAxis coverRange(double low, double high, double size, bool aligned, const char* name)
+{
+  if (!(std::isfinite(low) && std::isfinite(high) && low <= high))
+  {
+    throw std::runtime_error(std::string("the bounds along ") + name +
+      " are not a range: give finite bounds, the lower one first.");
+  }
+  // Rounding must not add a pixel to a range of whole pixels.
+  constexpr double slack = 1e-9;
+  const double first = aligned ? std::floor(low / size + slack) : 0;
+  const double origin = aligned ? first * size : low;
+  const double count = std::ceil((high - origin) / size - slack);
+  if (!(count < std::numeric_limits<std::int32_t>::max()))
+  {
+    throw std::runtime_error(
+      std::string("the raster would have more than 2147483646 pixels along ") + name +
+      ": give a larger resolution or smaller bounds.");
+  }
+  return { origin, count < 1 ? 1 : std::int64_t(count) };
+}
+
+} // namespace
+
+RasterGrid makeRasterGrid(const RasterRequest& request, const std::array<double, 4>& pointBounds)
+{
+  if (request.Like)
+  {
+    return *request.Like;
+  }
+  const std::array<double, 4> bounds = request.Bounds.value_or(pointBounds);
+  const double size = request.Resolution;
+  const GridAxis x = coverRange(bounds[0], bounds[1], size, request.Aligned, "x");
+  const GridAxis y = coverRange(bounds[2], bounds[3], size, request.Aligned, "y");
+  return { x.Origin, y.Origin, { size, size }, x.Count, y.Count };
+}
 
 RasterWriter::~RasterWriter() = default;
 
 namespace
 {
 
-/// Bands one after the other, each row by row from the south, behind a text.
+/// Writes bands one after the other, each row by row from the south, after a header text.
 class PlainWriter : public RasterWriter
 {
 public:
@@ -27,7 +76,7 @@ public:
   {
   }
 
-  /// `lengths`: each band follows its size in bytes.
+  /// `lengths`: whether each band is preceded by its size in bytes.
   void start(const std::string& text, bool lengths, std::size_t bands)
   {
     this->put(0, text.data(), text.size());

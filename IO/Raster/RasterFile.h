@@ -2,32 +2,64 @@
 #ifndef tippRasterFile_h
 #define tippRasterFile_h
 
-#include "Files/PendingFile.h"
-#include "Raster/RasterGrid.h"
+#include "Files/PendingOutput.h"
 #include "vtkTIPPIOModule.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace tipp
 {
 
+/// The pixels of a raster, in rows along x. A pixel's value is that at its centre.
+struct RasterGrid
+{
+  double West = 0;                        ///< border of the first column
+  double South = 0;                       ///< border of the lowest row
+  std::array<double, 2> Pixel = { 1, 1 }; ///< width and height
+  std::int64_t Columns = 0;
+  std::int64_t Rows = 0;
+
+  double north() const { return this->South + double(this->Rows) * this->Pixel[1]; }
+  std::int64_t pixels() const { return this->Columns * this->Rows; }
+};
+
+/// The pixels that a user asks for.
+struct RasterRequest
+{
+  double Resolution = 0;
+  /// xmin, xmax, ymin, ymax; nullopt: those of the points.
+  std::optional<std::array<double, 4>> Bounds;
+  /// Whether the borders of pixels are at multiples of the resolution; if not, the first are at the
+  /// bounds.
+  bool Aligned = true;
+  std::optional<RasterGrid> Like; ///< the grid of another raster, which replaces the other members
+};
+
+/// Returns the grid that covers the bounds; `pointBounds` are xmin, xmax, ymin, ymax of the points.
+/// Throws std::runtime_error if they are not finite, or the raster would have too many rows or
+/// columns.
+VTKTIPPIO_EXPORT RasterGrid makeRasterGrid(
+  const RasterRequest& request, const std::array<double, 4>& pointBounds);
+
 struct RasterDescription
 {
   RasterGrid Grid;
   std::vector<std::string> Bands; ///< their names
-  std::string Crs;                ///< WKT, "EPSG:code" or what else GDAL understands; may be empty
-  double NoData = -9999;          ///< of a GeoTIFF where there is no value
-  bool Double = false;            ///< a GeoTIFF's values have 64 bits, else 32
-  std::string Compression = "deflate"; ///< of a GeoTIFF; or lzw, zstd, none
-  bool CloudOptimized = false;         ///< a GeoTIFF with overviews, in the layout called COG
-  int Threads = 1;                     ///< that compress
+  std::string Crs;       ///< WKT, "EPSG:code" or any text that GDAL understands; may be empty
+  double NoData = -9999; ///< value of a GeoTIFF's pixels without data
+  bool Double = false;   ///< whether a GeoTIFF's values have 64 bits or 32
+  std::string Compression = "deflate"; ///< of a GeoTIFF: deflate, lzw, zstd or none
+  bool CloudOptimized = false; ///< whether a GeoTIFF has overviews and the layout called COG
+  int Threads = 1;             ///< threads that compress
 };
 
-/// Some pixels of a raster: columns from the west, rows from the south.
+/// A rectangle of pixels; columns count from the west, rows from the south.
 struct RasterWindow
 {
   std::int64_t Column = 0;
@@ -36,23 +68,23 @@ struct RasterWindow
   std::int64_t Rows = 0;
 };
 
-/// A raster file that is written tile by tile, and is at its path when it is whole.
+/// Writes a raster file tile by tile. It appears at its path only when it is complete.
 class VTKTIPPIO_EXPORT RasterWriter
 {
 public:
   virtual ~RasterWriter();
 
-  /// Each tile of the grid once (see tileOf()): for each band its values row by row, the most
-  /// southern first, NaN where there is none. Several threads may write at once; tiles that are
-  /// early wait in memory. Throws IOError.
+  /// Writes a tile of the grid, see tileOf(); each is written once. For each band, `bands` points
+  /// to the tile's values, row by row from the south; NaN means no value. Several threads may write
+  /// at the same time; tiles that come early are kept in memory. Throws IOError.
   virtual void write(const RasterWindow& window, const std::vector<const double*>& bands) = 0;
 
-  /// Puts the file in its place. Throws IOError.
+  /// Completes the file and moves it to its path. Throws IOError.
   virtual void close() = 0;
 };
 
-/// Rasters are sampled and written by squares of so many pixels, those of GDAL's tiles: row by row
-/// from the north on, each row from the west on.
+/// Side, in pixels, of the square tiles in which rasters are sampled and written; that of GDAL's
+/// tiles. Tiles are numbered row by row from the north, each row from the west.
 constexpr std::int64_t RasterTileSize = 256;
 
 inline std::int64_t tileCount(const RasterGrid& grid)
@@ -80,13 +112,13 @@ inline std::int64_t tileNumber(const RasterGrid& grid, const RasterWindow& windo
   return fromNorth / RasterTileSize * across + window.Column / RasterTileSize;
 }
 
-/// By the file's extension: .tif (GDAL), .npy (float64, rows x columns, the most southern row
-/// first, for several bands these before) or .vti (float64, an array for each band). Throws
-/// IOError.
+/// Creates a raster file by its extension: .tif (GDAL), .npy (float64, rows x columns from the
+/// south, with a leading axis for several bands) or .vti (float64, one array per band). `before` as
+/// for PendingFile. Throws IOError.
 VTKTIPPIO_EXPORT std::unique_ptr<RasterWriter> createRaster(
   const std::string& path, const RasterDescription& description, const PathState& before);
 
-/// .tif, .tiff, .npy and .vti.
+/// Whether the path is .tif, .tiff, .npy or .vti.
 VTKTIPPIO_EXPORT bool isRasterFile(const std::string& path);
 
 /// Whether the path is that of a GeoTIFF.
@@ -101,10 +133,10 @@ struct RasterInfo
   std::string Crs; ///< WKT, or empty
 };
 
-/// Of a north-up raster that GDAL reads. Throws IOError.
+/// Reads the grid and the reference system of a north-up raster with GDAL. Throws IOError.
 VTKTIPPIO_EXPORT RasterInfo readRasterInfo(const std::string& path);
 
-/// Throws IOError if GDAL does not understand the text, or is not there.
+/// Throws IOError if GDAL does not understand the text or is not installed.
 VTKTIPPIO_EXPORT void requireCrs(const std::string& text);
 
 } // namespace tipp

@@ -3,7 +3,7 @@
 
 #include "Parallel/Poll.h"
 
-#include "Loading/CopyTuples.h"
+#include "Loading/ArrayFiles.h"
 
 #include <algorithm>
 #include <limits>

@@ -6,10 +6,8 @@
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 #include "Partition/ClassifyCells.h"
-#include "Partitioning/DescribeArrays.h"
-#include "Partitioning/MakeTiling.h"
-#include "Partitioning/PointCoordinates.h"
-#include "Partitioning/SurveyPoints.h"
+#include "Partitioning/MeshTiling.h"
+#include "Partitioning/PartitionMesh.h"
 
 #include <algorithm>
 #include <cstring>
@@ -106,7 +104,7 @@ void FlatPieces::prepare(const Ranks& ranks)
     return;
   }
   const int threads = threadCount(this->Options.Threads);
-  const Box3 domain = surveyPoints(this->Flat, ranks, threads);
+  const Box3 domain = boundsOfPoints(this->Flat, ranks, threads);
   BoxTiling tiling = makeTiling(
     this->Flat, this->Options.Tiling, this->loading(), this->chunkCells(), threads, ranks, domain);
   setPieces(this->Mesh, domain, tiling);

@@ -4,8 +4,8 @@
 
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/ReadPiece.h"
+#include "Partitioning/MeshTiling.h"
 #include "Partitioning/Ranks.h"
-#include "Partitioning/TilingChoice.h"
 
 #include <cstddef>
 #include <cstdint>

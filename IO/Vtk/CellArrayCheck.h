@@ -4,7 +4,6 @@
 
 #include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
-#include "Vtk/CellSizes.h"
 #include "Vtk/PlainIds.h"
 
 #include <algorithm>
@@ -16,6 +15,15 @@
 
 namespace tipp
 {
+
+/// Whether VTK has this cell type.
+bool isCellType(int type);
+
+/// The number of vertices of a cell type; 0 if it varies.
+int cellSizeOf(int type);
+
+/// Whether a cell of the type can have `size` vertices.
+bool isCellSize(int type, std::int64_t size);
 
 /// Number of values that a thread checks at a time.
 constexpr std::int64_t checkedAtOnce = 1 << 16;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Vtk/CheckDataSet.h"
+#include "Vtk/ReadDataSet.h"
 
 #include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
-#include "Vtk/ArrayNames.h"
 #include "Vtk/CellArrayCheck.h"
 #include "Vtk/Compatibility.h"
+#include "Vtk/VtkMessages.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -298,14 +298,14 @@ private:
   /// and their ids.
   void checkFaces(vtkUnstructuredGrid* grid, std::int64_t cell) const
   {
-    vtkIdTypeArray* const places = grid->GetFaceLocations();
+    vtkIdTypeArray* const locations = grid->GetFaceLocations();
     vtkIdTypeArray* const faces = grid->GetFaces();
     const std::int64_t size = faces ? faces->GetNumberOfValues() : 0;
-    const std::int64_t place =
-      places && cell < places->GetNumberOfValues() ? places->GetValue(cell) : -1;
+    const std::int64_t location =
+      locations && cell < locations->GetNumberOfValues() ? locations->GetValue(cell) : -1;
     const vtkIdType* const values = faces ? faces->GetPointer(0) : nullptr;
     const std::int64_t points = this->Data->GetNumberOfPoints();
-    std::int64_t at = place;
+    std::int64_t at = location;
     const auto take = [&]() -> std::int64_t
     {
       if (at < 0 || at >= size)

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Vtk/CheckVtkFile.h"
+#include "Vtk/ReadDataSet.h"
 
-#include "Files/Extension.h"
+#include "Files/FileKind.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Flat/XmlScanner.h"
-#include "Vtk/ArrayNames.h"
-#include "Vtk/LegacyFileCheck.h"
+#include "Vtk/VtkMessages.h"
 #include "Vtk/XmlDataCheck.h"
 
 #include <algorithm>

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands for VtkFiles.cxx and CellTypeName.cxx in a build without VTK.
+// Replaces VtkFiles.cxx in a build without VTK.
 #include "Vtk/VtkFiles.h"
 
-#include "Files/Extension.h"
+#include "Files/FileKind.h"
 #include "Files/IOError.h"
-#include "Vtk/CellTypeName.h"
 
 #include <algorithm>
 #include <array>

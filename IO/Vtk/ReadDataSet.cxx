@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Vtk/ReadDataSet.h"
 
-#include "Files/Extension.h"
+#include "Files/FileKind.h"
 #include "Files/IOError.h"
-#include "Vtk/CheckDataSet.h"
-#include "Vtk/CheckVtkFile.h"
-#include "Vtk/ErrorKeeper.h"
+#include "Vtk/VtkMessages.h"
 
 #include "vtkDataSet.h"
 #include "vtkDataSetReader.h"

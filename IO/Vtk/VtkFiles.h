@@ -7,8 +7,13 @@
 
 #include <string>
 
+class vtkDataSet;
+
 namespace tipp
 {
+
+/// VTK's name of a cell type; its number in a build without VTK.
+VTKTIPPIO_EXPORT std::string cellTypeName(int type);
 
 /// Whether VTK reads files with this extension: .vtp .vtu .vti .vts .vtr and their parallel kinds
 /// (.pvtp ...), .vtk, .ply, .stl, .obj.
@@ -17,6 +22,10 @@ VTKTIPPIO_EXPORT bool isVtkFile(const std::string& path);
 /// Reads the points of such a file, as pointsOf() returns them. Throws IOError, also in a build
 /// without VTK.
 VTKTIPPIO_EXPORT PointTable readVtkPoints(const std::string& path);
+
+/// A data set's points: column z and its numeric point data, the components of an array of several
+/// as name_0, name_1 ...
+VTKTIPPIO_EXPORT PointTable pointsOf(vtkDataSet* data);
 
 } // namespace tipp
 

@@ -3,9 +3,9 @@
 #define tippWriteXmlFile_h
 
 #include "Files/IOError.h"
-#include "Files/OutputStream.h"
-#include "Files/PendingFile.h"
-#include "Vtk/ErrorKeeper.h"
+#include "Files/OutputFile.h"
+#include "Files/PendingOutput.h"
+#include "Vtk/VtkMessages.h"
 
 #include "vtkDataObject.h"
 #include "vtkSmartPointer.h"

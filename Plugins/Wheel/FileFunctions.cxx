@@ -2,14 +2,13 @@
 #include "Binding.h"
 
 #include "Files/IOError.h"
-#include "Files/RequireApart.h"
+#include "Files/OutputPath.h"
 #include "Flat/FlatMesh.h"
 #include "Messages/Communicator.h"
 #include "OutOfCore/OutOfCoreRanks.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Output/RunStatistics.h"
 #include "Parallel/Poll.h"
-#include "Partitioning/PartitionContent.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Points/PointStream.h"
 #include "Points/ReadPoints.h"
@@ -379,7 +378,7 @@ void partitionArrays(const InputArray& points, const InputArray& cells, const nb
           std::transform(ids, ids + cells.size(), content.Cells.begin(),
             [](auto id) { return std::int64_t(id); });
         });
-      partitionContent([&] { return content; }, "the mesh", output, options);
+      tipp::partitionInMemory([&] { return content; }, "the mesh", output, options);
     });
   reporter.raiseIfStopped();
 }

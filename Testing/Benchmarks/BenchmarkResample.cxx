@@ -6,7 +6,7 @@
 
 #include "vtkRangeResampleFilter.h"
 
-#include "Vtk/CheckDataSet.h"
+#include "Vtk/ReadDataSet.h"
 
 #include "vtkImageData.h"
 #include "vtkNew.h"

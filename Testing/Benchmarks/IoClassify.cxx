@@ -7,7 +7,7 @@
 #include "OpenCL/Devices.h"
 #include "Partition/ClassifyCells.h"
 #include "Partitioning/BuildTree.h"
-#include "Partitioning/PointCoordinates.h"
+#include "Partitioning/MeshTiling.h"
 
 #include <algorithm>
 #include <chrono>

@@ -3,8 +3,8 @@
 // opens must lie in its files and be read without a fault, all else must be an IOError.
 #include "Files/IOError.h"
 #include "Flat/CellReader.h"
+#include "Flat/FlatFolder.h"
 #include "Flat/FlatMesh.h"
-#include "Flat/WriteFlatMesh.h"
 #include "FuzzDriver.h"
 #include "Loading/VertexLoader.h"
 #include "Mutate.h"

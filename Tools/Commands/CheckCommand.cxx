@@ -7,7 +7,7 @@
 #include "Console/ProgressBar.h"
 #include "Constraints/ReadConstraintFile.h"
 #include "Files/IOError.h"
-#include "Meshes/ReadMesh.h"
+#include "Meshes/MeshFiles.h"
 #include "Partitioned/NeighborIds.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/ReadPiece.h"

@@ -3,7 +3,7 @@
 
 #include "Constraints/ReadConstraintFile.h"
 #include "Constraints/TableConstraints.h"
-#include "Files/Extension.h"
+#include "Files/FileKind.h"
 #include "Files/IOError.h"
 
 #include <fmt/format.h>

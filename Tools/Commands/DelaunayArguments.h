@@ -2,7 +2,7 @@
 #ifndef tippDelaunayArguments_h
 #define tippDelaunayArguments_h
 
-#include "Constraints/ConstraintTable.h"
+#include "Constraints/ReadConstraintFile.h"
 #include "Distributed/DistributedOptions.h"
 #include "Duplicates/ResolveDuplicates.h"
 #include "Points/PointTable.h"

@@ -8,8 +8,8 @@
 #include "Console/MpiSession.h"
 #include "Console/ProgressBar.h"
 #include "Console/Signals.h"
-#include "Files/Extension.h"
-#include "Meshes/WriteMesh.h"
+#include "Files/FileKind.h"
+#include "Meshes/MeshFiles.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/Triangulate.h"
 

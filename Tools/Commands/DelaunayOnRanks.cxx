@@ -7,7 +7,7 @@
 #include "Console/ProgressBar.h"
 #include "Console/Signals.h"
 #include "Distributed/DistributedTriangulation.h"
-#include "Files/Extension.h"
+#include "Files/FileKind.h"
 #include "Messages/Communicator.h"
 #include "Parallel/Stopwatch.h"
 

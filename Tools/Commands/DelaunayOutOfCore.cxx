@@ -4,9 +4,9 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
-#include "Files/Extension.h"
-#include "Files/PendingFile.h"
-#include "Files/RequireApart.h"
+#include "Files/FileKind.h"
+#include "Files/OutputPath.h"
+#include "Files/PendingOutput.h"
 
 #include <fmt/format.h>
 

@@ -5,10 +5,10 @@
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Signals.h"
-#include "Files/Extension.h"
-#include "Files/PendingFile.h"
-#include "Files/RequireApart.h"
-#include "Meshes/WriteMesh.h"
+#include "Files/FileKind.h"
+#include "Files/OutputPath.h"
+#include "Files/PendingOutput.h"
+#include "Meshes/MeshFiles.h"
 
 #include <fmt/format.h>
 

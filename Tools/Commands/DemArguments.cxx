@@ -4,8 +4,8 @@
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 
-#include "Files/PendingFile.h"
-#include "Files/RequireApart.h"
+#include "Files/OutputPath.h"
+#include "Files/PendingOutput.h"
 
 #include <fmt/format.h>
 

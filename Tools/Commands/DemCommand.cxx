@@ -10,7 +10,7 @@
 #include "Console/Signals.h"
 #include "Constraints/ReadConstraintFile.h"
 #include "Files/IOError.h"
-#include "Files/RequireApart.h"
+#include "Files/OutputPath.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/PointStream.h"
 #include "Vtk/VtkFiles.h"

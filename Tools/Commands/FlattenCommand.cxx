@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Adcirc/FlattenAdcirc.h"
 #include "Console/MpiSession.h"
 #include "Console/Signals.h"
-#include "Files/Extension.h"
-#include "Files/PendingFolder.h"
-#include "Files/RequireApart.h"
-#include "Flat/FlattenAdcirc.h"
+#include "Files/FileKind.h"
+#include "Files/OutputPath.h"
+#include "Files/PendingOutput.h"
+#include "Flat/FlatFolder.h"
 #include "Flat/FlattenDataSet.h"
-#include "Flat/WriteFlatMesh.h"
 #include "Vtk/ReadDataSet.h"
 
 #include "vtkDataSet.h"

@@ -5,9 +5,9 @@
 #include "Console/MpiSession.h"
 #include "Console/ProgressBar.h"
 #include "Console/Signals.h"
-#include "Files/PendingFile.h"
-#include "Files/RequireApart.h"
-#include "Partitioning/PartitionInput.h"
+#include "Files/OutputPath.h"
+#include "Files/PendingOutput.h"
+#include "Partitioning/PartitionDataSet.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Partitioning/Ranks.h"
 

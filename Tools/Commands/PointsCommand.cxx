@@ -3,11 +3,12 @@
 #include "Console/MpiSession.h"
 #include "Distributions/GeneratePoints.h"
 #include "Distributions/Random.h"
-#include "Files/Extension.h"
-#include "Files/PendingFile.h"
-#include "Files/RequireApart.h"
+#include "Files/FileKind.h"
+#include "Files/OutputPath.h"
+#include "Files/PendingOutput.h"
+#include "Npy/NpyFile.h"
+#include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
-#include "Points/WritePoints.h"
 #include "Triangulation/Triangulate.h"
 
 #include <CLI/CLI.hpp>

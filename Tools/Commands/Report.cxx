@@ -4,7 +4,7 @@
 #include "Commands/Commands.h"
 #include "Console/ProgressBar.h"
 #include "Console/Signals.h"
-#include "Files/PendingFile.h"
+#include "Files/PendingOutput.h"
 
 #include <fmt/format.h>
 #include <malloc.h>

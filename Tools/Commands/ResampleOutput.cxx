@@ -4,7 +4,7 @@
 #include "Arrays/Scalar.h"
 #include "Dem/MakeDem.h"
 #include "Files/IOError.h"
-#include "Flat/RawArray.h"
+#include "Flat/FlatMesh.h"
 #include "Npy/NpyFile.h"
 #include "Vtk/WriteXmlFile.h"
 

@@ -2,7 +2,7 @@
 #ifndef tippResampleOutput_h
 #define tippResampleOutput_h
 
-#include "Files/PendingFile.h"
+#include "Files/PendingOutput.h"
 #include "Partitioning/Ranks.h"
 
 #include <string>

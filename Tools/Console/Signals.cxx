@@ -2,7 +2,7 @@
 #include "Console/Signals.h"
 
 #include "Commands/Commands.h"
-#include "Files/TemporaryPath.h"
+#include "Files/TemporaryFiles.h"
 #include "Vtk/ReadDataSet.h"
 
 #include <fmt/format.h>

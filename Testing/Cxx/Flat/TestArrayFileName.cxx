@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Flat/ArrayFileName.h"
+#include "Flat/FlatFolder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExpectIOError.h"
 #include "FlatTesting.h"
-#include "Meshes/WriteMesh.h"
+#include "Meshes/MeshFiles.h"
 #include "SharedData.h"
 #include "Vtk/ReadDataSet.h"
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Adcirc/AdcircValues.h"
+#include "Adcirc/FlattenAdcirc.h"
 #include "ExpectIOError.h"
-#include "Flat/FlattenAdcirc.h"
+#include "Flat/FlatFolder.h"
 #include "Flat/FlattenDataSet.h"
-#include "Flat/WriteFlatMesh.h"
 #include "FlatTesting.h"
 #include "SharedData.h"
 #include "Vtk/ReadDataSet.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Flat/Simplices.h"
+#include "Flat/FlattenDataSet.h"
 
 #include "ExpectIOError.h"
 

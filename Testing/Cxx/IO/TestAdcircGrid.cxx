@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Adcirc/AdcircGrid.h"
 #include "ExpectIOError.h"
-#include "Meshes/ReadMesh.h"
+#include "Meshes/MeshFiles.h"
 #include "Points/ReadPoints.h"
 #include "SharedData.h"
 #include "TemporaryFolder.h"

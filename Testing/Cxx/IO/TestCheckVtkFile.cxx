@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExpectIOError.h"
 #include "TemporaryFolder.h"
-#include "Vtk/CheckVtkFile.h"
-#include "Vtk/ErrorKeeper.h"
 #include "Vtk/ReadDataSet.h"
+#include "Vtk/VtkMessages.h"
 
 #include "vtkNew.h"
 #include "vtkXMLUnstructuredGridWriter.h"

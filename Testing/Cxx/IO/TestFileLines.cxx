@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Files/FileLines.h"
+#include "Files/TextFile.h"
 
 #include "ExpectIOError.h"
-#include "Files/TextFile.h"
 #include "TemporaryFolder.h"
 
 namespace

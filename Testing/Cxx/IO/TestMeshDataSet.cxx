@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Meshes/MeshDataSet.h"
+#include "Meshes/MeshFiles.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExpectIOError.h"
-#include "Meshes/ReadMesh.h"
-#include "Meshes/WriteMesh.h"
+#include "Meshes/MeshFiles.h"
 #include "NpyText.h"
 #include "Points/ReadPoints.h"
 #include "TemporaryFolder.h"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExpectIOError.h"
+#include "Npy/NpyFile.h"
 #include "NpyText.h"
+#include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
-#include "Points/WritePoints.h"
 #include "TemporaryFolder.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExpectIOError.h"
-#include "Files/PendingFile.h"
+#include "Files/PendingOutput.h"
 #include "TemporaryFolder.h"
 
 #include <unistd.h>

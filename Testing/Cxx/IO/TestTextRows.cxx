@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Points/TextRows.h"
+#include "Points/TextPoints.h"
 
 #include "ExpectIOError.h"
 #include "TemporaryFolder.h"

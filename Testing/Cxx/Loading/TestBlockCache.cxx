@@ -68,16 +68,16 @@ TEST(BlockCache, AgreesWithAListOnRandomUse)
       std::map<std::uint64_t, std::uint32_t> held;
       for (int i = 0; i < 5000; ++i)
       {
-        // Blocks whose homes in the table collide, too.
+        // Blocks whose hash positions in the table collide, too.
         const std::uint64_t block = random() % blocks << (i % 2 ? 0 : 40);
-        const BlockCache::Place place = cache.use(block);
-        ASSERT_EQ(model.isMiss(block), place.Miss) << i;
-        ASSERT_LT(place.Slot, slots);
-        if (!place.Miss)
+        const BlockCache::Found found = cache.use(block);
+        ASSERT_EQ(model.isMiss(block), found.Miss) << i;
+        ASSERT_LT(found.Slot, slots);
+        if (!found.Miss)
         {
-          ASSERT_EQ(held[block], place.Slot);
+          ASSERT_EQ(held[block], found.Slot);
         }
-        held[block] = place.Slot;
+        held[block] = found.Slot;
       }
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Loading/Divisor.h"
+#include "Loading/ArrayFiles.h"
 
 #include <gtest/gtest.h>
 

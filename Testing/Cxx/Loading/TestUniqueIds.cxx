@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Loading/UniqueIds.h"
+#include "Loading/Runs.h"
 
 #include <gtest/gtest.h>
 

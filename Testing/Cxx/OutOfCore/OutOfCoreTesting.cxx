@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCoreTesting.h"
 
+#include "Npy/NpyFile.h"
 #include "Partitioned/PartitionedMesh.h"
-#include "Points/WritePoints.h"
 
 namespace tipp
 {

@@ -2,7 +2,7 @@
 // Grids of pieces of points for which partitions do not pay, and of others, in no memory at all.
 #include "OutOfCoreTesting.h"
 
-#include "Points/WritePoints.h"
+#include "Npy/NpyFile.h"
 
 #include <filesystem>
 #include <random>

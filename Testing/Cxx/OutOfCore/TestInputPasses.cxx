@@ -3,8 +3,8 @@
 #include "Comparison.h"
 #include "TemporaryFolder.h"
 
+#include "Npy/NpyFile.h"
 #include "OutOfCore/InputPasses.h"
-#include "Points/WritePoints.h"
 
 #include <gtest/gtest.h>
 

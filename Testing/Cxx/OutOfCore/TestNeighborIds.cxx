@@ -3,9 +3,9 @@
 #include "OutOfCoreTesting.h"
 
 #include "ExpectIOError.h"
-#include "Meshes/FindNeighbors.h"
+#include "Meshes/Triangles.h"
+#include "Npy/NpyFile.h"
 #include "Partitioned/NeighborIds.h"
-#include "Points/WritePoints.h"
 
 #include <algorithm>
 #include <filesystem>

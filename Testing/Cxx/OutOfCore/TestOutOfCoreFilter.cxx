@@ -2,8 +2,8 @@
 // vtkTIPPOutOfCoreDelaunay2D in a pipeline.
 #include "OutOfCoreTesting.h"
 
+#include "Npy/NpyFile.h"
 #include "Output/StatisticsTable.h"
-#include "Points/WritePoints.h"
 #include "vtkPartitionedUnstructuredReader.h"
 #include "vtkTIPPOutOfCoreDelaunay2D.h"
 

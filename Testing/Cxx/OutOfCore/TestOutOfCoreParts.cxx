@@ -3,6 +3,7 @@
 #include "OutOfCoreTesting.h"
 
 #include "ExpectIOError.h"
+#include "Npy/NpyFile.h"
 #include "OutOfCore/Checkpoint.h"
 #include "OutOfCore/FinishPieces.h"
 #include "OutOfCore/InputPasses.h"
@@ -12,7 +13,6 @@
 #include "OutOfCore/PieceRun.h"
 #include "OutOfCore/PreparedRun.h"
 #include "Partitioned/NeighborIds.h"
-#include "Points/WritePoints.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include "OutOfCoreTesting.h"
 
 #include "Files/IOError.h"
+#include "Npy/NpyFile.h"
 #include "OutOfCore/OutOfCoreRanks.h"
-#include "Points/WritePoints.h"
 
 #include "vtkErrorCode.h"
 #include "vtkMultiProcessController.h"

@@ -3,7 +3,7 @@
 #include "OutOfCoreTesting.h"
 
 #include "ExpectIOError.h"
-#include "Points/WritePoints.h"
+#include "Npy/NpyFile.h"
 
 #include <filesystem>
 #include <fstream>

@@ -4,9 +4,9 @@
 
 #include "Distributions/GeneratePoints.h"
 #include "ExpectIOError.h"
+#include "Npy/NpyFile.h"
 #include "Partitioned/GrowingPiece.h"
 #include "Partitioned/PartitionedMesh.h"
-#include "Points/WritePoints.h"
 
 #include <cmath>
 #include <filesystem>

@@ -3,7 +3,7 @@
 #include "MeshChecks.h"
 #include "TemporaryFolder.h"
 
-#include "Files/PendingFolder.h"
+#include "Files/PendingOutput.h"
 #include "Flat/FlatMesh.h"
 #include "Partitioning/PartitionMesh.h"
 

@@ -3,11 +3,11 @@
 #include "RealData.h"
 #include "TemporaryFolder.h"
 
+#include "Adcirc/FlattenAdcirc.h"
 #include "Flat/CellReader.h"
+#include "Flat/FlatFolder.h"
 #include "Flat/FlatMesh.h"
-#include "Flat/FlattenAdcirc.h"
 #include "Flat/FlattenDataSet.h"
-#include "Flat/WriteFlatMesh.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Vtk/ReadDataSet.h"
 #include "vtkPartitionedUnstructuredReader.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioning/TilingChoice.h"
+#include "Partitioning/MeshTiling.h"
 
 #include <gtest/gtest.h>
 

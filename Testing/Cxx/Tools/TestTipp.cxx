@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Meshes/ReadMesh.h"
+#include "Meshes/MeshFiles.h"
+#include "Npy/NpyFile.h"
 #include "OpenCL/Devices.h"
+#include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
-#include "Points/WritePoints.h"
 #include "RunTipp.h"
 
 #include "Distributions/GeneratePoints.h"

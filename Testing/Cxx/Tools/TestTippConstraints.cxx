@@ -2,7 +2,7 @@
 // tipp delaunay --constraints
 #include "RunTipp.h"
 
-#include "Meshes/ReadMesh.h"
+#include "Meshes/MeshFiles.h"
 #include "Points/ReadPoints.h"
 
 #include <gtest/gtest.h>

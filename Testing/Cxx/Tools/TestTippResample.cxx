@@ -2,9 +2,9 @@
 #include "RunTipp.h"
 
 #include "Distributions/GeneratePoints.h"
-#include "Npy/NpyHeader.h"
+#include "Npy/NpyFile.h"
+#include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
-#include "Points/WritePoints.h"
 
 #include <gtest/gtest.h>
 

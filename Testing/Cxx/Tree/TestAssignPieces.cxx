@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioning/AssignPieces.h"
+#include "Partitioning/PartitionMesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Files/PendingOutput.h"
+
+#include "Files/IOError.h"
+#include "Files/OutputFile.h"
+#include "Files/TemporaryFiles.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <random>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace tipp
+{
+namespace fs = std::filesystem;
+
+namespace
+{
+
+/// The suffix of a temporary file's name: a number, and a hash of the name that no user's file has
+/// by chance, so that only leftovers are removed.
+std::string ending(const std::string& start, const std::string& number)
+{
+  std::uint32_t hash = 2166136261U; // FNV-1a
+  for (const char letter : start + number)
+  {
+    hash = (hash ^ std::uint8_t(letter)) * 16777619U;
+  }
+  char digits[9];
+  std::snprintf(digits, sizeof(digits), "%08x", hash);
+  return number + "-" + digits + ".tmp";
+}
+
+/// Removes the files with this prefix that killed processes have left: those that no process has
+/// locked.
+void clearLeftovers(const fs::path& folder, const std::string& start)
+{
+  std::error_code failure;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure))
+  {
+    const std::string name = entry.path().filename().string();
+    const std::size_t digits = name.find_first_not_of("0123456789", start.size());
+    const bool isOurs = name.compare(0, start.size(), start) == 0 && digits != std::string::npos &&
+      name == start + ending(start, name.substr(start.size(), digits - start.size()));
+    const int file = isOurs ? open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW) : -1;
+    if (file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0)
+    {
+      fs::remove(entry.path(), failure);
+    }
+    if (file >= 0)
+    {
+      close(file);
+    }
+  }
+}
+
+/// Creates and locks the file; returns -1 if it cannot be created, for example because it exists.
+/// Another process may remove it as a leftover before it is locked; then it is created again.
+int makeLocked(const std::string& path)
+{
+  for (;;)
+  {
+    const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC | O_CREAT | O_EXCL, 0666);
+    struct stat info = {};
+    if (file < 0 || flock(file, LOCK_EX | LOCK_NB) != 0 ||
+      (fstat(file, &info) == 0 && info.st_nlink > 0))
+    {
+      return file;
+    }
+    close(file);
+  }
+}
+
+} // namespace
+
+PendingFile::PendingFile(const std::string& path, const std::optional<PathState>& before)
+{
+  if (path.empty() || path.back() == '/')
+  {
+    throw IOError(path, "is the name of a folder, not an ordinary file; name a file to write.");
+  }
+  const fs::path target = outputPath(path);
+  std::error_code failure;
+  if (fs::exists(target, failure) && !fs::is_regular_file(target, failure))
+  {
+    throw IOError(path, "is not an ordinary file; name a file to write.");
+  }
+  this->Path = target.string();
+  this->Before = before ? *before : PathState::of(this->Path);
+  const std::string start = hiddenName(target.filename(), ".");
+  clearLeftovers(target.parent_path(), start);
+  int descriptor = -1;
+  for (int more = 0; descriptor < 0; ++more)
+  {
+    const std::string number = std::to_string(getpid()) + (more == 0 ? "" : std::to_string(more));
+    this->Temporary = (target.parent_path() / (start + ending(start, number))).string();
+    descriptor = makeLocked(this->Temporary);
+    if (descriptor < 0 && errno != EEXIST)
+    {
+      failToWrite(path);
+    }
+  }
+  this->Listed.list(this->Temporary);
+  this->File.emplace(descriptor, path);
+}
+
+PendingFile::~PendingFile()
+{
+  if (!this->Temporary.empty())
+  {
+    std::error_code ignored;
+    fs::remove(this->Temporary, ignored);
+  }
+}
+
+void PendingFile::commit()
+{
+  this->File->sync();
+  this->File->close();
+  const std::string finished = std::exchange(this->Temporary, "");
+  commitOutput(this->Path, [&] { publish(finished, this->Path, this->Before, {}); });
+  std::error_code ignored;
+  fs::remove(finished, ignored); // the previous file
+  syncToDisk(fs::path(this->Path).parent_path().string());
+}
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+constexpr std::size_t suffixLetters = 6;
+
+std::string randomSuffix()
+{
+  constexpr const char* letters = "0123456789abcdefghijklmnopqrstuvwxyz";
+  std::random_device random;
+  std::string suffix;
+  for (std::size_t i = 0; i < suffixLetters; ++i)
+  {
+    suffix += letters[random() % 36];
+  }
+  return suffix;
+}
+
+/// Locks the folder until the descriptor is closed; returns -1 if another process has locked it.
+int lockFolder(const std::string& folder)
+{
+  const int lock = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock >= 0 && flock(lock, LOCK_EX | LOCK_NB) != 0)
+  {
+    close(lock);
+    errno = EWOULDBLOCK;
+    return -1;
+  }
+  return lock;
+}
+
+} // namespace
+
+PendingFolder::PendingFolder(const std::string& path, const Replaceable* replaceable)
+  : PendingFolder(path, replaceable, false)
+{
+}
+
+PendingFolder::PendingFolder(
+  const std::string& path, const Replaceable* replaceable, bool isLasting)
+  : MayReplace(replaceable)
+  , IsLasting(isLasting)
+{
+  const fs::path target = outputPath(path);
+  this->Path = target.string();
+  this->Parent = target.parent_path().string();
+  this->Before = PathState::of(this->Path);
+  const std::string objection = this->Before.Exists ? this->objectionTo(this->Path) : "";
+  if (!objection.empty())
+  {
+    throw IOError(path, objection + "; remove it or name another folder.");
+  }
+  const std::string name = target.filename().string();
+  isLasting ? this->openLasting(this->Parent + "/" + hiddenName(name, ".part"))
+            : this->makeTemporary(hiddenName(name, ".tmp."));
+  this->Temporary = this->Work + "/" + name;
+  if (!isLasting) // for a lasting one, messages show where the work is kept
+  {
+    this->Listed.showAs(this->Temporary, this->Path);
+  }
+  mkdir(this->Temporary.c_str(), 0777);
+  std::error_code failure;
+  if (!fs::is_directory(this->Temporary, failure))
+  {
+    const int reason = errno;
+    removeWorkFolder(this->Work);
+    errno = reason;
+    failToWrite(path);
+  }
+}
+
+void PendingFolder::makeTemporary(const std::string& prefix)
+{
+  this->clearLeftovers(prefix);
+  std::string folder;
+  do
+  {
+    folder = this->Parent + "/" + prefix + randomSuffix();
+    if (mkdir(folder.c_str(), 0777) == 0)
+    {
+      this->Work = folder;
+    }
+    else if (errno != EEXIST)
+    {
+      failToWrite(this->Path);
+    }
+  } while (this->Work.empty());
+  this->Lock.Descriptor = lockFolder(this->Work);
+  if (this->Lock.Descriptor < 0)
+  {
+    failToWrite(this->Path);
+  }
+  claimWorkFolder(this->Work, "");
+  this->Listed.list(this->Work);
+}
+
+void PendingFolder::openLasting(const std::string& folder)
+{
+  const auto isStillThere = [&]
+  {
+    struct stat opened = {};
+    struct stat named = {};
+    return fstat(this->Lock.Descriptor, &opened) == 0 && stat(folder.c_str(), &named) == 0 &&
+      opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
+  };
+  bool wasThere = false;
+  for (;;)
+  {
+    wasThere = mkdir(folder.c_str(), 0777) != 0;
+    if (wasThere && errno != EEXIST)
+    {
+      failToWrite(this->Path);
+    }
+    this->Lock.Descriptor = lockFolder(folder);
+    if (this->Lock.Descriptor >= 0 && isStillThere())
+    {
+      break;
+    }
+    if (this->Lock.Descriptor >= 0)
+    {
+      this->Lock.release();
+    }
+    else if (errno == EWOULDBLOCK)
+    {
+      throw IOError(this->Path, "is being made by another process; wait for it or end it.");
+    }
+    else if (errno == ENOTDIR)
+    {
+      throw IOError(folder, "is a file where the work folder of the run is to be; move it.");
+    }
+    else if (errno != ENOENT) // ENOENT: its owner has just finished
+    {
+      failToWrite(folder);
+    }
+  }
+  claimWorkFolder(folder, "");
+  this->Work = folder;
+  this->Listed.list(folder);
+  this->keep(wasThere);
+}
+
+void PendingFolder::FolderLock::release()
+{
+  if (this->Descriptor >= 0)
+  {
+    close(std::exchange(this->Descriptor, -1));
+  }
+}
+
+PendingFolder::~PendingFolder()
+{
+  if (!this->Work.empty() && !this->Kept)
+  {
+    removeWorkFolder(this->Work);
+  }
+}
+
+void PendingFolder::clearLeftovers(const std::string& prefix) const
+{
+  std::error_code failure;
+  for (const fs::directory_entry& entry : fs::directory_iterator(this->Parent, failure))
+  {
+    const std::string name = entry.path().filename().string();
+    const bool isNamedSo = name.size() == prefix.size() + suffixLetters &&
+      name.compare(0, prefix.size(), prefix) == 0 &&
+      entry.symlink_status(failure).type() == fs::file_type::directory;
+    // Locked: its owner is still running.
+    const int lock = isNamedSo ? lockFolder(entry.path().string()) : -1;
+    if (lock >= 0)
+    {
+      if (isWorkFolder(entry.path().string()))
+      {
+        removeWorkFolder(entry.path().string());
+      }
+      close(lock);
+    }
+  }
+}
+
+/// Returns why a folder must not be replaced; empty if it may be.
+std::string PendingFolder::objectionTo(const std::string& folder) const
+{
+  std::error_code failure;
+  const bool isFolder = fs::symlink_status(folder, failure).type() == fs::file_type::directory;
+  if (isFolder && fs::is_empty(folder, failure))
+  {
+    return "";
+  }
+  if (!isFolder || !this->MayReplace || !this->MayReplace->Is(folder))
+  {
+    return std::string("exists already") +
+      (this->MayReplace ? std::string(" and is no ") + this->MayReplace->Name : "");
+  }
+  std::vector<std::string> own;
+  try
+  {
+    own = this->MayReplace->Files(folder);
+  }
+  catch (const IOError& error)
+  {
+    return std::string("exists already, but its files are not known (") + error.what() + ")";
+  }
+  std::sort(own.begin(), own.end());
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, failure))
+  {
+    const std::string name = entry.path().string().substr(folder.size() + 1);
+    if (entry.symlink_status(failure).type() != fs::file_type::directory &&
+      !std::binary_search(own.begin(), own.end(), name))
+    {
+      return "exists already and holds '" + name + "', which is no file of a " +
+        this->MayReplace->Name;
+    }
+  }
+  return failure ? "cannot be looked through (" + failure.message() + ")" : "";
+}
+
+void PendingFolder::commit()
+{
+  syncToDisk(this->Temporary);
+  try
+  {
+    commitOutput(this->Path,
+      [this]
+      {
+        publish(this->Temporary, this->Path, this->Before,
+          [this](const std::string& folder) { return this->objectionTo(folder); });
+      });
+  }
+  catch (const IOError&)
+  {
+    this->keep();
+    if (!this->IsLasting)
+    {
+      unmarkWorkFolder(this->Work); // so that no other run removes it
+    }
+    throw;
+  }
+  syncToDisk(this->Parent);
+  // The previous output is in the work folder now, and is removed with it.
+}
+
+} // namespace tipp

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPendingOutput_h
+#define tippPendingOutput_h
+
+#include "Files/OutputFile.h"
+#include "Files/OutputPath.h"
+#include "Files/TemporaryFiles.h"
+#include "vtkTIPPIOModule.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// An output file with a temporary name in its own folder, which commit() moves to its path;
+/// without commit() the destructor removes it. So a failed or aborted run leaves no partial file,
+/// and the previous file stays. What a killed process has left is removed by the next run for the
+/// same path.
+class VTKTIPPIO_EXPORT PendingFile
+{
+public:
+  /// Throws IOError if the file cannot be created or something other than a regular file is at the
+  /// path. `before` is the path's state when the run began, from before() of an earlier object;
+  /// commit() replaces nothing else. nullopt: the present state.
+  explicit PendingFile(
+    const std::string& path, const std::optional<PathState>& before = std::nullopt);
+  ~PendingFile();
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+
+  const PathState& before() const { return this->Before; }
+
+  /// The temporary file to write to.
+  const OutputFile& file() const { return *this->File; }
+  const std::string& temporaryPath() const { return this->Temporary; }
+
+  /// Moves the file to its path once it is on the disk. Throws IOError if that fails or if the path
+  /// has changed since the constructor; then the finished file keeps its temporary name.
+  void commit();
+
+private:
+  std::string Path;
+  std::string Temporary;
+  TemporaryPath Listed;
+  PathState Before;
+  std::optional<OutputFile> File; ///< locked while it is open
+};
+
+/// The condition under which an existing folder may be replaced.
+struct Replaceable
+{
+  const char* Name; ///< as "partitioned mesh"
+  std::function<bool(const std::string& path)> Is;
+  /// Returns the files that make up such a folder, relative to it; throws IOError if that is
+  /// unknown. A folder with any other file is not replaced.
+  std::function<std::vector<std::string>(const std::string& path)> Files;
+};
+
+/// An output folder in a hidden work folder beside its path until commit(). Without commit() it is
+/// removed; what a killed process has left is removed by the next run for the same path. A work
+/// folder is marked as created here, and only files that runs write are removed from it.
+class VTKTIPPIO_EXPORT PendingFolder
+{
+public:
+  /// Throws IOError if the parent folder is missing or not writable, or if the path holds something
+  /// other than an empty folder or, if `replaceable` is given, a replaceable one.
+  explicit PendingFolder(const std::string& path, const Replaceable* replaceable = nullptr);
+  /// Uses a work folder with a fixed name, ".NAME.part". It may exist, left by an interrupted run,
+  /// and is then kept until keep(false); after keep() it stays. Files in it beside the output are
+  /// never published. Throws IOError also if another process uses it.
+  static PendingFolder lasting(const std::string& path, const Replaceable* replaceable)
+  {
+    return { path, replaceable, true };
+  }
+  ~PendingFolder();
+  PendingFolder(const PendingFolder&) = delete;
+  PendingFolder& operator=(const PendingFolder&) = delete;
+
+  /// The folder to write to.
+  const std::string& temporaryPath() const { return this->Temporary; }
+  /// The work folder that contains it.
+  const std::string& workPath() const { return this->Work; }
+  bool isKept() const { return this->Kept; }
+  void keep(bool kept = true)
+  {
+    this->Kept = kept;
+    this->Listed.keep(kept);
+  }
+
+  /// Moves the folder to its path in one step and removes what was there. The caller must have
+  /// synced its files for them to survive a crash. Throws IOError, also if what is at the path has
+  /// changed or must not be replaced; then the finished folder stays in the work folder.
+  void commit();
+
+private:
+  PendingFolder(const std::string& path, const Replaceable* replaceable, bool isLasting);
+  void makeTemporary(const std::string& prefix);
+  void openLasting(const std::string& folder);
+  void clearLeftovers(const std::string& prefix) const;
+  std::string objectionTo(const std::string& folder) const;
+
+  std::string Path;
+  std::string Parent;
+  const Replaceable* const MayReplace;
+  PathState Before;
+  std::string Temporary;
+  std::string Work;
+  TemporaryPath Listed;
+  bool IsLasting;
+  bool Kept = false;
+
+  /// The work folder's lock; a member, so that it is released even if the constructor throws.
+  struct FolderLock
+  {
+    FolderLock() = default;
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+    ~FolderLock() { this->release(); }
+    void release();
+
+    int Descriptor = -1;
+  };
+  FolderLock Lock;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Files/TemporaryFiles.h"
+
+#include "Files/IOError.h"
+#include "Files/OutputFile.h"
+#include "Files/TextFile.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <regex>
+#include <system_error>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+
+namespace tipp
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+struct Listed
+{
+  std::mutex Mutex;
+  std::map<std::string, int> Count; ///< a path may be listed twice
+  std::map<std::string, bool> Kept;
+  /// A separate mutex, because a failing commit builds a message, which looks up these paths.
+  std::mutex FinalsMutex;
+  std::map<std::string, std::string> Finals; ///< final path of each temporary folder
+  bool HasOutput = false;
+};
+
+/// Never destroyed: a signal may come while static objects are destroyed.
+Listed& listed()
+{
+  static auto* const all = new Listed;
+  return *all;
+}
+
+/// Other threads may still write into the folder. Only files that runs write are removed from it.
+void removePath(const std::string& path)
+{
+  constexpr int mostTries = 100;
+  std::error_code failure;
+  for (int i = 0; i < mostTries && fs::exists(path, failure); ++i)
+  {
+    if (fs::is_directory(path, failure))
+    {
+      removeWorkFolder(path);
+    }
+    else
+    {
+      fs::remove(path, failure);
+    }
+  }
+}
+
+} // namespace
+
+void TemporaryPath::list(const std::string& path)
+{
+  this->unlist();
+  const std::lock_guard<std::mutex> lock(listed().Mutex);
+  this->Path = path;
+  ++listed().Count[path];
+}
+
+void TemporaryPath::unlist()
+{
+  if (this->Path.empty())
+  {
+    return;
+  }
+  {
+    const std::lock_guard<std::mutex> lock(listed().FinalsMutex);
+    listed().Finals.erase(this->Shown);
+  }
+  const std::lock_guard<std::mutex> lock(listed().Mutex);
+  if (--listed().Count[this->Path] == 0)
+  {
+    listed().Count.erase(this->Path);
+    listed().Kept.erase(this->Path);
+  }
+  this->Path.clear();
+}
+
+void TemporaryPath::showAs(const std::string& temporary, const std::string& final)
+{
+  const std::lock_guard<std::mutex> lock(listed().FinalsMutex);
+  this->Shown = temporary;
+  listed().Finals[temporary] = final;
+}
+
+void TemporaryPath::keep(bool kept)
+{
+  const std::lock_guard<std::mutex> lock(listed().Mutex);
+  listed().Kept[this->Path] = kept;
+}
+
+std::string shownPath(const std::string& path)
+{
+  const std::lock_guard<std::mutex> lock(listed().FinalsMutex);
+  const auto& finals = listed().Finals;
+  std::string shown = path;
+  // Temporary folders may be nested. The innermost sorts last; its final path lies in the outer
+  // one.
+  for (auto entry = finals.rbegin(); entry != finals.rend(); ++entry)
+  {
+    const auto& [temporary, final] = *entry;
+    if (shown.compare(0, temporary.size(), temporary) == 0)
+    {
+      shown.replace(0, temporary.size(), final);
+    }
+  }
+  return shown;
+}
+
+void commitOutput(const std::string& path, const std::function<void()>& move)
+{
+  const std::lock_guard<std::mutex> lock(listed().Mutex);
+  move();
+  const auto isWithin = [&path](const auto& entry)
+  { return path.compare(0, entry.first.size() + 1, entry.first + "/") == 0; };
+  const std::map<std::string, int>& all = listed().Count;
+  listed().HasOutput |= std::none_of(all.begin(), all.end(), isWithin);
+}
+
+EndedPaths endTemporaryPaths()
+{
+  listed().Mutex.lock(); // never released
+  EndedPaths ended;
+  ended.HasOutput = listed().HasOutput;
+  for (const auto& [path, count] : listed().Count)
+  {
+    const auto kept = listed().Kept.find(path);
+    if (kept != listed().Kept.end() && kept->second)
+    {
+      ended.HasKept = true;
+      continue;
+    }
+    removePath(path);
+  }
+  return ended;
+}
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+constexpr const char* markName = ".tipp-work";
+
+/// Whether runs write files of that name into their work folders: temporary files, and the
+/// unfinished mesh or flat folder.
+bool isOurs(const std::string& path)
+{
+  static const std::regex ours(
+    "\\.(points|plan|piece|ranks)(\\.[^/]*)?"
+    "|[^/]+/\\.(owners|points|cells|shared|borrowers|borrowed|ghosts)\\b.*"
+    "|[^/]+/(index\\.json|tables\\.bin|mesh\\.pvtu)"
+    "|[^/]+/pieces/[0-9]{6,}\\.vtu(\\.larger)?"
+    "|([^/]+/)+[^/]+\\.npy"
+    "|([^/]+/)*\\.[^/]+\\.tmp"
+    "|([^/]+/)+\\.tipp-work",
+    std::regex::optimize);
+  return std::regex_match(path, ours);
+}
+
+void clear(const fs::path& folder, const std::string& prefix)
+{
+  std::error_code failure;
+  std::vector<fs::directory_entry> entries;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure))
+  {
+    entries.push_back(entry);
+  }
+  for (const fs::directory_entry& entry : entries)
+  {
+    const std::string name = prefix + entry.path().filename().string();
+    const fs::file_type type = entry.symlink_status(failure).type();
+    if (type == fs::file_type::directory)
+    {
+      clear(entry.path(), name + "/");
+      fs::remove(entry.path(), failure); // fails if something is left in it
+    }
+    else if (type == fs::file_type::regular && isOurs(name))
+    {
+      fs::remove(entry.path(), failure);
+    }
+  }
+}
+
+bool hasFiles(const std::string& folder)
+{
+  std::error_code failure;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, failure))
+  {
+    if (entry.symlink_status(failure).type() != fs::file_type::directory)
+    {
+      return true;
+    }
+  }
+  return bool(failure); // also true if the folder could not be listed
+}
+
+std::string markOf(const std::string& folder)
+{
+  return folder + "/" + markName;
+}
+
+bool isMarked(const std::string& folder)
+{
+  struct stat state = {};
+  return lstat(markOf(folder).c_str(), &state) == 0 && S_ISREG(state.st_mode);
+}
+
+} // namespace
+
+std::string hiddenName(const std::string& name, const std::string& ending)
+{
+  constexpr std::size_t longest = 255;
+  constexpr std::size_t reserved = 24; // room for a suffix such as a process id
+  if (name.size() + ending.size() + 1 + reserved <= longest)
+  {
+    return "." + name + ending;
+  }
+  std::uint64_t hash = 14695981039346656037U; // FNV-1a
+  for (const char letter : name)
+  {
+    hash = (hash ^ std::uint8_t(letter)) * 1099511628211U;
+  }
+  std::array<char, 17> digits{};
+  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return "." + name.substr(0, longest - reserved - 18 - ending.size()) + "." + digits.data() +
+    ending;
+}
+
+void claimWorkFolder(const std::string& folder, const std::string& purpose)
+{
+  std::error_code failure;
+  const bool isNew = mkdir(folder.c_str(), 0777) == 0;
+  if (!isNew && errno != EEXIST)
+  {
+    failToWrite(folder);
+  }
+  if (!fs::is_directory(folder, failure))
+  {
+    throw IOError(folder, "is a file where a folder for temporary files is to be; move it.");
+  }
+  if (!isNew && !isWorkFolder(folder))
+  {
+    throw IOError(folder,
+      std::string(
+        "is to hold temporary files, but it is there already with other files and without ") +
+        markName + ", which marks the folders of runs; move it.");
+  }
+  if (isMarked(folder))
+  {
+    if (!purpose.empty() && readTextFile(markOf(folder)) != purpose)
+    {
+      throw IOError(folder,
+        "holds the temporary files of another run; name another folder, or remove it if that run "
+        "is not to be resumed.");
+    }
+    return;
+  }
+  try
+  {
+    const int descriptor =
+      open(markOf(folder).c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+    {
+      failToWrite(folder);
+    }
+    OutputFile mark(descriptor, folder);
+    mark.write(0, purpose.data(), purpose.size());
+    mark.close();
+  }
+  catch (const IOError&)
+  {
+    removeWorkFolder(folder);
+    throw;
+  }
+}
+
+bool isWorkFolder(const std::string& folder)
+{
+  return isMarked(folder) || !hasFiles(folder);
+}
+
+void unmarkWorkFolder(const std::string& folder)
+{
+  std::error_code ignored;
+  fs::remove(markOf(folder), ignored);
+}
+
+void clearWorkFolder(const std::string& folder)
+{
+  clear(folder, "");
+}
+
+void removeWorkFolder(const std::string& folder)
+{
+  clearWorkFolder(folder);
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+  {
+    if (entry.path().filename() != markName)
+    {
+      return;
+    }
+  }
+  unmarkWorkFolder(folder);
+  fs::remove(folder, ignored);
+}
+
+} // namespace tipp

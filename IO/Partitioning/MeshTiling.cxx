@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioning/MeshTiling.h"
+
+#include "Files/IOError.h"
+#include "Files/InputFile.h"
+#include "Files/OutputFile.h"
+#include "Flat/CellReader.h"
+#include "Parallel/ParallelFor.h"
+#include "Parallel/Poll.h"
+#include "Partitioning/BuildTree.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tipp
+{
+namespace
+{
+
+std::optional<std::string_view> after(std::string_view text, std::string_view start)
+{
+  return text.substr(0, start.size()) == start ? std::make_optional(text.substr(start.size()))
+                                               : std::nullopt;
+}
+
+std::optional<TilingChoice> parseTree(std::string_view number)
+{
+  TilingChoice choice;
+  const char* const end = number.data() + number.size();
+  const auto [stop, error] = std::from_chars(number.data(), end, choice.Threshold);
+  const bool good = error == std::errc() && stop == end && choice.Threshold >= 1;
+  return good ? std::make_optional(choice) : std::nullopt;
+}
+
+std::optional<TilingChoice> parseGrid(std::string_view counts)
+{
+  constexpr int most = 10000;
+  TilingChoice choice;
+  const char* at = counts.data();
+  const char* const end = at + counts.size();
+  std::size_t axis = 0;
+  for (; axis < 3; ++axis)
+  {
+    const auto [stop, error] = std::from_chars(at, end, choice.Boxes[axis]);
+    if (error != std::errc() || choice.Boxes[axis] < 1 || choice.Boxes[axis] > most)
+    {
+      return std::nullopt;
+    }
+    at = stop;
+    if (at == end)
+    {
+      break;
+    }
+    if (*at++ != 'x')
+    {
+      return std::nullopt;
+    }
+  }
+  return at == end && axis >= 1 && axis < 3 ? std::make_optional(choice) : std::nullopt;
+}
+
+} // namespace
+
+std::optional<TilingChoice> TilingChoice::parse(const std::string& text)
+{
+  if (const auto counts = after(text, "grid:"))
+  {
+    return parseGrid(*counts);
+  }
+  for (const char* const name : { "quadtree:", "octree:" })
+  {
+    if (const auto number = after(text, name))
+    {
+      return parseTree(*number);
+    }
+  }
+  return std::nullopt;
+}
+
+std::string TilingChoice::text(int dimension) const
+{
+  if (this->Threshold > 0)
+  {
+    return (dimension == 2 ? "quadtree:" : "octree:") + std::to_string(this->Threshold);
+  }
+  std::string counts = std::to_string(this->Boxes[0]) + "x" + std::to_string(this->Boxes[1]);
+  if (dimension == 3)
+  {
+    counts += "x" + std::to_string(this->Boxes[2]);
+  }
+  return "grid:" + counts;
+}
+
+namespace
+{
+
+constexpr std::int64_t blockPoints = 1 << 16;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Calls work(first point, count, coordinates) for blocks of this rank's share.
+template <typename Work>
+void forEachBlock(const FlatMesh& mesh, const Ranks& ranks, int threads, const Work& work)
+{
+  const InputFile file(mesh.Points.Path);
+  const auto [from, to] = ranks.shareOf(mesh.Points.Tuples);
+  const std::int64_t blocks = (to - from + blockPoints - 1) / blockPoints;
+  parallelFor(blocks, threads,
+    [&, from = from, to = to](std::int64_t block)
+    {
+      poll();
+      const std::int64_t first = from + block * blockPoints;
+      const std::int64_t count = std::min(blockPoints, to - first);
+      std::vector<char> raw(std::size_t(count) * mesh.Points.tupleBytes());
+      file.read(mesh.Points.Offset + std::uint64_t(first) * mesh.Points.tupleBytes(), raw.data(),
+        raw.size());
+      const int dimension = mesh.CellSize - 1;
+      std::vector<double> coordinates(std::size_t(count) * std::size_t(dimension));
+      takeCoordinates(mesh.Points, raw.data(), std::size_t(count), dimension, coordinates.data());
+      work(block, first, count, coordinates.data());
+    });
+}
+
+struct Range
+{
+  double Least[3] = { infinity, infinity, infinity };
+  double Greatest[3] = { -infinity, -infinity, -infinity };
+};
+
+Range rangeOf(const FlatMesh& mesh, std::int64_t first, std::int64_t count, const double* values)
+{
+  const std::size_t dimension = std::size_t(mesh.CellSize) - 1;
+  Range range;
+  double sum = 0; // not finite if one of the values is not
+  for (std::size_t i = 0; i < std::size_t(count) * dimension; ++i)
+  {
+    const std::size_t axis = dimension == 2 ? i & 1 : i % 3;
+    range.Least[axis] = std::min(range.Least[axis], values[i]);
+    range.Greatest[axis] = std::max(range.Greatest[axis], values[i]);
+    sum += values[i] * 0;
+  }
+  for (std::size_t i = 0; sum != 0 && i < std::size_t(count) * dimension; ++i)
+  {
+    if (!std::isfinite(values[i]))
+    {
+      throw IOError(mesh.Points.Path,
+        "point " + std::to_string(first + std::int64_t(i / dimension)) +
+          " has a coordinate that is not finite; leave such points out.");
+    }
+  }
+  return range;
+}
+
+} // namespace
+
+Box3 boundsOfPoints(const FlatMesh& mesh, const Ranks& ranks, int threads)
+{
+  std::vector<double> both(6, infinity);
+  ranks.attempt(
+    [&]
+    {
+      const auto [from, to] = ranks.shareOf(mesh.Points.Tuples);
+      std::vector<Range> ranges(std::size_t((to - from + blockPoints - 1) / blockPoints));
+      forEachBlock(mesh, ranks, threads,
+        [&](std::int64_t block, std::int64_t first, std::int64_t count, const double* values)
+        { ranges[std::size_t(block)] = rangeOf(mesh, first, count, values); });
+      for (const Range& range : ranges)
+      {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          both[axis] = std::min(both[axis], range.Least[axis]);
+          both[3 + axis] = std::min(both[3 + axis], -range.Greatest[axis]);
+        }
+      }
+    });
+  both = ranks.minimum(both);
+  Box3 box;
+  for (std::size_t axis = 0; axis < std::size_t(mesh.CellSize) - 1; ++axis)
+  {
+    box.Min[axis] = both[axis];
+    box.Max[axis] = -both[3 + axis];
+  }
+  return box;
+}
+
+void writeOwners(const FlatMesh& mesh, const BoxTiling& tiling, const std::string& path,
+  const Ranks& ranks, int threads)
+{
+  ranks.attempt(
+    [&]
+    {
+      if (ranks.isFirst())
+      {
+        const OutputFile made(path);
+      }
+    });
+  ranks.attempt(
+    [&]
+    {
+      const OutputFile file = OutputFile::shared(path);
+      const std::size_t dimension = std::size_t(mesh.CellSize) - 1;
+      forEachBlock(mesh, ranks, threads,
+        [&](std::int64_t, std::int64_t first, std::int64_t count, const double* values)
+        {
+          std::vector<std::int32_t> owners(std::size_t(count), -1);
+          for (std::size_t i = 0; i < owners.size(); ++i)
+          {
+            Box3 point;
+            std::copy_n(values + i * dimension, dimension, point.Min.begin());
+            point.Max = point.Min;
+            int met = 0;
+            std::int32_t owner = 0;
+            tiling.forEachMeeting(point, [&](std::int32_t id) { owner = met++ == 0 ? id : owner; });
+            owners[i] = met == 1 ? owner : -1 - owner;
+          }
+          file.write(std::uint64_t(first) * 4, owners.data(), owners.size() * 4);
+        });
+    });
+}
+
+namespace
+{
+
+/// Loads chunks of cells with their coordinates, for building the tree: the points' owners are not
+/// known yet.
+class LoadedCells
+{
+public:
+  LoadedCells(const FlatMesh& mesh, const LoaderOptions& loading, int threads)
+    : Mesh(mesh)
+    , Reader(mesh, 0, -1, threads)
+    , Loader(makeVertexLoader({ mesh.Points }, loading))
+  {
+  }
+
+  void read(std::int64_t first, std::int64_t count, std::vector<double>& coordinates)
+  {
+    const RawArray& points = this->Mesh.Points;
+    this->Ids.resize(std::size_t(count) * std::size_t(this->Mesh.CellSize));
+    this->Reader.read(first, count, this->Ids.data());
+    this->Raw.resize(this->Ids.size() * points.tupleBytes());
+    void* const out[] = { this->Raw.data() };
+    poll();
+    this->Loader->load(this->Ids.data(), this->Ids.size(), out);
+    const int dimension = this->Mesh.CellSize - 1;
+    coordinates.resize(this->Ids.size() * std::size_t(dimension));
+    takeCoordinates(points, this->Raw.data(), this->Ids.size(), dimension, coordinates.data());
+  }
+
+private:
+  const FlatMesh& Mesh;
+  CellReader Reader;
+  std::unique_ptr<VertexLoader> Loader;
+  std::vector<std::int64_t> Ids;
+  std::vector<char> Raw;
+};
+
+void requirePieces(std::int64_t boxes, const FlatMesh& mesh)
+{
+  if (boxes > mostPieces)
+  {
+    throw IOError(mesh.Path,
+      "would be cut into " + std::to_string(boxes) + " pieces, more than the " +
+        std::to_string(mostPieces) + " that a mesh can have; choose a coarser tiling.");
+  }
+}
+
+Bounds boundsOf(const Box3& box)
+{
+  return { box.Min[0], box.Max[0], box.Min[1], box.Max[1], box.Min[2], box.Max[2] };
+}
+
+} // namespace
+
+BoxTiling makeTiling(const FlatMesh& mesh, const TilingChoice& choice, const LoaderOptions& loading,
+  std::int64_t chunkCells, int threads, const Ranks& ranks, const Box3& domain)
+{
+  const int dimension = mesh.CellSize - 1;
+  if (choice.Threshold == 0)
+  {
+    std::array<int, 3> boxes = choice.Boxes;
+    // In 2D there is no third axis to split.
+    boxes[2] = dimension == 2 ? 1 : boxes[2];
+    requirePieces(std::int64_t(boxes[0]) * boxes[1] * boxes[2], mesh);
+    return BoxTiling::grid(dimension, domain, boxes);
+  }
+  std::optional<LoadedCells> loaded;
+  ranks.attempt([&] { loaded.emplace(mesh, loading, threads); });
+  const CellSource source{ dimension, mesh.CellSize, mesh.Cells.Tuples,
+    [&](std::int64_t first, std::int64_t count, std::vector<double>& coordinates)
+    { loaded->read(first, count, coordinates); } };
+  TreeOptions options;
+  options.Dimension = dimension;
+  options.Threshold = choice.Threshold;
+  options.ChunkCells = chunkCells;
+  options.Threads = threads;
+  BoxTiling tiling = buildTree(source, domain, options, ranks.controller()).Tiling;
+  requirePieces(tiling.count(), mesh);
+  return tiling;
+}
+
+void setPieces(PartitionedMesh& mesh, const Box3& domain, const BoxTiling& tiling)
+{
+  mesh.Domain = boundsOf(domain);
+  mesh.Pieces.assign(std::size_t(tiling.count()), {});
+  for (std::int64_t i = 0; i < tiling.count(); ++i)
+  {
+    mesh.Pieces[std::size_t(i)].Box = boundsOf(tiling.box(i));
+  }
+}
+
+} // namespace tipp

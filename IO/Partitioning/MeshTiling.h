@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippMeshTiling_h
+#define tippMeshTiling_h
+
+#include "Flat/FlatMesh.h"
+#include "Loading/VertexLoader.h"
+#include "Partition/BoxTiling.h"
+#include "Partitioned/PartitionedMesh.h"
+#include "Partitioning/Ranks.h"
+#include "Predicates/Point3.h"
+#include "vtkTIPPIOModule.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+
+namespace tipp
+{
+
+/// How the domain is split into partitions.
+struct TilingChoice
+{
+  /// The boxes along each axis of a regular grid.
+  std::array<int, 3> Boxes{ 4, 4, 1 };
+  /// If not 0: a quadtree or octree; a node that more cells meet is split, down to
+  /// BoxTiling::MaxDepth. Only cells no longer than the node count.
+  std::int64_t Threshold = 0;
+
+  /// Parses "grid:4x4", "grid:4x4x2", "quadtree:100000" or "octree:100000"; nullopt for any other
+  /// text.
+  VTKTIPPIO_EXPORT static std::optional<TilingChoice> parse(const std::string& text);
+  VTKTIPPIO_EXPORT std::string text(int dimension) const;
+};
+
+template <typename Value>
+void takeCoordinatesAs(
+  const char* raw, std::size_t count, int components, int dimension, double* to)
+{
+  Value tuple[3] = {};
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    std::memcpy(tuple, raw, std::size_t(components) * sizeof(Value));
+    raw += std::size_t(components) * sizeof(Value);
+    for (int axis = 0; axis < dimension; ++axis)
+    {
+      *to++ = double(tuple[axis]);
+    }
+  }
+}
+
+/// Copies the first `dimension` coordinates of points as a file stores them; missing ones are 0.
+inline void takeCoordinates(
+  const RawArray& points, const char* raw, std::size_t count, int dimension, double* to)
+{
+  const int components = std::min(points.Components, 3);
+  if (points.Type == Scalar::Float32)
+  {
+    takeCoordinatesAs<float>(raw, count, components, dimension, to);
+  }
+  else
+  {
+    takeCoordinatesAs<double>(raw, count, components, dimension, to);
+  }
+}
+
+/// Returns the bounding box of all points in the cells' dimension; for triangles z is 0. Throws
+/// IOError naming the first point with a coordinate that is not finite. Collective.
+Box3 boundsOfPoints(const FlatMesh& mesh, const Ranks& ranks, int threads);
+
+/// Writes each point's owner, the first partition whose closed box contains it, to a file of 4
+/// bytes per point: the partition's index, or -1 - index if others contain the point, too.
+/// Collective.
+void writeOwners(const FlatMesh& mesh, const BoxTiling& tiling, const std::string& path,
+  const Ranks& ranks, int threads);
+
+/// Returns the chosen tiling of the mesh's domain. While a tree is built, `chunkCells` cells are in
+/// memory, with their coordinates twice. Collective. Throws IOError, also for more than mostPieces
+/// boxes.
+BoxTiling makeTiling(const FlatMesh& mesh, const TilingChoice& choice, const LoaderOptions& loading,
+  std::int64_t chunkCells, int threads, const Ranks& ranks, const Box3& domain);
+
+/// Sets the mesh's domain, and adds a piece with unknown counts for each box.
+void setPieces(PartitionedMesh& mesh, const Box3& domain, const BoxTiling& tiling);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioning/PartitionDataSet.h"
+
+#include "Files/IOError.h"
+#include "Files/OutputPath.h"
+#include "Files/PendingOutput.h"
+#include "Flat/FlattenDataSet.h"
+#include "Partitioning/PartitionMesh.h"
+#include "Partitioning/Ranks.h"
+#include "Vtk/ReadDataSet.h"
+
+#include "vtkAppendFilter.h"
+#include "vtkDataSet.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+namespace
+{
+
+using DataSets = std::vector<vtkSmartPointer<vtkDataSet>>;
+
+DataSets dataSetsIn(vtkDataObject* data)
+{
+  DataSets sets;
+  if (auto* const one = vtkDataSet::SafeDownCast(data))
+  {
+    sets.emplace_back(one);
+  }
+  else if (auto* const parts = vtkPartitionedDataSet::SafeDownCast(data))
+  {
+    for (unsigned int i = 0; i < parts->GetNumberOfPartitions(); ++i)
+    {
+      if (parts->GetPartition(i))
+      {
+        sets.emplace_back(parts->GetPartition(i));
+      }
+    }
+  }
+  return sets;
+}
+
+vtkSmartPointer<vtkDataSet> unite(const DataSets& sets)
+{
+  if (sets.size() == 1)
+  {
+    return sets[0];
+  }
+  vtkNew<vtkAppendFilter> append;
+  append->MergePointsOn();
+  append->SetTolerance(0);
+  for (const vtkSmartPointer<vtkDataSet>& set : sets)
+  {
+    append->AddInputData(set);
+  }
+  append->Update();
+  return append->GetOutput();
+}
+
+} // namespace
+
+vtkSmartPointer<vtkDataSet> gatherDataSets(
+  vtkDataObject* data, vtkMultiProcessController* controller)
+{
+  const Ranks ranks(controller);
+  DataSets sets = dataSetsIn(data);
+  ranks.attempt(
+    [&]
+    {
+      for (const vtkSmartPointer<vtkDataSet>& set : sets)
+      {
+        checkDataSet(set, "the input");
+      }
+    });
+  const std::int64_t count = ranks.sum({ std::int64_t(sets.size()) })[0];
+  if (count == 0)
+  {
+    throw IOError("There is no data set to partition; set an input or InputFileName.");
+  }
+  if (ranks.count() == 1)
+  {
+    return unite(sets);
+  }
+  vtkSmartPointer<vtkDataSet> mine;
+  if (sets.empty())
+  {
+    mine = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  }
+  else
+  {
+    mine = unite(sets);
+  }
+  std::vector<vtkSmartPointer<vtkDataObject>> all;
+  controller->Gather(mine, all, 0);
+  DataSets received;
+  for (const vtkSmartPointer<vtkDataObject>& object : all)
+  {
+    auto* const set = vtkDataSet::SafeDownCast(object);
+    if (set && set->GetNumberOfCells() > 0)
+    {
+      received.emplace_back(set);
+    }
+  }
+  // If there is no data set at all, flattening it fails.
+  return ranks.isFirst() ? (received.empty() ? mine : unite(received)) : nullptr;
+}
+
+PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
+  const std::string& output, const PartitionOptions& options, vtkMultiProcessController* controller)
+{
+  const auto make = [&] { return flattenDataSet(data, name).Content; };
+  return partitionInMemory(make, name, output, options, controller);
+}
+
+PartitionStatistics partitionInput(const std::string& input, const std::string& output,
+  const PartitionOptions& options, vtkMultiProcessController* controller)
+{
+  const Ranks ranks(controller);
+  FlatMesh mesh;
+  vtkSmartPointer<vtkDataSet> data;
+  int isFlat = 1;
+  ranks.attempt(
+    [&]
+    {
+      if (ranks.isFirst())
+      {
+        requireApart({ output }, { input });
+        // fails early if the output cannot be written
+        const PendingFolder writable(output, &replaceableMesh);
+      }
+      isFlat = isFlatMesh(input) || !isVtkFile(input);
+      if (isFlat)
+      {
+        mesh = openFlatMesh(input);
+      }
+      else if (ranks.isFirst())
+      {
+        data = readDataSet(input);
+      }
+    });
+  return isFlat ? partitionMesh(mesh, output, options, controller)
+                : partitionDataSet(data, input, output, options, controller);
+}
+
+} // namespace tipp

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioning/RefinementTree.h"
+
+#include "Files/IOError.h"
+
+#include <algorithm>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr std::size_t MostNodes = std::size_t(1) << 24;
+
+// Traverses two structures in parallel.
+class StructureMerger
+{
+public:
+  StructureMerger(const std::string& a, const std::string& b, int childCount)
+    : A(a)
+    , B(b)
+    , ChildCount(childCount)
+  {
+  }
+
+  std::string run()
+  {
+    this->mergeNode(0);
+    if (this->InA != this->A.size() || this->InB != this->B.size())
+    {
+      fail();
+    }
+    return std::move(this->Result);
+  }
+
+private:
+  [[noreturn]] static void fail()
+  {
+    throw IOError("A rank sent nodes that do not make a tree of partitions.");
+  }
+
+  char next(const std::string& text, std::size_t& position) const
+  {
+    if (position >= text.size() || (text[position] != '0' && text[position] != '1'))
+    {
+      fail();
+    }
+    return text[position++];
+  }
+
+  void mergeNode(int depth)
+  {
+    const bool splitInA = this->next(this->A, this->InA) == '1';
+    const bool splitInB = this->next(this->B, this->InB) == '1';
+    this->Result.push_back(splitInA || splitInB ? '1' : '0');
+    this->checkDepth(depth);
+    for (int i = 0; i < this->ChildCount && splitInA && splitInB; ++i)
+    {
+      this->mergeNode(depth + 1);
+    }
+    if (splitInA != splitInB)
+    {
+      this->copyChildren(splitInA ? this->A : this->B, splitInA ? this->InA : this->InB, depth);
+    }
+  }
+
+  void copyChildren(const std::string& text, std::size_t& position, int depth)
+  {
+    this->checkDepth(depth);
+    for (int i = 0; i < this->ChildCount; ++i)
+    {
+      const char node = this->next(text, position);
+      this->Result.push_back(node);
+      if (node == '1')
+      {
+        this->copyChildren(text, position, depth + 1);
+      }
+    }
+  }
+
+  static void checkDepth(int depth)
+  {
+    if (depth > BoxTiling::MaxDepth)
+    {
+      fail();
+    }
+  }
+
+  const std::string& A;
+  const std::string& B;
+  int ChildCount;
+  std::size_t InA = 0;
+  std::size_t InB = 0;
+  std::string Result;
+};
+
+} // namespace
+
+RefinementTree::RefinementTree(int dimension, const Box3& domain)
+  : Dimension(dimension)
+  , ChildCount(BoxTiling::childCount(dimension, domain))
+  , FirstChild{ -1 }
+  , Boxes{ domain }
+  , Depths{ 0 }
+{
+}
+
+RefinementTree::RefinementTree(int dimension, const Box3& domain, const std::string& structure)
+  : RefinementTree(dimension, domain)
+{
+  // Stack of nodes whose letter has not been read, the next one last.
+  std::vector<std::int32_t> waiting = { 0 };
+  for (const char letter : structure)
+  {
+    if (waiting.empty())
+    {
+      break;
+    }
+    const std::int32_t node = waiting.back();
+    waiting.pop_back();
+    if (letter == '1')
+    {
+      this->split(node);
+      for (int which = this->ChildCount - 1; which >= 0; --which)
+      {
+        waiting.push_back(this->firstChild(node) + which);
+      }
+    }
+  }
+}
+
+double RefinementTree::length(std::int32_t node) const
+{
+  const Box3& box = this->box(node);
+  double longest = 0.0;
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(this->Dimension); ++axis)
+  {
+    longest = std::max(longest, box.Max[axis] - box.Min[axis]);
+  }
+  return longest;
+}
+
+bool RefinementTree::canSplit(std::int32_t node, int maxDepth) const
+{
+  if (this->ChildCount == 1 || this->Depths[at(node)] >= maxDepth)
+  {
+    return false;
+  }
+  const Box3& box = this->box(node);
+  const Box3 lowest = BoxTiling::childBox(this->Dimension, this->domain(), box, 0);
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(this->Dimension); ++axis)
+  {
+    const bool cut = this->domain().Min[axis] < this->domain().Max[axis];
+    const double middle = lowest.Max[axis];
+    if (cut && (middle <= box.Min[axis] || middle >= box.Max[axis]))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void RefinementTree::split(std::int32_t leaf)
+{
+  if (this->size() + static_cast<std::size_t>(this->ChildCount) > MostNodes)
+  {
+    throw IOError("The tree of partitions would have more than " + std::to_string(MostNodes) +
+      " nodes; allow more cells a partition.");
+  }
+  this->FirstChild[at(leaf)] = static_cast<std::int32_t>(this->size());
+  const auto depth = static_cast<std::uint8_t>(this->Depths[at(leaf)] + 1);
+  for (int which = 0; which < this->ChildCount; ++which)
+  {
+    this->Boxes.push_back(
+      BoxTiling::childBox(this->Dimension, this->domain(), this->box(leaf), which));
+    this->FirstChild.push_back(-1);
+    this->Depths.push_back(depth);
+  }
+}
+
+std::string RefinementTree::structure() const
+{
+  std::string letters;
+  letters.reserve(this->size());
+  std::vector<std::int32_t> stack = { 0 };
+  while (!stack.empty())
+  {
+    const std::int32_t node = stack.back();
+    stack.pop_back();
+    letters.push_back(this->isLeaf(node) ? '0' : '1');
+    for (int which = this->ChildCount - 1; which >= 0 && !this->isLeaf(node); --which)
+    {
+      stack.push_back(this->firstChild(node) + which);
+    }
+  }
+  return letters;
+}
+
+std::string RefinementTree::merged(const std::string& a, const std::string& b, int childCount)
+{
+  return StructureMerger(a, b, childCount).run();
+}
+
+BoxTiling RefinementTree::tiling(
+  const std::function<bool(std::int32_t)>& keep, std::vector<std::int32_t>& leaves) const
+{
+  struct Pending
+  {
+    std::int32_t From;
+    std::size_t To;
+  };
+  leaves.clear();
+  std::vector<std::int32_t> nodes = { -1 };
+  std::vector<Pending> stack = { { 0, 0 } };
+  while (!stack.empty())
+  {
+    const Pending pending = stack.back();
+    stack.pop_back();
+    if (this->isLeaf(pending.From) || !keep(pending.From))
+    {
+      leaves.push_back(pending.From);
+      continue;
+    }
+    nodes[pending.To] = static_cast<std::int32_t>(nodes.size());
+    for (int which = this->ChildCount - 1; which >= 0; --which)
+    {
+      stack.push_back(
+        { this->firstChild(pending.From) + which, nodes.size() + static_cast<std::size_t>(which) });
+    }
+    nodes.insert(nodes.end(), static_cast<std::size_t>(this->ChildCount), -1);
+  }
+  return BoxTiling::tree(this->Dimension, this->domain(), nodes);
+}
+
+} // namespace tipp

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Vtk/CellArrayCheck.h"
+
+#include "vtkCell.h"
+#include "vtkCellType.h"
+#include "vtkGenericCell.h"
+#include "vtkSmartPointer.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr int unknown = -1;
+
+bool varies(int type)
+{
+  switch (type)
+  {
+    case VTK_POLY_VERTEX:
+    case VTK_POLY_LINE:
+    case VTK_TRIANGLE_STRIP:
+    case VTK_POLYGON:
+    case VTK_QUADRATIC_POLYGON:
+    case VTK_CONVEX_POINT_SET:
+    case VTK_POLYHEDRON:
+      return true;
+    default:
+      return type >= VTK_LAGRANGE_CURVE;
+  }
+}
+
+/// The least number of vertices of a type whose number varies.
+std::int64_t leastSize(int type)
+{
+  switch (type)
+  {
+    case VTK_TRIANGLE_STRIP:
+    case VTK_POLYGON:
+      return 3;
+    case VTK_QUADRATIC_POLYGON:
+      return 6;
+    case VTK_CONVEX_POINT_SET:
+    case VTK_POLYHEDRON:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
+std::array<int, 256> makeSizes()
+{
+  std::array<int, 256> sizes{};
+  sizes.fill(unknown);
+  for (int type = 0; type < VTK_NUMBER_OF_CELL_TYPES; ++type)
+  {
+    const auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
+    if (cell)
+    {
+      sizes[std::size_t(type)] = varies(type) ? 0 : int(cell->GetNumberOfPoints());
+    }
+  }
+  sizes[VTK_EMPTY_CELL] = 0;
+  return sizes;
+}
+
+int tabulated(int type)
+{
+  static const std::array<int, 256> sizes = makeSizes();
+  return type >= 0 && type < 256 ? sizes[std::size_t(type)] : unknown;
+}
+
+/// Whether the number of vertices fits a cell of higher order with the same order along all its
+/// edges.
+bool isHigherOrder(int type, std::int64_t size)
+{
+  for (std::int64_t n = 1; n <= size; ++n)
+  {
+    const std::int64_t triangle = (n + 1) * (n + 2) / 2;
+    std::int64_t due = n + 1;
+    switch (type)
+    {
+      case VTK_LAGRANGE_TRIANGLE:
+      case VTK_BEZIER_TRIANGLE:
+        due = n == 2 && size == 7 ? 7 : triangle;
+        break;
+      case VTK_LAGRANGE_QUADRILATERAL:
+      case VTK_BEZIER_QUADRILATERAL:
+        due = (n + 1) * (n + 1);
+        break;
+      case VTK_LAGRANGE_TETRAHEDRON:
+      case VTK_BEZIER_TETRAHEDRON:
+        due = n == 2 && size == 15 ? 15 : triangle * (n + 3) / 3;
+        break;
+      case VTK_LAGRANGE_HEXAHEDRON:
+      case VTK_BEZIER_HEXAHEDRON:
+        due = (n + 1) * (n + 1) * (n + 1);
+        break;
+      case VTK_LAGRANGE_WEDGE:
+      case VTK_BEZIER_WEDGE:
+        due = n == 2 && size == 21 ? 21 : triangle * (n + 1);
+        break;
+      default:
+        break;
+    }
+    if (due >= size)
+    {
+      return due == size;
+    }
+  }
+  return false;
+}
+
+} // namespace
+
+bool isCellType(int type)
+{
+  return tabulated(type) != unknown;
+}
+
+int cellSizeOf(int type)
+{
+  return std::max(tabulated(type), 0);
+}
+
+bool isCellSize(int type, std::int64_t size)
+{
+  const int due = tabulated(type);
+  if (due > 0 || due == unknown)
+  {
+    return size == due;
+  }
+  return type >= VTK_LAGRANGE_CURVE ? isHigherOrder(type, size) : size >= leastSize(type);
+}
+
+} // namespace tipp

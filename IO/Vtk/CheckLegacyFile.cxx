@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Files/IOError.h"
+#include "Files/InputFile.h"
+#include "Vtk/ReadDataSet.h"
+#include "Vtk/VtkMessages.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr const char* advice = "; copy or write it again.";
+using Words = std::vector<std::string_view>;
+
+std::string lower(std::string_view word)
+{
+  std::string result(word);
+  std::transform(result.begin(), result.end(), result.begin(),
+    [](unsigned char letter) { return char(std::tolower(letter)); });
+  return result;
+}
+
+bool isBlank(char letter)
+{
+  return letter == ' ' || letter == '\t' || letter == '\r' || letter == '\n';
+}
+
+std::optional<std::int64_t> numberIn(std::string_view word)
+{
+  std::int64_t value = 0;
+  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && stop == word.data() + word.size() ? std::make_optional(value)
+                                                                   : std::nullopt;
+}
+
+/// The words of a line that may be a header; none if the line is too long, as in binary data.
+Words wordsOf(std::string_view line)
+{
+  Words words;
+  if (line.size() > 512)
+  {
+    return words;
+  }
+  for (std::size_t at = 0; at < line.size() && words.size() < 6;)
+  {
+    while (at < line.size() && isBlank(line[at]))
+    {
+      ++at;
+    }
+    const std::size_t begin = at;
+    while (at < line.size() && !isBlank(line[at]))
+    {
+      ++at;
+    }
+    if (at > begin)
+    {
+      words.push_back(line.substr(begin, at - begin));
+    }
+  }
+  return words;
+}
+
+class LegacyCheck
+{
+public:
+  explicit LegacyCheck(const std::string& path)
+    : Path(path)
+  {
+    const InputFile file(path);
+    this->Text.resize(file.size());
+    file.read(0, this->Text.data(), this->Text.size());
+  }
+
+  void run()
+  {
+    const std::string_view text = this->Text;
+    for (std::size_t at = 0, line = 0; at < text.size(); ++line)
+    {
+      const std::size_t end = std::min(text.find('\n', at), text.size());
+      const Words words = wordsOf(text.substr(at, end - at));
+      this->At = std::min(end + 1, text.size());
+      if (line == 2)
+      {
+        this->Binary = !words.empty() && lower(words[0]) == "binary";
+      }
+      if (line > 2 && words.size() > 1)
+      {
+        this->take(lower(words[0]), words);
+      }
+      at = this->At;
+    }
+  }
+
+private:
+  [[noreturn]] void fail(const std::string& problem) const
+  {
+    throw IOError(this->Path, problem + advice);
+  }
+
+  /// The count in a word of the line; each item has `each` values.
+  double count(const Words& words, std::size_t index, double each = 1) const
+  {
+    const std::optional<std::int64_t> value =
+      index < words.size() ? numberIn(words[index]) : std::make_optional<std::int64_t>(0);
+    // VTK reports words that are not numbers.
+    if (value && (*value < 0 || double(*value) * each > double(this->Text.size())))
+    {
+      this->fail("gives '" + shownText(std::string(words[index])) + "' after '" +
+        shownText(std::string(words[index > 0 ? index - 1 : 0])) + "', which its " +
+        std::to_string(this->Text.size()) + " bytes cannot hold");
+    }
+    return value ? double(*value) : 0;
+  }
+
+  void take(const std::string& key, const Words& words)
+  {
+    if (key == "points")
+    {
+      this->count(words, 1, 3);
+    }
+    else if (isCells(key))
+    {
+      const double cells = this->count(words, 1);
+      const double size = this->count(words, 2);
+      this->walk(key, std::int64_t(cells), std::int64_t(size));
+    }
+    else if (key == "point_data" || key == "cell_data")
+    {
+      this->Tuples = std::max(this->count(words, 1), 1.0);
+    }
+    else if (key == "cell_types" || key == "x_coordinates" || key == "y_coordinates" ||
+      key == "z_coordinates")
+    {
+      this->count(words, 1);
+    }
+    else if (key == "scalars" && words.size() > 3)
+    {
+      this->count(words, 3, this->Tuples);
+    }
+    else if (key == "color_scalars" || key == "texture_coordinates")
+    {
+      this->count(words, 2, this->Tuples);
+    }
+    else if (key == "field" || key == "lookup_table")
+    {
+      this->count(words, 2);
+    }
+    else if (key == "dimensions")
+    {
+      this->takeDimensions(words);
+    }
+    else if (words.size() == 4 && isType(lower(words[3])))
+    {
+      const double components = this->count(words, 1);
+      this->count(words, 2, std::max(components, 1.0));
+    }
+  }
+
+  static bool isCells(const std::string& key)
+  {
+    return key == "cells" || key == "vertices" || key == "lines" || key == "polygons" ||
+      key == "triangle_strips";
+  }
+
+  static bool isType(const std::string& word)
+  {
+    const std::array<const char*, 18> types = { "bit", "char", "signed_char", "unsigned_char",
+      "short", "unsigned_short", "int", "unsigned_int", "long", "unsigned_long", "vtktypeint64",
+      "vtktypeuint64", "vtkidtype", "float", "double", "string", "utf8_string", "variant" };
+    return std::find(types.begin(), types.end(), word) != types.end();
+  }
+
+  void takeDimensions(const Words& words) const
+  {
+    double points = 1;
+    for (std::size_t axis = 1; axis < words.size() && axis < 4; ++axis)
+    {
+      const std::optional<std::int64_t> value = numberIn(words[axis]);
+      if (value && (*value < 0 || *value > std::numeric_limits<int>::max()))
+      {
+        points = HUGE_VAL;
+      }
+      points *= value ? double(*value) : 1;
+    }
+    // Larger products of dimensions would overflow.
+    if (points > 1e18)
+    {
+      this->fail("gives DIMENSIONS that are no number of points");
+    }
+  }
+
+  /// Before version 5 cells are a list of numbers: for each cell a count, and that many ids.
+  void walk(const std::string& key, std::int64_t cells, std::int64_t size)
+  {
+    const std::string_view rest = std::string_view(this->Text).substr(this->At);
+    const Words next = wordsOf(rest.substr(0, std::min(rest.find('\n'), rest.size())));
+    if (!next.empty() && lower(next[0]) == "offsets")
+    {
+      return;
+    }
+    std::int64_t taken = 0;
+    for (std::int64_t cell = 0; cell < cells; ++cell)
+    {
+      const std::optional<std::int64_t> corners = this->takeNumber();
+      taken += corners ? *corners + 1 : 0;
+      if (!corners || *corners < 0 || taken > size || !this->skipNumbers(*corners))
+      {
+        this->fail("gives " + std::to_string(cells) + " " + key + " in " + std::to_string(size) +
+          " numbers, but number " + std::to_string(cell) + " does not fit into these");
+      }
+    }
+  }
+
+  std::optional<std::int64_t> takeNumber()
+  {
+    if (this->Binary)
+    {
+      if (this->Text.size() - this->At < 4)
+      {
+        return std::nullopt;
+      }
+      std::uint32_t value = 0;
+      for (int i = 0; i < 4; ++i)
+      {
+        value = value << 8 | static_cast<unsigned char>(this->Text[this->At++]);
+      }
+      return std::int32_t(value);
+    }
+    const std::size_t size = this->Text.size();
+    while (this->At < size && isBlank(this->Text[this->At]))
+    {
+      ++this->At;
+    }
+    const std::size_t begin = this->At;
+    while (this->At < size && !isBlank(this->Text[this->At]))
+    {
+      ++this->At;
+    }
+    return numberIn(std::string_view(this->Text).substr(begin, this->At - begin));
+  }
+
+  bool skipNumbers(std::int64_t count)
+  {
+    if (this->Binary)
+    {
+      const bool whole = (this->Text.size() - this->At) / 4 >= std::size_t(count);
+      this->At += whole ? 4 * std::size_t(count) : 0;
+      return whole;
+    }
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      if (!this->takeNumber())
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  std::string Path;
+  std::string Text;
+  std::size_t At = 0;
+  bool Binary = false;
+  double Tuples = 1; ///< of the data that follow
+};
+
+} // namespace
+
+void checkLegacyFile(const std::string& path)
+{
+  LegacyCheck(path).run();
+}
+
+} // namespace tipp

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioning/RefinementTree.h"
+
+#include "ReferenceTree.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using tipp::Box3;
+using tipp::RefinementTree;
+
+namespace
+{
+
+const Box3 Square = { { 0, 0, 0 }, { 8, 8, 0 } };
+
+} // namespace
+
+TEST(RefinementTree, ItsStructureIsDepthFirst)
+{
+  RefinementTree tree(2, Square);
+  EXPECT_EQ(tree.structure(), "0");
+  tree.split(0);
+  tree.split(3);
+  tree.split(1);
+  EXPECT_EQ(tree.structure(), "1100000100000");
+}
+
+TEST(RefinementTree, ComesBackFromItsStructure)
+{
+  RefinementTree tree(2, Square);
+  tree.split(0);
+  tree.split(3);
+  tree.split(7);
+  const RefinementTree copy(2, Square, tree.structure());
+  EXPECT_EQ(copy.structure(), tree.structure());
+  EXPECT_EQ(copy.size(), tree.size());
+}
+
+TEST(RefinementTree, AMergedStructureHasTheSplitsOfBoth)
+{
+  const std::string root = "10000";
+  const std::string first = "110000000";
+  const std::string third = "100100000";
+  EXPECT_EQ(RefinementTree::merged("0", "0", 4), "0");
+  EXPECT_EQ(RefinementTree::merged("0", first, 4), first);
+  EXPECT_EQ(RefinementTree::merged(first, root, 4), first);
+  EXPECT_EQ(RefinementTree::merged(first, third, 4), "1100000100000");
+  EXPECT_EQ(RefinementTree::merged(third, first, 4), "1100000100000");
+}
+
+TEST(RefinementTree, RefusesAStructureThatIsNone)
+{
+  for (const char* broken : { "", "1", "1000", "100000", "x", "1000x", "1111111" })
+  {
+    expectFailure([&] { RefinementTree::merged("0", broken, 4); }, "do not make a tree");
+    expectFailure([&] { RefinementTree::merged(broken, "10000", 4); }, "do not make a tree");
+  }
+  // Deeper than any tree.
+  expectFailure([]
+    { RefinementTree::merged("0", std::string(100, '1') + std::string(301, '0'), 4); },
+    "do not make a tree");
+}
+
+TEST(RefinementTree, IsCutBackToATiling)
+{
+  RefinementTree tree(2, Square);
+  tree.split(0);
+  tree.split(2);
+  tree.split(1);
+  std::vector<std::int32_t> leaves;
+  const tipp::BoxTiling tiling = tree.tiling([](std::int32_t node) { return node != 2; }, leaves);
+  EXPECT_EQ(tiling.count(), 7);
+  EXPECT_EQ(leaves, (std::vector<std::int32_t>{ 9, 10, 11, 12, 2, 3, 4 }));
+  EXPECT_EQ(tiling.box(4).Min, tree.box(2).Min);
+  EXPECT_EQ(tiling.box(4).Max, tree.box(2).Max);
+}
+
+TEST(RefinementTree, ABoxWhoseHalvesDoublesCannotTellIsNotSplit)
+{
+  const Box3 thin = { { 1, 0, 0 }, { std::nextafter(1.0, 2.0), 1, 0 } };
+  EXPECT_FALSE(RefinementTree(2, thin).canSplit(0, 24));
+  EXPECT_TRUE(RefinementTree(2, Square).canSplit(0, 24));
+  EXPECT_FALSE(RefinementTree(2, Square).canSplit(0, 0));
+  EXPECT_FALSE(RefinementTree(2, { { 1, 1, 0 }, { 1, 1, 0 } }).canSplit(0, 24));
+}
