@@ -7,7 +7,7 @@
 #include "Parallel/Poll.h"
 #include "Partitioned/PieceGrid.h"
 #include "Partitioning/PartitionMesh.h"
-#include "Reading/AssemblePiece.h"
+#include "Reading/MergePieces.h"
 #include "Reading/PieceCache.h"
 #include "Reading/PieceSource.h"
 #include "Reading/RangeFilter.h"

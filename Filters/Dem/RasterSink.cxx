@@ -129,7 +129,7 @@ void RasterSink::begin(
 }
 
 void RasterSink::take(const std::string& name, const double* rows, const PointRowLayout& layout,
-  std::size_t points, const std::vector<GrowingPiece::Corners>& triangles)
+  std::size_t points, const std::vector<TriangleRange>& triangles)
 {
   const DemBands& bands = this->Settings.Bands;
   Part part;
@@ -162,7 +162,7 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
       part.Points.Columns[band.Column] = column.data();
     }
   }
-  for (const GrowingPiece::Corners& run : triangles)
+  for (const TriangleRange& run : triangles)
   {
     for (std::size_t t = 0; t < run.Triangles; ++t)
     {

@@ -40,7 +40,7 @@ public:
   void begin(
     const Box2& bounds, const std::vector<std::string>& columns, const std::string& files) override;
   void take(const std::string& name, const double* rows, const PointRowLayout& layout,
-    std::size_t points, const std::vector<GrowingPiece::Corners>& triangles) override;
+    std::size_t points, const std::vector<TriangleRange>& triangles) override;
   bool end(const std::function<bool(double)>& progress) override;
 
 private:

@@ -2,8 +2,9 @@
 #include "OutOfCore/FinishPieces.h"
 
 #include "Files/IOError.h"
-#include "OutOfCore/Checkpoint.h"
-#include "OutOfCore/PieceBorders.h"
+#include "OutOfCore/ScratchFiles.h"
+#include "Partitioned/GrowingPiece.h"
+#include "Partitioned/NeighborIds.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -26,16 +27,19 @@ bool exists(const std::string& path)
 
 FinishedPiece readFinished(const std::string& path)
 {
-  const Bytes bytes = readCheckpoint(path);
+  const Bytes bytes = readCheckedFile(path);
   LoadArchive archive(bytes);
   FinishedPiece piece;
   exchange(archive, piece);
   return piece;
 }
 
-GrowingPiece emptyPiece(const PieceWork& work, PartitionIndex piece)
+PieceInterior readInterior(const PieceWork& work, PartitionIndex piece, const StoredResult& result)
 {
-  return { work.Points.starts()[std::size_t(piece)], work.Points.count(piece) };
+  PieceInterior interior = result.readInterior();
+  interior.First = work.Points.starts()[std::size_t(piece)];
+  interior.OwnPoints = work.Points.count(piece);
+  return interior;
 }
 
 /// Throws IOError for what is damaged or missing.
@@ -49,10 +53,7 @@ void verifyPiece(const PieceWork& work, PartitionIndex piece)
     verifyFinished(work.Mesh, number, readFinished(work.finishedPath(piece)));
     return;
   }
-  GrowingPiece interior = emptyPiece(work, piece);
-  result.readInterior(interior);
-  interior.verifyInterior(work.Mesh, number);
-  interior.isolateInterior(work.Mesh, number);
+  verifyInterior(work.Mesh, number, readInterior(work, piece, result));
 }
 
 void removePiece(const PieceWork& work, PartitionIndex piece)
@@ -63,7 +64,7 @@ void removePiece(const PieceWork& work, PartitionIndex piece)
   if (!work.Mesh.Path.empty())
   {
     const std::string file = work.Mesh.piecePath(work.Plan.number(piece));
-    fs::remove(file + GrowingPiece::NextName, ignored);
+    fs::remove(file + nextPieceSuffix, ignored);
     fs::create_directories(fs::path(file).parent_path(), ignored);
   }
 }
@@ -91,38 +92,42 @@ public:
     {
       return readFinished(record);
     }
-    GrowingPiece growing = emptyPiece(this->Work, piece);
-    this->Results[std::size_t(piece)]->readInterior(growing);
-    std::vector<std::int64_t> wanted; // other pieces' points, by index among all
+    const std::size_t number = this->Work.Plan.number(piece);
+    const PieceInterior interior = this->interiorOf(piece);
+    PieceBorder border(interior, this->Work.Rows);
     for (const auto& result : this->Results)
     {
       if (result->hasBorder(piece))
       {
-        this->addBorder(result->readBorder(piece), growing, wanted);
+        addTriangles(result->readBorder(piece), border);
       }
     }
     const auto hull = this->Hull.find(piece);
     if (hull != this->Hull.end())
     {
-      this->addBorder(hull->second, growing, wanted);
+      addTriangles(hull->second, border);
     }
-    this->addRows(wanted, growing);
+    this->setGhosts(border);
     if (this->Work.Taker)
     {
-      const GrowingPiece::BorderMesh border = growing.borderMesh(this->Work.Rows);
-      this->Work.Taker->take(std::to_string(this->Work.Plan.number(piece)) + ".border",
-        border.Rows.data(), this->Work.Rows, border.Rows.size() / this->Work.Rows.Words,
-        { { border.Corners.data(), border.Corners.size() / 3 } });
+      const PieceBorder::Mesh mesh = border.mesh();
+      this->Work.Taker->take(std::to_string(number) + ".border", mesh.Rows.data(), this->Work.Rows,
+        mesh.Rows.size() / this->Work.Rows.Words, { mesh.triangles() });
     }
     FinishedPiece finished =
-      growing.writeBorder(this->Work.Mesh, this->Work.Plan.number(piece), this->Work.Rows);
+      writeBorder(this->Work.Mesh, number, this->Work.Rows, interior, border);
     // From now on the file may have another layout than the result says.
-    writeCheckpoint(record, [&](SaveArchive& archive) { exchange(archive, finished); });
+    writeCheckedFile(record, [&](SaveArchive& archive) { exchange(archive, finished); });
     return finished;
   }
 
 private:
-  /// What replaces the triangles at artificial points is at the borders, too.
+  PieceInterior interiorOf(PartitionIndex piece) const
+  {
+    return readInterior(this->Work, piece, *this->Results[std::size_t(piece)]);
+  }
+
+  /// The triangles that replace those at artificial points belong to borders, too.
   void repairHull()
   {
     std::vector<BoundaryVertex> vertices;
@@ -131,58 +136,46 @@ private:
       const std::vector<BoundaryVertex> more = result->readHullVertices();
       vertices.insert(vertices.end(), more.begin(), more.end());
     }
-    PieceBorders borders(this->Work);
-    tipp::repairHull(std::move(vertices), this->Work.Plan.Artificial, borders);
-    borders.appendTo(this->Hull);
+    BorderSorter sorter(this->Work, this->Hull);
+    tipp::repairHull(std::move(vertices), this->Work.Plan.Artificial, sorter);
   }
 
-  void addBorder(
-    const BorderTriangles& border, GrowingPiece& growing, std::vector<std::int64_t>& wanted) const
+  static void addTriangles(const BorderTriangles& triangles, PieceBorder& border)
   {
-    std::uint64_t begin = 0;
-    for (std::size_t i = 0; i < border.Corners.size(); ++i)
+    auto begin = triangles.Borrowers.begin();
+    for (std::size_t i = 0; i < triangles.Corners.size(); ++i)
     {
-      const std::uint64_t end = border.BorrowerEnds.at(i);
-      growing.addTriangle(border.Corners[i],
-        { border.Borrowers.begin() + std::ptrdiff_t(begin),
-          border.Borrowers.begin() + std::ptrdiff_t(end) });
+      const auto end = triangles.Borrowers.begin() + std::ptrdiff_t(triangles.BorrowerEnds.at(i));
+      border.addTriangle(triangles.Corners[i], { begin, end });
       begin = end;
-      for (const std::int64_t point : border.Corners[i])
-      {
-        if (growing.needsRow(point))
-        {
-          growing.addRow(point, this->Work.Rows);
-          wanted.push_back(point);
-        }
-      }
     }
   }
 
-  /// They are on the rims of their pieces.
-  void addRows(std::vector<std::int64_t>& wanted, GrowingPiece& growing) const
+  /// Ghosts are interface points of their own pieces.
+  void setGhosts(PieceBorder& border) const
   {
-    std::sort(wanted.begin(), wanted.end());
+    std::vector<std::int64_t> ghosts = border.ghosts();
+    std::sort(ghosts.begin(), ghosts.end());
     const std::vector<std::int64_t>& starts = this->Work.Points.starts();
     PartitionIndex piece = -1;
-    GrowingPiece other;
-    for (const std::int64_t point : wanted)
+    PieceInterior owner;
+    for (const std::int64_t point : ghosts)
     {
       const auto of = static_cast<PartitionIndex>(
         std::upper_bound(starts.begin(), starts.end(), point) - starts.begin() - 1);
       if (of != piece)
       {
         piece = of;
-        other = emptyPiece(this->Work, piece);
-        this->Results.at(std::size_t(piece))->readInterior(other);
+        owner = this->interiorOf(piece);
       }
-      growing.setRow(point, other.rimRow(point, this->Work.Rows), this->Work.Rows);
+      border.setGhost(point, owner.interfaceRow(point, this->Work.Rows));
     }
   }
 
   const PieceWork& Work;
   std::vector<std::unique_ptr<StoredResult>> Results; ///< of each piece
   PieceFigures Figures;
-  std::map<PartitionIndex, BorderTriangles> Hull; ///< by the piece that owns them
+  BordersByOwner Hull;
 };
 
 } // namespace
@@ -240,6 +233,31 @@ std::vector<FinishedPiece> finishPieces(
       finished[work.Plan.number(piece)] = finisher.finish(piece);
     });
   return isDone ? std::move(finished) : std::vector<FinishedPiece>();
+}
+
+void numberCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, const Report& report)
+{
+  for (std::size_t number = 0; number < pieces.size(); ++number)
+  {
+    writeCellIds(mesh, number, mesh.Cells, pieces[number]);
+    mesh.Cells += pieces[number].Summary.Cells;
+    report(double(number) / double(pieces.size()));
+  }
+}
+
+void linkCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, std::uint64_t memory,
+  int threads, const Report& report)
+{
+  std::uint64_t most = 1;
+  for (const FinishedPiece& piece : pieces)
+  {
+    most = std::max(most, NeighborWriter::bytesFor(piece));
+  }
+  NeighborWriter neighbors(mesh, pieces);
+  forChunks(std::int64_t(pieces.size()), 1,
+    int(std::clamp<std::uint64_t>(memory / most, 1, std::uint64_t(threads))), report,
+    [&](std::int64_t number, std::int64_t, int) { neighbors.add(std::size_t(number)); });
+  neighbors.finish();
 }
 
 } // namespace tipp

@@ -2,7 +2,7 @@
 #include "OutOfCore/InputPasses.h"
 
 #include "Files/IOError.h"
-#include "OutOfCore/Checkpoint.h"
+#include "OutOfCore/ScratchFiles.h"
 #include "Parallel/Stopwatch.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ void limitToPart(PointStream& points, std::int64_t total, int part, int parts)
 }
 
 template <typename Archive>
-void exchange(Archive& archive, PartSurvey& part)
+void exchange(Archive& archive, PartialSurvey& part)
 {
   archive(part.Points);
   archive(part.Rejected);
@@ -137,7 +137,7 @@ InputSurvey InputPasses::survey()
   order(this->Total);
   order(std::uint64_t(this->Options.BlockPoints));
   order(std::uint64_t(this->Options.SamplePoints));
-  std::vector<PartSurvey> parts = this->share<PartSurvey>(SurveyMessage, std::move(order),
+  std::vector<PartialSurvey> parts = this->share<PartialSurvey>(SurveyMessage, std::move(order),
     [this](int)
     {
       return surveyPart(this->Points, this->Options.BlockPoints, this->Options.SamplePoints,
@@ -238,8 +238,8 @@ void InputHelper::open(LoadArchive& order)
 
 SaveArchive InputHelper::survey()
 {
-  PartSurvey part = surveyPart(*this->Points, this->Options.BlockPoints, this->Options.SamplePoints,
-    this->Options.Threads, this->Options.Progress);
+  PartialSurvey part = surveyPart(*this->Points, this->Options.BlockPoints,
+    this->Options.SamplePoints, this->Options.Threads, this->Options.Progress);
   SaveArchive answer;
   exchange(answer, part);
   return answer;

@@ -24,13 +24,13 @@ struct PassOptions
   std::size_t BlockPoints; ///< at a time
   std::size_t SamplePoints;
   int Threads;
-  /// Told how many points of a part are done.
+  /// Called with the number of points of a part that are done.
   std::function<void(std::int64_t)> Progress;
 };
 
-/// The passes over the input before its points are triangulated. If it can be divided each rank
-/// takes a part; the first rank, which has this, those of ranks that do not see the same input,
-/// too. What comes out does not depend on the parts.
+/// The passes over the input before its points are triangulated; on the first rank. If the input
+/// can be divided, each rank reads a part; the first rank also reads those of ranks that do not see
+/// the same input. The results do not depend on the parts.
 class VTKTIPPFILTERS_EXPORT InputPasses
 {
 public:
@@ -38,8 +38,7 @@ public:
   InputPasses(PointStream& points, Communicator* ranks, PassOptions options);
 
   InputSurvey survey();
-  /// Tells the plan's initial points their places. `file`: to which a number is added for each
-  /// part.
+  /// Sets the indices of the plan's initial points. `file`: a number is appended for each part.
   std::unique_ptr<SpilledPoints> spill(const InputSurvey& survey, PiecePlan& plan,
     const PointRowLayout& rows, const std::string& file);
 
@@ -59,15 +58,15 @@ private:
   std::deque<Message> Arrived;
 };
 
-/// The other ranks' side.
+/// Reads the parts of a rank other than the first.
 class VTKTIPPFILTERS_EXPORT InputHelper
 {
 public:
-  /// Progress throws to end the run. The rest of the options come from the first rank.
+  /// Progress throws to end the run. The other options come from the first rank.
   InputHelper(
     Communicator& ranks, std::function<std::unique_ptr<PointStream>()> open, PassOptions options);
 
-  /// Does what the first rank wants; false if the message is about something else.
+  /// Handles a request of the first rank; returns false if the message is something else.
   bool take(const Message& message);
 
 private:

@@ -30,9 +30,9 @@ Box2 united(const Box2& a, const Box2& b)
     std::max(a.ymax, b.ymax) };
 }
 
-/// One point of each stretch of ids; stretches double until there are not too many. Regular picks
-/// would see one column of a lattice that comes row by row. Where the number of all points is
-/// known, a part of them has the picks that it has among all.
+/// Picks one point of each range of ids; ranges double in length until there are few enough. Picks
+/// at equal distances would hit one column of a lattice that is given row by row. If the number of
+/// all points is known, a part of the stream has the same picks as in the whole.
 class Sampler
 {
 public:
@@ -50,16 +50,16 @@ public:
   void add(std::int64_t first, PointsView points)
   {
     const std::int64_t end = first + std::int64_t(points.size());
-    this->Stretch = std::max(this->Stretch, first >> this->Doublings);
+    this->Range = std::max(this->Range, first >> this->Doublings);
     for (std::int64_t id = this->next(); id < end; id = this->next())
     {
-      ++this->Stretch;
+      ++this->Range;
       if (id < first)
       {
         continue; // of another part
       }
       this->Picks.push_back({ id, points[std::size_t(id - first)] });
-      if (!this->IsKnown && this->Stretch == this->Most)
+      if (!this->IsKnown && this->Range == this->Most)
       {
         this->halve();
       }
@@ -75,22 +75,22 @@ public:
   }
 
 private:
-  std::int64_t next() const { return this->pick(this->Stretch, this->Doublings); }
+  std::int64_t next() const { return this->pick(this->Range, this->Doublings); }
 
   static std::int64_t chosenOf(std::int64_t pair) { return 2 * pair + (mix(pair) & 1); }
 
-  /// The id that stands for a stretch after so many doublings: of the first ones it was picked when
+  /// The id picked for a range after this many doublings. For the first ranges it was picked when
   /// they were shorter.
-  std::int64_t pick(std::int64_t stretch, int doublings) const
+  std::int64_t pick(std::int64_t range, int doublings) const
   {
-    while (doublings > 0 && stretch < this->Most / 2)
+    while (doublings > 0 && range < this->Most / 2)
     {
-      stretch = chosenOf(stretch);
+      range = chosenOf(range);
       --doublings;
     }
     const std::int64_t length = std::int64_t(1) << doublings;
-    return stretch * length +
-      std::int64_t(mix(std::uint64_t(stretch * 64 + doublings)) % std::uint64_t(length));
+    return range * length +
+      std::int64_t(mix(std::uint64_t(range * 64 + doublings)) % std::uint64_t(length));
   }
 
   void halve()
@@ -101,14 +101,14 @@ private:
       this->Picks[std::size_t(i)] = this->Picks[std::size_t(chosenOf(i))];
     }
     this->Picks.resize(std::size_t(half));
-    this->Stretch = half;
+    this->Range = half;
     ++this->Doublings;
   }
 
   const std::int64_t Most;
   const bool IsKnown;
   std::vector<SampledPoint> Picks;
-  std::int64_t Stretch = 0; ///< the next one
+  std::int64_t Range = 0; ///< the next one
   int Doublings = 0;
 };
 
@@ -144,10 +144,10 @@ void applyFactor(InputSurvey& survey, double factor)
   }
 }
 
-PartSurvey surveyPart(PointStream& points, std::size_t blockPoints, std::size_t sample, int threads,
-  const std::function<void(std::int64_t)>& progress)
+PartialSurvey surveyPart(PointStream& points, std::size_t blockPoints, std::size_t sample,
+  int threads, const std::function<void(std::int64_t)>& progress)
 {
-  PartSurvey survey;
+  PartialSurvey survey;
   survey.Bounds = nothing;
   Sampler sampler(sample, points.divisible());
   CollinearityTest line;
@@ -171,12 +171,12 @@ PartSurvey surveyPart(PointStream& points, std::size_t blockPoints, std::size_t 
   return survey;
 }
 
-InputSurvey joinSurveys(std::vector<PartSurvey>& parts)
+InputSurvey joinSurveys(std::vector<PartialSurvey>& parts)
 {
   InputSurvey survey;
   survey.Bounds = nothing;
   CollinearityTest line;
-  for (PartSurvey& part : parts)
+  for (PartialSurvey& part : parts)
   {
     survey.Points += part.Points;
     survey.Rejected += part.Rejected;

@@ -16,11 +16,11 @@ namespace tipp
 
 struct SampledPoint
 {
-  std::int64_t Id; ///< its place in the stream
+  std::int64_t Id; ///< its index in the stream
   Point2 Position;
 };
 
-/// What one pass over a stream tells.
+/// The result of one pass over a stream.
 struct InputSurvey
 {
   std::int64_t Points = 0;
@@ -31,8 +31,8 @@ struct InputSurvey
   std::vector<SampledPoint> Sample; ///< times Factor; of finite points, by id
 };
 
-/// What a pass over a part of the stream tells; coordinates as they are.
-struct PartSurvey
+/// The result of a pass over a part of the stream; coordinates are not scaled.
+struct PartialSurvey
 {
   std::int64_t Points = 0;
   std::int64_t Rejected = 0;
@@ -42,16 +42,16 @@ struct PartSurvey
   std::vector<SampledPoint> Sample;
 };
 
-/// `blockPoints`: how many to read at a time. The sample of all parts has between `sample` and
-/// twice that many points, one of each stretch of so many ids, picked at random but always the
-/// same.
-VTKTIPPFILTERS_EXPORT PartSurvey surveyPart(PointStream& points, std::size_t blockPoints,
+/// Reads `blockPoints` points at a time. The sample of all parts has between `sample` and twice
+/// that many points, one for each range of ids of equal length: random, but the same in every run.
+VTKTIPPFILTERS_EXPORT PartialSurvey surveyPart(PointStream& points, std::size_t blockPoints,
   std::size_t sample, int threads, const std::function<void(std::int64_t)>& progress);
 
-/// Of all parts, in their order, but for the factor; the same however the stream was cut.
-VTKTIPPFILTERS_EXPORT InputSurvey joinSurveys(std::vector<PartSurvey>& parts);
+/// Joins the surveys of all parts, in their order, without the factor. The result does not depend
+/// on how the stream was divided.
+VTKTIPPFILTERS_EXPORT InputSurvey joinSurveys(std::vector<PartialSurvey>& parts);
 
-/// What a part allows InputSurvey::Factor to be: 1 where any does.
+/// Returns the InputSurvey::Factor that a part allows; 1 if any is allowed.
 VTKTIPPFILTERS_EXPORT double factorOfPart(
   PointStream& points, std::size_t blockPoints, const Box2& bounds);
 VTKTIPPFILTERS_EXPORT bool mayNeedFactor(const InputSurvey& survey);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/LoadedPiece.h"
 
-#include "OutOfCore/PieceBorders.h"
+#include "Partitioned/GrowingPiece.h"
 #include "Triangulation/PointSurvey.h"
 #include "Triangulation/TriangleSink.h"
 
@@ -21,9 +21,9 @@ bool isWorthKeeping(std::size_t vertices, std::size_t points)
   return vertices <= 2 * points + some;
 }
 
-/// Of points with the same coordinates the lowest is to stand for the others, also where another
-/// one was in the initial mesh: once their partition is triangulated, all triangles at them come
-/// from its worker, so all that is needed is to rename them there.
+/// Of points with the same coordinates the one with the lowest index represents the others, even if
+/// another was in the initial mesh: once their partition is triangulated, all triangles at them
+/// come from its worker, so it is enough to rename them there.
 class LowestPoints
 {
 public:
@@ -60,13 +60,13 @@ private:
 
 } // namespace
 
-/// Final triangles of one partition's boundary, sorted out.
+/// Sorts the final boundary triangles of one partition.
 struct LoadedPiece::Finals : public FinalTaker
 {
   Finals(const LoadedPiece& piece, const LowestPoints& lowest)
-    : Borders(piece.Work)
-    , Of(piece)
+    : Of(piece)
     , Lowest(lowest)
+    , Sorter(piece.Work, this->Borders)
   {
   }
 
@@ -83,18 +83,18 @@ struct LoadedPiece::Finals : public FinalTaker
       this->addBoundary(renamed);
       return;
     }
-    std::copy_if(renamed.begin(), renamed.end(), std::back_inserter(this->RimVertices),
+    std::copy_if(renamed.begin(), renamed.end(), std::back_inserter(this->InterfaceVertices),
       [this](const BoundaryVertex& v) { return this->Of.owns(v); });
     if (!isHull)
     {
-      this->Borders.add(renamed);
+      this->Sorter.add(renamed);
     }
   }
 
   std::vector<std::array<std::int32_t, 3>> BoundaryTriangles;
-  std::vector<BoundaryVertex> RimVertices;
+  std::vector<BoundaryVertex> InterfaceVertices;
   std::vector<BoundaryVertex> HullVertices;
-  PieceBorders Borders;
+  BordersByOwner Borders;
 
 private:
   bool isInterior(const BoundaryTriangle& triangle) const
@@ -124,6 +124,7 @@ private:
 
   const LoadedPiece& Of;
   const LowestPoints& Lowest;
+  BorderSorter Sorter;
 };
 
 LoadedPiece::LoadedPiece(const PieceWork& work, PartitionIndex piece)
@@ -131,10 +132,10 @@ LoadedPiece::LoadedPiece(const PieceWork& work, PartitionIndex piece)
   , Piece(piece)
   , First(work.Points.starts()[std::size_t(piece)])
   , Rows(std::size_t(work.Points.count(piece)) * work.Rows.Words)
-  , Rim(std::size_t(work.Points.count(piece)), 0)
+  , IsOnInterface(std::size_t(work.Points.count(piece)), 0)
 {
   work.Points.read(piece, this->Rows.data());
-  const PointsView view(this->Rows.data(), this->Rim.size(), work.Rows.Words);
+  const PointsView view(this->Rows.data(), this->IsOnInterface.size(), work.Rows.Words);
   const Tiling& inner = work.Plan.Inner[std::size_t(piece)];
   this->Buckets = bucketPoints<std::int32_t>(view.scaled(work.Factor), inner, 1);
   this->InteriorCounts.assign(std::size_t(inner.size()), 0);
@@ -147,38 +148,38 @@ std::uint64_t LoadedPiece::bytesOf(const PieceWork& work, PartitionIndex piece)
 
 bool LoadedPiece::owns(const BoundaryVertex& v) const
 {
-  return v.Id >= this->First && v.Id < this->First + std::int64_t(this->Rim.size());
+  return v.Id >= this->First && v.Id < this->First + std::int64_t(this->IsOnInterface.size());
 }
 
 /// Has a worker for the piece's partitions.
-void LoadedPiece::prepare(Tools& tools)
+void LoadedPiece::prepare(Workspace& space)
 {
-  if (tools.Piece == this->Piece && tools.Triangulator)
+  if (space.Piece == this->Piece && space.Triangulator)
   {
     return;
   }
   const PiecePlan& plan = this->Work.Plan;
-  tools.Triangulator.reset(); // gives its kernel to the next
-  tools.Triangulator =
+  space.Triangulator.reset(); // gives its kernel to the next
+  space.Triangulator =
     std::make_unique<Worker<std::int32_t>>(plan.Partitions, this->Buckets, this->First);
-  tools.Triangulator->setTiling(plan.Partitions, -plan.FirstPartition[std::size_t(this->Piece)]);
-  tools.Piece = this->Piece;
-  if (!tools.Router)
+  space.Triangulator->setTiling(plan.Partitions, -plan.FirstPartition[std::size_t(this->Piece)]);
+  space.Piece = this->Piece;
+  if (!space.Router)
   {
-    tools.Router =
-      std::make_unique<Routing<std::int32_t>>(tools.Order.partitions(), tools.Order.regions());
+    space.Router =
+      std::make_unique<Routing<std::int32_t>>(space.Order.partitions(), space.Order.regions());
   }
 }
 
 SentMessages LoadedPiece::triangulate(
-  Tools& tools, PartitionIndex partition, const std::vector<VertexMessage>& inbox)
+  Workspace& space, PartitionIndex partition, const std::vector<VertexMessage>& inbox)
 {
-  this->prepare(tools);
-  Worker<std::int32_t>& worker = *tools.Triangulator;
-  Routing<std::int32_t>& routing = *tools.Router;
+  this->prepare(space);
+  Worker<std::int32_t>& worker = *space.Triangulator;
+  Routing<std::int32_t>& routing = *space.Router;
   routing.setPartition(partition);
   worker.triangulate(
-    partition, tools.Unique.collect(inbox), tools.Order.regions()[partition], routing);
+    partition, space.Unique.collect(inbox), space.Order.regions()[partition], routing);
 
   std::vector<Duplicate> duplicates = worker.duplicates();
   const LowestPoints lowest(duplicates);
@@ -208,7 +209,7 @@ SentMessages LoadedPiece::triangulate(
   const std::size_t vertices = worker.vertexCount();
   if (!isWorthKeeping(vertices, this->Buckets.count(inPiece)))
   {
-    tools.clear();
+    space.clear();
   }
   const std::lock_guard<std::mutex> lock(this->Mutex);
   this->take(finals, sent);
@@ -217,17 +218,17 @@ SentMessages LoadedPiece::triangulate(
   return sent;
 }
 
-void LoadedPiece::take(const Finals& finals, const SentMessages& sent)
+void LoadedPiece::take(Finals& finals, const SentMessages& sent)
 {
   this->BoundaryTriangles.insert(this->BoundaryTriangles.end(), finals.BoundaryTriangles.begin(),
     finals.BoundaryTriangles.end());
-  for (const BoundaryVertex& v : finals.RimVertices)
+  for (const BoundaryVertex& v : finals.InterfaceVertices)
   {
-    this->markRim(v);
+    this->markInterface(v);
   }
   this->Result.HullVertices.insert(
     this->Result.HullVertices.end(), finals.HullVertices.begin(), finals.HullVertices.end());
-  finals.Borders.appendTo(this->Result.Borders);
+  append(std::move(finals.Borders), this->Result.Borders);
   for (const auto& [to, message] : sent)
   {
     const PartitionIndex piece = this->Work.Plan.PieceOf[std::size_t(to)];
@@ -237,7 +238,7 @@ void LoadedPiece::take(const Finals& finals, const SentMessages& sent)
     }
     for (const BoundaryVertex& v : message.Vertices)
     {
-      this->markRim(v);
+      this->markInterface(v);
     }
     this->Result.Figures.BoundaryBytes += message.Vertices.size() * sizeof(BoundaryVertex);
     this->Result.Sent[piece].emplace_back(to, message);
@@ -254,11 +255,11 @@ void LoadedPiece::take(const std::vector<Duplicate>& duplicates)
   this->Result.Figures.Duplicates += std::int64_t(duplicates.size());
 }
 
-void LoadedPiece::markRim(const BoundaryVertex& v)
+void LoadedPiece::markInterface(const BoundaryVertex& v)
 {
   if (this->owns(v))
   {
-    this->Rim[std::size_t(v.Id - this->First)] = 1;
+    this->IsOnInterface[std::size_t(v.Id - this->First)] = 1;
   }
 }
 
@@ -282,7 +283,8 @@ void LoadedPiece::dropLong()
   }
 }
 
-/// Gives representatives the values of their places; `figures` counts the places that disagree.
+/// Sets the values of points that represent duplicates; `figures` counts those whose duplicates
+/// disagree.
 void LoadedPiece::resolveDuplicates(PieceFigures& figures)
 {
   std::vector<Duplicate> duplicates;
@@ -300,36 +302,44 @@ void LoadedPiece::resolveDuplicates(PieceFigures& figures)
     std::move(duplicates), columns, this->Work.Elevation, this->Work.Duplicates);
 }
 
-GrowingPiece LoadedPiece::writeInterior()
+PieceInterior LoadedPiece::writeInterior()
 {
   if (this->Work.MaximumEdge > 0)
   {
     this->dropLong();
   }
-  GrowingPiece::Interior interior;
-  interior.Rows = this->Rows.data();
-  interior.Rim = this->Rim.data();
-  interior.Representatives = &this->Representatives;
+  InteriorContent content;
+  content.First = this->First;
+  content.Points = std::int64_t(this->IsOnInterface.size());
+  content.Rows = this->Rows.data();
+  content.IsOnInterface = this->IsOnInterface.data();
+  content.Representatives = &this->Representatives;
   for (PartitionIndex p = 0; p < this->Buckets.partitions(); ++p)
   {
-    interior.Triangles.push_back(
+    content.Triangles.push_back(
       { this->Buckets.triangles(p), this->InteriorCounts[std::size_t(p)] });
   }
   std::sort(this->BoundaryTriangles.begin(), this->BoundaryTriangles.end());
   if (!this->BoundaryTriangles.empty())
   {
-    interior.Triangles.push_back(
+    content.Triangles.push_back(
       { this->BoundaryTriangles.front().data(), this->BoundaryTriangles.size() });
   }
+  const std::size_t number = this->Work.Plan.number(this->Piece);
   if (this->Work.Taker)
   {
-    this->Work.Taker->take(std::to_string(this->Work.Plan.number(this->Piece)), this->Rows.data(),
-      this->Work.Rows, this->Rim.size(), interior.Triangles);
+    this->Work.Taker->take(std::to_string(number), this->Rows.data(), this->Work.Rows,
+      this->IsOnInterface.size(), content.Triangles);
   }
-  GrowingPiece growing(this->First, std::int64_t(this->Rim.size()));
-  growing.writeInterior(
-    this->Work.Mesh, this->Work.Plan.number(this->Piece), this->Work.Rows, interior);
-  return growing;
+  return tipp::writeInterior(this->Work.Mesh, number, this->Work.Rows, content);
+}
+
+/// Writes the whole file of a piece without a border.
+FinishedPiece LoadedPiece::writeAlone()
+{
+  const PieceInterior interior = this->writeInterior();
+  return writeBorder(this->Work.Mesh, this->Work.Plan.number(this->Piece), this->Work.Rows,
+    interior, PieceBorder(interior, this->Work.Rows));
 }
 
 PieceResult LoadedPiece::write()
@@ -344,7 +354,7 @@ PieceResult LoadedPiece::write()
 
 FinishedPiece LoadedPiece::writePointsAlone(PieceFigures& figures)
 {
-  const PointsView view(this->Rows.data(), this->Rim.size(), this->Work.Rows.Words);
+  const PointsView view(this->Rows.data(), this->IsOnInterface.size(), this->Work.Rows.Words);
   std::vector<Duplicate> duplicates = sortOutDuplicates(view);
   for (Duplicate& duplicate : duplicates)
   {
@@ -353,15 +363,14 @@ FinishedPiece LoadedPiece::writePointsAlone(PieceFigures& figures)
   this->take(duplicates);
   figures.Duplicates += std::int64_t(duplicates.size());
   this->resolveDuplicates(figures);
-  return this->writeInterior().writeBorder(
-    this->Work.Mesh, this->Work.Plan.number(this->Piece), this->Work.Rows);
+  return this->writeAlone();
 }
 
 bool LoadedPiece::triangulateAlone(
-  const DelaunayKernel::Monitor& proceed, PieceFigures& figures, FinishedPiece& finished)
+  const DelaunayKernel::Monitor& progress, PieceFigures& figures, FinishedPiece& finished)
 {
   Worker<std::int32_t> worker(this->Work.Plan.Partitions, this->Buckets);
-  if (!worker.triangulateAlone(proceed))
+  if (!worker.triangulateAlone(progress))
   {
     return false;
   }
@@ -370,9 +379,36 @@ bool LoadedPiece::triangulateAlone(
   figures.Duplicates = std::int64_t(worker.duplicates().size());
   figures.WorkerVertices = std::int64_t(worker.vertexCount());
   this->resolveDuplicates(figures);
-  finished =
-    this->writeInterior().writeBorder(this->Work.Mesh, this->Work.Plan.number(0), this->Work.Rows);
+  finished = this->writeAlone();
   return true;
+}
+
+std::vector<FinishedPiece> triangulateAlone(const PieceWork& work, bool areCollinear,
+  const std::function<bool(std::int64_t)>& progress, PieceFigures& figures)
+{
+  std::vector<FinishedPiece> pieces(std::size_t(work.Plan.pieces()));
+  std::int64_t done = 0;
+  for (PartitionIndex piece = 0; piece < work.Plan.pieces(); ++piece)
+  {
+    LoadedPiece loaded(work, piece);
+    FinishedPiece& finished = pieces[work.Plan.number(piece)];
+    bool isGoingOn = true;
+    if (areCollinear)
+    {
+      finished = loaded.writePointsAlone(figures);
+      isGoingOn = progress(done += work.Points.count(piece));
+    }
+    else
+    {
+      isGoingOn = loaded.triangulateAlone(
+        [&](std::size_t inserted) { return progress(std::int64_t(inserted)); }, figures, finished);
+    }
+    if (!isGoingOn)
+    {
+      return {};
+    }
+  }
+  return pieces;
 }
 
 } // namespace tipp

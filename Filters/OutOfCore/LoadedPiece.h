@@ -3,12 +3,14 @@
 #define tippLoadedPiece_h
 
 #include "Engine/Routing.h"
-#include "OutOfCore/PieceOrder.h"
+#include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceResult.h"
+#include "Partitioned/PublishPieces.h"
 #include "Triangulation/Worker.h"
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <unordered_map>
@@ -17,8 +19,8 @@
 namespace tipp
 {
 
-/// A piece in memory: its points, whose partitions several threads triangulate, and what comes of
-/// them until it is written.
+/// A piece in memory: its points, whose partitions several threads triangulate, and its triangles
+/// until they are written.
 class VTKTIPPFILTERS_EXPORT LoadedPiece
 {
 public:
@@ -28,10 +30,10 @@ public:
   /// Bytes that a piece takes in memory.
   static std::uint64_t bytesOf(const PieceWork& work, PartitionIndex piece);
 
-  /// What one thread triangulates with; kept for its memory from one partition to the next.
-  struct Tools
+  /// A thread's memory, which is kept from one partition to the next.
+  struct Workspace
   {
-    explicit Tools(const PieceOrder& order)
+    explicit Workspace(const PieceOrder& order)
       : Order(order)
     {
     }
@@ -51,7 +53,7 @@ public:
 
   /// Triangulates a partition with what is in its inbox, and returns what it sends.
   SentMessages triangulate(
-    Tools& tools, PartitionIndex partition, const std::vector<VertexMessage>& inbox);
+    Workspace& space, PartitionIndex partition, const std::vector<VertexMessage>& inbox);
 
   std::int64_t pointsOf(PartitionIndex partition) const
   {
@@ -60,45 +62,54 @@ public:
   }
 
   /// When all partitions are triangulated: writes the interior's share of the piece's file in the
-  /// mesh, frees the points, and gives what is left. Throws IOError.
+  /// mesh, frees the points, and returns the rest. Throws IOError.
   PieceResult write();
 
   /// @name A piece without a border
+  /// Write the whole file.
   ///@{
-  /// Points on one line: there are no triangles.
+  /// For points on one line: there are no triangles.
   FinishedPiece writePointsAlone(PieceFigures& figures);
-  /// The only piece, of one partition without artificial points. False if the monitor ended it.
+  /// For the only piece, of one partition without artificial points. False if `progress` ended it.
   bool triangulateAlone(
-    const DelaunayKernel::Monitor& proceed, PieceFigures& figures, FinishedPiece& finished);
+    const DelaunayKernel::Monitor& progress, PieceFigures& figures, FinishedPiece& finished);
   ///@}
 
 private:
   struct Finals;
 
-  void prepare(Tools& tools);
-  std::vector<BoundaryVertex> uniqueVertices(Tools& tools, const std::vector<VertexMessage>& inbox);
-  void take(const Finals& finals, const SentMessages& sent);
+  void prepare(Workspace& space);
+  std::vector<BoundaryVertex> uniqueVertices(
+    Workspace& space, const std::vector<VertexMessage>& inbox);
+  void take(Finals& finals, const SentMessages& sent);
   void take(const std::vector<Duplicate>& duplicates);
   bool owns(const BoundaryVertex& v) const;
-  void markRim(const BoundaryVertex& v);
+  void markInterface(const BoundaryVertex& v);
   void dropLong();
   void resolveDuplicates(PieceFigures& figures);
-  GrowingPiece writeInterior();
+  PieceInterior writeInterior();
+  FinishedPiece writeAlone();
 
   const PieceWork& Work;
   const PartitionIndex Piece;
-  const std::int64_t First; ///< index of the first point among all spilled ones
+  const std::int64_t First; ///< index of the first point among all spilled points
   Buffer<double> Rows;
   PointBuckets<std::int32_t> Buckets;
   std::vector<std::size_t> InteriorCounts; ///< triangles, of each partition
 
   std::mutex Mutex;                                               ///< for what follows
   std::unordered_map<std::int32_t, std::int32_t> Representatives; ///< of duplicates
-  std::vector<std::uint8_t> Rim; ///< of each point: 1 if it is on the rim
+  std::vector<std::uint8_t> IsOnInterface;                        ///< of each point
   std::vector<std::array<std::int32_t, 3>>
     BoundaryTriangles; ///< between partitions, but of the interior
   PieceResult Result;
 };
+
+/// Makes all pieces of a run whose pieces have no borders: the points are collinear, or there is
+/// one piece. `progress` is called with the number of points that are done. Returns the pieces by
+/// their numbers in the mesh; an empty list if `progress` ended it. Throws IOError.
+std::vector<FinishedPiece> triangulateAlone(const PieceWork& work, bool areCollinear,
+  const std::function<bool(std::int64_t)>& progress, PieceFigures& figures);
 
 } // namespace tipp
 

@@ -2,11 +2,11 @@
 #include "OutOfCore/OutOfCoreRanks.h"
 
 #include "Files/IOError.h"
-#include "OutOfCore/Checkpoint.h"
 #include "OutOfCore/InputPasses.h"
 #include "OutOfCore/PieceMessages.h"
 #include "OutOfCore/PieceRun.h"
-#include "OutOfCore/PreparedRun.h"
+#include "OutOfCore/RunSetup.h"
+#include "OutOfCore/ScratchFiles.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 
@@ -86,8 +86,8 @@ int threadsOf(const OutOfCoreOptions& options)
 }
 
 /// Helps with the input until pieces can be worked on: false if there are none to help with.
-bool receivePrepared(Communicator& ranks, const OpenPoints& open, const OutOfCoreOptions& options,
-  PreparedRun& prepared, std::vector<char>& isDone)
+bool receiveSetup(Communicator& ranks, const OpenPoints& open, const OutOfCoreOptions& options,
+  RunSetup& prepared, std::vector<char>& isDone)
 {
   const auto progress = [&](std::int64_t)
   {
@@ -119,12 +119,12 @@ void help(Communicator& ranks, const OpenPoints& open, const OutOfCoreOptions& o
 {
   requireSharedFolder(ranks, "");
   requireSharedFolder(ranks, "");
-  PreparedRun prepared;
+  RunSetup prepared;
   prepared.Taker = options.Taker;
   prepared.MaximumEdge = options.MaximumEdge;
   prepared.Duplicates = options.Duplicates;
   std::vector<char> isDone;
-  if (!receivePrepared(ranks, open, options, prepared, isDone))
+  if (!receiveSetup(ranks, open, options, prepared, isDone))
   {
     return;
   }
@@ -162,7 +162,7 @@ void requireSharedFolder(Communicator& ranks, const std::string& folder)
   ranks.barrier(); // then it may go
 }
 
-void sharePrepared(Communicator& ranks, PreparedRun& prepared, const std::string& points,
+void shareSetup(Communicator& ranks, RunSetup& prepared, const std::string& points,
   const std::vector<char>& isDone)
 {
   SaveArchive archive;

@@ -13,7 +13,7 @@
 namespace tipp
 {
 
-class PreparedRun;
+class RunSetup;
 
 using OpenPoints = std::function<std::unique_ptr<PointStream>()>;
 
@@ -36,7 +36,7 @@ VTKTIPPFILTERS_EXPORT void requireSharedFolder(Communicator& ranks, const std::s
 /// Of the first rank: sends the others, which wait for it in triangulateOutOfCoreOnRanks(), what
 /// they need to work on pieces. `points`: the file they are spilled to; `isDone`: of each piece,
 /// whether it is done already.
-VTKTIPPFILTERS_EXPORT void sharePrepared(Communicator& ranks, PreparedRun& prepared,
+VTKTIPPFILTERS_EXPORT void shareSetup(Communicator& ranks, RunSetup& prepared,
   const std::string& points, const std::vector<char>& isDone);
 
 } // namespace tipp

@@ -3,20 +3,18 @@
 
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
-#include "OutOfCore/Checkpoint.h"
 #include "OutOfCore/FinishPieces.h"
 #include "OutOfCore/InputPasses.h"
 #include "OutOfCore/OutOfCoreRanks.h"
 #include "OutOfCore/PieceRun.h"
-#include "OutOfCore/PreparedRun.h"
+#include "OutOfCore/RunSetup.h"
+#include "OutOfCore/ScratchFiles.h"
 #include "OutOfCore/ScratchFolder.h"
 #include "OutOfCore/TriangleTaker.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
-#include "Partitioned/NeighborIds.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 
 namespace tipp
@@ -24,20 +22,12 @@ namespace tipp
 namespace
 {
 
-/// Not an error: the user's wish.
+/// The user has stopped the run.
 struct Aborted
 {
 };
 
-/// Different for different numbers.
-std::string exactText(double value)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
-
-/// What the statistics of a whole mesh say whichever process has finished it.
+/// Saves or loads the statistics of a whole mesh that do not depend on the process.
 template <typename Archive>
 void exchangeFigures(Archive& archive, OutOfCoreStatistics& statistics)
 {
@@ -66,11 +56,11 @@ public:
     , Scratch(this->Pending, options.Scratch)
   {
     this->Statistics.Threads = this->Threads;
-    this->Prepared.Mesh.Path = options.CountOnly ? "" : this->Pending.temporaryPath();
-    this->Prepared.Results = this->Scratch.results();
-    this->Prepared.Taker = options.Taker;
-    this->Prepared.MaximumEdge = options.MaximumEdge;
-    this->Prepared.Duplicates = options.Duplicates;
+    this->Setup.Mesh.Path = options.CountOnly ? "" : this->Pending.temporaryPath();
+    this->Setup.Results = this->Scratch.results();
+    this->Setup.Taker = options.Taker;
+    this->Setup.MaximumEdge = options.MaximumEdge;
+    this->Setup.Duplicates = options.Duplicates;
   }
 
   OutOfCoreStatistics run()
@@ -89,7 +79,7 @@ public:
       }
       if (!this->IsWhole)
       {
-        this->Prepared.beginTaking();
+        this->Setup.beginTaking();
         this->triangulate();
         this->endTaking();
         this->Options.CountOnly ? this->count() : this->publish();
@@ -158,11 +148,11 @@ private:
       return false;
     }
     this->keep();
-    const Bytes bytes = readCheckpoint(this->Scratch.plan());
+    const Bytes bytes = readCheckedFile(this->Scratch.plan());
     LoadArchive archive(bytes);
     std::string identity;
     archive(identity);
-    const bool isOurs = identity == this->identity();
+    const bool isOurs = identity == identityOf(this->Input, this->Options);
     std::uint8_t isWhole = 0;
     archive(isWhole);
     this->IsWhole = isWhole == 1;
@@ -175,8 +165,8 @@ private:
   void resumeBegun(LoadArchive& archive, bool isOurs)
   {
     this->requireOurs(isOurs && this->Options.Resume);
-    this->Prepared.load(archive, this->Scratch.points());
-    this->planMemory(this->Prepared.Rows.Words);
+    this->Setup.load(archive, this->Scratch.points());
+    this->planMemory(this->Setup.Rows.Words);
     this->describePlan();
   }
 
@@ -236,29 +226,14 @@ private:
     this->Memory = std::make_unique<MemoryPlan>(this->Options, words);
   }
 
-  /// What tells that it is the same run.
-  std::string identity() const
-  {
-    const OutOfCoreOptions& options = this->Options;
-    return "TIPP out of core 9\n" + this->Input.identity() + std::to_string(options.Columns) + "x" +
-      std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
-      std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
-      (options.Neighbors ? " linked" : "") + (options.CountOnly ? " counted" : "") +
-      (options.MaximumEdge > 0 ? " edges " + exactText(options.MaximumEdge) : "") +
-      (options.Duplicates != DuplicateRule::First
-          ? " duplicates " + std::to_string(int(options.Duplicates))
-          : "") +
-      "\n" + (options.Taker ? options.Taker->identity() : "") + "\n" + options.Scratch;
-  }
-
   void savePlan()
   {
-    writeCheckpoint(this->Scratch.plan(),
+    writeCheckedFile(this->Scratch.plan(),
       [this](SaveArchive& archive)
       {
-        archive(this->identity());
+        archive(identityOf(this->Input, this->Options));
         archive(std::uint8_t(this->IsWhole));
-        this->Prepared.save(archive);
+        this->Setup.save(archive);
       });
     this->keep();
   }
@@ -268,7 +243,7 @@ private:
     this->keep(false);
     this->Scratch.clear();
     this->planMemory(3 + this->Input.columns().size());
-    InputSurvey& survey = this->Prepared.Survey;
+    InputSurvey& survey = this->Setup.Survey;
     survey = InputPasses(this->Input, this->Ranks,
       this->passOptions(
         [this](std::int64_t) {
@@ -276,9 +251,9 @@ private:
         })).survey();
     this->Statistics.LeftOut = this->Input.leftOut();
     this->Statistics.ThinnedOut = this->Input.thinnedOut();
-    this->Prepared.describeColumns(
+    this->Setup.describeColumns(
       this->Input.columns(), this->Options.MapDuplicates, this->Options.Neighbors);
-    const std::size_t words = this->Prepared.Rows.Words;
+    const std::size_t words = this->Setup.Rows.Words;
     this->planMemory(words);
     requireElevation(this->Options.Duplicates, this->Input.columns());
     if (survey.Points == survey.Rejected)
@@ -286,17 +261,17 @@ private:
       throw IOError("There is no point with finite coordinates in the input, so nothing to write.");
     }
     this->requireSpace(0);
-    this->Prepared.Plan =
+    this->Setup.Plan =
       std::make_unique<PiecePlan>(survey, this->Options, *this->Memory, words, this->Threads);
     std::vector<SampledPoint>().swap(survey.Sample); // = {} would keep the memory
-    if (this->Prepared.Plan->HasLargeRim)
+    if (this->Setup.Plan->HasLargeInterface)
     {
       // Each piece is sent nearly all points of those before it.
       constexpr std::uint64_t sent = 32 / 2;
       constexpr std::uint64_t border = 64;
-      this->requireSpace(sent * std::uint64_t(this->Prepared.Plan->pieces()) + border);
+      this->requireSpace(sent * std::uint64_t(this->Setup.Plan->pieces()) + border);
     }
-    this->Prepared.describeMesh();
+    this->Setup.describeMesh();
     this->describePlan();
     this->endPhase("survey");
   }
@@ -308,67 +283,53 @@ private:
 
   void describePlan()
   {
-    this->Statistics.Points = this->Prepared.Survey.Points;
-    this->Statistics.Rejected = this->Prepared.Survey.Rejected;
-    this->Statistics.Pieces = this->Prepared.Plan->pieces();
-    this->Statistics.Partitions = this->Prepared.Plan->Partitions.size();
+    this->Statistics.Points = this->Setup.Survey.Points;
+    this->Statistics.Rejected = this->Setup.Survey.Rejected;
+    this->Statistics.Pieces = this->Setup.Plan->pieces();
+    this->Statistics.Partitions = this->Setup.Plan->Partitions.size();
   }
 
-  /// With so many bytes a point more than usual in the scratch folder.
+  /// `more`: bytes per point in the scratch folder beyond the usual.
   void requireSpace(std::uint64_t more) const
   {
-    const auto points =
-      std::uint64_t(this->Prepared.Survey.Points - this->Prepared.Survey.Rejected);
+    const auto points = std::uint64_t(this->Setup.Survey.Points - this->Setup.Survey.Rejected);
     const std::uint64_t cell = 12 + 4 + 1 + 8 + (this->Options.Neighbors ? 24 : 0);
     // Borders and ids of cells included; two triangles a point at most.
     const std::uint64_t stored =
-      points * (24 + 8 + 1 + 8 * this->Prepared.Rows.Attributes.size() + 2 * cell) / 50 * 51;
+      points * (24 + 8 + 1 + 8 * this->Setup.Rows.Attributes.size() + 2 * cell) / 50 * 51;
     constexpr std::uint64_t results = 4; // of pieces of 30,000 points
     this->Scratch.requireSpace(this->Path, this->Options.CountOnly ? 0 : stored,
-      points * (8 * this->Prepared.Rows.Words + results + more) + this->Prepared.takenBytes());
+      points * (8 * this->Setup.Rows.Words + results + more) + this->Setup.takenBytes());
   }
 
   void spill()
   {
-    const InputSurvey& survey = this->Prepared.Survey;
+    const InputSurvey& survey = this->Setup.Survey;
     const auto progress = [&](std::int64_t done)
     { this->tell(0.2 * double(done) / double(survey.Points)); };
-    this->Prepared.Spilled =
+    this->Setup.Spilled =
       InputPasses(this->Input, this->Ranks, this->passOptions(progress))
-        .spill(survey, *this->Prepared.Plan, this->Prepared.Rows, this->Scratch.points());
-    this->Statistics.SpilledBytes = this->Prepared.Spilled->bytes();
-    this->requireMemory();
+        .spill(survey, *this->Setup.Plan, this->Setup.Rows, this->Scratch.points());
+    this->Statistics.SpilledBytes = this->Setup.Spilled->bytes();
+    this->Setup.requireMemory(this->Path, this->Options.MemoryLimit);
     this->savePlan();
     this->endPhase("spill");
   }
 
-  /// Pieces are of equal size but where very many points share a place.
-  void requireMemory() const
-  {
-    std::int64_t most = 0;
-    for (PartitionIndex piece = 0; piece < this->Prepared.Plan->pieces(); ++piece)
-    {
-      most = std::max(most, this->Prepared.Spilled->count(piece));
-    }
-    constexpr std::uint64_t always = std::uint64_t(64) << 20;
-    const std::uint64_t bytes = MemoryPlan::pieceBytes(most, this->Prepared.Rows.Words);
-    if (bytes > std::max(this->Options.MemoryLimit, always))
-    {
-      throw IOError(this->Path,
-        "would have a piece of " + std::to_string(most) + " points, which takes " +
-          std::to_string(bytes / 1000000 + 1) + " MB; allow more memory.");
-    }
-  }
-
   void triangulate()
   {
-    if (this->Prepared.Survey.Collinear || this->Prepared.Plan->IsAlone)
+    if (this->Setup.Survey.Collinear || this->Setup.Plan->IsAlone)
     {
-      this->triangulateAlone();
+      const double all = double(this->Setup.Survey.Points);
+      this->Finished = triangulateAlone(
+        this->Setup.work(), this->Setup.Survey.Collinear,
+        [&](std::int64_t done) { return this->proceed(0.2 + 0.7 * double(done) / all); },
+        this->Statistics);
+      this->requireFinished();
       this->endPhase("triangulate");
       return;
     }
-    const PieceWork work = this->Prepared.work();
+    const PieceWork work = this->Setup.work();
     const std::vector<char> isDone = verifyResults(
       work, this->Threads, [this](double) { return this->proceed(0.2); },
       [this](const std::string& sentence) { this->warn(sentence); });
@@ -378,9 +339,9 @@ private:
     }
     if (this->Ranks)
     {
-      sharePrepared(*this->Ranks, this->Prepared, this->Scratch.points(), isDone);
+      shareSetup(*this->Ranks, this->Setup, this->Scratch.points(), isDone);
     }
-    const double all = double(this->Prepared.Survey.Points);
+    const double all = double(this->Setup.Survey.Points);
     PieceRun pieces(
       work, *this->Memory, this->Threads,
       [&](std::int64_t done) { return this->proceed(0.2 + 0.65 * double(done) / all); },
@@ -392,46 +353,21 @@ private:
     this->Finished = finishPieces(
       work, this->Threads, [this](double done) { return this->proceed(0.85 + 0.05 * done); },
       this->Statistics);
+    this->requireFinished();
+    this->endPhase("triangulate");
+  }
+
+  void requireFinished() const
+  {
     if (this->Finished.empty())
     {
       throw Aborted();
     }
-    this->endPhase("triangulate");
   }
 
   bool proceed(double fraction) const
   {
     return !this->Options.Progress || this->Options.Progress(fraction);
-  }
-
-  /// Pieces that have no borders with others.
-  void triangulateAlone()
-  {
-    const PieceWork work = this->Prepared.work();
-    const double all = double(this->Prepared.Survey.Points);
-    const auto tellPoints = [&](std::int64_t done)
-    { return this->proceed(0.2 + 0.7 * double(done) / all); };
-    std::int64_t done = 0;
-    bool isGoingOn = true;
-    this->Finished.resize(std::size_t(work.Plan.pieces()));
-    for (PartitionIndex piece = 0; isGoingOn && piece < work.Plan.pieces(); ++piece)
-    {
-      LoadedPiece loaded(work, piece);
-      FinishedPiece& finished = this->Finished[work.Plan.number(piece)];
-      if (!this->Prepared.Survey.Collinear)
-      {
-        isGoingOn = loaded.triangulateAlone([&](std::size_t inserted)
-          { return tellPoints(std::int64_t(inserted)); },
-          this->Statistics, finished);
-        continue;
-      }
-      finished = loaded.writePointsAlone(this->Statistics);
-      isGoingOn = tellPoints(done += work.Points.count(piece));
-    }
-    if (!isGoingOn)
-    {
-      throw Aborted();
-    }
   }
 
   void endTaking()
@@ -454,48 +390,23 @@ private:
     this->recordWhole();
   }
 
-  void numberCells()
-  {
-    PartitionedMesh& mesh = this->Prepared.Mesh;
-    for (std::size_t number = 0; number < this->Finished.size(); ++number)
-    {
-      FinishedPiece& piece = this->Finished[number];
-      writeCellIds(mesh, number, mesh.Cells, piece);
-      mesh.Cells += piece.Summary.Cells;
-      this->report(0.9 + 0.02 * double(number) / double(this->Finished.size()));
-    }
-    this->Statistics.Triangles = mesh.Cells;
-  }
-
-  /// By as many threads as there is memory for.
-  void linkCells()
-  {
-    std::uint64_t most = 1;
-    for (const FinishedPiece& piece : this->Finished)
-    {
-      most = std::max(most, NeighborWriter::bytesFor(piece));
-    }
-    const auto threads = int(
-      std::clamp<std::uint64_t>(this->Memory->LoadedBytes / most, 1, std::uint64_t(this->Threads)));
-    NeighborWriter neighbors(this->Prepared.Mesh, this->Finished);
-    forChunks(
-      std::int64_t(this->Finished.size()), 1, threads,
-      [this](double done)
-      {
-        this->report(0.92 + 0.06 * done);
-        return true;
-      },
-      [&](std::int64_t number, std::int64_t, int) { neighbors.add(std::size_t(number)); });
-    neighbors.finish();
-  }
-
   void publish()
   {
-    PartitionedMesh& mesh = this->Prepared.Mesh;
-    this->numberCells();
+    PartitionedMesh& mesh = this->Setup.Mesh;
+    const auto reportTo = [this](double from, double length)
+    {
+      return [this, from, length](double done)
+      {
+        this->report(from + length * done);
+        return true;
+      };
+    };
+    numberCells(mesh, this->Finished, reportTo(0.9, 0.02));
+    this->Statistics.Triangles = mesh.Cells;
     if (this->Options.Neighbors)
     {
-      this->linkCells();
+      linkCells(
+        mesh, this->Finished, this->Memory->LoadedBytes, this->Threads, reportTo(0.92, 0.06));
       this->endPhase("link");
     }
     for (std::size_t number = 0; number < this->Finished.size(); ++number)
@@ -509,15 +420,15 @@ private:
     this->recordWhole();
   }
 
-  /// Takes the plan's place: from now on neither the plan nor anything else in the work folder but
-  /// the mesh is needed, and whatever ends the process, another has only to put it in place.
+  /// Replaces the plan: from now on nothing in the work folder but the mesh is needed, and if the
+  /// process ends, another only has to move the mesh to its path.
   void recordWhole()
   {
     this->IsWhole = true;
-    writeCheckpoint(this->Scratch.plan(),
+    writeCheckedFile(this->Scratch.plan(),
       [this](SaveArchive& archive)
       {
-        archive(this->identity());
+        archive(identityOf(this->Input, this->Options));
         archive(std::uint8_t(this->IsWhole));
         exchangeFigures(archive, this->Statistics);
         archive(this->Fingerprint);
@@ -536,7 +447,7 @@ private:
     {
       this->Pending.commit();
     }
-    this->Prepared.Spilled.reset();
+    this->Setup.Spilled.reset();
     this->keep(false);
     this->endPhase("publish");
   }
@@ -550,10 +461,10 @@ private:
   ScratchFolder Scratch;
   OutOfCoreStatistics Statistics;
   std::unique_ptr<MemoryPlan> Memory;
-  PreparedRun Prepared;
+  RunSetup Setup;
   std::vector<FinishedPiece> Finished;
   bool IsWhole = false;          ///< all files of the mesh are there, or all triangles are counted
-  bool IsInPlace = false;        ///< where it belongs
+  bool IsInPlace = false;        ///< the mesh is at Path
   std::uint64_t Fingerprint = 0; ///< of the whole mesh, where there is one
   Stopwatch Watch;
 };

@@ -3,7 +3,6 @@
 #define tippOutOfCoreTriangulation_h
 
 #include "Duplicates/ResolveDuplicates.h"
-#include "OutOfCore/PieceFigures.h"
 #include "Points/PointStream.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -27,7 +26,7 @@ struct OutOfCoreOptions
   std::int64_t PiecePoints = 0;     ///< about so many points a piece; 0: as memory allows
   std::int64_t PartitionPoints = 0; ///< about so many points for a worker at once; 0: chosen
   double MaximumEdge = 0;           ///< triangles with a longer edge are left out; 0: none are
-  /// Which values a place of several points has.
+  /// Which values a position with several points gets.
   DuplicateRule Duplicates = DuplicateRule::First;
   /// Adds the point array RepresentativePointId.
   bool MapDuplicates = false;
@@ -37,15 +36,32 @@ struct OutOfCoreOptions
   bool CountOnly = false;
   /// Takes the triangles instead of the mesh; with it CountOnly is to be set.
   TriangleTaker* Taker = nullptr;
-  /// Goes on where a run that was killed or failed has been, if there is one for this path; else
-  /// such a run is not touched and is an error.
+  /// Resumes a run of this path that was killed or has failed, if there is one; without, such a run
+  /// is an error and is left as it is.
   bool Resume = false;
-  /// A folder on another disk for what is temporary, but for the pieces; empty: beside the mesh.
+  /// A folder on another disk for temporary files except the pieces; empty: beside the mesh.
   std::string Scratch;
-  /// Told the finished fraction now and then, in the thread that called; false ends the run.
+  /// Called regularly with the finished fraction, in the calling thread; false ends the run.
   std::function<bool(double)> Progress;
-  /// Told in one sentence what of an earlier run is damaged and therefore made again.
+  /// Called with a sentence about damaged results of an earlier run, which are made again.
   std::function<void(const std::string&)> Warn;
+};
+
+/// Statistics of a piece, or of all pieces.
+struct PieceFigures
+{
+  std::int64_t Duplicates = 0;
+  std::int64_t DisagreeingPlaces = 0; ///< positions whose points differ in elevation
+  std::int64_t WorkerVertices = 0;    ///< that workers triangulated
+  std::uint64_t BoundaryBytes = 0;    ///< of vertices that were sent to partitions of other pieces
+
+  void add(const PieceFigures& other)
+  {
+    this->Duplicates += other.Duplicates;
+    this->DisagreeingPlaces += other.DisagreeingPlaces;
+    this->WorkerVertices += other.WorkerVertices;
+    this->BoundaryBytes += other.BoundaryBytes;
+  }
 };
 
 struct OutOfCoreStatistics : PieceFigures
@@ -57,7 +73,7 @@ struct OutOfCoreStatistics : PieceFigures
   };
   std::int64_t Points = 0;
   std::int64_t Triangles = 0;
-  std::uint64_t TriangleSum = 0; ///< where they are only counted: of GrowingPiece::hashTriangle()
+  std::uint64_t TriangleSum = 0; ///< where they are only counted: of hashTriangle()
   std::int64_t Rejected = 0;
   std::int64_t LeftOut = 0; ///< points that the options of the input have left out
   std::int64_t ThinnedOut = 0;
@@ -73,15 +89,15 @@ struct OutOfCoreStatistics : PieceFigures
 };
 
 /// The Delaunay triangulation of points that need not fit in memory, as the partitioned mesh
-/// `path`: the triangles of triangulate(), ids being places in the stream, the files the same for
-/// every number of threads. A piece's cells have successive ids. A column named z is the third
+/// `path`: the triangles of triangulate(). Ids are indices in the stream; a piece's cells have
+/// consecutive ids; the files are the same for any number of threads. A column named z is the third
 /// coordinate; the others become arrays of points.
 ///
 /// Points are read twice (once more if their coordinates are so far from 1 that they are scaled)
 /// and spilled once, by piece; triangles are written as soon as they are final. All is written to a
-/// folder ".NAME.part" beside `path`, which takes the path's place when it is whole. From the time
-/// the points are spilled it stays if the run fails, is ended or killed, and another can go on:
-/// with the same files at the end. Throws IOError.
+/// folder ".NAME.part" beside `path`, which is renamed to `path` when it is whole. Once the points
+/// are spilled the folder is kept if the run fails or is stopped; another run can resume it and
+/// makes the same files. Throws IOError.
 ///
 /// Ranks: others that work with this first one, see triangulateOutOfCoreOnRanks(); null: none.
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCore(PointStream& points,

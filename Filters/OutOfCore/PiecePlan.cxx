@@ -2,26 +2,28 @@
 #include "OutOfCore/PiecePlan.h"
 
 #include "Files/IOError.h"
+#include "OutOfCore/ScratchFiles.h"
+#include "OutOfCore/SpillPoints.h"
 #include "Triangulation/InitialMesh.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 namespace tipp
 {
 namespace
 {
 
-std::vector<Point2> placesOf(const std::vector<SampledPoint>& sample)
+std::vector<Point2> positionsOf(const std::vector<SampledPoint>& sample)
 {
-  std::vector<Point2> places;
-  places.reserve(sample.size());
+  std::vector<Point2> positions;
+  positions.reserve(sample.size());
   for (const SampledPoint& p : sample)
   {
-    places.push_back(p.Position);
+    positions.push_back(p.Position);
   }
-  return places;
+  return positions;
 }
 
 int countFor(double points, std::int64_t each, std::size_t sampled)
@@ -32,11 +34,44 @@ int countFor(double points, std::int64_t each, std::size_t sampled)
   return static_cast<int>(std::min({ wanted, possible, most }));
 }
 
+/// A partition's region is its box: its points have not been read yet.
+Regions regionsOf(const PiecePlan& plan, const SpilledPoints& points)
+{
+  std::vector<Box2> boxes;
+  std::vector<char> used;
+  for (PartitionIndex p = 0; p < plan.Partitions.size(); ++p)
+  {
+    boxes.push_back(plan.Partitions.box(p));
+    used.push_back(points.count(plan.PieceOf[std::size_t(p)]) > 0);
+  }
+  return { plan.Partitions, std::move(boxes), std::move(used) };
+}
+
+/// Empty if all partitions conflict.
+std::vector<ConflictGraph::Pair> conflictsOfPieces(
+  const PartitionOrder& partitions, const std::vector<std::int32_t>& pieceOf)
+{
+  const ConflictGraph& conflicts = partitions.conflicts();
+  std::vector<ConflictGraph::Pair> pairs;
+  for (PartitionIndex p = 0; std::size_t(p) < conflicts.size(); ++p)
+  {
+    const std::int32_t piece = pieceOf[std::size_t(p)];
+    for (const PartitionIndex q : conflicts.neighbours(p))
+    {
+      if (pieceOf[std::size_t(q)] != piece)
+      {
+        pairs.emplace_back(piece, pieceOf[std::size_t(q)]);
+      }
+    }
+  }
+  return pairs;
+}
+
 } // namespace
 
 std::uint64_t MemoryPlan::pieceBytes(std::int64_t points, std::size_t rowWords)
 {
-  // Rows; points and then triangles; labels and then numbers; the rim's flags.
+  // Rows; points and then triangles; labels and then numbers; interface flags.
   return std::uint64_t(points) * (8 * rowWords + 24 + 4 + 1);
 }
 
@@ -71,7 +106,7 @@ PiecePlan::PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options,
   const double points = double(survey.Points - survey.Rejected);
   const bool isGrid = options.Columns > 0 && options.Rows > 0;
   this->Pieces = isGrid ? Tiling::grid(survey.Bounds, options.Columns, options.Rows)
-                        : Tiling::balanced(survey.Bounds, placesOf(survey.Sample),
+                        : Tiling::balanced(survey.Bounds, positionsOf(survey.Sample),
                             countFor(points, memory.PiecePoints, survey.Sample.size()));
   this->choosePartitions(survey, memory);
   this->Artificial = makeArtificialPoints(this->Partitions);
@@ -90,13 +125,13 @@ PiecePlan::PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options,
     return;
   }
   this->chooseInitialPoints(survey);
-  this->HasLargeRim =
+  this->HasLargeInterface =
     !partitionsPay(triangulateVertices(this->Partitions, this->initialVertices(), threads));
-  if (!isGrid && fits && this->HasLargeRim)
+  if (!isGrid && fits && this->HasLargeInterface)
   {
     this->takeAlone(survey);
   }
-  else if (this->HasLargeRim)
+  else if (this->HasLargeInterface)
   {
     this->takeWholePieces(survey);
   }
@@ -118,7 +153,7 @@ void PiecePlan::takeWholePieces(const InputSurvey& survey)
 void PiecePlan::takeAlone(const InputSurvey& survey)
 {
   this->IsAlone = true;
-  this->HasLargeRim = false;
+  this->HasLargeInterface = false;
   this->Pieces = Tiling::grid(survey.Bounds, 1, 1);
   this->Inner = { this->Pieces };
   this->numberPartitions();
@@ -166,13 +201,13 @@ void PiecePlan::chooseInitialPoints(const InputSurvey& survey)
   }
   for (const std::vector<InitialPoint>& points : sampled)
   {
-    std::vector<Point2> places;
+    std::vector<Point2> positions;
     for (const InitialPoint& p : points)
     {
-      places.push_back(p.Position);
+      positions.push_back(p.Position);
     }
     for (const std::size_t i :
-      tipp::chooseInitialPoints(places.data(), places.size(), InitialPointsOfPartition))
+      tipp::chooseInitialPoints(positions.data(), positions.size(), InitialPointsOfPartition))
     {
       this->Initial.push_back(points[i]);
     }
@@ -190,6 +225,75 @@ std::vector<BoundaryVertex> PiecePlan::initialVertices() const
   }
   vertices.insert(vertices.end(), this->Artificial.begin(), this->Artificial.end());
   return vertices;
+}
+
+void PiecePlan::save(SaveArchive& archive) const
+{
+  archive(this->IsAlone);
+  archive(this->Pieces.save());
+  for (const Tiling& inner : this->Inner)
+  {
+    archive(inner.save());
+  }
+  archive(this->Initial);
+}
+
+PiecePlan::PiecePlan(LoadArchive& archive)
+{
+  archive(this->IsAlone);
+  const auto loadTiling = [&]
+  {
+    std::vector<char> bytes;
+    archive(bytes);
+    return Tiling::load(bytes);
+  };
+  this->Pieces = loadTiling();
+  for (PartitionIndex piece = 0; piece < this->Pieces.size(); ++piece)
+  {
+    this->Inner.push_back(loadTiling());
+  }
+  archive(this->Initial);
+  this->numberPartitions();
+  if (!this->IsAlone)
+  {
+    this->Artificial = makeArtificialPoints(this->Partitions);
+  }
+}
+
+PieceOrder::PieceOrder(const PiecePlan& plan, const SpilledPoints& points, int threads)
+  : Boxes(regionsOf(plan, points))
+  , InitialMesh(triangulateVertices(this->Boxes, plan.initialVertices(), threads))
+  , Partitions(this->Boxes.areUsed(), this->InitialMesh)
+{
+  for (PartitionIndex piece = plan.pieces() - 1; piece >= 0; --piece)
+  {
+    if (points.count(piece) > 0)
+    {
+      this->Sequence.push_back(piece);
+    }
+  }
+  this->orderPieces(plan);
+}
+
+void PieceOrder::orderPieces(const PiecePlan& plan)
+{
+  ConflictGraph conflicts(std::size_t(plan.pieces()));
+  conflicts.add(conflictsOfPieces(this->Partitions, plan.PieceOf));
+  const std::vector<std::uint32_t> colours = conflicts.colours();
+  std::stable_sort(this->Sequence.begin(), this->Sequence.end(),
+    [&](PartitionIndex a, PartitionIndex b)
+    { return colours[std::size_t(a)] < colours[std::size_t(b)]; });
+  std::vector<std::int32_t> positions(std::size_t(plan.pieces()), 0);
+  for (std::size_t i = 0; i < this->Sequence.size(); ++i)
+  {
+    positions[std::size_t(this->Sequence[i])] = std::int32_t(i);
+  }
+  std::vector<std::int32_t> windows;
+  for (const std::int32_t piece : plan.PieceOf)
+  {
+    windows.push_back(positions[std::size_t(piece)]);
+  }
+  this->Partitions.setWindows(windows);
 }
 
 } // namespace tipp

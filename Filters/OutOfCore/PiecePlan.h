@@ -2,6 +2,7 @@
 #ifndef tippPiecePlan_h
 #define tippPiecePlan_h
 
+#include "Engine/PartitionOrder.h"
 #include "OutOfCore/InputSurvey.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Triangulation/BoundaryTriangles.h"
@@ -9,7 +10,7 @@
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
-#include <string>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -17,8 +18,9 @@ namespace tipp
 
 class SaveArchive;
 class LoadArchive;
+class SpilledPoints;
 
-/// How much of everything goes into the memory limit.
+/// How the memory limit is divided.
 struct VTKTIPPFILTERS_EXPORT MemoryPlan
 {
   MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords);
@@ -29,7 +31,7 @@ struct VTKTIPPFILTERS_EXPORT MemoryPlan
   std::int64_t PartitionPoints;
   std::uint64_t LoadedBytes; ///< of pieces in memory together
 
-  /// What a piece takes while its points are triangulated and written, but for the kernels.
+  /// Bytes of a piece while its points are triangulated and written, without the kernels.
   static std::uint64_t pieceBytes(std::int64_t points, std::size_t rowWords);
 };
 
@@ -39,7 +41,7 @@ struct InitialPoint
   std::int64_t Id; ///< in the stream
   Point2 Position;
   PartitionIndex Partition;
-  std::int64_t InPieces = -1; ///< its place when all points are in the order of pieces
+  std::int64_t InPieces = -1; ///< its index when all points are in the order of pieces
 };
 
 /// The two levels of boxes: pieces, which are spilled, loaded and written, and in each the
@@ -61,19 +63,20 @@ struct VTKTIPPFILTERS_EXPORT PiecePlan
   /// One piece of one partition, no artificial points: partitions do not pay for such points, or
   /// doubles cannot enclose them.
   bool IsAlone = false;
-  /// Nearly all points may be on the rim: partitions do not pay, but there is no memory for one.
-  bool HasLargeRim = false;
+  /// Nearly all points may be interface points: partitions do not pay, but there is no memory for a
+  /// single one.
+  bool HasLargeInterface = false;
 
   PartitionIndex pieces() const { return this->Pieces.size(); }
 
-  /// Pieces stand in the mesh in the opposite order: a point on a cut belongs to the upper box here
-  /// and to the first there.
+  /// The piece's index in the mesh, where the order is the opposite: a point on a cut belongs to
+  /// the upper box here and to the first piece there.
   std::size_t number(PartitionIndex piece) const
   {
     return static_cast<std::size_t>(this->pieces() - 1 - piece);
   }
 
-  /// What the initial mesh is made of, once the initial points have their places.
+  /// The vertices of the initial mesh, once the initial points have their indices.
   std::vector<BoundaryVertex> initialVertices() const;
 
 private:
@@ -82,6 +85,34 @@ private:
   void numberPartitions();
   void takeAlone(const InputSurvey& survey);
   void takeWholePieces(const InputSurvey& survey);
+};
+
+/// The order in which pieces, and their partitions, are triangulated. It depends only on the plan
+/// and on which pieces have points, so every process computes the same order.
+///
+/// Two pieces conflict if partitions of theirs do. Pieces are coloured and ordered by colour: those
+/// of one colour are independent, so that all threads and ranks have work. A piece is a window of
+/// the order of partitions.
+class VTKTIPPFILTERS_EXPORT PieceOrder
+{
+public:
+  PieceOrder(const PiecePlan& plan, const SpilledPoints& points, int threads);
+
+  /// Pieces with points, in order.
+  const std::vector<PartitionIndex>& sequence() const { return this->Sequence; }
+  const PartitionOrder& partitions() const { return this->Partitions; }
+  /// Of all partitions.
+  const Regions& regions() const { return this->Boxes; }
+  /// May be called once.
+  BoundaryTriangles takeInitialMesh() { return std::move(this->InitialMesh); }
+
+private:
+  void orderPieces(const PiecePlan& plan);
+
+  Regions Boxes;
+  BoundaryTriangles InitialMesh;
+  PartitionOrder Partitions;
+  std::vector<PartitionIndex> Sequence;
 };
 
 } // namespace tipp

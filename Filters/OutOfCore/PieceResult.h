@@ -4,12 +4,11 @@
 
 #include "Duplicates/ResolveDuplicates.h"
 #include "Engine/Routing.h"
-#include "OutOfCore/PieceFigures.h"
 #include "OutOfCore/PiecePlan.h"
-#include "OutOfCore/SectionFile.h"
+#include "OutOfCore/ScratchFiles.h"
 #include "OutOfCore/SpillPoints.h"
 #include "OutOfCore/TriangleTaker.h"
-#include "Partitioned/GrowingPiece.h"
+#include "Partitioned/PieceBorder.h"
 
 #include <array>
 #include <cstdint>
@@ -45,8 +44,7 @@ struct PieceWork
   }
 };
 
-/// Triangles at the border of the piece that owns them, by indices among all spilled
-/// points.
+/// Triangles at the border of the piece that owns them, by indices among all spilled points.
 struct BorderTriangles
 {
   std::vector<std::array<std::int64_t, 3>> Corners;
@@ -54,24 +52,49 @@ struct BorderTriangles
   std::vector<std::uint64_t> BorrowerEnds; ///< of each triangle, in Borrowers
 };
 
-/// Messages to partitions, with their recipients.
+using BordersByOwner = std::map<PartitionIndex, BorderTriangles>;
+
+/// Adds each triangle at the borders of pieces to those of the piece that owns it: of all that the
+/// triangle meets, the first in the mesh. The others borrow it.
+class BorderSorter : public FinalTaker
+{
+public:
+  /// Both must outlive this.
+  BorderSorter(const PieceWork& work, BordersByOwner& borders)
+    : Work(work)
+    , Borders(borders)
+  {
+  }
+
+  void add(const BoundaryTriangle& triangle) override;
+
+private:
+  void findMet(const BoundaryTriangle& triangle);
+
+  const PieceWork& Work;
+  BordersByOwner& Borders;
+  std::vector<std::int32_t> Met;
+};
+
+/// Moves the triangles of `from` to the end of those in `to`.
+void append(BordersByOwner&& from, BordersByOwner& to);
 
 /// What a piece whose partitions are all triangulated leaves for others, besides the interior's
-/// share of its file in the mesh. It is written once and not changed any more: which of these files
-/// are there is the state that a run goes on from.
+/// share of its file in the mesh. It is written once and never changed: the set of these files is
+/// the state from which a run is resumed.
 ///
-/// A triangle is of the piece's interior if its circumdisk meets no other piece, and else of a
-/// border. Own points with a triangle of the latter kind, or with one that is not final or at an
-/// artificial point, are on the rim. They are known: by Lemma 6 the last partition of this piece
-/// that an unfinished triangle meets has just sent it, and a triangle that is made later replaces
-/// such ones.
+/// A triangle belongs to the piece's interior if its circumdisk meets no other piece, and else to a
+/// border. Own points of a border's triangle, of an unfinished one, or of one with an artificial
+/// corner are interface points. They are known: by Lemma 6 the last partition of this piece that an
+/// unfinished triangle meets has just sent it, and a triangle that is made later replaces such
+/// ones.
 struct PieceResult
 {
-  GrowingPiece Interior;
+  PieceInterior Interior;
   PieceFigures Figures;
-  std::vector<BoundaryVertex> HullVertices;          ///< of triangles at artificial points
-  std::map<PartitionIndex, BorderTriangles> Borders; ///< by the piece that owns them
-  std::map<PartitionIndex, SentMessages> Sent;       ///< by the recipient's piece
+  std::vector<BoundaryVertex> HullVertices; ///< of triangles at artificial points
+  BordersByOwner Borders;
+  std::map<PartitionIndex, SentMessages> Sent; ///< by the recipient's piece
 };
 
 /// Returns the file's bytes. Throws IOError.
@@ -94,8 +117,8 @@ public:
   BorderTriangles readBorder(PartitionIndex owner) const;
   std::vector<BoundaryVertex> readHullVertices() const;
   PieceFigures readFigures() const;
-  /// `interior`: the piece, with nothing in it yet.
-  void readInterior(GrowingPiece& interior) const;
+  /// The caller must add the indices of the piece's own points.
+  PieceInterior readInterior() const;
 
 private:
   SectionFile File;

@@ -11,13 +11,13 @@
 namespace tipp
 {
 
-/// Where a run keeps what it needs until its mesh is in its place, beside the mesh in the making:
-/// the spilled points, the plan, and the results of pieces.
+/// The folders of a run's temporary files until its mesh is published: the spilled points, the
+/// plan, and the results of pieces.
 class ScratchFolder
 {
 public:
-  /// The points and the results are there, too, if `other` is empty; else a folder of that
-  /// name is made there. Throws IOError.
+  /// All files are beside the unfinished mesh if `other` is empty; else the points and the results
+  /// are in a new folder in `other`. Throws IOError.
   ScratchFolder(const PendingFolder& mesh, const std::string& other);
   /// Removes everything but after keep().
   ~ScratchFolder();

@@ -2,6 +2,7 @@
 #include "OutOfCore/SpillPoints.h"
 
 #include "Files/IOError.h"
+#include "OutOfCore/ScratchFiles.h"
 #include "Triangulation/PartitionFinder.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace tipp
 namespace
 {
 
-/// Finds the pieces of a block's points, and the places of initial points within their pieces.
+/// Finds the pieces of a block's points, and the indices of initial points within their pieces.
 class Labelling
 {
 public:
@@ -29,13 +30,13 @@ public:
   {
     const std::size_t count = block.size();
     this->Labels.resize(count);
-    constexpr std::size_t stretch = 4096;
-    const auto stretches = std::ptrdiff_t((count + stretch - 1) / stretch);
+    constexpr std::size_t length = 4096;
+    const auto ranges = std::ptrdiff_t((count + length - 1) / length);
 #pragma omp parallel for num_threads(this->Threads) schedule(static)
-    for (std::ptrdiff_t s = 0; s < stretches; ++s)
+    for (std::ptrdiff_t r = 0; r < ranges; ++r)
     {
-      const std::size_t begin = std::size_t(s) * stretch;
-      this->labelStretch(block, begin, std::min(count, begin + stretch));
+      const std::size_t begin = std::size_t(r) * length;
+      this->labelRange(block, begin, std::min(count, begin + length));
     }
     this->countPoints(block.First);
   }
@@ -54,20 +55,20 @@ public:
   }
 
 private:
-  void labelStretch(const PointBlock& block, std::size_t begin, std::size_t end)
+  void labelRange(const PointBlock& block, std::size_t begin, std::size_t end)
   {
     constexpr std::size_t group = 64;
-    Point2 places[group];
+    Point2 scaled[group];
     std::uint32_t pieces[group];
     for (; begin < end; begin += group)
     {
       const std::size_t size = std::min(group, end - begin);
       for (std::size_t i = 0; i < size; ++i)
       {
-        places[i] = { block.XY[2 * (begin + i)] * this->Factor,
+        scaled[i] = { block.XY[2 * (begin + i)] * this->Factor,
           block.XY[2 * (begin + i) + 1] * this->Factor };
       }
-      this->Pieces.locate(places, size, pieces);
+      this->Pieces.locate(scaled, size, pieces);
       static_assert(std::int32_t(PartitionFinder::None) == -1, "the label of no piece");
       std::copy_n(pieces, size, this->Labels.begin() + std::ptrdiff_t(begin));
     }
@@ -106,7 +107,7 @@ private:
   std::size_t NextInitial = 0;
 };
 
-/// As PointRowLayout has it.
+/// In the order of PointRowLayout.
 void writeRow(const PointBlock& block, std::size_t i, char* to)
 {
   std::memcpy(to, &block.XY[2 * i], 16);
@@ -188,6 +189,40 @@ SpilledPoints::SpilledPoints(const std::vector<SpilledPart>& parts, const InputS
   for (InitialPoint& p : plan.Initial)
   {
     p.InPieces += this->Starts[std::size_t(plan.PieceOf[std::size_t(p.Partition)])];
+  }
+}
+
+void SpilledPoints::save(SaveArchive& archive) const
+{
+  archive(this->Starts);
+  archive(this->Rows.save());
+}
+
+SpilledPoints::SpilledPoints(
+  const std::string& file, const PiecePlan& plan, const PointRowLayout& rows, LoadArchive& archive)
+  : Starts(
+      [&]
+      {
+        std::vector<std::int64_t> starts;
+        archive(starts);
+        return starts;
+      }())
+  , Rows(file, std::size_t(plan.pieces()), 8 * rows.Words,
+      [&]
+      {
+        std::vector<std::uint64_t> saved;
+        archive(saved);
+        return saved;
+      }())
+{
+  bool isOurs = this->Starts.size() == std::size_t(plan.pieces()) + 1 && this->Starts[0] == 0;
+  for (PartitionIndex piece = 0; isOurs && piece < plan.pieces(); ++piece)
+  {
+    isOurs = this->count(piece) == this->Rows.rows(std::size_t(piece));
+  }
+  if (!isOurs)
+  {
+    throw IOError(file, "has points of other pieces; start again.");
   }
 }
 

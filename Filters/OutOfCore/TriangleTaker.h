@@ -2,7 +2,7 @@
 #ifndef tippTriangleTaker_h
 #define tippTriangleTaker_h
 
-#include "Partitioned/GrowingPiece.h"
+#include "Partitioned/PointRows.h"
 #include "Predicates/Point2.h"
 
 #include <cstddef>
@@ -14,14 +14,14 @@
 namespace tipp
 {
 
-/// Takes the final triangles of a triangulation out of core, instead of a mesh on disk. What it
-/// keeps of them must outlive the process, as far as the run is to be resumed.
+/// Receives the final triangles of a triangulation out of core, instead of a mesh on disk. What it
+/// keeps must survive the process if the run is to be resumed.
 class TriangleTaker
 {
 public:
   virtual ~TriangleTaker() = default;
 
-  /// What tells that it does the same in another run.
+  /// Equal for takers that do the same in another run.
   virtual std::string identity() const = 0;
 
   /// About how many bytes of disk it needs where its files are.
@@ -36,7 +36,7 @@ public:
   /// Triangles of points in rows; each of the whole triangulation once, or again in a resumed run.
   /// `name`: of this part; the same when it is made again. Called by several threads at once.
   virtual void take(const std::string& name, const double* rows, const PointRowLayout& layout,
-    std::size_t points, const std::vector<GrowingPiece::Corners>& triangles) = 0;
+    std::size_t points, const std::vector<TriangleRange>& triangles) = 0;
 
   /// When all are taken; on the first rank. False if `progress` ended it.
   virtual bool end(const std::function<bool(double)>& progress) = 0;

@@ -2,207 +2,177 @@
 #include "Partitioned/GrowingPiece.h"
 
 #include "Files/IOError.h"
-#include "Partitioned/ColumnWriter.h"
-#include "Partitioned/PieceTuples.h"
+#include "Files/InputFile.h"
+#include "Partitioned/PieceFile.h"
+#include "Partitioned/PieceWriter.h"
 
 #include <algorithm>
+#include <cstring>
+#include <filesystem>
 #include <limits>
-#include <stdexcept>
 
 namespace tipp
 {
 namespace
 {
 
-constexpr std::size_t blockTuples = 4096;
 constexpr std::size_t bufferBytes = std::size_t(1) << 20;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Calls visit(corners as indices in the piece, whether one of them is a rim point) for each
-/// triangle.
-template <typename Visit>
-void forEachTriangle(const GrowingPiece::Interior& interior,
-  const std::vector<std::int32_t>& numbers, const Visit& visit)
+/// Whether the array holds global ids of cells, which are known last: no cell data are stored but
+/// the neighbours' ids.
+bool holdsCellIds(const PieceArray& array)
 {
-  for (const GrowingPiece::Corners& run : interior.Triangles)
+  return array.Role == PieceRole::CellIds || array.Role == PieceRole::CellData;
+}
+
+std::int64_t interiorTuples(const PieceInterior& interior, const PieceArray& array)
+{
+  return array.ofPoints() ? interior.Points : interior.Cells;
+}
+
+/// Moves the next file to this path, if there is one.
+void takeNextFile(const std::string& path)
+{
+  std::error_code failure;
+  if (!std::filesystem::exists(path + nextPieceSuffix, failure))
   {
-    const std::int32_t* corner = run.Begin;
-    for (std::size_t t = 0; t < run.Triangles; ++t, corner += 3)
+    return;
+  }
+  std::filesystem::rename(path + nextPieceSuffix, path, failure);
+  if (failure)
+  {
+    throw IOError(path, "cannot be replaced (" + failure.message() + ").");
+  }
+}
+
+void requireNarrowIds(
+  const PartitionedMesh& mesh, std::size_t number, const PieceSummary& counts, const char* what)
+{
+  if (hasWideIds(mesh, counts))
+  {
+    throw IOError(mesh.piecePath(number),
+      std::string("would have more ") + what +
+        " than 32-bit numbers can count; give less memory or more partitions.");
+  }
+}
+
+/// Calls visit(corners as positions in the piece, whether one of them is on the interface) for each
+/// triangle. `positions` has -1 - k for the k-th interface point.
+template <typename Visit>
+void forEachTriangle(
+  const InteriorContent& content, const std::vector<std::int32_t>& positions, const Visit& visit)
+{
+  for (const TriangleRange& range : content.Triangles)
+  {
+    const std::int32_t* corner = range.Begin;
+    for (std::size_t t = 0; t < range.Triangles; ++t, corner += 3)
     {
-      const std::array<std::int32_t, 3> triangle = { numbers[std::size_t(corner[0])],
-        numbers[std::size_t(corner[1])], numbers[std::size_t(corner[2])] };
+      const std::array<std::int32_t, 3> triangle = { positions[std::size_t(corner[0])],
+        positions[std::size_t(corner[1])], positions[std::size_t(corner[2])] };
       visit(triangle, (triangle[0] | triangle[1] | triangle[2]) < 0);
     }
   }
 }
 
-} // namespace
-
-void GrowingPiece::addTriangle(
-  const std::array<std::int64_t, 3>& places, const std::vector<std::int32_t>& borrowers)
+/// Writes the array `offsets` or `types` for `count` triangles from `first` on.
+void addShapes(
+  const PieceArray& array, std::int64_t first, std::int64_t count, ColumnWriter& column)
 {
-  this->Borrowers.insert(this->Borrowers.end(), borrowers.begin(), borrowers.end());
-  this->Shared.push_back({ places, this->Borrowers.size() });
-}
-
-void GrowingPiece::addRow(std::int64_t place, const PointRowLayout& rows)
-{
-  this->Ghosts.emplace(place, std::int64_t(this->GhostPlaces.size()));
-  this->GhostPlaces.push_back(place);
-  this->GhostRows.resize(this->GhostRows.size() + rows.Words);
-}
-
-void GrowingPiece::setRow(std::int64_t place, const double* row, const PointRowLayout& rows)
-{
-  std::copy_n(
-    row, rows.Words, this->GhostRows.data() + std::size_t(this->Ghosts.at(place)) * rows.Words);
-}
-
-GrowingPiece::BorderMesh GrowingPiece::borderMesh(const PointRowLayout& rows) const
-{
-  BorderMesh mesh;
-  std::unordered_map<std::int64_t, std::int32_t> known;
-  for (const SharedTriangle& triangle : this->Shared)
+  constexpr int vtkTriangle = 5;
+  constexpr std::int64_t block = 4096;
+  for (const std::int64_t end = first + count; first < end;)
   {
-    for (const std::int64_t place : triangle.Places)
+    const std::int64_t size = std::min(block, end - first);
+    char* to = column.extend(std::size_t(size) * array.tupleBytes());
+    first += size;
+    if (array.Role == PieceRole::Types)
     {
-      const auto [found, isNew] = known.emplace(place, std::int32_t(known.size()));
-      if (isNew)
-      {
-        const double* const row = this->owns(place)
-          ? this->rimRow(place, rows)
-          : this->GhostRows.data() + std::size_t(this->Ghosts.at(place)) * rows.Words;
-        mesh.Rows.insert(mesh.Rows.end(), row, row + rows.Words);
-      }
-      mesh.Corners.push_back(found->second);
-    }
-  }
-  return mesh;
-}
-
-const double* GrowingPiece::rimRow(std::int64_t place, const PointRowLayout& rows) const
-{
-  const auto found = std::lower_bound(this->RimPlaces.begin(), this->RimPlaces.end(), place);
-  if (found == this->RimPlaces.end() || *found != place)
-  {
-    throw std::logic_error("a point of a triangle at the border is not on the rim");
-  }
-  return this->RimRows.data() + std::size_t(found - this->RimPlaces.begin()) * rows.Words;
-}
-
-void GrowingPiece::numberPoints(
-  const Interior& interior, const PointRowLayout& rows, std::vector<std::int32_t>& numbers)
-{
-  this->Extent = { infinity, -infinity, infinity, -infinity, infinity, -infinity };
-  numbers.resize(std::size_t(this->OwnPoints));
-  std::int32_t next = 0;
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-  {
-    const double* const row = interior.Rows + i * rows.Words;
-    extendBounds(this->Extent, row, rows);
-    if (interior.Rim[i] == 0)
-    {
-      numbers[i] = next++;
+      std::memset(to, vtkTriangle, std::size_t(size));
       continue;
     }
-    numbers[i] = -1 - std::int32_t(this->RimPlaces.size());
-    this->RimPlaces.push_back(this->First + std::int64_t(i));
-    this->RimRows.insert(this->RimRows.end(), row, row + rows.Words);
+    for (std::int64_t i = first - size; i < first; ++i, to += 4)
+    {
+      const auto corners = std::int32_t(3 * (i + 1));
+      std::memcpy(to, &corners, 4);
+    }
   }
-  this->InteriorPoints = next;
 }
 
-/// Counts the interior's triangles, and keeps those at rim points.
-std::int64_t GrowingPiece::countInterior(
-  const Interior& interior, const std::vector<std::int32_t>& numbers)
+/// Fills in what the record says of points, and returns their positions in the piece, or -1 - k
+/// for the k-th interface point.
+std::vector<std::int32_t> orderPoints(
+  const InteriorContent& content, const PointRowLayout& layout, PieceInterior& interior)
 {
-  std::int64_t count = 0;
-  forEachTriangle(interior, numbers,
-    [&](const std::array<std::int32_t, 3>& triangle, bool isOnRim)
+  interior.Extent = { infinity, -infinity, infinity, -infinity, infinity, -infinity };
+  std::vector<std::int32_t> positions(std::size_t(content.Points));
+  std::int32_t next = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    const double* const row = content.Rows + i * layout.Words;
+    extendBounds(interior.Extent, row, layout);
+    if (content.IsOnInterface[i] == 0)
     {
-      if (isOnRim)
-      {
-        this->RimTriangles.push_back(triangle);
-      }
-      count += isOnRim ? 0 : 1;
-    });
-  return count;
+      positions[i] = next++;
+      continue;
+    }
+    positions[i] = -1 - std::int32_t(interior.InterfacePoints.size());
+    interior.InterfacePoints.push_back(content.First + std::int64_t(i));
+    interior.InterfaceRows.insert(interior.InterfaceRows.end(), row, row + layout.Words);
+  }
+  interior.Points = next;
+  return positions;
 }
 
 /// The border's size is not known yet: reserves more than it usually takes.
-void GrowingPiece::makeRoom(const PartitionedMesh& mesh, std::size_t number)
+void makeRoom(const PartitionedMesh& mesh, std::size_t number, PieceInterior& interior)
 {
-  const auto rim = std::int64_t(this->RimPlaces.size());
-  this->Room = mesh.Pieces[number];
-  this->Room.Points = this->OwnPoints + rim / 2 + 256;
-  this->Room.Cells = this->InteriorCells + std::int64_t(this->RimTriangles.size()) + 2 * rim + 256;
-  if (hasWideIds(mesh, this->Room))
+  const auto points = std::int64_t(interior.InterfacePoints.size());
+  interior.Room = mesh.Pieces[number];
+  interior.Room.Points = interior.OwnPoints + points / 2 + 256;
+  interior.Room.Cells =
+    interior.Cells + std::int64_t(interior.InterfaceTriangles.size()) + 2 * points + 256;
+  requireNarrowIds(mesh, number, interior.Room, "points");
+}
+
+void addPoints(const PieceArray& array, const PointRowLayout& layout,
+  const InteriorContent& content, const std::vector<std::int32_t>& positions, ColumnWriter& column)
+{
+  const std::size_t bytes = array.tupleBytes();
+  const bool hasDuplicates = content.Representatives && !content.Representatives->empty();
+  for (std::size_t i = 0; i < positions.size(); ++i)
   {
-    throw IOError(mesh.piecePath(number),
-      "would have more points than 32-bit numbers can count; give less memory or more partitions.");
+    if (positions[i] < 0)
+    {
+      continue;
+    }
+    const double* const row = content.Rows + i * layout.Words;
+    std::int64_t representative = layout.id(row);
+    if (hasDuplicates)
+    {
+      const auto found = content.Representatives->find(std::int32_t(i));
+      representative = found == content.Representatives->end()
+        ? representative
+        : layout.id(content.Rows + std::size_t(found->second) * layout.Words);
+    }
+    copyPoint(array, row, layout, false, representative, column.extend(bytes));
   }
 }
 
-void GrowingPiece::writeInterior(const PartitionedMesh& mesh, std::size_t number,
-  const PointRowLayout& rows, const Interior& interior)
+void addInterior(const PieceArray& array, const PointRowLayout& layout,
+  const InteriorContent& content, const std::vector<std::int32_t>& positions,
+  std::int64_t triangles, ColumnWriter& column)
 {
-  std::vector<std::int32_t> numbers;
-  this->numberPoints(interior, rows, numbers);
-  this->InteriorCells = this->countInterior(interior, numbers);
-  if (mesh.Path.empty())
-  {
-    this->sumInterior(interior, rows);
-    return;
-  }
-  this->makeRoom(mesh, number);
-  const PieceLayout layout = layOutPiece(mesh, number, this->Room, &this->Room);
-  const OutputFile file(mesh.piecePath(number));
-  for (std::size_t a = 0; a < layout.Arrays.size(); ++a)
-  {
-    this->writeInteriorArray(
-      file, layout.Arrays[a], layout.Offsets[a], rows, interior, numbers, this->Checksums);
-  }
-  file.startWriteback();
-}
-
-void GrowingPiece::writeInteriorArray(const OutputFile& file, const PieceArray& array,
-  std::uint64_t offset, const PointRowLayout& rows, const Interior& interior,
-  const std::vector<std::int32_t>& numbers, std::vector<std::uint64_t>& checksums) const
-{
-  if (holdsCellIds(array))
-  {
-    checksums.push_back(0); // filled in once they are known
-    return;
-  }
-  ColumnWriter column(file, offset, bufferBytes);
   if (array.ofPoints())
   {
-    const std::size_t bytes = array.tupleBytes();
-    const bool needsRepresentatives =
-      interior.Representatives && !interior.Representatives->empty();
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-    {
-      if (numbers[i] >= 0)
-      {
-        const double* const row = interior.Rows + i * rows.Words;
-        std::int64_t representative = rows.id(row);
-        if (needsRepresentatives)
-        {
-          const auto found = interior.Representatives->find(std::int32_t(i));
-          representative = found == interior.Representatives->end()
-            ? representative
-            : rows.id(interior.Rows + std::size_t(found->second) * rows.Words);
-        }
-        copyPiecePoint(array, row, rows, false, representative, column.extend(bytes));
-      }
-    }
+    addPoints(array, layout, content, positions, column);
   }
   else if (array.Role == PieceRole::Connectivity)
   {
-    forEachTriangle(interior, numbers,
-      [&](const std::array<std::int32_t, 3>& triangle, bool isOnRim)
+    forEachTriangle(content, positions,
+      [&](const std::array<std::int32_t, 3>& triangle, bool isOnInterface)
       {
-        if (!isOnRim)
+        if (!isOnInterface)
         {
           std::memcpy(column.extend(sizeof(triangle)), triangle.data(), sizeof(triangle));
         }
@@ -210,59 +180,243 @@ void GrowingPiece::writeInteriorArray(const OutputFile& file, const PieceArray& 
   }
   else
   {
-    for (std::int64_t at = 0; at < this->InteriorCells; at += blockTuples)
-    {
-      const auto count = std::size_t(std::min<std::int64_t>(blockTuples, this->InteriorCells - at));
-      fillPieceCells(array, at, count, column.extend(count * array.tupleBytes()));
-    }
+    addShapes(array, 0, triangles, column);
   }
   column.endPart();
   column.flush();
-  checksums.push_back(column.checksums()[0]);
 }
 
-std::uint64_t GrowingPiece::hashTriangle(std::int64_t a, std::int64_t b, std::int64_t c)
+/// Writes the border's part of an array, and appends the checksum of each group.
+template <typename Item, typename Add>
+void writeGroups(const std::vector<Item>& items, ColumnWriter& column,
+  std::vector<std::uint64_t>& checksums, const Add& add)
 {
-  const auto mix = [](std::uint64_t x) // the finaliser of splitmix64
+  for (std::size_t i = 0; i < items.size(); ++i)
   {
-    x += 0x9e3779b97f4a7c15U;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-    return x ^ (x >> 31);
-  };
-  // A sum over directed edges is independent of which corner comes first.
-  const auto edge = [&](std::int64_t from, std::int64_t to)
-  { return mix(mix(std::uint64_t(from)) + std::uint64_t(to)); };
-  return mix(edge(a, b) + edge(b, c) + edge(c, a));
-}
-
-void GrowingPiece::sumInterior(const Interior& interior, const PointRowLayout& rows)
-{
-  for (const Corners& run : interior.Triangles)
-  {
-    for (std::size_t t = 0; t < run.Triangles; ++t)
+    if (i > 0 && items[i].Group != items[i - 1].Group)
     {
-      const auto id = [&](std::size_t i)
-      { return rows.id(interior.Rows + std::size_t(run.Begin[3 * t + i]) * rows.Words); };
-      this->InteriorSum += hashTriangle(id(0), id(1), id(2));
+      column.endPart();
+    }
+    add(items[i], std::int64_t(i));
+  }
+  if (!items.empty())
+  {
+    column.endPart();
+  }
+  column.flush();
+  checksums.insert(checksums.end(), column.checksums().begin(), column.checksums().end());
+}
+
+void addBorder(const PieceArray& array, const PointRowLayout& layout, const OrderedBorder& border,
+  std::int64_t interiorCells, ColumnWriter& column, std::vector<std::uint64_t>& checksums)
+{
+  const std::size_t tuple = array.tupleBytes();
+  if (array.ofPoints())
+  {
+    writeGroups(border.Points, column, checksums,
+      [&](const OrderedBorder::Point& p, std::int64_t)
+      { copyPoint(array, p.Row, layout, p.IsGhost, layout.id(p.Row), column.extend(tuple)); });
+    return;
+  }
+  writeGroups(border.Cells, column, checksums,
+    [&](const OrderedBorder::Cell& cell, std::int64_t i)
+    {
+      array.Role == PieceRole::Connectivity
+        ? static_cast<void>(std::memcpy(column.extend(tuple), cell.Points.data(), tuple))
+        : addShapes(array, interiorCells + i, 1, column);
+    });
+}
+
+PieceSummary summarize(const PartitionedMesh& mesh, std::size_t number,
+  const PointRowLayout& layout, const PieceInterior& interior, const OrderedBorder& border)
+{
+  PieceSummary summary = mesh.Pieces[number];
+  summary.Points = interior.Points + std::int64_t(border.Points.size());
+  summary.Cells = interior.Cells + std::int64_t(border.Cells.size());
+  summary.Extent = interior.Extent;
+  for (const OrderedBorder::Point& point : border.Points)
+  {
+    extendBounds(summary.Extent, point.Row, layout);
+  }
+  if (summary.Extent[4] > summary.Extent[5])
+  {
+    summary.Extent[4] = summary.Extent[5] = 0; // without a third coordinate z is 0
+  }
+  requireNarrowIds(mesh, number, summary, "cells");
+  return summary;
+}
+
+/// Copies the interior into the next file. The present one is kept, so that this can be repeated.
+void copyInterior(const std::string& path, const PieceInterior& interior, const PieceLayout& from,
+  const PieceLayout& to)
+{
+  const InputFile source(path);
+  const OutputFile target(path + nextPieceSuffix);
+  for (std::size_t a = 0; a < to.Arrays.size(); ++a)
+  {
+    const PieceArray& array = to.Arrays[a];
+    const std::int64_t tuples = holdsCellIds(array) ? 0 : interiorTuples(interior, array);
+    source.readBlocks(from.Offsets[a], std::uint64_t(tuples) * array.tupleBytes(),
+      [&, at = to.Offsets[a]](const char* data, std::size_t bytes) mutable
+      {
+        target.write(at, data, bytes);
+        at += bytes;
+      });
+  }
+}
+
+} // namespace
+
+PieceInterior writeInterior(const PartitionedMesh& mesh, std::size_t number,
+  const PointRowLayout& layout, const InteriorContent& content)
+{
+  PieceInterior interior;
+  interior.First = content.First;
+  interior.OwnPoints = content.Points;
+  const std::vector<std::int32_t> positions = orderPoints(content, layout, interior);
+  forEachTriangle(content, positions,
+    [&](const std::array<std::int32_t, 3>& triangle, bool isOnInterface)
+    {
+      isOnInterface ? interior.InterfaceTriangles.push_back(triangle)
+                    : static_cast<void>(++interior.Cells);
+    });
+  if (mesh.Path.empty())
+  {
+    for (const TriangleRange& range : content.Triangles)
+    {
+      interior.TriangleSum += sumTriangles(range, content.Rows, layout);
+    }
+    return interior;
+  }
+  makeRoom(mesh, number, interior);
+  const PieceLayout file = layOutPiece(mesh, number, interior.Room, &interior.Room);
+  const OutputFile output(mesh.piecePath(number));
+  for (std::size_t a = 0; a < file.Arrays.size(); ++a)
+  {
+    const PieceArray& array = file.Arrays[a];
+    if (holdsCellIds(array))
+    {
+      interior.Checksums.push_back(0); // filled in once they are known
+      continue;
+    }
+    ColumnWriter column(output, file.Offsets[a], bufferBytes);
+    addInterior(array, layout, content, positions, interior.Cells, column);
+    interior.Checksums.push_back(column.checksums()[0]);
+  }
+  output.startWriteback();
+  return interior;
+}
+
+FinishedPiece writeBorder(const PartitionedMesh& mesh, std::size_t number,
+  const PointRowLayout& layout, const PieceInterior& interior, const PieceBorder& border)
+{
+  FinishedPiece finished;
+  if (mesh.Path.empty())
+  {
+    const PieceBorder::Mesh triangles = border.mesh();
+    finished.Summary = mesh.Pieces[number];
+    finished.Summary.Cells =
+      interior.Cells + std::int64_t(interior.InterfaceTriangles.size() + border.triangles());
+    finished.TriangleSum =
+      interior.TriangleSum + sumTriangles(triangles.triangles(), triangles.Rows.data(), layout);
+    return finished;
+  }
+  const OrderedBorder ordered(border);
+  finished.Summary = summarize(mesh, number, layout, interior, ordered);
+  PieceSummary& summary = finished.Summary;
+  const PieceSummary& room = interior.Room;
+  const bool fits = summary.Points <= room.Points && summary.Cells <= room.Cells;
+  const PieceLayout file = layOutPiece(mesh, number, summary, fits ? &room : nullptr);
+  const std::string path = mesh.piecePath(number);
+  if (!fits)
+  {
+    copyInterior(path, interior, layOutPiece(mesh, number, room, &room), file);
+  }
+  const OutputFile output = OutputFile::shared(path + (fits ? "" : nextPieceSuffix));
+  for (std::size_t a = 0; a < file.Arrays.size(); ++a)
+  {
+    const PieceArray& array = file.Arrays[a];
+    const std::size_t tuple = array.tupleBytes();
+    const std::uint64_t size = std::uint64_t(storedTuples(mesh, summary, array)) * tuple;
+    output.write(file.Offsets[a] - 8, &size, 8);
+    std::vector<std::uint64_t>& checksums = finished.Table.Checksums.emplace_back();
+    if (holdsCellIds(array))
+    {
+      continue;
+    }
+    checksums.push_back(interior.Checksums[a]);
+    ColumnWriter column(output,
+      file.Offsets[a] + std::uint64_t(interiorTuples(interior, array)) * tuple, bufferBytes / 16);
+    addBorder(array, layout, ordered, interior.Cells, column, checksums);
+  }
+  summary.FileBytes = writeFrame(output, file, finished.Table);
+  finished.Table.PointGroups = ordered.PointGroups;
+  finished.Table.CellGroups = ordered.CellGroups;
+  return finished;
+}
+
+void writeCellIds(
+  const PartitionedMesh& mesh, std::size_t number, std::int64_t first, FinishedPiece& piece)
+{
+  const std::vector<PieceArray> arrays = pieceArrays(mesh, piece.Summary);
+  const auto found = std::find_if(arrays.begin(), arrays.end(),
+    [](const PieceArray& array) { return array.Role == PieceRole::CellIds; });
+  const auto a = std::size_t(found - arrays.begin());
+  const std::string path = mesh.piecePath(number);
+  takeNextFile(path);
+  const OutputFile file = OutputFile::shared(path);
+  ColumnWriter column(file, piece.Table.Offsets[a], bufferBytes);
+  for (const std::int64_t count : piece.Table.parts(mesh, piece.Summary, false))
+  {
+    for (std::int64_t i = 0; i < count; ++i, ++first)
+    {
+      std::memcpy(column.extend(8), &first, 8);
+    }
+    column.endPart();
+  }
+  column.flush();
+  file.startWriteback();
+  piece.Table.Checksums[a] = column.checksums();
+}
+
+void verifyInterior(const PartitionedMesh& mesh, std::size_t number, const PieceInterior& interior)
+{
+  if (mesh.Path.empty())
+  {
+    return;
+  }
+  const std::string path = mesh.piecePath(number);
+  const PieceLayout layout = layOutPiece(mesh, number, interior.Room, &interior.Room);
+  const InputFile file(path);
+  for (std::size_t a = 0; a < layout.Arrays.size(); ++a)
+  {
+    const PieceArray& array = layout.Arrays[a];
+    if (holdsCellIds(array))
+    {
+      continue;
+    }
+    Checksum sum;
+    file.readBlocks(layout.Offsets[a],
+      std::uint64_t(interiorTuples(interior, array)) * array.tupleBytes(),
+      [&](const char* data, std::size_t bytes) { sum.add(data, bytes); });
+    if (sum.finish() != interior.Checksums[a])
+    {
+      throw IOError(path, "the array " + array.Name + " does not have its checksum.");
     }
   }
+  copyInterior(path, interior, layout, layout);
+  takeNextFile(path);
 }
 
-std::uint64_t GrowingPiece::sumBorder(const PointRowLayout& rows) const
+void verifyFinished(const PartitionedMesh& mesh, std::size_t number, const FinishedPiece& piece)
 {
-  const auto id = [&](std::int64_t place)
+  if (mesh.Path.empty())
   {
-    return rows.id(this->owns(place)
-        ? this->rimRow(place, rows)
-        : this->GhostRows.data() + std::size_t(this->Ghosts.at(place)) * rows.Words);
-  };
-  std::uint64_t sum = 0;
-  for (const SharedTriangle& triangle : this->Shared)
-  {
-    sum += hashTriangle(id(triangle.Places[0]), id(triangle.Places[1]), id(triangle.Places[2]));
+    return;
   }
-  return sum;
+  takeNextFile(mesh.piecePath(number));
+  ReadCounters counters;
+  PieceFile(mesh, number, piece.Summary, piece.Table, counters).verifyAll();
 }
 
 } // namespace tipp

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioned/MeshIndex.h"
-
 #include "Files/IOError.h"
 #include "Partitioned/Checksum.h"
+#include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceLayout.h"
 
 #include <nlohmann/json.hpp>

@@ -2,8 +2,8 @@
 #include "Partitioned/NeighborIds.h"
 
 #include "Meshes/Triangles.h"
-#include "Partitioned/ColumnWriter.h"
 #include "Partitioned/PieceFile.h"
+#include "Partitioned/PieceWriter.h"
 
 #include <algorithm>
 #include <cstring>

@@ -4,7 +4,6 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Partitioned/Checksum.h"
-#include "Partitioned/MeshIndex.h"
 
 #include <cerrno>
 #include <filesystem>

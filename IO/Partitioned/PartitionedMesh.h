@@ -79,6 +79,13 @@ VTKTIPPIO_EXPORT std::string pieceName(std::size_t piece);
 /// the sizes of all files. Throws IOError naming the file and the reason.
 VTKTIPPIO_EXPORT PartitionedMesh openPartitionedMesh(const std::string& path);
 
+/// Returns the text of index.json including its checksum; `pvtu` is the text of mesh.pvtu.
+std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu);
+
+/// Parses such a text; `path` is the index's, for errors. Checks everything that needs no other
+/// file and throws IOError. PartitionedMesh::Path is left empty.
+VTKTIPPIO_EXPORT PartitionedMesh parseIndex(const std::string& text, const std::string& path);
+
 /// Throws IOError unless mesh.pvtu, which openPartitionedMesh() does not read, has its checksum.
 VTKTIPPIO_EXPORT void verifyPvtu(const PartitionedMesh& mesh);
 

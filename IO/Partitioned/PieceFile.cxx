@@ -15,6 +15,9 @@ namespace tipp
 namespace
 {
 
+/// Bytes that are read at a time, so that they are still in the cache when they are verified.
+constexpr std::size_t blockBytes = std::size_t(1) << 18;
+
 std::vector<std::int64_t> startsOf(const std::vector<std::int64_t>& counts)
 {
   std::vector<std::int64_t> starts{ 0 };
@@ -96,19 +99,43 @@ std::size_t PieceFile::findAttribute(std::size_t attribute) const
 void PieceFile::read(std::size_t array, std::size_t first, std::size_t end, void* to) const
 {
   const PieceArray& description = this->Arrays[array];
-  const std::vector<std::int64_t>& starts = this->partStarts(description.ofPoints());
   const std::size_t tuple = description.tupleBytes();
-  const std::size_t bytes = std::size_t(starts[end] - starts[first]) * tuple;
-  this->File.read(this->Table.Offsets[array] + std::uint64_t(starts[first]) * tuple, to, bytes);
+  const std::vector<std::int64_t>& starts = this->partStarts(description.ofPoints());
+  // In bytes from the first part on.
+  const auto startOf = [&](std::size_t part)
+  { return std::size_t(starts[part] - starts[first]) * tuple; };
+  const std::uint64_t offset = this->Table.Offsets[array] + std::uint64_t(starts[first]) * tuple;
+  const std::size_t bytes = startOf(end);
+  std::vector<char> unused(to ? 0 : std::min(blockBytes, bytes));
+  Checksum sum; // of the part that began in an earlier block
+  std::size_t hashed = 0;
+  std::size_t part = first;
+  for (std::size_t begin = 0; begin < bytes; begin += blockBytes)
+  {
+    const std::size_t blockEnd = std::min(begin + blockBytes, bytes);
+    char* const block = to ? static_cast<char*>(to) + begin : unused.data();
+    this->File.read(offset + begin, block, blockEnd - begin);
+    for (; part < end && startOf(part + 1) <= blockEnd; hashed = startOf(++part))
+    {
+      const char* const data = block + (hashed - begin);
+      const std::size_t size = startOf(part + 1) - hashed;
+      if (hashed == startOf(part))
+      {
+        this->requirePart(array, part, checksumOf(data, size));
+        continue;
+      }
+      sum.add(data, size);
+      this->requirePart(array, part, sum.finish());
+    }
+    sum.add(block + (hashed - begin), blockEnd - hashed);
+    hashed = blockEnd;
+  }
+  for (; part < end; ++part) // there are no tuples
+  {
+    this->requirePart(array, part, checksumOf(nullptr, 0));
+  }
   ++this->Counters.Reads;
   this->Counters.Bytes += std::int64_t(bytes);
-  const char* at = static_cast<const char*>(to);
-  for (std::size_t part = first; part < end; ++part)
-  {
-    const std::size_t size = std::size_t(starts[part + 1] - starts[part]) * tuple;
-    this->requirePart(array, part, checksumOf(at, size));
-    at += size;
-  }
 }
 
 void PieceFile::requirePart(std::size_t array, std::size_t part, std::uint64_t checksum) const
@@ -116,39 +143,6 @@ void PieceFile::requirePart(std::size_t array, std::size_t part, std::uint64_t c
   if (checksum != this->Table.Checksums[array][part])
   {
     this->fail("the array " + this->Arrays[array].Name + " does not have its checksum");
-  }
-}
-
-void PieceFile::verify(std::size_t array, std::size_t first, std::size_t end) const
-{
-  const std::vector<std::int64_t>& starts = this->partStarts(this->Arrays[array].ofPoints());
-  const std::size_t tuple = this->Arrays[array].tupleBytes();
-  const auto placeOf = [&](std::size_t part)
-  { return this->Table.Offsets[array] + std::uint64_t(starts[part]) * tuple; };
-  std::size_t part = first;
-  Checksum sum;
-  // One pass over all parts, because there may be many small ones.
-  const std::uint64_t bytes = placeOf(end) - placeOf(first);
-  ++this->Counters.Reads;
-  this->Counters.Bytes += std::int64_t(bytes);
-  this->File.readBlocks(placeOf(first), bytes,
-    [&, at = placeOf(first)](const char* data, std::size_t size) mutable
-    {
-      const std::uint64_t blockEnd = at + size;
-      for (; part < end && placeOf(part + 1) <= blockEnd; ++part)
-      {
-        const auto rest = std::size_t(placeOf(part + 1) - at);
-        sum.add(data, rest);
-        this->requirePart(array, part, sum.finish());
-        data += rest;
-        at += rest;
-      }
-      sum.add(data, std::size_t(blockEnd - at));
-      at = blockEnd;
-    });
-  for (; part < end; ++part) // the last parts may have no tuples
-  {
-    this->requirePart(array, part, sum.finish());
   }
 }
 
@@ -201,7 +195,7 @@ void PieceFile::verifyAll() const
     }
     if (!this->Table.Checksums[a].empty())
     {
-      this->verify(a, 0, starts.size() - 1);
+      this->read(a, 0, starts.size() - 1, nullptr);
     }
     at = offset + bytes;
   }

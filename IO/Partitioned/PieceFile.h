@@ -46,12 +46,9 @@ public:
   /// The index of the array of an attribute of the mesh.
   std::size_t findAttribute(std::size_t attribute) const;
 
-  /// Reads parts [first, end) of an array with one read and verifies their checksums; throws
-  /// IOError.
+  /// Reads parts [first, end) of an array and verifies their checksums; `to` may be null, to verify
+  /// them only. Throws IOError.
   void read(std::size_t array, std::size_t first, std::size_t end, void* to) const;
-
-  /// Verifies the checksums of these parts; throws IOError.
-  void verify(std::size_t array, std::size_t first, std::size_t end) const;
   /// Verifies every byte of the file, except for arrays that have no checksums yet; throws IOError.
   void verifyAll() const;
 

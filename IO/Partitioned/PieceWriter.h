@@ -3,16 +3,48 @@
 #define tippPieceWriter_h
 
 #include "Files/OutputFile.h"
-#include "Partitioned/ColumnWriter.h"
+#include "Partitioned/Checksum.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceLayout.h"
 #include "Partitioned/PieceTable.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
+#include <vector>
 
 namespace tipp
 {
+
+/// Writes one array of a file sequentially through a buffer, and computes a checksum for each of
+/// its parts.
+class ColumnWriter
+{
+public:
+  /// `offset` and `bufferBytes` are in bytes. The file must outlive this.
+  ColumnWriter(const OutputFile& file, std::uint64_t offset, std::size_t bufferBytes);
+
+  /// Returns the buffer for the next bytes, which the caller must fill before the next call. Throws
+  /// IOError.
+  char* extend(std::size_t bytes);
+  void endPart();
+  /// Writes the buffered bytes.
+  void flush();
+  std::vector<std::uint64_t>& checksums() { return this->Checksums; }
+
+private:
+  const OutputFile& File;
+  std::uint64_t Offset;
+  std::vector<char> Buffer;
+  std::size_t Used = 0;
+  std::size_t Hashed = 0;
+  Checksum Part;
+  std::vector<std::uint64_t> Checksums;
+};
+
+/// Writes the header, which precedes the arrays, and the footer behind them, and completes the
+/// offsets in the piece's table. Returns the file's size in bytes. Throws IOError.
+std::uint64_t writeFrame(const OutputFile& file, const PieceLayout& layout, PieceTable& table);
 
 /// Writes a piece's file, whose counts are known, array by array in the order of tuples.
 class PieceWriter

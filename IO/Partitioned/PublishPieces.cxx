@@ -6,7 +6,6 @@
 #include "Files/TextFile.h"
 #include "Parallel/ParallelFor.h"
 #include "Partitioned/Checksum.h"
-#include "Partitioned/MeshIndex.h"
 #include "Partitioned/PieceFile.h"
 #include "Partitioned/PieceLayout.h"
 

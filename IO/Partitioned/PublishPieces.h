@@ -22,7 +22,7 @@ struct FinishedPiece
 {
   PieceSummary Summary;
   PieceTable Table;              ///< without checksums of arrays that are not written yet
-  std::uint64_t TriangleSum = 0; ///< without a file: sum of GrowingPiece's hashes
+  std::uint64_t TriangleSum = 0; ///< without a file: sum of hashTriangle()
 };
 
 struct PublishedMesh

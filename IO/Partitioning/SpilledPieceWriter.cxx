@@ -56,7 +56,7 @@ void SpilledPieceWriter::takePointIds()
         this->PointFlags.push_back(std::uint8_t(word & 3));
       }
     });
-  this->Local = IdMap(this->PointIds.data(), nullptr, this->PointIds.size());
+  this->Local = GlobalIdMap(this->PointIds.data(), nullptr, this->PointIds.size());
 }
 
 void SpilledPieceWriter::takeSharedCells()
@@ -131,7 +131,7 @@ void SpilledPieceWriter::orderPoints()
   {
     this->Indices[i] = starts[this->partOf(i)]++;
   }
-  this->Local = IdMap(this->PointIds.data(), this->Indices.data(), this->PointIds.size());
+  this->Local = GlobalIdMap(this->PointIds.data(), this->Indices.data(), this->PointIds.size());
 }
 
 void SpilledPieceWriter::countCells()

@@ -2,11 +2,11 @@
 #ifndef tippSpilledPieceWriter_h
 #define tippSpilledPieceWriter_h
 
-#include "Partitioned/IdMap.h"
+#include "Partitioned/GlobalIdMap.h"
 #include "Partitioned/PieceTable.h"
 #include "Partitioned/PieceWriter.h"
+#include "Partitioned/SharingSets.h"
 #include "Partitioning/PartitionJob.h"
-#include "Partitioning/SharingSets.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -68,10 +68,10 @@ private:
   std::vector<char> SharedRows;
   std::vector<int> CellSets; ///< set of each shared cell
   SharingSets Sets;
-  std::vector<int> PointSets;        ///< set of each point, or -1
-  std::vector<int> PointGroupOf;     ///< per set: its index among the points' groups, or -1
+  std::vector<int> PointSets;       ///< set of each point, or -1
+  std::vector<int> PointGroupOf;    ///< per set: its index among the points' groups, or -1
   std::vector<std::int64_t> Indices; ///< index of each point in the piece
-  IdMap Local;
+  GlobalIdMap Local;
   std::optional<PieceWriter> Writer;
   std::int64_t CellsWritten = 0;
 };

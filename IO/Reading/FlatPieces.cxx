@@ -114,8 +114,8 @@ void FlatPieces::prepare(const Ranks& ranks)
     [&]
     {
       const auto [first, last] = ranks.shareOf(this->Flat.Points.Tuples);
-      this->forEachHome(
-        first, last, [&counts](std::int64_t, std::int32_t home) { ++counts[std::size_t(home)]; });
+      this->forEachOwner(
+        first, last, [&counts](std::int64_t, std::int32_t owner) { ++counts[std::size_t(owner)]; });
     });
   this->PointCounts = ranks.sum(counts);
 }
@@ -123,7 +123,7 @@ void FlatPieces::prepare(const Ranks& ranks)
 /// Calls visit(point, owner) for points in ascending order. A point's owner is the first partition
 /// that contains it.
 template <typename Visit>
-void FlatPieces::forEachHome(std::int64_t first, std::int64_t last, const Visit& visit) const
+void FlatPieces::forEachOwner(std::int64_t first, std::int64_t last, const Visit& visit) const
 {
   constexpr std::int64_t chunk = 1 << 18;
   constexpr std::int64_t share = 1 << 14;
@@ -132,14 +132,14 @@ void FlatPieces::forEachHome(std::int64_t first, std::int64_t last, const Visit&
   const auto dimension = std::size_t(this->dimension());
   const InputFile file(points.Path);
   std::vector<char> raw;
-  std::vector<std::int32_t> homes;
+  std::vector<std::int32_t> owners;
   for (std::int64_t from = first; from < last; from += chunk)
   {
     const std::int64_t count = std::min(chunk, last - from);
     poll();
     raw.resize(std::size_t(count) * bytes);
     file.read(points.Offset + std::uint64_t(from) * bytes, raw.data(), raw.size());
-    homes.resize(std::size_t(count));
+    owners.resize(std::size_t(count));
     parallelFor((count + share - 1) / share, this->Options.Threads,
       [&](std::int64_t part)
       {
@@ -150,15 +150,15 @@ void FlatPieces::forEachHome(std::int64_t first, std::int64_t last, const Visit&
           takeCoordinates(
             points, raw.data() + std::size_t(i) * bytes, 1, int(dimension), at.Min.data());
           at.Max = at.Min;
-          std::int32_t home = std::numeric_limits<std::int32_t>::max();
+          std::int32_t owner = std::numeric_limits<std::int32_t>::max();
           this->Tiling->forEachMeeting(
-            at, [&home](std::int32_t box) { home = std::min(home, box); });
-          homes[std::size_t(i)] = home;
+            at, [&owner](std::int32_t box) { owner = std::min(owner, box); });
+          owners[std::size_t(i)] = owner;
         }
       });
     for (std::int64_t i = 0; i < count; ++i)
     {
-      visit(from + i, homes[std::size_t(i)]);
+      visit(from + i, owners[std::size_t(i)]);
     }
   }
 }
@@ -228,12 +228,12 @@ std::vector<Piece> FlatPieces::read(
   }
   std::vector<Draft> drafts(numbers.size());
   this->collectCells(draftOf, options.Borrowed, drafts);
-  this->forEachHome(0, this->Flat.Points.Tuples,
-    [&](std::int64_t point, std::int32_t home)
+  this->forEachOwner(0, this->Flat.Points.Tuples,
+    [&](std::int64_t point, std::int32_t owner)
     {
-      if (draftOf[std::size_t(home)] >= 0)
+      if (draftOf[std::size_t(owner)] >= 0)
       {
-        drafts[std::size_t(draftOf[std::size_t(home)])].HomePoints.push_back(point);
+        drafts[std::size_t(draftOf[std::size_t(owner)])].OwnPoints.push_back(point);
       }
     });
   for (Draft& draft : drafts)
@@ -247,7 +247,7 @@ std::vector<Piece> FlatPieces::read(
 Piece FlatPieces::finish(const Draft& draft, const PieceOptions& options) const
 {
   Piece piece;
-  const std::vector<std::int64_t> owned = united(draft.HomePoints, distinct(draft.Corners));
+  const std::vector<std::int64_t> owned = united(draft.OwnPoints, distinct(draft.Corners));
   std::vector<std::int64_t> ghosts;
   const std::vector<std::int64_t> ofBorrowed = distinct(draft.BorrowedCorners);
   std::set_difference(
@@ -265,7 +265,7 @@ Piece FlatPieces::finish(const Draft& draft, const PieceOptions& options) const
   for (std::size_t i = 0; i < ids.size(); ++i)
   {
     piece.PointGhosts.data()[i] =
-      std::binary_search(draft.HomePoints.begin(), draft.HomePoints.end(), ids[i]) ? 0 : 1;
+      std::binary_search(draft.OwnPoints.begin(), draft.OwnPoints.end(), ids[i]) ? 0 : 1;
   }
   std::vector<std::int64_t> cells = draft.Cells;
   cells.insert(cells.end(), draft.Borrowed.begin(), draft.Borrowed.end());

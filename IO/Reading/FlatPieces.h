@@ -32,13 +32,13 @@ private:
     std::vector<std::int64_t> Corners; ///< CellSize point ids for each of these cells
     std::vector<std::int64_t> Borrowed;
     std::vector<std::int64_t> BorrowedCorners;
-    std::vector<std::int64_t> HomePoints; ///< ascending, as all the others
+    std::vector<std::int64_t> OwnPoints; ///< ascending, as all the others
   };
 
   void collectCells(
     const std::vector<std::int32_t>& draftOf, bool borrowed, std::vector<Draft>& drafts) const;
   template <typename Visit>
-  void forEachHome(std::int64_t first, std::int64_t last, const Visit& visit) const;
+  void forEachOwner(std::int64_t first, std::int64_t last, const Visit& visit) const;
   Piece finish(const Draft& draft, const PieceOptions& options) const;
   void loadPoints(
     const std::vector<std::int64_t>& ids, const PieceOptions& options, Piece& piece) const;

@@ -3,18 +3,19 @@
 #define tippPieceCache_h
 
 #include "Partitioned/ReadPiece.h"
-#include "vtkTIPPIOModule.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <list>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace tipp
 {
 
 /// An LRU cache of the pieces of one mesh.
-class VTKTIPPIO_EXPORT PieceCache
+class PieceCache
 {
 public:
   /// Identifies what was read of a piece.
@@ -33,10 +34,23 @@ public:
   };
 
   /// Null if the piece is not cached.
-  std::shared_ptr<const Piece> find(const Key& key);
-  void keep(const Key& key, std::shared_ptr<const Piece> piece);
+  std::shared_ptr<const Piece> find(const Key& key)
+  {
+    const auto entry = std::find_if(
+      this->Entries.begin(), this->Entries.end(), [&key](const Entry& e) { return e.What == key; });
+    if (entry == this->Entries.end())
+    {
+      return nullptr;
+    }
+    this->Entries.splice(this->Entries.begin(), this->Entries, entry);
+    return entry->Held;
+  }
+  void keep(const Key& key, std::shared_ptr<const Piece> piece)
+  {
+    this->Entries.push_front({ key, std::move(piece) });
+  }
   /// Drops the least recently used pieces until `pieces` are left.
-  void shrink(std::size_t pieces);
+  void shrink(std::size_t pieces) { this->Entries.resize(std::min(pieces, this->Entries.size())); }
   void clear() { this->Entries.clear(); }
 
 private:

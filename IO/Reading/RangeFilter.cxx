@@ -3,7 +3,7 @@
 
 #include "Parallel/Poll.h"
 #include "Predicates/CellBox.h"
-#include "Reading/AssemblePiece.h"
+#include "Reading/MergePieces.h"
 
 #include <algorithm>
 #include <array>
@@ -147,10 +147,10 @@ void RangeFilter::setPointGhosts(Piece& piece, std::size_t number) const
     std::array<double, 3> xyz = pointOf(piece, point);
     xyz[2] = piece.CellSize == 3 ? 0 : xyz[2];
     const Box3 at{ xyz, xyz };
-    const auto home = std::find_if(this->Open.begin(), this->Open.end(),
+    const auto owner = std::find_if(this->Open.begin(), this->Open.end(),
       [&](std::size_t other)
       { return boxesMeet(at, boxOf(this->Mesh, this->Mesh.Pieces[other].Box)); });
-    ghosts[point] = home != this->Open.end() && *home != number ? 1 : 0;
+    ghosts[point] = owner != this->Open.end() && *owner != number ? 1 : 0;
   }
 }
 
@@ -209,7 +209,7 @@ Piece RangeFilter::apply(const Piece& piece, std::size_t number, bool borrowed) 
       ghosts.push_back({ 0, cell });
     }
   }
-  Piece kept = assemblePiece({ &piece }, owned, ghosts, false);
+  Piece kept = gatherCells({ &piece }, owned, ghosts, false);
   this->setPointGhosts(kept, number);
   return kept;
 }

@@ -12,7 +12,7 @@
 #include "Partitioning/PartitionMesh.h"
 #include "Points/PointStream.h"
 #include "Points/ReadPoints.h"
-#include "Reading/AssemblePiece.h"
+#include "Reading/MergePieces.h"
 #include "Reading/PieceSource.h"
 #include "Reading/RangeFilter.h"
 #include "Vtk/VtkFiles.h"

@@ -26,10 +26,10 @@ public:
   void begin(const Box2&, const std::vector<std::string>&, const std::string&) override {}
 
   void take(const std::string&, const double* rows, const PointRowLayout& layout, std::size_t,
-    const std::vector<GrowingPiece::Corners>& triangles) override
+    const std::vector<TriangleRange>& triangles) override
   {
     double area = 0;
-    for (const GrowingPiece::Corners& corners : triangles)
+    for (const TriangleRange& corners : triangles)
     {
       const double* const a = rows + std::size_t(corners[0]) * layout.Words;
       const double* const b = rows + std::size_t(corners[1]) * layout.Words;

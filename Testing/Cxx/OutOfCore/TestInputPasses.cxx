@@ -46,7 +46,7 @@ TEST(InputSurvey, IsTheSameHoweverTheInputIsDivided)
   const InputSurvey expected = surveyOf(*unknown);
   for (const std::int64_t cuts : { 1, 2, 7 })
   {
-    std::vector<PartSurvey> parts;
+    std::vector<PartialSurvey> parts;
     for (std::int64_t part = 0; part < cuts; ++part)
     {
       whole->limitTo(10001 * part / cuts, 10001 * (part + 1) / cuts);
@@ -66,15 +66,15 @@ TEST(InputSurvey, IsTheSameHoweverTheInputIsDivided)
 
 TEST(InputSurvey, PartsOnDifferentLinesAreNotOnOne)
 {
-  PartSurvey a;
+  PartialSurvey a;
   a.Line = { { 0, 0 }, { 1, 1 } };
-  PartSurvey b;
+  PartialSurvey b;
   b.Line = { { 2, 2 }, { 3, 3 } };
-  PartSurvey c;
+  PartialSurvey c;
   c.Line = { { 2, 2 }, { 3, 4 } };
-  std::vector<PartSurvey> on{ a, b };
+  std::vector<PartialSurvey> on{ a, b };
   EXPECT_TRUE(joinSurveys(on).Collinear);
-  std::vector<PartSurvey> off{ a, b, c };
+  std::vector<PartialSurvey> off{ a, b, c };
   EXPECT_FALSE(joinSurveys(off).Collinear);
 }
 

@@ -4,14 +4,13 @@
 
 #include "ExpectIOError.h"
 #include "Npy/NpyFile.h"
-#include "OutOfCore/Checkpoint.h"
 #include "OutOfCore/FinishPieces.h"
 #include "OutOfCore/InputPasses.h"
 #include "OutOfCore/InputSurvey.h"
-#include "OutOfCore/PieceOrder.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceRun.h"
-#include "OutOfCore/PreparedRun.h"
+#include "OutOfCore/RunSetup.h"
+#include "OutOfCore/ScratchFiles.h"
 #include "Partitioned/NeighborIds.h"
 
 #include <algorithm>
@@ -60,11 +59,11 @@ public:
   PointRowLayout Rows;
 };
 
-TEST(Checkpoint, ComesBackAsItWasSaved)
+TEST(CheckedFile, ComesBackAsItWasSaved)
 {
   const TemporaryFolder folder;
   const std::vector<double> many(20000, 0.5);
-  const std::uint64_t bytesWritten = writeCheckpoint(folder.path("state"),
+  const std::uint64_t bytesWritten = writeCheckedFile(folder.path("state"),
     [&](SaveArchive& out)
     {
       out(std::int64_t(-7));
@@ -73,7 +72,7 @@ TEST(Checkpoint, ComesBackAsItWasSaved)
       out(std::vector<std::vector<std::int32_t>>{ { 1, 2 }, {}, { 3 } });
     });
   EXPECT_EQ(fs::file_size(folder.path("state")), bytesWritten);
-  const Bytes bytes = readCheckpoint(folder.path("state"));
+  const Bytes bytes = readCheckedFile(folder.path("state"));
   LoadArchive in(bytes);
   std::int64_t number = 0;
   std::string name;
@@ -91,11 +90,11 @@ TEST(Checkpoint, ComesBackAsItWasSaved)
   EXPECT_EQ(1U, folder.fileCount());
 }
 
-TEST(Checkpoint, DamagedAnywhereItIsRefused)
+TEST(CheckedFile, DamagedAnywhereItIsRefused)
 {
   const TemporaryFolder folder;
   const std::string path = folder.path("state");
-  writeCheckpoint(path, [](SaveArchive& out) { out(std::vector<std::int32_t>{ 1, 2, 3 }); });
+  writeCheckedFile(path, [](SaveArchive& out) { out(std::vector<std::int32_t>{ 1, 2, 3 }); });
   for (int at = 0; at < 8 + 8 + 12; ++at)
   {
     const auto flip = [&]
@@ -107,11 +106,11 @@ TEST(Checkpoint, DamagedAnywhereItIsRefused)
       file.put(byte);
     };
     flip();
-    expectIOError(path, "damaged", [&] { readCheckpoint(path); });
+    expectIOError(path, "damaged", [&] { readCheckedFile(path); });
     flip();
   }
   std::ofstream(path, std::ios::binary) << "short";
-  EXPECT_THROW(readCheckpoint(path), IOError);
+  EXPECT_THROW(readCheckedFile(path), IOError);
 }
 
 ByteWriter written(const std::vector<int>& numbers)
@@ -262,13 +261,13 @@ TEST(PiecePlan, KnowsWhereTheRimWillBeLarge)
 {
   Steps circle(makePointSet("circle", 4000));
   EXPECT_TRUE(circle.plan().IsAlone);
-  EXPECT_FALSE(circle.plan().HasLargeRim);
+  EXPECT_FALSE(circle.plan().HasLargeInterface);
   circle.Options.MemoryLimit = 1;
   EXPECT_FALSE(circle.plan().IsAlone);
-  EXPECT_TRUE(circle.plan().HasLargeRim);
+  EXPECT_TRUE(circle.plan().HasLargeInterface);
   Steps uniform(makePointSet("uniform", 4000));
   uniform.Options.MemoryLimit = 1;
-  EXPECT_FALSE(uniform.plan().HasLargeRim);
+  EXPECT_FALSE(uniform.plan().HasLargeInterface);
 }
 
 TEST(PiecePlan, ComesBackFromAnArchive)
@@ -420,10 +419,10 @@ TEST(PieceOrder, BeginsWithPiecesThatDoNotConflict)
   }
 }
 
-TEST(PreparedRun, ComesBackOnAnotherRank)
+TEST(RunSetup, ComesBackOnAnotherRank)
 {
   Steps steps(makePointSet("clustered", 4000));
-  PreparedRun run;
+  RunSetup run;
   run.Survey = steps.Survey;
   run.describeColumns({ "depth", "z" }, true, true);
   EXPECT_EQ(3, run.Rows.Z);
@@ -435,7 +434,7 @@ TEST(PreparedRun, ComesBackOnAnotherRank)
   run.save(out);
   const Bytes bytes = out.Writer.take();
   LoadArchive in(bytes);
-  PreparedRun back;
+  RunSetup back;
   back.load(in, steps.Folder.path("spill"));
   ASSERT_EQ(3U, back.Mesh.Arrays.size());
   EXPECT_EQ("depth", back.Mesh.Arrays[0].Name);

@@ -7,6 +7,7 @@
 #include "Npy/NpyFile.h"
 #include "Partitioned/GrowingPiece.h"
 #include "Partitioned/PartitionedMesh.h"
+#include "Partitioned/PointRows.h"
 
 #include <cmath>
 #include <filesystem>
@@ -281,7 +282,7 @@ TEST(OutOfCore, CountsAndSumsTrianglesWithoutWritingThem)
   const Triangles triangles = reference(xy).Mesh;
   for (const Triangle& t : triangles)
   {
-    expected += GrowingPiece::hashTriangle(t[0], t[1], t[2]);
+    expected += hashTriangle(t[0], t[1], t[2]);
   }
   EXPECT_EQ(std::int64_t(triangles.size()), statistics.Triangles);
   EXPECT_EQ(expected, statistics.TriangleSum);

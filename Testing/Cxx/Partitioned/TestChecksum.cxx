@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/Checksum.h"
 
-// The library's own code for any processor: this file is not compiled for AVX2.
+// The library's code for any processor, without vector instructions.
 #define XXH_INLINE_ALL
+#define XXH_VECTOR XXH_SCALAR
 #include <xxhash.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace
@@ -49,3 +51,52 @@ TEST(Checksum, OfPartsIsThatOfTheWhole)
     EXPECT_EQ(checksum.finish(), XXH3_64bits(bytes.data(), size)) << size;
   }
 }
+
+#if defined(__x86_64__)
+namespace
+{
+
+/// Where the processor has AVX2, Checksum.cxx calls ChecksumAvx2.cxx: long inputs, at any alignment
+/// and split anywhere.
+class ChecksumAvx2 : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    if (!__builtin_cpu_supports("avx2"))
+    {
+      GTEST_SKIP() << "this processor has no AVX2";
+    }
+  }
+
+  const std::vector<unsigned char> Bytes = someBytes(300000);
+};
+
+} // namespace
+
+TEST_F(ChecksumAvx2, EqualsTheCommonCodeAtEveryAlignment)
+{
+  for (std::size_t offset = 0; offset < 64; ++offset)
+  {
+    for (const std::size_t size : { 241, 1024, 4095, 65536, 262144 + 17 })
+    {
+      const unsigned char* const data = this->Bytes.data() + offset;
+      EXPECT_EQ(XXH3_64bits(data, size), tipp::checksumOf(data, size)) << offset << " " << size;
+    }
+  }
+}
+
+TEST_F(ChecksumAvx2, EqualsTheCommonCodeHoweverTheBytesAreSplit)
+{
+  const std::uint64_t expected = XXH3_64bits(this->Bytes.data(), this->Bytes.size());
+  tipp::Checksum checksum;
+  for (const std::size_t step : { 1, 63, 64, 255, 257, 1023, 1025, 4096, 65537, 262144 })
+  {
+    for (std::size_t at = 0; at < this->Bytes.size(); at += step)
+    {
+      checksum.add(this->Bytes.data() + at, std::min(step, this->Bytes.size() - at));
+    }
+    EXPECT_EQ(expected, checksum.finish()) << step;
+  }
+}
+#endif

@@ -5,7 +5,6 @@
 #include "TemporaryFolder.h"
 
 #include "Flat/FlatMesh.h"
-#include "Partitioned/MeshIndex.h"
 #include "Partitioned/PieceFile.h"
 #include "Partitioning/PartitionMesh.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioning/SharingSets.h"
+#include "Partitioned/SharingSets.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippAssemblePiece_h
-#define tippAssemblePiece_h
+#ifndef tippMergePieces_h
+#define tippMergePieces_h
 
 #include "Partitioned/ReadPiece.h"
 
@@ -21,7 +21,7 @@ struct CellOfPiece
 /// Builds one piece from cells of several pieces, with each point once, identified by its global
 /// id. A point is a ghost only if it is one in all pieces that have it. `allPoints` also keeps the
 /// pieces' own points that no cell uses.
-Piece assemblePiece(const std::vector<const Piece*>& pieces, const std::vector<CellOfPiece>& owned,
+Piece gatherCells(const std::vector<const Piece*>& pieces, const std::vector<CellOfPiece>& owned,
   const std::vector<CellOfPiece>& ghosts, bool allPoints);
 
 /// Merges pieces; cells are in the pieces' order. A cell that one of them owns is no ghost.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippPreparedRun_h
-#define tippPreparedRun_h
+#ifndef tippRunSetup_h
+#define tippRunSetup_h
 
 #include "OutOfCore/InputSurvey.h"
 #include "OutOfCore/PiecePlan.h"
@@ -17,9 +17,8 @@
 namespace tipp
 {
 
-/// What is known when the points are spilled: all that a process needs to work on pieces, once it
-/// knows the folders.
-class VTKTIPPFILTERS_EXPORT PreparedRun
+/// All that a process needs to work on pieces once the points are spilled, besides the folders.
+class VTKTIPPFILTERS_EXPORT RunSetup
 {
 public:
   /// Columns of the input; the mesh's arrays.
@@ -32,7 +31,7 @@ public:
   /// `points`: the file they are spilled to. Throws IOError if it is not that one.
   void load(LoadArchive& archive, const std::string& points);
 
-  /// Has the taker, if there is one, begin.
+  /// Starts the taker, if there is one.
   void beginTaking() const;
 
   PieceWork work() const
@@ -42,7 +41,11 @@ public:
       findElevation(this->Columns) };
   }
 
-  /// Of what the taker keeps on disk.
+  /// Throws IOError if a piece does not fit into the memory limit, in bytes; `path` is the mesh's.
+  /// Pieces are of equal size except where very many points coincide.
+  void requireMemory(const std::string& path, std::uint64_t limit) const;
+
+  /// Bytes that the taker needs on disk.
   std::uint64_t takenBytes() const;
 
   InputSurvey Survey;
@@ -62,6 +65,9 @@ private:
   Bounds boundsOf(const Box2& box) const;
   Box2 inputBounds() const;
 };
+
+/// Returns a text that is equal for runs that make the same mesh from the same input.
+std::string identityOf(const PointStream& input, const OutOfCoreOptions& options);
 
 } // namespace tipp
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OutOfCore/SectionFile.h"
+#include "OutOfCore/ScratchFiles.h"
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
@@ -13,9 +13,19 @@ namespace tipp
 namespace
 {
 
-constexpr const char* nextName = ".next"; // until it is whole
+constexpr const char* nextSuffix = ".next"; // until a file is whole
 
-/// At the beginning of the file.
+void takeName(const std::string& path)
+{
+  std::error_code failure;
+  std::filesystem::rename(path + nextSuffix, path, failure);
+  if (failure)
+  {
+    throw IOError(path, "cannot be replaced (" + failure.message() + ").");
+  }
+}
+
+/// At the beginning of a file of sections.
 struct Header
 {
   std::uint64_t TableOffset;
@@ -35,9 +45,55 @@ bool isBefore(const SectionEntry& a, const SectionEntry& b)
 
 } // namespace
 
+std::uint64_t writeCheckedFile(
+  const std::string& path, const std::function<void(SaveArchive&)>& save)
+{
+  std::uint64_t end = 8;
+  {
+    const OutputFile file(path + nextSuffix);
+    Checksum sum;
+    SaveArchive archive;
+    archive.Writer.setSink(
+      [&](const char* data, std::size_t size)
+      {
+        sum.add(data, size);
+        file.write(end, data, size);
+        end += size;
+      });
+    save(archive);
+    archive.Writer.flush();
+    const std::uint64_t checksum = sum.finish();
+    file.write(0, &checksum, 8);
+  }
+  takeName(path);
+  return end;
+}
+
+Bytes readCheckedFile(const std::string& path)
+{
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
+  {
+    throw IOError(path, "is missing; remove its folder and start again.");
+  }
+  const InputFile file(path);
+  if (file.size() >= 8)
+  {
+    std::uint64_t checksum = 0;
+    file.read(0, &checksum, 8);
+    Bytes bytes(file.size() - 8);
+    file.read(8, bytes.data(), bytes.size());
+    if (checksumOf(bytes.data(), bytes.size()) == checksum)
+    {
+      return bytes;
+    }
+  }
+  throw IOError(path, "is damaged; remove its folder and start again.");
+}
+
 SectionFileWriter::SectionFileWriter(const std::string& path)
   : Path(path)
-  , File(path + nextName)
+  , File(path + nextSuffix)
   , End(sizeof(Header))
 {
 }
@@ -58,12 +114,7 @@ std::uint64_t SectionFileWriter::finish()
   this->File.write(this->End, this->Table.data(), bytes);
   this->File.write(0, &header, sizeof(header));
   this->File.close();
-  std::error_code failure;
-  std::filesystem::rename(this->Path + nextName, this->Path, failure);
-  if (failure)
-  {
-    throw IOError(this->Path, "cannot be replaced (" + failure.message() + ").");
-  }
+  takeName(this->Path);
   return this->End + bytes;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioned/IdMap.h"
+#include "Partitioned/GlobalIdMap.h"
 
 #include <gtest/gtest.h>
 
@@ -8,14 +8,14 @@
 #include <random>
 #include <vector>
 
-using tipp::IdMap;
+using tipp::GlobalIdMap;
 
 namespace
 {
 
 void expectFinds(const std::vector<std::int64_t>& ids)
 {
-  const IdMap map(ids.data(), nullptr, ids.size());
+  const GlobalIdMap map(ids.data(), nullptr, ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i)
   {
     ASSERT_EQ(std::int64_t(i), map.find(ids[i]));
@@ -28,7 +28,7 @@ void expectFinds(const std::vector<std::int64_t>& ids)
   EXPECT_EQ(-1, map.find(std::int64_t(1) << 62));
 }
 
-TEST(IdMap, FindsIdsWithoutGaps)
+TEST(GlobalIdMap, FindsIdsWithoutGaps)
 {
   std::vector<std::int64_t> ids;
   for (std::int64_t i = 0; i < 1000; ++i)
@@ -38,7 +38,7 @@ TEST(IdMap, FindsIdsWithoutGaps)
   expectFinds(ids);
 }
 
-TEST(IdMap, FindsScatteredIds)
+TEST(GlobalIdMap, FindsScatteredIds)
 {
   std::mt19937_64 random(1);
   std::vector<std::int64_t> ids;
@@ -51,7 +51,7 @@ TEST(IdMap, FindsScatteredIds)
   expectFinds(ids);
 }
 
-TEST(IdMap, FindsRunsBetweenWideGapsOfMoreThan32Bits)
+TEST(GlobalIdMap, FindsRunsBetweenWideGapsOfMoreThan32Bits)
 {
   std::vector<std::int64_t> ids;
   for (std::int64_t run = 0; run < 5; ++run)
@@ -64,29 +64,29 @@ TEST(IdMap, FindsRunsBetweenWideGapsOfMoreThan32Bits)
   expectFinds(ids);
 }
 
-TEST(IdMap, FindsNothingInAnEmptyMap)
+TEST(GlobalIdMap, FindsNothingInAnEmptyMap)
 {
-  const IdMap map(nullptr, nullptr, 0);
+  const GlobalIdMap map(nullptr, nullptr, 0);
   EXPECT_EQ(-1, map.find(0));
-  const IdMap none;
+  const GlobalIdMap none;
   EXPECT_EQ(-1, none.find(5));
 }
 
-TEST(IdMap, GivesTheValuesThatItWasGiven)
+TEST(GlobalIdMap, GivesTheValuesThatItWasGiven)
 {
   const std::vector<std::int64_t> ids{ 3, 5, 900 };
   const std::vector<std::int64_t> values{ 2, 0, 1 };
-  const IdMap map(ids.data(), values.data(), ids.size());
+  const GlobalIdMap map(ids.data(), values.data(), ids.size());
   const std::vector<std::int64_t> asked{ 900, 3, 3, 5 };
   std::vector<std::int32_t> found(asked.size());
   EXPECT_TRUE(map.translate(asked.data(), asked.size(), found.data()));
   EXPECT_EQ((std::vector<std::int32_t>{ 1, 2, 2, 0 }), found);
 }
 
-TEST(IdMap, SaysWhenAnIdHasNoValue)
+TEST(GlobalIdMap, SaysWhenAnIdHasNoValue)
 {
   const std::vector<std::int64_t> ids{ 3, 5 };
-  const IdMap map(ids.data(), nullptr, ids.size());
+  const GlobalIdMap map(ids.data(), nullptr, ids.size());
   const std::vector<std::int64_t> asked{ 3, 4 };
   std::vector<std::int64_t> found(asked.size());
   EXPECT_FALSE(map.translate(asked.data(), asked.size(), found.data()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippIdMap_h
-#define tippIdMap_h
+#ifndef tippGlobalIdMap_h
+#define tippGlobalIdMap_h
 
 #include "vtkTIPPIOModule.h"
 
@@ -13,12 +13,12 @@ namespace tipp
 
 /// A map from ids to values, neither negative. A look-up uses a table with about one id per entry,
 /// and a search among the few ids that share an entry: two cache lines.
-class VTKTIPPIO_EXPORT IdMap
+class VTKTIPPIO_EXPORT GlobalIdMap
 {
 public:
-  IdMap() = default;
+  GlobalIdMap() = default;
   /// `ids` must ascend; ids[i] maps to values[i], or to i if `values` is null.
-  IdMap(const std::int64_t* ids, const std::int64_t* values, std::size_t count);
+  GlobalIdMap(const std::int64_t* ids, const std::int64_t* values, std::size_t count);
 
   /// The id's value; -1 if the id is not in the map.
   std::int64_t find(std::int64_t id) const;

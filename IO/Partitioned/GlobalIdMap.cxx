@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioned/IdMap.h"
+#include "Partitioned/GlobalIdMap.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,7 +8,7 @@
 namespace tipp
 {
 
-IdMap::IdMap(const std::int64_t* ids, const std::int64_t* values, std::size_t count)
+GlobalIdMap::GlobalIdMap(const std::int64_t* ids, const std::int64_t* values, std::size_t count)
 {
   if (count == 0)
   {
@@ -41,7 +41,7 @@ IdMap::IdMap(const std::int64_t* ids, const std::int64_t* values, std::size_t co
 }
 
 template <typename Number>
-void IdMap::fill(std::vector<Entry<Number>>& entries, const std::int64_t* ids,
+void GlobalIdMap::fill(std::vector<Entry<Number>>& entries, const std::int64_t* ids,
   const std::int64_t* values, std::size_t count)
 {
   entries.resize(count);
@@ -59,7 +59,7 @@ void IdMap::fill(std::vector<Entry<Number>>& entries, const std::int64_t* ids,
 }
 
 template <typename Number>
-std::int64_t IdMap::search(const std::vector<Entry<Number>>& entries, std::uint64_t key) const
+std::int64_t GlobalIdMap::search(const std::vector<Entry<Number>>& entries, std::uint64_t key) const
 {
   if (key > this->Range || entries.empty())
   {
@@ -84,14 +84,14 @@ std::int64_t IdMap::search(const std::vector<Entry<Number>>& entries, std::uint6
   return -1;
 }
 
-std::int64_t IdMap::find(std::int64_t id) const
+std::int64_t GlobalIdMap::find(std::int64_t id) const
 {
   const std::uint64_t key = std::uint64_t(id) - std::uint64_t(this->Least);
   return this->Wide.empty() ? this->search(this->Narrow, key) : this->search(this->Wide, key);
 }
 
 template <typename Value>
-bool IdMap::translateAll(const std::int64_t* ids, std::size_t count, Value* values) const
+bool GlobalIdMap::translateAll(const std::int64_t* ids, std::size_t count, Value* values) const
 {
   std::int64_t all = 0;
   const auto run = [&](const auto& entries)
@@ -115,12 +115,12 @@ bool IdMap::translateAll(const std::int64_t* ids, std::size_t count, Value* valu
   return all >= 0;
 }
 
-bool IdMap::translate(const std::int64_t* ids, std::size_t count, std::int32_t* values) const
+bool GlobalIdMap::translate(const std::int64_t* ids, std::size_t count, std::int32_t* values) const
 {
   return this->translateAll(ids, count, values);
 }
 
-bool IdMap::translate(const std::int64_t* ids, std::size_t count, std::int64_t* values) const
+bool GlobalIdMap::translate(const std::int64_t* ids, std::size_t count, std::int64_t* values) const
 {
   return this->translateAll(ids, count, values);
 }

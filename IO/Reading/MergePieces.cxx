@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Reading/AssemblePiece.h"
-
-#include "Parallel/Poll.h"
+#include "Reading/MergePieces.h"
 
 #include "Loading/ArrayFiles.h"
+#include "Parallel/Poll.h"
 
 #include <algorithm>
 #include <limits>
@@ -67,15 +66,15 @@ struct TupleMoves
   }
 };
 
-class Assembly
+class Gathering
 {
 public:
-  explicit Assembly(const std::vector<const Piece*>& pieces)
+  explicit Gathering(const std::vector<const Piece*>& pieces)
     : Pieces(pieces)
   {
     for (const Piece* const piece : pieces)
     {
-      this->Places.emplace_back(std::size_t(piece->Points), absent);
+      this->Indices.emplace_back(std::size_t(piece->Points), absent);
     }
   }
 
@@ -106,19 +105,19 @@ private:
     {
       return;
     }
-    const auto mark = [](std::int64_t& place) { place = place == absent ? wanted : place; };
+    const auto mark = [](std::int64_t& index) { index = index == absent ? wanted : index; };
     for (const CellOfPiece& cell : cells)
     {
       pollAt(cell.Cell);
       const Piece& piece = *this->Pieces[cell.Piece];
       for (int corner = 0; corner < piece.CellSize; ++corner)
       {
-        mark(this->Places[cell.Piece][std::size_t(piece.corner(cell.Cell, corner))]);
+        mark(this->Indices[cell.Piece][std::size_t(piece.corner(cell.Cell, corner))]);
       }
     }
     for (std::size_t p = 0; allPoints && p < this->Pieces.size(); ++p)
     {
-      std::for_each_n(this->Places[p].begin(), this->Pieces[p]->OwnedPoints, mark);
+      std::for_each_n(this->Indices[p].begin(), this->Pieces[p]->OwnedPoints, mark);
     }
     std::vector<PointOfPiece> found;
     for (std::size_t p = 0; p < this->Pieces.size(); ++p)
@@ -126,7 +125,7 @@ private:
       const Piece& piece = *this->Pieces[p];
       for (std::int64_t point = 0; point < piece.Points; ++point)
       {
-        if (this->Places[p][std::size_t(point)] == wanted)
+        if (this->Indices[p][std::size_t(point)] == wanted)
         {
           found.push_back({ piece.PointIds.as<std::int64_t>()[point], std::uint32_t(p),
             piece.PointGhosts.as<std::uint8_t>()[point], point });
@@ -147,21 +146,21 @@ private:
     for (std::size_t i = 0; i < found.size(); ++i)
     {
       const PointOfPiece& point = found[i];
-      std::int64_t& place = this->Places[point.Piece][std::size_t(point.Point)];
+      std::int64_t& index = this->Indices[point.Piece][std::size_t(point.Point)];
       const auto end = this->Points.begin() + std::ptrdiff_t(before);
       const auto old = std::lower_bound(this->Points.begin(), end, point.Id,
         [](const PointOfPiece& a, std::int64_t id) { return a.Id < id; });
       if (old != end && old->Id == point.Id)
       {
         old->Ghost = std::min(old->Ghost, point.Ghost);
-        place = old - this->Points.begin();
+        index = old - this->Points.begin();
         continue;
       }
       if (this->Points.size() == before || this->Points.back().Id != point.Id)
       {
         this->Points.push_back(point);
       }
-      place = std::int64_t(this->Points.size()) - 1;
+      index = std::int64_t(this->Points.size()) - 1;
     }
   }
 
@@ -211,7 +210,7 @@ private:
       for (int corner = 0; corner < corners; ++corner, ++id)
       {
         const std::int64_t point = this->Pieces[cell.Piece]->corner(cell.Cell, corner);
-        *id = Id(this->Places[cell.Piece][std::size_t(point)]);
+        *id = Id(this->Indices[cell.Piece][std::size_t(point)]);
       }
     }
   }
@@ -253,17 +252,17 @@ private:
 
   std::vector<const Piece*> Pieces;
   /// of each piece's points: index in the result, or absent, or wanted
-  std::vector<std::vector<std::int64_t>> Places;
+  std::vector<std::vector<std::int64_t>> Indices;
   std::vector<PointOfPiece> Points;
   std::vector<CellOfPiece> Cells;
 };
 
 } // namespace
 
-Piece assemblePiece(const std::vector<const Piece*>& pieces, const std::vector<CellOfPiece>& owned,
+Piece gatherCells(const std::vector<const Piece*>& pieces, const std::vector<CellOfPiece>& owned,
   const std::vector<CellOfPiece>& ghosts, bool allPoints)
 {
-  return Assembly(pieces).make(owned, ghosts, allPoints);
+  return Gathering(pieces).make(owned, ghosts, allPoints);
 }
 
 Piece mergePieces(const std::vector<const Piece*>& pieces)
@@ -305,7 +304,7 @@ Piece mergePieces(const std::vector<const Piece*>& pieces)
       ghosts.push_back(candidates[i].second);
     }
   }
-  return assemblePiece(pieces, owned, ghosts, true);
+  return gatherCells(pieces, owned, ghosts, true);
 }
 
 } // namespace tipp

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OutOfCore/PreparedRun.h"
+#include "OutOfCore/RunSetup.h"
 
-#include "OutOfCore/Checkpoint.h"
+#include "Files/IOError.h"
+#include "OutOfCore/ScratchFiles.h"
 #include "Partitioned/NeighborIds.h"
+
+#include <algorithm>
+#include <cstdio>
 
 namespace tipp
 {
@@ -14,7 +18,7 @@ constexpr const char* representativeName = "RepresentativePointId";
 } // namespace
 
 template <typename Archive>
-void PreparedRun::exchangeInput(Archive& archive)
+void RunSetup::exchangeInput(Archive& archive)
 {
   archive(this->Survey.Points);
   archive(this->Survey.Rejected);
@@ -45,14 +49,14 @@ void PreparedRun::exchangeInput(Archive& archive)
   }
 }
 
-void PreparedRun::save(SaveArchive& archive)
+void RunSetup::save(SaveArchive& archive)
 {
   this->exchangeInput(archive);
   this->Plan->save(archive);
   this->Spilled->save(archive);
 }
 
-void PreparedRun::load(LoadArchive& archive, const std::string& points)
+void RunSetup::load(LoadArchive& archive, const std::string& points)
 {
   this->exchangeInput(archive);
   this->Plan = std::make_unique<PiecePlan>(archive);
@@ -60,7 +64,7 @@ void PreparedRun::load(LoadArchive& archive, const std::string& points)
   this->describeMesh();
 }
 
-void PreparedRun::describeColumns(
+void RunSetup::describeColumns(
   const std::vector<std::string>& columns, bool mapDuplicates, bool hasNeighbors)
 {
   this->Columns = columns;
@@ -87,7 +91,7 @@ void PreparedRun::describeColumns(
   }
 }
 
-void PreparedRun::describeMesh()
+void RunSetup::describeMesh()
 {
   PartitionedMesh& mesh = this->Mesh;
   mesh.Points = this->Survey.Points;
@@ -100,13 +104,13 @@ void PreparedRun::describeMesh()
   }
 }
 
-Box2 PreparedRun::inputBounds() const
+Box2 RunSetup::inputBounds() const
 {
   const Bounds bounds = this->boundsOf(this->Survey.Bounds);
   return { bounds[0], bounds[2], bounds[1], bounds[3] };
 }
 
-void PreparedRun::beginTaking() const
+void RunSetup::beginTaking() const
 {
   if (this->Taker)
   {
@@ -114,15 +118,51 @@ void PreparedRun::beginTaking() const
   }
 }
 
-std::uint64_t PreparedRun::takenBytes() const
+std::uint64_t RunSetup::takenBytes() const
 {
   return this->Taker ? this->Taker->fileBytes(this->inputBounds(), this->Columns) : 0;
 }
 
-Bounds PreparedRun::boundsOf(const Box2& box) const
+Bounds RunSetup::boundsOf(const Box2& box) const
 {
   const double factor = this->Survey.Factor;
   return { box.xmin / factor, box.xmax / factor, box.ymin / factor, box.ymax / factor, 0, 0 };
+}
+
+void RunSetup::requireMemory(const std::string& path, std::uint64_t limit) const
+{
+  std::int64_t most = 0;
+  for (PartitionIndex piece = 0; piece < this->Plan->pieces(); ++piece)
+  {
+    most = std::max(most, this->Spilled->count(piece));
+  }
+  constexpr std::uint64_t always = std::uint64_t(64) << 20;
+  const std::uint64_t bytes = MemoryPlan::pieceBytes(most, this->Rows.Words);
+  if (bytes > std::max(limit, always))
+  {
+    throw IOError(path,
+      "would have a piece of " + std::to_string(most) + " points, which takes " +
+        std::to_string(bytes / 1000000 + 1) + " MB; allow more memory.");
+  }
+}
+
+std::string identityOf(const PointStream& input, const OutOfCoreOptions& options)
+{
+  const auto exact = [](double value)
+  {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    return std::string(text);
+  };
+  return "TIPP out of core 9\n" + input.identity() + std::to_string(options.Columns) + "x" +
+    std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
+    std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
+    (options.Neighbors ? " linked" : "") + (options.CountOnly ? " counted" : "") +
+    (options.MaximumEdge > 0 ? " edges " + exact(options.MaximumEdge) : "") +
+    (options.Duplicates != DuplicateRule::First
+        ? " duplicates " + std::to_string(int(options.Duplicates))
+        : "") +
+    "\n" + (options.Taker ? options.Taker->identity() : "") + "\n" + options.Scratch;
 }
 
 } // namespace tipp

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPieceBorder_h
+#define tippPieceBorder_h
+
+#include "Partitioned/PartitionedMesh.h"
+#include "Partitioned/PieceTable.h"
+#include "Partitioned/PointRows.h"
+#include "Partitioned/SharingSets.h"
+#include "vtkTIPPIOModule.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace tipp
+{
+
+/// What is kept of a piece's interior from the time it is written until its border is.
+///
+/// Points are identified by index among those of all pieces; a piece's own points have consecutive
+/// indices. *Interface* points are own points that triangles of the border use.
+struct VTKTIPPIO_EXPORT PieceInterior
+{
+  std::int64_t First = 0; ///< index of the first own point
+  std::int64_t OwnPoints = 0;
+  PieceSummary Room;                         ///< counts that the file has room for
+  std::int64_t Points = 0;                   ///< own points without those of the interface
+  std::int64_t Cells = 0;                    ///< triangles of these points alone
+  std::uint64_t TriangleSum = 0;             ///< of hashes; only without a file
+  Bounds Extent{};                           ///< of the own points
+  std::vector<std::uint64_t> Checksums;      ///< of each array's first part
+  std::vector<std::int64_t> InterfacePoints; ///< indices, ascending
+  std::vector<double> InterfaceRows;
+  /// Triangles of own points alone with corners on the interface: positions in the piece, or -1 - k
+  /// for the k-th interface point.
+  std::vector<std::array<std::int32_t, 3>> InterfaceTriangles;
+
+  bool owns(std::int64_t point) const
+  {
+    return point >= this->First && point < this->First + this->OwnPoints;
+  }
+  /// The position of an own point in InterfacePoints; throws std::logic_error if it is not there.
+  std::size_t interfacePosition(std::int64_t point) const;
+  const double* interfaceRow(std::int64_t point, const PointRowLayout& layout) const
+  {
+    return this->InterfaceRows.data() + this->interfacePosition(point) * layout.Words;
+  }
+
+  /// Serialises all but the own points' indices: archive() saves or restores numbers and vectors of
+  /// them.
+  template <typename Archive>
+  void exchange(Archive& archive)
+  {
+    archive(this->Room);
+    archive(this->Points);
+    archive(this->Cells);
+    archive(this->TriangleSum);
+    archive(this->Extent);
+    archive(this->Checksums);
+    archive(this->InterfacePoints);
+    archive(this->InterfaceRows);
+    archive(this->InterfaceTriangles);
+  }
+};
+
+/// The triangles that a piece owns at its border, and the other pieces' points that they use
+/// (ghosts).
+class VTKTIPPIO_EXPORT PieceBorder
+{
+public:
+  /// Both must outlive this.
+  PieceBorder(const PieceInterior& interior, const PointRowLayout& layout)
+    : Interior(interior)
+    , Layout(layout)
+  {
+  }
+
+  /// Adds a triangle of points that the other pieces `borrowers`, ascending, borrow; the list may
+  /// be empty.
+  void addTriangle(
+    const std::array<std::int64_t, 3>& points, const std::vector<std::int32_t>& borrowers);
+  std::size_t triangles() const { return this->Triangles.size(); }
+
+  /// The ghosts of the triangles so far. The caller must set their rows.
+  const std::vector<std::int64_t>& ghosts() const { return this->Ghosts; }
+  void setGhost(std::int64_t point, const double* row);
+
+  struct Mesh
+  {
+    std::vector<double> Rows;
+    std::vector<std::int32_t> Corners; ///< three row indices per triangle
+
+    TriangleRange triangles() const { return { this->Corners.data(), this->Corners.size() / 3 }; }
+  };
+  Mesh mesh() const;
+
+private:
+  friend class OrderedBorder;
+  struct Triangle
+  {
+    std::array<std::int64_t, 3> Points;
+    std::uint64_t BorrowerEnd; ///< end of its range in Borrowers
+  };
+
+  const double* rowOf(std::int64_t point) const;
+
+  const PieceInterior& Interior;
+  const PointRowLayout& Layout;
+  std::vector<Triangle> Triangles;
+  std::vector<std::int32_t> Borrowers;
+  std::vector<std::int64_t> Ghosts;                             ///< in the order of their rows
+  std::unordered_map<std::int64_t, std::int64_t> GhostPosition; ///< in Ghosts, by point
+  std::vector<double> GhostRows;
+};
+
+/// A border's points and triangles in the order of the piece's file: by the set of their borrowers,
+/// then points by global id and triangles by their corners.
+class OrderedBorder
+{
+public:
+  struct Point
+  {
+    int Group; ///< rank of its set of borrowers
+    std::int64_t Id;
+    const double* Row;
+    bool IsGhost;
+    std::size_t Index; ///< position on the interface, or after these among the ghosts
+  };
+  struct Cell
+  {
+    int Group;
+    std::array<std::int32_t, 3> Points; ///< positions in the piece, the lowest first
+  };
+
+  explicit OrderedBorder(const PieceBorder& border);
+
+  std::vector<Point> Points;
+  std::vector<Cell> Cells;
+  std::vector<LentGroup> PointGroups;
+  std::vector<LentGroup> CellGroups;
+
+private:
+  std::size_t index(std::int64_t point) const;
+  void uniteSets();
+  template <typename Item>
+  std::vector<LentGroup> groupsOf(const std::vector<Item>& items) const;
+  void orderPoints();
+  void addCell(int set, std::array<std::int32_t, 3> corners);
+  void addCells();
+
+  const PieceBorder& Of;
+  const PieceInterior& Interior;
+  SharingSets Sets;
+  std::vector<int> SetOf;             ///< of each point
+  std::vector<int> CellSets;          ///< of each added triangle
+  std::vector<int> Ranks;             ///< of sets, in lexicographic order
+  std::vector<int> SetOfRank;         ///< the inverse
+  std::vector<std::int32_t> Position; ///< in the piece, of each point
+};
+
+} // namespace tipp
+
+#endif
