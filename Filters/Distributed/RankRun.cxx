@@ -2,7 +2,7 @@
 #include "Distributed/RankRun.h"
 
 #include "Distributed/MessageKinds.h"
-#include "Distributed/ShareInitialMesh.h"
+#include "Distributed/SharedInitialMesh.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/InitialMesh.h"
 #include "Triangulation/Tiling.h"
@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <numeric>
 #include <thread>
+#include <utility>
 
 namespace tipp
 {
@@ -79,7 +80,8 @@ RankRun<Id>::RankRun(Communicator& ranks, const Plan& plan, OwnedPoints<Id>& poi
 {
 }
 
-/// Gathers all ranks' regions and initial points on all ranks.
+/// Gathers all ranks' regions and initial points on all ranks; those of a partition come from one
+/// rank.
 template <typename Id>
 void RankRun<Id>::shareInitialMesh(std::vector<BoundaryVertex>& vertices)
 {
@@ -102,6 +104,7 @@ void RankRun<Id>::shareInitialMesh(std::vector<BoundaryVertex>& vertices)
   {
     v.Id += this->FirstId;
   }
+  keepOneOfEachPosition(initial);
   ByteWriter writer;
   writer.array(regions);
   write(writer, initial);
@@ -138,16 +141,27 @@ void RankRun<Id>::makeInitialMesh()
   std::vector<BoundaryVertex> vertices;
   this->shareInitialMesh(vertices);
   this->Artificial = makeArtificialPoints(this->Work.Leaves);
-  vertices.insert(vertices.end(), this->Artificial.begin(), this->Artificial.end());
-  const BoundaryTriangles mesh = triangulateVertices(
-    *this->Boxes, vertices, this->Threads, shareOf(this->Ranks, vertices.size()));
+  if (this->Artificial.empty())
+  {
+    this->PartitionsPay = false;
+    return;
+  }
+  this->Keepers = this->Options.isMasterless() ? this->Work.Owners : this->Work.masters();
+  const InitialMeshPart part(
+    *this->Boxes, vertices, this->Artificial, this->thoseOf(this->Keepers), this->Threads);
+  std::vector<std::int64_t> counts(2, 0);
+  part.countMet(counts[0], counts[1]);
+  this->Ranks.sum(counts);
   const bool chosen = this->Options.Minor.isGiven() || this->Options.Major.isGiven();
-  this->PartitionsPay = !this->Artificial.empty() && (chosen || partitionsPay(mesh));
+  this->PartitionsPay = chosen || partitionsPay(counts[0], counts[1]);
   if (this->PartitionsPay)
   {
-    this->Order = std::make_unique<PartitionOrder>(this->Boxes->areUsed(), mesh);
+    ByteWriter writer;
+    part.writeConflicts(writer);
+    this->Order = std::make_unique<PartitionOrder>(this->Boxes->areUsed(),
+      readConflicts(joinedOnAllRanks(this->Ranks, writer.take()), this->Keepers.size()));
     this->decideWhoWaits();
-    this->sendInitial(mesh);
+    this->sendInitial(part.Mesh);
   }
 }
 
@@ -157,7 +171,6 @@ void RankRun<Id>::decideWhoWaits()
   using Waits = ReadyPartitions::Waits;
   const bool isMasterless = this->Options.isMasterless();
   const bool hasBarriers = this->Options.Order != RankSchedule::Dynamic;
-  this->Keepers = isMasterless ? this->Work.Owners : this->Work.masters();
   this->AllKeepers = this->Keepers;
   std::sort(this->AllKeepers.begin(), this->AllKeepers.end());
   this->AllKeepers.erase(
@@ -204,14 +217,14 @@ std::vector<std::int32_t> RankRun<Id>::recipientsOf(PartitionIndex p) const
   return ranks;
 }
 
-/// Each rank computes the same messages and keeps those for its inboxes; the first rank keeps the
-/// triangles that are final already.
+/// Sends the triangles of this rank's part of the initial mesh to the inboxes that it keeps.
+/// Triangles that meet no partition have artificial corners only, so none is final.
 template <typename Id>
-void RankRun<Id>::sendInitial(const BoundaryTriangles& mesh)
+void RankRun<Id>::sendInitial(const BoundaryTriangles& part)
 {
-  FinalBoundary<std::int64_t> final;
+  FinalBoundary<std::int64_t> none;
   sendInitialMesh(
-    mesh, *this->Order,
+    part, *this->Order,
     [&](PartitionIndex to, VertexMessage&& message)
     {
       if (this->keeperOf(to) == this->Ranks.rank())
@@ -219,11 +232,7 @@ void RankRun<Id>::sendInitial(const BoundaryTriangles& mesh)
         this->put(to, std::move(message));
       }
     },
-    final);
-  if (this->Ranks.rank() == 0)
-  {
-    this->Boundary = std::move(final);
-  }
+    none);
 }
 
 template <typename Id>

@@ -24,7 +24,8 @@ namespace tipp
 
 /// A rank's part of the triangulation: it triangulates the partitions whose points it owns.
 ///
-/// Every rank computes conflicts and order from the same initial mesh. One rank, the *keeper*,
+/// Every rank finds the conflicts of some partitions in its part of the initial mesh, and computes
+/// the order from all ranks' conflicts. One rank, the *keeper*,
 /// stores a partition's inbox, is told when the partitions that this one waits for are done, and
 /// then starts it. By default it is the owner of the partition's points. With the dissertation's
 /// masters it is the first rank (Algorithm 1), or the lead of its major partition's group
@@ -73,7 +74,7 @@ private:
   void makeInitialMesh();
   void shareInitialMesh(std::vector<BoundaryVertex>& vertices);
   void decideWhoWaits();
-  void sendInitial(const BoundaryTriangles& mesh);
+  void sendInitial(const BoundaryTriangles& part);
   std::int32_t ownerOf(PartitionIndex p) const { return this->Work.Owners[std::size_t(p)]; }
   std::int32_t keeperOf(PartitionIndex p) const { return this->Keepers[std::size_t(p)]; }
   std::vector<char> thoseOf(const std::vector<std::int32_t>& ranks) const;

@@ -101,10 +101,60 @@ void addConflicts(const PartitionSets& sets, std::uint32_t one, std::uint32_t ot
 
 } // namespace
 
+std::size_t mostConflicts(std::size_t partitions)
+{
+  constexpr std::size_t mostOfAPartition = 256;
+  return mostOfAPartition * std::max<std::size_t>(16384, partitions);
+}
+
+std::optional<ConflictGraph> findConflicts(
+  const BoundaryTriangles& initialMesh, std::size_t partitions)
+{
+  constexpr std::size_t most = std::size_t(1) << 22; // neighbours collected before they are added
+  const std::size_t limit = mostConflicts(partitions);
+  const PartitionSets& sets = initialMesh.Sets;
+  ConflictGraph conflicts(partitions);
+  std::vector<ConflictGraph::Pair> pairs;
+  const auto isWithinLimit = [&]
+  {
+    if (2 * pairs.size() > conflicts.neighbourCount() + most)
+    {
+      conflicts.add(pairs);
+      pairs.clear();
+    }
+    return conflicts.neighbourCount() <= limit;
+  };
+  for (std::uint32_t set = 0; set < sets.size(); ++set)
+  {
+    const std::size_t size = std::size_t(sets.end(set) - sets.begin(set));
+    if (size * size > limit)
+    {
+      return std::nullopt;
+    }
+    addConflicts(sets, set, pairs);
+    if (!isWithinLimit())
+    {
+      return std::nullopt;
+    }
+  }
+  for (const auto& [one, other] : initialMesh.AdjacentSets)
+  {
+    addConflicts(sets, one, other, pairs);
+    if (!isWithinLimit())
+    {
+      return std::nullopt;
+    }
+  }
+  conflicts.add(pairs);
+  return conflicts.neighbourCount() <= limit ? std::optional<ConflictGraph>(std::move(conflicts))
+                                             : std::nullopt;
+}
+
 PartitionOrder::PartitionOrder(
-  const std::vector<char>& isUsed, const BoundaryTriangles& initialMesh)
+  const std::vector<char>& isUsed, std::optional<ConflictGraph> conflicts)
   : Positions(isUsed.size(), 0)
   , Colours(isUsed.size(), 0)
+  , Total(!conflicts)
 {
   for (std::size_t p = 0; p < isUsed.size(); ++p)
   {
@@ -113,7 +163,10 @@ PartitionOrder::PartitionOrder(
       this->Sequence.push_back(static_cast<PartitionIndex>(p));
     }
   }
-  this->Total = !this->findConflicts(initialMesh);
+  if (conflicts)
+  {
+    this->Conflicts = std::move(*conflicts);
+  }
   this->colour();
   this->sort({});
 }
@@ -167,50 +220,6 @@ void PartitionOrder::sortByUrgency(const std::vector<std::int32_t>& windows)
   };
   std::stable_sort(this->Urgency.begin(), this->Urgency.end(),
     [&](PartitionIndex a, PartitionIndex b) { return key(a) < key(b); });
-}
-
-/// Returns false if there are so many conflicts that a total order costs little: if points are
-/// co-circular, each disk meets nearly all partitions.
-bool PartitionOrder::findConflicts(const BoundaryTriangles& initialMesh)
-{
-  constexpr std::size_t most = std::size_t(1) << 22; // neighbours collected before they are added
-  constexpr std::size_t mostOfAPartition = 256;
-  const std::size_t limit = mostOfAPartition * std::max<std::size_t>(4096, this->Positions.size());
-  const PartitionSets& sets = initialMesh.Sets;
-  this->Conflicts = ConflictGraph(this->Positions.size());
-  std::vector<ConflictGraph::Pair> pairs;
-  const auto isWithinLimit = [&]
-  {
-    if (2 * pairs.size() > this->Conflicts.neighbourCount() + most)
-    {
-      this->Conflicts.add(pairs);
-      pairs.clear();
-    }
-    return this->Conflicts.neighbourCount() <= limit;
-  };
-  for (std::uint32_t set = 0; set < sets.size(); ++set)
-  {
-    const std::size_t size = std::size_t(sets.end(set) - sets.begin(set));
-    if (size * size > limit)
-    {
-      return false;
-    }
-    addConflicts(sets, set, pairs);
-    if (!isWithinLimit())
-    {
-      return false;
-    }
-  }
-  for (const auto& [one, other] : initialMesh.AdjacentSets)
-  {
-    addConflicts(sets, one, other, pairs);
-    if (!isWithinLimit())
-    {
-      return false;
-    }
-  }
-  this->Conflicts.add(pairs);
-  return true;
 }
 
 void PartitionOrder::colour()

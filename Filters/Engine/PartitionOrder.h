@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,16 @@ public:
   explicit ConflictGraph(std::size_t count = 0)
     : Neighbours(count)
   {
+  }
+
+  /// A graph of known neighbours, each node's in ascending order.
+  explicit ConflictGraph(std::vector<std::vector<PartitionIndex>> neighbours)
+    : Neighbours(std::move(neighbours))
+  {
+    for (const auto& those : this->Neighbours)
+    {
+      this->Count += those.size();
+    }
   }
 
   /// Adds conflicts; repetitions are allowed.
@@ -54,6 +65,14 @@ private:
 };
 
 struct BoundaryTriangles;
+
+/// Returns the conflicts of `partitions` partitions (Lemma 5, below). Empty if there are so many,
+/// as of co-circular points, that it costs little to take all partitions as conflicting.
+VTKTIPPFILTERS_EXPORT std::optional<ConflictGraph> findConflicts(
+  const BoundaryTriangles& initialMesh, std::size_t partitions);
+
+/// The most neighbours that the conflicts of `partitions` partitions may have in all.
+std::size_t mostConflicts(std::size_t partitions);
 
 /// Which partitions conflict, and the order in which conflicting ones are triangulated. Both
 /// depend only on the initial mesh, so every rank computes the same.
@@ -88,7 +107,13 @@ public:
 
   /// Orders the partitions that are to be triangulated. `isUsed` has one entry for each partition:
   /// 0 if it has no points.
-  PartitionOrder(const std::vector<char>& isUsed, const BoundaryTriangles& initialMesh);
+  PartitionOrder(const std::vector<char>& isUsed, const BoundaryTriangles& initialMesh)
+    : PartitionOrder(isUsed, findConflicts(initialMesh, isUsed.size()))
+  {
+  }
+
+  /// The same from known conflicts; none: every partition conflicts with every other.
+  PartitionOrder(const std::vector<char>& isUsed, std::optional<ConflictGraph> conflicts);
 
   /// Orders the partitions by window first. `windows` has one entry for each partition.
   void setWindows(const std::vector<std::int32_t>& windows);
@@ -123,7 +148,6 @@ public:
   bool isTotal() const { return this->Total; }
 
 private:
-  bool findConflicts(const BoundaryTriangles& initialMesh);
   void colour();
   void sort(const std::vector<std::int32_t>& windows);
   void sortByUrgency(const std::vector<std::int32_t>& windows);

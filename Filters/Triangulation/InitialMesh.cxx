@@ -219,8 +219,8 @@ std::vector<BoundaryVertex> chooseInitialPoints(
   return vertices;
 }
 
-BoundaryTriangles triangulateVertices(const Regions& regions,
-  const std::vector<BoundaryVertex>& vertices, int threads, const InitialMeshShare& share)
+BoundaryTriangles triangulateVertices(
+  const Regions& regions, const std::vector<BoundaryVertex>& vertices, int threads)
 {
   const std::vector<Point2> points = positionsOf(vertices);
   DelaunayKernel kernel;
@@ -229,29 +229,32 @@ BoundaryTriangles triangulateVertices(const Regions& regions,
   parallelFor(threads, threads,
     [&](std::int64_t i)
     {
-      const auto [begin, end] =
-        evenShare(kernel.triangleCount(), threads * share.Index + int(i), threads * share.Count);
+      const auto [begin, end] = evenShare(kernel.triangleCount(), int(i), threads);
       own[std::size_t(i)] = findMetRegions(regions, kernel, begin, end);
     });
   BoundaryTriangles all = joined(std::move(own));
-  if (share.Count > 1)
-  {
-    all = joined(share.Exchange(std::move(all)));
-  }
   all.Vertices = vertices;
   all.AdjacentSets = adjacentSets(kernel, all.SetOf);
   return all;
 }
 
+bool partitionsPay(std::int64_t triangles, std::int64_t met)
+{
+  constexpr std::int64_t most = 3;
+  return met <= most * triangles;
+}
+
 bool partitionsPay(const BoundaryTriangles& initialMesh)
 {
-  constexpr std::size_t most = 3;
-  std::size_t met = 0;
+  std::int64_t triangles = 0;
+  std::int64_t met = 0;
   for (const std::uint32_t set : initialMesh.SetOf)
   {
-    met += std::size_t(initialMesh.Sets.end(set) - initialMesh.Sets.begin(set));
+    const std::ptrdiff_t size = initialMesh.Sets.end(set) - initialMesh.Sets.begin(set);
+    triangles += size > 0 ? 1 : 0;
+    met += size;
   }
-  return met <= most * initialMesh.size();
+  return partitionsPay(triangles, met);
 }
 
 template std::vector<BoundaryVertex> chooseInitialPoints(

@@ -6,7 +6,7 @@
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/Tiling.h"
 
-#include <functional>
+#include <cstdint>
 #include <vector>
 
 namespace tipp
@@ -29,24 +29,17 @@ template <typename Id>
 std::vector<BoundaryVertex> chooseInitialPoints(
   const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition, int threads);
 
-/// The share of the initial mesh's triangles for which this rank finds the regions that they meet.
-struct InitialMeshShare
-{
-  int Index = 0;
-  int Count = 1;
-  /// Takes this share's triangles and returns those of all shares, in order; required if Count > 1.
-  std::function<std::vector<BoundaryTriangles>(BoundaryTriangles&&)> Exchange;
-};
-
 /// The Delaunay triangulation of the vertices, with the regions that each triangle meets, and the
 /// pairs of sets that adjacent triangles meet.
-BoundaryTriangles triangulateVertices(const Regions& regions,
-  const std::vector<BoundaryVertex>& vertices, int threads, const InitialMeshShare& share = {});
+BoundaryTriangles triangulateVertices(
+  const Regions& regions, const std::vector<BoundaryVertex>& vertices, int threads);
 
 /// Whether partitioning pays. If circumdisks meet many partitions each (points on a circle or a
 /// parabola, or on a line with one beside it: 3.5 and more partitions each, by measurement), every
 /// worker would get nearly all vertices. Ordinary points give 1.5 to 2.8.
 bool partitionsPay(const BoundaryTriangles& initialMesh);
+/// The same by counts: triangles that meet partitions, and how many they meet, summed.
+bool partitionsPay(std::int64_t triangles, std::int64_t met);
 
 } // namespace tipp
 

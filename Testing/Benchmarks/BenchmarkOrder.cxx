@@ -2,6 +2,7 @@
 // What each partition costs when points are shared out to many ranks: one process triangulates all
 // partitions, one after the other, and prints for each what cluster_model.py needs to know.
 #include "Distributed/Plan.h"
+#include "Distributed/SharedInitialMesh.h"
 #include "Engine/Routing.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/ReadPoints.h"
@@ -12,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -67,27 +69,39 @@ struct SharedOut
   PointBuckets<std::int32_t> Buckets;
 };
 
-/// The mesh as the ranks exchange it, and how many bytes that is.
-std::vector<BoundaryTriangles> sharesOf(
-  const BoundaryTriangles& mesh, int ranks, std::size_t& bytes)
+/// The ranks' parts of the initial mesh, and the order that they agree on.
+struct SharedOrder
 {
-  std::vector<BoundaryTriangles> shares(static_cast<std::size_t>(ranks));
-  for (std::size_t i = 0; i < mesh.size(); ++i)
+  SharedOrder(const SharedOut& shared, const Regions& regions,
+    const std::vector<BoundaryVertex>& initial, const std::vector<BoundaryVertex>& artificial)
   {
-    shares[i * shares.size() / mesh.size()].add(
-      mesh.Triangles[i], mesh.metBegin(i), mesh.metEnd(i));
-  }
-  bytes = mesh.size() * (sizeof(BoundaryTriangles::Corners) + sizeof(std::uint32_t));
-  for (const BoundaryTriangles& share : shares)
-  {
-    for (std::uint32_t set = 0; set < share.Sets.size(); ++set)
+    ByteWriter writer;
+    for (int rank = 0; rank < shared.Ranks; ++rank)
     {
-      const std::ptrdiff_t members = share.Sets.end(set) - share.Sets.begin(set);
-      bytes += sizeof(std::uint64_t) + std::size_t(members) * sizeof(PartitionIndex);
+      std::vector<char> isChosen;
+      for (const std::int32_t owner : shared.Of.Owners)
+      {
+        isChosen.push_back(owner == rank);
+      }
+      const ProcessorWatch watch;
+      this->Parts.emplace_back(regions, initial, artificial, isChosen, 1);
+      this->Parts.back().writeConflicts(writer);
+      this->PartSeconds.push_back(watch.seconds());
     }
+    const Bytes all = writer.take();
+    this->Exchanged = all.size();
+    const ProcessorWatch watch;
+    this->Order = std::make_unique<PartitionOrder>(
+      regions.areUsed(), readConflicts(all, regions.areUsed().size()));
+    this->OrderSeconds = watch.seconds();
   }
-  return shares;
-}
+
+  std::vector<InitialMeshPart> Parts;
+  std::vector<double> PartSeconds;
+  std::unique_ptr<PartitionOrder> Order;
+  double OrderSeconds = 0;
+  std::size_t Exchanged = 0; ///< bytes of all parts' conflicts
+};
 
 /// A line for each partition in order: its rank, seconds, vertices, and of each later conflicting
 /// partition its number and how many vertices are sent to it.
@@ -97,26 +111,37 @@ void printPartitions(SharedOut& shared)
   const Regions regions(tiles, shared.Buckets, 1);
   std::vector<BoundaryVertex> initial =
     chooseInitialPoints(tiles, shared.Buckets, InitialPointsOfPartition, 1);
-  const std::vector<BoundaryVertex> artificial = makeArtificialPoints(tiles);
-  initial.insert(initial.end(), artificial.begin(), artificial.end());
-  std::size_t bytes = 0;
-  std::vector<BoundaryTriangles> shares;
-  InitialMeshShare share;
-  if (shared.Ranks > 1)
-  {
-    shares = sharesOf(triangulateVertices(regions, initial, 1), shared.Ranks, bytes);
-    share = { 0, shared.Ranks, [&](BoundaryTriangles&&) { return std::move(shares); } };
-  }
-  const ProcessorWatch initialWatch; // what every rank does
-  const BoundaryTriangles mesh = triangulateVertices(regions, initial, 1, share);
-  const PartitionOrder order(regions.areUsed(), mesh);
+  keepOneOfEachPosition(initial);
+  const SharedOrder agreed(shared, regions, initial, makeArtificialPoints(tiles));
+  const PartitionOrder& order = *agreed.Order;
   std::vector<Inbox> inboxes(order.partitionCount());
   FinalBoundary<std::int64_t> final;
   const DeliverMessage deliver = [&](PartitionIndex to, VertexMessage&& message)
   { inboxes[std::size_t(to)].put(std::move(message)); };
-  sendInitialMesh(mesh, order, deliver, final);
+  double longest = 0; // what a rank does before its first partition
+  double sum = 0;
+  for (std::size_t rank = 0; rank < agreed.Parts.size(); ++rank)
+  {
+    const InitialMeshPart& part = agreed.Parts[rank];
+    const ProcessorWatch watch;
+    sendInitialMesh(
+      part.Mesh, order,
+      [&](PartitionIndex to, VertexMessage&& message)
+      {
+        if (part.IsChosen[std::size_t(to)])
+        {
+          deliver(to, std::move(message));
+        }
+      },
+      final);
+    const double seconds = agreed.PartSeconds[rank] + agreed.OrderSeconds + watch.seconds();
+    longest = std::max(longest, seconds);
+    sum += seconds;
+  }
   std::printf("initial %zu points %.6f seconds %zu colours %zu bytes exchanged\n", initial.size(),
-    initialWatch.seconds(), order.colourCount(), bytes);
+    longest, order.colourCount(), agreed.Exchanged);
+  std::fprintf(stderr, "order %.3f s, a rank's part and order %.3f s on average, %.3f s at most\n",
+    agreed.OrderSeconds, sum / shared.Ranks, longest);
 
   Worker<std::int32_t> worker(tiles, shared.Buckets);
   Routing<std::int32_t> routing(order, regions);

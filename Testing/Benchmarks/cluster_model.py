@@ -138,8 +138,8 @@ def whole_run(trace, costs, points, network):
     """Seconds of a run with so many points, in as many partitions as the trace has."""
     latency, bandwidth = network
     scale = points / trace.points
-    # Every rank makes the whole initial mesh. Its vertices, and which partitions its triangles meet, are brought
-    # together on one rank and from there to all.
+    # Every rank makes its part of the initial mesh, and the whole order. The initial points, and the conflicts, are
+    # brought together on one rank and from there to all.
     exchange = (costs.exchange * points / trace.ranks + latency * trace.ranks
                 + (1 - 1 / trace.ranks) * points / trace.ranks * BYTES_OF_POINT / bandwidth)
     gathered = 8 * len(trace.owner) * BYTES_OF_VERTEX + trace.initial_bytes
@@ -161,7 +161,7 @@ def check(traces, costs, runs):
             print(f"{ranks:5} {run['points']:10}: no trace")
             continue
         cores = min(ranks, os.cpu_count())
-        # Each rank makes the initial mesh: those of one core one after the other.
+        # Each rank makes its part and the order: those of one core one after the other.
         initial = trace.initial_seconds * math.ceil(ranks / cores)
         seconds = (costs.exchange * trace.points / cores + initial
                    + simulate(trace, cores, NETWORKS["within a machine"]))
