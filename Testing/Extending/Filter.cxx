@@ -22,7 +22,7 @@ class DelaunayEdges : public vtkPolyDataAlgorithm
 {
 public:
   static DelaunayEdges* New();
-  vtkTypeMacro(DelaunayEdges, vtkPolyDataAlgorithm);
+  vtkTypeMacro(DelaunayEdges, vtkPolyDataAlgorithm)
 
 protected:
   int RequestData(

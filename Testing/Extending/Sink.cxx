@@ -29,12 +29,15 @@ public:
     const std::vector<TriangleRange>& triangles) override
   {
     double area = 0;
-    for (const TriangleRange& corners : triangles)
+    for (const TriangleRange& range : triangles)
     {
-      const double* const a = rows + std::size_t(corners[0]) * layout.Words;
-      const double* const b = rows + std::size_t(corners[1]) * layout.Words;
-      const double* const c = rows + std::size_t(corners[2]) * layout.Words;
-      area += ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])) / 2;
+      for (const std::int32_t* t = range.Begin; t != range.Begin + 3 * range.Triangles; t += 3)
+      {
+        const double* const a = rows + std::size_t(t[0]) * layout.Words;
+        const double* const b = rows + std::size_t(t[1]) * layout.Words;
+        const double* const c = rows + std::size_t(t[2]) * layout.Words;
+        area += ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])) / 2;
+      }
     }
     const std::lock_guard<std::mutex> lock(this->Mutex); // several threads call take()
     this->Area += area;
