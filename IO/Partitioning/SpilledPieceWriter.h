@@ -68,8 +68,8 @@ private:
   std::vector<char> SharedRows;
   std::vector<int> CellSets; ///< set of each shared cell
   SharingSets Sets;
-  std::vector<int> PointSets;       ///< set of each point, or -1
-  std::vector<int> PointGroupOf;    ///< per set: its index among the points' groups, or -1
+  std::vector<int> PointSets;        ///< set of each point, or -1
+  std::vector<int> PointGroupOf;     ///< per set: its index among the points' groups, or -1
   std::vector<std::int64_t> Indices; ///< index of each point in the piece
   GlobalIdMap Local;
   std::optional<PieceWriter> Writer;

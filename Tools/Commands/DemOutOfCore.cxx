@@ -25,9 +25,9 @@ namespace
 std::string identityOf(const DemArguments& arguments, const RasterDescription& description)
 {
   const RasterRequest& raster = arguments.Request.Raster;
-  std::string text = fmt::format("raster tiles {} {} {} {} {} {} {}", raster.Resolution, raster.Aligned,
-    description.NoData, description.Double, description.Compression, description.CloudOptimized,
-    description.Crs);
+  std::string text = fmt::format("raster tiles {} {} {} {} {} {} {}", raster.Resolution,
+    raster.Aligned, description.NoData, description.Double, description.Compression,
+    description.CloudOptimized, description.Crs);
   for (const double bound : arguments.Bounds)
   {
     text += fmt::format(" {}", bound);
