@@ -5,9 +5,11 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <exception>
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,7 +21,7 @@ namespace
 constexpr char success = '+';
 constexpr char failure = '-';
 
-void writeAll(int descriptor, const std::string& bytes)
+bool writeAll(int descriptor, const std::string& bytes)
 {
   std::size_t done = 0;
   while (done < bytes.size())
@@ -27,10 +29,11 @@ void writeAll(int descriptor, const std::string& bytes)
     const ssize_t put = write(descriptor, bytes.data() + done, bytes.size() - done);
     if (put < 0 && errno != EINTR)
     {
-      return; // the reader sees that something is missing
+      return false;
     }
     done += put > 0 ? std::size_t(put) : 0;
   }
+  return true;
 }
 
 std::string readAll(int descriptor)
@@ -60,9 +63,19 @@ std::string runInChild(const std::function<std::string()>& work)
   {
     return work();
   }
+  const pid_t parent = getpid();
   const pid_t child = fork();
   if (child == 0)
   {
+    // This process' signal handlers wake a thread that the child does not have.
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    close(ends[0]);
+    if (getppid() != parent)
+    {
+      _exit(1);
+    }
     std::string result;
     try
     {
@@ -72,8 +85,12 @@ std::string runInChild(const std::function<std::string()>& work)
     {
       result = failure + std::string(error.what());
     }
-    writeAll(ends[1], result + success); // the last byte tells that all is there
-    _exit(0);                            // without what else this process would do at its end
+    catch (...)
+    {
+      _exit(1);
+    }
+    // The last byte shows that the result is complete. _exit() skips this process' own clean-up.
+    _exit(writeAll(ends[1], result + success) ? 0 : 1);
   }
   close(ends[1]);
   if (child < 0)
@@ -83,10 +100,11 @@ std::string runInChild(const std::function<std::string()>& work)
   }
   std::string result = readAll(ends[0]);
   close(ends[0]);
-  while (waitpid(child, nullptr, 0) < 0 && errno == EINTR)
+  int status = 0; // stays 0 where SIGCHLD is ignored
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR)
   {
   }
-  if (result.size() < 2)
+  if (status != 0 || result.size() < 2 || result.back() != success)
   {
     throw IOError("A process that was to do a part of the work has ended early; try again.");
   }

@@ -167,7 +167,7 @@ bool isOurs(const std::string& path)
     "\\.(points|plan|piece|ranks)(\\.[^/]*)?"
     "|[^/]+/\\.(owners|points|cells|shared|borrowers|borrowed|ghosts)\\b.*"
     "|[^/]+/(index\\.json|tables\\.bin|mesh\\.pvtu)"
-    "|[^/]+/pieces/[0-9]{6,}\\.vtu(\\.larger)?"
+    "|[^/]+/pieces/[0-9]{6,}\\.vtu(\\.next)?"
     "|([^/]+/)+[^/]+\\.npy"
     "|([^/]+/)*\\.[^/]+\\.tmp"
     "|([^/]+/)+\\.tipp-work",

@@ -120,6 +120,10 @@ std::vector<TiffField> readGeoKeys(const std::string& tiff)
 {
   const std::map<std::uint16_t, std::size_t> tags = { { 34735, sizeof(std::uint16_t) },
     { 34736, sizeof(double) }, { 34737, 1 } };
+  if (tiff.compare(0, 4, std::string("II*\0", 4)) != 0)
+  {
+    throw IOError("GDAL has made a GeoTIFF of another kind than asked for.");
+  }
   std::vector<TiffField> fields;
   const std::size_t directory = valueAt<std::uint32_t>(tiff, 4);
   for (std::size_t i = 0; i < valueAt<std::uint16_t>(tiff, directory); ++i)
@@ -160,6 +164,23 @@ const std::vector<TiffField>& geoKeysOf(const std::string& crs)
         .first->second;
 }
 
+void requireConversion(const RasterDescription& description, const std::string& path)
+{
+  runInChild(
+    [&]
+    {
+      OptionList options;
+      options.set("COMPRESS", upperCase(description.Compression));
+      const DataSet data(gdal().GDALCreate(gdal().GDALGetDriverByName("GTiff"),
+        "/vsimem/tipp-conversion.tif", 1, 1, 1, GDT_Float32, options.list()));
+      if (!data || (description.CloudOptimized && !gdal().GDALGetDriverByName("COG")))
+      {
+        fail(path, "cannot be written as a GeoTIFF of this kind");
+      }
+      return std::string();
+    });
+}
+
 void convertGeoTiff(const std::string& from, const std::string& to,
   const RasterDescription& description, const std::string& path)
 {
@@ -181,6 +202,10 @@ void convertGeoTiff(const std::string& from, const std::string& to,
     options.set("TILED", "YES");
     options.set("PREDICTOR", "3"); // for floating-point numbers
     options.set("INTERLEAVE", "BAND");
+    if (description.Compression == "deflate")
+    {
+      options.set("ZLEVEL", "1"); // higher ones take twice the time for a few per cent
+    }
   }
   const DataSet plain(gdal().GDALOpen(from.c_str(), GA_ReadOnly));
   DataSet copy(plain ? gdal().GDALCreateCopy(

@@ -17,6 +17,9 @@ namespace tipp
 /// megabytes, is opened in a process of its own.
 const std::vector<TiffField>& geoKeysOf(const std::string& crs);
 
+/// Throws IOError, in which `path` is named, unless convertGeoTiff() can write files as described.
+void requireConversion(const RasterDescription& description, const std::string& path);
+
 /// Copies a GeoTIFF to `to`, compressed and laid out as described. Errors name `path`.
 void convertGeoTiff(const std::string& from, const std::string& to,
   const RasterDescription& description, const std::string& path);

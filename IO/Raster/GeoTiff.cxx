@@ -59,7 +59,7 @@ std::string textOf(double value)
   return text;
 }
 
-std::string escaped(const std::string& name)
+std::string escapedText(const std::string& name)
 {
   std::string text;
   for (const char c : name)
@@ -90,6 +90,7 @@ public:
   {
     if (this->IsConverted)
     {
+      requireConversion(description, path);
       this->Plain = std::make_unique<PendingFile>(path + ".plain");
     }
     if (!description.Crs.empty())
@@ -193,7 +194,7 @@ private:
         text += std::string("  <Item name=\"") + name + "\" sample=\"" + std::to_string(band) +
           "\"" + more + ">" + value + "</Item>\n";
       };
-      add("DESCRIPTION", escaped(this->Description.Bands[band]), " role=\"description\"");
+      add("DESCRIPTION", escapedText(this->Description.Bands[band]), " role=\"description\"");
       const BandSums& sums = this->Sums[band];
       if (sums.Count > 0)
       {

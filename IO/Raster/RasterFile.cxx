@@ -242,6 +242,11 @@ const std::vector<TiffField>& geoKeysOf(const std::string& crs)
   failWithoutGdal(crs);
 }
 
+void requireConversion(const RasterDescription&, const std::string& path)
+{
+  failWithoutGdal(path);
+}
+
 void convertGeoTiff(
   const std::string&, const std::string&, const RasterDescription&, const std::string& path)
 {

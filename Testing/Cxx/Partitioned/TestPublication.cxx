@@ -271,6 +271,15 @@ TEST_F(Publication, LeavesAUsersFileInALeftoverWorkFolder)
   EXPECT_EQ("years of work", contentOf(this->Folder.path(".mesh.tmp.Ab3dEf/mesh/thesis.tex")));
 }
 
+TEST_F(Publication, RemovesALeftoverWorkFolderWithAnUnfinishedPiece)
+{
+  fs::create_directories(this->Folder.path(".mesh.tmp.Ab3dEf/mesh/pieces"));
+  this->Folder.file(".mesh.tmp.Ab3dEf/.tipp-work", "");
+  this->Folder.file(".mesh.tmp.Ab3dEf/mesh/pieces/000000.vtu.next", "piece");
+  this->make();
+  EXPECT_FALSE(fs::exists(this->Folder.path(".mesh.tmp.Ab3dEf")));
+}
+
 TEST_F(Publication, TellsTheSameOfAUsersFolderEachTime)
 {
   this->Folder.file(".mesh.part", "a file");
