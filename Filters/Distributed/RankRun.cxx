@@ -141,6 +141,7 @@ void RankRun<Id>::makeInitialMesh()
   std::vector<BoundaryVertex> vertices;
   this->shareInitialMesh(vertices);
   this->Artificial = makeArtificialPoints(this->Work.Leaves);
+  keepOneOfEachPosition(this->Artificial);
   if (this->Artificial.empty())
   {
     this->PartitionsPay = false;

@@ -92,12 +92,7 @@ private:
         this->Initial.begin() + std::ptrdiff_t(end));
     }
     vertices.insert(vertices.end(), this->Artificial.begin(), this->Artificial.end());
-    std::vector<Point2> points;
-    points.reserve(vertices.size());
-    for (const BoundaryVertex& v : vertices)
-    {
-      points.push_back(v.Position);
-    }
+    const std::vector<Point2> points = positionsOf(vertices);
     this->Kernel.clear();
     this->Kernel.insert(points.data(), points.size());
   }
@@ -128,7 +123,7 @@ private:
     std::vector<PartitionIndex> met;
     for (std::int64_t i = begin; i < end; ++i)
     {
-      const auto t = static_cast<Index>(8 * i);
+      const Index t = DelaunayKernel::triangle(std::size_t(i));
       if (this->Kernel.isInfinite(t))
       {
         continue;
@@ -152,7 +147,7 @@ private:
 
   void findTriangles()
   {
-    const std::int64_t triangles = this->Kernel.mesh().end() / 8;
+    const auto triangles = std::int64_t(this->Kernel.triangleCount());
     std::vector<Found> parts(static_cast<std::size_t>(this->Threads));
     parallelFor(this->Threads, this->Threads,
       [&](std::int64_t i)
@@ -168,7 +163,7 @@ private:
     this->Sets.assign(std::size_t(triangles), NoSet);
     for (std::size_t i = 0; i < this->Triangles.size(); ++i)
     {
-      this->Sets[std::size_t(this->Triangles[i] / 8)] = this->Mesh.SetOf[i];
+      this->Sets[DelaunayKernel::number(this->Triangles[i])] = this->Mesh.SetOf[i];
     }
   }
 
@@ -181,7 +176,7 @@ private:
       for (Index edge = 0; edge < 3; ++edge)
       {
         const Index other = this->Kernel.neighbour(this->Triangles[i], edge);
-        std::uint32_t& set = this->Sets[std::size_t(other / 8)];
+        std::uint32_t& set = this->Sets[DelaunayKernel::number(other)];
         if (set == NoSet && !this->Kernel.isInfinite(other))
         {
           met.clear();
@@ -215,8 +210,9 @@ private:
     {
       for (Index edge = 0; edge < 3; ++edge)
       {
-        const std::uint32_t one = this->Sets[std::size_t(t / 8)];
-        const std::uint32_t other = this->Sets[std::size_t(this->Kernel.neighbour(t, edge) / 8)];
+        const std::uint32_t one = this->Sets[DelaunayKernel::number(t)];
+        const std::uint32_t other =
+          this->Sets[DelaunayKernel::number(this->Kernel.neighbour(t, edge))];
         if (one < other && other != NoSet)
         {
           this->Mesh.AdjacentSets.emplace_back(one, other);

@@ -15,7 +15,7 @@ namespace tipp
 {
 
 /// Sorts the vertices by partition, and of several at a position keeps the one with the lowest id:
-/// all ranks must insert the same one.
+/// all ranks must insert the same one, of initial and of artificial points.
 VTKTIPPFILTERS_EXPORT void keepOneOfEachPosition(std::vector<BoundaryVertex>& vertices);
 
 /// A part of the initial mesh: all its triangles that meet some partitions, and their neighbours.

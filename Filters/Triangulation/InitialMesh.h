@@ -36,7 +36,8 @@ BoundaryTriangles triangulateVertices(
 
 /// Whether partitioning pays. If circumdisks meet many partitions each (points on a circle or a
 /// parabola, or on a line with one beside it: 3.5 and more partitions each, by measurement), every
-/// worker would get nearly all vertices. Ordinary points give 1.5 to 2.8.
+/// worker would get nearly all vertices. Ordinary points give 1.5 to 2.8. Triangles that meet no
+/// partition do not count.
 bool partitionsPay(const BoundaryTriangles& initialMesh);
 /// The same by counts: triangles that meet partitions, and how many they meet, summed.
 bool partitionsPay(std::int64_t triangles, std::int64_t met);

@@ -159,6 +159,8 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
         point_data = {**points.point_data, **(point_data or {})}
         points = points.points
     array = plain(coordinates(points))
+    if array.shape[1] == 2 and options["polygons"] is not None:  # whose corners may have a height
+        array = np.column_stack([array, np.zeros(len(array), array.dtype)])
     mesh, statistics, _ = _meshed(array, attributes(point_data, len(array)), options, progress)
     if has_vtk():
         from ._vtk import surface_of

@@ -19,6 +19,8 @@ _MODULES = ("vtkCommonCore", "vtkCommonDataModel", "vtkCommonExecutionModel", "u
 def root() -> str | None:
     """The package of VTK's modules: PyVista's, if PyVista is imported, for objects of both do not mix; else what is
     installed; None without VTK."""
+    if importlib.util.find_spec("._run", __package__):  # built with VTK: the package's filters are of vtkmodules
+        return "vtkmodules"
     mesh = getattr(sys.modules.get("pyvista"), "PolyData", None)
     if mesh is not None:
         packages = {base.__module__.split(".")[0] for base in mesh.__mro__}
