@@ -2,6 +2,7 @@
 #include "Triangulation/InitialMesh.h"
 
 #include "Kernel/DelaunayKernel.h"
+#include "Kernel/Lanes.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -48,18 +49,25 @@ int piecesOf(double side, double spacing)
 /// Returns the indices of the first points with the smallest and the largest x and y.
 std::array<std::size_t, 4> findOutmost(const Point2* points, std::size_t count)
 {
-  std::array<std::size_t, 4> found{ 0, 0, 0, 0 };
-  std::array<double, 4> least;
-  least.fill(HUGE_VAL);
-  for (std::size_t i = 0; i < count; ++i)
+  const Box2 box = extentOf(points, count).box();
+  const std::array<double, 4> bounds{ box.xmin, box.ymin, box.xmax, box.ymax };
+  constexpr std::size_t block = 16;
+  std::array<std::size_t, 4> found{ count, count, count, count };
+  for (std::size_t begin = 0; begin < count; begin += block)
   {
-    const std::array<double, 4> keys{ points[i].x, points[i].y, -points[i].x, -points[i].y };
-    for (std::size_t side = 0; side < keys.size(); ++side)
+    const std::size_t end = std::min(begin + block, count);
+    bool isAny = false; // without branches, so that compilers vectorise the loop
+    for (std::size_t i = begin; i < end; ++i)
     {
-      if (keys[side] < least[side])
+      const Point2 p = points[i];
+      isAny |= (p.x == bounds[0]) | (p.y == bounds[1]) | (p.x == bounds[2]) | (p.y == bounds[3]);
+    }
+    for (std::size_t i = begin; isAny && i < end; ++i)
+    {
+      for (std::size_t side = 0; side < 4; ++side)
       {
-        least[side] = keys[side];
-        found[side] = i;
+        const double coordinate = side % 2 == 0 ? points[i].x : points[i].y;
+        found[side] = coordinate == bounds[side] ? std::min(found[side], i) : found[side];
       }
     }
   }

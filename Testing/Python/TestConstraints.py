@@ -81,6 +81,12 @@ class Polygons(unittest.TestCase):
         self.assertEqual(36, area(mesh))
         self.assertTrue(has_edge(mesh, 4, 6) or has_edge(mesh, 4, 8))
 
+    def test_new_points_keep_the_heights_of_a_polygon(self):
+        corners = [[1.0, 1.0, 3.0], [7.0, 1.0, 4.0], [7.0, 7.0, 5.0], [1.0, 7.0, 6.0]]
+        mesh = tipp.delaunay_2d(SQUARES, polygons=[corners])
+        points = vtk_to_numpy(mesh.GetPoints().GetData())
+        self.assertEqual([3, 4, 5, 6], points[9:, 2].tolist())
+
     @unittest.skipUnless(importlib.util.find_spec("shapely"), "Shapely is not installed")
     def test_shapely_polygons_bring_their_holes(self):
         from shapely.geometry import Polygon
