@@ -101,7 +101,10 @@ struct Run
   std::size_t End;
 };
 
-/// Adds the runs of three or more entries in `within` that are equal above bit `lowest`.
+/// A run of at most so many points is not worth sorting: a walk among them is short.
+constexpr std::size_t ShortRun = 16;
+
+/// Adds the runs of more than ShortRun entries in `within` that are equal above bit `lowest`.
 void addRuns(
   const Uninitialised<std::uint64_t>& entries, Run within, unsigned lowest, std::vector<Run>& runs)
 {
@@ -111,7 +114,7 @@ void addRuns(
   {
     if (i == count || (entries[i] ^ entries[begin]) >> lowest != 0)
     {
-      if (i - begin > 2)
+      if (i - begin > ShortRun)
       {
         runs.push_back({ within.Begin + begin, within.Begin + i });
       }
@@ -223,7 +226,7 @@ void InsertionOrder::compute(const Point2* points, std::size_t count)
 }
 
 /// Sorts points of one round that share a cell of the finest level along a curve in their own
-/// bounding box, and repeats this until no cell is shared: coordinates may differ by hundreds of
+/// bounding box, and repeats this until few share a cell: coordinates may differ by hundreds of
 /// powers of two.
 void InsertionOrder::refineTies(const Point2* points)
 {
