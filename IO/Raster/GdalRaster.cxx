@@ -189,7 +189,8 @@ void convertGeoTiff(const std::string& from, const std::string& to,
   gdal().CPLErrorReset();
   OptionList options;
   options.set("COMPRESS", upperCase(description.Compression));
-  options.set("NUM_THREADS", std::to_string(description.Threads));
+  options.set(
+    "NUM_THREADS", description.Threads > 0 ? std::to_string(description.Threads) : "ALL_CPUS");
   options.set("BIGTIFF", "IF_SAFER");
   const bool isCompressed = description.Compression != "none";
   if (description.CloudOptimized)

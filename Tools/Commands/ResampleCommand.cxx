@@ -12,7 +12,6 @@
 #include "Flat/FlatMesh.h"
 #include "Messages/Communicator.h"
 #include "OpenCL/Devices.h"
-#include "Parallel/ParallelFor.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioning/Ranks.h"
 #include "Raster/RasterFile.h"
@@ -391,7 +390,7 @@ int runResample(const ResampleArguments& arguments)
   {
     constexpr double usual = -9999;
     writeGeoTiff(arguments.Output, filter->GetOutput(), arguments.Crs,
-      arguments.HasNull ? arguments.Null : usual, threadCount(arguments.Threads), before);
+      arguments.HasNull ? arguments.Null : usual, arguments.Threads, before);
   }
   else
   {
