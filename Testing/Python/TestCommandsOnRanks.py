@@ -263,5 +263,37 @@ class SignalToOneRank(Commands):
                     self.assertEqual(sorted(os.listdir(self.folder)), ["points.npy"], err)
 
 
+class Launcher(Commands):
+    def test_rank_ends_when_its_launcher_is_killed(self):
+        # The rank waits for input that never comes, where MPI cannot notice.
+        read, write = os.pipe()
+        launcher = subprocess.Popen(
+            ["sh", "-c", f'"$0" delaunay - -o "$1" <&{read} & echo $!; exec sleep 1000', TIPP, str(self.folder / "t.npy")],
+            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, pass_fds=[read], env=dict(os.environ, PMI_RANK="0"),
+            text=True)
+        rank = pathlib.Path("/proc") / launcher.stdout.readline().strip()
+        while len(list((rank / "task").iterdir())) < 2:  # signals are watched by a thread
+            time.sleep(0.01)
+        launcher.kill()
+        launcher.wait()
+
+        def has_ended():
+            try:
+                return (rank / "stat").read_text().rpartition(")")[2].split()[0] == "Z"
+            except OSError:
+                return True
+
+        limit = time.monotonic() + 60
+        while not has_ended() and time.monotonic() < limit:
+            time.sleep(0.05)
+        ended = has_ended()
+        if not ended:
+            os.kill(int(rank.name), signal.SIGKILL)
+        launcher.stdout.close()
+        os.close(read)
+        os.close(write)
+        self.assertTrue(ended)
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1] + sys.argv[4:])

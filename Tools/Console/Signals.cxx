@@ -79,12 +79,15 @@ namespace
 {
 
 constexpr long grace = 300'000'000; // nanoseconds
+constexpr long second = 1'000'000'000;
 
 std::atomic<bool> interrupted{ false };
 std::atomic<bool> terminated{ false };
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
 std::atomic<bool> isSaid{ false };
 bool isRank = false;
+pid_t parent = 0;
+std::atomic<bool> isOrphan{ false };
 sem_t signals;
 
 /// The thread that holds it decides how the process ends. Never destroyed, because the thread may
@@ -101,24 +104,19 @@ extern "C" void onSignal(int number)
   sem_post(&signals);
 }
 
-void waitForSignal()
-{
-  while (sem_wait(&signals) != 0 && errno == EINTR)
-  {
-  }
-}
-
-/// Gives the work time to stop by itself.
-void waitForGrace()
+/// Waits for a signal. Returns false if none came in time.
+bool waitForSignal(long nanoseconds)
 {
   timespec until = {};
   clock_gettime(CLOCK_REALTIME, &until);
-  until.tv_nsec += grace;
-  until.tv_sec += until.tv_nsec / 1'000'000'000;
-  until.tv_nsec %= 1'000'000'000;
-  while (sem_timedwait(&signals, &until) != 0 && errno == EINTR)
+  until.tv_nsec += nanoseconds;
+  until.tv_sec += until.tv_nsec / second;
+  until.tv_nsec %= second;
+  int failed = 0;
+  while ((failed = sem_timedwait(&signals, &until)) != 0 && errno == EINTR)
   {
   }
+  return failed == 0;
 }
 
 void say(const char* what, const std::string& consequence)
@@ -136,6 +134,7 @@ void say(const char* what, const std::string& consequence)
   ending().lock(); // never released
   const EndedPaths paths = endTemporaryPaths();
   say(interrupted ? "interrupted"
+      : isOrphan  ? "ended, since mpirun has ended"
       : isRank    ? "ended by SIGTERM, which mpirun sends to all ranks when one has ended"
                   : "ended by SIGTERM",
     paths.HasOutput   ? "the output was already written"
@@ -145,12 +144,16 @@ void say(const char* what, const std::string& consequence)
   _exit(interrupted ? interruptedExitCode : 128 + SIGTERM);
 }
 
+/// A rank whose mpirun was killed may wait for ever for others, if MPI does not notice.
 void watch()
 {
-  waitForSignal();
-  if (!terminated)
+  while (!waitForSignal(second) && !isOrphan)
   {
-    waitForGrace();
+    isOrphan = isRank && getppid() != parent;
+  }
+  if (!terminated && !isOrphan)
+  {
+    waitForSignal(grace); // the work's time to stop by itself
   }
   endProcess();
 }
@@ -161,6 +164,7 @@ void watchForInterrupt(int rank)
 {
   isSaid = rank > 0;
   isRank = rank >= 0;
+  parent = getppid();
   sem_init(&signals, 0, 0);
   struct sigaction action = {};
   action.sa_handler = onSignal;
