@@ -14,9 +14,9 @@ import subprocess
 
 
 def delaunay_times(output):
-    """By input and number of threads: nanoseconds a point."""
-    pattern = r"^(\S+)\s+\d+\s+TIPP, (\d) threads?\s+[\d.]+\s+([\d.]+)"
-    return {f"{m[1]}, {m[2]} threads": float(m[3]) for m in re.finditer(pattern, output, re.M)}
+    """By input, points and threads: nanoseconds a point."""
+    pattern = r"^(\S+)\s+(\d+)\s+TIPP, (\d) threads?\s+[\d.]+\s+([\d.]+)"
+    return {f"{m[1]} {m[2]}, threads: {m[3]}": float(m[4]) for m in re.finditer(pattern, output, re.M)}
 
 
 def loader_times(output):
@@ -32,7 +32,7 @@ def loader_times(output):
 
 def named_times(output):
     """By what stands before the colon: seconds."""
-    return {m[1]: float(m[2]) for m in re.finditer(r"^(.+?): ([\d.]+) s\b", output, re.M) if "VTK" not in m[1][:4]}
+    return {m[1]: float(m[2]) for m in re.finditer(r"^(.+?): ([\d.]+) s\b", output, re.M) if not m[1].startswith("vtk")}
 
 
 def table_times(output):
