@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "OutOfCore/ScratchFiles.h"
+#include "OutOfCore/TakeBorders.h"
 #include "Partitioned/GrowingPiece.h"
 #include "Partitioned/NeighborIds.h"
 
@@ -32,14 +33,6 @@ FinishedPiece readFinished(const std::string& path)
   FinishedPiece piece;
   exchange(archive, piece);
   return piece;
-}
-
-PieceInterior readInterior(const PieceWork& work, PartitionIndex piece, const StoredResult& result)
-{
-  PieceInterior interior = result.readInterior();
-  interior.First = work.Points.starts()[std::size_t(piece)];
-  interior.OwnPoints = work.Points.count(piece);
-  return interior;
 }
 
 /// Throws IOError for what is damaged or missing.
@@ -81,6 +74,10 @@ public:
       this->Figures.add(this->Results.back()->readFigures());
     }
     this->repairHull();
+    if (work.Taker)
+    {
+      takeTriangles(work, "hull", this->Hull, this->results());
+    }
   }
 
   const PieceFigures& figures() const { return this->Figures; }
@@ -107,15 +104,19 @@ public:
     {
       addTriangles(hull->second, border);
     }
-    this->setGhosts(border);
+    FinishedPiece finished;
     if (this->Work.Taker)
     {
-      const PieceBorder::Mesh mesh = border.mesh();
-      this->Work.Taker->take(std::to_string(number) + ".border", mesh.Rows.data(), this->Work.Rows,
-        mesh.Rows.size() / this->Work.Rows.Words, { mesh.triangles() });
+      finished.Summary = this->Work.Mesh.Pieces[number];
+      finished.Summary.Cells =
+        interior.Cells + std::int64_t(interior.InterfaceTriangles.size() + border.triangles());
+      isBorderTaken(this->Work, piece) ? void() : takeBorder(this->Work, piece, this->results());
     }
-    FinishedPiece finished =
-      writeBorder(this->Work.Mesh, number, this->Work.Rows, interior, border);
+    else
+    {
+      setGhosts(this->Work, this->results(), border);
+      finished = writeBorder(this->Work.Mesh, number, this->Work.Rows, interior, border);
+    }
     // From now on the file may have another layout than the result says.
     writeCheckedFile(record, [&](SaveArchive& archive) { exchange(archive, finished); });
     return finished;
@@ -151,25 +152,10 @@ private:
     }
   }
 
-  /// Ghosts are interface points of their own pieces.
-  void setGhosts(PieceBorder& border) const
+  ResultOf results() const
   {
-    std::vector<std::int64_t> ghosts = border.ghosts();
-    std::sort(ghosts.begin(), ghosts.end());
-    const std::vector<std::int64_t>& starts = this->Work.Points.starts();
-    PartitionIndex piece = -1;
-    PieceInterior owner;
-    for (const std::int64_t point : ghosts)
-    {
-      const auto of = static_cast<PartitionIndex>(
-        std::upper_bound(starts.begin(), starts.end(), point) - starts.begin() - 1);
-      if (of != piece)
-      {
-        piece = of;
-        owner = this->interiorOf(piece);
-      }
-      border.setGhost(point, owner.interfaceRow(point, this->Work.Rows));
-    }
+    return [this](PartitionIndex piece) -> const StoredResult&
+    { return *this->Results[std::size_t(piece)]; };
   }
 
   const PieceWork& Work;
