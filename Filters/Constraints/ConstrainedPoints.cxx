@@ -3,6 +3,7 @@
 
 #include "Constraints/ConstraintPoints.h"
 #include "Files/IOError.h"
+#include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -155,7 +156,7 @@ ConstrainedPoints::ConstrainedPoints(
   std::unique_ptr<PointStream> points, TableConstraints constraints, std::string name, int threads)
   : Input(std::move(points))
   , Name(std::move(name))
-  , Threads(threads)
+  , Threads(threadCount(threads))
   , Own(identityOf(constraints))
 {
   if (!constraints.Lines.Holes.empty())

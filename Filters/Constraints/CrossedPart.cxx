@@ -180,6 +180,11 @@ struct PartVertices
       { return lexicographicLess(this->Positions[a], this->Positions[b]); });
   }
 
+  bool has(std::int64_t number) const
+  {
+    return std::binary_search(this->Numbers.begin(), this->Numbers.end(), number);
+  }
+
   PointId indexOf(std::int64_t number) const { return PointId(indexIn(this->Numbers, number)); }
 
   /// A new index if no vertex of the part is there.
@@ -325,7 +330,10 @@ void retriangulate(CrossedPart& part, const ConstraintSegments& segments, int th
   std::vector<ConstraintPiece> known;
   for (const auto& edge : part.FixedEdges)
   {
-    known.push_back({ vertices.indexOf(edge[0]), vertices.indexOf(edge[1]), 0 });
+    if (vertices.has(edge[0]) && vertices.has(edge[1])) // else of triangles that are put aside
+    {
+      known.push_back({ vertices.indexOf(edge[0]), vertices.indexOf(edge[1]), 0 });
+    }
   }
   std::vector<std::int64_t> corners;
   for (const CrossedPart::Corners& triangle : part.Triangles)

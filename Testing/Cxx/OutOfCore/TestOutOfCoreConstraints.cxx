@@ -123,7 +123,11 @@ TEST_P(OutOfCoreConstraints, MakeTheTrianglesOfMemoryForAllPiecesAndThreads)
   }
 }
 
-TEST_P(OutOfCoreConstraints, MakePiecesThatOwnAndBorrowAsTheFormatSays)
+class ConstrainedPieces : public testing::TestWithParam<std::string>
+{
+};
+
+TEST_P(ConstrainedPieces, OwnAndBorrowAsTheFormatSays)
 {
   const Coordinates xy = makePointSet(GetParam(), 1200);
   TableConstraints constraints;
@@ -136,7 +140,7 @@ TEST_P(OutOfCoreConstraints, MakePiecesThatOwnAndBorrowAsTheFormatSays)
   expectBelongs(run.mesh(), sourceOf(run.mesh(), run.All.XY));
 }
 
-TEST_P(OutOfCoreConstraints, MakeTheSameFilesWhereverTheRunWasEnded)
+TEST_P(ConstrainedPieces, AreTheSameWhereverTheRunWasEnded)
 {
   const Coordinates xy = makePointSet(GetParam(), 2000);
   TableConstraints constraints;
@@ -163,6 +167,9 @@ TEST_P(OutOfCoreConstraints, MakeTheSameFilesWhereverTheRunWasEnded)
   }
   EXPECT_GT(resumed, 4);
 }
+
+INSTANTIATE_TEST_SUITE_P(PointSets, ConstrainedPieces,
+  testing::Values("uniform", "clustered", "lattice", "coast", "duplicates"));
 
 INSTANTIATE_TEST_SUITE_P(PointSets, OutOfCoreConstraints,
   testing::Values("uniform", "clustered", "lattice", "lattice-tenths", "cocircular", "coast",
