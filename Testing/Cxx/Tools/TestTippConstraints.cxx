@@ -224,7 +224,7 @@ TEST_F(TippConstraints, PartitionedMeshesAreMadeAndProved)
   EXPECT_EQ(0, good.ExitCode) << good.Out << good.Err;
   this->Folder.file("ids.csv", "0,6\n6,2\n");
   EXPECT_EQ(0, check("ids.csv").ExitCode);
-  this->Folder.file("other.csv", "0,5\n");
+  this->Folder.file("other.csv", "0,8\n");
   const Outcome lost = check("other.csv");
   EXPECT_EQ(1, lost.ExitCode);
   EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are no chain of edges")) << lost.Out;
