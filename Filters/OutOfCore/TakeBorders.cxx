@@ -27,15 +27,13 @@ PieceInterior readInterior(const PieceWork& work, PartitionIndex piece, const St
   return interior;
 }
 
-/// Ghosts are interface points of their own pieces.
-void setGhosts(const PieceWork& work, const ResultOf& results, PieceBorder& border)
+void visitBorderRows(const PieceWork& work, const std::vector<std::int64_t>& points,
+  const ResultOf& results, const std::function<void(std::int64_t, const double*)>& visit)
 {
-  std::vector<std::int64_t> ghosts = border.ghosts();
-  std::sort(ghosts.begin(), ghosts.end());
   const std::vector<std::int64_t>& starts = work.Points.starts();
   PartitionIndex piece = -1;
   PieceInterior owner;
-  for (const std::int64_t point : ghosts)
+  for (const std::int64_t point : points)
   {
     const auto of = static_cast<PartitionIndex>(
       std::upper_bound(starts.begin(), starts.end(), point) - starts.begin() - 1);
@@ -44,8 +42,16 @@ void setGhosts(const PieceWork& work, const ResultOf& results, PieceBorder& bord
       piece = of;
       owner = readInterior(work, piece, results(piece));
     }
-    border.setGhost(point, owner.interfaceRow(point, work.Rows));
+    visit(point, owner.interfaceRow(point, work.Rows));
   }
+}
+
+void setGhosts(const PieceWork& work, const ResultOf& results, PieceBorder& border)
+{
+  std::vector<std::int64_t> ghosts = border.ghosts();
+  std::sort(ghosts.begin(), ghosts.end());
+  visitBorderRows(work, ghosts, results,
+    [&](std::int64_t point, const double* row) { border.setGhost(point, row); });
 }
 
 void takeTriangles(const PieceWork& work, const std::string& name, const BordersByOwner& triangles,

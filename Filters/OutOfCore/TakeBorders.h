@@ -5,7 +5,7 @@
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceResult.h"
 
-#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -18,6 +18,11 @@ using ResultOf = std::function<const StoredResult&(PartitionIndex)>;
 
 /// The interior of a piece that is done. Throws IOError.
 PieceInterior readInterior(const PieceWork& work, PartitionIndex piece, const StoredResult& result);
+
+/// Visits the rows of points at borders, which are interface points of their own pieces. `points`:
+/// ascending. Throws IOError.
+void visitBorderRows(const PieceWork& work, const std::vector<std::int64_t>& points,
+  const ResultOf& results, const std::function<void(std::int64_t, const double*)>& visit);
 
 /// Sets the rows of the points of other pieces that a border's triangles use. Throws IOError.
 void setGhosts(const PieceWork& work, const ResultOf& results, PieceBorder& border);
