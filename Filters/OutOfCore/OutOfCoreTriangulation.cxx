@@ -223,7 +223,8 @@ private:
 
   void planMemory(std::size_t words)
   {
-    this->Memory = std::make_unique<MemoryPlan>(this->Options, words);
+    this->Limited = this->Setup.limited(this->Options, this->Path);
+    this->Memory = std::make_unique<MemoryPlan>(this->Limited, words);
   }
 
   void savePlan()
@@ -251,9 +252,12 @@ private:
         })).survey();
     this->Statistics.LeftOut = this->Input.leftOut();
     this->Statistics.ThinnedOut = this->Input.thinnedOut();
-    this->Setup.describeColumns(
-      this->Input.columns(), this->Options.MapDuplicates, this->Options.Neighbors);
+    this->Setup.describeColumns(this->Input.columns(), this->Options);
     const std::size_t words = this->Setup.Rows.Words;
+    if (this->Options.Constraints)
+    {
+      this->Setup.setConstraints(this->Options.Constraints());
+    }
     this->planMemory(words);
     requireElevation(this->Options.Duplicates, this->Input.columns());
     if (survey.Points == survey.Rejected)
@@ -262,7 +266,7 @@ private:
     }
     this->requireSpace(0);
     this->Setup.Plan =
-      std::make_unique<PiecePlan>(survey, this->Options, *this->Memory, words, this->Threads);
+      std::make_unique<PiecePlan>(survey, this->Limited, *this->Memory, words, this->Threads);
     std::vector<SampledPoint>().swap(survey.Sample); // = {} would keep the memory
     if (this->Setup.Plan->HasLargeInterface)
     {
@@ -293,7 +297,8 @@ private:
   void requireSpace(std::uint64_t more) const
   {
     const auto points = std::uint64_t(this->Setup.Survey.Points - this->Setup.Survey.Rejected);
-    const std::uint64_t cell = 12 + 4 + 1 + 8 + (this->Options.Neighbors ? 24 : 0);
+    const std::uint64_t cell =
+      12 + 4 + 1 + 8 + (this->Options.Neighbors ? 24 : 0) + (this->Options.MarkConstraints ? 3 : 0);
     // Borders and ids of cells included; two triangles a point at most.
     const std::uint64_t stored =
       points * (24 + 8 + 1 + 8 * this->Setup.Rows.Attributes.size() + 2 * cell) / 50 * 51;
@@ -311,7 +316,7 @@ private:
       InputPasses(this->Input, this->Ranks, this->passOptions(progress))
         .spill(survey, *this->Setup.Plan, this->Setup.Rows, this->Scratch.points());
     this->Statistics.SpilledBytes = this->Setup.Spilled->bytes();
-    this->Setup.requireMemory(this->Path, this->Options.MemoryLimit);
+    this->Setup.requireMemory(this->Path, this->Limited.MemoryLimit);
     this->savePlan();
     this->endPhase("spill");
   }
@@ -409,6 +414,11 @@ private:
         mesh, this->Finished, this->Memory->LoadedBytes, this->Threads, reportTo(0.92, 0.06));
       this->endPhase("link");
     }
+    if (this->Options.MarkConstraints)
+    {
+      markCells(mesh, this->Finished, this->Setup.Marks, this->Setup.Constraints.get(),
+        this->Threads, reportTo(0.97, 0.01));
+    }
     for (std::size_t number = 0; number < this->Finished.size(); ++number)
     {
       syncToDisk(mesh.piecePath(number));
@@ -456,6 +466,7 @@ private:
   Communicator* const Ranks; ///< null: this process alone
   const std::string Path;
   const OutOfCoreOptions& Options;
+  OutOfCoreOptions Limited; ///< the same with the memory that constraints leave
   const int Threads;
   PendingFolder Pending;
   ScratchFolder Scratch;

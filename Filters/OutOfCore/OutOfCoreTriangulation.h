@@ -2,6 +2,7 @@
 #ifndef tippOutOfCoreTriangulation_h
 #define tippOutOfCoreTriangulation_h
 
+#include "Constraints/ConstraintSegments.h"
 #include "Duplicates/ResolveDuplicates.h"
 #include "Points/PointStream.h"
 #include "vtkTIPPFiltersModule.h"
@@ -32,10 +33,17 @@ struct OutOfCoreOptions
   bool MapDuplicates = false;
   /// Adds the cell array NeighborIds.
   bool Neighbors = false;
+  /// Adds the cell array ConstraintEdges: for each corner of a triangle 1 if the edge opposite to
+  /// it is one of a constraint, else 0.
+  bool MarkConstraints = false;
   /// Counts and sums up the triangles instead of writing them.
   bool CountOnly = false;
   /// Takes the triangles instead of the mesh; with it CountOnly is to be set.
   TriangleTaker* Taker = nullptr;
+  /// Called after the first pass over the points, unless the run is resumed: segments between
+  /// points of the stream that have to be edges, none crossing another. Null: there are none. They
+  /// stay in memory, as part of the limit.
+  std::function<std::vector<ConstraintSegment>()> Constraints;
   /// Resumes a run of this path that was killed or has failed, if there is one; without, such a run
   /// is an error and is left as it is.
   bool Resume = false;

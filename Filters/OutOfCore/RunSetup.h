@@ -3,11 +3,13 @@
 #define tippRunSetup_h
 
 #include "OutOfCore/InputSurvey.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceResult.h"
 #include "OutOfCore/SpillPoints.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Points/PointTable.h"
+#include "Points/RankColumn.h"
 
 #include <cstdint>
 #include <memory>
@@ -22,8 +24,7 @@ class VTKTIPPFILTERS_EXPORT RunSetup
 {
 public:
   /// Columns of the input; the mesh's arrays.
-  void describeColumns(
-    const std::vector<std::string>& columns, bool mapDuplicates, bool hasNeighbors);
+  void describeColumns(const std::vector<std::string>& columns, const OutOfCoreOptions& options);
   /// After the plan.
   void describeMesh();
 
@@ -37,13 +38,18 @@ public:
   PieceWork work() const
   {
     return { *this->Plan, *this->Spilled, this->Survey.Factor, this->Rows, this->Mesh,
-      this->Results, this->Taker, this->MaximumEdge, this->Duplicates,
-      findElevation(this->Columns) };
+      this->Results, this->Taker, this->MaximumEdge, this->Duplicates, this->Constraints.get(),
+      findRankColumn(this->Columns) };
   }
 
   /// Throws IOError if a piece does not fit into the memory limit, in bytes; `path` is the mesh's.
   /// Pieces are of equal size except where very many points coincide.
   void requireMemory(const std::string& path, std::uint64_t limit) const;
+
+  void setConstraints(const std::vector<ConstraintSegment>& segments);
+  /// The options without what constraints take of the memory limit. Throws IOError, for the mesh
+  /// `path`, if little is left.
+  OutOfCoreOptions limited(OutOfCoreOptions options, const std::string& path) const;
 
   /// Bytes that the taker needs on disk.
   std::uint64_t takenBytes() const;
@@ -55,13 +61,16 @@ public:
   TriangleTaker* Taker = nullptr;
   double MaximumEdge = 0;
   DuplicateRule Duplicates = DuplicateRule::First;
+  std::int64_t Marks = -1; ///< the array ConstraintEdges among the mesh's; -1: there is none
   std::vector<std::string> Columns; ///< of the input, beside x and y
   std::unique_ptr<PiecePlan> Plan;
   std::unique_ptr<SpilledPoints> Spilled;
+  std::unique_ptr<ConstraintSegments> Constraints; ///< null: there are none
 
 private:
   template <typename Archive>
   void exchangeInput(Archive& archive);
+  void addCellArrays(bool hasNeighbors, bool hasMarks);
   Bounds boundsOf(const Box2& box) const;
   Box2 inputBounds() const;
 };

@@ -282,7 +282,8 @@ PieceInterior writeInterior(const PartitionedMesh& mesh, std::size_t number,
     });
   if (mesh.Path.empty())
   {
-    for (const TriangleRange& range : content.Triangles)
+    for (const TriangleRange& range :
+      content.IsSummed ? content.Triangles : std::vector<TriangleRange>())
     {
       interior.TriangleSum += sumTriangles(range, content.Rows, layout);
     }
@@ -371,6 +372,28 @@ void writeCellIds(
     for (std::int64_t i = 0; i < count; ++i, ++first)
     {
       std::memcpy(column.extend(8), &first, 8);
+    }
+    column.endPart();
+  }
+  column.flush();
+  file.startWriteback();
+  piece.Table.Checksums[a] = column.checksums();
+}
+
+void writeLateArray(const PartitionedMesh& mesh, std::size_t number, std::int64_t attribute,
+  const char* values, FinishedPiece& piece)
+{
+  const std::vector<PieceArray> arrays = pieceArrays(mesh, piece.Summary);
+  const auto found = std::find_if(arrays.begin(), arrays.end(),
+    [attribute](const PieceArray& array) { return array.Attribute == attribute; });
+  const auto a = std::size_t(found - arrays.begin());
+  const OutputFile file = OutputFile::shared(mesh.piecePath(number));
+  ColumnWriter column(file, piece.Table.Offsets[a], bufferBytes);
+  for (const std::int64_t count : piece.Table.parts(mesh, piece.Summary, false))
+  {
+    for (std::int64_t i = 0; i < count; ++i, values += found->tupleBytes())
+    {
+      std::memcpy(column.extend(found->tupleBytes()), values, found->tupleBytes());
     }
     column.endPart();
   }

@@ -34,6 +34,7 @@ struct InteriorContent
   std::vector<TriangleRange> Triangles;        ///< all except the border's
   /// Duplicates: maps a point to the one with the same coordinates that represents it.
   const std::unordered_map<std::int32_t, std::int32_t>* Representatives = nullptr;
+  bool IsSummed = true; ///< whether to hash triangles for which there is no file
 };
 
 /// The first step.
@@ -49,6 +50,11 @@ VTKTIPPIO_EXPORT FinishedPiece writeBorder(const PartitionedMesh& mesh, std::siz
 /// its file and table, except for a NeighborWriter's array. May be repeated.
 VTKTIPPIO_EXPORT void writeCellIds(
   const PartitionedMesh& mesh, std::size_t number, std::int64_t first, FinishedPiece& piece);
+
+/// Writes an array of a finished piece's cells whose values are known last: `values` has its bytes,
+/// in the order of the cells. `attribute`: the array's index among the mesh's. May be repeated.
+VTKTIPPIO_EXPORT void writeLateArray(const PartitionedMesh& mesh, std::size_t number,
+  std::int64_t attribute, const char* values, FinishedPiece& piece);
 
 /// @name A file that an earlier process has left
 /// @{
