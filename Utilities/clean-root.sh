@@ -38,7 +38,7 @@ fi
 
 # Mounts left behind would make removal dangerous.
 leave() {
-  for mount in ccache var/cache/apt/archives proc dev; do
+  for mount in ccache var/cache/apt/archives sys proc dev; do
     ! mountpoint -q "$root/$mount" || umount "$root/$mount"
   done
 }
@@ -55,6 +55,7 @@ make_root() {
   cp -a "$base" "$root"
   mount --bind /dev "$root/dev"
   mount -t proc proc "$root/proc"
+  mount -t sysfs -o ro sysfs "$root/sys" # OpenCL on the CPU reads its size there
   mkdir -p "$folder/archives-$release/partial"
   mount --bind "$folder/archives-$release" "$root/var/cache/apt/archives"
 }
