@@ -106,7 +106,7 @@ Bytes InputPasses::answerOf(int rank)
 template <typename Result, typename Work>
 std::vector<Result> InputPasses::share(MessageKind kind, SaveArchive order, const Work& work)
 {
-  const Bytes bytes = order.Writer.take();
+  const Bytes bytes = order.take();
   for (int to = 1; to < this->Parts; ++to)
   {
     Bytes copy(bytes.size());
@@ -204,7 +204,7 @@ bool InputHelper::take(const Message& message)
       : message.Kind == FactorMessage      ? this->factor(order)
                                            : this->spill(order);
   }
-  this->Ranks.post(0, PartMessage, answer.Writer.take());
+  this->Ranks.post(0, PartMessage, answer.take());
   return true;
 }
 

@@ -3,8 +3,8 @@
 #define tippPieceRun_h
 
 #include "Engine/ReadyPartitions.h"
-#include "Messages/Communicator.h"
 #include "OutOfCore/LoadedPiece.h"
+#include "Ranks/Communicator.h"
 
 #include <condition_variable>
 #include <cstdint>

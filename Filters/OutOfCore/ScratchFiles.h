@@ -3,8 +3,8 @@
 #define tippScratchFiles_h
 
 #include "Files/OutputFile.h"
-#include "Messages/Bytes.h"
-#include "Partitioned/PublishPieces.h"
+#include "Partitioned/PieceWriter.h"
+#include "Ranks/Archive.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
@@ -23,27 +23,27 @@ public:
   template <typename T>
   void operator()(const T& value)
   {
-    this->Writer.value(value);
+    this->Writer(value);
   }
   template <typename T>
   void operator()(const std::vector<T>& values)
   {
     if constexpr (std::is_trivially_copyable<T>::value)
     {
-      this->Writer.array(values);
+      this->Writer(values);
     }
     else
     {
-      this->Writer.value(std::uint64_t(values.size()));
+      this->Writer(std::uint64_t(values.size()));
       for (const T& value : values)
       {
         (*this)(value);
       }
     }
   }
-  void operator()(const std::string& text) { this->Writer.text(text); }
+  void operator()(const std::string& text) { this->Writer(text); }
 
-  ByteWriter Writer;
+  SaveArchive Writer;
 };
 
 /// Gives back what a SaveArchive took, in the same order; throws std::runtime_error where it ends
@@ -66,7 +66,7 @@ public:
   {
     if constexpr (std::is_trivially_copyable<T>::value)
     {
-      this->Reader.array(values);
+      this->Reader(values);
     }
     else
     {
@@ -79,9 +79,9 @@ public:
       }
     }
   }
-  void operator()(std::string& text) { text = this->Reader.text(); }
+  void operator()(std::string& text) { text = this->Reader.get<std::string>(); }
 
-  ByteReader Reader;
+  LoadArchive Reader;
 };
 
 template <typename Archive, typename Group>
@@ -148,7 +148,7 @@ public:
   /// Throws IOError, as all methods do.
   explicit SectionFileWriter(const std::string& path);
 
-  void add(SectionKey key, const ByteWriter& content);
+  void add(SectionKey key, const SaveArchive& content);
   /// Returns how many bytes the file has.
   std::uint64_t finish();
 

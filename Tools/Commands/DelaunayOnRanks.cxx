@@ -7,9 +7,9 @@
 #include "Console/ProgressBar.h"
 #include "Console/Signals.h"
 #include "Distributed/DistributedTriangulation.h"
-#include "Files/FileKind.h"
-#include "Messages/Communicator.h"
+#include "Files/InputFile.h"
 #include "Parallel/Stopwatch.h"
+#include "Ranks/Communicator.h"
 
 #include <fmt/format.h>
 
@@ -38,9 +38,6 @@ Triangulation gatherTriangles(Communicator& ranks, const DistributedTriangulatio
   };
   mine.Ids32.empty() ? fill(mine.Ids64) : fill(mine.Ids32);
   const std::vector<Bytes> all = ranks.gather(std::move(ids));
-  ByteWriter writer;
-  writer.array(mine.Duplicates);
-  writer.array(mine.Rejected);
   Triangulation result;
   result.Ids64 = Buffer<std::int64_t>(ranks.rank() == 0 ? std::size_t(3 * mine.AllTriangles) : 0);
   auto* to = reinterpret_cast<char*>(result.Ids64.data());
@@ -48,13 +45,13 @@ Triangulation gatherTriangles(Communicator& ranks, const DistributedTriangulatio
   {
     to = std::copy(part.begin(), part.end(), to);
   }
-  for (const Bytes& part : ranks.gather(writer.take()))
+  for (const std::vector<Duplicate>& part : ranks.gather(mine.Duplicates))
   {
-    ByteReader reader(part);
-    const auto duplicates = reader.array<Duplicate>();
-    const auto rejected = reader.array<PointId>();
-    result.Duplicates.insert(result.Duplicates.end(), duplicates.begin(), duplicates.end());
-    result.Rejected.insert(result.Rejected.end(), rejected.begin(), rejected.end());
+    result.Duplicates.insert(result.Duplicates.end(), part.begin(), part.end());
+  }
+  for (const std::vector<PointId>& part : ranks.gather(mine.Rejected))
+  {
+    result.Rejected.insert(result.Rejected.end(), part.begin(), part.end());
   }
   std::sort(result.Duplicates.begin(), result.Duplicates.end(),
     [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });

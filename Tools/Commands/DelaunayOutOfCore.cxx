@@ -4,7 +4,7 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
-#include "Files/FileKind.h"
+#include "Files/InputFile.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
 
