@@ -5,12 +5,13 @@
 #   test      the README's second command, on the last commit, timed
 #   packages  the Debian packages of the last commit: made there, installed by apt on another bare one, and used
 #   plugin    the same of the package of the ParaView plugin
+#   paraview  the ParaView plugin's tests, on the last commit, timed
 # RELEASE is bookworm (Debian 12) or trixie (Debian 13). Needs root and debootstrap. Later runs use the packages of Debian
 # that FOLDER keeps. If CCACHE_DIR is set, the compiler cache in that folder is used; CMAKE_BUILD_PARALLEL_LEVEL limits compilers.
 set -eu
 
 [ $# -eq 3 ] || {
-  sed -n '3,9s/^# \{0,1\}//p' "$0" >&2
+  sed -n '3,10s/^# \{0,1\}//p' "$0" >&2
   exit 2
 }
 top=$(cd "$(dirname "$0")/.." && pwd)
@@ -24,9 +25,9 @@ case $release in
     ;;
 esac
 case $what in
-  demo | packages | plugin | test) ;;
+  demo | packages | paraview | plugin | test) ;;
   *)
-    echo "clean-root.sh: '$what' is neither demo, packages, plugin nor test." >&2
+    echo "clean-root.sh: '$what' is neither demo, packages, paraview, plugin nor test." >&2
     exit 2
     ;;
 esac
@@ -96,6 +97,12 @@ case $what in
     begin=$(date +%s)
     inside "cd /tmp/tipp && sh Utilities/test.sh"
     echo "clean-root.sh: from the bare machine to all tests passed took $(($(date +%s) - begin)) s"
+    ;;
+  paraview)
+    bring_sources
+    begin=$(date +%s)
+    inside "cd /tmp/tipp && sh Utilities/test.sh paraview"
+    echo "clean-root.sh: from the bare machine to the plugin's tests passed took $(($(date +%s) - begin)) s"
     ;;
   packages)
     bring_sources

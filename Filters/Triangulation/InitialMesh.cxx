@@ -46,29 +46,31 @@ int piecesOf(double side, double spacing)
   return static_cast<int>(std::clamp(std::ceil(side / spacing), 1.0, most));
 }
 
-/// Returns the indices of the first points with the smallest and the largest x and y.
+/// Returns the indices of the first points with the smallest and the largest x and y. One pass
+/// finds the block of each, and only these blocks are searched.
 std::array<std::size_t, 4> findOutmost(const Point2* points, std::size_t count)
 {
-  const Box2 box = extentOf(points, count).box();
-  const std::array<double, 4> bounds{ box.xmin, box.ymin, box.xmax, box.ymax };
-  constexpr std::size_t block = 16;
-  std::array<std::size_t, 4> found{ count, count, count, count };
+  constexpr std::size_t block = 1024;
+  std::array<double, 4> bounds{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+  std::array<std::size_t, 4> found{ 0, 0, 0, 0 };
   for (std::size_t begin = 0; begin < count; begin += block)
   {
-    const std::size_t end = std::min(begin + block, count);
-    bool isAny = false; // without branches, so that compilers vectorise the loop
-    for (std::size_t i = begin; i < end; ++i)
+    const Box2 box = extentOf(points + begin, std::min(block, count - begin)).box();
+    const std::array<double, 4> here{ box.xmin, box.ymin, box.xmax, box.ymax };
+    for (std::size_t side = 0; side < 4; ++side)
     {
-      const Point2 p = points[i];
-      isAny |= (p.x == bounds[0]) | (p.y == bounds[1]) | (p.x == bounds[2]) | (p.y == bounds[3]);
-    }
-    for (std::size_t i = begin; isAny && i < end; ++i)
-    {
-      for (std::size_t side = 0; side < 4; ++side)
+      if (side < 2 ? here[side] < bounds[side] : here[side] > bounds[side])
       {
-        const double coordinate = side % 2 == 0 ? points[i].x : points[i].y;
-        found[side] = coordinate == bounds[side] ? std::min(found[side], i) : found[side];
+        bounds[side] = here[side];
+        found[side] = begin;
       }
+    }
+  }
+  for (std::size_t side = 0; side < 4; ++side)
+  {
+    while ((side % 2 == 0 ? points[found[side]].x : points[found[side]].y) != bounds[side])
+    {
+      ++found[side];
     }
   }
   return found;

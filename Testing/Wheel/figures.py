@@ -100,6 +100,32 @@ def measure_small_calls(calls):
     return {"call": float(np.median(whole)), "overhead": float(np.median(beside))}
 
 
+def measure_vtk_objects(calls):
+    """Seconds that VTK takes to make the objects of such a mesh and to delete them, of arrays that are there."""
+    from vtkmodules.util import numpy_support  # the classes of arrays become NumPy's, as beside tipp
+    from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints, vtkTypeInt32Array
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+    assert numpy_support
+    coordinates = np.zeros(3000)
+    ids, offsets = np.zeros(6000, np.int32), np.arange(0, 6001, 3, dtype=np.int32)
+
+    def lent(kind, array, components):
+        result = kind()
+        result.SetNumberOfComponents(components)
+        result.SetVoidArray(array, len(array), 1)
+        return result
+
+    def run():
+        points, cells, mesh = vtkPoints(), vtkCellArray(), vtkPolyData()
+        points.SetData(lent(vtkDoubleArray, coordinates, 3))
+        cells.SetData(lent(vtkTypeInt32Array, offsets, 1), lent(vtkTypeInt32Array, ids, 1))
+        mesh.SetPoints(points)
+        mesh.SetPolys(cells)
+
+    return {"seconds": least(lambda: [run() for _ in range(calls)], 5) / calls}
+
+
 def run(python, *arguments, package=None):
     environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", "OMP_NUM_THREADS": str(THREADS)}
     environment.pop("PYTHONPATH", None)
@@ -143,6 +169,8 @@ def report(wheel, peers, alone, debian, count, queries, repeats):
         call, overhead = (1e6 * min(one[key] for one in small) for key in ("call", "overhead"))
         show(f"delaunay_2d of 1000 points to a {kind}", f"{call:.0f} us", "< 600 us", call < 600)
         show(f"delaunay_2d of 1000 points to a {kind}, overhead", f"{overhead:.1f} us", "< 20 us", overhead < 20)
+    objects = 1e6 * run(peers, "vtk_objects", 2000)["seconds"]
+    print(f"{'of which VTK itself takes for the objects of the mesh':62} {f'{objects:.1f} us':>28}")
 
 
 def main():

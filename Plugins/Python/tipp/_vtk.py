@@ -37,7 +37,9 @@ _BLOCK = 4096  # rows
 _SHARE = 64 * _BLOCK  # of a thread, at a time
 _MOST_THREADS = 8
 _MADV_POPULATE_WRITE = 23  # Linux 5.14
-_CLASSES = {"f4": vtkFloatArray, "f8": vtkDoubleArray, "i4": vtkTypeInt32Array, "i8": vtkTypeInt64Array}
+# By dtype.char; C has two names for integers of 64 bits.
+_CLASSES = {"f": vtkFloatArray, "d": vtkDoubleArray, "i": vtkTypeInt32Array, "l": vtkTypeInt64Array,
+            "q": vtkTypeInt64Array}
 
 
 def vtk_points(points: ArrayLike) -> vtkPoints:
@@ -47,8 +49,9 @@ def vtk_points(points: ArrayLike) -> vtkPoints:
     copied once.
     """
     array = coordinates(points)
-    kind = array.dtype if array.dtype in (np.float32, np.float64) else np.dtype(np.float64)
-    is_shared = (array.shape[1] == 3 and array.dtype == kind and array.flags.c_contiguous and array.flags.writeable)
+    has_kind = array.dtype.char in "fd"
+    kind = array.dtype if has_kind else np.dtype(np.float64)
+    is_shared = array.shape[1] == 3 and has_kind and array.flags.carray  # in C order, aligned and writable
     result = vtkPoints()
     result.SetData(_lent(array, 3) if is_shared else _copied(array, kind))
     return result
@@ -56,7 +59,7 @@ def vtk_points(points: ArrayLike) -> vtkPoints:
 
 def _lent(array: np.ndarray, columns: int) -> vtkDataArray:
     """As numpy_to_vtk(), which takes ten times as long: a VTK array in the memory of one in C order, which it keeps."""
-    result = _CLASSES[array.dtype.str[1:]]()
+    result = _CLASSES[array.dtype.char]()
     result.SetNumberOfComponents(columns)
     flat = array.reshape(-1)
     result.SetVoidArray(flat, len(flat), 1)
