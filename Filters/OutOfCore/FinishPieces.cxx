@@ -27,11 +27,7 @@ bool exists(const std::string& path)
 
 FinishedPiece readFinished(const std::string& path)
 {
-  const Bytes bytes = readCheckedFile(path);
-  LoadArchive archive(bytes);
-  FinishedPiece piece;
-  exchange(archive, piece);
-  return piece;
+  return unpacked<FinishedPiece>(readCheckedFile(path));
 }
 
 PieceInterior readInterior(const PieceWork& work, PartitionIndex piece, const StoredResult& result)
@@ -117,7 +113,7 @@ public:
     FinishedPiece finished =
       writeBorder(this->Work.Mesh, number, this->Work.Rows, interior, border);
     // From now on the file may have another layout than the result says.
-    writeCheckedFile(record, [&](SaveArchive& archive) { exchange(archive, finished); });
+    writeCheckedFile(record, [&](SaveArchive& archive) { archive(finished); });
     return finished;
   }
 

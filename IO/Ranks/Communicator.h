@@ -2,6 +2,7 @@
 #ifndef tippCommunicator_h
 #define tippCommunicator_h
 
+#include "Parallel/Poll.h"
 #include "Ranks/Archive.h"
 #include "Ranks/RankTransport.h"
 #include "vtkTIPPIOModule.h"

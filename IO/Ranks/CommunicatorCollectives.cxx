@@ -2,7 +2,6 @@
 #include "Ranks/Communicator.h"
 
 #include "Files/IOError.h"
-#include "Parallel/Poll.h"
 
 #include <algorithm>
 #include <exception>
