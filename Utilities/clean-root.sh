@@ -113,13 +113,14 @@ case $what in
     # Another bare one, which has nothing but what the packages depend on.
     make_root
     cp -r "$folder/packages-$release" "$root/tmp/packages"
-    inside "apt-get update -q && apt-get install -q -y --no-install-recommends /tmp/packages/*.deb g++ cmake"
+    inside "apt-get update -q && apt-get install -q -y --no-install-recommends /tmp/packages/*.deb"
     echo "== The tool"
-    inside "cd /tmp && tipp points --distribution uniform --count 1000 -o points.npy &&
+    inside "cd /tmp && tipp --version && tipp points --distribution uniform --count 1000 -o points.npy &&
       tipp delaunay points.npy -o mesh.vtp && tipp check points.npy mesh.vtp"
     echo "== Python"
     inside "cd /tmp && python3 -c 'import numpy, tipp; print(len(tipp.delaunay(numpy.load(\"points.npy\"))), \"triangles\")'"
     echo "== C++"
+    inside "apt-get install -q -y --no-install-recommends g++ cmake"
     inside "cmake -S /tmp/packages/consumer -B /tmp/consumer && cmake --build /tmp/consumer"
     ;;
   plugin)

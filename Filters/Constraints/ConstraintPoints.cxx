@@ -6,46 +6,99 @@
 #include "Predicates/Orientation.h"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
-#include <map>
+#include <stdexcept>
 #include <utility>
 
 namespace tipp
 {
 
-MatchedPositions matchPositions(PointsView points, PointsView others)
+PositionIndex::PositionIndex(std::vector<Point2> points)
+  : Points(std::move(points))
 {
-  // The few others are looked up for each of the many points.
-  std::map<std::pair<double, double>, PointId> positions;
-  constexpr PointId none = -1;
-  for (std::size_t i = 0; i < others.size(); ++i)
+  if (this->Points.size() >= Nobody / 4)
   {
-    if (isFinite(others[i])) // NaN cannot be ordered
+    throw std::length_error("There are too many constraints; give fewer.");
+  }
+  std::size_t slots = 16;
+  while (slots < 4 * this->Points.size()) // few points are compared with one that is not there
+  {
+    slots *= 2;
+  }
+  this->Slots.assign(slots, std::uint32_t(Nobody));
+  for (std::size_t i = 0; i < this->Points.size(); ++i)
+  {
+    const Point2 p = this->Points[i];
+    if (!isFinite(p))
     {
-      positions.emplace(std::make_pair(others[i].x, others[i].y), none);
+      continue;
+    }
+    std::size_t slot = hashOf(p) & (slots - 1);
+    while (this->Slots[slot] != Nobody && !(this->Points[this->Slots[slot]] == p))
+    {
+      slot = (slot + 1) & (slots - 1);
+    }
+    if (this->Slots[slot] == Nobody)
+    {
+      this->Slots[slot] = std::uint32_t(i);
     }
   }
+}
+
+std::uint64_t PositionIndex::hashOf(Point2 position)
+{
+  // Zeros of both signs are equal.
+  const double xy[2] = { position.x + 0.0, position.y + 0.0 };
+  std::uint64_t bits[2];
+  std::memcpy(bits, xy, sizeof bits);
+  std::uint64_t hash = bits[0] * 0x9e3779b97f4a7c15U + bits[1];
+  hash ^= hash >> 32;
+  hash *= 0xd6e8feb86659fd93U;
+  return hash ^ hash >> 32;
+}
+
+std::int64_t PositionIndex::find(Point2 position) const
+{
+  const std::size_t last = this->Slots.size() - 1;
+  for (std::size_t slot = hashOf(position) & last; this->Slots[slot] != Nobody;
+       slot = (slot + 1) & last)
+  {
+    if (this->Points[this->Slots[slot]] == position)
+    {
+      return this->Slots[slot];
+    }
+  }
+  return -1;
+}
+
+MatchedPositions matchPositions(PointsView points, PointsView others)
+{
+  std::vector<Point2> positions;
+  others.forEach(0, others.size(), [&](std::size_t, Point2 p) { positions.push_back(p); });
+  const PositionIndex index(positions);
+  constexpr PointId none = -1;
+  MatchedPositions result;
+  result.Ids.assign(others.size(), none);
   points.forEach(0, points.size(),
     [&](std::size_t i, Point2 p)
     {
-      const auto position = isFinite(p) ? positions.find({ p.x, p.y }) : positions.end();
-      if (position != positions.end() && position->second == none)
+      const std::int64_t found = index.find(p);
+      if (found >= 0 && result.Ids[std::size_t(found)] == none)
       {
-        position->second = PointId(i);
+        result.Ids[std::size_t(found)] = PointId(i);
       }
     });
-  MatchedPositions result;
   for (std::size_t i = 0; i < others.size(); ++i)
   {
-    PointId unmatched = none;
-    PointId& id =
-      isFinite(others[i]) ? positions.find({ others[i].x, others[i].y })->second : unmatched;
+    const std::int64_t first = index.find(positions[i]);
+    PointId& id = result.Ids[first < 0 ? i : std::size_t(first)];
     if (id == none)
     {
       id = PointId(points.size() + result.New.size());
       result.New.push_back(i);
     }
-    result.Ids.push_back(id);
+    result.Ids[i] = id;
   }
   return result;
 }

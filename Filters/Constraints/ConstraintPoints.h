@@ -8,10 +8,29 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace tipp
 {
+
+/// Points to be looked up by their coordinates.
+class PositionIndex
+{
+public:
+  explicit PositionIndex(std::vector<Point2> points);
+
+  /// The first point with these coordinates; -1: none. NaN and infinity are not found.
+  std::int64_t find(Point2 position) const;
+
+private:
+  static std::uint64_t hashOf(Point2 position);
+
+  static constexpr std::uint32_t Nobody = 0xffffffff;
+
+  std::vector<Point2> Points;
+  std::vector<std::uint32_t> Slots; ///< indices, or Nobody; their number is a power of two
+};
 
 /// The ids of other points among those of a triangulation.
 struct MatchedPositions

@@ -43,10 +43,12 @@ auto isShortAmong(const std::vector<SegmentTree::Item>& all)
 class Resolver
 {
 public:
-  Resolver(PointsView points, ResolvedConstraints& result, int threads)
+  Resolver(
+    PointsView points, ResolvedConstraints& result, int threads, const std::vector<PointId>& names)
     : Points(points)
     , Result(result)
     , Threads(threads)
+    , Names(names)
   {
   }
 
@@ -176,10 +178,12 @@ private:
     const ConstraintPiece& other = this->Result.Pieces[std::size_t(crossing[1])];
     const Point2 position =
       crossingPoint(this->at(one.A), this->at(one.B), this->at(other.A), this->at(other.B));
-    const auto describe = [](const ConstraintPiece& piece)
+    const auto name = [this](PointId id)
+    { return std::to_string(this->Names.empty() ? id : this->Names[std::size_t(id)]); };
+    const auto describe = [&](const ConstraintPiece& piece)
     {
-      return "constraint " + std::to_string(piece.Constraint) + " (points " +
-        std::to_string(piece.A) + " and " + std::to_string(piece.B) + ")";
+      return "constraint " + std::to_string(piece.Constraint) + " (points " + name(piece.A) +
+        " and " + name(piece.B) + ")";
     };
     std::ostringstream text;
     text << describe(one) << " crosses " << describe(other) << " at (" << position.x << ", "
@@ -367,16 +371,17 @@ private:
   PointsView Points;
   ResolvedConstraints& Result;
   const int Threads;
+  const std::vector<PointId>& Names;                  ///< of the input's points; empty: their ids
   std::map<std::pair<double, double>, PointId> Known; ///< crossings by position
 };
 
 } // namespace
 
-ResolvedConstraints resolveCrossings(
-  PointsView points, const std::vector<Constraint>& constraints, CrossingRule rule, int threads)
+ResolvedConstraints resolveCrossings(PointsView points, const std::vector<Constraint>& constraints,
+  CrossingRule rule, int threads, const std::vector<PointId>& names)
 {
   ResolvedConstraints result;
-  Resolver resolver(points, result, threads);
+  Resolver resolver(points, result, threads, names);
   resolver.addPieces(constraints);
   resolver.resolve(rule);
   return result;

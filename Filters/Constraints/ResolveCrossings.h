@@ -44,7 +44,7 @@ struct ResolvedConstraints
 /// led through all ends and crossings of constraints that points of it would be rounded to, so that
 /// it moves by half a unit in the last place of its coordinates at most. Throws
 /// std::invalid_argument for an id that no point has and, where crossings are refused, for the
-/// first one.
+/// first one; `names` are what points are called there, by default their ids.
 ///
 /// The grid of doubles is not uniform, so that parts may still cross; these crossings are rounded
 /// and split too, in further rounds, each of which may move a constraint by half a unit more. It
@@ -56,8 +56,9 @@ struct ResolvedConstraints
 /// magnitude. So after ten rounds units are those of the largest end, and twice as large in each
 /// further round. When they are larger than all coordinates, crossings only combine coordinates
 /// that are there: few rounds are left.
-VTKTIPPFILTERS_EXPORT ResolvedConstraints resolveCrossings(
-  PointsView points, const std::vector<Constraint>& constraints, CrossingRule rule, int threads);
+VTKTIPPFILTERS_EXPORT ResolvedConstraints resolveCrossings(PointsView points,
+  const std::vector<Constraint>& constraints, CrossingRule rule, int threads,
+  const std::vector<PointId>& names = {});
 
 } // namespace tipp
 

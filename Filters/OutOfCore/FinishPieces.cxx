@@ -5,6 +5,7 @@
 #include "OutOfCore/ScratchFiles.h"
 #include "Partitioned/GrowingPiece.h"
 #include "Partitioned/NeighborIds.h"
+#include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -68,7 +69,7 @@ void removePiece(const PieceWork& work, PartitionIndex piece)
 class PieceFinisher
 {
 public:
-  explicit PieceFinisher(const PieceWork& work)
+  PieceFinisher(const PieceWork& work, int threads)
     : Work(work)
   {
     for (PartitionIndex piece = 0; piece < work.Plan.pieces(); ++piece)
@@ -77,6 +78,10 @@ public:
       this->Figures.add(this->Results.back()->readFigures());
     }
     this->repairHull();
+    if (work.Constraints)
+    {
+      this->constrain(threads);
+    }
   }
 
   const PieceFigures& figures() const { return this->Figures; }
@@ -91,18 +96,8 @@ public:
     const std::size_t number = this->Work.Plan.number(piece);
     const PieceInterior interior = this->interiorOf(piece);
     PieceBorder border(interior, this->Work.Rows);
-    for (const auto& result : this->Results)
-    {
-      if (result->hasBorder(piece))
-      {
-        addTriangles(result->readBorder(piece), border);
-      }
-    }
-    const auto hull = this->Hull.find(piece);
-    if (hull != this->Hull.end())
-    {
-      addTriangles(hull->second, border);
-    }
+    this->forEachBorder(
+      piece, [&](const BorderTriangles& triangles) { this->addTriangles(triangles, border); });
     this->setGhosts(border);
     if (this->Work.Taker)
     {
@@ -132,30 +127,177 @@ private:
       const std::vector<BoundaryVertex> more = result->readHullVertices();
       vertices.insert(vertices.end(), more.begin(), more.end());
     }
-    BorderSorter sorter(this->Work, this->Hull);
+    BorderSorter sorter(this->Work, this->Late);
     tipp::repairHull(std::move(vertices), this->Work.Plan.Artificial, sorter);
   }
 
-  static void addTriangles(const BorderTriangles& triangles, PieceBorder& border)
+  /// Inserts the constraints that are complete in no piece's interior: all triangles that they
+  /// cross, of interiors and borders, are retriangulated together.
+  void constrain(int threads)
   {
+    const PartitionIndex pieces = this->Work.Plan.pieces();
+    std::vector<CrossedPart> ofBorders(static_cast<std::size_t>(pieces));
+    forChunks(pieces, 1, threads, {},
+      [&](std::int64_t piece, std::int64_t, int)
+      { ofBorders[std::size_t(piece)] = this->takeCrossedBorder(PartitionIndex(piece)); });
+    CrossedPart all;
+    for (PartitionIndex piece = 0; piece < pieces; ++piece)
+    {
+      const CrossedPart& border = ofBorders[std::size_t(piece)];
+      this->Replaced.insert(this->Replaced.end(), border.Triangles.begin(), border.Triangles.end());
+      append(std::move(ofBorders[std::size_t(piece)]), all);
+      append(this->Results[std::size_t(piece)]->readCrossed(), all);
+    }
+    std::sort(this->Replaced.begin(), this->Replaced.end());
+    retriangulate(all, *this->Work.Constraints, threads);
+    BorderSorter sorter(this->Work, this->Late);
+    for (std::size_t t = 0; t < all.Triangles.size(); ++t)
+    {
+      BoundaryTriangle triangle;
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        const Point2 p = all.Positions[t][i];
+        triangle[i] = { { p.x * this->Work.Factor, p.y * this->Work.Factor }, all.Triangles[t][i],
+          -1 };
+      }
+      sorter.add(triangle);
+    }
+  }
+
+  /// The triangles that a piece owns at its border and constraints cross.
+  CrossedPart takeCrossedBorder(PartitionIndex piece) const
+  {
+    std::vector<CrossedPart::Corners> triangles;
+    this->forEachBorder(piece,
+      [&](const BorderTriangles& border)
+      { triangles.insert(triangles.end(), border.Corners.begin(), border.Corners.end()); });
+    const std::vector<std::int64_t> points = pointsOf(triangles);
+    const std::vector<Point2> positions = this->positionsOf(points);
+    std::vector<std::int32_t> corners;
+    for (const CrossedPart::Corners& triangle : triangles)
+    {
+      for (const std::int64_t point : triangle)
+      {
+        corners.push_back(
+          std::int32_t(std::lower_bound(points.begin(), points.end(), point) - points.begin()));
+      }
+    }
+    CrossedPart part;
+    takeCrossed(
+      viewOf(positions), *this->Work.Constraints, 0, corners.data(), triangles.size(), part);
+    part.rename([&points](std::int64_t index) { return points[std::size_t(index)]; });
+    return part;
+  }
+
+  /// Whether triangles at the border stay, where there are constraints.
+  std::vector<char> findKept(const BorderTriangles& triangles) const
+  {
+    std::vector<char> isKept;
+    isKept.reserve(triangles.Corners.size());
+    const bool filters = this->Work.Constraints->cuts() || this->Work.MaximumEdge > 0;
+    const std::vector<std::int64_t> points =
+      filters ? pointsOf(triangles.Corners) : std::vector<std::int64_t>();
+    const std::vector<Point2> positions = this->positionsOf(points);
+    for (const CrossedPart::Corners& triangle : triangles.Corners)
+    {
+      bool keeps = !std::binary_search(this->Replaced.begin(), this->Replaced.end(), triangle);
+      if (keeps && filters)
+      {
+        std::array<Point2, 3> p;
+        std::transform(triangle.begin(), triangle.end(), p.begin(),
+          [&](std::int64_t point)
+          {
+            return positions[std::size_t(
+              std::lower_bound(points.begin(), points.end(), point) - points.begin())];
+          });
+        keeps = this->Work.Constraints->keeps(p) &&
+          !(this->Work.MaximumEdge > 0 && hasLongEdge(p[0], p[1], p[2], this->Work.MaximumEdge));
+      }
+      isKept.push_back(char(keeps));
+    }
+    return isKept;
+  }
+
+  /// Each once, ascending.
+  static std::vector<std::int64_t> pointsOf(const std::vector<CrossedPart::Corners>& triangles)
+  {
+    std::vector<std::int64_t> points;
+    for (const CrossedPart::Corners& triangle : triangles)
+    {
+      points.insert(points.end(), triangle.begin(), triangle.end());
+    }
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    return points;
+  }
+
+  static PointsView viewOf(const std::vector<Point2>& points)
+  {
+    return points.empty() ? PointsView() : PointsView(&points.front().x, points.size(), 2);
+  }
+
+  /// Visits what a piece owns at its border, from all results, and what was made since.
+  template <typename Visit>
+  void forEachBorder(PartitionIndex piece, const Visit& visit) const
+  {
+    for (const auto& result : this->Results)
+    {
+      if (result->hasBorder(piece))
+      {
+        visit(result->readBorder(piece));
+      }
+    }
+    const auto late = this->Late.find(piece);
+    if (late != this->Late.end())
+    {
+      visit(late->second);
+    }
+  }
+
+  void addTriangles(const BorderTriangles& triangles, PieceBorder& border) const
+  {
+    const std::vector<char> isKept =
+      this->Work.Constraints ? this->findKept(triangles) : std::vector<char>();
     auto begin = triangles.Borrowers.begin();
     for (std::size_t i = 0; i < triangles.Corners.size(); ++i)
     {
       const auto end = triangles.Borrowers.begin() + std::ptrdiff_t(triangles.BorrowerEnds.at(i));
-      border.addTriangle(triangles.Corners[i], { begin, end });
+      if (isKept.empty() || isKept[i])
+      {
+        border.addTriangle(triangles.Corners[i], { begin, end });
+      }
       begin = end;
     }
   }
 
-  /// Ghosts are interface points of their own pieces.
   void setGhosts(PieceBorder& border) const
   {
     std::vector<std::int64_t> ghosts = border.ghosts();
     std::sort(ghosts.begin(), ghosts.end());
+    this->visitRows(
+      ghosts, [&](std::int64_t point, const double* row) { border.setGhost(point, row); });
+  }
+
+  std::vector<Point2> positionsOf(const std::vector<std::int64_t>& points) const
+  {
+    std::vector<Point2> positions;
+    positions.reserve(points.size());
+    this->visitRows(points,
+      [&](std::int64_t, const double* row) {
+        positions.push_back({ row[0], row[1] });
+      });
+    return positions;
+  }
+
+  /// Visits the rows of points at borders, which are interface points of their own pieces. Points:
+  /// ascending.
+  template <typename Visit>
+  void visitRows(const std::vector<std::int64_t>& points, const Visit& visit) const
+  {
     const std::vector<std::int64_t>& starts = this->Work.Points.starts();
     PartitionIndex piece = -1;
     PieceInterior owner;
-    for (const std::int64_t point : ghosts)
+    for (const std::int64_t point : points)
     {
       const auto of = static_cast<PartitionIndex>(
         std::upper_bound(starts.begin(), starts.end(), point) - starts.begin() - 1);
@@ -164,14 +306,15 @@ private:
         piece = of;
         owner = this->interiorOf(piece);
       }
-      border.setGhost(point, owner.interfaceRow(point, this->Work.Rows));
+      visit(point, owner.interfaceRow(point, this->Work.Rows));
     }
   }
 
   const PieceWork& Work;
   std::vector<std::unique_ptr<StoredResult>> Results; ///< of each piece
   PieceFigures Figures;
-  BordersByOwner Hull;
+  BordersByOwner Late;                        ///< triangles made when all pieces are done
+  std::vector<CrossedPart::Corners> Replaced; ///< triangles that constraints cross, ascending
 };
 
 } // namespace
@@ -219,7 +362,7 @@ std::vector<char> verifyResults(const PieceWork& work, int threads, const Report
 std::vector<FinishedPiece> finishPieces(
   const PieceWork& work, int threads, const Report& report, PieceFigures& figures)
 {
-  const PieceFinisher finisher(work);
+  const PieceFinisher finisher(work, threads);
   figures = finisher.figures();
   std::vector<FinishedPiece> finished(std::size_t(work.Plan.pieces()));
   const bool isDone = forChunks(work.Plan.pieces(), 1, threads, report,

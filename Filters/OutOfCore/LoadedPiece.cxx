@@ -263,23 +263,51 @@ void LoadedPiece::markInterface(const BoundaryVertex& v)
   }
 }
 
-void LoadedPiece::dropLong()
+/// Calls filter(corners, count) for the triangles of each partition and those between; it returns
+/// how many are left.
+template <typename Filter>
+void LoadedPiece::filterTriangles(const Filter& filter)
 {
-  const double longest = this->Work.MaximumEdge;
-  const auto pointOf = [this](std::int32_t id)
-  {
-    const double* const row = this->Rows.data() + std::size_t(id) * this->Work.Rows.Words;
-    return Point2{ row[0], row[1] };
-  };
   for (PartitionIndex p = 0; p < this->Buckets.partitions(); ++p)
   {
     std::size_t& count = this->InteriorCounts[std::size_t(p)];
-    count = dropLongTriangles(this->Buckets.triangles(p), count, longest, pointOf);
+    count = filter(this->Buckets.triangles(p), count);
   }
   if (!this->BoundaryTriangles.empty())
   {
-    this->BoundaryTriangles.resize(dropLongTriangles(
-      this->BoundaryTriangles.front().data(), this->BoundaryTriangles.size(), longest, pointOf));
+    this->BoundaryTriangles.resize(
+      filter(this->BoundaryTriangles.front().data(), this->BoundaryTriangles.size()));
+  }
+}
+
+/// Inserts the constraints that are complete in the interior; what others cross is put aside. Cuts
+/// away what is outside of polygons.
+void LoadedPiece::constrain()
+{
+  const ConstraintSegments& constraints = *this->Work.Constraints;
+  const PointsView points(this->Rows.data(), this->IsOnInterface.size(), this->Work.Rows.Words);
+  CrossedPart crossed;
+  this->filterTriangles([&](std::int32_t* corners, std::size_t count)
+    { return takeCrossed(points, constraints, this->First, corners, count, crossed); });
+  this->Result.Crossed = splitIncomplete(crossed, constraints,
+    [this](std::int64_t point) { return !this->IsOnInterface[std::size_t(point - this->First)]; });
+  for (const CrossedPart::Corners& triangle : this->Result.Crossed.Triangles)
+  {
+    for (const std::int64_t point : triangle)
+    {
+      this->IsOnInterface[std::size_t(point - this->First)] = 1;
+    }
+  }
+  retriangulate(crossed, constraints, 1);
+  for (const CrossedPart::Corners& triangle : crossed.Triangles)
+  {
+    this->BoundaryTriangles.push_back({ std::int32_t(triangle[0] - this->First),
+      std::int32_t(triangle[1] - this->First), std::int32_t(triangle[2] - this->First) });
+  }
+  if (constraints.cuts())
+  {
+    this->filterTriangles([&](std::int32_t* corners, std::size_t count)
+      { return cutTriangles(points, constraints, corners, count); });
   }
 }
 
@@ -304,9 +332,21 @@ void LoadedPiece::resolveDuplicates(PieceFigures& figures)
 
 PieceInterior LoadedPiece::writeInterior()
 {
+  std::sort(this->BoundaryTriangles.begin(), this->BoundaryTriangles.end());
+  if (this->Work.Constraints)
+  {
+    this->constrain();
+    std::sort(this->BoundaryTriangles.begin(), this->BoundaryTriangles.end());
+  }
   if (this->Work.MaximumEdge > 0)
   {
-    this->dropLong();
+    const auto pointOf = [this](std::int32_t id)
+    {
+      const double* const row = this->Rows.data() + std::size_t(id) * this->Work.Rows.Words;
+      return Point2{ row[0], row[1] };
+    };
+    this->filterTriangles([&](std::int32_t* corners, std::size_t count)
+      { return dropLongTriangles(corners, count, this->Work.MaximumEdge, pointOf); });
   }
   InteriorContent content;
   content.First = this->First;
@@ -319,7 +359,6 @@ PieceInterior LoadedPiece::writeInterior()
     content.Triangles.push_back(
       { this->Buckets.triangles(p), this->InteriorCounts[std::size_t(p)] });
   }
-  std::sort(this->BoundaryTriangles.begin(), this->BoundaryTriangles.end());
   if (!this->BoundaryTriangles.empty())
   {
     content.Triangles.push_back(

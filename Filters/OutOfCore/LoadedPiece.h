@@ -85,7 +85,9 @@ private:
   void take(const std::vector<Duplicate>& duplicates);
   bool owns(const BoundaryVertex& v) const;
   void markInterface(const BoundaryVertex& v);
-  void dropLong();
+  template <typename Filter>
+  void filterTriangles(const Filter& filter);
+  void constrain();
   void resolveDuplicates(PieceFigures& figures);
   PieceInterior writeInterior();
   FinishedPiece writeAlone();

@@ -223,7 +223,8 @@ private:
 
   void planMemory(std::size_t words)
   {
-    this->Memory = std::make_unique<MemoryPlan>(this->Options, words);
+    this->Limited = this->Setup.limited(this->Options, this->Path);
+    this->Memory = std::make_unique<MemoryPlan>(this->Limited, words);
   }
 
   void savePlan()
@@ -254,6 +255,10 @@ private:
     this->Setup.describeColumns(
       this->Input.columns(), this->Options.MapDuplicates, this->Options.Neighbors);
     const std::size_t words = this->Setup.Rows.Words;
+    if (this->Options.Constraints)
+    {
+      this->Setup.setConstraints(this->Options.Constraints());
+    }
     this->planMemory(words);
     requireElevation(this->Options.Duplicates, this->Input.columns());
     if (survey.Points == survey.Rejected)
@@ -262,7 +267,7 @@ private:
     }
     this->requireSpace(0);
     this->Setup.Plan =
-      std::make_unique<PiecePlan>(survey, this->Options, *this->Memory, words, this->Threads);
+      std::make_unique<PiecePlan>(survey, this->Limited, *this->Memory, words, this->Threads);
     std::vector<SampledPoint>().swap(survey.Sample); // = {} would keep the memory
     if (this->Setup.Plan->HasLargeInterface)
     {
@@ -311,7 +316,7 @@ private:
       InputPasses(this->Input, this->Ranks, this->passOptions(progress))
         .spill(survey, *this->Setup.Plan, this->Setup.Rows, this->Scratch.points());
     this->Statistics.SpilledBytes = this->Setup.Spilled->bytes();
-    this->Setup.requireMemory(this->Path, this->Options.MemoryLimit);
+    this->Setup.requireMemory(this->Path, this->Limited.MemoryLimit);
     this->savePlan();
     this->endPhase("spill");
   }
@@ -456,6 +461,7 @@ private:
   Communicator* const Ranks; ///< null: this process alone
   const std::string Path;
   const OutOfCoreOptions& Options;
+  OutOfCoreOptions Limited; ///< the same with the memory that constraints leave
   const int Threads;
   PendingFolder Pending;
   ScratchFolder Scratch;

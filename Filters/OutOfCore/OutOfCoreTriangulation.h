@@ -2,6 +2,7 @@
 #ifndef tippOutOfCoreTriangulation_h
 #define tippOutOfCoreTriangulation_h
 
+#include "Constraints/ConstraintSegments.h"
 #include "Duplicates/ResolveDuplicates.h"
 #include "Points/PointStream.h"
 #include "vtkTIPPFiltersModule.h"
@@ -36,6 +37,10 @@ struct OutOfCoreOptions
   bool CountOnly = false;
   /// Takes the triangles instead of the mesh; with it CountOnly is to be set.
   TriangleTaker* Taker = nullptr;
+  /// Called after the first pass over the points, unless the run is resumed: segments between
+  /// points of the stream that have to be edges, none crossing another. Null: there are none. They
+  /// stay in memory, as part of the limit.
+  std::function<std::vector<ConstraintSegment>()> Constraints;
   /// Resumes a run of this path that was killed or has failed, if there is one; without, such a run
   /// is an error and is left as it is.
   bool Resume = false;

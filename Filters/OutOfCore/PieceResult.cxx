@@ -19,6 +19,7 @@ enum SectionKind : std::uint32_t
   FiguresSection,
   HullSection,
   BorderSection,
+  CrossedSection,
   MessageSection
 };
 
@@ -68,7 +69,7 @@ void BorderSorter::findMet(const BoundaryTriangle& triangle)
 void BorderSorter::add(const BoundaryTriangle& triangle)
 {
   const double longest = this->Work.MaximumEdge * this->Work.Factor;
-  if (longest > 0 &&
+  if (longest > 0 && !this->Work.Constraints &&
     hasLongEdge(triangle[0].Position, triangle[1].Position, triangle[2].Position, longest))
   {
     return;
@@ -115,6 +116,12 @@ std::uint64_t writeResult(const std::string& path, PieceResult& result)
     SaveArchive border;
     exchange(border, triangles);
     file.add({ BorderSection, owner }, border);
+  }
+  if (!result.Crossed.Triangles.empty() || !result.Crossed.Touches.empty())
+  {
+    SaveArchive crossed;
+    crossed(result.Crossed);
+    file.add({ CrossedSection, 0 }, crossed);
   }
   for (const auto& [to, messages] : result.Sent)
   {
@@ -167,6 +174,16 @@ std::vector<BoundaryVertex> StoredResult::readHullVertices() const
   std::vector<BoundaryVertex> vertices;
   read(reader, vertices);
   return vertices;
+}
+
+CrossedPart StoredResult::readCrossed() const
+{
+  CrossedPart crossed;
+  if (this->File.has({ CrossedSection, 0 }))
+  {
+    crossed = unpacked<CrossedPart>(this->File.read({ CrossedSection, 0 }));
+  }
+  return crossed;
 }
 
 PieceFigures StoredResult::readFigures() const

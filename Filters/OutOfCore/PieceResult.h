@@ -2,6 +2,7 @@
 #ifndef tippPieceResult_h
 #define tippPieceResult_h
 
+#include "Constraints/CrossedPart.h"
 #include "Duplicates/ResolveDuplicates.h"
 #include "Engine/Routing.h"
 #include "OutOfCore/PiecePlan.h"
@@ -32,6 +33,7 @@ struct PieceWork
   TriangleTaker* Taker = nullptr; ///< null: triangles go to the mesh
   double MaximumEdge = 0;         ///< triangles with a longer edge are left out; 0: none are
   DuplicateRule Duplicates = DuplicateRule::First;
+  const ConstraintSegments* Constraints = nullptr; ///< null: there are none
   std::size_t Elevation = 0; ///< among the columns of rows; their number if there is none
 
   std::string resultPath(PartitionIndex piece) const
@@ -55,7 +57,8 @@ struct BorderTriangles
 using BordersByOwner = std::map<PartitionIndex, BorderTriangles>;
 
 /// Adds each triangle at the borders of pieces to those of the piece that owns it: of all that the
-/// triangle meets, the first in the mesh. The others borrow it.
+/// triangle meets, the first in the mesh. The others borrow it. Where there are constraints, which
+/// change triangles, too long ones are left out later.
 class BorderSorter : public FinalTaker
 {
 public:
@@ -94,6 +97,9 @@ struct PieceResult
   PieceFigures Figures;
   std::vector<BoundaryVertex> HullVertices; ///< of triangles at artificial points
   BordersByOwner Borders;
+  /// Of the interior, what constraints cross that are not complete in it; these triangles are not
+  /// in the interior, and their corners are interface points.
+  CrossedPart Crossed;
   std::map<PartitionIndex, SentMessages> Sent; ///< by the recipient's piece
 };
 
@@ -116,6 +122,7 @@ public:
   bool hasBorder(PartitionIndex owner) const;
   BorderTriangles readBorder(PartitionIndex owner) const;
   std::vector<BoundaryVertex> readHullVertices() const;
+  CrossedPart readCrossed() const;
   PieceFigures readFigures() const;
   /// The caller must add the indices of the piece's own points.
   PieceInterior readInterior() const;

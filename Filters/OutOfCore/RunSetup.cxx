@@ -52,6 +52,7 @@ void RunSetup::exchangeInput(Archive& archive)
 void RunSetup::save(SaveArchive& archive)
 {
   this->exchangeInput(archive);
+  archive(this->Constraints ? this->Constraints->list() : std::vector<ConstraintSegment>());
   this->Plan->save(archive);
   this->Spilled->save(archive);
 }
@@ -59,6 +60,9 @@ void RunSetup::save(SaveArchive& archive)
 void RunSetup::load(LoadArchive& archive, const std::string& points)
 {
   this->exchangeInput(archive);
+  std::vector<ConstraintSegment> segments;
+  archive(segments);
+  this->setConstraints(segments);
   this->Plan = std::make_unique<PiecePlan>(archive);
   this->Spilled = std::make_unique<SpilledPoints>(points, *this->Plan, this->Rows, archive);
   this->describeMesh();
@@ -129,6 +133,28 @@ Bounds RunSetup::boundsOf(const Box2& box) const
   return { box.xmin / factor, box.xmax / factor, box.ymin / factor, box.ymax / factor, 0, 0 };
 }
 
+void RunSetup::setConstraints(const std::vector<ConstraintSegment>& segments)
+{
+  this->Constraints = segments.empty() ? nullptr : std::make_unique<ConstraintSegments>(segments);
+}
+
+OutOfCoreOptions RunSetup::limited(OutOfCoreOptions options, const std::string& path) const
+{
+  if (this->Constraints)
+  {
+    const std::size_t segments = this->Constraints->tree().items().size();
+    const std::uint64_t bytes = ConstraintSegments::bytesFor(segments);
+    if (bytes > options.MemoryLimit / 2)
+    {
+      throw IOError(path,
+        "has " + std::to_string(segments) + " segments as constraints, which take " +
+          std::to_string(bytes / 1000000 + 1) + " MB, more than half of the memory; allow more.");
+    }
+    options.MemoryLimit -= bytes;
+  }
+  return options;
+}
+
 void RunSetup::requireMemory(const std::string& path, std::uint64_t limit) const
 {
   std::int64_t most = 0;
@@ -154,7 +180,7 @@ std::string identityOf(const PointStream& input, const OutOfCoreOptions& options
     std::snprintf(text, sizeof text, "%.17g", value);
     return std::string(text);
   };
-  return "TIPP out of core 9\n" + input.identity() + std::to_string(options.Columns) + "x" +
+  return "TIPP out of core 10\n" + input.identity() + std::to_string(options.Columns) + "x" +
     std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
     std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
     (options.Neighbors ? " linked" : "") + (options.CountOnly ? " counted" : "") +

@@ -3,6 +3,7 @@
 #define tippRunSetup_h
 
 #include "OutOfCore/InputSurvey.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceResult.h"
 #include "OutOfCore/SpillPoints.h"
@@ -37,13 +38,18 @@ public:
   PieceWork work() const
   {
     return { *this->Plan, *this->Spilled, this->Survey.Factor, this->Rows, this->Mesh,
-      this->Results, this->Taker, this->MaximumEdge, this->Duplicates,
+      this->Results, this->Taker, this->MaximumEdge, this->Duplicates, this->Constraints.get(),
       findElevation(this->Columns) };
   }
 
   /// Throws IOError if a piece does not fit into the memory limit, in bytes; `path` is the mesh's.
   /// Pieces are of equal size except where very many points coincide.
   void requireMemory(const std::string& path, std::uint64_t limit) const;
+
+  void setConstraints(const std::vector<ConstraintSegment>& segments);
+  /// The options without what constraints take of the memory limit. Throws IOError, for the mesh
+  /// `path`, if little is left.
+  OutOfCoreOptions limited(OutOfCoreOptions options, const std::string& path) const;
 
   /// Bytes that the taker needs on disk.
   std::uint64_t takenBytes() const;
@@ -58,6 +64,7 @@ public:
   std::vector<std::string> Columns; ///< of the input, beside x and y
   std::unique_ptr<PiecePlan> Plan;
   std::unique_ptr<SpilledPoints> Spilled;
+  std::unique_ptr<ConstraintSegments> Constraints; ///< null: there are none
 
 private:
   template <typename Archive>

@@ -64,6 +64,10 @@ void report(const char* name, int repeat, const std::function<Run()>& work)
   }
   std::printf("%-28s %9.3f s %12lld triangles  %016llx  %8.0f MB\n", name, best.Result.Seconds,
     (long long)best.Result.Triangles, (unsigned long long)best.Result.Checksum, best.PeakMegabytes);
+  if (best.Result.Recovered >= 0)
+  {
+    std::printf("%28s %lld segments are edges\n", "", (long long)best.Result.Recovered);
+  }
   std::fflush(stdout);
 }
 

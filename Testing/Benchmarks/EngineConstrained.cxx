@@ -4,15 +4,44 @@
 
 #include <vtkCellArray.h>
 #include <vtkDelaunay2D.h>
+#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
+#include <algorithm>
 #include <chrono>
+#include <set>
+#include <utility>
 
 namespace tipp
 {
 namespace benchmark
 {
+namespace
+{
+
+/// The number of segments that are edges of the triangles.
+std::int64_t countEdges(vtkPolyData* mesh, const std::vector<Constraint>& segments)
+{
+  std::set<std::pair<vtkIdType, vtkIdType>> edges;
+  vtkCellArray* const polys = mesh->GetPolys();
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < polys->GetNumberOfCells(); ++cell)
+  {
+    polys->GetCellAtId(cell, ids);
+    const vtkIdType count = ids->GetNumberOfIds();
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      edges.insert(std::minmax({ ids->GetId(i), ids->GetId((i + 1) % count) }));
+    }
+  }
+  return std::count_if(segments.begin(), segments.end(),
+    [&edges](const Constraint& segment) {
+      return edges.count(std::minmax<vtkIdType>({ segment.A, segment.B })) > 0;
+    });
+}
+
+} // namespace
 
 Run runConstrained(const std::vector<double>& xy, const std::vector<Constraint>& segments,
   const TriangulationOptions& options)
@@ -58,6 +87,7 @@ Run runVtkConstrained(const std::vector<double>& xy, const std::vector<Constrain
   filter->Update();
   run.Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   sumUp(filter->GetOutput(), run);
+  run.Recovered = countEdges(filter->GetOutput(), segments);
   return run;
 }
 

@@ -20,6 +20,7 @@ struct Run
   double Seconds = 0; ///< points in memory to triangles in memory
   std::int64_t Triangles = 0;
   std::uint64_t Checksum = 0;         ///< of the set of triangles, whatever their order
+  std::int64_t Recovered = -1;        ///< segments that are edges; -1: not counted
   TriangulationStatistics Statistics; ///< empty for the peers
 };
 

@@ -43,6 +43,7 @@ std::string pack(const Measurement& m)
   text << std::setprecision(17) << m.Result.Seconds << '\n'
        << m.Result.Triangles << '\n'
        << m.Result.Checksum << '\n'
+       << m.Result.Recovered << '\n'
        << m.PeakMegabytes << '\n'
        << m.OwnMegabytes << '\n'
        << s.Partitions << '\n'
@@ -68,9 +69,9 @@ bool unpack(const std::string& packed, Measurement& m)
   TriangulationStatistics& s = m.Result.Statistics;
   std::size_t stages = 0;
   std::size_t phases = 0;
-  text >> m.Result.Seconds >> m.Result.Triangles >> m.Result.Checksum >> m.PeakMegabytes >>
-    m.OwnMegabytes >> s.Partitions >> s.InitialPoints >> s.WorkerVertices >> s.Threads >> stages >>
-    phases;
+  text >> m.Result.Seconds >> m.Result.Triangles >> m.Result.Checksum >> m.Result.Recovered >>
+    m.PeakMegabytes >> m.OwnMegabytes >> s.Partitions >> s.InitialPoints >> s.WorkerVertices >>
+    s.Threads >> stages >> phases;
   for (std::size_t i = 0; text && i < stages; ++i)
   {
     TriangulationStatistics::Stage stage{};

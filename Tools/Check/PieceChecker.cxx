@@ -95,7 +95,9 @@ void PieceChecker::checkPoints(const CheckedPiece& piece)
     if (piece.IsOwn[i])
     {
       ++this->Report.Points;
-      this->PointSum += hashPoint(piece.Ids[i], p.x, p.y);
+      const bool isGiven = piece.Ids[i] < this->Given;
+      this->GivenPoints += isGiven ? 1 : 0;
+      this->PointSum += isGiven ? hashPoint(piece.Ids[i], p.x, p.y) : 0;
       if (std::isfinite(p.x) && std::isfinite(p.y))
       {
         own.push_back(std::int32_t(i));
@@ -104,6 +106,10 @@ void PieceChecker::checkPoints(const CheckedPiece& piece)
   }
   std::sort(own.begin(), own.end(),
     [&](std::int32_t a, std::int32_t b) { return check::isBefore(at(piece, a), at(piece, b)); });
+  if (this->Options.IsCut)
+  {
+    this->keepHull(piece, own);
+  }
   for (std::size_t first = 0, last = 0; first < own.size(); first = last)
   {
     const Position position = at(piece, own[first]);
@@ -122,6 +128,28 @@ void PieceChecker::checkPoints(const CheckedPiece& piece)
     else if (this->IsCollinear)
     {
       this->IsCollinear = check::turn(this->Line[0], this->Line[1], position) == 0;
+    }
+  }
+}
+
+/// Points: in lexicographic order. Those on the hull's edges are kept, too.
+void PieceChecker::keepHull(const CheckedPiece& piece, const std::vector<std::int32_t>& points)
+{
+  for (const int side : { 1, -1 })
+  {
+    std::vector<Position> chain;
+    for (const std::int32_t point : points)
+    {
+      const Position p = at(piece, point);
+      while (chain.size() > 1 && side * check::turn(chain[chain.size() - 2], chain.back(), p) < 0)
+      {
+        chain.pop_back();
+      }
+      chain.push_back(p);
+    }
+    for (const Position p : chain)
+    {
+      this->HullXY.insert(this->HullXY.end(), { p.x, p.y });
     }
   }
 }
@@ -200,6 +228,12 @@ void PieceChecker::checkEdges(const CheckedPiece& piece)
   }
 }
 
+bool PieceChecker::isConstraint(const Edge& edge) const
+{
+  return std::binary_search(
+    this->Options.Constraints.begin(), this->Options.Constraints.end(), FixedEdge(edge.Ids));
+}
+
 void PieceChecker::checkPair(const Edge& a, const Edge& b)
 {
   if (a.IsReversed == b.IsReversed || !isSame(a.Ends[0], b.Ends[0]) ||
@@ -209,7 +243,7 @@ void PieceChecker::checkPair(const Edge& a, const Edge& b)
     return;
   }
   this->Report.BadNeighbors += a.Neighbor != b.Cell || b.Neighbor != a.Cell ? 1 : 0;
-  if (!a.IsSound || !b.IsSound)
+  if (!a.IsSound || !b.IsSound || this->isConstraint(a))
   {
     return;
   }
@@ -259,6 +293,13 @@ CheckReport PieceChecker::finish()
 {
   this->matchEdges();
   this->Report.BoundaryEdges = std::int64_t(this->Open.size());
+  if (this->Options.IsCut)
+  {
+    this->Report.UnusedPoints = 0;
+    const auto constraints = std::remove_if(this->Open.begin(), this->Open.end(),
+      [this](const Edge& edge) { return this->isConstraint(edge); });
+    this->Open.erase(constraints, this->Open.end());
+  }
   if (this->Report.Triangles == 0)
   {
     this->Report.UnusedPoints = this->IsCollinear ? 0 : this->Report.UnusedPoints;
@@ -285,6 +326,12 @@ CheckReport PieceChecker::finish()
       ends[i] = found->second;
     }
     hull.push_back({ ends[edge.IsReversed ? 1 : 0], ends[edge.IsReversed ? 0 : 1] });
+  }
+  if (this->Options.IsCut)
+  {
+    xy.insert(xy.end(), this->HullXY.begin(), this->HullXY.end());
+    this->Report.OpenBoundary = check::countOffHull(xy, hull);
+    return this->Report;
   }
   this->Report.BadHullEdges = check::countHullFaults(xy, hull);
   this->Report.EulerMismatch =

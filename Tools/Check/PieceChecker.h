@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace tipp
@@ -31,8 +32,12 @@ struct CheckedPiece
 class PieceChecker
 {
 public:
-  explicit PieceChecker(const CheckOptions& options)
+  /// Given: points with ids from here on are not among those that pointSum() and givenPoints()
+  /// are of.
+  explicit PieceChecker(
+    const CheckOptions& options, std::int64_t given = std::numeric_limits<std::int64_t>::max())
     : Options(options)
+    , Given(given)
   {
   }
 
@@ -40,9 +45,10 @@ public:
   /// Call after all pieces.
   CheckReport finish();
 
-  /// A hash of the ids and coordinates of all points that pieces own: equal sums mean equal points,
-  /// except with a probability of 2^-64.
+  /// A hash of the ids and coordinates of the given points that pieces own: equal sums mean equal
+  /// points, except with a probability of 2^-64.
   std::uint64_t pointSum() const { return this->PointSum; }
+  std::int64_t givenPoints() const { return this->GivenPoints; }
   static std::uint64_t hashPoint(std::int64_t id, double x, double y);
 
 private:
@@ -62,6 +68,8 @@ private:
   void checkPoints(const CheckedPiece& piece);
   void checkEdges(const CheckedPiece& piece);
   void checkPair(const Edge& a, const Edge& b);
+  bool isConstraint(const Edge& edge) const;
+  void keepHull(const CheckedPiece& piece, const std::vector<std::int32_t>& points);
   void matchEdges();
   Edge edgeOf(const CheckedPiece& piece, std::size_t halfEdge) const;
 
@@ -70,7 +78,10 @@ private:
   std::vector<char> IsSound; ///< of the current piece's triangles
   std::vector<char> IsGood;  ///< its points exist
   std::vector<Edge> Open;    ///< edges without a second triangle so far
+  const std::int64_t Given;
+  std::int64_t GivenPoints = 0;
   std::uint64_t PointSum = 0;
+  std::vector<double> HullXY; ///< with IsCut: points of each piece's own convex hull
   bool IsCollinear = true;
   std::vector<check::Position> Line; ///< two points, if all points so far lie on their line
 };

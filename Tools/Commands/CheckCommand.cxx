@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Check/DelaunayChecker.h"
+#include "Check/NearConstraints.h"
 #include "Check/PieceChecker.h"
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
@@ -20,10 +21,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <system_error>
+#include <unordered_map>
 
 namespace tipp
 {
@@ -80,6 +84,7 @@ CheckedPiece readChecked(const PartitionedMesh& mesh, std::size_t number)
 
 struct InputSum
 {
+  std::int64_t All = 0;
   std::int64_t Points = 0; ///< with finite coordinates
   std::uint64_t Sum = 0;
 };
@@ -92,6 +97,7 @@ InputSum sumInput(const std::string& path, const PointOptions& columns)
   forEachBlock(*stream, blockPoints,
     [&](PointBlock& block)
     {
+      input.All += std::int64_t(block.size());
       for (std::size_t i = 0; i < block.size(); ++i)
       {
         const double x = block.XY[2 * i];
@@ -106,18 +112,133 @@ InputSum sumInput(const std::string& path, const PointOptions& columns)
   return input;
 }
 
-/// checkDelaunay() of a partitioned mesh and of points that are read block by block; one piece at a
-/// time is in memory. Throws IOError, also if the mesh's points are not these.
-CheckReport checkPartitioned(const std::string& points, const PointOptions& columns,
-  const std::string& path, const CheckOptions& options)
+struct CheckArguments
 {
-  const PartitionedMesh mesh = openPartitionedMesh(path);
+  std::string Points;
+  std::string Mesh;
+  PointOptions Columns;
+  std::string Constraints; ///< a file; empty: none
+  CheckOptions Options;
+};
+
+/// Gives a table whose edges name points coordinates of its own.
+void takePositions(const CheckArguments& arguments, ConstraintTable& table)
+{
+  if (!table.XY.empty())
+  {
+    return;
+  }
+  std::vector<std::int64_t> named;
+  for (const auto& edge : table.Edges)
+  {
+    named.insert(named.end(), edge.begin(), edge.end());
+  }
+  std::sort(named.begin(), named.end());
+  named.erase(std::unique(named.begin(), named.end()), named.end());
+  table.XY.assign(2 * named.size(), std::nan(""));
+  constexpr std::size_t blockPoints = 1 << 18;
+  const auto stream = openPointStream({ arguments.Points }, arguments.Columns);
+  forEachBlock(*stream, blockPoints,
+    [&](PointBlock& block)
+    {
+      auto id = std::lower_bound(named.begin(), named.end(), block.First);
+      for (; id != named.end() && *id < block.First + std::int64_t(block.size()); ++id)
+      {
+        const auto from = block.XY.begin() + 2 * std::ptrdiff_t(*id - block.First);
+        std::copy_n(from, 2, table.XY.begin() + 2 * (id - named.begin()));
+      }
+    });
+  for (auto& edge : table.Edges)
+  {
+    for (std::int64_t& id : edge)
+    {
+      id = std::lower_bound(named.begin(), named.end(), id) - named.begin();
+    }
+  }
+}
+
+/// The constraints' edges in the mesh, by global ids. Keeps the triangles beside constraints only.
+ConstraintChains findChains(const PartitionedMesh& mesh, const ConstraintTable& table)
+{
+  const NearConstraints near(table.XY, table.Edges);
+  std::vector<double> xy;
+  std::vector<std::int64_t> ids;
+  std::vector<std::int64_t> triangles;
+  for (std::size_t number = 0; number < mesh.Pieces.size(); ++number)
+  {
+    const CheckedPiece piece = readChecked(mesh, number);
+    const auto at = [&piece](std::int32_t point)
+    {
+      const auto i = 2 * std::size_t(point);
+      return check::Position{ piece.XY.at(i), piece.XY.at(i + 1) };
+    };
+    std::unordered_map<std::int32_t, std::int64_t> known;
+    for (std::size_t t = 0; t < 3 * std::size_t(piece.OwnTriangles); t += 3)
+    {
+      const std::int32_t* const corners = &piece.Triangles[t];
+      const bool isNear = near.mayHave(at(corners[0]), at(corners[1])) ||
+        near.mayHave(at(corners[1]), at(corners[2])) ||
+        near.mayHave(at(corners[2]), at(corners[0]));
+      for (std::size_t i = 0; isNear && i < 3; ++i)
+      {
+        const auto [found, isNew] = known.emplace(corners[i], std::int64_t(ids.size()));
+        if (isNew)
+        {
+          xy.insert(xy.end(), { at(corners[i]).x, at(corners[i]).y });
+          ids.push_back(piece.Ids[std::size_t(corners[i])]);
+        }
+        triangles.push_back(found->second);
+      }
+    }
+  }
+  // A point may be in several pieces: the one with its coordinates that comes first stands for it.
+  std::map<std::pair<double, double>, std::int64_t> positions;
+  for (std::int64_t& corner : triangles)
+  {
+    const auto i = 2 * std::size_t(corner);
+    corner = positions.emplace(std::make_pair(xy[i], xy[i + 1]), corner).first->second;
+  }
+  const auto own = std::int64_t(xy.size() / 2);
+  xy.insert(xy.end(), table.XY.begin(), table.XY.end());
+  std::vector<std::array<std::int64_t, 2>> constraints = table.Edges;
+  for (auto& edge : constraints)
+  {
+    edge = { edge[0] + own, edge[1] + own };
+  }
+  ConstraintChains chains = findConstraintChains(xy, triangles, constraints);
+  for (FixedEdge& edge : chains.Edges)
+  {
+    const auto [low, high] = std::minmax({ ids[std::size_t(edge[0])], ids[std::size_t(edge[1])] });
+    edge = { low, high };
+  }
+  std::sort(chains.Edges.begin(), chains.Edges.end());
+  return chains;
+}
+
+/// checkDelaunay() of a partitioned mesh and of points that are read block by block; one piece at a
+/// time is in memory, and what lies beside constraints. Throws IOError, also if the mesh's points
+/// are not these.
+CheckReport checkPartitioned(const CheckArguments& arguments)
+{
+  const PartitionedMesh mesh = openPartitionedMesh(arguments.Mesh);
   if (mesh.CellSize != 3)
   {
-    throw IOError(path, "holds tetrahedra; the check is of triangles.");
+    throw IOError(arguments.Mesh, "holds tetrahedra; the check is of triangles.");
   }
   verifyPvtu(mesh);
-  PieceChecker checker(options);
+  CheckOptions options = arguments.Options;
+  ConstraintChains chains;
+  if (!arguments.Constraints.empty())
+  {
+    ConstraintTable table = readConstraintFile(arguments.Constraints);
+    takePositions(arguments, table);
+    chains = findChains(mesh, table);
+    options.Constraints = std::move(chains.Edges);
+    options.IsCut = options.IsCut || table.PolygonBegin < table.Edges.size();
+  }
+  const InputSum input = sumInput(arguments.Points, arguments.Columns);
+  PieceChecker checker(
+    options, arguments.Constraints.empty() ? std::numeric_limits<std::int64_t>::max() : input.All);
   {
     ProgressBar bar("Checking");
     for (std::size_t number = 0; number < mesh.Pieces.size(); ++number)
@@ -129,13 +250,13 @@ CheckReport checkPartitioned(const std::string& points, const PointOptions& colu
     }
   }
   CheckReport report = checker.finish();
-  const InputSum input = sumInput(points, columns);
-  if (input.Points != report.Points || input.Sum != checker.pointSum())
+  report.LostConstraints = chains.Lost;
+  if (input.Points != checker.givenPoints() || input.Sum != checker.pointSum())
   {
-    throw IOError(path,
+    throw IOError(arguments.Mesh,
       fmt::format("its {} points are not the {} points of {}; check it against the points that it "
                   "was made from.",
-        report.Points, input.Points, points));
+        checker.givenPoints(), input.Points, arguments.Points));
   }
   return report;
 }
@@ -159,15 +280,6 @@ Examples:
   tipp check points.npy mesh.tipp
   tipp check survey.csv survey.vtp --constraints breaklines.vtp --tie-rule
 )";
-
-struct CheckArguments
-{
-  std::string Points;
-  std::string Mesh;
-  PointOptions Columns;
-  std::string Constraints; ///< a file; empty: none
-  CheckOptions Options;
-};
 
 // Here NaN equals NaN.
 bool isSame(double a, double b)
@@ -253,11 +365,7 @@ CheckReport check(const CheckArguments& arguments)
   // No other kind of mesh is a folder; the error for a missing index is clear.
   if (isPartitionedMesh(arguments.Mesh) || std::filesystem::is_directory(arguments.Mesh, ignored))
   {
-    if (!arguments.Constraints.empty())
-    {
-      throw CLI::ValidationError("--constraints", "does not go with a partitioned mesh");
-    }
-    return checkPartitioned(arguments.Points, arguments.Columns, arguments.Mesh, arguments.Options);
+    return checkPartitioned(arguments);
   }
   const PointTable points = readPoints(arguments.Points, arguments.Columns);
   TriangleMesh mesh = readMesh(arguments.Mesh);

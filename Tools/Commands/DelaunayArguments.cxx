@@ -102,18 +102,31 @@ DistributedOptions makeDistributedOptions(const DelaunayArguments& arguments)
 namespace
 {
 
+std::string describeLeftOut(std::int64_t notFinite)
+{
+  return notFinite > 0 ? fmt::format(", {} left out, since an end is not finite", notFinite) : "";
+}
+
 std::string describe(const ResolvedConstraints& resolved, std::size_t constraints)
 {
-  std::string text = fmt::format("{} constraints of {} edges, {} crossings", constraints,
-    resolved.Pieces.size(), resolved.Crossings.size());
-  if (resolved.NotFinite > 0)
-  {
-    text += fmt::format(", {} left out, since an end is not finite", resolved.NotFinite);
-  }
-  return text;
+  return fmt::format("{} constraints of {} edges, {} crossings{}", constraints,
+    resolved.Pieces.size(), resolved.Crossings.size(), describeLeftOut(resolved.NotFinite));
 }
 
 } // namespace
+
+std::string describeSegments(const ConstrainedPoints::Figures& figures)
+{
+  return fmt::format("{} constraints of {} segments, {} crossings{}", figures.Constraints,
+    figures.Segments, figures.Crossings, describeLeftOut(figures.NotFinite));
+}
+
+std::string describeAdded(std::int64_t points, const DelaunayArguments& arguments)
+{
+  return fmt::format("it adds {} points to those of {}, which an output named .npy does not hold; "
+                     "name it .vtp or .vtu.",
+    points, arguments.Input);
+}
 
 ConstraintTable readBoundary(const std::string& path)
 {
@@ -129,8 +142,7 @@ ConstraintTable readBoundary(const std::string& path)
   return boundary;
 }
 
-Triangulation triangulateWithConstraints(const DelaunayArguments& arguments, PointTable& points,
-  const TriangulationOptions& options, std::string& report)
+TableConstraints readConstraints(const DelaunayArguments& arguments)
 {
   TableConstraints constraints;
   if (!arguments.Constraints.empty())
@@ -146,6 +158,13 @@ Triangulation triangulateWithConstraints(const DelaunayArguments& arguments, Poi
     constraints.Boundary = readBoundary(arguments.Boundary);
   }
   constraints.Crossings = arguments.RefuseCrossings ? CrossingRule::Refuse : CrossingRule::Split;
+  return constraints;
+}
+
+Triangulation triangulateWithConstraints(const DelaunayArguments& arguments, PointTable& points,
+  const TriangulationOptions& options, std::string& report)
+{
+  const TableConstraints constraints = readConstraints(arguments);
   const std::size_t given = points.size();
   try
   {
@@ -156,10 +175,7 @@ Triangulation triangulateWithConstraints(const DelaunayArguments& arguments, Poi
     }
     if (points.size() > given && extensionOf(arguments.Output) == ".npy")
     {
-      throw std::invalid_argument(
-        fmt::format("it adds {} points to those of {}, which an output named .npy does not hold; "
-                    "name it .vtp or .vtu.",
-          points.size() - given, arguments.Input));
+      throw std::invalid_argument(describeAdded(std::int64_t(points.size() - given), arguments));
     }
     report = describe(
       result.Constraints, constraints.Lines.Edges.size() + constraints.Boundary.Edges.size());
@@ -167,8 +183,7 @@ Triangulation triangulateWithConstraints(const DelaunayArguments& arguments, Poi
   }
   catch (const std::invalid_argument& error)
   {
-    throw IOError(
-      arguments.Constraints.empty() ? arguments.Boundary : arguments.Constraints, error.what());
+    throw IOError(arguments.constraintFile(), error.what());
   }
 }
 

@@ -2,7 +2,9 @@
 #ifndef tippDelaunayArguments_h
 #define tippDelaunayArguments_h
 
+#include "Constraints/ConstrainedPoints.h"
 #include "Constraints/ReadConstraintFile.h"
+#include "Constraints/TableConstraints.h"
 #include "Distributed/DistributedOptions.h"
 #include "Duplicates/ResolveDuplicates.h"
 #include "Points/PointTable.h"
@@ -54,6 +56,12 @@ struct DelaunayArguments
   {
     return this->Masters != "auto" || this->Major != "auto" || this->Minor != "auto";
   }
+  bool isConstrained() const { return !this->Constraints.empty() || !this->Boundary.empty(); }
+  /// For messages.
+  std::string constraintFile() const
+  {
+    return this->Constraints.empty() ? this->Boundary : this->Constraints;
+  }
 };
 
 /// Parses "auto" (no columns and rows) or a grid; nullopt for any other text.
@@ -71,6 +79,15 @@ DistributedOptions makeDistributedOptions(const DelaunayArguments& arguments);
 
 /// Reads the closed lines of a boundary. Throws IOError.
 ConstraintTable readBoundary(const std::string& path);
+
+/// Reads what --constraints, --boundary and --hole name. Throws IOError.
+TableConstraints readConstraints(const DelaunayArguments& arguments);
+
+/// A line of a report.
+std::string describeSegments(const ConstrainedPoints::Figures& figures);
+
+/// What is wrong if constraints add points, but the output holds triangles alone.
+std::string describeAdded(std::int64_t points, const DelaunayArguments& arguments);
 
 /// Triangulates with the constraints that --constraints and --boundary name. The points of their
 /// files that are not among the points come after these, then the points where constraints cross. A

@@ -42,7 +42,7 @@ CONSTRAINTS  .poly (Triangle); .csv, .txt (a segment a line: x and y of both end
         two ids of points counted from 0); .14, .grd (ADCIRC: the boundaries); any VTK
         file: lines, and polygons, of which counter-clockwise ones keep their inside
         and clockwise ones are holes. Its points that are not in INPUT are added.
-        Constraints need all points in memory of one process.
+        They stay in memory, on each rank.
 
 Under mpirun the points are spread over the ranks, each with its threads; the
 first rank writes the output. --masters, --major, --minor and --groups choose how
@@ -88,7 +88,7 @@ Triangulation triangulatePoints(
   const DelaunayArguments& arguments, PointTable& points, std::string& report)
 {
   ProgressBar bar("Triangulating");
-  if (!arguments.Constraints.empty() || !arguments.Boundary.empty())
+  if (arguments.isConstrained())
   {
     return triangulateWithConstraints(arguments, points, makeOptions(arguments, bar), report);
   }
@@ -220,10 +220,9 @@ void addConstraints(CLI::App& command, DelaunayArguments& arguments)
     ->allow_extra_args(false);
 }
 
-void requireConstraintsInMemory(const DelaunayArguments& arguments)
+void requireValidConstraints(const DelaunayArguments& arguments)
 {
-  const char* const option = arguments.Constraints.empty() ? "--boundary" : "--constraints";
-  if (arguments.Constraints.empty() && arguments.Boundary.empty())
+  if (!arguments.isConstrained())
   {
     if (arguments.RefuseCrossings || !arguments.Holes.empty())
     {
@@ -232,15 +231,13 @@ void requireConstraintsInMemory(const DelaunayArguments& arguments)
     }
     return;
   }
-  if (isOutOfCore(arguments))
+  const bool isOnRanks = arguments.isForRanks() || startedRank() >= 0;
+  if (!arguments.Holes.empty() && (isOutOfCore(arguments) || isOnRanks))
   {
-    throw CLI::ValidationError(option,
-      "does not go with an output named .tipp, since constraints need all points in memory");
-  }
-  if (arguments.isForRanks() || startedRank() >= 0)
-  {
-    throw CLI::ValidationError(
-      option, "needs a single process: run it without mpirun and options for ranks");
+    throw CLI::ValidationError("--hole",
+      isOutOfCore(arguments)
+        ? "does not go with an output named .tipp; give a clockwise polygon around the hole"
+        : "needs a single process; give a clockwise polygon around the hole");
   }
 }
 
@@ -312,7 +309,7 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
       arguments->Input = arguments->Inputs.front();
       arguments->Columns.Threads = arguments->Threads;
       const std::string misplaced = misplacedOutOfCoreOption(*arguments);
-      requireConstraintsInMemory(*arguments);
+      requireValidConstraints(*arguments);
       if (isOutOfCore(*arguments) && arguments->isForRanks())
       {
         throw CLI::ValidationError(

@@ -6,9 +6,13 @@
 #include "Commands/Report.h"
 #include "Console/ProgressBar.h"
 #include "Console/Signals.h"
+#include "Constraints/ConstrainedPoints.h"
+#include "Distributed/ConstrainRanks.h"
 #include "Distributed/DistributedTriangulation.h"
+#include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Parallel/Stopwatch.h"
+#include "Points/PointStream.h"
 #include "Ranks/Communicator.h"
 
 #include <fmt/format.h>
@@ -58,9 +62,61 @@ Triangulation gatherTriangles(Communicator& ranks, const DistributedTriangulatio
   return result;
 }
 
+/// Constraints, on all ranks, and what the first rank knows of them.
+struct SharedConstraints
+{
+  std::unique_ptr<ConstraintSegments> Segments; ///< null: there are none
+  std::vector<double> AddedXY;
+  PointBlock Added; ///< the same points with all columns; on the first rank
+  ConstrainedPoints::Figures Figures;
+};
+
+/// Reads them on the first rank, which makes a pass over all points. Collective.
+SharedConstraints shareConstraints(Communicator& ranks, const DelaunayArguments& arguments)
+{
+  SharedConstraints shared;
+  if (!arguments.isConstrained())
+  {
+    return shared;
+  }
+  SaveArchive writer;
+  if (ranks.rank() == 0)
+  {
+    ConstrainedPoints points(openPointStream(arguments.Inputs, arguments.Columns),
+      readConstraints(arguments), arguments.constraintFile(), arguments.Threads);
+    points.setReport(shared.Figures);
+    constexpr std::size_t blockPoints = 1 << 18;
+    forEachBlock(points, blockPoints, [](PointBlock&) {});
+    shared.Added = points.added();
+    if (shared.Added.size() > 0 && extensionOf(arguments.Output) == ".npy")
+    {
+      throw IOError(
+        arguments.constraintFile(), describeAdded(std::int64_t(shared.Added.size()), arguments));
+    }
+    writer(points.takeSegments(), shared.Added.XY);
+  }
+  const Bytes bytes = ranks.broadcast(writer.take());
+  LoadArchive reader(bytes);
+  shared.Segments =
+    std::make_unique<ConstraintSegments>(reader.get<std::vector<ConstraintSegment>>());
+  reader(shared.AddedXY);
+  return shared;
+}
+
+void appendPoints(const PointBlock& added, PointTable& points)
+{
+  points.XY.insert(points.XY.end(), added.XY.begin(), added.XY.end());
+  for (std::size_t c = 0; c < points.Columns.size(); ++c)
+  {
+    const std::vector<double>& values = added.Columns.at(c);
+    points.Columns[c].Values.insert(points.Columns[c].Values.end(), values.begin(), values.end());
+  }
+}
+
 /// The first rank writes the file, completely or not at all; the others wait for its outcome.
 void writeOnFirst(Communicator& ranks, const DelaunayArguments& arguments, DelaunayRun& run,
-  const DistributedTriangulation& mine, const PathState& before)
+  const DistributedTriangulation& mine, const SharedConstraints& constraints,
+  const PathState& before)
 {
   const Triangulation all = gatherTriangles(ranks, mine);
   if (ranks.rank() != 0)
@@ -71,6 +127,10 @@ void writeOnFirst(Communicator& ranks, const DelaunayArguments& arguments, Delau
   // An output of triangles alone has no use for them.
   PointTable points =
     extensionOf(arguments.Output) == ".npy" ? PointTable() : readPointsFor(arguments);
+  if (constraints.Added.size() > 0)
+  {
+    appendPoints(constraints.Added, points);
+  }
   run.DisagreeingPlaces = resolveDuplicates(points, all.Duplicates, arguments.Duplicates);
   if (!writeResult(arguments, points, all, before))
   {
@@ -82,6 +142,10 @@ void writeOnFirst(Communicator& ranks, const DelaunayArguments& arguments, Delau
     writeStatistics(arguments.Statistics, run, mine);
   }
   fmt::print("{}\n", summarize(run, all, mine.Statistics));
+  if (constraints.Segments)
+  {
+    fmt::print("{}\n", describeSegments(constraints.Figures));
+  }
   warnOfNoTriangles(mine.AllTriangles);
 }
 
@@ -96,8 +160,13 @@ void runTogether(Communicator& ranks, const DelaunayArguments& arguments)
   run.Input = arguments.Input;
   run.Output = arguments.Output;
   Stopwatch watch;
-  const PointTable points =
+  PointTable points =
     readPointsShare(arguments.Inputs, arguments.Columns, ranks.rank(), ranks.size());
+  const SharedConstraints constraints = shareConstraints(ranks, arguments);
+  if (ranks.rank() == ranks.size() - 1) // so that their ids come last
+  {
+    points.XY.insert(points.XY.end(), constraints.AddedXY.begin(), constraints.AddedXY.end());
+  }
   ranks.barrier();
   run.ReadSeconds = watch.restart();
   RankPoints input;
@@ -116,11 +185,15 @@ void runTogether(Communicator& ranks, const DelaunayArguments& arguments)
     }
     return !isInterrupted();
   };
-  const DistributedTriangulation mine = triangulateDistributed(ranks, input, options);
+  DistributedTriangulation mine = triangulateDistributed(ranks, input, options);
+  if (constraints.Segments)
+  {
+    constrainRanks(ranks, *constraints.Segments, options.Threads, mine);
+  }
   bar.reset();
   run.Points = mine.AllPoints;
   run.TriangulateSeconds = watch.restart();
-  writeOnFirst(ranks, arguments, run, mine, before);
+  writeOnFirst(ranks, arguments, run, mine, constraints, before);
 }
 
 } // namespace

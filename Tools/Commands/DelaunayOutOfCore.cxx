@@ -4,6 +4,7 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
+#include "Constraints/ConstrainedPoints.h"
 #include "Files/InputFile.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
@@ -132,7 +133,14 @@ std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments)
 int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessController* controller)
 {
   Communicator ranks(controller);
-  const auto open = [&]
+  OutOfCoreOptions options = makeOptions(arguments);
+  ConstrainedPoints* constrained = nullptr; // of the first rank
+  if (arguments.isConstrained())
+  {
+    options.Constraints = [&constrained] { return constrained->takeSegments(); };
+  }
+  ConstrainedPoints::Figures figures;
+  const auto open = [&]() -> std::unique_ptr<PointStream>
   {
     if (ranks.rank() == 0)
     {
@@ -146,11 +154,20 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
     }
     PointOptions points = arguments.Columns;
     setThinningFile(points, arguments.Scratch, arguments.Output);
-    return openPointStream(arguments.Inputs, points);
+    auto stream = openPointStream(arguments.Inputs, points);
+    if (!arguments.isConstrained())
+    {
+      return stream;
+    }
+    auto joined = std::make_unique<ConstrainedPoints>(
+      std::move(stream), readConstraints(arguments), arguments.constraintFile(), arguments.Threads);
+    joined->setReport(figures);
+    constrained = joined.get();
+    return joined;
   };
   OutOfCoreStatistics statistics;
-  const int code = runOutOfCore(
-    ranks, "Triangulating", open, arguments.Output, makeOptions(arguments), statistics);
+  const int code =
+    runOutOfCore(ranks, "Triangulating", open, arguments.Output, options, statistics);
   if (code != Success)
   {
     return code;
@@ -159,6 +176,10 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
   if (ranks.rank() == 0)
   {
     reportMade(arguments, statistics, usage);
+    if (figures.Segments > 0) // not of a run that was resumed
+    {
+      fmt::print("{}\n", describeSegments(figures));
+    }
   }
   return Success;
 }

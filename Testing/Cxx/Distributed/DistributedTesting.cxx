@@ -2,6 +2,7 @@
 #include "DistributedTesting.h"
 
 #include "Comparison.h"
+#include "Distributed/ConstrainRanks.h"
 
 #include "vtkMultiProcessController.h"
 
@@ -96,14 +97,19 @@ private:
 
 } // namespace
 
-Gathered triangulateShares(const Coordinates& xy, Share share, const DistributedOptions& options)
+Gathered triangulateShares(const Coordinates& xy, Share share, const DistributedOptions& options,
+  const ConstraintSegments* constraints)
 {
   Communicator box(vtkMultiProcessController::GetGlobalController());
   const RankShare mine = shareOf(xy, share, box.rank(), box.size());
   RankPoints points;
   points.Points = PointsView(mine.XY.data(), mine.GlobalIds.size(), 2);
   points.GlobalIds = mine.GlobalIds.data();
-  const DistributedTriangulation result = triangulateDistributed(box, points, options);
+  DistributedTriangulation result = triangulateDistributed(box, points, options);
+  if (constraints)
+  {
+    box.together([&] { constrainRanks(box, *constraints, options.Threads, result); });
+  }
 
   Corners corners(xy, result);
   SaveArchive writer;

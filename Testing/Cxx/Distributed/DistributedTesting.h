@@ -4,6 +4,7 @@
 
 #include "DelaunayOracle.h"
 
+#include "Constraints/ConstraintSegments.h"
 #include "Distributed/DistributedTriangulation.h"
 
 #include <gtest/gtest.h>
@@ -46,8 +47,9 @@ struct Gathered
 };
 
 /// Triangulates over all ranks of the global controller and brings everything together. `xy` has
-/// the place of every global id.
-Gathered triangulateShares(const Coordinates& xy, Share share, const DistributedOptions& options);
+/// the place of every global id. Constraints: inserted if they are not null.
+Gathered triangulateShares(const Coordinates& xy, Share share, const DistributedOptions& options,
+  const ConstraintSegments* constraints = nullptr);
 
 /// Is it the reference: the same triangles, and every point accounted for?
 testing::AssertionResult matches(

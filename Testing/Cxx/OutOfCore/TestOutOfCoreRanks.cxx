@@ -2,6 +2,7 @@
 // Several ranks make the files of one process, and end together.
 #include "OutOfCoreTesting.h"
 
+#include "Constraints/ConstrainedPoints.h"
 #include "Files/IOError.h"
 #include "Npy/NpyFile.h"
 #include "OutOfCore/OutOfCoreRanks.h"
@@ -91,7 +92,16 @@ protected:
 
   std::unique_ptr<PointStream> open() const
   {
-    return std::make_unique<BrokenStream>(openPointStream({ this->Points }), this->GoodPasses);
+    auto points =
+      std::make_unique<BrokenStream>(openPointStream({ this->Points }), this->GoodPasses);
+    if (!this->Options.Constraints)
+    {
+      return points;
+    }
+    auto joined =
+      std::make_unique<ConstrainedPoints>(std::move(points), this->Constraints, "constraints", 1);
+    this->Constrained = joined.get();
+    return joined;
   }
 
   OutOfCoreStatistics runTogether()
@@ -164,6 +174,8 @@ protected:
   std::unique_ptr<TemporaryFolder> Folder;
   std::string Points;   ///< the file, on all ranks
   int GoodPasses = 100; ///< over it on this rank
+  TableConstraints Constraints;
+  mutable ConstrainedPoints* Constrained = nullptr; ///< of the first rank
 };
 
 TEST_P(OutOfCoreRanks, MakeTheFilesOfOneProcess)
@@ -217,6 +229,27 @@ TEST_P(OutOfCoreRanks, GoOnWhereAnyNumberOfRanksWasEnded)
 
 INSTANTIATE_TEST_SUITE_P(PointSets, OutOfCoreRanks,
   testing::Values("uniform", "clustered", "coast", "duplicates", "lattice"));
+
+TEST_P(OutOfCoreRanks, InsertTheConstraintsOfOneProcess)
+{
+  this->makePoints(GetParam());
+  ConstraintTable& lines = this->Constraints.Lines;
+  for (std::int64_t i = 0; i < 30; ++i)
+  {
+    lines.Edges.push_back({ 80 * i, (1237 * i + 31) % 2500 });
+  }
+  lines.PolygonBegin = lines.Edges.size();
+  this->Options.Constraints = [this] { return this->Constrained->takeSegments(); };
+  const OutOfCoreStatistics alone = this->runAlone();
+  const Files expected = this->takeFiles();
+  for (const int threads : { 1, 3 })
+  {
+    this->Options.Threads = threads;
+    const OutOfCoreStatistics together = this->runTogether();
+    EXPECT_TRUE(expected == this->takeFiles()) << threads;
+    EXPECT_EQ(alone.Triangles, together.Triangles);
+  }
+}
 
 /// Where partitions do not pay, nearly all vertices are sent from piece to piece.
 class OutOfCoreRanksWithALargeRim : public OutOfCoreRanks

@@ -160,11 +160,10 @@ TEST_F(TippConstraints, OptionsThatDoNotGoTogetherAreUsageErrors)
 {
   this->expectUsageError({ "-o", "mesh.vtp", "--refuse-crossings" }, "needs --constraints");
   this->expectUsageError({ "-o", "mesh.vtp", "--hole", "1", "2" }, "needs --constraints");
+  this->expectUsageError({ "-o", "mesh.tipp", "--constraints", "cross.csv", "--hole", "4", "4" },
+    "does not go with an output named .tipp");
   this->expectUsageError(
-    { "-o", "mesh.tipp", "--constraints", "cross.csv" }, "does not go with an output named .tipp");
-  this->expectUsageError(
-    { "-o", "mesh.tipp", "--boundary", "cross.csv" }, "does not go with an output named .tipp");
-  this->expectUsageError({ "-o", "mesh.vtp", "--constraints", "cross.csv", "--masters", "single" },
+    { "-o", "mesh.vtp", "--constraints", "cross.csv", "--masters", "single", "--hole", "4", "4" },
     "needs a single process");
 }
 
@@ -194,6 +193,62 @@ TEST_F(TippConstraints, CheckTakesAMeshThatIsCut)
   const Outcome outcome =
     runTipp(this->Folder, { "check", "points.csv", "mesh.vtp", "--constraints", "square.poly" });
   EXPECT_EQ(0, outcome.ExitCode) << outcome.Out << outcome.Err;
+}
+
+/// One rank works as several do.
+TEST_F(TippConstraints, AreInsertedOnRanks)
+{
+  const Outcome outcome =
+    this->delaunay({ "-o", "ranks.vtp", "--masters", "single", "--constraints", "cross.csv" });
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  EXPECT_NE(std::string::npos, outcome.Out.find("2 constraints of 4 segments, 1 crossings"))
+    << outcome.Out;
+  const Outcome checked = runTipp(this->Folder,
+    { "check", "points.csv", "ranks.vtp", "--tie-rule", "--constraints", "cross.csv" });
+  EXPECT_EQ(0, checked.ExitCode) << checked.Out << checked.Err;
+}
+
+TEST_F(TippConstraints, PartitionedMeshesAreMadeAndProved)
+{
+  const Outcome made = this->delaunay(
+    { "-o", "mesh.tipp", "--memory", "1M", "--constraints", "cross.csv", "--neighbors" });
+  ASSERT_EQ(0, made.ExitCode) << made.Err;
+  EXPECT_NE(std::string::npos, made.Out.find("2 constraints of 4 segments, 1 crossings"))
+    << made.Out;
+  const auto check = [this](const std::string& constraints)
+  {
+    return runTipp(this->Folder,
+      { "check", "points.csv", "mesh.tipp", "--tie-rule", "--constraints", constraints });
+  };
+  const Outcome good = check("cross.csv");
+  EXPECT_EQ(0, good.ExitCode) << good.Out << good.Err;
+  this->Folder.file("ids.csv", "0,6\n6,2\n");
+  EXPECT_EQ(0, check("ids.csv").ExitCode);
+  this->Folder.file("other.csv", "0,8\n");
+  const Outcome lost = check("other.csv");
+  EXPECT_EQ(1, lost.ExitCode);
+  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are no chain of edges")) << lost.Out;
+}
+
+TEST_F(TippConstraints, PartitionedMeshesAreCutToABoundary)
+{
+  this->Folder.file("square.csv", "x1,y1,x2,y2\n1,1,7,1\n7,1,7,7\n7,7,1,7\n1,7,1,1\n");
+  ASSERT_EQ(0, this->delaunay({ "-o", "cut.tipp", "--boundary", "square.csv" }).ExitCode);
+  const Words check{ "check", "points.csv", "cut.tipp", "--constraints", "square.csv" };
+  EXPECT_EQ(1, runTipp(this->Folder, check).ExitCode) << "not the whole hull";
+  Words cut = check;
+  cut.push_back("--cut");
+  const Outcome outcome = runTipp(this->Folder, cut);
+  EXPECT_EQ(0, outcome.ExitCode) << outcome.Out << outcome.Err;
+}
+
+TEST_F(TippConstraints, HolesByPointsNeedTheMemory)
+{
+  this->Folder.file("square.poly",
+    "4 2 0 0\n1 3 3\n2 5 3\n3 5 5\n4 3 5\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n1\n1 4 4\n");
+  const Outcome outcome = this->delaunay({ "-o", "mesh.tipp", "--constraints", "square.poly" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("square.poly: has holes")) << outcome.Err;
 }
 
 TEST_F(TippConstraints, MissingFileIsNamed)

@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Constraints/ConstrainedPoints.h"
+
+#include "Constraints/ConstraintPoints.h"
+#include "Files/IOError.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// A hash of what the constraints are.
+std::string identityOf(const TableConstraints& constraints)
+{
+  std::uint64_t hash = 0;
+  const auto addBits = [&hash](const auto& values)
+  {
+    for (const auto& value : values)
+    {
+      std::uint64_t bits = 0;
+      static_assert(sizeof value == sizeof bits);
+      std::memcpy(&bits, &value, sizeof bits);
+      hash = (hash ^ bits) * 0x9e3779b97f4a7c15U;
+      hash ^= hash >> 29;
+    }
+    hash = (hash ^ values.size()) * 0x9e3779b97f4a7c15U;
+  };
+  for (const ConstraintTable* const table : { &constraints.Lines, &constraints.Boundary })
+  {
+    addBits(table->XY);
+    addBits(table->Height);
+    for (const auto& edge : table->Edges)
+    {
+      addBits(edge);
+    }
+    hash += table->PolygonBegin;
+  }
+  return "constraints " + std::to_string(hash) +
+    (constraints.Crossings == CrossingRule::Refuse ? " not crossing\n" : "\n");
+}
+
+constexpr std::int64_t NotFound = -1;
+
+} // namespace
+
+/// What the first pass finds: the constraints' vertices among the input's points.
+struct ConstrainedPoints::Matching
+{
+  struct Vertex
+  {
+    Point2 Position;
+    std::int64_t Id; ///< in the stream
+  };
+
+  explicit Matching(TableConstraints constraints);
+
+  void take(const PointBlock& block);
+  void setVertex(std::size_t vertex, const PointBlock& block, std::size_t i);
+  std::vector<std::size_t> sorted() const;
+  std::int64_t vertexOfId(std::int64_t id) const
+  {
+    const auto found = std::lower_bound(this->Named.begin(), this->Named.end(), id);
+    return std::int64_t(this->Vertices.size() - this->Named.size()) + (found - this->Named.begin());
+  }
+
+  TableConstraints All;
+  std::vector<Vertex> Vertices;    ///< the tables' own, then those that the input's ids name
+  std::vector<std::int64_t> Named; ///< the ids, ascending
+  std::vector<std::array<std::int64_t, 2>> Edges; ///< of all constraints, by vertices
+  std::vector<double> Heights;                    ///< of tables' vertices; NaN: not given
+  std::vector<std::vector<double>> Values;        ///< of each column, of vertices that were found
+  std::vector<std::size_t> Same; ///< at the end, of each vertex: the first at its position
+  std::unique_ptr<PositionIndex> Positions; ///< of the tables' vertices
+};
+
+ConstrainedPoints::Matching::Matching(TableConstraints constraints)
+  : All(std::move(constraints))
+{
+  for (const ConstraintTable* const table : { &this->All.Lines, &this->All.Boundary })
+  {
+    if (table->XY.empty())
+    {
+      for (const auto& edge : table->Edges)
+      {
+        this->Named.insert(this->Named.end(), edge.begin(), edge.end());
+      }
+    }
+    for (std::size_t i = 0; 2 * i < table->XY.size(); ++i)
+    {
+      this->Vertices.push_back({ { table->XY[2 * i], table->XY[2 * i + 1] }, NotFound });
+      this->Heights.push_back(table->Height.empty() ? std::nan("") : table->Height[i]);
+    }
+  }
+  std::vector<Point2> positions;
+  std::transform(this->Vertices.begin(), this->Vertices.end(), std::back_inserter(positions),
+    [](const Vertex& vertex) { return vertex.Position; });
+  this->Positions = std::make_unique<PositionIndex>(std::move(positions));
+  std::sort(this->Named.begin(), this->Named.end());
+  this->Named.erase(std::unique(this->Named.begin(), this->Named.end()), this->Named.end());
+  this->Vertices.resize(
+    this->Vertices.size() + this->Named.size(), { { std::nan(""), std::nan("") }, NotFound });
+  std::int64_t before = 0;
+  for (const ConstraintTable* const table : { &this->All.Lines, &this->All.Boundary })
+  {
+    const bool isNamed = table->XY.empty();
+    for (const auto& edge : table->Edges)
+    {
+      this->Edges.push_back({ isNamed ? this->vertexOfId(edge[0]) : before + edge[0],
+        isNamed ? this->vertexOfId(edge[1]) : before + edge[1] });
+    }
+    before += std::int64_t(table->XY.size() / 2);
+  }
+}
+
+void ConstrainedPoints::Matching::setVertex(
+  std::size_t vertex, const PointBlock& block, std::size_t i)
+{
+  this->Vertices[vertex] = { { block.XY[2 * i], block.XY[2 * i + 1] },
+    block.First + std::int64_t(i) };
+  this->Values.resize(block.Columns.size());
+  for (std::size_t c = 0; c < block.Columns.size(); ++c)
+  {
+    this->Values[c].resize(this->Vertices.size(), std::nan(""));
+    this->Values[c][vertex] = block.Columns[c][i];
+  }
+}
+
+void ConstrainedPoints::Matching::take(const PointBlock& block)
+{
+  for (std::size_t i = 0; i < block.size(); ++i)
+  {
+    const std::int64_t found = this->Positions->find({ block.XY[2 * i], block.XY[2 * i + 1] });
+    if (found >= 0 && this->Vertices[std::size_t(found)].Id == NotFound)
+    {
+      this->setVertex(std::size_t(found), block, i);
+    }
+  }
+  const auto end = block.First + std::int64_t(block.size());
+  for (auto named = std::lower_bound(this->Named.begin(), this->Named.end(), block.First);
+       named != this->Named.end() && *named < end; ++named)
+  {
+    this->setVertex(
+      std::size_t(this->vertexOfId(*named)), block, std::size_t(*named - block.First));
+  }
+}
+
+ConstrainedPoints::ConstrainedPoints(
+  std::unique_ptr<PointStream> points, TableConstraints constraints, std::string name, int threads)
+  : Input(std::move(points))
+  , Name(std::move(name))
+  , Threads(threadCount(threads))
+  , Own(identityOf(constraints))
+{
+  if (!constraints.Lines.Holes.empty())
+  {
+    throw IOError(this->Name,
+      "has holes given by a point in each, which need all triangles in memory; give the holes as "
+      "clockwise polygons, or an output that is made in memory.");
+  }
+  this->Counts.Constraints =
+    std::int64_t(constraints.Lines.Edges.size() + constraints.Boundary.Edges.size());
+  this->First = std::make_unique<Matching>(std::move(constraints));
+}
+
+ConstrainedPoints::~ConstrainedPoints() = default;
+
+std::string ConstrainedPoints::identity() const
+{
+  return this->Input->identity() + this->Own;
+}
+
+void ConstrainedPoints::rewind()
+{
+  this->Input->rewind();
+  this->InputPoints = 0;
+  this->IsInputRead = false;
+  this->NextAdded = 0;
+}
+
+bool ConstrainedPoints::next(PointBlock& block, std::size_t most)
+{
+  if (!this->IsInputRead && this->Input->next(block, most))
+  {
+    this->InputPoints += std::int64_t(block.size());
+    this->First ? this->First->take(block) : void();
+    return true;
+  }
+  this->IsInputRead = true;
+  if (this->First)
+  {
+    try
+    {
+      this->resolve();
+    }
+    catch (const std::invalid_argument& error)
+    {
+      throw IOError(this->Name, error.what());
+    }
+    this->First.reset();
+    this->Report ? void(*this->Report = this->Counts) : void();
+  }
+  return this->nextAdded(block, most);
+}
+
+bool ConstrainedPoints::nextAdded(PointBlock& block, std::size_t most)
+{
+  const std::size_t count = std::min(most, this->Added.size() - this->NextAdded);
+  const auto part = [&](const std::vector<double>& from, std::size_t width)
+  {
+    const auto begin = from.begin() + std::ptrdiff_t(width * this->NextAdded);
+    return std::vector<double>(begin, begin + std::ptrdiff_t(width * count));
+  };
+  block.First = this->InputPoints + std::int64_t(this->NextAdded);
+  block.XY = part(this->Added.XY, 2);
+  block.Columns.clear();
+  for (const std::vector<double>& column : this->Added.Columns)
+  {
+    block.Columns.push_back(part(column, 1));
+  }
+  this->NextAdded += count;
+  return count > 0;
+}
+
+/// Appends the vertices that the input does not have, and gives all an id.
+void ConstrainedPoints::addVertices()
+{
+  Matching& first = *this->First;
+  const std::vector<std::string> names = this->columns();
+  const auto isHeight = [](const std::string& name)
+  { return name == "z" || name == "Z" || name == "elevation"; };
+  this->Added.Columns.assign(names.size(), {});
+  first.Values.resize(names.size());
+  for (std::vector<double>& values : first.Values)
+  {
+    values.resize(first.Vertices.size(), std::nan(""));
+  }
+  const std::size_t own = first.Vertices.size() - first.Named.size();
+  for (std::size_t v = 0; v < first.Vertices.size(); ++v)
+  {
+    Matching::Vertex& vertex = first.Vertices[v];
+    const std::int64_t found = v < own ? first.Positions->find(vertex.Position) : NotFound;
+    first.Same.push_back(found == NotFound ? v : std::size_t(found));
+    if (v >= own && vertex.Id == NotFound)
+    {
+      throw std::invalid_argument("a constraint names point " +
+        std::to_string(first.Named[v - own]) + ", but there are " +
+        std::to_string(this->InputPoints) + " points, counted from 0.");
+    }
+    if (first.Same[v] != v || vertex.Id != NotFound)
+    {
+      continue;
+    }
+    vertex.Id = this->InputPoints + std::int64_t(this->Added.size());
+    this->Added.XY.insert(this->Added.XY.end(), { vertex.Position.x, vertex.Position.y });
+    for (std::size_t c = 0; c < names.size(); ++c)
+    {
+      first.Values[c][v] = isHeight(names[c]) ? first.Heights[v] : std::nan("");
+      this->Added.Columns[c].push_back(first.Values[c][v]);
+    }
+  }
+}
+
+/// The vertices with different ids, by these, as in memory.
+std::vector<std::size_t> ConstrainedPoints::Matching::sorted() const
+{
+  std::vector<std::size_t> order;
+  for (std::size_t v = 0; v < this->Same.size(); ++v)
+  {
+    this->Same[v] == v ? order.push_back(v) : void();
+  }
+  std::sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b) { return this->Vertices[a].Id < this->Vertices[b].Id; });
+  return order;
+}
+
+/// Splits the constraints where they cross, and appends the crossings. Sets positions to those of
+/// the constraints' vertices, by the ids of the result.
+ResolvedConstraints ConstrainedPoints::split(std::vector<Point2>& positions)
+{
+  Matching& first = *this->First;
+  const std::vector<std::size_t> order = first.sorted();
+  std::vector<PointId> ids;
+  std::vector<PointId> rank(first.Same.size());
+  std::vector<std::vector<double>> values(first.Values.size());
+  for (const std::size_t v : order)
+  {
+    rank[v] = PointId(positions.size());
+    positions.push_back(first.Vertices[v].Position);
+    ids.push_back(first.Vertices[v].Id);
+    for (std::size_t c = 0; c < values.size(); ++c)
+    {
+      values[c].push_back(first.Values[c][v]);
+    }
+  }
+  std::vector<Constraint> constraints;
+  for (const auto& edge : first.Edges)
+  {
+    constraints.push_back(
+      { rank[first.Same[std::size_t(edge[0])]], rank[first.Same[std::size_t(edge[1])]] });
+  }
+  const PointsView view(positions.empty() ? nullptr : &positions.front().x, positions.size(), 2);
+  ResolvedConstraints resolved =
+    resolveCrossings(view, constraints, first.All.Crossings, this->Threads, ids);
+  for (const CrossingPoint& crossing : resolved.Crossings)
+  {
+    positions.push_back(crossing.Position);
+    this->Added.XY.insert(this->Added.XY.end(), { crossing.Position.x, crossing.Position.y });
+    for (std::size_t c = 0; c < values.size(); ++c)
+    {
+      values[c].push_back((1 - crossing.Fraction) * values[c][std::size_t(crossing.A)] +
+        crossing.Fraction * values[c][std::size_t(crossing.B)]);
+      this->Added.Columns[c].push_back(values[c].back());
+    }
+  }
+  return resolved;
+}
+
+void ConstrainedPoints::resolve()
+{
+  this->addVertices();
+  std::vector<Point2> positions;
+  const ResolvedConstraints resolved = this->split(positions);
+  const ConstraintTable& table = this->First->All.Lines;
+  for (const ConstraintPiece& piece : resolved.Pieces)
+  {
+    const auto constraint = std::size_t(piece.Constraint);
+    const SegmentRole role = constraint >= table.Edges.size() ? SegmentRole::Boundary
+      : constraint >= table.PolygonBegin                      ? SegmentRole::Polygon
+                                                              : SegmentRole::Line;
+    this->Segments.push_back(
+      { positions[std::size_t(piece.A)], positions[std::size_t(piece.B)], role });
+  }
+  const bool cuts = std::any_of(this->Segments.begin(), this->Segments.end(),
+    [](const ConstraintSegment& segment) { return segment.Role != SegmentRole::Line; });
+  if (cuts && resolved.NotFinite > 0)
+  {
+    throw std::invalid_argument(
+      "it has polygons, and a point that is NaN or infinite; correct the point.");
+  }
+  this->Counts.Segments = std::int64_t(this->Segments.size());
+  this->Counts.Crossings = std::int64_t(resolved.Crossings.size());
+  this->Counts.NotFinite = resolved.NotFinite;
+}
+
+std::vector<ConstraintSegment> ConstrainedPoints::takeSegments()
+{
+  return std::move(this->Segments);
+}
+
+} // namespace tipp

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippConstrainedPoints_h
+#define tippConstrainedPoints_h
+
+#include "Constraints/ConstraintSegments.h"
+#include "Constraints/TableConstraints.h"
+#include "Points/PointStream.h"
+#include "vtkTIPPFiltersModule.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// The points of a stream and, after them, those of constraints that are not among them, and their
+/// crossings: the points that triangulateTable() triangulates, in the same order and with the same
+/// values. Which they are is found out in the first pass. The constraints stay in memory.
+class VTKTIPPFILTERS_EXPORT ConstrainedPoints : public PointStream
+{
+public:
+  /// `name`: of the constraints' file, for messages. Throws IOError for holes, and later for all
+  /// that triangulateTable() refuses.
+  ConstrainedPoints(std::unique_ptr<PointStream> points, TableConstraints constraints,
+    std::string name, int threads);
+  ~ConstrainedPoints() override;
+
+  bool next(PointBlock& block, std::size_t most) override;
+  void rewind() override;
+  std::int64_t divisible() const override { return -1; }
+  void limitTo(std::int64_t, std::int64_t) override {}
+  std::vector<std::string> columns() const override { return this->Input->columns(); }
+  std::int64_t leftOut() const override { return this->Input->leftOut(); }
+  std::int64_t thinnedOut() const override { return this->Input->thinnedOut(); }
+  std::string crs() const override { return this->Input->crs(); }
+  std::string identity() const override;
+
+  /// After the first pass: the constraints, split where they cross. Gives them away.
+  std::vector<ConstraintSegment> takeSegments();
+
+  /// After the first pass: the points after the input's.
+  const PointBlock& added() const { return this->Added; }
+
+  /// The number of constraints, and of edges and crossings after the first pass.
+  struct Figures
+  {
+    std::int64_t Constraints = 0;
+    std::int64_t Segments = 0;
+    std::int64_t Crossings = 0;
+    std::int64_t NotFinite = 0; ///< constraints left out
+  };
+  /// Copies the figures there after the first pass; `figures` must outlive this.
+  void setReport(Figures& figures) { this->Report = &figures; }
+
+private:
+  struct Matching;
+  void addVertices();
+  ResolvedConstraints split(std::vector<Point2>& positions);
+  void resolve();
+  bool nextAdded(PointBlock& block, std::size_t most);
+
+  const std::unique_ptr<PointStream> Input;
+  const std::string Name;
+  const int Threads;
+  const std::string Own; ///< identifies the constraints
+  Figures Counts;
+  Figures* Report = nullptr;
+  std::unique_ptr<Matching> First; ///< in the first pass
+  std::vector<ConstraintSegment> Segments;
+  std::int64_t InputPoints = 0; ///< of this pass so far
+  bool IsInputRead = false;     ///< in this pass
+  PointBlock Added;             ///< the points after the input's
+  std::size_t NextAdded = 0;
+};
+
+} // namespace tipp
+
+#endif

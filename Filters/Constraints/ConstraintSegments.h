@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippConstraintSegments_h
+#define tippConstraintSegments_h
+
+#include "Constraints/SegmentTree.h"
+#include "Predicates/Point2.h"
+#include "vtkTIPPFiltersModule.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+/// What a segment is an edge of.
+enum class SegmentRole : std::int64_t
+{
+  Line,
+  Polygon, ///< see InsideRule::Winding
+  Boundary ///< see InsideRule::EvenOdd
+};
+
+/// A segment that has to be an edge of the triangulation, or a chain of edges. Its ends are
+/// vertices, known by their coordinates.
+struct ConstraintSegment
+{
+  Point2 A;
+  Point2 B;
+  SegmentRole Role;
+};
+
+/// All segments that constrain a triangulation of which no process may hold all points or
+/// triangles. None crosses another, except at ends.
+class VTKTIPPFILTERS_EXPORT ConstraintSegments
+{
+public:
+  explicit ConstraintSegments(const std::vector<ConstraintSegment>& segments);
+
+  /// All segments again, in the order of the tree.
+  std::vector<ConstraintSegment> list() const;
+
+  /// What `segments` take in memory.
+  static std::uint64_t bytesFor(std::size_t segments) { return 56 * std::uint64_t(segments); }
+
+  /// The segments by where they lie. An item's Id is its index among the items.
+  const SegmentTree& tree() const { return this->All; }
+  const SegmentTree::Item& at(std::int64_t segment) const
+  {
+    return this->All.items()[std::size_t(segment)];
+  }
+
+  /// Whether polygons or a boundary tell which triangles are kept.
+  bool cuts() const { return this->Polygons.groups() > 0 || this->Boundary.groups() > 0; }
+
+  /// Whether no edge of a polygon or boundary may meet the box: then all triangles in it are kept,
+  /// or none is.
+  bool isUncut(const Box2& box) const;
+
+  /// Whether polygons and boundary keep the triangle, which is counter-clockwise and crosses no
+  /// edge of theirs. Exact.
+  bool keeps(const std::array<Point2, 3>& triangle) const;
+
+private:
+  SegmentTree All;
+  std::vector<std::uint8_t> Roles; ///< of the items of All
+  SegmentTree Polygons;
+  SegmentTree Boundary;
+  bool OnlyHoles; ///< no polygon goes round anything counter-clockwise
+};
+
+} // namespace tipp
+
+#endif

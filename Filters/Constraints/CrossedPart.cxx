@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Constraints/CrossedPart.h"
+
+#include "Constraints/ConstraintJobs.h"
+#include "Constraints/TriangleScan.h"
+#include "Triangulation/TriangleSink.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+using TouchOfPiece = CrossedTriangles::Touch;
+
+template <typename Item>
+void keepUniqueItems(std::vector<Item>& items)
+{
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+}
+
+void keepUniqueTouches(std::vector<CrossedPart::Touch>& touches)
+{
+  const auto key = [](const CrossedPart::Touch& touch)
+  { return std::make_pair(touch.Segment, touch.Vertex); };
+  std::sort(
+    touches.begin(), touches.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  touches.erase(std::unique(touches.begin(), touches.end(),
+                  [&](const auto& a, const auto& b) { return key(a) == key(b); }),
+    touches.end());
+}
+
+std::size_t segmentBegin(const CrossedPart& part, std::size_t triangle)
+{
+  return triangle == 0 ? 0 : std::size_t(part.SegmentEnds[triangle - 1]);
+}
+
+/// The part's segments, ascending.
+std::vector<std::int64_t> segmentsOf(const CrossedPart& part)
+{
+  std::vector<std::int64_t> segments = part.Segments;
+  keepUniqueItems(segments);
+  return segments;
+}
+
+template <typename Item>
+std::size_t indexIn(const std::vector<Item>& sorted, const Item& item)
+{
+  return std::size_t(std::lower_bound(sorted.begin(), sorted.end(), item) - sorted.begin());
+}
+
+/// The part's triangles and the segments that cross them, by indices in `segments`, which has them
+/// all.
+CrossedTriangles crossingsOf(const CrossedPart& part, const std::vector<std::int64_t>& segments)
+{
+  CrossedTriangles crossed;
+  crossed.Triangles.resize(part.Triangles.size());
+  std::iota(crossed.Triangles.begin(), crossed.Triangles.end(), std::int64_t(0));
+  crossed.Starts.push_back(0);
+  crossed.Starts.insert(crossed.Starts.end(), part.SegmentEnds.begin(), part.SegmentEnds.end());
+  for (const std::int64_t segment : part.Segments)
+  {
+    crossed.Pieces.push_back(std::int64_t(indexIn(segments, segment)));
+  }
+  return crossed;
+}
+
+void addTriangle(const CrossedPart& from, std::size_t t, CrossedPart& to)
+{
+  to.Triangles.push_back(from.Triangles[t]);
+  to.Positions.push_back(from.Positions[t]);
+  to.Segments.insert(to.Segments.end(),
+    from.Segments.begin() + std::ptrdiff_t(segmentBegin(from, t)),
+    from.Segments.begin() + std::ptrdiff_t(from.SegmentEnds[t]));
+  to.SegmentEnds.push_back(to.Segments.size());
+}
+
+/// Of each of `segments`: whether it is complete in the part. If it crosses a triangle, it can be
+/// followed from there to both ends: it leaves a triangle by an edge, where the part must have the
+/// next triangle, or by a vertex all of whose triangles are in the part.
+std::vector<char> findComplete(const CrossedPart& part, const ConstraintSegments& all,
+  const std::vector<std::int64_t>& segments, const std::function<bool(std::int64_t)>& isInner)
+{
+  struct CrossedEdge
+  {
+    std::int64_t Segment;
+    std::int64_t Low;
+    std::int64_t High;
+
+    bool operator<(const CrossedEdge& other) const
+    {
+      return std::tie(this->Segment, this->Low, this->High) <
+        std::tie(other.Segment, other.Low, other.High);
+    }
+    bool operator==(const CrossedEdge& other) const { return !(*this < other) && !(other < *this); }
+  };
+  std::vector<CrossedEdge> edges;
+  for (std::size_t t = 0; t < part.Triangles.size(); ++t)
+  {
+    for (std::size_t s = segmentBegin(part, t); s < part.SegmentEnds[t]; ++s)
+    {
+      const SegmentTree::Item& segment = all.at(part.Segments[s]);
+      std::array<int, 3> side;
+      std::transform(part.Positions[t].begin(), part.Positions[t].end(), side.begin(),
+        [&](Point2 p) { return orientation(segment.A, segment.B, p); });
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        if (side[i] * side[(i + 1) % 3] < 0)
+        {
+          const auto [low, high] =
+            std::minmax(part.Triangles[t][i], part.Triangles[t][(i + 1) % 3]);
+          edges.push_back({ part.Segments[s], low, high });
+        }
+      }
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<char> isComplete(segments.size(), 1);
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    if (i + 1 < edges.size() && edges[i] == edges[i + 1])
+    {
+      ++i;
+      continue;
+    }
+    isComplete[indexIn(segments, edges[i].Segment)] = 0;
+  }
+  for (const CrossedPart::Touch& touch : part.Touches)
+  {
+    const std::size_t s = indexIn(segments, touch.Segment);
+    if (s < segments.size() && segments[s] == touch.Segment && !isInner(touch.Vertex))
+    {
+      isComplete[s] = 0;
+    }
+  }
+  return isComplete;
+}
+
+/// The vertices of a part, by index: first those that have numbers, by these, then ends of segments
+/// that are no vertices of the part.
+struct PartVertices
+{
+  std::vector<std::int64_t> Numbers;
+  std::vector<Point2> Positions;
+
+  explicit PartVertices(const CrossedPart& part)
+  {
+    std::vector<std::pair<std::int64_t, Point2>> vertices;
+    for (std::size_t t = 0; t < part.Triangles.size(); ++t)
+    {
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        vertices.emplace_back(part.Triangles[t][i], part.Positions[t][i]);
+      }
+    }
+    for (const CrossedPart::Touch& touch : part.Touches)
+    {
+      vertices.emplace_back(touch.Vertex, touch.Position);
+    }
+    std::sort(vertices.begin(), vertices.end(),
+      [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [number, position] : vertices)
+    {
+      if (this->Numbers.empty() || this->Numbers.back() != number)
+      {
+        this->Numbers.push_back(number);
+        this->Positions.push_back(position);
+      }
+    }
+    this->ByPosition.resize(this->Positions.size());
+    std::iota(this->ByPosition.begin(), this->ByPosition.end(), std::size_t(0));
+    std::sort(this->ByPosition.begin(), this->ByPosition.end(),
+      [this](std::size_t a, std::size_t b)
+      { return lexicographicLess(this->Positions[a], this->Positions[b]); });
+  }
+
+  bool has(std::int64_t number) const
+  {
+    return std::binary_search(this->Numbers.begin(), this->Numbers.end(), number);
+  }
+
+  PointId indexOf(std::int64_t number) const { return PointId(indexIn(this->Numbers, number)); }
+
+  /// A new index if no vertex of the part is there.
+  PointId indexAt(Point2 position)
+  {
+    const auto found = std::lower_bound(this->ByPosition.begin(), this->ByPosition.end(), position,
+      [this](std::size_t i, Point2 p) { return lexicographicLess(this->Positions[i], p); });
+    if (found != this->ByPosition.end() && this->Positions[*found] == position)
+    {
+      return PointId(*found);
+    }
+    this->Positions.push_back(position);
+    return PointId(this->Positions.size() - 1);
+  }
+
+private:
+  std::vector<std::size_t> ByPosition; ///< those with numbers
+};
+
+} // namespace
+
+void append(CrossedPart&& from, CrossedPart& to)
+{
+  const std::uint64_t before = to.Segments.size();
+  const auto addAll = [](auto& target, const auto& source)
+  { target.insert(target.end(), source.begin(), source.end()); };
+  addAll(to.Triangles, from.Triangles);
+  addAll(to.Positions, from.Positions);
+  addAll(to.Segments, from.Segments);
+  std::transform(from.SegmentEnds.begin(), from.SegmentEnds.end(),
+    std::back_inserter(to.SegmentEnds), [before](std::uint64_t end) { return before + end; });
+  addAll(to.FixedEdges, from.FixedEdges);
+  addAll(to.Touches, from.Touches);
+}
+
+template <typename Id>
+std::size_t takeCrossed(PointsView points, const ConstraintSegments& segments, std::int64_t first,
+  Id* corners, std::size_t triangles, CrossedPart& part)
+{
+  TriangleScan<Id> scan(points, segments.tree());
+  std::size_t kept = 0;
+  for (std::size_t begin = 0; begin < triangles;)
+  {
+    const std::size_t end = std::min(begin + scan.MostTriangles, triangles);
+    ScannedTriangles found;
+    scan.scan(
+      corners, begin, end, [](std::int64_t) { return false; }, found);
+    std::sort(found.Crossings.begin(), found.Crossings.end());
+    auto crossing = found.Crossings.begin();
+    for (; begin < end; ++begin)
+    {
+      const Id* const its = corners + 3 * begin;
+      if (crossing == found.Crossings.end() || crossing->Triangle != std::int64_t(begin))
+      {
+        std::copy_n(its, 3, corners + 3 * kept++);
+        continue;
+      }
+      part.Triangles.push_back({ first + its[0], first + its[1], first + its[2] });
+      part.Positions.push_back(
+        { points[std::size_t(its[0])], points[std::size_t(its[1])], points[std::size_t(its[2])] });
+      for (; crossing != found.Crossings.end() && crossing->Triangle == std::int64_t(begin);
+           ++crossing)
+      {
+        part.Segments.push_back(crossing->Piece);
+      }
+      part.SegmentEnds.push_back(part.Segments.size());
+    }
+    for (const ScannedTriangles::Edge& edge : found.Edges)
+    {
+      part.FixedEdges.push_back({ first + edge.A, first + edge.B });
+    }
+    for (const TouchOfPiece& touch : found.Touches)
+    {
+      part.Touches.push_back(
+        { touch.Piece, first + touch.Vertex, points[std::size_t(touch.Vertex)] });
+    }
+  }
+  return kept;
+}
+
+CrossedPart splitIncomplete(CrossedPart& part, const ConstraintSegments& segments,
+  const std::function<bool(std::int64_t)>& isInner)
+{
+  keepUniqueTouches(part.Touches);
+  const std::vector<std::int64_t> used = segmentsOf(part);
+  const std::vector<char> isComplete = findComplete(part, segments, used, isInner);
+  const CrossedTriangles crossed = crossingsOf(part, used);
+  const std::vector<std::int64_t> jobs = jobsOfTriangles(crossed, used.size());
+  std::vector<char> isLeft(used.size(), 0); // of jobs
+  for (std::size_t t = 0; t < jobs.size(); ++t)
+  {
+    for (std::int64_t i = crossed.Starts[t]; i < crossed.Starts[t + 1]; ++i)
+    {
+      isLeft[std::size_t(jobs[t])] |=
+        char(!isComplete[std::size_t(crossed.Pieces[std::size_t(i)])]);
+    }
+  }
+  CrossedPart whole;
+  CrossedPart rest;
+  for (std::size_t t = 0; t < jobs.size(); ++t)
+  {
+    addTriangle(part, t, isLeft[std::size_t(jobs[t])] ? rest : whole);
+  }
+  std::vector<std::int64_t> vertices;
+  for (const CrossedPart::Corners& triangle : rest.Triangles)
+  {
+    vertices.insert(vertices.end(), triangle.begin(), triangle.end());
+  }
+  keepUniqueItems(vertices);
+  const auto isOfRest = [&](std::int64_t vertex)
+  { return std::binary_search(vertices.begin(), vertices.end(), vertex); };
+  std::copy_if(part.FixedEdges.begin(), part.FixedEdges.end(), std::back_inserter(rest.FixedEdges),
+    [&](const auto& edge) { return isOfRest(edge[0]) && isOfRest(edge[1]); });
+  // A segment that crosses nothing here may do so elsewhere.
+  const std::vector<std::int64_t> done = segmentsOf(whole);
+  std::copy_if(part.Touches.begin(), part.Touches.end(), std::back_inserter(rest.Touches),
+    [&](const CrossedPart::Touch& touch)
+    { return !std::binary_search(done.begin(), done.end(), touch.Segment); });
+  whole.FixedEdges = std::move(part.FixedEdges);
+  whole.Touches = std::move(part.Touches);
+  part = std::move(whole);
+  return rest;
+}
+
+void retriangulate(CrossedPart& part, const ConstraintSegments& segments, int threads)
+{
+  if (part.Triangles.empty())
+  {
+    return;
+  }
+  const std::vector<std::int64_t> used = segmentsOf(part);
+  CrossedTriangles crossed = crossingsOf(part, used);
+  keepUniqueTouches(part.Touches);
+  PartVertices vertices(part);
+  for (const CrossedPart::Touch& touch : part.Touches)
+  {
+    const std::size_t piece = indexIn(used, touch.Segment);
+    if (piece < used.size() && used[piece] == touch.Segment)
+    {
+      crossed.Touches.push_back({ std::int64_t(piece), vertices.indexOf(touch.Vertex) });
+    }
+  }
+  std::vector<ConstraintPiece> known;
+  for (const auto& edge : part.FixedEdges)
+  {
+    if (vertices.has(edge[0]) && vertices.has(edge[1])) // else of triangles that are put aside
+    {
+      known.push_back({ vertices.indexOf(edge[0]), vertices.indexOf(edge[1]), 0 });
+    }
+  }
+  std::vector<std::int64_t> corners;
+  for (const CrossedPart::Corners& triangle : part.Triangles)
+  {
+    std::transform(triangle.begin(), triangle.end(), std::back_inserter(corners),
+      [&](std::int64_t number) { return vertices.indexOf(number); });
+  }
+  std::vector<ConstraintPiece> pieces;
+  for (std::size_t i = 0; i < used.size(); ++i)
+  {
+    const SegmentTree::Item& segment = segments.at(used[i]);
+    const PointId a = vertices.indexAt(segment.A);
+    pieces.push_back({ a, vertices.indexAt(segment.B), std::int64_t(i) });
+  }
+  const PointsView view(&vertices.Positions.front().x, vertices.Positions.size(), 2);
+  const SplitPieces split = splitPieces(view, pieces, crossed.Touches);
+  retriangulateJobs(
+    view, corners.data(), crossed, used.size(), split, ConstraintEdges(known), threads);
+  for (std::size_t t = 0; t < part.Triangles.size(); ++t)
+  {
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const auto index = std::size_t(corners[3 * t + i]);
+      part.Triangles[t][i] = vertices.Numbers[index];
+      part.Positions[t][i] = vertices.Positions[index];
+    }
+  }
+}
+
+template <typename Id>
+std::size_t cutTriangles(
+  PointsView points, const ConstraintSegments& segments, Id* corners, std::size_t triangles)
+{
+  constexpr std::size_t most = TriangleScan<Id>::MostTriangles;
+  const auto positions = [&](std::size_t t)
+  {
+    const Id* const its = corners + 3 * t;
+    return std::array<Point2, 3>{ points[std::size_t(its[0])], points[std::size_t(its[1])],
+      points[std::size_t(its[2])] };
+  };
+  std::vector<char> isKept(triangles, 0);
+  for (std::size_t begin = 0; begin < triangles; begin += most)
+  {
+    const std::size_t end = std::min(begin + most, triangles);
+    Box2 box{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+    for (std::size_t t = begin; t < end; ++t)
+    {
+      for (const Point2 p : positions(t))
+      {
+        box = unionOf(box, { p.x, p.y, p.x, p.y });
+      }
+    }
+    const bool isUncut = segments.isUncut(box);
+    for (std::size_t t = begin; t < end; ++t)
+    {
+      isKept[t] = isUncut && t > begin ? isKept[begin] : char(segments.keeps(positions(t)));
+    }
+  }
+  return keepTriangles(corners, triangles, [&](std::size_t t) { return isKept[t] != 0; });
+}
+
+template std::size_t takeCrossed(
+  PointsView, const ConstraintSegments&, std::int64_t, std::int32_t*, std::size_t, CrossedPart&);
+template std::size_t takeCrossed(
+  PointsView, const ConstraintSegments&, std::int64_t, std::int64_t*, std::size_t, CrossedPart&);
+template std::size_t cutTriangles(
+  PointsView, const ConstraintSegments&, std::int32_t*, std::size_t);
+template std::size_t cutTriangles(
+  PointsView, const ConstraintSegments&, std::int64_t*, std::size_t);
+
+} // namespace tipp

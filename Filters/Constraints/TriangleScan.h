@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippTriangleScan_h
+#define tippTriangleScan_h
+
+#include "Constraints/CrossedTriangles.h"
+#include "Constraints/SegmentTree.h"
+#include "Predicates/Orientation.h"
+#include "Triangulation/PointsView.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+/// What a scan finds.
+struct ScannedTriangles
+{
+  struct Crossing
+  {
+    std::int64_t Triangle;
+    std::int64_t Piece;
+
+    bool operator<(const Crossing& other) const
+    {
+      return this->Triangle != other.Triangle ? this->Triangle < other.Triangle
+                                              : this->Piece < other.Piece;
+    }
+    bool operator==(const Crossing& other) const
+    {
+      return this->Triangle == other.Triangle && this->Piece == other.Piece;
+    }
+  };
+  /// An edge of a crossed triangle that lies on a segment.
+  struct Edge
+  {
+    PointId A;
+    PointId B;
+  };
+  std::vector<Crossing> Crossings;
+  std::vector<CrossedTriangles::Touch> Touches;
+  std::vector<Edge> Edges;
+};
+
+/// A raster over some triangles: which segments are near each of its cells.
+class SegmentRaster
+{
+public:
+  void fill(const Box2& box, const std::vector<const SegmentTree::Item*>& segments)
+  {
+    this->X = Axis(box.xmin, box.xmax);
+    this->Y = Axis(box.ymin, box.ymax);
+    this->Near.clear();
+    for (std::size_t s = 0; s < segments.size(); ++s)
+    {
+      const SegmentTree::Item& segment = *segments[s];
+      this->forCells(boxOf(segment.A, segment.B),
+        [&](int x, int y)
+        {
+          if (lineMayMeet(segment.A, segment.B, this->cell(x, y)))
+          {
+            this->Near.push_back({ y * Cells + x, std::int32_t(s) });
+          }
+        });
+    }
+    // A counting sort by cell.
+    this->Starts.fill(0);
+    for (const auto& entry : this->Near)
+    {
+      ++this->Starts[std::size_t(entry.Cell) + 1];
+    }
+    for (std::size_t c = 1; c < this->Starts.size(); ++c)
+    {
+      this->Starts[c] += this->Starts[c - 1];
+    }
+    this->Sorted.resize(this->Near.size());
+    auto next = this->Starts;
+    for (const auto& entry : this->Near)
+    {
+      this->Sorted[std::size_t(next[std::size_t(entry.Cell)]++)] = entry.Segment;
+    }
+  }
+
+  /// visit(segment) for all near a box, some of them several times.
+  template <typename Visit>
+  void visitNear(const Box2& box, const Visit& visit) const
+  {
+    this->forCells(box,
+      [&](int x, int y)
+      {
+        const std::size_t cell = std::size_t(y * Cells + x);
+        for (auto i = this->Starts[cell]; i < this->Starts[cell + 1]; ++i)
+        {
+          visit(std::size_t(this->Sorted[std::size_t(i)]));
+        }
+      });
+  }
+
+private:
+  static constexpr int Cells = 32; ///< along each axis
+
+  struct Entry
+  {
+    std::int32_t Cell;
+    std::int32_t Segment;
+  };
+
+  /// Cells along an axis; all of it is the first one if they would be too small or too large for
+  /// doubles.
+  struct Axis
+  {
+    Axis() = default;
+    Axis(double low, double high)
+      : Low(low)
+      , High(high)
+    {
+      const double length = high - low;
+      constexpr double shortest = 1e-280;
+      if (length > shortest && std::isfinite(length))
+      {
+        this->Step = length / Cells;
+        this->Scale = Cells / length;
+        constexpr double part = 0.01;
+        constexpr double relative = 1e-15;
+        this->Margin = part * this->Step + relative * std::max(std::fabs(low), std::fabs(high));
+      }
+    }
+
+    /// Monotone.
+    int cellOf(double value) const
+    {
+      const double cell = (value - this->Low) * this->Scale;
+      return cell > 0 ? int(std::min(cell, double(Cells - 1))) : 0;
+    }
+    double begin(int cell) const
+    {
+      return this->Scale > 0 ? this->Low + cell * this->Step - this->Margin : this->Low;
+    }
+    double end(int cell) const
+    {
+      return this->Scale > 0 ? this->Low + (cell + 1) * this->Step + this->Margin : this->High;
+    }
+
+    double Low = 0;
+    double High = 0;
+    double Step = 0;
+    double Scale = 0;
+    double Margin = 0;
+  };
+
+  /// A box that holds all points of a cell, in spite of rounding.
+  Box2 cell(int x, int y) const
+  {
+    return { this->X.begin(x), this->Y.begin(y), this->X.end(x), this->Y.end(y) };
+  }
+
+  template <typename Visit>
+  void forCells(const Box2& box, const Visit& visit) const
+  {
+    const int xEnd = this->X.cellOf(box.xmax);
+    const int yEnd = this->Y.cellOf(box.ymax);
+    for (int y = this->Y.cellOf(box.ymin); y <= yEnd; ++y)
+    {
+      for (int x = this->X.cellOf(box.xmin); x <= xEnd; ++x)
+      {
+        visit(x, y);
+      }
+    }
+  }
+
+  Axis X;
+  Axis Y;
+  std::vector<Entry> Near;
+  std::array<std::int32_t, std::size_t(Cells) * Cells + 1> Starts{};
+  std::vector<std::int32_t> Sorted;
+};
+
+/// Finds which triangles segments cross, a few triangles at a time. The ends of segments are
+/// vertices, known by their coordinates.
+template <typename Id>
+class TriangleScan
+{
+public:
+  static constexpr std::size_t MostTriangles = 2048;
+
+  TriangleScan(PointsView points, const SegmentTree& tree)
+    : Points(points)
+    , Tree(tree)
+  {
+  }
+
+  /// Looks at triangles [begin, end), MostTriangles at most, of those whose corners are given.
+  /// Segments for which isSkipped(id) is true are not looked at.
+  template <typename IsSkipped>
+  void scan(const Id* corners, std::size_t begin, std::size_t end, const IsSkipped& isSkipped,
+    ScannedTriangles& found)
+  {
+    const Box2 box = this->load(corners, begin, end);
+    this->Segments.clear();
+    this->Tree.visitNear(box,
+      [&](const SegmentTree::Item& item)
+      {
+        if (!isSkipped(item.Id) && lineMayMeet(item.A, item.B, box))
+        {
+          this->Segments.push_back(&item);
+        }
+        return true;
+      });
+    if (this->Segments.empty())
+    {
+      return;
+    }
+    this->Raster.fill(box, this->Segments);
+    this->LastTriangle.assign(this->Segments.size(), end);
+    for (std::size_t t = begin; t < end; ++t)
+    {
+      this->scanTriangle(t, corners + 3 * t, &this->Positions[3 * (t - begin)], found);
+    }
+  }
+
+private:
+  Box2 load(const Id* corners, std::size_t begin, std::size_t end)
+  {
+    this->Positions.resize(3 * (end - begin));
+    Box2 box{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+    const Id* corner = corners + 3 * begin;
+    for (Point2& position : this->Positions)
+    {
+      position = this->Points[std::size_t(*corner++)];
+      box.xmin = std::min(box.xmin, position.x);
+      box.ymin = std::min(box.ymin, position.y);
+      box.xmax = std::max(box.xmax, position.x);
+      box.ymax = std::max(box.ymax, position.y);
+    }
+    return box;
+  }
+
+  void scanTriangle(std::size_t t, const Id* ids, const Point2* p, ScannedTriangles& found)
+  {
+    const Box2 box{ std::min({ p[0].x, p[1].x, p[2].x }), std::min({ p[0].y, p[1].y, p[2].y }),
+      std::max({ p[0].x, p[1].x, p[2].x }), std::max({ p[0].y, p[1].y, p[2].y }) };
+    const std::size_t edgesBefore = found.Edges.size();
+    bool isCrossed = false;
+    this->Raster.visitNear(box,
+      [&](std::size_t s)
+      {
+        const SegmentTree::Item& segment = *this->Segments[s];
+        if (this->LastTriangle[s] != t && overlap(box, boxOf(segment.A, segment.B)))
+        {
+          this->LastTriangle[s] = t;
+          if (crosses(segment, ids, p, found))
+          {
+            isCrossed = true;
+            found.Crossings.push_back({ std::int64_t(t), segment.Id });
+          }
+        }
+      });
+    if (!isCrossed)
+    {
+      found.Edges.resize(edgesBefore);
+    }
+  }
+
+  /// Whether the segment meets the triangle's interior; and notes corners inside the segment, and
+  /// an edge on it.
+  static bool crosses(
+    const SegmentTree::Item& segment, const Id* ids, const Point2* p, ScannedTriangles& found)
+  {
+    std::array<int, 3> side;
+    std::array<bool, 3> isOn;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const bool isEnd = p[i] == segment.A || p[i] == segment.B;
+      side[i] = isEnd ? 0 : orientation(segment.A, segment.B, p[i]);
+      const bool isTouch = side[i] == 0 && !isEnd && isBetween(segment, p[i]);
+      isOn[i] = isEnd || isTouch;
+      if (isTouch)
+      {
+        found.Touches.push_back({ segment.Id, PointId(ids[i]) });
+      }
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const std::size_t next = (i + 1) % 3;
+      if (side[i] * side[next] < 0)
+      {
+        // The line passes through the interior, and leaves it by this edge. The ends of the segment
+        // are vertices, so they are not in between.
+        return orientation(p[i], p[next], segment.A) * orientation(p[i], p[next], segment.B) < 0;
+      }
+      if (isOn[i] && isOn[next])
+      {
+        found.Edges.push_back({ PointId(ids[i]), PointId(ids[next]) });
+        return false;
+      }
+    }
+    return false;
+  }
+
+  /// Of a point on the segment's line.
+  static bool isBetween(const SegmentTree::Item& segment, Point2 p)
+  {
+    return lexicographicLess(segment.A, segment.B)
+      ? lexicographicLess(segment.A, p) && lexicographicLess(p, segment.B)
+      : lexicographicLess(segment.B, p) && lexicographicLess(p, segment.A);
+  }
+
+  PointsView Points;
+  const SegmentTree& Tree;
+  std::vector<Point2> Positions;
+  std::vector<const SegmentTree::Item*> Segments;
+  std::vector<std::size_t> LastTriangle; ///< that each segment was tested with
+  SegmentRaster Raster;
+};
+
+} // namespace tipp
+
+#endif

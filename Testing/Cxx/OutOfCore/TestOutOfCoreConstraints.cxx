@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Constraints out of core: the triangles are those that are made in memory.
+#include "OutOfCoreTesting.h"
+
+#include "Constraints/ConstrainedPoints.h"
+#include "ExpectIOError.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using namespace tipp;
+using namespace tipp::test;
+
+constexpr double Pi = 3.14159265358979323846;
+
+/// Random segments between points, and between new ones.
+ConstraintTable randomSegments(const Coordinates& xy, int count, unsigned seed)
+{
+  std::mt19937_64 random(seed);
+  const std::size_t points = xy.size() / 2;
+  ConstraintTable table;
+  for (int i = 0; i < 2 * count; ++i)
+  {
+    const std::size_t p = random() % points;
+    const std::size_t q = random() % points;
+    const bool isNew = i % 8 < 2;
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      const double value = xy[2 * p + axis];
+      table.XY.push_back(isNew ? value / 2 + xy[2 * q + axis] / 2 : value);
+    }
+    i % 2 == 1 ? table.Edges.push_back({ i - 1, i }) : void();
+  }
+  table.PolygonBegin = table.Edges.size();
+  return table;
+}
+
+void addPolygon(double x, double y, double radius, int corners, ConstraintTable& table)
+{
+  const auto first = std::int64_t(table.XY.size() / 2);
+  const int count = std::abs(corners); // clockwise if negative
+  for (int i = 0; i < count; ++i)
+  {
+    const double angle = 2 * Pi * i / corners;
+    table.XY.insert(table.XY.end(), { x + radius * std::cos(angle), y + radius * std::sin(angle) });
+    table.Edges.push_back({ first + i, first + (i + 1) % count });
+  }
+}
+
+class ConstrainedRun
+{
+public:
+  ConstrainedRun(const Coordinates& xy, TableConstraints constraints)
+    : Constraints(std::move(constraints))
+  {
+    this->All.XY = xy;
+    writePoints(this->Folder.path("points.npy"), xy);
+    this->Options.PiecePoints = 150;
+    this->Options.PartitionPoints = 40;
+    this->Options.Threads = 2;
+  }
+
+  void makeExpected()
+  {
+    TriangulationOptions plain;
+    plain.MaximumEdge = this->Options.MaximumEdge;
+    this->Expected = trianglesOf(triangulateTable(this->All, this->Constraints, plain).Mesh);
+  }
+
+  OutOfCoreStatistics run()
+  {
+    ConstrainedPoints points(openPointStream({ this->Folder.path("points.npy") }),
+      this->Constraints, "constraints.csv", 2);
+    this->Options.Constraints = [&points] { return points.takeSegments(); };
+    return triangulateOutOfCore(points, this->mesh(), this->Options);
+  }
+
+  testing::AssertionResult matches() const
+  {
+    return sameTriangles(this->All.XY, trianglesOfMesh(this->mesh()), this->Expected);
+  }
+
+  std::string mesh() const { return this->Folder.path("mesh.tipp"); }
+
+  TableConstraints Constraints;
+  PointTable All; ///< the points, and after makeExpected() those of the constraints
+  OutOfCoreOptions Options;
+  Triangles Expected;
+  TemporaryFolder Folder;
+};
+
+class OutOfCoreConstraints : public testing::TestWithParam<std::string>
+{
+};
+
+TEST_P(OutOfCoreConstraints, MakeTheTrianglesOfMemoryForAllPiecesAndThreads)
+{
+  const Coordinates xy = makePointSet(GetParam(), 2000);
+  for (const int count : { 3, 60 })
+  {
+    TableConstraints constraints;
+    constraints.Lines = randomSegments(xy, count, unsigned(count));
+    ConstrainedRun run(xy, constraints);
+    run.makeExpected();
+    for (const std::int64_t piece : { 0, 100, 700 })
+    {
+      for (const int threads : { 1, 3 })
+      {
+        run.Options.PiecePoints = piece;
+        run.Options.PartitionPoints = piece / 4;
+        run.Options.Threads = threads;
+        const OutOfCoreStatistics statistics = run.run();
+        ASSERT_TRUE(run.matches()) << count << " segments, " << piece << " points a piece";
+        ASSERT_EQ(std::int64_t(run.Expected.size()), statistics.Triangles);
+      }
+    }
+  }
+}
+
+class ConstrainedPieces : public testing::TestWithParam<std::string>
+{
+};
+
+TEST_P(ConstrainedPieces, OwnAndBorrowAsTheFormatSays)
+{
+  const Coordinates xy = makePointSet(GetParam(), 1200);
+  TableConstraints constraints;
+  constraints.Lines = randomSegments(xy, 40, 7);
+  ConstrainedRun run(xy, constraints);
+  run.Options.Neighbors = true;
+  run.makeExpected();
+  run.run();
+  ASSERT_TRUE(run.matches());
+  expectBelongs(run.mesh(), sourceOf(run.mesh(), run.All.XY));
+}
+
+TEST_P(ConstrainedPieces, AreTheSameWhereverTheRunWasEnded)
+{
+  const Coordinates xy = makePointSet(GetParam(), 2000);
+  TableConstraints constraints;
+  constraints.Lines = randomSegments(xy, 30, 5);
+  ConstrainedRun run(xy, constraints);
+  run.run();
+  const auto expected = filesOf(run.mesh());
+  std::mt19937 random(1);
+  run.Options.Resume = true;
+  int resumed = 0;
+  for (int round = 0; round < 4; ++round)
+  {
+    fs::remove_all(run.mesh());
+    OutOfCoreStatistics statistics;
+    int ended = 0;
+    do
+    {
+      int calls = int(random() % 60) + 2 * ended++;
+      run.Options.Progress = [&calls](double) { return calls-- > 0; };
+      statistics = run.run();
+      resumed += statistics.Resumed ? 1 : 0;
+    } while (statistics.Aborted);
+    ASSERT_TRUE(expected == filesOf(run.mesh())) << round;
+  }
+  EXPECT_GT(resumed, 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(PointSets, ConstrainedPieces,
+  testing::Values("uniform", "clustered", "lattice", "coast", "duplicates"));
+
+INSTANTIATE_TEST_SUITE_P(PointSets, OutOfCoreConstraints,
+  testing::Values("uniform", "clustered", "lattice", "lattice-tenths", "cocircular", "coast",
+    "tiny-1e-300", "huge-1e300", "denormal", "steps-at-1e12", "duplicates", "one-far-away",
+    "with-rejected", "parabola"),
+  [](const auto& info)
+  {
+    std::string name = info.param;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+  });
+
+TEST(OutOfCoreConstraint, MayBeNamedByIdsOfPoints)
+{
+  const Coordinates xy = makePointSet("duplicates", 1500);
+  TableConstraints constraints;
+  constraints.Lines.Edges = { { 0, 1499 }, { 3, 800 }, { 5, 5 }, { 900, 17 } };
+  constraints.Lines.PolygonBegin = 4;
+  ConstrainedRun run(xy, constraints);
+  run.makeExpected();
+  run.run();
+  EXPECT_TRUE(run.matches());
+}
+
+TEST(OutOfCoreConstraint, CutsAwayWhatIsOutsideOfPolygonsAndInHoles)
+{
+  const Coordinates xy = makePointSet("uniform", 3000);
+  for (const bool hasInside : { true, false })
+  {
+    TableConstraints constraints;
+    constraints.Lines = randomSegments(xy, 10, 3);
+    hasInside ? addPolygon(0.5, 0.5, 0.4, 30, constraints.Lines) : void();
+    addPolygon(0.5, 0.5, 0.2, -13, constraints.Lines);
+    addPolygon(0.55, 0.5, 0.1, 4, constraints.Lines);
+    addPolygon(0.9, 0.9, 0.05, -5, constraints.Lines);
+    ConstrainedRun run(xy, constraints);
+    run.makeExpected();
+    run.run();
+    EXPECT_TRUE(run.matches()) << hasInside;
+  }
+}
+
+/// Lattice points lie on the polygons' edges, some of which are vertical.
+TEST(OutOfCoreConstraint, CutsAlongLatticeLines)
+{
+  const Coordinates xy = makePointSet("lattice", 2500);
+  const auto [low, high] = std::minmax_element(xy.begin(), xy.end());
+  const double a = *low + std::floor((*high - *low) / 4);
+  const double b = *low + std::floor((*high - *low) / 4) * 3;
+  for (const bool isClockwise : { false, true })
+  {
+    TableConstraints constraints;
+    constraints.Lines.XY = { a, a, b, a, b, b, a, b };
+    constraints.Lines.Edges = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 } };
+    for (auto& edge : constraints.Lines.Edges)
+    {
+      isClockwise ? std::swap(edge[0], edge[1]) : void();
+    }
+    constraints.Lines.PolygonBegin = 0;
+    ConstrainedRun run(xy, constraints);
+    run.makeExpected();
+    run.run();
+    EXPECT_TRUE(run.matches()) << isClockwise;
+    EXPECT_GT(run.Expected.size(), 100U);
+  }
+}
+
+TEST(OutOfCoreConstraint, KeepsTheInsideOfABoundary)
+{
+  const Coordinates xy = makePointSet("clustered", 3000);
+  TableConstraints constraints;
+  addPolygon(0.5, 0.5, 0.4, -30, constraints.Boundary);
+  addPolygon(0.5, 0.5, 0.2, 7, constraints.Boundary);
+  ConstrainedRun run(xy, constraints);
+  run.makeExpected();
+  run.run();
+  EXPECT_TRUE(run.matches());
+}
+
+TEST(OutOfCoreConstraint, LeavesOutLongTrianglesAtTheEnd)
+{
+  const Coordinates xy = makePointSet("uniform", 3000);
+  TableConstraints constraints;
+  constraints.Lines = randomSegments(xy, 20, 3);
+  ConstrainedRun run(xy, constraints);
+  run.Options.MaximumEdge = 0.04;
+  run.makeExpected();
+  run.run();
+  EXPECT_TRUE(run.matches());
+}
+
+TEST(OutOfCoreConstraint, RefusesCrossingsAndHolesByPoints)
+{
+  const Coordinates xy = makePointSet("uniform", 500);
+  TableConstraints constraints;
+  constraints.Lines.XY = { 0.1, 0.1, 0.9, 0.9, 0.1, 0.9, 0.9, 0.1 };
+  constraints.Lines.Edges = { { 0, 1 }, { 2, 3 } };
+  constraints.Lines.PolygonBegin = 2;
+  constraints.Crossings = CrossingRule::Refuse;
+  ConstrainedRun run(xy, constraints);
+  expectIOError("constraints.csv",
+    "constraint 0 (points 500 and 501) crosses constraint 1 (points 502 and 503) at (0.5, 0.5)",
+    [&] { run.run(); });
+  run.Constraints.Lines.Holes = { 0.5, 0.5 };
+  expectIOError("constraints.csv", "holes", [&] { run.run(); });
+}
+
+} // namespace
