@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
