@@ -27,6 +27,7 @@ PositionIndex::PositionIndex(std::vector<Point2> points)
     slots *= 2;
   }
   this->Slots.assign(slots, std::uint32_t(Nobody));
+  this->Marks.assign(slots / 2, 0);
   for (std::size_t i = 0; i < this->Points.size(); ++i)
   {
     const Point2 p = this->Points[i];
@@ -34,7 +35,9 @@ PositionIndex::PositionIndex(std::vector<Point2> points)
     {
       continue;
     }
-    std::size_t slot = hashOf(p) & (slots - 1);
+    const std::uint64_t hash = hashOf(p);
+    this->Marks[hash >> 35 & (this->Marks.size() - 1)] |= std::uint8_t(1U << (hash >> 32 & 7));
+    std::size_t slot = hash & (slots - 1);
     while (this->Slots[slot] != Nobody && !(this->Points[this->Slots[slot]] == p))
     {
       slot = (slot + 1) & (slots - 1);
@@ -60,9 +63,13 @@ std::uint64_t PositionIndex::hashOf(Point2 position)
 
 std::int64_t PositionIndex::find(Point2 position) const
 {
+  const std::uint64_t hash = hashOf(position);
+  if ((this->Marks[hash >> 35 & (this->Marks.size() - 1)] >> (hash >> 32 & 7) & 1) == 0)
+  {
+    return -1;
+  }
   const std::size_t last = this->Slots.size() - 1;
-  for (std::size_t slot = hashOf(position) & last; this->Slots[slot] != Nobody;
-       slot = (slot + 1) & last)
+  for (std::size_t slot = hash & last; this->Slots[slot] != Nobody; slot = (slot + 1) & last)
   {
     if (this->Points[this->Slots[slot]] == position)
     {

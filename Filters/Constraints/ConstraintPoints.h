@@ -30,6 +30,9 @@ private:
 
   std::vector<Point2> Points;
   std::vector<std::uint32_t> Slots; ///< indices, or Nobody; their number is a power of two
+  /// Bits by other digits of the hash, four a slot: most points that are not there are told by
+  /// them, and caches hold more of them than of the slots.
+  std::vector<std::uint8_t> Marks;
 };
 
 /// The ids of other points among those of a triangulation.

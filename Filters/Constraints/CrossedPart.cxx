@@ -233,6 +233,11 @@ std::size_t takeCrossed(PointsView points, const ConstraintSegments& segments, s
     scan.scan(
       corners, begin, end, [](std::int64_t) { return false; }, found);
     std::sort(found.Crossings.begin(), found.Crossings.end());
+    for (const ScannedTriangles::Edge& edge : found.Edges) // before triangles are moved
+    {
+      const Id* const its = corners + 3 * edge.Triangle;
+      part.FixedEdges.push_back({ first + its[edge.From], first + its[(edge.From + 1) % 3] });
+    }
     auto crossing = found.Crossings.begin();
     for (; begin < end; ++begin)
     {
@@ -251,10 +256,6 @@ std::size_t takeCrossed(PointsView points, const ConstraintSegments& segments, s
         part.Segments.push_back(crossing->Piece);
       }
       part.SegmentEnds.push_back(part.Segments.size());
-    }
-    for (const ScannedTriangles::Edge& edge : found.Edges)
-    {
-      part.FixedEdges.push_back({ first + edge.A, first + edge.B });
     }
     for (const TouchOfPiece& touch : found.Touches)
     {
@@ -360,6 +361,25 @@ void retriangulate(CrossedPart& part, const ConstraintSegments& segments, int th
       part.Triangles[t][i] = vertices.Numbers[index];
       part.Positions[t][i] = vertices.Positions[index];
     }
+  }
+}
+
+void markEdges(PointsView points, const ConstraintSegments& segments, const std::int32_t* corners,
+  std::size_t triangles, std::uint8_t* marks)
+{
+  using Scan = TriangleScan<std::int32_t>;
+  Scan scan(points, segments.tree(), Scan::NotedEdges::OfAll);
+  ScannedTriangles found;
+  for (std::size_t begin = 0; begin < triangles; begin += Scan::MostTriangles)
+  {
+    scan.scan(
+      corners, begin, std::min(begin + Scan::MostTriangles, triangles),
+      [](std::int64_t) { return false; }, found);
+  }
+  std::fill_n(marks, 3 * triangles, std::uint8_t(0));
+  for (const ScannedTriangles::Edge& edge : found.Edges)
+  {
+    marks[3 * std::size_t(edge.Triangle) + (edge.From + 2) % 3] = 1;
   }
 }
 

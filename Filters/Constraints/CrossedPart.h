@@ -86,6 +86,11 @@ CrossedPart splitIncomplete(CrossedPart& part, const ConstraintSegments& segment
 VTKTIPPFILTERS_EXPORT void retriangulate(
   CrossedPart& part, const ConstraintSegments& segments, int threads);
 
+/// Sets marks[c] for each corner c of the constrained triangles to 1 if the edge opposite to it
+/// lies on a segment, else to 0.
+void markEdges(PointsView points, const ConstraintSegments& segments, const std::int32_t* corners,
+  std::size_t triangles, std::uint8_t* marks);
+
 /// Removes the triangles that polygons and boundary do not keep; returns the number of the others.
 template <typename Id>
 std::size_t cutTriangles(

@@ -35,15 +35,15 @@ struct ScannedTriangles
       return this->Triangle == other.Triangle && this->Piece == other.Piece;
     }
   };
-  /// An edge of a crossed triangle that lies on a segment.
+  /// An edge that lies on a segment.
   struct Edge
   {
-    PointId A;
-    PointId B;
+    std::int64_t Triangle;
+    std::size_t From; ///< of its corners, the one where the edge begins
   };
   std::vector<Crossing> Crossings;
   std::vector<CrossedTriangles::Touch> Touches;
-  std::vector<Edge> Edges;
+  std::vector<Edge> Edges; ///< of triangles that are crossed, or of all
 };
 
 /// A raster over some triangles: which segments are near each of its cells.
@@ -187,9 +187,17 @@ class TriangleScan
 public:
   static constexpr std::size_t MostTriangles = 2048;
 
-  TriangleScan(PointsView points, const SegmentTree& tree)
+  /// Which edges on segments are noted.
+  enum class NotedEdges
+  {
+    OfCrossed,
+    OfAll
+  };
+
+  TriangleScan(PointsView points, const SegmentTree& tree, NotedEdges noted = NotedEdges::OfCrossed)
     : Points(points)
     , Tree(tree)
+    , Noted(noted)
   {
   }
 
@@ -252,14 +260,14 @@ private:
         if (this->LastTriangle[s] != t && overlap(box, boxOf(segment.A, segment.B)))
         {
           this->LastTriangle[s] = t;
-          if (crosses(segment, ids, p, found))
+          if (crosses(segment, t, ids, p, found))
           {
             isCrossed = true;
             found.Crossings.push_back({ std::int64_t(t), segment.Id });
           }
         }
       });
-    if (!isCrossed)
+    if (!isCrossed && this->Noted == NotedEdges::OfCrossed)
     {
       found.Edges.resize(edgesBefore);
     }
@@ -267,8 +275,8 @@ private:
 
   /// Whether the segment meets the triangle's interior; and notes corners inside the segment, and
   /// an edge on it.
-  static bool crosses(
-    const SegmentTree::Item& segment, const Id* ids, const Point2* p, ScannedTriangles& found)
+  static bool crosses(const SegmentTree::Item& segment, std::size_t t, const Id* ids,
+    const Point2* p, ScannedTriangles& found)
   {
     std::array<int, 3> side;
     std::array<bool, 3> isOn;
@@ -294,7 +302,7 @@ private:
       }
       if (isOn[i] && isOn[next])
       {
-        found.Edges.push_back({ PointId(ids[i]), PointId(ids[next]) });
+        found.Edges.push_back({ std::int64_t(t), i });
         return false;
       }
     }
@@ -311,6 +319,7 @@ private:
 
   PointsView Points;
   const SegmentTree& Tree;
+  const NotedEdges Noted;
   std::vector<Point2> Positions;
   std::vector<const SegmentTree::Item*> Segments;
   std::vector<std::size_t> LastTriangle; ///< that each segment was tested with

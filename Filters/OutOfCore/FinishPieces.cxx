@@ -5,6 +5,7 @@
 #include "OutOfCore/ScratchFiles.h"
 #include "Partitioned/GrowingPiece.h"
 #include "Partitioned/NeighborIds.h"
+#include "Partitioned/PieceFile.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
@@ -382,6 +383,36 @@ void numberCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, cons
     mesh.Cells += pieces[number].Summary.Cells;
     report(double(number) / double(pieces.size()));
   }
+}
+
+void markCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, std::int64_t array,
+  const ConstraintSegments* constraints, int threads, const Report& report)
+{
+  forChunks(std::int64_t(pieces.size()), 1, threads, report,
+    [&](std::int64_t at, std::int64_t, int)
+    {
+      const auto number = std::size_t(at);
+      FinishedPiece& piece = pieces[number];
+      ReadCounters counters;
+      const PieceFile file(mesh, number, piece.Summary, piece.Table, counters);
+      const auto read = [&file](PieceRole role, void* to)
+      {
+        const std::size_t a = file.find(role);
+        const std::vector<std::int64_t>& parts = file.partStarts(file.arrays()[a].ofPoints());
+        file.read(a, 0, parts.size() - 1, to);
+      };
+      std::vector<double> xyz(3 * std::size_t(piece.Summary.Points));
+      std::vector<std::int32_t> corners(3 * std::size_t(piece.Summary.Cells));
+      read(PieceRole::Points, xyz.data());
+      read(PieceRole::Connectivity, corners.data());
+      std::vector<std::uint8_t> marks(corners.size(), 0);
+      if (constraints && !corners.empty())
+      {
+        markEdges(PointsView(xyz.data(), xyz.size() / 3, 3), *constraints, corners.data(),
+          corners.size() / 3, marks.data());
+      }
+      writeLateArray(mesh, number, array, reinterpret_cast<const char*>(marks.data()), piece);
+    });
 }
 
 void linkCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, std::uint64_t memory,

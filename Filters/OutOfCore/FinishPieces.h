@@ -29,6 +29,11 @@ std::vector<FinishedPiece> finishPieces(
 /// Writes the global ids of all cells, and sets mesh.Cells. Throws IOError.
 void numberCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, const Report& report);
 
+/// Writes the array that marks edges of constraints, the mesh's array number `array`, after
+/// numberCells(). Constraints: null if there are none. Throws IOError.
+void markCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, std::int64_t array,
+  const ConstraintSegments* constraints, int threads, const Report& report);
+
 /// Writes the cell array NeighborIds, after numberCells(): by as many threads as `memory` bytes
 /// allow. Throws IOError.
 void linkCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, std::uint64_t memory,

@@ -252,8 +252,7 @@ private:
         })).survey();
     this->Statistics.LeftOut = this->Input.leftOut();
     this->Statistics.ThinnedOut = this->Input.thinnedOut();
-    this->Setup.describeColumns(
-      this->Input.columns(), this->Options.MapDuplicates, this->Options.Neighbors);
+    this->Setup.describeColumns(this->Input.columns(), this->Options);
     const std::size_t words = this->Setup.Rows.Words;
     if (this->Options.Constraints)
     {
@@ -298,7 +297,8 @@ private:
   void requireSpace(std::uint64_t more) const
   {
     const auto points = std::uint64_t(this->Setup.Survey.Points - this->Setup.Survey.Rejected);
-    const std::uint64_t cell = 12 + 4 + 1 + 8 + (this->Options.Neighbors ? 24 : 0);
+    const std::uint64_t cell =
+      12 + 4 + 1 + 8 + (this->Options.Neighbors ? 24 : 0) + (this->Options.MarkConstraints ? 3 : 0);
     // Borders and ids of cells included; two triangles a point at most.
     const std::uint64_t stored =
       points * (24 + 8 + 1 + 8 * this->Setup.Rows.Attributes.size() + 2 * cell) / 50 * 51;
@@ -413,6 +413,11 @@ private:
       linkCells(
         mesh, this->Finished, this->Memory->LoadedBytes, this->Threads, reportTo(0.92, 0.06));
       this->endPhase("link");
+    }
+    if (this->Options.MarkConstraints)
+    {
+      markCells(mesh, this->Finished, this->Setup.Marks, this->Setup.Constraints.get(),
+        this->Threads, reportTo(0.97, 0.01));
     }
     for (std::size_t number = 0; number < this->Finished.size(); ++number)
     {

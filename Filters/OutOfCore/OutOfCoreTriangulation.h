@@ -33,6 +33,9 @@ struct OutOfCoreOptions
   bool MapDuplicates = false;
   /// Adds the cell array NeighborIds.
   bool Neighbors = false;
+  /// Adds the cell array ConstraintEdges: for each corner of a triangle 1 if the edge opposite to
+  /// it is one of a constraint, else 0.
+  bool MarkConstraints = false;
   /// Counts and sums up the triangles instead of writing them.
   bool CountOnly = false;
   /// Takes the triangles instead of the mesh; with it CountOnly is to be set.

@@ -79,7 +79,7 @@ MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t words)
 {
   // A taker copies coordinates and triangles of the piece that it is given.
   // Constraints need room for the triangles that they cross.
-  const std::size_t rowWords = words + (options.Taker ? 8 : 0) + (options.Constraints ? 4 : 0);
+  const std::size_t rowWords = words + (options.Taker ? 8 : 0) + (options.Constraints ? 1 : 0);
   // Of the two phases each has its share; the rest is for kernels and boundaries.
   const std::uint64_t share = options.MemoryLimit / 5 * 2;
   // Two blocks of points, their labels and rows by piece.

@@ -13,6 +13,8 @@ namespace tipp
 namespace
 {
 
+const StoredArray constraintEdgesArray{ "ConstraintEdges", false, Scalar::UInt8, 3, -1 };
+
 constexpr const char* representativeName = "RepresentativePointId";
 
 } // namespace
@@ -31,6 +33,8 @@ void RunSetup::exchangeInput(Archive& archive)
   archive(this->Rows.Attributes);
   auto hasNeighbors = std::uint8_t(findNeighborIds(this->Mesh) >= 0);
   archive(hasNeighbors);
+  auto hasMarks = std::uint8_t(this->Marks >= 0);
+  archive(hasMarks);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < this->Rows.Attributes.size() && i < this->Mesh.Arrays.size(); ++i)
   {
@@ -43,9 +47,19 @@ void RunSetup::exchangeInput(Archive& archive)
     const bool isId = this->Rows.Attributes.at(i) < 0;
     this->Mesh.Arrays.push_back({ names[i], true, isId ? Scalar::Int64 : Scalar::Float64, 1, -1 });
   }
-  if (hasNeighbors != 0)
+  this->addCellArrays(hasNeighbors != 0, hasMarks != 0);
+}
+
+void RunSetup::addCellArrays(bool hasNeighbors, bool hasMarks)
+{
+  if (hasNeighbors)
   {
     this->Mesh.Arrays.push_back(neighborIdsArray);
+  }
+  this->Marks = hasMarks ? std::int64_t(this->Mesh.Arrays.size()) : -1;
+  if (hasMarks)
+  {
+    this->Mesh.Arrays.push_back(constraintEdgesArray);
   }
 }
 
@@ -69,7 +83,7 @@ void RunSetup::load(LoadArchive& archive, const std::string& points)
 }
 
 void RunSetup::describeColumns(
-  const std::vector<std::string>& columns, bool mapDuplicates, bool hasNeighbors)
+  const std::vector<std::string>& columns, const OutOfCoreOptions& options)
 {
   this->Columns = columns;
   this->Rows.Words = 3 + columns.size();
@@ -84,15 +98,12 @@ void RunSetup::describeColumns(
     this->Mesh.Arrays.push_back({ columns[i], true, Scalar::Float64, 1, -1 });
     this->Rows.Attributes.push_back(int(2 + i));
   }
-  if (mapDuplicates)
+  if (options.MapDuplicates)
   {
     this->Mesh.Arrays.push_back({ representativeName, true, Scalar::Int64, 1, -1 });
     this->Rows.Attributes.push_back(-1);
   }
-  if (hasNeighbors)
-  {
-    this->Mesh.Arrays.push_back(neighborIdsArray);
-  }
+  this->addCellArrays(options.Neighbors, options.MarkConstraints);
 }
 
 void RunSetup::describeMesh()
@@ -183,7 +194,8 @@ std::string identityOf(const PointStream& input, const OutOfCoreOptions& options
   return "TIPP out of core 10\n" + input.identity() + std::to_string(options.Columns) + "x" +
     std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
     std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
-    (options.Neighbors ? " linked" : "") + (options.CountOnly ? " counted" : "") +
+    (options.Neighbors ? " linked" : "") + (options.MarkConstraints ? " marked" : "") +
+    (options.CountOnly ? " counted" : "") +
     (options.MaximumEdge > 0 ? " edges " + exact(options.MaximumEdge) : "") +
     (options.Duplicates != DuplicateRule::First
         ? " duplicates " + std::to_string(int(options.Duplicates))

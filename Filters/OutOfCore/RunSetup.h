@@ -23,8 +23,7 @@ class VTKTIPPFILTERS_EXPORT RunSetup
 {
 public:
   /// Columns of the input; the mesh's arrays.
-  void describeColumns(
-    const std::vector<std::string>& columns, bool mapDuplicates, bool hasNeighbors);
+  void describeColumns(const std::vector<std::string>& columns, const OutOfCoreOptions& options);
   /// After the plan.
   void describeMesh();
 
@@ -61,6 +60,7 @@ public:
   TriangleTaker* Taker = nullptr;
   double MaximumEdge = 0;
   DuplicateRule Duplicates = DuplicateRule::First;
+  std::int64_t Marks = -1; ///< the array ConstraintEdges among the mesh's; -1: there is none
   std::vector<std::string> Columns; ///< of the input, beside x and y
   std::unique_ptr<PiecePlan> Plan;
   std::unique_ptr<SpilledPoints> Spilled;
@@ -69,6 +69,7 @@ public:
 private:
   template <typename Archive>
   void exchangeInput(Archive& archive);
+  void addCellArrays(bool hasNeighbors, bool hasMarks);
   Bounds boundsOf(const Box2& box) const;
   Box2 inputBounds() const;
 };

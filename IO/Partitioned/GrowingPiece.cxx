@@ -379,6 +379,28 @@ void writeCellIds(
   piece.Table.Checksums[a] = column.checksums();
 }
 
+void writeLateArray(const PartitionedMesh& mesh, std::size_t number, std::int64_t attribute,
+  const char* values, FinishedPiece& piece)
+{
+  const std::vector<PieceArray> arrays = pieceArrays(mesh, piece.Summary);
+  const auto found = std::find_if(arrays.begin(), arrays.end(),
+    [attribute](const PieceArray& array) { return array.Attribute == attribute; });
+  const auto a = std::size_t(found - arrays.begin());
+  const OutputFile file = OutputFile::shared(mesh.piecePath(number));
+  ColumnWriter column(file, piece.Table.Offsets[a], bufferBytes);
+  for (const std::int64_t count : piece.Table.parts(mesh, piece.Summary, false))
+  {
+    for (std::int64_t i = 0; i < count; ++i, values += found->tupleBytes())
+    {
+      std::memcpy(column.extend(found->tupleBytes()), values, found->tupleBytes());
+    }
+    column.endPart();
+  }
+  column.flush();
+  file.startWriteback();
+  piece.Table.Checksums[a] = column.checksums();
+}
+
 void verifyInterior(const PartitionedMesh& mesh, std::size_t number, const PieceInterior& interior)
 {
   if (mesh.Path.empty())

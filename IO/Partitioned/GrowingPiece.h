@@ -50,6 +50,11 @@ VTKTIPPIO_EXPORT FinishedPiece writeBorder(const PartitionedMesh& mesh, std::siz
 VTKTIPPIO_EXPORT void writeCellIds(
   const PartitionedMesh& mesh, std::size_t number, std::int64_t first, FinishedPiece& piece);
 
+/// Writes an array of a finished piece's cells whose values are known last: `values` has its bytes,
+/// in the order of the cells. `attribute`: the array's index among the mesh's. May be repeated.
+VTKTIPPIO_EXPORT void writeLateArray(const PartitionedMesh& mesh, std::size_t number,
+  std::int64_t attribute, const char* values, FinishedPiece& piece);
+
 /// @name A file that an earlier process has left
 /// @{
 /// After the first step: verifies the interior's part of the file. Then replaces the file by one of

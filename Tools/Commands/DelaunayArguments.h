@@ -43,6 +43,7 @@ struct DelaunayArguments
   std::string Constraints; ///< a file; empty: none
   std::string Boundary;    ///< the same
   bool RefuseCrossings = false;
+  bool MarkConstraints = false;
   std::vector<std::pair<double, double>> Holes; ///< x and y of points in holes
   std::string Statistics;
   // Of a run out of core:

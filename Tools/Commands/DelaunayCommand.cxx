@@ -213,6 +213,10 @@ void addConstraints(CLI::App& command, DelaunayArguments& arguments)
     "A file of closed lines: only the triangles inside of them are kept");
   command.add_flag("--refuse-crossings", arguments.RefuseCrossings,
     "An error if two constraints cross; without: they are split at a new point");
+  command.add_flag("--mark-constraints", arguments.MarkConstraints,
+    "Add the cell array ConstraintEdges to .tipp: for each corner 1 if the edge opposite to it is "
+    "a "
+    "constraint, else 0");
   command
     .add_option("--hole", arguments.Holes,
       "x and y of a point in a hole, whose triangles are removed up to the constraints around it; "
@@ -222,6 +226,11 @@ void addConstraints(CLI::App& command, DelaunayArguments& arguments)
 
 void requireValidConstraints(const DelaunayArguments& arguments)
 {
+  if (arguments.MarkConstraints && !(arguments.isConstrained() && isOutOfCore(arguments)))
+  {
+    throw CLI::ValidationError(
+      "--mark-constraints", "needs --constraints or --boundary, and an output named .tipp");
+  }
   if (!arguments.isConstrained())
   {
     if (arguments.RefuseCrossings || !arguments.Holes.empty())

@@ -35,6 +35,7 @@ OutOfCoreOptions makeOptions(const DelaunayArguments& arguments)
   options.MapDuplicates = arguments.MapDuplicates;
   options.Duplicates = arguments.Duplicates;
   options.Neighbors = arguments.Neighbors;
+  options.MarkConstraints = arguments.MarkConstraints;
   options.CountOnly = arguments.Sink == "count";
   options.Resume = arguments.Resume;
   options.Scratch = arguments.Scratch;

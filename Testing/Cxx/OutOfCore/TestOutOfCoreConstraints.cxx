@@ -4,11 +4,15 @@
 
 #include "Constraints/ConstrainedPoints.h"
 #include "ExpectIOError.h"
+#include "Partitioned/PartitionedMesh.h"
+#include "Partitioned/PieceFile.h"
+#include "Partitioned/ReadPiece.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <random>
+#include <set>
 
 namespace
 {
@@ -70,7 +74,9 @@ public:
   {
     TriangulationOptions plain;
     plain.MaximumEdge = this->Options.MaximumEdge;
-    this->Expected = trianglesOf(triangulateTable(this->All, this->Constraints, plain).Mesh);
+    ConstrainedTriangulation made = triangulateTable(this->All, this->Constraints, plain);
+    this->Expected = trianglesOf(made.Mesh);
+    this->Pieces = std::move(made.Constraints.Pieces);
   }
 
   OutOfCoreStatistics run()
@@ -92,6 +98,7 @@ public:
   PointTable All; ///< the points, and after makeExpected() those of the constraints
   OutOfCoreOptions Options;
   Triangles Expected;
+  std::vector<ConstraintPiece> Pieces; ///< of the expected mesh's constraints
   TemporaryFolder Folder;
 };
 
@@ -235,6 +242,47 @@ TEST(OutOfCoreConstraint, CutsAlongLatticeLines)
     EXPECT_TRUE(run.matches()) << isClockwise;
     EXPECT_GT(run.Expected.size(), 100U);
   }
+}
+
+TEST(OutOfCoreConstraint, MarksEdgesOfConstraints)
+{
+  const Coordinates xy = makePointSet("uniform", 2000);
+  TableConstraints constraints;
+  constraints.Lines = randomSegments(xy, 30, 9);
+  ConstrainedRun run(xy, constraints);
+  run.Options.Neighbors = true;
+  run.Options.MarkConstraints = true;
+  run.makeExpected();
+  run.run();
+  ASSERT_TRUE(run.matches());
+  std::set<std::array<std::int64_t, 2>> expected;
+  for (const ConstraintPiece& piece : run.Pieces)
+  {
+    expected.insert({ std::min(piece.A, piece.B), std::max(piece.A, piece.B) });
+  }
+  std::set<std::array<std::int64_t, 2>> marked;
+  const PartitionedMesh mesh = openPartitionedMesh(run.mesh());
+  for (std::size_t number = 0; number < mesh.Pieces.size(); ++number)
+  {
+    ReadCounters counters;
+    PieceFile(mesh, number, counters).verifyAll();
+    const Piece piece = readPiece(mesh, number);
+    const auto* ids = piece.PointIds.as<std::int64_t>();
+    const auto* corners = piece.Connectivity.as<std::int32_t>();
+    const auto marks = std::find_if(piece.Attributes.begin(), piece.Attributes.end(),
+      [](const auto& array) { return array.Description.Name == "ConstraintEdges"; });
+    ASSERT_NE(marks, piece.Attributes.end());
+    for (std::int64_t c = 0; c < 3 * piece.Cells; ++c)
+    {
+      if (marks->Values.as<std::uint8_t>()[c] != 0)
+      {
+        const std::int64_t a = ids[corners[c % 3 == 2 ? c - 2 : c + 1]];
+        const std::int64_t b = ids[corners[c % 3 == 0 ? c + 2 : c - 1]];
+        marked.insert({ std::min(a, b), std::max(a, b) });
+      }
+    }
+  }
+  EXPECT_TRUE(expected == marked) << expected.size() << " and " << marked.size();
 }
 
 TEST(OutOfCoreConstraint, KeepsTheInsideOfABoundary)

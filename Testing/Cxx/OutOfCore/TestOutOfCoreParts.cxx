@@ -424,7 +424,9 @@ TEST(RunSetup, ComesBackOnAnotherRank)
   Steps steps(makePointSet("clustered", 4000));
   RunSetup run;
   run.Survey = steps.Survey;
-  run.describeColumns({ "depth", "z" }, true, true);
+  OutOfCoreOptions described;
+  described.MapDuplicates = described.Neighbors = true;
+  run.describeColumns({ "depth", "z" }, described);
   EXPECT_EQ(3, run.Rows.Z);
   run.Rows.Words = 3;
   run.Plan = std::make_unique<PiecePlan>(steps.plan());

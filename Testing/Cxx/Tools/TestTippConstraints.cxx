@@ -158,6 +158,8 @@ TEST_F(TippConstraints, BoundaryMustBeClosed)
 
 TEST_F(TippConstraints, OptionsThatDoNotGoTogetherAreUsageErrors)
 {
+  this->expectUsageError({ "-o", "mesh.vtp", "--constraints", "cross.csv", "--mark-constraints" },
+    "an output named .tipp");
   this->expectUsageError({ "-o", "mesh.vtp", "--refuse-crossings" }, "needs --constraints");
   this->expectUsageError({ "-o", "mesh.vtp", "--hole", "1", "2" }, "needs --constraints");
   this->expectUsageError({ "-o", "mesh.tipp", "--constraints", "cross.csv", "--hole", "4", "4" },
@@ -210,8 +212,8 @@ TEST_F(TippConstraints, AreInsertedOnRanks)
 
 TEST_F(TippConstraints, PartitionedMeshesAreMadeAndProved)
 {
-  const Outcome made = this->delaunay(
-    { "-o", "mesh.tipp", "--memory", "1M", "--constraints", "cross.csv", "--neighbors" });
+  const Outcome made = this->delaunay({ "-o", "mesh.tipp", "--memory", "1M", "--constraints",
+    "cross.csv", "--neighbors", "--mark-constraints" });
   ASSERT_EQ(0, made.ExitCode) << made.Err;
   EXPECT_NE(std::string::npos, made.Out.find("2 constraints of 4 segments, 1 crossings"))
     << made.Out;
