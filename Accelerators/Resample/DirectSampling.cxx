@@ -133,8 +133,8 @@ public:
   {
   }
 
-  /// `claimed` samples are there already.
-  DirectResult run(std::int64_t claimed)
+  /// `claimed` samples are there already. `border`: see samplePartDirectly(); may be null.
+  DirectResult run(std::int64_t claimed, std::vector<BorderSample>* border)
   {
     this->Result.Aborted =
       !CellVisitor<Access, Walk>(this->Mesh, this->Axes, this->Walks).run(this->Options.Progress);
@@ -152,7 +152,7 @@ public:
     }
     if (!this->Result.Aborted && !this->Result.Overlapping)
     {
-      this->fillBorder();
+      this->fillBorder(border);
     }
     this->Result.FinishSeconds = watch.seconds();
     return this->Result;
@@ -197,7 +197,7 @@ private:
     return sum;
   }
 
-  void fillBorder()
+  void fillBorder(std::vector<BorderSample>* border)
   {
     std::vector<Touch> touches;
     for (Walk& walk : this->Walks)
@@ -222,6 +222,13 @@ private:
         }
         walk.flush();
       });
+    const Access access(this->Mesh);
+    for (std::size_t i = 0; border && i < claims.size(); ++i)
+    {
+      const BorderClaim& claim = claims[i];
+      const int rank = borderRank(access, this->Axes, claim.Sample, claim.Cell);
+      border->push_back({ claim.Sample, withRank(keyOf(access, claim.Cell), rank) });
+    }
   }
 
   const SimplexMesh& Mesh;
@@ -234,7 +241,7 @@ private:
 
 DirectResult sampleRest(const SimplexMesh& mesh, const Lattice& lattice,
   const std::vector<Attribute>& attributes, const InterpolationOptions& options,
-  std::int64_t claimed)
+  std::int64_t claimed, std::vector<BorderSample>* border = nullptr)
 {
   const LatticeAxes axes(mesh, lattice);
   DirectResult result;
@@ -242,7 +249,7 @@ DirectResult sampleRest(const SimplexMesh& mesh, const Lattice& lattice,
     [&](const auto& access)
     {
       using Access = std::decay_t<decltype(access)>;
-      result = DirectSampler<Access>(mesh, axes, attributes, options).run(claimed);
+      result = DirectSampler<Access>(mesh, axes, attributes, options).run(claimed, border);
     });
   return result;
 }
@@ -261,6 +268,14 @@ DirectResult sampleDirectly(const SimplexMesh& mesh, const Lattice& lattice,
 {
   clearMask(LatticeAxes(mesh, lattice).samples(), options.Threads, options.Valid);
   return sampleRest(mesh, lattice, attributes, options, 0);
+}
+
+DirectResult samplePartDirectly(const SimplexMesh& mesh, const Lattice& lattice,
+  const std::vector<Attribute>& attributes, const InterpolationOptions& options,
+  std::vector<BorderSample>& border)
+{
+  clearMask(LatticeAxes(mesh, lattice).samples(), options.Threads, options.Valid);
+  return sampleRest(mesh, lattice, attributes, options, 0, &border);
 }
 
 DirectResult finishDirectly(const SimplexMesh& mesh, const Lattice& lattice,

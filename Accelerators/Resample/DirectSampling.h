@@ -2,6 +2,7 @@
 #ifndef tippDirectSampling_h
 #define tippDirectSampling_h
 
+#include "Resample/BorderSample.h"
 #include "Resample/Interpolate.h"
 
 #include <vector>
@@ -23,6 +24,12 @@ struct DirectResult
 VTKTIPPACCELERATORS_EXPORT DirectResult sampleDirectly(const SimplexMesh& mesh,
   const Lattice& lattice, const std::vector<Attribute>& attributes,
   const InterpolationOptions& options);
+
+/// The same of a part of a mesh. `border` gets the samples on the part's border, which other parts
+/// may contain.
+VTKTIPPACCELERATORS_EXPORT DirectResult samplePartDirectly(const SimplexMesh& mesh,
+  const Lattice& lattice, const std::vector<Attribute>& attributes,
+  const InterpolationOptions& options, std::vector<BorderSample>& border);
 
 /// The part of that work that a device has done.
 struct SampledCells

@@ -48,7 +48,7 @@ std::size_t find(const std::vector<std::string>& columns, const std::string& nam
   {
     list += (list.empty() ? "" : ", ") + column;
   }
-  throw std::runtime_error("the points have no column '" + name + "'" +
+  throw UnknownBand("the points have no column '" + name + "'" +
     (list.empty() ? ", and no other beside x and y." : "; they have " + list + "."));
 }
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,14 @@ struct DemBand
 VTKTIPPFILTERS_EXPORT std::vector<std::string> columnsForBands(
   const std::vector<std::string>& bands);
 
-/// Bands of points with these columns, and which column is the elevation. Throws
-/// std::runtime_error for a name that is none of theirs.
+/// A band's name is that of no column.
+class VTKTIPPFILTERS_EXPORT UnknownBand : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Bands of points with these columns, and which column is the elevation. Throws UnknownBand.
 struct DemBands
 {
   std::vector<DemBand> Bands;

@@ -47,7 +47,20 @@ std::vector<double> takeXYZ(PointTable& points, const DemBands& bands)
   return xyz;
 }
 
-/// Throws std::runtime_error if the pixels cannot be in this machine's memory.
+SimplexMesh meshOf(const std::vector<double>& xyz, const Triangulation& triangulation)
+{
+  SimplexMesh mesh;
+  mesh.Points = xyz.data();
+  mesh.PointCount = std::int64_t(xyz.size() / 3);
+  mesh.Wide = !triangulation.Ids64.empty();
+  mesh.Ids =
+    mesh.Wide ? static_cast<const void*>(triangulation.Ids64.data()) : triangulation.Ids32.data();
+  mesh.Cells = std::int64_t(triangulation.triangleCount());
+  return mesh;
+}
+
+} // namespace
+
 void requireMemory(const TerrainSettings& settings)
 {
   const double each = 8 * double(settings.Bands.Bands.size()) + 1;
@@ -62,19 +75,14 @@ void requireMemory(const TerrainSettings& settings)
   }
 }
 
-SimplexMesh meshOf(const std::vector<double>& xyz, const Triangulation& triangulation)
+void dropPlainHeights(ConstraintTable& lines)
 {
-  SimplexMesh mesh;
-  mesh.Points = xyz.data();
-  mesh.PointCount = std::int64_t(xyz.size() / 3);
-  mesh.Wide = !triangulation.Ids64.empty();
-  mesh.Ids =
-    mesh.Wide ? static_cast<const void*>(triangulation.Ids64.data()) : triangulation.Ids32.data();
-  mesh.Cells = std::int64_t(triangulation.triangleCount());
-  return mesh;
+  std::vector<double>& heights = lines.Height;
+  if (std::all_of(heights.begin(), heights.end(), [](double height) { return height == 0; }))
+  {
+    heights.clear();
+  }
 }
-
-} // namespace
 
 TerrainSettings makeTerrainSettings(
   const DemRequest& request, const Box2& bounds, const std::vector<std::string>& columns)
@@ -135,9 +143,11 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   return figures;
 }
 
-ReadTile readFrom(const RasterGrid& grid, const SampledBands& samples)
+TileSource readFrom(const RasterGrid& grid, const SampledBands& samples)
 {
-  return [&grid, &samples](const RasterWindow& window, std::vector<std::vector<double>>& values)
+  TileSource source;
+  source.Read = [&grid, &samples](
+                  const RasterWindow& window, std::vector<std::vector<double>>& values)
   {
     values.resize(samples.Values.size());
     for (std::size_t band = 0; band < values.size(); ++band)
@@ -151,27 +161,46 @@ ReadTile readFrom(const RasterGrid& grid, const SampledBands& samples)
       }
     }
   };
+  return source;
 }
 
-std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid, const ReadTile& readTile,
+std::int64_t fillTile(const DemBands& bands, std::vector<std::vector<double>>& values)
+{
+  const auto filled = std::count_if(
+    values.front().begin(), values.front().end(), [](double value) { return !std::isnan(value); });
+  fillVoids(bands, values);
+  return filled;
+}
+
+std::vector<const double*> pointersTo(const std::vector<std::vector<double>>& values)
+{
+  std::vector<const double*> pointers;
+  for (const std::vector<double>& band : values)
+  {
+    pointers.push_back(band.data());
+  }
+  return pointers;
+}
+
+std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid, const TileSource& tiles,
   const std::function<bool(double)>& progress, int threads, const DemBands& bands)
 {
   std::atomic<std::int64_t> filled{ 0 };
   const bool isDone = forChunks(tileCount(grid), 1, threadCount(threads), progress,
     [&](std::int64_t number, std::int64_t, int)
     {
+      std::optional<FinishedTile> finished;
+      if (tiles.ReadFinished && (finished = tiles.ReadFinished(number)))
+      {
+        filled += finished->Filled;
+        writer.writeEncoded(number, std::move(finished->Encoded));
+        return;
+      }
       const RasterWindow window = tileOf(grid, number);
       std::vector<std::vector<double>> values;
-      readTile(window, values);
-      filled += std::count_if(values.front().begin(), values.front().end(),
-        [](double value) { return !std::isnan(value); });
-      fillVoids(bands, values);
-      std::vector<const double*> rows;
-      for (const std::vector<double>& band : values)
-      {
-        rows.push_back(band.data());
-      }
-      writer.write(window, rows);
+      tiles.Read(window, values);
+      filled += fillTile(bands, values);
+      writer.write(window, pointersTo(values));
     });
   return isDone ? filled.load() : -1;
 }

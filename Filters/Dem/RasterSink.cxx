@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -21,8 +22,8 @@ namespace fs = std::filesystem;
 /// What the paths of files of samples at borders have after the run's own part.
 constexpr const char* borderSuffix = ".border.";
 
-/// A sample at the border of a part, with its bands' values behind it in files.
-struct BorderSample
+/// A pixel on the border of a part, with its bands' values behind it in files.
+struct BorderPixel
 {
   std::int64_t Pixel;
   std::uint64_t Key;
@@ -52,22 +53,27 @@ double marginOf(double origin, double size, std::int64_t count)
 
 } // namespace
 
-/// The triangles of a part at one tile, and the samples at which they lie.
+/// Triangles of a part, and the samples at which they lie.
 struct RasterSink::Tile
 {
   std::vector<std::int32_t> Ids; ///< three a triangle
-  std::int64_t FirstColumn = 0;
-  std::int64_t LastColumn = -1;
-  std::int64_t FirstRow = 0;
-  std::int64_t LastRow = -1;
+  RasterWindow Window;
 
-  void extend(std::int64_t column, std::int64_t lastColumn, std::int64_t row, std::int64_t lastRow)
+  void extend(const RasterWindow& added)
   {
-    const bool isFirst = this->LastColumn < 0;
-    this->FirstColumn = isFirst ? column : std::min(this->FirstColumn, column);
-    this->FirstRow = isFirst ? row : std::min(this->FirstRow, row);
-    this->LastColumn = std::max(this->LastColumn, lastColumn);
-    this->LastRow = std::max(this->LastRow, lastRow);
+    RasterWindow& window = this->Window;
+    if (window.Columns == 0)
+    {
+      window = added;
+      return;
+    }
+    const std::int64_t right =
+      std::max(window.Column + window.Columns, added.Column + added.Columns);
+    const std::int64_t top = std::max(window.Row + window.Rows, added.Row + added.Rows);
+    window.Column = std::min(window.Column, added.Column);
+    window.Row = std::min(window.Row, added.Row);
+    window.Columns = right - window.Column;
+    window.Rows = top - window.Row;
   }
 };
 
@@ -93,12 +99,14 @@ struct RasterSink::Part
   std::map<Place, Tile> Tiles;
   Place LastPlace{ -1, -1 };
   Tile* LastTile = nullptr;
-  std::string Border; ///< BorderSamples and their values
+  std::string Border; ///< BorderPixels and their values
 };
 
-RasterSink::RasterSink(MakeSettings makeSettings, WriteRaster writeRaster)
+RasterSink::RasterSink(
+  MakeSettings makeSettings, WriteRaster writeRaster, const RasterDescription* encoding)
   : Make(std::move(makeSettings))
   , Write(std::move(writeRaster))
+  , Encoding(encoding ? std::make_optional(*encoding) : std::nullopt)
 {
 }
 
@@ -124,8 +132,19 @@ void RasterSink::begin(
   this->Settings = this->Make(bounds, columns);
   this->findMargins();
   this->Files = files;
+  FinishTile finish;
+  if (this->Encoding)
+  {
+    finish = [this](const RasterWindow& window, std::vector<std::vector<double>>& values)
+    {
+      FinishedTile tile;
+      tile.Filled = fillTile(this->Settings.Bands, values);
+      tile.Encoded = encodeTile(*this->Encoding, window, pointersTo(values));
+      return tile;
+    };
+  }
   this->Store = std::make_unique<TileStore>(files + ".pixels", this->Settings.Grid,
-    this->Settings.Bands.Bands.size(), this->Settings.IsSingle);
+    this->Settings.Bands.Bands.size(), this->Settings.IsSingle, std::move(finish));
 }
 
 void RasterSink::take(const std::string& name, const double* rows, const PointRowLayout& layout,
@@ -162,6 +181,34 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
       part.Points.Columns[band.Column] = column.data();
     }
   }
+  // Most triangles of a part lie side by side, so most of its window are theirs. Those at the
+  // border of all points may be long.
+  constexpr std::int64_t fewPixels = 4 * RasterTileSize * RasterTileSize;
+  std::int64_t count = 0;
+  for (const TriangleRange& run : triangles)
+  {
+    count += std::int64_t(run.Triangles);
+  }
+  Tile all;
+  all.Window = this->windowOf(part.XYZ);
+  if (all.Window.Columns * all.Window.Rows > fewPixels + 2 * count)
+  {
+    this->sampleByTile(part, triangles);
+  }
+  else if (all.Window.Columns > 0)
+  {
+    all.Ids.reserve(3 * std::size_t(count));
+    for (const TriangleRange& run : triangles)
+    {
+      all.Ids.insert(all.Ids.end(), run.Begin, run.Begin + 3 * run.Triangles);
+    }
+    this->sampleTile(part, all);
+  }
+  this->saveBorder(part, name);
+}
+
+void RasterSink::sampleByTile(Part& part, const std::vector<TriangleRange>& triangles) const
+{
   for (const TriangleRange& run : triangles)
   {
     for (std::size_t t = 0; t < run.Triangles; ++t)
@@ -174,7 +221,35 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
     this->sampleTile(part, tile);
     tile = Tile();
   }
-  this->saveBorder(part, name);
+}
+
+/// The samples that may lie in a box; no columns and rows if there are none.
+RasterWindow RasterSink::windowOf(const double* low, const double* high) const
+{
+  const RasterGrid& grid = this->Settings.Grid;
+  const auto [column, lastColumn] =
+    samplesBetween(low[0], high[0], grid.West, grid.Pixel[0], this->Margins[0], grid.Columns);
+  const auto [row, lastRow] =
+    samplesBetween(low[1], high[1], grid.South, grid.Pixel[1], this->Margins[1], grid.Rows);
+  return column > lastColumn || row > lastRow
+    ? RasterWindow()
+    : RasterWindow{ column, row, lastColumn - column + 1, lastRow - row + 1 };
+}
+
+RasterWindow RasterSink::windowOf(const std::vector<double>& xyz) const
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double low[2] = { infinity, infinity };
+  double high[2] = { -infinity, -infinity };
+  for (std::size_t i = 0; i < xyz.size(); i += 3)
+  {
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      low[axis] = std::min(low[axis], xyz[i + axis]);
+      high[axis] = std::max(high[axis], xyz[i + axis]);
+    }
+  }
+  return xyz.empty() ? RasterWindow() : this->windowOf(low, high);
 }
 
 void RasterSink::addTriangle(Part& part, const std::int32_t* corners) const
@@ -183,27 +258,28 @@ void RasterSink::addTriangle(Part& part, const std::int32_t* corners) const
   const double* const a = &part.XYZ[3 * std::size_t(corners[0])];
   const double* const b = &part.XYZ[3 * std::size_t(corners[1])];
   const double* const c = &part.XYZ[3 * std::size_t(corners[2])];
-  const auto [column, lastColumn] = samplesBetween(std::min({ a[0], b[0], c[0] }),
-    std::max({ a[0], b[0], c[0] }), grid.West, grid.Pixel[0], this->Margins[0], grid.Columns);
-  const auto [row, lastRow] = samplesBetween(std::min({ a[1], b[1], c[1] }),
-    std::max({ a[1], b[1], c[1] }), grid.South, grid.Pixel[1], this->Margins[1], grid.Rows);
-  if (column > lastColumn || row > lastRow)
+  const double low[2] = { std::min({ a[0], b[0], c[0] }), std::min({ a[1], b[1], c[1] }) };
+  const double high[2] = { std::max({ a[0], b[0], c[0] }), std::max({ a[1], b[1], c[1] }) };
+  const RasterWindow window = this->windowOf(low, high);
+  if (window.Columns == 0)
   {
     return;
   }
-  const std::int64_t top = (grid.Rows - 1 - lastRow) / RasterTileSize;
-  const std::int64_t bottom = (grid.Rows - 1 - row) / RasterTileSize;
-  for (std::int64_t tileRow = top; tileRow <= bottom; ++tileRow)
+  const std::int64_t right = window.Column + window.Columns;
+  const std::int64_t end = window.Row + window.Rows;
+  const std::int64_t first = (grid.Rows - end) / RasterTileSize;
+  const std::int64_t last = (grid.Rows - 1 - window.Row) / RasterTileSize;
+  for (std::int64_t tileRow = first; tileRow <= last; ++tileRow)
   {
-    const std::int64_t high = grid.Rows - 1 - tileRow * RasterTileSize;
-    const std::int64_t low = std::max<std::int64_t>(high - RasterTileSize + 1, 0);
-    for (std::int64_t i = column / RasterTileSize; i <= lastColumn / RasterTileSize; ++i)
+    const std::int64_t top = grid.Rows - tileRow * RasterTileSize;
+    const std::int64_t row = std::max({ top - RasterTileSize, window.Row });
+    for (std::int64_t i = window.Column / RasterTileSize; i <= (right - 1) / RasterTileSize; ++i)
     {
       Tile& tile = part.tileAt(tileRow, i);
       tile.Ids.insert(tile.Ids.end(), corners, corners + 3);
-      const std::int64_t west = i * RasterTileSize;
-      tile.extend(std::max(column, west), std::min(lastColumn, west + RasterTileSize - 1),
-        std::max(row, low), std::min(lastRow, high));
+      const std::int64_t column = std::max(window.Column, i * RasterTileSize);
+      tile.extend({ column, row, std::min(right, (i + 1) * RasterTileSize) - column,
+        std::min(top, end) - row });
     }
   }
 }
@@ -211,36 +287,29 @@ void RasterSink::addTriangle(Part& part, const std::int32_t* corners) const
 void RasterSink::sampleTile(Part& part, const Tile& tile) const
 {
   const RasterGrid& grid = this->Settings.Grid;
+  const RasterWindow& window = tile.Window;
   SimplexMesh mesh;
   mesh.Points = part.XYZ.data();
   mesh.PointCount = part.Points.Count;
   mesh.Ids = tile.Ids.data();
   mesh.Cells = std::int64_t(tile.Ids.size() / 3);
   Lattice lattice = latticeOf(grid);
-  lattice.Extent = { int(tile.FirstColumn), int(tile.LastColumn), int(tile.FirstRow),
-    int(tile.LastRow), 0, 0 };
-  SampledBands samples;
-  std::vector<std::uint64_t> keys;
-  samplePart(this->Settings, part.Points, mesh, lattice, samples, keys);
-  const RasterWindow window{ tile.FirstColumn, tile.FirstRow,
-    tile.LastColumn - tile.FirstColumn + 1, tile.LastRow - tile.FirstRow + 1 };
-  std::vector<unsigned char> isInside(keys.size());
-  for (std::size_t i = 0; i < keys.size(); ++i)
+  lattice.Extent = { int(window.Column), int(window.Column + window.Columns - 1), int(window.Row),
+    int(window.Row + window.Rows - 1), 0, 0 };
+  const SampledPart sampled = samplePart(this->Settings, part.Points, mesh, lattice);
+  for (const BorderSample& at : sampled.Border)
   {
-    isInside[i] = isInsideKey(keys[i]) ? 1 : 0;
-    if (isInside[i] == 0 && !isNoKey(keys[i]))
+    const std::int64_t column = window.Column + at.Sample % window.Columns;
+    const std::int64_t row = window.Row + at.Sample / window.Columns;
+    const BorderPixel pixel{ row * grid.Columns + column, at.Key };
+    part.Border.append(reinterpret_cast<const char*>(&pixel), sizeof pixel);
+    for (const std::vector<double>& values : sampled.Bands.Values)
     {
-      const std::int64_t column = window.Column + std::int64_t(i) % window.Columns;
-      const std::int64_t row = window.Row + std::int64_t(i) / window.Columns;
-      const BorderSample sample{ row * grid.Columns + column, keys[i] };
-      part.Border.append(reinterpret_cast<const char*>(&sample), sizeof sample);
-      for (const std::vector<double>& values : samples.Values)
-      {
-        part.Border.append(reinterpret_cast<const char*>(&values[i]), sizeof(double));
-      }
+      part.Border.append(
+        reinterpret_cast<const char*>(&values[std::size_t(at.Sample)]), sizeof(double));
     }
   }
-  this->Store->set(window, isInside, samples.Values);
+  this->Store->set(window, sampled.IsInside, sampled.Bands.Values);
 }
 
 void RasterSink::saveBorder(const Part& part, const std::string& name) const
@@ -257,10 +326,10 @@ void RasterSink::saveBorder(const Part& part, const std::string& name) const
 void RasterSink::answerBorders()
 {
   const std::size_t bands = this->Settings.Bands.Bands.size();
-  const std::size_t bytes = sizeof(BorderSample) + bands * sizeof(double);
+  const std::size_t bytes = sizeof(BorderPixel) + bands * sizeof(double);
   struct Entry
   {
-    BorderSample Sample;
+    BorderPixel Sample;
     std::size_t At; ///< of the values, among all
   };
   std::vector<Entry> entries;
@@ -279,9 +348,9 @@ void RasterSink::answerBorders()
     for (std::size_t at = 0; at + bytes <= content.size(); at += bytes)
     {
       entries.push_back({ {}, values.size() });
-      std::memcpy(&entries.back().Sample, content.data() + at, sizeof(BorderSample));
+      std::memcpy(&entries.back().Sample, content.data() + at, sizeof(BorderPixel));
       values.resize(values.size() + bands);
-      std::memcpy(values.data() + entries.back().At, content.data() + at + sizeof(BorderSample),
+      std::memcpy(values.data() + entries.back().At, content.data() + at + sizeof(BorderPixel),
         bands * sizeof(double));
     }
   }
@@ -303,11 +372,11 @@ void RasterSink::answerBorders()
 bool RasterSink::end(const std::function<bool(double)>& progress)
 {
   this->answerBorders();
-  return this->Write(
-    this->Settings,
-    [this](const RasterWindow& tile, std::vector<std::vector<double>>& values)
-    { this->Store->read(tile, values); },
-    progress);
+  TileSource tiles;
+  tiles.Read = [this](const RasterWindow& tile, std::vector<std::vector<double>>& values)
+  { this->Store->read(tile, values); };
+  tiles.ReadFinished = [this](std::int64_t tile) { return this->Store->readFinished(tile); };
+  return this->Write(this->Settings, tiles, progress);
 }
 
 } // namespace tipp

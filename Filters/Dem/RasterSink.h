@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ namespace tipp
 {
 
 /// Samples the triangles of a triangulation out of core, and forgets them. Pixels are kept in a
-/// file until all are known.
+/// TileStore until all are known.
 class VTKTIPPFILTERS_EXPORT RasterSink : public TriangleTaker
 {
 public:
@@ -25,11 +26,12 @@ public:
   using MakeSettings =
     std::function<TerrainSettings(const Box2& bounds, const std::vector<std::string>& columns)>;
   /// Writes the raster from the values of tiles; false if `progress` ended it.
-  using WriteRaster = std::function<bool(const TerrainSettings& settings, const ReadTile& readTile,
+  using WriteRaster = std::function<bool(const TerrainSettings& settings, const TileSource& tiles,
     const std::function<bool(double)>& progress)>;
 
-  /// `writeRaster` is called on the first rank.
-  RasterSink(MakeSettings makeSettings, WriteRaster writeRaster);
+  /// `writeRaster` is called on the first rank. `encoding`: of the raster's file, for tiles that
+  /// are encoded while the run goes on; null: none are.
+  RasterSink(MakeSettings makeSettings, WriteRaster writeRaster, const RasterDescription* encoding);
 
   /// Of what else than the points must be the same in a resumed run; on the first rank.
   void setIdentity(const std::string& identity) { this->Identity = identity; }
@@ -48,6 +50,9 @@ private:
   struct Tile;
 
   void findMargins();
+  RasterWindow windowOf(const double* low, const double* high) const;
+  RasterWindow windowOf(const std::vector<double>& xyz) const;
+  void sampleByTile(Part& part, const std::vector<TriangleRange>& triangles) const;
   void addTriangle(Part& part, const std::int32_t* corners) const;
   void sampleTile(Part& part, const Tile& tile) const;
   void saveBorder(const Part& part, const std::string& name) const;
@@ -56,6 +61,7 @@ private:
   std::string Identity;
   const MakeSettings Make;
   const WriteRaster Write;
+  const std::optional<RasterDescription> Encoding;
   TerrainSettings Settings;
   std::array<double, 2> Margins{}; ///< along x and y, how far roundings may move a coordinate
   std::string Files;

@@ -2,7 +2,7 @@
 #include "Dem/TerrainSampler.h"
 
 #include "Parallel/ParallelFor.h"
-#include "Resample/CellKey.h"
+#include "Resample/DirectSampling.h"
 #include "Resample/Resample.h"
 
 #include <limits>
@@ -120,27 +120,24 @@ bool sampleTerrain(const TerrainSettings& settings, const TerrainPoints& points,
   return !resample(mesh, latticeOf(settings.Grid), arrays.Attributes, options).Aborted;
 }
 
-void samplePart(const TerrainSettings& settings, const TerrainPoints& points,
-  const SimplexMesh& mesh, const Lattice& part, SampledBands& values,
-  std::vector<std::uint64_t>& keys)
+SampledPart samplePart(const TerrainSettings& settings, const TerrainPoints& points,
+  const SimplexMesh& mesh, const Lattice& part)
 {
-  allocate(settings, part.samples(), values);
-  keys.assign(std::size_t(part.samples()), noCellKey);
-  std::vector<unsigned char> valid(keys.size(), 0);
-  const BandArrays arrays(settings, points, mesh, 1, values);
-  ResampleOptions options = optionsFor(1, valid);
-  options.Keys = keys.data();
-  resample(mesh, part, arrays.Attributes, options);
-}
-
-bool isInsideKey(std::uint64_t key)
-{
-  return key >> 60 == 0;
-}
-
-bool isNoKey(std::uint64_t key)
-{
-  return key == noCellKey;
+  SampledPart sampled;
+  allocate(settings, part.samples(), sampled.Bands);
+  sampled.IsInside.resize(std::size_t(part.samples()));
+  const BandArrays arrays(settings, points, mesh, 1, sampled.Bands);
+  InterpolationOptions options;
+  options.Valid = sampled.IsInside.data();
+  if (samplePartDirectly(mesh, part, arrays.Attributes, options, sampled.Border).Overlapping)
+  {
+    throw std::logic_error("triangles of a triangulation overlap");
+  }
+  for (const BorderSample& sample : sampled.Border)
+  {
+    sampled.IsInside[std::size_t(sample.Sample)] = 0;
+  }
+  return sampled;
 }
 
 } // namespace tipp

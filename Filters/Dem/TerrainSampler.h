@@ -4,6 +4,7 @@
 
 #include "Dem/DemBands.h"
 #include "Raster/RasterFile.h"
+#include "Resample/BorderSample.h"
 #include "Resample/Lattice.h"
 #include "Resample/SimplexMesh.h"
 
@@ -44,17 +45,19 @@ struct SampledBands
 bool sampleTerrain(const TerrainSettings& settings, const TerrainPoints& points,
   const SimplexMesh& mesh, const std::function<bool(double)>& progress, SampledBands& samples);
 
-/// Samples some triangles of a mesh at the pixels of a part of the lattice, whose samples `keys`
-/// and `values` have. Of samples that no triangle contains but that lie on the border of these
-/// ones, the triangle of the lowest key answers, here or among others.
-void samplePart(const TerrainSettings& settings, const TerrainPoints& points,
-  const SimplexMesh& mesh, const Lattice& part, SampledBands& values,
-  std::vector<std::uint64_t>& keys);
+/// A part of a mesh at the pixels of a part of the lattice.
+struct SampledPart
+{
+  SampledBands Bands;
+  std::vector<unsigned char> IsInside; ///< 1 for samples that a triangle contains
+  /// Samples that none contains but that lie on the border of a triangle. The one of the lowest key
+  /// answers, here or in another part.
+  std::vector<BorderSample> Border;
+};
 
-/// Whether a key from samplePart() is that of a triangle that contains the sample.
-bool isInsideKey(std::uint64_t key);
-/// The key of samples in no triangle.
-bool isNoKey(std::uint64_t key);
+/// Samples some triangles of a mesh, which do not overlap, in the calling thread.
+SampledPart samplePart(const TerrainSettings& settings, const TerrainPoints& points,
+  const SimplexMesh& mesh, const Lattice& part);
 
 } // namespace tipp
 

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -54,12 +55,13 @@ double decode(Word stored)
 
 } // namespace
 
-TileStore::TileStore(
-  const std::string& path, const RasterGrid& grid, std::size_t bands, bool isSingle)
+TileStore::TileStore(const std::string& path, const RasterGrid& grid, std::size_t bands,
+  bool isSingle, FinishTile finish)
   : Path(path)
   , Grid(grid)
   , Bands(bands)
   , IsSingle(isSingle)
+  , Finish(std::move(finish))
   , Descriptor(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666))
 {
   if (this->Descriptor < 0)
@@ -73,30 +75,51 @@ TileStore::~TileStore()
   close(this->Descriptor);
 }
 
-/// Tiles are counted from the north-west, so that each has the rows of a tile of the raster's file;
-/// in a tile rows are those from the north.
-template <typename Word>
-std::uint64_t TileStore::offset(std::int64_t column, std::int64_t row, std::size_t band) const
+/// Tiles are those of the raster's file.
+std::int64_t TileStore::tileAt(std::int64_t column, std::int64_t row) const
 {
-  const std::int64_t fromNorth = this->Grid.Rows - 1 - row;
   const std::int64_t across = (this->Grid.Columns + RasterTileSize - 1) / RasterTileSize;
-  const std::int64_t tile = fromNorth / RasterTileSize * across + column / RasterTileSize;
-  const std::int64_t pixel = fromNorth % RasterTileSize * RasterTileSize + column % RasterTileSize;
-  return sizeof(Word) *
-    ((std::uint64_t(tile) * this->Bands + band) * tilePixels + std::uint64_t(pixel));
+  return (this->Grid.Rows - 1 - row) / RasterTileSize * across + column / RasterTileSize;
 }
 
-/// Keeps other threads and processes away from the tile of a pixel.
-template <typename Word>
+std::uint64_t TileStore::pixelBytes() const
+{
+  return (this->IsSingle ? sizeof(float) : sizeof(double)) * std::uint64_t(tilePixels) *
+    this->Bands;
+}
+
+/// For what does not compress, too.
+std::uint64_t TileStore::encodedRoom() const
+{
+  return this->pixelBytes() / 8 * 9 + 4096;
+}
+
+/// The states of all tiles come first, then of each its pixels and what it is encoded to. Unused
+/// parts of the file are holes.
+std::uint64_t TileStore::begin(std::int64_t tile) const
+{
+  return sizeof(State) * std::uint64_t(tileCount(this->Grid)) +
+    std::uint64_t(tile) * (this->pixelBytes() + this->encodedRoom());
+}
+
+/// In a tile rows are those from the north.
+std::uint64_t TileStore::offset(
+  std::int64_t column, std::int64_t row, std::size_t band, std::size_t wordSize) const
+{
+  const std::int64_t fromNorth = this->Grid.Rows - 1 - row;
+  const std::int64_t pixel = fromNorth % RasterTileSize * RasterTileSize + column % RasterTileSize;
+  return this->begin(this->tileAt(column, row)) +
+    wordSize * (band * std::uint64_t(tilePixels) + std::uint64_t(pixel));
+}
+
+/// Keeps other threads and processes away from a tile.
 class TileStore::Lock
 {
 public:
-  Lock(const TileStore& store, std::int64_t column, std::int64_t row)
+  Lock(const TileStore& store, std::int64_t tile)
     : Store(store)
-    , Begin(store.template offset<Word>(column / RasterTileSize * RasterTileSize,
-        store.Grid.Rows - 1 - (store.Grid.Rows - 1 - row) / RasterTileSize * RasterTileSize, 0))
-    , Length(sizeof(Word) * std::uint64_t(tilePixels) * store.Bands)
-    , Thread(store.Mutexes[this->Begin / this->Length % store.Mutexes.size()])
+    , Begin(store.begin(tile))
+    , Thread(store.Mutexes[std::size_t(tile) % store.Mutexes.size()])
   {
     if (!this->setFileLock(F_WRLCK))
     {
@@ -114,7 +137,7 @@ private:
     lock.l_type = type;
     lock.l_whence = SEEK_SET;
     lock.l_start = off_t(this->Begin);
-    lock.l_len = off_t(this->Length);
+    lock.l_len = off_t(this->Store.pixelBytes());
     int result = 0;
     do
     {
@@ -125,9 +148,20 @@ private:
 
   const TileStore& Store;
   const std::uint64_t Begin;
-  const std::uint64_t Length;
   const std::lock_guard<std::mutex> Thread;
 };
+
+TileStore::State TileStore::stateOf(std::int64_t tile) const
+{
+  State state;
+  this->readAt(std::uint64_t(tile) * sizeof state, &state, sizeof state);
+  return state;
+}
+
+void TileStore::writeState(std::int64_t tile, State state) const
+{
+  this->writeAt(std::uint64_t(tile) * sizeof state, &state, sizeof state);
+}
 
 /// What lies beyond the end of the file is 0.
 void TileStore::readAt(std::uint64_t offset, void* words, std::size_t bytes) const
@@ -175,29 +209,119 @@ void TileStore::writeAt(std::uint64_t offset, const void* words, std::size_t byt
   }
 }
 
+/// A count that is too low, after a process was killed, only keeps the tile from being finished.
 template <typename Word>
-void TileStore::setAs(const RasterWindow& window, const std::vector<unsigned char>& isSet,
+void TileStore::setAs(const Source& source, const std::vector<unsigned char>& isSet,
   const std::vector<std::vector<double>>& values)
 {
-  const Lock<Word> lock(*this, window.Column, window.Row);
+  const RasterWindow& window = source.Window;
+  const std::int64_t tile = this->tileAt(window.Column, window.Row);
+  const Lock lock(*this, tile);
+  State state = this->stateOf(tile);
+  if (state.Encoded > 0)
+  {
+    return; // a resumed run sets what is there
+  }
   const auto width = std::size_t(window.Columns);
   // Its rows lie one after the other, the northernmost first.
   std::vector<Word> rows(std::size_t(window.Rows - 1) * std::size_t(RasterTileSize) + width);
   for (std::size_t band = 0; band < this->Bands; ++band)
   {
-    const std::uint64_t at = this->offset<Word>(window.Column, window.Row + window.Rows - 1, band);
+    const std::uint64_t at =
+      this->offset(window.Column, window.Row + window.Rows - 1, band, sizeof(Word));
     this->readAt(at, rows.data(), rows.size() * sizeof(Word));
+    std::uint32_t added = 0;
     for (std::size_t row = 0; row < std::size_t(window.Rows); ++row)
     {
       Word* const to =
         rows.data() + (std::size_t(window.Rows) - 1 - row) * std::size_t(RasterTileSize);
+      const std::size_t from = source.First + row * source.Width;
       for (std::size_t i = 0; i < width; ++i)
       {
-        to[i] = isSet[row * width + i] != 0 ? encode<Word>(values[band][row * width + i]) : to[i];
+        added += std::uint32_t(isSet[from + i] != 0 && to[i] == 0);
+        to[i] = isSet[from + i] != 0 ? encode<Word>(values[band][from + i]) : to[i];
       }
     }
     this->writeAt(at, rows.data(), rows.size() * sizeof(Word));
+    state.Set += band == 0 ? added : 0;
   }
+  this->writeState(tile, state);
+  const RasterWindow whole = tileOf(this->Grid, tile);
+  if (this->Finish && state.Set == std::uint32_t(whole.Columns * whole.Rows))
+  {
+    this->finish<Word>(tile);
+  }
+}
+
+/// With its lock.
+template <typename Word>
+void TileStore::finish(std::int64_t tile)
+{
+  const RasterWindow window = tileOf(this->Grid, tile);
+  std::vector<std::vector<double>> values;
+  this->readAs<Word>(window, values);
+  this->writeFinished(tile, this->Finish(window, values));
+}
+
+void TileStore::writeFinished(std::int64_t tile, const FinishedTile& finished)
+{
+  std::string bytes(reinterpret_cast<const char*>(&finished.Filled), sizeof finished.Filled);
+  for (const EncodedTile::Band& band : finished.Encoded.Bands)
+  {
+    const std::uint64_t size = band.Bytes.size();
+    bytes.append(reinterpret_cast<const char*>(&band.Sums), sizeof band.Sums);
+    bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
+    bytes += band.Bytes;
+  }
+  if (bytes.size() > this->encodedRoom() ||
+    bytes.size() > std::numeric_limits<std::uint32_t>::max())
+  {
+    return; // it is encoded at the end
+  }
+  const std::uint64_t begin = this->begin(tile);
+  this->writeAt(begin + this->pixelBytes(), bytes.data(), bytes.size());
+  State state = this->stateOf(tile);
+  state.Encoded = std::uint32_t(bytes.size());
+  this->writeState(tile, state);
+#ifdef FALLOC_FL_PUNCH_HOLE
+  // Where the file system cannot, the pixels only take space. Most have not been on the disk yet.
+  const int ignored = fallocate(this->Descriptor, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
+    off_t(begin), off_t(this->pixelBytes()));
+  static_cast<void>(ignored);
+#endif
+}
+
+std::optional<FinishedTile> TileStore::readFinished(std::int64_t tile) const
+{
+  const State state = this->stateOf(tile);
+  if (state.Encoded == 0)
+  {
+    return std::nullopt;
+  }
+  std::string bytes(std::min<std::uint64_t>(state.Encoded, this->encodedRoom()), '\0');
+  this->readAt(this->begin(tile) + this->pixelBytes(), bytes.data(), bytes.size());
+  std::size_t at = 0;
+  const auto take = [&](void* to, std::size_t size)
+  {
+    if (size > bytes.size() - at)
+    {
+      throw IOError(this->Path, "is damaged; remove it and start again.");
+    }
+    std::memcpy(to, bytes.data() + at, size);
+    at += size;
+  };
+  FinishedTile finished;
+  take(&finished.Filled, sizeof finished.Filled);
+  for (std::size_t band = 0; band < this->Bands; ++band)
+  {
+    EncodedTile::Band& to = finished.Encoded.Bands.emplace_back();
+    std::uint64_t size = 0;
+    take(&to.Sums, sizeof to.Sums);
+    take(&size, sizeof size);
+    to.Bytes.resize(std::min<std::uint64_t>(size, bytes.size()));
+    take(to.Bytes.data(), size);
+  }
+  return finished;
 }
 
 template <typename Word>
@@ -205,32 +329,39 @@ void TileStore::setIfMissingAs(std::int64_t pixel, const double* values)
 {
   const std::int64_t column = pixel % this->Grid.Columns;
   const std::int64_t row = pixel / this->Grid.Columns;
-  const Lock<Word> lock(*this, column, row);
+  const std::int64_t tile = this->tileAt(column, row);
+  const Lock lock(*this, tile);
+  if (this->stateOf(tile).Encoded > 0)
+  {
+    return;
+  }
   Word first = 0;
-  this->readAt(this->offset<Word>(column, row, 0), &first, sizeof first);
+  this->readAt(this->offset(column, row, 0, sizeof first), &first, sizeof first);
   for (std::size_t band = 0; first == 0 && band < this->Bands; ++band)
   {
     const auto word = encode<Word>(values[band]);
-    this->writeAt(this->offset<Word>(column, row, band), &word, sizeof word);
+    this->writeAt(this->offset(column, row, band, sizeof word), &word, sizeof word);
   }
 }
 
 template <typename Word>
 void TileStore::readAs(const RasterWindow& tile, std::vector<std::vector<double>>& values) const
 {
-  const Lock<Word> lock(*this, tile.Column, tile.Row);
   const auto width = std::size_t(tile.Columns);
-  std::vector<Word> words(width);
+  const auto height = std::size_t(tile.Rows);
+  constexpr auto side = std::size_t(RasterTileSize);
+  std::vector<Word> words((height - 1) * side + width);
   values.resize(this->Bands);
   for (std::size_t band = 0; band < this->Bands; ++band)
   {
-    values[band].resize(width * std::size_t(tile.Rows));
-    for (std::int64_t row = 0; row < tile.Rows; ++row)
+    this->readAt(this->offset(tile.Column, tile.Row + tile.Rows - 1, band, sizeof(Word)),
+      words.data(), words.size() * sizeof(Word));
+    values[band].resize(width * height);
+    for (std::size_t row = 0; row < height; ++row)
     {
-      this->readAt(
-        this->offset<Word>(tile.Column, tile.Row + row, band), words.data(), width * sizeof(Word));
-      std::transform(words.begin(), words.end(),
-        values[band].begin() + std::ptrdiff_t(std::size_t(row) * width), decode<Word>);
+      const Word* const from = words.data() + (height - 1 - row) * side;
+      std::transform(
+        from, from + width, values[band].begin() + std::ptrdiff_t(row * width), decode<Word>);
     }
   }
 }
@@ -238,8 +369,25 @@ void TileStore::readAs(const RasterWindow& tile, std::vector<std::vector<double>
 void TileStore::set(const RasterWindow& window, const std::vector<unsigned char>& isSet,
   const std::vector<std::vector<double>>& values)
 {
-  this->IsSingle ? this->setAs<std::uint32_t>(window, isSet, values)
-                 : this->setAs<std::uint64_t>(window, isSet, values);
+  const std::int64_t right = window.Column + window.Columns;
+  const std::int64_t top = window.Row + window.Rows;
+  for (std::int64_t row = window.Row; row < top;)
+  {
+    const RasterWindow line = tileOf(this->Grid, this->tileAt(window.Column, row));
+    const std::int64_t rows = std::min(line.Row + line.Rows, top) - row;
+    for (std::int64_t column = window.Column; column < right;)
+    {
+      const std::int64_t next = (column / RasterTileSize + 1) * RasterTileSize;
+      const std::int64_t columns = std::min(next, right) - column;
+      const Source source{ { column, row, columns, rows },
+        std::size_t((row - window.Row) * window.Columns + column - window.Column),
+        std::size_t(window.Columns) };
+      this->IsSingle ? this->setAs<std::uint32_t>(source, isSet, values)
+                     : this->setAs<std::uint64_t>(source, isSet, values);
+      column += columns;
+    }
+    row += rows;
+  }
 }
 
 void TileStore::setIfMissing(std::int64_t pixel, const double* values)

@@ -2,7 +2,7 @@
 #include "Duplicates/ResolveDuplicates.h"
 
 #include "Files/IOError.h"
-#include "Points/PointTable.h"
+#include "Points/RankColumn.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,10 +84,11 @@ void resolve(const Group& group, const std::vector<ValueColumn>& columns, std::s
 void requireElevation(DuplicateRule rule, const std::vector<std::string>& columns)
 {
   const bool isNeeded = rule == DuplicateRule::Lowest || rule == DuplicateRule::Highest;
-  if (isNeeded && findElevation(columns) == columns.size())
+  if (isNeeded && findRankColumn(columns) == columns.size())
   {
-    throw IOError("The points have no column z or elevation, by which to choose the lowest or "
-                  "highest of coincident points; use 'first' or 'mean'.");
+    throw IOError("The points have no column z, elevation or depth, nor a single other one, by "
+                  "which to choose the lowest or highest of coincident points; use 'first' or "
+                  "'mean'.");
   }
 }
 
@@ -123,7 +124,7 @@ std::int64_t resolveDuplicates(
     columns.push_back({ column.Values.data(), 1 });
     names.push_back(column.Name);
   }
-  return resolveDuplicates(std::move(duplicates), columns, findElevation(names), rule);
+  return resolveDuplicates(std::move(duplicates), columns, findRankColumn(names), rule);
 }
 
 } // namespace tipp

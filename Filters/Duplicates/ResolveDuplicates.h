@@ -18,12 +18,12 @@ namespace tipp
 enum class DuplicateRule
 {
   First,   ///< those of the first point
-  Lowest,  ///< those of the first point of the lowest elevation
-  Highest, ///< those of the first point of the highest elevation
+  Lowest,  ///< those of the first point that is lowest by findRankColumn()
+  Highest, ///< those of the first point that is highest
   Mean     ///< of each column the mean of the values that there are
 };
 
-/// Throws IOError if there is no elevation and the rule needs one.
+/// Throws IOError if the rule needs a column that findRankColumn() finds and there is none.
 VTKTIPPFILTERS_EXPORT void requireElevation(
   DuplicateRule rule, const std::vector<std::string>& columns);
 

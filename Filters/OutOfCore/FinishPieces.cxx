@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "OutOfCore/ScratchFiles.h"
+#include "OutOfCore/TakeBorders.h"
 #include "Partitioned/GrowingPiece.h"
 #include "Partitioned/NeighborIds.h"
 #include "Partitioned/PieceFile.h"
@@ -30,14 +31,6 @@ bool exists(const std::string& path)
 FinishedPiece readFinished(const std::string& path)
 {
   return unpacked<FinishedPiece>(readCheckedFile(path));
-}
-
-PieceInterior readInterior(const PieceWork& work, PartitionIndex piece, const StoredResult& result)
-{
-  PieceInterior interior = result.readInterior();
-  interior.First = work.Points.starts()[std::size_t(piece)];
-  interior.OwnPoints = work.Points.count(piece);
-  return interior;
 }
 
 /// Throws IOError for what is damaged or missing.
@@ -83,6 +76,10 @@ public:
     {
       this->constrain(threads);
     }
+    if (work.Taker) // which goes without constraints
+    {
+      takeTriangles(work, "hull", this->Late, this->results());
+    }
   }
 
   const PieceFigures& figures() const { return this->Figures; }
@@ -99,15 +96,19 @@ public:
     PieceBorder border(interior, this->Work.Rows);
     this->forEachBorder(
       piece, [&](const BorderTriangles& triangles) { this->addTriangles(triangles, border); });
-    this->setGhosts(border);
+    FinishedPiece finished;
     if (this->Work.Taker)
     {
-      const PieceBorder::Mesh mesh = border.mesh();
-      this->Work.Taker->take(std::to_string(number) + ".border", mesh.Rows.data(), this->Work.Rows,
-        mesh.Rows.size() / this->Work.Rows.Words, { mesh.triangles() });
+      finished.Summary = this->Work.Mesh.Pieces[number];
+      finished.Summary.Cells =
+        interior.Cells + std::int64_t(interior.InterfaceTriangles.size() + border.triangles());
+      isBorderTaken(this->Work, piece) ? void() : takeBorder(this->Work, piece, this->results());
     }
-    FinishedPiece finished =
-      writeBorder(this->Work.Mesh, number, this->Work.Rows, interior, border);
+    else
+    {
+      setGhosts(this->Work, this->results(), border);
+      finished = writeBorder(this->Work.Mesh, number, this->Work.Rows, interior, border);
+    }
     // From now on the file may have another layout than the result says.
     writeCheckedFile(record, [&](SaveArchive& archive) { archive(finished); });
     return finished;
@@ -271,44 +272,21 @@ private:
     }
   }
 
-  void setGhosts(PieceBorder& border) const
+  ResultOf results() const
   {
-    std::vector<std::int64_t> ghosts = border.ghosts();
-    std::sort(ghosts.begin(), ghosts.end());
-    this->visitRows(
-      ghosts, [&](std::int64_t point, const double* row) { border.setGhost(point, row); });
+    return [this](PartitionIndex piece) -> const StoredResult&
+    { return *this->Results[std::size_t(piece)]; };
   }
 
   std::vector<Point2> positionsOf(const std::vector<std::int64_t>& points) const
   {
     std::vector<Point2> positions;
     positions.reserve(points.size());
-    this->visitRows(points,
+    visitBorderRows(this->Work, points, this->results(),
       [&](std::int64_t, const double* row) {
         positions.push_back({ row[0], row[1] });
       });
     return positions;
-  }
-
-  /// Visits the rows of points at borders, which are interface points of their own pieces. Points:
-  /// ascending.
-  template <typename Visit>
-  void visitRows(const std::vector<std::int64_t>& points, const Visit& visit) const
-  {
-    const std::vector<std::int64_t>& starts = this->Work.Points.starts();
-    PartitionIndex piece = -1;
-    PieceInterior owner;
-    for (const std::int64_t point : points)
-    {
-      const auto of = static_cast<PartitionIndex>(
-        std::upper_bound(starts.begin(), starts.end(), point) - starts.begin() - 1);
-      if (of != piece)
-      {
-        piece = of;
-        owner = this->interiorOf(piece);
-      }
-      visit(point, owner.interfaceRow(point, this->Work.Rows));
-    }
   }
 
   const PieceWork& Work;

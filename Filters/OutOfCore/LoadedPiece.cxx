@@ -367,6 +367,7 @@ PieceInterior LoadedPiece::writeInterior()
   const std::size_t number = this->Work.Plan.number(this->Piece);
   if (this->Work.Taker)
   {
+    content.IsSummed = false;
     this->Work.Taker->take(std::to_string(number), this->Rows.data(), this->Work.Rows,
       this->IsOnInterface.size(), content.Triangles);
   }

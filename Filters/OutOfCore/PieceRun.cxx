@@ -29,6 +29,10 @@ void PieceRun::prepare(const std::vector<char>& isDone)
 {
   const PiecePlan& plan = this->Work.Plan;
   this->Order = std::make_unique<PieceOrder>(plan, this->Work.Points, this->Threads);
+  if (this->Work.Taker)
+  {
+    this->Borders = std::make_unique<BorderQueue>(plan, this->Order->partitions());
+  }
   const std::vector<PartitionIndex>& sequence = this->Order->sequence();
   const std::size_t ranks = this->Post ? std::size_t(this->Post->size()) : 1;
   std::vector<char> isToDo(this->Inboxes.size(), 0);
@@ -93,8 +97,8 @@ void PieceRun::writeEmptyPieces(const std::vector<char>& isDone)
   }
 }
 
-/// The piece's result is on disk.
-void PieceRun::setDone(PartitionIndex piece)
+/// The piece's result is on disk. Returns the pieces whose borders can be taken now.
+std::vector<PartitionIndex> PieceRun::setDone(PartitionIndex piece)
 {
   this->at(piece).Result = std::make_unique<StoredResult>(this->Work.resultPath(piece));
   for (const PartitionIndex other : this->Order->sequence())
@@ -107,6 +111,22 @@ void PieceRun::setDone(PartitionIndex piece)
     const auto isOfPiece = [&](const SentMessages::value_type& sent)
     { return sent.second.Sender >= 0 && this->pieceOf(sent.second.Sender) == piece; };
     pending.erase(std::remove_if(pending.begin(), pending.end(), isOfPiece), pending.end());
+  }
+  return this->Borders ? this->Borders->setDone(piece) : std::vector<PartitionIndex>();
+}
+
+/// Before other ranks are told that this piece is done: when all are, nothing is taken any more.
+/// What two ranks that finish at the same time miss is taken at the end.
+void PieceRun::takeBorders(const std::vector<PartitionIndex>& pieces)
+{
+  const auto resultOf = [this](PartitionIndex piece) -> const StoredResult&
+  {
+    const Lock lock(this->Mutex);
+    return *this->at(piece).Result;
+  };
+  for (const PartitionIndex piece : pieces)
+  {
+    isBorderTaken(this->Work, piece) ? void() : takeBorder(this->Work, piece, resultOf);
   }
 }
 
@@ -254,10 +274,15 @@ void PieceRun::finishPiece(PartitionIndex piece)
 {
   PieceResult result = this->at(piece).Loaded->write();
   writeResult(this->Work.resultPath(piece), result);
+  std::vector<PartitionIndex> borders;
+  {
+    const Lock lock(this->Mutex);
+    this->at(piece).Loaded.reset();
+    borders = this->setDone(piece);
+  }
+  this->takeBorders(borders);
   const Lock lock(this->Mutex);
-  this->at(piece).Loaded.reset();
   this->LoadedBytes -= LoadedPiece::bytesOf(this->Work, piece);
-  this->setDone(piece);
   --this->PiecesLeft;
   for (int to = 0; this->hasOtherRanks() && to < this->Post->size(); ++to)
   {

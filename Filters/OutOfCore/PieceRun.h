@@ -4,6 +4,7 @@
 
 #include "Engine/ReadyPartitions.h"
 #include "OutOfCore/LoadedPiece.h"
+#include "OutOfCore/TakeBorders.h"
 #include "Ranks/Communicator.h"
 
 #include <condition_variable>
@@ -77,7 +78,8 @@ private:
   void sendToRanks(PartitionIndex p, const SentMessages& sent);
   void deliver(PartitionIndex to, VertexMessage message);
   void finishPiece(PartitionIndex piece);
-  void setDone(PartitionIndex piece);
+  std::vector<PartitionIndex> setDone(PartitionIndex piece);
+  void takeBorders(const std::vector<PartitionIndex>& pieces);
   bool tell();
 
   void runThreads();
@@ -105,7 +107,8 @@ private:
   std::mutex Mutex; ///< for what follows
   std::condition_variable Changed;
   std::vector<Piece> Pieces;
-  std::size_t PiecesLeft = 0; ///< that this rank waits for
+  std::unique_ptr<BorderQueue> Borders; ///< null: there is no taker
+  std::size_t PiecesLeft = 0;           ///< that this rank waits for
   std::uint64_t LoadedBytes = 0;
   std::int64_t PointsDone = 0;
   std::int64_t PointsTold = -1;

@@ -9,6 +9,7 @@
 #include "OutOfCore/SpillPoints.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Points/PointTable.h"
+#include "Points/RankColumn.h"
 
 #include <cstdint>
 #include <memory>
@@ -38,7 +39,7 @@ public:
   {
     return { *this->Plan, *this->Spilled, this->Survey.Factor, this->Rows, this->Mesh,
       this->Results, this->Taker, this->MaximumEdge, this->Duplicates, this->Constraints.get(),
-      findElevation(this->Columns) };
+      findRankColumn(this->Columns) };
   }
 
   /// Throws IOError if a piece does not fit into the memory limit, in bytes; `path` is the mesh's.

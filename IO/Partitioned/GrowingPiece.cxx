@@ -282,7 +282,8 @@ PieceInterior writeInterior(const PartitionedMesh& mesh, std::size_t number,
     });
   if (mesh.Path.empty())
   {
-    for (const TriangleRange& range : content.Triangles)
+    for (const TriangleRange& range :
+      content.IsSummed ? content.Triangles : std::vector<TriangleRange>())
     {
       interior.TriangleSum += sumTriangles(range, content.Rows, layout);
     }

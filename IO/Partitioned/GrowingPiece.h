@@ -34,6 +34,7 @@ struct InteriorContent
   std::vector<TriangleRange> Triangles;        ///< all except the border's
   /// Duplicates: maps a point to the one with the same coordinates that represents it.
   const std::unordered_map<std::int32_t, std::int32_t>* Representatives = nullptr;
+  bool IsSummed = true; ///< whether to hash triangles for which there is no file
 };
 
 /// The first step.

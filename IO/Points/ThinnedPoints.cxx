@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Points/PointStream.h"
+#include "Points/RankColumn.h"
 
 #include "Files/IOError.h"
 #include "Files/TemporaryFiles.h"
@@ -106,12 +107,12 @@ public:
   ThinnedPoints(std::unique_ptr<PointStream> points, const Thinning& thinning)
     : All(std::move(points))
     , Rule(thinning)
-    , Elevation(findElevation(this->All->columns()))
+    , Elevation(findRankColumn(this->All->columns()))
   {
     if (thinning.Keep != Thinning::Rule::Nearest && this->Elevation == this->All->columns().size())
     {
-      throw IOError("The points have no column z or elevation, by which to choose the lowest or "
-                    "highest of a square; thin by 'nearest'.");
+      throw IOError("The points have no column z, elevation or depth, nor a single other one, by "
+                    "which to choose the lowest or highest of a square; thin by 'nearest'.");
     }
   }
 

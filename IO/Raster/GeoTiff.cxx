@@ -14,43 +14,34 @@
 
 namespace tipp
 {
+
+void BandSums::add(double value)
+{
+  this->Least = std::min(this->Least, value);
+  this->Most = std::max(this->Most, value);
+  this->Count += 1;
+  const double difference = value - this->Mean;
+  this->Mean += difference / this->Count;
+  this->Squares += difference * (value - this->Mean);
+}
+
+void BandSums::add(const BandSums& other)
+{
+  if (other.Count == 0)
+  {
+    return;
+  }
+  this->Least = std::min(this->Least, other.Least);
+  this->Most = std::max(this->Most, other.Most);
+  const double count = this->Count + other.Count;
+  const double difference = other.Mean - this->Mean;
+  this->Mean += difference * (other.Count / count);
+  this->Squares += other.Squares + difference * difference * (this->Count * other.Count / count);
+  this->Count = count;
+}
+
 namespace
 {
-
-/// Of the values of a band.
-struct BandSums
-{
-  double Least = std::numeric_limits<double>::infinity();
-  double Most = -std::numeric_limits<double>::infinity();
-  double Mean = 0;
-  double Squares = 0; ///< of differences from the mean
-  double Count = 0;
-
-  void add(double value)
-  {
-    this->Least = std::min(this->Least, value);
-    this->Most = std::max(this->Most, value);
-    this->Count += 1;
-    const double difference = value - this->Mean;
-    this->Mean += difference / this->Count;
-    this->Squares += difference * (value - this->Mean);
-  }
-  void add(const BandSums& other)
-  {
-    if (other.Count == 0)
-    {
-      return;
-    }
-    this->Least = std::min(this->Least, other.Least);
-    this->Most = std::max(this->Most, other.Most);
-    const double count = this->Count + other.Count;
-    const double difference = other.Mean - this->Mean;
-    this->Mean += difference * (other.Count / count);
-    this->Squares += other.Squares + difference * difference * (this->Count * other.Count / count);
-    this->Count = count;
-  }
-  double deviation() const { return std::sqrt(this->Squares / this->Count); }
-};
 
 std::string textOf(double value)
 {
@@ -74,6 +65,47 @@ TiffField textField(std::uint16_t tag, const std::string& text)
   return { tag, TiffField::Type::Text, text + '\0' };
 }
 
+/// Whether GDAL makes the file, from a plain one.
+bool isConverted(const RasterDescription& description)
+{
+  return description.CloudOptimized ||
+    !(description.Compression == "none" ||
+      (description.Compression == "deflate" && canDeflateTiles()));
+}
+
+bool isDeflated(const RasterDescription& description)
+{
+  return !isConverted(description) && description.Compression == "deflate";
+}
+
+/// Beyond the border of the raster a tile has no data.
+template <typename T>
+EncodedTile::Band encodeBand(
+  const RasterDescription& description, const RasterWindow& window, const double* values)
+{
+  constexpr auto side = std::size_t(RasterTileSize);
+  const T noData = T(description.NoData);
+  std::string bytes(side * side * sizeof(T), '\0');
+  T* const pixels = reinterpret_cast<T*>(bytes.data());
+  std::fill(pixels, pixels + side * side, noData);
+  EncodedTile::Band band;
+  for (std::int64_t row = 0; row < window.Rows; ++row)
+  {
+    const double* const from = values + row * window.Columns;
+    T* const to = pixels + std::size_t(window.Rows - 1 - row) * side;
+    for (std::int64_t i = 0; i < window.Columns; ++i)
+    {
+      if (!std::isnan(from[i]))
+      {
+        to[i] = T(from[i]);
+        band.Sums.add(double(to[i]));
+      }
+    }
+  }
+  band.Bytes = isDeflated(description) ? deflateTile(bytes, sizeof(T)) : std::move(bytes);
+  return band;
+}
+
 /// Compresses tiles in the threads that write them, and puts them into the file in order.
 class GeoTiffWriter : public RasterWriter
 {
@@ -82,13 +114,10 @@ public:
     const std::string& path, const RasterDescription& description, const PathState& before)
     : Path(path)
     , Description(description)
-    , IsConverted(description.CloudOptimized ||
-        !(description.Compression == "none" ||
-          (description.Compression == "deflate" && canDeflateTiles())))
     , Pending(path, before)
     , Sums(description.Bands.size())
   {
-    if (this->IsConverted)
+    if (isConverted(description))
     {
       requireConversion(description, path);
       this->Plain = std::make_unique<PendingFile>(path + ".plain");
@@ -98,27 +127,27 @@ public:
       this->Fields = geoKeysOf(description.Crs);
     }
     this->Tiff = std::make_unique<TiledTiff>((this->Plain ? *this->Plain : this->Pending).file(),
-      description.Grid, description.Bands.size(), description.Double,
-      !this->IsConverted && description.Compression == "deflate");
+      description.Grid, description.Bands.size(), description.Double, isDeflated(description),
+      description.ClassicBytes);
   }
 
   void write(const RasterWindow& window, const std::vector<const double*>& bands) override
   {
-    std::vector<EncodedTile> tile;
-    for (const double* const band : bands)
-    {
-      tile.push_back(this->Description.Double ? this->encode<double>(window, band)
-                                              : this->encode<float>(window, band));
-    }
+    this->writeEncoded(
+      tileNumber(this->Description.Grid, window), encodeTile(this->Description, window, bands));
+  }
+
+  void writeEncoded(std::int64_t tile, EncodedTile encoded) override
+  {
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->Waiting.emplace(tileNumber(this->Description.Grid, window), std::move(tile));
+    this->Waiting.emplace(tile, std::move(encoded));
     while (!this->Waiting.empty() && this->Waiting.begin()->first == this->Written)
     {
-      const std::vector<EncodedTile>& next = this->Waiting.begin()->second;
-      for (std::size_t band = 0; band < next.size(); ++band)
+      const EncodedTile& next = this->Waiting.begin()->second;
+      for (std::size_t band = 0; band < next.Bands.size(); ++band)
       {
-        this->Tiff->append(band, next[band].Bytes);
-        this->Sums[band].add(next[band].Sums);
+        this->Tiff->append(band, next.Bands[band].Bytes);
+        this->Sums[band].add(next.Bands[band].Sums);
       }
       this->Waiting.erase(this->Waiting.begin());
       ++this->Written;
@@ -138,39 +167,6 @@ public:
   }
 
 private:
-  struct EncodedTile
-  {
-    std::string Bytes;
-    BandSums Sums;
-  };
-
-  /// Beyond the border of the raster a tile has no data.
-  template <typename T>
-  EncodedTile encode(const RasterWindow& window, const double* values) const
-  {
-    constexpr auto side = std::size_t(RasterTileSize);
-    const T noData = T(this->Description.NoData);
-    std::string bytes(side * side * sizeof(T), '\0');
-    T* const pixels = reinterpret_cast<T*>(bytes.data());
-    std::fill(pixels, pixels + side * side, noData);
-    EncodedTile tile;
-    for (std::int64_t row = 0; row < window.Rows; ++row)
-    {
-      const double* const from = values + row * window.Columns;
-      T* const to = pixels + std::size_t(window.Rows - 1 - row) * side;
-      for (std::int64_t i = 0; i < window.Columns; ++i)
-      {
-        if (!std::isnan(from[i]))
-        {
-          to[i] = T(from[i]);
-          tile.Sums.add(double(to[i]));
-        }
-      }
-    }
-    tile.Bytes = this->Tiff->encode(std::move(bytes));
-    return tile;
-  }
-
   /// Where the raster is, what its bands are called, and their statistics, as GDAL looks for them.
   void addFields()
   {
@@ -209,18 +205,29 @@ private:
 
   const std::string Path;
   const RasterDescription Description;
-  const bool IsConverted; ///< by GDAL, from a plain file
   PendingFile Pending;
   std::unique_ptr<PendingFile> Plain; ///< only if converted
   std::vector<TiffField> Fields;
   std::unique_ptr<TiledTiff> Tiff;
-  std::mutex Mutex;                                         ///< for what follows
-  std::map<std::int64_t, std::vector<EncodedTile>> Waiting; ///< for the tiles before them
-  std::int64_t Written = 0;                                 ///< tiles
+  std::mutex Mutex;                            ///< for what follows
+  std::map<std::int64_t, EncodedTile> Waiting; ///< for the tiles before them
+  std::int64_t Written = 0;                    ///< tiles
   std::vector<BandSums> Sums;
 };
 
 } // namespace
+
+EncodedTile encodeTile(const RasterDescription& description, const RasterWindow& window,
+  const std::vector<const double*>& bands)
+{
+  EncodedTile tile;
+  for (const double* const band : bands)
+  {
+    tile.Bands.push_back(description.Double ? encodeBand<double>(description, window, band)
+                                            : encodeBand<float>(description, window, band));
+  }
+  return tile;
+}
 
 std::unique_ptr<RasterWriter> createGeoTiff(
   const std::string& path, const RasterDescription& description, const PathState& before)

@@ -63,6 +63,11 @@ RasterGrid makeRasterGrid(const RasterRequest& request, const std::array<double,
 
 RasterWriter::~RasterWriter() = default;
 
+void RasterWriter::writeEncoded(std::int64_t, EncodedTile)
+{
+  throw std::logic_error("encoded tiles are those of GeoTIFFs");
+}
+
 namespace
 {
 

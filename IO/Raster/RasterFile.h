@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,6 +59,8 @@ struct RasterDescription
   std::string Compression = "deflate"; ///< of a GeoTIFF: deflate, lzw, zstd or none
   bool CloudOptimized = false; ///< whether a GeoTIFF has overviews and the layout called COG
   int Threads = 1;             ///< threads that compress
+  /// A GeoTIFF that may become larger is a BigTIFF.
+  std::uint64_t ClassicBytes = std::numeric_limits<std::uint32_t>::max();
 };
 
 /// A rectangle of pixels; columns count from the west, rows from the south.
@@ -68,6 +72,36 @@ struct RasterWindow
   std::int64_t Rows = 0;
 };
 
+/// Statistics of the values of a band.
+struct BandSums
+{
+  double Least = std::numeric_limits<double>::infinity();
+  double Most = -std::numeric_limits<double>::infinity();
+  double Mean = 0;
+  double Squares = 0; ///< of differences from the mean
+  double Count = 0;
+
+  void add(double value);
+  void add(const BandSums& other);
+  double deviation() const { return std::sqrt(this->Squares / this->Count); }
+};
+
+/// The bytes of a tile as a raster file has them, in each band.
+struct EncodedTile
+{
+  struct Band
+  {
+    BandSums Sums;
+    std::string Bytes;
+  };
+  std::vector<Band> Bands;
+};
+
+/// Encodes a tile, see tileOf(), of a GeoTIFF whose grid, type, compression and NoData the
+/// description has. `bands` as for RasterWriter::write(). Thread-safe.
+VTKTIPPIO_EXPORT EncodedTile encodeTile(const RasterDescription& description,
+  const RasterWindow& window, const std::vector<const double*>& bands);
+
 /// Writes a raster file tile by tile. It appears at its path only when it is complete.
 class VTKTIPPIO_EXPORT RasterWriter
 {
@@ -78,6 +112,9 @@ public:
   /// to the tile's values, row by row from the south; NaN means no value. Several threads may write
   /// at the same time; tiles that come early are kept in memory. Throws IOError.
   virtual void write(const RasterWindow& window, const std::vector<const double*>& bands) = 0;
+
+  /// The same for a tile of encodeTile(); of a GeoTIFF only.
+  virtual void writeEncoded(std::int64_t tile, EncodedTile encoded);
 
   /// Completes the file and moves it to its path. Throws IOError.
   virtual void close() = 0;

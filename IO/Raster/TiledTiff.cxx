@@ -8,7 +8,6 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
-#include <utility>
 
 #ifdef TIPP_HAVE_LIBDEFLATE
 #include <libdeflate.h>
@@ -149,20 +148,21 @@ bool canDeflateTiles()
 #endif
 }
 
-TiledTiff::TiledTiff(
-  const OutputFile& file, const RasterGrid& grid, std::size_t bands, bool isDouble, bool isDeflated)
+std::string deflateTile(const std::string& pixels, std::size_t valueSize)
+{
+  return deflated(predicted(pixels, valueSize));
+}
+
+TiledTiff::TiledTiff(const OutputFile& file, const RasterGrid& grid, std::size_t bands,
+  bool isDouble, bool isDeflated, std::uint64_t classicBytes)
   : File(file)
   , Grid(grid)
   , IsDouble(isDouble)
   , IsDeflated(isDeflated)
+  , ClassicBytes(classicBytes)
   , End(headerSize)
   , Bands(bands)
 {
-}
-
-std::string TiledTiff::encode(std::string pixels) const
-{
-  return this->IsDeflated ? deflated(predicted(pixels, this->IsDouble ? 8 : 4)) : std::move(pixels);
 }
 
 void TiledTiff::append(std::size_t band, const std::string& tile)
@@ -221,8 +221,7 @@ void TiledTiff::finish(std::vector<TiffField> fields)
     other += field.Bytes.size() + 32;
   }
   this->End += this->End % 2;
-  const bool isBig =
-    this->End + 16 * offsets.size() + other + 1024 > std::numeric_limits<std::uint32_t>::max();
+  const bool isBig = this->End + 16 * offsets.size() + other + 1024 > this->ClassicBytes;
   const auto addWords = [&](std::uint16_t tag, const std::vector<std::uint64_t>& words)
   {
     fields.push_back(isBig ? tiffField(tag, TiffField::Type::Long8, words)

@@ -37,19 +37,16 @@ TiffField tiffField(std::uint16_t tag, TiffField::Type type, const std::vector<T
 }
 
 /// Writes a TIFF file of floating-point bands, each in tiles of its own, from the north-west on.
-/// It becomes a BigTIFF where offsets need 64 bits.
+/// It becomes a BigTIFF above a number of bytes, at most those that 32-bit offsets reach.
 class TiledTiff
 {
 public:
   /// `file` must outlive this object.
   TiledTiff(const OutputFile& file, const RasterGrid& grid, std::size_t bands, bool isDouble,
-    bool isDeflated);
+    bool isDeflated, std::uint64_t classicBytes);
 
-  /// The bytes of a tile as the file stores them. `pixels`: RasterTileSize rows of RasterTileSize
-  /// values, the most northern first, of the file's type. Thread-safe.
-  std::string encode(std::string pixels) const;
-
-  /// Appends the next tile of a band to the file. Throws IOError.
+  /// Appends the next tile of a band to the file: RasterTileSize rows of RasterTileSize values, the
+  /// most northern first, of the file's type, or these after deflateTile(). Throws IOError.
   void append(std::size_t band, const std::string& tile);
 
   /// Completes the file with a directory of these fields and those of the pixels. Throws IOError.
@@ -62,6 +59,7 @@ private:
   const RasterGrid Grid;
   const bool IsDouble;
   const bool IsDeflated;
+  const std::uint64_t ClassicBytes;
   std::uint64_t End; ///< of what is written
   struct Band
   {
@@ -73,6 +71,9 @@ private:
 
 /// Whether this program can deflate tiles itself.
 bool canDeflateTiles();
+
+/// The bytes of a tile of values of `valueSize` bytes as a deflated file stores them. Thread-safe.
+std::string deflateTile(const std::string& pixels, std::size_t valueSize);
 
 } // namespace tipp
 

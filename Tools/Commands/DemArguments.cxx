@@ -12,18 +12,24 @@
 namespace tipp
 {
 
-RasterDescription describeRaster(const DemArguments& arguments, const std::string& pointCrs)
+RasterDescription describeEncoding(const DemArguments& arguments)
 {
   RasterDescription description;
+  description.NoData = arguments.NoData;
+  description.Double = arguments.Type == "float64";
+  description.Compression = arguments.Compression;
+  description.CloudOptimized = arguments.CloudOptimized;
+  return description;
+}
+
+RasterDescription describeRaster(const DemArguments& arguments, const std::string& pointCrs)
+{
+  RasterDescription description = describeEncoding(arguments);
   description.Crs = arguments.Crs.empty() ? pointCrs : arguments.Crs;
   if (!arguments.Like.empty() && description.Crs.empty())
   {
     description.Crs = readRasterInfo(arguments.Like).Crs;
   }
-  description.NoData = arguments.NoData;
-  description.Double = arguments.Type == "float64";
-  description.Compression = arguments.Compression;
-  description.CloudOptimized = arguments.CloudOptimized;
   if (isGeoTiff(arguments.Output) && !description.Crs.empty())
   {
     requireCrs(description.Crs); // before the work rather than after it

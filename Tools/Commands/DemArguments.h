@@ -49,6 +49,8 @@ struct DemReport
   int Ranks = 1;
 };
 
+/// How a GeoTIFF stores values; the same on all ranks.
+RasterDescription describeEncoding(const DemArguments& arguments);
 /// All but the grid and the bands, for points in this reference system. Throws IOError for what
 /// GDAL does not know.
 RasterDescription describeRaster(const DemArguments& arguments, const std::string& pointCrs);

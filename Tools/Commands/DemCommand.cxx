@@ -167,12 +167,7 @@ void takeConstraints(DemArguments& arguments)
     constraints.Lines = readConstraintFile(arguments.Breaklines);
     constraints.Lines.PolygonBegin = constraints.Lines.Edges.size(); // polygons are lines, too
     constraints.Lines.Holes.clear();
-    std::vector<double>& heights = constraints.Lines.Height;
-    if (isVtkFile(arguments.Breaklines) &&
-      std::all_of(heights.begin(), heights.end(), [](double height) { return height == 0; }))
-    {
-      heights.clear(); // all points of a VTK file have a third coordinate
-    }
+    isVtkFile(arguments.Breaklines) ? dropPlainHeights(constraints.Lines) : void();
   }
   if (!arguments.Boundary.empty())
   {

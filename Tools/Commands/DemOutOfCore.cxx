@@ -56,6 +56,7 @@ int runDemOutOfCore(
   const bool isFirst = ranks.rank() == 0;
   PathState before;
   RasterDescription description;
+  const RasterDescription encoding = describeEncoding(arguments);
   RasterSink sink(
     [&](const Box2& bounds, const std::vector<std::string>& columns)
     {
@@ -71,7 +72,7 @@ int runDemOutOfCore(
           arguments.Inputs.front(), std::string("cannot be made a raster: ") + error.what());
       }
     },
-    [&](const TerrainSettings& settings, const ReadTile& readTile,
+    [&](const TerrainSettings& settings, const TileSource& tiles,
       const std::function<bool(double)>& progress)
     {
       malloc_trim(0); // what pieces have freed
@@ -80,10 +81,11 @@ int runDemOutOfCore(
       report.Settings = settings;
       const auto writer = createRaster(arguments.Output, whole, before);
       report.Filled =
-        writeTiles(*writer, settings.Grid, readTile, progress, settings.Threads, settings.Bands);
+        writeTiles(*writer, settings.Grid, tiles, progress, settings.Threads, settings.Bands);
       report.Filled < 0 ? void() : writer->close();
       return report.Filled >= 0;
-    });
+    },
+    isGeoTiff(arguments.Output) ? &encoding : nullptr);
   const auto open = [&]
   {
     if (isFirst)

@@ -106,9 +106,15 @@ public:
     record[19] = char(id >> 8);
     record[20] = char(content.size() & 255);
     record[21] = char(content.size() >> 8);
-    this->Between += record + content;
-    this->header(96, std::uint32_t(this->Header.size() + this->Between.size()));
+    this->addBytes(record + content);
     this->header(100, ++this->RecordCount);
+  }
+
+  /// Bytes before the points.
+  void addBytes(const std::string& bytes)
+  {
+    this->Between += bytes;
+    this->header(96, std::uint32_t(this->Header.size() + this->Between.size()));
   }
 
 private:
@@ -212,6 +218,17 @@ TEST_F(Las, OfEveryVersionAndFormatIsRead)
       ASSERT_EQ(format == 8 || format == 10, columnOf(points, "nir") != nullptr) << format;
     }
   }
+}
+
+/// Version 1.0 has two bytes before the points, and as many before each record.
+TEST_F(Las, PointsFollowTheSignatureOfTheFirstVersion)
+{
+  LasText las(0, 1);
+  las.addBytes("\xdd\xcc");
+  las.add(100, 200, 300, 2);
+  const PointTable points = this->read(las);
+  EXPECT_EQ((Values{ 1, 102 }), points.XY);
+  EXPECT_EQ((Values{ 203 }), columnOf(points, "z")->Values);
 }
 
 TEST_F(Las, FlagsAreObeyedUnlessTheyAreKept)

@@ -118,6 +118,21 @@ TEST_F(TippDem, MakesTheSameFileForAnyMemoryAndDivisionOfTheInput)
   EXPECT_FALSE(std::filesystem::exists(this->Folder.path(".small.npy.pixels.part")));
 }
 
+TEST_F(TippDem, MakesTheSameGeoTiffForAnyMemory)
+{
+  this->makePoints(30000);
+  for (const Words& options : { Words{}, Words{ "--compress", "none", "--max-edge", "1.2" },
+         Words{ "--type", "float64", "--attributes", "elevation,aspect,void" } })
+  {
+    Words words = { "--resolution", "0.1" };
+    words.insert(words.end(), options.begin(), options.end());
+    this->make("dem.tif", words);
+    words.insert(words.end(), { "--memory", "2M", "--threads", "3" });
+    this->make("small.tif", words);
+    EXPECT_EQ(this->content("dem.tif"), this->content("small.tif")) << options.size();
+  }
+}
+
 TEST_F(TippDem, MakesTheSameWherePixelsLieOnPoints)
 {
   std::ofstream csv(this->Folder.path("points.csv"));
@@ -276,15 +291,15 @@ TEST_F(TippDem, RefusesOptionsThatDoNotGoTogether)
 TEST_F(TippDem, ResumesAKilledRun)
 {
   this->makePoints(30000);
-  this->make("whole.npy", { "--resolution", "0.2" });
-  const Words words{ "dem", "points.csv", "-o", "dem.npy", "--resolution", "0.2", "--memory", "2M",
+  this->make("whole.tif", { "--resolution", "0.2" });
+  const Words words{ "dem", "points.csv", "-o", "dem.tif", "--resolution", "0.2", "--memory", "2M",
     "--threads", "2", "--resume" };
   const auto results = [&]
   {
     std::size_t count = 0;
     std::error_code ignored;
     for (const auto& entry :
-      std::filesystem::directory_iterator(this->Folder.path(".dem.npy.pixels.part"), ignored))
+      std::filesystem::directory_iterator(this->Folder.path(".dem.tif.pixels.part"), ignored))
     {
       (void)entry;
       ++count;
@@ -300,7 +315,7 @@ TEST_F(TippDem, ResumesAKilledRun)
   }
   const Outcome outcome = this->run(words);
   ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
-  EXPECT_EQ(this->content("whole.npy"), this->content("dem.npy"));
+  EXPECT_EQ(this->content("whole.tif"), this->content("dem.tif"));
   EXPECT_EQ(0U, results());
 }
 

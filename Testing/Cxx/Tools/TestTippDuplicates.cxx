@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <utility>
@@ -103,15 +104,42 @@ TEST_F(TippDuplicates, ARasterIsTheSameWithinAMemoryLimit)
   }
 }
 
+TEST_F(TippDuplicates, LowestAndHighestMayBeOfADepthOrTheOnlyColumn)
+{
+  this->Folder.file(
+    "points.csv", "x,y,depth,speed\n0,0,4,1\n2,0,2,1\n0,2,3,1\n0,0,1,8\n0,0,9,2\n2,2,2,1\n");
+  const std::map<std::pair<std::string, std::string>, double> expected = {
+    { { "depth", "min" }, 1 }, { { "depth", "max" }, 9 }, { { "speed", "min" }, 1 },
+    { { "speed", "max" }, 8 }, { { "depth,speed", "max" }, 9 }
+  };
+  for (const auto& [request, value] : expected)
+  {
+    for (const Words& more : { Words{}, Words{ "--memory", "2M" } })
+    {
+      Words words{ "dem", "points.csv", "-o", "dem.npy", "--resolution", "0.002", "--attributes",
+        request.first, "--duplicates", request.second, "--bounds", "-0.001", "0.001", "-0.001",
+        "0.001", "--align", "bounds" };
+      words.insert(words.end(), more.begin(), more.end());
+      this->run(words);
+      const std::string content = this->content("dem.npy");
+      const std::size_t bands = request.first == "depth,speed" ? 2 : 1;
+      double first = 0;
+      std::memcpy(&first, content.data() + content.size() - bands * sizeof first, sizeof first);
+      EXPECT_EQ(value, first) << request.first << " " << request.second;
+    }
+  }
+}
+
 TEST_F(TippDuplicates, LowestAndHighestNeedAnElevation)
 {
-  this->Folder.file("points.csv", "x,y\n0,0\n1,0\n0,1\n0,0\n");
+  this->Folder.file("points.csv", "x,y,a,b\n0,0,1,1\n1,0,1,1\n0,1,1,1\n0,0,1,1\n");
   for (const std::string output : { "mesh.vtu", "mesh.tipp" })
   {
     const Outcome outcome =
       runTipp(this->Folder, { "delaunay", "points.csv", "-o", output, "--duplicates", "min" });
     EXPECT_EQ(1, outcome.ExitCode);
-    EXPECT_NE(std::string::npos, outcome.Err.find("no column z or elevation")) << outcome.Err;
+    EXPECT_NE(std::string::npos, outcome.Err.find("no column z, elevation or depth"))
+      << outcome.Err;
   }
 }
 

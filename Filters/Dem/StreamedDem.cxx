@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Dem/StreamedDem.h"
+
+#include "Dem/RasterSink.h"
+#include "Files/OutputFile.h"
+#include "Files/TemporaryFiles.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+namespace tipp
+{
+namespace
+{
+
+/// A folder that goes away with its content.
+struct ScratchPlace
+{
+  ScratchPlace()
+    : Path((std::filesystem::temp_directory_path() / "tipp-XXXXXX").string())
+  {
+    if (!mkdtemp(this->Path.data()))
+    {
+      failToWrite(this->Path);
+    }
+    this->Listed.list(this->Path);
+  }
+  ~ScratchPlace()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(this->Path, ignored);
+  }
+  ScratchPlace(const ScratchPlace&) = delete;
+  ScratchPlace& operator=(const ScratchPlace&) = delete;
+
+  std::string Path;
+  TemporaryPath Listed;
+};
+
+/// Copies all tiles to where their pixels are in the grid.
+bool readTiles(const TerrainSettings& settings, const TileSource& tiles,
+  const std::function<bool(double)>& progress, SampledBands& samples)
+{
+  const RasterGrid& grid = settings.Grid;
+  samples.Values.resize(settings.Bands.Bands.size());
+  for (std::vector<double>& band : samples.Values)
+  {
+    band.resize(std::size_t(grid.pixels()));
+  }
+  return forChunks(tileCount(grid), 1, settings.Threads, progress,
+    [&](std::int64_t number, std::int64_t, int)
+    {
+      const RasterWindow window = tileOf(grid, number);
+      std::vector<std::vector<double>> values;
+      tiles.Read(window, values);
+      for (std::size_t band = 0; band < values.size(); ++band)
+      {
+        for (std::int64_t row = 0; row < window.Rows; ++row)
+        {
+          std::copy_n(values[band].data() + row * window.Columns, window.Columns,
+            samples.Values[band].data() + (window.Row + row) * grid.Columns + window.Column);
+        }
+      }
+    });
+}
+
+DemFigures makeWithin(PointStream& points, const DemRequest& request, std::uint64_t memory,
+  const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples)
+{
+  RasterSink sink(
+    [&](const Box2& bounds, const std::vector<std::string>& columns)
+    {
+      TerrainSettings made = makeTerrainSettings(request, bounds, columns);
+      requireMemory(made);
+      return made;
+    },
+    [&](const TerrainSettings& made, const TileSource& tiles,
+      const std::function<bool(double)>& report)
+    {
+      settings = made;
+      return readTiles(settings, tiles, report, samples);
+    },
+    nullptr);
+  sink.setIdentity("raster in memory");
+  const ScratchPlace folder;
+  OutOfCoreOptions options;
+  options.MemoryLimit = memory;
+  options.Threads = request.Threads;
+  options.MaximumEdge = request.MaximumEdge;
+  options.Duplicates = request.Duplicates;
+  options.CountOnly = true;
+  options.Taker = &sink;
+  options.Progress = progress;
+  const OutOfCoreStatistics statistics =
+    triangulateOutOfCore(points, folder.Path + "/dem", options);
+  DemFigures figures;
+  figures.Points = statistics.Points;
+  figures.Triangles = statistics.Triangles;
+  figures.Duplicates = statistics.Duplicates;
+  figures.DisagreeingPlaces = statistics.DisagreeingPlaces;
+  figures.Rejected = statistics.Rejected;
+  figures.Aborted = statistics.Aborted;
+  return figures;
+}
+
+} // namespace
+
+DemFigures makeDem(PointStream& points, const DemRequest& request, std::uint64_t memory,
+  const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples)
+{
+  if (memory == 0)
+  {
+    return makeDem(readAllPoints(points), request, progress, settings, samples);
+  }
+  if (request.Constraints)
+  {
+    throw std::invalid_argument(
+      "Breaklines and boundaries need all points in memory: leave the memory limit out.");
+  }
+  return makeWithin(points, request, memory, progress, settings, samples);
+}
+
+} // namespace tipp

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTIPPPointsToImage.h"
+
+#include "Dem/StreamedDem.h"
+#include "Output/Monitor.h"
+#include "Points/TablePoints.h"
+#include "Sampling/RangeResampleRun.h"
+#include "Vtk/VtkFiles.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+vtkStandardNewMacro(vtkTIPPPointsToImage);
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+namespace
+{
+
+/// xmin, xmax, ymin, ymax of the finite points.
+std::array<double, 4> boundsOf(vtkPointSet* points)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 4> bounds{ infinity, -infinity, infinity, -infinity };
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    points->GetPoint(i, p);
+    if (std::isfinite(p[0]) && std::isfinite(p[1]))
+    {
+      bounds = { std::min(bounds[0], p[0]), std::max(bounds[1], p[0]), std::min(bounds[2], p[1]),
+        std::max(bounds[3], p[1]) };
+    }
+  }
+  if (!(bounds[0] <= bounds[1]))
+  {
+    throw std::runtime_error("There is no point with finite coordinates.");
+  }
+  return bounds;
+}
+
+void addEdges(vtkCellArray* cells, bool isClosed, tipp::ConstraintTable& table)
+{
+  const auto walk = vtk::TakeSmartPointer(cells->NewIterator());
+  for (walk->GoToFirstCell(); !walk->IsDoneWithTraversal(); walk->GoToNextCell())
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    walk->GetCurrentCell(count, ids);
+    for (vtkIdType i = 0; i + (isClosed ? 0 : 1) < count; ++i)
+    {
+      table.Edges.push_back({ ids[i], ids[(i + 1) % count] });
+    }
+  }
+}
+
+tipp::ConstraintTable constraintsOf(vtkPolyData* lines)
+{
+  tipp::ConstraintTable table;
+  for (vtkIdType i = 0; i < lines->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    lines->GetPoint(i, p);
+    table.XY.insert(table.XY.end(), { p[0], p[1] });
+    table.Height.push_back(p[2]);
+  }
+  addEdges(lines->GetLines(), false, table);
+  addEdges(lines->GetPolys(), true, table);
+  table.PolygonBegin = table.Edges.size();
+  return table;
+}
+
+vtkSmartPointer<vtkDoubleArray> arrayOf(const std::string& name, const std::vector<double>& values)
+{
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName(name.c_str());
+  array->SetNumberOfValues(vtkIdType(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  return array;
+}
+
+void setGrid(const tipp::RasterGrid& grid, vtkImageData* image)
+{
+  image->SetOrigin(grid.West + 0.5 * grid.Pixel[0], grid.South + 0.5 * grid.Pixel[1], 0);
+  image->SetSpacing(grid.Pixel[0], grid.Pixel[1], 1);
+  image->SetDimensions(int(grid.Columns), int(grid.Rows), 1);
+}
+
+} // namespace
+
+vtkTIPPPointsToImage::vtkTIPPPointsToImage()
+{
+  this->SetNumberOfInputPorts(3);
+}
+
+vtkTIPPPointsToImage::~vtkTIPPPointsToImage()
+{
+  this->vtkTIPPPointsToImage::SetBreaklinesFileName(nullptr);
+  this->vtkTIPPPointsToImage::SetBoundaryFileName(nullptr);
+}
+
+int vtkTIPPPointsToImage::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkPolyData");
+  if (port > 0)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+void vtkTIPPPointsToImage::AddBand(const char* name)
+{
+  if (name && *name)
+  {
+    this->Bands.emplace_back(name);
+    this->Modified();
+  }
+}
+
+void vtkTIPPPointsToImage::ClearBands()
+{
+  if (!this->Bands.empty())
+  {
+    this->Bands.clear();
+    this->Modified();
+  }
+}
+
+int vtkTIPPPointsToImage::GetNumberOfBands() const
+{
+  return int(this->Bands.size());
+}
+
+const char* vtkTIPPPointsToImage::GetBand(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfBands() ? this->Bands[std::size_t(index)].c_str()
+                                                        : nullptr;
+}
+
+tipp::RasterGrid vtkTIPPPointsToImage::Grid(vtkPointSet* points) const
+{
+  tipp::RasterRequest request;
+  request.Resolution = this->Resolution;
+  request.Aligned = this->AlignToResolution;
+  std::array<double, 4> bounds{};
+  this->UseInputBounds ? void(bounds = boundsOf(points))
+                       : void(std::copy_n(this->SamplingBounds, 4, bounds.begin()));
+  if (request.Resolution == 0)
+  {
+    const double area = (bounds[1] - bounds[0]) * (bounds[3] - bounds[2]);
+    const double count = double(std::max<vtkIdType>(points->GetNumberOfPoints(), 1));
+    request.Resolution = area > 0 ? std::sqrt(area / count) : 1;
+  }
+  return tipp::makeRasterGrid(request, bounds);
+}
+
+int vtkTIPPPointsToImage::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  vtkInformation* const outInfo = outputs->GetInformationObject(0);
+  try
+  {
+    vtkPointSet* points = nullptr;
+    if (this->UseInputBounds || this->Resolution == 0)
+    {
+      points = vtkPointSet::SafeDownCast(tipp::updatedInput(this, 0, 1, outInfo));
+      if (!points)
+      {
+        throw std::runtime_error("The input has not been made, so its extent is not known.");
+      }
+    }
+    vtkNew<vtkImageData> image;
+    setGrid(this->Grid(points), image);
+    outInfo->Set(Pipeline::WHOLE_EXTENT(), image->GetExtent(), 6);
+    outInfo->Set(vtkDataObject::ORIGIN(), image->GetOrigin(), 3);
+    outInfo->Set(vtkDataObject::SPACING(), image->GetSpacing(), 3);
+    return 1;
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+}
+
+int vtkTIPPPointsToImage::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  for (int port = 0; port < 3; ++port)
+  {
+    if (inputs[port]->GetNumberOfInformationObjects() > 0)
+    {
+      tipp::askForPiece(inputs[port]->GetInformationObject(0), 0, 1);
+    }
+  }
+  return 1;
+}
+
+/// The points' arrays of one component that are bands, and the elevation.
+tipp::PointTable vtkTIPPPointsToImage::Table(vtkPointSet* points) const
+{
+  const auto count = std::size_t(points->GetNumberOfPoints());
+  tipp::PointTable table;
+  table.XY.resize(2 * count);
+  std::vector<double> z(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    double p[3];
+    points->GetPoint(vtkIdType(i), p);
+    table.XY[2 * i] = p[0];
+    table.XY[2 * i + 1] = p[1];
+    z[i] = p[2];
+  }
+  bool hasElevation = false;
+  for (const std::string& name : tipp::columnsForBands(this->Bands))
+  {
+    vtkDataArray* const array = points->GetPointData()->GetArray(name.c_str());
+    const bool isThere = std::any_of(table.Columns.begin(), table.Columns.end(),
+      [&](const tipp::PointTable::Column& column) { return column.Name == name; });
+    if (!array || array->GetNumberOfComponents() != 1 || isThere || name == "z" || name == "Z")
+    {
+      continue;
+    }
+    hasElevation = hasElevation || name == "elevation";
+    tipp::PointTable::Column& column = table.Columns.emplace_back();
+    column.Name = name;
+    column.Values.resize(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      column.Values[i] = array->GetComponent(vtkIdType(i), 0);
+    }
+  }
+  if (!hasElevation)
+  {
+    table.Columns.push_back({ "z", std::move(z) });
+  }
+  return table;
+}
+
+void vtkTIPPPointsToImage::Constrain(
+  vtkPolyData* lines, vtkPolyData* boundary, tipp::DemRequest& request) const
+{
+  const auto given = [](const char* name) { return name && *name; };
+  const bool hasLines = lines || given(this->BreaklinesFileName);
+  const bool hasBoundary = boundary || given(this->BoundaryFileName);
+  if (!hasLines && !hasBoundary)
+  {
+    return;
+  }
+  const auto take = [&](const char* file, vtkPolyData* data)
+  { return given(file) ? tipp::readConstraintFile(file) : constraintsOf(data); };
+  tipp::TableConstraints& constraints = request.Constraints.emplace();
+  constraints.TakesSurface = true;
+  if (hasLines)
+  {
+    constraints.Lines = take(this->BreaklinesFileName, lines);
+    constraints.Lines.PolygonBegin = constraints.Lines.Edges.size(); // polygons are lines, too
+    constraints.Lines.Holes.clear();
+    const bool isVtk =
+      !given(this->BreaklinesFileName) || tipp::isVtkFile(this->BreaklinesFileName);
+    isVtk ? tipp::dropPlainHeights(constraints.Lines) : void();
+  }
+  if (hasBoundary)
+  {
+    constraints.Boundary = take(this->BoundaryFileName, boundary);
+    constraints.Boundary.Height.clear();
+    tipp::requireClosedBoundary(constraints.Boundary);
+  }
+}
+
+void vtkTIPPPointsToImage::Make(vtkInformationVector** inputs, vtkImageData* output)
+{
+  vtkPointSet* const points = vtkPointSet::GetData(inputs[0]);
+  vtkPolyData* const lines = vtkPolyData::GetData(inputs[1]);
+  vtkPolyData* const boundary = vtkPolyData::GetData(inputs[2]);
+  if (this->Bands.empty())
+  {
+    throw std::runtime_error("There is no band: add one, as elevation.");
+  }
+  tipp::DemRequest request;
+  request.Raster.Like = this->Grid(points);
+  request.Bands = this->Bands;
+  request.MaximumEdge = this->MaximumEdgeLength;
+  request.Threads = this->NumberOfThreads;
+  request.Duplicates = static_cast<tipp::DuplicateRule>(this->Duplicates);
+  this->Constrain(lines, boundary, request);
+  tipp::Monitor monitor(this);
+  tipp::TerrainSettings settings;
+  tipp::SampledBands samples;
+  tipp::Thinning thinning;
+  thinning.Cell = this->ThinningSize;
+  thinning.Keep = static_cast<tipp::Thinning::Rule>(this->ThinningRule);
+  const auto stream = tipp::streamTable(this->Table(points), thinning);
+  const tipp::DemFigures figures = tipp::makeDem(
+    *stream, request, std::uint64_t(this->MemoryLimit), [&](double done) { return monitor(done); },
+    settings, samples);
+  if (figures.Aborted)
+  {
+    return;
+  }
+  if (figures.Rejected > 0)
+  {
+    vtkWarningMacro(<< figures.Rejected << " points with a NaN or infinite x or y are left out.");
+  }
+  const tipp::RasterGrid& grid = settings.Grid;
+  setGrid(grid, output);
+  output->GetFieldData()->AddArray(
+    arrayOf("GeoTransform", { grid.West, grid.Pixel[0], 0, grid.north(), 0, -grid.Pixel[1] }));
+  tipp::fillVoids(settings.Bands, samples.Values);
+  for (std::size_t band = 0; band < this->Bands.size(); ++band)
+  {
+    output->GetPointData()->AddArray(arrayOf(this->Bands[band], samples.Values[band]));
+    std::vector<double>().swap(samples.Values[band]);
+  }
+  output->GetPointData()->SetActiveScalars(this->Bands.front().c_str());
+}
+
+int vtkTIPPPointsToImage::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkImageData* const output = vtkImageData::GetData(outputs);
+  output->Initialize();
+  try
+  {
+    this->Make(inputs, output);
+    return 1;
+  }
+  catch (const std::exception& error)
+  {
+    output->Initialize();
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+}
+
+void vtkTIPPPointsToImage::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto one = [&](const char* name, const auto& value)
+  { os << indent << name << ": " << value << "\n"; };
+  one("BreaklinesFileName", this->BreaklinesFileName ? this->BreaklinesFileName : "(none)");
+  one("BoundaryFileName", this->BoundaryFileName ? this->BoundaryFileName : "(none)");
+  one("Resolution", this->Resolution);
+  one("UseInputBounds", this->UseInputBounds);
+  os << indent << "SamplingBounds:";
+  for (const double bound : this->SamplingBounds)
+  {
+    os << " " << bound;
+  }
+  os << "\n";
+  one("AlignToResolution", this->AlignToResolution);
+  os << indent << "Bands:";
+  for (const std::string& band : this->Bands)
+  {
+    os << " " << band;
+  }
+  os << "\n";
+  one("MaximumEdgeLength", this->MaximumEdgeLength);
+  one("Duplicates", this->Duplicates);
+  one("ThinningSize", this->ThinningSize);
+  one("ThinningRule", this->ThinningRule);
+  one("MemoryLimit", this->MemoryLimit);
+  one("NumberOfThreads", this->NumberOfThreads);
+}
