@@ -3,8 +3,8 @@
 
 #include "vtkDelaunay2D.h"
 #include "vtkMatrix4x4.h"
+#include "vtkPerspectiveTransform.h"
 #include "vtkPointData.h"
-#include "vtkSphericalTransform.h"
 #include "vtkTransform.h"
 
 #include <gtest/gtest.h>
@@ -79,8 +79,9 @@ TEST(Delaunay2DProjection, TransformIsUsedInTheDefaultModeAsInVtkDelaunay2D)
 
 TEST(Delaunay2DProjection, TransformNeedNotBeLinear)
 {
-  vtkNew<vtkSphericalTransform> transform;
-  transform->Inverse();
+  vtkNew<vtkPerspectiveTransform> transform;
+  const double matrix[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.3, 0.2, 0.1, 1 };
+  transform->SetMatrix(matrix);
   auto points = randomPoints(150);
   for (Point& p : points)
   {

@@ -156,7 +156,9 @@ TEST(Delaunay2DRun, AbortInMidRunLeavesBothOutputsEmpty)
   ProgressListener progress(delaunay, 0.2);
   delaunay->Update();
   EXPECT_GT(progress.Heard.back(), 0.1);
-  EXPECT_LT(progress.Heard.back(), 1);
+  // VTK 9.3 and later report 1 after an aborted run, too.
+  EXPECT_TRUE(std::none_of(progress.Heard.begin(), progress.Heard.end(),
+    [](double fraction) { return fraction > 0.5 && fraction < 1; }));
   EXPECT_EQ(0, delaunay->GetOutput()->GetNumberOfPoints());
   EXPECT_EQ(0, delaunay->GetOutput()->GetNumberOfCells());
   EXPECT_EQ(0, delaunay->GetStatistics()->GetNumberOfColumns());
@@ -184,6 +186,7 @@ TEST(Delaunay2DRun, RunAfterAnAbortIsWhole)
     delaunay->RemoveAllObservers();
   }
   ASSERT_EQ(0, delaunay->GetOutput()->GetNumberOfCells());
+  delaunay->SetAbortExecute(0); // VTK 9.3 and later leave that to the caller
   delaunay->Modified();
   EXPECT_EQ(expected, trianglesOf(delaunay));
 }
