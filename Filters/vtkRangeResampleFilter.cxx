@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRangeResampleFilter.h"
 
-#include "Messages/Communicator.h"
 #include "OpenCL/Devices.h"
+#include "Ranks/Communicator.h"
 #include "Sampling/RangeResampleRun.h"
 #include "Sampling/SamplingRange.h"
 

@@ -3,8 +3,8 @@
 #include "vtkTIPPDelaunay2D.h"
 
 #include "Distributed/DistributedTriangulation.h"
-#include "Distributed/GhostTriangles.h"
-#include "Messages/CollectivePipeline.h"
+#include "Distributed/TriangleExchange.h"
+#include "Output/CollectivePipeline.h"
 #include "Output/Monitor.h"
 #include "Output/PieceOutput.h"
 #include "Output/StatisticsTable.h"

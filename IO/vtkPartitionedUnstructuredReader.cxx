@@ -8,7 +8,6 @@
 #include "Partitioned/PieceGrid.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Reading/MergePieces.h"
-#include "Reading/PieceCache.h"
 #include "Reading/PieceSource.h"
 #include "Reading/RangeFilter.h"
 #include "Vtk/Compatibility.h"
@@ -434,7 +433,7 @@ int vtkPartitionedUnstructuredReader::RequestData(
   vtkInformation* const outInfo = outputVector->GetInformationObject(0);
   vtkDataObject* const output = vtkDataObject::GetData(outInfo);
   output->Initialize();
-  const tipp::Ranks ranks(this->Controller);
+  tipp::Communicator ranks(this->Controller);
   const tipp::PollScope polled(
     [this]
     {

@@ -3,7 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Partitioning/PartitionDataSet.h"
-#include "Partitioning/Ranks.h"
+#include "Ranks/Communicator.h"
 #include "Vtk/Compatibility.h"
 
 #include "vtkAlgorithm.h"
@@ -102,7 +102,7 @@ void vtkPartitionedUnstructuredWriter::WriteOnRanks()
 {
   try
   {
-    tipp::Ranks(this->Controller).attempt([this] { this->RequireInput(); });
+    tipp::Communicator(this->Controller).attempt([this] { this->RequireInput(); });
     this->Superclass::Write();
   }
   catch (const std::exception& error)

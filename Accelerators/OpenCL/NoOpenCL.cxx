@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What stands for ComputeDevice.cxx and everything that runs on a device in a build without OpenCL.
 #include "OpenCL/Devices.h"
-#include "Partition/CellShape.h"
+#include "Partition/ClassifyCells.h"
 #include "Resample/DeviceResampler.h"
 
 namespace tipp

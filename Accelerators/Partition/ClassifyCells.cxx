@@ -3,7 +3,6 @@
 
 #include "OpenCL/Devices.h"
 #include "Parallel/ParallelFor.h"
-#include "Partition/CellShape.h"
 
 #include <atomic>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partition/CellShape.h"
+#include "Partition/ClassifyCells.h"
 
 #include "OpenCL/ComputeDevice.h"
 #include "Partition/Classify.cl.h"

@@ -5,7 +5,6 @@
 #include "Arrays/Scalar.h"
 #include "Parallel/ParallelFor.h"
 #include "Resample/Claims.h"
-#include "Resample/SampleWindow.h"
 #include "Resample/SimplexMesh.h"
 #include "vtkTIPPAcceleratorsModule.h"
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/MeshOnDevice.h"
+#include "Resample/ResampleOnDevice.h"
 
 #include "Resample/DeviceResampler.h"
-#include "Resample/ResampleOnDevice.h"
 
 #include <algorithm>
 #include <cstring>

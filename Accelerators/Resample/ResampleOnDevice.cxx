@@ -2,7 +2,6 @@
 #include "Resample/ResampleOnDevice.h"
 
 #include "Resample/ClaimSamples.cl.h"
-#include "Resample/DeviceArrays.h"
 #include "Resample/InterpolateSamples.cl.h"
 #include "Resample/OutsidePoints.h"
 #include "Resample/SampleCells.cl.h"

@@ -57,19 +57,14 @@ struct CrossedPart
       touch.Vertex = newNumber(touch.Vertex);
     }
   }
-
-  /// Serializes: archive() saves or restores vectors of numbers.
-  template <typename Archive>
-  void exchange(Archive& archive)
-  {
-    archive(this->Triangles);
-    archive(this->Positions);
-    archive(this->SegmentEnds);
-    archive(this->Segments);
-    archive(this->FixedEdges);
-    archive(this->Touches);
-  }
 };
+
+template <typename Archive>
+void serialize(Archive& archive, CrossedPart& part)
+{
+  archive(
+    part.Triangles, part.Positions, part.SegmentEnds, part.Segments, part.FixedEdges, part.Touches);
+}
 
 /// Moves the triangles of `from` to the end of those in `to`.
 VTKTIPPFILTERS_EXPORT void append(CrossedPart&& from, CrossedPart& to);

@@ -2,7 +2,7 @@
 #include "Constraints/KeepInside.h"
 
 #include "Constraints/Constraint.h"
-#include "Meshes/Triangles.h"
+#include "Meshes/MeshFiles.h"
 #include "Predicates/Orientation.h"
 #include "Triangulation/TriangleSink.h"
 

@@ -2,14 +2,12 @@
 #include "Distributed/ConstrainRanks.h"
 
 #include "Constraints/CrossedPart.h"
-#include "Distributed/Collection.h"
-#include "Distributed/RankArrays.h"
-#include "Messages/Bytes.h"
+#include "Distributed/TriangleExchange.h"
 #include "Parallel/ParallelFor.h"
+#include "Ranks/Archive.h"
 
 #include <algorithm>
 #include <numeric>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -17,24 +15,6 @@ namespace tipp
 {
 namespace
 {
-
-Bytes bytesOf(CrossedPart& part)
-{
-  ByteWriter writer;
-  auto save = [&writer](const auto& values) { writer.array(values); };
-  part.exchange(save);
-  return writer.take();
-}
-
-CrossedPart partOf(const Bytes& bytes)
-{
-  ByteReader reader(bytes);
-  CrossedPart part;
-  auto load = [&reader](auto& values)
-  { values = reader.array<typename std::decay_t<decltype(values)>::value_type>(); };
-  part.exchange(load);
-  return part;
-}
 
 /// One rank's triangles; its member functions are the steps.
 template <typename Id>
@@ -66,9 +46,9 @@ public:
       });
     retriangulate(crossed, this->Segments, this->Threads);
     CrossedPart all;
-    for (const Bytes& part : this->Ranks.gather(bytesOf(rest)))
+    for (CrossedPart& part : this->Ranks.gather(rest))
     {
-      append(partOf(part), all);
+      append(std::move(part), all);
     }
     retriangulate(all, this->Segments, this->Threads); // on the first rank
     append(std::move(crossed), all);
@@ -145,7 +125,7 @@ private:
       used[ownerOf(id, this->Mine.FirstIds)].push_back(id);
     }
     std::vector<char> isShared(this->Own, 0);
-    for (const std::vector<std::int64_t>& ids : swapArrays(this->Ranks, used))
+    for (const std::vector<std::int64_t>& ids : this->Ranks.allToAll(used))
     {
       for (const std::int64_t id : ids)
       {
@@ -166,7 +146,7 @@ private:
       sent[ownerOf(low, this->Mine.FirstIds)].push_back(triangle);
     }
     std::vector<IdTriangle> own;
-    for (const std::vector<IdTriangle>& part : swapArrays(this->Ranks, sent))
+    for (const std::vector<IdTriangle>& part : this->Ranks.allToAll(sent))
     {
       own.insert(own.end(), part.begin(), part.end());
     }

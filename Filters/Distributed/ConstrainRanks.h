@@ -4,7 +4,7 @@
 
 #include "Constraints/ConstraintSegments.h"
 #include "Distributed/DistributedTriangulation.h"
-#include "Messages/Communicator.h"
+#include "Ranks/Communicator.h"
 #include "vtkTIPPFiltersModule.h"
 
 namespace tipp

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/DistributedStatistics.h"
 
-#include "Distributed/MessageKinds.h"
+#include "Distributed/RankRun.h"
 
 #include <algorithm>
 
 namespace tipp
 {
+template <typename Archive>
+void serialize(Archive& archive, MasterStatistics& master)
+{
+  archive(master.Area, master.Rank, master.GroupSize, master.LargestMesh, master.Seconds,
+    master.PathSeconds, master.Stages);
+}
+
 namespace
 {
 
@@ -20,28 +27,24 @@ std::string nameOf(MessageKind kind)
   return name != names.end() ? name->second : "other";
 }
 
-void write(const MasterStatistics& master, ByteWriter& writer)
+struct SentByKind
 {
-  writer.value(master.Area);
-  writer.value(master.Rank);
-  writer.value(master.GroupSize);
-  writer.value(master.LargestMesh);
-  writer.value(master.Seconds);
-  writer.value(master.PathSeconds);
-  writer.array(master.Stages);
-}
+  MessageKind Kind;
+  Communicator::Traffic Sent;
+};
 
-MasterStatistics readMaster(ByteReader& reader)
+/// What a rank tells the others.
+struct OfOneRank
 {
-  MasterStatistics master;
-  master.Area = reader.value<std::int32_t>();
-  master.Rank = reader.value<std::int32_t>();
-  master.GroupSize = reader.value<std::int32_t>();
-  master.LargestMesh = reader.value<std::int64_t>();
-  master.Seconds = reader.value<double>();
-  master.PathSeconds = reader.value<double>();
-  reader.array(master.Stages);
-  return master;
+  RankStatistics Own;
+  std::vector<MasterStatistics> Masters;
+  std::vector<SentByKind> Traffic;
+};
+
+template <typename Archive>
+void serialize(Archive& archive, OfOneRank& one)
+{
+  archive(one.Own, one.Masters, one.Traffic);
 }
 
 } // namespace
@@ -49,45 +52,23 @@ MasterStatistics readMaster(ByteReader& reader)
 DistributedStatistics gatherStatistics(
   Communicator& ranks, const RankStatistics& own, const std::vector<MasterStatistics>& masters)
 {
-  ByteWriter writer;
-  writer.value(own);
-  writer.value(std::uint64_t(masters.size()));
-  for (const MasterStatistics& master : masters)
+  OfOneRank mine{ own, masters, {} };
+  for (const auto& [kind, sent] : ranks.traffic())
   {
-    write(master, writer);
+    mine.Traffic.push_back({ kind, sent });
   }
-  writer.value(std::uint64_t(ranks.traffic().size()));
-  for (const auto& [kind, traffic] : ranks.traffic())
-  {
-    writer.value(kind);
-    writer.value(traffic);
-  }
-  ByteWriter all;
-  for (const Bytes& part : ranks.gather(writer.take()))
-  {
-    all.array(part.data(), part.size());
-  }
-  const Bytes everything = ranks.broadcast(all.take());
   DistributedStatistics statistics;
   std::map<MessageKind, Communicator::Traffic> traffic;
-  ByteReader parts(everything);
-  while (parts.left() > 0)
+  for (const OfOneRank& one : ranks.allGather(mine))
   {
-    const std::vector<char> part = parts.array<char>();
-    ByteReader reader(part.data(), part.size());
-    statistics.Ranks.push_back(reader.value<RankStatistics>());
-    for (std::uint64_t n = reader.value<std::uint64_t>(); n > 0; --n)
+    statistics.Ranks.push_back(one.Own);
+    statistics.Masters.insert(statistics.Masters.end(), one.Masters.begin(), one.Masters.end());
+    for (const SentByKind& of : one.Traffic)
     {
-      statistics.Masters.push_back(readMaster(reader));
+      traffic[of.Kind].Messages += of.Sent.Messages;
+      traffic[of.Kind].Bytes += of.Sent.Bytes;
     }
-    for (std::uint64_t n = reader.value<std::uint64_t>(); n > 0; --n)
-    {
-      Communicator::Traffic& sum = traffic[reader.value<MessageKind>()];
-      const auto sent = reader.value<Communicator::Traffic>();
-      sum.Messages += sent.Messages;
-      sum.Bytes += sent.Bytes;
-    }
-    statistics.Seconds = std::max(statistics.Seconds, statistics.Ranks.back().TotalSeconds);
+    statistics.Seconds = std::max(statistics.Seconds, one.Own.TotalSeconds);
   }
   for (const auto& [kind, sum] : traffic)
   {

@@ -2,7 +2,7 @@
 #ifndef tippDistributedStatistics_h
 #define tippDistributedStatistics_h
 
-#include "Messages/Communicator.h"
+#include "Ranks/Communicator.h"
 #include "Triangulation/Triangulate.h"
 
 #include <cstdint>

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/DistributedTriangulation.h"
 
-#include "Distributed/Collection.h"
 #include "Distributed/Plan.h"
 #include "Distributed/RankRun.h"
-#include "Distributed/Survey.h"
+#include "Distributed/TriangleExchange.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
+#include "Triangulation/PointBuckets.h"
 #include "Triangulation/PointSurvey.h"
 #include "Triangulation/Worker.h"
 
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -21,17 +22,122 @@ namespace tipp
 namespace
 {
 
-/// Returns the first rank's plan on all ranks. Collective.
-Plan broadcastPlan(Communicator& ranks, const Plan& plan)
+/// The result of the first pass over all ranks' points.
+struct Survey
 {
-  ByteWriter writer;
-  if (ranks.rank() == 0)
+  PointsView Points;                  ///< this rank's, scaled to a moderate magnitude
+  Box2 Bounds{};                      ///< of all ranks' finite points
+  std::vector<std::int64_t> Rejected; ///< indices of this rank's points that are not finite
+  bool IsCollinear = false;           ///< all finite points on one line, or fewer than three
+};
+
+/// What a rank sends to the first rank about its points. Two points represent a rank's points if
+/// these are collinear.
+struct RankSurvey
+{
+  Box2 Bounds;
+  Point2 Ends[2];
+  std::int64_t Finite;
+  std::int64_t IsCollinear;
+};
+
+struct Verdict
+{
+  Box2 Bounds;
+  std::int64_t IsCollinear;
+};
+
+void findEnds(PointsView points, Point2 (&ends)[2])
+{
+  bool found = false;
+  points.forEach(0, points.size(),
+    [&](std::size_t, Point2 p)
+    {
+      if (!isFinite(p))
+      {
+        return;
+      }
+      ends[0] = !found || lexicographicLess(p, ends[0]) ? p : ends[0];
+      ends[1] = !found || lexicographicLess(ends[1], p) ? p : ends[1];
+      found = true;
+    });
+}
+
+Verdict judge(const std::vector<RankSurvey>& surveys)
+{
+  Verdict verdict{ { HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL }, 1 };
+  std::vector<Point2> ends;
+  for (const RankSurvey& survey : surveys)
   {
-    plan.write(writer);
+    if (survey.Finite == 0)
+    {
+      continue;
+    }
+    verdict.Bounds = { std::min(verdict.Bounds.xmin, survey.Bounds.xmin),
+      std::min(verdict.Bounds.ymin, survey.Bounds.ymin),
+      std::max(verdict.Bounds.xmax, survey.Bounds.xmax),
+      std::max(verdict.Bounds.ymax, survey.Bounds.ymax) };
+    verdict.IsCollinear = verdict.IsCollinear && survey.IsCollinear;
+    ends.insert(ends.end(), { survey.Ends[0], survey.Ends[1] });
   }
-  const Bytes bytes = ranks.broadcast(writer.take());
-  ByteReader reader(bytes);
-  return Plan::read(reader);
+  if (ends.empty())
+  {
+    verdict.Bounds = {};
+  }
+  else if (verdict.IsCollinear)
+  {
+    verdict.IsCollinear = areCollinear(PointsView(&ends.front().x, ends.size(), 2));
+  }
+  return verdict;
+}
+
+/// Surveys all ranks' points. Collective.
+Survey surveyRanks(Communicator& ranks, PointsView points, int threads)
+{
+  PointSurvey local = surveyPoints(points, threads);
+  Survey survey;
+  survey.Points = points;
+  survey.Rejected = std::move(local.Rejected);
+  RankSurvey own{};
+  own.Bounds = local.Bounds;
+  own.Finite = std::int64_t(points.size() - survey.Rejected.size());
+  own.IsCollinear = areCollinear(points);
+  if (own.IsCollinear)
+  {
+    findEnds(points, own.Ends);
+  }
+  const std::vector<RankSurvey> all = ranks.gather(own);
+  const Verdict verdict = ranks.broadcast(judge(all));
+  survey.Bounds = verdict.Bounds;
+  survey.IsCollinear = verdict.IsCollinear != 0;
+
+  // Either all ranks scale, or none.
+  const PointsView moderate = withModerateMagnitude(points, survey.Bounds);
+  std::vector<std::int64_t> kept = { moderate.factor() == 1 };
+  ranks.sum(kept);
+  if (kept[0] == 0)
+  {
+    survey.Points = moderate;
+    const double factor = moderate.factor();
+    survey.Bounds = { survey.Bounds.xmin * factor, survey.Bounds.ymin * factor,
+      survey.Bounds.xmax * factor, survey.Bounds.ymax * factor };
+  }
+  return survey;
+}
+
+/// Returns, on the first rank, about `wanted` of all ranks' points, evenly spaced on each rank.
+/// Collective.
+std::vector<Point2> gatherSample(
+  Communicator& ranks, PointsView points, std::int64_t allPoints, std::size_t wanted)
+{
+  const double share = double(points.size()) / double(std::max<std::int64_t>(1, allPoints));
+  std::vector<Point2> sample;
+  for (const std::vector<Point2>& part :
+    ranks.gather(samplePoints(points, static_cast<std::size_t>(std::ceil(share * double(wanted))))))
+  {
+    sample.insert(sample.end(), part.begin(), part.end());
+  }
+  return sample;
 }
 
 /// One rank's run of the algorithm; its member functions are the steps.
@@ -101,7 +207,7 @@ private:
     const Stopwatch watch;
     const PlanInput input = this->planInput(survey);
     const bool first = this->Ranks.rank() == 0;
-    Plan plan = broadcastPlan(this->Ranks, first ? divide(input, this->Options) : Plan());
+    Plan plan = this->Ranks.broadcast(first ? divide(input, this->Options) : Plan());
     const PointExchange exchange(this->Input, plan.Leaves, this->Threads);
     std::vector<std::int64_t> counts = exchange.counts();
     this->Ranks.sum(counts);
@@ -111,7 +217,7 @@ private:
       {
         assign(plan, input, counts, this->Options);
       }
-      plan = broadcastPlan(this->Ranks, plan);
+      plan = this->Ranks.broadcast(plan);
     }
     this->LocalCount = 0;
     for (std::size_t leaf = 0; leaf < counts.size(); ++leaf)

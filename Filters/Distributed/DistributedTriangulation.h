@@ -2,11 +2,11 @@
 #ifndef tippDistributedTriangulation_h
 #define tippDistributedTriangulation_h
 
+#include "Arrays/Buffer.h"
 #include "Distributed/DistributedOptions.h"
 #include "Distributed/DistributedStatistics.h"
 #include "Distributed/PointExchange.h"
-#include "Messages/Communicator.h"
-#include "Triangulation/Buffer.h"
+#include "Ranks/Communicator.h"
 #include "Triangulation/Triangulate.h"
 
 #include <cstdint>

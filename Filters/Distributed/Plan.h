@@ -3,7 +3,7 @@
 #define tippPlan_h
 
 #include "Distributed/DistributedOptions.h"
-#include "Messages/Bytes.h"
+#include "Ranks/Archive.h"
 #include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -12,6 +12,20 @@
 
 namespace tipp
 {
+
+/// Predicts which major partitions will be active together, from the conflicts in a mesh of the
+/// sample, so that points can be sent to their workers before the triangulation begins. Returns the
+/// stages, each a set of major partitions with points.
+std::vector<std::vector<PartitionIndex>> predictStages(const Tiling& majors,
+  const std::vector<Point2>& sample, const std::vector<std::int64_t>& majorCounts);
+
+/// Chooses the group of ranks for each major partition of a stage. If a stage has fewer major
+/// partitions than ranks, each group has several ranks, in proportion to the points (equation 3.2);
+/// else a group is one rank, the one with the lowest load, its points so far.
+void formGroups(const std::vector<PartitionIndex>& active,
+  const std::vector<std::int64_t>& majorCounts, const std::vector<std::int32_t>& ranks,
+  const DistributedOptions& options, std::vector<double> load,
+  std::vector<std::vector<std::int32_t>>& groups);
 
 /// The partitions that one master hands to workers, or to masters of their own.
 struct Area
@@ -37,10 +51,30 @@ struct VTKTIPPFILTERS_EXPORT Plan
 
   /// With masters: returns the rank of each leaf's master.
   std::vector<std::int32_t> masters() const;
-
-  void write(ByteWriter& writer) const;
-  static Plan read(ByteReader& reader);
 };
+
+inline void serialize(SaveArchive& archive, Tiling& tiling)
+{
+  archive(tiling.save());
+}
+
+inline void serialize(LoadArchive& archive, Tiling& tiling)
+{
+  tiling = Tiling::load(archive.get<std::vector<char>>());
+}
+
+template <typename Archive>
+void serialize(Archive& archive, Area& area)
+{
+  archive(
+    area.Boxes, area.Inner, area.FirstLeaf, area.Children, area.Homes, area.HomeOf, area.Lead);
+}
+
+template <typename Archive>
+void serialize(Archive& archive, Plan& plan)
+{
+  archive(plan.Areas, plan.Leaves, plan.Owners, plan.IsAlone);
+}
 
 /// What a plan depends on.
 struct PlanInput

@@ -1,5 +1,4 @@
 // The masters' part of RankRun. A master starts the partitions whose inboxes it keeps.
-#include "Distributed/MessageKinds.h"
 #include "Distributed/RankRun.h"
 #include "Parallel/Stopwatch.h"
 
@@ -104,8 +103,8 @@ void RankRun<Id>::start(PartitionIndex p)
     this->Started->setLoaded(p);
     return;
   }
-  ByteWriter writer;
-  writer.value(p);
+  SaveArchive writer;
+  writer(p);
   write(writer, all);
   this->Ranks.post(owner, TaskMessage, writer.take());
 }
@@ -114,8 +113,8 @@ void RankRun<Id>::start(PartitionIndex p)
 template <typename Id>
 void RankRun<Id>::receiveTask(const Message& message)
 {
-  ByteReader reader(message.Content);
-  const auto p = reader.value<PartitionIndex>();
+  LoadArchive reader(message.Content);
+  const auto p = reader.get<PartitionIndex>();
   VertexMessage all;
   read(reader, all);
   if (p < 0 || std::size_t(p) >= this->Inboxes.size() || this->AwaitedTasks == 0 ||
@@ -142,20 +141,20 @@ void RankRun<Id>::keepFigures(const std::vector<Contribution>& parts)
   {
     seconds = { std::accumulate(seconds.begin(), seconds.end(), 0.0) };
   }
-  ByteWriter writer;
-  writer.array(seconds);
-  writer.array(this->Figures.Stages);
-  writer.value(this->Figures.LargestMesh);
+  SaveArchive writer;
+  writer(seconds);
+  writer(this->Figures.Stages);
+  writer(this->Figures.LargestMesh);
   MasterStatistics whole;
   std::vector<double> longest(seconds.size(), 0);
   for (const Bytes& part : this->Ranks.gather(writer.take()))
   {
-    ByteReader reader(part);
-    const std::vector<double> other = reader.array<double>();
+    LoadArchive reader(part);
+    const std::vector<double> other = reader.get<std::vector<double>>();
     std::transform(other.begin(), other.end(), longest.begin(), longest.begin(),
       [](double a, double b) { return std::max(a, b); });
-    addStages(reader.array<TriangulationStatistics::Stage>(), whole.Stages);
-    whole.LargestMesh = std::max(whole.LargestMesh, reader.value<std::int64_t>());
+    addStages(reader.get<std::vector<TriangulationStatistics::Stage>>(), whole.Stages);
+    whole.LargestMesh = std::max(whole.LargestMesh, reader.get<std::int64_t>());
   }
   whole.PathSeconds = std::accumulate(longest.begin(), longest.end(), 0.0);
   const bool isSingle = this->Work.Areas.front().hasLeaves();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/RankRun.h"
 
-#include "Distributed/MessageKinds.h"
 #include "Distributed/SharedInitialMesh.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/InitialMesh.h"
@@ -105,15 +104,15 @@ void RankRun<Id>::shareInitialMesh(std::vector<BoundaryVertex>& vertices)
     v.Id += this->FirstId;
   }
   keepOneOfEachPosition(initial);
-  ByteWriter writer;
-  writer.array(regions);
+  SaveArchive writer;
+  writer(regions);
   write(writer, initial);
   const Bytes together = joinedOnAllRanks(this->Ranks, writer.take());
   std::vector<Box2> boxes(std::size_t(tiles.size()), Box2{});
   std::vector<char> used(std::size_t(tiles.size()), 0);
-  for (ByteReader reader(together); reader.left() > 0;)
+  for (LoadArchive reader(together); reader.left() > 0;)
   {
-    for (const RegionEntry& entry : reader.array<RegionEntry>())
+    for (const RegionEntry& entry : reader.get<std::vector<RegionEntry>>())
     {
       boxes.at(std::size_t(entry.Partition)) = entry.Box;
       used.at(std::size_t(entry.Partition)) = 1;
@@ -157,7 +156,7 @@ void RankRun<Id>::makeInitialMesh()
   this->PartitionsPay = chosen || partitionsPay(counts[0], counts[1]);
   if (this->PartitionsPay)
   {
-    ByteWriter writer;
+    SaveArchive writer;
     part.writeConflicts(writer);
     this->Order = std::make_unique<PartitionOrder>(this->Boxes->areUsed(),
       readConflicts(joinedOnAllRanks(this->Ranks, writer.take()), this->Keepers.size()));
@@ -435,12 +434,12 @@ void RankRun<Id>::coordinate()
 template <typename Id>
 void RankRun<Id>::repairHullOnFirst()
 {
-  ByteWriter writer;
+  SaveArchive writer;
   write(writer, std::exchange(this->Boundary.HullVertices, {}));
   std::vector<BoundaryVertex> vertices;
   for (const Bytes& part : this->Ranks.gather(writer.take()))
   {
-    ByteReader reader(part);
+    LoadArchive reader(part);
     read(reader, vertices);
   }
   if (this->Ranks.rank() == 0)

@@ -6,11 +6,11 @@
 #include "Distributed/DistributedStatistics.h"
 #include "Distributed/Plan.h"
 #include "Distributed/PointExchange.h"
-#include "Distributed/RankArrays.h"
+#include "Distributed/TriangleExchange.h"
 #include "Engine/ReadyPartitions.h"
 #include "Engine/Routing.h"
-#include "Messages/Communicator.h"
 #include "Parallel/Stopwatch.h"
+#include "Ranks/Communicator.h"
 #include "Triangulation/Tiling.h"
 
 #include <atomic>
@@ -21,6 +21,16 @@
 
 namespace tipp
 {
+
+constexpr MessageKind kindAfter(std::uint32_t n)
+{
+  return static_cast<MessageKind>(static_cast<std::uint32_t>(MessageKind::FirstFree) + n);
+}
+
+/// A partition is done; with the messages that it sends.
+constexpr MessageKind PartitionDoneMessage = kindAfter(0);
+/// With masters: a partition to triangulate, with its inbox.
+constexpr MessageKind TaskMessage = kindAfter(1);
 
 /// A rank's part of the triangulation: it triangulates the partitions whose points it owns.
 ///

@@ -245,12 +245,12 @@ struct ConflictRows
   std::vector<PartitionIndex> Neighbours; ///< of the first partition, of the second and so on
 };
 
-ConflictRows readRows(ByteReader& reader, std::size_t partitions)
+ConflictRows readRows(LoadArchive& reader, std::size_t partitions)
 {
   ConflictRows rows;
-  reader.array(rows.Partitions);
-  reader.array(rows.Counts);
-  reader.array(rows.Neighbours);
+  reader(rows.Partitions);
+  reader(rows.Counts);
+  reader(rows.Neighbours);
   const auto isPartition = [partitions](PartitionIndex p)
   { return p >= 0 && std::size_t(p) < partitions; };
   const auto isCount = [](PartitionIndex count) { return count >= 0; };
@@ -301,7 +301,7 @@ void InitialMeshPart::countMet(std::int64_t& triangles, std::int64_t& met) const
   }
 }
 
-void InitialMeshPart::writeConflicts(ByteWriter& writer) const
+void InitialMeshPart::writeConflicts(SaveArchive& writer) const
 {
   const std::optional<ConflictGraph> graph = findConflicts(this->Mesh, this->IsChosen.size());
   ConflictRows rows;
@@ -315,19 +315,19 @@ void InitialMeshPart::writeConflicts(ByteWriter& writer) const
       rows.Neighbours.insert(rows.Neighbours.end(), those.begin(), those.end());
     }
   }
-  writer.value(char(graph.has_value()));
-  writer.array(rows.Partitions);
-  writer.array(rows.Counts);
-  writer.array(rows.Neighbours);
+  writer(char(graph.has_value()));
+  writer(rows.Partitions);
+  writer(rows.Counts);
+  writer(rows.Neighbours);
 }
 
 std::optional<ConflictGraph> readConflicts(const Bytes& all, std::size_t partitions)
 {
   bool isTotal = false;
   std::vector<std::vector<PartitionIndex>> neighbours(partitions);
-  for (ByteReader reader(all); reader.left() > 0;)
+  for (LoadArchive reader(all); reader.left() > 0;)
   {
-    isTotal = reader.value<char>() == 0 || isTotal;
+    isTotal = reader.get<char>() == 0 || isTotal;
     const ConflictRows rows = readRows(reader, partitions);
     auto from = rows.Neighbours.begin();
     for (std::size_t i = 0; i < rows.Partitions.size(); ++i)
@@ -346,7 +346,7 @@ std::optional<ConflictGraph> readConflicts(const Bytes& all, std::size_t partiti
 
 Bytes joinedOnAllRanks(Communicator& ranks, Bytes&& own)
 {
-  ByteWriter all;
+  SaveArchive all;
   for (const Bytes& part : ranks.gather(std::move(own)))
   {
     all.raw(part.data(), part.size());

@@ -3,7 +3,7 @@
 #define tippSharedInitialMesh_h
 
 #include "Engine/PartitionOrder.h"
-#include "Messages/Communicator.h"
+#include "Ranks/Communicator.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/Tiling.h"
 
@@ -41,7 +41,7 @@ struct InitialMeshPart
   VTKTIPPFILTERS_EXPORT void countMet(std::int64_t& triangles, std::int64_t& met) const;
 
   /// Writes the chosen partitions' conflicts. Takes long where partitions do not pay.
-  VTKTIPPFILTERS_EXPORT void writeConflicts(ByteWriter& writer) const;
+  VTKTIPPFILTERS_EXPORT void writeConflicts(SaveArchive& writer) const;
 
   BoundaryTriangles Mesh;
   std::vector<char> IsChosen;

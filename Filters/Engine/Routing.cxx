@@ -26,7 +26,7 @@ struct WrittenVertex
 
 } // namespace
 
-void write(ByteWriter& writer, const std::vector<BoundaryVertex>& vertices)
+void write(SaveArchive& writer, const std::vector<BoundaryVertex>& vertices)
 {
   std::vector<WrittenVertex> written;
   written.reserve(vertices.size());
@@ -34,19 +34,19 @@ void write(ByteWriter& writer, const std::vector<BoundaryVertex>& vertices)
   {
     written.push_back({ v.Position, v.Id, v.Partition });
   }
-  writer.array(written);
+  writer(written);
 }
 
-void write(ByteWriter& writer, const VertexMessage& message)
+void write(SaveArchive& writer, const VertexMessage& message)
 {
-  writer.value(message.Sender);
-  writer.value(message.Triangles);
+  writer(message.Sender);
+  writer(message.Triangles);
   write(writer, message.Vertices);
 }
 
-void read(ByteReader& reader, std::vector<BoundaryVertex>& vertices)
+void read(LoadArchive& reader, std::vector<BoundaryVertex>& vertices)
 {
-  const std::vector<WrittenVertex> written = reader.array<WrittenVertex>();
+  const std::vector<WrittenVertex> written = reader.get<std::vector<WrittenVertex>>();
   vertices.reserve(vertices.size() + written.size());
   for (const WrittenVertex& v : written)
   {
@@ -54,10 +54,10 @@ void read(ByteReader& reader, std::vector<BoundaryVertex>& vertices)
   }
 }
 
-void read(ByteReader& reader, VertexMessage& message)
+void read(LoadArchive& reader, VertexMessage& message)
 {
-  message.Sender = reader.value<PartitionIndex>();
-  message.Triangles = reader.value<std::int64_t>();
+  message.Sender = reader.get<PartitionIndex>();
+  message.Triangles = reader.get<std::int64_t>();
   message.Vertices.clear();
   read(reader, message.Vertices);
 }
@@ -65,13 +65,13 @@ void read(ByteReader& reader, VertexMessage& message)
 Bytes writeDone(PartitionIndex sender, const SentMessages& sent,
   const std::function<bool(PartitionIndex)>& isIncluded)
 {
-  ByteWriter writer;
-  writer.value(sender);
+  SaveArchive writer;
+  writer(sender);
   for (const auto& [to, message] : sent)
   {
     if (isIncluded(to))
     {
-      writer.value(to);
+      writer(to);
       write(writer, message);
     }
   }
@@ -80,7 +80,7 @@ Bytes writeDone(PartitionIndex sender, const SentMessages& sent,
 
 SentMessages readDone(const Bytes& bytes, std::size_t count, PartitionIndex& sender)
 {
-  ByteReader reader(bytes);
+  LoadArchive reader(bytes);
   const auto requirePartition = [count](PartitionIndex p)
   {
     if (p < 0 || std::size_t(p) >= count)
@@ -88,12 +88,12 @@ SentMessages readDone(const Bytes& bytes, std::size_t count, PartitionIndex& sen
       throw std::runtime_error("A message from another rank is damaged: no such partition.");
     }
   };
-  sender = reader.value<PartitionIndex>();
+  sender = reader.get<PartitionIndex>();
   requirePartition(sender);
   SentMessages sent;
   while (reader.left() > 0)
   {
-    const auto to = reader.value<PartitionIndex>();
+    const auto to = reader.get<PartitionIndex>();
     requirePartition(to);
     sent.emplace_back(to, VertexMessage{});
     read(reader, sent.back().second);

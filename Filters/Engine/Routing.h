@@ -3,7 +3,7 @@
 #define tippRouting_h
 
 #include "Engine/PartitionOrder.h"
-#include "Messages/Bytes.h"
+#include "Ranks/Archive.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/Tiling.h"
 #include "Triangulation/TriangleSink.h"
@@ -33,10 +33,10 @@ struct VertexMessage
 /// @name Serialisation of vertices and messages
 /// Reading throws std::runtime_error if the bytes were not written by these functions.
 ///@{
-VTKTIPPFILTERS_EXPORT void write(ByteWriter& writer, const std::vector<BoundaryVertex>& vertices);
-VTKTIPPFILTERS_EXPORT void write(ByteWriter& writer, const VertexMessage& message);
-VTKTIPPFILTERS_EXPORT void read(ByteReader& reader, std::vector<BoundaryVertex>& vertices);
-VTKTIPPFILTERS_EXPORT void read(ByteReader& reader, VertexMessage& message);
+VTKTIPPFILTERS_EXPORT void write(SaveArchive& writer, const std::vector<BoundaryVertex>& vertices);
+VTKTIPPFILTERS_EXPORT void write(SaveArchive& writer, const VertexMessage& message);
+VTKTIPPFILTERS_EXPORT void read(LoadArchive& reader, std::vector<BoundaryVertex>& vertices);
+VTKTIPPFILTERS_EXPORT void read(LoadArchive& reader, VertexMessage& message);
 ///@}
 
 /// All messages of a finished partition, each with its recipient.

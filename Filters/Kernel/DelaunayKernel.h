@@ -2,13 +2,13 @@
 #ifndef tippDelaunayKernel_h
 #define tippDelaunayKernel_h
 
+#include "Arrays/Buffer.h"
 #include "Kernel/Cavity.h"
 #include "Kernel/HalfEdgeMesh.h"
 #include "Kernel/Insertion.h"
 #include "Kernel/InsertionOrder.h"
 #include "Kernel/KernelPredicates.h"
 #include "Predicates/Point2.h"
-#include "Triangulation/Buffer.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <array>

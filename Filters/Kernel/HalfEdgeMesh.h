@@ -2,7 +2,7 @@
 #ifndef tippHalfEdgeMesh_h
 #define tippHalfEdgeMesh_h
 
-#include "Triangulation/Buffer.h"
+#include "Arrays/Buffer.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -2,9 +2,9 @@
 #ifndef tippInsertionOrder_h
 #define tippInsertionOrder_h
 
+#include "Arrays/Buffer.h"
 #include "Kernel/Lanes.h"
 #include "Predicates/Point2.h"
-#include "Triangulation/Buffer.h"
 
 #include <cstddef>
 #include <cstdint>

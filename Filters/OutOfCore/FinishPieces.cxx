@@ -30,11 +30,7 @@ bool exists(const std::string& path)
 
 FinishedPiece readFinished(const std::string& path)
 {
-  const Bytes bytes = readCheckedFile(path);
-  LoadArchive archive(bytes);
-  FinishedPiece piece;
-  exchange(archive, piece);
-  return piece;
+  return unpacked<FinishedPiece>(readCheckedFile(path));
 }
 
 /// Throws IOError for what is damaged or missing.
@@ -114,7 +110,7 @@ public:
       finished = writeBorder(this->Work.Mesh, number, this->Work.Rows, interior, border);
     }
     // From now on the file may have another layout than the result says.
-    writeCheckedFile(record, [&](SaveArchive& archive) { exchange(archive, finished); });
+    writeCheckedFile(record, [&](SaveArchive& archive) { archive(finished); });
     return finished;
   }
 

@@ -10,6 +10,18 @@
 
 namespace tipp
 {
+template <typename Archive>
+void serialize(Archive& archive, PartialSurvey& part)
+{
+  archive(part.Points, part.Rejected, part.Bounds, part.Collinear, part.Line, part.Sample);
+}
+
+template <typename Archive>
+void serialize(Archive& archive, SpilledPart& part)
+{
+  archive(part.Points, part.Rows, part.Counts, part.InPieces);
+}
+
 namespace
 {
 
@@ -20,32 +32,6 @@ void limitToPart(PointStream& points, std::int64_t total, int part, int parts)
   {
     points.limitTo(before(part), before(part + 1));
   }
-}
-
-template <typename Archive>
-void exchange(Archive& archive, PartialSurvey& part)
-{
-  archive(part.Points);
-  archive(part.Rejected);
-  archive(part.Bounds);
-  archive(part.Collinear);
-  archive(part.Line);
-  archive(part.Sample);
-}
-
-template <typename Archive>
-void exchange(Archive& archive, SpilledPart& part)
-{
-  archive(part.Points);
-  archive(part.Rows);
-  archive(part.Counts);
-  archive(part.InPieces);
-}
-
-template <typename Archive>
-void exchange(Archive& archive, double& number)
-{
-  archive(number);
 }
 
 } // namespace
@@ -106,7 +92,7 @@ Bytes InputPasses::answerOf(int rank)
 template <typename Result, typename Work>
 std::vector<Result> InputPasses::share(MessageKind kind, SaveArchive order, const Work& work)
 {
-  const Bytes bytes = order.Writer.take();
+  const Bytes bytes = order.take();
   for (int to = 1; to < this->Parts; ++to)
   {
     Bytes copy(bytes.size());
@@ -123,9 +109,7 @@ std::vector<Result> InputPasses::share(MessageKind kind, SaveArchive order, cons
       results.push_back(work(part));
       continue;
     }
-    LoadArchive archive(answer);
-    results.emplace_back();
-    exchange(archive, results.back());
+    results.push_back(unpacked<Result>(answer));
   }
   return results;
 }
@@ -133,10 +117,8 @@ std::vector<Result> InputPasses::share(MessageKind kind, SaveArchive order, cons
 InputSurvey InputPasses::survey()
 {
   SaveArchive order;
-  order(this->Points.identity());
-  order(this->Total);
-  order(std::uint64_t(this->Options.BlockPoints));
-  order(std::uint64_t(this->Options.SamplePoints));
+  order(this->Points.identity(), this->Total, std::uint64_t(this->Options.BlockPoints),
+    std::uint64_t(this->Options.SamplePoints));
   std::vector<PartialSurvey> parts = this->share<PartialSurvey>(SurveyMessage, std::move(order),
     [this](int)
     {
@@ -164,9 +146,7 @@ std::unique_ptr<SpilledPoints> InputPasses::spill(
   const InputSurvey& survey, PiecePlan& plan, const PointRowLayout& rows, const std::string& file)
 {
   SaveArchive order;
-  order(file);
-  order(survey.Factor);
-  order(rows.Words);
+  order(file, survey.Factor, rows.Words);
   plan.save(order);
   const std::vector<SpilledPart> parts = this->share<SpilledPart>(SpillMessage, std::move(order),
     [&](int part)
@@ -204,7 +184,7 @@ bool InputHelper::take(const Message& message)
       : message.Kind == FactorMessage      ? this->factor(order)
                                            : this->spill(order);
   }
-  this->Ranks.post(0, PartMessage, answer.Writer.take());
+  this->Ranks.post(0, PartMessage, answer.take());
   return true;
 }
 
@@ -241,7 +221,7 @@ SaveArchive InputHelper::survey()
   PartialSurvey part = surveyPart(*this->Points, this->Options.BlockPoints,
     this->Options.SamplePoints, this->Options.Threads, this->Options.Progress);
   SaveArchive answer;
-  exchange(answer, part);
+  answer(part);
   return answer;
 }
 
@@ -251,7 +231,7 @@ SaveArchive InputHelper::factor(LoadArchive& order)
   order(bounds);
   double factor = factorOfPart(*this->Points, this->Options.BlockPoints, bounds);
   SaveArchive answer;
-  exchange(answer, factor);
+  answer(factor);
   return answer;
 }
 
@@ -260,14 +240,12 @@ SaveArchive InputHelper::spill(LoadArchive& order)
   std::string file;
   double factor = 1;
   PointRowLayout rows;
-  order(file);
-  order(factor);
-  order(rows.Words);
+  order(file, factor, rows.Words);
   const PiecePlan plan(order);
   SpilledPart part = spillPart(*this->Points, factor, plan, rows, file, this->Ranks.rank(),
     this->Options.BlockPoints, this->Options.Threads, this->Options.Progress);
   SaveArchive answer;
-  exchange(answer, part);
+  answer(part);
   return answer;
 }
 

@@ -2,11 +2,11 @@
 #ifndef tippInputPasses_h
 #define tippInputPasses_h
 
-#include "Messages/Communicator.h"
 #include "OutOfCore/InputSurvey.h"
 #include "OutOfCore/PieceMessages.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/SpillPoints.h"
+#include "Ranks/Communicator.h"
 
 #include <cstdint>
 #include <deque>

@@ -14,7 +14,7 @@ namespace tipp
 namespace
 {
 
-std::uint64_t mix(std::uint64_t x) // the finaliser of splitmix64
+std::uint64_t mixBits(std::uint64_t x) // the finaliser of splitmix64
 {
   x += 0x9e3779b97f4a7c15U;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -77,7 +77,7 @@ public:
 private:
   std::int64_t next() const { return this->pick(this->Range, this->Doublings); }
 
-  static std::int64_t chosenOf(std::int64_t pair) { return 2 * pair + (mix(pair) & 1); }
+  static std::int64_t chosenOf(std::int64_t pair) { return 2 * pair + (mixBits(pair) & 1); }
 
   /// The id picked for a range after this many doublings. For the first ranges it was picked when
   /// they were shorter.
@@ -90,7 +90,7 @@ private:
     }
     const std::int64_t length = std::int64_t(1) << doublings;
     return range * length +
-      std::int64_t(mix(std::uint64_t(range * 64 + doublings)) % std::uint64_t(length));
+      std::int64_t(mixBits(std::uint64_t(range * 64 + doublings)) % std::uint64_t(length));
   }
 
   void halve()

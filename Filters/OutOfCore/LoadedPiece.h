@@ -5,7 +5,7 @@
 #include "Engine/Routing.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceResult.h"
-#include "Partitioned/PublishPieces.h"
+#include "Partitioned/PieceWriter.h"
 #include "Triangulation/Worker.h"
 
 #include <array>

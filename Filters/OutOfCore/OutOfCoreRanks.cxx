@@ -47,13 +47,6 @@ std::string firstLine(const std::string& path)
   return line;
 }
 
-Bytes bytesOf(const std::string& text)
-{
-  ByteWriter writer;
-  writer.text(text);
-  return writer.take();
-}
-
 /// Of a rank other than the first, before there are pieces.
 void report(const Communicator& ranks, const OutOfCoreOptions& options)
 {
@@ -152,8 +145,8 @@ void requireSharedFolder(Communicator& ranks, const std::string& folder)
       throw IOError(mark.Path, "cannot be written.");
     }
   }
-  const std::string path = ByteReader(ranks.broadcast(bytesOf(mark.Path))).text();
-  expected = ByteReader(ranks.broadcast(bytesOf(expected))).text();
+  const std::string path = ranks.broadcast(mark.Path);
+  expected = ranks.broadcast(expected);
   if (firstLine(path) != expected)
   {
     throw IOError(std::filesystem::path(path).parent_path().string(),
@@ -171,7 +164,7 @@ void shareSetup(Communicator& ranks, RunSetup& prepared, const std::string& poin
   archive(prepared.Results);
   archive(isDone);
   prepared.save(archive);
-  const Bytes bytes = archive.Writer.take();
+  const Bytes bytes = archive.take();
   for (int to = 1; to < ranks.size(); ++to)
   {
     Bytes copy(bytes.size());

@@ -2,9 +2,9 @@
 #ifndef tippOutOfCoreRanks_h
 #define tippOutOfCoreRanks_h
 
-#include "Messages/Communicator.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Points/PointStream.h"
+#include "Ranks/Communicator.h"
 
 #include <functional>
 #include <memory>

@@ -2,7 +2,7 @@
 #ifndef tippPieceMessages_h
 #define tippPieceMessages_h
 
-#include "Messages/Communicator.h"
+#include "Ranks/Communicator.h"
 
 #include <cstdint>
 

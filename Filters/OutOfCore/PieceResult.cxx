@@ -103,32 +103,32 @@ std::uint64_t writeResult(const std::string& path, PieceResult& result)
   {
     SaveArchive interior;
     result.Interior.exchange(interior);
-    file.add({ InteriorSection, 0 }, interior.Writer);
+    file.add({ InteriorSection, 0 }, interior);
   }
-  ByteWriter figures;
-  figures.value(result.Figures);
+  SaveArchive figures;
+  figures(result.Figures);
   file.add({ FiguresSection, 0 }, figures);
-  ByteWriter hull;
+  SaveArchive hull;
   write(hull, result.HullVertices);
   file.add({ HullSection, 0 }, hull);
   for (auto& [owner, triangles] : result.Borders)
   {
     SaveArchive border;
     exchange(border, triangles);
-    file.add({ BorderSection, owner }, border.Writer);
+    file.add({ BorderSection, owner }, border);
   }
   if (!result.Crossed.Triangles.empty() || !result.Crossed.Touches.empty())
   {
     SaveArchive crossed;
-    result.Crossed.exchange(crossed);
-    file.add({ CrossedSection, 0 }, crossed.Writer);
+    crossed(result.Crossed);
+    file.add({ CrossedSection, 0 }, crossed);
   }
   for (const auto& [to, messages] : result.Sent)
   {
-    ByteWriter writer;
+    SaveArchive writer;
     for (const auto& [partition, message] : messages)
     {
-      writer.value(partition);
+      writer(partition);
       write(writer, message);
     }
     file.add({ MessageSection, to }, writer);
@@ -145,9 +145,9 @@ SentMessages StoredResult::readMessages(PartitionIndex to) const
 {
   const Bytes bytes = this->File.read({ MessageSection, to });
   SentMessages messages;
-  for (ByteReader reader(bytes); reader.left() > 0;)
+  for (LoadArchive reader(bytes); reader.left() > 0;)
   {
-    messages.emplace_back(reader.value<PartitionIndex>(), VertexMessage{});
+    messages.emplace_back(reader.get<PartitionIndex>(), VertexMessage{});
     read(reader, messages.back().second);
   }
   return messages;
@@ -170,7 +170,7 @@ BorderTriangles StoredResult::readBorder(PartitionIndex owner) const
 std::vector<BoundaryVertex> StoredResult::readHullVertices() const
 {
   const Bytes bytes = this->File.read({ HullSection, 0 });
-  ByteReader reader(bytes);
+  LoadArchive reader(bytes);
   std::vector<BoundaryVertex> vertices;
   read(reader, vertices);
   return vertices;
@@ -181,9 +181,7 @@ CrossedPart StoredResult::readCrossed() const
   CrossedPart crossed;
   if (this->File.has({ CrossedSection, 0 }))
   {
-    const Bytes bytes = this->File.read({ CrossedSection, 0 });
-    LoadArchive archive(bytes);
-    crossed.exchange(archive);
+    crossed = unpacked<CrossedPart>(this->File.read({ CrossedSection, 0 }));
   }
   return crossed;
 }
@@ -191,7 +189,7 @@ CrossedPart StoredResult::readCrossed() const
 PieceFigures StoredResult::readFigures() const
 {
   const Bytes bytes = this->File.read({ FiguresSection, 0 });
-  return ByteReader(bytes).value<PieceFigures>();
+  return unpacked<PieceFigures>(bytes);
 }
 
 PieceInterior StoredResult::readInterior() const

@@ -288,8 +288,8 @@ void PieceRun::finishPiece(PartitionIndex piece)
   {
     if (to != this->rank())
     {
-      ByteWriter writer;
-      writer.value(piece);
+      SaveArchive writer;
+      writer(piece);
       this->ToSend.push_back({ to, PieceMessage, writer.take() });
     }
   }
@@ -355,7 +355,7 @@ void PieceRun::receive(const Message& message)
     this->receivePartition(message);
     return;
   }
-  const auto piece = ByteReader(message.Content).value<PartitionIndex>();
+  const auto piece = unpacked<PartitionIndex>(message.Content);
   const Lock lock(this->Mutex);
   if (message.Kind != PieceMessage || piece < 0 || std::size_t(piece) >= this->Pieces.size() ||
     this->at(piece).Rank != message.Source)

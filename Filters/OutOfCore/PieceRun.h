@@ -3,9 +3,9 @@
 #define tippPieceRun_h
 
 #include "Engine/ReadyPartitions.h"
-#include "Messages/Communicator.h"
 #include "OutOfCore/LoadedPiece.h"
 #include "OutOfCore/TakeBorders.h"
+#include "Ranks/Communicator.h"
 
 #include <condition_variable>
 #include <cstdint>

@@ -53,7 +53,7 @@ std::uint64_t writeCheckedFile(
     const OutputFile file(path + nextSuffix);
     Checksum sum;
     SaveArchive archive;
-    archive.Writer.setSink(
+    archive.setSink(
       [&](const char* data, std::size_t size)
       {
         sum.add(data, size);
@@ -61,7 +61,7 @@ std::uint64_t writeCheckedFile(
         end += size;
       });
     save(archive);
-    archive.Writer.flush();
+    archive.flush();
     const std::uint64_t checksum = sum.finish();
     file.write(0, &checksum, 8);
   }
@@ -98,7 +98,7 @@ SectionFileWriter::SectionFileWriter(const std::string& path)
 {
 }
 
-void SectionFileWriter::add(SectionKey key, const ByteWriter& content)
+void SectionFileWriter::add(SectionKey key, const SaveArchive& content)
 {
   this->Table.push_back(
     { key, this->End, content.size(), checksumOf(content.data(), content.size()) });

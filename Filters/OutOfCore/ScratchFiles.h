@@ -3,112 +3,31 @@
 #define tippScratchFiles_h
 
 #include "Files/OutputFile.h"
-#include "Messages/Bytes.h"
-#include "Partitioned/PublishPieces.h"
+#include "Partitioned/PieceWriter.h"
+#include "Ranks/Archive.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace tipp
 {
 
-/// Takes numbers and vectors of them, and things made of these, to save them.
-class SaveArchive
+template <typename Archive>
+void serialize(Archive& archive, LentGroup& group)
 {
-public:
-  template <typename T>
-  void operator()(const T& value)
-  {
-    this->Writer.value(value);
-  }
-  template <typename T>
-  void operator()(const std::vector<T>& values)
-  {
-    if constexpr (std::is_trivially_copyable<T>::value)
-    {
-      this->Writer.array(values);
-    }
-    else
-    {
-      this->Writer.value(std::uint64_t(values.size()));
-      for (const T& value : values)
-      {
-        (*this)(value);
-      }
-    }
-  }
-  void operator()(const std::string& text) { this->Writer.text(text); }
-
-  ByteWriter Writer;
-};
-
-/// Gives back what a SaveArchive took, in the same order; throws std::runtime_error where it ends
-/// early.
-class LoadArchive
-{
-public:
-  explicit LoadArchive(const Bytes& bytes)
-    : Reader(bytes)
-  {
-  }
-
-  template <typename T>
-  void operator()(T& value)
-  {
-    value = this->Reader.template value<T>();
-  }
-  template <typename T>
-  void operator()(std::vector<T>& values)
-  {
-    if constexpr (std::is_trivially_copyable<T>::value)
-    {
-      this->Reader.array(values);
-    }
-    else
-    {
-      const auto count = this->Reader.template value<std::uint64_t>();
-      values.clear();
-      for (std::uint64_t i = 0; i < count; ++i)
-      {
-        values.emplace_back();
-        (*this)(values.back());
-      }
-    }
-  }
-  void operator()(std::string& text) { text = this->Reader.text(); }
-
-  ByteReader Reader;
-};
-
-template <typename Archive, typename Group>
-void exchangeGroups(Archive& archive, std::vector<Group>& groups)
-{
-  std::uint64_t count = groups.size();
-  archive(count);
-  groups.resize(count);
-  for (Group& group : groups)
-  {
-    archive(group.To);
-    archive(group.Count);
-  }
+  archive(group.To, group.Count);
 }
 
 /// What is known of a finished piece before it is published.
 template <typename Archive>
-void exchange(Archive& archive, FinishedPiece& piece)
+void serialize(Archive& archive, FinishedPiece& piece)
 {
-  archive(piece.Summary);
-  archive(piece.Table.Offsets);
-  exchangeGroups(archive, piece.Table.PointGroups);
-  exchangeGroups(archive, piece.Table.CellGroups);
-  archive(piece.Table.Checksums);
-  archive(piece.Table.HeaderBytes);
-  archive(piece.Table.HeaderChecksum);
-  archive(piece.TriangleSum);
+  PieceTable& table = piece.Table;
+  archive(piece.Summary, table.Offsets, table.PointGroups, table.CellGroups, table.Checksums,
+    table.HeaderBytes, table.HeaderChecksum, piece.TriangleSum);
 }
 
 /// Saves what save() shows to an archive, with a checksum, and replaces the file `path` in one
@@ -148,7 +67,7 @@ public:
   /// Throws IOError, as all methods do.
   explicit SectionFileWriter(const std::string& path);
 
-  void add(SectionKey key, const ByteWriter& content);
+  void add(SectionKey key, const SaveArchive& content);
   /// Returns how many bytes the file has.
   std::uint64_t finish();
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Output/CellBuffers.h"
 
-#include "Meshes/Triangles.h"
+#include "Meshes/MeshFiles.h"
 
 #include "vtkCellArray.h"
 #include "vtkIdTypeArray.h"

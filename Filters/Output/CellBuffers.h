@@ -2,7 +2,7 @@
 #ifndef tippCellBuffers_h
 #define tippCellBuffers_h
 
-#include "Triangulation/Buffer.h"
+#include "Arrays/Buffer.h"
 #include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"
 

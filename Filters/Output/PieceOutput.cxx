@@ -20,6 +20,12 @@
 
 namespace tipp
 {
+template <typename Archive>
+void serialize(Archive& archive, PointRows::Column& column)
+{
+  archive(column.Name, column.Type, column.Components, column.Size);
+}
+
 namespace
 {
 
@@ -42,31 +48,19 @@ std::vector<PointRows::Column> columnsOf(vtkPointSet* input)
   return columns;
 }
 
-void write(const std::vector<PointRows::Column>& columns, ByteWriter& writer)
+/// A rank's points, or what all ranks' points have in common.
+struct PointKinds
 {
-  writer.value(std::uint64_t(columns.size()));
-  for (const PointRows::Column& column : columns)
-  {
-    writer.text(column.Name);
-    writer.value(column.Type);
-    writer.value(column.Components);
-    writer.value(std::uint64_t(column.Size));
-  }
-}
+  bool HasPoints = false;
+  bool HasIds = false;
+  bool HasDoubles = false;
+  std::vector<PointRows::Column> Columns;
+};
 
-std::vector<PointRows::Column> readColumns(ByteReader& reader)
+template <typename Archive>
+void serialize(Archive& archive, PointKinds& kinds)
 {
-  std::vector<PointRows::Column> columns;
-  for (std::uint64_t n = reader.value<std::uint64_t>(); n > 0; --n)
-  {
-    PointRows::Column column;
-    column.Name = reader.text();
-    column.Type = reader.value<int>();
-    column.Components = reader.value<int>();
-    column.Size = reader.value<std::uint64_t>();
-    columns.push_back(column);
-  }
-  return columns;
+  archive(kinds.HasPoints, kinds.HasIds, kinds.HasDoubles, kinds.Columns);
 }
 
 bool same(const PointRows::Column& a, const PointRows::Column& b)
@@ -80,44 +74,35 @@ PointRows::PointRows(Communicator& ranks, vtkPointSet* input)
 {
   const bool hasPoints = input->GetNumberOfPoints() > 0;
   vtkDataArray* ids = hasPoints ? input->GetPointData()->GetGlobalIds() : nullptr;
-  ByteWriter writer;
-  writer.value(char(hasPoints));
-  writer.value(char(ids != nullptr));
-  writer.value(char(hasPoints && input->GetPoints()->GetDataType() != VTK_FLOAT));
-  write(hasPoints ? columnsOf(input) : std::vector<Column>(), writer);
-  ByteWriter agreed;
-  bool first = true;
-  bool allIds = true;
-  bool anyDoubles = false;
-  std::vector<Column> common;
-  for (const Bytes& bytes : ranks.gather(writer.take()))
+  PointKinds mine;
+  mine.HasPoints = hasPoints;
+  mine.HasIds = ids != nullptr;
+  mine.HasDoubles = hasPoints && input->GetPoints()->GetDataType() != VTK_FLOAT;
+  mine.Columns = hasPoints ? columnsOf(input) : std::vector<Column>();
+  PointKinds agreed;
+  for (const PointKinds& other : ranks.gather(mine))
   {
-    ByteReader reader(bytes);
-    if (!reader.value<char>())
+    if (!other.HasPoints)
     {
       continue;
     }
-    allIds = reader.value<char>() && allIds;
-    anyDoubles = reader.value<char>() || anyDoubles;
-    const std::vector<Column> columns = readColumns(reader);
+    std::vector<Column>& common = agreed.Columns;
     common.erase(std::remove_if(common.begin(), common.end(),
                    [&](const Column& column)
                    {
-                     return std::none_of(columns.begin(), columns.end(),
-                       [&](const Column& other) { return same(column, other); });
+                     return std::none_of(other.Columns.begin(), other.Columns.end(),
+                       [&](const Column& of) { return same(column, of); });
                    }),
       common.end());
-    common = first ? columns : common;
-    first = false;
+    common = agreed.HasPoints ? common : other.Columns;
+    agreed.HasIds = other.HasIds && (agreed.HasIds || !agreed.HasPoints);
+    agreed.HasDoubles = other.HasDoubles || agreed.HasDoubles;
+    agreed.HasPoints = true;
   }
-  agreed.value(char(allIds && !first));
-  agreed.value(char(anyDoubles));
-  write(common, agreed);
-  const Bytes bytes = ranks.broadcast(agreed.take());
-  ByteReader reader(bytes);
-  this->GivenIds = reader.value<char>() != 0;
-  this->Doubles = reader.value<char>() != 0;
-  this->Columns = readColumns(reader);
+  agreed = ranks.broadcast(agreed);
+  this->GivenIds = agreed.HasIds;
+  this->Doubles = agreed.HasDoubles;
+  this->Columns = agreed.Columns;
   if (!hasPoints)
   {
     return;

@@ -2,9 +2,9 @@
 #ifndef tippPieceOutput_h
 #define tippPieceOutput_h
 
-#include "Distributed/GhostTriangles.h"
 #include "Distributed/PointExchange.h"
-#include "Messages/Communicator.h"
+#include "Distributed/TriangleExchange.h"
+#include "Ranks/Communicator.h"
 
 #include "vtkSmartPointer.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sampling/SampledImage.h"
 
-#include "Messages/Communicator.h"
+#include "Ranks/Communicator.h"
 
 #include "vtkDataArray.h"
 
@@ -109,47 +109,47 @@ private:
     std::vector<Bytes> contents;
     for (int rank = 0; rank < this->Ranks.size(); ++rank)
     {
-      ByteWriter writer;
-      writer.value(mine);
+      SaveArchive writer;
+      writer(mine);
       this->describe(writer);
       contents.push_back(writer.take());
     }
     for (const Bytes& content : this->Ranks.allToAll(std::move(contents)))
     {
-      ByteReader reader(content);
-      this->Notes.push_back(reader.value<RankNote>());
+      LoadArchive reader(content);
+      this->Notes.push_back(reader.get<RankNote>());
       this->Dimension = std::max(this->Dimension, this->Notes.back().Dimension);
       this->Has.push_back(this->learnArrays(reader));
     }
   }
 
-  void describe(ByteWriter& writer) const
+  void describe(SaveArchive& writer) const
   {
     for (const SampledImage::Array& array : this->Local.arrays())
     {
       const int components = array.Samples->GetNumberOfComponents();
-      writer.text(array.Name);
-      writer.value(array.OfCells);
-      writer.value(array.Samples->GetDataType());
-      writer.value(components);
+      writer(array.Name);
+      writer(array.OfCells);
+      writer(array.Samples->GetDataType());
+      writer(components);
       for (int i = 0; i < components; ++i)
       {
         const char* const name = array.Samples->GetComponentName(i);
-        writer.text(name ? name : "");
+        writer(name ? name : "");
       }
     }
   }
 
   /// Adds the arrays of a rank to the result; returns the names of those that the rank has.
-  std::vector<std::string> learnArrays(ByteReader& reader)
+  std::vector<std::string> learnArrays(LoadArchive& reader)
   {
     std::vector<std::string> names;
     while (reader.left() > 0)
     {
-      const std::string name = reader.text();
-      const bool ofCells = reader.value<bool>();
-      const int type = reader.value<int>();
-      const int components = reader.value<int>();
+      const std::string name = reader.get<std::string>();
+      const bool ofCells = reader.get<bool>();
+      const int type = reader.get<int>();
+      const int components = reader.get<int>();
       SampledImage::Array* known = this->Result.findArray(name);
       const bool isNew = !known;
       if (isNew)
@@ -158,7 +158,7 @@ private:
       }
       for (int i = 0; i < components; ++i)
       {
-        const std::string component = reader.text();
+        const std::string component = reader.get<std::string>();
         if (isNew && !component.empty())
         {
           known->Samples->SetComponentName(i, component.c_str());

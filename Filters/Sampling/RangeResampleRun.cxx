@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sampling/RangeResampleRun.h"
 
-#include "Messages/Communicator.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
+#include "Ranks/Communicator.h"
 #include "Sampling/SampledImage.h"
 #include "Sampling/SamplingRange.h"
 #include "Vtk/VtkMessages.h"

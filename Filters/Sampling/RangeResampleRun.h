@@ -2,11 +2,11 @@
 #ifndef tippRangeResampleRun_h
 #define tippRangeResampleRun_h
 
-#include "Messages/Communicator.h"
 #include "Output/Monitor.h"
+#include "Ranks/Communicator.h"
 #include "Resample/Lattice.h"
-#include "Sampling/Elevation.h"
 #include "Sampling/SampledImage.h"
+#include "Sampling/SamplingRange.h"
 
 #include "vtkRangeResampleFilter.h"
 

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sampling/SamplingRange.h"
 
-#include "Messages/Communicator.h"
+#include "Ranks/Communicator.h"
 #include "Sampling/SimplexParts.h"
 #include "Vtk/ReadDataSet.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkDataArray.h"
+#include "vtkPointData.h"
 #include "vtkPointSet.h"
+#include "vtkPoints.h"
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
@@ -20,6 +23,63 @@
 
 namespace tipp
 {
+
+void HeightRange::add(vtkPointSet* mesh)
+{
+  const vtkIdType points = mesh->GetNumberOfPoints();
+  if (points > 0 && allPointsFinite(mesh))
+  {
+    const double* const bounds = mesh->GetBounds(); // cached by VTK
+    this->add(bounds[4]);
+    this->add(bounds[5]);
+    return;
+  }
+  for (vtkIdType i = 0; i < points; ++i)
+  {
+    double p[3];
+    mesh->GetPoint(i, p);
+    this->add(p[2]);
+  }
+}
+
+void HeightRange::gather(Communicator& ranks)
+{
+  std::vector<double> both = { this->Low, -this->High };
+  ranks.minimum(both);
+  this->Low = both[0];
+  this->High = -both[1];
+}
+
+bool haveElevation(const std::vector<vtkPointSet*>& meshes, Communicator& ranks)
+{
+  const bool surfaces = areSurfaces(meshes, ranks);
+  HeightRange heights;
+  for (vtkPointSet* mesh : meshes)
+  {
+    heights.add(mesh);
+  }
+  heights.gather(ranks);
+  return surfaces && !heights.isFlat();
+}
+
+vtkSmartPointer<vtkPointSet> withElevation(vtkPointSet* mesh)
+{
+  if (!mesh->GetPoints() || mesh->GetPointData()->HasArray(elevationName))
+  {
+    return mesh;
+  }
+  auto copy = vtkSmartPointer<vtkPointSet>::Take(mesh->NewInstance());
+  copy->ShallowCopy(mesh);
+  vtkDataArray* const points = mesh->GetPoints()->GetData();
+  const auto heights =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(points->GetDataType()));
+  heights->SetName(elevationName);
+  heights->SetNumberOfTuples(points->GetNumberOfTuples());
+  heights->CopyComponent(0, points, 2);
+  copy->GetPointData()->AddArray(heights);
+  return copy;
+}
+
 namespace
 {
 
@@ -92,19 +152,12 @@ bool areSurfaces(const std::vector<vtkPointSet*>& meshes, Communicator& ranks)
 
 std::array<double, 6> boundsOf(const std::vector<vtkPointSet*>& meshes, Communicator& ranks)
 {
-  vtkBoundingBox box = boxOf(meshes, { 0, 1, 2 });
   std::array<double, 6> bounds;
-  box.GetBounds(bounds.data());
-  ByteWriter writer;
-  writer.value(bounds);
-  for (const Bytes& other : ranks.gather(writer.take()))
-  {
-    bounds = ByteReader(other).value<std::array<double, 6>>();
-    box.AddBounds(bounds.data());
-  }
-  box.GetBounds(bounds.data());
-  writer.value(bounds);
-  bounds = ByteReader(ranks.broadcast(writer.take())).value<std::array<double, 6>>();
+  boxOf(meshes, { 0, 1, 2 }).GetBounds(bounds.data());
+  std::vector<double> least = { bounds[0], -bounds[1], bounds[2], -bounds[3], bounds[4],
+    -bounds[5] };
+  ranks.minimum(least);
+  bounds = { least[0], -least[1], least[2], -least[3], least[4], -least[5] };
   if (!(bounds[0] <= bounds[1]))
   {
     throw std::runtime_error(

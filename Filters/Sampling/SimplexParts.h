@@ -3,7 +3,7 @@
 #define tippSimplexParts_h
 
 #include "Resample/SimplexMesh.h"
-#include "Vtk/PlainIds.h"
+#include "Vtk/CellArrays.h"
 
 #include "vtkSmartPointer.h"
 

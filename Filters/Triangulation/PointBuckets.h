@@ -2,7 +2,7 @@
 #ifndef tippPointBuckets_h
 #define tippPointBuckets_h
 
-#include "Triangulation/Buffer.h"
+#include "Arrays/Buffer.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Tiling.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation/Tiling.h"
 
-#include "Messages/Bytes.h"
+#include "Ranks/Archive.h"
 
 #include <algorithm>
 
@@ -145,11 +145,11 @@ Tiling Tiling::refined(const std::vector<Tiling>& inner) const
 
 std::vector<char> Tiling::save() const
 {
-  ByteWriter writer;
-  writer.value(this->Domain);
-  writer.value(std::uint64_t(MaximumDepth)); // not used; it is part of the format
-  writer.value(std::uint64_t(this->Nodes.size()));
-  writer.value(std::uint64_t(this->Boxes.size()));
+  SaveArchive writer;
+  writer(this->Domain);
+  writer(std::uint64_t(MaximumDepth)); // not used; it is part of the format
+  writer(std::uint64_t(this->Nodes.size()));
+  writer(std::uint64_t(this->Boxes.size()));
   writer.raw(this->Nodes.data(), this->Nodes.size() * sizeof(Node));
   writer.raw(this->Boxes.data(), this->Boxes.size() * sizeof(Box2));
   return { writer.data(), writer.data() + writer.size() };
@@ -157,12 +157,12 @@ std::vector<char> Tiling::save() const
 
 Tiling Tiling::load(const std::vector<char>& bytes)
 {
-  ByteReader reader(bytes.data(), bytes.size());
+  LoadArchive reader(bytes.data(), bytes.size());
   Tiling tiling;
-  tiling.Domain = reader.value<Box2>();
-  reader.value<std::uint64_t>();
-  const auto nodes = reader.value<std::uint64_t>();
-  const auto boxes = reader.value<std::uint64_t>();
+  tiling.Domain = reader.get<Box2>();
+  reader.get<std::uint64_t>();
+  const auto nodes = reader.get<std::uint64_t>();
+  const auto boxes = reader.get<std::uint64_t>();
   const auto read = [&reader](auto& items, std::uint64_t count)
   {
     const std::size_t size = sizeof(items[0]);

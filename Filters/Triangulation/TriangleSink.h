@@ -2,9 +2,9 @@
 #ifndef tippTriangleSink_h
 #define tippTriangleSink_h
 
+#include "Arrays/Buffer.h"
 #include "Predicates/Point2.h"
 #include "Triangulation/BoundaryTriangles.h"
-#include "Triangulation/Buffer.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/Triangulate.h"
 

@@ -2,8 +2,8 @@
 #ifndef tippTriangulate_h
 #define tippTriangulate_h
 
+#include "Arrays/Buffer.h"
 #include "Predicates/Point2.h"
-#include "Triangulation/Buffer.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"

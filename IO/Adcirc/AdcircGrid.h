@@ -4,7 +4,7 @@
 
 #include "Files/OutputPath.h"
 #include "Files/TextFile.h"
-#include "Meshes/Triangles.h"
+#include "Meshes/MeshFiles.h"
 #include "Points/PointTable.h"
 #include "vtkTIPPIOModule.h"
 

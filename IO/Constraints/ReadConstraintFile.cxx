@@ -2,8 +2,8 @@
 #include "Constraints/ReadConstraintFile.h"
 
 #include "Adcirc/AdcircGrid.h"
-#include "Files/FileKind.h"
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Points/ReadPoints.h"
 #include "Vtk/ReadDataSet.h"
 

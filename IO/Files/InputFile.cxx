@@ -4,8 +4,11 @@
 #include "Files/IOError.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -65,6 +68,72 @@ void InputFile::read(std::uint64_t offset, void* to, std::size_t bytes) const
     offset += std::uint64_t(got);
     bytes -= std::size_t(got);
   }
+}
+
+std::string extensionOf(const std::string& path)
+{
+  const std::size_t end = path.find_last_not_of('/'); // "mesh.tipp/" is a folder's name, too
+  std::string extension = std::filesystem::path(path.substr(0, end + 1)).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+namespace
+{
+
+struct Kind
+{
+  const char* Extension;
+  const char* Name;
+  const char* Command; ///< before the file's name
+  const char* Output;  ///< behind it
+};
+
+constexpr const char* meshio = "meshio convert";
+constexpr const char* ogr = "ogr2ogr -f CSV -lco GEOMETRY=AS_XYZ out.csv";
+
+constexpr std::array<Kind, 13> kinds = { {
+  { ".ex2", "an Exodus file", meshio, "out.vtu" },
+  { ".exo", "an Exodus file", meshio, "out.vtu" },
+  { ".e", "an Exodus file", meshio, "out.vtu" },
+  { ".node", "a file of TetGen or Triangle", meshio, "out.vtu" },
+  { ".ele", "a file of TetGen or Triangle", meshio, "out.vtu" },
+  { ".msh", "a file of Gmsh", meshio, "out.vtu" },
+  { ".xml", "a mesh of DOLFIN or other XML", meshio, "out.vtu" },
+  { ".2dm", "a mesh of SMS", meshio, "out.vtu" },
+  { ".med", "a mesh of Salome", meshio, "out.vtu" },
+  { ".shp", "a shape file", ogr, "" },
+  { ".gpkg", "a GeoPackage", ogr, "" },
+  { ".geojson", "a GeoJSON file", ogr, "" },
+  { ".e57", "an E57 file", "pdal translate", "out.las" },
+} };
+
+} // namespace
+
+std::string conversionAdvice(const std::string& path)
+{
+  namespace fs = std::filesystem;
+  const std::string name = fs::path(path).filename().string();
+  const bool isCompressed = extensionOf(path) == ".gz";
+  const std::string plain = isCompressed ? fs::path(name).stem().string() : name;
+  for (const Kind& kind : kinds)
+  {
+    if (extensionOf(plain) == kind.Extension)
+    {
+      const std::string unpack = isCompressed ? "gunzip " + name + " && " : "";
+      const std::string output = *kind.Output ? std::string(" ") + kind.Output : "";
+      return std::string("is ") + kind.Name + ", which is not read here; convert it, as with '" +
+        unpack + kind.Command + " " + plain + output + "'.";
+    }
+  }
+  return "";
+}
+
+void refuseKind(const std::string& path, const std::string& problem)
+{
+  const std::string advice = conversionAdvice(path);
+  throw IOError(path, advice.empty() ? problem : advice);
 }
 
 } // namespace tipp

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Flat/FlatFolder.h"
 
-#include "Files/FileKind.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/PendingOutput.h"

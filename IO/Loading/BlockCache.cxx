@@ -1,10 +1,236 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Loading/BlockCache.h"
 
+#include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 namespace tipp
 {
+
+UniqueIds::UniqueIds(const std::int64_t* ids, std::size_t count)
+  : Numbers(count)
+{
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  if (count > none)
+  {
+    throw std::length_error("a chunk of 2^32 vertex ids or more is asked for");
+  }
+  int bits = 4;
+  while ((std::size_t(1) << bits) < 2 * count)
+  {
+    ++bits;
+  }
+  std::vector<std::uint32_t> table(std::size_t(1) << bits, none); // open addressing
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    constexpr std::uint64_t goldenRatio = 0x9E3779B97F4A7C15;
+    std::size_t at = std::size_t((std::uint64_t(ids[i]) * goldenRatio) >> (64 - bits));
+    while (table[at] != none && this->Sorted[table[at]].first != ids[i])
+    {
+      at = (at + 1) & (table.size() - 1);
+    }
+    if (table[at] == none)
+    {
+      table[at] = std::uint32_t(this->Sorted.size());
+      this->Sorted.emplace_back(ids[i], table[at]);
+    }
+    this->Numbers[i] = table[at];
+  }
+  std::sort(this->Sorted.begin(), this->Sorted.end());
+}
+
+namespace
+{
+
+void append(std::vector<Run>& runs, const Run& run, std::int64_t gap)
+{
+  if (!runs.empty() && run.First - (runs.back().First + runs.back().Size) < gap)
+  {
+    runs.back().Size = run.First + run.Size - runs.back().First;
+  }
+  else
+  {
+    runs.push_back(run);
+  }
+}
+
+} // namespace
+
+std::vector<Run> runsOfBlocks(const std::vector<char>& active, std::int64_t block, std::int64_t low,
+  std::int64_t high, std::int64_t gap)
+{
+  std::vector<Run> runs;
+  for (std::size_t i = 0; i < active.size(); ++i)
+  {
+    if (active[i] != 0)
+    {
+      const std::int64_t first = low + std::int64_t(i) * block;
+      append(runs, { first, std::min(block, high + 1 - first) }, std::max<std::int64_t>(gap, 1));
+    }
+  }
+  return runs;
+}
+
+std::vector<Run> runsOfIds(
+  const std::vector<std::pair<std::int64_t, std::uint32_t>>& ids, std::int64_t gap)
+{
+  std::vector<Run> runs;
+  for (const auto& pair : ids)
+  {
+    if (runs.empty() || pair.first >= runs.back().First + runs.back().Size)
+    {
+      append(runs, { pair.first, 1 }, std::max<std::int64_t>(gap, 1));
+    }
+  }
+  return runs;
+}
+
+std::vector<std::size_t> groupRuns(
+  std::vector<Run>& runs, std::int64_t m, std::int64_t block, std::int64_t low)
+{
+  std::vector<Run> cut;
+  std::vector<std::size_t> starts{ 0 };
+  std::int64_t room = m;
+  for (Run run : runs)
+  {
+    while (run.Size > room)
+    {
+      // A whole number of blocks, so that no tiny run remains.
+      const std::int64_t end = run.First + room - (run.First + room - low) % block;
+      const std::int64_t size = end - run.First;
+      if (size > 0)
+      {
+        cut.push_back({ run.First, size });
+        run = { end, run.Size - size };
+      }
+      if (cut.size() > starts.back())
+      {
+        starts.push_back(cut.size());
+      }
+      room = m;
+    }
+    cut.push_back(run);
+    room -= run.Size;
+  }
+  starts.push_back(cut.size());
+  runs = std::move(cut);
+  return starts;
+}
+
+RunPlan::RunPlan(std::vector<Run> runs, std::int64_t m, std::int64_t block, std::int64_t low)
+  : Runs(std::move(runs))
+  , Starts(groupRuns(this->Runs, m, block, low))
+{
+  for (std::size_t group = 0; group < this->groups(); ++group)
+  {
+    std::uint32_t packed = 0;
+    for (std::size_t i = this->Starts[group]; i < this->Starts[group + 1]; ++i)
+    {
+      this->Packed.push_back(packed);
+      this->GroupOf.push_back(std::uint32_t(group));
+      packed += std::uint32_t(this->Runs[i].Size);
+    }
+  }
+}
+
+void HeldBlocks::forget()
+{
+  std::fill(this->Positions.begin(), this->Positions.end(), nowhere);
+  this->Used = 0;
+}
+
+std::vector<char> HeldBlocks::missing(const std::vector<char>& active, std::int64_t low)
+{
+  this->Positions.resize(std::size_t((this->Tuples - 1) >> this->Shift) + 1, nowhere);
+  std::vector<char> missing = active;
+  const std::uint32_t* const positions = this->Positions.data() + (low >> this->Shift);
+  for (std::size_t block = 0; block < missing.size(); ++block)
+  {
+    missing[block] &= char(positions[block] == nowhere);
+  }
+  return missing;
+}
+
+void HeldBlocks::add(const Run& run)
+{
+  for (std::int64_t at = 0; at < run.Size; at += std::int64_t(1) << this->Shift)
+  {
+    this->Positions[std::size_t((run.First + at) >> this->Shift)] = std::uint32_t(this->Used + at);
+  }
+  this->Used += run.Size;
+}
+
+bool HeldBlocks::find(const std::int64_t* ids, std::size_t count, std::uint32_t* positions)
+{
+  constexpr std::size_t ahead = 512; // the hardware prefetcher stops at page boundaries
+  const std::int64_t most = std::min(std::int64_t(count), this->Room - this->Used);
+  const auto tuples = std::uint64_t(this->Tuples);
+  const int shift = this->Shift; // a local, since writing positions may alias a member
+  const std::uint64_t inBlock = this->mask();
+  const std::uint32_t* const blocks = this->Positions.data();
+  this->Found.clear();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    __builtin_prefetch(ids + i + ahead);
+    const auto id = std::uint64_t(ids[i]);
+    if (id >= tuples || (blocks[id >> shift] == nowhere && !this->addFound(id >> shift, most)))
+    {
+      this->loseFound();
+      return false;
+    }
+    positions[i] = blocks[id >> shift] + std::uint32_t(id & inBlock);
+  }
+  return true;
+}
+
+/// Rarely called; inlining it makes find() slower.
+[[gnu::noinline]] bool HeldBlocks::addFound(std::uint64_t block, std::int64_t most)
+{
+  const std::int64_t before = std::int64_t(this->Found.size()) << this->Shift;
+  if (before + (std::int64_t(1) << this->Shift) > most)
+  {
+    return false;
+  }
+  this->Positions[block] = std::uint32_t(this->Used + before);
+  this->Found.push_back(block);
+  return true;
+}
+
+std::vector<Run> HeldBlocks::found() const
+{
+  std::vector<Run> runs;
+  for (const std::uint64_t block : this->Found)
+  {
+    const std::int64_t first = std::int64_t(block) << this->Shift;
+    const std::int64_t size = std::min(std::int64_t(1) << this->Shift, this->Tuples - first);
+    if (!runs.empty() && runs.back().First + runs.back().Size == first)
+    {
+      runs.back().Size += size;
+    }
+    else
+    {
+      runs.push_back({ first, size });
+    }
+  }
+  return runs;
+}
+
+void HeldBlocks::keepFound()
+{
+  this->Used += std::int64_t(this->Found.size()) << this->Shift;
+  this->Found.clear();
+}
+
+void HeldBlocks::loseFound()
+{
+  for (const std::uint64_t block : this->Found)
+  {
+    this->Positions[block] = nowhere;
+  }
+  this->Found.clear();
+}
+
 namespace
 {
 

@@ -7,8 +7,6 @@
 #include "Loading/ArrayFiles.h"
 #include "Loading/BlockCache.h"
 #include "Loading/GroupedMoves.h"
-#include "Loading/HeldBlocks.h"
-#include "Loading/Runs.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,14 +1,300 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Direct Load: Algorithm 4 of the dissertation "Efficient Generating and Processing of Large-Scale
+// Unstructured Meshes".
+// The cache that Direct Load is compared with (dissertation, section 4.5.1): M vertices in blocks
+// of equal size, the least recently used one being replaced.
 #include "Loading/VertexLoader.h"
 
+#include "Files/IOError.h"
 #include "Loading/ArrayFiles.h"
+#include "Loading/BlockCache.h"
+#include "Loading/GroupedMoves.h"
+#include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
+#include <limits>
 #include <stdexcept>
+#include <utility>
+
+#include <sys/mman.h>
+#include <unistd.h>
 
 namespace tipp
 {
+namespace
+{
+
+/// An array mapped into memory. Truncating the file while it is mapped ends the process (SIGBUS),
+/// as for any mapped file.
+class Mapping
+{
+public:
+  Mapping(const RawArray& array, const InputFile& file)
+  {
+    const auto page = std::uint64_t(sysconf(_SC_PAGESIZE));
+    const std::uint64_t start = array.Offset / page * page;
+    const std::uint64_t inside = array.Offset - start;
+    this->Bytes = std::size_t(array.bytes() + inside);
+    this->Start =
+      mmap(nullptr, this->Bytes, PROT_READ, MAP_SHARED, file.descriptor(), off_t(start));
+    if (this->Start == MAP_FAILED)
+    {
+      throw IOError(file.path(),
+        std::string("cannot be mapped into memory (") + std::strerror(errno) +
+          "); choose another loader.");
+    }
+    // Read ahead sequentially rather than page by page in the order of the ids.
+    madvise(this->Start, this->Bytes, MADV_WILLNEED);
+    this->Tuples = static_cast<const char*>(this->Start) + inside;
+  }
+  ~Mapping() { munmap(this->Start, this->Bytes); }
+  Mapping(const Mapping&) = delete;
+  Mapping& operator=(const Mapping&) = delete;
+
+  const char* tuples() const { return this->Tuples; }
+
+private:
+  void* Start;
+  std::size_t Bytes;
+  const char* Tuples;
+};
+
+class MmapLoader : public VertexLoader
+{
+public:
+  MmapLoader(ArrayFiles files, int threads)
+    : Files(std::move(files))
+    , Threads(threads)
+  {
+    for (std::size_t a = 0; a < this->Files.count() && this->Files.tuples() > 0; ++a)
+    {
+      this->Mappings.push_back(
+        std::make_unique<Mapping>(this->Files.array(a), this->Files.file(a)));
+    }
+  }
+
+  void load(const std::int64_t* ids, std::size_t count, void* const* out) override
+  {
+    this->Files.range(ids, count, this->Threads);
+    this->Counts.UsefulBytes += std::int64_t(count * this->Files.recordBytes());
+    constexpr std::size_t share = 1 << 16;
+    parallelFor(std::int64_t((count + share - 1) / share), this->Threads,
+      [&](std::int64_t i)
+      {
+        const std::size_t begin = std::size_t(i) * share;
+        const std::size_t size = std::min(share, count - begin);
+        // Safe: range() has checked that no id is negative.
+        const auto* const own = reinterpret_cast<const std::uint64_t*>(ids + begin);
+        for (std::size_t a = 0; a < this->Mappings.size(); ++a)
+        {
+          const std::size_t bytes = this->Files.tupleBytes(a);
+          gatherTuples(this->Mappings[a]->tuples(), own, static_cast<char*>(out[a]) + begin * bytes,
+            size, bytes);
+        }
+      });
+  }
+
+  const LoadCounters& counters() const override { return this->Counts; }
+  Loader kind() const override { return Loader::Mmap; }
+
+private:
+  ArrayFiles Files;
+  int Threads;
+  LoadCounters Counts;
+  std::vector<std::unique_ptr<Mapping>> Mappings;
+};
+
+} // namespace
+
+std::unique_ptr<VertexLoader> makeMmapLoader(ArrayFiles files, int threads)
+{
+  return std::make_unique<MmapLoader>(std::move(files), threads);
+}
+
+namespace
+{
+
+class DirectLoader : public VertexLoader
+{
+public:
+  DirectLoader(ArrayFiles files, std::int64_t m, int threads)
+    : Files(std::move(files))
+    // Positions in the buffers are 32-bit numbers.
+    , M(std::min<std::int64_t>(m, std::numeric_limits<std::uint32_t>::max()))
+    , Threads(threads)
+  {
+  }
+
+  void load(const std::int64_t* ids, std::size_t count, void* const* out) override
+  {
+    const IdRange range = this->Files.range(ids, count, this->Threads);
+    if (count == 0)
+    {
+      return;
+    }
+    this->Counts.UsefulBytes += std::int64_t(count * this->Files.recordBytes());
+    const std::int64_t chunkRange = range.High - range.Low + 1;
+    if (chunkRange <= this->M)
+    {
+      this->readSegment(range.Low, chunkRange);
+      gatherAll(count, this->Files, this->Buffers, out, this->Threads,
+        [ids, low = range.Low](std::size_t i) { return std::uint64_t(ids[i] - low); });
+      return;
+    }
+    const std::size_t segments = std::size_t((range.High - range.Low) / this->M) + 1;
+    const Divisor m{ std::uint64_t(this->M) };
+    this->Moves.sort(count, segments, this->Threads,
+      [this, ids, &m, low = range.Low](std::size_t i)
+      {
+        const auto relative = std::uint64_t(ids[i] - low);
+        const std::uint64_t segment = m.quotient(relative);
+        return std::make_pair(segment, std::uint32_t(relative - segment * std::uint64_t(this->M)));
+      });
+    const std::vector<std::size_t> active = this->Moves.wanted();
+    for (const std::size_t segment : active)
+    {
+      const std::int64_t first = range.Low + std::int64_t(segment) * this->M;
+      this->readSegment(first, std::min(this->M, range.High + 1 - first));
+      this->Moves.gather(
+        segment, segment == active.back(), this->Files, this->Buffers, out, this->Threads);
+    }
+  }
+
+  const LoadCounters& counters() const override { return this->Counts; }
+  Loader kind() const override { return Loader::Direct; }
+
+private:
+  void readSegment(std::int64_t first, std::int64_t size)
+  {
+    this->Buffers.resize(this->Files, size);
+    for (std::size_t a = 0; a < this->Files.count(); ++a)
+    {
+      this->Files.read(a, first, size, this->Buffers.data(a), this->Threads, this->Counts);
+    }
+    ++this->Counts.Passes;
+  }
+
+  ArrayFiles Files;
+  std::int64_t M;
+  int Threads;
+  LoadCounters Counts;
+  TupleBuffers Buffers;
+  GroupedMoves Moves;
+};
+
+} // namespace
+
+std::unique_ptr<VertexLoader> makeDirectLoader(ArrayFiles files, std::int64_t m, int threads)
+{
+  return std::make_unique<DirectLoader>(std::move(files), m, threads);
+}
+
+namespace
+{
+
+class LruLoader : public VertexLoader
+{
+public:
+  LruLoader(ArrayFiles files, std::int64_t m, std::int64_t blocks)
+    : Files(std::move(files))
+    , Block(std::max<std::int64_t>(m / std::max<std::int64_t>(blocks, 1), 1))
+    , ByBlock(std::uint64_t(this->Block))
+    , Cache(slotsFor(m / this->Block))
+  {
+    this->Buffers.resize(this->Files, std::int64_t(slotsFor(m / this->Block)) * this->Block);
+  }
+
+  void load(const std::int64_t* ids, std::size_t count, void* const* out) override
+  {
+    this->Files.range(ids, count, 1);
+    this->Counts.UsefulBytes += std::int64_t(count * this->Files.recordBytes());
+    constexpr std::size_t ahead = 16;
+    std::uint64_t last = ~std::uint64_t(0);
+    std::uint32_t slot = 0;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (i + ahead < count)
+      {
+        this->Cache.prefetch(this->ByBlock.quotient(std::uint64_t(ids[i + ahead])));
+      }
+      const std::uint64_t block = this->ByBlock.quotient(std::uint64_t(ids[i]));
+      if (block != last)
+      {
+        slot = this->slotOf(block);
+        last = block;
+      }
+      const std::int64_t inside = ids[i] - std::int64_t(block) * this->Block;
+      this->copy(std::size_t(std::int64_t(slot) * this->Block + inside), i, out);
+    }
+  }
+
+  const LoadCounters& counters() const override { return this->Counts; }
+  Loader kind() const override { return Loader::Lru; }
+
+private:
+  static std::uint32_t slotsFor(std::int64_t blocks)
+  {
+    return std::uint32_t(std::clamp<std::int64_t>(blocks, 1, std::int64_t(1) << 30));
+  }
+
+  std::uint32_t slotOf(std::uint64_t block)
+  {
+    const BlockCache::Found found = this->Cache.use(block);
+    if (found.Miss)
+    {
+      ++this->Counts.CacheMisses;
+      this->readBlock(std::int64_t(block) * this->Block, found.Slot);
+    }
+    return found.Slot;
+  }
+
+  void readBlock(std::int64_t first, std::uint32_t slot)
+  {
+    const std::int64_t size = std::min(this->Block, this->Files.tuples() - first);
+    try
+    {
+      for (std::size_t a = 0; a < this->Files.count(); ++a)
+      {
+        const std::size_t at =
+          std::size_t(std::int64_t(slot) * this->Block) * this->Files.tupleBytes(a);
+        this->Files.read(a, first, size, this->Buffers.data(a) + at, 1, this->Counts);
+      }
+    }
+    catch (...)
+    {
+      this->Cache.forget(slot);
+      throw;
+    }
+  }
+
+  void copy(std::size_t from, std::size_t to, void* const* out)
+  {
+    for (std::size_t a = 0; a < this->Files.count(); ++a)
+    {
+      const std::size_t bytes = this->Files.tupleBytes(a);
+      std::memcpy(
+        static_cast<char*>(out[a]) + to * bytes, this->Buffers.data(a) + from * bytes, bytes);
+    }
+  }
+
+  ArrayFiles Files;
+  std::int64_t Block; ///< in tuples
+  Divisor ByBlock;
+  BlockCache Cache;
+  LoadCounters Counts;
+  TupleBuffers Buffers;
+};
+
+} // namespace
+
+std::unique_ptr<VertexLoader> makeLruLoader(ArrayFiles files, std::int64_t m, std::int64_t blocks)
+{
+  return std::make_unique<LruLoader>(std::move(files), m, blocks);
+}
+
 namespace
 {
 

@@ -2,10 +2,9 @@
 #include "Meshes/MeshFiles.h"
 
 #include "Adcirc/AdcircGrid.h"
-#include "Files/FileKind.h"
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Files/PendingOutput.h"
-#include "Meshes/Triangles.h"
 #include "Npy/NpyFile.h"
 #include "Vtk/ReadDataSet.h"
 #include "Vtk/VtkFiles.h"

@@ -4,7 +4,7 @@
 
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceBorder.h"
-#include "Partitioned/PublishPieces.h"
+#include "Partitioned/PieceWriter.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>

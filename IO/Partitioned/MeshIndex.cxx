@@ -2,7 +2,7 @@
 #include "Files/IOError.h"
 #include "Partitioned/Checksum.h"
 #include "Partitioned/PartitionedMesh.h"
-#include "Partitioned/PieceLayout.h"
+#include "Partitioned/PieceFormat.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/NeighborIds.h"
 
-#include "Meshes/Triangles.h"
+#include "Meshes/MeshFiles.h"
 #include "Partitioned/PieceFile.h"
 #include "Partitioned/PieceWriter.h"
 

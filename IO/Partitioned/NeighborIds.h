@@ -3,7 +3,7 @@
 #define tippNeighborIds_h
 
 #include "Partitioned/PartitionedMesh.h"
-#include "Partitioned/PublishPieces.h"
+#include "Partitioned/PieceWriter.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Partitioned/Checksum.h"
-#include "Partitioned/IdRange.h"
+#include "Partitioned/GlobalIdMap.h"
 
 #include <algorithm>
 #include <cstring>

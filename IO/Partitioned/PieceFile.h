@@ -4,8 +4,7 @@
 
 #include "Files/InputFile.h"
 #include "Partitioned/PartitionedMesh.h"
-#include "Partitioned/PieceLayout.h"
-#include "Partitioned/PieceTable.h"
+#include "Partitioned/PieceFormat.h"
 
 #include <cstddef>
 #include <cstdint>

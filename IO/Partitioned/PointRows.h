@@ -2,7 +2,7 @@
 #ifndef tippPointRows_h
 #define tippPointRows_h
 
-#include "Partitioned/PieceLayout.h"
+#include "Partitioned/PieceFormat.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>

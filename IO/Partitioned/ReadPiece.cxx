@@ -2,7 +2,6 @@
 #include "Partitioned/ReadPiece.h"
 
 #include "Partitioned/GlobalIdMap.h"
-#include "Partitioned/IdRange.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/InputFile.h"
-#include "Flat/CellReader.h"
+#include "Flat/FlatMesh.h"
 #include "Loading/VertexLoader.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
@@ -240,7 +240,7 @@ void CellDistribution::spillGhostPoints(
 
 void distributeCells(PartitionJob& job)
 {
-  const Ranks& ranks = job.Team;
+  Communicator& ranks = job.Team;
   const std::size_t pieces = job.pieces();
   const std::size_t chunks =
     std::size_t((job.Mesh.Points.Tuples + job.ChunkPoints - 1) / job.ChunkPoints);
@@ -367,7 +367,7 @@ void PointDistribution::spillChunk(std::int64_t chunk)
 
 void distributePoints(PartitionJob& job)
 {
-  const Ranks& ranks = job.Team;
+  Communicator& ranks = job.Team;
   ranks.attempt(
     [&]
     {

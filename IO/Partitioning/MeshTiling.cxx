@@ -4,7 +4,7 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
-#include "Flat/CellReader.h"
+#include "Flat/FlatMesh.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 #include "Partitioning/BuildTree.h"
@@ -106,7 +106,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Calls work(first point, count, coordinates) for blocks of this rank's share.
 template <typename Work>
-void forEachBlock(const FlatMesh& mesh, const Ranks& ranks, int threads, const Work& work)
+void forEachBlock(const FlatMesh& mesh, Communicator& ranks, int threads, const Work& work)
 {
   const InputFile file(mesh.Points.Path);
   const auto [from, to] = ranks.shareOf(mesh.Points.Tuples);
@@ -159,7 +159,7 @@ Range rangeOf(const FlatMesh& mesh, std::int64_t first, std::int64_t count, cons
 
 } // namespace
 
-Box3 boundsOfPoints(const FlatMesh& mesh, const Ranks& ranks, int threads)
+Box3 boundsOfPoints(const FlatMesh& mesh, Communicator& ranks, int threads)
 {
   std::vector<double> both(6, infinity);
   ranks.attempt(
@@ -179,7 +179,7 @@ Box3 boundsOfPoints(const FlatMesh& mesh, const Ranks& ranks, int threads)
         }
       }
     });
-  both = ranks.minimum(both);
+  ranks.minimum(both);
   Box3 box;
   for (std::size_t axis = 0; axis < std::size_t(mesh.CellSize) - 1; ++axis)
   {
@@ -190,7 +190,7 @@ Box3 boundsOfPoints(const FlatMesh& mesh, const Ranks& ranks, int threads)
 }
 
 void writeOwners(const FlatMesh& mesh, const BoxTiling& tiling, const std::string& path,
-  const Ranks& ranks, int threads)
+  Communicator& ranks, int threads)
 {
   ranks.attempt(
     [&]
@@ -279,7 +279,7 @@ Bounds boundsOf(const Box3& box)
 } // namespace
 
 BoxTiling makeTiling(const FlatMesh& mesh, const TilingChoice& choice, const LoaderOptions& loading,
-  std::int64_t chunkCells, int threads, const Ranks& ranks, const Box3& domain)
+  std::int64_t chunkCells, int threads, Communicator& ranks, const Box3& domain)
 {
   const int dimension = mesh.CellSize - 1;
   if (choice.Threshold == 0)

@@ -6,8 +6,8 @@
 #include "Loading/VertexLoader.h"
 #include "Partition/BoxTiling.h"
 #include "Partitioned/PartitionedMesh.h"
-#include "Partitioning/Ranks.h"
 #include "Predicates/Point3.h"
+#include "Ranks/Communicator.h"
 #include "vtkTIPPIOModule.h"
 
 #include <algorithm>
@@ -69,19 +69,19 @@ inline void takeCoordinates(
 
 /// Returns the bounding box of all points in the cells' dimension; for triangles z is 0. Throws
 /// IOError naming the first point with a coordinate that is not finite. Collective.
-Box3 boundsOfPoints(const FlatMesh& mesh, const Ranks& ranks, int threads);
+Box3 boundsOfPoints(const FlatMesh& mesh, Communicator& ranks, int threads);
 
 /// Writes each point's owner, the first partition whose closed box contains it, to a file of 4
 /// bytes per point: the partition's index, or -1 - index if others contain the point, too.
 /// Collective.
 void writeOwners(const FlatMesh& mesh, const BoxTiling& tiling, const std::string& path,
-  const Ranks& ranks, int threads);
+  Communicator& ranks, int threads);
 
 /// Returns the chosen tiling of the mesh's domain. While a tree is built, `chunkCells` cells are in
 /// memory, with their coordinates twice. Collective. Throws IOError, also for more than mostPieces
 /// boxes.
 BoxTiling makeTiling(const FlatMesh& mesh, const TilingChoice& choice, const LoaderOptions& loading,
-  std::int64_t chunkCells, int threads, const Ranks& ranks, const Box3& domain);
+  std::int64_t chunkCells, int threads, Communicator& ranks, const Box3& domain);
 
 /// Sets the mesh's domain, and adds a piece with unknown counts for each box.
 void setPieces(PartitionedMesh& mesh, const Box3& domain, const BoxTiling& tiling);

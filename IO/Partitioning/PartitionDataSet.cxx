@@ -6,7 +6,7 @@
 #include "Files/PendingOutput.h"
 #include "Flat/FlattenDataSet.h"
 #include "Partitioning/PartitionMesh.h"
-#include "Partitioning/Ranks.h"
+#include "Ranks/Communicator.h"
 #include "Vtk/ReadDataSet.h"
 
 #include "vtkAppendFilter.h"
@@ -69,7 +69,7 @@ vtkSmartPointer<vtkDataSet> unite(const DataSets& sets)
 vtkSmartPointer<vtkDataSet> gatherDataSets(
   vtkDataObject* data, vtkMultiProcessController* controller)
 {
-  const Ranks ranks(controller);
+  Communicator ranks(controller);
   DataSets sets = dataSetsIn(data);
   ranks.attempt(
     [&]
@@ -79,12 +79,13 @@ vtkSmartPointer<vtkDataSet> gatherDataSets(
         checkDataSet(set, "the input");
       }
     });
-  const std::int64_t count = ranks.sum({ std::int64_t(sets.size()) })[0];
-  if (count == 0)
+  std::vector<std::int64_t> count = { std::int64_t(sets.size()) };
+  ranks.sum(count);
+  if (count[0] == 0)
   {
     throw IOError("There is no data set to partition; set an input or InputFileName.");
   }
-  if (ranks.count() == 1)
+  if (ranks.size() == 1)
   {
     return unite(sets);
   }
@@ -122,7 +123,7 @@ PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
 PartitionStatistics partitionInput(const std::string& input, const std::string& output,
   const PartitionOptions& options, vtkMultiProcessController* controller)
 {
-  const Ranks ranks(controller);
+  Communicator ranks(controller);
   FlatMesh mesh;
   vtkSmartPointer<vtkDataSet> data;
   int isFlat = 1;

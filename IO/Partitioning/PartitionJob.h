@@ -7,8 +7,8 @@
 #include "Partition/BoxTiling.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioning/PartitionMesh.h"
-#include "Partitioning/Ranks.h"
 #include "Partitioning/Spill.h"
+#include "Ranks/Communicator.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -99,12 +99,12 @@ struct RowLayout
 struct PartitionJob
 {
   /// `folder` is the temporary output folder.
-  PartitionJob(const FlatMesh& mesh, const PartitionOptions& options, const Ranks& ranks,
+  PartitionJob(const FlatMesh& mesh, const PartitionOptions& options, Communicator& ranks,
     const std::string& folder);
 
   const FlatMesh& Mesh;
   const PartitionOptions& Options;
-  Ranks Team;
+  Communicator& Team;
   int Threads;
   std::string Folder;
   RowLayout Rows;

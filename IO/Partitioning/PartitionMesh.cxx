@@ -7,11 +7,11 @@
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 #include "Parallel/Stopwatch.h"
-#include "Partitioned/PieceLayout.h"
-#include "Partitioned/PublishPieces.h"
+#include "Partitioned/PieceFormat.h"
+#include "Partitioned/PieceWriter.h"
 #include "Partitioning/MeshTiling.h"
 #include "Partitioning/PartitionJob.h"
-#include "Partitioning/Ranks.h"
+#include "Ranks/Communicator.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -195,9 +195,10 @@ std::string withName(std::string text, const std::string& folder, const std::str
 void completeStatistics(PartitionJob& job)
 {
   PartitionStatistics& all = job.Statistics;
-  const std::vector<std::int64_t> sums = job.Team.sum({ all.BorderCells, all.BorrowedCells,
-    all.CopiedPoints, std::int64_t(all.SpilledBytes), all.Loads.Reads, all.Loads.Bytes,
-    all.Loads.UsefulBytes, all.Loads.Passes, all.Loads.CacheMisses });
+  std::vector<std::int64_t> sums = { all.BorderCells, all.BorrowedCells, all.CopiedPoints,
+    std::int64_t(all.SpilledBytes), all.Loads.Reads, all.Loads.Bytes, all.Loads.UsefulBytes,
+    all.Loads.Passes, all.Loads.CacheMisses };
+  job.Team.sum(sums);
   all.BorderCells = sums[0];
   all.BorrowedCells = sums[1];
   all.CopiedPoints = sums[2];
@@ -206,7 +207,7 @@ void completeStatistics(PartitionJob& job)
   all.Points = job.Mesh.Points.Tuples;
   all.Cells = job.Mesh.Cells.Tuples;
   all.Pieces = std::int64_t(job.pieces());
-  all.Ranks = job.Team.count();
+  all.Ranks = job.Team.size();
   all.Threads = job.Threads;
 }
 
@@ -232,7 +233,7 @@ void runPhases(PartitionJob& job, const std::string& path)
 PartitionStatistics partitionMesh(const FlatMesh& mesh, const std::string& path,
   const PartitionOptions& options, vtkMultiProcessController* controller)
 {
-  const Ranks ranks(controller);
+  Communicator ranks(controller);
   std::optional<PendingFolder> pending;
   ranks.attempt(
     [&]
@@ -314,7 +315,7 @@ PartitionStatistics partitionInMemory(const std::function<FlatContent()>& make,
   const std::string& name, const std::string& output, const PartitionOptions& options,
   vtkMultiProcessController* controller)
 {
-  const Ranks ranks(controller);
+  Communicator ranks(controller);
   const PollScope polled([&options] { return !options.Progress || options.Progress(0); });
   // Removed with this object, or by the next run if this one is killed.
   std::optional<PendingFolder> scratch;

@@ -222,18 +222,11 @@ void Spill::join(const std::vector<Words>& ranks)
   }
 }
 
-void Spill::exchange(const Ranks& ranks)
+void Spill::exchange(Communicator& ranks)
 {
   Words mine;
   ranks.attempt([&] { mine = this->close(); });
-  const std::vector<std::string> all = ranks.gather(
-    std::string(reinterpret_cast<const char*>(mine.data()), mine.size() * sizeof(mine[0])));
-  std::vector<Words> words;
-  for (const std::string& bytes : all)
-  {
-    words.emplace_back(bytes.size() / sizeof(mine[0]));
-    std::memcpy(words.back().data(), bytes.data(), bytes.size());
-  }
+  const std::vector<Words> words = ranks.allGather(mine);
   ranks.attempt([&] { this->join(words); });
 }
 

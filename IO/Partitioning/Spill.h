@@ -4,7 +4,7 @@
 
 #include "Files/OutputFile.h"
 #include "Partitioned/Checksum.h"
-#include "Partitioning/Ranks.h"
+#include "Ranks/Communicator.h"
 #include "vtkTIPPIOModule.h"
 
 #include <algorithm>
@@ -57,7 +57,7 @@ public:
 
   /// Call after all chunks: makes all ranks' rows known to every rank. Collective. Throws IOError
   /// on all.
-  void exchange(const Ranks& ranks);
+  void exchange(Communicator& ranks);
   /// The same without communication: returns what the constructor above needs from each rank.
   std::vector<std::uint64_t> close();
 

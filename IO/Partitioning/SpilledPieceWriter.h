@@ -3,9 +3,9 @@
 #define tippSpilledPieceWriter_h
 
 #include "Partitioned/GlobalIdMap.h"
-#include "Partitioned/PieceTable.h"
+#include "Partitioned/PieceBorder.h"
+#include "Partitioned/PieceFormat.h"
 #include "Partitioned/PieceWriter.h"
-#include "Partitioned/SharingSets.h"
 #include "Partitioning/PartitionJob.h"
 
 #include <cstddef>

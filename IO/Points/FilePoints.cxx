@@ -2,8 +2,8 @@
 #include "Points/FilePoints.h"
 
 #include "Distributions/Random.h"
-#include "Files/FileKind.h"
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Las/LasHeader.h"
 #include "Points/ReadPoints.h"
 #include "Points/TextPoints.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Points/PointStream.h"
 
-#include "Files/FileKind.h"
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Files/TextFile.h"
 #include "Points/FilePoints.h"
 

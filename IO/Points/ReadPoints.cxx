@@ -2,8 +2,8 @@
 #include "Points/ReadPoints.h"
 
 #include "Adcirc/AdcircGrid.h"
-#include "Files/FileKind.h"
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Las/LasHeader.h"
 #include "Points/FilePoints.h"
 #include "Points/PointStream.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Raster/RasterFile.h"
 
-#include "Files/FileKind.h"
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Npy/NpyFile.h"
 #include "Raster/GdalRaster.h"
 

@@ -2,15 +2,22 @@
 #ifndef tippPieceSource_h
 #define tippPieceSource_h
 
+#include "Flat/FlatMesh.h"
+#include "Loading/VertexLoader.h"
+#include "Partition/BoxTiling.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/ReadPiece.h"
 #include "Partitioning/MeshTiling.h"
-#include "Partitioning/Ranks.h"
+#include "Ranks/Communicator.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <list>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -37,7 +44,7 @@ public:
   const PartitionedMesh& mesh() const { return this->Mesh; }
 
   /// Collective; must precede weights() and read(). Throws IOError.
-  virtual void prepare(const Ranks& ranks) = 0;
+  virtual void prepare(Communicator& ranks) = 0;
   /// The work that each piece takes, for load balancing.
   virtual std::vector<std::int64_t> weights() const = 0;
   /// Returns the pieces with these indices. Throws IOError.
@@ -51,6 +58,96 @@ protected:
 /// Opens a partitioned or a flat mesh; throws IOError.
 std::unique_ptr<PieceSource> openPieceSource(
   const std::string& path, const SourceOptions& options = {});
+
+/// The pieces of a flat mesh, made in memory: chunk by chunk, Direct Load loads the coordinates of
+/// cells, and the cells are classified; those of the requested pieces are kept.
+class FlatPieces : public PieceSource
+{
+public:
+  FlatPieces(FlatMesh mesh, const SourceOptions& options);
+
+  void prepare(Communicator& ranks) override;
+  std::vector<std::int64_t> weights() const override { return this->PointCounts; }
+  std::vector<Piece> read(
+    const std::vector<std::size_t>& numbers, const PieceOptions& options) override;
+
+private:
+  /// A piece before its arrays are loaded. Ids are indices in the flat mesh.
+  struct Draft
+  {
+    std::vector<std::int64_t> Cells;   ///< owned cells
+    std::vector<std::int64_t> Corners; ///< CellSize point ids for each of these cells
+    std::vector<std::int64_t> Borrowed;
+    std::vector<std::int64_t> BorrowedCorners;
+    std::vector<std::int64_t> OwnPoints; ///< ascending, as all the others
+  };
+
+  void collectCells(
+    const std::vector<std::int32_t>& draftOf, bool borrowed, std::vector<Draft>& drafts) const;
+  template <typename Visit>
+  void forEachOwner(std::int64_t first, std::int64_t last, const Visit& visit) const;
+  Piece finish(const Draft& draft, const PieceOptions& options) const;
+  void loadPoints(
+    const std::vector<std::int64_t>& ids, const PieceOptions& options, Piece& piece) const;
+  void loadCellData(const PieceOptions& options, Piece& piece) const;
+  int dimension() const { return this->Flat.CellSize - 1; }
+  LoaderOptions loading() const;
+  std::int64_t chunkCells() const;
+
+  FlatMesh Flat;
+  SourceOptions Options;
+  std::vector<RawArray> Arrays; ///< the data of Mesh.Arrays
+  std::optional<BoxTiling> Tiling;
+  std::vector<std::int64_t> PointCounts; ///< of each piece
+};
+
+/// An LRU cache of the pieces of one mesh.
+class PieceCache
+{
+public:
+  /// Identifies what was read of a piece.
+  struct Key
+  {
+    std::size_t Number;
+    bool Borrowed;
+    std::vector<bool> Wanted;
+    int Step;
+
+    bool operator==(const Key& other) const
+    {
+      return this->Number == other.Number && this->Borrowed == other.Borrowed &&
+        this->Wanted == other.Wanted && this->Step == other.Step;
+    }
+  };
+
+  /// Null if the piece is not cached.
+  std::shared_ptr<const Piece> find(const Key& key)
+  {
+    const auto entry = std::find_if(
+      this->Entries.begin(), this->Entries.end(), [&key](const Entry& e) { return e.What == key; });
+    if (entry == this->Entries.end())
+    {
+      return nullptr;
+    }
+    this->Entries.splice(this->Entries.begin(), this->Entries, entry);
+    return entry->Held;
+  }
+  void keep(const Key& key, std::shared_ptr<const Piece> piece)
+  {
+    this->Entries.push_front({ key, std::move(piece) });
+  }
+  /// Drops the least recently used pieces until `pieces` are left.
+  void shrink(std::size_t pieces) { this->Entries.resize(std::min(pieces, this->Entries.size())); }
+  void clear() { this->Entries.clear(); }
+
+private:
+  struct Entry
+  {
+    Key What;
+    std::shared_ptr<const Piece> Held;
+  };
+  std::list<Entry> Entries; ///< the most recently used one first
+};
 
 } // namespace tipp
 

@@ -3,7 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
-#include "Vtk/CellArrayCheck.h"
+#include "Vtk/CellArrays.h"
 #include "Vtk/Compatibility.h"
 #include "Vtk/VtkMessages.h"
 

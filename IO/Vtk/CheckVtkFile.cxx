@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Vtk/ReadDataSet.h"
 
-#include "Files/FileKind.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Flat/XmlScanner.h"

@@ -2,8 +2,8 @@
 // Replaces VtkFiles.cxx in a build without VTK.
 #include "Vtk/VtkFiles.h"
 
-#include "Files/FileKind.h"
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Vtk/ReadDataSet.h"
 
-#include "Files/FileKind.h"
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Vtk/VtkMessages.h"
 
 #include "vtkDataSet.h"

@@ -2,9 +2,9 @@
 #ifndef tippPythonBinding_h
 #define tippPythonBinding_h
 
+#include "Arrays/Buffer.h"
 #include "Arrays/Scalar.h"
-#include "Partitioned/RawBuffer.h"
-#include "Triangulation/Buffer.h"
+#include "Partitioned/ReadPiece.h"
 #include "Triangulation/Triangulate.h"
 
 #include <nanobind/nanobind.h>

@@ -4,7 +4,6 @@
 #include "Files/IOError.h"
 #include "Files/OutputPath.h"
 #include "Flat/FlatMesh.h"
-#include "Messages/Communicator.h"
 #include "OutOfCore/OutOfCoreRanks.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Output/RunStatistics.h"
@@ -12,6 +11,7 @@
 #include "Partitioning/PartitionMesh.h"
 #include "Points/PointStream.h"
 #include "Points/ReadPoints.h"
+#include "Ranks/Communicator.h"
 #include "Reading/MergePieces.h"
 #include "Reading/PieceSource.h"
 #include "Reading/RangeFilter.h"
@@ -214,7 +214,8 @@ bool isIn(const std::optional<Strings>& names, const std::string& name)
 std::vector<Piece> readRange(
   PieceSource& source, const std::optional<Bounds>& bounds, PieceOptions options, bool borrowed)
 {
-  source.prepare(Ranks(nullptr));
+  Communicator alone(nullptr);
+  source.prepare(alone);
   std::vector<std::size_t> numbers(source.mesh().Pieces.size());
   std::iota(numbers.begin(), numbers.end(), std::size_t(0));
   std::optional<RangeFilter> range;

@@ -3,7 +3,7 @@
 
 #include "AlphaShape/AlphaShape.h"
 #include "Merging/TriangulateMerged.h"
-#include "Meshes/Triangles.h"
+#include "Meshes/MeshFiles.h"
 #include "Output/RunStatistics.h"
 #include "Parallel/ParallelFor.h"
 #include "Triangulation/TriangleLocator.h"

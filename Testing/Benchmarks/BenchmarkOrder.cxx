@@ -75,7 +75,7 @@ struct SharedOrder
   SharedOrder(const SharedOut& shared, const Regions& regions,
     const std::vector<BoundaryVertex>& initial, const std::vector<BoundaryVertex>& artificial)
   {
-    ByteWriter writer;
+    SaveArchive writer;
     for (int rank = 0; rank < shared.Ranks; ++rank)
     {
       std::vector<char> isChosen;

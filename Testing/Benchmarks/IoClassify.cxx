@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IoSubjects.h"
 
-#include "Flat/CellReader.h"
 #include "Flat/FlatMesh.h"
 #include "Loading/VertexLoader.h"
 #include "OpenCL/Devices.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An output format: the text format OFF, which many mesh programs read.
 #include "Files/PendingOutput.h"
-#include "Meshes/Triangles.h"
+#include "Meshes/MeshFiles.h"
 #include "Points/PointTable.h"
 #include "Triangulation/Triangulate.h"
 

@@ -3,8 +3,8 @@
 
 #include "Constraints/ReadConstraintFile.h"
 #include "Constraints/TableConstraints.h"
-#include "Files/FileKind.h"
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include "Console/MpiSession.h"
 #include "Console/ProgressBar.h"
 #include "Console/Signals.h"
-#include "Files/FileKind.h"
+#include "Files/InputFile.h"
 #include "Meshes/MeshFiles.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/Triangulate.h"

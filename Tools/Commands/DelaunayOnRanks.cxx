@@ -9,11 +9,11 @@
 #include "Constraints/ConstrainedPoints.h"
 #include "Distributed/ConstrainRanks.h"
 #include "Distributed/DistributedTriangulation.h"
-#include "Files/FileKind.h"
 #include "Files/IOError.h"
-#include "Messages/Communicator.h"
+#include "Files/InputFile.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/PointStream.h"
+#include "Ranks/Communicator.h"
 
 #include <fmt/format.h>
 
@@ -42,9 +42,6 @@ Triangulation gatherTriangles(Communicator& ranks, const DistributedTriangulatio
   };
   mine.Ids32.empty() ? fill(mine.Ids64) : fill(mine.Ids32);
   const std::vector<Bytes> all = ranks.gather(std::move(ids));
-  ByteWriter writer;
-  writer.array(mine.Duplicates);
-  writer.array(mine.Rejected);
   Triangulation result;
   result.Ids64 = Buffer<std::int64_t>(ranks.rank() == 0 ? std::size_t(3 * mine.AllTriangles) : 0);
   auto* to = reinterpret_cast<char*>(result.Ids64.data());
@@ -52,13 +49,13 @@ Triangulation gatherTriangles(Communicator& ranks, const DistributedTriangulatio
   {
     to = std::copy(part.begin(), part.end(), to);
   }
-  for (const Bytes& part : ranks.gather(writer.take()))
+  for (const std::vector<Duplicate>& part : ranks.gather(mine.Duplicates))
   {
-    ByteReader reader(part);
-    const auto duplicates = reader.array<Duplicate>();
-    const auto rejected = reader.array<PointId>();
-    result.Duplicates.insert(result.Duplicates.end(), duplicates.begin(), duplicates.end());
-    result.Rejected.insert(result.Rejected.end(), rejected.begin(), rejected.end());
+    result.Duplicates.insert(result.Duplicates.end(), part.begin(), part.end());
+  }
+  for (const std::vector<PointId>& part : ranks.gather(mine.Rejected))
+  {
+    result.Rejected.insert(result.Rejected.end(), part.begin(), part.end());
   }
   std::sort(result.Duplicates.begin(), result.Duplicates.end(),
     [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
@@ -82,7 +79,7 @@ SharedConstraints shareConstraints(Communicator& ranks, const DelaunayArguments&
   {
     return shared;
   }
-  ByteWriter writer;
+  SaveArchive writer;
   if (ranks.rank() == 0)
   {
     ConstrainedPoints points(openPointStream(arguments.Inputs, arguments.Columns),
@@ -96,13 +93,13 @@ SharedConstraints shareConstraints(Communicator& ranks, const DelaunayArguments&
       throw IOError(
         arguments.constraintFile(), describeAdded(std::int64_t(shared.Added.size()), arguments));
     }
-    writer.array(points.takeSegments());
-    writer.array(shared.Added.XY);
+    writer(points.takeSegments(), shared.Added.XY);
   }
   const Bytes bytes = ranks.broadcast(writer.take());
-  ByteReader reader(bytes);
-  shared.Segments = std::make_unique<ConstraintSegments>(reader.array<ConstraintSegment>());
-  shared.AddedXY = reader.array<double>();
+  LoadArchive reader(bytes);
+  shared.Segments =
+    std::make_unique<ConstraintSegments>(reader.get<std::vector<ConstraintSegment>>());
+  reader(shared.AddedXY);
   return shared;
 }
 

@@ -5,7 +5,7 @@
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Constraints/ConstrainedPoints.h"
-#include "Files/FileKind.h"
+#include "Files/InputFile.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
 

@@ -5,7 +5,7 @@
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Signals.h"
-#include "Files/FileKind.h"
+#include "Files/InputFile.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
 #include "Meshes/MeshFiles.h"

@@ -4,7 +4,7 @@
 #include "Adcirc/FlattenAdcirc.h"
 #include "Console/MpiSession.h"
 #include "Console/Signals.h"
-#include "Files/FileKind.h"
+#include "Files/InputFile.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
 #include "Flat/FlatFolder.h"

@@ -4,7 +4,7 @@
 #include "Commands/PointArguments.h"
 #include "Console/MpiSession.h"
 #include "Console/Signals.h"
-#include "Files/FileKind.h"
+#include "Files/InputFile.h"
 #include "Las/LasHeader.h"
 #include "Parallel/Poll.h"
 #include "Points/PointStream.h"

@@ -9,7 +9,7 @@
 #include "Files/PendingOutput.h"
 #include "Partitioning/PartitionDataSet.h"
 #include "Partitioning/PartitionMesh.h"
-#include "Partitioning/Ranks.h"
+#include "Ranks/Communicator.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -142,7 +142,7 @@ int runPartition(const PartitionArguments& arguments)
   try
   {
     // Checked before the work; a failure on one rank fails on all.
-    Ranks(session.controller())
+    Communicator(session.controller())
       .attempt(
         [&]
         {

@@ -3,7 +3,7 @@
 #include "Console/MpiSession.h"
 #include "Distributions/GeneratePoints.h"
 #include "Distributions/Random.h"
-#include "Files/FileKind.h"
+#include "Files/InputFile.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
 #include "Npy/NpyFile.h"

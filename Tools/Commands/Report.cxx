@@ -156,14 +156,7 @@ ProcessUsage::ProcessUsage()
 
 std::vector<ProcessUsage> gatherUsage(Communicator& ranks)
 {
-  ByteWriter writer;
-  writer.value(ProcessUsage());
-  std::vector<ProcessUsage> all;
-  for (const Bytes& bytes : ranks.gather(writer.take()))
-  {
-    all.push_back(ByteReader(bytes).value<ProcessUsage>());
-  }
-  return all;
+  return ranks.gather(ProcessUsage());
 }
 
 std::int64_t largestMemory(const std::vector<ProcessUsage>& ranks)

@@ -5,17 +5,16 @@
 #include "Console/MpiSession.h"
 #include "Console/ProgressBar.h"
 #include "Console/Signals.h"
-#include "Files/FileKind.h"
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
 #include "Flat/FlatMesh.h"
-#include "Messages/Communicator.h"
 #include "OpenCL/Devices.h"
 #include "Partitioned/PartitionedMesh.h"
-#include "Partitioning/Ranks.h"
+#include "Ranks/Communicator.h"
 #include "Raster/RasterFile.h"
-#include "Sampling/Elevation.h"
+#include "Sampling/SamplingRange.h"
 #include "Vtk/ReadDataSet.h"
 #include "Vtk/VtkMessages.h"
 #include "vtkPartitionedUnstructuredReader.h"
@@ -173,7 +172,7 @@ void summarize(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
 }
 
 /// Reads only the requested range and arrays of a partitioned or a flat mesh.
-vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments, const Ranks& ranks)
+vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments, Communicator& ranks)
 {
   vtkNew<ErrorKeeper> errors;
   vtkNew<vtkPartitionedUnstructuredReader> reader;
@@ -181,7 +180,7 @@ vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments, const 
   reader->SetController(ranks.controller());
   reader->SetFileName(arguments.Input.c_str());
   // For a flat mesh, which is read completely in any case.
-  reader->SetTiling(ranks.count() == 1 ? "grid:1x1" : "grid:16x16");
+  reader->SetTiling(ranks.size() == 1 ? "grid:1x1" : "grid:16x16");
   reader->SetNumberOfThreads(arguments.Threads);
   if (!arguments.Bounds.empty())
   {
@@ -224,7 +223,7 @@ vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments, const 
         }
       }
     });
-  reader->UpdatePiece(ranks.rank(), ranks.count(), 0);
+  reader->UpdatePiece(ranks.rank(), ranks.size(), 0);
   ranks.attempt(requireGood);
   vtkSmartPointer<vtkDataSet> mesh = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
   // Arrays that the reader adds are not fields to sample.
@@ -242,7 +241,8 @@ vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments, const 
 }
 
 /// This rank's part of the mesh. Collective.
-vtkSmartPointer<vtkDataSet> readMeshToSample(const ResampleArguments& arguments, const Ranks& ranks)
+vtkSmartPointer<vtkDataSet> readMeshToSample(
+  const ResampleArguments& arguments, Communicator& ranks)
 {
   vtkSmartPointer<vtkDataSet> mesh;
   ranks.attempt(
@@ -269,12 +269,11 @@ vtkSmartPointer<vtkDataSet> readMeshToSample(const ResampleArguments& arguments,
 
 /// Adds the heights of a surface as an array, so that they can be selected by name.
 vtkSmartPointer<vtkDataSet> readWithElevation(
-  const ResampleArguments& arguments, const Ranks& ranks)
+  const ResampleArguments& arguments, Communicator& ranks)
 {
   vtkSmartPointer<vtkDataSet> mesh = readMeshToSample(arguments, ranks);
   auto* const points = vtkPointSet::SafeDownCast(mesh);
-  Communicator communicator(ranks.controller());
-  if (haveElevation({ points }, communicator))
+  if (haveElevation({ points }, ranks))
   {
     mesh = withElevation(points);
   }
@@ -303,7 +302,7 @@ std::string reasonOf(std::string message)
 
 /// Returns the state of the output's path before the work.
 PathState sample(
-  const ResampleArguments& arguments, vtkRangeResampleFilter* filter, const Ranks& ranks)
+  const ResampleArguments& arguments, vtkRangeResampleFilter* filter, Communicator& ranks)
 {
   PathState before;
   ranks.attempt(
@@ -363,7 +362,7 @@ PathState sample(
 int runResample(const ResampleArguments& arguments)
 {
   const MpiSession session;
-  const Ranks ranks(session.controller());
+  Communicator ranks(session.controller());
   vtkNew<vtkRangeResampleFilter> filter;
   PathState before;
   try

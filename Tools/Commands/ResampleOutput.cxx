@@ -24,9 +24,9 @@
 namespace tipp
 {
 
-void hideOtherShares(vtkDataSet* mesh, const Ranks& ranks)
+void hideOtherShares(vtkDataSet* mesh, Communicator& ranks)
 {
-  if (ranks.count() == 1)
+  if (ranks.size() == 1)
   {
     return;
   }
@@ -52,7 +52,7 @@ void hideOtherShares(vtkDataSet* mesh, const Ranks& ranks)
 }
 
 std::string associationsOf(
-  const std::vector<std::string>& arrays, vtkDataSet* mesh, const Ranks& ranks)
+  const std::vector<std::string>& arrays, vtkDataSet* mesh, Communicator& ranks)
 {
   std::string mine;
   for (const std::string& name : arrays)
@@ -62,7 +62,7 @@ std::string associationsOf(
                                                          : ' ';
   }
   std::string known(arrays.size(), ' ');
-  for (const std::string& associations : ranks.gather(mine))
+  for (const std::string& associations : ranks.allGather(mine))
   {
     for (std::size_t i = 0; i < known.size(); ++i)
     {

@@ -3,7 +3,7 @@
 #define tippResampleOutput_h
 
 #include "Files/PendingOutput.h"
-#include "Partitioning/Ranks.h"
+#include "Ranks/Communicator.h"
 
 #include <string>
 #include <vector>
@@ -27,12 +27,12 @@ void writeGeoTiff(const std::string& path, vtkImageData* image, const std::strin
   double noData, int threads, const PathState& before);
 
 /// If every rank has read the whole mesh: hides the cells of the other ranks' shares.
-void hideOtherShares(vtkDataSet* mesh, const Ranks& ranks);
+void hideOtherShares(vtkDataSet* mesh, Communicator& ranks);
 
 /// For each name what it is in the mesh of all ranks: 'p' for a point array, 'c' for a cell array,
 /// ' ' for neither. Ranks without a cell may lack arrays that others have. Collective.
 std::string associationsOf(
-  const std::vector<std::string>& arrays, vtkDataSet* mesh, const Ranks& ranks);
+  const std::vector<std::string>& arrays, vtkDataSet* mesh, Communicator& ranks);
 
 } // namespace tipp
 

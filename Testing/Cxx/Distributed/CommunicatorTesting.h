@@ -2,7 +2,7 @@
 #ifndef tippCommunicatorTesting_h
 #define tippCommunicatorTesting_h
 
-#include "Messages/Communicator.h"
+#include "Ranks/Communicator.h"
 
 #include "vtkMultiProcessController.h"
 

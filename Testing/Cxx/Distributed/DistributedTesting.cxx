@@ -112,7 +112,7 @@ Gathered triangulateShares(const Coordinates& xy, Share share, const Distributed
   }
 
   Corners corners(xy, result);
-  ByteWriter writer;
+  SaveArchive writer;
   std::vector<Triangle> triangles;
   const auto add = [&](const auto& ids)
   {
@@ -124,28 +124,28 @@ Gathered triangulateShares(const Coordinates& xy, Share share, const Distributed
   };
   add(result.Ids32);
   add(result.Ids64);
-  writer.array(triangles);
-  writer.array(result.Duplicates);
-  writer.array(result.Rejected);
-  writer.text(corners.Fault);
-  writer.value(result.FirstTriangle);
+  writer(triangles);
+  writer(result.Duplicates);
+  writer(result.Rejected);
+  writer(corners.Fault);
+  writer(result.FirstTriangle);
   Gathered gathered;
   std::int64_t next = 0;
   for (const Bytes& bytes : box.gather(writer.take()))
   {
-    ByteReader reader(bytes);
-    const auto mesh = reader.array<Triangle>();
-    const auto duplicates = reader.array<Duplicate>();
-    const auto rejected = reader.array<PointId>();
+    LoadArchive reader(bytes);
+    const auto mesh = reader.get<std::vector<Triangle>>();
+    const auto duplicates = reader.get<std::vector<Duplicate>>();
+    const auto rejected = reader.get<std::vector<PointId>>();
     gathered.Mesh.insert(gathered.Mesh.end(), mesh.begin(), mesh.end());
     gathered.Duplicates.insert(gathered.Duplicates.end(), duplicates.begin(), duplicates.end());
     gathered.Rejected.insert(gathered.Rejected.end(), rejected.begin(), rejected.end());
-    const std::string fault = reader.text();
+    const std::string fault = reader.get<std::string>();
     if (!fault.empty())
     {
       gathered.Faults.push_back(fault);
     }
-    if (reader.value<std::int64_t>() != next)
+    if (reader.get<std::int64_t>() != next)
     {
       gathered.Faults.push_back("triangles are not numbered without gaps");
     }

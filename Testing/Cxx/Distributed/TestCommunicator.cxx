@@ -156,13 +156,13 @@ TEST(Communicator, TellsWhatWasSentByKind)
   box.barrier();
 }
 
-TEST(ByteReader, RefusesToReadBeyondTheEnd)
+TEST(LoadArchive, RefusesToReadBeyondTheEnd)
 {
-  ByteWriter writer;
-  writer.value(std::uint64_t(1000));
+  SaveArchive writer;
+  writer(std::uint64_t(1000));
   const Bytes bytes = writer.take();
-  EXPECT_THROW(ByteReader(bytes).array<double>(), std::runtime_error);
-  EXPECT_THROW(ByteReader(bytes).raw(9), std::runtime_error);
+  EXPECT_THROW(unpacked<std::vector<double>>(bytes), std::runtime_error);
+  EXPECT_THROW(LoadArchive(bytes).raw(9), std::runtime_error);
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 // vtkTIPPDelaunay2D with the global controller of several ranks.
 #include "DistributedTesting.h"
 
-#include "Messages/CollectivePipeline.h"
+#include "Output/CollectivePipeline.h"
 
 #include "vtkTIPPDelaunay2D.h"
 
@@ -152,13 +152,7 @@ std::vector<PieceCell> cellsOf(vtkPolyData* mesh)
 std::vector<std::vector<PieceCell>> gatherCells(vtkPolyData* mesh)
 {
   Communicator box(vtkMultiProcessController::GetGlobalController());
-  ByteWriter writer;
-  writer.array(cellsOf(mesh));
-  std::vector<std::vector<PieceCell>> all;
-  for (const Bytes& bytes : box.gather(writer.take()))
-  {
-    all.push_back(ByteReader(bytes).array<PieceCell>());
-  }
+  std::vector<std::vector<PieceCell>> all = box.gather(cellsOf(mesh));
   box.barrier();
   return all;
 }

@@ -2,7 +2,7 @@
 // Any rank may hold any points.
 #include "DistributedTesting.h"
 
-#include "Distributed/GhostTriangles.h"
+#include "Distributed/TriangleExchange.h"
 
 #include "vtkMultiProcessController.h"
 
@@ -170,18 +170,11 @@ TEST(GhostTriangles, AreTheOthersTrianglesAtOwnVerticesEachOnce)
   const std::vector<IdTriangle> own = trianglesByIds(result, box.rank());
 
   // All ranks' triangles on every rank: the ghosts by definition.
-  ByteWriter writer;
-  writer.array(own);
-  ByteWriter all;
   std::vector<IdTriangle> every;
-  for (const Bytes& part : box.gather(writer.take()))
+  for (const std::vector<IdTriangle>& part : box.allGather(own))
   {
-    const auto triangles = ByteReader(part).array<IdTriangle>();
-    every.insert(every.end(), triangles.begin(), triangles.end());
+    every.insert(every.end(), part.begin(), part.end());
   }
-  all.array(every);
-  const Bytes bytes = box.broadcast(all.take());
-  every = ByteReader(bytes).array<IdTriangle>();
   std::set<std::int64_t> vertices;
   for (const IdTriangle& t : own)
   {

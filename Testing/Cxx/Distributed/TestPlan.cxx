@@ -182,11 +182,7 @@ TEST(Plan, ComesBackFromItsBytes)
   const PlanInput input = inputOf(xy, 3);
   Plan plan = divide(input, options);
   assign(plan, input, leafCounts(plan, xy), options);
-  ByteWriter writer;
-  plan.write(writer);
-  const Bytes bytes = writer.take();
-  ByteReader reader(bytes);
-  const Plan back = Plan::read(reader);
+  const auto back = unpacked<Plan>(packed(plan));
   EXPECT_EQ(back.Owners, plan.Owners);
   ASSERT_EQ(back.Areas.size(), plan.Areas.size());
   for (std::size_t a = 0; a < plan.Areas.size(); ++a)

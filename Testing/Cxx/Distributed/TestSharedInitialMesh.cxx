@@ -80,7 +80,7 @@ TEST_P(SharedInitialMesh, PartsAreThoseOfTheWholeMesh)
     const auto expected = partitionsPay ? findConflicts(scene.Whole, count) : std::nullopt;
     for (const std::size_t ranks : { std::size_t(1), std::size_t(5), std::size_t(40) })
     {
-      ByteWriter writer;
+      SaveArchive writer;
       std::int64_t triangles = 0;
       std::int64_t met = 0;
       for (std::size_t rank = 0; rank < ranks; ++rank)
@@ -125,11 +125,11 @@ TEST(InitialMeshPart, APartHasFewVertices)
 TEST(InitialMeshPart, DamagedConflictsAreRejected)
 {
   const SharedScene scene("uniform", 2000, 40);
-  ByteWriter writer;
+  SaveArchive writer;
   scene.part(scene.Boxes.areUsed()).writeConflicts(writer);
   const Bytes good = writer.take();
   EXPECT_THROW(readConflicts(good, 3), std::runtime_error); // fewer partitions
-  ByteWriter shortened;
+  SaveArchive shortened;
   shortened.raw(good.data(), good.size() - 4);
   EXPECT_THROW(readConflicts(shortened.take(), 40), std::runtime_error);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Flat/CellReader.h"
+#include "Flat/FlatMesh.h"
 
 #include "ExpectIOError.h"
 #include "FlatTesting.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellStorages.h"
-#include "Vtk/PlainIds.h"
+#include "Vtk/CellArrays.h"
 
 #include "vtkIntArray.h"
 #include "vtkSOADataArrayTemplate.h"

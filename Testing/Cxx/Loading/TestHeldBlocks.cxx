@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Loading/HeldBlocks.h"
+#include "Loading/BlockCache.h"
 
 #include <gtest/gtest.h>
 

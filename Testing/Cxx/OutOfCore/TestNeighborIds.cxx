@@ -3,7 +3,7 @@
 #include "OutOfCoreTesting.h"
 
 #include "ExpectIOError.h"
-#include "Meshes/Triangles.h"
+#include "Meshes/MeshFiles.h"
 #include "Npy/NpyFile.h"
 #include "Partitioned/NeighborIds.h"
 

@@ -113,10 +113,10 @@ TEST(CheckedFile, DamagedAnywhereItIsRefused)
   EXPECT_THROW(readCheckedFile(path), IOError);
 }
 
-ByteWriter written(const std::vector<int>& numbers)
+SaveArchive written(const std::vector<int>& numbers)
 {
-  ByteWriter writer;
-  writer.array(numbers);
+  SaveArchive writer;
+  writer(numbers);
   return writer;
 }
 
@@ -137,7 +137,7 @@ TEST(SectionFile, GivesBackEachSection)
   EXPECT_TRUE(file.has({ 2, 1 }));
   EXPECT_FALSE(file.has({ 2, 3 }));
   const Bytes bytes = file.read({ 2, 1 });
-  EXPECT_EQ((std::vector<int>{ 7, 8 }), ByteReader(bytes).array<int>());
+  EXPECT_EQ((std::vector<int>{ 7, 8 }), unpacked<std::vector<int>>(bytes));
   expectIOError(folder.path("file"), "is damaged", [&] { file.read({ 1, 1 }); });
 }
 
@@ -276,7 +276,7 @@ TEST(PiecePlan, ComesBackFromAnArchive)
   const PiecePlan plan = Steps(xy).plan();
   SaveArchive out;
   plan.save(out);
-  const Bytes bytes = out.Writer.take();
+  const Bytes bytes = out.take();
   LoadArchive in(bytes);
   const PiecePlan back(in);
   EXPECT_EQ(plan.FirstPartition, back.FirstPartition);
@@ -337,8 +337,8 @@ TEST(SpilledPoints, ThoseOfOtherPiecesAreRefused)
   spilled.save(out);
   for (const std::size_t at : { 8, 16 }) // the first two of starts(), behind their number
   {
-    Bytes bytes(out.Writer.size());
-    std::copy_n(out.Writer.data(), bytes.size(), bytes.begin());
+    Bytes bytes(out.size());
+    std::copy_n(out.data(), bytes.size(), bytes.begin());
     bytes.data()[at] ^= 1;
     LoadArchive in(bytes);
     expectIOError(steps.Folder.path("spill"), "other pieces",
@@ -357,7 +357,7 @@ TEST(SpilledPoints, DamagedAreRefusedPieceByPiece)
   steps.Folder.file("spill.0", content);
   SaveArchive out;
   spilled.save(out);
-  const Bytes bytes = out.Writer.take();
+  const Bytes bytes = out.take();
   LoadArchive in(bytes);
   const SpilledPoints back(file.substr(0, file.size() - 2), plan, steps.Rows, in);
   for (const SpilledPoints* const points : { &spilled, &back })
@@ -434,7 +434,7 @@ TEST(RunSetup, ComesBackOnAnotherRank)
   run.describeMesh();
   SaveArchive out;
   run.save(out);
-  const Bytes bytes = out.Writer.take();
+  const Bytes bytes = out.take();
   LoadArchive in(bytes);
   RunSetup back;
   back.load(in, steps.Folder.path("spill"));

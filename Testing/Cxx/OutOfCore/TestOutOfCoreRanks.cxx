@@ -75,9 +75,8 @@ protected:
     {
       this->Folder = std::make_unique<TemporaryFolder>();
     }
-    ByteWriter name;
-    name.text(this->isFirst() ? this->Folder->path("points.npy") : "");
-    this->Points = ByteReader(this->Ranks.broadcast(name.take())).text();
+    this->Points =
+      this->Ranks.broadcast(this->isFirst() ? this->Folder->path("points.npy") : std::string());
   }
 
   void makePoints(const std::string& set, std::size_t count = 2500) const

@@ -60,7 +60,8 @@ public:
   WrittenAlone(const TemporaryFolder& folder, std::size_t chunks)
     : Written(folder, 0, 0, chunks)
   {
-    this->Rows.exchange(Ranks(nullptr));
+    Communicator alone(nullptr);
+    this->Rows.exchange(alone);
   }
 };
 

@@ -3,8 +3,7 @@
 #define tippForgedMesh_h
 
 #include "Partitioned/PartitionedMesh.h"
-#include "Partitioned/PieceLayout.h"
-#include "Partitioned/PieceTable.h"
+#include "Partitioned/PieceFormat.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -4,7 +4,6 @@
 #include "TemporaryFolder.h"
 
 #include "Adcirc/FlattenAdcirc.h"
-#include "Flat/CellReader.h"
 #include "Flat/FlatFolder.h"
 #include "Flat/FlatMesh.h"
 #include "Flat/FlattenDataSet.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioned/SharingSets.h"
+#include "Partitioned/PieceBorder.h"
 
 #include <gtest/gtest.h>
 

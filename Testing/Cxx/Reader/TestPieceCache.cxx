@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Reading/PieceCache.h"
+#include "Reading/PieceSource.h"
 
 #include <gtest/gtest.h>
 

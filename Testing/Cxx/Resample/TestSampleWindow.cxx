@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/SampleWindow.h"
+#include "Resample/Claims.h"
 
 #include "ResampleScenes.h"
 

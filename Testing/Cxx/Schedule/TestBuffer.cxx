@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Triangulation/Buffer.h"
+#include "Arrays/Buffer.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "Adcirc/AdcircGrid.h"
 #include "Check/DelaunayChecker.h"
 #include "Distributions/GeneratePoints.h"
-#include "Meshes/Triangles.h"
+#include "Meshes/MeshFiles.h"
 #include "SharedData.h"
 #include "Triangulation/Triangulate.h"
 

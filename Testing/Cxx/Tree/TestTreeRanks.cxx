@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Run on several ranks: each builds the tree alone too and compares.
 #include "Partitioning/BuildTree.h"
-#include "Partitioning/Ranks.h"
+#include "Ranks/Communicator.h"
 
 #include "CellSets.h"
 #include "ReferenceTree.h"
@@ -15,8 +15,8 @@
 #include <cmath>
 
 using tipp::buildTree;
+using tipp::Communicator;
 using tipp::PartitionTree;
-using tipp::Ranks;
 using tipp::TreeOptions;
 
 namespace
@@ -118,7 +118,7 @@ TEST(TreeRanks, AReaderThatFailsOnOneFailsOnAll)
     }
     read(first, count, coordinates);
   };
-  if (Ranks(world()).count() > 1)
+  if (Communicator(world()).size() > 1)
   {
     expectFailure([&] { buildTree(source, cells.bounds(), options(cells, 15, 100), world()); },
       "The disk is gone.");
@@ -127,18 +127,17 @@ TEST(TreeRanks, AReaderThatFailsOnOneFailsOnAll)
 
 TEST(TreeRanks, ReduceMergesEachRanksBytesOnceInOrder)
 {
-  const Ranks ranks(world());
+  Communicator ranks(world());
   const std::string all = ranks.reduce(std::string(1, static_cast<char>('a' + ranks.rank())),
     [](const std::string& a, const std::string& b) { return a + b; });
   EXPECT_EQ(all,
-    ranks.isFirst() ? std::string("abcdefgh").substr(0, std::size_t(ranks.count()))
-                    : std::string());
+    ranks.isFirst() ? std::string("abcdefgh").substr(0, std::size_t(ranks.size())) : std::string());
 }
 
 TEST(TreeRanks, AMergeThatFailsOnOneFailsOnAll)
 {
-  const Ranks ranks(world());
-  if (ranks.count() > 1)
+  Communicator ranks(world());
+  if (ranks.size() > 1)
   {
     expectFailure(
       [&]

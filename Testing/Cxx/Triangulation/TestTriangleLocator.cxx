@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Meshes/Triangles.h"
+#include "Meshes/MeshFiles.h"
 #include "Triangulation/TriangleLocator.h"
 #include "Triangulation/Triangulate.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioning/Ranks.h"
+#include "Ranks/Communicator.h"
 
 #include "Files/IOError.h"
 
@@ -12,19 +12,19 @@ using namespace tipp;
 namespace
 {
 
-class RanksOfTheWorld : public testing::Test
+class AttemptOnRanks : public testing::Test
 {
 protected:
   /// How attempt() ends if the first rank's work and the last one's do this.
   template <typename First, typename Last>
-  std::string outcome(const First& first, const Last& last) const
+  std::string outcome(const First& first, const Last& last)
   {
     try
     {
       this->All.attempt(
         [&]
         {
-          if (this->All.rank() == this->All.count() - 1)
+          if (this->All.rank() == this->All.size() - 1)
           {
             last();
           }
@@ -45,7 +45,7 @@ protected:
     return "";
   }
 
-  const Ranks All{ vtkMultiProcessController::GetGlobalController() };
+  Communicator All{ vtkMultiProcessController::GetGlobalController() };
 };
 
 void nothing() {}
@@ -58,47 +58,47 @@ void failWork()
   throw IOError("no luck");
 }
 
-TEST_F(RanksOfTheWorld, SucceedTogether)
+TEST_F(AttemptOnRanks, SucceedTogether)
 {
   EXPECT_EQ("", this->outcome(nothing, nothing));
 }
 
-TEST_F(RanksOfTheWorld, FailTogether)
+TEST_F(AttemptOnRanks, FailTogether)
 {
   EXPECT_EQ("no luck", this->outcome(nothing, failWork));
   EXPECT_EQ("no luck", this->outcome(failWork, nothing));
 }
 
-TEST_F(RanksOfTheWorld, AbortTogether)
+TEST_F(AttemptOnRanks, AbortTogether)
 {
   EXPECT_EQ("aborted", this->outcome(abortWork, nothing));
   EXPECT_EQ("aborted", this->outcome(nothing, abortWork));
 }
 
-TEST_F(RanksOfTheWorld, TellOfAFailureRatherThanOfAnAbort)
+TEST_F(AttemptOnRanks, TellOfAFailureRatherThanOfAnAbort)
 {
   EXPECT_EQ("no luck", this->outcome(abortWork, failWork));
 }
 
-TEST_F(RanksOfTheWorld, GatherEverybodysBytesInOrder)
+TEST_F(AttemptOnRanks, GatherEverybodysBytesInOrder)
 {
   const std::vector<std::string> all =
-    this->All.gather(std::string(std::size_t(this->All.rank()), 'x'));
-  ASSERT_EQ(std::size_t(this->All.count()), all.size());
+    this->All.allGather(std::string(std::size_t(this->All.rank()), 'x'));
+  ASSERT_EQ(std::size_t(this->All.size()), all.size());
   for (std::size_t rank = 0; rank < all.size(); ++rank)
   {
     EXPECT_EQ(std::string(rank, 'x'), all[rank]);
   }
 }
 
-TEST_F(RanksOfTheWorld, ShareNumbersOutWithoutGapOrOverlap)
+TEST_F(AttemptOnRanks, ShareNumbersOutWithoutGapOrOverlap)
 {
   for (const std::int64_t count : { 0, 1, 2, 17, 1000 })
   {
     const auto [first, last] = this->All.shareOf(count);
-    EXPECT_LE(last - first, count / this->All.count() + 1);
+    EXPECT_LE(last - first, count / this->All.size() + 1);
     const std::vector<std::string> all =
-      this->All.gather(std::to_string(first) + " " + std::to_string(last));
+      this->All.allGather(std::to_string(first) + " " + std::to_string(last));
     std::int64_t end = 0;
     for (const std::string& share : all)
     {

@@ -2,9 +2,10 @@
 #ifndef tippCommunicator_h
 #define tippCommunicator_h
 
-#include "Messages/Bytes.h"
-#include "Messages/RankTransport.h"
-#include "vtkTIPPFiltersModule.h"
+#include "Parallel/Poll.h"
+#include "Ranks/Archive.h"
+#include "Ranks/RankTransport.h"
+#include "vtkTIPPIOModule.h"
 
 #include <chrono>
 #include <cstdint>
@@ -15,6 +16,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 class vtkMultiProcessController;
@@ -62,7 +64,7 @@ public:
 ///
 /// All ranks construct it together and call the collective methods in the same order. A wait sleeps
 /// instead of spinning, so that ranks may share a core.
-class VTKTIPPFILTERS_EXPORT Communicator
+class VTKTIPPIO_EXPORT Communicator
 {
 public:
   /// Null: one rank. Throws std::invalid_argument if the controller has several ranks without MPI.
@@ -71,8 +73,14 @@ public:
   Communicator(const Communicator&) = delete;
   void operator=(const Communicator&) = delete;
 
+  /// Null for a single rank. Not owned.
+  vtkMultiProcessController* controller() const { return this->Controller; }
   int rank() const { return this->Rank; }
   int size() const { return this->Size; }
+  bool isFirst() const { return this->Rank == 0; }
+
+  /// This rank's share [first, last) of [0, count); shares differ by at most one.
+  std::pair<std::int64_t, std::int64_t> shareOf(std::int64_t count) const;
 
   /// Sends a message to any rank, including this one. Messages from one rank to another arrive in
   /// the order of posting.
@@ -96,10 +104,51 @@ public:
   /// Collective.
   std::vector<Bytes> allToAll(std::vector<Bytes> contents); ///< one to and from each rank
   std::vector<Bytes> gather(Bytes content);                 ///< by rank on rank 0, else empty
+  std::vector<Bytes> allGather(Bytes content);              ///< by rank, on all ranks
   Bytes broadcast(Bytes content);                           ///< returns rank 0's
   void sum(std::vector<std::int64_t>& values);
+  void minimum(std::vector<double>& values);
   void barrier();
+  /// Combines all ranks' texts by merge(mine, other) in a binary tree. Returns the result on rank
+  /// 0, an empty text on the others. Throws as attempt() if merge throws on any rank.
+  std::string reduce(std::string text,
+    const std::function<std::string(const std::string&, const std::string&)>& merge);
   ///@}
+
+  ///@{
+  /// The same for anything that an archive takes.
+  template <typename T>
+  std::vector<T> gather(const T& value)
+  {
+    return allUnpacked<T>(this->gather(packed(value)));
+  }
+  template <typename T>
+  std::vector<T> allGather(const T& value)
+  {
+    return allUnpacked<T>(this->allGather(packed(value)));
+  }
+  template <typename T>
+  T broadcast(const T& value)
+  {
+    return unpacked<T>(this->broadcast(this->isFirst() ? packed(value) : Bytes()));
+  }
+  /// Sends values[rank] to each rank; returns one from each rank.
+  template <typename T>
+  std::vector<T> allToAll(const std::vector<T>& values)
+  {
+    std::vector<Bytes> contents;
+    for (const T& value : values)
+    {
+      contents.push_back(packed(value));
+    }
+    return allUnpacked<T>(this->allToAll(std::move(contents)));
+  }
+  ///@}
+
+  /// Runs `work`, which does not communicate except by calls of attempt(), on every rank and waits
+  /// for all. If it throws on any, this throws on all: an IOError with the message of the first
+  /// rank that failed, else WorkAborted. Collective.
+  void attempt(const std::function<void()>& work);
 
   /// A byte range of a buffer.
   struct Stretch
@@ -186,6 +235,17 @@ private:
     }
   };
 
+  template <typename T>
+  static std::vector<T> allUnpacked(const std::vector<Bytes>& contents)
+  {
+    std::vector<T> values;
+    for (const Bytes& content : contents)
+    {
+      values.push_back(unpacked<T>(content));
+    }
+    return values;
+  }
+
   bool probe(Arrival& arrival);
   bool receive(Message& message, const InParts* inParts);
   void receiveParts(const Arrival& arrival, const TakePart& takePart);
@@ -202,6 +262,11 @@ private:
   void note(int rank, bool aborted, const std::string& reason);
   void noteFailure(const Message& message);
   [[noreturn]] void partAfterFailure();
+  Bytes combine(Bytes mine, const std::function<Bytes(Bytes, const Bytes&)>& merge);
+  template <typename Value, typename Operation>
+  void allReduce(std::vector<Value>& values, const Operation& operation);
+
+  vtkMultiProcessController* Controller;
 
   std::unique_ptr<RankTransport> Transport; ///< null: one rank
   int Rank = 0;

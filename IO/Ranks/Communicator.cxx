@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Messages/Communicator.h"
+#include "Ranks/Communicator.h"
 
 #include "Parallel/Stopwatch.h"
 
@@ -55,7 +55,8 @@ struct Communicator::Outgoing
 };
 
 Communicator::Communicator(vtkMultiProcessController* controller)
-  : Transport(RankTransport::open(controller))
+  : Controller(controller)
+  , Transport(RankTransport::open(controller))
 {
   if (this->Transport)
   {
@@ -359,9 +360,9 @@ void Communicator::noteFailure(const Message& message)
 {
   if (message.Kind == MessageKind::Failure)
   {
-    ByteReader reader(message.Content);
-    const bool aborted = reader.value<char>() != 0;
-    this->note(message.Source, aborted, reader.text());
+    LoadArchive reader(message.Content);
+    const bool aborted = reader.get<char>() != 0;
+    this->note(message.Source, aborted, reader.get<std::string>());
   }
   else
   {
@@ -378,9 +379,9 @@ void Communicator::tellFailure(bool aborted, const std::string& reason)
   {
     if (to != this->Rank)
     {
-      ByteWriter writer;
-      writer.value(char(aborted));
-      writer.text(reason);
+      SaveArchive writer;
+      writer(char(aborted));
+      writer(reason);
       this->sendTo(to, MessageKind::Failure, writer.take());
     }
   }

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Messages/RankTransport.h"
+#include "Ranks/RankTransport.h"
 
+#ifdef TIPP_HAVE_MPI
 #include "vtkMPIController.h"
 #include "vtkSmartPointer.h"
+#elif !defined(TIPP_WITHOUT_VTK)
+#include "vtkMultiProcessController.h"
+#endif
 
 #include <stdexcept>
 #include <string>
 
 namespace tipp
 {
+#ifdef TIPP_HAVE_MPI
 namespace
 {
 
@@ -78,5 +83,22 @@ std::unique_ptr<RankTransport> RankTransport::open(vtkMultiProcessController* co
   }
   return std::make_unique<MpiTransport>(mpi);
 }
+
+#else
+
+std::unique_ptr<RankTransport> RankTransport::open(
+  [[maybe_unused]] vtkMultiProcessController* controller)
+{
+#ifndef TIPP_WITHOUT_VTK
+  if (controller && controller->GetNumberOfProcesses() > 1)
+  {
+    throw std::invalid_argument("TIPP was built without MPI, so that it works on one rank alone; "
+                                "build it with -DTIPP_USE_MPI=ON against a VTK that has MPI.");
+  }
+#endif
+  return nullptr;
+}
+
+#endif
 
 } // namespace tipp

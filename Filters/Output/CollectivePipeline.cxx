@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Messages/CollectivePipeline.h"
+#include "Output/CollectivePipeline.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCommunicator.h"
