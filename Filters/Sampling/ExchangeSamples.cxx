@@ -135,7 +135,7 @@ private:
       for (int i = 0; i < components; ++i)
       {
         const char* const name = array.Samples->GetComponentName(i);
-        writer(name ? name : "");
+        writer(std::string(name ? name : ""));
       }
     }
   }

@@ -97,6 +97,7 @@ private:
   template <typename T>
   void save(const T& value)
   {
+    static_assert(!std::is_pointer<std::decay_t<T>>::value, "what it points to is not saved");
     if constexpr (std::is_trivially_copyable<T>::value)
     {
       this->raw(&value, sizeof(T));
