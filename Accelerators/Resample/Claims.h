@@ -19,7 +19,7 @@ namespace tipp
 /// A box of a lattice's samples, and its position in the lattice. With it the cost of a part of a
 /// mesh depends on the part's own box, not on the whole image.
 ///
-/// For triangles the samples are those of the lattice's two `mesh.Axes`.
+/// Triangles are sampled in the plane of the two axes `mesh.Axes` of the lattice.
 class VTKTIPPACCELERATORS_EXPORT SampleWindow
 {
 public:

@@ -19,10 +19,10 @@ namespace tipp
 namespace
 {
 
-/// A folder that goes away with its content.
-struct ScratchPlace
+/// A temporary folder, removed with its content by the destructor.
+struct ScratchDirectory
 {
-  ScratchPlace()
+  ScratchDirectory()
     : Path((std::filesystem::temp_directory_path() / "tipp-XXXXXX").string())
   {
     if (!mkdtemp(this->Path.data()))
@@ -31,13 +31,13 @@ struct ScratchPlace
     }
     this->Listed.list(this->Path);
   }
-  ~ScratchPlace()
+  ~ScratchDirectory()
   {
     std::error_code ignored;
     std::filesystem::remove_all(this->Path, ignored);
   }
-  ScratchPlace(const ScratchPlace&) = delete;
-  ScratchPlace& operator=(const ScratchPlace&) = delete;
+  ScratchDirectory(const ScratchDirectory&) = delete;
+  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
 
   std::string Path;
   TemporaryPath Listed;
@@ -88,7 +88,7 @@ DemFigures makeWithin(PointStream& points, const DemRequest& request, std::uint6
     },
     nullptr);
   sink.setIdentity("raster in memory");
-  const ScratchPlace folder;
+  const ScratchDirectory folder;
   OutOfCoreOptions options;
   options.MemoryLimit = memory;
   options.Threads = request.Threads;

@@ -143,7 +143,7 @@ void addDuplicatesOption(CLI::App& command, DuplicateRule& rule)
   command
     .add_option_function<std::string>(
       "--duplicates", [&rule, rules](const std::string& name) { rule = rules.at(name); },
-      "Of several points at one place the values of the first, of the lowest (min) or highest "
+      "Of several points with equal coordinates the values of the first, of the lowest (min) or highest "
       "(max), or the mean of each column; without: first")
     ->check(CLI::IsMember({ "first", "min", "max", "mean" }));
 }
@@ -176,7 +176,7 @@ std::string describeDuplicates(std::int64_t duplicates, std::int64_t disagreeing
   const std::string positions = disagreeing == 0
     ? ""
     : fmt::format(
-        ", {} place{} with different elevations", disagreeing, disagreeing == 1 ? "" : "s");
+        ", {} location{} with different elevations", disagreeing, disagreeing == 1 ? "" : "s");
   return fmt::format("{} duplicates{}", duplicates, positions);
 }
 

@@ -31,7 +31,7 @@ void setThinningFile(PointOptions& options, const std::string& scratch, const st
 /// thinning has left out.
 void reportLeftOut(std::int64_t points, std::int64_t thinnedOut);
 
-/// What a summary says of duplicates, as "3 duplicates, 1 place with different elevations".
+/// What a summary says of duplicates, as "3 duplicates, 1 location with different elevations".
 std::string describeDuplicates(std::int64_t duplicates, std::int64_t disagreeing);
 
 /// Parses a number of bytes, or with the suffix K, M, G of 2^10, 2^20, 2^30 bytes, such as "512M";

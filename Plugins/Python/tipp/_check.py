@@ -217,7 +217,7 @@ class _Checker:
         finite = self.xy[self.is_finite] + 0.0  # -0 is 0
         distinct = len(np.unique(finite, axis=0))
         used = np.unique(t)
-        self.count("corners at one place under several ids", len(used) - len(np.unique(self.xy[used] + 0.0, axis=0)))
+        self.count("corners with equal coordinates under several ids", len(used) - len(np.unique(self.xy[used] + 0.0, axis=0)))
         if not is_free and (len(t) or not _are_collinear(finite)):
             self.count("distinct points in no triangle", max(distinct - len(used), 0))
             self.check_hull(boundary)

@@ -68,7 +68,7 @@ TEST_F(TippDuplicates, APlaceHasTheChosenValues)
     const Outcome outcome =
       this->run({ "delaunay", "points.csv", "-o", "mesh.vtu", "--duplicates", rule });
     EXPECT_NE(
-      std::string::npos, outcome.Out.find("3 duplicates, 1 place with different elevations,"))
+      std::string::npos, outcome.Out.find("3 duplicates, 1 location with different elevations,"))
       << outcome.Out;
     const tipp::PointTable points = tipp::readPoints(this->Folder.path("mesh.vtu"));
     ASSERT_EQ(7U, points.size());

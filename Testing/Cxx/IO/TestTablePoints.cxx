@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Points/TablePoints.h"
+
+#include <gtest/gtest.h>
+
+using namespace tipp;
+
+namespace
+{
+
+PointTable tableOf(std::size_t points)
+{
+  PointTable table;
+  table.Columns = { { "z", {} }, { "intensity", {} } };
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    table.XY.insert(table.XY.end(), { double(i), double(i % 7) });
+    table.Columns[0].Values.push_back(100 + double(i));
+    table.Columns[1].Values.push_back(-double(i));
+  }
+  return table;
+}
+
+/// All points of the stream, read in blocks of `most`; checks that blocks follow each other.
+PointTable readAll(PointStream& stream, std::size_t most, std::int64_t first)
+{
+  PointTable read;
+  read.Columns.resize(stream.columns().size());
+  for (PointBlock block; stream.next(block, most);)
+  {
+    EXPECT_EQ(first + std::int64_t(read.size()), block.First);
+    EXPECT_GE(most, block.XY.size() / 2);
+    read.XY.insert(read.XY.end(), block.XY.begin(), block.XY.end());
+    for (std::size_t i = 0; i < block.Columns.size(); ++i)
+    {
+      std::vector<double>& to = read.Columns[i].Values;
+      to.insert(to.end(), block.Columns[i].begin(), block.Columns[i].end());
+    }
+  }
+  return read;
+}
+
+void expectRange(
+  const PointTable& read, const PointTable& whole, std::size_t begin, std::size_t end)
+{
+  ASSERT_EQ(end - begin, read.size());
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    EXPECT_EQ(whole.XY[2 * i], read.XY[2 * (i - begin)]);
+    EXPECT_EQ(whole.XY[2 * i + 1], read.XY[2 * (i - begin) + 1]);
+    EXPECT_EQ(whole.Columns[0].Values[i], read.Columns[0].Values[i - begin]);
+    EXPECT_EQ(whole.Columns[1].Values[i], read.Columns[1].Values[i - begin]);
+  }
+}
+
+} // namespace
+
+TEST(TablePoints, ComeInBlocksAndAgainAfterRewind)
+{
+  const PointTable table = tableOf(100);
+  const auto stream = streamTable(table);
+  EXPECT_EQ((std::vector<std::string>{ "z", "intensity" }), stream->columns());
+  for (const std::size_t most : { 1, 33, 100, 1000 })
+  {
+    stream->rewind();
+    expectRange(readAll(*stream, most, 0), table, 0, 100);
+  }
+}
+
+TEST(TablePoints, ARangeOfThemKeepsTheirNumbers)
+{
+  const PointTable table = tableOf(100);
+  const auto stream = streamTable(table);
+  stream->limitTo(20, 61);
+  stream->rewind();
+  expectRange(readAll(*stream, 7, 20), table, 20, 61);
+  stream->limitTo(90, 1000);
+  stream->rewind();
+  expectRange(readAll(*stream, 7, 90), table, 90, 100);
+}
+
+TEST(TablePoints, NoneAreAnEmptyStream)
+{
+  const auto stream = streamTable({});
+  PointBlock block;
+  EXPECT_FALSE(stream->next(block, 10));
+  EXPECT_EQ(0, stream->most());
+}
+
+TEST(TablePoints, ThinningKeepsOneInEachSquare)
+{
+  Thinning thinning;
+  thinning.Cell = 10;
+  thinning.Keep = Thinning::Rule::Highest;
+  const auto stream = streamTable(tableOf(100), thinning);
+  EXPECT_EQ(10U, readAll(*stream, 100, 0).size());
+}
