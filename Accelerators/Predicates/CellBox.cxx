@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Predicates/CellBox.h"
 
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,7 @@
 #ifndef tippCellBox_h
 #define tippCellBox_h
 
-#include "Predicates/Point2.h"
-#include "Predicates/Point3.h"
+#include "Predicates/Points.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
 namespace tipp

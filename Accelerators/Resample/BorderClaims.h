@@ -2,8 +2,7 @@
 #ifndef tippBorderClaims_h
 #define tippBorderClaims_h
 
-#include "Predicates/Point2.h"
-#include "Predicates/Point3.h"
+#include "Predicates/Points.h"
 #include "Resample/CellVisitor.h"
 #include "Resample/Claims.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/DirectSampling.h"
+#include "Resample/Interpolate.h"
 
 #include "Parallel/Stopwatch.h"
 #include "Resample/BorderClaims.h"

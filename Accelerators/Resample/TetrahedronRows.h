@@ -2,7 +2,7 @@
 #ifndef tippTetrahedronRows_h
 #define tippTetrahedronRows_h
 
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 #include "Resample/Lattice.h"
 
 #include <utility>

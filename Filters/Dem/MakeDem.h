@@ -7,7 +7,7 @@
 #include "Dem/TileStore.h"
 #include "Duplicates/ResolveDuplicates.h"
 #include "Points/PointTable.h"
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 #include "Raster/RasterFile.h"
 #include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"

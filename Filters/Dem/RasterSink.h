@@ -4,7 +4,7 @@
 
 #include "Dem/MakeDem.h"
 #include "Dem/TileStore.h"
-#include "OutOfCore/TriangleTaker.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 
 #include <array>
 #include <cstdint>

@@ -4,7 +4,7 @@
 
 #include "Dem/DemBands.h"
 #include "Raster/RasterFile.h"
-#include "Resample/BorderSample.h"
+#include "Resample/Claims.h"
 #include "Resample/Lattice.h"
 #include "Resample/SimplexMesh.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Distributed/ConstrainRanks.h"
+#include "Distributed/DistributedTriangulation.h"
 
 #include "Constraints/CrossedPart.h"
 #include "Distributed/TriangleExchange.h"

@@ -2,7 +2,6 @@
 #include "Distributed/PointExchange.h"
 
 #include "Parallel/ParallelFor.h"
-#include "Triangulation/PartitionFinder.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/Tiling.h"
 

@@ -3,7 +3,7 @@
 #define tippPointExchange_h
 
 #include "Distributed/Plan.h"
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 #include "Ranks/Archive.h"
 #include "Ranks/Communicator.h"
 #include "Triangulation/PointBuckets.h"

@@ -2,8 +2,7 @@
 #ifndef tippRankRun_h
 #define tippRankRun_h
 
-#include "Distributed/DistributedOptions.h"
-#include "Distributed/DistributedStatistics.h"
+#include "Distributed/DistributedTriangulation.h"
 #include "Distributed/Plan.h"
 #include "Distributed/PointExchange.h"
 #include "Distributed/TriangleExchange.h"

@@ -3,7 +3,7 @@
 
 #include "Kernel/DelaunayKernel.h"
 #include "Predicates/Circumdisk.h"
-#include "Predicates/InCircle.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <numeric>

@@ -2,8 +2,8 @@
 #include "OutOfCore/FinishPieces.h"
 
 #include "Files/IOError.h"
+#include "OutOfCore/BorderTriangles.h"
 #include "OutOfCore/ScratchFiles.h"
-#include "OutOfCore/TakeBorders.h"
 #include "Partitioned/GrowingPiece.h"
 #include "Partitioned/NeighborIds.h"
 #include "Partitioned/PieceFile.h"

@@ -3,7 +3,6 @@
 
 #include "Files/IOError.h"
 #include "OutOfCore/InputPasses.h"
-#include "OutOfCore/PieceMessages.h"
 #include "OutOfCore/PieceRun.h"
 #include "OutOfCore/RunSetup.h"
 #include "OutOfCore/ScratchFiles.h"

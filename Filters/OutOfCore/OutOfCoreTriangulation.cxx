@@ -9,8 +9,6 @@
 #include "OutOfCore/PieceRun.h"
 #include "OutOfCore/RunSetup.h"
 #include "OutOfCore/ScratchFiles.h"
-#include "OutOfCore/ScratchFolder.h"
-#include "OutOfCore/TriangleTaker.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 

@@ -2,8 +2,8 @@
 #include "OutOfCore/PiecePlan.h"
 
 #include "Files/IOError.h"
+#include "OutOfCore/InputPasses.h"
 #include "OutOfCore/ScratchFiles.h"
-#include "OutOfCore/SpillPoints.h"
 #include "Triangulation/InitialMesh.h"
 #include "Triangulation/Tiling.h"
 

@@ -5,10 +5,10 @@
 #include "Constraints/CrossedPart.h"
 #include "Duplicates/ResolveDuplicates.h"
 #include "Engine/Routing.h"
+#include "OutOfCore/InputPasses.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/ScratchFiles.h"
-#include "OutOfCore/SpillPoints.h"
-#include "OutOfCore/TriangleTaker.h"
 #include "Partitioned/PieceBorder.h"
 
 #include <array>

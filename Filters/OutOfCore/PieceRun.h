@@ -3,8 +3,8 @@
 #define tippPieceRun_h
 
 #include "Engine/ReadyPartitions.h"
+#include "OutOfCore/BorderTriangles.h"
 #include "OutOfCore/LoadedPiece.h"
-#include "OutOfCore/TakeBorders.h"
 #include "Ranks/Communicator.h"
 
 #include <condition_variable>

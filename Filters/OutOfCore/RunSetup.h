@@ -2,14 +2,13 @@
 #ifndef tippRunSetup_h
 #define tippRunSetup_h
 
+#include "OutOfCore/InputPasses.h"
 #include "OutOfCore/InputSurvey.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceResult.h"
-#include "OutOfCore/SpillPoints.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Points/PointTable.h"
-#include "Points/RankColumn.h"
 
 #include <cstdint>
 #include <memory>

@@ -3,7 +3,7 @@
 
 #include "Kernel/Lanes.h"
 #include "Parallel/ParallelFor.h"
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Adcirc/FlattenAdcirc.h"
 
 #include "Adcirc/AdcircGrid.h"
 #include "Files/IOError.h"

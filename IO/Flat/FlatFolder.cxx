@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Flat/FlatFolder.h"
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"

@@ -6,7 +6,6 @@
 #include "Parallel/Poll.h"
 #include "Partitioned/PieceWriter.h"
 #include "Partitioning/PartitionMesh.h"
-#include "Partitioning/SpilledPieceWriter.h"
 
 #include <algorithm>
 #include <atomic>

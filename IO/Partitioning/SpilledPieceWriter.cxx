@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioning/SpilledPieceWriter.h"
+#include "Partitioning/PartitionJob.h"
 
 #include "Parallel/Poll.h"
 #include "Partitioning/MeshTiling.h"

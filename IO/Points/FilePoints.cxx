@@ -6,7 +6,6 @@
 #include "Files/InputFile.h"
 #include "Las/LasHeader.h"
 #include "Points/ReadPoints.h"
-#include "Points/TextPoints.h"
 
 #include <algorithm>
 #include <charconv>

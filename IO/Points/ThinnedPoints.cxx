@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Points/PointStream.h"
-#include "Points/RankColumn.h"
 
 #include "Files/IOError.h"
 #include "Files/TemporaryFiles.h"

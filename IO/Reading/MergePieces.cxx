@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Reading/MergePieces.h"
+#include "Reading/PieceSource.h"
 
 #include "Loading/ArrayFiles.h"
 #include "Parallel/Poll.h"

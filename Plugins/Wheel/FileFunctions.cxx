@@ -12,9 +12,7 @@
 #include "Points/PointStream.h"
 #include "Points/ReadPoints.h"
 #include "Ranks/Communicator.h"
-#include "Reading/MergePieces.h"
 #include "Reading/PieceSource.h"
-#include "Reading/RangeFilter.h"
 #include "Vtk/VtkFiles.h"
 
 #include <nanobind/stl/array.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A sink of final triangles: adds up their areas instead of writing a mesh.
 #include "OutOfCore/OutOfCoreTriangulation.h"
-#include "OutOfCore/TriangleTaker.h"
 #include "Points/PointStream.h"
 
 #include "TemporaryFolder.h"

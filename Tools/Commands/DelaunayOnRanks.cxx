@@ -7,7 +7,6 @@
 #include "Console/ProgressBar.h"
 #include "Console/Signals.h"
 #include "Constraints/ConstrainedPoints.h"
-#include "Distributed/ConstrainRanks.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"

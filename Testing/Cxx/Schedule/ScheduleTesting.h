@@ -4,7 +4,7 @@
 
 #include "Comparison.h"
 
-#include "Predicates/InCircle.h"
+#include "Predicates/ExactPredicates.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/PointSurvey.h"

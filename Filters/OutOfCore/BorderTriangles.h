@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippTakeBorders_h
-#define tippTakeBorders_h
+#ifndef tippBorderTriangles_h
+#define tippBorderTriangles_h
 
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceResult.h"

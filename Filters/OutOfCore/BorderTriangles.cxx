@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OutOfCore/TakeBorders.h"
+#include "OutOfCore/BorderTriangles.h"
 
 #include "Files/OutputFile.h"
 

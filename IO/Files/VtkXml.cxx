@@ -1,13 +1,217 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Vtk/XmlDataCheck.h"
+#include "Files/VtkXml.h"
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <charconv>
+#include <cstdint>
 #include <functional>
 #include <string>
 
 namespace tipp
 {
+namespace
+{
+
+void appendUtf8(std::uint32_t code, std::string& to)
+{
+  if (code < 0x80)
+  {
+    to += char(code);
+    return;
+  }
+  const int more = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+  constexpr std::array<std::uint32_t, 4> first = { 0, 0xC0, 0xE0, 0xF0 };
+  to += char(first[std::size_t(more)] | code >> (6 * more));
+  for (int shift = 6 * (more - 1); shift >= 0; shift -= 6)
+  {
+    to += char(0x80 | (code >> shift & 0x3F));
+  }
+}
+
+/// Appends the character that a reference at the text's start denotes, and returns the reference's
+/// length; 0 if there is none. Supports character numbers and XML's five predefined names.
+std::size_t takeReference(std::string_view text, std::string& to)
+{
+  constexpr std::array<std::pair<std::string_view, char>, 5> entities = { {
+    { "&amp;", '&' },
+    { "&lt;", '<' },
+    { "&gt;", '>' },
+    { "&quot;", '"' },
+    { "&apos;", '\'' },
+  } };
+  for (const auto& [entity, value] : entities)
+  {
+    if (text.substr(0, entity.size()) == entity)
+    {
+      to += value;
+      return entity.size();
+    }
+  }
+  const bool hex = text.substr(0, 3) == "&#x";
+  const std::size_t end = text.find(';');
+  if (text.substr(0, 2) != "&#" || end == std::string_view::npos)
+  {
+    return 0;
+  }
+  std::uint32_t code = 0;
+  const auto [stop, error] =
+    std::from_chars(text.data() + (hex ? 3 : 2), text.data() + end, code, hex ? 16 : 10);
+  if (error != std::errc() || stop != text.data() + end || code == 0 || code > 0x10FFFF)
+  {
+    return 0;
+  }
+  appendUtf8(code, to);
+  return end + 1;
+}
+
+/// Replaces references; anything else is copied.
+std::string decode(std::string_view text)
+{
+  std::string decoded;
+  while (!text.empty())
+  {
+    std::size_t taken = text.front() == '&' ? takeReference(text, decoded) : 0;
+    if (taken == 0)
+    {
+      decoded += text.front();
+      taken = 1;
+    }
+    text.remove_prefix(taken);
+  }
+  return decoded;
+}
+
+} // namespace
+
+const std::string* XmlScanner::Tag::find(std::string_view name) const
+{
+  for (const auto& [key, value] : this->Attributes)
+  {
+    if (key == name)
+    {
+      return &value;
+    }
+  }
+  return nullptr;
+}
+
+bool XmlScanner::fail()
+{
+  this->Failed = true;
+  return false;
+}
+
+bool XmlScanner::skipPast(std::string_view end)
+{
+  const std::size_t found = this->Text.find(end, this->At);
+  if (found == std::string_view::npos)
+  {
+    return this->fail();
+  }
+  this->At = found + end.size();
+  return true;
+}
+
+void XmlScanner::skipBlanks()
+{
+  while (this->At < this->Text.size() &&
+    std::isspace(static_cast<unsigned char>(this->Text[this->At])) != 0)
+  {
+    ++this->At;
+  }
+}
+
+std::string XmlScanner::takeName()
+{
+  const std::size_t end =
+    std::min(this->Text.find_first_of(" \t\r\n=/><\"'", this->At), this->Text.size());
+  std::string name(this->Text.substr(this->At, end - this->At));
+  this->At = end;
+  return name;
+}
+
+bool XmlScanner::takeAttribute(Tag& tag)
+{
+  std::string name = this->takeName();
+  this->skipBlanks();
+  if (name.empty() || this->Text.substr(this->At, 1) != "=")
+  {
+    return this->fail();
+  }
+  ++this->At;
+  this->skipBlanks();
+  const std::string_view quote = this->Text.substr(this->At, 1);
+  const std::size_t end =
+    quote == "\"" || quote == "'" ? this->Text.find(quote, this->At + 1) : std::string_view::npos;
+  if (end == std::string_view::npos || tag.find(name))
+  {
+    return this->fail();
+  }
+  tag.Attributes.emplace_back(
+    std::move(name), decode(this->Text.substr(this->At + 1, end - this->At - 1)));
+  this->At = end + 1;
+  return true;
+}
+
+bool XmlScanner::next(Tag& tag)
+{
+  if (this->Failed)
+  {
+    return false;
+  }
+  for (;;)
+  {
+    this->At = std::min(this->Text.find('<', this->At), this->Text.size());
+    const std::string_view rest = this->Text.substr(this->At);
+    const bool comment = rest.substr(0, 4) == "<!--";
+    if (!comment && rest.substr(0, 2) != "<?")
+    {
+      break;
+    }
+    if (!this->skipPast(comment ? "-->" : "?>"))
+    {
+      return false;
+    }
+  }
+  if (this->At == this->Text.size())
+  {
+    return false;
+  }
+  ++this->At;
+  tag = Tag();
+  if (this->Text.substr(this->At, 1) == "/")
+  {
+    ++this->At;
+    tag.What = Tag::Close;
+  }
+  tag.Name = this->takeName();
+  if (tag.Name.empty())
+  {
+    return this->fail();
+  }
+  for (this->skipBlanks(); this->At < this->Text.size(); this->skipBlanks())
+  {
+    if (this->Text[this->At] == '>')
+    {
+      ++this->At;
+      return true;
+    }
+    if (tag.What == Tag::Open && this->Text.substr(this->At, 2) == "/>")
+    {
+      tag.What = Tag::Empty;
+      this->At += 2;
+      return true;
+    }
+    if (tag.What == Tag::Close || !this->takeAttribute(tag))
+    {
+      return this->fail();
+    }
+  }
+  return this->fail();
+}
+
 namespace
 {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippOrientation_h
-#define tippOrientation_h
+#ifndef tippExactPredicates_h
+#define tippExactPredicates_h
 
-#include "Predicates/Point2.h"
-#include "Predicates/Point3.h"
+#include "Predicates/Points.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
 #include <cmath>
@@ -97,6 +96,93 @@ inline bool crossProperly(Point2 a, Point2 b, Point2 c, Point2 d)
 /// The crossing point of ab and cd, which must cross properly. Each coordinate is rounded to the
 /// nearest double, ties to even; so the point lies in the bounding boxes of both.
 VTKTIPPACCELERATORS_EXPORT Point2 crossingPoint(Point2 a, Point2 b, Point2 c, Point2 d);
+
+/// The in-circle determinant in doubles, and the sum of its three lifts, which bounds its error.
+struct InCircleValue
+{
+  double determinant;
+  double lifts;
+};
+
+inline InCircleValue inCircleValue(Point2 a, Point2 b, Point2 c, Point2 p)
+{
+  const double ax = a.x - p.x;
+  const double ay = a.y - p.y;
+  const double bx = b.x - p.x;
+  const double by = b.y - p.y;
+  const double cx = c.x - p.x;
+  const double cy = c.y - p.y;
+  const double aLift = ax * ax + ay * ay;
+  const double bLift = bx * bx + by * by;
+  const double cLift = cx * cx + cy * cy;
+  const double determinant =
+    aLift * (bx * cy - cx * by) + bLift * (cx * ay - ax * cy) + cLift * (ax * by - bx * ay);
+  return { determinant, aLift + bLift + cLift };
+}
+
+/// An upper bound of the determinant's error for any coordinates; infinite or NaN after overflow.
+//
+// Shewchuk 1997, section 4.4: |error| <= (10 + 96 e) e P, e = 2^-53, P the permanent, where P sums
+// lift(a) (|bx cy| + |cx by|) and its like. By Cauchy-Schwarz |bx cy| + |cx by| <= |b| |c|
+// <= (lift b + lift c) / 2, so P <= ab + bc + ca in lifts <= S^2 / 3 for their sum S. The third of
+// 10 e is 3.3334 e; 3.4 e leaves 2 % for the rounding of S and of this product.
+//
+// Underflow: lifts and crosses are off by at most u = 2^-1074, the determinant by at most 2 u S + 2
+// u. For S > 1 the spare 0.06 e S^2 is more; otherwise, and where S^2 underflows, 1e-300 is.
+//
+// Overflow: every partial sum of the determinant is at most S^2 / 3, so S * S is infinite first.
+inline double inCircleErrorBound(double lifts)
+{
+  constexpr double relative = 3.4 * 0x1p-53;
+  constexpr double absolute = 1e-300;
+  return relative * (lifts * lifts) + absolute;
+}
+
+/// As inCircle(), but directly in exact arithmetic: for callers whose own filter has failed.
+VTKTIPPACCELERATORS_EXPORT int inCircleExact(Point2 a, Point2 b, Point2 c, Point2 p);
+
+/// The position of p relative to the circle through a, b, c, which must turn counter-clockwise.
+/// Exact for all finite coordinates: +1 strictly inside, 0 on the circle, -1 outside.
+inline int inCircle(Point2 a, Point2 b, Point2 c, Point2 p)
+{
+  const InCircleValue value = inCircleValue(a, b, c, p);
+  const double bound = inCircleErrorBound(value.lifts);
+  if (value.determinant > bound)
+  {
+    return 1;
+  }
+  if (-value.determinant > bound)
+  {
+    return -1;
+  }
+  return inCircleExact(a, b, c, p);
+}
+
+/// The tie rule alone: whether p counts as inside if it lies on the circle of a, b, c.
+//
+// Devillers and Teillaud, Perturbations for Delaunay and weighted Delaunay 3D triangulations, 2011:
+// lift the lexicographically largest of the four points by the largest infinitesimal. Then p is
+// outside if it is that point; otherwise the sign is that of the triangle with p in its place.
+// Three distinct points of a circle are not collinear, so one step decides. A p equal to a corner
+// is outside.
+inline bool tieIsInside(Point2 a, Point2 b, Point2 c, Point2 p)
+{
+  const Point2 ab = lexicographicLess(a, b) ? b : a;
+  const Point2 largest = lexicographicLess(ab, c) ? c : ab;
+  if (!lexicographicLess(p, largest))
+  {
+    return false;
+  }
+  return orientation(largest == a ? p : a, largest == b ? p : b, largest == c ? p : c) > 0;
+}
+
+/// Exact in-circle test with ties broken by coordinates alone, as CGAL's Delaunay_triangulation_2
+/// does: it makes the triangulation of a point set unique.
+inline bool inCirclePerturbed(Point2 a, Point2 b, Point2 c, Point2 p)
+{
+  const int side = inCircle(a, b, c, p);
+  return side > 0 || (side == 0 && tieIsInside(a, b, c, p));
+}
 
 } // namespace tipp
 
