@@ -2,6 +2,7 @@
 #ifndef tippClaims_h
 #define tippClaims_h
 
+#include "Arrays/Random.h"
 #include "Parallel/ParallelFor.h"
 #include "Predicates/Points.h"
 #include "Resample/Lattice.h"
@@ -26,15 +27,6 @@ using CellKey = std::uint64_t;
 
 constexpr CellKey noCellKey = ~CellKey(0);
 
-inline std::uint64_t scramble(std::uint64_t x)
-{
-  // The finaliser of SplitMix64: Steele, Lea, Flood, Fast Splittable Pseudorandom Number
-  // Generators, 2014.
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
 /// The key of a cell with rank 0; its corners may come in any order.
 template <int Corners>
 CellKey cellKey(const Point3 (&corners)[Corners])
@@ -56,7 +48,7 @@ CellKey cellKey(const Point3 (&corners)[Corners])
       const double value = coordinate + 0.0; // -0 becomes 0
       std::uint64_t bits;
       std::memcpy(&bits, &value, sizeof bits);
-      hash = scramble(hash + 0x9e3779b97f4a7c15u + bits);
+      hash = mixBits(hash + bits);
     }
   }
   return hash >> 4;

@@ -128,7 +128,7 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   {
     return figures;
   }
-  figures.DisagreeingPlaces =
+  figures.DisagreeingPositions =
     resolveDuplicates(points, triangulation.Duplicates, request.Duplicates);
   const std::vector<double> xyz = takeXYZ(points, settings.Bands);
   TerrainPoints terrain;

@@ -95,7 +95,7 @@ DemFigures makeWithin(PointStream& points, const DemRequest& request, std::uint6
   options.MaximumEdge = request.MaximumEdge;
   options.Duplicates = request.Duplicates;
   options.CountOnly = true;
-  options.Taker = &sink;
+  options.Consumer = &sink;
   options.Progress = progress;
   const OutOfCoreStatistics statistics =
     triangulateOutOfCore(points, folder.Path + "/dem", options);
@@ -103,7 +103,7 @@ DemFigures makeWithin(PointStream& points, const DemRequest& request, std::uint6
   figures.Points = statistics.Points;
   figures.Triangles = statistics.Triangles;
   figures.Duplicates = statistics.Duplicates;
-  figures.DisagreeingPlaces = statistics.DisagreeingPlaces;
+  figures.DisagreeingPositions = statistics.DisagreeingPositions;
   figures.Rejected = statistics.Rejected;
   figures.Aborted = statistics.Aborted;
   return figures;

@@ -81,8 +81,8 @@ private:
 
   void loadPositions()
   {
-    const auto& owned = this->Mine.Owned.Places;
-    const auto& foreign = this->Mine.Foreign.Places;
+    const auto& owned = this->Mine.Owned.Positions;
+    const auto& foreign = this->Mine.Foreign.Positions;
     this->Positions.assign(owned.begin(), owned.end());
     this->Positions.insert(this->Positions.end(), foreign.begin(), foreign.end());
   }

@@ -389,9 +389,9 @@ private:
     const Plan plan = planAlone(bounds);
     const PointExchange exchange(this->Input, plan.Leaves, this->Threads);
     OwnedPoints<std::int64_t> points = exchange.exchange<std::int64_t>(this->Ranks, plan.Owners);
-    const Point2* places = points.Places.data();
+    const Point2* positions = points.Positions.data();
     std::vector<Duplicate> duplicates =
-      sortOutDuplicates(PointsView(points.size() > 0 ? &places->x : nullptr, points.size(), 2));
+      sortOutDuplicates(PointsView(points.size() > 0 ? &positions->x : nullptr, points.size(), 2));
     collect(this->Ranks, points, {}, std::vector<std::size_t>(1, 0), std::move(duplicates),
       plan.Leaves, this->Threads, this->Result);
   }
@@ -400,9 +400,10 @@ private:
   {
     if (factor != 1)
     {
-      for (Buffer<Point2>* places : { &this->Result.Owned.Places, &this->Result.Foreign.Places })
+      for (Buffer<Point2>* positions :
+        { &this->Result.Owned.Positions, &this->Result.Foreign.Positions })
       {
-        std::transform(places->begin(), places->end(), places->begin(),
+        std::transform(positions->begin(), positions->end(), positions->begin(),
           [factor](Point2 p) {
             return Point2{ p.x / factor, p.y / factor };
           });

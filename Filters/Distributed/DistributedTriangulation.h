@@ -78,10 +78,10 @@ DistributedStatistics gatherStatistics(
 /// Points with their global ids and data; the arrays have the same order.
 struct PointTuples
 {
-  Buffer<Point2> Places;
+  Buffer<Point2> Positions;
   Buffer<PointId> GlobalIds;
   Buffer<char> Rows; ///< as RankPoints::PackRow wrote them
-  std::size_t size() const { return this->Places.size(); }
+  std::size_t size() const { return this->Positions.size(); }
 };
 
 /// A rank's part of a triangulation. Corners are local indices: of Owned, the rank's own points,

@@ -98,9 +98,9 @@ struct Area
   PartitionIndex Inner = 0;           ///< the number of partitions
   PartitionIndex FirstLeaf = 0;       ///< index of its first partition among the leaves
   std::vector<std::int32_t> Children; ///< by partition: its area; empty: partitions are leaves
-  std::vector<std::vector<std::int32_t>> Homes; ///< groups of ranks
-  std::vector<std::int32_t> HomeOf;             ///< by partition: the index of its group in Homes
-  std::int32_t Lead = 0;                        ///< the master's rank
+  std::vector<std::vector<std::int32_t>> RankGroups; ///< groups of ranks
+  std::vector<std::int32_t> GroupOf; ///< by partition: the index of its group in RankGroups
+  std::int32_t Lead = 0;             ///< the master's rank
 
   bool hasLeaves() const { return this->Children.empty(); }
 };
@@ -117,21 +117,11 @@ struct VTKTIPPFILTERS_EXPORT Plan
   std::vector<std::int32_t> masters() const;
 };
 
-inline void serialize(SaveArchive& archive, Tiling& tiling)
-{
-  archive(tiling.save());
-}
-
-inline void serialize(LoadArchive& archive, Tiling& tiling)
-{
-  tiling = Tiling::load(archive.get<std::vector<char>>());
-}
-
 template <typename Archive>
 void serialize(Archive& archive, Area& area)
 {
-  archive(
-    area.Boxes, area.Inner, area.FirstLeaf, area.Children, area.Homes, area.HomeOf, area.Lead);
+  archive(area.Boxes, area.Inner, area.FirstLeaf, area.Children, area.RankGroups, area.GroupOf,
+    area.Lead);
 }
 
 template <typename Archive>

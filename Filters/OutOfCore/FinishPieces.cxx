@@ -76,7 +76,7 @@ public:
     {
       this->constrain(threads);
     }
-    if (work.Taker) // which goes without constraints
+    if (work.Consumer) // which goes without constraints
     {
       takeTriangles(work, "hull", this->Late, this->results());
     }
@@ -97,7 +97,7 @@ public:
     this->forEachBorder(
       piece, [&](const BorderTriangles& triangles) { this->addTriangles(triangles, border); });
     FinishedPiece finished;
-    if (this->Work.Taker)
+    if (this->Work.Consumer)
     {
       finished.Summary = this->Work.Mesh.Pieces[number];
       finished.Summary.Cells =

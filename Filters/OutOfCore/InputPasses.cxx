@@ -123,9 +123,9 @@ void writeRow(const PointBlock& block, std::size_t i, char* to)
   std::memcpy(to, &id, 8);
 }
 
-std::vector<std::vector<std::uint64_t>> rowsOf(const std::vector<SpilledPart>& parts)
+std::vector<SpilledRows> rowsOf(const std::vector<SpilledPart>& parts)
 {
-  std::vector<std::vector<std::uint64_t>> rows;
+  std::vector<SpilledRows> rows;
   rows.reserve(parts.size());
   for (const SpilledPart& part : parts)
   {
@@ -196,26 +196,13 @@ SpilledPoints::SpilledPoints(const std::vector<SpilledPart>& parts, const InputS
 
 void SpilledPoints::save(SaveArchive& archive) const
 {
-  archive(this->Starts);
-  archive(this->Rows.save());
+  archive(this->Starts, this->Rows.content());
 }
 
 SpilledPoints::SpilledPoints(
   const std::string& file, const PiecePlan& plan, const PointRowLayout& rows, LoadArchive& archive)
-  : Starts(
-      [&]
-      {
-        std::vector<std::int64_t> starts;
-        archive(starts);
-        return starts;
-      }())
-  , Rows(file, std::size_t(plan.pieces()), 8 * rows.Words,
-      [&]
-      {
-        std::vector<std::uint64_t> saved;
-        archive(saved);
-        return saved;
-      }())
+  : Starts(archive.get<std::vector<std::int64_t>>())
+  , Rows(file, std::size_t(plan.pieces()), 8 * rows.Words, archive.get<SpilledRows>())
 {
   bool isOurs = this->Starts.size() == std::size_t(plan.pieces()) + 1 && this->Starts[0] == 0;
   for (PartitionIndex piece = 0; isOurs && piece < plan.pieces(); ++piece)
@@ -395,14 +382,14 @@ bool InputHelper::take(const Message& message)
   {
     this->open(order);
   }
-  SaveArchive answer; // empty: the first rank is to do it
+  Bytes answer; // empty: the first rank is to do it
   if (this->Points)
   {
     answer = message.Kind == SurveyMessage ? this->survey()
       : message.Kind == FactorMessage      ? this->factor(order)
                                            : this->spill(order);
   }
-  this->Ranks.post(0, PartMessage, answer.take());
+  this->Ranks.post(0, PartMessage, std::move(answer));
   return true;
 }
 
@@ -412,10 +399,7 @@ void InputHelper::open(LoadArchive& order)
   std::int64_t total = 0;
   std::uint64_t block = 0;
   std::uint64_t sample = 0;
-  order(identity);
-  order(total);
-  order(block);
-  order(sample);
+  order(identity, total, block, sample);
   this->Options.BlockPoints = std::size_t(block);
   this->Options.SamplePoints = std::size_t(sample);
   try
@@ -434,37 +418,26 @@ void InputHelper::open(LoadArchive& order)
   }
 }
 
-SaveArchive InputHelper::survey()
+Bytes InputHelper::survey()
 {
-  PartialSurvey part = surveyPart(*this->Points, this->Options.BlockPoints,
-    this->Options.SamplePoints, this->Options.Threads, this->Options.Progress);
-  SaveArchive answer;
-  answer(part);
-  return answer;
+  return packed(surveyPart(*this->Points, this->Options.BlockPoints, this->Options.SamplePoints,
+    this->Options.Threads, this->Options.Progress));
 }
 
-SaveArchive InputHelper::factor(LoadArchive& order)
+Bytes InputHelper::factor(LoadArchive& order)
 {
-  Box2 bounds{};
-  order(bounds);
-  double factor = factorOfPart(*this->Points, this->Options.BlockPoints, bounds);
-  SaveArchive answer;
-  answer(factor);
-  return answer;
+  return packed(factorOfPart(*this->Points, this->Options.BlockPoints, order.get<Box2>()));
 }
 
-SaveArchive InputHelper::spill(LoadArchive& order)
+Bytes InputHelper::spill(LoadArchive& order)
 {
   std::string file;
   double factor = 1;
   PointRowLayout rows;
   order(file, factor, rows.Words);
   const PiecePlan plan(order);
-  SpilledPart part = spillPart(*this->Points, factor, plan, rows, file, this->Ranks.rank(),
-    this->Options.BlockPoints, this->Options.Threads, this->Options.Progress);
-  SaveArchive answer;
-  answer(part);
-  return answer;
+  return packed(spillPart(*this->Points, factor, plan, rows, file, this->Ranks.rank(),
+    this->Options.BlockPoints, this->Options.Threads, this->Options.Progress));
 }
 
 } // namespace tipp

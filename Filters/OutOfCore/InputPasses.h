@@ -26,7 +26,7 @@ class LoadArchive;
 struct SpilledPart
 {
   std::int64_t Points = 0;
-  std::vector<std::uint64_t> Rows;    ///< of Spill::close()
+  SpilledRows Rows;                   ///< of Spill::close()
   std::vector<std::int64_t> Counts;   ///< of finite points, of each piece
   std::vector<std::int64_t> InPieces; ///< indices of the part's initial points in their pieces
 };
@@ -121,9 +121,9 @@ public:
 
 private:
   void open(LoadArchive& order);
-  SaveArchive survey();
-  SaveArchive factor(LoadArchive& order);
-  SaveArchive spill(LoadArchive& order);
+  Bytes survey();
+  Bytes factor(LoadArchive& order);
+  Bytes spill(LoadArchive& order);
 
   Communicator& Ranks;
   const std::function<std::unique_ptr<PointStream>()> Open;

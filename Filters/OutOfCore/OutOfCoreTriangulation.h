@@ -20,10 +20,10 @@ namespace tipp
 
 /// Receives the final triangles of a triangulation out of core, instead of a mesh on disk. What it
 /// keeps must survive the process if the run is to be resumed.
-class TriangleTaker
+class TriangleConsumer
 {
 public:
-  virtual ~TriangleTaker() = default;
+  virtual ~TriangleConsumer() = default;
 
   /// Equal for takers that do the same in another run.
   virtual std::string identity() const = 0;
@@ -47,7 +47,7 @@ public:
 };
 
 class Communicator;
-class TriangleTaker;
+class TriangleConsumer;
 
 struct OutOfCoreOptions
 {
@@ -70,7 +70,7 @@ struct OutOfCoreOptions
   /// Counts and sums up the triangles instead of writing them.
   bool CountOnly = false;
   /// Takes the triangles instead of the mesh; with it CountOnly is to be set.
-  TriangleTaker* Taker = nullptr;
+  TriangleConsumer* Consumer = nullptr;
   /// Called after the first pass over the points, unless the run is resumed: segments between
   /// points of the stream that have to be edges, none crossing another. Null: there are none. They
   /// stay in memory, as part of the limit.
@@ -90,14 +90,14 @@ struct OutOfCoreOptions
 struct PieceFigures
 {
   std::int64_t Duplicates = 0;
-  std::int64_t DisagreeingPlaces = 0; ///< positions whose points differ in elevation
-  std::int64_t WorkerVertices = 0;    ///< that workers triangulated
-  std::uint64_t BoundaryBytes = 0;    ///< of vertices that were sent to partitions of other pieces
+  std::int64_t DisagreeingPositions = 0; ///< positions whose points differ in elevation
+  std::int64_t WorkerVertices = 0;       ///< that workers triangulated
+  std::uint64_t BoundaryBytes = 0; ///< of vertices that were sent to partitions of other pieces
 
   void add(const PieceFigures& other)
   {
     this->Duplicates += other.Duplicates;
-    this->DisagreeingPlaces += other.DisagreeingPlaces;
+    this->DisagreeingPositions += other.DisagreeingPositions;
     this->WorkerVertices += other.WorkerVertices;
     this->BoundaryBytes += other.BoundaryBytes;
   }

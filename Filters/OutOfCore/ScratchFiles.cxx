@@ -101,7 +101,7 @@ SectionFileWriter::SectionFileWriter(const std::string& path)
 {
 }
 
-void SectionFileWriter::add(SectionKey key, const SaveArchive& content)
+void SectionFileWriter::add(SectionKey key, const Bytes& content)
 {
   this->Table.push_back(
     { key, this->End, content.size(), checksumOf(content.data(), content.size()) });

@@ -16,21 +16,6 @@
 namespace tipp
 {
 
-template <typename Archive>
-void serialize(Archive& archive, LentGroup& group)
-{
-  archive(group.To, group.Count);
-}
-
-/// What is known of a finished piece before it is published.
-template <typename Archive>
-void serialize(Archive& archive, FinishedPiece& piece)
-{
-  PieceTable& table = piece.Table;
-  archive(piece.Summary, table.Offsets, table.PointGroups, table.CellGroups, table.Checksums,
-    table.HeaderBytes, table.HeaderChecksum, piece.TriangleSum);
-}
-
 /// Saves what save() shows to an archive, with a checksum, and replaces the file `path` in one
 /// step; keeps little of it in memory. Returns the file's size in bytes. Throws IOError.
 VTKTIPPFILTERS_EXPORT std::uint64_t writeCheckedFile(
@@ -68,7 +53,7 @@ public:
   /// Throws IOError, as all methods do.
   explicit SectionFileWriter(const std::string& path);
 
-  void add(SectionKey key, const SaveArchive& content);
+  void add(SectionKey key, const Bytes& content);
   /// Returns how many bytes the file has.
   std::uint64_t finish();
 

@@ -46,6 +46,7 @@ struct BoundaryVertex
   Point2 Position;
   std::int64_t Id;          ///< the input point's id; negative for artificial points
   PartitionIndex Partition; ///< the partition that contains it
+  std::int32_t Padding = 0; ///< so that all bytes of a message are defined
 
   bool isArtificial() const { return this->Id < 0; }
 };

@@ -145,38 +145,6 @@ Tiling Tiling::refined(const std::vector<Tiling>& inner) const
   return tiling;
 }
 
-std::vector<char> Tiling::save() const
-{
-  SaveArchive writer;
-  writer(this->Domain);
-  writer(std::uint64_t(MaximumDepth)); // not used; it is part of the format
-  writer(std::uint64_t(this->Nodes.size()));
-  writer(std::uint64_t(this->Boxes.size()));
-  writer.raw(this->Nodes.data(), this->Nodes.size() * sizeof(Node));
-  writer.raw(this->Boxes.data(), this->Boxes.size() * sizeof(Box2));
-  return { writer.data(), writer.data() + writer.size() };
-}
-
-Tiling Tiling::load(const std::vector<char>& bytes)
-{
-  LoadArchive reader(bytes.data(), bytes.size());
-  Tiling tiling;
-  tiling.Domain = reader.get<Box2>();
-  reader.get<std::uint64_t>();
-  const auto nodes = reader.get<std::uint64_t>();
-  const auto boxes = reader.get<std::uint64_t>();
-  const auto read = [&reader](auto& items, std::uint64_t count)
-  {
-    const std::size_t size = sizeof(items[0]);
-    const char* const from = reader.raw(count > reader.left() / size ? SIZE_MAX : count * size);
-    items.resize(count);
-    std::copy_n(from, count * size, reinterpret_cast<char*>(items.data()));
-  };
-  read(tiling.Nodes, nodes);
-  read(tiling.Boxes, boxes);
-  return tiling;
-}
-
 namespace
 {
 

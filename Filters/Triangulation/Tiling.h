@@ -62,11 +62,11 @@ public:
   /// Replaces each box by the boxes of a tiling of it; `inner` is indexed by box.
   Tiling refined(const std::vector<Tiling>& inner) const;
 
-  ///@{
-  /// Serialisation, for messages.
-  std::vector<char> save() const;
-  static Tiling load(const std::vector<char>& bytes);
-  ///@}
+  template <typename Archive>
+  friend void serialize(Archive& archive, Tiling& tiling)
+  {
+    archive(tiling.Domain, tiling.Nodes, tiling.Boxes);
+  }
 
   PartitionIndex size() const { return static_cast<PartitionIndex>(this->Boxes.size()); }
   const Box2& box(PartitionIndex i) const { return this->Boxes[static_cast<std::size_t>(i)]; }

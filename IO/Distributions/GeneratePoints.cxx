@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributions/GeneratePoints.h"
 
-#include "Distributions/Random.h"
+#include "Arrays/Random.h"
 
 #include <algorithm>
 #include <array>

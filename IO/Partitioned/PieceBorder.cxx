@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/PieceBorder.h"
 
+#include "Arrays/Random.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -11,17 +13,10 @@ namespace tipp
 
 std::uint64_t hashTriangle(std::int64_t a, std::int64_t b, std::int64_t c)
 {
-  const auto mix = [](std::uint64_t x) // the finaliser of splitmix64
-  {
-    x += 0x9e3779b97f4a7c15U;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-    return x ^ (x >> 31);
-  };
   // A sum over directed edges is independent of which corner comes first.
-  const auto edge = [&](std::int64_t from, std::int64_t to)
-  { return mix(mix(std::uint64_t(from)) + std::uint64_t(to)); };
-  return mix(edge(a, b) + edge(b, c) + edge(c, a));
+  const auto edge = [](std::int64_t from, std::int64_t to)
+  { return mixBits(mixBits(std::uint64_t(from)) + std::uint64_t(to)); };
+  return mixBits(edge(a, b) + edge(b, c) + edge(c, a));
 }
 
 std::uint64_t sumTriangles(
@@ -244,9 +239,9 @@ void OrderedBorder::uniteSets()
 }
 
 template <typename Item>
-std::vector<LentGroup> OrderedBorder::groupsOf(const std::vector<Item>& items) const
+std::vector<SharedGroup> OrderedBorder::groupsOf(const std::vector<Item>& items) const
 {
-  std::vector<LentGroup> groups;
+  std::vector<SharedGroup> groups;
   for (std::size_t i = 0; i < items.size(); ++i)
   {
     if (i == 0 || items[i].Group != items[i - 1].Group)

@@ -34,6 +34,12 @@ struct PointRowLayout
   }
 };
 
+template <typename Archive>
+void serialize(Archive& archive, PointRowLayout& layout)
+{
+  archive(layout.Words, layout.Z, layout.Attributes);
+}
+
 /// A range of triangles: three row indices each.
 struct TriangleRange
 {
@@ -72,7 +78,7 @@ public:
   /// for each set its index among the groups, or -1.
   struct Grouping
   {
-    std::vector<LentGroup> Groups;
+    std::vector<SharedGroup> Groups;
     std::vector<int> IndexOf;
   };
   Grouping groups(const std::vector<int>& setOf) const;
@@ -115,23 +121,16 @@ struct VTKTIPPIO_EXPORT PieceInterior
   {
     return this->InterfaceRows.data() + this->interfacePosition(point) * layout.Words;
   }
-
-  /// Serialises all but the own points' indices: archive() saves or restores numbers and vectors of
-  /// them.
-  template <typename Archive>
-  void exchange(Archive& archive)
-  {
-    archive(this->Room);
-    archive(this->Points);
-    archive(this->Cells);
-    archive(this->TriangleSum);
-    archive(this->Extent);
-    archive(this->Checksums);
-    archive(this->InterfacePoints);
-    archive(this->InterfaceRows);
-    archive(this->InterfaceTriangles);
-  }
 };
+
+/// All but the own points' indices.
+template <typename Archive>
+void serialize(Archive& archive, PieceInterior& interior)
+{
+  archive(interior.Room, interior.Points, interior.Cells, interior.TriangleSum, interior.Extent,
+    interior.Checksums, interior.InterfacePoints, interior.InterfaceRows,
+    interior.InterfaceTriangles);
+}
 
 /// The triangles that a piece owns at its border, and the other pieces' points that they use
 /// (ghosts).
@@ -206,14 +205,14 @@ public:
 
   std::vector<Point> Points;
   std::vector<Cell> Cells;
-  std::vector<LentGroup> PointGroups;
-  std::vector<LentGroup> CellGroups;
+  std::vector<SharedGroup> PointGroups;
+  std::vector<SharedGroup> CellGroups;
 
 private:
   std::size_t index(std::int64_t point) const;
   void uniteSets();
   template <typename Item>
-  std::vector<LentGroup> groupsOf(const std::vector<Item>& items) const;
+  std::vector<SharedGroup> groupsOf(const std::vector<Item>& items) const;
   void orderPoints();
   void addCell(int set, std::array<std::int32_t, 3> corners);
   void addCells();

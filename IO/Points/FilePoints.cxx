@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Points/FilePoints.h"
 
-#include "Distributions/Random.h"
+#include "Arrays/Random.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Las/LasHeader.h"

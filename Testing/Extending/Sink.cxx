@@ -14,7 +14,7 @@ namespace
 
 using namespace tipp;
 
-class AreaSum : public TriangleTaker
+class AreaSum : public TriangleConsumer
 {
 public:
   double Area = 0;
@@ -59,7 +59,7 @@ TEST(ExtendingSink, TakesEachTriangleOnce)
   AreaSum sum;
   OutOfCoreOptions options;
   options.CountOnly = true; // no mesh is written
-  options.Taker = &sum;
+  options.Consumer = &sum;
   const auto points = openPointStream({ square });
   const OutOfCoreStatistics made = triangulateOutOfCore(*points, folder.path("work.tipp"), options);
   EXPECT_EQ(4, made.Triangles);

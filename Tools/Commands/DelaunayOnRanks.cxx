@@ -130,7 +130,7 @@ void writeOnFirst(Communicator& ranks, const DelaunayArguments& arguments, Delau
   {
     appendPoints(constraints.Added, points);
   }
-  run.DisagreeingPlaces = resolveDuplicates(points, all.Duplicates, arguments.Duplicates);
+  run.DisagreeingPositions = resolveDuplicates(points, all.Duplicates, arguments.Duplicates);
   if (!writeResult(arguments, points, all, before))
   {
     throw RankFailure(0, true, "interrupted");
