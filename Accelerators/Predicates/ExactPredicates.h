@@ -51,15 +51,9 @@ inline int orientation3(const Point3& a, const Point3& b, const Point3& c, const
   // (7 + 56 e) e, e = 2^-53: Shewchuk, Adaptive Precision Floating-Point Arithmetic, 1997,
   // section 4.3.
   constexpr double relative = 7.7715611723761e-16;
-  const double ax = a.x - d.x;
-  const double ay = a.y - d.y;
-  const double az = a.z - d.z;
-  const double bx = b.x - d.x;
-  const double by = b.y - d.y;
-  const double bz = b.z - d.z;
-  const double cx = c.x - d.x;
-  const double cy = c.y - d.y;
-  const double cz = c.z - d.z;
+  const auto [ax, ay, az] = a - d;
+  const auto [bx, by, bz] = b - d;
+  const auto [cx, cy, cz] = c - d;
   const double minus =
     az * (bx * cy - cx * by) + bz * (cx * ay - ax * cy) + cz * (ax * by - bx * ay);
   const double heights = std::fabs(az) + std::fabs(bz) + std::fabs(cz);
@@ -106,12 +100,9 @@ struct InCircleValue
 
 inline InCircleValue inCircleValue(Point2 a, Point2 b, Point2 c, Point2 p)
 {
-  const double ax = a.x - p.x;
-  const double ay = a.y - p.y;
-  const double bx = b.x - p.x;
-  const double by = b.y - p.y;
-  const double cx = c.x - p.x;
-  const double cy = c.y - p.y;
+  const auto [ax, ay] = a - p;
+  const auto [bx, by] = b - p;
+  const auto [cx, cy] = c - p;
   const double aLift = ax * ax + ay * ay;
   const double bLift = bx * bx + by * by;
   const double cLift = cx * cx + cy * cy;

@@ -19,6 +19,11 @@ inline bool operator==(Point2 a, Point2 b)
   return a.x == b.x && a.y == b.y;
 }
 
+inline Point2 operator-(Point2 a, Point2 b)
+{
+  return { a.x - b.x, a.y - b.y };
+}
+
 inline bool isFinite(Point2 p)
 {
   return std::isfinite(p.x) && std::isfinite(p.y);
@@ -49,6 +54,11 @@ struct Point3
 inline bool operator==(Point3 a, Point3 b)
 {
   return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+inline Point3 operator-(const Point3& a, const Point3& b)
+{
+  return { a.x - b.x, a.y - b.y, a.z - b.z };
 }
 
 inline bool lexicographicLess(Point3 a, Point3 b)

@@ -78,6 +78,39 @@ private:
   std::size_t Most = 1 << 16;
 };
 
+/// What the walks that find the cells of samples have in common: counts, and the touches of
+/// samples. `Walk::isClaimed(sample)` tells whether a cell has claimed a sample.
+template <typename Walk>
+class TouchingWalk
+{
+public:
+  void visit(std::int64_t samples)
+  {
+    ++this->Statistics.VisitedCells;
+    this->Statistics.Tests += samples;
+  }
+  void addExactTests(std::int64_t count) { this->Statistics.ExactTests += count; }
+
+  /// The touches of samples that no cell has claimed.
+  const std::vector<Touch>& openTouches()
+  {
+    this->Touches.dropClaimed(this->claimed());
+    return this->Touches.touches();
+  }
+
+  ClaimStatistics Statistics;
+  std::int64_t Claimed = 0;
+
+protected:
+  auto claimed() const
+  {
+    return [walk = static_cast<const Walk*>(this)](std::int64_t sample)
+    { return walk->isClaimed(sample); };
+  }
+
+  TouchList Touches;
+};
+
 /// The moveRank() of a cell at a sample that it touches.
 template <typename Access>
 int borderRank(

@@ -34,7 +34,7 @@ void forZeros(const unsigned char* bytes, std::int64_t begin, std::int64_t end, 
 
 /// What a thread fills of the samples.
 template <typename Access>
-class FillingWalk
+class FillingWalk : public TouchingWalk<FillingWalk<Access>>
 {
 public:
   FillingWalk(const SimplexMesh& mesh, const LatticeAxes& axes,
@@ -44,12 +44,6 @@ public:
     , Weighs(needsWeights(attributes, options))
     , Block(mesh, axes)
   {
-  }
-
-  void visit(std::int64_t samples)
-  {
-    ++this->Statistics.VisitedCells;
-    this->Statistics.Tests += samples;
   }
 
   [[gnu::always_inline]] void claim(const SampleRow& row, int begin, int count, std::int32_t cell)
@@ -67,16 +61,13 @@ public:
 
   void touch(const SampleRow& row, int begin, int count, std::int32_t cell)
   {
-    this->Touches.add(
-      row, begin, count, cell, [this](std::int64_t sample) { return this->isClaimed(sample); });
+    this->Touches.add(row, begin, count, cell, this->claimed());
   }
-
-  void addExactTests(std::int64_t count) { this->Statistics.ExactTests += count; }
 
   void endChunk()
   {
     this->flush();
-    this->Touches.tidy([this](std::int64_t sample) { return this->isClaimed(sample); });
+    this->Touches.tidy(this->claimed());
   }
 
   [[gnu::noinline]] void flush()
@@ -94,26 +85,16 @@ public:
     this->Block.clear();
   }
 
-  const std::vector<Touch>& openTouches()
-  {
-    this->Touches.dropClaimed([this](std::int64_t sample) { return this->isClaimed(sample); });
-    return this->Touches.touches();
-  }
-
-  ClaimStatistics Statistics;
-  std::int64_t Claimed = 0;
-
-private:
   bool isClaimed(std::int64_t sample) const
   {
     return __atomic_load_n(this->Options.Valid + sample, __ATOMIC_RELAXED) != 0;
   }
 
+private:
   const std::vector<Attribute>& Attributes;
   const InterpolationOptions& Options;
   bool Weighs;
   SampleBlock<Access> Block;
-  TouchList Touches;
 };
 
 /// One run for a mesh of known types.

@@ -99,14 +99,8 @@ DemFigures makeWithin(PointStream& points, const DemRequest& request, std::uint6
   options.Progress = progress;
   const OutOfCoreStatistics statistics =
     triangulateOutOfCore(points, folder.Path + "/dem", options);
-  DemFigures figures;
-  figures.Points = statistics.Points;
-  figures.Triangles = statistics.Triangles;
-  figures.Duplicates = statistics.Duplicates;
-  figures.DisagreeingPositions = statistics.DisagreeingPositions;
-  figures.Rejected = statistics.Rejected;
-  figures.Aborted = statistics.Aborted;
-  return figures;
+  return { statistics.Points, statistics.Triangles, statistics.Duplicates,
+    statistics.DisagreeingPositions, statistics.Rejected, statistics.Aborted };
 }
 
 } // namespace

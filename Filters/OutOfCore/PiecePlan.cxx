@@ -15,17 +15,6 @@ namespace tipp
 namespace
 {
 
-std::vector<Point2> positionsOf(const std::vector<SampledPoint>& sample)
-{
-  std::vector<Point2> positions;
-  positions.reserve(sample.size());
-  for (const SampledPoint& p : sample)
-  {
-    positions.push_back(p.Position);
-  }
-  return positions;
-}
-
 int countFor(double points, std::int64_t each, std::size_t sampled)
 {
   const double wanted = std::max(1.0, points / double(each));

@@ -2,6 +2,7 @@
 #include "OutOfCore/RunSetup.h"
 
 #include "Files/IOError.h"
+#include "Files/TextFile.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "Partitioned/NeighborIds.h"
 
@@ -156,18 +157,12 @@ void RunSetup::requireMemory(const std::string& path, std::uint64_t limit) const
 
 std::string identityOf(const PointStream& input, const OutOfCoreOptions& options)
 {
-  const auto exact = [](double value)
-  {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.17g", value);
-    return std::string(text);
-  };
   return "TIPP out of core 11\n" + input.identity() + std::to_string(options.Columns) + "x" +
     std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
     std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
     (options.Neighbors ? " linked" : "") + (options.MarkConstraints ? " marked" : "") +
     (options.CountOnly ? " counted" : "") +
-    (options.MaximumEdge > 0 ? " edges " + exact(options.MaximumEdge) : "") +
+    (options.MaximumEdge > 0 ? " edges " + exactText(options.MaximumEdge) : "") +
     (options.Duplicates != DuplicateRule::First
         ? " duplicates " + std::to_string(int(options.Duplicates))
         : "") +

@@ -34,17 +34,6 @@ std::uint32_t PartitionSets::number(const PartitionIndex* first, const Partition
   return this->Last;
 }
 
-std::vector<Point2> positionsOf(const std::vector<BoundaryVertex>& vertices)
-{
-  std::vector<Point2> positions;
-  positions.reserve(vertices.size());
-  for (const BoundaryVertex& v : vertices)
-  {
-    positions.push_back(v.Position);
-  }
-  return positions;
-}
-
 void BoundaryTriangles::appendTriangles(const BoundaryTriangles& others)
 {
   std::vector<std::uint32_t> numbers;

@@ -53,7 +53,18 @@ struct BoundaryVertex
 
 using BoundaryTriangle = std::array<BoundaryVertex, 3>;
 
-std::vector<Point2> positionsOf(const std::vector<BoundaryVertex>& vertices);
+/// The positions of vertices, or of other points that have one.
+template <typename Vertex>
+std::vector<Point2> positionsOf(const std::vector<Vertex>& vertices)
+{
+  std::vector<Point2> positions;
+  positions.reserve(vertices.size());
+  for (const Vertex& v : vertices)
+  {
+    positions.push_back(v.Position);
+  }
+  return positions;
+}
 
 /// Triangles, and for each the partitions that its circumdisk meets. The sets are shared to save
 /// memory: for co-circular points there are as many triangles as points, and each meets all

@@ -393,4 +393,21 @@ bool XmlDataCheck::areWhole(const InputFile& file, std::uint64_t begin, bool isE
   return true;
 }
 
+std::string escapedXml(const std::string& text)
+{
+  std::string out;
+  for (const char c : text)
+  {
+    if (c == '&' || c == '<' || c == '>' || c == '"' || static_cast<unsigned char>(c) < 0x20)
+    {
+      out += "&#" + std::to_string(int(static_cast<unsigned char>(c))) + ";";
+    }
+    else
+    {
+      out += c;
+    }
+  }
+  return out;
+}
+
 } // namespace tipp

@@ -84,6 +84,9 @@ private:
   bool isWholeEncoded(const InputFile& file, std::uint64_t begin, std::uint64_t end) const;
 };
 
+/// The text as it stands in an XML file: special and control characters as numbers.
+std::string escapedXml(const std::string& text);
+
 } // namespace tipp
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/VtkXml.h"
 #include "Partitioned/Checksum.h"
 
 #include <limits>
@@ -252,30 +253,13 @@ std::string startOf(const std::string& type)
   return text.replace(text.find("%TYPE"), 5, type);
 }
 
-std::string escaped(const std::string& text)
-{
-  std::string out;
-  for (const char c : text)
-  {
-    if (c == '&' || c == '<' || c == '>' || c == '"' || static_cast<unsigned char>(c) < 0x20)
-    {
-      out += "&#" + std::to_string(int(static_cast<unsigned char>(c))) + ";";
-    }
-    else
-    {
-      out += c;
-    }
-  }
-  return out;
-}
-
 /// The attributes that describe an array both in a piece and in the .pvtu.
 std::string describe(const PieceArray& array)
 {
   // VTK's connectivity has one component.
   const int components = array.Role == PieceRole::Connectivity ? 1 : array.Components;
   std::string text = std::string(" type=\"") + scalarName(array.Type) + "\" Name=\"" +
-    escaped(array.Name) + "\" NumberOfComponents=\"" + std::to_string(components) + "\"";
+    escapedXml(array.Name) + "\" NumberOfComponents=\"" + std::to_string(components) + "\"";
   // VTK accepts global ids only in arrays of vtkIdType.
   const bool ids = array.Role == PieceRole::PointIds || array.Role == PieceRole::CellIds;
   return ids ? text + " IdType=\"1\"" : text;

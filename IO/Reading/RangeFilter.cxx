@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Reading/PieceSource.h"
 
 #include "Parallel/Poll.h"
 #include "Predicates/CellBox.h"
-#include "Reading/PieceSource.h"
 
 #include <algorithm>
 #include <array>
