@@ -79,8 +79,6 @@ private:
   struct Finals;
 
   void prepare(Workspace& space);
-  std::vector<BoundaryVertex> uniqueVertices(
-    Workspace& space, const std::vector<VertexMessage>& inbox);
   void take(Finals& finals, const SentMessages& sent);
   void take(const std::vector<Duplicate>& duplicates);
   bool owns(const BoundaryVertex& v) const;

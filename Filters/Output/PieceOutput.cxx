@@ -100,7 +100,6 @@ PointRows::PointRows(Communicator& ranks, vtkPointSet* input)
     agreed.HasPoints = true;
   }
   agreed = ranks.broadcast(agreed);
-  this->GivenIds = agreed.HasIds;
   this->Doubles = agreed.HasDoubles;
   this->Columns = agreed.Columns;
   if (!hasPoints)
@@ -113,7 +112,7 @@ PointRows::PointRows(Communicator& ranks, vtkPointSet* input)
     this->Arrays.push_back(input->GetPointData()->GetArray(column.Name.c_str()));
     this->Values.push_back(static_cast<const char*>(this->Arrays.back()->GetVoidPointer(0)));
   }
-  if (this->GivenIds)
+  if (agreed.HasIds)
   {
     vtkNew<vtkIdTypeArray> exact; // a double would round ids beyond 2^53
     exact->DeepCopy(ids);

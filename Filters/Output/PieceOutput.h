@@ -35,7 +35,6 @@ public:
   };
 
   const std::vector<Column>& columns() const { return this->Columns; }
-  bool hasGlobalIds() const { return this->GivenIds; }
   bool areDoubles() const { return this->Doubles; }
 
   /// Sets the ids and rows of `points`, which refer to this object and are valid while it exists.
@@ -47,7 +46,6 @@ private:
   std::vector<const char*> Values;
   vtkSmartPointer<vtkDataArray> Coordinates;
   std::vector<PointId> GlobalIds;
-  bool GivenIds = false;
   bool Doubles = false;
 };
 

@@ -286,11 +286,6 @@ std::vector<double> generatePoints(
     });
 }
 
-std::string distributionName(Distribution distribution)
-{
-  return table[std::size_t(distribution)].Name;
-}
-
 std::optional<Distribution> distributionFromName(std::string_view name)
 {
   for (const Named& entry : table)
