@@ -125,12 +125,9 @@ void writeRow(const PointBlock& block, std::size_t i, char* to)
 
 std::vector<SpilledRows> rowsOf(const std::vector<SpilledPart>& parts)
 {
-  std::vector<SpilledRows> rows;
-  rows.reserve(parts.size());
-  for (const SpilledPart& part : parts)
-  {
-    rows.push_back(part.Rows);
-  }
+  std::vector<SpilledRows> rows(parts.size());
+  std::transform(parts.begin(), parts.end(), rows.begin(),
+    [](const SpilledPart& part) { return part.Rows; });
   return rows;
 }
 

@@ -2,7 +2,7 @@
 #include "OutOfCore/PieceResult.h"
 
 #include "OutOfCore/ScratchFiles.h"
-#include "Predicates/CellBox.h"
+#include "Predicates/ExactPredicates.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>

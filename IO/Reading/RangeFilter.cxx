@@ -2,7 +2,7 @@
 #include "Reading/PieceSource.h"
 
 #include "Parallel/Poll.h"
-#include "Predicates/CellBox.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Predicates/CellBox.h"
 #include "Predicates/ExactPredicates.h"
 
 #include "DegenerateCells.h"
