@@ -5,8 +5,8 @@
 #include "Distributed/DistributedTriangulation.h"
 #include "Distributed/TriangleExchange.h"
 #include "Output/FilterPipeline.h"
-#include "Output/PieceOutput.h"
 #include "Output/RunStatistics.h"
+#include "Output/TriangleOutput.h"
 #include "Projection/ProjectedPoints.h"
 #include "Vtk/ReadDataSet.h"
 

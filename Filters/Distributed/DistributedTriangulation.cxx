@@ -8,6 +8,7 @@
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/PointSurvey.h"
+#include "Triangulation/PointsView.h"
 #include "Triangulation/Worker.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "Distributed/Plan.h"
 
 #include "Engine/PartitionOrder.h"
-#include "Triangulation/InitialMesh.h"
+#include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/RankRun.h"
 
-#include "Distributed/SharedInitialMesh.h"
 #include "Parallel/Stopwatch.h"
-#include "Triangulation/InitialMesh.h"
+#include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OutOfCore/BorderTriangles.h"
+#include "OutOfCore/FinishPieces.h"
 
 #include "Files/OutputFile.h"
 

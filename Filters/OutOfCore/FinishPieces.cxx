@@ -2,7 +2,6 @@
 #include "OutOfCore/FinishPieces.h"
 
 #include "Files/IOError.h"
-#include "OutOfCore/BorderTriangles.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "Partitioned/GrowingPiece.h"
 #include "Partitioned/NeighborIds.h"

@@ -3,7 +3,7 @@
 #define tippInputPasses_h
 
 #include "OutOfCore/InputSurvey.h"
-#include "OutOfCore/OutOfCoreRanks.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 #include "OutOfCore/PiecePlan.h"
 #include "Partitioned/PieceBorder.h"
 #include "Partitioning/Spill.h"

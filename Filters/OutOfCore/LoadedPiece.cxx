@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OutOfCore/LoadedPiece.h"
+#include "OutOfCore/PieceRun.h"
 
 #include "Partitioned/GrowingPiece.h"
 #include "Triangulation/PointSurvey.h"
+#include "Triangulation/PointsView.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>

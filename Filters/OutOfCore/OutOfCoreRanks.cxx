@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OutOfCore/OutOfCoreRanks.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 
 #include "Files/IOError.h"
 #include "OutOfCore/InputPasses.h"

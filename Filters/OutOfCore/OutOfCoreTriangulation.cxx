@@ -5,7 +5,6 @@
 #include "Files/OutputFile.h"
 #include "OutOfCore/FinishPieces.h"
 #include "OutOfCore/InputPasses.h"
-#include "OutOfCore/OutOfCoreRanks.h"
 #include "OutOfCore/PieceRun.h"
 #include "OutOfCore/RunSetup.h"
 #include "OutOfCore/ScratchFiles.h"

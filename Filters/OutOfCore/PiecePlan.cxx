@@ -4,7 +4,7 @@
 #include "Files/IOError.h"
 #include "OutOfCore/InputPasses.h"
 #include "OutOfCore/ScratchFiles.h"
-#include "Triangulation/InitialMesh.h"
+#include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/PieceRun.h"
 
-#include "OutOfCore/OutOfCoreRanks.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Partitioned/GrowingPiece.h"
 
 #include <algorithm>

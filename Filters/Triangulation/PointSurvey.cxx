@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation/PointSurvey.h"
+#include "Triangulation/PointsView.h"
 
 #include "Kernel/Lanes.h"
 #include "Parallel/ParallelFor.h"

@@ -4,7 +4,6 @@
 #include "Files/IOError.h"
 #include "Files/OutputPath.h"
 #include "Flat/FlatMesh.h"
-#include "OutOfCore/OutOfCoreRanks.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Output/RunStatistics.h"
 #include "Parallel/Poll.h"

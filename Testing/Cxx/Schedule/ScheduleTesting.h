@@ -8,6 +8,7 @@
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/PointSurvey.h"
+#include "Triangulation/PointsView.h"
 
 #include <map>
 #include <string>
