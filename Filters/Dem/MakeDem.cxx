@@ -2,6 +2,7 @@
 #include "Dem/MakeDem.h"
 
 #include "Parallel/ParallelFor.h"
+#include "Resample/SimplexMesh.h"
 
 #include <algorithm>
 #include <atomic>
