@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -98,24 +99,41 @@ private:
     /// The children that meet a box, a bit each.
     unsigned met(const float (&low)[D], const float (&high)[D]) const
     {
-      int hits[Width];
-      for (int i = 0; i < Width; ++i)
-      {
-        hits[i] = (this->Low[0][i] <= high[0]) & (this->High[0][i] >= low[0]);
-      }
-      for (int axis = 1; axis < D; ++axis)
-      {
-        for (int i = 0; i < Width; ++i)
-        {
-          hits[i] &= (this->Low[axis][i] <= high[axis]) & (this->High[axis][i] >= low[axis]);
-        }
-      }
       unsigned bits = 0;
-      for (int i = 0; i < Width; ++i)
+      for (int part = 0; part < Width; part += 4)
       {
-        bits |= unsigned(hits[i]) << i;
+        Ints hits = this->four(this->Low[0], part) <= high[0];
+        hits &= this->four(this->High[0], part) >= low[0];
+        for (int axis = 1; axis < D; ++axis)
+        {
+          hits &= this->four(this->Low[axis], part) <= high[axis];
+          hits &= this->four(this->High[axis], part) >= low[axis];
+        }
+        bits |= signsOf(hits) << part;
       }
       return bits;
+    }
+
+  private:
+    using Floats = float __attribute__((vector_size(16)));
+    using Ints = std::int32_t __attribute__((vector_size(16)));
+
+    static Floats four(const float (&values)[Width], int part)
+    {
+      Floats result;
+      std::memcpy(&result, values + part, sizeof result);
+      return result;
+    }
+
+    static unsigned signsOf(const Ints& mask)
+    {
+#ifdef __SSE__
+      Floats bits;
+      std::memcpy(&bits, &mask, sizeof bits);
+      return unsigned(__builtin_ia32_movmskps(bits));
+#else
+      return (mask[0] & 1u) | (mask[1] & 2u) | (mask[2] & 4u) | (mask[3] & 8u);
+#endif
     }
   };
 

@@ -20,10 +20,20 @@ namespace
 
 bool contains(const Point2 (&corners)[3], Point2 p)
 {
-  const int turn = orientation(corners[0], corners[1], corners[2]);
-  return turn != 0 && turn * orientation(corners[0], corners[1], p) >= 0 &&
-    turn * orientation(corners[1], corners[2], p) >= 0 &&
-    turn * orientation(corners[2], corners[0], p) >= 0;
+  const int first = orientation(corners[0], corners[1], p);
+  const int second = orientation(corners[1], corners[2], p);
+  if (first * second < 0)
+  {
+    return false;
+  }
+  const int third = orientation(corners[2], corners[0], p);
+  const int sum = first + second + third;
+  if (sum == 3 || sum == -3)
+  {
+    return true;
+  }
+  return first * third >= 0 && second * third >= 0 &&
+    orientation(corners[0], corners[1], corners[2]) != 0;
 }
 
 bool contains(const Point3 (&corners)[4], const Point3& p)
@@ -133,8 +143,13 @@ CellLocation weighed(const Access& access, std::int64_t cell, const Point& point
   access.corners(cell, corners);
   int order[D + 1];
   std::iota(order, order + D + 1, 0);
-  std::sort(
-    order, order + D + 1, [&](int a, int b) { return lexicographicLess(corners[a], corners[b]); });
+  for (int i = 1; i <= D; ++i)
+  {
+    for (int k = i; k > 0 && lexicographicLess(corners[order[k]], corners[order[k - 1]]); --k)
+    {
+      std::swap(order[k], order[k - 1]);
+    }
+  }
   const auto first = arrayOf(corners[order[0]]);
   double edges[D][D];
   double offset[D];

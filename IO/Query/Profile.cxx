@@ -227,7 +227,8 @@ std::vector<std::vector<Crossing>> crossingsOf(const ResidentMesh& mesh,
         withAccess(part.Mesh,
           [&](const auto& access)
           {
-            for (std::int64_t cell = 0; cell < part.OwnedCells; ++cell)
+            // A cell that another piece owns may cross the segment in this box alone.
+            for (std::int64_t cell = 0; cell < part.Mesh.Cells; ++cell)
             {
               part.Mesh.Hidden&& part.Mesh.Hidden[cell] ? void() : crossings.addCell(access, cell);
             }

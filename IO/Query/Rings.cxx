@@ -3,6 +3,7 @@
 #include "Query/ForPieces.h"
 
 #include <algorithm>
+#include <iterator>
 #include <mutex>
 #include <tuple>
 #include <utility>
@@ -69,35 +70,105 @@ struct Reached
   }
 };
 
-/// Grows rings around many seeds at once, step by step, each step piece by piece.
+/// Walks around one seed within one piece.
+class LocalRing
+{
+public:
+  explicit LocalRing(const ResidentPiece& piece)
+    : Part(*piece.Part)
+    , Topology(*piece.Topology)
+  {
+  }
+
+  /// Visits the cells at the first points, at those that these reach, and so on, k times. False if
+  /// that leads to a point of another piece. `first` and the result are indices, ascending.
+  bool grow(const std::vector<std::int64_t>& first, int k, bool wantsCells)
+  {
+    this->Points = first;
+    this->Cells.clear();
+    this->Front = first;
+    for (int step = 0; step < k; ++step)
+    {
+      this->Next.clear();
+      for (const std::int64_t point : this->Front)
+      {
+        if (!owns(this->Part, point))
+        {
+          return false;
+        }
+        this->visit(point, wantsCells);
+      }
+      sortUnique(this->Next);
+      this->Front.clear();
+      std::set_difference(this->Next.begin(), this->Next.end(), this->Points.begin(),
+        this->Points.end(), std::back_inserter(this->Front));
+      const auto middle = std::ptrdiff_t(this->Points.size());
+      this->Points.insert(this->Points.end(), this->Front.begin(), this->Front.end());
+      std::inplace_merge(this->Points.begin(), this->Points.begin() + middle, this->Points.end());
+    }
+    return true;
+  }
+
+  std::vector<std::int64_t> Points;
+  std::vector<std::int64_t> Cells; ///< with repetitions
+
+private:
+  void visit(std::int64_t point, bool wantsCells)
+  {
+    for (const std::int32_t cell : this->Topology.cellsAt(point))
+    {
+      wantsCells ? this->Cells.push_back(cell) : void();
+      for (int i = 0; i < this->Topology.corners(); ++i)
+      {
+        this->Next.push_back(this->Topology.corner(cell, i));
+      }
+    }
+  }
+
+  const MeshPart& Part;
+  const PartTopology& Topology;
+  std::vector<std::int64_t> Front;
+  std::vector<std::int64_t> Next;
+};
+
+/// The rings around many seeds: each within the piece of its seed, or, where it leaves this, step
+/// by step, each step piece by piece.
 class RingGrowth
 {
 public:
-  RingGrowth(const ResidentMesh& mesh, std::size_t seeds)
+  RingGrowth(const ResidentMesh& mesh, const std::vector<std::int64_t>& seeds, bool ofPoints)
     : Mesh(mesh)
-    , PointLists(seeds)
-    , CellLists(seeds)
+    , Seeds(seeds)
+    , OfPoints(ofPoints)
+    , PointLists(seeds.size())
+    , CellLists(seeds.size())
   {
   }
 
-  /// The corners of each cell are reached.
-  void startAtCells(const std::vector<std::int64_t>& cells)
+  /// What k steps reach, without the seeds.
+  IdLists grown(int k)
   {
-    this->start(cells, false,
-      [](const PartTopology& topology, std::int64_t cell, const auto& reach)
+    this->start(k);
+    for (int step = 0; step < k && !this->Front.empty(); ++step)
+    {
+      this->grow();
+    }
+    std::vector<std::vector<std::int64_t>>& lists =
+      this->OfPoints ? this->PointLists : this->CellLists;
+    forChunks(std::int64_t(lists.size()), 1 << 12, threadCount(this->Mesh.options().Threads), {},
+      [&](std::int64_t begin, std::int64_t end, int)
       {
-        for (int i = 0; i < topology.corners(); ++i)
+        for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
         {
-          reach(topology.corner(cell, i));
+          sortUnique(lists[i]);
+          lists[i].erase(
+            std::remove(lists[i].begin(), lists[i].end(), this->Seeds[i]), lists[i].end());
         }
       });
-  }
-  void startAtPoints(const std::vector<std::int64_t>& points)
-  {
-    this->start(points, true,
-      [](const PartTopology&, std::int64_t point, const auto& reach) { reach(point); });
+    return joined(lists);
   }
 
+private:
   /// Visits the cells at the points that the last step has reached.
   void grow()
   {
@@ -131,37 +202,60 @@ public:
     this->take(std::move(next));
   }
 
-  /// What was reached, without the seeds.
-  IdLists points(const std::vector<std::int64_t>& seeds)
+  void start(int k)
   {
-    return without(seeds, this->PointLists);
-  }
-  IdLists cells(const std::vector<std::int64_t>& seeds) { return without(seeds, this->CellLists); }
-
-private:
-  template <typename Corners>
-  void start(const std::vector<std::int64_t>& ids, bool ofPoints, const Corners& corners)
-  {
-    const PieceGroups groups = groupsOf(this->Mesh, ids, ofPoints);
+    const PieceGroups groups = groupsOf(this->Mesh, this->Seeds, this->OfPoints);
     std::vector<Reached> first;
     forPieces(this->Mesh, groups, topologyNeeded(),
       [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
       {
+        LocalRing ring(piece);
         std::vector<Reached> reached;
+        std::vector<std::int64_t> corners;
         for (std::int64_t i = begin; i < end; ++i)
         {
           const std::int64_t item = groups.Items[std::size_t(i)];
-          corners(*piece.Topology,
-            indexOf(this->Mesh, *piece.Topology, ids[std::size_t(item)], ofPoints),
-            [&](std::int64_t point) {
-              reached.push_back(
-                { item, piece.Part->pointId(point), positionOf(*piece.Part, point) });
-            });
+          const std::int64_t index =
+            indexOf(this->Mesh, *piece.Topology, this->Seeds[std::size_t(item)], this->OfPoints);
+          corners.assign(1, index);
+          if (!this->OfPoints)
+          {
+            corners.clear();
+            for (int corner = 0; corner < piece.Topology->corners(); ++corner)
+            {
+              corners.push_back(piece.Topology->corner(index, corner));
+            }
+            sortUnique(corners);
+          }
+          ring.grow(corners, k, !this->OfPoints) ? this->take(*piece.Part, ring, std::size_t(item))
+                                                 : this->leave(piece, item, corners, reached);
         }
         const std::lock_guard<std::mutex> lock(this->Mutex);
         first.insert(first.end(), reached.begin(), reached.end());
       });
     this->take(std::move(first));
+  }
+
+  void take(const MeshPart& part, const LocalRing& ring, std::size_t item)
+  {
+    for (std::size_t i = 0; i < ring.Points.size() && this->OfPoints; ++i)
+    {
+      this->PointLists[item].push_back(part.pointId(ring.Points[i]));
+    }
+    for (const std::int64_t cell : ring.Cells)
+    {
+      this->CellLists[item].push_back(part.cellId(cell));
+    }
+  }
+
+  /// Leaves a seed to grow().
+  static void leave(const ResidentPiece& piece, std::int64_t item,
+    const std::vector<std::int64_t>& points, std::vector<Reached>& reached)
+  {
+    for (const std::int64_t point : points)
+    {
+      reached.push_back({ item, piece.Part->pointId(point), positionOf(*piece.Part, point) });
+    }
   }
 
   static void visit(const ResidentPiece& piece, const Reached& from, std::vector<Reached>& reached,
@@ -218,18 +312,9 @@ private:
     }
   }
 
-  static IdLists without(
-    const std::vector<std::int64_t>& seeds, std::vector<std::vector<std::int64_t>>& lists)
-  {
-    for (std::size_t i = 0; i < seeds.size(); ++i)
-    {
-      sortUnique(lists[i]);
-      lists[i].erase(std::remove(lists[i].begin(), lists[i].end(), seeds[i]), lists[i].end());
-    }
-    return joined(lists);
-  }
-
   const ResidentMesh& Mesh;
+  const std::vector<std::int64_t>& Seeds;
+  const bool OfPoints;
   std::mutex Mutex;
   std::vector<Reached> Front;
   std::vector<std::vector<std::int64_t>> PointLists; ///< of each seed, ascending
@@ -240,24 +325,12 @@ private:
 
 IdLists ringsOfPoints(const ResidentMesh& mesh, const std::vector<std::int64_t>& points, int k)
 {
-  RingGrowth growth(mesh, points.size());
-  growth.startAtPoints(points);
-  for (int step = 0; step < k; ++step)
-  {
-    growth.grow();
-  }
-  return growth.points(points);
+  return RingGrowth(mesh, points, true).grown(k);
 }
 
 IdLists ringsOfCells(const ResidentMesh& mesh, const std::vector<std::int64_t>& cells, int k)
 {
-  RingGrowth growth(mesh, cells.size());
-  growth.startAtCells(cells);
-  for (int step = 0; step < k; ++step)
-  {
-    growth.grow();
-  }
-  return growth.cells(cells);
+  return RingGrowth(mesh, cells, false).grown(k);
 }
 
 } // namespace tipp

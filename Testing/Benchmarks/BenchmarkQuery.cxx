@@ -13,6 +13,7 @@
 
 #include "vtkContourFilter.h"
 #include "vtkDataArray.h"
+#include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"

@@ -98,6 +98,34 @@ class Query(unittest.TestCase):
             np.testing.assert_array_equal(labels, 0)
             np.testing.assert_array_equal(sizes, [len(triangles)])
 
+    def test_the_filter_takes_the_place_of_vtk_probe_filter(self):
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkFiltersCore import vtkProbeFilter
+
+        cloud = tipp.delaunay_2d(self.asked, point_data={"own": np.arange(len(self.asked), dtype=np.float64)})
+        for source in ({"FileName": self.path}, {"SourceData": self.mesh}):
+            query = tipp.vtkPartitionedMeshQuery()
+            query.SetInputData(cloud)
+            for name, value in source.items():
+                getattr(query, "Set" + name)(value)
+            query.SetPassPointArrays(True)
+            query.Update()
+            probe = vtkProbeFilter()
+            probe.SetInputData(cloud)
+            probe.SetSourceData(self.mesh)
+            probe.Update()
+            ours, theirs = query.GetOutput().GetPointData(), probe.GetOutput().GetPointData()
+            self.assertEqual(query.GetOutput().GetNumberOfCells(), cloud.GetNumberOfCells())
+            self.assertIsNotNone(ours.GetArray("own"))
+            mask = vtk_to_numpy(ours.GetArray("vtkValidPointMask"))
+            same = mask == vtk_to_numpy(theirs.GetArray("vtkValidPointMask"))
+            self.assertGreater(same.mean(), 0.99)  # vtkProbeFilter has a tolerance
+            np.testing.assert_allclose(vtk_to_numpy(ours.GetArray("height"))[same],
+                                       vtk_to_numpy(theirs.GetArray("height"))[same], atol=1e-6)
+            cells = vtk_to_numpy(ours.GetArray("CellId"))
+            np.testing.assert_array_equal(cells >= 0, mask != 0)
+            self.assertEqual(np.abs(vtk_to_numpy(ours.GetArray("height"))[mask == 0]).max(), 0)
+
     def test_errors_are_one_sentence(self):
         with self.assertRaisesRegex(RuntimeError, "nowhere"):
             tipp.open(str(self.folder / "nowhere"))

@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <set>
+#include <utility>
 
 using namespace tipp;
 using namespace tipp::test;
@@ -110,56 +112,80 @@ SourceMesh withHoles(SourceMesh source, std::int64_t every)
   return result;
 }
 
-std::vector<SourceMesh> sources()
+/// A mesh, also stored in several ways, each once for all tests.
+struct Stored
 {
-  return { makeSource(latticeTriangles(9, 0.3)), makeSource(latticeTriangles(8, 0)),
-    withHoles(makeSource(latticeTriangles(10, 0.2)), 4),
-    withHoles(makeSource(latticeTriangles(8, 0)), 2), makeSource(latticeTetrahedra(3, 0.3)),
-    withHoles(makeSource(latticeTetrahedra(3, 0)), 3) };
+  explicit Stored(SourceMesh source)
+    : Source(std::move(source))
+  {
+    const bool inSpace = this->Source.CellSize == 4;
+    store(this->Source, this->path(0), inSpace ? "grid:2x2x2" : "grid:4x4", false);
+    store(this->Source, this->path(1), inSpace ? "octree:20" : "quadtree:10", true);
+    store(this->Source, this->path(2), inSpace ? "grid:1x3x5" : "grid:7x1", false);
+  }
+  std::string path(int number) const
+  {
+    return this->Folder.path("mesh" + std::to_string(number) + ".tipp");
+  }
+
+  SourceMesh Source;
+  TemporaryFolder Folder;
+};
+
+/// Calls work(mesh) for the mesh in memory and stored.
+template <typename Work>
+void withEach(const Stored& stored, const Work& work)
+{
+  work(ResidentMesh(inMemory(stored.Source)));
+  for (int i = 0; i < 3; ++i)
+  {
+    SCOPED_TRACE("stored " + std::to_string(i));
+    ResidentOptions options;
+    options.Threads = 2;
+    work(ResidentMesh(stored.path(i), options));
+  }
 }
 
-/// Calls work(mesh) for the mesh in memory and stored in many ways.
-template <typename Work>
-void withEach(const SourceMesh& source, const Work& work)
+/// With holes, and with parts that touch at points.
+class Around : public testing::Test
 {
+protected:
+  static void SetUpTestSuite()
   {
-    SCOPED_TRACE("in memory");
-    work(ResidentMesh(inMemory(source)));
-  }
-  const bool inSpace = source.CellSize == 4;
-  for (const char* const tiling : { inSpace ? "grid:2x2x2" : "grid:4x4",
-         inSpace ? "octree:20" : "quadtree:10", inSpace ? "grid:1x3x5" : "grid:7x1" })
-  {
-    for (const bool duplicate : { false, true })
+    for (const SourceMesh& source :
+      { makeSource(latticeTriangles(9, 0.3)), withHoles(makeSource(latticeTriangles(10, 0.2)), 4),
+        withHoles(makeSource(latticeTriangles(8, 0)), 2), makeSource(latticeTetrahedra(3, 0.3)),
+        withHoles(makeSource(latticeTetrahedra(3, 0)), 3) })
     {
-      SCOPED_TRACE(tiling);
-      const TemporaryFolder folder;
-      store(source, folder.path("mesh.tipp"), tiling, duplicate);
-      ResidentOptions options;
-      options.Threads = 2;
-      work(ResidentMesh(folder.path("mesh.tipp"), options));
+      Scenes.push_back(std::make_unique<Stored>(source));
     }
   }
-}
+  static void TearDownTestSuite() { Scenes.clear(); }
+
+  static std::vector<std::unique_ptr<Stored>> Scenes;
+};
+std::vector<std::unique_ptr<Stored>> Around::Scenes;
 
 } // namespace
 
-TEST(Around, NeighborsAreThoseThatShareAFace)
+TEST_F(Around, NeighborsAreThoseThatShareAFace)
 {
-  for (const SourceMesh& source : sources())
+  for (const auto& scene : Scenes)
   {
+    const SourceMesh& source = scene->Source;
     const Ids expected = neighborsByForce(source);
-    withEach(source,
+    withEach(*scene,
       [&](const ResidentMesh& mesh)
       { EXPECT_EQ(expected, neighborsOf(mesh, allIds(source.cells()))); });
   }
 }
 
-TEST(Around, StarsAreAllCellsAtAPoint)
+TEST_F(Around, StarsAreAllCellsAtAPoint)
 {
-  for (const SourceMesh& source : sources())
+  for (const auto& scene : Scenes)
   {
-    withEach(source,
+    const SourceMesh& source = scene->Source;
+    withEach(*scene,
       [&](const ResidentMesh& mesh)
       {
         const IdLists stars = starsOf(mesh, allIds(source.points()));
@@ -172,13 +198,14 @@ TEST(Around, StarsAreAllCellsAtAPoint)
   }
 }
 
-TEST(Around, RingsGrowStepByStep)
+TEST_F(Around, RingsGrowStepByStep)
 {
-  for (const SourceMesh& source : sources())
+  for (const auto& scene : Scenes)
   {
+    const SourceMesh& source = scene->Source;
     const Ids points = { 0, 5, 17, 17 };
     const Ids cells = { 1, 6, 20 };
-    withEach(source,
+    withEach(*scene,
       [&](const ResidentMesh& mesh)
       {
         for (const int k : { 0, 1, 3 })
@@ -210,10 +237,11 @@ TEST(Around, RingsGrowStepByStep)
   }
 }
 
-TEST(Around, BoundaryHasEachEdgeWithOneTriangleOnce)
+TEST_F(Around, BoundaryHasEachEdgeWithOneTriangleOnce)
 {
-  for (const SourceMesh& source : sources())
+  for (const auto& scene : Scenes)
   {
+    const SourceMesh& source = scene->Source;
     if (source.CellSize == 4)
     {
       continue;
@@ -229,7 +257,7 @@ TEST(Around, BoundaryHasEachEdgeWithOneTriangleOnce)
     }
     const ResidentMesh whole(inMemory(source));
     const BoundaryLoops expected = boundaryOf(whole);
-    withEach(source,
+    withEach(*scene,
       [&](const ResidentMesh& mesh)
       {
         const BoundaryLoops loops = boundaryOf(mesh);
@@ -270,7 +298,7 @@ TEST(Around, BoundaryHasEachEdgeWithOneTriangleOnce)
   }
 }
 
-TEST(Around, BordersThatTouchAtAPointFollowTheirOwnTriangles)
+TEST_F(Around, BordersThatTouchAtAPointFollowTheirOwnTriangles)
 {
   // Two triangles that share the point 2 alone.
   SourceMesh source;
@@ -278,7 +306,7 @@ TEST(Around, BordersThatTouchAtAPointFollowTheirOwnTriangles)
   source.Cells = { 0, 1, 2, 2, 3, 4 };
   source.Labels = { 0, 0 };
   source.Values.assign(10, 0);
-  withEach(source,
+  withEach(Stored(source),
     [&](const ResidentMesh& mesh)
     {
       const BoundaryLoops loops = boundaryOf(mesh);
@@ -289,10 +317,11 @@ TEST(Around, BordersThatTouchAtAPointFollowTheirOwnTriangles)
     });
 }
 
-TEST(Around, ComponentsAreConnectedByFaces)
+TEST_F(Around, ComponentsAreConnectedByFaces)
 {
-  for (const SourceMesh& source : sources())
+  for (const auto& scene : Scenes)
   {
+    const SourceMesh& source = scene->Source;
     const Ids neighbors = neighborsByForce(source);
     Ids labels(source.cells(), -1);
     Ids sizes;
@@ -322,7 +351,7 @@ TEST(Around, ComponentsAreConnectedByFaces)
         }
       }
     }
-    withEach(source,
+    withEach(*scene,
       [&](const ResidentMesh& mesh)
       {
         const Components components = componentsOf(mesh);
@@ -332,10 +361,9 @@ TEST(Around, ComponentsAreConnectedByFaces)
   }
 }
 
-TEST(Around, RefusesIdsThatTheMeshDoesNotHave)
+TEST_F(Around, RefusesIdsThatTheMeshDoesNotHave)
 {
-  const SourceMesh source = makeSource(latticeTriangles(4, 0.3));
-  withEach(source,
+  withEach(*Scenes[0],
     [&](const ResidentMesh& mesh)
     {
       for (const std::int64_t id : { std::int64_t(-1), std::int64_t(1000) })
