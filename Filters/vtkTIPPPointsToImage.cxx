@@ -5,7 +5,7 @@
 #include "Output/FilterPipeline.h"
 #include "Points/PointStream.h"
 #include "Sampling/RangeResampleRun.h"
-#include "Vtk/VtkFiles.h"
+#include "Vtk/ReadDataSet.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
@@ -271,7 +271,7 @@ void vtkTIPPPointsToImage::Constrain(
   const auto take = [&](const char* file, vtkPolyData* data)
   { return given(file) ? tipp::readConstraintFile(file) : constraintsOf(data); };
   tipp::TableConstraints& constraints = request.Constraints.emplace();
-  constraints.TakesSurface = true;
+  constraints.Surface = request.Duplicates;
   if (hasLines)
   {
     constraints.Lines = take(this->BreaklinesFileName, lines);
@@ -294,6 +294,11 @@ void vtkTIPPPointsToImage::Make(vtkInformationVector** inputs, vtkImageData* out
   vtkPointSet* const points = vtkPointSet::GetData(inputs[0]);
   vtkPolyData* const lines = vtkPolyData::GetData(inputs[1]);
   vtkPolyData* const boundary = vtkPolyData::GetData(inputs[2]);
+  tipp::checkPoints(points, "the input");
+  for (vtkPolyData* const data : { lines, boundary })
+  {
+    data ? tipp::checkCells(data, "the lines", this->NumberOfThreads) : void();
+  }
   if (this->Bands.empty())
   {
     throw std::runtime_error("There is no band: add one, as elevation.");
@@ -311,10 +316,10 @@ void vtkTIPPPointsToImage::Make(vtkInformationVector** inputs, vtkImageData* out
   tipp::Thinning thinning;
   thinning.Cell = this->ThinningSize;
   thinning.Keep = static_cast<tipp::Thinning::Rule>(this->ThinningRule);
-  const auto stream = tipp::streamTable(this->Table(points), thinning);
+  auto stream = tipp::streamTable(this->Table(points), thinning);
   const tipp::DemFigures figures = tipp::makeDem(
-    *stream, request, std::uint64_t(this->MemoryLimit), [&](double done) { return monitor(done); },
-    settings, samples);
+    std::move(stream), request, std::uint64_t(this->MemoryLimit),
+    [&](double done) { return monitor(done); }, settings, samples);
   if (figures.Aborted)
   {
     return;

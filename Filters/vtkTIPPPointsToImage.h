@@ -188,7 +188,7 @@ public:
   ///@{
   /**
    * Bytes that the triangulation may take besides the input and the image; what does not fit goes
-   * to temporary files. 0 (the default): no limit. Breaklines and boundaries need all in memory.
+   * to temporary files. 0 (the default): no limit.
    */
   vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MemoryLimit, vtkTypeInt64);

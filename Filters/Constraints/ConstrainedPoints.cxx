@@ -14,8 +14,6 @@
 
 namespace tipp
 {
-namespace
-{
 
 /// A hash of what the constraints are.
 std::string identityOf(const TableConstraints& constraints)
@@ -46,6 +44,9 @@ std::string identityOf(const TableConstraints& constraints)
   return "constraints " + std::to_string(hash) +
     (constraints.Crossings == CrossingRule::Refuse ? " not crossing\n" : "\n");
 }
+
+namespace
+{
 
 constexpr std::int64_t NotFound = -1;
 
@@ -234,8 +235,6 @@ void ConstrainedPoints::addVertices()
 {
   Matching& first = *this->First;
   const std::vector<std::string> names = this->columns();
-  const auto isHeight = [](const std::string& name)
-  { return name == "z" || name == "Z" || name == "elevation"; };
   this->Added.Columns.assign(names.size(), {});
   first.Values.resize(names.size());
   for (std::vector<double>& values : first.Values)
@@ -262,7 +261,9 @@ void ConstrainedPoints::addVertices()
     this->Added.XY.insert(this->Added.XY.end(), { vertex.Position.x, vertex.Position.y });
     for (std::size_t c = 0; c < names.size(); ++c)
     {
-      first.Values[c][v] = isHeight(names[c]) ? first.Heights[v] : std::nan("");
+      const double given = isHeightColumn(names[c]) ? first.Heights[v] : std::nan("");
+      first.Values[c][v] =
+        std::isnan(given) && !this->Surface.empty() ? this->Surface.at(c).at(v) : given;
       this->Added.Columns[c].push_back(first.Values[c][v]);
     }
   }

@@ -10,14 +10,19 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tipp
 {
 
+/// Differs for other constraints.
+std::string identityOf(const TableConstraints& constraints);
+
 /// The points of a stream and, after them, those of constraints that are not among them, and their
 /// crossings: the points that triangulateTable() triangulates, in the same order and with the same
-/// values. Which they are is found out in the first pass. The constraints stay in memory.
+/// values; those of TableConstraints::Surface must be set. Which they are is found out in the first
+/// pass. The constraints stay in memory.
 class VTKTIPPFILTERS_EXPORT ConstrainedPoints : public PointStream
 {
 public:
@@ -36,6 +41,10 @@ public:
   std::int64_t thinnedOut() const override { return this->Input->thinnedOut(); }
   std::string crs() const override { return this->Input->crs(); }
   std::string identity() const override;
+
+  /// Before the first pass: what points that the input does not have get where no height is given,
+  /// as TableConstraints::Surface tells. For each column the values at the points of both tables.
+  void setSurface(std::vector<std::vector<double>> values) { this->Surface = std::move(values); }
 
   /// After the first pass: the constraints, split where they cross. Gives them away.
   std::vector<ConstraintSegment> takeSegments();
@@ -67,7 +76,8 @@ private:
   const std::string Own; ///< identifies the constraints
   Figures Counts;
   Figures* Report = nullptr;
-  std::unique_ptr<Matching> First; ///< in the first pass
+  std::unique_ptr<Matching> First;          ///< in the first pass
+  std::vector<std::vector<double>> Surface; ///< see setSurface(); perhaps none
   std::vector<ConstraintSegment> Segments;
   std::int64_t InputPoints = 0; ///< of this pass so far
   bool IsInputRead = false;     ///< in this pass

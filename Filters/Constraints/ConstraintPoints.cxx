@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/ConstraintPoints.h"
 
-#include "Constraints/SegmentTree.h"
 #include "Parallel/ParallelFor.h"
-#include "Predicates/ExactPredicates.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -110,19 +108,28 @@ MatchedPositions matchPositions(PointsView points, PointsView others)
   return result;
 }
 
-namespace
+SurfaceTriangle::SurfaceTriangle(const std::array<Point2, 3>& corners)
 {
+  std::sort(this->Order.begin(), this->Order.end(),
+    [&](std::size_t a, std::size_t b) { return lexicographicLess(corners[a], corners[b]); });
+  this->Corners = { corners[this->Order[0]], corners[this->Order[1]], corners[this->Order[2]] };
+}
 
-constexpr std::int64_t NoTriangle = std::numeric_limits<std::int64_t>::max();
+bool SurfaceTriangle::isBefore(const SurfaceTriangle& other) const
+{
+  return std::lexicographical_compare(this->Corners.begin(), this->Corners.end(),
+    other.Corners.begin(), other.Corners.end(),
+    [](Point2 a, Point2 b) { return lexicographicLess(a, b); });
+}
 
-std::array<double, 3> weightsOf(const std::array<Point2, 3>& corners, Point2 p)
+std::array<double, 3> SurfaceTriangle::weightsAt(Point2 p) const
 {
   std::array<double, 3> weights{};
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i)
   {
-    const Point2 a = corners[(i + 1) % 3];
-    const Point2 b = corners[(i + 2) % 3];
+    const Point2 a = this->Corners[(i + 1) % 3];
+    const Point2 b = this->Corners[(i + 2) % 3];
     weights[i] = std::fabs((a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x));
     sum += weights[i];
   }
@@ -133,89 +140,117 @@ std::array<double, 3> weightsOf(const std::array<Point2, 3>& corners, Point2 p)
   return weights;
 }
 
-template <typename Id>
-std::vector<SurfacePosition> locate(
-  PointsView surface, const Buffer<Id>& ids, PointsView all, int threads)
+namespace
 {
-  const std::size_t given = surface.size();
+
+std::vector<SegmentTree::Item> itemsOf(const std::vector<Point2>& positions)
+{
   std::vector<SegmentTree::Item> items;
-  for (std::size_t i = given; i < all.size(); ++i)
+  for (std::size_t i = 0; i < positions.size(); ++i)
   {
-    if (isFinite(all[i]))
+    if (isFinite(positions[i]))
     {
-      items.push_back({ all[i], all[i], std::int64_t(i - given) });
+      items.push_back({ positions[i], positions[i], std::int64_t(i) });
     }
   }
-  const SegmentTree tree(std::move(items));
-  const auto cornersOf = [&](std::int64_t t)
+  return items;
+}
+
+constexpr std::int64_t NoTriangle = -1;
+
+template <typename Id>
+std::array<Point2, 3> cornersOf(PointsView points, const Id* ids, std::int64_t triangle)
+{
+  const Id* const corners = ids + 3 * triangle;
+  return { points[std::size_t(corners[0])], points[std::size_t(corners[1])],
+    points[std::size_t(corners[2])] };
+}
+
+/// The triangle that answers each position, or NoTriangle.
+template <typename Id>
+std::vector<std::int64_t> findAnswers(
+  const std::vector<Point2>& positions, PointsView points, const Buffer<Id>& ids, int threads)
+{
+  const SurfacePositions wanted(positions);
+  const auto choose = [&](std::int64_t triangle, std::int64_t& chosen)
   {
-    const Id* const corners = ids.data() + 3 * t;
-    return std::array<Point2, 3>{ surface[std::size_t(corners[0])],
-      surface[std::size_t(corners[1])], surface[std::size_t(corners[2])] };
+    const bool isFirst = triangle != NoTriangle &&
+      (chosen == NoTriangle ||
+        SurfaceTriangle(cornersOf(points, ids.data(), triangle))
+          .isBefore(SurfaceTriangle(cornersOf(points, ids.data(), chosen))));
+    chosen = isFirst ? triangle : chosen;
   };
-  std::vector<std::vector<std::int64_t>> firstOf(
-    std::size_t(threads), std::vector<std::int64_t>(all.size() - given, NoTriangle));
+  std::vector<std::vector<std::int64_t>> answers(
+    std::size_t(threads), std::vector<std::int64_t>(positions.size(), NoTriangle));
   constexpr std::int64_t chunk = 4096;
   forChunks(std::int64_t(ids.size() / 3), chunk, threads, {},
     [&](std::int64_t begin, std::int64_t end, int thread)
     {
       for (std::int64_t t = begin; t < end; ++t)
       {
-        const std::array<Point2, 3> p = cornersOf(t);
-        const Box2 box{ std::min({ p[0].x, p[1].x, p[2].x }), std::min({ p[0].y, p[1].y, p[2].y }),
-          std::max({ p[0].x, p[1].x, p[2].x }), std::max({ p[0].y, p[1].y, p[2].y }) };
-        tree.visitNear(box,
-          [&](const SegmentTree::Item& item)
-          {
-            std::int64_t& first = firstOf[std::size_t(thread)][std::size_t(item.Id)];
-            if (t < first && orientation(p[0], p[1], item.A) >= 0 &&
-              orientation(p[1], p[2], item.A) >= 0 && orientation(p[2], p[0], item.A) >= 0)
-            {
-              first = t;
-            }
-            return true;
-          });
+        wanted.visitInside(cornersOf(points, ids.data(), t),
+          [&](std::size_t i, Point2) { choose(t, answers[std::size_t(thread)][i]); });
       }
     });
-  std::vector<SurfacePosition> positions(all.size() - given);
   for (std::size_t i = 0; i < positions.size(); ++i)
   {
-    std::int64_t first = NoTriangle;
-    for (const std::vector<std::int64_t>& its : firstOf)
+    for (const std::vector<std::int64_t>& others : answers)
     {
-      first = std::min(first, its[i]);
-    }
-    if (first != NoTriangle)
-    {
-      const Id* const corners = ids.data() + 3 * first;
-      positions[i] = { { PointId(corners[0]), PointId(corners[1]), PointId(corners[2]) },
-        weightsOf(cornersOf(first), all[given + i]) };
+      choose(others[i], answers.front()[i]);
     }
   }
-  return positions;
+  return std::move(answers.front());
+}
+
+template <typename Id>
+std::vector<std::vector<double>> evaluate(const std::vector<Point2>& positions, PointsView points,
+  const Buffer<Id>& ids, const std::vector<const double*>& columns, int threads)
+{
+  const std::vector<std::int64_t> answers = findAnswers(positions, points, ids, threads);
+  std::vector<std::vector<double>> values(
+    columns.size(), std::vector<double>(positions.size(), std::nan("")));
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    if (answers[i] == NoTriangle)
+    {
+      continue;
+    }
+    const SurfaceTriangle triangle(cornersOf(points, ids.data(), answers[i]));
+    for (std::size_t c = 0; c < columns.size(); ++c)
+    {
+      values[c][i] = triangle.valueAt(positions[i],
+        [&](std::size_t corner) { return columns[c][ids[3 * std::size_t(answers[i]) + corner]]; });
+    }
+  }
+  return values;
 }
 
 } // namespace
 
-double SurfacePosition::valueOf(const std::vector<double>& values) const
+SurfacePositions::SurfacePositions(const std::vector<Point2>& positions)
+  : Tree(itemsOf(positions))
 {
-  double sum = 0;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    // A corner without weight may be one without value.
-    if (this->Weights[i] > 0)
-    {
-      sum += this->Weights[i] * values[std::size_t(this->Corners[i])];
-    }
-  }
-  return this->Corners[0] < 0 ? std::nan("") : sum;
 }
 
-std::vector<SurfacePosition> locateOnSurface(
-  PointsView surface, const Triangulation& triangles, PointsView all, int threads)
+bool SurfacePositions::meets(const Box2& box) const
 {
-  return triangles.Ids64.empty() ? locate(surface, triangles.Ids32, all, threadCount(threads))
-                                 : locate(surface, triangles.Ids64, all, threadCount(threads));
+  bool isMet = false;
+  this->Tree.visitNear(box,
+    [&isMet](const SegmentTree::Item&)
+    {
+      isMet = true;
+      return false;
+    });
+  return isMet;
+}
+
+std::vector<std::vector<double>> valuesOnSurface(const std::vector<Point2>& positions,
+  PointsView points, const Triangulation& triangles, const std::vector<const double*>& columns,
+  int threads)
+{
+  return triangles.Ids64.empty()
+    ? evaluate(positions, points, triangles.Ids32, columns, threadCount(threads))
+    : evaluate(positions, points, triangles.Ids64, columns, threadCount(threads));
 }
 
 } // namespace tipp

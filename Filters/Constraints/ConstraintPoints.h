@@ -2,10 +2,13 @@
 #ifndef tippConstraintPoints_h
 #define tippConstraintPoints_h
 
+#include "Constraints/SegmentTree.h"
+#include "Predicates/ExactPredicates.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -44,20 +47,73 @@ struct MatchedPositions
 
 VTKTIPPFILTERS_EXPORT MatchedPositions matchPositions(PointsView points, PointsView others);
 
-/// Where a point lies on a triangulated surface.
-struct SurfacePosition
+/// A triangle of a surface, with its corners in the order of their coordinates, so that values in
+/// it do not depend on how a triangulation orders triangles and corners.
+struct SurfaceTriangle
 {
-  std::array<PointId, 3> Corners{ -1, -1, -1 }; ///< -1: it lies outside
-  std::array<double, 3> Weights{};
+  explicit SurfaceTriangle(const std::array<Point2, 3>& corners);
 
-  /// The point's value, linear in the triangle; NaN outside.
-  double valueOf(const std::vector<double>& values) const;
+  std::array<Point2, 3> Corners;
+  std::array<std::size_t, 3> Order{ 0, 1, 2 }; ///< of each, its index among the given corners
+
+  /// Of two triangles that contain a position the one before answers it.
+  bool isBefore(const SurfaceTriangle& other) const;
+
+  /// The value at a position, linear in the triangle. valueOf(i): that of the given corner i.
+  template <typename ValueOf>
+  double valueAt(Point2 position, const ValueOf& valueOf) const
+  {
+    const std::array<double, 3> weights = this->weightsAt(position);
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      // A corner without weight may be one without value.
+      sum += weights[i] > 0 ? weights[i] * valueOf(this->Order[i]) : 0;
+    }
+    return sum;
+  }
+
+private:
+  std::array<double, 3> weightsAt(Point2 position) const;
 };
 
-/// Locates the points of `all` after the first surface.size() ones. If several triangles contain a
-/// point, the first is chosen.
-std::vector<SurfacePosition> locateOnSurface(
-  PointsView surface, const Triangulation& triangles, PointsView all, int threads);
+/// Positions whose values on a triangulated surface are wanted.
+class VTKTIPPFILTERS_EXPORT SurfacePositions
+{
+public:
+  /// NaN and infinite ones lie in no triangle.
+  explicit SurfacePositions(const std::vector<Point2>& positions);
+
+  /// visit(index, position) for those in a counter-clockwise triangle or on its border.
+  template <typename Visit>
+  void visitInside(const std::array<Point2, 3>& p, const Visit& visit) const
+  {
+    const Box2 box{ std::min({ p[0].x, p[1].x, p[2].x }), std::min({ p[0].y, p[1].y, p[2].y }),
+      std::max({ p[0].x, p[1].x, p[2].x }), std::max({ p[0].y, p[1].y, p[2].y }) };
+    this->Tree.visitNear(box,
+      [&](const SegmentTree::Item& item)
+      {
+        if (orientation(p[0], p[1], item.A) >= 0 && orientation(p[1], p[2], item.A) >= 0 &&
+          orientation(p[2], p[0], item.A) >= 0)
+        {
+          visit(std::size_t(item.Id), item.A);
+        }
+        return true;
+      });
+  }
+
+  /// Whether one may be in the box.
+  bool meets(const Box2& box) const;
+
+private:
+  SegmentTree Tree;
+};
+
+/// The values at positions on the surface of points, of each column; NaN outside of it.
+/// `columns`: of each one the values of the points.
+std::vector<std::vector<double>> valuesOnSurface(const std::vector<Point2>& positions,
+  PointsView points, const Triangulation& triangles, const std::vector<const double*>& columns,
+  int threads);
 
 } // namespace tipp
 

@@ -21,11 +21,6 @@ PointsView viewOf(const std::vector<double>& xy)
   return PointsView(xy.data(), xy.size() / 2, 2);
 }
 
-bool isHeight(const PointTable::Column& column)
-{
-  return column.Name == "z" || column.Name == "Z" || column.Name == "elevation";
-}
-
 /// Appends the table's points that are not there, and its edges to the constraints.
 void join(const ConstraintTable& table, PointTable& points, std::vector<Constraint>& constraints)
 {
@@ -45,7 +40,7 @@ void join(const ConstraintTable& table, PointTable& points, std::vector<Constrai
     for (PointTable::Column& column : points.Columns)
     {
       column.Values.push_back(
-        isHeight(column) && !table.Height.empty() ? table.Height[own] : std::nan(""));
+        isHeightColumn(column.Name) && !table.Height.empty() ? table.Height[own] : std::nan(""));
     }
   }
   for (const auto& edge : table.Edges)
@@ -55,9 +50,9 @@ void join(const ConstraintTable& table, PointTable& points, std::vector<Constrai
 }
 
 /// Fills what is NaN of the points from `given` on by the surface of those before.
-void takeSurface(std::size_t given, const TriangulationOptions& options, PointTable& points)
+void takeSurface(
+  std::size_t given, DuplicateRule rule, const TriangulationOptions& options, PointTable& points)
 {
-  const PointsView all = viewOf(points.XY);
   const auto isMissing = [given](const PointTable::Column& column)
   {
     return std::any_of(column.Values.begin() + std::ptrdiff_t(given), column.Values.end(),
@@ -70,14 +65,29 @@ void takeSurface(std::size_t given, const TriangulationOptions& options, PointTa
   TriangulationOptions plain;
   plain.Threads = options.Threads;
   const PointsView before(points.XY.data(), given, 2);
-  const std::vector<SurfacePosition> positions =
-    locateOnSurface(before, triangulate(before, plain), all, options.Threads);
-  for (PointTable::Column& column : points.Columns)
+  const Triangulation surface = triangulate(before, plain);
+  PointTable resolved;
+  if (rule != DuplicateRule::First)
+  {
+    resolved.Columns = points.Columns;
+    resolveDuplicates(resolved, surface.Duplicates, rule);
+  }
+  std::vector<const double*> columns;
+  for (const PointTable::Column& column :
+    rule == DuplicateRule::First ? points.Columns : resolved.Columns)
+  {
+    columns.push_back(column.Values.data());
+  }
+  std::vector<Point2> positions;
+  viewOf(points.XY).forEach(
+    given, points.size(), [&](std::size_t, Point2 position) { positions.push_back(position); });
+  const auto values = valuesOnSurface(positions, before, surface, columns, options.Threads);
+  for (std::size_t c = 0; c < values.size(); ++c)
   {
     for (std::size_t i = 0; i < positions.size(); ++i)
     {
-      double& value = column.Values[given + i];
-      value = std::isnan(value) ? positions[i].valueOf(column.Values) : value;
+      double& value = points.Columns[c].Values[given + i];
+      value = std::isnan(value) ? values[c][i] : value;
     }
   }
 }
@@ -142,6 +152,11 @@ void cutOutside(
 
 } // namespace
 
+bool isHeightColumn(const std::string& name)
+{
+  return name == "z" || name == "Z" || name == "elevation";
+}
+
 ConstrainedTriangulation triangulateTable(
   PointTable& points, const TableConstraints& constraints, const TriangulationOptions& options)
 {
@@ -149,9 +164,9 @@ ConstrainedTriangulation triangulateTable(
   std::vector<Constraint> all;
   join(constraints.Lines, points, all);
   join(constraints.Boundary, points, all);
-  if (constraints.TakesSurface)
+  if (constraints.Surface)
   {
-    takeSurface(given, options, points);
+    takeSurface(given, *constraints.Surface, options, points);
   }
   TriangulationOptions complete = options;
   complete.MaximumEdge = 0;

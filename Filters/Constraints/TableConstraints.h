@@ -4,8 +4,12 @@
 
 #include "Constraints/ReadConstraintFile.h"
 #include "Constraints/TriangulateConstrained.h"
+#include "Duplicates/ResolveDuplicates.h"
 #include "Points/PointTable.h"
 #include "vtkTIPPFiltersModule.h"
+
+#include <optional>
+#include <string>
 
 namespace tipp
 {
@@ -16,14 +20,17 @@ struct TableConstraints
   ConstraintTable Lines;    ///< with polygons and holes; perhaps none
   ConstraintTable Boundary; ///< closed lines, which are constraints, too; perhaps none
   CrossingRule Crossings = CrossingRule::Split;
-  /// Whether new points have the values of the surface of the others where no height is given: of
-  /// its triangle there, or NaN outside of it. Else these are NaN.
-  bool TakesSurface = false;
+  /// If it is given, new points have the values of the surface of the others where no height is
+  /// given: of its triangle there, or NaN outside of it; at coincident points it has those of the
+  /// rule. Else these are NaN.
+  std::optional<DuplicateRule> Surface;
 };
 
+/// Whether a column of this name has the heights of constraints: z, Z or elevation.
+bool isHeightColumn(const std::string& name);
+
 /// The constrained Delaunay triangulation of the points and those of the constraints, which are
-/// appended to the table unless they are there already, and then the crossings. A column named z, Z
-/// or elevation has the constraints' heights.
+/// appended to the table unless they are there already, and then the crossings.
 ///
 /// Triangles are removed outside of polygons, in holes, and outside of the boundary: a triangle is
 /// inside if a way out of it crosses the boundary's lines an odd number of times. Throws

@@ -49,7 +49,7 @@ std::size_t find(const std::vector<std::string>& columns, const std::string& nam
     list += (list.empty() ? "" : ", ") + column;
   }
   throw UnknownBand("the points have no column '" + name + "'" +
-    (list.empty() ? ", and no other beside x and y." : "; they have " + list + "."));
+    (list.empty() ? "." : "; of those asked for they have " + list + "."));
 }
 
 /// How much the plane through three points rises along x and y.

@@ -113,7 +113,6 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   settings = makeTerrainSettings(request, bounds, columns);
   requireMemory(settings);
   DemFigures figures;
-  figures.Points = std::int64_t(points.size());
   TriangulationOptions options;
   options.Threads = request.Threads;
   options.MaximumEdge = request.MaximumEdge;
@@ -121,6 +120,9 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   const Triangulation triangulation = request.Constraints
     ? std::move(triangulateTable(points, *request.Constraints, options).Mesh)
     : triangulate(PointsView(points.XY.data(), points.size(), 2), options);
+  figures.Points = std::int64_t(points.size());
+  figures.WithoutElevation =
+    settings.Bands.HasElevation ? countMissing(points.Columns[settings.Bands.Elevation].Values) : 0;
   figures.Triangles = std::int64_t(triangulation.triangleCount());
   figures.Duplicates = std::int64_t(triangulation.Duplicates.size());
   figures.Rejected = std::int64_t(triangulation.Rejected.size());

@@ -43,11 +43,12 @@ void requireMemory(const TerrainSettings& settings);
 
 struct DemFigures
 {
-  std::int64_t Points = 0;
+  std::int64_t Points = 0; ///< with those of the constraints
   std::int64_t Triangles = 0;
   std::int64_t Duplicates = 0;
   std::int64_t DisagreeingPositions = 0; ///< of several points with different elevations
   std::int64_t Rejected = 0;             ///< points that are not finite
+  std::int64_t WithoutElevation = 0;     ///< points at which triangles have no elevation
   bool Aborted = false;
 };
 

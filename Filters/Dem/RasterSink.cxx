@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Dem/RasterSink.h"
 
+#include "Dem/SurfaceSink.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
 #include "Resample/Claims.h"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <limits>
 #include <map>
 #include <utility>
@@ -18,7 +18,7 @@ namespace tipp
 namespace
 {
 
-namespace fs = std::filesystem;
+constexpr std::int64_t fewPixels = 4 * RasterTileSize * RasterTileSize;
 
 /// What the paths of files of samples at borders have after the run's own part.
 constexpr const char* borderSuffix = ".border.";
@@ -100,7 +100,8 @@ struct RasterSink::Part
   std::map<Place, Tile> Tiles;
   Place LastPlace{ -1, -1 };
   Tile* LastTile = nullptr;
-  std::string Border; ///< BorderPixels and their values
+  std::int64_t Placed = 0; ///< triangles in all tiles
+  std::string Border;      ///< BorderPixels and their values
 };
 
 RasterSink::RasterSink(
@@ -115,9 +116,11 @@ std::uint64_t RasterSink::fileBytes(
   const Box2& bounds, const std::vector<std::string>& columns) const
 {
   const TerrainSettings settings = this->Make(bounds, columns);
-  return (settings.IsSingle ? sizeof(float) : sizeof(double)) *
-    std::uint64_t(settings.Grid.Columns) * std::uint64_t(settings.Grid.Rows) *
-    settings.Bands.Bands.size();
+  const double bytes = double(settings.IsSingle ? sizeof(float) : sizeof(double)) *
+    double(settings.Grid.Columns) * double(settings.Grid.Rows) *
+    double(settings.Bands.Bands.size());
+  constexpr double most = 0x1p60; // more than any disk has
+  return std::uint64_t(std::min(bytes, most));
 }
 
 void RasterSink::findMargins()
@@ -184,7 +187,6 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
   }
   // Most triangles of a part lie side by side, so most of its window are theirs. Those at the
   // border of all points may be long.
-  constexpr std::int64_t fewPixels = 4 * RasterTileSize * RasterTileSize;
   std::int64_t count = 0;
   for (const TriangleRange& run : triangles)
   {
@@ -192,7 +194,8 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
   }
   Tile all;
   all.Window = this->windowOf(part.XYZ);
-  if (all.Window.Columns * all.Window.Rows > fewPixels + 2 * count)
+  const auto bandCount = std::int64_t(bands.Bands.size());
+  if (all.Window.Columns * all.Window.Rows * bandCount > fewPixels + 2 * count)
   {
     this->sampleByTile(part, triangles);
   }
@@ -208,20 +211,30 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
   this->saveBorder(part, name);
 }
 
+/// A triangle is put to each tile at which it may lie: long ones to so many that some are sampled
+/// before the rest is put there.
 void RasterSink::sampleByTile(Part& part, const std::vector<TriangleRange>& triangles) const
 {
+  const auto sampleAll = [&]
+  {
+    for (const auto& [place, tile] : part.Tiles)
+    {
+      this->sampleTile(part, tile);
+    }
+    part.Tiles.clear();
+    part.LastPlace = { -1, -1 };
+    part.Placed = 0;
+  };
+  const std::int64_t mostPlaced = fewPixels + 4 * part.Points.Count;
   for (const TriangleRange& run : triangles)
   {
     for (std::size_t t = 0; t < run.Triangles; ++t)
     {
       this->addTriangle(part, run.Begin + 3 * t);
+      part.Placed > mostPlaced ? sampleAll() : void();
     }
   }
-  for (auto& [place, tile] : part.Tiles)
-  {
-    this->sampleTile(part, tile);
-    tile = Tile();
-  }
+  sampleAll();
 }
 
 /// The samples that may lie in a box; no columns and rows if there are none.
@@ -278,6 +291,7 @@ void RasterSink::addTriangle(Part& part, const std::int32_t* corners) const
     {
       Tile& tile = part.tileAt(tileRow, i);
       tile.Ids.insert(tile.Ids.end(), corners, corners + 3);
+      ++part.Placed;
       const std::int64_t column = std::max(window.Column, i * RasterTileSize);
       tile.extend({ column, row, std::min(right, (i + 1) * RasterTileSize) - column,
         std::min(top, end) - row });
@@ -335,15 +349,9 @@ void RasterSink::answerBorders()
   };
   std::vector<Entry> entries;
   std::vector<double> values;
-  const fs::path begin(this->Files + borderSuffix);
-  const std::string prefix = begin.filename().string();
-  for (const fs::directory_entry& entry : fs::directory_iterator(begin.parent_path()))
+  for (const std::string& path : filesBeginning(this->Files + borderSuffix))
   {
-    if (entry.path().filename().string().compare(0, prefix.size(), prefix) != 0)
-    {
-      continue;
-    }
-    const InputFile file(entry.path().string());
+    const InputFile file(path);
     std::string content(std::size_t(file.size()), '\0');
     file.read(0, content.data(), content.size());
     for (std::size_t at = 0; at + bytes <= content.size(); at += bytes)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Dem/StreamedDem.h"
 
+#include "Constraints/ConstrainedPoints.h"
 #include "Dem/RasterSink.h"
+#include "Dem/SurfaceSink.h"
 #include "Files/OutputFile.h"
 #include "Files/TemporaryFiles.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
@@ -10,9 +12,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace tipp
 {
@@ -70,9 +72,50 @@ bool readTiles(const TerrainSettings& settings, const TileSource& tiles,
     });
 }
 
-DemFigures makeWithin(PointStream& points, const DemRequest& request, std::uint64_t memory,
-  const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples)
+/// Triangulates out of core in a temporary folder; `taker` takes the triangles.
+OutOfCoreStatistics triangulateInto(TriangleConsumer& taker, PointStream& points,
+  OutOfCoreOptions options, const std::function<bool(double)>& progress)
 {
+  const ScratchDirectory folder;
+  options.CountOnly = true;
+  options.Consumer = &taker;
+  options.Progress = progress;
+  return triangulateOutOfCore(points, folder.Path + "/dem", options);
+}
+
+DemFigures makeWithin(std::unique_ptr<PointStream> points, const DemRequest& request,
+  std::uint64_t memory, const std::function<bool(double)>& progress, TerrainSettings& settings,
+  SampledBands& samples)
+{
+  OutOfCoreOptions options;
+  options.MemoryLimit = memory;
+  options.Threads = request.Threads;
+  options.Duplicates = request.Duplicates;
+  double before = 0; // of the progress
+  const auto report = [&](double done)
+  { return !progress || progress(before + (1 - before) * done); };
+  DemFigures figures;
+  if (request.Constraints)
+  {
+    SurfaceSink surface(*request.Constraints);
+    if (needsSurface(*request.Constraints, request.Bands))
+    {
+      figures.Aborted = triangulateInto(surface, *points, options,
+        [&](double done) {
+          return report(0.4 * done);
+        }).Aborted;
+      before = 0.4;
+    }
+    if (figures.Aborted)
+    {
+      return figures;
+    }
+    auto constrained = std::make_unique<ConstrainedPoints>(
+      std::move(points), *request.Constraints, "the constraints", request.Threads);
+    constrained->setSurface(surface.takeValues());
+    options.Constraints = [&from = *constrained] { return from.takeSegments(); };
+    points = std::move(constrained);
+  }
   RasterSink sink(
     [&](const Box2& bounds, const std::vector<std::string>& columns)
     {
@@ -80,44 +123,32 @@ DemFigures makeWithin(PointStream& points, const DemRequest& request, std::uint6
       requireMemory(made);
       return made;
     },
-    [&](const TerrainSettings& made, const TileSource& tiles,
-      const std::function<bool(double)>& report)
+    [&](const TerrainSettings& made, const TileSource& tiles, const Report& written)
     {
       settings = made;
-      return readTiles(settings, tiles, report, samples);
+      return readTiles(settings, tiles, written, samples);
     },
     nullptr);
-  sink.setIdentity("raster in memory");
-  const ScratchDirectory folder;
-  OutOfCoreOptions options;
-  options.MemoryLimit = memory;
-  options.Threads = request.Threads;
   options.MaximumEdge = request.MaximumEdge;
-  options.Duplicates = request.Duplicates;
-  options.CountOnly = true;
-  options.Consumer = &sink;
-  options.Progress = progress;
-  const OutOfCoreStatistics statistics =
-    triangulateOutOfCore(points, folder.Path + "/dem", options);
-  return { statistics.Points, statistics.Triangles, statistics.Duplicates,
-    statistics.DisagreeingPositions, statistics.Rejected, statistics.Aborted };
+  const OutOfCoreStatistics statistics = triangulateInto(sink, *points, options, report);
+  figures.Points = statistics.Points;
+  figures.Triangles = statistics.Triangles;
+  figures.Duplicates = statistics.Duplicates;
+  figures.DisagreeingPositions = statistics.DisagreeingPositions;
+  figures.Rejected = statistics.Rejected;
+  figures.WithoutElevation = statistics.WithoutElevation;
+  figures.Aborted = statistics.Aborted;
+  return figures;
 }
 
 } // namespace
 
-DemFigures makeDem(PointStream& points, const DemRequest& request, std::uint64_t memory,
-  const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples)
+DemFigures makeDem(std::unique_ptr<PointStream> points, const DemRequest& request,
+  std::uint64_t memory, const std::function<bool(double)>& progress, TerrainSettings& settings,
+  SampledBands& samples)
 {
-  if (memory == 0)
-  {
-    return makeDem(readAllPoints(points), request, progress, settings, samples);
-  }
-  if (request.Constraints)
-  {
-    throw std::invalid_argument(
-      "Breaklines and boundaries need all points in memory: leave the memory limit out.");
-  }
-  return makeWithin(points, request, memory, progress, settings, samples);
+  return memory == 0 ? makeDem(readAllPoints(*points), request, progress, settings, samples)
+                     : makeWithin(std::move(points), request, memory, progress, settings, samples);
 }
 
 } // namespace tipp

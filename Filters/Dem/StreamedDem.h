@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 
 namespace tipp
 {
@@ -15,10 +16,10 @@ namespace tipp
 /// A raster in memory of the points of a stream: the samples of makeDem(). `memory`: bytes that
 /// points and triangles may take; what does not fit goes to a temporary folder. 0: no limit. Throws
 /// IOError, std::runtime_error if there is no finite point or a band's column is missing, and
-/// std::invalid_argument for constraints, which do not go with a limit.
-VTKTIPPFILTERS_EXPORT DemFigures makeDem(PointStream& points, const DemRequest& request,
-  std::uint64_t memory, const std::function<bool(double)>& progress, TerrainSettings& settings,
-  SampledBands& samples);
+/// std::invalid_argument for constraints.
+VTKTIPPFILTERS_EXPORT DemFigures makeDem(std::unique_ptr<PointStream> points,
+  const DemRequest& request, std::uint64_t memory, const std::function<bool(double)>& progress,
+  TerrainSettings& settings, SampledBands& samples);
 
 } // namespace tipp
 

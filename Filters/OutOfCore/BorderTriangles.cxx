@@ -17,6 +17,20 @@ std::string takenPath(const PieceWork& work, PartitionIndex piece)
   return work.resultPath(piece) + ".taken";
 }
 
+void takeMesh(
+  const PieceWork& work, const std::string& name, PieceBorder& border, const ResultOf& results)
+{
+  setGhosts(work, results, border);
+  const PieceBorder::Mesh mesh = border.mesh();
+  work.Consumer->take(
+    name, mesh.Rows.data(), work.Rows, mesh.Rows.size() / work.Rows.Words, { mesh.triangles() });
+}
+
+std::string borderName(const PieceWork& work, PartitionIndex piece)
+{
+  return std::to_string(work.Plan.number(piece)) + ".border";
+}
+
 } // namespace
 
 PieceInterior readInterior(const PieceWork& work, PartitionIndex piece, const StoredResult& result)
@@ -66,10 +80,7 @@ void takeTriangles(const PieceWork& work, const std::string& name, const Borders
       border.addTriangle(corners, {});
     }
   }
-  setGhosts(work, results, border);
-  const PieceBorder::Mesh mesh = border.mesh();
-  work.Consumer->take(
-    name, mesh.Rows.data(), work.Rows, mesh.Rows.size() / work.Rows.Words, { mesh.triangles() });
+  takeMesh(work, name, border, results);
 }
 
 void takeBorder(const PieceWork& work, PartitionIndex piece, const ResultOf& results)
@@ -82,8 +93,14 @@ void takeBorder(const PieceWork& work, PartitionIndex piece, const ResultOf& res
       borders.emplace(owner, results(piece).readBorder(owner));
     }
   }
-  takeTriangles(work, std::to_string(work.Plan.number(piece)) + ".border", borders, results);
+  takeTriangles(work, borderName(work, piece), borders, results);
   OutputFile(takenPath(work, piece)).close();
+}
+
+void takeBorder(
+  const PieceWork& work, PartitionIndex piece, PieceBorder& border, const ResultOf& results)
+{
+  takeMesh(work, borderName(work, piece), border, results);
 }
 
 bool isBorderTaken(const PieceWork& work, PartitionIndex piece)

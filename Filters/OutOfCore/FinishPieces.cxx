@@ -75,7 +75,7 @@ public:
     {
       this->constrain(threads);
     }
-    if (work.Consumer) // which goes without constraints
+    if (work.takesBordersEarly())
     {
       takeTriangles(work, "hull", this->Late, this->results());
     }
@@ -101,7 +101,7 @@ public:
       finished.Summary = this->Work.Mesh.Pieces[number];
       finished.Summary.Cells =
         interior.Cells + std::int64_t(interior.InterfaceTriangles.size() + border.triangles());
-      isBorderTaken(this->Work, piece) ? void() : takeBorder(this->Work, piece, this->results());
+      this->take(piece, border);
     }
     else
     {
@@ -114,6 +114,19 @@ public:
   }
 
 private:
+  /// `border`: the triangles that the piece owns.
+  void take(PartitionIndex piece, PieceBorder& border) const
+  {
+    if (!this->Work.takesBordersEarly())
+    {
+      takeBorder(this->Work, piece, border, this->results());
+    }
+    else if (!isBorderTaken(this->Work, piece))
+    {
+      takeBorder(this->Work, piece, this->results());
+    }
+  }
+
   PieceInterior interiorOf(PartitionIndex piece) const
   {
     return readInterior(this->Work, piece, *this->Results[std::size_t(piece)]);

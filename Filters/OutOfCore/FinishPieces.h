@@ -32,6 +32,10 @@ void setGhosts(const PieceWork& work, const ResultOf& results, PieceBorder& bord
 /// taker. All pieces that conflict with it must be done: their points are corners. Throws IOError.
 void takeBorder(const PieceWork& work, PartitionIndex piece, const ResultOf& results);
 
+/// Gives it the triangles at the border of the piece that owns them. Throws IOError.
+void takeBorder(
+  const PieceWork& work, PartitionIndex piece, PieceBorder& border, const ResultOf& results);
+
 /// Gives it triangles of any pieces; `name`: of this part.
 void takeTriangles(const PieceWork& work, const std::string& name, const BordersByOwner& triangles,
   const ResultOf& results);

@@ -215,7 +215,8 @@ SpilledPoints::SpilledPoints(
 template <typename Archive>
 void serialize(Archive& archive, PartialSurvey& part)
 {
-  archive(part.Points, part.Rejected, part.Bounds, part.Collinear, part.Line, part.Sample);
+  archive(part.Points, part.Rejected, part.WithoutElevation, part.Bounds, part.Collinear, part.Line,
+    part.Sample);
 }
 
 template <typename Archive>

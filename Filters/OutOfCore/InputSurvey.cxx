@@ -2,6 +2,7 @@
 #include "OutOfCore/InputSurvey.h"
 
 #include "Arrays/Random.h"
+#include "Points/PointTable.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/PointSurvey.h"
 #include "Triangulation/PointsView.h"
@@ -138,6 +139,7 @@ PartialSurvey surveyPart(PointStream& points, std::size_t blockPoints, std::size
   survey.Bounds = nothing;
   Sampler sampler(sample, points.divisible());
   CollinearityTest line;
+  const std::size_t elevation = findElevation(points.columns());
   forEachBlock(points, blockPoints,
     [&](PointBlock& block)
     {
@@ -145,6 +147,8 @@ PartialSurvey surveyPart(PointStream& points, std::size_t blockPoints, std::size
       const PointSurvey part = surveyPoints(view, threads);
       survey.Bounds = unionOf(survey.Bounds, part.Bounds);
       survey.Rejected += std::int64_t(part.Rejected.size());
+      survey.WithoutElevation +=
+        elevation < block.Columns.size() ? countMissing(block.Columns[elevation]) : 0;
       sampler.add(block.First, view);
       for (std::size_t i = 0; survey.Collinear && i < view.size(); ++i)
       {
@@ -167,6 +171,7 @@ InputSurvey joinSurveys(std::vector<PartialSurvey>& parts)
   {
     survey.Points += part.Points;
     survey.Rejected += part.Rejected;
+    survey.WithoutElevation += part.WithoutElevation;
     survey.Bounds = unionOf(survey.Bounds, part.Bounds);
     survey.Collinear = survey.Collinear && part.Collinear &&
       std::all_of(part.Line.begin(), part.Line.end(), [&](Point2 p) { return line.add(p); });

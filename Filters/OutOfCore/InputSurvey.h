@@ -24,8 +24,9 @@ struct SampledPoint
 struct InputSurvey
 {
   std::int64_t Points = 0;
-  std::int64_t Rejected = 0; ///< NaN or infinite coordinates
-  Box2 Bounds{};             ///< of the finite points, times Factor
+  std::int64_t Rejected = 0;         ///< NaN or infinite coordinates
+  std::int64_t WithoutElevation = 0; ///< it is NaN or infinite
+  Box2 Bounds{};                     ///< of the finite points, times Factor
   double Factor = 1; ///< a power of two that brings coordinates near 1, where they are far from it
   bool Collinear = true;
   std::vector<SampledPoint> Sample; ///< times Factor; of finite points, by id
@@ -36,6 +37,7 @@ struct PartialSurvey
 {
   std::int64_t Points = 0;
   std::int64_t Rejected = 0;
+  std::int64_t WithoutElevation = 0;
   Box2 Bounds{};
   bool Collinear = true;
   std::vector<Point2> Line; ///< two of them or fewer, if collinear

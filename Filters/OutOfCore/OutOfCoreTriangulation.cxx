@@ -21,6 +21,7 @@ template <typename Archive>
 void serialize(Archive& archive, OutOfCoreStatistics& statistics)
 {
   archive(statistics.Points, statistics.Triangles, statistics.TriangleSum, statistics.Rejected,
+    statistics.WithoutElevation,
     statistics.Pieces, statistics.Partitions, static_cast<PieceFigures&>(statistics),
     statistics.SpilledBytes, statistics.MeshBytes);
 }
@@ -279,6 +280,7 @@ private:
   {
     this->Statistics.Points = this->Setup.Survey.Points;
     this->Statistics.Rejected = this->Setup.Survey.Rejected;
+    this->Statistics.WithoutElevation = this->Setup.Survey.WithoutElevation;
     this->Statistics.Pieces = this->Setup.Plan->pieces();
     this->Statistics.Partitions = this->Setup.Plan->Partitions.size();
   }

@@ -66,9 +66,10 @@ std::uint64_t MemoryPlan::pieceBytes(std::int64_t points, std::size_t rowWords)
 
 MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t words)
 {
-  // A taker copies coordinates and triangles of the piece that it is given.
+  // A taker copies coordinates, columns and triangles of the piece that it is given.
   // Constraints need room for the triangles that they cross.
-  const std::size_t rowWords = words + (options.Consumer ? 8 : 0) + (options.Constraints ? 1 : 0);
+  const std::size_t rowWords =
+    words + (options.Consumer ? 4 + words : 0) + (options.Constraints ? 1 : 0);
   // Of the two phases each has its share; the rest is for kernels and boundaries.
   const std::uint64_t share = options.MemoryLimit / 5 * 2;
   // Two blocks of points, their labels and rows by piece.

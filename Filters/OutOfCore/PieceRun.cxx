@@ -29,7 +29,7 @@ void PieceRun::prepare(const std::vector<char>& isDone)
 {
   const PiecePlan& plan = this->Work.Plan;
   this->Order = std::make_unique<PieceOrder>(plan, this->Work.Points, this->Threads);
-  if (this->Work.Consumer)
+  if (this->Work.takesBordersEarly())
   {
     this->Borders = std::make_unique<BorderQueue>(plan, this->Order->partitions());
   }

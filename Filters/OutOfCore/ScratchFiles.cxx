@@ -268,6 +268,19 @@ void ScratchFolder::remove()
   }
 }
 
+bool canResume(const std::string& path)
+{
+  try
+  {
+    std::error_code ignored;
+    return fs::exists(PendingFolder::lastingPath(path) + ScratchFolder::planName, ignored);
+  }
+  catch (const IOError&) // which a run would report
+  {
+    return false;
+  }
+}
+
 /// Those in Folder whose paths begin like this, followed by a dot.
 std::vector<std::string> ScratchFolder::files(const std::string& begin) const
 {

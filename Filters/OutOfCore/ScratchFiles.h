@@ -90,6 +90,8 @@ private:
 class ScratchFolder
 {
 public:
+  static constexpr const char* planName = "/.plan";
+
   /// All files are beside the unfinished mesh if `other` is empty; else the points and the results
   /// are in a new folder in `other`. Throws IOError.
   ScratchFolder(const PendingFolder& mesh, const std::string& other);
@@ -100,7 +102,7 @@ public:
 
   const std::string& folder() const { return this->Folder; }
   std::string points() const { return this->Folder + "/.points"; }
-  std::string plan() const { return this->Work + "/.plan"; }
+  std::string plan() const { return this->Work + planName; }
   /// How the paths of pieces' results begin.
   std::string results() const { return this->Folder + "/.piece"; }
 
@@ -129,6 +131,9 @@ private:
   TemporaryPath Listed; ///< Folder, if it is not Work
   bool Kept = false;
 };
+
+/// Whether there is a run of this path to resume, whose points are spilled.
+VTKTIPPFILTERS_EXPORT bool canResume(const std::string& path);
 
 } // namespace tipp
 

@@ -187,8 +187,7 @@ PendingFolder::PendingFolder(
     throw IOError(path, objection + "; remove it or name another folder.");
   }
   const std::string name = target.filename().string();
-  isLasting ? this->openLasting(this->Parent + "/" + hiddenName(name, ".part"))
-            : this->makeTemporary(hiddenName(name, ".tmp."));
+  isLasting ? this->openLasting(lastingPath(path)) : this->makeTemporary(hiddenName(name, ".tmp."));
   this->Temporary = this->Work + "/" + name;
   if (!isLasting) // for a lasting one, messages show where the work is kept
   {
@@ -203,6 +202,12 @@ PendingFolder::PendingFolder(
     errno = reason;
     failToWrite(path);
   }
+}
+
+std::string PendingFolder::lastingPath(const std::string& path)
+{
+  const fs::path target = outputPath(path);
+  return target.parent_path().string() + "/" + hiddenName(target.filename().string(), ".part");
 }
 
 void PendingFolder::makeTemporary(const std::string& prefix)

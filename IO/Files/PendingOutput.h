@@ -75,6 +75,8 @@ public:
   {
     return { path, replaceable, true };
   }
+  /// The work folder of lasting().
+  static std::string lastingPath(const std::string& path);
   ~PendingFolder();
   PendingFolder(const PendingFolder&) = delete;
   PendingFolder& operator=(const PendingFolder&) = delete;

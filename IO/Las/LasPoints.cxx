@@ -202,7 +202,12 @@ public:
   }
 
   std::int64_t most() const override { return this->Header.Points; }
-  std::int64_t leftOut() const override { return this->DroppedOfPass; }
+  std::int64_t leftOut() const override
+  {
+    // A pass may be limited to a part of the file.
+    return this->KeptBefore.empty() ? this->DroppedOfPass
+                                    : this->Header.Points - this->KeptBefore.back();
+  }
   std::string crs() const override { return this->Header.Crs; }
 
 private:

@@ -3,6 +3,7 @@
 #define tippPointTable_h
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -53,6 +54,13 @@ inline std::size_t findRankColumn(const std::vector<std::string>& columns)
     return elevation < columns.size() ? elevation : 0;
   }
   return std::size_t(std::find(columns.begin(), columns.end(), "depth") - columns.begin());
+}
+
+/// The number of values that are NaN or infinite.
+inline std::int64_t countMissing(const std::vector<double>& values)
+{
+  return std::count_if(
+    values.begin(), values.end(), [](double value) { return !std::isfinite(value); });
 }
 
 } // namespace tipp

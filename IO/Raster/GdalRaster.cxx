@@ -354,6 +354,7 @@ RasterInfo readRasterInfo(const std::string& path)
   grid.Pixel = { transform[1], -transform[5] };
   grid.West = transform[0];
   grid.South = transform[3] + double(grid.Rows) * transform[5];
+  grid.North = transform[3];
   const char* const crs = gdal().GDALGetProjectionRef(data.get());
   info.Crs = crs ? crs : "";
   return info;

@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <utility>
 
 namespace tipp
@@ -40,6 +41,7 @@ void BandSums::add(const BandSums& other)
   this->Mean += difference * (other.Count / count);
   this->Squares += other.Squares + difference * difference * (this->Count * other.Count / count);
   this->Count = count;
+  this->Hidden += other.Hidden;
 }
 
 namespace
@@ -84,6 +86,7 @@ EncodedTile::Band encodeBand(
       {
         to[i] = T(from[i]);
         band.Sums.add(double(to[i]));
+        band.Sums.Hidden += to[i] == noData ? 1 : 0;
       }
     }
   }
@@ -149,6 +152,12 @@ public:
         this->Plain->temporaryPath(), this->Pending.temporaryPath(), this->Description, this->Path);
     }
     this->Pending.commit();
+  }
+
+  double hidden() const override
+  {
+    return std::accumulate(this->Sums.begin(), this->Sums.end(), 0.0,
+      [](double sum, const BandSums& band) { return sum + band.Hidden; });
   }
 
 private:

@@ -60,7 +60,7 @@ RasterGrid makeRasterGrid(const RasterRequest& request, const std::array<double,
   const double size = request.Resolution;
   const GridAxis x = coverRange(bounds[0], bounds[1], size, request.Aligned, "x");
   const GridAxis y = coverRange(bounds[2], bounds[3], size, request.Aligned, "y");
-  return { x.Origin, y.Origin, { size, size }, x.Count, y.Count };
+  return { x.Origin, y.Origin, { size, size }, x.Count, y.Count, std::nullopt };
 }
 
 RasterWriter::~RasterWriter() = default;

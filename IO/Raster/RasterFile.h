@@ -26,8 +26,12 @@ struct RasterGrid
   std::array<double, 2> Pixel = { 1, 1 }; ///< width and height
   std::int64_t Columns = 0;
   std::int64_t Rows = 0;
+  std::optional<double> North; ///< border of the highest row, if it was given; else it is computed
 
-  double north() const { return this->South + double(this->Rows) * this->Pixel[1]; }
+  double north() const
+  {
+    return this->North.value_or(this->South + double(this->Rows) * this->Pixel[1]);
+  }
   std::int64_t pixels() const { return this->Columns * this->Rows; }
 };
 
@@ -80,6 +84,7 @@ struct BandSums
   double Mean = 0;
   double Squares = 0; ///< of differences from the mean
   double Count = 0;
+  double Hidden = 0; ///< of these values, those that equal the number for no data
 
   void add(double value);
   void add(const BandSums& other);
@@ -118,6 +123,9 @@ public:
 
   /// Completes the file and moves it to its path. Throws IOError.
   virtual void close() = 0;
+
+  /// How many values so far equal the number for no data, so that readers take them for none.
+  virtual double hidden() const { return 0; }
 };
 
 /// Side, in pixels, of the square tiles in which rasters are sampled and written; that of GDAL's

@@ -146,6 +146,7 @@ void addTriangulateFunctions(nb::module_& module);
 void addConstraintFunctions(nb::module_& module);
 void addFileFunctions(nb::module_& module);
 void addLocatorClass(nb::module_& module);
+void addDemFunction(nb::module_& module);
 void addPointFunctions(nb::module_& module);
 void addQueryClass(nb::module_& module);
 void addResampleFunction(nb::module_& module);

@@ -74,6 +74,7 @@ NB_MODULE(_core, module)
     });
   tipp::python::addTriangulateFunctions(module);
   tipp::python::addConstraintFunctions(module);
+  tipp::python::addDemFunction(module);
   tipp::python::addFileFunctions(module);
   tipp::python::addLocatorClass(module);
   tipp::python::addPointFunctions(module);

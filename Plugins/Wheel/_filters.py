@@ -5,23 +5,21 @@ They lack runs on several ranks, and the properties for them.
 """
 from __future__ import annotations
 
-import warnings
-from typing import Any, Callable
+import math
+from typing import Any
+
+import numpy as np
 
 from . import _arguments as check
 from . import _core, _native_engine
-from ._arguments import STOPPED
-from ._vtk import point_cloud
+from ._arrays import Image
+from ._dem import lines_of
+from ._filter import add_total, Filter
+from ._vtk import image_of, point_cloud, vtk_array, xyz_of
 from ._vtkmodules import (
-    VTKPythonAlgorithmBase,
-    vtkAlgorithm,
-    vtkDataArraySelection,
     vtkDataObject,
     vtkDataSet,
-    vtkDoubleArray,
-    vtkIdTypeArray,
     vtkImageData,
-    vtkOutputWindow,
     vtkPartitionedDataSet,
     vtkPointSet,
     vtkPolyData,
@@ -30,174 +28,6 @@ from ._vtkmodules import (
     vtkTable,
     vtkUnstructuredGrid,
 )
-
-
-class Filter(VTKPythonAlgorithmBase):
-    """A filter with Set..., Get..., and of flags ...On and ...Off, for each of its PROPERTIES."""
-
-    PROPERTIES: dict[str, Any] = {}
-    """Names and defaults."""
-    LIMITS: dict[str, tuple[Any, Any]] = {}
-    """Values beyond these are set to them, as VTK does."""
-    INPUTS: tuple[str, ...] = ()
-    OPTIONAL_INPUTS: tuple[int, ...] = ()
-    OUTPUTS: tuple[str, ...] = ()
-    FILES = ""
-    """What a file is called in the methods for a list of files."""
-    SELECTIONS = False
-    """Whether there are selections of arrays."""
-
-    def __init_subclass__(cls) -> None:
-        for name, default in cls.PROPERTIES.items():
-            _add_property(cls, name, default)
-        if cls.FILES:
-            _add_files(cls, cls.FILES)
-        if cls.SELECTIONS:
-            cls.GetPointDataArraySelection = lambda self: self._selections["Point"]
-            cls.GetCellDataArraySelection = lambda self: self._selections["Cell"]
-
-    def __init__(self) -> None:
-        super().__init__(nInputPorts=len(self.INPUTS), nOutputPorts=len(self.OUTPUTS),
-                         outputType=self.OUTPUTS[0])
-        self._values = dict(self.PROPERTIES)
-        self.files: list[str] = []
-        self._selections = {kind: vtkDataArraySelection() for kind in ("Point", "Cell")}
-        for selection in self._selections.values():
-            selection.AddObserver("ModifiedEvent", lambda *_: self.Modified())
-
-    def FillInputPortInformation(self, port: int, info: Any) -> int:
-        info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), self.INPUTS[port])
-        if port in self.OPTIONAL_INPUTS:
-            info.Set(vtkAlgorithm.INPUT_IS_OPTIONAL(), 1)
-        return 1
-
-    def FillOutputPortInformation(self, port: int, info: Any) -> int:
-        info.Set(vtkDataObject.DATA_TYPE_NAME(), self.OUTPUTS[port])
-        return 1
-
-    def SetInputData(self, *port_and_data: Any) -> None:
-        """Of a port, or of the first one."""
-        *port, data = port_and_data
-        self.SetInputDataObject(port[0] if port else 0, data)
-
-    def GetOutput(self, port: int = 0) -> Any:
-        return self.GetOutputDataObject(port)
-
-    def RequestData(self, _request: Any, inputs: Any, outputs: Any) -> int:
-        return self.guarded(lambda: self.execute(inputs, outputs))
-
-    def execute(self, inputs: Any, outputs: Any) -> None:
-        raise NotImplementedError
-
-    def value(self, name: str) -> Any:
-        return self._values[name]
-
-    def chosen(self, kind: str, mesh: Any) -> list[str]:
-        """The names of a mesh's arrays that are not disabled."""
-        data = mesh.GetPointData() if kind == "Point" else mesh.GetCellData()
-        arrays = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
-        names = [array.GetName() for array in arrays if array is not None]
-        selection = self._selections[kind]
-        return [name for name in names
-                if name and name != "vtkGhostType" and (not selection.ArrayExists(name) or selection.ArrayIsEnabled(name))]
-
-    def progress(self, fraction: float) -> bool:
-        self.UpdateProgress(fraction)
-        return not self.GetAbortExecute()
-
-    def guarded(self, work: Callable[[], None]) -> int:
-        """1 if it is done. Exceptions and warnings become VTK's errors and warnings, for VTK does not know Python's."""
-        try:
-            with warnings.catch_warnings(record=True) as caught:
-                warnings.simplefilter("always")
-                work()
-        except Exception as error:  # pylint: disable=broad-except
-            if str(error) == STOPPED and self.GetAbortExecute():
-                return 1
-            self._tell("ErrorEvent", str(error.args[0]) if error.args else type(error).__name__)
-            return 0
-        for warning in caught:
-            self._tell("WarningEvent", str(warning.message))
-        return 1
-
-    def _tell(self, event: str, sentence: str) -> None:
-        if self.HasObserver(event):
-            self.InvokeEvent(event, sentence)
-            return
-        window = vtkOutputWindow.GetInstance()
-        if event == "ErrorEvent":
-            window.DisplayErrorText(f"ERROR: {type(self).__name__}: {sentence}\n")
-        else:
-            window.DisplayWarningText(f"Warning: {type(self).__name__}: {sentence}\n")
-
-
-def _add_property(cls: type, name: str, default: Any) -> None:
-    kind = type(default)
-    low, high = cls.LIMITS.get(name, (None, None))
-
-    def converted(values: tuple[Any, ...]) -> Any:
-        if kind is tuple:
-            values = tuple(values[0]) if len(values) == 1 else values
-            if len(values) != len(default):
-                raise TypeError(f"{name} has {len(values)} values; give {len(default)}.")
-            return tuple(type(d)(v) for d, v in zip(default, values))
-        if len(values) != 1:
-            raise TypeError(f"{name} has {len(values)} values; give one.")
-        value = "" if kind is str and values[0] is None else kind(values[0])
-        if low is not None and value < low:
-            return kind(low)
-        return kind(high) if high is not None and value > high else value
-
-    def set_value(self: Any, *values: Any) -> None:
-        value = converted(values)
-        if value != self._values[name]:
-            self._values[name] = value
-            self.Modified()
-
-    def get_value(self: Any) -> Any:
-        return self._values[name]
-
-    set_value.__name__, get_value.__name__ = f"Set{name}", f"Get{name}"
-    set_value.__doc__ = f"Sets {name}; at first it is {default!r}."
-    get_value.__doc__ = f"Returns {name}."
-    setattr(cls, f"Set{name}", set_value)
-    setattr(cls, f"Get{name}", get_value)
-    if kind is bool:
-        setattr(cls, f"{name}On", lambda self: set_value(self, True))
-        setattr(cls, f"{name}Off", lambda self: set_value(self, False))
-
-
-def _add_files(cls: type, name: str) -> None:
-    def add(self: Any, path: str) -> None:
-        if path:
-            self.files.append(str(path))
-            self.Modified()
-
-    def clear(self: Any) -> None:
-        if self.files:
-            self.files.clear()
-            self.Modified()
-
-    def set_one(self: Any, path: str) -> None:
-        if self.files != [path]:
-            clear(self)
-            add(self, path)
-
-    def get(self: Any, index: int) -> Any:
-        return self.files[index] if 0 <= index < len(self.files) else None
-
-    for method, function in ((f"Add{name}", add), (f"Clear{name}s", clear), (f"Set{name}", set_one),
-                             (f"Get{name}", get), (f"GetNumberOf{name}s", lambda self: len(self.files))):
-        setattr(cls, method, function)
-
-
-def add_total(name: str, value: float, totals: Any) -> None:
-    """An array of one value as field data."""
-    array = vtkIdTypeArray() if isinstance(value, int) else vtkDoubleArray()
-    array.SetName(name)
-    array.InsertNextValue(value)
-    totals.AddArray(array)
-
 
 _GIGABYTE = 1 << 30
 
@@ -281,7 +111,7 @@ class vtkTIPPOutOfCoreDelaunay2D(Filter):
         "CountOnly": False, "Resume": False, "ScratchFolder": "", "NumberOfThreads": 0,
     }
     LIMITS = {"MemoryLimit": (1, None), "MaximumEdgeLength": (0, None), "NumberOfThreads": (0, 4096)}
-    FILES = "InputFileName"
+    LIST = "InputFileName"
     OUTPUTS = ("vtkTable",)
 
     def GetStatistics(self) -> vtkTable:
@@ -295,11 +125,101 @@ class vtkTIPPOutOfCoreDelaunay2D(Filter):
             "count_only": self.value("CountOnly"), "resume": self.value("Resume"),
             "scratch": self.value("ScratchFolder"), "threads": self.value("NumberOfThreads"),
         }
-        figures = _native_engine.delaunay_file(self.files, self.value("FileName"), options, self.progress)
+        figures = _native_engine.delaunay_file(self.texts, self.value("FileName"), options, self.progress)
         totals = vtkTable.GetData(outputs, 0).GetFieldData()
         names = {"duplicates": "DuplicatePoints", "rejected": "RejectedPoints"}
         for key, value in figures.items():
             add_total(names.get(key, key.title().replace("_", "")), value, totals)
+
+
+class vtkTIPPPointsToImage(Filter):
+    """A regular grid of elevations (a DEM) of the points of a vtkPointSet, through their exact triangulation. The second
+    and the third input, which may be missing, are breaklines and a boundary. The output is a vtkImageData with an array
+    for each band."""
+
+    DUPLICATES_FIRST, DUPLICATES_LOWEST, DUPLICATES_HIGHEST, DUPLICATES_MEAN = range(4)
+    THIN_LOWEST, THIN_HIGHEST, THIN_NEAREST = range(3)
+    PROPERTIES = {
+        "BreaklinesFileName": "", "BoundaryFileName": "", "Resolution": 0.0, "UseInputBounds": True,
+        "SamplingBounds": (0.0, 1.0, 0.0, 1.0), "AlignToResolution": True, "MaximumEdgeLength": 0.0, "Duplicates": 0,
+        "ThinningSize": 0.0, "ThinningRule": 2, "MemoryLimit": 0, "NumberOfThreads": 0,
+    }
+    LIMITS = {"Resolution": (0, None), "MaximumEdgeLength": (0, None), "Duplicates": (0, 3), "ThinningSize": (0, None),
+              "ThinningRule": (0, 2), "MemoryLimit": (0, None), "NumberOfThreads": (0, 4096)}
+    LIST = "Band"
+    INPUTS = ("vtkPointSet", "vtkPolyData", "vtkPolyData")
+    OPTIONAL_INPUTS = (1, 2)
+    OUTPUTS = ("vtkImageData",)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.texts = ["elevation"]
+
+    def SetBreaklinesData(self, lines: vtkPolyData) -> None:
+        self.SetInputDataObject(1, lines)
+
+    def SetBreaklinesConnection(self, port: Any) -> None:
+        self.SetInputConnection(1, port)
+
+    def SetBoundaryData(self, lines: vtkPolyData) -> None:
+        self.SetInputDataObject(2, lines)
+
+    def SetBoundaryConnection(self, port: Any) -> None:
+        self.SetInputConnection(2, port)
+
+    def RequestInformation(self, _request: Any, _inputs: Any, outputs: Any) -> int:
+        return self.guarded(lambda: self._describe(outputs.GetInformationObject(0)))
+
+    def _pixels(self) -> tuple[list[float], float]:
+        """The bounds and the resolution."""
+        bounds, size = list(self.value("SamplingBounds")), self.value("Resolution")
+        if not self.value("UseInputBounds") and size > 0:
+            return bounds, size
+        self.GetInputAlgorithm(0, 0).Update()
+        points = self.GetInputDataObject(0, 0)
+        if self.value("UseInputBounds"):
+            xy = xyz_of(points)[:, :2]
+            xy = xy[np.isfinite(xy).all(axis=1)].astype(np.float64)
+            if len(xy) == 0:
+                raise RuntimeError("There is no point with finite coordinates.")
+            bounds = np.column_stack([xy.min(axis=0), xy.max(axis=0)]).ravel().tolist()
+        area = (bounds[1] - bounds[0]) * (bounds[3] - bounds[2])
+        count = max(points.GetNumberOfPoints(), 1)
+        return bounds, size if size > 0 else math.sqrt(area / count) if area > 0 else 1.0
+
+    def _describe(self, information: Any) -> None:
+        bounds, size = self._pixels()
+        west, south, columns, rows = _core.raster_grid(bounds, size, self.value("AlignToResolution"))
+        information.Set(vtkStreamingDemandDrivenPipeline.WHOLE_EXTENT(), (0, columns - 1, 0, rows - 1, 0, 0), 6)
+        information.Set(vtkDataObject.ORIGIN(), (west + 0.5 * size, south + 0.5 * size, 0.0), 3)
+        information.Set(vtkDataObject.SPACING(), (size, size, 1.0), 3)
+
+    def _lines(self, name: str, data: Any) -> Any:
+        return self.value(name + "FileName") or lines_of(data, name, name == "Boundary")
+
+    def execute(self, inputs: Any, outputs: Any) -> None:
+        if not self.texts:
+            raise RuntimeError("There is no band: add one, as elevation.")
+        for name in ("Resolution", "MaximumEdgeLength", "ThinningSize"):
+            check.number(self.value(name), name)
+        bounds, size = self._pixels()
+        lines = [vtkPolyData.GetData(port) if port.GetNumberOfInformationObjects() else None for port in inputs[1:]]
+        options = {
+            "resolution": size, "bounds": bounds, "align": self.value("AlignToResolution"), "attributes": self.texts,
+            "max_edge": self.value("MaximumEdgeLength"), "duplicates": self.value("Duplicates"),
+            "thin_size": self.value("ThinningSize"), "thin_rule": self.value("ThinningRule"),
+            "breaklines": self._lines("Breaklines", lines[0]), "boundary": self._lines("Boundary", lines[1]),
+            "memory": self.value("MemoryLimit"), "classes": None, "returns": 0, "keep": [],
+            "threads": self.value("NumberOfThreads"),
+        }
+        points = vtkPointSet.GetData(inputs[0])
+        bands, (west, south, columns, rows), _ = _native_engine.raster(points, None, options, self.progress)
+        arrays = {name: band.ravel() for name, band in zip(self.texts, bands)}
+        origin = (west + 0.5 * size, south + 0.5 * size, 0.0)
+        image = image_of(Image(origin, (size, size, 1.0), (columns, rows, 1), arrays))
+        image.GetPointData().SetActiveScalars(self.texts[0])
+        image.GetFieldData().AddArray(vtk_array("GeoTransform", [west, size, 0.0, south + rows * size, 0.0, -size]))
+        vtkImageData.GetData(outputs, 0).ShallowCopy(image)
 
 
 class vtkRangeResampleFilter(Filter):
@@ -428,11 +348,11 @@ class vtkTIPPPointReader(Filter):
     PROPERTIES = {"Classes": "", "Returns": 0, "KeepWithheld": False, "KeepSynthetic": False, "KeepOverlap": False,
                   "Columns": ""}
     LIMITS = {"Returns": (0, 2)}
-    FILES = "FileName"
+    LIST = "FileName"
     OUTPUTS = ("vtkPolyData",)
 
     def execute(self, inputs: Any, outputs: Any) -> None:
-        if not self.files:
+        if not self.texts:
             raise RuntimeError("There is no file name; set one.")
         columns = self.value("Columns")
         options = {
@@ -441,7 +361,7 @@ class vtkTIPPPointReader(Filter):
             "returns": self.value("Returns"),
             "keep": [flag for flag in ("withheld", "synthetic", "overlap") if self.value("Keep" + flag.capitalize())],
         }
-        array, data, crs = _native_engine.read_points(self.files, options)
+        array, data, crs = _native_engine.read_points(self.texts, options)
         cloud = point_cloud(array, data)
         if crs:
             text = vtkStringArray()

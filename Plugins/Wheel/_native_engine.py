@@ -18,7 +18,7 @@ from . import _core
 from . import _native_constraints as constraints
 from ._arrays import attributes, coordinates, Image, Mesh
 from ._arguments import finish, Progress
-from ._rasters import bounds_of, derived, DERIVED, grid_over, needs_elevation, sampling_of, selected, uncompressed
+from ._rasters import DERIVED, needs_elevation, require_bands, uncompressed
 from ._vtkmodules import root
 
 __all__ = ["delaunay", "delaunay_2d", "delaunay_file", "dem", "open_mesh", "read", "require_ranks", "resample", "write"]
@@ -74,54 +74,53 @@ def triangulated(points: np.ndarray, options: dict[str, Any], progress: Progress
     return result
 
 
-_TRIANGULATION = {"tolerance": 0.0, "partitions": (0, 0), "schedule": 1}
+def raster(points: Any, point_data: Any, options: dict[str, Any],
+           progress: Progress | None) -> tuple[list[np.ndarray], tuple[float, float, int, int], str]:
+    """The bands of the attributes as (rows, columns) from the south, the west, south, columns and rows, and the CRS of
+    points in files."""
+    lines = {name: _core.read_constraints(options[name]) for name in ("breaklines", "boundary")
+             if isinstance(options[name], str)}
+    options = {**options, **lines}
+    if isinstance(points, list) and points and isinstance(points[0], str):
+        with uncompressed(points) as files:
+            made = _core.dem(files, options, progress)
+    else:
+        made = _core.dem(_table(points, point_data, options), options, progress)
+    finish(progress)
+    bands, grid, crs, rejected = made
+    if rejected:
+        warn([f"{rejected} points with a NaN or infinite x or y are left out."])
+    return [np.reshape(band, grid[:1:-1]) for band in bands], grid, crs
 
 
 def dem(points: Any, point_data: Any, options: dict[str, Any],
         progress: Progress | None) -> tuple[list[np.ndarray], tuple[float, ...], str | None]:
     """The bands of the attributes from the north to the south, their transform and the CRS of points in files."""
-    names, size, crs = options["attributes"], options["resolution"], None
+    bands, (west, south, _, rows), crs = raster(points, point_data, options, progress)
+    size = options["resolution"]
+    return [band[::-1] for band in bands], (size, 0.0, west, 0.0, -size, south + rows * size), crs or None
+
+
+def _table(points: Any, point_data: Any, options: dict[str, Any]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """Coordinates in the plane, and the columns that bands need."""
     if check.is_vtk_object(points):
         from ._vtk import arrays_of, xyz_of
 
-        array, data = plain(xyz_of(points)), arrays_of(points.GetPointData())
-    elif isinstance(points, list) and points and isinstance(points[0], str):
-        array, data, crs = read_points(points, options)
+        array, data = xyz_of(points), arrays_of(points.GetPointData())
     else:
-        array = plain(coordinates(points))
+        array = coordinates(points)
         data = attributes(point_data, len(array))
         if array.shape[1] == 2 and needs_elevation(options):
             raise ValueError("points have no elevation; give an array of shape (n, 3) or other attributes.")
-    if array.shape[1] == 2:
-        array = np.column_stack([array, np.zeros(len(array), array.dtype)])
-    if options["thin"] or options["duplicates"] != "first":
-        single = {name: values for name, values in data.items() if values.ndim == 1}
-        array, data = selected(array.astype(np.float64), single, options)
-    grid = grid_over(options["bounds"] or bounds_of(array[:, :2]), size, options["align"])
-    if "elevation" in names and "elevation" not in data:
-        data = {**data, "elevation": np.ascontiguousarray(array[:, 2])}
-    of_points = [name for name in names if name not in DERIVED]
-    of_triangles = [name for name in names if name in DERIVED]
-    for name in of_points:
-        if name not in data:
-            raise KeyError(f"there is no attribute '{name}'; there are {[*data]}.")
-    half = None if progress is None else lambda done: progress(0.5 * done)
-    result = triangulated(array, {**_TRIANGULATION, **options}, half)
-    corners = array.astype(np.float64)[result["triangles"]] if of_triangles else None
-    rest = None if progress is None else lambda done: progress(0.5 + 0.5 * done)
-    *_, samples, _, notes = _core.resample(
-        np.ascontiguousarray(array), result["triangles"], None,
-        [np.ascontiguousarray(data[name]) for name in of_points],
-        [np.ascontiguousarray(derived(name, corners)) for name in of_triangles], sampling_of(grid, size), [1, 1, 1], [size, size, 0.0],
-        math.nan, "openmp", options["threads"], rest)
-    finish(progress)
-    warn([*result["warnings"], *notes])
-    west, south, columns, rows = grid
-    sampled = {name: band.reshape(rows, columns)[::-1] for name, band in zip([*of_points, *of_triangles], samples)}
-    if "void" in sampled:
-        sampled["void"] = np.where(np.isnan(sampled["void"]), 1.0, sampled["void"])
-    bands = [sampled[name] for name in names]
-    return bands, (size, 0.0, west, 0.0, -size, south + rows * size), crs or None
+    if len(array) == 0:
+        raise RuntimeError("There are no points.")
+    require_bands(options["attributes"], data)
+    wanted = [*options["attributes"], "elevation"]
+    columns = {name: np.ascontiguousarray(values, np.float64) for name, values in data.items()
+               if name in wanted and values.ndim == 1}
+    if "elevation" not in columns and array.shape[1] == 3:
+        columns = {**columns, "z": np.ascontiguousarray(array[:, 2], np.float64)}
+    return np.ascontiguousarray(array[:, :2], np.float64), columns
 
 
 def read_points(paths: list[str], options: dict[str, Any]) -> tuple[np.ndarray, dict[str, np.ndarray], str]:

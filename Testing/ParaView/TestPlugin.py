@@ -29,12 +29,16 @@ print("devices:", ours.GetProperty("Device").GetAvailable()[:2])
 ours.UpdatePipeline()
 print("samples:", ours.GetDataInformation().GetExtent())
 
+raster = TIPPPointsToImage(Input=Plane(XResolution=10, YResolution=10), Resolution=0.1, Bands=["elevation", "slope"])
+raster.UpdatePipeline()
+print("raster:", raster.GetDataInformation().GetExtent(), sorted(raster.PointData.keys()))
+
 from tipp import vtkTIPPDelaunay2D, vtkTIPPRangeReader
 print("wrapped:", vtkTIPPDelaunay2D().GetClassName(), vtkTIPPRangeReader().GetUseRange())
 
 definitions = servermanager.ProxyManager().SMProxyManager.GetProxyDefinitionManager()
 for group, name in (("sources", "TIPPReader"), ("writers", "TIPPWriter"), ("filters", "TIPPDelaunay2D"),
-                    ("sources", "TIPPOutOfCoreDelaunay2D"), ("filters", "RangeResample")):
+                    ("sources", "TIPPOutOfCoreDelaunay2D"), ("filters", "RangeResample"), ("filters", "TIPPPointsToImage")):
     proxy = servermanager.ProxyManager().NewProxy(group, name)
     names = servermanager.PropertyIterator(servermanager._getPyProxy(proxy))
     bare = [p.GetXMLName() for p in names if not (p.GetDocumentation() and p.GetDocumentation().GetDescription())]
@@ -62,6 +66,9 @@ EXPECTED = [
     "unseen of TIPPOutOfCoreDelaunay2D: []",
     "undocumented of RangeResample: []",
     "unseen of RangeResample: []",
+    "undocumented of TIPPPointsToImage: []",
+    "unseen of TIPPPointsToImage: []",
+    "raster: (0, 9, 0, 9, 0, 0) ['elevation', 'slope']",
 ]
 
 session = Session(__doc__)

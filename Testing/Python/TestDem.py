@@ -92,6 +92,30 @@ class Dem(unittest.TestCase):
                 np.testing.assert_array_equal(np.load(self.path("dem.npy"))[::-1], grids[-1], str(options))
         self.assertEqual(len({grid.tobytes() for grid in grids}), 7)
 
+    def test_memory_limits_change_nothing(self):
+        expected = tipp.dem(self.points, 0.3, attributes=["elevation", "slope"], max_edge=5, thin=(0.5, "max"))
+        for points in (self.points, self.path("points.npy")):
+            limited = tipp.dem(points, 0.3, attributes=["elevation", "slope"], max_edge=5, thin=(0.5, "max"), memory="1M")
+            np.testing.assert_array_equal(expected.array, limited.array)
+            self.assertEqual(expected.transform, limited.transform)
+
+    def test_breaklines_and_boundary_are_those_of_the_tool(self):
+        line = np.array([[5.0, 5, 3], [50, 60, 3.5], [95, 70, 2]])
+        ring = np.array([[10.0, 10], [90, 15], [80, 90], [15, 80]])
+        ends = np.c_[line[:-1], line[1:]], np.c_[ring, np.roll(ring, -1, axis=0)]
+        for name, header, rows in (("lines.csv", "x1,y1,z1,x2,y2,z2", ends[0]), ("plain.csv", "x1,y1,x2,y2", ends[0][:, [0, 1, 3, 4]]),
+                                   ("ring.csv", "x1,y1,x2,y2", ends[1])):
+            np.savetxt(self.path(name), rows, "%.17g", ",", header=header, comments="")
+        for file, lines in (("lines.csv", line), ("plain.csv", line[:, :2])):
+            self.run_tipp("dem", "points.npy", "-o", "dem.npy", "--resolution", 0.5, "--breaklines", file, "--boundary", "ring.csv")
+            expected = np.load(self.path("dem.npy"))[::-1]
+            for given in ({"breaklines": [lines], "boundary": [ring]},
+                          {"breaklines": self.path(file), "boundary": self.path("ring.csv")}):
+                np.testing.assert_array_equal(expected, tipp.dem(self.points, 0.5, **given).array)
+                np.testing.assert_array_equal(expected, tipp.dem(self.points, 0.5, memory="1M", **given).array)
+        with self.assertRaisesRegex(ValueError, r"boundary\[0\] has the shape"):
+            tipp.dem(self.points, 1, boundary=[ring[:, 0]])
+
     def write_las(self, name, integers):
         """LAS 1.2 of format 0 with steps of 0.01."""
         header = bytearray(227)

@@ -96,6 +96,37 @@ class DemFiles(unittest.TestCase):
                     self.assertAlmostEqual(float(tags["STATISTICS_MEAN"]), inside.mean(), 3)
                     self.assertAlmostEqual(float(tags["STATISTICS_STDDEV"]), inside.std(), 3)
 
+    def pixels_beside_others(self):
+        """Points, our pixels, and the centres of these."""
+        points = self.save_points(5000, (637000, 849000))
+        self.dem("points.npy", "-o", "dem.npy", "--resolution", 0.5, "--bounds", 637000, 637100, 849000, 849100)
+        x, y = np.meshgrid(637000.25 + 0.5 * np.arange(200), 849000.25 + 0.5 * np.arange(200))
+        return points, np.load(self.path("dem.npy")), np.c_[x.ravel(), y.ravel()]
+
+    def expect_near(self, expected, pixels):
+        expected = np.reshape(expected, pixels.shape)
+        both = ~np.isnan(expected) & ~np.isnan(pixels)
+        self.assertGreater(both.mean(), 0.97)
+        self.assertLess((np.isnan(expected) != np.isnan(pixels)).mean(), 1e-4)  # on the border
+        np.testing.assert_allclose(pixels[both], expected[both], atol=1e-6)
+
+    @needs("scipy")
+    def test_pixels_are_those_of_scipy(self):
+        from scipy.interpolate import LinearNDInterpolator
+
+        points, pixels, centres = self.pixels_beside_others()
+        middle = points[:, :2].mean(axis=0)  # Qhull is not exact
+        self.expect_near(LinearNDInterpolator(points[:, :2] - middle, points[:, 2])(centres - middle), pixels)
+
+    @needs("startinpy")
+    def test_pixels_are_those_of_startinpy(self):
+        import startinpy
+
+        points, pixels, centres = self.pixels_beside_others()
+        triangulation = startinpy.DT()
+        triangulation.insert(points)
+        self.expect_near(triangulation.interpolate({"method": "TIN"}, centres, strict=False), pixels)
+
     @needs("rasterio")
     def test_a_raster_without_reference_system_has_its_place(self):
         import rasterio
@@ -106,6 +137,26 @@ class DemFiles(unittest.TestCase):
             self.assertIsNone(raster.crs)
             self.assertEqual(tuple(raster.transform)[:6], (1, 0, -30, 0, -1, 1100))
             self.assertEqual(raster.shape, (100, 100))
+
+    @needs("rasterio")
+    def test_like_takes_the_very_transform_of_another_raster(self):
+        import rasterio
+
+        points = self.save_points(low=(636000.1, -50), side=80)
+        other = np.zeros((100, 197), np.float32)
+        transform = rasterio.Affine(0.1, 0, 636010.7, 0, -0.7, 24.37)  # 24.37 - 100 * 0.7 + 100 * 0.7 is less
+        with rasterio.open(self.path("other.tif"), "w", driver="GTiff", width=197, height=100, count=1, dtype="float32",
+                           crs="EPSG:2992", transform=transform) as raster:
+            raster.write(other, 1)
+        for options in ([], ["--memory", "8M"]):
+            self.dem("points.npy", "-o", "dem.tif", "--like", "other.tif", *options)
+            with rasterio.open(self.path("dem.tif")) as raster:
+                self.assertEqual(raster.transform, transform)
+                self.assertEqual(raster.shape, other.shape)
+                self.assertEqual(raster.crs, rasterio.crs.CRS.from_epsg(2992))
+                x, y = raster.xy(60, 70)
+                self.assertAlmostEqual(raster.read(1)[60, 70], 5 * np.sin(x / 9) + y / 7, delta=0.2)
+        self.assertEqual(len(points), 3000)
 
     def test_files_are_equal_for_any_threads_and_memory(self):
         self.save_points(20000)

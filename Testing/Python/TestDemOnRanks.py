@@ -5,6 +5,7 @@ import os
 import pathlib
 import random
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -29,9 +30,12 @@ class DemOnRanks(unittest.TestCase):
                 x, y = (numbers.randrange(4000) / 40 for _ in range(2))
                 file.write(f"{x},{y},{(x - y) ** 2 / 50},{i % 255}\n")
 
+    @staticmethod
+    def launcher(ranks):
+        return [MPIEXEC, "--oversubscribe", "--bind-to", "none", "-n", str(ranks)] if ranks > 1 else []
+
     def command(self, ranks, output, *arguments):
-        launcher = [MPIEXEC, "--oversubscribe", "--bind-to", "none", "-n", str(ranks)] if ranks > 1 else []
-        return [*launcher, TIPP, "dem", "points.csv", "-o", output, "--resolution", "0.25", "--threads", "1", "--attributes",
+        return [*self.launcher(ranks), TIPP, "dem", "points.csv", "-o", output, "--resolution", "0.25", "--threads", "1", "--attributes",
                 "elevation,intensity,slope", "--duplicates", "mean", *arguments]
 
     def make(self, ranks, output, *arguments):
@@ -49,14 +53,52 @@ class DemOnRanks(unittest.TestCase):
             self.assertEqual(figures["ranks"], ranks)
         self.assertEqual(sorted(os.listdir(self.folder)), ["alone.npy", "points.csv", "run.json", "shared.npy"])
 
+    def test_breaklines_and_a_boundary_give_the_same_bytes(self):
+        self.make_points(60000)
+        numbers = random.Random(2)
+        with open(self.folder / "lines.csv", "w", encoding="ascii") as file:
+            file.write("x1,y1,z1,x2,y2,z2\n")
+            for i in range(30):
+                corners = [f"{numbers.randrange(800) / 8},{numbers.randrange(800) / 8},{'' if i % 3 else i}" for _ in range(2)]
+                file.write(",".join(corners) + "\n")
+        (self.folder / "ring.csv").write_text("x1,y1,x2,y2\n3,4,93.5,5\n93.5,5,97,96\n97,96,3,4\n")
+        constraints = ("--breaklines", "lines.csv", "--boundary", "ring.csv", "--max-edge", "30")
+        alone = self.make(1, "alone.npy", *constraints)
+        self.assertNotEqual(alone, self.make(1, "free.npy"))
+        for ranks in (2, 3):
+            self.assertEqual(self.make(ranks, "shared.npy", "--memory", "2M", *constraints), alone)
+
+    def test_points_that_are_left_out_are_counted_over_all_ranks(self):
+        header = bytearray(227)
+        header[:4] = b"LASF"
+        header[24:26] = 1, 2
+        struct.pack_into("<HII", header, 94, 227, 227, 0)
+        struct.pack_into("<BHI", header, 104, 0, 20, 50000)
+        struct.pack_into("<3d", header, 131, 0.01, 0.01, 0.01)
+        numbers = random.Random(3)
+        with open(self.folder / "points.las", "wb") as file:
+            file.write(header)
+            for i in range(50000):
+                place = [numbers.randrange(10000) for _ in range(3)]
+                file.write(struct.pack("<3iHBBbBH", *place, i % 200, 9, 2 + i % 5, 0, 0, 0))
+        alone = [TIPP, "dem", "points.las", "-o", "dem.npy", "--resolution", "1", "--class", "2,3"]
+        outputs = []
+        for command in (alone, [*alone, "--memory", "4M"], [*self.launcher(2), *alone, "--memory", "4M"]):
+            run = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=250)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            outputs.append([line for line in (run.stdout + run.stderr).splitlines() if "30000" in line])
+        self.assertEqual(len(outputs[0]), 1)
+        self.assertEqual(outputs, outputs[:1] * 3)
+
     def test_ranks_need_no_limit_of_memory(self):
         self.make_points(3000)
         self.assertEqual(self.make(2, "shared.npy"), self.make(1, "alone.npy"))
 
     def test_killed_ranks_are_followed_by_others(self):
         self.make_points(60000)
-        alone = self.make(1, "alone.npy")
-        arguments = ("--memory", "2M", "--resume")
+        (self.folder / "lines.csv").write_text("x1,y1,x2,y2\n5,5,90,93\n7,80,88.1,12\n")
+        alone = self.make(1, "alone.npy", "--breaklines", "lines.csv")
+        arguments = ("--memory", "2M", "--resume", "--breaklines", "lines.csv")
         for number in range(6):
             # A session of its own, all of which is killed.
             run = subprocess.Popen(self.command(2 + number % 2, "shared.npy", *arguments), cwd=self.folder,

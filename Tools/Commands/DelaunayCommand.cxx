@@ -267,7 +267,7 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
   command
     ->add_option("--max-edge", arguments->MaximumEdge,
       "Leaves out triangles with an edge longer than this, in the units of the points")
-    ->check(CLI::PositiveNumber);
+    ->check(checkPositive);
   command->add_flag("--map-duplicates", arguments->MapDuplicates,
     "Add the point array RepresentativePointId to .vtp or .vtu: the id of the vertex that stands "
     "for a "

@@ -75,6 +75,7 @@ void writeDemReport(const DemArguments& arguments, const DemReport& report)
       { "duplicates", report.Figures.Duplicates },
       { "disagreeing_places", report.Figures.DisagreeingPositions },
       { "rejected", report.Figures.Rejected },
+      { "without_elevation", report.Figures.WithoutElevation },
       { "columns", grid.Columns },
       { "rows", grid.Rows },
       { "west", grid.West },
@@ -82,6 +83,7 @@ void writeDemReport(const DemArguments& arguments, const DemReport& report)
       { "pixel", grid.Pixel },
       { "bands", report.Settings.Bands.names() },
       { "pixels_with_value", report.Filled },
+      { "values_equal_to_nodata", report.Hidden },
       { "read_seconds", report.ReadSeconds },
       { "make_seconds", report.MakeSeconds },
       { "write_seconds", report.WriteSeconds },
@@ -104,6 +106,14 @@ void requireDemWritable(const DemArguments& arguments)
   }
 }
 
+IOError demError(const DemArguments& arguments, const std::runtime_error& error)
+{
+  const bool isColumn = dynamic_cast<const UnknownBand*>(&error) != nullptr;
+  return IOError(arguments.Inputs.front(),
+    std::string("cannot be made a raster: ") + error.what() +
+      (isColumn ? " 'tipp info' lists all columns; --attributes names those to take." : ""));
+}
+
 void finishDem(const DemArguments& arguments, const DemReport& report)
 {
   if (!arguments.Statistics.empty())
@@ -111,11 +121,24 @@ void finishDem(const DemArguments& arguments, const DemReport& report)
     writeDemReport(arguments, report);
   }
   fmt::print("{}\n", summarize(arguments, report));
+  if (report.Figures.WithoutElevation > 0)
+  {
+    fmt::print(stderr, "tipp: {} points have no elevation; triangles at them have none, either.\n",
+      report.Figures.WithoutElevation);
+  }
+  warnOfHidden(report.Hidden, arguments.NoData);
   if (report.Figures.Triangles == 0)
   {
     fmt::print(stderr,
       "tipp: warning: no pixel has a value, since there are fewer than three distinct points or "
       "all lie on one line.\n");
+  }
+  else if (report.Filled == 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: no pixel has a value: check --bounds, --like and --max-edge against what "
+      "'tipp "
+      "info' tells of the points.\n");
   }
 }
 

@@ -3,10 +3,12 @@
 #define tippDemArguments_h
 
 #include "Dem/MakeDem.h"
+#include "Files/IOError.h"
 #include "Points/ReadPoints.h"
 #include "Raster/RasterFile.h"
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,12 @@ struct DemArguments
   std::string Memory; ///< empty: not given
   bool Resume = false;
   std::string Scratch;
+
+  /// For messages.
+  std::string constraintFile() const
+  {
+    return this->Breaklines.empty() ? this->Boundary : this->Breaklines;
+  }
 };
 
 struct DemReport
@@ -42,6 +50,7 @@ struct DemReport
   DemFigures Figures;
   TerrainSettings Settings;
   std::int64_t Filled = 0; ///< pixels with a value
+  double Hidden = 0;       ///< values that equal --nodata
   double ReadSeconds = 0;
   double MakeSeconds = 0;
   double WriteSeconds = 0;
@@ -58,6 +67,9 @@ void describeGrid(const TerrainSettings& settings, RasterDescription& descriptio
 
 /// Throws IOError if an output is an input or cannot be written: before the work.
 void requireDemWritable(const DemArguments& arguments);
+
+/// What is thrown where the points cannot be made a raster.
+IOError demError(const DemArguments& arguments, const std::runtime_error& error);
 
 /// Prints the summary, and writes the statistics if they are asked for.
 void finishDem(const DemArguments& arguments, const DemReport& report);

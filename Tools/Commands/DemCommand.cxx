@@ -56,6 +56,7 @@ Examples:
   tipp dem tile.las -o same.tif --like other.tif
   tipp dem tile.las -o dem.tif --resolution 1 --breaklines rivers.csv --boundary area.vtp
   tipp dem tiles/*.las -o dem.tif --resolution 1 --memory 512M
+  tipp dem tiles/*.las -o dem.tif --resolution 1 --memory 512M --breaklines rivers.csv
   mpirun -np 4 tipp dem tiles/*.las -o dem.tif --resolution 1 --memory 512M
 )";
 
@@ -101,6 +102,7 @@ int runInMemory(const DemArguments& arguments)
     return reportInterrupt();
   }
   writer->close();
+  report.Hidden = writer->hidden();
   report.WriteSeconds = watch.restart();
   report.PeakMemory = peakMemoryBytes();
   finishDem(arguments, report);
@@ -113,16 +115,6 @@ int runDem(const DemArguments& arguments)
   const bool isOnRanks = session.controller() && session.controller()->GetNumberOfProcesses() > 1;
   try
   {
-    if (isOnRanks && arguments.Request.Constraints)
-    {
-      if (session.isFirst())
-      {
-        fmt::print(stderr,
-          "tipp: breaklines and boundaries need all points in memory; start 'tipp dem' without "
-          "mpirun.\n");
-      }
-      return session.isFirst() ? Usage : Success;
-    }
     if (isOnRanks || !arguments.Memory.empty())
     {
       DemReport report;
@@ -137,13 +129,11 @@ int runDem(const DemArguments& arguments)
   }
   catch (const std::invalid_argument& error)
   {
-    throw IOError(
-      arguments.Breaklines.empty() ? arguments.Boundary : arguments.Breaklines, error.what());
+    throw IOError(arguments.constraintFile(), error.what());
   }
   catch (const std::runtime_error& error)
   {
-    throw IOError(
-      arguments.Inputs.front(), std::string("cannot be made a raster: ") + error.what());
+    throw demError(arguments, error);
   }
 }
 
@@ -151,8 +141,7 @@ void addConstraintOptions(CLI::App& command, DemArguments& arguments)
 {
   command.add_option("--breaklines", arguments.Breaklines,
     "A file of lines that are edges of triangles; their points have the file's heights, or those "
-    "of "
-    "the surface without them");
+    "of the surface without them");
   command.add_option("--boundary", arguments.Boundary,
     "A file of closed lines: pixels have values inside of them only");
 }
@@ -161,7 +150,7 @@ void addConstraintOptions(CLI::App& command, DemArguments& arguments)
 void takeConstraints(DemArguments& arguments)
 {
   TableConstraints constraints;
-  constraints.TakesSurface = true;
+  constraints.Surface = arguments.Request.Duplicates;
   if (!arguments.Breaklines.empty())
   {
     constraints.Lines = readConstraintFile(arguments.Breaklines);
@@ -191,7 +180,7 @@ void addGridOptions(CLI::App& command, DemArguments& arguments)
   command
     .add_option(
       "--resolution", raster.Resolution, "Width and height of a pixel, in the units of the points")
-    ->check(CLI::PositiveNumber);
+    ->check(checkPositive);
   command
     .add_option(
       "--bounds", arguments.Bounds, "The range: xmin xmax ymin ymax; else that of the points")
@@ -218,7 +207,7 @@ void addValueOptions(CLI::App& command, DemArguments& arguments)
   command
     .add_option("--max-edge", arguments.Request.MaximumEdge,
       "Triangles with an edge longer than this, in the plane, have no values")
-    ->check(CLI::PositiveNumber);
+    ->check(checkPositive);
   command.add_option("--nodata", arguments.NoData, "What a GeoTIFF has where there is no triangle")
     ->capture_default_str();
   command.add_option("--crs", arguments.Crs,
@@ -233,6 +222,32 @@ void addValueOptions(CLI::App& command, DemArguments& arguments)
   command.add_flag("--cog", arguments.CloudOptimized, "A cloud optimized GeoTIFF, with overviews");
 }
 
+/// Options that would do nothing are refused.
+void requireUseful(const CLI::App& command, const DemArguments& arguments)
+{
+  for (const char* const name : { "--nodata", "--crs", "--type", "--compress", "--cog" })
+  {
+    if (command.count(name) > 0 && !isGeoTiff(arguments.Output))
+    {
+      throw CLI::ValidationError(name, "is for a GeoTIFF (.tif) only");
+    }
+  }
+  for (const char* const name : { "--bounds", "--align" })
+  {
+    if (command.count(name) > 0 && !arguments.Like.empty())
+    {
+      throw CLI::ValidationError(name, "does not go with --like");
+    }
+  }
+  std::vector<std::string> bands = arguments.Request.Bands;
+  std::sort(bands.begin(), bands.end());
+  const auto twice = std::adjacent_find(bands.begin(), bands.end());
+  if (twice != bands.end())
+  {
+    throw CLI::ValidationError("--attributes", "has '" + *twice + "' twice");
+  }
+}
+
 void requireGood(const DemArguments& arguments)
 {
   if (arguments.Like.empty() == (arguments.Request.Raster.Resolution == 0))
@@ -240,14 +255,11 @@ void requireGood(const DemArguments& arguments)
     throw CLI::ValidationError(
       "--resolution", arguments.Like.empty() ? "or --like is required" : "does not go with --like");
   }
-  if (!arguments.Like.empty() && !arguments.Bounds.empty())
+  if (arguments.Type == "float32" && std::isfinite(arguments.NoData) &&
+    std::fabs(arguments.NoData) > double(std::numeric_limits<float>::max()))
   {
-    throw CLI::ValidationError("--bounds", "does not go with --like");
-  }
-  if (!arguments.Memory.empty() && !(arguments.Breaklines.empty() && arguments.Boundary.empty()))
-  {
-    throw CLI::ValidationError(arguments.Breaklines.empty() ? "--boundary" : "--breaklines",
-      "does not go with --memory, since constraints need all points in memory");
+    throw CLI::ValidationError(
+      "--nodata", "is no number of 32 bits; give another or --type float64");
   }
   if (arguments.Memory.empty() && (arguments.Resume || !arguments.Scratch.empty()))
   {
@@ -285,9 +297,10 @@ void addDemCommand(CLI::App& app, int& exitCode)
   command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
   command->footer(footer);
   command->callback(
-    [arguments, &exitCode]()
+    [arguments, command, &exitCode]()
     {
       requireGood(*arguments);
+      requireUseful(*command, *arguments);
       arguments->Points.Threads = arguments->Request.Threads;
       arguments->Points.Columns = columnsForBands(arguments->Request.Bands);
       if (!arguments->Bounds.empty())

@@ -4,14 +4,20 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
+#include "Constraints/ConstrainedPoints.h"
 #include "Dem/RasterSink.h"
+#include "Dem/SurfaceSink.h"
 #include "Files/IOError.h"
+#include "OutOfCore/ScratchFiles.h"
 #include "Points/PointStream.h"
 
 #include <fmt/format.h>
 
+#include <memory>
+#include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <malloc.h>
@@ -44,8 +50,64 @@ std::string identityOf(const DemArguments& arguments, const RasterDescription& d
   return text;
 }
 
-/// Of the folder beside the output that a run keeps its files in.
+/// Of the folders beside the output that runs keep their files in.
 constexpr const char* workSuffix = ".pixels";
+constexpr const char* surfaceSuffix = ".surface";
+
+OutOfCoreOptions optionsOf(const DemArguments& arguments)
+{
+  OutOfCoreOptions options;
+  if (!arguments.Memory.empty())
+  {
+    options.MemoryLimit = *parseMemorySize(arguments.Memory);
+  }
+  options.Threads = arguments.Request.Threads;
+  options.Duplicates = arguments.Request.Duplicates;
+  options.CountOnly = true;
+  options.Resume = arguments.Resume;
+  options.Scratch = arguments.Scratch;
+  return options;
+}
+
+double secondsOf(const OutOfCoreStatistics& statistics)
+{
+  return std::accumulate(statistics.Phases.begin(), statistics.Phases.end(), 0.0,
+    [](double sum, const OutOfCoreStatistics::Phase& phase) { return sum + phase.Seconds; });
+}
+
+/// Sets the values of the surface at the points of constraints, on the first rank, unless none
+/// needs them or the run that uses them has begun. Returns the exit code.
+int findSurface(const DemArguments& arguments, Communicator& ranks, const OpenPoints& open,
+  std::vector<std::vector<double>>& values, DemReport& report)
+{
+  const DemRequest& request = arguments.Request;
+  const bool isNeeded = request.Constraints && needsSurface(*request.Constraints, request.Bands);
+  const bool hasBegun = ranks.rank() == 0 && canResume(arguments.Output + workSuffix);
+  if (!isNeeded || ranks.broadcast(hasBegun))
+  {
+    return Success;
+  }
+  SurfaceSink sink(*request.Constraints);
+  OutOfCoreOptions options = optionsOf(arguments);
+  options.Consumer = &sink;
+  OutOfCoreStatistics statistics;
+  const int code = runOutOfCore(ranks, "Finding heights for the lines", open,
+    arguments.Output + surfaceSuffix, options, statistics);
+  values = sink.takeValues();
+  report.MakeSeconds += secondsOf(statistics);
+  return code;
+}
+
+void fill(DemFigures& figures, const OutOfCoreStatistics& statistics)
+{
+  figures.Points = statistics.Points;
+  figures.Triangles = statistics.Triangles;
+  figures.Duplicates = statistics.Duplicates;
+  figures.DisagreeingPositions = statistics.DisagreeingPositions;
+  figures.Rejected = statistics.Rejected;
+  figures.WithoutElevation = statistics.WithoutElevation;
+  figures.Aborted = statistics.Aborted;
+}
 
 } // namespace
 
@@ -68,8 +130,7 @@ int runDemOutOfCore(
       }
       catch (const std::runtime_error& error)
       {
-        throw IOError(
-          arguments.Inputs.front(), std::string("cannot be made a raster: ") + error.what());
+        throw demError(arguments, error);
       }
     },
     [&](const TerrainSettings& settings, const TileSource& tiles,
@@ -83,6 +144,7 @@ int runDemOutOfCore(
       report.Filled =
         writeTiles(*writer, settings.Grid, tiles, progress, settings.Threads, settings.Bands);
       report.Filled < 0 ? void() : writer->close();
+      report.Hidden = writer->hidden();
       return report.Filled >= 0;
     },
     isGeoTiff(arguments.Output) ? &encoding : nullptr);
@@ -103,21 +165,36 @@ int runDemOutOfCore(
     }
     return stream;
   };
-  OutOfCoreOptions options;
-  if (!arguments.Memory.empty())
+  std::vector<std::vector<double>> surface;
+  const int surfaceCode = findSurface(arguments, ranks, open, surface, report);
+  if (surfaceCode != Success)
   {
-    options.MemoryLimit = *parseMemorySize(arguments.Memory);
+    return surfaceCode;
   }
-  options.Threads = arguments.Request.Threads;
+  ConstrainedPoints* constrained = nullptr; // of the first rank
+  const auto openConstrained = [&]() -> std::unique_ptr<PointStream>
+  {
+    auto stream = open();
+    if (!arguments.Request.Constraints)
+    {
+      return stream;
+    }
+    auto joined = std::make_unique<ConstrainedPoints>(std::move(stream),
+      *arguments.Request.Constraints, arguments.constraintFile(), arguments.Request.Threads);
+    joined->setSurface(std::move(surface));
+    constrained = joined.get();
+    return joined;
+  };
+  OutOfCoreOptions options = optionsOf(arguments);
   options.MaximumEdge = arguments.Request.MaximumEdge;
-  options.Duplicates = arguments.Request.Duplicates;
-  options.CountOnly = true;
   options.Consumer = &sink;
-  options.Resume = arguments.Resume;
-  options.Scratch = arguments.Scratch;
+  if (arguments.Request.Constraints)
+  {
+    options.Constraints = [&constrained] { return constrained->takeSegments(); };
+  }
   OutOfCoreStatistics statistics;
-  const int code = runOutOfCore(
-    ranks, "Making the raster", open, arguments.Output + workSuffix, options, statistics);
+  const int code = runOutOfCore(ranks, "Making the raster", openConstrained,
+    arguments.Output + workSuffix, options, statistics);
   if (code != Success)
   {
     return code;
@@ -130,15 +207,8 @@ int runDemOutOfCore(
   reportLeftOut(statistics.LeftOut, statistics.ThinnedOut);
   report.PeakMemory = largestMemory(usage);
   report.Ranks = ranks.size();
-  report.Figures.Points = statistics.Points;
-  report.Figures.Triangles = statistics.Triangles;
-  report.Figures.Duplicates = statistics.Duplicates;
-  report.Figures.DisagreeingPositions = statistics.DisagreeingPositions;
-  report.Figures.Rejected = statistics.Rejected;
-  for (const OutOfCoreStatistics::Phase& phase : statistics.Phases)
-  {
-    report.MakeSeconds += phase.Seconds;
-  }
+  fill(report.Figures, statistics);
+  report.MakeSeconds += secondsOf(statistics);
   finishDem(arguments, report);
   return Success;
 }

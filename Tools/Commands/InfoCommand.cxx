@@ -176,7 +176,7 @@ int runInfo(const InfoArguments& arguments)
   if (area > 0 && std::isfinite(area))
   {
     fmt::print("resolution  {}, for about a point a pixel\n",
-      roundNumber(std::sqrt(area / double(summary.Points))));
+      roundNumber(std::sqrt(area / double(summary.Points - summary.NotFinite))));
   }
   return Success;
 }

@@ -33,6 +33,15 @@ std::optional<std::uint64_t> parseMemorySize(const std::string& text)
                                                 : std::nullopt;
 }
 
+std::string checkPositive(const std::string& text)
+{
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  const bool isGood = error == std::errc() && stop == end && value > 0 && std::isfinite(value);
+  return isGood ? "" : "'" + text + "' is no number above 0";
+}
+
 std::string checkMemorySize(const std::string& text)
 {
   return parseMemorySize(text) ? "" : "'" + text + "' is no number of bytes, as 512M or 2G";
@@ -143,7 +152,8 @@ void addDuplicatesOption(CLI::App& command, DuplicateRule& rule)
   command
     .add_option_function<std::string>(
       "--duplicates", [&rule, rules](const std::string& name) { rule = rules.at(name); },
-      "Of several points with equal coordinates the values of the first, of the lowest (min) or highest "
+      "Of several points with equal coordinates the values of the first, of the lowest (min) or "
+      "highest "
       "(max), or the mean of each column; without: first")
     ->check(CLI::IsMember({ "first", "min", "max", "mean" }));
 }

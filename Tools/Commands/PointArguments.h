@@ -41,6 +41,9 @@ std::optional<std::uint64_t> parseMemorySize(const std::string& text);
 /// A validator for the command line: returns an error message, or an empty string.
 std::string checkMemorySize(const std::string& text);
 
+/// The same for a finite number above 0.
+std::string checkPositive(const std::string& text);
+
 } // namespace tipp
 
 #endif

@@ -66,6 +66,17 @@ void warnOfNoTriangles(std::int64_t triangles)
   }
 }
 
+void warnOfHidden(double values, double noData)
+{
+  if (values > 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: {:.0f} values equal the number for no data, {}, and are lost; give another "
+      "number.\n",
+      values, noData);
+  }
+}
+
 void writeJson(const std::string& path, const nlohmann::ordered_json& json)
 {
   PendingFile pending(path);

@@ -25,6 +25,9 @@ nlohmann::ordered_json jsonOf(const FigureList& list);
 /// Prints a warning if a run has made no triangles.
 void warnOfNoTriangles(std::int64_t triangles);
 
+/// Prints a warning if values of a raster equal the number for no data.
+void warnOfHidden(double values, double noData);
+
 /// Writes a JSON file; throws IOError.
 void writeJson(const std::string& path, const nlohmann::ordered_json& json);
 

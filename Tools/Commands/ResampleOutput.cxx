@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/ResampleOutput.h"
 
+#include "Commands/Report.h"
+
 #include "Arrays/Scalar.h"
 #include "Dem/MakeDem.h"
 #include "Files/IOError.h"
@@ -170,6 +172,7 @@ void writeGeoTiff(const std::string& path, vtkImageData* image, const std::strin
   const auto writer = createRaster(path, description, before);
   writeTiles(*writer, description.Grid, readFrom(description.Grid, bands), {}, threads);
   writer->close();
+  warnOfHidden(writer->hidden(), noData);
 }
 
 } // namespace tipp

@@ -57,6 +57,12 @@ def constraints_of(
     return Constraints(lines, by_id, np.concatenate([np.zeros((0, 3)), *by_place]))
 
 
+def rings_of(polygons: Any) -> Iterator[Any]:
+    """The rings of a list of polygons, each an array or a polygon of Shapely's, or of one of the latter."""
+    for polygon in _polygons(polygons):
+        yield from _rings(polygon) if hasattr(polygon, "geom_type") else [polygon]
+
+
 def _polygons(polygons: Any) -> Iterable[Any]:
     if hasattr(polygons, "geom_type"):
         return [polygons]

@@ -10,14 +10,16 @@ import numpy as np
 from . import _arguments as check
 from . import _engine
 from ._arguments import ProgressBar, progress_of
+from ._arrays import taken
+from ._constraints import rings_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 _Path = Union[str, "os.PathLike[str]"]
 _RETURNS = {"all": 0, "first": 1, "last": 2}
-_DUPLICATES = ("first", "min", "max", "mean")
-_THINNINGS = ("min", "max", "nearest")
+_DUPLICATES = {"first": 0, "min": 1, "max": 2, "mean": 3}
+_THINNINGS = {"min": 0, "max": 1, "nearest": 2}
 _FLAGS = ("withheld", "synthetic", "overlap")
 
 
@@ -56,6 +58,9 @@ def dem(
     classes: Sequence[int] | None = None,
     returns: str = "all",
     keep: Sequence[str] = (),
+    breaklines: Any = None,
+    boundary: Any = None,
+    memory: int | str | None = None,
     threads: int = 0,
     progress_bar: ProgressBar = False,
 ) -> Dem:
@@ -90,6 +95,17 @@ def dem(
     classes, returns, keep
         Of LAS files: the classes to read (None: all), the returns ("all", "first" or "last"), and which
         flagged points are read, too ("withheld", "synthetic", "overlap").
+    breaklines
+        Lines that become edges of triangles: a file as --breaklines of `tipp dem` takes, a vtkPolyData, or a list of
+        arrays of corners of shape (k, 2) or (k, 3). Where no height is given, or all are 0, the corners have those of the
+        surface without the lines.
+    boundary
+        Closed lines outside of which there are no values: a file, a vtkPolyData, a list of arrays of corners, or one or
+        more of Shapely's polygons.
+    memory
+        What points and triangles may take besides the raster and, if they are no files, the given points: bytes, or a text
+        as "512M". The rest goes to temporary files. A package built with VTK holds the points of files in memory, too. None:
+        no limit.
     threads
         OpenMP threads; 0 is OpenMP's choice.
     progress_bar
@@ -129,8 +145,13 @@ def dem(
         "align": check.flag(align, "align"),
         "attributes": names,
         "max_edge": check.number(max_edge, "max_edge", at_least=0),
-        "duplicates": _name(duplicates, "duplicates", _DUPLICATES),
-        "thin": None if thin is None else _thinning(thin),
+        "duplicates": check.choice(duplicates, "duplicates", _DUPLICATES),
+        "thin_size": 0.0,
+        "thin_rule": 0,
+        **({} if thin is None else _thinning(thin)),
+        "breaklines": lines_of(breaklines, "breaklines", False),
+        "boundary": lines_of(boundary, "boundary", True),
+        "memory": 0 if memory is None else check.memory(memory, "memory"),
         "classes": None if classes is None else _sequence(classes, "classes"),
         "returns": _RETURNS[returns],
         "keep": _sequence(keep, "keep"),
@@ -149,19 +170,47 @@ def dem(
     return Dem(bands[0] if isinstance(attributes, str) else np.stack(bands), transform, crs)
 
 
-def _name(value: Any, name: str, choices: Sequence[str]) -> str:
-    check.choice(value, name, dict.fromkeys(choices, 0))
-    return value
+def lines_of(lines: Any, name: str, is_closed: bool) -> str | tuple[np.ndarray, ...] | None:
+    """A path, or (k, 2) coordinates, heights (perhaps none), and the (m, 2) ids of the ends of edges."""
+    if lines is None:
+        return None
+    if isinstance(lines, (str, os.PathLike)):
+        return check.path(lines, name)
+    if check.is_vtk_object(lines):
+        from ._vtk import cell_lists, xyz_of
+
+        check.data_object(lines, name, ("vtkPolyData",), "a vtkPolyData, a file or a list of arrays")
+        corners = np.asarray(xyz_of(lines), np.float64)
+        chains = cell_lists(lines.GetLines()) + [np.r_[ids, ids[:1]] for ids in cell_lists(lines.GetPolys())]
+    else:
+        rings = [*rings_of(lines)] if is_closed else [*lines]
+        parts = [_corners(part, f"{name}[{number}]") for number, part in enumerate(rings)]
+        starts = np.cumsum([0, *(len(part) for part in parts)])
+        chains = [np.arange(first, first + len(part)) for first, part in zip(starts, parts)]
+        if is_closed:
+            chains = [np.r_[ids, ids[:1]] for ids in chains]
+        corners = np.concatenate([np.zeros((0, 3)), *parts])
+    edges = np.concatenate([np.zeros((0, 2), np.int64), *(np.column_stack([ids[:-1], ids[1:]]) for ids in chains)])
+    edges = edges[(corners[edges[:, 0], :2] != corners[edges[:, 1], :2]).any(axis=1)]  # a ring may repeat its first corner
+    heights = corners[:, 2] if corners[:, 2].any() else np.zeros(0)
+    return np.ascontiguousarray(corners[:, :2]), np.ascontiguousarray(heights), np.ascontiguousarray(edges, np.int64)
 
 
-def _thinning(thin: Any) -> tuple[float, str]:
+def _corners(part: Any, name: str) -> np.ndarray:
+    array = taken(part, name)
+    if array.ndim != 2 or array.shape[1] not in (2, 3) or array.dtype.kind not in "fiu":
+        raise ValueError(f"{name} has the shape {array.shape} and type {array.dtype}; give corners of shape (k, 2) or (k, 3).")
+    return np.column_stack([array, np.zeros((len(array), 3 - array.shape[1]))]).astype(np.float64)
+
+
+def _thinning(thin: Any) -> dict[str, Any]:
     pair = _sequence(thin, "thin")
     if len(pair) != 2:
         raise ValueError(f"thin is {thin!r}; give a side and a rule, as (0.5, 'min').")
     side = check.number(pair[0], "thin")
     if not side > 0:
         raise ValueError(f"thin is {thin!r}; give a side above 0.")
-    return side, _name(pair[1], "thin", _THINNINGS)
+    return {"thin_size": side, "thin_rule": check.choice(pair[1], "thin", _THINNINGS)}
 
 
 def _sequence(values: Any, name: str) -> list[Any]:

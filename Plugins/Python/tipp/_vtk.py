@@ -231,7 +231,8 @@ def image_of(image: Image) -> vtkImageData:
     result.SetOrigin(*image.origin)
     result.SetSpacing(*image.spacing)
     _add_arrays(image.point_data, result.GetPointData())
-    _add_ghosts(image, result)
+    if "vtkValidPointMask" in image.point_data:
+        _add_ghosts(image, result)
     return result
 
 

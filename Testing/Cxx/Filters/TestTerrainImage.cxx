@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Renders a triangulated terrain, lit, seen from above, and compares the picture with a baseline.
-// Arguments: [FILE of a count and lines 'x y z'] -V BASELINE -T FOLDER. Without a FILE the terrain
-// is a formula on scattered points. Exit code 125: FILE is not there.
+// Renders a triangulated terrain, lit, seen from above, or with --raster its shaded raster, and
+// compares the picture with a baseline. Arguments: [--raster] [FILE of a count and lines 'x y z']
+// -V BASELINE -T FOLDER. Without a FILE the terrain is a formula on scattered points. Exit code
+// 125: FILE is not there.
 #include "vtkTIPPDelaunay2D.h"
+#include "vtkTIPPPointsToImage.h"
 
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkElevationFilter.h"
+#include "vtkImageProperty.h"
+#include "vtkImageSlice.h"
+#include "vtkImageSliceMapper.h"
 #include "vtkLookupTable.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
@@ -20,6 +25,7 @@
 #include <cmath>
 #include <fstream>
 #include <iostream>
+#include <string>
 
 namespace
 {
@@ -86,12 +92,34 @@ vtkSmartPointer<vtkActor> terrainActor(vtkPoints* points)
   return actor;
 }
 
+vtkSmartPointer<vtkProp> rasterActor(vtkPoints* points)
+{
+  vtkNew<vtkPolyData> input;
+  input->SetPoints(points);
+  vtkNew<vtkTIPPPointsToImage> raster;
+  raster->SetInputData(input);
+  raster->ClearBands();
+  raster->AddBand("hillshade");
+  raster->UseInputBoundsOff();
+  raster->SetSamplingBounds(0.05, 0.95, 0.05, 0.95);
+  raster->SetResolution(0.005);
+  vtkNew<vtkImageSliceMapper> mapper;
+  mapper->SetInputConnection(raster->GetOutputPort());
+  auto slice = vtkSmartPointer<vtkImageSlice>::New();
+  slice->SetMapper(mapper);
+  slice->GetProperty()->SetColorWindow(255);
+  slice->GetProperty()->SetColorLevel(127.5);
+  slice->GetProperty()->SetInterpolationTypeToNearest();
+  return slice;
+}
+
 } // namespace
 
 int main(int argc, char* argv[])
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
+  const bool isRaster = argc > 1 && std::string(argv[1]) == "--raster";
   if (argc < 2 || argv[1][0] == '-')
   {
     analyticTerrain(points);
@@ -109,13 +137,13 @@ int main(int argc, char* argv[])
 
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
-  renderer->AddActor(terrainActor(points));
+  isRaster ? renderer->AddViewProp(rasterActor(points)) : renderer->AddActor(terrainActor(points));
   vtkNew<vtkRenderWindow> window;
   window->SetMultiSamples(0);
   window->SetSize(300, 300);
   window->AddRenderer(renderer);
   renderer->ResetCamera();
-  renderer->GetActiveCamera()->Elevation(-35);
+  renderer->GetActiveCamera()->Elevation(isRaster ? 0 : -35);
   renderer->ResetCamera();
   renderer->GetActiveCamera()->Zoom(1.3);
   renderer->ResetCameraClippingRange();

@@ -20,7 +20,7 @@ using namespace tipp::test;
 class TileStores : public testing::Test
 {
 protected:
-  TileStores() { this->Grid = { 0, 0, { 1, 1 }, 300, 10 }; }
+  TileStores() { this->Grid = { 0, 0, { 1, 1 }, 300, 10, std::nullopt }; }
 
   std::unique_ptr<TileStore> open()
   {

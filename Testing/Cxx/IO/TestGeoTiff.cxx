@@ -22,7 +22,7 @@ class GeoTiff : public testing::Test
 protected:
   GeoTiff()
   {
-    this->Description.Grid = { 0, 0, { 1, 1 }, 300, 20 };
+    this->Description.Grid = { 0, 0, { 1, 1 }, 300, 20, std::nullopt };
     this->Description.Bands = { "elevation" };
     this->Description.Compression = "none";
   }

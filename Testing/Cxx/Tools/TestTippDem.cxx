@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `tipp dem`: a raster of points.
-#include "RunTipp.h"
-
-#include "Arrays/Random.h"
+#include "TippDem.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -16,60 +14,6 @@ namespace
 {
 
 using namespace tipp::test;
-
-using Words = std::vector<std::string>;
-
-/// Points of a hilly square of side 100, at whose corners there are points.
-class TippDem : public testing::Test
-{
-protected:
-  void makePoints(int count, const std::string& name = "points.csv", unsigned seed = 1) const
-  {
-    tipp::Random random(seed);
-    std::ofstream csv(this->Folder.path(name));
-    csv.precision(17);
-    csv << "x,y,z,intensity\n";
-    const auto add = [&](double x, double y)
-    { csv << x << "," << y << "," << height(x, y) << "," << 3 * x << "\n"; };
-    for (const double corner : { 0.0, 100.0 })
-    {
-      add(corner, 0);
-      add(corner, 100);
-    }
-    for (int i = 4; i < count; ++i)
-    {
-      const double x = 100 * random.uniform();
-      add(x, 100 * random.uniform());
-    }
-  }
-  static double height(double x, double y) { return 20 + x / 5 + 4 * std::sin(y / 9); }
-
-  Outcome run(const Words& words) const { return runTipp(this->Folder, words); }
-
-  /// Of a raster of points.csv.
-  void make(const std::string& output, const Words& more) const
-  {
-    Words words{ "dem", "points.csv", "-o", output };
-    words.insert(words.end(), more.begin(), more.end());
-    const Outcome outcome = this->run(words);
-    ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
-  }
-
-  std::string content(const std::string& name) const { return contentOf(this->Folder.path(name)); }
-
-  /// The numbers of an .npy file.
-  std::vector<double> valuesOf(const std::string& name) const
-  {
-    const std::string file = this->content(name);
-    unsigned short size;
-    std::memcpy(&size, file.data() + 8, sizeof size);
-    std::vector<double> values((file.size() - 10 - size) / sizeof(double));
-    std::memcpy(values.data(), file.data() + 10 + size, sizeof(double) * values.size());
-    return values;
-  }
-
-  TemporaryFolder Folder;
-};
 
 TEST_F(TippDem, MakesThePixelsOfTwoSteps)
 {
@@ -258,6 +202,85 @@ TEST_F(TippDem, RefusesMorePixelsThanTheDiskHolds)
   EXPECT_NE(std::string::npos, outcome.Err.find("MB free")) << outcome.Err;
 }
 
+TEST_F(TippDem, RefusesMorePixelsThanAnyDiskHolds)
+{
+  this->makePoints(10);
+  const Outcome outcome =
+    this->run({ "dem", "points.csv", "-o", "dem.npy", "--resolution", "5e-8", "--memory", "8M" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("MB while it is made")) << outcome.Err;
+}
+
+TEST_F(TippDem, WarnsOfValuesThatEqualTheNumberForNoData)
+{
+  this->makePoints(100);
+  for (const Words& more : { Words{}, Words{ "--memory", "8M" } })
+  {
+    Words words{ "dem", "points.csv", "-o", "dem.tif", "--resolution", "10", "--attributes",
+      "elevation,void", "--nodata", "0" };
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = this->run(words);
+    EXPECT_EQ(0, outcome.ExitCode);
+    EXPECT_NE(std::string::npos, outcome.Err.find("100 values equal the number for no data, 0"))
+      << outcome.Err;
+  }
+}
+
+TEST_F(TippDem, RefusesANumberForNoDataThatItsTypeDoesNotHave)
+{
+  this->makePoints(10);
+  Words words{ "dem", "points.csv", "-o", "dem.tif", "--resolution", "10", "--nodata", "1e300" };
+  EXPECT_EQ(2, this->run(words).ExitCode);
+  words.insert(words.end(), { "--type", "float64" });
+  EXPECT_EQ(0, this->run(words).ExitCode);
+}
+
+TEST_F(TippDem, CountsPointsWithoutElevation)
+{
+  this->Folder.file("points.csv", "x,y,z\n0,0,1\n9,0,1\n0,9,1\n9,9,\n4,4,nan\n");
+  for (const Words& more : { Words{}, Words{ "--memory", "8M" } })
+  {
+    Words words{ "dem", "points.csv", "-o", "dem.tif", "--resolution", "1" };
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = this->run(words);
+    EXPECT_EQ(0, outcome.ExitCode);
+    EXPECT_NE(std::string::npos, outcome.Err.find("2 points have no elevation")) << outcome.Err;
+  }
+}
+
+TEST_F(TippDem, WarnsWhereNoPixelHasAValue)
+{
+  this->makePoints(100);
+  const Outcome outcome = this->run({ "dem", "points.csv", "-o", "dem.npy", "--resolution", "1",
+    "--bounds", "200", "210", "0", "9" });
+  EXPECT_EQ(0, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("no pixel has a value")) << outcome.Err;
+}
+
+TEST_F(TippDem, LongTrianglesOverManyTilesAreTheSameForAnyMemory)
+{
+  // A row of points and one far away: slivers across most tiles.
+  std::ofstream csv(this->Folder.path("points.csv"));
+  csv << "x,y,z\n4000,3500,9\n";
+  for (int i = 0; i < 4000; ++i)
+  {
+    csv << i / 1000.0 << "," << 7 * std::sin(i) << "," << i % 17 << "\n";
+  }
+  csv.close();
+  this->make("whole.npy", { "--resolution", "2" });
+  this->make("dem.npy", { "--resolution", "2", "--memory", "2M" });
+  EXPECT_TRUE(this->content("whole.npy") == this->content("dem.npy"));
+}
+
+TEST_F(TippDem, ManyBandsAreTheSameForAnyMemory)
+{
+  this->makePoints(20000);
+  const std::string bands = "elevation,intensity,slope,aspect,hillshade,density,void";
+  this->make("whole.npy", { "--resolution", "0.2", "--attributes", bands });
+  this->make("dem.npy", { "--resolution", "0.2", "--attributes", bands, "--memory", "4M" });
+  EXPECT_TRUE(this->content("whole.npy") == this->content("dem.npy"));
+}
+
 TEST_F(TippDem, NamesAColumnThatIsNotThere)
 {
   this->makePoints(50);
@@ -286,6 +309,21 @@ TEST_F(TippDem, RefusesOptionsThatDoNotGoTogether)
   EXPECT_EQ(2, this->run({ "dem", "points.csv", "-o", "dem.png", "--resolution", "1" }).ExitCode);
   EXPECT_EQ(2,
     this->run({ "dem", "points.csv", "-o", "dem.npy", "--resolution", "1", "--resume" }).ExitCode);
+  for (const Words& more : { Words{ "--compress", "zstd" }, Words{ "--nodata", "0" },
+         Words{ "--crs", "EPSG:25832" }, Words{ "--attributes", "elevation,void,elevation" } })
+  {
+    Words words{ "dem", "points.csv", "-o", "dem.npy", "--resolution", "1" };
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(2, this->run(words).ExitCode) << more.front();
+  }
+  for (const char* const number : { "nan", "inf", "0", "-1", "1m" })
+  {
+    EXPECT_EQ(
+      2, this->run({ "dem", "points.csv", "-o", "dem.npy", "--resolution", number }).ExitCode);
+    EXPECT_EQ(2,
+      this->run({ "dem", "points.csv", "-o", "dem.npy", "--resolution", "1", "--max-edge", number })
+        .ExitCode);
+  }
 }
 
 TEST_F(TippDem, ResumesAKilledRun)
@@ -317,83 +355,6 @@ TEST_F(TippDem, ResumesAKilledRun)
   ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
   EXPECT_EQ(this->content("whole.tif"), this->content("dem.tif"));
   EXPECT_EQ(0U, results());
-}
-
-/// Points of a valley between two slopes, but for the line at its bottom.
-class TippDemBreaklines : public TippDem
-{
-protected:
-  TippDemBreaklines()
-  {
-    this->Folder.file("points.csv",
-      "x,y,z\n0,0,10\n0,10,10\n10,0,10\n10,10,10\n0.5,3,9.5\n0.5,7,9.5\n9.5,3,9.5\n9.5,7,9.5\n");
-    this->Folder.file("hard.csv", "x1,y1,z1,x2,y2,z2\n5,0,0,5,10,0\n");
-    this->Folder.file("soft.csv", "x1,y1,x2,y2\n5,0,5,10\n");
-    this->Folder.file("inside.csv", "x1,y1,x2,y2\n2,2,8,2\n8,2,8,8\n8,8,2,8\n2,8,2,2\n");
-    this->Folder.file("open.csv", "x1,y1,x2,y2\n2,2,8,2\n8,2,8,8\n");
-  }
-
-  std::vector<double> values(const Words& more) const
-  {
-    Words words{ "--resolution", "1" };
-    words.insert(words.end(), more.begin(), more.end());
-    this->make("dem.npy", words);
-    return this->valuesOf("dem.npy");
-  }
-};
-
-TEST_F(TippDemBreaklines, OfGivenHeightShapeTheSurface)
-{
-  const std::vector<double> plain = this->values({});
-  const std::vector<double> valley = this->values({ "--breaklines", "hard.csv" });
-  EXPECT_GT(plain[54], 9) << "across";
-  for (const std::size_t row : { 0, 4, 9 })
-  {
-    EXPECT_LT(valley[10 * row + 4], 2) << "beside the line";
-    EXPECT_LT(valley[10 * row + 5], 2) << "beside the line";
-  }
-}
-
-TEST_F(TippDemBreaklines, WithoutHeightTakeThatOfTheSurface)
-{
-  for (const double value : this->values({ "--breaklines", "soft.csv" }))
-  {
-    EXPECT_GE(value, 9.5);
-    EXPECT_LE(value, 10);
-  }
-}
-
-TEST_F(TippDemBreaklines, BoundaryLeavesPixelsOutsideWithoutValue)
-{
-  const std::vector<double> plain = this->values({});
-  const std::vector<double> inside = this->values({ "--boundary", "inside.csv" });
-  for (std::size_t row = 0; row < 10; ++row)
-  {
-    for (std::size_t column = 0; column < 10; ++column)
-    {
-      const bool isInside = row >= 2 && row < 8 && column >= 2 && column < 8;
-      const double value = inside[10 * row + column];
-      EXPECT_EQ(!isInside, std::isnan(value)) << row << " " << column;
-    }
-  }
-  EXPECT_GE(plain.size(), inside.size());
-}
-
-TEST_F(TippDemBreaklines, RefusesABoundaryThatIsNotClosed)
-{
-  const Outcome outcome = this->run(
-    { "dem", "points.csv", "-o", "dem.npy", "--resolution", "1", "--boundary", "open.csv" });
-  EXPECT_EQ(1, outcome.ExitCode);
-  EXPECT_NE(std::string::npos, outcome.Err.find("not closed: a line ends at (2, 2)"))
-    << outcome.Err;
-}
-
-TEST_F(TippDemBreaklines, RefusesAMemoryLimit)
-{
-  const Outcome outcome = this->run({ "dem", "points.csv", "-o", "dem.npy", "--resolution", "1",
-    "--breaklines", "soft.csv", "--memory", "8M" });
-  EXPECT_EQ(2, outcome.ExitCode);
-  EXPECT_NE(std::string::npos, outcome.Err.find("does not go with --memory")) << outcome.Err;
 }
 
 } // namespace

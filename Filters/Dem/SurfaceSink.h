@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippSurfaceSink_h
+#define tippSurfaceSink_h
+
+#include "Constraints/ConstraintPoints.h"
+#include "Constraints/TableConstraints.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "vtkTIPPFiltersModule.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tipp
+{
+
+/// Whether points of the constraints need values of the surface for these bands.
+VTKTIPPFILTERS_EXPORT bool needsSurface(
+  const TableConstraints& constraints, const std::vector<std::string>& bands);
+
+/// Finds what the points of constraints get from the surface of the other points, as
+/// TableConstraints::Surface tells, in a triangulation of these out of core.
+class VTKTIPPFILTERS_EXPORT SurfaceSink : public TriangleConsumer
+{
+public:
+  explicit SurfaceSink(const TableConstraints& constraints);
+
+  /// For each column the values at the points of both tables, NaN outside of the surface; on the
+  /// first rank, after the run. Gives them away.
+  std::vector<std::vector<double>> takeValues() { return std::move(this->Values); }
+
+  std::string identity() const override { return this->Identity; }
+  std::uint64_t fileBytes(const Box2&, const std::vector<std::string>&) const override;
+  void begin(
+    const Box2& bounds, const std::vector<std::string>& columns, const std::string& files) override;
+  void take(const std::string& name, const double* rows, const PointRowLayout& layout,
+    std::size_t points, const std::vector<TriangleRange>& triangles) override;
+  bool end(const std::function<bool(double)>& progress) override;
+
+private:
+  const std::string Identity;
+  const std::vector<Point2> Positions;
+  const SurfacePositions Wanted;
+  std::size_t Columns = 0;
+  std::string Files;
+  std::vector<std::vector<double>> Values;
+};
+
+/// Files beside each other whose paths begin like this. Throws IOError.
+std::vector<std::string> filesBeginning(const std::string& path);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Binding.h"
+
+#include "Constraints/ReadConstraintFile.h"
+#include "Dem/StreamedDem.h"
+#include "Parallel/ParallelFor.h"
+#include "Points/PointStream.h"
+
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace tipp::python
+{
+namespace
+{
+
+std::vector<double> doublesOf(const InputArray& array)
+{
+  const auto* const values = static_cast<const double*>(array.data());
+  return { values, values + array.size() };
+}
+
+nb::object copyOf(const std::vector<double>& values, std::size_t columns)
+{
+  RawBuffer buffer(values.size() * sizeof(double));
+  if (!values.empty())
+  {
+    std::memcpy(buffer.data(), values.data(), buffer.size());
+  }
+  return arrayOf(std::move(buffer), Scalar::Float64, columns);
+}
+
+/// Returns (k, 2) coordinates, heights or an empty array, and (m, 2) ids of edges' ends.
+nb::tuple readConstraints(const std::string& path)
+{
+  const ConstraintTable table = withoutLock([&] { return readConstraintFile(path); });
+  Buffer<std::int64_t> edges(2 * table.Edges.size());
+  for (std::size_t i = 0; i < table.Edges.size(); ++i)
+  {
+    std::copy(table.Edges[i].begin(), table.Edges[i].end(), edges.data() + 2 * i);
+  }
+  return nb::make_tuple(copyOf(table.XY, 2), copyOf(table.Height, 1), arrayOf(std::move(edges), 2));
+}
+
+/// Lines as readConstraints() returns them.
+ConstraintTable linesOf(const nb::tuple& lines)
+{
+  ConstraintTable table;
+  table.XY = doublesOf(nb::cast<InputArray>(lines[0]));
+  table.Height = doublesOf(nb::cast<InputArray>(lines[1]));
+  const auto ends = nb::cast<InputArray>(lines[2]);
+  const auto* const ids = static_cast<const std::int64_t*>(ends.data());
+  for (std::size_t i = 0; i < ends.shape(0); ++i)
+  {
+    table.Edges.push_back({ ids[2 * i], ids[2 * i + 1] });
+  }
+  table.PolygonBegin = table.Edges.size(); // polygons are lines, too
+  return table;
+}
+
+/// A member of the options that the package has checked.
+template <typename Value>
+Value of(const nb::dict& options, const char* name)
+{
+  return nb::cast<Value>(options[name]);
+}
+
+DemRequest requestOf(const nb::dict& options)
+{
+  DemRequest request;
+  request.Raster.Resolution = of<double>(options, "resolution");
+  request.Raster.Bounds = of<std::optional<std::array<double, 4>>>(options, "bounds");
+  request.Raster.Aligned = of<bool>(options, "align");
+  request.Bands = of<std::vector<std::string>>(options, "attributes");
+  request.MaximumEdge = of<double>(options, "max_edge");
+  request.Threads = of<int>(options, "threads");
+  request.Duplicates = static_cast<DuplicateRule>(of<int>(options, "duplicates"));
+  const nb::object lines = options["breaklines"];
+  const nb::object boundary = options["boundary"];
+  if (!lines.is_none() || !boundary.is_none())
+  {
+    request.Constraints.emplace();
+    request.Constraints->Surface = request.Duplicates;
+  }
+  if (!lines.is_none())
+  {
+    request.Constraints->Lines = linesOf(nb::cast<nb::tuple>(lines));
+  }
+  if (!boundary.is_none())
+  {
+    request.Constraints->Boundary = linesOf(nb::cast<nb::tuple>(boundary));
+    request.Constraints->Boundary.Height.clear();
+    requireClosedBoundary(request.Constraints->Boundary);
+  }
+  return request;
+}
+
+Thinning thinningOf(const nb::dict& options)
+{
+  Thinning thinning;
+  thinning.Cell = of<double>(options, "thin_size");
+  thinning.Keep = static_cast<Thinning::Rule>(of<int>(options, "thin_rule"));
+  return thinning;
+}
+
+PointOptions pointOptionsOf(const nb::dict& options, const DemRequest& request)
+{
+  const auto keep = of<std::vector<std::string>>(options, "keep");
+  const auto isKept = [&keep](const char* flag)
+  { return std::find(keep.begin(), keep.end(), flag) != keep.end(); };
+  PointOptions result;
+  result.Columns = columnsForBands(request.Bands);
+  result.Threads = request.Threads;
+  result.Las.Classes =
+    of<std::optional<std::vector<int>>>(options, "classes").value_or(std::vector<int>());
+  result.Las.Kind = LasSelection::Returns(of<int>(options, "returns"));
+  result.Las.KeepWithheld = isKept("withheld");
+  result.Las.KeepSynthetic = isKept("synthetic");
+  result.Las.KeepOverlap = isKept("overlap");
+  return result;
+}
+
+/// Points of shape (n, 2) and columns, by name, of values at them; all are float64.
+PointTable tableOf(const InputArray& xy, const nb::dict& columns)
+{
+  PointTable table;
+  table.XY = doublesOf(xy);
+  for (const auto& [name, values] : columns)
+  {
+    table.Columns.push_back(
+      { nb::cast<std::string>(name), doublesOf(nb::cast<InputArray>(values)) });
+  }
+  return table;
+}
+
+nb::tuple tupleOf(const RasterGrid& grid)
+{
+  return nb::make_tuple(grid.West, grid.South, grid.Columns, grid.Rows);
+}
+
+/// The bands, rows from the south, then west, south, columns and rows of the grid, the reference
+/// system, and the number of points that are not finite. `points`: names of files, or coordinates
+/// and columns.
+nb::tuple makeRaster(const nb::object& points, const nb::dict& options, nb::object progress)
+{
+  Reporter reporter(std::move(progress));
+  const DemRequest request = requestOf(options);
+  const Thinning thinning = thinningOf(options);
+  const auto memory = of<std::uint64_t>(options, "memory");
+  PointOptions reading = pointOptionsOf(options, request);
+  std::unique_ptr<PointStream> stream;
+  if (nb::isinstance<nb::tuple>(points))
+  {
+    const auto pair = nb::cast<nb::tuple>(points);
+    stream =
+      streamTable(tableOf(nb::cast<InputArray>(pair[0]), nb::cast<nb::dict>(pair[1])), thinning);
+  }
+  else
+  {
+    reading.Thin = thinning;
+    const auto files = nb::cast<std::vector<std::string>>(points);
+    stream = withoutLock([&] { return openPointStream(files, reading); });
+  }
+  const std::string crs = stream->crs();
+  TerrainSettings settings;
+  SampledBands samples;
+  DemFigures figures;
+  try
+  {
+    figures = withoutLock(
+      [&]
+      {
+        const ThreadLimit limit(request.Threads);
+        return makeDem(std::move(stream), request, memory, reporter.function(), settings, samples);
+      });
+  }
+  catch (const UnknownBand& error)
+  {
+    throw nb::key_error(error.what());
+  }
+  reporter(1);
+  reporter.raiseIfStopped();
+  fillVoids(settings.Bands, samples.Values);
+  nb::list bands;
+  for (std::vector<double>& band : samples.Values)
+  {
+    bands.append(copyOf(band, std::size_t(settings.Grid.Columns)));
+    std::vector<double>().swap(band);
+  }
+  return nb::make_tuple(bands, tupleOf(settings.Grid), crs, figures.Rejected);
+}
+
+/// West, south, columns and rows of the pixels that cover xmin, xmax, ymin, ymax.
+nb::tuple rasterGrid(const std::array<double, 4>& bounds, double resolution, bool isAligned)
+{
+  RasterRequest request;
+  request.Resolution = resolution;
+  request.Aligned = isAligned;
+  return tupleOf(makeRasterGrid(request, bounds));
+}
+
+} // namespace
+
+void addDemFunction(nb::module_& module)
+{
+  module.def("dem", &makeRaster, nb::arg("points"), nb::arg("options"), nb::arg("progress").none());
+  module.def(
+    "raster_grid", &rasterGrid, nb::arg("bounds"), nb::arg("resolution"), nb::arg("align"));
+  module.def("read_constraints", &readConstraints, nb::arg("path"));
+}
+
+} // namespace tipp::python
