@@ -112,6 +112,13 @@ std::uint64_t TileStore::offset(
     wordSize * (band * std::uint64_t(tilePixels) + std::uint64_t(pixel));
 }
 
+#ifdef F_OFD_SETLKW
+// Of a process's other locks the system takes threads of two processes for a deadlock.
+constexpr int setFileLockCommand = F_OFD_SETLKW;
+#else
+constexpr int setFileLockCommand = F_SETLKW;
+#endif
+
 /// Keeps other threads and processes away from a tile.
 class TileStore::Lock
 {
@@ -141,7 +148,7 @@ private:
     int result = 0;
     do
     {
-      result = fcntl(this->Store.Descriptor, F_SETLKW, &lock);
+      result = fcntl(this->Store.Descriptor, setFileLockCommand, &lock);
     } while (result < 0 && errno == EINTR);
     return result == 0;
   }

@@ -5,10 +5,16 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
+#include <exception>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <vector>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace
 {
@@ -77,6 +83,44 @@ TEST_F(TileStores, KeepFinishedTilesForAResumedRun)
   store->setIfMissing(5, &value);
   EXPECT_EQ(1, this->Finished);
   EXPECT_EQ("encoded 3.000000", store->readFinished(0)->Encoded.Bands[0].Bytes);
+}
+
+/// Sets pixels of both tiles from two threads; returns how many calls fail.
+int setFromThreads(TileStore& store)
+{
+  std::atomic<int> failures{ 0 };
+  const auto work = [&](int first)
+  {
+    for (int i = 0; i < 1000; ++i)
+    {
+      try
+      {
+        const std::int64_t column = (i + first) % 2 == 0 ? 0 : 256;
+        store.set({ column, i % 9, 1, 1 }, { 1 }, { { double(column) } });
+      }
+      catch (const std::exception&)
+      {
+        ++failures;
+      }
+    }
+  };
+  std::thread other(work, 1);
+  work(0);
+  other.join();
+  return failures;
+}
+
+TEST_F(TileStores, TakeThreadsOfTwoProcessesForNoDeadlock)
+{
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    _exit(setFromThreads(*this->open()));
+  }
+  EXPECT_EQ(0, setFromThreads(*this->open()));
+  int status = -1;
+  ASSERT_EQ(child, waitpid(child, &status, 0));
+  EXPECT_EQ(0, status);
 }
 
 TEST_F(TileStores, KeepNothingFinishedThatDoesNotFit)
