@@ -126,8 +126,8 @@ void writeRow(const PointBlock& block, std::size_t i, char* to)
 std::vector<SpilledRows> rowsOf(const std::vector<SpilledPart>& parts)
 {
   std::vector<SpilledRows> rows(parts.size());
-  std::transform(parts.begin(), parts.end(), rows.begin(),
-    [](const SpilledPart& part) { return part.Rows; });
+  std::transform(
+    parts.begin(), parts.end(), rows.begin(), [](const SpilledPart& part) { return part.Rows; });
   return rows;
 }
 

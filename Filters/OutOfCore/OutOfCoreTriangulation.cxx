@@ -21,9 +21,8 @@ template <typename Archive>
 void serialize(Archive& archive, OutOfCoreStatistics& statistics)
 {
   archive(statistics.Points, statistics.Triangles, statistics.TriangleSum, statistics.Rejected,
-    statistics.WithoutElevation,
-    statistics.Pieces, statistics.Partitions, static_cast<PieceFigures&>(statistics),
-    statistics.SpilledBytes, statistics.MeshBytes);
+    statistics.WithoutElevation, statistics.Pieces, statistics.Partitions,
+    static_cast<PieceFigures&>(statistics), statistics.SpilledBytes, statistics.MeshBytes);
 }
 
 namespace

@@ -117,7 +117,7 @@ struct OutOfCoreStatistics : PieceFigures
   std::uint64_t TriangleSum = 0; ///< where they are only counted: of hashTriangle()
   std::int64_t Rejected = 0;
   std::int64_t WithoutElevation = 0; ///< points whose elevation is NaN or infinite
-  std::int64_t LeftOut = 0; ///< points that the options of the input have left out
+  std::int64_t LeftOut = 0;          ///< points that the options of the input have left out
   std::int64_t ThinnedOut = 0;
   std::int64_t Pieces = 0;
   std::int64_t Partitions = 0;

@@ -36,8 +36,8 @@ struct PieceWork
   const ConstraintSegments* Constraints = nullptr; ///< null: there are none
   std::size_t Elevation = 0; ///< among the columns of rows; their number if there is none
 
-  /// Whether Consumer gets triangles between pieces as soon as these are done: constraints may change
-  /// or remove them.
+  /// Whether Consumer gets triangles between pieces as soon as these are done: constraints may
+  /// change or remove them.
   bool takesBordersEarly() const { return this->Consumer && !this->Constraints; }
 
   std::string resultPath(PartitionIndex piece) const

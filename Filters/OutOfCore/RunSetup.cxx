@@ -23,8 +23,9 @@ constexpr const char* representativeName = "RepresentativePointId";
 template <typename Archive>
 void RunSetup::exchangeInput(Archive& archive)
 {
-  archive(this->Survey.Points, this->Survey.Rejected, this->Survey.WithoutElevation, this->Survey.Bounds, this->Survey.Factor,
-    this->Survey.Collinear, this->Columns, this->Rows, this->Mesh.Arrays, this->Marks);
+  archive(this->Survey.Points, this->Survey.Rejected, this->Survey.WithoutElevation,
+    this->Survey.Bounds, this->Survey.Factor, this->Survey.Collinear, this->Columns, this->Rows,
+    this->Mesh.Arrays, this->Marks);
 }
 
 void RunSetup::save(SaveArchive& archive)
