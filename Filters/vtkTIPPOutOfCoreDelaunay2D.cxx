@@ -4,8 +4,8 @@
 #include "Files/IOError.h"
 #include "Files/OutputPath.h"
 #include "OutOfCore/OutOfCoreRanks.h"
-#include "Output/Monitor.h"
-#include "Output/StatisticsTable.h"
+#include "Output/Pipeline.h"
+#include "Output/VtkArrays.h"
 
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"

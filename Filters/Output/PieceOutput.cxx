@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Output/PieceOutput.h"
 
-#include "Output/CellBuffers.h"
+#include "Output/VtkArrays.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

@@ -2,6 +2,7 @@
 #ifndef tippRunStatistics_h
 #define tippRunStatistics_h
 
+#include "Constraints/ResolveCrossings.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Triangulation/Triangulate.h"
@@ -56,6 +57,10 @@ VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(
 VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(const DistributedTriangulation& mine);
 ///@}
 
+/// Adds the numbers of constraints, their edges, and crossings.
+VTKTIPPFILTERS_EXPORT void addConstraintTotals(
+  const ResolvedConstraints& resolved, std::size_t constraints, RunStatistics& statistics);
+
 /// The list "stages" of a run or a master.
 VTKTIPPFILTERS_EXPORT FigureList stagesOf(
   const std::vector<TriangulationStatistics::Stage>& stages);
@@ -65,6 +70,7 @@ VTKTIPPFILTERS_EXPORT FigureList stagesOf(
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
   const Triangulation& triangulation, std::int64_t points, bool longEdgesLeftOut);
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(const OutOfCoreStatistics& statistics);
+std::vector<std::string> warningsOf(const DistributedTriangulation& mine);
 ///@}
 
 } // namespace tipp

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Adcirc/AdcircGrid.h"
 #include "Adcirc/FlattenAdcirc.h"
-#include "Console/MpiSession.h"
-#include "Console/Signals.h"
-#include "Files/InputFile.h"
+#include "Console/Process.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
 #include "Flat/FlatFolder.h"
@@ -45,12 +44,6 @@ struct FlattenArguments
   std::string Output;
   std::vector<std::string> Values;
 };
-
-bool isAdcircGrid(const std::string& path)
-{
-  const std::string extension = extensionOf(path);
-  return extension == ".14" || extension == ".grd";
-}
 
 void reportCut(const FlattenArguments& arguments, const Flattened& flattened)
 {
@@ -93,7 +86,7 @@ int runFlatten(const FlattenArguments& arguments)
     requireApart({ arguments.Output }, inputs);
     const PendingFolder writable(arguments.Output);
   }
-  if (isAdcircGrid(arguments.Input))
+  if (isAdcircFile(arguments.Input))
   {
     const FlatContent content = flattenAdcirc(arguments.Input, arguments.Values);
     return writeContent(arguments, content) ? Success : interruptedExitCode;
@@ -123,7 +116,7 @@ void addFlattenCommand(CLI::App& app, int& exitCode)
   command->callback(
     [arguments, &exitCode]()
     {
-      if (!arguments->Values.empty() && !isAdcircGrid(arguments->Input))
+      if (!arguments->Values.empty() && !isAdcircFile(arguments->Input))
       {
         throw CLI::ValidationError("--values goes with an ADCIRC grid (.14, .grd)");
       }

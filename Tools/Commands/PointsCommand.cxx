@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
-#include "Console/MpiSession.h"
+#include "Console/Process.h"
 #include "Distributions/GeneratePoints.h"
 #include "Distributions/Random.h"
 #include "Files/InputFile.h"

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Output/Pipeline.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkCommunicator.h"
+#include "vtkInformation.h"
+#include "vtkInformationDoubleKey.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+
+namespace tipp
+{
+
+using Executive = vtkStreamingDemandDrivenPipeline;
+
+vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInformation* outInfo)
+{
+  int port = 0;
+  vtkAlgorithm* const source = filter->GetInputAlgorithm(0, 0, port);
+  vtkNew<vtkInformationVector> requests;
+  requests->SetNumberOfInformationObjects(source->GetNumberOfOutputPorts());
+  vtkInformation* const request = requests->GetInformationObject(port);
+  request->Set(Executive::UPDATE_PIECE_NUMBER(), rank);
+  request->Set(Executive::UPDATE_NUMBER_OF_PIECES(), ranks);
+  if (outInfo->Has(Executive::UPDATE_TIME_STEP()))
+  {
+    request->CopyEntry(outInfo, Executive::UPDATE_TIME_STEP());
+  }
+  return source->Update(port, requests) ? source->GetOutputDataObject(port) : nullptr;
+}
+
+void askForPiece(vtkInformation* inInfo, int piece, int pieces)
+{
+  inInfo->Remove(Executive::UPDATE_EXTENT());
+  if (inInfo->Has(Executive::WHOLE_EXTENT())) // structured data
+  {
+    inInfo->Set(Executive::UPDATE_EXTENT(), inInfo->Get(Executive::WHOLE_EXTENT()), 6);
+  }
+  inInfo->Set(Executive::UPDATE_PIECE_NUMBER(), piece);
+  inInfo->Set(Executive::UPDATE_NUMBER_OF_PIECES(), pieces);
+  inInfo->Set(Executive::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+}
+
+vtkStandardNewMacro(CollectivePipeline);
+
+int CollectivePipeline::ForwardUpstream(vtkInformation* request)
+{
+  const int own = this->Superclass::ForwardUpstream(request);
+  vtkMultiProcessController* ranks =
+    this->GetAlgorithm() && this->Controller ? this->Controller() : nullptr;
+  // A rank that fails before the data request will not reach this point again; the others will.
+  if (!ranks || ranks->GetNumberOfProcesses() < 2 || (own && !request->Has(REQUEST_DATA())))
+  {
+    return own;
+  }
+  const int rank = ranks->GetLocalProcessId();
+  const int none = ranks->GetNumberOfProcesses();
+  const int mine = own ? none : rank;
+  int failed = none;
+  ranks->AllReduce(&mine, &failed, 1, vtkCommunicator::MIN_OP);
+  if (failed < none && rank == 0)
+  {
+    vtkErrorWithObjectMacro(this->GetAlgorithm(),
+      "Rank " << failed << ": what is upstream of the filter failed, see its message; no rank "
+              << "executes the filter.");
+  }
+  return failed == none;
+}
+
+} // namespace tipp
