@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPartitionedMeshQuery.h"
 
-#include "Output/Pipeline.h"
+#include "Output/FilterPipeline.h"
 #include "Parallel/Poll.h"
 #include "Query/Around.h"
 #include "Query/DataSetPart.h"

@@ -4,8 +4,8 @@
 #include "Files/IOError.h"
 #include "Files/OutputPath.h"
 #include "OutOfCore/OutOfCoreRanks.h"
-#include "Output/Pipeline.h"
-#include "Output/VtkArrays.h"
+#include "Output/FilterPipeline.h"
+#include "Output/RunStatistics.h"
 
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"

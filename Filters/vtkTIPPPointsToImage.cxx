@@ -3,8 +3,8 @@
 
 #include "Constraints/SourceConstraints.h"
 #include "Dem/StreamedDem.h"
-#include "Output/Pipeline.h"
-#include "Points/TablePoints.h"
+#include "Output/FilterPipeline.h"
+#include "Points/PointStream.h"
 #include "Vtk/VtkFiles.h"
 
 #include "vtkDoubleArray.h"

@@ -2,7 +2,7 @@
 #include "Sampling/SampledImage.h"
 
 #include "Arrays/Scalar.h"
-#include "Output/VtkArrays.h"
+#include "Output/RunStatistics.h"
 #include "Parallel/ParallelFor.h"
 #include "Sampling/SamplingLattice.h"
 

@@ -6,7 +6,6 @@
 #include "Console/Process.h"
 #include "Console/ProgressBar.h"
 #include "Constraints/ConstrainedPoints.h"
-#include "Distributed/ConstrainRanks.h"
 #include "Distributed/TriangleExchange.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
@@ -94,7 +93,7 @@ void writeOnFirst(Communicator& ranks, const DelaunayArguments& arguments, Delau
   {
     appendPoints(constraints.Added, points);
   }
-  run.DisagreeingPlaces = resolveDuplicates(points, all.Duplicates, arguments.Duplicates);
+  run.DisagreeingPositions = resolveDuplicates(points, all.Duplicates, arguments.Duplicates);
   if (!writeResult(arguments, points, all, before))
   {
     throw RankFailure(0, true, "interrupted");

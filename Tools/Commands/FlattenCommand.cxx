@@ -2,11 +2,10 @@
 #include "Commands/Commands.h"
 
 #include "Adcirc/AdcircGrid.h"
-#include "Adcirc/FlattenAdcirc.h"
 #include "Console/Process.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
-#include "Flat/FlatFolder.h"
+#include "Flat/FlatMesh.h"
 #include "Flat/FlattenDataSet.h"
 #include "Vtk/ReadDataSet.h"
 

@@ -3,7 +3,7 @@
 #define tippReport_h
 
 #include "Console/ProgressBar.h"
-#include "OutOfCore/OutOfCoreRanks.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Output/RunStatistics.h"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippPipeline_h
-#define tippPipeline_h
+#ifndef tippFilterPipeline_h
+#define tippFilterPipeline_h
 
 #include "Vtk/Compatibility.h"
 #include "vtkTIPPFiltersModule.h"
