@@ -3,7 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Files/OutputPath.h"
-#include "OutOfCore/OutOfCoreRanks.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Output/FilterPipeline.h"
 #include "Output/RunStatistics.h"
 
