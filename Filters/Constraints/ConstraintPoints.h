@@ -2,6 +2,8 @@
 #ifndef tippConstraintPoints_h
 #define tippConstraintPoints_h
 
+#include "Arrays/Scalar.h"
+#include "Constraints/ResolveCrossings.h"
 #include "Constraints/SegmentTree.h"
 #include "Predicates/ExactPredicates.h"
 #include "Triangulation/PointsView.h"
@@ -46,6 +48,11 @@ struct MatchedPositions
 };
 
 VTKTIPPFILTERS_EXPORT MatchedPositions matchPositions(PointsView points, PointsView others);
+
+/// Fills the tuples of an array after the first `points` ones: those of the crossings, each linear
+/// between the two points that it lies between. Integers are rounded.
+void interpolateTuples(const std::vector<CrossingPoint>& crossings, std::size_t points, Scalar type,
+  std::size_t components, void* values);
 
 /// A triangle of a surface, with its corners in the order of their coordinates, so that values in
 /// it do not depend on how a triangulation orders triangles and corners.

@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -69,12 +68,6 @@ OutOfCoreOptions optionsOf(const DemArguments& arguments)
   return options;
 }
 
-double secondsOf(const OutOfCoreStatistics& statistics)
-{
-  return std::accumulate(statistics.Phases.begin(), statistics.Phases.end(), 0.0,
-    [](double sum, const OutOfCoreStatistics::Phase& phase) { return sum + phase.Seconds; });
-}
-
 /// Sets the values of the surface at the points of constraints, on the first rank, unless none
 /// needs them or the run that uses them has begun. Returns the exit code.
 int findSurface(const DemArguments& arguments, Communicator& ranks, const OpenPoints& open,
@@ -94,7 +87,7 @@ int findSurface(const DemArguments& arguments, Communicator& ranks, const OpenPo
   const int code = runOutOfCore(ranks, "Finding heights for the lines", open,
     arguments.Output + surfaceSuffix, options, statistics);
   values = sink.takeValues();
-  report.MakeSeconds += secondsOf(statistics);
+  report.MakeSeconds += totalSeconds(statistics.Phases);
   return code;
 }
 
@@ -208,7 +201,7 @@ int runDemOutOfCore(
   report.PeakMemory = largestMemory(usage);
   report.Ranks = ranks.size();
   fill(report.Figures, statistics);
-  report.MakeSeconds += secondsOf(statistics);
+  report.MakeSeconds += totalSeconds(statistics.Phases);
   finishDem(arguments, report);
   return Success;
 }
