@@ -4,7 +4,6 @@
 
 #include "ExpectIOError.h"
 #include "Npy/NpyFile.h"
-#include "OutOfCore/BorderTriangles.h"
 #include "OutOfCore/FinishPieces.h"
 #include "OutOfCore/InputPasses.h"
 #include "OutOfCore/InputSurvey.h"
