@@ -83,18 +83,8 @@ void vtkTIPPDelaunay2D::CutOutside(
       << result.Constraints.NotFinite
       << " edges of the source have an end that is NaN or infinite and are left out.");
   }
-  if (constraints.PolygonBegin == constraints.Constraints.size() ||
-    result.Mesh.triangleCount() == 0)
-  {
-    return;
-  }
-  std::vector<tipp::ConstraintPiece> polygonEdges;
-  for (const tipp::ConstraintPiece& piece : result.Constraints.Pieces)
-  {
-    if (std::size_t(piece.Constraint) >= constraints.PolygonBegin)
-    {
-      polygonEdges.push_back(piece);
-    }
-  }
-  tipp::keepInside(result.Mesh, polygonEdges);
+  const tipp::Cuts cuts{ tipp::piecesOf(result.Constraints.Pieces, constraints.PolygonBegin,
+                           constraints.Constraints.size()),
+    {}, {} };
+  tipp::keepInside({}, result.Mesh, result.Constraints.Pieces, cuts);
 }

@@ -2,6 +2,7 @@
 #include "Constraints/ConstrainedPoints.h"
 
 #include "Constraints/ConstraintPoints.h"
+#include "Constraints/KeepInside.h"
 #include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
 
@@ -37,6 +38,7 @@ std::string identityOf(const TableConstraints& constraints)
   {
     addBits(table->XY);
     addBits(table->Height);
+    addBits(table->Holes);
     for (const auto& edge : table->Edges)
     {
       addBits(edge);
@@ -79,6 +81,7 @@ struct ConstrainedPoints::Matching
   std::vector<std::vector<double>> Values;        ///< of each column, of vertices that were found
   std::vector<std::size_t> Same; ///< at the end, of each vertex: the first at its position
   std::unique_ptr<PositionIndex> Positions; ///< of the tables' vertices
+  HullOfPoints Hull;                        ///< if there are holes
 };
 
 ConstrainedPoints::Matching::Matching(TableConstraints constraints)
@@ -135,9 +138,12 @@ void ConstrainedPoints::Matching::setVertex(
 
 void ConstrainedPoints::Matching::take(const PointBlock& block)
 {
+  const bool hasHoles = !this->All.Lines.Holes.empty();
   for (std::size_t i = 0; i < block.size(); ++i)
   {
-    const std::int64_t found = this->Positions->find({ block.XY[2 * i], block.XY[2 * i + 1] });
+    const Point2 position{ block.XY[2 * i], block.XY[2 * i + 1] };
+    hasHoles ? this->Hull.add(position) : void();
+    const std::int64_t found = this->Positions->find(position);
     if (found >= 0 && this->Vertices[std::size_t(found)].Id == NotFound)
     {
       this->setVertex(std::size_t(found), block, i);
@@ -159,12 +165,6 @@ ConstrainedPoints::ConstrainedPoints(
   , Threads(threadCount(threads))
   , Own(identityOf(constraints))
 {
-  if (!constraints.Lines.Holes.empty())
-  {
-    throw IOError(this->Name,
-      "has holes given by a point in each, which need all triangles in memory; give the holes as "
-      "clockwise polygons, or an output that is made in memory.");
-  }
   this->Counts.Constraints =
     std::int64_t(constraints.Lines.Edges.size() + constraints.Boundary.Edges.size());
   this->First = std::make_unique<Matching>(std::move(constraints));
@@ -346,13 +346,70 @@ void ConstrainedPoints::resolve()
       "it has polygons, and a point that is NaN or infinite; correct the point.");
   }
   this->Counts.Segments = std::int64_t(this->Segments.size());
+  this->addHoles(positions);
   this->Counts.Crossings = std::int64_t(resolved.Crossings.size());
+  this->Counts.Rounds = resolved.Rounds;
   this->Counts.NotFinite = resolved.NotFinite;
+}
+
+/// Appends the edges around holes. Positions: the constraints' vertices.
+void ConstrainedPoints::addHoles(const std::vector<Point2>& positions)
+{
+  const std::vector<Point2> seeds = this->First->All.Lines.holes();
+  if (seeds.empty())
+  {
+    return;
+  }
+  HullOfPoints& hull = this->First->Hull;
+  std::for_each(positions.begin(), positions.end(), [&hull](Point2 p) { hull.add(p); });
+  std::vector<PositionPair> segments;
+  for (const ConstraintSegment& segment : this->Segments)
+  {
+    segments.push_back({ segment.A, segment.B });
+  }
+  for (const auto& [a, b] : edgesAroundHoles(hull.corners(), segments, seeds, this->Threads))
+  {
+    this->Segments.push_back({ a, b, SegmentRole::Hole });
+  }
 }
 
 std::vector<ConstraintSegment> ConstrainedPoints::takeSegments()
 {
   return std::move(this->Segments);
+}
+
+void ConstrainedPoints::Figures::addTo(RunStatistics& statistics) const
+{
+  statistics.add("constraints", "Constraints", this->Constraints);
+  statistics.add("constraint_edges", "ConstraintEdges", this->Segments);
+  statistics.add("crossing_points", "CrossingPoints", this->Crossings);
+  statistics.add("crossing_rounds", "CrossingRounds", this->Rounds);
+}
+
+void ConstrainedInput::describe(OutOfCoreOptions& options)
+{
+  if (this->Files.areGiven())
+  {
+    options.Constraints = [this] { return this->Joined->takeSegments(); };
+  }
+  else if (!this->Files.Holes.empty() || options.MarkConstraints)
+  {
+    throw IOError("Holes and marks of constraints need a file of constraints or of a boundary; "
+                  "name one.");
+  }
+}
+
+std::unique_ptr<PointStream> ConstrainedInput::join(std::unique_ptr<PointStream> points)
+{
+  if (!this->Files.areGiven())
+  {
+    return points;
+  }
+  auto joined = std::make_unique<ConstrainedPoints>(
+    std::move(points), readConstraints(this->Files), this->Files.name(), this->Threads);
+  joined->setReport(this->Counts);
+  this->Joined = joined.get();
+  return joined;
 }
 
 } // namespace tipp

@@ -4,12 +4,14 @@
 
 #include "Constraints/ConstraintSegments.h"
 #include "Constraints/TableConstraints.h"
+#include "Output/RunStatistics.h"
 #include "Points/PointStream.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -21,7 +23,7 @@ namespace tipp
 class VTKTIPPFILTERS_EXPORT ConstrainedPoints : public PointStream
 {
 public:
-  /// `name`: of the constraints' file, for messages. Throws IOError for holes, and later for all
+  /// `name`: of the constraints' file, for messages. Throws IOError, in the first pass, for all
   /// that triangulateTable() refuses.
   ConstrainedPoints(std::unique_ptr<PointStream> points, TableConstraints constraints,
     std::string name, int threads);
@@ -37,7 +39,8 @@ public:
   std::string crs() const override { return this->Input->crs(); }
   std::string identity() const override;
 
-  /// After the first pass: the constraints, split where they cross. Gives them away.
+  /// After the first pass: the constraints, split where they cross, and edges around holes. Gives
+  /// them away.
   std::vector<ConstraintSegment> takeSegments();
 
   /// After the first pass: the points after the input's.
@@ -49,7 +52,10 @@ public:
     std::int64_t Constraints = 0;
     std::int64_t Segments = 0;
     std::int64_t Crossings = 0;
+    int Rounds = 0;             ///< of splitting crossings
     std::int64_t NotFinite = 0; ///< constraints left out
+
+    void addTo(RunStatistics& statistics) const;
   };
   /// Copies the figures there after the first pass; `figures` must outlive this.
   void setReport(Figures& figures) { this->Report = &figures; }
@@ -59,6 +65,7 @@ private:
   void addVertices();
   ResolvedConstraints split(std::vector<Point2>& positions);
   void resolve();
+  void addHoles(const std::vector<Point2>& positions);
   bool nextAdded(PointBlock& block, std::size_t most);
 
   const std::unique_ptr<PointStream> Input;
@@ -73,6 +80,33 @@ private:
   bool IsInputRead = false;     ///< in this pass
   PointBlock Added;             ///< the points after the input's
   std::size_t NextAdded = 0;
+};
+
+/// The constraints of files, for a triangulation out of core: to be joined with its points.
+class VTKTIPPFILTERS_EXPORT ConstrainedInput
+{
+public:
+  ConstrainedInput(ConstraintFiles files, int threads)
+    : Files(std::move(files))
+    , Threads(threads)
+  {
+  }
+
+  /// The points, with those of the constraints if there are files. Throws IOError.
+  std::unique_ptr<PointStream> join(std::unique_ptr<PointStream> points);
+
+  /// Sets OutOfCoreOptions::Constraints of a run that opens its points by join(). Throws IOError
+  /// for holes, or marks of constraints, without constraints.
+  void describe(OutOfCoreOptions& options);
+
+  /// After the first pass over the points; all 0 if a run was resumed.
+  const ConstrainedPoints::Figures& figures() const { return this->Counts; }
+
+private:
+  const ConstraintFiles Files;
+  const int Threads;
+  ConstrainedPoints* Joined = nullptr; ///< the last one
+  ConstrainedPoints::Figures Counts;
 };
 
 } // namespace tipp

@@ -3,8 +3,10 @@
 
 #include "Constraints/SegmentInserter.h"
 #include "Kernel/MeshEditor.h"
+#include "Parallel/ParallelFor.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace tipp
 {
@@ -157,16 +159,29 @@ private:
 
 } // namespace
 
-PieceEnds::PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pieces)
+PieceEnds::PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pieces, int threads)
   : Words(points / 64 + 1)
 {
-  const auto mark = [this](PointId id)
-  { this->Words[std::size_t(id) / 64].Bits |= std::uint64_t(1) << (std::size_t(id) % 64); };
-  for (const ConstraintPiece& piece : pieces)
+  /// visit(point, entry) for both ends of all pieces, by several threads at a time.
+  const auto forEnds = [&](const auto& visit)
   {
-    mark(piece.A);
-    mark(piece.B);
-  }
+    constexpr std::int64_t chunk = 8192;
+    forChunks(std::int64_t(pieces.size()), chunk, threads, {},
+      [&](std::int64_t begin, std::int64_t end, int)
+      {
+        for (std::int64_t p = begin; p < end; ++p)
+        {
+          visit(pieces[std::size_t(p)].A, 2 * p);
+          visit(pieces[std::size_t(p)].B, 2 * p + 1);
+        }
+      });
+  };
+  forEnds(
+    [this](PointId id, std::int64_t)
+    {
+      __atomic_fetch_or(&this->Words[std::size_t(id) / 64].Bits,
+        std::uint64_t(1) << (std::size_t(id) % 64), __ATOMIC_RELAXED);
+    });
   std::size_t ends = 0;
   for (Word& word : this->Words)
   {
@@ -175,24 +190,25 @@ PieceEnds::PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pie
   }
   // A counting sort: in the end each Start is where the next one's was at first.
   this->Starts.assign(ends + 2, 0);
-  for (const ConstraintPiece& piece : pieces)
+  const auto next = [this](PointId id, std::size_t shift)
   {
-    ++this->Starts[this->rank(piece.A) + 2];
-    ++this->Starts[this->rank(piece.B) + 2];
-  }
-  for (std::size_t i = 2; i < this->Starts.size(); ++i)
-  {
-    this->Starts[i] += this->Starts[i - 1];
-  }
+    return __atomic_fetch_add(
+      &this->Starts[this->rank(id) + shift], std::int64_t(1), __ATOMIC_RELAXED);
+  };
+  forEnds([&](PointId id, std::int64_t) { next(id, 2); });
+  std::partial_sum(this->Starts.begin(), this->Starts.end(), this->Starts.begin());
   this->Entries.resize(2 * pieces.size());
-  for (std::size_t p = 0; p < pieces.size(); ++p)
-  {
-    for (const std::size_t end : { std::size_t(0), std::size_t(1) })
+  forEnds([&](PointId id, std::int64_t entry) { this->Entries[std::size_t(next(id, 1))] = entry; });
+  constexpr std::int64_t chunk = 8192; // the same for any number of threads
+  forChunks(std::int64_t(ends), chunk, threads, {},
+    [this](std::int64_t begin, std::int64_t end, int)
     {
-      std::int64_t& next = this->Starts[this->rank(end == 0 ? pieces[p].A : pieces[p].B) + 1];
-      this->Entries[std::size_t(next++)] = std::int64_t(2 * p + end);
-    }
-  }
+      for (std::int64_t rank = begin; rank < end; ++rank)
+      {
+        std::sort(this->Entries.begin() + this->Starts[std::size_t(rank)],
+          this->Entries.begin() + this->Starts[std::size_t(rank) + 1]);
+      }
+    });
 }
 
 std::size_t PieceEnds::rank(PointId id) const
@@ -418,10 +434,10 @@ private:
 };
 
 PartitionConstraints::PartitionConstraints(
-  PointsView points, const std::vector<ConstraintPiece>& pieces)
+  PointsView points, const std::vector<ConstraintPiece>& pieces, int threads)
   : Points(points)
   , Pieces(pieces)
-  , EndPoints(points.size(), pieces)
+  , EndPoints(points.size(), pieces, threads)
   , EndsOf(pieces.size())
   , Done(pieces.size(), 0)
 {

@@ -21,7 +21,7 @@ namespace tipp
 class PieceEnds
 {
 public:
-  PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pieces);
+  PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pieces, int threads);
 
   bool has(PointId id) const
   {
@@ -64,7 +64,7 @@ private:
 class PartitionConstraints
 {
 public:
-  PartitionConstraints(PointsView points, const std::vector<ConstraintPiece>& pieces);
+  PartitionConstraints(PointsView points, const std::vector<ConstraintPiece>& pieces, int threads);
 
   /// Makes a thread's editor. The kernel's coordinates have been multiplied by `factor`.
   std::unique_ptr<PartitionEditor> makeEditor(double factor);

@@ -3,6 +3,7 @@
 
 #include "Constraints/ConstraintPoints.h"
 #include "Constraints/KeepInside.h"
+#include "Files/IOError.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,47 +98,20 @@ void appendCrossings(const std::vector<CrossingPoint>& crossings, PointTable& po
   }
 }
 
-std::vector<ConstraintPiece> piecesOf(
-  const std::vector<ConstraintPiece>& pieces, std::size_t begin, std::size_t end)
-{
-  std::vector<ConstraintPiece> some;
-  std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(some),
-    [begin, end](const ConstraintPiece& piece)
-    { return std::size_t(piece.Constraint) >= begin && std::size_t(piece.Constraint) < end; });
-  return some;
-}
-
 void cutOutside(
   const TableConstraints& constraints, const PointTable& points, ConstrainedTriangulation& result)
 {
   const std::vector<ConstraintPiece>& pieces = result.Constraints.Pieces;
   const std::size_t lines = constraints.Lines.Edges.size();
-  const auto polygonEdges = piecesOf(pieces, constraints.Lines.PolygonBegin, lines);
-  const auto boundary = piecesOf(pieces, lines, lines + constraints.Boundary.Edges.size());
+  const Cuts cuts{ piecesOf(pieces, constraints.Lines.PolygonBegin, lines),
+    piecesOf(pieces, lines, lines + constraints.Boundary.Edges.size()), constraints.Lines.holes() };
   // One of them without one of its edges would not tell what is inside.
-  if (!(polygonEdges.empty() && boundary.empty()) && result.Constraints.NotFinite > 0)
+  if (!(cuts.Polygons.empty() && cuts.Boundary.empty()) && result.Constraints.NotFinite > 0)
   {
     throw std::invalid_argument(
       "it has polygons, and a point that is NaN or infinite; correct the point.");
   }
-  const std::vector<double>& seeds = constraints.Lines.Holes;
-  std::vector<Point2> holes;
-  for (std::size_t i = 0; i < seeds.size(); i += 2)
-  {
-    holes.push_back({ seeds[i], seeds[i + 1] });
-  }
-  if (!holes.empty())
-  {
-    removeHoles(viewOf(points.XY), result.Mesh, pieces, holes);
-  }
-  if (!boundary.empty() && result.Mesh.triangleCount() > 0)
-  {
-    keepInside(result.Mesh, boundary, InsideRule::EvenOdd);
-  }
-  if (!polygonEdges.empty() && result.Mesh.triangleCount() > 0)
-  {
-    keepInside(result.Mesh, polygonEdges);
-  }
+  keepInside(viewOf(points.XY), result.Mesh, pieces, cuts);
 }
 
 } // namespace
@@ -164,6 +138,39 @@ ConstrainedTriangulation triangulateTable(
     leaveOutLong(viewOf(points.XY), options.MaximumEdge, result.Mesh);
   }
   return result;
+}
+
+TableConstraints readConstraints(const ConstraintFiles& files)
+{
+  TableConstraints constraints;
+  if (!files.Lines.empty())
+  {
+    constraints.Lines = readConstraintFile(files.Lines);
+  }
+  for (const auto& [x, y] : files.Holes)
+  {
+    constraints.Lines.Holes.insert(constraints.Lines.Holes.end(), { x, y });
+  }
+  if (!files.Boundary.empty())
+  {
+    constraints.Boundary = readBoundary(files.Boundary);
+  }
+  constraints.Crossings = files.Crossings;
+  return constraints;
+}
+
+ConstraintTable readBoundary(const std::string& path)
+{
+  ConstraintTable boundary = readConstraintFile(path);
+  try
+  {
+    requireClosedBoundary(boundary);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw IOError(path, error.what());
+  }
+  return boundary;
 }
 
 void requireClosedBoundary(const ConstraintTable& boundary)

@@ -135,7 +135,7 @@ ConstrainedTriangulation triangulateConstrained(PointsView input,
     withCrossings = allPoints(input, result.Constraints.Crossings);
     points = PointsView(&withCrossings.front().x, withCrossings.size(), 2);
   }
-  PartitionConstraints inserted(points, result.Constraints.Pieces);
+  PartitionConstraints inserted(points, result.Constraints.Pieces, threads);
   TriangulationOptions own = options;
   own.MaximumEdge = 0; // triangles are left out at the end
   own.MakeEditor = [&inserted](double factor) { return inserted.makeEditor(factor); };

@@ -5,12 +5,7 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Points/ReadPoints.h"
-#include "Vtk/ReadDataSet.h"
-
-#include "vtkCellType.h"
-#include "vtkDataSet.h"
-#include "vtkIdList.h"
-#include "vtkNew.h"
+#include "Vtk/VtkFiles.h"
 
 #include <algorithm>
 #include <array>
@@ -91,49 +86,6 @@ ConstraintTable readBoundaries(const std::string& path)
   return table;
 }
 
-bool isLine(int cellType)
-{
-  return cellType == VTK_LINE || cellType == VTK_POLY_LINE;
-}
-
-bool isPolygon(int cellType)
-{
-  return cellType == VTK_POLYGON || cellType == VTK_TRIANGLE || cellType == VTK_QUAD;
-}
-
-ConstraintTable readVtk(const std::string& path)
-{
-  const auto data = readDataSet(path);
-  ConstraintTable table;
-  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    data->GetPoint(i, p);
-    table.XY.insert(table.XY.end(), { p[0], p[1] });
-    table.Height.push_back(p[2]);
-  }
-  std::vector<Edge> polygonEdges;
-  vtkNew<vtkIdList> ids;
-  for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c)
-  {
-    const int type = data->GetCellType(c);
-    if (!isLine(type) && !isPolygon(type))
-    {
-      continue;
-    }
-    data->GetCellPoints(c, ids);
-    const vtkIdType count = ids->GetNumberOfIds();
-    std::vector<Edge>& edges = isLine(type) ? table.Edges : polygonEdges;
-    for (vtkIdType i = 0; i + (isLine(type) ? 1 : 0) < count; ++i)
-    {
-      edges.push_back({ ids->GetId(i), ids->GetId((i + 1) % count) });
-    }
-  }
-  table.PolygonBegin = table.Edges.size();
-  table.Edges.insert(table.Edges.end(), polygonEdges.begin(), polygonEdges.end());
-  return table;
-}
-
 /// Whether GDAL reads files with this extension.
 bool isVectorFile(const std::string& extension)
 {
@@ -175,7 +127,7 @@ ConstraintTable readConstraintFile(const std::string& path)
   }
   if (isVtkFile(path))
   {
-    return readVtk(path);
+    return readVtkConstraints(path);
   }
   throw IOError(path,
     "has no extension that tells a kind of constraints; use .poly, .csv, .txt, .14, .grd, .gpkg, "

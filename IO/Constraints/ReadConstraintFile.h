@@ -2,6 +2,7 @@
 #ifndef tippReadConstraintFile_h
 #define tippReadConstraintFile_h
 
+#include "Predicates/Point2.h"
 #include "vtkTIPPIOModule.h"
 
 #include <array>
@@ -22,6 +23,16 @@ struct ConstraintTable
   std::vector<std::array<std::int64_t, 2>> Edges; ///< point ids
   std::size_t PolygonBegin = 0; ///< edges from this index on belong to closed polygons
   std::vector<double> Holes;    ///< x and y of points in holes
+
+  std::vector<Point2> holes() const
+  {
+    std::vector<Point2> points;
+    for (std::size_t i = 0; i < this->Holes.size(); i += 2)
+    {
+      points.push_back({ this->Holes[i], this->Holes[i + 1] });
+    }
+    return points;
+  }
 };
 
 /// Reads constraints by the file's extension:
@@ -36,6 +47,9 @@ VTKTIPPIO_EXPORT ConstraintTable readConstraintFile(const std::string& path);
 /// vertices, segments and holes; later lines are ignored. If it has no vertices, those of the .node
 /// file of the same name are read. Throws IOError.
 ConstraintTable readPolyFile(const std::string& path);
+
+/// Lines and polygons of a VTK file. Throws IOError.
+ConstraintTable readVtkConstraints(const std::string& path);
 
 /// Reads the lines and polygons of all layers, by GDAL. Outer rings of polygons come out
 /// counter-clockwise, the others clockwise, whatever their orientation in the file; missing heights

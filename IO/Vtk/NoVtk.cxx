@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Replaces VtkFiles.cxx in a build without VTK.
+// Replaces what reads VTK's files in a build without VTK.
 #include "Vtk/VtkFiles.h"
 
+#include "Constraints/ReadConstraintFile.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 
@@ -16,6 +17,12 @@ bool isVtkFile(const std::string& path)
   constexpr std::array<const char*, 14> extensions = { ".vtp", ".vtu", ".vti", ".vts", ".vtr",
     ".pvtp", ".pvtu", ".pvti", ".pvts", ".pvtr", ".vtk", ".ply", ".stl", ".obj" };
   return std::find(extensions.begin(), extensions.end(), extensionOf(path)) != extensions.end();
+}
+
+ConstraintTable readVtkConstraints(const std::string& path)
+{
+  throw IOError(path,
+    "is a file that VTK reads, and this tipp was built without VTK; give .csv, .poly or .14.");
 }
 
 PointTable readVtkPoints(const std::string& path)

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/DelaunayArguments.h"
 
-#include "Constraints/ReadConstraintFile.h"
-#include "Constraints/TableConstraints.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 
@@ -128,43 +126,10 @@ std::string describeAdded(std::int64_t points, const DelaunayArguments& argument
     points, arguments.Input);
 }
 
-ConstraintTable readBoundary(const std::string& path)
-{
-  ConstraintTable boundary = readConstraintFile(path);
-  try
-  {
-    requireClosedBoundary(boundary);
-  }
-  catch (const std::invalid_argument& error)
-  {
-    throw IOError(path, error.what());
-  }
-  return boundary;
-}
-
-TableConstraints readConstraints(const DelaunayArguments& arguments)
-{
-  TableConstraints constraints;
-  if (!arguments.Constraints.empty())
-  {
-    constraints.Lines = readConstraintFile(arguments.Constraints);
-  }
-  for (const auto& [x, y] : arguments.Holes)
-  {
-    constraints.Lines.Holes.insert(constraints.Lines.Holes.end(), { x, y });
-  }
-  if (!arguments.Boundary.empty())
-  {
-    constraints.Boundary = readBoundary(arguments.Boundary);
-  }
-  constraints.Crossings = arguments.RefuseCrossings ? CrossingRule::Refuse : CrossingRule::Split;
-  return constraints;
-}
-
 Triangulation triangulateWithConstraints(const DelaunayArguments& arguments, PointTable& points,
   const TriangulationOptions& options, std::string& report)
 {
-  const TableConstraints constraints = readConstraints(arguments);
+  const TableConstraints constraints = readConstraints(arguments.Constraints);
   const std::size_t given = points.size();
   try
   {
@@ -183,7 +148,7 @@ Triangulation triangulateWithConstraints(const DelaunayArguments& arguments, Poi
   }
   catch (const std::invalid_argument& error)
   {
-    throw IOError(arguments.constraintFile(), error.what());
+    throw IOError(arguments.Constraints.name(), error.what());
   }
 }
 

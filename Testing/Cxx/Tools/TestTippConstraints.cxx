@@ -162,11 +162,6 @@ TEST_F(TippConstraints, OptionsThatDoNotGoTogetherAreUsageErrors)
     "an output named .tipp");
   this->expectUsageError({ "-o", "mesh.vtp", "--refuse-crossings" }, "needs --constraints");
   this->expectUsageError({ "-o", "mesh.vtp", "--hole", "1", "2" }, "needs --constraints");
-  this->expectUsageError({ "-o", "mesh.tipp", "--constraints", "cross.csv", "--hole", "4", "4" },
-    "does not go with an output named .tipp");
-  this->expectUsageError(
-    { "-o", "mesh.vtp", "--constraints", "cross.csv", "--masters", "single", "--hole", "4", "4" },
-    "needs a single process");
 }
 
 TEST_F(TippConstraints, CheckProvesThem)
@@ -244,13 +239,20 @@ TEST_F(TippConstraints, PartitionedMeshesAreCutToABoundary)
   EXPECT_EQ(0, outcome.ExitCode) << outcome.Out << outcome.Err;
 }
 
-TEST_F(TippConstraints, HolesByPointsNeedTheMemory)
+TEST_F(TippConstraints, HolesByPointsGoWithPartitionedMeshesAndRanks)
 {
   this->Folder.file("square.poly",
     "4 2 0 0\n1 3 3\n2 5 3\n3 5 5\n4 3 5\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n1\n1 4 4\n");
-  const Outcome outcome = this->delaunay({ "-o", "mesh.tipp", "--constraints", "square.poly" });
-  EXPECT_EQ(1, outcome.ExitCode);
-  EXPECT_NE(std::string::npos, outcome.Err.find("square.poly: has holes")) << outcome.Err;
+  for (const Words& output : { Words{ "hole.tipp" }, { "hole.vtp", "--masters", "single" } })
+  {
+    Words arguments{ "--constraints", "square.poly", "-o" };
+    arguments.insert(arguments.end(), output.begin(), output.end());
+    ASSERT_EQ(0, this->delaunay(arguments).ExitCode);
+    const Outcome outcome = runTipp(
+      this->Folder, { "check", "points.csv", output.front(), "--constraints", "square.poly" });
+    EXPECT_EQ(0, outcome.ExitCode) << outcome.Out << outcome.Err;
+  }
+  EXPECT_EQ(60, this->area("hole.vtp"));
 }
 
 TEST_F(TippConstraints, MissingFileIsNamed)
