@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,15 @@ struct ConstraintPiece
   PointId A;
   PointId B;
   std::int64_t Constraint; ///< its number
+};
+
+/// Thrown where pieces turn out to cross, which must not be where they were split at crossings.
+struct CrossingFound : std::logic_error
+{
+  CrossingFound()
+    : std::logic_error("A constraint crosses another one.")
+  {
+  }
 };
 
 /// Those of constraints begin to end - 1.

@@ -33,6 +33,7 @@ VTKTIPPFILTERS_EXPORT std::vector<std::int64_t> jobsOfTriangles(
 /// Retriangulates all jobs, which do not depend on each other. The new triangles of a job take the
 /// positions of the old ones in `triangles`, both in their order, so that the result is the same
 /// for any number of threads. `known` are constraints that may be edges between a job's triangles.
+/// Throws CrossingFound.
 template <typename Id>
 void retriangulateJobs(PointsView points, Id* triangles, const CrossedTriangles& crossed,
   std::size_t pieces, const SplitPieces& split, const ConstraintEdges& known, int threads);

@@ -17,9 +17,13 @@ using Index = DelaunayKernel::Index;
 
 constexpr Index NoVertex = -1;
 
+/// Without the instruction, which not all processors have, the compiler calls a function.
 std::size_t bitsIn(std::uint64_t word)
 {
-  return std::size_t(__builtin_popcountll(word));
+  word -= word >> 1 & 0x5555555555555555U;
+  word = (word & 0x3333333333333333U) + (word >> 2 & 0x3333333333333333U);
+  word = (word + (word >> 4)) & 0x0f0f0f0f0f0f0f0fU;
+  return std::size_t(word * 0x0101010101010101U >> 56);
 }
 
 /// A part of a piece, from a vertex to the next one on it, in a kernel's mesh.
@@ -127,6 +131,10 @@ private:
           line.B) >= 0)
       {
         return; // it ends in this triangle, where a vertex of another partition will be
+      }
+      if (this->Mesh.isFixed(crossed))
+      {
+        throw CrossingFound();
       }
       this->Crossed.push_back(crossed);
       const Index half = this->Mesh.twin(crossed);
@@ -272,20 +280,35 @@ private:
     this->publish(partition.Number);
   }
 
-  /// Ends of pieces among the vertices.
+  /// Ends of pieces among the vertices. What is known of points and pieces lies anywhere in memory,
+  /// so it is asked for early.
   template <typename Id>
   void collect(const Partition<Id>& partition)
   {
-    this->EndVertices.clear();
+    const PieceEnds& ends = this->Of.EndPoints;
+    constexpr Index ahead = 16;
+    this->Found.clear();
     const Index end = partition.Kernel.vertexEnd();
     for (Index v = 1; v < end; ++v)
     {
       const PointId id = partition.Ids[v];
-      if (id >= 0 && this->Of.EndPoints.has(id))
+      const PointId later = partition.Ids[std::min(v + ahead, end - 1)];
+      ends.expect(later);
+      if (id >= 0 && ends.has(id))
       {
-        this->Of.EndPoints.visit(
-          id, [this, v](std::int64_t entry) { this->EndVertices.emplace_back(entry, v); });
+        this->Found.push_back({ ends.rank(id), v });
+        ends.expectEntries(this->Found.back().Rank);
       }
+    }
+    this->EndVertices.clear();
+    for (const auto& [rank, v] : this->Found)
+    {
+      ends.visit(rank,
+        [this, v = v](std::int64_t entry)
+        {
+          this->EndVertices.emplace_back(entry, v);
+          __builtin_prefetch(&this->Of.EndsOf[std::size_t(entry / 2)], 1);
+        });
     }
   }
 
@@ -426,6 +449,12 @@ private:
   Walker Finder;
   SegmentInserter<MeshEditor> Inserter;
   const char* IsBoundary = nullptr;
+  struct FoundEnd
+  {
+    std::size_t Rank;
+    Index Vertex;
+  };
+  std::vector<FoundEnd> Found; ///< points that are ends
   std::vector<std::pair<std::int64_t, Index>> EndVertices;
   std::vector<std::int64_t> Entries; ///< of pieces with an end here: as PieceEnds has them
   std::vector<std::pair<std::size_t, std::int64_t>> Noted; ///< crossed triangles, by number

@@ -28,17 +28,31 @@ public:
     return (this->Words[std::size_t(id) / 64].Bits >> (std::size_t(id) % 64) & 1) != 0;
   }
 
-  /// Calls visit(entry) for each piece that ends at the point: twice the piece's number for its end
-  /// A, and one more for its end B.
+  /// The position of an id, which must be an end, among all ends.
+  std::size_t rank(PointId id) const;
+
+  /// Calls visit(entry) for each piece that ends at the end of this rank: twice the piece's number
+  /// for its end A, and one more for its end B.
   template <typename Visit>
-  void visit(PointId id, const Visit& visit) const
+  void visit(std::size_t rank, const Visit& visit) const
   {
-    const std::size_t rank = this->rank(id);
     for (std::int64_t i = this->Starts[rank]; i < this->Starts[rank + 1]; ++i)
     {
       visit(this->Entries[std::size_t(i)]);
     }
   }
+
+  ///@{
+  /// Loads what has() and visit() will need; negative ids are nobody's.
+  void expect(PointId id) const
+  {
+    if (id >= 0)
+    {
+      __builtin_prefetch(&this->Words[std::size_t(id) / 64]);
+    }
+  }
+  void expectEntries(std::size_t rank) const { __builtin_prefetch(&this->Starts[rank]); }
+  ///@}
 
 private:
   struct Word
@@ -46,9 +60,6 @@ private:
     std::uint64_t Bits = 0;
     std::uint64_t Before = 0; ///< bits of the words before
   };
-
-  /// The position of an id, which must be an end, among all ends.
-  std::size_t rank(PointId id) const;
 
   std::vector<Word> Words;
   std::vector<std::int64_t> Starts; ///< by rank, and the end
@@ -60,7 +71,8 @@ private:
 /// partition's mesh, which is in the processor's cache and has neighbours. Interior triangles are
 /// final, and different partitions have no triangle in common, so the result is the same as if the
 /// pieces were inserted afterwards. Other pieces are left for later, and the interior triangles
-/// that they cross are recorded.
+/// that they cross are recorded. An editor throws CrossingFound where pieces cross; of two pieces
+/// that cross, either an editor or a job of retriangulateJobs() finds the other's edge in its way.
 class PartitionConstraints
 {
 public:

@@ -406,6 +406,14 @@ private:
 
 } // namespace
 
+ResolvedConstraints takeConstraints(
+  PointsView points, const std::vector<Constraint>& constraints, int threads)
+{
+  ResolvedConstraints result;
+  Resolver(points, result, threads, {}).addPieces(constraints);
+  return result;
+}
+
 ResolvedConstraints resolveCrossings(PointsView points, const std::vector<Constraint>& constraints,
   CrossingRule rule, int threads, const std::vector<PointId>& names)
 {
