@@ -270,7 +270,8 @@ TEST_F(OutOfCoreFilter, InsertsConstraintsOfFiles)
   vtkNew<vtkPartitionedUnstructuredReader> reader;
   reader->SetFileName(this->Filter->GetFileName());
   reader->Update();
-  vtkDataSet* const mesh = reader->GetOutput();
+  auto* const mesh = vtkDataSet::SafeDownCast(reader->GetOutput());
+  ASSERT_TRUE(mesh);
   double bounds[6];
   double area = 0;
   mesh->GetBounds(bounds);
