@@ -234,7 +234,8 @@ CheckReport checkPartitioned(const CheckArguments& arguments)
     takePositions(arguments, table);
     chains = findChains(mesh, table);
     options.Constraints = std::move(chains.Edges);
-    options.IsCut = options.IsCut || table.PolygonBegin < table.Edges.size();
+    options.IsCut =
+      options.IsCut || table.PolygonBegin < table.Edges.size() || !table.Holes.empty();
   }
   const InputSum input = sumInput(arguments.Points, arguments.Columns);
   PieceChecker checker(

@@ -4,7 +4,9 @@
 #include "ConstrainedOracle.h"
 #include "RealData.h"
 
+#include "Adcirc/AdcircGrid.h"
 #include "Constraints/KeepInside.h"
+#include "Constraints/TableConstraints.h"
 
 #include <fstream>
 #include <string>
@@ -129,6 +131,25 @@ FreeFemMesh readFreeFem(const std::string& path)
   }
   EXPECT_TRUE(file) << path;
   return result;
+}
+
+/// Weirs are slots, whose two sides go on in other boundaries or are closed at their ends.
+TEST(RealConstraints, BoundariesCutGridsWithWeirs)
+{
+  for (const char* const name :
+    { "adcirc/internal_overflow/internal_overflow.grd", "adcirc/ec95d/ec95d.grd" })
+  {
+    TIPP_REQUIRE_REAL_DATA(path, name);
+    const AdcircGrid grid = readAdcircGrid(path);
+    PointTable points;
+    points.XY = grid.XY;
+    TableConstraints constraints;
+    constraints.Boundary = readBoundary(path);
+    const ConstrainedTriangulation result = triangulateTable(points, constraints, {});
+    EXPECT_EQ(grid.XY.size(), points.XY.size());
+    // By Euler's formula all triangulations inside have as many.
+    EXPECT_EQ(grid.Triangles.size() / 3, result.Mesh.triangleCount()) << name;
+  }
 }
 
 TEST(RealConstraints, GiveBackEveryElementOfLacLeman)
