@@ -2,6 +2,7 @@
 #include "Constraints/PartitionConstraints.h"
 
 #include "Constraints/SegmentInserter.h"
+#include "Kernel/Lanes.h"
 #include "Kernel/MeshEditor.h"
 #include "Parallel/ParallelFor.h"
 
@@ -245,13 +246,19 @@ private:
   void editAny(const Partition<Id>& partition)
   {
     this->collect(partition);
-    if (this->EndVertices.empty())
+    this->IsBoundary = partition.IsBoundary;
+    if (!this->EndVertices.empty())
     {
-      return;
+      this->insertAll(partition);
     }
+    this->publish(partition.Number, this->findRanges(partition.Kernel));
+  }
+
+  template <typename Id>
+  void insertAll(const Partition<Id>& partition)
+  {
     this->Mesh.begin(partition.Kernel);
     this->placeEnds(partition.Number);
-    this->IsBoundary = partition.IsBoundary;
     const auto idOf = [&](Index v) { return PointId(partition.Ids[v]); };
     // First all that can be inserted, for this changes what the others cross.
     std::size_t left = 0;
@@ -272,12 +279,47 @@ private:
       }
     }
     this->Entries.resize(left);
-    this->Noted.clear();
     for (const std::int64_t entry : this->Entries)
     {
       this->follow(entry, partition.Number, false, idOf);
     }
-    this->publish(partition.Number);
+  }
+
+  /// See rangesOf().
+  std::vector<Box2> findRanges(const DelaunayKernel& kernel) const
+  {
+    std::vector<Box2> ranges;
+    const double scale = 1 / this->Factor; // a power of two
+    Pair low{};
+    Pair high{};
+    std::size_t count = 0;
+    const auto end = [&]()
+    {
+      ranges.push_back({ low[0] * scale, low[1] * scale, high[0] * scale, high[1] * scale });
+      count = 0;
+    };
+    kernel.forEachTriangle(
+      [&](Index t)
+      {
+        if (!this->isInterior(t))
+        {
+          return;
+        }
+        for (const Index v : kernel.corners(t))
+        {
+          const Point2 p = kernel.point(v);
+          const Pair xy = pairAt(&p.x);
+          low = count == 0 ? xy : lower(low, xy);
+          high = count == 0 ? xy : higher(high, xy);
+          count += count == 0 ? 1 : 0;
+        }
+        if (++count > RangeTriangles)
+        {
+          end();
+        }
+      });
+    count > 0 ? end() : void();
+    return ranges;
   }
 
   /// Ends of pieces among the vertices. What is known of points and pieces lies anywhere in memory,
@@ -422,7 +464,7 @@ private:
     return false;
   }
 
-  void publish(PartitionIndex partition)
+  void publish(PartitionIndex partition, std::vector<Box2> ranges)
   {
     std::sort(this->Noted.begin(), this->Noted.end());
     std::size_t at = 0;
@@ -440,7 +482,9 @@ private:
     this->Of.Crossings.insert(
       this->Of.Crossings.end(), this->Crossings.begin(), this->Crossings.end());
     this->Of.Touches.insert(this->Of.Touches.end(), this->Touches.begin(), this->Touches.end());
+    this->Of.Ranges[partition] = std::move(ranges);
     this->Touches.clear();
+    this->Noted.clear();
   }
 
   PartitionConstraints& Of;

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <unordered_map>
 #include <vector>
 
 namespace tipp
@@ -91,6 +92,14 @@ public:
     return partition >= 0 && (ends.Partition[0] == partition || ends.Partition[1] == partition);
   }
 
+  static constexpr std::size_t RangeTriangles = 512;
+  /// The bounding boxes of a partition's interior triangles, RangeTriangles at a time; the last
+  /// range may have fewer.
+  const std::vector<Box2>& rangesOf(PartitionIndex partition) const
+  {
+    return this->Ranges.at(partition);
+  }
+
   struct Crossing
   {
     std::int64_t Piece;
@@ -120,6 +129,7 @@ private:
   std::mutex Mutex;
   std::vector<Crossing> Crossings;
   std::vector<CrossedTriangles::Touch> Touches;
+  std::unordered_map<PartitionIndex, std::vector<Box2>> Ranges;
 };
 
 } // namespace tipp
