@@ -49,12 +49,17 @@ int vtkTIPPDelaunay2D::RequestUpdateExtent(
   {
     return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
   }
-  // Whatever piece is asked for, every rank brings its share of the points.
+  // Whatever piece is asked for, every rank brings its share of the points and of the source.
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  vtkInformation* input = inputVector[0]->GetInformationObject(0);
-  input->Set(Pipeline::UPDATE_PIECE_NUMBER(), this->Controller->GetLocalProcessId());
-  input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), this->Controller->GetNumberOfProcesses());
-  input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    if (vtkInformation* input = inputVector[port]->GetInformationObject(0))
+    {
+      input->Set(Pipeline::UPDATE_PIECE_NUMBER(), this->Controller->GetLocalProcessId());
+      input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), this->Controller->GetNumberOfProcesses());
+      input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    }
+  }
   return 1;
 }
 
