@@ -4,10 +4,9 @@
 #include "Constraints/SegmentInserter.h"
 #include "Kernel/Lanes.h"
 #include "Kernel/MeshEditor.h"
-#include "Parallel/ParallelFor.h"
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 namespace tipp
 {
@@ -17,15 +16,6 @@ namespace
 using Index = DelaunayKernel::Index;
 
 constexpr Index NoVertex = -1;
-
-/// Without the instruction, which not all processors have, the compiler calls a function.
-std::size_t bitsIn(std::uint64_t word)
-{
-  word -= word >> 1 & 0x5555555555555555U;
-  word = (word & 0x3333333333333333U) + (word >> 2 & 0x3333333333333333U);
-  word = (word + (word >> 4)) & 0x0f0f0f0f0f0f0f0fU;
-  return std::size_t(word * 0x0101010101010101U >> 56);
-}
 
 /// A part of a piece, from a vertex to the next one on it, in a kernel's mesh.
 struct Walk
@@ -167,65 +157,6 @@ private:
 };
 
 } // namespace
-
-PieceEnds::PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pieces, int threads)
-  : Words(points / 64 + 1)
-{
-  /// visit(point, entry) for both ends of all pieces, by several threads at a time.
-  const auto forEnds = [&](const auto& visit)
-  {
-    constexpr std::int64_t chunk = 8192;
-    forChunks(std::int64_t(pieces.size()), chunk, threads, {},
-      [&](std::int64_t begin, std::int64_t end, int)
-      {
-        for (std::int64_t p = begin; p < end; ++p)
-        {
-          visit(pieces[std::size_t(p)].A, 2 * p);
-          visit(pieces[std::size_t(p)].B, 2 * p + 1);
-        }
-      });
-  };
-  forEnds(
-    [this](PointId id, std::int64_t)
-    {
-      __atomic_fetch_or(&this->Words[std::size_t(id) / 64].Bits,
-        std::uint64_t(1) << (std::size_t(id) % 64), __ATOMIC_RELAXED);
-    });
-  std::size_t ends = 0;
-  for (Word& word : this->Words)
-  {
-    word.Before = ends;
-    ends += bitsIn(word.Bits);
-  }
-  // A counting sort: in the end each Start is where the next one's was at first.
-  this->Starts.assign(ends + 2, 0);
-  const auto next = [this](PointId id, std::size_t shift)
-  {
-    return __atomic_fetch_add(
-      &this->Starts[this->rank(id) + shift], std::int64_t(1), __ATOMIC_RELAXED);
-  };
-  forEnds([&](PointId id, std::int64_t) { next(id, 2); });
-  std::partial_sum(this->Starts.begin(), this->Starts.end(), this->Starts.begin());
-  this->Entries.resize(2 * pieces.size());
-  forEnds([&](PointId id, std::int64_t entry) { this->Entries[std::size_t(next(id, 1))] = entry; });
-  constexpr std::int64_t chunk = 8192; // the same for any number of threads
-  forChunks(std::int64_t(ends), chunk, threads, {},
-    [this](std::int64_t begin, std::int64_t end, int)
-    {
-      for (std::int64_t rank = begin; rank < end; ++rank)
-      {
-        std::sort(this->Entries.begin() + this->Starts[std::size_t(rank)],
-          this->Entries.begin() + this->Starts[std::size_t(rank) + 1]);
-      }
-    });
-}
-
-std::size_t PieceEnds::rank(PointId id) const
-{
-  const Word& word = this->Words[std::size_t(id) / 64];
-  const std::uint64_t below = (std::uint64_t(1) << (std::size_t(id) % 64)) - 1;
-  return word.Before + bitsIn(word.Bits & below);
-}
 
 /// One thread's.
 class PartitionConstraints::Editor : public PartitionEditor

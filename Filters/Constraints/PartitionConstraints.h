@@ -4,6 +4,7 @@
 
 #include "Constraints/Constraint.h"
 #include "Constraints/CrossedTriangles.h"
+#include "Constraints/PieceEnds.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Worker.h"
 
@@ -17,55 +18,6 @@
 
 namespace tipp
 {
-
-/// The points that are ends of pieces, by id, and the pieces that end at each.
-class PieceEnds
-{
-public:
-  PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pieces, int threads);
-
-  bool has(PointId id) const
-  {
-    return (this->Words[std::size_t(id) / 64].Bits >> (std::size_t(id) % 64) & 1) != 0;
-  }
-
-  /// The position of an id, which must be an end, among all ends.
-  std::size_t rank(PointId id) const;
-
-  /// Calls visit(entry) for each piece that ends at the end of this rank: twice the piece's number
-  /// for its end A, and one more for its end B.
-  template <typename Visit>
-  void visit(std::size_t rank, const Visit& visit) const
-  {
-    for (std::int64_t i = this->Starts[rank]; i < this->Starts[rank + 1]; ++i)
-    {
-      visit(this->Entries[std::size_t(i)]);
-    }
-  }
-
-  ///@{
-  /// Loads what has() and visit() will need; negative ids are nobody's.
-  void expect(PointId id) const
-  {
-    if (id >= 0)
-    {
-      __builtin_prefetch(&this->Words[std::size_t(id) / 64]);
-    }
-  }
-  void expectEntries(std::size_t rank) const { __builtin_prefetch(&this->Starts[rank]); }
-  ///@}
-
-private:
-  struct Word
-  {
-    std::uint64_t Bits = 0;
-    std::uint64_t Before = 0; ///< bits of the words before
-  };
-
-  std::vector<Word> Words;
-  std::vector<std::int64_t> Starts; ///< by rank, and the end
-  std::vector<std::int64_t> Entries;
-};
 
 /// Inserts pieces of constraints while the points are triangulated. If a partition contains both
 /// ends of a piece, and all triangles that the piece crosses are interior, it is inserted into the

@@ -52,7 +52,7 @@ public:
     PointsView points, ResolvedConstraints& result, int threads, const std::vector<PointId>& names)
     : Points(points)
     , Result(result)
-    , Threads(threads)
+    , Threads(threadCount(threads))
     , Names(names)
   {
   }
@@ -66,11 +66,23 @@ public:
       ZeroLength
     };
     std::vector<char> kinds(constraints.size());
+    const Point2* const all = this->Points.contiguous();
+    const auto expect = [&](PointId id) // points lie anywhere in memory
+    {
+      if (all && std::size_t(id) < this->Points.size())
+      {
+        __builtin_prefetch(&all[id]);
+      }
+    };
+    constexpr std::size_t ahead = 32;
     forChunks(std::int64_t(constraints.size()), SegmentTree::Chunk, this->Threads, {},
       [&](std::int64_t begin, std::int64_t end, int)
       {
         for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
         {
+          const Constraint& later = constraints[std::min(i + ahead, constraints.size() - 1)];
+          expect(later.A);
+          expect(later.B);
           const Point2 a = this->checkedPoint(constraints[i].A, i);
           const Point2 b = this->checkedPoint(constraints[i].B, i);
           kinds[i] = !isFinite(a) || !isFinite(b) ? NotFinite : a == b ? ZeroLength : Whole;

@@ -110,8 +110,8 @@ bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
 PathState requireWritable(const DelaunayArguments& arguments)
 {
   std::vector<std::string> inputs = arguments.Inputs;
-  inputs.push_back(arguments.Constraints);
-  inputs.push_back(arguments.Boundary);
+  inputs.push_back(arguments.Constraints.Lines);
+  inputs.push_back(arguments.Constraints.Boundary);
   requireApart({ arguments.Output, arguments.Statistics }, inputs);
   const PendingFile output(arguments.Output);
   if (!arguments.Statistics.empty())
