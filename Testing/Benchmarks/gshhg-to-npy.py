@@ -47,4 +47,5 @@ if len(sys.argv) == 4:
     is_last = numpy.zeros(len(dx), bool)
     is_last[first_point + points_of_segment - 1] = True
     first = numpy.flatnonzero(~is_last)
+    first = first[abs(longitude[first] - longitude[first + 1]) < 180]  # not round the earth
     numpy.save(sys.argv[3], numpy.column_stack((first, first + 1)).astype(float))
