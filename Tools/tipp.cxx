@@ -50,6 +50,7 @@ int run(int argc, char** argv)
   tipp::addPointsCommand(app, exitCode);
   tipp::addResampleCommand(app, exitCode);
   tipp::addPartitionCommand(app, exitCode);
+  tipp::addQueryCommand(app, exitCode);
   tipp::addCheckCommand(app, exitCode);
   try
   {

@@ -148,6 +148,7 @@ void addConstraintFunctions(nb::module_& module);
 void addFileFunctions(nb::module_& module);
 void addLocatorClass(nb::module_& module);
 void addPointFunctions(nb::module_& module);
+void addQueryClass(nb::module_& module);
 void addResampleFunction(nb::module_& module);
 
 } // namespace tipp::python

@@ -77,5 +77,6 @@ NB_MODULE(_core, module)
   tipp::python::addFileFunctions(module);
   tipp::python::addLocatorClass(module);
   tipp::python::addPointFunctions(module);
+  tipp::python::addQueryClass(module);
   tipp::python::addResampleFunction(module);
 }

@@ -21,7 +21,7 @@ from ._arguments import finish, Progress
 from ._rasters import bounds_of, derived, DERIVED, grid_over, needs_elevation, sampling_of, selected, uncompressed
 from ._vtkmodules import root
 
-__all__ = ["delaunay", "delaunay_2d", "delaunay_file", "dem", "read", "require_ranks", "resample", "write"]
+__all__ = ["delaunay", "delaunay_2d", "delaunay_file", "dem", "open_mesh", "read", "require_ranks", "resample", "write"]
 
 _HIDDEN = 32  # vtkDataSetAttributes::HIDDENCELL
 _GHOSTS = "vtkGhostType"
@@ -326,6 +326,18 @@ def _simplices(mesh: Any, name: str, kinds: tuple[str, ...], wanted: str) -> Mes
     if cells.dtype not in (np.int32, np.int64):
         cells = cells.astype(np.int64)
     return Mesh(mesh.points, np.ascontiguousarray(cells), mesh.point_data, mesh.cell_data)
+
+
+def open_mesh(mesh: Any, options: dict[str, Any]) -> Any:
+    if isinstance(mesh, str):
+        return _core.Query(mesh, options["memory"], options["step"], options["threads"])
+    mesh = _simplices(mesh, "mesh", ("vtkPolyData", "vtkUnstructuredGrid"), "a mesh")
+    of_points, of_cells = _numbers(mesh.point_data), _numbers(mesh.cell_data)
+    points = plain(mesh.points)
+    if points.shape[1] == 2:
+        points = np.column_stack([points, np.zeros(len(points), points.dtype)])
+    return _core.Query(points, mesh.cells, [*of_points, *of_cells], [*of_points.values(), *of_cells.values()],
+                       len(of_points), options["threads"])
 
 
 def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> Any:

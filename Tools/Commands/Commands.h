@@ -28,6 +28,7 @@ void addFlattenCommand(CLI::App& app, int& exitCode);
 void addInfoCommand(CLI::App& app, int& exitCode);
 void addPartitionCommand(CLI::App& app, int& exitCode);
 void addPointsCommand(CLI::App& app, int& exitCode);
+void addQueryCommand(CLI::App& app, int& exitCode);
 void addResampleCommand(CLI::App& app, int& exitCode);
 
 } // namespace tipp

@@ -14,13 +14,14 @@ from ._arguments import Progress
 from ._run import run
 from ._vtk import point_cloud, triangles_of, vtk_points, wrapped_like
 from ._vtk_dem import dem
+from ._vtk_query import open_mesh
 from .vtkTIPPFilters import vtkRangeResampleFilter, vtkTIPPDelaunay2D, vtkTIPPOutOfCoreDelaunay2D
 from .vtkTIPPIO import vtkPartitionedUnstructuredReader, vtkPartitionedUnstructuredWriter
 
 if TYPE_CHECKING:
     from vtkmodules.vtkCommonDataModel import vtkPointSet
 
-__all__ = ["delaunay", "delaunay_2d", "delaunay_file", "dem", "read", "require_ranks", "resample", "write"]
+__all__ = ["delaunay", "delaunay_2d", "delaunay_file", "dem", "open_mesh", "read", "require_ranks", "resample", "write"]
 
 _FIGURES = {
     "points": "Points",

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippCellLocation_h
+#define tippCellLocation_h
+
+#include <cstdint>
+
+namespace tipp
+{
+
+/// Where a point lies in a mesh of triangles or tetrahedra.
+struct CellLocation
+{
+  std::int64_t Cell = -1; ///< index of the cell; -1: outside
+  /// Barycentric weights of the cell's corners; zeros outside. They sum to 1 and are not negative
+  /// but for roundings. Triangles use the first three.
+  double Weights[4] = {};
+};
+
+} // namespace tipp
+
+#endif

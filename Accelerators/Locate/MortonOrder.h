@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippMortonOrder_h
+#define tippMortonOrder_h
+
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace tipp
+{
+
+/// A closed box in D dimensions.
+template <int D>
+struct Box
+{
+  std::array<double, D> Low;
+  std::array<double, D> High;
+
+  static Box empty()
+  {
+    Box box;
+    box.Low.fill(std::numeric_limits<double>::infinity());
+    box.High.fill(-std::numeric_limits<double>::infinity());
+    return box;
+  }
+  static Box of(const std::array<double, D>& point) { return { point, point }; }
+
+  /// Whether it holds no finite point, or has bounds that are infinite or NaN.
+  bool isEmpty() const
+  {
+    bool usable = true;
+    for (int axis = 0; axis < D; ++axis)
+    {
+      usable = usable && this->Low[axis] <= this->High[axis] && std::isfinite(this->Low[axis]) &&
+        std::isfinite(this->High[axis]);
+    }
+    return !usable;
+  }
+  bool holds(const std::array<double, D>& point) const
+  {
+    bool inside = true;
+    for (int axis = 0; axis < D; ++axis)
+    {
+      inside = inside && this->Low[axis] <= point[axis] && point[axis] <= this->High[axis];
+    }
+    return inside;
+  }
+  void extend(const Box& by)
+  {
+    for (int axis = 0; axis < D; ++axis)
+    {
+      this->Low[axis] = std::min(this->Low[axis], by.Low[axis]);
+      this->High[axis] = std::max(this->High[axis], by.High[axis]);
+    }
+  }
+};
+
+/// The bounds of all boxes boxOf(0) ... boxOf(count - 1) that are not empty.
+template <int D, typename BoxOf>
+Box<D> boundsOf(std::int64_t count, int threads, const BoxOf& boxOf)
+{
+  std::vector<Box<D>> bounds(std::size_t(threads), Box<D>::empty());
+  forChunks(count, 1 << 14, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int thread)
+    {
+      Box<D> own = Box<D>::empty();
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const Box<D> box = boxOf(i);
+        box.isEmpty() ? void() : own.extend(box);
+      }
+      bounds[std::size_t(thread)].extend(own);
+    });
+  for (const Box<D>& box : bounds)
+  {
+    bounds[0].extend(box);
+  }
+  return bounds[0];
+}
+
+/// Puts D - 1 zeros between the bits of a number of 32 bits (D = 2) or 21 bits (D = 3).
+template <int D>
+std::uint64_t spreadBits(std::uint64_t x)
+{
+  if constexpr (D == 2)
+  {
+    x = (x | x << 16) & 0x0000ffff0000ffffu;
+    x = (x | x << 8) & 0x00ff00ff00ff00ffu;
+    x = (x | x << 4) & 0x0f0f0f0f0f0f0f0fu;
+    x = (x | x << 2) & 0x3333333333333333u;
+    return (x | x << 1) & 0x5555555555555555u;
+  }
+  else
+  {
+    x = (x | x << 32) & 0x001f00000000ffffu;
+    x = (x | x << 16) & 0x001f0000ff0000ffu;
+    x = (x | x << 8) & 0x100f00f00f00f00fu;
+    x = (x | x << 4) & 0x10c30c30c30c30c3u;
+    return (x | x << 2) & 0x1249249249249249u;
+  }
+}
+
+/// The position of a box's centre along the Morton curve through `all`.
+template <int D>
+std::uint64_t mortonCode(const Box<D>& box, const Box<D>& all)
+{
+  constexpr double cells = double(std::uint64_t(1) << (64 / D));
+  std::uint64_t code = 0;
+  for (int axis = 0; axis < D; ++axis)
+  {
+    // Halves, so that nothing overflows.
+    const double low = all.Low[axis] / 2;
+    const double extent = all.High[axis] / 2 - low;
+    const double centre = (box.Low[axis] / 2 - low) / 2 + (box.High[axis] / 2 - low) / 2;
+    const double share = extent > 0 ? centre / extent : 0;
+    code |= spreadBits<D>(std::uint64_t(std::min(std::max(share, 0.0) * cells, cells - 1))) << axis;
+  }
+  return code;
+}
+
+/// The numbers of the boxes boxOf(0) ... boxOf(count - 1) in the order of their centres along the
+/// Morton curve through `all`, their bounds; empty ones are left out. `count` is below 2^31. The
+/// order does not depend on the number of threads.
+template <int D, typename BoxOf>
+std::vector<std::int32_t> mortonOrder(
+  std::int64_t count, int threads, const Box<D>& all, const BoxOf& boxOf)
+{
+  struct Entry
+  {
+    std::uint64_t Code;
+    std::int32_t Number; // -1: empty
+
+    bool operator<(const Entry& other) const
+    {
+      return this->Code != other.Code ? this->Code < other.Code : this->Number < other.Number;
+    }
+  };
+  std::vector<Entry> entries(static_cast<std::size_t>(count));
+  // Each thread sorts a part; then neighbouring parts are merged.
+  const auto border = [&](std::int64_t part)
+  { return entries.begin() + std::ptrdiff_t(count * part / threads); };
+  forChunks(threads, 1, threads, {},
+    [&](std::int64_t part, std::int64_t, int)
+    {
+      for (auto entry = border(part); entry != border(part + 1); ++entry)
+      {
+        const auto i = std::int64_t(entry - entries.begin());
+        const Box<D> box = boxOf(i);
+        *entry = box.isEmpty() ? Entry{ ~std::uint64_t(0), -1 }
+                               : Entry{ mortonCode(box, all), std::int32_t(i) };
+      }
+      std::sort(border(part), border(part + 1));
+    });
+  for (std::int64_t part = 1; part < threads; ++part)
+  {
+    std::inplace_merge(entries.begin(), border(part), border(part + 1));
+  }
+  std::vector<std::int32_t> order;
+  order.reserve(entries.size());
+  for (const Entry& entry : entries)
+  {
+    entry.Number >= 0 ? order.push_back(entry.Number) : void();
+  }
+  return order;
+}
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Heights at scattered points, and what lies around a point, of a mesh on the disk."""
+import numpy as np
+
+import tipp
+
+rng = np.random.default_rng(1)
+xy = rng.random((20000, 2))
+surface = tipp.delaunay_2d(xy, point_data={"height": np.sin(9 * xy[:, 0]) * np.cos(7 * xy[:, 1])})
+tipp.write(surface, "surface.tipp", tiling="grid:4x4")
+
+asked = rng.random((1000, 2))
+with tipp.open("surface.tipp", memory="256M") as mesh:
+    cells, weights = mesh.locate(asked)
+    heights = mesh.interpolate(asked, "height")
+    neighbors = mesh.neighbors(cells[cells >= 0])
+    around = mesh.ring(points=[0], k=2)[0]
+    outline = mesh.boundary()[0]
+print(f"{(cells >= 0).sum()} of {len(asked)} points inside, {len(around)} points around the first one, "
+      f"{len(outline)} points on the border")

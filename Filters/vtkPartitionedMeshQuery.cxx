@@ -1,0 +1,515 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkPartitionedMeshQuery.h"
+
+#include "Output/CollectivePipeline.h"
+#include "Output/Monitor.h"
+#include "Parallel/Poll.h"
+#include "Query/Around.h"
+#include "Query/DataSetPart.h"
+#include "Query/RankAnswer.h"
+#include "Query/ResidentMesh.h"
+#include "Ranks/Communicator.h"
+#include "Sampling/RangeResampleRun.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCharArray.h"
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
+
+#include <algorithm>
+#include <exception>
+#include <stdexcept>
+
+vtkStandardNewMacro(vtkPartitionedMeshQuery);
+vtkCxxSetObjectMacro(vtkPartitionedMeshQuery, Controller, vtkMultiProcessController);
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+namespace
+{
+
+std::vector<tipp::Point3> pointsOf(vtkDataArray* array)
+{
+  const int components = array ? array->GetNumberOfComponents() : 0;
+  if (components != 2 && components != 3)
+  {
+    throw std::runtime_error("points have two or three coordinates, but the array has " +
+      std::to_string(components) + " components.");
+  }
+  std::vector<tipp::Point3> points(std::size_t(array->GetNumberOfTuples()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    double p[3] = { 0, 0, 0 };
+    array->GetTuple(vtkIdType(i), p);
+    points[i] = { p[0], p[1], p[2] };
+  }
+  return points;
+}
+
+std::vector<tipp::Point3> pointsOf(vtkDataSet* data)
+{
+  std::vector<tipp::Point3> points(std::size_t(data->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    double p[3];
+    data->GetPoint(vtkIdType(i), p);
+    points[i] = { p[0], p[1], p[2] };
+  }
+  return points;
+}
+
+void copyTo(vtkIdTypeArray* array, const std::vector<std::int64_t>& ids, int components = 1)
+{
+  if (array)
+  {
+    array->SetNumberOfComponents(components);
+    array->SetNumberOfTuples(vtkIdType(ids.size()) / components);
+    std::copy(ids.begin(), ids.end(), array->GetPointer(0));
+    array->Modified();
+  }
+}
+
+std::vector<std::int64_t> idsOf(vtkIdTypeArray* array)
+{
+  if (!array)
+  {
+    throw std::runtime_error("there is no array of ids.");
+  }
+  return { array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfValues() };
+}
+
+/// The array takes over the memory of the answer's.
+vtkSmartPointer<vtkDataArray> takeOver(tipp::MeshAnswer::Array& values)
+{
+  auto array = vtkSmartPointer<vtkDataArray>::Take(
+    vtkDataArray::CreateDataArray(tipp::vtkTypeOf(values.Type)));
+  const auto count = vtkIdType(values.Values.size() / tipp::scalarSize(values.Type));
+  array->SetName(values.Name.c_str());
+  array->SetNumberOfComponents(values.Components);
+  array->SetVoidArray(values.Values.release(), count, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
+  return array;
+}
+
+void replaceNull(const std::vector<std::int64_t>& cells, double null, vtkDataArray* array)
+{
+  if (array->GetDataType() != VTK_FLOAT && array->GetDataType() != VTK_DOUBLE)
+  {
+    return;
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    for (int k = 0; cells[i] < 0 && k < array->GetNumberOfComponents(); ++k)
+    {
+      array->SetComponent(vtkIdType(i), k, null);
+    }
+  }
+}
+
+} // namespace
+
+vtkPartitionedMeshQuery::vtkPartitionedMeshQuery()
+{
+  this->SetNumberOfInputPorts(2);
+  this->vtkPartitionedMeshQuery::SetValidPointMaskArrayName("vtkValidPointMask");
+  this->vtkPartitionedMeshQuery::SetController(vtkMultiProcessController::GetGlobalController());
+}
+
+vtkPartitionedMeshQuery::~vtkPartitionedMeshQuery()
+{
+  this->vtkPartitionedMeshQuery::SetController(nullptr);
+  this->vtkPartitionedMeshQuery::SetFileName(nullptr);
+  this->vtkPartitionedMeshQuery::SetValidPointMaskArrayName(nullptr);
+}
+
+vtkExecutive* vtkPartitionedMeshQuery::CreateDefaultExecutive()
+{
+  if (DefaultExecutivePrototype)
+  {
+    return this->Superclass::CreateDefaultExecutive(); // an application's own, e.g. ParaView's
+  }
+  auto* executive = tipp::CollectivePipeline::New();
+  executive->Controller = [this]() { return this->Controller; };
+  return executive;
+}
+
+vtkDataObject* vtkPartitionedMeshQuery::GetSource()
+{
+  return this->GetNumberOfInputConnections(1) > 0 ? this->GetInputDataObject(1, 0) : nullptr;
+}
+
+void vtkPartitionedMeshQuery::AddArray(const char* name)
+{
+  if (name)
+  {
+    this->ArrayNames.emplace_back(name);
+    this->Modified();
+  }
+}
+
+void vtkPartitionedMeshQuery::ClearArrays()
+{
+  if (!this->ArrayNames.empty())
+  {
+    this->ArrayNames.clear();
+    this->Modified();
+  }
+}
+
+int vtkPartitionedMeshQuery::GetNumberOfArrays() const
+{
+  return int(this->ArrayNames.size());
+}
+
+const char* vtkPartitionedMeshQuery::GetArray(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfArrays()
+    ? this->ArrayNames[std::size_t(index)].c_str()
+    : nullptr;
+}
+
+int vtkPartitionedMeshQuery::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkDataSet" : "vtkPointSet");
+  if (port == 1)
+  {
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+int vtkPartitionedMeshQuery::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  outputs->GetInformationObject(0)->CopyEntry(
+    inputs[0]->GetInformationObject(0), Pipeline::WHOLE_EXTENT());
+  return 1;
+}
+
+int vtkPartitionedMeshQuery::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  if (!this->Superclass::RequestUpdateExtent(request, inputs, outputs))
+  {
+    return 0;
+  }
+  const bool several = this->Controller && this->Controller->GetNumberOfProcesses() > 1;
+  if (inputs[1]->GetNumberOfInformationObjects() > 0)
+  {
+    tipp::askForPiece(inputs[1]->GetInformationObject(0),
+      several ? this->Controller->GetLocalProcessId() : 0,
+      several ? this->Controller->GetNumberOfProcesses() : 1);
+  }
+  return 1;
+}
+
+/// The mesh, which is opened again if it has been changed.
+std::shared_ptr<const tipp::ResidentMesh> vtkPartitionedMeshQuery::Open()
+{
+  const std::lock_guard<std::mutex> lock(this->Opening);
+  const bool isStored = this->FileName && *this->FileName;
+  vtkDataObject* const source = isStored ? nullptr : this->GetSource();
+  std::string key = isStored ? this->FileName : "";
+  for (const vtkTypeInt64 number : { vtkTypeInt64(this->MemoryLimit), vtkTypeInt64(this->Step),
+         vtkTypeInt64(this->NumberOfThreads), source ? vtkTypeInt64(source->GetMTime()) : 0 })
+  {
+    key += "|" + std::to_string(number);
+  }
+  if (!this->Mesh || this->Opened != key)
+  {
+    this->Mesh.reset();
+    tipp::ResidentOptions options;
+    options.MemoryLimit = std::uint64_t(this->MemoryLimit);
+    options.Threads = this->NumberOfThreads;
+    options.Step = this->Step;
+    this->Mesh = isStored ? std::make_shared<const tipp::ResidentMesh>(this->FileName, options)
+                          : std::make_shared<const tipp::ResidentMesh>(
+                              tipp::partOf(source, this->NumberOfThreads), options);
+    this->Opened = key;
+  }
+  return this->Mesh;
+}
+
+/// Collective, if there are several ranks.
+tipp::MeshAnswer vtkPartitionedMeshQuery::Ask(
+  const std::vector<tipp::Point3>& points, bool weights, bool arrays)
+{
+  const auto count = std::int64_t(points.size());
+  tipp::AnswerOptions options;
+  options.Weights = weights;
+  const auto choose = [&](const tipp::ResidentMesh& mesh)
+  {
+    options.Arrays = !arrays     ? std::vector<std::string>()
+      : this->ArrayNames.empty() ? mesh.names()
+                                 : this->ArrayNames;
+  };
+  if (!this->Controller || this->Controller->GetNumberOfProcesses() == 1)
+  {
+    const auto mesh = this->Open();
+    choose(*mesh);
+    return mesh->answer(points.data(), count, options);
+  }
+  tipp::MeshAnswer answer;
+  tipp::Communicator ranks(this->Controller);
+  ranks.together(
+    [&]
+    {
+      const auto mesh = this->Open();
+      choose(*mesh);
+      // A rank without cells does not know the arrays.
+      for (const auto& names :
+        ranks.allGather(mesh->mesh().Cells > 0 ? options.Arrays : std::vector<std::string>()))
+      {
+        options.Arrays = mesh->mesh().Cells > 0 || names.empty() ? options.Arrays : names;
+      }
+      answer = tipp::answerOnRanks(ranks, *mesh, points.data(), count, options);
+    });
+  return answer;
+}
+
+/// Reports what `work` throws.
+template <typename Work>
+int vtkPartitionedMeshQuery::Try(const Work& work)
+{
+  try
+  {
+    work();
+    return 1;
+  }
+  catch (const tipp::WorkAborted&)
+  {
+    return 0;
+  }
+  catch (const std::exception& error)
+  {
+    const auto* const failure = dynamic_cast<const tipp::RankFailure*>(&error);
+    if (!failure || !failure->Aborted)
+    {
+      vtkErrorMacro("Query: " << error.what());
+    }
+    return 0;
+  }
+}
+
+int vtkPartitionedMeshQuery::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkDataSet* const input = vtkDataSet::GetData(inputs[0]);
+  vtkDataSet* const output = vtkDataSet::GetData(outputs);
+  output->CopyStructure(input);
+  this->PassPointArrays ? output->GetPointData()->PassData(input->GetPointData()) : void();
+  this->PassCellArrays ? output->GetCellData()->PassData(input->GetCellData()) : void();
+  this->PassFieldArrays ? output->GetFieldData()->PassData(input->GetFieldData()) : void();
+  const int isDone = this->Try(
+    [&]
+    {
+      tipp::Monitor monitor(this);
+      const tipp::PollScope scope(
+        [&]
+        {
+          if (!monitor(0.5) && this->Controller)
+          {
+            const int rank = this->Controller->GetLocalProcessId();
+            throw tipp::RankFailure(rank, true, "The run was stopped.");
+          }
+          return monitor(0.5);
+        });
+      tipp::MeshAnswer answer = this->Ask(pointsOf(input), false, true);
+      vtkPointData* const values = output->GetPointData();
+      for (tipp::MeshAnswer::Array& array : answer.Arrays)
+      {
+        const vtkSmartPointer<vtkDataArray> taken = takeOver(array);
+        replaceNull(answer.Cells, this->NullValue, taken);
+        values->AddArray(taken);
+      }
+      vtkNew<vtkIdTypeArray> cells;
+      cells->SetName("CellId");
+      copyTo(cells, answer.Cells);
+      values->AddArray(cells);
+      vtkNew<vtkCharArray> mask;
+      mask->SetName(this->ValidPointMaskArrayName ? this->ValidPointMaskArrayName : "");
+      mask->SetNumberOfValues(vtkIdType(answer.Cells.size()));
+      std::transform(answer.Cells.begin(), answer.Cells.end(), mask->GetPointer(0),
+        [](std::int64_t cell) { return char(cell >= 0); });
+      values->AddArray(mask);
+    });
+  if (!isDone)
+  {
+    output->Initialize();
+  }
+  return isDone || this->GetAbortExecute() ? 1 : 0;
+}
+
+int vtkPartitionedMeshQuery::Locate(
+  vtkDataArray* points, vtkIdTypeArray* cells, vtkDoubleArray* weights)
+{
+  return this->Try(
+    [&]
+    {
+      const tipp::MeshAnswer answer = this->Ask(pointsOf(points), weights != nullptr, false);
+      copyTo(cells, answer.Cells);
+      if (weights)
+      {
+        const std::size_t count = answer.Cells.size();
+        weights->SetNumberOfComponents(count > 0 ? int(answer.Weights.size() / count) : 3);
+        weights->SetNumberOfTuples(vtkIdType(count));
+        std::copy(answer.Weights.begin(), answer.Weights.end(), weights->GetPointer(0));
+        weights->Modified();
+      }
+    });
+}
+
+int vtkPartitionedMeshQuery::Interpolate(vtkDataArray* points, vtkDataSetAttributes* values)
+{
+  return this->Try(
+    [&]
+    {
+      tipp::MeshAnswer answer = this->Ask(pointsOf(points), false, true);
+      for (tipp::MeshAnswer::Array& array : answer.Arrays)
+      {
+        values->AddArray(takeOver(array));
+      }
+    });
+}
+
+int vtkPartitionedMeshQuery::GetNamesOfArrays(vtkStringArray* names)
+{
+  return this->Try(
+    [&]
+    {
+      for (const std::string& name : this->Open()->names())
+      {
+        names->InsertNextValue(name);
+      }
+    });
+}
+
+int vtkPartitionedMeshQuery::Neighbors(vtkIdTypeArray* cells, vtkIdTypeArray* neighbors)
+{
+  return this->Try(
+    [&]
+    {
+      const auto mesh = this->Open();
+      copyTo(neighbors, tipp::neighborsOf(*mesh, idsOf(cells)), mesh->mesh().CellSize);
+    });
+}
+
+int vtkPartitionedMeshQuery::Star(
+  vtkIdTypeArray* points, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
+{
+  return this->Try(
+    [&]
+    {
+      const tipp::IdLists lists = tipp::starsOf(*this->Open(), idsOf(points));
+      copyTo(starts, lists.Starts);
+      copyTo(ids, lists.Ids);
+    });
+}
+
+int vtkPartitionedMeshQuery::RingOfPoints(
+  vtkIdTypeArray* points, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
+{
+  return this->Try(
+    [&]
+    {
+      const tipp::IdLists lists = tipp::ringsOfPoints(*this->Open(), idsOf(points), k);
+      copyTo(starts, lists.Starts);
+      copyTo(ids, lists.Ids);
+    });
+}
+
+int vtkPartitionedMeshQuery::RingOfCells(
+  vtkIdTypeArray* cells, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
+{
+  return this->Try(
+    [&]
+    {
+      const tipp::IdLists lists = tipp::ringsOfCells(*this->Open(), idsOf(cells), k);
+      copyTo(starts, lists.Starts);
+      copyTo(ids, lists.Ids);
+    });
+}
+
+int vtkPartitionedMeshQuery::Boundary(vtkPolyData* loops)
+{
+  return this->Try(
+    [&]
+    {
+      const tipp::BoundaryLoops border = tipp::boundaryOf(*this->Open());
+      vtkNew<vtkPoints> points;
+      points->SetDataTypeToDouble();
+      for (const tipp::Point3& p : border.Positions)
+      {
+        points->InsertNextPoint(p.x, p.y, p.z);
+      }
+      vtkNew<vtkCellArray> lines;
+      for (std::size_t i = 0; i + 1 < border.Points.Starts.size(); ++i)
+      {
+        const vtkIdType begin = border.Points.Starts[i];
+        const vtkIdType end = border.Points.Starts[i + 1];
+        lines->InsertNextCell(int(end - begin + 1));
+        for (vtkIdType at = begin; at < end; ++at)
+        {
+          lines->InsertCellPoint(at);
+        }
+        lines->InsertCellPoint(begin);
+      }
+      vtkNew<vtkIdTypeArray> ids;
+      ids->SetName("GlobalPointIds");
+      copyTo(ids, border.Points.Ids);
+      loops->Initialize();
+      loops->SetPoints(points);
+      loops->SetLines(lines);
+      loops->GetPointData()->SetGlobalIds(ids);
+    });
+}
+
+int vtkPartitionedMeshQuery::Components(vtkIdTypeArray* ofCells, vtkIdTypeArray* sizes)
+{
+  return this->Try(
+    [&]
+    {
+      const tipp::Components components = tipp::componentsOf(*this->Open());
+      copyTo(ofCells, components.OfCells);
+      copyTo(sizes, components.Sizes);
+    });
+}
+
+void vtkPartitionedMeshQuery::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto one = [&](const char* name, const auto& value)
+  { os << indent << name << ": " << value << "\n"; };
+  one("FileName", this->FileName ? this->FileName : "(none)");
+  one("MemoryLimit", this->MemoryLimit);
+  one("Step", this->Step);
+  one("NullValue", this->NullValue);
+  one("PassPointArrays", this->PassPointArrays);
+  one("PassCellArrays", this->PassCellArrays);
+  one("PassFieldArrays", this->PassFieldArrays);
+  one("ValidPointMaskArrayName",
+    this->ValidPointMaskArrayName ? this->ValidPointMaskArrayName : "(none)");
+  one("NumberOfThreads", this->NumberOfThreads);
+  os << indent << "Controller: " << this->Controller << "\n";
+  os << indent << "Arrays:";
+  for (const std::string& name : this->ArrayNames)
+  {
+    os << " " << name;
+  }
+  os << "\n";
+}

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkPartitionedMeshQuery
+ * @brief   the values of a mesh at points, and what lies around its points and cells
+ *
+ * As a filter it has the ports of vtkProbeFilter: the first input is a data set whose points are
+ * asked for; the second, the source, is the mesh, a vtkPointSet of triangles, tetrahedra or cells
+ * that can be cut into these. Instead of a source the mesh can be FileName, a partitioned mesh on
+ * disk of any size: its pieces are read when a point needs them and stay in memory within
+ * MemoryLimit. The output is the first input with the mesh's arrays at its points, with "CellId",
+ * the global id of the cell that holds each point (-1: outside), and the mask "vtkValidPointMask".
+ * Floating-point point arrays are interpolated linearly, whole numbers are taken from the corner of
+ * largest weight, cell arrays from the cell. Triangles are found by x and y, and their z is the
+ * array "elevation" unless an array has this name.
+ *
+ * Unlike vtkProbeFilter it has no tolerance. A point on an edge, a face or a corner belongs to one
+ * cell by the rule of vtkRangeResampleFilter, decided exactly. So the values depend neither on
+ * pieces, ranks and threads nor on the order of points.
+ *
+ * The other methods ask the same mesh directly. They return 1, or after an error 0. Ids are global:
+ * of a stored mesh those of its source, else indices. Several threads may call them at once.
+ *
+ * With a Controller of several ranks all must update the filter, or call Locate() and
+ * Interpolate(), together. They share out the pieces of the stored mesh, or each has a part of the
+ * source; every rank's points are answered by all ranks' cells. A rank may have no points, or no
+ * cells.
+ *
+ * @sa
+ * vtkProbeFilter vtkRangeResampleFilter vtkPartitionedUnstructuredReader
+ */
+
+#ifndef vtkPartitionedMeshQuery_h
+#define vtkPartitionedMeshQuery_h
+
+#include "vtkDataSetAlgorithm.h"
+#include "vtkTIPPFiltersModule.h" // For export macro
+
+#include <memory> // For Mesh
+#include <mutex>  // For Opening
+#include <string> // For ArrayNames
+#include <vector> // For ArrayNames
+
+class vtkDataArray;
+class vtkDataSetAttributes;
+class vtkIdTypeArray;
+class vtkDoubleArray;
+class vtkMultiProcessController;
+class vtkPolyData;
+class vtkStringArray;
+
+namespace tipp
+{
+struct AnswerOptions;
+struct MeshAnswer;
+struct Point3;
+class ResidentMesh;
+}
+
+class VTKTIPPFILTERS_EXPORT vtkPartitionedMeshQuery : public vtkDataSetAlgorithm
+{
+public:
+  static vtkPartitionedMeshQuery* New();
+  vtkTypeMacro(vtkPartitionedMeshQuery, vtkDataSetAlgorithm)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The mesh, if it is in memory: a vtkPointSet, or a composite of which one part has cells.
+   */
+  void SetSourceConnection(vtkAlgorithmOutput* source) { this->SetInputConnection(1, source); }
+  void SetSourceData(vtkDataObject* source) { this->SetInputData(1, source); }
+  vtkDataObject* GetSource();
+  ///@}
+
+  ///@{
+  /**
+   * The mesh, if it is stored: the folder of a partitioned mesh or the index in it. It takes the
+   * place of a source. Default: none.
+   */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  ///@{
+  /**
+   * Bytes for the pieces of a stored mesh that stay in memory, and what is made to search them; a
+   * piece that needs more is held alone. Default: 2^30.
+   */
+  vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
+  vtkGetMacro(MemoryLimit, vtkTypeInt64);
+  ///@}
+
+  ///@{
+  /**
+   * The step of a stored mesh's arrays that vary in time, counted from 0. Default: 0.
+   */
+  vtkSetClampMacro(Step, int, 0, VTK_INT_MAX);
+  vtkGetMacro(Step, int);
+  ///@}
+
+  ///@{
+  /**
+   * The arrays to evaluate, by name. Default: none are named, and all are evaluated.
+   */
+  void AddArray(const char* name);
+  void ClearArrays();
+  int GetNumberOfArrays() const;
+  const char* GetArray(int index) const;
+  ///@}
+
+  ///@{
+  /**
+   * The value of floating-point arrays outside of the mesh; those of whole numbers have 0 there.
+   * Default: 0, as in vtkProbeFilter.
+   */
+  vtkSetMacro(NullValue, double);
+  vtkGetMacro(NullValue, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the output also has the point, cell and field arrays of the first input. Default: on
+   * for field arrays, off for the others, as in vtkProbeFilter.
+   */
+  vtkSetMacro(PassPointArrays, bool);
+  vtkGetMacro(PassPointArrays, bool);
+  vtkBooleanMacro(PassPointArrays, bool);
+  vtkSetMacro(PassCellArrays, bool);
+  vtkGetMacro(PassCellArrays, bool);
+  vtkBooleanMacro(PassCellArrays, bool);
+  vtkSetMacro(PassFieldArrays, bool);
+  vtkGetMacro(PassFieldArrays, bool);
+  vtkBooleanMacro(PassFieldArrays, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The name of the mask. Default: "vtkValidPointMask".
+   */
+  vtkSetStringMacro(ValidPointMaskArrayName);
+  vtkGetStringMacro(ValidPointMaskArrayName);
+  ///@}
+
+  ///@{
+  /**
+   * Number of threads. Default 0: as many as OpenMP would take.
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * The ranks that work together. Default: the global controller; null: this process alone.
+   */
+  virtual void SetController(vtkMultiProcessController* controller);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
+  /**
+   * Finds the cells that hold points: tuples of two or three coordinates. `weights`, which may be
+   * null, gets the barycentric weights of each cell's corners. Collective.
+   */
+  int Locate(vtkDataArray* points, vtkIdTypeArray* cells, vtkDoubleArray* weights = nullptr);
+
+  /**
+   * Adds the mesh's arrays at points to `values`; outside floating-point numbers are NaN.
+   * Collective.
+   */
+  int Interpolate(vtkDataArray* points, vtkDataSetAttributes* values);
+
+  /**
+   * Names of the arrays that the mesh has, "elevation" among them, are added to `names`.
+   */
+  int GetNamesOfArrays(vtkStringArray* names);
+
+  /**
+   * For each cell and each of its corners the cell across the face opposite to that corner; -1:
+   * there is none.
+   */
+  int Neighbors(vtkIdTypeArray* cells, vtkIdTypeArray* neighbors);
+
+  ///@{
+  /**
+   * Lists of ids, ascending, one after the other; list i is at the indices starts[i] ...
+   * starts[i + 1] - 1 of `ids`. Star: the cells at each point. RingOfPoints: the points that 1 to k
+   * edges lead to. RingOfCells: the cells in 1 to k steps, each to a cell that shares a point.
+   */
+  int Star(vtkIdTypeArray* points, vtkIdTypeArray* starts, vtkIdTypeArray* ids);
+  int RingOfPoints(vtkIdTypeArray* points, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids);
+  int RingOfCells(vtkIdTypeArray* cells, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids);
+  ///@}
+
+  /**
+   * Makes closed lines of the border of a mesh of triangles, which lies on their left. The points
+   * have "GlobalPointIds".
+   */
+  int Boundary(vtkPolyData* loops);
+
+  /**
+   * The connected component of each cell, by common faces, and the number of cells of each
+   * component. Components are numbered by their lowest cell.
+   */
+  int Components(vtkIdTypeArray* ofCells, vtkIdTypeArray* sizes);
+
+protected:
+  vtkPartitionedMeshQuery();
+  ~vtkPartitionedMeshQuery() override;
+
+  vtkExecutive* CreateDefaultExecutive() override;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestUpdateExtent(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*) override;
+  int RequestData(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkPartitionedMeshQuery(const vtkPartitionedMeshQuery&) = delete;
+  void operator=(const vtkPartitionedMeshQuery&) = delete;
+
+  std::shared_ptr<const tipp::ResidentMesh> Open();
+  tipp::MeshAnswer Ask(const std::vector<tipp::Point3>& points, bool weights, bool arrays);
+  template <typename Work>
+  int Try(const Work& work);
+
+  char* FileName = nullptr;
+  vtkTypeInt64 MemoryLimit = vtkTypeInt64(1) << 30;
+  int Step = 0;
+  std::vector<std::string> ArrayNames;
+  double NullValue = 0;
+  bool PassPointArrays = false;
+  bool PassCellArrays = false;
+  bool PassFieldArrays = true;
+  char* ValidPointMaskArrayName = nullptr;
+  int NumberOfThreads = 0;
+  vtkMultiProcessController* Controller = nullptr;
+
+  std::mutex Opening;
+  std::shared_ptr<const tipp::ResidentMesh> Mesh;
+  std::string Opened; ///< what Mesh was made of
+};
+
+#endif

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Query/Lines.h"
+
+#include "Files/IOError.h"
+#include "Parallel/ParallelFor.h"
+#include "Parallel/Poll.h"
+#include "Predicates/Orientation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <tuple>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// An edge by the global ids of its points, the lower first.
+using Edge = std::pair<std::int64_t, std::int64_t>;
+
+/// The part of a contour in one triangle.
+struct Segment
+{
+  std::int32_t Level; ///< index
+  Edge From;
+  Edge To;
+  Point3 Begin;
+  Point3 End;
+
+  bool operator<(const Segment& other) const
+  {
+    return std::tie(this->Level, this->From, this->To) <
+      std::tie(other.Level, other.From, other.To);
+  }
+};
+
+struct Corner
+{
+  std::int64_t Id;
+  Point3 At;
+  double Value;
+};
+
+/// The point of the level on an edge; the same bits for both of its triangles.
+Point3 crossing(Corner a, Corner b, double level)
+{
+  b.Id < a.Id ? std::swap(a, b) : void();
+  const double t = (level - a.Value) / (b.Value - a.Value);
+  return { a.At.x + t * (b.At.x - a.At.x), a.At.y + t * (b.At.y - a.At.y),
+    a.At.z + t * (b.At.z - a.At.z) };
+}
+
+Edge edgeOf(const Corner& a, const Corner& b)
+{
+  return { std::min(a.Id, b.Id), std::max(a.Id, b.Id) };
+}
+
+/// Adds the segments of one triangle, counter-clockwise corners.
+void addSegments(const Corner (&corners)[3],
+  const std::vector<std::pair<double, std::int32_t>>& levels, std::vector<Segment>& segments)
+{
+  const auto [low, high] = std::minmax({ corners[0].Value, corners[1].Value, corners[2].Value });
+  auto level = std::upper_bound(
+    levels.begin(), levels.end(), low, [](double value, const auto& l) { return value < l.first; });
+  for (; level != levels.end() && level->first <= high; ++level)
+  {
+    // The corner that is alone on its side.
+    bool above[3];
+    std::transform(corners, corners + 3, above,
+      [&](const Corner& corner) { return corner.Value >= level->first; });
+    const int alone = above[0] == above[1] ? 2 : above[0] == above[2] ? 1 : 0;
+    const Corner& a = corners[alone];
+    const Corner& b = corners[(alone + 1) % 3];
+    const Corner& c = corners[(alone + 2) % 3];
+    Segment segment{ level->second, edgeOf(a, b), edgeOf(c, a), crossing(a, b, level->first),
+      crossing(c, a, level->first) };
+    if (!above[alone])
+    {
+      std::swap(segment.From, segment.To);
+      std::swap(segment.Begin, segment.End);
+    }
+    segments.push_back(segment);
+  }
+}
+
+template <typename Access>
+void addCells(const Access& access, const MeshPart& part, const PartValues& values, int component,
+  const std::vector<std::pair<double, std::int32_t>>& levels, std::int64_t begin, std::int64_t end,
+  std::vector<Segment>& segments)
+{
+  for (std::int64_t cell = begin; cell < end; ++cell)
+  {
+    Corner corners[3];
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
+    bool isUsable = !part.Mesh.Hidden || !part.Mesh.Hidden[cell];
+    for (int i = 0; i < 3; ++i)
+    {
+      const auto point = std::int64_t(access.ids(cell)[i]);
+      corners[i].Value = values.atPoint(point, component);
+      corners[i].Id = point;
+      low = std::min(low, corners[i].Value);
+      high = std::max(high, corners[i].Value);
+      isUsable = isUsable && std::isfinite(corners[i].Value);
+    }
+    const auto first = std::upper_bound(levels.begin(), levels.end(), low,
+      [](double value, const auto& l) { return value < l.first; });
+    if (!isUsable || first == levels.end() || first->first > high)
+    {
+      continue;
+    }
+    for (Corner& corner : corners)
+    {
+      corner.At = access.point(corner.Id);
+      corner.Id = part.pointId(corner.Id);
+    }
+    const auto flat = [&](int i) { return Point2{ corners[i].At.x, corners[i].At.y }; };
+    orientation(flat(0), flat(1), flat(2)) < 0 ? std::swap(corners[1], corners[2]) : void();
+    addSegments(corners, levels, segments);
+  }
+}
+/// Follows the segments, each once: open lines from their beginning, closed ones from their lowest
+/// edge.
+class LineJoiner
+{
+public:
+  explicit LineJoiner(std::vector<Segment> segments)
+    : Segments(std::move(segments))
+    , IsUsed(Segments.size())
+    , HasBefore(Segments.size())
+  {
+    std::sort(this->Segments.begin(), this->Segments.end());
+    this->Next.reserve(this->Segments.size());
+    for (const Segment& segment : this->Segments)
+    {
+      const std::size_t next = this->after(segment);
+      this->Next.push_back(next);
+      next < this->Segments.size() ? void(this->HasBefore[next] = 1) : void();
+    }
+  }
+
+  Contours join(const std::vector<double>& levels)
+  {
+    Contours lines;
+    for (std::size_t begin = 0; begin < this->Segments.size();)
+    {
+      std::size_t end = begin;
+      while (
+        end < this->Segments.size() && this->Segments[end].Level == this->Segments[begin].Level)
+      {
+        ++end;
+      }
+      for (const bool isOpen : { true, false })
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          !this->IsUsed[i] && (!isOpen || !this->HasBefore[i])
+            ? this->follow(i, levels[std::size_t(this->Segments[i].Level)], lines)
+            : void();
+        }
+      }
+      begin = end;
+    }
+    return lines;
+  }
+
+private:
+  /// The segment that begins where another ends; the number of segments if there is none.
+  std::size_t after(const Segment& segment) const
+  {
+    const Segment wanted{ segment.Level, segment.To, { -1, -1 }, {}, {} };
+    const auto found = std::lower_bound(this->Segments.begin(), this->Segments.end(), wanted);
+    return found != this->Segments.end() && found->Level == segment.Level &&
+        found->From == segment.To
+      ? std::size_t(found - this->Segments.begin())
+      : this->Segments.size();
+  }
+
+  void follow(std::size_t first, double level, Contours& lines)
+  {
+    const std::size_t begin = lines.Points.size();
+    lines.Points.push_back(this->Segments[first].Begin);
+    for (std::size_t at = first; at < this->Segments.size() && !this->IsUsed[at];
+         at = this->Next[at])
+    {
+      this->IsUsed[at] = 1;
+      // At a point that has the level several edges are crossed in the same place.
+      lines.Points.back() == this->Segments[at].End
+        ? void()
+        : lines.Points.push_back(this->Segments[at].End);
+    }
+    if (lines.Points.size() < begin + 2)
+    {
+      lines.Points.resize(begin);
+      return;
+    }
+    lines.Starts.push_back(std::int64_t(lines.Points.size()));
+    lines.Levels.push_back(level);
+  }
+
+  std::vector<Segment> Segments;
+  std::vector<std::size_t> Next;
+  std::vector<char> IsUsed;
+  std::vector<char> HasBefore;
+};
+
+} // namespace
+
+Contours contoursOf(const ResidentMesh& mesh, const std::string& array, int component,
+  const std::vector<double>& levels)
+{
+  const std::string name = mesh.isStored() ? mesh.mesh().Path : "the mesh";
+  if (mesh.mesh().CellSize != 3)
+  {
+    throw IOError(name, "has tetrahedra, whose contours are surfaces; ask a mesh of triangles.");
+  }
+  const StoredArray* const description = mesh.find(array);
+  if (description && !description->OfPoints)
+  {
+    throw IOError(name, "has '" + array + "' at cells; contours need an array of points.");
+  }
+  if (component < 0 || component >= (description ? description->Components : 1))
+  {
+    throw IOError(name, "has no component " + std::to_string(component) + " of '" + array + "'.");
+  }
+  std::vector<std::pair<double, std::int32_t>> sorted;
+  for (std::size_t i = 0; i < levels.size(); ++i)
+  {
+    if (!std::isfinite(levels[i]))
+    {
+      throw IOError("A level is not a finite number.");
+    }
+    sorted.emplace_back(levels[i], std::int32_t(i));
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<Segment> segments;
+  std::mutex mutex;
+  const int threads = threadCount(mesh.options().Threads);
+  const auto pieces = std::int64_t(mesh.mesh().Pieces.size());
+  forChunks(pieces, 1, pieces > 1 ? threads : 1, {},
+    [&](std::int64_t number, std::int64_t, int)
+    {
+      poll();
+      const ResidentPieces::Lease piece =
+        mesh.pieces().get(std::size_t(number), mesh.needsOf({ array }));
+      const MeshPart& part = *piece->Part;
+      const PartValues values(part, description);
+      forChunks(part.OwnedCells, 1 << 14, pieces > 1 ? 1 : threads, {},
+        [&](std::int64_t begin, std::int64_t end, int)
+        {
+          std::vector<Segment> own;
+          withAccess(part.Mesh,
+            [&](const auto& access)
+            { addCells(access, part, values, component, sorted, begin, end, own); });
+          const std::lock_guard<std::mutex> lock(mutex);
+          segments.insert(segments.end(), own.begin(), own.end());
+        });
+    });
+  return LineJoiner(std::move(segments)).join(levels);
+}
+
+} // namespace tipp

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippQueryLines_h
+#define tippQueryLines_h
+
+#include "Query/ResidentMesh.h"
+#include "vtkTIPPIOModule.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// Where an array of points has a level, as polylines: line i has the points Starts[i] ...
+/// Starts[i + 1] - 1. The first point of a closed line is also its last.
+struct Contours
+{
+  std::vector<std::int64_t> Starts = { 0 };
+  std::vector<double> Levels; ///< of each line
+  std::vector<Point3> Points;
+};
+
+/// The contours of a mesh of triangles, whose array of points is linear in each. A point counts as
+/// above a level if its value is not lower; triangles with a corner that is NaN have no line. The
+/// higher side is on the left. Lines are joined across pieces, bit for bit the same for any pieces
+/// and threads; they are in the order of their levels, as given. Throws IOError.
+VTKTIPPIO_EXPORT Contours contoursOf(const ResidentMesh& mesh, const std::string& array,
+  int component, const std::vector<double>& levels);
+
+/// A polyline over a mesh of triangles.
+struct Profile
+{
+  std::vector<double> Distances; ///< from the beginning of the polyline, along x and y
+  std::vector<Point3> Points;    ///< z is 0
+  /// What the mesh has at the points. An exact profile has all cells' borders: there Cells and the
+  /// values of cells are those up to the next point, -1 before a gap.
+  MeshAnswer Answer;
+};
+
+/// Samples the mesh every `spacing` along a polyline of x and y, and at its corners; with spacing 0
+/// at its corners and where it crosses an edge of the mesh, decided exactly. Throws IOError.
+VTKTIPPIO_EXPORT Profile profileOf(const ResidentMesh& mesh, const std::vector<Point3>& polyline,
+  double spacing, const std::vector<std::string>& arrays);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Query/MeshPart.h"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+namespace tipp
+{
+
+MeshPart partOf(Piece piece)
+{
+  const auto held = std::make_shared<const Piece>(std::move(piece));
+  MeshPart part;
+  part.Mesh.Points = held->Coordinates.data();
+  part.Mesh.Float = held->PointType == Scalar::Float32;
+  part.Mesh.Ids = held->Connectivity.data();
+  part.Mesh.Wide = held->WideIds;
+  part.Mesh.Cells = held->Cells;
+  part.Mesh.PointCount = held->Points;
+  part.Mesh.Dimension = held->CellSize - 1;
+  part.OwnedCells = held->OwnedCells;
+  part.CellIds = held->CellIds.as<std::int64_t>();
+  part.PointIds = held->PointIds.as<std::int64_t>();
+  part.Ghosts = held->PointGhosts.as<std::uint8_t>();
+  part.Bytes = std::int64_t(held->Coordinates.size() + held->Connectivity.size() +
+    held->CellIds.size() + held->PointIds.size() + held->PointGhosts.size());
+  for (const Piece::Attribute& attribute : held->Attributes)
+  {
+    part.Arrays.push_back({ attribute.Description, attribute.Values.data() });
+    part.Bytes += std::int64_t(attribute.Values.size());
+  }
+  part.Keeps = held;
+  return part;
+}
+
+PartValues::PartValues(const MeshPart& part, const StoredArray* array)
+  : Part(part)
+  , Corners(part.Mesh.Dimension + 1)
+{
+  if (!array)
+  {
+    this->Description.Type = part.Mesh.Float ? Scalar::Float32 : Scalar::Float64;
+    this->Values = part.Mesh.Points;
+    this->Stride = 3;
+    this->First = 2;
+    return;
+  }
+  const auto found = std::find_if(part.Arrays.begin(), part.Arrays.end(),
+    [array](const MeshPart::Array& a)
+    {
+      return a.Description.Name == array->Name && a.Description.OfPoints == array->OfPoints &&
+        a.Description.Step == array->Step;
+    });
+  if (found == part.Arrays.end())
+  {
+    throw std::logic_error("the array '" + array->Name + "' is not in memory");
+  }
+  this->Description = *array;
+  this->Values = found->Values;
+  this->Stride = array->Components;
+}
+
+template <typename Value>
+Value PartValues::valueAt(const CellLocation& at, int component) const
+{
+  const auto* const values = static_cast<const Value*>(this->Values) + this->First + component;
+  if (!this->Description.OfPoints)
+  {
+    const std::int64_t row = this->Part.Rows ? this->Part.Rows[at.Cell] : at.Cell;
+    return values[row * this->Stride];
+  }
+  if constexpr (std::is_floating_point_v<Value>)
+  {
+    double sum = 0;
+    for (int i = 0; i < this->Corners; ++i)
+    {
+      // A corner without weight may have NaN.
+      const double value = double(values[this->corner(at.Cell, i) * this->Stride]);
+      sum += at.Weights[i] == 0 ? 0 : at.Weights[i] * value;
+    }
+    return Value(sum);
+  }
+  else
+  {
+    const double* const most = std::max_element(at.Weights, at.Weights + this->Corners);
+    return values[this->corner(at.Cell, int(most - at.Weights)) * this->Stride];
+  }
+}
+
+void PartValues::sample(const CellLocation& at, char* to) const
+{
+  withScalar(this->Description.Type,
+    [&](auto zero)
+    {
+      using Value = decltype(zero);
+      for (int k = 0; k < this->Description.Components; ++k)
+      {
+        const Value value = this->valueAt<Value>(at, k);
+        std::memcpy(to + std::size_t(k) * sizeof value, &value, sizeof value);
+      }
+    });
+}
+
+double PartValues::atPoint(std::int64_t point, int component) const
+{
+  double result = 0;
+  withScalar(this->Description.Type,
+    [&](auto zero)
+    {
+      const auto* const values = static_cast<const decltype(zero)*>(this->Values);
+      result = double(values[point * this->Stride + this->First + component]);
+    });
+  return result;
+}
+
+} // namespace tipp

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Query/Around.h"
+#include "Query/ForPieces.h"
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr const char* neighborsName = "NeighborIds";
+
+/// A face whose points all belong to other pieces than its cell.
+struct ForeignFace
+{
+  std::int64_t At; ///< in the result
+  std::int64_t Cell;
+  std::array<std::int64_t, 3> Points;
+};
+
+/// The lowest id of the cells across a face; -1: none.
+std::int64_t lowestAcross(
+  const MeshPart& part, const PartTopology& topology, std::int64_t cell, int face)
+{
+  std::int64_t lowest = -1;
+  topology.visitAcross(cell, face,
+    [&](std::int64_t other)
+    {
+      const std::int64_t id = part.cellId(other);
+      lowest = lowest < 0 ? id : std::min(lowest, id);
+    });
+  return lowest;
+}
+
+std::vector<std::int64_t> storedNeighbors(
+  const ResidentMesh& mesh, const std::vector<std::int64_t>& cells, std::size_t array)
+{
+  const auto corners = std::size_t(mesh.mesh().CellSize);
+  std::vector<std::int64_t> result(cells.size() * corners, -1);
+  const PieceGroups groups = groupsOf(mesh, cells, false);
+  PieceNeeds needs = topologyNeeded();
+  needs.Arrays.assign(mesh.mesh().Arrays.size(), false);
+  needs.Arrays[array] = true;
+  forPieces(mesh, groups, needs,
+    [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
+    {
+      const PartValues values(*piece.Part, &mesh.mesh().Arrays[array]);
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const auto item = std::size_t(groups.Items[std::size_t(i)]);
+        CellLocation at;
+        at.Cell = indexOf(mesh, *piece.Topology, cells[item], false);
+        values.sample(at, reinterpret_cast<char*>(result.data() + item * corners));
+      }
+    });
+  return result;
+}
+
+/// The neighbours across faces that the owners of their cells cannot tell: the owner of one of the
+/// face's points has all cells there.
+void findForeign(const ResidentMesh& mesh, const std::vector<ForeignFace>& faces,
+  const std::vector<Point3>& positions, std::vector<std::int64_t>& result)
+{
+  const int count = mesh.mesh().CellSize - 1;
+  const PieceGroups groups = groupByPiece(
+    mesh.piecesOf(positions.data(), std::int64_t(positions.size())), mesh.mesh().Pieces.size());
+  forPieces(mesh, groups, topologyNeeded(),
+    [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
+    {
+      const PartTopology& topology = *piece.Topology;
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const ForeignFace& face = faces[std::size_t(groups.Items[std::size_t(i)])];
+        std::int64_t points[3] = { -1, -1, -1 };
+        std::transform(face.Points.begin(), face.Points.begin() + count, points,
+          [&topology](std::int64_t id) { return topology.findPoint(id); });
+        std::int64_t& lowest = result[std::size_t(face.At)];
+        if (*std::min_element(points, points + count) < 0)
+        {
+          continue; // no cell of this piece has the face
+        }
+        for (const std::int32_t cell : topology.cellsAt(points[0]))
+        {
+          const std::int64_t id = piece.Part->cellId(cell);
+          if (id != face.Cell && topology.hasCorners(cell, points, count))
+          {
+            lowest = lowest < 0 ? id : std::min(lowest, id);
+          }
+        }
+      }
+    });
+}
+
+} // namespace
+
+std::vector<std::int64_t> neighborsOf(
+  const ResidentMesh& mesh, const std::vector<std::int64_t>& cells)
+{
+  const std::vector<StoredArray>& arrays = mesh.mesh().Arrays;
+  const int corners = mesh.mesh().CellSize;
+  const auto stored = std::find_if(arrays.begin(), arrays.end(),
+    [corners](const StoredArray& array)
+    {
+      return !array.OfPoints && array.Name == neighborsName && array.Type == Scalar::Int64 &&
+        array.Components == corners && array.Step < 0;
+    });
+  if (mesh.isStored() && stored != arrays.end())
+  {
+    return storedNeighbors(mesh, cells, std::size_t(stored - arrays.begin()));
+  }
+  std::vector<std::int64_t> result(cells.size() * std::size_t(corners), -1);
+  std::vector<ForeignFace> foreign;
+  std::vector<Point3> positions;
+  std::mutex mutex;
+  const PieceGroups groups = groupsOf(mesh, cells, false);
+  forPieces(mesh, groups, topologyNeeded(),
+    [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
+    {
+      const MeshPart& part = *piece.Part;
+      const PartTopology& topology = *piece.Topology;
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const std::int64_t item = groups.Items[std::size_t(i)];
+        const std::int64_t cell = indexOf(mesh, topology, cells[std::size_t(item)], false);
+        for (int face = 0; face < corners; ++face)
+        {
+          ForeignFace other{ item * corners + face, cells[std::size_t(item)], {} };
+          bool isComplete = false;
+          int count = 0;
+          for (int k = 0; k < corners; ++k)
+          {
+            const std::int64_t point = topology.corner(cell, k);
+            isComplete = isComplete || (k != face && owns(part, point));
+            k != face ? void(other.Points[std::size_t(count++)] = part.pointId(point)) : void();
+          }
+          if (isComplete)
+          {
+            result[std::size_t(other.At)] = lowestAcross(part, topology, cell, face);
+            continue;
+          }
+          const std::lock_guard<std::mutex> lock(mutex);
+          foreign.push_back(other);
+          positions.push_back(positionOf(part, topology.corner(cell, face == 0 ? 1 : 0)));
+        }
+      }
+    });
+  foreign.empty() ? void() : findForeign(mesh, foreign, positions, result);
+  return result;
+}
+
+} // namespace tipp

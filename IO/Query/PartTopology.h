@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPartTopology_h
+#define tippPartTopology_h
+
+#include "Partitioned/GlobalIdMap.h"
+#include "Query/MeshPart.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace tipp
+{
+
+/// The cells at each point of a part, and where its global ids are. Hidden cells do not count.
+///
+/// At a point that the part's piece owns these are all cells of the mesh at it, since all of them
+/// meet the piece's box.
+class PartTopology
+{
+public:
+  explicit PartTopology(const MeshPart& part);
+
+  /// The indices of the cells that have a point as a corner, ascending.
+  struct Cells
+  {
+    const std::int32_t* First;
+    const std::int32_t* Last;
+    const std::int32_t* begin() const { return this->First; }
+    const std::int32_t* end() const { return this->Last; }
+  };
+  Cells cellsAt(std::int64_t point) const
+  {
+    const auto at = std::size_t(point);
+    return { this->AtPoints.data() + this->Starts[at],
+      this->AtPoints.data() + this->Starts[at + 1] };
+  }
+
+  /// The index of a global id; -1 if the part does not have it.
+  std::int64_t findPoint(std::int64_t id) const { return find(this->PointMap, id, this->Points); }
+  std::int64_t findCell(std::int64_t id) const { return find(this->CellMap, id, this->AllCells); }
+
+  /// The corner of a cell.
+  std::int64_t corner(std::int64_t cell, int i) const
+  {
+    const std::int64_t index = cell * this->Corners + i;
+    return this->Wide ? static_cast<const std::int64_t*>(this->Ids)[index]
+                      : static_cast<const std::int32_t*>(this->Ids)[index];
+  }
+  int corners() const { return this->Corners; }
+
+  /// The cells, other than `cell`, that have all corners of its face opposite to corner `face`;
+  /// calls visit(index) for each, ascending.
+  template <typename Visit>
+  void visitAcross(std::int64_t cell, int face, const Visit& visit) const
+  {
+    std::int64_t corners[3];
+    int count = 0;
+    for (int i = 0; i < this->Corners; ++i)
+    {
+      i != face ? void(corners[count++] = this->corner(cell, i)) : void();
+    }
+    for (const std::int32_t other : this->cellsAt(corners[0]))
+    {
+      if (other != cell && this->hasCorners(other, corners, count))
+      {
+        visit(other);
+      }
+    }
+  }
+
+  bool hasCorners(std::int64_t cell, const std::int64_t* corners, int count) const
+  {
+    int found = 0;
+    for (int k = 0; k < count; ++k)
+    {
+      for (int i = 0; i < this->Corners; ++i)
+      {
+        found += this->corner(cell, i) == corners[k] ? 1 : 0;
+      }
+    }
+    return found >= count;
+  }
+
+  static std::uint64_t bytesFor(std::uint64_t points, std::uint64_t cells, int corners)
+  {
+    return points * (8 + 12) + cells * (4 * std::uint64_t(corners) + 12);
+  }
+
+private:
+  static std::int64_t find(
+    const std::optional<GlobalIdMap>& map, std::int64_t id, std::int64_t count)
+  {
+    return map ? map->find(id) : id >= 0 && id < count ? id : -1;
+  }
+
+  const void* Ids;
+  bool Wide;
+  int Corners;
+  std::int64_t Points;
+  std::int64_t AllCells;
+  std::vector<std::int64_t> Starts;
+  std::vector<std::int32_t> AtPoints;
+  std::optional<GlobalIdMap> PointMap; ///< none: ids are indices
+  std::optional<GlobalIdMap> CellMap;
+};
+
+} // namespace tipp
+
+#endif

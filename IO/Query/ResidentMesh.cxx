@@ -1,0 +1,447 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Query/ResidentMesh.h"
+
+#include "Files/IOError.h"
+#include "Locate/CellLocator.h"
+#include "Parallel/ParallelFor.h"
+#include "Parallel/Poll.h"
+#include "Partitioned/ReadPiece.h"
+#include "Query/PartTopology.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <variant>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr const char* elevation = "elevation";
+
+/// After so many searches by its points a piece gets a locator, or if more than a share of its
+/// cells' number of points are asked at once.
+constexpr int searchesWithoutLocator = 4;
+constexpr std::int64_t cellsPerPoint = 8;
+
+template <int D>
+Box<D> boxOf(const Bounds& bounds)
+{
+  Box<D> box;
+  for (std::size_t axis = 0; axis < D; ++axis)
+  {
+    box.Low[axis] = bounds[2 * axis];
+    box.High[axis] = bounds[2 * axis + 1];
+  }
+  return box;
+}
+
+template <int D>
+std::array<double, D> positionOf(const Point3& point)
+{
+  const double coordinates[3] = { point.x, point.y, point.z };
+  std::array<double, D> at;
+  std::copy_n(coordinates, D, at.begin());
+  return at;
+}
+
+} // namespace
+
+/// A tree of the boxes of all pieces.
+class PieceBoxes
+{
+public:
+  explicit PieceBoxes(const PartitionedMesh& mesh)
+    : Mesh(mesh)
+  {
+    this->Mesh.CellSize == 3 ? void(this->Tree = this->make<2>())
+                             : void(this->Tree = this->make<3>());
+  }
+
+  /// The first piece whose closed box holds a point; -1: none.
+  std::int32_t find(const Point3& point) const
+  {
+    return std::visit([&](const auto& tree) { return this->search(tree, point); }, this->Tree);
+  }
+
+private:
+  template <int D>
+  BoxTree<D> make() const
+  {
+    return BoxTree<D>(std::int64_t(this->Mesh.Pieces.size()), 1,
+      [this](std::int64_t i) { return boxOf<D>(this->Mesh.Pieces[std::size_t(i)].Box); });
+  }
+
+  template <int D>
+  std::int32_t search(const BoxTree<D>& tree, const Point3& point) const
+  {
+    std::int32_t found = -1;
+    const std::array<double, D> at = positionOf<D>(point);
+    const auto offer = [&](std::int32_t piece)
+    {
+      const bool isFirst = found < 0 || piece < found;
+      found =
+        isFirst && boxOf<D>(this->Mesh.Pieces[std::size_t(piece)].Box).holds(at) ? piece : found;
+    };
+    Box<D>::of(at).isEmpty() ? void() : tree.search(Box<D>::of(at), offer);
+    return found;
+  }
+
+  const PartitionedMesh& Mesh;
+  std::variant<BoxTree<2>, BoxTree<3>> Tree;
+};
+
+namespace
+{
+
+PartitionedMesh describe(const MeshPart& part)
+{
+  PartitionedMesh mesh;
+  mesh.CellSize = part.Mesh.Dimension + 1;
+  mesh.PointType = part.Mesh.Float ? Scalar::Float32 : Scalar::Float64;
+  mesh.Points = part.Mesh.PointCount;
+  mesh.Cells = part.OwnedCells;
+  for (const MeshPart::Array& array : part.Arrays)
+  {
+    mesh.Arrays.push_back(array.Description);
+  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  mesh.Domain = { infinity, -infinity, infinity, -infinity, infinity, -infinity };
+  withAccess(part.Mesh,
+    [&](const auto& access)
+    {
+      for (std::int64_t i = 0; i < part.Mesh.PointCount; ++i)
+      {
+        const Point3 p = access.point(i);
+        const double coordinates[3] = { p.x, p.y, p.z };
+        for (std::size_t axis = 0; axis < 3; ++axis) // fmin() and fmax() pass over NaN
+        {
+          mesh.Domain[2 * axis] = std::fmin(mesh.Domain[2 * axis], coordinates[axis]);
+          mesh.Domain[2 * axis + 1] = std::fmax(mesh.Domain[2 * axis + 1], coordinates[axis]);
+        }
+      }
+    });
+  mesh.Pieces.emplace_back();
+  mesh.Pieces[0].Points = mesh.Points;
+  mesh.Pieces[0].Cells = mesh.Cells;
+  return mesh;
+}
+
+/// NaN, or 0 in whole numbers.
+void fillNull(MeshAnswer::Array& array)
+{
+  withScalar(array.Type,
+    [&](auto zero)
+    {
+      using Value = decltype(zero);
+      const Value null = toScalar<Value>(std::numeric_limits<double>::quiet_NaN());
+      std::fill_n(array.Values.as<Value>(), array.Values.size() / sizeof(Value), null);
+    });
+}
+
+} // namespace
+
+MeshAnswer emptyAnswer(std::int64_t count, const std::vector<StoredArray>& arrays, int corners,
+  bool withWeights, bool withKeys)
+{
+  MeshAnswer answer;
+  const auto points = std::size_t(count);
+  answer.Cells.assign(points, -1);
+  answer.Weights.assign(withWeights ? points * std::size_t(corners) : 0, 0);
+  answer.Keys.assign(withKeys ? points : 0, noCellKey);
+  for (const StoredArray& array : arrays)
+  {
+    MeshAnswer::Array values;
+    values.Name = array.Name;
+    values.Type = array.Type;
+    values.Components = array.Components;
+    values.Values = RawBuffer(points * values.tupleBytes());
+    fillNull(values);
+    answer.Arrays.push_back(std::move(values));
+  }
+  return answer;
+}
+
+PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces, std::size_t count)
+{
+  std::vector<std::int64_t> ends(count + 1, 0);
+  for (const std::int32_t piece : pieces)
+  {
+    ends[std::size_t(piece + 1)] += 1; // the first counts those of no piece
+  }
+  ends[0] = 0;
+  PieceGroups result;
+  for (std::size_t p = 0; p < count; ++p)
+  {
+    const std::int64_t begin = ends[p];
+    const std::int64_t end = begin + std::exchange(ends[p + 1], begin + ends[p + 1]);
+    end > begin ? result.Groups.push_back({ p, begin, end }) : void();
+  }
+  result.Items.resize(std::size_t(ends[count]));
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    if (pieces[i] >= 0)
+    {
+      result.Items[std::size_t(ends[std::size_t(pieces[i])]++)] = std::int64_t(i);
+    }
+  }
+  return result;
+}
+
+ResidentMesh::ResidentMesh(const std::string& path, const ResidentOptions& options)
+  : Mesh(openPartitionedMesh(path))
+  , Options(options)
+  , Boxes(std::make_shared<const PieceBoxes>(this->Mesh))
+  , Ids(this->Mesh)
+  , Resident(
+      options.MemoryLimit,
+      [this](std::size_t number, const PieceNeeds& needs) { return this->estimate(number, needs); },
+      [this](std::size_t number, const PieceNeeds& needs, const ResidentPiece& before)
+      { return this->load(number, needs, before); })
+{
+}
+
+ResidentMesh::ResidentMesh(MeshPart part, const ResidentOptions& options)
+  : Mesh(describe(part))
+  , Options(options)
+  , InMemory(std::make_shared<const MeshPart>(std::move(part)))
+  , Ids(this->Mesh)
+  , Resident(
+      std::numeric_limits<std::uint64_t>::max() / 2,
+      [](std::size_t, const PieceNeeds&) { return std::uint64_t(0); },
+      [this](std::size_t number, const PieceNeeds& needs, const ResidentPiece& before)
+      { return this->load(number, needs, before); })
+{
+}
+
+std::vector<std::string> ResidentMesh::names() const
+{
+  std::vector<std::string> names;
+  const auto has = [&names](const std::string& name)
+  { return std::find(names.begin(), names.end(), name) != names.end(); };
+  for (const StoredArray& array : this->Mesh.Arrays)
+  {
+    has(array.Name) ? void() : names.push_back(array.Name);
+  }
+  if (this->Mesh.CellSize == 3 && !has(elevation))
+  {
+    names.insert(names.begin(), elevation);
+  }
+  return names;
+}
+
+const StoredArray* ResidentMesh::find(const std::string& name) const
+{
+  for (const StoredArray& array : this->Mesh.Arrays)
+  {
+    if (array.Name == name && (array.Step < 0 || array.Step == this->Options.Step))
+    {
+      return &array;
+    }
+  }
+  const std::vector<std::string> known = this->names();
+  if (name != elevation || std::find(known.begin(), known.end(), name) == known.end())
+  {
+    throw IOError(this->isStored() ? this->Mesh.Path : "the mesh",
+      "has no array '" + name + "'" + listOfNames({ known.begin(), known.end() }, "; there are ") +
+        ".");
+  }
+  return nullptr;
+}
+
+PieceNeeds ResidentMesh::needsOf(const std::vector<std::string>& names) const
+{
+  PieceNeeds needs;
+  needs.Arrays.assign(this->Mesh.Arrays.size(), false);
+  for (const std::string& name : names)
+  {
+    if (const StoredArray* const array = this->find(name))
+    {
+      needs.Arrays[std::size_t(array - this->Mesh.Arrays.data())] = true;
+    }
+  }
+  return needs;
+}
+
+std::uint64_t ResidentMesh::estimate(std::size_t number, const PieceNeeds& needs) const
+{
+  const PieceSummary& piece = this->Mesh.Pieces[number];
+  const auto cells = std::uint64_t(piece.Cells + piece.BorrowedCells);
+  const auto points = std::uint64_t(piece.Points + piece.BorrowedCells);
+  std::uint64_t ofPoint = 3 * scalarSize(this->Mesh.PointType) + 8 + 1;
+  std::uint64_t ofCell = std::uint64_t(this->Mesh.CellSize) * 4 + 8;
+  for (std::size_t i = 0; i < needs.Arrays.size(); ++i)
+  {
+    const StoredArray& array = this->Mesh.Arrays[i];
+    const std::uint64_t bytes =
+      needs.Arrays[i] ? std::uint64_t(array.Components) * scalarSize(array.Type) : 0;
+    (array.OfPoints ? ofPoint : ofCell) += bytes;
+  }
+  std::uint64_t bytes = points * ofPoint + cells * ofCell;
+  bytes += needs.Locator
+    ? std::uint64_t(CellLocator::bytesFor(std::int64_t(cells), this->Mesh.CellSize - 1))
+    : 0;
+  bytes += needs.Topology ? PartTopology::bytesFor(points, cells, this->Mesh.CellSize) : 0;
+  return bytes;
+}
+
+ResidentPiece ResidentMesh::load(
+  std::size_t number, const PieceNeeds& needs, const ResidentPiece& before) const
+{
+  ResidentPiece piece = before;
+  PieceNeeds arrays;
+  arrays.Arrays = needs.Arrays;
+  if (this->InMemory)
+  {
+    piece.Part = this->InMemory;
+  }
+  else if (!piece.Part || !before.Has.cover(arrays))
+  {
+    PieceOptions options;
+    options.Step = this->Options.Step;
+    options.Wanted = needs.Arrays;
+    options.Wanted.resize(this->Mesh.Arrays.size());
+    piece = {};
+    piece.Part = std::make_shared<const MeshPart>(partOf(readPiece(this->Mesh, number, options)));
+  }
+  const MeshPart& part = *piece.Part;
+  if (needs.Locator && !piece.Locator)
+  {
+    // The calling thread may be one of many: each makes its own piece's.
+    const int threads = this->InMemory ? threadCount(this->Options.Threads) : 1;
+    piece.Locator = std::make_shared<const CellLocator>(part.Mesh, part.CellIds, threads);
+  }
+  if (needs.Topology && !piece.Topology)
+  {
+    piece.Topology = std::make_shared<const PartTopology>(part);
+  }
+  return piece;
+}
+
+std::vector<std::int32_t> ResidentMesh::piecesOf(const Point3* points, std::int64_t count) const
+{
+  std::vector<std::int32_t> pieces(std::size_t(count), 0);
+  if (!this->InMemory)
+  {
+    forChunks(count, 1 << 12, threadCount(this->Options.Threads), {},
+      [&](std::int64_t begin, std::int64_t end, int)
+      {
+        for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
+        {
+          pieces[i] = this->Boxes->find(points[i]);
+        }
+      });
+  }
+  return pieces;
+}
+
+void ResidentMesh::refuseId(std::int64_t id, bool ofPoints) const
+{
+  const std::string item = ofPoints ? "point" : "cell";
+  throw IOError(this->isStored() ? this->Mesh.Path : "the mesh",
+    "has no " + item + " " + std::to_string(id) + "; ids are from 0 to " +
+      std::to_string((ofPoints ? this->Mesh.Points : this->Mesh.Cells) - 1) + ".");
+}
+
+std::vector<std::int32_t> ResidentMesh::piecesOfIds(
+  const std::vector<std::int64_t>& ids, bool ofPoints) const
+{
+  if (this->InMemory)
+  {
+    return std::vector<std::int32_t>(ids.size(), 0); // the piece's topology refuses others
+  }
+  const std::int64_t count = ofPoints ? this->Mesh.Points : this->Mesh.Cells;
+  for (const std::int64_t id : ids)
+  {
+    id < 0 || id >= count ? this->refuseId(id, ofPoints) : void();
+  }
+  std::vector<std::int32_t> pieces =
+    this->Ids.find(ids, ofPoints, threadCount(this->Options.Threads));
+  const auto missing = std::find(pieces.begin(), pieces.end(), -1);
+  missing != pieces.end() ? this->refuseId(ids[std::size_t(missing - pieces.begin())], ofPoints)
+                          : void();
+  return pieces;
+}
+
+void ResidentMesh::answerPiece(std::size_t number, const AskedPoints& asked,
+  const AnswerOptions& options, int threads, MeshAnswer& answer) const
+{
+  PieceNeeds needs = this->needsOf(options.Arrays);
+  const PieceSummary& summary = this->Mesh.Pieces[number];
+  needs.Locator = asked.Count > (summary.Cells + summary.BorrowedCells) / cellsPerPoint ||
+    this->Resident.uses(number) >= searchesWithoutLocator;
+  const ResidentPieces::Lease piece = this->Resident.get(number, needs);
+  const MeshPart& part = *piece->Part;
+  std::vector<PartValues> values;
+  for (const std::string& name : options.Arrays)
+  {
+    values.emplace_back(part, this->find(name));
+  }
+  const auto corners = std::size_t(this->Mesh.CellSize);
+  locatePoints(part.Mesh, part.CellIds, piece->Locator.get(), asked, threads,
+    [&](std::int64_t i, const CellLocation& at)
+    {
+      const auto index = std::size_t(i);
+      answer.Cells[index] = part.cellId(at.Cell);
+      if (options.Weights)
+      {
+        std::copy_n(at.Weights, corners, answer.Weights.data() + index * corners);
+      }
+      if (options.Keys)
+      {
+        answer.Keys[index] = keyAt(part.Mesh, at.Cell, asked.Points[i]);
+      }
+      for (std::size_t a = 0; a < values.size(); ++a)
+      {
+        MeshAnswer::Array& array = answer.Arrays[a];
+        values[a].sample(at, array.Values.data() + index * array.tupleBytes());
+      }
+    });
+}
+
+MeshAnswer ResidentMesh::answer(
+  const Point3* points, std::int64_t count, const AnswerOptions& options) const
+{
+  if (count > std::numeric_limits<std::int32_t>::max())
+  {
+    throw IOError("More than 2147483647 points are asked for at once; ask in parts.");
+  }
+  std::vector<StoredArray> arrays;
+  for (const std::string& name : options.Arrays)
+  {
+    const StoredArray* const array = this->find(name);
+    arrays.push_back(array ? *array : StoredArray());
+    arrays.back().Type = array ? array->Type : this->Mesh.PointType;
+    arrays.back().Name = name;
+  }
+  MeshAnswer answer =
+    emptyAnswer(count, arrays, this->Mesh.CellSize, options.Weights, options.Keys);
+  const int threads = threadCount(this->Options.Threads);
+  if (this->InMemory)
+  {
+    this->answerPiece(0, { points, nullptr, count }, options, threads, answer);
+    return answer;
+  }
+  PieceGroups groups = groupByPiece(this->piecesOf(points, count), this->Mesh.Pieces.size());
+  // The pieces in memory first, before others displace them.
+  std::stable_partition(groups.Groups.begin(), groups.Groups.end(),
+    [&](const PieceGroups::Group& group) { return this->Resident.isResident(group.Piece); });
+  const auto pieces = std::int64_t(groups.Groups.size());
+  // Threads share out the pieces, or the points of one piece after the other if these are few.
+  const bool manyPieces = pieces >= 2 * threads;
+  forChunks(pieces, 1, manyPieces ? threads : 1, {},
+    [&](std::int64_t g, std::int64_t, int)
+    {
+      poll();
+      const PieceGroups::Group& group = groups.Groups[std::size_t(g)];
+      this->answerPiece(group.Piece,
+        { points, groups.Items.data() + group.Begin, group.End - group.Begin }, options,
+        manyPieces ? 1 : threads, answer);
+    });
+  return answer;
+}
+
+} // namespace tipp

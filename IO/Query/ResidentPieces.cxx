@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Query/ResidentPieces.h"
+
+#include <algorithm>
+
+namespace tipp
+{
+
+bool PieceNeeds::cover(const PieceNeeds& other) const
+{
+  for (std::size_t i = 0; i < other.Arrays.size(); ++i)
+  {
+    if (other.Arrays[i] && (i >= this->Arrays.size() || !this->Arrays[i]))
+    {
+      return false;
+    }
+  }
+  return (this->Locator || !other.Locator) && (this->Topology || !other.Topology);
+}
+
+void PieceNeeds::add(const PieceNeeds& other)
+{
+  this->Arrays.resize(std::max(this->Arrays.size(), other.Arrays.size()));
+  for (std::size_t i = 0; i < other.Arrays.size(); ++i)
+  {
+    this->Arrays[i] = this->Arrays[i] || other.Arrays[i];
+  }
+  this->Locator = this->Locator || other.Locator;
+  this->Topology = this->Topology || other.Topology;
+}
+
+ResidentPieces::Lease ResidentPieces::get(std::size_t number, const PieceNeeds& needs)
+{
+  std::unique_lock<std::mutex> lock(this->Mutex);
+  Slot& slot = this->Slots[number];
+  this->Changed.wait(lock, [&slot] { return !slot.Loading; });
+  slot.LastUse = ++this->Clock;
+  if (!slot.Held.Part || !slot.Held.Has.cover(needs))
+  {
+    slot.Loading = true;
+    const ResidentPiece before = slot.Held;
+    PieceNeeds all = before.Has;
+    all.add(needs);
+    const std::uint64_t bytes = std::max(this->BytesOf(number, all), slot.Bytes);
+    const std::uint64_t more = bytes - slot.Bytes;
+    this->makeRoom(lock, slot, more);
+    this->Used += more;
+    ++this->Active;
+    const auto finish = [&](std::uint64_t kept)
+    {
+      lock.lock();
+      this->Used += kept;
+      this->Used -= more;
+      slot.Bytes += kept;
+      slot.Loading = false;
+      --this->Active;
+      this->Changed.notify_all();
+    };
+    lock.unlock();
+    try
+    {
+      ResidentPiece made = this->LoadPiece(number, all, before);
+      made.Has = all;
+      finish(more);
+      this->Loads += before.Part ? 0 : 1;
+      slot.Held = std::move(made);
+    }
+    catch (...)
+    {
+      finish(0);
+      throw;
+    }
+  }
+  ++slot.Users;
+  ++slot.Uses;
+  ++this->Active;
+  return { *this, number, slot.Held };
+}
+
+void ResidentPieces::release(Lease& lease)
+{
+  lease.Held = {};
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  --this->Slots[lease.Number].Users;
+  --this->Active;
+  this->Changed.notify_all();
+}
+
+/// Drops the piece that was used longest ago; false if none can be dropped.
+bool ResidentPieces::dropOldest(const Slot& keep)
+{
+  Slot* oldest = nullptr;
+  for (auto& [number, slot] : this->Slots)
+  {
+    if (&slot != &keep && slot.Held.Part && slot.Users == 0 && !slot.Loading &&
+      (!oldest || slot.LastUse < oldest->LastUse))
+    {
+      oldest = &slot;
+    }
+  }
+  if (oldest)
+  {
+    this->Used -= oldest->Bytes;
+    oldest->Held = {};
+    oldest->Bytes = 0;
+    oldest->Uses = 0;
+  }
+  return oldest != nullptr;
+}
+
+void ResidentPieces::makeRoom(
+  std::unique_lock<std::mutex>& lock, const Slot& keep, std::uint64_t bytes)
+{
+  while (this->Used + bytes > this->Limit)
+  {
+    if (this->dropOldest(keep))
+    {
+      continue;
+    }
+    if (this->Active == 0)
+    {
+      return; // it is larger than the limit
+    }
+    this->Changed.wait(lock);
+  }
+}
+
+bool ResidentPieces::isResident(std::size_t number) const
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  const auto slot = this->Slots.find(number);
+  return slot != this->Slots.end() && slot->second.Held.Part;
+}
+
+int ResidentPieces::uses(std::size_t number) const
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  const auto slot = this->Slots.find(number);
+  return slot != this->Slots.end() ? slot->second.Uses : 0;
+}
+
+std::int64_t ResidentPieces::loads() const
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  return this->Loads;
+}
+
+std::uint64_t ResidentPieces::bytes() const
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  return this->Used;
+}
+
+} // namespace tipp

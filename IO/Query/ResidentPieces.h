@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippResidentPieces_h
+#define tippResidentPieces_h
+
+#include "Query/MeshPart.h"
+#include "vtkTIPPIOModule.h"
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace tipp
+{
+
+class CellLocator;
+class PartTopology;
+
+/// What a query needs of a piece.
+struct PieceNeeds
+{
+  std::vector<bool> Arrays; ///< for each of PartitionedMesh::Arrays; empty: none
+  bool Locator = false;
+  bool Topology = false;
+
+  bool cover(const PieceNeeds& other) const;
+  void add(const PieceNeeds& other);
+};
+
+/// A piece in memory and what has been made for queries; null where nobody needed it.
+struct ResidentPiece
+{
+  std::shared_ptr<const MeshPart> Part;
+  std::shared_ptr<const CellLocator> Locator;
+  std::shared_ptr<const PartTopology> Topology;
+  PieceNeeds Has;
+};
+
+/// The pieces of a mesh that are in memory, within a limit: those used last. Threads may share it.
+class VTKTIPPIO_EXPORT ResidentPieces
+{
+public:
+  /// Loads a piece with its arrays, or returns what it is given first with more.
+  using Load = std::function<ResidentPiece(
+    std::size_t number, const PieceNeeds& needs, const ResidentPiece& before)>;
+  /// The memory in bytes that a piece takes.
+  using Estimate = std::function<std::uint64_t(std::size_t number, const PieceNeeds& needs)>;
+
+  ResidentPieces(std::uint64_t limit, Estimate estimate, Load load)
+    : Limit(limit)
+    , BytesOf(std::move(estimate))
+    , LoadPiece(std::move(load))
+  {
+  }
+
+  /// A piece in use: it stays in memory as long as this lives. A thread holds one at a time; else
+  /// threads could wait for each other's memory forever.
+  class Lease
+  {
+  public:
+    Lease(ResidentPieces& pieces, std::size_t number, ResidentPiece piece)
+      : Of(&pieces)
+      , Number(number)
+      , Held(std::move(piece))
+    {
+    }
+    Lease(Lease&& other) noexcept
+      : Of(std::exchange(other.Of, nullptr))
+      , Number(other.Number)
+      , Held(std::move(other.Held))
+    {
+    }
+    Lease& operator=(Lease&&) = delete;
+    ~Lease() { this->Of ? this->Of->release(*this) : void(); }
+
+    const ResidentPiece& operator*() const { return this->Held; }
+    const ResidentPiece* operator->() const { return &this->Held; }
+
+  private:
+    friend class ResidentPieces;
+    ResidentPieces* Of;
+    std::size_t Number;
+    ResidentPiece Held;
+  };
+
+  /// Returns a piece with what is needed, loading it and dropping others as required. Waits while
+  /// other threads use the memory; a piece larger than the limit is loaded alone. What `load`
+  /// throws is passed on.
+  Lease get(std::size_t number, const PieceNeeds& needs);
+
+  /// Whether a piece is in memory, and how often it has been asked for since it was loaded.
+  bool isResident(std::size_t number) const;
+  int uses(std::size_t number) const;
+
+  std::int64_t loads() const;  ///< how many pieces have been loaded so far
+  std::uint64_t bytes() const; ///< of the pieces in memory
+
+private:
+  struct Slot
+  {
+    ResidentPiece Held;
+    std::uint64_t Bytes = 0;
+    std::uint64_t LastUse = 0;
+    int Users = 0;
+    int Uses = 0;
+    bool Loading = false;
+  };
+
+  void release(Lease& lease);
+  void makeRoom(std::unique_lock<std::mutex>& lock, const Slot& keep, std::uint64_t bytes);
+  bool dropOldest(const Slot& keep);
+
+  const std::uint64_t Limit;
+  Estimate BytesOf;
+  Load LoadPiece;
+  mutable std::mutex Mutex;
+  std::condition_variable Changed;
+  std::unordered_map<std::size_t, Slot> Slots;
+  std::uint64_t Used = 0; ///< by pieces in memory and those being loaded
+  std::uint64_t Clock = 0;
+  std::int64_t Loads = 0;
+  int Active = 0; ///< leases, and loads that have their memory
+};
+
+} // namespace tipp
+
+#endif

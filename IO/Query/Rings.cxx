@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Query/Around.h"
+#include "Query/ForPieces.h"
+
+#include <algorithm>
+#include <iterator>
+#include <mutex>
+#include <tuple>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// Puts lists made by several threads together.
+IdLists joined(const std::vector<std::vector<std::int64_t>>& lists)
+{
+  IdLists result;
+  for (const std::vector<std::int64_t>& list : lists)
+  {
+    result.Ids.insert(result.Ids.end(), list.begin(), list.end());
+    result.Starts.push_back(std::int64_t(result.Ids.size()));
+  }
+  return result;
+}
+
+void sortUnique(std::vector<std::int64_t>& ids)
+{
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+} // namespace
+
+IdLists starsOf(const ResidentMesh& mesh, const std::vector<std::int64_t>& points)
+{
+  std::vector<std::vector<std::int64_t>> lists(points.size());
+  const PieceGroups groups = groupsOf(mesh, points, true);
+  forPieces(mesh, groups, topologyNeeded(),
+    [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const auto item = std::size_t(groups.Items[std::size_t(i)]);
+        for (const std::int32_t cell :
+          piece.Topology->cellsAt(indexOf(mesh, *piece.Topology, points[item], true)))
+        {
+          lists[item].push_back(piece.Part->cellId(cell));
+        }
+        sortUnique(lists[item]);
+      }
+    });
+  return joined(lists);
+}
+
+namespace
+{
+
+/// A point that a ring has reached, and from there its cells are yet to be visited.
+struct Reached
+{
+  std::int64_t Seed;
+  std::int64_t Point;
+  Point3 At;
+
+  bool operator<(const Reached& other) const
+  {
+    return std::tie(this->Seed, this->Point) < std::tie(other.Seed, other.Point);
+  }
+};
+
+/// Walks around one seed within one piece.
+class LocalRing
+{
+public:
+  explicit LocalRing(const ResidentPiece& piece)
+    : Part(*piece.Part)
+    , Topology(*piece.Topology)
+  {
+  }
+
+  /// Visits the cells at the first points, at those that these reach, and so on, k times. False if
+  /// that leads to a point of another piece. `first` and the result are indices, ascending.
+  bool grow(const std::vector<std::int64_t>& first, int k, bool wantsCells)
+  {
+    this->Points = first;
+    this->Cells.clear();
+    this->Front = first;
+    for (int step = 0; step < k; ++step)
+    {
+      this->Next.clear();
+      for (const std::int64_t point : this->Front)
+      {
+        if (!owns(this->Part, point))
+        {
+          return false;
+        }
+        this->visit(point, wantsCells);
+      }
+      sortUnique(this->Next);
+      this->Front.clear();
+      std::set_difference(this->Next.begin(), this->Next.end(), this->Points.begin(),
+        this->Points.end(), std::back_inserter(this->Front));
+      const auto middle = std::ptrdiff_t(this->Points.size());
+      this->Points.insert(this->Points.end(), this->Front.begin(), this->Front.end());
+      std::inplace_merge(this->Points.begin(), this->Points.begin() + middle, this->Points.end());
+    }
+    return true;
+  }
+
+  std::vector<std::int64_t> Points;
+  std::vector<std::int64_t> Cells; ///< with repetitions
+
+private:
+  void visit(std::int64_t point, bool wantsCells)
+  {
+    for (const std::int32_t cell : this->Topology.cellsAt(point))
+    {
+      wantsCells ? this->Cells.push_back(cell) : void();
+      for (int i = 0; i < this->Topology.corners(); ++i)
+      {
+        this->Next.push_back(this->Topology.corner(cell, i));
+      }
+    }
+  }
+
+  const MeshPart& Part;
+  const PartTopology& Topology;
+  std::vector<std::int64_t> Front;
+  std::vector<std::int64_t> Next;
+};
+
+/// The rings around many seeds: each within the piece of its seed, or, where it leaves this, step
+/// by step, each step piece by piece.
+class RingGrowth
+{
+public:
+  RingGrowth(const ResidentMesh& mesh, const std::vector<std::int64_t>& seeds, bool ofPoints)
+    : Mesh(mesh)
+    , Seeds(seeds)
+    , OfPoints(ofPoints)
+    , PointLists(seeds.size())
+    , CellLists(seeds.size())
+  {
+  }
+
+  /// What k steps reach, without the seeds.
+  IdLists grown(int k)
+  {
+    this->start(k);
+    for (int step = 0; step < k && !this->Front.empty(); ++step)
+    {
+      this->grow();
+    }
+    std::vector<std::vector<std::int64_t>>& lists =
+      this->OfPoints ? this->PointLists : this->CellLists;
+    forChunks(std::int64_t(lists.size()), 1 << 12, threadCount(this->Mesh.options().Threads), {},
+      [&](std::int64_t begin, std::int64_t end, int)
+      {
+        for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
+        {
+          sortUnique(lists[i]);
+          lists[i].erase(
+            std::remove(lists[i].begin(), lists[i].end(), this->Seeds[i]), lists[i].end());
+        }
+      });
+    return joined(lists);
+  }
+
+private:
+  /// Visits the cells at the points that the last step has reached.
+  void grow()
+  {
+    std::vector<Point3> positions;
+    positions.reserve(this->Front.size());
+    for (const Reached& r : this->Front)
+    {
+      positions.push_back(r.At);
+    }
+    std::vector<Reached> next;
+    const PieceGroups groups =
+      groupByPiece(this->Mesh.piecesOf(positions.data(), std::int64_t(positions.size())),
+        this->Mesh.mesh().Pieces.size());
+    forPieces(this->Mesh, groups, topologyNeeded(),
+      [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
+      {
+        std::vector<Reached> reached;
+        std::vector<std::pair<std::int64_t, std::int64_t>> cells; // seed, id
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          const Reached& from = this->Front[std::size_t(groups.Items[std::size_t(i)])];
+          this->visit(piece, from, reached, cells);
+        }
+        const std::lock_guard<std::mutex> lock(this->Mutex);
+        next.insert(next.end(), reached.begin(), reached.end());
+        for (const auto& [seed, cell] : cells)
+        {
+          this->CellLists[std::size_t(seed)].push_back(cell);
+        }
+      });
+    this->take(std::move(next));
+  }
+
+  void start(int k)
+  {
+    const PieceGroups groups = groupsOf(this->Mesh, this->Seeds, this->OfPoints);
+    std::vector<Reached> first;
+    forPieces(this->Mesh, groups, topologyNeeded(),
+      [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
+      {
+        LocalRing ring(piece);
+        std::vector<Reached> reached;
+        std::vector<std::int64_t> corners;
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          const std::int64_t item = groups.Items[std::size_t(i)];
+          const std::int64_t index =
+            indexOf(this->Mesh, *piece.Topology, this->Seeds[std::size_t(item)], this->OfPoints);
+          corners.assign(1, index);
+          if (!this->OfPoints)
+          {
+            corners.clear();
+            for (int corner = 0; corner < piece.Topology->corners(); ++corner)
+            {
+              corners.push_back(piece.Topology->corner(index, corner));
+            }
+            sortUnique(corners);
+          }
+          ring.grow(corners, k, !this->OfPoints) ? this->take(*piece.Part, ring, std::size_t(item))
+                                                 : this->leave(piece, item, corners, reached);
+        }
+        const std::lock_guard<std::mutex> lock(this->Mutex);
+        first.insert(first.end(), reached.begin(), reached.end());
+      });
+    this->take(std::move(first));
+  }
+
+  void take(const MeshPart& part, const LocalRing& ring, std::size_t item)
+  {
+    for (std::size_t i = 0; i < ring.Points.size() && this->OfPoints; ++i)
+    {
+      this->PointLists[item].push_back(part.pointId(ring.Points[i]));
+    }
+    for (const std::int64_t cell : ring.Cells)
+    {
+      this->CellLists[item].push_back(part.cellId(cell));
+    }
+  }
+
+  /// Leaves a seed to grow().
+  static void leave(const ResidentPiece& piece, std::int64_t item,
+    const std::vector<std::int64_t>& points, std::vector<Reached>& reached)
+  {
+    for (const std::int64_t point : points)
+    {
+      reached.push_back({ item, piece.Part->pointId(point), positionOf(*piece.Part, point) });
+    }
+  }
+
+  static void visit(const ResidentPiece& piece, const Reached& from, std::vector<Reached>& reached,
+    std::vector<std::pair<std::int64_t, std::int64_t>>& cells)
+  {
+    const PartTopology& topology = *piece.Topology;
+    const MeshPart& part = *piece.Part;
+    const std::int64_t point = topology.findPoint(from.Point);
+    if (point < 0)
+    {
+      return; // no cell has it
+    }
+    const std::size_t first = reached.size();
+    for (const std::int32_t cell : topology.cellsAt(point))
+    {
+      cells.emplace_back(from.Seed, part.cellId(cell));
+      for (int i = 0; i < topology.corners(); ++i)
+      {
+        const std::int64_t corner = topology.corner(cell, i);
+        reached.push_back({ from.Seed, part.pointId(corner), positionOf(part, corner) });
+      }
+    }
+    std::sort(reached.begin() + std::ptrdiff_t(first), reached.end());
+    reached.erase(std::unique(reached.begin() + std::ptrdiff_t(first), reached.end(),
+                    [](const Reached& a, const Reached& b) { return a.Point == b.Point; }),
+      reached.end());
+  }
+
+  /// The points that are new become the front.
+  void take(std::vector<Reached> reached)
+  {
+    std::sort(reached.begin(), reached.end());
+    this->Front.clear();
+    for (std::size_t i = 0; i < reached.size(); ++i)
+    {
+      const Reached& r = reached[i];
+      const std::vector<std::int64_t>& known = this->PointLists[std::size_t(r.Seed)];
+      const bool isRepeated = i > 0 && !(reached[i - 1] < r);
+      if (!isRepeated && !std::binary_search(known.begin(), known.end(), r.Point))
+      {
+        this->Front.push_back(r);
+      }
+    }
+    for (std::size_t i = 0; i < this->Front.size();)
+    {
+      std::vector<std::int64_t>& known = this->PointLists[std::size_t(this->Front[i].Seed)];
+      const std::int64_t seed = this->Front[i].Seed;
+      const auto middle = std::ptrdiff_t(known.size());
+      for (; i < this->Front.size() && this->Front[i].Seed == seed; ++i)
+      {
+        known.push_back(this->Front[i].Point);
+      }
+      std::inplace_merge(known.begin(), known.begin() + middle, known.end());
+    }
+  }
+
+  const ResidentMesh& Mesh;
+  const std::vector<std::int64_t>& Seeds;
+  const bool OfPoints;
+  std::mutex Mutex;
+  std::vector<Reached> Front;
+  std::vector<std::vector<std::int64_t>> PointLists; ///< of each seed, ascending
+  std::vector<std::vector<std::int64_t>> CellLists;  ///< of each seed, with repetitions
+};
+
+} // namespace
+
+IdLists ringsOfPoints(const ResidentMesh& mesh, const std::vector<std::int64_t>& points, int k)
+{
+  return RingGrowth(mesh, points, true).grown(k);
+}
+
+IdLists ringsOfCells(const ResidentMesh& mesh, const std::vector<std::int64_t>& cells, int k)
+{
+  return RingGrowth(mesh, cells, false).grown(k);
+}
+
+} // namespace tipp

@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""tipp.open: a mesh that answers queries."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Iterable
+
+import numpy as np
+
+from . import _arguments as check
+from . import _engine
+from ._arrays import coordinates
+
+if TYPE_CHECKING:
+    import os
+
+    from numpy.typing import ArrayLike
+
+
+def open(  # pylint: disable=redefined-builtin
+    mesh: Any,
+    *,
+    memory: int | str = "1G",
+    step: int = 0,
+    threads: int = 0,
+) -> ResidentMesh:
+    """Opens a mesh to ask it for values at points and for what lies around its points and cells.
+
+    Parameters
+    ----------
+    mesh
+        The path of a partitioned mesh of any size, of which only what a query needs is read; or a mesh in memory,
+        of triangles, tetrahedra or cells that can be cut into these: of VTK, PyVista or a tipp.Mesh.
+    memory
+        Bytes, as a number or as '512M', for the pieces of a partitioned mesh that stay in memory and what is made
+        to search them. A piece that needs more is held alone.
+    step
+        Of a partitioned mesh's arrays that vary in time the step, counted from 0.
+    threads
+        Number of threads of a query; 0: as many as OpenMP would take.
+
+    Returns
+    -------
+    ResidentMesh
+        Close it, or use it in a with statement. Python threads may share it.
+
+    Raises
+    ------
+    RuntimeError
+        If the mesh cannot be used; the message says why.
+
+    Examples
+    --------
+    >>> with tipp.open("large.tipp", memory="512M") as mesh:
+    ...     cells, weights = mesh.locate(points)
+    ...     level = mesh.interpolate(points, "elevation")
+    """
+    options = {
+        "memory": check.memory(memory, "memory"),
+        "step": check.whole(step, "step"),
+        "threads": check.threads(threads),
+    }
+    source = mesh if check.is_vtk_object(mesh) or hasattr(mesh, "point_data") else check.path(mesh, "mesh")
+    return ResidentMesh(_engine.open_mesh(source, options))
+
+
+class ResidentMesh:
+    """A mesh that answers queries; tipp.open() makes it.
+
+    Ids of cells and points are those of the partitioned mesh's source, or the indices of a mesh in memory. Triangles
+    are found by x and y. A point on an edge, a face or a corner belongs to one cell, which is decided exactly: the
+    same for any pieces and threads.
+    """
+
+    def __init__(self, engine: Any) -> None:
+        self._engine = engine
+        self._names: list[str] = engine.names()
+
+    def __enter__(self) -> ResidentMesh:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Gives the memory back; queries raise ValueError from now on."""
+        self._engine = None
+
+    def _ask(self) -> Any:
+        engine = self._engine
+        if engine is None:
+            raise ValueError("the mesh is closed; open it again.")
+        return engine
+
+    @property
+    def array_names(self) -> list[str]:
+        """The arrays that interpolate() knows; "elevation" is the z of triangles."""
+        return list(self._names)
+
+    def locate(self, points: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+        """The id of the cell that holds each point, -1 outside, and the barycentric weights of its corners.
+
+        Parameters
+        ----------
+        points
+            (n, 2) or (n, 3) coordinates.
+
+        Returns
+        -------
+        cells, weights
+            (n,) ids and (n, 3) or (n, 4) weights, which are 0 outside.
+        """
+        return self._ask().locate(_points(points))
+
+    def interpolate(self, points: ArrayLike, arrays: str | Iterable[str] | None = None) -> Any:
+        """The mesh's arrays at points: linear in each cell from its points' values, or the cell's own value.
+
+        Parameters
+        ----------
+        points
+            (n, 2) or (n, 3) coordinates.
+        arrays
+            The name of an array, or names. None: all.
+
+        Returns
+        -------
+        array, or dict of arrays
+            For one name its array, else a dict by name. Outside of the mesh NaN, or 0 in arrays of whole numbers.
+        """
+        wanted = self._names if arrays is None else check.names(arrays, "arrays")
+        check.require_arrays(wanted, self._names, "")
+        values = self._ask().interpolate(_points(points), wanted)
+        return values[arrays] if isinstance(arrays, str) else values
+
+    def neighbors(self, cells: ArrayLike) -> np.ndarray:
+        """For each cell and each of its corners the cell across the opposite edge or face; -1: there is none."""
+        return self._ask().neighbors(_ids(cells, "cells"))
+
+    def star(self, points: ArrayLike) -> list[np.ndarray]:
+        """The cells at each point, ascending."""
+        return _split(*self._ask().star(_ids(points, "points")))
+
+    def ring(self, *, points: ArrayLike | None = None, cells: ArrayLike | None = None, k: int = 1) -> list[np.ndarray]:
+        """What lies within k steps around each point or cell, ascending, without itself.
+
+        Points are one step apart if an edge joins them, cells if they share a point.
+        """
+        if (points is None) == (cells is None):
+            raise ValueError("give either points or cells.")
+        steps = check.whole(k, "k")
+        engine = self._ask()
+        if points is not None:
+            return _split(*engine.ring_of_points(_ids(points, "points"), steps))
+        return _split(*engine.ring_of_cells(_ids(cells, "cells"), steps))
+
+    def boundary(self) -> list[np.ndarray]:
+        """The border of a mesh of triangles: of each loop the ids of its points, with the mesh on the left."""
+        return _split(*self._ask().boundary())
+
+    def components(self) -> tuple[np.ndarray, np.ndarray]:
+        """The connected component of each cell, by common edges or faces, and how many cells each component has."""
+        return self._ask().components()
+
+
+def _points(points: ArrayLike) -> np.ndarray:
+    array = np.asarray(coordinates(points), np.float64)
+    if array.shape[1] == 2:
+        spatial = np.zeros((len(array), 3))
+        spatial[:, :2] = array
+        return spatial
+    return np.ascontiguousarray(array)
+
+
+def _ids(ids: Any, name: str) -> np.ndarray:
+    array = np.atleast_1d(np.asarray(ids))
+    if array.size == 0:
+        return np.zeros(0, np.int64)
+    if array.ndim != 1 or array.dtype.kind not in "iu":
+        raise TypeError(f"{name} are of type {array.dtype} and shape {array.shape}; give a list of whole numbers.")
+    return np.ascontiguousarray(array, np.int64)
+
+
+def _split(starts: np.ndarray, ids: np.ndarray) -> list[np.ndarray]:
+    return np.split(ids, starts[1:-1]) if len(starts) > 1 else []

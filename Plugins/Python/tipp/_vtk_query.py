@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What tipp.open() runs in a package built with VTK."""
+from __future__ import annotations
+
+import threading
+from typing import Any, Callable
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIdTypeArray, vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkPointData, vtkPolyData
+
+from . import _arguments as check
+from ._arrays import Mesh
+from ._run import run
+from ._vtk import arrays_of, grid_of, vtk_points
+from .vtkTIPPFilters import vtkPartitionedMeshQuery
+
+
+def open_mesh(mesh: Any, options: dict[str, Any]) -> MeshQuery:
+    query = vtkPartitionedMeshQuery()
+    query.SetMemoryLimit(options["memory"])
+    query.SetStep(options["step"])
+    query.SetNumberOfThreads(options["threads"])
+    if isinstance(mesh, str):
+        query.SetFileName(mesh)
+    else:
+        source = grid_of(mesh) if isinstance(mesh, Mesh) else mesh
+        query.SetSourceData(check.data_object(source, "mesh", ("vtkPointSet", "vtkCompositeDataSet"), "a mesh"))
+    return MeshQuery(query)
+
+
+class MeshQuery:
+    """NumPy in and out of a vtkPartitionedMeshQuery. Its errors are events, so threads take turns; the query itself
+    works with several."""
+
+    def __init__(self, query: vtkPartitionedMeshQuery) -> None:
+        self._query = query
+        self._turn = threading.Lock()
+
+    def _run(self, call: Callable[[], Any]) -> None:
+        with self._turn:
+            run(self._query, call=call)
+
+    def names(self) -> list[str]:
+        names = vtkStringArray()
+        self._run(lambda: self._query.GetNamesOfArrays(names))
+        return [names.GetValue(i) for i in range(names.GetNumberOfValues())]
+
+    def locate(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        cells, weights = vtkIdTypeArray(), vtkDoubleArray()
+        self._run(lambda: self._query.Locate(vtk_points(points).GetData(), cells, weights))
+        return vtk_to_numpy(cells), vtk_to_numpy(weights)
+
+    def interpolate(self, points: np.ndarray, names: list[str]) -> dict[str, np.ndarray]:
+        values = vtkPointData()
+
+        def call() -> None:
+            self._query.ClearArrays()
+            for name in names:
+                self._query.AddArray(name)
+            self._query.Interpolate(vtk_points(points).GetData(), values)
+
+        if names:
+            self._run(call)
+        return arrays_of(values)
+
+    def neighbors(self, cells: np.ndarray) -> np.ndarray:
+        found = vtkIdTypeArray()
+        self._run(lambda: self._query.Neighbors(numpy_to_vtkIdTypeArray(cells, deep=True), found))
+        return vtk_to_numpy(found)
+
+    def star(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return self._lists(self._query.Star, points)
+
+    def ring_of_points(self, points: np.ndarray, k: int) -> tuple[np.ndarray, np.ndarray]:
+        return self._lists(self._query.RingOfPoints, points, k)
+
+    def ring_of_cells(self, cells: np.ndarray, k: int) -> tuple[np.ndarray, np.ndarray]:
+        return self._lists(self._query.RingOfCells, cells, k)
+
+    def _lists(self, method: Any, ids: np.ndarray, *more: int) -> tuple[np.ndarray, np.ndarray]:
+        starts, found = vtkIdTypeArray(), vtkIdTypeArray()
+        self._run(lambda: method(numpy_to_vtkIdTypeArray(ids, deep=True), *more, starts, found))
+        return vtk_to_numpy(starts), vtk_to_numpy(found)
+
+    def boundary(self) -> tuple[np.ndarray, np.ndarray]:
+        loops = vtkPolyData()
+        self._run(lambda: self._query.Boundary(loops))
+        if loops.GetNumberOfPoints() == 0:
+            return np.zeros(1, np.int64), np.zeros(0, np.int64)
+        # A line ends where it begins; the points are in the loops' order, each once.
+        offsets = vtk_to_numpy(loops.GetLines().GetOffsetsArray()).astype(np.int64)
+        return offsets - np.arange(len(offsets)), vtk_to_numpy(loops.GetPointData().GetGlobalIds())
+
+    def components(self) -> tuple[np.ndarray, np.ndarray]:
+        cells, sizes = vtkIdTypeArray(), vtkIdTypeArray()
+        self._run(lambda: self._query.Components(cells, sizes))
+        return vtk_to_numpy(cells), vtk_to_numpy(sizes)

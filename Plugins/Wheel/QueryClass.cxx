@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Binding.h"
+
+#include "Query/Around.h"
+#include "Query/ResidentMesh.h"
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tipp::python
+{
+namespace
+{
+
+template <typename Value>
+constexpr Scalar kindOf();
+template <>
+constexpr Scalar kindOf<double>()
+{
+  return Scalar::Float64;
+}
+template <>
+constexpr Scalar kindOf<std::int64_t>()
+{
+  return Scalar::Int64;
+}
+
+/// A copy of the values as a NumPy array.
+template <typename Value>
+nb::object copied(const std::vector<Value>& values, std::size_t columns = 1)
+{
+  RawBuffer buffer(values.size() * sizeof(Value));
+  std::copy(values.begin(), values.end(), buffer.as<Value>());
+  return arrayOf(std::move(buffer), kindOf<Value>(), columns);
+}
+
+std::vector<std::int64_t> idsOf(const InputArray& ids)
+{
+  const auto* const first = static_cast<const std::int64_t*>(ids.data());
+  return { first, first + ids.shape(0) };
+}
+
+nb::tuple listsOf(const IdLists& lists)
+{
+  return nb::make_tuple(copied(lists.Starts), copied(lists.Ids));
+}
+
+/// Answers queries with NumPy arrays, which the Python side has checked: points of shape (n, 3) and
+/// float64, ids int64. Works without Python's lock.
+class Query
+{
+public:
+  Query(const std::string& path, std::uint64_t memory, int step, int threads)
+    : Mesh(withoutLock(
+        [&] { return std::make_unique<ResidentMesh>(path, optionsOf(memory, step, threads)); }))
+  {
+  }
+
+  /// A mesh in memory; `arrays` are its arrays of points first, then of cells.
+  Query(InputArray points, InputArray cells, const std::vector<std::string>& names,
+    const std::vector<InputArray>& arrays, std::size_t pointArrays, int threads)
+  {
+    auto kept = std::make_shared<std::vector<InputArray>>(arrays);
+    kept->push_back(points);
+    kept->push_back(cells);
+    MeshPart part;
+    part.Mesh.Points = points.data();
+    part.Mesh.Float = scalarOf(points.dtype()) == Scalar::Float32;
+    part.Mesh.PointCount = std::int64_t(points.shape(0));
+    part.Mesh.Ids = cells.data();
+    part.Mesh.Wide = scalarOf(cells.dtype()) == Scalar::Int64;
+    part.Mesh.Cells = part.OwnedCells = std::int64_t(cells.shape(0));
+    part.Mesh.Dimension = int(cells.shape(1)) - 1;
+    for (std::size_t i = 0; i < arrays.size(); ++i)
+    {
+      StoredArray description;
+      description.Name = names[i];
+      description.OfPoints = i < pointArrays;
+      description.Type = scalarOf(arrays[i].dtype());
+      description.Components = arrays[i].ndim() > 1 ? int(arrays[i].shape(1)) : 1;
+      part.Arrays.push_back({ description, arrays[i].data() });
+    }
+    part.Keeps = kept;
+    this->Mesh = std::make_unique<ResidentMesh>(std::move(part), optionsOf(1, 0, threads));
+  }
+
+  std::vector<std::string> names() const { return this->Mesh->names(); }
+
+  nb::tuple locate(const InputArray& points) const
+  {
+    AnswerOptions options;
+    options.Weights = true;
+    const MeshAnswer answer = this->ask(points, options);
+    return nb::make_tuple(
+      copied(answer.Cells), copied(answer.Weights, std::size_t(this->Mesh->mesh().CellSize)));
+  }
+
+  nb::dict interpolate(const InputArray& points, const std::vector<std::string>& names) const
+  {
+    AnswerOptions options;
+    options.Arrays = names;
+    MeshAnswer answer = this->ask(points, options);
+    nb::dict result;
+    for (MeshAnswer::Array& array : answer.Arrays)
+    {
+      result[array.Name.c_str()] =
+        arrayOf(std::move(array.Values), array.Type, std::size_t(array.Components));
+    }
+    return result;
+  }
+
+  nb::object neighbors(const InputArray& cells) const
+  {
+    const std::vector<std::int64_t> found =
+      withoutLock([&] { return neighborsOf(*this->Mesh, idsOf(cells)); });
+    return copied(found, std::size_t(this->Mesh->mesh().CellSize));
+  }
+  nb::tuple star(const InputArray& points) const
+  {
+    return listsOf(withoutLock([&] { return starsOf(*this->Mesh, idsOf(points)); }));
+  }
+  nb::tuple ringOfPoints(const InputArray& points, int k) const
+  {
+    return listsOf(withoutLock([&] { return ringsOfPoints(*this->Mesh, idsOf(points), k); }));
+  }
+  nb::tuple ringOfCells(const InputArray& cells, int k) const
+  {
+    return listsOf(withoutLock([&] { return ringsOfCells(*this->Mesh, idsOf(cells), k); }));
+  }
+  nb::tuple boundary() const
+  {
+    return listsOf(withoutLock([&] { return boundaryOf(*this->Mesh); }).Points);
+  }
+  nb::tuple components() const
+  {
+    const Components found = withoutLock([&] { return componentsOf(*this->Mesh); });
+    return nb::make_tuple(copied(found.OfCells), copied(found.Sizes));
+  }
+
+private:
+  static ResidentOptions optionsOf(std::uint64_t memory, int step, int threads)
+  {
+    ResidentOptions options;
+    options.MemoryLimit = memory;
+    options.Step = step;
+    options.Threads = threads;
+    return options;
+  }
+
+  MeshAnswer ask(const InputArray& points, const AnswerOptions& options) const
+  {
+    static_assert(sizeof(Point3) == 3 * sizeof(double));
+    return withoutLock(
+      [&]
+      {
+        return this->Mesh->answer(
+          static_cast<const Point3*>(points.data()), std::int64_t(points.shape(0)), options);
+      });
+  }
+
+  std::unique_ptr<ResidentMesh> Mesh;
+};
+
+} // namespace
+
+void addQueryClass(nb::module_& module)
+{
+  nb::class_<Query>(module, "Query")
+    .def(nb::init<const std::string&, std::uint64_t, int, int>())
+    .def(nb::init<InputArray, InputArray, const std::vector<std::string>&,
+      const std::vector<InputArray>&, std::size_t, int>())
+    .def("names", &Query::names)
+    .def("locate", &Query::locate)
+    .def("interpolate", &Query::interpolate)
+    .def("neighbors", &Query::neighbors)
+    .def("star", &Query::star)
+    .def("ring_of_points", &Query::ringOfPoints)
+    .def("ring_of_cells", &Query::ringOfCells)
+    .def("boundary", &Query::boundary)
+    .def("components", &Query::components);
+}
+
+} // namespace tipp::python

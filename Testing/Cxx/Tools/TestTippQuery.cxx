@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RunTipp.h"
+
+#include "Npy/NpyFile.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+using namespace tipp;
+using namespace tipp::test;
+
+namespace
+{
+
+using Words = std::vector<std::string>;
+
+/// A square of two triangles, stored and as a file, with a height of x + 10 y.
+class TippQuery : public testing::Test
+{
+protected:
+  TippQuery()
+  {
+    this->Folder.file("corners.csv", "x,y,height\n0,0,0\n4,0,4\n0,4,40\n4,4,44\n");
+    EXPECT_EQ(0, this->run({ "delaunay", "corners.csv", "-o", "mesh.vtu" }).ExitCode);
+    EXPECT_EQ(0,
+      this->run({ "partition", "mesh.vtu", "-o", "mesh.tipp", "--tiling", "grid:2x2" }).ExitCode);
+    this->Folder.file("asked.csv", "x,y\n1,0.5\n9,9\n2,2\n4,4\n");
+  }
+
+  Outcome run(const Words& words) const { return runTipp(this->Folder, words); }
+  std::string content(const std::string& name) const { return contentOf(this->Folder.path(name)); }
+
+  TemporaryFolder Folder;
+};
+
+} // namespace
+
+TEST_F(TippQuery, WritesCellsAndArraysAsCsv)
+{
+  const Outcome outcome = this->run({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv" });
+  EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+  EXPECT_EQ("4 points, 1 outside of the mesh, in out.csv\n", outcome.Out);
+  std::istringstream lines(this->content("out.csv"));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ("x,y,cell,elevation,height", line);
+  std::getline(lines, line);
+  EXPECT_EQ("1,0.5,", line.substr(0, 6));
+  EXPECT_EQ(",0,6", line.substr(line.size() - 4));
+  std::getline(lines, line);
+  EXPECT_EQ("9,9,-1,,", line);
+}
+
+TEST_F(TippQuery, GivesTheSameOfAFileThatIsNotPartitioned)
+{
+  EXPECT_EQ(0, this->run({ "query", "asked.csv", "mesh.tipp", "-o", "a.csv" }).ExitCode);
+  EXPECT_EQ(0, this->run({ "query", "asked.csv", "mesh.vtu", "-o", "b.csv" }).ExitCode);
+  EXPECT_EQ(this->content("a.csv"), this->content("b.csv"));
+}
+
+TEST_F(TippQuery, WritesWeightsOnRequest)
+{
+  EXPECT_EQ(0,
+    this
+      ->run({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--arrays", "height", "--weights",
+        "--memory", "1K", "--threads", "1" })
+      .ExitCode);
+  EXPECT_EQ("x,y,cell,weight_0,weight_1,weight_2,height\n",
+    this->content("out.csv").substr(0, this->content("out.csv").find('\n') + 1));
+  EXPECT_NE(std::string::npos, this->content("out.csv").find("9,9,-1,,,,\n"));
+}
+
+TEST_F(TippQuery, WritesRowsAsNpy)
+{
+  EXPECT_EQ(0,
+    this->run({ "query", "asked.csv", "mesh.tipp", "-o", "out.npy", "--arrays", "height" })
+      .ExitCode);
+  NpyReader reader(this->Folder.path("out.npy"));
+  ASSERT_EQ(4, reader.rows());
+  ASSERT_EQ(1, reader.columns());
+  double values[4];
+  reader.read(values, sizeof values);
+  EXPECT_DOUBLE_EQ(6, values[0]);
+  EXPECT_TRUE(values[1] != values[1]);
+  EXPECT_DOUBLE_EQ(22, values[2]);
+  EXPECT_DOUBLE_EQ(44, values[3]);
+}
+
+TEST_F(TippQuery, RefusesWhatItCannotAnswer)
+{
+  const auto expect = [this](const Words& words, int exitCode, const std::string& message)
+  {
+    const Outcome outcome = this->run(words);
+    EXPECT_EQ(exitCode, outcome.ExitCode);
+    EXPECT_NE(std::string::npos, outcome.Err.find(message)) << outcome.Err;
+    EXPECT_FALSE(std::filesystem::exists(this->Folder.path("out.csv")));
+  };
+  expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--arrays", "depth" }, 1,
+    "tipp: mesh.tipp: has no array 'depth'");
+  expect({ "query", "asked.csv", "nowhere.tipp", "-o", "out.csv" }, 1, "nowhere.tipp");
+  expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.vtu" }, 2, "does not end in .csv or .npy");
+  expect({ "query", "asked.csv", "mesh.tipp", "-o", "asked.csv" }, 1, "asked.csv");
+  std::filesystem::remove(this->Folder.path("mesh.tipp/pieces/000000.vtu"));
+  expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv" }, 1, "000000.vtu");
+}

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command `tipp query` under mpirun: TestQueryOnRanks.py MPIEXEC TIPP"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+MPIEXEC, TIPP = sys.argv[1:3]
+del sys.argv[1:3]
+
+
+class QueryOnRanks(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        rng = np.random.default_rng(7)
+        np.save(self.folder / "points.npy", rng.random((5000, 2)))
+        np.save(self.folder / "asked.npy", rng.random((2000, 2)) * 1.2 - 0.1)
+        self.run_tipp(1, "delaunay", "points.npy", "-o", "mesh.vtu")
+        self.run_tipp(1, "partition", "mesh.vtu", "-o", "mesh.tipp", "--tiling", "grid:3x3")
+
+    def run_tipp(self, ranks, *arguments):
+        launcher = [MPIEXEC, "--oversubscribe", "--bind-to", "none", "-n", str(ranks)] if ranks > 1 else []
+        return subprocess.run([*launcher, TIPP, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=120)
+
+    def test_every_number_of_ranks_writes_the_same_file(self):
+        for output in ("out.csv", "out.npy"):
+            files = []
+            for ranks in (1, 2, 3):
+                run = self.run_tipp(ranks, "query", "asked.npy", "mesh.tipp", "-o", output)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertIn("2000 points, ", run.stdout)
+                files.append((self.folder / output).read_bytes())
+            self.assertEqual(files[0], files[1])
+            self.assertEqual(files[0], files[2])
+
+    def test_a_damaged_piece_ends_all_ranks_with_one_sentence(self):
+        piece = self.folder / "mesh.tipp/pieces/000008.vtu"
+        content = bytearray(piece.read_bytes())
+        content[len(content) // 2] ^= 1
+        piece.write_bytes(content)
+        run = self.run_tipp(3, "query", "asked.npy", "mesh.tipp", "-o", "out.csv")
+        self.assertNotEqual(run.returncode, 0)
+        self.assertEqual(run.stderr.count("tipp: "), 1, run.stderr)
+        self.assertIn("000008.vtu", run.stderr)
+        self.assertFalse((self.folder / "out.csv").exists())
+
+
+unittest.main()

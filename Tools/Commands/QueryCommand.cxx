@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/Commands.h"
+#include "Commands/PointArguments.h"
+#include "Console/MpiSession.h"
+#include "Console/Signals.h"
+#include "Files/IOError.h"
+#include "Files/InputFile.h"
+#include "Files/OutputPath.h"
+#include "Files/PendingOutput.h"
+#include "Npy/NpyFile.h"
+#include "Parallel/Poll.h"
+#include "Points/ReadPoints.h"
+#include "Query/DataSetPart.h"
+#include "Query/RankAnswer.h"
+#include "Ranks/Communicator.h"
+#include "Vtk/ReadDataSet.h"
+
+#include "vtkDataSet.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr const char* footer =
+  R"(POINTS  any file of points that tipp delaunay reads. In a mesh of tetrahedra they need a
+        column z.
+MESH    a partitioned mesh of 'tipp partition' or 'tipp delaunay', of which only the
+        pieces that points lie in are read; or any VTK file of triangles, tetrahedra or
+        cells that are cut into them.
+VALUES  .csv: a line for each point with its coordinates, the number of the cell that
+        holds it (-1: outside), and the arrays' values, empty outside. .npy: the arrays
+        alone, as float64, a row for each point, nan outside.
+
+A point on an edge, a face or a corner belongs to one cell, the same for any pieces,
+threads and ranks, as in tipp resample. Under mpirun the ranks share the pieces and the
+points, and the first one writes the file. Memory is in bytes, or with K, M, G for 2^10,
+2^20, 2^30 of them, and of each rank.
+
+Examples:
+  tipp query stations.csv coast.tipp -o levels.csv --arrays elevation
+  mpirun -np 4 tipp query stations.npy coast.tipp -o levels.npy --memory 512M
+)";
+
+struct QueryArguments
+{
+  std::string Points;
+  std::string Mesh;
+  std::string Output;
+  std::vector<std::string> Arrays;
+  bool Weights = false;
+  PointOptions Reading;
+  std::string Memory = "1G";
+  int Step = 0;
+  int Threads = 0;
+
+  bool toNpy() const { return extensionOf(this->Output) == ".npy"; }
+};
+
+std::unique_ptr<ResidentMesh> openMesh(const QueryArguments& arguments)
+{
+  ResidentOptions options;
+  options.MemoryLimit = *parseMemorySize(arguments.Memory);
+  options.Threads = arguments.Threads;
+  options.Step = arguments.Step;
+  if (isPartitionedMesh(arguments.Mesh))
+  {
+    return std::make_unique<ResidentMesh>(arguments.Mesh, options);
+  }
+  const vtkSmartPointer<vtkDataSet> data = readDataSet(arguments.Mesh);
+  try
+  {
+    return std::make_unique<ResidentMesh>(partOf(data, arguments.Threads), options);
+  }
+  catch (const IOError&)
+  {
+    throw;
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw IOError(arguments.Mesh, std::string("cannot be used: ") + error.what());
+  }
+}
+
+/// This rank's share of the points. Throws IOError if points in space have no z.
+std::vector<Point3> readShare(
+  const QueryArguments& arguments, bool inSpace, const Communicator& ranks)
+{
+  PointOptions reading = arguments.Reading;
+  reading.Threads = arguments.Threads;
+  const PointTable table =
+    readPointsShare({ arguments.Points }, reading, ranks.rank(), ranks.size());
+  reportLeftOut(table.LeftOut, table.ThinnedOut);
+  std::vector<std::string> names;
+  for (const PointTable::Column& column : table.Columns)
+  {
+    names.push_back(column.Name);
+  }
+  const std::size_t z = findElevation(names);
+  if (inSpace && z == names.size() && table.size() > 0)
+  {
+    throw IOError(arguments.Points, "has no column z, which points in a mesh of tetrahedra need.");
+  }
+  std::vector<Point3> points(table.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    points[i] = { table.XY[2 * i], table.XY[2 * i + 1], inSpace ? table.Columns[z].Values[i] : 0 };
+  }
+  return points;
+}
+
+/// Calls work(value) with the value of a component at a point, in its type.
+template <typename Work>
+void withValue(const MeshAnswer::Array& array, std::size_t point, std::size_t k, const Work& work)
+{
+  withScalar(array.Type,
+    [&](auto zero)
+    { work(array.Values.as<decltype(zero)>()[point * std::size_t(array.Components) + k]); });
+}
+
+/// A name as a field of a .csv file.
+std::string quoted(const std::string& name)
+{
+  if (name.find_first_of(",\"\n") == std::string::npos)
+  {
+    return name;
+  }
+  std::string text = "\"";
+  for (const char c : name)
+  {
+    text += c == '"' ? "\"\"" : std::string(1, c);
+  }
+  return text + "\"";
+}
+
+std::vector<std::string> columnsOf(const std::vector<StoredArray>& arrays)
+{
+  std::vector<std::string> columns;
+  for (const StoredArray& array : arrays)
+  {
+    for (int k = 0; k < array.Components; ++k)
+    {
+      columns.push_back(quoted(array.Name + (array.Components > 1 ? "_" + std::to_string(k) : "")));
+    }
+  }
+  return columns;
+}
+
+std::string headerLine(
+  const QueryArguments& arguments, const std::vector<std::string>& columns, int corners)
+{
+  std::string line = corners == 4 ? "x,y,z,cell" : "x,y,cell";
+  for (int i = 0; i < corners && arguments.Weights; ++i)
+  {
+    line += ",weight_" + std::to_string(i);
+  }
+  for (const std::string& column : columns)
+  {
+    line += "," + column;
+  }
+  return line + "\n";
+}
+
+/// This rank's lines of a .csv file.
+std::string linesOf(const std::vector<Point3>& points, const MeshAnswer& answer, int corners)
+{
+  std::string text;
+  const auto out = std::back_inserter(text);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    pollAt(std::int64_t(i));
+    const Point3& p = points[i];
+    const bool inside = answer.Cells[i] >= 0;
+    fmt::format_to(out, "{},{},", p.x, p.y);
+    corners == 4 ? fmt::format_to(out, "{},", p.z) : out;
+    fmt::format_to(out, "{}", answer.Cells[i]);
+    for (std::size_t k = 0; k < std::size_t(corners) && !answer.Weights.empty(); ++k)
+    {
+      inside ? fmt::format_to(out, ",{}", answer.Weights[i * std::size_t(corners) + k])
+             : fmt::format_to(out, ",");
+    }
+    for (const MeshAnswer::Array& array : answer.Arrays)
+    {
+      for (std::size_t k = 0; k < std::size_t(array.Components); ++k)
+      {
+        const auto add = [&](auto value) { fmt::format_to(out, ",{}", +value); };
+        inside ? withValue(array, i, k, add) : text.push_back(',');
+      }
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+/// This rank's rows of an .npy file, as bytes.
+std::string rowsOf(const MeshAnswer& answer)
+{
+  std::string bytes;
+  for (std::size_t i = 0; i < answer.Cells.size(); ++i)
+  {
+    for (const MeshAnswer::Array& array : answer.Arrays)
+    {
+      for (std::size_t k = 0; k < std::size_t(array.Components); ++k)
+      {
+        double number = std::numeric_limits<double>::quiet_NaN();
+        answer.Cells[i] >= 0 ? withValue(array, i, k, [&](auto value) { number = double(value); })
+                             : void();
+        bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+      }
+    }
+  }
+  return bytes;
+}
+
+void write(const QueryArguments& arguments, const PathState& before, const std::string& header,
+  const std::vector<std::string>& parts, const std::vector<std::int64_t>& shape)
+{
+  if (arguments.toNpy())
+  {
+    NpyWriter writer(arguments.Output, "<f8", shape, before);
+    for (const std::string& part : parts)
+    {
+      writer.write(part.data(), part.size());
+    }
+    writer.close();
+    return;
+  }
+  PendingFile pending(arguments.Output, before);
+  pending.file().write(0, header.data(), header.size());
+  std::uint64_t end = header.size();
+  for (const std::string& part : parts)
+  {
+    pending.file().write(end, part.data(), part.size());
+    end += part.size();
+  }
+  pending.commit();
+}
+
+/// Answers all ranks' points and writes the file on the first rank. Collective.
+void answerAll(const QueryArguments& arguments, Communicator& ranks)
+{
+  PathState before;
+  if (ranks.isFirst())
+  {
+    requireApart({ arguments.Output }, { arguments.Points, arguments.Mesh });
+    before = PendingFile(arguments.Output).before(); // fails early if it cannot be written
+  }
+  const std::unique_ptr<ResidentMesh> mesh = openMesh(arguments);
+  AnswerOptions options;
+  options.Arrays = arguments.Arrays.empty() ? mesh->names() : arguments.Arrays;
+  options.Weights = arguments.Weights;
+  std::vector<StoredArray> arrays;
+  for (const std::string& name : options.Arrays)
+  {
+    const StoredArray* const array = mesh->find(name);
+    arrays.push_back(array ? *array : StoredArray());
+    arrays.back().Name = name;
+  }
+  const int corners = mesh->mesh().CellSize;
+  const std::vector<Point3> points = readShare(arguments, corners == 4, ranks);
+  const auto count = std::int64_t(points.size());
+  // A file that is not partitioned is in the memory of every rank.
+  const MeshAnswer answer = mesh->isStored() && ranks.size() > 1
+    ? answerOnRanks(ranks, *mesh, points.data(), count, options)
+    : mesh->answer(points.data(), count, options);
+  std::vector<std::int64_t> sums = { count,
+    std::count(answer.Cells.begin(), answer.Cells.end(), -1) };
+  ranks.sum(sums);
+  const std::vector<std::string> parts =
+    ranks.gather(arguments.toNpy() ? rowsOf(answer) : linesOf(points, answer, corners));
+  if (ranks.isFirst())
+  {
+    const std::vector<std::string> columns = columnsOf(arrays);
+    write(arguments, before, headerLine(arguments, columns, corners), parts,
+      { sums[0], std::int64_t(columns.size()) });
+    fmt::print("{} points, {} outside of the mesh, in {}\n", sums[0], sums[1], arguments.Output);
+  }
+}
+
+int runQuery(const QueryArguments& arguments)
+{
+  const MpiSession session;
+  try
+  {
+    Communicator ranks(session.controller());
+    const PollScope scope(
+      [&ranks]()
+      {
+        if (isInterrupted())
+        {
+          throw RankFailure(ranks.rank(), true, "The run was stopped.");
+        }
+        return true;
+      });
+    ranks.together([&] { answerAll(arguments, ranks); });
+  }
+  catch (const RankFailure& failure)
+  {
+    return failure.Aborted ? reportInterrupt() : reportFailure();
+  }
+  catch (const std::exception&)
+  {
+    return reportFailure();
+  }
+  return Success;
+}
+
+std::string checkOutput(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  return extension == ".npy" || extension == ".csv" ? ""
+                                                    : "'" + path + "' does not end in .csv or .npy";
+}
+
+} // namespace
+
+void addQueryCommand(CLI::App& app, int& exitCode)
+{
+  auto arguments = std::make_shared<QueryArguments>();
+  CLI::App* const command =
+    app.add_subcommand("query", "Tells which cells of a mesh hold points, and its arrays there");
+  command->add_option("points", arguments->Points, "A file of points")->required();
+  command->add_option("mesh", arguments->Mesh, "The mesh, see below")->required();
+  command->add_option("-o,--output", arguments->Output, "The file to write, see below")
+    ->required()
+    ->check(checkOutput);
+  command
+    ->add_option("--arrays", arguments->Arrays,
+      "Names of arrays, or elevation, the z of a surface (default: all)")
+    ->delimiter(',');
+  command->add_flag(
+    "--weights", arguments->Weights, "Also the barycentric weights of each cell's corners (.csv)");
+  command->add_option("--step", arguments->Step, "Time step of arrays that vary in time")
+    ->check(CLI::NonNegativeNumber)
+    ->capture_default_str();
+  command
+    ->add_option(
+      "--memory", arguments->Memory, "For the pieces of a partitioned mesh that stay in memory")
+    ->check(checkMemorySize)
+    ->capture_default_str();
+  command->add_option("--threads", arguments->Threads, "Number of threads; 0: OpenMP's choice")
+    ->check(CLI::Range(0, 4096))
+    ->capture_default_str();
+  addPointOptions(*command, arguments->Reading);
+  command->footer(footer);
+  command->callback([arguments, &exitCode]() { exitCode = runQuery(*arguments); });
+}
+
+} // namespace tipp
