@@ -621,6 +621,7 @@ TEST(Delaunay2DRanks, MarksOfConstraintsComeWithGhosts)
   const Coordinates xy = makePointSet("uniform", 3000);
   const TestSource source(xy, true);
   vtkNew<vtkTIPPDelaunay2D> filter;
+  filter->SetPointsPerPartition(150);
   filter->SetMergeSourcePoints(true);
   filter->SetConstraintMarks(vtkTIPPDelaunay2D::EDGE_FLAGS);
   filter->SetInputData(shareAsData(xy, false));
