@@ -3,13 +3,11 @@
 #include "vtkTIPPDelaunay2D.h"
 
 #include "Constraints/RankSource.h"
-#include "Distributed/ConstrainRanks.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "Distributed/TriangleExchange.h"
-#include "Output/CollectivePipeline.h"
-#include "Output/Monitor.h"
-#include "Output/PieceOutput.h"
-#include "Output/StatisticsTable.h"
+#include "Output/FilterPipeline.h"
+#include "Output/RunStatistics.h"
+#include "Output/TriangleOutput.h"
 #include "Projection/ProjectedPoints.h"
 #include "Vtk/ReadDataSet.h"
 

@@ -2,8 +2,7 @@
 #include "Constraints/ConstraintRegion.h"
 
 #include "Constraints/Constraint.h"
-#include "Predicates/InCircle.h"
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -2,8 +2,8 @@
 #include "Constraints/PartitionConstraints.h"
 
 #include "Constraints/SegmentInserter.h"
+#include "Kernel/DelaunayKernel.h"
 #include "Kernel/Lanes.h"
-#include "Kernel/MeshEditor.h"
 
 #include <algorithm>
 #include <utility>

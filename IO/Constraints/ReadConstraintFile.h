@@ -2,7 +2,7 @@
 #ifndef tippReadConstraintFile_h
 #define tippReadConstraintFile_h
 
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 #include "vtkTIPPIOModule.h"
 
 #include <array>

@@ -4,7 +4,7 @@
 
 #include "Constraints/ConstrainedPoints.h"
 #include "Constraints/TableConstraints.h"
-#include "Distributed/DistributedOptions.h"
+#include "Distributed/Plan.h"
 #include "Duplicates/ResolveDuplicates.h"
 #include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
