@@ -408,7 +408,7 @@ vtkSmartPointer<vtkUnsignedCharArray> marksOf(
 {
   std::vector<Point2> positions(std::size_t(piece.count()));
   piece.forEach([&](std::int64_t to, const PointTuples& tuples, std::size_t at, bool)
-    { positions[std::size_t(to)] = tuples.Places[at]; });
+    { positions[std::size_t(to)] = tuples.Positions[at]; });
   auto marks = vtkSmartPointer<vtkUnsignedCharArray>::New();
   marks->SetName("ConstraintEdges");
   marks->SetNumberOfComponents(3);
