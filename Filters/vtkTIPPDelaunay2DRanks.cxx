@@ -22,6 +22,7 @@
 
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 vtkExecutive* vtkTIPPDelaunay2D::CreateDefaultExecutive()
@@ -194,22 +195,16 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, 
   }
   this->NumberOfDuplicatePoints = mine.AllDuplicates;
   this->NumberOfRejectedPoints = mine.AllRejected;
-  if (ranks.rank() == 0 && mine.AllRejected > 0)
+  for (const std::string& warning :
+    ranks.isFirst() ? tipp::warningsOf(mine) : std::vector<std::string>())
   {
-    vtkWarningMacro(<< mine.AllRejected << " of " << mine.AllPoints
-                    << " points have a NaN or infinite coordinate and are in no triangle.");
+    vtkWarningMacro(<< warning);
   }
-  if (ranks.rank() == 0 && shared && shared->Figures.NotFinite > 0)
+  if (ranks.isFirst() && shared && shared->Figures.NotFinite > 0)
   {
     vtkWarningMacro(
       << shared->Figures.NotFinite
       << " edges of the source have an end that is NaN or infinite and are left out.");
-  }
-  if (ranks.rank() == 0 && mine.AllTriangles == 0)
-  {
-    vtkWarningMacro(
-      "No triangles: all ranks together have fewer than three distinct finite points, "
-      "or all are on one line.");
   }
   return true;
 }

@@ -47,7 +47,7 @@ public:
   const PointBlock& added() const { return this->Added; }
 
   /// The number of constraints, and of edges and crossings after the first pass.
-  struct Figures
+  struct VTKTIPPFILTERS_EXPORT Figures
   {
     std::int64_t Constraints = 0;
     std::int64_t Segments = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Commands/DelaunayArguments.h"
+#include "Commands/DelaunayRuns.h"
 
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
@@ -42,16 +42,6 @@ OutOfCoreOptions makeOptions(const DelaunayArguments& arguments)
   return options;
 }
 
-double totalSeconds(const OutOfCoreStatistics& statistics)
-{
-  double sum = 0;
-  for (const OutOfCoreStatistics::Phase& phase : statistics.Phases)
-  {
-    sum += phase.Seconds;
-  }
-  return sum;
-}
-
 std::vector<std::int64_t> listOf(
   const std::vector<ProcessUsage>& ranks, std::int64_t ProcessUsage::*value)
 {
@@ -89,7 +79,7 @@ void writeReport(const DelaunayArguments& arguments, const RunStatistics& statis
 
 std::string summarize(const OutOfCoreStatistics& statistics, const std::vector<ProcessUsage>& ranks)
 {
-  const double seconds = totalSeconds(statistics);
+  const double seconds = totalSeconds(statistics.Phases);
   const std::string rejected =
     statistics.Rejected == 0 ? "" : fmt::format(", {} rejected", statistics.Rejected);
   const std::string each = ranks.size() == 1 ? "" : " on a rank at most";
@@ -110,7 +100,7 @@ void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& s
   {
     RunStatistics all = statisticsOf(statistics, isCounted);
     hasConstraints ? constraints.addTo(all) : void();
-    writeReport(arguments, all, totalSeconds(statistics), ranks);
+    writeReport(arguments, all, totalSeconds(statistics.Phases), ranks);
   }
   reportLeftOut(statistics.LeftOut, statistics.ThinnedOut);
   fmt::print("{}{}\n", summarize(statistics, ranks),

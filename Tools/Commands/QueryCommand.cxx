@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
-#include "Console/MpiSession.h"
-#include "Console/Signals.h"
+#include "Console/Process.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputPath.h"
@@ -349,9 +348,7 @@ void addQueryCommand(CLI::App& app, int& exitCode)
       "--memory", arguments->Memory, "For the pieces of a partitioned mesh that stay in memory")
     ->check(checkMemorySize)
     ->capture_default_str();
-  command->add_option("--threads", arguments->Threads, "Number of threads; 0: OpenMP's choice")
-    ->check(CLI::Range(0, 4096))
-    ->capture_default_str();
+  addThreadsOption(*command, arguments->Threads);
   addPointOptions(*command, arguments->Reading);
   command->footer(footer);
   command->callback([arguments, &exitCode]() { exitCode = runQuery(*arguments); });
