@@ -127,6 +127,7 @@ int vtkTIPPDelaunay2D::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPointSet* input = vtkPointSet::GetData(inputVector[0]);
+  vtkPolyData* source = vtkPolyData::GetData(inputVector[1]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
   vtkTable* statistics = vtkTable::GetData(outputVector, 1);
   const tipp::ThreadLimit limit(this->NumberOfThreads);
@@ -138,9 +139,9 @@ int vtkTIPPDelaunay2D::RequestData(
       const bool wantsGhosts =
         outputVector->GetInformationObject(0)->Get(
           vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) > 0;
-      return this->ExecuteOnRanks(input, wantsGhosts, output, statistics) ? 1 : 0;
+      return this->ExecuteOnRanks(input, source, wantsGhosts, output, statistics) ? 1 : 0;
     }
-    return this->Execute(input, vtkPolyData::GetData(inputVector[1]), output, statistics) ? 1 : 0;
+    return this->Execute(input, source, output, statistics) ? 1 : 0;
   }
   catch (const std::bad_alloc&)
   {

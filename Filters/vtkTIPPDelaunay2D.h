@@ -55,7 +55,7 @@
  * "MessageBytes". If any rank fails, all do, and the first one reports the error; also if it is
  * upstream that fails on a rank, unless the application has executives of its own
  * (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView has. Alpha, Tolerance,
- * BoundingTriangulation, a source and the best fitting plane need a single rank.
+ * BoundingTriangulation, the best fitting plane and ConstraintMarks LINES need a single rank.
  *
  * An aborted run leaves both outputs empty. A failed one (out of memory, Transform missing) is
  * reported as an error and leaves them empty too.
@@ -70,7 +70,9 @@
  * its coordinates in the plane are those of the crossing, rounded, and its point data are
  * interpolated along the edge of the lower number; the output's points are doubles then. Tolerance
  * does not go with a source. The statistics have the field data Constraints, ConstraintEdges,
- * CrossingPoints and CrossingRounds.
+ * CrossingPoints and CrossingRounds. On several ranks the sources of all ranks are one; what
+ * several of them have alike counts once. Its ids are global ones of the input's points, or else
+ * these are counted from the first rank on. New points get ids after all others.
  *
  * What differs: Tolerance is 0 by default. A transform set while ProjectionPlaneMode is
  * VTK_BEST_FITTING_PLANE is ignored, not used instead of the plane. VTK_SET_TRANSFORM_PLANE
@@ -92,6 +94,8 @@
 #include "vtkSmartPointer.h"      // For smart pointer
 #include "vtkTIPPFiltersModule.h" // For export macro
 
+#include <memory> // For std::unique_ptr
+
 class vtkAbstractTransform;
 class vtkAlgorithmOutput;
 class vtkMultiProcessController;
@@ -101,9 +105,11 @@ class vtkTable;
 
 namespace tipp
 {
+class Communicator;
 struct ConstrainedTriangulation;
 struct DistributedOptions;
 struct DistributedTriangulation;
+struct RankSource;
 struct SourceConstraints;
 struct Triangulation;
 }
@@ -478,8 +484,10 @@ private:
   void CheckNumbers() const;
   bool Execute(vtkPointSet* input, vtkPolyData* source, vtkPolyData* output, vtkTable* statistics);
   bool HasSeveralRanks() const;
-  bool ExecuteOnRanks(
-    vtkPointSet* input, bool wantsGhosts, vtkPolyData* output, vtkTable* statistics);
+  bool ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, bool wantsGhosts,
+    vtkPolyData* output, vtkTable* statistics);
+  std::unique_ptr<tipp::RankSource> ShareSource(
+    tipp::Communicator& ranks, vtkPointSet* input, vtkPolyData* source);
   tipp::DistributedOptions OptionsForRanks() const;
   const char* WhatNeedsOneRank();
   vtkSmartPointer<vtkPointSet> ReadSource(vtkPointSet* input, vtkPolyData* source,

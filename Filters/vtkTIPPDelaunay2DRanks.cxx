@@ -2,6 +2,7 @@
 // vtkTIPPDelaunay2D on several ranks.
 #include "vtkTIPPDelaunay2D.h"
 
+#include "Constraints/RankSource.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "Distributed/TriangleExchange.h"
 #include "Output/FilterPipeline.h"
@@ -47,12 +48,17 @@ int vtkTIPPDelaunay2D::RequestUpdateExtent(
   {
     return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
   }
-  // Whatever piece is asked for, every rank brings its share of the points.
+  // Whatever piece is asked for, every rank brings its share of the points and of the source.
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  vtkInformation* input = inputVector[0]->GetInformationObject(0);
-  input->Set(Pipeline::UPDATE_PIECE_NUMBER(), this->Controller->GetLocalProcessId());
-  input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), this->Controller->GetNumberOfProcesses());
-  input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    if (vtkInformation* input = inputVector[port]->GetInformationObject(0))
+    {
+      input->Set(Pipeline::UPDATE_PIECE_NUMBER(), this->Controller->GetLocalProcessId());
+      input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), this->Controller->GetNumberOfProcesses());
+      input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    }
+  }
   return 1;
 }
 
@@ -84,18 +90,37 @@ const char* vtkTIPPDelaunay2D::WhatNeedsOneRank()
     : this->Tolerance > 0                                 ? "Tolerance"
     : this->BoundingTriangulation                         ? "BoundingTriangulation"
     : this->GenerateNeighborIds                           ? "GenerateNeighborIds"
-    : this->GetNumberOfInputConnections(1) > 0            ? "a source with constraints"
+    : this->ConstraintMarks == LINES                      ? "ConstraintMarks LINES"
     : this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE ? "the best fitting plane"
                                                           : nullptr;
 }
 
-bool vtkTIPPDelaunay2D::ExecuteOnRanks(
-  vtkPointSet* input, bool wantsGhosts, vtkPolyData* output, vtkTable* statistics)
+/// Null if no rank has a source.
+std::unique_ptr<tipp::RankSource> vtkTIPPDelaunay2D::ShareSource(
+  tipp::Communicator& ranks, vtkPointSet* input, vtkPolyData* source)
+{
+  std::vector<std::int64_t> sources{ source ? 1 : 0 };
+  ranks.sum(sources);
+  if (sources[0] == 0)
+  {
+    return nullptr;
+  }
+  tipp::RankSourceOptions options;
+  options.MergesPoints = this->MergeSourcePoints != 0;
+  options.Crossings = this->SplitCrossings ? tipp::CrossingRule::Split : tipp::CrossingRule::Refuse;
+  options.ToPlane = this->Transform;
+  options.Threads = this->NumberOfThreads;
+  return std::make_unique<tipp::RankSource>(tipp::shareSource(ranks, input, source, options));
+}
+
+bool vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, bool wantsGhosts,
+  vtkPolyData* output, vtkTable* statistics)
 {
   this->NumberOfDuplicatePoints = 0;
   this->NumberOfRejectedPoints = 0;
   tipp::Communicator ranks(this->Controller);
   tipp::DistributedTriangulation mine;
+  std::unique_ptr<tipp::RankSource> shared;
   const auto run = [&]()
   {
     if (const char* what = this->WhatNeedsOneRank())
@@ -111,13 +136,21 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(
     tipp::Monitor monitor(this);
     tipp::DistributedOptions options = this->OptionsForRanks();
     options.Progress = [&monitor](double fraction) { return monitor(fraction); };
-    tipp::checkPoints(input, "the input");
+    tipp::checkPoints(given, "the input");
+    shared = this->ShareSource(ranks, given, source);
+    vtkPointSet* const input = shared ? shared->Input.Get() : given;
     const tipp::PointRows rows(ranks, input);
     const tipp::ProjectedPoints projected(input->GetPoints(), this->Transform);
     tipp::RankPoints points;
-    points.Points = projected.view();
+    points.Points = shared && !shared->Positions.empty()
+      ? tipp::PointsView(&shared->Positions.front().x, shared->Positions.size(), 2)
+      : projected.view();
     rows.describe(points);
     mine = tipp::triangulateDistributed(ranks, points, options);
+    if (shared)
+    {
+      tipp::constrainRanks(ranks, *shared->Segments, options.Threads, mine);
+    }
     // What is collective is done by all ranks or by none, whatever single ones are set to.
     std::vector<std::int64_t> wishes{ ranks.rank() == 0 && this->GatherOnFirstRank, wantsGhosts };
     ranks.sum(wishes);
@@ -130,12 +163,16 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(
     {
       ghosts = std::make_unique<tipp::GhostTriangles>(tipp::fetchGhosts(ranks, mine));
     }
-    tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? ghosts.get() : nullptr, output);
+    const bool marks = shared && this->ConstraintMarks == EDGE_FLAGS;
+    tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? ghosts.get() : nullptr,
+      marks ? shared->Segments.get() : nullptr, output);
     if (this->GenerateRepresentativeIds)
     {
       tipp::addAccounts(mine, output);
     }
-    tipp::fillStatisticsTable(tipp::statisticsOf(mine), statistics);
+    tipp::RunStatistics all = tipp::statisticsOf(mine);
+    shared ? shared->Figures.addTo(all) : void();
+    tipp::fillStatisticsTable(all, statistics);
   };
   try
   {
@@ -162,6 +199,12 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(
     ranks.isFirst() ? tipp::warningsOf(mine) : std::vector<std::string>())
   {
     vtkWarningMacro(<< warning);
+  }
+  if (ranks.isFirst() && shared && shared->Figures.NotFinite > 0)
+  {
+    vtkWarningMacro(
+      << shared->Figures.NotFinite
+      << " edges of the source have an end that is NaN or infinite and are left out.");
   }
   return true;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTIPPOutOfCoreDelaunay2D.h"
 
+#include "Constraints/ConstrainedPoints.h"
 #include "Files/IOError.h"
 #include "Files/OutputPath.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
@@ -40,6 +41,8 @@ vtkTIPPOutOfCoreDelaunay2D::~vtkTIPPOutOfCoreDelaunay2D()
   this->vtkTIPPOutOfCoreDelaunay2D::SetXColumn(nullptr);
   this->vtkTIPPOutOfCoreDelaunay2D::SetYColumn(nullptr);
   this->vtkTIPPOutOfCoreDelaunay2D::SetFileName(nullptr);
+  this->vtkTIPPOutOfCoreDelaunay2D::SetConstraintsFileName(nullptr);
+  this->vtkTIPPOutOfCoreDelaunay2D::SetBoundaryFileName(nullptr);
   this->vtkTIPPOutOfCoreDelaunay2D::SetScratchFolder(nullptr);
   this->vtkTIPPOutOfCoreDelaunay2D::SetController(nullptr);
 }
@@ -82,6 +85,21 @@ const char* vtkTIPPOutOfCoreDelaunay2D::GetInputFileName(int index) const
   return index >= 0 && index < this->GetNumberOfInputFileNames()
     ? this->InputFileNames[std::size_t(index)].c_str()
     : nullptr;
+}
+
+void vtkTIPPOutOfCoreDelaunay2D::AddHole(double x, double y)
+{
+  this->Holes.emplace_back(x, y);
+  this->Modified();
+}
+
+void vtkTIPPOutOfCoreDelaunay2D::ClearHoles()
+{
+  if (!this->Holes.empty())
+  {
+    this->Holes.clear();
+    this->Modified();
+  }
 }
 
 /// Else a pipeline that asks each rank for a piece of its own would run the first rank alone, which
@@ -136,6 +154,12 @@ void vtkTIPPOutOfCoreDelaunay2D::Execute(vtkTable* output)
   tipp::OutOfCoreOptions options = this->Options();
   options.Progress = [&monitor](double fraction) { return monitor(fraction); };
   options.Warn = [this](const std::string& sentence) { vtkWarningMacro(<< sentence); };
+  const auto crossings =
+    this->SplitCrossings ? tipp::CrossingRule::Split : tipp::CrossingRule::Refuse;
+  tipp::ConstrainedInput constraints(
+    { textOf(this->ConstraintsFileName), textOf(this->BoundaryFileName), this->Holes, crossings },
+    this->NumberOfThreads);
+  constraints.describe(options);
   const auto open = [&]
   {
     if (path.empty())
@@ -143,15 +167,20 @@ void vtkTIPPOutOfCoreDelaunay2D::Execute(vtkTable* output)
       throw tipp::IOError("FileName is not set; name the folder to write.");
     }
     tipp::requireApart({ path, tipp::scratchIn(options.Scratch) }, this->InputFileNames);
-    return tipp::openPointStream(
-      this->InputFileNames, { textOf(this->XColumn), textOf(this->YColumn) });
+    return constraints.join(tipp::openPointStream(
+      this->InputFileNames, { textOf(this->XColumn), textOf(this->YColumn) }));
   };
   const tipp::OutOfCoreStatistics statistics =
     tipp::triangulateOutOfCoreOnRanks(ranks, open, path, options);
   if (!statistics.Aborted && ranks.rank() == 0)
   {
     this->Report(statistics);
-    tipp::fillStatisticsTable(tipp::statisticsOf(statistics, options.CountOnly), output);
+    tipp::RunStatistics all = tipp::statisticsOf(statistics, options.CountOnly);
+    if (constraints.figures().Constraints > 0)
+    {
+      constraints.figures().addTo(all);
+    }
+    tipp::fillStatisticsTable(all, output);
   }
 }
 
@@ -165,6 +194,7 @@ tipp::OutOfCoreOptions vtkTIPPOutOfCoreDelaunay2D::Options() const
   options.MaximumEdge = this->MaximumEdgeLength;
   options.MapDuplicates = this->GenerateRepresentativeIds != 0;
   options.Neighbors = this->GenerateNeighborIds != 0;
+  options.MarkConstraints = this->GenerateConstraintEdges != 0;
   options.CountOnly = this->CountOnly != 0;
   options.Resume = this->Resume != 0;
   options.Scratch = textOf(this->ScratchFolder);
@@ -198,6 +228,11 @@ void vtkTIPPOutOfCoreDelaunay2D::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumEdgeLength: " << this->MaximumEdgeLength << "\n";
   os << indent << "GenerateRepresentativeIds: " << onOff(this->GenerateRepresentativeIds);
   os << indent << "GenerateNeighborIds: " << onOff(this->GenerateNeighborIds);
+  print("ConstraintsFileName", this->ConstraintsFileName);
+  print("BoundaryFileName", this->BoundaryFileName);
+  os << indent << "Holes: " << this->Holes.size() << "\n";
+  os << indent << "SplitCrossings: " << onOff(this->SplitCrossings);
+  os << indent << "GenerateConstraintEdges: " << onOff(this->GenerateConstraintEdges);
   os << indent << "CountOnly: " << onOff(this->CountOnly);
   os << indent << "Resume: " << onOff(this->Resume);
   print("ScratchFolder", this->ScratchFolder);

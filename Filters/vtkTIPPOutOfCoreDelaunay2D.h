@@ -23,6 +23,12 @@
  * Documentation/OutOfCore.md tells how it works, what it needs on the disk, and the formats of
  * files.
  *
+ * Constraints come from files, too (ConstraintsFileName, BoundaryFileName, AddHole()): the result
+ * is then the constrained Delaunay triangulation of vtkTIPPDelaunay2D with a source. Points of
+ * these files that the input lacks, and then the points where constraints cross, come after the
+ * input's; of their columns they have z alone. The statistics have Constraints, ConstraintEdges,
+ * CrossingPoints and CrossingRounds then, unless the run was resumed.
+ *
  * The output, also GetStatistics(), is a vtkTable about the run. It has a row for each phase, with
  * the columns Phase (its name) and Seconds (wall-clock), and as field data, one value each, Points,
  * Triangles, DuplicatePoints, RejectedPoints, Pieces, Partitions, WorkerVertices (vertices
@@ -59,8 +65,9 @@
 #include "vtkTIPPFiltersModule.h" // For export macro
 #include "vtkTableAlgorithm.h"
 
-#include <string> // For InputFileNames
-#include <vector> // For InputFileNames
+#include <string>  // For InputFileNames
+#include <utility> // For Holes
+#include <vector>  // For InputFileNames
 
 class vtkMultiProcessController;
 
@@ -158,6 +165,53 @@ public:
 
   ///@{
   /**
+   * A file of constraints: lines, whose edges are chains of edges of the mesh, and polygons, of
+   * which counter-clockwise ones keep their inside and clockwise ones are holes: .poly, .csv, .14,
+   * files of a GIS, or any format that VTK reads. None by default.
+   */
+  vtkSetFilePathMacro(ConstraintsFileName);
+  vtkGetFilePathMacro(ConstraintsFileName);
+  ///@}
+
+  ///@{
+  /**
+   * A file of closed lines, which are constraints: triangles outside of them are removed. None by
+   * default.
+   */
+  vtkSetFilePathMacro(BoundaryFileName);
+  vtkGetFilePathMacro(BoundaryFileName);
+  ///@}
+
+  ///@{
+  /**
+   * Points in holes: triangles that constraints do not part from them are removed.
+   */
+  void AddHole(double x, double y);
+  void ClearHoles();
+  ///@}
+
+  ///@{
+  /**
+   * Whether constraints that cross are split at a new point. Off: it is an error if two cross. On
+   * by default.
+   */
+  vtkSetMacro(SplitCrossings, vtkTypeBool);
+  vtkGetMacro(SplitCrossings, vtkTypeBool);
+  vtkBooleanMacro(SplitCrossings, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the mesh has the cell array "ConstraintEdges": for each corner of a triangle 1 if the
+   * edge opposite to it is one of a constraint, else 0. Off by default.
+   */
+  vtkSetMacro(GenerateConstraintEdges, vtkTypeBool);
+  vtkGetMacro(GenerateConstraintEdges, vtkTypeBool);
+  vtkBooleanMacro(GenerateConstraintEdges, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
    * Whether triangles are counted and summed up (TriangleSum: a checksum of them, whatever their
    * order) instead of written. Off by default.
    */
@@ -223,6 +277,11 @@ protected:
   double MaximumEdgeLength = 0;
   vtkTypeBool GenerateRepresentativeIds = 0;
   vtkTypeBool GenerateNeighborIds = 0;
+  char* ConstraintsFileName = nullptr;
+  char* BoundaryFileName = nullptr;
+  std::vector<std::pair<double, double>> Holes;
+  vtkTypeBool SplitCrossings = 1;
+  vtkTypeBool GenerateConstraintEdges = 0;
   vtkTypeBool CountOnly = 0;
   vtkTypeBool Resume = 0;
   char* ScratchFolder = nullptr;

@@ -2,6 +2,7 @@
 #include "Constraints/ConstrainedPoints.h"
 
 #include "Constraints/ConstraintPoints.h"
+#include "Constraints/KeepInside.h"
 #include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
 
@@ -35,6 +36,7 @@ std::string identityOf(const TableConstraints& constraints)
   {
     addBits(table->XY);
     addBits(table->Height);
+    addBits(table->Holes);
     for (const auto& edge : table->Edges)
     {
       addBits(edge);
@@ -55,101 +57,150 @@ constexpr std::int64_t NotFound = -1;
 /// What the first pass finds: the constraints' vertices among the input's points.
 struct ConstrainedPoints::Matching
 {
-  struct Vertex
-  {
-    Point2 Position;
-    std::int64_t Id; ///< in the stream
-  };
-
   explicit Matching(TableConstraints constraints);
 
-  void take(const PointBlock& block);
-  void setVertex(std::size_t vertex, const PointBlock& block, std::size_t i);
-  std::vector<std::size_t> sorted() const;
-  std::int64_t vertexOfId(std::int64_t id) const
+  std::size_t vertices() const { return this->Ids.size(); }
+  /// Vertices of the tables' own; the others are named by ids of the input.
+  std::size_t own() const { return this->Positions->points().size(); }
+  Point2 position(std::size_t vertex) const
   {
-    const auto found = std::lower_bound(this->Named.begin(), this->Named.end(), id);
-    return std::int64_t(this->Vertices.size() - this->Named.size()) + (found - this->Named.begin());
+    return vertex < this->own() ? this->Positions->points()[vertex]
+                                : this->NamedPositions[vertex - this->own()];
+  }
+  std::size_t vertexOfId(std::int64_t id) const
+  {
+    return this->own() +
+      std::size_t(
+        std::lower_bound(this->Named.begin(), this->Named.end(), id) - this->Named.begin());
   }
 
-  TableConstraints All;
-  std::vector<Vertex> Vertices;    ///< the tables' own, then those that the input's ids name
-  std::vector<std::int64_t> Named; ///< the ids, ascending
-  std::vector<std::array<std::int64_t, 2>> Edges; ///< of all constraints, by vertices
-  std::vector<double> Heights;                    ///< of tables' vertices; NaN: not given
-  std::vector<std::vector<double>> Values;        ///< of each column, of vertices that were found
-  std::vector<std::size_t> Same; ///< at the end, of each vertex: the first at its position
-  std::unique_ptr<PositionIndex> Positions; ///< of the tables' vertices
+  void take(const PointBlock& block, int threads);
+  void setVertex(std::size_t vertex, const PointBlock& block, std::size_t i);
+  std::vector<std::size_t> sorted() const;
+
+  CrossingRule Crossings;
+  std::vector<Point2> Holes;
+  std::size_t PolygonBegin;           ///< edges from here to BoundaryBegin are those of polygons
+  std::size_t BoundaryBegin;          ///< edges from here on are those of the boundary
+  std::vector<std::int64_t> Named;    ///< ids of the input, ascending
+  std::vector<Point2> NamedPositions; ///< of these
+  std::vector<std::int64_t> Ids;      ///< of vertices in the stream
+  std::vector<std::array<std::uint32_t, 2>> Edges; ///< of all constraints, by vertices
+  std::vector<double> Heights;                     ///< of own vertices; NaN: not given
+  std::vector<std::vector<double>> Values;         ///< of each column, of vertices that were found
+  std::vector<std::uint32_t> Same; ///< at the end, of each vertex: the first at its position
+  std::unique_ptr<PositionIndex> Positions; ///< of own vertices
+  HullOfPoints Hull;                        ///< if there are holes
 };
 
+/// Gives the tables' memory back, step by step.
 ConstrainedPoints::Matching::Matching(TableConstraints constraints)
-  : All(std::move(constraints))
+  : Crossings(constraints.Crossings)
+  , Holes(constraints.Lines.holes())
+  , PolygonBegin(constraints.Lines.PolygonBegin)
+  , BoundaryBegin(constraints.Lines.Edges.size())
 {
-  for (const ConstraintTable* const table : { &this->All.Lines, &this->All.Boundary })
+  const std::array<ConstraintTable*, 2> tables{ &constraints.Lines, &constraints.Boundary };
+  std::vector<Point2> positions;
+  std::array<std::size_t, 2> first{}; // vertex of each table
+  for (std::size_t t = 0; t < tables.size(); ++t)
   {
-    if (table->XY.empty())
+    ConstraintTable& table = *tables[t];
+    first[t] = positions.size();
+    for (std::size_t i = 0; 2 * i < table.XY.size(); ++i)
     {
-      for (const auto& edge : table->Edges)
+      positions.push_back({ table.XY[2 * i], table.XY[2 * i + 1] });
+    }
+    table.Height.resize(table.XY.size() / 2, std::nan(""));
+    this->Heights.insert(this->Heights.end(), table.Height.begin(), table.Height.end());
+    for (const auto& edge : table.Edges)
+    {
+      if (table.XY.empty())
       {
         this->Named.insert(this->Named.end(), edge.begin(), edge.end());
       }
     }
-    for (std::size_t i = 0; 2 * i < table->XY.size(); ++i)
-    {
-      this->Vertices.push_back({ { table->XY[2 * i], table->XY[2 * i + 1] }, NotFound });
-      this->Heights.push_back(table->Height.empty() ? std::nan("") : table->Height[i]);
-    }
+    std::vector<double>().swap(table.Height);
   }
-  std::vector<Point2> positions;
-  std::transform(this->Vertices.begin(), this->Vertices.end(), std::back_inserter(positions),
-    [](const Vertex& vertex) { return vertex.Position; });
+  const std::array<bool, 2> isNamed{ tables[0]->XY.empty(), tables[1]->XY.empty() };
+  std::vector<double>().swap(tables[0]->XY);
+  std::vector<double>().swap(tables[1]->XY);
   this->Positions = std::make_unique<PositionIndex>(std::move(positions));
   std::sort(this->Named.begin(), this->Named.end());
   this->Named.erase(std::unique(this->Named.begin(), this->Named.end()), this->Named.end());
-  this->Vertices.resize(
-    this->Vertices.size() + this->Named.size(), { { std::nan(""), std::nan("") }, NotFound });
-  std::int64_t before = 0;
-  for (const ConstraintTable* const table : { &this->All.Lines, &this->All.Boundary })
+  this->NamedPositions.assign(this->Named.size(), { std::nan(""), std::nan("") });
+  this->Ids.assign(this->own() + this->Named.size(), std::int64_t(NotFound));
+  if (this->vertices() > std::size_t(UINT32_MAX))
   {
-    const bool isNamed = table->XY.empty();
-    for (const auto& edge : table->Edges)
+    throw std::length_error("There are too many constraints; give fewer.");
+  }
+  this->Edges.reserve(tables[0]->Edges.size() + tables[1]->Edges.size());
+  for (std::size_t t = 0; t < tables.size(); ++t)
+  {
+    const auto vertexOf = [&](std::int64_t id)
+    { return std::uint32_t(isNamed[t] ? this->vertexOfId(id) : first[t] + std::size_t(id)); };
+    for (const auto& edge : tables[t]->Edges)
     {
-      this->Edges.push_back({ isNamed ? this->vertexOfId(edge[0]) : before + edge[0],
-        isNamed ? this->vertexOfId(edge[1]) : before + edge[1] });
+      this->Edges.push_back({ vertexOf(edge[0]), vertexOf(edge[1]) });
     }
-    before += std::int64_t(table->XY.size() / 2);
+    std::vector<std::array<std::int64_t, 2>>().swap(tables[t]->Edges);
   }
 }
 
 void ConstrainedPoints::Matching::setVertex(
   std::size_t vertex, const PointBlock& block, std::size_t i)
 {
-  this->Vertices[vertex] = { { block.XY[2 * i], block.XY[2 * i + 1] },
-    block.First + std::int64_t(i) };
+  this->Ids[vertex] = block.First + std::int64_t(i);
+  if (vertex >= this->own())
+  {
+    this->NamedPositions[vertex - this->own()] = { block.XY[2 * i], block.XY[2 * i + 1] };
+  }
   this->Values.resize(block.Columns.size());
   for (std::size_t c = 0; c < block.Columns.size(); ++c)
   {
-    this->Values[c].resize(this->Vertices.size(), std::nan(""));
+    this->Values[c].resize(this->vertices(), std::nan(""));
     this->Values[c][vertex] = block.Columns[c][i];
   }
 }
 
-void ConstrainedPoints::Matching::take(const PointBlock& block)
+void ConstrainedPoints::Matching::take(const PointBlock& block, int threads)
 {
-  for (std::size_t i = 0; i < block.size(); ++i)
+  struct Found
   {
-    const std::int64_t found = this->Positions->find({ block.XY[2 * i], block.XY[2 * i + 1] });
-    if (found >= 0 && this->Vertices[std::size_t(found)].Id == NotFound)
+    std::size_t Point;
+    std::size_t Vertex;
+  };
+  constexpr std::int64_t chunk = 8192;
+  const auto count = std::int64_t(block.size());
+  std::vector<std::vector<Found>> found(std::size_t((count + chunk - 1) / chunk));
+  forChunks(count, chunk, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int)
     {
-      this->setVertex(std::size_t(found), block, i);
+      for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
+      {
+        const std::int64_t vertex = this->Positions->find({ block.XY[2 * i], block.XY[2 * i + 1] });
+        if (vertex >= 0)
+        {
+          found[std::size_t(begin / chunk)].push_back({ i, std::size_t(vertex) });
+        }
+      }
+    });
+  for (const std::vector<Found>& part : found)
+  {
+    for (const auto& [point, vertex] : part)
+    {
+      this->Ids[vertex] == NotFound ? this->setVertex(vertex, block, point) : void();
     }
   }
-  const auto end = block.First + std::int64_t(block.size());
+  for (std::size_t i = 0; !this->Holes.empty() && i < block.size(); ++i)
+  {
+    this->Hull.add({ block.XY[2 * i], block.XY[2 * i + 1] });
+  }
+  const auto end = block.First + count;
   for (auto named = std::lower_bound(this->Named.begin(), this->Named.end(), block.First);
        named != this->Named.end() && *named < end; ++named)
   {
-    this->setVertex(
-      std::size_t(this->vertexOfId(*named)), block, std::size_t(*named - block.First));
+    this->setVertex(this->vertexOfId(*named), block, std::size_t(*named - block.First));
   }
 }
 
@@ -160,12 +211,6 @@ ConstrainedPoints::ConstrainedPoints(
   , Threads(threadCount(threads))
   , Own(identityOf(constraints))
 {
-  if (!constraints.Lines.Holes.empty())
-  {
-    throw IOError(this->Name,
-      "has holes given by a point in each, which need all triangles in memory; give the holes as "
-      "clockwise polygons, or an output that is made in memory.");
-  }
   this->Counts.Constraints =
     std::int64_t(constraints.Lines.Edges.size() + constraints.Boundary.Edges.size());
   this->First = std::make_unique<Matching>(std::move(constraints));
@@ -191,7 +236,7 @@ bool ConstrainedPoints::next(PointBlock& block, std::size_t most)
   if (!this->IsInputRead && this->Input->next(block, most))
   {
     this->InputPoints += std::int64_t(block.size());
-    this->First ? this->First->take(block) : void();
+    this->First ? this->First->take(block, this->Threads) : void();
     return true;
   }
   this->IsInputRead = true;
@@ -239,26 +284,27 @@ void ConstrainedPoints::addVertices()
   first.Values.resize(names.size());
   for (std::vector<double>& values : first.Values)
   {
-    values.resize(first.Vertices.size(), std::nan(""));
+    values.resize(first.vertices(), std::nan(""));
   }
-  const std::size_t own = first.Vertices.size() - first.Named.size();
-  for (std::size_t v = 0; v < first.Vertices.size(); ++v)
+  first.Same.reserve(first.vertices());
+  for (std::size_t v = 0; v < first.vertices(); ++v)
   {
-    Matching::Vertex& vertex = first.Vertices[v];
-    const std::int64_t found = v < own ? first.Positions->find(vertex.Position) : NotFound;
-    first.Same.push_back(found == NotFound ? v : std::size_t(found));
-    if (v >= own && vertex.Id == NotFound)
+    const bool isOwn = v < first.own();
+    const std::int64_t found = isOwn ? first.Positions->find(first.position(v)) : NotFound;
+    first.Same.push_back(std::uint32_t(found == NotFound ? v : std::size_t(found)));
+    if (!isOwn && first.Ids[v] == NotFound)
     {
       throw std::invalid_argument("a constraint names point " +
-        std::to_string(first.Named[v - own]) + ", but there are " +
+        std::to_string(first.Named[v - first.own()]) + ", but there are " +
         std::to_string(this->InputPoints) + " points, counted from 0.");
     }
-    if (first.Same[v] != v || vertex.Id != NotFound)
+    if (first.Same[v] != v || first.Ids[v] != NotFound)
     {
       continue;
     }
-    vertex.Id = this->InputPoints + std::int64_t(this->Added.size());
-    this->Added.XY.insert(this->Added.XY.end(), { vertex.Position.x, vertex.Position.y });
+    first.Ids[v] = this->InputPoints + std::int64_t(this->Added.size());
+    const Point2 position = first.position(v);
+    this->Added.XY.insert(this->Added.XY.end(), { position.x, position.y });
     for (std::size_t c = 0; c < names.size(); ++c)
     {
       const double given = isHeightColumn(names[c]) ? first.Heights[v] : std::nan("");
@@ -278,38 +324,39 @@ std::vector<std::size_t> ConstrainedPoints::Matching::sorted() const
     this->Same[v] == v ? order.push_back(v) : void();
   }
   std::sort(order.begin(), order.end(),
-    [&](std::size_t a, std::size_t b) { return this->Vertices[a].Id < this->Vertices[b].Id; });
+    [&](std::size_t a, std::size_t b) { return this->Ids[a] < this->Ids[b]; });
   return order;
 }
 
 /// Splits the constraints where they cross, and appends the crossings. Sets positions to those of
-/// the constraints' vertices, by the ids of the result.
+/// the constraints' vertices, by the ids of the result. What was matched is used up.
 ResolvedConstraints ConstrainedPoints::split(std::vector<Point2>& positions)
 {
   Matching& first = *this->First;
-  const std::vector<std::size_t> order = first.sorted();
   std::vector<PointId> ids;
-  std::vector<PointId> rank(first.Same.size());
+  std::vector<std::uint32_t> rank(first.Same.size());
   std::vector<std::vector<double>> values(first.Values.size());
-  for (const std::size_t v : order)
+  for (const std::size_t v : first.sorted())
   {
-    rank[v] = PointId(positions.size());
-    positions.push_back(first.Vertices[v].Position);
-    ids.push_back(first.Vertices[v].Id);
+    rank[v] = std::uint32_t(positions.size());
+    positions.push_back(first.position(v));
+    ids.push_back(first.Ids[v]);
     for (std::size_t c = 0; c < values.size(); ++c)
     {
       values[c].push_back(first.Values[c][v]);
     }
   }
   std::vector<Constraint> constraints;
+  constraints.reserve(first.Edges.size());
   for (const auto& edge : first.Edges)
   {
-    constraints.push_back(
-      { rank[first.Same[std::size_t(edge[0])]], rank[first.Same[std::size_t(edge[1])]] });
+    constraints.push_back({ rank[first.Same[edge[0]]], rank[first.Same[edge[1]]] });
   }
+  std::vector<std::vector<double>>().swap(first.Values);
+  first.Positions.reset();
   const PointsView view(positions.empty() ? nullptr : &positions.front().x, positions.size(), 2);
   ResolvedConstraints resolved =
-    resolveCrossings(view, constraints, first.All.Crossings, this->Threads, ids);
+    resolveCrossings(view, constraints, first.Crossings, this->Threads, ids);
   for (const CrossingPoint& crossing : resolved.Crossings)
   {
     positions.push_back(crossing.Position);
@@ -329,13 +376,13 @@ void ConstrainedPoints::resolve()
   this->addVertices();
   std::vector<Point2> positions;
   const ResolvedConstraints resolved = this->split(positions);
-  const ConstraintTable& table = this->First->All.Lines;
+  const Matching& first = *this->First;
   for (const ConstraintPiece& piece : resolved.Pieces)
   {
     const auto constraint = std::size_t(piece.Constraint);
-    const SegmentRole role = constraint >= table.Edges.size() ? SegmentRole::Boundary
-      : constraint >= table.PolygonBegin                      ? SegmentRole::Polygon
-                                                              : SegmentRole::Line;
+    const SegmentRole role = constraint >= first.BoundaryBegin ? SegmentRole::Boundary
+      : constraint >= first.PolygonBegin                       ? SegmentRole::Polygon
+                                                               : SegmentRole::Line;
     this->Segments.push_back(
       { positions[std::size_t(piece.A)], positions[std::size_t(piece.B)], role });
   }
@@ -347,13 +394,70 @@ void ConstrainedPoints::resolve()
       "it has polygons, and a point that is NaN or infinite; correct the point.");
   }
   this->Counts.Segments = std::int64_t(this->Segments.size());
+  this->addHoles(positions);
   this->Counts.Crossings = std::int64_t(resolved.Crossings.size());
+  this->Counts.Rounds = resolved.Rounds;
   this->Counts.NotFinite = resolved.NotFinite;
+}
+
+/// Appends the edges around holes. Positions: the constraints' vertices.
+void ConstrainedPoints::addHoles(const std::vector<Point2>& positions)
+{
+  const std::vector<Point2>& seeds = this->First->Holes;
+  if (seeds.empty())
+  {
+    return;
+  }
+  HullOfPoints& hull = this->First->Hull;
+  std::for_each(positions.begin(), positions.end(), [&hull](Point2 p) { hull.add(p); });
+  std::vector<PositionPair> segments;
+  for (const ConstraintSegment& segment : this->Segments)
+  {
+    segments.push_back({ segment.A, segment.B });
+  }
+  for (const auto& [a, b] : edgesAroundHoles(hull.corners(), segments, seeds, this->Threads))
+  {
+    this->Segments.push_back({ a, b, SegmentRole::Hole });
+  }
 }
 
 std::vector<ConstraintSegment> ConstrainedPoints::takeSegments()
 {
   return std::move(this->Segments);
+}
+
+void ConstrainedPoints::Figures::addTo(RunStatistics& statistics) const
+{
+  statistics.add("constraints", "Constraints", this->Constraints);
+  statistics.add("constraint_edges", "ConstraintEdges", this->Segments);
+  statistics.add("crossing_points", "CrossingPoints", this->Crossings);
+  statistics.add("crossing_rounds", "CrossingRounds", this->Rounds);
+}
+
+void ConstrainedInput::describe(OutOfCoreOptions& options)
+{
+  if (this->Files.areGiven())
+  {
+    options.Constraints = [this] { return this->Joined->takeSegments(); };
+  }
+  else if (!this->Files.Holes.empty() || options.MarkConstraints)
+  {
+    throw IOError("Holes and marks of constraints need a file of constraints or of a boundary; "
+                  "name one.");
+  }
+}
+
+std::unique_ptr<PointStream> ConstrainedInput::join(std::unique_ptr<PointStream> points)
+{
+  if (!this->Files.areGiven())
+  {
+    return points;
+  }
+  auto joined = std::make_unique<ConstrainedPoints>(
+    std::move(points), readConstraints(this->Files), this->Files.name(), this->Threads);
+  joined->setReport(this->Counts);
+  this->Joined = joined.get();
+  return joined;
 }
 
 } // namespace tipp

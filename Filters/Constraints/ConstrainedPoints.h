@@ -4,6 +4,7 @@
 
 #include "Constraints/ConstraintSegments.h"
 #include "Constraints/TableConstraints.h"
+#include "Output/RunStatistics.h"
 #include "Points/PointStream.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -26,7 +27,7 @@ std::string identityOf(const TableConstraints& constraints);
 class VTKTIPPFILTERS_EXPORT ConstrainedPoints : public PointStream
 {
 public:
-  /// `name`: of the constraints' file, for messages. Throws IOError for holes, and later for all
+  /// `name`: of the constraints' file, for messages. Throws IOError, in the first pass, for all
   /// that triangulateTable() refuses.
   ConstrainedPoints(std::unique_ptr<PointStream> points, TableConstraints constraints,
     std::string name, int threads);
@@ -46,19 +47,23 @@ public:
   /// as TableConstraints::Surface tells. For each column the values at the points of both tables.
   void setSurface(std::vector<std::vector<double>> values) { this->Surface = std::move(values); }
 
-  /// After the first pass: the constraints, split where they cross. Gives them away.
+  /// After the first pass: the constraints, split where they cross, and edges around holes. Gives
+  /// them away.
   std::vector<ConstraintSegment> takeSegments();
 
   /// After the first pass: the points after the input's.
   const PointBlock& added() const { return this->Added; }
 
   /// The number of constraints, and of edges and crossings after the first pass.
-  struct Figures
+  struct VTKTIPPFILTERS_EXPORT Figures
   {
     std::int64_t Constraints = 0;
     std::int64_t Segments = 0;
     std::int64_t Crossings = 0;
+    int Rounds = 0;             ///< of splitting crossings
     std::int64_t NotFinite = 0; ///< constraints left out
+
+    void addTo(RunStatistics& statistics) const;
   };
   /// Copies the figures there after the first pass; `figures` must outlive this.
   void setReport(Figures& figures) { this->Report = &figures; }
@@ -68,6 +73,7 @@ private:
   void addVertices();
   ResolvedConstraints split(std::vector<Point2>& positions);
   void resolve();
+  void addHoles(const std::vector<Point2>& positions);
   bool nextAdded(PointBlock& block, std::size_t most);
 
   const std::unique_ptr<PointStream> Input;
@@ -83,6 +89,33 @@ private:
   bool IsInputRead = false;     ///< in this pass
   PointBlock Added;             ///< the points after the input's
   std::size_t NextAdded = 0;
+};
+
+/// The constraints of files, for a triangulation out of core: to be joined with its points.
+class VTKTIPPFILTERS_EXPORT ConstrainedInput
+{
+public:
+  ConstrainedInput(ConstraintFiles files, int threads)
+    : Files(std::move(files))
+    , Threads(threads)
+  {
+  }
+
+  /// The points, with those of the constraints if there are files. Throws IOError.
+  std::unique_ptr<PointStream> join(std::unique_ptr<PointStream> points);
+
+  /// Sets OutOfCoreOptions::Constraints of a run that opens its points by join(). Throws IOError
+  /// for holes, or marks of constraints, without constraints.
+  void describe(OutOfCoreOptions& options);
+
+  /// After the first pass over the points; all 0 if a run was resumed.
+  const ConstrainedPoints::Figures& figures() const { return this->Counts; }
+
+private:
+  const ConstraintFiles Files;
+  const int Threads;
+  ConstrainedPoints* Joined = nullptr; ///< the last one
+  ConstrainedPoints::Figures Counts;
 };
 
 } // namespace tipp

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -28,12 +29,21 @@ struct ConstraintPiece
   std::int64_t Constraint; ///< its number
 };
 
+/// Thrown where pieces turn out to cross, which must not be where they were split at crossings.
+struct CrossingFound : std::logic_error
+{
+  CrossingFound()
+    : std::logic_error("A constraint crosses another one.")
+  {
+  }
+};
+
 /// Those of constraints begin to end - 1.
 VTKTIPPFILTERS_EXPORT std::vector<ConstraintPiece> piecesOf(
   const std::vector<ConstraintPiece>& pieces, std::size_t begin, std::size_t end);
 
 /// The edges of constraints, to be looked up.
-class ConstraintEdges
+class VTKTIPPFILTERS_EXPORT ConstraintEdges
 {
 public:
   explicit ConstraintEdges(const std::vector<ConstraintPiece>& pieces);

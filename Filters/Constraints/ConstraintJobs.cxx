@@ -241,6 +241,10 @@ private:
     const PointId b = *beyond;
     const PointId right = one[(far - one + 1) % 3];
     const PointId left = one[(far - one + 2) % 3];
+    if (this->Known.contains(left, right))
+    {
+      throw CrossingFound();
+    }
     const auto [low, high] =
       std::minmax({ fromLowest({ a, right, b }), fromLowest({ a, b, left }) });
     this->store(both[0], low);

@@ -5,6 +5,7 @@
 #include "Constraints/Constraint.h"
 #include "Constraints/CrossedTriangles.h"
 #include "Triangulation/PointsView.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,16 +22,18 @@ struct SplitPieces
 };
 
 /// Touches: sorted by piece. Pieces are moved into the result.
-SplitPieces splitPieces(PointsView points, std::vector<ConstraintPiece>& pieces,
-  const std::vector<CrossedTriangles::Touch>& touches);
+VTKTIPPFILTERS_EXPORT SplitPieces splitPieces(PointsView points,
+  std::vector<ConstraintPiece>& pieces, const std::vector<CrossedTriangles::Touch>& touches);
 
 /// For each triangle of `crossed` its job: pieces that cross the same triangle form one job with
 /// the triangles that they cross. Jobs are numbered by their first piece, of `pieces`.
-std::vector<std::int64_t> jobsOfTriangles(const CrossedTriangles& crossed, std::size_t pieces);
+VTKTIPPFILTERS_EXPORT std::vector<std::int64_t> jobsOfTriangles(
+  const CrossedTriangles& crossed, std::size_t pieces);
 
 /// Retriangulates all jobs, which do not depend on each other. The new triangles of a job take the
 /// positions of the old ones in `triangles`, both in their order, so that the result is the same
 /// for any number of threads. `known` are constraints that may be edges between a job's triangles.
+/// Throws CrossingFound.
 template <typename Id>
 void retriangulateJobs(PointsView points, Id* triangles, const CrossedTriangles& crossed,
   std::size_t pieces, const SplitPieces& split, const ConstraintEdges& known, int threads);

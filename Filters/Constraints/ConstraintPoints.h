@@ -25,6 +25,8 @@ class PositionIndex
 public:
   explicit PositionIndex(std::vector<Point2> points);
 
+  const std::vector<Point2>& points() const { return this->Points; }
+
   /// The first point with these coordinates; -1: none. NaN and infinity are not found.
   std::int64_t find(Point2 position) const;
 

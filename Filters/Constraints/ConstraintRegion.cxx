@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/ConstraintRegion.h"
 
+#include "Constraints/Constraint.h"
 #include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
@@ -188,9 +189,13 @@ void ConstraintRegion::insertAcross(Index a, Index b, Index first)
   {
     const Index crossed = this->Crossed.back();
     const Index half = this->twin(crossed);
-    if (half < 0 || this->isFixed(crossed))
+    if (this->isFixed(crossed))
     {
-      throw std::logic_error("A constraint leaves its region or crosses another one.");
+      throw CrossingFound();
+    }
+    if (half < 0)
+    {
+      throw std::logic_error("A constraint leaves its region.");
     }
     const Index apex = this->from(previous(half));
     if (apex == b)

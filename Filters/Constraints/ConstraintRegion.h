@@ -78,8 +78,13 @@ private:
   friend class SegmentInserter<ConstraintRegion>;
   static Index half(Index triangle, Index corner) { return 3 * triangle + corner; }
   static Index triangleOf(Index h) { return h / 3; }
-  bool isFixed(Index h) const { return this->Fixed[std::size_t(h)] != 0; }
-  void setFixed(Index h, bool isFixed) { this->Fixed[std::size_t(h)] = isFixed ? 1 : 0; }
+  bool isFixed(Index h) const { return (this->Fixed[std::size_t(h)] & FixedBit) != 0; }
+  void setFixed(Index h, bool isFixed) { this->Fixed[std::size_t(h)] = isFixed ? FixedBit : 0; }
+  void markRemoved(Index triangle) { this->Fixed[std::size_t(3 * triangle)] |= RemovedBit; }
+  bool isRemoved(Index triangle) const
+  {
+    return (this->Fixed[std::size_t(3 * triangle)] & RemovedBit) != 0;
+  }
   void setCorners(Index triangle, const std::array<Index, 3>& corners);
   bool mustFlip(Index half) const;
   ///@}
@@ -91,10 +96,13 @@ private:
   Index sweep(Index first, Index b, bool& isEdge) const;
   void insertAcross(Index a, Index b, Index first);
 
-  std::vector<Vertex> Vertices;    ///< by id
-  std::vector<Index> Corners;      ///< their vertices
-  std::vector<Index> Twins;        ///< of half-edges: the half-edge on the other side, or ~(border)
-  std::vector<char> Fixed;         ///< of half-edges: an inserted segment
+  std::vector<Vertex> Vertices; ///< by id
+  std::vector<Index> Corners;   ///< their vertices
+  std::vector<Index> Twins;     ///< of half-edges: the half-edge on the other side, or ~(border)
+  static constexpr char FixedBit = 1;
+  static constexpr char RemovedBit = 2; ///< of a triangle's first half-edge
+
+  std::vector<char> Fixed;         ///< of half-edges: whether a segment is inserted there
   std::vector<BorderEdge> Borders; ///< by From
   std::vector<Index> Out;          ///< of vertices: a half-edge from there
   std::vector<PointId> AddedIds;   ///< of corners, before finish()

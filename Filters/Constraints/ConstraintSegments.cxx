@@ -4,7 +4,6 @@
 #include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -13,24 +12,21 @@ namespace tipp
 namespace
 {
 
-/// All segments as a tree; Ids are their indices in `segments`.
-SegmentTree treeOf(const std::vector<ConstraintSegment>& segments)
+/// The segments that lie round holes, or the others, as a tree; Ids are their indices in
+/// `segments`.
+SegmentTree treeOf(const std::vector<ConstraintSegment>& segments, bool areHoles)
 {
   std::vector<SegmentTree::Item> items;
   items.reserve(segments.size());
-  for (const ConstraintSegment& segment : segments)
+  for (std::size_t i = 0; i < segments.size(); ++i)
   {
-    items.push_back({ segment.A, segment.B, std::int64_t(items.size()) });
+    const ConstraintSegment& segment = segments[i];
+    if ((segment.Role == SegmentRole::Hole) == areHoles)
+    {
+      items.push_back({ segment.A, segment.B, std::int64_t(i) });
+    }
   }
   return SegmentTree(std::move(items));
-}
-
-SegmentTree treeOf(const std::vector<ConstraintSegment>& segments, SegmentRole role)
-{
-  std::vector<ConstraintSegment> some;
-  std::copy_if(segments.begin(), segments.end(), std::back_inserter(some),
-    [role](const ConstraintSegment& segment) { return segment.Role == role; });
-  return treeOf(some);
 }
 
 /// A corner of a triangle, and the others.
@@ -51,9 +47,9 @@ Wedge lowestWedge(const std::array<Point2, 3>& triangle)
   return { triangle[low], triangle[(low + 1) % 3], triangle[(low + 2) % 3] };
 }
 
-/// Calls visit(sign) for each segment of a tree that a ray upward crosses: 1 if the segment goes to
-/// the left there, else -1. The ray begins inside of the wedge, so near its corner that only
-/// segments through the corner have to be told apart by it; none goes into the wedge.
+/// Calls visit(item, sign) for each segment of a tree that a ray upward crosses: 1 if the segment
+/// goes to the left there, else -1. The ray begins inside of the wedge, so near its corner that
+/// only segments through the corner have to be told apart by it; none goes into the wedge.
 template <typename Visit>
 void visitAbove(const SegmentTree& tree, const Wedge& wedge, const Visit& visit)
 {
@@ -77,79 +73,97 @@ void visitAbove(const SegmentTree& tree, const Wedge& wedge, const Visit& visit)
       }
       if (side < 0)
       {
-        visit(goesLeft ? 1 : -1);
+        visit(item, goesLeft ? 1 : -1);
       }
       return true;
     });
 }
 
-int windingOf(const SegmentTree& polygons, const Wedge& wedge)
+/// How often the segments of a tree that are taken go round a wedge counter-clockwise.
+template <typename IsTaken>
+int windingOf(const SegmentTree& tree, const Wedge& wedge, const IsTaken& isTaken)
 {
   int winding = 0;
-  visitAbove(polygons, wedge, [&winding](int sign) { winding += sign; });
+  visitAbove(tree, wedge,
+    [&](const SegmentTree::Item& item, int sign) { winding += isTaken(item) ? sign : 0; });
   return winding;
 }
 
-/// How much more often polygons go round the left side of an edge than its right side, if the edge
+/// How many more of them go round the left side of an edge than round its right side, if the edge
 /// goes from its lexicographically lower end, `low`, to `high`.
-int windingAcross(const SegmentTree& polygons, Point2 low, Point2 high)
+template <typename IsTaken>
+int windingAcross(const SegmentTree& tree, Point2 low, Point2 high, const IsTaken& isTaken)
 {
   int sum = 0;
-  polygons.visitNear(boxOf(low, low),
+  tree.visitNear(boxOf(low, low),
     [&](const SegmentTree::Item& item)
     {
       const bool isAscending = lexicographicLess(item.A, item.B);
       const Point2 from = isAscending ? item.A : item.B;
       const Point2 to = isAscending ? item.B : item.A;
-      const bool isSame = !lexicographicLess(low, from) && lexicographicLess(low, to) &&
-        orientation(from, to, low) == 0 && orientation(from, to, high) == 0;
+      const bool isSame = isTaken(item) && !lexicographicLess(low, from) &&
+        lexicographicLess(low, to) && orientation(from, to, low) == 0 &&
+        orientation(from, to, high) == 0;
       sum += !isSame ? 0 : isAscending ? 1 : -1;
       return true;
     });
   return sum;
 }
 
-/// Whether polygons go round anything counter-clockwise: then also on one side of an edge.
-bool haveInside(const SegmentTree& polygons)
-{
-  return std::any_of(polygons.items().begin(), polygons.items().end(),
-    [&](const SegmentTree::Item& item)
-    {
-      const auto [low, high] = std::minmax(item.A, item.B, isLower);
-      // Above the edge, or on the right of a vertical one.
-      const int winding = windingOf(polygons, Wedge{ low, high, high });
-      const int across = windingAcross(polygons, low, high);
-      return winding > 0 || winding + (low.x == high.x ? across : -across) > 0;
-    });
-}
+const auto isAny = [](const SegmentTree::Item&) { return true; };
 
 } // namespace
 
 ConstraintSegments::ConstraintSegments(const std::vector<ConstraintSegment>& segments)
-  : All(treeOf(segments))
-  , Polygons(treeOf(segments, SegmentRole::Polygon))
-  , Boundary(treeOf(segments, SegmentRole::Boundary))
-  , OnlyHoles(!haveInside(this->Polygons))
+  : All(treeOf(segments, false))
+  , Holes(treeOf(segments, true))
 {
   // Items are named by their position, which is the same wherever the tree is made.
-  std::vector<SegmentTree::Item> items = this->All.items();
-  this->Roles.reserve(items.size());
-  for (std::size_t i = 0; i < items.size(); ++i)
+  for (const std::int64_t segment : this->All.nameByPosition())
   {
-    this->Roles.push_back(std::uint8_t(segments[std::size_t(items[i].Id)].Role));
-    items[i].Id = std::int64_t(i);
+    this->Roles.push_back(std::uint8_t(segments[std::size_t(segment)].Role));
   }
-  this->All = SegmentTree(std::move(items)); // in the same order
+  this->HasPolygons = this->has(SegmentRole::Polygon);
+  this->HasBoundary = this->has(SegmentRole::Boundary);
+  this->OnlyHoles = !this->haveInside();
+}
+
+bool ConstraintSegments::has(SegmentRole role) const
+{
+  return std::find(this->Roles.begin(), this->Roles.end(), std::uint8_t(role)) != this->Roles.end();
+}
+
+/// Whether polygons go round anything counter-clockwise: then also on one side of an edge.
+bool ConstraintSegments::haveInside() const
+{
+  const auto isPolygon = [this](const SegmentTree::Item& item)
+  { return this->roleOf(item) == SegmentRole::Polygon; };
+  return std::any_of(this->All.items().begin(), this->All.items().end(),
+    [&](const SegmentTree::Item& item)
+    {
+      if (!isPolygon(item))
+      {
+        return false;
+      }
+      const auto [low, high] = std::minmax(item.A, item.B, isLower);
+      // Above the edge, or on the right of a vertical one.
+      const int winding = windingOf(this->All, Wedge{ low, high, high }, isPolygon);
+      const int across = windingAcross(this->All, low, high, isPolygon);
+      return winding > 0 || winding + (low.x == high.x ? across : -across) > 0;
+    });
 }
 
 std::vector<ConstraintSegment> ConstraintSegments::list() const
 {
   std::vector<ConstraintSegment> segments;
-  segments.reserve(this->Roles.size());
+  segments.reserve(this->Roles.size() + this->Holes.items().size());
   for (const SegmentTree::Item& item : this->All.items())
   {
-    segments.push_back(
-      { item.A, item.B, static_cast<SegmentRole>(this->Roles[std::size_t(item.Id)]) });
+    segments.push_back({ item.A, item.B, this->roleOf(item) });
+  }
+  for (const SegmentTree::Item& item : this->Holes.items())
+  {
+    segments.push_back({ item.A, item.B, SegmentRole::Hole });
   }
   return segments;
 }
@@ -157,32 +171,40 @@ std::vector<ConstraintSegment> ConstraintSegments::list() const
 bool ConstraintSegments::isUncut(const Box2& box) const
 {
   bool isUncut = true;
-  for (const SegmentTree* const tree : { &this->Polygons, &this->Boundary })
+  const auto look = [&](const SegmentTree& tree, const auto& isTaken)
   {
-    tree->visitNear(box,
+    tree.visitNear(box,
       [&](const SegmentTree::Item& item)
       {
-        isUncut = isUncut && !lineMayMeet(item.A, item.B, box);
+        isUncut = isUncut && !(isTaken(item) && lineMayMeet(item.A, item.B, box));
         return isUncut;
       });
-  }
+  };
+  look(this->All,
+    [this](const SegmentTree::Item& item) { return this->roleOf(item) != SegmentRole::Line; });
+  look(this->Holes, isAny);
   return isUncut;
 }
 
 bool ConstraintSegments::keeps(const std::array<Point2, 3>& triangle) const
 {
   const Wedge wedge = lowestWedge(triangle);
-  if (this->Boundary.groups() > 0)
+  int holes = 0;
+  visitAbove(this->Holes, wedge, [&](const SegmentTree::Item&, int) { ++holes; });
+  int boundary = 0;
+  int winding = 0;
+  if (this->HasPolygons || this->HasBoundary)
   {
-    int crossed = 0;
-    visitAbove(this->Boundary, wedge, [&crossed](int) { ++crossed; });
-    if (crossed % 2 == 0)
-    {
-      return false;
-    }
+    visitAbove(this->All, wedge,
+      [&](const SegmentTree::Item& item, int sign)
+      {
+        const SegmentRole role = this->roleOf(item);
+        boundary += role == SegmentRole::Boundary ? 1 : 0;
+        winding += role == SegmentRole::Polygon ? sign : 0;
+      });
   }
-  return this->Polygons.groups() == 0 ||
-    windingOf(this->Polygons, wedge) >= (this->OnlyHoles ? 0 : 1);
+  return holes % 2 == 0 && (!this->HasBoundary || boundary % 2 != 0) &&
+    (!this->HasPolygons || winding >= (this->OnlyHoles ? 0 : 1));
 }
 
 } // namespace tipp

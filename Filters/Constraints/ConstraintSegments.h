@@ -18,8 +18,9 @@ namespace tipp
 enum class SegmentRole : std::int64_t
 {
   Line,
-  Polygon, ///< see InsideRule::Winding
-  Boundary ///< see InsideRule::EvenOdd
+  Polygon,  ///< see Cuts::Polygons
+  Boundary, ///< see Cuts::Boundary
+  Hole      ///< no constraint: an odd number of these goes round triangles that are removed
 };
 
 /// A segment that has to be an edge of the triangulation, or a chain of edges. Its ends are
@@ -38,36 +39,44 @@ class VTKTIPPFILTERS_EXPORT ConstraintSegments
 public:
   explicit ConstraintSegments(const std::vector<ConstraintSegment>& segments);
 
-  /// All segments again, in the order of the tree.
+  /// All segments again, in the order of the trees.
   std::vector<ConstraintSegment> list() const;
 
   /// What `segments` take in memory.
   static std::uint64_t bytesFor(std::size_t segments) { return 56 * std::uint64_t(segments); }
 
-  /// The segments by where they lie. An item's Id is its index among the items.
+  /// The constraints by where they lie. An item's Id is its index among the items.
   const SegmentTree& tree() const { return this->All; }
   const SegmentTree::Item& at(std::int64_t segment) const
   {
     return this->All.items()[std::size_t(segment)];
   }
 
-  /// Whether polygons or a boundary tell which triangles are kept.
-  bool cuts() const { return this->Polygons.groups() > 0 || this->Boundary.groups() > 0; }
+  /// Whether polygons, a boundary or holes tell which triangles are kept.
+  bool cuts() const { return this->HasPolygons || this->HasBoundary || this->Holes.groups() > 0; }
 
-  /// Whether no edge of a polygon or boundary may meet the box: then all triangles in it are kept,
-  /// or none is.
+  /// Whether no edge of a polygon, boundary or hole may meet the box: then all triangles in it are
+  /// kept, or none is.
   bool isUncut(const Box2& box) const;
 
-  /// Whether polygons and boundary keep the triangle, which is counter-clockwise and crosses no
-  /// edge of theirs. Exact.
+  /// Whether polygons, boundary and holes keep the triangle, which is counter-clockwise and crosses
+  /// no edge of theirs. Exact.
   bool keeps(const std::array<Point2, 3>& triangle) const;
 
 private:
+  SegmentRole roleOf(const SegmentTree::Item& item) const
+  {
+    return static_cast<SegmentRole>(this->Roles[std::size_t(item.Id)]);
+  }
+  bool has(SegmentRole role) const;
+  bool haveInside() const;
+
   SegmentTree All;
   std::vector<std::uint8_t> Roles; ///< of the items of All
-  SegmentTree Polygons;
-  SegmentTree Boundary;
-  bool OnlyHoles; ///< no polygon goes round anything counter-clockwise
+  SegmentTree Holes;
+  bool HasPolygons = false;
+  bool HasBoundary = false;
+  bool OnlyHoles = false; ///< no polygon goes round anything counter-clockwise
 };
 
 } // namespace tipp

@@ -364,10 +364,11 @@ void retriangulate(CrossedPart& part, const ConstraintSegments& segments, int th
   }
 }
 
-void markEdges(PointsView points, const ConstraintSegments& segments, const std::int32_t* corners,
+template <typename Id>
+void markEdges(PointsView points, const ConstraintSegments& segments, const Id* corners,
   std::size_t triangles, std::uint8_t* marks)
 {
-  using Scan = TriangleScan<std::int32_t>;
+  using Scan = TriangleScan<Id>;
   Scan scan(points, segments.tree(), Scan::NotedEdges::OfAll);
   ScannedTriangles found;
   for (std::size_t begin = 0; begin < triangles; begin += Scan::MostTriangles)
@@ -419,6 +420,10 @@ template std::size_t takeCrossed(
   PointsView, const ConstraintSegments&, std::int64_t, std::int32_t*, std::size_t, CrossedPart&);
 template std::size_t takeCrossed(
   PointsView, const ConstraintSegments&, std::int64_t, std::int64_t*, std::size_t, CrossedPart&);
+template void markEdges(
+  PointsView, const ConstraintSegments&, const std::int32_t*, std::size_t, std::uint8_t*);
+template void markEdges(
+  PointsView, const ConstraintSegments&, const std::int64_t*, std::size_t, std::uint8_t*);
 template std::size_t cutTriangles(
   PointsView, const ConstraintSegments&, std::int32_t*, std::size_t);
 template std::size_t cutTriangles(

@@ -73,13 +73,13 @@ VTKTIPPFILTERS_EXPORT void append(CrossedPart&& from, CrossedPart& to);
 /// `part`. Corners are indices of points; the number of a vertex is its index plus `first`. Returns
 /// the number of triangles that are left.
 template <typename Id>
-std::size_t takeCrossed(PointsView points, const ConstraintSegments& segments, std::int64_t first,
-  Id* corners, std::size_t triangles, CrossedPart& part);
+VTKTIPPFILTERS_EXPORT std::size_t takeCrossed(PointsView points, const ConstraintSegments& segments,
+  std::int64_t first, Id* corners, std::size_t triangles, CrossedPart& part);
 
 /// Removes the triangles of jobs with segments that are not complete, and returns them. isInner():
 /// whether all triangles at a vertex are in the part.
-CrossedPart splitIncomplete(CrossedPart& part, const ConstraintSegments& segments,
-  const std::function<bool(std::int64_t)>& isInner);
+VTKTIPPFILTERS_EXPORT CrossedPart splitIncomplete(CrossedPart& part,
+  const ConstraintSegments& segments, const std::function<bool(std::int64_t)>& isInner);
 
 /// Replaces the triangles of whole jobs by those of the constrained triangulation, their lowest
 /// corners first.
@@ -88,8 +88,9 @@ VTKTIPPFILTERS_EXPORT void retriangulate(
 
 /// Sets marks[c] for each corner c of the constrained triangles to 1 if the edge opposite to it
 /// lies on a segment, else to 0.
-void markEdges(PointsView points, const ConstraintSegments& segments, const std::int32_t* corners,
-  std::size_t triangles, std::uint8_t* marks);
+template <typename Id>
+VTKTIPPFILTERS_EXPORT void markEdges(PointsView points, const ConstraintSegments& segments,
+  const Id* corners, std::size_t triangles, std::uint8_t* marks);
 
 /// Removes the triangles that polygons and boundary do not keep; returns the number of the others.
 template <typename Id>

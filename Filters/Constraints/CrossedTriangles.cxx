@@ -21,40 +21,55 @@ struct TriangleRange
   PartitionIndex Partition; ///< whose interior triangles they are, or -1
 };
 
-/// The triangles in ranges of a few, without blocks that only known pieces are near, or none.
+/// The triangles in ranges of a few, without ranges of blocks that only known pieces are near, or
+/// none.
 std::vector<TriangleRange> makeRanges(std::size_t triangles,
   const std::vector<TriangleBlock>& blocks, const SegmentTree& tree,
   const PartitionConstraints& inserted)
 {
   constexpr std::size_t most = TriangleScan<std::int32_t>::MostTriangles;
+  constexpr std::size_t each = PartitionConstraints::RangeTriangles;
+  static_assert(each <= most, "a range is scanned at once");
   std::vector<TriangleRange> ranges;
-  const auto append = [&ranges](std::size_t begin, std::size_t end, PartitionIndex partition)
+  const auto appendOthers = [&ranges](std::size_t begin, std::size_t end)
   {
+    constexpr PartitionIndex none = -1;
     for (std::size_t i = begin; i < end; i += most)
     {
-      ranges.push_back({ i, std::min(i + most, end), partition });
+      ranges.push_back({ i, std::min(i + most, end), none });
     }
   };
-  constexpr PartitionIndex none = -1;
+  const auto isNear = [&](const Box2& box, PartitionIndex partition)
+  {
+    bool isNear = false;
+    tree.visitNear(box,
+      [&](const SegmentTree::Item& item)
+      {
+        isNear = !inserted.isKnown(item.Id, partition) && lineMayMeet(item.A, item.B, box);
+        return !isNear;
+      });
+    return isNear;
+  };
   std::size_t done = 0;
   for (const TriangleBlock& block : blocks)
   {
-    append(done, block.Begin, none);
-    bool isNear = false;
-    tree.visitNear(block.Box,
-      [&](const SegmentTree::Item& item)
-      {
-        isNear =
-          !inserted.isKnown(item.Id, block.Partition) && lineMayMeet(item.A, item.B, block.Box);
-        return !isNear;
-      });
-    if (isNear)
+    appendOthers(done, block.Begin);
+    if (isNear(block.Box, block.Partition))
     {
-      append(block.Begin, block.End, block.Partition);
+      std::size_t begin = block.Begin;
+      for (const Box2& box : inserted.rangesOf(block.Partition))
+      {
+        const std::size_t end = std::min(begin + each, block.End);
+        if (begin < end && isNear(box, block.Partition))
+        {
+          ranges.push_back({ begin, end, block.Partition });
+        }
+        begin = end;
+      }
     }
     done = block.End;
   }
-  append(done, triangles, none);
+  appendOthers(done, triangles);
   return ranges;
 }
 

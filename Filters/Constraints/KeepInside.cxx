@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/KeepInside.h"
 
-#include "Constraints/Constraint.h"
+#include "Constraints/TriangulateConstrained.h"
 #include "Meshes/MeshFiles.h"
 #include "Predicates/ExactPredicates.h"
 #include "Triangulation/TriangleSink.h"
@@ -31,37 +31,43 @@ std::vector<std::int64_t> neighborsOf(const Buffer<Id>& ids)
   return neighbors;
 }
 
-/// How often the polygons go round each triangle: counter-clockwise ones count 1, others -1. By the
-/// other rule all count 1, so that odd numbers are inside.
+/// The ends of the edge opposite to a corner, with the triangle on their left.
 template <typename Id>
-std::vector<int> windings(const Buffer<Id>& ids, const ConstraintEdges& edges, InsideRule rule)
+std::array<PointId, 2> edgeOpposite(const Buffer<Id>& ids, std::size_t corner)
 {
-  const auto crossed = [&](PointId a, PointId b)
-  { return rule == InsideRule::Winding ? edges.balance(a, b) : edges.count(a, b); };
-  const std::vector<std::int64_t> neighbors = neighborsOf(ids);
-  const auto from = [&](std::size_t corner) { return PointId(ids[corner]); };
+  const std::size_t first = corner / 3 * 3;
+  return { PointId(ids[first + (corner + 1) % 3]), PointId(ids[first + (corner + 2) % 3]) };
+}
+
+/// Of each triangle the sum of crossed(a, b) over the edges, with the triangle on their left, that
+/// a way from outside into it crosses. The triangles are those of a convex hull.
+template <typename Id, typename Crossed>
+std::vector<int> sumsFromOutside(
+  const Buffer<Id>& ids, const std::vector<std::int64_t>& neighbors, const Crossed& crossed)
+{
   std::vector<int> result(ids.size() / 3, 0);
   std::vector<char> isKnown(result.size(), 0);
   std::vector<std::size_t> front;
-  const auto enter = [&](std::size_t triangle, int winding)
+  const auto enter = [&](std::size_t triangle, int sum)
   {
     if (!isKnown[triangle])
     {
       isKnown[triangle] = 1;
-      result[triangle] = winding;
+      result[triangle] = sum;
       front.push_back(triangle);
     }
   };
-  // The edge opposite to a corner goes from the next corner to the one after.
-  const auto nextCorner = [](std::size_t c) { return c % 3 == 2 ? c - 2 : c + 1; };
-  for (std::size_t c = 0; c < ids.size(); ++c)
+  const auto across = [&](std::size_t corner)
   {
-    if (neighbors[c] < 0)
-    {
-      const std::size_t a = nextCorner(c);
-      enter(c / 3, crossed(from(a), from(nextCorner(a))));
-      break; // all others are reached from there
-    }
+    const auto [a, b] = edgeOpposite(ids, corner);
+    return crossed(a, b);
+  };
+  const auto hull = std::find_if(
+    neighbors.begin(), neighbors.end(), [](std::int64_t neighbor) { return neighbor < 0; });
+  if (hull != neighbors.end()) // all others are reached from there
+  {
+    const auto corner = std::size_t(hull - neighbors.begin());
+    enter(corner / 3, across(corner));
   }
   while (!front.empty())
   {
@@ -71,35 +77,18 @@ std::vector<int> windings(const Buffer<Id>& ids, const ConstraintEdges& edges, I
     {
       if (neighbors[c] >= 0)
       {
-        const std::size_t a = nextCorner(c);
-        enter(std::size_t(neighbors[c]), result[triangle] - crossed(from(a), from(nextCorner(a))));
+        enter(std::size_t(neighbors[c]), result[triangle] - across(c));
       }
     }
   }
   return result;
 }
 
-template <typename Id>
-void keepWound(Buffer<Id>& ids, const std::vector<ConstraintPiece>& polygonEdges, InsideRule rule)
+/// Calls visit(t) for the triangles that hold the point, also those whose border it is on.
+template <typename Id, typename Visit>
+void visitHolders(PointsView points, const Buffer<Id>& ids, Point2 p, const Visit& visit)
 {
-  const std::vector<int> windings = tipp::windings(ids, ConstraintEdges(polygonEdges), rule);
-  if (rule == InsideRule::EvenOdd)
-  {
-    keepTriangles(ids, [&](std::size_t t) { return windings[t] % 2 != 0; });
-    return;
-  }
-  const bool onlyHoles =
-    std::none_of(windings.begin(), windings.end(), [](int winding) { return winding > 0; });
-  const int least = onlyHoles ? 0 : 1;
-  keepTriangles(ids, [&](std::size_t t) { return windings[t] >= least; });
-}
-
-/// A triangle that holds the point, or their number.
-template <typename Id>
-std::size_t findTriangle(PointsView points, const Buffer<Id>& ids, Point2 p)
-{
-  const std::size_t triangles = ids.size() / 3;
-  for (std::size_t t = 0; t < triangles; ++t)
+  for (std::size_t t = 0; t < ids.size() / 3; ++t)
   {
     const Point2 a = points[std::size_t(ids[3 * t])];
     const Point2 b = points[std::size_t(ids[3 * t + 1])];
@@ -109,66 +98,213 @@ std::size_t findTriangle(PointsView points, const Buffer<Id>& ids, Point2 p)
     if (isInBox && orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 &&
       orientation(c, a, p) >= 0)
     {
-      return t;
+      visit(t);
     }
   }
-  return triangles;
 }
 
+/// Of each triangle: whether it can be reached from a seed without crossing a constraint.
 template <typename Id>
-void removeFrom(PointsView points, Buffer<Id>& ids, const std::vector<ConstraintPiece>& pieces,
+std::vector<char> reachedFrom(PointsView points, const Buffer<Id>& ids,
+  const std::vector<std::int64_t>& neighbors, const std::vector<ConstraintPiece>& pieces,
   const std::vector<Point2>& seeds)
 {
   const ConstraintEdges edges(pieces);
-  const std::vector<std::int64_t> neighbors = neighborsOf(ids);
-  std::vector<char> isRemoved(ids.size() / 3, 0);
+  std::vector<char> isReached(ids.size() / 3, 0);
+  std::vector<std::size_t> front;
+  const auto enter = [&](std::size_t triangle)
+  {
+    isReached[triangle] ? void() : front.push_back(triangle);
+    isReached[triangle] = 1;
+  };
   for (const Point2& seed : seeds)
   {
-    const std::size_t first = findTriangle(points, ids, seed);
-    if (first == isRemoved.size())
+    bool isInside = false;
+    visitHolders(points, ids, seed,
+      [&](std::size_t t)
+      {
+        isInside = true;
+        enter(t);
+      });
+    if (!isInside)
     {
       std::ostringstream text;
       text << "the hole at (" << seed.x << ", " << seed.y << ") is in no triangle.";
       throw std::invalid_argument(text.str());
     }
-    std::vector<std::size_t> front{ first };
-    isRemoved[first] = 1;
-    while (!front.empty())
+  }
+  while (!front.empty())
+  {
+    const std::size_t triangle = front.back();
+    front.pop_back();
+    for (std::size_t c = 3 * triangle; c < 3 * triangle + 3; ++c)
     {
-      const std::size_t triangle = front.back();
-      front.pop_back();
-      for (std::size_t i = 0; i < 3; ++i)
+      const auto [a, b] = edgeOpposite(ids, c);
+      if (neighbors[c] >= 0 && !edges.contains(a, b))
       {
-        const auto next = neighbors[3 * triangle + i];
-        const PointId a = PointId(ids[3 * triangle + (i + 1) % 3]);
-        const PointId b = PointId(ids[3 * triangle + (i + 2) % 3]);
-        if (next >= 0 && !isRemoved[std::size_t(next)] && !edges.contains(a, b))
-        {
-          isRemoved[std::size_t(next)] = 1;
-          front.push_back(std::size_t(next));
-        }
+        enter(std::size_t(neighbors[c]));
       }
     }
+  }
+  return isReached;
+}
+
+template <typename Id>
+void keepInside(
+  PointsView points, Buffer<Id>& ids, const std::vector<ConstraintPiece>& edges, const Cuts& cuts)
+{
+  // All is found before a triangle is removed, for then ways from outside would end.
+  const std::vector<std::int64_t> neighbors = neighborsOf(ids);
+  std::vector<char> isRemoved(ids.size() / 3, 0);
+  if (!cuts.Holes.empty())
+  {
+    isRemoved = reachedFrom(points, ids, neighbors, edges, cuts.Holes);
+  }
+  const auto removeLess = [&](const std::vector<int>& sums, int least)
+  {
+    for (std::size_t t = 0; t < sums.size(); ++t)
+    {
+      isRemoved[t] = char(isRemoved[t] || sums[t] < least);
+    }
+  };
+  if (!cuts.Boundary.empty())
+  {
+    const ConstraintEdges boundary(cuts.Boundary);
+    std::vector<int> sums =
+      sumsFromOutside(ids, neighbors, [&](PointId a, PointId b) { return boundary.count(a, b); });
+    std::transform(sums.begin(), sums.end(), sums.begin(), [](int sum) { return sum & 1; });
+    removeLess(sums, 1);
+  }
+  if (!cuts.Polygons.empty())
+  {
+    const ConstraintEdges polygons(cuts.Polygons);
+    const std::vector<int> windings =
+      sumsFromOutside(ids, neighbors, [&](PointId a, PointId b) { return polygons.balance(a, b); });
+    const bool onlyHoles =
+      std::none_of(windings.begin(), windings.end(), [](int winding) { return winding > 0; });
+    removeLess(windings, onlyHoles ? 0 : 1);
   }
   keepTriangles(ids, [&](std::size_t t) { return !isRemoved[t]; });
 }
 
+template <typename Id>
+std::vector<PositionPair> edgesAround(PointsView points, const Buffer<Id>& ids,
+  const std::vector<ConstraintPiece>& pieces, const std::vector<Point2>& seeds)
+{
+  const std::vector<std::int64_t> neighbors = neighborsOf(ids);
+  const std::vector<char> isRemoved = reachedFrom(points, ids, neighbors, pieces, seeds);
+  std::vector<PositionPair> edges;
+  for (std::size_t c = 0; c < ids.size(); ++c)
+  {
+    if (isRemoved[c / 3] && (neighbors[c] < 0 || !isRemoved[std::size_t(neighbors[c])]))
+    {
+      const auto [a, b] = edgeOpposite(ids, c);
+      edges.push_back({ points[std::size_t(a)], points[std::size_t(b)] });
+    }
+  }
+  return edges;
+}
+
 } // namespace
 
-void keepInside(
-  Triangulation& triangulation, const std::vector<ConstraintPiece>& polygonEdges, InsideRule rule)
+void keepInside(PointsView points, Triangulation& triangulation,
+  const std::vector<ConstraintPiece>& edges, const Cuts& cuts)
 {
-  triangulation.Ids64.empty() ? keepWound(triangulation.Ids32, polygonEdges, rule)
-                              : keepWound(triangulation.Ids64, polygonEdges, rule);
+  if (cuts.Polygons.empty() && cuts.Boundary.empty() && cuts.Holes.empty())
+  {
+    return;
+  }
+  triangulation.Ids64.empty() ? keepInside(points, triangulation.Ids32, edges, cuts)
+                              : keepInside(points, triangulation.Ids64, edges, cuts);
   triangulation.Blocks.clear();
 }
 
-void removeHoles(PointsView points, Triangulation& triangulation,
-  const std::vector<ConstraintPiece>& edges, const std::vector<Point2>& seeds)
+std::vector<PositionPair> edgesAroundHoles(const std::vector<Point2>& hull,
+  const std::vector<PositionPair>& segments, const std::vector<Point2>& seeds, int threads)
 {
-  triangulation.Ids64.empty() ? removeFrom(points, triangulation.Ids32, edges, seeds)
-                              : removeFrom(points, triangulation.Ids64, edges, seeds);
-  triangulation.Blocks.clear();
+  // What can be reached depends on constraints and the hull alone, so their points are enough.
+  std::vector<Point2> points = hull;
+  std::vector<Constraint> constraints;
+  for (const auto& [a, b] : segments)
+  {
+    constraints.push_back({ PointId(points.size()), PointId(points.size() + 1) });
+    points.insert(points.end(), { a, b });
+  }
+  const PointsView view(points.empty() ? nullptr : &points.front().x, points.size(), 2);
+  TriangulationOptions options;
+  options.Threads = threads;
+  const ConstrainedTriangulation all =
+    triangulateConstrained(view, constraints, CrossingRule::Refuse, options);
+  return all.Mesh.Ids64.empty() ? edgesAround(view, all.Mesh.Ids32, all.Constraints.Pieces, seeds)
+                                : edgesAround(view, all.Mesh.Ids64, all.Constraints.Pieces, seeds);
+}
+
+void HullOfPoints::add(Point2 p)
+{
+  if (isFinite(p) && !this->isInside(p))
+  {
+    this->Points.push_back(p);
+    if (this->Points.size() >= this->Most)
+    {
+      this->reduce();
+      this->Most = std::max(this->Most, 2 * this->Points.size());
+    }
+  }
+}
+
+std::vector<Point2> HullOfPoints::corners()
+{
+  this->reduce();
+  return this->Points;
+}
+
+bool HullOfPoints::isInside(Point2 p) const
+{
+  const std::size_t corners = this->Inner.size();
+  for (std::size_t i = 0; i < corners; ++i)
+  {
+    if (orientation(this->Inner[i], this->Inner[i + 1 < corners ? i + 1 : 0], p) <= 0)
+    {
+      return false;
+    }
+  }
+  return corners > 2;
+}
+
+/// Andrew's monotone chain.
+void HullOfPoints::reduce()
+{
+  std::vector<Point2>& points = this->Points;
+  std::sort(
+    points.begin(), points.end(), [](Point2 a, Point2 b) { return lexicographicLess(a, b); });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  std::vector<Point2> hull;
+  const auto extend = [&hull](std::size_t fixed, Point2 p)
+  {
+    while (hull.size() > fixed && orientation(hull[hull.size() - 2], hull.back(), p) <= 0)
+    {
+      hull.pop_back();
+    }
+    hull.push_back(p);
+  };
+  std::for_each(points.begin(), points.end(), [&](Point2 p) { extend(1, p); });
+  const std::size_t upper = hull.size();
+  if (points.size() > 1)
+  {
+    std::for_each(points.rbegin() + 1, points.rend(), [&](Point2 p) { extend(upper, p); });
+    hull.pop_back(); // the first again
+  }
+  points = std::move(hull);
+  constexpr std::size_t few = 8;
+  this->Inner.clear();
+  for (std::size_t i = 0; i < few && points.size() > 2; ++i)
+  {
+    const Point2 corner = points[points.size() * i / few];
+    if (this->Inner.empty() || !(this->Inner.back() == corner))
+    {
+      this->Inner.push_back(corner);
+    }
+  }
 }
 
 } // namespace tipp

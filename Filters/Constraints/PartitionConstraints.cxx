@@ -3,8 +3,10 @@
 
 #include "Constraints/SegmentInserter.h"
 #include "Kernel/DelaunayKernel.h"
+#include "Kernel/Lanes.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tipp
 {
@@ -14,11 +16,6 @@ namespace
 using Index = DelaunayKernel::Index;
 
 constexpr Index NoVertex = -1;
-
-std::size_t bitsIn(std::uint64_t word)
-{
-  return std::size_t(__builtin_popcountll(word));
-}
 
 /// A part of a piece, from a vertex to the next one on it, in a kernel's mesh.
 struct Walk
@@ -126,6 +123,10 @@ private:
       {
         return; // it ends in this triangle, where a vertex of another partition will be
       }
+      if (this->Mesh.isFixed(crossed))
+      {
+        throw CrossingFound();
+      }
       this->Crossed.push_back(crossed);
       const Index half = this->Mesh.twin(crossed);
       const Index apex = this->Mesh.apex(half);
@@ -157,51 +158,6 @@ private:
 
 } // namespace
 
-PieceEnds::PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pieces)
-  : Words(points / 64 + 1)
-{
-  const auto mark = [this](PointId id)
-  { this->Words[std::size_t(id) / 64].Bits |= std::uint64_t(1) << (std::size_t(id) % 64); };
-  for (const ConstraintPiece& piece : pieces)
-  {
-    mark(piece.A);
-    mark(piece.B);
-  }
-  std::size_t ends = 0;
-  for (Word& word : this->Words)
-  {
-    word.Before = ends;
-    ends += bitsIn(word.Bits);
-  }
-  // A counting sort: in the end each Start is where the next one's was at first.
-  this->Starts.assign(ends + 2, 0);
-  for (const ConstraintPiece& piece : pieces)
-  {
-    ++this->Starts[this->rank(piece.A) + 2];
-    ++this->Starts[this->rank(piece.B) + 2];
-  }
-  for (std::size_t i = 2; i < this->Starts.size(); ++i)
-  {
-    this->Starts[i] += this->Starts[i - 1];
-  }
-  this->Entries.resize(2 * pieces.size());
-  for (std::size_t p = 0; p < pieces.size(); ++p)
-  {
-    for (const std::size_t end : { std::size_t(0), std::size_t(1) })
-    {
-      std::int64_t& next = this->Starts[this->rank(end == 0 ? pieces[p].A : pieces[p].B) + 1];
-      this->Entries[std::size_t(next++)] = std::int64_t(2 * p + end);
-    }
-  }
-}
-
-std::size_t PieceEnds::rank(PointId id) const
-{
-  const Word& word = this->Words[std::size_t(id) / 64];
-  const std::uint64_t below = (std::uint64_t(1) << (std::size_t(id) % 64)) - 1;
-  return word.Before + bitsIn(word.Bits & below);
-}
-
 /// One thread's.
 class PartitionConstraints::Editor : public PartitionEditor
 {
@@ -221,13 +177,19 @@ private:
   void editAny(const Partition<Id>& partition)
   {
     this->collect(partition);
-    if (this->EndVertices.empty())
+    this->IsBoundary = partition.IsBoundary;
+    if (!this->EndVertices.empty())
     {
-      return;
+      this->insertAll(partition);
     }
+    this->publish(partition.Number, this->findRanges(partition.Kernel));
+  }
+
+  template <typename Id>
+  void insertAll(const Partition<Id>& partition)
+  {
     this->Mesh.begin(partition.Kernel);
     this->placeEnds(partition.Number);
-    this->IsBoundary = partition.IsBoundary;
     const auto idOf = [&](Index v) { return PointId(partition.Ids[v]); };
     // First all that can be inserted, for this changes what the others cross.
     std::size_t left = 0;
@@ -248,28 +210,78 @@ private:
       }
     }
     this->Entries.resize(left);
-    this->Noted.clear();
     for (const std::int64_t entry : this->Entries)
     {
       this->follow(entry, partition.Number, false, idOf);
     }
-    this->publish(partition.Number);
   }
 
-  /// Ends of pieces among the vertices.
+  /// See rangesOf().
+  std::vector<Box2> findRanges(const DelaunayKernel& kernel) const
+  {
+    std::vector<Box2> ranges;
+    const double scale = 1 / this->Factor; // a power of two
+    Pair low{};
+    Pair high{};
+    std::size_t count = 0;
+    const auto end = [&]()
+    {
+      ranges.push_back({ low[0] * scale, low[1] * scale, high[0] * scale, high[1] * scale });
+      count = 0;
+    };
+    kernel.forEachTriangle(
+      [&](Index t)
+      {
+        if (!this->isInterior(t))
+        {
+          return;
+        }
+        for (const Index v : kernel.corners(t))
+        {
+          const Point2 p = kernel.point(v);
+          const Pair xy = pairAt(&p.x);
+          low = count == 0 ? xy : lower(low, xy);
+          high = count == 0 ? xy : higher(high, xy);
+          count += count == 0 ? 1 : 0;
+        }
+        if (++count > RangeTriangles)
+        {
+          end();
+        }
+      });
+    count > 0 ? end() : void();
+    return ranges;
+  }
+
+  /// Ends of pieces among the vertices. What is known of points and pieces lies anywhere in memory,
+  /// so it is asked for early.
   template <typename Id>
   void collect(const Partition<Id>& partition)
   {
-    this->EndVertices.clear();
+    const PieceEnds& ends = this->Of.EndPoints;
+    constexpr Index ahead = 16;
+    this->Found.clear();
     const Index end = partition.Kernel.vertexEnd();
     for (Index v = 1; v < end; ++v)
     {
       const PointId id = partition.Ids[v];
-      if (id >= 0 && this->Of.EndPoints.has(id))
+      const PointId later = partition.Ids[std::min(v + ahead, end - 1)];
+      ends.expect(later);
+      if (id >= 0 && ends.has(id))
       {
-        this->Of.EndPoints.visit(
-          id, [this, v](std::int64_t entry) { this->EndVertices.emplace_back(entry, v); });
+        this->Found.push_back({ ends.rank(id), v });
+        ends.expectEntries(this->Found.back().Rank);
       }
+    }
+    this->EndVertices.clear();
+    for (const auto& [rank, v] : this->Found)
+    {
+      ends.visit(rank,
+        [this, v = v](std::int64_t entry)
+        {
+          this->EndVertices.emplace_back(entry, v);
+          __builtin_prefetch(&this->Of.EndsOf[std::size_t(entry / 2)], 1);
+        });
     }
   }
 
@@ -383,7 +395,7 @@ private:
     return false;
   }
 
-  void publish(PartitionIndex partition)
+  void publish(PartitionIndex partition, std::vector<Box2> ranges)
   {
     std::sort(this->Noted.begin(), this->Noted.end());
     std::size_t at = 0;
@@ -401,7 +413,9 @@ private:
     this->Of.Crossings.insert(
       this->Of.Crossings.end(), this->Crossings.begin(), this->Crossings.end());
     this->Of.Touches.insert(this->Of.Touches.end(), this->Touches.begin(), this->Touches.end());
+    this->Of.Ranges[partition] = std::move(ranges);
     this->Touches.clear();
+    this->Noted.clear();
   }
 
   PartitionConstraints& Of;
@@ -410,6 +424,12 @@ private:
   Walker Finder;
   SegmentInserter<MeshEditor> Inserter;
   const char* IsBoundary = nullptr;
+  struct FoundEnd
+  {
+    std::size_t Rank;
+    Index Vertex;
+  };
+  std::vector<FoundEnd> Found; ///< points that are ends
   std::vector<std::pair<std::int64_t, Index>> EndVertices;
   std::vector<std::int64_t> Entries; ///< of pieces with an end here: as PieceEnds has them
   std::vector<std::pair<std::size_t, std::int64_t>> Noted; ///< crossed triangles, by number
@@ -418,10 +438,10 @@ private:
 };
 
 PartitionConstraints::PartitionConstraints(
-  PointsView points, const std::vector<ConstraintPiece>& pieces)
+  PointsView points, const std::vector<ConstraintPiece>& pieces, int threads)
   : Points(points)
   , Pieces(pieces)
-  , EndPoints(points.size(), pieces)
+  , EndPoints(points.size(), pieces, threads)
   , EndsOf(pieces.size())
   , Done(pieces.size(), 0)
 {

@@ -4,6 +4,7 @@
 
 #include "Constraints/Constraint.h"
 #include "Constraints/CrossedTriangles.h"
+#include "Constraints/PieceEnds.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Worker.h"
 
@@ -12,59 +13,23 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <unordered_map>
 #include <vector>
 
 namespace tipp
 {
-
-/// The points that are ends of pieces, by id, and the pieces that end at each.
-class PieceEnds
-{
-public:
-  PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pieces);
-
-  bool has(PointId id) const
-  {
-    return (this->Words[std::size_t(id) / 64].Bits >> (std::size_t(id) % 64) & 1) != 0;
-  }
-
-  /// Calls visit(entry) for each piece that ends at the point: twice the piece's number for its end
-  /// A, and one more for its end B.
-  template <typename Visit>
-  void visit(PointId id, const Visit& visit) const
-  {
-    const std::size_t rank = this->rank(id);
-    for (std::int64_t i = this->Starts[rank]; i < this->Starts[rank + 1]; ++i)
-    {
-      visit(this->Entries[std::size_t(i)]);
-    }
-  }
-
-private:
-  struct Word
-  {
-    std::uint64_t Bits = 0;
-    std::uint64_t Before = 0; ///< bits of the words before
-  };
-
-  /// The position of an id, which must be an end, among all ends.
-  std::size_t rank(PointId id) const;
-
-  std::vector<Word> Words;
-  std::vector<std::int64_t> Starts; ///< by rank, and the end
-  std::vector<std::int64_t> Entries;
-};
 
 /// Inserts pieces of constraints while the points are triangulated. If a partition contains both
 /// ends of a piece, and all triangles that the piece crosses are interior, it is inserted into the
 /// partition's mesh, which is in the processor's cache and has neighbours. Interior triangles are
 /// final, and different partitions have no triangle in common, so the result is the same as if the
 /// pieces were inserted afterwards. Other pieces are left for later, and the interior triangles
-/// that they cross are recorded.
+/// that they cross are recorded. An editor throws CrossingFound where pieces cross; of two pieces
+/// that cross, either an editor or a job of retriangulateJobs() finds the other's edge in its way.
 class PartitionConstraints
 {
 public:
-  PartitionConstraints(PointsView points, const std::vector<ConstraintPiece>& pieces);
+  PartitionConstraints(PointsView points, const std::vector<ConstraintPiece>& pieces, int threads);
 
   /// Makes a thread's editor. The kernel's coordinates have been multiplied by `factor`.
   std::unique_ptr<PartitionEditor> makeEditor(double factor);
@@ -77,6 +42,14 @@ public:
   {
     const Ends& ends = this->EndsOf[std::size_t(piece)];
     return partition >= 0 && (ends.Partition[0] == partition || ends.Partition[1] == partition);
+  }
+
+  static constexpr std::size_t RangeTriangles = 512;
+  /// The bounding boxes of a partition's interior triangles, RangeTriangles at a time; the last
+  /// range may have fewer.
+  const std::vector<Box2>& rangesOf(PartitionIndex partition) const
+  {
+    return this->Ranges.at(partition);
   }
 
   struct Crossing
@@ -108,6 +81,7 @@ private:
   std::mutex Mutex;
   std::vector<Crossing> Crossings;
   std::vector<CrossedTriangles::Touch> Touches;
+  std::unordered_map<PartitionIndex, std::vector<Box2>> Ranges;
 };
 
 } // namespace tipp

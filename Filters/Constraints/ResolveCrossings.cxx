@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -22,23 +23,27 @@ namespace
 /// Two pieces that cross; the lower number first.
 using Crossing = std::array<std::int64_t, 2>;
 
-/// Tells segments that are short beside the box of all.
-auto isShortAmong(const std::vector<SegmentTree::Item>& all)
+/// Tells segments that are short beside a box.
+class IsShortIn
 {
-  Box2 box{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
-  for (const SegmentTree::Item& item : all)
+public:
+  explicit IsShortIn(const Box2& box)
+    : Width(part * (box.xmax / 2 - box.xmin / 2)) // halves, for a difference overflows
+    , Height(part * (box.ymax / 2 - box.ymin / 2))
   {
-    box = unionOf(box, boxOf(item.A, item.B));
   }
-  constexpr double part = 1.0 / 64;
-  const double width = part * (box.xmax / 2 - box.xmin / 2); // halves, for a difference overflows
-  const double height = part * (box.ymax / 2 - box.ymin / 2);
-  return [width, height](const SegmentTree::Item& item)
+
+  bool operator()(const SegmentTree::Item& item) const
   {
-    return std::fabs(item.B.x / 2 - item.A.x / 2) <= width &&
-      std::fabs(item.B.y / 2 - item.A.y / 2) <= height;
-  };
-}
+    return std::fabs(item.B.x / 2 - item.A.x / 2) <= this->Width &&
+      std::fabs(item.B.y / 2 - item.A.y / 2) <= this->Height;
+  }
+
+private:
+  static constexpr double part = 1.0 / 64;
+  double Width;
+  double Height;
+};
 
 class Resolver
 {
@@ -47,30 +52,50 @@ public:
     PointsView points, ResolvedConstraints& result, int threads, const std::vector<PointId>& names)
     : Points(points)
     , Result(result)
-    , Threads(threads)
+    , Threads(threadCount(threads))
     , Names(names)
   {
   }
 
   void addPieces(const std::vector<Constraint>& constraints)
   {
+    enum : char
+    {
+      Whole,
+      NotFinite,
+      ZeroLength
+    };
+    std::vector<char> kinds(constraints.size());
+    const Point2* const all = this->Points.contiguous();
+    const auto expect = [&](PointId id) // points lie anywhere in memory
+    {
+      if (all && std::size_t(id) < this->Points.size())
+      {
+        __builtin_prefetch(&all[id]);
+      }
+    };
+    constexpr std::size_t ahead = 32;
+    forChunks(std::int64_t(constraints.size()), SegmentTree::Chunk, this->Threads, {},
+      [&](std::int64_t begin, std::int64_t end, int)
+      {
+        for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
+        {
+          const Constraint& later = constraints[std::min(i + ahead, constraints.size() - 1)];
+          expect(later.A);
+          expect(later.B);
+          const Point2 a = this->checkedPoint(constraints[i].A, i);
+          const Point2 b = this->checkedPoint(constraints[i].B, i);
+          kinds[i] = !isFinite(a) || !isFinite(b) ? NotFinite : a == b ? ZeroLength : Whole;
+        }
+      });
+    this->Result.NotFinite = std::count(kinds.begin(), kinds.end(), char(NotFinite));
+    this->Result.ZeroLength = std::count(kinds.begin(), kinds.end(), char(ZeroLength));
     this->Result.Pieces.reserve(constraints.size());
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      const Constraint& constraint = constraints[i];
-      const Point2 a = this->checkedPoint(constraint.A, i);
-      const Point2 b = this->checkedPoint(constraint.B, i);
-      if (!isFinite(a) || !isFinite(b))
+      if (kinds[i] == Whole)
       {
-        ++this->Result.NotFinite;
-      }
-      else if (a == b)
-      {
-        ++this->Result.ZeroLength;
-      }
-      else
-      {
-        this->Result.Pieces.push_back({ constraint.A, constraint.B, std::int64_t(i) });
+        this->Result.Pieces.push_back({ constraints[i].A, constraints[i].B, std::int64_t(i) });
       }
     }
   }
@@ -108,21 +133,37 @@ private:
                                    : this->Result.Crossings[std::size_t(id) - input].Position;
   }
 
+  /// All pieces, and in `box` what holds them.
+  std::vector<SegmentTree::Item> makeItems(Box2& box) const
+  {
+    const std::vector<ConstraintPiece>& pieces = this->Result.Pieces;
+    std::vector<SegmentTree::Item> all(pieces.size());
+    std::vector<Box2> boxes(std::size_t(this->Threads), box);
+    forChunks(std::int64_t(all.size()), SegmentTree::Chunk, this->Threads, {},
+      [&](std::int64_t begin, std::int64_t end, int thread)
+      {
+        Box2 its = box;
+        for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
+        {
+          all[i] = { this->at(pieces[i].A), this->at(pieces[i].B), std::int64_t(i) };
+          its = unionOf(its, boxOf(all[i].A, all[i].B));
+        }
+        boxes[std::size_t(thread)] = unionOf(boxes[std::size_t(thread)], its);
+      });
+    box = std::accumulate(boxes.begin(), boxes.end(), box, unionOf);
+    return all;
+  }
+
   /// Sorted. Short pieces are compared group by group, the few long ones with all others one by
   /// one, since a group with a long piece would be near everything.
   std::vector<Crossing> findCrossings() const
   {
-    const std::vector<ConstraintPiece>& pieces = this->Result.Pieces;
-    std::vector<SegmentTree::Item> all;
-    all.reserve(pieces.size());
-    for (const ConstraintPiece& piece : pieces)
-    {
-      all.push_back({ this->at(piece.A), this->at(piece.B), std::int64_t(all.size()) });
-    }
-    const auto firstLong = std::stable_partition(all.begin(), all.end(), isShortAmong(all));
-    const SegmentTree longOnes(std::vector<SegmentTree::Item>(firstLong, all.end()));
+    Box2 box{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+    std::vector<SegmentTree::Item> all = this->makeItems(box);
+    const auto firstLong = std::stable_partition(all.begin(), all.end(), IsShortIn(box));
+    const SegmentTree longOnes(std::vector<SegmentTree::Item>(firstLong, all.end()), this->Threads);
     all.erase(firstLong, all.end());
-    const SegmentTree shortOnes(std::move(all));
+    const SegmentTree shortOnes(std::move(all), this->Threads);
     const auto groups = std::int64_t(shortOnes.groups());
     std::vector<std::vector<Crossing>> found(std::size_t(this->Threads));
     constexpr std::int64_t chunk = 128;
@@ -376,6 +417,14 @@ private:
 };
 
 } // namespace
+
+ResolvedConstraints takeConstraints(
+  PointsView points, const std::vector<Constraint>& constraints, int threads)
+{
+  ResolvedConstraints result;
+  Resolver(points, result, threads, {}).addPieces(constraints);
+  return result;
+}
 
 ResolvedConstraints resolveCrossings(PointsView points, const std::vector<Constraint>& constraints,
   CrossingRule rule, int threads, const std::vector<PointId>& names)

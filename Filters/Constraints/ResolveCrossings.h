@@ -56,6 +56,11 @@ struct ResolvedConstraints
 /// magnitude. So after ten rounds units are those of the largest end, and twice as large in each
 /// further round. When they are larger than all coordinates, crossings only combine coordinates
 /// that are there: few rounds are left.
+/// The constraints without those of length zero and those with ends that are not finite; they may
+/// cross. Throws as resolveCrossings() for an id that no point has.
+ResolvedConstraints takeConstraints(
+  PointsView points, const std::vector<Constraint>& constraints, int threads);
+
 VTKTIPPFILTERS_EXPORT ResolvedConstraints resolveCrossings(PointsView points,
   const std::vector<Constraint>& constraints, CrossingRule rule, int threads,
   const std::vector<PointId>& names = {});

@@ -25,7 +25,8 @@ namespace tipp
 ///
 /// `Mesh` has counter-clockwise triangles and the half-edge half(triangle, i) from corner i to the
 /// next; next(), previous(), from(), to(), twin() and triangleOf() of half-edges;
-/// setCorners(triangle, corners), which removes the triangle's connections; join(half, other) for
+/// setCorners(triangle, corners), which removes the triangle's connections, and its mark of
+/// markRemoved(triangle), which isRemoved(triangle) tells; join(half, other) for
 /// twins; isFixed(half) and setFixed(half, fixed) for one side of an edge; turn(a, b, c) of
 /// vertices; and mustFlip(half), false for edges that are fixed or have one triangle.
 template <typename Mesh>
@@ -71,31 +72,37 @@ private:
   }
 
   /// What the segment leaves on its two sides.
-  void makeChains(const Mesh& mesh, Index a, const std::vector<Index>& crossed)
+  void makeChains(Mesh& mesh, Index a, const std::vector<Index>& crossed)
   {
-    this->Removed.assign(1, mesh.triangleOf(crossed.front()));
-    // From a to b.
-    this->Left.assign(1, makeLink(mesh, mesh.to(crossed.front()), mesh.next(crossed.front())));
-    // From b to a, in reverse order; each link's To is the vertex that it comes from.
-    this->Right.assign(
-      1, makeLink(mesh, mesh.from(crossed.front()), mesh.previous(crossed.front())));
+    const Index first = crossed.front();
+    this->Removed.resize(crossed.size() + 1);
+    this->Left.resize(crossed.size() + 1);
+    this->Right.resize(crossed.size() + 1);
+    Link* left = this->Left.data(); // from a to b
+    Link* right =
+      this->Right.data(); // from b to a, in reverse order; To is where a link comes from
+    this->Removed[0] = mesh.triangleOf(first);
+    *left++ = makeLink(mesh, mesh.to(first), mesh.next(first));
+    *right++ = makeLink(mesh, mesh.from(first), mesh.previous(first));
     for (std::size_t i = 0; i < crossed.size(); ++i)
     {
       const Index half = mesh.twin(crossed[i]);
-      this->Removed.push_back(mesh.triangleOf(half));
+      this->Removed[i + 1] = mesh.triangleOf(half);
       const Index onRight = mesh.next(half); // from the right to the new vertex
       const Index onLeft = mesh.previous(half);
       const Index apex = mesh.to(onRight);
       const Index leftBy = i + 1 < crossed.size() ? crossed[i + 1] : None;
       if (leftBy != onRight)
       {
-        this->Right.push_back(makeLink(mesh, apex, onRight));
+        *right++ = makeLink(mesh, apex, onRight);
       }
       if (leftBy != onLeft)
       {
-        this->Left.push_back(makeLink(mesh, apex, onLeft));
+        *left++ = makeLink(mesh, apex, onLeft);
       }
     }
+    this->Left.resize(std::size_t(left - this->Left.data()));
+    this->Right.resize(std::size_t(right - this->Right.data()));
     // Each link to the vertex where it goes, from b on.
     std::reverse(this->Right.begin(), this->Right.end());
     for (std::size_t i = 0; i + 1 < this->Right.size(); ++i)
@@ -107,16 +114,17 @@ private:
   }
 
   /// An edge with the cavity on both sides is in the chains twice, once for each of its half-edges.
-  void markDangling(const Mesh& mesh)
+  void markDangling(Mesh& mesh)
   {
-    this->Sorted = this->Removed;
-    std::sort(this->Sorted.begin(), this->Sorted.end());
+    for (const Index triangle : this->Removed)
+    {
+      mesh.markRemoved(triangle);
+    }
     for (Chain* chain : { &this->Left, &this->Right })
     {
       for (Link& link : *chain)
       {
-        link.IsDangling = link.Outer >= 0 &&
-          std::binary_search(this->Sorted.begin(), this->Sorted.end(), mesh.triangleOf(link.Outer));
+        link.IsDangling = link.Outer >= 0 && mesh.isRemoved(mesh.triangleOf(link.Outer));
       }
     }
   }
@@ -125,32 +133,34 @@ private:
   /// segment.
   Index fill(Mesh& mesh, Index from, const Chain& chain)
   {
-    Chain& rest = this->Rest; // the vertex before its first link is `from`
-    rest.clear();
+    // The vertex before the first link is `from`.
+    this->Rest.resize(chain.size());
+    Link* const rest = this->Rest.data();
+    std::size_t count = 0;
     for (const Link& link : chain)
     {
-      rest.push_back(link);
-      while (rest.size() > 1)
+      rest[count++] = link;
+      while (count > 1)
       {
-        const Link second = rest.back();
-        const Link first = rest[rest.size() - 2];
-        const Index x = rest.size() == 2 ? from : rest[rest.size() - 3].To;
+        const Link& second = rest[count - 1];
+        const Link& first = rest[count - 2];
+        const Index x = count == 2 ? from : rest[count - 3].To;
         if (mesh.turn(x, first.To, second.To) >= 0)
         {
           break;
         }
         const Index half = this->makeTriangle(mesh, first, x, second);
         this->Suspects.push_back(half);
-        rest.resize(rest.size() - 2);
-        rest.push_back({ second.To, half, None, false, false });
+        rest[count - 2] = { second.To, half, None, false, false };
+        --count;
       }
     }
-    if (rest.size() != 1)
+    if (count != 1)
     {
       throw std::logic_error("A constraint's cavity cannot be triangulated.");
     }
     this->Suspects.pop_back(); // the segment
-    return rest.front().Outer;
+    return rest->Outer;
   }
 
   /// The triangle on the right of two links; returns the half-edge that replaces them.
@@ -234,7 +244,6 @@ private:
   }
 
   std::vector<Index> Removed; ///< crossed triangles that are not used again yet
-  std::vector<Index> Sorted;
   Chain Left;
   Chain Right;
   Chain Rest;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/SegmentTree.h"
 
+#include "Parallel/RadixSort.h"
 #include "Triangulation/PointsView.h"
 
+#include <numeric>
+#include <stdexcept>
 #include <utility>
 
 namespace tipp
@@ -10,71 +13,118 @@ namespace tipp
 namespace
 {
 
-/// The bits of a number, each followed by a zero.
-std::uint64_t spread(std::uint64_t bits)
+/// The lower 16 bits of a number, each followed by a zero.
+std::uint32_t spread(std::uint32_t bits)
 {
-  bits = (bits | bits << 16) & 0x0000ffff0000ffffU;
-  bits = (bits | bits << 8) & 0x00ff00ff00ff00ffU;
-  bits = (bits | bits << 4) & 0x0f0f0f0f0f0f0f0fU;
-  bits = (bits | bits << 2) & 0x3333333333333333U;
-  bits = (bits | bits << 1) & 0x5555555555555555U;
+  bits = (bits | bits << 8) & 0x00ff00ffU;
+  bits = (bits | bits << 4) & 0x0f0f0f0fU;
+  bits = (bits | bits << 2) & 0x33333333U;
+  bits = (bits | bits << 1) & 0x55555555U;
   return bits;
 }
 
-/// Where a coordinate lies in a range, as 32 bits.
-std::uint64_t cellOf(double value, double low, double high)
+/// Where a coordinate lies in a range, as 16 bits.
+std::uint32_t cellOf(double value, double low, double high)
 {
-  constexpr double cells = 4294967295.0;
+  constexpr double cells = 65535;
   const double fraction = (value / 2 - low / 2) / (high / 2 - low / 2);
-  return fraction > 0 ? std::uint64_t(std::min(fraction, 1.0) * cells) : 0;
+  return fraction > 0 ? std::uint32_t(std::min(fraction, 1.0) * cells) : 0;
 }
 
-std::uint64_t mortonKey(const SegmentTree::Item& item, const Box2& all)
+std::uint32_t mortonKey(const SegmentTree::Item& item, const Box2& all)
 {
   return spread(cellOf(item.A.x / 2 + item.B.x / 2, all.xmin, all.xmax)) |
     spread(cellOf(item.A.y / 2 + item.B.y / 2, all.ymin, all.ymax)) << 1;
 }
 
+Box2 boxOfAll(const std::vector<SegmentTree::Item>& segments, int threads)
+{
+  const Box2 first = boxOf(segments.front().A, segments.front().B);
+  std::vector<Box2> boxes(std::size_t(threads), first);
+  forChunks(std::int64_t(segments.size()), SegmentTree::Chunk, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int thread)
+    {
+      Box2 box = first;
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const SegmentTree::Item& item = segments[std::size_t(i)];
+        box = unionOf(box, boxOf(item.A, item.B));
+      }
+      Box2& all = boxes[std::size_t(thread)];
+      all = unionOf(all, box);
+    });
+  return std::accumulate(boxes.begin(), boxes.end(), first, unionOf);
+}
+
 } // namespace
 
-SegmentTree::SegmentTree(std::vector<Item> segments)
+SegmentTree::SegmentTree(std::vector<Item> segments, int threads)
 {
   if (segments.empty())
   {
     return;
   }
-  Box2 all = boxOf(segments.front().A, segments.front().B);
-  for (const Item& item : segments)
+  if (segments.size() > std::size_t(UINT32_MAX))
   {
-    all = unionOf(all, boxOf(item.A, item.B));
+    throw std::length_error("There are too many constraints; give fewer.");
   }
-  std::vector<std::pair<std::uint64_t, std::size_t>> order(segments.size());
-  for (std::size_t i = 0; i < segments.size(); ++i)
+  const Box2 all = boxOfAll(segments, threads);
+  const auto count = std::int64_t(segments.size());
+  std::vector<std::uint64_t> order(segments.size()); // keys and then indices
+  const auto forAll = [threads](std::int64_t items, const auto& body)
   {
-    order[i] = { mortonKey(segments[i], all), i };
-  }
-  std::sort(order.begin(), order.end());
-  this->Items.reserve(segments.size());
-  for (const auto& entry : order)
-  {
-    this->Items.push_back(segments[entry.second]);
-  }
-  std::vector<Box2> boxes;
-  for (const Item& item : this->Items)
-  {
-    boxes.push_back(boxOf(item.A, item.B));
-  }
-  do
-  {
-    std::vector<Box2> level;
-    for (std::size_t i = 0; i < boxes.size(); ++i)
+    forChunks(items, Chunk, threads, {},
+      [&body](std::int64_t begin, std::int64_t end, int)
+      {
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          body(std::size_t(i));
+        }
+      });
+  };
+  forAll(
+    count, [&](std::size_t i) { order[i] = std::uint64_t(mortonKey(segments[i], all)) << 32 | i; });
+  sortByUpperHalf(order, threads);
+  this->Items.resize(segments.size());
+  forAll(
+    count, [&](std::size_t i) { this->Items[i] = segments[std::size_t(order[i] & UINT32_MAX)]; });
+  const auto groupsOf = [](std::size_t items) { return (items + Fanout - 1) / Fanout; };
+  std::vector<Box2> level(groupsOf(this->Items.size()));
+  forAll(std::int64_t(level.size()),
+    [&](std::size_t group)
     {
-      i % Fanout == 0 ? level.push_back(boxes[i])
-                      : void(level.back() = unionOf(level.back(), boxes[i]));
+      const std::size_t end = std::min(this->Items.size(), (group + 1) * Fanout);
+      Box2 box = boxOf(this->Items[group * Fanout].A, this->Items[group * Fanout].B);
+      for (std::size_t i = group * Fanout + 1; i < end; ++i)
+      {
+        box = unionOf(box, boxOf(this->Items[i].A, this->Items[i].B));
+      }
+      level[group] = box;
+    });
+  this->Levels.push_back(std::move(level));
+  while (this->Levels.back().size() > 1)
+  {
+    const std::vector<Box2>& below = this->Levels.back();
+    std::vector<Box2> boxes;
+    boxes.reserve(groupsOf(below.size()));
+    for (std::size_t i = 0; i < below.size(); ++i)
+    {
+      i % Fanout == 0 ? boxes.push_back(below[i])
+                      : void(boxes.back() = unionOf(boxes.back(), below[i]));
     }
-    this->Levels.push_back(level);
-    boxes = std::move(level);
-  } while (boxes.size() > 1);
+    this->Levels.push_back(std::move(boxes));
+  }
+}
+
+std::vector<std::int64_t> SegmentTree::nameByPosition()
+{
+  std::vector<std::int64_t> names;
+  names.reserve(this->Items.size());
+  for (Item& item : this->Items)
+  {
+    names.push_back(std::exchange(item.Id, std::int64_t(names.size())));
+  }
+  return names;
 }
 
 } // namespace tipp

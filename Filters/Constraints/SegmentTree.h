@@ -57,9 +57,14 @@ public:
     std::int64_t Id; ///< the caller's
   };
 
-  explicit SegmentTree(std::vector<Item> segments);
+  explicit SegmentTree(std::vector<Item> segments, int threads = 1);
+
+  static constexpr std::int64_t Chunk = 8192; ///< items that a thread takes at a time
 
   const std::vector<Item>& items() const { return this->Items; }
+
+  /// Makes the items' Ids their positions among the items; returns what they were.
+  std::vector<std::int64_t> nameByPosition();
 
   /// visit(item) for every segment whose bounding box overlaps the box, until it returns false.
   template <typename Visit>

@@ -3,6 +3,7 @@
 
 #include "Constraints/ConstraintPoints.h"
 #include "Constraints/KeepInside.h"
+#include "Files/IOError.h"
 
 #include <algorithm>
 #include <cmath>
@@ -112,32 +113,15 @@ void cutOutside(
 {
   const std::vector<ConstraintPiece>& pieces = result.Constraints.Pieces;
   const std::size_t lines = constraints.Lines.Edges.size();
-  const auto polygonEdges = piecesOf(pieces, constraints.Lines.PolygonBegin, lines);
-  const auto boundary = piecesOf(pieces, lines, lines + constraints.Boundary.Edges.size());
+  const Cuts cuts{ piecesOf(pieces, constraints.Lines.PolygonBegin, lines),
+    piecesOf(pieces, lines, lines + constraints.Boundary.Edges.size()), constraints.Lines.holes() };
   // One of them without one of its edges would not tell what is inside.
-  if (!(polygonEdges.empty() && boundary.empty()) && result.Constraints.NotFinite > 0)
+  if (!(cuts.Polygons.empty() && cuts.Boundary.empty()) && result.Constraints.NotFinite > 0)
   {
     throw std::invalid_argument(
       "it has polygons, and a point that is NaN or infinite; correct the point.");
   }
-  const std::vector<double>& seeds = constraints.Lines.Holes;
-  std::vector<Point2> holes;
-  for (std::size_t i = 0; i < seeds.size(); i += 2)
-  {
-    holes.push_back({ seeds[i], seeds[i + 1] });
-  }
-  if (!holes.empty())
-  {
-    removeHoles(viewOf(points.XY), result.Mesh, pieces, holes);
-  }
-  if (!boundary.empty() && result.Mesh.triangleCount() > 0)
-  {
-    keepInside(result.Mesh, boundary, InsideRule::EvenOdd);
-  }
-  if (!polygonEdges.empty() && result.Mesh.triangleCount() > 0)
-  {
-    keepInside(result.Mesh, polygonEdges);
-  }
+  keepInside(viewOf(points.XY), result.Mesh, pieces, cuts);
 }
 
 } // namespace
@@ -164,6 +148,39 @@ ConstrainedTriangulation triangulateTable(
     cutOutside(constraints, points, whole);
   };
   return triangulateConstrained(viewOf(points.XY), all, constraints.Crossings, options, cut);
+}
+
+TableConstraints readConstraints(const ConstraintFiles& files)
+{
+  TableConstraints constraints;
+  if (!files.Lines.empty())
+  {
+    constraints.Lines = readConstraintFile(files.Lines);
+  }
+  for (const auto& [x, y] : files.Holes)
+  {
+    constraints.Lines.Holes.insert(constraints.Lines.Holes.end(), { x, y });
+  }
+  if (!files.Boundary.empty())
+  {
+    constraints.Boundary = readBoundary(files.Boundary);
+  }
+  constraints.Crossings = files.Crossings;
+  return constraints;
+}
+
+ConstraintTable readBoundary(const std::string& path)
+{
+  ConstraintTable boundary = readConstraintFile(path);
+  try
+  {
+    requireClosedBoundary(boundary);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw IOError(path, error.what());
+  }
+  return boundary;
 }
 
 void requireClosedBoundary(const ConstraintTable& boundary)

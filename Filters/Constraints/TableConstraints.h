@@ -10,6 +10,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace tipp
 {
@@ -37,6 +39,26 @@ bool isHeightColumn(const std::string& name);
 /// std::invalid_argument.
 VTKTIPPFILTERS_EXPORT ConstrainedTriangulation triangulateTable(
   PointTable& points, const TableConstraints& constraints, const TriangulationOptions& options);
+
+/// Files of constraints, and how they are used.
+struct ConstraintFiles
+{
+  std::string Lines;    ///< a path; empty: none
+  std::string Boundary; ///< the same
+  std::vector<std::pair<double, double>>
+    Holes; ///< x and y of points in holes, beside those of Lines
+  CrossingRule Crossings = CrossingRule::Split;
+
+  bool areGiven() const { return !this->Lines.empty() || !this->Boundary.empty(); }
+  /// For messages.
+  const std::string& name() const { return this->Lines.empty() ? this->Boundary : this->Lines; }
+};
+
+/// Throws IOError.
+VTKTIPPFILTERS_EXPORT TableConstraints readConstraints(const ConstraintFiles& files);
+
+/// Reads the closed lines of a boundary. Throws IOError.
+VTKTIPPFILTERS_EXPORT ConstraintTable readBoundary(const std::string& path);
 
 /// Throws std::invalid_argument unless the lines of a boundary are closed.
 VTKTIPPFILTERS_EXPORT void requireClosedBoundary(const ConstraintTable& boundary);

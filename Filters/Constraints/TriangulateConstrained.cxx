@@ -116,45 +116,92 @@ std::vector<Point2> allPoints(PointsView points, const std::vector<CrossingPoint
   return all;
 }
 
+/// Triangulates with constraints that do not cross. Throws CrossingFound if they do.
+class Run
+{
+public:
+  Run(PointsView input, const TriangulationOptions& options,
+    const std::function<void(ConstrainedTriangulation&)>& cut)
+    : Input(input)
+    , Options(options)
+    , Cut(cut)
+    , Threads(threadCount(options.Threads))
+  {
+    this->Plain = options;
+    this->Plain.MaximumEdge = 0; // triangles are left out at the end
+    if (options.Progress)
+    {
+      // It does not go back if the triangulation is begun again.
+      this->Plain.Progress = [this](double done)
+      { return this->Options.Progress(this->Done = std::max(this->Done, done)); };
+    }
+  }
+
+  ConstrainedTriangulation run(const std::vector<Constraint>& constraints, CrossingRule crossings)
+  {
+    this->Watch.restart();
+    ResolvedConstraints resolved = takeConstraints(this->Input, constraints, this->Threads);
+    try
+    {
+      // Most constraints do not cross, and if they do this shows when they are inserted.
+      return this->insert(std::move(resolved));
+    }
+    catch (const CrossingFound&)
+    {
+      resolved = resolveCrossings(this->Input, constraints, crossings, this->Threads);
+    }
+    return this->insert(std::move(resolved));
+  }
+
+private:
+  ConstrainedTriangulation insert(ResolvedConstraints resolved)
+  {
+    ConstrainedTriangulation result;
+    result.Constraints = std::move(resolved);
+    std::vector<TriangulationStatistics::Phase> phases{ { "crossings", this->Watch.restart() } };
+    std::vector<Point2> withCrossings;
+    PointsView points = this->Input;
+    if (!result.Constraints.Crossings.empty())
+    {
+      withCrossings = allPoints(this->Input, result.Constraints.Crossings);
+      points = PointsView(&withCrossings.front().x, withCrossings.size(), 2);
+    }
+    PartitionConstraints inserted(points, result.Constraints.Pieces, this->Threads);
+    this->Plain.MakeEditor = [&inserted](double factor) { return inserted.makeEditor(factor); };
+    phases.push_back({ "pieces", this->Watch.restart() });
+    result.Mesh = triangulate(points, this->Plain);
+    auto& all = result.Mesh.Statistics.Phases;
+    all.insert(all.begin(), phases.begin(), phases.end());
+    if (!result.Mesh.Aborted)
+    {
+      this->Watch.restart();
+      constrain(points, result.Mesh, result.Constraints.Pieces, inserted, this->Threads);
+      if (this->Cut)
+      {
+        this->Cut(result);
+      }
+      leaveOutLong(points, this->Options.MaximumEdge, result.Mesh);
+      all.push_back({ "constraints", this->Watch.restart() });
+    }
+    return result;
+  }
+
+  const PointsView Input;
+  const TriangulationOptions& Options;
+  const std::function<void(ConstrainedTriangulation&)>& Cut;
+  const int Threads;
+  TriangulationOptions Plain;
+  double Done = 0; ///< the fraction told last
+  Stopwatch Watch;
+};
+
 } // namespace
 
 ConstrainedTriangulation triangulateConstrained(PointsView input,
   const std::vector<Constraint>& constraints, CrossingRule crossings,
   const TriangulationOptions& options, const std::function<void(ConstrainedTriangulation&)>& cut)
 {
-  ConstrainedTriangulation result;
-  const int threads = threadCount(options.Threads);
-  Stopwatch watch;
-  result.Constraints = resolveCrossings(input, constraints, crossings, threads);
-  std::vector<TriangulationStatistics::Phase> phases{ { "crossings", watch.restart() } };
-
-  std::vector<Point2> withCrossings;
-  PointsView points = input;
-  if (!result.Constraints.Crossings.empty())
-  {
-    withCrossings = allPoints(input, result.Constraints.Crossings);
-    points = PointsView(&withCrossings.front().x, withCrossings.size(), 2);
-  }
-  PartitionConstraints inserted(points, result.Constraints.Pieces);
-  TriangulationOptions own = options;
-  own.MaximumEdge = 0; // triangles are left out at the end
-  own.MakeEditor = [&inserted](double factor) { return inserted.makeEditor(factor); };
-  phases.push_back({ "pieces", watch.restart() });
-  result.Mesh = triangulate(points, own);
-  auto& all = result.Mesh.Statistics.Phases;
-  all.insert(all.begin(), phases.begin(), phases.end());
-  if (!result.Mesh.Aborted)
-  {
-    watch.restart();
-    constrain(points, result.Mesh, result.Constraints.Pieces, inserted, threads);
-    if (cut)
-    {
-      cut(result);
-    }
-    leaveOutLong(points, options.MaximumEdge, result.Mesh);
-    all.push_back({ "constraints", watch.seconds() });
-  }
-  return result;
+  return Run(input, options, cut).run(constraints, crossings);
 }
 
 } // namespace tipp

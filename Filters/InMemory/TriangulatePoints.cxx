@@ -72,11 +72,9 @@ ConstrainedTriangulation triangulatePoints(
   const auto cut = [&](ConstrainedTriangulation& whole)
   {
     warn(whole.Mesh, points.size() + whole.Constraints.Crossings.size());
-    if (source.PolygonBegin < source.Constraints.size() && whole.Mesh.triangleCount() > 0)
-    {
-      keepInside(whole.Mesh,
-        piecesOf(whole.Constraints.Pieces, source.PolygonBegin, source.Constraints.size()));
-    }
+    const std::vector<ConstraintPiece>& pieces = whole.Constraints.Pieces;
+    keepInside({}, whole.Mesh, pieces,
+      { piecesOf(pieces, source.PolygonBegin, source.Constraints.size()), {}, {} });
   };
   result = triangulateConstrained(points, source.Constraints, request.Crossings, options, cut);
   if (!result.Mesh.Aborted && result.Constraints.NotFinite > 0)

@@ -203,6 +203,11 @@ public:
     const unsigned bit = 1U << (h & 7);
     bits = static_cast<unsigned char>(isFixed ? bits | bit : bits & ~bit);
   }
+  void markRemoved(Index triangle) { this->Fixed[std::size_t(triangle / 8)] |= RemovedBit; }
+  bool isRemoved(Index triangle) const
+  {
+    return (this->Fixed[std::size_t(triangle / 8)] & RemovedBit) != 0;
+  }
   void setCorners(Index triangle, const std::array<Index, 3>& corners)
   {
     Index* const slots = this->Mesh->slots() + triangle;
@@ -228,6 +233,7 @@ public:
 
 private:
   static constexpr Index NoHalf = -1;
+  static constexpr unsigned char RemovedBit = 1U << 7;
 
   DelaunayKernel* Kernel = nullptr;
   HalfEdgeMesh* Mesh = nullptr;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Output/TriangleOutput.h"
 
+#include "Constraints/CrossedPart.h"
+#include "Meshes/MeshFiles.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -381,10 +384,26 @@ void fillPoints(const PiecePoints& piece, const PointRows& rows, std::size_t row
   }
 }
 
+/// "ConstraintEdges" of triangles, as constraintEdgesArray() makes it.
+vtkSmartPointer<vtkUnsignedCharArray> marksOf(
+  const PiecePoints& piece, const ConstraintSegments& segments, const Buffer<std::int64_t>& corners)
+{
+  std::vector<Point2> positions(std::size_t(piece.count()));
+  piece.forEach([&](std::int64_t to, const PointTuples& tuples, std::size_t at, bool)
+    { positions[std::size_t(to)] = tuples.Positions[at]; });
+  auto marks = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  marks->SetName("ConstraintEdges");
+  marks->SetNumberOfComponents(3);
+  marks->SetNumberOfTuples(vtkIdType(corners.size() / 3));
+  const PointsView view(positions.empty() ? nullptr : &positions.front().x, positions.size(), 2);
+  markEdges(view, segments, corners.data(), corners.size() / 3, marks->GetPointer(0));
+  return marks;
+}
+
 } // namespace
 
 void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& rows,
-  const GhostTriangles* ghosts, vtkPolyData* output)
+  const GhostTriangles* ghosts, const ConstraintSegments* segments, vtkPolyData* output)
 {
   const PiecePoints piece(mine, rank, ghosts);
   fillPoints(piece, rows, mine.RowSize, ghosts != nullptr, output);
@@ -415,6 +434,10 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
     {
       *to++ = piece.ofId(id);
     }
+  }
+  if (segments)
+  {
+    output->GetCellData()->AddArray(marksOf(piece, *segments, corners));
   }
   output->SetPolys(takeCells(std::move(corners), 3));
   output->GetCellData()->SetGlobalIds(numbers);

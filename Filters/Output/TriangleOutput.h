@@ -3,6 +3,7 @@
 #define tippTriangleOutput_h
 
 #include "Arrays/Buffer.h"
+#include "Constraints/ConstraintSegments.h"
 #include "Distributed/PointExchange.h"
 #include "Distributed/TriangleExchange.h"
 #include "Ranks/Communicator.h"
@@ -74,9 +75,10 @@ private:
 };
 
 /// Fills `output` with a rank's triangles: the points that they use with their data, and global ids
-/// of points and cells. `ghosts`, if not null, are added with the array vtkGhostType.
+/// of points and cells. `ghosts`, if not null, are added with the array vtkGhostType; and if
+/// `segments` are not, the array ConstraintEdges.
 void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& rows,
-  const GhostTriangles* ghosts, vtkPolyData* output);
+  const GhostTriangles* ghosts, const ConstraintSegments* segments, vtkPolyData* output);
 
 } // namespace tipp
 

@@ -8,9 +8,11 @@
 #include "Points/PointTable.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -113,6 +115,7 @@ public:
         this->readBoundary(isLand, grid);
       }
     }
+    this->closeWeirs(grid);
   }
 
   /// Moves another reader of the same text, which has read the title, to the position of this one.
@@ -148,11 +151,36 @@ private:
     {
       front.push_back(front.front());
     }
+    if (isWeir && !front.empty())
+    {
+      this->WeirEnds.push_back({ front.front(), back.front() });
+      this->WeirEnds.push_back({ front.back(), back.back() });
+    }
     for (const auto& nodes : { front, back })
     {
       for (std::size_t i = 1; i < nodes.size(); ++i)
       {
         grid.BoundaryEdges.push_back({ nodes[i - 1], nodes[i] });
+      }
+    }
+  }
+
+  /// The two sides of a weir go on in other boundaries, or else an edge joins their ends.
+  void closeWeirs(AdcircGrid& grid) const
+  {
+    std::unordered_map<std::int64_t, int> degrees;
+    for (const auto& edge : grid.BoundaryEdges)
+    {
+      ++degrees[edge[0]];
+      ++degrees[edge[1]];
+    }
+    for (const auto& ends : this->WeirEnds)
+    {
+      if (ends[0] != ends[1] && degrees[ends[0]] % 2 != 0 && degrees[ends[1]] % 2 != 0)
+      {
+        grid.BoundaryEdges.push_back(ends);
+        ++degrees[ends[0]];
+        ++degrees[ends[1]];
       }
     }
   }
@@ -205,6 +233,7 @@ private:
 
   AdcircRows Rows;
   AdcircGrid Grid;
+  std::vector<std::array<std::int64_t, 2>> WeirEnds; ///< nodes opposite to each other
 };
 
 } // namespace

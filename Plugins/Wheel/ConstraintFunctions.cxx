@@ -84,19 +84,6 @@ nb::object edgeMarks(const Buffer<Id>& ids, const ConstraintEdges& edges)
   return arrayOf(std::move(marks), Scalar::UInt8, 3);
 }
 
-/// The pieces of polygons, which are the constraints from `begin` on, tell what is kept.
-void keepInside(ConstrainedTriangulation& result, std::size_t begin)
-{
-  std::vector<ConstraintPiece> edges;
-  std::copy_if(result.Constraints.Pieces.begin(), result.Constraints.Pieces.end(),
-    std::back_inserter(edges),
-    [&](const ConstraintPiece& piece) { return std::size_t(piece.Constraint) >= begin; });
-  if (result.Mesh.triangleCount() > 0)
-  {
-    tipp::keepInside(result.Mesh, edges);
-  }
-}
-
 nb::dict triangulateWithConstraints(const InputArray& points, const InputArray& pairs,
   std::size_t polygonBegin, bool split, bool marks, double maximumEdge, int columns, int rows,
   bool stages, int threads, bool neighbors, nb::object progress)
@@ -116,10 +103,9 @@ nb::dict triangulateWithConstraints(const InputArray& points, const InputArray& 
   {
     const auto count = std::int64_t(given + whole.Constraints.Crossings.size());
     warnings = warningsOf(whole.Mesh, count, maximumEdge > 0);
-    if (polygonBegin < constraints.size())
-    {
-      keepInside(whole, polygonBegin);
-    }
+    const std::vector<ConstraintPiece>& pieces = whole.Constraints.Pieces;
+    keepInside(
+      {}, whole.Mesh, pieces, { piecesOf(pieces, polygonBegin, constraints.size()), {}, {} });
   };
   ConstrainedTriangulation result = withoutLock(
     [&]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Binding.h"
 
+#include "Constraints/ConstrainedPoints.h"
 #include "Files/IOError.h"
 #include "Files/OutputPath.h"
 #include "Flat/FlatMesh.h"
@@ -16,6 +17,7 @@
 
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -83,7 +85,8 @@ namespace
 
 using Strings = std::vector<std::string>;
 
-nb::dict figuresOf(const OutOfCoreStatistics& statistics, bool countOnly)
+nb::dict figuresOf(const OutOfCoreStatistics& statistics,
+  const ConstrainedPoints::Figures& constraints, bool countOnly)
 {
   nb::dict result;
   result["points"] = statistics.Points;
@@ -98,13 +101,21 @@ nb::dict figuresOf(const OutOfCoreStatistics& statistics, bool countOnly)
   {
     result["triangle_sum"] = statistics.TriangleSum;
   }
+  if (constraints.Constraints > 0)
+  {
+    result["constraints"] = constraints.Constraints;
+    result["constraint_edges"] = constraints.Segments;
+    result["crossing_points"] = constraints.Crossings;
+    result["crossing_rounds"] = constraints.Rounds;
+  }
   return result;
 }
 
 nb::tuple triangulateFiles(const Strings& inputs, const std::string& output, std::uint64_t memory,
   int columns, int rows, const std::string& x, const std::string& y, double maximumEdge,
-  bool mapDuplicates, bool neighbors, bool countOnly, bool resume, const std::string& scratch,
-  int threads, nb::object progress)
+  bool mapDuplicates, bool neighbors, const std::string& lines, const std::string& boundary,
+  const std::vector<std::pair<double, double>>& holes, bool split, bool mark, bool countOnly,
+  bool resume, const std::string& scratch, int threads, nb::object progress)
 {
   Reporter reporter(std::move(progress));
   Strings warnings;
@@ -116,11 +127,15 @@ nb::tuple triangulateFiles(const Strings& inputs, const std::string& output, std
   options.MaximumEdge = maximumEdge;
   options.MapDuplicates = mapDuplicates;
   options.Neighbors = neighbors;
+  options.MarkConstraints = mark;
   options.CountOnly = countOnly;
   options.Resume = resume;
   options.Scratch = scratch;
   options.Progress = reporter.function();
   options.Warn = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  ConstrainedInput constraints(
+    { lines, boundary, holes, split ? CrossingRule::Split : CrossingRule::Refuse }, threads);
+  constraints.describe(options);
   OutOfCoreStatistics statistics;
   withoutLock(
     [&]
@@ -131,14 +146,14 @@ nb::tuple triangulateFiles(const Strings& inputs, const std::string& output, std
         [&]
         {
           requireApart({ output, scratchIn(scratch) }, inputs);
-          return openPointStream(inputs, { x, y });
+          return constraints.join(openPointStream(inputs, { x, y }));
         },
         output, options);
     });
   reporter.raiseIfStopped();
   const Strings more = warningsOf(statistics);
   warnings.insert(warnings.end(), more.begin(), more.end());
-  return nb::make_tuple(figuresOf(statistics, countOnly), warnings);
+  return nb::make_tuple(figuresOf(statistics, constraints.figures(), countOnly), warnings);
 }
 
 std::unique_ptr<PieceSource> openSource(
@@ -388,7 +403,8 @@ void addFileFunctions(nb::module_& module)
   const auto progress = nb::arg("progress").none();
   module.def("triangulate_files", &triangulateFiles, nb::arg("inputs"), nb::arg("output"),
     nb::arg("memory"), nb::arg("columns"), nb::arg("rows"), nb::arg("x"), nb::arg("y"),
-    nb::arg("maximum_edge"), nb::arg("map_duplicates"), nb::arg("neighbors"), nb::arg("count_only"),
+    nb::arg("maximum_edge"), nb::arg("map_duplicates"), nb::arg("neighbors"), nb::arg("lines"),
+    nb::arg("boundary"), nb::arg("holes"), nb::arg("split"), nb::arg("mark"), nb::arg("count_only"),
     nb::arg("resume"), nb::arg("scratch"), nb::arg("threads"), progress);
   module.def("array_names", &arrayNames, nb::arg("path"), nb::arg("tiling"), nb::arg("memory"));
   module.def("read", &readMesh, nb::arg("path"), nb::arg("bounds").none(), nb::arg("time").none(),

@@ -108,11 +108,24 @@ class vtkTIPPOutOfCoreDelaunay2D(Filter):
     PROPERTIES = {
         "FileName": "", "MemoryLimit": 2 * _GIGABYTE, "NumberOfPartitions": (0, 0), "XColumn": "", "YColumn": "",
         "MaximumEdgeLength": 0.0, "GenerateRepresentativeIds": False, "GenerateNeighborIds": False,
+        "ConstraintsFileName": "", "BoundaryFileName": "", "SplitCrossings": True, "GenerateConstraintEdges": False,
         "CountOnly": False, "Resume": False, "ScratchFolder": "", "NumberOfThreads": 0,
     }
     LIMITS = {"MemoryLimit": (1, None), "MaximumEdgeLength": (0, None), "NumberOfThreads": (0, 4096)}
     LIST = "InputFileName"
     OUTPUTS = ("vtkTable",)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.holes: list[tuple[float, float]] = []
+
+    def AddHole(self, x: float, y: float) -> None:
+        self.holes.append((float(x), float(y)))
+        self.Modified()
+
+    def ClearHoles(self) -> None:
+        self.holes.clear()
+        self.Modified()
 
     def GetStatistics(self) -> vtkTable:
         return self.GetOutputDataObject(0)
@@ -122,6 +135,9 @@ class vtkTIPPOutOfCoreDelaunay2D(Filter):
             "memory": self.value("MemoryLimit"), "partitions": self.value("NumberOfPartitions"),
             "columns": (self.value("XColumn"), self.value("YColumn")), "max_edge": self.value("MaximumEdgeLength"),
             "map_duplicates": self.value("GenerateRepresentativeIds"), "neighbors": self.value("GenerateNeighborIds"),
+            "constraints": self.value("ConstraintsFileName"), "boundary": self.value("BoundaryFileName"),
+            "holes": self.holes, "crossings": self.value("SplitCrossings"),
+            "mark_constraints": self.value("GenerateConstraintEdges"),
             "count_only": self.value("CountOnly"), "resume": self.value("Resume"),
             "scratch": self.value("ScratchFolder"), "threads": self.value("NumberOfThreads"),
         }

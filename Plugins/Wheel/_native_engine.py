@@ -257,7 +257,8 @@ def delaunay_file(
         raise RuntimeError("FileName is not set; name the folder to write.")
     figures, sentences = _core.triangulate_files(
         paths, output, options["memory"], *options["partitions"], *options["columns"], options["max_edge"], options["map_duplicates"],
-        options["neighbors"], options["count_only"], options["resume"], options["scratch"], options["threads"],
+        options["neighbors"], options["constraints"], options["boundary"], options["holes"], bool(options["crossings"]),
+        options["mark_constraints"], options["count_only"], options["resume"], options["scratch"], options["threads"],
         progress)
     finish(progress)
     warn(sentences)

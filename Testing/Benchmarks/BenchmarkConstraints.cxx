@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Constrained triangulation beside its peers: benchmarkConstraints POINTS SEGMENTS [REPEAT [vtk]].
-// The segments are edges of the triangulation of every eighth point, so that they do not cross;
-// with SEGMENTS = 1 one goes across everything. Points in memory to triangles in memory.
+// POINTS: a number of uniform ones, or a .npy file. The segments are edges of the triangulation of
+// every eighth point, so that they do not cross; with SEGMENTS = 1 one goes across everything; or
+// they are a .npy file of two points' indices each, of which those that cross others are left out.
+// Points in memory to triangles in memory.
 #include "Engines.h"
 #include "Measure.h"
 #include "PointSets.h"
+
+#include "Points/ReadPoints.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -54,6 +58,38 @@ std::vector<Constraint> makeSegments(std::vector<double>& xy, std::size_t wanted
   return segments;
 }
 
+bool isFile(const std::string& argument)
+{
+  return argument.size() > 4 && argument.substr(argument.size() - 4) == ".npy";
+}
+
+/// The segments of a file that cross no other.
+std::vector<Constraint> readSegments(const std::vector<double>& xy, const std::string& path)
+{
+  const std::vector<double> ids = readPoints(path).XY;
+  std::vector<Constraint> all;
+  for (std::size_t i = 0; i < ids.size(); i += 2)
+  {
+    all.push_back({ PointId(ids[i]), PointId(ids[i + 1]) });
+  }
+  const PointsView points(xy.data(), xy.size() / 2, 2);
+  // This process must not start threads, for measure() forks.
+  std::vector<char> crosses(all.size(), 0);
+  const ResolvedConstraints resolved = resolveCrossings(points, all, CrossingRule::Split, 1);
+  for (const ConstraintPiece& piece : resolved.Pieces)
+  {
+    const Constraint& whole = all[std::size_t(piece.Constraint)];
+    crosses[std::size_t(piece.Constraint)] |= char(whole.A != piece.A || whole.B != piece.B);
+  }
+  std::vector<Constraint> segments;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    crosses[i] ? void() : segments.push_back(all[i]);
+  }
+  std::printf("%zu segments cross others and are left out\n", all.size() - segments.size());
+  return segments;
+}
+
 void report(const char* name, int repeat, const std::function<Run()>& work)
 {
   Measurement best;
@@ -82,11 +118,13 @@ int main(int argc, char** argv)
   }
   try
   {
-    std::vector<double> xy =
-      test::makePointSet("uniform", std::size_t(std::strtod(argv[1], nullptr)));
-    const auto wanted = std::size_t(std::strtod(argv[2], nullptr));
+    std::vector<double> xy = isFile(argv[1])
+      ? readPoints(argv[1]).XY
+      : test::makePointSet("uniform", std::size_t(std::strtod(argv[1], nullptr)));
     const int repeat = argc > 3 ? std::atoi(argv[3]) : 3;
-    const std::vector<Constraint> segments = makeSegments(xy, wanted);
+    const std::vector<Constraint> segments = isFile(argv[2])
+      ? readSegments(xy, argv[2])
+      : makeSegments(xy, std::size_t(std::strtod(argv[2], nullptr)));
     std::printf("%zu points, %zu segments\n", xy.size() / 2, segments.size());
     report("CGAL, 1 thread", repeat, [&] { return runCgalConstrained(xy, segments); });
     for (const int threads : { 1, 2 })

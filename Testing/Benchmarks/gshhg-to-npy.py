@@ -4,14 +4,16 @@
 
 A vertex is stored as two unsigned 16-bit fractions of its bin, counted from the bin's south-west
 corner; bins go eastwards from longitude 0, row by row from the north pole (GMT, gmt_shore.c).
+
+With a third file: the edges of the shorelines in their bins, as two indices of vertices each, in float64.
 """
 import sys
 
 import netCDF4
 import numpy
 
-if len(sys.argv) != 3:
-    sys.exit("usage: gshhg-to-npy.py /usr/share/gmt-gshhg/binned_GSHHS_f.nc OUTPUT.npy")
+if len(sys.argv) not in (3, 4):
+    sys.exit("usage: gshhg-to-npy.py /usr/share/gmt-gshhg/binned_GSHHS_f.nc OUTPUT.npy [EDGES.npy]")
 
 with netCDF4.Dataset(sys.argv[1]) as source:
     source.set_auto_mask(False)
@@ -41,3 +43,9 @@ longitude = (bin_of_point % columns) * size + dx * (size / 65535)
 longitude[longitude > 180] -= 360
 latitude = 90 - (bin_of_point // columns + 1) * size + dy * (size / 65535)
 numpy.save(sys.argv[2], numpy.column_stack((longitude, latitude)))
+if len(sys.argv) == 4:
+    is_last = numpy.zeros(len(dx), bool)
+    is_last[first_point + points_of_segment - 1] = True
+    first = numpy.flatnonzero(~is_last)
+    first = first[abs(longitude[first] - longitude[first + 1]) < 180]  # not round the earth
+    numpy.save(sys.argv[3], numpy.column_stack((first, first + 1)).astype(float))

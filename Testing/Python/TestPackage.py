@@ -325,6 +325,26 @@ class Files(unittest.TestCase):
         cell, corner = np.nonzero(neighbors >= 0)
         self.assertTrue((neighbors[neighbors[cell, corner]] == cell[:, None]).any(axis=1).all())
 
+    def test_constraints_come_from_files(self):
+        with open(self.path("lines.csv"), "w", encoding="utf-8") as file:
+            file.write("x1,y1,x2,y2\n0.1,0.1,0.9,0.9\n0.1,0.9,0.9,0.1\n")
+        with open(self.path("square.csv"), "w", encoding="utf-8") as file:
+            corners = [(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)]
+            file.write("x1,y1,x2,y2\n")
+            file.writelines(f"{a[0]},{a[1]},{b[0]},{b[1]}\n" for a, b in zip(corners, corners[1:] + corners[:1]))
+        made = tipp.delaunay_file(self.input, self.output, constraints=self.path("lines.csv"),
+                                  boundary=self.path("square.csv"), holes=[(0.5, 0.3)], mark_constraints=True)
+        self.assertEqual((6, 1), (made["constraints"], made["crossing_points"]))
+        mesh = tipp.read(self.output)
+        xy = vtk_to_numpy(mesh.GetPoints().GetData())[:, :2]
+        a, b, c = xy[vtk_to_numpy(mesh.GetCells().GetConnectivityArray()).reshape(-1, 3)].transpose(1, 0, 2)
+        u, v = b - a, c - a
+        area = (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum() / 2
+        self.assertAlmostEqual(0.75 * 0.36, area)
+        self.assertGreater(tipp.as_array(mesh, "ConstraintEdges").sum(), 0)
+        with self.assertRaisesRegex(RuntimeError, "crosses constraint"):
+            tipp.delaunay_file(self.input, self.output, constraints=self.path("lines.csv"), crossings="refuse")
+
     def test_counted_triangles_are_not_written(self):
         made = tipp.delaunay_file(self.input, self.output, count_only=True, threads=1)
         self.assertEqual(made["triangles"], len(tipp.delaunay(self.points)))

@@ -52,6 +52,18 @@ class Constraints(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "constraint 0 .* crosses constraint 1"):
             tipp.delaunay_2d(SQUARES, edges=[[0, 2], [5, 7]], crossings="refuse")
 
+    def test_constraints_of_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            points, lines, mesh = (os.path.join(folder, name) for name in ("points.npy", "lines.csv", "mesh.tipp"))
+            np.save(points, SQUARES)
+            with open(lines, "w", encoding="utf-8") as file:
+                file.write("x1,y1,x2,y2\n0,0,8,8\n0,8,8,0\n")
+            made = tipp.delaunay_file(points, mesh, constraints=lines, holes=[(4, 7)], mark_constraints=True)
+            self.assertEqual((2, 1), (made["constraints"], made["crossing_points"]))
+            self.assertAlmostEqual(48, area(tipp.read(mesh)))
+            with self.assertRaisesRegex(RuntimeError, "crosses constraint"):
+                tipp.delaunay_file(points, mesh, constraints=lines, crossings="refuse")
+
     def test_marks(self):
         lines = tipp.delaunay_2d(SQUARES, polygons=[INNER], marks="lines")
         self.assertEqual([0, 0, 0, 0], tipp.as_array(lines, "ConstraintId").tolist())

@@ -69,20 +69,6 @@ struct CheckReport
 CheckReport checkDelaunay(const std::vector<double>& xy, const std::vector<std::int64_t>& triangles,
   const CheckOptions& options = {}, const std::vector<std::int64_t>& neighbors = {});
 
-/// Constraints as chains of edges of a mesh.
-struct ConstraintChains
-{
-  std::vector<FixedEdge> Edges; ///< sorted, without duplicates
-  std::int64_t Lost = 0;        ///< number of constraints without a chain
-};
-
-/// Finds for each constraint a chain of edges between its two points that deviates by rounding
-/// only: each vertex of the chain lies, by exact arithmetic, within two units in the last place of
-/// the constraint's coordinates. Constraints with equal or non-finite ends need no chain.
-ConstraintChains findConstraintChains(const std::vector<double>& xy,
-  const std::vector<std::int64_t>& triangles,
-  const std::vector<std::array<std::int64_t, 2>>& constraints);
-
 } // namespace tipp
 
 #endif

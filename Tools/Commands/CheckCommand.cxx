@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Check/ConstraintChains.h"
 #include "Check/DelaunayChecker.h"
 #include "Check/PieceChecker.h"
 #include "Commands/Commands.h"
@@ -233,7 +234,8 @@ CheckReport checkPartitioned(const CheckArguments& arguments)
     takePositions(arguments, table);
     chains = findChains(mesh, table);
     options.Constraints = std::move(chains.Edges);
-    options.IsCut = options.IsCut || table.PolygonBegin < table.Edges.size();
+    options.IsCut =
+      options.IsCut || table.PolygonBegin < table.Edges.size() || !table.Holes.empty();
   }
   const InputSum input = sumInput(arguments.Points, arguments.Columns);
   PieceChecker checker(
@@ -271,6 +273,7 @@ be read, 2: wrong usage.
 With constraints, their edges need not be locally Delaunay, and the mesh may have
 more points after the given ones; where constraints have polygons or holes, each edge of
 its boundary must be one of theirs or of the convex hull. Which triangles lie inside is not checked.
+Constraints may lie outside of such a mesh, but not in a partitioned one.
 
 Examples:
   tipp check points.npy triangles.npy
@@ -349,10 +352,10 @@ CheckReport checkConstrained(
     { return std::min(ids[0], ids[1]) < 0 || std::max(ids[0], ids[1]) >= count; });
   const std::int64_t missing = constraints.end() - lost;
   constraints.erase(lost, constraints.end());
-  ConstraintChains chains = findConstraintChains(xy, mesh.Triangles, constraints);
   CheckOptions options = arguments.Options;
-  options.Constraints = std::move(chains.Edges);
   options.IsCut = options.IsCut || table.PolygonBegin < table.Edges.size() || !table.Holes.empty();
+  ConstraintChains chains = findConstraintChains(xy, mesh.Triangles, constraints, options.IsCut);
+  options.Constraints = std::move(chains.Edges);
   CheckReport report = checkDelaunay(xy, mesh.Triangles, options, mesh.Neighbors);
   report.LostConstraints = chains.Lost + missing;
   return report;

@@ -82,7 +82,7 @@ Triangulation triangulatePoints(
   const DelaunayArguments& arguments, PointTable& points, std::string& report)
 {
   const auto bar = std::make_unique<ProgressBar>("Triangulating");
-  if (arguments.isConstrained())
+  if (arguments.Constraints.areGiven())
   {
     return triangulateWithConstraints(arguments, points, makeOptions(arguments, bar), report);
   }
@@ -199,18 +199,20 @@ void addTuning(CLI::App& command, DelaunayArguments& arguments)
 
 void addConstraints(CLI::App& command, DelaunayArguments& arguments)
 {
-  command.add_option("--constraints", arguments.Constraints,
+  command.add_option("--constraints", arguments.Constraints.Lines,
     "A file of segments that must be edges, and of polygons whose inside alone is kept");
-  command.add_option("--boundary", arguments.Boundary,
+  command.add_option("--boundary", arguments.Constraints.Boundary,
     "A file of closed lines: only the triangles inside of them are kept");
-  command.add_flag("--refuse-crossings", arguments.RefuseCrossings,
+  command.add_flag(
+    "--refuse-crossings",
+    [&arguments](std::int64_t) { arguments.Constraints.Crossings = CrossingRule::Refuse; },
     "An error if two constraints cross; without: they are split at a new point");
   command.add_flag("--mark-constraints", arguments.MarkConstraints,
     "Add the cell array ConstraintEdges to .tipp: for each corner 1 if the edge opposite to it is "
     "a "
     "constraint, else 0");
   command
-    .add_option("--hole", arguments.Holes,
+    .add_option("--hole", arguments.Constraints.Holes,
       "x and y of a point in a hole, whose triangles are removed up to the constraints around it; "
       "may be given several times")
     ->allow_extra_args(false);
@@ -218,27 +220,15 @@ void addConstraints(CLI::App& command, DelaunayArguments& arguments)
 
 void requireValidConstraints(const DelaunayArguments& arguments)
 {
-  if (arguments.MarkConstraints && !(arguments.isConstrained() && isOutOfCore(arguments)))
+  if (arguments.MarkConstraints && !(arguments.Constraints.areGiven() && isOutOfCore(arguments)))
   {
     throw CLI::ValidationError(
       "--mark-constraints", "needs --constraints or --boundary, and an output named .tipp");
   }
-  if (!arguments.isConstrained())
+  const bool refuses = arguments.Constraints.Crossings == CrossingRule::Refuse;
+  if (!arguments.Constraints.areGiven() && (refuses || !arguments.Constraints.Holes.empty()))
   {
-    if (arguments.RefuseCrossings || !arguments.Holes.empty())
-    {
-      throw CLI::ValidationError(
-        arguments.RefuseCrossings ? "--refuse-crossings" : "--hole", "needs --constraints");
-    }
-    return;
-  }
-  const bool isOnRanks = arguments.isForRanks() || startedRank() >= 0;
-  if (!arguments.Holes.empty() && (isOutOfCore(arguments) || isOnRanks))
-  {
-    throw CLI::ValidationError("--hole",
-      isOutOfCore(arguments)
-        ? "does not go with an output named .tipp; give a clockwise polygon around the hole"
-        : "needs a single process; give a clockwise polygon around the hole");
+    throw CLI::ValidationError(refuses ? "--refuse-crossings" : "--hole", "needs --constraints");
   }
 }
 

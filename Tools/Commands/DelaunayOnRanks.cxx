@@ -37,7 +37,7 @@ struct SharedConstraints
 SharedConstraints shareConstraints(Communicator& ranks, const DelaunayArguments& arguments)
 {
   SharedConstraints shared;
-  if (!arguments.isConstrained())
+  if (!arguments.Constraints.areGiven())
   {
     return shared;
   }
@@ -45,7 +45,7 @@ SharedConstraints shareConstraints(Communicator& ranks, const DelaunayArguments&
   if (ranks.rank() == 0)
   {
     ConstrainedPoints points(openPointStream(arguments.Inputs, arguments.Columns),
-      readConstraints(arguments), arguments.constraintFile(), arguments.Threads);
+      readConstraints(arguments.Constraints), arguments.Constraints.name(), arguments.Threads);
     points.setReport(shared.Figures);
     constexpr std::size_t blockPoints = 1 << 18;
     forEachBlock(points, blockPoints, [](PointBlock&) {});
@@ -53,7 +53,7 @@ SharedConstraints shareConstraints(Communicator& ranks, const DelaunayArguments&
     if (shared.Added.size() > 0 && extensionOf(arguments.Output) == ".npy")
     {
       throw IOError(
-        arguments.constraintFile(), describeAdded(std::int64_t(shared.Added.size()), arguments));
+        arguments.Constraints.name(), describeAdded(std::int64_t(shared.Added.size()), arguments));
     }
     writer(points.takeSegments(), shared.Added.XY);
   }

@@ -60,19 +60,19 @@ std::int64_t sumOf(const std::vector<ProcessUsage>& ranks, std::int64_t ProcessU
   return std::accumulate(list.begin(), list.end(), std::int64_t(0));
 }
 
-void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& statistics,
-  const std::vector<ProcessUsage>& ranks)
+void writeReport(const DelaunayArguments& arguments, const RunStatistics& statistics,
+  double seconds, const std::vector<ProcessUsage>& ranks)
 {
   const nlohmann::ordered_json usage = {
     { "read_bytes", sumOf(ranks, &ProcessUsage::Read) },
     { "written_bytes", sumOf(ranks, &ProcessUsage::Written) },
-    { "seconds", totalSeconds(statistics.Phases) },
+    { "seconds", seconds },
     { "peak_memory_bytes", largestMemory(ranks) },
     { "rank_memory_bytes", listOf(ranks, &ProcessUsage::PeakMemory) },
     { "ranks", ranks.size() },
   };
   nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output } };
-  json.update(jsonOf(statisticsOf(statistics, arguments.Sink == "count")));
+  json.update(jsonOf(statistics));
   json.update(usage);
   writeJson(arguments.Statistics, json);
 }
@@ -92,16 +92,23 @@ std::string summarize(const OutOfCoreStatistics& statistics, const std::vector<P
 }
 
 void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& statistics,
-  const std::vector<ProcessUsage>& ranks)
+  const ConstrainedPoints::Figures& constraints, const std::vector<ProcessUsage>& ranks)
 {
+  const bool isCounted = arguments.Sink == "count";
+  const bool hasConstraints = constraints.Constraints > 0; // not if the run was resumed
   if (!arguments.Statistics.empty())
   {
-    writeReport(arguments, statistics, ranks);
+    RunStatistics all = statisticsOf(statistics, isCounted);
+    hasConstraints ? constraints.addTo(all) : void();
+    writeReport(arguments, all, totalSeconds(statistics.Phases), ranks);
   }
   reportLeftOut(statistics.LeftOut, statistics.ThinnedOut);
-  const bool isCounted = arguments.Sink == "count";
   fmt::print("{}{}\n", summarize(statistics, ranks),
     isCounted ? fmt::format(", checksum {:016x}", statistics.TriangleSum) : "");
+  if (hasConstraints)
+  {
+    fmt::print("{}\n", describeSegments(constraints));
+  }
   warnOfNoTriangles(statistics.Triangles);
 }
 
@@ -125,12 +132,8 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
 {
   Communicator ranks(controller);
   OutOfCoreOptions options = makeOptions(arguments);
-  ConstrainedPoints* constrained = nullptr; // of the first rank
-  if (arguments.isConstrained())
-  {
-    options.Constraints = [&constrained] { return constrained->takeSegments(); };
-  }
-  ConstrainedPoints::Figures figures;
+  ConstrainedInput constraints(arguments.Constraints, arguments.Threads);
+  constraints.describe(options);
   const auto open = [&]() -> std::unique_ptr<PointStream>
   {
     if (ranks.rank() == 0)
@@ -145,16 +148,7 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
     }
     PointOptions points = arguments.Columns;
     setThinningFile(points, arguments.Scratch, arguments.Output);
-    auto stream = openPointStream(arguments.Inputs, points);
-    if (!arguments.isConstrained())
-    {
-      return stream;
-    }
-    auto joined = std::make_unique<ConstrainedPoints>(
-      std::move(stream), readConstraints(arguments), arguments.constraintFile(), arguments.Threads);
-    joined->setReport(figures);
-    constrained = joined.get();
-    return joined;
+    return constraints.join(openPointStream(arguments.Inputs, points));
   };
   OutOfCoreStatistics statistics;
   const int code =
@@ -166,11 +160,7 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
   const std::vector<ProcessUsage> usage = gatherUsage(ranks);
   if (ranks.rank() == 0)
   {
-    reportMade(arguments, statistics, usage);
-    if (figures.Segments > 0) // not of a run that was resumed
-    {
-      fmt::print("{}\n", describeSegments(figures));
-    }
+    reportMade(arguments, statistics, constraints.figures(), usage);
   }
   return Success;
 }

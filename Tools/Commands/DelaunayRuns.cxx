@@ -5,8 +5,6 @@
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Process.h"
-#include "Constraints/ReadConstraintFile.h"
-#include "Constraints/TableConstraints.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputPath.h"
@@ -138,43 +136,10 @@ std::string describeAdded(std::int64_t points, const DelaunayArguments& argument
     points, arguments.Input);
 }
 
-ConstraintTable readBoundary(const std::string& path)
-{
-  ConstraintTable boundary = readConstraintFile(path);
-  try
-  {
-    requireClosedBoundary(boundary);
-  }
-  catch (const std::invalid_argument& error)
-  {
-    throw IOError(path, error.what());
-  }
-  return boundary;
-}
-
-TableConstraints readConstraints(const DelaunayArguments& arguments)
-{
-  TableConstraints constraints;
-  if (!arguments.Constraints.empty())
-  {
-    constraints.Lines = readConstraintFile(arguments.Constraints);
-  }
-  for (const auto& [x, y] : arguments.Holes)
-  {
-    constraints.Lines.Holes.insert(constraints.Lines.Holes.end(), { x, y });
-  }
-  if (!arguments.Boundary.empty())
-  {
-    constraints.Boundary = readBoundary(arguments.Boundary);
-  }
-  constraints.Crossings = arguments.RefuseCrossings ? CrossingRule::Refuse : CrossingRule::Split;
-  return constraints;
-}
-
 Triangulation triangulateWithConstraints(const DelaunayArguments& arguments, PointTable& points,
   const TriangulationOptions& options, std::string& report)
 {
-  const TableConstraints constraints = readConstraints(arguments);
+  const TableConstraints constraints = readConstraints(arguments.Constraints);
   const std::size_t given = points.size();
   try
   {
@@ -193,7 +158,7 @@ Triangulation triangulateWithConstraints(const DelaunayArguments& arguments, Poi
   }
   catch (const std::invalid_argument& error)
   {
-    throw IOError(arguments.constraintFile(), error.what());
+    throw IOError(arguments.Constraints.name(), error.what());
   }
 }
 
@@ -269,8 +234,8 @@ bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
 PathState requireWritable(const DelaunayArguments& arguments)
 {
   std::vector<std::string> inputs = arguments.Inputs;
-  inputs.push_back(arguments.Constraints);
-  inputs.push_back(arguments.Boundary);
+  inputs.push_back(arguments.Constraints.Lines);
+  inputs.push_back(arguments.Constraints.Boundary);
   requireApart({ arguments.Output, arguments.Statistics }, inputs);
   const PendingFile output(arguments.Output);
   if (!arguments.Statistics.empty())

@@ -3,7 +3,6 @@
 #define tippDelaunayRuns_h
 
 #include "Constraints/ConstrainedPoints.h"
-#include "Constraints/ReadConstraintFile.h"
 #include "Constraints/TableConstraints.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "Duplicates/ResolveDuplicates.h"
@@ -15,7 +14,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 class vtkMultiProcessController;
@@ -42,11 +40,8 @@ struct DelaunayArguments
   bool MapDuplicates = false;
   DuplicateRule Duplicates = DuplicateRule::First;
   bool Neighbors = false;
-  std::string Constraints; ///< a file; empty: none
-  std::string Boundary;    ///< the same
-  bool RefuseCrossings = false;
+  ConstraintFiles Constraints;
   bool MarkConstraints = false;
-  std::vector<std::pair<double, double>> Holes; ///< x and y of points in holes
   std::string Statistics;
   // Of a run out of core:
   std::string Memory; ///< empty: not given
@@ -58,12 +53,6 @@ struct DelaunayArguments
   bool isForRanks() const
   {
     return this->Masters != "auto" || this->Major != "auto" || this->Minor != "auto";
-  }
-  bool isConstrained() const { return !this->Constraints.empty() || !this->Boundary.empty(); }
-  /// For messages.
-  std::string constraintFile() const
-  {
-    return this->Constraints.empty() ? this->Boundary : this->Constraints;
   }
 };
 
@@ -79,12 +68,6 @@ struct MinorChoice
 std::optional<MinorChoice> parseMinor(const std::string& text);
 
 DistributedOptions makeDistributedOptions(const DelaunayArguments& arguments);
-
-/// Reads the closed lines of a boundary. Throws IOError.
-ConstraintTable readBoundary(const std::string& path);
-
-/// Reads what --constraints, --boundary and --hole name. Throws IOError.
-TableConstraints readConstraints(const DelaunayArguments& arguments);
 
 /// A line of a report.
 std::string describeSegments(const ConstrainedPoints::Figures& figures);

@@ -21,7 +21,7 @@ while [ $# -gt 0 ]; do
   shift
 done
 
-build_targets benchmarkDelaunay benchmarkConstraints
+build_targets benchmarkDelaunay
 
 # An input is made once; an unfinished file never counts as made.
 make_input() { # NAME COMMAND...
@@ -65,12 +65,6 @@ run --repeat 1 --peers cgal,vtk --input uniform:1e5 || true
 if [ $slow = yes ] && [ -f "$inputs/osborne.npy" ]; then
   run --repeat 1 --peers cgal,vtk --input "$inputs/osborne.npy" || true
 fi
-echo "== With constraints"
-constraints() { "$build/bin/benchmarkConstraints" "$@"; }
-constraints 1e6 124000 "$repeat"
-constraints 1e7 1e6 "$repeat"
-constraints 1e7 1 "$repeat"
-timeout 150 "$build/bin/benchmarkConstraints" 5000 200 1 vtk || echo "vtkDelaunay2D gave no result in 150 s."
 if [ $large = yes ]; then
   echo "== Cost per point at 50 million"
   run --repeat 1 --peers none --input uniform:1e7 --input uniform:5e7

@@ -20,6 +20,10 @@ def _column(value: Any, name: str) -> str:
     return value if isinstance(value, str) else str(check.whole(value, name))
 
 
+def _optional_path(value: Any, name: str) -> str:
+    return "" if value is None else check.path(value, name)
+
+
 def delaunay_file(
     points: _Path | Sequence[_Path],
     output: _Path,
@@ -30,6 +34,11 @@ def delaunay_file(
     max_edge: float = 0.0,
     map_duplicates: bool = False,
     neighbors: bool = False,
+    constraints: _Path | None = None,
+    boundary: _Path | None = None,
+    holes: Sequence[tuple[float, float]] = (),
+    crossings: str = "split",
+    mark_constraints: bool = False,
     count_only: bool = False,
     resume: bool = False,
     scratch: _Path | None = None,
@@ -60,6 +69,18 @@ def delaunay_file(
     neighbors
         Whether the mesh gets the cell array NeighborIds: for each corner of a triangle the global id of
         the triangle opposite to it, -1 at the hull.
+    constraints
+        A file of lines, whose edges are edges of the mesh, and of polygons: counter-clockwise ones keep what is
+        inside, clockwise ones are holes. .csv, .poly, .14, or any that VTK or GDAL reads.
+    boundary
+        A file of closed lines, which are constraints, too: triangles outside of them are left out.
+    holes
+        A point (x, y) in each hole: triangles that constraints do not part from it are left out.
+    crossings
+        "split": constraints that cross get a new point there, after the others. "refuse": a RuntimeError.
+    mark_constraints
+        Whether the mesh gets the cell array ConstraintEdges: for each corner whether the edge opposite to it is a
+        constraint.
     count_only
         Whether to count triangles and sum them up instead of writing them.
     resume
@@ -76,7 +97,8 @@ def delaunay_file(
     -------
     dict
         Numbers: points, triangles, duplicates, rejected, pieces, spilled_bytes, mesh_bytes,
-        resumed (0 or 1), and with count_only triangle_sum, a checksum of the triangles. Where VTK's
+        resumed (0 or 1), with count_only triangle_sum, a checksum of the triangles, and with constraints
+        constraints, constraint_edges, crossing_points and crossing_rounds (unless resumed). Where VTK's
         global controller has several ranks, all must call this, and the numbers are on the first.
 
     Raises
@@ -100,9 +122,14 @@ def delaunay_file(
         "max_edge": check.number(max_edge, "max_edge", at_least=0),
         "map_duplicates": check.flag(map_duplicates, "map_duplicates"),
         "neighbors": check.flag(neighbors, "neighbors"),
+        "constraints": _optional_path(constraints, "constraints"),
+        "boundary": _optional_path(boundary, "boundary"),
+        "holes": [tuple(check.several(hole, "holes", 2, check.number)) for hole in holes],
+        "crossings": check.choice(crossings, "crossings", {"split": 1, "refuse": 0}),
+        "mark_constraints": check.flag(mark_constraints, "mark_constraints"),
         "count_only": check.flag(count_only, "count_only"),
         "resume": check.flag(resume, "resume"),
-        "scratch": "" if scratch is None else check.path(scratch, "scratch"),
+        "scratch": _optional_path(scratch, "scratch"),
         "threads": check.threads(threads),
     }
     return _engine.delaunay_file(_paths(points), check.path(output, "output"), options, progress_of(progress_bar))

@@ -34,6 +34,12 @@ _FIGURES = {
     "resumed": "Resumed",
     "triangle_sum": "TriangleSum",
 }
+_CONSTRAINT_FIGURES = {
+    "constraints": "Constraints",
+    "constraint_edges": "ConstraintEdges",
+    "crossing_points": "CrossingPoints",
+    "crossing_rounds": "CrossingRounds",
+}
 _STATISTICS = {
     "points": "Points",
     "triangles": "Triangles",
@@ -43,10 +49,7 @@ _STATISTICS = {
     "initial_points": "InitialPoints",
     "worker_vertices": "WorkerVertices",
     "threads": "Threads",
-    "constraints": "Constraints",
-    "constraint_edges": "ConstraintEdges",
-    "crossing_points": "CrossingPoints",
-    "crossing_rounds": "CrossingRounds",
+    **_CONSTRAINT_FIGURES,
 }
 
 
@@ -142,13 +145,19 @@ def delaunay_file(
     algorithm.SetMaximumEdgeLength(options["max_edge"])
     algorithm.SetGenerateRepresentativeIds(options["map_duplicates"])
     algorithm.SetGenerateNeighborIds(options["neighbors"])
+    algorithm.SetConstraintsFileName(options["constraints"] or None)
+    algorithm.SetBoundaryFileName(options["boundary"] or None)
+    for x, y in options["holes"]:
+        algorithm.AddHole(x, y)
+    algorithm.SetSplitCrossings(options["crossings"])
+    algorithm.SetGenerateConstraintEdges(options["mark_constraints"])
     algorithm.SetCountOnly(options["count_only"])
     algorithm.SetResume(options["resume"])
     algorithm.SetScratchFolder(options["scratch"] or None)
     algorithm.SetNumberOfThreads(options["threads"])
     run(algorithm, progress)
     totals = algorithm.GetOutput().GetFieldData()
-    arrays = {key: totals.GetArray(name) for key, name in _FIGURES.items()}
+    arrays = {key: totals.GetArray(name) for key, name in {**_FIGURES, **_CONSTRAINT_FIGURES}.items()}
     return {key: array.GetValue(0) for key, array in arrays.items() if array is not None}
 
 

@@ -4,7 +4,9 @@
 #include "ConstrainedOracle.h"
 #include "RealData.h"
 
+#include "Adcirc/AdcircGrid.h"
 #include "Constraints/KeepInside.h"
+#include "Constraints/TableConstraints.h"
 
 #include <fstream>
 #include <string>
@@ -131,6 +133,25 @@ FreeFemMesh readFreeFem(const std::string& path)
   return result;
 }
 
+/// Weirs are slots, whose two sides go on in other boundaries or are closed at their ends.
+TEST(RealConstraints, BoundariesCutGridsWithWeirs)
+{
+  for (const char* const name :
+    { "adcirc/internal_overflow/internal_overflow.grd", "adcirc/ec95d/ec95d.grd" })
+  {
+    TIPP_REQUIRE_REAL_DATA(path, name);
+    const AdcircGrid grid = readAdcircGrid(path);
+    PointTable points;
+    points.XY = grid.XY;
+    TableConstraints constraints;
+    constraints.Boundary = readBoundary(path);
+    const ConstrainedTriangulation result = triangulateTable(points, constraints, {});
+    EXPECT_EQ(grid.XY.size(), points.XY.size());
+    // By Euler's formula all triangulations inside have as many.
+    EXPECT_EQ(grid.Triangles.size() / 3, result.Mesh.triangleCount()) << name;
+  }
+}
+
 TEST(RealConstraints, GiveBackEveryElementOfLacLeman)
 {
   TIPP_REQUIRE_REAL_DATA(path, "constraints/lac-leman-v4.msh");
@@ -144,7 +165,8 @@ TEST(RealConstraints, BorderOfLacLemanCutsTheLake)
   const FreeFemMesh lake = readFreeFem(path);
   ConstrainedTriangulation result =
     triangulateConstrained(view(lake.Mesh.Nodes), lake.Border, CrossingRule::Refuse);
-  keepInside(result.Mesh, result.Constraints.Pieces, InsideRule::EvenOdd);
+  const std::vector<ConstraintPiece>& pieces = result.Constraints.Pieces;
+  keepInside(view(lake.Mesh.Nodes), result.Mesh, pieces, { {}, pieces, {} });
   // By Euler's formula all triangulations of the lake have as many.
   EXPECT_EQ(lake.Mesh.Elements.size(), result.Mesh.triangleCount());
 }

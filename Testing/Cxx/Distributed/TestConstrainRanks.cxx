@@ -28,14 +28,11 @@ Case makeCase(Coordinates xy, const std::vector<Constraint>& constraints, std::s
   Case result;
   const ConstrainedTriangulation whole =
     triangulateConstrained(view(xy), constraints, CrossingRule::Split, {},
-      [polygonBegin](ConstrainedTriangulation& all)
+      [&](ConstrainedTriangulation& all)
       {
-        std::vector<ConstraintPiece> polygons;
-        for (const ConstraintPiece& piece : all.Constraints.Pieces)
-        {
-          std::size_t(piece.Constraint) >= polygonBegin ? polygons.push_back(piece) : void();
-        }
-        polygons.empty() ? void() : keepInside(all.Mesh, polygons);
+        const std::vector<ConstraintPiece>& pieces = all.Constraints.Pieces;
+        const auto polygons = piecesOf(pieces, polygonBegin, constraints.size());
+        keepInside({}, all.Mesh, pieces, { polygons, {}, {} });
       });
   result.Expected = trianglesOf(whole.Mesh);
   for (const CrossingPoint& crossing : whole.Constraints.Crossings)

@@ -223,93 +223,71 @@ TEST(OutOfCoreConstraint, CutsAwayWhatIsOutsideOfPolygonsAndInHoles)
 TEST(OutOfCoreConstraint, CutsAlongLatticeLines)
 {
   const Coordinates xy = makePointSet("lattice", 2500);
-  const auto [low, high] = std::minmax_element(xy.begin(), xy.end());
-  const double a = *low + std::floor((*high - *low) / 4);
-  const double b = *low + std::floor((*high - *low) / 4) * 3;
-  for (const bool isClockwise : { false, true })
+  std::array<double, 2> low{ HUGE_VAL, HUGE_VAL };
+  std::array<double, 2> high{ -HUGE_VAL, -HUGE_VAL };
+  for (std::size_t i = 0; i < xy.size(); ++i)
   {
-    TableConstraints constraints;
-    constraints.Lines.XY = { a, a, b, a, b, b, a, b };
-    constraints.Lines.Edges = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 } };
-    for (auto& edge : constraints.Lines.Edges)
+    low[i % 2] = std::min(low[i % 2], xy[i]);
+    high[i % 2] = std::max(high[i % 2], xy[i]);
+  }
+  const auto at = [&](double x, double y) // fractions of the bounding box
+  {
+    return std::array<double, 2>{ low[0] + x * (high[0] - low[0]),
+      low[1] + y * (high[1] - low[1]) };
+  };
+  const auto middle = at(0.5, 0.5);
+  TableConstraints constraints;
+  constraints.Lines = randomSegments(xy, 40, 3);
+  const double radius = 0.2 * std::min(high[0] - low[0], high[1] - low[1]);
+  addPolygon(middle[0], middle[1], radius, 9, constraints.Lines);
+  constraints.Lines.PolygonBegin = constraints.Lines.Edges.size(); // lines all of them
+  // One is on a line's end, and lines reach the hull.
+  const auto end = std::array<double, 2>{ constraints.Lines.XY[0], constraints.Lines.XY[1] };
+  for (const auto& seeds : { std::vector<std::array<double, 2>>{ at(0.5, 0.51) },
+         { at(0.6, 0.62), at(0.47, 0.5), at(0.501, 0.75) }, { end } })
+  {
+    constraints.Lines.Holes.clear();
+    for (const auto& seed : seeds)
     {
-      isClockwise ? std::swap(edge[0], edge[1]) : void();
+      constraints.Lines.Holes.insert(constraints.Lines.Holes.end(), seed.begin(), seed.end());
     }
-    constraints.Lines.PolygonBegin = 0;
     ConstrainedRun run(xy, constraints);
     run.makeExpected();
     run.run();
-    EXPECT_TRUE(run.matches()) << isClockwise;
-    EXPECT_GT(run.Expected.size(), 100U);
+    EXPECT_TRUE(run.matches()) << seeds.size();
+    EXPECT_FALSE(run.Expected.empty());
   }
 }
 
-TEST(OutOfCoreConstraint, MarksEdgesOfConstraints)
+/// A hole's border is no way out for what tells inside of a polygon, in memory and out of core.
+TEST(OutOfCoreConstraint, CutsHolesInsideOfPolygonsAndBoundaries)
 {
-  const Coordinates xy = makePointSet("uniform", 2000);
-  TableConstraints constraints;
-  constraints.Lines = randomSegments(xy, 30, 9);
-  ConstrainedRun run(xy, constraints);
-  run.Options.Neighbors = true;
-  run.Options.MarkConstraints = true;
-  run.makeExpected();
-  run.run();
-  ASSERT_TRUE(run.matches());
-  std::set<std::array<std::int64_t, 2>> expected;
-  for (const ConstraintPiece& piece : run.Pieces)
+  const Coordinates xy = makePointSet("lattice-shuffled", 900); // 30 x 30, one apart
+  const auto addSquare = [](double low, double high, ConstraintTable& table)
   {
-    expected.insert({ std::min(piece.A, piece.B), std::max(piece.A, piece.B) });
-  }
-  std::set<std::array<std::int64_t, 2>> marked;
-  const PartitionedMesh mesh = openPartitionedMesh(run.mesh());
-  for (std::size_t number = 0; number < mesh.Pieces.size(); ++number)
-  {
-    ReadCounters counters;
-    PieceFile(mesh, number, counters).verifyAll();
-    const Piece piece = readPiece(mesh, number);
-    const auto* ids = piece.PointIds.as<std::int64_t>();
-    const auto* corners = piece.Connectivity.as<std::int32_t>();
-    const auto marks = std::find_if(piece.Attributes.begin(), piece.Attributes.end(),
-      [](const auto& array) { return array.Description.Name == "ConstraintEdges"; });
-    ASSERT_NE(marks, piece.Attributes.end());
-    for (std::int64_t c = 0; c < 3 * piece.Cells; ++c)
+    const auto first = std::int64_t(table.XY.size() / 2);
+    table.XY.insert(table.XY.end(), { low, low, high, low, high, high, low, high });
+    for (std::int64_t i = 0; i < 4; ++i)
     {
-      if (marks->Values.as<std::uint8_t>()[c] != 0)
-      {
-        const std::int64_t a = ids[corners[c % 3 == 2 ? c - 2 : c + 1]];
-        const std::int64_t b = ids[corners[c % 3 == 0 ? c + 2 : c - 1]];
-        marked.insert({ std::min(a, b), std::max(a, b) });
-      }
+      table.Edges.push_back({ first + i, first + (i + 1) % 4 });
     }
-  }
-  EXPECT_TRUE(expected == marked) << expected.size() << " and " << marked.size();
-}
-
-TEST(OutOfCoreConstraint, KeepsTheInsideOfABoundary)
-{
-  const Coordinates xy = makePointSet("clustered", 3000);
+  };
   TableConstraints constraints;
-  addPolygon(0.5, 0.5, 0.4, -30, constraints.Boundary);
-  addPolygon(0.5, 0.5, 0.2, 7, constraints.Boundary);
+  addSquare(9, 15, constraints.Lines);
+  constraints.Lines.PolygonBegin = constraints.Lines.Edges.size();
+  addSquare(3, 21, constraints.Lines);
+  addSquare(2, 18, constraints.Boundary);
+  constraints.Lines.Holes = { 10.5, 12.25 };
   ConstrainedRun run(xy, constraints);
   run.makeExpected();
+  EXPECT_EQ(std::size_t(2 * (15 * 15 - 6 * 6)), run.Expected.size()); // two triangles a square
   run.run();
   EXPECT_TRUE(run.matches());
+  run.Constraints.Lines.Holes = { -4, 1 };
+  expectIOError("constraints.csv", "the hole at (-4, 1) is in no triangle", [&] { run.run(); });
 }
 
-TEST(OutOfCoreConstraint, LeavesOutLongTrianglesAtTheEnd)
-{
-  const Coordinates xy = makePointSet("uniform", 3000);
-  TableConstraints constraints;
-  constraints.Lines = randomSegments(xy, 20, 3);
-  ConstrainedRun run(xy, constraints);
-  run.Options.MaximumEdge = 0.04;
-  run.makeExpected();
-  run.run();
-  EXPECT_TRUE(run.matches());
-}
-
-TEST(OutOfCoreConstraint, RefusesCrossingsAndHolesByPoints)
+TEST(OutOfCoreConstraint, RefusesCrossings)
 {
   const Coordinates xy = makePointSet("uniform", 500);
   TableConstraints constraints;
@@ -321,8 +299,6 @@ TEST(OutOfCoreConstraint, RefusesCrossingsAndHolesByPoints)
   expectIOError("constraints.csv",
     "constraint 0 (points 500 and 501) crosses constraint 1 (points 502 and 503) at (0.5, 0.5)",
     [&] { run.run(); });
-  run.Constraints.Lines.Holes = { 0.5, 0.5 };
-  expectIOError("constraints.csv", "holes", [&] { run.run(); });
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include "vtkTIPPOutOfCoreDelaunay2D.h"
 
 #include "vtkCallbackCommand.h"
+#include "vtkCell.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
@@ -249,6 +250,56 @@ TEST(OutOfCoreTable, HasARowForEachPhase)
   EXPECT_EQ("spill", table->GetValueByName(1, "Phase").ToString());
   EXPECT_EQ(2.5, table->GetValueByName(1, "Seconds").ToDouble());
   EXPECT_EQ(0x1p64, table->GetFieldData()->GetArray("TriangleSum")->GetTuple1(0));
+}
+
+TEST_F(OutOfCoreFilter, InsertsConstraintsOfFiles)
+{
+  const auto file = [this](const char* name, const char* text)
+  { return this->Folder.file(name, std::string("x1,y1,x2,y2\n") + text); };
+  this->Filter->SetConstraintsFileName(
+    file("lines.csv", "0.1,0.1,0.9,0.9\n0.1,0.9,0.9,0.1\n").c_str());
+  this->Filter->SetBoundaryFileName(
+    file("boundary.csv", "0.2,0.2,0.8,0.2\n0.8,0.2,0.8,0.8\n0.8,0.8,0.2,0.8\n0.2,0.8,0.2,0.2\n")
+      .c_str());
+  this->Filter->AddHole(0.5, 0.3);
+  this->Filter->GenerateConstraintEdgesOn();
+  this->Filter->Update();
+  EXPECT_EQ("", this->Errors);
+  EXPECT_EQ(6, this->total("Constraints"));
+  EXPECT_EQ(1, this->total("CrossingPoints")); // the lines meet at the corners of the boundary
+  vtkNew<vtkPartitionedUnstructuredReader> reader;
+  reader->SetFileName(this->Filter->GetFileName());
+  reader->Update();
+  auto* const mesh = vtkDataSet::SafeDownCast(reader->GetOutput());
+  ASSERT_TRUE(mesh);
+  double bounds[6];
+  double area = 0;
+  mesh->GetBounds(bounds);
+  for (vtkIdType t = 0; t < mesh->GetNumberOfCells(); ++t)
+  {
+    double p[3][3];
+    for (int i = 0; i < 3; ++i)
+    {
+      mesh->GetPoint(mesh->GetCell(t)->GetPointId(i), p[i]);
+    }
+    area +=
+      ((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1])) / 2;
+  }
+  EXPECT_NEAR(0.75 * 0.36, area, 1e-12); // of the four parts one is a hole
+  vtkDataArray* const marks = mesh->GetCellData()->GetArray("ConstraintEdges");
+  ASSERT_TRUE(marks);
+  EXPECT_GT(marks->GetRange(-1)[1], 0);
+}
+
+TEST_F(OutOfCoreFilter, RefusesCrossingsAndHolesWithoutConstraints)
+{
+  this->Filter->AddHole(0.5, 0.3);
+  EXPECT_NE(std::string::npos, this->failure().find("need a file of constraints"));
+  this->Filter->SetConstraintsFileName(
+    this->Folder.file("lines.csv", "x1,y1,x2,y2\n0.1,0.1,0.9,0.9\n0.1,0.9,0.9,0.1\n").c_str());
+  this->Filter->ClearHoles();
+  this->Filter->SplitCrossingsOff();
+  EXPECT_NE(std::string::npos, this->failure().find("lines.csv: constraint 0"));
 }
 
 } // namespace

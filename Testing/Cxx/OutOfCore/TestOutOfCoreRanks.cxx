@@ -430,6 +430,7 @@ TEST_F(OutOfCoreRanks, UpdateTheFilterTogether)
   const std::string folder = this->isFirst() ? this->Folder->path("") : "";
   std::copy(folder.begin(), folder.end(), name.begin());
   this->Controller->Broadcast(name.data(), vtkIdType(name.size()), 0);
+  bool isConstrained = false;
   const auto update = [&](vtkMultiProcessController* controller)
   {
     vtkNew<vtkTIPPOutOfCoreDelaunay2D> filter;
@@ -437,6 +438,12 @@ TEST_F(OutOfCoreRanks, UpdateTheFilterTogether)
     filter->AddInputFileName((name.data() + std::string("/points.npy")).c_str());
     filter->SetFileName((name.data() + std::string("/mesh.tipp")).c_str());
     filter->SetMemoryLimit(1 << 20);
+    if (isConstrained)
+    {
+      filter->SetConstraintsFileName((name.data() + std::string("/lines.csv")).c_str());
+      filter->AddHole(0.5, 0.6);
+      filter->GenerateConstraintEdgesOn();
+    }
     // As in ParaView: each rank asks for a piece of its own.
     const bool isShared = controller != nullptr;
     EXPECT_TRUE(
@@ -446,13 +453,22 @@ TEST_F(OutOfCoreRanks, UpdateTheFilterTogether)
   };
   if (this->isFirst())
   {
-    update(nullptr);
+    this->Folder->file(
+      "lines.csv", "x1,y1,x2,y2\n0.1,0.1,0.9,0.9\n0.1,0.9,0.9,0.1\n0.1,0.9,0.9,0.9\n");
   }
-  const Files expected = this->takeFiles();
-  this->Ranks.barrier();
-  update(this->Controller);
-  EXPECT_TRUE(expected == this->takeFiles());
-  EXPECT_TRUE(!this->isFirst() || expected.size() > 5);
+  for (const bool constrained : { false, true })
+  {
+    isConstrained = constrained;
+    if (this->isFirst())
+    {
+      update(nullptr);
+    }
+    const Files expected = this->takeFiles();
+    this->Ranks.barrier();
+    update(this->Controller);
+    EXPECT_TRUE(expected == this->takeFiles());
+    EXPECT_TRUE(!this->isFirst() || expected.size() > 5);
+  }
 }
 
 TEST_F(OutOfCoreRanks, AllLearnThatTheInputIsMissing)

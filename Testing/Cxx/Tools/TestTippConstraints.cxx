@@ -162,11 +162,6 @@ TEST_F(TippConstraints, OptionsThatDoNotGoTogetherAreUsageErrors)
     "an output named .tipp");
   this->expectUsageError({ "-o", "mesh.vtp", "--refuse-crossings" }, "needs --constraints");
   this->expectUsageError({ "-o", "mesh.vtp", "--hole", "1", "2" }, "needs --constraints");
-  this->expectUsageError({ "-o", "mesh.tipp", "--constraints", "cross.csv", "--hole", "4", "4" },
-    "does not go with an output named .tipp");
-  this->expectUsageError(
-    { "-o", "mesh.vtp", "--constraints", "cross.csv", "--masters", "single", "--hole", "4", "4" },
-    "needs a single process");
 }
 
 TEST_F(TippConstraints, CheckProvesThem)
@@ -195,6 +190,28 @@ TEST_F(TippConstraints, CheckTakesAMeshThatIsCut)
   const Outcome outcome =
     runTipp(this->Folder, { "check", "points.csv", "mesh.vtp", "--constraints", "square.poly" });
   EXPECT_EQ(0, outcome.ExitCode) << outcome.Out << outcome.Err;
+}
+
+/// A line leaves the polygon, and another one lies outside of it.
+TEST_F(TippConstraints, CheckTakesConstraintsOutsideOfAMeshThatIsCut)
+{
+  this->Folder.file("lines.vtk",
+    "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS 8 double\n0 0 0\n8 8 0\n1 1 "
+    "0\n7 1 0\n7 7 0\n1 7 0\n0 4 0\n0.5 8 0\nLINES 2 6\n2 0 1\n2 6 7\nPOLYGONS 1 5\n4 2 3 4 5\n");
+  ASSERT_EQ(0, this->delaunay({ "-o", "mesh.vtp", "--constraints", "lines.vtk" }).ExitCode);
+  const Words check{ "check", "points.csv", "mesh.vtp", "--constraints" };
+  const auto outcome = [&](const char* file)
+  {
+    Words all = check;
+    all.push_back(file);
+    all.push_back("--cut");
+    return runTipp(this->Folder, all);
+  };
+  const Outcome good = outcome("lines.vtk");
+  EXPECT_EQ(0, good.ExitCode) << good.Out << good.Err;
+  this->Folder.file("other.csv", "3,3,5,5\n3,5,5,3\n");
+  EXPECT_NE(std::string::npos, outcome("other.csv").Out.find("1 constraints are no chain of edges"))
+    << "the second is crossed";
 }
 
 /// One rank works as several do.
@@ -244,13 +261,20 @@ TEST_F(TippConstraints, PartitionedMeshesAreCutToABoundary)
   EXPECT_EQ(0, outcome.ExitCode) << outcome.Out << outcome.Err;
 }
 
-TEST_F(TippConstraints, HolesByPointsNeedTheMemory)
+TEST_F(TippConstraints, HolesByPointsGoWithPartitionedMeshesAndRanks)
 {
   this->Folder.file("square.poly",
     "4 2 0 0\n1 3 3\n2 5 3\n3 5 5\n4 3 5\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n1\n1 4 4\n");
-  const Outcome outcome = this->delaunay({ "-o", "mesh.tipp", "--constraints", "square.poly" });
-  EXPECT_EQ(1, outcome.ExitCode);
-  EXPECT_NE(std::string::npos, outcome.Err.find("square.poly: has holes")) << outcome.Err;
+  for (const Words& output : { Words{ "hole.tipp" }, { "hole.vtp", "--masters", "single" } })
+  {
+    Words arguments{ "--constraints", "square.poly", "-o" };
+    arguments.insert(arguments.end(), output.begin(), output.end());
+    ASSERT_EQ(0, this->delaunay(arguments).ExitCode);
+    const Outcome outcome = runTipp(
+      this->Folder, { "check", "points.csv", output.front(), "--constraints", "square.poly" });
+    EXPECT_EQ(0, outcome.ExitCode) << outcome.Out << outcome.Err;
+  }
+  EXPECT_EQ(60, this->area("hole.vtp"));
 }
 
 TEST_F(TippConstraints, MissingFileIsNamed)

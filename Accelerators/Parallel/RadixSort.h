@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippRadixSort_h
+#define tippRadixSort_h
+
+#include "Parallel/ParallelFor.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace tipp
+{
+
+/// Sorts words by their upper 32 bits, on several threads; equal ones keep their order.
+inline void sortByUpperHalf(std::vector<std::uint64_t>& words, int threads)
+{
+  constexpr unsigned digitBits = 11;
+  constexpr std::size_t digits = std::size_t(1) << digitBits;
+  constexpr std::size_t shortest = 16384; // of a thread's share
+  const auto shares =
+    std::int64_t(std::max<std::size_t>(1, std::min(std::size_t(threads), words.size() / shortest)));
+  std::vector<std::uint64_t> sorted(words.size());
+  std::vector<std::array<std::size_t, digits>> next(static_cast<std::size_t>(shares));
+  const auto forShare = [&](std::int64_t share, const auto& visit)
+  {
+    const std::size_t end = words.size() * std::size_t(share + 1) / std::size_t(shares);
+    for (std::size_t i = words.size() * std::size_t(share) / std::size_t(shares); i < end; ++i)
+    {
+      visit(words[i]);
+    }
+  };
+  for (unsigned shift = 32; shift < 64; shift += digitBits)
+  {
+    const auto digitOf = [shift](std::uint64_t word)
+    { return std::size_t(word >> shift) & (digits - 1); };
+    parallelFor(shares, threads,
+      [&](std::int64_t share)
+      {
+        auto& counts = next[std::size_t(share)];
+        counts.fill(0);
+        forShare(share, [&](std::uint64_t word) { ++counts[digitOf(word)]; });
+      });
+    std::size_t begin = 0;
+    for (std::size_t digit = 0; digit < digits; ++digit)
+    {
+      for (auto& counts : next)
+      {
+        begin += std::exchange(counts[digit], begin);
+      }
+    }
+    parallelFor(shares, threads,
+      [&](std::int64_t share)
+      {
+        auto& places = next[std::size_t(share)];
+        forShare(share, [&](std::uint64_t word) { sorted[places[digitOf(word)]++] = word; });
+      });
+    words.swap(sorted);
+  }
+}
+
+} // namespace tipp
+
+#endif

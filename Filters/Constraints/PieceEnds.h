@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPieceEnds_h
+#define tippPieceEnds_h
+
+#include "Constraints/Constraint.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+/// The points that are ends of pieces, by id, and the pieces that end at each.
+class PieceEnds
+{
+public:
+  PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pieces, int threads);
+
+  bool has(PointId id) const
+  {
+    return (this->Bits[std::size_t(id) / 64] >> (std::size_t(id) % 64) & 1) != 0;
+  }
+
+  /// The position of an id, which must be an end, among all ends.
+  std::size_t rank(PointId id) const;
+
+  /// Calls visit(entry) for each piece that ends at the end of this rank: twice the piece's number
+  /// for its end A, and one more for its end B.
+  template <typename Visit>
+  void visit(std::size_t rank, const Visit& visit) const
+  {
+    for (std::int64_t i = this->Starts[rank]; i < this->Starts[rank + 1]; ++i)
+    {
+      visit(this->Entries[std::size_t(i)]);
+    }
+  }
+
+  ///@{
+  /// Loads what has() and visit() will need; negative ids are nobody's.
+  void expect(PointId id) const
+  {
+    if (id >= 0)
+    {
+      __builtin_prefetch(&this->Bits[std::size_t(id) / 64]);
+    }
+  }
+  void expectEntries(std::size_t rank) const { __builtin_prefetch(&this->Starts[rank]); }
+  ///@}
+
+private:
+  std::vector<std::uint64_t> Bits;   ///< by id
+  std::vector<std::uint64_t> Before; ///< bits of the words before
+  std::vector<std::int64_t> Starts;  ///< by rank, and the end
+  std::vector<std::int64_t> Entries;
+};
+
+} // namespace tipp
+
+#endif

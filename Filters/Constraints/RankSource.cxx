@@ -1,0 +1,551 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Constraints/RankSource.h"
+
+#include "Constraints/ConstraintPoints.h"
+#include "Constraints/SourceConstraints.h"
+#include "Projection/ProjectedPoints.h"
+#include "Vtk/ReadDataSet.h"
+
+#include "vtkCharArray.h"
+#include "vtkCommunicator.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+Bytes packed(vtkPolyData* data)
+{
+  vtkNew<vtkCharArray> buffer;
+  if (!vtkCommunicator::MarshalDataObject(data, buffer))
+  {
+    throw std::runtime_error("The source cannot be sent to other ranks.");
+  }
+  const char* const begin = buffer->GetPointer(0);
+  Bytes bytes(std::size_t(buffer->GetNumberOfValues()));
+  std::copy_n(begin, bytes.size(), bytes.data());
+  return bytes;
+}
+
+vtkSmartPointer<vtkPolyData> unpacked(const Bytes& bytes)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  if (bytes.size() > 0)
+  {
+    vtkNew<vtkCharArray> buffer;
+    buffer->SetNumberOfValues(vtkIdType(bytes.size()));
+    std::copy_n(bytes.data(), bytes.size(), buffer->GetPointer(0));
+    if (!vtkCommunicator::UnMarshalDataObject(buffer, data))
+    {
+      throw std::runtime_error("A part of the source that another rank has sent cannot be read.");
+    }
+  }
+  return data;
+}
+
+/// A point in the plane with its point data, on the way to the last rank.
+struct Found
+{
+  std::int64_t Vertex;
+  std::int64_t Id;
+};
+
+/// How a rank's input is numbered.
+struct Numbering
+{
+  std::int64_t Points = 0;
+  std::int64_t EndOfIds = 0; ///< above all global ids
+  bool HasIds = false;
+};
+
+class SourceSharer
+{
+public:
+  SourceSharer(Communicator& ranks, vtkPointSet* input, const RankSourceOptions& options)
+    : Ranks(ranks)
+    , Input(input)
+    , Options(options)
+  {
+  }
+
+  RankSource share(vtkPolyData* source)
+  {
+    this->gatherSources(source);
+    this->numberInput();
+    this->Options.MergesPoints ? this->takePoints() : this->takeIds();
+    const std::vector<std::int64_t> own = this->findVertices();
+    const std::vector<Bytes> rows = this->sendRows(own);
+    RankSource result;
+    result.Input = this->Input;
+    SaveArchive writer;
+    if (this->isLast())
+    {
+      this->join(rows, result);
+      writer(this->Segments, result.Figures);
+    }
+    const std::vector<Bytes> all = this->Ranks.allGather(writer.take());
+    LoadArchive reader(all.back());
+    reader(this->Segments, result.Figures);
+    result.Segments = std::make_unique<ConstraintSegments>(this->Segments);
+    return result;
+  }
+
+private:
+  bool isLast() const { return this->Ranks.rank() == this->Ranks.size() - 1; }
+
+  void gatherSources(vtkPolyData* source)
+  {
+    Bytes mine;
+    if (source && source->GetNumberOfLines() + source->GetNumberOfPolys() > 0)
+    {
+      vtkNew<vtkPolyData> sent;
+      sent->SetLines(source->GetLines());
+      sent->SetPolys(source->GetPolys());
+      if (this->Options.MergesPoints)
+      {
+        checkDataSet(source, "the source");
+        sent->SetPoints(source->GetPoints());
+        sent->GetPointData()->ShallowCopy(source->GetPointData());
+      }
+      mine = packed(sent);
+    }
+    std::vector<Bytes> all = this->Ranks.allGather(std::move(mine));
+    for (auto one = all.begin(); one != all.end(); ++one)
+    {
+      const bool isNew = one->size() > 0 &&
+        std::none_of(all.begin(), one,
+          [&](const Bytes& other)
+          { return std::equal(other.begin(), other.end(), one->begin(), one->end()); });
+      isNew ? this->Sources.push_back(unpacked(*one)) : void();
+    }
+  }
+
+  void numberInput()
+  {
+    vtkDataArray* const ids = this->Input->GetPointData()->GetGlobalIds();
+    Numbering mine{ this->Input->GetNumberOfPoints(), 0, ids != nullptr };
+    if (ids)
+    {
+      this->Ids->DeepCopy(ids); // a double would round ids beyond 2^53
+      for (vtkIdType i = 0; i < this->Ids->GetNumberOfTuples(); ++i)
+      {
+        mine.EndOfIds = std::max<std::int64_t>(mine.EndOfIds, this->Ids->GetValue(i) + 1);
+      }
+    }
+    const std::vector<Numbering> all = this->Ranks.allGather(mine);
+    this->HasIds = std::all_of(all.begin(), all.end(),
+      [](const Numbering& rank) { return rank.HasIds || rank.Points == 0; });
+    for (std::size_t rank = 0; rank < all.size(); ++rank)
+    {
+      this->First += rank < std::size_t(this->Ranks.rank()) ? all[rank].Points : 0;
+      this->EndOfIds = this->HasIds ? std::max(this->EndOfIds, all[rank].EndOfIds)
+                                    : this->EndOfIds + all[rank].Points;
+    }
+  }
+
+  std::int64_t idOf(std::size_t point) const
+  {
+    return this->HasIds ? std::int64_t(this->Ids->GetValue(vtkIdType(point)))
+                        : this->First + std::int64_t(point);
+  }
+
+  /// Appends a source's constraints, whose ids are vertices after `index` has replaced them.
+  template <typename Index>
+  void takeConstraints(vtkPolyData* source, const Index& index)
+  {
+    const SourceConstraints its = readConstraints(source, {});
+    for (std::size_t i = 0; i < its.Constraints.size(); ++i)
+    {
+      const Constraint& constraint = its.Constraints[i];
+      this->Constraints.push_back({ index(constraint.A), index(constraint.B) });
+      this->Roles.push_back(i < its.PolygonBegin ? SegmentRole::Line : SegmentRole::Polygon);
+    }
+  }
+
+  /// Vertices are the sources' points, one source after the other.
+  void takePoints()
+  {
+    for (vtkPolyData* const source : this->Sources)
+    {
+      const auto first = PointId(this->Positions.size());
+      const ProjectedPoints projected(source->GetPoints(), this->Options.ToPlane);
+      const PointsView view = projected.view();
+      view.forEach(0, view.size(), [&](std::size_t, Point2 p) { this->Positions.push_back(p); });
+      this->takeConstraints(source, [first](PointId id) { return first + id; });
+    }
+    this->Index = std::make_unique<PositionIndex>(this->Positions);
+    for (std::size_t v = 0; v < this->Positions.size(); ++v)
+    {
+      const std::int64_t same = this->Index->find(this->Positions[v]);
+      this->Same.push_back(same < 0 ? std::int64_t(v) : same);
+    }
+  }
+
+  /// Vertices are the points that the sources name, by their ids.
+  void takeIds()
+  {
+    for (vtkPolyData* const source : this->Sources)
+    {
+      this->takeConstraints(source, [](PointId id) { return id; });
+    }
+    for (const Constraint& constraint : this->Constraints)
+    {
+      this->Named.insert(this->Named.end(), { constraint.A, constraint.B });
+    }
+    std::sort(this->Named.begin(), this->Named.end());
+    this->Named.erase(std::unique(this->Named.begin(), this->Named.end()), this->Named.end());
+    for (Constraint& constraint : this->Constraints)
+    {
+      constraint = { this->vertexNamed(constraint.A), this->vertexNamed(constraint.B) };
+    }
+    for (std::size_t v = 0; v < this->Named.size(); ++v)
+    {
+      this->Same.push_back(std::int64_t(v));
+    }
+  }
+
+  /// -1: no source names the point.
+  std::int64_t vertexNamed(std::int64_t id) const
+  {
+    const auto at = std::lower_bound(this->Named.begin(), this->Named.end(), id);
+    return at != this->Named.end() && *at == id ? at - this->Named.begin() : -1;
+  }
+
+  /// Sets the vertices' ids. Returns, for each vertex, the index of the point that it is here, or
+  /// -1 if it is none of this rank's, or another rank has one of lower id.
+  std::vector<std::int64_t> findVertices()
+  {
+    constexpr std::int64_t none = -1;
+    std::vector<std::int64_t> point(this->Same.size(), none);
+    const ProjectedPoints projected(this->Input->GetPoints(), this->Options.ToPlane);
+    const PointsView view = projected.view();
+    view.forEach(0, view.size(),
+      [&](std::size_t i, Point2 p)
+      {
+        const std::int64_t v =
+          this->Index ? this->Index->find(p) : this->vertexNamed(this->idOf(i));
+        std::int64_t* const its = v < 0 ? nullptr : &point[std::size_t(v)];
+        if (its && (*its < 0 || this->idOf(i) < this->idOf(std::size_t(*its))))
+        {
+          *its = std::int64_t(i);
+        }
+      });
+    std::vector<Found> found;
+    for (std::size_t v = 0; v < point.size(); ++v)
+    {
+      if (point[v] >= 0)
+      {
+        found.push_back({ std::int64_t(v), this->idOf(std::size_t(point[v])) });
+      }
+    }
+    this->VertexIds.assign(point.size(), none);
+    std::vector<int> owner(point.size(), -1);
+    const std::vector<std::vector<Found>> all = this->Ranks.allGather(found);
+    for (int rank = 0; rank < this->Ranks.size(); ++rank)
+    {
+      for (const Found& one : all[std::size_t(rank)])
+      {
+        std::int64_t& id = this->VertexIds.at(std::size_t(one.Vertex));
+        if (id < 0 || one.Id < id)
+        {
+          id = one.Id;
+          owner[std::size_t(one.Vertex)] = rank;
+        }
+      }
+    }
+    this->numberNewVertices();
+    for (std::size_t v = 0; v < point.size(); ++v)
+    {
+      point[v] = owner[v] == this->Ranks.rank() ? point[v] : none;
+    }
+    return point;
+  }
+
+  void numberNewVertices()
+  {
+    std::int64_t next = this->EndOfIds;
+    for (std::size_t v = 0; v < this->VertexIds.size(); ++v)
+    {
+      if (this->VertexIds[v] < 0 && !this->Options.MergesPoints)
+      {
+        throw std::invalid_argument("the source names point " + std::to_string(this->Named[v]) +
+          ", which no rank's input has: the source's ids are the input's, unless "
+          "MergeSourcePoints is on.");
+      }
+      if (this->VertexIds[v] < 0 && this->Same[v] == std::int64_t(v))
+      {
+        this->VertexIds[v] = next++;
+      }
+    }
+  }
+
+  /// Sends the points of vertices to the last rank, which gets a data set of each rank.
+  std::vector<Bytes> sendRows(const std::vector<std::int64_t>& own)
+  {
+    vtkNew<vtkPolyData> rows;
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkIdTypeArray> numbers;
+    numbers->SetName("tippVertex");
+    vtkPointData* const from = this->Input->GetPointData();
+    rows->GetPointData()->CopyGlobalIdsOff();
+    rows->GetPointData()->CopyAllocate(from);
+    for (std::size_t v = 0; v < own.size(); ++v)
+    {
+      if (own[v] >= 0)
+      {
+        const vtkIdType to = points->InsertNextPoint(this->Input->GetPoint(own[v]));
+        rows->GetPointData()->CopyData(from, own[v], to);
+        numbers->InsertNextValue(vtkIdType(v));
+      }
+    }
+    rows->SetPoints(points);
+    rows->GetPointData()->AddArray(numbers);
+    std::vector<Bytes> sent(std::size_t(this->Ranks.size()));
+    if (points->GetNumberOfPoints() > 0)
+    {
+      sent.back() = packed(rows);
+    }
+    return this->Ranks.allToAll(std::move(sent));
+  }
+
+  /// On the last rank: makes segments of the constraints, and appends new points to the input.
+  void join(const std::vector<Bytes>& rows, RankSource& result)
+  {
+    this->sortVertices();
+    const vtkSmartPointer<vtkPolyData> vertices = this->makeVertices(rows);
+    const std::vector<Point2> positions = this->positionsOf(vertices);
+    const PointsView view(positions.empty() ? nullptr : &positions.front().x, positions.size(), 2);
+    std::vector<Constraint> constraints;
+    for (const Constraint& constraint : this->Constraints)
+    {
+      constraints.push_back({ this->rankOf(constraint.A), this->rankOf(constraint.B) });
+    }
+    std::vector<PointId> names;
+    for (const std::size_t v : this->Sorted)
+    {
+      names.push_back(this->VertexIds[v]);
+    }
+    const ResolvedConstraints resolved =
+      resolveCrossings(view, constraints, this->Options.Crossings, this->Options.Threads, names);
+    if (resolved.NotFinite > 0 &&
+      std::find(this->Roles.begin(), this->Roles.end(), SegmentRole::Polygon) != this->Roles.end())
+    {
+      throw std::invalid_argument("the source has polygons, and a point that is NaN or infinite: "
+                                  "remove the polygon or correct the point.");
+    }
+    result.Figures = { std::int64_t(constraints.size()), std::int64_t(resolved.Pieces.size()),
+      std::int64_t(resolved.Crossings.size()), resolved.Rounds, resolved.NotFinite };
+    std::vector<Point2> all = positions;
+    for (const CrossingPoint& crossing : resolved.Crossings)
+    {
+      all.push_back(crossing.Position);
+    }
+    for (const ConstraintPiece& piece : resolved.Pieces)
+    {
+      this->Segments.push_back({ all[std::size_t(piece.A)], all[std::size_t(piece.B)],
+        this->Roles[std::size_t(piece.Constraint)] });
+    }
+    const auto firstNew =
+      std::size_t(std::lower_bound(names.begin(), names.end(), this->EndOfIds) - names.begin());
+    if (firstNew < all.size())
+    {
+      vtkNew<vtkPolyData> extended;
+      extended->SetPoints(
+        appendCrossings(vertices->GetPoints(), resolved.Crossings, !this->Options.ToPlane));
+      interpolateCrossings(vertices->GetPointData(), vtkIdType(positions.size()),
+        resolved.Crossings, extended->GetPointData());
+      this->appendTo(extended, firstNew, result);
+      result.Positions.insert(
+        result.Positions.end(), all.begin() + std::ptrdiff_t(firstNew), all.end());
+    }
+  }
+
+  /// Vertices with different ids, by these, as in memory; new ones are last.
+  void sortVertices()
+  {
+    for (std::size_t v = 0; v < this->Same.size(); ++v)
+    {
+      this->Same[v] == std::int64_t(v) ? this->Sorted.push_back(v) : void();
+    }
+    std::sort(this->Sorted.begin(), this->Sorted.end(),
+      [this](std::size_t a, std::size_t b) { return this->VertexIds[a] < this->VertexIds[b]; });
+    this->RankOfVertex.resize(this->Same.size());
+    for (std::size_t i = 0; i < this->Sorted.size(); ++i)
+    {
+      this->RankOfVertex[this->Sorted[i]] = PointId(i);
+    }
+  }
+
+  PointId rankOf(PointId vertex) const
+  {
+    return this->RankOfVertex[std::size_t(this->Same[std::size_t(vertex)])];
+  }
+
+  /// The sorted vertices with the point data that all of them have.
+  vtkSmartPointer<vtkPolyData> makeVertices(const std::vector<Bytes>& rows) const
+  {
+    std::vector<vtkSmartPointer<vtkPolyData>> from;
+    std::vector<std::tuple<PointId, std::size_t, vtkIdType>> rowOf; // rank, data set, row
+    for (const Bytes& bytes : rows)
+    {
+      if (bytes.size() > 0)
+      {
+        from.push_back(unpacked(bytes));
+        auto* const numbers =
+          vtkIdTypeArray::SafeDownCast(from.back()->GetPointData()->GetArray("tippVertex"));
+        for (vtkIdType i = 0; numbers && i < numbers->GetNumberOfTuples(); ++i)
+        {
+          rowOf.emplace_back(this->rankOf(numbers->GetValue(i)), from.size() - 1, i);
+        }
+        from.back()->GetPointData()->RemoveArray("tippVertex");
+      }
+    }
+    std::size_t first = 0;
+    for (std::size_t s = 0; this->Options.MergesPoints && s < this->Sources.size(); ++s)
+    {
+      const vtkIdType count = this->Sources[s]->GetNumberOfPoints();
+      bool isUsed = false;
+      for (vtkIdType i = 0; i < count; ++i)
+      {
+        const std::size_t v = first + std::size_t(i);
+        if (this->Same[v] == std::int64_t(v) && this->VertexIds[v] >= this->EndOfIds)
+        {
+          rowOf.emplace_back(this->RankOfVertex[v], from.size(), i);
+          isUsed = true;
+        }
+      }
+      isUsed ? from.push_back(this->Sources[s]) : void();
+      first += std::size_t(count);
+    }
+    std::sort(rowOf.begin(), rowOf.end());
+    return copyRows(from, rowOf);
+  }
+
+  /// The rows of data sets, in their order, with the point data that all data sets have.
+  static vtkSmartPointer<vtkPolyData> copyRows(
+    const std::vector<vtkSmartPointer<vtkPolyData>>& from,
+    const std::vector<std::tuple<PointId, std::size_t, vtkIdType>>& rows)
+  {
+    auto result = vtkSmartPointer<vtkPolyData>::New();
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    points->SetNumberOfPoints(vtkIdType(rows.size()));
+    vtkPointData* const data = result->GetPointData();
+    vtkDataSetAttributes::FieldList fields;
+    for (vtkPolyData* const one : from)
+    {
+      fields.IntersectFieldList(one->GetPointData());
+    }
+    data->CopyGlobalIdsOff();
+    if (!from.empty())
+    {
+      fields.CopyAllocate(data, vtkDataSetAttributes::COPYTUPLE, vtkIdType(rows.size()), 0);
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      const auto& [rank, set, row] = rows[i];
+      points->SetPoint(vtkIdType(i), from[set]->GetPoint(row));
+      fields.CopyData(int(set), from[set]->GetPointData(), row, data, vtkIdType(i));
+    }
+    result->SetPoints(points);
+    return result;
+  }
+
+  std::vector<Point2> positionsOf(vtkPolyData* vertices) const
+  {
+    std::vector<Point2> positions;
+    if (this->Index)
+    {
+      for (const std::size_t v : this->Sorted)
+      {
+        positions.push_back(this->Positions[v]);
+      }
+      return positions;
+    }
+    const ProjectedPoints projected(vertices->GetPoints(), this->Options.ToPlane);
+    const PointsView view = projected.view();
+    view.forEach(0, view.size(), [&](std::size_t, Point2 p) { positions.push_back(p); });
+    return positions;
+  }
+
+  /// Appends the points from `begin` on to the input.
+  void appendTo(vtkPolyData* extended, std::size_t begin, RankSource& result) const
+  {
+    const ProjectedPoints projected(this->Input->GetPoints(), this->Options.ToPlane);
+    const PointsView view = projected.view();
+    view.forEach(0, view.size(), [&](std::size_t, Point2 p) { result.Positions.push_back(p); });
+    std::vector<std::tuple<PointId, std::size_t, vtkIdType>> rows;
+    std::vector<vtkSmartPointer<vtkPolyData>> from;
+    vtkNew<vtkPolyData> given;
+    given->SetPoints(this->Input->GetPoints());
+    given->GetPointData()->ShallowCopy(this->Input->GetPointData());
+    vtkNew<vtkIdTypeArray> ids;
+    ids->SetName("GlobalPointIds");
+    for (vtkIdType i = 0; i < this->Input->GetNumberOfPoints(); ++i)
+    {
+      rows.emplace_back(i, 0, i);
+      ids->InsertNextValue(this->idOf(std::size_t(i)));
+    }
+    if (!rows.empty())
+    {
+      from.emplace_back(given);
+    }
+    for (vtkIdType i = vtkIdType(begin); i < extended->GetNumberOfPoints(); ++i)
+    {
+      rows.emplace_back(PointId(rows.size()), from.size(), i);
+      ids->InsertNextValue(this->EndOfIds + (i - vtkIdType(begin)));
+    }
+    from.emplace_back(extended);
+    const vtkSmartPointer<vtkPolyData> joined = copyRows(from, rows);
+    if (this->HasIds)
+    {
+      joined->GetPointData()->SetGlobalIds(ids);
+    }
+    result.Input = joined;
+  }
+
+  Communicator& Ranks;
+  vtkPointSet* const Input;
+  const RankSourceOptions& Options;
+  std::vector<vtkSmartPointer<vtkPolyData>> Sources; ///< different ones, the same on all ranks
+  vtkNew<vtkIdTypeArray> Ids;                        ///< of the input's points, if it has some
+  bool HasIds = false;                               ///< all ranks' points have ids
+  std::int64_t First = 0;                            ///< of this rank's points, if they do not
+  std::int64_t EndOfIds = 0;                         ///< above those of all inputs' points
+  std::vector<Point2> Positions;                     ///< of vertices, where points are merged
+  std::unique_ptr<PositionIndex> Index;              ///< the same
+  std::vector<std::int64_t> Named;     ///< ids of vertices, where points are not merged
+  std::vector<std::int64_t> Same;      ///< of vertices: the first one at the position
+  std::vector<std::int64_t> VertexIds; ///< of the first ones
+  std::vector<std::size_t> Sorted;     ///< the first ones by their ids
+  std::vector<PointId> RankOfVertex;   ///< of the first ones: the position in Sorted
+  std::vector<Constraint> Constraints; ///< by vertices
+  std::vector<SegmentRole> Roles;      ///< of constraints
+  std::vector<ConstraintSegment> Segments;
+};
+
+} // namespace
+
+RankSource shareSource(
+  Communicator& ranks, vtkPointSet* input, vtkPolyData* source, const RankSourceOptions& options)
+{
+  return SourceSharer(ranks, input, options).share(source);
+}
+
+} // namespace tipp

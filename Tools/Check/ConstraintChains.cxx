@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Check/ConstraintChains.h"
+
+#include <gmpxx.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+using Ids = std::vector<std::int64_t>;
+
+class ChainFinder
+{
+public:
+  ChainFinder(const std::vector<double>& xy, const Ids& triangles)
+    : XY(xy)
+  {
+    const std::int64_t points = std::int64_t(xy.size() / 2);
+    for (std::size_t i = 0; i + 2 < triangles.size(); i += 3)
+    {
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const std::int64_t a = triangles[i + k];
+        const std::int64_t b = triangles[i + (k + 1) % 3];
+        if (std::min(a, b) >= 0 && std::max(a, b) < points)
+        {
+          this->Edges.push_back({ a, b });
+          this->Edges.push_back({ b, a });
+        }
+      }
+    }
+    std::sort(this->Edges.begin(), this->Edges.end());
+    for (auto begin = this->Edges.begin(); begin != this->Edges.end();)
+    {
+      const auto end = std::find_if(
+        begin, this->Edges.end(), [begin](const FixedEdge& edge) { return edge != *begin; });
+      if (end - begin == 1) // of one triangle
+      {
+        this->Border.insert((*begin)[0]);
+      }
+      begin = end;
+    }
+    this->Edges.erase(std::unique(this->Edges.begin(), this->Edges.end()), this->Edges.end());
+    for (const FixedEdge& edge : this->Edges)
+    {
+      // Of points with equal coordinates the mesh uses one.
+      this->VertexAt[{ this->x(edge[0]), this->y(edge[0]) }] = edge[0];
+    }
+  }
+
+  /// The same for a constraint that the mesh, which is cut, has in part: gaps of its chain begin
+  /// and end at the mesh's border.
+  bool findParts(std::int64_t first, std::int64_t last, std::vector<FixedEdge>& edges)
+  {
+    this->A = first;
+    this->B = last;
+    const auto [west, east] = std::minmax(this->x(first), this->x(last));
+    const double none = -HUGE_VAL;
+    Ids on;
+    for (auto at = this->VertexAt.lower_bound({ west, none });
+         at != this->VertexAt.end() && at->first.first <= east; ++at)
+    {
+      const std::int64_t v = at->second;
+      const bool isBetween = (this->isSame(v, first) || this->isBefore(first, v)) &&
+        (this->isSame(v, last) || this->isBefore(v, last));
+      if (isBetween && this->isOnConstraint(v))
+      {
+        on.push_back(v);
+      }
+    }
+    std::sort(on.begin(), on.end(),
+      [this](std::int64_t p, std::int64_t q) { return this->isBefore(p, q); });
+    const auto isOnBorder = [this](std::int64_t v) { return this->Border.count(v) > 0; };
+    bool isGood = on.empty() ||
+      ((this->isSame(on.front(), first) || isOnBorder(on.front())) &&
+        (this->isSame(on.back(), last) || isOnBorder(on.back())));
+    for (std::size_t i = 1; i < on.size(); ++i)
+    {
+      const FixedEdge edge{ on[i - 1], on[i] };
+      if (std::binary_search(this->Edges.begin(), this->Edges.end(), edge))
+      {
+        edges.push_back({ std::min(edge[0], edge[1]), std::max(edge[0], edge[1]) });
+      }
+      else
+      {
+        isGood = isGood && isOnBorder(on[i - 1]) && isOnBorder(on[i]);
+      }
+    }
+    return isGood;
+  }
+
+  /// Appends the edges of the constraint's chain; returns false if there is none.
+  bool find(std::int64_t first, std::int64_t last, std::vector<FixedEdge>& edges)
+  {
+    if (!this->isFinite(first) || !this->isFinite(last) || this->isSame(first, last))
+    {
+      return true;
+    }
+    const auto a = this->VertexAt.find({ this->x(first), this->y(first) });
+    const auto b = this->VertexAt.find({ this->x(last), this->y(last) });
+    if (a == this->VertexAt.end() || b == this->VertexAt.end())
+    {
+      return false;
+    }
+    this->A = a->second;
+    this->B = b->second;
+    // Depth-first search: if vertices are a few units apart, a path may be a dead end.
+    std::vector<Ids> open{ this->onward(this->A) };
+    Ids way{ this->A };
+    while (!open.empty() && way.back() != this->B)
+    {
+      if (open.back().empty())
+      {
+        open.pop_back();
+        way.pop_back();
+        continue;
+      }
+      way.push_back(open.back().back());
+      open.back().pop_back();
+      open.push_back(way.back() == this->B ? Ids{} : this->onward(way.back()));
+    }
+    for (std::size_t i = 1; i < way.size(); ++i)
+    {
+      edges.push_back({ std::min(way[i - 1], way[i]), std::max(way[i - 1], way[i]) });
+    }
+    return !open.empty();
+  }
+
+private:
+  double x(std::int64_t id) const { return this->XY[2 * std::size_t(id)]; }
+  double y(std::int64_t id) const { return this->XY[2 * std::size_t(id) + 1]; }
+  bool isFinite(std::int64_t id) const
+  {
+    return std::isfinite(this->x(id)) && std::isfinite(this->y(id));
+  }
+  bool isSame(std::int64_t a, std::int64_t b) const
+  {
+    return this->x(a) == this->x(b) && this->y(a) == this->y(b);
+  }
+
+  /// Neighbours on the constraint that are nearer to its end, the nearest to the vertex last.
+  Ids onward(std::int64_t vertex) const
+  {
+    Ids next;
+    auto edge = std::lower_bound(this->Edges.begin(), this->Edges.end(), FixedEdge{ vertex, -1 });
+    for (; edge != this->Edges.end() && (*edge)[0] == vertex; ++edge)
+    {
+      const std::int64_t id = (*edge)[1];
+      if (this->isBefore(vertex, id) && (id == this->B || this->isBefore(id, this->B)) &&
+        this->isOnConstraint(id))
+      {
+        next.push_back(id);
+      }
+    }
+    std::sort(next.begin(), next.end(),
+      [this](std::int64_t p, std::int64_t q) { return this->isBefore(q, p); });
+    return next;
+  }
+
+  /// Whether p precedes q along the constraint in both coordinates.
+  bool isBefore(std::int64_t p, std::int64_t q) const
+  {
+    const double signX = this->x(this->B) < this->x(this->A) ? -1 : 1;
+    const double signY = this->y(this->B) < this->y(this->A) ? -1 : 1;
+    return signX * this->x(p) <= signX * this->x(q) && signY * this->y(p) <= signY * this->y(q) &&
+      !this->isSame(p, q);
+  }
+
+  static mpq_class twoUnits(double a, double b)
+  {
+    const double largest = std::max(std::fabs(a), std::fabs(b));
+    return 2 * (mpq_class(std::nextafter(largest, HUGE_VAL)) - mpq_class(largest));
+  }
+
+  bool isOnConstraint(std::int64_t id) const
+  {
+    const mpq_class ax(this->x(this->A));
+    const mpq_class ay(this->y(this->A));
+    const mpq_class dx = mpq_class(this->x(this->B)) - ax;
+    const mpq_class dy = mpq_class(this->y(this->B)) - ay;
+    const mpq_class off = dx * (mpq_class(this->y(id)) - ay) - dy * (mpq_class(this->x(id)) - ax);
+    return off == 0 ||
+      abs(off) <= abs(dx) * twoUnits(this->y(this->A), this->y(this->B)) +
+        abs(dy) * twoUnits(this->x(this->A), this->x(this->B));
+  }
+
+  const std::vector<double>& XY;
+  std::vector<FixedEdge> Edges; ///< in both directions, sorted
+  std::map<std::pair<double, double>, std::int64_t> VertexAt;
+  std::set<std::int64_t> Border; ///< vertices of edges with one triangle
+  std::int64_t A = 0;            ///< the ends of the current constraint
+  std::int64_t B = 0;
+};
+
+} // namespace
+
+ConstraintChains findConstraintChains(const std::vector<double>& xy,
+  const std::vector<std::int64_t>& triangles,
+  const std::vector<std::array<std::int64_t, 2>>& constraints, bool isCut)
+{
+  ConstraintChains chains;
+  ChainFinder finder(xy, triangles);
+  for (const auto& constraint : constraints)
+  {
+    const bool isFound = finder.find(constraint[0], constraint[1], chains.Edges) ||
+      (isCut && finder.findParts(constraint[0], constraint[1], chains.Edges));
+    chains.Lost += isFound ? 0 : 1;
+  }
+  std::sort(chains.Edges.begin(), chains.Edges.end());
+  chains.Edges.erase(std::unique(chains.Edges.begin(), chains.Edges.end()), chains.Edges.end());
+  return chains;
+}
+
+} // namespace tipp
