@@ -4,6 +4,9 @@
 # the CORE and WITHOUT_VTK sources, linked with the modules that it NEEDS (for VTK they stand in vtk.module).
 function (tipp_add_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "CLASSES;NEEDS;CORE;VTK;WITHOUT_VTK")
+  foreach (source IN LISTS arg_CORE arg_WITHOUT_VTK) # for a test of them
+    set_property(GLOBAL APPEND PROPERTY TIPP_WHEEL_SOURCES "${CMAKE_CURRENT_SOURCE_DIR}/${source}")
+  endforeach ()
   if (NOT TIPP_BUILD_WHEEL)
     if (arg_CLASSES)
       list(PREPEND arg_CLASSES CLASSES)

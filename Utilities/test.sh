@@ -39,9 +39,10 @@ check_tsan() { check_sanitizer tsan; }
 # Tests that render need a display.
 check_tests() { xvfb-run -a ctest --preset default; }
 
-# The plugin is built a second time over, against ParaView's VTK; its tests are skipped without it.
+# The plugin is built a second time over, against ParaView's VTK. Its tests run the tool, too.
 check_paraview() {
-  sh Utilities/build.sh paraview && ctest --preset default --label-regex '^paraview$'
+  sh Utilities/build.sh default --target tipp --target tipp_python && sh Utilities/build.sh paraview &&
+    ctest --preset default --label-regex '^paraview$'
 }
 
 # A wheel, of the Python that PYTHON names, and its tests in clean environments; needs PyPI.

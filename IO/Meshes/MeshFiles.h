@@ -6,8 +6,6 @@
 #include "Points/PointTable.h"
 #include "vtkTIPPIOModule.h"
 
-#include "vtkSmartPointer.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -16,8 +14,11 @@
 #include <string>
 #include <vector>
 
+// Declared alone: the wheel is built without VTK.
 class vtkPolyData;
 class vtkUnstructuredGrid;
+template <class T>
+class vtkSmartPointer;
 
 namespace tipp
 {

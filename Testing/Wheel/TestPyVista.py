@@ -25,6 +25,12 @@ class PyVista(unittest.TestCase):
         run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
         self.assertEqual("True", run.stdout.strip(), run.stderr)
 
+    def test_a_call_on_arrays_imports_no_vtk(self):
+        code = ("import numpy, sys, tipp; tipp.delaunay(numpy.random.default_rng(1).random((500, 2)));"
+                "print([name for name in sys.modules if name.startswith(('vtk', 'cvista', 'pyvista'))])")
+        run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        self.assertEqual("[]", run.stdout.strip(), run.stderr)
+
     def test_a_pyvista_mesh_makes_a_pyvista_mesh_that_shares_its_points(self):
         cloud = terrain()
         mesh = cloud.tipp.delaunay_2d()

@@ -60,10 +60,10 @@ def vtk_points(points: ArrayLike) -> vtkPoints:
 def _lent(array: np.ndarray, columns: int) -> vtkDataArray:
     """As numpy_to_vtk(), which takes ten times as long: a VTK array in the memory of one in C order, which it keeps."""
     result = _CLASSES[array.dtype.char]()
-    result.SetNumberOfComponents(columns)
-    flat = array.reshape(-1)
-    result.SetVoidArray(flat, len(flat), 1)
-    result._numpy_reference = flat
+    if columns > 1:
+        result.SetNumberOfComponents(columns)
+    result.SetVoidArray(array, array.size, 1)
+    result._numpy_reference = array
     return result
 
 
