@@ -27,7 +27,6 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
 
 #include <algorithm>
@@ -37,10 +36,23 @@
 vtkStandardNewMacro(vtkPartitionedMeshQuery);
 vtkCxxSetObjectMacro(vtkPartitionedMeshQuery, Controller, vtkMultiProcessController);
 
-using Pipeline = vtkStreamingDemandDrivenPipeline;
-
 namespace
 {
+
+/// The points that at(i, p) writes to p.
+template <typename At>
+std::vector<tipp::Point3> collected(vtkIdType count, const At& at)
+{
+  std::vector<tipp::Point3> points;
+  points.reserve(std::size_t(count));
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    double p[3] = { 0, 0, 0 };
+    at(i, p);
+    points.push_back({ p[0], p[1], p[2] });
+  }
+  return points;
+}
 
 std::vector<tipp::Point3> pointsOf(vtkDataArray* array)
 {
@@ -50,26 +62,8 @@ std::vector<tipp::Point3> pointsOf(vtkDataArray* array)
     throw std::runtime_error("points have two or three coordinates, but the array has " +
       std::to_string(components) + " components.");
   }
-  std::vector<tipp::Point3> points(std::size_t(array->GetNumberOfTuples()));
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    double p[3] = { 0, 0, 0 };
-    array->GetTuple(vtkIdType(i), p);
-    points[i] = { p[0], p[1], p[2] };
-  }
-  return points;
-}
-
-std::vector<tipp::Point3> pointsOf(vtkDataSet* data)
-{
-  std::vector<tipp::Point3> points(std::size_t(data->GetNumberOfPoints()));
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    double p[3];
-    data->GetPoint(vtkIdType(i), p);
-    points[i] = { p[0], p[1], p[2] };
-  }
-  return points;
+  return collected(
+    array->GetNumberOfTuples(), [array](vtkIdType i, double* p) { array->GetTuple(i, p); });
 }
 
 void copyTo(vtkIdTypeArray* array, const std::vector<std::int64_t>& ids, int components = 1)
@@ -81,6 +75,12 @@ void copyTo(vtkIdTypeArray* array, const std::vector<std::int64_t>& ids, int com
     std::copy(ids.begin(), ids.end(), array->GetPointer(0));
     array->Modified();
   }
+}
+
+void copyTo(vtkIdTypeArray* starts, vtkIdTypeArray* ids, const tipp::IdLists& lists)
+{
+  copyTo(starts, lists.Starts);
+  copyTo(ids, lists.Ids);
 }
 
 std::vector<std::int64_t> idsOf(vtkIdTypeArray* array)
@@ -177,14 +177,6 @@ int vtkPartitionedMeshQuery::FillInputPortInformation(int port, vtkInformation* 
     info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
-  return 1;
-}
-
-int vtkPartitionedMeshQuery::RequestInformation(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  outputs->GetInformationObject(0)->CopyEntry(
-    inputs[0]->GetInformationObject(0), Pipeline::WHOLE_EXTENT());
   return 1;
 }
 
@@ -335,7 +327,10 @@ int vtkPartitionedMeshQuery::RequestData(
           }
           return monitor(0.5);
         });
-      tipp::MeshAnswer answer = this->Ask(pointsOf(input), false, true);
+      tipp::MeshAnswer answer =
+        this->Ask(collected(input->GetNumberOfPoints(),
+                    [input](vtkIdType i, double* p) { input->GetPoint(i, p); }),
+          false, true);
       vtkPointData* const values = output->GetPointData();
       for (tipp::MeshAnswer::Array& array : answer.Arrays)
       {
@@ -418,37 +413,21 @@ int vtkPartitionedMeshQuery::Neighbors(vtkIdTypeArray* cells, vtkIdTypeArray* ne
 int vtkPartitionedMeshQuery::Star(
   vtkIdTypeArray* points, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
 {
-  return this->Direct(
-    [&]
-    {
-      const tipp::IdLists lists = tipp::starsOf(*this->Open(), idsOf(points));
-      copyTo(starts, lists.Starts);
-      copyTo(ids, lists.Ids);
-    });
+  return this->Direct([&] { copyTo(starts, ids, tipp::starsOf(*this->Open(), idsOf(points))); });
 }
 
 int vtkPartitionedMeshQuery::RingOfPoints(
   vtkIdTypeArray* points, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
 {
   return this->Direct(
-    [&]
-    {
-      const tipp::IdLists lists = tipp::ringsOfPoints(*this->Open(), idsOf(points), k);
-      copyTo(starts, lists.Starts);
-      copyTo(ids, lists.Ids);
-    });
+    [&] { copyTo(starts, ids, tipp::ringsOfPoints(*this->Open(), idsOf(points), k)); });
 }
 
 int vtkPartitionedMeshQuery::RingOfCells(
   vtkIdTypeArray* cells, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
 {
   return this->Direct(
-    [&]
-    {
-      const tipp::IdLists lists = tipp::ringsOfCells(*this->Open(), idsOf(cells), k);
-      copyTo(starts, lists.Starts);
-      copyTo(ids, lists.Ids);
-    });
+    [&] { copyTo(starts, ids, tipp::ringsOfCells(*this->Open(), idsOf(cells), k)); });
 }
 
 int vtkPartitionedMeshQuery::Boundary(vtkPolyData* loops)
