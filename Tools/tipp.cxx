@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
-#include "Console/MpiSession.h"
-#include "Console/Signals.h"
+#include "Console/Process.h"
 
 #include "vtkLogger.h"
 

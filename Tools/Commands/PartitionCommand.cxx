@@ -2,9 +2,7 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
-#include "Console/MpiSession.h"
-#include "Console/ProgressBar.h"
-#include "Console/Signals.h"
+#include "Console/Process.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
 #include "Partitioning/PartitionDataSet.h"
@@ -21,23 +19,14 @@ namespace tipp
 namespace
 {
 
-double totalSeconds(const PartitionStatistics& statistics)
-{
-  double sum = 0;
-  for (const PartitionStatistics::Phase& phase : statistics.Phases)
-  {
-    sum += phase.Seconds;
-  }
-  return sum;
-}
-
 /// One line for the user.
 std::string summarize(const PartitionStatistics& statistics)
 {
   return fmt::format("{} cells, {} points, {} pieces, {} borrowed cells, {:.0f} MB, {:.3f} s, peak "
                      "memory {:.0f} MB",
     statistics.Cells, statistics.Points, statistics.Pieces, statistics.BorrowedCells,
-    double(statistics.MeshBytes) / 1e6, totalSeconds(statistics), double(peakMemoryBytes()) / 1e6);
+    double(statistics.MeshBytes) / 1e6, totalSeconds(statistics.Phases),
+    double(peakMemoryBytes()) / 1e6);
 }
 
 /// Writes a JSON file; throws IOError.
@@ -56,7 +45,7 @@ void writeReport(const std::string& path, const std::string& input, const std::s
     { "copied_points", statistics.CopiedPoints },
     { "spilled_bytes", statistics.SpilledBytes },
     { "mesh_bytes", statistics.MeshBytes },
-    { "seconds", totalSeconds(statistics) },
+    { "seconds", totalSeconds(statistics.Phases) },
     { "peak_memory_bytes", peakMemoryBytes() },
     { "ranks", statistics.Ranks },
     { "threads", statistics.Threads },
@@ -116,7 +105,7 @@ std::string checkTiling(const std::string& text)
 }
 
 PartitionOptions makeOptions(
-  const PartitionArguments& arguments, const MpiSession& session, ProgressBar& bar)
+  const PartitionArguments& arguments, const std::unique_ptr<ProgressBar>& bar)
 {
   PartitionOptions options;
   options.Tiling = *TilingChoice::parse(arguments.Tiling);
@@ -126,14 +115,7 @@ PartitionOptions makeOptions(
   options.Loading.Kind = loaderFromName(arguments.Loader);
   options.Device = parseDeviceChoice(arguments.Device);
   options.Threads = arguments.Threads;
-  options.Progress = [&session, &bar](double fraction)
-  {
-    if (session.isFirst())
-    {
-      bar.update(fraction);
-    }
-    return !isInterrupted();
-  };
+  options.Progress = progressOn(bar);
   return options;
 }
 
@@ -154,9 +136,9 @@ int runPartition(const PartitionArguments& arguments)
             const PendingFile writable(arguments.Statistics);
           }
         });
-    ProgressBar bar("Partitioning");
-    statistics = partitionInput(arguments.Input, arguments.Output,
-      makeOptions(arguments, session, bar), session.controller());
+    const auto bar = session.isFirst() ? std::make_unique<ProgressBar>("Partitioning") : nullptr;
+    statistics = partitionInput(
+      arguments.Input, arguments.Output, makeOptions(arguments, bar), session.controller());
   }
   catch (const std::exception&)
   {
@@ -212,9 +194,7 @@ void addPartitionCommand(CLI::App& app, int& exitCode)
     ->add_option("--device", arguments->Device,
       "What classifies cells at borders: openmp, opencl, opencl:NAME or auto")
     ->capture_default_str();
-  command->add_option("--threads", arguments->Threads, "Number of threads; 0: OpenMP's choice")
-    ->check(CLI::Range(0, 4096))
-    ->capture_default_str();
+  addThreadsOption(*command, arguments->Threads);
   command->add_option("--stats", arguments->Statistics, "Writes what the run did to a JSON file");
   command->footer(footer);
   command->callback([arguments, &exitCode]() { exitCode = runPartition(*arguments); });

@@ -23,9 +23,7 @@ void addQueryMeshOptions(CLI::App& command, QueryMeshArguments& arguments)
       "--memory", arguments.Memory, "For the pieces of a partitioned mesh that stay in memory")
     ->check(checkMemorySize)
     ->capture_default_str();
-  command.add_option("--threads", arguments.Threads, "Number of threads; 0: OpenMP's choice")
-    ->check(CLI::Range(0, 4096))
-    ->capture_default_str();
+  addThreadsOption(command, arguments.Threads);
 }
 
 std::unique_ptr<ResidentMesh> openQueryMesh(const QueryMeshArguments& arguments)
