@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPartitionedMeshQuery.h"
 
-#include "Output/CollectivePipeline.h"
-#include "Output/Monitor.h"
+#include "Output/FilterPipeline.h"
 #include "Parallel/Poll.h"
 #include "Query/Around.h"
 #include "Query/DataSetPart.h"

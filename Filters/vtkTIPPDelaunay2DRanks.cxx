@@ -4,10 +4,9 @@
 
 #include "Distributed/DistributedTriangulation.h"
 #include "Distributed/TriangleExchange.h"
-#include "Output/CollectivePipeline.h"
-#include "Output/Monitor.h"
-#include "Output/PieceOutput.h"
-#include "Output/StatisticsTable.h"
+#include "Output/FilterPipeline.h"
+#include "Output/RunStatistics.h"
+#include "Output/TriangleOutput.h"
 #include "Projection/ProjectedPoints.h"
 #include "Vtk/ReadDataSet.h"
 

@@ -3,9 +3,9 @@
 
 #include "Files/IOError.h"
 #include "Files/OutputPath.h"
-#include "OutOfCore/OutOfCoreRanks.h"
-#include "Output/Monitor.h"
-#include "Output/StatisticsTable.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "Output/FilterPipeline.h"
+#include "Output/RunStatistics.h"
 
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"

@@ -2,8 +2,8 @@
 #include "vtkTIPPPointsToImage.h"
 
 #include "Dem/StreamedDem.h"
-#include "Output/Monitor.h"
-#include "Points/TablePoints.h"
+#include "Output/FilterPipeline.h"
+#include "Points/PointStream.h"
 #include "Sampling/RangeResampleRun.h"
 #include "Vtk/VtkFiles.h"
 

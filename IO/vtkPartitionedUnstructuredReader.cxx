@@ -7,9 +7,7 @@
 #include "Parallel/Poll.h"
 #include "Partitioned/PieceGrid.h"
 #include "Partitioning/PartitionMesh.h"
-#include "Reading/MergePieces.h"
 #include "Reading/PieceSource.h"
-#include "Reading/RangeFilter.h"
 #include "Vtk/Compatibility.h"
 
 #include "vtkDataArraySelection.h"

@@ -47,6 +47,17 @@ public:
 
   T* data() { return this->Data.get(); }
   const T* data() const { return this->Data.get(); }
+  /// The memory as values of another type.
+  template <typename U>
+  U* as()
+  {
+    return reinterpret_cast<U*>(this->data());
+  }
+  template <typename U>
+  const U* as() const
+  {
+    return reinterpret_cast<const U*>(this->data());
+  }
   std::size_t size() const { return this->Size; }
   bool empty() const { return this->Size == 0; }
   T& operator[](std::size_t i) { return this->Data.get()[i]; }
@@ -59,11 +70,12 @@ public:
   /// Shortens the array to its first `size` elements; the memory stays allocated.
   void truncate(std::size_t size) { this->Size = size; }
 
-  /// Returns the memory; the caller owns it and frees it with free().
+  /// Returns the memory; the caller owns it and frees it with free(). Never null, since VTK and
+  /// NumPy take no array without memory.
   T* release()
   {
     this->Size = 0;
-    return this->Data.release();
+    return this->Data ? this->Data.release() : static_cast<T*>(std::malloc(1));
   }
 
 private:

@@ -5,9 +5,11 @@
 #include "vtkTIPPAcceleratorsModule.h"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <type_traits>
 
 namespace tipp
@@ -28,35 +30,19 @@ enum class Scalar
   Float64
 };
 
+/// The C++ types of the enumerators, in their order.
+using ScalarTypes = std::tuple<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
+  std::uint32_t, std::int64_t, std::uint64_t, float, double>;
+
 /// Calls work(value) with a value of the corresponding C++ type.
-template <typename Work>
+template <std::size_t I = 0, typename Work>
 void withScalar(Scalar type, const Work& work)
 {
-  // NOLINTBEGIN(bugprone-branch-clone): the types differ.
-  switch (type)
+  if constexpr (I < std::tuple_size_v<ScalarTypes>)
   {
-    case Scalar::Int8:
-      return work(std::int8_t());
-    case Scalar::UInt8:
-      return work(std::uint8_t());
-    case Scalar::Int16:
-      return work(std::int16_t());
-    case Scalar::UInt16:
-      return work(std::uint16_t());
-    case Scalar::Int32:
-      return work(std::int32_t());
-    case Scalar::UInt32:
-      return work(std::uint32_t());
-    case Scalar::Int64:
-      return work(std::int64_t());
-    case Scalar::UInt64:
-      return work(std::uint64_t());
-    case Scalar::Float32:
-      return work(float());
-    case Scalar::Float64:
-      return work(double());
+    std::size_t(type) == I ? work(std::tuple_element_t<I, ScalarTypes>())
+                           : withScalar<I + 1>(type, work);
   }
-  // NOLINTEND(bugprone-branch-clone)
 }
 
 /// Converts a number to the nearest value of a type; NaN becomes 0 in integer types.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Locate/CellLocator.h"
 
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 #include "Resample/BorderClaims.h"
-#include "Resample/CellKey.h"
+#include "Resample/Claims.h"
 #include "Resample/SampleBlock.h"
 
 #include <algorithm>

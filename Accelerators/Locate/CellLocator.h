@@ -4,8 +4,8 @@
 
 #include "Locate/BoxTree.h"
 #include "Locate/CellLocation.h"
-#include "Predicates/Point3.h"
-#include "Resample/CellKey.h"
+#include "Predicates/Points.h"
+#include "Resample/Claims.h"
 #include "Resample/SimplexMesh.h"
 #include "vtkTIPPAcceleratorsModule.h"
 

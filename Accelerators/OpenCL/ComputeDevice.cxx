@@ -274,36 +274,32 @@ cl::Buffer ComputeDevice::room(std::size_t bytes) const
 
 void ComputeDevice::read(const cl::Buffer& buffer, void* data, std::size_t bytes) const
 {
-  if (bytes != 0)
-  {
-    this->run(
-      [&]
-      {
-        cl::Event event;
-        this->Queue.enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, data, nullptr, &event);
-        this->countTransfer(event);
-      });
-  }
+  this->transfer(bytes,
+    [&](cl::Event& event)
+    { this->Queue.enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, data, nullptr, &event); });
 }
 
 void ComputeDevice::write(const cl::Buffer& buffer, const void* data, std::size_t bytes) const
 {
+  this->transfer(bytes,
+    [&](cl::Event& event)
+    { this->Queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, data, nullptr, &event); });
+}
+
+void ComputeDevice::transfer(
+  std::size_t bytes, const std::function<void(cl::Event&)>& enqueue) const
+{
   if (bytes != 0)
   {
     this->run(
       [&]
       {
         cl::Event event;
-        this->Queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, data, nullptr, &event);
-        this->countTransfer(event);
+        enqueue(event);
+        this->TransferNanoseconds += event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
+          event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
       });
   }
-}
-
-void ComputeDevice::countTransfer(const cl::Event& event) const
-{
-  this->TransferNanoseconds += event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
-    event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
 }
 
 void ComputeDevice::enqueue(const cl::Kernel& kernel, std::size_t items) const

@@ -15,6 +15,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
@@ -109,7 +110,7 @@ private:
   void enqueue(const cl::Kernel& kernel, std::size_t items) const;
   AcceleratorError failure(const cl::Error& error) const;
   cl::Program build(const KernelSource& source, const std::string& options) const;
-  void countTransfer(const cl::Event& event) const;
+  void transfer(std::size_t bytes, const std::function<void(cl::Event&)>& enqueue) const;
 
   DeviceDescription Description;
   cl::Device Device;

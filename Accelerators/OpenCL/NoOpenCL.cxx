@@ -2,7 +2,7 @@
 // What stands for ComputeDevice.cxx and everything that runs on a device in a build without OpenCL.
 #include "OpenCL/Devices.h"
 #include "Partition/ClassifyCells.h"
-#include "Resample/DeviceResampler.h"
+#include "Resample/Resample.h"
 
 namespace tipp
 {

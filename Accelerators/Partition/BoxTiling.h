@@ -2,7 +2,7 @@
 #ifndef tippBoxTiling_h
 #define tippBoxTiling_h
 
-#include "Predicates/Point3.h"
+#include "Predicates/Points.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
 #include <algorithm>

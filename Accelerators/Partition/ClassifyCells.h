@@ -4,7 +4,7 @@
 
 #include "OpenCL/Devices.h"
 #include "Partition/BoxTiling.h"
-#include "Predicates/CellBox.h"
+#include "Predicates/ExactPredicates.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Predicates/Circumdisk.h"
 
-#include "Predicates/ExactDoubles.h"
+#include "Predicates/ExactArithmetic.h"
 
 #include <cmath>
 #include <limits>

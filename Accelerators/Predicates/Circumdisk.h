@@ -2,7 +2,7 @@
 #ifndef tippCircumdisk_h
 #define tippCircumdisk_h
 
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
 #include <algorithm>

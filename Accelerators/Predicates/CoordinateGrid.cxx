@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Predicates/CoordinateGrid.h"
 
-#include "Predicates/ExactDoubles.h"
-#include "Predicates/ExactIntegers.h"
-#include "Predicates/InCircle.h"
+#include "Predicates/ExactArithmetic.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef tippCoordinateGrid_h
 #define tippCoordinateGrid_h
 
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/BorderClaims.h"
 
-#include "Predicates/Orientation.h"
-#include "Resample/CellKey.h"
+#include "Predicates/ExactPredicates.h"
+#include "Resample/Claims.h"
 
 #include <utility>
 

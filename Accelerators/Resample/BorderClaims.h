@@ -2,8 +2,7 @@
 #ifndef tippBorderClaims_h
 #define tippBorderClaims_h
 
-#include "Predicates/Point2.h"
-#include "Predicates/Point3.h"
+#include "Predicates/Points.h"
 #include "Resample/CellVisitor.h"
 #include "Resample/Claims.h"
 
@@ -77,6 +76,39 @@ public:
 private:
   std::vector<Touch> Touches;
   std::size_t Most = 1 << 16;
+};
+
+/// What the walks that find the cells of samples have in common: counts, and the touches of
+/// samples. `Walk::isClaimed(sample)` tells whether a cell has claimed a sample.
+template <typename Walk>
+class TouchingWalk
+{
+public:
+  void visit(std::int64_t samples)
+  {
+    ++this->Statistics.VisitedCells;
+    this->Statistics.Tests += samples;
+  }
+  void addExactTests(std::int64_t count) { this->Statistics.ExactTests += count; }
+
+  /// The touches of samples that no cell has claimed.
+  const std::vector<Touch>& openTouches()
+  {
+    this->Touches.dropClaimed(this->claimed());
+    return this->Touches.touches();
+  }
+
+  ClaimStatistics Statistics;
+  std::int64_t Claimed = 0;
+
+protected:
+  auto claimed() const
+  {
+    return [walk = static_cast<const Walk*>(this)](std::int64_t sample)
+    { return walk->isClaimed(sample); };
+  }
+
+  TouchList Touches;
 };
 
 /// The moveRank() of a cell at a sample that it touches.

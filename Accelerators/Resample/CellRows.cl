@@ -123,7 +123,7 @@ INLINE int setRows(Cell* t, const double3* p, Axis x, Axis y, Axis z)
   lowFirst(&a, &b);
   lowFirst(&b, &c);
   lowFirst(&a, &b);
-  // orientation(a, c, b) with the filter of Orientation.h.
+  // orientation(a, c, b) with the filter of ExactPredicates.h.
   const double l = (a.x - b.x) * (c.y - b.y);
   const double r = (a.y - b.y) * (c.x - b.x);
   const double bound = 3.3306690738754716e-16 * (fabs(l) + fabs(r)) + 1e-300;

@@ -4,11 +4,9 @@
 
 #include "Parallel/ParallelFor.h"
 #include "Resample/Lattice.h"
-#include "Resample/OutsidePoints.h"
 #include "Resample/SimplexMesh.h"
 #include "Resample/TetrahedronLanes.h"
 #include "Resample/TetrahedronRows.h"
-#include "Resample/TriangleLanes.h"
 #include "Resample/TriangleRows.h"
 
 #include <cstdint>

@@ -150,7 +150,7 @@ constexpr std::int32_t unclaimed = -1;
 
 /// A thread's state in the first walk. Cells that do not overlap write to different samples; if
 /// some overlap, more samples are claimed than there are, and another walk decides.
-class FirstWalk
+class FirstWalk : public TouchingWalk<FirstWalk>
 {
 public:
   /// `names`: maps a cell's index to the number to store; null: the index itself.
@@ -158,12 +158,6 @@ public:
     : Claims(claims)
     , Names(names)
   {
-  }
-
-  void visit(std::int64_t samples)
-  {
-    ++this->Statistics.VisitedCells;
-    this->Statistics.Tests += samples;
   }
 
   void claim(const SampleRow& row, int begin, int count, std::int32_t cell)
@@ -181,33 +175,17 @@ public:
 
   void touch(const SampleRow& row, int begin, int count, std::int32_t cell)
   {
-    this->Touches.add(row, begin, count, this->Names ? this->Names[cell] : cell,
-      [this](std::int64_t sample) { return this->isClaimed(sample); });
+    this->Touches.add(row, begin, count, this->Names ? this->Names[cell] : cell, this->claimed());
   }
 
-  void addExactTests(std::int64_t count) { this->Statistics.ExactTests += count; }
+  void endChunk() { this->Touches.tidy(this->claimed()); }
 
-  void endChunk()
-  {
-    this->Touches.tidy([this](std::int64_t sample) { return this->isClaimed(sample); });
-  }
-
-  const std::vector<Touch>& openTouches()
-  {
-    this->Touches.dropClaimed([this](std::int64_t sample) { return this->isClaimed(sample); });
-    return this->Touches.touches();
-  }
-
-  ClaimStatistics Statistics;
-  std::int64_t Claimed = 0;
-
-private:
   bool isClaimed(std::int64_t sample) const
   {
     return __atomic_load_n(this->Claims + sample, __ATOMIC_RELAXED) != unclaimed;
   }
 
-  TouchList Touches;
+private:
   std::int32_t* Claims;
   const std::int32_t* Names;
 };

@@ -2,19 +2,81 @@
 #ifndef tippClaims_h
 #define tippClaims_h
 
+#include "Arrays/Random.h"
 #include "Parallel/ParallelFor.h"
-#include "Resample/CellKey.h"
+#include "Predicates/Points.h"
 #include "Resample/Lattice.h"
 #include "Resample/SimplexMesh.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace tipp
 {
+
+/// Of the cells that contain a sample, the one with the lowest key claims it. A key's highest four
+/// bits are the cell's moveRank() at the sample; the others are a hash of its corners' coordinates,
+/// so that the choice between overlapping cells does not depend on order, ids and pieces. Equal
+/// keys mean copies of one cell.
+using CellKey = std::uint64_t;
+
+constexpr CellKey noCellKey = ~CellKey(0);
+
+/// The key of a cell with rank 0; its corners may come in any order.
+template <int Corners>
+CellKey cellKey(const Point3 (&corners)[Corners])
+{
+  Point3 sorted[Corners];
+  std::copy(corners, corners + Corners, sorted);
+  for (int i = 0; i < Corners; ++i)
+  {
+    for (int j = i + 1; j < Corners; ++j)
+    {
+      lexicographicLess(sorted[j], sorted[i]) ? std::swap(sorted[i], sorted[j]) : void();
+    }
+  }
+  std::uint64_t hash = 0;
+  for (const Point3& corner : sorted)
+  {
+    for (const double coordinate : { corner.x, corner.y, corner.z })
+    {
+      const double value = coordinate + 0.0; // -0 becomes 0
+      std::uint64_t bits;
+      std::memcpy(&bits, &value, sizeof bits);
+      hash = mixBits(hash + bits);
+    }
+  }
+  return hash >> 4;
+}
+
+/// The key of a cell of a SimplexAccess.
+template <typename Access>
+CellKey keyOf(const Access& cells, std::int64_t cell)
+{
+  Point3 corners[Access::Corners];
+  for (int i = 0; i < Access::Corners; ++i)
+  {
+    corners[i] = cells.point(cells.ids(cell)[i]);
+  }
+  return cellKey(corners);
+}
+
+inline CellKey withRank(CellKey key, int rank)
+{
+  return (key << 4 >> 4) | (CellKey(rank) << 60);
+}
+
+/// A sample that cells touch but none contains, with the key of the one that answers it.
+struct BorderSample
+{
+  std::int64_t Sample;
+  CellKey Key;
+};
 
 /// A box of a lattice's samples, and its position in the lattice. With it the cost of a part of a
 /// mesh depends on the part's own box, not on the whole image.

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/Interpolate.h"
 
+#include "Parallel/Stopwatch.h"
+#include "Resample/BorderClaims.h"
+#include "Resample/CellVisitor.h"
 #include "Resample/FillBlock.h"
+#include "Resample/SimplexMesh.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace tipp
 {
@@ -103,6 +108,261 @@ bool interpolate(const SimplexMesh& mesh, const SampleWindow& window, const std:
         });
     });
   return completed;
+}
+
+namespace
+{
+
+/// Calls work(first, last) for runs of bytes that are 0, of begin..end - 1, which are 0 or 1.
+template <typename Work>
+void forZeros(const unsigned char* bytes, std::int64_t begin, std::int64_t end, const Work& work)
+{
+  const auto find = [&](int byte, std::int64_t from)
+  {
+    const void* const found = std::memchr(bytes + from, byte, std::size_t(end - from));
+    return found ? static_cast<const unsigned char*>(found) - bytes : end;
+  };
+  for (std::int64_t first = find(0, begin); first < end;)
+  {
+    const std::int64_t last = find(1, first);
+    work(first, last);
+    first = find(0, last);
+  }
+}
+
+/// What a thread fills of the samples.
+template <typename Access>
+class FillingWalk : public TouchingWalk<FillingWalk<Access>>
+{
+public:
+  FillingWalk(const SimplexMesh& mesh, const LatticeAxes& axes,
+    const std::vector<Attribute>& attributes, const InterpolationOptions& options)
+    : Attributes(attributes)
+    , Options(options)
+    , Weighs(needsWeights(attributes, options))
+    , Block(mesh, axes)
+  {
+  }
+
+  [[gnu::always_inline]] void claim(const SampleRow& row, int begin, int count, std::int32_t cell)
+  {
+    while (count > this->Block.room())
+    {
+      const int part = this->Block.room();
+      this->Block.add(cell, row, begin, part);
+      this->flush();
+      begin += part;
+      count -= part;
+    }
+    this->Block.add(cell, row, begin, count);
+  }
+
+  void touch(const SampleRow& row, int begin, int count, std::int32_t cell)
+  {
+    this->Touches.add(row, begin, count, cell, this->claimed());
+  }
+
+  void endChunk()
+  {
+    this->flush();
+    this->Touches.tidy(this->claimed());
+  }
+
+  [[gnu::noinline]] void flush()
+  {
+    this->Claimed += this->Block.size();
+    unsigned char* const valid = this->Options.Valid;
+    const std::int64_t* const indices = this->Block.indices();
+    const int size = this->Block.size();
+    for (int j = 0; j < size; ++j)
+    {
+      // An ordinary store; but cells that overlap may be in two threads at once.
+      __atomic_store_n(valid + indices[j], 1, __ATOMIC_RELAXED);
+    }
+    fillBlock(this->Block, this->Weighs, this->Attributes, this->Options);
+    this->Block.clear();
+  }
+
+  bool isClaimed(std::int64_t sample) const
+  {
+    return __atomic_load_n(this->Options.Valid + sample, __ATOMIC_RELAXED) != 0;
+  }
+
+private:
+  const std::vector<Attribute>& Attributes;
+  const InterpolationOptions& Options;
+  bool Weighs;
+  SampleBlock<Access> Block;
+};
+
+/// One run for a mesh of known types.
+template <typename Access>
+class DirectSampler
+{
+public:
+  using Walk = FillingWalk<Access>;
+
+  DirectSampler(const SimplexMesh& mesh, const LatticeAxes& axes,
+    const std::vector<Attribute>& attributes, const InterpolationOptions& options)
+    : Mesh(mesh)
+    , Axes(axes)
+    , Attributes(attributes)
+    , Options(options)
+    , Walks(std::size_t(options.Threads), Walk(mesh, axes, attributes, options))
+  {
+  }
+
+  /// `claimed` samples are there already. `border`: see samplePartDirectly(); may be null.
+  DirectResult run(std::int64_t claimed, std::vector<BorderSample>* border)
+  {
+    this->Result.Aborted =
+      !CellVisitor<Access, Walk>(this->Mesh, this->Axes, this->Walks).run(this->Options.Progress);
+    for (const Walk& walk : this->Walks)
+    {
+      this->Result.Statistics.VisitedCells += walk.Statistics.VisitedCells;
+      this->Result.Statistics.Tests += walk.Statistics.Tests;
+      this->Result.Statistics.ExactTests += walk.Statistics.ExactTests;
+      claimed += walk.Claimed;
+    }
+    const Stopwatch watch;
+    if (!this->Result.Aborted)
+    {
+      this->Result.Overlapping = this->finishSamples() != claimed;
+    }
+    if (!this->Result.Aborted && !this->Result.Overlapping)
+    {
+      this->fillBorder(border);
+    }
+    this->Result.FinishSeconds = watch.seconds();
+    return this->Result;
+  }
+
+private:
+  template <typename Work>
+  void forSamples(const Work& work)
+  {
+    forChunks(this->Axes.samples(), 1 << 16, this->Options.Threads, {}, work);
+  }
+
+  /// Gives the samples that cells do not contain their null values; tells how many they do.
+  std::int64_t finishSamples()
+  {
+    const unsigned char* const valid = this->Options.Valid;
+    std::vector<std::int64_t> counts(std::size_t(this->Options.Threads), 0);
+    this->forSamples(
+      [&](std::int64_t begin, std::int64_t end, int thread)
+      {
+        const auto always = [](std::int64_t) { return true; };
+        counts[std::size_t(thread)] += end - begin;
+        forZeros(valid, begin, end,
+          [&](std::int64_t first, std::int64_t last)
+          {
+            counts[std::size_t(thread)] -= last - first;
+            for (const Attribute& attribute : this->Attributes)
+            {
+              attribute.Values ? fillNull(attribute, first, last, always) : void();
+            }
+          });
+        for (const Attribute& attribute : this->Attributes)
+        {
+          attribute.Values ? void() : fillNull(attribute, begin, end, always);
+        }
+      });
+    std::int64_t sum = 0;
+    for (const std::int64_t count : counts)
+    {
+      sum += count;
+    }
+    return sum;
+  }
+
+  void fillBorder(std::vector<BorderSample>* border)
+  {
+    std::vector<Touch> touches;
+    for (Walk& walk : this->Walks)
+    {
+      const std::vector<Touch>& open = walk.openTouches();
+      touches.insert(touches.end(), open.begin(), open.end());
+    }
+    const std::int64_t width = this->Axes.U.size();
+    const std::int64_t height = this->Axes.V.size();
+    const std::vector<BorderClaim> claims =
+      borderClaims(this->Mesh, this->Axes, std::move(touches), this->Options.Threads);
+    forChunks(std::int64_t(claims.size()), 1 << 10, this->Options.Threads, {},
+      [&](std::int64_t begin, std::int64_t end, int thread)
+      {
+        Walk& walk = this->Walks[std::size_t(thread)];
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          const BorderClaim& claim = claims[std::size_t(i)];
+          const std::int64_t line = claim.Sample / width;
+          const SampleRow row{ line * width, int(line % height), int(line / height) };
+          walk.claim(row, int(claim.Sample % width), 1, claim.Cell);
+        }
+        walk.flush();
+      });
+    const Access access(this->Mesh);
+    for (std::size_t i = 0; border && i < claims.size(); ++i)
+    {
+      const BorderClaim& claim = claims[i];
+      const int rank = borderRank(access, this->Axes, claim.Sample, claim.Cell);
+      border->push_back({ claim.Sample, withRank(keyOf(access, claim.Cell), rank) });
+    }
+  }
+
+  const SimplexMesh& Mesh;
+  const LatticeAxes& Axes;
+  const std::vector<Attribute>& Attributes;
+  const InterpolationOptions& Options;
+  std::vector<Walk> Walks;
+  DirectResult Result;
+};
+
+DirectResult sampleRest(const SimplexMesh& mesh, const Lattice& lattice,
+  const std::vector<Attribute>& attributes, const InterpolationOptions& options,
+  std::int64_t claimed, std::vector<BorderSample>* border = nullptr)
+{
+  const LatticeAxes axes(mesh, lattice);
+  DirectResult result;
+  withAccess(mesh,
+    [&](const auto& access)
+    {
+      using Access = std::decay_t<decltype(access)>;
+      result = DirectSampler<Access>(mesh, axes, attributes, options).run(claimed, border);
+    });
+  return result;
+}
+
+} // namespace
+
+void clearMask(std::int64_t samples, int threads, unsigned char* valid)
+{
+  forChunks(samples, 1 << 16, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int)
+    { std::memset(valid + begin, 0, std::size_t(end - begin)); });
+}
+
+DirectResult sampleDirectly(const SimplexMesh& mesh, const Lattice& lattice,
+  const std::vector<Attribute>& attributes, const InterpolationOptions& options)
+{
+  clearMask(LatticeAxes(mesh, lattice).samples(), options.Threads, options.Valid);
+  return sampleRest(mesh, lattice, attributes, options, 0);
+}
+
+DirectResult samplePartDirectly(const SimplexMesh& mesh, const Lattice& lattice,
+  const std::vector<Attribute>& attributes, const InterpolationOptions& options,
+  std::vector<BorderSample>& border)
+{
+  clearMask(LatticeAxes(mesh, lattice).samples(), options.Threads, options.Valid);
+  return sampleRest(mesh, lattice, attributes, options, 0, &border);
+}
+
+DirectResult finishDirectly(const SimplexMesh& mesh, const Lattice& lattice,
+  const std::vector<Attribute>& attributes, const InterpolationOptions& options,
+  const SampledCells& sampled)
+{
+  const PartMesh part(mesh, sampled.Open);
+  return sampleRest(part.mesh(), lattice, attributes, options, sampled.Claimed);
 }
 
 } // namespace tipp

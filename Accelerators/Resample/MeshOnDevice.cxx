@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/ResampleOnDevice.h"
 
-#include "Resample/DeviceResampler.h"
+#include "Resample/Resample.h"
 
 #include <algorithm>
 #include <cstring>

@@ -4,8 +4,7 @@
 #include "OpenCL/Devices.h"
 #include "Parallel/Stopwatch.h"
 #include "Resample/CellVisitor.h"
-#include "Resample/DeviceResampler.h"
-#include "Resample/DirectSampling.h"
+#include "Resample/Interpolate.h"
 
 #include <memory>
 #include <string>

@@ -3,8 +3,8 @@
 
 #include "Resample/ClaimSamples.cl.h"
 #include "Resample/InterpolateSamples.cl.h"
-#include "Resample/OutsidePoints.h"
 #include "Resample/SampleCells.cl.h"
+#include "Resample/SimplexMesh.h"
 
 #include <algorithm>
 #include <cstring>

@@ -5,7 +5,6 @@
 #include "OpenCL/ComputeDevice.h"
 #include "Parallel/ParallelFor.h"
 #include "Resample/CellVisitor.h"
-#include "Resample/DirectSampling.h"
 #include "Resample/Interpolate.h"
 #include "Resample/Resample.h"
 #include "Resample/SimplexMesh.h"

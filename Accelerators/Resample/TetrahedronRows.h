@@ -2,7 +2,7 @@
 #ifndef tippTetrahedronRows_h
 #define tippTetrahedronRows_h
 
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 #include "Resample/Lattice.h"
 
 #include <utility>
@@ -153,12 +153,8 @@ private:
     face.A = a;
     face.B = b;
     face.C = c;
-    const double ux = b.x - a.x;
-    const double uy = b.y - a.y;
-    const double uz = b.z - a.z;
-    const double vx = c.x - a.x;
-    const double vy = c.y - a.y;
-    const double vz = c.z - a.z;
+    const auto [ux, uy, uz] = b - a;
+    const auto [vx, vy, vz] = c - a;
     const double nx = uy * vz - uz * vy;
     const double ny = uz * vx - ux * vz;
     const double nz = ux * vy - uy * vx;

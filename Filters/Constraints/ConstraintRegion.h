@@ -3,7 +3,7 @@
 #define tippConstraintRegion_h
 
 #include "Constraints/SegmentInserter.h"
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 #include "Triangulation/Triangulate.h"
 
 #include <array>

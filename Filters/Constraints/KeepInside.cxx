@@ -3,7 +3,7 @@
 
 #include "Constraints/Constraint.h"
 #include "Meshes/MeshFiles.h"
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>

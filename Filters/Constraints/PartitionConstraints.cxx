@@ -2,7 +2,7 @@
 #include "Constraints/PartitionConstraints.h"
 
 #include "Constraints/SegmentInserter.h"
-#include "Kernel/MeshEditor.h"
+#include "Kernel/DelaunayKernel.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 #include "Constraints/SegmentTree.h"
 #include "Parallel/ParallelFor.h"
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <cmath>

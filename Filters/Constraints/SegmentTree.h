@@ -2,7 +2,7 @@
 #ifndef tippSegmentTree_h
 #define tippSegmentTree_h
 
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 
 #include <algorithm>
 #include <array>

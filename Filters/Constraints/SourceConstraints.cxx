@@ -2,7 +2,7 @@
 #include "Constraints/SourceConstraints.h"
 
 #include "Constraints/ConstraintPoints.h"
-#include "Output/CellBuffers.h"
+#include "Output/TriangleOutput.h"
 #include "Projection/ProjectedPoints.h"
 
 #include "vtkCellArray.h"

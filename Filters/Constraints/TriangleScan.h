@@ -4,7 +4,7 @@
 
 #include "Constraints/CrossedTriangles.h"
 #include "Constraints/SegmentTree.h"
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 #include "Triangulation/PointsView.h"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include "Dem/MakeDem.h"
 
 #include "Parallel/ParallelFor.h"
+#include "Resample/SimplexMesh.h"
 
 #include <algorithm>
 #include <atomic>
@@ -128,7 +129,7 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   {
     return figures;
   }
-  figures.DisagreeingPlaces =
+  figures.DisagreeingPositions =
     resolveDuplicates(points, triangulation.Duplicates, request.Duplicates);
   const std::vector<double> xyz = takeXYZ(points, settings.Bands);
   TerrainPoints terrain;

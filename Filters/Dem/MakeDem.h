@@ -7,7 +7,7 @@
 #include "Dem/TileStore.h"
 #include "Duplicates/ResolveDuplicates.h"
 #include "Points/PointTable.h"
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 #include "Raster/RasterFile.h"
 #include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"
@@ -46,8 +46,8 @@ struct DemFigures
   std::int64_t Points = 0;
   std::int64_t Triangles = 0;
   std::int64_t Duplicates = 0;
-  std::int64_t DisagreeingPlaces = 0; ///< of several points with different elevations
-  std::int64_t Rejected = 0;          ///< points that are not finite
+  std::int64_t DisagreeingPositions = 0; ///< of several points with different elevations
+  std::int64_t Rejected = 0;             ///< points that are not finite
   bool Aborted = false;
 };
 

@@ -3,6 +3,7 @@
 
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
+#include "Resample/Claims.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "Dem/MakeDem.h"
 #include "Dem/TileStore.h"
-#include "OutOfCore/TriangleTaker.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 
 #include <array>
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace tipp
 
 /// Samples the triangles of a triangulation out of core, and forgets them. Pixels are kept in a
 /// TileStore until all are known.
-class VTKTIPPFILTERS_EXPORT RasterSink : public TriangleTaker
+class VTKTIPPFILTERS_EXPORT RasterSink : public TriangleConsumer
 {
 public:
   /// Makes the settings when the bounds and columns are known.

@@ -95,18 +95,12 @@ DemFigures makeWithin(PointStream& points, const DemRequest& request, std::uint6
   options.MaximumEdge = request.MaximumEdge;
   options.Duplicates = request.Duplicates;
   options.CountOnly = true;
-  options.Taker = &sink;
+  options.Consumer = &sink;
   options.Progress = progress;
   const OutOfCoreStatistics statistics =
     triangulateOutOfCore(points, folder.Path + "/dem", options);
-  DemFigures figures;
-  figures.Points = statistics.Points;
-  figures.Triangles = statistics.Triangles;
-  figures.Duplicates = statistics.Duplicates;
-  figures.DisagreeingPlaces = statistics.DisagreeingPlaces;
-  figures.Rejected = statistics.Rejected;
-  figures.Aborted = statistics.Aborted;
-  return figures;
+  return { statistics.Points, statistics.Triangles, statistics.Duplicates,
+    statistics.DisagreeingPositions, statistics.Rejected, statistics.Aborted };
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 #include "Dem/TerrainSampler.h"
 
 #include "Parallel/ParallelFor.h"
-#include "Resample/DirectSampling.h"
+#include "Resample/Interpolate.h"
 #include "Resample/Resample.h"
 
 #include <limits>

@@ -4,9 +4,6 @@
 
 #include "Dem/DemBands.h"
 #include "Raster/RasterFile.h"
-#include "Resample/BorderSample.h"
-#include "Resample/Lattice.h"
-#include "Resample/SimplexMesh.h"
 
 #include <cstdint>
 #include <functional>
@@ -14,6 +11,10 @@
 
 namespace tipp
 {
+
+struct BorderSample;
+struct Lattice;
+struct SimplexMesh;
 
 /// Points of triangles that are sampled.
 struct TerrainPoints

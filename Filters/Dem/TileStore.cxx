@@ -191,22 +191,7 @@ void TileStore::readAt(std::uint64_t offset, void* words, std::size_t bytes) con
 
 void TileStore::writeAt(std::uint64_t offset, const void* words, std::size_t bytes) const
 {
-  const auto* at = static_cast<const char*>(words);
-  while (bytes > 0)
-  {
-    const ssize_t put = pwrite(this->Descriptor, at, bytes, off_t(offset));
-    if (put < 0 && errno == EINTR)
-    {
-      continue;
-    }
-    if (put < 0)
-    {
-      failToWrite(this->Path);
-    }
-    at += put;
-    offset += std::uint64_t(put);
-    bytes -= std::size_t(put);
-  }
+  writeFully(this->Descriptor, this->Path, offset, words, bytes);
 }
 
 /// A count that is too low, after a process was killed, only keeps the tile from being finished.

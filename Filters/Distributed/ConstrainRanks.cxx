@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Distributed/ConstrainRanks.h"
+#include "Distributed/DistributedTriangulation.h"
 
 #include "Constraints/CrossedPart.h"
 #include "Distributed/TriangleExchange.h"
@@ -81,8 +81,8 @@ private:
 
   void loadPositions()
   {
-    const auto& owned = this->Mine.Owned.Places;
-    const auto& foreign = this->Mine.Foreign.Places;
+    const auto& owned = this->Mine.Owned.Positions;
+    const auto& foreign = this->Mine.Foreign.Positions;
     this->Positions.assign(owned.begin(), owned.end());
     this->Positions.insert(this->Positions.end(), foreign.begin(), foreign.end());
   }

@@ -8,17 +8,90 @@
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/PointSurvey.h"
+#include "Triangulation/PointsView.h"
 #include "Triangulation/Worker.h"
-
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <omp.h>
 
 namespace tipp
 {
+
+template <typename Archive>
+void serialize(Archive& archive, MasterStatistics& master)
+{
+  archive(master.Area, master.Rank, master.GroupSize, master.LargestMesh, master.Seconds,
+    master.PathSeconds, master.Stages);
+}
+
+namespace
+{
+
+std::string nameOf(MessageKind kind)
+{
+  const std::map<MessageKind, std::string> names = { { MessageKind::AllToAll, "all to all" },
+    { MessageKind::Gather, "gather" }, { MessageKind::Broadcast, "broadcast" },
+    { MessageKind::Sum, "sum" }, { PartitionDoneMessage, "partition done" },
+    { TaskMessage, "task" } };
+  const auto name = names.find(kind);
+  return name != names.end() ? name->second : "other";
+}
+
+struct SentByKind
+{
+  MessageKind Kind;
+  Communicator::Traffic Sent;
+};
+
+/// What a rank tells the others.
+struct OfOneRank
+{
+  RankStatistics Own;
+  std::vector<MasterStatistics> Masters;
+  std::vector<SentByKind> Traffic;
+};
+
+template <typename Archive>
+void serialize(Archive& archive, OfOneRank& one)
+{
+  archive(one.Own, one.Masters, one.Traffic);
+}
+
+} // namespace
+
+DistributedStatistics gatherStatistics(
+  Communicator& ranks, const RankStatistics& own, const std::vector<MasterStatistics>& masters)
+{
+  OfOneRank mine{ own, masters, {} };
+  for (const auto& [kind, sent] : ranks.traffic())
+  {
+    mine.Traffic.push_back({ kind, sent });
+  }
+  DistributedStatistics statistics;
+  std::map<MessageKind, Communicator::Traffic> traffic;
+  for (const OfOneRank& one : ranks.allGather(mine))
+  {
+    statistics.Ranks.push_back(one.Own);
+    statistics.Masters.insert(statistics.Masters.end(), one.Masters.begin(), one.Masters.end());
+    for (const SentByKind& of : one.Traffic)
+    {
+      traffic[of.Kind].Messages += of.Sent.Messages;
+      traffic[of.Kind].Bytes += of.Sent.Bytes;
+    }
+    statistics.Seconds = std::max(statistics.Seconds, one.Own.TotalSeconds);
+  }
+  for (const auto& [kind, sum] : traffic)
+  {
+    statistics.Traffic.push_back({ nameOf(kind), sum.Messages, sum.Bytes });
+  }
+  std::sort(statistics.Masters.begin(), statistics.Masters.end(),
+    [](const MasterStatistics& a, const MasterStatistics& b) { return a.Area < b.Area; });
+  return statistics;
+}
+
 namespace
 {
 
@@ -317,9 +390,9 @@ private:
     const Plan plan = planAlone(bounds);
     const PointExchange exchange(this->Input, plan.Leaves, this->Threads);
     OwnedPoints<std::int64_t> points = exchange.exchange<std::int64_t>(this->Ranks, plan.Owners);
-    const Point2* places = points.Places.data();
+    const Point2* positions = points.Positions.data();
     std::vector<Duplicate> duplicates =
-      sortOutDuplicates(PointsView(points.size() > 0 ? &places->x : nullptr, points.size(), 2));
+      sortOutDuplicates(PointsView(points.size() > 0 ? &positions->x : nullptr, points.size(), 2));
     collect(this->Ranks, points, {}, std::vector<std::size_t>(1, 0), std::move(duplicates),
       plan.Leaves, this->Threads, this->Result);
   }
@@ -328,9 +401,10 @@ private:
   {
     if (factor != 1)
     {
-      for (Buffer<Point2>* places : { &this->Result.Owned.Places, &this->Result.Foreign.Places })
+      for (Buffer<Point2>* positions :
+        { &this->Result.Owned.Positions, &this->Result.Foreign.Positions })
       {
-        std::transform(places->begin(), places->end(), places->begin(),
+        std::transform(positions->begin(), positions->end(), positions->begin(),
           [factor](Point2 p) {
             return Point2{ p.x / factor, p.y / factor };
           });

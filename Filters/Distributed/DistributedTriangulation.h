@@ -3,25 +3,85 @@
 #define tippDistributedTriangulation_h
 
 #include "Arrays/Buffer.h"
-#include "Distributed/DistributedOptions.h"
-#include "Distributed/DistributedStatistics.h"
+#include "Constraints/ConstraintSegments.h"
+#include "Distributed/Plan.h"
 #include "Distributed/PointExchange.h"
 #include "Ranks/Communicator.h"
 #include "Triangulation/Triangulate.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace tipp
 {
 
+/// One rank's statistics. Seconds are wall-clock time, except ComputeSeconds (summed over the
+/// rank's threads) and the masters' seconds, which are processor time: it excludes time when
+/// another process has the core.
+struct RankStatistics
+{
+  std::int64_t InputPoints = 0;
+  std::int64_t OwnedPoints = 0;
+  std::int64_t Triangles = 0;
+  std::int64_t Partitions = 0; ///< triangulated by this rank
+  std::int64_t WorkerVertices = 0;
+  double ExchangeSeconds = 0; ///< sending points to their owners
+  double ComputeSeconds = 0;
+  double WaitSeconds = 0; ///< idle while partitions were triangulated
+  double SendSeconds = 0;
+  double MasterSeconds = 0;    ///< as the master of the whole domain
+  double SubMasterSeconds = 0; ///< as the master of major partitions
+  double CollectSeconds = 0;   ///< sending boundary triangles to their owners
+  double TotalSeconds = 0;
+};
+
+/// A master's statistics; without masters, those of the whole domain.
+struct MasterStatistics
+{
+  std::int32_t Area = 0; ///< 0: the whole domain; else its first major partition, from 1
+  std::int32_t Rank = 0;
+  std::int32_t GroupSize = 0;   ///< ranks that worked for it
+  std::int64_t LargestMesh = 0; ///< maximum number of triangles in its inboxes
+  double Seconds = 0;
+  /// For the whole domain: the processor time of the slowest rank between two barriers, summed over
+  /// the barriers. It is a lower bound on the computing time with one processor per rank.
+  double PathSeconds = 0;
+  std::vector<TriangulationStatistics::Stage> Stages; ///< by colour, or by start of a partition
+};
+
+/// Messages of one kind, summed over all ranks.
+struct TrafficStatistics
+{
+  std::string Kind;
+  std::int64_t Messages = 0;
+  std::int64_t Bytes = 0;
+};
+
+/// The statistics of all ranks.
+struct DistributedStatistics
+{
+  std::vector<RankStatistics> Ranks;     ///< by rank
+  std::vector<MasterStatistics> Masters; ///< the first is the whole domain's
+  std::vector<TrafficStatistics> Traffic;
+  std::int64_t Partitions = 0;
+  std::int64_t MajorPartitions = 0; ///< 0: one master
+  int ThreadsPerRank = 0;
+  double Seconds = 0; ///< of the slowest rank
+};
+
+/// Gathers all ranks' statistics on all ranks. Collective.
+DistributedStatistics gatherStatistics(
+  Communicator& ranks, const RankStatistics& own, const std::vector<MasterStatistics>& masters);
+
 /// Points with their global ids and data; the arrays have the same order.
 struct PointTuples
 {
-  Buffer<Point2> Places;
+  Buffer<Point2> Positions;
   Buffer<PointId> GlobalIds;
   Buffer<char> Rows; ///< as RankPoints::PackRow wrote them
-  std::size_t size() const { return this->Places.size(); }
+  std::size_t size() const { return this->Positions.size(); }
 };
 
 /// A rank's part of a triangulation. Corners are local indices: of Owned, the rank's own points,
@@ -56,6 +116,13 @@ struct DistributedTriangulation
 /// fails or its Progress stops the run.
 VTKTIPPFILTERS_EXPORT DistributedTriangulation triangulateDistributed(
   Communicator& ranks, const RankPoints& points, const DistributedOptions& options = {});
+
+/// Turns all ranks' triangulation into the constrained Delaunay triangulation with these segments,
+/// the same on all ranks, and cuts it to polygons and boundary. Each rank inserts the segments that
+/// are complete in its own triangles, and the first rank the others. Collective; call it within
+/// Communicator::together(). `threads`: of each rank.
+VTKTIPPFILTERS_EXPORT void constrainRanks(Communicator& ranks, const ConstraintSegments& segments,
+  int threads, DistributedTriangulation& mine);
 
 } // namespace tipp
 

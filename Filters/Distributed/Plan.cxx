@@ -2,7 +2,7 @@
 #include "Distributed/Plan.h"
 
 #include "Engine/PartitionOrder.h"
-#include "Triangulation/InitialMesh.h"
+#include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>
@@ -234,15 +234,15 @@ void assignLeaves(Plan& plan, Area& area, const std::vector<std::int32_t>& group
 {
   const std::int64_t* counts = leafCounts.data() + area.FirstLeaf;
   const std::vector<double> weights = weightsOf(counts, counts + area.Inner, options);
-  area.HomeOf = shareOut(weights, group.size());
+  area.GroupOf = shareOut(weights, group.size());
   std::vector<std::pair<double, std::size_t>> shares;
-  for (std::size_t home = 0; home < group.size(); ++home)
+  for (std::size_t share = 0; share < group.size(); ++share)
   {
-    shares.push_back({ 0, home });
+    shares.push_back({ 0, share });
   }
   for (std::size_t p = 0; p < weights.size(); ++p)
   {
-    shares[std::size_t(area.HomeOf[p])].first -= weights[p];
+    shares[std::size_t(area.GroupOf[p])].first -= weights[p];
   }
   std::vector<std::int32_t> idlest = group;
   if (options.Groups != GroupSizes::Equal)
@@ -252,17 +252,17 @@ void assignLeaves(Plan& plan, Area& area, const std::vector<std::int32_t>& group
       [&load](std::int32_t a, std::int32_t b)
       { return load[std::size_t(a)] < load[std::size_t(b)]; });
   }
-  area.Homes.assign(group.size(), {});
+  area.RankGroups.assign(group.size(), {});
   for (std::size_t i = 0; i < group.size(); ++i)
   {
-    area.Homes[shares[i].second] = { idlest[i] };
+    area.RankGroups[shares[i].second] = { idlest[i] };
     load[std::size_t(idlest[i])] -= shares[i].first;
   }
   area.Lead = group.front();
   for (PartitionIndex p = 0; p < area.Inner; ++p)
   {
     plan.Owners[std::size_t(area.FirstLeaf) + std::size_t(p)] =
-      area.Homes[std::size_t(area.HomeOf[std::size_t(p)])].front();
+      area.RankGroups[std::size_t(area.GroupOf[std::size_t(p)])].front();
   }
 }
 
@@ -299,8 +299,8 @@ Plan planAlone(const Box2& domain)
   Area top;
   top.Boxes = plan.Leaves;
   top.Inner = 1;
-  top.Homes = { { 0 } };
-  top.HomeOf = { 0 };
+  top.RankGroups = { { 0 } };
+  top.GroupOf = { 0 };
   plan.Areas.push_back(top);
   return plan;
 }
@@ -395,18 +395,18 @@ void assign(Plan& plan, const PlanInput& input, const std::vector<std::int64_t>&
         groups[std::size_t(p)], leafCounts, options, load);
     }
   }
-  std::map<std::vector<std::int32_t>, std::int32_t> homes;
-  top.HomeOf.assign(std::size_t(top.Inner), 0);
-  top.Homes.clear();
+  std::map<std::vector<std::int32_t>, std::int32_t> numbers;
+  top.GroupOf.assign(std::size_t(top.Inner), 0);
+  top.RankGroups.clear();
   for (PartitionIndex p = 0; p < top.Inner; ++p)
   {
     const std::vector<std::int32_t>& group = groups[std::size_t(p)];
-    const auto place = homes.emplace(group, std::int32_t(homes.size()));
-    if (place.second)
+    const auto [number, isNew] = numbers.emplace(group, std::int32_t(numbers.size()));
+    if (isNew)
     {
-      top.Homes.push_back(group);
+      top.RankGroups.push_back(group);
     }
-    top.HomeOf[std::size_t(p)] = place.first->second;
+    top.GroupOf[std::size_t(p)] = number->second;
     if (majorCounts[std::size_t(p)] == 0) // it is in no stage
     {
       assignLeaves(plan, plan.Areas[std::size_t(top.Children[std::size_t(p)])], group, leafCounts,

@@ -2,7 +2,6 @@
 #include "Distributed/PointExchange.h"
 
 #include "Parallel/ParallelFor.h"
-#include "Triangulation/PartitionFinder.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/Tiling.h"
 
@@ -48,8 +47,8 @@ std::vector<std::vector<std::uint64_t>> tellCounts(Communicator& ranks,
 } // namespace
 
 PointArrays::PointArrays(char* memory, std::size_t points)
-  : Places(reinterpret_cast<Point2*>(memory))
-  , Ids(reinterpret_cast<PointId*>(this->Places + points))
+  : Positions(reinterpret_cast<Point2*>(memory))
+  , Ids(reinterpret_cast<PointId*>(this->Positions + points))
   , Rows(reinterpret_cast<char*>(this->Ids + points))
 {
 }
@@ -59,7 +58,7 @@ std::size_t PointArrays::bytes(std::size_t points, std::size_t rowSize)
   return points * (sizeof(Point2) + sizeof(PointId) + rowSize);
 }
 
-PointArrangement::PointArrangement(Communicator& ranks, const std::vector<std::int32_t>& owners,
+PointLayout::PointLayout(Communicator& ranks, const std::vector<std::int32_t>& owners,
   const std::vector<std::int64_t>& counts)
   : Rank(ranks.rank())
   , Counts(tellCounts(ranks, owners, counts))
@@ -84,11 +83,11 @@ PointArrangement::PointArrangement(Communicator& ranks, const std::vector<std::i
   }
 }
 
-PointLanding::PointLanding(const PointArrangement& arrangement, std::size_t source,
-  const PointArrays& home, std::size_t rowSize)
+PointReceiver::PointReceiver(const PointLayout& layout, std::size_t source,
+  const PointArrays& destination, std::size_t rowSize)
 {
-  const std::vector<std::uint64_t>& counts = arrangement.Counts[source];
-  const std::vector<std::size_t>& firsts = arrangement.Firsts[source];
+  const std::vector<std::uint64_t>& counts = layout.Counts[source];
+  const std::vector<std::size_t>& firsts = layout.Firsts[source];
   const auto add = [&](char* array, std::size_t itemSize)
   {
     for (std::size_t leaf = 0; leaf < counts.size(); ++leaf)
@@ -99,13 +98,13 @@ PointLanding::PointLanding(const PointArrangement& arrangement, std::size_t sour
       }
     }
   };
-  add(reinterpret_cast<char*>(home.Places), sizeof(Point2));
-  add(reinterpret_cast<char*>(home.Ids), sizeof(PointId));
-  add(home.Rows, rowSize);
+  add(reinterpret_cast<char*>(destination.Positions), sizeof(Point2));
+  add(reinterpret_cast<char*>(destination.Ids), sizeof(PointId));
+  add(destination.Rows, rowSize);
   std::reverse(this->Left.begin(), this->Left.end());
 }
 
-void PointLanding::take(const char* part, std::size_t size)
+void PointReceiver::take(const char* part, std::size_t size)
 {
   while (size > 0)
   {
@@ -113,20 +112,20 @@ void PointLanding::take(const char* part, std::size_t size)
     {
       throw std::runtime_error("Points from another rank are damaged: they are more than it told.");
     }
-    Place& place = this->Left.back();
-    const std::size_t taken = std::min(size, place.Size);
-    std::memcpy(place.To, part, taken);
+    Range& range = this->Left.back();
+    const std::size_t taken = std::min(size, range.Size);
+    std::memcpy(range.To, part, taken);
     part += taken;
     size -= taken;
-    place = { place.To + taken, place.Size - taken };
-    if (place.Size == 0)
+    range = { range.To + taken, range.Size - taken };
+    if (range.Size == 0)
     {
       this->Left.pop_back();
     }
   }
 }
 
-void PointLanding::requireComplete() const
+void PointReceiver::requireComplete() const
 {
   if (!this->Left.empty())
   {
@@ -205,7 +204,7 @@ void PointExchange::scatter(
         at += this->Counts[std::size_t(before)][leaf];
       }
       PointArrays& cursor = cursors[leaf];
-      cursor = { cursor.Places + at, cursor.Ids + at, cursor.Rows + at * rowSize };
+      cursor = { cursor.Positions + at, cursor.Ids + at, cursor.Rows + at * rowSize };
     }
     const std::size_t size = this->Input.Points.size();
     this->Input.Points.forEach(partBegin(size, int(part), this->Threads),
@@ -217,7 +216,7 @@ void PointExchange::scatter(
           return;
         }
         PointArrays& cursor = cursors[this->Labels[i]];
-        *cursor.Places++ = p;
+        *cursor.Positions++ = p;
         *cursor.Ids++ = this->Input.globalId(i);
         if (rowSize > 0)
         {
@@ -230,17 +229,17 @@ void PointExchange::scatter(
 }
 
 PointExchange::Packing PointExchange::planPacking(
-  const std::vector<std::int32_t>& owners, const PointArrangement& arrangement) const
+  const std::vector<std::int32_t>& owners, const PointLayout& layout) const
 {
   const std::vector<std::int64_t> counts = this->counts();
   Packing packing;
-  packing.Sizes.assign(arrangement.Counts.size(), 0);
+  packing.Sizes.assign(layout.Counts.size(), 0);
   packing.Begins.resize(this->Leaves);
-  const std::size_t me = std::size_t(arrangement.Rank);
+  const std::size_t me = std::size_t(layout.Rank);
   for (std::size_t leaf = 0, own = 0; leaf < this->Leaves; ++leaf)
   {
     const std::size_t owner = std::size_t(owners[leaf]);
-    packing.Begins[leaf] = owner == me ? arrangement.Firsts[me][own++] : packing.Sizes[owner];
+    packing.Begins[leaf] = owner == me ? layout.Firsts[me][own++] : packing.Sizes[owner];
     packing.Sizes[owner] += std::size_t(counts[leaf]);
   }
   for (std::size_t to = 0; to < packing.Sizes.size(); ++to)
@@ -256,14 +255,14 @@ PointExchange::Packing PointExchange::planPacking(
 
 /// Copies this rank's own points to their positions, and the others into messages.
 void PointExchange::pack(const std::vector<std::int32_t>& owners, const Packing& packing,
-  const PointArrays& home, char* messages) const
+  const PointArrays& destination, char* messages) const
 {
   std::vector<PointArrays> arrays;
   for (std::size_t to = 0; to < packing.Sizes.size(); ++to)
   {
     const Communicator::Stretch& message = packing.Messages[to];
     arrays.push_back(
-      message.Size == 0 ? home : PointArrays(messages + message.Begin, packing.Sizes[to]));
+      message.Size == 0 ? destination : PointArrays(messages + message.Begin, packing.Sizes[to]));
   }
   std::vector<PointArrays> arraysOfLeaves;
   arraysOfLeaves.reserve(owners.size());
@@ -279,20 +278,20 @@ OwnedPoints<Id> PointExchange::exchange(
   Communicator& ranks, const std::vector<std::int32_t>& owners) const
 {
   const std::size_t rowSize = this->Input.RowSize;
-  const PointArrangement arrangement(ranks, owners, this->counts());
-  const std::size_t total = arrangement.Starts.back();
+  const PointLayout layout(ranks, owners, this->counts());
+  const std::size_t total = layout.Starts.back();
   OwnedPoints<Id> owned;
-  owned.Places = Buffer<Point2>(total);
+  owned.Positions = Buffer<Point2>(total);
   owned.GlobalIds = Buffer<PointId>(total);
   owned.Rows = Buffer<char>(total * rowSize);
-  populate(owned.Places, this->Threads);
+  populate(owned.Positions, this->Threads);
   populate(owned.GlobalIds, this->Threads);
-  const PointArrays home(owned.Places.data(), owned.GlobalIds.data(), owned.Rows.data());
+  const PointArrays destination(owned.Positions.data(), owned.GlobalIds.data(), owned.Rows.data());
   // Triangles with other ranks' points are in addition to two per point. Untouched pages are not
   // committed.
-  owned.Buckets = PointBuckets<Id>(arrangement.Starts, home.Places, total / 8);
+  owned.Buckets = PointBuckets<Id>(layout.Starts, destination.Positions, total / 8);
 
-  const Packing packing = this->planPacking(owners, arrangement);
+  const Packing packing = this->planPacking(owners, layout);
   parallelFor(this->Threads, this->Threads,
     [&](std::int64_t part) { owned.Buckets.populate(int(part), this->Threads); });
   // Messages are packed into the triangles' memory if they fit: fresh memory takes time.
@@ -303,20 +302,20 @@ OwnedPoints<Id> PointExchange::exchange(
     owned.Buckets.takeBack(Buffer<Id>(std::move(messages)));
     messages = Bytes(packing.Size);
   }
-  this->pack(owners, packing, home, messages.data());
-  std::vector<PointLanding> landings;
-  for (std::size_t source = 0; source < arrangement.Counts.size(); ++source)
+  this->pack(owners, packing, destination, messages.data());
+  std::vector<PointReceiver> receivers;
+  for (std::size_t source = 0; source < layout.Counts.size(); ++source)
   {
-    landings.emplace_back(arrangement, source, home, rowSize);
+    receivers.emplace_back(layout, source, destination, rowSize);
   }
   messages = ranks.allToAllInParts(std::move(messages), packing.Messages,
-    [&landings](int from, const char* part, std::size_t size)
-    { landings[std::size_t(from)].take(part, size); });
-  for (std::size_t source = 0; source < landings.size(); ++source)
+    [&receivers](int from, const char* part, std::size_t size)
+    { receivers[std::size_t(from)].take(part, size); });
+  for (std::size_t source = 0; source < receivers.size(); ++source)
   {
     if (source != std::size_t(ranks.rank()))
     {
-      landings[source].requireComplete();
+      receivers[source].requireComplete();
     }
   }
   if (isLent)

@@ -3,7 +3,7 @@
 #define tippPointExchange_h
 
 #include "Distributed/Plan.h"
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 #include "Ranks/Archive.h"
 #include "Ranks/Communicator.h"
 #include "Triangulation/PointBuckets.h"
@@ -19,12 +19,12 @@ namespace tipp
 /// The arrays of points and their data, as sent in messages. Does not own the memory.
 struct PointArrays
 {
-  Point2* Places;
+  Point2* Positions;
   PointId* Ids;
   char* Rows;
 
-  PointArrays(Point2* places, PointId* ids, char* rows)
-    : Places(places)
+  PointArrays(Point2* positions, PointId* ids, char* rows)
+    : Positions(positions)
     , Ids(ids)
     , Rows(rows)
   {
@@ -37,10 +37,10 @@ struct PointArrays
 };
 
 /// The order of a rank's points: by leaf, and within each leaf by source rank.
-struct PointArrangement
+struct PointLayout
 {
   /// Sends the number of points in each leaf to the leaf's owner. Collective.
-  PointArrangement(Communicator& ranks, const std::vector<std::int32_t>& owners,
+  PointLayout(Communicator& ranks, const std::vector<std::int32_t>& owners,
     const std::vector<std::int64_t>& counts);
 
   std::int32_t Rank;
@@ -50,10 +50,10 @@ struct PointArrangement
 };
 
 /// Copies what is received from another rank, part by part, to its position.
-class PointLanding
+class PointReceiver
 {
 public:
-  PointLanding(const PointArrangement& arrangement, std::size_t source, const PointArrays& home,
+  PointReceiver(const PointLayout& layout, std::size_t source, const PointArrays& destination,
     std::size_t rowSize);
 
   /// Copies the next part. Throws std::runtime_error if the rank sent more than it announced.
@@ -64,13 +64,13 @@ public:
 
 private:
   /// A byte range of the destination that is not filled yet.
-  struct Place
+  struct Range
   {
     char* To;
     std::size_t Size;
   };
 
-  std::vector<Place> Left; ///< in reverse order
+  std::vector<Range> Left; ///< in reverse order
 };
 
 /// A rank's input points. Does not own the memory.
@@ -94,12 +94,12 @@ template <typename Id>
 struct OwnedPoints
 {
   PointBuckets<Id> Buckets; ///< of all leaves; empty for leaves of other owners
-  Buffer<Point2> Places;
+  Buffer<Point2> Positions;
   Buffer<PointId> GlobalIds;
   Buffer<char> Rows;
   std::vector<std::int64_t> FirstIds; ///< first internal id of each rank, and the end
 
-  std::size_t size() const { return this->Places.size(); }
+  std::size_t size() const { return this->Positions.size(); }
 };
 
 /// Sends points to their owners in one all-to-all exchange.
@@ -127,10 +127,9 @@ private:
     std::size_t Size = 0; ///< bytes of all messages
   };
 
-  Packing planPacking(
-    const std::vector<std::int32_t>& owners, const PointArrangement& arrangement) const;
+  Packing planPacking(const std::vector<std::int32_t>& owners, const PointLayout& layout) const;
   void pack(const std::vector<std::int32_t>& owners, const Packing& packing,
-    const PointArrays& home, char* messages) const;
+    const PointArrays& destination, char* messages) const;
   void scatter(const std::vector<PointArrays>& to, const std::vector<std::size_t>& begins) const;
 
   const RankPoints& Input;

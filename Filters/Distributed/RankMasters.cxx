@@ -103,10 +103,7 @@ void RankRun<Id>::start(PartitionIndex p)
     this->Started->setLoaded(p);
     return;
   }
-  SaveArchive writer;
-  writer(p);
-  write(writer, all);
-  this->Ranks.post(owner, TaskMessage, writer.take());
+  this->Ranks.post(owner, TaskMessage, packed(p, all));
 }
 
 /// Receives a partition to triangulate from its keeper.
@@ -115,8 +112,7 @@ void RankRun<Id>::receiveTask(const Message& message)
 {
   LoadArchive reader(message.Content);
   const auto p = reader.get<PartitionIndex>();
-  VertexMessage all;
-  read(reader, all);
+  auto all = reader.get<VertexMessage>();
   if (p < 0 || std::size_t(p) >= this->Inboxes.size() || this->AwaitedTasks == 0 ||
     this->ownerOf(p) != this->Ranks.rank() || this->keeperOf(p) != message.Source)
   {

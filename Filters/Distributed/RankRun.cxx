@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/RankRun.h"
 
-#include "Distributed/SharedInitialMesh.h"
 #include "Parallel/Stopwatch.h"
-#include "Triangulation/InitialMesh.h"
+#include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>
@@ -104,10 +103,7 @@ void RankRun<Id>::shareInitialMesh(std::vector<BoundaryVertex>& vertices)
     v.Id += this->FirstId;
   }
   keepOneOfEachPosition(initial);
-  SaveArchive writer;
-  writer(regions);
-  write(writer, initial);
-  const Bytes together = joinedOnAllRanks(this->Ranks, writer.take());
+  const Bytes together = joinedOnAllRanks(this->Ranks, packed(regions, initial));
   std::vector<Box2> boxes(std::size_t(tiles.size()), Box2{});
   std::vector<char> used(std::size_t(tiles.size()), 0);
   for (LoadArchive reader(together); reader.left() > 0;)
@@ -117,7 +113,8 @@ void RankRun<Id>::shareInitialMesh(std::vector<BoundaryVertex>& vertices)
       boxes.at(std::size_t(entry.Partition)) = entry.Box;
       used.at(std::size_t(entry.Partition)) = 1;
     }
-    read(reader, vertices);
+    const auto added = reader.get<std::vector<BoundaryVertex>>();
+    vertices.insert(vertices.end(), added.begin(), added.end());
   }
   this->Boxes = std::make_unique<Regions>(tiles, std::move(boxes), std::move(used));
 }
@@ -434,13 +431,11 @@ void RankRun<Id>::coordinate()
 template <typename Id>
 void RankRun<Id>::repairHullOnFirst()
 {
-  SaveArchive writer;
-  write(writer, std::exchange(this->Boundary.HullVertices, {}));
   std::vector<BoundaryVertex> vertices;
-  for (const Bytes& part : this->Ranks.gather(writer.take()))
+  for (const std::vector<BoundaryVertex>& part :
+    this->Ranks.gather(std::exchange(this->Boundary.HullVertices, {})))
   {
-    LoadArchive reader(part);
-    read(reader, vertices);
+    vertices.insert(vertices.end(), part.begin(), part.end());
   }
   if (this->Ranks.rank() == 0)
   {

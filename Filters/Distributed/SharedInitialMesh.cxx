@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Distributed/SharedInitialMesh.h"
+#include "Distributed/RankRun.h"
 
 #include "Kernel/DelaunayKernel.h"
 #include "Parallel/ParallelFor.h"

@@ -35,12 +35,12 @@ std::vector<IdTriangle> bringHome(Communicator& ranks, const std::vector<IdTrian
   {
     sorted[owner(triangle)].push_back(triangle);
   }
-  std::vector<IdTriangle> home;
+  std::vector<IdTriangle> own;
   for (const std::vector<IdTriangle>& received : ranks.allToAll(sorted))
   {
-    home.insert(home.end(), received.begin(), received.end());
+    own.insert(own.end(), received.begin(), received.end());
   }
-  return home;
+  return own;
 }
 
 std::vector<std::int64_t> foreignIds(
@@ -61,11 +61,11 @@ std::vector<std::int64_t> foreignIds(
 template <typename Id>
 std::vector<typename TriangleSink<Id>::FinalTriangle> localised(
   const std::vector<IdTriangle>& triangles, const std::vector<std::int64_t>& foreign,
-  std::int64_t firstOwn, const Buffer<Point2>& places, const Tiling& leaves)
+  std::int64_t firstOwn, const Buffer<Point2>& positions, const Tiling& leaves)
 {
   std::vector<typename TriangleSink<Id>::FinalTriangle> local;
   local.reserve(triangles.size());
-  const std::int64_t own = std::int64_t(places.size());
+  const std::int64_t own = std::int64_t(positions.size());
   for (const IdTriangle& triangle : triangles)
   {
     typename TriangleSink<Id>::Corners ids;
@@ -78,12 +78,12 @@ std::vector<typename TriangleSink<Id>::FinalTriangle> localised(
       }
       else
       {
-        const auto place = std::lower_bound(foreign.begin(), foreign.end(), triangle[i]);
-        ids[i] = static_cast<Id>(own + (place - foreign.begin()));
+        const auto found = std::lower_bound(foreign.begin(), foreign.end(), triangle[i]);
+        ids[i] = static_cast<Id>(own + (found - foreign.begin()));
       }
     }
     ids = TriangleSink<Id>::fromLowest(ids);
-    local.push_back({ ids, leaves.locate(places[std::size_t(ids[0])]) });
+    local.push_back({ ids, leaves.locate(positions[std::size_t(ids[0])]) });
   }
   return local;
 }
@@ -113,14 +113,14 @@ PointTuples fetchPoints(Communicator& ranks, const std::vector<std::int64_t>& id
       {
         throw std::runtime_error("Another rank asks for a point that is not here.");
       }
-      writer(own.Places[at]);
+      writer(own.Positions[at]);
       writer(own.GlobalIds[at]);
       writer.raw(own.Rows.data() + at * rowSize, rowSize);
     }
     answers.push_back(writer.take());
   }
   PointTuples fetched;
-  fetched.Places = Buffer<Point2>(ids.size());
+  fetched.Positions = Buffer<Point2>(ids.size());
   fetched.GlobalIds = Buffer<PointId>(ids.size());
   fetched.Rows = Buffer<char>(ids.size() * rowSize);
   std::size_t at = 0;
@@ -132,7 +132,7 @@ PointTuples fetchPoints(Communicator& ranks, const std::vector<std::int64_t>& id
       {
         throw std::runtime_error("Another rank has sent more points than it was asked for.");
       }
-      fetched.Places[at] = reader.get<Point2>();
+      fetched.Positions[at] = reader.get<Point2>();
       fetched.GlobalIds[at] = reader.get<PointId>();
       const char* row = reader.raw(rowSize);
       std::copy(row, row + rowSize, fetched.Rows.data() + at * rowSize);
@@ -193,7 +193,7 @@ void collect(Communicator& ranks, OwnedPoints<Id>& points, const std::vector<IdT
     sink.setInteriorCount(static_cast<PartitionIndex>(leaf), interiorCounts[leaf]);
   }
   Buffer<Id> ids = sink.assemble(
-    { localised<Id>(boundary, result.ForeignIds, firstOwn, points.Places, leaves) }, threads);
+    { localised<Id>(boundary, result.ForeignIds, firstOwn, points.Positions, leaves) }, threads);
   if constexpr (sizeof(Id) == 4)
   {
     result.Ids32 = std::move(ids);
@@ -203,7 +203,7 @@ void collect(Communicator& ranks, OwnedPoints<Id>& points, const std::vector<IdT
     result.Ids64 = std::move(ids);
   }
 
-  result.Owned.Places = std::move(points.Places);
+  result.Owned.Positions = std::move(points.Positions);
   result.Owned.GlobalIds = std::move(points.GlobalIds);
   result.Owned.Rows = std::move(points.Rows);
   preferLowestGlobalIds(result.Owned, firstOwn, duplicates);
@@ -298,8 +298,8 @@ std::vector<IdTriangle> trianglesByIds(const DistributedTriangulation& mine, int
 {
   const std::int64_t firstOwn = mine.FirstIds[std::size_t(rank)];
   const std::int64_t own = std::int64_t(mine.Owned.size());
-  const auto idOf = [&](std::int64_t place)
-  { return place < own ? firstOwn + place : mine.ForeignIds[std::size_t(place - own)]; };
+  const auto idOf = [&](std::int64_t corner)
+  { return corner < own ? firstOwn + corner : mine.ForeignIds[std::size_t(corner - own)]; };
   std::vector<IdTriangle> triangles;
   triangles.reserve(mine.triangleCount());
   const auto add = [&](const auto& ids)
@@ -370,7 +370,7 @@ DistributedTriangulation gatherOnFirst(Communicator& ranks, DistributedTriangula
 {
   SaveArchive writer;
   writer(trianglesByIds(mine, ranks.rank()));
-  writer.array(mine.Owned.Places.data(), mine.Owned.Places.size());
+  writer.array(mine.Owned.Positions.data(), mine.Owned.Positions.size());
   writer.array(mine.Owned.GlobalIds.data(), mine.Owned.GlobalIds.size());
   writer.array(mine.Owned.Rows.data(), mine.Owned.Rows.size());
   writer(mine.Duplicates);
@@ -380,7 +380,7 @@ DistributedTriangulation gatherOnFirst(Communicator& ranks, DistributedTriangula
   const std::size_t points = first ? std::size_t(mine.FirstIds.back()) : 0;
   mine.Ids32 = {};
   mine.Ids64 = Buffer<std::int64_t>(first ? std::size_t(3 * mine.AllTriangles) : 0);
-  mine.Owned.Places = Buffer<Point2>(points);
+  mine.Owned.Positions = Buffer<Point2>(points);
   mine.Owned.GlobalIds = Buffer<PointId>(points);
   mine.Owned.Rows = Buffer<char>(points * mine.RowSize);
   mine.Foreign = {};
@@ -397,13 +397,13 @@ DistributedTriangulation gatherOnFirst(Communicator& ranks, DistributedTriangula
     {
       id = std::copy(triangle.begin(), triangle.end(), id);
     }
-    const auto places = reader.get<std::vector<Point2>>();
+    const auto positions = reader.get<std::vector<Point2>>();
     const auto ids = reader.get<std::vector<PointId>>();
     const auto rows = reader.get<std::vector<char>>();
-    std::copy(places.begin(), places.end(), mine.Owned.Places.data() + at);
+    std::copy(positions.begin(), positions.end(), mine.Owned.Positions.data() + at);
     std::copy(ids.begin(), ids.end(), mine.Owned.GlobalIds.data() + at);
     std::copy(rows.begin(), rows.end(), mine.Owned.Rows.data() + at * mine.RowSize);
-    at += places.size();
+    at += positions.size();
     const auto duplicates = reader.get<std::vector<Duplicate>>();
     const auto rejected = reader.get<std::vector<PointId>>();
     mine.Duplicates.insert(mine.Duplicates.end(), duplicates.begin(), duplicates.end());

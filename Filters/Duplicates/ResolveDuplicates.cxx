@@ -2,7 +2,7 @@
 #include "Duplicates/ResolveDuplicates.h"
 
 #include "Files/IOError.h"
-#include "Points/RankColumn.h"
+#include "Points/PointTable.h"
 
 #include <algorithm>
 #include <cmath>

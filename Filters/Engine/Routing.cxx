@@ -3,7 +3,7 @@
 
 #include "Kernel/DelaunayKernel.h"
 #include "Predicates/Circumdisk.h"
-#include "Predicates/InCircle.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <numeric>
@@ -12,55 +12,6 @@
 
 namespace tipp
 {
-
-namespace
-{
-
-/// A vertex without padding.
-struct WrittenVertex
-{
-  Point2 Position;
-  std::int64_t Id;
-  std::int64_t Partition;
-};
-
-} // namespace
-
-void write(SaveArchive& writer, const std::vector<BoundaryVertex>& vertices)
-{
-  std::vector<WrittenVertex> written;
-  written.reserve(vertices.size());
-  for (const BoundaryVertex& v : vertices)
-  {
-    written.push_back({ v.Position, v.Id, v.Partition });
-  }
-  writer(written);
-}
-
-void write(SaveArchive& writer, const VertexMessage& message)
-{
-  writer(message.Sender);
-  writer(message.Triangles);
-  write(writer, message.Vertices);
-}
-
-void read(LoadArchive& reader, std::vector<BoundaryVertex>& vertices)
-{
-  const std::vector<WrittenVertex> written = reader.get<std::vector<WrittenVertex>>();
-  vertices.reserve(vertices.size() + written.size());
-  for (const WrittenVertex& v : written)
-  {
-    vertices.push_back({ v.Position, v.Id, static_cast<PartitionIndex>(v.Partition) });
-  }
-}
-
-void read(LoadArchive& reader, VertexMessage& message)
-{
-  message.Sender = reader.get<PartitionIndex>();
-  message.Triangles = reader.get<std::int64_t>();
-  message.Vertices.clear();
-  read(reader, message.Vertices);
-}
 
 Bytes writeDone(PartitionIndex sender, const SentMessages& sent,
   const std::function<bool(PartitionIndex)>& isIncluded)
@@ -71,8 +22,7 @@ Bytes writeDone(PartitionIndex sender, const SentMessages& sent,
   {
     if (isIncluded(to))
     {
-      writer(to);
-      write(writer, message);
+      writer(to, message);
     }
   }
   return writer.take();
@@ -96,7 +46,7 @@ SentMessages readDone(const Bytes& bytes, std::size_t count, PartitionIndex& sen
     const auto to = reader.get<PartitionIndex>();
     requirePartition(to);
     sent.emplace_back(to, VertexMessage{});
-    read(reader, sent.back().second);
+    reader(sent.back().second);
     requirePartition(sent.back().second.Sender == sender ? sender : -1);
   }
   return sent;
@@ -183,7 +133,7 @@ void keepUnique(std::vector<BoundaryVertex>& vertices)
 }
 
 void repairHull(std::vector<BoundaryVertex> vertices, const std::vector<BoundaryVertex>& artificial,
-  FinalTaker& final)
+  FinalTriangleConsumer& final)
 {
   keepUnique(vertices);
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -229,7 +179,7 @@ void OutgoingTriangles::clear(std::size_t vertexEnd)
 
 template <typename VertexOf, typename Deliver>
 std::int64_t OutgoingTriangles::send(PartitionIndex sender, std::size_t recipients,
-  const VertexOf& vertexOf, const Deliver& deliver, FinalTaker& final)
+  const VertexOf& vertexOf, const Deliver& deliver, FinalTriangleConsumer& final)
 {
   // A counting sort: Ends are the recipients' begins before the triangles are copied.
   this->Ends.assign(recipients + 2, 0);
@@ -302,7 +252,7 @@ void Routing<Id>::add(const std::array<DelaunayKernel::Index, 3>& corners, const
 
 template <typename Id>
 std::int64_t Routing<Id>::send(
-  const Worker<Id>& worker, const DeliverMessage& deliver, FinalTaker& final)
+  const Worker<Id>& worker, const DeliverMessage& deliver, FinalTriangleConsumer& final)
 {
   return this->Triangles.send(
     this->Sender, this->Later.size(),
@@ -313,7 +263,7 @@ std::int64_t Routing<Id>::send(
 }
 
 std::int64_t sendInitialMesh(const BoundaryTriangles& mesh, const PartitionOrder& order,
-  const DeliverMessage& deliver, FinalTaker& final)
+  const DeliverMessage& deliver, FinalTriangleConsumer& final)
 {
   using Index = DelaunayKernel::Index;
   OutgoingTriangles triangles;

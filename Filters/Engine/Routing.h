@@ -30,14 +30,11 @@ struct VertexMessage
   std::int64_t Triangles = 0; ///< the number of triangles that these are the vertices of
 };
 
-/// @name Serialisation of vertices and messages
-/// Reading throws std::runtime_error if the bytes were not written by these functions.
-///@{
-VTKTIPPFILTERS_EXPORT void write(SaveArchive& writer, const std::vector<BoundaryVertex>& vertices);
-VTKTIPPFILTERS_EXPORT void write(SaveArchive& writer, const VertexMessage& message);
-VTKTIPPFILTERS_EXPORT void read(LoadArchive& reader, std::vector<BoundaryVertex>& vertices);
-VTKTIPPFILTERS_EXPORT void read(LoadArchive& reader, VertexMessage& message);
-///@}
+template <typename Archive>
+void serialize(Archive& archive, VertexMessage& message)
+{
+  archive(message.Sender, message.Triangles, message.Vertices);
+}
 
 /// All messages of a finished partition, each with its recipient.
 using SentMessages = std::vector<std::pair<PartitionIndex, VertexMessage>>;
@@ -116,17 +113,17 @@ private:
 using DeliverMessage = std::function<void(PartitionIndex, VertexMessage&&)>;
 
 /// Receives boundary triangles that have become final.
-class FinalTaker
+class FinalTriangleConsumer
 {
 public:
-  virtual ~FinalTaker() = default;
+  virtual ~FinalTriangleConsumer() = default;
   virtual void add(const BoundaryTriangle& triangle) = 0;
 };
 
 /// Collects final boundary triangles: triangles without artificial corners as they are, and of the
 /// others the true corners, which the hull repair needs.
 template <typename Id>
-struct FinalBoundary : public FinalTaker
+struct FinalBoundary : public FinalTriangleConsumer
 {
   std::vector<typename TriangleSink<Id>::FinalTriangle> Triangles;
   std::vector<BoundaryVertex> HullVertices; ///< may contain repetitions
@@ -147,7 +144,7 @@ void keepUnique(std::vector<BoundaryVertex>& vertices);
 /// that are in conflict with an artificial point. `vertices` are these true corners, with
 /// repetitions allowed.
 VTKTIPPFILTERS_EXPORT void repairHull(std::vector<BoundaryVertex> vertices,
-  const std::vector<BoundaryVertex>& artificial, FinalTaker& final);
+  const std::vector<BoundaryVertex>& artificial, FinalTriangleConsumer& final);
 
 /// Triangles to be sent, each to one recipient, by their vertices' indices.
 class OutgoingTriangles
@@ -168,7 +165,7 @@ public:
   /// vertexOf(index) returns a vertex. Returns the number of triangles delivered.
   template <typename VertexOf, typename Deliver>
   std::int64_t send(PartitionIndex sender, std::size_t recipients, const VertexOf& vertexOf,
-    const Deliver& deliver, FinalTaker& final);
+    const Deliver& deliver, FinalTriangleConsumer& final);
 
 private:
   struct Triangle
@@ -194,7 +191,7 @@ private:
 /// survives them. When q is done, its triangles that still exist are among the output of q's
 /// worker.)
 template <typename Id>
-class Routing : public BoundaryTaker
+class Routing : public BoundaryConsumer
 {
 public:
   Routing(const PartitionOrder& order, const Regions& regions);
@@ -207,7 +204,8 @@ public:
 
   /// Passes the message for each later partition that gets one to `deliver`, and the triangles
   /// without recipient to `final`. Returns the number of triangles delivered.
-  std::int64_t send(const Worker<Id>& worker, const DeliverMessage& deliver, FinalTaker& final);
+  std::int64_t send(
+    const Worker<Id>& worker, const DeliverMessage& deliver, FinalTriangleConsumer& final);
 
 private:
   const PartitionOrder& Order;
@@ -220,7 +218,7 @@ private:
 /// Sends each triangle of the initial mesh to the first partition that it meets, or to `final` if
 /// there is none. Returns the number of triangles delivered.
 std::int64_t sendInitialMesh(const BoundaryTriangles& mesh, const PartitionOrder& order,
-  const DeliverMessage& deliver, FinalTaker& final);
+  const DeliverMessage& deliver, FinalTriangleConsumer& final);
 
 } // namespace tipp
 

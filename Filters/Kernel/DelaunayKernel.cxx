@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Kernel/DelaunayKernel.h"
 
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <limits>

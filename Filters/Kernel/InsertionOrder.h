@@ -4,7 +4,7 @@
 
 #include "Arrays/Buffer.h"
 #include "Kernel/Lanes.h"
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 
 #include <cstddef>
 #include <cstdint>

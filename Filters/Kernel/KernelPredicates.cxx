@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Kernel/KernelPredicates.h"
 
-#include "Predicates/InCircle.h"
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 
 namespace tipp
 {

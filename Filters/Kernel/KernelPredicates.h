@@ -4,7 +4,7 @@
 
 #include "Kernel/HalfEdgeMesh.h"
 #include "Predicates/CoordinateGrid.h"
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 
 #include <cstddef>
 

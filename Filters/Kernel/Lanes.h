@@ -2,7 +2,7 @@
 #ifndef tippLanes_h
 #define tippLanes_h
 
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 
 #include <array>
 #include <cstddef>

@@ -5,7 +5,7 @@
 #include "Kernel/HalfEdgeMesh.h"
 #include "Kernel/KernelPredicates.h"
 #include "Kernel/Lanes.h"
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 
 #include <utility>
 

@@ -3,7 +3,6 @@
 
 #include "Files/IOError.h"
 #include "OutOfCore/ScratchFiles.h"
-#include "OutOfCore/TakeBorders.h"
 #include "Partitioned/GrowingPiece.h"
 #include "Partitioned/NeighborIds.h"
 #include "Partitioned/PieceFile.h"
@@ -76,7 +75,7 @@ public:
     {
       this->constrain(threads);
     }
-    if (work.Taker) // which goes without constraints
+    if (work.Consumer) // which goes without constraints
     {
       takeTriangles(work, "hull", this->Late, this->results());
     }
@@ -97,7 +96,7 @@ public:
     this->forEachBorder(
       piece, [&](const BorderTriangles& triangles) { this->addTriangles(triangles, border); });
     FinishedPiece finished;
-    if (this->Work.Taker)
+    if (this->Work.Consumer)
     {
       finished.Summary = this->Work.Mesh.Pieces[number];
       finished.Summary.Cells =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/InputSurvey.h"
 
+#include "Arrays/Random.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/PointSurvey.h"
 #include "Triangulation/PointsView.h"
@@ -14,21 +15,7 @@ namespace tipp
 namespace
 {
 
-std::uint64_t mixBits(std::uint64_t x) // the finaliser of splitmix64
-{
-  x += 0x9e3779b97f4a7c15U;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31);
-}
-
 constexpr Box2 nothing{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
-
-Box2 united(const Box2& a, const Box2& b)
-{
-  return { std::min(a.xmin, b.xmin), std::min(a.ymin, b.ymin), std::max(a.xmax, b.xmax),
-    std::max(a.ymax, b.ymax) };
-}
 
 /// Picks one point of each range of ids; ranges double in length until there are few enough. Picks
 /// at equal distances would hit one column of a lattice that is given row by row. If the number of
@@ -156,7 +143,7 @@ PartialSurvey surveyPart(PointStream& points, std::size_t blockPoints, std::size
     {
       const PointsView view(block.XY.data(), block.size(), 2);
       const PointSurvey part = surveyPoints(view, threads);
-      survey.Bounds = united(survey.Bounds, part.Bounds);
+      survey.Bounds = unionOf(survey.Bounds, part.Bounds);
       survey.Rejected += std::int64_t(part.Rejected.size());
       sampler.add(block.First, view);
       for (std::size_t i = 0; survey.Collinear && i < view.size(); ++i)
@@ -180,7 +167,7 @@ InputSurvey joinSurveys(std::vector<PartialSurvey>& parts)
   {
     survey.Points += part.Points;
     survey.Rejected += part.Rejected;
-    survey.Bounds = united(survey.Bounds, part.Bounds);
+    survey.Bounds = unionOf(survey.Bounds, part.Bounds);
     survey.Collinear = survey.Collinear && part.Collinear &&
       std::all_of(part.Line.begin(), part.Line.end(), [&](Point2 p) { return line.add(p); });
     survey.Sample.insert(survey.Sample.end(), part.Sample.begin(), part.Sample.end());

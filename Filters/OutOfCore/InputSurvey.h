@@ -3,7 +3,7 @@
 #define tippInputSurvey_h
 
 #include "Points/PointStream.h"
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstddef>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OutOfCore/LoadedPiece.h"
+#include "OutOfCore/PieceRun.h"
 
 #include "Partitioned/GrowingPiece.h"
 #include "Triangulation/PointSurvey.h"
+#include "Triangulation/PointsView.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
@@ -61,7 +62,7 @@ private:
 } // namespace
 
 /// Sorts the final boundary triangles of one partition.
-struct LoadedPiece::Finals : public FinalTaker
+struct LoadedPiece::Finals : public FinalTriangleConsumer
 {
   Finals(const LoadedPiece& piece, const LowestPoints& lowest)
     : Of(piece)
@@ -326,7 +327,7 @@ void LoadedPiece::resolveDuplicates(PieceFigures& figures)
   {
     columns.push_back({ this->Rows.data() + word, words });
   }
-  figures.DisagreeingPlaces += tipp::resolveDuplicates(
+  figures.DisagreeingPositions += tipp::resolveDuplicates(
     std::move(duplicates), columns, this->Work.Elevation, this->Work.Duplicates);
 }
 
@@ -365,10 +366,10 @@ PieceInterior LoadedPiece::writeInterior()
       { this->BoundaryTriangles.front().data(), this->BoundaryTriangles.size() });
   }
   const std::size_t number = this->Work.Plan.number(this->Piece);
-  if (this->Work.Taker)
+  if (this->Work.Consumer)
   {
     content.IsSummed = false;
-    this->Work.Taker->take(std::to_string(number), this->Rows.data(), this->Work.Rows,
+    this->Work.Consumer->take(std::to_string(number), this->Rows.data(), this->Work.Rows,
       this->IsOnInterface.size(), content.Triangles);
   }
   return tipp::writeInterior(this->Work.Mesh, number, this->Work.Rows, content);

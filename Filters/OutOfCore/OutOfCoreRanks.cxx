@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OutOfCore/OutOfCoreRanks.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 
 #include "Files/IOError.h"
 #include "OutOfCore/InputPasses.h"
-#include "OutOfCore/PieceMessages.h"
 #include "OutOfCore/PieceRun.h"
 #include "OutOfCore/RunSetup.h"
 #include "OutOfCore/ScratchFiles.h"
@@ -100,10 +99,7 @@ bool receiveSetup(Communicator& ranks, const OpenPoints& open, const OutOfCoreOp
   }
   LoadArchive archive(message.Content);
   std::string points;
-  archive(points);
-  archive(prepared.Mesh.Path);
-  archive(prepared.Results);
-  archive(isDone);
+  archive(points, prepared.Mesh.Path, prepared.Results, isDone);
   prepared.load(archive, points);
   return true;
 }
@@ -113,7 +109,7 @@ void help(Communicator& ranks, const OpenPoints& open, const OutOfCoreOptions& o
   requireSharedFolder(ranks, "");
   requireSharedFolder(ranks, "");
   RunSetup prepared;
-  prepared.Taker = options.Taker;
+  prepared.Consumer = options.Consumer;
   prepared.MaximumEdge = options.MaximumEdge;
   prepared.Duplicates = options.Duplicates;
   std::vector<char> isDone;
@@ -159,10 +155,7 @@ void shareSetup(Communicator& ranks, RunSetup& prepared, const std::string& poin
   const std::vector<char>& isDone)
 {
   SaveArchive archive;
-  archive(points);
-  archive(prepared.Mesh.Path);
-  archive(prepared.Results);
-  archive(isDone);
+  archive(points, prepared.Mesh.Path, prepared.Results, isDone);
   prepared.save(archive);
   const Bytes bytes = archive.take();
   for (int to = 1; to < ranks.size(); ++to)

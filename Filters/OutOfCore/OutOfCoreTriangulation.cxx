@@ -5,12 +5,9 @@
 #include "Files/OutputFile.h"
 #include "OutOfCore/FinishPieces.h"
 #include "OutOfCore/InputPasses.h"
-#include "OutOfCore/OutOfCoreRanks.h"
 #include "OutOfCore/PieceRun.h"
 #include "OutOfCore/RunSetup.h"
 #include "OutOfCore/ScratchFiles.h"
-#include "OutOfCore/ScratchFolder.h"
-#include "OutOfCore/TriangleTaker.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 
@@ -19,6 +16,15 @@
 
 namespace tipp
 {
+/// The statistics of a whole mesh that do not depend on the process.
+template <typename Archive>
+void serialize(Archive& archive, OutOfCoreStatistics& statistics)
+{
+  archive(statistics.Points, statistics.Triangles, statistics.TriangleSum, statistics.Rejected,
+    statistics.Pieces, statistics.Partitions, static_cast<PieceFigures&>(statistics),
+    statistics.SpilledBytes, statistics.MeshBytes);
+}
+
 namespace
 {
 
@@ -26,21 +32,6 @@ namespace
 struct Aborted
 {
 };
-
-/// Saves or loads the statistics of a whole mesh that do not depend on the process.
-template <typename Archive>
-void exchangeFigures(Archive& archive, OutOfCoreStatistics& statistics)
-{
-  archive(statistics.Points);
-  archive(statistics.Triangles);
-  archive(statistics.TriangleSum);
-  archive(statistics.Rejected);
-  archive(statistics.Pieces);
-  archive(statistics.Partitions);
-  archive(static_cast<PieceFigures&>(statistics));
-  archive(statistics.SpilledBytes);
-  archive(statistics.MeshBytes);
-}
 
 class Run
 {
@@ -58,7 +49,7 @@ public:
     this->Statistics.Threads = this->Threads;
     this->Setup.Mesh.Path = options.CountOnly ? "" : this->Pending.temporaryPath();
     this->Setup.Results = this->Scratch.results();
-    this->Setup.Taker = options.Taker;
+    this->Setup.Consumer = options.Consumer;
     this->Setup.MaximumEdge = options.MaximumEdge;
     this->Setup.Duplicates = options.Duplicates;
   }
@@ -173,8 +164,7 @@ private:
   /// After recordWhole().
   void resumeWhole(LoadArchive& archive, bool isOurs)
   {
-    exchangeFigures(archive, this->Statistics);
-    archive(this->Fingerprint);
+    archive(this->Statistics, this->Fingerprint);
     this->IsInPlace = this->Fingerprint != 0 && holdsMesh(this->Path, this->Fingerprint);
     if (this->IsInPlace && !isOurs) // what is left of that run is of no use
     {
@@ -377,12 +367,12 @@ private:
 
   void endTaking()
   {
-    if (this->Options.Taker &&
-      !this->Options.Taker->end([this](double done) { return this->proceed(0.9 + 0.1 * done); }))
+    if (this->Options.Consumer &&
+      !this->Options.Consumer->end([this](double done) { return this->proceed(0.9 + 0.1 * done); }))
     {
       throw Aborted();
     }
-    this->Options.Taker ? this->endPhase("raster") : void();
+    this->Options.Consumer ? this->endPhase("raster") : void();
   }
 
   void count()
@@ -438,10 +428,8 @@ private:
     writeCheckedFile(this->Scratch.plan(),
       [this](SaveArchive& archive)
       {
-        archive(identityOf(this->Input, this->Options));
-        archive(std::uint8_t(this->IsWhole));
-        exchangeFigures(archive, this->Statistics);
-        archive(this->Fingerprint);
+        archive(identityOf(this->Input, this->Options), std::uint8_t(this->IsWhole),
+          this->Statistics, this->Fingerprint);
       });
     syncToDisk(this->Scratch.plan());
     syncToDisk(this->Pending.workPath());

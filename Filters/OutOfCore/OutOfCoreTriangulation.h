@@ -4,19 +4,52 @@
 
 #include "Constraints/ConstraintSegments.h"
 #include "Duplicates/ResolveDuplicates.h"
+#include "Partitioned/PieceBorder.h"
 #include "Points/PointStream.h"
+#include "Predicates/Points.h"
+#include "Ranks/Communicator.h"
 #include "vtkTIPPFiltersModule.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace tipp
 {
 
+/// Receives the final triangles of a triangulation out of core, instead of a mesh on disk. What it
+/// keeps must survive the process if the run is to be resumed.
+class TriangleConsumer
+{
+public:
+  virtual ~TriangleConsumer() = default;
+
+  /// Equal for takers that do the same in another run.
+  virtual std::string identity() const = 0;
+
+  /// About how many bytes of disk it needs where its files are.
+  virtual std::uint64_t fileBytes(
+    const Box2& bounds, const std::vector<std::string>& columns) const = 0;
+
+  /// Before the first triangles, when the points are known; on all ranks. `files`: how the paths of
+  /// files begin that stay until the end of the run; all ranks see them.
+  virtual void begin(
+    const Box2& bounds, const std::vector<std::string>& columns, const std::string& files) = 0;
+
+  /// Triangles of points in rows; each of the whole triangulation once, or again in a resumed run.
+  /// `name`: of this part; the same when it is made again. Called by several threads at once.
+  virtual void take(const std::string& name, const double* rows, const PointRowLayout& layout,
+    std::size_t points, const std::vector<TriangleRange>& triangles) = 0;
+
+  /// When all are taken; on the first rank. False if `progress` ended it.
+  virtual bool end(const std::function<bool(double)>& progress) = 0;
+};
+
 class Communicator;
-class TriangleTaker;
+class TriangleConsumer;
 
 struct OutOfCoreOptions
 {
@@ -39,7 +72,7 @@ struct OutOfCoreOptions
   /// Counts and sums up the triangles instead of writing them.
   bool CountOnly = false;
   /// Takes the triangles instead of the mesh; with it CountOnly is to be set.
-  TriangleTaker* Taker = nullptr;
+  TriangleConsumer* Consumer = nullptr;
   /// Called after the first pass over the points, unless the run is resumed: segments between
   /// points of the stream that have to be edges, none crossing another. Null: there are none. They
   /// stay in memory, as part of the limit.
@@ -59,14 +92,14 @@ struct OutOfCoreOptions
 struct PieceFigures
 {
   std::int64_t Duplicates = 0;
-  std::int64_t DisagreeingPlaces = 0; ///< positions whose points differ in elevation
-  std::int64_t WorkerVertices = 0;    ///< that workers triangulated
-  std::uint64_t BoundaryBytes = 0;    ///< of vertices that were sent to partitions of other pieces
+  std::int64_t DisagreeingPositions = 0; ///< positions whose points differ in elevation
+  std::int64_t WorkerVertices = 0;       ///< that workers triangulated
+  std::uint64_t BoundaryBytes = 0; ///< of vertices that were sent to partitions of other pieces
 
   void add(const PieceFigures& other)
   {
     this->Duplicates += other.Duplicates;
-    this->DisagreeingPlaces += other.DisagreeingPlaces;
+    this->DisagreeingPositions += other.DisagreeingPositions;
     this->WorkerVertices += other.WorkerVertices;
     this->BoundaryBytes += other.BoundaryBytes;
   }
@@ -110,6 +143,53 @@ struct OutOfCoreStatistics : PieceFigures
 /// Ranks: others that work with this first one, see triangulateOutOfCoreOnRanks(); null: none.
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCore(PointStream& points,
   const std::string& path, const OutOfCoreOptions& options = {}, Communicator* ranks = nullptr);
+
+constexpr MessageKind pieceMessage(std::uint32_t n)
+{
+  return static_cast<MessageKind>(static_cast<std::uint32_t>(MessageKind::FirstFree) + n);
+}
+
+/// @name From the first rank
+///@{
+constexpr MessageKind SurveyMessage = pieceMessage(0); ///< these three for an InputHelper
+constexpr MessageKind FactorMessage = pieceMessage(1);
+constexpr MessageKind SpillMessage = pieceMessage(2);
+constexpr MessageKind SetUpMessage = pieceMessage(3); ///< what was prepared
+constexpr MessageKind EndMessage = pieceMessage(4);   ///< there is no more work
+///@}
+/// To the first rank: of the input.
+constexpr MessageKind PartMessage = pieceMessage(5);
+/// @name Between any ranks
+///@{
+constexpr MessageKind PartitionMessage = pieceMessage(6); ///< it is done; what it sends
+constexpr MessageKind PieceMessage = pieceMessage(7);     ///< its result is on disk
+///@}
+
+class RunSetup;
+
+using OpenPoints = std::function<std::unique_ptr<PointStream>()>;
+
+/// triangulateOutOfCore() on all ranks, each of which calls this with the same path and options:
+/// points are surveyed and spilled, pieces loaded and triangulated and their interiors written by
+/// all; the first one makes the plan and completes the pieces at the end. The files are those of
+/// one process. `open` is called on all ranks; where it throws an IOError or opens another input
+/// than on the first rank, that one reads this rank's part. The figures are on the first rank.
+///
+/// All ranks must see the folders. The memory limit and the threads are those of each rank. Throws
+/// RankFailure on all ranks; the statistics of a run that was ended by Progress on any rank have
+/// Aborted on all. Not to be called within Communicator::together().
+VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCoreOnRanks(Communicator& ranks,
+  const OpenPoints& open, const std::string& path, const OutOfCoreOptions& options);
+
+/// Whether all ranks see a folder of the first rank, by a file that is there for a moment;
+/// collective. Throws IOError on a rank that does not.
+VTKTIPPFILTERS_EXPORT void requireSharedFolder(Communicator& ranks, const std::string& folder);
+
+/// Of the first rank: sends the others, which wait for it in triangulateOutOfCoreOnRanks(), what
+/// they need to work on pieces. `points`: the file they are spilled to; `isDone`: of each piece,
+/// whether it is done already.
+VTKTIPPFILTERS_EXPORT void shareSetup(Communicator& ranks, RunSetup& prepared,
+  const std::string& points, const std::vector<char>& isDone);
 
 } // namespace tipp
 

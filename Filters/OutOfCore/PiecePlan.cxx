@@ -2,9 +2,9 @@
 #include "OutOfCore/PiecePlan.h"
 
 #include "Files/IOError.h"
+#include "OutOfCore/InputPasses.h"
 #include "OutOfCore/ScratchFiles.h"
-#include "OutOfCore/SpillPoints.h"
-#include "Triangulation/InitialMesh.h"
+#include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>
@@ -14,17 +14,6 @@ namespace tipp
 {
 namespace
 {
-
-std::vector<Point2> positionsOf(const std::vector<SampledPoint>& sample)
-{
-  std::vector<Point2> positions;
-  positions.reserve(sample.size());
-  for (const SampledPoint& p : sample)
-  {
-    positions.push_back(p.Position);
-  }
-  return positions;
-}
 
 int countFor(double points, std::int64_t each, std::size_t sampled)
 {
@@ -79,7 +68,7 @@ MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t words)
 {
   // A taker copies coordinates and triangles of the piece that it is given.
   // Constraints need room for the triangles that they cross.
-  const std::size_t rowWords = words + (options.Taker ? 8 : 0) + (options.Constraints ? 1 : 0);
+  const std::size_t rowWords = words + (options.Consumer ? 8 : 0) + (options.Constraints ? 1 : 0);
   // Of the two phases each has its share; the rest is for kernels and boundaries.
   const std::uint64_t share = options.MemoryLimit / 5 * 2;
   // Two blocks of points, their labels and rows by piece.
@@ -230,30 +219,16 @@ std::vector<BoundaryVertex> PiecePlan::initialVertices() const
 
 void PiecePlan::save(SaveArchive& archive) const
 {
-  archive(this->IsAlone);
-  archive(this->Pieces.save());
-  for (const Tiling& inner : this->Inner)
-  {
-    archive(inner.save());
-  }
-  archive(this->Initial);
+  archive(this->IsAlone, this->Pieces, this->Inner, this->Initial);
 }
 
 PiecePlan::PiecePlan(LoadArchive& archive)
 {
-  archive(this->IsAlone);
-  const auto loadTiling = [&]
+  archive(this->IsAlone, this->Pieces, this->Inner, this->Initial);
+  if (this->Inner.size() != std::size_t(this->Pieces.size()))
   {
-    std::vector<char> bytes;
-    archive(bytes);
-    return Tiling::load(bytes);
-  };
-  this->Pieces = loadTiling();
-  for (PartitionIndex piece = 0; piece < this->Pieces.size(); ++piece)
-  {
-    this->Inner.push_back(loadTiling());
+    throw std::runtime_error("The plan of a run is damaged: it has not one tiling a piece.");
   }
-  archive(this->Initial);
   this->numberPartitions();
   if (!this->IsAlone)
   {

@@ -2,7 +2,7 @@
 #include "OutOfCore/PieceResult.h"
 
 #include "OutOfCore/ScratchFiles.h"
-#include "Predicates/CellBox.h"
+#include "Predicates/ExactPredicates.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
@@ -22,14 +22,6 @@ enum SectionKind : std::uint32_t
   CrossedSection,
   MessageSection
 };
-
-template <typename Archive>
-void exchange(Archive& archive, BorderTriangles& border)
-{
-  archive(border.Corners);
-  archive(border.Borrowers);
-  archive(border.BorrowerEnds);
-}
 
 Box3 boxOf(const Box2& box)
 {
@@ -97,41 +89,28 @@ void append(BordersByOwner&& from, BordersByOwner& to)
   }
 }
 
-std::uint64_t writeResult(const std::string& path, PieceResult& result)
+std::uint64_t writeResult(const std::string& path, const PieceResult& result)
 {
   SectionFileWriter file(path);
+  file.add({ InteriorSection, 0 }, packed(result.Interior));
+  file.add({ FiguresSection, 0 }, packed(result.Figures));
+  file.add({ HullSection, 0 }, packed(result.HullVertices));
+  for (const auto& [owner, triangles] : result.Borders)
   {
-    SaveArchive interior;
-    result.Interior.exchange(interior);
-    file.add({ InteriorSection, 0 }, interior);
-  }
-  SaveArchive figures;
-  figures(result.Figures);
-  file.add({ FiguresSection, 0 }, figures);
-  SaveArchive hull;
-  write(hull, result.HullVertices);
-  file.add({ HullSection, 0 }, hull);
-  for (auto& [owner, triangles] : result.Borders)
-  {
-    SaveArchive border;
-    exchange(border, triangles);
-    file.add({ BorderSection, owner }, border);
+    file.add({ BorderSection, owner }, packed(triangles));
   }
   if (!result.Crossed.Triangles.empty() || !result.Crossed.Touches.empty())
   {
-    SaveArchive crossed;
-    crossed(result.Crossed);
-    file.add({ CrossedSection, 0 }, crossed);
+    file.add({ CrossedSection, 0 }, packed(result.Crossed));
   }
   for (const auto& [to, messages] : result.Sent)
   {
     SaveArchive writer;
     for (const auto& [partition, message] : messages)
     {
-      writer(partition);
-      write(writer, message);
+      writer(partition, message);
     }
-    file.add({ MessageSection, to }, writer);
+    file.add({ MessageSection, to }, writer.take());
   }
   return file.finish();
 }
@@ -148,7 +127,7 @@ SentMessages StoredResult::readMessages(PartitionIndex to) const
   for (LoadArchive reader(bytes); reader.left() > 0;)
   {
     messages.emplace_back(reader.get<PartitionIndex>(), VertexMessage{});
-    read(reader, messages.back().second);
+    reader(messages.back().second);
   }
   return messages;
 }
@@ -160,20 +139,12 @@ bool StoredResult::hasBorder(PartitionIndex owner) const
 
 BorderTriangles StoredResult::readBorder(PartitionIndex owner) const
 {
-  const Bytes bytes = this->File.read({ BorderSection, owner });
-  LoadArchive archive(bytes);
-  BorderTriangles border;
-  exchange(archive, border);
-  return border;
+  return unpacked<BorderTriangles>(this->File.read({ BorderSection, owner }));
 }
 
 std::vector<BoundaryVertex> StoredResult::readHullVertices() const
 {
-  const Bytes bytes = this->File.read({ HullSection, 0 });
-  LoadArchive reader(bytes);
-  std::vector<BoundaryVertex> vertices;
-  read(reader, vertices);
-  return vertices;
+  return unpacked<std::vector<BoundaryVertex>>(this->File.read({ HullSection, 0 }));
 }
 
 CrossedPart StoredResult::readCrossed() const
@@ -188,17 +159,12 @@ CrossedPart StoredResult::readCrossed() const
 
 PieceFigures StoredResult::readFigures() const
 {
-  const Bytes bytes = this->File.read({ FiguresSection, 0 });
-  return unpacked<PieceFigures>(bytes);
+  return unpacked<PieceFigures>(this->File.read({ FiguresSection, 0 }));
 }
 
 PieceInterior StoredResult::readInterior() const
 {
-  const Bytes bytes = this->File.read({ InteriorSection, 0 });
-  LoadArchive archive(bytes);
-  PieceInterior interior;
-  interior.exchange(archive);
-  return interior;
+  return unpacked<PieceInterior>(this->File.read({ InteriorSection, 0 }));
 }
 
 } // namespace tipp

@@ -5,10 +5,10 @@
 #include "Constraints/CrossedPart.h"
 #include "Duplicates/ResolveDuplicates.h"
 #include "Engine/Routing.h"
+#include "OutOfCore/InputPasses.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/ScratchFiles.h"
-#include "OutOfCore/SpillPoints.h"
-#include "OutOfCore/TriangleTaker.h"
 #include "Partitioned/PieceBorder.h"
 
 #include <array>
@@ -29,9 +29,9 @@ struct PieceWork
   double Factor; ///< of coordinates
   const PointRowLayout& Rows;
   const PartitionedMesh& Mesh;
-  std::string Results;            ///< how the paths of pieces' results begin
-  TriangleTaker* Taker = nullptr; ///< null: triangles go to the mesh
-  double MaximumEdge = 0;         ///< triangles with a longer edge are left out; 0: none are
+  std::string Results;                  ///< how the paths of pieces' results begin
+  TriangleConsumer* Consumer = nullptr; ///< null: triangles go to the mesh
+  double MaximumEdge = 0;               ///< triangles with a longer edge are left out; 0: none are
   DuplicateRule Duplicates = DuplicateRule::First;
   const ConstraintSegments* Constraints = nullptr; ///< null: there are none
   std::size_t Elevation = 0; ///< among the columns of rows; their number if there is none
@@ -54,12 +54,18 @@ struct BorderTriangles
   std::vector<std::uint64_t> BorrowerEnds; ///< of each triangle, in Borrowers
 };
 
+template <typename Archive>
+void serialize(Archive& archive, BorderTriangles& border)
+{
+  archive(border.Corners, border.Borrowers, border.BorrowerEnds);
+}
+
 using BordersByOwner = std::map<PartitionIndex, BorderTriangles>;
 
 /// Adds each triangle at the borders of pieces to those of the piece that owns it: of all that the
 /// triangle meets, the first in the mesh. The others borrow it. Where there are constraints, which
 /// change triangles, too long ones are left out later.
-class BorderSorter : public FinalTaker
+class BorderSorter : public FinalTriangleConsumer
 {
 public:
   /// Both must outlive this.
@@ -104,7 +110,7 @@ struct PieceResult
 };
 
 /// Returns the file's bytes. Throws IOError.
-std::uint64_t writeResult(const std::string& path, PieceResult& result);
+std::uint64_t writeResult(const std::string& path, const PieceResult& result);
 
 /// A result on disk, read by parts. Throws IOError for what is damaged or missing.
 class VTKTIPPFILTERS_EXPORT StoredResult

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/PieceRun.h"
 
-#include "OutOfCore/PieceMessages.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Partitioned/GrowingPiece.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ void PieceRun::prepare(const std::vector<char>& isDone)
 {
   const PiecePlan& plan = this->Work.Plan;
   this->Order = std::make_unique<PieceOrder>(plan, this->Work.Points, this->Threads);
-  if (this->Work.Taker)
+  if (this->Work.Consumer)
   {
     this->Borders = std::make_unique<BorderQueue>(plan, this->Order->partitions());
   }

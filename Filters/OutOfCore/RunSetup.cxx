@@ -2,6 +2,7 @@
 #include "OutOfCore/RunSetup.h"
 
 #include "Files/IOError.h"
+#include "Files/TextFile.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "Partitioned/NeighborIds.h"
 
@@ -22,45 +23,8 @@ constexpr const char* representativeName = "RepresentativePointId";
 template <typename Archive>
 void RunSetup::exchangeInput(Archive& archive)
 {
-  archive(this->Survey.Points);
-  archive(this->Survey.Rejected);
-  archive(this->Survey.Bounds);
-  archive(this->Survey.Factor);
-  archive(this->Survey.Collinear);
-  archive(this->Columns);
-  archive(this->Rows.Words);
-  archive(this->Rows.Z);
-  archive(this->Rows.Attributes);
-  auto hasNeighbors = std::uint8_t(findNeighborIds(this->Mesh) >= 0);
-  archive(hasNeighbors);
-  auto hasMarks = std::uint8_t(this->Marks >= 0);
-  archive(hasMarks);
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < this->Rows.Attributes.size() && i < this->Mesh.Arrays.size(); ++i)
-  {
-    names.push_back(this->Mesh.Arrays[i].Name);
-  }
-  archive(names);
-  this->Mesh.Arrays.clear();
-  for (std::size_t i = 0; i < names.size(); ++i)
-  {
-    const bool isId = this->Rows.Attributes.at(i) < 0;
-    this->Mesh.Arrays.push_back({ names[i], true, isId ? Scalar::Int64 : Scalar::Float64, 1, -1 });
-  }
-  this->addCellArrays(hasNeighbors != 0, hasMarks != 0);
-}
-
-void RunSetup::addCellArrays(bool hasNeighbors, bool hasMarks)
-{
-  if (hasNeighbors)
-  {
-    this->Mesh.Arrays.push_back(neighborIdsArray);
-  }
-  this->Marks = hasMarks ? std::int64_t(this->Mesh.Arrays.size()) : -1;
-  if (hasMarks)
-  {
-    this->Mesh.Arrays.push_back(constraintEdgesArray);
-  }
+  archive(this->Survey.Points, this->Survey.Rejected, this->Survey.Bounds, this->Survey.Factor,
+    this->Survey.Collinear, this->Columns, this->Rows, this->Mesh.Arrays, this->Marks);
 }
 
 void RunSetup::save(SaveArchive& archive)
@@ -103,7 +67,15 @@ void RunSetup::describeColumns(
     this->Mesh.Arrays.push_back({ representativeName, true, Scalar::Int64, 1, -1 });
     this->Rows.Attributes.push_back(-1);
   }
-  this->addCellArrays(options.Neighbors, options.MarkConstraints);
+  if (options.Neighbors)
+  {
+    this->Mesh.Arrays.push_back(neighborIdsArray);
+  }
+  if (options.MarkConstraints)
+  {
+    this->Marks = std::int64_t(this->Mesh.Arrays.size());
+    this->Mesh.Arrays.push_back(constraintEdgesArray);
+  }
 }
 
 void RunSetup::describeMesh()
@@ -127,15 +99,15 @@ Box2 RunSetup::inputBounds() const
 
 void RunSetup::beginTaking() const
 {
-  if (this->Taker)
+  if (this->Consumer)
   {
-    this->Taker->begin(this->inputBounds(), this->Columns, this->Results);
+    this->Consumer->begin(this->inputBounds(), this->Columns, this->Results);
   }
 }
 
 std::uint64_t RunSetup::takenBytes() const
 {
-  return this->Taker ? this->Taker->fileBytes(this->inputBounds(), this->Columns) : 0;
+  return this->Consumer ? this->Consumer->fileBytes(this->inputBounds(), this->Columns) : 0;
 }
 
 Bounds RunSetup::boundsOf(const Box2& box) const
@@ -185,22 +157,16 @@ void RunSetup::requireMemory(const std::string& path, std::uint64_t limit) const
 
 std::string identityOf(const PointStream& input, const OutOfCoreOptions& options)
 {
-  const auto exact = [](double value)
-  {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.17g", value);
-    return std::string(text);
-  };
-  return "TIPP out of core 10\n" + input.identity() + std::to_string(options.Columns) + "x" +
+  return "TIPP out of core 11\n" + input.identity() + std::to_string(options.Columns) + "x" +
     std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
     std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
     (options.Neighbors ? " linked" : "") + (options.MarkConstraints ? " marked" : "") +
     (options.CountOnly ? " counted" : "") +
-    (options.MaximumEdge > 0 ? " edges " + exact(options.MaximumEdge) : "") +
+    (options.MaximumEdge > 0 ? " edges " + exactText(options.MaximumEdge) : "") +
     (options.Duplicates != DuplicateRule::First
         ? " duplicates " + std::to_string(int(options.Duplicates))
         : "") +
-    "\n" + (options.Taker ? options.Taker->identity() : "") + "\n" + options.Scratch;
+    "\n" + (options.Consumer ? options.Consumer->identity() : "") + "\n" + options.Scratch;
 }
 
 } // namespace tipp

@@ -2,14 +2,13 @@
 #ifndef tippRunSetup_h
 #define tippRunSetup_h
 
+#include "OutOfCore/InputPasses.h"
 #include "OutOfCore/InputSurvey.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceResult.h"
-#include "OutOfCore/SpillPoints.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Points/PointTable.h"
-#include "Points/RankColumn.h"
 
 #include <cstdint>
 #include <memory>
@@ -38,7 +37,7 @@ public:
   PieceWork work() const
   {
     return { *this->Plan, *this->Spilled, this->Survey.Factor, this->Rows, this->Mesh,
-      this->Results, this->Taker, this->MaximumEdge, this->Duplicates, this->Constraints.get(),
+      this->Results, this->Consumer, this->MaximumEdge, this->Duplicates, this->Constraints.get(),
       findRankColumn(this->Columns) };
   }
 
@@ -58,7 +57,7 @@ public:
   PointRowLayout Rows;
   PartitionedMesh Mesh;
   std::string Results; ///< how the paths of pieces' results begin
-  TriangleTaker* Taker = nullptr;
+  TriangleConsumer* Consumer = nullptr;
   double MaximumEdge = 0;
   DuplicateRule Duplicates = DuplicateRule::First;
   std::int64_t Marks = -1; ///< the array ConstraintEdges among the mesh's; -1: there is none
@@ -70,7 +69,6 @@ public:
 private:
   template <typename Archive>
   void exchangeInput(Archive& archive);
-  void addCellArrays(bool hasNeighbors, bool hasMarks);
   Bounds boundsOf(const Box2& box) const;
   Box2 inputBounds() const;
 };

@@ -125,7 +125,7 @@ RunStatistics statisticsOf(const OutOfCoreStatistics& statistics, bool isCounted
       { "", "TriangleSum", std::vector<std::uint64_t>{ statistics.TriangleSum } });
   }
   run.add("duplicates", "DuplicatePoints", statistics.Duplicates);
-  run.add("disagreeing_places", "", statistics.DisagreeingPlaces);
+  run.add("disagreeing_places", "", statistics.DisagreeingPositions);
   run.add("rejected", "RejectedPoints", statistics.Rejected);
   run.add("pieces", "Pieces", statistics.Pieces);
   run.add("partitions", "Partitions", statistics.Partitions);

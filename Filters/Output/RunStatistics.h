@@ -12,6 +12,9 @@
 #include <variant>
 #include <vector>
 
+class vtkPolyData;
+class vtkTable;
+
 namespace tipp
 {
 
@@ -66,6 +69,13 @@ VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
   const Triangulation& triangulation, std::int64_t points, bool longEdgesLeftOut);
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(const OutOfCoreStatistics& statistics);
 ///@}
+
+/// Fills the empty table: the rows of the statistics' table, and all else as field data. The
+/// documentation of vtkTIPPDelaunay2D and vtkTIPPOutOfCoreDelaunay2D lists the arrays.
+void fillStatisticsTable(const RunStatistics& statistics, vtkTable* table);
+
+/// Adds the duplicates and rejected points found on this rank as field data, by global ids.
+void addAccounts(const DistributedTriangulation& mine, vtkPolyData* output);
 
 } // namespace tipp
 

@@ -15,11 +15,11 @@ namespace tipp
 namespace
 {
 
-using Extent = std::array<int, 6>;
+using ImageExtent = std::array<int, 6>;
 
-Extent overlap(const Extent& a, const Extent& b)
+ImageExtent overlap(const ImageExtent& a, const ImageExtent& b)
 {
-  Extent both;
+  ImageExtent both;
   for (int axis = 0; axis < 3; ++axis)
   {
     both[2 * axis] = std::max(a[2 * axis], b[2 * axis]);
@@ -28,7 +28,7 @@ Extent overlap(const Extent& a, const Extent& b)
   return both;
 }
 
-std::int64_t samplesOf(const Extent& extent)
+std::int64_t samplesOf(const ImageExtent& extent)
 {
   std::int64_t samples = 1;
   for (int axis = 0; axis < 3; ++axis)
@@ -41,7 +41,7 @@ std::int64_t samplesOf(const Extent& extent)
 /// Calls work(first, count) for each row of `part`; `first` is the index of the row's first sample
 /// in `whole`.
 template <typename Work>
-void forRows(const Extent& whole, const Extent& part, const Work& work)
+void forRows(const ImageExtent& whole, const ImageExtent& part, const Work& work)
 {
   const std::int64_t width = whole[1] - whole[0] + 1;
   const std::int64_t depth = whole[3] - whole[2] + 1;
@@ -69,8 +69,8 @@ char* bytesOf(const SampledImage::Array& array)
 /// What all ranks know of each rank.
 struct RankNote
 {
-  Extent Local;
-  Extent Wanted;
+  ImageExtent Local;
+  ImageExtent Wanted;
   int Dimension;
 };
 
@@ -179,7 +179,7 @@ private:
   }
 
   /// The extent that one rank sends to another; may be empty.
-  Extent part(int from, int to) const
+  ImageExtent part(int from, int to) const
   {
     const RankNote& note = this->Notes[std::size_t(from)];
     if (note.Dimension < this->Dimension || note.Dimension == 0)
@@ -189,7 +189,7 @@ private:
     return overlap(note.Local, this->Notes[std::size_t(to)].Wanted);
   }
 
-  std::size_t bytes(int from, const Extent& extent) const
+  std::size_t bytes(int from, const ImageExtent& extent) const
   {
     std::size_t tuple = sizeof(CellKey);
     for (const SampledImage::Array& array : this->Result.arrays())
@@ -201,7 +201,7 @@ private:
 
   Bytes pack(int to)
   {
-    const Extent part = this->part(this->Rank, to);
+    const ImageExtent part = this->part(this->Rank, to);
     if (samplesOf(part) == 0)
     {
       return {};
@@ -230,7 +230,7 @@ private:
 
   void merge(int from, const Bytes& message)
   {
-    const Extent part = this->part(from, this->Rank);
+    const ImageExtent part = this->part(from, this->Rank);
     const std::size_t samples = std::size_t(samplesOf(part));
     if (message.size() != this->bytes(from, part))
     {

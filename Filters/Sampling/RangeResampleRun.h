@@ -2,7 +2,7 @@
 #ifndef tippRangeResampleRun_h
 #define tippRangeResampleRun_h
 
-#include "Output/Monitor.h"
+#include "Output/FilterPipeline.h"
 #include "Ranks/Communicator.h"
 #include "Resample/Lattice.h"
 #include "Sampling/SampledImage.h"

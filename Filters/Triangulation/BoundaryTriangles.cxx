@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation/BoundaryTriangles.h"
 
+#include "Kernel/DelaunayKernel.h"
+#include "Kernel/Lanes.h"
+#include "Parallel/ParallelFor.h"
+
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
 
 namespace tipp
 {
@@ -34,17 +41,6 @@ std::uint32_t PartitionSets::number(const PartitionIndex* first, const Partition
   return this->Last;
 }
 
-std::vector<Point2> positionsOf(const std::vector<BoundaryVertex>& vertices)
-{
-  std::vector<Point2> positions;
-  positions.reserve(vertices.size());
-  for (const BoundaryVertex& v : vertices)
-  {
-    positions.push_back(v.Position);
-  }
-  return positions;
-}
-
 void BoundaryTriangles::appendTriangles(const BoundaryTriangles& others)
 {
   std::vector<std::uint32_t> numbers;
@@ -59,5 +55,265 @@ void BoundaryTriangles::appendTriangles(const BoundaryTriangles& others)
     this->SetOf.push_back(numbers[set]);
   }
 }
+
+namespace
+{
+
+using Index = DelaunayKernel::Index;
+
+double meanLongSide(const Tiling& tiling)
+{
+  double sum = 0;
+  for (PartitionIndex i = 0; i < tiling.size(); ++i)
+  {
+    const Box2& box = tiling.box(i);
+    sum += std::max(box.xmax - box.xmin, box.ymax - box.ymin) / tiling.size();
+  }
+  return sum;
+}
+
+/// Moves a bound outward by the margin, but at least by a few units in the last place: coordinates
+/// may be large and close together.
+double outward(double bound, double direction, double margin)
+{
+  double moved = bound + direction * margin;
+  for (int i = 0; i < 4; ++i)
+  {
+    bound = std::nextafter(bound, direction * HUGE_VAL);
+  }
+  return direction > 0 ? std::max(moved, bound) : std::min(moved, bound);
+}
+
+int piecesOf(double side, double spacing)
+{
+  constexpr double most = 4096;
+  return static_cast<int>(std::clamp(std::ceil(side / spacing), 1.0, most));
+}
+
+/// Returns the indices of the first points with the smallest and the largest x and y. One pass
+/// finds the block of each, and only these blocks are searched.
+std::array<std::size_t, 4> findOutmost(const Point2* points, std::size_t count)
+{
+  constexpr std::size_t block = 1024;
+  std::array<double, 4> bounds{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+  std::array<std::size_t, 4> found{ 0, 0, 0, 0 };
+  for (std::size_t begin = 0; begin < count; begin += block)
+  {
+    const Box2 box = extentOf(points + begin, std::min(block, count - begin)).box();
+    const std::array<double, 4> here{ box.xmin, box.ymin, box.xmax, box.ymax };
+    for (std::size_t side = 0; side < 4; ++side)
+    {
+      if (side < 2 ? here[side] < bounds[side] : here[side] > bounds[side])
+      {
+        bounds[side] = here[side];
+        found[side] = begin;
+      }
+    }
+  }
+  for (std::size_t side = 0; side < 4; ++side)
+  {
+    while ((side % 2 == 0 ? points[found[side]].x : points[found[side]].y) != bounds[side])
+    {
+      ++found[side];
+    }
+  }
+  return found;
+}
+
+/// Returns the pairs of different sets of adjacent finite triangles. `setOf` is indexed by finite
+/// triangle, in the kernel's order.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> adjacentSets(
+  const DelaunayKernel& kernel, const std::vector<std::uint32_t>& setOf)
+{
+  constexpr std::uint32_t none = ~0U;
+  std::vector<std::uint32_t> sets(kernel.triangleCount(), none);
+  auto set = setOf.begin();
+  kernel.forEachTriangle(
+    [&](Index t) { sets[DelaunayKernel::number(t)] = kernel.isInfinite(t) ? none : *set++; });
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  kernel.forEachTriangle(
+    [&](Index t)
+    {
+      const std::uint32_t one = sets[DelaunayKernel::number(t)];
+      for (Index i = 0; i < 3; ++i)
+      {
+        const std::uint32_t other = sets[DelaunayKernel::number(kernel.neighbour(t, i))];
+        if (one < other && other != none)
+        {
+          pairs.emplace_back(one, other);
+        }
+      }
+    });
+  return pairs;
+}
+
+/// The finite triangles among the kernel's triangles [begin, end), by number, and the regions that
+/// each meets.
+BoundaryTriangles findMetRegions(
+  const Regions& regions, const DelaunayKernel& kernel, std::size_t begin, std::size_t end)
+{
+  BoundaryTriangles found;
+  std::vector<PartitionIndex> met;
+  for (std::size_t number = begin; number < end; ++number)
+  {
+    const Index t = DelaunayKernel::triangle(number);
+    if (!kernel.isInfinite(t))
+    {
+      const auto [a, b, c] = kernel.corners(t);
+      met.clear();
+      regions.visitMet(Circumdisk(kernel.point(a), kernel.point(b), kernel.point(c)),
+        [&met](PartitionIndex p) { met.push_back(p); });
+      found.add({ kernel.pointIndex(a), kernel.pointIndex(b), kernel.pointIndex(c) }, met.data(),
+        met.data() + met.size());
+    }
+  }
+  return found;
+}
+
+BoundaryTriangles joined(std::vector<BoundaryTriangles>&& parts)
+{
+  for (std::size_t i = 1; i < parts.size(); ++i)
+  {
+    parts[0].appendTriangles(parts[i]);
+  }
+  return std::move(parts[0]);
+}
+
+} // namespace
+
+std::vector<BoundaryVertex> makeArtificialPoints(const Tiling& tiling)
+{
+  const double margin = meanLongSide(tiling);
+  const Box2& domain = tiling.domain();
+  const Box2 frame = { outward(domain.xmin, -1, margin), outward(domain.ymin, -1, margin),
+    outward(domain.xmax, 1, margin), outward(domain.ymax, 1, margin) };
+  const double width = frame.xmax - frame.xmin;
+  const double height = frame.ymax - frame.ymin;
+  std::vector<BoundaryVertex> vertices;
+  if (!std::isfinite(width) || !std::isfinite(height))
+  {
+    return vertices;
+  }
+  const auto add = [&](double x, double y)
+  {
+    const Point2 p = { x, y };
+    vertices.push_back({ p, -1 - std::int64_t(vertices.size()), tiling.locate(p) });
+  };
+  const int columns = piecesOf(width, margin);
+  for (int i = 0; i <= columns; ++i)
+  {
+    const double x = i < columns ? frame.xmin + width * (double(i) / columns) : frame.xmax;
+    add(x, frame.ymin);
+    add(x, frame.ymax);
+  }
+  const int rows = piecesOf(height, margin);
+  for (int i = 1; i < rows; ++i)
+  {
+    const double y = frame.ymin + height * (double(i) / rows);
+    add(frame.xmin, y);
+    add(frame.xmax, y);
+  }
+  return vertices;
+}
+
+std::vector<std::size_t> chooseInitialPoints(
+  const Point2* points, std::size_t count, std::size_t wanted)
+{
+  constexpr std::size_t sides = 4;
+  std::vector<std::size_t> chosen;
+  if (count <= wanted)
+  {
+    chosen.resize(count);
+    std::iota(chosen.begin(), chosen.end(), 0);
+    return chosen;
+  }
+  const auto isChosen = [&](std::size_t i)
+  { return std::find(chosen.begin(), chosen.end(), i) != chosen.end(); };
+  if (wanted >= 2 * sides)
+  {
+    for (const std::size_t i : findOutmost(points, count))
+    {
+      isChosen(i) ? void() : chosen.push_back(i);
+    }
+  }
+  const std::size_t spaced = wanted - chosen.size();
+  for (std::size_t i = 0; i < spaced; ++i)
+  {
+    std::size_t at = (2 * i + 1) * count / (2 * spaced);
+    while (isChosen(at))
+    {
+      at = (at + 1) % count;
+    }
+    chosen.push_back(at);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+template <typename Id>
+std::vector<BoundaryVertex> chooseInitialPoints(
+  const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition, int threads)
+{
+  std::vector<std::vector<std::size_t>> chosen(std::size_t(tiling.size()));
+  parallelFor(tiling.size(), threads,
+    [&](std::int64_t i)
+    {
+      const auto p = static_cast<PartitionIndex>(i);
+      chosen[std::size_t(i)] =
+        chooseInitialPoints(buckets.points(p), buckets.count(p), std::size_t(perPartition));
+    });
+  std::vector<BoundaryVertex> vertices;
+  for (PartitionIndex p = 0; p < tiling.size(); ++p)
+  {
+    for (const std::size_t at : chosen[std::size_t(p)])
+    {
+      vertices.push_back({ buckets.points(p)[at], buckets.id(p, at), p });
+    }
+  }
+  return vertices;
+}
+
+BoundaryTriangles triangulateVertices(
+  const Regions& regions, const std::vector<BoundaryVertex>& vertices, int threads)
+{
+  const std::vector<Point2> points = positionsOf(vertices);
+  DelaunayKernel kernel;
+  kernel.insert(points.data(), points.size());
+  std::vector<BoundaryTriangles> own(static_cast<std::size_t>(threads));
+  parallelFor(threads, threads,
+    [&](std::int64_t i)
+    {
+      const auto [begin, end] = evenShare(kernel.triangleCount(), int(i), threads);
+      own[std::size_t(i)] = findMetRegions(regions, kernel, begin, end);
+    });
+  BoundaryTriangles all = joined(std::move(own));
+  all.Vertices = vertices;
+  all.AdjacentSets = adjacentSets(kernel, all.SetOf);
+  return all;
+}
+
+bool partitionsPay(std::int64_t triangles, std::int64_t met)
+{
+  constexpr std::int64_t most = 3;
+  return met <= most * triangles;
+}
+
+bool partitionsPay(const BoundaryTriangles& initialMesh)
+{
+  std::int64_t triangles = 0;
+  std::int64_t met = 0;
+  for (const std::uint32_t set : initialMesh.SetOf)
+  {
+    const std::ptrdiff_t size = initialMesh.Sets.end(set) - initialMesh.Sets.begin(set);
+    triangles += size > 0 ? 1 : 0;
+    met += size;
+  }
+  return partitionsPay(triangles, met);
+}
+
+template std::vector<BoundaryVertex> chooseInitialPoints(
+  const Tiling&, const PointBuckets<std::int32_t>&, int, int);
+template std::vector<BoundaryVertex> chooseInitialPoints(
+  const Tiling&, const PointBuckets<std::int64_t>&, int, int);
 
 } // namespace tipp

@@ -3,8 +3,7 @@
 
 #include "Kernel/Lanes.h"
 #include "Parallel/ParallelFor.h"
-#include "Triangulation/BucketWriter.h"
-#include "Triangulation/PartitionFinder.h"
+#include "Triangulation/Tiling.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation/PointSurvey.h"
+#include "Triangulation/PointsView.h"
 
 #include "Kernel/Lanes.h"
 #include "Parallel/ParallelFor.h"
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <cmath>

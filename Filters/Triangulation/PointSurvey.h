@@ -2,7 +2,7 @@
 #ifndef tippPointSurvey_h
 #define tippPointSurvey_h
 
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Triangulate.h"
 

@@ -2,7 +2,7 @@
 #ifndef tippPointsView_h
 #define tippPointsView_h
 
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #define tippTriangulate_h
 
 #include "Arrays/Buffer.h"
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"

@@ -58,7 +58,7 @@ void Worker<Id>::setTiling(const Tiling& tiling, PartitionIndex firstBucket)
 
 template <typename Id>
 void Worker<Id>::triangulate(PartitionIndex partition, std::vector<BoundaryVertex>&& vertices,
-  const Box2& region, BoundaryTaker& boundary)
+  const Box2& region, BoundaryConsumer& boundary)
 {
   const PartitionIndex bucket = this->bucket(partition);
   this->separateGhosts(partition, std::move(vertices));
@@ -176,7 +176,7 @@ BoundaryVertex Worker<Id>::vertex(PartitionIndex partition, Index v) const
 /// cavity changes by one neighbouring triangle at a time. So only these and the interior triangles
 /// adjacent to them are visited.
 template <typename Id>
-void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryTaker& boundary)
+void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryConsumer& boundary)
 {
   const Box2 open = openBox(box);
   this->IsBoundary.assign(this->Kernel.triangleCount(), 0);

@@ -38,10 +38,10 @@ public:
 
 /// Receives a partition's boundary triangles: those whose circumdisk meets its region and that are
 /// not interior.
-class BoundaryTaker
+class BoundaryConsumer
 {
 public:
-  virtual ~BoundaryTaker() = default;
+  virtual ~BoundaryConsumer() = default;
 
   /// Called before the first triangle. The kernel's vertices are 0 to vertexEnd - 1.
   virtual void begin(DelaunayKernel::Index vertexEnd) = 0;
@@ -70,7 +70,7 @@ public:
   /// order and number depend only on the partition's points, and passes the boundary triangles to
   /// `boundary`.
   void triangulate(PartitionIndex partition, std::vector<BoundaryVertex>&& vertices,
-    const Box2& region, BoundaryTaker& boundary);
+    const Box2& region, BoundaryConsumer& boundary);
 
   /// A vertex of the kernel after the last triangulate().
   BoundaryVertex vertex(PartitionIndex partition, DelaunayKernel::Index v) const;
@@ -93,7 +93,7 @@ private:
   void resolveDuplicates();
   void setVertexIds();
   void edit(PartitionIndex partition);
-  void findBoundary(const Box2& box, const Box2& region, BoundaryTaker& boundary);
+  void findBoundary(const Box2& box, const Box2& region, BoundaryConsumer& boundary);
   template <typename IsInterior>
   void writeTriangles(PartitionIndex bucket, const IsInterior& isInterior);
 

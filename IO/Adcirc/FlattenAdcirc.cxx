@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Adcirc/FlattenAdcirc.h"
-
 #include "Adcirc/AdcircGrid.h"
+
 #include "Files/IOError.h"
 
 #include <filesystem>

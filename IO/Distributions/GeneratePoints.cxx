@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributions/GeneratePoints.h"
 
-#include "Distributions/Random.h"
+#include "Arrays/Random.h"
 
 #include <algorithm>
 #include <array>
@@ -284,11 +284,6 @@ std::vector<double> generatePoints(
       const double x = random.uniform();
       return Random::Pair{ x, random.uniform() };
     });
-}
-
-std::string distributionName(Distribution distribution)
-{
-  return table[std::size_t(distribution)].Name;
 }
 
 std::optional<Distribution> distributionFromName(std::string_view name)

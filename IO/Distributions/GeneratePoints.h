@@ -44,10 +44,11 @@ enum class Distribution
 VTKTIPPIO_EXPORT std::vector<double> generatePoints(
   Distribution distribution, std::int64_t count, std::uint64_t seed);
 
-/// The name in lower case, as on the command line.
-VTKTIPPIO_EXPORT std::string distributionName(Distribution distribution);
+/// @name Names in lower case, as on the command line
+///@{
 VTKTIPPIO_EXPORT std::optional<Distribution> distributionFromName(std::string_view name);
 VTKTIPPIO_EXPORT std::vector<std::string> distributionNames();
+///@}
 
 } // namespace tipp
 

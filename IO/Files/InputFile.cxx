@@ -84,7 +84,7 @@ namespace
 
 struct Kind
 {
-  const char* Extension;
+  const char* Extensions; ///< separated by blanks
   const char* Name;
   const char* Command; ///< before the file's name
   const char* Output;  ///< behind it
@@ -93,12 +93,9 @@ struct Kind
 constexpr const char* meshio = "meshio convert";
 constexpr const char* ogr = "ogr2ogr -f CSV -lco GEOMETRY=AS_XYZ out.csv";
 
-constexpr std::array<Kind, 13> kinds = { {
-  { ".ex2", "an Exodus file", meshio, "out.vtu" },
-  { ".exo", "an Exodus file", meshio, "out.vtu" },
-  { ".e", "an Exodus file", meshio, "out.vtu" },
-  { ".node", "a file of TetGen or Triangle", meshio, "out.vtu" },
-  { ".ele", "a file of TetGen or Triangle", meshio, "out.vtu" },
+constexpr std::array<Kind, 10> kinds = { {
+  { ".ex2 .exo .e", "an Exodus file", meshio, "out.vtu" },
+  { ".node .ele", "a file of TetGen or Triangle", meshio, "out.vtu" },
   { ".msh", "a file of Gmsh", meshio, "out.vtu" },
   { ".xml", "a mesh of DOLFIN or other XML", meshio, "out.vtu" },
   { ".2dm", "a mesh of SMS", meshio, "out.vtu" },
@@ -117,9 +114,11 @@ std::string conversionAdvice(const std::string& path)
   const std::string name = fs::path(path).filename().string();
   const bool isCompressed = extensionOf(path) == ".gz";
   const std::string plain = isCompressed ? fs::path(name).stem().string() : name;
+  const std::string extension = extensionOf(plain) + " ";
   for (const Kind& kind : kinds)
   {
-    if (extensionOf(plain) == kind.Extension)
+    if (extension != " " &&
+      (kind.Extensions + std::string(" ")).find(extension) != std::string::npos)
     {
       const std::string unpack = isCompressed ? "gunzip " + name + " && " : "";
       const std::string output = *kind.Output ? std::string(" ") + kind.Output : "";

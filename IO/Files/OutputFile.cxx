@@ -54,26 +54,32 @@ OutputFile::~OutputFile()
   }
 }
 
-void OutputFile::write(std::uint64_t offset, const void* from, std::size_t bytes) const
+void writeFully(int descriptor, const std::string& path, std::uint64_t offset, const void* from,
+  std::size_t bytes)
 {
   // A system call transfers less than 2 GiB.
   constexpr std::size_t most = std::size_t(1) << 30;
   const char* at = static_cast<const char*>(from);
   while (bytes > 0)
   {
-    const ssize_t done = pwrite(this->Descriptor, at, std::min(bytes, most), off_t(offset));
+    const ssize_t done = pwrite(descriptor, at, std::min(bytes, most), off_t(offset));
     if (done < 0 && errno == EINTR)
     {
       continue;
     }
     if (done < 0)
     {
-      failToWrite(this->Path);
+      failToWrite(path);
     }
     at += done;
     offset += std::uint64_t(done);
     bytes -= std::size_t(done);
   }
+}
+
+void OutputFile::write(std::uint64_t offset, const void* from, std::size_t bytes) const
+{
+  writeFully(this->Descriptor, this->Path, offset, from, bytes);
 }
 
 void OutputFile::close()

@@ -47,6 +47,10 @@ private:
   int Descriptor;
 };
 
+/// Writes all bytes at an offset of an open file; errors call it `path`. Throws IOError.
+VTKTIPPIO_EXPORT void writeFully(int descriptor, const std::string& path, std::uint64_t offset,
+  const void* from, std::size_t bytes);
+
 /// Throws IOError with the reason in errno.
 [[noreturn]] VTKTIPPIO_EXPORT void failToWrite(const std::string& path);
 

@@ -403,4 +403,11 @@ bool FileLines::next(std::string_view& line)
   }
 }
 
+std::string exactText(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
 } // namespace tipp

@@ -45,6 +45,9 @@ private:
 bool parseNumber(std::string_view field, double& value);
 bool parseInteger(std::string_view field, std::int64_t& value);
 
+/// The number in decimal with 17 digits, from which it can be restored.
+VTKTIPPIO_EXPORT std::string exactText(double value);
+
 /// Splits a line at a delimiter, or at any run of blanks if the delimiter is a space. A field in
 /// double quotes may contain the delimiter.
 void splitFields(std::string_view line, char delimiter, std::vector<std::string_view>& fields);

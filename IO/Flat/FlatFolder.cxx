@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Flat/FlatFolder.h"
+#include "Flat/FlatMesh.h"
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/PendingOutput.h"
-#include "Flat/FlatMesh.h"
 #include "Npy/NpyFile.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -143,30 +143,18 @@ RawArray rawArray(const NpyArray& file, const std::string& name, std::int64_t tu
   return array;
 }
 
-RawArray openCells(const std::string& folder)
+/// Opens a table of `least` or one more columns, of one of two types.
+RawArray openTable(const std::string& folder, const std::string& name, std::int64_t least,
+  std::array<Scalar, 2> types, const std::string& wanted)
 {
-  const NpyArray file = openNpyArray(folder + "/cells.npy");
-  const bool ids = file.Type == Scalar::Int32 || file.Type == Scalar::Int64;
-  if (file.Shape.size() != 2 || (file.Shape[1] != 3 && file.Shape[1] != 4) || !ids)
+  const NpyArray file = openNpyArray(folder + "/" + name + ".npy");
+  const bool isOfType = file.Type == types[0] || file.Type == types[1];
+  if (file.Shape.size() != 2 || (file.Shape[1] != least && file.Shape[1] != least + 1) || !isOfType)
   {
-    throw IOError(file.Path,
-      "is " + file.shapeText() + " " + scalarName(file.Type) +
-        "; save m x 3 vertex ids (triangles) or m x 4 (tetrahedra) as int32 or int64.");
+    throw IOError(
+      file.Path, "is " + file.shapeText() + " " + scalarName(file.Type) + "; save " + wanted + ".");
   }
-  return rawArray(file, "cells", file.Shape[0], file.Shape[1]);
-}
-
-RawArray openPoints(const std::string& folder)
-{
-  const NpyArray file = openNpyArray(folder + "/points.npy");
-  const bool real = file.Type == Scalar::Float32 || file.Type == Scalar::Float64;
-  if (file.Shape.size() != 2 || (file.Shape[1] != 2 && file.Shape[1] != 3) || !real)
-  {
-    throw IOError(file.Path,
-      "is " + file.shapeText() + " " + scalarName(file.Type) +
-        "; save n x 2 or n x 3 coordinates as float64 or float32.");
-  }
-  return rawArray(file, "points", file.Shape[0], file.Shape[1]);
+  return rawArray(file, name, file.Shape[0], file.Shape[1]);
 }
 
 std::vector<double> readTimes(const std::string& folder)
@@ -272,9 +260,11 @@ FlatMesh openFlatFolder(const std::string& path)
   }
   FlatMesh mesh;
   mesh.Path = path;
-  mesh.Cells = openCells(path);
+  mesh.Cells = openTable(path, "cells", 3, { Scalar::Int32, Scalar::Int64 },
+    "m x 3 vertex ids (triangles) or m x 4 (tetrahedra) as int32 or int64");
   mesh.CellSize = mesh.Cells.Components;
-  mesh.Points = openPoints(path);
+  mesh.Points = openTable(path, "points", 2, { Scalar::Float32, Scalar::Float64 },
+    "n x 2 or n x 3 coordinates as float64 or float32");
   if (mesh.CellSize == 4 && mesh.Points.Components != 3)
   {
     throw IOError(path, "holds tetrahedra with points of 2 coordinates; give the points a third.");

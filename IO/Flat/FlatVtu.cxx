@@ -4,7 +4,7 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Flat/XmlScanner.h"
+#include "Files/VtkXml.h"
 #include "Vtk/VtkFiles.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #ifndef tippFlattenDataSet_h
 #define tippFlattenDataSet_h
 
-#include "Flat/FlatFolder.h"
+#include "Flat/FlatMesh.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstdint>

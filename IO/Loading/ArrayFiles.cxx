@@ -20,35 +20,25 @@ namespace
 template <std::size_t Bytes>
 using Size = std::integral_constant<std::size_t, Bytes>;
 
-/// Calls work(bytes), with a compile-time constant for the usual sizes.
-template <typename Work>
-void withSize(std::size_t bytes, const Work& work)
+/// Calls work(bytes), with a compile-time constant for one of these sizes.
+template <std::size_t... Sizes, typename Work>
+void withSize(std::index_sequence<Sizes...>, std::size_t bytes, const Work& work)
 {
-  switch (bytes)
+  const bool isUsual = (... || (bytes == Sizes && (work(Size<Sizes>()), true)));
+  if (!isUsual)
   {
-    case 1:
-      return work(Size<1>());
-    case 4:
-      return work(Size<4>());
-    case 8:
-      return work(Size<8>());
-    case 12:
-      return work(Size<12>());
-    case 16:
-      return work(Size<16>());
-    case 24:
-      return work(Size<24>());
-    default:
-      return work(bytes);
+    work(bytes);
   }
 }
+
+using UsualSizes = std::index_sequence<1, 4, 8, 12, 16, 24>;
 
 } // namespace
 
 void scatterTuples(const char* from, const std::uint64_t* sources, char* to,
   const std::uint64_t* targets, std::size_t count, std::size_t bytes)
 {
-  withSize(bytes,
+  withSize(UsualSizes(), bytes,
     [=](auto size)
     {
       for (std::size_t i = 0; i < count; ++i)
@@ -62,7 +52,7 @@ template <typename Source>
 void gatherTuples(
   const char* from, const Source* sources, char* to, std::size_t count, std::size_t bytes)
 {
-  withSize(bytes,
+  withSize(UsualSizes(), bytes,
     [=](auto size)
     {
       for (std::size_t i = 0; i < count; ++i)

@@ -44,6 +44,12 @@ struct StoredArray
   int Step = -1; ///< the time step; -1: static
 };
 
+template <typename Archive>
+void serialize(Archive& archive, StoredArray& array)
+{
+  archive(array.Name, array.OfPoints, array.Type, array.Components, array.Step);
+}
+
 /// A partitioned mesh on disk, as its index describes it; Documentation/PartitionedMesh.md
 /// specifies the format byte for byte.
 ///

@@ -4,12 +4,12 @@
 
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceFormat.h"
-#include "Partitioned/PointRows.h"
 #include "vtkTIPPIOModule.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <unordered_map>
 #include <utility>
@@ -17,6 +17,49 @@
 
 namespace tipp
 {
+
+/// The layout of points in rows of 8-byte words: x, y, further columns, and last the global id.
+struct PointRowLayout
+{
+  std::size_t Words = 3;
+  int Z = -1; ///< the word that is the third coordinate; -1: it is 0
+  /// The word of each of the mesh's point arrays; -1: the representative's id.
+  std::vector<int> Attributes;
+
+  std::int64_t id(const double* row) const
+  {
+    std::int64_t id = 0;
+    std::memcpy(&id, row + this->Words - 1, sizeof(id));
+    return id;
+  }
+};
+
+template <typename Archive>
+void serialize(Archive& archive, PointRowLayout& layout)
+{
+  archive(layout.Words, layout.Z, layout.Attributes);
+}
+
+/// A range of triangles: three row indices each.
+struct TriangleRange
+{
+  const std::int32_t* Begin;
+  std::size_t Triangles;
+};
+
+/// Returns a hash of a triangle's point ids that is independent of which corner comes first.
+VTKTIPPIO_EXPORT std::uint64_t hashTriangle(std::int64_t a, std::int64_t b, std::int64_t c);
+
+/// Returns the sum of the triangles' hashes; `rows` are those of their points.
+std::uint64_t sumTriangles(
+  const TriangleRange& triangles, const double* rows, const PointRowLayout& layout);
+
+/// Copies a row's values of a point array to the array's next tuple.
+void copyPoint(const PieceArray& array, const double* row, const PointRowLayout& layout,
+  bool isGhost, std::int64_t representative, char* to);
+
+/// Extends the bounds by a row's point; coordinates that are not finite are ignored.
+void extendBounds(Bounds& bounds, const double* row, const PointRowLayout& layout);
 
 /// Numbers the distinct sets of pieces that borrow from one piece.
 class VTKTIPPIO_EXPORT SharingSets
@@ -35,7 +78,7 @@ public:
   /// for each set its index among the groups, or -1.
   struct Grouping
   {
-    std::vector<LentGroup> Groups;
+    std::vector<SharedGroup> Groups;
     std::vector<int> IndexOf;
   };
   Grouping groups(const std::vector<int>& setOf) const;
@@ -78,23 +121,16 @@ struct VTKTIPPIO_EXPORT PieceInterior
   {
     return this->InterfaceRows.data() + this->interfacePosition(point) * layout.Words;
   }
-
-  /// Serialises all but the own points' indices: archive() saves or restores numbers and vectors of
-  /// them.
-  template <typename Archive>
-  void exchange(Archive& archive)
-  {
-    archive(this->Room);
-    archive(this->Points);
-    archive(this->Cells);
-    archive(this->TriangleSum);
-    archive(this->Extent);
-    archive(this->Checksums);
-    archive(this->InterfacePoints);
-    archive(this->InterfaceRows);
-    archive(this->InterfaceTriangles);
-  }
 };
+
+/// All but the own points' indices.
+template <typename Archive>
+void serialize(Archive& archive, PieceInterior& interior)
+{
+  archive(interior.Room, interior.Points, interior.Cells, interior.TriangleSum, interior.Extent,
+    interior.Checksums, interior.InterfacePoints, interior.InterfaceRows,
+    interior.InterfaceTriangles);
+}
 
 /// The triangles that a piece owns at its border, and the other pieces' points that they use
 /// (ghosts).
@@ -169,14 +205,14 @@ public:
 
   std::vector<Point> Points;
   std::vector<Cell> Cells;
-  std::vector<LentGroup> PointGroups;
-  std::vector<LentGroup> CellGroups;
+  std::vector<SharedGroup> PointGroups;
+  std::vector<SharedGroup> CellGroups;
 
 private:
   std::size_t index(std::int64_t point) const;
   void uniteSets();
   template <typename Item>
-  std::vector<LentGroup> groupsOf(const std::vector<Item>& items) const;
+  std::vector<SharedGroup> groupsOf(const std::vector<Item>& items) const;
   void orderPoints();
   void addCell(int set, std::array<std::int32_t, 3> corners);
   void addCells();

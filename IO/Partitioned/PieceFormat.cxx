@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/VtkXml.h"
 #include "Partitioned/Checksum.h"
 
 #include <limits>
@@ -14,24 +15,22 @@ namespace tipp
 namespace
 {
 
-void packGroups(const std::vector<LentGroup>& groups, std::vector<std::uint64_t>& words)
+void saveGroups(SaveArchive& archive, const std::vector<SharedGroup>& groups)
 {
-  words.push_back(groups.size());
-  for (const LentGroup& group : groups)
+  archive(std::uint64_t(groups.size()));
+  for (const SharedGroup& group : groups)
   {
-    words.push_back(std::uint64_t(group.Count));
-    words.push_back(group.To.size());
-    words.insert(words.end(), group.To.begin(), group.To.end());
+    archive(std::uint64_t(group.Count),
+      std::vector<std::uint64_t>(group.Borrowers.begin(), group.Borrowers.end()));
   }
 }
 
-void packBorrowed(const std::vector<BorrowedGroup>& groups, std::vector<std::uint64_t>& words)
+void saveGroups(SaveArchive& archive, const std::vector<BorrowedGroup>& groups)
 {
-  words.push_back(groups.size());
+  archive(std::uint64_t(groups.size()));
   for (const BorrowedGroup& group : groups)
   {
-    words.push_back(std::uint64_t(group.Owner));
-    words.push_back(std::uint64_t(group.Group));
+    archive(std::uint64_t(group.Owner), std::uint64_t(group.Group));
   }
 }
 
@@ -43,14 +42,14 @@ void packBorrowed(const std::vector<BorrowedGroup>& groups, std::vector<std::uin
       "; copy or make the mesh again.");
 }
 
-/// Reads a table word by word; the caller checks each of them.
+/// Reads a table number by number; the caller checks each of them.
 class TableReader
 {
 public:
-  TableReader(const PartitionedMesh& mesh, std::size_t piece, std::vector<std::uint64_t> words)
+  TableReader(const PartitionedMesh& mesh, std::size_t piece, const Bytes& table)
     : Mesh(mesh)
     , Number(piece)
-    , Words(std::move(words))
+    , Table(table)
   {
   }
 
@@ -61,11 +60,11 @@ public:
 
   std::uint64_t word()
   {
-    if (this->At == this->Words.size())
+    if (this->wordsLeft() == 0)
     {
       this->fail("ends too early");
     }
-    return this->Words[this->At++];
+    return this->Table.get<std::uint64_t>();
   }
 
   /// Reads a number of at most `limit`.
@@ -82,36 +81,36 @@ public:
   /// Reads a count of items of `wordsEach` words each, which the table must have.
   std::size_t count(std::size_t wordsEach, const char* what)
   {
-    const std::size_t left = this->Words.size() - this->At;
-    return std::size_t(this->number(std::int64_t(left / wordsEach), what));
+    return std::size_t(this->number(std::int64_t(this->wordsLeft() / wordsEach), what));
   }
 
   void requireEnd() const
   {
-    if (this->At != this->Words.size())
+    if (this->Table.left() != 0)
     {
       this->fail("is too long");
     }
   }
 
 private:
+  std::size_t wordsLeft() const { return this->Table.left() / sizeof(std::uint64_t); }
+
   const PartitionedMesh& Mesh;
   std::size_t Number;
-  std::vector<std::uint64_t> Words;
-  std::size_t At = 0;
+  LoadArchive Table;
 };
 
-std::vector<LentGroup> takeGroups(
+std::vector<SharedGroup> takeGroups(
   TableReader& in, std::int64_t pieces, std::int64_t self, std::int64_t tuples)
 {
-  std::vector<LentGroup> groups(in.count(2, "number of lent groups"));
-  for (LentGroup& group : groups)
+  std::vector<SharedGroup> groups(in.count(2, "number of shared groups"));
+  for (SharedGroup& group : groups)
   {
-    group.Count = in.number(tuples, "size of a lent group");
+    group.Count = in.number(tuples, "size of a shared group");
     tuples -= group.Count;
-    group.To.resize(in.count(1, "number of borrowers"));
+    group.Borrowers.resize(in.count(1, "number of borrowers"));
     std::int64_t last = -1;
-    for (std::int32_t& to : group.To)
+    for (std::int32_t& to : group.Borrowers)
     {
       const std::int64_t piece = in.number(pieces - 1, "borrower");
       if (piece <= last || piece == self)
@@ -121,9 +120,9 @@ std::vector<LentGroup> takeGroups(
       to = std::int32_t(last = piece);
     }
     // Only the first group may have no borrowers, because part 0 is for such tuples.
-    if (group.Count == 0 || (group.To.empty() && &group != groups.data()))
+    if (group.Count == 0 || (group.Borrowers.empty() && &group != groups.data()))
     {
-      in.fail("has an empty lent group");
+      in.fail("has an empty shared group");
     }
   }
   return groups;
@@ -166,7 +165,8 @@ void takeArrays(
       in.fail("has the array " + array.Name + " end behind its file");
     }
     table.Offsets.push_back(offset);
-    const std::vector<LentGroup>& groups = array.ofPoints() ? table.PointGroups : table.CellGroups;
+    const std::vector<SharedGroup>& groups =
+      array.ofPoints() ? table.PointGroups : table.CellGroups;
     std::vector<std::uint64_t> checksums(groups.size() + (mesh.Duplicated ? 2 : 1));
     for (std::uint64_t& checksum : checksums)
     {
@@ -182,7 +182,7 @@ std::vector<std::int64_t> PieceTable::parts(
   const PartitionedMesh& mesh, const PieceSummary& piece, bool ofPoints) const
 {
   std::vector<std::int64_t> counts{ ofPoints ? piece.Points : piece.Cells };
-  for (const LentGroup& group : ofPoints ? this->PointGroups : this->CellGroups)
+  for (const SharedGroup& group : ofPoints ? this->PointGroups : this->CellGroups)
   {
     counts.push_back(group.Count);
     counts[0] -= group.Count;
@@ -194,52 +194,45 @@ std::vector<std::int64_t> PieceTable::parts(
   return counts;
 }
 
-std::vector<std::uint64_t> packTable(const PieceTable& table)
+Bytes packTable(const PieceTable& table)
 {
-  std::vector<std::uint64_t> words{ table.HeaderBytes, table.HeaderChecksum };
-  packGroups(table.PointGroups, words);
-  packGroups(table.CellGroups, words);
-  words.push_back(table.Offsets.size());
+  SaveArchive archive;
+  archive(table.HeaderBytes, table.HeaderChecksum);
+  saveGroups(archive, table.PointGroups);
+  saveGroups(archive, table.CellGroups);
+  archive(std::uint64_t(table.Offsets.size()));
   for (std::size_t a = 0; a < table.Offsets.size(); ++a)
   {
-    words.push_back(table.Offsets[a]);
-    words.insert(words.end(), table.Checksums[a].begin(), table.Checksums[a].end());
+    archive(table.Offsets[a]);
+    archive.raw(table.Checksums[a].data(), table.Checksums[a].size() * sizeof(std::uint64_t));
   }
-  packBorrowed(table.BorrowedPoints, words);
-  packBorrowed(table.BorrowedCells, words);
-  return words;
+  saveGroups(archive, table.BorrowedPoints);
+  saveGroups(archive, table.BorrowedCells);
+  return archive.take();
 }
 
-PieceTable unpackTable(
-  const PartitionedMesh& mesh, std::size_t piece, std::vector<std::uint64_t> words)
+PieceTable readPieceTable(const PartitionedMesh& mesh, std::size_t number)
 {
-  const PieceSummary& summary = mesh.Pieces[piece];
+  const PieceSummary& piece = mesh.Pieces[number];
+  Bytes bytes(std::size_t(piece.TableBytes));
+  InputFile(mesh.tablesPath()).read(piece.TableOffset, bytes.data(), bytes.size());
+  if (checksumOf(bytes.data(), bytes.size()) != piece.TableChecksum)
+  {
+    failInTable(mesh, number, "does not have the checksum that the index gives");
+  }
   const auto pieces = std::int64_t(mesh.Pieces.size());
-  const auto self = std::int64_t(piece);
-  TableReader in(mesh, piece, std::move(words));
+  const auto self = std::int64_t(number);
+  TableReader in(mesh, number, bytes);
   PieceTable table;
-  table.HeaderBytes = std::uint64_t(in.number(std::int64_t(summary.FileBytes), "header size"));
+  table.HeaderBytes = std::uint64_t(in.number(std::int64_t(piece.FileBytes), "header size"));
   table.HeaderChecksum = in.word();
-  table.PointGroups = takeGroups(in, pieces, self, summary.Points);
-  table.CellGroups = takeGroups(in, pieces, self, summary.Cells);
-  takeArrays(in, mesh, summary, table);
+  table.PointGroups = takeGroups(in, pieces, self, piece.Points);
+  table.CellGroups = takeGroups(in, pieces, self, piece.Cells);
+  takeArrays(in, mesh, piece, table);
   table.BorrowedPoints = takeBorrowed(in, pieces, self);
   table.BorrowedCells = takeBorrowed(in, pieces, self);
   in.requireEnd();
   return table;
-}
-
-PieceTable readPieceTable(const PartitionedMesh& mesh, std::size_t piece)
-{
-  const PieceSummary& summary = mesh.Pieces[piece];
-  std::vector<std::uint64_t> words(std::size_t(summary.TableBytes / 8));
-  const InputFile file(mesh.tablesPath());
-  file.read(summary.TableOffset, words.data(), words.size() * 8);
-  if (checksumOf(words.data(), words.size() * 8) != summary.TableChecksum)
-  {
-    failInTable(mesh, piece, "does not have the checksum that the index gives");
-  }
-  return unpackTable(mesh, piece, std::move(words));
 }
 
 const char* const pointIdsName = "GlobalPointIds";
@@ -260,30 +253,13 @@ std::string startOf(const std::string& type)
   return text.replace(text.find("%TYPE"), 5, type);
 }
 
-std::string escaped(const std::string& text)
-{
-  std::string out;
-  for (const char c : text)
-  {
-    if (c == '&' || c == '<' || c == '>' || c == '"' || static_cast<unsigned char>(c) < 0x20)
-    {
-      out += "&#" + std::to_string(int(static_cast<unsigned char>(c))) + ";";
-    }
-    else
-    {
-      out += c;
-    }
-  }
-  return out;
-}
-
 /// The attributes that describe an array both in a piece and in the .pvtu.
 std::string describe(const PieceArray& array)
 {
   // VTK's connectivity has one component.
   const int components = array.Role == PieceRole::Connectivity ? 1 : array.Components;
   std::string text = std::string(" type=\"") + scalarName(array.Type) + "\" Name=\"" +
-    escaped(array.Name) + "\" NumberOfComponents=\"" + std::to_string(components) + "\"";
+    escapedXml(array.Name) + "\" NumberOfComponents=\"" + std::to_string(components) + "\"";
   // VTK accepts global ids only in arrays of vtkIdType.
   const bool ids = array.Role == PieceRole::PointIds || array.Role == PieceRole::CellIds;
   return ids ? text + " IdType=\"1\"" : text;

@@ -3,6 +3,7 @@
 #define tippPieceFormat_h
 
 #include "Partitioned/PartitionedMesh.h"
+#include "Ranks/Archive.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>
@@ -14,11 +15,17 @@ namespace tipp
 {
 
 /// Cells, or points, with the same set of borrowers. They are contiguous in their owner's arrays.
-struct LentGroup
+struct SharedGroup
 {
-  std::vector<std::int32_t> To; ///< the borrowing pieces, ascending
+  std::vector<std::int32_t> Borrowers; ///< pieces, ascending
   std::int64_t Count = 0;
 };
+
+template <typename Archive>
+void serialize(Archive& archive, SharedGroup& group)
+{
+  archive(group.Borrowers, group.Count);
+}
 
 /// A group of another piece.
 struct BorrowedGroup
@@ -28,13 +35,13 @@ struct BorrowedGroup
 };
 
 /// What a reader needs to know of a piece beyond its summary. Every array of the piece consists of
-/// parts: the tuples that no other piece borrows, then one part per lent group in this order, and,
-/// if borrowed cells are duplicated, the tuples of borrowed cells.
+/// parts: the tuples that no other piece borrows, then one part per shared group in this order,
+/// and, if borrowed cells are duplicated, the tuples of borrowed cells.
 struct PieceTable
 {
   std::vector<std::uint64_t> Offsets; ///< in bytes, of each array's data in the piece's file
-  std::vector<LentGroup> PointGroups;
-  std::vector<LentGroup> CellGroups;
+  std::vector<SharedGroup> PointGroups;
+  std::vector<SharedGroup> CellGroups;
   std::vector<BorrowedGroup> BorrowedPoints; ///< sorted by owner, then group
   std::vector<BorrowedGroup> BorrowedCells;
   std::vector<std::vector<std::uint64_t>> Checksums; ///< per array, one for each part
@@ -46,15 +53,10 @@ struct PieceTable
     const PartitionedMesh& mesh, const PieceSummary& piece, bool ofPoints) const;
 };
 
-/// Converts a table to the 64-bit words that tables.bin holds.
-VTKTIPPIO_EXPORT std::vector<std::uint64_t> packTable(const PieceTable& table);
+/// The table as tables.bin holds it: numbers of 64 bits.
+VTKTIPPIO_EXPORT Bytes packTable(const PieceTable& table);
 
-/// Parses such words, for a piece whose summary the mesh has, and checks every number; throws
-/// IOError.
-PieceTable unpackTable(
-  const PartitionedMesh& mesh, std::size_t piece, std::vector<std::uint64_t> words);
-
-/// Reads a piece's table from tables.bin and parses it; throws IOError.
+/// Reads a piece's table from tables.bin and checks every number; throws IOError.
 VTKTIPPIO_EXPORT PieceTable readPieceTable(const PartitionedMesh& mesh, std::size_t piece);
 
 /// The content of an array of a piece's file.

@@ -26,7 +26,7 @@ namespace
 
 /// Creates an array that takes ownership of the buffer.
 vtkSmartPointer<vtkDataArray> takeOver(
-  RawBuffer&& buffer, vtkSmartPointer<vtkDataArray> array, int components, std::int64_t tuples)
+  Buffer<char>&& buffer, vtkSmartPointer<vtkDataArray> array, int components, std::int64_t tuples)
 {
   array->SetNumberOfComponents(components);
   array->SetVoidArray(
@@ -35,13 +35,14 @@ vtkSmartPointer<vtkDataArray> takeOver(
 }
 
 vtkSmartPointer<vtkDataArray> takeOver(
-  RawBuffer&& buffer, Scalar type, int components, std::int64_t tuples)
+  Buffer<char>&& buffer, Scalar type, int components, std::int64_t tuples)
 {
   auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(vtkTypeOf(type)));
   return takeOver(std::move(buffer), array, components, tuples);
 }
 
-void setIds(RawBuffer&& buffer, std::int64_t tuples, const char* name, vtkDataSetAttributes* data)
+void setIds(
+  Buffer<char>&& buffer, std::int64_t tuples, const char* name, vtkDataSetAttributes* data)
 {
   static_assert(sizeof(vtkIdType) == 8);
   const auto ids = takeOver(std::move(buffer), vtkSmartPointer<vtkIdTypeArray>::New(), 1, tuples);
@@ -49,7 +50,7 @@ void setIds(RawBuffer&& buffer, std::int64_t tuples, const char* name, vtkDataSe
   data->SetGlobalIds(ids);
 }
 
-void addGhosts(RawBuffer&& buffer, std::int64_t tuples, vtkDataSetAttributes* data)
+void addGhosts(Buffer<char>&& buffer, std::int64_t tuples, vtkDataSetAttributes* data)
 {
   const auto ghosts =
     takeOver(std::move(buffer), vtkSmartPointer<vtkUnsignedCharArray>::New(), 1, tuples);
@@ -80,7 +81,7 @@ void addCellGhosts(const Piece& piece, vtkDataSetAttributes* data)
   {
     return;
   }
-  RawBuffer ghosts{ std::size_t(piece.Cells) };
+  Buffer<char> ghosts{ std::size_t(piece.Cells) };
   std::memset(ghosts.data(), 0, std::size_t(piece.OwnedCells));
   std::memset(ghosts.data() + piece.OwnedCells, vtkDataSetAttributes::DUPLICATECELL,
     std::size_t(piece.Cells - piece.OwnedCells));

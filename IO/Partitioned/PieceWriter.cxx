@@ -135,11 +135,11 @@ namespace
 void addBorrowed(std::vector<FinishedPiece>& pieces, bool duplicated)
 {
   const auto eachGroup =
-    [&](std::size_t owner, const std::vector<LentGroup>& groups, const auto& take)
+    [&](std::size_t owner, const std::vector<SharedGroup>& groups, const auto& take)
   {
     for (std::size_t g = 0; g < groups.size(); ++g)
     {
-      for (const std::int32_t to : groups[g].To)
+      for (const std::int32_t to : groups[g].Borrowers)
       {
         take(pieces[std::size_t(to)], BorrowedGroup{ std::int32_t(owner), std::int32_t(g) },
           groups[g].Count);
@@ -169,12 +169,12 @@ PublishedMesh publishPieces(PartitionedMesh& mesh, std::vector<FinishedPiece>& p
   std::string tables;
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
-    const std::vector<std::uint64_t> table = packTable(pieces[i].Table);
+    const Bytes table = packTable(pieces[i].Table);
     PieceSummary& summary = pieces[i].Summary;
     summary.TableOffset = tables.size();
-    summary.TableBytes = table.size() * 8;
-    summary.TableChecksum = checksumOf(table.data(), table.size() * 8);
-    tables.append(reinterpret_cast<const char*>(table.data()), table.size() * 8);
+    summary.TableBytes = table.size();
+    summary.TableChecksum = checksumOf(table.data(), table.size());
+    tables.append(table.data(), table.size());
     mesh.Pieces[i] = summary;
     bytes += summary.FileBytes;
   }

@@ -83,6 +83,14 @@ struct FinishedPiece
   std::uint64_t TriangleSum = 0; ///< without a file: sum of hashTriangle()
 };
 
+template <typename Archive>
+void serialize(Archive& archive, FinishedPiece& piece)
+{
+  PieceTable& table = piece.Table;
+  archive(piece.Summary, table.Offsets, table.PointGroups, table.CellGroups, table.Checksums,
+    table.HeaderBytes, table.HeaderChecksum, piece.TriangleSum);
+}
+
 struct PublishedMesh
 {
   std::uint64_t Bytes = 0;       ///< of all files

@@ -276,11 +276,11 @@ std::size_t endOfParts(const PieceFile& file, bool ofPoints, std::int64_t stored
 }
 
 /// Reads one array's tuples in the piece's own file; the rest of the buffer stays uninitialised.
-RawBuffer readOwn(
+Buffer<char> readOwn(
   const PieceFile& file, std::size_t array, std::int64_t stored, std::int64_t tuples)
 {
   const PieceArray& description = file.arrays()[array];
-  RawBuffer buffer(std::size_t(tuples) * description.tupleBytes());
+  Buffer<char> buffer(std::size_t(tuples) * description.tupleBytes());
   file.read(array, 0, endOfParts(file, description.ofPoints(), stored), buffer.data());
   return buffer;
 }
@@ -316,7 +316,7 @@ void requireLocalIds(const PieceFile& file, const Piece& piece, std::int64_t cel
 void widen(Piece& piece, std::int64_t cells)
 {
   const std::size_t count = std::size_t(cells) * std::size_t(piece.CellSize);
-  RawBuffer wide(std::size_t(piece.Cells) * std::size_t(piece.CellSize) * 8);
+  Buffer<char> wide(std::size_t(piece.Cells) * std::size_t(piece.CellSize) * 8);
   std::copy_n(piece.Connectivity.as<std::int32_t>(), count, wide.as<std::int64_t>());
   piece.Connectivity = std::move(wide);
 }
@@ -346,8 +346,8 @@ void readAttributes(const PartitionedMesh& mesh, const PieceOptions& options, co
     if (options.wants(mesh, i))
     {
       const bool ofPoints = mesh.Arrays[i].OfPoints;
-      RawBuffer values = readOwn(file, file.findAttribute(i), ofPoints ? storedPoints : storedCells,
-        ofPoints ? piece.Points : piece.Cells);
+      Buffer<char> values = readOwn(file, file.findAttribute(i),
+        ofPoints ? storedPoints : storedCells, ofPoints ? piece.Points : piece.Cells);
       piece.Attributes.push_back({ mesh.Arrays[i], std::move(values) });
     }
   }
@@ -377,12 +377,12 @@ Piece readPiece(const PartitionedMesh& mesh, std::size_t number, const PieceOpti
   std::optional<BorrowedCells> borrowed;
   if (options.Borrowed && !mesh.Duplicated)
   {
-    RawBuffer ids = readOwn(file, file.find(PieceRole::PointIds), storedPoints, storedPoints);
+    Buffer<char> ids = readOwn(file, file.find(PieceRole::PointIds), storedPoints, storedPoints);
     file.requireIds(ids.as<std::int64_t>(), std::size_t(storedPoints), mesh.Points);
     borrowed.emplace(mesh, file, ids.as<std::int64_t>(), piece.Counters);
     piece.Points = storedPoints + borrowed->pointCount();
     piece.Cells = storedCells + borrowed->cellCount();
-    piece.PointIds = RawBuffer(std::size_t(piece.Points) * 8);
+    piece.PointIds = Buffer<char>(std::size_t(piece.Points) * 8);
     std::memcpy(piece.PointIds.data(), ids.data(), ids.size());
   }
   else

@@ -2,55 +2,17 @@
 #ifndef tippReadPiece_h
 #define tippReadPiece_h
 
+#include "Arrays/Buffer.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceFile.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <memory>
-#include <new>
 #include <vector>
 
 namespace tipp
 {
-
-/// Uninitialised memory from malloc that a VTK array can take ownership of (VTK_DATA_ARRAY_FREE).
-class RawBuffer
-{
-public:
-  RawBuffer() = default;
-  explicit RawBuffer(std::size_t bytes)
-    // malloc(0) may return null, which VTK does not accept as an array.
-    : Memory(std::malloc(bytes == 0 ? 1 : bytes))
-    , Bytes(bytes)
-  {
-    if (!this->Memory)
-    {
-      throw std::bad_alloc();
-    }
-  }
-
-  char* data() const { return static_cast<char*>(this->Memory.get()); }
-  template <typename Value>
-  Value* as() const
-  {
-    return static_cast<Value*>(this->Memory.get());
-  }
-  std::size_t size() const { return this->Bytes; }
-
-  /// Releases ownership; the caller must free() the memory.
-  void* release() { return this->Memory.release(); }
-
-private:
-  struct Free
-  {
-    void operator()(void* memory) const { std::free(memory); }
-  };
-  std::unique_ptr<void, Free> Memory;
-  std::size_t Bytes = 0;
-};
 
 struct PieceOptions
 {
@@ -70,7 +32,7 @@ struct Piece
   struct Attribute
   {
     StoredArray Description;
-    RawBuffer Values;
+    Buffer<char> Values;
   };
 
   int CellSize = 3;
@@ -81,11 +43,11 @@ struct Piece
   std::int64_t OwnedPoints = 0; ///< the points before those of borrowed cells alone
   std::int64_t Cells = 0;
   std::int64_t OwnedCells = 0;
-  RawBuffer Coordinates; ///< 3 per point
-  RawBuffer PointIds;    ///< global ids, std::int64_t
-  RawBuffer PointGhosts; ///< std::uint8_t; 1: another piece owns the point
-  RawBuffer Connectivity;
-  RawBuffer CellIds; ///< global ids, std::int64_t; cells from OwnedCells on are ghosts
+  Buffer<char> Coordinates; ///< 3 per point
+  Buffer<char> PointIds;    ///< global ids, std::int64_t
+  Buffer<char> PointGhosts; ///< std::uint8_t; 1: another piece owns the point
+  Buffer<char> Connectivity;
+  Buffer<char> CellIds; ///< global ids, std::int64_t; cells from OwnedCells on are ghosts
   std::vector<Attribute> Attributes;
   ReadCounters Counters;
 

@@ -5,7 +5,6 @@
 #include "OpenCL/Devices.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
-#include "Partitioning/RefinementTree.h"
 #include "Ranks/Communicator.h"
 
 #include <algorithm>

@@ -6,7 +6,6 @@
 #include "Parallel/Poll.h"
 #include "Partitioned/PieceWriter.h"
 #include "Partitioning/PartitionMesh.h"
-#include "Partitioning/SpilledPieceWriter.h"
 
 #include <algorithm>
 #include <atomic>
@@ -224,49 +223,13 @@ std::vector<FinishedPiece> writeShare(PartitionJob& job)
   return finished;
 }
 
-/// A finished piece as told to the first rank: its summary and, as in tables.bin, its table.
-struct ToldPiece
-{
-  PieceSummary Summary;
-  std::vector<std::uint64_t> Table;
-};
-
-template <typename Archive>
-void serialize(Archive& archive, ToldPiece& piece)
-{
-  archive(piece.Summary, piece.Table);
-}
-
-/// All pieces in order, as told by all ranks.
-std::vector<FinishedPiece> finishedPieces(
-  const std::vector<std::vector<ToldPiece>>& all, PartitionedMesh& mesh)
-{
-  std::vector<FinishedPiece> pieces;
-  for (const std::vector<ToldPiece>& ofRank : all)
-  {
-    for (const ToldPiece& piece : ofRank)
-    {
-      mesh.Pieces[pieces.size()] = piece.Summary;
-      pieces.push_back({ piece.Summary, unpackTable(mesh, pieces.size(), piece.Table) });
-    }
-  }
-  return pieces;
-}
-
 } // namespace
 
 void writePieces(PartitionJob& job)
 {
-  std::vector<ToldPiece> mine;
-  job.Team.attempt(
-    [&]
-    {
-      for (const FinishedPiece& piece : writeShare(job))
-      {
-        mine.push_back({ piece.Summary, packTable(piece.Table) });
-      }
-    });
-  const std::vector<std::vector<ToldPiece>> all = job.Team.gather(mine);
+  std::vector<FinishedPiece> mine;
+  job.Team.attempt([&] { mine = writeShare(job); });
+  const std::vector<std::vector<FinishedPiece>> all = job.Team.gather(mine);
   job.Team.attempt(
     [&]
     {
@@ -283,7 +246,11 @@ void writePieces(PartitionJob& job)
     {
       if (job.Team.isFirst())
       {
-        std::vector<FinishedPiece> pieces = finishedPieces(all, job.Result);
+        std::vector<FinishedPiece> pieces;
+        for (const std::vector<FinishedPiece>& ofRank : all)
+        {
+          pieces.insert(pieces.end(), ofRank.begin(), ofRank.end());
+        }
         job.Statistics.MeshBytes = publishPieces(job.Result, pieces).Bytes;
       }
     });

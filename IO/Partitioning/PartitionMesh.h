@@ -3,7 +3,6 @@
 #define tippPartitionMesh_h
 
 #include "Files/PendingOutput.h"
-#include "Flat/FlatFolder.h"
 #include "Flat/FlatMesh.h"
 #include "Loading/VertexLoader.h"
 #include "OpenCL/Devices.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioning/RefinementTree.h"
+#include "Partitioning/BuildTree.h"
 
 #include "Files/IOError.h"
 

@@ -7,47 +7,12 @@
 
 #include <array>
 #include <cstring>
-#include <optional>
+#include <utility>
 
 namespace tipp
 {
 namespace
 {
-
-using Words = std::vector<std::uint64_t>;
-
-/// Reads numbers from a list, which may end early.
-class WordReader
-{
-public:
-  WordReader(const std::string& path, const Words& words)
-    : Path(path)
-    , Left(words)
-  {
-  }
-
-  Words take(std::uint64_t count)
-  {
-    if (count > this->Left.size() - this->At)
-    {
-      throw IOError(this->Path, "has rows of other pieces; start again.");
-    }
-    const auto begin = this->Left.begin() + std::ptrdiff_t(this->At);
-    this->At += std::size_t(count);
-    return { begin, begin + std::ptrdiff_t(count) };
-  }
-  std::uint64_t take() { return this->take(1)[0]; }
-
-private:
-  const std::string& Path;
-  const Words& Left;
-  std::size_t At = 0;
-};
-
-void append(Words& words, const Words& more)
-{
-  words.insert(words.end(), more.begin(), more.end());
-}
 
 /// Combines the checksums of a key's rows in several files.
 std::uint64_t combined(std::uint64_t sum, std::uint64_t next)
@@ -74,36 +39,28 @@ Spill::Spill(const std::string& path, int rank, std::size_t keys, std::size_t ro
   , Keys(keys)
   , RowBytes(rowBytes)
   , Out(std::in_place, fileOf(path, std::size_t(rank)))
-  , Rows(keys, 0)
+  , Content{ std::vector<std::int64_t>(keys, 0), {}, { SpilledRows::File() } }
 {
 }
 
-Spill::Spill(const std::string& path, std::size_t keys, std::size_t rowBytes, const Words& saved)
+Spill::Spill(const std::string& path, std::size_t keys, std::size_t rowBytes, SpilledRows content)
   : Path(path)
   , Keys(keys)
   , RowBytes(rowBytes)
+  , Content(std::move(content))
 {
-  WordReader words(this->Path, saved);
-  for (const std::uint64_t rows : words.take(keys))
+  this->requireKeys(this->Content);
+  for (std::size_t file = 0; file < this->Content.Files.size(); ++file)
   {
-    this->Rows.push_back(std::int64_t(rows));
-  }
-  this->Checksums = words.take(words.take());
-  const std::uint64_t files = words.take();
-  for (std::uint64_t file = 0; file < files; ++file)
-  {
-    this->Files.emplace_back();
-    this->Files.back().Bytes = words.take();
-    this->Files.back().Chunks = words.take(words.take());
-    if (InputFile(fileOf(path, file)).size() < this->Files.back().Bytes)
+    if (InputFile(fileOf(path, file)).size() < this->Content.Files[file].Bytes)
     {
       throw IOError(fileOf(path, file), "is shorter than it was; start again.");
     }
   }
 }
 
-Spill::Spill(
-  const std::string& path, std::size_t keys, std::size_t rowBytes, const std::vector<Words>& ranks)
+Spill::Spill(const std::string& path, std::size_t keys, std::size_t rowBytes,
+  const std::vector<SpilledRows>& ranks)
   : Path(path)
   , Keys(keys)
   , RowBytes(rowBytes)
@@ -111,25 +68,20 @@ Spill::Spill(
   this->join(ranks);
 }
 
-Words Spill::save() const
+void Spill::requireKeys(const SpilledRows& content) const
 {
-  Words words(this->Rows.begin(), this->Rows.end());
-  words.push_back(this->Checksums.size());
-  append(words, this->Checksums);
-  words.push_back(this->Files.size());
-  for (const File& file : this->Files)
+  const std::size_t checksums = content.Checksums.size();
+  if (content.Counts.size() != this->Keys || (checksums != 0 && checksums != this->Keys) ||
+    content.Files.empty())
   {
-    words.push_back(file.Bytes);
-    words.push_back(file.Chunks.size());
-    append(words, file.Chunks);
+    throw IOError(this->Path, "has rows of other pieces; start again.");
   }
-  return words;
 }
 
 std::uint64_t Spill::bytes() const
 {
-  std::uint64_t bytes = this->Mine.Bytes;
-  for (const File& file : this->Files)
+  std::uint64_t bytes = 0;
+  for (const SpilledRows::File& file : this->Content.Files)
   {
     bytes += file.Bytes;
   }
@@ -165,8 +117,9 @@ void Spill::write(const std::vector<std::uint32_t>& starts, int threads)
   this->addToChecksums(starts, threads);
   for (std::size_t key = 0; key < this->Keys; ++key)
   {
-    this->Rows[key] += starts[key + 1] - starts[key];
+    this->Content.Counts[key] += starts[key + 1] - starts[key];
   }
+  SpilledRows::File& file = this->Content.Files.front();
   const std::vector<char>& chunk = this->Buffer;
   std::memcpy(this->Buffer.data(), starts.data(), this->listBytes());
   const std::size_t parts = chunk.size() < (std::size_t(1) << 20) ? 1 : std::size_t(threads);
@@ -175,70 +128,62 @@ void Spill::write(const std::vector<std::uint32_t>& starts, int threads)
     {
       const std::size_t from = chunk.size() * std::size_t(part) / parts;
       const std::size_t to = chunk.size() * (std::size_t(part) + 1) / parts;
-      this->Out->write(this->Mine.Bytes + from, chunk.data() + from, to - from);
+      this->Out->write(file.Bytes + from, chunk.data() + from, to - from);
     });
-  this->Mine.Chunks.push_back(this->Mine.Bytes);
-  this->Mine.Bytes += chunk.size();
+  file.Chunks.push_back(file.Bytes);
+  file.Bytes += chunk.size();
 }
 
-Words Spill::close()
+SpilledRows Spill::close()
 {
   std::vector<char>().swap(this->Buffer);
   this->Out->close(); // else other machines might not see all rows
   this->Out.reset();
-  Words words(this->Rows.begin(), this->Rows.end());
-  words.push_back(this->Sums.size());
   for (const std::unique_ptr<Checksum>& sum : this->Sums)
   {
-    words.push_back(sum->finish());
+    this->Content.Checksums.push_back(sum->finish());
   }
   std::vector<std::unique_ptr<Checksum>>().swap(this->Sums);
-  words.push_back(this->Mine.Bytes);
-  append(words, this->Mine.Chunks);
-  this->Mine = File();
-  return words;
+  return std::exchange(this->Content, {});
 }
 
-void Spill::join(const std::vector<Words>& ranks)
+void Spill::join(const std::vector<SpilledRows>& ranks)
 {
-  this->Rows.assign(this->Keys, 0);
-  for (const Words& rank : ranks)
+  this->Content = { std::vector<std::int64_t>(this->Keys, 0), {}, {} };
+  for (const SpilledRows& rank : ranks)
   {
-    WordReader words(this->Path, rank);
-    const Words rows = words.take(this->Keys);
+    this->requireKeys(rank);
+    this->Content.Checksums.resize(rank.Checksums.size(), 0);
     for (std::size_t key = 0; key < this->Keys; ++key)
     {
-      this->Rows[key] += std::int64_t(rows[key]);
+      this->Content.Counts[key] += rank.Counts[key];
+      if (!rank.Checksums.empty())
+      {
+        std::uint64_t& sum = this->Content.Checksums[key];
+        sum = combined(sum, rank.Checksums[key]);
+      }
     }
-    const Words sums = words.take(words.take());
-    this->Checksums.resize(sums.size(), 0);
-    for (std::size_t key = 0; key < sums.size(); ++key)
-    {
-      this->Checksums[key] = combined(this->Checksums[key], sums[key]);
-    }
-    this->Files.emplace_back();
-    this->Files.back().Bytes = words.take();
-    this->Files.back().Chunks = words.take(rank.size() - this->Keys - sums.size() - 2);
+    this->Content.Files.push_back(rank.Files.front());
   }
 }
 
 void Spill::exchange(Communicator& ranks)
 {
-  Words mine;
+  SpilledRows mine;
   ranks.attempt([&] { mine = this->close(); });
-  const std::vector<Words> words = ranks.allGather(mine);
-  ranks.attempt([&] { this->join(words); });
+  const std::vector<SpilledRows> all = ranks.allGather(mine);
+  ranks.attempt([&] { this->join(all); });
 }
 
 void Spill::readRows(std::size_t key, const std::function<Room(std::size_t)>& roomFor) const
 {
   std::uint64_t sum = 0;
-  auto left = std::uint64_t(this->Rows[key]);
+  auto left = std::uint64_t(this->rows(key));
   Checksum checksum;
-  for (std::size_t f = 0; f < this->Files.size(); ++f)
+  for (std::size_t f = 0; f < this->Content.Files.size(); ++f)
   {
     const InputFile file(fileOf(this->Path, f));
-    for (const std::uint64_t chunk : this->Files[f].Chunks)
+    for (const std::uint64_t chunk : this->Content.Files[f].Chunks)
     {
       std::array<std::uint32_t, 2> ends{};
       file.read(chunk + key * sizeof(ends[0]), ends.data(), sizeof(ends));
@@ -253,7 +198,7 @@ void Spill::readRows(std::size_t key, const std::function<Room(std::size_t)>& ro
         const std::size_t bytes = room.Rows * this->RowBytes;
         file.read(
           chunk + this->listBytes() + std::uint64_t(ends[0]) * this->RowBytes, room.At, bytes);
-        if (!this->Checksums.empty())
+        if (!this->Content.Checksums.empty())
         {
           checksum.add(room.At, bytes);
         }
@@ -262,7 +207,7 @@ void Spill::readRows(std::size_t key, const std::function<Room(std::size_t)>& ro
     }
     sum = combined(sum, checksum.finish());
   }
-  if (left > 0 || (!this->Checksums.empty() && sum != this->Checksums[key]))
+  if (left > 0 || (!this->Content.Checksums.empty() && sum != this->Content.Checksums[key]))
   {
     refuse(fileOf(this->Path, 0));
   }
@@ -271,7 +216,7 @@ void Spill::readRows(std::size_t key, const std::function<Room(std::size_t)>& ro
 void Spill::read(std::size_t key, std::size_t most,
   const std::function<void(const char*, std::size_t)>& take) const
 {
-  const std::size_t room = std::min(most, std::size_t(this->Rows[key]));
+  const std::size_t room = std::min(most, std::size_t(this->rows(key)));
   std::vector<char> block(room * this->RowBytes);
   std::size_t held = 0;
   const auto give = [&]
@@ -310,7 +255,7 @@ void Spill::readAll(std::size_t key, void* to) const
 
 std::vector<char> Spill::readAll(std::size_t key) const
 {
-  std::vector<char> rows(std::size_t(this->Rows[key]) * this->RowBytes);
+  std::vector<char> rows(std::size_t(this->rows(key)) * this->RowBytes);
   this->readAll(key, rows.data());
   return rows;
 }

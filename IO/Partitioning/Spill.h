@@ -19,6 +19,33 @@
 namespace tipp
 {
 
+/// What is in the files of a Spill.
+struct SpilledRows
+{
+  /// A rank's file.
+  struct File
+  {
+    std::uint64_t Bytes = 0;
+    std::vector<std::uint64_t> Chunks; ///< offset of each chunk
+  };
+
+  std::vector<std::int64_t> Counts;     ///< rows per key
+  std::vector<std::uint64_t> Checksums; ///< per key; empty: not protected
+  std::vector<File> Files;              ///< by rank
+};
+
+template <typename Archive>
+void serialize(Archive& archive, SpilledRows::File& file)
+{
+  archive(file.Bytes, file.Chunks);
+}
+
+template <typename Archive>
+void serialize(Archive& archive, SpilledRows& rows)
+{
+  archive(rows.Counts, rows.Checksums, rows.Files);
+}
+
 /// A distribution sort on disk: rows of equal size from chunks of a mesh are sorted by a key, the
 /// piece, through a file of each rank. Rows of a key stay in the order of the chunks, and of the
 /// ranks.
@@ -31,19 +58,17 @@ public:
   /// `keys` is the number of keys. Creates the rank's file, "PATH.RANK"; throws IOError.
   Spill(const std::string& path, int rank, std::size_t keys, std::size_t rowBytes);
 
-  /// Opens a spill that other processes have written, from what save() returned after exchange().
-  /// Throws IOError.
-  Spill(const std::string& path, std::size_t keys, std::size_t rowBytes,
-    const std::vector<std::uint64_t>& saved);
-  std::vector<std::uint64_t> save() const;
+  /// Opens a spill that other processes have written, from what content() returned after
+  /// exchange(). Throws IOError.
+  Spill(const std::string& path, std::size_t keys, std::size_t rowBytes, SpilledRows content);
 
   /// Opens a spill that other ranks have written, from what close() returned on each, in the order
-  /// of the ranks.
+  /// of the ranks. Throws IOError.
   Spill(const std::string& path, std::size_t keys, std::size_t rowBytes,
-    const std::vector<std::vector<std::uint64_t>>& ranks);
+    const std::vector<SpilledRows>& ranks);
 
   std::size_t rowBytes() const { return this->RowBytes; }
-  /// Bytes in this rank's file; after exchange() in all ranks' files.
+  /// Of content().
   std::uint64_t bytes() const;
 
   /// Adds a chunk of `count` items: key(item) returns an item's key, or -1 to skip it; fill(item,
@@ -51,17 +76,19 @@ public:
   template <typename Key, typename Fill>
   void add(std::size_t count, int threads, const Key& keyOf, const Fill& fill);
 
-  /// Enables checksums of the rows per key; save() stores them, and reading verifies them. Call it
-  /// before adding chunks, on all ranks.
+  /// Enables checksums of the rows per key, which reading verifies. Call it before adding chunks,
+  /// on all ranks.
   void protect();
 
   /// Call after all chunks: makes all ranks' rows known to every rank. Collective. Throws IOError
   /// on all.
   void exchange(Communicator& ranks);
   /// The same without communication: returns what the constructor above needs from each rank.
-  std::vector<std::uint64_t> close();
+  SpilledRows close();
 
-  std::int64_t rows(std::size_t key) const { return this->Rows[key]; }
+  /// Of this rank; after exchange() of all ranks.
+  const SpilledRows& content() const { return this->Content; }
+  std::int64_t rows(std::size_t key) const { return this->Content.Counts[key]; }
   /// Passes the key's rows in order, in blocks of at most `most` rows. Throws IOError; if the
   /// checksum does not match, after the last block.
   void read(std::size_t key, std::size_t most,
@@ -71,19 +98,14 @@ public:
   void readAll(std::size_t key, void* to) const;
 
 private:
-  /// What a rank has written.
-  struct File
-  {
-    std::uint64_t Bytes = 0;
-    std::vector<std::uint64_t> Chunks; ///< offset of each chunk
-  };
   struct Room
   {
     char* At;
     std::size_t Rows;
   };
 
-  void join(const std::vector<std::vector<std::uint64_t>>& ranks);
+  void join(const std::vector<SpilledRows>& ranks);
+  void requireKeys(const SpilledRows& content) const;
   template <typename Key, typename Fill>
   void addChunk(
     std::size_t first, std::size_t count, int threads, const Key& keyOf, const Fill& fill);
@@ -98,12 +120,9 @@ private:
   std::size_t Keys;
   std::size_t RowBytes;
   std::optional<OutputFile> Out;               ///< until close()
-  File Mine;                                   ///< until close()
-  std::vector<std::int64_t> Rows;              ///< number per key; this rank's until join()
+  SpilledRows Content;                         ///< this rank's until join()
   std::vector<char> Buffer;                    ///< a chunk's; reused
   std::vector<std::unique_ptr<Checksum>> Sums; ///< per key, after protect() and until close()
-  std::vector<std::uint64_t> Checksums;        ///< from exchange() on; empty: not protected
-  std::vector<File> Files;                     ///< from exchange() on
 };
 
 template <typename Key, typename Fill>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioning/SpilledPieceWriter.h"
+#include "Partitioning/PartitionJob.h"
 
 #include "Parallel/Poll.h"
 #include "Partitioning/MeshTiling.h"
@@ -203,7 +203,7 @@ void SpilledPieceWriter::writePoints()
     this->appendInBlocks(block, true, false);
     this->Writer->endPart(true);
   };
-  for (const LentGroup& group : this->Table.PointGroups)
+  for (const SharedGroup& group : this->Table.PointGroups)
   {
     appendPart(group.Count, true);
   }
@@ -240,7 +240,7 @@ void SpilledPieceWriter::writeCells()
   std::stable_sort(
     shared.begin(), shared.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   auto next = shared.begin();
-  for (const LentGroup& group : this->Table.CellGroups)
+  for (const SharedGroup& group : this->Table.CellGroups)
   {
     rows.clear();
     for (std::int64_t i = 0; i < group.Count; ++i, ++next)

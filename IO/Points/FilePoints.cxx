@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Points/FilePoints.h"
 
-#include "Distributions/Random.h"
+#include "Arrays/Random.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Las/LasHeader.h"
 #include "Points/ReadPoints.h"
-#include "Points/TextPoints.h"
 
 #include <algorithm>
 #include <charconv>

@@ -2,6 +2,7 @@
 #ifndef tippPointStream_h
 #define tippPointStream_h
 
+#include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
 #include "vtkTIPPIOModule.h"
 
@@ -81,6 +82,10 @@ VTKTIPPIO_EXPORT void forEachBlock(
 /// there is none.
 std::unique_ptr<PointStream> thinPoints(
   std::unique_ptr<PointStream> points, const Thinning& thinning);
+
+/// The points of a table as a stream, those that thinning keeps. Throws IOError as thinPoints().
+VTKTIPPIO_EXPORT std::unique_ptr<PointStream> streamTable(
+  PointTable table, const Thinning& thinning = {});
 
 } // namespace tipp
 

@@ -7,7 +7,6 @@
 #include "Las/LasHeader.h"
 #include "Points/FilePoints.h"
 #include "Points/PointStream.h"
-#include "Points/TextPoints.h"
 #include "Vtk/VtkFiles.h"
 
 #include <algorithm>

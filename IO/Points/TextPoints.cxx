@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Points/TextPoints.h"
+#include "Points/FilePoints.h"
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/TextFile.h"
-#include "Points/FilePoints.h"
 
 #include <algorithm>
 #include <charconv>

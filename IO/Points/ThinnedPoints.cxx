@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Points/PointStream.h"
-#include "Points/RankColumn.h"
 
 #include "Files/IOError.h"
 #include "Files/TemporaryFiles.h"
@@ -209,8 +208,8 @@ private:
           candidates.size(), 1, [&](std::size_t i) { return hashOf(candidates[i]) >> 20 & 1023; },
           [&](std::size_t i, char* row) { std::memcpy(row, &candidates[i], sizeof(Candidate)); });
       });
-    Spill sorted(this->Rule.File, keys, sizeof(Candidate),
-      std::vector<std::vector<std::uint64_t>>{ spill.close() });
+    Spill sorted(
+      this->Rule.File, keys, sizeof(Candidate), std::vector<SpilledRows>{ spill.close() });
     for (std::size_t key = 0; key < keys; ++key)
     {
       poll();

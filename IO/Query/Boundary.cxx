@@ -2,7 +2,7 @@
 #include "Query/Around.h"
 
 #include "Files/IOError.h"
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 #include "Query/ForPieces.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <cmath>

@@ -158,7 +158,7 @@ MeshAnswer emptyAnswer(std::int64_t count, const std::vector<StoredArray>& array
     values.Name = array.Name;
     values.Type = array.Type;
     values.Components = array.Components;
-    values.Values = RawBuffer(points * values.tupleBytes());
+    values.Values = Buffer<char>(points * values.tupleBytes());
     fillNull(values);
     answer.Arrays.push_back(std::move(values));
   }

@@ -3,11 +3,11 @@
 #define tippResidentMesh_h
 
 #include "Partitioned/PartitionedMesh.h"
-#include "Predicates/Point3.h"
+#include "Predicates/Points.h"
 #include "Query/MeshPart.h"
 #include "Query/PieceIds.h"
 #include "Query/ResidentPieces.h"
-#include "Resample/CellKey.h"
+#include "Resample/Claims.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>
@@ -40,7 +40,7 @@ struct MeshAnswer
     Scalar Type = Scalar::Float64;
     int Components = 1;
     /// `Components` a point; outside of the mesh NaN, in arrays of whole numbers 0.
-    RawBuffer Values;
+    Buffer<char> Values;
 
     std::size_t tupleBytes() const
     {

@@ -161,7 +161,7 @@ public:
   {
     if (size > this->left())
     {
-      throw std::runtime_error("A message from another rank is damaged: it ends early.");
+      throw std::runtime_error("A message or a temporary file is damaged: it ends early.");
     }
     const char* begin = this->At;
     this->At += size;
@@ -214,7 +214,7 @@ private:
     const auto count = this->get<std::uint64_t>();
     if (count > this->left() / bytesEach)
     {
-      throw std::runtime_error("A message from another rank is damaged: an array ends early.");
+      throw std::runtime_error("A message or a temporary file is damaged: an array ends early.");
     }
     return std::size_t(count);
   }

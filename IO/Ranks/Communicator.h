@@ -4,10 +4,10 @@
 
 #include "Parallel/Poll.h"
 #include "Ranks/Archive.h"
-#include "Ranks/RankTransport.h"
 #include "vtkTIPPIOModule.h"
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -21,8 +21,40 @@
 
 class vtkMultiProcessController;
 
+class vtkMultiProcessController;
+
 namespace tipp
 {
+
+/// Sends bytes from rank to rank, with MPI's semantics. Only one thread of each rank may call it.
+class RankTransport
+{
+public:
+  /// Connects all ranks of the controller, separately from the program's other messages. Returns
+  /// null for one rank. Throws std::invalid_argument if there are several ranks without MPI.
+  /// Collective.
+  static std::unique_ptr<RankTransport> open(vtkMultiProcessController* controller);
+
+  virtual ~RankTransport() = default;
+
+  virtual int rank() const = 0;
+  virtual int size() const = 0;
+
+  /// A send in progress.
+  class Sending
+  {
+  public:
+    virtual ~Sending() = default;
+    /// Whether the send has completed, so that its memory may be freed.
+    virtual bool hasLeft() = 0;
+  };
+  virtual std::unique_ptr<Sending> send(const char* data, std::size_t size, int to, int tag) = 0;
+
+  /// Whether a message with the tag has arrived from any rank.
+  virtual bool probe(int tag, int& source, int& size) = 0;
+  /// Receives a message of this size; blocks until it has arrived.
+  virtual void receive(char* data, std::size_t size, int source, int tag) = 0;
+};
 
 /// The kind of a message. Kinds from FirstFree on are the callers'.
 enum class MessageKind : std::uint32_t

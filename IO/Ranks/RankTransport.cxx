@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Ranks/RankTransport.h"
+#include "Ranks/Communicator.h"
 
 #ifdef TIPP_HAVE_MPI
 #include "vtkMPIController.h"

@@ -4,12 +4,18 @@
 
 #include "Raster/RasterFile.h"
 #include "Raster/TiledTiff.h"
+#include "vtkTIPPIOModule.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace tipp
 {
+
+/// Runs work in a process of its own, so that the libraries it opens take no memory of this one,
+/// and returns what it returns. Throws IOError with the same sentence where the work does.
+VTKTIPPIO_EXPORT std::string runInChild(const std::function<std::string()>& work);
 
 /// What GDAL does for rasters. All throw IOError if it fails or is not there.
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Files/TextFile.h"
+#include "Files/VtkXml.h"
 #include "Raster/GdalRaster.h"
 #include "Raster/RasterFile.h"
 #include "Raster/TiledTiff.h"
@@ -42,23 +44,6 @@ void BandSums::add(const BandSums& other)
 
 namespace
 {
-
-std::string textOf(double value)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
-
-std::string escapedText(const std::string& name)
-{
-  std::string text;
-  for (const char c : name)
-  {
-    text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  }
-  return text;
-}
 
 TiffField textField(std::uint16_t tag, const std::string& text)
 {
@@ -177,7 +162,7 @@ private:
     this->Fields.push_back(
       tiffField(33922, Type::Double, std::vector<double>{ 0, 0, 0, grid.West, grid.north(), 0 }));
     this->Fields.push_back(textField(42112, this->metadata()));
-    this->Fields.push_back(textField(42113, textOf(this->Description.NoData)));
+    this->Fields.push_back(textField(42113, exactText(this->Description.NoData)));
   }
 
   std::string metadata() const
@@ -190,14 +175,14 @@ private:
         text += std::string("  <Item name=\"") + name + "\" sample=\"" + std::to_string(band) +
           "\"" + more + ">" + value + "</Item>\n";
       };
-      add("DESCRIPTION", escapedText(this->Description.Bands[band]), " role=\"description\"");
+      add("DESCRIPTION", escapedXml(this->Description.Bands[band]), " role=\"description\"");
       const BandSums& sums = this->Sums[band];
       if (sums.Count > 0)
       {
-        add("STATISTICS_MAXIMUM", textOf(sums.Most));
-        add("STATISTICS_MEAN", textOf(sums.Mean));
-        add("STATISTICS_MINIMUM", textOf(sums.Least));
-        add("STATISTICS_STDDEV", textOf(sums.deviation()));
+        add("STATISTICS_MAXIMUM", exactText(sums.Most));
+        add("STATISTICS_MEAN", exactText(sums.Mean));
+        add("STATISTICS_MINIMUM", exactText(sums.Least));
+        add("STATISTICS_STDDEV", exactText(sums.deviation()));
       }
     }
     return text + "</GDALMetadata>\n";

@@ -3,6 +3,8 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/TextFile.h"
+#include "Files/VtkXml.h"
 #include "Npy/NpyFile.h"
 #include "Raster/GdalRaster.h"
 
@@ -152,19 +154,7 @@ std::string numbers(std::initializer_list<double> values)
   std::string text;
   for (const double value : values)
   {
-    char number[32];
-    std::snprintf(number, sizeof number, "%.17g", value);
-    text += (text.empty() ? "" : " ") + std::string(number);
-  }
-  return text;
-}
-
-std::string escaped(const std::string& name)
-{
-  std::string text;
-  for (const char c : name)
-  {
-    text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
+    text += (text.empty() ? "" : " ") + exactText(value);
   }
   return text;
 }
@@ -182,10 +172,10 @@ std::unique_ptr<RasterWriter> createVti(
     extent + "\" Origin=\"" +
     numbers({ grid.West + 0.5 * grid.Pixel[0], grid.South + 0.5 * grid.Pixel[1], 0 }) +
     "\" Spacing=\"" + numbers({ grid.Pixel[0], grid.Pixel[1], 1 }) + "\">\n    <Piece Extent=\"" +
-    extent + "\">\n      <PointData Scalars=\"" + escaped(description.Bands.front()) + "\">\n";
+    extent + "\">\n      <PointData Scalars=\"" + escapedXml(description.Bands.front()) + "\">\n";
   for (std::size_t band = 0; band < description.Bands.size(); ++band)
   {
-    text += "        <DataArray type=\"Float64\" Name=\"" + escaped(description.Bands[band]) +
+    text += "        <DataArray type=\"Float64\" Name=\"" + escapedXml(description.Bands[band]) +
       "\" format=\"appended\" offset=\"" +
       std::to_string(band * (writer->bandBytes() + sizeof(std::uint64_t))) + "\"/>\n";
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Reading/MergePieces.h"
+#include "Reading/PieceSource.h"
 
 #include "Loading/ArrayFiles.h"
 #include "Parallel/Poll.h"
@@ -168,7 +168,7 @@ private:
   {
     const std::size_t count = this->Points.size();
     std::vector<TupleMoves> moves(this->Pieces.size());
-    result.PointGhosts = RawBuffer(count);
+    result.PointGhosts = Buffer<char>(count);
     for (std::size_t i = 0; i < count; ++i)
     {
       const PointOfPiece& point = this->Points[i];
@@ -203,7 +203,7 @@ private:
   void fillConnectivity(Piece& result) const
   {
     const int corners = result.CellSize;
-    result.Connectivity = RawBuffer(this->Cells.size() * std::size_t(corners) * sizeof(Id));
+    result.Connectivity = Buffer<char>(this->Cells.size() * std::size_t(corners) * sizeof(Id));
     Id* id = result.Connectivity.as<Id>();
     for (const CellOfPiece& cell : this->Cells)
     {
@@ -235,10 +235,10 @@ private:
 
   /// Appends an array of `count` tuples; data(piece) returns a piece's own values.
   template <typename Data>
-  RawBuffer gather(const std::vector<TupleMoves>& moves, std::size_t count, std::size_t bytes,
+  Buffer<char> gather(const std::vector<TupleMoves>& moves, std::size_t count, std::size_t bytes,
     const Data& data) const
   {
-    RawBuffer values(count * bytes);
+    Buffer<char> values(count * bytes);
     for (std::size_t p = 0; p < moves.size(); ++p)
     {
       scatterTuples(data(*this->Pieces[p]), moves[p].Sources.data(), values.data(),

@@ -98,17 +98,17 @@ std::vector<std::int64_t> distinct(std::vector<std::int64_t> ids)
   return ids;
 }
 
-RawBuffer bufferOf(const std::vector<std::int64_t>& values)
+Buffer<char> bufferOf(const std::vector<std::int64_t>& values)
 {
-  RawBuffer buffer(values.size() * sizeof(std::int64_t));
+  Buffer<char> buffer(values.size() * sizeof(std::int64_t));
   std::copy(values.begin(), values.end(), buffer.as<std::int64_t>());
   return buffer;
 }
 
 /// Converts 2 coordinates per point to 3, the third 0.
-RawBuffer withThird(const RawBuffer& flat, std::int64_t points, std::size_t scalar)
+Buffer<char> withThird(const Buffer<char>& flat, std::int64_t points, std::size_t scalar)
 {
-  RawBuffer three(std::size_t(points) * 3 * scalar);
+  Buffer<char> three(std::size_t(points) * 3 * scalar);
   for (std::size_t i = 0; i < std::size_t(points); ++i)
   {
     std::memcpy(three.data() + 3 * i * scalar, flat.data() + 2 * i * scalar, 2 * scalar);
@@ -326,7 +326,7 @@ Piece FlatPieces::finish(const Draft& draft, const PieceOptions& options) const
   std::vector<std::int64_t> ids = owned;
   ids.insert(ids.end(), ghosts.begin(), ghosts.end());
   piece.PointIds = bufferOf(ids);
-  piece.PointGhosts = RawBuffer(ids.size());
+  piece.PointGhosts = Buffer<char>(ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i)
   {
     piece.PointGhosts.data()[i] =
@@ -337,7 +337,7 @@ Piece FlatPieces::finish(const Draft& draft, const PieceOptions& options) const
   piece.CellIds = bufferOf(cells);
   piece.WideIds = true;
   piece.Connectivity =
-    RawBuffer((draft.Corners.size() + draft.BorrowedCorners.size()) * sizeof(std::int64_t));
+    Buffer<char>((draft.Corners.size() + draft.BorrowedCorners.size()) * sizeof(std::int64_t));
   auto* to = piece.Connectivity.as<std::int64_t>();
   for (const std::vector<std::int64_t>* const corners : { &draft.Corners, &draft.BorrowedCorners })
   {
@@ -360,14 +360,14 @@ void FlatPieces::loadPoints(
 {
   std::vector<RawArray> arrays{ this->Flat.Points };
   std::vector<void*> out;
-  RawBuffer coordinates(ids.size() * this->Flat.Points.tupleBytes());
+  Buffer<char> coordinates(ids.size() * this->Flat.Points.tupleBytes());
   out.push_back(coordinates.data());
   for (std::size_t i = 0; i < this->Arrays.size(); ++i)
   {
     if (this->Mesh.Arrays[i].OfPoints && options.wants(this->Mesh, i))
     {
       piece.Attributes.push_back(
-        { this->Mesh.Arrays[i], RawBuffer(ids.size() * this->Arrays[i].tupleBytes()) });
+        { this->Mesh.Arrays[i], Buffer<char>(ids.size() * this->Arrays[i].tupleBytes()) });
       out.push_back(piece.Attributes.back().Values.data());
       arrays.push_back(this->Arrays[i]);
     }
@@ -387,7 +387,7 @@ void FlatPieces::loadCellData(const PieceOptions& options, Piece& piece) const
     if (!this->Mesh.Arrays[i].OfPoints && options.wants(this->Mesh, i))
     {
       piece.Attributes.push_back({ this->Mesh.Arrays[i],
-        RawBuffer(std::size_t(piece.Cells) * this->Arrays[i].tupleBytes()) });
+        Buffer<char>(std::size_t(piece.Cells) * this->Arrays[i].tupleBytes()) });
       out.push_back(piece.Attributes.back().Values.data());
       arrays.push_back(this->Arrays[i]);
     }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Reading/RangeFilter.h"
+#include "Reading/PieceSource.h"
 
 #include "Parallel/Poll.h"
-#include "Predicates/CellBox.h"
-#include "Reading/MergePieces.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <array>

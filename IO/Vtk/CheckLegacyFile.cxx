@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/TextFile.h"
 #include "Vtk/ReadDataSet.h"
 #include "Vtk/VtkMessages.h"
 
@@ -53,22 +54,8 @@ Words wordsOf(std::string_view line)
   {
     return words;
   }
-  for (std::size_t at = 0; at < line.size() && words.size() < 6;)
-  {
-    while (at < line.size() && isBlank(line[at]))
-    {
-      ++at;
-    }
-    const std::size_t begin = at;
-    while (at < line.size() && !isBlank(line[at]))
-    {
-      ++at;
-    }
-    if (at > begin)
-    {
-      words.push_back(line.substr(begin, at - begin));
-    }
-  }
+  splitFields(line, ' ', words);
+  words.resize(std::min<std::size_t>(words.size(), 6));
   return words;
 }
 

@@ -3,9 +3,8 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Flat/XmlScanner.h"
+#include "Files/VtkXml.h"
 #include "Vtk/VtkMessages.h"
-#include "Vtk/XmlDataCheck.h"
 
 #include <algorithm>
 #include <array>

@@ -5,6 +5,7 @@
 #include "Files/InputFile.h"
 #include "Vtk/VtkMessages.h"
 
+#include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetReader.h"
 #include "vtkLogger.h"
@@ -12,6 +13,7 @@
 #include "vtkOBJReader.h"
 #include "vtkOutputWindow.h"
 #include "vtkPLYReader.h"
+#include "vtkPointData.h"
 #include "vtkSTLReader.h"
 #include "vtkXMLImageDataReader.h"
 #include "vtkXMLPImageDataReader.h"
@@ -28,6 +30,12 @@
 #include <filesystem>
 #include <map>
 #include <stdexcept>
+
+#if __has_include("vtkCellTypeUtilities.h") // VTK 9.6
+#include "vtkCellTypeUtilities.h"
+#else
+#include "vtkCellTypes.h"
+#endif
 
 namespace tipp
 {
@@ -178,6 +186,68 @@ vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path)
   }
   checkDataSet(data, path);
   return data;
+}
+
+std::string cellTypeName(int type)
+{
+#if __has_include("vtkCellTypeUtilities.h")
+  return vtkCellTypeUtilities::GetClassNameFromTypeId(type);
+#else
+  return vtkCellTypes::GetClassNameFromTypeId(type);
+#endif
+}
+
+namespace
+{
+
+void addArray(vtkDataArray* array, std::size_t points, PointTable& table)
+{
+  const int components = array->GetNumberOfComponents();
+  const std::string name = array->GetName() ? array->GetName() : "array";
+  for (int component = 0; component < components; ++component)
+  {
+    PointTable::Column column;
+    column.Name = components == 1 ? name : name + "_" + std::to_string(component);
+    column.Values.resize(points);
+    for (std::size_t i = 0; i < points; ++i)
+    {
+      column.Values[i] = array->GetComponent(vtkIdType(i), component);
+    }
+    table.Columns.push_back(std::move(column));
+  }
+}
+
+} // namespace
+
+PointTable pointsOf(vtkDataSet* data)
+{
+  const auto count = std::size_t(data->GetNumberOfPoints());
+  PointTable table;
+  table.XY.resize(2 * count);
+  table.Columns.push_back({ "z", std::vector<double>(count) });
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    double p[3];
+    data->GetPoint(vtkIdType(i), p);
+    table.XY[2 * i] = p[0];
+    table.XY[2 * i + 1] = p[1];
+    table.Columns[0].Values[i] = p[2];
+  }
+  vtkPointData* const attributes = data->GetPointData();
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  {
+    // A string array is not a vtkDataArray.
+    if (vtkDataArray* const array = attributes->GetArray(i))
+    {
+      addArray(array, count, table);
+    }
+  }
+  return table;
+}
+
+PointTable readVtkPoints(const std::string& path)
+{
+  return pointsOf(readDataSet(path));
 }
 
 } // namespace tipp

@@ -85,11 +85,10 @@ template <typename Value>
 nb::object arrayOf(Buffer<Value>&& buffer, std::size_t columns)
 {
   const std::size_t rows = buffer.size() / columns;
-  void* memory = buffer.release();
-  return owningArray(memory ? memory : std::malloc(1), scalarType<Value>(), { rows, columns });
+  return owningArray(buffer.release(), scalarType<Value>(), { rows, columns });
 }
 
-inline nb::object arrayOf(RawBuffer&& buffer, Scalar scalar, std::size_t columns)
+inline nb::object arrayOf(Buffer<char>&& buffer, Scalar scalar, std::size_t columns)
 {
   const std::size_t rows = buffer.size() / bytesOf(scalar) / columns;
   return owningArray(buffer.release(), scalar,

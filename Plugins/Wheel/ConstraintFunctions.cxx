@@ -54,7 +54,7 @@ std::vector<Constraint> constraintsOf(const InputArray& pairs)
 nb::object crossingsArray(const std::vector<CrossingPoint>& crossings)
 {
   constexpr std::size_t columns = 5;
-  RawBuffer values(columns * crossings.size() * sizeof(double));
+  Buffer<char> values(columns * crossings.size() * sizeof(double));
   double* row = values.as<double>();
   for (const CrossingPoint& crossing : crossings)
   {
@@ -72,7 +72,7 @@ nb::object crossingsArray(const std::vector<CrossingPoint>& crossings)
 template <typename Id>
 nb::object edgeMarks(const Buffer<Id>& ids, const ConstraintEdges& edges)
 {
-  RawBuffer marks(ids.size());
+  Buffer<char> marks(ids.size());
   for (std::size_t t = 0; t < ids.size(); t += 3)
   {
     for (std::size_t i = 0; i < 3; ++i)

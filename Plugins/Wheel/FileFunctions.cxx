@@ -4,7 +4,6 @@
 #include "Files/IOError.h"
 #include "Files/OutputPath.h"
 #include "Flat/FlatMesh.h"
-#include "OutOfCore/OutOfCoreRanks.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Output/RunStatistics.h"
 #include "Parallel/Poll.h"
@@ -12,9 +11,7 @@
 #include "Points/PointStream.h"
 #include "Points/ReadPoints.h"
 #include "Ranks/Communicator.h"
-#include "Reading/MergePieces.h"
 #include "Reading/PieceSource.h"
-#include "Reading/RangeFilter.h"
 #include "Vtk/VtkFiles.h"
 
 #include <nanobind/stl/array.h>
@@ -37,7 +34,7 @@ using Strings = std::vector<std::string>;
 
 nb::object copyOf(const std::vector<double>& values, std::size_t columns)
 {
-  RawBuffer buffer(values.size() * sizeof(double));
+  Buffer<char> buffer(values.size() * sizeof(double));
   if (!values.empty())
   {
     std::memcpy(buffer.data(), values.data(), buffer.size());
@@ -186,7 +183,7 @@ nb::dict dictOf(Piece&& piece)
   ofCells["GlobalCellIds"] = arrayOf(std::move(piece.CellIds), Scalar::Int64, 1);
   if (piece.OwnedCells < piece.Cells)
   {
-    RawBuffer ghosts(std::size_t(piece.Cells));
+    Buffer<char> ghosts(std::size_t(piece.Cells));
     std::fill_n(ghosts.as<std::uint8_t>(), piece.OwnedCells, std::uint8_t(0));
     std::fill_n(ghosts.as<std::uint8_t>() + piece.OwnedCells, piece.Cells - piece.OwnedCells,
       std::uint8_t(1));

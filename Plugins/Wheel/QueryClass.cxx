@@ -34,7 +34,7 @@ constexpr Scalar kindOf<std::int64_t>()
 template <typename Value>
 nb::object copied(const std::vector<Value>& values, std::size_t columns = 1)
 {
-  RawBuffer buffer(values.size() * sizeof(Value));
+  Buffer<char> buffer(values.size() * sizeof(Value));
   std::copy(values.begin(), values.end(), buffer.as<Value>());
   return arrayOf(std::move(buffer), kindOf<Value>(), columns);
 }

@@ -50,9 +50,9 @@ double bytesOfTuples(const std::vector<InputArray>& arrays)
 }
 
 /// Surfaces are sampled in one layer, which is repeated along z.
-void repeatLayers(const Lattice& lattice, std::vector<RawBuffer>& samples)
+void repeatLayers(const Lattice& lattice, std::vector<Buffer<char>>& samples)
 {
-  for (RawBuffer& buffer : samples)
+  for (Buffer<char>& buffer : samples)
   {
     const std::size_t layer = buffer.size() / std::size_t(lattice.size(2));
     for (std::size_t at = layer; layer > 0 && at < buffer.size(); at += layer)
@@ -84,7 +84,7 @@ nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
   const double count = double(lattice.size(0)) * double(lattice.size(1)) * double(lattice.size(2));
   requireMemory(
     count, count * (bytesOfTuples(pointArrays) + bytesOfTuples(cellArrays) + claimBytes));
-  std::vector<RawBuffer> samples;
+  std::vector<Buffer<char>> samples;
   std::vector<Scalar> types;
   std::vector<std::size_t> components;
   std::vector<Attribute> attributes;

@@ -33,7 +33,7 @@ nb::object duplicatesArray(const std::vector<Duplicate>& duplicates)
 
 nb::object rejectedArray(const std::vector<PointId>& rejected)
 {
-  RawBuffer ids(rejected.size() * sizeof(PointId));
+  Buffer<char> ids(rejected.size() * sizeof(PointId));
   if (!rejected.empty())
   {
     std::memcpy(ids.data(), rejected.data(), ids.size());
@@ -212,7 +212,7 @@ public:
   /// The triangle of each point, or -1.
   nb::object find(const InputArray& points, int threads) const
   {
-    RawBuffer found(points.shape(0) * sizeof(std::int32_t));
+    Buffer<char> found(points.shape(0) * sizeof(std::int32_t));
     this->forPoints(points, threads,
       [&](std::int64_t i, Point2 p)
       { found.as<std::int32_t>()[i] = std::int32_t(this->Finder.find(p)); });
@@ -225,7 +225,7 @@ public:
   {
     const std::size_t columns = values.shape(1);
     const auto* const rows = static_cast<const double*>(values.data());
-    RawBuffer samples(points.shape(0) * columns * sizeof(double));
+    Buffer<char> samples(points.shape(0) * columns * sizeof(double));
     this->forPoints(points, threads,
       [&](std::int64_t i, Point2 p)
       {

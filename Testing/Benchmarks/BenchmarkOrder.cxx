@@ -2,11 +2,11 @@
 // What each partition costs when points are shared out to many ranks: one process triangulates all
 // partitions, one after the other, and prints for each what cluster_model.py needs to know.
 #include "Distributed/Plan.h"
-#include "Distributed/SharedInitialMesh.h"
+#include "Distributed/RankRun.h"
 #include "Engine/Routing.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/ReadPoints.h"
-#include "Triangulation/InitialMesh.h"
+#include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "SweepKernel.h"
 
 #include "Predicates/Circumdisk.h"
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A sink of final triangles: adds up their areas instead of writing a mesh.
 #include "OutOfCore/OutOfCoreTriangulation.h"
-#include "OutOfCore/TriangleTaker.h"
 #include "Points/PointStream.h"
 
 #include "TemporaryFolder.h"
@@ -15,7 +14,7 @@ namespace
 
 using namespace tipp;
 
-class AreaSum : public TriangleTaker
+class AreaSum : public TriangleConsumer
 {
 public:
   double Area = 0;
@@ -60,7 +59,7 @@ TEST(ExtendingSink, TakesEachTriangleOnce)
   AreaSum sum;
   OutOfCoreOptions options;
   options.CountOnly = true; // no mesh is written
-  options.Taker = &sum;
+  options.Consumer = &sum;
   const auto points = openPointStream({ square });
   const OutOfCoreStatistics made = triangulateOutOfCore(*points, folder.path("work.tipp"), options);
   EXPECT_EQ(4, made.Triangles);

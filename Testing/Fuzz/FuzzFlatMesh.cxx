@@ -2,7 +2,6 @@
 // Changes the bytes of valid flat meshes, folders of .npy and .vtu files, and opens them: what
 // opens must lie in its files and be read without a fault, all else must be an IOError.
 #include "Files/IOError.h"
-#include "Flat/FlatFolder.h"
 #include "Flat/FlatMesh.h"
 #include "FuzzDriver.h"
 #include "Loading/VertexLoader.h"

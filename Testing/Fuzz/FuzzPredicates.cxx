@@ -6,7 +6,7 @@
 #include "NearDegenerate.h"
 
 #include "Predicates/CoordinateGrid.h"
-#include "Predicates/InCircle.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <cstdio>
 #include <utility>

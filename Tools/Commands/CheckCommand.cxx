@@ -14,7 +14,7 @@
 #include "Partitioned/ReadPiece.h"
 #include "Points/PointStream.h"
 #include "Points/ReadPoints.h"
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "Constraints/ConstrainedPoints.h"
 #include "Constraints/ReadConstraintFile.h"
 #include "Constraints/TableConstraints.h"
-#include "Distributed/DistributedOptions.h"
+#include "Distributed/Plan.h"
 #include "Duplicates/ResolveDuplicates.h"
 #include "Points/PointTable.h"
 #include "Points/ReadPoints.h"

@@ -122,7 +122,7 @@ int runDelaunay(const DelaunayArguments& arguments)
   std::string constraintReport;
   const Triangulation result = triangulatePoints(arguments, points, constraintReport);
   run.TriangulateSeconds = watch.restart();
-  run.DisagreeingPlaces = resolveDuplicates(points, result.Duplicates, arguments.Duplicates);
+  run.DisagreeingPositions = resolveDuplicates(points, result.Duplicates, arguments.Duplicates);
   if (result.Aborted || isInterrupted() || !writeResult(arguments, points, result, before))
   {
     return reportInterrupt();

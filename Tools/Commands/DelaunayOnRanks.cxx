@@ -7,7 +7,6 @@
 #include "Console/ProgressBar.h"
 #include "Console/Signals.h"
 #include "Constraints/ConstrainedPoints.h"
-#include "Distributed/ConstrainRanks.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
@@ -131,7 +130,7 @@ void writeOnFirst(Communicator& ranks, const DelaunayArguments& arguments, Delau
   {
     appendPoints(constraints.Added, points);
   }
-  run.DisagreeingPlaces = resolveDuplicates(points, all.Duplicates, arguments.Duplicates);
+  run.DisagreeingPositions = resolveDuplicates(points, all.Duplicates, arguments.Duplicates);
   if (!writeResult(arguments, points, all, before))
   {
     throw RankFailure(0, true, "interrupted");

@@ -96,7 +96,7 @@ std::string summarize(const OutOfCoreStatistics& statistics, const std::vector<P
   return fmt::format("{} points, {} triangles, {}{}, {} pieces, {:.0f} MB, {:.3f} s, "
                      "{:.0f} points/s, peak memory {:.0f} MB{}",
     statistics.Points, statistics.Triangles,
-    describeDuplicates(statistics.Duplicates, statistics.DisagreeingPlaces), rejected,
+    describeDuplicates(statistics.Duplicates, statistics.DisagreeingPositions), rejected,
     statistics.Pieces, double(statistics.MeshBytes) / 1e6, seconds,
     double(statistics.Points) / seconds, double(largestMemory(ranks)) / 1e6, each);
 }

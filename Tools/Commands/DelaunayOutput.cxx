@@ -135,7 +135,7 @@ nlohmann::ordered_json describeRun(const DelaunayRun& run)
     { "input", run.Input },
     { "output", run.Output },
     { "points", run.Points },
-    { "disagreeing_places", run.DisagreeingPlaces },
+    { "disagreeing_places", run.DisagreeingPositions },
     { "read_seconds", run.ReadSeconds },
     { "triangulate_seconds", run.TriangulateSeconds },
     { "write_seconds", run.WriteSeconds },
@@ -153,7 +153,7 @@ std::string summarize(const DelaunayRun& run, const Triangulation& result)
   return fmt::format("{} points, {} triangles, {}{}, {:.3f} s, {:.0f} points/s, peak "
                      "memory {:.0f} MB",
     run.Points, result.triangleCount(),
-    describeDuplicates(std::int64_t(result.Duplicates.size()), run.DisagreeingPlaces), rejected,
+    describeDuplicates(std::int64_t(result.Duplicates.size()), run.DisagreeingPositions), rejected,
     run.TriangulateSeconds, pointsPerSecond(run), double(peakMemoryBytes()) / 1e6);
 }
 

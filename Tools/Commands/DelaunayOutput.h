@@ -33,7 +33,7 @@ struct DelaunayRun
 {
   std::string Input;
   std::string Output;
-  std::int64_t DisagreeingPlaces = 0; ///< of several points with different elevations
+  std::int64_t DisagreeingPositions = 0; ///< of several points with different elevations
   std::int64_t Points = 0;
   double ReadSeconds = 0; ///< all times are wall-clock seconds
   double TriangulateSeconds = 0;

@@ -57,7 +57,7 @@ std::string summarize(const DemArguments& arguments, const DemReport& report)
     "{} points, {} triangles, {}{}, {} x {} pixels, {} with a value, {:.3f} s, peak "
     "memory {:.0f} MB{}, in {}",
     figures.Points, figures.Triangles,
-    describeDuplicates(figures.Duplicates, figures.DisagreeingPlaces), rejected, grid.Columns,
+    describeDuplicates(figures.Duplicates, figures.DisagreeingPositions), rejected, grid.Columns,
     grid.Rows, report.Filled, report.ReadSeconds + report.MakeSeconds + report.WriteSeconds,
     double(report.PeakMemory) / 1e6, report.Ranks == 1 ? "" : " on a rank at most",
     arguments.Output);
@@ -73,7 +73,7 @@ void writeDemReport(const DemArguments& arguments, const DemReport& report)
       { "points", report.Figures.Points },
       { "triangles", report.Figures.Triangles },
       { "duplicates", report.Figures.Duplicates },
-      { "disagreeing_places", report.Figures.DisagreeingPlaces },
+      { "disagreeing_places", report.Figures.DisagreeingPositions },
       { "rejected", report.Figures.Rejected },
       { "columns", grid.Columns },
       { "rows", grid.Rows },

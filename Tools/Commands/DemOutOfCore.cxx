@@ -112,7 +112,7 @@ int runDemOutOfCore(
   options.MaximumEdge = arguments.Request.MaximumEdge;
   options.Duplicates = arguments.Request.Duplicates;
   options.CountOnly = true;
-  options.Taker = &sink;
+  options.Consumer = &sink;
   options.Resume = arguments.Resume;
   options.Scratch = arguments.Scratch;
   OutOfCoreStatistics statistics;
@@ -133,7 +133,7 @@ int runDemOutOfCore(
   report.Figures.Points = statistics.Points;
   report.Figures.Triangles = statistics.Triangles;
   report.Figures.Duplicates = statistics.Duplicates;
-  report.Figures.DisagreeingPlaces = statistics.DisagreeingPlaces;
+  report.Figures.DisagreeingPositions = statistics.DisagreeingPositions;
   report.Figures.Rejected = statistics.Rejected;
   for (const OutOfCoreStatistics::Phase& phase : statistics.Phases)
   {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
-#include "Adcirc/FlattenAdcirc.h"
+#include "Adcirc/AdcircGrid.h"
 #include "Console/MpiSession.h"
 #include "Console/Signals.h"
 #include "Files/InputFile.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
-#include "Flat/FlatFolder.h"
+#include "Flat/FlatMesh.h"
 #include "Flat/FlattenDataSet.h"
 #include "Vtk/ReadDataSet.h"
 

@@ -8,7 +8,7 @@
 #include "Las/LasHeader.h"
 #include "Parallel/Poll.h"
 #include "Points/PointStream.h"
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Arrays/Random.h"
 #include "Commands/Commands.h"
 #include "Console/MpiSession.h"
 #include "Distributions/GeneratePoints.h"
-#include "Distributions/Random.h"
 #include "Files/InputFile.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"

@@ -2,7 +2,7 @@
 #ifndef tippReport_h
 #define tippReport_h
 
-#include "OutOfCore/OutOfCoreRanks.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Output/RunStatistics.h"
 
 #include <nlohmann/json.hpp>

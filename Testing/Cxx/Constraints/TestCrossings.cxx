@@ -3,7 +3,7 @@
 #include "Comparison.h"
 #include "ConstrainedOracle.h"
 
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <gmpxx.h>
 

@@ -2,7 +2,7 @@
 #include "DistributedTesting.h"
 
 #include "Comparison.h"
-#include "Distributed/ConstrainRanks.h"
+#include "Distributed/DistributedTriangulation.h"
 
 #include "vtkMultiProcessController.h"
 
@@ -81,7 +81,7 @@ public:
     const PointTuples& tuples = place < own ? this->Result.Owned : this->Result.Foreign;
     const std::size_t at = std::size_t(place < own ? place : place - own);
     const PointId id = tuples.GlobalIds[at];
-    const Point2 p = tuples.Places[at];
+    const Point2 p = tuples.Positions[at];
     if (p.x != this->XY[2 * std::size_t(id)] || p.y != this->XY[2 * std::size_t(id) + 1])
     {
       this->Fault = "global id " + std::to_string(id) + " has another point's place";

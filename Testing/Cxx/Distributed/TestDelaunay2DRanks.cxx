@@ -2,7 +2,7 @@
 // vtkTIPPDelaunay2D with the global controller of several ranks.
 #include "DistributedTesting.h"
 
-#include "Output/CollectivePipeline.h"
+#include "Output/FilterPipeline.h"
 
 #include "vtkTIPPDelaunay2D.h"
 

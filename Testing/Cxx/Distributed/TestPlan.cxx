@@ -188,7 +188,7 @@ TEST(Plan, ComesBackFromItsBytes)
   for (std::size_t a = 0; a < plan.Areas.size(); ++a)
   {
     EXPECT_EQ(back.Areas[a].Children, plan.Areas[a].Children);
-    EXPECT_EQ(back.Areas[a].Homes, plan.Areas[a].Homes);
+    EXPECT_EQ(back.Areas[a].RankGroups, plan.Areas[a].RankGroups);
     EXPECT_EQ(back.Areas[a].Lead, plan.Areas[a].Lead);
   }
   for (const Point2 p : asPoints(xy))

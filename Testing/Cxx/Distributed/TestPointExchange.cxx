@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The points' way to their owners: PointExchange and the PointArrangement it makes.
+// The points' way to their owners: PointExchange and the PointLayout it makes.
 #include "Distributed/PointExchange.h"
 
 #include "vtkMultiProcessController.h"
@@ -27,12 +27,12 @@ struct Share
     const int count = rank == 1 ? 0 : 200 + 50 * rank; // a rank may have none
     for (int i = 0; i < count; ++i)
     {
-      this->Places.push_back({ place(random), place(random) });
+      this->Positions.push_back({ place(random), place(random) });
       this->Ids.push_back(1000 * rank + 7 * i);
     }
     if (count > 0)
     {
-      this->Places.front().x = std::nan("");
+      this->Positions.front().x = std::nan("");
     }
   }
 
@@ -44,8 +44,8 @@ struct Share
   RankPoints points() const
   {
     RankPoints points;
-    points.Points =
-      PointsView(this->Places.empty() ? nullptr : &this->Places.front().x, this->Places.size(), 2);
+    points.Points = PointsView(
+      this->Positions.empty() ? nullptr : &this->Positions.front().x, this->Positions.size(), 2);
     points.GlobalIds = this->Ids.data();
     points.RowSize = RowSize;
     points.PackRow = [this](std::size_t i, char* to)
@@ -56,7 +56,7 @@ struct Share
     return points;
   }
 
-  std::vector<Point2> Places;
+  std::vector<Point2> Positions;
   std::vector<PointId> Ids;
 };
 
@@ -97,12 +97,12 @@ TEST_P(PointExchangeOf, OwnersGetAllRanksPointsLeafByLeafInTheOrderOfRanks)
     for (int rank = 0; owners[std::size_t(leaf)] == box.rank() && rank < box.size(); ++rank)
     {
       const Share share(rank);
-      for (std::size_t i = 0; i < share.Places.size(); ++i)
+      for (std::size_t i = 0; i < share.Positions.size(); ++i)
       {
-        if (isFinite(share.Places[i]) && tiling.locate(share.Places[i]) == leaf)
+        if (isFinite(share.Positions[i]) && tiling.locate(share.Positions[i]) == leaf)
         {
           ASSERT_LT(at, owned.size());
-          EXPECT_EQ(share.Places[i], owned.Places[at]);
+          EXPECT_EQ(share.Positions[i], owned.Positions[at]);
           EXPECT_EQ(share.Ids[i], owned.GlobalIds[at]);
           const char* const row = owned.Rows.data() + at * RowSize;
           EXPECT_EQ(share.row(i), std::vector<char>(row, row + RowSize));
@@ -119,17 +119,17 @@ TEST_P(PointExchangeOf, OwnersGetAllRanksPointsLeafByLeafInTheOrderOfRanks)
 
 INSTANTIATE_TEST_SUITE_P(Threads, PointExchangeOf, testing::Values(1, 3));
 
-TEST(PointLanding, MoreOrFewerPointsThanTheirRankToldAreRefused)
+TEST(PointReceiver, MoreOrFewerPointsThanTheirRankToldAreRefused)
 {
   Communicator box(vtkMultiProcessController::GetGlobalController());
   const std::vector<std::int32_t> owners(1, 0);
-  const PointArrangement arrangement(box, owners, { 2 });
+  const PointLayout layout(box, owners, { 2 });
   if (box.rank() == 0)
   {
     std::vector<Point2> places(std::size_t(2 * box.size()));
     std::vector<PointId> ids(places.size());
     const Bytes message(PointArrays::bytes(3, 0));
-    PointLanding landing(arrangement, 0, PointArrays(places.data(), ids.data(), nullptr), 0);
+    PointReceiver landing(layout, 0, PointArrays(places.data(), ids.data(), nullptr), 0);
     landing.take(message.data(), PointArrays::bytes(2, 0) - 1);
     EXPECT_THROW(landing.requireComplete(), std::runtime_error);
     landing.take(message.data(), 1);

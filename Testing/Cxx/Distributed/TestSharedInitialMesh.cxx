@@ -2,7 +2,7 @@
 // Ranks make the initial mesh in parts: they are parts of the whole, and tell all its conflicts.
 #include "../Engine/DataflowScene.h"
 
-#include "Distributed/SharedInitialMesh.h"
+#include "Distributed/RankRun.h"
 
 #include <set>
 

@@ -6,7 +6,7 @@
 
 #include "Engine/PartitionOrder.h"
 #include "Engine/Routing.h"
-#include "Triangulation/InitialMesh.h"
+#include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/Tiling.h"
 #include "Triangulation/Worker.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Output/CellBuffers.h"
+#include "Output/TriangleOutput.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"

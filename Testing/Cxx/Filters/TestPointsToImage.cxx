@@ -4,8 +4,8 @@
 #include "vtkRangeResampleFilter.h"
 #include "vtkTIPPDelaunay2D.h"
 
+#include "Arrays/Random.h"
 #include "Delaunay2DTesting.h"
-#include "Distributions/Random.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Output/StatisticsTable.h"
+#include "Output/RunStatistics.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Flat/FlatFolder.h"
+#include "Flat/FlatMesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Adcirc/FlattenAdcirc.h"
+#include "Adcirc/AdcircGrid.h"
 #include "ExpectIOError.h"
-#include "Flat/FlatFolder.h"
+#include "Flat/FlatMesh.h"
 #include "Flat/FlattenDataSet.h"
 #include "FlatTesting.h"
 #include "SharedData.h"

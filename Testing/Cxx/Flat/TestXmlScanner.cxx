@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Flat/XmlScanner.h"
+#include "Files/VtkXml.h"
 
 #include <gtest/gtest.h>
 

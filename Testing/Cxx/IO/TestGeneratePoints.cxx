@@ -104,11 +104,6 @@ TEST_P(EveryDistribution, AnotherSeedGivesOtherPointsUnlessItIsTheLattice)
   EXPECT_EQ(this->distribution() == Distribution::Lattice, first == second);
 }
 
-TEST_P(EveryDistribution, NameLeadsBackToIt)
-{
-  EXPECT_EQ(GetParam().Name, tipp::distributionName(this->distribution()));
-}
-
 INSTANTIATE_TEST_SUITE_P(GeneratePoints, EveryDistribution,
   testing::Values(Checksum{ "uniform", 0xde25ea7aeb4185ae },
     Checksum{ "clustered", 0xeb7d3693abc3e7ee }, Checksum{ "kuzmin", 0x72ce177a413e5370 },

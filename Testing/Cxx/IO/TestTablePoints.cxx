@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Points/TablePoints.h"
+#include "Points/PointStream.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Points/TextPoints.h"
+#include "Points/FilePoints.h"
 
 #include "ExpectIOError.h"
 #include "TemporaryFolder.h"

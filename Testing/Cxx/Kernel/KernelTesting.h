@@ -5,7 +5,7 @@
 #include "Comparison.h"
 
 #include "Kernel/DelaunayKernel.h"
-#include "Predicates/InCircle.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <cstdint>
 #include <string>

@@ -2,7 +2,7 @@
 // One insertion at a time, against every triangle's circumdisk.
 #include "KernelTesting.h"
 
-#include "Kernel/Cavity.h"
+#include "Kernel/Insertion.h"
 #include "Kernel/PointLocation.h"
 
 #include <algorithm>

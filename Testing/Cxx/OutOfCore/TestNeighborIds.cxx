@@ -59,7 +59,7 @@ Ids neighborsIn(const std::string& path)
   for (std::size_t number = 0; number < mesh.Pieces.size(); ++number)
   {
     const Piece piece = readPiece(mesh, number, options);
-    const RawBuffer& values = piece.Attributes.at(std::size_t(findNeighborIds(mesh))).Values;
+    const Buffer<char>& values = piece.Attributes.at(std::size_t(findNeighborIds(mesh))).Values;
     for (std::int64_t cell = 0; cell < piece.Cells; ++cell)
     {
       std::copy_n(values.as<std::int64_t>() + 3 * cell, 3,

@@ -3,7 +3,7 @@
 #include "OutOfCoreTesting.h"
 
 #include "Npy/NpyFile.h"
-#include "Output/StatisticsTable.h"
+#include "Output/RunStatistics.h"
 #include "vtkPartitionedUnstructuredReader.h"
 #include "vtkTIPPOutOfCoreDelaunay2D.h"
 

@@ -113,19 +113,12 @@ TEST(CheckedFile, DamagedAnywhereItIsRefused)
   EXPECT_THROW(readCheckedFile(path), IOError);
 }
 
-SaveArchive written(const std::vector<int>& numbers)
-{
-  SaveArchive writer;
-  writer(numbers);
-  return writer;
-}
-
 /// Sections {0, 3} and {2, 1}.
 void writeSections(const std::string& path)
 {
   SectionFileWriter file(path);
-  file.add({ 2, 1 }, written({ 7, 8 }));
-  file.add({ 0, 3 }, written({ 9 }));
+  file.add({ 2, 1 }, packed(std::vector<int>{ 7, 8 }));
+  file.add({ 0, 3 }, packed(std::vector<int>{ 9 }));
   file.finish();
 }
 
@@ -145,7 +138,7 @@ TEST(SectionFile, HasItsNameWhenItIsWhole)
 {
   const TemporaryFolder folder;
   SectionFileWriter file(folder.path("file"));
-  file.add({ 0, 0 }, written({ 1 }));
+  file.add({ 0, 0 }, packed(std::vector<int>{ 1 }));
   EXPECT_FALSE(fs::exists(folder.path("file")));
   const std::uint64_t bytes = file.finish();
   EXPECT_EQ(bytes, fs::file_size(folder.path("file")));

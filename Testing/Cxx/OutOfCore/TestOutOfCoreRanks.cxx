@@ -5,7 +5,7 @@
 #include "Constraints/ConstrainedPoints.h"
 #include "Files/IOError.h"
 #include "Npy/NpyFile.h"
-#include "OutOfCore/OutOfCoreRanks.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 
 #include "vtkErrorCode.h"
 #include "vtkMultiProcessController.h"

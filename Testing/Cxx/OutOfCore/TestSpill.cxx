@@ -128,7 +128,7 @@ TEST(Spill, JoinsTheRowsOfRanksInTheirOrder)
   const auto ofFirst = first.Rows.close();
   const auto ofSecond = second.Rows.close();
   const Spill joined(folder.path("rows"), keys, rowBytes, { ofFirst, ofSecond });
-  const Spill back(folder.path("rows"), keys, rowBytes, joined.save());
+  const Spill back(folder.path("rows"), keys, rowBytes, joined.content());
   for (std::size_t key = 0; key < keys; ++key)
   {
     EXPECT_EQ(expectedNumbers(key, 5 * chunkRows), numbersOf(joined, key));
@@ -139,8 +139,9 @@ TEST(Spill, JoinsTheRowsOfRanksInTheirOrder)
 TEST(Spill, KeepsNothingForEachPairOfChunkAndKey)
 {
   const TemporaryFolder folder;
-  const std::size_t few = WrittenAlone(folder, 10).Rows.save().size();
-  EXPECT_EQ(few + 20, WrittenAlone(folder, 30).Rows.save().size());
+  const std::size_t few = packed(WrittenAlone(folder, 10).Rows.content()).size();
+  EXPECT_EQ(
+    few + 20 * sizeof(std::uint64_t), packed(WrittenAlone(folder, 30).Rows.content()).size());
 }
 
 TEST(Spill, NamesAListOfAChunkThatIsDamaged)
@@ -159,17 +160,21 @@ TEST(Spill, NamesAListOfAChunkThatIsDamaged)
 TEST(Spill, RefusesWhatIsSavedOfOthers)
 {
   const TemporaryFolder folder;
-  std::vector<std::uint64_t> saved = WrittenAlone(folder, 2).Rows.save();
-  while (!saved.empty())
+  const SpilledRows saved = WrittenAlone(folder, 2).Rows.content();
+  const auto expectRefusal = [&](const SpilledRows& rows)
   {
-    saved.pop_back();
     expectIOError(folder.path("rows"), "other pieces",
-      [&] { Spill(folder.path("rows"), keys, rowBytes, saved); });
-  }
-  expectIOError(folder.path("rows"), "other pieces",
-    [&] {
-      Spill(folder.path("rows"), keys, rowBytes, { 0, 0, 0, 0, 0, ~std::uint64_t(0) });
-    });
+      [&] { Spill(folder.path("rows"), keys, rowBytes, rows); });
+  };
+  SpilledRows fewer = saved;
+  fewer.Counts.pop_back();
+  expectRefusal(fewer);
+  fewer = saved;
+  fewer.Checksums.pop_back();
+  expectRefusal(fewer);
+  fewer = saved;
+  fewer.Files.clear();
+  expectRefusal(fewer);
 }
 
 } // namespace

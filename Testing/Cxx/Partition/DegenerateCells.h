@@ -2,7 +2,7 @@
 #ifndef tippDegenerateCells_h
 #define tippDegenerateCells_h
 
-#include "Predicates/Point3.h"
+#include "Predicates/Points.h"
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Predicates/CellBox.h"
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 
 #include "DegenerateCells.h"
 #include "ExactClipping.h"

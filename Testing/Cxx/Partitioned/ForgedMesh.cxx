@@ -101,8 +101,8 @@ void ForgedMesh::putWord(std::size_t piece, std::size_t array, std::size_t at, s
     table.Checksums[array][part] = checksumOf(data, bytes);
     data += bytes;
   }
-  const std::vector<std::uint64_t> packed = packTable(table);
-  std::memcpy(this->Tables.data() + summary.TableOffset, packed.data(), packed.size() * 8);
+  const Bytes packed = packTable(table);
+  std::memcpy(this->Tables.data() + summary.TableOffset, packed.data(), packed.size());
 }
 
 void ForgedMesh::write() const

@@ -28,7 +28,7 @@ bool holds(const Bounds& box, const double* point, int dimension)
   return inside;
 }
 
-std::string copyOf(const RawBuffer& buffer)
+std::string copyOf(const Buffer<char>& buffer)
 {
   return buffer.data() ? std::string(buffer.data(), buffer.size()) : std::string();
 }
@@ -110,7 +110,7 @@ public:
     for (const Piece::Attribute& attribute : this->Read.Attributes)
     {
       const bool ofPoints = attribute.Description.OfPoints;
-      const RawBuffer& ids = ofPoints ? this->Read.PointIds : this->Read.CellIds;
+      const Buffer<char>& ids = ofPoints ? this->Read.PointIds : this->Read.CellIds;
       const std::int64_t count = ofPoints ? this->Read.Points : this->Read.Cells;
       for (std::size_t i = 0; i < std::size_t(count); ++i)
       {

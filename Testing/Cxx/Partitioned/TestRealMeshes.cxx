@@ -3,8 +3,7 @@
 #include "RealData.h"
 #include "TemporaryFolder.h"
 
-#include "Adcirc/FlattenAdcirc.h"
-#include "Flat/FlatFolder.h"
+#include "Adcirc/AdcircGrid.h"
 #include "Flat/FlatMesh.h"
 #include "Flat/FlattenDataSet.h"
 #include "Partitioning/PartitionMesh.h"

@@ -46,9 +46,9 @@ TEST(SharingSets, GroupThingsInLexicographicOrder)
   const int first = sets.number({ 1, 9 });
   const auto grouping = sets.groups({ last, -1, first, last });
   ASSERT_EQ(2U, grouping.Groups.size());
-  EXPECT_EQ((Set{ 1, 9 }), grouping.Groups[0].To);
+  EXPECT_EQ((Set{ 1, 9 }), grouping.Groups[0].Borrowers);
   EXPECT_EQ(1, grouping.Groups[0].Count);
-  EXPECT_EQ((Set{ 7 }), grouping.Groups[1].To);
+  EXPECT_EQ((Set{ 7 }), grouping.Groups[1].Borrowers);
   EXPECT_EQ(2, grouping.Groups[1].Count);
   EXPECT_EQ(0, grouping.IndexOf[std::size_t(first)]);
   EXPECT_EQ(1, grouping.IndexOf[std::size_t(last)]);

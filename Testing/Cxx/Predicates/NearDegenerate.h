@@ -2,7 +2,7 @@
 #ifndef tippNearDegenerate_h
 #define tippNearDegenerate_h
 
-#include "Predicates/Point2.h"
+#include "Predicates/Points.h"
 
 #include <array>
 #include <cstdint>

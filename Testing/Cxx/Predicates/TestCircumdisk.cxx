@@ -4,7 +4,7 @@
 #include "ExactOracle.h"
 #include "NearDegenerate.h"
 
-#include "Predicates/Orientation.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Predicates/ExactIntegers.h"
+#include "Predicates/ExactArithmetic.h"
 
 #include <gtest/gtest.h>
 

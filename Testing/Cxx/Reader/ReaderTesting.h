@@ -2,7 +2,7 @@
 #ifndef tippReaderTesting_h
 #define tippReaderTesting_h
 
-#include "Flat/FlatFolder.h"
+#include "Flat/FlatMesh.h"
 #include "vtkPartitionedUnstructuredReader.h"
 
 #include <gtest/gtest.h>

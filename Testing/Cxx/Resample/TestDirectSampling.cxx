@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/BorderClaims.h"
-#include "Resample/DirectSampling.h"
 #include "Resample/FillBlock.h"
-#include "Resample/OutsidePoints.h"
+#include "Resample/Interpolate.h"
+#include "Resample/SimplexMesh.h"
 #include "Resample/TetrahedronLanes.h"
-#include "Resample/TriangleLanes.h"
+#include "Resample/TriangleRows.h"
 
 #include "ResampleScenes.h"
 

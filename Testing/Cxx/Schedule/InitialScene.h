@@ -4,7 +4,7 @@
 
 #include "ScheduleTesting.h"
 
-#include "Triangulation/InitialMesh.h"
+#include "Triangulation/BoundaryTriangles.h"
 
 namespace tipp
 {

@@ -4,10 +4,11 @@
 
 #include "Comparison.h"
 
-#include "Predicates/InCircle.h"
+#include "Predicates/ExactPredicates.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/PointSurvey.h"
+#include "Triangulation/PointsView.h"
 
 #include <map>
 #include <string>

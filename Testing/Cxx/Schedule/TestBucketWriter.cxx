@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ScheduleTesting.h"
 
-#include "Triangulation/BucketWriter.h"
+#include "Triangulation/PointBuckets.h"
 
 #include <algorithm>
 #include <random>

@@ -2,6 +2,7 @@
 #include "ScheduleTesting.h"
 
 #include "Triangulation/PointSurvey.h"
+#include "Triangulation/PointsView.h"
 
 #include <cmath>
 

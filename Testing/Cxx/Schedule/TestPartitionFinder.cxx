@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Triangulation/PartitionFinder.h"
+#include "Triangulation/Tiling.h"
 
 #include <gtest/gtest.h>
 

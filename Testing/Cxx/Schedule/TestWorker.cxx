@@ -25,7 +25,7 @@ Interior interiorOf(
 }
 
 /// A partition's boundary triangles, and which boxes of a tiling their circumdisks meet.
-class Boundary : public BoundaryTaker
+class Boundary : public BoundaryConsumer
 {
 public:
   explicit Boundary(const Tiling& boxes)

@@ -2,7 +2,7 @@
 // `tipp dem`: a raster of points.
 #include "RunTipp.h"
 
-#include "Distributions/Random.h"
+#include "Arrays/Random.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

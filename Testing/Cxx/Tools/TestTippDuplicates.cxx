@@ -2,7 +2,7 @@
 // --duplicates and --thin of the commands that read points.
 #include "RunTipp.h"
 
-#include "Distributions/Random.h"
+#include "Arrays/Random.h"
 #include "Points/ReadPoints.h"
 
 #include <gtest/gtest.h>

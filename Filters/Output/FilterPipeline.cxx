@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Output/CollectivePipeline.h"
+#include "Output/FilterPipeline.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCommunicator.h"

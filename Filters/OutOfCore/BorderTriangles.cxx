@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OutOfCore/TakeBorders.h"
+#include "OutOfCore/FinishPieces.h"
 
 #include "Files/OutputFile.h"
 
@@ -68,7 +68,7 @@ void takeTriangles(const PieceWork& work, const std::string& name, const Borders
   }
   setGhosts(work, results, border);
   const PieceBorder::Mesh mesh = border.mesh();
-  work.Taker->take(
+  work.Consumer->take(
     name, mesh.Rows.data(), work.Rows, mesh.Rows.size() / work.Rows.Words, { mesh.triangles() });
 }
 

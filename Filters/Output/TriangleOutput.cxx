@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Output/PieceOutput.h"
+#include "Output/TriangleOutput.h"
 
-#include "Output/CellBuffers.h"
+#include "Meshes/MeshFiles.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -13,13 +13,121 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace tipp
 {
+namespace
+{
+
+template <typename Array, typename Value>
+vtkSmartPointer<Array> takeArray(Buffer<Value> buffer)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  if (!buffer.empty())
+  {
+    // If long and long long both have 64 bits, VTK's type may be the one that Value is not.
+    static_assert(sizeof(Value) == sizeof(typename Array::ValueType), "same integers");
+    const vtkIdType size = vtkIdType(buffer.size());
+    void* memory = buffer.release();
+    array->SetArray(
+      static_cast<typename Array::ValueType*>(memory), size, 0, Array::VTK_DATA_ARRAY_FREE);
+  }
+  return array;
+}
+
+template <typename Value>
+Buffer<Value> offsets(std::size_t cells, int cellSize)
+{
+  Buffer<Value> result(cells + 1);
+  const std::int64_t count = std::int64_t(cells + 1);
+#pragma omp parallel for
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    result[i] = Value(i * cellSize);
+  }
+  return result;
+}
+
+Buffer<std::int64_t> widened(const Buffer<std::int32_t>& ids)
+{
+  Buffer<std::int64_t> result(ids.size());
+  const std::int64_t count = std::int64_t(ids.size());
+#pragma omp parallel for
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    result[i] = ids[i];
+  }
+  return result;
+}
+
+template <typename Array, typename Value>
+vtkSmartPointer<vtkCellArray> makeCells(Buffer<Value> ids, int cellSize)
+{
+  const auto starts = takeArray<Array>(offsets<Value>(ids.size() / cellSize, cellSize));
+  const auto connectivity = takeArray<Array>(std::move(ids));
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(starts.Get(), connectivity.Get());
+  return cells;
+}
+
+} // namespace
+
+vtkSmartPointer<vtkCellArray> takeCells(
+  Buffer<std::int32_t> ids, int cellSize, std::int64_t largestOffset32)
+{
+  return std::int64_t(ids.size()) > largestOffset32
+    ? makeCells<vtkTypeInt64Array>(widened(ids), cellSize)
+    : makeCells<vtkTypeInt32Array>(std::move(ids), cellSize);
+}
+
+vtkSmartPointer<vtkCellArray> takeCells(Buffer<std::int64_t> ids, int cellSize)
+{
+  return makeCells<vtkTypeInt64Array>(std::move(ids), cellSize);
+}
+
+vtkSmartPointer<vtkIdTypeArray> neighborArray(const Triangulation& triangulation)
+{
+  const std::size_t triangles = triangulation.triangleCount();
+  auto array = vtkSmartPointer<vtkIdTypeArray>::New();
+  array->SetName("NeighborIds");
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(vtkIdType(triangles));
+  vtkIdType* const neighbors = array->GetPointer(0);
+  triangulation.Ids64.empty() ? findNeighbors(triangulation.Ids32.data(), triangles, neighbors)
+                              : findNeighbors(triangulation.Ids64.data(), triangles, neighbors);
+  return array;
+}
+
+vtkSmartPointer<vtkIdTypeArray> representativeIds(
+  const Triangulation& triangulation, std::int64_t points)
+{
+  Buffer<vtkIdType> ids{ std::size_t(points) };
+#pragma omp parallel for
+  for (std::int64_t i = 0; i < points; ++i)
+  {
+    ids[i] = i;
+  }
+  for (const Duplicate& duplicate : triangulation.Duplicates)
+  {
+    ids[duplicate.Point] = duplicate.Representative;
+  }
+  for (PointId rejected : triangulation.Rejected)
+  {
+    ids[rejected] = -1;
+  }
+  auto array = vtkSmartPointer<vtkIdTypeArray>::New();
+  array->SetName("RepresentativePointId");
+  array->SetArray(ids.release(), points, 0, vtkIdTypeArray::VTK_DATA_ARRAY_FREE);
+  return array;
+}
+
 template <typename Archive>
 void serialize(Archive& archive, PointRows::Column& column)
 {
@@ -100,7 +208,6 @@ PointRows::PointRows(Communicator& ranks, vtkPointSet* input)
     agreed.HasPoints = true;
   }
   agreed = ranks.broadcast(agreed);
-  this->GivenIds = agreed.HasIds;
   this->Doubles = agreed.HasDoubles;
   this->Columns = agreed.Columns;
   if (!hasPoints)
@@ -113,7 +220,7 @@ PointRows::PointRows(Communicator& ranks, vtkPointSet* input)
     this->Arrays.push_back(input->GetPointData()->GetArray(column.Name.c_str()));
     this->Values.push_back(static_cast<const char*>(this->Arrays.back()->GetVoidPointer(0)));
   }
-  if (this->GivenIds)
+  if (agreed.HasIds)
   {
     vtkNew<vtkIdTypeArray> exact; // a double would round ids beyond 2^53
     exact->DeepCopy(ids);

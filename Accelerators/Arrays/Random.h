@@ -9,7 +9,17 @@
 namespace tipp
 {
 
-/// xoshiro256++ (Blackman and Vigna, 2021), seeded through splitmix64. Everything derived from it
+/// Mixes the bits of a number: SplitMix64 (Steele, Lea, Flood, Fast Splittable Pseudorandom Number
+/// Generators, 2014) with this state.
+inline std::uint64_t mixBits(std::uint64_t x)
+{
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+/// xoshiro256++ (Blackman and Vigna, 2021), seeded through SplitMix64. Everything derived from it
 /// uses only the basic operations and the square root, which IEEE 754 rounds correctly, so the
 /// numbers are the same on every platform; those of std:: distributions and libm's log are not.
 class Random
@@ -19,11 +29,8 @@ public:
   {
     for (std::uint64_t& word : this->State)
     {
+      word = mixBits(seed);
       seed += 0x9e3779b97f4a7c15u;
-      std::uint64_t z = seed;
-      z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-      z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-      word = z ^ (z >> 31);
     }
   }
 

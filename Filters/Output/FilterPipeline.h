@@ -1,16 +1,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippCollectivePipeline_h
-#define tippCollectivePipeline_h
+#ifndef tippFilterPipeline_h
+#define tippFilterPipeline_h
 
-#include "vtkCompositeDataPipeline.h"
+#include "Vtk/Compatibility.h"
 #include "vtkTIPPFiltersModule.h"
 
+#include "vtkAlgorithm.h"
+#include "vtkCompositeDataPipeline.h"
+
+#include <algorithm>
+#include <atomic>
 #include <functional>
+#include <thread>
 
 class vtkMultiProcessController;
 
 namespace tipp
 {
+
+/// Reports progress to an algorithm and returns whether to continue; callable from any thread.
+/// Observers are called only in the thread that constructed this object.
+class Monitor
+{
+public:
+  explicit Monitor(vtkAlgorithm* algorithm)
+    : Algorithm(algorithm)
+    , Owner(std::this_thread::get_id())
+  {
+  }
+
+  /// Returns false if the work is to stop.
+  bool operator()(double fraction)
+  {
+    constexpr double share = 0.95; // the rest is for creating the output
+    if (std::this_thread::get_id() == this->Owner)
+    {
+      this->Done = std::max(this->Done, share * fraction);
+      this->Algorithm->UpdateProgress(this->Done);
+      this->Stopped = abortRequested(this->Algorithm);
+    }
+    return !this->Stopped;
+  }
+
+private:
+  vtkAlgorithm* Algorithm;
+  std::thread::id Owner;
+  double Done = 0;
+  std::atomic<bool> Stopped{ false };
+};
 
 /// The executive of a filter whose ranks execute together. If the upstream pipeline fails on one
 /// rank, that rank would not execute, and the others would wait for it forever. So the ranks first

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippPieceOutput_h
-#define tippPieceOutput_h
+#ifndef tippTriangleOutput_h
+#define tippTriangleOutput_h
 
+#include "Arrays/Buffer.h"
 #include "Distributed/PointExchange.h"
 #include "Distributed/TriangleExchange.h"
 #include "Ranks/Communicator.h"
+#include "Triangulation/Triangulate.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include "vtkSmartPointer.h"
 
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,8 +20,28 @@ class vtkDataArray;
 class vtkPointSet;
 class vtkPolyData;
 
+class vtkCellArray;
+class vtkIdTypeArray;
+
 namespace tipp
 {
+
+/// Returns cells of `cellSize` point ids each that take over the memory of `ids`. 32-bit ids give
+/// 32-bit cells unless the last offset exceeds `largestOffset32`: VTK stores ids and offsets in one
+/// type, so they are then copied to 64 bits.
+VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkCellArray> takeCells(Buffer<std::int32_t> ids,
+  int cellSize, std::int64_t largestOffset32 = std::numeric_limits<std::int32_t>::max());
+VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkCellArray> takeCells(
+  Buffer<std::int64_t> ids, int cellSize);
+
+/// Returns the array "NeighborIds": for each corner of a triangle the index of the triangle across
+/// the opposite edge, or -1.
+vtkSmartPointer<vtkIdTypeArray> neighborArray(const Triangulation& triangulation);
+
+/// Returns for each of `points` input points the id of its representative: its own id, for a
+/// duplicate the representative's, for a rejected point -1.
+vtkSmartPointer<vtkIdTypeArray> representativeIds(
+  const Triangulation& triangulation, std::int64_t points);
 
 /// A dataset's points and point data as rows of bytes, to send with the points: the 3D coordinates,
 /// and the arrays that every rank with points has.
@@ -35,7 +60,6 @@ public:
   };
 
   const std::vector<Column>& columns() const { return this->Columns; }
-  bool hasGlobalIds() const { return this->GivenIds; }
   bool areDoubles() const { return this->Doubles; }
 
   /// Sets the ids and rows of `points`, which refer to this object and are valid while it exists.
@@ -47,7 +71,6 @@ private:
   std::vector<const char*> Values;
   vtkSmartPointer<vtkDataArray> Coordinates;
   std::vector<PointId> GlobalIds;
-  bool GivenIds = false;
   bool Doubles = false;
 };
 

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippExactPredicates_h
+#define tippExactPredicates_h
+
+#include "Predicates/Points.h"
+#include "vtkTIPPAcceleratorsModule.h"
+
+#include <cmath>
+
+namespace tipp
+{
+
+/// As orientation(), but directly in exact arithmetic: for callers whose own filter has failed.
+VTKTIPPACCELERATORS_EXPORT int orientationExact(Point2 a, Point2 b, Point2 c);
+
+/// Exact for all finite coordinates: +1 if a, b, c turn counter-clockwise, -1 if clockwise, 0 if
+/// collinear.
+inline int orientation(Point2 a, Point2 b, Point2 c)
+{
+  // (3 + 16 e) e, e = 2^-53: Shewchuk, Adaptive Precision Floating-Point Arithmetic, 1997,
+  // section 4.3.
+  constexpr double relative = 3.3306690738754716e-16;
+  // The bound assumes no underflow. Three roundings below the normal range (two products, the
+  // bound) add at most 2^-1075 each; a difference never underflows.
+  constexpr double absolute = 1e-300;
+  const double left = (a.x - c.x) * (b.y - c.y);
+  const double right = (a.y - c.y) * (b.x - c.x);
+  const double determinant = left - right;
+  const double bound = relative * (std::fabs(left) + std::fabs(right)) + absolute;
+  // After an overflow the bound is infinite or NaN, and both comparisons are false.
+  if (determinant > bound)
+  {
+    return 1;
+  }
+  if (-determinant > bound)
+  {
+    return -1;
+  }
+  return orientationExact(a, b, c);
+}
+
+/// As orientation3(), but directly in exact arithmetic.
+VTKTIPPACCELERATORS_EXPORT int orientation3Exact(
+  const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+
+/// Exact for all finite coordinates: +1 if a, b, c turn counter-clockwise seen from d, -1 if
+/// clockwise, 0 if the four are coplanar. It is the sign of ((b - a) x (c - a)) . (d - a), which is
+/// +1 for a tetrahedron in VTK's order.
+inline int orientation3(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
+{
+  // (7 + 56 e) e, e = 2^-53: Shewchuk, Adaptive Precision Floating-Point Arithmetic, 1997,
+  // section 4.3.
+  constexpr double relative = 7.7715611723761e-16;
+  const auto [ax, ay, az] = a - d;
+  const auto [bx, by, bz] = b - d;
+  const auto [cx, cy, cz] = c - d;
+  const double minus =
+    az * (bx * cy - cx * by) + bz * (cx * ay - ax * cy) + cz * (ax * by - bx * ay);
+  const double heights = std::fabs(az) + std::fabs(bz) + std::fabs(cz);
+  const double permanent = std::fabs(az) * (std::fabs(bx * cy) + std::fabs(cx * by)) +
+    std::fabs(bz) * (std::fabs(cx * ay) + std::fabs(ax * cy)) +
+    std::fabs(cz) * (std::fabs(ax * by) + std::fabs(bx * ay));
+  // A product below the normal range loses at most 2^-1075, which is multiplied by a height.
+  const double bound = relative * permanent + 1e-300 * (1.0 + heights);
+  // After an overflow the bound is infinite or NaN, and both comparisons are false.
+  if (minus > bound)
+  {
+    return -1;
+  }
+  if (-minus > bound)
+  {
+    return 1;
+  }
+  return orientation3Exact(a, b, c, d);
+}
+
+/// Whether the segments ab and cd cross at one point in the interior of both. Exact for all finite
+/// coordinates.
+inline bool crossProperly(Point2 a, Point2 b, Point2 c, Point2 d)
+{
+  const int sideOfC = orientation(a, b, c);
+  if (sideOfC == 0 || orientation(a, b, d) != -sideOfC)
+  {
+    return false;
+  }
+  const int sideOfA = orientation(c, d, a);
+  return sideOfA != 0 && orientation(c, d, b) == -sideOfA;
+}
+
+/// The crossing point of ab and cd, which must cross properly. Each coordinate is rounded to the
+/// nearest double, ties to even; so the point lies in the bounding boxes of both.
+VTKTIPPACCELERATORS_EXPORT Point2 crossingPoint(Point2 a, Point2 b, Point2 c, Point2 d);
+
+/// The in-circle determinant in doubles, and the sum of its three lifts, which bounds its error.
+struct InCircleValue
+{
+  double determinant;
+  double lifts;
+};
+
+inline InCircleValue inCircleValue(Point2 a, Point2 b, Point2 c, Point2 p)
+{
+  const auto [ax, ay] = a - p;
+  const auto [bx, by] = b - p;
+  const auto [cx, cy] = c - p;
+  const double aLift = ax * ax + ay * ay;
+  const double bLift = bx * bx + by * by;
+  const double cLift = cx * cx + cy * cy;
+  const double determinant =
+    aLift * (bx * cy - cx * by) + bLift * (cx * ay - ax * cy) + cLift * (ax * by - bx * ay);
+  return { determinant, aLift + bLift + cLift };
+}
+
+/// An upper bound of the determinant's error for any coordinates; infinite or NaN after overflow.
+//
+// Shewchuk 1997, section 4.4: |error| <= (10 + 96 e) e P, e = 2^-53, P the permanent, where P sums
+// lift(a) (|bx cy| + |cx by|) and its like. By Cauchy-Schwarz |bx cy| + |cx by| <= |b| |c|
+// <= (lift b + lift c) / 2, so P <= ab + bc + ca in lifts <= S^2 / 3 for their sum S. The third of
+// 10 e is 3.3334 e; 3.4 e leaves 2 % for the rounding of S and of this product.
+//
+// Underflow: lifts and crosses are off by at most u = 2^-1074, the determinant by at most 2 u S + 2
+// u. For S > 1 the spare 0.06 e S^2 is more; otherwise, and where S^2 underflows, 1e-300 is.
+//
+// Overflow: every partial sum of the determinant is at most S^2 / 3, so S * S is infinite first.
+inline double inCircleErrorBound(double lifts)
+{
+  constexpr double relative = 3.4 * 0x1p-53;
+  constexpr double absolute = 1e-300;
+  return relative * (lifts * lifts) + absolute;
+}
+
+/// As inCircle(), but directly in exact arithmetic: for callers whose own filter has failed.
+VTKTIPPACCELERATORS_EXPORT int inCircleExact(Point2 a, Point2 b, Point2 c, Point2 p);
+
+/// The position of p relative to the circle through a, b, c, which must turn counter-clockwise.
+/// Exact for all finite coordinates: +1 strictly inside, 0 on the circle, -1 outside.
+inline int inCircle(Point2 a, Point2 b, Point2 c, Point2 p)
+{
+  const InCircleValue value = inCircleValue(a, b, c, p);
+  const double bound = inCircleErrorBound(value.lifts);
+  if (value.determinant > bound)
+  {
+    return 1;
+  }
+  if (-value.determinant > bound)
+  {
+    return -1;
+  }
+  return inCircleExact(a, b, c, p);
+}
+
+/// The tie rule alone: whether p counts as inside if it lies on the circle of a, b, c.
+//
+// Devillers and Teillaud, Perturbations for Delaunay and weighted Delaunay 3D triangulations, 2011:
+// lift the lexicographically largest of the four points by the largest infinitesimal. Then p is
+// outside if it is that point; otherwise the sign is that of the triangle with p in its place.
+// Three distinct points of a circle are not collinear, so one step decides. A p equal to a corner
+// is outside.
+inline bool tieIsInside(Point2 a, Point2 b, Point2 c, Point2 p)
+{
+  const Point2 ab = lexicographicLess(a, b) ? b : a;
+  const Point2 largest = lexicographicLess(ab, c) ? c : ab;
+  if (!lexicographicLess(p, largest))
+  {
+    return false;
+  }
+  return orientation(largest == a ? p : a, largest == b ? p : b, largest == c ? p : c) > 0;
+}
+
+/// Exact in-circle test with ties broken by coordinates alone, as CGAL's Delaunay_triangulation_2
+/// does: it makes the triangulation of a point set unique.
+inline bool inCirclePerturbed(Point2 a, Point2 b, Point2 c, Point2 p)
+{
+  const int side = inCircle(a, b, c, p);
+  return side > 0 || (side == 0 && tieIsInside(a, b, c, p));
+}
+
+// Two convex sets are disjoint if and only if a line, or in 3D a plane, that is parallel to a side
+// of one of them or to an edge of each lies strictly between them (the separating axes of
+// Gottschalk, Lin and Manocha, OBBTree, 1996). Each axis takes a few orientation tests, which are
+// exact.
+
+/// Whether the closed triangle and the closed box share a point, in x and y; touching counts. Exact
+/// for finite coordinates, also if the triangle or the box is a segment or a point.
+VTKTIPPACCELERATORS_EXPORT bool triangleMeetsBox(Point2 a, Point2 b, Point2 c, const Box3& box);
+
+/// Whether the closed tetrahedron and the closed box share a point; touching counts. Exact for
+/// finite coordinates, also if one is flat: with c = d this is a triangle in space.
+VTKTIPPACCELERATORS_EXPORT bool tetrahedronMeetsBox(
+  const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Box3& box);
+
+} // namespace tipp
+
+#endif

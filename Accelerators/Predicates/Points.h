@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPoints_h
+#define tippPoints_h
+
+#include <array>
+#include <cmath>
+
+namespace tipp
+{
+
+struct Point2
+{
+  double x;
+  double y;
+};
+
+inline bool operator==(Point2 a, Point2 b)
+{
+  return a.x == b.x && a.y == b.y;
+}
+
+inline Point2 operator-(Point2 a, Point2 b)
+{
+  return { a.x - b.x, a.y - b.y };
+}
+
+inline bool isFinite(Point2 p)
+{
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
+
+// The order that all tie rules of the project use.
+inline bool lexicographicLess(Point2 a, Point2 b)
+{
+  return a.x < b.x || (a.x == b.x && a.y < b.y);
+}
+
+/// A closed axis-aligned box. Its bounds may be infinite; xmin <= xmax and ymin <= ymax.
+struct Box2
+{
+  double xmin;
+  double ymin;
+  double xmax;
+  double ymax;
+};
+
+struct Point3
+{
+  double x;
+  double y;
+  double z;
+};
+
+inline bool operator==(Point3 a, Point3 b)
+{
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+inline Point3 operator-(const Point3& a, const Point3& b)
+{
+  return { a.x - b.x, a.y - b.y, a.z - b.z };
+}
+
+inline bool lexicographicLess(Point3 a, Point3 b)
+{
+  return a.x < b.x || (a.x == b.x && (a.y < b.y || (a.y == b.y && a.z < b.z)));
+}
+
+/// A closed axis-aligned box with finite bounds, Min[i] <= Max[i]; it may be flat. In 2D Min[2] =
+/// Max[2] = 0.
+struct Box3
+{
+  std::array<double, 3> Min = {};
+  std::array<double, 3> Max = {};
+};
+
+} // namespace tipp
+
+#endif
