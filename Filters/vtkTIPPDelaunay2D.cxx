@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTIPPDelaunay2D.h"
 
-#include "AlphaShape/AlphaShape.h"
 #include "Constraints/SourceConstraints.h"
-#include "Constraints/TriangulateConstrained.h"
-#include "Merging/TriangulateMerged.h"
+#include "InMemory/AlphaShape.h"
+#include "InMemory/TriangulatePoints.h"
 #include "Output/FilterPipeline.h"
 #include "Output/RunStatistics.h"
 #include "Output/TriangleOutput.h"
@@ -14,8 +13,10 @@
 #include "Vtk/ReadDataSet.h"
 
 #include "vtkAbstractTransform.h"
+#include "vtkAlgorithmOutput.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkExecutive.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -27,6 +28,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkTransform.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,40 +38,6 @@
 vtkStandardNewMacro(vtkTIPPDelaunay2D);
 vtkCxxSetObjectMacro(vtkTIPPDelaunay2D, Transform, vtkAbstractTransform);
 vtkCxxSetObjectMacro(vtkTIPPDelaunay2D, Controller, vtkMultiProcessController);
-
-namespace
-{
-
-/// A polygon without one of its corners would not tell what is inside.
-void requireClosed(tipp::PointsView points, const tipp::SourceConstraints& constraints)
-{
-  for (std::size_t i = constraints.PolygonBegin; i < constraints.Constraints.size(); ++i)
-  {
-    const auto id = std::size_t(constraints.Constraints[i].A);
-    if (id < points.size() && !tipp::isFinite(points[id]))
-    {
-      throw std::runtime_error("cell " + std::to_string(constraints.Cells[i]) +
-        " of the source, a polygon, has the corner " + std::to_string(id) +
-        ", which is NaN or infinite: remove the polygon or correct the point.");
-    }
-  }
-}
-
-std::vector<char> coveredPoints(const tipp::Triangulation& triangulation, vtkIdType points)
-{
-  std::vector<char> covered(std::size_t(points), 0);
-  for (const tipp::Duplicate& duplicate : triangulation.Duplicates)
-  {
-    covered[std::size_t(duplicate.Point)] = 1;
-  }
-  for (tipp::PointId rejected : triangulation.Rejected)
-  {
-    covered[std::size_t(rejected)] = 1;
-  }
-  return covered;
-}
-
-} // namespace
 
 vtkTIPPDelaunay2D::vtkTIPPDelaunay2D()
 {
@@ -82,6 +50,23 @@ vtkTIPPDelaunay2D::~vtkTIPPDelaunay2D()
 {
   this->vtkTIPPDelaunay2D::SetTransform(nullptr);
   this->vtkTIPPDelaunay2D::SetController(nullptr);
+}
+
+void vtkTIPPDelaunay2D::SetSourceData(vtkPolyData* source)
+{
+  this->SetInputData(1, source);
+}
+
+void vtkTIPPDelaunay2D::SetSourceConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(1, output);
+}
+
+vtkPolyData* vtkTIPPDelaunay2D::GetSource()
+{
+  return this->GetNumberOfInputConnections(1) < 1
+    ? nullptr
+    : vtkPolyData::SafeDownCast(this->GetExecutive()->GetInputData(1, 0));
 }
 
 vtkTable* vtkTIPPDelaunay2D::GetStatistics()
@@ -209,24 +194,14 @@ bool vtkTIPPDelaunay2D::Execute(
   {
     return true;
   }
-  const auto& crossings = result.Constraints.Crossings;
-  const vtkIdType ownPoints = points ? points->GetNumberOfPoints() : 0;
-  if (!crossings.empty())
-  {
-    points = tipp::appendCrossings(points, crossings, !toPlane);
-  }
-  const vtkIdType numberOfPoints = points ? points->GetNumberOfPoints() : 0;
-  this->Report(triangulation, numberOfPoints);
-  this->CutOutside(result, constraints);
-  if (source && this->MaximumEdgeLength > 0)
-  {
-    const tipp::ProjectedPoints projected(points, toPlane);
-    tipp::leaveOutLong(projected.view(), this->MaximumEdgeLength, triangulation);
-  }
+  this->NumberOfDuplicatePoints = vtkIdType(triangulation.Duplicates.size());
+  this->NumberOfRejectedPoints = vtkIdType(triangulation.Rejected.size());
 
   const tipp::Stopwatch watch;
-  const std::size_t triangles = triangulation.triangleCount();
-  output->SetPoints(points);
+  const auto& crossings = result.Constraints.Crossings;
+  const vtkIdType ownPoints = points ? points->GetNumberOfPoints() : 0;
+  output->SetPoints(
+    crossings.empty() ? points : tipp::appendCrossings(points, crossings, !toPlane));
   if (!bounding && crossings.empty())
   {
     output->GetPointData()->PassData(input->GetPointData());
@@ -235,34 +210,13 @@ bool vtkTIPPDelaunay2D::Execute(
   {
     tipp::interpolateCrossings(input->GetPointData(), ownPoints, crossings, output->GetPointData());
   }
-  if (this->GenerateRepresentativeIds &&
-    (this->NumberOfDuplicatePoints > 0 || this->NumberOfRejectedPoints > 0))
-  {
-    output->GetPointData()->AddArray(tipp::representativeIds(triangulation, numberOfPoints));
-  }
-  const bool hasLines = source && this->ConstraintMarks == LINES;
-  if (this->GenerateNeighborIds && this->Alpha == 0 && !hasLines)
-  {
-    output->GetCellData()->AddArray(tipp::neighborArray(triangulation));
-  }
-  else if (this->GenerateNeighborIds)
-  {
-    vtkWarningMacro("No NeighborIds: " << (hasLines ? "the output has lines, too."
-                                                    : "with Alpha not all triangles are output."));
-  }
-  if (source && this->ConstraintMarks == EDGE_FLAGS && this->Alpha == 0)
-  {
-    output->GetCellData()->AddArray(
-      tipp::constraintEdgesArray(triangulation, result.Constraints.Pieces));
-  }
+  const vtkIdType numberOfPoints = ownPoints + vtkIdType(crossings.size());
+  const std::size_t triangles = triangulation.triangleCount();
+  this->AddArrays(result, source != nullptr, numberOfPoints, output);
   this->SetCells(triangulation, output);
-  if (hasLines && this->Alpha == 0)
+  if (source && this->ConstraintMarks == LINES && this->Alpha == 0)
   {
     tipp::addConstraintLines(result.Constraints, constraints.Cells, output);
-  }
-  else if (source && this->ConstraintMarks != NO_MARKS && this->Alpha != 0)
-  {
-    vtkWarningMacro("No marks of constraints: with Alpha not all triangles are output.");
   }
   triangulation.Statistics.Phases.push_back({ "VTK output", watch.seconds() });
   tipp::RunStatistics run = tipp::statisticsOf(triangulation, numberOfPoints, vtkIdType(triangles));
@@ -274,17 +228,45 @@ bool vtkTIPPDelaunay2D::Execute(
   return true;
 }
 
+/// Returns the input, or it and the source's new points.
+vtkSmartPointer<vtkPointSet> vtkTIPPDelaunay2D::ReadSource(vtkPointSet* input, vtkPolyData* source,
+  vtkAbstractTransform* toPlane, tipp::SourceConstraints& constraints)
+{
+  if (this->Tolerance > 0)
+  {
+    throw std::runtime_error(
+      "a Tolerance does not go with a source: set it to 0, which merges points at one position.");
+  }
+  tipp::JoinedPoints joined;
+  joined.Data = input;
+  if (this->MergeSourcePoints && source->GetNumberOfPoints() > 0)
+  {
+    tipp::checkDataSet(source, "the source");
+    joined = tipp::joinPoints(input, source, toPlane);
+  }
+  if (joined.LostArrays > 0)
+  {
+    vtkWarningMacro(<< joined.LostArrays
+                    << " point arrays of the input are left out: the source has "
+                    << joined.NewPoints << " new points and no values of these arrays.");
+  }
+  constraints = tipp::readConstraints(source, joined.Ids);
+  tipp::requireIds(constraints, joined.Data->GetNumberOfPoints());
+  return joined.Data;
+}
+
 tipp::ConstrainedTriangulation vtkTIPPDelaunay2D::Triangulate(
   vtkPoints* points, vtkAbstractTransform* toPlane, const tipp::SourceConstraints& constraints)
 {
   const tipp::Stopwatch watch;
   const tipp::ProjectedPoints projected(points, toPlane);
-  const double distance =
-    this->Tolerance > 0 ? this->Tolerance * tipp::finiteBounds(points).diagonal() : 0;
-  const double projectionSeconds = watch.seconds();
-
   tipp::Monitor monitor(this);
-  tipp::TriangulationOptions options;
+  tipp::PointsRequest request;
+  request.Distance =
+    this->Tolerance > 0 ? this->Tolerance * tipp::finiteBounds(points).diagonal() : 0;
+  request.Source = &constraints;
+  request.Crossings = this->SplitCrossings ? tipp::CrossingRule::Split : tipp::CrossingRule::Refuse;
+  tipp::TriangulationOptions& options = request.Options;
   options.Columns = this->NumberOfPartitions[0];
   options.Rows = this->NumberOfPartitions[1];
   options.InitialPointsPerPartition = this->InitialPointsPerPartition;
@@ -292,41 +274,54 @@ tipp::ConstrainedTriangulation vtkTIPPDelaunay2D::Triangulate(
   options.Threads = this->NumberOfThreads;
   options.MaximumEdge = this->MaximumEdgeLength;
   options.Progress = [&monitor](double fraction) { return monitor(fraction); };
+  const double projectionSeconds = watch.seconds();
 
   tipp::ConstrainedTriangulation result;
-  tipp::Triangulation& triangulation = result.Mesh;
-  triangulation.Aborted = !monitor(0);
-  if (triangulation.Aborted)
+  result.Mesh.Aborted = !monitor(0);
+  std::vector<std::string> warnings;
+  if (!result.Mesh.Aborted)
   {
-    return result;
+    result = tipp::triangulatePoints(projected.view(), request, warnings);
+    // One partition alone is triangulated without a report.
+    result.Mesh.Aborted = result.Mesh.Aborted || !monitor(1);
   }
-  if (!constraints.Constraints.empty())
+  for (const std::string& warning : result.Mesh.Aborted ? std::vector<std::string>() : warnings)
   {
-    requireClosed(projected.view(), constraints);
-    options.MaximumEdge = 0; // not before what is outside is cut away
-    result = tipp::triangulateConstrained(projected.view(), constraints.Constraints,
-      this->SplitCrossings ? tipp::CrossingRule::Split : tipp::CrossingRule::Refuse, options);
+    vtkWarningMacro(<< warning);
   }
-  else
-  {
-    triangulation = distance > 0 ? tipp::triangulateMerged(projected.view(), distance, options)
-                                 : tipp::triangulate(projected.view(), options);
-  }
-  // One partition alone is triangulated without a report.
-  triangulation.Aborted = triangulation.Aborted || !monitor(1);
-  auto& phases = triangulation.Statistics.Phases;
+  auto& phases = result.Mesh.Statistics.Phases;
   phases.insert(phases.begin(), { "projection", projectionSeconds });
   return result;
 }
 
-void vtkTIPPDelaunay2D::Report(const tipp::Triangulation& triangulation, vtkIdType numberOfPoints)
+void vtkTIPPDelaunay2D::AddArrays(const tipp::ConstrainedTriangulation& result, bool hasSource,
+  vtkIdType points, vtkPolyData* output)
 {
-  this->NumberOfDuplicatePoints = vtkIdType(triangulation.Duplicates.size());
-  this->NumberOfRejectedPoints = vtkIdType(triangulation.Rejected.size());
-  for (const std::string& warning :
-    tipp::warningsOf(triangulation, numberOfPoints, this->MaximumEdgeLength > 0))
+  if (this->GenerateRepresentativeIds &&
+    (this->NumberOfDuplicatePoints > 0 || this->NumberOfRejectedPoints > 0))
   {
-    vtkWarningMacro(<< warning);
+    output->GetPointData()->AddArray(
+      tipp::takeArray("RepresentativePointId", tipp::representativeIds(result.Mesh, points), 1));
+  }
+  const bool hasLines = hasSource && this->ConstraintMarks == LINES;
+  if (this->GenerateNeighborIds && this->Alpha == 0 && !hasLines)
+  {
+    output->GetCellData()->AddArray(
+      tipp::takeArray("NeighborIds", tipp::neighborIds(result.Mesh), 3));
+  }
+  else if (this->GenerateNeighborIds)
+  {
+    vtkWarningMacro("No NeighborIds: " << (hasLines ? "the output has lines, too."
+                                                    : "with Alpha not all triangles are output."));
+  }
+  if (hasSource && this->ConstraintMarks != NO_MARKS && this->Alpha != 0)
+  {
+    vtkWarningMacro("No marks of constraints: with Alpha not all triangles are output.");
+  }
+  else if (hasSource && this->ConstraintMarks == EDGE_FLAGS)
+  {
+    output->GetCellData()->AddArray(tipp::takeArray(
+      "ConstraintEdges", tipp::constraintMarks(result.Mesh, result.Constraints.Pieces), 3));
   }
 }
 
@@ -342,7 +337,7 @@ void vtkTIPPDelaunay2D::SetCells(tipp::Triangulation& triangulation, vtkPolyData
     const auto pointAt = [points = output->GetPoints()](tipp::PointId id, double* p)
     { points->GetPoint(vtkIdType(id), p); };
     auto shape = tipp::alphaShape(
-      ids, pointAt, this->Alpha, coveredPoints(triangulation, output->GetNumberOfPoints()));
+      ids, pointAt, this->Alpha, tipp::coveredPoints(triangulation, output->GetNumberOfPoints()));
     if (this->AlphaTris)
     {
       output->SetPolys(tipp::takeCells(std::move(shape.Triangles), 3));

@@ -484,11 +484,10 @@ private:
   const char* WhatNeedsOneRank();
   vtkSmartPointer<vtkPointSet> ReadSource(vtkPointSet* input, vtkPolyData* source,
     vtkAbstractTransform* toPlane, tipp::SourceConstraints& constraints);
-  void CutOutside(
-    tipp::ConstrainedTriangulation& result, const tipp::SourceConstraints& constraints);
   tipp::ConstrainedTriangulation Triangulate(
     vtkPoints* points, vtkAbstractTransform* toPlane, const tipp::SourceConstraints& constraints);
-  void Report(const tipp::Triangulation& triangulation, vtkIdType numberOfPoints);
+  void AddArrays(const tipp::ConstrainedTriangulation& result, bool hasSource, vtkIdType points,
+    vtkPolyData* output);
   void SetCells(tipp::Triangulation& triangulation, vtkPolyData* output) const;
 };
 

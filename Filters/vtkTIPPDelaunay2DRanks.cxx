@@ -21,6 +21,7 @@
 
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 vtkExecutive* vtkTIPPDelaunay2D::CreateDefaultExecutive()
@@ -157,16 +158,10 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(
   }
   this->NumberOfDuplicatePoints = mine.AllDuplicates;
   this->NumberOfRejectedPoints = mine.AllRejected;
-  if (ranks.rank() == 0 && mine.AllRejected > 0)
+  for (const std::string& warning :
+    ranks.isFirst() ? tipp::warningsOf(mine) : std::vector<std::string>())
   {
-    vtkWarningMacro(<< mine.AllRejected << " of " << mine.AllPoints
-                    << " points have a NaN or infinite coordinate and are in no triangle.");
-  }
-  if (ranks.rank() == 0 && mine.AllTriangles == 0)
-  {
-    vtkWarningMacro(
-      "No triangles: all ranks together have fewer than three distinct finite points, "
-      "or all are on one line.");
+    vtkWarningMacro(<< warning);
   }
   return true;
 }

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTIPPPointsToImage.h"
 
+#include "Constraints/SourceConstraints.h"
 #include "Dem/StreamedDem.h"
 #include "Output/FilterPipeline.h"
 #include "Points/PointStream.h"
-#include "Sampling/RangeResampleRun.h"
 #include "Vtk/VtkFiles.h"
 
-#include "vtkCellArray.h"
-#include "vtkCellArrayIterator.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
@@ -59,21 +57,6 @@ std::array<double, 4> boundsOf(vtkPointSet* points)
   return bounds;
 }
 
-void addEdges(vtkCellArray* cells, bool isClosed, tipp::ConstraintTable& table)
-{
-  const auto walk = vtk::TakeSmartPointer(cells->NewIterator());
-  for (walk->GoToFirstCell(); !walk->IsDoneWithTraversal(); walk->GoToNextCell())
-  {
-    vtkIdType count = 0;
-    const vtkIdType* ids = nullptr;
-    walk->GetCurrentCell(count, ids);
-    for (vtkIdType i = 0; i + (isClosed ? 0 : 1) < count; ++i)
-    {
-      table.Edges.push_back({ ids[i], ids[(i + 1) % count] });
-    }
-  }
-}
-
 tipp::ConstraintTable constraintsOf(vtkPolyData* lines)
 {
   tipp::ConstraintTable table;
@@ -84,8 +67,10 @@ tipp::ConstraintTable constraintsOf(vtkPolyData* lines)
     table.XY.insert(table.XY.end(), { p[0], p[1] });
     table.Height.push_back(p[2]);
   }
-  addEdges(lines->GetLines(), false, table);
-  addEdges(lines->GetPolys(), true, table);
+  for (const tipp::Constraint& edge : tipp::readConstraints(lines, {}).Constraints)
+  {
+    table.Edges.push_back({ edge.A, edge.B });
+  }
   table.PolygonBegin = table.Edges.size();
   return table;
 }

@@ -190,12 +190,7 @@ void vtkPartitionedUnstructuredReader::OpenSource()
     throw std::invalid_argument("FileName is not set; name a partitioned or a flat mesh.");
   }
   const std::string tiling = this->Tiling ? this->Tiling : "";
-  const auto choice = tipp::TilingChoice::parse(tiling);
-  if (!choice)
-  {
-    throw std::invalid_argument("Tiling '" + tiling +
-      "' is not understood; write grid:4x4, grid:4x4x2, quadtree:100000 or octree:100000.");
-  }
+  const tipp::TilingChoice choice = tipp::TilingChoice::require(tiling);
   const std::string all = this->FileName + ("\n" + tiling) + "\n" +
     std::to_string(this->MemoryLimit) + "\n" + std::to_string(this->NumberOfThreads);
   const std::string stamped = all + fileStamp(this->FileName);
@@ -206,7 +201,7 @@ void vtkPartitionedUnstructuredReader::OpenSource()
   this->Inner->Source.reset();
   this->Inner->Cache.clear();
   tipp::SourceOptions options;
-  options.Tiling = *choice;
+  options.Tiling = choice;
   options.MemoryLimit = std::uint64_t(this->MemoryLimit);
   options.Threads = this->NumberOfThreads;
   this->Inner->Source = tipp::openPieceSource(this->FileName, options);

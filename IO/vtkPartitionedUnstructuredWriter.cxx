@@ -160,18 +160,12 @@ void vtkPartitionedUnstructuredWriter::WritePartitioned()
 void vtkPartitionedUnstructuredWriter::Partition()
 {
   const std::string output = this->FileName ? this->FileName : "";
-  const auto tiling = tipp::TilingChoice::parse(this->Tiling ? this->Tiling : "");
   if (output.empty())
   {
     throw tipp::IOError("FileName is not set; name the folder to write.");
   }
-  if (!tiling)
-  {
-    throw tipp::IOError(std::string("Tiling is '") + (this->Tiling ? this->Tiling : "") +
-      "'; it is grid:COLUMNSxROWS[xLAYERS] or quadtree:CELLS.");
-  }
   tipp::PartitionOptions options;
-  options.Tiling = *tiling;
+  options.Tiling = tipp::TilingChoice::require(this->Tiling ? this->Tiling : "");
   options.DuplicateBorrowers = this->DuplicateBorrowers;
   options.MemoryLimit = std::uint64_t(this->MemoryLimit);
   options.Loading.Kind = tipp::loaderFromName(this->Loader ? this->Loader : "auto");

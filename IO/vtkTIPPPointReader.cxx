@@ -18,9 +18,8 @@
 #include "vtkStringArray.h"
 
 #include <algorithm>
-#include <charconv>
 #include <exception>
-#include <limits>
+#include <optional>
 #include <sstream>
 
 vtkStandardNewMacro(vtkTIPPPointReader);
@@ -46,14 +45,10 @@ std::vector<std::string> partsOf(const char* text)
 
 int classOf(const std::string& text)
 {
-  int number = -1;
-  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() || number < 0 ||
-    number > 255)
-  {
-    throw tipp::IOError("'" + text + "' is not a class; give numbers from 0 to 255, as 2,9.");
-  }
-  return number;
+  const std::optional<int> number = tipp::LasSelection::parseClass(text);
+  return number
+    ? *number
+    : throw tipp::IOError("'" + text + "' is not a class; give numbers from 0 to 255, as 2,9.");
 }
 
 void addVertices(vtkPolyData* data)

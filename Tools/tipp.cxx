@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
-#include "Console/MpiSession.h"
-#include "Console/Signals.h"
+#include "Console/Process.h"
 
 #include "vtkLogger.h"
 
@@ -51,6 +50,7 @@ int run(int argc, char** argv)
   tipp::addResampleCommand(app, exitCode);
   tipp::addPartitionCommand(app, exitCode);
   tipp::addQueryCommand(app, exitCode);
+  tipp::addContourCommand(app, exitCode);
   tipp::addCheckCommand(app, exitCode);
   try
   {

@@ -2,9 +2,20 @@
 #include "Constraints/Constraint.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace tipp
 {
+
+std::vector<ConstraintPiece> piecesOf(
+  const std::vector<ConstraintPiece>& pieces, std::size_t begin, std::size_t end)
+{
+  std::vector<ConstraintPiece> some;
+  std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(some),
+    [begin, end](const ConstraintPiece& piece)
+    { return std::size_t(piece.Constraint) >= begin && std::size_t(piece.Constraint) < end; });
+  return some;
+}
 
 ConstraintEdges::ConstraintEdges(const std::vector<ConstraintPiece>& pieces)
 {

@@ -3,6 +3,7 @@
 #define tippConstraint_h
 
 #include "Triangulation/Triangulate.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +27,10 @@ struct ConstraintPiece
   PointId B;
   std::int64_t Constraint; ///< its number
 };
+
+/// Those of constraints begin to end - 1.
+VTKTIPPFILTERS_EXPORT std::vector<ConstraintPiece> piecesOf(
+  const std::vector<ConstraintPiece>& pieces, std::size_t begin, std::size_t end);
 
 /// The edges of constraints, to be looked up.
 class ConstraintEdges

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 namespace tipp
@@ -209,6 +210,31 @@ double SurfacePosition::valueOf(const std::vector<double>& values) const
     }
   }
   return this->Corners[0] < 0 ? std::nan("") : sum;
+}
+
+void interpolateTuples(const std::vector<CrossingPoint>& crossings, std::size_t points, Scalar type,
+  std::size_t components, void* values)
+{
+  withScalar(type,
+    [&](auto kind)
+    {
+      using Value = decltype(kind);
+      auto* const tuples = static_cast<Value*>(values);
+      Value* to = tuples + points * components;
+      for (const CrossingPoint& crossing : crossings)
+      {
+        const Value* const a = tuples + std::size_t(crossing.A) * components;
+        const Value* const b = tuples + std::size_t(crossing.B) * components;
+        for (std::size_t c = 0; c < components; ++c)
+        {
+          const double value =
+            double(a[c]) * (1 - crossing.Fraction) + double(b[c]) * crossing.Fraction;
+          // as VTK rounds
+          *to++ = toScalar<Value>(
+            std::is_integral_v<Value> ? std::trunc(value + std::copysign(0.5, value)) : value);
+        }
+      }
+    });
 }
 
 std::vector<SurfacePosition> locateOnSurface(

@@ -2,6 +2,8 @@
 #ifndef tippConstraintPoints_h
 #define tippConstraintPoints_h
 
+#include "Arrays/Scalar.h"
+#include "Constraints/ResolveCrossings.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"
@@ -43,6 +45,11 @@ struct MatchedPositions
 };
 
 VTKTIPPFILTERS_EXPORT MatchedPositions matchPositions(PointsView points, PointsView others);
+
+/// Fills the tuples of an array after the first `points` ones: those of the crossings, each linear
+/// between the two points that it lies between. Integers are rounded.
+void interpolateTuples(const std::vector<CrossingPoint>& crossings, std::size_t points, Scalar type,
+  std::size_t components, void* values);
 
 /// Where a point lies on a triangulated surface.
 struct SurfacePosition

@@ -15,7 +15,6 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <utility>
 
@@ -124,26 +123,6 @@ JoinedPoints joinPoints(vtkPointSet* input, vtkPolyData* source, vtkAbstractTran
   return result;
 }
 
-namespace
-{
-
-template <typename Id>
-void markEdges(const Buffer<Id>& ids, const ConstraintEdges& edges, unsigned char* marks)
-{
-  const std::int64_t triangles = std::int64_t(ids.size() / 3);
-#pragma omp parallel for
-  for (std::int64_t t = 0; t < triangles; ++t)
-  {
-    const Id* const corners = ids.data() + 3 * t;
-    for (int i = 0; i < 3; ++i)
-    {
-      marks[3 * t + i] = edges.contains(corners[(i + 1) % 3], corners[(i + 2) % 3]) ? 1 : 0;
-    }
-  }
-}
-
-} // namespace
-
 vtkSmartPointer<vtkPoints> appendCrossings(
   vtkPoints* points, const std::vector<CrossingPoint>& crossings, bool isPlaneXY)
 {
@@ -152,24 +131,17 @@ vtkSmartPointer<vtkPoints> appendCrossings(
   scalars->SetNumberOfComponents(3);
   scalars->SetNumberOfTuples(count + vtkIdType(crossings.size()));
   scalars->InsertTuples(0, count, 0, points->GetData());
-  vtkIdType next = count;
+  double* const positions = scalars->GetPointer(0);
+  interpolateTuples(crossings, std::size_t(count), Scalar::Float64, 3, positions);
+  double* to = positions + 3 * count;
   for (const CrossingPoint& crossing : crossings)
   {
-    double a[3];
-    double b[3];
-    double p[3];
-    scalars->GetTuple(crossing.A, a);
-    scalars->GetTuple(crossing.B, b);
-    for (int i = 0; i < 3; ++i)
-    {
-      p[i] = (1 - crossing.Fraction) * a[i] + crossing.Fraction * b[i];
-    }
     if (isPlaneXY)
     {
-      p[0] = crossing.Position.x;
-      p[1] = crossing.Position.y;
+      to[0] = crossing.Position.x;
+      to[1] = crossing.Position.y;
     }
-    scalars->SetTuple(next++, p);
+    to += 3;
   }
   auto extended = vtkSmartPointer<vtkPoints>::New();
   extended->SetData(scalars);
@@ -195,21 +167,8 @@ void interpolateCrossings(vtkPointData* from, vtkIdType points,
   }
 }
 
-vtkSmartPointer<vtkUnsignedCharArray> constraintEdgesArray(
-  const Triangulation& triangulation, const std::vector<ConstraintPiece>& pieces)
-{
-  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  array->SetName("ConstraintEdges");
-  array->SetNumberOfComponents(3);
-  array->SetNumberOfTuples(vtkIdType(triangulation.triangleCount()));
-  const ConstraintEdges edges(pieces);
-  triangulation.Ids64.empty() ? markEdges(triangulation.Ids32, edges, array->GetPointer(0))
-                              : markEdges(triangulation.Ids64, edges, array->GetPointer(0));
-  return array;
-}
-
 void addConstraintLines(const ResolvedConstraints& constraints,
-  const std::vector<vtkIdType>& sourceCells, vtkPolyData* output)
+  const std::vector<std::int64_t>& sourceCells, vtkPolyData* output)
 {
   const std::size_t edges = constraints.Pieces.size();
   Buffer<std::int64_t> ids(2 * edges);
@@ -226,15 +185,6 @@ void addConstraintLines(const ResolvedConstraints& constraints,
   }
   output->SetLines(takeCells(std::move(ids), 2));
   output->GetCellData()->AddArray(numbers);
-}
-
-void addConstraintTotals(
-  const ResolvedConstraints& resolved, std::size_t constraints, RunStatistics& statistics)
-{
-  statistics.add("constraints", "Constraints", std::int64_t(constraints));
-  statistics.add("constraint_edges", "ConstraintEdges", std::int64_t(resolved.Pieces.size()));
-  statistics.add("crossing_points", "CrossingPoints", std::int64_t(resolved.Crossings.size()));
-  statistics.add("crossing_rounds", "CrossingRounds", resolved.Rounds);
 }
 
 } // namespace tipp

@@ -2,10 +2,7 @@
 #ifndef tippSourceConstraints_h
 #define tippSourceConstraints_h
 
-#include "Constraints/Constraint.h"
-#include "Constraints/ResolveCrossings.h"
-#include "Output/RunStatistics.h"
-#include "Triangulation/PointsView.h"
+#include "InMemory/TriangulatePoints.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -18,20 +15,12 @@ class vtkPointData;
 class vtkPoints;
 class vtkPointSet;
 class vtkPolyData;
-class vtkUnsignedCharArray;
 
 namespace tipp
 {
 
-/// The lines and polygons of a data set as constraints between points of a triangulation.
-struct SourceConstraints
-{
-  std::vector<Constraint> Constraints;
-  std::vector<vtkIdType> Cells; ///< of each constraint: the cell that it is an edge of
-  std::size_t PolygonBegin = 0; ///< constraints from here on are edges of polygons
-};
-
-/// Ids: of each point of the source, the point that it is in the triangulation. Empty: the same.
+/// The lines and polygons of a data set. Ids: of each point of the source, the point that it is in
+/// the triangulation. Empty: the same.
 SourceConstraints readConstraints(vtkPolyData* source, const std::vector<PointId>& ids);
 
 /// A data set with the points of a source.
@@ -58,19 +47,10 @@ vtkSmartPointer<vtkPoints> appendCrossings(
 void interpolateCrossings(vtkPointData* from, vtkIdType points,
   const std::vector<CrossingPoint>& crossings, vtkPointData* to);
 
-/// "ConstraintEdges": for each corner of a triangle 1 if the edge opposite to it is one of a
-/// constraint, else 0.
-vtkSmartPointer<vtkUnsignedCharArray> constraintEdgesArray(
-  const Triangulation& triangulation, const std::vector<ConstraintPiece>& pieces);
-
 /// Adds the edges of constraints as lines, before the triangles, with the cell array
 /// "ConstraintId": the source's cell, and -1 of triangles.
 void addConstraintLines(const ResolvedConstraints& constraints,
-  const std::vector<vtkIdType>& sourceCells, vtkPolyData* output);
-
-/// Adds the numbers of constraints, edges and crossings.
-void addConstraintTotals(
-  const ResolvedConstraints& resolved, std::size_t constraints, RunStatistics& statistics);
+  const std::vector<std::int64_t>& sourceCells, vtkPolyData* output);
 
 } // namespace tipp
 

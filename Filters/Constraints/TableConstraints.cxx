@@ -84,27 +84,17 @@ void takeSurface(std::size_t given, const TriangulationOptions& options, PointTa
 
 void appendCrossings(const std::vector<CrossingPoint>& crossings, PointTable& points)
 {
+  const std::size_t given = points.size();
   for (const CrossingPoint& crossing : crossings)
   {
     points.XY.push_back(crossing.Position.x);
     points.XY.push_back(crossing.Position.y);
-    for (PointTable::Column& column : points.Columns)
-    {
-      const double a = column.Values[std::size_t(crossing.A)];
-      const double b = column.Values[std::size_t(crossing.B)];
-      column.Values.push_back((1 - crossing.Fraction) * a + crossing.Fraction * b);
-    }
   }
-}
-
-std::vector<ConstraintPiece> piecesOf(
-  const std::vector<ConstraintPiece>& pieces, std::size_t begin, std::size_t end)
-{
-  std::vector<ConstraintPiece> some;
-  std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(some),
-    [begin, end](const ConstraintPiece& piece)
-    { return std::size_t(piece.Constraint) >= begin && std::size_t(piece.Constraint) < end; });
-  return some;
+  for (PointTable::Column& column : points.Columns)
+  {
+    column.Values.resize(given + crossings.size());
+    interpolateTuples(crossings, given, Scalar::Float64, 1, column.Values.data());
+  }
 }
 
 void cutOutside(
@@ -153,17 +143,12 @@ ConstrainedTriangulation triangulateTable(
   {
     takeSurface(given, options, points);
   }
-  TriangulationOptions complete = options;
-  complete.MaximumEdge = 0;
-  ConstrainedTriangulation result =
-    triangulateConstrained(viewOf(points.XY), all, constraints.Crossings, complete);
-  if (!result.Mesh.Aborted)
+  const auto cut = [&](ConstrainedTriangulation& whole)
   {
-    appendCrossings(result.Constraints.Crossings, points);
-    cutOutside(constraints, points, result);
-    leaveOutLong(viewOf(points.XY), options.MaximumEdge, result.Mesh);
-  }
-  return result;
+    appendCrossings(whole.Constraints.Crossings, points);
+    cutOutside(constraints, points, whole);
+  };
+  return triangulateConstrained(viewOf(points.XY), all, constraints.Crossings, options, cut);
 }
 
 void requireClosedBoundary(const ConstraintTable& boundary)

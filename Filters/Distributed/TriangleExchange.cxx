@@ -294,12 +294,23 @@ Users findUsers(Communicator& ranks, const DistributedTriangulation& mine,
 
 } // namespace
 
-std::vector<IdTriangle> trianglesByIds(const DistributedTriangulation& mine, int rank)
+namespace
+{
+
+/// Returns the internal id of an index among owned and then foreign points.
+auto internalIds(const DistributedTriangulation& mine, int rank)
 {
   const std::int64_t firstOwn = mine.FirstIds[std::size_t(rank)];
   const std::int64_t own = std::int64_t(mine.Owned.size());
-  const auto idOf = [&](std::int64_t corner)
-  { return corner < own ? firstOwn + corner : mine.ForeignIds[std::size_t(corner - own)]; };
+  return [&mine, firstOwn, own](std::int64_t index)
+  { return index < own ? firstOwn + index : mine.ForeignIds[std::size_t(index - own)]; };
+}
+
+} // namespace
+
+std::vector<IdTriangle> trianglesByIds(const DistributedTriangulation& mine, int rank)
+{
+  const auto idOf = internalIds(mine, rank);
   std::vector<IdTriangle> triangles;
   triangles.reserve(mine.triangleCount());
   const auto add = [&](const auto& ids)
@@ -366,51 +377,91 @@ GhostTriangles fetchGhosts(Communicator& ranks, const DistributedTriangulation& 
   return ghosts;
 }
 
+namespace
+{
+
+/// All ranks' values on the first rank, in the order of ranks; none on the others. Collective.
+template <typename T>
+Buffer<T> gatherValues(Communicator& ranks, Buffer<T> mine)
+{
+  const std::vector<Bytes> parts = ranks.gather(Bytes(std::move(mine)));
+  std::size_t size = 0;
+  for (const Bytes& part : parts)
+  {
+    size += part.size();
+  }
+  Buffer<T> all(size / sizeof(T));
+  auto* to = reinterpret_cast<char*>(all.data());
+  for (const Bytes& part : parts)
+  {
+    to = std::copy(part.begin(), part.end(), to);
+  }
+  return all;
+}
+
+/// The same of triangles, with idOf(index) for each corner.
+template <typename IdOf>
+Buffer<std::int64_t> gatherCorners(
+  Communicator& ranks, const DistributedTriangulation& mine, const IdOf& idOf)
+{
+  Buffer<std::int64_t> ids(3 * mine.triangleCount());
+  std::int64_t* to = ids.data();
+  const auto fill = [&](const auto& indices)
+  {
+    for (const std::int64_t index : indices)
+    {
+      *to++ = idOf(index);
+    }
+  };
+  fill(mine.Ids32);
+  fill(mine.Ids64);
+  return gatherValues(ranks, std::move(ids));
+}
+
+template <typename T>
+std::vector<T> gatherList(Communicator& ranks, const std::vector<T>& mine)
+{
+  std::vector<T> all;
+  for (const std::vector<T>& part : ranks.gather(mine))
+  {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+} // namespace
+
 DistributedTriangulation gatherOnFirst(Communicator& ranks, DistributedTriangulation mine)
 {
-  SaveArchive writer;
-  writer(trianglesByIds(mine, ranks.rank()));
-  writer.array(mine.Owned.Positions.data(), mine.Owned.Positions.size());
-  writer.array(mine.Owned.GlobalIds.data(), mine.Owned.GlobalIds.size());
-  writer.array(mine.Owned.Rows.data(), mine.Owned.Rows.size());
-  writer(mine.Duplicates);
-  writer(mine.Rejected);
-  const std::vector<Bytes> all = ranks.gather(writer.take());
-  const bool first = ranks.rank() == 0;
-  const std::size_t points = first ? std::size_t(mine.FirstIds.back()) : 0;
+  mine.Ids64 = gatherCorners(ranks, mine, internalIds(mine, ranks.rank()));
   mine.Ids32 = {};
-  mine.Ids64 = Buffer<std::int64_t>(first ? std::size_t(3 * mine.AllTriangles) : 0);
-  mine.Owned.Positions = Buffer<Point2>(points);
-  mine.Owned.GlobalIds = Buffer<PointId>(points);
-  mine.Owned.Rows = Buffer<char>(points * mine.RowSize);
+  mine.Owned.Positions = gatherValues(ranks, std::move(mine.Owned.Positions));
+  mine.Owned.GlobalIds = gatherValues(ranks, std::move(mine.Owned.GlobalIds));
+  mine.Owned.Rows = gatherValues(ranks, std::move(mine.Owned.Rows));
   mine.Foreign = {};
   mine.ForeignIds.clear();
-  mine.Duplicates.clear();
-  mine.Rejected.clear();
-  std::fill(mine.FirstIds.begin() + 1, mine.FirstIds.end(), std::int64_t(points));
-  std::int64_t* id = mine.Ids64.data();
-  std::size_t at = 0;
-  for (const Bytes& part : all)
-  {
-    LoadArchive reader(part);
-    for (const IdTriangle& triangle : reader.get<std::vector<IdTriangle>>())
-    {
-      id = std::copy(triangle.begin(), triangle.end(), id);
-    }
-    const auto positions = reader.get<std::vector<Point2>>();
-    const auto ids = reader.get<std::vector<PointId>>();
-    const auto rows = reader.get<std::vector<char>>();
-    std::copy(positions.begin(), positions.end(), mine.Owned.Positions.data() + at);
-    std::copy(ids.begin(), ids.end(), mine.Owned.GlobalIds.data() + at);
-    std::copy(rows.begin(), rows.end(), mine.Owned.Rows.data() + at * mine.RowSize);
-    at += positions.size();
-    const auto duplicates = reader.get<std::vector<Duplicate>>();
-    const auto rejected = reader.get<std::vector<PointId>>();
-    mine.Duplicates.insert(mine.Duplicates.end(), duplicates.begin(), duplicates.end());
-    mine.Rejected.insert(mine.Rejected.end(), rejected.begin(), rejected.end());
-  }
-  mine.FirstTriangle = first ? 0 : mine.AllTriangles;
+  mine.Duplicates = gatherList(ranks, mine.Duplicates);
+  mine.Rejected = gatherList(ranks, mine.Rejected);
+  std::fill(mine.FirstIds.begin() + 1, mine.FirstIds.end(), std::int64_t(mine.Owned.size()));
+  mine.FirstTriangle = ranks.isFirst() ? 0 : mine.AllTriangles;
   return mine;
+}
+
+Triangulation gatherTriangles(Communicator& ranks, const DistributedTriangulation& mine)
+{
+  const std::int64_t own = std::int64_t(mine.Owned.size());
+  Triangulation result;
+  result.Ids64 = gatherCorners(ranks, mine,
+    [&](std::int64_t index)
+    {
+      return index < own ? mine.Owned.GlobalIds[std::size_t(index)]
+                         : mine.Foreign.GlobalIds[std::size_t(index - own)];
+    });
+  result.Duplicates = gatherList(ranks, mine.Duplicates);
+  result.Rejected = gatherList(ranks, mine.Rejected);
+  std::sort(result.Duplicates.begin(), result.Duplicates.end(),
+    [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
+  return result;
 }
 
 } // namespace tipp

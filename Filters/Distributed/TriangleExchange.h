@@ -76,6 +76,11 @@ VTKTIPPFILTERS_EXPORT std::vector<IdTriangle> trianglesByIds(
 VTKTIPPFILTERS_EXPORT DistributedTriangulation gatherOnFirst(
   Communicator& ranks, DistributedTriangulation mine);
 
+/// Returns all ranks' triangles, duplicates and rejected points, by global ids, on the first rank;
+/// an empty triangulation on the others. Collective.
+VTKTIPPFILTERS_EXPORT Triangulation gatherTriangles(
+  Communicator& ranks, const DistributedTriangulation& mine);
+
 } // namespace tipp
 
 #endif

@@ -4,12 +4,44 @@
 #include "vtkAlgorithm.h"
 #include "vtkCommunicator.h"
 #include "vtkInformation.h"
+#include "vtkInformationDoubleKey.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 
 namespace tipp
 {
+
+using Executive = vtkStreamingDemandDrivenPipeline;
+
+vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInformation* outInfo)
+{
+  int port = 0;
+  vtkAlgorithm* const source = filter->GetInputAlgorithm(0, 0, port);
+  vtkNew<vtkInformationVector> requests;
+  requests->SetNumberOfInformationObjects(source->GetNumberOfOutputPorts());
+  vtkInformation* const request = requests->GetInformationObject(port);
+  request->Set(Executive::UPDATE_PIECE_NUMBER(), rank);
+  request->Set(Executive::UPDATE_NUMBER_OF_PIECES(), ranks);
+  if (outInfo->Has(Executive::UPDATE_TIME_STEP()))
+  {
+    request->CopyEntry(outInfo, Executive::UPDATE_TIME_STEP());
+  }
+  return source->Update(port, requests) ? source->GetOutputDataObject(port) : nullptr;
+}
+
+void askForPiece(vtkInformation* inInfo, int piece, int pieces)
+{
+  inInfo->Remove(Executive::UPDATE_EXTENT());
+  if (inInfo->Has(Executive::WHOLE_EXTENT())) // structured data
+  {
+    inInfo->Set(Executive::UPDATE_EXTENT(), inInfo->Get(Executive::WHOLE_EXTENT()), 6);
+  }
+  inInfo->Set(Executive::UPDATE_PIECE_NUMBER(), piece);
+  inInfo->Set(Executive::UPDATE_NUMBER_OF_PIECES(), pieces);
+  inInfo->Set(Executive::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+}
 
 vtkStandardNewMacro(CollectivePipeline);
 

@@ -13,6 +13,8 @@
 #include <functional>
 #include <thread>
 
+class vtkDataObject;
+class vtkInformation;
 class vtkMultiProcessController;
 
 namespace tipp
@@ -48,6 +50,13 @@ private:
   double Done = 0;
   std::atomic<bool> Stopped{ false };
 };
+
+/// Updates this rank's piece of a filter's input before the pipeline requests it, at the time step
+/// that `outInfo` requests, if any. Returns null if the input fails.
+vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInformation* outInfo);
+
+/// Requests a piece of a filter's input, of structured data the whole.
+void askForPiece(vtkInformation* inInfo, int piece, int pieces);
 
 /// The executive of a filter whose ranks execute together. If the upstream pipeline fails on one
 /// rank, that rank would not execute, and the others would wait for it forever. So the ranks first

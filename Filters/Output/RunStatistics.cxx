@@ -163,6 +163,15 @@ RunStatistics statisticsOf(const DistributedTriangulation& mine)
   return run;
 }
 
+void addConstraintTotals(
+  const ResolvedConstraints& resolved, std::size_t constraints, RunStatistics& statistics)
+{
+  statistics.add("constraints", "Constraints", std::int64_t(constraints));
+  statistics.add("constraint_edges", "ConstraintEdges", std::int64_t(resolved.Pieces.size()));
+  statistics.add("crossing_points", "CrossingPoints", std::int64_t(resolved.Crossings.size()));
+  statistics.add("crossing_rounds", "CrossingRounds", resolved.Rounds);
+}
+
 std::vector<std::string> warningsOf(
   const Triangulation& triangulation, std::int64_t points, bool longEdgesLeftOut)
 {
@@ -200,6 +209,22 @@ std::vector<std::string> warningsOf(const OutOfCoreStatistics& statistics)
   {
     warnings.emplace_back(
       "No triangles: there are fewer than three distinct points, or all are on one line.");
+  }
+  return warnings;
+}
+
+std::vector<std::string> warningsOf(const DistributedTriangulation& mine)
+{
+  std::vector<std::string> warnings;
+  if (mine.AllRejected > 0)
+  {
+    warnings.push_back(std::to_string(mine.AllRejected) + " of " + std::to_string(mine.AllPoints) +
+      " points have a NaN or infinite coordinate and are in no triangle.");
+  }
+  if (mine.AllTriangles == 0)
+  {
+    warnings.emplace_back("No triangles: all ranks together have fewer than three distinct finite "
+                          "points, or all are on one line.");
   }
   return warnings;
 }

@@ -2,6 +2,7 @@
 #ifndef tippRunStatistics_h
 #define tippRunStatistics_h
 
+#include "Constraints/ResolveCrossings.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Triangulation/Triangulate.h"
@@ -59,6 +60,10 @@ VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(
 VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(const DistributedTriangulation& mine);
 ///@}
 
+/// Adds the numbers of constraints, their edges, and crossings.
+VTKTIPPFILTERS_EXPORT void addConstraintTotals(
+  const ResolvedConstraints& resolved, std::size_t constraints, RunStatistics& statistics);
+
 /// The list "stages" of a run or a master.
 VTKTIPPFILTERS_EXPORT FigureList stagesOf(
   const std::vector<TriangulationStatistics::Stage>& stages);
@@ -68,6 +73,7 @@ VTKTIPPFILTERS_EXPORT FigureList stagesOf(
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
   const Triangulation& triangulation, std::int64_t points, bool longEdgesLeftOut);
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(const OutOfCoreStatistics& statistics);
+std::vector<std::string> warningsOf(const DistributedTriangulation& mine);
 ///@}
 
 /// Fills the empty table: the rows of the statistics' table, and all else as field data. The

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Output/TriangleOutput.h"
 
-#include "Meshes/MeshFiles.h"
-
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -92,39 +90,21 @@ vtkSmartPointer<vtkCellArray> takeCells(Buffer<std::int64_t> ids, int cellSize)
   return makeCells<vtkTypeInt64Array>(std::move(ids), cellSize);
 }
 
-vtkSmartPointer<vtkIdTypeArray> neighborArray(const Triangulation& triangulation)
+vtkSmartPointer<vtkIdTypeArray> takeArray(
+  const std::string& name, Buffer<std::int64_t> values, int components)
 {
-  const std::size_t triangles = triangulation.triangleCount();
-  auto array = vtkSmartPointer<vtkIdTypeArray>::New();
-  array->SetName("NeighborIds");
-  array->SetNumberOfComponents(3);
-  array->SetNumberOfTuples(vtkIdType(triangles));
-  vtkIdType* const neighbors = array->GetPointer(0);
-  triangulation.Ids64.empty() ? findNeighbors(triangulation.Ids32.data(), triangles, neighbors)
-                              : findNeighbors(triangulation.Ids64.data(), triangles, neighbors);
+  const auto array = takeArray<vtkIdTypeArray>(std::move(values));
+  array->SetName(name.c_str());
+  array->SetNumberOfComponents(components);
   return array;
 }
 
-vtkSmartPointer<vtkIdTypeArray> representativeIds(
-  const Triangulation& triangulation, std::int64_t points)
+vtkSmartPointer<vtkUnsignedCharArray> takeArray(
+  const std::string& name, Buffer<unsigned char> values, int components)
 {
-  Buffer<vtkIdType> ids{ std::size_t(points) };
-#pragma omp parallel for
-  for (std::int64_t i = 0; i < points; ++i)
-  {
-    ids[i] = i;
-  }
-  for (const Duplicate& duplicate : triangulation.Duplicates)
-  {
-    ids[duplicate.Point] = duplicate.Representative;
-  }
-  for (PointId rejected : triangulation.Rejected)
-  {
-    ids[rejected] = -1;
-  }
-  auto array = vtkSmartPointer<vtkIdTypeArray>::New();
-  array->SetName("RepresentativePointId");
-  array->SetArray(ids.release(), points, 0, vtkIdTypeArray::VTK_DATA_ARRAY_FREE);
+  const auto array = takeArray<vtkUnsignedCharArray>(std::move(values));
+  array->SetName(name.c_str());
+  array->SetNumberOfComponents(components);
   return array;
 }
 

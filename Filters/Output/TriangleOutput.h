@@ -16,12 +16,12 @@
 #include <string>
 #include <vector>
 
+class vtkCellArray;
 class vtkDataArray;
+class vtkIdTypeArray;
 class vtkPointSet;
 class vtkPolyData;
-
-class vtkCellArray;
-class vtkIdTypeArray;
+class vtkUnsignedCharArray;
 
 namespace tipp
 {
@@ -34,14 +34,13 @@ VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkCellArray> takeCells(Buffer<std::int32_
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkCellArray> takeCells(
   Buffer<std::int64_t> ids, int cellSize);
 
-/// Returns the array "NeighborIds": for each corner of a triangle the index of the triangle across
-/// the opposite edge, or -1.
-vtkSmartPointer<vtkIdTypeArray> neighborArray(const Triangulation& triangulation);
-
-/// Returns for each of `points` input points the id of its representative: its own id, for a
-/// duplicate the representative's, for a rejected point -1.
-vtkSmartPointer<vtkIdTypeArray> representativeIds(
-  const Triangulation& triangulation, std::int64_t points);
+///@{
+/// Returns a named array of tuples that takes over the memory of its values.
+vtkSmartPointer<vtkIdTypeArray> takeArray(
+  const std::string& name, Buffer<std::int64_t> values, int components);
+vtkSmartPointer<vtkUnsignedCharArray> takeArray(
+  const std::string& name, Buffer<unsigned char> values, int components);
+///@}
 
 /// A dataset's points and point data as rows of bytes, to send with the points: the 3D coordinates,
 /// and the arrays that every rank with points has.

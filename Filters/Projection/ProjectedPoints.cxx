@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tipp
 {
@@ -128,58 +127,23 @@ vtkSmartPointer<vtkTransform> bestFittingPlane(vtkPoints* points)
   return transform;
 }
 
-double FiniteBounds::center(int axis) const
-{
-  return 0.5 * this->Low[axis] + 0.5 * this->High[axis];
-}
-
-double FiniteBounds::diagonal() const
-{
-  return std::hypot(
-    this->High[0] - this->Low[0], this->High[1] - this->Low[1], this->High[2] - this->Low[2]);
-}
-
 FiniteBounds finiteBounds(vtkPoints* points)
 {
-  const double infinity = std::numeric_limits<double>::infinity();
-  double low0 = infinity, low1 = infinity, low2 = infinity;
-  double high0 = -infinity, high1 = -infinity, high2 = -infinity;
-  const vtkIdType count = points ? points->GetNumberOfPoints() : 0;
-#pragma omp parallel for reduction(min : low0, low1, low2) reduction(max : high0, high1, high2)
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    double p[3];
-    points->GetPoint(i, p);
-    if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]))
-    {
-      low0 = std::min(low0, p[0]);
-      low1 = std::min(low1, p[1]);
-      low2 = std::min(low2, p[2]);
-      high0 = std::max(high0, p[0]);
-      high1 = std::max(high1, p[1]);
-      high2 = std::max(high2, p[2]);
-    }
-  }
-  return low0 <= high0 ? FiniteBounds{ { low0, low1, low2 }, { high0, high1, high2 } }
-                       : FiniteBounds{};
+  return finiteBounds(points ? points->GetNumberOfPoints() : 0,
+    [points](std::int64_t i, double* p) { points->GetPoint(i, p); });
 }
 
 vtkSmartPointer<vtkPoints> appendBoundingPoints(vtkPoints* points, double offset)
 {
-  constexpr int boundingPoints = 8;
-  const FiniteBounds bounds = finiteBounds(points);
-  const double radius = offset * bounds.diagonal();
+  const auto circle = boundingCircle(finiteBounds(points), offset);
   const vtkIdType count = points->GetNumberOfPoints();
-
   vtkNew<vtkDoubleArray> scalars;
   scalars->SetNumberOfComponents(3);
-  scalars->SetNumberOfTuples(count + boundingPoints);
+  scalars->SetNumberOfTuples(count + vtkIdType(circle.size()));
   scalars->InsertTuples(0, count, 0, points->GetData());
-  for (int i = 0; i < boundingPoints; ++i)
+  for (std::size_t i = 0; i < circle.size(); ++i)
   {
-    const double angle = 2 * vtkMath::Pi() * i / boundingPoints;
-    scalars->SetTuple3(count + i, bounds.center(0) + radius * std::cos(angle),
-      bounds.center(1) + radius * std::sin(angle), bounds.center(2));
+    scalars->SetTuple(count + vtkIdType(i), circle[i].data());
   }
   auto extended = vtkSmartPointer<vtkPoints>::New();
   extended->SetData(scalars);

@@ -2,11 +2,10 @@
 #ifndef tippProjectedPoints_h
 #define tippProjectedPoints_h
 
+#include "InMemory/FiniteBounds.h"
 #include "Triangulation/PointsView.h"
 
 #include "vtkSmartPointer.h"
-
-#include <array>
 
 class vtkAbstractTransform;
 class vtkDataArray;
@@ -36,18 +35,6 @@ private:
 /// centroid to the origin. Points with a NaN or infinite coordinate are ignored; returns null if
 /// there are no others.
 vtkSmartPointer<vtkTransform> bestFittingPlane(vtkPoints* points);
-
-/// The bounding box of the points whose three coordinates are finite, so that a single NaN or
-/// infinity does not determine a tolerance or a bounding circle. All zero if there are no such
-/// points.
-struct FiniteBounds
-{
-  std::array<double, 3> Low{ 0, 0, 0 };
-  std::array<double, 3> High{ 0, 0, 0 };
-
-  double center(int axis) const;
-  double diagonal() const;
-};
 
 FiniteBounds finiteBounds(vtkPoints* points);
 

@@ -2,20 +2,17 @@
 #include "Sampling/SampledImage.h"
 
 #include "Arrays/Scalar.h"
+#include "Output/RunStatistics.h"
 #include "Parallel/ParallelFor.h"
 #include "Sampling/SamplingLattice.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
-#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -199,46 +196,28 @@ std::int64_t fillImage(SampledImage& samples, int threads, vtkImageData* image)
 
 void fillTable(const SamplingReport& report, vtkTable* table)
 {
-  table->Initialize();
-  vtkFieldData* const data = table->GetFieldData();
-  const auto number = [&](const char* name, std::int64_t value)
-  {
-    vtkNew<vtkIdTypeArray> array;
-    array->SetName(name);
-    array->InsertNextValue(value);
-    data->AddArray(array);
-  };
   const SamplingStatistics& statistics = report.Statistics;
-  number("Cells", statistics.Cells);
-  number("IgnoredCells", statistics.Ignored);
-  number("VisitedCells", statistics.Claims.VisitedCells);
-  number("Tests", statistics.Claims.Tests);
-  number("ExactTests", statistics.Claims.ExactTests);
-  number("OverlappingClaims", statistics.Claims.OverlappingClaims);
-  number("Samples", report.Samples);
-  number("SamplesHit", report.Hits);
-  number("Threads", report.Threads);
-  vtkNew<vtkStringArray> device;
-  device->SetName("Device");
-  device->InsertNextValue(statistics.Device);
-  data->AddArray(device);
-  vtkNew<vtkStringArray> names;
-  vtkNew<vtkDoubleArray> seconds;
-  names->SetName("PhaseName");
-  seconds->SetName("PhaseSeconds");
-  const auto phase = [&](const char* name, double value)
-  {
-    names->InsertNextValue(name);
-    seconds->InsertNextValue(value);
-  };
-  phase("preparation", statistics.PreparationSeconds);
-  phase("claims", statistics.ClaimSeconds);
-  phase("interpolation", statistics.InterpolationSeconds);
-  phase("transfer", statistics.TransferSeconds);
-  phase("exchange", report.ExchangeSeconds);
-  phase("output", report.OutputSeconds);
-  data->AddArray(names);
-  data->AddArray(seconds);
+  RunStatistics run;
+  run.add("", "Cells", statistics.Cells);
+  run.add("", "IgnoredCells", statistics.Ignored);
+  run.add("", "VisitedCells", statistics.Claims.VisitedCells);
+  run.add("", "Tests", statistics.Claims.Tests);
+  run.add("", "ExactTests", statistics.Claims.ExactTests);
+  run.add("", "OverlappingClaims", statistics.Claims.OverlappingClaims);
+  run.add("", "Samples", report.Samples);
+  run.add("", "SamplesHit", report.Hits);
+  run.add("", "Threads", report.Threads);
+  run.Totals.push_back({ "", "Device", std::vector<std::string>{ statistics.Device } });
+  run.Lists.push_back({ "phases", false,
+    { { "", "PhaseName",
+        std::vector<std::string>{
+          "preparation", "claims", "interpolation", "transfer", "exchange", "output" } },
+      { "", "PhaseSeconds",
+        std::vector<double>{ statistics.PreparationSeconds, statistics.ClaimSeconds,
+          statistics.InterpolationSeconds, statistics.TransferSeconds, report.ExchangeSeconds,
+          report.OutputSeconds } } } });
+  table->Initialize();
+  fillStatisticsTable(run, table);
 }
 
 } // namespace tipp

@@ -17,8 +17,6 @@
 class vtkDataArraySelection;
 class vtkImageData;
 class vtkPointSet;
-class vtkAlgorithm;
-class vtkDataObject;
 class vtkInformation;
 
 /// One execution of the filter.
@@ -69,17 +67,5 @@ private:
   tipp::Lattice Wanted; ///< this rank's output lattice
   std::unique_ptr<tipp::SampledImage> Image;
 };
-
-namespace tipp
-{
-
-/// Updates this rank's piece of a filter's input before the pipeline requests it, at the time step
-/// that `outInfo` requests, if any. Returns null if the input fails.
-vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInformation* outInfo);
-
-/// Requests a piece of a filter's input.
-void askForPiece(vtkInformation* inInfo, int piece, int pieces);
-
-} // namespace tipp
 
 #endif

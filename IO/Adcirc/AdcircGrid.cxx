@@ -2,6 +2,7 @@
 #include "Adcirc/AdcircGrid.h"
 
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
 #include "Points/PointTable.h"
@@ -311,8 +312,9 @@ AdcircFrame frameFor(const std::string& like, std::size_t points)
 
 } // namespace
 
-bool isAdcircExtension(const std::string& extension)
+bool isAdcircFile(const std::string& path)
 {
+  const std::string extension = extensionOf(path);
   return extension == ".14" || extension == ".grd";
 }
 

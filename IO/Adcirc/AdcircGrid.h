@@ -85,8 +85,8 @@ VTKTIPPIO_EXPORT AdcircGrid readAdcircGrid(const std::string& path);
 /// Reads the whole grid. Throws IOError.
 AdcircGrid readAdcircGridAndBoundaries(const std::string& path);
 
-/// Whether the extension is .14 or .grd.
-bool isAdcircExtension(const std::string& extension);
+/// Whether the path's extension is .14 or .grd.
+VTKTIPPIO_EXPORT bool isAdcircFile(const std::string& path);
 
 /// Writes points and triangles as an ADCIRC grid. The depth of a node is the column depth, else the
 /// negated elevation, else 0. `like`: a grid whose nodes are the first points; its title, numbers

@@ -165,7 +165,7 @@ ConstraintTable readConstraintFile(const std::string& path)
   {
     return readCsv(path);
   }
-  if (extension == ".14" || extension == ".grd")
+  if (isAdcircFile(path))
   {
     return readBoundaries(path);
   }

@@ -255,7 +255,7 @@ TriangleMesh readMesh(const std::string& path)
   {
     return readNpyMesh(path);
   }
-  if (extension == ".14" || extension == ".grd")
+  if (isAdcircFile(path))
   {
     AdcircGrid grid = readAdcircGrid(path);
     return { std::move(grid.Triangles), std::move(grid.XY), {} };
@@ -324,8 +324,7 @@ std::vector<std::int64_t> neighborsOf(TrianglesView triangles)
 bool isMeshFile(const std::string& path)
 {
   const std::string extension = extensionOf(path);
-  return extension == ".npy" || extension == ".vtp" || extension == ".vtu" ||
-    isAdcircExtension(extension);
+  return extension == ".npy" || extension == ".vtp" || extension == ".vtu" || isAdcircFile(path);
 }
 
 bool writeMesh(const std::string& path, const PointTable& points, TrianglesView triangles,
@@ -336,7 +335,7 @@ bool writeMesh(const std::string& path, const PointTable& points, TrianglesView 
   {
     return writeNpy(path, triangles, options);
   }
-  if (isAdcircExtension(extension))
+  if (isAdcircFile(path))
   {
     return writeAdcircGrid(
       path, points, triangles, options.AdcircLike, options.Before, options.Aborted);

@@ -84,6 +84,14 @@ std::optional<TilingChoice> TilingChoice::parse(const std::string& text)
   return std::nullopt;
 }
 
+TilingChoice TilingChoice::require(const std::string& text)
+{
+  const std::optional<TilingChoice> choice = parse(text);
+  return choice ? *choice
+                : throw IOError("Tiling is '" + text +
+                    "'; it is grid:COLUMNSxROWS[xLAYERS] or quadtree:CELLS.");
+}
+
 std::string TilingChoice::text(int dimension) const
 {
   if (this->Threshold > 0)

@@ -33,6 +33,8 @@ struct TilingChoice
   /// Parses "grid:4x4", "grid:4x4x2", "quadtree:100000" or "octree:100000"; nullopt for any other
   /// text.
   VTKTIPPIO_EXPORT static std::optional<TilingChoice> parse(const std::string& text);
+  /// The same; throws IOError for any other text.
+  VTKTIPPIO_EXPORT static TilingChoice require(const std::string& text);
   VTKTIPPIO_EXPORT std::string text(int dimension) const;
 };
 

@@ -67,6 +67,15 @@ std::size_t resolve(const std::string& path, const std::string& wanted,
 
 } // namespace
 
+std::optional<int> LasSelection::parseClass(const std::string& text)
+{
+  int number = -1;
+  const char* const end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, number);
+  const bool good = parsed.ec == std::errc() && parsed.ptr == end && number >= 0 && number <= 255;
+  return good ? std::make_optional(number) : std::nullopt;
+}
+
 ColumnChoice chooseColumns(const std::string& path, const std::vector<std::string>& names,
   std::size_t count, const PointOptions& options)
 {
@@ -176,7 +185,7 @@ PointTable readPoints(const std::string& path, const PointOptions& options)
   {
     return readTextPoints(path, options);
   }
-  if (extension != ".14" && extension != ".grd" && !isVtkFile(path))
+  if (!isAdcircFile(path) && !isVtkFile(path))
   {
     refuseKind(path,
       "has no extension that tells a kind of point file; use .npy, .csv, .txt, .xyz (or these as "

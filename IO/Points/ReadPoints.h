@@ -25,12 +25,23 @@ struct LasSelection
     Last
   };
 
+  /// Parses the number of a class; nullopt unless it is from 0 to 255.
+  VTKTIPPIO_EXPORT static std::optional<int> parseClass(const std::string& text);
+
   std::vector<int> Classes; ///< empty: all
   Returns Kind = Returns::All;
   bool KeepWithheld = false;
   bool KeepSynthetic = false;
   /// Points of a swath that another one overlaps: a flag in formats 6 to 10, class 12 in others.
   bool KeepOverlap = false;
+
+  /// Keeps the points with a flag: "withheld", "synthetic" or "overlap".
+  void keep(const std::string& flag)
+  {
+    this->KeepWithheld = this->KeepWithheld || flag == "withheld";
+    this->KeepSynthetic = this->KeepSynthetic || flag == "synthetic";
+    this->KeepOverlap = this->KeepOverlap || flag == "overlap";
+  }
 
   /// Whether something is selected that only LAS files have.
   bool isGiven() const { return !this->Classes.empty() || this->Kind != Returns::All; }

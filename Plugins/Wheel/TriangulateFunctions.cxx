@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Binding.h"
 
-#include "AlphaShape/AlphaShape.h"
-#include "Merging/TriangulateMerged.h"
+#include "InMemory/AlphaShape.h"
+#include "InMemory/TriangulateMerged.h"
 #include "Meshes/MeshFiles.h"
 #include "Output/RunStatistics.h"
 #include "Parallel/ParallelFor.h"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Check/DelaunayChecker.h"
-#include "Check/NearConstraints.h"
 #include "Check/PieceChecker.h"
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
-#include "Console/MpiSession.h"
+#include "Console/Process.h"
 #include "Console/ProgressBar.h"
 #include "Constraints/ReadConstraintFile.h"
 #include "Files/IOError.h"

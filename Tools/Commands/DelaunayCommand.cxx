@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
-#include "Commands/DelaunayArguments.h"
-#include "Commands/DelaunayOutput.h"
+#include "Commands/DelaunayRuns.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
-#include "Console/MpiSession.h"
-#include "Console/ProgressBar.h"
-#include "Console/Signals.h"
+#include "Console/Process.h"
 #include "Files/InputFile.h"
 #include "Meshes/MeshFiles.h"
 #include "Parallel/Stopwatch.h"
@@ -65,7 +62,8 @@ Examples:
   mpirun -np 4 tipp delaunay points.npy -o mesh.tipp --memory 512M
 )";
 
-TriangulationOptions makeOptions(const DelaunayArguments& arguments, ProgressBar& bar)
+TriangulationOptions makeOptions(
+  const DelaunayArguments& arguments, const std::unique_ptr<ProgressBar>& bar)
 {
   const GridSize grid = *parseGrid(arguments.Partitions);
   TriangulationOptions options;
@@ -75,11 +73,7 @@ TriangulationOptions makeOptions(const DelaunayArguments& arguments, ProgressBar
   options.Order = arguments.Order == "dynamic" ? Schedule::Dynamic : Schedule::Stages;
   options.Threads = arguments.Threads;
   options.MaximumEdge = arguments.MaximumEdge;
-  options.Progress = [&bar](double fraction)
-  {
-    bar.update(fraction);
-    return !isInterrupted();
-  };
+  options.Progress = progressOn(bar);
   return options;
 }
 
@@ -87,7 +81,7 @@ TriangulationOptions makeOptions(const DelaunayArguments& arguments, ProgressBar
 Triangulation triangulatePoints(
   const DelaunayArguments& arguments, PointTable& points, std::string& report)
 {
-  ProgressBar bar("Triangulating");
+  const auto bar = std::make_unique<ProgressBar>("Triangulating");
   if (arguments.isConstrained())
   {
     return triangulateWithConstraints(arguments, points, makeOptions(arguments, bar), report);
@@ -162,9 +156,7 @@ std::string checkMinor(const std::string& text)
 
 void addTuning(CLI::App& command, DelaunayArguments& arguments)
 {
-  command.add_option("--threads", arguments.Threads, "Number of threads; 0: OpenMP's choice")
-    ->check(CLI::Range(0, 4096))
-    ->capture_default_str();
+  addThreadsOption(command, arguments.Threads);
   command
     .add_option("--partitions", arguments.Partitions,
       "Columns and rows of partitions, as 8x8, or auto: chosen for the points")

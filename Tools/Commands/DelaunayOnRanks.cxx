@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Commands/DelaunayArguments.h"
+#include "Commands/DelaunayRuns.h"
 
 #include "Commands/Commands.h"
-#include "Commands/DelaunayOutput.h"
 #include "Commands/Report.h"
+#include "Console/Process.h"
 #include "Console/ProgressBar.h"
-#include "Console/Signals.h"
 #include "Constraints/ConstrainedPoints.h"
-#include "Distributed/DistributedTriangulation.h"
+#include "Distributed/TriangleExchange.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Parallel/Stopwatch.h"
@@ -24,42 +23,6 @@ namespace tipp
 {
 namespace
 {
-
-/// Gathers all ranks' triangles and duplicates, by global ids, on the first rank.
-Triangulation gatherTriangles(Communicator& ranks, const DistributedTriangulation& mine)
-{
-  const std::int64_t own = std::int64_t(mine.Owned.size());
-  Bytes ids(mine.triangleCount() * 3 * sizeof(std::int64_t));
-  const auto fill = [&](const auto& indices)
-  {
-    auto* to = reinterpret_cast<std::int64_t*>(ids.data());
-    for (const std::int64_t index : indices)
-    {
-      *to++ = index < own ? mine.Owned.GlobalIds[std::size_t(index)]
-                          : mine.Foreign.GlobalIds[std::size_t(index - own)];
-    }
-  };
-  mine.Ids32.empty() ? fill(mine.Ids64) : fill(mine.Ids32);
-  const std::vector<Bytes> all = ranks.gather(std::move(ids));
-  Triangulation result;
-  result.Ids64 = Buffer<std::int64_t>(ranks.rank() == 0 ? std::size_t(3 * mine.AllTriangles) : 0);
-  auto* to = reinterpret_cast<char*>(result.Ids64.data());
-  for (const Bytes& part : all)
-  {
-    to = std::copy(part.begin(), part.end(), to);
-  }
-  for (const std::vector<Duplicate>& part : ranks.gather(mine.Duplicates))
-  {
-    result.Duplicates.insert(result.Duplicates.end(), part.begin(), part.end());
-  }
-  for (const std::vector<PointId>& part : ranks.gather(mine.Rejected))
-  {
-    result.Rejected.insert(result.Rejected.end(), part.begin(), part.end());
-  }
-  std::sort(result.Duplicates.begin(), result.Duplicates.end(),
-    [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
-  return result;
-}
 
 /// Constraints, on all ranks, and what the first rank knows of them.
 struct SharedConstraints
@@ -171,19 +134,8 @@ void runTogether(Communicator& ranks, const DelaunayArguments& arguments)
   RankPoints input;
   input.Points = PointsView(points.XY.data(), points.size(), 2);
   DistributedOptions options = makeDistributedOptions(arguments);
-  std::unique_ptr<ProgressBar> bar;
-  if (ranks.rank() == 0)
-  {
-    bar = std::make_unique<ProgressBar>("Triangulating");
-  }
-  options.Progress = [&bar](double fraction)
-  {
-    if (bar)
-    {
-      bar->update(fraction);
-    }
-    return !isInterrupted();
-  };
+  auto bar = ranks.isFirst() ? std::make_unique<ProgressBar>("Triangulating") : nullptr;
+  options.Progress = progressOn(bar);
   DistributedTriangulation mine = triangulateDistributed(ranks, input, options);
   if (constraints.Segments)
   {
@@ -206,16 +158,7 @@ int runDelaunayOnRanks(const DelaunayArguments& arguments, vtkMultiProcessContro
   }
   catch (const RankFailure& failure)
   {
-    if (failure.Aborted)
-    {
-      return reportInterrupt();
-    }
-    if (ranks.rank() == 0)
-    {
-      fmt::print(stderr, "tipp: {}{}\n",
-        ranks.size() > 1 ? fmt::format("rank {}: ", failure.Rank) : "", failure.what());
-    }
-    return Failure;
+    return failure.Aborted ? reportInterrupt() : reportRankFailure(failure, ranks);
   }
   return Success;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Commands/DelaunayArguments.h"
+#include "Commands/DelaunayRuns.h"
 
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
@@ -42,16 +42,6 @@ OutOfCoreOptions makeOptions(const DelaunayArguments& arguments)
   return options;
 }
 
-double totalSeconds(const OutOfCoreStatistics& statistics)
-{
-  double sum = 0;
-  for (const OutOfCoreStatistics::Phase& phase : statistics.Phases)
-  {
-    sum += phase.Seconds;
-  }
-  return sum;
-}
-
 std::vector<std::int64_t> listOf(
   const std::vector<ProcessUsage>& ranks, std::int64_t ProcessUsage::*value)
 {
@@ -76,7 +66,7 @@ void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& 
   const nlohmann::ordered_json usage = {
     { "read_bytes", sumOf(ranks, &ProcessUsage::Read) },
     { "written_bytes", sumOf(ranks, &ProcessUsage::Written) },
-    { "seconds", totalSeconds(statistics) },
+    { "seconds", totalSeconds(statistics.Phases) },
     { "peak_memory_bytes", largestMemory(ranks) },
     { "rank_memory_bytes", listOf(ranks, &ProcessUsage::PeakMemory) },
     { "ranks", ranks.size() },
@@ -89,7 +79,7 @@ void writeReport(const DelaunayArguments& arguments, const OutOfCoreStatistics& 
 
 std::string summarize(const OutOfCoreStatistics& statistics, const std::vector<ProcessUsage>& ranks)
 {
-  const double seconds = totalSeconds(statistics);
+  const double seconds = totalSeconds(statistics.Phases);
   const std::string rejected =
     statistics.Rejected == 0 ? "" : fmt::format(", {} rejected", statistics.Rejected);
   const std::string each = ranks.size() == 1 ? "" : " on a rank at most";

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
-#include "Commands/DelaunayArguments.h"
+#include "Commands/DelaunayRuns.h"
 #include "Commands/DemArguments.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
-#include "Console/MpiSession.h"
-#include "Console/ProgressBar.h"
-#include "Console/Signals.h"
+#include "Console/Process.h"
 #include "Constraints/ReadConstraintFile.h"
 #include "Files/IOError.h"
 #include "Files/OutputPath.h"
@@ -74,11 +72,7 @@ int runInMemory(const DemArguments& arguments)
   }
   report.ReadSeconds = watch.restart();
   auto bar = std::make_unique<ProgressBar>("Making the raster");
-  const auto progress = [&bar](double done)
-  {
-    bar->update(done);
-    return !isInterrupted();
-  };
+  const auto progress = progressOn(bar);
   SampledBands samples;
   report.Figures =
     makeDem(std::move(points), arguments.Request, progress, report.Settings, samples);
@@ -272,10 +266,7 @@ void addDemCommand(CLI::App& app, int& exitCode)
   addConstraintOptions(*command, *arguments);
   addPointOptions(*command, arguments->Points);
   addDuplicatesOption(*command, arguments->Request.Duplicates);
-  command
-    ->add_option("--threads", arguments->Request.Threads, "Number of threads; 0: OpenMP's choice")
-    ->check(CLI::Range(0, 4096))
-    ->capture_default_str();
+  addThreadsOption(*command, arguments->Request.Threads);
   command->add_option("--memory", arguments->Memory, "What the process may take, as 512M")
     ->check(checkMemorySize);
   command->add_flag("--resume", arguments->Resume,

@@ -135,10 +135,7 @@ int runDemOutOfCore(
   report.Figures.Duplicates = statistics.Duplicates;
   report.Figures.DisagreeingPositions = statistics.DisagreeingPositions;
   report.Figures.Rejected = statistics.Rejected;
-  for (const OutOfCoreStatistics::Phase& phase : statistics.Phases)
-  {
-    report.MakeSeconds += phase.Seconds;
-  }
+  report.MakeSeconds = totalSeconds(statistics.Phases);
   finishDem(arguments, report);
   return Success;
 }

@@ -2,9 +2,7 @@
 #include "Commands/Commands.h"
 
 #include "Adcirc/AdcircGrid.h"
-#include "Console/MpiSession.h"
-#include "Console/Signals.h"
-#include "Files/InputFile.h"
+#include "Console/Process.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
 #include "Flat/FlatMesh.h"
@@ -45,12 +43,6 @@ struct FlattenArguments
   std::string Output;
   std::vector<std::string> Values;
 };
-
-bool isAdcircGrid(const std::string& path)
-{
-  const std::string extension = extensionOf(path);
-  return extension == ".14" || extension == ".grd";
-}
 
 void reportCut(const FlattenArguments& arguments, const Flattened& flattened)
 {
@@ -93,7 +85,7 @@ int runFlatten(const FlattenArguments& arguments)
     requireApart({ arguments.Output }, inputs);
     const PendingFolder writable(arguments.Output);
   }
-  if (isAdcircGrid(arguments.Input))
+  if (isAdcircFile(arguments.Input))
   {
     const FlatContent content = flattenAdcirc(arguments.Input, arguments.Values);
     return writeContent(arguments, content) ? Success : interruptedExitCode;
@@ -123,7 +115,7 @@ void addFlattenCommand(CLI::App& app, int& exitCode)
   command->callback(
     [arguments, &exitCode]()
     {
-      if (!arguments->Values.empty() && !isAdcircGrid(arguments->Input))
+      if (!arguments->Values.empty() && !isAdcircFile(arguments->Input))
       {
         throw CLI::ValidationError("--values goes with an ADCIRC grid (.14, .grd)");
       }

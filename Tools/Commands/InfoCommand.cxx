@@ -2,10 +2,10 @@
 #include "Commands/Commands.h"
 
 #include "Commands/PointArguments.h"
-#include "Console/MpiSession.h"
-#include "Console/Signals.h"
+#include "Console/Process.h"
 #include "Files/InputFile.h"
 #include "Las/LasHeader.h"
+#include "OpenCL/Devices.h"
 #include "Parallel/Poll.h"
 #include "Points/PointStream.h"
 #include "Predicates/Points.h"
@@ -193,6 +193,54 @@ void addInfoCommand(CLI::App& app, int& exitCode)
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]() { exitCode = isIdleRank() ? Success : runInfo(*arguments); });
+}
+
+namespace
+{
+
+constexpr const char* devicesFooter =
+  R"(One line a device: INDEX, CPU, GPU or other, memory, whether it has the double
+precision that resampling needs, NAME, and the driver. --device of other
+commands takes opencl:INDEX or opencl:NAME, NAME being any part of the name.
+
+Example:
+  tipp devices
+)";
+
+const char* nameOf(DeviceType type)
+{
+  return type == DeviceType::Cpu ? "CPU" : type == DeviceType::Gpu ? "GPU" : "other";
+}
+
+void printDevices()
+{
+  if (listDevices().empty())
+  {
+    fmt::print("{}\n", noDeviceAdvice());
+  }
+  for (const DeviceDescription& device : listDevices())
+  {
+    fmt::print("{}  {}  {:.1f} GB  {}  {} ({})\n", device.Index, nameOf(device.Type),
+      double(device.Memory) / 1e9, device.Double ? "double" : "no double", device.Name,
+      device.Platform);
+  }
+}
+
+} // namespace
+
+void addDevicesCommand(CLI::App& app, int& exitCode)
+{
+  CLI::App* const command = app.add_subcommand("devices", "Lists this machine's OpenCL devices");
+  command->footer(devicesFooter);
+  command->callback(
+    [&exitCode]
+    {
+      if (!isIdleRank())
+      {
+        printDevices();
+      }
+      exitCode = Success;
+    });
 }
 
 } // namespace tipp

@@ -2,9 +2,7 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
-#include "Console/MpiSession.h"
-#include "Console/ProgressBar.h"
-#include "Console/Signals.h"
+#include "Console/Process.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
 #include "Partitioning/PartitionDataSet.h"
@@ -21,23 +19,14 @@ namespace tipp
 namespace
 {
 
-double totalSeconds(const PartitionStatistics& statistics)
-{
-  double sum = 0;
-  for (const PartitionStatistics::Phase& phase : statistics.Phases)
-  {
-    sum += phase.Seconds;
-  }
-  return sum;
-}
-
 /// One line for the user.
 std::string summarize(const PartitionStatistics& statistics)
 {
   return fmt::format("{} cells, {} points, {} pieces, {} borrowed cells, {:.0f} MB, {:.3f} s, peak "
                      "memory {:.0f} MB",
     statistics.Cells, statistics.Points, statistics.Pieces, statistics.BorrowedCells,
-    double(statistics.MeshBytes) / 1e6, totalSeconds(statistics), double(peakMemoryBytes()) / 1e6);
+    double(statistics.MeshBytes) / 1e6, totalSeconds(statistics.Phases),
+    double(peakMemoryBytes()) / 1e6);
 }
 
 /// Writes a JSON file; throws IOError.
@@ -56,7 +45,7 @@ void writeReport(const std::string& path, const std::string& input, const std::s
     { "copied_points", statistics.CopiedPoints },
     { "spilled_bytes", statistics.SpilledBytes },
     { "mesh_bytes", statistics.MeshBytes },
-    { "seconds", totalSeconds(statistics) },
+    { "seconds", totalSeconds(statistics.Phases) },
     { "peak_memory_bytes", peakMemoryBytes() },
     { "ranks", statistics.Ranks },
     { "threads", statistics.Threads },
@@ -100,6 +89,7 @@ struct PartitionArguments
   std::string Output;
   std::string Tiling = "grid:4x4";
   std::string Borrowers = "reference";
+  bool Neighbors = false;
   std::string Memory = "2G";
   std::string Loader = "auto";
   std::string Device = "openmp";
@@ -115,23 +105,17 @@ std::string checkTiling(const std::string& text)
 }
 
 PartitionOptions makeOptions(
-  const PartitionArguments& arguments, const MpiSession& session, ProgressBar& bar)
+  const PartitionArguments& arguments, const std::unique_ptr<ProgressBar>& bar)
 {
   PartitionOptions options;
   options.Tiling = *TilingChoice::parse(arguments.Tiling);
   options.DuplicateBorrowers = arguments.Borrowers == "duplicate";
+  options.Neighbors = arguments.Neighbors;
   options.MemoryLimit = *parseMemorySize(arguments.Memory);
   options.Loading.Kind = loaderFromName(arguments.Loader);
   options.Device = parseDeviceChoice(arguments.Device);
   options.Threads = arguments.Threads;
-  options.Progress = [&session, &bar](double fraction)
-  {
-    if (session.isFirst())
-    {
-      bar.update(fraction);
-    }
-    return !isInterrupted();
-  };
+  options.Progress = progressOn(bar);
   return options;
 }
 
@@ -152,9 +136,9 @@ int runPartition(const PartitionArguments& arguments)
             const PendingFile writable(arguments.Statistics);
           }
         });
-    ProgressBar bar("Partitioning");
-    statistics = partitionInput(arguments.Input, arguments.Output,
-      makeOptions(arguments, session, bar), session.controller());
+    const auto bar = session.isFirst() ? std::make_unique<ProgressBar>("Partitioning") : nullptr;
+    statistics = partitionInput(
+      arguments.Input, arguments.Output, makeOptions(arguments, bar), session.controller());
   }
   catch (const std::exception&)
   {
@@ -196,6 +180,8 @@ void addPartitionCommand(CLI::App& app, int& exitCode)
       "reference: borrowed cells stay in their owners' pieces; duplicate: they are copied too")
     ->check(CLI::IsMember({ "reference", "duplicate" }))
     ->capture_default_str();
+  command->add_flag("--neighbors", arguments->Neighbors,
+    "Also the number of the cell across each edge or face, as NeighborIds; partitions twice");
   command->add_option("--memory", arguments->Memory, "What the run may take, as 512M")
     ->check(checkMemorySize)
     ->capture_default_str();
@@ -208,9 +194,7 @@ void addPartitionCommand(CLI::App& app, int& exitCode)
     ->add_option("--device", arguments->Device,
       "What classifies cells at borders: openmp, opencl, opencl:NAME or auto")
     ->capture_default_str();
-  command->add_option("--threads", arguments->Threads, "Number of threads; 0: OpenMP's choice")
-    ->check(CLI::Range(0, 4096))
-    ->capture_default_str();
+  addThreadsOption(*command, arguments->Threads);
   command->add_option("--stats", arguments->Statistics, "Writes what the run did to a JSON file");
   command->footer(footer);
   command->callback([arguments, &exitCode]() { exitCode = runPartition(*arguments); });

@@ -43,10 +43,7 @@ namespace
 
 std::string checkClass(const std::string& text)
 {
-  int number = -1;
-  const char* const end = text.data() + text.size();
-  const auto parsed = std::from_chars(text.data(), end, number);
-  return parsed.ec == std::errc() && parsed.ptr == end && number >= 0 && number <= 255
+  return LasSelection::parseClass(text)
     ? ""
     : "'" + text + "' is not a class; give numbers from 0 to 255, as 2,9";
 }
@@ -118,9 +115,7 @@ void addPointOptions(CLI::App& command, PointOptions& options)
       {
         for (const std::string& flag : flags)
         {
-          options.Las.KeepWithheld = options.Las.KeepWithheld || flag == "withheld";
-          options.Las.KeepSynthetic = options.Las.KeepSynthetic || flag == "synthetic";
-          options.Las.KeepOverlap = options.Las.KeepOverlap || flag == "overlap";
+          options.Las.keep(flag);
         }
       },
       "Of LAS files also points with these flags: withheld, synthetic, overlap")
@@ -143,9 +138,17 @@ void addDuplicatesOption(CLI::App& command, DuplicateRule& rule)
   command
     .add_option_function<std::string>(
       "--duplicates", [&rule, rules](const std::string& name) { rule = rules.at(name); },
-      "Of several points with equal coordinates the values of the first, of the lowest (min) or highest "
+      "Of several points with equal coordinates the values of the first, of the lowest (min) or "
+      "highest "
       "(max), or the mean of each column; without: first")
     ->check(CLI::IsMember({ "first", "min", "max", "mean" }));
+}
+
+void addThreadsOption(CLI::App& command, int& threads)
+{
+  command.add_option("--threads", threads, "Number of threads; 0: OpenMP's choice")
+    ->check(CLI::Range(0, 4096))
+    ->capture_default_str();
 }
 
 void setThinningFile(PointOptions& options, const std::string& scratch, const std::string& output)

@@ -23,6 +23,9 @@ void addPointOptions(CLI::App& command, PointOptions& options);
 /// Adds the option that tells whose values coincident points get.
 void addDuplicatesOption(CLI::App& command, DuplicateRule& rule);
 
+/// Adds the option --threads.
+void addThreadsOption(CLI::App& command, int& threads);
+
 /// For a run in bounded memory: thinning keeps its squares in a temporary file, in the folder
 /// `scratch` or, if that is empty, beside the output.
 void setThinningFile(PointOptions& options, const std::string& scratch, const std::string& output);

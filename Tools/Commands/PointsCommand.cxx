@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Arrays/Random.h"
 #include "Commands/Commands.h"
-#include "Console/MpiSession.h"
+#include "Console/Process.h"
 #include "Distributions/GeneratePoints.h"
 #include "Files/InputFile.h"
 #include "Files/OutputPath.h"

@@ -2,8 +2,7 @@
 #include "Commands/Report.h"
 
 #include "Commands/Commands.h"
-#include "Console/ProgressBar.h"
-#include "Console/Signals.h"
+#include "Console/Process.h"
 #include "Files/PendingOutput.h"
 
 #include <fmt/format.h>
@@ -12,7 +11,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <memory>
 #include <utility>
 
 namespace tipp
@@ -98,6 +96,25 @@ std::int64_t movedBytes(const std::string& name)
 
 } // namespace
 
+std::function<bool(double)> progressOn(const std::unique_ptr<ProgressBar>& bar)
+{
+  return [&bar](double fraction)
+  {
+    bar ? bar->update(fraction) : void();
+    return !isInterrupted();
+  };
+}
+
+int reportRankFailure(const RankFailure& failure, const Communicator& ranks)
+{
+  if (ranks.isFirst())
+  {
+    fmt::print(stderr, "tipp: {}{}\n",
+      ranks.size() > 1 ? fmt::format("rank {}: ", failure.Rank) : "", failure.what());
+  }
+  return Failure;
+}
+
 int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints& open,
   const std::string& path, OutOfCoreOptions options, OutOfCoreStatistics& statistics)
 {
@@ -106,14 +123,7 @@ int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints
   const bool isFirst = ranks.rank() == 0;
   std::unique_ptr<ProgressBar> bar;
   const auto start = [&] { bar = std::make_unique<ProgressBar>(title); };
-  options.Progress = [&bar](double fraction)
-  {
-    if (bar)
-    {
-      bar->update(fraction);
-    }
-    return !isInterrupted();
-  };
+  options.Progress = progressOn(bar);
   options.Warn = [&](const std::string& sentence)
   {
     bar.reset();
@@ -133,12 +143,7 @@ int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints
   catch (const RankFailure& failure)
   {
     bar.reset();
-    if (isFirst)
-    {
-      fmt::print(stderr, "tipp: {}{}\n",
-        ranks.size() > 1 ? fmt::format("rank {}: ", failure.Rank) : "", failure.what());
-    }
-    return Failure;
+    return reportRankFailure(failure, ranks);
   }
   bar.reset();
   return statistics.Aborted

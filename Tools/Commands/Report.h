@@ -2,12 +2,16 @@
 #ifndef tippReport_h
 #define tippReport_h
 
+#include "Console/ProgressBar.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Output/RunStatistics.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -33,6 +37,21 @@ void writeJson(const std::string& path, const nlohmann::ordered_json& json);
 /// run, about which the user has been told.
 int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints& open,
   const std::string& path, OutOfCoreOptions options, OutOfCoreStatistics& statistics);
+
+/// Passes progress to a bar, if there is one, and tells whether to go on: not after Ctrl-C. The bar
+/// must outlive the function.
+std::function<bool(double)> progressOn(const std::unique_ptr<ProgressBar>& bar);
+
+/// Prints, on the first rank, which rank has failed and why. Returns Failure.
+int reportRankFailure(const RankFailure& failure, const Communicator& ranks);
+
+/// The sum of the phases' seconds.
+template <typename Phase>
+double totalSeconds(const std::vector<Phase>& phases)
+{
+  return std::accumulate(phases.begin(), phases.end(), 0.0,
+    [](double sum, const Phase& phase) { return sum + phase.Seconds; });
+}
 
 /// What a process has used, which /proc and the system know.
 struct ProcessUsage

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Commands/PointArguments.h"
 #include "Commands/ResampleOutput.h"
-#include "Console/MpiSession.h"
+#include "Console/Process.h"
 #include "Console/ProgressBar.h"
-#include "Console/Signals.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputPath.h"
@@ -434,9 +434,7 @@ void addResampleCommand(CLI::App& app, int& exitCode)
   command
     ->add_option("--device", arguments->Device, "auto, openmp, opencl, opencl:INDEX or opencl:NAME")
     ->capture_default_str();
-  command->add_option("--threads", arguments->Threads, "Number of threads; 0: OpenMP's choice")
-    ->check(CLI::Range(0, 4096))
-    ->capture_default_str();
+  addThreadsOption(*command, arguments->Threads);
   CLI::Option* const null =
     command->add_option("--null", arguments->Null, "What samples outside the mesh get");
   CLI::Option* const noData = command->add_option("--no-data", arguments->NoData,

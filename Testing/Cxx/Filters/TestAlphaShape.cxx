@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "AlphaShape/AlphaShape.h"
+#include "InMemory/AlphaShape.h"
 
 #include "vtkNew.h"
 #include "vtkPoints.h"

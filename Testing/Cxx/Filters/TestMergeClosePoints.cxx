@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Merging/TriangulateMerged.h"
+#include "InMemory/TriangulateMerged.h"
 
 #include <gtest/gtest.h>
 

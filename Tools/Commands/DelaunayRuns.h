@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippDelaunayArguments_h
-#define tippDelaunayArguments_h
+#ifndef tippDelaunayRuns_h
+#define tippDelaunayRuns_h
 
 #include "Constraints/ConstrainedPoints.h"
 #include "Constraints/ReadConstraintFile.h"
 #include "Constraints/TableConstraints.h"
-#include "Distributed/Plan.h"
+#include "Distributed/DistributedTriangulation.h"
 #include "Duplicates/ResolveDuplicates.h"
+#include "Files/OutputPath.h"
 #include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
 #include "Triangulation/Triangulate.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -113,6 +115,47 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
 /// Returns the given options that are valid only for such an output, if the output is another one;
 /// empty if there are none.
 std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments);
+
+/// Whether such an output holds arrays of points and cells; not .npy and .14.
+bool holdsArrays(const std::string& path);
+
+/// The whole input, without columns that the output does not keep.
+PointTable readPointsFor(const DelaunayArguments& arguments);
+
+/// Throws IOError unless the output files can be written; call it before the work. Returns the
+/// state of the output's path; writeResult() replaces nothing else.
+PathState requireWritable(const DelaunayArguments& arguments);
+
+/// Returns false if the user interrupted it; then no file is written.
+bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
+  const Triangulation& result, const PathState& before);
+
+/// What `tipp delaunay` reports of a run besides the result's own statistics.
+struct DelaunayRun
+{
+  std::string Input;
+  std::string Output;
+  std::int64_t DisagreeingPositions = 0; ///< of several points with different elevations
+  std::int64_t Points = 0;
+  double ReadSeconds = 0; ///< all times are wall-clock seconds
+  double TriangulateSeconds = 0;
+  double WriteSeconds = 0;
+};
+
+/// One line: points, triangles, duplicates, rejected points if any, seconds and points per second
+/// of the triangulation alone, and peak memory of the process.
+std::string summarize(const DelaunayRun& run, const Triangulation& result);
+
+/// Writes the same and all of TriangulationStatistics to a JSON file; throws IOError.
+void writeStatistics(const std::string& path, const DelaunayRun& run, const Triangulation& result);
+
+///@{
+/// The same of a run on ranks.
+std::string summarize(
+  const DelaunayRun& run, const Triangulation& all, const DistributedStatistics& statistics);
+void writeStatistics(
+  const std::string& path, const DelaunayRun& run, const DistributedTriangulation& result);
+///@}
 
 } // namespace tipp
 

@@ -22,9 +22,12 @@ struct AlphaShape
   Buffer<Id> Vertices;  ///< points of neither; ascending
 };
 
-/// Computes the alpha shape. `covered` has one entry for each point: not 0 if it cannot be a vertex
-/// (a duplicate or rejected point). A triangle without area in 3D counts as infinitely large.
-/// `alpha` is in the points' unit of length.
+/// For each of `points` points 1 if it is a duplicate or rejected, else 0.
+std::vector<char> coveredPoints(const Triangulation& triangulation, std::int64_t points);
+
+/// Computes the alpha shape. `covered` has one entry for each point: not 0 if it cannot be a
+/// vertex. A triangle without area in 3D counts as infinitely large. `alpha` is in the points' unit
+/// of length.
 template <typename Id>
 AlphaShape<Id> alphaShape(
   const Buffer<Id>& triangles, const PointAt& pointAt, double alpha, std::vector<char> covered);

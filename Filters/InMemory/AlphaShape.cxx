@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "AlphaShape/AlphaShape.h"
+#include "InMemory/AlphaShape.h"
 
 #include <algorithm>
 #include <utility>
@@ -136,6 +136,20 @@ Buffer<Id> linesOutside(const std::vector<Edge<Id>>& edges, const Buffer<Id>& ke
 }
 
 } // namespace
+
+std::vector<char> coveredPoints(const Triangulation& triangulation, std::int64_t points)
+{
+  std::vector<char> covered(std::size_t(points), 0);
+  for (const Duplicate& duplicate : triangulation.Duplicates)
+  {
+    covered[std::size_t(duplicate.Point)] = 1;
+  }
+  for (const PointId rejected : triangulation.Rejected)
+  {
+    covered[std::size_t(rejected)] = 1;
+  }
+  return covered;
+}
 
 template <typename Id>
 AlphaShape<Id> alphaShape(
