@@ -15,6 +15,11 @@ namespace tipp
 namespace
 {
 
+[[noreturn]] void throwChanged()
+{
+  throw IOError("The input has changed while it was read; start again.");
+}
+
 /// Finds the pieces of a block's points, and the indices of initial points within their pieces.
 class Labelling
 {
@@ -89,6 +94,10 @@ private:
       if (this->NextInitial < initial.size() &&
         initial[this->NextInitial].Id == first + std::int64_t(i))
       {
+        if (piece != this->Plan.PieceOf[std::size_t(initial[this->NextInitial].Partition)])
+        {
+          throwChanged();
+        }
         this->InPieces.push_back(this->Counts[std::size_t(piece)]);
         ++this->NextInitial;
       }
@@ -126,8 +135,8 @@ void writeRow(const PointBlock& block, std::size_t i, char* to)
 std::vector<SpilledRows> rowsOf(const std::vector<SpilledPart>& parts)
 {
   std::vector<SpilledRows> rows(parts.size());
-  std::transform(parts.begin(), parts.end(), rows.begin(),
-    [](const SpilledPart& part) { return part.Rows; });
+  std::transform(
+    parts.begin(), parts.end(), rows.begin(), [](const SpilledPart& part) { return part.Rows; });
   return rows;
 }
 
@@ -183,7 +192,7 @@ SpilledPoints::SpilledPoints(const std::vector<SpilledPart>& parts, const InputS
   if (seen != survey.Points || this->Starts.back() != survey.Points - survey.Rejected ||
     next != plan.Initial.end())
   {
-    throw IOError("The input has changed while it was read; start again.");
+    throwChanged();
   }
   for (InitialPoint& p : plan.Initial)
   {

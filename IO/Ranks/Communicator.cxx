@@ -16,6 +16,7 @@ constexpr int HeadTag = 1;
 constexpr int PartTag = 2;
 constexpr std::size_t LargestPart = std::size_t(1) << 20;
 constexpr std::size_t LargestInHead = std::size_t(1) << 16;
+constexpr std::size_t LargestReason = 4096; // so that a failure's message is never in parts
 
 // Buffer for messages that are received part by part, that are discarded, or that there is no
 // memory for: receiving them must not fail, or their senders would wait forever.
@@ -371,9 +372,10 @@ void Communicator::noteFailure(const Message& message)
   }
 }
 
-void Communicator::tellFailure(bool aborted, const std::string& reason)
+void Communicator::tellFailure(bool aborted, const std::string& why)
 {
   this->Told = true;
+  const std::string reason = why.substr(0, LargestReason);
   this->note(this->Rank, aborted, reason);
   for (int to = 0; to < this->Size; ++to)
   {
@@ -387,8 +389,7 @@ void Communicator::tellFailure(bool aborted, const std::string& reason)
   }
 }
 
-/// Sends a shutdown message ('shutdown message') to every other rank and receives all messages up
-/// to theirs: no message of this run is left for the next, and all ranks know the same failures.
+/// Sends a shutdown message to every other rank and receives all messages up to theirs: no message of this run is left for the next, and all ranks know the same failures.
 void Communicator::partAfterFailure()
 {
   for (int to = 0; to < this->Size; ++to)

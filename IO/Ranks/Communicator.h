@@ -60,7 +60,7 @@ public:
 enum class MessageKind : std::uint32_t
 {
   Failure,  ///< a rank has failed; the content is the reason
-  Shutdown, ///< shutdown message: a rank's last one after a failure
+  Shutdown, ///< a rank's last message after a failure
   AllToAll,
   Gather,
   Broadcast,
@@ -290,7 +290,7 @@ private:
   void sendTo(
     int to, MessageKind kind, const std::shared_ptr<Bytes>& memory, const Stretch& stretch);
   void sendTo(int to, MessageKind kind, Bytes content);
-  void tellFailure(bool aborted, const std::string& reason);
+  void tellFailure(bool aborted, const std::string& why);
   void note(int rank, bool aborted, const std::string& reason);
   void noteFailure(const Message& message);
   [[noreturn]] void partAfterFailure();

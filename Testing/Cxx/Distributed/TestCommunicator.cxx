@@ -101,6 +101,28 @@ TEST(Communicator, AFailureLeavesNoLargeMessageBehind)
   }
 }
 
+TEST(Communicator, AFailureMayHaveALongReason)
+{
+  Communicator box(controller());
+  const auto work = [&]()
+  {
+    if (box.rank() == 0)
+    {
+      throw std::runtime_error(std::string(200'000, 'x'));
+    }
+    box.wait(Note, 0); // which never comes
+  };
+  try
+  {
+    box.together(work);
+    FAIL() << "nothing was thrown";
+  }
+  catch (const RankFailure& failure)
+  {
+    EXPECT_EQ(std::string("xxx"), std::string(failure.what(), 3));
+  }
+}
+
 TEST(Communicator, WorkWithinWorkFailsOnceOnAllRanks)
 {
   Communicator box(controller());

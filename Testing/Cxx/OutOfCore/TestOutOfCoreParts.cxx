@@ -17,6 +17,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
+#include <optional>
+#include <random>
+#include <set>
 
 namespace
 {
@@ -305,6 +309,93 @@ TEST(SpilledPoints, HasEachPiecesPointsInTheOrderOfTheStream)
       ASSERT_TRUE(p == (Point2{ rows[3 * i], rows[3 * i + 1] }));
       ASSERT_EQ(piece, plan.Pieces.locate(p));
     }
+  }
+}
+
+TEST(SpilledPoints, RefuseAnInputThatHasChanged)
+{
+  const Coordinates xy = makePointSet("uniform", 4000);
+  Steps steps(xy);
+  const PiecePlan plan = steps.plan();
+  const InitialPoint& last = plan.Initial.back();
+  for (const double changed : { std::nan(""), last.Position.x < 0.5 ? 0.9 : 0.1 })
+  {
+    Coordinates others = xy;
+    others[2 * std::size_t(last.Id)] = changed;
+    Steps after(others);
+    PiecePlan before = plan;
+    expectIOError("The input has changed", "start again", [&] { after.spill(before); });
+  }
+}
+
+/// Of partitions with random conflicts.
+PartitionOrder randomOrder(PartitionIndex count, std::mt19937& random)
+{
+  std::vector<ConflictGraph::Pair> pairs;
+  for (PartitionIndex p = 1; p < count; ++p)
+  {
+    if (random() % 4 > 0)
+    {
+      pairs.emplace_back(PartitionIndex(random() % std::uint32_t(p)), p);
+    }
+  }
+  ConflictGraph conflicts{ std::size_t(count) };
+  conflicts.add(pairs);
+  return PartitionOrder(std::vector<char>(std::size_t(count), 1), conflicts);
+}
+
+TEST(BorderQueue, GivesABorderOnceAllPiecesThatConflictAreDone)
+{
+  Steps steps(makePointSet("uniform", 4000));
+  const PiecePlan plan = steps.plan();
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 50; ++trial)
+  {
+    const PartitionOrder order = randomOrder(plan.Partitions.size(), random);
+    std::vector<PartitionIndex> pieces(std::size_t(plan.pieces()));
+    std::iota(pieces.begin(), pieces.end(), 0);
+    std::shuffle(pieces.begin(), pieces.end(), random);
+    BorderQueue queue(plan, order);
+    std::set<PartitionIndex> done;
+    std::set<PartitionIndex> given;
+    const auto isReady = [&](PartitionIndex piece)
+    {
+      bool isReady = done.count(piece) > 0;
+      for (PartitionIndex p = 0; p < plan.Partitions.size(); ++p)
+      {
+        for (const PartitionIndex q : order.conflicts().neighbours(p))
+        {
+          isReady = isReady &&
+            (plan.PieceOf[std::size_t(p)] != piece || done.count(plan.PieceOf[std::size_t(q)]) > 0);
+        }
+      }
+      return isReady;
+    };
+    for (const PartitionIndex piece : pieces)
+    {
+      done.insert(piece);
+      for (const PartitionIndex ready : queue.setDone(piece))
+      {
+        ASSERT_TRUE(given.insert(ready).second) << "twice";
+      }
+      for (PartitionIndex other = 0; other < plan.pieces(); ++other)
+      {
+        ASSERT_EQ(isReady(other), given.count(other) > 0);
+      }
+    }
+  }
+}
+
+TEST(BorderQueue, GivesNoneIfEveryPartitionConflictsWithEveryOther)
+{
+  Steps steps(makePointSet("uniform", 4000));
+  const PiecePlan plan = steps.plan();
+  const PartitionOrder order(
+    std::vector<char>(std::size_t(plan.Partitions.size()), 1), std::nullopt);
+  BorderQueue queue(plan, order);
+  for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
+  {
+    EXPECT_TRUE(queue.setDone(piece).empty());
   }
 }
 
