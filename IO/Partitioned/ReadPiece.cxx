@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/ReadPiece.h"
 
-#include "Partitioned/GlobalIdMap.h"
+#include "Partitioned/PieceFile.h"
 
 #include <algorithm>
 #include <cstring>

@@ -5,7 +5,7 @@
 #include "Files/InputFile.h"
 #include "Flat/FlatMesh.h"
 #include "Partition/BoxTiling.h"
-#include "Partitioned/GlobalIdMap.h"
+#include "Partitioned/PieceFile.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceBorder.h"
 #include "Partitioned/PieceFormat.h"

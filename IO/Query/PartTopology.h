@@ -2,7 +2,7 @@
 #ifndef tippPartTopology_h
 #define tippPartTopology_h
 
-#include "Partitioned/GlobalIdMap.h"
+#include "Partitioned/PieceFile.h"
 #include "Query/MeshPart.h"
 
 #include <cstdint>

@@ -3,7 +3,6 @@
 
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
-#include "Partitioned/GlobalIdMap.h"
 #include "Partitioned/PieceFile.h"
 
 #include <algorithm>

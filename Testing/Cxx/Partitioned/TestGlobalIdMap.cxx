@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioned/GlobalIdMap.h"
+#include "Partitioned/PieceFile.h"
 
 #include <gtest/gtest.h>
 
