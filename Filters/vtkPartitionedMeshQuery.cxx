@@ -5,12 +5,13 @@
 #include "Parallel/Poll.h"
 #include "Query/Around.h"
 #include "Query/DataSetPart.h"
+#include "Query/LineData.h"
+#include "Query/Lines.h"
 #include "Query/RankAnswer.h"
 #include "Query/ResidentMesh.h"
 #include "Ranks/Communicator.h"
 #include "Sampling/RangeResampleRun.h"
 
-#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCharArray.h"
 #include "vtkDataArray.h"
@@ -24,10 +25,8 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
 
 #include <algorithm>
@@ -37,10 +36,23 @@
 vtkStandardNewMacro(vtkPartitionedMeshQuery);
 vtkCxxSetObjectMacro(vtkPartitionedMeshQuery, Controller, vtkMultiProcessController);
 
-using Pipeline = vtkStreamingDemandDrivenPipeline;
-
 namespace
 {
+
+/// The points that at(i, p) writes to p.
+template <typename At>
+std::vector<tipp::Point3> collected(vtkIdType count, const At& at)
+{
+  std::vector<tipp::Point3> points;
+  points.reserve(std::size_t(count));
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    double p[3] = { 0, 0, 0 };
+    at(i, p);
+    points.push_back({ p[0], p[1], p[2] });
+  }
+  return points;
+}
 
 std::vector<tipp::Point3> pointsOf(vtkDataArray* array)
 {
@@ -50,26 +62,8 @@ std::vector<tipp::Point3> pointsOf(vtkDataArray* array)
     throw std::runtime_error("points have two or three coordinates, but the array has " +
       std::to_string(components) + " components.");
   }
-  std::vector<tipp::Point3> points(std::size_t(array->GetNumberOfTuples()));
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    double p[3] = { 0, 0, 0 };
-    array->GetTuple(vtkIdType(i), p);
-    points[i] = { p[0], p[1], p[2] };
-  }
-  return points;
-}
-
-std::vector<tipp::Point3> pointsOf(vtkDataSet* data)
-{
-  std::vector<tipp::Point3> points(std::size_t(data->GetNumberOfPoints()));
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    double p[3];
-    data->GetPoint(vtkIdType(i), p);
-    points[i] = { p[0], p[1], p[2] };
-  }
-  return points;
+  return collected(
+    array->GetNumberOfTuples(), [array](vtkIdType i, double* p) { array->GetTuple(i, p); });
 }
 
 void copyTo(vtkIdTypeArray* array, const std::vector<std::int64_t>& ids, int components = 1)
@@ -83,6 +77,12 @@ void copyTo(vtkIdTypeArray* array, const std::vector<std::int64_t>& ids, int com
   }
 }
 
+void copyTo(vtkIdTypeArray* starts, vtkIdTypeArray* ids, const tipp::IdLists& lists)
+{
+  copyTo(starts, lists.Starts);
+  copyTo(ids, lists.Ids);
+}
+
 std::vector<std::int64_t> idsOf(vtkIdTypeArray* array)
 {
   if (!array)
@@ -90,18 +90,6 @@ std::vector<std::int64_t> idsOf(vtkIdTypeArray* array)
     throw std::runtime_error("there is no array of ids.");
   }
   return { array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfValues() };
-}
-
-/// The array takes over the memory of the answer's.
-vtkSmartPointer<vtkDataArray> takeOver(tipp::MeshAnswer::Array& values)
-{
-  auto array = vtkSmartPointer<vtkDataArray>::Take(
-    vtkDataArray::CreateDataArray(tipp::vtkTypeOf(values.Type)));
-  const auto count = vtkIdType(values.Values.size() / tipp::scalarSize(values.Type));
-  array->SetName(values.Name.c_str());
-  array->SetNumberOfComponents(values.Components);
-  array->SetVoidArray(values.Values.release(), count, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
-  return array;
 }
 
 void replaceNull(const std::vector<std::int64_t>& cells, double null, vtkDataArray* array)
@@ -189,14 +177,6 @@ int vtkPartitionedMeshQuery::FillInputPortInformation(int port, vtkInformation* 
     info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
-  return 1;
-}
-
-int vtkPartitionedMeshQuery::RequestInformation(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  outputs->GetInformationObject(0)->CopyEntry(
-    inputs[0]->GetInformationObject(0), Pipeline::WHOLE_EXTENT());
   return 1;
 }
 
@@ -305,6 +285,25 @@ int vtkPartitionedMeshQuery::Try(const Work& work)
   }
 }
 
+/// The same for a call outside of the pipeline, which has not updated the source.
+template <typename Work>
+int vtkPartitionedMeshQuery::Direct(const Work& work)
+{
+  return this->Try(
+    [&]
+    {
+      if (this->GetNumberOfInputConnections(1) > 0)
+      {
+        const std::lock_guard<std::mutex> lock(this->Opening);
+        const bool several = this->Controller && this->Controller->GetNumberOfProcesses() > 1;
+        this->GetInputAlgorithm(1, 0)->UpdatePiece(
+          several ? this->Controller->GetLocalProcessId() : 0,
+          several ? this->Controller->GetNumberOfProcesses() : 1, 0);
+      }
+      work();
+    });
+}
+
 int vtkPartitionedMeshQuery::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -328,11 +327,14 @@ int vtkPartitionedMeshQuery::RequestData(
           }
           return monitor(0.5);
         });
-      tipp::MeshAnswer answer = this->Ask(pointsOf(input), false, true);
+      tipp::MeshAnswer answer =
+        this->Ask(collected(input->GetNumberOfPoints(),
+                    [input](vtkIdType i, double* p) { input->GetPoint(i, p); }),
+          false, true);
       vtkPointData* const values = output->GetPointData();
       for (tipp::MeshAnswer::Array& array : answer.Arrays)
       {
-        const vtkSmartPointer<vtkDataArray> taken = takeOver(array);
+        const vtkSmartPointer<vtkDataArray> taken = tipp::takeOver(array);
         replaceNull(answer.Cells, this->NullValue, taken);
         values->AddArray(taken);
       }
@@ -357,7 +359,7 @@ int vtkPartitionedMeshQuery::RequestData(
 int vtkPartitionedMeshQuery::Locate(
   vtkDataArray* points, vtkIdTypeArray* cells, vtkDoubleArray* weights)
 {
-  return this->Try(
+  return this->Direct(
     [&]
     {
       const tipp::MeshAnswer answer = this->Ask(pointsOf(points), weights != nullptr, false);
@@ -375,20 +377,20 @@ int vtkPartitionedMeshQuery::Locate(
 
 int vtkPartitionedMeshQuery::Interpolate(vtkDataArray* points, vtkDataSetAttributes* values)
 {
-  return this->Try(
+  return this->Direct(
     [&]
     {
       tipp::MeshAnswer answer = this->Ask(pointsOf(points), false, true);
       for (tipp::MeshAnswer::Array& array : answer.Arrays)
       {
-        values->AddArray(takeOver(array));
+        values->AddArray(tipp::takeOver(array));
       }
     });
 }
 
 int vtkPartitionedMeshQuery::GetNamesOfArrays(vtkStringArray* names)
 {
-  return this->Try(
+  return this->Direct(
     [&]
     {
       for (const std::string& name : this->Open()->names())
@@ -400,7 +402,7 @@ int vtkPartitionedMeshQuery::GetNamesOfArrays(vtkStringArray* names)
 
 int vtkPartitionedMeshQuery::Neighbors(vtkIdTypeArray* cells, vtkIdTypeArray* neighbors)
 {
-  return this->Try(
+  return this->Direct(
     [&]
     {
       const auto mesh = this->Open();
@@ -411,81 +413,62 @@ int vtkPartitionedMeshQuery::Neighbors(vtkIdTypeArray* cells, vtkIdTypeArray* ne
 int vtkPartitionedMeshQuery::Star(
   vtkIdTypeArray* points, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
 {
-  return this->Try(
-    [&]
-    {
-      const tipp::IdLists lists = tipp::starsOf(*this->Open(), idsOf(points));
-      copyTo(starts, lists.Starts);
-      copyTo(ids, lists.Ids);
-    });
+  return this->Direct([&] { copyTo(starts, ids, tipp::starsOf(*this->Open(), idsOf(points))); });
 }
 
 int vtkPartitionedMeshQuery::RingOfPoints(
   vtkIdTypeArray* points, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
 {
-  return this->Try(
-    [&]
-    {
-      const tipp::IdLists lists = tipp::ringsOfPoints(*this->Open(), idsOf(points), k);
-      copyTo(starts, lists.Starts);
-      copyTo(ids, lists.Ids);
-    });
+  return this->Direct(
+    [&] { copyTo(starts, ids, tipp::ringsOfPoints(*this->Open(), idsOf(points), k)); });
 }
 
 int vtkPartitionedMeshQuery::RingOfCells(
   vtkIdTypeArray* cells, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
 {
-  return this->Try(
-    [&]
-    {
-      const tipp::IdLists lists = tipp::ringsOfCells(*this->Open(), idsOf(cells), k);
-      copyTo(starts, lists.Starts);
-      copyTo(ids, lists.Ids);
-    });
+  return this->Direct(
+    [&] { copyTo(starts, ids, tipp::ringsOfCells(*this->Open(), idsOf(cells), k)); });
 }
 
 int vtkPartitionedMeshQuery::Boundary(vtkPolyData* loops)
 {
-  return this->Try(
-    [&]
-    {
-      const tipp::BoundaryLoops border = tipp::boundaryOf(*this->Open());
-      vtkNew<vtkPoints> points;
-      points->SetDataTypeToDouble();
-      for (const tipp::Point3& p : border.Positions)
-      {
-        points->InsertNextPoint(p.x, p.y, p.z);
-      }
-      vtkNew<vtkCellArray> lines;
-      for (std::size_t i = 0; i + 1 < border.Points.Starts.size(); ++i)
-      {
-        const vtkIdType begin = border.Points.Starts[i];
-        const vtkIdType end = border.Points.Starts[i + 1];
-        lines->InsertNextCell(int(end - begin + 1));
-        for (vtkIdType at = begin; at < end; ++at)
-        {
-          lines->InsertCellPoint(at);
-        }
-        lines->InsertCellPoint(begin);
-      }
-      vtkNew<vtkIdTypeArray> ids;
-      ids->SetName("GlobalPointIds");
-      copyTo(ids, border.Points.Ids);
-      loops->Initialize();
-      loops->SetPoints(points);
-      loops->SetLines(lines);
-      loops->GetPointData()->SetGlobalIds(ids);
-    });
+  return this->Direct(
+    [&] { loops->ShallowCopy(tipp::polyDataOf(tipp::boundaryOf(*this->Open()))); });
 }
 
 int vtkPartitionedMeshQuery::Components(vtkIdTypeArray* ofCells, vtkIdTypeArray* sizes)
 {
-  return this->Try(
+  return this->Direct(
     [&]
     {
       const tipp::Components components = tipp::componentsOf(*this->Open());
       copyTo(ofCells, components.OfCells);
       copyTo(sizes, components.Sizes);
+    });
+}
+
+int vtkPartitionedMeshQuery::Contours(
+  const char* array, int component, vtkDoubleArray* levels, vtkPolyData* lines)
+{
+  return this->Direct(
+    [&]
+    {
+      const std::vector<double> values(
+        levels->GetPointer(0), levels->GetPointer(0) + levels->GetNumberOfValues());
+      const std::string name = array ? array : "";
+      lines->ShallowCopy(
+        tipp::polyDataOf(tipp::contoursOf(*this->Open(), name, component, values), name));
+    });
+}
+
+int vtkPartitionedMeshQuery::Profile(vtkDataArray* polyline, double spacing, vtkPolyData* line)
+{
+  return this->Direct(
+    [&]
+    {
+      const auto mesh = this->Open();
+      line->ShallowCopy(tipp::polyDataOf(tipp::profileOf(*mesh, pointsOf(polyline), spacing,
+        this->ArrayNames.empty() ? mesh->names() : this->ArrayNames)));
     });
 }
 

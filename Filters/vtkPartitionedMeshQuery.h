@@ -203,14 +203,27 @@ public:
    */
   int Components(vtkIdTypeArray* ofCells, vtkIdTypeArray* sizes);
 
+  /**
+   * Makes lines where a component of an array of points has one of the levels, on a mesh of
+   * triangles. Lines go on across pieces, with the higher side on the left; the array of that name
+   * has each line's level.
+   */
+  int Contours(const char* array, int component, vtkDoubleArray* levels, vtkPolyData* lines);
+
+  /**
+   * Samples the arrays along a polyline over a mesh of triangles, every `spacing` and at the
+   * polyline's corners; with spacing 0 at the corners and where the polyline crosses an edge of the
+   * mesh. The line's points have "Distance" along x and y, and "CellId"; with spacing 0 this is the
+   * cell up to the next point, -1 before a gap.
+   */
+  int Profile(vtkDataArray* polyline, double spacing, vtkPolyData* line);
+
 protected:
   vtkPartitionedMeshQuery();
   ~vtkPartitionedMeshQuery() override;
 
   vtkExecutive* CreateDefaultExecutive() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  int RequestInformation(
-    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   int RequestUpdateExtent(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*) override;
   int RequestData(
@@ -224,6 +237,8 @@ private:
   tipp::MeshAnswer Ask(const std::vector<tipp::Point3>& points, bool weights, bool arrays);
   template <typename Work>
   int Try(const Work& work);
+  template <typename Work>
+  int Direct(const Work& work);
 
   char* FileName = nullptr;
   vtkTypeInt64 MemoryLimit = vtkTypeInt64(1) << 30;

@@ -50,6 +50,7 @@ int run(int argc, char** argv)
   tipp::addResampleCommand(app, exitCode);
   tipp::addPartitionCommand(app, exitCode);
   tipp::addQueryCommand(app, exitCode);
+  tipp::addContourCommand(app, exitCode);
   tipp::addCheckCommand(app, exitCode);
   try
   {

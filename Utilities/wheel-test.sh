@@ -38,7 +38,7 @@ environment oldest 'numpy<2'
 runs oldest Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutVtk.py
 environment scipy numpy scipy scikit-learn
 runs scipy Testing/Wheel/TestScipyHabits.py Testing/Wheel/TestTwoOpenMP.py
-environment pyvista 'vtk>=9.7,<9.8' pyvista
+environment pyvista 'vtk>=9.7,<9.8' pyvista shapely
 runs pyvista Testing/Wheel/TestPyVista.py Testing/Wheel/TestFilters.py Testing/Python/TestArguments.py Testing/Python/TestArrays.py \
   Testing/Python/TestCheck.py Testing/Python/TestConstraints.py Testing/Python/TestPackage.py Testing/Python/TestPointsToImage.py
 # cvista has no wheels for Python 3.11.

@@ -53,9 +53,115 @@ public:
   template <typename Visit>
   void search(const Box<D>& box, const Visit& visit) const
   {
+    this->forMet(box,
+      [&](const Node&, int, std::int32_t place)
+      {
+        visit(this->Order[std::size_t(place)]);
+        return true;
+      });
+  }
+
+  /// Boxes that meet a region, in which points are then searched.
+  struct alignas(16) Gathered
+  {
+    static constexpr int Most = 256;
+    int Count = 0;
+    std::array<std::int32_t, Most + 4> Numbers;
+    float Low[D][Most + 4];
+    float High[D][Most + 4];
+  };
+
+  /// Gathers the boxes that meet a region; false if there are too many.
+  bool gather(const Box<D>& region, Gathered& to) const
+  {
+    to.Count = 0;
+    const bool isWhole = this->forMet(region,
+      [&](const Node& node, int child, std::int32_t place)
+      {
+        if (to.Count == Gathered::Most)
+        {
+          return false;
+        }
+        for (int axis = 0; axis < D; ++axis)
+        {
+          to.Low[axis][to.Count] = node.Low[axis][child];
+          to.High[axis][to.Count] = node.High[axis][child];
+        }
+        to.Numbers[std::size_t(to.Count++)] = this->Order[std::size_t(place)];
+        return true;
+      });
+    for (int axis = 0; axis < D; ++axis) // the last four may not be full
+    {
+      std::fill_n(to.Low[axis] + to.Count, 4, std::numeric_limits<float>::quiet_NaN());
+    }
+    return isWhole;
+  }
+
+  /// As search(), for a box in the region of the gathered ones.
+  template <typename Visit>
+  void search(const Gathered& gathered, const Box<D>& box, const Visit& visit) const
+  {
+    float low[D];
+    float high[D];
+    this->roundOutward(box, low, high);
+    for (int part = 0; part < gathered.Count; part += 4)
+    {
+      for (unsigned met = metOf(gathered, part, low, high); met != 0; met &= met - 1)
+      {
+        visit(gathered.Numbers[std::size_t(part + __builtin_ctz(met))]);
+      }
+    }
+  }
+
+private:
+  static constexpr int Width = 8;
+  static constexpr int MostLevels = 11; // 8^11 > 2^31
+
+  struct alignas(32) Node
+  {
+    float Low[D][Width];
+    float High[D][Width];
+  };
+
+  using Floats = float __attribute__((vector_size(16)));
+  using Ints = std::int32_t __attribute__((vector_size(16)));
+
+  static Floats four(const float* values)
+  {
+    Floats result;
+    std::memcpy(&result, values, sizeof result);
+    return result;
+  }
+
+  /// Which of four boxes of a node, or of gathered ones, meet a box, a bit each.
+  template <typename Boxes>
+  static unsigned metOf(
+    const Boxes& boxes, int first, const float (&low)[D], const float (&high)[D])
+  {
+    Ints hits = four(boxes.Low[0] + first) <= high[0];
+    hits &= four(boxes.High[0] + first) >= low[0];
+    for (int axis = 1; axis < D; ++axis)
+    {
+      hits &= four(boxes.Low[axis] + first) <= high[axis];
+      hits &= four(boxes.High[axis] + first) >= low[axis];
+    }
+#ifdef __SSE__
+    Floats bits;
+    std::memcpy(&bits, &hits, sizeof bits);
+    return unsigned(__builtin_ia32_movmskps(bits));
+#else
+    return (hits[0] & 1u) | (hits[1] & 2u) | (hits[2] & 4u) | (hits[3] & 8u);
+#endif
+  }
+
+  /// Calls visit(node, child, place) for the leaves' children that meet a box, until it returns
+  /// false; returns whether it never did.
+  template <typename Visit>
+  bool forMet(const Box<D>& box, const Visit& visit) const
+  {
     if (this->Levels.empty())
     {
-      return;
+      return true;
     }
     float low[D];
     float high[D];
@@ -71,71 +177,24 @@ public:
     while (top > 0)
     {
       const Child at = stack[--top];
-      unsigned met = this->Levels[std::size_t(at.Level)][std::size_t(at.Number)].met(low, high);
+      const Node& node = this->Levels[std::size_t(at.Level)][std::size_t(at.Number)];
+      unsigned met = metOf(node, 0, low, high) | metOf(node, 4, low, high) << 4;
       for (; met != 0; met &= met - 1)
       {
-        const std::int32_t child = at.Number * Width + __builtin_ctz(met);
-        if (at.Level == 0)
+        const int child = __builtin_ctz(met);
+        const std::int32_t place = at.Number * Width + child;
+        if (at.Level > 0)
         {
-          visit(this->Order[std::size_t(child)]);
+          stack[top++] = { at.Level - 1, place };
         }
-        else
+        else if (!visit(node, child, place))
         {
-          stack[top++] = { at.Level - 1, child };
+          return false;
         }
       }
     }
+    return true;
   }
-
-private:
-  static constexpr int Width = 8;
-  static constexpr int MostLevels = 11; // 8^11 > 2^31
-
-  struct alignas(32) Node
-  {
-    float Low[D][Width];
-    float High[D][Width];
-
-    /// The children that meet a box, a bit each.
-    unsigned met(const float (&low)[D], const float (&high)[D]) const
-    {
-      unsigned bits = 0;
-      for (int part = 0; part < Width; part += 4)
-      {
-        Ints hits = this->four(this->Low[0], part) <= high[0];
-        hits &= this->four(this->High[0], part) >= low[0];
-        for (int axis = 1; axis < D; ++axis)
-        {
-          hits &= this->four(this->Low[axis], part) <= high[axis];
-          hits &= this->four(this->High[axis], part) >= low[axis];
-        }
-        bits |= signsOf(hits) << part;
-      }
-      return bits;
-    }
-
-  private:
-    using Floats = float __attribute__((vector_size(16)));
-    using Ints = std::int32_t __attribute__((vector_size(16)));
-
-    static Floats four(const float (&values)[Width], int part)
-    {
-      Floats result;
-      std::memcpy(&result, values + part, sizeof result);
-      return result;
-    }
-
-    static unsigned signsOf(const Ints& mask)
-    {
-#ifdef __SSE__
-      Floats bits;
-      std::memcpy(&bits, &mask, sizeof bits);
-      return unsigned(__builtin_ia32_movmskps(bits));
-#else
-      return (mask[0] & 1u) | (mask[1] & 2u) | (mask[2] & 4u) | (mask[3] & 8u);
-#endif
-    }
-  };
 
   template <typename BoxOf>
   void makeNodes(int threads, const BoxOf& boxOf)
@@ -196,14 +255,21 @@ private:
     }
   }
 
-  /// One unit outward covers the rounding to single precision and that of the difference before.
+  /// More than a unit outward, which covers the rounding to single precision and that of the
+  /// difference before. Finite also where single precision overflows.
   void roundOutward(const Box<D>& box, float (&low)[D], float (&high)[D]) const
   {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
+    constexpr double most = std::numeric_limits<float>::max();
+    const auto rounded = [&](double value, int axis)
+    { return float(std::min(std::max(value - this->Centre[axis], -most), most)); };
+    const auto margin = [](float value)
+    { return std::fabs(value) * 2.4e-7f + std::numeric_limits<float>::min(); };
     for (int axis = 0; axis < D; ++axis)
     {
-      low[axis] = std::nextafter(float(box.Low[axis] - this->Centre[axis]), -infinity);
-      high[axis] = std::nextafter(float(box.High[axis] - this->Centre[axis]), infinity);
+      const float lowest = rounded(box.Low[axis], axis);
+      const float highest = rounded(box.High[axis], axis);
+      low[axis] = lowest - margin(lowest);
+      high[axis] = highest + margin(highest);
     }
   }
 

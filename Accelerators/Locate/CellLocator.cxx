@@ -273,6 +273,59 @@ std::int64_t CellLocator::find(const Access& access, const Point& point) const
   return choice.cell();
 }
 
+/// Points that lie near each other, one after the other: they share the search for cells around
+/// them all.
+template <typename Access>
+void CellLocator::findInOrder(const Access& access, const AskedPoints& points,
+  const std::int32_t* order, std::int64_t count, const TakeLocation& take) const
+{
+  constexpr int D = Access::Dimension;
+  constexpr int mostShared = 64;
+  constexpr int fewCells = 64;
+  const auto& tree = std::get<BoxTree<D>>(this->Tree);
+  typename BoxTree<D>::Gathered gathered;
+  const auto pointAt = [&](std::int64_t i)
+  { return flattened<D>(this->Mesh, points.at(order[i])); };
+  const auto choose = [&](std::int64_t i, const auto& search)
+  {
+    const auto point = pointAt(i);
+    Choice<Access, std::decay_t<decltype(point)>> choice(access, this->CellIds, point);
+    search(Box<D>::of(arrayOf(point)), [&](std::int32_t cell) { choice.offer(cell); });
+    const std::int64_t cell = choice.cell();
+    cell >= 0 ? take(points.index(order[i]), weighed(access, cell, point)) : void();
+  };
+  std::int64_t shared = mostShared / 4;
+  int alone = 0; // so many points do without: they are far apart
+  for (std::int64_t begin = 0; begin < count;)
+  {
+    shared = alone > 0 ? 1 : shared;
+    alone -= alone > 0 ? 1 : 0;
+    const std::int64_t end = std::min(begin + shared, count);
+    Box<D> region = Box<D>::empty();
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      region.extend(Box<D>::of(arrayOf(pointAt(i))));
+    }
+    const bool isGathered = shared > 1 && tree.gather(region, gathered);
+    if (shared > 1 && !isGathered)
+    {
+      shared /= 2;
+      alone = shared == 1 ? mostShared : 0;
+      continue;
+    }
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      choose(i,
+        [&](const Box<D>& box, const auto& offer)
+        { isGathered ? tree.search(gathered, box, offer) : tree.search(box, offer); });
+    }
+    begin = end;
+    shared = !isGathered || gathered.Count < fewCells
+      ? std::min<std::int64_t>(2 * shared, mostShared)
+      : shared;
+  }
+}
+
 CellLocation CellLocator::locate(const Point3& point) const
 {
   CellLocation location;
@@ -305,15 +358,7 @@ void locatePoints(const SimplexMesh& mesh, const std::int64_t* cellIds, const Ce
         mortonOrder(points.Count, threads, boundsOf<D>(points.Count, threads, boxOf), boxOf);
       forChunks(std::int64_t(order.size()), 1 << 12, threads, {},
         [&](std::int64_t begin, std::int64_t end, int)
-        {
-          for (std::int64_t i = begin; i < end; ++i)
-          {
-            const std::int64_t at = order[std::size_t(i)];
-            const auto p = flattened<D>(mesh, points.at(at));
-            const std::int64_t cell = locator->find(access, p);
-            cell >= 0 ? take(points.index(at), weighed(access, cell, p)) : void();
-          }
-        });
+        { locator->findInOrder(access, points, order.data() + begin, end - begin, take); });
     });
 }
 

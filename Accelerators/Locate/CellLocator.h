@@ -55,6 +55,9 @@ public:
 private:
   template <typename Access, typename Point>
   std::int64_t find(const Access& access, const Point& point) const;
+  template <typename Access>
+  void findInOrder(const Access& access, const AskedPoints& points, const std::int32_t* order,
+    std::int64_t count, const TakeLocation& take) const;
   friend VTKTIPPACCELERATORS_EXPORT void locatePoints(const SimplexMesh& mesh,
     const std::int64_t* cellIds, const CellLocator* locator, const AskedPoints& points, int threads,
     const TakeLocation& take);

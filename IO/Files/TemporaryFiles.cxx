@@ -165,9 +165,9 @@ bool isOurs(const std::string& path)
 {
   static const std::regex ours(
     "\\.(points|plan|piece|ranks)(\\.[^/]*)?"
-    "|[^/]+/\\.(owners|points|cells|shared|borrowers|borrowed|ghosts)\\b.*"
-    "|[^/]+/(index\\.json|tables\\.bin|mesh\\.pvtu)"
-    "|[^/]+/pieces/[0-9]{6,}\\.vtu(\\.next)?"
+    "|([^/]+/)+\\.(owners|points|cells|shared|borrowers|borrowed|ghosts)\\b.*"
+    "|([^/]+/)+(index\\.json|tables\\.bin|mesh\\.pvtu)"
+    "|([^/]+/)+pieces/[0-9]{6,}\\.vtu(\\.next)?"
     "|([^/]+/)+[^/]+\\.npy"
     "|([^/]+/)*\\.[^/]+\\.tmp"
     "|([^/]+/)+\\.tipp-work",

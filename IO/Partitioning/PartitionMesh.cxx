@@ -11,6 +11,7 @@
 #include "Partitioned/PieceWriter.h"
 #include "Partitioning/MeshTiling.h"
 #include "Partitioning/PartitionJob.h"
+#include "Partitioning/PartitionNeighbors.h"
 #include "Ranks/Communicator.h"
 
 #include <algorithm>
@@ -233,6 +234,10 @@ void runPhases(PartitionJob& job, const std::string& path)
 PartitionStatistics partitionMesh(const FlatMesh& mesh, const std::string& path,
   const PartitionOptions& options, vtkMultiProcessController* controller)
 {
+  if (options.Neighbors)
+  {
+    return partitionWithNeighbors(mesh, path, options, controller);
+  }
   Communicator ranks(controller);
   std::optional<PendingFolder> pending;
   ranks.attempt(

@@ -27,6 +27,9 @@ struct PartitionOptions
   /// Whether borrowed cells are copied to their borrowers' pieces; if not, pieces refer to the
   /// owner's.
   bool DuplicateBorrowers = false;
+  /// Whether the mesh gets a cell array NeighborIds: for each corner the id of the cell across the
+  /// opposite edge or face, of several the lowest; -1 if there is none. It replaces one of that name.
+  bool Neighbors = false;
   /// In bytes per rank; bounds the buffers of loaders, chunks and pieces together.
   std::uint64_t MemoryLimit = std::uint64_t(2) << 30;
   LoaderOptions Loading;        ///< its MemoryLimit is derived from the above

@@ -28,6 +28,16 @@ struct IdLists
 VTKTIPPIO_EXPORT std::vector<std::int64_t> neighborsOf(
   const ResidentMesh& mesh, const std::vector<std::int64_t>& cells);
 
+/// The cells that a piece owns, and their neighbours.
+struct OwnedNeighbors
+{
+  std::vector<std::int64_t> Cells;     ///< global ids
+  std::vector<std::int64_t> Neighbors; ///< as of neighborsOf()
+};
+
+/// Computed from the cells, even if the mesh has neighbour ids.
+OwnedNeighbors neighborsInPiece(const ResidentMesh& mesh, std::size_t piece);
+
 /// The cells at each point, ascending.
 VTKTIPPIO_EXPORT IdLists starsOf(const ResidentMesh& mesh, const std::vector<std::int64_t>& points);
 

@@ -206,10 +206,8 @@ private:
   std::vector<char> HasBefore;
 };
 
-} // namespace
-
-Contours contoursOf(const ResidentMesh& mesh, const std::string& array, int component,
-  const std::vector<double>& levels)
+/// The array's description, null for the elevation, if it can have contours. Throws IOError.
+const StoredArray* requireField(const ResidentMesh& mesh, const std::string& array, int component)
 {
   const std::string name = mesh.isStored() ? mesh.mesh().Path : "the mesh";
   if (mesh.mesh().CellSize != 3)
@@ -225,6 +223,43 @@ Contours contoursOf(const ResidentMesh& mesh, const std::string& array, int comp
   {
     throw IOError(name, "has no component " + std::to_string(component) + " of '" + array + "'.");
   }
+  return description;
+}
+
+} // namespace
+
+std::pair<double, double> rangeOf(const ResidentMesh& mesh, const std::string& array, int component)
+{
+  const StoredArray* const description = requireField(mesh, array, component);
+  double low = HUGE_VAL;
+  double high = -HUGE_VAL;
+  std::mutex mutex;
+  forChunks(std::int64_t(mesh.mesh().Pieces.size()), 1, threadCount(mesh.options().Threads), {},
+    [&](std::int64_t number, std::int64_t, int)
+    {
+      poll();
+      const ResidentPieces::Lease piece =
+        mesh.pieces().get(std::size_t(number), mesh.needsOf({ array }));
+      const PartValues values(*piece->Part, description);
+      double ownLow = HUGE_VAL;
+      double ownHigh = -HUGE_VAL;
+      for (std::int64_t point = 0; point < piece->Part->Mesh.PointCount; ++point)
+      {
+        const double value = values.atPoint(point, component);
+        ownLow = std::isfinite(value) ? std::min(ownLow, value) : ownLow;
+        ownHigh = std::isfinite(value) ? std::max(ownHigh, value) : ownHigh;
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      low = std::min(low, ownLow);
+      high = std::max(high, ownHigh);
+    });
+  return { low, high };
+}
+
+Contours contoursOf(const ResidentMesh& mesh, const std::string& array, int component,
+  const std::vector<double>& levels)
+{
+  const StoredArray* const description = requireField(mesh, array, component);
   std::vector<std::pair<double, std::int32_t>> sorted;
   for (std::size_t i = 0; i < levels.size(); ++i)
   {

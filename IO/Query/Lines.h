@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -27,6 +28,11 @@ struct Contours
 /// and threads; they are in the order of their levels, as given. Throws IOError.
 VTKTIPPIO_EXPORT Contours contoursOf(const ResidentMesh& mesh, const std::string& array,
   int component, const std::vector<double>& levels);
+
+/// The lowest and the highest finite value of an array of points; low > high if there is none.
+/// Throws IOError.
+VTKTIPPIO_EXPORT std::pair<double, double> rangeOf(
+  const ResidentMesh& mesh, const std::string& array, int component);
 
 /// A polyline over a mesh of triangles.
 struct Profile

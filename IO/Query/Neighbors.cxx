@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Query/Around.h"
+
+#include "Partitioned/NeighborIds.h"
 #include "Query/ForPieces.h"
 
 #include <algorithm>
@@ -10,8 +12,6 @@ namespace tipp
 {
 namespace
 {
-
-constexpr const char* neighborsName = "NeighborIds";
 
 /// A face whose points all belong to other pieces than its cell.
 struct ForeignFace
@@ -94,28 +94,15 @@ void findForeign(const ResidentMesh& mesh, const std::vector<ForeignFace>& faces
     });
 }
 
-} // namespace
-
-std::vector<std::int64_t> neighborsOf(
-  const ResidentMesh& mesh, const std::vector<std::int64_t>& cells)
+/// Of cells that are grouped by the pieces that own them.
+std::vector<std::int64_t> computedNeighbors(
+  const ResidentMesh& mesh, const PieceGroups& groups, const std::vector<std::int64_t>& cells)
 {
-  const std::vector<StoredArray>& arrays = mesh.mesh().Arrays;
   const int corners = mesh.mesh().CellSize;
-  const auto stored = std::find_if(arrays.begin(), arrays.end(),
-    [corners](const StoredArray& array)
-    {
-      return !array.OfPoints && array.Name == neighborsName && array.Type == Scalar::Int64 &&
-        array.Components == corners && array.Step < 0;
-    });
-  if (mesh.isStored() && stored != arrays.end())
-  {
-    return storedNeighbors(mesh, cells, std::size_t(stored - arrays.begin()));
-  }
   std::vector<std::int64_t> result(cells.size() * std::size_t(corners), -1);
   std::vector<ForeignFace> foreign;
   std::vector<Point3> positions;
   std::mutex mutex;
-  const PieceGroups groups = groupsOf(mesh, cells, false);
   forPieces(mesh, groups, topologyNeeded(),
     [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
     {
@@ -149,6 +136,47 @@ std::vector<std::int64_t> neighborsOf(
     });
   foreign.empty() ? void() : findForeign(mesh, foreign, positions, result);
   return result;
+}
+
+} // namespace
+
+std::vector<std::int64_t> neighborsOf(
+  const ResidentMesh& mesh, const std::vector<std::int64_t>& cells)
+{
+  const std::vector<StoredArray>& arrays = mesh.mesh().Arrays;
+  const int corners = mesh.mesh().CellSize;
+  const auto stored = std::find_if(arrays.begin(), arrays.end(),
+    [corners](const StoredArray& array)
+    {
+      return !array.OfPoints && array.Name == neighborIdsArray.Name &&
+        array.Type == Scalar::Int64 && array.Components == corners && array.Step < 0;
+    });
+  if (mesh.isStored() && stored != arrays.end())
+  {
+    return storedNeighbors(mesh, cells, std::size_t(stored - arrays.begin()));
+  }
+  return computedNeighbors(mesh, groupsOf(mesh, cells, false), cells);
+}
+
+OwnedNeighbors neighborsInPiece(const ResidentMesh& mesh, std::size_t piece)
+{
+  OwnedNeighbors owned;
+  {
+    const ResidentPieces::Lease lease = mesh.pieces().get(piece, topologyNeeded());
+    const MeshPart& part = *lease->Part;
+    for (std::int64_t cell = 0; cell < part.OwnedCells; ++cell)
+    {
+      owned.Cells.push_back(part.cellId(cell));
+    }
+  }
+  PieceGroups groups;
+  for (std::size_t i = 0; i < owned.Cells.size(); ++i)
+  {
+    groups.Items.push_back(std::int64_t(i));
+  }
+  groups.Groups.push_back({ piece, 0, std::int64_t(owned.Cells.size()) });
+  owned.Neighbors = computedNeighbors(mesh, groups, owned.Cells);
+  return owned;
 }
 
 } // namespace tipp

@@ -18,16 +18,19 @@ namespace tipp
   X(CPLErrorReset)                                                                                 \
   X(CPLGetLastErrorMsg)                                                                            \
   X(CPLGetLastErrorType)                                                                           \
-  X(CPLSetErrorHandler)                                                                            \
   X(CPLQuietErrorHandler)                                                                          \
+  X(CPLSetErrorHandler)                                                                            \
   X(CSLDestroy)                                                                                    \
   X(CSLSetNameValue)                                                                               \
   X(GDALAllRegister)                                                                               \
   X(GDALClose)                                                                                     \
   X(GDALCreate)                                                                                    \
   X(GDALCreateCopy)                                                                                \
+  X(GDALDatasetCommitTransaction)                                                                  \
+  X(GDALDatasetCreateLayer)                                                                        \
   X(GDALDatasetGetLayer)                                                                           \
   X(GDALDatasetGetLayerCount)                                                                      \
+  X(GDALDatasetStartTransaction)                                                                   \
   X(GDALGetDriverByName)                                                                           \
   X(GDALGetGeoTransform)                                                                           \
   X(GDALGetProjectionRef)                                                                          \
@@ -39,8 +42,16 @@ namespace tipp
   X(GDALSetGeoTransform)                                                                           \
   X(GDALSetMetadataItem)                                                                           \
   X(GDALSetSpatialRef)                                                                             \
+  X(OGR_F_Create)                                                                                  \
   X(OGR_F_Destroy)                                                                                 \
   X(OGR_F_GetGeometryRef)                                                                          \
+  X(OGR_F_SetFieldDouble)                                                                          \
+  X(OGR_F_SetGeometryDirectly)                                                                     \
+  X(OGR_Fld_Create)                                                                                \
+  X(OGR_Fld_Destroy)                                                                               \
+  X(OGR_GT_Flatten)                                                                                \
+  X(OGR_G_AddPoint)                                                                                \
+  X(OGR_G_CreateGeometry)                                                                          \
   X(OGR_G_DestroyGeometry)                                                                         \
   X(OGR_G_GetGeometryCount)                                                                        \
   X(OGR_G_GetGeometryRef)                                                                          \
@@ -52,7 +63,9 @@ namespace tipp
   X(OGR_G_GetZ)                                                                                    \
   X(OGR_G_HasCurveGeometry)                                                                        \
   X(OGR_G_Is3D)                                                                                    \
-  X(OGR_GT_Flatten)                                                                                \
+  X(OGR_L_CreateFeature)                                                                           \
+  X(OGR_L_CreateField)                                                                             \
+  X(OGR_L_GetLayerDefn)                                                                            \
   X(OGR_L_GetNextFeature)                                                                          \
   X(OGR_L_ResetReading)                                                                            \
   X(OSRDestroySpatialReference)                                                                    \

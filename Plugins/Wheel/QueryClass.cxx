@@ -2,6 +2,7 @@
 #include "Binding.h"
 
 #include "Query/Around.h"
+#include "Query/Lines.h"
 #include "Query/ResidentMesh.h"
 
 #include <nanobind/stl/string.h>
@@ -105,13 +106,7 @@ public:
     AnswerOptions options;
     options.Arrays = names;
     MeshAnswer answer = this->ask(points, options);
-    nb::dict result;
-    for (MeshAnswer::Array& array : answer.Arrays)
-    {
-      result[array.Name.c_str()] =
-        arrayOf(std::move(array.Values), array.Type, std::size_t(array.Components));
-    }
-    return result;
+    return valuesOf(answer);
   }
 
   nb::object neighbors(const InputArray& cells) const
@@ -136,6 +131,25 @@ public:
   {
     return listsOf(withoutLock([&] { return boundaryOf(*this->Mesh); }).Points);
   }
+  nb::tuple contours(const std::string& array, int component, const InputArray& levels) const
+  {
+    const auto* const first = static_cast<const double*>(levels.data());
+    const std::vector<double> values(first, first + levels.shape(0));
+    const Contours found =
+      withoutLock([&] { return contoursOf(*this->Mesh, array, component, values); });
+    return nb::make_tuple(copied(found.Starts), copied(found.Levels), positionsOf(found.Points, 3));
+  }
+
+  nb::tuple profile(
+    const InputArray& polyline, double spacing, const std::vector<std::string>& names) const
+  {
+    const auto* const first = static_cast<const Point3*>(polyline.data());
+    const std::vector<Point3> points(first, first + polyline.shape(0));
+    Profile found = withoutLock([&] { return profileOf(*this->Mesh, points, spacing, names); });
+    return nb::make_tuple(copied(found.Distances), positionsOf(found.Points, 2),
+      copied(found.Answer.Cells), valuesOf(found.Answer));
+  }
+
   nb::tuple components() const
   {
     const Components found = withoutLock([&] { return componentsOf(*this->Mesh); });
@@ -143,6 +157,29 @@ public:
   }
 
 private:
+  /// Takes the memory of the answer's arrays.
+  static nb::dict valuesOf(MeshAnswer& answer)
+  {
+    nb::dict result;
+    for (MeshAnswer::Array& array : answer.Arrays)
+    {
+      result[array.Name.c_str()] =
+        arrayOf(std::move(array.Values), array.Type, std::size_t(array.Components));
+    }
+    return result;
+  }
+
+  static nb::object positionsOf(const std::vector<Point3>& points, int columns)
+  {
+    std::vector<double> coordinates;
+    for (const Point3& p : points)
+    {
+      coordinates.insert(coordinates.end(), { p.x, p.y });
+      columns == 3 ? coordinates.push_back(p.z) : void();
+    }
+    return copied(coordinates, std::size_t(columns));
+  }
+
   static ResidentOptions optionsOf(std::uint64_t memory, int step, int threads)
   {
     ResidentOptions options;
@@ -182,6 +219,8 @@ void addQueryClass(nb::module_& module)
     .def("ring_of_points", &Query::ringOfPoints)
     .def("ring_of_cells", &Query::ringOfCells)
     .def("boundary", &Query::boundary)
+    .def("contours", &Query::contours)
+    .def("profile", &Query::profile)
     .def("components", &Query::components);
 }
 

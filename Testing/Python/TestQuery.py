@@ -126,6 +126,39 @@ class Query(unittest.TestCase):
             np.testing.assert_array_equal(cells >= 0, mask != 0)
             self.assertEqual(np.abs(vtk_to_numpy(ours.GetArray("height"))[mask == 0]).max(), 0)
 
+    def test_direct_questions_update_the_source(self):
+        from vtkmodules.vtkCommonCore import vtkIdTypeArray
+        from vtkmodules.vtkFiltersGeneral import vtkShrinkFilter
+
+        shrink = vtkShrinkFilter()
+        shrink.SetInputData(self.mesh)
+        query = tipp.vtkPartitionedMeshQuery()
+        query.SetSourceConnection(shrink.GetOutputPort())
+        cells, sizes = vtkIdTypeArray(), vtkIdTypeArray()
+        self.assertEqual(query.Components(cells, sizes), 1)
+        self.assertEqual(sizes.GetNumberOfValues(), self.mesh.GetNumberOfCells())  # each cell by itself
+
+    def test_contours_of_a_plane_are_straight(self):
+        with tipp.open(self.path) as mesh, tipp.open(self.mesh) as whole:
+            lines = mesh.contours([-0.5, 0.25, 7], "height")
+            self.assertEqual([level for level, _ in lines], [-0.5, 0.25])
+            for level, points in lines:
+                np.testing.assert_allclose(points[:, 0] - 2 * points[:, 1], level, atol=1e-12)
+            for (_, ours), (_, theirs) in zip(lines, whole.contours([-0.5, 0.25], "height")):
+                np.testing.assert_array_equal(ours, theirs)
+            self.assertEqual(mesh.contours([7], "height"), [])
+
+    def test_profiles_cross_pieces(self):
+        with tipp.open(self.path) as mesh, tipp.open(self.mesh) as whole:
+            corners = [(0.2, 0.3), (0.7, 0.6), (0.7, 0.9)]
+            for spacing in (0, 0.01):
+                ours, theirs = mesh.profile(corners, spacing, "height"), whole.profile(corners, spacing, "height")
+                np.testing.assert_array_equal(ours.points, theirs.points)
+                np.testing.assert_array_equal(ours.cells, theirs.cells)
+                np.testing.assert_allclose(ours.values["height"], ours.points[:, 0] - 2 * ours.points[:, 1], atol=1e-12)
+                self.assertAlmostEqual(ours.distances[-1], np.hypot(0.5, 0.3) + 0.3)
+                self.assertTrue((np.diff(ours.distances) > 0).all())
+
     def test_errors_are_one_sentence(self):
         with self.assertRaisesRegex(RuntimeError, "nowhere"):
             tipp.open(str(self.folder / "nowhere"))

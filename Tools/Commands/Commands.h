@@ -21,6 +21,7 @@ enum ExitCode
 /// Each function adds its subcommand, which sets `exitCode` when it has run; it may throw IOError
 /// and std::bad_alloc.
 void addCheckCommand(CLI::App& app, int& exitCode);
+void addContourCommand(CLI::App& app, int& exitCode);
 void addDelaunayCommand(CLI::App& app, int& exitCode);
 void addDemCommand(CLI::App& app, int& exitCode);
 void addDevicesCommand(CLI::App& app, int& exitCode);

@@ -89,6 +89,7 @@ struct PartitionArguments
   std::string Output;
   std::string Tiling = "grid:4x4";
   std::string Borrowers = "reference";
+  bool Neighbors = false;
   std::string Memory = "2G";
   std::string Loader = "auto";
   std::string Device = "openmp";
@@ -109,6 +110,7 @@ PartitionOptions makeOptions(
   PartitionOptions options;
   options.Tiling = *TilingChoice::parse(arguments.Tiling);
   options.DuplicateBorrowers = arguments.Borrowers == "duplicate";
+  options.Neighbors = arguments.Neighbors;
   options.MemoryLimit = *parseMemorySize(arguments.Memory);
   options.Loading.Kind = loaderFromName(arguments.Loader);
   options.Device = parseDeviceChoice(arguments.Device);
@@ -178,6 +180,8 @@ void addPartitionCommand(CLI::App& app, int& exitCode)
       "reference: borrowed cells stay in their owners' pieces; duplicate: they are copied too")
     ->check(CLI::IsMember({ "reference", "duplicate" }))
     ->capture_default_str();
+  command->add_flag("--neighbors", arguments->Neighbors,
+    "Also the number of the cell across each edge or face, as NeighborIds; partitions twice");
   command->add_option("--memory", arguments->Memory, "What the run may take, as 512M")
     ->check(checkMemorySize)
     ->capture_default_str();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
+#include "Commands/QueryMesh.h"
 #include "Console/Process.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
@@ -9,12 +10,8 @@
 #include "Npy/NpyFile.h"
 #include "Parallel/Poll.h"
 #include "Points/ReadPoints.h"
-#include "Query/DataSetPart.h"
 #include "Query/RankAnswer.h"
 #include "Ranks/Communicator.h"
-#include "Vtk/ReadDataSet.h"
-
-#include "vtkDataSet.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -55,49 +52,21 @@ Examples:
 struct QueryArguments
 {
   std::string Points;
-  std::string Mesh;
+  QueryMeshArguments Mesh;
   std::string Output;
   std::vector<std::string> Arrays;
   bool Weights = false;
   PointOptions Reading;
-  std::string Memory = "1G";
-  int Step = 0;
-  int Threads = 0;
 
   bool toNpy() const { return extensionOf(this->Output) == ".npy"; }
 };
-
-std::unique_ptr<ResidentMesh> openMesh(const QueryArguments& arguments)
-{
-  ResidentOptions options;
-  options.MemoryLimit = *parseMemorySize(arguments.Memory);
-  options.Threads = arguments.Threads;
-  options.Step = arguments.Step;
-  if (isPartitionedMesh(arguments.Mesh))
-  {
-    return std::make_unique<ResidentMesh>(arguments.Mesh, options);
-  }
-  const vtkSmartPointer<vtkDataSet> data = readDataSet(arguments.Mesh);
-  try
-  {
-    return std::make_unique<ResidentMesh>(partOf(data, arguments.Threads), options);
-  }
-  catch (const IOError&)
-  {
-    throw;
-  }
-  catch (const std::runtime_error& error)
-  {
-    throw IOError(arguments.Mesh, std::string("cannot be used: ") + error.what());
-  }
-}
 
 /// This rank's share of the points. Throws IOError if points in space have no z.
 std::vector<Point3> readShare(
   const QueryArguments& arguments, bool inSpace, const Communicator& ranks)
 {
   PointOptions reading = arguments.Reading;
-  reading.Threads = arguments.Threads;
+  reading.Threads = arguments.Mesh.Threads;
   const PointTable table =
     readPointsShare({ arguments.Points }, reading, ranks.rank(), ranks.size());
   reportLeftOut(table.LeftOut, table.ThinnedOut);
@@ -252,10 +221,10 @@ void answerAll(const QueryArguments& arguments, Communicator& ranks)
   PathState before;
   if (ranks.isFirst())
   {
-    requireApart({ arguments.Output }, { arguments.Points, arguments.Mesh });
+    requireApart({ arguments.Output }, { arguments.Points, arguments.Mesh.Path });
     before = PendingFile(arguments.Output).before(); // fails early if it cannot be written
   }
-  const std::unique_ptr<ResidentMesh> mesh = openMesh(arguments);
+  const std::unique_ptr<ResidentMesh> mesh = openQueryMesh(arguments.Mesh);
   AnswerOptions options;
   options.Arrays = arguments.Arrays.empty() ? mesh->names() : arguments.Arrays;
   options.Weights = arguments.Weights;
@@ -330,7 +299,7 @@ void addQueryCommand(CLI::App& app, int& exitCode)
   CLI::App* const command =
     app.add_subcommand("query", "Tells which cells of a mesh hold points, and its arrays there");
   command->add_option("points", arguments->Points, "A file of points")->required();
-  command->add_option("mesh", arguments->Mesh, "The mesh, see below")->required();
+  command->add_option("mesh", arguments->Mesh.Path, "The mesh, see below")->required();
   command->add_option("-o,--output", arguments->Output, "The file to write, see below")
     ->required()
     ->check(checkOutput);
@@ -340,15 +309,7 @@ void addQueryCommand(CLI::App& app, int& exitCode)
     ->delimiter(',');
   command->add_flag(
     "--weights", arguments->Weights, "Also the barycentric weights of each cell's corners (.csv)");
-  command->add_option("--step", arguments->Step, "Time step of arrays that vary in time")
-    ->check(CLI::NonNegativeNumber)
-    ->capture_default_str();
-  command
-    ->add_option(
-      "--memory", arguments->Memory, "For the pieces of a partitioned mesh that stay in memory")
-    ->check(checkMemorySize)
-    ->capture_default_str();
-  addThreadsOption(*command, arguments->Threads);
+  addQueryMeshOptions(*command, arguments->Mesh);
   addPointOptions(*command, arguments->Reading);
   command->footer(footer);
   command->callback([arguments, &exitCode]() { exitCode = runQuery(*arguments); });

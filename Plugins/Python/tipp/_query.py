@@ -2,7 +2,7 @@
 """tipp.open: a mesh that answers queries."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterable
+from typing import TYPE_CHECKING, Any, Iterable, NamedTuple
 
 import numpy as np
 
@@ -61,6 +61,15 @@ def open(  # pylint: disable=redefined-builtin
     }
     source = mesh if check.is_vtk_object(mesh) or hasattr(mesh, "point_data") else check.path(mesh, "mesh")
     return ResidentMesh(_engine.open_mesh(source, options))
+
+
+class Profile(NamedTuple):
+    """A mesh along a polyline; ResidentMesh.profile() makes it."""
+
+    distances: np.ndarray
+    points: np.ndarray
+    cells: np.ndarray
+    values: dict[str, np.ndarray]
 
 
 class ResidentMesh:
@@ -155,6 +164,41 @@ class ResidentMesh:
     def boundary(self) -> list[np.ndarray]:
         """The border of a mesh of triangles: of each loop the ids of its points, with the mesh on the left."""
         return _split(*self._ask().boundary())
+
+    def contours(self, levels: Iterable[float], array: str = "elevation", component: int = 0
+                 ) -> list[tuple[float, np.ndarray]]:
+        """Where an array of the points has these levels, on a mesh of triangles: (level, (n, 3) points) of each line.
+
+        Lines go on across pieces. The first point of a closed line is also its last. The higher side is on the left.
+        """
+        name = check.text(array, "array")
+        check.require_arrays([name], self._names, "")
+        starts, found, points = self._ask().contours(
+            name, check.whole(component, "component"), np.array([check.number(v, "levels") for v in levels], np.float64))
+        return list(zip(found.tolist(), np.split(points, starts[1:-1]) if len(starts) > 1 else []))
+
+    def profile(self, polyline: ArrayLike, spacing: float = 0, arrays: str | Iterable[str] | None = None) -> Profile:
+        """The mesh along a polyline over triangles.
+
+        Parameters
+        ----------
+        polyline
+            (n, 2) or (n, 3) coordinates, of which x and y count.
+        spacing
+            The distance of samples; those at the polyline's corners come besides. 0: at its corners and wherever it
+            crosses an edge of the mesh.
+        arrays
+            The name of an array, or names. None: all.
+
+        Returns
+        -------
+        Profile
+            `distances` along x and y, `points` (n, 2), `cells` and the arrays by name in `values`. With spacing 0
+            `cells` are those up to the next point, -1 before a gap.
+        """
+        wanted = self._names if arrays is None else check.names(arrays, "arrays")
+        check.require_arrays(wanted, self._names, "")
+        return Profile(*self._ask().profile(_points(polyline), check.number(spacing, "spacing", at_least=0), wanted))
 
     def components(self) -> tuple[np.ndarray, np.ndarray]:
         """The connected component of each cell, by common edges or faces, and how many cells each component has."""

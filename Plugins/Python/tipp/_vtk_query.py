@@ -6,14 +6,14 @@ import threading
 from typing import Any, Callable
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIdTypeArray, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkPointData, vtkPolyData
 
 from . import _arguments as check
 from ._arrays import Mesh
 from ._run import run
-from ._vtk import arrays_of, grid_of, vtk_points
+from ._vtk import arrays_of, grid_of, vtk_points, xyz_of
 from .vtkTIPPFilters import vtkPartitionedMeshQuery
 
 
@@ -42,6 +42,11 @@ class MeshQuery:
         with self._turn:
             run(self._query, call=call)
 
+    def _name(self, names: list[str]) -> None:
+        self._query.ClearArrays()
+        for name in names:
+            self._query.AddArray(name)
+
     def names(self) -> list[str]:
         names = vtkStringArray()
         self._run(lambda: self._query.GetNamesOfArrays(names))
@@ -56,9 +61,7 @@ class MeshQuery:
         values = vtkPointData()
 
         def call() -> None:
-            self._query.ClearArrays()
-            for name in names:
-                self._query.AddArray(name)
+            self._name(names)
             self._query.Interpolate(vtk_points(points).GetData(), values)
 
         if names:
@@ -90,10 +93,32 @@ class MeshQuery:
         if loops.GetNumberOfPoints() == 0:
             return np.zeros(1, np.int64), np.zeros(0, np.int64)
         # A line ends where it begins; the points are in the loops' order, each once.
-        offsets = vtk_to_numpy(loops.GetLines().GetOffsetsArray()).astype(np.int64)
-        return offsets - np.arange(len(offsets)), vtk_to_numpy(loops.GetPointData().GetGlobalIds())
+        starts = _starts(loops)
+        return starts - np.arange(len(starts)), vtk_to_numpy(loops.GetPointData().GetGlobalIds())
+
+    def contours(self, array: str, component: int, levels: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        lines = vtkPolyData()
+        self._run(lambda: self._query.Contours(array, component, numpy_to_vtk(levels, deep=True), lines))
+        if lines.GetNumberOfPoints() == 0:
+            return np.zeros(1, np.int64), np.zeros(0), np.zeros((0, 3))
+        return _starts(lines), vtk_to_numpy(lines.GetCellData().GetScalars()), xyz_of(lines)
+
+    def profile(self, polyline: np.ndarray, spacing: float, names: list[str]) -> tuple[Any, ...]:
+        line = vtkPolyData()
+
+        def call() -> None:
+            self._name(names)
+            self._query.Profile(vtk_points(polyline).GetData(), spacing, line)
+
+        self._run(call)
+        values = arrays_of(line.GetPointData())
+        return values.pop("Distance"), xyz_of(line)[:, :2], values.pop("CellId"), {name: values[name] for name in names}
 
     def components(self) -> tuple[np.ndarray, np.ndarray]:
         cells, sizes = vtkIdTypeArray(), vtkIdTypeArray()
         self._run(lambda: self._query.Components(cells, sizes))
         return vtk_to_numpy(cells), vtk_to_numpy(sizes)
+
+
+def _starts(lines: vtkPolyData) -> np.ndarray:
+    return vtk_to_numpy(lines.GetLines().GetOffsetsArray()).astype(np.int64)

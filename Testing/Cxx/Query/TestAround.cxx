@@ -2,12 +2,16 @@
 #include "QueryTesting.h"
 
 #include "ExpectIOError.h"
+#include "Flat/FlatMesh.h"
+#include "Partitioning/PartitionMesh.h"
 #include "Query/Around.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -177,6 +181,29 @@ TEST_F(Around, NeighborsAreThoseThatShareAFace)
     withEach(*scene,
       [&](const ResidentMesh& mesh)
       { EXPECT_EQ(expected, neighborsOf(mesh, allIds(source.cells()))); });
+  }
+}
+
+TEST_F(Around, PartitioningStoresNeighborIds)
+{
+  for (const auto& scene : Scenes)
+  {
+    const TemporaryFolder folder;
+    writeFlat(scene->Source, folder.path("flat"));
+    PartitionOptions options;
+    options.Tiling = *TilingChoice::parse("quadtree:15");
+    options.Neighbors = true;
+    options.MemoryLimit = 1 << 20;
+    partitionMesh(openFlatMesh(folder.path("flat")), folder.path("mesh.tipp"), options);
+    const ResidentMesh mesh(folder.path("mesh.tipp"));
+    const std::vector<std::string> names = mesh.names();
+    for (const char* const name : { "NeighborIds", "label", "value" })
+    {
+      EXPECT_EQ(1, std::count(names.begin(), names.end(), name)) << name;
+    }
+    EXPECT_EQ(neighborsByForce(scene->Source), neighborsOf(mesh, allIds(scene->Source.cells())));
+    const auto left = std::filesystem::directory_iterator(folder.path(""));
+    EXPECT_EQ(2, std::distance(begin(left), end(left))); // no scratch
   }
 }
 

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Query/LineData.h"
+
+#include "Arrays/Scalar.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+namespace
+{
+
+vtkSmartPointer<vtkPoints> pointsOf(const std::vector<Point3>& positions)
+{
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(vtkIdType(positions.size()));
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    points->SetPoint(vtkIdType(i), positions[i].x, positions[i].y, positions[i].z);
+  }
+  return points;
+}
+
+/// A line for each list of successive points.
+vtkSmartPointer<vtkPolyData> linesOf(
+  const std::vector<Point3>& positions, const std::vector<std::int64_t>& starts, bool isClosed)
+{
+  vtkNew<vtkCellArray> lines;
+  for (std::size_t i = 0; i + 1 < starts.size(); ++i)
+  {
+    lines->InsertNextCell(int(starts[i + 1] - starts[i]) + (isClosed ? 1 : 0));
+    for (std::int64_t at = starts[i]; at < starts[i + 1]; ++at)
+    {
+      lines->InsertCellPoint(at);
+    }
+    isClosed ? lines->InsertCellPoint(starts[i]) : void();
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(pointsOf(positions));
+  data->SetLines(lines);
+  return data;
+}
+
+template <typename Array, typename Value>
+vtkSmartPointer<Array> arrayOf(const char* name, const std::vector<Value>& values)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfValues(vtkIdType(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  return array;
+}
+
+} // namespace
+
+vtkSmartPointer<vtkDataArray> takeOver(MeshAnswer::Array& values)
+{
+  auto array =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(vtkTypeOf(values.Type)));
+  const auto count = vtkIdType(values.Values.size() / scalarSize(values.Type));
+  array->SetName(values.Name.c_str());
+  array->SetNumberOfComponents(values.Components);
+  array->SetVoidArray(values.Values.release(), count, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
+  return array;
+}
+
+vtkSmartPointer<vtkPolyData> polyDataOf(const BoundaryLoops& loops)
+{
+  const vtkSmartPointer<vtkPolyData> data = linesOf(loops.Positions, loops.Points.Starts, true);
+  data->GetPointData()->SetGlobalIds(arrayOf<vtkIdTypeArray>("GlobalPointIds", loops.Points.Ids));
+  return data;
+}
+
+vtkSmartPointer<vtkPolyData> polyDataOf(const Contours& contours, const std::string& name)
+{
+  const vtkSmartPointer<vtkPolyData> data = linesOf(contours.Points, contours.Starts, false);
+  data->GetCellData()->SetScalars(arrayOf<vtkDoubleArray>(name.c_str(), contours.Levels));
+  return data;
+}
+
+vtkSmartPointer<vtkPolyData> polyDataOf(Profile&& profile)
+{
+  const auto count = std::int64_t(profile.Points.size());
+  const vtkSmartPointer<vtkPolyData> data = linesOf(profile.Points,
+    count > 0 ? std::vector<std::int64_t>{ 0, count } : std::vector<std::int64_t>{ 0 }, false);
+  vtkPointData* const values = data->GetPointData();
+  values->AddArray(arrayOf<vtkDoubleArray>("Distance", profile.Distances));
+  values->AddArray(arrayOf<vtkIdTypeArray>("CellId", profile.Answer.Cells));
+  for (MeshAnswer::Array& array : profile.Answer.Arrays)
+  {
+    values->AddArray(takeOver(array));
+  }
+  return data;
+}
+
+} // namespace tipp

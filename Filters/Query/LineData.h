@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippLineData_h
+#define tippLineData_h
+
+#include "Query/Around.h"
+#include "Query/Lines.h"
+#include "vtkTIPPFiltersModule.h"
+
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <string>
+
+namespace tipp
+{
+
+/// A line for each loop, closed; the points have "GlobalPointIds" as VTK's global ids.
+VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(const BoundaryLoops& loops);
+
+/// The lines with their levels as a cell array of that name.
+VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(
+  const Contours& contours, const std::string& name);
+
+/// One line with the point arrays "Distance", "CellId" and those of the answer, which it takes.
+VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(Profile&& profile);
+
+/// An array with the values of an answer, in their memory.
+vtkSmartPointer<vtkDataArray> takeOver(MeshAnswer::Array& values);
+
+} // namespace tipp
+
+#endif

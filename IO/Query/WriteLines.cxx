@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Query/WriteLines.h"
+
+#include "Files/IOError.h"
+#include "Files/PendingOutput.h"
+#ifdef TIPP_HAVE_GDAL
+#include "Raster/GdalLibrary.h"
+#endif
+
+#include <cstdint>
+#include <memory>
+
+namespace tipp
+{
+
+#ifdef TIPP_HAVE_GDAL
+
+namespace
+{
+
+/// In memory, from where the finished file is written.
+constexpr const char* memoryPath = "/vsimem/contours.gpkg";
+
+[[noreturn]] void refusePackage(const std::string& path)
+{
+  const std::string reason = gdal().CPLGetLastErrorMsg();
+  throw IOError(path,
+    "cannot be written as a GeoPackage" + (reason.empty() ? std::string() : " (" + reason + ")") +
+      ".");
+}
+
+struct CloseData
+{
+  void operator()(void* data) const { gdal().GDALClose(data); }
+};
+struct DestroyReference
+{
+  void operator()(void* reference) const
+  {
+    gdal().OSRDestroySpatialReference(static_cast<OGRSpatialReferenceH>(reference));
+  }
+};
+
+void addLine(OGRLayerH layer, const Contours& contours, std::size_t line, const std::string& path)
+{
+  const OGRFeatureH feature = gdal().OGR_F_Create(gdal().OGR_L_GetLayerDefn(layer));
+  gdal().OGR_F_SetFieldDouble(feature, 0, contours.Levels[line]);
+  const OGRGeometryH geometry = gdal().OGR_G_CreateGeometry(wkbLineString25D);
+  for (std::int64_t i = contours.Starts[line]; i < contours.Starts[line + 1]; ++i)
+  {
+    const Point3& p = contours.Points[std::size_t(i)];
+    gdal().OGR_G_AddPoint(geometry, p.x, p.y, p.z);
+  }
+  gdal().OGR_F_SetGeometryDirectly(feature, geometry);
+  const bool isAdded = gdal().OGR_L_CreateFeature(layer, feature) == OGRERR_NONE;
+  gdal().OGR_F_Destroy(feature);
+  isAdded ? void() : refusePackage(path);
+}
+
+void makePackage(const Contours& contours, const std::string& array, const std::string& crs,
+  const std::string& path)
+{
+  std::unique_ptr<void, DestroyReference> reference;
+  if (!crs.empty())
+  {
+    reference.reset(gdal().OSRNewSpatialReference(nullptr));
+    if (gdal().OSRSetFromUserInput(
+          static_cast<OGRSpatialReferenceH>(reference.get()), crs.c_str()) != OGRERR_NONE)
+    {
+      throw IOError("'" + crs + "' is no coordinate reference system that GDAL knows.");
+    }
+  }
+  const std::unique_ptr<void, CloseData> data(gdal().GDALCreate(
+    gdal().GDALGetDriverByName("GPKG"), memoryPath, 0, 0, 0, GDT_Unknown, nullptr));
+  const OGRLayerH layer = data
+    ? gdal().GDALDatasetCreateLayer(data.get(), "contours",
+        static_cast<OGRSpatialReferenceH>(reference.get()), wkbLineString25D, nullptr)
+    : nullptr;
+  if (!layer)
+  {
+    refusePackage(path);
+  }
+  const OGRFieldDefnH field = gdal().OGR_Fld_Create(array.c_str(), OFTReal);
+  const bool hasField = gdal().OGR_L_CreateField(layer, field, 1) == OGRERR_NONE;
+  gdal().OGR_Fld_Destroy(field);
+  if (!hasField || gdal().GDALDatasetStartTransaction(data.get(), 0) != OGRERR_NONE)
+  {
+    refusePackage(path);
+  }
+  for (std::size_t line = 0; line < contours.Levels.size(); ++line)
+  {
+    addLine(layer, contours, line, path);
+  }
+  gdal().GDALDatasetCommitTransaction(data.get()) == OGRERR_NONE ? void() : refusePackage(path);
+}
+
+} // namespace
+
+void writeGeoPackage(const std::string& path, const Contours& contours, const std::string& array,
+  const std::string& crs, const PathState& before)
+{
+  PendingFile pending(path, before);
+  gdal().CPLErrorReset();
+  makePackage(contours, array, crs, path);
+  vsi_l_offset size = 0;
+  const GByte* const bytes = gdal().VSIGetMemFileBuffer(memoryPath, &size, 0);
+  if (!bytes)
+  {
+    refusePackage(path);
+  }
+  pending.file().write(0, reinterpret_cast<const char*>(bytes), std::size_t(size));
+  gdal().VSIUnlink(memoryPath);
+  pending.commit();
+}
+
+#else
+
+void writeGeoPackage(const std::string& path, const Contours&, const std::string&,
+  const std::string&, const PathState&)
+{
+  throw IOError(path, "is a GeoPackage, which needs a TIPP with GDAL; write a .vtp file.");
+}
+
+#endif
+
+} // namespace tipp

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/QueryMesh.h"
+
+#include "Commands/PointArguments.h"
+#include "Files/IOError.h"
+#include "Query/DataSetPart.h"
+#include "Vtk/ReadDataSet.h"
+
+#include "vtkDataSet.h"
+
+#include <CLI/CLI.hpp>
+
+namespace tipp
+{
+
+void addQueryMeshOptions(CLI::App& command, QueryMeshArguments& arguments)
+{
+  command.add_option("--step", arguments.Step, "Time step of arrays that vary in time")
+    ->check(CLI::NonNegativeNumber)
+    ->capture_default_str();
+  command
+    .add_option(
+      "--memory", arguments.Memory, "For the pieces of a partitioned mesh that stay in memory")
+    ->check(checkMemorySize)
+    ->capture_default_str();
+  addThreadsOption(command, arguments.Threads);
+}
+
+std::unique_ptr<ResidentMesh> openQueryMesh(const QueryMeshArguments& arguments)
+{
+  ResidentOptions options;
+  options.MemoryLimit = *parseMemorySize(arguments.Memory);
+  options.Threads = arguments.Threads;
+  options.Step = arguments.Step;
+  if (isPartitionedMesh(arguments.Path))
+  {
+    return std::make_unique<ResidentMesh>(arguments.Path, options);
+  }
+  const vtkSmartPointer<vtkDataSet> data = readDataSet(arguments.Path);
+  try
+  {
+    return std::make_unique<ResidentMesh>(partOf(data, arguments.Threads), options);
+  }
+  catch (const IOError&)
+  {
+    throw;
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw IOError(arguments.Path, std::string("cannot be used: ") + error.what());
+  }
+}
+
+} // namespace tipp
