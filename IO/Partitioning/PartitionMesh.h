@@ -28,7 +28,8 @@ struct PartitionOptions
   /// owner's.
   bool DuplicateBorrowers = false;
   /// Whether the mesh gets a cell array NeighborIds: for each corner the id of the cell across the
-  /// opposite edge or face, of several the lowest; -1 if there is none. It replaces one of that name.
+  /// opposite edge or face, of several the lowest; -1 if there is none. It replaces one of that
+  /// name.
   bool Neighbors = false;
   /// In bytes per rank; bounds the buffers of loaders, chunks and pieces together.
   std::uint64_t MemoryLimit = std::uint64_t(2) << 30;

@@ -389,7 +389,8 @@ void Communicator::tellFailure(bool aborted, const std::string& why)
   }
 }
 
-/// Sends a shutdown message to every other rank and receives all messages up to theirs: no message of this run is left for the next, and all ranks know the same failures.
+/// Sends a shutdown message to every other rank and receives all messages up to theirs: no message
+/// of this run is left for the next, and all ranks know the same failures.
 void Communicator::partAfterFailure()
 {
   for (int to = 0; to < this->Size; ++to)

@@ -27,6 +27,7 @@ FLAG = ([None, "yes", 2, 1.0, [], {}], [])
 TEXT = ([None, 3, 1.5, [], {}, b"auto"], [])
 NAMES = ([3, 1.5, {}, {"f": 1}, [None], [["f"]], [1], True, b"f"], [])
 PATH = ([None, 3, 1.5, {}, True], ["a\0b"])
+PATH_OR_NONE = (PATH[0][1:], PATH[1])
 DATA = ([None, "text", 3, {}, [], np.zeros((3, 3)), vtkTable(), vtkPolyData], [])
 
 
@@ -62,7 +63,10 @@ TABLE = {
                     "partitions": COUNTS, "schedule": (TEXT[0], ["random"]), "threads": THREADS, "progress_bar": FLAG},
     "delaunay_file": {"points": (PATH[0] + [[None], {"a": 1}], PATH[1]), "output": PATH,
                       "memory": (BYTES[0], BYTES[1] + ["", "2T", "1.5G", "9" * 40]), "partitions": COUNTS,
-                      "columns": COLUMNS, "max_edge": LENGTH, "map_duplicates": FLAG, "neighbors": FLAG, "count_only": FLAG,
+                      "columns": COLUMNS, "max_edge": LENGTH, "map_duplicates": FLAG, "neighbors": FLAG,
+                      "constraints": PATH_OR_NONE, "boundary": PATH_OR_NONE,
+                      "holes": ([3, 1.5, True, "ab", [None], [[None, 1]]], [[[1]], [[1, NAN]]]),
+                      "crossings": (TEXT[0], ["join"]), "mark_constraints": FLAG, "count_only": FLAG,
                       "resume": FLAG, "scratch": PATH, "threads": THREADS, "progress_bar": FLAG},
     "dem": {"points": ([None, {}, np.zeros((3, 2), complex), vtkTable(), vtkImageData(), vtkPolyData, [None]],
                        [3, [1, 2], np.zeros((3, 5)), np.zeros((4, 2))]),
@@ -70,7 +74,8 @@ TABLE = {
             "align": FLAG, "attributes": NAMES, "point_data": POINT_DATA, "max_edge": LENGTH,
             "duplicates": (TEXT[0], ["second"]), "thin": ([3, "2", [None, "min"], [1.5, 2]], [[0, "min"], [1], [1, "good"]]),
             "classes": ([3, "2", [None], [1.5]], [[256], [-1]]), "returns": (TEXT[0], ["second"]),
-            "keep": ([3, 1.5, {"f": 1}, [None], [1]], [["good"]]), "threads": THREADS, "progress_bar": FLAG},
+            "keep": ([3, 1.5, {"f": 1}, [None], [1]], [["good"]]), "breaklines": PATH_OR_NONE, "boundary": PATH_OR_NONE,
+            "memory": (BYTES[0][1:], BYTES[1] + ["", "2T", "1.5G"]), "threads": THREADS, "progress_bar": FLAG},
     "resample": {"mesh": DATA, "bounds": BOUNDS, "dimensions": DIMENSIONS, "spacing": SPACING,
                  "null_value": ANY_NUMBER, "no_data": ANY_NUMBER, "arrays": NAMES, "device": TEXT,
                  "threads": THREADS, "progress_bar": FLAG},
@@ -83,6 +88,8 @@ TABLE = {
               "triangles": (["text", {}, vtkTable()], [3, [1, 2], np.zeros((3, 3)), np.zeros((3, 5), int)]),
               "edges": (["text", {}], [3, [1, 2], np.zeros((3, 3), int), np.zeros((3, 2))]),
               "tie_rule": FLAG, "boundary_free": FLAG},
+    "open": {"mesh": ([None, 3, {}, [], np.zeros((3, 3)), vtkPolyData], ["a\0b"]),
+             "memory": (BYTES[0], BYTES[1] + ["", "2T", "1.5G"]), "step": ([None, "1", 1.5, True, [1]], [-1]), "threads": THREADS},
     "ranks": {},
 }
 
@@ -104,7 +111,7 @@ class Arguments(unittest.TestCase):
             "delaunay": {"points": POINTS}, "delaunay_2d": {"points": POINTS},
             "delaunay_file": {"points": self.points, "output": self.output}, "resample": {"mesh": self.mesh},
             "dem": {"points": np.c_[POINTS, POINTS[:, 0]], "resolution": 0.1},
-            "read": {"path": self.stored}, "write": {"mesh": self.mesh, "path": self.output},
+            "read": {"path": self.stored}, "open": {"mesh": self.stored}, "write": {"mesh": self.mesh, "path": self.output},
             "as_array": {"data": self.mesh, "name": "f"}, "check": {"points": POINTS, "triangles": tipp.delaunay(POINTS)},
         }[function]
 

@@ -61,7 +61,7 @@ public:
   {
     this->A = first;
     this->B = last;
-    const auto [west, east] = std::minmax(this->x(first), this->x(last));
+    const auto [west, east] = std::minmax({ this->x(first), this->x(last) });
     const double none = -HUGE_VAL;
     Ids on;
     for (auto at = this->VertexAt.lower_bound({ west, none });

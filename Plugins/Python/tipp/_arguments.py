@@ -69,6 +69,12 @@ def flag(value: Any, name: str) -> bool:
     return bool(value)
 
 
+def a_list(values: Any, name: str) -> list[Any]:
+    if isinstance(values, (str, bytes, Mapping)) or not isinstance(values, Iterable):
+        raise TypeError(f"{name} is {values!r}; give a list.")
+    return list(values)
+
+
 def several(value: Any, name: str, count: int, check: Any, **limits: Any) -> list[Any]:
     """`count` values, each of which passes `check`."""
     if isinstance(value, (str, bytes, Mapping, set, frozenset)) or not isinstance(value, Iterable):

@@ -152,9 +152,9 @@ def dem(
         "breaklines": lines_of(breaklines, "breaklines", False),
         "boundary": lines_of(boundary, "boundary", True),
         "memory": 0 if memory is None else check.memory(memory, "memory"),
-        "classes": None if classes is None else _sequence(classes, "classes"),
+        "classes": None if classes is None else check.a_list(classes, "classes"),
         "returns": _RETURNS[returns],
-        "keep": _sequence(keep, "keep"),
+        "keep": check.a_list(keep, "keep"),
         "threads": check.threads(threads),
     }
     progress = progress_of(progress_bar)
@@ -183,7 +183,8 @@ def lines_of(lines: Any, name: str, is_closed: bool) -> str | tuple[np.ndarray, 
         corners = np.asarray(xyz_of(lines), np.float64)
         chains = cell_lists(lines.GetLines()) + [np.r_[ids, ids[:1]] for ids in cell_lists(lines.GetPolys())]
     else:
-        rings = [*rings_of(lines)] if is_closed else [*lines]
+        rings = list(rings_of(lines)) if hasattr(lines, "geom_type") else check.a_list(lines, name)
+        rings = list(rings_of(rings)) if is_closed else rings
         parts = [_corners(part, f"{name}[{number}]") for number, part in enumerate(rings)]
         starts = np.cumsum([0, *(len(part) for part in parts)])
         chains = [np.arange(first, first + len(part)) for first, part in zip(starts, parts)]
@@ -204,7 +205,7 @@ def _corners(part: Any, name: str) -> np.ndarray:
 
 
 def _thinning(thin: Any) -> dict[str, Any]:
-    pair = _sequence(thin, "thin")
+    pair = check.a_list(thin, "thin")
     if len(pair) != 2:
         raise ValueError(f"thin is {thin!r}; give a side and a rule, as (0.5, 'min').")
     side = check.number(pair[0], "thin")
@@ -213,17 +214,11 @@ def _thinning(thin: Any) -> dict[str, Any]:
     return {"thin_size": side, "thin_rule": check.choice(pair[1], "thin", _THINNINGS)}
 
 
-def _sequence(values: Any, name: str) -> list[Any]:
-    if isinstance(values, (str, bytes, Mapping)) or not isinstance(values, Iterable):
-        raise TypeError(f"{name} is {values!r}; give a list.")
-    return list(values)
-
-
 def _check_selection(classes: Any, returns: Any, keep: Any) -> None:
-    for number in [] if classes is None else _sequence(classes, "classes"):
+    for number in [] if classes is None else check.a_list(classes, "classes"):
         check.whole(number, "classes", at_most=255)
     check.choice(returns, "returns", _RETURNS)
-    for flag in _sequence(keep, "keep"):
+    for flag in check.a_list(keep, "keep"):
         check.choice(flag, "keep", dict.fromkeys(_FLAGS, 0))
 
 

@@ -124,7 +124,7 @@ def delaunay_file(
         "neighbors": check.flag(neighbors, "neighbors"),
         "constraints": _optional_path(constraints, "constraints"),
         "boundary": _optional_path(boundary, "boundary"),
-        "holes": [tuple(check.several(hole, "holes", 2, check.number)) for hole in holes],
+        "holes": [tuple(check.several(hole, "holes", 2, check.number)) for hole in check.a_list(holes, "holes")],
         "crossings": check.choice(crossings, "crossings", {"split": 1, "refuse": 0}),
         "mark_constraints": check.flag(mark_constraints, "mark_constraints"),
         "count_only": check.flag(count_only, "count_only"),

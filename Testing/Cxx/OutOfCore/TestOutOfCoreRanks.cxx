@@ -133,7 +133,7 @@ protected:
     {
       files = filesOf(this->mesh());
       fs::remove_all(this->mesh());
-      EXPECT_EQ(1U, this->Folder->fileCount()) << "something is left";
+      EXPECT_EQ(this->InputFiles, this->Folder->fileCount()) << "something is left";
     }
     return files;
   }
@@ -172,8 +172,9 @@ protected:
 
   OutOfCoreOptions Options;
   std::unique_ptr<TemporaryFolder> Folder;
-  std::string Points;   ///< the file, on all ranks
-  int GoodPasses = 100; ///< over it on this rank
+  std::size_t InputFiles = 1; ///< in the folder
+  std::string Points;         ///< the file, on all ranks
+  int GoodPasses = 100;       ///< over it on this rank
   TableConstraints Constraints;
   mutable ConstrainedPoints* Constrained = nullptr; ///< of the first rank
 };
@@ -455,6 +456,7 @@ TEST_F(OutOfCoreRanks, UpdateTheFilterTogether)
   {
     this->Folder->file(
       "lines.csv", "x1,y1,x2,y2\n0.1,0.1,0.9,0.9\n0.1,0.9,0.9,0.1\n0.1,0.9,0.9,0.9\n");
+    this->InputFiles = 2;
   }
   for (const bool constrained : { false, true })
   {
