@@ -162,14 +162,6 @@ class FirstRankAlone(Commands):
         self.make_surface()
         self.expect_once("info", "points.npy")
 
-    def test_dem_with_breaklines_is_refused_in_one_sentence(self):
-        self.make_surface()
-        (self.folder / "lines.csv").write_text("0,0,1,1\n")
-        run = self.run_tipp(3, "dem", "points.npy", "-o", "dem.npy", "--resolution", 1, "--breaklines", "lines.csv")
-        self.assertEqual(run.returncode, 2)
-        self.assertEqual(run.stderr.count("without mpirun"), 1, run.stderr)
-        self.assertFalse((self.folder / "dem.npy").exists())
-
     def test_devices_are_listed_once(self):
         self.expect_once("devices")
 
