@@ -79,12 +79,10 @@
  * without a transform is an error. With Alpha, merged and rejected points are no vertices. No
  * constraint is lost, where vtkDelaunay2D may warn and go on; polygons inside of each other nest.
  *
- * Related publication: *Efficient Generating and Processing of Large-Scale Unstructured Meshes*,
- * dissertation, University of Mississippi, chapter 2 (Triangulation of Independent Partitions in
- * Parallel).
+ * Publication: *Efficient Generating and Processing of Large-Scale Unstructured Meshes*,
+ * dissertation, University of Mississippi, chapter 2.
  *
- * @sa
- * vtkDelaunay2D
+ * @sa vtkDelaunay2D
  */
 
 #ifndef vtkTIPPDelaunay2D_h

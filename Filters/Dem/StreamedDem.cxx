@@ -130,7 +130,14 @@ DemFigures makeWithin(std::unique_ptr<PointStream> points, const DemRequest& req
     },
     nullptr);
   options.MaximumEdge = request.MaximumEdge;
-  const OutOfCoreStatistics statistics = triangulateInto(sink, *points, options, report);
+  return figuresOf(triangulateInto(sink, *points, options, report));
+}
+
+} // namespace
+
+DemFigures figuresOf(const OutOfCoreStatistics& statistics)
+{
+  DemFigures figures;
   figures.Points = statistics.Points;
   figures.Triangles = statistics.Triangles;
   figures.Duplicates = statistics.Duplicates;
@@ -140,8 +147,6 @@ DemFigures makeWithin(std::unique_ptr<PointStream> points, const DemRequest& req
   figures.Aborted = statistics.Aborted;
   return figures;
 }
-
-} // namespace
 
 DemFigures makeDem(std::unique_ptr<PointStream> points, const DemRequest& request,
   std::uint64_t memory, const std::function<bool(double)>& progress, TerrainSettings& settings,

@@ -6,6 +6,7 @@
 #include "Commands/Report.h"
 #include "Constraints/ConstrainedPoints.h"
 #include "Dem/RasterSink.h"
+#include "Dem/StreamedDem.h"
 #include "Dem/SurfaceSink.h"
 #include "Files/IOError.h"
 #include "OutOfCore/ScratchFiles.h"
@@ -89,17 +90,6 @@ int findSurface(const DemArguments& arguments, Communicator& ranks, const OpenPo
   values = sink.takeValues();
   report.MakeSeconds += totalSeconds(statistics.Phases);
   return code;
-}
-
-void fill(DemFigures& figures, const OutOfCoreStatistics& statistics)
-{
-  figures.Points = statistics.Points;
-  figures.Triangles = statistics.Triangles;
-  figures.Duplicates = statistics.Duplicates;
-  figures.DisagreeingPositions = statistics.DisagreeingPositions;
-  figures.Rejected = statistics.Rejected;
-  figures.WithoutElevation = statistics.WithoutElevation;
-  figures.Aborted = statistics.Aborted;
 }
 
 } // namespace
@@ -200,7 +190,7 @@ int runDemOutOfCore(
   reportLeftOut(statistics.LeftOut, statistics.ThinnedOut);
   report.PeakMemory = largestMemory(usage);
   report.Ranks = ranks.size();
-  fill(report.Figures, statistics);
+  report.Figures = figuresOf(statistics);
   report.MakeSeconds += totalSeconds(statistics.Phases);
   finishDem(arguments, report);
   return Success;
