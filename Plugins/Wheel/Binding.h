@@ -11,6 +11,7 @@
 #include <nanobind/ndarray.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <functional>
 #include <initializer_list>
@@ -93,6 +94,16 @@ inline nb::object arrayOf(Buffer<char>&& buffer, Scalar scalar, std::size_t colu
   const std::size_t rows = buffer.size() / bytesOf(scalar) / columns;
   return owningArray(buffer.release(), scalar,
     columns == 1 ? std::vector<std::size_t>{ rows } : std::vector<std::size_t>{ rows, columns });
+}
+
+inline nb::object copyOf(const std::vector<double>& values, std::size_t columns)
+{
+  Buffer<char> buffer(values.size() * sizeof(double));
+  if (!values.empty())
+  {
+    std::memcpy(buffer.data(), values.data(), buffer.size());
+  }
+  return arrayOf(std::move(buffer), Scalar::Float64, columns);
 }
 
 /// Passes progress to a Python callable, or None, and asks Python whether to go on: on Ctrl-C, and

@@ -29,16 +29,6 @@ std::vector<double> doublesOf(const InputArray& array)
   return { values, values + array.size() };
 }
 
-nb::object copyOf(const std::vector<double>& values, std::size_t columns)
-{
-  RawBuffer buffer(values.size() * sizeof(double));
-  if (!values.empty())
-  {
-    std::memcpy(buffer.data(), values.data(), buffer.size());
-  }
-  return arrayOf(std::move(buffer), Scalar::Float64, columns);
-}
-
 /// Returns (k, 2) coordinates, heights or an empty array, and (m, 2) ids of edges' ends.
 nb::tuple readConstraints(const std::string& path)
 {

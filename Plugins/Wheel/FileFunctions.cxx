@@ -34,16 +34,6 @@ namespace
 
 using Strings = std::vector<std::string>;
 
-nb::object copyOf(const std::vector<double>& values, std::size_t columns)
-{
-  Buffer<char> buffer(values.size() * sizeof(double));
-  if (!values.empty())
-  {
-    std::memcpy(buffer.data(), values.data(), buffer.size());
-  }
-  return arrayOf(std::move(buffer), Scalar::Float64, columns);
-}
-
 /// Returns (n, 2) coordinates, the columns by name, and the reference system or an empty text.
 nb::tuple readPointFiles(const Strings& paths, const std::optional<Strings>& columns,
   const std::vector<int>& classes, int returns, const Strings& keep)
