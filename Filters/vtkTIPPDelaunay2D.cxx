@@ -223,7 +223,7 @@ bool vtkTIPPDelaunay2D::Execute(
   tipp::RunStatistics run = tipp::statisticsOf(triangulation, numberOfPoints, vtkIdType(triangles));
   if (source)
   {
-    tipp::addConstraintTotals(result.Constraints, constraints.Constraints.size(), run);
+    tipp::addConstraintTotals({ result.Constraints, constraints.Constraints.size() }, run);
   }
   tipp::fillStatisticsTable(run, statistics);
   return true;

@@ -55,7 +55,7 @@
  * "MessageBytes". If any rank fails, all do, and the first one reports the error; also if it is
  * upstream that fails on a rank, unless the application has executives of its own
  * (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView has. Alpha, Tolerance,
- * BoundingTriangulation, the best fitting plane and ConstraintMarks LINES need a single rank.
+ * BoundingTriangulation and the best fitting plane need a single rank.
  *
  * An aborted run leaves both outputs empty. A failed one (out of memory, Transform missing) is
  * reported as an error and leaves them empty too.
@@ -197,9 +197,10 @@ public:
   ///@{
   /**
    * A ConstraintMarksType; NO_MARKS by default. LINES: "ConstraintId" is the cell of the source
-   * that a line is a part of, and -1 of triangles; there are no NeighborIds. EDGE_FLAGS: for each
-   * corner of a triangle 1 if the edge opposite to it is a constraint's, else 0. With Alpha there
-   * are none, and a warning.
+   * that a line is a part of, and -1 of triangles; there are no NeighborIds. On several ranks each
+   * line is on one rank that has a triangle of it, there are none outside of polygons, and cells
+   * are counted over all different sources, by rank. EDGE_FLAGS: for each corner of a triangle 1 if
+   * the edge opposite to it is a constraint's, else 0. With Alpha there are none, and a warning.
    */
   vtkSetClampMacro(ConstraintMarks, int, NO_MARKS, EDGE_FLAGS);
   vtkGetMacro(ConstraintMarks, int);
@@ -485,7 +486,7 @@ private:
   bool ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, bool wantsGhosts,
     vtkPolyData* output, vtkTable* statistics);
   std::unique_ptr<tipp::RankSource> ShareSource(
-    tipp::Communicator& ranks, vtkPointSet* input, vtkPolyData* source);
+    tipp::Communicator& ranks, vtkPointSet* input, vtkPolyData* source, bool wantsCells);
   tipp::DistributedOptions OptionsForRanks() const;
   const char* WhatNeedsOneRank();
   vtkSmartPointer<vtkPointSet> ReadSource(vtkPointSet* input, vtkPolyData* source,

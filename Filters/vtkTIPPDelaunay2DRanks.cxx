@@ -90,14 +90,13 @@ const char* vtkTIPPDelaunay2D::WhatNeedsOneRank()
     : this->Tolerance > 0                                 ? "Tolerance"
     : this->BoundingTriangulation                         ? "BoundingTriangulation"
     : this->GenerateNeighborIds                           ? "GenerateNeighborIds"
-    : this->ConstraintMarks == LINES                      ? "ConstraintMarks LINES"
     : this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE ? "the best fitting plane"
                                                           : nullptr;
 }
 
 /// Null if no rank has a source.
 std::unique_ptr<tipp::RankSource> vtkTIPPDelaunay2D::ShareSource(
-  tipp::Communicator& ranks, vtkPointSet* input, vtkPolyData* source)
+  tipp::Communicator& ranks, vtkPointSet* input, vtkPolyData* source, bool wantsCells)
 {
   std::vector<std::int64_t> sources{ source ? 1 : 0 };
   ranks.sum(sources);
@@ -108,6 +107,7 @@ std::unique_ptr<tipp::RankSource> vtkTIPPDelaunay2D::ShareSource(
   tipp::RankSourceOptions options;
   options.MergesPoints = this->MergeSourcePoints != 0;
   options.Crossings = this->SplitCrossings ? tipp::CrossingRule::Split : tipp::CrossingRule::Refuse;
+  options.WantsCells = wantsCells;
   options.ToPlane = this->Transform;
   options.Threads = this->NumberOfThreads;
   return std::make_unique<tipp::RankSource>(tipp::shareSource(ranks, input, source, options));
@@ -137,7 +137,11 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, 
     tipp::DistributedOptions options = this->OptionsForRanks();
     options.Progress = [&monitor](double fraction) { return monitor(fraction); };
     tipp::checkPoints(given, "the input");
-    shared = this->ShareSource(ranks, given, source);
+    // What is collective is done by all ranks or by none, whatever single ones are set to.
+    std::vector<std::int64_t> wishes{ ranks.rank() == 0 && this->GatherOnFirstRank, wantsGhosts,
+      this->ConstraintMarks == LINES };
+    ranks.sum(wishes);
+    shared = this->ShareSource(ranks, given, source, wishes[2] > 0);
     vtkPointSet* const input = shared ? shared->Input.Get() : given;
     const tipp::PointRows rows(ranks, input);
     const tipp::ProjectedPoints projected(input->GetPoints(), this->Transform);
@@ -151,9 +155,6 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, 
     {
       tipp::constrainRanks(ranks, *shared->Segments, options.Threads, mine);
     }
-    // What is collective is done by all ranks or by none, whatever single ones are set to.
-    std::vector<std::int64_t> wishes{ ranks.rank() == 0 && this->GatherOnFirstRank, wantsGhosts };
-    ranks.sum(wishes);
     if (wishes[0] > 0)
     {
       mine = tipp::gatherOnFirst(ranks, std::move(mine));
@@ -163,15 +164,22 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, 
     {
       ghosts = std::make_unique<tipp::GhostTriangles>(tipp::fetchGhosts(ranks, mine));
     }
-    const bool marks = shared && this->ConstraintMarks == EDGE_FLAGS;
-    tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? ghosts.get() : nullptr,
-      marks ? shared->Segments.get() : nullptr, output);
+    tipp::ConstraintLines lines;
+    if (shared && wishes[2] > 0)
+    {
+      lines =
+        tipp::findConstraintLines(ranks, { *shared->Segments, shared->Order, shared->Cells }, mine);
+    }
+    tipp::PieceMarks marks;
+    marks.Flags = shared && this->ConstraintMarks == EDGE_FLAGS ? shared->Segments.get() : nullptr;
+    marks.Lines = shared && this->ConstraintMarks == LINES ? &lines : nullptr;
+    tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? ghosts.get() : nullptr, marks, output);
     if (this->GenerateRepresentativeIds)
     {
       tipp::addAccounts(mine, output);
     }
     tipp::RunStatistics all = tipp::statisticsOf(mine);
-    shared ? shared->Figures.addTo(all) : void();
+    shared ? tipp::addConstraintTotals(shared->Figures, all) : void();
     tipp::fillStatisticsTable(all, statistics);
   };
   try

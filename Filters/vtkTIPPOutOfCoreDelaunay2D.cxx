@@ -178,7 +178,7 @@ void vtkTIPPOutOfCoreDelaunay2D::Execute(vtkTable* output)
     tipp::RunStatistics all = tipp::statisticsOf(statistics, options.CountOnly);
     if (constraints.figures().Constraints > 0)
     {
-      constraints.figures().addTo(all);
+      tipp::addConstraintTotals(constraints.figures(), all);
     }
     tipp::fillStatisticsTable(all, output);
   }

@@ -176,9 +176,14 @@ void ConstrainedPoints::Matching::take(const PointBlock& block, int threads)
   forChunks(count, chunk, threads, {},
     [&](std::int64_t begin, std::int64_t end, int)
     {
+      constexpr std::size_t ahead = 16;
+      const auto at = [&block](std::size_t i) {
+        return Point2{ block.XY[2 * i], block.XY[2 * i + 1] };
+      };
       for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
       {
-        const std::int64_t vertex = this->Positions->find({ block.XY[2 * i], block.XY[2 * i + 1] });
+        this->Positions->expect(at(std::min(i + ahead, std::size_t(end) - 1)));
+        const std::int64_t vertex = this->Positions->find(at(i));
         if (vertex >= 0)
         {
           found[std::size_t(begin / chunk)].push_back({ i, std::size_t(vertex) });
@@ -393,11 +398,8 @@ void ConstrainedPoints::resolve()
     throw std::invalid_argument(
       "it has polygons, and a point that is NaN or infinite; correct the point.");
   }
-  this->Counts.Segments = std::int64_t(this->Segments.size());
+  this->Counts = { resolved, std::size_t(this->Counts.Constraints) };
   this->addHoles(positions);
-  this->Counts.Crossings = std::int64_t(resolved.Crossings.size());
-  this->Counts.Rounds = resolved.Rounds;
-  this->Counts.NotFinite = resolved.NotFinite;
 }
 
 /// Appends the edges around holes. Positions: the constraints' vertices.
@@ -424,14 +426,6 @@ void ConstrainedPoints::addHoles(const std::vector<Point2>& positions)
 std::vector<ConstraintSegment> ConstrainedPoints::takeSegments()
 {
   return std::move(this->Segments);
-}
-
-void ConstrainedPoints::Figures::addTo(RunStatistics& statistics) const
-{
-  statistics.add("constraints", "Constraints", this->Constraints);
-  statistics.add("constraint_edges", "ConstraintEdges", this->Segments);
-  statistics.add("crossing_points", "CrossingPoints", this->Crossings);
-  statistics.add("crossing_rounds", "CrossingRounds", this->Rounds);
 }
 
 void ConstrainedInput::describe(OutOfCoreOptions& options)

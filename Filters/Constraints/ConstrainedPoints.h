@@ -4,7 +4,7 @@
 
 #include "Constraints/ConstraintSegments.h"
 #include "Constraints/TableConstraints.h"
-#include "Output/RunStatistics.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Points/PointStream.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -54,19 +54,8 @@ public:
   /// After the first pass: the points after the input's.
   const PointBlock& added() const { return this->Added; }
 
-  /// The number of constraints, and of edges and crossings after the first pass.
-  struct VTKTIPPFILTERS_EXPORT Figures
-  {
-    std::int64_t Constraints = 0;
-    std::int64_t Segments = 0;
-    std::int64_t Crossings = 0;
-    int Rounds = 0;             ///< of splitting crossings
-    std::int64_t NotFinite = 0; ///< constraints left out
-
-    void addTo(RunStatistics& statistics) const;
-  };
   /// Copies the figures there after the first pass; `figures` must outlive this.
-  void setReport(Figures& figures) { this->Report = &figures; }
+  void setReport(ConstraintFigures& figures) { this->Report = &figures; }
 
 private:
   struct Matching;
@@ -80,8 +69,8 @@ private:
   const std::string Name;
   const int Threads;
   const std::string Own; ///< identifies the constraints
-  Figures Counts;
-  Figures* Report = nullptr;
+  ConstraintFigures Counts;
+  ConstraintFigures* Report = nullptr;
   std::unique_ptr<Matching> First;          ///< in the first pass
   std::vector<std::vector<double>> Surface; ///< see setSurface(); perhaps none
   std::vector<ConstraintSegment> Segments;
@@ -109,13 +98,13 @@ public:
   void describe(OutOfCoreOptions& options);
 
   /// After the first pass over the points; all 0 if a run was resumed.
-  const ConstrainedPoints::Figures& figures() const { return this->Counts; }
+  const ConstraintFigures& figures() const { return this->Counts; }
 
 private:
   const ConstraintFiles Files;
   const int Threads;
   ConstrainedPoints* Joined = nullptr; ///< the last one
-  ConstrainedPoints::Figures Counts;
+  ConstraintFigures Counts;
 };
 
 } // namespace tipp

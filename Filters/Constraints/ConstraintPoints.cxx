@@ -63,7 +63,7 @@ std::uint64_t PositionIndex::hashOf(Point2 position)
 std::int64_t PositionIndex::find(Point2 position) const
 {
   const std::uint64_t hash = hashOf(position);
-  if ((this->Marks[hash >> 35 & (this->Marks.size() - 1)] >> (hash >> 32 & 7) & 1) == 0)
+  if ((this->markOf(hash) >> (hash >> 32 & 7) & 1) == 0)
   {
     return -1;
   }

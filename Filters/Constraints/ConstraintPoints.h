@@ -30,8 +30,15 @@ public:
   /// The first point with these coordinates; -1: none. NaN and infinity are not found.
   std::int64_t find(Point2 position) const;
 
+  /// Prefetches what find() will read first.
+  void expect(Point2 position) const { __builtin_prefetch(&this->markOf(hashOf(position))); }
+
 private:
   static std::uint64_t hashOf(Point2 position);
+  const std::uint8_t& markOf(std::uint64_t hash) const
+  {
+    return this->Marks[hash >> 35 & (this->Marks.size() - 1)];
+  }
 
   static constexpr std::uint32_t Nobody = 0xffffffff;
 

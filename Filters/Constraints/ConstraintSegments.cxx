@@ -114,14 +114,20 @@ const auto isAny = [](const SegmentTree::Item&) { return true; };
 
 } // namespace
 
-ConstraintSegments::ConstraintSegments(const std::vector<ConstraintSegment>& segments)
+ConstraintSegments::ConstraintSegments(
+  const std::vector<ConstraintSegment>& segments, std::vector<std::int64_t>* indices)
   : All(treeOf(segments, false))
   , Holes(treeOf(segments, true))
 {
   // Items are named by their position, which is the same wherever the tree is made.
-  for (const std::int64_t segment : this->All.nameByPosition())
+  std::vector<std::int64_t> names = this->All.nameByPosition();
+  for (const std::int64_t segment : names)
   {
     this->Roles.push_back(std::uint8_t(segments[std::size_t(segment)].Role));
+  }
+  if (indices)
+  {
+    *indices = std::move(names);
   }
   this->HasPolygons = this->has(SegmentRole::Polygon);
   this->HasBoundary = this->has(SegmentRole::Boundary);

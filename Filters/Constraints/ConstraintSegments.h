@@ -37,7 +37,9 @@ struct ConstraintSegment
 class VTKTIPPFILTERS_EXPORT ConstraintSegments
 {
 public:
-  explicit ConstraintSegments(const std::vector<ConstraintSegment>& segments);
+  /// `indices` gets, for each item of the tree, its index in `segments`.
+  explicit ConstraintSegments(
+    const std::vector<ConstraintSegment>& segments, std::vector<std::int64_t>* indices = nullptr);
 
   /// All segments again, in the order of the trees.
   std::vector<ConstraintSegment> list() const;

@@ -365,8 +365,8 @@ void retriangulate(CrossedPart& part, const ConstraintSegments& segments, int th
 }
 
 template <typename Id>
-void markEdges(PointsView points, const ConstraintSegments& segments, const Id* corners,
-  std::size_t triangles, std::uint8_t* marks)
+std::vector<ScannedTriangles::Edge> edgesOnSegments(
+  PointsView points, const ConstraintSegments& segments, const Id* corners, std::size_t triangles)
 {
   using Scan = TriangleScan<Id>;
   Scan scan(points, segments.tree(), Scan::NotedEdges::OfAll);
@@ -377,8 +377,15 @@ void markEdges(PointsView points, const ConstraintSegments& segments, const Id* 
       corners, begin, std::min(begin + Scan::MostTriangles, triangles),
       [](std::int64_t) { return false; }, found);
   }
+  return std::move(found.Edges);
+}
+
+template <typename Id>
+void markEdges(PointsView points, const ConstraintSegments& segments, const Id* corners,
+  std::size_t triangles, std::uint8_t* marks)
+{
   std::fill_n(marks, 3 * triangles, std::uint8_t(0));
-  for (const ScannedTriangles::Edge& edge : found.Edges)
+  for (const ScannedTriangles::Edge& edge : edgesOnSegments(points, segments, corners, triangles))
   {
     marks[3 * std::size_t(edge.Triangle) + (edge.From + 2) % 3] = 1;
   }
@@ -420,6 +427,10 @@ template std::size_t takeCrossed(
   PointsView, const ConstraintSegments&, std::int64_t, std::int32_t*, std::size_t, CrossedPart&);
 template std::size_t takeCrossed(
   PointsView, const ConstraintSegments&, std::int64_t, std::int64_t*, std::size_t, CrossedPart&);
+template std::vector<ScannedTriangles::Edge> edgesOnSegments(
+  PointsView, const ConstraintSegments&, const std::int32_t*, std::size_t);
+template std::vector<ScannedTriangles::Edge> edgesOnSegments(
+  PointsView, const ConstraintSegments&, const std::int64_t*, std::size_t);
 template void markEdges(
   PointsView, const ConstraintSegments&, const std::int32_t*, std::size_t, std::uint8_t*);
 template void markEdges(

@@ -3,6 +3,7 @@
 #define tippCrossedPart_h
 
 #include "Constraints/ConstraintSegments.h"
+#include "Constraints/TriangleScan.h"
 #include "Triangulation/PointsView.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -85,6 +86,12 @@ VTKTIPPFILTERS_EXPORT CrossedPart splitIncomplete(CrossedPart& part,
 /// corners first.
 VTKTIPPFILTERS_EXPORT void retriangulate(
   CrossedPart& part, const ConstraintSegments& segments, int threads);
+
+/// The edges of constrained triangles that lie on segments; one on several segments comes several
+/// times.
+template <typename Id>
+std::vector<ScannedTriangles::Edge> edgesOnSegments(
+  PointsView points, const ConstraintSegments& segments, const Id* corners, std::size_t triangles);
 
 /// Sets marks[c] for each corner c of the constrained triangles to 1 if the edge opposite to it
 /// lies on a segment, else to 0.

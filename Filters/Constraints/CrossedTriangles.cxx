@@ -21,31 +21,32 @@ struct TriangleRange
   PartitionIndex Partition; ///< whose interior triangles they are, or -1
 };
 
-/// The triangles in ranges of a few, without ranges of blocks that only known pieces are near, or
-/// none.
+/// The triangles in ranges of a few, without blocks that only known pieces are near, or none.
 std::vector<TriangleRange> makeRanges(std::size_t triangles,
   const std::vector<TriangleBlock>& blocks, const SegmentTree& tree,
   const PartitionConstraints& inserted)
 {
   constexpr std::size_t most = TriangleScan<std::int32_t>::MostTriangles;
-  constexpr std::size_t each = PartitionConstraints::RangeTriangles;
-  static_assert(each <= most, "a range is scanned at once");
+  constexpr PartitionIndex none = -1;
   std::vector<TriangleRange> ranges;
-  const auto appendOthers = [&ranges](std::size_t begin, std::size_t end)
+  const auto append = [&ranges](std::size_t begin, std::size_t end, PartitionIndex partition)
   {
-    constexpr PartitionIndex none = -1;
     for (std::size_t i = begin; i < end; i += most)
     {
-      ranges.push_back({ i, std::min(i + most, end), none });
+      ranges.push_back({ i, std::min(i + most, end), partition });
     }
   };
-  const auto isNear = [&](const Box2& box, PartitionIndex partition)
+  const auto isNear = [&](PartitionIndex partition)
   {
+    const Octagon& bounds = inserted.interiorOf(partition).Bounds;
     bool isNear = false;
-    tree.visitNear(box,
+    tree.visitNear(bounds.Box,
       [&](const SegmentTree::Item& item)
       {
-        isNear = !inserted.isKnown(item.Id, partition) && lineMayMeet(item.A, item.B, box);
+        // Rounding keeps the order of sums and differences, and equal ones overlap.
+        const Box2 diagonals = boxOf(Octagon::diagonals(item.A), Octagon::diagonals(item.B));
+        isNear = !inserted.isKnown(item.Id, partition) && overlap(diagonals, bounds.Diagonals) &&
+          lineMayMeet(item.A, item.B, bounds.Box);
         return !isNear;
       });
     return isNear;
@@ -53,50 +54,62 @@ std::vector<TriangleRange> makeRanges(std::size_t triangles,
   std::size_t done = 0;
   for (const TriangleBlock& block : blocks)
   {
-    appendOthers(done, block.Begin);
-    if (isNear(block.Box, block.Partition))
+    append(done, block.Begin, none);
+    if (isNear(block.Partition))
     {
-      std::size_t begin = block.Begin;
-      for (const Box2& box : inserted.rangesOf(block.Partition))
-      {
-        const std::size_t end = std::min(begin + each, block.End);
-        if (begin < end && isNear(box, block.Partition))
-        {
-          ranges.push_back({ begin, end, block.Partition });
-        }
-        begin = end;
-      }
+      append(block.Begin, block.End, block.Partition);
     }
     done = block.End;
   }
-  appendOthers(done, triangles);
+  append(done, triangles, none);
   return ranges;
 }
 
-/// The noted crossings of triangles in blocks; the other triangles have been scanned.
-void addNoted(const PartitionConstraints& inserted, const std::vector<TriangleBlock>& blocks,
-  ScannedTriangles& found)
+using TriangleCrossing = ScannedTriangles::Crossing;
+
+/// The noted crossings of triangles in blocks, ascending; the other triangles have been scanned.
+std::vector<TriangleCrossing> notedIn(
+  const std::vector<TriangleBlock>& blocks, const PartitionConstraints& inserted)
 {
-  for (const PartitionConstraints::Crossing& crossing : inserted.crossings())
+  std::vector<TriangleCrossing> noted;
+  for (const TriangleBlock& block : blocks)
   {
-    const auto block = std::lower_bound(blocks.begin(), blocks.end(), crossing.Partition,
-      [](const TriangleBlock& one, PartitionIndex wanted) { return one.Partition < wanted; });
-    if (block != blocks.end() && block->Partition == crossing.Partition &&
-      block->Begin + crossing.Triangle < block->End)
+    for (const auto& [triangle, piece] : inserted.interiorOf(block.Partition).Crossings)
     {
-      found.Crossings.push_back({ std::int64_t(block->Begin + crossing.Triangle), crossing.Piece });
+      if (block.Begin + triangle < block.End)
+      {
+        noted.push_back({ std::int64_t(block.Begin + triangle), piece });
+      }
     }
   }
+  return noted;
 }
 
-/// By triangle; each once.
-CrossedTriangles sorted(ScannedTriangles& found)
+/// Sorted lists as one.
+std::vector<TriangleCrossing> merged(std::vector<std::vector<TriangleCrossing>> lists)
 {
-  std::vector<ScannedTriangles::Crossing>& crossings = found.Crossings;
-  std::sort(crossings.begin(), crossings.end());
+  for (std::size_t step = 1; step < lists.size(); step *= 2)
+  {
+    for (std::size_t i = 0; i + step < lists.size(); i += 2 * step)
+    {
+      std::vector<TriangleCrossing> both(lists[i].size() + lists[i + step].size());
+      std::merge(lists[i].begin(), lists[i].end(), lists[i + step].begin(), lists[i + step].end(),
+        both.begin());
+      lists[i] = std::move(both);
+      std::vector<TriangleCrossing>().swap(lists[i + step]);
+    }
+  }
+  return std::move(lists.front());
+}
+
+/// By triangle. Crossings: sorted.
+CrossedTriangles listed(
+  std::vector<TriangleCrossing>&& crossings, std::vector<CrossedTriangles::Touch>&& touches)
+{
   crossings.erase(std::unique(crossings.begin(), crossings.end()), crossings.end());
   CrossedTriangles all;
-  for (const ScannedTriangles::Crossing& crossing : crossings)
+  all.Pieces.reserve(crossings.size());
+  for (const TriangleCrossing& crossing : crossings)
   {
     if (all.Triangles.empty() || all.Triangles.back() != crossing.Triangle)
     {
@@ -106,7 +119,7 @@ CrossedTriangles sorted(ScannedTriangles& found)
     all.Pieces.push_back(crossing.Piece);
   }
   all.Starts.push_back(std::int64_t(all.Pieces.size()));
-  all.Touches = std::move(found.Touches);
+  all.Touches = std::move(touches);
   using Touch = CrossedTriangles::Touch;
   std::sort(all.Touches.begin(), all.Touches.end(),
     [](const Touch& a, const Touch& b)
@@ -151,18 +164,20 @@ CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std:
       const TriangleRange& range = ranges[std::size_t(i)];
       const auto isKnown = [&](std::int64_t piece)
       { return inserted.isKnown(piece, range.Partition); };
-      scans[std::size_t(thread)].scan(
-        corners, range.Begin, range.End, isKnown, parts[std::size_t(thread)]);
+      ScannedTriangles& part = parts[std::size_t(thread)];
+      const auto before = std::ptrdiff_t(part.Crossings.size());
+      scans[std::size_t(thread)].scan(corners, range.Begin, range.End, isKnown, part);
+      std::sort(part.Crossings.begin() + before, part.Crossings.end());
     });
-  ScannedTriangles all;
-  all.Touches = inserted.touches();
-  addNoted(inserted, blocks, all);
-  for (const ScannedTriangles& part : parts)
+  std::vector<std::vector<TriangleCrossing>> lists;
+  std::vector<CrossedTriangles::Touch> touches = inserted.touches();
+  for (ScannedTriangles& part : parts)
   {
-    all.Crossings.insert(all.Crossings.end(), part.Crossings.begin(), part.Crossings.end());
-    all.Touches.insert(all.Touches.end(), part.Touches.begin(), part.Touches.end());
+    lists.push_back(std::move(part.Crossings));
+    touches.insert(touches.end(), part.Touches.begin(), part.Touches.end());
   }
-  return sorted(all);
+  lists.push_back(notedIn(blocks, inserted));
+  return listed(merged(std::move(lists)), std::move(touches));
 }
 
 template CrossedTriangles findCrossedTriangles(PointsView, const std::int32_t*, std::size_t,

@@ -30,9 +30,9 @@ struct CrossedTriangles
 };
 
 /// Finds the triangles that pieces cross, except pieces that were inserted already. Pieces and
-/// triangles use the same vertex ids. `blocks` are boxes that hold some of the triangles, by
-/// ascending position: blocks with no piece near are skipped. `inserted` has what was found while
-/// the points were triangulated.
+/// triangles use the same vertex ids. `blocks` are interior triangles of partitions, by ascending
+/// position: blocks with no piece near are skipped. `inserted` has what was found while the points
+/// were triangulated.
 template <typename Id>
 CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std::size_t triangles,
   const std::vector<TriangleBlock>& blocks, const std::vector<ConstraintPiece>& pieces,

@@ -3,7 +3,6 @@
 
 #include "Constraints/SegmentInserter.h"
 #include "Kernel/DelaunayKernel.h"
-#include "Kernel/Lanes.h"
 
 #include <algorithm>
 #include <utility>
@@ -173,90 +172,91 @@ public:
   void edit(const Partition<std::int64_t>& partition) override { this->editAny(partition); }
 
 private:
+  /// A piece from an end in the partition on.
+  struct BegunPiece
+  {
+    std::int64_t Entry; ///< of PieceEnds: the end
+    Index From;
+    Index To; ///< the vertex at the other end, if it is the partition's
+  };
+
   template <typename Id>
   void editAny(const Partition<Id>& partition)
   {
-    this->collect(partition);
+    this->findEnds(partition);
     this->IsBoundary = partition.IsBoundary;
-    if (!this->EndVertices.empty())
+    if (!this->Found.empty())
     {
       this->insertAll(partition);
     }
-    this->publish(partition.Number, this->findRanges(partition.Kernel));
+    this->publish(partition.Number, partition.Interior);
   }
 
   template <typename Id>
   void insertAll(const Partition<Id>& partition)
   {
     this->Mesh.begin(partition.Kernel);
+    this->collectPieces();
     this->placeEnds(partition.Number);
+    this->findBegun(partition.Number);
     const auto idOf = [&](Index v) { return PointId(partition.Ids[v]); };
     // First all that can be inserted, for this changes what the others cross.
-    std::size_t left = 0;
-    for (const std::int64_t entry : this->Entries)
+    for (std::size_t i = 0; i < this->Whole.size(); ++i)
     {
-      const bool isWhole = this->otherEnd(entry, partition.Number) != NoVertex;
-      if (isWhole && entry % 2 == 1)
+      this->expectLater(i);
+      const BegunPiece& piece = this->Whole[i];
+      if (this->follow(piece, true, idOf))
       {
-        continue; // taken from its other end
-      }
-      if (isWhole && this->follow(entry, partition.Number, true, idOf))
-      {
-        this->Of.Done[std::size_t(entry / 2)] = 1;
+        this->Of.Done[std::size_t(piece.Entry / 2)] = 1;
       }
       else
       {
-        this->Entries[left++] = entry;
+        this->Begun.push_back(piece);
       }
     }
-    this->Entries.resize(left);
-    for (const std::int64_t entry : this->Entries)
+    for (const BegunPiece& piece : this->Begun)
     {
-      this->follow(entry, partition.Number, false, idOf);
+      this->follow(piece, false, idOf);
     }
   }
 
-  /// See rangesOf().
-  std::vector<Box2> findRanges(const DelaunayKernel& kernel) const
+  /// Triangles at ends lie anywhere in memory, so they are asked for early.
+  void expectLater(std::size_t piece) const
   {
-    std::vector<Box2> ranges;
-    const double scale = 1 / this->Factor; // a power of two
-    Pair low{};
-    Pair high{};
-    std::size_t count = 0;
-    const auto end = [&]()
+    const auto atEnds = [&](std::size_t ahead, const auto& expect)
     {
-      ranges.push_back({ low[0] * scale, low[1] * scale, high[0] * scale, high[1] * scale });
-      count = 0;
+      const BegunPiece& later = this->Whole[std::min(piece + ahead, this->Whole.size() - 1)];
+      expect(later.From);
+      expect(later.To);
     };
-    kernel.forEachTriangle(
-      [&](Index t)
+    constexpr std::size_t steps[] = { 12, 8, 4 };
+    atEnds(steps[0], [this](Index v) { this->Mesh.expect(v); });
+    atEnds(steps[1], [this](Index v) { this->Mesh.expectNeighbours(v); });
+    atEnds(steps[2], [this](Index v) { this->Mesh.expectNextNeighbours(v); });
+  }
+
+  /// Pieces with an end in the partition; those with both are Whole, once each.
+  void findBegun(PartitionIndex partition)
+  {
+    this->Whole.clear();
+    this->Begun.clear();
+    for (const auto& [entry, v] : this->EndVertices)
+    {
+      if (v != NoVertex)
       {
-        if (!this->isInterior(t))
-        {
-          return;
-        }
-        for (const Index v : kernel.corners(t))
-        {
-          const Point2 p = kernel.point(v);
-          const Pair xy = pairAt(&p.x);
-          low = count == 0 ? xy : lower(low, xy);
-          high = count == 0 ? xy : higher(high, xy);
-          count += count == 0 ? 1 : 0;
-        }
-        if (++count > RangeTriangles)
-        {
-          end();
-        }
-      });
-    count > 0 ? end() : void();
-    return ranges;
+        const Index other = this->otherEnd(entry, partition);
+        const BegunPiece piece{ entry, v, other };
+        other == NoVertex  ? this->Begun.push_back(piece)
+          : entry % 2 == 0 ? this->Whole.push_back(piece)
+                           : void();
+      }
+    }
   }
 
   /// Ends of pieces among the vertices. What is known of points and pieces lies anywhere in memory,
   /// so it is asked for early.
   template <typename Id>
-  void collect(const Partition<Id>& partition)
+  void findEnds(const Partition<Id>& partition)
   {
     const PieceEnds& ends = this->Of.EndPoints;
     constexpr Index ahead = 16;
@@ -270,8 +270,20 @@ private:
       if (id >= 0 && ends.has(id))
       {
         this->Found.push_back({ ends.rank(id), v });
-        ends.expectEntries(this->Found.back().Rank);
       }
+    }
+  }
+
+  void collectPieces()
+  {
+    const PieceEnds& ends = this->Of.EndPoints;
+    for (const FoundEnd& end : this->Found)
+    {
+      ends.expectEntries(end.Rank);
+    }
+    for (const FoundEnd& end : this->Found)
+    {
+      ends.expectVisit(end.Rank);
     }
     this->EndVertices.clear();
     for (const auto& [rank, v] : this->Found)
@@ -287,15 +299,17 @@ private:
 
   void placeEnds(PartitionIndex partition)
   {
-    this->Entries.clear();
-    for (const auto& [entry, v] : this->EndVertices)
+    for (auto& [entry, v] : this->EndVertices)
     {
       if (this->Mesh.isUsed(v))
       {
         Ends& ends = this->Of.EndsOf[std::size_t(entry / 2)];
         ends.Vertex[std::size_t(entry % 2)] = v;
         ends.Partition[std::size_t(entry % 2)].store(partition, std::memory_order_relaxed);
-        this->Entries.push_back(entry);
+      }
+      else
+      {
+        v = NoVertex;
       }
     }
   }
@@ -309,24 +323,23 @@ private:
                                                                               : NoVertex;
   }
 
-  Point2 position(PointId id) const
+  /// Of the piece's other end.
+  Point2 otherPosition(std::int64_t entry) const
   {
-    const Point2 p = this->Of.Points[std::size_t(id)];
+    const ConstraintPiece& ids = this->Of.Pieces[std::size_t(entry / 2)];
+    const Point2 p = this->Of.Points[std::size_t(entry % 2 == 0 ? ids.B : ids.A)];
     return { p.x * this->Factor, p.y * this->Factor };
   }
 
   /// Follows a piece from one end on, part by part, and inserts parts that only interior triangles
   /// are in the way of, or notes which interior ones it crosses. Whether it is all there.
   template <typename IdOf>
-  bool follow(std::int64_t entry, PartitionIndex partition, bool inserts, const IdOf& idOf)
+  bool follow(const BegunPiece& begun, bool inserts, const IdOf& idOf)
   {
-    const auto piece = std::size_t(entry / 2);
-    const std::size_t end = std::size_t(entry % 2);
-    const ConstraintPiece& ids = this->Of.Pieces[piece];
-    Index at = this->Of.EndsOf[piece].Vertex[end];
-    const Index goal = this->otherEnd(entry, partition);
+    const auto piece = std::size_t(begun.Entry / 2);
+    Index at = begun.From;
     const Line line{ this->Mesh.at(at),
-      goal != NoVertex ? this->Mesh.at(goal) : this->position(end == 0 ? ids.B : ids.A), goal };
+      begun.To != NoVertex ? this->Mesh.at(begun.To) : this->otherPosition(begun.Entry), begun.To };
     bool isAllThere = true;
     for (;;)
     {
@@ -395,25 +408,30 @@ private:
     return false;
   }
 
-  void publish(PartitionIndex partition, std::vector<Box2> ranges)
+  Box2 unscaled(const Box2& box) const
   {
+    const double scale = 1 / this->Factor; // a power of two
+    return { box.xmin * scale, box.ymin * scale, box.xmax * scale, box.ymax * scale };
+  }
+
+  void publish(PartitionIndex partition, const Octagon& bounds)
+  {
+    Interior interior;
+    interior.Bounds = { this->unscaled(bounds.Box), this->unscaled(bounds.Diagonals) };
     std::sort(this->Noted.begin(), this->Noted.end());
+    this->Noted.erase(std::unique(this->Noted.begin(), this->Noted.end()), this->Noted.end());
     std::size_t at = 0;
-    std::size_t interior = 0; // among the triangles before `at`
-    this->Crossings.clear();
+    std::size_t before = 0; // interior triangles before `at`
+    interior.Crossings.reserve(this->Noted.size());
     for (const auto& [triangle, piece] : this->Noted)
     {
-      for (; at < triangle; ++at)
-      {
-        interior += this->IsBoundary[at] ? 0 : 1;
-      }
-      this->Crossings.push_back({ piece, partition, interior });
+      before += std::size_t(std::count(this->IsBoundary + at, this->IsBoundary + triangle, 0));
+      at = triangle;
+      interior.Crossings.emplace_back(before, piece);
     }
     const std::lock_guard<std::mutex> lock(this->Of.Mutex);
-    this->Of.Crossings.insert(
-      this->Of.Crossings.end(), this->Crossings.begin(), this->Crossings.end());
     this->Of.Touches.insert(this->Of.Touches.end(), this->Touches.begin(), this->Touches.end());
-    this->Of.Ranges[partition] = std::move(ranges);
+    this->Of.Interiors[partition] = std::move(interior);
     this->Touches.clear();
     this->Noted.clear();
   }
@@ -429,11 +447,11 @@ private:
     std::size_t Rank;
     Index Vertex;
   };
-  std::vector<FoundEnd> Found; ///< points that are ends
-  std::vector<std::pair<std::int64_t, Index>> EndVertices;
-  std::vector<std::int64_t> Entries; ///< of pieces with an end here: as PieceEnds has them
-  std::vector<std::pair<std::size_t, std::int64_t>> Noted; ///< crossed triangles, by number
-  std::vector<Crossing> Crossings;
+  std::vector<FoundEnd> Found;                             ///< points that are ends
+  std::vector<std::pair<std::int64_t, Index>> EndVertices; ///< entries of PieceEnds
+  std::vector<BegunPiece> Whole;
+  std::vector<BegunPiece> Begun; ///< those that are not inserted here
+  std::vector<Crossing> Noted;   ///< triangles by their numbers in the kernel
   std::vector<CrossedTriangles::Touch> Touches;
 };
 

@@ -14,6 +14,7 @@
 #include <memory>
 #include <mutex>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -36,29 +37,27 @@ public:
 
   bool isDone(std::size_t piece) const { return this->Done[piece] != 0; }
 
-  /// Whether one of the piece's ends lies in the partition: then crossings() has all interior
-  /// triangles of the partition that the piece crosses.
+  /// Whether one of the piece's ends lies in the partition: then Interior::Crossings has all
+  /// interior triangles of the partition that the piece crosses, unless it is done.
   bool isKnown(std::int64_t piece, PartitionIndex partition) const
   {
     const Ends& ends = this->EndsOf[std::size_t(piece)];
     return partition >= 0 && (ends.Partition[0] == partition || ends.Partition[1] == partition);
   }
 
-  static constexpr std::size_t RangeTriangles = 512;
-  /// The bounding boxes of a partition's interior triangles, RangeTriangles at a time; the last
-  /// range may have fewer.
-  const std::vector<Box2>& rangesOf(PartitionIndex partition) const
-  {
-    return this->Ranges.at(partition);
-  }
+  /// A crossed triangle, counted among the interior ones of its partition, and a piece.
+  using Crossing = std::pair<std::size_t, std::int64_t>;
 
-  struct Crossing
+  /// A partition's interior triangles.
+  struct Interior
   {
-    std::int64_t Piece;
-    PartitionIndex Partition;
-    std::size_t Triangle; ///< counted among the partition's interior ones
+    Octagon Bounds;                  ///< of all
+    std::vector<Crossing> Crossings; ///< ascending, each once
   };
-  const std::vector<Crossing>& crossings() const { return this->Crossings; }
+  const Interior& interiorOf(PartitionIndex partition) const
+  {
+    return this->Interiors.at(partition);
+  }
   /// Vertices in the interior of pieces, also of those that are left for later.
   std::vector<CrossedTriangles::Touch>& touches() { return this->Touches; }
   const std::vector<CrossedTriangles::Touch>& touches() const { return this->Touches; }
@@ -79,9 +78,8 @@ private:
   std::vector<Ends> EndsOf;
   std::vector<char> Done;
   std::mutex Mutex;
-  std::vector<Crossing> Crossings;
   std::vector<CrossedTriangles::Touch> Touches;
-  std::unordered_map<PartitionIndex, std::vector<Box2>> Ranges;
+  std::unordered_map<PartitionIndex, Interior> Interiors;
 };
 
 } // namespace tipp

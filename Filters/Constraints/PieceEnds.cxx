@@ -24,7 +24,7 @@ std::size_t bitsIn(std::uint64_t word)
 } // namespace
 
 PieceEnds::PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pieces, int threads)
-  : Bits(points / 64 + 1)
+  : Words(points / 64 + 1)
 {
   this->Entries.reserve(2 * pieces.size());
   PointId last = -1;
@@ -32,7 +32,7 @@ PieceEnds::PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pie
   {
     if (id != last)
     {
-      this->Bits[std::size_t(id) / 64] |= std::uint64_t(1) << (std::size_t(id) % 64);
+      this->Words[std::size_t(id) / 64].Bits |= std::uint64_t(1) << (std::size_t(id) % 64);
       this->Starts.push_back(std::int64_t(this->Entries.size()));
       last = id;
     }
@@ -72,20 +72,19 @@ PieceEnds::PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pie
     }
   }
   this->Starts.push_back(std::int64_t(this->Entries.size()));
-  this->Before.reserve(this->Bits.size());
   std::uint64_t ends = 0;
-  for (const std::uint64_t bits : this->Bits)
+  for (Word& word : this->Words)
   {
-    this->Before.push_back(ends);
-    ends += bitsIn(bits);
+    word.Before = ends;
+    ends += bitsIn(word.Bits);
   }
 }
 
 std::size_t PieceEnds::rank(PointId id) const
 {
   const std::uint64_t below = (std::uint64_t(1) << (std::size_t(id) % 64)) - 1;
-  const std::size_t word = std::size_t(id) / 64;
-  return std::size_t(this->Before[word]) + bitsIn(this->Bits[word] & below);
+  const Word& word = this->Words[std::size_t(id) / 64];
+  return std::size_t(word.Before) + bitsIn(word.Bits & below);
 }
 
 } // namespace tipp

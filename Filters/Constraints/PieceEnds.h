@@ -19,7 +19,7 @@ public:
 
   bool has(PointId id) const
   {
-    return (this->Bits[std::size_t(id) / 64] >> (std::size_t(id) % 64) & 1) != 0;
+    return (this->Words[std::size_t(id) / 64].Bits >> (std::size_t(id) % 64) & 1) != 0;
   }
 
   /// The position of an id, which must be an end, among all ends.
@@ -37,21 +37,31 @@ public:
   }
 
   ///@{
-  /// Loads what has() and visit() will need; negative ids are nobody's.
+  /// Loads what has(), expectVisit() and visit() will need; negative ids are nobody's.
   void expect(PointId id) const
   {
     if (id >= 0)
     {
-      __builtin_prefetch(&this->Bits[std::size_t(id) / 64]);
+      __builtin_prefetch(&this->Words[std::size_t(id) / 64]);
     }
   }
   void expectEntries(std::size_t rank) const { __builtin_prefetch(&this->Starts[rank]); }
+  void expectVisit(std::size_t rank) const
+  {
+    __builtin_prefetch(&this->Entries[std::size_t(this->Starts[rank])]);
+  }
   ///@}
 
 private:
-  std::vector<std::uint64_t> Bits;   ///< by id
-  std::vector<std::uint64_t> Before; ///< bits of the words before
-  std::vector<std::int64_t> Starts;  ///< by rank, and the end
+  /// Of 64 ids.
+  struct Word
+  {
+    std::uint64_t Bits = 0;
+    std::uint64_t Before = 0; ///< the number of bits in the words before
+  };
+
+  std::vector<Word> Words;          ///< by id
+  std::vector<std::int64_t> Starts; ///< by rank, and the end
   std::vector<std::int64_t> Entries;
 };
 

@@ -2,14 +2,12 @@
 #include "Constraints/RankSource.h"
 
 #include "Constraints/ConstraintPoints.h"
+#include "Constraints/DataSetRows.h"
 #include "Constraints/SourceConstraints.h"
 #include "Projection/ProjectedPoints.h"
 #include "Vtk/ReadDataSet.h"
 
-#include "vtkCharArray.h"
-#include "vtkCommunicator.h"
 #include "vtkDataArray.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -17,11 +15,8 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace tipp
@@ -29,36 +24,7 @@ namespace tipp
 namespace
 {
 
-Bytes packed(vtkPolyData* data)
-{
-  vtkNew<vtkCharArray> buffer;
-  if (!vtkCommunicator::MarshalDataObject(data, buffer))
-  {
-    throw std::runtime_error("The source cannot be sent to other ranks.");
-  }
-  const char* const begin = buffer->GetPointer(0);
-  Bytes bytes(std::size_t(buffer->GetNumberOfValues()));
-  std::copy_n(begin, bytes.size(), bytes.data());
-  return bytes;
-}
-
-vtkSmartPointer<vtkPolyData> unpacked(const Bytes& bytes)
-{
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  if (bytes.size() > 0)
-  {
-    vtkNew<vtkCharArray> buffer;
-    buffer->SetNumberOfValues(vtkIdType(bytes.size()));
-    std::copy_n(bytes.data(), bytes.size(), buffer->GetPointer(0));
-    if (!vtkCommunicator::UnMarshalDataObject(buffer, data))
-    {
-      throw std::runtime_error("A part of the source that another rank has sent cannot be read.");
-    }
-  }
-  return data;
-}
-
-/// A point in the plane with its point data, on the way to the last rank.
+/// A vertex, and the id of the point that it is.
 struct Found
 {
   std::int64_t Vertex;
@@ -96,12 +62,13 @@ public:
     if (this->isLast())
     {
       this->join(rows, result);
-      writer(this->Segments, result.Figures);
+      writer(this->Segments, result.Cells, result.Figures);
     }
     const std::vector<Bytes> all = this->Ranks.allGather(writer.take());
     LoadArchive reader(all.back());
-    reader(this->Segments, result.Figures);
-    result.Segments = std::make_unique<ConstraintSegments>(this->Segments);
+    reader(this->Segments, result.Cells, result.Figures);
+    result.Segments = std::make_unique<ConstraintSegments>(
+      this->Segments, this->Options.WantsCells ? &result.Order : nullptr);
     return result;
   }
 
@@ -114,6 +81,7 @@ private:
     if (source && source->GetNumberOfLines() + source->GetNumberOfPolys() > 0)
     {
       vtkNew<vtkPolyData> sent;
+      sent->SetVerts(source->GetVerts()); // cells are counted from these on
       sent->SetLines(source->GetLines());
       sent->SetPolys(source->GetPolys());
       if (this->Options.MergesPoints)
@@ -122,7 +90,7 @@ private:
         sent->SetPoints(source->GetPoints());
         sent->GetPointData()->ShallowCopy(source->GetPointData());
       }
-      mine = packed(sent);
+      mine = packDataSet(sent);
     }
     std::vector<Bytes> all = this->Ranks.allGather(std::move(mine));
     for (auto one = all.begin(); one != all.end(); ++one)
@@ -131,7 +99,7 @@ private:
         std::none_of(all.begin(), one,
           [&](const Bytes& other)
           { return std::equal(other.begin(), other.end(), one->begin(), one->end()); });
-      isNew ? this->Sources.push_back(unpacked(*one)) : void();
+      isNew ? this->Sources.push_back(unpackDataSet(*one)) : void();
     }
   }
 
@@ -174,7 +142,9 @@ private:
       const Constraint& constraint = its.Constraints[i];
       this->Constraints.push_back({ index(constraint.A), index(constraint.B) });
       this->Roles.push_back(i < its.PolygonBegin ? SegmentRole::Line : SegmentRole::Polygon);
+      this->Cells.push_back(this->FirstCell + its.Cells[i]);
     }
+    this->FirstCell += source->GetNumberOfCells();
   }
 
   /// Vertices are the sources' points, one source after the other.
@@ -319,7 +289,7 @@ private:
     std::vector<Bytes> sent(std::size_t(this->Ranks.size()));
     if (points->GetNumberOfPoints() > 0)
     {
-      sent.back() = packed(rows);
+      sent.back() = packDataSet(rows);
     }
     return this->Ranks.allToAll(std::move(sent));
   }
@@ -349,8 +319,7 @@ private:
       throw std::invalid_argument("the source has polygons, and a point that is NaN or infinite: "
                                   "remove the polygon or correct the point.");
     }
-    result.Figures = { std::int64_t(constraints.size()), std::int64_t(resolved.Pieces.size()),
-      std::int64_t(resolved.Crossings.size()), resolved.Rounds, resolved.NotFinite };
+    result.Figures = { resolved, constraints.size() };
     std::vector<Point2> all = positions;
     for (const CrossingPoint& crossing : resolved.Crossings)
     {
@@ -360,6 +329,10 @@ private:
     {
       this->Segments.push_back({ all[std::size_t(piece.A)], all[std::size_t(piece.B)],
         this->Roles[std::size_t(piece.Constraint)] });
+      if (this->Options.WantsCells)
+      {
+        result.Cells.push_back(this->Cells[std::size_t(piece.Constraint)]);
+      }
     }
     const auto firstNew =
       std::size_t(std::lower_bound(names.begin(), names.end(), this->EndOfIds) - names.begin());
@@ -401,17 +374,17 @@ private:
   vtkSmartPointer<vtkPolyData> makeVertices(const std::vector<Bytes>& rows) const
   {
     std::vector<vtkSmartPointer<vtkPolyData>> from;
-    std::vector<std::tuple<PointId, std::size_t, vtkIdType>> rowOf; // rank, data set, row
+    std::vector<DataSetRow> rowOf;
     for (const Bytes& bytes : rows)
     {
       if (bytes.size() > 0)
       {
-        from.push_back(unpacked(bytes));
+        from.push_back(unpackDataSet(bytes));
         auto* const numbers =
           vtkIdTypeArray::SafeDownCast(from.back()->GetPointData()->GetArray("tippVertex"));
         for (vtkIdType i = 0; numbers && i < numbers->GetNumberOfTuples(); ++i)
         {
-          rowOf.emplace_back(this->rankOf(numbers->GetValue(i)), from.size() - 1, i);
+          rowOf.push_back({ this->rankOf(numbers->GetValue(i)), from.size() - 1, i });
         }
         from.back()->GetPointData()->RemoveArray("tippVertex");
       }
@@ -426,45 +399,16 @@ private:
         const std::size_t v = first + std::size_t(i);
         if (this->Same[v] == std::int64_t(v) && this->VertexIds[v] >= this->EndOfIds)
         {
-          rowOf.emplace_back(this->RankOfVertex[v], from.size(), i);
+          rowOf.push_back({ this->RankOfVertex[v], from.size(), i });
           isUsed = true;
         }
       }
       isUsed ? from.push_back(this->Sources[s]) : void();
       first += std::size_t(count);
     }
-    std::sort(rowOf.begin(), rowOf.end());
+    std::sort(rowOf.begin(), rowOf.end(),
+      [](const DataSetRow& a, const DataSetRow& b) { return a.To < b.To; });
     return copyRows(from, rowOf);
-  }
-
-  /// The rows of data sets, in their order, with the point data that all data sets have.
-  static vtkSmartPointer<vtkPolyData> copyRows(
-    const std::vector<vtkSmartPointer<vtkPolyData>>& from,
-    const std::vector<std::tuple<PointId, std::size_t, vtkIdType>>& rows)
-  {
-    auto result = vtkSmartPointer<vtkPolyData>::New();
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    points->SetNumberOfPoints(vtkIdType(rows.size()));
-    vtkPointData* const data = result->GetPointData();
-    vtkDataSetAttributes::FieldList fields;
-    for (vtkPolyData* const one : from)
-    {
-      fields.IntersectFieldList(one->GetPointData());
-    }
-    data->CopyGlobalIdsOff();
-    if (!from.empty())
-    {
-      fields.CopyAllocate(data, vtkDataSetAttributes::COPYTUPLE, vtkIdType(rows.size()), 0);
-    }
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-      const auto& [rank, set, row] = rows[i];
-      points->SetPoint(vtkIdType(i), from[set]->GetPoint(row));
-      fields.CopyData(int(set), from[set]->GetPointData(), row, data, vtkIdType(i));
-    }
-    result->SetPoints(points);
-    return result;
   }
 
   std::vector<Point2> positionsOf(vtkPolyData* vertices) const
@@ -490,7 +434,7 @@ private:
     const ProjectedPoints projected(this->Input->GetPoints(), this->Options.ToPlane);
     const PointsView view = projected.view();
     view.forEach(0, view.size(), [&](std::size_t, Point2 p) { result.Positions.push_back(p); });
-    std::vector<std::tuple<PointId, std::size_t, vtkIdType>> rows;
+    std::vector<DataSetRow> rows;
     std::vector<vtkSmartPointer<vtkPolyData>> from;
     vtkNew<vtkPolyData> given;
     given->SetPoints(this->Input->GetPoints());
@@ -499,7 +443,7 @@ private:
     ids->SetName("GlobalPointIds");
     for (vtkIdType i = 0; i < this->Input->GetNumberOfPoints(); ++i)
     {
-      rows.emplace_back(i, 0, i);
+      rows.push_back({ PointId(i), 0, i });
       ids->InsertNextValue(this->idOf(std::size_t(i)));
     }
     if (!rows.empty())
@@ -508,7 +452,7 @@ private:
     }
     for (vtkIdType i = vtkIdType(begin); i < extended->GetNumberOfPoints(); ++i)
     {
-      rows.emplace_back(PointId(rows.size()), from.size(), i);
+      rows.push_back({ PointId(rows.size()), from.size(), i });
       ids->InsertNextValue(this->EndOfIds + (i - vtkIdType(begin)));
     }
     from.emplace_back(extended);
@@ -537,6 +481,8 @@ private:
   std::vector<PointId> RankOfVertex;   ///< of the first ones: the position in Sorted
   std::vector<Constraint> Constraints; ///< by vertices
   std::vector<SegmentRole> Roles;      ///< of constraints
+  std::vector<std::int64_t> Cells;     ///< of constraints
+  std::int64_t FirstCell = 0;          ///< of the next source
   std::vector<ConstraintSegment> Segments;
 };
 

@@ -2,7 +2,6 @@
 #ifndef tippRankSource_h
 #define tippRankSource_h
 
-#include "Constraints/ConstrainedPoints.h"
 #include "Constraints/ConstraintSegments.h"
 #include "Constraints/ResolveCrossings.h"
 #include "Ranks/Communicator.h"
@@ -26,7 +25,9 @@ struct RankSource
   vtkSmartPointer<vtkPointSet> Input;
   std::vector<Point2> Positions; ///< of Input's points in the plane; empty: not changed
   std::unique_ptr<ConstraintSegments> Segments; ///< the same on all ranks
-  ConstrainedPoints::Figures Figures;           ///< the same on all ranks
+  std::vector<std::int64_t> Order; ///< of each segment: its index in the constraints' order
+  std::vector<std::int64_t> Cells; ///< by that index: see RankSourceOptions::WantsCells
+  ConstraintFigures Figures;       ///< the same on all ranks
 };
 
 struct RankSourceOptions
@@ -35,6 +36,9 @@ struct RankSourceOptions
   /// those of the input's points: their global ids, or else counted from the first rank on.
   bool MergesPoints = false;
   CrossingRule Crossings = CrossingRule::Split;
+  /// Whether segments know the cells that they are parts of: cells of the sources, one different
+  /// source after the other, by rank.
+  bool WantsCells = false;
   vtkAbstractTransform* ToPlane = nullptr;
   int Threads = 0;
 };

@@ -7,6 +7,7 @@
 #include "vtkTIPPFiltersModule.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -39,6 +40,42 @@ struct ResolvedConstraints
   std::int64_t ZeroLength = 0;          ///< left out: both ends at one position
 };
 
+/// What statistics tell of resolved constraints.
+struct ConstraintFigures
+{
+  std::int64_t Constraints = 0; ///< as given
+  std::int64_t Segments = 0;    ///< edges of constraints
+  std::int64_t Crossings = 0;
+  int Rounds = 0;             ///< of splitting crossings
+  std::int64_t NotFinite = 0; ///< constraints left out
+
+  ConstraintFigures() = default;
+  ConstraintFigures(const ResolvedConstraints& resolved, std::size_t constraints)
+    : Constraints(std::int64_t(constraints))
+    , Segments(std::int64_t(resolved.Pieces.size()))
+    , Crossings(std::int64_t(resolved.Crossings.size()))
+    , Rounds(resolved.Rounds)
+    , NotFinite(resolved.NotFinite)
+  {
+  }
+
+  /// visit(key, array, value) for the figures of a run's statistics: their names in JSON files and
+  /// Python, and in VTK tables.
+  template <typename Visit>
+  void visit(const Visit& visit) const
+  {
+    visit("constraints", "Constraints", this->Constraints);
+    visit("constraint_edges", "ConstraintEdges", this->Segments);
+    visit("crossing_points", "CrossingPoints", this->Crossings);
+    visit("crossing_rounds", "CrossingRounds", std::int64_t(this->Rounds));
+  }
+};
+
+/// The constraints without those of length zero and those with ends that are not finite; they may
+/// cross. Throws as resolveCrossings() for an id that no point has.
+ResolvedConstraints takeConstraints(
+  PointsView points, const std::vector<Constraint>& constraints, int threads);
+
 /// Splits constraints where they cross: a crossing, rounded to doubles, becomes a point of both.
 /// This is snap rounding (Hobby 1999) on the grid of doubles: a constraint that crosses others is
 /// led through all ends and crossings of constraints that points of it would be rounded to, so that
@@ -56,11 +93,6 @@ struct ResolvedConstraints
 /// magnitude. So after ten rounds units are those of the largest end, and twice as large in each
 /// further round. When they are larger than all coordinates, crossings only combine coordinates
 /// that are there: few rounds are left.
-/// The constraints without those of length zero and those with ends that are not finite; they may
-/// cross. Throws as resolveCrossings() for an id that no point has.
-ResolvedConstraints takeConstraints(
-  PointsView points, const std::vector<Constraint>& constraints, int threads);
-
 VTKTIPPFILTERS_EXPORT ResolvedConstraints resolveCrossings(PointsView points,
   const std::vector<Constraint>& constraints, CrossingRule rule, int threads,
   const std::vector<PointId>& names = {});

@@ -2,7 +2,6 @@
 #ifndef tippSegmentInserter_h
 #define tippSegmentInserter_h
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -64,7 +63,12 @@ private:
     bool IsFixed;    ///< an inserted segment
     bool IsDangling; ///< the cavity is on both sides
   };
-  using Chain = std::vector<Link>;
+  /// Links in their order; memory of Room.
+  struct Chain
+  {
+    Link* Begin;
+    Link* End;
+  };
 
   static Link makeLink(const Mesh& mesh, Index to, Index inner)
   {
@@ -74,42 +78,38 @@ private:
   /// What the segment leaves on its two sides.
   void makeChains(Mesh& mesh, Index a, const std::vector<Index>& crossed)
   {
+    const std::size_t most = crossed.size() + 1; // links of a chain
+    if (this->Room.size() < 2 * most)
+    {
+      this->Room.resize(4 * most);
+    }
+    this->Removed.resize(most);
+    this->Left = { this->Room.data(), this->Room.data() };
+    this->Right = { this->Room.data() + 2 * most, this->Room.data() + 2 * most };
+    const auto addLeft = [&](Index to, Index inner)
+    { *this->Left.End++ = makeLink(mesh, to, inner); };
+    // On the right from b to a, so from the last link on.
+    Index onRight = a;
+    const auto addRight = [&](Index from, Index inner)
+    {
+      *--this->Right.Begin = makeLink(mesh, onRight, inner);
+      onRight = from;
+    };
     const Index first = crossed.front();
-    this->Removed.resize(crossed.size() + 1);
-    this->Left.resize(crossed.size() + 1);
-    this->Right.resize(crossed.size() + 1);
-    Link* left = this->Left.data(); // from a to b
-    Link* right =
-      this->Right.data(); // from b to a, in reverse order; To is where a link comes from
     this->Removed[0] = mesh.triangleOf(first);
-    *left++ = makeLink(mesh, mesh.to(first), mesh.next(first));
-    *right++ = makeLink(mesh, mesh.from(first), mesh.previous(first));
+    addLeft(mesh.to(first), mesh.next(first));
+    addRight(mesh.from(first), mesh.previous(first));
     for (std::size_t i = 0; i < crossed.size(); ++i)
     {
       const Index half = mesh.twin(crossed[i]);
       this->Removed[i + 1] = mesh.triangleOf(half);
-      const Index onRight = mesh.next(half); // from the right to the new vertex
-      const Index onLeft = mesh.previous(half);
-      const Index apex = mesh.to(onRight);
+      const Index right = mesh.next(half); // from the right to the new vertex
+      const Index left = mesh.previous(half);
+      const Index apex = mesh.to(right);
       const Index leftBy = i + 1 < crossed.size() ? crossed[i + 1] : None;
-      if (leftBy != onRight)
-      {
-        *right++ = makeLink(mesh, apex, onRight);
-      }
-      if (leftBy != onLeft)
-      {
-        *left++ = makeLink(mesh, apex, onLeft);
-      }
+      leftBy != right ? addRight(apex, right) : void();
+      leftBy != left ? addLeft(apex, left) : void();
     }
-    this->Left.resize(std::size_t(left - this->Left.data()));
-    this->Right.resize(std::size_t(right - this->Right.data()));
-    // Each link to the vertex where it goes, from b on.
-    std::reverse(this->Right.begin(), this->Right.end());
-    for (std::size_t i = 0; i + 1 < this->Right.size(); ++i)
-    {
-      this->Right[i].To = this->Right[i + 1].To;
-    }
-    this->Right.back().To = a;
     this->markDangling(mesh);
   }
 
@@ -120,11 +120,11 @@ private:
     {
       mesh.markRemoved(triangle);
     }
-    for (Chain* chain : { &this->Left, &this->Right })
+    for (const Chain& chain : { this->Left, this->Right })
     {
-      for (Link& link : *chain)
+      for (Link* link = chain.Begin; link != chain.End; ++link)
       {
-        link.IsDangling = link.Outer >= 0 && mesh.isRemoved(mesh.triangleOf(link.Outer));
+        link->IsDangling = link->Outer >= 0 && mesh.isRemoved(mesh.triangleOf(link->Outer));
       }
     }
   }
@@ -133,13 +133,12 @@ private:
   /// segment.
   Index fill(Mesh& mesh, Index from, const Chain& chain)
   {
-    // The vertex before the first link is `from`.
-    this->Rest.resize(chain.size());
-    Link* const rest = this->Rest.data();
+    // The vertex before the first link is `from`. What is left of the chain overwrites it.
+    Link* const rest = chain.Begin;
     std::size_t count = 0;
-    for (const Link& link : chain)
+    for (const Link* link = chain.Begin; link != chain.End; ++link)
     {
-      rest[count++] = link;
+      rest[count++] = *link;
       while (count > 1)
       {
         const Link& second = rest[count - 1];
@@ -244,9 +243,9 @@ private:
   }
 
   std::vector<Index> Removed; ///< crossed triangles that are not used again yet
-  Chain Left;
-  Chain Right;
-  Chain Rest;
+  std::vector<Link> Room;     ///< for Left and Right
+  Chain Left{};
+  Chain Right{};
   std::vector<Index> Suspects;               ///< half-edges that may have to be flipped
   std::unordered_map<Index, Index> NewInner; ///< of old half-edges at dangling edges: the new ones
 };

@@ -39,7 +39,8 @@ struct ScannedTriangles
   struct Edge
   {
     std::int64_t Triangle;
-    std::size_t From; ///< of its corners, the one where the edge begins
+    std::size_t From;     ///< of its corners, the one where the edge begins
+    std::int64_t Segment; ///< its Id
   };
   std::vector<Crossing> Crossings;
   std::vector<CrossedTriangles::Touch> Touches;
@@ -77,6 +78,11 @@ public:
     {
       this->Starts[c] += this->Starts[c - 1];
     }
+    this->Used.fill(0);
+    for (const auto& entry : this->Near)
+    {
+      this->Used[std::size_t(entry.Cell / Cells)] |= 1U << (entry.Cell % Cells);
+    }
     this->Sorted.resize(this->Near.size());
     auto next = this->Starts;
     for (const auto& entry : this->Near)
@@ -89,19 +95,26 @@ public:
   template <typename Visit>
   void visitNear(const Box2& box, const Visit& visit) const
   {
-    this->forCells(box,
-      [&](int x, int y)
+    const int xBegin = this->X.cellOf(box.xmin);
+    const int xEnd = this->X.cellOf(box.xmax);
+    const std::uint32_t columns = (~0U << xBegin) & (~0U >> (Cells - 1 - xEnd));
+    const int yEnd = this->Y.cellOf(box.ymax);
+    for (int y = this->Y.cellOf(box.ymin); y <= yEnd; ++y)
+    {
+      if ((this->Used[std::size_t(y)] & columns) == 0)
       {
-        const std::size_t cell = std::size_t(y * Cells + x);
-        for (auto i = this->Starts[cell]; i < this->Starts[cell + 1]; ++i)
-        {
-          visit(std::size_t(this->Sorted[std::size_t(i)]));
-        }
-      });
+        continue; // most triangles are near no segment
+      }
+      const auto* const starts = &this->Starts[std::size_t(y) * Cells];
+      for (auto i = starts[xBegin]; i < starts[xEnd + 1]; ++i)
+      {
+        visit(std::size_t(this->Sorted[std::size_t(i)]));
+      }
+    }
   }
 
 private:
-  static constexpr int Cells = 32; ///< along each axis
+  static constexpr int Cells = 32; ///< along each axis; bits of a row of Used
 
   struct Entry
   {
@@ -176,6 +189,7 @@ private:
   Axis Y;
   std::vector<Entry> Near;
   std::array<std::int32_t, std::size_t(Cells) * Cells + 1> Starts{};
+  std::array<std::uint32_t, Cells> Used{}; ///< by row: a bit for each cell that segments are near
   std::vector<std::int32_t> Sorted;
 };
 
@@ -236,8 +250,12 @@ private:
     this->Positions.resize(3 * (end - begin));
     Box2 box{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
     const Id* corner = corners + 3 * begin;
+    const Id* const last = corners + 3 * end - 1;
+    constexpr std::ptrdiff_t ahead = 24; // points lie anywhere in memory
+    const Point2* const all = this->Points.contiguous();
     for (Point2& position : this->Positions)
     {
+      all ? __builtin_prefetch(&all[*std::min(corner + ahead, last)]) : void();
       position = this->Points[std::size_t(*corner++)];
       box.xmin = std::min(box.xmin, position.x);
       box.ymin = std::min(box.ymin, position.y);
@@ -302,7 +320,7 @@ private:
       }
       if (isOn[i] && isOn[next])
       {
-        found.Edges.push_back({ std::int64_t(t), i });
+        found.Edges.push_back({ std::int64_t(t), i, segment.Id });
         return false;
       }
     }

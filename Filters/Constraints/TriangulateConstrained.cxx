@@ -21,8 +21,8 @@ namespace
 
 /// The parts with both ends at vertices of crossed triangles.
 template <typename Id>
-ConstraintEdges edgesNear(
-  const CrossedTriangles& crossed, const Id* triangles, const std::vector<ConstraintPiece>& parts)
+ConstraintEdges edgesNear(const CrossedTriangles& crossed, const Id* triangles,
+  const std::vector<ConstraintPiece>& parts, int threads)
 {
   constexpr std::size_t marks = std::size_t(1) << 20; // by the ids' last digits
   std::vector<char> isVertex(marks, 0);
@@ -30,11 +30,21 @@ ConstraintEdges edgesNear(
   {
     std::for_each_n(triangles + 3 * t, 3, [&](Id id) { isVertex[std::size_t(id) % marks] = 1; });
   }
-  std::vector<ConstraintPiece> near;
-  std::copy_if(parts.begin(), parts.end(), std::back_inserter(near),
-    [&](const ConstraintPiece& part)
-    { return isVertex[std::size_t(part.A) % marks] && isVertex[std::size_t(part.B) % marks]; });
-  return ConstraintEdges(near);
+  std::vector<std::vector<ConstraintPiece>> near(static_cast<std::size_t>(threads));
+  constexpr std::int64_t chunk = 65536;
+  forChunks(std::int64_t(parts.size()), chunk, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int thread)
+    {
+      std::copy_if(parts.begin() + begin, parts.begin() + end,
+        std::back_inserter(near[std::size_t(thread)]),
+        [&](const ConstraintPiece& part)
+        { return isVertex[std::size_t(part.A) % marks] && isVertex[std::size_t(part.B) % marks]; });
+    });
+  for (std::size_t thread = 1; thread < near.size(); ++thread)
+  {
+    near[0].insert(near[0].end(), near[thread].begin(), near[thread].end());
+  }
+  return ConstraintEdges(near[0]);
 }
 
 template <typename Id>
@@ -46,7 +56,7 @@ void constrainTriangles(PointsView points, Buffer<Id>& ids,
     findCrossedTriangles(points, ids.data(), ids.size() / 3, blocks, pieces, inserted, threads);
   const std::size_t count = pieces.size();
   SplitPieces split = splitPieces(points, pieces, crossed.Touches);
-  const ConstraintEdges known = edgesNear(crossed, ids.data(), split.Parts);
+  const ConstraintEdges known = edgesNear(crossed, ids.data(), split.Parts, threads);
   retriangulateJobs(points, ids.data(), crossed, count, split, known, threads);
   pieces = std::move(split.Parts);
 }

@@ -286,7 +286,13 @@ void LoadedPiece::filterTriangles(const Filter& filter)
 void LoadedPiece::constrain()
 {
   const ConstraintSegments& constraints = *this->Work.Constraints;
-  const PointsView points(this->Rows.data(), this->IsOnInterface.size(), this->Work.Rows.Words);
+  std::vector<Point2> positions; // close together, for triangles name them in any order
+  positions.reserve(this->IsOnInterface.size());
+  PointsView(this->Rows.data(), this->IsOnInterface.size(), this->Work.Rows.Words)
+    .forEach(0, this->IsOnInterface.size(),
+      [&positions](std::size_t, Point2 p) { positions.push_back(p); });
+  const PointsView points =
+    positions.empty() ? PointsView() : PointsView(&positions.front().x, positions.size(), 2);
   CrossedPart crossed;
   this->filterTriangles([&](std::int32_t* corners, std::size_t count)
     { return takeCrossed(points, constraints, this->First, corners, count, crossed); });

@@ -163,13 +163,10 @@ RunStatistics statisticsOf(const DistributedTriangulation& mine)
   return run;
 }
 
-void addConstraintTotals(
-  const ResolvedConstraints& resolved, std::size_t constraints, RunStatistics& statistics)
+void addConstraintTotals(const ConstraintFigures& figures, RunStatistics& statistics)
 {
-  statistics.add("constraints", "Constraints", std::int64_t(constraints));
-  statistics.add("constraint_edges", "ConstraintEdges", std::int64_t(resolved.Pieces.size()));
-  statistics.add("crossing_points", "CrossingPoints", std::int64_t(resolved.Crossings.size()));
-  statistics.add("crossing_rounds", "CrossingRounds", resolved.Rounds);
+  figures.visit([&statistics](const char* key, const char* array, std::int64_t value)
+    { statistics.add(key, array, value); });
 }
 
 std::vector<std::string> warningsOf(

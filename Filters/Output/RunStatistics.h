@@ -62,7 +62,7 @@ VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(const DistributedTriangulation&
 
 /// Adds the numbers of constraints, their edges, and crossings.
 VTKTIPPFILTERS_EXPORT void addConstraintTotals(
-  const ResolvedConstraints& resolved, std::size_t constraints, RunStatistics& statistics);
+  const ConstraintFigures& figures, RunStatistics& statistics);
 
 /// The list "stages" of a run or a master.
 VTKTIPPFILTERS_EXPORT FigureList stagesOf(

@@ -400,15 +400,35 @@ vtkSmartPointer<vtkUnsignedCharArray> marksOf(
   return marks;
 }
 
+void setLines(
+  const PiecePoints& piece, const ConstraintLines& lines, vtkIdType triangles, vtkPolyData* output)
+{
+  Buffer<std::int64_t> ends(2 * lines.Ends.size());
+  std::int64_t* to = ends.data();
+  for (const auto& line : lines.Ends)
+  {
+    to = std::transform(line.begin(), line.end(), to,
+      [&piece](std::int64_t index) { return piece.ofLocalIndex(std::size_t(index)); });
+  }
+  output->SetLines(takeCells(std::move(ends), 2));
+  vtkNew<vtkIdTypeArray> cells;
+  cells->SetName("ConstraintId");
+  cells->SetNumberOfValues(vtkIdType(lines.Cells.size()) + triangles);
+  cells->FillValue(-1);
+  std::copy(lines.Cells.begin(), lines.Cells.end(), cells->GetPointer(0));
+  output->GetCellData()->AddArray(cells);
+}
+
 } // namespace
 
 void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& rows,
-  const GhostTriangles* ghosts, const ConstraintSegments* segments, vtkPolyData* output)
+  const GhostTriangles* ghosts, const PieceMarks& marks, vtkPolyData* output)
 {
   const PiecePoints piece(mine, rank, ghosts);
   fillPoints(piece, rows, mine.RowSize, ghosts != nullptr, output);
   const std::size_t own = mine.triangleCount();
   const std::size_t more = ghosts ? ghosts->Triangles.size() : 0;
+  const std::size_t lines = marks.Lines ? marks.Lines->Ends.size() : 0;
   Buffer<std::int64_t> corners(3 * (own + more));
   std::int64_t* to = corners.data();
   const auto add = [&](const auto& ids)
@@ -420,24 +440,33 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
   };
   add(mine.Ids32);
   add(mine.Ids64);
-  vtkNew<vtkIdTypeArray> numbers;
+  vtkNew<vtkIdTypeArray> numbers; // lines come first as cells, but after all triangles by number
   numbers->SetName("GlobalCellIds");
-  numbers->SetNumberOfValues(vtkIdType(own) + vtkIdType(more));
+  numbers->SetNumberOfValues(vtkIdType(lines + own + more));
+  vtkIdType* number = numbers->GetPointer(0);
+  for (std::size_t i = 0; i < lines; ++i)
+  {
+    *number++ = vtkIdType(mine.AllTriangles + marks.Lines->First + std::int64_t(i));
+  }
   for (std::size_t i = 0; i < own; ++i)
   {
-    numbers->SetValue(vtkIdType(i), mine.FirstTriangle + std::int64_t(i));
+    *number++ = vtkIdType(mine.FirstTriangle + std::int64_t(i));
   }
   for (std::size_t i = 0; i < more; ++i)
   {
-    numbers->SetValue(vtkIdType(own) + vtkIdType(i), ghosts->Numbers[i]);
+    *number++ = vtkIdType(ghosts->Numbers[i]);
     for (const std::int64_t id : ghosts->Triangles[i])
     {
       *to++ = piece.ofId(id);
     }
   }
-  if (segments)
+  if (marks.Flags)
   {
-    output->GetCellData()->AddArray(marksOf(piece, *segments, corners));
+    output->GetCellData()->AddArray(marksOf(piece, *marks.Flags, corners));
+  }
+  if (marks.Lines)
+  {
+    setLines(piece, *marks.Lines, vtkIdType(own + more), output);
   }
   output->SetPolys(takeCells(std::move(corners), 3));
   output->GetCellData()->SetGlobalIds(numbers);
@@ -445,11 +474,10 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
   {
     vtkNew<vtkUnsignedCharArray> ghost;
     ghost->SetName(vtkDataSetAttributes::GhostArrayName());
-    ghost->SetNumberOfValues(vtkIdType(own) + vtkIdType(more));
-    for (std::size_t i = 0; i < own + more; ++i)
-    {
-      ghost->SetValue(vtkIdType(i), i < own ? 0 : vtkDataSetAttributes::DUPLICATECELL);
-    }
+    ghost->SetNumberOfValues(vtkIdType(lines + own + more));
+    std::fill_n(ghost->GetPointer(0), lines + own, static_cast<unsigned char>(0));
+    std::fill_n(ghost->GetPointer(0) + lines + own, more,
+      static_cast<unsigned char>(vtkDataSetAttributes::DUPLICATECELL));
     output->GetCellData()->AddArray(ghost);
   }
 }

@@ -4,6 +4,7 @@
 
 #include "Arrays/Buffer.h"
 #include "Constraints/ConstraintSegments.h"
+#include "Distributed/ConstraintLines.h"
 #include "Distributed/PointExchange.h"
 #include "Distributed/TriangleExchange.h"
 #include "Ranks/Communicator.h"
@@ -74,11 +75,17 @@ private:
   bool Doubles = false;
 };
 
+/// How a piece shows constraints; null: not.
+struct PieceMarks
+{
+  const ConstraintSegments* Flags = nullptr; ///< by the array ConstraintEdges
+  const ConstraintLines* Lines = nullptr;    ///< before the triangles, and the array ConstraintId
+};
+
 /// Fills `output` with a rank's triangles: the points that they use with their data, and global ids
-/// of points and cells. `ghosts`, if not null, are added with the array vtkGhostType; and if
-/// `segments` are not, the array ConstraintEdges.
+/// of points and cells. `ghosts`, if not null, are added with the array vtkGhostType.
 void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& rows,
-  const GhostTriangles* ghosts, const ConstraintSegments* segments, vtkPolyData* output);
+  const GhostTriangles* ghosts, const PieceMarks& marks, vtkPolyData* output);
 
 } // namespace tipp
 

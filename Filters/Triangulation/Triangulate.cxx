@@ -133,7 +133,7 @@ private:
     this->Result.Duplicates = worker.duplicates();
     this->Result.Statistics.WorkerVertices = std::int64_t(worker.vertexCount());
     this->endPhase("workers");
-    this->finish(sink, {}, nullptr, tiling.domain());
+    this->finish(sink, {});
   }
 
   /// The data that the threads of a run share.
@@ -212,7 +212,7 @@ private:
       repairHull(std::move(boundary.HullVertices), artificial, boundary);
       triangles.push_back(std::move(boundary.Triangles));
       this->endPhase("hull");
-      this->finish(sink, triangles, &regions, tiling.domain());
+      this->finish(sink, triangles);
     }
   }
 
@@ -290,32 +290,26 @@ private:
   }
 
   void finish(TriangleSink<Id>& sink,
-    const std::vector<std::vector<typename TriangleSink<Id>::FinalTriangle>>& boundary,
-    const Regions* regions, const Box2& domain)
+    const std::vector<std::vector<typename TriangleSink<Id>::FinalTriangle>>& boundary)
   {
     Buffer<Id> ids = sink.assemble(boundary, this->PassThreads);
-    this->addBlocks(sink, regions, domain, ids.size() / 3);
+    this->addBlocks(sink, ids.size() / 3);
     preferLowestIds(ids, this->Result.Duplicates, this->PassThreads);
     idsOf(this->Result, Id()) = std::move(ids);
     this->endPhase("output");
     this->report(1);
   }
 
-  /// Adds a block for each partition: its interior triangles lie in its region and are contiguous
-  /// in the output.
-  void addBlocks(
-    const TriangleSink<Id>& sink, const Regions* regions, const Box2& domain, std::size_t triangles)
+  /// Adds a block for each partition, whose interior triangles are contiguous in the output.
+  void addBlocks(const TriangleSink<Id>& sink, std::size_t triangles)
   {
-    const double scale = 1 / this->Points.factor(); // a power of two
     for (PartitionIndex p = 0; p < this->Buckets.partitions(); ++p)
     {
       const std::size_t begin = std::min(2 * this->Buckets.start(p), triangles);
       const std::size_t end = std::min(begin + sink.interiorCount(p), triangles);
       if (begin < end)
       {
-        const Box2& box = regions ? (*regions)[p] : domain;
-        this->Result.Blocks.push_back({ p, begin, end,
-          { box.xmin * scale, box.ymin * scale, box.xmax * scale, box.ymax * scale } });
+        this->Result.Blocks.push_back({ p, begin, end });
       }
     }
   }

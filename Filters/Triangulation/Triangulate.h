@@ -77,13 +77,12 @@ struct TriangulationStatistics
   int Threads = 0;
 };
 
-/// A range [Begin, End) of triangles that all lie in a box.
+/// A range [Begin, End) of triangles: the first interior ones of a partition, in their order.
 struct TriangleBlock
 {
-  PartitionIndex Partition; ///< whose first interior triangles they are, in their order
+  PartitionIndex Partition;
   std::size_t Begin;
   std::size_t End;
-  Box2 Box;
 };
 
 /// The triangles: three input point ids each, counter-clockwise.

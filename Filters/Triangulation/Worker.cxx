@@ -102,6 +102,7 @@ bool Worker<Id>::triangulateAlone(const DelaunayKernel::Monitor& proceed)
   this->setVertexIds();
   if (this->Editor)
   {
+    this->Interior = { Octagon::All, Octagon::All };
     this->IsBoundary.clear();
     this->Kernel.forEachTriangle(
       [this](Index t) { this->IsBoundary.push_back(this->Kernel.isInfinite(t)); });
@@ -174,12 +175,14 @@ BoundaryVertex Worker<Id>::vertex(PartitionIndex partition, Index v) const
 /// Visits the triangles whose circumdisk is not inside the partition. They are connected: each
 /// point outside has a cavity that is connected, and on a path outside from point to point the
 /// cavity changes by one neighbouring triangle at a time. So only these and the interior triangles
-/// adjacent to them are visited.
+/// adjacent to them are visited. The latter have the outmost vertices of all interior triangles:
+/// round such a vertex interior triangles and others follow each other.
 template <typename Id>
 void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryConsumer& boundary)
 {
   const Box2 open = openBox(box);
   this->IsBoundary.assign(this->Kernel.triangleCount(), 0);
+  this->Interior = {};
   std::size_t first = 0;
   while (!this->Kernel.isInfinite(DelaunayKernel::triangle(first)))
   {
@@ -206,6 +209,10 @@ void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryConsu
           this->Kernel.point(v[0]), this->Kernel.point(v[1]), this->Kernel.point(v[2]));
         if (disk.inside(open))
         {
+          for (std::size_t k = 0; this->Editor && k < 3; ++k)
+          {
+            this->Interior.add(this->Kernel.point(v[k]));
+          }
           continue;
         }
         if (disk.meets(region))
@@ -238,7 +245,7 @@ void Worker<Id>::edit(PartitionIndex partition)
   if (this->Editor)
   {
     this->Editor->edit(PartitionEditor::Partition<Id>{
-      partition, this->Kernel, this->VertexIds.data(), this->IsBoundary.data() });
+      partition, this->Kernel, this->VertexIds.data(), this->IsBoundary.data(), this->Interior });
   }
 }
 

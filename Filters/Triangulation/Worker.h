@@ -5,17 +5,39 @@
 #include "Kernel/DelaunayKernel.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/PointBuckets.h"
+#include "Triangulation/PointsView.h"
 #include "Triangulation/Tiling.h"
 #include "Triangulation/Triangulate.h"
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
 
 namespace tipp
 {
+
+/// The bounds of points along the axes and, rounded, along the diagonals.
+struct Octagon
+{
+  static constexpr double Most = std::numeric_limits<double>::infinity();
+  static constexpr Box2 Nothing{ Most, Most, -Most, -Most };
+  static constexpr Box2 All{ -Most, -Most, Most, Most };
+
+  Box2 Box = Nothing;
+  Box2 Diagonals = Nothing; ///< of the points' diagonals()
+
+  static Point2 diagonals(Point2 p) { return { p.x + p.y, p.x - p.y }; }
+
+  void add(Point2 p)
+  {
+    const Point2 d = diagonals(p);
+    this->Box = unionOf(this->Box, { p.x, p.y, p.x, p.y });
+    this->Diagonals = unionOf(this->Diagonals, { d.x, d.y, d.x, d.y });
+  }
+};
 
 /// Changes the interior triangles of partitions in the kernel's mesh, before they are written.
 /// Their number and their union must stay. Each thread has its own editor.
@@ -29,6 +51,7 @@ public:
     DelaunayKernel& Kernel;
     const Id* Ids;          ///< by kernel vertex, from 1 on; -1 for those of other partitions
     const char* IsBoundary; ///< by number of the kernel's triangle: not 0 if it is not interior
+    Octagon Interior;       ///< of the interior triangles, in the kernel's coordinates
   };
 
   virtual ~PartitionEditor() = default;
@@ -110,6 +133,7 @@ private:
   std::vector<Point2> GhostPoints;
   std::vector<std::int64_t> KnownIds; ///< ids of own points that other partitions know; sorted
   std::vector<char> IsBoundary;       ///< by number of the kernel's triangle
+  Octagon Interior;                   ///< of the interior triangles, if there is an editor
   std::vector<DelaunayKernel::Index> Stack;
   std::vector<Duplicate> Duplicates;
   std::size_t InteriorCount = 0;

@@ -132,10 +132,9 @@ nb::dict triangulateWithConstraints(const InputArray& points, const InputArray& 
   dict["crossings"] = crossingsArray(resolved.Crossings);
   dict["not_finite"] = resolved.NotFinite;
   nb::object statistics = dict["statistics"];
-  statistics["constraints"] = constraints.size();
-  statistics["constraint_edges"] = resolved.Pieces.size();
-  statistics["crossing_points"] = resolved.Crossings.size();
-  statistics["crossing_rounds"] = resolved.Rounds;
+  ConstraintFigures(resolved, constraints.size())
+    .visit(
+      [&statistics](const char* key, const char*, std::int64_t value) { statistics[key] = value; });
   return dict;
 }
 

@@ -75,8 +75,8 @@ namespace
 
 using Strings = std::vector<std::string>;
 
-nb::dict figuresOf(const OutOfCoreStatistics& statistics,
-  const ConstrainedPoints::Figures& constraints, bool countOnly)
+nb::dict figuresOf(
+  const OutOfCoreStatistics& statistics, const ConstraintFigures& constraints, bool countOnly)
 {
   nb::dict result;
   result["points"] = statistics.Points;
@@ -93,10 +93,8 @@ nb::dict figuresOf(const OutOfCoreStatistics& statistics,
   }
   if (constraints.Constraints > 0)
   {
-    result["constraints"] = constraints.Constraints;
-    result["constraint_edges"] = constraints.Segments;
-    result["crossing_points"] = constraints.Crossings;
-    result["crossing_rounds"] = constraints.Rounds;
+    constraints.visit(
+      [&result](const char* key, const char*, std::int64_t value) { result[key] = value; });
   }
   return result;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constrained triangulation beside its peers: benchmarkConstraints POINTS SEGMENTS [REPEAT [vtk]].
+// Constrained triangulation beside its peers:
+// benchmarkConstraints POINTS SEGMENTS [REPEAT [vtk | alone]]; alone: no peers, but our phases.
 // POINTS: a number of uniform ones, or a .npy file. The segments are edges of the triangulation of
 // every eighth point, so that they do not cross; with SEGMENTS = 1 one goes across everything; or
 // they are a .npy file of two points' indices each, of which those that cross others are left out.
@@ -90,7 +91,7 @@ std::vector<Constraint> readSegments(const std::vector<double>& xy, const std::s
   return segments;
 }
 
-void report(const char* name, int repeat, const std::function<Run()>& work)
+void report(const char* name, int repeat, bool tellsPhases, const std::function<Run()>& work)
 {
   Measurement best;
   for (int i = 0; i < repeat; ++i)
@@ -104,6 +105,11 @@ void report(const char* name, int repeat, const std::function<Run()>& work)
   {
     std::printf("%28s %lld segments are edges\n", "", (long long)best.Result.Recovered);
   }
+  for (const auto& phase : best.Result.Statistics.Phases)
+  {
+    tellsPhases ? void(std::printf("%28s %-18s %7.3f s\n", "", phase.Name.c_str(), phase.Seconds))
+                : void();
+  }
   std::fflush(stdout);
 }
 
@@ -113,7 +119,7 @@ int main(int argc, char** argv)
 {
   if (argc < 3)
   {
-    std::fputs("usage: benchmarkConstraints POINTS SEGMENTS [REPEAT [vtk]]\n", stderr);
+    std::fputs("usage: benchmarkConstraints POINTS SEGMENTS [REPEAT [vtk | alone]]\n", stderr);
     return 2;
   }
   try
@@ -126,19 +132,25 @@ int main(int argc, char** argv)
       ? readSegments(xy, argv[2])
       : makeSegments(xy, std::size_t(std::strtod(argv[2], nullptr)));
     std::printf("%zu points, %zu segments\n", xy.size() / 2, segments.size());
-    report("CGAL, 1 thread", repeat, [&] { return runCgalConstrained(xy, segments); });
+    const std::string peers = argc > 4 ? argv[4] : "";
+    const bool isAlone = peers == "alone";
+    if (!isAlone)
+    {
+      report("CGAL, 1 thread", repeat, false, [&] { return runCgalConstrained(xy, segments); });
+    }
     for (const int threads : { 1, 2 })
     {
       TriangulationOptions options;
       options.Threads = threads;
       const std::string suffix = std::to_string(threads) + (threads == 1 ? " thread" : " threads");
-      report(("TIPP without, " + suffix).c_str(), repeat, [&] { return runCore(xy, options); });
       report(
-        ("TIPP, " + suffix).c_str(), repeat, [&] { return runConstrained(xy, segments, options); });
+        ("TIPP without, " + suffix).c_str(), repeat, isAlone, [&] { return runCore(xy, options); });
+      report(("TIPP, " + suffix).c_str(), repeat, isAlone,
+        [&] { return runConstrained(xy, segments, options); });
     }
-    if (argc > 4)
+    if (peers == "vtk")
     {
-      report("vtkDelaunay2D", 1, [&] { return runVtkConstrained(xy, segments); });
+      report("vtkDelaunay2D", 1, false, [&] { return runVtkConstrained(xy, segments); });
     }
     return 0;
   }

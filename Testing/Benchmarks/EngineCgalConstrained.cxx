@@ -29,8 +29,9 @@ Run runCgalConstrained(const std::vector<double>& xy, const std::vector<Constrai
   }
   Run run;
   const auto start = std::chrono::steady_clock::now();
+  // Segments may coincide, overlap and end on each other, as those of shorelines do.
   CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Default,
-    CGAL::No_constraint_intersection_tag>
+    CGAL::No_constraint_intersection_requiring_constructions_tag>
     mesh;
   mesh.insert(points.begin(), points.end());
   mesh.insert_constraints(pairs.begin(), pairs.end());

@@ -157,8 +157,9 @@ void takePositions(const CheckArguments& arguments, ConstraintTable& table)
   }
 }
 
-/// The constraints' edges in the mesh, by global ids. Keeps the triangles beside constraints only.
-ConstraintChains findChains(const PartitionedMesh& mesh, const ConstraintTable& table)
+/// The constraints' edges in the mesh, by global ids. Keeps the triangles beside constraints only;
+/// of a mesh that is cut all those at vertices on constraints, which tell what its border is there.
+ConstraintChains findChains(const PartitionedMesh& mesh, const ConstraintTable& table, bool isCut)
 {
   const NearConstraints near(table.XY, table.Edges);
   std::vector<double> xy;
@@ -176,9 +177,12 @@ ConstraintChains findChains(const PartitionedMesh& mesh, const ConstraintTable& 
     for (std::size_t t = 0; t < 3 * std::size_t(piece.OwnTriangles); t += 3)
     {
       const std::int32_t* const corners = &piece.Triangles[t];
-      const bool isNear = near.mayHave(at(corners[0]), at(corners[1])) ||
-        near.mayHave(at(corners[1]), at(corners[2])) ||
-        near.mayHave(at(corners[2]), at(corners[0]));
+      bool isNear = false;
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        const check::Position from = at(corners[i]);
+        isNear = isNear || near.mayHave(from, isCut ? from : at(corners[(i + 1) % 3]));
+      }
       for (std::size_t i = 0; isNear && i < 3; ++i)
       {
         const auto [found, isNew] = known.emplace(corners[i], std::int64_t(ids.size()));
@@ -205,7 +209,7 @@ ConstraintChains findChains(const PartitionedMesh& mesh, const ConstraintTable& 
   {
     edge = { edge[0] + own, edge[1] + own };
   }
-  ConstraintChains chains = findConstraintChains(xy, triangles, constraints);
+  ConstraintChains chains = findConstraintChains(xy, triangles, constraints, isCut);
   for (FixedEdge& edge : chains.Edges)
   {
     const auto [low, high] = std::minmax({ ids[std::size_t(edge[0])], ids[std::size_t(edge[1])] });
@@ -232,10 +236,10 @@ CheckReport checkPartitioned(const CheckArguments& arguments)
   {
     ConstraintTable table = readConstraintFile(arguments.Constraints);
     takePositions(arguments, table);
-    chains = findChains(mesh, table);
-    options.Constraints = std::move(chains.Edges);
     options.IsCut =
       options.IsCut || table.PolygonBegin < table.Edges.size() || !table.Holes.empty();
+    chains = findChains(mesh, table, options.IsCut);
+    options.Constraints = std::move(chains.Edges);
   }
   const InputSum input = sumInput(arguments.Points, arguments.Columns);
   PieceChecker checker(
@@ -273,7 +277,7 @@ be read, 2: wrong usage.
 With constraints, their edges need not be locally Delaunay, and the mesh may have
 more points after the given ones; where constraints have polygons or holes, each edge of
 its boundary must be one of theirs or of the convex hull. Which triangles lie inside is not checked.
-Constraints may lie outside of such a mesh, but not in a partitioned one.
+Constraints may lie outside of such a mesh.
 
 Examples:
   tipp check points.npy triangles.npy

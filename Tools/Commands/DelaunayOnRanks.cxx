@@ -30,7 +30,7 @@ struct SharedConstraints
   std::unique_ptr<ConstraintSegments> Segments; ///< null: there are none
   std::vector<double> AddedXY;
   PointBlock Added; ///< the same points with all columns; on the first rank
-  ConstrainedPoints::Figures Figures;
+  ConstraintFigures Figures;
 };
 
 /// Reads them on the first rank, which makes a pass over all points. Collective.

@@ -92,14 +92,14 @@ std::string summarize(const OutOfCoreStatistics& statistics, const std::vector<P
 }
 
 void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& statistics,
-  const ConstrainedPoints::Figures& constraints, const std::vector<ProcessUsage>& ranks)
+  const ConstraintFigures& constraints, const std::vector<ProcessUsage>& ranks)
 {
   const bool isCounted = arguments.Sink == "count";
   const bool hasConstraints = constraints.Constraints > 0; // not if the run was resumed
   if (!arguments.Statistics.empty())
   {
     RunStatistics all = statisticsOf(statistics, isCounted);
-    hasConstraints ? constraints.addTo(all) : void();
+    hasConstraints ? addConstraintTotals(constraints, all) : void();
     writeReport(arguments, all, totalSeconds(statistics.Phases), ranks);
   }
   reportLeftOut(statistics.LeftOut, statistics.ThinnedOut);

@@ -123,7 +123,7 @@ std::string describe(const ResolvedConstraints& resolved, std::size_t constraint
 
 } // namespace
 
-std::string describeSegments(const ConstrainedPoints::Figures& figures)
+std::string describeSegments(const ConstraintFigures& figures)
 {
   return fmt::format("{} constraints of {} segments, {} crossings{}", figures.Constraints,
     figures.Segments, figures.Crossings, describeLeftOut(figures.NotFinite));

@@ -70,7 +70,7 @@ std::optional<MinorChoice> parseMinor(const std::string& text);
 DistributedOptions makeDistributedOptions(const DelaunayArguments& arguments);
 
 /// A line of a report.
-std::string describeSegments(const ConstrainedPoints::Figures& figures);
+std::string describeSegments(const ConstraintFigures& figures);
 
 /// What is wrong if constraints add points, but the output holds triangles alone.
 std::string describeAdded(std::int64_t points, const DelaunayArguments& arguments);

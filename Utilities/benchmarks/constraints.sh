@@ -1,42 +1,54 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# constraints [--repeat R] [--large]
+# constraints [--repeat R] [--large] [--part short|one|shores|vtk|out-of-core]
 #   --repeat R  runs of each; the fastest counts (3)
-#   --large     also 500 million points, and 5 million segments, out of core: counted, for the disk holds
+#   --part P    only these rows
+#   --large     out of core also 500 million points, and 5 million segments: counted, for the disk holds
 #               the points alone (20 GB)
 repeat=3
 large=no
+part=all
 
 while [ $# -gt 0 ]; do
   case $1 in
     --large) large=yes ;;
-    --repeat)
+    --repeat | --part)
       [ $# -gt 1 ] || usage
-      repeat=$2
+      [ "$1" = --part ] && part=$2 || repeat=$2
       shift
       ;;
     *) usage ;;
   esac
   shift
 done
+case $part in all | short | one | shores | vtk | out-of-core) ;; *) usage ;; esac
+wants() { [ "$part" = all ] || [ "$part" = "$1" ]; }
 
 build_targets benchmarkConstraints tipp
 constraints() { "$build/bin/benchmarkConstraints" "$@"; }
 
-echo "== Short segments among uniform points"
-constraints 1e6 124000 "$repeat"
-constraints 1e7 1e6 "$repeat"
-echo "== One segment across all"
-constraints 1e7 1 "$repeat"
-echo "== Shorelines, all points on them"
-if [ ! -f "$inputs/shores.npy" ]; then
-  /usr/bin/python3 Testing/Benchmarks/gshhg-to-npy.py \
-    /usr/share/gmt-gshhg/binned_GSHHS_f.nc "$inputs/unfinished.npy" "$inputs/shore-edges.npy"
-  mv "$inputs/unfinished.npy" "$inputs/shores.npy"
+if wants short; then
+  echo "== Short segments among uniform points"
+  constraints 1e6 124000 "$repeat"
+  constraints 1e7 1e6 "$repeat"
 fi
-constraints "$inputs/shores.npy" "$inputs/shore-edges.npy" "$repeat"
-echo "== vtkDelaunay2D"
-timeout 150 "$build/bin/benchmarkConstraints" 5000 200 1 vtk ||
-  echo "vtkDelaunay2D gave no result in 150 s."
+if wants one; then
+  echo "== One segment across all"
+  constraints 1e7 1 "$repeat"
+fi
+if wants shores; then
+  echo "== Shorelines, all points on them"
+  if [ ! -f "$inputs/shores.npy" ]; then
+    /usr/bin/python3 Testing/Benchmarks/gshhg-to-npy.py \
+      /usr/share/gmt-gshhg/binned_GSHHS_f.nc "$inputs/unfinished.npy" "$inputs/shore-edges.npy"
+    mv "$inputs/unfinished.npy" "$inputs/shores.npy"
+  fi
+  constraints "$inputs/shores.npy" "$inputs/shore-edges.npy" "$repeat"
+fi
+if wants vtk; then
+  echo "== vtkDelaunay2D"
+  timeout 150 "$build/bin/benchmarkConstraints" 5000 200 1 vtk ||
+    echo "vtkDelaunay2D gave no result in 150 s."
+fi
 
 # Segments are short beside a cell of a square grid, and each has a cell of its own.
 make_segments() { # COUNT
@@ -71,9 +83,11 @@ out_of_core() { # POINTS SEGMENTS MEMORY
     rm -f "$inputs"/run-*.json
   done
 }
-echo "== Out of core, counted"
-out_of_core 10000000 100000 256M
-if [ $large = yes ]; then
-  repeat=1
-  out_of_core 500000000 5000000 4G
+if wants out-of-core; then
+  echo "== Out of core, counted"
+  out_of_core 10000000 100000 256M
+  if [ $large = yes ]; then
+    repeat=1
+    out_of_core 500000000 5000000 4G
+  fi
 fi

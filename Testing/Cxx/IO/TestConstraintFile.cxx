@@ -7,6 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
 namespace
 {
 
@@ -178,6 +184,103 @@ TEST_F(ConstraintVectorFile, GeoJsonPolygonsWithHoles)
   EXPECT_EQ(0u, table.PolygonBegin);
   EXPECT_EQ((Edges{ { 1, 0 }, { 2, 1 }, { 3, 2 }, { 4, 5 }, { 5, 6 }, { 6, 7 } }), table.Edges);
   EXPECT_TRUE(table.Height.empty());
+}
+
+/// The files .shp and .shx of one shape, as the specification of 1998 says.
+class Shapefile
+{
+public:
+  using Points = std::vector<std::array<double, 2>>;
+
+  Shapefile(std::int32_t kind, const std::vector<Points>& parts)
+  {
+    std::string shape;
+    std::string starts;
+    std::string points;
+    std::int32_t count = 0;
+    for (const Points& part : parts)
+    {
+      append(count, starts);
+      for (const auto& point : part)
+      {
+        append(point[0], points);
+        append(point[1], points);
+        ++count;
+      }
+    }
+    append(kind, shape);
+    appendBox(shape);
+    append(std::int32_t(parts.size()), shape);
+    append(count, shape);
+    shape += starts + points;
+    constexpr std::int32_t first = 50; // the header's length; lengths are in words of 16 bits
+    const auto words = std::int32_t(shape.size() / 2);
+    this->Shapes = header(kind, first + 4 + words) + bigEndian(1) + bigEndian(words) + shape;
+    this->Index = header(kind, first + 4) + bigEndian(first) + bigEndian(words);
+  }
+
+  std::string Shapes;
+  std::string Index;
+
+private:
+  template <typename Value>
+  static void append(Value value, std::string& bytes) // of a little-endian machine
+  {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+
+  static std::string bigEndian(std::int32_t value)
+  {
+    std::string bytes;
+    append(value, bytes);
+    std::reverse(bytes.begin(), bytes.end());
+    return bytes;
+  }
+
+  static void appendBox(std::string& bytes)
+  {
+    for (const double bound : { 0.0, 0.0, 9.0, 9.0 })
+    {
+      append(bound, bytes);
+    }
+  }
+
+  static std::string header(std::int32_t kind, std::int32_t words)
+  {
+    std::string bytes = bigEndian(9994) + std::string(20, '\0') + bigEndian(words);
+    append(std::int32_t(1000), bytes);
+    append(kind, bytes);
+    appendBox(bytes);
+    return bytes + std::string(32, '\0');
+  }
+};
+
+TEST_F(ConstraintVectorFile, ShapefileLines)
+{
+  const Shapefile file(3, { { { 0, 1 }, { 2, 3 }, { 4, 5 } }, { { 6, 7 }, { 8, 9 } } });
+  this->Folder.file("lines.shx", file.Index);
+  const ConstraintTable table = this->read("lines.shp", file.Shapes);
+  EXPECT_EQ((Numbers{ 0, 1, 2, 3, 4, 5, 6, 7, 8, 9 }), table.XY);
+  EXPECT_EQ((Edges{ { 0, 1 }, { 1, 2 }, { 3, 4 } }), table.Edges);
+  EXPECT_EQ(3u, table.PolygonBegin);
+}
+
+/// In such files outer rings are clockwise, and holes are not.
+TEST_F(ConstraintVectorFile, ShapefilePolygonsWithHoles)
+{
+  const Shapefile file(
+    5, { { { 0, 0 }, { 0, 9 }, { 9, 0 }, { 0, 0 } }, { { 1, 1 }, { 2, 1 }, { 1, 2 }, { 1, 1 } } });
+  this->Folder.file("area.shx", file.Index);
+  const ConstraintTable table = this->read("area.shp", file.Shapes);
+  EXPECT_EQ(0u, table.PolygonBegin);
+  EXPECT_EQ((Edges{ { 1, 0 }, { 2, 1 }, { 3, 2 }, { 5, 4 }, { 6, 5 }, { 7, 6 } }), table.Edges);
+}
+
+TEST_F(ConstraintVectorFile, ShapefileThatEndsEarly)
+{
+  const Shapefile file(3, { { { 0, 1 }, { 2, 3 }, { 4, 5 } } });
+  this->Folder.file("lines.shx", file.Index);
+  this->expectError("lines.shp", file.Shapes.substr(0, file.Shapes.size() - 20), "is damaged");
 }
 
 TEST_F(ConstraintVectorFile, GeoJsonThatIsDamaged)

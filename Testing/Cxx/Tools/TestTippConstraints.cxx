@@ -198,20 +198,19 @@ TEST_F(TippConstraints, CheckTakesConstraintsOutsideOfAMeshThatIsCut)
   this->Folder.file("lines.vtk",
     "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS 8 double\n0 0 0\n8 8 0\n1 1 "
     "0\n7 1 0\n7 7 0\n1 7 0\n0 4 0\n0.5 8 0\nLINES 2 6\n2 0 1\n2 6 7\nPOLYGONS 1 5\n4 2 3 4 5\n");
-  ASSERT_EQ(0, this->delaunay({ "-o", "mesh.vtp", "--constraints", "lines.vtk" }).ExitCode);
-  const Words check{ "check", "points.csv", "mesh.vtp", "--constraints" };
-  const auto outcome = [&](const char* file)
-  {
-    Words all = check;
-    all.push_back(file);
-    all.push_back("--cut");
-    return runTipp(this->Folder, all);
-  };
-  const Outcome good = outcome("lines.vtk");
-  EXPECT_EQ(0, good.ExitCode) << good.Out << good.Err;
   this->Folder.file("other.csv", "3,3,5,5\n3,5,5,3\n");
-  EXPECT_NE(std::string::npos, outcome("other.csv").Out.find("1 constraints are no chain of edges"))
-    << "the second is crossed";
+  for (const std::string mesh : { "mesh.vtp", "mesh.tipp" })
+  {
+    ASSERT_EQ(0, this->delaunay({ "-o", mesh, "--constraints", "lines.vtk" }).ExitCode);
+    const auto outcome = [&](const std::string& file) {
+      return runTipp(this->Folder, { "check", "points.csv", mesh, "--constraints", file, "--cut" });
+    };
+    const Outcome good = outcome("lines.vtk");
+    EXPECT_EQ(0, good.ExitCode) << mesh << good.Out << good.Err;
+    EXPECT_NE(
+      std::string::npos, outcome("other.csv").Out.find("1 constraints are no chain of edges"))
+      << "the second is crossed";
+  }
 }
 
 /// One rank works as several do.

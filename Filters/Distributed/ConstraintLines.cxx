@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/ConstraintLines.h"
+
+#include "Constraints/CrossedPart.h"
+#include "Distributed/TriangleExchange.h"
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// An edge of one of a rank's triangles, in the direction of the segment that it lies on.
+struct Side
+{
+  std::int64_t Order; ///< of the segment
+  std::int64_t Low;   ///< internal ids
+  std::int64_t High;
+  bool IsLeft;      ///< the triangle is on the left
+  bool IsAscending; ///< the segment, in lexicographic order
+  Point2 Begin;
+  std::array<std::int64_t, 2> Ends; ///< local indices
+
+  auto key() const { return std::tie(this->Order, this->Low, this->High); }
+};
+
+/// What the owner of an edge's lower end is asked.
+struct Question
+{
+  std::int64_t Order;
+  std::int64_t Low;
+  std::int64_t High;
+  std::int64_t IsLeft;
+
+  auto key() const { return std::tie(this->Order, this->Low, this->High); }
+};
+
+class LineFinder
+{
+public:
+  LineFinder(Communicator& ranks, const NamedSegments& named, const DistributedTriangulation& mine)
+    : Ranks(ranks)
+    , Named(named)
+    , Mine(mine)
+    , First(mine.FirstIds[std::size_t(ranks.rank())])
+    , Positions(mine.Owned.Positions.begin(), mine.Owned.Positions.end())
+  {
+    this->Positions.insert(
+      this->Positions.end(), mine.Foreign.Positions.begin(), mine.Foreign.Positions.end());
+  }
+
+  ConstraintLines find()
+  {
+    this->addSides(this->Mine.Ids32);
+    this->addSides(this->Mine.Ids64);
+    this->keepOneSide();
+    this->leaveToOthers();
+    return this->lines();
+  }
+
+private:
+  std::int64_t idOf(std::int64_t local) const
+  {
+    const auto own = std::int64_t(this->Mine.Owned.size());
+    return local < own ? this->First + local : this->Mine.ForeignIds[std::size_t(local - own)];
+  }
+
+  template <typename Id>
+  void addSides(const Buffer<Id>& corners)
+  {
+    if (corners.size() == 0)
+    {
+      return;
+    }
+    const PointsView view(&this->Positions.front().x, this->Positions.size(), 2);
+    for (const ScannedTriangles::Edge& edge :
+      edgesOnSegments(view, this->Named.Segments, corners.data(), corners.size() / 3))
+    {
+      const Id* const its = corners.data() + 3 * edge.Triangle;
+      std::array<std::int64_t, 2> ends{ its[edge.From], its[(edge.From + 1) % 3] };
+      const SegmentTree::Item& segment = this->Named.Segments.at(edge.Segment);
+      const bool isAscending = lexicographicLess(segment.A, segment.B);
+      const bool isLeft = isAscending ==
+        lexicographicLess(
+          this->Positions[std::size_t(ends[0])], this->Positions[std::size_t(ends[1])]);
+      isLeft ? void() : std::swap(ends[0], ends[1]);
+      const auto [low, high] = std::minmax({ this->idOf(ends[0]), this->idOf(ends[1]) });
+      this->Sides.push_back({ this->Named.Order[std::size_t(edge.Segment)], low, high, isLeft, isAscending,
+        this->Positions[std::size_t(ends[0])], ends });
+    }
+  }
+
+  void keepOneSide()
+  {
+    std::sort(this->Sides.begin(), this->Sides.end(),
+      [](const Side& a, const Side& b)
+      { return std::make_pair(a.key(), !a.IsLeft) < std::make_pair(b.key(), !b.IsLeft); });
+    this->Sides.erase(std::unique(this->Sides.begin(), this->Sides.end(),
+                        [](const Side& a, const Side& b) { return a.key() == b.key(); }),
+      this->Sides.end());
+  }
+
+  /// Removes sides of edges whose triangle on the left another rank has.
+  void leaveToOthers()
+  {
+    std::vector<std::vector<Question>> asked(std::size_t(this->Ranks.size()));
+    for (const Side& side : this->Sides)
+    {
+      asked[ownerOf(side.Low, this->Mine.FirstIds)].push_back(
+        { side.Order, side.Low, side.High, side.IsLeft ? 1 : 0 });
+    }
+    const std::vector<std::vector<Question>> questions = this->Ranks.allToAll(asked);
+    std::vector<Question> left;
+    for (const std::vector<Question>& part : questions)
+    {
+      std::copy_if(part.begin(), part.end(), std::back_inserter(left),
+        [](const Question& question) { return question.IsLeft != 0; });
+    }
+    const auto isLess = [](const Question& a, const Question& b) { return a.key() < b.key(); };
+    std::sort(left.begin(), left.end(), isLess);
+    std::vector<std::vector<char>> answers; // in the order of the questions
+    for (const std::vector<Question>& part : questions)
+    {
+      answers.emplace_back();
+      for (const Question& question : part)
+      {
+        answers.back().push_back(char(question.IsLeft != 0 ||
+          !std::binary_search(left.begin(), left.end(), question, isLess)));
+      }
+    }
+    const std::vector<std::vector<char>> isMine = this->Ranks.allToAll(answers);
+    std::vector<std::size_t> next(isMine.size(), 0);
+    const auto others = std::remove_if(this->Sides.begin(), this->Sides.end(),
+      [&](const Side& side)
+      {
+        const std::size_t owner = ownerOf(side.Low, this->Mine.FirstIds);
+        return !isMine[owner].at(next[owner]++);
+      });
+    this->Sides.erase(others, this->Sides.end());
+  }
+
+  ConstraintLines lines()
+  {
+    const auto isBefore = [](const Side& a, const Side& b) // along each segment
+    {
+      if (a.Order != b.Order)
+      {
+        return a.Order < b.Order;
+      }
+      return a.IsAscending ? lexicographicLess(a.Begin, b.Begin)
+                           : lexicographicLess(b.Begin, a.Begin);
+    };
+    std::sort(this->Sides.begin(), this->Sides.end(), isBefore);
+    ConstraintLines result;
+    for (const Side& side : this->Sides)
+    {
+      result.Ends.push_back(side.Ends);
+      result.Cells.push_back(this->Named.Cells.at(std::size_t(side.Order)));
+    }
+    std::vector<std::int64_t> counts(std::size_t(this->Ranks.size()), 0);
+    const auto rank = this->Ranks.rank();
+    counts[std::size_t(rank)] = std::int64_t(this->Sides.size());
+    this->Ranks.sum(counts);
+    result.First = std::accumulate(counts.begin(), counts.begin() + rank, std::int64_t(0));
+    return result;
+  }
+
+  Communicator& Ranks;
+  const NamedSegments& Named;
+  const DistributedTriangulation& Mine;
+  const std::int64_t First; ///< internal id of the first own point
+  std::vector<Point2> Positions;
+  std::vector<Side> Sides;
+};
+
+} // namespace
+
+ConstraintLines findConstraintLines(
+  Communicator& ranks, const NamedSegments& segments, const DistributedTriangulation& mine)
+{
+  return LineFinder(ranks, segments, mine).find();
+}
+
+} // namespace tipp

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippConstraintLines_h
+#define tippConstraintLines_h
+
+#include "Constraints/ConstraintSegments.h"
+#include "Distributed/DistributedTriangulation.h"
+#include "Ranks/Communicator.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+/// Segments that know what they are parts of.
+struct NamedSegments
+{
+  const ConstraintSegments& Segments;
+  const std::vector<std::int64_t>& Order; ///< of each segment: its index as given
+  const std::vector<std::int64_t>& Cells; ///< by that index
+};
+
+/// A rank's share of the edges of all ranks' triangles that lie on constraints.
+struct ConstraintLines
+{
+  std::vector<std::array<std::int64_t, 2>> Ends; ///< local indices, in the constraint's direction
+  std::vector<std::int64_t> Cells;
+  std::int64_t First = 0; ///< the number of those on lower ranks
+};
+
+/// Each edge is on one rank that has a triangle of it, on the left of the constraint if there is
+/// one; an edge of several constraints comes several times. In the order of the segments as given.
+/// Collective.
+ConstraintLines findConstraintLines(
+  Communicator& ranks, const NamedSegments& segments, const DistributedTriangulation& mine);
+
+} // namespace tipp
+
+#endif
