@@ -124,6 +124,8 @@ void runTogether(Communicator& ranks, const DelaunayArguments& arguments)
   Stopwatch watch;
   PointTable points =
     readPointsShare(arguments.Inputs, arguments.Columns, ranks.rank(), ranks.size());
+  std::vector<std::int64_t> unused = { points.LeftOut, points.ThinnedOut };
+  ranks.sum(unused);
   const SharedConstraints constraints = shareConstraints(ranks, arguments);
   if (ranks.rank() == ranks.size() - 1) // so that their ids come last
   {
@@ -131,6 +133,10 @@ void runTogether(Communicator& ranks, const DelaunayArguments& arguments)
   }
   ranks.barrier();
   run.ReadSeconds = watch.restart();
+  if (ranks.isFirst())
+  {
+    reportLeftOut(unused[0], unused[1]);
+  }
   RankPoints input;
   input.Points = PointsView(points.XY.data(), points.size(), 2);
   DistributedOptions options = makeDistributedOptions(arguments);
