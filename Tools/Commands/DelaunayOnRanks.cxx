@@ -2,6 +2,7 @@
 #include "Commands/DelaunayRuns.h"
 
 #include "Commands/Commands.h"
+#include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Process.h"
 #include "Console/ProgressBar.h"
@@ -124,8 +125,6 @@ void runTogether(Communicator& ranks, const DelaunayArguments& arguments)
   Stopwatch watch;
   PointTable points =
     readPointsShare(arguments.Inputs, arguments.Columns, ranks.rank(), ranks.size());
-  std::vector<std::int64_t> unused = { points.LeftOut, points.ThinnedOut };
-  ranks.sum(unused);
   const SharedConstraints constraints = shareConstraints(ranks, arguments);
   if (ranks.rank() == ranks.size() - 1) // so that their ids come last
   {
@@ -133,9 +132,9 @@ void runTogether(Communicator& ranks, const DelaunayArguments& arguments)
   }
   ranks.barrier();
   run.ReadSeconds = watch.restart();
-  if (ranks.isFirst())
+  if (ranks.isFirst()) // which counts those of all files
   {
-    reportLeftOut(unused[0], unused[1]);
+    reportLeftOut(points.LeftOut, points.ThinnedOut);
   }
   RankPoints input;
   input.Points = PointsView(points.XY.data(), points.size(), 2);
