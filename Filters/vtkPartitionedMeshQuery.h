@@ -83,8 +83,8 @@ public:
 
   ///@{
   /**
-   * Bytes for the pieces of a stored mesh that stay in memory, and what is made to search them; a
-   * piece that needs more is held alone. Default: 2^30.
+   * Bytes for the pieces of a stored mesh that are in memory, and what is made to search them. A
+   * query that needs more for one piece is an error. Default: 2^30.
    */
   vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MemoryLimit, vtkTypeInt64);

@@ -46,13 +46,13 @@ void forPieces(
     });
 }
 
-/// All pieces with cells, without items.
+/// The pieces [first, end), without items.
 template <typename Work>
-void forAllPieces(const ResidentMesh& mesh, const Work& work)
+void forPieceRange(const ResidentMesh& mesh, std::size_t first, std::size_t end, const Work& work)
 {
   PieceNeeds needs;
   needs.Topology = true;
-  for (std::size_t i = 0; i < mesh.mesh().Pieces.size(); ++i)
+  for (std::size_t i = first; i < end; ++i)
   {
     poll();
     const ResidentPieces::Lease piece = mesh.pieces().get(i, needs);

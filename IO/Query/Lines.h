@@ -13,6 +13,8 @@
 namespace tipp
 {
 
+class Communicator;
+
 /// Where an array of points has a level, as polylines: line i has the points Starts[i] ...
 /// Starts[i + 1] - 1. The first point of a closed line is also its last.
 struct Contours
@@ -29,10 +31,20 @@ struct Contours
 VTKTIPPIO_EXPORT Contours contoursOf(const ResidentMesh& mesh, const std::string& array,
   int component, const std::vector<double>& levels);
 
+/// The contours of the meshes of all ranks, as in answerOnRanks(), on the first rank; the others
+/// get none. Parts in memory need global ids of points. Collective; call it within
+/// Communicator::together(). Throws IOError.
+VTKTIPPIO_EXPORT Contours contoursOnRanks(Communicator& ranks, const ResidentMesh& mesh,
+  const std::string& array, int component, const std::vector<double>& levels);
+
 /// The lowest and the highest finite value of an array of points; low > high if there is none.
 /// Throws IOError.
 VTKTIPPIO_EXPORT std::pair<double, double> rangeOf(
   const ResidentMesh& mesh, const std::string& array, int component);
+
+/// Of the meshes of all ranks, as contoursOnRanks().
+VTKTIPPIO_EXPORT std::pair<double, double> rangeOnRanks(
+  Communicator& ranks, const ResidentMesh& mesh, const std::string& array, int component);
 
 /// A polyline over a mesh of triangles.
 struct Profile

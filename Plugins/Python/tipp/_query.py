@@ -31,8 +31,8 @@ def open(  # pylint: disable=redefined-builtin
         The path of a partitioned mesh of any size, of which only what a query needs is read; or a mesh in memory,
         of triangles, tetrahedra or cells that can be cut into these: of VTK, PyVista or a tipp.Mesh.
     memory
-        Bytes, as a number or as '512M', for the pieces of a partitioned mesh that stay in memory and what is made
-        to search them. A piece that needs more is held alone.
+        Bytes, as a number or as '512M', for the pieces of a partitioned mesh that are in memory and what is made
+        to search them. A query that needs more for one piece is refused.
     step
         Of a partitioned mesh's arrays that vary in time the step, counted from 0.
     threads

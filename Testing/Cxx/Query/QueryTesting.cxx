@@ -23,6 +23,7 @@ struct Kept
   SourceMesh Source;
   std::vector<double> Points;
   std::vector<std::int64_t> Ids;
+  std::vector<std::int64_t> PointIds;
 };
 
 StoredArray described(const char* name, bool ofPoints, Scalar type, int components, int step = -1)
@@ -65,6 +66,7 @@ MeshPart inMemory(const SourceMesh& source, int step, int part, int parts)
   }
   for (std::size_t i = 0; i < source.points(); ++i)
   {
+    kept->PointIds.push_back(std::int64_t(i));
     const Point3 p = pointOf(source, std::int64_t(i));
     kept->Points.insert(kept->Points.end(), { p.x, p.y, p.z });
   }
@@ -76,6 +78,7 @@ MeshPart inMemory(const SourceMesh& source, int step, int part, int parts)
   result.Mesh.Cells = result.OwnedCells = std::int64_t(kept->Source.cells());
   result.Mesh.Dimension = source.CellSize - 1;
   result.CellIds = parts > 1 ? kept->Ids.data() : nullptr;
+  result.PointIds = parts > 1 ? kept->PointIds.data() : nullptr;
   result.Arrays.push_back(
     { described("value", true, Scalar::Float32, 2), kept->Source.Values.data() });
   result.Arrays.push_back(

@@ -101,6 +101,8 @@ TEST_F(TippQuery, RefusesWhatItCannotAnswer)
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--arrays", "depth" }, 1,
     "tipp: mesh.tipp: has no array 'depth'");
   expect({ "query", "asked.csv", "nowhere.tipp", "-o", "out.csv" }, 1, "nowhere.tipp");
+  expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--memory", "100" }, 1,
+    "but the limit is 100 bytes; raise it, or partition the mesh into smaller pieces.");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.vtu" }, 2, "does not end in .csv or .npy");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "asked.csv" }, 1, "asked.csv");
   std::filesystem::remove(this->Folder.path("mesh.tipp/pieces/000000.vtu"));
