@@ -206,18 +206,20 @@ private:
   std::vector<char> HasBefore;
 };
 
-/// The array's description, null for the elevation, if it can have contours. Throws IOError.
-const StoredArray* requireField(const ResidentMesh& mesh, const std::string& array, int component)
+} // namespace
+
+const StoredArray* fieldOf(
+  const ResidentMesh& mesh, const std::string& array, int component, bool orOfCells)
 {
   const std::string name = mesh.isStored() ? mesh.mesh().Path : "the mesh";
   if (mesh.mesh().CellSize != 3)
   {
-    throw IOError(name, "has tetrahedra, whose contours are surfaces; ask a mesh of triangles.");
+    throw IOError(name, "has tetrahedra; ask this of a mesh of triangles.");
   }
   const StoredArray* const description = mesh.find(array);
-  if (description && !description->OfPoints)
+  if (description && !description->OfPoints && !orOfCells)
   {
-    throw IOError(name, "has '" + array + "' at cells; contours need an array of points.");
+    throw IOError(name, "has '" + array + "' at cells; this needs an array of points.");
   }
   if (component < 0 || component >= (description ? description->Components : 1))
   {
@@ -226,11 +228,9 @@ const StoredArray* requireField(const ResidentMesh& mesh, const std::string& arr
   return description;
 }
 
-} // namespace
-
 std::pair<double, double> rangeOf(const ResidentMesh& mesh, const std::string& array, int component)
 {
-  const StoredArray* const description = requireField(mesh, array, component);
+  const StoredArray* const description = fieldOf(mesh, array, component);
   double low = HUGE_VAL;
   double high = -HUGE_VAL;
   std::mutex mutex;
@@ -259,7 +259,7 @@ std::pair<double, double> rangeOf(const ResidentMesh& mesh, const std::string& a
 Contours contoursOf(const ResidentMesh& mesh, const std::string& array, int component,
   const std::vector<double>& levels)
 {
-  const StoredArray* const description = requireField(mesh, array, component);
+  const StoredArray* const description = fieldOf(mesh, array, component);
   std::vector<std::pair<double, std::int32_t>> sorted;
   for (std::size_t i = 0; i < levels.size(); ++i)
   {
