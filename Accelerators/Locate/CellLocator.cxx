@@ -125,6 +125,8 @@ const BoxTree<D>& CellLocator::tree() const
     });
   return std::get<BoxTree<D>>(this->Tree);
 }
+template const BoxTree<2>& CellLocator::tree() const;
+template const BoxTree<3>& CellLocator::tree() const;
 
 template <typename Access, typename Point>
 std::int64_t CellLocator::find(const Access& access, const Point& point) const

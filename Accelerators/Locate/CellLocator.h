@@ -5,6 +5,7 @@
 #include "Locate/BoxTree.h"
 #include "Locate/CellLocation.h"
 #include "Locate/CellWalk.h"
+#include "Locate/NearCell.h"
 #include "Predicates/Points.h"
 #include "Resample/Claims.h"
 #include "Resample/SimplexMesh.h"
@@ -55,6 +56,10 @@ public:
 
   /// Triangles use the two coordinates along SimplexMesh::Axes. Several threads may call it.
   CellLocation locate(const Point3& point) const;
+
+  /// Replaces `best` if a cell is nearer to a point that no cell of the mesh holds, or as near with
+  /// a lower id. Several threads may call it.
+  void findNearest(const Point3& point, NearCell& best) const;
 
   /// What a locator of so many cells takes at most.
   static std::int64_t bytesFor(std::int64_t cells, int dimension)

@@ -246,18 +246,20 @@ private:
   std::vector<char> HasBefore;
 };
 
-/// The array's description, null for the elevation, if it can have contours. Throws IOError.
-const StoredArray* requireField(const ResidentMesh& mesh, const std::string& array, int component)
+} // namespace
+
+const StoredArray* fieldOf(
+  const ResidentMesh& mesh, const std::string& array, int component, bool orOfCells)
 {
   const std::string name = mesh.isStored() ? mesh.mesh().Path : "the mesh";
   if (mesh.mesh().CellSize != 3)
   {
-    throw IOError(name, "has tetrahedra, whose contours are surfaces; ask a mesh of triangles.");
+    throw IOError(name, "has tetrahedra; ask this of a mesh of triangles.");
   }
   const StoredArray* const description = mesh.find(array);
-  if (description && !description->OfPoints)
+  if (description && !description->OfPoints && !orOfCells)
   {
-    throw IOError(name, "has '" + array + "' at cells; contours need an array of points.");
+    throw IOError(name, "has '" + array + "' at cells; this needs an array of points.");
   }
   if (component < 0 || component >= (description ? description->Components : 1))
   {
@@ -266,11 +268,14 @@ const StoredArray* requireField(const ResidentMesh& mesh, const std::string& arr
   return description;
 }
 
+namespace
+{
+
 /// The range of the values in the pieces [first, end).
 std::pair<double, double> rangeIn(const ResidentMesh& mesh, const std::string& array, int component,
   std::size_t first, std::size_t end)
 {
-  const StoredArray* const description = requireField(mesh, array, component);
+  const StoredArray* const description = fieldOf(mesh, array, component);
   double low = HUGE_VAL;
   double high = -HUGE_VAL;
   std::mutex mutex;
@@ -300,7 +305,7 @@ std::pair<double, double> rangeIn(const ResidentMesh& mesh, const std::string& a
 std::vector<Segment> segmentsIn(const ResidentMesh& mesh, const std::string& array, int component,
   const std::vector<double>& levels, std::size_t firstPiece, std::size_t endPiece)
 {
-  const StoredArray* const description = requireField(mesh, array, component);
+  const StoredArray* const description = fieldOf(mesh, array, component);
   std::vector<std::pair<double, std::int32_t>> sorted;
   for (std::size_t i = 0; i < levels.size(); ++i)
   {

@@ -7,6 +7,7 @@
 #include "Query/PartTopology.h"
 #include "Query/ResidentMesh.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +19,12 @@ inline Point3 positionOf(const MeshPart& part, std::int64_t point)
   Point3 position{};
   withAccess(part.Mesh, [&](const auto& access) { position = access.point(point); });
   return position;
+}
+
+inline void sortUnique(std::vector<std::int64_t>& ids)
+{
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
 inline bool owns(const MeshPart& part, std::int64_t point)

@@ -26,12 +26,6 @@ IdLists joined(const std::vector<std::vector<std::int64_t>>& lists)
   return result;
 }
 
-void sortUnique(std::vector<std::int64_t>& ids)
-{
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
-
 } // namespace
 
 IdLists starsOf(const ResidentMesh& mesh, const std::vector<std::int64_t>& points)

@@ -37,13 +37,48 @@ StoredArray described(const char* name, bool ofPoints, Scalar type, int componen
   return array;
 }
 
+} // namespace
+
 Point3 pointOf(const SourceMesh& source, std::int64_t id)
 {
   const double* p = source.Coordinates.data() + id * source.Components;
   return { p[0], p[1], source.Components == 3 ? p[2] : 0 };
 }
 
-} // namespace
+SourceMesh withHoles(SourceMesh source, std::int64_t every)
+{
+  SourceMesh result = source;
+  result.Cells.clear();
+  result.Labels.clear();
+  for (std::size_t cell = 0; cell < source.cells(); ++cell)
+  {
+    if (std::int64_t(cell) % every != 0)
+    {
+      const auto corners = std::ptrdiff_t(source.CellSize);
+      const auto first = source.Cells.begin() + std::ptrdiff_t(cell) * corners;
+      result.Cells.insert(result.Cells.end(), first, first + corners);
+      result.Labels.push_back(source.Labels[cell]);
+    }
+  }
+  return result;
+}
+
+void withEachMesh(const SourceMesh& source, const std::function<void(const ResidentMesh&)>& work)
+{
+  const bool inSpace = source.CellSize == 4;
+  ResidentOptions options;
+  options.Threads = 3;
+  work(ResidentMesh(inMemory(source), options));
+  for (const char* const tiling :
+    { inSpace ? "grid:2x2x2" : "grid:4x4", inSpace ? "octree:60" : "quadtree:30", "grid:5x1" })
+  {
+    SCOPED_TRACE(tiling);
+    const TemporaryFolder folder;
+    store(source, folder.path("mesh.tipp"), tiling, tiling[0] == 'q');
+    options.MemoryLimit = tiling[0] == 'g' ? 20000 : 1 << 30;
+    work(ResidentMesh(folder.path("mesh.tipp"), options));
+  }
+}
 
 MeshPart inMemory(const SourceMesh& source, int step, int part, int parts)
 {

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkPartitionedMeshQuery.h"
+
+#include "Query/Around.h"
+#include "Query/Closest.h"
+#include "Query/LineData.h"
+#include "Query/Lines.h"
+#include "Query/QueryArrays.h"
+#include "Query/ResidentMesh.h"
+#include "Query/Zones.h"
+
+#include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdList.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using tipp::copyTo;
+using tipp::idsOf;
+using tipp::pointsOf;
+
+namespace
+{
+
+/// The polygons and closed lines of each zone.
+std::vector<tipp::Zone> zonesOf(vtkPolyData* data)
+{
+  if (!data)
+  {
+    throw std::runtime_error("there are no polygons.");
+  }
+  vtkDataArray* const ids = data->GetCellData()->GetArray("ZoneId");
+  vtkDataArray* const holes = data->GetCellData()->GetArray("IsHole");
+  const vtkIdType count = data->GetNumberOfCells();
+  std::vector<tipp::Zone> zones;
+  for (vtkIdType cell = 0; cell < count; ++cell)
+  {
+    const double id = ids ? ids->GetComponent(cell, 0) : double(cell);
+    if (!(id >= 0 && id < double(count)))
+    {
+      throw std::runtime_error(
+        "a ZoneId of the polygons is not from 0 to " + std::to_string(count - 1) + ".");
+    }
+    zones.resize(std::max(zones.size(), std::size_t(id) + 1));
+    tipp::ZoneRing ring;
+    ring.IsHole = holes && holes->GetComponent(cell, 0) != 0;
+    vtkNew<vtkIdList> points;
+    data->GetCellPoints(cell, points);
+    for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
+    {
+      double p[3];
+      data->GetPoint(points->GetId(i), p);
+      ring.Corners.push_back({ p[0], p[1] });
+    }
+    zones[std::size_t(id)].push_back(ring);
+  }
+  return zones;
+}
+
+/// All polygons of a data set as one region.
+tipp::Region regionOf(vtkPolyData* polygons)
+{
+  tipp::Region region;
+  for (const tipp::Zone& zone : zonesOf(polygons))
+  {
+    region.Polygons.insert(region.Polygons.end(), zone.begin(), zone.end());
+  }
+  if (region.Polygons.empty())
+  {
+    throw std::runtime_error("there are no polygons.");
+  }
+  return region;
+}
+
+tipp::Region regionOf(const double* box)
+{
+  tipp::Region region;
+  std::copy_n(box, 6, region.Box.begin());
+  return region;
+}
+
+template <typename Array, typename Value>
+void addColumn(vtkDataSetAttributes* table, const char* name, const std::vector<Value>& values)
+{
+  vtkNew<Array> column;
+  column->SetName(name);
+  column->SetNumberOfValues(vtkIdType(values.size()));
+  std::copy(values.begin(), values.end(), column->GetPointer(0));
+  table->AddArray(column);
+}
+
+} // namespace
+
+/// The mesh, which must be whole in this process.
+std::shared_ptr<const tipp::ResidentMesh> vtkPartitionedMeshQuery::OpenWhole()
+{
+  const auto mesh = this->Open();
+  if (this->Controller && this->Controller->GetNumberOfProcesses() > 1 && !mesh->isStored())
+  {
+    throw std::runtime_error(
+      "each rank has a part of the source alone; store the mesh and give its "
+      "FileName for this question.");
+  }
+  return mesh;
+}
+
+int vtkPartitionedMeshQuery::GetNamesOfArrays(vtkStringArray* names)
+{
+  return this->Direct(
+    [&]
+    {
+      for (const std::string& name : this->Open()->names())
+      {
+        names->InsertNextValue(name);
+      }
+    });
+}
+
+int vtkPartitionedMeshQuery::GetMeshDimension()
+{
+  int dimension = 0;
+  return this->Direct([&] { dimension = this->Open()->mesh().CellSize - 1; }) ? dimension : 0;
+}
+
+int vtkPartitionedMeshQuery::Neighbors(vtkIdTypeArray* cells, vtkIdTypeArray* neighbors)
+{
+  return this->Direct(
+    [&]
+    {
+      const auto mesh = this->Open();
+      copyTo(neighbors, tipp::neighborsOf(*mesh, idsOf(cells)), mesh->mesh().CellSize);
+    });
+}
+
+int vtkPartitionedMeshQuery::Star(
+  vtkIdTypeArray* points, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
+{
+  return this->Direct([&] { copyTo(starts, ids, tipp::starsOf(*this->Open(), idsOf(points))); });
+}
+
+int vtkPartitionedMeshQuery::RingOfPoints(
+  vtkIdTypeArray* points, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
+{
+  return this->Direct(
+    [&] { copyTo(starts, ids, tipp::ringsOfPoints(*this->Open(), idsOf(points), k)); });
+}
+
+int vtkPartitionedMeshQuery::RingOfCells(
+  vtkIdTypeArray* cells, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
+{
+  return this->Direct(
+    [&] { copyTo(starts, ids, tipp::ringsOfCells(*this->Open(), idsOf(cells), k)); });
+}
+
+int vtkPartitionedMeshQuery::Boundary(vtkPolyData* loops)
+{
+  return this->Direct(
+    [&] { loops->ShallowCopy(tipp::polyDataOf(tipp::boundaryOf(*this->Open()))); });
+}
+
+int vtkPartitionedMeshQuery::Components(vtkIdTypeArray* ofCells, vtkIdTypeArray* sizes)
+{
+  return this->Direct(
+    [&]
+    {
+      const tipp::Components components = tipp::componentsOf(*this->Open());
+      copyTo(ofCells, components.OfCells);
+      copyTo(sizes, components.Sizes);
+    });
+}
+
+int vtkPartitionedMeshQuery::Contours(
+  const char* array, int component, vtkDoubleArray* levels, vtkPolyData* lines)
+{
+  return this->Direct(
+    [&]
+    {
+      const std::vector<double> values(
+        levels->GetPointer(0), levels->GetPointer(0) + levels->GetNumberOfValues());
+      const std::string name = array ? array : "";
+      lines->ShallowCopy(
+        tipp::polyDataOf(tipp::contoursOf(*this->Open(), name, component, values), name));
+    });
+}
+
+int vtkPartitionedMeshQuery::Profile(vtkDataArray* polyline, double spacing, vtkPolyData* line)
+{
+  return this->Direct(
+    [&]
+    {
+      const auto mesh = this->Open();
+      line->ShallowCopy(tipp::polyDataOf(tipp::profileOf(*mesh, pointsOf(polyline), spacing,
+        this->ArrayNames.empty() ? mesh->names() : this->ArrayNames)));
+    });
+}
+
+int vtkPartitionedMeshQuery::Closest(
+  vtkDataArray* points, vtkIdTypeArray* cells, vtkDoubleArray* locations, vtkDoubleArray* distances)
+{
+  return this->Direct(
+    [&]
+    {
+      const std::vector<tipp::Point3> asked = pointsOf(points);
+      const tipp::ClosestLocations found =
+        tipp::closestTo(*this->OpenWhole(), asked.data(), std::int64_t(asked.size()));
+      copyTo(cells, found.Cells);
+      if (locations)
+      {
+        locations->SetNumberOfComponents(3);
+        locations->SetNumberOfTuples(vtkIdType(asked.size()));
+        for (std::size_t i = 0; i < asked.size(); ++i)
+        {
+          const tipp::Point3& p = found.Points[i];
+          locations->SetTuple3(vtkIdType(i), p.x, p.y, p.z);
+        }
+      }
+      if (distances)
+      {
+        distances->SetNumberOfValues(vtkIdType(asked.size()));
+        std::copy(found.Distances.begin(), found.Distances.end(), distances->GetPointer(0));
+      }
+    });
+}
+
+int vtkPartitionedMeshQuery::CellsInBox(const double box[6], bool whole, vtkIdTypeArray* cells)
+{
+  return this->Direct(
+    [&] { copyTo(cells, tipp::cellsIn(*this->OpenWhole(), regionOf(box), whole)); });
+}
+
+int vtkPartitionedMeshQuery::CellsInPolygons(
+  vtkPolyData* polygons, bool whole, vtkIdTypeArray* cells)
+{
+  return this->Direct(
+    [&] { copyTo(cells, tipp::cellsIn(*this->OpenWhole(), regionOf(polygons), whole)); });
+}
+
+int vtkPartitionedMeshQuery::PointsInBox(const double box[6], vtkIdTypeArray* points)
+{
+  return this->Direct([&] { copyTo(points, tipp::pointsIn(*this->OpenWhole(), regionOf(box))); });
+}
+
+int vtkPartitionedMeshQuery::PointsInPolygons(vtkPolyData* polygons, vtkIdTypeArray* points)
+{
+  return this->Direct(
+    [&] { copyTo(points, tipp::pointsIn(*this->OpenWhole(), regionOf(polygons))); });
+}
+
+int vtkPartitionedMeshQuery::ZoneStatistics(vtkPolyData* zones, const char* array, int component,
+  double level, vtkDataSetAttributes* statistics)
+{
+  return this->Direct(
+    [&]
+    {
+      const tipp::ZoneStatistics found = tipp::statisticsOf(
+        *this->OpenWhole(), zonesOf(zones), array ? array : "", component, level);
+      addColumn<vtkIdTypeArray>(statistics, "Cells", found.Cells);
+      addColumn<vtkDoubleArray>(statistics, "Area", found.Area);
+      addColumn<vtkDoubleArray>(statistics, "Minimum", found.Low);
+      addColumn<vtkDoubleArray>(statistics, "Maximum", found.High);
+      addColumn<vtkDoubleArray>(statistics, "Mean", found.Mean);
+      addColumn<vtkDoubleArray>(statistics, "Integral", found.Sum);
+      addColumn<vtkDoubleArray>(statistics, "VolumeAbove", found.Above);
+    });
+}
+
+int vtkPartitionedMeshQuery::Descend(
+  vtkDataArray* points, const char* array, int component, vtkPolyData* lines)
+{
+  return this->Direct(
+    [&]
+    {
+      const std::string name = array ? array : "";
+      lines->ShallowCopy(tipp::polyDataOf(
+        tipp::descentsOf(*this->OpenWhole(), pointsOf(points), name, component), name));
+    });
+}
