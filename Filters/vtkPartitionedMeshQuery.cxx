@@ -168,6 +168,24 @@ std::shared_ptr<const tipp::ResidentMesh> vtkPartitionedMeshQuery::Open()
   return this->Mesh;
 }
 
+/// The arrays that are named, or all. Collective, if there are ranks.
+std::vector<std::string> vtkPartitionedMeshQuery::ArraysOf(
+  tipp::Communicator* ranks, const tipp::ResidentMesh& mesh) const
+{
+  const bool hasCells = mesh.mesh().Cells > 0;
+  std::vector<std::string> arrays = this->ArrayNames.empty() ? mesh.names() : this->ArrayNames;
+  if (ranks)
+  {
+    // A rank without cells does not know the arrays.
+    for (const std::vector<std::string>& names :
+      ranks->allGather(hasCells ? arrays : std::vector<std::string>()))
+    {
+      arrays = hasCells || names.empty() ? arrays : names;
+    }
+  }
+  return arrays;
+}
+
 /// Collective, if there are several ranks.
 tipp::MeshAnswer vtkPartitionedMeshQuery::Ask(
   const std::vector<tipp::Point3>& points, bool weights, bool arrays)
@@ -175,16 +193,10 @@ tipp::MeshAnswer vtkPartitionedMeshQuery::Ask(
   const auto count = std::int64_t(points.size());
   tipp::AnswerOptions options;
   options.Weights = weights;
-  const auto choose = [&](const tipp::ResidentMesh& mesh)
-  {
-    options.Arrays = !arrays     ? std::vector<std::string>()
-      : this->ArrayNames.empty() ? mesh.names()
-                                 : this->ArrayNames;
-  };
   if (!this->Controller || this->Controller->GetNumberOfProcesses() == 1)
   {
     const auto mesh = this->Open();
-    choose(*mesh);
+    options.Arrays = arrays ? this->ArraysOf(nullptr, *mesh) : std::vector<std::string>();
     return mesh->answer(points.data(), count, options);
   }
   tipp::MeshAnswer answer;
@@ -193,13 +205,7 @@ tipp::MeshAnswer vtkPartitionedMeshQuery::Ask(
     [&]
     {
       const auto mesh = this->Open();
-      choose(*mesh);
-      // A rank without cells does not know the arrays.
-      for (const auto& names :
-        ranks.allGather(mesh->mesh().Cells > 0 ? options.Arrays : std::vector<std::string>()))
-      {
-        options.Arrays = mesh->mesh().Cells > 0 || names.empty() ? options.Arrays : names;
-      }
+      options.Arrays = arrays ? this->ArraysOf(&ranks, *mesh) : std::vector<std::string>();
       answer = tipp::answerOnRanks(ranks, *mesh, points.data(), count, options);
     });
   return answer;

@@ -20,10 +20,10 @@
  * The other methods ask the same mesh directly. They return 1, or after an error 0. Ids are global:
  * of a stored mesh those of its source, else indices. Several threads may call them at once.
  *
- * With a Controller of several ranks all must update the filter, or call Locate() and
- * Interpolate(), together. They share out the pieces of the stored mesh, or each has a part of the
- * source; every rank's points are answered by all ranks' cells. A rank may have no points, or no
- * cells.
+ * With a Controller of several ranks all must update the filter, or call Locate(), Interpolate()
+ * and the methods from Neighbors() to Profile(), together. They share out the pieces of the stored
+ * mesh, or each has a part of the source; every rank's points and ids are answered by all ranks'
+ * cells. A rank may ask for nothing, or have no cells.
  *
  * @sa
  * vtkProbeFilter vtkRangeResampleFilter vtkPartitionedUnstructuredReader
@@ -51,6 +51,7 @@ class vtkStringArray;
 
 namespace tipp
 {
+class Communicator;
 struct AnswerOptions;
 struct MeshAnswer;
 struct Point3;
@@ -182,7 +183,8 @@ public:
 
   /**
    * For each cell and each of its corners the cell across the face opposite to that corner; -1:
-   * there is none.
+   * there is none. This and the methods down to Profile() are collective; parts of a source on
+   * several ranks need global ids of points and cells, and lines are made on the first rank.
    */
   int Neighbors(vtkIdTypeArray* cells, vtkIdTypeArray* neighbors);
 
@@ -205,9 +207,10 @@ public:
 
   /**
    * The connected component of each cell, by common faces, and the number of cells of each
-   * component. Components are numbered by their lowest cell.
+   * component. Components are numbered by their lowest cell. `cells`, which may be null, gets the
+   * ids of the cells. On several ranks each gets its own cells, and all get the sizes.
    */
-  int Components(vtkIdTypeArray* ofCells, vtkIdTypeArray* sizes);
+  int Components(vtkIdTypeArray* ofCells, vtkIdTypeArray* sizes, vtkIdTypeArray* cells = nullptr);
 
   /**
    * Makes lines where a component of an array of points has one of the levels, on a mesh of
@@ -279,9 +282,12 @@ private:
   void operator=(const vtkPartitionedMeshQuery&) = delete;
 
   std::shared_ptr<const tipp::ResidentMesh> Open();
+  std::vector<std::string> ArraysOf(
+    tipp::Communicator* ranks, const tipp::ResidentMesh& mesh) const;
   tipp::MeshAnswer Ask(const std::vector<tipp::Point3>& points, bool weights, bool arrays);
   int Try(const std::function<void()>& work);
   int Direct(const std::function<void()>& work);
+  int Around(const std::function<void(tipp::Communicator*, const tipp::ResidentMesh&)>& ask);
   std::shared_ptr<const tipp::ResidentMesh> OpenWhole();
 
   char* FileName = nullptr;

@@ -6,6 +6,7 @@
 #include "Query/LineData.h"
 #include "Query/Lines.h"
 #include "Query/QueryArrays.h"
+#include "Query/RankAround.h"
 #include "Query/ResidentMesh.h"
 #include "Query/Zones.h"
 
@@ -19,6 +20,7 @@
 #include "vtkStringArray.h"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -130,75 +132,132 @@ int vtkPartitionedMeshQuery::GetMeshDimension()
   return this->Direct([&] { dimension = this->Open()->mesh().CellSize - 1; }) ? dimension : 0;
 }
 
-int vtkPartitionedMeshQuery::Neighbors(vtkIdTypeArray* cells, vtkIdTypeArray* neighbors)
+/// Asks the mesh, or with the ranks all of their meshes.
+int vtkPartitionedMeshQuery::Around(
+  const std::function<void(tipp::Communicator*, const tipp::ResidentMesh&)>& ask)
 {
   return this->Direct(
     [&]
     {
-      const auto mesh = this->Open();
-      copyTo(neighbors, tipp::neighborsOf(*mesh, idsOf(cells)), mesh->mesh().CellSize);
+      if (!this->Controller || this->Controller->GetNumberOfProcesses() == 1)
+      {
+        ask(nullptr, *this->Open());
+        return;
+      }
+      tipp::Communicator ranks(this->Controller);
+      ranks.together([&] { ask(&ranks, *this->Open()); });
+    });
+}
+
+int vtkPartitionedMeshQuery::Neighbors(vtkIdTypeArray* cells, vtkIdTypeArray* neighbors)
+{
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    {
+      const std::vector<std::int64_t> asked = idsOf(cells);
+      const std::vector<std::int64_t> found =
+        ranks ? tipp::neighborsOnRanks(*ranks, mesh, asked) : tipp::neighborsOf(mesh, asked);
+      // A rank without cells does not know how many corners they have.
+      copyTo(
+        neighbors, found, asked.empty() ? mesh.mesh().CellSize : int(found.size() / asked.size()));
     });
 }
 
 int vtkPartitionedMeshQuery::Star(
   vtkIdTypeArray* points, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
 {
-  return this->Direct([&] { copyTo(starts, ids, tipp::starsOf(*this->Open(), idsOf(points))); });
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    {
+      copyTo(starts, ids,
+        ranks ? tipp::starsOnRanks(*ranks, mesh, idsOf(points))
+              : tipp::starsOf(mesh, idsOf(points)));
+    });
 }
 
 int vtkPartitionedMeshQuery::RingOfPoints(
   vtkIdTypeArray* points, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
 {
-  return this->Direct(
-    [&] { copyTo(starts, ids, tipp::ringsOfPoints(*this->Open(), idsOf(points), k)); });
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    {
+      copyTo(starts, ids,
+        ranks ? tipp::ringsOfPointsOnRanks(*ranks, mesh, idsOf(points), k)
+              : tipp::ringsOfPoints(mesh, idsOf(points), k));
+    });
 }
 
 int vtkPartitionedMeshQuery::RingOfCells(
   vtkIdTypeArray* cells, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
 {
-  return this->Direct(
-    [&] { copyTo(starts, ids, tipp::ringsOfCells(*this->Open(), idsOf(cells), k)); });
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    {
+      copyTo(starts, ids,
+        ranks ? tipp::ringsOfCellsOnRanks(*ranks, mesh, idsOf(cells), k)
+              : tipp::ringsOfCells(mesh, idsOf(cells), k));
+    });
 }
 
 int vtkPartitionedMeshQuery::Boundary(vtkPolyData* loops)
 {
-  return this->Direct(
-    [&] { loops->ShallowCopy(tipp::polyDataOf(tipp::boundaryOf(*this->Open()))); });
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    {
+      loops->ShallowCopy(
+        tipp::polyDataOf(ranks ? tipp::boundaryOnRanks(*ranks, mesh) : tipp::boundaryOf(mesh)));
+    });
 }
 
-int vtkPartitionedMeshQuery::Components(vtkIdTypeArray* ofCells, vtkIdTypeArray* sizes)
+int vtkPartitionedMeshQuery::Components(
+  vtkIdTypeArray* ofCells, vtkIdTypeArray* sizes, vtkIdTypeArray* cells)
 {
-  return this->Direct(
-    [&]
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
     {
-      const tipp::Components components = tipp::componentsOf(*this->Open());
+      if (ranks)
+      {
+        const tipp::RankComponents components = tipp::componentsOnRanks(*ranks, mesh);
+        copyTo(ofCells, components.OfCells);
+        copyTo(sizes, components.Sizes);
+        copyTo(cells, components.Cells);
+        return;
+      }
+      const tipp::Components components = tipp::componentsOf(mesh);
       copyTo(ofCells, components.OfCells);
       copyTo(sizes, components.Sizes);
+      std::vector<std::int64_t> ids(components.OfCells.size());
+      std::iota(ids.begin(), ids.end(), std::int64_t(0));
+      copyTo(cells, ids);
     });
 }
 
 int vtkPartitionedMeshQuery::Contours(
   const char* array, int component, vtkDoubleArray* levels, vtkPolyData* lines)
 {
-  return this->Direct(
-    [&]
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
     {
       const std::vector<double> values(
         levels->GetPointer(0), levels->GetPointer(0) + levels->GetNumberOfValues());
       const std::string name = array ? array : "";
       lines->ShallowCopy(
-        tipp::polyDataOf(tipp::contoursOf(*this->Open(), name, component, values), name));
+        tipp::polyDataOf(ranks ? tipp::contoursOnRanks(*ranks, mesh, name, component, values)
+                               : tipp::contoursOf(mesh, name, component, values),
+          name));
     });
 }
 
 int vtkPartitionedMeshQuery::Profile(vtkDataArray* polyline, double spacing, vtkPolyData* line)
 {
-  return this->Direct(
-    [&]
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
     {
-      const auto mesh = this->Open();
-      line->ShallowCopy(tipp::polyDataOf(tipp::profileOf(*mesh, pointsOf(polyline), spacing,
-        this->ArrayNames.empty() ? mesh->names() : this->ArrayNames)));
+      const std::vector<std::string> arrays = this->ArraysOf(ranks, mesh);
+      const std::vector<tipp::Point3> corners = pointsOf(polyline);
+      line->ShallowCopy(
+        tipp::polyDataOf(ranks ? tipp::profileOnRanks(*ranks, mesh, corners, spacing, arrays)
+                               : tipp::profileOf(mesh, corners, spacing, arrays)));
     });
 }
 

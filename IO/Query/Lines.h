@@ -66,6 +66,11 @@ struct Profile
 VTKTIPPIO_EXPORT Profile profileOf(const ResidentMesh& mesh, const std::vector<Point3>& polyline,
   double spacing, const std::vector<std::string>& arrays);
 
+/// The profile of this rank's polyline over the meshes of all ranks, as in contoursOnRanks(). Every
+/// rank has a polyline of its own, or an empty one; all give the same spacing and arrays.
+VTKTIPPIO_EXPORT Profile profileOnRanks(Communicator& ranks, const ResidentMesh& mesh,
+  const std::vector<Point3>& polyline, double spacing, const std::vector<std::string>& arrays);
+
 /// The ways down from some points: line i has the points Starts[i] ... Starts[i + 1] - 1, none if
 /// it begins outside of the mesh.
 struct Descents

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/IOError.h"
 #include "Query/Lines.h"
+#include "Query/RankAnswer.h"
+#include "Query/RankAround.h"
 #include "Query/SegmentCrossings.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 namespace tipp
 {
@@ -70,25 +73,36 @@ void requirePolyline(const std::vector<Point3>& polyline, double spacing)
   }
 }
 
-} // namespace
+using Crossings = std::vector<std::vector<Crossing>>;
 
-Profile profileOf(const ResidentMesh& mesh, const std::vector<Point3>& given, double spacing,
+/// What a profile asks of a mesh, or of the meshes of all ranks.
+struct ProfileSource
+{
+  bool InSpace = false;
+  std::vector<char> OfPoints; ///< for each array whether it has values at points
+  std::function<MeshAnswer(const std::vector<Point3>&, const AnswerOptions&)> Answer;
+  std::function<Crossings(const std::vector<Point3>&)> CrossingsOf;
+};
+
+template <typename Archive>
+void serialize(Archive& archive, ProfileSource& source)
+{
+  archive(source.InSpace, source.OfPoints);
+}
+
+Profile profileOf(const ProfileSource& source, const std::vector<Point3>& given, double spacing,
   const std::vector<std::string>& arrays)
 {
   std::vector<Point3> polyline;
   for (const Point3& p : given)
   {
-    const Point3 corner{ p.x, p.y, mesh.mesh().CellSize == 4 ? p.z : 0 };
+    const Point3 corner{ p.x, p.y, source.InSpace ? p.z : 0 };
     polyline.empty() || !(polyline.back() == corner) ? polyline.push_back(corner) : void();
   }
   requirePolyline(polyline, spacing);
   Profile profile;
-  std::vector<std::vector<Crossing>> crossings(polyline.size());
-  if (spacing == 0 && polyline.size() > 1)
-  {
-    crossings = crossingsOf(mesh, polyline, arrays);
-    crossings.emplace_back();
-  }
+  Crossings crossings = spacing == 0 ? source.CrossingsOf(polyline) : Crossings();
+  crossings.resize(polyline.size());
   std::vector<const Crossing*> found; // of each point of the profile; null: none
   double before = 0;
   for (std::size_t i = 0; i < polyline.size(); ++i)
@@ -113,10 +127,9 @@ Profile profileOf(const ResidentMesh& mesh, const std::vector<Point3>& given, do
   }
   AnswerOptions options;
   options.Arrays = arrays;
-  const auto count = std::int64_t(profile.Points.size());
   if (spacing > 0)
   {
-    profile.Answer = mesh.answer(profile.Points.data(), count, options);
+    profile.Answer = source.Answer(profile.Points, options);
     return profile;
   }
   // The cells between the points, and their values; values of points are those of the crossings.
@@ -127,16 +140,15 @@ Profile profileOf(const ResidentMesh& mesh, const std::vector<Point3>& given, do
     const Point3& b = profile.Points[i + 1];
     middles[i] = { (a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2 };
   }
-  profile.Answer = mesh.answer(middles.data(), count, options);
-  const MeshAnswer corners = mesh.answer(profile.Points.data(), count, options);
+  profile.Answer = source.Answer(middles, options);
+  const MeshAnswer corners = source.Answer(profile.Points, options);
   for (std::size_t i = 0; i < profile.Points.size(); ++i)
   {
     std::size_t k = 0;
     for (std::size_t a = 0; a < arrays.size(); ++a)
     {
-      const StoredArray* const array = mesh.find(arrays[a]);
       MeshAnswer::Array& values = profile.Answer.Arrays[a];
-      if (array && !array->OfPoints)
+      if (!source.OfPoints[a])
       {
         continue;
       }
@@ -155,6 +167,68 @@ Profile profileOf(const ResidentMesh& mesh, const std::vector<Point3>& given, do
     }
   }
   return profile;
+}
+
+/// Without the functions.
+ProfileSource describe(const ResidentMesh& mesh, const std::vector<std::string>& arrays)
+{
+  ProfileSource source;
+  source.InSpace = mesh.mesh().CellSize == 4;
+  for (const std::string& name : arrays)
+  {
+    const StoredArray* const array = mesh.find(name);
+    source.OfPoints.push_back(char(!array || array->OfPoints));
+  }
+  return source;
+}
+
+} // namespace
+
+Profile profileOf(const ResidentMesh& mesh, const std::vector<Point3>& polyline, double spacing,
+  const std::vector<std::string>& arrays)
+{
+  ProfileSource source = describe(mesh, arrays);
+  source.Answer = [&](const std::vector<Point3>& points, const AnswerOptions& options)
+  { return mesh.answer(points.data(), std::int64_t(points.size()), options); };
+  source.CrossingsOf = [&](const std::vector<Point3>& corners)
+  { return crossingsIn(mesh, corners, arrays, 0, mesh.mesh().Pieces.size()); };
+  return profileOf(source, polyline, spacing, arrays);
+}
+
+Profile profileOnRanks(Communicator& ranks, const ResidentMesh& mesh,
+  const std::vector<Point3>& polyline, double spacing, const std::vector<std::string>& arrays)
+{
+  requireIdsOnRanks(ranks, mesh);
+  const bool hasCells = mesh.mesh().Cells > 0;
+  ProfileSource source;
+  for (const ProfileSource& of :
+    ranks.allGather(hasCells ? describe(mesh, arrays) : ProfileSource()))
+  {
+    source = of.OfPoints.size() == arrays.size() && source.OfPoints.empty() ? of : source;
+  }
+  source.OfPoints.resize(arrays.size(), 1); // no rank has cells
+  source.Answer = [&](const std::vector<Point3>& points, const AnswerOptions& options)
+  { return answerOnRanks(ranks, mesh, points.data(), std::int64_t(points.size()), options); };
+  source.CrossingsOf = [&](const std::vector<Point3>& own)
+  {
+    std::vector<Crossings> replies;
+    for (const std::vector<Point3>& corners : ranks.allGather(own))
+    {
+      const auto [first, end] = piecesOfRank(ranks, mesh);
+      replies.push_back(hasCells ? crossingsIn(mesh, corners, arrays, first, end) : Crossings());
+    }
+    Crossings result(own.size());
+    for (const Crossings& part : ranks.allToAll(replies))
+    {
+      for (std::size_t i = 0; i < part.size(); ++i)
+      {
+        result[i].insert(result[i].end(), part[i].begin(), part[i].end());
+      }
+    }
+    std::for_each(result.begin(), result.end(), orderCrossings);
+    return result;
+  };
+  return profileOf(source, polyline, spacing, arrays);
 }
 
 } // namespace tipp

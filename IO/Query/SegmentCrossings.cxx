@@ -245,18 +245,26 @@ void addCells(const Access& access, const MeshPart& part, SegmentCrossings& cros
 
 } // namespace
 
-std::vector<std::vector<Crossing>> crossingsOf(const ResidentMesh& mesh,
-  const std::vector<Point3>& polyline, const std::vector<std::string>& arrays)
+void orderCrossings(std::vector<Crossing>& crossings)
 {
-  std::vector<std::vector<Crossing>> result(polyline.size() - 1);
+  std::sort(crossings.begin(), crossings.end());
+  crossings.erase(std::unique(crossings.begin(), crossings.end()), crossings.end());
+}
+
+std::vector<std::vector<Crossing>> crossingsIn(const ResidentMesh& mesh,
+  const std::vector<Point3>& polyline, const std::vector<std::string>& arrays, std::size_t first,
+  std::size_t end)
+{
+  std::vector<std::vector<Crossing>> result(polyline.empty() ? 0 : polyline.size() - 1);
   std::mutex mutex;
-  const auto pieces = std::int64_t(mesh.mesh().Pieces.size());
+  const auto pieces = std::int64_t(end - first);
   forChunks(pieces, 1, pieces > 1 ? threadCount(mesh.options().Threads) : 1, {},
-    [&](std::int64_t number, std::int64_t, int)
+    [&](std::int64_t i, std::int64_t, int)
     {
       poll();
+      const std::size_t number = first + std::size_t(i);
       std::vector<std::size_t> met;
-      const Bounds& b = mesh.mesh().Pieces[std::size_t(number)].Box;
+      const Bounds& b = mesh.mesh().Pieces[number].Box;
       const bool inSpace = mesh.mesh().CellSize == 4;
       const Box3 box{ { b[0], b[2], inSpace ? b[4] : 0 }, { b[1], b[3], inSpace ? b[5] : 0 } };
       for (std::size_t s = 0; s < result.size(); ++s)
@@ -272,8 +280,7 @@ std::vector<std::vector<Crossing>> crossingsOf(const ResidentMesh& mesh,
       {
         return;
       }
-      const ResidentPieces::Lease piece =
-        mesh.pieces().get(std::size_t(number), mesh.needsOf(arrays));
+      const ResidentPieces::Lease piece = mesh.pieces().get(number, mesh.needsOf(arrays));
       const MeshPart& part = *piece->Part;
       std::vector<PartValues> values;
       for (const std::string& name : arrays)
@@ -291,8 +298,7 @@ std::vector<std::vector<Crossing>> crossingsOf(const ResidentMesh& mesh,
     });
   for (std::vector<Crossing>& list : result)
   {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
+    orderCrossings(list);
   }
   return result;
 }

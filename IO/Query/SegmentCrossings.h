@@ -5,6 +5,7 @@
 #include "Query/ResidentMesh.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <tuple>
@@ -30,11 +31,21 @@ struct Crossing
   bool operator==(const Crossing& other) const { return this->Ids == other.Ids; }
 };
 
-/// The crossings of each segment of a polyline, in its order and each once, decided exactly; those
-/// at the ends of a segment may be left out. The same for any pieces and threads. Throws IOError
-/// and WorkAborted.
-std::vector<std::vector<Crossing>> crossingsOf(const ResidentMesh& mesh,
-  const std::vector<Point3>& polyline, const std::vector<std::string>& arrays);
+template <typename Archive>
+void serialize(Archive& archive, Crossing& crossing)
+{
+  archive(crossing.Share, crossing.Ids, crossing.At, crossing.Values);
+}
+
+/// The crossings of each segment of a polyline with the cells of the pieces [first, end), in its
+/// order and each once, decided exactly; those at the ends of a segment may be left out. The same
+/// for any pieces and threads. Throws IOError and WorkAborted.
+std::vector<std::vector<Crossing>> crossingsIn(const ResidentMesh& mesh,
+  const std::vector<Point3>& polyline, const std::vector<std::string>& arrays, std::size_t first,
+  std::size_t end);
+
+/// Puts crossings of one segment in order, each once.
+void orderCrossings(std::vector<Crossing>& crossings);
 
 } // namespace tipp
 

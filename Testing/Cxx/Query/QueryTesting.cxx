@@ -75,7 +75,7 @@ void withEachMesh(const SourceMesh& source, const std::function<void(const Resid
     SCOPED_TRACE(tiling);
     const TemporaryFolder folder;
     store(source, folder.path("mesh.tipp"), tiling, tiling[0] == 'q');
-    options.MemoryLimit = tiling[0] == 'g' ? 20000 : 1 << 30;
+    options.MemoryLimit = tiling[0] == 'g' ? 60000 : 1 << 30;
     work(ResidentMesh(folder.path("mesh.tipp"), options));
   }
 }

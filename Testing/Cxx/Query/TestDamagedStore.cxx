@@ -122,7 +122,7 @@ void expectRefusals(const SourceMesh& source, const std::string& tiling, bool du
     const bool isOpen = round % 2 == 0;
     ResidentOptions options;
     options.Threads = 2;
-    options.MemoryLimit = 10000;
+    options.MemoryLimit = 40000;
     std::unique_ptr<ResidentMesh> mesh =
       isOpen ? std::make_unique<ResidentMesh>(path, options) : nullptr;
     std::ofstream(file, std::ios::binary) << damaged(before, random);

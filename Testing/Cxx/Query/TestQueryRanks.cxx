@@ -7,7 +7,11 @@
 #include "Query/RankAround.h"
 #include "Ranks/Communicator.h"
 
+#include "vtkIdTypeArray.h"
 #include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkPartitionedMeshQuery.h"
+#include "vtkPolyData.h"
 
 #include <gtest/gtest.h>
 
@@ -125,8 +129,27 @@ protected:
         std::vector<std::int64_t> count = { std::int64_t(components.Cells.size()) };
         this->Ranks.sum(count);
         EXPECT_EQ(std::int64_t(source.cells()), count[0]);
+        this->expectProfilesAsAlone(mesh, whole);
         source.CellSize == 3 ? this->expectLinesAsAlone(mesh, whole) : void();
       });
+  }
+
+  /// Each rank has a polyline of its own, the last one none.
+  void expectProfilesAsAlone(const ResidentMesh& mesh, const ResidentMesh& whole)
+  {
+    const double shift = 0.05 * this->Ranks.rank();
+    std::vector<Point3> polyline = { { -0.2, 0.3 + shift, 0.4 }, { 0.7, 0.6, 0.5 + shift },
+      { 0.4, 1.2, 0.3 } };
+    this->isLast() ? polyline.clear() : void();
+    const std::vector<std::string> arrays = { "value", "label" };
+    for (const double spacing : { 0.0, 0.07 })
+    {
+      const Profile expected = profileOf(whole, polyline, spacing, arrays);
+      const Profile profile = profileOnRanks(this->Ranks, mesh, polyline, spacing, arrays);
+      EXPECT_EQ(expected.Distances, profile.Distances);
+      EXPECT_EQ(expected.Points, profile.Points);
+      expectEqual(expected.Answer, profile.Answer);
+    }
   }
 
   /// On the first rank.
@@ -237,6 +260,36 @@ TEST_F(QueryRanks, TellWhatLiesAroundInPartsInMemory)
       ResidentMesh(this->isLast() ? MeshPart() : inMemory(source, 0, this->Ranks.rank(), holders)),
       source);
   }
+}
+
+TEST_F(QueryRanks, TheFilterAsksAllRanksTogether)
+{
+  const SourceMesh source = makeSource(latticeTriangles(10, 0.3));
+  this->store(source, "grid:3x3");
+  const ResidentMesh whole(inMemory(source));
+  const std::vector<std::int64_t> cells = this->ownIds(source.cells());
+  vtkNew<vtkPartitionedMeshQuery> query;
+  query->SetFileName(this->Path.c_str());
+  vtkNew<vtkIdTypeArray> asked;
+  for (const std::int64_t cell : cells)
+  {
+    asked->InsertNextValue(cell);
+  }
+  vtkNew<vtkIdTypeArray> found;
+  ASSERT_EQ(1, query->Neighbors(asked, found));
+  const std::vector<std::int64_t> expected = neighborsOf(whole, cells);
+  ASSERT_EQ(std::int64_t(expected.size()), found->GetNumberOfValues());
+  EXPECT_TRUE(std::equal(expected.begin(), expected.end(), found->GetPointer(0)));
+  vtkNew<vtkIdTypeArray> ofCells;
+  vtkNew<vtkIdTypeArray> sizes;
+  vtkNew<vtkIdTypeArray> ids;
+  ASSERT_EQ(1, query->Components(ofCells, sizes, ids));
+  ASSERT_EQ(1, sizes->GetNumberOfValues());
+  EXPECT_EQ(std::int64_t(source.cells()), sizes->GetValue(0));
+  EXPECT_EQ(ids->GetNumberOfValues(), ofCells->GetNumberOfValues());
+  vtkNew<vtkPolyData> border;
+  ASSERT_EQ(1, query->Boundary(border));
+  EXPECT_EQ(this->Ranks.isFirst() ? 40 : 0, border->GetNumberOfPoints());
 }
 
 TEST_F(QueryRanks, PartsWithoutIdsAndIdsThatNobodyHasAreRefused)
