@@ -295,12 +295,13 @@ TEST_F(QueryRanks, TheFilterAsksAllRanksTogether)
 TEST_F(QueryRanks, PartsWithoutIdsAndIdsThatNobodyHasAreRefused)
 {
   const SourceMesh source = makeSource(latticeTriangles(6, 0.3));
-  const auto expectFailure = [this](const MeshPart& part, std::int64_t id, const char* message)
+  const auto expectFailure = [](const MeshPart& part, std::int64_t id, const char* message)
   {
     const ResidentMesh mesh(part);
+    Communicator ranks(vtkMultiProcessController::GetGlobalController());
     try
     {
-      this->Ranks.together([&] { starsOnRanks(this->Ranks, mesh, { id }); });
+      ranks.together([&] { starsOnRanks(ranks, mesh, { id }); });
       ADD_FAILURE() << "not refused: " << message;
     }
     catch (const RankFailure& failure)
