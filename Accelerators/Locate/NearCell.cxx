@@ -201,7 +201,7 @@ void bound(NearCell& cell, const Point3& from)
   cell.Low = 0;
   cell.High = HUGE_VAL;
   // Squares of these neither overflow nor underflow by more than the error.
-  if (!(largest < 1e140 && largest > 1e-140 && distance > 0))
+  if (!(largest < 1e140 && largest > 1e-140 && distance >= 0))
   {
     return;
   }
@@ -211,7 +211,7 @@ void bound(NearCell& cell, const Point3& from)
   {
     low = std::min(low, dot(apart, minus(p, vectorOf<double, D>(cell.Corners[i]))) / distance);
   }
-  cell.Low = std::max(low - error, 0.0);
+  cell.Low = distance > 0 ? std::max(low - error, 0.0) : 0;
   cell.High = distance + error;
 }
 
@@ -270,7 +270,7 @@ bool NearCell::isBetterThan(const NearCell& other, const Point3& from) const
 double NearCell::distance(const Point3& from)
 {
   constexpr double accuracy = 1e-9;
-  if (this->High - this->Low <= accuracy * this->High)
+  if (std::isfinite(this->High) && this->High - this->Low <= accuracy * this->High)
   {
     const Point3 apart = from - this->At;
     return this->Dimension == 2 ? std::hypot(apart.x, apart.y)

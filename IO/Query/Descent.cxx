@@ -150,7 +150,11 @@ private:
       lowest =
         std::tie(corner.Value, corner.Id) < std::tie(lowest->Value, lowest->Id) ? &corner : lowest;
     }
-    lowest->Value < walk.Value ? toPoint(walk, *lowest) : end(walk);
+    // Very near a point the value is rounded to that point's.
+    const bool mayBeEqual = (walk.Low < 0 || walk.High >= 0) && slope.Steepness > 0;
+    lowest->Value < walk.Value || (lowest->Value == walk.Value && mayBeEqual)
+      ? toPoint(walk, *lowest)
+      : end(walk);
   }
 
   /// To the edge between two corners that the way down of a slope crosses from `from`.
@@ -325,7 +329,7 @@ private:
     const SlopeCorner low = this->cornerOf(ends[0]);
     const SlopeCorner high = this->cornerOf(ends[1]);
     const SlopeCorner& lower = high.Value < low.Value ? high : low;
-    lower.Value < walk.Value ? toPoint(walk, lower) : end(walk);
+    low.Value != high.Value ? toPoint(walk, lower) : end(walk);
   }
 
   const MeshPart& Part;
