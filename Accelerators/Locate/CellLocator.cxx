@@ -140,9 +140,11 @@ std::int64_t CellLocator::find(const Access& access, const Point& point) const
   if constexpr (D == 2)
   {
     CellWalk::Position at;
-    if (this->Walk.isUsable() && this->Walk.walk(access, point, at))
+    const auto outcome =
+      this->Walk.isUsable() ? this->Walk.walk(access, point, at) : CellWalk::Outcome::Unknown;
+    if (outcome != CellWalk::Outcome::Unknown)
     {
-      return at.Cell;
+      return outcome == CellWalk::Outcome::Found ? at.Cell : -1;
     }
   }
   Choice<Access, Point> choice(access, this->CellIds, point);
@@ -258,11 +260,15 @@ std::vector<std::int64_t> CellLocator::walkAll(
       {
         const std::int64_t item = inOrder ? i : order[std::size_t(i)];
         const Point2 point = pointAt(item);
-        if (isFinite(point))
+        const auto outcome =
+          isFinite(point) ? this->Walk.walk(access, point, at) : CellWalk::Outcome::Outside;
+        if (outcome == CellWalk::Outcome::Found)
         {
-          this->Walk.walk(access, point, at)
-            ? locations.add(points.index(item), weighed(access, at.Cell, point))
-            : left[std::size_t(thread)].push_back(points.index(item));
+          locations.add(points.index(item), weighed(access, at.Cell, point));
+        }
+        else if (outcome == CellWalk::Outcome::Unknown)
+        {
+          left[std::size_t(thread)].push_back(points.index(item));
         }
       }
       locations.flush();

@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <type_traits>
+#include <utility>
 
 namespace tipp
 {
@@ -51,10 +52,13 @@ public:
   {
     this->findTurns();
     this->Walk.Neighbors.assign(std::size_t(3 * this->Mesh.Cells), None);
-    if (!this->matchEdges() || this->bordersMeetCells() || !this->makeSeeds())
+    if (!this->matchEdges() || !this->findBorder() || this->borderMeetsCells() ||
+      !this->makeSeeds())
     {
       this->Walk.Neighbors = {};
+      return;
     }
+    this->Walk.IsConvex = this->isBorderConvex();
   }
 
 private:
@@ -190,10 +194,9 @@ private:
     return edge.Number | (this->isClockwise(edge.Number / 3) ? Turned : 0);
   }
 
-  /// Whether a triangle meets an edge that has one triangle, another one, beyond common corners.
-  bool bordersMeetCells()
+  /// Finds the edges that have one triangle; false if these are most.
+  bool findBorder()
   {
-    std::vector<std::int64_t> border;
     std::mutex mutex;
     this->forParts(this->Mesh.Cells,
       [&](std::int64_t begin, std::int64_t end)
@@ -207,12 +210,46 @@ private:
           }
         }
         const std::lock_guard<std::mutex> lock(mutex);
-        border.insert(border.end(), own.begin(), own.end());
+        this->Border.insert(this->Border.end(), own.begin(), own.end());
       });
-    if (std::int64_t(border.size()) > this->Mesh.Cells / 2 + 64)
+    return std::int64_t(this->Border.size()) <= this->Mesh.Cells / 2 + 64;
+  }
+
+  /// Whether the border is one line that turns nowhere to the right.
+  bool isBorderConvex() const
+  {
+    std::vector<std::pair<std::int64_t, std::int64_t>> next; // from an edge's first point
+    for (const std::int64_t edge : this->Border)
     {
-      return true; // or nearly: most triangles have no neighbours
+      next.emplace_back(
+        this->end(edge / 3, int(edge % 3), false), this->end(edge / 3, int(edge % 3), true));
     }
+    std::sort(next.begin(), next.end());
+    const auto after = [&next](std::int64_t point)
+    {
+      return std::lower_bound(next.begin(), next.end(), std::make_pair(point, std::int64_t(0)))
+        ->second;
+    };
+    std::int64_t a = next.front().first;
+    std::int64_t b = next.front().second;
+    for (std::size_t i = 0; i < next.size(); ++i)
+    {
+      const std::int64_t c = after(b);
+      if (orientation(this->at(a), this->at(b), this->at(c)) < 0 ||
+        (c == next.front().second) != (i + 1 == next.size()))
+      {
+        return false;
+      }
+      a = b;
+      b = c;
+    }
+    return true;
+  }
+
+  /// Whether a triangle meets an edge of the border, another triangle's, beyond common corners.
+  bool borderMeetsCells() const
+  {
+    const std::vector<std::int64_t>& border = this->Border;
     const BoxTree<2> tree(std::int64_t(border.size()), this->Threads,
       [&](std::int64_t i)
       {
@@ -326,6 +363,7 @@ private:
   const int Threads;
   CellWalk& Walk;
   std::vector<signed char> Turns;
+  std::vector<std::int64_t> Border; ///< as 3 * triangle + the corner opposite to the edge
 };
 
 CellWalk::CellWalk(const SimplexMesh& mesh, int threads)

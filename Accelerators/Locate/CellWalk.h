@@ -18,13 +18,12 @@
 namespace tipp
 {
 
-/// The side of the line from a to b, two different points, that p is on after a move by (e, e^2)
-/// for all e small enough: 1 left, -1 right. Exact.
-inline int movedSide(Point2 a, Point2 b, Point2 p)
+/// Whether a point is to the right of the line from a to b, two different points, after a move by
+/// (e, e^2) for all e small enough. Exact.
+inline bool isBeyondExactly(Point2 a, Point2 b, Point2 point)
 {
-  const int side = orientation(a, b, p);
-  const int alongX = int(a.y > b.y) - int(a.y < b.y);
-  return side != 0 ? side : alongX != 0 ? alongX : int(b.x > a.x) - int(b.x < a.x);
+  const int side = orientation(a, b, point);
+  return side != 0 ? side < 0 : a.y != b.y ? a.y < b.y : b.x < a.x;
 }
 
 /// Finds the triangle that holds a point by going from triangle to triangle across common edges
@@ -53,11 +52,17 @@ public:
     std::int64_t Steps = 0;
   };
 
+  enum class Outcome
+  {
+    Found,
+    Outside,
+    Unknown ///< it may be outside, in a hole, on the border, or far away
+  };
+
   /// Walks to the triangle that contains a finite point after a move by (e, e^2). Starts where `at`
-  /// is unless that is far from the point. Returns false where the walk leads out of the mesh, or
-  /// is very long; then the point may be outside, in a hole, or on the border.
+  /// is unless that is far from the point.
   template <typename Access>
-  bool walk(const Access& access, Point2 point, Position& at) const;
+  Outcome walk(const Access& access, Point2 point, Position& at) const;
 
   /// The bytes that are kept, and those that the constructor takes besides.
   static std::int64_t bytesFor(std::int64_t cells) { return cells * 13 + 1024; }
@@ -77,23 +82,41 @@ private:
   /// For each corner of a triangle the edge opposite to it, as 3 * triangle + corner of the other
   /// triangle, with the highest bit if that is clockwise. Empty if walks are not possible.
   std::vector<std::uint32_t> Neighbors;
+  bool IsConvex = false; ///< the border is one convex line
   Box<2> Bounds = Box<2>::empty();
   std::vector<std::uint64_t> SeedCodes; ///< along the curve
   std::vector<std::uint32_t> Seeds;     ///< triangles, with the highest bit if clockwise
 };
 
 template <typename Access>
-bool CellWalk::walk(const Access& access, Point2 point, Position& at) const
+CellWalk::Outcome CellWalk::walk(const Access& access, Point2 point, Position& at) const
 {
+  struct Corner
+  {
+    Point2 At;
+    Point2 Offset; ///< from the point
+  };
   const auto corner = [&](std::int64_t cell, int i)
   {
     double xy[2];
     access.coordinates(access.ids(cell)[i], xy);
-    return Point2{ xy[0], xy[1] };
+    return Corner{ { xy[0], xy[1] }, { xy[0] - point.x, xy[1] - point.y } };
   };
-  Point2 a{};
-  Point2 b{};
-  Point2 c{};
+  const auto isBeyond = [&](const Corner& from, const Corner& to)
+  {
+    // As orientation(), whose differences these are.
+    constexpr double relative = 3.3306690738754716e-16;
+    constexpr double absolute = 1e-300;
+    const double left = from.Offset.x * to.Offset.y;
+    const double right = from.Offset.y * to.Offset.x;
+    const double determinant = left - right;
+    const double bound = relative * (std::fabs(left) + std::fabs(right)) + absolute;
+    return std::fabs(determinant) > bound ? determinant < 0
+                                          : isBeyondExactly(from.At, to.At, point);
+  };
+  Corner a{};
+  Corner b{};
+  Corner c{};
   int second = 1; // counter-clockwise, corner b comes so many after corner a
   const auto start = [&]
   {
@@ -102,11 +125,11 @@ bool CellWalk::walk(const Access& access, Point2 point, Position& at) const
     b = corner(at.Cell, second);
     c = corner(at.Cell, 3 - second);
   };
-  const auto extent = [&](Point2 p) { return std::fabs(p.x - a.x) + std::fabs(p.y - a.y); };
+  const auto length = [](Point2 p) { return std::fabs(p.x) + std::fabs(p.y); };
   const bool isFirst = at.Cell < 0;
   isFirst ? this->jump(point, at) : void();
   start();
-  if (!isFirst && !(extent(point) <= 16 * std::max(extent(b), extent(c))))
+  if (!isFirst && !(length(a.Offset) <= 16 * std::max(length(b.At - a.At), length(c.At - a.At))))
   {
     this->jump(point, at);
     start();
@@ -114,17 +137,17 @@ bool CellWalk::walk(const Access& access, Point2 point, Position& at) const
   constexpr int turned[5] = { 0, 1, 2, 0, 1 };
   int apex = 0; // the corner that is a
   // The corner opposite to the edge that leads on; -1: not known yet.
-  int exit = movedSide(b, c, point) < 0 ? 0 : -1;
+  int exit = isBeyond(b, c) ? 0 : -1;
   exit == 0 ? std::swap(b, c) : void();
   for (std::int64_t step = 0; step < MostSteps; ++step)
   {
     if (exit < 0)
     {
-      const bool isBeyondAB = movedSide(a, b, point) < 0;
-      const bool isBeyondCA = movedSide(c, a, point) < 0;
+      const bool isBeyondAB = isBeyond(a, b);
+      const bool isBeyondCA = isBeyond(c, a);
       if (!isBeyondAB && !isBeyondCA)
       {
-        return true;
+        return Outcome::Found;
       }
       // By turns, since always the same one may go round in a circle.
       const bool acrossAB = isBeyondAB && (!isBeyondCA || step % 2 == 0);
@@ -134,7 +157,8 @@ bool CellWalk::walk(const Access& access, Point2 point, Position& at) const
     const std::uint32_t across = this->Neighbors[std::size_t(3 * at.Cell + exit)];
     if (across == None)
     {
-      return false;
+      return this->IsConvex && orientation(b.At, c.At, point) > 0 ? Outcome::Outside
+                                                                  : Outcome::Unknown;
     }
     at.IsClockwise = (across & Turned) != 0;
     at.Cell = (across & ~Turned) / 3;
@@ -144,7 +168,7 @@ bool CellWalk::walk(const Access& access, Point2 point, Position& at) const
     exit = -1;
     ++at.Steps;
   }
-  return false;
+  return Outcome::Unknown;
 }
 
 } // namespace tipp

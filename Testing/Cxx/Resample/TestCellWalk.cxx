@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Locate/CellWalk.h"
 
+#include "Locate/CellChoice.h"
 #include "Locate/CellLocator.h"
 #include "ResampleScenes.h"
 
@@ -174,6 +175,55 @@ TEST(CellWalk, FindsWhatTheCellsFindByThemselves)
   }
 }
 
+TEST(CellWalk, KnowsWhatIsOutsideOfAConvexMesh)
+{
+  const Scene hollow = withHole(jitteredScene(2, 20, 3), 0.5, 0.5, 0.3);
+  const Scene notched = withHole(jitteredScene(2, 20, 3), 0, 0, 0.2);
+  const Scene square = jitteredScene(2, 20, 3);
+  for (const Scene* const scene : { &square, &hollow, &notched })
+  {
+    const SimplexMesh mesh = scene->mesh();
+    const CellWalk walk(mesh, 1);
+    ASSERT_TRUE(walk.isUsable());
+    withAccess(mesh,
+      [&](const auto& access)
+      {
+        if constexpr (std::decay_t<decltype(access)>::Dimension == 2)
+        {
+          CellWalk::Position at;
+          const auto expected =
+            scene == &square ? CellWalk::Outcome::Outside : CellWalk::Outcome::Unknown;
+          EXPECT_EQ(expected, walk.walk(access, { 1.5, 0.7 }, at));
+          EXPECT_EQ(expected, walk.walk(access, { 0.3, -1e-9 }, at));
+          EXPECT_EQ(CellWalk::Outcome::Unknown, walk.walk(access, { 1, 0.7 }, at));
+        }
+      });
+  }
+}
+
+TEST(CellWalk, WeighsAsThinWeightsDoes)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> anywhere(-1, 1);
+  for (int i = 0; i < 2000; ++i)
+  {
+    double edges[2][2] = { { anywhere(random), anywhere(random) },
+      { anywhere(random), anywhere(random) } };
+    const double offset[2] = { anywhere(random), anywhere(random) };
+    if (i % 3 == 0) // thin, or flat
+    {
+      edges[1][0] = edges[0][0] * (1 + (i % 2) * 0x1p-50);
+      edges[1][1] = edges[0][1];
+    }
+    double expected[2];
+    double weights[2];
+    ThinWeights<2>(edges).solve(offset, expected);
+    weighTriangle(edges, offset, weights);
+    EXPECT_EQ(expected[0], weights[0]);
+    EXPECT_EQ(expected[1], weights[1]);
+  }
+}
+
 TEST(CellWalk, GoesFromPointToPointInAFewSteps)
 {
   const Scene scene = jitteredScene(2, 200, 1);
@@ -190,7 +240,7 @@ TEST(CellWalk, GoesFromPointToPointInAFewSteps)
         {
           const bool isFar = i % 100 == 0;
           const Point2 point{ 0.05 + 0.0008 * i + (isFar ? 0.1 : 0), isFar ? 0.9 : 0.3 };
-          EXPECT_TRUE(walk.walk(access, point, at));
+          EXPECT_EQ(CellWalk::Outcome::Found, walk.walk(access, point, at));
         }
         EXPECT_GT(4000, at.Steps);
       }
