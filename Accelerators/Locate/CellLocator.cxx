@@ -2,6 +2,7 @@
 #include "Locate/CellLocator.h"
 
 #include "Locate/CellChoice.h"
+#include "Locate/PointGrid.h"
 
 #include <algorithm>
 #include <array>
@@ -52,6 +53,37 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
   const auto at = [&](std::int64_t i) { return flattened<D>(mesh, points.at(i)); };
   const BoxTree<D> tree(
     points.Count, threads, [&](std::int64_t i) { return Box<D>::of(arrayOf(at(i))); });
+  // Most cells hold no point, which their corners' positions in a grid tell.
+  const PointGrid<D> grid(points.Count, threads, [&](std::int64_t i) { return arrayOf(at(i)); });
+  using Position = typename PointGrid<D>::Position;
+  std::vector<Position> positions(static_cast<std::size_t>(mesh.PointCount));
+  forChunks(mesh.PointCount, 1 << 14, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        double coordinates[D];
+        access.coordinates(i, coordinates);
+        std::array<double, D> corner;
+        std::copy_n(coordinates, D, corner.begin());
+        positions[std::size_t(i)] = grid.position(corner);
+      }
+    });
+  const auto mayHold = [&](std::int64_t cell)
+  {
+    Position low = positions[std::size_t(access.ids(cell)[0])];
+    Position high = low;
+    for (int i = 1; i < Access::Corners; ++i)
+    {
+      const Position& corner = positions[std::size_t(access.ids(cell)[i])];
+      for (std::size_t axis = 0; axis < D; ++axis)
+      {
+        low[axis] = std::min(low[axis], corner[axis]);
+        high[axis] = std::max(high[axis], corner[axis]);
+      }
+    }
+    return grid.mayHold(low, high);
+  };
   struct Found
   {
     std::int32_t Point;
@@ -63,6 +95,10 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
     {
       for (std::int64_t cell = begin; cell < end; ++cell)
       {
+        if (!mayHold(cell))
+        {
+          continue;
+        }
         const Box<D> box = boxOfCell(access, mesh, cell);
         const auto offer = [&](std::int32_t i)
         {

@@ -273,7 +273,8 @@ std::uint64_t ResidentMesh::estimate(std::size_t number, const PieceNeeds& needs
   const PieceSummary& piece = this->Mesh.Pieces[number];
   const auto cells = std::uint64_t(piece.Cells + piece.BorrowedCells);
   const auto points = std::uint64_t(piece.Points + piece.BorrowedCells);
-  std::uint64_t ofPoint = 3 * scalarSize(this->Mesh.PointType) + 8 + 1;
+  // With its position in a search by points.
+  std::uint64_t ofPoint = 3 * scalarSize(this->Mesh.PointType) + 8 + 1 + 6;
   std::uint64_t ofCell = std::uint64_t(this->Mesh.CellSize) * 4 + 8;
   for (std::size_t i = 0; i < needs.Arrays.size(); ++i)
   {

@@ -136,10 +136,9 @@ struct ZoneSums
 class ZoneCollector
 {
 public:
-  ZoneCollector(const ResidentMesh& mesh, const std::vector<Zone>& zones, const StoredArray* array,
-    int component, double level)
-    : Mesh(mesh)
-    , Array(array)
+  ZoneCollector(
+    const std::vector<Zone>& zones, const StoredArray* array, int component, double level)
+    : Array(array)
     , Component(component)
     , Level(level)
     , Sums(zones.size())
@@ -265,7 +264,6 @@ private:
     return to.Part.IsMet;
   }
 
-  const ResidentMesh& Mesh;
   const StoredArray* Array;
   const int Component;
   const double Level;
@@ -286,7 +284,7 @@ ZoneStatistics statisticsOf(const ResidentMesh& mesh, const std::vector<Zone>& z
   {
     throw IOError("The level is not a finite number.");
   }
-  ZoneCollector collector(mesh, zones, description, component, level);
+  ZoneCollector collector(zones, description, component, level);
   forCells(
     mesh, mesh.needsOf({ array }), [&](const Bounds& box) { return collector.wants(box); },
     [&](const MeshPart& part, const Bounds* box, std::int64_t begin, std::int64_t end)

@@ -29,6 +29,7 @@
 #include <string>
 #include <vector>
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 using namespace tipp;
@@ -259,6 +260,7 @@ private:
 
 void benchmarkStored(const std::string& path, std::int64_t queries, std::uint64_t megabytes)
 {
+  mallopt(M_MMAP_THRESHOLD, 1 << 20); // as tipp query does
   ResidentOptions options;
   options.MemoryLimit = megabytes << 20;
   const ResidentMesh mesh(path, options);

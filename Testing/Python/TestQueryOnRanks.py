@@ -54,6 +54,16 @@ class QueryOnRanks(unittest.TestCase):
             self.assertEqual(files[0], files[1])
             self.assertEqual(files[0], files[2])
 
+    def test_nearest_locations_and_zones_are_the_same_on_any_ranks(self):
+        (self.folder / "zones.csv").write_text('WKT\n"POLYGON ((0.1 0.1,0.9 0.2,0.4 0.8,0.1 0.1))"\n')
+        for arguments in (["asked.npy", "mesh.tipp", "--closest"], ["mesh.tipp", "--zones", "zones.csv"]):
+            files = []
+            for ranks in (1, 3):
+                run = self.run_tipp(ranks, "query", *arguments, "-o", "out.csv")
+                self.assertEqual(run.returncode, 0, run.stderr)
+                files.append((self.folder / "out.csv").read_bytes())
+            self.assertEqual(files[0], files[1])
+
     def test_a_damaged_piece_ends_all_ranks_with_one_sentence(self):
         piece = self.folder / "mesh.tipp/pieces/000008.vtu"
         content = bytearray(piece.read_bytes())

@@ -24,6 +24,8 @@
 #include <string>
 #include <vector>
 
+#include <malloc.h>
+
 namespace tipp
 {
 namespace
@@ -115,6 +117,8 @@ void makeContours(const ContourArguments& arguments, Communicator& ranks)
 
 int runContour(const ContourArguments& arguments)
 {
+  // Large blocks, as of pieces, go back to the system when they are freed.
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
   const MpiSession session;
   try
   {

@@ -25,6 +25,8 @@
 #include <utility>
 #include <vector>
 
+#include <malloc.h>
+
 namespace tipp
 {
 namespace
@@ -287,6 +289,8 @@ void answerAll(const QueryArguments& arguments, Communicator& ranks)
 
 int runQuery(const QueryArguments& arguments)
 {
+  // Large blocks, as of pieces, go back to the system when they are freed.
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
   const MpiSession session;
   try
   {

@@ -336,7 +336,7 @@ def _rings(zones: list[Any]) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.nda
         for ring, is_hole in _rings_of(zone, f"polygons[{number}]"):
             points = np.asarray(ring, np.float64)
             if points.ndim != 2 or points.shape[1] not in (2, 3):
-                raise ValueError(f"polygons[{number}] has a ring of shape {points.shape}; give corners of shape (k, 2).")
+                raise ValueError(f"polygons[{number}] has a ring of shape {points.shape}; give corners (k, 2).")
             corners.append(points[:, :2])
             zone_of.append(number)
             holes.append(int(is_hole))

@@ -171,7 +171,8 @@ def _polygons(rings: Rings) -> vtkPolyData:
     data = vtkPolyData()
     data.SetPoints(vtk_points(spatial))
     cells = vtkCellArray()
-    cells.SetData(numpy_to_vtkIdTypeArray(starts, deep=True), numpy_to_vtkIdTypeArray(np.arange(len(corners)), deep=True))
+    ids = np.arange(len(corners), dtype=np.int64)
+    cells.SetData(numpy_to_vtkIdTypeArray(starts, deep=True), numpy_to_vtkIdTypeArray(ids, deep=True))
     data.SetPolys(cells)
     for name, values in (("ZoneId", zones), ("IsHole", holes)):
         array = numpy_to_vtkIdTypeArray(values, deep=True)

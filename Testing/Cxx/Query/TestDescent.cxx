@@ -31,7 +31,7 @@ SourceMesh terrain(int n, double jitter, const Height& height)
 
 double hills(double x, double y)
 {
-  return std::sin(9 * x) * std::cos(7 * y) + 0.3 * x;
+  return std::sin(9 * x + 0.5) * std::cos(7 * y) + 0.3 * x; // no side of the square is level
 }
 
 std::vector<Point3> starts(int n)
