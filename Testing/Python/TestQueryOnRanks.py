@@ -55,7 +55,7 @@ class QueryOnRanks(unittest.TestCase):
             self.assertEqual(files[0], files[2])
 
     def test_nearest_locations_and_zones_are_the_same_on_any_ranks(self):
-        (self.folder / "zones.csv").write_text('WKT\n"POLYGON ((0.1 0.1,0.9 0.2,0.4 0.8,0.1 0.1))"\n')
+        (self.folder / "zones.csv").write_text('id,WKT\n1,"POLYGON ((0.1 0.1,0.9 0.2,0.4 0.8,0.1 0.1))"\n')
         for arguments in (["asked.npy", "mesh.tipp", "--closest"], ["mesh.tipp", "--zones", "zones.csv"]):
             files = []
             for ranks in (1, 3):
