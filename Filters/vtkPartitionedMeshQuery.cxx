@@ -3,10 +3,9 @@
 
 #include "Output/FilterPipeline.h"
 #include "Parallel/Poll.h"
-#include "Query/Around.h"
 #include "Query/DataSetPart.h"
 #include "Query/LineData.h"
-#include "Query/Lines.h"
+#include "Query/QueryArrays.h"
 #include "Query/RankAnswer.h"
 #include "Query/ResidentMesh.h"
 #include "Ranks/Communicator.h"
@@ -25,9 +24,7 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkStringArray.h"
 
 #include <algorithm>
 #include <exception>
@@ -38,59 +35,6 @@ vtkCxxSetObjectMacro(vtkPartitionedMeshQuery, Controller, vtkMultiProcessControl
 
 namespace
 {
-
-/// The points that at(i, p) writes to p.
-template <typename At>
-std::vector<tipp::Point3> collected(vtkIdType count, const At& at)
-{
-  std::vector<tipp::Point3> points;
-  points.reserve(std::size_t(count));
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    double p[3] = { 0, 0, 0 };
-    at(i, p);
-    points.push_back({ p[0], p[1], p[2] });
-  }
-  return points;
-}
-
-std::vector<tipp::Point3> pointsOf(vtkDataArray* array)
-{
-  const int components = array ? array->GetNumberOfComponents() : 0;
-  if (components != 2 && components != 3)
-  {
-    throw std::runtime_error("points have two or three coordinates, but the array has " +
-      std::to_string(components) + " components.");
-  }
-  return collected(
-    array->GetNumberOfTuples(), [array](vtkIdType i, double* p) { array->GetTuple(i, p); });
-}
-
-void copyTo(vtkIdTypeArray* array, const std::vector<std::int64_t>& ids, int components = 1)
-{
-  if (array)
-  {
-    array->SetNumberOfComponents(components);
-    array->SetNumberOfTuples(vtkIdType(ids.size()) / components);
-    std::copy(ids.begin(), ids.end(), array->GetPointer(0));
-    array->Modified();
-  }
-}
-
-void copyTo(vtkIdTypeArray* starts, vtkIdTypeArray* ids, const tipp::IdLists& lists)
-{
-  copyTo(starts, lists.Starts);
-  copyTo(ids, lists.Ids);
-}
-
-std::vector<std::int64_t> idsOf(vtkIdTypeArray* array)
-{
-  if (!array)
-  {
-    throw std::runtime_error("there is no array of ids.");
-  }
-  return { array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfValues() };
-}
 
 void replaceNull(const std::vector<std::int64_t>& cells, double null, vtkDataArray* array)
 {
@@ -224,6 +168,24 @@ std::shared_ptr<const tipp::ResidentMesh> vtkPartitionedMeshQuery::Open()
   return this->Mesh;
 }
 
+/// The arrays that are named, or all. Collective, if there are ranks.
+std::vector<std::string> vtkPartitionedMeshQuery::ArraysOf(
+  tipp::Communicator* ranks, const tipp::ResidentMesh& mesh) const
+{
+  const bool hasCells = mesh.mesh().Cells > 0;
+  std::vector<std::string> arrays = this->ArrayNames.empty() ? mesh.names() : this->ArrayNames;
+  if (ranks)
+  {
+    // A rank without cells does not know the arrays.
+    for (const std::vector<std::string>& names :
+      ranks->allGather(hasCells ? arrays : std::vector<std::string>()))
+    {
+      arrays = hasCells || names.empty() ? arrays : names;
+    }
+  }
+  return arrays;
+}
+
 /// Collective, if there are several ranks.
 tipp::MeshAnswer vtkPartitionedMeshQuery::Ask(
   const std::vector<tipp::Point3>& points, bool weights, bool arrays)
@@ -231,16 +193,10 @@ tipp::MeshAnswer vtkPartitionedMeshQuery::Ask(
   const auto count = std::int64_t(points.size());
   tipp::AnswerOptions options;
   options.Weights = weights;
-  const auto choose = [&](const tipp::ResidentMesh& mesh)
-  {
-    options.Arrays = !arrays     ? std::vector<std::string>()
-      : this->ArrayNames.empty() ? mesh.names()
-                                 : this->ArrayNames;
-  };
   if (!this->Controller || this->Controller->GetNumberOfProcesses() == 1)
   {
     const auto mesh = this->Open();
-    choose(*mesh);
+    options.Arrays = arrays ? this->ArraysOf(nullptr, *mesh) : std::vector<std::string>();
     return mesh->answer(points.data(), count, options);
   }
   tipp::MeshAnswer answer;
@@ -249,21 +205,14 @@ tipp::MeshAnswer vtkPartitionedMeshQuery::Ask(
     [&]
     {
       const auto mesh = this->Open();
-      choose(*mesh);
-      // A rank without cells does not know the arrays.
-      for (const auto& names :
-        ranks.allGather(mesh->mesh().Cells > 0 ? options.Arrays : std::vector<std::string>()))
-      {
-        options.Arrays = mesh->mesh().Cells > 0 || names.empty() ? options.Arrays : names;
-      }
+      options.Arrays = arrays ? this->ArraysOf(&ranks, *mesh) : std::vector<std::string>();
       answer = tipp::answerOnRanks(ranks, *mesh, points.data(), count, options);
     });
   return answer;
 }
 
 /// Reports what `work` throws.
-template <typename Work>
-int vtkPartitionedMeshQuery::Try(const Work& work)
+int vtkPartitionedMeshQuery::Try(const std::function<void()>& work)
 {
   try
   {
@@ -286,8 +235,7 @@ int vtkPartitionedMeshQuery::Try(const Work& work)
 }
 
 /// The same for a call outside of the pipeline, which has not updated the source.
-template <typename Work>
-int vtkPartitionedMeshQuery::Direct(const Work& work)
+int vtkPartitionedMeshQuery::Direct(const std::function<void()>& work)
 {
   return this->Try(
     [&]
@@ -328,7 +276,7 @@ int vtkPartitionedMeshQuery::RequestData(
           return monitor(0.5);
         });
       tipp::MeshAnswer answer =
-        this->Ask(collected(input->GetNumberOfPoints(),
+        this->Ask(tipp::collected(input->GetNumberOfPoints(),
                     [input](vtkIdType i, double* p) { input->GetPoint(i, p); }),
           false, true);
       vtkPointData* const values = output->GetPointData();
@@ -340,7 +288,7 @@ int vtkPartitionedMeshQuery::RequestData(
       }
       vtkNew<vtkIdTypeArray> cells;
       cells->SetName("CellId");
-      copyTo(cells, answer.Cells);
+      tipp::copyTo(cells, answer.Cells);
       values->AddArray(cells);
       vtkNew<vtkCharArray> mask;
       mask->SetName(this->ValidPointMaskArrayName ? this->ValidPointMaskArrayName : "");
@@ -362,8 +310,8 @@ int vtkPartitionedMeshQuery::Locate(
   return this->Direct(
     [&]
     {
-      const tipp::MeshAnswer answer = this->Ask(pointsOf(points), weights != nullptr, false);
-      copyTo(cells, answer.Cells);
+      const tipp::MeshAnswer answer = this->Ask(tipp::pointsOf(points), weights != nullptr, false);
+      tipp::copyTo(cells, answer.Cells);
       if (weights)
       {
         const std::size_t count = answer.Cells.size();
@@ -380,95 +328,11 @@ int vtkPartitionedMeshQuery::Interpolate(vtkDataArray* points, vtkDataSetAttribu
   return this->Direct(
     [&]
     {
-      tipp::MeshAnswer answer = this->Ask(pointsOf(points), false, true);
+      tipp::MeshAnswer answer = this->Ask(tipp::pointsOf(points), false, true);
       for (tipp::MeshAnswer::Array& array : answer.Arrays)
       {
         values->AddArray(tipp::takeOver(array));
       }
-    });
-}
-
-int vtkPartitionedMeshQuery::GetNamesOfArrays(vtkStringArray* names)
-{
-  return this->Direct(
-    [&]
-    {
-      for (const std::string& name : this->Open()->names())
-      {
-        names->InsertNextValue(name);
-      }
-    });
-}
-
-int vtkPartitionedMeshQuery::Neighbors(vtkIdTypeArray* cells, vtkIdTypeArray* neighbors)
-{
-  return this->Direct(
-    [&]
-    {
-      const auto mesh = this->Open();
-      copyTo(neighbors, tipp::neighborsOf(*mesh, idsOf(cells)), mesh->mesh().CellSize);
-    });
-}
-
-int vtkPartitionedMeshQuery::Star(
-  vtkIdTypeArray* points, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
-{
-  return this->Direct([&] { copyTo(starts, ids, tipp::starsOf(*this->Open(), idsOf(points))); });
-}
-
-int vtkPartitionedMeshQuery::RingOfPoints(
-  vtkIdTypeArray* points, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
-{
-  return this->Direct(
-    [&] { copyTo(starts, ids, tipp::ringsOfPoints(*this->Open(), idsOf(points), k)); });
-}
-
-int vtkPartitionedMeshQuery::RingOfCells(
-  vtkIdTypeArray* cells, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
-{
-  return this->Direct(
-    [&] { copyTo(starts, ids, tipp::ringsOfCells(*this->Open(), idsOf(cells), k)); });
-}
-
-int vtkPartitionedMeshQuery::Boundary(vtkPolyData* loops)
-{
-  return this->Direct(
-    [&] { loops->ShallowCopy(tipp::polyDataOf(tipp::boundaryOf(*this->Open()))); });
-}
-
-int vtkPartitionedMeshQuery::Components(vtkIdTypeArray* ofCells, vtkIdTypeArray* sizes)
-{
-  return this->Direct(
-    [&]
-    {
-      const tipp::Components components = tipp::componentsOf(*this->Open());
-      copyTo(ofCells, components.OfCells);
-      copyTo(sizes, components.Sizes);
-    });
-}
-
-int vtkPartitionedMeshQuery::Contours(
-  const char* array, int component, vtkDoubleArray* levels, vtkPolyData* lines)
-{
-  return this->Direct(
-    [&]
-    {
-      const std::vector<double> values(
-        levels->GetPointer(0), levels->GetPointer(0) + levels->GetNumberOfValues());
-      const std::string name = array ? array : "";
-      lines->ShallowCopy(
-        tipp::polyDataOf(tipp::contoursOf(*this->Open(), name, component, values), name));
-    });
-}
-
-int vtkPartitionedMeshQuery::Profile(vtkDataArray* polyline, double spacing, vtkPolyData* line)
-{
-  return this->Direct(
-    [&]
-    {
-      const auto mesh = this->Open();
-      line->ShallowCopy(tipp::polyDataOf(tipp::profileOf(*mesh, pointsOf(polyline), spacing,
-        this->ArrayNames.empty() ? mesh->names() : this->ArrayNames)));
     });
 }
 

@@ -20,10 +20,10 @@
  * The other methods ask the same mesh directly. They return 1, or after an error 0. Ids are global:
  * of a stored mesh those of its source, else indices. Several threads may call them at once.
  *
- * With a Controller of several ranks all must update the filter, or call Locate() and
- * Interpolate(), together. They share out the pieces of the stored mesh, or each has a part of the
- * source; every rank's points are answered by all ranks' cells. A rank may have no points, or no
- * cells.
+ * With a Controller of several ranks all must update the filter, or call Locate(), Interpolate()
+ * and the methods from Neighbors() to Profile(), together. They share out the pieces of the stored
+ * mesh, or each has a part of the source; every rank's points and ids are answered by all ranks'
+ * cells. A rank may ask for nothing, or have no cells.
  *
  * @sa
  * vtkProbeFilter vtkRangeResampleFilter vtkPartitionedUnstructuredReader
@@ -35,10 +35,11 @@
 #include "vtkDataSetAlgorithm.h"
 #include "vtkTIPPFiltersModule.h" // For export macro
 
-#include <memory> // For Mesh
-#include <mutex>  // For Opening
-#include <string> // For ArrayNames
-#include <vector> // For ArrayNames
+#include <functional> // For Direct
+#include <memory>     // For Mesh
+#include <mutex>      // For Opening
+#include <string>     // For ArrayNames
+#include <vector>     // For ArrayNames
 
 class vtkDataArray;
 class vtkDataSetAttributes;
@@ -50,6 +51,7 @@ class vtkStringArray;
 
 namespace tipp
 {
+class Communicator;
 struct AnswerOptions;
 struct MeshAnswer;
 struct Point3;
@@ -83,8 +85,8 @@ public:
 
   ///@{
   /**
-   * Bytes for the pieces of a stored mesh that stay in memory, and what is made to search them; a
-   * piece that needs more is held alone. Default: 2^30.
+   * Bytes for the pieces of a stored mesh that are in memory, and what is made to search them. A
+   * query that needs more for one piece is an error. Default: 2^30.
    */
   vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MemoryLimit, vtkTypeInt64);
@@ -175,8 +177,14 @@ public:
   int GetNamesOfArrays(vtkStringArray* names);
 
   /**
+   * 2 for a mesh of triangles, 3 for tetrahedra, 0 after an error.
+   */
+  int GetMeshDimension();
+
+  /**
    * For each cell and each of its corners the cell across the face opposite to that corner; -1:
-   * there is none.
+   * there is none. This and the methods down to Profile() are collective; parts of a source on
+   * several ranks need global ids of points and cells, and lines are made on the first rank.
    */
   int Neighbors(vtkIdTypeArray* cells, vtkIdTypeArray* neighbors);
 
@@ -199,9 +207,10 @@ public:
 
   /**
    * The connected component of each cell, by common faces, and the number of cells of each
-   * component. Components are numbered by their lowest cell.
+   * component. Components are numbered by their lowest cell. `cells`, which may be null, gets the
+   * ids of the cells. On several ranks each gets its own cells, and all get the sizes.
    */
-  int Components(vtkIdTypeArray* ofCells, vtkIdTypeArray* sizes);
+  int Components(vtkIdTypeArray* ofCells, vtkIdTypeArray* sizes, vtkIdTypeArray* cells = nullptr);
 
   /**
    * Makes lines where a component of an array of points has one of the levels, on a mesh of
@@ -211,12 +220,51 @@ public:
   int Contours(const char* array, int component, vtkDoubleArray* levels, vtkPolyData* lines);
 
   /**
-   * Samples the arrays along a polyline over a mesh of triangles, every `spacing` and at the
-   * polyline's corners; with spacing 0 at the corners and where the polyline crosses an edge of the
-   * mesh. The line's points have "Distance" along x and y, and "CellId"; with spacing 0 this is the
-   * cell up to the next point, -1 before a gap.
+   * Samples the arrays along a polyline, every `spacing` and at the polyline's corners; with
+   * spacing 0 at the corners and where the polyline crosses an edge of triangles or a face of
+   * tetrahedra. The line's points have "Distance" along x and y, and "CellId"; with spacing 0 this
+   * is the cell up to the next point, -1 before a gap.
    */
   int Profile(vtkDataArray* polyline, double spacing, vtkPolyData* line);
+
+  /**
+   * Finds the nearest location of the mesh to each point, its cell (-1: the mesh has none) and the
+   * distance, 0 inside. Of cells that are as near the one with the lowest id counts. Triangles are
+   * measured in x and y. `locations` and `distances` may be null. On several ranks this and the
+   * methods below need a stored mesh; each rank asks by itself.
+   */
+  int Closest(vtkDataArray* points, vtkIdTypeArray* cells, vtkDoubleArray* locations = nullptr,
+    vtkDoubleArray* distances = nullptr);
+
+  ///@{
+  /**
+   * The cells that have a point of a box, or of polygons over triangles, with their border, or
+   * with `whole` that lie in it; or the mesh's points there. The box is that of GetBounds(); z
+   * counts for tetrahedra. The polygons are the polygons and closed lines of a data set; a cell
+   * array "IsHole" that is not 0 makes holes.
+   */
+  int CellsInBox(const double box[6], bool whole, vtkIdTypeArray* cells);
+  int CellsInPolygons(vtkPolyData* polygons, bool whole, vtkIdTypeArray* cells);
+  int PointsInBox(const double box[6], vtkIdTypeArray* points);
+  int PointsInPolygons(vtkPolyData* polygons, vtkIdTypeArray* points);
+  ///@}
+
+  /**
+   * Adds the arrays "Cells", "Area", "Minimum", "Maximum", "Mean", "Integral" and "VolumeAbove" to
+   * `statistics`, of a component of an array on the part of the triangles in each zone; what cells
+   * have in it is cut exactly at its border. A zone is a polygon, or all that have its number in
+   * the cell array "ZoneId"; see CellsInPolygons() for holes. The volume is that above `level`.
+   */
+  int ZoneStatistics(vtkPolyData* zones, const char* array, int component, double level,
+    vtkDataSetAttributes* statistics);
+
+  /**
+   * Follows the steepest descent of a component of an array of points, on a mesh of triangles, from
+   * each point to a pit. Each line has as cell arrays "StartId", the number of its first point
+   * among `points`, and "PitId", the mesh's point that it ends at, or -1. The array of that name
+   * has the values along it.
+   */
+  int Descend(vtkDataArray* points, const char* array, int component, vtkPolyData* lines);
 
 protected:
   vtkPartitionedMeshQuery();
@@ -234,11 +282,13 @@ private:
   void operator=(const vtkPartitionedMeshQuery&) = delete;
 
   std::shared_ptr<const tipp::ResidentMesh> Open();
+  std::vector<std::string> ArraysOf(
+    tipp::Communicator* ranks, const tipp::ResidentMesh& mesh) const;
   tipp::MeshAnswer Ask(const std::vector<tipp::Point3>& points, bool weights, bool arrays);
-  template <typename Work>
-  int Try(const Work& work);
-  template <typename Work>
-  int Direct(const Work& work);
+  int Try(const std::function<void()>& work);
+  int Direct(const std::function<void()>& work);
+  int Around(const std::function<void(tipp::Communicator*, const tipp::ResidentMesh&)>& ask);
+  std::shared_ptr<const tipp::ResidentMesh> OpenWhole();
 
   char* FileName = nullptr;
   vtkTypeInt64 MemoryLimit = vtkTypeInt64(1) << 30;

@@ -61,6 +61,51 @@ public:
       });
   }
 
+  /// Calls visit(i) for boxes, the nearest to a point first. visit() returns the distance up to
+  /// which boxes are still wanted; a box that is nearer is never left out.
+  template <typename Visit>
+  void searchNear(const std::array<double, D>& point, const Visit& visit) const
+  {
+    struct Child
+    {
+      double Distance;
+      int Level;
+      std::int32_t Number;
+    };
+    std::array<Child, (Width - 1) * MostLevels + Width> stack;
+    std::size_t top = 0;
+    this->Levels.empty() ? void() : void(stack[top++] = { 0, int(this->Levels.size()) - 1, 0 });
+    double wanted = std::numeric_limits<double>::infinity();
+    while (top > 0)
+    {
+      const Child at = stack[--top];
+      if (at.Distance > wanted)
+      {
+        continue;
+      }
+      if (at.Level < 0)
+      {
+        wanted = visit(this->Order[std::size_t(at.Number)]);
+        continue;
+      }
+      const Node& node = this->Levels[std::size_t(at.Level)][std::size_t(at.Number)];
+      const std::size_t first = top;
+      for (int child = 0; child < Width; ++child)
+      {
+        const double distance = this->distanceTo(node, child, point);
+        if (distance <= wanted) // false for NaN: there is no child
+        {
+          std::size_t to = top++;
+          for (; to > first && stack[to - 1].Distance < distance; --to)
+          {
+            stack[to] = stack[to - 1];
+          }
+          stack[to] = { distance, at.Level - 1, at.Number * Width + child };
+        }
+      }
+    }
+  }
+
   /// Boxes that meet a region, in which points are then searched.
   struct alignas(16) Gathered
   {
@@ -152,6 +197,23 @@ private:
 #else
     return (hits[0] & 1u) | (hits[1] & 2u) | (hits[2] & 4u) | (hits[3] & 8u);
 #endif
+  }
+
+  /// At most the distance of a point from a child's box.
+  double distanceTo(const Node& node, int child, const std::array<double, D>& point) const
+  {
+    double squared = 0;
+    double largest = 0;
+    for (std::size_t axis = 0; axis < D; ++axis)
+    {
+      const double at = point[axis] - this->Centre[axis];
+      const double low = double(node.Low[axis][child]) - at;
+      const double high = at - double(node.High[axis][child]);
+      const double apart = std::max(low > high ? low : high, 0.0);
+      squared += low == low ? apart * apart : low;
+      largest = std::max(largest, std::fabs(at));
+    }
+    return std::sqrt(squared) * (1 - 1e-14) - largest * 1e-15;
   }
 
   /// Calls visit(node, child, place) for the leaves' children that meet a box, until it returns

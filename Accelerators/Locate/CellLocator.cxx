@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Locate/CellLocator.h"
 
-#include "Predicates/ExactPredicates.h"
-#include "Resample/BorderClaims.h"
-#include "Resample/Claims.h"
-#include "Resample/SampleBlock.h"
+#include "Locate/CellChoice.h"
+#include "Locate/PointGrid.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <tuple>
-#include <utility>
+#include <array>
+#include <type_traits>
 #include <vector>
 
 namespace tipp
@@ -18,191 +14,76 @@ namespace tipp
 namespace
 {
 
-bool contains(const Point2 (&corners)[3], Point2 p)
-{
-  const int first = orientation(corners[0], corners[1], p);
-  const int second = orientation(corners[1], corners[2], p);
-  if (first * second < 0)
-  {
-    return false;
-  }
-  const int third = orientation(corners[2], corners[0], p);
-  const int sum = first + second + third;
-  if (sum == 3 || sum == -3)
-  {
-    return true;
-  }
-  return first * third >= 0 && second * third >= 0 &&
-    orientation(corners[0], corners[1], corners[2]) != 0;
-}
-
-bool contains(const Point3 (&corners)[4], const Point3& p)
-{
-  const auto& [a, b, c, d] = corners;
-  const int side = orientation3(a, b, c, d);
-  return side != 0 && side * orientation3(a, b, c, p) >= 0 &&
-    side * orientation3(a, c, d, p) >= 0 && side * orientation3(a, d, b, p) >= 0 &&
-    side * orientation3(b, d, c, p) >= 0;
-}
-
-/// The coordinates of a point in the mesh's dimension.
-template <int D>
-auto flattened(const SimplexMesh& mesh, const Point3& p)
-{
-  if constexpr (D == 2)
-  {
-    const double coordinates[3] = { p.x, p.y, p.z };
-    return Point2{ coordinates[mesh.Axes[0]], coordinates[mesh.Axes[1]] };
-  }
-  else
-  {
-    return p;
-  }
-}
-
-std::array<double, 2> arrayOf(Point2 p)
-{
-  return { p.x, p.y };
-}
-std::array<double, 3> arrayOf(const Point3& p)
-{
-  return { p.x, p.y, p.z };
-}
-
-template <typename Access, typename Point>
-CellKey keyOfCell(const Access& access, std::int64_t cell, const Point& point)
-{
-  Point corners[Access::Corners];
-  access.corners(cell, corners);
-  return withRank(keyOf(access, cell), moveRank(corners, point));
-}
-
-/// Of the cells that hold a point the one that answers it. Keys are made only if there are several.
-template <typename Access, typename Point>
-class Choice
+/// Hands locations on, many at once.
+class Locations
 {
 public:
-  Choice(const Access& access, const std::int64_t* cellIds, const Point& point)
-    : Cells(access)
-    , CellIds(cellIds)
-    , Of(point)
+  explicit Locations(const TakeLocations& take)
+    : Take(take)
   {
   }
 
-  void offer(std::int64_t cell)
+  void add(std::int64_t point, const CellLocation& at)
   {
-    Point corners[Access::Corners];
-    this->Cells.corners(cell, corners);
-    if (!contains(corners, this->Of))
-    {
-      return;
-    }
-    if (this->Cell >= 0)
-    {
-      this->IsRanked ? void() : this->rank(this->Cell);
-      this->IsRanked = true;
-      const auto before = std::make_pair(this->Best, this->Cell);
-      this->rank(cell);
-      if (before.first < this->Best)
-      {
-        std::tie(this->Best, this->Cell) = before;
-        return;
-      }
-    }
-    this->Cell = cell;
+    this->Points[std::size_t(this->Count)] = point;
+    this->At[std::size_t(this->Count)] = at;
+    ++this->Count == Most ? this->flush() : void();
   }
-
-  std::int64_t cell() const { return this->Cell; }
+  void flush()
+  {
+    this->Count > 0 ? this->Take(this->Points.data(), this->At.data(), this->Count) : void();
+    this->Count = 0;
+  }
 
 private:
-  using Rank = std::pair<CellKey, std::int64_t>;
-
-  void rank(std::int64_t cell)
-  {
-    this->Best = { keyOfCell(this->Cells, cell, this->Of),
-      this->CellIds ? this->CellIds[cell] : cell };
-  }
-
-  const Access& Cells;
-  const std::int64_t* CellIds;
-  Point Of;
-  std::int64_t Cell = -1;
-  Rank Best{};
-  bool IsRanked = false;
+  static constexpr std::int64_t Most = 128;
+  const TakeLocations& Take;
+  std::int64_t Count = 0;
+  std::array<std::int64_t, Most> Points;
+  std::array<CellLocation, Most> At;
 };
-
-/// The weights of a cell's corners at a point. They are evaluated with the corners in lexicographic
-/// order, so that they do not depend on their order in the cell.
-template <typename Access, typename Point>
-CellLocation weighed(const Access& access, std::int64_t cell, const Point& point)
-{
-  constexpr int D = Access::Dimension;
-  CellLocation location;
-  location.Cell = cell;
-  Point corners[D + 1];
-  access.corners(cell, corners);
-  int order[D + 1];
-  std::iota(order, order + D + 1, 0);
-  for (int i = 1; i <= D; ++i)
-  {
-    for (int k = i; k > 0 && lexicographicLess(corners[order[k]], corners[order[k - 1]]); --k)
-    {
-      std::swap(order[k], order[k - 1]);
-    }
-  }
-  const auto first = arrayOf(corners[order[0]]);
-  double edges[D][D];
-  double offset[D];
-  for (int axis = 0; axis < D; ++axis)
-  {
-    for (int i = 0; i < D; ++i)
-    {
-      edges[i][axis] = arrayOf(corners[order[i + 1]])[std::size_t(axis)] - first[std::size_t(axis)];
-    }
-    offset[axis] = arrayOf(point)[std::size_t(axis)] - first[std::size_t(axis)];
-  }
-  double weights[D];
-  ThinWeights<D>(edges).solve(offset, weights);
-  location.Weights[order[0]] = 1;
-  for (int i = 0; i < D; ++i)
-  {
-    location.Weights[order[i + 1]] = weights[i];
-    location.Weights[order[0]] -= weights[i];
-  }
-  return location;
-}
-
-/// Empty for a hidden cell and one with a coordinate that is infinite or NaN.
-template <typename Access>
-auto boxOfCell(const Access& access, const SimplexMesh& mesh, std::int64_t cell)
-{
-  constexpr int D = Access::Dimension;
-  Box<D> box = Box<D>::empty();
-  bool isUsable = !mesh.Hidden || !mesh.Hidden[cell];
-  for (int i = 0; i < Access::Corners; ++i)
-  {
-    double corner[D];
-    access.coordinates(access.ids(cell)[i], corner);
-    for (int axis = 0; axis < D; ++axis)
-    {
-      isUsable = isUsable && std::isfinite(corner[axis]);
-      box.Low[axis] = std::min(box.Low[axis], corner[axis]);
-      box.High[axis] = std::max(box.High[axis], corner[axis]);
-    }
-  }
-  return isUsable ? box : Box<D>::empty();
-}
 
 /// The cells look for the points that they hold.
 template <typename Access>
 void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int64_t* cellIds,
-  const AskedPoints& points, int threads, const TakeLocation& take)
+  const AskedPoints& points, int threads, const TakeLocations& take)
 {
   constexpr int D = Access::Dimension;
   using Point = decltype(flattened<D>(mesh, points.at(0)));
   const auto at = [&](std::int64_t i) { return flattened<D>(mesh, points.at(i)); };
   const BoxTree<D> tree(
     points.Count, threads, [&](std::int64_t i) { return Box<D>::of(arrayOf(at(i))); });
+  // Most cells hold no point, which their corners' positions in a grid tell.
+  const PointGrid<D> grid(points.Count, threads, [&](std::int64_t i) { return arrayOf(at(i)); });
+  using Position = typename PointGrid<D>::Position;
+  std::vector<Position> positions(static_cast<std::size_t>(mesh.PointCount));
+  forChunks(mesh.PointCount, 1 << 14, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        double coordinates[D];
+        access.coordinates(i, coordinates);
+        std::array<double, D> corner;
+        std::copy_n(coordinates, D, corner.begin());
+        positions[std::size_t(i)] = grid.position(corner);
+      }
+    });
+  const auto mayHold = [&](std::int64_t cell)
+  {
+    Position low = positions[std::size_t(access.ids(cell)[0])];
+    Position high = low;
+    for (int i = 1; i < Access::Corners; ++i)
+    {
+      const Position& corner = positions[std::size_t(access.ids(cell)[i])];
+      for (std::size_t axis = 0; axis < D; ++axis)
+      {
+        low[axis] = std::min(low[axis], corner[axis]);
+        high[axis] = std::max(high[axis], corner[axis]);
+      }
+    }
+    return grid.mayHold(low, high);
+  };
   struct Found
   {
     std::int32_t Point;
@@ -214,6 +95,10 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
     {
       for (std::int64_t cell = begin; cell < end; ++cell)
       {
+        if (!mayHold(cell))
+        {
+          continue;
+        }
         const Box<D> box = boxOfCell(access, mesh, cell);
         const auto offer = [&](std::int32_t i)
         {
@@ -238,11 +123,13 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
       choices[std::size_t(f.Point)].offer(f.Cell);
     }
   }
+  Locations locations(take);
   for (std::int64_t i = 0; i < points.Count; ++i)
   {
     const std::int64_t cell = choices[std::size_t(i)].cell();
-    cell >= 0 ? take(points.index(i), weighed(access, cell, at(i))) : void();
+    cell >= 0 ? locations.add(points.index(i), weighed(access, cell, at(i))) : void();
   }
+  locations.flush();
 }
 
 } // namespace
@@ -250,14 +137,32 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
 CellLocator::CellLocator(const SimplexMesh& mesh, const std::int64_t* cellIds, int threads)
   : Mesh(mesh)
   , CellIds(cellIds)
+  , Threads(threads)
+  , Walk(mesh, threads)
 {
-  withAccess(mesh,
-    [&](const auto& access)
-    {
-      this->Tree = BoxTree<std::decay_t<decltype(access)>::Dimension>(
-        mesh.Cells, threads, [&](std::int64_t cell) { return boxOfCell(access, mesh, cell); });
-    });
+  if (!this->Walk.isUsable())
+  {
+    mesh.Dimension == 2 ? void(this->tree<2>()) : void(this->tree<3>());
+  }
 }
+
+template <int D>
+const BoxTree<D>& CellLocator::tree() const
+{
+  std::call_once(this->Making,
+    [this]
+    {
+      withAccess(this->Mesh,
+        [this](const auto& access)
+        {
+          this->Tree = BoxTree<std::decay_t<decltype(access)>::Dimension>(this->Mesh.Cells,
+            this->Threads, [&](std::int64_t cell) { return boxOfCell(access, this->Mesh, cell); });
+        });
+    });
+  return std::get<BoxTree<D>>(this->Tree);
+}
+template const BoxTree<2>& CellLocator::tree() const;
+template const BoxTree<3>& CellLocator::tree() const;
 
 template <typename Access, typename Point>
 std::int64_t CellLocator::find(const Access& access, const Point& point) const
@@ -268,8 +173,18 @@ std::int64_t CellLocator::find(const Access& access, const Point& point) const
   {
     return -1;
   }
+  if constexpr (D == 2)
+  {
+    CellWalk::Position at;
+    const auto outcome =
+      this->Walk.isUsable() ? this->Walk.walk(access, point, at) : CellWalk::Outcome::Unknown;
+    if (outcome != CellWalk::Outcome::Unknown)
+    {
+      return outcome == CellWalk::Outcome::Found ? at.Cell : -1;
+    }
+  }
   Choice<Access, Point> choice(access, this->CellIds, point);
-  std::get<BoxTree<D>>(this->Tree).search(box, [&](std::int32_t cell) { choice.offer(cell); });
+  this->tree<D>().search(box, [&](std::int32_t cell) { choice.offer(cell); });
   return choice.cell();
 }
 
@@ -277,13 +192,14 @@ std::int64_t CellLocator::find(const Access& access, const Point& point) const
 /// them all.
 template <typename Access>
 void CellLocator::findInOrder(const Access& access, const AskedPoints& points,
-  const std::int32_t* order, std::int64_t count, const TakeLocation& take) const
+  const std::int32_t* order, std::int64_t count, const TakeLocations& take) const
 {
   constexpr int D = Access::Dimension;
   constexpr int mostShared = 64;
   constexpr int fewCells = 64;
-  const auto& tree = std::get<BoxTree<D>>(this->Tree);
+  const BoxTree<D>& tree = this->tree<D>();
   typename BoxTree<D>::Gathered gathered;
+  Locations locations(take);
   const auto pointAt = [&](std::int64_t i)
   { return flattened<D>(this->Mesh, points.at(order[i])); };
   const auto choose = [&](std::int64_t i, const auto& search)
@@ -292,7 +208,7 @@ void CellLocator::findInOrder(const Access& access, const AskedPoints& points,
     Choice<Access, std::decay_t<decltype(point)>> choice(access, this->CellIds, point);
     search(Box<D>::of(arrayOf(point)), [&](std::int32_t cell) { choice.offer(cell); });
     const std::int64_t cell = choice.cell();
-    cell >= 0 ? take(points.index(order[i]), weighed(access, cell, point)) : void();
+    cell >= 0 ? locations.add(points.index(order[i]), weighed(access, cell, point)) : void();
   };
   std::int64_t shared = mostShared / 4;
   int alone = 0; // so many points do without: they are far apart
@@ -324,6 +240,113 @@ void CellLocator::findInOrder(const Access& access, const AskedPoints& points,
       ? std::min<std::int64_t>(2 * shared, mostShared)
       : shared;
   }
+  locations.flush();
+}
+
+/// Whether walks from each point to the next are short in the points' order.
+template <typename Access>
+bool CellLocator::areNear(const Access& access, const AskedPoints& points) const
+{
+  constexpr std::int64_t samples = 64;
+  constexpr std::int64_t length = 16;
+  constexpr std::int64_t fewSteps = 6;
+  if (points.Count < samples * length)
+  {
+    return true;
+  }
+  std::int64_t walks = 0;
+  std::int64_t steps = 0;
+  for (std::int64_t sample = 0; sample < samples; ++sample)
+  {
+    CellWalk::Position at;
+    const std::int64_t first = (points.Count - length) * sample / samples;
+    for (std::int64_t i = first; i < first + length; ++i)
+    {
+      const Point2 point = flattened<2>(this->Mesh, points.at(i));
+      if (isFinite(point))
+      {
+        const bool isFirst = at.Cell < 0;
+        this->Walk.walk(access, point, at);
+        walks += isFirst ? 0 : 1;
+        at.Steps = isFirst ? 0 : at.Steps;
+      }
+    }
+    steps += at.Steps;
+  }
+  return steps <= fewSteps * walks;
+}
+
+/// Returns the indices of the points that walks do not find.
+template <typename Access>
+std::vector<std::int64_t> CellLocator::walkAll(
+  const Access& access, const AskedPoints& points, int threads, const TakeLocations& take) const
+{
+  const auto pointAt = [&](std::int64_t i) { return flattened<2>(this->Mesh, points.at(i)); };
+  const bool inOrder = this->areNear(access, points);
+  const std::vector<std::int32_t> order = inOrder
+    ? std::vector<std::int32_t>()
+    : nearOrder<2>(points.Count, threads, [&](std::int64_t i) { return arrayOf(pointAt(i)); });
+  std::vector<std::vector<std::int64_t>> left(static_cast<std::size_t>(threads));
+  forChunks(inOrder ? points.Count : std::int64_t(order.size()), 1 << 14, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int thread)
+    {
+      Locations locations(take);
+      CellWalk::Position at;
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const std::int64_t item = inOrder ? i : order[std::size_t(i)];
+        const Point2 point = pointAt(item);
+        const auto outcome =
+          isFinite(point) ? this->Walk.walk(access, point, at) : CellWalk::Outcome::Outside;
+        if (outcome == CellWalk::Outcome::Found)
+        {
+          locations.add(points.index(item), weighed(access, at.Cell, point));
+        }
+        else if (outcome == CellWalk::Outcome::Unknown)
+        {
+          left[std::size_t(thread)].push_back(points.index(item));
+        }
+      }
+      locations.flush();
+    });
+  for (std::size_t thread = 1; thread < left.size(); ++thread)
+  {
+    left[0].insert(left[0].end(), left[thread].begin(), left[thread].end());
+  }
+  return left[0];
+}
+
+template <typename Access>
+void CellLocator::locateAll(
+  const Access& access, const AskedPoints& points, int threads, const TakeLocations& take) const
+{
+  constexpr int D = Access::Dimension;
+  AskedPoints rest = points;
+  std::vector<std::int64_t> left;
+  if constexpr (D == 2)
+  {
+    if (this->Walk.isUsable())
+    {
+      left = this->walkAll(access, points, threads, take);
+      rest = { points.Points, left.data(), std::int64_t(left.size()) };
+      constexpr std::int64_t cellsPerPoint = 8;
+      constexpr int mostPasses = 3;
+      if (rest.Count == 0)
+      {
+        return;
+      }
+      if (rest.Count < this->Mesh.Cells / cellsPerPoint && this->Passes++ < mostPasses)
+      {
+        locateByCells(access, this->Mesh, this->CellIds, rest, threads, take);
+        return;
+      }
+    }
+  }
+  const std::vector<std::int32_t> order = nearOrder<D>(rest.Count, threads,
+    [&](std::int64_t i) { return arrayOf(flattened<D>(this->Mesh, rest.at(i))); });
+  forChunks(std::int64_t(order.size()), 1 << 12, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int)
+    { this->findInOrder(access, rest, order.data() + begin, end - begin, take); });
 }
 
 CellLocation CellLocator::locate(const Point3& point) const
@@ -340,25 +363,13 @@ CellLocation CellLocator::locate(const Point3& point) const
 }
 
 void locatePoints(const SimplexMesh& mesh, const std::int64_t* cellIds, const CellLocator* locator,
-  const AskedPoints& points, int threads, const TakeLocation& take)
+  const AskedPoints& points, int threads, const TakeLocations& take)
 {
   withAccess(mesh,
     [&](const auto& access)
     {
-      if (!locator)
-      {
-        locateByCells(access, mesh, cellIds, points, threads, take);
-        return;
-      }
-      constexpr int D = std::decay_t<decltype(access)>::Dimension;
-      // Successive points find what they need in the processor's cache.
-      const auto boxOf = [&](std::int64_t i)
-      { return Box<D>::of(arrayOf(flattened<D>(mesh, points.at(i)))); };
-      const std::vector<std::int32_t> order =
-        mortonOrder(points.Count, threads, boundsOf<D>(points.Count, threads, boxOf), boxOf);
-      forChunks(std::int64_t(order.size()), 1 << 12, threads, {},
-        [&](std::int64_t begin, std::int64_t end, int)
-        { locator->findInOrder(access, points, order.data() + begin, end - begin, take); });
+      locator ? locator->locateAll(access, points, threads, take)
+              : locateByCells(access, mesh, cellIds, points, threads, take);
     });
 }
 

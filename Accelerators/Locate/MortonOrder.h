@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -159,6 +160,82 @@ std::vector<std::int32_t> mortonOrder(
   for (std::int64_t part = 1; part < threads; ++part)
   {
     std::inplace_merge(entries.begin(), border(part), border(part + 1));
+  }
+  std::vector<std::int32_t> order;
+  order.reserve(entries.size());
+  for (const Entry& entry : entries)
+  {
+    entry.Number >= 0 ? order.push_back(entry.Number) : void();
+  }
+  return order;
+}
+
+/// The points at(0) ... at(count - 1), arrays of D coordinates, in an order in which successive
+/// ones are near each other: along the Morton curve through their bounds, but in any order within
+/// some of its shortest parts. Points that are not finite are left out. `count` is below 2^31. The
+/// order does not depend on the number of threads.
+template <int D, typename At>
+std::vector<std::int32_t> nearOrder(std::int64_t count, int threads, const At& at)
+{
+  struct Entry
+  {
+    std::uint32_t Key;
+    std::int32_t Number; // -1: not finite
+  };
+  const auto boxOf = [&at](std::int64_t i) { return Box<D>::of(at(i)); };
+  const Box<D> all = boundsOf<D>(count, threads, boxOf);
+  constexpr int digitBits = 11;
+  constexpr std::size_t digits = std::size_t(1) << digitBits;
+  int passes = 1; // so that about one point has each key
+  passes += count > 1 << digitBits ? 1 : 0;
+  passes += count > 1 << (2 * digitBits) ? 1 : 0;
+  const int dropped = (D == 2 ? 64 : 63) - std::min(passes * digitBits, 32);
+  std::vector<Entry> entries(static_cast<std::size_t>(count));
+  std::vector<Entry> sorted(static_cast<std::size_t>(count));
+  const auto border = [&](std::int64_t part) { return std::size_t(count * part / threads); };
+  forChunks(count, 1 << 14, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const Box<D> box = boxOf(i);
+        entries[std::size_t(i)] = box.isEmpty()
+          ? Entry{ ~std::uint32_t(0), -1 }
+          : Entry{ std::uint32_t(mortonCode(box, all) >> dropped), std::int32_t(i) };
+      }
+    });
+  // By one digit after the other, the lowest first; each thread moves a part of the entries.
+  std::vector<std::size_t> starts(digits * std::size_t(threads));
+  for (int pass = 0; pass < passes; ++pass)
+  {
+    const auto startOf = [&](const Entry& entry, std::int64_t part) -> std::size_t&
+    {
+      return starts[(entry.Key >> (pass * digitBits)) % digits * std::size_t(threads) +
+        std::size_t(part)];
+    };
+    const auto forEntries = [&](const auto& work)
+    {
+      forChunks(threads, 1, threads, {},
+        [&](std::int64_t part, std::int64_t, int)
+        {
+          for (std::size_t i = border(part); i < border(part + 1); ++i)
+          {
+            work(entries[i], part);
+          }
+        });
+    };
+    std::fill(starts.begin(), starts.end(), 0);
+    forEntries([&](const Entry& entry, std::int64_t part) { ++startOf(entry, part); });
+    std::size_t sum = 0;
+    for (std::size_t& start : starts)
+    {
+      const std::size_t begin = sum;
+      sum += start;
+      start = begin;
+    }
+    forEntries(
+      [&](const Entry& entry, std::int64_t part) { sorted[startOf(entry, part)++] = entry; });
+    entries.swap(sorted);
   }
   std::vector<std::int32_t> order;
   order.reserve(entries.size());

@@ -90,6 +90,27 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const Contours& contours, const std::str
   return data;
 }
 
+vtkSmartPointer<vtkPolyData> polyDataOf(const Descents& descents, const std::string& name)
+{
+  std::vector<std::int64_t> starts = { 0 };
+  std::vector<std::int64_t> numbers;
+  std::vector<std::int64_t> pits;
+  for (std::size_t i = 0; i < descents.Pits.size(); ++i)
+  {
+    if (descents.Starts[i + 1] > descents.Starts[i])
+    {
+      starts.push_back(descents.Starts[i + 1]);
+      numbers.push_back(std::int64_t(i));
+      pits.push_back(descents.Pits[i]);
+    }
+  }
+  const vtkSmartPointer<vtkPolyData> data = linesOf(descents.Points, starts, false);
+  data->GetCellData()->AddArray(arrayOf<vtkIdTypeArray>("StartId", numbers));
+  data->GetCellData()->AddArray(arrayOf<vtkIdTypeArray>("PitId", pits));
+  data->GetPointData()->SetScalars(arrayOf<vtkDoubleArray>(name.c_str(), descents.Values));
+  return data;
+}
+
 vtkSmartPointer<vtkPolyData> polyDataOf(Profile&& profile)
 {
   const auto count = std::int64_t(profile.Points.size());

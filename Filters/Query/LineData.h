@@ -21,6 +21,11 @@ VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(const BoundaryLoop
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(
   const Contours& contours, const std::string& name);
 
+/// The lines that have points, with "StartId", their number, and "PitId" as cell arrays and the
+/// values as a point array of that name.
+VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(
+  const Descents& descents, const std::string& name);
+
 /// One line with the point arrays "Distance", "CellId" and those of the answer, which it takes.
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(Profile&& profile);
 

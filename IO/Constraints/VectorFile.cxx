@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/ReadConstraintFile.h"
+#include "Constraints/VectorFeatures.h"
 
 #include "Files/IOError.h"
-#include "Raster/GdalLibrary.h"
 
 #include <algorithm>
 #include <array>
@@ -23,18 +23,19 @@ class VectorEdges
 public:
   void add(OGRGeometryH geometry)
   {
-    if (!geometry)
+    const OGRwkbGeometryType kind = kindOf(geometry);
+    if (kind == wkbLineString)
     {
+      this->addLine(geometry, this->Table.Edges);
       return;
     }
-    if (gdal().OGR_G_HasCurveGeometry(geometry, 1))
+    // The rings of a polygon, or the members of a collection; other kinds have neither.
+    const int parts = gdal().OGR_G_GetGeometryCount(geometry);
+    for (int i = 0; i < parts; ++i)
     {
-      const OGRGeometryH straight = gdal().OGR_G_GetLinearGeometry(geometry, 0, nullptr);
-      this->addStraight(straight);
-      gdal().OGR_G_DestroyGeometry(straight);
-      return;
+      const OGRGeometryH part = gdal().OGR_G_GetGeometryRef(geometry, i);
+      kind == wkbPolygon ? this->addRing(part, i == 0) : this->add(part);
     }
-    this->addStraight(geometry);
   }
 
   ConstraintTable take()
@@ -56,23 +57,6 @@ private:
   static OGRwkbGeometryType kindOf(OGRGeometryH geometry)
   {
     return gdal().OGR_GT_Flatten(gdal().OGR_G_GetGeometryType(geometry));
-  }
-
-  void addStraight(OGRGeometryH geometry)
-  {
-    const OGRwkbGeometryType kind = kindOf(geometry);
-    if (kind == wkbLineString)
-    {
-      this->addLine(geometry, this->Table.Edges);
-      return;
-    }
-    // The rings of a polygon, or the members of a collection; other kinds have neither.
-    const int parts = gdal().OGR_G_GetGeometryCount(geometry);
-    for (int i = 0; i < parts; ++i)
-    {
-      const OGRGeometryH part = gdal().OGR_G_GetGeometryRef(geometry, i);
-      kind == wkbPolygon ? this->addRing(part, i == 0) : this->addStraight(part);
-    }
   }
 
   /// Returns the index of its first point.
@@ -124,10 +108,22 @@ struct CloseFile
 {
   void operator()(void* file) const { gdal().GDALClose(file); }
 };
+struct DestroyFeature
+{
+  void operator()(void* feature) const { gdal().OGR_F_Destroy(static_cast<OGRFeatureH>(feature)); }
+};
+struct DestroyGeometry
+{
+  void operator()(void* geometry) const
+  {
+    gdal().OGR_G_DestroyGeometry(static_cast<OGRGeometryH>(geometry));
+  }
+};
 
 } // namespace
 
-ConstraintTable readVectorFile(const std::string& path)
+void forFeatures(
+  const std::string& path, const std::function<void(OGRFeatureH, OGRGeometryH)>& visit)
 {
   gdal().CPLErrorReset();
   const std::unique_ptr<void, CloseFile> file(
@@ -139,7 +135,6 @@ ConstraintTable readVectorFile(const std::string& path)
       "cannot be read as lines or polygons" +
         (reason.empty() ? std::string(".") : " (" + reason + ")."));
   }
-  VectorEdges edges;
   const int layers = gdal().GDALDatasetGetLayerCount(file.get());
   for (int i = 0; i < layers; ++i)
   {
@@ -147,14 +142,25 @@ ConstraintTable readVectorFile(const std::string& path)
     gdal().OGR_L_ResetReading(layer);
     while (const OGRFeatureH feature = gdal().OGR_L_GetNextFeature(layer))
     {
-      edges.add(gdal().OGR_F_GetGeometryRef(feature));
-      gdal().OGR_F_Destroy(feature);
+      const std::unique_ptr<void, DestroyFeature> held(feature);
+      const OGRGeometryH geometry = gdal().OGR_F_GetGeometryRef(feature);
+      const bool isCurved = geometry && gdal().OGR_G_HasCurveGeometry(geometry, 1);
+      const std::unique_ptr<void, DestroyGeometry> straight(
+        isCurved ? gdal().OGR_G_GetLinearGeometry(geometry, 0, nullptr) : nullptr);
+      visit(feature, isCurved ? static_cast<OGRGeometryH>(straight.get()) : geometry);
     }
   }
   if (gdal().CPLGetLastErrorType() >= CE_Failure)
   {
     throw IOError(path, "is damaged (" + std::string(gdal().CPLGetLastErrorMsg()) + ").");
   }
+}
+
+ConstraintTable readVectorFile(const std::string& path)
+{
+  VectorEdges edges;
+  forFeatures(path,
+    [&edges](OGRFeatureH, OGRGeometryH geometry) { geometry ? edges.add(geometry) : void(); });
   return edges.take();
 }
 

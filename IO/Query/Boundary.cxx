@@ -4,8 +4,12 @@
 #include "Files/IOError.h"
 #include "Predicates/ExactPredicates.h"
 #include "Query/ForPieces.h"
+#include "Query/RankAnswer.h"
+#include "Query/RankAround.h"
 
 #include <algorithm>
+#include <memory>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -153,16 +157,19 @@ BoundaryLoops linked(std::vector<BorderEdge> edges)
   return loops;
 }
 
-} // namespace
-
-BoundaryLoops boundaryOf(const ResidentMesh& mesh)
+void requireTriangles(int cellSize)
 {
-  if (mesh.mesh().CellSize != 3)
+  if (cellSize != 3)
   {
     throw IOError("The border of tetrahedra is a surface and no line; ask a mesh of triangles.");
   }
+}
+
+/// The border at the points that the pieces [first, end) own.
+std::vector<BorderEdge> borderIn(const ResidentMesh& mesh, std::size_t first, std::size_t end)
+{
   std::vector<BorderEdge> edges;
-  forAllPieces(mesh,
+  forPieceRange(mesh, first, end,
     [&](const MeshPart& part, const PartTopology& topology)
     {
       PieceBorderEdges border(part, topology, edges);
@@ -171,80 +178,134 @@ BoundaryLoops boundaryOf(const ResidentMesh& mesh)
         owns(part, point) ? border.add(point) : void();
       }
     });
-  return linked(std::move(edges));
+  return edges;
 }
 
-Components componentsOf(const ResidentMesh& mesh)
+/// The triangles at the points of edges that one triangle of a part in memory has.
+struct OpenCells
 {
-  std::int64_t count = mesh.mesh().Cells;
-  const auto idOf = [&mesh](const MeshPart& part, std::int64_t cell) {
-    return mesh.isStored() ? part.cellId(cell) : part.Rows ? part.Rows[cell] : cell;
-  };
-  forAllPieces(mesh,
-    [&](const MeshPart& part, const PartTopology&)
+  std::vector<std::int64_t> Cells;  ///< ids
+  std::vector<std::int64_t> Points; ///< ids, three a cell
+  std::vector<Point3> Positions;    ///< of Points
+  std::vector<std::int64_t> Ends;   ///< ids of the points of these edges
+};
+
+template <typename Archive>
+void serialize(Archive& archive, OpenCells& open)
+{
+  archive(open.Cells, open.Points, open.Positions, open.Ends);
+}
+
+OpenCells openCells(const MeshPart& part, const PartTopology& topology)
+{
+  std::set<std::int64_t> ends;
+  for (std::int64_t cell = 0; cell < part.Mesh.Cells; ++cell)
+  {
+    pollAt(cell);
+    for (int face = 0; face < 3 && !(part.Mesh.Hidden && part.Mesh.Hidden[cell]); ++face)
     {
-      for (std::int64_t cell = 0; part.Rows && cell < part.Mesh.Cells; ++cell)
+      bool isOpen = true;
+      topology.visitAcross(cell, face, [&isOpen](std::int64_t) { isOpen = false; });
+      if (isOpen)
       {
-        count = std::max(count, part.Rows[cell] + 1);
+        ends.insert(topology.corner(cell, (face + 1) % 3));
+        ends.insert(topology.corner(cell, (face + 2) % 3));
       }
-    });
-  std::vector<std::int64_t> parent(std::size_t(count), -1); // of a hidden cell: -1
-  const auto rootOf = [&parent](std::int64_t cell)
-  {
-    while (parent[std::size_t(cell)] != cell)
-    {
-      const std::int64_t above = parent[std::size_t(parent[std::size_t(cell)])];
-      cell = parent[std::size_t(cell)] = above;
-    }
-    return cell;
-  };
-  const auto add = [&parent](std::int64_t cell)
-  {
-    std::int64_t& p = parent[std::size_t(cell)];
-    p = p < 0 ? cell : p;
-  };
-  forAllPieces(mesh,
-    [&](const MeshPart& part, const PartTopology& topology)
-    {
-      for (std::int64_t cell = 0; cell < part.Mesh.Cells; ++cell)
-      {
-        pollAt(cell);
-        if (part.Mesh.Hidden && part.Mesh.Hidden[cell])
-        {
-          continue;
-        }
-        add(idOf(part, cell));
-        for (int face = 0; face < topology.corners(); ++face)
-        {
-          topology.visitAcross(cell, face,
-            [&](std::int64_t other)
-            {
-              add(idOf(part, other));
-              const std::int64_t a = rootOf(idOf(part, cell));
-              const std::int64_t b = rootOf(idOf(part, other));
-              parent[std::size_t(std::max(a, b))] = std::min(a, b);
-            });
-        }
-      }
-    });
-  // A root is the lowest cell of its component.
-  Components result;
-  result.OfCells = std::move(parent);
-  for (std::int64_t cell = 0; cell < count; ++cell)
-  {
-    std::int64_t& label = result.OfCells[std::size_t(cell)];
-    if (label == cell)
-    {
-      label = std::int64_t(result.Sizes.size());
-      result.Sizes.push_back(1);
-    }
-    else if (label >= 0)
-    {
-      label = result.OfCells[std::size_t(label)]; // which is lower, and has its label
-      ++result.Sizes[std::size_t(label)];
     }
   }
-  return result;
+  std::set<std::int64_t> cells;
+  OpenCells open;
+  for (const std::int64_t point : ends)
+  {
+    open.Ends.push_back(part.pointId(point));
+    cells.insert(topology.cellsAt(point).begin(), topology.cellsAt(point).end());
+  }
+  for (const std::int64_t cell : cells)
+  {
+    open.Cells.push_back(part.cellId(cell));
+    for (int i = 0; i < 3; ++i)
+    {
+      open.Points.push_back(part.pointId(topology.corner(cell, i)));
+      open.Positions.push_back(positionOf(part, topology.corner(cell, i)));
+    }
+  }
+  return open;
+}
+
+/// The border of the parts in the memory of all ranks, by the triangles near it.
+std::vector<BorderEdge> borderOfParts(const std::vector<OpenCells>& parts)
+{
+  std::set<std::int64_t> ends;
+  std::vector<std::int64_t> pointIds;
+  for (const OpenCells& open : parts)
+  {
+    ends.insert(open.Ends.begin(), open.Ends.end());
+    pointIds.insert(pointIds.end(), open.Points.begin(), open.Points.end());
+  }
+  std::sort(pointIds.begin(), pointIds.end());
+  pointIds.erase(std::unique(pointIds.begin(), pointIds.end()), pointIds.end());
+  std::vector<Point3> positions(pointIds.size());
+  std::vector<std::int64_t> corners;
+  std::vector<std::int64_t> cellIds;
+  for (const OpenCells& open : parts)
+  {
+    cellIds.insert(cellIds.end(), open.Cells.begin(), open.Cells.end());
+    for (std::size_t i = 0; i < open.Points.size(); ++i)
+    {
+      const auto at = std::lower_bound(pointIds.begin(), pointIds.end(), open.Points[i]);
+      corners.push_back(at - pointIds.begin());
+      positions[std::size_t(corners.back())] = open.Positions[i];
+    }
+  }
+  MeshPart part;
+  part.Mesh.Points = positions.data();
+  part.Mesh.PointCount = std::int64_t(positions.size());
+  part.Mesh.Ids = corners.data();
+  part.Mesh.Wide = true;
+  part.Mesh.Cells = part.OwnedCells = std::int64_t(cellIds.size());
+  part.CellIds = cellIds.data();
+  part.PointIds = pointIds.data();
+  const PartTopology topology(part);
+  std::vector<BorderEdge> edges;
+  PieceBorderEdges border(part, topology, edges);
+  for (const std::int64_t id : ends)
+  {
+    border.add(topology.findPoint(id));
+  }
+  return edges;
+}
+
+} // namespace
+
+BoundaryLoops boundaryOf(const ResidentMesh& mesh)
+{
+  requireTriangles(mesh.mesh().CellSize);
+  return linked(borderIn(mesh, 0, mesh.mesh().Pieces.size()));
+}
+
+BoundaryLoops boundaryOnRanks(Communicator& ranks, const ResidentMesh& mesh)
+{
+  requireIdsOnRanks(ranks, mesh);
+  const bool hasCells = mesh.mesh().Cells > 0;
+  hasCells ? requireTriangles(mesh.mesh().CellSize) : void();
+  std::vector<BorderEdge> edges;
+  if (mesh.isStored())
+  {
+    const auto [first, end] = piecesOfRank(ranks, mesh);
+    for (const std::vector<BorderEdge>& part : ranks.gather(borderIn(mesh, first, end)))
+    {
+      edges.insert(edges.end(), part.begin(), part.end());
+    }
+    return linked(std::move(edges));
+  }
+  OpenCells open;
+  if (hasCells)
+  {
+    const ResidentPieces::Lease piece = mesh.pieces().get(0, topologyNeeded());
+    open = openCells(*piece->Part, *piece->Topology);
+  }
+  const std::vector<OpenCells> parts = ranks.gather(open);
+  return ranks.isFirst() ? linked(borderOfParts(parts)) : BoundaryLoops();
 }
 
 } // namespace tipp

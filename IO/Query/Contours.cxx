@@ -5,6 +5,8 @@
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 #include "Predicates/ExactPredicates.h"
+#include "Query/RankAnswer.h"
+#include "Query/RankAround.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +19,21 @@ namespace tipp
 namespace
 {
 
-/// An edge by the global ids of its points, the lower first.
-using Edge = std::pair<std::int64_t, std::int64_t>;
+/// An edge by the global ids of its points.
+struct Edge
+{
+  std::int64_t Low;
+  std::int64_t High;
+
+  bool operator<(const Edge& other) const
+  {
+    return std::tie(this->Low, this->High) < std::tie(other.Low, other.High);
+  }
+  bool operator==(const Edge& other) const
+  {
+    return this->Low == other.Low && this->High == other.High;
+  }
+};
 
 /// The part of a contour in one triangle.
 struct Segment
@@ -85,8 +100,33 @@ void addSegments(const Corner (&corners)[3],
   }
 }
 
+/// A component of an array at a part's points, as doubles.
+class PointValues
+{
+public:
+  PointValues(const MeshPart& part, const PartValues& values, int component)
+  {
+    this->First = values.doubles();
+    if (!this->First)
+    {
+      this->Copied.reserve(std::size_t(part.Mesh.PointCount));
+      for (std::int64_t point = 0; point < part.Mesh.PointCount; ++point)
+      {
+        this->Copied.push_back(values.atPoint(point, component));
+      }
+      this->First = this->Copied.data();
+    }
+  }
+
+  double operator[](std::int64_t point) const { return this->First[point]; }
+
+private:
+  std::vector<double> Copied;
+  const double* First;
+};
+
 template <typename Access>
-void addCells(const Access& access, const MeshPart& part, const PartValues& values, int component,
+void addCells(const Access& access, const MeshPart& part, const PointValues& values,
   const std::vector<std::pair<double, std::int32_t>>& levels, std::int64_t begin, std::int64_t end,
   std::vector<Segment>& segments)
 {
@@ -99,7 +139,7 @@ void addCells(const Access& access, const MeshPart& part, const PartValues& valu
     for (int i = 0; i < 3; ++i)
     {
       const auto point = std::int64_t(access.ids(cell)[i]);
-      corners[i].Value = values.atPoint(point, component);
+      corners[i].Value = values[point];
       corners[i].Id = point;
       low = std::min(low, corners[i].Value);
       high = std::max(high, corners[i].Value);
@@ -206,18 +246,20 @@ private:
   std::vector<char> HasBefore;
 };
 
-/// The array's description, null for the elevation, if it can have contours. Throws IOError.
-const StoredArray* requireField(const ResidentMesh& mesh, const std::string& array, int component)
+} // namespace
+
+const StoredArray* fieldOf(
+  const ResidentMesh& mesh, const std::string& array, int component, bool orOfCells)
 {
   const std::string name = mesh.isStored() ? mesh.mesh().Path : "the mesh";
   if (mesh.mesh().CellSize != 3)
   {
-    throw IOError(name, "has tetrahedra, whose contours are surfaces; ask a mesh of triangles.");
+    throw IOError(name, "has tetrahedra; ask this of a mesh of triangles.");
   }
   const StoredArray* const description = mesh.find(array);
-  if (description && !description->OfPoints)
+  if (description && !description->OfPoints && !orOfCells)
   {
-    throw IOError(name, "has '" + array + "' at cells; contours need an array of points.");
+    throw IOError(name, "has '" + array + "' at cells; this needs an array of points.");
   }
   if (component < 0 || component >= (description ? description->Components : 1))
   {
@@ -226,20 +268,23 @@ const StoredArray* requireField(const ResidentMesh& mesh, const std::string& arr
   return description;
 }
 
-} // namespace
-
-std::pair<double, double> rangeOf(const ResidentMesh& mesh, const std::string& array, int component)
+namespace
 {
-  const StoredArray* const description = requireField(mesh, array, component);
+
+/// The range of the values in the pieces [first, end).
+std::pair<double, double> rangeIn(const ResidentMesh& mesh, const std::string& array, int component,
+  std::size_t first, std::size_t end)
+{
+  const StoredArray* const description = fieldOf(mesh, array, component);
   double low = HUGE_VAL;
   double high = -HUGE_VAL;
   std::mutex mutex;
-  forChunks(std::int64_t(mesh.mesh().Pieces.size()), 1, threadCount(mesh.options().Threads), {},
+  forChunks(std::int64_t(end - first), 1, threadCount(mesh.options().Threads), {},
     [&](std::int64_t number, std::int64_t, int)
     {
       poll();
       const ResidentPieces::Lease piece =
-        mesh.pieces().get(std::size_t(number), mesh.needsOf({ array }));
+        mesh.pieces().get(first + std::size_t(number), mesh.needsOf({ array }));
       const PartValues values(*piece->Part, description);
       double ownLow = HUGE_VAL;
       double ownHigh = -HUGE_VAL;
@@ -256,10 +301,11 @@ std::pair<double, double> rangeOf(const ResidentMesh& mesh, const std::string& a
   return { low, high };
 }
 
-Contours contoursOf(const ResidentMesh& mesh, const std::string& array, int component,
-  const std::vector<double>& levels)
+/// The segments in the cells that the pieces [first, end) own, in any order.
+std::vector<Segment> segmentsIn(const ResidentMesh& mesh, const std::string& array, int component,
+  const std::vector<double>& levels, std::size_t firstPiece, std::size_t endPiece)
 {
-  const StoredArray* const description = requireField(mesh, array, component);
+  const StoredArray* const description = fieldOf(mesh, array, component);
   std::vector<std::pair<double, std::int32_t>> sorted;
   for (std::size_t i = 0; i < levels.size(); ++i)
   {
@@ -273,27 +319,73 @@ Contours contoursOf(const ResidentMesh& mesh, const std::string& array, int comp
   std::vector<Segment> segments;
   std::mutex mutex;
   const int threads = threadCount(mesh.options().Threads);
-  const auto pieces = std::int64_t(mesh.mesh().Pieces.size());
+  const auto pieces = std::int64_t(endPiece - firstPiece);
   forChunks(pieces, 1, pieces > 1 ? threads : 1, {},
     [&](std::int64_t number, std::int64_t, int)
     {
       poll();
       const ResidentPieces::Lease piece =
-        mesh.pieces().get(std::size_t(number), mesh.needsOf({ array }));
+        mesh.pieces().get(firstPiece + std::size_t(number), mesh.needsOf({ array }));
       const MeshPart& part = *piece->Part;
-      const PartValues values(part, description);
+      const PartValues described(part, description);
+      const PointValues values(part, described, component);
       forChunks(part.OwnedCells, 1 << 14, pieces > 1 ? 1 : threads, {},
         [&](std::int64_t begin, std::int64_t end, int)
         {
           std::vector<Segment> own;
           withAccess(part.Mesh,
-            [&](const auto& access)
-            { addCells(access, part, values, component, sorted, begin, end, own); });
+            [&](const auto& access) { addCells(access, part, values, sorted, begin, end, own); });
           const std::lock_guard<std::mutex> lock(mutex);
           segments.insert(segments.end(), own.begin(), own.end());
         });
     });
-  return LineJoiner(std::move(segments)).join(levels);
+  return segments;
+}
+
+} // namespace
+
+std::pair<double, double> rangeOf(const ResidentMesh& mesh, const std::string& array, int component)
+{
+  return rangeIn(mesh, array, component, 0, mesh.mesh().Pieces.size());
+}
+
+std::pair<double, double> rangeOnRanks(
+  Communicator& ranks, const ResidentMesh& mesh, const std::string& array, int component)
+{
+  std::vector<double> range = { HUGE_VAL, HUGE_VAL };
+  if (mesh.mesh().Cells > 0)
+  {
+    const auto [first, end] = piecesOfRank(ranks, mesh);
+    const auto [low, high] = rangeIn(mesh, array, component, first, end);
+    range = { low, -high };
+  }
+  ranks.minimum(range);
+  return { range[0], -range[1] };
+}
+
+Contours contoursOf(const ResidentMesh& mesh, const std::string& array, int component,
+  const std::vector<double>& levels)
+{
+  return LineJoiner(segmentsIn(mesh, array, component, levels, 0, mesh.mesh().Pieces.size()))
+    .join(levels);
+}
+
+Contours contoursOnRanks(Communicator& ranks, const ResidentMesh& mesh, const std::string& array,
+  int component, const std::vector<double>& levels)
+{
+  requireIdsOnRanks(ranks, mesh);
+  std::vector<Segment> segments;
+  if (mesh.mesh().Cells > 0)
+  {
+    const auto [first, end] = piecesOfRank(ranks, mesh);
+    segments = segmentsIn(mesh, array, component, levels, first, end);
+  }
+  std::vector<Segment> all;
+  for (const std::vector<Segment>& part : ranks.gather(segments))
+  {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return LineJoiner(std::move(all)).join(levels);
 }
 
 } // namespace tipp

@@ -7,6 +7,7 @@
 #include "Query/PartTopology.h"
 #include "Query/ResidentMesh.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +19,12 @@ inline Point3 positionOf(const MeshPart& part, std::int64_t point)
   Point3 position{};
   withAccess(part.Mesh, [&](const auto& access) { position = access.point(point); });
   return position;
+}
+
+inline void sortUnique(std::vector<std::int64_t>& ids)
+{
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
 inline bool owns(const MeshPart& part, std::int64_t point)
@@ -46,13 +53,13 @@ void forPieces(
     });
 }
 
-/// All pieces with cells, without items.
+/// The pieces [first, end), without items.
 template <typename Work>
-void forAllPieces(const ResidentMesh& mesh, const Work& work)
+void forPieceRange(const ResidentMesh& mesh, std::size_t first, std::size_t end, const Work& work)
 {
   PieceNeeds needs;
   needs.Topology = true;
-  for (std::size_t i = 0; i < mesh.mesh().Pieces.size(); ++i)
+  for (std::size_t i = first; i < end; ++i)
   {
     poll();
     const ResidentPieces::Lease piece = mesh.pieces().get(i, needs);

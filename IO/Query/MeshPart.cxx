@@ -90,16 +90,22 @@ Value PartValues::valueAt(const CellLocation& at, int component) const
   }
 }
 
-void PartValues::sample(const CellLocation& at, char* to) const
+void PartValues::sample(
+  const CellLocation* at, const std::int64_t* tuples, std::int64_t count, char* values) const
 {
   withScalar(this->Description.Type,
     [&](auto zero)
     {
       using Value = decltype(zero);
-      for (int k = 0; k < this->Description.Components; ++k)
+      const auto components = std::size_t(this->Description.Components);
+      for (std::int64_t i = 0; i < count; ++i)
       {
-        const Value value = this->valueAt<Value>(at, k);
-        std::memcpy(to + std::size_t(k) * sizeof value, &value, sizeof value);
+        char* const to = values + std::size_t(tuples[i]) * components * sizeof(Value);
+        for (std::size_t k = 0; k < components; ++k)
+        {
+          const Value value = this->valueAt<Value>(at[i], int(k));
+          std::memcpy(to + k * sizeof value, &value, sizeof value);
+        }
       }
     });
 }

@@ -60,10 +60,20 @@ public:
   /// part does not have it.
   PartValues(const MeshPart& part, const StoredArray* array);
 
-  /// Writes the values at a location, in the array's type; `to` need not be aligned.
-  void sample(const CellLocation& at, char* to) const;
+  /// Writes the values at `count` locations, in the array's type: those at at[i] become tuple
+  /// tuples[i] of `values`, which need not be aligned.
+  void sample(
+    const CellLocation* at, const std::int64_t* tuples, std::int64_t count, char* values) const;
   /// The value of a component at a point of the part.
   double atPoint(std::int64_t point, int component) const;
+  /// The values at all points, if they are float64 and lie one after the other; else null.
+  const double* doubles() const
+  {
+    return this->Description.OfPoints && this->Description.Type == Scalar::Float64 &&
+        this->Stride == 1
+      ? static_cast<const double*>(this->Values)
+      : nullptr;
+  }
 
   const StoredArray& description() const { return this->Description; }
 

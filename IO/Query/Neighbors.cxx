@@ -50,10 +50,10 @@ std::vector<std::int64_t> storedNeighbors(
       const PartValues values(*piece.Part, &mesh.mesh().Arrays[array]);
       for (std::int64_t i = begin; i < end; ++i)
       {
-        const auto item = std::size_t(groups.Items[std::size_t(i)]);
+        const std::int64_t item = groups.Items[std::size_t(i)];
         CellLocation at;
-        at.Cell = indexOf(mesh, *piece.Topology, cells[item], false);
-        values.sample(at, reinterpret_cast<char*>(result.data() + item * corners));
+        at.Cell = indexOf(mesh, *piece.Topology, cells[std::size_t(item)], false);
+        values.sample(&at, &item, 1, reinterpret_cast<char*>(result.data()));
       }
     });
   return result;

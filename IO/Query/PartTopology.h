@@ -36,6 +36,27 @@ public:
       this->AtPoints.data() + this->Starts[at + 1] };
   }
 
+  /// Has the processor fetch the cells at points, which may be anywhere in memory.
+  [[gnu::always_inline]] void prefetch(const std::int64_t* points, std::int64_t count) const
+  {
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      __builtin_prefetch(this->Starts.data() + points[i]);
+    }
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      __builtin_prefetch(this->AtPoints.data() + this->Starts[std::size_t(points[i])]);
+    }
+    const std::size_t bytes = std::size_t(this->Corners) * (this->Wide ? 8 : 4);
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      for (const std::int32_t cell : this->cellsAt(points[i]))
+      {
+        __builtin_prefetch(static_cast<const char*>(this->Ids) + std::size_t(cell) * bytes);
+      }
+    }
+  }
+
   /// The index of a global id; -1 if the part does not have it.
   std::int64_t findPoint(std::int64_t id) const { return find(this->PointMap, id, this->Points); }
   std::int64_t findCell(std::int64_t id) const { return find(this->CellMap, id, this->AllCells); }

@@ -38,8 +38,8 @@ std::vector<std::int64_t> PieceIds::read(std::size_t piece, bool ofPoints) const
   return ids;
 }
 
-std::vector<std::int32_t> PieceIds::find(
-  const std::vector<std::int64_t>& ids, bool ofPoints, int threads) const
+std::vector<std::int32_t> PieceIds::find(const std::vector<std::int64_t>& ids, bool ofPoints,
+  int threads, std::size_t firstPiece, std::size_t endPiece) const
 {
   std::vector<std::int64_t> asked = ids;
   std::sort(asked.begin(), asked.end());
@@ -52,18 +52,24 @@ std::vector<std::int32_t> PieceIds::find(
     this->Ranges[ofPoints].resize(this->Mesh.Pieces.size());
     ranges = this->Ranges[ofPoints];
   }
+  // Those whose range is known first: they may have all.
+  std::vector<std::size_t> order(endPiece - firstPiece);
+  std::iota(order.begin(), order.end(), firstPiece);
+  std::stable_partition(order.begin(), order.end(),
+    [&ranges](std::size_t piece) { return ranges[piece].High != INT64_MAX; });
   std::atomic<std::size_t> missing{ asked.size() };
-  forChunks(std::int64_t(ranges.size()), 1, threads, {},
-    [&](std::int64_t piece, std::int64_t, int)
+  forChunks(std::int64_t(order.size()), 1, threads, {},
+    [&](std::int64_t i, std::int64_t, int)
     {
       poll();
-      Range& range = ranges[std::size_t(piece)];
+      const std::size_t piece = order[std::size_t(i)];
+      Range& range = ranges[piece];
       const auto first = std::lower_bound(asked.begin(), asked.end(), range.Low);
       if (missing == 0 || first == asked.end() || *first > range.High)
       {
         return;
       }
-      const std::vector<std::int64_t> own = this->read(std::size_t(piece), ofPoints);
+      const std::vector<std::int64_t> own = this->read(piece, ofPoints);
       range = own.empty() ? Range{ INT64_MAX, -1 }
                           : Range{ *std::min_element(own.begin(), own.end()),
                               *std::max_element(own.begin(), own.end()) };

@@ -23,9 +23,9 @@ public:
   {
   }
 
-  /// -1: no piece owns it. Throws IOError. Several threads may call it.
-  std::vector<std::int32_t> find(
-    const std::vector<std::int64_t>& ids, bool ofPoints, int threads) const;
+  /// -1: none of the pieces [first, end) owns it. Throws IOError. Several threads may call it.
+  std::vector<std::int32_t> find(const std::vector<std::int64_t>& ids, bool ofPoints, int threads,
+    std::size_t first, std::size_t end) const;
 
 private:
   struct Range

@@ -171,6 +171,20 @@ void merge(const Reply& reply, const std::vector<std::int64_t>& asked, std::size
 
 } // namespace
 
+std::pair<std::size_t, std::size_t> piecesOfRank(
+  const Communicator& ranks, const ResidentMesh& mesh)
+{
+  if (!mesh.isStored())
+  {
+    return { 0, 1 };
+  }
+  // Piece p is of rank p * ranks / pieces, rounded down.
+  const std::size_t pieces = mesh.mesh().Pieces.size();
+  const auto size = std::size_t(ranks.size());
+  const auto firstOf = [&](std::size_t rank) { return (rank * pieces + size - 1) / size; };
+  return { firstOf(std::size_t(ranks.rank())), firstOf(std::size_t(ranks.rank()) + 1) };
+}
+
 MeshAnswer answerOnRanks(Communicator& ranks, const ResidentMesh& mesh, const Point3* points,
   std::int64_t count, const AnswerOptions& options)
 {

@@ -6,8 +6,15 @@
 #include "Ranks/Communicator.h"
 #include "vtkTIPPIOModule.h"
 
+#include <cstddef>
+#include <utility>
+
 namespace tipp
 {
+
+/// The pieces [first, end) of a stored mesh that a rank has; of a part in memory its one piece.
+std::pair<std::size_t, std::size_t> piecesOfRank(
+  const Communicator& ranks, const ResidentMesh& mesh);
 
 /// Answers this rank's points with the meshes of all ranks: either all have opened the same stored
 /// mesh, whose pieces they share out, so that each is in the memory of one rank; or each has a part

@@ -200,7 +200,8 @@ ResidentMesh::ResidentMesh(const std::string& path, const ResidentOptions& optio
       options.MemoryLimit,
       [this](std::size_t number, const PieceNeeds& needs) { return this->estimate(number, needs); },
       [this](std::size_t number, const PieceNeeds& needs, const ResidentPiece& before)
-      { return this->load(number, needs, before); })
+      { return this->load(number, needs, before); },
+      [this](std::size_t number, std::uint64_t bytes) { this->refusePiece(number, bytes); })
 {
 }
 
@@ -213,7 +214,8 @@ ResidentMesh::ResidentMesh(MeshPart part, const ResidentOptions& options)
       std::numeric_limits<std::uint64_t>::max() / 2,
       [](std::size_t, const PieceNeeds&) { return std::uint64_t(0); },
       [this](std::size_t number, const PieceNeeds& needs, const ResidentPiece& before)
-      { return this->load(number, needs, before); })
+      { return this->load(number, needs, before); },
+      [](std::size_t, std::uint64_t) {})
 {
 }
 
@@ -271,7 +273,8 @@ std::uint64_t ResidentMesh::estimate(std::size_t number, const PieceNeeds& needs
   const PieceSummary& piece = this->Mesh.Pieces[number];
   const auto cells = std::uint64_t(piece.Cells + piece.BorrowedCells);
   const auto points = std::uint64_t(piece.Points + piece.BorrowedCells);
-  std::uint64_t ofPoint = 3 * scalarSize(this->Mesh.PointType) + 8 + 1;
+  // With its position in a search by points.
+  std::uint64_t ofPoint = 3 * scalarSize(this->Mesh.PointType) + 8 + 1 + 6;
   std::uint64_t ofCell = std::uint64_t(this->Mesh.CellSize) * 4 + 8;
   for (std::size_t i = 0; i < needs.Arrays.size(); ++i)
   {
@@ -286,6 +289,19 @@ std::uint64_t ResidentMesh::estimate(std::size_t number, const PieceNeeds& needs
     : 0;
   bytes += needs.Topology ? PartTopology::bytesFor(points, cells, this->Mesh.CellSize) : 0;
   return bytes;
+}
+
+void ResidentMesh::refusePiece(std::size_t number, std::uint64_t bytes) const
+{
+  const auto text = [](std::uint64_t b)
+  {
+    return b >> 20 > 1 ? std::to_string((b + (1 << 20) - 1) >> 20) + " MB"
+                       : std::to_string(b) + " bytes";
+  };
+  throw IOError(this->Mesh.Path,
+    "needs " + text(bytes) + " of memory for this query, for piece " + std::to_string(number) +
+      " alone, but the limit is " + text(this->Options.MemoryLimit) +
+      "; raise it, or partition the mesh into smaller pieces.");
 }
 
 ResidentPiece ResidentMesh::load(
@@ -358,12 +374,17 @@ std::vector<std::int32_t> ResidentMesh::piecesOfIds(
   {
     id < 0 || id >= count ? this->refuseId(id, ofPoints) : void();
   }
-  std::vector<std::int32_t> pieces =
-    this->Ids.find(ids, ofPoints, threadCount(this->Options.Threads));
+  std::vector<std::int32_t> pieces = this->findIds(ids, ofPoints, 0, this->Mesh.Pieces.size());
   const auto missing = std::find(pieces.begin(), pieces.end(), -1);
   missing != pieces.end() ? this->refuseId(ids[std::size_t(missing - pieces.begin())], ofPoints)
                           : void();
   return pieces;
+}
+
+std::vector<std::int32_t> ResidentMesh::findIds(
+  const std::vector<std::int64_t>& ids, bool ofPoints, std::size_t first, std::size_t end) const
+{
+  return this->Ids.find(ids, ofPoints, threadCount(this->Options.Threads), first, end);
 }
 
 void ResidentMesh::answerPiece(std::size_t number, const AskedPoints& asked,
@@ -371,8 +392,10 @@ void ResidentMesh::answerPiece(std::size_t number, const AskedPoints& asked,
 {
   PieceNeeds needs = this->needsOf(options.Arrays);
   const PieceSummary& summary = this->Mesh.Pieces[number];
-  needs.Locator = asked.Count > (summary.Cells + summary.BorrowedCells) / cellsPerPoint ||
-    this->Resident.uses(number) >= searchesWithoutLocator;
+  needs.Locator = true;
+  needs.Locator = this->Resident.fits(number, needs) &&
+    (asked.Count > (summary.Cells + summary.BorrowedCells) / cellsPerPoint ||
+      this->Resident.uses(number) >= searchesWithoutLocator);
   const ResidentPieces::Lease piece = this->Resident.get(number, needs);
   const MeshPart& part = *piece->Part;
   std::vector<PartValues> values;
@@ -382,22 +405,24 @@ void ResidentMesh::answerPiece(std::size_t number, const AskedPoints& asked,
   }
   const auto corners = std::size_t(this->Mesh.CellSize);
   locatePoints(part.Mesh, part.CellIds, piece->Locator.get(), asked, threads,
-    [&](std::int64_t i, const CellLocation& at)
+    [&](const std::int64_t* points, const CellLocation* at, std::int64_t count)
     {
-      const auto index = std::size_t(i);
-      answer.Cells[index] = part.cellId(at.Cell);
-      if (options.Weights)
+      for (std::int64_t i = 0; i < count; ++i)
       {
-        std::copy_n(at.Weights, corners, answer.Weights.data() + index * corners);
-      }
-      if (options.Keys)
-      {
-        answer.Keys[index] = keyAt(part.Mesh, at.Cell, asked.Points[i]);
+        const auto index = std::size_t(points[i]);
+        answer.Cells[index] = part.cellId(at[i].Cell);
+        if (options.Weights)
+        {
+          std::copy_n(at[i].Weights, corners, answer.Weights.data() + index * corners);
+        }
+        if (options.Keys)
+        {
+          answer.Keys[index] = keyAt(part.Mesh, at[i].Cell, asked.Points[index]);
+        }
       }
       for (std::size_t a = 0; a < values.size(); ++a)
       {
-        MeshAnswer::Array& array = answer.Arrays[a];
-        values[a].sample(at, array.Values.data() + index * array.tupleBytes());
+        values[a].sample(at, points, count, answer.Arrays[a].Values.data());
       }
     });
 }

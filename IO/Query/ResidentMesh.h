@@ -24,8 +24,8 @@ class PieceBoxes;
 
 struct ResidentOptions
 {
-  /// In bytes, for the pieces of a stored mesh that stay in memory and what is made to search them.
-  /// A piece that needs more is held alone.
+  /// In bytes, for the pieces of a stored mesh that are in memory and what is made to search them.
+  /// A query that needs more for one piece is refused.
   std::uint64_t MemoryLimit = std::uint64_t(1) << 30;
   int Threads = 0; ///< 0: OpenMP's default
   int Step = 0;    ///< the step of arrays that vary in time
@@ -125,6 +125,9 @@ public:
   /// The pieces that own cells or points by their global ids. Throws IOError for an id that the
   /// mesh does not have.
   std::vector<std::int32_t> piecesOfIds(const std::vector<std::int64_t>& ids, bool ofPoints) const;
+  /// As piecesOfIds(), of a stored mesh and the pieces [first, end); -1: none owns it.
+  std::vector<std::int32_t> findIds(
+    const std::vector<std::int64_t>& ids, bool ofPoints, std::size_t first, std::size_t end) const;
   [[noreturn]] void refuseId(std::int64_t id, bool ofPoints) const;
 
   /// What queries of these arrays need of a piece. Throws IOError.
@@ -138,6 +141,7 @@ private:
   ResidentPiece load(
     std::size_t number, const PieceNeeds& needs, const ResidentPiece& before) const;
   std::uint64_t estimate(std::size_t number, const PieceNeeds& needs) const;
+  [[noreturn]] void refusePiece(std::size_t number, std::uint64_t bytes) const;
 
   PartitionedMesh Mesh;
   ResidentOptions Options;

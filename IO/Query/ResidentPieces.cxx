@@ -37,13 +37,12 @@ ResidentPieces::Lease ResidentPieces::get(std::size_t number, const PieceNeeds& 
   slot.LastUse = ++this->Clock;
   if (!slot.Held.Part || !slot.Held.Has.cover(needs))
   {
+    const PieceNeeds all = this->needsWithin(lock, number, needs, slot);
     slot.Loading = true;
-    const ResidentPiece before = slot.Held;
-    PieceNeeds all = before.Has;
-    all.add(needs);
     const std::uint64_t bytes = std::max(this->BytesOf(number, all), slot.Bytes);
+    this->makeRoom(lock, slot, bytes);
+    const ResidentPiece before = slot.Held;
     const std::uint64_t more = bytes - slot.Bytes;
-    this->makeRoom(lock, slot, more);
     this->Used += more;
     ++this->Active;
     const auto finish = [&](std::uint64_t kept)
@@ -77,6 +76,24 @@ ResidentPieces::Lease ResidentPieces::get(std::size_t number, const PieceNeeds& 
   return { *this, number, slot.Held };
 }
 
+/// What is needed and what the piece has already; or what is needed alone, if both together are
+/// beyond the limit. Then the piece is dropped once nobody uses it.
+PieceNeeds ResidentPieces::needsWithin(
+  std::unique_lock<std::mutex>& lock, std::size_t number, const PieceNeeds& needs, Slot& slot)
+{
+  PieceNeeds all = slot.Held.Has;
+  all.add(needs);
+  if (this->fits(number, all))
+  {
+    return all;
+  }
+  const std::uint64_t bytes = this->BytesOf(number, needs);
+  bytes > this->Limit ? this->RefusePiece(number, bytes) : void();
+  this->Changed.wait(lock, [&slot] { return !slot.Loading && slot.Users == 0; });
+  this->drop(slot);
+  return needs;
+}
+
 void ResidentPieces::release(Lease& lease)
 {
   lease.Held = {};
@@ -98,28 +115,32 @@ bool ResidentPieces::dropOldest(const Slot& keep)
       oldest = &slot;
     }
   }
-  if (oldest)
-  {
-    this->Used -= oldest->Bytes;
-    oldest->Held = {};
-    oldest->Bytes = 0;
-    oldest->Uses = 0;
-  }
+  oldest ? this->drop(*oldest) : void();
   return oldest != nullptr;
 }
 
-void ResidentPieces::makeRoom(
-  std::unique_lock<std::mutex>& lock, const Slot& keep, std::uint64_t bytes)
+void ResidentPieces::drop(Slot& slot)
 {
-  while (this->Used + bytes > this->Limit)
+  this->Used -= slot.Bytes;
+  slot.Held = {};
+  slot.Bytes = 0;
+  slot.Uses = 0;
+}
+
+/// Makes room for a slot to have so many bytes, which are within the limit.
+void ResidentPieces::makeRoom(std::unique_lock<std::mutex>& lock, Slot& slot, std::uint64_t bytes)
+{
+  while (this->Used - slot.Bytes + bytes > this->Limit)
   {
-    if (this->dropOldest(keep))
+    if (this->dropOldest(slot))
     {
       continue;
     }
-    if (this->Active == 0)
+    if (this->Active == 0 && slot.Held.Part)
     {
-      return; // it is larger than the limit
+      // All others wait, too, with pieces that they want to have more of.
+      this->drop(slot);
+      this->Changed.notify_all();
     }
     this->Changed.wait(lock);
   }

@@ -50,12 +50,21 @@ public:
     std::size_t number, const PieceNeeds& needs, const ResidentPiece& before)>;
   /// The memory in bytes that a piece takes.
   using Estimate = std::function<std::uint64_t(std::size_t number, const PieceNeeds& needs)>;
+  /// Throws, since a piece takes more than the limit.
+  using Refuse = std::function<void(std::size_t number, std::uint64_t bytes)>;
 
-  ResidentPieces(std::uint64_t limit, Estimate estimate, Load load)
+  ResidentPieces(std::uint64_t limit, Estimate estimate, Load load, Refuse refuse)
     : Limit(limit)
     , BytesOf(std::move(estimate))
     , LoadPiece(std::move(load))
+    , RefusePiece(std::move(refuse))
   {
+  }
+
+  /// Whether a piece with what is needed is within the limit.
+  bool fits(std::size_t number, const PieceNeeds& needs) const
+  {
+    return this->BytesOf(number, needs) <= this->Limit;
   }
 
   /// A piece in use: it stays in memory as long as this lives. A thread holds one at a time; else
@@ -89,7 +98,7 @@ public:
   };
 
   /// Returns a piece with what is needed, loading it and dropping others as required. Waits while
-  /// other threads use the memory; a piece larger than the limit is loaded alone. What `load`
+  /// other threads use the memory. A piece that is larger than the limit is refused. What `load`
   /// throws is passed on.
   Lease get(std::size_t number, const PieceNeeds& needs);
 
@@ -112,12 +121,16 @@ private:
   };
 
   void release(Lease& lease);
-  void makeRoom(std::unique_lock<std::mutex>& lock, const Slot& keep, std::uint64_t bytes);
+  PieceNeeds needsWithin(
+    std::unique_lock<std::mutex>& lock, std::size_t number, const PieceNeeds& needs, Slot& slot);
+  void makeRoom(std::unique_lock<std::mutex>& lock, Slot& slot, std::uint64_t bytes);
   bool dropOldest(const Slot& keep);
+  void drop(Slot& slot);
 
   const std::uint64_t Limit;
   Estimate BytesOf;
   Load LoadPiece;
+  Refuse RefusePiece;
   mutable std::mutex Mutex;
   std::condition_variable Changed;
   std::unordered_map<std::size_t, Slot> Slots;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <mutex>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -23,12 +24,6 @@ IdLists joined(const std::vector<std::vector<std::int64_t>>& lists)
     result.Starts.push_back(std::int64_t(result.Ids.size()));
   }
   return result;
-}
-
-void sortUnique(std::vector<std::int64_t>& ids)
-{
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
 } // namespace
@@ -81,7 +76,7 @@ public:
   }
 
   /// Visits the cells at the first points, at those that these reach, and so on, k times. False if
-  /// that leads to a point of another piece. `first` and the result are indices, ascending.
+  /// that leads to a point of another piece. `first`, ascending, and the result are indices.
   bool grow(const std::vector<std::int64_t>& first, int k, bool wantsCells)
   {
     this->Points = first;
@@ -98,6 +93,11 @@ public:
         }
         this->visit(point, wantsCells);
       }
+      if (step + 1 == k) // nothing goes on from there
+      {
+        this->Points.insert(this->Points.end(), this->Next.begin(), this->Next.end());
+        return true;
+      }
       sortUnique(this->Next);
       this->Front.clear();
       std::set_difference(this->Next.begin(), this->Next.end(), this->Points.begin(),
@@ -109,8 +109,8 @@ public:
     return true;
   }
 
-  std::vector<std::int64_t> Points;
-  std::vector<std::int64_t> Cells; ///< with repetitions
+  std::vector<std::int64_t> Points; ///< with repetitions
+  std::vector<std::int64_t> Cells;  ///< with repetitions
 
 private:
   void visit(std::int64_t point, bool wantsCells)
@@ -155,17 +155,14 @@ public:
     }
     std::vector<std::vector<std::int64_t>>& lists =
       this->OfPoints ? this->PointLists : this->CellLists;
-    forChunks(std::int64_t(lists.size()), 1 << 12, threadCount(this->Mesh.options().Threads), {},
-      [&](std::int64_t begin, std::int64_t end, int)
-      {
-        for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
-        {
-          sortUnique(lists[i]);
-          lists[i].erase(
-            std::remove(lists[i].begin(), lists[i].end(), this->Seeds[i]), lists[i].end());
-        }
-      });
-    return joined(lists);
+    for (const std::int64_t item : this->Left)
+    {
+      std::vector<std::int64_t>& list = lists[std::size_t(item)];
+      sortUnique(list);
+      list.erase(std::remove(list.begin(), list.end(), this->Seeds[std::size_t(item)]), list.end());
+      this->Done.push_back({ list, { item }, { std::int64_t(list.size()) } });
+    }
+    return this->joined();
   }
 
 private:
@@ -202,6 +199,41 @@ private:
     this->take(std::move(next));
   }
 
+  /// The complete lists of some items, one after the other.
+  struct Finished
+  {
+    std::vector<std::int64_t> Ids;
+    std::vector<std::int64_t> Items;
+    std::vector<std::int64_t> Ends; ///< in Ids
+  };
+
+  IdLists joined() const
+  {
+    IdLists result;
+    result.Starts.assign(this->Seeds.size() + 1, 0);
+    const auto forLists = [this](const auto& work)
+    {
+      forChunks(std::int64_t(this->Done.size()), 1, threadCount(this->Mesh.options().Threads), {},
+        [&](std::int64_t part, std::int64_t, int)
+        {
+          const Finished& done = this->Done[std::size_t(part)];
+          std::int64_t begin = 0;
+          for (std::size_t i = 0; i < done.Items.size(); ++i)
+          {
+            work(std::size_t(done.Items[i]), done.Ids.data() + begin, done.Ends[i] - begin);
+            begin = done.Ends[i];
+          }
+        });
+    };
+    forLists([&](std::size_t item, const std::int64_t*, std::int64_t count)
+      { result.Starts[item + 1] = count; });
+    std::partial_sum(result.Starts.begin(), result.Starts.end(), result.Starts.begin());
+    result.Ids.resize(std::size_t(result.Starts.back()));
+    forLists([&](std::size_t item, const std::int64_t* ids, std::int64_t count)
+      { std::copy_n(ids, count, result.Ids.begin() + result.Starts[item]); });
+    return result;
+  }
+
   void start(int k)
   {
     const PieceGroups groups = groupsOf(this->Mesh, this->Seeds, this->OfPoints);
@@ -211,41 +243,74 @@ private:
       {
         LocalRing ring(piece);
         std::vector<Reached> reached;
+        std::vector<std::int64_t> left;
+        Finished done;
         std::vector<std::int64_t> corners;
+        constexpr std::int64_t batch = 16;
+        std::int64_t indices[batch];
         for (std::int64_t i = begin; i < end; ++i)
         {
+          const std::int64_t at = (i - begin) % batch;
+          at == 0 ? this->findIndices(piece, groups, i, std::min(i + batch, end), indices) : void();
           const std::int64_t item = groups.Items[std::size_t(i)];
-          const std::int64_t index =
-            indexOf(this->Mesh, *piece.Topology, this->Seeds[std::size_t(item)], this->OfPoints);
-          corners.assign(1, index);
+          corners.assign(1, indices[at]);
           if (!this->OfPoints)
           {
             corners.clear();
             for (int corner = 0; corner < piece.Topology->corners(); ++corner)
             {
-              corners.push_back(piece.Topology->corner(index, corner));
+              corners.push_back(piece.Topology->corner(indices[at], corner));
             }
             sortUnique(corners);
           }
-          ring.grow(corners, k, !this->OfPoints) ? this->take(*piece.Part, ring, std::size_t(item))
-                                                 : this->leave(piece, item, corners, reached);
+          if (ring.grow(corners, k, !this->OfPoints))
+          {
+            this->take(*piece.Part, ring, item, done);
+            continue;
+          }
+          leave(piece, item, corners, reached);
+          left.push_back(item);
         }
         const std::lock_guard<std::mutex> lock(this->Mutex);
         first.insert(first.end(), reached.begin(), reached.end());
+        this->Left.insert(this->Left.end(), left.begin(), left.end());
+        this->Done.push_back(std::move(done));
       });
     this->take(std::move(first));
   }
 
-  void take(const MeshPart& part, const LocalRing& ring, std::size_t item)
+  /// The indices of the seeds of items [begin, end), whose surroundings are fetched meanwhile.
+  void findIndices(const ResidentPiece& piece, const PieceGroups& groups, std::int64_t begin,
+    std::int64_t end, std::int64_t* indices) const
   {
-    for (std::size_t i = 0; i < ring.Points.size() && this->OfPoints; ++i)
+    for (std::int64_t i = begin; i < end; ++i)
     {
-      this->PointLists[item].push_back(part.pointId(ring.Points[i]));
+      const auto item = std::size_t(groups.Items[std::size_t(i)]);
+      indices[i - begin] = indexOf(this->Mesh, *piece.Topology, this->Seeds[item], this->OfPoints);
     }
-    for (const std::int64_t cell : ring.Cells)
+    this->OfPoints ? piece.Topology->prefetch(indices, end - begin) : void();
+  }
+
+  void take(const MeshPart& part, LocalRing& ring, std::int64_t item, Finished& done) const
+  {
+    std::vector<std::int64_t>& list = this->OfPoints ? ring.Points : ring.Cells;
+    sortUnique(list);
+    const std::int64_t seed = this->Seeds[std::size_t(item)];
+    const std::size_t begin = done.Ids.size();
+    for (const std::int64_t index : list)
     {
-      this->CellLists[item].push_back(part.cellId(cell));
+      const std::int64_t id = this->OfPoints ? part.pointId(index) : part.cellId(index);
+      id != seed ? done.Ids.push_back(id) : void();
     }
+    if (this->OfPoints ? part.PointIds : part.CellIds)
+    {
+      std::sort(done.Ids.begin() + std::ptrdiff_t(begin), done.Ids.end());
+    }
+    // Pieces that a cell was cut into have one id.
+    done.Ids.erase(
+      std::unique(done.Ids.begin() + std::ptrdiff_t(begin), done.Ids.end()), done.Ids.end());
+    done.Items.push_back(item);
+    done.Ends.push_back(std::int64_t(done.Ids.size()));
   }
 
   /// Leaves a seed to grow().
@@ -317,6 +382,8 @@ private:
   const bool OfPoints;
   std::mutex Mutex;
   std::vector<Reached> Front;
+  std::vector<Finished> Done;
+  std::vector<std::int64_t> Left; ///< items whose rings go beyond their piece; the others have no:
   std::vector<std::vector<std::int64_t>> PointLists; ///< of each seed, ascending
   std::vector<std::vector<std::int64_t>> CellLists;  ///< of each seed, with repetitions
 };

@@ -44,6 +44,8 @@ namespace tipp
   X(GDALSetSpatialRef)                                                                             \
   X(OGR_F_Create)                                                                                  \
   X(OGR_F_Destroy)                                                                                 \
+  X(OGR_F_GetFieldAsString)                                                                        \
+  X(OGR_F_GetFieldIndex)                                                                           \
   X(OGR_F_GetGeometryRef)                                                                          \
   X(OGR_F_SetFieldDouble)                                                                          \
   X(OGR_F_SetGeometryDirectly)                                                                     \

@@ -2,15 +2,21 @@
 #include "Binding.h"
 
 #include "Query/Around.h"
+#include "Query/Closest.h"
 #include "Query/Lines.h"
 #include "Query/ResidentMesh.h"
+#include "Query/Zones.h"
 
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace tipp::python
@@ -49,6 +55,36 @@ std::vector<std::int64_t> idsOf(const InputArray& ids)
 nb::tuple listsOf(const IdLists& lists)
 {
   return nb::make_tuple(copied(lists.Starts), copied(lists.Ids));
+}
+
+/// Of polygons: (n, 2) corners, where each ring begins and the end, its zone, whether it is a hole.
+using RingArrays = std::tuple<InputArray, InputArray, InputArray, InputArray>;
+
+std::vector<Zone> zonesOf(const RingArrays& rings, std::size_t count)
+{
+  const auto* const corners = static_cast<const Point2*>(std::get<0>(rings).data());
+  const std::vector<std::int64_t> starts = idsOf(std::get<1>(rings));
+  const std::vector<std::int64_t> zoneOf = idsOf(std::get<2>(rings));
+  const std::vector<std::int64_t> holes = idsOf(std::get<3>(rings));
+  std::vector<Zone> zones(count);
+  for (std::size_t i = 0; i < zoneOf.size(); ++i)
+  {
+    zones[std::size_t(zoneOf[i])].push_back(
+      { { corners + starts[i], corners + starts[i + 1] }, holes[i] != 0 });
+  }
+  return zones;
+}
+
+Region regionOf(const std::vector<double>& box, const std::optional<RingArrays>& rings)
+{
+  Region region;
+  std::copy_n(box.begin(), 6, region.Box.begin());
+  region.Polygons = rings ? zonesOf(*rings, 1)[0] : Zone();
+  if (rings && region.Polygons.empty())
+  {
+    throw std::runtime_error("there are no polygons.");
+  }
+  return region;
 }
 
 /// Answers queries with NumPy arrays, which the Python side has checked: points of shape (n, 3) and
@@ -146,8 +182,53 @@ public:
     const auto* const first = static_cast<const Point3*>(polyline.data());
     const std::vector<Point3> points(first, first + polyline.shape(0));
     Profile found = withoutLock([&] { return profileOf(*this->Mesh, points, spacing, names); });
-    return nb::make_tuple(copied(found.Distances), positionsOf(found.Points, 2),
-      copied(found.Answer.Cells), valuesOf(found.Answer));
+    return nb::make_tuple(copied(found.Distances),
+      positionsOf(found.Points, this->Mesh->mesh().CellSize - 1), copied(found.Answer.Cells),
+      valuesOf(found.Answer));
+  }
+
+  nb::tuple closest(const InputArray& points) const
+  {
+    const ClosestLocations found = withoutLock(
+      [&]
+      {
+        return closestTo(
+          *this->Mesh, static_cast<const Point3*>(points.data()), std::int64_t(points.shape(0)));
+      });
+    return nb::make_tuple(
+      copied(found.Cells), positionsOf(found.Points, 3), copied(found.Distances));
+  }
+
+  nb::object cells(
+    const std::vector<double>& box, const std::optional<RingArrays>& rings, bool whole) const
+  {
+    const Region region = regionOf(box, rings);
+    return copied(withoutLock([&] { return cellsIn(*this->Mesh, region, whole); }));
+  }
+  nb::object points(const std::vector<double>& box, const std::optional<RingArrays>& rings) const
+  {
+    const Region region = regionOf(box, rings);
+    return copied(withoutLock([&] { return pointsIn(*this->Mesh, region); }));
+  }
+
+  nb::tuple zones(const RingArrays& rings, std::size_t count, const std::string& array,
+    int component, double level) const
+  {
+    const std::vector<Zone> given = zonesOf(rings, count);
+    const ZoneStatistics found =
+      withoutLock([&] { return statisticsOf(*this->Mesh, given, array, component, level); });
+    return nb::make_tuple(copied(found.Cells), copied(found.Area), copied(found.Low),
+      copied(found.High), copied(found.Mean), copied(found.Sum), copied(found.Above));
+  }
+
+  nb::tuple descend(const InputArray& points, const std::string& array, int component) const
+  {
+    const auto* const first = static_cast<const Point3*>(points.data());
+    const std::vector<Point3> from(first, first + points.shape(0));
+    const Descents found =
+      withoutLock([&] { return descentsOf(*this->Mesh, from, array, component); });
+    return nb::make_tuple(
+      copied(found.Starts), positionsOf(found.Points, 3), copied(found.Values), copied(found.Pits));
   }
 
   nb::tuple components() const
@@ -221,6 +302,11 @@ void addQueryClass(nb::module_& module)
     .def("boundary", &Query::boundary)
     .def("contours", &Query::contours)
     .def("profile", &Query::profile)
+    .def("closest", &Query::closest)
+    .def("cells_in", &Query::cells)
+    .def("points_in", &Query::points)
+    .def("zones", &Query::zones)
+    .def("descend", &Query::descend)
     .def("components", &Query::components);
 }
 

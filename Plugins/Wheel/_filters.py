@@ -356,6 +356,78 @@ class vtkPartitionedUnstructuredWriter(Filter):
         self._is_written = True
 
 
+class vtkPartitionedMeshQuery(Filter):
+    """The values of a mesh at the points of a data set, which the output has the structure of. The mesh is the second
+    input, the source, as in vtkProbeFilter; or FileName, a partitioned mesh on disk of any size."""
+
+    PROPERTIES = {
+        "FileName": "", "MemoryLimit": _GIGABYTE, "Step": 0, "NullValue": 0.0, "PassPointArrays": False,
+        "PassCellArrays": False, "PassFieldArrays": True, "ValidPointMaskArrayName": "vtkValidPointMask",
+        "NumberOfThreads": 0,
+    }
+    LIMITS = {"MemoryLimit": (1, None), "Step": (0, None), "NumberOfThreads": (0, 4096)}
+    LIST = "Array"
+    INPUTS = ("vtkDataSet", "vtkPointSet")
+    OPTIONAL_INPUTS = (1,)
+    OUTPUTS = ("vtkDataSet",)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._opened: tuple[Any, Any] = (None, None)
+
+    def SetSourceData(self, source: Any) -> None:
+        self.SetInputDataObject(1, source)
+
+    def SetSourceConnection(self, port: Any) -> None:
+        self.SetInputConnection(1, port)
+
+    def GetSource(self) -> Any:
+        return self.GetInputDataObject(1, 0) if self.GetNumberOfInputConnections(1) else None
+
+    def RequestDataObject(self, _request: Any, inputs: Any, outputs: Any) -> int:
+        points, information = vtkDataSet.GetData(inputs[0]), outputs.GetInformationObject(0)
+        before = information.Get(vtkDataObject.DATA_OBJECT())
+        if points is not None and (before is None or before.GetClassName() != points.GetClassName()):
+            information.Set(vtkDataObject.DATA_OBJECT(), points.NewInstance())
+        return 1
+
+    def _mesh(self, source: Any) -> Any:
+        """The mesh, which is opened again only if it has been changed."""
+        options = {"memory": self.value("MemoryLimit"), "step": self.value("Step"),
+                   "threads": self.value("NumberOfThreads")}
+        key = (self.value("FileName") or (source, source and source.GetMTime()), options)
+        if not self.value("FileName") and source is None:
+            raise RuntimeError("there is neither a source nor a FileName; set one.")
+        if self._opened[0] != key:
+            self._opened = (key, _native_engine.open_mesh(self.value("FileName") or source, options))
+        return self._opened[1]
+
+    def execute(self, inputs: Any, outputs: Any) -> None:
+        asked = vtkDataSet.GetData(inputs[0])
+        is_there = inputs[1].GetNumberOfInformationObjects() > 0
+        mesh = self._mesh(vtkPointSet.GetData(inputs[1]) if is_there else None)
+        points = np.zeros((asked.GetNumberOfPoints(), 3))
+        if asked.IsA("vtkPointSet"):
+            points[:] = xyz_of(asked)
+        else:
+            for i in range(len(points)):
+                points[i] = asked.GetPoint(i)
+        cells, _ = mesh.locate(points)
+        values = mesh.interpolate(points, self.texts or mesh.names())
+        output = vtkDataSet.GetData(outputs, 0)
+        output.CopyStructure(asked)
+        for kind in ("Point", "Cell", "Field"):
+            if self.value(f"Pass{kind}Arrays"):
+                getattr(output, f"Get{kind}Data")().ShallowCopy(getattr(asked, f"Get{kind}Data")())
+        for name, array in values.items():
+            if array.dtype.kind == "f":
+                array[cells < 0] = self.value("NullValue")
+            output.GetPointData().AddArray(vtk_array(name, array))
+        output.GetPointData().AddArray(vtk_array("CellId", cells))
+        mask = (cells >= 0).astype(np.int8)
+        output.GetPointData().AddArray(vtk_array(self.value("ValidPointMaskArrayName"), mask))
+
+
 class vtkTIPPPointReader(Filter):
     """Reads points from files: .las, .npy, .csv, .xyz; of .laz files where this build has LASzip or laspy is
     installed. The output is a vtkPolyData."""

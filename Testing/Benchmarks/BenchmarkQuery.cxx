@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Queries beside vtkProbeFilter, vtkContourFilter and resampling; see
-// Utilities/benchmarks/query.sh. Arguments: memory POINTS QUERIES REPEAT [peers], or stored MESH
-// QUERIES MEGABYTES.
+// Utilities/benchmarks/query.sh. Arguments: probe, order or rings, then POINTS QUERIES REPEAT;
+// contours POINTS REPEAT; or stored MESH QUERIES MEGABYTES.
 #include "ResampleSubjects.h"
 
 #include "Query/Around.h"
@@ -29,6 +29,7 @@
 #include <string>
 #include <vector>
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 using namespace tipp;
@@ -113,107 +114,153 @@ std::vector<Point3> inOrder(int side, const double* bounds)
   return points;
 }
 
-void benchmarkMemory(std::int64_t count, std::int64_t queries, int repeat, bool withPeers)
+/// A mesh of uniform points with two arrays, and the rows that ask it.
+class MemoryRows
 {
-  const vtkSmartPointer<vtkPointSet> mesh = surface("uniform", count);
-  addArrays(mesh);
-  std::vector<std::string> names;
-  for (int i = 0; i < mesh->GetPointData()->GetNumberOfArrays(); ++i)
+public:
+  explicit MemoryRows(std::int64_t points)
+    : Mesh(surface("uniform", points))
   {
-    names.emplace_back(mesh->GetPointData()->GetArrayName(i));
-  }
-  std::printf("%lld triangles, %lld points, two arrays\n\n| what | time | processor | found |\n"
-              "|---|---|---|---|\n",
-    static_cast<long long>(mesh->GetNumberOfCells()), static_cast<long long>(queries));
-  double bounds[6];
-  mesh->GetBounds(bounds);
-  const std::vector<Point3> asked = scattered(queries, bounds);
-  AnswerOptions options;
-  options.Arrays = names;
-  row("scattered points, with the locator", repeat,
-    [&]
+    addArrays(this->Mesh);
+    for (int i = 0; i < this->Mesh->GetPointData()->GetNumberOfArrays(); ++i)
     {
-      const ResidentMesh resident(partOf(mesh, 0));
-      return hits(resident.answer(asked.data(), queries, options));
-    });
-  const ResidentMesh resident(partOf(mesh, 0));
-  resident.answer(asked.data(), queries, options);
-  row("scattered points, once more", repeat,
-    [&] { return hits(resident.answer(asked.data(), queries, options)); });
-  const int side = int(std::sqrt(double(queries)));
-  const std::vector<Point3> ordered = inOrder(side, bounds);
-  row("points in order", repeat,
-    [&] { return hits(resident.answer(ordered.data(), std::int64_t(ordered.size()), options)); });
-  row("a grid of as many samples, resampled", repeat,
-    [&]
-    {
-      vtkNew<vtkRangeResampleFilter> filter;
-      filter->SetInputData(mesh);
-      filter->SetDevice(vtkRangeResampleFilter::DEVICE_OPENMP);
-      filter->SetSamplingDimensions(side, side, 1);
-      filter->Update();
-      return std::int64_t(hitsOf(filter->GetOutput()));
-    });
-  std::vector<std::int64_t> ids;
-  for (std::int64_t i = 0; i < std::min<std::int64_t>(1000000, count); ++i)
-  {
-    ids.push_back(i);
+      this->Options.Arrays.emplace_back(this->Mesh->GetPointData()->GetArrayName(i));
+    }
+    this->Mesh->GetBounds(this->Bounds);
+    std::printf("%lld triangles, two arrays\n\n| what | time | processor | found |\n"
+                "|---|---|---|---|\n",
+      static_cast<long long>(this->Mesh->GetNumberOfCells()));
   }
-  neighborsOf(resident, { 0 });
-  row(std::to_string(ids.size()) + " one-rings of points", repeat,
-    [&] { return std::int64_t(ringsOfPoints(resident, ids, 1).Ids.size()); });
-  row("neighbours of as many cells", repeat,
-    [&] { return std::int64_t(neighborsOf(resident, ids).size()); });
-  std::vector<double> levels;
-  double range[2];
-  mesh->GetPointData()->GetArray(0)->GetRange(range);
-  for (int i = 1; i <= 10; ++i)
+
+  void probe(std::int64_t queries, int repeat) const
   {
-    levels.push_back(range[0] + (range[1] - range[0]) * i / 11);
-  }
-  row("contours of ten levels", repeat,
-    [&] { return std::int64_t(contoursOf(resident, names[0], 0, levels).Points.size()); });
-  if (!withPeers)
-  {
-    return;
-  }
-  row("vtkContourFilter", 1,
-    [&]
-    {
-      vtkNew<vtkContourFilter> filter;
-      filter->SetInputData(mesh);
-      filter->SetInputArrayToProcess(
-        0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, names[0].c_str());
-      for (std::size_t i = 0; i < levels.size(); ++i)
+    const std::vector<Point3> asked = scattered(queries, this->Bounds);
+    row("scattered points, with the locator", repeat,
+      [&]
       {
-        filter->SetValue(int(i), levels[i]);
-      }
-      filter->Update();
-      return std::int64_t(filter->GetOutput()->GetNumberOfPoints());
-    });
-  const vtkSmartPointer<vtkPolyData> input = asPolyData(asked);
-  row("vtkPartitionedMeshQuery, with its locator", 1,
-    [&]
+        const ResidentMesh resident(partOf(this->Mesh, 0));
+        return hits(resident.answer(asked.data(), queries, this->Options));
+      });
+    const ResidentMesh resident(partOf(this->Mesh, 0));
+    resident.answer(asked.data(), queries, this->Options);
+    row("scattered points, once more", repeat,
+      [&] { return hits(resident.answer(asked.data(), queries, this->Options)); });
+    const vtkSmartPointer<vtkPolyData> input = asPolyData(asked);
+    row("vtkPartitionedMeshQuery, with its locator", 1,
+      [&]
+      {
+        vtkNew<vtkPartitionedMeshQuery> query;
+        query->SetInputData(input);
+        query->SetSourceData(this->Mesh);
+        query->Update();
+        return std::int64_t(hitsOf(vtkDataSet::SafeDownCast(query->GetOutput())));
+      });
+    row("vtkProbeFilter, with its locator", 1,
+      [&]
+      {
+        vtkNew<vtkProbeFilter> probe;
+        probe->SetInputData(input);
+        probe->SetSourceData(this->Mesh);
+        probe->Update();
+        return std::int64_t(hitsOf(probe->GetOutput()));
+      });
+  }
+
+  void order(std::int64_t queries, int repeat) const
+  {
+    const int side = int(std::sqrt(double(queries)));
+    const std::vector<Point3> ordered = inOrder(side, this->Bounds);
+    const auto count = std::int64_t(ordered.size());
+    row("points in order, with the locator", repeat,
+      [&]
+      {
+        const ResidentMesh resident(partOf(this->Mesh, 0));
+        return hits(resident.answer(ordered.data(), count, this->Options));
+      });
+    const ResidentMesh resident(partOf(this->Mesh, 0));
+    resident.answer(ordered.data(), count, this->Options);
+    row("points in order, once more", repeat,
+      [&] { return hits(resident.answer(ordered.data(), count, this->Options)); });
+    row("a grid of as many samples, resampled", repeat,
+      [&]
+      {
+        vtkNew<vtkRangeResampleFilter> filter;
+        filter->SetInputData(this->Mesh);
+        filter->SetDevice(vtkRangeResampleFilter::DEVICE_OPENMP);
+        filter->SetSamplingDimensions(side, side, 1);
+        filter->Update();
+        return std::int64_t(hitsOf(filter->GetOutput()));
+      });
+  }
+
+  void rings(std::int64_t queries, int repeat) const
+  {
+    std::vector<std::int64_t> ids;
+    for (std::int64_t i = 0; i < std::min(queries, std::int64_t(this->Mesh->GetNumberOfPoints()));
+         ++i)
     {
-      vtkNew<vtkPartitionedMeshQuery> query;
-      query->SetInputData(input);
-      query->SetSourceData(mesh);
-      query->Update();
-      return std::int64_t(hitsOf(vtkDataSet::SafeDownCast(query->GetOutput())));
-    });
-  row("vtkProbeFilter, with its locator", 1,
-    [&]
+      ids.push_back(i);
+    }
+    const ResidentMesh resident(partOf(this->Mesh, 0));
+    neighborsOf(resident, { 0 });
+    const std::string count = std::to_string(ids.size());
+    row(count + " one-rings of points", repeat,
+      [&] { return std::int64_t(ringsOfPoints(resident, ids, 1).Ids.size()); });
+    row(count + " two-rings of points", repeat,
+      [&] { return std::int64_t(ringsOfPoints(resident, ids, 2).Ids.size()); });
+    row(count + " one-rings of cells", repeat,
+      [&] { return std::int64_t(ringsOfCells(resident, ids, 1).Ids.size()); });
+    row("neighbours of " + count + " cells", repeat,
+      [&] { return std::int64_t(neighborsOf(resident, ids).size()); });
+  }
+
+  void contours(int repeat) const
+  {
+    const std::string& name = this->Options.Arrays[0];
+    double range[2];
+    this->Mesh->GetPointData()->GetArray(name.c_str())->GetRange(range);
+    const std::vector<double> levels = tenLevels(range[0], range[1]);
+    row("contours of ten levels", repeat,
+      [&]
+      {
+        const ResidentMesh resident(partOf(this->Mesh, 0));
+        return std::int64_t(contoursOf(resident, name, 0, levels).Points.size());
+      });
+    row("vtkContourFilter", 1,
+      [&]
+      {
+        vtkNew<vtkContourFilter> filter;
+        filter->SetInputData(this->Mesh);
+        filter->SetInputArrayToProcess(
+          0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name.c_str());
+        for (std::size_t i = 0; i < levels.size(); ++i)
+        {
+          filter->SetValue(int(i), levels[i]);
+        }
+        filter->Update();
+        return std::int64_t(filter->GetOutput()->GetNumberOfPoints());
+      });
+  }
+
+  static std::vector<double> tenLevels(double low, double high)
+  {
+    std::vector<double> levels;
+    for (int i = 1; i <= 10; ++i)
     {
-      vtkNew<vtkProbeFilter> probe;
-      probe->SetInputData(input);
-      probe->SetSourceData(mesh);
-      probe->Update();
-      return std::int64_t(hitsOf(probe->GetOutput()));
-    });
-}
+      levels.push_back(low + (high - low) * i / 11);
+    }
+    return levels;
+  }
+
+private:
+  vtkSmartPointer<vtkPointSet> Mesh;
+  AnswerOptions Options;
+  double Bounds[6];
+};
 
 void benchmarkStored(const std::string& path, std::int64_t queries, std::uint64_t megabytes)
 {
+  mallopt(M_MMAP_THRESHOLD, 1 << 20); // as tipp query does
   ResidentOptions options;
   options.MemoryLimit = megabytes << 20;
   const ResidentMesh mesh(path, options);
@@ -231,20 +278,9 @@ void benchmarkStored(const std::string& path, std::int64_t queries, std::uint64_
   const std::vector<Point3> near = scattered(queries, region);
   row("points of one region, 2 % of each side", 3,
     [&] { return hits(mesh.answer(near.data(), queries)); });
-  if (!mesh.mesh().Arrays.empty() || mesh.mesh().CellSize == 3)
-  {
-    const std::string name = mesh.names().front();
-    row("contours of ten levels", 1,
-      [&]
-      {
-        std::vector<double> levels;
-        for (int i = 1; i <= 10; ++i)
-        {
-          levels.push_back(domain[4] + (domain[5] - domain[4]) * i / 11);
-        }
-        return std::int64_t(contoursOf(mesh, name, 0, levels).Points.size());
-      });
-  }
+  const std::vector<double> levels = MemoryRows::tenLevels(domain[4], domain[5]);
+  row("contours of ten levels", 1,
+    [&] { return std::int64_t(contoursOf(mesh, "elevation", 0, levels).Points.size()); });
   rusage usage = {};
   getrusage(RUSAGE_SELF, &usage);
   std::printf("\npeak memory %ld MB, %lld pieces loaded\n", usage.ru_maxrss / 1024,
@@ -256,19 +292,29 @@ void benchmarkStored(const std::string& path, std::int64_t queries, std::uint64_
 int main(int argc, char* argv[])
 {
   const std::string what = argc > 1 ? argv[1] : "";
-  if (what == "memory" && argc >= 5)
+  const auto number = [&](int i) { return std::atoll(argv[i]); };
+  if ((what == "probe" || what == "order" || what == "rings") && argc == 5)
   {
-    benchmarkMemory(std::atoll(argv[2]), std::atoll(argv[3]), std::atoi(argv[4]),
-      argc > 5 && argv[5] == std::string("peers"));
+    const MemoryRows rows(number(2));
+    const int repeat = int(number(4));
+    what == "probe"     ? rows.probe(number(3), repeat)
+      : what == "order" ? rows.order(number(3), repeat)
+                        : rows.rings(number(3), repeat);
+    return 0;
+  }
+  if (what == "contours" && argc == 4)
+  {
+    MemoryRows(number(2)).contours(int(number(3)));
     return 0;
   }
   if (what == "stored" && argc == 5)
   {
-    benchmarkStored(argv[2], std::atoll(argv[3]), std::strtoull(argv[4], nullptr, 10));
+    benchmarkStored(argv[2], number(3), std::uint64_t(number(4)));
     return 0;
   }
   std::fprintf(stderr,
-    "benchmarkQuery memory POINTS QUERIES REPEAT [peers]\n"
+    "benchmarkQuery probe|order|rings POINTS QUERIES REPEAT\n"
+    "benchmarkQuery contours POINTS REPEAT\n"
     "benchmarkQuery stored MESH QUERIES MEGABYTES\n");
   return 2;
 }

@@ -33,12 +33,18 @@ raster = TIPPPointsToImage(Input=Plane(XResolution=10, YResolution=10), Resoluti
 raster.UpdatePipeline()
 print("raster:", raster.GetDataInformation().GetExtent(), sorted(raster.PointData.keys()))
 
+asked = Plane(XResolution=3, YResolution=3, Origin=(-0.4, -0.4, 0), Point1=(0.4, -0.4, 0), Point2=(-0.4, 0.9, 0))
+sampled = TIPPMeshQuery(Input=asked, Source=Elevation(Input=points, LowPoint=(-0.5, 0, 0), HighPoint=(0.5, 0, 0)))
+sampled.UpdatePipeline()
+print("queried:", sorted(sampled.PointData.keys()), sampled.PointData["vtkValidPointMask"].GetRange())
+
 from tipp import vtkTIPPDelaunay2D, vtkTIPPRangeReader
 print("wrapped:", vtkTIPPDelaunay2D().GetClassName(), vtkTIPPRangeReader().GetUseRange())
 
 definitions = servermanager.ProxyManager().SMProxyManager.GetProxyDefinitionManager()
 for group, name in (("sources", "TIPPReader"), ("writers", "TIPPWriter"), ("filters", "TIPPDelaunay2D"),
-                    ("sources", "TIPPOutOfCoreDelaunay2D"), ("filters", "RangeResample"), ("filters", "TIPPPointsToImage")):
+                    ("sources", "TIPPOutOfCoreDelaunay2D"), ("filters", "RangeResample"), ("filters", "TIPPPointsToImage"),
+                    ("filters", "TIPPMeshQuery")):
     proxy = servermanager.ProxyManager().NewProxy(group, name)
     names = servermanager.PropertyIterator(servermanager._getPyProxy(proxy))
     bare = [p.GetXMLName() for p in names if not (p.GetDocumentation() and p.GetDocumentation().GetDescription())]
@@ -68,6 +74,9 @@ EXPECTED = [
     "unseen of RangeResample: []",
     "undocumented of TIPPPointsToImage: []",
     "unseen of TIPPPointsToImage: []",
+    "undocumented of TIPPMeshQuery: []",
+    "unseen of TIPPMeshQuery: []",
+    "queried: ['CellId', 'Elevation', 'Normals', 'TextureCoordinates', 'elevation', 'vtkValidPointMask'] (0.0, 1.0)",
     "raster: (0, 9, 0, 9, 0, 0) ['elevation', 'slope']",
 ]
 

@@ -72,6 +72,154 @@ class Query(unittest.TestCase):
             for values in found:
                 np.testing.assert_array_equal(values, expected)
 
+    def test_sixteen_threads_ask_all_questions(self):
+        box = (0.2, 0.7, 0.1, 0.6)
+        square = [(0.15, 0.2), (0.8, 0.25), (0.5, 0.9)]
+        questions = [
+            lambda m: m.locate(self.asked)[0],
+            lambda m: m.interpolate(self.asked, "height"),
+            lambda m: m.closest(self.asked).distances,
+            lambda m: m.neighbors(np.arange(50)),
+            lambda m: m.ring(points=[5], k=3)[0],
+            lambda m: m.boundary()[0],
+            lambda m: m.components()[0],
+            lambda m: np.concatenate([line for _, line in m.contours([-0.5, 0.25], "height")]),
+            lambda m: m.profile([(0.2, 0.3), (0.7, 0.6)], 0, "height").distances,
+            lambda m: m.descend(self.asked[:20], "height")[3].points,
+            lambda m: m.cells_in(box=box),
+            lambda m: m.points_in(polygon=square),
+            lambda m: np.array(m.zones([square], "height")),
+        ]
+        with tipp.open(self.path, memory="64K", threads=1) as mesh, tipp.open(self.mesh) as whole:
+            expected = [ask(whole) for ask in questions]
+            failures = []
+
+            def work(i):
+                for k in range(len(questions)):
+                    number = (i + k) % len(questions)
+                    try:
+                        np.testing.assert_array_equal(questions[number](mesh), expected[number])
+                    except Exception as error:  # pylint: disable=broad-except
+                        failures.append((number, error))
+
+            threads = [threading.Thread(target=work, args=(i,)) for i in range(16)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            self.assertEqual(failures, [])
+
+    def test_closest_locations(self):
+        far = np.array([[-1.0, 0.5], [0.5, 3.0], [0.5, 0.5], [np.nan, 0.0]])
+        with tipp.open(self.path) as mesh, tipp.open(self.mesh) as whole:
+            ours, theirs = mesh.closest(self.asked), whole.closest(self.asked)
+            for one, other in zip(ours, theirs):
+                np.testing.assert_array_equal(one, other)
+            inside = mesh.locate(self.asked)[0] >= 0
+            np.testing.assert_array_equal(ours.distances == 0, inside)
+            apart = np.hypot(*(ours.points[:, :2] - self.asked).T)
+            np.testing.assert_allclose(apart, ours.distances, atol=1e-12)
+            # No point of the border is nearer.
+            border = self.points[mesh.boundary()[0]]
+            for point, distance in zip(self.asked[~inside], ours.distances[~inside]):
+                self.assertLessEqual(distance, np.hypot(*(border - point).T).min() + 1e-12)
+            found = mesh.closest(far)
+            np.testing.assert_array_equal(found.cells < 0, [False, False, False, True])
+            self.assertEqual(found.distances[3], np.inf)
+            self.assertTrue((found.distances[:2] > 0.9).all())
+
+    def test_regions(self):
+        triangles = tipp.delaunay(self.points)
+        x, y = self.points.T
+        with tipp.open(self.path) as mesh:
+            inside = (0.25 <= x) & (x <= 0.5) & (0.3 <= y) & (y <= 0.9)
+            corners = [(0.25, 0.3), (0.5, 0.3), (0.5, 0.9), (0.25, 0.9)]
+            for region in ({"box": (0.25, 0.5, 0.3, 0.9)}, {"polygon": corners}, {"polygon": np.array(corners)[::-1]}):
+                np.testing.assert_array_equal(mesh.points_in(**region), np.flatnonzero(inside))
+                whole = mesh.cells_in(**region, whole=True)
+                np.testing.assert_array_equal(whole, np.flatnonzero(inside[triangles].all(axis=1)))
+                self.assertTrue(set(whole) < set(mesh.cells_in(**region)))
+            with self.assertRaises(ValueError):
+                mesh.cells_in()
+            with self.assertRaisesRegex(ValueError, "3 bounds"):
+                mesh.cells_in(box=(0, 1, 2))
+            with self.assertRaisesRegex(RuntimeError, "cross"):
+                mesh.cells_in(polygon=[(0, 0), (1, 1), (1, 0), (0, 1)])
+
+    def test_zones_have_the_volumes_of_a_plane(self):
+        outer = [(0.2, 0.2), (0.8, 0.2), (0.8, 0.7), (0.2, 0.7)]
+        hole = np.array([(0.4, 0.3), (0.6, 0.3), (0.6, 0.6), (0.4, 0.6)])
+        with tipp.open(self.path) as mesh, tipp.open(self.mesh) as whole:
+            zones = mesh.zones([outer, [outer, hole], [(5, 5), (6, 5), (6, 6)]], "height", level=-0.2)
+            for ours, theirs in zip(zones, whole.zones([outer, [outer, hole], [(5, 5), (6, 5), (6, 6)]], "height",
+                                                       level=-0.2)):
+                np.testing.assert_array_equal(ours, theirs)
+            np.testing.assert_allclose(zones.area, [0.3, 0.24, 0], atol=1e-14)
+            np.testing.assert_allclose(zones.integral, [0.3 * (0.5 - 0.9), 0.3 * -0.4 - 0.06 * -0.4, 0], atol=1e-14)
+            np.testing.assert_allclose(zones.minimum[:2], [0.2 - 1.4] * 2, atol=1e-12)
+            np.testing.assert_allclose(zones.maximum[:2], [0.8 - 0.4] * 2, atol=1e-12)
+            np.testing.assert_allclose(zones.mean[:2], zones.integral[:2] / zones.area[:2])
+            # Above -0.2 is what lies right of the line from (0.2, 0.2) to (0.8, 0.5): a triangle, 0.6 high at the end.
+            self.assertAlmostEqual(zones.volume_above[0], 0.6 * 0.3 / 2 * 0.2)
+            self.assertTrue(np.isnan(zones.mean[2]))
+            self.assertEqual(zones.cells[2], 0)
+            self.assertEqual(mesh.zones([], "height").area.shape, (0,))
+
+    def test_zones_of_shapely(self):
+        if not importlib.util.find_spec("shapely"):
+            self.skipTest("shapely is not installed")
+        from shapely.geometry import LineString, MultiPolygon, Polygon
+
+        one = Polygon([(0.2, 0.2), (0.8, 0.3), (0.5, 0.8)], [[(0.45, 0.4), (0.55, 0.4), (0.5, 0.5)]])
+        two = Polygon([(0.85, 0.2), (0.95, 0.2), (0.9, 0.6)])
+        with tipp.open(self.path) as mesh:
+            zones = mesh.zones([one, two, MultiPolygon([one, two])], "height")
+            np.testing.assert_allclose(zones.area, [one.area, two.area, one.area + two.area], rtol=1e-12)
+            with self.assertRaises(TypeError):
+                mesh.zones([LineString([(0, 0), (1, 1)])], "height")
+
+    def test_descents_of_a_plane_end_at_its_lowest_point(self):
+        with tipp.open(self.path) as mesh, tipp.open(self.mesh) as whole:
+            ours, theirs = mesh.descend(self.asked[:200], "height"), whole.descend(self.asked[:200], "height")
+            self.assertEqual(len(ours), 200)
+            inside = mesh.locate(self.asked[:200])[0] >= 0
+            for line, other, is_inside in zip(ours, theirs, inside):
+                np.testing.assert_array_equal(line.points, other.points)
+                self.assertEqual(line.pit, other.pit)
+                self.assertEqual(len(line.points) > 0, is_inside)
+                self.assertTrue((np.diff(line.values) <= 0).all())
+                np.testing.assert_allclose(line.values, line.points[:, 0] - 2 * line.points[:, 1], atol=1e-9)
+            pits = {line.pit for line in ours if len(line.points)}
+            self.assertTrue(pits <= set(mesh.boundary()[0].tolist()))
+
+    def test_contours_are_those_of_vtk_contour_filter(self):
+        from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+        from vtkmodules.vtkFiltersCore import vtkContourFilter
+
+        wave = np.sin(9 * self.points[:, 0]) * np.cos(7 * self.points[:, 1])
+        surface = tipp.delaunay_2d(self.points, point_data={"wave": wave})
+        levels = [-0.71, -0.3, 0.123, 0.5]
+        ours = tipp.open(surface).contours(levels, "wave")
+        theirs = vtkContourFilter()
+        theirs.SetInputData(surface)
+        theirs.SetInputArrayToProcess(0, 0, 0, 0, "wave")
+        theirs.SetOutputPointsPrecision(1)
+        for level in levels:
+            theirs.SetValue(0, level)
+            theirs.Update()
+            lines = theirs.GetOutput()
+            ends = vtk_to_numpy(lines.GetPoints().GetData())[vtk_to_numpy(
+                lines.GetLines().GetConnectivityArray()).reshape(-1, 2)]
+            found = [line for l, line in ours if l == level]
+            middles = np.concatenate([(line[1:] + line[:-1]) / 2 for line in found])
+            expected = ends.mean(axis=1)
+            self.assertEqual(len(middles), len(expected))
+
+            def ordered(points):
+                return points[np.lexsort(np.round(points[:, :2], 7).T)]
+
+            np.testing.assert_allclose(ordered(middles)[:, :2], ordered(expected)[:, :2], atol=1e-6)
+
     def test_what_lies_around(self):
         triangles = tipp.delaunay(self.points)
         with tipp.open(self.path) as mesh:

@@ -160,6 +160,33 @@ class Meshes(unittest.TestCase):
         self.assertLess(reader.GetOutput().GetNumberOfCells(), count / 3)
         self.assertFalse(reader.GetOutput().GetPointData().HasArray("height"))
 
+    def test_a_query_answers_in_memory_and_from_the_disk(self):
+        writer = tipp.vtkPartitionedUnstructuredWriter()
+        writer.SetInputConnection(self.triangulation.GetOutputPort())
+        writer.SetFileName(self.path)
+        self.assertEqual(1, writer.Write())
+        asked = point_cloud(np.random.default_rng(4).random((200, 3)) * 1.4 - 0.2, {"own": np.arange(200.0)})
+        query = tipp.vtkPartitionedMeshQuery()
+        query.SetInputData(asked)
+        query.SetSourceConnection(self.triangulation.GetOutputPort())
+        query.SetNullValue(-3)
+        query.PassPointArraysOn()
+        query.Update()
+        of_memory = query.GetOutput()
+        self.assertIsInstance(of_memory, vtkPolyData)
+        query.SetFileName(self.path)
+        query.AddArray("height")
+        query.Update()
+        of_disk = query.GetOutput().GetPointData()
+        self.assertFalse(of_disk.HasArray("elevation"))
+        for name in ("height", "CellId", "vtkValidPointMask", "own"):
+            np.testing.assert_array_equal(vtk_to_numpy(of_memory.GetPointData().GetArray(name)),
+                                          vtk_to_numpy(of_disk.GetArray(name)))
+        outside = vtk_to_numpy(of_disk.GetArray("CellId")) < 0
+        self.assertTrue(outside.any() and not outside.all())
+        np.testing.assert_array_equal(-3, vtk_to_numpy(of_disk.GetArray("height"))[outside])
+        np.testing.assert_array_equal(outside, vtk_to_numpy(of_disk.GetArray("vtkValidPointMask")) == 0)
+
     def test_points_in_files_are_read_and_triangulated_out_of_core(self):
         np.save(self.points, np.random.default_rng(1).random((3000, 3)))
         reader = tipp.vtkTIPPPointReader()

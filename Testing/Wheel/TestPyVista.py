@@ -70,6 +70,24 @@ class PyVista(unittest.TestCase):
         x, y = np.meshgrid(np.linspace(0.2, 0.8, 7), np.linspace(0.2, 0.8, 7))
         np.testing.assert_allclose(tipp.as_array(image, "height"), x + y, atol=1e-12)
 
+    def test_a_data_set_samples_a_mesh_as_pyvista_does(self):
+        points = terrain().points.copy()
+        points[:, 2] = 0
+        mesh = pyvista.PolyData(points).tipp.delaunay_2d()
+        mesh["height"] = points[:, 0] + points[:, 1]
+        asked = pyvista.Plane(center=(0.5, 0.5, 0), i_size=1.4, j_size=0.8, i_resolution=20, j_resolution=20)
+        asked["own"] = np.arange(asked.n_points)
+        mine, theirs = asked.tipp.sample(mesh), asked.sample(mesh)
+        self.assertIsInstance(mine, pyvista.PolyData)
+        self.assertIn("own", mine.point_data)
+        self.assertNotIn("height", asked.point_data)
+        inside = mine["vtkValidPointMask"] == 1
+        self.assertTrue(inside.any() and not inside.all())
+        both = inside & (theirs["vtkValidPointMask"] == 1)
+        self.assertGreater(both.sum(), 0.95 * inside.sum())
+        np.testing.assert_allclose(mine["height"][both], theirs["height"][both], atol=1e-6)
+        np.testing.assert_array_equal(-7, asked.tipp.sample(mesh, arrays="height", null_value=-7)["height"][~inside])
+
     def test_every_storage_of_cells_is_sampled_alike(self):
         mesh = terrain(300).tipp.delaunay_2d()
         ids = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).astype(np.int64)

@@ -11,6 +11,7 @@
 #include "Query/LineData.h"
 #include "Query/Lines.h"
 #include "Query/WriteLines.h"
+#include "Ranks/Communicator.h"
 #include "Vtk/WriteXmlFile.h"
 
 #include "vtkXMLPolyDataWriter.h"
@@ -23,6 +24,8 @@
 #include <string>
 #include <vector>
 
+#include <malloc.h>
+
 namespace tipp
 {
 namespace
@@ -34,8 +37,9 @@ constexpr const char* footer =
 LINES   .gpkg, a GeoPackage, by GDAL; or .vtp. Each line has its level, and its points
         have the z of the surface.
 
-A line goes on across pieces; lines are the same for any pieces and threads. The higher
-side is on the left. Memory is in bytes, or with K, M, G for 2^10, 2^20, 2^30 of them.
+A line goes on across pieces; lines are the same for any pieces, threads and ranks. The
+higher side is on the left. Under mpirun the ranks share the pieces of a partitioned
+mesh. Memory is in bytes, or with K, M, G for 2^10, 2^20, 2^30 of them, and of each rank.
 
 Examples:
   tipp contour terrain.tipp -o contours.gpkg --interval 5 --crs EPSG:25832
@@ -53,10 +57,11 @@ struct ContourArguments
   std::string Crs;
 };
 
-/// The multiples of the interval in the array's range.
-std::vector<double> levelsOf(const ResidentMesh& mesh, const ContourArguments& arguments)
+/// The multiples of the interval in the array's range. Collective.
+std::vector<double> levelsOf(
+  Communicator& ranks, const ResidentMesh& mesh, const ContourArguments& arguments)
 {
-  const auto [low, high] = rangeOf(mesh, arguments.Array, arguments.Component);
+  const auto [low, high] = rangeOnRanks(ranks, mesh, arguments.Array, arguments.Component);
   constexpr double most = 1e6;
   if ((high - low) / arguments.Interval > most)
   {
@@ -71,33 +76,71 @@ std::vector<double> levelsOf(const ResidentMesh& mesh, const ContourArguments& a
   return levels;
 }
 
-int runContour(const ContourArguments& arguments)
+void write(const ContourArguments& arguments, const Contours& contours, const PathState& before)
 {
-  requireApart({ arguments.Output }, { arguments.Mesh.Path });
-  const PathState before = PendingFile(arguments.Output).before(); // fails early
-  const PollScope scope([] { return !isInterrupted(); });
-  try
+  if (extensionOf(arguments.Output) == ".gpkg")
   {
-    const auto mesh = openQueryMesh(arguments.Mesh);
-    const Contours contours = contoursOf(*mesh, arguments.Array, arguments.Component,
-      arguments.Interval > 0 ? levelsOf(*mesh, arguments) : arguments.Levels);
-    if (extensionOf(arguments.Output) == ".gpkg")
-    {
-      writeGeoPackage(arguments.Output, contours, arguments.Array, arguments.Crs, before);
-    }
-    else
-    {
-      PendingFile pending(arguments.Output, before);
-      writeXmlFile<vtkXMLPolyDataWriter>(
-        arguments.Output, pending, polyDataOf(contours, arguments.Array));
-      pending.commit();
-    }
+    writeGeoPackage(arguments.Output, contours, arguments.Array, arguments.Crs, before);
+    return;
+  }
+  PendingFile pending(arguments.Output, before);
+  writeXmlFile<vtkXMLPolyDataWriter>(
+    arguments.Output, pending, polyDataOf(contours, arguments.Array));
+  pending.commit();
+}
+
+/// The ranks share the pieces, and the first one writes the file. Collective.
+void makeContours(const ContourArguments& arguments, Communicator& ranks)
+{
+  PathState before;
+  if (ranks.isFirst())
+  {
+    requireApart({ arguments.Output }, { arguments.Mesh.Path });
+    before = PendingFile(arguments.Output).before(); // fails early if it cannot be written
+  }
+  // A file that is not partitioned is in the memory of the first rank.
+  const std::unique_ptr<ResidentMesh> mesh =
+    ranks.isFirst() || isPartitionedMesh(arguments.Mesh.Path)
+    ? openQueryMesh(arguments.Mesh)
+    : std::make_unique<ResidentMesh>(MeshPart());
+  const std::vector<double> levels =
+    arguments.Interval > 0 ? levelsOf(ranks, *mesh, arguments) : arguments.Levels;
+  const Contours contours =
+    contoursOnRanks(ranks, *mesh, arguments.Array, arguments.Component, levels);
+  if (ranks.isFirst())
+  {
+    write(arguments, contours, before);
     fmt::print("{} lines of {} points, in {}\n", contours.Levels.size(), contours.Points.size(),
       arguments.Output);
   }
-  catch (const WorkAborted&)
+}
+
+int runContour(const ContourArguments& arguments)
+{
+  // Large blocks, as of pieces, go back to the system when they are freed.
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  const MpiSession session;
+  try
   {
-    return reportInterrupt();
+    Communicator ranks(session.controller());
+    const PollScope scope(
+      [&ranks]()
+      {
+        if (isInterrupted())
+        {
+          throw RankFailure(ranks.rank(), true, "The run was stopped.");
+        }
+        return true;
+      });
+    ranks.together([&] { makeContours(arguments, ranks); });
+  }
+  catch (const RankFailure& failure)
+  {
+    return failure.Aborted ? reportInterrupt() : reportFailure();
+  }
+  catch (const std::exception&)
+  {
+    return reportFailure();
   }
   return Success;
 }
@@ -133,8 +176,7 @@ void addContourCommand(CLI::App& app, int& exitCode)
   command->add_option("--crs", arguments->Crs, "Of a .gpkg the reference system, as EPSG:25832");
   addQueryMeshOptions(*command, arguments->Mesh);
   command->footer(footer);
-  command->callback(
-    [arguments, &exitCode]() { exitCode = isIdleRank() ? Success : runContour(*arguments); });
+  command->callback([arguments, &exitCode]() { exitCode = runContour(*arguments); });
 }
 
 } // namespace tipp

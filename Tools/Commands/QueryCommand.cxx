@@ -10,6 +10,7 @@
 #include "Npy/NpyFile.h"
 #include "Parallel/Poll.h"
 #include "Points/ReadPoints.h"
+#include "Query/Closest.h"
 #include "Query/RankAnswer.h"
 #include "Ranks/Communicator.h"
 
@@ -23,6 +24,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <malloc.h>
 
 namespace tipp
 {
@@ -39,6 +42,12 @@ VALUES  .csv: a line for each point with its coordinates, the number of the cell
         holds it (-1: outside), and the arrays' values, empty outside. .npy: the arrays
         alone, as float64, a row for each point, nan outside.
 
+ZONES   with --zones: polygons of a .gpkg, .shp, .geojson or .fgb file, or of a .csv file
+        with a column WKT, instead of points. VALUES is then a .csv file with a line for
+        each feature: the number of its cells, its area on the mesh, and for each array the
+        minimum, maximum, mean, integral and the volume above --level. Triangles are cut at
+        the border.
+
 A point on an edge, a face or a corner belongs to one cell, the same for any pieces,
 threads and ranks, as in tipp resample. Under mpirun the ranks share the pieces and the
 points, and the first one writes the file. Memory is in bytes, or with K, M, G for 2^10,
@@ -47,6 +56,9 @@ points, and the first one writes the file. Memory is in bytes, or with K, M, G f
 Examples:
   tipp query stations.csv coast.tipp -o levels.csv --arrays elevation
   mpirun -np 4 tipp query stations.npy coast.tipp -o levels.npy --memory 512M
+  tipp query stations.csv coast.tipp -o nearest.csv --closest
+  tipp query coast.tipp --zones districts.gpkg --zone-names name -o flooded.csv --level 2.5
+  tipp query springs.csv terrain.tipp -o rivers.vtp --descend elevation
 )";
 
 struct QueryArguments
@@ -56,19 +68,20 @@ struct QueryArguments
   std::string Output;
   std::vector<std::string> Arrays;
   bool Weights = false;
+  bool Closest = false;
+  std::string Descend; ///< an array; empty: no
+  ZoneArguments Zones;
   PointOptions Reading;
 
   bool toNpy() const { return extensionOf(this->Output) == ".npy"; }
 };
 
 /// This rank's share of the points. Throws IOError if points in space have no z.
-std::vector<Point3> readShare(
-  const QueryArguments& arguments, bool inSpace, const Communicator& ranks)
+std::vector<Point3> readShare(const QueryArguments& arguments, bool inSpace, int rank, int ranks)
 {
   PointOptions reading = arguments.Reading;
   reading.Threads = arguments.Mesh.Threads;
-  const PointTable table =
-    readPointsShare({ arguments.Points }, reading, ranks.rank(), ranks.size());
+  const PointTable table = readPointsShare({ arguments.Points }, reading, rank, ranks);
   reportLeftOut(table.LeftOut, table.ThinnedOut);
   std::vector<std::string> names;
   for (const PointTable::Column& column : table.Columns)
@@ -97,21 +110,6 @@ void withValue(const MeshAnswer::Array& array, std::size_t point, std::size_t k,
     { work(array.Values.as<decltype(zero)>()[point * std::size_t(array.Components) + k]); });
 }
 
-/// A name as a field of a .csv file.
-std::string quoted(const std::string& name)
-{
-  if (name.find_first_of(",\"\n") == std::string::npos)
-  {
-    return name;
-  }
-  std::string text = "\"";
-  for (const char c : name)
-  {
-    text += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return text + "\"";
-}
-
 std::vector<std::string> columnsOf(const std::vector<StoredArray>& arrays)
 {
   std::vector<std::string> columns;
@@ -119,7 +117,8 @@ std::vector<std::string> columnsOf(const std::vector<StoredArray>& arrays)
   {
     for (int k = 0; k < array.Components; ++k)
     {
-      columns.push_back(quoted(array.Name + (array.Components > 1 ? "_" + std::to_string(k) : "")));
+      columns.push_back(
+        quotedField(array.Name + (array.Components > 1 ? "_" + std::to_string(k) : "")));
     }
   }
   return columns;
@@ -137,11 +136,17 @@ std::string headerLine(
   {
     line += "," + column;
   }
+  if (arguments.Closest)
+  {
+    line += std::string(",closest_cell,closest_x,closest_y") + (corners == 4 ? ",closest_z" : "") +
+      ",distance";
+  }
   return line + "\n";
 }
 
 /// This rank's lines of a .csv file.
-std::string linesOf(const std::vector<Point3>& points, const MeshAnswer& answer, int corners)
+std::string linesOf(const std::vector<Point3>& points, const MeshAnswer& answer, int corners,
+  const ClosestLocations& closest)
 {
   std::string text;
   const auto out = std::back_inserter(text);
@@ -165,6 +170,13 @@ std::string linesOf(const std::vector<Point3>& points, const MeshAnswer& answer,
         const auto add = [&](auto value) { fmt::format_to(out, ",{}", +value); };
         inside ? withValue(array, i, k, add) : text.push_back(',');
       }
+    }
+    if (!closest.Cells.empty())
+    {
+      const Point3& at = closest.Points[i];
+      fmt::format_to(out, ",{},{},{}", closest.Cells[i], at.x, at.y);
+      corners == 4 ? fmt::format_to(out, ",{}", at.z) : out;
+      fmt::format_to(out, ",{}", closest.Distances[i]);
     }
     text += '\n';
   }
@@ -215,6 +227,23 @@ void write(const QueryArguments& arguments, const PathState& before, const std::
   pending.commit();
 }
 
+/// What the first rank does alone: questions of which no points come back.
+void answerAlone(const QueryArguments& arguments)
+{
+  requireApart(
+    { arguments.Output }, { arguments.Points, arguments.Mesh.Path, arguments.Zones.Path });
+  const PathState before = PendingFile(arguments.Output).before();
+  const std::unique_ptr<ResidentMesh> mesh = openQueryMesh(arguments.Mesh);
+  if (!arguments.Zones.Path.empty())
+  {
+    writeZones(*mesh, arguments.Zones, arguments.Arrays.empty() ? mesh->names() : arguments.Arrays,
+      arguments.Output, before);
+    return;
+  }
+  writeDescents(
+    *mesh, readShare(arguments, false, 0, 1), arguments.Descend, arguments.Output, before);
+}
+
 /// Answers all ranks' points and writes the file on the first rank. Collective.
 void answerAll(const QueryArguments& arguments, Communicator& ranks)
 {
@@ -236,17 +265,19 @@ void answerAll(const QueryArguments& arguments, Communicator& ranks)
     arrays.back().Name = name;
   }
   const int corners = mesh->mesh().CellSize;
-  const std::vector<Point3> points = readShare(arguments, corners == 4, ranks);
+  const std::vector<Point3> points = readShare(arguments, corners == 4, ranks.rank(), ranks.size());
   const auto count = std::int64_t(points.size());
   // A file that is not partitioned is in the memory of every rank.
   const MeshAnswer answer = mesh->isStored() && ranks.size() > 1
     ? answerOnRanks(ranks, *mesh, points.data(), count, options)
     : mesh->answer(points.data(), count, options);
+  const ClosestLocations closest =
+    arguments.Closest ? closestTo(*mesh, points.data(), count) : ClosestLocations();
   std::vector<std::int64_t> sums = { count,
     std::count(answer.Cells.begin(), answer.Cells.end(), -1) };
   ranks.sum(sums);
   const std::vector<std::string> parts =
-    ranks.gather(arguments.toNpy() ? rowsOf(answer) : linesOf(points, answer, corners));
+    ranks.gather(arguments.toNpy() ? rowsOf(answer) : linesOf(points, answer, corners, closest));
   if (ranks.isFirst())
   {
     const std::vector<std::string> columns = columnsOf(arrays);
@@ -258,6 +289,8 @@ void answerAll(const QueryArguments& arguments, Communicator& ranks)
 
 int runQuery(const QueryArguments& arguments)
 {
+  // Large blocks, as of pieces, go back to the system when they are freed.
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
   const MpiSession session;
   try
   {
@@ -271,7 +304,11 @@ int runQuery(const QueryArguments& arguments)
         }
         return true;
       });
-    ranks.together([&] { answerAll(arguments, ranks); });
+    const bool isAlone = !arguments.Zones.Path.empty() || !arguments.Descend.empty();
+    ranks.together(
+      [&] {
+        !isAlone ? answerAll(arguments, ranks) : ranks.isFirst() ? answerAlone(arguments) : void();
+      });
   }
   catch (const RankFailure& failure)
   {
@@ -284,11 +321,29 @@ int runQuery(const QueryArguments& arguments)
   return Success;
 }
 
-std::string checkOutput(const std::string& path)
+/// Throws CLI::ValidationError unless the output's name and the options go together.
+void checkOutput(const QueryArguments& arguments)
 {
-  const std::string extension = extensionOf(path);
-  return extension == ".npy" || extension == ".csv" ? ""
-                                                    : "'" + path + "' does not end in .csv or .npy";
+  const std::string extension = extensionOf(arguments.Output);
+  const auto require = [&](bool isRight, const char* wanted)
+  {
+    if (!isRight)
+    {
+      throw CLI::ValidationError("'" + arguments.Output + "' does not end in " + wanted);
+    }
+  };
+  if (!arguments.Descend.empty())
+  {
+    require(extension == ".vtp", ".vtp");
+  }
+  else if (!arguments.Zones.Path.empty() || arguments.Closest)
+  {
+    require(extension == ".csv", ".csv");
+  }
+  else
+  {
+    require(extension == ".npy" || extension == ".csv", ".csv or .npy");
+  }
 }
 
 } // namespace
@@ -298,21 +353,47 @@ void addQueryCommand(CLI::App& app, int& exitCode)
   auto arguments = std::make_shared<QueryArguments>();
   CLI::App* const command =
     app.add_subcommand("query", "Tells which cells of a mesh hold points, and its arrays there");
-  command->add_option("points", arguments->Points, "A file of points")->required();
-  command->add_option("mesh", arguments->Mesh.Path, "The mesh, see below")->required();
-  command->add_option("-o,--output", arguments->Output, "The file to write, see below")
-    ->required()
-    ->check(checkOutput);
+  command->add_option("points", arguments->Points, "A file of points; not with --zones")
+    ->required();
+  command->add_option("mesh", arguments->Mesh.Path, "The mesh, see below");
+  command->add_option("-o,--output", arguments->Output, "The file to write, see below")->required();
   command
     ->add_option("--arrays", arguments->Arrays,
       "Names of arrays, or elevation, the z of a surface (default: all)")
     ->delimiter(',');
   command->add_flag(
     "--weights", arguments->Weights, "Also the barycentric weights of each cell's corners (.csv)");
+  CLI::Option* const closest = command->add_flag("--closest", arguments->Closest,
+    "Also the nearest location of the mesh and its distance (.csv)");
+  CLI::Option* const zones =
+    command->add_option("--zones", arguments->Zones.Path, "Statistics in polygons, see below")
+      ->excludes(closest);
+  command->add_option("--zone-names", arguments->Zones.Field, "The field with the zones' names")
+    ->needs(zones);
+  command->add_option("--level", arguments->Zones.Level, "For volumes above it")
+    ->capture_default_str()
+    ->needs(zones);
+  command
+    ->add_option(
+      "--descend", arguments->Descend, "The way down this array from each point, as lines (.vtp)")
+    ->excludes(closest)
+    ->excludes(zones);
   addQueryMeshOptions(*command, arguments->Mesh);
   addPointOptions(*command, arguments->Reading);
   command->footer(footer);
-  command->callback([arguments, &exitCode]() { exitCode = runQuery(*arguments); });
+  command->callback(
+    [arguments, &exitCode]()
+    {
+      const bool hasZones = !arguments->Zones.Path.empty();
+      if (hasZones != arguments->Mesh.Path.empty())
+      {
+        throw CLI::ValidationError(
+          hasZones ? "with --zones give the mesh alone, without points" : "give points and a mesh");
+      }
+      hasZones ? std::swap(arguments->Points, arguments->Mesh.Path) : void();
+      checkOutput(*arguments);
+      exitCode = runQuery(*arguments);
+    });
 }
 
 } // namespace tipp

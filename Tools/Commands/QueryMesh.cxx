@@ -26,6 +26,20 @@ void addQueryMeshOptions(CLI::App& command, QueryMeshArguments& arguments)
   addThreadsOption(command, arguments.Threads);
 }
 
+std::string quotedField(const std::string& name)
+{
+  if (name.find_first_of(",\"\n") == std::string::npos)
+  {
+    return name;
+  }
+  std::string text = "\"";
+  for (const char c : name)
+  {
+    text += c == '"' ? "\"\"" : std::string(1, c);
+  }
+  return text + "\"";
+}
+
 std::unique_ptr<ResidentMesh> openQueryMesh(const QueryMeshArguments& arguments)
 {
   ResidentOptions options;

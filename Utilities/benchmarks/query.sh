@@ -3,13 +3,16 @@
 #   --points N  of the triangulation that is asked (5000000: 10 million triangles)
 #   --queries N points to ask for (10000000)
 #   --repeat R  runs of each; the fastest counts (3)
-#   --rows      of memory (beside vtkProbeFilter, vtkContourFilter and resampling), stored (a partitioned mesh of 200
-#               million triangles in 256 MB; needs 20 GB on the disk) and scipy (beside its LinearNDInterpolator; of
-#               the interpreter that TIPP_SCIPY_PYTHON names, else /usr/bin/python3); memory,scipy
+#   --rows      of probe (scattered points, beside vtkProbeFilter), order (points in rows, beside resampling),
+#               rings (a million), contours (of twice as many points, beside vtkContourFilter), scipy (beside its
+#               LinearNDInterpolator; of the interpreter that TIPP_SCIPY_PYTHON names, else /usr/bin/python3),
+#               ranks (tipp query on 1 to 8 ranks of one thread each), and stored: a partitioned mesh of 200 million
+#               triangles in 256 MB. It is made in the folder that TIPP_QUERY_STORE names and stays there, else it is
+#               removed; needs 25 GB on the disk. All but stored by default
 points=5000000
 queries=10000000
 repeat=3
-rows=memory,scipy
+rows=probe,order,rings,contours,scipy,ranks
 
 while [ $# -gt 0 ]; do
   case $1 in
@@ -23,31 +26,82 @@ done
 
 for name in $(echo "$rows" | tr , " "); do
   case $name in
-    memory | stored | scipy) ;;
+    probe | order | rings | contours | scipy | ranks | stored) ;;
     *) usage ;;
   esac
 done
 
+# Points in rows of x, y and z, a smooth surface: surface_points COUNT FILE
+surface_points() {
+  /usr/bin/python3 - "$1" "$2" <<'PYTHON'
+import sys
+import numpy as np
+
+count, path = int(sys.argv[1]), sys.argv[2]
+rng = np.random.default_rng(1)
+table = np.lib.format.open_memmap(path, "w+", np.float64, (count, 3))
+for first in range(0, count, 1_000_000):
+    xy = rng.random((min(1_000_000, count - first), 2))
+    table[first:first + len(xy), :2] = xy
+    table[first:first + len(xy), 2] = np.sin(9 * xy[:, 0]) * np.cos(7 * xy[:, 1])
+PYTHON
+}
+
+# The seconds that a command and its children take, and those of the processor: timed COMMAND...
+timed() {
+  /usr/bin/python3 - "$@" <<'PYTHON'
+import resource
+import subprocess
+import sys
+import time
+
+begin = time.perf_counter()
+subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL)
+wall = time.perf_counter() - begin
+used = resource.getrusage(resource.RUSAGE_CHILDREN)
+print(f"{wall:.2f} s | {used.ru_utime + used.ru_stime:.2f} s |")
+PYTHON
+}
+
 build_targets benchmarkQuery tipp
-case ,$rows, in
-  *,memory,*) "$build/bin/benchmarkQuery" memory "$points" "$queries" "$repeat" peers ;;
-esac
-case ,$rows, in
-  *,stored,*)
-    mkdir -p "$inputs/query"
-    "$build/bin/tipp" points --distribution uniform --count 100000000 --seed 1 -o "$inputs/query/points.npy"
-    "$build/bin/tipp" delaunay "$inputs/query/points.npy" -o "$inputs/query/mesh.tipp" --memory 1G
-    rm "$inputs/query/points.npy"
-    echo
-    "$build/bin/benchmarkQuery" stored "$inputs/query/mesh.tipp" 1000000 256
-    rm -rf "$inputs/query"
-    ;;
-esac
-case ,$rows, in
-  *,scipy,*)
-    sh Utilities/build.sh default --target tipp_python > /dev/null
-    echo
-    PYTHONPATH="$top/build/lib/python3/dist-packages" OMP_NUM_THREADS=1 \
-      "${TIPP_SCIPY_PYTHON:-/usr/bin/python3}" Testing/Benchmarks/query_scipy.py "$points" "$queries"
-    ;;
-esac
+for name in $(echo "$rows" | tr , " "); do
+  echo
+  case $name in
+    probe | order) "$build/bin/benchmarkQuery" "$name" "$points" "$queries" "$repeat" ;;
+    rings) OMP_NUM_THREADS=1 "$build/bin/benchmarkQuery" rings "$points" 1000000 "$repeat" ;;
+    contours) "$build/bin/benchmarkQuery" contours "$((2 * points))" "$repeat" ;;
+    scipy)
+      sh Utilities/build.sh default --target tipp_python > /dev/null
+      PYTHONPATH="$top/build/lib/python3/dist-packages" OMP_NUM_THREADS=1 \
+        "${TIPP_SCIPY_PYTHON:-/usr/bin/python3}" Testing/Benchmarks/query_scipy.py "$points" "$queries"
+      ;;
+    ranks)
+      mkdir -p "$inputs/query-ranks"
+      surface_points "$points" "$inputs/query-ranks/points.npy"
+      "$build/bin/tipp" delaunay "$inputs/query-ranks/points.npy" -o "$inputs/query-ranks/mesh.tipp" --memory 256M
+      "$build/bin/tipp" points --distribution uniform --count "$queries" --seed 2 -o "$inputs/query-ranks/asked.npy"
+      echo
+      echo "| ranks | time | processor |"
+      echo "|---|---|---|"
+      for ranks in 1 2 4 8; do
+        printf '| %s | ' "$ranks"
+        OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timed mpirun --oversubscribe --bind-to none \
+          --mca mpi_yield_when_idle 1 -np "$ranks" "$build/bin/tipp" query "$inputs/query-ranks/asked.npy" \
+          "$inputs/query-ranks/mesh.tipp" -o "$inputs/query-ranks/values.npy" --threads 1
+      done
+      rm -rf "$inputs/query-ranks"
+      ;;
+    stored)
+      store=${TIPP_QUERY_STORE:-$inputs/query}
+      mkdir -p "$store"
+      if [ ! -f "$store/mesh.tipp/index.json" ]; then
+        surface_points 100000000 "$store/points.npy"
+        "$build/bin/tipp" delaunay "$store/points.npy" -o "$store/mesh.tipp" --memory 1G
+        rm "$store/points.npy"
+      fi
+      cat "$store"/mesh.tipp/pieces/* > /dev/null # from the system's cache
+      "$build/bin/benchmarkQuery" stored "$store/mesh.tipp" 1000000 256
+      [ -n "${TIPP_QUERY_STORE:-}" ] || rm -rf "$store"
+      ;;
+  esac
+done

@@ -7,11 +7,14 @@ import importlib.machinery
 import importlib.util
 import sys
 from types import ModuleType
-from typing import Any, Sequence
+from typing import Any, Iterable, Sequence
 
-from ._arguments import flag
+import numpy as np
+
+from ._arguments import flag, number
 from ._dem import dem
 from ._meshes import write
+from ._query import open as open_mesh
 from ._resample import resample
 from ._triangulate import delaunay_2d
 
@@ -39,6 +42,40 @@ class Accessor:
     def resample_to_image(self, *, bounds: Sequence[float] | None = None, **options: Any) -> Any:
         """As tipp.resample(mesh, ...)."""
         return resample(self._dataset, bounds, **options)
+
+    def sample(self, target: Any, *, arrays: str | Iterable[str] | None = None, null_value: float = 0,
+               memory: int | str = "1G", step: int = 0, threads: int = 0) -> Any:
+        """The data set with the arrays of a mesh at its points, as PyVista's sample(), but without a tolerance.
+
+        Parameters
+        ----------
+        target
+            The mesh, or the path of a partitioned one.
+        arrays
+            Names of its arrays; None: all. "elevation" is the z of triangles.
+        null_value
+            Of arrays of floating-point numbers outside of the mesh. Whole numbers are 0 there.
+        memory, step, threads
+            As in tipp.open().
+
+        Returns
+        -------
+        A copy of the data set, with the arrays, "CellId", which is -1 outside, and "vtkValidPointMask".
+        """
+        null = number(null_value, "null_value")
+        result = self._dataset.copy(deep=False)
+        points = np.asarray(self._dataset.points)
+        with open_mesh(target, memory=memory, step=step, threads=threads) as mesh:
+            cells, _ = mesh.locate(points)
+            names = [arrays] if isinstance(arrays, str) else arrays
+            values = mesh.interpolate(points, mesh.array_names if names is None else names)
+        for name, array in values.items():
+            if array.dtype.kind == "f":
+                array[cells < 0] = null
+            result.point_data[name] = array
+        result.point_data["CellId"] = cells
+        result.point_data["vtkValidPointMask"] = (cells >= 0).astype(np.uint8)
+        return result
 
     def save(self, path: str, **options: Any) -> None:
         """As tipp.write(mesh, path, ...)."""

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import threading
-from typing import Any, Callable
+from typing import Any, Callable, Tuple
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIdTypeArray, vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkPointData, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPointData, vtkPolyData
 
 from . import _arguments as check
 from ._arrays import Mesh
 from ._run import run
 from ._vtk import arrays_of, grid_of, vtk_points, xyz_of
 from .vtkTIPPFilters import vtkPartitionedMeshQuery
+
+Rings = Tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+"""Of polygons: (n, 2) corners, where each ring begins and the end, its zone, whether it is a hole"""
 
 
 def open_mesh(mesh: Any, options: dict[str, Any]) -> MeshQuery:
@@ -112,12 +115,70 @@ class MeshQuery:
 
         self._run(call)
         values = arrays_of(line.GetPointData())
-        return values.pop("Distance"), xyz_of(line)[:, :2], values.pop("CellId"), {name: values[name] for name in names}
+        points = xyz_of(line)
+        points = points if self._query.GetMeshDimension() == 3 else points[:, :2]
+        return values.pop("Distance"), points, values.pop("CellId"), {name: values[name] for name in names}
+
+    def closest(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        cells, locations, distances = vtkIdTypeArray(), vtkDoubleArray(), vtkDoubleArray()
+        self._run(lambda: self._query.Closest(vtk_points(points).GetData(), cells, locations, distances))
+        return vtk_to_numpy(cells), vtk_to_numpy(locations), vtk_to_numpy(distances)
+
+    def cells_in(self, box: list[float], rings: Rings | None, whole: bool) -> np.ndarray:
+        found = vtkIdTypeArray()
+        self._run(lambda: self._query.CellsInBox(box, whole, found) if rings is None
+                  else self._query.CellsInPolygons(_polygons(rings), whole, found))
+        return vtk_to_numpy(found)
+
+    def points_in(self, box: list[float], rings: Rings | None) -> np.ndarray:
+        found = vtkIdTypeArray()
+        self._run(lambda: self._query.PointsInBox(box, found) if rings is None
+                  else self._query.PointsInPolygons(_polygons(rings), found))
+        return vtk_to_numpy(found)
+
+    def zones(self, rings: Rings, count: int, array: str, component: int, level: float) -> list[np.ndarray]:
+        table = vtkPointData()
+        self._run(lambda: self._query.ZoneStatistics(_polygons(rings), array, component, level, table))
+        columns = [vtk_to_numpy(table.GetArray(i)) for i in range(table.GetNumberOfArrays())]
+        # Zones without rings at the end are not in the data set.
+        missing = [0, 0.0, np.nan, np.nan, np.nan, 0.0, 0.0]
+        return [np.append(c, np.full(count - len(c), m, c.dtype)) for c, m in zip(columns, missing)]
+
+    def descend(self, points: np.ndarray, array: str, component: int
+                ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        lines = vtkPolyData()
+        self._run(lambda: self._query.Descend(vtk_points(points).GetData(), array, component, lines))
+        pits, counts = np.full(len(points), -1, np.int64), np.zeros(len(points), np.int64)
+        if lines.GetNumberOfPoints() == 0:
+            return np.zeros(len(points) + 1, np.int64), np.zeros((0, 3)), np.zeros(0), pits
+        data = lines.GetCellData()
+        begun = vtk_to_numpy(data.GetArray("StartId"))
+        pits[begun] = vtk_to_numpy(data.GetArray("PitId"))
+        counts[begun] = np.diff(_starts(lines))
+        values = vtk_to_numpy(lines.GetPointData().GetScalars())
+        return np.concatenate([[0], np.cumsum(counts)]), xyz_of(lines), values, pits
 
     def components(self) -> tuple[np.ndarray, np.ndarray]:
         cells, sizes = vtkIdTypeArray(), vtkIdTypeArray()
         self._run(lambda: self._query.Components(cells, sizes))
         return vtk_to_numpy(cells), vtk_to_numpy(sizes)
+
+
+def _polygons(rings: Rings) -> vtkPolyData:
+    corners, starts, zones, holes = rings
+    spatial = np.zeros((len(corners), 3))
+    spatial[:, :2] = corners
+    data = vtkPolyData()
+    data.SetPoints(vtk_points(spatial))
+    cells = vtkCellArray()
+    ids = np.arange(len(corners), dtype=np.int64)
+    cells.SetData(numpy_to_vtkIdTypeArray(starts, deep=True), numpy_to_vtkIdTypeArray(ids, deep=True))
+    data.SetPolys(cells)
+    for name, values in (("ZoneId", zones), ("IsHole", holes)):
+        array = numpy_to_vtkIdTypeArray(values, deep=True)
+        array.SetName(name)
+        data.GetCellData().AddArray(array)
+    return data
 
 
 def _starts(lines: vtkPolyData) -> np.ndarray:

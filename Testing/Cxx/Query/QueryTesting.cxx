@@ -23,6 +23,7 @@ struct Kept
   SourceMesh Source;
   std::vector<double> Points;
   std::vector<std::int64_t> Ids;
+  std::vector<std::int64_t> PointIds;
 };
 
 StoredArray described(const char* name, bool ofPoints, Scalar type, int components, int step = -1)
@@ -36,13 +37,48 @@ StoredArray described(const char* name, bool ofPoints, Scalar type, int componen
   return array;
 }
 
+} // namespace
+
 Point3 pointOf(const SourceMesh& source, std::int64_t id)
 {
   const double* p = source.Coordinates.data() + id * source.Components;
   return { p[0], p[1], source.Components == 3 ? p[2] : 0 };
 }
 
-} // namespace
+SourceMesh withHoles(SourceMesh source, std::int64_t every)
+{
+  SourceMesh result = source;
+  result.Cells.clear();
+  result.Labels.clear();
+  for (std::size_t cell = 0; cell < source.cells(); ++cell)
+  {
+    if (std::int64_t(cell) % every != 0)
+    {
+      const auto corners = std::ptrdiff_t(source.CellSize);
+      const auto first = source.Cells.begin() + std::ptrdiff_t(cell) * corners;
+      result.Cells.insert(result.Cells.end(), first, first + corners);
+      result.Labels.push_back(source.Labels[cell]);
+    }
+  }
+  return result;
+}
+
+void withEachMesh(const SourceMesh& source, const std::function<void(const ResidentMesh&)>& work)
+{
+  const bool inSpace = source.CellSize == 4;
+  ResidentOptions options;
+  options.Threads = 3;
+  work(ResidentMesh(inMemory(source), options));
+  for (const char* const tiling :
+    { inSpace ? "grid:2x2x2" : "grid:4x4", inSpace ? "octree:60" : "quadtree:30", "grid:5x1" })
+  {
+    SCOPED_TRACE(tiling);
+    const TemporaryFolder folder;
+    store(source, folder.path("mesh.tipp"), tiling, tiling[0] == 'q');
+    options.MemoryLimit = tiling[0] == 'g' ? 60000 : 1 << 30;
+    work(ResidentMesh(folder.path("mesh.tipp"), options));
+  }
+}
 
 MeshPart inMemory(const SourceMesh& source, int step, int part, int parts)
 {
@@ -65,6 +101,7 @@ MeshPart inMemory(const SourceMesh& source, int step, int part, int parts)
   }
   for (std::size_t i = 0; i < source.points(); ++i)
   {
+    kept->PointIds.push_back(std::int64_t(i));
     const Point3 p = pointOf(source, std::int64_t(i));
     kept->Points.insert(kept->Points.end(), { p.x, p.y, p.z });
   }
@@ -76,6 +113,7 @@ MeshPart inMemory(const SourceMesh& source, int step, int part, int parts)
   result.Mesh.Cells = result.OwnedCells = std::int64_t(kept->Source.cells());
   result.Mesh.Dimension = source.CellSize - 1;
   result.CellIds = parts > 1 ? kept->Ids.data() : nullptr;
+  result.PointIds = parts > 1 ? kept->PointIds.data() : nullptr;
   result.Arrays.push_back(
     { described("value", true, Scalar::Float32, 2), kept->Source.Values.data() });
   result.Arrays.push_back(

@@ -7,6 +7,8 @@
 
 #include "Query/ResidentMesh.h"
 
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,15 @@ void store(
 /// Corners, middles of edges, points on the lines of a grid of 4 x 4, and points at random in and
 /// around the mesh.
 std::vector<Point3> pointsAround(const SourceMesh& source, int atRandom);
+
+/// Calls work(mesh) for the mesh in memory and stored in several ways.
+void withEachMesh(const SourceMesh& source, const std::function<void(const ResidentMesh&)>& work);
+
+/// The source without every so many-th cell: holes, and parts that touch at points.
+SourceMesh withHoles(SourceMesh source, std::int64_t every);
+
+/// The coordinates of a point of the mesh.
+Point3 pointOf(const SourceMesh& source, std::int64_t id);
 
 /// Bit by bit, but for keys.
 void expectEqual(const MeshAnswer& expected, const MeshAnswer& answer);

@@ -98,24 +98,6 @@ std::set<std::int64_t> pointsOf(const SourceMesh& source, const std::set<std::in
   return points;
 }
 
-/// The source without some cells: holes, and parts that touch at points.
-SourceMesh withHoles(SourceMesh source, std::int64_t every)
-{
-  SourceMesh result = source;
-  result.Cells.clear();
-  result.Labels.clear();
-  for (std::size_t cell = 0; cell < source.cells(); ++cell)
-  {
-    if (std::int64_t(cell) % every != 0)
-    {
-      const Ids corners = cornersOf(source, std::int64_t(cell));
-      result.Cells.insert(result.Cells.end(), corners.begin(), corners.end());
-      result.Labels.push_back(source.Labels[cell]);
-    }
-  }
-  return result;
-}
-
 /// A mesh, also stored in several ways, each once for all tests.
 struct Stored
 {

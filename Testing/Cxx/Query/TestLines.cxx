@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 using namespace tipp;
 using namespace tipp::test;
@@ -194,6 +195,67 @@ TEST(Profile, IsTheSameForAnyPieces)
           EXPECT_EQ(expected.Points, profile.Points);
           expectEqual(expected.Answer, profile.Answer);
         }
+      });
+  }
+}
+
+TEST(Profile, OfTetrahedraHasEveryFaceOnce)
+{
+  SourceMesh source = makeSource(latticeTetrahedra(4, 0.3));
+  for (std::size_t i = 0; i < source.points(); ++i)
+  {
+    const Point3 p = pointOf(source, std::int64_t(i));
+    source.Values[2 * i] = float(p.x + 2 * p.y - p.z);
+  }
+  const ResidentMesh mesh(inMemory(source));
+  const Point3 a{ 0.13, 0.127, 0.241 };
+  const Point3 b{ 0.83, 0.81, 0.729 };
+  const Profile profile = profileOf(mesh, { a, b }, 0, { "value", "label" });
+  EXPECT_LT(10U, profile.Points.size());
+  for (std::size_t i = 0; i + 1 < profile.Points.size(); ++i)
+  {
+    EXPECT_LT(profile.Distances[i], profile.Distances[i + 1]);
+    EXPECT_LE(0, profile.Answer.Cells[i]);
+    const Point3& p = profile.Points[i];
+    EXPECT_NEAR(
+      p.x + 2 * p.y - p.z, double(profile.Answer.Arrays[0].Values.as<float>()[2 * i]), 1e-5);
+    if (i > 0) // two cells with a common face
+    {
+      const auto cornersOf = [&](std::size_t at)
+      {
+        const auto first = source.Cells.begin() + 4 * profile.Answer.Cells[at];
+        std::vector<std::int64_t> corners(first, first + 4);
+        std::sort(corners.begin(), corners.end());
+        return corners;
+      };
+      const auto before = cornersOf(i - 1);
+      const auto after = cornersOf(i);
+      std::vector<std::int64_t> common;
+      std::set_intersection(
+        before.begin(), before.end(), after.begin(), after.end(), std::back_inserter(common));
+      EXPECT_EQ(3U, common.size());
+    }
+  }
+}
+
+TEST(Profile, OfTetrahedraIsTheSameForAnyPieces)
+{
+  for (const double jitter : { 0.3, 0.0 }) // without jitter along faces, edges and through points
+  {
+    const SourceMesh source = makeSource(latticeTetrahedra(4, jitter));
+    const std::vector<Point3> polyline = { { -0.2, 0.25, 0.5 }, { 0.75, 0.25, 0.5 },
+      { 0.25, 0.75, 0.5 }, { 0.25, 0.25, 0.25 }, { 1, 1, 1 }, { 0.3, 0.8, 0.1 } };
+    const Profile expected =
+      profileOf(ResidentMesh(inMemory(source)), polyline, 0, { "value", "label" });
+    EXPECT_TRUE(std::is_sorted(expected.Distances.begin(), expected.Distances.end()));
+    EXPECT_LT(20U, expected.Points.size());
+    withEachMesh(source,
+      [&](const ResidentMesh& mesh)
+      {
+        const Profile profile = profileOf(mesh, polyline, 0, { "value", "label" });
+        EXPECT_EQ(expected.Distances, profile.Distances);
+        EXPECT_EQ(expected.Points, profile.Points);
+        expectEqual(expected.Answer, profile.Answer);
       });
   }
 }

@@ -3,6 +3,7 @@
 
 #include "ExpectIOError.h"
 #include "Files/IOError.h"
+#include "Query/Around.h"
 
 #include <gtest/gtest.h>
 
@@ -157,17 +158,47 @@ TEST_F(ResidentMeshTest, PiecesStayInMemoryWithinTheLimit)
   EXPECT_EQ(64, free.pieces().loads());
   answerOf(free, points);
   EXPECT_EQ(64, free.pieces().loads());
-  for (const std::uint64_t limit : { free.pieces().bytes() / 4, std::uint64_t(1) })
+  for (const std::uint64_t share : { 4, 16 })
   {
     ResidentOptions options;
-    options.MemoryLimit = limit;
+    options.MemoryLimit = free.pieces().bytes() / share;
     options.Threads = 4;
     const ResidentMesh mesh(this->path(), options);
     expectEqual(expected, answerOf(mesh, points));
     expectEqual(expected, answerOf(mesh, points));
     EXPECT_LT(64, mesh.pieces().loads());
-    EXPECT_LE(mesh.pieces().bytes(), std::max(limit, free.pieces().bytes() / 16));
+    EXPECT_LE(mesh.pieces().bytes(), options.MemoryLimit);
   }
+}
+
+TEST_F(ResidentMeshTest, DoesWithoutWhatDoesNotFitIntoTheLimit)
+{
+  const SourceMesh source = makeSource(latticeTriangles(20, 0.3));
+  store(source, this->path(), "grid:1x1", false);
+  const std::vector<Point3> points = pointsAround(source, 500);
+  const ResidentMesh free(this->path());
+  const MeshAnswer expected = answerOf(free, points);
+  ResidentOptions options;
+  options.MemoryLimit = free.pieces().bytes() - 1; // no locator
+  const ResidentMesh mesh(this->path(), options);
+  expectEqual(expected, answerOf(mesh, points));
+  EXPECT_EQ(2U, starsOf(mesh, { 0 }).Starts.size()); // now without the arrays
+  EXPECT_LE(mesh.pieces().bytes(), options.MemoryLimit);
+  expectEqual(expected, answerOf(mesh, points));
+}
+
+TEST_F(ResidentMeshTest, RefusesALimitThatOnePieceExceeds)
+{
+  const SourceMesh source = makeSource(latticeTriangles(20, 0.3));
+  store(source, this->path(), "grid:2x2", false);
+  ResidentOptions options;
+  options.MemoryLimit = 1000;
+  const ResidentMesh mesh(this->path(), options);
+  const std::vector<Point3> points = pointsAround(source, 10);
+  expectIOError(this->path(),
+    "but the limit is 1000 bytes; raise it, or partition the mesh into smaller pieces.",
+    [&] { answerOf(mesh, points); });
+  EXPECT_EQ(0U, mesh.pieces().bytes());
 }
 
 TEST_F(ResidentMeshTest, ThreadsShareOneMeshInLittleMemory)

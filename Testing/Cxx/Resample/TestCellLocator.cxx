@@ -24,7 +24,13 @@ std::vector<CellLocation> locate(const SimplexMesh& mesh, const std::int64_t* ce
   const CellLocator locator(mesh, cellIds, threads);
   locatePoints(mesh, cellIds, byLocator ? &locator : nullptr,
     { points.data(), nullptr, std::int64_t(points.size()) }, threads,
-    [&](std::int64_t i, const CellLocation& at) { locations[std::size_t(i)] = at; });
+    [&](const std::int64_t* indices, const CellLocation* at, std::int64_t count)
+    {
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        locations[std::size_t(indices[i])] = at[i];
+      }
+    });
   return locations;
 }
 

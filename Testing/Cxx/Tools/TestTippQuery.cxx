@@ -89,6 +89,62 @@ TEST_F(TippQuery, WritesRowsAsNpy)
   EXPECT_DOUBLE_EQ(44, values[3]);
 }
 
+TEST_F(TippQuery, WritesTheNearestLocationsOnRequest)
+{
+  EXPECT_EQ(0,
+    this
+      ->run(
+        { "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--arrays", "height", "--closest" })
+      .ExitCode);
+  const std::string content = this->content("out.csv");
+  EXPECT_EQ("x,y,cell,height,closest_cell,closest_x,closest_y,distance",
+    content.substr(0, content.find('\n')));
+  EXPECT_NE(std::string::npos, content.find("\n9,9,-1,,")) << content;
+  EXPECT_NE(std::string::npos, content.find(",4,4,7.0710678118654755\n")) << content;
+  EXPECT_NE(std::string::npos, content.find(",2,2,0\n")) << content;
+}
+
+TEST_F(TippQuery, WritesStatisticsOfZones)
+{
+  this->Folder.file("zones.csv",
+    "name,WKT\n\"low, west\",\"POLYGON ((0 0,2 0,2 2,0 2,0 0))\"\n"
+    "ring,\"POLYGON ((0 0,4 0,4 4,0 4,0 0),(1 1,3 1,3 3,1 3,1 1))\"\n"
+    "outside,\"POLYGON ((5 5,6 5,6 6,5 5))\"\n");
+  const Outcome outcome = this->run({ "query", "mesh.tipp", "--zones", "zones.csv", "--zone-names",
+    "name", "--arrays", "height", "--level", "0", "-o", "out.csv" });
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  EXPECT_EQ("3 zones, in out.csv\n", outcome.Out);
+  EXPECT_EQ("zone,cells,area,height_min,height_max,height_mean,height_integral,height_above\n"
+            "\"low, west\",2,4,0,22,11,44,44\n"
+            "ring,2,12,0,44,22,264,264\n"
+            "outside,0,0,,,,,\n",
+    this->content("out.csv"));
+}
+
+TEST_F(TippQuery, WritesWaysDownAsLines)
+{
+  const Outcome outcome =
+    this->run({ "query", "asked.csv", "mesh.tipp", "-o", "out.vtp", "--descend", "height" });
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  EXPECT_NE(std::string::npos, this->content("out.vtp").find("PitId"));
+}
+
+TEST_F(TippQuery, RefusesOptionsThatDoNotGoTogether)
+{
+  const auto expect = [this](const Words& words, const std::string& message)
+  {
+    const Outcome outcome = this->run(words);
+    EXPECT_EQ(2, outcome.ExitCode);
+    EXPECT_NE(std::string::npos, outcome.Err.find(message)) << outcome.Err;
+  };
+  expect({ "query", "mesh.tipp", "-o", "out.csv" }, "mesh");
+  expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--zones", "zones.csv" }, "zones");
+  expect(
+    { "query", "asked.csv", "mesh.tipp", "-o", "out.npy", "--closest" }, "does not end in .csv");
+  expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--descend", "height" },
+    "does not end in .vtp");
+}
+
 TEST_F(TippQuery, RefusesWhatItCannotAnswer)
 {
   const auto expect = [this](const Words& words, int exitCode, const std::string& message)
@@ -101,6 +157,8 @@ TEST_F(TippQuery, RefusesWhatItCannotAnswer)
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--arrays", "depth" }, 1,
     "tipp: mesh.tipp: has no array 'depth'");
   expect({ "query", "asked.csv", "nowhere.tipp", "-o", "out.csv" }, 1, "nowhere.tipp");
+  expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--memory", "100" }, 1,
+    "but the limit is 100 bytes; raise it, or partition the mesh into smaller pieces.");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.vtu" }, 2, "does not end in .csv or .npy");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "asked.csv" }, 1, "asked.csv");
   std::filesystem::remove(this->Folder.path("mesh.tipp/pieces/000000.vtu"));

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippQueryArrays_h
+#define tippQueryArrays_h
+
+#include "Predicates/Points.h"
+#include "Query/Around.h"
+
+#include "vtkDataArray.h"
+#include "vtkIdTypeArray.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+/// The points that at(i, p) writes to p.
+template <typename At>
+std::vector<Point3> collected(vtkIdType count, const At& at)
+{
+  std::vector<Point3> points;
+  points.reserve(std::size_t(count));
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    double p[3] = { 0, 0, 0 };
+    at(i, p);
+    points.push_back({ p[0], p[1], p[2] });
+  }
+  return points;
+}
+
+inline std::vector<Point3> pointsOf(vtkDataArray* array)
+{
+  const int components = array ? array->GetNumberOfComponents() : 0;
+  if (components != 2 && components != 3)
+  {
+    throw std::runtime_error("points have two or three coordinates, but the array has " +
+      std::to_string(components) + " components.");
+  }
+  return collected(
+    array->GetNumberOfTuples(), [array](vtkIdType i, double* p) { array->GetTuple(i, p); });
+}
+
+inline void copyTo(vtkIdTypeArray* array, const std::vector<std::int64_t>& ids, int components = 1)
+{
+  if (array)
+  {
+    array->SetNumberOfComponents(components);
+    array->SetNumberOfTuples(vtkIdType(ids.size()) / components);
+    std::copy(ids.begin(), ids.end(), array->GetPointer(0));
+    array->Modified();
+  }
+}
+
+inline void copyTo(vtkIdTypeArray* starts, vtkIdTypeArray* ids, const IdLists& lists)
+{
+  copyTo(starts, lists.Starts);
+  copyTo(ids, lists.Ids);
+}
+
+inline std::vector<std::int64_t> idsOf(vtkIdTypeArray* array)
+{
+  if (!array)
+  {
+    throw std::runtime_error("there is no array of ids.");
+  }
+  return { array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfValues() };
+}
+
+} // namespace tipp
+
+#endif

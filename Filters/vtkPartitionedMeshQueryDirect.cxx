@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkPartitionedMeshQuery.h"
+
+#include "Query/Around.h"
+#include "Query/Closest.h"
+#include "Query/LineData.h"
+#include "Query/Lines.h"
+#include "Query/QueryArrays.h"
+#include "Query/RankAround.h"
+#include "Query/ResidentMesh.h"
+#include "Query/Zones.h"
+
+#include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdList.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using tipp::copyTo;
+using tipp::idsOf;
+using tipp::pointsOf;
+
+namespace
+{
+
+/// The polygons and closed lines of each zone.
+std::vector<tipp::Zone> zonesOf(vtkPolyData* data)
+{
+  if (!data)
+  {
+    throw std::runtime_error("there are no polygons.");
+  }
+  vtkDataArray* const ids = data->GetCellData()->GetArray("ZoneId");
+  vtkDataArray* const holes = data->GetCellData()->GetArray("IsHole");
+  const vtkIdType count = data->GetNumberOfCells();
+  std::vector<tipp::Zone> zones;
+  for (vtkIdType cell = 0; cell < count; ++cell)
+  {
+    const double id = ids ? ids->GetComponent(cell, 0) : double(cell);
+    if (!(id >= 0 && id < double(count)))
+    {
+      throw std::runtime_error(
+        "a ZoneId of the polygons is not from 0 to " + std::to_string(count - 1) + ".");
+    }
+    zones.resize(std::max(zones.size(), std::size_t(id) + 1));
+    tipp::ZoneRing ring;
+    ring.IsHole = holes && holes->GetComponent(cell, 0) != 0;
+    vtkNew<vtkIdList> points;
+    data->GetCellPoints(cell, points);
+    for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
+    {
+      double p[3];
+      data->GetPoint(points->GetId(i), p);
+      ring.Corners.push_back({ p[0], p[1] });
+    }
+    zones[std::size_t(id)].push_back(ring);
+  }
+  return zones;
+}
+
+/// All polygons of a data set as one region.
+tipp::Region regionOf(vtkPolyData* polygons)
+{
+  tipp::Region region;
+  for (const tipp::Zone& zone : zonesOf(polygons))
+  {
+    region.Polygons.insert(region.Polygons.end(), zone.begin(), zone.end());
+  }
+  if (region.Polygons.empty())
+  {
+    throw std::runtime_error("there are no polygons.");
+  }
+  return region;
+}
+
+tipp::Region regionOf(const double* box)
+{
+  tipp::Region region;
+  std::copy_n(box, 6, region.Box.begin());
+  return region;
+}
+
+template <typename Array, typename Value>
+void addColumn(vtkDataSetAttributes* table, const char* name, const std::vector<Value>& values)
+{
+  vtkNew<Array> column;
+  column->SetName(name);
+  column->SetNumberOfValues(vtkIdType(values.size()));
+  std::copy(values.begin(), values.end(), column->GetPointer(0));
+  table->AddArray(column);
+}
+
+} // namespace
+
+/// The mesh, which must be whole in this process.
+std::shared_ptr<const tipp::ResidentMesh> vtkPartitionedMeshQuery::OpenWhole()
+{
+  const auto mesh = this->Open();
+  if (this->Controller && this->Controller->GetNumberOfProcesses() > 1 && !mesh->isStored())
+  {
+    throw std::runtime_error(
+      "each rank has a part of the source alone; store the mesh and give its "
+      "FileName for this question.");
+  }
+  return mesh;
+}
+
+int vtkPartitionedMeshQuery::GetNamesOfArrays(vtkStringArray* names)
+{
+  return this->Direct(
+    [&]
+    {
+      for (const std::string& name : this->Open()->names())
+      {
+        names->InsertNextValue(name);
+      }
+    });
+}
+
+int vtkPartitionedMeshQuery::GetMeshDimension()
+{
+  int dimension = 0;
+  return this->Direct([&] { dimension = this->Open()->mesh().CellSize - 1; }) ? dimension : 0;
+}
+
+/// Asks the mesh, or with the ranks all of their meshes.
+int vtkPartitionedMeshQuery::Around(
+  const std::function<void(tipp::Communicator*, const tipp::ResidentMesh&)>& ask)
+{
+  return this->Direct(
+    [&]
+    {
+      if (!this->Controller || this->Controller->GetNumberOfProcesses() == 1)
+      {
+        ask(nullptr, *this->Open());
+        return;
+      }
+      tipp::Communicator ranks(this->Controller);
+      ranks.together([&] { ask(&ranks, *this->Open()); });
+    });
+}
+
+int vtkPartitionedMeshQuery::Neighbors(vtkIdTypeArray* cells, vtkIdTypeArray* neighbors)
+{
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    {
+      const std::vector<std::int64_t> asked = idsOf(cells);
+      const std::vector<std::int64_t> found =
+        ranks ? tipp::neighborsOnRanks(*ranks, mesh, asked) : tipp::neighborsOf(mesh, asked);
+      // A rank without cells does not know how many corners they have.
+      copyTo(
+        neighbors, found, asked.empty() ? mesh.mesh().CellSize : int(found.size() / asked.size()));
+    });
+}
+
+int vtkPartitionedMeshQuery::Star(
+  vtkIdTypeArray* points, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
+{
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    {
+      copyTo(starts, ids,
+        ranks ? tipp::starsOnRanks(*ranks, mesh, idsOf(points))
+              : tipp::starsOf(mesh, idsOf(points)));
+    });
+}
+
+int vtkPartitionedMeshQuery::RingOfPoints(
+  vtkIdTypeArray* points, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
+{
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    {
+      copyTo(starts, ids,
+        ranks ? tipp::ringsOfPointsOnRanks(*ranks, mesh, idsOf(points), k)
+              : tipp::ringsOfPoints(mesh, idsOf(points), k));
+    });
+}
+
+int vtkPartitionedMeshQuery::RingOfCells(
+  vtkIdTypeArray* cells, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
+{
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    {
+      copyTo(starts, ids,
+        ranks ? tipp::ringsOfCellsOnRanks(*ranks, mesh, idsOf(cells), k)
+              : tipp::ringsOfCells(mesh, idsOf(cells), k));
+    });
+}
+
+int vtkPartitionedMeshQuery::Boundary(vtkPolyData* loops)
+{
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    {
+      loops->ShallowCopy(
+        tipp::polyDataOf(ranks ? tipp::boundaryOnRanks(*ranks, mesh) : tipp::boundaryOf(mesh)));
+    });
+}
+
+int vtkPartitionedMeshQuery::Components(
+  vtkIdTypeArray* ofCells, vtkIdTypeArray* sizes, vtkIdTypeArray* cells)
+{
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    {
+      if (ranks)
+      {
+        const tipp::RankComponents components = tipp::componentsOnRanks(*ranks, mesh);
+        copyTo(ofCells, components.OfCells);
+        copyTo(sizes, components.Sizes);
+        copyTo(cells, components.Cells);
+        return;
+      }
+      const tipp::Components components = tipp::componentsOf(mesh);
+      copyTo(ofCells, components.OfCells);
+      copyTo(sizes, components.Sizes);
+      std::vector<std::int64_t> ids(components.OfCells.size());
+      std::iota(ids.begin(), ids.end(), std::int64_t(0));
+      copyTo(cells, ids);
+    });
+}
+
+int vtkPartitionedMeshQuery::Contours(
+  const char* array, int component, vtkDoubleArray* levels, vtkPolyData* lines)
+{
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    {
+      const std::vector<double> values(
+        levels->GetPointer(0), levels->GetPointer(0) + levels->GetNumberOfValues());
+      const std::string name = array ? array : "";
+      lines->ShallowCopy(
+        tipp::polyDataOf(ranks ? tipp::contoursOnRanks(*ranks, mesh, name, component, values)
+                               : tipp::contoursOf(mesh, name, component, values),
+          name));
+    });
+}
+
+int vtkPartitionedMeshQuery::Profile(vtkDataArray* polyline, double spacing, vtkPolyData* line)
+{
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    {
+      const std::vector<std::string> arrays = this->ArraysOf(ranks, mesh);
+      const std::vector<tipp::Point3> corners = pointsOf(polyline);
+      line->ShallowCopy(
+        tipp::polyDataOf(ranks ? tipp::profileOnRanks(*ranks, mesh, corners, spacing, arrays)
+                               : tipp::profileOf(mesh, corners, spacing, arrays)));
+    });
+}
+
+int vtkPartitionedMeshQuery::Closest(
+  vtkDataArray* points, vtkIdTypeArray* cells, vtkDoubleArray* locations, vtkDoubleArray* distances)
+{
+  return this->Direct(
+    [&]
+    {
+      const std::vector<tipp::Point3> asked = pointsOf(points);
+      const tipp::ClosestLocations found =
+        tipp::closestTo(*this->OpenWhole(), asked.data(), std::int64_t(asked.size()));
+      copyTo(cells, found.Cells);
+      if (locations)
+      {
+        locations->SetNumberOfComponents(3);
+        locations->SetNumberOfTuples(vtkIdType(asked.size()));
+        for (std::size_t i = 0; i < asked.size(); ++i)
+        {
+          const tipp::Point3& p = found.Points[i];
+          locations->SetTuple3(vtkIdType(i), p.x, p.y, p.z);
+        }
+      }
+      if (distances)
+      {
+        distances->SetNumberOfValues(vtkIdType(asked.size()));
+        std::copy(found.Distances.begin(), found.Distances.end(), distances->GetPointer(0));
+      }
+    });
+}
+
+int vtkPartitionedMeshQuery::CellsInBox(const double box[6], bool whole, vtkIdTypeArray* cells)
+{
+  return this->Direct(
+    [&] { copyTo(cells, tipp::cellsIn(*this->OpenWhole(), regionOf(box), whole)); });
+}
+
+int vtkPartitionedMeshQuery::CellsInPolygons(
+  vtkPolyData* polygons, bool whole, vtkIdTypeArray* cells)
+{
+  return this->Direct(
+    [&] { copyTo(cells, tipp::cellsIn(*this->OpenWhole(), regionOf(polygons), whole)); });
+}
+
+int vtkPartitionedMeshQuery::PointsInBox(const double box[6], vtkIdTypeArray* points)
+{
+  return this->Direct([&] { copyTo(points, tipp::pointsIn(*this->OpenWhole(), regionOf(box))); });
+}
+
+int vtkPartitionedMeshQuery::PointsInPolygons(vtkPolyData* polygons, vtkIdTypeArray* points)
+{
+  return this->Direct(
+    [&] { copyTo(points, tipp::pointsIn(*this->OpenWhole(), regionOf(polygons))); });
+}
+
+int vtkPartitionedMeshQuery::ZoneStatistics(vtkPolyData* zones, const char* array, int component,
+  double level, vtkDataSetAttributes* statistics)
+{
+  return this->Direct(
+    [&]
+    {
+      const tipp::ZoneStatistics found = tipp::statisticsOf(
+        *this->OpenWhole(), zonesOf(zones), array ? array : "", component, level);
+      addColumn<vtkIdTypeArray>(statistics, "Cells", found.Cells);
+      addColumn<vtkDoubleArray>(statistics, "Area", found.Area);
+      addColumn<vtkDoubleArray>(statistics, "Minimum", found.Low);
+      addColumn<vtkDoubleArray>(statistics, "Maximum", found.High);
+      addColumn<vtkDoubleArray>(statistics, "Mean", found.Mean);
+      addColumn<vtkDoubleArray>(statistics, "Integral", found.Sum);
+      addColumn<vtkDoubleArray>(statistics, "VolumeAbove", found.Above);
+    });
+}
+
+int vtkPartitionedMeshQuery::Descend(
+  vtkDataArray* points, const char* array, int component, vtkPolyData* lines)
+{
+  return this->Direct(
+    [&]
+    {
+      const std::string name = array ? array : "";
+      lines->ShallowCopy(tipp::polyDataOf(
+        tipp::descentsOf(*this->OpenWhole(), pointsOf(points), name, component), name));
+    });
+}
