@@ -17,6 +17,10 @@ set(TIPP_SANITIZE "" CACHE STRING "Sanitizers to build with, as for -fsanitize="
 
 # Expansion arithmetic is exact only if no multiply and add are contracted.
 add_compile_options(-ffp-contract=off)
+# Lanes never cross the border of a library; later ones note that GCC 4.6 changed how they are passed.
+if (CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+  add_compile_options(-Wno-psabi)
+endif ()
 if (TIPP_SANITIZE)
   add_compile_options(-fsanitize=${TIPP_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${TIPP_SANITIZE})

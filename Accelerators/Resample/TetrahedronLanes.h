@@ -8,7 +8,8 @@
 namespace tipp
 {
 
-/// TetrahedronRows for four tetrahedra at a time, for rows that rounding leaves decided.
+/// TetrahedronRows for four tetrahedra at a time, for rows whose result rounding errors cannot
+/// change.
 class TetrahedronLanes
 {
 public:

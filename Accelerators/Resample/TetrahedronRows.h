@@ -97,7 +97,7 @@ private:
     Point3 B;
     Point3 C;
     double Position; ///< where on the row through A the plane is crossed, in steps
-    double PerY;     ///< and how many steps before that for each unit of y and z
+    double PerY;     ///< the steps by which it moves back for each unit of y; PerZ: of z
     double PerZ;
     double Error;
     int Direction; ///< sign of the inner normal's x

@@ -185,7 +185,7 @@ private:
   mutable std::int64_t ExactTests = 0;
 };
 
-/// TriangleRows for four triangles at a time, for rows that rounding leaves decided.
+/// TriangleRows for four triangles at a time, for rows whose result rounding errors cannot change.
 class TriangleLanes
 {
 public:

@@ -30,13 +30,13 @@ void requireSize(std::size_t actual, std::size_t expected)
 std::vector<std::vector<std::uint64_t>> tellCounts(Communicator& ranks,
   const std::vector<std::int32_t>& owners, const std::vector<std::int64_t>& counts)
 {
-  std::vector<std::vector<std::uint64_t>> mine(static_cast<std::size_t>(ranks.size()));
+  std::vector<std::vector<std::uint64_t>> countsOf(static_cast<std::size_t>(ranks.size()));
   for (std::size_t leaf = 0; leaf < owners.size(); ++leaf)
   {
-    mine[std::size_t(owners[leaf])].push_back(std::uint64_t(counts[leaf]));
+    countsOf[std::size_t(owners[leaf])].push_back(std::uint64_t(counts[leaf]));
   }
-  const std::size_t leaves = mine[std::size_t(ranks.rank())].size();
-  std::vector<std::vector<std::uint64_t>> told = ranks.allToAll(mine);
+  const std::size_t leaves = countsOf[std::size_t(ranks.rank())].size();
+  std::vector<std::vector<std::uint64_t>> told = ranks.allToAll(countsOf);
   for (const std::vector<std::uint64_t>& of : told)
   {
     requireSize(of.size() * sizeof(std::uint64_t), leaves * sizeof(std::uint64_t));

@@ -103,7 +103,7 @@ public:
     unsigned inside = this->test(edges, apex);
     if (at.LastIsOutside)
     {
-      this->addBehind(at.LastOuter, edges.Stop, edges.Start);
+      this->addAcross(at.LastOuter, edges.Stop, edges.Start);
     }
     else
     {
@@ -117,14 +117,14 @@ public:
         if (inside & 2)
         {
           this->destroy(edges.SecondOuter);
-          this->defer(this->behindSecond(edges, apex));
-          edges = this->behindFirst(edges, apex);
+          this->defer(this->acrossSecond(edges, apex));
+          edges = this->acrossFirst(edges, apex);
         }
         else
         {
           const EdgePair tested = edges;
-          edges = this->behindFirst(edges, apex);
-          this->addBehind(tested.SecondOuter, tested.Middle, tested.Stop);
+          edges = this->acrossFirst(edges, apex);
+          this->addAcross(tested.SecondOuter, tested.Middle, tested.Stop);
         }
         continue;
       }
@@ -132,7 +132,7 @@ public:
       {
         this->destroy(edges.SecondOuter);
         const EdgePair tested = edges;
-        edges = this->behindSecond(edges, apex);
+        edges = this->acrossSecond(edges, apex);
         this->addBefore(tested.FirstOuter, tested.Start, tested.Middle);
         continue;
       }
@@ -213,7 +213,7 @@ private:
     this->Last = t;
   }
 
-  void addBehind(Index outer, Index start, Index stop)
+  void addAcross(Index outer, Index start, Index stop)
   {
     const Index t = this->add(outer, start, stop);
     this->link(t, this->After.First);
@@ -247,11 +247,11 @@ private:
     if (this->test(last, apex) & 1)
     {
       this->destroy(last.FirstOuter);
-      this->defer(this->behindFirst(last, apex));
+      this->defer(this->acrossFirst(last, apex));
     }
     else
     {
-      this->addBehind(last.FirstOuter, last.Start, last.Middle);
+      this->addAcross(last.FirstOuter, last.Start, last.Middle);
     }
   }
 
@@ -308,14 +308,14 @@ private:
 
   /// The other two edges of the triangle across the first edge, and across the second, which is in
   /// conflict.
-  EdgePair behindFirst(const EdgePair& e, const ApexPair& v) const
+  EdgePair acrossFirst(const EdgePair& e, const ApexPair& v) const
   {
     return { low(e.StartX, v.X), low(e.StartY, v.Y), low(e.StartLift, v.Lift), low(v.X, e.StopX),
       low(v.Y, e.StopY), low(v.Lift, e.StopLift), low(v.StartCross, v.CrossStop),
       HalfEdgeMesh::twinOfNext(this->Slot, e.FirstOuter),
       HalfEdgeMesh::twinOfPrevious(this->Slot, e.FirstOuter), e.Start, v.First, e.Middle };
   }
-  EdgePair behindSecond(const EdgePair& e, const ApexPair& v) const
+  EdgePair acrossSecond(const EdgePair& e, const ApexPair& v) const
   {
     return { high(e.StartX, v.X), high(e.StartY, v.Y), high(e.StartLift, v.Lift),
       high(v.X, e.StopX), high(v.Y, e.StopY), high(v.Lift, e.StopLift),

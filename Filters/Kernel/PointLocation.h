@@ -118,7 +118,7 @@ public:
     const bool isThere = this->isInConflict();
     if (!isThere)
     {
-      this->leave(v);
+      this->chooseExit(v);
       this->walk();
     }
     const Index last = this->Last;
@@ -133,7 +133,7 @@ private:
 
   /// Chooses an edge of the first triangle that p lies beyond as the edge from C to A, whose
   /// opposite vertex B is to be found next.
-  void leave(const Index* v)
+  void chooseExit(const Index* v)
   {
     if (this->isRight(this->B, this->C, this->BC))
     {

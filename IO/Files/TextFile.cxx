@@ -123,6 +123,29 @@ void splitAtBlanks(std::string_view line, std::vector<std::string_view>& fields)
   }
 }
 
+/// Throws IOError unless the beginning of a file, "-" for the standard input, may be text.
+void requireText(const std::string& path, std::string_view text)
+{
+  constexpr std::string_view signatures[][2] = { { "\x1f\x8b", "gzip" },
+    { "\xfd"
+      "7zXZ",
+      "xz" },
+    { "\x28\xb5\x2f\xfd", "zstd" } };
+  for (const auto& [signature, program] : signatures)
+  {
+    if (text.substr(0, signature.size()) == signature)
+    {
+      throw IOError(path,
+        "is compressed; decompress it first, as in \"" + std::string(program) +
+          " -dc FILE | tipp ...\", or give it the extension of such files.");
+    }
+  }
+  if (text.substr(0, 4096).find('\0') != std::string_view::npos)
+  {
+    throw IOError(path, "is not a text file; give its extension as what it is.");
+  }
+}
+
 } // namespace
 
 std::string readTextFile(const std::string& path)
@@ -147,10 +170,7 @@ std::string readTextFile(const std::string& path)
     throw IOError(path, std::string("cannot be read (") + std::strerror(errno) + ").");
   }
   text.resize(size);
-  if (std::memchr(text.data(), '\0', std::min<std::size_t>(size, 4096)))
-  {
-    throw IOError(path, "is not a text file; give its extension as what it is.");
-  }
+  requireText(path, text);
   return text;
 }
 
@@ -298,18 +318,14 @@ FileLines::FileLines(const std::string& path, std::size_t blockBytes)
       throw IOError(path, "cannot be decompressed, since no process can be started.");
     }
   }
-  this->readOn();
+  this->readMore();
   this->startText();
 }
 
 /// Skips the byte order mark and estimates the number of lines.
 void FileLines::startText()
 {
-  constexpr std::size_t looked = 4096;
-  if (std::memchr(this->Buffer.data(), '\0', std::min(this->End, looked)))
-  {
-    throw IOError(this->Path, "is not a text file; give its extension as what it is.");
-  }
+  requireText(this->Path, { this->Buffer.data(), this->End });
   struct stat status = {};
   if (this->End > 0 && this->File && fstat(fileno(this->File.get()), &status) == 0 &&
     S_ISREG(status.st_mode))
@@ -327,7 +343,7 @@ void FileLines::startText()
 }
 
 /// Appends the next bytes to the buffer. Returns false at the end.
-bool FileLines::readOn()
+bool FileLines::readMore()
 {
   constexpr std::size_t longest = std::size_t(64) << 20;
   if (!this->File)
@@ -381,7 +397,7 @@ bool FileLines::next(std::string_view& line)
     if (end == std::string_view::npos)
     {
       looked = rest.size();
-      if (this->readOn())
+      if (this->readMore())
       {
         continue;
       }
@@ -391,7 +407,7 @@ bool FileLines::next(std::string_view& line)
       }
       end = looked; // the last line has no end of line
     }
-    // readOn() may have moved the buffer.
+    // readMore() may have moved the buffer.
     line = std::string_view(this->Buffer.data() + this->Begin, end);
     this->Begin = std::min(this->Begin + end + 1, this->End);
     if (!line.empty() && line.back() == '\r')

@@ -73,7 +73,7 @@ public:
   std::int64_t expectedLines() const { return this->Expected; }
 
 private:
-  bool readOn();
+  bool readMore();
   void endDecompression();
   void startText();
 

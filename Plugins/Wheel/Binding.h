@@ -148,6 +148,11 @@ auto withoutLock(const Work& work)
 /// Points of shape (n, 2) or (n, 3), float32 or float64, where they lie.
 PointsView viewOf(const InputArray& points);
 
+/// Of the arguments that triangulations with and without constraints share. `reporter` must outlive
+/// the result.
+TriangulationOptions triangulationOptions(
+  double maximumEdge, int columns, int rows, bool stages, int threads, Reporter& reporter);
+
 /// A triangulation of so many points for Python: triangles, duplicates, rejected, warnings,
 /// statistics and, if wanted, neighbors. Takes the triangles' memory.
 nb::dict triangulationDict(

@@ -89,13 +89,8 @@ nb::dict triangulateWithConstraints(const InputArray& points, const InputArray& 
   bool stages, int threads, bool neighbors, nb::object progress)
 {
   Reporter reporter(std::move(progress));
-  TriangulationOptions options;
-  options.MaximumEdge = maximumEdge;
-  options.Columns = columns;
-  options.Rows = rows;
-  options.Order = stages ? Schedule::Stages : Schedule::Dynamic;
-  options.Threads = threads;
-  options.Progress = reporter.function();
+  const TriangulationOptions options =
+    triangulationOptions(maximumEdge, columns, rows, stages, threads, reporter);
   const std::vector<Constraint> constraints = constraintsOf(pairs);
   const std::size_t given = points.shape(0);
   std::vector<std::string> warnings; // about the triangulation before it is cut

@@ -90,6 +90,19 @@ PointsView viewOf(const InputArray& points)
     : PointsView(static_cast<const double*>(points.data()), count, stride);
 }
 
+TriangulationOptions triangulationOptions(
+  double maximumEdge, int columns, int rows, bool stages, int threads, Reporter& reporter)
+{
+  TriangulationOptions options;
+  options.MaximumEdge = maximumEdge;
+  options.Columns = columns;
+  options.Rows = rows;
+  options.Order = stages ? Schedule::Stages : Schedule::Dynamic;
+  options.Threads = threads;
+  options.Progress = reporter.function();
+  return options;
+}
+
 nb::dict triangulationDict(
   Triangulation&& triangulation, std::size_t points, bool longEdgesLeftOut, bool wantsNeighbors)
 {
@@ -115,13 +128,8 @@ nb::dict triangulatePoints(const InputArray& points, double distance, double max
   int columns, int rows, bool stages, int threads, bool neighbors, nb::object progress)
 {
   Reporter reporter(std::move(progress));
-  TriangulationOptions options;
-  options.MaximumEdge = maximumEdge;
-  options.Columns = columns;
-  options.Rows = rows;
-  options.Order = stages ? Schedule::Stages : Schedule::Dynamic;
-  options.Threads = threads;
-  options.Progress = reporter.function();
+  const TriangulationOptions options =
+    triangulationOptions(maximumEdge, columns, rows, stages, threads, reporter);
   Triangulation triangulation;
   withoutLock(
     [&]

@@ -135,7 +135,7 @@ class Rasters(unittest.TestCase):
                 expected = tipp.dem(self.points, 2.0, attributes=attributes, point_data={"a": self.points[:, 0] * 2})
                 np.testing.assert_array_equal(expected.array, grid)
                 self.assertEqual((expected.transform, None), (transform, crs))
-            with self.assertRaisesRegex(KeyError, "no attribute 'c'"):
+            with self.assertRaisesRegex(KeyError, "no column 'c'"):
                 tipp.dem(name, 2.0, attributes="c")
 
     def test_bounds_alignment_and_long_edges(self):

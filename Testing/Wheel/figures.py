@@ -78,7 +78,8 @@ def measure_interpolation(count, queries, repeats):
     result = {"tipp": least(lambda: mine(places), repeats)}
     theirs = scipy.interpolate.LinearNDInterpolator(points, values)
     theirs(places[:10])
-    result["scipy"] = least(lambda: theirs(places), 1)
+    tenth = places[: queries // 10]  # all would take minutes
+    result["scipy"] = 10 * least(lambda: theirs(tenth), 1)
     sample = places[:10_000]
     difference = np.abs(mine(sample) - theirs(sample))
     assert np.nanmax(difference) < 1e-9 and np.isfinite(difference).mean() > 0.99

@@ -218,6 +218,15 @@ TEST_F(TextPoints, BinaryFileIsReported)
   this->expectError(std::string("ab\0cd", 5), "is not a text file");
 }
 
+TEST_F(TextPoints, CompressedTextWithoutItsExtensionIsReported)
+{
+  this->expectError("\x1f\x8b\x08 and more", "gzip -dc FILE");
+  this->expectError("\xfd"
+                    "7zXZ and more",
+    "xz -dc FILE");
+  this->expectError("\x28\xb5\x2f\xfd and more", "zstd -dc FILE");
+}
+
 TEST_F(TextPoints, UnknownExtensionIsReported)
 {
   const std::string path = this->Folder.file("points.dat", "1 2\n");

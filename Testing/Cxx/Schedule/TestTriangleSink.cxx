@@ -141,7 +141,7 @@ TYPED_TEST(SinkOf, InteriorTrianglesStayWhereTheyAre)
   EXPECT_EQ(before, std::vector<TypeParam>(ids.begin(), ids.begin() + 12));
 }
 
-/// In whatever order workers brought them.
+/// The order in which workers add triangles does not show.
 TYPED_TEST(SinkOf, TheOrderDoesNotDependOnThatOfTheBoundary)
 {
   std::mt19937_64 random(2);
