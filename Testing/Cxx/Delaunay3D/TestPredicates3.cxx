@@ -71,8 +71,9 @@ struct Ball
     mpq_class distance;
     for (std::size_t k = 0; k < 3; ++k)
     {
-      const mpq_class gap = std::max(mpq_class(box.Min[k]) - this->Centre[k],
-        mpq_class(this->Centre[k] - mpq_class(box.Max[k])));
+      const mpq_class below = mpq_class(box.Min[k]) - this->Centre[k];
+      const mpq_class above = this->Centre[k] - mpq_class(box.Max[k]);
+      const mpq_class gap = below > above ? below : above;
       distance += gap > 0 ? mpq_class(gap * gap) : mpq_class(0);
     }
     return distance <= this->Square;
