@@ -252,7 +252,8 @@ TEST(Delaunay3DFilter, BoundingTriangulationHasAnOctahedron)
   delaunay->Update();
   ASSERT_EQ(106, delaunay->GetOutput()->GetNumberOfPoints());
   std::set<vtkIdType> used;
-  for (const auto& cell : cellsByType(delaunay->GetOutput())[VTK_TETRA])
+  const auto cells = cellsByType(delaunay->GetOutput());
+  for (const auto& cell : cells.at(VTK_TETRA))
   {
     used.insert(cell.begin(), cell.end());
   }

@@ -63,7 +63,7 @@ struct Ball
       const mpq_class d = exact(p)[k] - this->Centre[k];
       distance += d * d;
     }
-    return cmp(this->Square, distance);
+    return sgn(mpq_class(this->Square - distance));
   }
 
   bool meets(const Box3& box) const

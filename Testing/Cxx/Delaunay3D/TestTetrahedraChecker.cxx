@@ -80,11 +80,10 @@ TEST_F(TetrahedraCheckerTest, FindsAPointThatIsNoVertex)
 
 TEST_F(TetrahedraCheckerTest, FindsAPointInsideASphere)
 {
-  // A vertex that is moved a little is inside of spheres, as the cubes' corners were on them.
-  for (double& coordinate : this->XYZ)
-  {
-    coordinate *= 1 + 1e-3 * coordinate;
-  }
+  // The cubes' corners are on common spheres: one that is moved a little is inside of some.
+  const Point3 middle{ 2, 2, 2 };
+  const auto found = std::find(this->Points.begin(), this->Points.end(), middle);
+  this->XYZ[3 * std::size_t(found - this->Points.begin())] += 0.01;
   const TetrahedraReport report = this->check();
   EXPECT_GT(report.BadSpheres, 0);
   EXPECT_EQ(0, report.BadTurns);
