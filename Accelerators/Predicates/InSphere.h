@@ -61,7 +61,8 @@ inline bool isCertain(const InSphereValue& value)
     relative * (square * square) * value.lifts + absolute;
 }
 
-/// As inSphere(), but directly in exact arithmetic: for callers whose own filter has failed.
+/// As inSphere(), for callers whose own filter has failed: by a sharper one, then in exact
+/// arithmetic.
 VTKTIPPACCELERATORS_EXPORT int inSphereExact(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& p);
 
