@@ -117,8 +117,7 @@ Circumball::Circumball(const Point3& a, const Point3& b, const Point3& c, const 
 // Underflow: let s be the longest entry of u, v, w. s <= 1e50, and D^ >= 1e-150 makes s > 1e-51.
 // Products below the normal range are off by 2^-1074, so n by 1e-221 and q by 1e-71: below e r.
 //
-// Centre a + q: rounded in a + q, in the interval's ends and in isSurelyInside(): 4 e |c|, and that
-// e r.
+// Centre a + q: rounded in a + q and in the interval's ends: 4 e |c|, and that e r.
 //
 // Radius |q^|: off by the sum of q's errors; its own rounding is 4 e r; e r each for the interval's
 // ends and their squares; in meets() a squared distance is off by 6 e, its root by 3 e. 32 e r are
@@ -171,11 +170,50 @@ bool Circumball::computeIntervals()
     this->Low[k] = centre - error;
     this->High[k] = centre + error;
   }
-  this->LargestRadius = radius + radiusError;
+  const double largest = radius + radiusError;
   const double smallest = std::max(0.0, radius - radiusError);
-  this->LargestSquare = this->LargestRadius * this->LargestRadius;
+  this->LargestSquare = largest * largest;
   this->SmallestSquare = smallest * smallest;
   return true;
+}
+
+// With s the longest entry of u, v and w, and thus P <= 6 s^3 and W <= 18 s^4: where D^ is at least
+// 2^-10 s^3, the error of q is below e (20 + 12 * 6 * 2^10) 9 * 2^10 s < 1e-7 s by the bounds
+// above, and so is that of the radius, 2e-7 s for all three entries. 1e-6 s are given, and for the
+// rounding of coordinates 16 e of them.
+bool Circumball::isSurelyInside(
+  const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Box3& box)
+{
+  const Point3 u = b - a;
+  const Point3 v = c - a;
+  const Point3 w = d - a;
+  const auto cross = [](const Point3& p, const Point3& q) -> Point3 {
+    return { p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x };
+  };
+  const auto square = [](const Point3& p) { return p.x * p.x + p.y * p.y + p.z * p.z; };
+  const Point3 vw = cross(v, w);
+  const Point3 wu = cross(w, u);
+  const Point3 uv = cross(u, v);
+  const double uu = square(u);
+  const double vv = square(v);
+  const double ww = square(w);
+  const double volume = u.x * vw.x + u.y * vw.y + u.z * vw.z;
+  const double s = std::sqrt(std::max({ uu, vv, ww })); // at least the longest entry
+  if (!(volume >= 0x1p-10 * (s * s * s)) || !(s >= 1e-50) || !(s <= 1e50))
+  {
+    return false;
+  }
+  const double half = 0.5 / volume;
+  const Point3 q = { half * (uu * vw.x + vv * wu.x + ww * uv.x),
+    half * (uu * vw.y + vv * wu.y + ww * uv.y), half * (uu * vw.z + vv * wu.z + ww * uv.z) };
+  const double radius = std::sqrt(square(q)) + 1e-6 * s;
+  const auto isBetween = [radius](double low, double centre, double high)
+  {
+    const double reach = radius + 16 * Epsilon * std::fabs(centre);
+    return low < centre - reach && centre + reach < high;
+  };
+  return isBetween(box.Min[0], a.x + q.x, box.Max[0]) &&
+    isBetween(box.Min[1], a.y + q.y, box.Max[1]) && isBetween(box.Min[2], a.z + q.z, box.Max[2]);
 }
 
 // Intervals that decide nothing, so that every test uses exact arithmetic.
@@ -183,7 +221,6 @@ void Circumball::leaveOpen()
 {
   this->Low.fill(-Infinity);
   this->High.fill(Infinity);
-  this->LargestRadius = Infinity;
   this->LargestSquare = Infinity;
   this->SmallestSquare = -1.0;
 }

@@ -42,17 +42,10 @@ public:
     return far <= this->SmallestSquare || this->meetsExactly(box);
   }
 
-  /// Whether the ball surely lies in the interior of the box. False for some that just do.
-  bool isSurelyInside(const Box3& box) const
-  {
-    bool inside = true;
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      inside = inside && box.Min[k] < this->Low[k] - this->LargestRadius &&
-        this->High[k] + this->LargestRadius < box.Max[k];
-    }
-    return inside;
-  }
+  /// Whether the ball of a tetrahedron surely lies in the interior of the box. Quick; false for
+  /// some that do: if it just does, or if the tetrahedron is thin.
+  static bool isSurelyInside(
+    const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Box3& box);
 
 private:
   static double gap(double before, double behind)
@@ -66,9 +59,8 @@ private:
   std::array<Point3, 4> Corners;
   std::array<double, 3> Low;  // the centre lies between Low
   std::array<double, 3> High; // and High
-  double LargestRadius;
-  double SmallestSquare; // interval of the squared radius,
-  double LargestSquare;  // widened by the rounding of the squared distances in meets()
+  double SmallestSquare;      // interval of the squared radius,
+  double LargestSquare;       // widened by the rounding of the squared distances in meets()
 };
 
 } // namespace tipp

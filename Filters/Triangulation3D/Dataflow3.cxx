@@ -80,6 +80,11 @@ void Worker3::triangulate(PartitionIndex p, FinalCells& final)
   this->Kernel.triangulate(this->Points.data(), this->Points.size());
   this->VertexCount += this->Points.size();
   this->Outgoing.assign(this->Order.later(p).size(), {});
+  this->Ids.resize(this->Kernel.vertexEnd());
+  for (Index v = 1; v < this->Kernel.vertexEnd(); ++v)
+  {
+    this->Ids[v] = this->vertex(p, v).Id;
+  }
   this->Kernel.forEach(
     [&](Index cell)
     {
@@ -104,10 +109,11 @@ void Worker3::triangulate(PartitionIndex p, FinalCells& final)
 void Worker3::route(PartitionIndex p, Index cell, FinalCells& final)
 {
   const std::array<Index, 4> v = this->Kernel.corners(cell);
-  const Circumball ball = ballOf(this->Kernel, v);
   const std::vector<Box3>& regions = this->Buckets.Regions;
-  if (!ball.isSurelyInside(regions[std::size_t(p)]))
+  if (!Circumball::isSurelyInside(this->Kernel.point(v[0]), this->Kernel.point(v[1]),
+        this->Kernel.point(v[2]), this->Kernel.point(v[3]), regions[std::size_t(p)]))
   {
+    const Circumball ball = ballOf(this->Kernel, v);
     if (!ball.meets(regions[std::size_t(p)]))
     {
       return;
@@ -121,6 +127,12 @@ void Worker3::route(PartitionIndex p, Index cell, FinalCells& final)
       corners.insert(corners.end(), v.begin(), v.end());
       return;
     }
+  }
+  const CellIds ids = { this->Ids[v[0]], this->Ids[v[1]], this->Ids[v[2]], this->Ids[v[3]] };
+  if (std::all_of(ids.begin(), ids.end(), [](std::int32_t id) { return id >= 0; }))
+  {
+    final.Cells.push_back(ids);
+    return;
   }
   final.add(
     this->vertex(p, v[0]), this->vertex(p, v[1]), this->vertex(p, v[2]), this->vertex(p, v[3]));
@@ -194,7 +206,9 @@ void repairHull(const std::vector<Vertex3>& artificial, FinalCells& final)
     [&](Index cell)
     {
       const std::array<Index, 4> v = kernel.corners(cell);
-      if (kernel.isInfinite(cell) || ballOf(kernel, v).isSurelyInside(frame.Box))
+      if (kernel.isInfinite(cell) ||
+        Circumball::isSurelyInside(kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2]),
+          kernel.point(v[3]), frame.Box))
       {
         return;
       }

@@ -71,6 +71,7 @@ private:
   std::vector<Point3> Points;  ///< the partition's own, then those of Others
   std::vector<Vertex3> Others; ///< from the inbox
   std::vector<std::vector<DelaunayKernel3::Index>> Outgoing; ///< corners, by later partition
+  std::vector<std::int32_t> Ids;                             ///< by vertex: the point's id
   std::vector<std::uint32_t> SentTo; ///< by vertex: the last recipient, counted from 1
   std::vector<Duplicate> Duplicates;
   std::size_t VertexCount = 0;

@@ -217,7 +217,7 @@ TEST(Circumball, MeetsBoxesAsRationalsSay)
       const bool meets = rational.meets(box);
       meetings += meets ? 1 : 0;
       EXPECT_EQ(meets, ball.meets(box));
-      if (ball.isSurelyInside(box))
+      if (Circumball::isSurelyInside(t[0], t[1], t[2], t[3], box))
       {
         EXPECT_TRUE(meets);
         for (std::size_t axis = 0; axis < 3; ++axis)
