@@ -40,7 +40,7 @@ environment scipy numpy scipy scikit-learn
 runs scipy Testing/Wheel/TestScipyHabits.py Testing/Wheel/TestTwoOpenMP.py
 environment pyvista 'vtk>=9.7,<9.8' pyvista shapely
 runs pyvista Testing/Wheel/TestPyVista.py Testing/Wheel/TestFilters.py Testing/Python/TestArguments.py Testing/Python/TestArrays.py \
-  Testing/Python/TestCheck.py Testing/Python/TestConstraints.py Testing/Python/TestPackage.py Testing/Python/TestPointsToImage.py
+  Testing/Python/TestCheck.py Testing/Python/TestConstraints.py Testing/Python/TestInterrupt.py Testing/Python/TestPackage.py Testing/Python/TestPointsToImage.py
 # cvista has no wheels for Python 3.11.
 if "$python" -c 'import sys; sys.exit(sys.version_info < (3, 12))'; then
   environment cvista 'pyvista[cvista]>=0.49'

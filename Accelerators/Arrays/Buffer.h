@@ -75,7 +75,7 @@ public:
   T* release()
   {
     this->Size = 0;
-    return this->Data ? this->Data.release() : static_cast<T*>(std::malloc(1));
+    return this->Data ? this->Data.release() : static_cast<T*>(std::malloc(sizeof(T)));
   }
 
 private:

@@ -4,14 +4,11 @@ import inspect
 import os
 import pathlib
 import pydoc
-import signal
 import subprocess
 import sys
 import tempfile
 import textwrap
-import threading
 import unittest
-import unittest.mock
 import warnings
 
 import numpy as np
@@ -366,71 +363,6 @@ class Files(unittest.TestCase):
         pathlib.Path(self.output).write_text("the user's", encoding="utf-8")
         with self.assertRaisesRegex(RuntimeError, "mesh.tipp: exists already"):
             tipp.delaunay_file(self.input, self.output)
-
-    def test_a_run_goes_on_after_ctrl_c(self):
-        tipp.delaunay_file(self.input, self.path("whole.tipp"), memory="1M")
-        def press(fraction):
-            if fraction > 0.4:
-                signal.raise_signal(signal.SIGINT)
-
-        with unittest.mock.patch("tipp._arguments._show", press), self.assertRaises(KeyboardInterrupt):
-            tipp.delaunay_file(self.input, self.output, memory="1M", progress_bar=True)
-        self.assertFalse(os.path.exists(self.output))
-        with self.assertRaisesRegex(RuntimeError, "resume it"):
-            tipp.delaunay_file(self.input, self.output, memory="1M")
-        self.assertEqual(tipp.delaunay_file(self.input, self.output, memory="1M", resume=True)["resumed"], 1)
-        self.assertEqual(self.files("mesh.tipp"), self.files("whole.tipp"))
-
-    def files(self, name):
-        root = pathlib.Path(self.path(name))
-        return {str(f.relative_to(root)): f.read_bytes() for f in root.rglob("*") if f.is_file()}
-
-
-class Interrupt(unittest.TestCase):
-    def test_ctrl_c_stops_a_triangulation(self):
-        points = random_points(100_000)
-        former = signal.getsignal(signal.SIGINT)
-        calls = self.interrupt_at(3, lambda: tipp.delaunay(points, threads=1, progress_bar=True))
-        self.assertEqual(calls, 3)
-        self.assertIs(signal.getsignal(signal.SIGINT), former)
-        self.assertEqual(tipp.delaunay(points[:100]).shape[1], 3)
-
-    def interrupt_at(self, call, work):
-        """Ctrl-C when progress is shown for that time. Returns how often it was shown in all."""
-        calls = []
-
-        def show(fraction):
-            calls.append(fraction)
-            if len(calls) == call:
-                signal.raise_signal(signal.SIGINT)
-
-        with unittest.mock.patch("tipp._arguments._show", show), self.assertRaises(KeyboardInterrupt):
-            work()
-        return len(calls)
-
-    def test_ctrl_c_stops_write_and_read_at_once(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "mesh.tipp")
-            tipp.delaunay_file(self.save_points(folder), path)
-            again = os.path.join(folder, "again.tipp")
-            whole = tipp.read(path)
-            for call in (1, 2, 5, 15):
-                calls = self.interrupt_at(call, lambda: tipp.write(whole, again, progress_bar=True))
-                self.assertLessEqual(calls, call + 1)
-                self.assertEqual(sorted(os.listdir(folder)), ["mesh.tipp", "points.npy"])
-            self.assertLessEqual(self.interrupt_at(1, lambda: tipp.read(path, progress_bar=True)), 2)
-
-    def save_points(self, folder):
-        path = os.path.join(folder, "points.npy")
-        np.save(path, random_points(20_000))
-        return path
-
-    def test_other_threads_may_call(self):
-        shapes = []
-        thread = threading.Thread(target=lambda: shapes.append(tipp.delaunay(random_points(100)).shape))
-        thread.start()
-        thread.join()
-        self.assertEqual(shapes[0][1], 3)
 
 
 class Package(unittest.TestCase):

@@ -56,6 +56,8 @@ class TippOnRanks(unittest.TestCase):
             counts = [run.stdout.split(", ")[:3] for run in runs]
             self.assertEqual(counts[0], counts[1])
             self.assertTrue(counts[0][0].startswith("5999 points"), counts)
+            for run in runs:
+                self.assertIn("tipp: 3001 points of LAS files are not used", run.stderr)
 
     def write_las(self, name, points):
         """Version 1.2, format 0; every third point is of class 1, the others of class 2."""

@@ -2,6 +2,7 @@
 #include "Commands/DelaunayRuns.h"
 
 #include "Commands/Commands.h"
+#include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Process.h"
 #include "Console/ProgressBar.h"
@@ -131,6 +132,10 @@ void runTogether(Communicator& ranks, const DelaunayArguments& arguments)
   }
   ranks.barrier();
   run.ReadSeconds = watch.restart();
+  if (ranks.isFirst()) // which counts those of all files
+  {
+    reportLeftOut(points.LeftOut, points.ThinnedOut);
+  }
   RankPoints input;
   input.Points = PointsView(points.XY.data(), points.size(), 2);
   DistributedOptions options = makeDistributedOptions(arguments);
