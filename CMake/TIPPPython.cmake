@@ -35,7 +35,7 @@ add_custom_target(tipp_python)
 set(tipp_python_imports "from ._run import require as _require_vtk\n\n_require_vtk(\"${VTK_VERSION}\")\n")
 set(tipp_python_more_imports "")
 set(tipp_python_summary
-  "and the VTK classes that these use: vtkTIPPDelaunay2D, vtkTIPPOutOfCoreDelaunay2D,\nvtkTIPPPointsToImage, vtkRangeResampleFilter, vtkTIPPPointReader, vtkPartitionedUnstructuredReader\nand vtkPartitionedUnstructuredWriter.")
+  "and the VTK classes that these use: vtkTIPPDelaunay2D, vtkTIPPDelaunay3D, vtkTIPPOutOfCoreDelaunay2D,\nvtkTIPPPointsToImage, vtkRangeResampleFilter, vtkTIPPPointReader, vtkPartitionedUnstructuredReader\nand vtkPartitionedUnstructuredWriter.")
 set(tipp_engine _vtk_engine)
 foreach (module IN LISTS tipp_wrapped_modules)
   string(REPLACE "TIPP::" "vtk" library "${module}")

@@ -42,6 +42,7 @@ int run(int argc, char** argv)
   app.failure_message(describeMisuse);
   app.footer("'tipp COMMAND --help' tells a command's options, units and examples.\n");
   tipp::addDelaunayCommand(app, exitCode);
+  tipp::addDelaunay3DCommand(app, exitCode);
   tipp::addDemCommand(app, exitCode);
   tipp::addDevicesCommand(app, exitCode);
   tipp::addFlattenCommand(app, exitCode);

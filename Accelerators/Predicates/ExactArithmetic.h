@@ -180,6 +180,12 @@ public:
     return high != 0 ? 128 + bitLength(high) : bitLength(this->Low ^ flip);
   }
 
+  ///@{
+  /// The lower and the upper 128 bits.
+  UInt128 low() const { return this->Low; }
+  UInt128 high() const { return this->High; }
+  ///@}
+
   /// -1, 0 or +1.
   int sign() const
   {

@@ -2,6 +2,7 @@
 #ifndef tippRouting_h
 #define tippRouting_h
 
+#include "Engine/Inbox.h"
 #include "Engine/PartitionOrder.h"
 #include "Ranks/Archive.h"
 #include "Triangulation/BoundaryTriangles.h"
@@ -59,55 +60,7 @@ private:
   std::vector<std::uint32_t> HashTable; ///< vertex indices; a member to reuse its memory
 };
 
-/// The messages sent to one partition. Any thread may add one, without a lock. The thread that
-/// triangulates the partition takes them all once all senders are done.
-class Inbox
-{
-public:
-  Inbox() = default;
-  Inbox(const Inbox&) = delete;
-  Inbox& operator=(const Inbox&) = delete;
-  ~Inbox() { this->takeNodes(); }
-
-  void put(VertexMessage&& message)
-  {
-    Node* const node = new Node{ std::move(message), this->Last.load(std::memory_order_relaxed) };
-    while (!this->Last.compare_exchange_weak(
-      node->Before, node, std::memory_order_release, std::memory_order_relaxed))
-    {
-    }
-  }
-
-  /// Removes and returns all messages, sorted by sender: the order of arrival does not matter.
-  std::vector<VertexMessage> take()
-  {
-    std::vector<VertexMessage> messages = this->takeNodes();
-    std::sort(messages.begin(), messages.end(),
-      [](const VertexMessage& a, const VertexMessage& b) { return a.Sender < b.Sender; });
-    return messages;
-  }
-
-private:
-  struct Node
-  {
-    VertexMessage Message;
-    Node* Before;
-  };
-
-  std::vector<VertexMessage> takeNodes()
-  {
-    std::vector<VertexMessage> messages;
-    for (Node* node = this->Last.exchange(nullptr, std::memory_order_acquire); node;)
-    {
-      const std::unique_ptr<Node> taken(node);
-      messages.push_back(std::move(taken->Message));
-      node = taken->Before;
-    }
-    return messages;
-  }
-
-  std::atomic<Node*> Last{ nullptr };
-};
+using Inbox = MessageInbox<VertexMessage>;
 
 /// Delivers a message to a partition's inbox.
 using DeliverMessage = std::function<void(PartitionIndex, VertexMessage&&)>;

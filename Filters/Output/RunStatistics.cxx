@@ -94,22 +94,42 @@ FigureList stagesOf(const std::vector<TriangulationStatistics::Stage>& stages)
       column("mesh_triangles", "MeshTriangles", stages, &Stage::MeshTriangles) } };
 }
 
-RunStatistics statisticsOf(
-  const Triangulation& triangulation, std::int64_t points, std::int64_t triangles)
+namespace
 {
-  const TriangulationStatistics& statistics = triangulation.Statistics;
+
+/// The figures of a run in memory; `cells` is the name of the triangles or tetrahedra.
+template <typename Mesh>
+RunStatistics inMemory(
+  const Mesh& mesh, std::int64_t points, const char* key, const char* array, std::int64_t cells)
+{
+  const TriangulationStatistics& statistics = mesh.Statistics;
   RunStatistics run;
   run.add("points", "Points", points);
-  run.add("triangles", "Triangles", triangles);
-  run.add("duplicates", "DuplicatePoints", std::int64_t(triangulation.Duplicates.size()));
-  run.add("rejected", "RejectedPoints", std::int64_t(triangulation.Rejected.size()));
+  run.add(key, array, cells);
+  run.add("duplicates", "DuplicatePoints", std::int64_t(mesh.Duplicates.size()));
+  run.add("rejected", "RejectedPoints", std::int64_t(mesh.Rejected.size()));
   run.add("threads", "Threads", statistics.Threads);
   run.add("partitions", "Partitions", statistics.Partitions);
   run.add("initial_points", "InitialPoints", statistics.InitialPoints);
   run.add("worker_vertices", "WorkerVertices", statistics.WorkerVertices);
-  run.Lists = { phasesOf(statistics.Phases, false, "PhaseName", "PhaseSeconds"),
-    stagesOf(statistics.Stages) };
+  run.Lists = { phasesOf(statistics.Phases, false, "PhaseName", "PhaseSeconds") };
   return run;
+}
+
+} // namespace
+
+RunStatistics statisticsOf(
+  const Triangulation& triangulation, std::int64_t points, std::int64_t triangles)
+{
+  RunStatistics run = inMemory(triangulation, points, "triangles", "Triangles", triangles);
+  run.Lists.push_back(stagesOf(triangulation.Statistics.Stages));
+  return run;
+}
+
+RunStatistics statisticsOf(
+  const Tetrahedralization& mesh, std::int64_t points, std::int64_t tetrahedra)
+{
+  return inMemory(mesh, points, "tetrahedra", "Tetrahedra", tetrahedra);
 }
 
 RunStatistics statisticsOf(const OutOfCoreStatistics& statistics, bool isCounted)

@@ -6,6 +6,7 @@
 #include "Distributed/DistributedTriangulation.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Triangulation/Triangulate.h"
+#include "Triangulation3D/Tetrahedralize.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
@@ -55,6 +56,8 @@ struct RunStatistics
 /// the output; `isCounted`: the triangles were only counted.
 VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(
   const Triangulation& triangulation, std::int64_t points, std::int64_t triangles);
+VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(
+  const Tetrahedralization& mesh, std::int64_t points, std::int64_t tetrahedra);
 VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(
   const OutOfCoreStatistics& statistics, bool isCounted);
 VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(const DistributedTriangulation& mine);

@@ -21,7 +21,8 @@ from ._arguments import finish, Progress
 from ._rasters import DERIVED, needs_elevation, require_bands, uncompressed
 from ._vtkmodules import root
 
-__all__ = ["delaunay", "delaunay_2d", "delaunay_file", "dem", "open_mesh", "read", "require_ranks", "resample", "write"]
+__all__ = ["delaunay", "delaunay_2d", "delaunay_3d", "delaunay_file", "dem", "open_mesh", "read", "require_ranks",
+           "resample", "write"]
 
 _HIDDEN = 32  # vtkDataSetAttributes::HIDDENCELL
 _GHOSTS = "vtkGhostType"
@@ -135,6 +136,10 @@ def read_points(paths: list[str], options: dict[str, Any]) -> tuple[np.ndarray, 
 
 def require_ranks() -> None:
     raise RuntimeError("tipp.ranks() needs a TIPP that was built with MPI and VTK; the wheel works on one rank.")
+
+
+def delaunay_3d(points: Any, point_data: Any, options: dict[str, Any], progress: Progress | None) -> Any:
+    raise RuntimeError("tipp.delaunay_3d() needs a TIPP that was built with VTK; the wheel has no tetrahedra.")
 
 
 def delaunay(points: Any, options: dict[str, Any], progress: Progress | None) -> np.ndarray:

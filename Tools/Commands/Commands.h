@@ -23,6 +23,7 @@ enum ExitCode
 void addCheckCommand(CLI::App& app, int& exitCode);
 void addContourCommand(CLI::App& app, int& exitCode);
 void addDelaunayCommand(CLI::App& app, int& exitCode);
+void addDelaunay3DCommand(CLI::App& app, int& exitCode);
 void addDemCommand(CLI::App& app, int& exitCode);
 void addDevicesCommand(CLI::App& app, int& exitCode);
 void addFlattenCommand(CLI::App& app, int& exitCode);

@@ -13,6 +13,7 @@ from ._arguments import flag
 from ._dem import dem
 from ._meshes import write
 from ._resample import resample
+from ._tetrahedralize import delaunay_3d
 from ._triangulate import delaunay_2d
 
 
@@ -31,6 +32,10 @@ class Accessor:
         mesh, *statistics = result if isinstance(result, tuple) else (result,)
         self._dataset.copy_from(mesh, deep=False)
         return (self._dataset, *statistics) if statistics else self._dataset
+
+    def delaunay_3d(self, **options: Any) -> Any:
+        """As tipp.delaunay_3d(mesh, ...)."""
+        return delaunay_3d(self._dataset, **options)
 
     def dem(self, resolution: float, **options: Any) -> Any:
         """As tipp.dem(mesh, resolution, ...)."""

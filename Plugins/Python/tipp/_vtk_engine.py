@@ -15,13 +15,14 @@ from ._run import run
 from ._vtk import point_cloud, triangles_of, vtk_points, wrapped_like
 from ._vtk_dem import dem
 from ._vtk_query import open_mesh
-from .vtkTIPPFilters import vtkRangeResampleFilter, vtkTIPPDelaunay2D, vtkTIPPOutOfCoreDelaunay2D
+from .vtkTIPPFilters import vtkRangeResampleFilter, vtkTIPPDelaunay2D, vtkTIPPDelaunay3D, vtkTIPPOutOfCoreDelaunay2D
 from .vtkTIPPIO import vtkPartitionedUnstructuredReader, vtkPartitionedUnstructuredWriter
 
 if TYPE_CHECKING:
     from vtkmodules.vtkCommonDataModel import vtkPointSet
 
-__all__ = ["delaunay", "delaunay_2d", "delaunay_file", "dem", "open_mesh", "read", "require_ranks", "resample", "write"]
+__all__ = ["delaunay", "delaunay_2d", "delaunay_3d", "delaunay_file", "dem", "open_mesh", "read", "require_ranks",
+           "resample", "write"]
 
 _FIGURES = {
     "points": "Points",
@@ -43,6 +44,7 @@ _CONSTRAINT_FIGURES = {
 _STATISTICS = {
     "points": "Points",
     "triangles": "Triangles",
+    "tetrahedra": "Tetrahedra",
     "duplicates": "DuplicatePoints",
     "rejected": "RejectedPoints",
     "partitions": "Partitions",
@@ -103,6 +105,23 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
         algorithm.SetGenerateNeighborIds(options["neighbors"])
 
     algorithm = _triangulated(points, point_data, options, progress, add)
+    return wrapped_like(algorithm.GetOutput(), points), _statistics(algorithm.GetStatistics().GetFieldData())
+
+
+def delaunay_3d(points: Any, point_data: Any, options: dict[str, Any],
+                progress: Progress | None) -> tuple[Any, dict[str, Any]]:
+    data = points if check.is_vtk_object(points) else point_cloud(points, point_data)
+    algorithm = vtkTIPPDelaunay3D()
+    algorithm.SetInputData(data)
+    algorithm.SetAlpha(options["alpha"])
+    algorithm.SetTolerance(options["tolerance"])
+    algorithm.SetOffset(options["offset"])
+    algorithm.SetBoundingTriangulation(options["bound"])
+    algorithm.SetGenerateRepresentativeIds(options["map_duplicates"])
+    algorithm.SetGenerateNeighborIds(options["neighbors"])
+    algorithm.SetNumberOfPartitions(options["partitions"])
+    algorithm.SetNumberOfThreads(options["threads"])
+    run(algorithm, progress)
     return wrapped_like(algorithm.GetOutput(), points), _statistics(algorithm.GetStatistics().GetFieldData())
 
 

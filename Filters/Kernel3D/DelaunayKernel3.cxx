@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Kernel3D/DelaunayKernel3.h"
+
+#include "Predicates/ExactPredicates.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// Exact for all finite coordinates: three points are collinear if they are so in projection along
+/// each axis.
+bool areCollinear(const Point3& a, const Point3& b, const Point3& c)
+{
+  return orientation({ a.x, a.y }, { b.x, b.y }, { c.x, c.y }) == 0 &&
+    orientation({ a.y, a.z }, { b.y, b.z }, { c.y, c.z }) == 0 &&
+    orientation({ a.z, a.x }, { b.z, b.x }, { c.z, c.x }) == 0;
+}
+
+} // namespace
+
+bool DelaunayKernel3::triangulate(const Point3* points, std::size_t count, const Monitor& proceed)
+{
+  if (count >= std::size_t(1) << InsertionOrder3::IndexBits)
+  {
+    throw std::length_error("too many points for one partition: use more partitions");
+  }
+  this->Mesh.clear();
+  this->Duplicates.clear();
+  this->sortPoints(points, count);
+  if (!this->makeFirst())
+  {
+    return true;
+  }
+  // Seven for each point of a uniform distribution, with a few that are free.
+  constexpr std::size_t cellsPerPoint = 7;
+  this->Mesh.reserve(cellsPerPoint * count + 64);
+  if (!this->insertAll(proceed))
+  {
+    this->Mesh.clear();
+    this->Dimension = -1;
+    return false;
+  }
+  this->findDuplicates();
+  return true;
+}
+
+void DelaunayKernel3::sortPoints(const Point3* points, std::size_t count)
+{
+  this->Order.compute(points, count);
+  this->Points.resize(count + 1);
+  this->PointIndices.resize(count + 1);
+  this->Points[0] = {};
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    this->Points[k + 1] = points[this->Order[k]];
+    this->PointIndices[k + 1] = this->Order[k];
+  }
+  this->Order.release();
+}
+
+/// Moves four points that are not coplanar to the front, and makes their tetrahedron and its
+/// infinite neighbours. Returns false if there are no such points.
+bool DelaunayKernel3::makeFirst()
+{
+  this->Dimension = -1;
+  const std::size_t end = this->Points.size();
+  std::size_t next = 1;
+  const auto& at = this->Points;
+  // Moves the first point from `next` on that is independent of those before to position `to`.
+  const auto extend = [&](std::size_t to, const auto& isDependent)
+  {
+    while (next < end && isDependent(at[next]))
+    {
+      ++next;
+    }
+    if (next == end)
+    {
+      return false;
+    }
+    std::swap(this->Points[to], this->Points[next]);
+    std::swap(this->PointIndices[to], this->PointIndices[next]);
+    ++this->Dimension;
+    ++next;
+    return true;
+  };
+  if (!extend(1, [](const Point3&) { return false; }) ||
+    !extend(2, [&](const Point3& p) { return p == at[1]; }) ||
+    !extend(3, [&](const Point3& p) { return areCollinear(at[1], at[2], p); }) ||
+    !extend(4, [&](const Point3& p) { return orientation3(at[1], at[2], at[3], p) == 0; }))
+  {
+    return false;
+  }
+  if (orientation3(at[1], at[2], at[3], at[4]) < 0)
+  {
+    std::swap(this->Points[1], this->Points[2]);
+    std::swap(this->PointIndices[1], this->PointIndices[2]);
+  }
+  this->Mesh.reserve(64);
+  Index* const slots = this->Mesh.slots();
+  constexpr Index corners[5][4] = { { 1, 2, 3, 4 }, { Infinite, 2, 4, 3 }, { Infinite, 1, 3, 4 },
+    { Infinite, 1, 4, 2 }, { Infinite, 1, 2, 3 } };
+  for (Index t = 0; t < 5; ++t)
+  {
+    std::copy_n(corners[t], 4, slots + 8 * t);
+    this->Mesh.marks()[t] = TetrahedronMesh::Live;
+  }
+  for (Index i = 0; i < 4; ++i)
+  {
+    // Infinite tetrahedron i + 1 has the facet opposite to corner i, vertex i + 1. Across its facet
+    // opposite to a corner v is the infinite tetrahedron v, which lacks v.
+    this->Mesh.link(i, 8 * (i + 1));
+    for (Index j = 1; j < 4; ++j)
+    {
+      const Index other = corners[i + 1][j];
+      const Index* const there = corners[other];
+      const auto position = static_cast<Index>(std::find(there, there + 4, i + 1) - there);
+      this->Mesh.link(8 * (i + 1) + j, 8 * other + position);
+    }
+  }
+  this->Mesh.setEnd(40);
+  return true;
+}
+
+bool DelaunayKernel3::insertAll(const Monitor& proceed)
+{
+  constexpr Index block = 1 << 12;
+  const Index end = this->vertexEnd();
+  std::vector<Cavity3::Coincidence> coincidences;
+  this->Opened.restart(this->Points.data(), this->Points.size());
+  for (Index first = 5; first < end; first += block)
+  {
+    if (proceed && !proceed(first))
+    {
+      return false;
+    }
+    this->Opened.insert(this->Mesh, first, std::min(end, first + block), coincidences);
+  }
+  for (const Cavity3::Coincidence& found : coincidences)
+  {
+    this->Duplicates.push_back({ this->PointIndices[found.Vertex], found.Representative });
+  }
+  return true;
+}
+
+/// A vertex gets the lowest index of the points at its coordinates.
+void DelaunayKernel3::findDuplicates()
+{
+  for (Duplicate& duplicate : this->Duplicates)
+  {
+    std::uint32_t& own = this->PointIndices[duplicate.Vertex];
+    if (duplicate.Point < own)
+    {
+      std::swap(duplicate.Point, own);
+    }
+  }
+}
+
+void DelaunayKernel3::release()
+{
+  this->Mesh.release();
+  Uninitialised<Point3>().swap(this->Points);
+  Uninitialised<std::uint32_t>().swap(this->PointIndices);
+  this->Duplicates = {};
+  this->Opened = {};
+  this->Dimension = -1;
+}
+
+std::size_t DelaunayKernel3::bytes() const
+{
+  return this->Mesh.bytes() + this->Points.capacity() * sizeof(Point3) +
+    this->PointIndices.capacity() * sizeof(std::uint32_t);
+}
+
+} // namespace tipp

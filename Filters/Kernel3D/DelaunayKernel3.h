@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippDelaunayKernel3_h
+#define tippDelaunayKernel3_h
+
+#include "Arrays/Buffer.h"
+#include "Kernel3D/Cavity3.h"
+#include "Kernel3D/InsertionOrder3.h"
+#include "Kernel3D/TetrahedronMesh.h"
+#include "Predicates/Points.h"
+#include "vtkTIPPFiltersModule.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace tipp
+{
+
+/// The Delaunay triangulation of points in space: incremental insertion (Bowyer 1981, Watson 1981)
+/// in biased randomised rounds, with a vertex at infinity, exact predicates, and ties broken by the
+/// points' lexicographic order. So the set of tetrahedra is unique, and none is flat.
+/// Single-threaded; reusable for many point sets.
+class VTKTIPPFILTERS_EXPORT DelaunayKernel3
+{
+public:
+  using Index = TetrahedronMesh::Index;
+  static constexpr Index Infinite = 0; ///< the vertex at infinity
+
+  /// A point that is not a vertex, because another one has its coordinates.
+  struct Duplicate
+  {
+    std::uint32_t Point; ///< its index
+    Index Vertex;        ///< the vertex with the same coordinates
+  };
+
+  /// Called now and then with the number of points inserted so far; returning false ends the run.
+  using Monitor = std::function<bool(std::size_t)>;
+
+  /// Triangulates `count` finite points, and forgets what was triangulated before. No product of
+  /// five differences of coordinates should under- or overflow, or the exact predicates decide all.
+  /// Returns false if `proceed` returned false; there is no triangulation then. Throws
+  /// std::length_error for more points than indices can name.
+  bool triangulate(const Point3* points, std::size_t count, const Monitor& proceed = {});
+
+  /// -1 without points; 0 if all have the same coordinates, 1 if they are collinear, 2 if they are
+  /// coplanar: then there are neither tetrahedra nor duplicates. Else 3.
+  int dimension() const { return this->Dimension; }
+
+  /// @name Tetrahedra, including those at the infinite vertex
+  /// A tetrahedron is named by an index that only these functions interpret.
+  ///@{
+  /// Calls visit(tetrahedron) for all.
+  template <typename Visit>
+  void forEach(const Visit& visit) const
+  {
+    const std::uint8_t* const marks = this->Mesh.marks();
+    for (Index t = 0; t < this->Mesh.end(); t += 8)
+    {
+      if (marks[t / 8] == TetrahedronMesh::Live)
+      {
+        visit(t);
+      }
+    }
+  }
+  /// The vertices: orientation3() of them is positive.
+  std::array<Index, 4> corners(Index tetrahedron) const
+  {
+    const Index* const v = this->Mesh.slots() + tetrahedron;
+    return { v[0], v[1], v[2], v[3] };
+  }
+  /// The tetrahedron across the facet opposite to corner i.
+  Index neighbour(Index tetrahedron, Index i) const
+  {
+    return TetrahedronMesh::cellOf(this->Mesh.slots()[tetrahedron + i + 4]);
+  }
+  bool isInfinite(Index tetrahedron) const { return this->Mesh.slots()[tetrahedron] == Infinite; }
+  /// One past the largest name.
+  Index end() const { return this->Mesh.end(); }
+  ///@}
+
+  const Point3& point(Index vertex) const { return this->Points[vertex]; }
+  /// The index of the vertex's point: of points with the same coordinates the lowest.
+  std::uint32_t pointIndex(Index vertex) const { return this->PointIndices[vertex]; }
+  /// One past the last vertex. Some below it, duplicates, have no tetrahedra.
+  Index vertexEnd() const { return static_cast<Index>(this->Points.size()); }
+
+  const std::vector<Duplicate>& duplicates() const { return this->Duplicates; }
+
+  /// Frees the memory, and forgets the triangulation.
+  void release();
+
+  /// Bytes allocated for points and tetrahedra.
+  std::size_t bytes() const;
+
+private:
+  void sortPoints(const Point3* points, std::size_t count);
+  bool makeFirst();
+  bool insertAll(const Monitor& proceed);
+  void findDuplicates();
+
+  TetrahedronMesh Mesh;
+  Uninitialised<Point3> Points;              ///< by vertex, in the order of insertion
+  Uninitialised<std::uint32_t> PointIndices; ///< by vertex
+  std::vector<Duplicate> Duplicates;
+  InsertionOrder3 Order;
+  Cavity3 Opened;
+  int Dimension = -1;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Triangulation3D/InitialMesh3.h"
+
+#include "Kernel3D/DelaunayKernel3.h"
+#include "Predicates/Circumball.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tipp
+{
+namespace
+{
+
+/// Moves a bound outward by the margin, but at least by a few units in the last place: coordinates
+/// may be large and close together.
+double outward(double bound, double direction, double margin)
+{
+  const double moved = bound + direction * margin;
+  for (int i = 0; i < 4; ++i)
+  {
+    bound = std::nextafter(bound, direction * HUGE_VAL);
+  }
+  return direction > 0 ? std::max(moved, bound) : std::min(moved, bound);
+}
+
+/// The first points with the smallest and largest coordinates, and others evenly spaced in the
+/// input's order; ascending.
+std::vector<std::size_t> chooseInitialPoints(
+  const Point3* points, std::size_t count, std::size_t wanted)
+{
+  std::vector<std::size_t> chosen;
+  const auto add = [&](const auto& isBefore)
+  { chosen.push_back(std::size_t(std::min_element(points, points + count, isBefore) - points)); };
+  for (double Point3::*axis : { &Point3::x, &Point3::y, &Point3::z })
+  {
+    add([axis](const Point3& a, const Point3& b) { return a.*axis < b.*axis; });
+    add([axis](const Point3& a, const Point3& b) { return a.*axis > b.*axis; });
+  }
+  for (std::size_t i = 0; i < wanted; ++i)
+  {
+    chosen.push_back((2 * i + 1) * count / (2 * wanted));
+  }
+  std::sort(chosen.begin(), chosen.end());
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  return chosen;
+}
+
+bool isUsed(const PointBuckets3& buckets, std::size_t p)
+{
+  return buckets.count(PartitionIndex(p)) > 0;
+}
+
+} // namespace
+
+std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets)
+{
+  PointBounds domain;
+  double margin = 0;
+  std::size_t used = 0;
+  for (std::size_t p = 0; p < buckets.Regions.size(); ++p)
+  {
+    if (isUsed(buckets, p))
+    {
+      const Box3& box = buckets.Regions[p];
+      domain.include({ box.Min[0], box.Min[1], box.Min[2] });
+      domain.include({ box.Max[0], box.Max[1], box.Max[2] });
+      margin +=
+        std::max({ box.Max[0] - box.Min[0], box.Max[1] - box.Min[1], box.Max[2] - box.Min[2] });
+      ++used;
+    }
+  }
+  margin /= double(std::max<std::size_t>(used, 1));
+  std::array<std::vector<double>, 3> ticks;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const double low = outward(domain.Box.Min[k], -1, margin);
+    const double high = outward(domain.Box.Max[k], 1, margin);
+    constexpr double most = 16;
+    if (!std::isfinite(high - low))
+    {
+      return {};
+    }
+    const auto pieces = int(std::clamp(std::ceil((high - low) / margin), 1.0, most));
+    for (int i = 0; i < pieces; ++i)
+    {
+      ticks[k].push_back(low + (high - low) * (double(i) / pieces));
+    }
+    ticks[k].push_back(high);
+  }
+  std::vector<Vertex3> vertices;
+  for (const double x : ticks[0])
+  {
+    for (const double y : ticks[1])
+    {
+      for (const double z : ticks[2])
+      {
+        const auto isEnd = [](double at, const std::vector<double>& all)
+        { return at == all.front() || at == all.back(); };
+        if (isEnd(x, ticks[0]) || isEnd(y, ticks[1]) || isEnd(z, ticks[2]))
+        {
+          vertices.push_back({ { x, y, z }, -1 - std::int32_t(vertices.size()), -1 });
+        }
+      }
+    }
+  }
+  return vertices;
+}
+
+InitialMesh3::InitialMesh3(const PointBuckets3& buckets, const std::vector<Vertex3>& artificial)
+  : Partitions(buckets.Regions.size())
+{
+  constexpr std::size_t perPartition = 48;
+  for (std::size_t p = 0; p < this->Partitions; ++p)
+  {
+    const std::size_t begin = buckets.Begins[p];
+    const std::size_t count = buckets.count(PartitionIndex(p));
+    for (const std::size_t i : count == 0
+        ? std::vector<std::size_t>()
+        : chooseInitialPoints(&buckets.Points[begin], count, perPartition))
+    {
+      this->Vertices.push_back(
+        { buckets.Points[begin + i], buckets.Ids[begin + i], PartitionIndex(p) });
+    }
+  }
+  this->Vertices.insert(this->Vertices.end(), artificial.begin(), artificial.end());
+  std::vector<Point3> points;
+  for (const Vertex3& v : this->Vertices)
+  {
+    points.push_back(v.Position);
+  }
+  DelaunayKernel3 kernel;
+  kernel.triangulate(points.data(), points.size());
+  constexpr std::uint32_t none = ~0U;
+  std::vector<std::uint32_t> numbers(kernel.end() / 8, none);
+  kernel.forEach(
+    [&](DelaunayKernel3::Index t)
+    {
+      if (kernel.isInfinite(t))
+      {
+        return;
+      }
+      const auto [a, b, c, d] = kernel.corners(t);
+      numbers[t / 8] = std::uint32_t(this->Cells.size());
+      this->Cells.push_back(
+        { kernel.pointIndex(a), kernel.pointIndex(b), kernel.pointIndex(c), kernel.pointIndex(d) });
+      const Circumball ball(kernel.point(a), kernel.point(b), kernel.point(c), kernel.point(d));
+      for (std::size_t p = 0; p < this->Partitions; ++p)
+      {
+        if (isUsed(buckets, p) && ball.meets(buckets.Regions[p]))
+        {
+          this->Met.push_back(PartitionIndex(p));
+        }
+      }
+      this->MetEnds.push_back(this->Met.size());
+    });
+  kernel.forEach(
+    [&](DelaunayKernel3::Index t)
+    {
+      for (DelaunayKernel3::Index i = 0; i < 4 && numbers[t / 8] != none; ++i)
+      {
+        const std::uint32_t other = numbers[kernel.neighbour(t, i) / 8];
+        if (other != none && numbers[t / 8] < other)
+        {
+          this->Neighbours.push_back({ numbers[t / 8], other });
+        }
+      }
+    });
+}
+
+ConflictGraph InitialMesh3::conflicts() const
+{
+  std::vector<char> isPair(this->Partitions * this->Partitions, 0);
+  const auto add = [&](std::size_t one, std::size_t other)
+  {
+    for (std::size_t i = this->metBegin(one); i < this->metEnd(one); ++i)
+    {
+      for (std::size_t j = this->metBegin(other); j < this->metEnd(other); ++j)
+      {
+        isPair[std::size_t(std::min(this->Met[i], this->Met[j])) * this->Partitions +
+          std::size_t(std::max(this->Met[i], this->Met[j]))] = 1;
+      }
+    }
+  };
+  for (std::size_t cell = 0; cell < this->Cells.size(); ++cell)
+  {
+    add(cell, cell);
+  }
+  for (const auto& [one, other] : this->Neighbours)
+  {
+    add(one, other);
+  }
+  std::vector<ConflictGraph::Pair> pairs;
+  for (std::size_t p = 0; p < this->Partitions; ++p)
+  {
+    for (std::size_t q = p + 1; q < this->Partitions; ++q)
+    {
+      if (isPair[p * this->Partitions + q] != 0)
+      {
+        pairs.emplace_back(PartitionIndex(p), PartitionIndex(q));
+      }
+    }
+  }
+  ConflictGraph graph(this->Partitions);
+  graph.add(pairs);
+  return graph;
+}
+
+bool InitialMesh3::partitionsPay() const
+{
+  std::size_t meeting = 0;
+  for (std::size_t cell = 0; cell < this->Cells.size(); ++cell)
+  {
+    meeting += this->metBegin(cell) < this->metEnd(cell) ? 1 : 0;
+  }
+  constexpr std::size_t most = 6;
+  return this->Met.size() <= most * meeting;
+}
+
+} // namespace tipp

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Triangulation3D/OrderCells.h"
+
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// Ascending ids; the last two are exchanged if that took an odd number of exchanges.
+CellIds canonical(CellIds cell)
+{
+  bool isOdd = false;
+  const auto exchange = [&](std::size_t i, std::size_t j)
+  {
+    if (cell[j] < cell[i])
+    {
+      std::swap(cell[i], cell[j]);
+      isOdd = !isOdd;
+    }
+  };
+  exchange(0, 1);
+  exchange(2, 3);
+  exchange(0, 2);
+  exchange(1, 3);
+  exchange(1, 2);
+  if (isOdd)
+  {
+    std::swap(cell[2], cell[3]);
+  }
+  return cell;
+}
+
+/// Compares cells with the same first id.
+bool isBefore(const CellIds& a, const CellIds& b)
+{
+  if (a[1] != b[1])
+  {
+    return a[1] < b[1];
+  }
+  const auto [aLow, aHigh] = std::minmax(a[2], a[3]);
+  const auto [bLow, bHigh] = std::minmax(b[2], b[3]);
+  return aLow != bLow ? aLow < bLow : aHigh < bHigh;
+}
+
+/// Sorts the cells whose first id is in [first, first + width), by way of `scratch`.
+void sortRange(CellIds* cells, std::size_t count, std::int32_t first, std::size_t width,
+  std::vector<CellIds>& scratch)
+{
+  std::vector<std::uint32_t> ends(width + 1, 0);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    ++ends[std::size_t(cells[i][0] - first) + 1];
+  }
+  for (std::size_t i = 0; i < width; ++i)
+  {
+    ends[i + 1] += ends[i];
+  }
+  scratch.resize(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    scratch[ends[std::size_t(cells[i][0] - first)]++] = cells[i];
+  }
+  std::uint32_t begin = 0;
+  for (std::size_t i = 0; i < width; ++i)
+  {
+    std::sort(scratch.begin() + begin, scratch.begin() + ends[i], isBefore);
+    begin = ends[i];
+  }
+  std::copy(scratch.begin(), scratch.end(), cells);
+}
+
+} // namespace
+
+Buffer<std::int32_t> orderCells(
+  std::vector<std::vector<CellIds>>&& parts, std::size_t points, int threads)
+{
+  // A range's cells fit in a cache, and few ranges in the pages of one pass.
+  constexpr std::size_t mostRanges = 1024;
+  constexpr unsigned leastShift = 8;
+  unsigned shift = leastShift;
+  while ((points >> shift) + 1 > mostRanges)
+  {
+    ++shift;
+  }
+  const std::size_t ranges = (points >> shift) + 1;
+  std::vector<std::vector<std::size_t>> next(parts.size(), std::vector<std::size_t>(ranges, 0));
+  const auto count = std::int64_t(parts.size());
+  parallelFor(count, threads,
+    [&](std::int64_t part)
+    {
+      for (CellIds& cell : parts[std::size_t(part)])
+      {
+        cell = canonical(cell);
+        ++next[std::size_t(part)][std::size_t(cell[0]) >> shift];
+      }
+    });
+  std::vector<std::size_t> begins;
+  std::size_t sum = 0;
+  for (std::size_t range = 0; range < ranges; ++range)
+  {
+    begins.push_back(sum);
+    for (auto& counts : next)
+    {
+      sum += std::exchange(counts[range], sum);
+    }
+  }
+  begins.push_back(sum);
+  Buffer<std::int32_t> ids(4 * sum);
+  auto* const cells = ids.as<CellIds>();
+  parallelFor(count, threads,
+    [&](std::int64_t part)
+    {
+      for (const CellIds& cell : parts[std::size_t(part)])
+      {
+        cells[next[std::size_t(part)][std::size_t(cell[0]) >> shift]++] = cell;
+      }
+      std::vector<CellIds>().swap(parts[std::size_t(part)]);
+    });
+  std::vector<std::vector<CellIds>> scratch(std::size_t(threadCount(threads)));
+  forChunks(std::int64_t(ranges), 1, threadCount(threads), {},
+    [&](std::int64_t range, std::int64_t, int thread)
+    {
+      const auto r = std::size_t(range);
+      sortRange(cells + begins[r], begins[r + 1] - begins[r], std::int32_t(r << shift),
+        std::size_t(1) << shift, scratch[std::size_t(thread)]);
+    });
+  return ids;
+}
+
+} // namespace tipp

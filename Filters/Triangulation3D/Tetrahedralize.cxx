@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Triangulation3D/Tetrahedralize.h"
+
+#include "Engine/ReadyPartitions.h"
+#include "Parallel/ParallelFor.h"
+#include "Parallel/Stopwatch.h"
+#include "Triangulation3D/Dataflow3.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <numeric>
+#include <stdexcept>
+
+namespace tipp
+{
+namespace
+{
+
+struct Survey
+{
+  std::vector<PointId> Rejected;
+  double Largest = 0; ///< magnitude of a coordinate of the finite points
+};
+
+Survey surveyPoints(const Point3* points, std::size_t count)
+{
+  Survey survey;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double largest =
+      std::max({ std::fabs(points[i].x), std::fabs(points[i].y), std::fabs(points[i].z) });
+    const double sum = points[i].x + points[i].y + points[i].z;
+    // The largest of NaN and a number may be either; a sum of finite numbers may overflow.
+    if (!std::isfinite(sum) &&
+      !(std::isfinite(points[i].x) && std::isfinite(points[i].y) && std::isfinite(points[i].z)))
+    {
+      survey.Rejected.push_back(PointId(i));
+    }
+    else
+    {
+      survey.Largest = std::max(survey.Largest, largest);
+    }
+  }
+  return survey;
+}
+
+/// A power of two that brings very small or very large coordinates near 1, so that the filters of
+/// predicates work; 1 if it is not needed, or if it would not be exact.
+double scaleOf(const Point3* points, std::size_t count, double largest)
+{
+  // Determinants have degree five in the coordinates, and their filter squares them.
+  constexpr int moderate = 24;
+  constexpr int largestShift = 1000;
+  if (largest == 0 || std::abs(std::ilogb(largest)) <= moderate)
+  {
+    return 1;
+  }
+  const double factor =
+    std::ldexp(1.0, std::clamp(-std::ilogb(largest), -largestShift, largestShift));
+  const auto isExact = [factor](double x) { return !std::isfinite(x) || x * factor / factor == x; };
+  const bool areExact = std::all_of(points, points + count,
+    [&](const Point3& p) { return isExact(p.x) && isExact(p.y) && isExact(p.z); });
+  return areExact ? factor : 1;
+}
+
+/// One partition for one thread, which is fastest; for several threads enough that all find work.
+int choosePartitionCount(std::size_t points, int threads)
+{
+  constexpr std::size_t largest = std::size_t(1) << 25;
+  constexpr std::size_t smallest = 8192;
+  constexpr std::size_t best = 65536;
+  constexpr std::size_t perThread = 12;
+  constexpr std::size_t most = 512;
+  if (threads == 1)
+  {
+    return int(std::min(most, 1 + points / largest));
+  }
+  if (points < 4 * smallest)
+  {
+    return 1;
+  }
+  return int(std::min(
+    most, std::max(points / best, std::min(points / smallest, perThread * std::size_t(threads)))));
+}
+
+class Run3
+{
+public:
+  Run3(const Point3* points, std::size_t count, const TetrahedralizationOptions& options,
+    Tetrahedralization& result)
+    : Points(points)
+    , Count(count)
+    , Options(options)
+    , Result(result)
+    , Threads(threadCount(options.Threads))
+  {
+    result.Statistics.Threads = this->Threads;
+  }
+
+  void run()
+  {
+    Survey survey = surveyPoints(this->Points, this->Count);
+    this->Result.Rejected = std::move(survey.Rejected);
+    this->Factor = scaleOf(this->Points, this->Count, survey.Largest);
+    this->endPhase("survey");
+    const int partitions = this->Options.Partitions > 0
+      ? this->Options.Partitions
+      : choosePartitionCount(this->Count, this->Threads);
+    const bool done = partitions > 1 && this->runPartitioned(partitions);
+    if (!done)
+    {
+      this->runAlone();
+    }
+    if (!this->Result.Aborted)
+    {
+      this->finish();
+    }
+  }
+
+private:
+  bool report(double fraction)
+  {
+    return !this->Options.Progress || this->Options.Progress(fraction);
+  }
+
+  void endPhase(const char* name)
+  {
+    this->Result.Statistics.Phases.push_back({ name, this->Watch.restart() });
+  }
+
+  /// Triangulates all points at once.
+  void runAlone()
+  {
+    this->Result.Statistics.Partitions = 1;
+    PointBuckets3 copy;
+    const bool areReady = this->Factor == 1 && this->Result.Rejected.empty();
+    if (!areReady)
+    {
+      copy = bucketPoints(this->Points, this->Count, Tiling3({}, 1), this->Factor, this->Threads);
+    }
+    const std::size_t count = areReady ? this->Count : copy.Points.size();
+    const auto idOf = [&](std::uint32_t index)
+    { return areReady ? static_cast<std::int32_t>(index) : copy.Ids[index]; };
+    DelaunayKernel3 kernel;
+    this->Result.Aborted = !kernel.triangulate(areReady ? this->Points : copy.Points.data(), count,
+      [&](std::size_t inserted) { return this->report(double(inserted) / double(count)); });
+    this->Result.Dimension = kernel.dimension();
+    this->Result.Statistics.WorkerVertices = std::int64_t(count);
+    for (const DelaunayKernel3::Duplicate& duplicate : kernel.duplicates())
+    {
+      this->Result.Duplicates.push_back(
+        { idOf(duplicate.Point), idOf(kernel.pointIndex(duplicate.Vertex)) });
+    }
+    std::size_t cells = 0;
+    kernel.forEach([&](DelaunayKernel3::Index t) { cells += kernel.isInfinite(t) ? 0 : 1; });
+    this->Cells.resize(1);
+    this->Cells[0].reserve(cells);
+    kernel.forEach(
+      [&](DelaunayKernel3::Index t)
+      {
+        if (!kernel.isInfinite(t))
+        {
+          const auto [a, b, c, d] = kernel.corners(t);
+          this->Cells[0].push_back({ idOf(kernel.pointIndex(a)), idOf(kernel.pointIndex(b)),
+            idOf(kernel.pointIndex(c)), idOf(kernel.pointIndex(d)) });
+        }
+      });
+    this->endPhase("triangulation");
+  }
+
+  std::vector<Point3> sample(std::size_t wanted) const
+  {
+    std::vector<Point3> sample;
+    const std::size_t step = std::max<std::size_t>(1, this->Count / wanted);
+    for (std::size_t i = step / 2; i < this->Count; i += step)
+    {
+      const Point3& p = this->Points[i];
+      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
+      {
+        sample.push_back({ p.x * this->Factor, p.y * this->Factor, p.z * this->Factor });
+      }
+    }
+    return sample;
+  }
+
+  /// Returns false if partitions do not pay, or cannot be made.
+  bool runPartitioned(int partitions)
+  {
+    constexpr std::size_t samplesPerPartition = 256;
+    const Tiling3 tiling(this->sample(samplesPerPartition * std::size_t(partitions)), partitions);
+    const PointBuckets3 buckets =
+      bucketPoints(this->Points, this->Count, tiling, this->Factor, this->Threads);
+    this->endPhase("bucketing");
+    const std::vector<Vertex3> artificial = makeArtificialPoints(buckets);
+    if (tiling.size() == 1 || artificial.empty())
+    {
+      return false;
+    }
+    const InitialMesh3 initial(buckets, artificial);
+    if (this->Options.Partitions == 0 && !initial.partitionsPay())
+    {
+      return false;
+    }
+    this->Result.Statistics.Partitions = tiling.size();
+    this->Result.Statistics.InitialPoints =
+      std::int64_t(initial.Vertices.size() - artificial.size());
+    std::vector<char> isUsed;
+    for (PartitionIndex p = 0; p < tiling.size(); ++p)
+    {
+      isUsed.push_back(buckets.count(p) > 0 ? 1 : 0);
+    }
+    const PartitionOrder order(isUsed, initial.conflicts());
+    std::vector<Inbox3> inboxes(order.partitionCount());
+    FinalCells boundary;
+    sendInitialMesh(initial, order, inboxes, boundary);
+    this->endPhase("initial mesh");
+    this->work(buckets, order, inboxes, boundary);
+    if (!this->Result.Aborted)
+    {
+      repairHull(artificial, boundary);
+      this->Cells.push_back(std::move(boundary.Cells));
+      this->endPhase("hull");
+      const bool hasCells = std::any_of(this->Cells.begin(), this->Cells.end(),
+        [](const std::vector<CellIds>& cells) { return !cells.empty(); });
+      if (!hasCells)
+      {
+        // All points are coplanar, or fewer: the kernel tells.
+        this->Cells.clear();
+        this->Result.Duplicates.clear();
+        return false;
+      }
+      this->Result.Dimension = 3;
+    }
+    return true;
+  }
+
+  void work(const PointBuckets3& buckets, const PartitionOrder& order, std::vector<Inbox3>& inboxes,
+    FinalCells& boundary)
+  {
+    ReadyPartitions ready(order, ReadyPartitions::Waits::ForEarlier);
+    std::vector<FinalCells> made(std::size_t(this->Threads));
+    std::mutex mutex;
+    std::size_t pointsDone = 0;
+#pragma omp parallel num_threads(this->Threads)
+    {
+      try
+      {
+        FinalCells& mine = made[std::size_t(omp_get_thread_num())];
+        Worker3 worker(buckets, order, inboxes);
+        for (PartitionIndex p = ready.take(); p >= 0; p = ready.take())
+        {
+          worker.triangulate(p, mine);
+          ready.finish(p);
+          const std::lock_guard<std::mutex> lock(mutex);
+          pointsDone += buckets.count(p);
+          if (!this->report(double(pointsDone) / double(buckets.Points.size())))
+          {
+            ready.stop();
+          }
+        }
+        const std::lock_guard<std::mutex> lock(mutex);
+        this->Result.Statistics.WorkerVertices += std::int64_t(worker.vertexCount());
+        this->Result.Duplicates.insert(
+          this->Result.Duplicates.end(), worker.duplicates().begin(), worker.duplicates().end());
+      }
+      catch (...)
+      {
+        ready.stop(std::current_exception());
+      }
+    }
+    if (ready.failure())
+    {
+      std::rethrow_exception(ready.failure());
+    }
+    this->Result.Aborted = ready.isStopped();
+    for (FinalCells& part : made)
+    {
+      this->Cells.push_back(std::move(part.Cells));
+      boundary.HullVertices.insert(
+        boundary.HullVertices.end(), part.HullVertices.begin(), part.HullVertices.end());
+    }
+    this->endPhase("workers");
+  }
+
+  /// Vertices that came from another partition may bear the id of a duplicate.
+  void useRepresentatives()
+  {
+    if (this->Result.Duplicates.empty())
+    {
+      return;
+    }
+    std::vector<std::int32_t> representatives(this->Count);
+    std::iota(representatives.begin(), representatives.end(), 0);
+    for (const Duplicate& duplicate : this->Result.Duplicates)
+    {
+      representatives[std::size_t(duplicate.Point)] =
+        static_cast<std::int32_t>(duplicate.Representative);
+    }
+    for (std::vector<CellIds>& cells : this->Cells)
+    {
+      for (CellIds& cell : cells)
+      {
+        for (std::int32_t& id : cell)
+        {
+          id = representatives[std::size_t(id)];
+        }
+      }
+    }
+  }
+
+  void finish()
+  {
+    auto& duplicates = this->Result.Duplicates;
+    std::sort(duplicates.begin(), duplicates.end(),
+      [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
+    this->useRepresentatives();
+    this->Result.Ids = orderCells(std::move(this->Cells), this->Count, this->Threads);
+    this->endPhase("output");
+    this->report(1);
+  }
+
+  const Point3* Points;
+  const std::size_t Count;
+  const TetrahedralizationOptions& Options;
+  Tetrahedralization& Result;
+  const int Threads;
+  double Factor = 1;
+  std::vector<std::vector<CellIds>> Cells;
+  Stopwatch Watch;
+};
+
+} // namespace
+
+Tetrahedralization tetrahedralize(
+  const Point3* points, std::size_t count, const TetrahedralizationOptions& options)
+{
+  if (count > std::size_t(std::numeric_limits<std::int32_t>::max()))
+  {
+    throw std::length_error("more than 2,147,483,647 points in space are not supported in memory");
+  }
+  Tetrahedralization result;
+  Run3(points, count, options, result).run();
+  return result;
+}
+
+std::vector<std::string> warningsOf(const Tetrahedralization& mesh, std::int64_t points)
+{
+  std::vector<std::string> warnings;
+  if (!mesh.Rejected.empty())
+  {
+    warnings.push_back(std::to_string(mesh.Rejected.size()) + " of " + std::to_string(points) +
+      " points have a NaN or infinite coordinate and are in no tetrahedron; the first is point " +
+      std::to_string(mesh.Rejected.front()) + ".");
+  }
+  if (mesh.Dimension < 3)
+  {
+    constexpr const char* reasons[] = { "there is no finite point", "all finite points coincide",
+      "all finite points are on one line",
+      "all finite points are in one plane: triangulate them with vtkTIPPDelaunay2D" };
+    warnings.push_back(std::string("No tetrahedra: ") + reasons[mesh.Dimension + 1] + ".");
+  }
+  return warnings;
+}
+
+} // namespace tipp

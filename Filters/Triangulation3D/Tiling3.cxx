@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Triangulation3D/Tiling3.h"
+
+#include "Arrays/Buffer.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+double coordinate(const Point3& p, int axis)
+{
+  return axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
+}
+
+} // namespace
+
+PointBounds::PointBounds()
+{
+  this->Box.Min.fill(std::numeric_limits<double>::infinity());
+  this->Box.Max.fill(-std::numeric_limits<double>::infinity());
+}
+
+void PointBounds::include(const Point3& p)
+{
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    this->Box.Min[k] = std::min(this->Box.Min[k], coordinate(p, int(k)));
+    this->Box.Max[k] = std::max(this->Box.Max[k], coordinate(p, int(k)));
+  }
+}
+
+void PointBounds::include(const PointBounds& other)
+{
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    this->Box.Min[k] = std::min(this->Box.Min[k], other.Box.Min[k]);
+    this->Box.Max[k] = std::max(this->Box.Max[k], other.Box.Max[k]);
+  }
+}
+
+Tiling3::Tiling3(std::vector<Point3> sample, int count)
+{
+  this->cut(sample.begin(), sample.end(), count);
+}
+
+void Tiling3::cut(Iterator begin, Iterator end, int count)
+{
+  const std::size_t self = this->Nodes.size();
+  this->Nodes.emplace_back();
+  PointBounds bounds;
+  std::for_each(begin, end, [&bounds](const Point3& p) { bounds.include(p); });
+  int axis = 0;
+  for (int k = 1; k < 3; ++k)
+  {
+    const auto side = [&](int i)
+    { return bounds.Box.Max[std::size_t(i)] - bounds.Box.Min[std::size_t(i)]; };
+    axis = side(k) > side(axis) ? k : axis;
+  }
+  const auto below = [axis](const Point3& p, const Point3& q)
+  { return coordinate(p, axis) < coordinate(q, axis); };
+  const int lower = count / 2;
+  const Iterator middle = begin + (end - begin) * lower / std::max(count, 1);
+  bool canCut = count > 1 && middle != end;
+  double at = 0;
+  if (canCut)
+  {
+    std::nth_element(begin, middle, end, below);
+    at = coordinate(*middle, axis);
+    canCut = at > bounds.Box.Min[std::size_t(axis)];
+  }
+  if (!canCut)
+  {
+    this->Nodes[self].Partition = this->Count++;
+    return;
+  }
+  // Points with the cut's coordinate belong to the upper side.
+  const Iterator split =
+    std::partition(begin, end, [&](const Point3& p) { return coordinate(p, axis) < at; });
+  this->cut(begin, split, lower);
+  this->Nodes[self].Axis = axis;
+  this->Nodes[self].Cut = at;
+  this->Nodes[self].Upper = this->Nodes.size();
+  this->cut(split, end, count - lower);
+}
+
+PartitionIndex Tiling3::locate(const Point3& p) const
+{
+  std::size_t node = 0;
+  while (this->Nodes[node].Axis >= 0)
+  {
+    const Node& cut = this->Nodes[node];
+    node = coordinate(p, cut.Axis) < cut.Cut ? node + 1 : cut.Upper;
+  }
+  return this->Nodes[node].Partition;
+}
+
+PointBuckets3 bucketPoints(
+  const Point3* points, std::size_t count, const Tiling3& tiling, double factor, int threads)
+{
+  constexpr std::uint16_t none = 0xffff;
+  const auto parts = std::size_t(tiling.size());
+  const auto shares = std::size_t(threads);
+  Buffer<std::uint16_t> owners(count);
+  std::vector<std::vector<std::size_t>> next(shares, std::vector<std::size_t>(parts, 0));
+  std::vector<std::vector<PointBounds>> bounds(shares, std::vector<PointBounds>(parts));
+  const auto begin = [&](std::size_t share) { return count * share / shares; };
+  const auto scaled = [factor](const Point3& p) {
+    return Point3{ p.x * factor, p.y * factor, p.z * factor };
+  };
+  parallelFor(threads, threads,
+    [&](std::int64_t thread)
+    {
+      const auto share = std::size_t(thread);
+      for (std::size_t i = begin(share); i < begin(share + 1); ++i)
+      {
+        const Point3 p = scaled(points[i]);
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        {
+          owners[i] = none;
+          continue;
+        }
+        const auto owner = std::size_t(tiling.locate(p));
+        owners[i] = static_cast<std::uint16_t>(owner);
+        ++next[share][owner];
+        bounds[share][owner].include(p);
+      }
+    });
+  PointBuckets3 buckets;
+  std::size_t sum = 0;
+  for (std::size_t p = 0; p < parts; ++p)
+  {
+    buckets.Begins.push_back(sum);
+    PointBounds all;
+    for (std::size_t share = 0; share < shares; ++share)
+    {
+      sum += std::exchange(next[share][p], sum);
+      all.include(bounds[share][p]);
+    }
+    buckets.Regions.push_back(all.Box);
+  }
+  buckets.Begins.push_back(sum);
+  buckets.Points.resize(sum);
+  buckets.Ids.resize(sum);
+  parallelFor(threads, threads,
+    [&](std::int64_t thread)
+    {
+      const auto share = std::size_t(thread);
+      for (std::size_t i = begin(share); i < begin(share + 1); ++i)
+      {
+        if (owners[i] != none)
+        {
+          const std::size_t at = next[share][owners[i]]++;
+          buckets.Points[at] = scaled(points[i]);
+          buckets.Ids[at] = static_cast<std::int32_t>(i);
+        }
+      }
+    });
+  return buckets;
+}
+
+} // namespace tipp

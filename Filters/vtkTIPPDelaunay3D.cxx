@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTIPPDelaunay3D.h"
+
+#include "InMemory/FiniteBounds.h"
+#include "Output/FilterPipeline.h"
+#include "Output/RunStatistics.h"
+#include "Output/TriangleOutput.h"
+#include "Parallel/ParallelFor.h"
+#include "Parallel/Stopwatch.h"
+#include "Triangulation3D/AlphaShape3.h"
+#include "Triangulation3D/MergeClosePoints3.h"
+#include "Triangulation3D/Tetrahedralize.h"
+#include "Vtk/ReadDataSet.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkSmartPointer.h"
+#include "vtkTable.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkTIPPDelaunay3D);
+
+namespace
+{
+
+tipp::FiniteBounds boundsOf(vtkPoints* points)
+{
+  return tipp::finiteBounds(points->GetNumberOfPoints(),
+    [points](std::int64_t i, double* p) { points->GetPoint(vtkIdType(i), p); });
+}
+
+/// The points and the corners of an octahedron around them.
+vtkSmartPointer<vtkPoints> withOctahedron(vtkPoints* points, double offset)
+{
+  const tipp::FiniteBounds bounds = boundsOf(points);
+  const double distance = offset * bounds.diagonal();
+  const vtkIdType count = points->GetNumberOfPoints();
+  vtkNew<vtkDoubleArray> scalars;
+  scalars->SetNumberOfComponents(3);
+  scalars->SetNumberOfTuples(count + 6);
+  scalars->InsertTuples(0, count, 0, points->GetData());
+  for (int i = 0; i < 6; ++i)
+  {
+    double corner[3] = { bounds.center(0), bounds.center(1), bounds.center(2) };
+    corner[i / 2] += i % 2 == 0 ? -distance : distance;
+    scalars->SetTuple(count + i, corner);
+  }
+  auto extended = vtkSmartPointer<vtkPoints>::New();
+  extended->SetData(scalars);
+  return extended;
+}
+
+/// The coordinates as doubles: the points' own memory, or a copy in `copy`.
+const tipp::Point3* coordinatesOf(vtkPoints* points, std::vector<tipp::Point3>& copy)
+{
+  static_assert(sizeof(tipp::Point3) == 3 * sizeof(double), "a point is its coordinates");
+  if (auto* const doubles = vtkDoubleArray::SafeDownCast(points->GetData()))
+  {
+    return reinterpret_cast<const tipp::Point3*>(doubles->GetPointer(0));
+  }
+  copy.resize(std::size_t(points->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < copy.size(); ++i)
+  {
+    points->GetPoint(vtkIdType(i), &copy[i].x);
+  }
+  return copy.data();
+}
+
+void requireFinite(double value, const char* name)
+{
+  if (!std::isfinite(value))
+  {
+    throw std::runtime_error(
+      std::string(name) + " is " + std::to_string(value) + ": give a finite number.");
+  }
+}
+
+template <typename Ids>
+void addCells(
+  const Ids& ids, int type, int corners, vtkCellArray* cells, std::vector<unsigned char>& types)
+{
+  for (std::size_t i = 0; i < ids.size(); i += std::size_t(corners))
+  {
+    cells->InsertNextCell(corners);
+    for (int k = 0; k < corners; ++k)
+    {
+      cells->InsertCellPoint(ids[i + std::size_t(k)]);
+    }
+    types.push_back(static_cast<unsigned char>(type));
+  }
+}
+
+} // namespace
+
+vtkTIPPDelaunay3D::vtkTIPPDelaunay3D()
+{
+  this->SetNumberOfOutputPorts(2);
+}
+
+vtkTable* vtkTIPPDelaunay3D::GetStatistics()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+int vtkTIPPDelaunay3D::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  return 1;
+}
+
+int vtkTIPPDelaunay3D::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkUnstructuredGrid" : "vtkTable");
+  return 1;
+}
+
+int vtkTIPPDelaunay3D::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkPointSet* input = vtkPointSet::GetData(inputVector[0]);
+  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector, 0);
+  vtkTable* statistics = vtkTable::GetData(outputVector, 1);
+  const tipp::ThreadLimit limit(this->NumberOfThreads);
+  try
+  {
+    this->Execute(input, output, statistics);
+    return 1;
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorMacro("Not enough memory to tetrahedralize "
+      << input->GetNumberOfPoints() << " points: use a machine with more, or fewer points.");
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro("Tetrahedralizing " << input->GetNumberOfPoints() << " points: " << error.what());
+  }
+  output->Initialize();
+  statistics->Initialize();
+  return 0;
+}
+
+void vtkTIPPDelaunay3D::Execute(
+  vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics)
+{
+  this->NumberOfDuplicatePoints = 0;
+  this->NumberOfRejectedPoints = 0;
+  requireFinite(this->Alpha, "Alpha");
+  requireFinite(this->Tolerance, "Tolerance");
+  requireFinite(this->Offset, "Offset");
+  tipp::checkPoints(input, "the input");
+  vtkSmartPointer<vtkPoints> points = input->GetPoints();
+  if (!points)
+  {
+    points = vtkSmartPointer<vtkPoints>::New();
+  }
+  else if (this->BoundingTriangulation)
+  {
+    points = withOctahedron(points, this->Offset);
+  }
+  const vtkIdType count = points->GetNumberOfPoints();
+  std::vector<tipp::Point3> copy;
+  const tipp::Point3* const coordinates = coordinatesOf(points, copy);
+  tipp::Tetrahedralization mesh =
+    this->Triangulate(coordinates, count, boundsOf(points).diagonal());
+  if (mesh.Aborted)
+  {
+    return;
+  }
+  this->NumberOfDuplicatePoints = vtkIdType(mesh.Duplicates.size());
+  this->NumberOfRejectedPoints = vtkIdType(mesh.Rejected.size());
+  const tipp::Stopwatch watch;
+  output->SetPoints(points);
+  if (!this->BoundingTriangulation)
+  {
+    output->GetPointData()->PassData(input->GetPointData());
+  }
+  if (this->GenerateRepresentativeIds && (!mesh.Duplicates.empty() || !mesh.Rejected.empty()))
+  {
+    output->GetPointData()->AddArray(tipp::takeArray(
+      "RepresentativePointId", tipp::representativeIds(mesh, std::size_t(count)), 1));
+  }
+  if (this->GenerateNeighborIds && this->Alpha == 0)
+  {
+    output->GetCellData()->AddArray(
+      tipp::takeArray("NeighborIds", tipp::neighborIds(mesh, std::size_t(count)), 4));
+  }
+  else if (this->GenerateNeighborIds)
+  {
+    vtkWarningMacro("No NeighborIds: with Alpha not all tetrahedra are output.");
+  }
+  const auto tetrahedra = std::int64_t(mesh.cellCount());
+  this->SetCells(mesh, coordinates, count, output);
+  mesh.Statistics.Phases.push_back({ "VTK output", watch.seconds() });
+  tipp::fillStatisticsTable(tipp::statisticsOf(mesh, count, tetrahedra), statistics);
+}
+
+tipp::Tetrahedralization vtkTIPPDelaunay3D::Triangulate(
+  const tipp::Point3* points, vtkIdType count, double diagonal)
+{
+  tipp::Monitor monitor(this);
+  tipp::TetrahedralizationOptions options;
+  options.Partitions = this->NumberOfPartitions;
+  options.Threads = this->NumberOfThreads;
+  options.Progress = [&monitor](double fraction) { return monitor(fraction); };
+  tipp::Tetrahedralization mesh;
+  mesh.Aborted = !monitor(0);
+  if (mesh.Aborted)
+  {
+    return mesh;
+  }
+  const double distance = this->Tolerance * diagonal;
+  mesh = distance > 0 ? tipp::tetrahedralizeMerged(points, std::size_t(count), distance, options)
+                      : tipp::tetrahedralize(points, std::size_t(count), options);
+  mesh.Aborted = mesh.Aborted || !monitor(1);
+  if (!mesh.Aborted)
+  {
+    for (const std::string& warning : tipp::warningsOf(mesh, count))
+    {
+      vtkWarningMacro(<< warning);
+    }
+  }
+  return mesh;
+}
+
+void vtkTIPPDelaunay3D::SetCells(tipp::Tetrahedralization& mesh, const tipp::Point3* points,
+  vtkIdType count, vtkUnstructuredGrid* output) const
+{
+  if (this->Alpha == 0)
+  {
+    output->SetCells(VTK_TETRA, tipp::takeCells(std::move(mesh.Ids), 4));
+    return;
+  }
+  const tipp::AlphaShape3 shape = tipp::alphaShape(mesh, points, std::size_t(count), this->Alpha);
+  vtkNew<vtkCellArray> cells;
+  std::vector<unsigned char> types;
+  if (this->AlphaTets)
+  {
+    addCells(shape.Tetrahedra, VTK_TETRA, 4, cells, types);
+  }
+  if (this->AlphaTris)
+  {
+    addCells(shape.Triangles, VTK_TRIANGLE, 3, cells, types);
+  }
+  if (this->AlphaLines)
+  {
+    addCells(shape.Lines, VTK_LINE, 2, cells, types);
+  }
+  if (this->AlphaVerts)
+  {
+    addCells(shape.Vertices, VTK_VERTEX, 1, cells, types);
+  }
+  vtkNew<vtkUnsignedCharArray> typeArray;
+  typeArray->SetNumberOfValues(vtkIdType(types.size()));
+  std::copy(types.begin(), types.end(), typeArray->GetPointer(0));
+  output->SetCells(typeArray, cells);
+}
+
+void vtkTIPPDelaunay3D::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto onOff = [](vtkTypeBool flag) { return flag ? "On\n" : "Off\n"; };
+  os << indent << "Alpha: " << this->Alpha << "\n";
+  os << indent << "AlphaTets: " << onOff(this->AlphaTets);
+  os << indent << "AlphaTris: " << onOff(this->AlphaTris);
+  os << indent << "AlphaLines: " << onOff(this->AlphaLines);
+  os << indent << "AlphaVerts: " << onOff(this->AlphaVerts);
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "Offset: " << this->Offset << "\n";
+  os << indent << "BoundingTriangulation: " << onOff(this->BoundingTriangulation);
+  os << indent << "GenerateRepresentativeIds: " << onOff(this->GenerateRepresentativeIds);
+  os << indent << "GenerateNeighborIds: " << onOff(this->GenerateNeighborIds);
+  os << indent << "NumberOfPartitions: " << this->NumberOfPartitions << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "NumberOfDuplicatePoints: " << this->NumberOfDuplicatePoints << "\n";
+  os << indent << "NumberOfRejectedPoints: " << this->NumberOfRejectedPoints << "\n";
+}

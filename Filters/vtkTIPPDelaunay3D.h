@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTIPPDelaunay3D
+ * @brief   exact 3D Delaunay tetrahedralization of many points, in parallel
+ *
+ * vtkTIPPDelaunay3D makes tetrahedra of the points of any vtkPointSet. It stands in for
+ * vtkDelaunay3D: same property names, same meanings, same numeric values.
+ *
+ * The result is exact. All predicates are evaluated without rounding error, the border is the
+ * convex hull, every distinct point is a vertex, and no tetrahedron is flat or inverted. Where five
+ * or more points lie on one sphere, the choice between the possible tetrahedralizations depends on
+ * the coordinates alone. So the tetrahedra are the same for every order of the points,
+ * NumberOfPartitions and NumberOfThreads, and come in the lexicographic order of their ids.
+ *
+ * Output port 0 is a vtkUnstructuredGrid with the input's own vtkPoints (the same object, in the
+ * same order and precision, with all point data) and tetrahedra of their ids. Points that are in no
+ * tetrahedron stay in the output. There may be at most 2^31 - 1 points.
+ *
+ * Coincident points are merged into the one of lowest id. Points with a NaN or infinite coordinate
+ * are rejected, with one warning. If there is a merged or rejected point, the output has the point
+ * array "RepresentativePointId" (see GenerateRepresentativeIds). Fewer than four distinct points,
+ * or points all in one plane, make an output without cells and a warning.
+ *
+ * Output port 1, also GetStatistics(), is a vtkTable whose field data has, one value each, Points,
+ * Tetrahedra (before Alpha), DuplicatePoints, RejectedPoints, Partitions, InitialPoints,
+ * WorkerVertices (vertices of all partitions' triangulations together) and Threads, and of one
+ * length PhaseName and PhaseSeconds (wall-clock seconds).
+ *
+ * An aborted run leaves both outputs empty. A failed one is reported as an error and leaves them
+ * empty too.
+ *
+ * What differs: Tolerance is 0 by default, and Offset plays a part only with BoundingTriangulation.
+ * There is no Locator. With Alpha, merged and rejected points are no vertices.
+ *
+ * Publication: *Efficient Generating and Processing of Large-Scale Unstructured Meshes*,
+ * dissertation, University of Mississippi, chapter 2.
+ *
+ * @sa vtkDelaunay3D vtkTIPPDelaunay2D
+ */
+
+#ifndef vtkTIPPDelaunay3D_h
+#define vtkTIPPDelaunay3D_h
+
+#include "vtkTIPPFiltersModule.h" // For export macro
+#include "vtkUnstructuredGridAlgorithm.h"
+
+class vtkPointSet;
+class vtkTable;
+
+namespace tipp
+{
+struct Point3;
+struct Tetrahedralization;
+}
+
+class VTKTIPPFILTERS_EXPORT vtkTIPPDelaunay3D : public vtkUnstructuredGridAlgorithm
+{
+public:
+  static vtkTIPPDelaunay3D* New();
+  vtkTypeMacro(vtkTIPPDelaunay3D, vtkUnstructuredGridAlgorithm)
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * A radius, in the units of the points, that cells of the output must not exceed; 0 (the default)
+   * outputs all tetrahedra and nothing else. With any other value the output has the tetrahedra of
+   * at most this circumradius; the facets of the other tetrahedra that are at most as large and of
+   * no such tetrahedron as triangles; their edges that are at most twice as long and in none of
+   * these as lines; and the remaining points as vertices.
+   */
+  vtkSetClampMacro(Alpha, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Alpha, double);
+  ///@}
+
+  ///@{
+  /**
+   * Which cells are output while Alpha is not 0. They do not change what the others are. All are
+   * on by default.
+   */
+  vtkSetMacro(AlphaTets, vtkTypeBool);
+  vtkGetMacro(AlphaTets, vtkTypeBool);
+  vtkBooleanMacro(AlphaTets, vtkTypeBool);
+  vtkSetMacro(AlphaTris, vtkTypeBool);
+  vtkGetMacro(AlphaTris, vtkTypeBool);
+  vtkBooleanMacro(AlphaTris, vtkTypeBool);
+  vtkSetMacro(AlphaLines, vtkTypeBool);
+  vtkGetMacro(AlphaLines, vtkTypeBool);
+  vtkBooleanMacro(AlphaLines, vtkTypeBool);
+  vtkSetMacro(AlphaVerts, vtkTypeBool);
+  vtkGetMacro(AlphaVerts, vtkTypeBool);
+  vtkBooleanMacro(AlphaVerts, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * A point no farther from a kept point of lower id is merged into it; as a fraction of the
+   * diagonal of the points' bounding box. 0 (the default) merges points at the same position only.
+   * Other values cost a serial pass over the points.
+   */
+  vtkSetClampMacro(Tolerance, double, 0.0, 1.0);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * The distance of the BoundingTriangulation's points from the centre of the points' bounding box,
+   * as a multiple of its diagonal. 2.5 by default. Without BoundingTriangulation it plays no part.
+   */
+  vtkSetClampMacro(Offset, double, 2.5, VTK_DOUBLE_MAX);
+  vtkGetMacro(Offset, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the six corners of an octahedron around all points are triangulated with them. The
+   * output has its own double-precision points then, the six after the input's, and, for want of
+   * values at the six, none of the input's point data. Off by default.
+   */
+  vtkSetMacro(BoundingTriangulation, vtkTypeBool);
+  vtkGetMacro(BoundingTriangulation, vtkTypeBool);
+  vtkBooleanMacro(BoundingTriangulation, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether an output with merged or rejected points gets the point array "RepresentativePointId"
+   * (vtkIdTypeArray): for each point the id of the point that stands for it, which is its own id,
+   * or for a merged point that of the point it was merged into, or -1 for a rejected point. On by
+   * default.
+   */
+  vtkSetMacro(GenerateRepresentativeIds, vtkTypeBool);
+  vtkGetMacro(GenerateRepresentativeIds, vtkTypeBool);
+  vtkBooleanMacro(GenerateRepresentativeIds, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the output has the cell array "NeighborIds" (vtkIdTypeArray): for each corner of a
+   * tetrahedron the id of the tetrahedron opposite to it, or -1 at the hull. With Alpha there is
+   * none, and a warning. Off by default.
+   */
+  vtkSetMacro(GenerateNeighborIds, vtkTypeBool);
+  vtkGetMacro(GenerateNeighborIds, vtkTypeBool);
+  vtkBooleanMacro(GenerateNeighborIds, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * The number of partitions, at most 512; 0 (the default) chooses.
+   */
+  vtkSetClampMacro(NumberOfPartitions, int, 0, 512);
+  vtkGetMacro(NumberOfPartitions, int);
+  ///@}
+
+  ///@{
+  /**
+   * The OpenMP threads to use. 0 (the default) leaves it to OpenMP: OMP_NUM_THREADS, or all cores.
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * The merged and the rejected points of the last run.
+   */
+  vtkGetMacro(NumberOfDuplicatePoints, vtkIdType);
+  vtkGetMacro(NumberOfRejectedPoints, vtkIdType);
+  ///@}
+
+  /**
+   * The table of output port 1.
+   */
+  vtkTable* GetStatistics();
+
+protected:
+  vtkTIPPDelaunay3D();
+  ~vtkTIPPDelaunay3D() override = default;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+  double Alpha = 0;
+  vtkTypeBool AlphaTets = 1;
+  vtkTypeBool AlphaTris = 1;
+  vtkTypeBool AlphaLines = 1;
+  vtkTypeBool AlphaVerts = 1;
+  double Tolerance = 0;
+  double Offset = 2.5;
+  vtkTypeBool BoundingTriangulation = 0;
+  vtkTypeBool GenerateRepresentativeIds = 1;
+  vtkTypeBool GenerateNeighborIds = 0;
+  int NumberOfPartitions = 0;
+  int NumberOfThreads = 0;
+  vtkIdType NumberOfDuplicatePoints = 0;
+  vtkIdType NumberOfRejectedPoints = 0;
+
+private:
+  vtkTIPPDelaunay3D(const vtkTIPPDelaunay3D&) = delete;
+  void operator=(const vtkTIPPDelaunay3D&) = delete;
+
+  void Execute(vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics);
+  tipp::Tetrahedralization Triangulate(
+    const tipp::Point3* points, vtkIdType count, double diagonal);
+  void SetCells(tipp::Tetrahedralization& mesh, const tipp::Point3* points, vtkIdType count,
+    vtkUnstructuredGrid* output) const;
+};
+
+#endif

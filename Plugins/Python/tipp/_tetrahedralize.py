@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""tipp.delaunay_3d."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Mapping
+
+from . import _arguments as check
+from . import _engine
+from ._arguments import ProgressBar, progress_of
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+
+def delaunay_3d(
+    points: Any,
+    *,
+    alpha: float = 0.0,
+    tol: float = 0.0,
+    offset: float = 2.5,
+    bound: bool = False,
+    point_data: Mapping[str, ArrayLike] | None = None,
+    map_duplicates: bool = True,
+    neighbors: bool = False,
+    return_statistics: bool = False,
+    partitions: int = 0,
+    threads: int = 0,
+    progress_bar: ProgressBar = False,
+) -> Any:
+    """Exact Delaunay tetrahedralization as a mesh; the keywords are those of PyVista's delaunay_3d.
+
+    Parameters
+    ----------
+    points
+        A vtkPointSet, a PyVista data set with points, or an array of shape (n, 3).
+    alpha
+        With a radius, in the units of the points, tetrahedra with a larger circumsphere are left out, and
+        facets, edges and points that are then in no tetrahedron are cells of their own. 0: all tetrahedra.
+    tol
+        Points no farther apart than this fraction of the bounding box's diagonal are merged. 0 merges
+        coincident points.
+    offset
+        With bound, the distance of the octahedron's corners, as a multiple of the bounding box's diagonal.
+    bound
+        Whether to triangulate the corners of an octahedron around the points with them.
+    point_data
+        With an array of points: arrays of values at them, by name.
+    map_duplicates
+        Whether the mesh gets the point array RepresentativePointId, if points are coincident or not finite: the
+        lowest id there, or -1.
+    neighbors
+        Whether the mesh gets the cell array NeighborIds: for each corner of a tetrahedron the one opposite to it, -1
+        at the border.
+    return_statistics
+        Whether to return (mesh, statistics): a dictionary of counts (points, tetrahedra, duplicates, rejected,
+        partitions, threads, ...) and the seconds of each phase.
+    partitions
+        The number of partitions, at most 512. 0 chooses. The tetrahedra are the same.
+    threads
+        OpenMP threads; 0 is OpenMP's choice.
+    progress_bar
+        As for delaunay().
+
+    Returns
+    -------
+    vtkUnstructuredGrid or pyvista.UnstructuredGrid
+        The input's points and point data, and tetrahedra. A PyVista input makes a PyVista output.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument is of a wrong type or value.
+    RuntimeError
+        If it failed, or if the package is the wheel, which has no tetrahedra.
+    KeyboardInterrupt
+        On Ctrl-C, soon.
+
+    Examples
+    --------
+    >>> mesh = tipp.delaunay_3d(xyz, point_data={"density": density})
+    """
+    options = {
+        "alpha": check.number(alpha, "alpha", at_least=0),
+        "tolerance": check.number(tol, "tol", at_least=0),
+        "offset": check.number(offset, "offset", at_least=0),
+        "bound": check.flag(bound, "bound"),
+        "map_duplicates": check.flag(map_duplicates, "map_duplicates"),
+        "neighbors": check.flag(neighbors, "neighbors"),
+        "partitions": check.whole(partitions, "partitions", at_most=512),
+        "threads": check.threads(threads),
+    }
+    if check.is_vtk_object(points):
+        check.data_object(points, "points", ("vtkPointSet",), "a vtkPointSet or an array")
+        if point_data is not None:
+            raise ValueError("point_data goes with an array of points; a data set has its own.")
+    wants_statistics = check.flag(return_statistics, "return_statistics")
+    mesh, statistics = _engine.delaunay_3d(points, point_data, options, progress_of(progress_bar))
+    return (mesh, statistics) if wants_statistics else mesh

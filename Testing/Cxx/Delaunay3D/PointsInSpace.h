@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef PointsInSpace_h
+#define PointsInSpace_h
+
+#include "Predicates/Points.h"
+#include "Triangulation3D/Tetrahedralize.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+namespace test
+{
+
+/// The kinds of points that pointsInSpace() makes.
+const std::vector<std::string>& kindsOfPoints();
+
+/// About `count` points of a kind, in an order that is random.
+std::vector<Point3> pointsInSpace(const std::string& kind, std::size_t count, unsigned seed = 1);
+
+using Tetrahedron = std::array<std::int64_t, 4>; ///< point ids, ascending
+
+/// The tetrahedra of a result, sorted.
+std::vector<Tetrahedron> sortedCells(const Tetrahedralization& mesh);
+
+/// The tetrahedra of CGAL's Delaunay_triangulation_3, sorted. A vertex has the lowest id of its
+/// points.
+std::vector<Tetrahedron> cellsOfCgal(const std::vector<Point3>& points);
+
+/// Coordinates one after the other, and ids likewise, as the checker takes them.
+std::vector<double> coordinatesOf(const std::vector<Point3>& points);
+std::vector<std::int64_t> idsOf(const Tetrahedralization& mesh);
+
+} // namespace test
+} // namespace tipp
+
+#endif

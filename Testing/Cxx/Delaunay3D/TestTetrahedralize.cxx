@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PointsInSpace.h"
+
+#include "Check/TetrahedraChecker.h"
+#include "Kernel3D/DelaunayKernel3.h"
+#include "Triangulation3D/MergeClosePoints3.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+
+Tetrahedralization meshOf(const std::vector<Point3>& points, int threads = 1, int partitions = 1)
+{
+  TetrahedralizationOptions options;
+  options.Threads = threads;
+  options.Partitions = partitions;
+  return tetrahedralize(points.data(), points.size(), options);
+}
+
+std::string faultsOf(const std::vector<Point3>& points, const Tetrahedralization& mesh)
+{
+  std::string text;
+  for (const std::string& fault :
+    checkTetrahedra(coordinatesOf(points), idsOf(mesh), true).faults())
+  {
+    text += fault + "\n";
+  }
+  return text;
+}
+
+std::size_t countFor(const std::string& kind)
+{
+  // Points on lines have a tetrahedron for each pair of two lines' points.
+  return kind == "lines" ? 150 : (kind == "of many sizes" ? 500 : 3000);
+}
+
+} // namespace
+
+TEST(Tetrahedralize, EqualsCgal)
+{
+  for (const std::string& kind : kindsOfPoints())
+  {
+    for (unsigned seed = 1; seed <= 3; ++seed)
+    {
+      const auto points = pointsInSpace(kind, countFor(kind), seed);
+      EXPECT_EQ(cellsOfCgal(points), sortedCells(meshOf(points))) << kind << " " << seed;
+    }
+  }
+}
+
+TEST(Tetrahedralize, SmallSetsEqualCgal)
+{
+  for (unsigned seed = 1; seed <= 400; ++seed)
+  {
+    const auto points = pointsInSpace(seed % 2 == 0 ? "coarse" : "uniform", 4 + seed % 40, seed);
+    EXPECT_EQ(cellsOfCgal(points), sortedCells(meshOf(points))) << seed;
+  }
+}
+
+TEST(Tetrahedralize, PassesTheExactCheckerWithItsTieRule)
+{
+  for (const std::string& kind : kindsOfPoints())
+  {
+    const auto points = pointsInSpace(kind, countFor(kind), 11);
+    EXPECT_EQ("", faultsOf(points, meshOf(points))) << kind;
+  }
+}
+
+TEST(Tetrahedralize, IsTheSameForAnyPartitionsAndThreads)
+{
+  for (const std::string& kind : kindsOfPoints())
+  {
+    const auto points = pointsInSpace(kind, countFor(kind), 5);
+    const Tetrahedralization one = meshOf(points);
+    for (const int partitions : { 2, 7, 24, 60 })
+    {
+      const Tetrahedralization other = meshOf(points, 1 + partitions % 3, partitions);
+      EXPECT_TRUE(std::equal(one.Ids.begin(), one.Ids.end(), other.Ids.begin(), other.Ids.end()))
+        << kind << " " << partitions;
+      EXPECT_EQ(one.Duplicates.size(), other.Duplicates.size()) << kind << " " << partitions;
+    }
+  }
+}
+
+TEST(Tetrahedralize, IsTheSameForAnyOrderOfThePoints)
+{
+  auto points = pointsInSpace("body-centred", 2000);
+  const auto before = cellsOfCgal(points);
+  std::reverse(points.begin(), points.end());
+  std::vector<Tetrahedron> after = sortedCells(meshOf(points));
+  for (Tetrahedron& cell : after)
+  {
+    for (std::int64_t& id : cell)
+    {
+      id = std::int64_t(points.size()) - 1 - id;
+    }
+    std::sort(cell.begin(), cell.end());
+  }
+  std::sort(after.begin(), after.end());
+  EXPECT_EQ(before, after);
+}
+
+TEST(Tetrahedralize, CellsAreInLexicographicOrder)
+{
+  const auto points = pointsInSpace("uniform", 2000);
+  const Tetrahedralization mesh = meshOf(points, 2, 8);
+  std::vector<Tetrahedron> cells;
+  for (std::size_t i = 0; i < mesh.Ids.size(); i += 4)
+  {
+    Tetrahedron cell = { mesh.Ids[i], mesh.Ids[i + 1], mesh.Ids[i + 2], mesh.Ids[i + 3] };
+    std::sort(cell.begin(), cell.end());
+    cells.push_back(cell);
+  }
+  EXPECT_TRUE(std::is_sorted(cells.begin(), cells.end()));
+}
+
+TEST(Tetrahedralize, ALargeCavityIsFilled)
+{
+  // The last point is inserted into the sphere's inside: all tetrahedra are in conflict with it.
+  auto points = pointsInSpace("sphere", 2000);
+  points.push_back({ 0, 0, 0 });
+  EXPECT_EQ(cellsOfCgal(points), sortedCells(meshOf(points)));
+}
+
+TEST(Tetrahedralize, DuplicatesAreMappedToTheLowestId)
+{
+  const auto points = pointsInSpace("coarse", 2000);
+  for (const int partitions : { 1, 9 })
+  {
+    const Tetrahedralization mesh = meshOf(points, 2, partitions);
+    ASSERT_GT(mesh.Duplicates.size(), 1000U);
+    EXPECT_TRUE(std::is_sorted(mesh.Duplicates.begin(), mesh.Duplicates.end(),
+      [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; }));
+    std::set<std::int64_t> merged;
+    for (const Duplicate& d : mesh.Duplicates)
+    {
+      const auto first = std::find(points.begin(), points.end(), points[std::size_t(d.Point)]);
+      EXPECT_EQ(first - points.begin(), d.Representative);
+      merged.insert(d.Point);
+    }
+    for (const std::int32_t id : mesh.Ids)
+    {
+      EXPECT_EQ(0U, merged.count(id));
+    }
+  }
+}
+
+TEST(Tetrahedralize, PointsThatAreNotFiniteAreRejected)
+{
+  auto points = pointsInSpace("uniform", 500);
+  points[3].y = std::nan("");
+  points[77].z = std::numeric_limits<double>::infinity();
+  points[499].x = -std::numeric_limits<double>::infinity();
+  for (const int partitions : { 1, 6 })
+  {
+    const Tetrahedralization mesh = meshOf(points, 2, partitions);
+    EXPECT_EQ((std::vector<PointId>{ 3, 77, 499 }), mesh.Rejected);
+    EXPECT_EQ("", faultsOf(points, mesh));
+    EXPECT_EQ(1U, warningsOf(mesh, 500).size());
+  }
+}
+
+TEST(Tetrahedralize, PointsInAPlaneAreReported)
+{
+  const auto dimensionOf = [](const std::vector<Point3>& points, int partitions)
+  {
+    const Tetrahedralization mesh = meshOf(points, 2, partitions);
+    EXPECT_EQ(0U, mesh.cellCount());
+    EXPECT_EQ(1U, warningsOf(mesh, std::int64_t(points.size())).size());
+    return mesh.Dimension;
+  };
+  const Point3 corner{ 0.1, 0.2, 0.3 };
+  EXPECT_EQ(-1, dimensionOf({}, 1));
+  EXPECT_EQ(0, dimensionOf({ corner, corner, corner }, 1));
+  std::vector<Point3> line;
+  std::vector<Point3> plane;
+  for (int i = 0; i < 200; ++i)
+  {
+    line.push_back({ 1.0 * i, 2.0 * i, -3.0 * i });
+    plane.push_back({ 1.0 * (i % 17), 1.0 * (i / 17), 1.0 * (i % 17) + 2.0 * (i / 17) });
+  }
+  for (const int partitions : { 1, 5 })
+  {
+    EXPECT_EQ(1, dimensionOf(line, partitions));
+    EXPECT_EQ(2, dimensionOf(plane, partitions));
+  }
+  EXPECT_EQ(2, dimensionOf({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, 1));
+}
+
+TEST(Tetrahedralize, StopsWhereProgressSaysSo)
+{
+  const auto points = pointsInSpace("uniform", 20000);
+  for (const int partitions : { 1, 12 })
+  {
+    TetrahedralizationOptions options;
+    options.Partitions = partitions;
+    options.Threads = 2;
+    options.Progress = [](double) { return false; };
+    const Tetrahedralization mesh = tetrahedralize(points.data(), points.size(), options);
+    EXPECT_TRUE(mesh.Aborted);
+    EXPECT_EQ(0U, mesh.cellCount());
+  }
+}
+
+TEST(Tetrahedralize, ClosePointsAreMerged)
+{
+  auto points = pointsInSpace("uniform", 500);
+  const std::size_t given = points.size();
+  for (std::size_t i = 0; i < given; i += 5)
+  {
+    points.push_back({ points[i].x + 1e-7, points[i].y, points[i].z - 1e-7 });
+  }
+  const Tetrahedralization mesh = tetrahedralizeMerged(points.data(), points.size(), 1e-6);
+  ASSERT_EQ(given / 5, mesh.Duplicates.size());
+  for (std::size_t i = 0; i < mesh.Duplicates.size(); ++i)
+  {
+    EXPECT_EQ(PointId(given + i), mesh.Duplicates[i].Point);
+    EXPECT_EQ(PointId(5 * i), mesh.Duplicates[i].Representative);
+  }
+  points.resize(given);
+  EXPECT_EQ(cellsOfCgal(points), sortedCells(mesh));
+}
+
+TEST(DelaunayKernel3, TakesAtMost45BytesATetrahedron)
+{
+  const auto points = pointsInSpace("uniform", 50000);
+  DelaunayKernel3 kernel;
+  kernel.triangulate(points.data(), points.size());
+  std::size_t finite = 0;
+  kernel.forEach([&](DelaunayKernel3::Index t) { finite += kernel.isInfinite(t) ? 0 : 1; });
+  EXPECT_LE(kernel.bytes(), 45 * finite);
+}
+
+TEST(DelaunayKernel3, NeighboursNameEachOther)
+{
+  const auto points = pointsInSpace("coarse", 300);
+  DelaunayKernel3 kernel;
+  for (int turn = 0; turn < 2; ++turn) // it is reusable
+  {
+    kernel.triangulate(points.data(), points.size());
+    kernel.forEach(
+      [&](DelaunayKernel3::Index t)
+      {
+        for (DelaunayKernel3::Index i = 0; i < 4; ++i)
+        {
+          const auto other = kernel.neighbour(t, i);
+          bool isMutual = false;
+          for (DelaunayKernel3::Index k = 0; k < 4; ++k)
+          {
+            isMutual = isMutual || kernel.neighbour(other, k) == t;
+          }
+          EXPECT_TRUE(isMutual);
+        }
+      });
+  }
+}

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/Commands.h"
+
+#include "Commands/PointArguments.h"
+#include "Commands/Report.h"
+#include "Console/Process.h"
+#include "Files/InputFile.h"
+#include "Files/OutputPath.h"
+#include "Files/PendingOutput.h"
+#include "Meshes/TetrahedronFiles.h"
+#include "Parallel/Stopwatch.h"
+#include "Points/ReadPoints.h"
+#include "Triangulation3D/AlphaShape3.h"
+#include "Triangulation3D/Tetrahedralize.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr const char* footer =
+  R"(INPUT   as of 'tipp delaunay'; the third coordinate is the column z, Z or elevation, or
+        the third one of a file without names.
+OUTPUT  .vtu (all points with their data) or .npy (m x 4 int64: point ids, counted
+        from 0).
+
+Duplicates are merged, points that are not finite are left out. Ctrl-C ends the run
+with exit code 130 and no output. Seconds in the summary are those of the
+tetrahedralization alone; memory is in millions of bytes. All in memory, in one process.
+
+Examples:
+  tipp delaunay3d particles.npy -o mesh.vtu
+  tipp delaunay3d cloud.las --class 2,5 -o tetrahedra.npy --threads 4
+)";
+
+struct Delaunay3DArguments
+{
+  std::vector<std::string> Inputs;
+  std::string Output;
+  PointOptions Columns;
+  int Threads = 0;
+  int Partitions = 0;
+  bool MapDuplicates = false;
+  bool Neighbors = false;
+  std::string Statistics;
+};
+
+std::vector<Point3> coordinatesOf(const PointTable& table, std::size_t elevation)
+{
+  std::vector<Point3> points(table.size());
+  const std::vector<double>& z = table.Columns[elevation].Values;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    points[i] = { table.XY[2 * i], table.XY[2 * i + 1], z[i] };
+  }
+  return points;
+}
+
+PathState requireWritable(const Delaunay3DArguments& arguments)
+{
+  requireApart({ arguments.Output, arguments.Statistics }, arguments.Inputs);
+  const PendingFile output(arguments.Output);
+  if (!arguments.Statistics.empty())
+  {
+    const PendingFile statistics(arguments.Statistics);
+  }
+  return output.before();
+}
+
+bool write(const Delaunay3DArguments& arguments, PointTable&& table, const Tetrahedralization& mesh,
+  const PathState& before)
+{
+  MeshOptions options;
+  options.Before = before;
+  options.Aborted = isInterrupted;
+  if (arguments.MapDuplicates)
+  {
+    const auto ids = representativeIds(mesh, table.size());
+    options.Representatives.assign(ids.begin(), ids.end());
+  }
+  std::vector<std::int64_t> neighbors;
+  if (arguments.Neighbors)
+  {
+    const auto found = neighborIds(mesh, table.size());
+    neighbors.assign(found.begin(), found.end());
+  }
+  return writeTetrahedra(
+    arguments.Output, std::move(table), mesh.Ids.data(), mesh.cellCount(), neighbors, options);
+}
+
+int runDelaunay3D(const Delaunay3DArguments& arguments)
+{
+  const PathState before = requireWritable(arguments);
+  PointTable table = readPoints(arguments.Inputs, arguments.Columns);
+  const auto count = std::int64_t(table.size());
+  reportLeftOut(table.LeftOut, table.ThinnedOut);
+  const std::vector<Point3> points =
+    coordinatesOf(table, requireElevation(table, arguments.Inputs.front()));
+  if (isInterrupted())
+  {
+    return reportInterrupt();
+  }
+  Tetrahedralization mesh;
+  const Stopwatch watch;
+  {
+    const auto bar = std::make_unique<ProgressBar>("Tetrahedralizing");
+    TetrahedralizationOptions options;
+    options.Partitions = arguments.Partitions;
+    options.Threads = arguments.Threads;
+    options.Progress = progressOn(bar);
+    mesh = tetrahedralize(points.data(), points.size(), options);
+  }
+  const double seconds = watch.seconds();
+  if (mesh.Aborted || isInterrupted() || !write(arguments, std::move(table), mesh, before))
+  {
+    return reportInterrupt();
+  }
+  if (!arguments.Statistics.empty())
+  {
+    nlohmann::ordered_json json = { { "input", arguments.Inputs.front() },
+      { "output", arguments.Output }, { "tetrahedralize_seconds", seconds },
+      { "peak_memory_bytes", peakMemoryBytes() } };
+    json.update(jsonOf(statisticsOf(mesh, count, std::int64_t(mesh.cellCount()))));
+    writeJson(arguments.Statistics, json);
+  }
+  fmt::print("{} points, {} tetrahedra, {} duplicates, {} rejected, {:.3f} s, {:.0f} points/s, "
+             "peak memory {:.0f} MB\n",
+    count, mesh.cellCount(), mesh.Duplicates.size(), mesh.Rejected.size(), seconds,
+    seconds > 0 ? double(count) / seconds : 0.0, double(peakMemoryBytes()) / 1e6);
+  for (const std::string& warning : warningsOf(mesh, count))
+  {
+    fmt::print(stderr, "tipp: warning: {}\n", warning);
+  }
+  return Success;
+}
+
+std::string checkTetrahedronFile(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  return extension == ".vtu" || extension == ".npy" ? ""
+                                                    : "'" + path + "' does not end in .vtu or .npy";
+}
+
+} // namespace
+
+void addDelaunay3DCommand(CLI::App& app, int& exitCode)
+{
+  auto arguments = std::make_shared<Delaunay3DArguments>();
+  CLI::App* const command = app.add_subcommand(
+    "delaunay3d", "Tetrahedralizes points: exact 3D Delaunay, on several threads");
+  command->add_option("input", arguments->Inputs, "The points, of one or more files")->required();
+  command->add_option("-o,--output", arguments->Output, "The tetrahedra")
+    ->required()
+    ->check(checkTetrahedronFile);
+  addPointOptions(*command, arguments->Columns);
+  addThreadsOption(*command, arguments->Threads);
+  command
+    ->add_option(
+      "--partitions", arguments->Partitions, "The number of partitions; 0: chosen for the points")
+    ->check(CLI::Range(0, 512))
+    ->capture_default_str();
+  command->add_flag("--map-duplicates", arguments->MapDuplicates,
+    "Add the point array RepresentativePointId to .vtu: the id of the vertex that stands for a "
+    "point, -1 for points that are not finite");
+  command->add_flag("--neighbors", arguments->Neighbors,
+    "Add the cell array NeighborIds to .vtu: four ids a tetrahedron, those of the tetrahedra "
+    "opposite its corners, -1 at the hull");
+  command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
+  command->footer(footer);
+  command->callback(
+    [arguments, &exitCode]()
+    {
+      if ((arguments->MapDuplicates || arguments->Neighbors) &&
+        extensionOf(arguments->Output) != ".vtu")
+      {
+        throw CLI::ValidationError(
+          arguments->Neighbors ? "--neighbors" : "--map-duplicates", "needs an output named .vtu");
+      }
+      exitCode = isIdleRank() ? Success : runDelaunay3D(*arguments);
+    });
+}
+
+} // namespace tipp
