@@ -213,7 +213,8 @@ bool InitialMesh3::partitionsPay() const
   {
     meeting += this->metBegin(cell) < this->metEnd(cell) ? 1 : 0;
   }
-  constexpr std::size_t most = 6;
+  // By measurement 2.1 to 2.5 in a volume, 4 on a surface and 14 on a sphere.
+  constexpr std::size_t most = 3;
   return this->Met.size() <= most * meeting;
 }
 

@@ -39,8 +39,8 @@ struct InitialMesh3
   /// 'facet' for 'edge').
   ConflictGraph conflicts() const;
 
-  /// Whether partitioning pays. If circumballs meet many partitions each, as of points on a sphere,
-  /// every worker would get nearly all vertices.
+  /// Whether partitioning pays. If circumballs meet many partitions each, as of points on a
+  /// surface, workers would get most vertices several times.
   bool partitionsPay() const;
 
   std::vector<Vertex3> Vertices;
