@@ -36,26 +36,32 @@ namespace
 {
 
 /// xmin, xmax, ymin, ymax of the finite points.
-std::array<double, 4> boundsOf(vtkPointSet* points)
+/// West, east, south and north of the finite points that are included.
+class Bounds
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::array<double, 4> bounds{ infinity, -infinity, infinity, -infinity };
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+public:
+  void include(double x, double y)
   {
-    double p[3];
-    points->GetPoint(i, p);
-    if (std::isfinite(p[0]) && std::isfinite(p[1]))
+    if (std::isfinite(x) && std::isfinite(y))
     {
-      bounds = { std::min(bounds[0], p[0]), std::max(bounds[1], p[0]), std::min(bounds[2], p[1]),
-        std::max(bounds[3], p[1]) };
+      this->Sides = { std::min(this->Sides[0], x), std::max(this->Sides[1], x),
+        std::min(this->Sides[2], y), std::max(this->Sides[3], y) };
     }
   }
-  if (!(bounds[0] <= bounds[1]))
+
+  std::array<double, 4> get() const
   {
-    throw std::runtime_error("There is no point with finite coordinates.");
+    if (!(this->Sides[0] <= this->Sides[1]))
+    {
+      throw std::runtime_error("There is no point with finite coordinates.");
+    }
+    return this->Sides;
   }
-  return bounds;
-}
+
+private:
+  static constexpr double Infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 4> Sides{ Infinity, -Infinity, Infinity, -Infinity };
+};
 
 tipp::ConstraintTable constraintsOf(vtkPolyData* lines)
 {
@@ -149,7 +155,7 @@ tipp::RasterGrid vtkTIPPPointsToImage::Grid(vtkPointSet* points) const
   request.Resolution = this->Resolution;
   request.Aligned = this->AlignToResolution;
   std::array<double, 4> bounds{};
-  this->UseInputBounds ? void(bounds = boundsOf(points))
+  this->UseInputBounds ? void(bounds = this->PointBounds(points))
                        : void(std::copy_n(this->SamplingBounds, 4, bounds.begin()));
   if (request.Resolution == 0)
   {
@@ -243,6 +249,39 @@ tipp::PointTable vtkTIPPPointsToImage::Table(vtkPointSet* points) const
   return table;
 }
 
+std::unique_ptr<tipp::PointStream> vtkTIPPPointsToImage::Stream(vtkPointSet* points) const
+{
+  tipp::Thinning thinning;
+  thinning.Cell = this->ThinningSize;
+  thinning.Keep = static_cast<tipp::Thinning::Rule>(this->ThinningRule);
+  return tipp::streamTable(this->Table(points), thinning);
+}
+
+std::array<double, 4> vtkTIPPPointsToImage::PointBounds(vtkPointSet* points) const
+{
+  Bounds bounds;
+  if (this->ThinningSize > 0)
+  {
+    constexpr std::size_t blockPoints = 1 << 16;
+    const auto include = [&](const tipp::PointBlock& block)
+    {
+      for (std::size_t i = 0; i < block.size(); ++i)
+      {
+        bounds.include(block.XY[2 * i], block.XY[2 * i + 1]);
+      }
+    };
+    tipp::forEachBlock(*this->Stream(points), blockPoints, include);
+    return bounds.get();
+  }
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    points->GetPoint(i, p);
+    bounds.include(p[0], p[1]);
+  }
+  return bounds.get();
+}
+
 void vtkTIPPPointsToImage::Constrain(
   vtkPolyData* lines, vtkPolyData* boundary, tipp::DemRequest& request) const
 {
@@ -298,12 +337,8 @@ void vtkTIPPPointsToImage::Make(vtkInformationVector** inputs, vtkImageData* out
   tipp::Monitor monitor(this);
   tipp::TerrainSettings settings;
   tipp::SampledBands samples;
-  tipp::Thinning thinning;
-  thinning.Cell = this->ThinningSize;
-  thinning.Keep = static_cast<tipp::Thinning::Rule>(this->ThinningRule);
-  auto stream = tipp::streamTable(this->Table(points), thinning);
   const tipp::DemFigures figures = tipp::makeDem(
-    std::move(stream), request, std::uint64_t(this->MemoryLimit),
+    this->Stream(points), request, std::uint64_t(this->MemoryLimit),
     [&](double done) { return monitor(done); }, settings, samples);
   if (figures.Aborted)
   {

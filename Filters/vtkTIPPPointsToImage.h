@@ -42,6 +42,8 @@
 #include "vtkImageAlgorithm.h"
 #include "vtkTIPPFiltersModule.h" // For export macro
 
+#include <array>  // For PointBounds
+#include <memory> // For Stream
 #include <string> // For Bands
 #include <vector> // For Bands
 
@@ -52,6 +54,7 @@ class vtkPolyData;
 namespace tipp
 {
 struct DemRequest;
+class PointStream;
 struct PointTable;
 struct RasterGrid;
 }
@@ -95,8 +98,8 @@ public:
 
   ///@{
   /**
-   * Whether the pixels cover the points (the default) and SamplingBounds is ignored. Then the input
-   * is updated as soon as the extent of the output is asked for.
+   * Whether the pixels cover the points that thinning keeps (the default) and SamplingBounds is
+   * ignored. Then the input is updated as soon as the extent of the output is asked for.
    */
   vtkSetMacro(UseInputBounds, bool);
   vtkGetMacro(UseInputBounds, bool);
@@ -231,6 +234,8 @@ private:
 
   tipp::RasterGrid Grid(vtkPointSet* points) const;
   tipp::PointTable Table(vtkPointSet* points) const;
+  std::unique_ptr<tipp::PointStream> Stream(vtkPointSet* points) const;
+  std::array<double, 4> PointBounds(vtkPointSet* points) const; // of those that thinning keeps
   void Constrain(vtkPolyData* lines, vtkPolyData* boundary, tipp::DemRequest& request) const;
   void Make(vtkInformationVector** inputs, vtkImageData* output);
 };

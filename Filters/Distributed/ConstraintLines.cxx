@@ -90,8 +90,8 @@ private:
           this->Positions[std::size_t(ends[0])], this->Positions[std::size_t(ends[1])]);
       isLeft ? void() : std::swap(ends[0], ends[1]);
       const auto [low, high] = std::minmax({ this->idOf(ends[0]), this->idOf(ends[1]) });
-      this->Sides.push_back({ this->Named.Order[std::size_t(edge.Segment)], low, high, isLeft, isAscending,
-        this->Positions[std::size_t(ends[0])], ends });
+      this->Sides.push_back({ this->Named.Order[std::size_t(edge.Segment)], low, high, isLeft,
+        isAscending, this->Positions[std::size_t(ends[0])], ends });
     }
   }
 
@@ -129,8 +129,8 @@ private:
       answers.emplace_back();
       for (const Question& question : part)
       {
-        answers.back().push_back(char(question.IsLeft != 0 ||
-          !std::binary_search(left.begin(), left.end(), question, isLess)));
+        answers.back().push_back(char(
+          question.IsLeft != 0 || !std::binary_search(left.begin(), left.end(), question, isLess)));
       }
     }
     const std::vector<std::vector<char>> isMine = this->Ranks.allToAll(answers);

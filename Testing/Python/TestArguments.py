@@ -61,6 +61,10 @@ TABLE = {
                     "crossings": (TEXT[0], ["join"]), "marks": (TEXT[0], ["points"]),
                     "map_duplicates": FLAG, "neighbors": FLAG, "return_statistics": FLAG,
                     "partitions": COUNTS, "schedule": (TEXT[0], ["random"]), "threads": THREADS, "progress_bar": FLAG},
+    "delaunay_3d": {"points": (ARRAY[0], [3, [], [1, 2], np.zeros((3, 2)), np.zeros((3, 5))]),
+                    "alpha": LENGTH, "tol": LENGTH, "offset": LENGTH, "bound": FLAG, "point_data": POINT_DATA,
+                    "map_duplicates": FLAG, "neighbors": FLAG, "return_statistics": FLAG,
+                    "partitions": (THREADS[0], [-1, 513]), "threads": THREADS, "progress_bar": FLAG},
     "delaunay_file": {"points": (PATH[0] + [[None], {"a": 1}], PATH[1]), "output": PATH,
                       "memory": (BYTES[0], BYTES[1] + ["", "2T", "1.5G", "9" * 40]), "partitions": COUNTS,
                       "columns": COLUMNS, "max_edge": LENGTH, "map_duplicates": FLAG, "neighbors": FLAG,
@@ -109,6 +113,7 @@ class Arguments(unittest.TestCase):
         """The arguments that a function needs."""
         return {
             "delaunay": {"points": POINTS}, "delaunay_2d": {"points": POINTS},
+            "delaunay_3d": {"points": np.c_[POINTS, POINTS[:, 0] * POINTS[:, 1]]},
             "delaunay_file": {"points": self.points, "output": self.output}, "resample": {"mesh": self.mesh},
             "dem": {"points": np.c_[POINTS, POINTS[:, 0]], "resolution": 0.1},
             "read": {"path": self.stored}, "open": {"mesh": self.stored}, "write": {"mesh": self.mesh, "path": self.output},

@@ -115,7 +115,7 @@ TEST_F(TippQuery, WritesStatisticsOfZones)
   ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
   EXPECT_EQ("3 zones, in out.csv\n", outcome.Out);
   EXPECT_EQ("zone,cells,area,height_min,height_max,height_mean,height_integral,height_above\n"
-            "\"low, west\",2,4,0,22,11,44,44\n"
+            "\"low, west\",1,4,0,22,11,44,44\n"
             "ring,2,12,0,44,22,264,264\n"
             "outside,0,0,,,,,\n",
     this->content("out.csv"));
