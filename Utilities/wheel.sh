@@ -29,6 +29,6 @@ python -m build --no-isolation --wheel --outdir "$raw" build-wheel/source > buil
   tail -n 40 build-wheel/log >&2
   exit 1
 }
-auditwheel repair --strip -w "$folder" "$raw"/*.whl
+auditwheel repair --strip -z 9 -w "$folder" "$raw"/*.whl
 cp "$raw"/*.tar.gz "$folder"
 ls -l "$folder"

@@ -128,6 +128,8 @@ class Arguments(unittest.TestCase):
 
     def test_wrong_types_and_values_are_refused_in_one_sentence_that_names_the_argument(self):
         for function, arguments in TABLE.items():
+            if IS_WHEEL and function == "delaunay_3d":
+                continue  # it refuses all
             for argument, (types, values) in arguments.items():
                 default = inspect.signature(getattr(tipp, function)).parameters[argument].default
                 wrong = [(TypeError, value) for value in types if value is not None or default is not None]
