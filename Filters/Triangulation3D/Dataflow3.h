@@ -34,7 +34,8 @@ using Inbox3 = MessageInbox<VertexMessage3>;
 struct FinalCells
 {
   std::vector<CellIds> Cells;
-  std::vector<Vertex3> HullVertices; ///< true corners of those with artificial corners; repeated
+  /// True corners of tetrahedra that have artificial corners; with repetitions.
+  std::vector<Vertex3> HullVertices;
 
   void add(const Vertex3& a, const Vertex3& b, const Vertex3& c, const Vertex3& d);
 };
@@ -82,9 +83,9 @@ private:
 void sendInitialMesh(const InitialMesh3& mesh, const PartitionOrder& order,
   std::vector<Inbox3>& inboxes, FinalCells& final);
 
-/// Removes the artificial points (Lemma 3): adds the tetrahedra that replace those with artificial
-/// corners, namely those of the true corners' triangulation that are in conflict with an artificial
-/// point.
+/// Removes the artificial points (Lemma 3): tetrahedralizes HullVertices, and adds those tetrahedra
+/// that are in conflict with an artificial point. They fill the space of the tetrahedra with
+/// artificial corners.
 void repairHull(const std::vector<Vertex3>& artificial, FinalCells& final);
 
 } // namespace tipp

@@ -18,8 +18,8 @@ namespace tipp
 namespace
 {
 
-/// After so many searches by its points a piece gets a locator, or if more than a share of its
-/// cells' number of points are asked at once.
+/// A piece gets a locator after this many searches without one, or when a single search has more
+/// than one point per `cellsPerPoint` cells.
 constexpr int searchesWithoutLocator = 4;
 constexpr std::int64_t cellsPerPoint = 8;
 
@@ -27,7 +27,7 @@ constexpr std::int64_t cellsPerPoint = 8;
 constexpr std::int64_t cellsPerNearOne = 3;
 
 template <int D>
-std::array<double, D> positionOf(const Point3& point)
+std::array<double, D> coordinatesOf(const Point3& point)
 {
   const double coordinates[3] = { point.x, point.y, point.z };
   std::array<double, D> at;
@@ -41,7 +41,7 @@ class NearCells
 {
 public:
   NearCells(const AskedPoints& asked, std::int64_t most)
-    : Grid(asked.Count, 1, [&asked](std::int64_t i) { return positionOf<D>(asked.at(i)); })
+    : Grid(asked.Count, 1, [&asked](std::int64_t i) { return coordinatesOf<D>(asked.at(i)); })
     , Most(most)
   {
   }
@@ -110,7 +110,7 @@ template <int D>
 bool areNarrow(const AskedPoints& asked, const Bounds& box)
 {
   const Box<D> around = boundsOf<D>(
-    asked.Count, 1, [&asked](std::int64_t i) { return Box<D>::of(positionOf<D>(asked.at(i))); });
+    asked.Count, 1, [&asked](std::int64_t i) { return Box<D>::of(coordinatesOf<D>(asked.at(i))); });
   double share = 1;
   for (std::size_t axis = 0; axis < D; ++axis)
   {
