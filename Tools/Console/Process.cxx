@@ -12,6 +12,7 @@
 #endif
 
 #include <fmt/format.h>
+#include <dlfcn.h>
 #include <semaphore.h>
 #include <unistd.h>
 
@@ -118,6 +119,10 @@ extern "C" void onCrash(int signal)
 
 void reportReaderCrashes()
 {
+  if (dlsym(RTLD_DEFAULT, "__sanitizer_set_death_callback"))
+  {
+    return; // the sanitizer's own report is more useful
+  }
   // A separate stack, because a reader may have exhausted the normal one.
   static char stack[1 << 16];
   stack_t alternative = {};
@@ -126,12 +131,7 @@ void reportReaderCrashes()
   sigaltstack(&alternative, nullptr);
   for (const int signal : { SIGSEGV, SIGBUS, SIGFPE, SIGABRT })
   {
-    // A sanitizer's own report is more useful.
-    struct sigaction present = {};
-    if (sigaction(signal, nullptr, &present) != 0 || present.sa_handler != SIG_DFL)
-    {
-      continue;
-    }
+    // Replaces the handler of UCX, which Open MPI may load.
     struct sigaction action = {};
     action.sa_handler = onCrash;
     action.sa_flags = SA_ONSTACK | SA_RESETHAND;
