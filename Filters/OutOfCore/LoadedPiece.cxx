@@ -136,15 +136,25 @@ LoadedPiece::LoadedPiece(const PieceWork& work, PartitionIndex piece)
   , IsOnInterface(std::size_t(work.Points.count(piece)), 0)
 {
   work.Points.read(piece, this->Rows.data());
-  const PointsView view(this->Rows.data(), this->IsOnInterface.size(), work.Rows.Words);
   const Tiling& inner = work.Plan.Inner[std::size_t(piece)];
-  this->Buckets = bucketPoints<std::int32_t>(view.scaled(work.Factor), inner, 1);
+  this->Buckets = bucketPoints<std::int32_t>(this->points().scaled(work.Factor), inner, 1);
   this->InteriorCounts.assign(std::size_t(inner.size()), 0);
+  if (work.Constraints && work.Constraints->count(piece) > 0)
+  {
+    this->Constraints =
+      std::make_unique<PieceConstraints>(work.Constraints->read(piece), this->points());
+  }
+}
+
+PointsView LoadedPiece::points() const
+{
+  return { this->Rows.data(), this->IsOnInterface.size(), this->Work.Rows.Words };
 }
 
 std::uint64_t LoadedPiece::bytesOf(const PieceWork& work, PartitionIndex piece)
 {
-  return MemoryPlan::pieceBytes(work.Points.count(piece), work.Rows.Words);
+  return MemoryPlan::pieceBytes(work.Points.count(piece), work.Rows.Words) +
+    (work.Constraints ? work.Constraints->bytesOf(piece) : 0);
 }
 
 bool LoadedPiece::owns(const BoundaryVertex& v) const
@@ -164,6 +174,10 @@ void LoadedPiece::prepare(Workspace& space)
   space.Triangulator =
     std::make_unique<Worker<std::int32_t>>(plan.Partitions, this->Buckets, this->First);
   space.Triangulator->setTiling(plan.Partitions, -plan.FirstPartition[std::size_t(this->Piece)]);
+  if (this->Constraints)
+  {
+    space.Triangulator->setEditor(this->Constraints->makeEditor(this->Work.Factor));
+  }
   space.Piece = this->Piece;
   if (!space.Router)
   {
@@ -281,22 +295,18 @@ void LoadedPiece::filterTriangles(const Filter& filter)
   }
 }
 
-/// Inserts the constraints that are complete in the interior; what others cross is put aside. Cuts
-/// away what is outside of polygons.
+/// Inserts the other constraints that are complete in the interior; what the rest crosses is put
+/// aside.
 void LoadedPiece::constrain()
 {
-  const ConstraintSegments& constraints = *this->Work.Constraints;
-  std::vector<Point2> positions; // close together, for triangles name them in any order
-  positions.reserve(this->IsOnInterface.size());
-  PointsView(this->Rows.data(), this->IsOnInterface.size(), this->Work.Rows.Words)
-    .forEach(0, this->IsOnInterface.size(),
-      [&positions](std::size_t, Point2 p) { positions.push_back(p); });
-  const PointsView points =
-    positions.empty() ? PointsView() : PointsView(&positions.front().x, positions.size(), 2);
   CrossedPart crossed;
-  this->filterTriangles([&](std::int32_t* corners, std::size_t count)
-    { return takeCrossed(points, constraints, this->First, corners, count, crossed); });
-  this->Result.Crossed = splitIncomplete(crossed, constraints,
+  this->Constraints->takeCrossed(this->First, crossed,
+    [&](const ConstraintSegments& left)
+    {
+      this->filterTriangles([&](std::int32_t* corners, std::size_t count)
+        { return takeCrossed(this->points(), left, this->First, corners, count, crossed); });
+    });
+  this->Result.Crossed = splitIncomplete(crossed,
     [this](std::int64_t point) { return !this->IsOnInterface[std::size_t(point - this->First)]; });
   for (const CrossedPart::Corners& triangle : this->Result.Crossed.Triangles)
   {
@@ -305,16 +315,11 @@ void LoadedPiece::constrain()
       this->IsOnInterface[std::size_t(point - this->First)] = 1;
     }
   }
-  retriangulate(crossed, constraints, 1);
+  retriangulate(crossed, 1);
   for (const CrossedPart::Corners& triangle : crossed.Triangles)
   {
     this->BoundaryTriangles.push_back({ std::int32_t(triangle[0] - this->First),
       std::int32_t(triangle[1] - this->First), std::int32_t(triangle[2] - this->First) });
-  }
-  if (constraints.cuts())
-  {
-    this->filterTriangles([&](std::int32_t* corners, std::size_t count)
-      { return cutTriangles(points, constraints, corners, count); });
   }
 }
 
@@ -340,10 +345,15 @@ void LoadedPiece::resolveDuplicates(PieceFigures& figures)
 PieceInterior LoadedPiece::writeInterior()
 {
   std::sort(this->BoundaryTriangles.begin(), this->BoundaryTriangles.end());
-  if (this->Work.Constraints)
+  if (this->Constraints)
   {
     this->constrain();
     std::sort(this->BoundaryTriangles.begin(), this->BoundaryTriangles.end());
+  }
+  if (this->Work.Constraints && this->Work.Constraints->cutting().cuts())
+  {
+    this->filterTriangles([&](std::int32_t* corners, std::size_t count)
+      { return cutTriangles(this->points(), this->Work.Constraints->cutting(), corners, count); });
   }
   if (this->Work.MaximumEdge > 0)
   {
@@ -393,6 +403,7 @@ PieceResult LoadedPiece::write()
 {
   this->resolveDuplicates(this->Result.Figures);
   this->Result.Interior = this->writeInterior();
+  this->Constraints.reset();
   this->Rows = Buffer<double>();
   this->Buckets = PointBuckets<std::int32_t>();
   keepUnique(this->Result.HullVertices);
@@ -401,8 +412,7 @@ PieceResult LoadedPiece::write()
 
 FinishedPiece LoadedPiece::writePointsAlone(PieceFigures& figures)
 {
-  const PointsView view(this->Rows.data(), this->IsOnInterface.size(), this->Work.Rows.Words);
-  std::vector<Duplicate> duplicates = sortOutDuplicates(view);
+  std::vector<Duplicate> duplicates = sortOutDuplicates(this->points());
   for (Duplicate& duplicate : duplicates)
   {
     duplicate = { duplicate.Point + this->First, duplicate.Representative + this->First };
@@ -417,6 +427,10 @@ bool LoadedPiece::triangulateAlone(
   const DelaunayKernel::Monitor& progress, PieceFigures& figures, FinishedPiece& finished)
 {
   Worker<std::int32_t> worker(this->Work.Plan.Partitions, this->Buckets);
+  if (this->Constraints)
+  {
+    worker.setEditor(this->Constraints->makeEditor(this->Work.Factor));
+  }
   if (!worker.triangulateAlone(progress))
   {
     return false;
