@@ -43,8 +43,8 @@ public:
 
   /// Some of all segments, without their roles: they cut nothing. `names` has for each its number
   /// among all.
-  ConstraintSegments(
-    const std::vector<ConstraintSegment>& segments, const std::vector<std::int64_t>& names);
+  ConstraintSegments(const std::vector<ConstraintSegment>& segments,
+    const std::vector<std::int64_t>& names, std::vector<std::int64_t>* indices = nullptr);
 
   /// All segments again, in the order of the trees.
   std::vector<ConstraintSegment> list() const;

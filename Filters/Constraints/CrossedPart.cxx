@@ -240,49 +240,30 @@ void append(CrossedPart&& from, CrossedPart& to)
 }
 
 template <typename Id>
-std::size_t takeCrossed(PointsView points, const ConstraintSegments& segments, std::int64_t first,
-  Id* corners, std::size_t triangles, CrossedPart& part)
+std::size_t moveCrossed(PointsView points, const ConstraintSegments& segments, std::int64_t first,
+  const std::vector<ScannedTriangles::Crossing>& crossings, Id* corners, std::size_t triangles,
+  CrossedPart& part)
 {
-  TriangleScan<Id> scan(points, segments.tree());
   std::vector<std::int64_t> used;
-  std::size_t kept = 0;
-  for (std::size_t begin = 0; begin < triangles;)
+  std::size_t kept = crossings.empty() ? triangles : std::size_t(crossings.front().Triangle);
+  auto crossing = crossings.begin();
+  for (std::size_t t = kept; t < triangles; ++t)
   {
-    const std::size_t end = std::min(begin + scan.MostTriangles, triangles);
-    ScannedTriangles found;
-    scan.scan(
-      corners, begin, end, [](std::int64_t) { return false; }, found);
-    std::sort(found.Crossings.begin(), found.Crossings.end());
-    for (const ScannedTriangles::Edge& edge : found.Edges) // before triangles are moved
+    const Id* const its = corners + 3 * t;
+    if (crossing == crossings.end() || crossing->Triangle != std::int64_t(t))
     {
-      const Id* const its = corners + 3 * edge.Triangle;
-      part.FixedEdges.push_back({ first + its[edge.From], first + its[(edge.From + 1) % 3] });
+      std::copy_n(its, 3, corners + 3 * kept++);
+      continue;
     }
-    auto crossing = found.Crossings.begin();
-    for (; begin < end; ++begin)
+    part.Triangles.push_back({ first + its[0], first + its[1], first + its[2] });
+    part.Positions.push_back(
+      { points[std::size_t(its[0])], points[std::size_t(its[1])], points[std::size_t(its[2])] });
+    for (; crossing != crossings.end() && crossing->Triangle == std::int64_t(t); ++crossing)
     {
-      const Id* const its = corners + 3 * begin;
-      if (crossing == found.Crossings.end() || crossing->Triangle != std::int64_t(begin))
-      {
-        std::copy_n(its, 3, corners + 3 * kept++);
-        continue;
-      }
-      part.Triangles.push_back({ first + its[0], first + its[1], first + its[2] });
-      part.Positions.push_back(
-        { points[std::size_t(its[0])], points[std::size_t(its[1])], points[std::size_t(its[2])] });
-      for (; crossing != found.Crossings.end() && crossing->Triangle == std::int64_t(begin);
-           ++crossing)
-      {
-        used.push_back(crossing->Piece);
-        part.Segments.push_back(segments.nameOf(crossing->Piece));
-      }
-      part.SegmentEnds.push_back(part.Segments.size());
+      used.push_back(crossing->Piece);
+      part.Segments.push_back(segments.nameOf(crossing->Piece));
     }
-    for (const TouchOfPiece& touch : found.Touches)
-    {
-      part.Touches.push_back(
-        { segments.nameOf(touch.Piece), first + touch.Vertex, points[std::size_t(touch.Vertex)] });
-    }
+    part.SegmentEnds.push_back(part.Segments.size());
   }
   keepUniqueItems(used);
   for (const std::int64_t segment : used)
@@ -291,6 +272,33 @@ std::size_t takeCrossed(PointsView points, const ConstraintSegments& segments, s
     part.Known.push_back({ item.A, item.B, segments.nameOf(segment) });
   }
   return kept;
+}
+
+template <typename Id>
+std::size_t takeCrossed(PointsView points, const ConstraintSegments& segments, std::int64_t first,
+  Id* corners, std::size_t triangles, CrossedPart& part)
+{
+  TriangleScan<Id> scan(points, segments.tree());
+  ScannedTriangles found;
+  for (std::size_t begin = 0; begin < triangles; begin += scan.MostTriangles)
+  {
+    const auto before = std::ptrdiff_t(found.Crossings.size());
+    scan.scan(
+      corners, begin, std::min(begin + scan.MostTriangles, triangles),
+      [](std::int64_t) { return false; }, found);
+    std::sort(found.Crossings.begin() + before, found.Crossings.end());
+  }
+  for (const ScannedTriangles::Edge& edge : found.Edges) // before triangles are moved
+  {
+    const Id* const its = corners + 3 * edge.Triangle;
+    part.FixedEdges.push_back({ first + its[edge.From], first + its[(edge.From + 1) % 3] });
+  }
+  for (const TouchOfPiece& touch : found.Touches)
+  {
+    part.Touches.push_back(
+      { segments.nameOf(touch.Piece), first + touch.Vertex, points[std::size_t(touch.Vertex)] });
+  }
+  return moveCrossed(points, segments, first, found.Crossings, corners, triangles, part);
 }
 
 CrossedPart splitIncomplete(CrossedPart& part, const std::function<bool(std::int64_t)>& isInner)
@@ -456,6 +464,8 @@ std::size_t cutTriangles(
   return keepTriangles(corners, triangles, [&](std::size_t t) { return isKept[t] != 0; });
 }
 
+template std::size_t moveCrossed(PointsView, const ConstraintSegments&, std::int64_t,
+  const std::vector<ScannedTriangles::Crossing>&, std::int32_t*, std::size_t, CrossedPart&);
 template std::size_t takeCrossed(
   PointsView, const ConstraintSegments&, std::int64_t, std::int32_t*, std::size_t, CrossedPart&);
 template std::size_t takeCrossed(

@@ -79,6 +79,13 @@ template <typename Id>
 VTKTIPPFILTERS_EXPORT std::size_t takeCrossed(PointsView points, const ConstraintSegments& segments,
   std::int64_t first, Id* corners, std::size_t triangles, CrossedPart& part);
 
+/// The same where it is known which segments cross which triangles: by indices among `segments`,
+/// ascending by triangle. Adds no edges and vertices that lie on segments.
+template <typename Id>
+VTKTIPPFILTERS_EXPORT std::size_t moveCrossed(PointsView points, const ConstraintSegments& segments,
+  std::int64_t first, const std::vector<ScannedTriangles::Crossing>& crossings, Id* corners,
+  std::size_t triangles, CrossedPart& part);
+
 /// Removes the triangles of jobs with segments that are not complete, and returns them. isInner():
 /// whether all triangles at a vertex are in the part.
 VTKTIPPFILTERS_EXPORT CrossedPart splitIncomplete(

@@ -278,20 +278,21 @@ void LoadedPiece::markInterface(const BoundaryVertex& v)
   }
 }
 
-/// Calls filter(corners, count) for the triangles of each partition and those between; it returns
-/// how many are left.
+/// Calls filter(corners, count, partition) for the triangles of each partition of all, and for
+/// those between, whose partition is -1; it returns how many are left.
 template <typename Filter>
 void LoadedPiece::filterTriangles(const Filter& filter)
 {
+  const PartitionIndex before = this->Work.Plan.FirstPartition[std::size_t(this->Piece)];
   for (PartitionIndex p = 0; p < this->Buckets.partitions(); ++p)
   {
     std::size_t& count = this->InteriorCounts[std::size_t(p)];
-    count = filter(this->Buckets.triangles(p), count);
+    count = filter(this->Buckets.triangles(p), count, before + p);
   }
   if (!this->BoundaryTriangles.empty())
   {
     this->BoundaryTriangles.resize(
-      filter(this->BoundaryTriangles.front().data(), this->BoundaryTriangles.size()));
+      filter(this->BoundaryTriangles.front().data(), this->BoundaryTriangles.size(), -1));
   }
 }
 
@@ -300,12 +301,10 @@ void LoadedPiece::filterTriangles(const Filter& filter)
 void LoadedPiece::constrain()
 {
   CrossedPart crossed;
-  this->Constraints->takeCrossed(this->First, crossed,
-    [&](const ConstraintSegments& left)
-    {
-      this->filterTriangles([&](std::int32_t* corners, std::size_t count)
-        { return takeCrossed(this->points(), left, this->First, corners, count, crossed); });
-    });
+  this->Constraints->finishInserting();
+  this->filterTriangles([&](std::int32_t* corners, std::size_t count, PartitionIndex partition)
+    { return this->Constraints->takeCrossed(partition, this->First, corners, count, crossed); });
+  this->Constraints->addEdgesAndTouches(this->First, crossed);
   this->Result.Crossed = splitIncomplete(crossed,
     [this](std::int64_t point) { return !this->IsOnInterface[std::size_t(point - this->First)]; });
   for (const CrossedPart::Corners& triangle : this->Result.Crossed.Triangles)
@@ -352,7 +351,7 @@ PieceInterior LoadedPiece::writeInterior()
   }
   if (this->Work.Constraints && this->Work.Constraints->cutting().cuts())
   {
-    this->filterTriangles([&](std::int32_t* corners, std::size_t count)
+    this->filterTriangles([&](std::int32_t* corners, std::size_t count, PartitionIndex)
       { return cutTriangles(this->points(), this->Work.Constraints->cutting(), corners, count); });
   }
   if (this->Work.MaximumEdge > 0)
@@ -362,7 +361,7 @@ PieceInterior LoadedPiece::writeInterior()
       const double* const row = this->Rows.data() + std::size_t(id) * this->Work.Rows.Words;
       return Point2{ row[0], row[1] };
     };
-    this->filterTriangles([&](std::int32_t* corners, std::size_t count)
+    this->filterTriangles([&](std::int32_t* corners, std::size_t count, PartitionIndex)
       { return dropLongTriangles(corners, count, this->Work.MaximumEdge, pointOf); });
   }
   InteriorContent content;
