@@ -330,7 +330,7 @@ std::vector<std::size_t> ConstrainedPoints::Matching::sorted() const
 }
 
 /// Splits the constraints where they cross, and appends the crossings. Sets positions to those of
-/// the constraints' vertices, by the ids of the result. What was matched is used up.
+/// the constraints' vertices, by the ids of the result. Leaves the matching empty.
 ResolvedConstraints ConstrainedPoints::split(std::vector<Point2>& positions)
 {
   Matching& first = *this->First;

@@ -5,14 +5,15 @@
 #include "Files/TemporaryFiles.h"
 #include "Vtk/ReadDataSet.h"
 
+#include "vtkMultiProcessController.h"
 #ifdef TIPP_USE_MPI
 #include "vtkMPIController.h"
 
 #include <mpi.h>
 #endif
 
-#include <fmt/format.h>
 #include <dlfcn.h>
+#include <fmt/format.h>
 #include <semaphore.h>
 #include <unistd.h>
 
