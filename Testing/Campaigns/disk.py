@@ -151,7 +151,7 @@ def trial(random, folder, tools):
         make_old(random, tools, inputs, output)
         before = {**{("disk", k): v for k, v in contents(disk).items()},
                   **{("other", k): v for k, v in contents(other).items()}}
-        ranks = 2 if command[0] in ("delaunay", "partition") and random.random() < 0.15 else 1
+        ranks = 2 if tools.mpiexec and command[0] in ("delaunay", "partition") and random.random() < 0.15 else 1
         words = [tools.tipp, *command]
         if ranks > 1:
             words = [tools.mpiexec, "--oversubscribe", "--bind-to", "none", "-np", ranks, *words]
