@@ -108,7 +108,7 @@ def delaunay(rng, folder, tools):
     options += ["--map-duplicates"] if rng.random() < 0.2 else []
     plain = [tools.tipp, "delaunay", "points.npy", "-o", "mesh.tipp", *options, "--threads", "2"]
     command = plain[:-1] + [rng.randint(1, 3)]
-    if rng.random() < 0.15:
+    if tools.mpiexec and rng.random() < 0.15:
         command = [tools.mpiexec, "--oversubscribe", "--bind-to", "none", "-np", "2", *command]
     return plain, command, [*command, "--resume"]
 
