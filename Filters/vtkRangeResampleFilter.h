@@ -36,7 +36,7 @@
  *
  * With a controller of more than one rank every rank asks its input for its own piece, and the
  * samples are exchanged, so that each rank has the extent that is asked of it, or rank 0 all. With
- * NumberOfInputPieces above 1 the input is asked for so many pieces, one after the other: then only
+ * NumberOfInputPieces above 1 the input is asked for that many pieces, one after another, and only
  * one at a time must fit into memory. Both need a source that honours requests for pieces. If a
  * rank fails or is stopped, all end, with its reason.
  *

@@ -31,7 +31,6 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -96,23 +95,6 @@ int vtkTIPPDelaunay2D::FillOutputPortInformation(int port, vtkInformation* info)
   return 1;
 }
 
-/// The setters' bounds let NaN pass.
-void vtkTIPPDelaunay2D::CheckNumbers() const
-{
-  const auto require = [](double value, const char* name)
-  {
-    if (!std::isfinite(value))
-    {
-      throw std::runtime_error(
-        std::string(name) + " is " + std::to_string(value) + ": give a finite number.");
-    }
-  };
-  require(this->Alpha, "Alpha");
-  require(this->MaximumEdgeLength, "MaximumEdgeLength");
-  require(this->Tolerance, "Tolerance");
-  require(this->Offset, "Offset");
-}
-
 vtkAbstractTransform* vtkTIPPDelaunay2D::ComputeBestFittingPlane(vtkPointSet* input)
 {
   const auto transform = tipp::bestFittingPlane(input ? input->GetPoints() : nullptr);
@@ -131,30 +113,24 @@ int vtkTIPPDelaunay2D::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
   vtkTable* statistics = vtkTable::GetData(outputVector, 1);
   const tipp::ThreadLimit limit(this->NumberOfThreads);
-  try
+  const auto work = [&]
   {
-    this->CheckNumbers();
+    tipp::requireFinite(this->Alpha, "Alpha");
+    tipp::requireFinite(this->MaximumEdgeLength, "MaximumEdgeLength");
+    tipp::requireFinite(this->Tolerance, "Tolerance");
+    tipp::requireFinite(this->Offset, "Offset");
     if (this->HasSeveralRanks())
     {
       const bool wantsGhosts =
         outputVector->GetInformationObject(0)->Get(
           vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) > 0;
-      return this->ExecuteOnRanks(input, source, wantsGhosts, output, statistics) ? 1 : 0;
+      return this->ExecuteOnRanks(input, source, wantsGhosts, output, statistics);
     }
-    return this->Execute(input, source, output, statistics) ? 1 : 0;
-  }
-  catch (const std::bad_alloc&)
-  {
-    vtkErrorMacro("Not enough memory to triangulate "
-      << input->GetNumberOfPoints() << " points: use a machine with more, or fewer points.");
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro("Triangulating " << input->GetNumberOfPoints() << " points: " << error.what());
-  }
-  output->Initialize();
-  statistics->Initialize();
-  return 0;
+    return this->Execute(input, source, output, statistics);
+  };
+  const std::string what =
+    "Triangulating " + std::to_string(input->GetNumberOfPoints()) + " points";
+  return tipp::runReported(this, what, { output, statistics }, work);
 }
 
 bool vtkTIPPDelaunay2D::Execute(

@@ -57,8 +57,7 @@
  * (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView has. Alpha, Tolerance,
  * BoundingTriangulation and the best fitting plane need a single rank.
  *
- * An aborted run leaves both outputs empty. A failed one (out of memory, Transform missing) is
- * reported as an error and leaves them empty too.
+ * An aborted or failed run leaves both outputs empty. A failure is reported as an error.
  *
  * With a second input, the source, the result is the constrained Delaunay triangulation, exact and
  * unique too: every edge of the source's lines and polygons is a chain of edges of the output.
@@ -480,7 +479,6 @@ private:
   vtkTIPPDelaunay2D(const vtkTIPPDelaunay2D&) = delete;
   void operator=(const vtkTIPPDelaunay2D&) = delete;
 
-  void CheckNumbers() const;
   bool Execute(vtkPointSet* input, vtkPolyData* source, vtkPolyData* output, vtkTable* statistics);
   bool HasSeveralRanks() const;
   bool ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, bool wantsGhosts,

@@ -7,6 +7,7 @@
 #include "Output/TriangleOutput.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
+#include "Projection/ProjectedPoints.h"
 #include "Triangulation3D/AlphaShape3.h"
 #include "Triangulation3D/MergeClosePoints3.h"
 #include "Triangulation3D/Tetrahedralize.h"
@@ -29,9 +30,10 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
-#include <cmath>
-#include <stdexcept>
+#include <algorithm>
+#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkTIPPDelaunay3D);
@@ -39,31 +41,18 @@ vtkStandardNewMacro(vtkTIPPDelaunay3D);
 namespace
 {
 
-tipp::FiniteBounds boundsOf(vtkPoints* points)
-{
-  return tipp::finiteBounds(points->GetNumberOfPoints(),
-    [points](std::int64_t i, double* p) { points->GetPoint(vtkIdType(i), p); });
-}
-
 /// The points and the corners of an octahedron around them.
 vtkSmartPointer<vtkPoints> withOctahedron(vtkPoints* points, double offset)
 {
-  const tipp::FiniteBounds bounds = boundsOf(points);
+  const tipp::FiniteBounds bounds = tipp::finiteBounds(points);
   const double distance = offset * bounds.diagonal();
-  const vtkIdType count = points->GetNumberOfPoints();
-  vtkNew<vtkDoubleArray> scalars;
-  scalars->SetNumberOfComponents(3);
-  scalars->SetNumberOfTuples(count + 6);
-  scalars->InsertTuples(0, count, 0, points->GetData());
-  for (int i = 0; i < 6; ++i)
+  std::vector<std::array<double, 3>> corners(
+    6, { bounds.center(0), bounds.center(1), bounds.center(2) });
+  for (std::size_t i = 0; i < corners.size(); ++i)
   {
-    double corner[3] = { bounds.center(0), bounds.center(1), bounds.center(2) };
-    corner[i / 2] += i % 2 == 0 ? -distance : distance;
-    scalars->SetTuple(count + i, corner);
+    corners[i][i / 2] += i % 2 == 0 ? -distance : distance;
   }
-  auto extended = vtkSmartPointer<vtkPoints>::New();
-  extended->SetData(scalars);
-  return extended;
+  return tipp::appendPoints(points, corners);
 }
 
 /// The coordinates as doubles: the points' own memory, or a copy in `copy`.
@@ -80,15 +69,6 @@ const tipp::Point3* coordinatesOf(vtkPoints* points, std::vector<tipp::Point3>& 
     points->GetPoint(vtkIdType(i), &copy[i].x);
   }
   return copy.data();
-}
-
-void requireFinite(double value, const char* name)
-{
-  if (!std::isfinite(value))
-  {
-    throw std::runtime_error(
-      std::string(name) + " is " + std::to_string(value) + ": give a finite number.");
-  }
 }
 
 template <typename Ids>
@@ -137,23 +117,14 @@ int vtkTIPPDelaunay3D::RequestData(
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector, 0);
   vtkTable* statistics = vtkTable::GetData(outputVector, 1);
   const tipp::ThreadLimit limit(this->NumberOfThreads);
-  try
+  const auto work = [&]
   {
     this->Execute(input, output, statistics);
-    return 1;
-  }
-  catch (const std::bad_alloc&)
-  {
-    vtkErrorMacro("Not enough memory to tetrahedralize "
-      << input->GetNumberOfPoints() << " points: use a machine with more, or fewer points.");
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro("Tetrahedralizing " << input->GetNumberOfPoints() << " points: " << error.what());
-  }
-  output->Initialize();
-  statistics->Initialize();
-  return 0;
+    return true;
+  };
+  const std::string what =
+    "Tetrahedralizing " + std::to_string(input->GetNumberOfPoints()) + " points";
+  return tipp::runReported(this, what, { output, statistics }, work);
 }
 
 void vtkTIPPDelaunay3D::Execute(
@@ -161,9 +132,9 @@ void vtkTIPPDelaunay3D::Execute(
 {
   this->NumberOfDuplicatePoints = 0;
   this->NumberOfRejectedPoints = 0;
-  requireFinite(this->Alpha, "Alpha");
-  requireFinite(this->Tolerance, "Tolerance");
-  requireFinite(this->Offset, "Offset");
+  tipp::requireFinite(this->Alpha, "Alpha");
+  tipp::requireFinite(this->Tolerance, "Tolerance");
+  tipp::requireFinite(this->Offset, "Offset");
   tipp::checkPoints(input, "the input");
   vtkSmartPointer<vtkPoints> points = input->GetPoints();
   if (!points)
@@ -178,7 +149,7 @@ void vtkTIPPDelaunay3D::Execute(
   std::vector<tipp::Point3> copy;
   const tipp::Point3* const coordinates = coordinatesOf(points, copy);
   tipp::Tetrahedralization mesh =
-    this->Triangulate(coordinates, count, boundsOf(points).diagonal());
+    this->Triangulate(coordinates, count, tipp::finiteBounds(points).diagonal());
   if (mesh.Aborted)
   {
     return;

@@ -87,8 +87,8 @@ public:
   ///@{
   /**
    * The files of points, which are one input in their order: .npy, text (.csv, .txt, .xyz), .14,
-   * .grd, or any format that VTK reads. "uniform:COUNT" is no file but so many uniform points in
-   * the unit square. SetInputFileName() leaves one file alone.
+   * .grd, or any format that VTK reads. "uniform:COUNT" is no file but stands for COUNT uniform
+   * points in the unit square. SetInputFileName() leaves one file alone.
    */
   void AddInputFileName(const char* name);
   void SetInputFileName(const char* name);

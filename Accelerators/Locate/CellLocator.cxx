@@ -211,7 +211,7 @@ void CellLocator::findInOrder(const Access& access, const AskedPoints& points,
     cell >= 0 ? locations.add(points.index(order[i]), weighed(access, cell, point)) : void();
   };
   std::int64_t shared = mostShared / 4;
-  int alone = 0; // so many points do without: they are far apart
+  int alone = 0; // the number of next points to search one by one: they are far apart
   for (std::int64_t begin = 0; begin < count;)
   {
     shared = alone > 0 ? 1 : shared;

@@ -61,7 +61,7 @@ public:
   /// a lower id. Several threads may call it.
   void findNearest(const Point3& point, NearCell& best) const;
 
-  /// What a locator of so many cells takes at most.
+  /// Upper bound of a locator's memory, in bytes.
   static std::int64_t bytesFor(std::int64_t cells, int dimension)
   {
     const std::int64_t tree = cells * (dimension == 2 ? 23 : 32) + 1024;

@@ -29,11 +29,11 @@ inline bool isBeyondExactly(Point2 a, Point2 b, Point2 point)
 /// Finds the triangle that holds a point by going from triangle to triangle across common edges
 /// (Devillers, Pion and Teillaud, Walking in a Triangulation, 2002).
 ///
-/// Only where no two triangles overlap is the one that is found the only one. That is known from
-/// the edges that have one triangle: the number of triangles over a place is the winding number of
-/// these edges around it, taken counter-clockwise. It changes at such an edge only. So if it were
-/// two somewhere, a triangle would meet such an edge of another one beyond their common corners,
-/// which each edge is tested for, exactly.
+/// A walk finds one triangle. It is the only one that holds the point if no two triangles overlap,
+/// which boundary edges (those of a single triangle) tell: the number of triangles that cover a
+/// point equals the winding number of these edges around it, so it changes only at such an edge. If
+/// two triangles overlapped, some triangle would meet a boundary edge of another one at more than
+/// their common corners. Each boundary edge is tested for that, exactly.
 class VTKTIPPACCELERATORS_EXPORT CellWalk
 {
 public:
@@ -117,7 +117,7 @@ CellWalk::Outcome CellWalk::walk(const Access& access, Point2 point, Position& a
   Corner a{};
   Corner b{};
   Corner c{};
-  int second = 1; // counter-clockwise, corner b comes so many after corner a
+  int second = 1; // corner b's number minus corner a's, modulo 3, with a, b, c counter-clockwise
   const auto start = [&]
   {
     second = at.IsClockwise ? 2 : 1;
@@ -149,7 +149,7 @@ CellWalk::Outcome CellWalk::walk(const Access& access, Point2 point, Position& a
       {
         return Outcome::Found;
       }
-      // By turns, since always the same one may go round in a circle.
+      // Alternate: always preferring the same edge may walk in a circle.
       const bool acrossAB = isBeyondAB && (!isBeyondCA || step % 2 == 0);
       exit = turned[apex + (acrossAB ? 3 - second : second)];
       (acrossAB ? c : b) = a; // seen from beyond, bc is the common edge

@@ -215,7 +215,7 @@ void bound(NearCell& cell, const Point3& from)
   cell.High = distance + error;
 }
 
-/// Whether a corner, at its exact place, is certainly the nearest location of its cell.
+/// Whether the nearest location of the cell is certainly one of its corners, without rounding.
 bool isCorner(const NearCell& cell, const Point3& from)
 {
   double margin = 0;

@@ -80,7 +80,7 @@ inline int inSphere(
 // Devillers and Teillaud, Perturbations for Delaunay and weighted Delaunay 3D triangulations, 2011:
 // lift the lexicographically largest of the five points by the largest infinitesimal, the next by
 // the next, and so on. p is outside if its lift decides; else the sign is that of the tetrahedron
-// with p in place of the corner, unless these four are coplanar. A p equal to a corner is outside.
+// in which p replaces that corner, unless the four are coplanar. A p equal to a corner is outside.
 VTKTIPPACCELERATORS_EXPORT bool tieIsInsideSphere(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& p);
 

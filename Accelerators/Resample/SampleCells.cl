@@ -232,7 +232,7 @@ INLINE int fillCell(const Cell* cell, Spans* spans, int first, int last, const G
   }
 }
 
-// Whether there may be samples in a cell of so many rows, of which these are the first.
+// Whether a cell that meets `rows` rows of samples, the first of which are given, may hold any.
 INLINE int isOpen(const Spans* spans, int rows)
 {
   int open = rows > ROWS_AT_ONCE;

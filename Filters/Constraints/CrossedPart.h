@@ -87,8 +87,8 @@ VTKTIPPFILTERS_EXPORT CrossedPart splitIncomplete(CrossedPart& part,
 VTKTIPPFILTERS_EXPORT void retriangulate(
   CrossedPart& part, const ConstraintSegments& segments, int threads);
 
-/// The edges of constrained triangles that lie on segments; one on several segments comes several
-/// times.
+/// The edges of constrained triangles that lie on segments; an edge on several segments is listed
+/// once for each.
 template <typename Id>
 std::vector<ScannedTriangles::Edge> edgesOnSegments(
   PointsView points, const ConstraintSegments& segments, const Id* corners, std::size_t triangles);

@@ -220,7 +220,7 @@ private:
     }
   }
 
-  /// Triangles at ends lie anywhere in memory, so they are asked for early.
+  /// Triangles at ends lie anywhere in memory, so they are prefetched.
   void expectLater(std::size_t piece) const
   {
     const auto atEnds = [&](std::size_t ahead, const auto& expect)

@@ -37,7 +37,7 @@ public:
   }
 
   ///@{
-  /// Loads what has(), expectVisit() and visit() will need; negative ids are nobody's.
+  /// Prefetches what has(), expectVisit() and visit() will read; negative ids are ignored.
   void expect(PointId id) const
   {
     if (id >= 0)

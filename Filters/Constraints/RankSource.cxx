@@ -81,7 +81,10 @@ private:
     if (source && source->GetNumberOfLines() + source->GetNumberOfPolys() > 0)
     {
       vtkNew<vtkPolyData> sent;
-      sent->SetVerts(source->GetVerts()); // cells are counted from these on
+      if (this->Options.WantsCells)
+      {
+        sent->SetVerts(source->GetVerts()); // they come first among a source's cells
+      }
       sent->SetLines(source->GetLines());
       sent->SetPolys(source->GetPolys());
       if (this->Options.MergesPoints)

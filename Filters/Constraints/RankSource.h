@@ -36,8 +36,8 @@ struct RankSourceOptions
   /// those of the input's points: their global ids, or else counted from the first rank on.
   bool MergesPoints = false;
   CrossingRule Crossings = CrossingRule::Split;
-  /// Whether segments know the cells that they are parts of: cells of the sources, one different
-  /// source after the other, by rank.
+  /// Whether to record which cell each segment is part of. Cells are counted over all distinct
+  /// sources, in the order of ranks.
   bool WantsCells = false;
   vtkAbstractTransform* ToPlane = nullptr;
   int Threads = 0;

@@ -40,7 +40,7 @@ struct ResolvedConstraints
   std::int64_t ZeroLength = 0;          ///< left out: both ends at one position
 };
 
-/// What statistics tell of resolved constraints.
+/// The statistics of resolved constraints.
 struct ConstraintFigures
 {
   std::int64_t Constraints = 0; ///< as given
@@ -59,8 +59,8 @@ struct ConstraintFigures
   {
   }
 
-  /// visit(key, array, value) for the figures of a run's statistics: their names in JSON files and
-  /// Python, and in VTK tables.
+  /// Calls visit(key, array, value) for each figure: `key` is its name in JSON files and Python,
+  /// `array` that in VTK tables.
   template <typename Visit>
   void visit(const Visit& visit) const
   {

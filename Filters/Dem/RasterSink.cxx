@@ -211,8 +211,8 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
   this->saveBorder(part, name);
 }
 
-/// A triangle is put to each tile at which it may lie: long ones to so many that some are sampled
-/// before the rest is put there.
+/// Lists each triangle at every tile that it may meet. Long triangles meet many tiles, so when the
+/// lists are full they are sampled before the rest is listed.
 void RasterSink::sampleByTile(Part& part, const std::vector<TriangleRange>& triangles) const
 {
   const auto sampleAll = [&]

@@ -29,7 +29,7 @@ struct Side
   auto key() const { return std::tie(this->Order, this->Low, this->High); }
 };
 
-/// What the owner of an edge's lower end is asked.
+/// Asks the rank that owns an edge's lower end whether the sender keeps the edge.
 struct Question
 {
   std::int64_t Order;
@@ -105,7 +105,7 @@ private:
       this->Sides.end());
   }
 
-  /// Removes sides of edges whose triangle on the left another rank has.
+  /// Removes sides of edges if another rank has the triangle on the left.
   void leaveToOthers()
   {
     std::vector<std::vector<Question>> asked(std::size_t(this->Ranks.size()));

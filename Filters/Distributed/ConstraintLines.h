@@ -13,7 +13,7 @@
 namespace tipp
 {
 
-/// Segments that know what they are parts of.
+/// Segments, and the cells of sources that they are parts of.
 struct NamedSegments
 {
   const ConstraintSegments& Segments;
@@ -30,8 +30,8 @@ struct ConstraintLines
 };
 
 /// Each edge is on one rank that has a triangle of it, on the left of the constraint if there is
-/// one; an edge of several constraints comes several times. In the order of the segments as given.
-/// Collective.
+/// one; an edge of several constraints is listed once for each. In the order of the segments as
+/// given. Collective.
 ConstraintLines findConstraintLines(
   Communicator& ranks, const NamedSegments& segments, const DistributedTriangulation& mine);
 

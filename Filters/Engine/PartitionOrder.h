@@ -66,8 +66,8 @@ private:
 
 struct BoundaryTriangles;
 
-/// Returns the conflicts of `partitions` partitions (Lemma 5, below). Empty if there are so many,
-/// as of co-circular points, that it costs little to take all partitions as conflicting.
+/// Returns the conflicts of `partitions` partitions (Lemma 5, below). Empty if nearly all conflict,
+/// as with co-circular points: then the caller takes all partitions as conflicting.
 VTKTIPPFILTERS_EXPORT std::optional<ConflictGraph> findConflicts(
   const BoundaryTriangles& initialMesh, std::size_t partitions);
 

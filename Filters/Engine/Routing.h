@@ -92,10 +92,9 @@ bool takeHullVertices(const BoundaryTriangle& triangle, std::vector<BoundaryVert
 /// Sorts the vertices by id and removes repetitions.
 void keepUnique(std::vector<BoundaryVertex>& vertices);
 
-/// Removes the artificial points (Lemma 3): adds to `final` the triangles that replace those with
-/// artificial corners, namely those triangles of the Delaunay triangulation of the true corners
-/// that are in conflict with an artificial point. `vertices` are these true corners, with
-/// repetitions allowed.
+/// Removes the artificial points (Lemma 3): triangulates `vertices`, the true corners of triangles
+/// with artificial corners (repetitions allowed), and adds those triangles to `final` that are in
+/// conflict with an artificial point. They fill the space of the triangles with artificial corners.
 VTKTIPPFILTERS_EXPORT void repairHull(std::vector<BoundaryVertex> vertices,
   const std::vector<BoundaryVertex>& artificial, FinalTriangleConsumer& final);
 

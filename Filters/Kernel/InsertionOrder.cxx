@@ -101,7 +101,7 @@ struct Run
   std::size_t End;
 };
 
-/// A run of at most so many points is not worth sorting: a walk among them is short.
+/// Runs of at most this many points are not worth sorting: a walk among them is short.
 constexpr std::size_t ShortRun = 16;
 
 /// Adds the runs of more than ShortRun entries in `within` that are equal above bit `lowest`.

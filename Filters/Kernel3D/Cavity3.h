@@ -59,7 +59,8 @@ private:
   bool linkByEdges(TetrahedronMesh& mesh);
   void linkAround(TetrahedronMesh& mesh);
 
-  /// With at most so many vertices on the boundary, neighbours are found in a table of its edges.
+  /// Up to this many vertices on the cavity's boundary, neighbours are found in a table of its
+  /// edges.
   static constexpr std::size_t MostInTable = 64;
   static constexpr std::uint8_t NoNumber = 0xff;
 

@@ -129,7 +129,7 @@ struct Bounds
   }
 };
 
-/// A run of at most so many points is not worth sorting: a walk among them is short.
+/// Runs of at most this many points are not worth sorting: a walk among them is short.
 constexpr std::size_t ShortRun = 16;
 
 } // namespace

@@ -57,8 +57,8 @@ struct OutOfCoreOptions
   int Threads = 0;                                    ///< 0: OpenMP's choice
   int Columns = 0; ///< with Rows, a grid of pieces; 0: boxes of equally many points
   int Rows = 0;
-  std::int64_t PiecePoints = 0;     ///< about so many points a piece; 0: as memory allows
-  std::int64_t PartitionPoints = 0; ///< about so many points for a worker at once; 0: chosen
+  std::int64_t PiecePoints = 0;     ///< approximate points of a piece; 0: as memory allows
+  std::int64_t PartitionPoints = 0; ///< approximate points of a partition; 0: chosen
   double MaximumEdge = 0;           ///< triangles with a longer edge are left out; 0: none are
   /// Which values a position with several points gets.
   DuplicateRule Duplicates = DuplicateRule::First;

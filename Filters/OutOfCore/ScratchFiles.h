@@ -121,7 +121,7 @@ public:
     this->Kept = kept;
     this->Listed.keep(kept);
   }
-  /// Whether so many bytes more fit on the disks of the mesh and of this; throws IOError with the
+  /// Whether `bytes` more fit on the disks of the mesh and of this; throws IOError with the
   /// numbers. `path`: the mesh's, for the error.
   void requireSpace(const std::string& path, std::uint64_t mesh, std::uint64_t scratch) const;
   /// All but the plan, which the mesh's PendingFolder takes away with itself.

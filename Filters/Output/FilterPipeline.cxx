@@ -3,6 +3,7 @@
 
 #include "vtkAlgorithm.h"
 #include "vtkCommunicator.h"
+#include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationDoubleKey.h"
 #include "vtkInformationVector.h"
@@ -10,10 +11,47 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 
+#include <cmath>
+#include <exception>
+#include <new>
+#include <stdexcept>
+
 namespace tipp
 {
 
 using Executive = vtkStreamingDemandDrivenPipeline;
+
+void requireFinite(double value, const char* name)
+{
+  if (!std::isfinite(value))
+  {
+    throw std::runtime_error(
+      std::string(name) + " is " + std::to_string(value) + ": give a finite number.");
+  }
+}
+
+int runReported(vtkAlgorithm* filter, const std::string& what,
+  std::initializer_list<vtkDataObject*> outputs, const std::function<bool()>& work)
+{
+  try
+  {
+    return work() ? 1 : 0;
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorWithObjectMacro(
+      filter, << what << ": not enough memory; use a machine with more, or fewer points.");
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorWithObjectMacro(filter, << what << ": " << error.what());
+  }
+  for (vtkDataObject* const output : outputs)
+  {
+    output->Initialize();
+  }
+  return 0;
+}
 
 vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInformation* outInfo)
 {

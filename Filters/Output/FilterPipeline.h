@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <initializer_list>
+#include <string>
 #include <thread>
 
 class vtkDataObject;
@@ -50,6 +52,15 @@ private:
   double Done = 0;
   std::atomic<bool> Stopped{ false };
 };
+
+/// Throws std::runtime_error if the value of a property is NaN or infinite: the setters' bounds let
+/// NaN pass.
+void requireFinite(double value, const char* name);
+
+/// Calls work(), and returns what RequestData() is to return. If work() throws, reports an error of
+/// the filter, which begins with `what`, and empties the outputs.
+int runReported(vtkAlgorithm* filter, const std::string& what,
+  std::initializer_list<vtkDataObject*> outputs, const std::function<bool()>& work);
 
 /// Updates this rank's piece of a filter's input before the pipeline requests it, at the time step
 /// that `outInfo` requests, if any. Returns null if the input fails.

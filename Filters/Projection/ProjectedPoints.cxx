@@ -133,21 +133,27 @@ FiniteBounds finiteBounds(vtkPoints* points)
     [points](std::int64_t i, double* p) { points->GetPoint(i, p); });
 }
 
-vtkSmartPointer<vtkPoints> appendBoundingPoints(vtkPoints* points, double offset)
+vtkSmartPointer<vtkPoints> appendPoints(
+  vtkPoints* points, const std::vector<std::array<double, 3>>& added)
 {
-  const auto circle = boundingCircle(finiteBounds(points), offset);
   const vtkIdType count = points->GetNumberOfPoints();
   vtkNew<vtkDoubleArray> scalars;
   scalars->SetNumberOfComponents(3);
-  scalars->SetNumberOfTuples(count + vtkIdType(circle.size()));
+  scalars->SetNumberOfTuples(count + vtkIdType(added.size()));
   scalars->InsertTuples(0, count, 0, points->GetData());
-  for (std::size_t i = 0; i < circle.size(); ++i)
+  for (std::size_t i = 0; i < added.size(); ++i)
   {
-    scalars->SetTuple(count + vtkIdType(i), circle[i].data());
+    scalars->SetTuple(count + vtkIdType(i), added[i].data());
   }
   auto extended = vtkSmartPointer<vtkPoints>::New();
   extended->SetData(scalars);
   return extended;
+}
+
+vtkSmartPointer<vtkPoints> appendBoundingPoints(vtkPoints* points, double offset)
+{
+  const auto circle = boundingCircle(finiteBounds(points), offset);
+  return appendPoints(points, { circle.begin(), circle.end() });
 }
 
 } // namespace tipp

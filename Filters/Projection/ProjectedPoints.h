@@ -38,6 +38,10 @@ vtkSmartPointer<vtkTransform> bestFittingPlane(vtkPoints* points);
 
 FiniteBounds finiteBounds(vtkPoints* points);
 
+/// Returns the points in double precision, followed by those of `added`.
+vtkSmartPointer<vtkPoints> appendPoints(
+  vtkPoints* points, const std::vector<std::array<double, 3>>& added);
+
 /// Returns the points in double precision, followed by eight points on a circle around the centre
 /// of their bounding box, at its middle height. The radius is `offset` times the box's diagonal.
 vtkSmartPointer<vtkPoints> appendBoundingPoints(vtkPoints* points, double offset);

@@ -72,8 +72,8 @@ double meanLongSide(const Tiling& tiling)
   return sum;
 }
 
-/// Moves a bound outward by the margin, but at least by a few units in the last place: coordinates
-/// may be large and close together.
+/// Moves a bound outward by the margin or, if that is more, by a few units in the last place: the
+/// margin may be lost in rounding when coordinates are large and close together.
 double outward(double bound, double direction, double margin)
 {
   double moved = bound + direction * margin;

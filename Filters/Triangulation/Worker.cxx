@@ -175,8 +175,8 @@ BoundaryVertex Worker<Id>::vertex(PartitionIndex partition, Index v) const
 /// Visits the triangles whose circumdisk is not inside the partition. They are connected: each
 /// point outside has a cavity that is connected, and on a path outside from point to point the
 /// cavity changes by one neighbouring triangle at a time. So only these and the interior triangles
-/// adjacent to them are visited. The latter have the outmost vertices of all interior triangles:
-/// round such a vertex interior triangles and others follow each other.
+/// adjacent to them are visited. The latter include one at each outermost vertex of the interior
+/// triangles, because not all triangles around such a vertex are interior.
 template <typename Id>
 void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryConsumer& boundary)
 {

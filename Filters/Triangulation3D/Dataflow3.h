@@ -59,7 +59,8 @@ bool takeHullVertices(const std::array<Vertex3, 4>& corners, std::vector<Vertex3
 struct FinalCells : public FinalCellConsumer3
 {
   std::vector<CellIds> Cells;
-  std::vector<Vertex3> HullVertices; ///< true corners of those with artificial corners; repeated
+  /// True corners of tetrahedra that have artificial corners; with repetitions.
+  std::vector<Vertex3> HullVertices;
 
   void addInside(const std::array<std::int64_t, 4>& ids) override;
   void add(const std::array<Vertex3, 4>& corners) override;
@@ -112,9 +113,10 @@ std::vector<VertexMessage3> sendInitialMesh(const InitialMesh3& mesh, const Part
 /// Sorts vertices by id, and removes repetitions.
 void keepUnique(std::vector<Vertex3>& vertices);
 
-/// Removes the artificial points (Lemma 3): adds to `final` the tetrahedra that replace those with
-/// artificial corners, namely those of the true corners' triangulation that are in conflict with an
-/// artificial point. `vertices` are these true corners; they may be repeated.
+/// Removes the artificial points (Lemma 3): tetrahedralizes `vertices`, the true corners of
+/// tetrahedra with artificial ones, and adds to `final` those tetrahedra that are in conflict with
+/// an artificial point. They fill the space of the tetrahedra with artificial corners. The vertices
+/// may be repeated.
 void repairHull(
   std::vector<Vertex3> vertices, const std::vector<Vertex3>& artificial, FinalCellConsumer3& final);
 

@@ -253,7 +253,7 @@ IdLists ringsInMemory(const RankQuestions& questions, const Ids& seeds, int k, b
         const Ids star = stars.of(point);
         cells.insert(cells.end(), star.begin(), star.end());
       }
-      ring.Front = without(sortedUnique(std::move(cells)), ring.Cells); // new cells, for now
+      ring.Front = without(sortedUnique(std::move(cells)), ring.Cells); // cells until the next loop
       ring.Cells.insert(ring.Cells.end(), ring.Front.begin(), ring.Front.end());
       std::sort(ring.Cells.begin(), ring.Cells.end());
     }

@@ -22,8 +22,8 @@ namespace
 
 constexpr const char* elevation = "elevation";
 
-/// After so many searches by its points a piece gets a locator, or if more than a share of its
-/// cells' number of points are asked at once.
+/// A piece gets a locator after this many searches without one, or when a single search has more
+/// than one point per `cellsPerPoint` cells.
 constexpr int searchesWithoutLocator = 4;
 constexpr std::int64_t cellsPerPoint = 8;
 

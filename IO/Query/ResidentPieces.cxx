@@ -127,7 +127,7 @@ void ResidentPieces::drop(Slot& slot)
   slot.Uses = 0;
 }
 
-/// Makes room for a slot to have so many bytes, which are within the limit.
+/// Closes other pieces until `bytes` for this slot, which the limit allows, fit.
 void ResidentPieces::makeRoom(std::unique_lock<std::mutex>& lock, Slot& slot, std::uint64_t bytes)
 {
   while (this->Used - slot.Bytes + bytes > this->Limit)

@@ -153,7 +153,7 @@ PointsView viewOf(const InputArray& points);
 TriangulationOptions triangulationOptions(
   double maximumEdge, int columns, int rows, bool stages, int threads, Reporter& reporter);
 
-/// A triangulation of so many points for Python: triangles, duplicates, rejected, warnings,
+/// A triangulation of `points` points for Python: triangles, duplicates, rejected, warnings,
 /// statistics and, if wanted, neighbors. Takes the triangles' memory.
 nb::dict triangulationDict(
   Triangulation&& triangulation, std::size_t points, bool longEdgesLeftOut, bool wantsNeighbors);

@@ -34,7 +34,7 @@ Box2 boundsOf(const PointsView& points)
   return box;
 }
 
-/// The plan that so many ranks of one thread would make, and the points in its partitions.
+/// The plan that `ranks` ranks of one thread would make, and the points in its partitions.
 struct SharedOut
 {
   SharedOut(const PointsView& points, int ranks, int perRank)

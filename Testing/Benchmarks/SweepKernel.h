@@ -38,7 +38,7 @@ public:
     std::uint32_t Representative; ///< the first of all at that place
   };
 
-  /// Strips of about so many points; 0: chosen by their number.
+  /// Approximate points of a strip; 0: chosen by their number.
   explicit SweepKernel(std::size_t pointsInStrip = 0)
     : PointsInStrip(pointsInStrip)
   {

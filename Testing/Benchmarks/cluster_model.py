@@ -135,7 +135,7 @@ class Costs:
 
 
 def whole_run(trace, costs, points, network):
-    """Seconds of a run with so many points, in as many partitions as the trace has."""
+    """Seconds of a run with `points` points, in as many partitions as the trace has."""
     latency, bandwidth = network
     scale = points / trace.points
     # Every rank makes its part of the initial mesh, and the whole order. The initial points, and the conflicts, are

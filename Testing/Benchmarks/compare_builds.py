@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the same benchmark rows with two builds by turns, and prints the ratio of their fastest times.
+"""Runs the same benchmark rows with two builds alternately, and prints the ratio of their fastest times.
 
 compare_builds.py OLD-BUILD NEW-BUILD INPUTS [--rows delaunay,io,resample] [--points N] [--rounds R]
 
@@ -96,7 +96,7 @@ def make_inputs(build, inputs, points):
 
 
 def compare(builds, command, read, rounds):
-    """By row: the fastest time with each build, run by turns."""
+    """By row: the fastest time with each build, run alternately."""
     fastest = {}
     for turn in range(rounds):
         for which in (0, 1) if turn % 2 == 0 else (1, 0):

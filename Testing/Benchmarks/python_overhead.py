@@ -3,7 +3,7 @@
 
 Usage: python3 python_overhead.py [POINTS] [REPEATS]      (or in ParaView: pvbatch python_overhead.py ...)
 
-In one process, by turns: the filter's Update() on points that are VTK's already, and tipp.delaunay on arrays of three
+In one process, alternately: the filter's Update() on points that are VTK's already, and tipp.delaunay on arrays of three
 columns, which are not copied, and of two, which are once. Each run is set against the core's seconds in that run: the
 phases of the filter's statistics without those that read and make VTK's objects. The least of all repeats is printed.
 Copies: what making VTK's points of the array adds to the process's memory, in arrays of three columns of float64.

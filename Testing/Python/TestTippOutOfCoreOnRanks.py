@@ -91,7 +91,7 @@ class OutOfCoreOnRanks(unittest.TestCase):
         self.make_points("uniform", 400000)
         arguments = ("points.npy", "--partitions", "2x1")
         alone = self.make(1, *arguments)
-        # Files of at most so many blocks stand for a disk: spilled points fit, but no piece does.
+        # A limit on the size of files stands for a full disk: spilled points fit, but no piece does.
         small = ["sh", "-c", 'trap "" XFSZ; ulimit -f 28000; exec "$@"', "sh"]
         command = self.command(2, *arguments)
         at = command.index(TIPP)

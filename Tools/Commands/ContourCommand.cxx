@@ -2,12 +2,10 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/QueryMesh.h"
-#include "Console/Process.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
-#include "Parallel/Poll.h"
 #include "Query/LineData.h"
 #include "Query/Lines.h"
 #include "Query/WriteLines.h"
@@ -19,12 +17,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <malloc.h>
 
 namespace tipp
 {
@@ -67,6 +64,13 @@ std::vector<double> levelsOf(
   {
     throw IOError("An interval of " + fmt::format("{}", arguments.Interval) +
       " would give more than 1000000 levels; give a larger one.");
+  }
+  // Larger multiples are not all doubles.
+  if (std::max(std::fabs(low), std::fabs(high)) / arguments.Interval > 0x1p53 && low <= high)
+  {
+    throw IOError("An interval of " + fmt::format("{}", arguments.Interval) +
+      " is too small for values up to " +
+      fmt::format("{}", std::max(std::fabs(low), std::fabs(high))) + "; give a larger one.");
   }
   std::vector<double> levels;
   for (double i = std::ceil(low / arguments.Interval); i * arguments.Interval <= high; ++i)
@@ -115,36 +119,6 @@ void makeContours(const ContourArguments& arguments, Communicator& ranks)
   }
 }
 
-int runContour(const ContourArguments& arguments)
-{
-  // Large blocks, as of pieces, go back to the system when they are freed.
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);
-  const MpiSession session;
-  try
-  {
-    Communicator ranks(session.controller());
-    const PollScope scope(
-      [&ranks]()
-      {
-        if (isInterrupted())
-        {
-          throw RankFailure(ranks.rank(), true, "The run was stopped.");
-        }
-        return true;
-      });
-    ranks.together([&] { makeContours(arguments, ranks); });
-  }
-  catch (const RankFailure& failure)
-  {
-    return failure.Aborted ? reportInterrupt() : reportFailure();
-  }
-  catch (const std::exception&)
-  {
-    return reportFailure();
-  }
-  return Success;
-}
-
 } // namespace
 
 void addContourCommand(CLI::App& app, int& exitCode)
@@ -176,7 +150,8 @@ void addContourCommand(CLI::App& app, int& exitCode)
   command->add_option("--crs", arguments->Crs, "Of a .gpkg the reference system, as EPSG:25832");
   addQueryMeshOptions(*command, arguments->Mesh);
   command->footer(footer);
-  command->callback([arguments, &exitCode]() { exitCode = runContour(*arguments); });
+  command->callback([arguments, &exitCode]()
+    { exitCode = runOnRanks([&](Communicator& ranks) { makeContours(*arguments, ranks); }); });
 }
 
 } // namespace tipp

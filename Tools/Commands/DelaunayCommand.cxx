@@ -25,7 +25,7 @@ constexpr const char* footer =
         line, columns parted by comma, semicolon, tab or blanks; a line of names
         or of the count is found); .las (1.0 to 1.4), .laz with LASzip; .14, .grd
         (ADCIRC); any VTK file. Several files are one set of points, if they have the
-        same columns. With a .tipp output also uniform:COUNT, for so many points that
+        same columns. With a .tipp output also uniform:COUNT: COUNT uniform points
         are uniform in the unit square. Of LAS files, points flagged as withheld,
         synthetic or overlap are left out unless --keep names the flag.
 OUTPUT  .vtp, .vtu (all points with their data, a column named z as third

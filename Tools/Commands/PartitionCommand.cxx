@@ -172,7 +172,7 @@ void addPartitionCommand(CLI::App& app, int& exitCode)
   command
     ->add_option("--tiling", arguments->Tiling,
       "grid:COLUMNSxROWS[xLAYERS], or quadtree:CELLS (octree:CELLS): partitions that meet at most "
-      "so many cells no longer than themselves")
+      "CELLS cells no longer than themselves")
     ->check(checkTiling)
     ->capture_default_str();
   command

@@ -2,7 +2,6 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/QueryMesh.h"
-#include "Console/Process.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputPath.h"
@@ -24,8 +23,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <malloc.h>
 
 namespace tipp
 {
@@ -227,7 +224,7 @@ void write(const QueryArguments& arguments, const PathState& before, const std::
   pending.commit();
 }
 
-/// What the first rank does alone: questions of which no points come back.
+/// Answers --zones and --descend, on the first rank only.
 void answerAlone(const QueryArguments& arguments)
 {
   requireApart(
@@ -287,38 +284,11 @@ void answerAll(const QueryArguments& arguments, Communicator& ranks)
   }
 }
 
-int runQuery(const QueryArguments& arguments)
+/// Collective.
+void runQuery(const QueryArguments& arguments, Communicator& ranks)
 {
-  // Large blocks, as of pieces, go back to the system when they are freed.
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);
-  const MpiSession session;
-  try
-  {
-    Communicator ranks(session.controller());
-    const PollScope scope(
-      [&ranks]()
-      {
-        if (isInterrupted())
-        {
-          throw RankFailure(ranks.rank(), true, "The run was stopped.");
-        }
-        return true;
-      });
-    const bool isAlone = !arguments.Zones.Path.empty() || !arguments.Descend.empty();
-    ranks.together(
-      [&] {
-        !isAlone ? answerAll(arguments, ranks) : ranks.isFirst() ? answerAlone(arguments) : void();
-      });
-  }
-  catch (const RankFailure& failure)
-  {
-    return failure.Aborted ? reportInterrupt() : reportFailure();
-  }
-  catch (const std::exception&)
-  {
-    return reportFailure();
-  }
-  return Success;
+  const bool isAlone = !arguments.Zones.Path.empty() || !arguments.Descend.empty();
+  !isAlone ? answerAll(arguments, ranks) : ranks.isFirst() ? answerAlone(arguments) : void();
 }
 
 /// Throws CLI::ValidationError unless the output's name and the options go together.
@@ -361,13 +331,14 @@ void addQueryCommand(CLI::App& app, int& exitCode)
     ->add_option("--arrays", arguments->Arrays,
       "Names of arrays, or elevation, the z of a surface (default: all)")
     ->delimiter(',');
-  command->add_flag(
+  CLI::Option* const weights = command->add_flag(
     "--weights", arguments->Weights, "Also the barycentric weights of each cell's corners (.csv)");
   CLI::Option* const closest = command->add_flag("--closest", arguments->Closest,
     "Also the nearest location of the mesh and its distance (.csv)");
   CLI::Option* const zones =
     command->add_option("--zones", arguments->Zones.Path, "Statistics in polygons, see below")
-      ->excludes(closest);
+      ->excludes(closest)
+      ->excludes(weights);
   command->add_option("--zone-names", arguments->Zones.Field, "The field with the zones' names")
     ->needs(zones);
   command->add_option("--level", arguments->Zones.Level, "For volumes above it")
@@ -377,6 +348,7 @@ void addQueryCommand(CLI::App& app, int& exitCode)
     ->add_option(
       "--descend", arguments->Descend, "The way down this array from each point, as lines (.vtp)")
     ->excludes(closest)
+    ->excludes(weights)
     ->excludes(zones);
   addQueryMeshOptions(*command, arguments->Mesh);
   addPointOptions(*command, arguments->Reading);
@@ -392,7 +364,7 @@ void addQueryCommand(CLI::App& app, int& exitCode)
       }
       hasZones ? std::swap(arguments->Points, arguments->Mesh.Path) : void();
       checkOutput(*arguments);
-      exitCode = runQuery(*arguments);
+      exitCode = runOnRanks([&](Communicator& ranks) { runQuery(*arguments, ranks); });
     });
 }
 

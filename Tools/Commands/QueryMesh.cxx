@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/QueryMesh.h"
 
+#include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
+#include "Console/Process.h"
 #include "Files/IOError.h"
+#include "Parallel/Poll.h"
 #include "Query/DataSetPart.h"
+#include "Ranks/Communicator.h"
 #include "Vtk/ReadDataSet.h"
 
 #include "vtkDataSet.h"
 
 #include <CLI/CLI.hpp>
+
+#include <malloc.h>
 
 namespace tipp
 {
@@ -63,6 +69,36 @@ std::unique_ptr<ResidentMesh> openQueryMesh(const QueryMeshArguments& arguments)
   {
     throw IOError(arguments.Path, std::string("cannot be used: ") + error.what());
   }
+}
+
+int runOnRanks(const std::function<void(Communicator&)>& work)
+{
+  // Large blocks, as of pieces, go back to the system when they are freed.
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  const MpiSession session;
+  try
+  {
+    Communicator ranks(session.controller());
+    const PollScope scope(
+      [&ranks]()
+      {
+        if (isInterrupted())
+        {
+          throw RankFailure(ranks.rank(), true, "The run was stopped.");
+        }
+        return true;
+      });
+    ranks.together([&] { work(ranks); });
+  }
+  catch (const RankFailure& failure)
+  {
+    return failure.Aborted ? reportInterrupt() : reportFailure();
+  }
+  catch (const std::exception&)
+  {
+    return reportFailure();
+  }
+  return Success;
 }
 
 } // namespace tipp

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippQueryMeshArguments_h
-#define tippQueryMeshArguments_h
+#ifndef tippQueryMesh_h
+#define tippQueryMesh_h
 
 #include "Files/OutputPath.h"
 #include "Query/ResidentMesh.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,7 +18,9 @@ class App;
 namespace tipp
 {
 
-/// The mesh of a command that asks it.
+class Communicator;
+
+/// The mesh that a command queries.
 struct QueryMeshArguments
 {
   std::string Path;
@@ -32,14 +35,18 @@ void addQueryMeshOptions(CLI::App& command, QueryMeshArguments& arguments);
 /// Opens a partitioned mesh, or reads any VTK file. Throws IOError.
 std::unique_ptr<ResidentMesh> openQueryMesh(const QueryMeshArguments& arguments);
 
-/// A name as a field of a .csv file.
+/// Runs a collective function on all ranks, until Ctrl-C; returns the command's exit code. Reports
+/// what the function throws.
+int runOnRanks(const std::function<void(Communicator&)>& work);
+
+/// A name as a field of a .csv file, in quotes if it needs them.
 std::string quotedField(const std::string& name);
 
 struct ZoneArguments
 {
   std::string Path;
-  std::string Field; ///< that names the zones; empty: their numbers
-  double Level = 0;
+  std::string Field; ///< with the zones' names; empty: they are numbered
+  double Level = 0;  ///< for the volumes above it
 };
 
 /// Writes statistics of arrays in the zones of a file as .csv. Throws IOError.

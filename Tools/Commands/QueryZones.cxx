@@ -39,7 +39,7 @@ std::string tableOf(const std::vector<NamedZone>& zones, const std::vector<std::
   text += '\n';
   for (std::size_t i = 0; i < zones.size(); ++i)
   {
-    // What an array has no values in is left out, so the first one may have fewer cells.
+    // Cells and area are those with values of the first array.
     fmt::format_to(
       out, "{},{},{}", quotedField(zones[i].Name), statistics[0].Cells[i], statistics[0].Area[i]);
     for (const ZoneStatistics& of : statistics)
@@ -59,6 +59,10 @@ std::string tableOf(const std::vector<NamedZone>& zones, const std::vector<std::
 void writeZones(const ResidentMesh& mesh, const ZoneArguments& arguments,
   const std::vector<std::string>& arrays, const std::string& output, const PathState& before)
 {
+  if (mesh.mesh().CellSize != 3)
+  {
+    throw IOError("Zones need a mesh of triangles, but this one has tetrahedra.");
+  }
   const std::vector<NamedZone> named = readZones(arguments.Path, arguments.Field);
   std::vector<Zone> zones;
   for (const NamedZone& zone : named)

@@ -2,7 +2,7 @@
 # python [--points N] [--repeat R]
 #   What the Python package adds to the triangulation, in python3 and, where the plugin is built, in pvbatch
 #   --points N  (10000000)
-#   --repeat R  runs of each, by turns; the fastest counts (5)
+#   --repeat R  runs of each, alternating; the fastest counts (5)
 points=10000000
 repeat=5
 

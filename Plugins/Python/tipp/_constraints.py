@@ -28,7 +28,7 @@ def constraints_of(
     edges: ArrayLike | None,
     polygons: Iterable[Any] | None,
 ) -> Constraints | None:
-    """What the arguments name together, for so many points; None without edges and polygons."""
+    """What the arguments name together, for `count` points; None without edges and polygons."""
     if edge_source is not None:
         if edges is not None or polygons is not None:
             raise ValueError("edge_source does not go with edges and polygons; give one or the others.")

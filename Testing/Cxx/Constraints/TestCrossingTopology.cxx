@@ -59,7 +59,7 @@ Counts countsOfTipp(const Coordinates& xy, const std::vector<Constraint>& constr
     edges.size() };
 }
 
-/// Segments between points of a lattice of so many columns and rows.
+/// Segments between points of a lattice.
 void compareRandom(std::uint64_t side, int segments, std::uint64_t seed)
 {
   std::mt19937_64 random(seed);

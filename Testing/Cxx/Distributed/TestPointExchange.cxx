@@ -65,7 +65,7 @@ Tiling leaves()
   return Tiling::grid({ 0, 0, 1, 1 }, 4, 3);
 }
 
-/// Leaves by turns, and the last two to the last rank.
+/// Leaves go to the ranks in turn, and the last two to the last rank.
 std::vector<std::int32_t> ownersOf(int ranks)
 {
   std::vector<std::int32_t> owners;

@@ -14,7 +14,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// All points of the stream, in blocks of so many at most.
+/// All points of the stream, read in blocks of a given size.
 PointTable collect(PointStream& stream, std::size_t most)
 {
   PointTable table;

@@ -28,39 +28,6 @@ using namespace tipp::test;
 
 using Files = std::map<std::string, std::string>;
 
-/// A stream that cannot be read any more after so many passes.
-class BrokenStream : public PointStream
-{
-public:
-  BrokenStream(std::unique_ptr<PointStream> points, int goodPasses)
-    : Points(std::move(points))
-    , PassesLeft(goodPasses)
-  {
-  }
-
-  bool next(PointBlock& block, std::size_t most) override
-  {
-    if (this->PassesLeft < 0)
-    {
-      throw IOError("points", "cannot be read.");
-    }
-    return this->Points->next(block, most);
-  }
-  void rewind() override
-  {
-    --this->PassesLeft;
-    this->Points->rewind();
-  }
-  std::int64_t divisible() const override { return this->Points->divisible(); }
-  void limitTo(std::int64_t first, std::int64_t end) override { this->Points->limitTo(first, end); }
-  std::vector<std::string> columns() const override { return this->Points->columns(); }
-  std::string identity() const override { return this->Points->identity(); }
-
-private:
-  const std::unique_ptr<PointStream> Points;
-  int PassesLeft;
-};
-
 class OutOfCoreRanks : public testing::TestWithParam<std::string>
 {
 protected:

@@ -18,7 +18,7 @@ namespace test
 {
 
 /// The mesh in memory with its arrays "value", "label" and, at the step, "level". With `part` and
-/// `parts` only every so many-th cell, with global ids.
+/// `parts` only every n-th cell, with global ids.
 MeshPart inMemory(const SourceMesh& source, int step = 0, int part = 0, int parts = 1);
 
 /// Stores the mesh as `path`.
@@ -32,7 +32,7 @@ std::vector<Point3> pointsAround(const SourceMesh& source, int atRandom);
 /// Calls work(mesh) for the mesh in memory and stored in several ways.
 void withEachMesh(const SourceMesh& source, const std::function<void(const ResidentMesh&)>& work);
 
-/// The source without every so many-th cell: holes, and parts that touch at points.
+/// The source without every n-th cell: holes, and parts that touch at points.
 SourceMesh withHoles(SourceMesh source, std::int64_t every);
 
 /// The coordinates of a point of the mesh.

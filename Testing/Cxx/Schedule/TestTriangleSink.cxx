@@ -141,7 +141,7 @@ TYPED_TEST(SinkOf, InteriorTrianglesStayWhereTheyAre)
   EXPECT_EQ(before, std::vector<TypeParam>(ids.begin(), ids.begin() + 12));
 }
 
-/// The order in which workers add triangles does not show.
+/// Workers may add their triangles in any order.
 TYPED_TEST(SinkOf, TheOrderDoesNotDependOnThatOfTheBoundary)
 {
   std::mt19937_64 random(2);

@@ -306,7 +306,8 @@ TEST_F(TippOutOfCore, CheckNamesTheFileOfAMeshThatIsDamaged)
 TEST_F(TippOutOfCore, GoesOnAfterADiskThatIsFull)
 {
   this->makePoints("uniform", "50000");
-  // Files of at most so many bytes stand for a disk: first for the spilled points, then for pieces.
+  // A limit on the size of files stands for a full disk: first for the spilled points, then for
+  // pieces.
   for (const rlim_t most : { 100000, 1300000 })
   {
     rlimit before{};
