@@ -8,6 +8,7 @@
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceFile.h"
 #include "Partitioned/ReadPiece.h"
+#include "Points/PointStream.h"
 
 #include <fmt/format.h>
 
@@ -100,7 +101,7 @@ int runCheckTetrahedra(
   const std::string& points, const std::string& mesh, PointOptions columns, bool tieRule)
 {
   columns.InSpace = true;
-  const PointTable table = readPoints(points, columns);
+  const PointTable table = readAllPoints(*openPointStream({ points }, columns));
   const std::vector<double>& z = table.Columns[requireElevation(table, points)].Values;
   std::vector<double> xyz;
   xyz.reserve(3 * table.size());

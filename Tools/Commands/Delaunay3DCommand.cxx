@@ -31,7 +31,7 @@ namespace
 constexpr const char* footer =
   R"(INPUT   as of 'tipp delaunay'; the third coordinate is the column z, Z or elevation, or
         the third one of a file without names.
-        uniform:COUNT stands for that many points, uniform in the unit cube.
+        uniform:COUNT stands for that many points, uniform in the unit cube (to .tipp).
 OUTPUT  .vtu (all points with their data) or .npy (m x 4 int64: point ids, counted
         from 0): all is in memory. Or .tipp, a partitioned mesh in a folder: points
         and tetrahedra may be larger than memory, which --memory limits.
