@@ -20,8 +20,9 @@
  * The other methods ask the same mesh directly. They return 1, or after an error 0. Ids are global:
  * of a stored mesh those of its source, else indices. Several threads may call them at once.
  *
- * With a Controller of several ranks all must update the filter, or call Locate(), Interpolate()
- * and the methods from Neighbors() to Profile(), together. They share out the pieces of the stored
+ * With a Controller of several ranks all must update the filter, or call Locate(), Interpolate(),
+ * InterpolateOnOwners(), ZoneStatistics(), Descend() and the methods from Neighbors() to Profile(),
+ * together. They share out the pieces of the stored
  * mesh, or each has a part of the source; every rank's points and ids are answered by all ranks'
  * cells. A rank may ask for nothing, or have no cells.
  *
@@ -172,6 +173,14 @@ public:
   int Interpolate(vtkDataArray* points, vtkDataSetAttributes* values);
 
   /**
+   * As Interpolate(), but the values stay on the rank that has the cell. `values` gets the points of
+   * all ranks in this rank's cells, with the mesh's arrays, "CellId", and the "AskingRank" and
+   * "AskingId", which tell whose point it is and its number there. Points outside of the mesh are on
+   * no rank. Collective.
+   */
+  int InterpolateOnOwners(vtkDataArray* points, vtkPolyData* values);
+
+  /**
    * Names of the arrays that the mesh has, "elevation" among them, are added to `names`.
    */
   int GetNamesOfArrays(vtkStringArray* names);
@@ -231,7 +240,7 @@ public:
    * Finds the nearest location of the mesh to each point, its cell (-1: the mesh has none) and the
    * distance, 0 inside. Of cells that are as near the one with the lowest id counts. Triangles are
    * measured in x and y. `locations` and `distances` may be null. On several ranks this and the
-   * methods below need a stored mesh; each rank asks by itself.
+   * regions below need a stored mesh; each rank asks by itself.
    */
   int Closest(vtkDataArray* points, vtkIdTypeArray* cells, vtkDoubleArray* locations = nullptr,
     vtkDoubleArray* distances = nullptr);
@@ -254,6 +263,7 @@ public:
    * `statistics`, of a component of an array on the part of the triangles in each zone; what cells
    * have in it is cut exactly at its border. A zone is a polygon, or all that have its number in
    * the cell array "ZoneId"; see CellsInPolygons() for holes. The volume is that above `level`.
+   * Collective: the first rank's zones count, and every rank gets the statistics of all cells.
    */
   int ZoneStatistics(vtkPolyData* zones, const char* array, int component, double level,
     vtkDataSetAttributes* statistics);
@@ -262,7 +272,8 @@ public:
    * Follows the steepest descent of a component of an array of points, on a mesh of triangles, from
    * each point to a pit. Each line has as cell arrays "StartId", the number of its first point
    * among `points`, and "PitId", the mesh's point that it ends at, or -1. The array of that name
-   * has the values along it.
+   * has the values along it. Collective: each rank gets the lines of its points; several ranks need
+   * a stored mesh.
    */
   int Descend(vtkDataArray* points, const char* array, int component, vtkPolyData* lines);
 

@@ -6,6 +6,7 @@
 #include "Query/LineData.h"
 #include "Query/Lines.h"
 #include "Query/QueryArrays.h"
+#include "Query/RankAnswer.h"
 #include "Query/RankAround.h"
 #include "Query/ResidentMesh.h"
 #include "Query/Zones.h"
@@ -316,11 +317,15 @@ int vtkPartitionedMeshQuery::PointsInPolygons(vtkPolyData* polygons, vtkIdTypeAr
 int vtkPartitionedMeshQuery::ZoneStatistics(vtkPolyData* zones, const char* array, int component,
   double level, vtkDataSetAttributes* statistics)
 {
-  return this->Direct(
-    [&]
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
     {
-      const tipp::ZoneStatistics found = tipp::statisticsOf(
-        *this->OpenWhole(), zonesOf(zones), array ? array : "", component, level);
+      const std::string name = array ? array : "";
+      const std::vector<tipp::Zone> own =
+        !ranks || ranks->isFirst() ? zonesOf(zones) : std::vector<tipp::Zone>();
+      const tipp::ZoneStatistics found = ranks
+        ? tipp::statisticsOnRanks(*ranks, mesh, own, name, component, level)
+        : tipp::statisticsOf(mesh, own, name, component, level);
       addColumn<vtkIdTypeArray>(statistics, "Cells", found.Cells);
       addColumn<vtkDoubleArray>(statistics, "Area", found.Area);
       addColumn<vtkDoubleArray>(statistics, "Minimum", found.Low);
@@ -334,11 +339,34 @@ int vtkPartitionedMeshQuery::ZoneStatistics(vtkPolyData* zones, const char* arra
 int vtkPartitionedMeshQuery::Descend(
   vtkDataArray* points, const char* array, int component, vtkPolyData* lines)
 {
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    {
+      const std::string name = array ? array : "";
+      const std::vector<tipp::Point3> asked = pointsOf(points);
+      lines->ShallowCopy(
+        tipp::polyDataOf(ranks ? tipp::descentsOnRanks(*ranks, mesh, asked, name, component)
+                               : tipp::descentsOf(mesh, asked, name, component),
+          name));
+    });
+}
+
+int vtkPartitionedMeshQuery::InterpolateOnOwners(vtkDataArray* points, vtkPolyData* values)
+{
   return this->Direct(
     [&]
     {
-      const std::string name = array ? array : "";
-      lines->ShallowCopy(tipp::polyDataOf(
-        tipp::descentsOf(*this->OpenWhole(), pointsOf(points), name, component), name));
+      tipp::Communicator ranks(this->Controller);
+      ranks.together(
+        [&]
+        {
+          const auto mesh = this->Open();
+          const std::vector<tipp::Point3> asked = pointsOf(points);
+          tipp::AnswerOptions options;
+          options.Arrays = this->ArraysOf(&ranks, *mesh);
+          tipp::StayingAnswer found = tipp::answerWhereCellsAre(
+            ranks, *mesh, asked.data(), std::int64_t(asked.size()), options);
+          values->ShallowCopy(tipp::polyDataOf(std::move(found)));
+        });
     });
 }

@@ -8,8 +8,8 @@
  * vtkPartitionedUnstructuredReader reads a range or a piece. Documentation/PartitionedMesh.md tells
  * the format.
  *
- * The mesh is the input, a vtkDataSet or a vtkPartitionedDataSet of some, or, with InputFileName, a
- * mesh in a file of any size: a folder of .npy arrays or a .vtu file with appended, raw,
+ * The mesh is the input, a vtkDataSet or a vtkPartitionedDataSet, or, with InputFileName, a mesh in
+ * a file of any size: a folder of .npy arrays or a .vtu file with appended, raw,
  * uncompressed data. Cells of an input other than triangles and tetrahedra are cut into these,
  * ghost cells and cells of a lower dimension are left out. Points with equal coordinates in
  * different data sets become one. Its arrays GlobalPointIds, GlobalCellIds and vtkGhostType, if it

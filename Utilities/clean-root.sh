@@ -38,7 +38,7 @@ fi
 
 # Mounts left behind would make removal dangerous.
 leave() {
-  for mount in ccache var/cache/apt/archives sys proc dev; do
+  for mount in ccache var/cache/apt/archives sys proc dev/pts dev; do
     ! mountpoint -q "$root/$mount" || umount "$root/$mount"
   done
 }
@@ -54,6 +54,7 @@ make_root() {
   rm -rf --one-file-system "$root"
   cp -a "$base" "$root"
   mount --bind /dev "$root/dev"
+  mount --bind /dev/pts "$root/dev/pts" # tests run the tool on terminals
   mount -t proc proc "$root/proc"
   mount -t sysfs -o ro sysfs "$root/sys" # OpenCL on the CPU reads its size there
   mkdir -p "$folder/archives-$release/partial"

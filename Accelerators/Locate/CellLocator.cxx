@@ -53,11 +53,14 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
   const auto at = [&](std::int64_t i) { return flattened<D>(mesh, points.at(i)); };
   const BoxTree<D> tree(
     points.Count, threads, [&](std::int64_t i) { return Box<D>::of(arrayOf(at(i))); });
-  // Most cells hold no point, which their corners' positions in a grid tell.
-  const PointGrid<D> grid(points.Count, threads, [&](std::int64_t i) { return arrayOf(at(i)); });
-  using Position = typename PointGrid<D>::Position;
-  std::vector<Position> positions(static_cast<std::size_t>(mesh.PointCount));
-  forChunks(mesh.PointCount, 1 << 14, threads, {},
+  // Most cells hold no point, which their corners' positions in a grid tell. That does not pay for
+  // few cells among many points of the mesh.
+  const bool usesGrid = mesh.Cells >= mesh.PointCount;
+  const PointGrid<D> grid(
+    usesGrid ? points.Count : 0, threads, [&](std::int64_t i) { return arrayOf(at(i)); });
+  std::vector<typename PointGrid<D>::Position> positions(
+    usesGrid ? std::size_t(mesh.PointCount) : 0);
+  forChunks(std::int64_t(positions.size()), 1 << 14, threads, {},
     [&](std::int64_t begin, std::int64_t end, int)
     {
       for (std::int64_t i = begin; i < end; ++i)
@@ -69,21 +72,6 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
         positions[std::size_t(i)] = grid.position(corner);
       }
     });
-  const auto mayHold = [&](std::int64_t cell)
-  {
-    Position low = positions[std::size_t(access.ids(cell)[0])];
-    Position high = low;
-    for (int i = 1; i < Access::Corners; ++i)
-    {
-      const Position& corner = positions[std::size_t(access.ids(cell)[i])];
-      for (std::size_t axis = 0; axis < D; ++axis)
-      {
-        low[axis] = std::min(low[axis], corner[axis]);
-        high[axis] = std::max(high[axis], corner[axis]);
-      }
-    }
-    return grid.mayHold(low, high);
-  };
   struct Found
   {
     std::int32_t Point;
@@ -95,7 +83,7 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
     {
       for (std::int64_t cell = begin; cell < end; ++cell)
       {
-        if (!mayHold(cell))
+        if (usesGrid && !grid.template mayHold<Access::Corners>(positions, access.ids(cell)))
         {
           continue;
         }

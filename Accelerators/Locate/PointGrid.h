@@ -25,28 +25,33 @@ public:
   template <typename At>
   PointGrid(std::int64_t count, int threads, const At& at)
     : Bounds(boundsOf<D>(count, threads, [&at](std::int64_t i) { return Box<D>::of(at(i)); }))
-    , IsOccupied(std::size_t(1) << (D * Bits))
+    , Occupied((std::size_t(1) << (D * Bits)) / 64)
   {
     for (int axis = 0; axis < D; ++axis)
     {
+      // Infinite if all points are on one line, and 0 if the extent overflows.
       const double extent = this->Bounds.High[axis] - this->Bounds.Low[axis];
-      this->Scale[axis] = extent > 0 ? Side / extent : 0; // 0 also if that is infinite
+      this->Scale[axis] = (Side - 2) * (1 - 1e-9) / extent;
     }
     for (std::int64_t i = 0; i < count; ++i)
     {
-      this->IsOccupied[this->indexOf(this->position(at(i)))] = true;
+      const std::size_t index = this->indexOf(this->position(at(i)));
+      this->Occupied[index / 64] |= std::uint64_t(1) << (index % 64);
     }
   }
 
-  /// Along each axis it never falls where the coordinate rises.
+  const Box<D>& bounds() const { return this->Bounds; }
+
+  /// Along each axis it never falls where the coordinate rises: 0 before all points, 1 and more
+  /// among them, Side - 1 behind.
   Position position(const std::array<double, D>& point) const
   {
     Position result;
     for (std::size_t axis = 0; axis < D; ++axis)
     {
       const double at = (point[axis] - this->Bounds.Low[axis]) * this->Scale[axis];
-      // NaN becomes 0.
-      result[axis] = std::uint16_t(at > 0 ? std::min(at, double(Side - 1)) : 0);
+      // NaN, as of 0 times infinity, becomes 1.
+      result[axis] = std::uint16_t(at < 0 ? 0 : at > 0 ? 1 + std::min(at, double(Side - 2)) : 1);
     }
     return result;
   }
@@ -64,27 +69,42 @@ public:
     {
       return true;
     }
+    Position at = low;
     for (std::size_t row = 0; row < rows; ++row)
     {
-      Position at = low;
-      std::size_t rest = row;
-      for (std::size_t axis = 1; axis < D; ++axis)
-      {
-        const std::size_t width = std::size_t(high[axis] - low[axis]) + 1;
-        at[axis] = std::uint16_t(low[axis] + rest % width);
-        rest /= width;
-      }
-      const auto first = this->IsOccupied.begin() + std::ptrdiff_t(this->indexOf(at));
-      if (std::find(first, first + (high[0] - low[0]) + 1, true) != first + (high[0] - low[0]) + 1)
+      const std::size_t first = this->indexOf(at);
+      if (this->hasAny(first, first + (high[0] - low[0])))
       {
         return true;
+      }
+      for (std::size_t axis = 1; axis < D && at[axis]++ == high[axis]; ++axis)
+      {
+        at[axis] = low[axis];
       }
     }
     return false;
   }
 
+  /// As above, for the corners of a cell: indices of positions.
+  template <int Corners, typename Id>
+  bool mayHold(const std::vector<Position>& positions, const Id* corners) const
+  {
+    Position low = positions[std::size_t(corners[0])];
+    Position high = low;
+    for (int i = 1; i < Corners; ++i)
+    {
+      const Position& corner = positions[std::size_t(corners[i])];
+      for (std::size_t axis = 0; axis < D; ++axis)
+      {
+        low[axis] = std::min(low[axis], corner[axis]);
+        high[axis] = std::max(high[axis], corner[axis]);
+      }
+    }
+    return this->mayHold(low, high);
+  }
+
 private:
-  static constexpr int Bits = D == 2 ? 10 : 7; ///< of a position
+  static constexpr int Bits = D == 2 ? 11 : 7; ///< of a position
   static constexpr int Side = 1 << Bits;
   static constexpr std::size_t MostRows = 64;
 
@@ -98,9 +118,27 @@ private:
     return index;
   }
 
+  /// Whether a bit from the first to the last one is set.
+  bool hasAny(std::size_t first, std::size_t last) const
+  {
+    const std::uint64_t from = ~std::uint64_t(0) << (first % 64);
+    const std::uint64_t to = ~std::uint64_t(0) >> (63 - last % 64);
+    std::size_t word = first / 64;
+    if (word == last / 64)
+    {
+      return (this->Occupied[word] & from & to) != 0;
+    }
+    std::uint64_t found = (this->Occupied[word] & from) | (this->Occupied[last / 64] & to);
+    while (found == 0 && ++word < last / 64)
+    {
+      found = this->Occupied[word];
+    }
+    return found != 0;
+  }
+
   Box<D> Bounds;
   std::array<double, D> Scale{};
-  std::vector<bool> IsOccupied;
+  std::vector<std::uint64_t> Occupied; ///< a bit for each part of the grid
 };
 
 } // namespace tipp

@@ -61,6 +61,12 @@ public:
     return sum;
   }
 
+  template <typename Archive>
+  friend void serialize(Archive& archive, ExactSum& sum)
+  {
+    archive(sum.Parts);
+  }
+
 private:
   std::vector<double> Parts; ///< they do not overlap, the largest last
 };

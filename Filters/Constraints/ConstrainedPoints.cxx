@@ -176,19 +176,15 @@ void ConstrainedPoints::Matching::take(const PointBlock& block, int threads)
   forChunks(count, chunk, threads, {},
     [&](std::int64_t begin, std::int64_t end, int)
     {
-      constexpr std::size_t ahead = 16;
-      const auto at = [&block](std::size_t i) {
-        return Point2{ block.XY[2 * i], block.XY[2 * i + 1] };
-      };
-      for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
-      {
-        this->Positions->expect(at(std::min(i + ahead, std::size_t(end) - 1)));
-        const std::int64_t vertex = this->Positions->find(at(i));
-        if (vertex >= 0)
-        {
-          found[std::size_t(begin / chunk)].push_back({ i, std::size_t(vertex) });
-        }
-      }
+      PointsView(block.XY.data(), block.size(), 2)
+        .forBlocks(std::size_t(begin), std::size_t(end),
+          [&](std::size_t first, const Point2* positions, std::size_t some)
+          {
+            this->Positions->findAll(positions, some,
+              [&](std::size_t i, std::size_t vertex) {
+                found[std::size_t(begin / chunk)].push_back({ first + i, vertex });
+              });
+          });
     });
   for (const std::vector<Found>& part : found)
   {
@@ -334,7 +330,7 @@ std::vector<std::size_t> ConstrainedPoints::Matching::sorted() const
 }
 
 /// Splits the constraints where they cross, and appends the crossings. Sets positions to those of
-/// the constraints' vertices, by the ids of the result. What was matched is used up.
+/// the constraints' vertices, by the ids of the result. Leaves the matching empty.
 ResolvedConstraints ConstrainedPoints::split(std::vector<Point2>& positions)
 {
   Matching& first = *this->First;

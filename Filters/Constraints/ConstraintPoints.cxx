@@ -48,25 +48,14 @@ PositionIndex::PositionIndex(std::vector<Point2> points)
   }
 }
 
-std::uint64_t PositionIndex::hashOf(Point2 position)
-{
-  // Zeros of both signs are equal.
-  const double xy[2] = { position.x + 0.0, position.y + 0.0 };
-  std::uint64_t bits[2];
-  std::memcpy(bits, xy, sizeof bits);
-  std::uint64_t hash = bits[0] * 0x9e3779b97f4a7c15U + bits[1];
-  hash ^= hash >> 32;
-  hash *= 0xd6e8feb86659fd93U;
-  return hash ^ hash >> 32;
-}
-
 std::int64_t PositionIndex::find(Point2 position) const
 {
   const std::uint64_t hash = hashOf(position);
-  if ((this->markOf(hash) >> (hash >> 32 & 7) & 1) == 0)
-  {
-    return -1;
-  }
+  return this->isMarked(hash) ? this->lookUp(position, hash) : -1;
+}
+
+std::int64_t PositionIndex::lookUp(Point2 position, std::uint64_t hash) const
+{
   const std::size_t last = this->Slots.size() - 1;
   for (std::size_t slot = hash & last; this->Slots[slot] != Nobody; slot = (slot + 1) & last)
   {
@@ -86,14 +75,13 @@ MatchedPositions matchPositions(PointsView points, PointsView others)
   constexpr PointId none = -1;
   MatchedPositions result;
   result.Ids.assign(others.size(), none);
-  points.forEach(0, points.size(),
-    [&](std::size_t i, Point2 p)
+  points.forBlocks(0, points.size(),
+    [&](std::size_t first, const Point2* block, std::size_t count)
     {
-      const std::int64_t found = index.find(p);
-      if (found >= 0 && result.Ids[std::size_t(found)] == none)
-      {
-        result.Ids[std::size_t(found)] = PointId(i);
-      }
+      index.findAll(block, count,
+        [&](std::size_t i, std::size_t found) {
+          result.Ids[found] = result.Ids[found] == none ? PointId(first + i) : result.Ids[found];
+        });
     });
   for (std::size_t i = 0; i < others.size(); ++i)
   {

@@ -134,6 +134,19 @@ ConstraintSegments::ConstraintSegments(
   this->OnlyHoles = !this->haveInside();
 }
 
+ConstraintSegments::ConstraintSegments(const std::vector<ConstraintSegment>& segments,
+  const std::vector<std::int64_t>& names, std::vector<std::int64_t>* indices)
+  : All(treeOf(segments, false))
+  , Holes({})
+  , Names(this->All.nameByPosition())
+{
+  indices ? void(*indices = this->Names) : void();
+  for (std::int64_t& name : this->Names)
+  {
+    name = names[std::size_t(name)];
+  }
+}
+
 bool ConstraintSegments::has(SegmentRole role) const
 {
   return std::find(this->Roles.begin(), this->Roles.end(), std::uint8_t(role)) != this->Roles.end();

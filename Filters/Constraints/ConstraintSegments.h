@@ -41,17 +41,24 @@ public:
   explicit ConstraintSegments(
     const std::vector<ConstraintSegment>& segments, std::vector<std::int64_t>* indices = nullptr);
 
+  /// Some of all segments, without their roles: they cut nothing. `names` has for each its number
+  /// among all.
+  ConstraintSegments(const std::vector<ConstraintSegment>& segments,
+    const std::vector<std::int64_t>& names, std::vector<std::int64_t>* indices = nullptr);
+
   /// All segments again, in the order of the trees.
   std::vector<ConstraintSegment> list() const;
-
-  /// What `segments` take in memory.
-  static std::uint64_t bytesFor(std::size_t segments) { return 56 * std::uint64_t(segments); }
 
   /// The constraints by where they lie. An item's Id is its index among the items.
   const SegmentTree& tree() const { return this->All; }
   const SegmentTree::Item& at(std::int64_t segment) const
   {
     return this->All.items()[std::size_t(segment)];
+  }
+  /// An item's number among all segments: its index, if these are all.
+  std::int64_t nameOf(std::int64_t segment) const
+  {
+    return this->Names.empty() ? segment : this->Names[std::size_t(segment)];
   }
 
   /// Whether polygons, a boundary or holes tell which triangles are kept.
@@ -74,8 +81,9 @@ private:
   bool haveInside() const;
 
   SegmentTree All;
-  std::vector<std::uint8_t> Roles; ///< of the items of All
   SegmentTree Holes;
+  std::vector<std::uint8_t> Roles; ///< of the items of All
+  std::vector<std::int64_t> Names; ///< of these; empty: their indices
   bool HasPolygons = false;
   bool HasBoundary = false;
   bool OnlyHoles = false; ///< no polygon goes round anything counter-clockwise

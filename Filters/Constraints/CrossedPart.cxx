@@ -49,6 +49,24 @@ std::vector<std::int64_t> segmentsOf(const CrossedPart& part)
   return segments;
 }
 
+/// Sorts the part's known segments, each once.
+void sortKnown(CrossedPart& part)
+{
+  using Item = SegmentTree::Item;
+  std::sort(
+    part.Known.begin(), part.Known.end(), [](const Item& a, const Item& b) { return a.Id < b.Id; });
+  part.Known.erase(std::unique(part.Known.begin(), part.Known.end(),
+                     [](const Item& a, const Item& b) { return a.Id == b.Id; }),
+    part.Known.end());
+}
+
+/// After sortKnown().
+const SegmentTree::Item& knownOf(const CrossedPart& part, std::int64_t segment)
+{
+  return *std::lower_bound(part.Known.begin(), part.Known.end(), segment,
+    [](const SegmentTree::Item& item, std::int64_t id) { return item.Id < id; });
+}
+
 template <typename Item>
 std::size_t indexIn(const std::vector<Item>& sorted, const Item& item)
 {
@@ -84,8 +102,8 @@ void addTriangle(const CrossedPart& from, std::size_t t, CrossedPart& to)
 /// Of each of `segments`: whether it is complete in the part. If it crosses a triangle, it can be
 /// followed from there to both ends: it leaves a triangle by an edge, where the part must have the
 /// next triangle, or by a vertex all of whose triangles are in the part.
-std::vector<char> findComplete(const CrossedPart& part, const ConstraintSegments& all,
-  const std::vector<std::int64_t>& segments, const std::function<bool(std::int64_t)>& isInner)
+std::vector<char> findComplete(const CrossedPart& part, const std::vector<std::int64_t>& segments,
+  const std::function<bool(std::int64_t)>& isInner)
 {
   struct CrossedEdge
   {
@@ -105,7 +123,7 @@ std::vector<char> findComplete(const CrossedPart& part, const ConstraintSegments
   {
     for (std::size_t s = segmentBegin(part, t); s < part.SegmentEnds[t]; ++s)
     {
-      const SegmentTree::Item& segment = all.at(part.Segments[s]);
+      const SegmentTree::Item& segment = knownOf(part, part.Segments[s]);
       std::array<int, 3> side;
       std::transform(part.Positions[t].begin(), part.Positions[t].end(), side.begin(),
         [&](Point2 p) { return orientation(segment.A, segment.B, p); });
@@ -214,6 +232,7 @@ void append(CrossedPart&& from, CrossedPart& to)
   addAll(to.Triangles, from.Triangles);
   addAll(to.Positions, from.Positions);
   addAll(to.Segments, from.Segments);
+  addAll(to.Known, from.Known);
   std::transform(from.SegmentEnds.begin(), from.SegmentEnds.end(),
     std::back_inserter(to.SegmentEnds), [before](std::uint64_t end) { return before + end; });
   addAll(to.FixedEdges, from.FixedEdges);
@@ -221,57 +240,73 @@ void append(CrossedPart&& from, CrossedPart& to)
 }
 
 template <typename Id>
-std::size_t takeCrossed(PointsView points, const ConstraintSegments& segments, std::int64_t first,
-  Id* corners, std::size_t triangles, CrossedPart& part)
+std::size_t moveCrossed(PointsView points, const ConstraintSegments& segments, std::int64_t first,
+  const std::vector<ScannedTriangles::Crossing>& crossings, Id* corners, std::size_t triangles,
+  CrossedPart& part)
 {
-  TriangleScan<Id> scan(points, segments.tree());
-  std::size_t kept = 0;
-  for (std::size_t begin = 0; begin < triangles;)
+  std::vector<std::int64_t> used;
+  std::size_t kept = crossings.empty() ? triangles : std::size_t(crossings.front().Triangle);
+  auto crossing = crossings.begin();
+  for (std::size_t t = kept; t < triangles; ++t)
   {
-    const std::size_t end = std::min(begin + scan.MostTriangles, triangles);
-    ScannedTriangles found;
-    scan.scan(
-      corners, begin, end, [](std::int64_t) { return false; }, found);
-    std::sort(found.Crossings.begin(), found.Crossings.end());
-    for (const ScannedTriangles::Edge& edge : found.Edges) // before triangles are moved
+    const Id* const its = corners + 3 * t;
+    if (crossing == crossings.end() || crossing->Triangle != std::int64_t(t))
     {
-      const Id* const its = corners + 3 * edge.Triangle;
-      part.FixedEdges.push_back({ first + its[edge.From], first + its[(edge.From + 1) % 3] });
+      std::copy_n(its, 3, corners + 3 * kept++);
+      continue;
     }
-    auto crossing = found.Crossings.begin();
-    for (; begin < end; ++begin)
+    part.Triangles.push_back({ first + its[0], first + its[1], first + its[2] });
+    part.Positions.push_back(
+      { points[std::size_t(its[0])], points[std::size_t(its[1])], points[std::size_t(its[2])] });
+    for (; crossing != crossings.end() && crossing->Triangle == std::int64_t(t); ++crossing)
     {
-      const Id* const its = corners + 3 * begin;
-      if (crossing == found.Crossings.end() || crossing->Triangle != std::int64_t(begin))
-      {
-        std::copy_n(its, 3, corners + 3 * kept++);
-        continue;
-      }
-      part.Triangles.push_back({ first + its[0], first + its[1], first + its[2] });
-      part.Positions.push_back(
-        { points[std::size_t(its[0])], points[std::size_t(its[1])], points[std::size_t(its[2])] });
-      for (; crossing != found.Crossings.end() && crossing->Triangle == std::int64_t(begin);
-           ++crossing)
-      {
-        part.Segments.push_back(crossing->Piece);
-      }
-      part.SegmentEnds.push_back(part.Segments.size());
+      used.push_back(crossing->Piece);
+      part.Segments.push_back(segments.nameOf(crossing->Piece));
     }
-    for (const TouchOfPiece& touch : found.Touches)
-    {
-      part.Touches.push_back(
-        { touch.Piece, first + touch.Vertex, points[std::size_t(touch.Vertex)] });
-    }
+    part.SegmentEnds.push_back(part.Segments.size());
+  }
+  keepUniqueItems(used);
+  for (const std::int64_t segment : used)
+  {
+    const SegmentTree::Item& item = segments.at(segment);
+    part.Known.push_back({ item.A, item.B, segments.nameOf(segment) });
   }
   return kept;
 }
 
-CrossedPart splitIncomplete(CrossedPart& part, const ConstraintSegments& segments,
-  const std::function<bool(std::int64_t)>& isInner)
+template <typename Id>
+std::size_t takeCrossed(PointsView points, const ConstraintSegments& segments, std::int64_t first,
+  Id* corners, std::size_t triangles, CrossedPart& part)
+{
+  TriangleScan<Id> scan(points, segments.tree());
+  ScannedTriangles found;
+  for (std::size_t begin = 0; begin < triangles; begin += scan.MostTriangles)
+  {
+    const auto before = std::ptrdiff_t(found.Crossings.size());
+    scan.scan(
+      corners, begin, std::min(begin + scan.MostTriangles, triangles),
+      [](std::int64_t) { return false; }, found);
+    std::sort(found.Crossings.begin() + before, found.Crossings.end());
+  }
+  for (const ScannedTriangles::Edge& edge : found.Edges) // before triangles are moved
+  {
+    const Id* const its = corners + 3 * edge.Triangle;
+    part.FixedEdges.push_back({ first + its[edge.From], first + its[(edge.From + 1) % 3] });
+  }
+  for (const TouchOfPiece& touch : found.Touches)
+  {
+    part.Touches.push_back(
+      { segments.nameOf(touch.Piece), first + touch.Vertex, points[std::size_t(touch.Vertex)] });
+  }
+  return moveCrossed(points, segments, first, found.Crossings, corners, triangles, part);
+}
+
+CrossedPart splitIncomplete(CrossedPart& part, const std::function<bool(std::int64_t)>& isInner)
 {
   keepUniqueTouches(part.Touches);
+  sortKnown(part);
   const std::vector<std::int64_t> used = segmentsOf(part);
-  const std::vector<char> isComplete = findComplete(part, segments, used, isInner);
+  const std::vector<char> isComplete = findComplete(part, used, isInner);
   const CrossedTriangles crossed = crossingsOf(part, used);
   const std::vector<std::int64_t> jobs = jobsOfTriangles(crossed, used.size());
   std::vector<char> isLeft(used.size(), 0); // of jobs
@@ -304,13 +339,18 @@ CrossedPart splitIncomplete(CrossedPart& part, const ConstraintSegments& segment
   std::copy_if(part.Touches.begin(), part.Touches.end(), std::back_inserter(rest.Touches),
     [&](const CrossedPart::Touch& touch)
     { return !std::binary_search(done.begin(), done.end(), touch.Segment); });
+  for (const std::int64_t segment : segmentsOf(rest))
+  {
+    rest.Known.push_back(knownOf(part, segment));
+  }
+  whole.Known = std::move(part.Known);
   whole.FixedEdges = std::move(part.FixedEdges);
   whole.Touches = std::move(part.Touches);
   part = std::move(whole);
   return rest;
 }
 
-void retriangulate(CrossedPart& part, const ConstraintSegments& segments, int threads)
+void retriangulate(CrossedPart& part, int threads)
 {
   if (part.Triangles.empty())
   {
@@ -319,6 +359,7 @@ void retriangulate(CrossedPart& part, const ConstraintSegments& segments, int th
   const std::vector<std::int64_t> used = segmentsOf(part);
   CrossedTriangles crossed = crossingsOf(part, used);
   keepUniqueTouches(part.Touches);
+  sortKnown(part);
   PartVertices vertices(part);
   for (const CrossedPart::Touch& touch : part.Touches)
   {
@@ -345,7 +386,7 @@ void retriangulate(CrossedPart& part, const ConstraintSegments& segments, int th
   std::vector<ConstraintPiece> pieces;
   for (std::size_t i = 0; i < used.size(); ++i)
   {
-    const SegmentTree::Item& segment = segments.at(used[i]);
+    const SegmentTree::Item& segment = knownOf(part, used[i]);
     const PointId a = vertices.indexAt(segment.A);
     pieces.push_back({ a, vertices.indexAt(segment.B), std::int64_t(i) });
   }
@@ -423,6 +464,8 @@ std::size_t cutTriangles(
   return keepTriangles(corners, triangles, [&](std::size_t t) { return isKept[t] != 0; });
 }
 
+template std::size_t moveCrossed(PointsView, const ConstraintSegments&, std::int64_t,
+  const std::vector<ScannedTriangles::Crossing>&, std::int32_t*, std::size_t, CrossedPart&);
 template std::size_t takeCrossed(
   PointsView, const ConstraintSegments&, std::int64_t, std::int32_t*, std::size_t, CrossedPart&);
 template std::size_t takeCrossed(

@@ -18,7 +18,8 @@ namespace tipp
 {
 
 /// Crossed triangles of a part of a triangulation, with all that is needed to retriangulate them.
-/// Vertices and segments are named by numbers that all parts agree on.
+/// Vertices and segments are named by numbers that all parts agree on
+/// (ConstraintSegments::nameOf()).
 ///
 /// A segment is *complete* in a part if all triangles that it crosses are in the part. Parts are
 /// retriangulated in two steps: each the jobs whose segments are complete, which change no other
@@ -37,6 +38,7 @@ struct CrossedPart
   std::vector<std::array<Point2, 3>> Positions; ///< of each triangle's corners
   std::vector<std::uint64_t> SegmentEnds;       ///< of each triangle, in Segments
   std::vector<std::int64_t> Segments;           ///< that cross each triangle
+  std::vector<SegmentTree::Item> Known;         ///< these, some perhaps several times
   /// Edges of these triangles that lie on segments.
   std::vector<std::array<std::int64_t, 2>> FixedEdges;
   std::vector<Touch> Touches;
@@ -63,8 +65,8 @@ struct CrossedPart
 template <typename Archive>
 void serialize(Archive& archive, CrossedPart& part)
 {
-  archive(
-    part.Triangles, part.Positions, part.SegmentEnds, part.Segments, part.FixedEdges, part.Touches);
+  archive(part.Triangles, part.Positions, part.SegmentEnds, part.Segments, part.Known,
+    part.FixedEdges, part.Touches);
 }
 
 /// Moves the triangles of `from` to the end of those in `to`.
@@ -77,15 +79,21 @@ template <typename Id>
 VTKTIPPFILTERS_EXPORT std::size_t takeCrossed(PointsView points, const ConstraintSegments& segments,
   std::int64_t first, Id* corners, std::size_t triangles, CrossedPart& part);
 
+/// The same where it is known which segments cross which triangles: by indices among `segments`,
+/// ascending by triangle. Adds no edges and vertices that lie on segments.
+template <typename Id>
+VTKTIPPFILTERS_EXPORT std::size_t moveCrossed(PointsView points, const ConstraintSegments& segments,
+  std::int64_t first, const std::vector<ScannedTriangles::Crossing>& crossings, Id* corners,
+  std::size_t triangles, CrossedPart& part);
+
 /// Removes the triangles of jobs with segments that are not complete, and returns them. isInner():
 /// whether all triangles at a vertex are in the part.
-VTKTIPPFILTERS_EXPORT CrossedPart splitIncomplete(CrossedPart& part,
-  const ConstraintSegments& segments, const std::function<bool(std::int64_t)>& isInner);
+VTKTIPPFILTERS_EXPORT CrossedPart splitIncomplete(
+  CrossedPart& part, const std::function<bool(std::int64_t)>& isInner);
 
 /// Replaces the triangles of whole jobs by those of the constrained triangulation, their lowest
 /// corners first.
-VTKTIPPFILTERS_EXPORT void retriangulate(
-  CrossedPart& part, const ConstraintSegments& segments, int threads);
+VTKTIPPFILTERS_EXPORT void retriangulate(CrossedPart& part, int threads);
 
 /// The edges of constrained triangles that lie on segments; an edge on several segments is listed
 /// once for each.

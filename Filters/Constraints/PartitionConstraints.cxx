@@ -327,7 +327,7 @@ private:
   Point2 otherPosition(std::int64_t entry) const
   {
     const ConstraintPiece& ids = this->Of.Pieces[std::size_t(entry / 2)];
-    const Point2 p = this->Of.Points[std::size_t(entry % 2 == 0 ? ids.B : ids.A)];
+    const Point2 p = this->Of.at(entry % 2 == 0 ? ids.B : ids.A);
     return { p.x * this->Factor, p.y * this->Factor };
   }
 
@@ -455,11 +455,12 @@ private:
   std::vector<CrossedTriangles::Touch> Touches;
 };
 
-PartitionConstraints::PartitionConstraints(
-  PointsView points, const std::vector<ConstraintPiece>& pieces, int threads)
+PartitionConstraints::PartitionConstraints(PointsView points,
+  const std::vector<ConstraintPiece>& pieces, int threads, std::vector<Point2> others)
   : Points(points)
+  , Others(std::move(others))
   , Pieces(pieces)
-  , EndPoints(points.size(), pieces, threads)
+  , EndPoints(points.size() + this->Others.size(), pieces, threads)
   , EndsOf(pieces.size())
   , Done(pieces.size(), 0)
 {

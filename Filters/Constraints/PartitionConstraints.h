@@ -30,7 +30,9 @@ namespace tipp
 class PartitionConstraints
 {
 public:
-  PartitionConstraints(PointsView points, const std::vector<ConstraintPiece>& pieces, int threads);
+  /// `others`: the positions of ends that are no points, whose ids follow those of the points.
+  PartitionConstraints(PointsView points, const std::vector<ConstraintPiece>& pieces, int threads,
+    std::vector<Point2> others = {});
 
   /// Makes a thread's editor. The kernel's coordinates have been multiplied by `factor`.
   std::unique_ptr<PartitionEditor> makeEditor(double factor);
@@ -72,7 +74,15 @@ private:
     std::array<DelaunayKernel::Index, 2> Vertex{};
   };
 
+  Point2 at(PointId id) const
+  {
+    const std::size_t count = this->Points.size();
+    return std::size_t(id) < count ? this->Points[std::size_t(id)]
+                                   : this->Others[std::size_t(id) - count];
+  }
+
   PointsView Points;
+  std::vector<Point2> Others;
   const std::vector<ConstraintPiece>& Pieces;
   PieceEnds EndPoints;
   std::vector<Ends> EndsOf;

@@ -3,10 +3,12 @@
 
 #include "Constraints/SegmentTree.h"
 #include "Parallel/ParallelFor.h"
+#include "Predicates/ExactArithmetic.h"
 #include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <sstream>
@@ -44,6 +46,75 @@ private:
   double Width;
   double Height;
 };
+
+/// The exact sign of what the box of points that are rounded to p reaches beyond the line through a
+/// and b, towards its left (`side` 1) or right (-1): negative if the line passes on that side.
+int signOfReach(Point2 a, Point2 b, Point2 p, int side)
+{
+  const auto sign = [](double from, double to) { return to < from ? -1 : 1; };
+  ProductSum<24, 106> sum;
+  // Adds from - to, multiplied by the reach along an axis and, with a sign, by the distance.
+  const auto addAxis = [&](double from, double to, double at, double value, int offSign)
+  {
+    const double below = std::nextafter(value, -HUGE_VAL);
+    const double above = std::nextafter(value, HUGE_VAL);
+    for (const double end : { to, -from })
+    {
+      const auto add = [&](int factor, double other, int doublings)
+      {
+        BinaryNumber one = binaryNumber(factor * end);
+        one.Exponent += doublings;
+        sum.add(one, binaryNumber(other));
+      };
+      add(sign(from, to), above, 0);
+      add(-sign(from, to), below, 0);
+      add(-offSign, value, 1);
+      add(-offSign, below, 0);
+      add(-offSign, above, 0);
+      add(offSign, at, 2);
+    }
+  };
+  addAxis(a.x, b.x, a.y, p.y, side);
+  addAxis(a.y, b.y, a.x, p.x, -side);
+  return sum.sign();
+}
+
+/// Whether the line through a and b passes through the inside of the box of points that are rounded
+/// to p. Exact.
+bool roundsTo(Point2 a, Point2 b, Point2 p)
+{
+  using Long = long double; // its exponents hold all products
+  struct Range
+  {
+    explicit Range(double value)
+      : Below((Long(value) + std::nextafter(value, -HUGE_VAL)) / 2)
+      , Above((Long(value) + std::nextafter(value, HUGE_VAL)) / 2)
+    {
+    }
+    Long center() const { return (this->Below + this->Above) / 2; }
+    Long half() const { return (this->Above - this->Below) / 2; }
+    Long Below;
+    Long Above;
+  };
+  const Range x(p.x);
+  const Range y(p.y);
+  if (!std::isfinite(x.half()) || !std::isfinite(y.half()))
+  {
+    return false; // the largest doubles
+  }
+  const Long dx = Long(b.x) - a.x;
+  const Long dy = Long(b.y) - a.y;
+  const Long off = std::fabs(dx * (y.center() - a.y) - dy * (x.center() - a.x));
+  const Long reach = std::fabs(dx) * y.half() + std::fabs(dy) * x.half();
+  const Long error = 16 * std::numeric_limits<Long>::epsilon() *
+    (std::fabs(dx) * (std::fabs(y.center()) + std::fabs(Long(a.y))) +
+      std::fabs(dy) * (std::fabs(x.center()) + std::fabs(Long(a.x))) + reach);
+  if (std::fabs(off - reach) > error)
+  {
+    return off < reach;
+  }
+  return signOfReach(a, b, p, 1) > 0 && signOfReach(a, b, p, -1) > 0;
+}
 
 class Resolver
 {
@@ -354,31 +425,6 @@ private:
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     return vertices;
-  }
-
-  /// Whether the line through a and b passes through the box of points that are rounded to p; with
-  /// a small error at its border.
-  static bool roundsTo(Point2 a, Point2 b, Point2 p)
-  {
-    using Long = long double; // its digits hold halves, its exponents all products
-    struct Range
-    {
-      explicit Range(double value)
-        : Below((Long(value) + std::nextafter(value, -HUGE_VAL)) / 2)
-        , Above((Long(value) + std::nextafter(value, HUGE_VAL)) / 2)
-      {
-      }
-      Long center() const { return (this->Below + this->Above) / 2; }
-      Long half() const { return (this->Above - this->Below) / 2; }
-      Long Below;
-      Long Above;
-    };
-    const Range x(p.x);
-    const Range y(p.y);
-    const Long dx = Long(b.x) - a.x;
-    const Long dy = Long(b.y) - a.y;
-    const Long off = dx * (y.center() - a.y) - dy * (x.center() - a.x);
-    return std::fabs(off) < std::fabs(dx) * y.half() + std::fabs(dy) * x.half();
   }
 
   /// Rounding keeps the order of both coordinates along a segment.

@@ -115,7 +115,7 @@ void cutOutside(
   const std::size_t lines = constraints.Lines.Edges.size();
   const Cuts cuts{ piecesOf(pieces, constraints.Lines.PolygonBegin, lines),
     piecesOf(pieces, lines, lines + constraints.Boundary.Edges.size()), constraints.Lines.holes() };
-  // One of them without one of its edges would not tell what is inside.
+  // A polygon that lacks an edge has no inside.
   if (!(cuts.Polygons.empty() && cuts.Boundary.empty()) && result.Constraints.NotFinite > 0)
   {
     throw std::invalid_argument(

@@ -38,19 +38,19 @@ public:
     this->loadPositions();
     CrossedPart crossed = this->takeCrossed();
     const std::vector<char> isShared = this->findShared();
-    CrossedPart rest = splitIncomplete(crossed, this->Segments,
+    CrossedPart rest = splitIncomplete(crossed,
       [&](std::int64_t id)
       {
         return id >= this->First && id < this->First + std::int64_t(this->Own) &&
           !isShared[std::size_t(id - this->First)];
       });
-    retriangulate(crossed, this->Segments, this->Threads);
+    retriangulate(crossed, this->Threads);
     CrossedPart all;
     for (CrossedPart& part : this->Ranks.gather(rest))
     {
       append(std::move(part), all);
     }
-    retriangulate(all, this->Segments, this->Threads); // on the first rank
+    retriangulate(all, this->Threads); // on the first rank
     append(std::move(crossed), all);
     this->setTriangles(this->toOwners(all.Triangles));
     if (this->Segments.cuts())

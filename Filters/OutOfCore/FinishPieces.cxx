@@ -59,6 +59,21 @@ void removePiece(const PieceWork& work, PartitionIndex piece)
   }
 }
 
+/// The segments near triangles, by the boxes of so many that follow each other.
+ConstraintSegments readNear(const PieceSegments& segments, PointsView points,
+  const std::int32_t* corners, std::size_t triangles, std::size_t together)
+{
+  std::vector<Box2> boxes;
+  for (std::size_t c = 0; c < 3 * triangles; ++c)
+  {
+    const Point2 p = points[std::size_t(corners[c])];
+    const Box2 box{ p.x, p.y, p.x, p.y };
+    c % (3 * together) == 0 ? boxes.push_back(box)
+                            : void(boxes.back() = unionOf(boxes.back(), box));
+  }
+  return segments.readNear(boxes);
+}
+
 class PieceFinisher
 {
 public:
@@ -163,7 +178,7 @@ private:
       append(this->Results[std::size_t(piece)]->readCrossed(), all);
     }
     std::sort(this->Replaced.begin(), this->Replaced.end());
-    retriangulate(all, *this->Work.Constraints, threads);
+    retriangulate(all, threads);
     BorderSorter sorter(this->Work, this->Late);
     for (std::size_t t = 0; t < all.Triangles.size(); ++t)
     {
@@ -197,8 +212,9 @@ private:
       }
     }
     CrossedPart part;
-    takeCrossed(
-      viewOf(positions), *this->Work.Constraints, 0, corners.data(), triangles.size(), part);
+    takeCrossed(viewOf(positions),
+      readNear(*this->Work.Constraints, viewOf(positions), corners.data(), triangles.size(), 1), 0,
+      corners.data(), triangles.size(), part);
     part.rename([&points](std::int64_t index) { return points[std::size_t(index)]; });
     return part;
   }
@@ -208,7 +224,8 @@ private:
   {
     std::vector<char> isKept;
     isKept.reserve(triangles.Corners.size());
-    const bool filters = this->Work.Constraints->cuts() || this->Work.MaximumEdge > 0;
+    const ConstraintSegments& cutting = this->Work.Constraints->cutting();
+    const bool filters = cutting.cuts() || this->Work.MaximumEdge > 0;
     const std::vector<std::int64_t> points =
       filters ? pointsOf(triangles.Corners) : std::vector<std::int64_t>();
     const std::vector<Point2> positions = this->positionsOf(points);
@@ -224,7 +241,7 @@ private:
             return positions[std::size_t(
               std::lower_bound(points.begin(), points.end(), point) - points.begin())];
           });
-        keeps = this->Work.Constraints->keeps(p) &&
+        keeps = cutting.keeps(p) &&
           !(this->Work.MaximumEdge > 0 && hasLongEdge(p[0], p[1], p[2], this->Work.MaximumEdge));
       }
       isKept.push_back(char(keeps));
@@ -376,7 +393,7 @@ void numberCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, cons
 }
 
 void markCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, std::int64_t array,
-  const ConstraintSegments* constraints, int threads, const Report& report)
+  const PieceSegments* constraints, int threads, const Report& report)
 {
   forChunks(std::int64_t(pieces.size()), 1, threads, report,
     [&](std::int64_t at, std::int64_t, int)
@@ -398,8 +415,11 @@ void markCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, std::i
       std::vector<std::uint8_t> marks(corners.size(), 0);
       if (constraints && !corners.empty())
       {
-        markEdges(PointsView(xyz.data(), xyz.size() / 3, 3), *constraints, corners.data(),
-          corners.size() / 3, marks.data());
+        const PointsView points(xyz.data(), xyz.size() / 3, 3);
+        constexpr std::size_t together = 64;
+        markEdges(points,
+          readNear(*constraints, points, corners.data(), corners.size() / 3, together),
+          corners.data(), corners.size() / 3, marks.data());
       }
       writeLateArray(mesh, number, array, reinterpret_cast<const char*>(marks.data()), piece);
     });

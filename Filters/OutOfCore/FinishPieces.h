@@ -77,7 +77,7 @@ void numberCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, cons
 /// Writes the array that marks edges of constraints, the mesh's array number `array`, after
 /// numberCells(). Constraints: null if there are none. Throws IOError.
 void markCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, std::int64_t array,
-  const ConstraintSegments* constraints, int threads, const Report& report);
+  const PieceSegments* constraints, int threads, const Report& report);
 
 /// Writes the cell array NeighborIds, after numberCells(): by as many threads as `memory` bytes
 /// allow. Throws IOError.

@@ -136,15 +136,25 @@ LoadedPiece::LoadedPiece(const PieceWork& work, PartitionIndex piece)
   , IsOnInterface(std::size_t(work.Points.count(piece)), 0)
 {
   work.Points.read(piece, this->Rows.data());
-  const PointsView view(this->Rows.data(), this->IsOnInterface.size(), work.Rows.Words);
   const Tiling& inner = work.Plan.Inner[std::size_t(piece)];
-  this->Buckets = bucketPoints<std::int32_t>(view.scaled(work.Factor), inner, 1);
+  this->Buckets = bucketPoints<std::int32_t>(this->points().scaled(work.Factor), inner, 1);
   this->InteriorCounts.assign(std::size_t(inner.size()), 0);
+  if (work.Constraints && work.Constraints->count(piece) > 0)
+  {
+    this->Constraints =
+      std::make_unique<PieceConstraints>(work.Constraints->read(piece), this->points());
+  }
+}
+
+PointsView LoadedPiece::points() const
+{
+  return { this->Rows.data(), this->IsOnInterface.size(), this->Work.Rows.Words };
 }
 
 std::uint64_t LoadedPiece::bytesOf(const PieceWork& work, PartitionIndex piece)
 {
-  return MemoryPlan::pieceBytes(work.Points.count(piece), work.Rows.Words);
+  return MemoryPlan::pieceBytes(work.Points.count(piece), work.Rows.Words) +
+    (work.Constraints ? work.Constraints->bytesOf(piece) : 0);
 }
 
 bool LoadedPiece::owns(const BoundaryVertex& v) const
@@ -164,6 +174,10 @@ void LoadedPiece::prepare(Workspace& space)
   space.Triangulator =
     std::make_unique<Worker<std::int32_t>>(plan.Partitions, this->Buckets, this->First);
   space.Triangulator->setTiling(plan.Partitions, -plan.FirstPartition[std::size_t(this->Piece)]);
+  if (this->Constraints)
+  {
+    space.Triangulator->setEditor(this->Constraints->makeEditor(this->Work.Factor));
+  }
   space.Piece = this->Piece;
   if (!space.Router)
   {
@@ -264,39 +278,34 @@ void LoadedPiece::markInterface(const BoundaryVertex& v)
   }
 }
 
-/// Calls filter(corners, count) for the triangles of each partition and those between; it returns
-/// how many are left.
+/// Calls filter(corners, count, partition) for the triangles of each partition of all, and for
+/// those between, whose partition is -1; it returns how many are left.
 template <typename Filter>
 void LoadedPiece::filterTriangles(const Filter& filter)
 {
+  const PartitionIndex before = this->Work.Plan.FirstPartition[std::size_t(this->Piece)];
   for (PartitionIndex p = 0; p < this->Buckets.partitions(); ++p)
   {
     std::size_t& count = this->InteriorCounts[std::size_t(p)];
-    count = filter(this->Buckets.triangles(p), count);
+    count = filter(this->Buckets.triangles(p), count, before + p);
   }
   if (!this->BoundaryTriangles.empty())
   {
     this->BoundaryTriangles.resize(
-      filter(this->BoundaryTriangles.front().data(), this->BoundaryTriangles.size()));
+      filter(this->BoundaryTriangles.front().data(), this->BoundaryTriangles.size(), -1));
   }
 }
 
-/// Inserts the constraints that are complete in the interior; what others cross is put aside. Cuts
-/// away what is outside of polygons.
+/// Inserts the other constraints that are complete in the interior; what the rest crosses is put
+/// aside.
 void LoadedPiece::constrain()
 {
-  const ConstraintSegments& constraints = *this->Work.Constraints;
-  std::vector<Point2> positions; // close together, for triangles name them in any order
-  positions.reserve(this->IsOnInterface.size());
-  PointsView(this->Rows.data(), this->IsOnInterface.size(), this->Work.Rows.Words)
-    .forEach(0, this->IsOnInterface.size(),
-      [&positions](std::size_t, Point2 p) { positions.push_back(p); });
-  const PointsView points =
-    positions.empty() ? PointsView() : PointsView(&positions.front().x, positions.size(), 2);
   CrossedPart crossed;
-  this->filterTriangles([&](std::int32_t* corners, std::size_t count)
-    { return takeCrossed(points, constraints, this->First, corners, count, crossed); });
-  this->Result.Crossed = splitIncomplete(crossed, constraints,
+  this->Constraints->finishInserting();
+  this->filterTriangles([&](std::int32_t* corners, std::size_t count, PartitionIndex partition)
+    { return this->Constraints->takeCrossed(partition, this->First, corners, count, crossed); });
+  this->Constraints->addEdgesAndTouches(this->First, crossed);
+  this->Result.Crossed = splitIncomplete(crossed,
     [this](std::int64_t point) { return !this->IsOnInterface[std::size_t(point - this->First)]; });
   for (const CrossedPart::Corners& triangle : this->Result.Crossed.Triangles)
   {
@@ -305,16 +314,11 @@ void LoadedPiece::constrain()
       this->IsOnInterface[std::size_t(point - this->First)] = 1;
     }
   }
-  retriangulate(crossed, constraints, 1);
+  retriangulate(crossed, 1);
   for (const CrossedPart::Corners& triangle : crossed.Triangles)
   {
     this->BoundaryTriangles.push_back({ std::int32_t(triangle[0] - this->First),
       std::int32_t(triangle[1] - this->First), std::int32_t(triangle[2] - this->First) });
-  }
-  if (constraints.cuts())
-  {
-    this->filterTriangles([&](std::int32_t* corners, std::size_t count)
-      { return cutTriangles(points, constraints, corners, count); });
   }
 }
 
@@ -340,10 +344,15 @@ void LoadedPiece::resolveDuplicates(PieceFigures& figures)
 PieceInterior LoadedPiece::writeInterior()
 {
   std::sort(this->BoundaryTriangles.begin(), this->BoundaryTriangles.end());
-  if (this->Work.Constraints)
+  if (this->Constraints)
   {
     this->constrain();
     std::sort(this->BoundaryTriangles.begin(), this->BoundaryTriangles.end());
+  }
+  if (this->Work.Constraints && this->Work.Constraints->cutting().cuts())
+  {
+    this->filterTriangles([&](std::int32_t* corners, std::size_t count, PartitionIndex)
+      { return cutTriangles(this->points(), this->Work.Constraints->cutting(), corners, count); });
   }
   if (this->Work.MaximumEdge > 0)
   {
@@ -352,7 +361,7 @@ PieceInterior LoadedPiece::writeInterior()
       const double* const row = this->Rows.data() + std::size_t(id) * this->Work.Rows.Words;
       return Point2{ row[0], row[1] };
     };
-    this->filterTriangles([&](std::int32_t* corners, std::size_t count)
+    this->filterTriangles([&](std::int32_t* corners, std::size_t count, PartitionIndex)
       { return dropLongTriangles(corners, count, this->Work.MaximumEdge, pointOf); });
   }
   InteriorContent content;
@@ -393,6 +402,7 @@ PieceResult LoadedPiece::write()
 {
   this->resolveDuplicates(this->Result.Figures);
   this->Result.Interior = this->writeInterior();
+  this->Constraints.reset();
   this->Rows = Buffer<double>();
   this->Buckets = PointBuckets<std::int32_t>();
   keepUnique(this->Result.HullVertices);
@@ -401,8 +411,7 @@ PieceResult LoadedPiece::write()
 
 FinishedPiece LoadedPiece::writePointsAlone(PieceFigures& figures)
 {
-  const PointsView view(this->Rows.data(), this->IsOnInterface.size(), this->Work.Rows.Words);
-  std::vector<Duplicate> duplicates = sortOutDuplicates(view);
+  std::vector<Duplicate> duplicates = sortOutDuplicates(this->points());
   for (Duplicate& duplicate : duplicates)
   {
     duplicate = { duplicate.Point + this->First, duplicate.Representative + this->First };
@@ -417,6 +426,10 @@ bool LoadedPiece::triangulateAlone(
   const DelaunayKernel::Monitor& progress, PieceFigures& figures, FinishedPiece& finished)
 {
   Worker<std::int32_t> worker(this->Work.Plan.Partitions, this->Buckets);
+  if (this->Constraints)
+  {
+    worker.setEditor(this->Constraints->makeEditor(this->Work.Factor));
+  }
   if (!worker.triangulateAlone(progress))
   {
     return false;

@@ -120,7 +120,7 @@ void help(Communicator& ranks, const OpenPoints& open, const OutOfCoreOptions& o
   prepared.beginTaking();
   const auto progress = [&](std::int64_t done)
   { return !options.Progress || options.Progress(double(done) / double(prepared.Survey.Points)); };
-  const MemoryPlan memory(prepared.limited(options, prepared.Mesh.Path), prepared.Rows.Words);
+  const MemoryPlan memory(options, prepared.Rows.Words);
   PieceRun(prepared.work(), memory, threadsOf(options), progress, &ranks).run(isDone);
 }
 

@@ -213,8 +213,7 @@ private:
 
   void planMemory(std::size_t words)
   {
-    this->Limited = this->Setup.limited(this->Options, this->Path);
-    this->Memory = std::make_unique<MemoryPlan>(this->Limited, words);
+    this->Memory = std::make_unique<MemoryPlan>(this->Options, words);
   }
 
   void savePlan()
@@ -244,26 +243,24 @@ private:
     this->Statistics.ThinnedOut = this->Input.thinnedOut();
     this->Setup.describeColumns(this->Input.columns(), this->Options);
     const std::size_t words = this->Setup.Rows.Words;
-    if (this->Options.Constraints)
-    {
-      this->Setup.setConstraints(this->Options.Constraints());
-    }
-    this->planMemory(words);
     requireElevation(this->Options.Duplicates, this->Input.columns());
     if (survey.Points == survey.Rejected)
     {
       throw IOError("There is no point with finite coordinates in the input, so nothing to write.");
     }
-    this->requireSpace(0);
+    const std::vector<ConstraintSegment> segments =
+      this->Options.Constraints ? this->Options.Constraints() : std::vector<ConstraintSegment>();
+    this->requireSpace(0, PieceSegments::fileBytes(segments.size()));
     this->Setup.Plan =
-      std::make_unique<PiecePlan>(survey, this->Limited, *this->Memory, words, this->Threads);
+      std::make_unique<PiecePlan>(survey, this->Options, *this->Memory, words, this->Threads);
+    this->Setup.setConstraints(this->Scratch.points(), segments, this->Threads);
     std::vector<SampledPoint>().swap(survey.Sample); // = {} would keep the memory
     if (this->Setup.Plan->HasLargeInterface)
     {
       // Each piece is sent nearly all points of those before it.
       constexpr std::uint64_t sent = 32 / 2;
       constexpr std::uint64_t border = 64;
-      this->requireSpace(sent * std::uint64_t(this->Setup.Plan->pieces()) + border);
+      this->requireSpace(sent * std::uint64_t(this->Setup.Plan->pieces()) + border, 0);
     }
     this->Setup.describeMesh();
     this->describePlan();
@@ -284,8 +281,8 @@ private:
     this->Statistics.Partitions = this->Setup.Plan->Partitions.size();
   }
 
-  /// `more`: bytes per point in the scratch folder beyond the usual.
-  void requireSpace(std::uint64_t more) const
+  /// `more`: bytes per point in the scratch folder beyond the usual; `others`: besides.
+  void requireSpace(std::uint64_t more, std::uint64_t others) const
   {
     const auto points = std::uint64_t(this->Setup.Survey.Points - this->Setup.Survey.Rejected);
     const std::uint64_t cell =
@@ -295,7 +292,7 @@ private:
       points * (24 + 8 + 1 + 8 * this->Setup.Rows.Attributes.size() + 2 * cell) / 50 * 51;
     constexpr std::uint64_t results = 4; // of pieces of 30,000 points
     this->Scratch.requireSpace(this->Path, this->Options.CountOnly ? 0 : stored,
-      points * (8 * this->Setup.Rows.Words + results + more) + this->Setup.takenBytes());
+      points * (8 * this->Setup.Rows.Words + results + more) + others + this->Setup.takenBytes());
   }
 
   void spill()
@@ -307,7 +304,7 @@ private:
       InputPasses(this->Input, this->Ranks, this->passOptions(progress))
         .spill(survey, *this->Setup.Plan, this->Setup.Rows, this->Scratch.points());
     this->Statistics.SpilledBytes = this->Setup.Spilled->bytes();
-    this->Setup.requireMemory(this->Path, this->Limited.MemoryLimit);
+    this->Setup.requireMemory(this->Path, this->Options.MemoryLimit);
     this->savePlan();
     this->endPhase("spill");
   }
@@ -455,7 +452,6 @@ private:
   Communicator* const Ranks; ///< null: this process alone
   const std::string Path;
   const OutOfCoreOptions& Options;
-  OutOfCoreOptions Limited; ///< the same with the memory that constraints leave
   const int Threads;
   PendingFolder Pending;
   ScratchFolder Scratch;

@@ -75,7 +75,7 @@ struct OutOfCoreOptions
   TriangleConsumer* Consumer = nullptr;
   /// Called after the first pass over the points, unless the run is resumed: segments between
   /// points of the stream that have to be edges, none crossing another. Null: there are none. They
-  /// stay in memory, as part of the limit.
+  /// are written to a file, and read by piece; those that cut stay in memory.
   std::function<std::vector<ConstraintSegment>()> Constraints;
   /// Resumes a run of this path that was killed or has failed, if there is one; without, such a run
   /// is an error and is left as it is.

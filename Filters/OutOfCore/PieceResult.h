@@ -8,6 +8,7 @@
 #include "OutOfCore/InputPasses.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "OutOfCore/PiecePlan.h"
+#include "OutOfCore/PieceSegments.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "Partitioned/PieceBorder.h"
 
@@ -33,7 +34,7 @@ struct PieceWork
   TriangleConsumer* Consumer = nullptr; ///< null: triangles go to the mesh
   double MaximumEdge = 0;               ///< triangles with a longer edge are left out; 0: none are
   DuplicateRule Duplicates = DuplicateRule::First;
-  const ConstraintSegments* Constraints = nullptr; ///< null: there are none
+  const PieceSegments* Constraints = nullptr; ///< null: there are none
   std::size_t Elevation = 0; ///< among the columns of rows; their number if there is none
 
   /// Whether Consumer gets triangles between pieces as soon as these are done: constraints may

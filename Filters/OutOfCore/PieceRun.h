@@ -5,6 +5,7 @@
 #include "Engine/ReadyPartitions.h"
 #include "Engine/Routing.h"
 #include "OutOfCore/FinishPieces.h"
+#include "OutOfCore/PieceConstraints.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceResult.h"
 #include "Partitioned/PieceWriter.h"
@@ -83,6 +84,7 @@ public:
 private:
   struct Finals;
 
+  PointsView points() const;
   void prepare(Workspace& space);
   void take(Finals& finals, const SentMessages& sent);
   void take(const std::vector<Duplicate>& duplicates);
@@ -99,6 +101,7 @@ private:
   const PartitionIndex Piece;
   const std::int64_t First; ///< index of the first point among all spilled points
   Buffer<double> Rows;
+  std::unique_ptr<PieceConstraints> Constraints; ///< null: none is near
   PointBuckets<std::int32_t> Buckets;
   std::vector<std::size_t> InteriorCounts; ///< triangles, of each partition
 

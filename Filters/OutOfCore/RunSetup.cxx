@@ -31,18 +31,21 @@ void RunSetup::exchangeInput(Archive& archive)
 void RunSetup::save(SaveArchive& archive)
 {
   this->exchangeInput(archive);
-  archive(this->Constraints ? this->Constraints->list() : std::vector<ConstraintSegment>());
   this->Plan->save(archive);
+  archive(std::uint8_t(this->Constraints != nullptr));
+  this->Constraints ? this->Constraints->save(archive) : void();
   this->Spilled->save(archive);
 }
 
 void RunSetup::load(LoadArchive& archive, const std::string& points)
 {
   this->exchangeInput(archive);
-  std::vector<ConstraintSegment> segments;
-  archive(segments);
-  this->setConstraints(segments);
   this->Plan = std::make_unique<PiecePlan>(archive);
+  if (archive.get<std::uint8_t>() != 0)
+  {
+    this->Constraints =
+      std::make_unique<PieceSegments>(points, *this->Plan, this->Survey.Factor, archive);
+  }
   this->Spilled = std::make_unique<SpilledPoints>(points, *this->Plan, this->Rows, archive);
   this->describeMesh();
 }
@@ -117,42 +120,30 @@ Bounds RunSetup::boundsOf(const Box2& box) const
   return { box.xmin / factor, box.xmax / factor, box.ymin / factor, box.ymax / factor, 0, 0 };
 }
 
-void RunSetup::setConstraints(const std::vector<ConstraintSegment>& segments)
+void RunSetup::setConstraints(
+  const std::string& points, const std::vector<ConstraintSegment>& segments, int threads)
 {
-  this->Constraints = segments.empty() ? nullptr : std::make_unique<ConstraintSegments>(segments);
-}
-
-OutOfCoreOptions RunSetup::limited(OutOfCoreOptions options, const std::string& path) const
-{
-  if (this->Constraints)
-  {
-    const std::size_t segments = this->Constraints->tree().items().size();
-    const std::uint64_t bytes = ConstraintSegments::bytesFor(segments);
-    if (bytes > options.MemoryLimit / 2)
-    {
-      throw IOError(path,
-        "has " + std::to_string(segments) + " segments as constraints, which take " +
-          std::to_string(bytes / 1000000 + 1) + " MB, more than half of the memory; allow more.");
-    }
-    options.MemoryLimit -= bytes;
-  }
-  return options;
+  this->Constraints = segments.empty()
+    ? nullptr
+    : std::make_unique<PieceSegments>(points, *this->Plan, this->Survey.Factor, segments, threads);
 }
 
 void RunSetup::requireMemory(const std::string& path, std::uint64_t limit) const
 {
-  std::int64_t most = 0;
+  constexpr std::uint64_t always = std::uint64_t(64) << 20;
   for (PartitionIndex piece = 0; piece < this->Plan->pieces(); ++piece)
   {
-    most = std::max(most, this->Spilled->count(piece));
-  }
-  constexpr std::uint64_t always = std::uint64_t(64) << 20;
-  const std::uint64_t bytes = MemoryPlan::pieceBytes(most, this->Rows.Words);
-  if (bytes > std::max(limit, always))
-  {
-    throw IOError(path,
-      "would have a piece of " + std::to_string(most) + " points, which takes " +
-        std::to_string(bytes / 1000000 + 1) + " MB; allow more memory.");
+    const std::int64_t segments = this->Constraints ? this->Constraints->count(piece) : 0;
+    const std::uint64_t bytes =
+      MemoryPlan::pieceBytes(this->Spilled->count(piece), this->Rows.Words) +
+      (this->Constraints ? this->Constraints->bytesOf(piece) : 0);
+    if (bytes > std::max(limit, always))
+    {
+      throw IOError(path,
+        "would have a piece of " + std::to_string(this->Spilled->count(piece)) + " points" +
+          (segments > 0 ? " and " + std::to_string(segments) + " segments" : "") +
+          ", which takes " + std::to_string(bytes / 1000000 + 1) + " MB; allow more memory.");
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceResult.h"
+#include "OutOfCore/PieceSegments.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Points/PointTable.h"
 
@@ -45,10 +46,9 @@ public:
   /// Pieces are of equal size except where very many points coincide.
   void requireMemory(const std::string& path, std::uint64_t limit) const;
 
-  void setConstraints(const std::vector<ConstraintSegment>& segments);
-  /// The options without what constraints take of the memory limit. Throws IOError, for the mesh
-  /// `path`, if little is left.
-  OutOfCoreOptions limited(OutOfCoreOptions options, const std::string& path) const;
+  /// After the plan. `points`: the file that the points are spilled to. Throws IOError.
+  void setConstraints(
+    const std::string& points, const std::vector<ConstraintSegment>& segments, int threads);
 
   /// Bytes that the taker needs on disk.
   std::uint64_t takenBytes() const;
@@ -64,7 +64,7 @@ public:
   std::vector<std::string> Columns; ///< of the input, beside x and y
   std::unique_ptr<PiecePlan> Plan;
   std::unique_ptr<SpilledPoints> Spilled;
-  std::unique_ptr<ConstraintSegments> Constraints; ///< null: there are none
+  std::unique_ptr<PieceSegments> Constraints; ///< null: there are none
 
 private:
   template <typename Archive>

@@ -126,4 +126,25 @@ vtkSmartPointer<vtkPolyData> polyDataOf(Profile&& profile)
   return data;
 }
 
+vtkSmartPointer<vtkPolyData> polyDataOf(StayingAnswer&& answer)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(pointsOf(answer.Points));
+  vtkNew<vtkCellArray> vertices;
+  for (vtkIdType i = 0; i < vtkIdType(answer.Points.size()); ++i)
+  {
+    vertices->InsertNextCell(1, &i);
+  }
+  data->SetVerts(vertices);
+  vtkPointData* const values = data->GetPointData();
+  for (MeshAnswer::Array& array : answer.Answer.Arrays)
+  {
+    values->AddArray(takeOver(array));
+  }
+  values->AddArray(arrayOf<vtkIdTypeArray>("CellId", answer.Answer.Cells));
+  values->AddArray(arrayOf<vtkIdTypeArray>("AskingRank", answer.Ranks));
+  values->AddArray(arrayOf<vtkIdTypeArray>("AskingId", answer.Indices));
+  return data;
+}
+
 } // namespace tipp

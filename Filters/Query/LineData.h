@@ -4,6 +4,7 @@
 
 #include "Query/Around.h"
 #include "Query/Lines.h"
+#include "Query/RankAnswer.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include "vtkPolyData.h"
@@ -28,6 +29,9 @@ VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(
 
 /// One line with the point arrays "Distance", "CellId" and those of the answer, which it takes.
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(Profile&& profile);
+
+/// The points as vertices with the arrays of the answer, "CellId", "AskingRank" and "AskingId".
+VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(StayingAnswer&& answer);
 
 /// An array with the values of an answer, in their memory.
 vtkSmartPointer<vtkDataArray> takeOver(MeshAnswer::Array& values);

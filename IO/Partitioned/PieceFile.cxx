@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/PieceFile.h"
 
+#include "Arrays/Buffer.h"
 #include "Files/IOError.h"
 #include "Partitioned/Checksum.h"
 
@@ -215,7 +216,11 @@ std::size_t PieceFile::findAttribute(std::size_t attribute) const
   return array;
 }
 
-void PieceFile::read(std::size_t array, std::size_t first, std::size_t end, void* to) const
+/// Reads whole tuples to blockAt(byte), calls take(byte, bytes) and verifies them, until that
+/// returns false.
+template <typename BlockAt, typename Take>
+void PieceFile::readBlocks(std::size_t array, std::size_t first, std::size_t end,
+  const BlockAt& blockAt, const Take& take) const
 {
   const PieceArray& description = this->Arrays[array];
   const std::size_t tuple = description.tupleBytes();
@@ -225,15 +230,19 @@ void PieceFile::read(std::size_t array, std::size_t first, std::size_t end, void
   { return std::size_t(starts[part] - starts[first]) * tuple; };
   const std::uint64_t offset = this->Table.Offsets[array] + std::uint64_t(starts[first]) * tuple;
   const std::size_t bytes = startOf(end);
-  std::vector<char> unused(to ? 0 : std::min(blockBytes, bytes));
+  const std::size_t step = std::max(blockBytes / tuple, std::size_t(1)) * tuple;
   Checksum sum; // of the part that began in an earlier block
   std::size_t hashed = 0;
   std::size_t part = first;
-  for (std::size_t begin = 0; begin < bytes; begin += blockBytes)
+  for (std::size_t begin = 0; begin < bytes; begin += step)
   {
-    const std::size_t blockEnd = std::min(begin + blockBytes, bytes);
-    char* const block = to ? static_cast<char*>(to) + begin : unused.data();
+    const std::size_t blockEnd = std::min(begin + step, bytes);
+    char* const block = blockAt(begin);
     this->File.read(offset + begin, block, blockEnd - begin);
+    if (!take(begin, blockEnd - begin))
+    {
+      return;
+    }
     for (; part < end && startOf(part + 1) <= blockEnd; hashed = startOf(++part))
     {
       const char* const data = block + (hashed - begin);
@@ -255,6 +264,27 @@ void PieceFile::read(std::size_t array, std::size_t first, std::size_t end, void
   }
   ++this->Counters.Reads;
   this->Counters.Bytes += std::int64_t(bytes);
+}
+
+void PieceFile::read(std::size_t array, std::size_t first, std::size_t end, void* to) const
+{
+  const std::size_t tuple = this->Arrays[array].tupleBytes();
+  std::vector<char> unused(to ? 0 : std::max(blockBytes, tuple));
+  this->readBlocks(
+    array, first, end,
+    [&](std::size_t begin) { return to ? static_cast<char*>(to) + begin : unused.data(); },
+    [](std::size_t, std::size_t) { return true; });
+}
+
+void PieceFile::visit(
+  std::size_t array, std::size_t first, std::size_t end, const TakeTuples& take) const
+{
+  const std::size_t tuple = this->Arrays[array].tupleBytes();
+  Buffer<char> block(std::max(blockBytes, tuple));
+  this->readBlocks(
+    array, first, end, [&](std::size_t) { return block.data(); },
+    [&](std::size_t begin, std::size_t bytes)
+    { return take(std::int64_t(begin / tuple), std::int64_t(bytes / tuple), block.data()); });
 }
 
 void PieceFile::requirePart(std::size_t array, std::size_t part, std::uint64_t checksum) const

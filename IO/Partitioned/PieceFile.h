@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <type_traits>
 #include <vector>
 
@@ -104,6 +105,14 @@ public:
   /// Reads parts [first, end) of an array and verifies their checksums; `to` may be null, to verify
   /// them only. Throws IOError.
   void read(std::size_t array, std::size_t first, std::size_t end, void* to) const;
+
+  /// Takes `count` tuples that begin with the one of index `first` among those that are visited.
+  /// False: the others are not read.
+  using TakeTuples =
+    std::function<bool(std::int64_t first, std::int64_t count, const char* tuples)>;
+  /// Passes parts [first, end) of an array on in small blocks, in order. A block is not verified
+  /// yet: what was made of it counts once this returns. Throws IOError.
+  void visit(std::size_t array, std::size_t first, std::size_t end, const TakeTuples& take) const;
   /// Verifies every byte of the file, except for arrays that have no checksums yet; throws IOError.
   void verifyAll() const;
 
@@ -113,6 +122,9 @@ public:
   [[noreturn]] void fail(const std::string& problem) const;
 
 private:
+  template <typename BlockAt, typename Take>
+  void readBlocks(std::size_t array, std::size_t first, std::size_t end, const BlockAt& blockAt,
+    const Take& take) const;
   void checkHeader() const;
   void requirePart(std::size_t array, std::size_t part, std::uint64_t checksum) const;
   void requireZeros(std::uint64_t from, std::uint64_t to) const;

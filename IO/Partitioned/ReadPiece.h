@@ -9,14 +9,24 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace tipp
 {
 
+struct Piece;
+
 struct PieceOptions
 {
   bool Borrowed = true; ///< also read the borrowed cells, as ghosts
+  /// Chooses among the cells of the piece's file: appends to `chosen` the indices of those wanted
+  /// of `count` cells from index `first` on. `ids` are their corners, of std::int64_t if `wide`,
+  /// else std::int32_t, below Piece::Points; the piece has its coordinates. False: read no more.
+  /// Null: all cells.
+  using Choose = std::function<bool(const Piece& piece, std::int64_t first, std::int64_t count,
+    const void* ids, bool wide, std::vector<std::int64_t>& chosen)>;
+  Choose Cells;
   /// For each of PartitionedMesh::Arrays whether to read it; empty: all.
   std::vector<bool> Wanted;
   int Step = 0; ///< the step to read of arrays that vary in time
@@ -43,6 +53,7 @@ struct Piece
   std::int64_t OwnedPoints = 0; ///< the points before those of borrowed cells alone
   std::int64_t Cells = 0;
   std::int64_t OwnedCells = 0;
+  bool IsStopped = false;   ///< PieceOptions::Cells ended the reading; there are no cells
   Buffer<char> Coordinates; ///< 3 per point
   Buffer<char> PointIds;    ///< global ids, std::int64_t
   Buffer<char> PointGhosts; ///< std::uint8_t; 1: another piece owns the point
@@ -62,7 +73,9 @@ struct Piece
 
 /// Reads a piece, each requested array with one read. Borrowed cells that are stored by reference
 /// are read from their owners' files, where they and their points are contiguous; the result is the
-/// same as with duplicated ones. Throws IOError. Threads may read pieces of a mesh concurrently.
+/// same as with duplicated ones. If cells are chosen, only those and the borrowed ones are in
+/// memory, with all points but not their ids and ghost marks; arrays that are not needed are not
+/// verified. Throws IOError. Threads may read pieces of a mesh concurrently.
 VTKTIPPIO_EXPORT Piece readPiece(
   const PartitionedMesh& mesh, std::size_t number, const PieceOptions& options = {});
 

@@ -59,7 +59,7 @@ public:
     return found;
   }
 
-  /// Calls visit(piece) for all other pieces that may be as near as `most`.
+  /// Calls visit(piece) for all pieces but `but` that may be within the distance `most`.
   template <typename Visit>
   void visitOthers(const Point3& point, std::int32_t but, double most, const Visit& visit) const
   {

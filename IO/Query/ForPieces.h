@@ -2,13 +2,16 @@
 #ifndef tippForPieces_h
 #define tippForPieces_h
 
+#include "Locate/MortonOrder.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 #include "Query/PartTopology.h"
 #include "Query/ResidentMesh.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -65,6 +68,54 @@ void forPieceRange(const ResidentMesh& mesh, std::size_t first, std::size_t end,
     const ResidentPieces::Lease piece = mesh.pieces().get(i, needs);
     work(*piece->Part, *piece->Topology);
   }
+}
+
+inline bool meets(const Bounds& a, const Bounds& b, int dimension)
+{
+  bool met = true;
+  for (std::size_t axis = 0; axis < std::size_t(dimension); ++axis)
+  {
+    met = met && a[2 * axis] <= b[2 * axis + 1] && b[2 * axis] <= a[2 * axis + 1];
+  }
+  return met;
+}
+
+inline Bounds boundsOf(const Box<2>& box)
+{
+  return { box.Low[0], box.High[0], box.Low[1], box.High[1], 0, 0 };
+}
+
+inline std::pair<std::size_t, std::size_t> allPieces(const ResidentMesh& mesh)
+{
+  return { 0, mesh.mesh().Pieces.size() };
+}
+
+/// Calls work(part, box, begin, end) on several threads for parts of the cells of each piece of
+/// [first, last) whose box wants(box): those that it owns and those that it borrows. Each cell that
+/// meets a box is in its piece, so cells may come several times. The box is null for a mesh in
+/// memory.
+template <typename Wants, typename Work>
+void forCells(const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> pieces,
+  const PieceNeeds& needs, const Wants& wants, const Work& work)
+{
+  std::vector<std::int32_t> wanted;
+  for (std::size_t i = pieces.first; i < pieces.second; ++i)
+  {
+    !mesh.isStored() || wants(mesh.mesh().Pieces[i].Box) ? wanted.push_back(std::int32_t(i))
+                                                         : void();
+  }
+  const int threads = threadCount(mesh.options().Threads);
+  const bool manyPieces = std::int64_t(wanted.size()) >= 2 * threads;
+  forChunks(std::int64_t(wanted.size()), 1, manyPieces ? threads : 1, {},
+    [&](std::int64_t i, std::int64_t, int)
+    {
+      poll();
+      const auto number = std::size_t(wanted[std::size_t(i)]);
+      const Bounds* const box = mesh.isStored() ? &mesh.mesh().Pieces[number].Box : nullptr;
+      const ResidentPieces::Lease piece = mesh.pieces().get(number, needs);
+      forChunks(piece->Part->Mesh.Cells, 1 << 13, manyPieces ? 1 : threads, {},
+        [&](std::int64_t begin, std::int64_t end, int) { work(*piece->Part, box, begin, end); });
+    });
 }
 
 inline PieceNeeds topologyNeeded()

@@ -81,6 +81,12 @@ struct Descents
   std::vector<std::int64_t> Pits; ///< the point of the mesh that a line ends at; -1: none
 };
 
+template <typename Archive>
+void serialize(Archive& archive, Descents& descents)
+{
+  archive(descents.Starts, descents.Points, descents.Values, descents.Pits);
+}
+
 /// Follows the steepest descent of an array of points, linear in each triangle: down a triangle, or
 /// along an edge that both sides lead to, or that is the border. A line ends where no way leads
 /// down, at a point of the mesh or in a level triangle or edge. Slopes and crossings are rounded;
@@ -88,6 +94,13 @@ struct Descents
 /// Throws IOError and WorkAborted.
 VTKTIPPIO_EXPORT Descents descentsOf(const ResidentMesh& mesh, const std::vector<Point3>& points,
   const std::string& array, int component);
+
+/// The ways down from this rank's points over a stored mesh, whose pieces the ranks share out as in
+/// answerOnRanks(): each way is followed where the cells are. Every rank has points of its own, or
+/// none. Collective; call it within Communicator::together(). Throws IOError, also for parts in
+/// memory.
+VTKTIPPIO_EXPORT Descents descentsOnRanks(Communicator& ranks, const ResidentMesh& mesh,
+  const std::vector<Point3>& points, const std::string& array, int component);
 
 } // namespace tipp
 

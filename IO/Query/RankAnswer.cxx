@@ -92,12 +92,11 @@ bool holds(const RankPart& part, const Point3& p)
 }
 
 /// For each rank the indices of the points that it is asked.
-std::vector<std::vector<std::int64_t>> shareOut(const ResidentMesh& mesh,
-  const std::vector<RankPart>& parts, const Point3* points, std::int64_t count)
+std::vector<std::vector<std::int64_t>> shareOut(const Communicator& communicator,
+  const ResidentMesh& mesh, const std::vector<RankPart>& parts, const Point3* points,
+  std::int64_t count)
 {
-  const auto ranks = std::int64_t(parts.size());
   std::vector<std::vector<std::int64_t>> asked(parts.size());
-  const auto pieces = std::int64_t(mesh.mesh().Pieces.size());
   const std::vector<std::int32_t> pieceOf =
     mesh.isStored() ? mesh.piecesOf(points, count) : std::vector<std::int32_t>();
   for (std::int64_t i = 0; i < count; ++i)
@@ -105,7 +104,7 @@ std::vector<std::vector<std::int64_t>> shareOut(const ResidentMesh& mesh,
     if (mesh.isStored())
     {
       const std::int64_t piece = pieceOf[std::size_t(i)];
-      piece >= 0 ? asked[std::size_t(piece * ranks / pieces)].push_back(i) : void();
+      piece >= 0 ? asked[rankOfPiece(communicator, mesh, piece)].push_back(i) : void();
       continue;
     }
     for (std::size_t rank = 0; rank < parts.size(); ++rank)
@@ -117,8 +116,7 @@ std::vector<std::vector<std::int64_t>> shareOut(const ResidentMesh& mesh,
 }
 
 /// Part [begin, end) of an answer.
-Reply cutOut(const MeshAnswer& answer, std::size_t begin, std::size_t end, std::size_t corners,
-  std::int64_t firstCell)
+Reply cutOut(const MeshAnswer& answer, std::size_t begin, std::size_t end, std::size_t corners)
 {
   const auto cut = [&](const auto& values, std::size_t width)
   {
@@ -127,10 +125,6 @@ Reply cutOut(const MeshAnswer& answer, std::size_t begin, std::size_t end, std::
       : std::decay_t<decltype(values)>(values.data() + begin * width, values.data() + end * width);
   };
   Reply reply{ cut(answer.Cells, 1), cut(answer.Weights, corners), cut(answer.Keys, 1), {} };
-  for (std::int64_t& cell : reply.Cells)
-  {
-    cell += cell >= 0 ? firstCell : 0;
-  }
   for (const MeshAnswer::Array& array : answer.Arrays)
   {
     const std::size_t bytes = array.tupleBytes();
@@ -169,6 +163,114 @@ void merge(const Reply& reply, const std::vector<std::int64_t>& asked, std::size
   }
 }
 
+/// The points of all ranks, sent to the ranks that may have their cells, and what these find.
+class PointsOnRanks
+{
+public:
+  PointsOnRanks(Communicator& ranks, const ResidentMesh& mesh, const Point3* points,
+    std::int64_t count, const AnswerOptions& options)
+    : Options(options)
+  {
+    const std::vector<RankPart> parts = ranks.allGather(describe(mesh, options));
+    this->Common = commonPart(parts);
+    for (int rank = 0; rank < ranks.rank() && !mesh.isStored(); ++rank)
+    {
+      this->FirstCell += parts[std::size_t(rank)].Cells;
+    }
+    this->FirstCell = mesh.hasCellIds() ? 0 : this->FirstCell;
+    this->Asked = shareOut(ranks, mesh, parts, points, count);
+    std::vector<std::vector<Point3>> questions(this->Asked.size());
+    for (std::size_t rank = 0; rank < this->Asked.size(); ++rank)
+    {
+      for (const std::int64_t i : this->Asked[rank])
+      {
+        questions[rank].push_back(points[i]);
+      }
+    }
+    this->Begins = { 0 };
+    for (const std::vector<Point3>& part : ranks.allToAll(questions))
+    {
+      this->Received.insert(this->Received.end(), part.begin(), part.end());
+      this->Begins.push_back(this->Received.size());
+    }
+    AnswerOptions wanted = options;
+    wanted.Keys = true;
+    this->Found = this->Received.empty()
+      ? this->emptyAnswer(0)
+      : mesh.answer(this->Received.data(), std::int64_t(this->Received.size()), wanted);
+    for (std::int64_t& cell : this->Found.Cells)
+    {
+      cell += cell >= 0 ? this->FirstCell : 0;
+    }
+  }
+
+  /// For each rank the indices of this rank's points that it has been asked for.
+  const std::vector<std::vector<std::int64_t>>& asked() const { return this->Asked; }
+  const std::vector<Point3>& received() const { return this->Received; }
+  const MeshAnswer& found() const { return this->Found; }
+  /// The first point of a rank among the received ones.
+  std::size_t begin(std::size_t rank) const { return this->Begins[rank]; }
+  std::size_t corners() const { return std::size_t(this->Common.CellSize); }
+
+  MeshAnswer emptyAnswer(std::int64_t count) const
+  {
+    std::vector<StoredArray> arrays(this->Common.Types.size());
+    for (std::size_t a = 0; a < arrays.size(); ++a)
+    {
+      arrays[a].Name = this->Options.Arrays[a];
+      arrays[a].Type = this->Common.Types[a];
+      arrays[a].Components = this->Common.Components[a];
+    }
+    return tipp::emptyAnswer(count, arrays, this->Common.CellSize, this->Options.Weights, true);
+  }
+
+private:
+  const AnswerOptions& Options;
+  RankPart Common;
+  std::int64_t FirstCell = 0;
+  std::vector<std::vector<std::int64_t>> Asked;
+  std::vector<Point3> Received;
+  std::vector<std::size_t> Begins;
+  MeshAnswer Found;
+};
+
+/// The ranks that answer this rank's points, for each rank whether it does.
+std::vector<std::vector<char>> chooseRanks(const std::vector<std::vector<std::int64_t>>& asked,
+  const std::vector<Reply>& replies, std::int64_t count)
+{
+  struct Best
+  {
+    CellKey Key;
+    std::int64_t Cell = -1;
+    std::size_t Rank = 0;
+  };
+  std::vector<Best> best(static_cast<std::size_t>(count));
+  const auto forReplies = [&](const auto& work)
+  {
+    for (std::size_t rank = 0; rank < asked.size(); ++rank)
+    {
+      for (std::size_t i = 0; i < asked[rank].size(); ++i)
+      {
+        work(rank, i, best[std::size_t(asked[rank][i])]);
+      }
+    }
+  };
+  forReplies(
+    [&](std::size_t rank, std::size_t i, Best& so)
+    {
+      const CellKey& key = replies[rank].Keys[i];
+      const std::int64_t cell = replies[rank].Cells[i];
+      if (cell >= 0 && (so.Cell < 0 || std::tie(key, cell) < std::tie(so.Key, so.Cell)))
+      {
+        so = { key, cell, rank };
+      }
+    });
+  std::vector<std::vector<char>> chosen(asked.size());
+  forReplies([&](std::size_t rank, std::size_t, const Best& so)
+    { chosen[rank].push_back(char(so.Cell >= 0 && so.Rank == rank)); });
+  return chosen;
+}
+
 } // namespace
 
 std::pair<std::size_t, std::size_t> piecesOfRank(
@@ -178,71 +280,79 @@ std::pair<std::size_t, std::size_t> piecesOfRank(
   {
     return { 0, 1 };
   }
-  // Piece p is of rank p * ranks / pieces, rounded down.
+  // As rankOfPiece().
   const std::size_t pieces = mesh.mesh().Pieces.size();
   const auto size = std::size_t(ranks.size());
   const auto firstOf = [&](std::size_t rank) { return (rank * pieces + size - 1) / size; };
   return { firstOf(std::size_t(ranks.rank())), firstOf(std::size_t(ranks.rank()) + 1) };
 }
 
+std::size_t rankOfPiece(const Communicator& ranks, const ResidentMesh& mesh, std::int64_t piece)
+{
+  return std::size_t(piece * ranks.size() / std::int64_t(mesh.mesh().Pieces.size()));
+}
+
 MeshAnswer answerOnRanks(Communicator& ranks, const ResidentMesh& mesh, const Point3* points,
   std::int64_t count, const AnswerOptions& options)
 {
-  const std::vector<RankPart> parts = ranks.allGather(describe(mesh, options));
-  const RankPart common = commonPart(parts);
-  std::int64_t firstCell = 0;
-  for (int rank = 0; rank < ranks.rank() && !mesh.isStored(); ++rank)
+  const PointsOnRanks questions(ranks, mesh, points, count, options);
+  std::vector<Reply> replies;
+  for (std::size_t rank = 0; rank < std::size_t(ranks.size()); ++rank)
   {
-    firstCell += parts[std::size_t(rank)].Cells;
-  }
-  firstCell = mesh.hasCellIds() ? 0 : firstCell;
-
-  const std::vector<std::vector<std::int64_t>> asked = shareOut(mesh, parts, points, count);
-  std::vector<std::vector<Point3>> questions(asked.size());
-  for (std::size_t rank = 0; rank < asked.size(); ++rank)
-  {
-    for (const std::int64_t i : asked[rank])
-    {
-      questions[rank].push_back(points[i]);
-    }
-  }
-  const std::vector<std::vector<Point3>> received = ranks.allToAll(questions);
-  std::vector<Point3> all;
-  for (const std::vector<Point3>& part : received)
-  {
-    all.insert(all.end(), part.begin(), part.end());
-  }
-  AnswerOptions wanted = options;
-  wanted.Keys = true;
-  const auto corners = std::size_t(common.CellSize);
-  std::vector<Reply> replies(received.size());
-  if (!all.empty())
-  {
-    const MeshAnswer found = mesh.answer(all.data(), std::int64_t(all.size()), wanted);
-    std::size_t begin = 0;
-    for (std::size_t rank = 0; rank < received.size(); ++rank)
-    {
-      const std::size_t end = begin + received[rank].size();
-      replies[rank] = cutOut(found, begin, end, corners, firstCell);
-      begin = end;
-    }
+    replies.push_back(cutOut(
+      questions.found(), questions.begin(rank), questions.begin(rank + 1), questions.corners()));
   }
   replies = ranks.allToAll(replies);
-
-  std::vector<StoredArray> arrays(common.Types.size());
-  for (std::size_t a = 0; a < arrays.size(); ++a)
-  {
-    arrays[a].Name = options.Arrays[a];
-    arrays[a].Type = common.Types[a];
-    arrays[a].Components = common.Components[a];
-  }
-  MeshAnswer answer = emptyAnswer(count, arrays, common.CellSize, options.Weights, true);
+  MeshAnswer answer = questions.emptyAnswer(count);
   for (std::size_t rank = 0; rank < replies.size(); ++rank)
   {
-    merge(replies[rank], asked[rank], corners, answer);
+    merge(replies[rank], questions.asked()[rank], questions.corners(), answer);
   }
   options.Keys ? void() : answer.Keys.clear();
   return answer;
+}
+
+StayingAnswer answerWhereCellsAre(Communicator& ranks, const ResidentMesh& mesh,
+  const Point3* points, std::int64_t count, const AnswerOptions& options)
+{
+  const PointsOnRanks questions(ranks, mesh, points, count, options);
+  std::vector<Reply> replies(std::size_t(ranks.size()));
+  for (std::size_t rank = 0; rank < replies.size(); ++rank)
+  {
+    const auto at = [&](const auto& values, std::size_t r)
+    { return values.begin() + std::ptrdiff_t(questions.begin(r)); };
+    const MeshAnswer& found = questions.found();
+    replies[rank].Cells.assign(at(found.Cells, rank), at(found.Cells, rank + 1));
+    replies[rank].Keys.assign(at(found.Keys, rank), at(found.Keys, rank + 1));
+  }
+  replies = ranks.allToAll(replies);
+  const std::vector<std::vector<char>> chosen =
+    ranks.allToAll(chooseRanks(questions.asked(), replies, count));
+  const std::vector<std::vector<std::int64_t>> indices = ranks.allToAll(questions.asked());
+
+  StayingAnswer result;
+  std::vector<std::size_t> kept; // among the received points
+  for (std::size_t rank = 0; rank < chosen.size(); ++rank)
+  {
+    for (std::size_t i = 0; i < chosen[rank].size(); ++i)
+    {
+      if (chosen[rank][i])
+      {
+        kept.push_back(questions.begin(rank) + i);
+        result.Ranks.push_back(std::int64_t(rank));
+        result.Indices.push_back(indices[rank][i]);
+        result.Points.push_back(questions.received()[kept.back()]);
+      }
+    }
+  }
+  result.Answer = questions.emptyAnswer(std::int64_t(kept.size()));
+  for (std::size_t k = 0; k < kept.size(); ++k)
+  {
+    merge(cutOut(questions.found(), kept[k], kept[k] + 1, questions.corners()), { std::int64_t(k) },
+      questions.corners(), result.Answer);
+  }
+  options.Keys ? void() : result.Answer.Keys.clear();
+  return result;
 }
 
 } // namespace tipp

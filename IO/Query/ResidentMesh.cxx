@@ -4,7 +4,6 @@
 #include "Files/IOError.h"
 #include "Locate/CellLocator.h"
 #include "Parallel/ParallelFor.h"
-#include "Parallel/Poll.h"
 #include "Partitioned/ReadPiece.h"
 #include "Query/PartTopology.h"
 
@@ -21,11 +20,6 @@ namespace
 {
 
 constexpr const char* elevation = "elevation";
-
-/// A piece gets a locator after this many searches without one, or when a single search has more
-/// than one point per `cellsPerPoint` cells.
-constexpr int searchesWithoutLocator = 4;
-constexpr std::int64_t cellsPerPoint = 8;
 
 template <int D>
 Box<D> boxOf(const Bounds& bounds)
@@ -130,66 +124,7 @@ PartitionedMesh describe(const MeshPart& part)
   return mesh;
 }
 
-/// NaN, or 0 in whole numbers.
-void fillNull(MeshAnswer::Array& array)
-{
-  withScalar(array.Type,
-    [&](auto zero)
-    {
-      using Value = decltype(zero);
-      const Value null = toScalar<Value>(std::numeric_limits<double>::quiet_NaN());
-      std::fill_n(array.Values.as<Value>(), array.Values.size() / sizeof(Value), null);
-    });
-}
-
 } // namespace
-
-MeshAnswer emptyAnswer(std::int64_t count, const std::vector<StoredArray>& arrays, int corners,
-  bool withWeights, bool withKeys)
-{
-  MeshAnswer answer;
-  const auto points = std::size_t(count);
-  answer.Cells.assign(points, -1);
-  answer.Weights.assign(withWeights ? points * std::size_t(corners) : 0, 0);
-  answer.Keys.assign(withKeys ? points : 0, noCellKey);
-  for (const StoredArray& array : arrays)
-  {
-    MeshAnswer::Array values;
-    values.Name = array.Name;
-    values.Type = array.Type;
-    values.Components = array.Components;
-    values.Values = Buffer<char>(points * values.tupleBytes());
-    fillNull(values);
-    answer.Arrays.push_back(std::move(values));
-  }
-  return answer;
-}
-
-PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces, std::size_t count)
-{
-  std::vector<std::int64_t> ends(count + 1, 0);
-  for (const std::int32_t piece : pieces)
-  {
-    ends[std::size_t(piece + 1)] += 1; // the first counts those of no piece
-  }
-  ends[0] = 0;
-  PieceGroups result;
-  for (std::size_t p = 0; p < count; ++p)
-  {
-    const std::int64_t begin = ends[p];
-    const std::int64_t end = begin + std::exchange(ends[p + 1], begin + ends[p + 1]);
-    end > begin ? result.Groups.push_back({ p, begin, end }) : void();
-  }
-  result.Items.resize(std::size_t(ends[count]));
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-  {
-    if (pieces[i] >= 0)
-    {
-      result.Items[std::size_t(ends[std::size_t(pieces[i])]++)] = std::int64_t(i);
-    }
-  }
-  return result;
-}
 
 ResidentMesh::ResidentMesh(const std::string& path, const ResidentOptions& options)
   : Mesh(openPartitionedMesh(path))
@@ -268,27 +203,60 @@ PieceNeeds ResidentMesh::needsOf(const std::vector<std::string>& names) const
   return needs;
 }
 
+namespace
+{
+
+/// The bytes of arrays for a point, or for a cell.
+std::uint64_t bytesOfArrays(const PartitionedMesh& mesh, const PieceNeeds& needs, bool ofPoints)
+{
+  std::uint64_t bytes = 0;
+  for (std::size_t i = 0; i < needs.Arrays.size(); ++i)
+  {
+    const StoredArray& array = mesh.Arrays[i];
+    bytes += needs.Arrays[i] && array.OfPoints == ofPoints
+      ? std::uint64_t(array.Components) * scalarSize(array.Type)
+      : 0;
+  }
+  return bytes;
+}
+
+} // namespace
+
 std::uint64_t ResidentMesh::estimate(std::size_t number, const PieceNeeds& needs) const
 {
   const PieceSummary& piece = this->Mesh.Pieces[number];
   const auto cells = std::uint64_t(piece.Cells + piece.BorrowedCells);
   const auto points = std::uint64_t(piece.Points + piece.BorrowedCells);
   // With its position in a search by points.
-  std::uint64_t ofPoint = 3 * scalarSize(this->Mesh.PointType) + 8 + 1 + 6;
-  std::uint64_t ofCell = std::uint64_t(this->Mesh.CellSize) * 4 + 8;
-  for (std::size_t i = 0; i < needs.Arrays.size(); ++i)
-  {
-    const StoredArray& array = this->Mesh.Arrays[i];
-    const std::uint64_t bytes =
-      needs.Arrays[i] ? std::uint64_t(array.Components) * scalarSize(array.Type) : 0;
-    (array.OfPoints ? ofPoint : ofCell) += bytes;
-  }
+  const std::uint64_t ofPoint =
+    3 * scalarSize(this->Mesh.PointType) + 8 + 1 + 6 + bytesOfArrays(this->Mesh, needs, true);
+  const std::uint64_t ofCell =
+    std::uint64_t(this->Mesh.CellSize) * 4 + 8 + bytesOfArrays(this->Mesh, needs, false);
   std::uint64_t bytes = points * ofPoint + cells * ofCell;
   bytes += needs.Locator
     ? std::uint64_t(CellLocator::bytesFor(std::int64_t(cells), this->Mesh.CellSize - 1))
     : 0;
   bytes += needs.Topology ? PartTopology::bytesFor(points, cells, this->Mesh.CellSize) : 0;
   return bytes;
+}
+
+/// Of a piece's points and at most so many of its cells, for some asked points.
+std::uint64_t ResidentMesh::estimateNear(
+  std::size_t number, const PieceNeeds& needs, std::int64_t most, std::int64_t asked) const
+{
+  const PieceSummary& piece = this->Mesh.Pieces[number];
+  const auto points = std::uint64_t(piece.Points + piece.BorrowedCells);
+  const auto cells = std::uint64_t(most + piece.BorrowedCells);
+  // Points with their positions, and ids to find borrowed ones by; cells with their indices.
+  const std::uint64_t ofPoint =
+    3 * scalarSize(this->Mesh.PointType) + 8 + 6 + bytesOfArrays(this->Mesh, needs, true);
+  const std::uint64_t ofCell =
+    2 * std::uint64_t(this->Mesh.CellSize) * 4 + 16 + bytesOfArrays(this->Mesh, needs, false);
+  constexpr std::uint64_t ofAsked = 128; // a tree, and what may hold each
+  constexpr std::uint64_t blocks = 1 << 20;
+  return points * ofPoint + cells * ofCell +
+    std::uint64_t(CellLocator::bytesFor(std::int64_t(cells), this->Mesh.CellSize - 1)) +
+    std::uint64_t(std::min(asked, most)) * ofAsked + blocks;
 }
 
 void ResidentMesh::refusePiece(std::size_t number, std::uint64_t bytes) const
@@ -385,88 +353,6 @@ std::vector<std::int32_t> ResidentMesh::findIds(
   const std::vector<std::int64_t>& ids, bool ofPoints, std::size_t first, std::size_t end) const
 {
   return this->Ids.find(ids, ofPoints, threadCount(this->Options.Threads), first, end);
-}
-
-void ResidentMesh::answerPiece(std::size_t number, const AskedPoints& asked,
-  const AnswerOptions& options, int threads, MeshAnswer& answer) const
-{
-  PieceNeeds needs = this->needsOf(options.Arrays);
-  const PieceSummary& summary = this->Mesh.Pieces[number];
-  needs.Locator = true;
-  needs.Locator = this->Resident.fits(number, needs) &&
-    (asked.Count > (summary.Cells + summary.BorrowedCells) / cellsPerPoint ||
-      this->Resident.uses(number) >= searchesWithoutLocator);
-  const ResidentPieces::Lease piece = this->Resident.get(number, needs);
-  const MeshPart& part = *piece->Part;
-  std::vector<PartValues> values;
-  for (const std::string& name : options.Arrays)
-  {
-    values.emplace_back(part, this->find(name));
-  }
-  const auto corners = std::size_t(this->Mesh.CellSize);
-  locatePoints(part.Mesh, part.CellIds, piece->Locator.get(), asked, threads,
-    [&](const std::int64_t* points, const CellLocation* at, std::int64_t count)
-    {
-      for (std::int64_t i = 0; i < count; ++i)
-      {
-        const auto index = std::size_t(points[i]);
-        answer.Cells[index] = part.cellId(at[i].Cell);
-        if (options.Weights)
-        {
-          std::copy_n(at[i].Weights, corners, answer.Weights.data() + index * corners);
-        }
-        if (options.Keys)
-        {
-          answer.Keys[index] = keyAt(part.Mesh, at[i].Cell, asked.Points[index]);
-        }
-      }
-      for (std::size_t a = 0; a < values.size(); ++a)
-      {
-        values[a].sample(at, points, count, answer.Arrays[a].Values.data());
-      }
-    });
-}
-
-MeshAnswer ResidentMesh::answer(
-  const Point3* points, std::int64_t count, const AnswerOptions& options) const
-{
-  if (count > std::numeric_limits<std::int32_t>::max())
-  {
-    throw IOError("More than 2147483647 points are asked for at once; ask in parts.");
-  }
-  std::vector<StoredArray> arrays;
-  for (const std::string& name : options.Arrays)
-  {
-    const StoredArray* const array = this->find(name);
-    arrays.push_back(array ? *array : StoredArray());
-    arrays.back().Type = array ? array->Type : this->Mesh.PointType;
-    arrays.back().Name = name;
-  }
-  MeshAnswer answer =
-    emptyAnswer(count, arrays, this->Mesh.CellSize, options.Weights, options.Keys);
-  const int threads = threadCount(this->Options.Threads);
-  if (this->InMemory)
-  {
-    this->answerPiece(0, { points, nullptr, count }, options, threads, answer);
-    return answer;
-  }
-  PieceGroups groups = groupByPiece(this->piecesOf(points, count), this->Mesh.Pieces.size());
-  // The pieces in memory first, before others displace them.
-  std::stable_partition(groups.Groups.begin(), groups.Groups.end(),
-    [&](const PieceGroups::Group& group) { return this->Resident.isResident(group.Piece); });
-  const auto pieces = std::int64_t(groups.Groups.size());
-  // Threads share out the pieces, or the points of one piece after the other if these are few.
-  const bool manyPieces = pieces >= 2 * threads;
-  forChunks(pieces, 1, manyPieces ? threads : 1, {},
-    [&](std::int64_t g, std::int64_t, int)
-    {
-      poll();
-      const PieceGroups::Group& group = groups.Groups[std::size_t(g)];
-      this->answerPiece(group.Piece,
-        { points, groups.Items.data() + group.Begin, group.End - group.Begin }, options,
-        manyPieces ? 1 : threads, answer);
-    });
-  return answer;
 }
 
 } // namespace tipp

@@ -25,7 +25,8 @@ class PieceBoxes;
 struct ResidentOptions
 {
   /// In bytes, for the pieces of a stored mesh that are in memory and what is made to search them.
-  /// A query that needs more for one piece is refused.
+  /// Answers of points count, too, as far as one piece has room beside them. A query that needs
+  /// more for one piece is refused.
   std::uint64_t MemoryLimit = std::uint64_t(1) << 30;
   int Threads = 0; ///< 0: OpenMP's default
   int Step = 0;    ///< the step of arrays that vary in time
@@ -137,10 +138,18 @@ public:
 
 private:
   void answerPiece(std::size_t number, const AskedPoints& asked, const AnswerOptions& options,
-    int threads, MeshAnswer& answer) const;
+    int threads, bool mayStay, MeshAnswer& answer) const;
+  void answerPart(const MeshPart& part, const CellLocator* locator, const AskedPoints& asked,
+    const AnswerOptions& options, int threads, MeshAnswer& answer) const;
+  bool wantsNear(
+    std::size_t number, const PieceNeeds& needs, const AskedPoints& asked, bool mayStay) const;
+  bool answerNear(std::size_t number, const PieceNeeds& needs, const AskedPoints& asked,
+    const AnswerOptions& options, int threads, MeshAnswer& answer) const;
   ResidentPiece load(
     std::size_t number, const PieceNeeds& needs, const ResidentPiece& before) const;
   std::uint64_t estimate(std::size_t number, const PieceNeeds& needs) const;
+  std::uint64_t estimateNear(
+    std::size_t number, const PieceNeeds& needs, std::int64_t most, std::int64_t asked) const;
   [[noreturn]] void refusePiece(std::size_t number, std::uint64_t bytes) const;
 
   PartitionedMesh Mesh;

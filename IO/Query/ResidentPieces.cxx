@@ -130,7 +130,7 @@ void ResidentPieces::drop(Slot& slot)
 /// Closes other pieces until `bytes` for this slot, which the limit allows, fit.
 void ResidentPieces::makeRoom(std::unique_lock<std::mutex>& lock, Slot& slot, std::uint64_t bytes)
 {
-  while (this->Used - slot.Bytes + bytes > this->Limit)
+  while (this->Used + this->Noted - slot.Bytes + bytes > this->Limit)
   {
     if (this->dropOldest(slot))
     {
@@ -142,15 +142,55 @@ void ResidentPieces::makeRoom(std::unique_lock<std::mutex>& lock, Slot& slot, st
       this->drop(slot);
       this->Changed.notify_all();
     }
+    if (this->Active == 0 && this->Used - slot.Bytes + bytes <= this->Limit)
+    {
+      return; // what is noted leaves no room, but somebody has to go on
+    }
     this->Changed.wait(lock);
   }
 }
 
-bool ResidentPieces::isResident(std::size_t number) const
+std::optional<ResidentPieces::Share> ResidentPieces::take(std::uint64_t bytes)
+{
+  if (bytes > this->Limit)
+  {
+    return std::nullopt;
+  }
+  std::unique_lock<std::mutex> lock(this->Mutex);
+  Slot none;
+  this->makeRoom(lock, none, bytes);
+  this->Used += bytes;
+  ++this->Active;
+  ++this->Loads;
+  return Share(*this, bytes, true);
+}
+
+ResidentPieces::Share ResidentPieces::note(std::uint64_t bytes)
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  this->Noted += bytes;
+  return { *this, bytes, false };
+}
+
+void ResidentPieces::giveBack(Share& share)
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  (share.IsActive ? this->Used : this->Noted) -= share.Bytes;
+  this->Active -= share.IsActive ? 1 : 0;
+  this->Changed.notify_all();
+}
+
+bool ResidentPieces::isResident(std::size_t number, const PieceNeeds& needs) const
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
   const auto slot = this->Slots.find(number);
-  return slot != this->Slots.end() && slot->second.Held.Part;
+  return slot != this->Slots.end() && slot->second.Held.Part && slot->second.Held.Has.cover(needs);
+}
+
+int ResidentPieces::countQuestion(std::size_t number)
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  return this->Slots[number].Questions++;
 }
 
 int ResidentPieces::uses(std::size_t number) const

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -102,9 +103,45 @@ public:
   /// throws is passed on.
   Lease get(std::size_t number, const PieceNeeds& needs);
 
-  /// Whether a piece is in memory, and how often it has been asked for since it was loaded.
-  bool isResident(std::size_t number) const;
+  /// Memory for other things than pieces, until it ends.
+  class Share
+  {
+  public:
+    Share(ResidentPieces& pieces, std::uint64_t bytes, bool isActive)
+      : Of(&pieces)
+      , Bytes(bytes)
+      , IsActive(isActive)
+    {
+    }
+    Share(Share&& other) noexcept
+      : Of(std::exchange(other.Of, nullptr))
+      , Bytes(other.Bytes)
+      , IsActive(other.IsActive)
+    {
+    }
+    Share& operator=(Share&&) = delete;
+    ~Share() { this->Of ? this->Of->giveBack(*this) : void(); }
+
+  private:
+    friend class ResidentPieces;
+    ResidentPieces* Of;
+    std::uint64_t Bytes;
+    bool IsActive;
+  };
+
+  /// For what is made of a piece that does not stay in memory; waits as get(), and counts as a
+  /// load. A thread holds no lease meanwhile. None if it is more than the limit.
+  std::optional<Share> take(std::uint64_t bytes);
+  /// Memory that is needed anyway. Pieces leave room for it where they can.
+  Share note(std::uint64_t bytes);
+
+  /// Whether a piece is in memory, with what is needed, and how often it has been asked for since
+  /// it was loaded.
+  bool isResident(std::size_t number, const PieceNeeds& needs = {}) const;
   int uses(std::size_t number) const;
+  /// Counts a question to a piece; returns how many there were before, whether it is in memory or
+  /// not.
+  int countQuestion(std::size_t number);
 
   std::int64_t loads() const;  ///< how many pieces have been loaded so far
   std::uint64_t bytes() const; ///< of the pieces in memory
@@ -117,10 +154,12 @@ private:
     std::uint64_t LastUse = 0;
     int Users = 0;
     int Uses = 0;
+    int Questions = 0;
     bool Loading = false;
   };
 
   void release(Lease& lease);
+  void giveBack(Share& share);
   PieceNeeds needsWithin(
     std::unique_lock<std::mutex>& lock, std::size_t number, const PieceNeeds& needs, Slot& slot);
   void makeRoom(std::unique_lock<std::mutex>& lock, Slot& slot, std::uint64_t bytes);
@@ -134,7 +173,8 @@ private:
   mutable std::mutex Mutex;
   std::condition_variable Changed;
   std::unordered_map<std::size_t, Slot> Slots;
-  std::uint64_t Used = 0; ///< by pieces in memory and those being loaded
+  std::uint64_t Used = 0;  ///< by pieces in memory and those being loaded
+  std::uint64_t Noted = 0; ///< by other things
   std::uint64_t Clock = 0;
   std::int64_t Loads = 0;
   int Active = 0; ///< leases, and loads that have their memory

@@ -21,6 +21,12 @@ struct ZoneRing
   bool IsHole = false;
 };
 
+template <typename Archive>
+void serialize(Archive& archive, ZoneRing& ring)
+{
+  archive(ring.Corners, ring.IsHole);
+}
+
 /// One or several polygons with holes.
 using Zone = std::vector<ZoneRing>;
 

@@ -6,6 +6,7 @@
 #include "Predicates/ExactSum.h"
 #include "Query/ForPieces.h"
 #include "Query/Lines.h"
+#include "Query/RankAnswer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,49 +18,6 @@ namespace tipp
 {
 namespace
 {
-
-bool meets(const Bounds& a, const Bounds& b, int dimension)
-{
-  bool met = true;
-  for (std::size_t axis = 0; axis < std::size_t(dimension); ++axis)
-  {
-    met = met && a[2 * axis] <= b[2 * axis + 1] && b[2 * axis] <= a[2 * axis + 1];
-  }
-  return met;
-}
-
-Bounds boundsOf(const ZoneShape& zone)
-{
-  const Box<2>& box = zone.bounds();
-  return { box.Low[0], box.High[0], box.Low[1], box.High[1], 0, 0 };
-}
-
-/// Calls work(part, box, begin, end) on several threads for parts of the cells of each piece whose
-/// box wants(box): those that it owns and those that it borrows. Each cell that meets a box is in
-/// its piece, so cells may come several times. The box is null for a mesh in memory.
-template <typename Wants, typename Work>
-void forCells(
-  const ResidentMesh& mesh, const PieceNeeds& needs, const Wants& wants, const Work& work)
-{
-  std::vector<std::int32_t> wanted;
-  for (std::size_t i = 0; i < mesh.mesh().Pieces.size(); ++i)
-  {
-    !mesh.isStored() || wants(mesh.mesh().Pieces[i].Box) ? wanted.push_back(std::int32_t(i))
-                                                         : void();
-  }
-  const int threads = threadCount(mesh.options().Threads);
-  const bool manyPieces = std::int64_t(wanted.size()) >= 2 * threads;
-  forChunks(std::int64_t(wanted.size()), 1, manyPieces ? threads : 1, {},
-    [&](std::int64_t i, std::int64_t, int)
-    {
-      poll();
-      const auto number = std::size_t(wanted[std::size_t(i)]);
-      const Bounds* const box = mesh.isStored() ? &mesh.mesh().Pieces[number].Box : nullptr;
-      const ResidentPieces::Lease piece = mesh.pieces().get(number, needs);
-      forChunks(piece->Part->Mesh.Cells, 1 << 13, manyPieces ? 1 : threads, {},
-        [&](std::int64_t begin, std::int64_t end, int) { work(*piece->Part, box, begin, end); });
-    });
-}
 
 /// What a zone has of a cell.
 struct Contribution
@@ -130,7 +88,58 @@ struct ZoneSums
     this->Low = std::min(this->Low, of.Part.Low);
     this->High = std::max(this->High, of.Part.High);
   }
+  void add(const ZoneSums& other)
+  {
+    this->Cells += other.Cells;
+    this->Area.add(other.Area);
+    this->Sum.add(other.Sum);
+    this->Above.add(other.Above);
+    this->Low = std::min(this->Low, other.Low);
+    this->High = std::max(this->High, other.High);
+  }
 };
+
+template <typename Archive>
+void serialize(Archive& archive, ZoneSums& sums)
+{
+  archive(sums.Cells, sums.Area, sums.Sum, sums.Above, sums.Low, sums.High);
+}
+
+/// What a rank has of the zones.
+struct ZoneParts
+{
+  std::vector<ZoneSums> Sums;
+  std::vector<Contribution> Shared; ///< of cells that several pieces may have
+};
+
+template <typename Archive>
+void serialize(Archive& archive, ZoneParts& parts)
+{
+  archive(parts.Sums, parts.Shared);
+}
+
+/// Brings parts of all pieces together.
+ZoneStatistics resultOf(ZoneParts parts)
+{
+  std::sort(parts.Shared.begin(), parts.Shared.end());
+  const auto end = std::unique(parts.Shared.begin(), parts.Shared.end());
+  std::for_each(parts.Shared.begin(), end,
+    [&parts](const Contribution& c) { parts.Sums[std::size_t(c.Zone)].add(c); });
+  ZoneStatistics result;
+  for (const ZoneSums& sums : parts.Sums)
+  {
+    const double area = sums.Area.value();
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    result.Cells.push_back(sums.Cells);
+    result.Area.push_back(area);
+    result.Low.push_back(sums.Cells > 0 ? sums.Low : none);
+    result.High.push_back(sums.Cells > 0 ? sums.High : none);
+    result.Sum.push_back(sums.Sum.value());
+    result.Mean.push_back(area > 0 ? sums.Sum.value() / area : none);
+    result.Above.push_back(sums.Above.value());
+  }
+  return result;
+}
 
 /// Collects the contributions of all cells, each once.
 class ZoneCollector
@@ -141,8 +150,8 @@ public:
     : Array(array)
     , Component(component)
     , Level(level)
-    , Sums(zones.size())
   {
+    this->Parts.Sums.resize(zones.size());
     for (std::size_t i = 0; i < zones.size(); ++i)
     {
       this->Zones.emplace_back(zones[i], i);
@@ -170,37 +179,18 @@ public:
     const std::lock_guard<std::mutex> lock(this->Mutex);
     for (const Contribution& contribution : inner)
     {
-      this->Sums[std::size_t(contribution.Zone)].add(contribution);
+      this->Parts.Sums[std::size_t(contribution.Zone)].add(contribution);
     }
-    this->Shared.insert(this->Shared.end(), shared.begin(), shared.end());
+    this->Parts.Shared.insert(this->Parts.Shared.end(), shared.begin(), shared.end());
   }
 
-  ZoneStatistics result()
-  {
-    std::sort(this->Shared.begin(), this->Shared.end());
-    const auto end = std::unique(this->Shared.begin(), this->Shared.end());
-    std::for_each(this->Shared.begin(), end,
-      [this](const Contribution& c) { this->Sums[std::size_t(c.Zone)].add(c); });
-    ZoneStatistics result;
-    for (const ZoneSums& sums : this->Sums)
-    {
-      const double area = sums.Area.value();
-      const double none = std::numeric_limits<double>::quiet_NaN();
-      result.Cells.push_back(sums.Cells);
-      result.Area.push_back(area);
-      result.Low.push_back(sums.Cells > 0 ? sums.Low : none);
-      result.High.push_back(sums.Cells > 0 ? sums.High : none);
-      result.Sum.push_back(sums.Sum.value());
-      result.Mean.push_back(area > 0 ? sums.Sum.value() / area : none);
-      result.Above.push_back(sums.Above.value());
-    }
-    return result;
-  }
+  /// What has been collected.
+  ZoneParts take() { return std::move(this->Parts); }
 
   bool wants(const Bounds& box) const
   {
     return std::any_of(this->Zones.begin(), this->Zones.end(),
-      [&box](const ZoneShape& zone) { return meets(box, boundsOf(zone), 2); });
+      [&box](const ZoneShape& zone) { return meets(box, boundsOf(zone.bounds()), 2); });
   }
 
 private:
@@ -270,14 +260,12 @@ private:
   std::vector<ZoneShape> Zones;
   BoxTree<2> Tree;
   std::mutex Mutex;
-  std::vector<ZoneSums> Sums;
-  std::vector<Contribution> Shared; ///< of cells that several pieces may have
+  ZoneParts Parts;
 };
 
-} // namespace
-
-ZoneStatistics statisticsOf(const ResidentMesh& mesh, const std::vector<Zone>& zones,
-  const std::string& array, int component, double level)
+/// What the pieces [first, last) have of the zones.
+ZoneParts partsIn(const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> pieces,
+  const std::vector<Zone>& zones, const std::string& array, int component, double level)
 {
   const StoredArray* const description = fieldOf(mesh, array, component, true);
   if (!std::isfinite(level))
@@ -286,151 +274,41 @@ ZoneStatistics statisticsOf(const ResidentMesh& mesh, const std::vector<Zone>& z
   }
   ZoneCollector collector(zones, description, component, level);
   forCells(
-    mesh, mesh.needsOf({ array }), [&](const Bounds& box) { return collector.wants(box); },
+    mesh, pieces, mesh.needsOf({ array }), [&](const Bounds& box) { return collector.wants(box); },
     [&](const MeshPart& part, const Bounds* box, std::int64_t begin, std::int64_t end)
     { collector.addCells(part, box, begin, end); });
-  return collector.result();
+  return collector.take();
 }
-
-namespace
-{
-
-/// Decides what is in a region.
-class RegionTest
-{
-public:
-  RegionTest(const ResidentMesh& mesh, const Region& region)
-    : Dimension(mesh.mesh().CellSize - 1)
-    , Box(region.Box)
-    , IsBox(region.Polygons.empty())
-    , Shape(region.Polygons, 0)
-  {
-    if (!this->IsBox && this->Dimension == 3)
-    {
-      throw IOError(mesh.isStored() ? mesh.mesh().Path : "the mesh",
-        "has tetrahedra, of which a polygon holds none; give a box.");
-    }
-    for (std::size_t axis = 0; axis < std::size_t(this->Dimension) && this->IsBox; ++axis)
-    {
-      if (!(this->Box[2 * axis] <= this->Box[2 * axis + 1]))
-      {
-        throw IOError("The box has a minimum above its maximum, or bounds that are no numbers.");
-      }
-    }
-    this->Box = this->IsBox ? this->Box : boundsOf(this->Shape);
-  }
-
-  bool wants(const Bounds& box) const { return meets(box, this->Box, this->Dimension); }
-
-  bool holds(const Point3& p) const
-  {
-    const Bounds at = { p.x, p.x, p.y, p.y, p.z, p.z };
-    return meets(at, this->Box, this->Dimension) &&
-      (this->IsBox || this->Shape.holds({ p.x, p.y }));
-  }
-
-  /// Whether a cell that has an area or volume has a point of the region, or lies in it.
-  bool has(const Point2 (&t)[3], bool whole) const
-  {
-    if (!this->IsBox)
-    {
-      const ZoneShape::Relation relation = this->Shape.relationTo(t);
-      return relation == ZoneShape::Relation::Inside ||
-        (!whole && relation != ZoneShape::Relation::Apart);
-    }
-    const bool isUsable = isFinite(t[0]) && isFinite(t[1]) && isFinite(t[2]);
-    if (!isUsable || orientation(t[0], t[1], t[2]) == 0)
-    {
-      return false;
-    }
-    return whole ? std::all_of(t, t + 3,
-                     [this](Point2 p) {
-                       return this->holds({ p.x, p.y, 0 });
-                     })
-                 : triangleMeetsBox(t[0], t[1], t[2], this->box());
-  }
-  bool has(const Point3 (&t)[4], bool whole) const
-  {
-    const bool isUsable = std::all_of(t, t + 4,
-      [](const Point3& p)
-      { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); });
-    if (!isUsable || orientation3(t[0], t[1], t[2], t[3]) == 0)
-    {
-      return false;
-    }
-    return whole ? std::all_of(t, t + 4, [this](const Point3& p) { return this->holds(p); })
-                 : tetrahedronMeetsBox(t[0], t[1], t[2], t[3], this->box());
-  }
-
-private:
-  Box3 box() const
-  {
-    Box3 result;
-    for (std::size_t axis = 0; axis < std::size_t(this->Dimension); ++axis)
-    {
-      result.Min[axis] = this->Box[2 * axis];
-      result.Max[axis] = this->Box[2 * axis + 1];
-    }
-    return result;
-  }
-
-  const int Dimension;
-  Bounds Box;
-  const bool IsBox;
-  const ZoneShape Shape;
-};
 
 } // namespace
 
-std::vector<std::int64_t> cellsIn(const ResidentMesh& mesh, const Region& region, bool whole)
+ZoneStatistics statisticsOf(const ResidentMesh& mesh, const std::vector<Zone>& zones,
+  const std::string& array, int component, double level)
 {
-  const RegionTest test(mesh, region);
-  std::vector<std::int64_t> ids;
-  std::mutex mutex;
-  forCells(
-    mesh, {}, [&](const Bounds& box) { return test.wants(box); },
-    [&](const MeshPart& part, const Bounds*, std::int64_t begin, std::int64_t end)
-    {
-      std::vector<std::int64_t> own;
-      withAccess(part.Mesh,
-        [&](const auto& access)
-        {
-          std::conditional_t<std::decay_t<decltype(access)>::Dimension == 2, Point2, Point3>
-            corners[std::decay_t<decltype(access)>::Corners];
-          for (std::int64_t cell = begin; cell < end; ++cell)
-          {
-            access.corners(cell, corners);
-            const bool isHidden = part.Mesh.Hidden && part.Mesh.Hidden[cell];
-            !isHidden&& test.has(corners, whole) ? own.push_back(part.cellId(cell)) : void();
-          }
-        });
-      const std::lock_guard<std::mutex> lock(mutex);
-      ids.insert(ids.end(), own.begin(), own.end());
-    });
-  sortUnique(ids);
-  return ids;
+  return resultOf(partsIn(mesh, allPieces(mesh), zones, array, component, level));
 }
 
-std::vector<std::int64_t> pointsIn(const ResidentMesh& mesh, const Region& region)
+ZoneStatistics statisticsOnRanks(Communicator& ranks, const ResidentMesh& mesh,
+  const std::vector<Zone>& zones, const std::string& array, int component, double level)
 {
-  const RegionTest test(mesh, region);
-  std::vector<std::int64_t> ids;
-  for (std::size_t i = 0; i < mesh.mesh().Pieces.size(); ++i)
+  const std::vector<Zone> common = ranks.broadcast(zones);
+  const double commonLevel = ranks.broadcast(level);
+  ZoneParts all;
+  all.Sums.resize(common.size());
+  ZoneParts own = all;
+  if (mesh.mesh().Cells > 0)
   {
-    if (mesh.isStored() && !test.wants(mesh.mesh().Pieces[i].Box))
-    {
-      continue;
-    }
-    poll();
-    const ResidentPieces::Lease piece = mesh.pieces().get(i, {});
-    const MeshPart& part = *piece->Part;
-    for (std::int64_t point = 0; point < part.Mesh.PointCount; ++point)
-    {
-      test.holds(positionOf(part, point)) ? ids.push_back(part.pointId(point)) : void();
-    }
+    own = partsIn(mesh, piecesOfRank(ranks, mesh), common, array, component, commonLevel);
   }
-  sortUnique(ids);
-  return ids;
+  for (const ZoneParts& part : ranks.gather(own))
+  {
+    for (std::size_t i = 0; i < common.size(); ++i)
+    {
+      all.Sums[i].add(part.Sums[i]);
+    }
+    all.Shared.insert(all.Shared.end(), part.Shared.begin(), part.Shared.end());
+  }
+  return ranks.broadcast(ranks.isFirst() ? resultOf(std::move(all)) : ZoneStatistics());
 }
 
 } // namespace tipp

@@ -34,10 +34,12 @@ inline bool abortRequested(vtkAlgorithm* algorithm)
 #endif
 }
 
-/// Resets AbortExecute as VTK's pipeline does, for executions outside of it.
-inline void beginExecution([[maybe_unused]] vtkAlgorithm* algorithm)
+/// Forgets an earlier abort as VTK's pipeline does, for executions outside of it.
+inline void beginExecution(vtkAlgorithm* algorithm)
 {
-#if !TIPP_VTK_CHECKS_ABORT
+#if TIPP_VTK_CHECKS_ABORT
+  algorithm->SetAbortOutput(false); // CheckAbort() keeps its answer here
+#else
   algorithm->SetAbortExecute(0);
 #endif
 }

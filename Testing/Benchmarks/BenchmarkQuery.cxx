@@ -24,6 +24,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <functional>
 #include <random>
 #include <string>
@@ -92,6 +93,7 @@ std::vector<Point3> scattered(std::int64_t count, const double* bounds)
   std::uniform_real_distribution<double> x(bounds[0], bounds[1]);
   std::uniform_real_distribution<double> y(bounds[2], bounds[3]);
   std::vector<Point3> points;
+  points.reserve(std::size_t(count));
   for (std::int64_t i = 0; i < count; ++i)
   {
     points.push_back({ x(random), y(random), 0 });
@@ -258,6 +260,24 @@ private:
   double Bounds[6];
 };
 
+/// The largest memory since the last call, in MB; 0: the system does not tell.
+long peakMemory()
+{
+  std::ifstream status("/proc/self/status");
+  long kilobytes = 0;
+  for (std::string word; status >> word && kilobytes == 0;)
+  {
+    word == "VmHWM:" ? void(status >> kilobytes) : void();
+  }
+  std::ofstream("/proc/self/clear_refs") << "5";
+  return kilobytes / 1024;
+}
+
+void printPeak()
+{
+  std::printf("| its peak memory, %ld MB | | | |\n", peakMemory());
+}
+
 void benchmarkStored(const std::string& path, std::int64_t queries, std::uint64_t megabytes)
 {
   mallopt(M_MMAP_THRESHOLD, 1 << 20); // as tipp query does
@@ -271,20 +291,20 @@ void benchmarkStored(const std::string& path, std::int64_t queries, std::uint64_
     static_cast<long long>(queries), static_cast<unsigned long long>(megabytes));
   const Bounds& domain = mesh.mesh().Domain;
   const std::vector<Point3> everywhere = scattered(queries, domain.data());
+  peakMemory();
   row("random points", 1, [&] { return hits(mesh.answer(everywhere.data(), queries)); });
+  printPeak();
   const double region[4] = { domain[0] + 0.40 * (domain[1] - domain[0]),
     domain[0] + 0.42 * (domain[1] - domain[0]), domain[2] + 0.40 * (domain[3] - domain[2]),
     domain[2] + 0.42 * (domain[3] - domain[2]) };
   const std::vector<Point3> near = scattered(queries, region);
   row("points of one region, 2 % of each side", 3,
     [&] { return hits(mesh.answer(near.data(), queries)); });
+  printPeak();
   const std::vector<double> levels = MemoryRows::tenLevels(domain[4], domain[5]);
   row("contours of ten levels", 1,
     [&] { return std::int64_t(contoursOf(mesh, "elevation", 0, levels).Points.size()); });
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  std::printf("\npeak memory %ld MB, %lld pieces loaded\n", usage.ru_maxrss / 1024,
-    static_cast<long long>(mesh.pieces().loads()));
+  printPeak();
 }
 
 } // namespace

@@ -7,20 +7,25 @@ from run_paraview import Session, expect
 
 # The icons are Qt resources, which Qt itself is asked for.
 PROGRAM = """
-import ctypes, os
+import ctypes, os, pathlib
 from paraview.simple import *
-qt = ctypes.CDLL("libQt5Core.so.5")
+PLUGIN = os.path.join(os.environ["TIPP_PLUGIN_DIR"], "TIPPPlugin.so")
+IS_QT6 = b"libQt6Core.so.6" in pathlib.Path(PLUGIN).read_bytes()
+qt = ctypes.CDLL("libQt6Core.so.6" if IS_QT6 else "libQt5Core.so.5")
 
 def is_there(path):
-    string, of_utf8 = ctypes.c_void_p(), qt._ZN7QString15fromUtf8_helperEPKci
-    of_utf8(ctypes.byref(string), path.encode(), len(path))
+    string = (ctypes.c_void_p * 3)()
+    if IS_QT6:  # QString::fromLatin1(QByteArrayView), a length and a pointer
+        qt._ZN7QString10fromLatin1E14QByteArrayView(ctypes.byref(string), ctypes.c_ssize_t(len(path)), path.encode())
+    else:
+        qt._ZN7QString15fromUtf8_helperEPKci(ctypes.byref(string), path.encode(), len(path))
     exists = qt._ZN5QFile6existsERK7QString
     exists.restype = ctypes.c_bool
     return exists(ctypes.byref(string))
 
 NAMES = %r
 print("before:", [name for name in NAMES if is_there(name)])
-LoadPlugin(os.path.join(os.environ["TIPP_PLUGIN_DIR"], "TIPPPlugin.so"), remote=False, ns=globals())
+LoadPlugin(PLUGIN, remote=False, ns=globals())
 print("missing:", [name for name in NAMES if not is_there(name)])
 """
 

@@ -38,12 +38,27 @@ class QueryOnRanks(unittest.TestCase):
             self.assertEqual(files[0], files[1])
             self.assertEqual(files[0], files[2])
 
-    def test_every_number_of_ranks_writes_the_same_contours(self):
+    def make_hills(self):
         points = np.load(self.folder / "points.npy")
         np.savetxt(self.folder / "hills.csv", np.column_stack([points, np.sin(9 * points[:, 0]) * points[:, 1]]),
                    delimiter=",", header="x,y,z", comments="")
         self.run_tipp(1, "delaunay", "hills.csv", "-o", "hills.vtu")
         self.run_tipp(1, "partition", "hills.vtu", "-o", "hills.tipp", "--tiling", "grid:3x3")
+
+    def test_ways_down_are_the_same_on_any_ranks(self):
+        self.make_hills()
+        for mesh in ("hills.tipp", "hills.vtu"):
+            files = []
+            for ranks in (1, 2, 3):
+                run = self.run_tipp(ranks, "query", "asked.npy", mesh, "-o", "out.vtp", "--descend", "elevation")
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertRegex(run.stdout, "^2000 lines of [0-9]{4,} points, in out.vtp\n$")
+                files.append((self.folder / "out.vtp").read_bytes())
+            self.assertEqual(files[0], files[1])
+            self.assertEqual(files[0], files[2])
+
+    def test_every_number_of_ranks_writes_the_same_contours(self):
+        self.make_hills()
         for mesh in ("hills.tipp", "hills.vtu"):
             files = []
             for ranks in (1, 2, 3):
@@ -56,7 +71,10 @@ class QueryOnRanks(unittest.TestCase):
 
     def test_nearest_locations_and_zones_are_the_same_on_any_ranks(self):
         (self.folder / "zones.csv").write_text('id,WKT\n1,"POLYGON ((0.1 0.1,0.9 0.2,0.4 0.8,0.1 0.1))"\n')
-        for arguments in (["asked.npy", "mesh.tipp", "--closest"], ["mesh.tipp", "--zones", "zones.csv"]):
+        for arguments in (["asked.npy", "mesh.tipp", "--closest"], ["mesh.tipp", "--zones", "zones.csv"],
+                          ["mesh.vtu", "--zones", "zones.csv"],
+                          ["mesh.tipp", "--ids", "cells", "--polygons", "zones.csv"],
+                          ["mesh.tipp", "--ids", "points", "--bounds", "0.2", "0.6", "0.1", "0.5"]):
             files = []
             for ranks in (1, 3):
                 run = self.run_tipp(ranks, "query", *arguments, "-o", "out.csv")

@@ -45,6 +45,10 @@ ZONES   with --zones: polygons of a .gpkg, .shp, .geojson or .fgb file, or of a 
         minimum, maximum, mean, integral and the volume above --level. Triangles are cut at
         the border.
 
+IDS     with --ids cells or --ids points, instead of points: VALUES (.csv or .npy) is then a
+        list of the ids in a region: --bounds, or the --polygons of a file as for --zones.
+        Cells need one point in it, with --whole all of them.
+
 A point on an edge, a face or a corner belongs to one cell, the same for any pieces,
 threads and ranks, as in tipp resample. Under mpirun the ranks share the pieces and the
 points, and the first one writes the file. Memory is in bytes, or with K, M, G for 2^10,
@@ -55,6 +59,7 @@ Examples:
   mpirun -np 4 tipp query stations.npy coast.tipp -o levels.npy --memory 512M
   tipp query stations.csv coast.tipp -o nearest.csv --closest
   tipp query coast.tipp --zones districts.gpkg --zone-names name -o flooded.csv --level 2.5
+  tipp query coast.tipp --ids cells --bounds 0 50 20 80 -o cells.csv
   tipp query springs.csv terrain.tipp -o rivers.vtp --descend elevation
 )";
 
@@ -68,7 +73,11 @@ struct QueryArguments
   bool Closest = false;
   std::string Descend; ///< an array; empty: no
   ZoneArguments Zones;
+  RegionArguments Region;
   PointOptions Reading;
+
+  /// Whether there are no points.
+  bool isOfMesh() const { return !this->Zones.Path.empty() || !this->Region.Ids.empty(); }
 
   bool toNpy() const { return extensionOf(this->Output) == ".npy"; }
 };
@@ -224,21 +233,39 @@ void write(const QueryArguments& arguments, const PathState& before, const std::
   pending.commit();
 }
 
-/// Answers --zones and --descend, on the first rank only.
-void answerAlone(const QueryArguments& arguments)
+/// Answers --zones, --ids and --descend. The ranks share the pieces of a partitioned mesh; another
+/// mesh is asked by the first one alone.
+void answerTogether(const QueryArguments& arguments, Communicator& ranks)
 {
-  requireApart(
-    { arguments.Output }, { arguments.Points, arguments.Mesh.Path, arguments.Zones.Path });
-  const PathState before = PendingFile(arguments.Output).before();
-  const std::unique_ptr<ResidentMesh> mesh = openQueryMesh(arguments.Mesh);
-  if (!arguments.Zones.Path.empty())
+  const bool isShared = ranks.size() > 1 && isPartitionedMesh(arguments.Mesh.Path);
+  if (!isShared && !ranks.isFirst())
   {
-    writeZones(*mesh, arguments.Zones, arguments.Arrays.empty() ? mesh->names() : arguments.Arrays,
-      arguments.Output, before);
     return;
   }
-  writeDescents(
-    *mesh, readShare(arguments, false, 0, 1), arguments.Descend, arguments.Output, before);
+  Communicator* const shared = isShared ? &ranks : nullptr;
+  PathState before;
+  if (ranks.isFirst())
+  {
+    requireApart({ arguments.Output },
+      { arguments.Points, arguments.Mesh.Path, arguments.Zones.Path, arguments.Region.Polygons });
+    before = PendingFile(arguments.Output).before();
+  }
+  const std::unique_ptr<ResidentMesh> mesh = openQueryMesh(arguments.Mesh);
+  if (!arguments.Region.Ids.empty())
+  {
+    writeRegion(shared, *mesh, arguments.Region, arguments.Output, before);
+  }
+  else if (!arguments.Zones.Path.empty())
+  {
+    writeZones(shared, *mesh, arguments.Zones,
+      arguments.Arrays.empty() ? mesh->names() : arguments.Arrays, arguments.Output, before);
+  }
+  else
+  {
+    const int rank = isShared ? ranks.rank() : 0;
+    writeDescents(shared, *mesh, readShare(arguments, false, rank, isShared ? ranks.size() : 1),
+      arguments.Descend, arguments.Output, before);
+  }
 }
 
 /// Answers all ranks' points and writes the file on the first rank. Collective.
@@ -287,8 +314,8 @@ void answerAll(const QueryArguments& arguments, Communicator& ranks)
 /// Collective.
 void runQuery(const QueryArguments& arguments, Communicator& ranks)
 {
-  const bool isAlone = !arguments.Zones.Path.empty() || !arguments.Descend.empty();
-  !isAlone ? answerAll(arguments, ranks) : ranks.isFirst() ? answerAlone(arguments) : void();
+  arguments.isOfMesh() || !arguments.Descend.empty() ? answerTogether(arguments, ranks)
+                                                     : answerAll(arguments, ranks);
 }
 
 /// Throws CLI::ValidationError unless the output's name and the options go together.
@@ -323,7 +350,7 @@ void addQueryCommand(CLI::App& app, int& exitCode)
   auto arguments = std::make_shared<QueryArguments>();
   CLI::App* const command =
     app.add_subcommand("query", "Tells which cells of a mesh hold points, and its arrays there");
-  command->add_option("points", arguments->Points, "A file of points; not with --zones")
+  command->add_option("points", arguments->Points, "A file of points; not with --zones and --ids")
     ->required();
   command->add_option("mesh", arguments->Mesh.Path, "The mesh, see below");
   command->add_option("-o,--output", arguments->Output, "The file to write, see below")->required();
@@ -344,25 +371,40 @@ void addQueryCommand(CLI::App& app, int& exitCode)
   command->add_option("--level", arguments->Zones.Level, "For volumes above it")
     ->capture_default_str()
     ->needs(zones);
+  CLI::Option* const ids = addRegionOptions(*command, arguments->Region)
+                             ->excludes(closest)
+                             ->excludes(weights)
+                             ->excludes(zones);
   command
     ->add_option(
       "--descend", arguments->Descend, "The way down this array from each point, as lines (.vtp)")
     ->excludes(closest)
     ->excludes(weights)
-    ->excludes(zones);
+    ->excludes(zones)
+    ->excludes(ids);
   addQueryMeshOptions(*command, arguments->Mesh);
   addPointOptions(*command, arguments->Reading);
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]()
     {
-      const bool hasZones = !arguments->Zones.Path.empty();
-      if (hasZones != arguments->Mesh.Path.empty())
+      const bool isOfMesh = arguments->isOfMesh();
+      if (isOfMesh != arguments->Mesh.Path.empty())
       {
-        throw CLI::ValidationError(
-          hasZones ? "with --zones give the mesh alone, without points" : "give points and a mesh");
+        throw CLI::ValidationError(isOfMesh
+            ? "with --zones or --ids give the mesh alone, without points"
+            : "give points and a mesh");
       }
-      hasZones ? std::swap(arguments->Points, arguments->Mesh.Path) : void();
+      if (!arguments->Region.Ids.empty() && arguments->Region.Bounds.empty() &&
+        arguments->Region.Polygons.empty())
+      {
+        throw CLI::ValidationError("with --ids give a region, as --bounds or --polygons");
+      }
+      if (arguments->Region.Bounds.size() == 5)
+      {
+        throw CLI::ValidationError("--bounds are four numbers, or six for tetrahedra");
+      }
+      isOfMesh ? std::swap(arguments->Points, arguments->Mesh.Path) : void();
       checkOutput(*arguments);
       exitCode = runOnRanks([&](Communicator& ranks) { runQuery(*arguments, ranks); });
     });

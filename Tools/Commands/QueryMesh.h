@@ -13,6 +13,7 @@
 namespace CLI
 {
 class App;
+class Option;
 }
 
 namespace tipp
@@ -49,13 +50,33 @@ struct ZoneArguments
   double Level = 0;  ///< for the volumes above it
 };
 
-/// Writes statistics of arrays in the zones of a file as .csv. Throws IOError.
-void writeZones(const ResidentMesh& mesh, const ZoneArguments& arguments,
+/// Cells or points in a region.
+struct RegionArguments
+{
+  std::string Ids; ///< "cells" or "points"; empty: not asked
+  std::vector<double> Bounds;
+  std::string Polygons; ///< a file
+  bool Whole = false;   ///< only cells that lie in it
+};
+
+/// Adds --ids and the options of regions; returns --ids.
+CLI::Option* addRegionOptions(CLI::App& command, RegionArguments& arguments);
+
+// Each function asks the mesh, or if all ranks share it, all of them, and writes the file on the
+// first rank; `before` is its own. Collective if shared. They throw IOError.
+
+/// Statistics of arrays in the zones of a file, as .csv.
+void writeZones(Communicator* shared, const ResidentMesh& mesh, const ZoneArguments& arguments,
   const std::vector<std::string>& arrays, const std::string& output, const PathState& before);
 
-/// Writes the ways down from points as a .vtp file. Throws IOError.
-void writeDescents(const ResidentMesh& mesh, const std::vector<Point3>& points,
-  const std::string& array, const std::string& output, const PathState& before);
+/// The ways down from this rank's points, as .vtp.
+void writeDescents(Communicator* shared, const ResidentMesh& mesh,
+  const std::vector<Point3>& points, const std::string& array, const std::string& output,
+  const PathState& before);
+
+/// The ids of the cells or points in a region, as .csv or .npy.
+void writeRegion(Communicator* shared, const ResidentMesh& mesh, const RegionArguments& arguments,
+  const std::string& output, const PathState& before);
 
 } // namespace tipp
 

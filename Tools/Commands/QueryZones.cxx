@@ -8,6 +8,7 @@
 #include "Query/LineData.h"
 #include "Query/ReadZones.h"
 #include "Query/Zones.h"
+#include "Ranks/Communicator.h"
 #include "Vtk/WriteXmlFile.h"
 
 #include "vtkXMLPolyDataWriter.h"
@@ -56,14 +57,12 @@ std::string tableOf(const std::vector<NamedZone>& zones, const std::vector<std::
 
 } // namespace
 
-void writeZones(const ResidentMesh& mesh, const ZoneArguments& arguments,
+void writeZones(Communicator* shared, const ResidentMesh& mesh, const ZoneArguments& arguments,
   const std::vector<std::string>& arrays, const std::string& output, const PathState& before)
 {
-  if (mesh.mesh().CellSize != 3)
-  {
-    throw IOError("Zones need a mesh of triangles, but this one has tetrahedra.");
-  }
-  const std::vector<NamedZone> named = readZones(arguments.Path, arguments.Field);
+  const bool isFirst = !shared || shared->isFirst();
+  const std::vector<NamedZone> named =
+    isFirst ? readZones(arguments.Path, arguments.Field) : std::vector<NamedZone>();
   std::vector<Zone> zones;
   for (const NamedZone& zone : named)
   {
@@ -78,8 +77,14 @@ void writeZones(const ResidentMesh& mesh, const ZoneArguments& arguments,
     for (int k = 0; k < components; ++k)
     {
       names.push_back(array + (components > 1 ? "_" + std::to_string(k) : ""));
-      statistics.push_back(statisticsOf(mesh, zones, array, k, arguments.Level));
+      statistics.push_back(shared
+          ? statisticsOnRanks(*shared, mesh, zones, array, k, arguments.Level)
+          : statisticsOf(mesh, zones, array, k, arguments.Level));
     }
+  }
+  if (!isFirst)
+  {
+    return;
   }
   const std::string text = tableOf(named, names, statistics);
   PendingFile pending(output, before);
@@ -88,14 +93,45 @@ void writeZones(const ResidentMesh& mesh, const ZoneArguments& arguments,
   fmt::print("{} zones, in {}\n", zones.size(), output);
 }
 
-void writeDescents(const ResidentMesh& mesh, const std::vector<Point3>& points,
-  const std::string& array, const std::string& output, const PathState& before)
+namespace
 {
-  const Descents descents = descentsOf(mesh, points, array, 0);
+
+/// The lines of all ranks, on the first one.
+Descents gathered(Communicator& ranks, const Descents& own)
+{
+  Descents all;
+  for (const Descents& part : ranks.gather(own))
+  {
+    const std::int64_t first = all.Starts.back();
+    for (std::size_t i = 1; i < part.Starts.size(); ++i)
+    {
+      all.Starts.push_back(first + part.Starts[i]);
+    }
+    all.Points.insert(all.Points.end(), part.Points.begin(), part.Points.end());
+    all.Values.insert(all.Values.end(), part.Values.begin(), part.Values.end());
+    all.Pits.insert(all.Pits.end(), part.Pits.begin(), part.Pits.end());
+  }
+  return all;
+}
+
+} // namespace
+
+void writeDescents(Communicator* shared, const ResidentMesh& mesh,
+  const std::vector<Point3>& points, const std::string& array, const std::string& output,
+  const PathState& before)
+{
+  const Descents descents = shared
+    ? gathered(*shared, descentsOnRanks(*shared, mesh, points, array, 0))
+    : descentsOf(mesh, points, array, 0);
+  if (shared && !shared->isFirst())
+  {
+    return;
+  }
   PendingFile pending(output, before);
   writeXmlFile<vtkXMLPolyDataWriter>(output, pending, polyDataOf(descents, array));
   pending.commit();
-  fmt::print("{} lines of {} points, in {}\n", points.size(), descents.Points.size(), output);
+  fmt::print(
+    "{} lines of {} points, in {}\n", descents.Pits.size(), descents.Points.size(), output);
 }
 
 } // namespace tipp

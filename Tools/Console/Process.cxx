@@ -5,12 +5,14 @@
 #include "Files/TemporaryFiles.h"
 #include "Vtk/ReadDataSet.h"
 
+#include "vtkMultiProcessController.h"
 #ifdef TIPP_USE_MPI
 #include "vtkMPIController.h"
 
 #include <mpi.h>
 #endif
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <semaphore.h>
 #include <unistd.h>
@@ -118,6 +120,10 @@ extern "C" void onCrash(int signal)
 
 void reportReaderCrashes()
 {
+  if (dlsym(RTLD_DEFAULT, "__sanitizer_set_death_callback"))
+  {
+    return; // the sanitizer's own report is more useful
+  }
   // A separate stack, because a reader may have exhausted the normal one.
   static char stack[1 << 16];
   stack_t alternative = {};
@@ -126,12 +132,7 @@ void reportReaderCrashes()
   sigaltstack(&alternative, nullptr);
   for (const int signal : { SIGSEGV, SIGBUS, SIGFPE, SIGABRT })
   {
-    // A sanitizer's own report is more useful.
-    struct sigaction present = {};
-    if (sigaction(signal, nullptr, &present) != 0 || present.sa_handler != SIG_DFL)
-    {
-      continue;
-    }
+    // Replaces the handler of UCX, which Open MPI may load.
     struct sigaction action = {};
     action.sa_handler = onCrash;
     action.sa_flags = SA_ONSTACK | SA_RESETHAND;

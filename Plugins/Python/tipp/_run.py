@@ -93,7 +93,7 @@ def run(algorithm: vtkAlgorithm, progress: Progress | None = None, call: Callabl
     raised: list[BaseException] = []
 
     def on_progress(_object: Any, _event: str) -> None:
-        if progress is None or raised:
+        if progress is None or raised or algorithm.GetAbortExecute():  # VTK 9.3 ends an aborted run with 1.0
             return
         try:  # VTK ends the program on an exception in a callback
             stopped = progress(algorithm.GetProgress()) is False

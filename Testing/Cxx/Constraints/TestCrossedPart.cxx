@@ -133,7 +133,7 @@ TEST_P(CrossedParts, AreRetriangulatedAsAWhole)
   Triangles mesh = takeFrom(scene, segments, scene.Mesh, part);
   EXPECT_GT(part.Triangles.size(), 20u);
   EXPECT_EQ(part.Triangles.size(), part.SegmentEnds.size());
-  retriangulate(part, segments, 2);
+  retriangulate(part, 2);
   addTo(part, mesh);
   EXPECT_TRUE(sameTriangles(scene.XY, sorted(mesh), trianglesOf(scene.Whole.Mesh)));
 }
@@ -166,16 +166,14 @@ TEST_P(CrossedParts, AreRetriangulatedInTwoSteps)
     CrossedPart part;
     const Triangles kept = takeFrom(scene, segments, Triangles(begin, end), part);
     mesh.insert(mesh.end(), kept.begin(), kept.end());
-    append(
-      splitIncomplete(part, segments, [&](std::int64_t id) { return elsewhere.count(id) == 0; }),
-      rest);
+    append(splitIncomplete(part, [&](std::int64_t id) { return elsewhere.count(id) == 0; }), rest);
     done += part.Triangles.size();
-    retriangulate(part, segments, 1);
+    retriangulate(part, 1);
     addTo(part, mesh);
   }
   EXPECT_GT(rest.Triangles.size(), 0u);
   EXPECT_GT(done, 0u);
-  retriangulate(rest, segments, 2);
+  retriangulate(rest, 2);
   addTo(rest, mesh);
   EXPECT_TRUE(sameTriangles(scene.XY, sorted(mesh), trianglesOf(scene.Whole.Mesh)));
 }
@@ -189,8 +187,8 @@ TEST_P(CrossedParts, AreNamedAnew)
   CrossedPart renamed = part;
   renamed.rename([](std::int64_t id) { return 1000 - id; });
   ASSERT_EQ(part.Triangles.size(), renamed.Triangles.size());
-  retriangulate(part, segments, 1);
-  retriangulate(renamed, segments, 1);
+  retriangulate(part, 1);
+  retriangulate(renamed, 1);
   renamed.rename([](std::int64_t id) { return 1000 - id; });
   Triangles expected;
   Triangles actual;

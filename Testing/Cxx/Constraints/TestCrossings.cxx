@@ -200,6 +200,20 @@ TEST(Crossings, OfNearlyParallelSegmentsOverOrdersOfMagnitudeEnd)
   EXPECT_LT(result.Constraints.Rounds, 30);
 }
 
+/// The line misses the box of what is rounded to a vertex by a ten-thousandth of its size.
+TEST(Crossings, DoNotMoveConstraintsByMoreThanRounding)
+{
+  const Coordinates xy = { 0x1.d6f0382099999p+38, 0x1.d6f0382099997p+38, 0x1.977420dc00001p+42,
+    0x1.977420dc00001p+42, 6987684863091.4062, 6987684863091.4072, 1e12, 9e12, 1e12, 3e12, 3e12,
+    1e12 };
+  const ResolvedConstraints resolved =
+    resolveCrossings(view(xy), { { 0, 1 }, { 2, 3 }, { 4, 5 } }, CrossingRule::Split, 1, {});
+  EXPECT_EQ(1u, resolved.Crossings.size());
+  ASSERT_EQ(5u, resolved.Pieces.size());
+  EXPECT_EQ(6, resolved.Pieces[0].B);
+  EXPECT_EQ(1, resolved.Pieces[1].B);
+}
+
 /// Segments one unit in the last place beside each other: crossings are rounded far along them.
 TEST(Crossings, OfNearlyParallelSegmentsEnd)
 {

@@ -203,7 +203,7 @@ TEST(Delaunay2DRun, NumberOfThreadsIsNotLeftToTheCaller)
 
 TEST(Delaunay2DRun, LackOfMemoryIsAnError)
 {
-  EXPECT_NE(std::string::npos, errorOf<std::bad_alloc>().find("Not enough memory"));
+  EXPECT_NE(std::string::npos, errorOf<std::bad_alloc>().find("not enough memory"));
 }
 
 TEST(Delaunay2DRun, ExceptionsAreErrors)

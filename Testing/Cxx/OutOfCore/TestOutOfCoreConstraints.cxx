@@ -4,6 +4,7 @@
 
 #include "Constraints/ConstrainedPoints.h"
 #include "ExpectIOError.h"
+#include "OutOfCore/PieceSegments.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceFile.h"
 #include "Partitioned/ReadPiece.h"
@@ -285,6 +286,102 @@ TEST(OutOfCoreConstraint, CutsHolesInsideOfPolygonsAndBoundaries)
   EXPECT_TRUE(run.matches());
   run.Constraints.Lines.Holes = { -4, 1 };
   expectIOError("constraints.csv", "the hole at (-4, 1) is in no triangle", [&] { run.run(); });
+}
+
+TEST(PieceSegments, AreReadByPieceAndNearBoxes)
+{
+  const Coordinates xy = makePointSet("clustered", 4000);
+  const ConstraintTable table = randomSegments(xy, 300, 9);
+  std::vector<ConstraintSegment> segments;
+  for (std::size_t i = 0; i < table.XY.size(); i += 4)
+  {
+    const bool isLine = i % 3 == 0;
+    segments.push_back({ { table.XY[i], table.XY[i + 1] }, { table.XY[i + 2], table.XY[i + 3] },
+      isLine ? SegmentRole::Line : SegmentRole::Polygon });
+  }
+  constexpr double factor = 0.25;
+  InputSurvey survey;
+  survey.Points = std::int64_t(xy.size() / 2);
+  survey.Factor = factor;
+  survey.Bounds = { HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+  for (std::size_t i = 0; i < xy.size(); i += 2)
+  {
+    const Point2 p{ factor * xy[i], factor * xy[i + 1] };
+    survey.Sample.push_back({ std::int64_t(i / 2), p });
+    survey.Bounds = unionOf(survey.Bounds, { p.x, p.y, p.x, p.y });
+  }
+  OutOfCoreOptions options;
+  options.PiecePoints = 150;
+  const PiecePlan plan(survey, options, MemoryPlan(options, 3), 3, 1);
+  ASSERT_GT(plan.pieces(), 10);
+  TemporaryFolder folder;
+  SaveArchive saved;
+  PieceSegments(folder.path("points"), plan, factor, segments, 2).save(saved);
+  const Bytes bytes = saved.take();
+  LoadArchive archive(bytes);
+  const PieceSegments stored(folder.path("points"), plan, factor, archive);
+
+  const auto namesOf = [&](const ConstraintSegments& read)
+  {
+    std::set<std::int64_t> names;
+    for (const SegmentTree::Item& item : read.tree().items())
+    {
+      const std::int64_t name = read.nameOf(item.Id);
+      EXPECT_TRUE(
+        item.A == segments[std::size_t(name)].A && item.B == segments[std::size_t(name)].B);
+      EXPECT_TRUE(names.insert(name).second) << "twice";
+    }
+    return names;
+  };
+  std::size_t all = 0;
+  for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
+  {
+    const Box2 its = plan.Pieces.box(piece);
+    const Box2 box{ its.xmin / factor, its.ymin / factor, its.xmax / factor, its.ymax / factor };
+    std::set<std::int64_t> expected;
+    std::set<std::int64_t> overlapping;
+    for (std::size_t i = 0; i < segments.size(); ++i)
+    {
+      if (overlap(box, boxOf(segments[i].A, segments[i].B)))
+      {
+        overlapping.insert(std::int64_t(i));
+        lineMayMeet(segments[i].A, segments[i].B, box) ? void(expected.insert(std::int64_t(i)))
+                                                       : void();
+      }
+    }
+    EXPECT_EQ(expected, namesOf(stored.read(piece)));
+    EXPECT_EQ(std::int64_t(expected.size()), stored.count(piece));
+    const std::set<std::int64_t> near = namesOf(stored.readNear({ box }));
+    EXPECT_TRUE(std::includes(near.begin(), near.end(), expected.begin(), expected.end()));
+    EXPECT_TRUE(std::includes(overlapping.begin(), overlapping.end(), near.begin(), near.end()));
+    all += expected.size();
+  }
+  EXPECT_GT(all, segments.size()); // some are in several pieces
+  EXPECT_TRUE(stored.readNear({}).tree().items().empty());
+  EXPECT_EQ(200u, stored.cutting().list().size());
+}
+
+/// The memory of a piece is what limits them, not that of all.
+TEST(OutOfCoreConstraint, MayTakeMoreThanTheMemory)
+{
+  const Coordinates xy = makePointSet("uniform", 20000);
+  TableConstraints constraints;
+  constexpr int side = 70;
+  for (int i = 0; i < side * side; ++i)
+  {
+    const double x = double(i % side) / side;
+    const double y = double(i / side) / side;
+    constraints.Lines.XY.insert(
+      constraints.Lines.XY.end(), { x, y, x + 0.9 / side, y + 0.7 / side });
+    constraints.Lines.Edges.push_back({ 2 * i, 2 * i + 1 });
+  }
+  constraints.Lines.PolygonBegin = constraints.Lines.Edges.size();
+  ConstrainedRun run(xy, constraints);
+  run.makeExpected();
+  run.Options.PiecePoints = run.Options.PartitionPoints = 0;
+  run.Options.MemoryLimit = 4 * side * side * sizeof(ConstraintSegment) / 5;
+  EXPECT_GT(run.run().Pieces, 4);
+  EXPECT_TRUE(run.matches());
 }
 
 TEST(OutOfCoreConstraint, RefusesCrossings)

@@ -5,12 +5,17 @@
 #include "Query/Lines.h"
 #include "Query/RankAnswer.h"
 #include "Query/RankAround.h"
+#include "Query/Zones.h"
 #include "Ranks/Communicator.h"
 
+#include "vtkCellArray.h"
+#include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkPartitionedMeshQuery.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <gtest/gtest.h>
@@ -260,6 +265,174 @@ TEST_F(QueryRanks, TellWhatLiesAroundInPartsInMemory)
       ResidentMesh(this->isLast() ? MeshPart() : inMemory(source, 0, this->Ranks.rank(), holders)),
       source);
   }
+}
+
+TEST_F(QueryRanks, ShareTheCellsOfZones)
+{
+  const SourceMesh source = makeSource(latticeTriangles(16, 0.3));
+  const ResidentMesh whole(inMemory(source));
+  const Zone square = { { { { 0.1, 0.1 }, { 0.8, 0.2 }, { 0.7, 0.9 }, { 0.1, 0.8 } }, false },
+    { { { 0.3, 0.3 }, { 0.4, 0.3 }, { 0.3, 0.4 } }, true } };
+  const Zone corner = { { { { -1, -1 }, { 2, -1 }, { -1, 2 } }, false } };
+  const Zone outside = { { { { 5, 5 }, { 6, 5 }, { 5, 6 } }, false } };
+  const std::vector<Zone> zones = { square, corner, outside };
+  const auto expectAsAlone = [&](const ResidentMesh& mesh)
+  {
+    this->Ranks.together(
+      [&]
+      {
+        for (const char* const array : { "value", "label" })
+        {
+          const ZoneStatistics expected = statisticsOf(whole, zones, array, 0, 0.25);
+          // Only the first rank's zones count.
+          const ZoneStatistics found = statisticsOnRanks(
+            this->Ranks, mesh, this->Ranks.isFirst() ? zones : std::vector<Zone>(), array, 0, 0.25);
+          EXPECT_EQ(expected.Cells, found.Cells);
+          EXPECT_EQ(expected.Area, found.Area);
+          EXPECT_EQ(expected.Sum, found.Sum);
+          EXPECT_EQ(expected.Above, found.Above);
+          for (std::size_t i = 0; i < 2; ++i)
+          {
+            EXPECT_EQ(expected.Low[i], found.Low[i]);
+            EXPECT_EQ(expected.High[i], found.High[i]);
+            EXPECT_EQ(expected.Mean[i], found.Mean[i]);
+          }
+        }
+      });
+  };
+  for (const char* const tiling : { "grid:3x3", "grid:1x1" })
+  {
+    this->store(source, tiling);
+    expectAsAlone(ResidentMesh(this->Path));
+  }
+  expectAsAlone(ResidentMesh(inMemory(source, 0, this->Ranks.rank(), this->Ranks.size())));
+  const int holders = std::max(1, this->Ranks.size() - 1);
+  expectAsAlone(
+    ResidentMesh(this->isLast() ? MeshPart() : inMemory(source, 0, this->Ranks.rank(), holders)));
+}
+
+TEST_F(QueryRanks, ShareWhatLiesInRegions)
+{
+  const SourceMesh source = makeSource(latticeTriangles(12, 0));
+  this->store(source, "grid:3x2");
+  const ResidentMesh whole(inMemory(source));
+  const ResidentMesh mesh(this->Path);
+  const Region region = { { 0.2, 0.6, 0.3, 0.7, 0, 0 }, {} };
+  this->Ranks.together(
+    [&]
+    {
+      const bool isFirst = this->Ranks.isFirst();
+      for (const bool inside : { false, true })
+      {
+        const std::vector<std::int64_t> cells = cellsOnRanks(this->Ranks, mesh, region, inside);
+        EXPECT_EQ(isFirst ? cellsIn(whole, region, inside) : std::vector<std::int64_t>(), cells);
+      }
+      EXPECT_EQ(isFirst ? pointsIn(whole, region) : std::vector<std::int64_t>(),
+        pointsOnRanks(this->Ranks, mesh, region));
+    });
+}
+
+TEST_F(QueryRanks, FollowWaysDownFromRankToRank)
+{
+  const SourceMesh source = makeSource(latticeTriangles(16, 0.3));
+  const ResidentMesh whole(inMemory(source));
+  const std::vector<Point3> points = this->ownOf(pointsAround(source, 60));
+  for (const char* const tiling : { "grid:4x4", "grid:1x1" })
+  {
+    this->store(source, tiling);
+    const ResidentMesh mesh(this->Path);
+    for (int component = 0; component < 2; ++component)
+    {
+      const Descents expected = descentsOf(whole, points, "value", component);
+      Descents found;
+      this->Ranks.together(
+        [&] { found = descentsOnRanks(this->Ranks, mesh, points, "value", component); });
+      EXPECT_EQ(expected.Starts, found.Starts);
+      EXPECT_EQ(expected.Points, found.Points);
+      EXPECT_EQ(expected.Pits, found.Pits);
+      ASSERT_EQ(expected.Values.size(), found.Values.size());
+      EXPECT_TRUE(std::equal(expected.Values.begin(), expected.Values.end(), found.Values.begin()));
+    }
+  }
+}
+
+TEST_F(QueryRanks, AnswersMayStayWhereTheCellsAre)
+{
+  const SourceMesh source = makeSource(latticeTriangles(16, 0)); // points on common edges
+  const std::vector<Point3> all = pointsAround(source, 200);
+  const std::vector<Point3> own = this->ownOf(all);
+  const ResidentMesh whole(inMemory(source));
+  this->store(source, "grid:4x3");
+  AnswerOptions options;
+  options.Arrays = { "value", "label" };
+  options.Weights = true;
+  const auto expectAsAlone = [&](const ResidentMesh& mesh)
+  {
+    StayingAnswer found;
+    this->Ranks.together(
+      [&]
+      {
+        found =
+          answerWhereCellsAre(this->Ranks, mesh, own.data(), std::int64_t(own.size()), options);
+        std::vector<std::int64_t> count = { std::int64_t(found.Points.size()) };
+        this->Ranks.sum(count);
+        const std::vector<std::int64_t> cells =
+          whole.answer(all.data(), std::int64_t(all.size())).Cells;
+        EXPECT_EQ(
+          std::count_if(cells.begin(), cells.end(), [](auto cell) { return cell >= 0; }), count[0]);
+      });
+    expectEqual(
+      whole.answer(found.Points.data(), std::int64_t(found.Points.size()), options), found.Answer);
+    const auto asking = std::size_t(std::max(1, this->Ranks.size() - 1));
+    for (std::size_t i = 0; i < found.Points.size(); ++i)
+    {
+      const std::size_t index =
+        std::size_t(found.Ranks[i]) + asking * std::size_t(found.Indices[i]);
+      EXPECT_EQ(all[index], found.Points[i]);
+    }
+  };
+  expectAsAlone(ResidentMesh(this->Path));
+  expectAsAlone(ResidentMesh(inMemory(source, 0, this->Ranks.rank(), this->Ranks.size())));
+}
+
+TEST_F(QueryRanks, TheFilterLeavesValuesOnOwnersAndSharesZonesAndWaysDown)
+{
+  const SourceMesh source = makeSource(latticeTriangles(10, 0.3));
+  this->store(source, "grid:3x3");
+  vtkNew<vtkPartitionedMeshQuery> query;
+  query->SetFileName(this->Path.c_str());
+  vtkNew<vtkDoubleArray> asked;
+  asked->SetNumberOfComponents(3);
+  asked->InsertNextTuple3(0.31, 0.32, 0);
+  asked->InsertNextTuple3(0.77, 0.81, 0);
+  asked->InsertNextTuple3(9, 9, 0);
+  vtkNew<vtkPolyData> values;
+  ASSERT_EQ(1, query->InterpolateOnOwners(asked, values));
+  EXPECT_TRUE(values->GetPointData()->GetArray("value"));
+  EXPECT_TRUE(values->GetPointData()->GetArray("AskingRank"));
+  std::vector<std::int64_t> count = { values->GetNumberOfPoints(), values->GetNumberOfVerts() };
+  this->Ranks.together([&] { this->Ranks.sum(count); });
+  EXPECT_EQ(2 * this->Ranks.size(), count[0]);
+  EXPECT_EQ(count[0], count[1]);
+
+  vtkNew<vtkPolyData> lines;
+  ASSERT_EQ(1, query->Descend(asked, "value", 0, lines));
+  EXPECT_EQ(2, lines->GetNumberOfLines());
+
+  vtkNew<vtkPoints> corners;
+  corners->InsertNextPoint(-1, -1, 0);
+  corners->InsertNextPoint(2, -1, 0);
+  corners->InsertNextPoint(2, 2, 0);
+  corners->InsertNextPoint(-1, 2, 0);
+  vtkNew<vtkCellArray> polygons;
+  const vtkIdType ids[4] = { 0, 1, 2, 3 };
+  polygons->InsertNextCell(4, ids);
+  vtkNew<vtkPolyData> zone;
+  zone->SetPoints(corners);
+  zone->SetPolys(polygons);
+  vtkNew<vtkPointData> statistics;
+  ASSERT_EQ(1, query->ZoneStatistics(zone, "value", 0, 0, statistics));
+  EXPECT_EQ(double(source.cells()), statistics->GetArray("Cells")->GetComponent(0, 0));
 }
 
 TEST_F(QueryRanks, TheFilterAsksAllRanksTogether)

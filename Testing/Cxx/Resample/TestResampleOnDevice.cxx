@@ -104,7 +104,7 @@ void expectNear(const Kinds& a, const Kinds& b)
   }
 }
 
-/// A device as it is, and as a card, so that what cards do is tested where there is none.
+/// A device as it is, and treated as a graphics card, so that this code is tested without one.
 class ResampleOnDevice : public testing::TestWithParam<bool>
 {
 protected:

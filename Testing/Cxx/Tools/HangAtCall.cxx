@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A library to be preloaded: the thread that reads, writes or syncs an ordinary file for the
 // TIPP_HANG_AT-th time makes the file TIPP_HANG_MARK and never comes back. With TIPP_HANG_RANK only
-// this rank of mpirun does.
+// this rank of mpirun does. Calls count once the program handles SIGTERM: before that the libraries
+// it is linked to may read files.
 #include <atomic>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 
@@ -30,11 +32,18 @@ bool isOrdinary(int file)
   return fstat(file, &info) == 0 && S_ISREG(info.st_mode);
 }
 
+bool handlesSignals()
+{
+  struct sigaction present = {};
+  return sigaction(SIGTERM, nullptr, &present) == 0 && present.sa_handler != SIG_DFL;
+}
+
 void hangHere(int file)
 {
   const char* const at = std::getenv("TIPP_HANG_AT");
   const char* const mark = std::getenv("TIPP_HANG_MARK");
-  if (at && mark && !isOtherRank() && isOrdinary(file) && ++callCount == std::atoi(at))
+  if (at && mark && handlesSignals() && !isOtherRank() && isOrdinary(file) &&
+    ++callCount == std::atoi(at))
   {
     close(open(mark, O_WRONLY | O_CREAT, 0600));
     for (;;)

@@ -121,6 +121,30 @@ TEST_F(TippQuery, WritesStatisticsOfZones)
     this->content("out.csv"));
 }
 
+TEST_F(TippQuery, ListsCellsAndPointsOfARegion)
+{
+  this->Folder.file("region.csv", "id,WKT\n1,\"POLYGON ((3 3,5 3,5 5,3 5,3 3))\"\n");
+  const auto listed = [this](Words words)
+  {
+    words.insert(words.begin(), { "query", "mesh.tipp", "-o", "ids.csv" });
+    const Outcome outcome = this->run(words);
+    EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+    return this->content("ids.csv");
+  };
+  EXPECT_EQ("point\n3\n", listed({ "--ids", "points", "--polygons", "region.csv" }));
+  EXPECT_EQ("point\n0\n1\n", listed({ "--ids", "points", "--bounds", "0", "4", "-1", "1" }));
+  EXPECT_EQ("cell\n0\n1\n", listed({ "--ids", "cells", "--bounds", "0", "4", "0", "4" }));
+  EXPECT_EQ("cell\n", listed({ "--ids", "cells", "--whole", "--bounds", "0", "3", "0", "3" }));
+  EXPECT_EQ(0,
+    this
+      ->run(
+        { "query", "mesh.vtu", "--ids", "points", "--bounds", "0", "4", "0", "0", "-o", "ids.npy" })
+      .ExitCode);
+  const std::string npy = this->content("ids.npy");
+  EXPECT_NE(std::string::npos, npy.find("'<i8'"));
+  EXPECT_EQ(std::string(8, '\0') + '\1' + std::string(7, '\0'), npy.substr(npy.size() - 16));
+}
+
 TEST_F(TippQuery, WritesWaysDownAsLines)
 {
   const Outcome outcome =
@@ -143,6 +167,13 @@ TEST_F(TippQuery, RefusesOptionsThatDoNotGoTogether)
     { "query", "asked.csv", "mesh.tipp", "-o", "out.npy", "--closest" }, "does not end in .csv");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--descend", "height" },
     "does not end in .vtp");
+  expect({ "query", "mesh.tipp", "-o", "ids.csv", "--ids", "cells" }, "give a region");
+  expect({ "query", "mesh.tipp", "-o", "ids.csv", "--ids", "cells", "--bounds", "0", "1", "2", "3",
+           "4" },
+    "four numbers");
+  expect({ "query", "asked.csv", "mesh.tipp", "-o", "ids.csv", "--ids", "cells", "--bounds", "0",
+           "1", "0", "1" },
+    "give the mesh alone");
 }
 
 TEST_F(TippQuery, RefusesWhatItCannotAnswer)

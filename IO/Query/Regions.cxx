@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Files/IOError.h"
+#include "Predicates/ExactPredicates.h"
+#include "Query/ForPieces.h"
+#include "Query/RankAnswer.h"
+#include "Query/Zones.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <type_traits>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// Decides what is in a region.
+class RegionTest
+{
+public:
+  RegionTest(const ResidentMesh& mesh, const Region& region)
+    : Dimension(mesh.mesh().CellSize - 1)
+    , Box(region.Box)
+    , IsBox(region.Polygons.empty())
+    , Shape(region.Polygons, 0)
+  {
+    if (!this->IsBox && this->Dimension == 3)
+    {
+      throw IOError(mesh.isStored() ? mesh.mesh().Path : "the mesh",
+        "has tetrahedra, of which a polygon holds none; give a box.");
+    }
+    for (std::size_t axis = 0; axis < std::size_t(this->Dimension) && this->IsBox; ++axis)
+    {
+      if (!(this->Box[2 * axis] <= this->Box[2 * axis + 1]))
+      {
+        throw IOError("The box has a minimum above its maximum, or bounds that are no numbers.");
+      }
+    }
+    this->Box = this->IsBox ? this->Box : boundsOf(this->Shape.bounds());
+  }
+
+  bool wants(const Bounds& box) const { return meets(box, this->Box, this->Dimension); }
+
+  bool holds(const Point3& p) const
+  {
+    const Bounds at = { p.x, p.x, p.y, p.y, p.z, p.z };
+    return meets(at, this->Box, this->Dimension) &&
+      (this->IsBox || this->Shape.holds({ p.x, p.y }));
+  }
+
+  /// Whether a cell that has an area or volume has a point of the region, or lies in it.
+  bool has(const Point2 (&t)[3], bool whole) const
+  {
+    if (!this->IsBox)
+    {
+      const ZoneShape::Relation relation = this->Shape.relationTo(t);
+      return relation == ZoneShape::Relation::Inside ||
+        (!whole && relation != ZoneShape::Relation::Apart);
+    }
+    const bool isUsable = isFinite(t[0]) && isFinite(t[1]) && isFinite(t[2]);
+    if (!isUsable || orientation(t[0], t[1], t[2]) == 0)
+    {
+      return false;
+    }
+    return whole ? std::all_of(t, t + 3,
+                     [this](Point2 p) {
+                       return this->holds({ p.x, p.y, 0 });
+                     })
+                 : triangleMeetsBox(t[0], t[1], t[2], this->box());
+  }
+  bool has(const Point3 (&t)[4], bool whole) const
+  {
+    const bool isUsable = std::all_of(t, t + 4,
+      [](const Point3& p)
+      { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); });
+    if (!isUsable || orientation3(t[0], t[1], t[2], t[3]) == 0)
+    {
+      return false;
+    }
+    return whole ? std::all_of(t, t + 4, [this](const Point3& p) { return this->holds(p); })
+                 : tetrahedronMeetsBox(t[0], t[1], t[2], t[3], this->box());
+  }
+
+private:
+  Box3 box() const
+  {
+    Box3 result;
+    for (std::size_t axis = 0; axis < std::size_t(this->Dimension); ++axis)
+    {
+      result.Min[axis] = this->Box[2 * axis];
+      result.Max[axis] = this->Box[2 * axis + 1];
+    }
+    return result;
+  }
+
+  const int Dimension;
+  Bounds Box;
+  const bool IsBox;
+  const ZoneShape Shape;
+};
+
+using Pieces = std::pair<std::size_t, std::size_t>;
+
+/// In the pieces [first, last); a cell may come several times.
+std::vector<std::int64_t> cellsIn(
+  const ResidentMesh& mesh, Pieces pieces, const Region& region, bool whole)
+{
+  const RegionTest test(mesh, region);
+  std::vector<std::int64_t> ids;
+  std::mutex mutex;
+  forCells(
+    mesh, pieces, {}, [&](const Bounds& box) { return test.wants(box); },
+    [&](const MeshPart& part, const Bounds*, std::int64_t begin, std::int64_t end)
+    {
+      std::vector<std::int64_t> own;
+      withAccess(part.Mesh,
+        [&](const auto& access)
+        {
+          std::conditional_t<std::decay_t<decltype(access)>::Dimension == 2, Point2, Point3>
+            corners[std::decay_t<decltype(access)>::Corners];
+          for (std::int64_t cell = begin; cell < end; ++cell)
+          {
+            access.corners(cell, corners);
+            const bool isHidden = part.Mesh.Hidden && part.Mesh.Hidden[cell];
+            !isHidden&& test.has(corners, whole) ? own.push_back(part.cellId(cell)) : void();
+          }
+        });
+      const std::lock_guard<std::mutex> lock(mutex);
+      ids.insert(ids.end(), own.begin(), own.end());
+    });
+  return ids;
+}
+
+std::vector<std::int64_t> pointsIn(const ResidentMesh& mesh, Pieces pieces, const Region& region)
+{
+  const RegionTest test(mesh, region);
+  std::vector<std::int64_t> ids;
+  for (std::size_t i = pieces.first; i < pieces.second; ++i)
+  {
+    if (mesh.isStored() && !test.wants(mesh.mesh().Pieces[i].Box))
+    {
+      continue;
+    }
+    poll();
+    const ResidentPieces::Lease piece = mesh.pieces().get(i, {});
+    const MeshPart& part = *piece->Part;
+    for (std::int64_t point = 0; point < part.Mesh.PointCount; ++point)
+    {
+      test.holds(positionOf(part, point)) ? ids.push_back(part.pointId(point)) : void();
+    }
+  }
+  return ids;
+}
+
+std::vector<std::int64_t> sorted(std::vector<std::int64_t> ids)
+{
+  sortUnique(ids);
+  return ids;
+}
+
+/// The ids of all ranks, on the first one.
+std::vector<std::int64_t> gathered(Communicator& ranks, std::vector<std::int64_t> own)
+{
+  std::vector<std::int64_t> all;
+  for (const std::vector<std::int64_t>& ids : ranks.gather(sorted(std::move(own))))
+  {
+    all.insert(all.end(), ids.begin(), ids.end());
+  }
+  return sorted(std::move(all));
+}
+
+} // namespace
+
+std::vector<std::int64_t> cellsIn(const ResidentMesh& mesh, const Region& region, bool whole)
+{
+  return sorted(cellsIn(mesh, allPieces(mesh), region, whole));
+}
+
+std::vector<std::int64_t> pointsIn(const ResidentMesh& mesh, const Region& region)
+{
+  return sorted(pointsIn(mesh, allPieces(mesh), region));
+}
+
+std::vector<std::int64_t> cellsOnRanks(
+  Communicator& ranks, const ResidentMesh& mesh, const Region& region, bool whole)
+{
+  return gathered(ranks, cellsIn(mesh, piecesOfRank(ranks, mesh), region, whole));
+}
+
+std::vector<std::int64_t> pointsOnRanks(
+  Communicator& ranks, const ResidentMesh& mesh, const Region& region)
+{
+  return gathered(ranks, pointsIn(mesh, piecesOfRank(ranks, mesh), region));
+}
+
+} // namespace tipp

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "QueryTesting.h"
+
+#include "Locate/NearCell.h"
+#include "Locate/PointGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+using namespace tipp;
+using namespace tipp::test;
+
+namespace
+{
+
+/// A few points in a part of the mesh that several pieces have.
+std::vector<Point3> pointsInCorner(const SourceMesh& source, std::size_t most)
+{
+  std::vector<Point3> points;
+  for (const Point3& p : pointsAround(source, 400))
+  {
+    if (p.x > 0.4 && p.x < 0.6 && p.y > 0.4 && p.y < 0.6 && points.size() < most)
+    {
+      points.push_back(p);
+    }
+  }
+  return points;
+}
+
+AnswerOptions allArrays(const ResidentMesh& mesh)
+{
+  AnswerOptions options;
+  options.Arrays = mesh.names();
+  options.Weights = true;
+  return options;
+}
+
+template <int D>
+void expectGridFindsAll(const std::vector<std::array<double, D>>& points,
+  const std::vector<std::array<double, D>>& corners)
+{
+  const PointGrid<D> grid(
+    std::int64_t(points.size()), 1, [&](std::int64_t i) { return points[std::size_t(i)]; });
+  int passedOver = 0;
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i)
+  {
+    Box<D> box = Box<D>::of(corners[i]);
+    box.extend(Box<D>::of(corners[i + 1]));
+    const auto low = grid.position(box.Low);
+    const auto high = grid.position(box.High);
+    const bool mayHold = grid.mayHold(low, high);
+    passedOver += mayHold ? 0 : 1;
+    const bool holds = std::any_of(
+      points.begin(), points.end(), [&box](const auto& point) { return box.holds(point); });
+    EXPECT_TRUE(mayHold || !holds);
+  }
+  EXPECT_LT(0, passedOver);
+}
+
+NearCell triangle(std::int64_t id, const Point3 (&corners)[3], const Point3& from)
+{
+  NearCell cell;
+  cell.Id = id;
+  std::copy_n(corners, 3, cell.Corners);
+  cell.measure(from);
+  return cell;
+}
+
+} // namespace
+
+TEST(NearPoints, AreAnsweredWithoutKeepingThePieces)
+{
+  for (const SourceMesh& source :
+    { makeSource(latticeTriangles(40, 0.3)), makeSource(latticeTetrahedra(6, 0)) })
+  {
+    const bool inSpace = source.CellSize == 4;
+    const ResidentMesh whole(inMemory(source));
+    const std::vector<Point3> points = pointsInCorner(source, 60);
+    ASSERT_LT(10U, points.size());
+    const auto count = std::int64_t(points.size());
+    const MeshAnswer expected = whole.answer(points.data(), count, allArrays(whole));
+    for (const bool duplicate : { false, true })
+    {
+      const TemporaryFolder folder;
+      store(source, folder.path("mesh.tipp"), inSpace ? "grid:2x2x1" : "grid:2x2", duplicate);
+      const ResidentMesh mesh(folder.path("mesh.tipp"));
+      expectEqual(expected, mesh.answer(points.data(), count, allArrays(mesh)));
+      EXPECT_EQ(0U, mesh.pieces().bytes());
+      EXPECT_LT(0, mesh.pieces().loads());
+    }
+  }
+}
+
+TEST(NearPoints, PiecesStayInMemoryOnceTheyAreAskedOften)
+{
+  const SourceMesh source = makeSource(latticeTriangles(40, 0.3));
+  const TemporaryFolder folder;
+  store(source, folder.path("mesh.tipp"), "grid:2x2", false);
+  const ResidentMesh mesh(folder.path("mesh.tipp"));
+  const std::vector<Point3> points = pointsInCorner(source, 5);
+  const auto count = std::int64_t(points.size());
+  const MeshAnswer expected = mesh.answer(points.data(), count, allArrays(mesh));
+  for (int i = 0; i < 6; ++i)
+  {
+    expectEqual(expected, mesh.answer(points.data(), count, allArrays(mesh)));
+  }
+  EXPECT_LT(0U, mesh.pieces().bytes());
+  const std::int64_t loads = mesh.pieces().loads();
+  expectEqual(expected, mesh.answer(points.data(), count, allArrays(mesh)));
+  EXPECT_EQ(loads, mesh.pieces().loads());
+}
+
+TEST(NearPoints, AnswersCountInTheMemoryLimitWherePiecesLeaveRoom)
+{
+  ResidentPieces pieces(
+    1000, [](std::size_t, const PieceNeeds&) { return std::uint64_t(600); },
+    [](std::size_t, const PieceNeeds&, const ResidentPiece&)
+    {
+      ResidentPiece piece;
+      piece.Part = std::make_shared<const MeshPart>();
+      return piece;
+    },
+    [](std::size_t, std::uint64_t) {});
+  pieces.get(0, {});
+  EXPECT_EQ(600U, pieces.bytes());
+  {
+    const ResidentPieces::Share answers = pieces.note(500);
+    EXPECT_FALSE(pieces.take(1001));
+    EXPECT_TRUE(pieces.take(300)); // displaces the piece
+    EXPECT_EQ(0U, pieces.bytes());
+    pieces.get(1, {}); // more than is left, but it is needed
+    EXPECT_EQ(600U, pieces.bytes());
+  }
+  EXPECT_TRUE(pieces.take(300)); // has room beside the piece
+  EXPECT_EQ(600U, pieces.bytes());
+}
+
+TEST(PointGrid, NeverPassesOverABoxThatHoldsAPoint)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> at(0, 1);
+  std::vector<std::array<double, 2>> corners = { { -infinity, 0.5 }, { 0.1, 0.1 },
+    { infinity, 0.2 }, { 2, 2 }, { 3, 3 }, { -5, 0.5 }, { -4, 0.6 } };
+  std::vector<std::array<double, 3>> inSpace = { { 2, 2, 2 }, { 3, 3, 3 } };
+  for (int i = 0; i < 400; ++i)
+  {
+    corners.push_back({ 0.4 + 0.3 * at(random), 0.5 + 0.01 * at(random) });
+    inSpace.push_back({ at(random), 0.1 * at(random), at(random) });
+  }
+  std::vector<std::array<double, 2>> points = { { 0.5, 0.5 } };
+  expectGridFindsAll<2>(points, corners); // a single one
+  points.push_back({ 0.5, 0.9 });         // along a line
+  expectGridFindsAll<2>(points, corners);
+  points.insert(points.end(), corners.begin() + 20, corners.begin() + 60);
+  expectGridFindsAll<2>(points, corners);
+  expectGridFindsAll<3>({ { 0.5, 0.05, 0.5 }, { 0.6, 0.01, 0.2 } }, inSpace);
+}
+
+TEST(NearCell, IsNearestByExactDistanceAndThenByLowestId)
+{
+  const Point3 from{ 0.5, -1, 0 };
+  const NearCell touching = triangle(7, { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 1, 0 } }, from);
+  const NearCell asNear = triangle(3, { { 0.25, 0, 0 }, { 2, 0, 0 }, { 1, 1, 0 } }, from);
+  const double above = std::nextafter(0.0, 1.0);
+  const NearCell farther = triangle(1, { { 0, above, 0 }, { 1, above, 0 }, { 0.5, 1, 0 } }, from);
+  EXPECT_TRUE(asNear.isBetterThan(touching, from));
+  EXPECT_FALSE(touching.isBetterThan(asNear, from));
+  EXPECT_TRUE(touching.isBetterThan(farther, from)); // by less than a double can tell
+  NearCell measured = touching;
+  EXPECT_DOUBLE_EQ(1, measured.distance(from));
+  EXPECT_DOUBLE_EQ(0.5, measured.At.x);
+  EXPECT_DOUBLE_EQ(0, measured.At.y);
+}
