@@ -323,7 +323,8 @@ int vtkPartitionedMeshQuery::Locate(
     });
 }
 
-int vtkPartitionedMeshQuery::Interpolate(vtkDataArray* points, vtkDataSetAttributes* values)
+int vtkPartitionedMeshQuery::Interpolate(
+  vtkDataArray* points, vtkDataSetAttributes* values, vtkIdTypeArray* cells)
 {
   return this->Direct(
     [&]
@@ -333,6 +334,7 @@ int vtkPartitionedMeshQuery::Interpolate(vtkDataArray* points, vtkDataSetAttribu
       {
         values->AddArray(tipp::takeOver(array));
       }
+      tipp::copyTo(cells, answer.Cells);
     });
 }
 

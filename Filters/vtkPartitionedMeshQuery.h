@@ -167,16 +167,17 @@ public:
   int Locate(vtkDataArray* points, vtkIdTypeArray* cells, vtkDoubleArray* weights = nullptr);
 
   /**
-   * Adds the mesh's arrays at points to `values`; outside floating-point numbers are NaN.
-   * Collective.
+   * Adds the mesh's arrays at points to `values`; outside floating-point numbers are NaN. `cells`,
+   * which may be null, gets the cells that hold the points. Collective.
    */
-  int Interpolate(vtkDataArray* points, vtkDataSetAttributes* values);
+  int Interpolate(
+    vtkDataArray* points, vtkDataSetAttributes* values, vtkIdTypeArray* cells = nullptr);
 
   /**
-   * As Interpolate(), but the values stay on the rank that has the cell. `values` gets the points of
-   * all ranks in this rank's cells, with the mesh's arrays, "CellId", and the "AskingRank" and
-   * "AskingId", which tell whose point it is and its number there. Points outside of the mesh are on
-   * no rank. Collective.
+   * As Interpolate(), but the values stay on the rank that has the cell. `values` gets the points
+   * of all ranks in this rank's cells, with the mesh's arrays, "CellId", and the "AskingRank" and
+   * "AskingId", which tell whose point it is and its number there. Points outside of the mesh are
+   * on no rank. Collective.
    */
   int InterpolateOnOwners(vtkDataArray* points, vtkPolyData* values);
 

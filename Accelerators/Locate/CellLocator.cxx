@@ -2,6 +2,7 @@
 #include "Locate/CellLocator.h"
 
 #include "Locate/CellChoice.h"
+#include "Locate/Locations.h"
 #include "Locate/PointGrid.h"
 
 #include <algorithm>
@@ -13,35 +14,6 @@ namespace tipp
 {
 namespace
 {
-
-/// Hands locations on, many at once.
-class Locations
-{
-public:
-  explicit Locations(const TakeLocations& take)
-    : Take(take)
-  {
-  }
-
-  void add(std::int64_t point, const CellLocation& at)
-  {
-    this->Points[std::size_t(this->Count)] = point;
-    this->At[std::size_t(this->Count)] = at;
-    ++this->Count == Most ? this->flush() : void();
-  }
-  void flush()
-  {
-    this->Count > 0 ? this->Take(this->Points.data(), this->At.data(), this->Count) : void();
-    this->Count = 0;
-  }
-
-private:
-  static constexpr std::int64_t Most = 128;
-  const TakeLocations& Take;
-  std::int64_t Count = 0;
-  std::array<std::int64_t, Most> Points;
-  std::array<CellLocation, Most> At;
-};
 
 /// The cells look for the points that they hold.
 template <typename Access>

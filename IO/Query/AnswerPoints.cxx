@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/IOError.h"
 #include "Locate/CellLocator.h"
+#include "Locate/CellPass.h"
 #include "Locate/PointGrid.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
@@ -22,6 +23,10 @@ namespace
 /// than one point per `cellsPerPoint` cells.
 constexpr int searchesWithoutLocator = 4;
 constexpr std::int64_t cellsPerPoint = 8;
+
+/// For more points than one per so many cells a pass over the cells is the fastest.
+constexpr std::int64_t cellsPerPointOfPass = 2;
+constexpr std::uint64_t bytesOfPass = 40; ///< a point
 
 /// At most this share of a piece's cells is read without the others.
 constexpr std::int64_t cellsPerNearOne = 3;
@@ -180,9 +185,9 @@ PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces, std::size_t co
   return result;
 }
 
-/// Answers in a part of the mesh.
-void ResidentMesh::answerPart(const MeshPart& part, const CellLocator* locator,
-  const AskedPoints& asked, const AnswerOptions& options, int threads, MeshAnswer& answer) const
+/// Answers in a part of the mesh where locate(take) finds the points; returns what that returns.
+bool ResidentMesh::answerPart(const MeshPart& part, const AskedPoints& asked,
+  const AnswerOptions& options, const Locate& locate, MeshAnswer& answer) const
 {
   std::vector<PartValues> values;
   for (const std::string& name : options.Arrays)
@@ -190,7 +195,7 @@ void ResidentMesh::answerPart(const MeshPart& part, const CellLocator* locator,
     values.emplace_back(part, this->find(name));
   }
   const auto corners = std::size_t(this->Mesh.CellSize);
-  locatePoints(part.Mesh, part.CellIds, locator, asked, threads,
+  return locate(
     [&](const std::int64_t* points, const CellLocation* at, std::int64_t count)
     {
       for (std::int64_t i = 0; i < count; ++i)
@@ -211,6 +216,37 @@ void ResidentMesh::answerPart(const MeshPart& part, const CellLocator* locator,
         values[a].sample(at, points, count, answer.Arrays[a].Values.data());
       }
     });
+}
+
+/// False if that is not the fastest; then some answers may be there.
+bool ResidentMesh::answerInOnePass(const MeshPart& part, const AskedPoints& asked,
+  const AnswerOptions& options, int threads, MeshAnswer& answer) const
+{
+  if (asked.Count <= part.Mesh.Cells / cellsPerPointOfPass)
+  {
+    return false;
+  }
+  const ResidentPieces::Share memory =
+    this->Resident.note(std::uint64_t(asked.Count) * bytesOfPass);
+  return this->answerPart(
+    part, asked, options,
+    [&](const TakeLocations& take)
+    { return locateInOnePass(part.Mesh, part.CellIds, asked, threads, take); },
+    answer);
+}
+
+/// The locator may be null.
+void ResidentMesh::answerBy(const CellLocator* locator, const MeshPart& part,
+  const AskedPoints& asked, const AnswerOptions& options, int threads, MeshAnswer& answer) const
+{
+  this->answerPart(
+    part, asked, options,
+    [&](const TakeLocations& take)
+    {
+      locatePoints(part.Mesh, part.CellIds, locator, asked, threads, take);
+      return true;
+    },
+    answer);
 }
 
 /// Whether it is better to read only the cells near the points than to have the whole piece in
@@ -251,12 +287,14 @@ bool ResidentMesh::answerNear(std::size_t number, const PieceNeeds& needs, const
     return false;
   }
   const MeshPart part = partOf(std::move(near));
-  std::optional<CellLocator> locator;
-  if (asked.Count > part.Mesh.Cells / 2)
+  if (!this->answerInOnePass(part, asked, options, threads, answer))
   {
-    locator.emplace(part.Mesh, part.CellIds, threads);
+    std::optional<CellLocator> locator;
+    asked.Count > part.Mesh.Cells / cellsPerPoint
+      ? void(locator.emplace(part.Mesh, part.CellIds, threads))
+      : void();
+    this->answerBy(locator ? &*locator : nullptr, part, asked, options, threads, answer);
   }
-  this->answerPart(part, locator ? &*locator : nullptr, asked, options, threads, answer);
   return true;
 }
 
@@ -270,12 +308,20 @@ void ResidentMesh::answerPiece(std::size_t number, const AskedPoints& asked,
     return;
   }
   const PieceSummary& summary = this->Mesh.Pieces[number];
+  const std::int64_t cells = summary.Cells + summary.BorrowedCells;
+  if (asked.Count > cells / cellsPerPointOfPass)
+  {
+    const ResidentPieces::Lease piece = this->Resident.get(number, needs);
+    if (this->answerInOnePass(*piece->Part, asked, options, threads, answer))
+    {
+      return;
+    }
+  }
   needs.Locator = true;
   needs.Locator = this->Resident.fits(number, needs) &&
-    (asked.Count > (summary.Cells + summary.BorrowedCells) / cellsPerPoint ||
-      this->Resident.uses(number) >= searchesWithoutLocator);
+    (asked.Count > cells / cellsPerPoint || this->Resident.uses(number) >= searchesWithoutLocator);
   const ResidentPieces::Lease piece = this->Resident.get(number, needs);
-  this->answerPart(*piece->Part, piece->Locator.get(), asked, options, threads, answer);
+  this->answerBy(piece->Locator.get(), *piece->Part, asked, options, threads, answer);
 }
 
 MeshAnswer ResidentMesh::answer(

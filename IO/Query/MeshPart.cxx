@@ -98,8 +98,14 @@ void PartValues::sample(
     {
       using Value = decltype(zero);
       const auto components = std::size_t(this->Description.Components);
+      constexpr std::int64_t ahead = 16; // values of points lie anywhere in memory
       for (std::int64_t i = 0; i < count; ++i)
       {
+        for (int k = 0; k < this->Corners && i + ahead < count && this->Description.OfPoints; ++k)
+        {
+          __builtin_prefetch(static_cast<const Value*>(this->Values) +
+            this->corner(at[i + ahead].Cell, k) * this->Stride);
+        }
         char* const to = values + std::size_t(tuples[i]) * components * sizeof(Value);
         for (std::size_t k = 0; k < components; ++k)
         {

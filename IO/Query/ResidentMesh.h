@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ namespace tipp
 
 struct AskedPoints;
 class PieceBoxes;
+using TakeLocations =
+  std::function<void(const std::int64_t* points, const CellLocation* at, std::int64_t count)>;
 
 struct ResidentOptions
 {
@@ -139,7 +142,12 @@ public:
 private:
   void answerPiece(std::size_t number, const AskedPoints& asked, const AnswerOptions& options,
     int threads, bool mayStay, MeshAnswer& answer) const;
-  void answerPart(const MeshPart& part, const CellLocator* locator, const AskedPoints& asked,
+  using Locate = std::function<bool(const TakeLocations&)>;
+  bool answerPart(const MeshPart& part, const AskedPoints& asked, const AnswerOptions& options,
+    const Locate& locate, MeshAnswer& answer) const;
+  bool answerInOnePass(const MeshPart& part, const AskedPoints& asked, const AnswerOptions& options,
+    int threads, MeshAnswer& answer) const;
+  void answerBy(const CellLocator* locator, const MeshPart& part, const AskedPoints& asked,
     const AnswerOptions& options, int threads, MeshAnswer& answer) const;
   bool wantsNear(
     std::size_t number, const PieceNeeds& needs, const AskedPoints& asked, bool mayStay) const;

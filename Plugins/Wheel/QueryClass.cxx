@@ -137,12 +137,12 @@ public:
       copied(answer.Cells), copied(answer.Weights, std::size_t(this->Mesh->mesh().CellSize)));
   }
 
-  nb::dict interpolate(const InputArray& points, const std::vector<std::string>& names) const
+  nb::tuple sample(const InputArray& points, const std::vector<std::string>& names) const
   {
     AnswerOptions options;
     options.Arrays = names;
     MeshAnswer answer = this->ask(points, options);
-    return valuesOf(answer);
+    return nb::make_tuple(copied(answer.Cells), valuesOf(answer));
   }
 
   nb::object neighbors(const InputArray& cells) const
@@ -294,7 +294,7 @@ void addQueryClass(nb::module_& module)
       const std::vector<InputArray>&, std::size_t, int>())
     .def("names", &Query::names)
     .def("locate", &Query::locate)
-    .def("interpolate", &Query::interpolate)
+    .def("sample", &Query::sample)
     .def("neighbors", &Query::neighbors)
     .def("star", &Query::star)
     .def("ring_of_points", &Query::ringOfPoints)

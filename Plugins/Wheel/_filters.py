@@ -412,8 +412,7 @@ class vtkPartitionedMeshQuery(Filter):
         else:
             for i in range(len(points)):
                 points[i] = asked.GetPoint(i)
-        cells, _ = mesh.locate(points)
-        values = mesh.interpolate(points, self.texts or mesh.names())
+        cells, values = mesh.sample(points, self.texts or mesh.names())
         output = vtkDataSet.GetData(outputs, 0)
         output.CopyStructure(asked)
         for kind in ("Point", "Cell", "Field"):

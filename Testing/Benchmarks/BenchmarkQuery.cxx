@@ -48,8 +48,8 @@ double processorSeconds()
   return of(usage.ru_utime) + of(usage.ru_stime);
 }
 
-/// Prints the fastest of some runs; `work` returns what it found.
-void row(const std::string& name, int repeat, const std::function<std::int64_t()>& work)
+/// Prints the fastest of some runs, and returns its time; `work` returns what it found.
+double row(const std::string& name, int repeat, const std::function<std::int64_t()>& work)
 {
   double wall = HUGE_VAL;
   double processor = HUGE_VAL;
@@ -65,6 +65,12 @@ void row(const std::string& name, int repeat, const std::function<std::int64_t()
   std::printf("| %s | %.3f s | %.3f s | %lld |\n", name.c_str(), wall, processor,
     static_cast<long long>(found));
   std::fflush(stdout);
+  return wall;
+}
+
+void ratioRow(const std::string& name, double ratio)
+{
+  std::printf("| %s | %.1f times | | |\n", name.c_str(), ratio);
 }
 
 vtkSmartPointer<vtkPolyData> asPolyData(const std::vector<Point3>& points)
@@ -137,7 +143,7 @@ public:
   void probe(std::int64_t queries, int repeat) const
   {
     const std::vector<Point3> asked = scattered(queries, this->Bounds);
-    row("scattered points, with the locator", repeat,
+    const double first = row("scattered points, for the first time", repeat,
       [&]
       {
         const ResidentMesh resident(partOf(this->Mesh, 0));
@@ -148,7 +154,7 @@ public:
     row("scattered points, once more", repeat,
       [&] { return hits(resident.answer(asked.data(), queries, this->Options)); });
     const vtkSmartPointer<vtkPolyData> input = asPolyData(asked);
-    row("vtkPartitionedMeshQuery, with its locator", 1,
+    row("vtkPartitionedMeshQuery", 1,
       [&]
       {
         vtkNew<vtkPartitionedMeshQuery> query;
@@ -157,7 +163,7 @@ public:
         query->Update();
         return std::int64_t(hitsOf(vtkDataSet::SafeDownCast(query->GetOutput())));
       });
-    row("vtkProbeFilter, with its locator", 1,
+    const double theirs = row("vtkProbeFilter, with its locator", 1,
       [&]
       {
         vtkNew<vtkProbeFilter> probe;
@@ -166,6 +172,7 @@ public:
         probe->Update();
         return std::int64_t(hitsOf(probe->GetOutput()));
       });
+    ratioRow("vtkProbeFilter over the first time", theirs / first);
   }
 
   void order(std::int64_t queries, int repeat) const
@@ -173,7 +180,7 @@ public:
     const int side = int(std::sqrt(double(queries)));
     const std::vector<Point3> ordered = inOrder(side, this->Bounds);
     const auto count = std::int64_t(ordered.size());
-    row("points in order, with the locator", repeat,
+    const double first = row("points in order, for the first time", repeat,
       [&]
       {
         const ResidentMesh resident(partOf(this->Mesh, 0));
@@ -183,7 +190,7 @@ public:
     resident.answer(ordered.data(), count, this->Options);
     row("points in order, once more", repeat,
       [&] { return hits(resident.answer(ordered.data(), count, this->Options)); });
-    row("a grid of as many samples, resampled", repeat,
+    const double resampled = row("a grid of as many samples, resampled", repeat,
       [&]
       {
         vtkNew<vtkRangeResampleFilter> filter;
@@ -193,6 +200,7 @@ public:
         filter->Update();
         return std::int64_t(hitsOf(filter->GetOutput()));
       });
+    ratioRow("the first time over resampling", first / resampled);
   }
 
   void rings(std::int64_t queries, int repeat) const

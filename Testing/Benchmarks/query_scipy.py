@@ -3,7 +3,8 @@
 
 Usage: query_scipy.py POINTS QUERIES      (set OMP_NUM_THREADS=1 to have one thread here too)
 
-Two values at uniform points, at scattered points. scipy's triangulation is not counted; our locator is.
+Two values at uniform points, at scattered points. scipy's triangulation is not counted. It is asked a tenth of the
+points, in a random order, and its time taken ten times.
 """
 import importlib.util
 import sys
@@ -30,7 +31,7 @@ def main():
     mesh = tipp.delaunay_2d(points, point_data={"height": values[:, 0].copy(), "wave": values[:, 1].copy()})
     ours, seconds = timed(lambda: tipp.open(mesh).interpolate(asked, ["height", "wave"]))
     print(f"{count} points, {queries} scattered points, two arrays")
-    print(f"tipp: {seconds:.2f} s with the locator")
+    print(f"tipp: {seconds:.2f} s for the first time")
     if not importlib.util.find_spec("scipy"):
         print("scipy is not installed: no LinearNDInterpolator")
         return
@@ -38,9 +39,11 @@ def main():
     from scipy.spatial import Delaunay
 
     interpolator = LinearNDInterpolator(Delaunay(points), values)
-    theirs, their_seconds = timed(lambda: interpolator(asked))
-    print(f"scipy: {their_seconds:.2f} s, {their_seconds / seconds:.1f} times ours")
-    apart = np.nanmax(np.abs(np.stack([ours["height"], ours["wave"]], axis=1) - theirs))
+    tenth = asked[::10]
+    theirs, their_seconds = timed(lambda: interpolator(tenth))
+    ratio = their_seconds / seconds * queries / len(tenth)
+    print(f"scipy, a tenth of the points: {their_seconds:.2f} s; for all {ratio:.1f} times ours")
+    apart = np.nanmax(np.abs(np.stack([ours["height"], ours["wave"]], axis=1)[::10] - theirs))
     print(f"the two differ by {apart:.1e} at most")
 
 

@@ -3,9 +3,9 @@
 #   --points N  of the triangulation that is asked (5000000: 10 million triangles)
 #   --queries N points to ask for (10000000)
 #   --repeat R  runs of each; the fastest counts (3)
-#   --rows      of probe (scattered points, beside vtkProbeFilter), order (points in rows, beside resampling),
-#               rings (a million), contours (of twice as many points, beside vtkContourFilter), scipy (beside its
-#               LinearNDInterpolator; of the interpreter that TIPP_SCIPY_PYTHON names, else /usr/bin/python3),
+#   --rows      of probe (scattered points, one thread, beside vtkProbeFilter), order (points in rows, beside
+#               resampling), rings (a million), contours (of twice as many points, beside vtkContourFilter), scipy
+#               (a tenth of the points, one thread, beside its LinearNDInterpolator; of the interpreter that TIPP_SCIPY_PYTHON names, else /usr/bin/python3),
 #               ranks (tipp query on 1 to 8 ranks of one thread each), and stored: a partitioned mesh of 200 million
 #               triangles in 256 MB. It is made in the folder that TIPP_QUERY_STORE names and stays there, else it is
 #               removed; needs 25 GB on the disk. All but stored by default
@@ -67,7 +67,8 @@ build_targets benchmarkQuery tipp
 for name in $(echo "$rows" | tr , " "); do
   echo
   case $name in
-    probe | order) "$build/bin/benchmarkQuery" "$name" "$points" "$queries" "$repeat" ;;
+    probe) OMP_NUM_THREADS=1 "$build/bin/benchmarkQuery" probe "$points" "$queries" "$repeat" ;;
+    order) "$build/bin/benchmarkQuery" order "$points" "$queries" "$repeat" ;;
     rings) OMP_NUM_THREADS=1 "$build/bin/benchmarkQuery" rings "$points" 1000000 "$repeat" ;;
     contours) "$build/bin/benchmarkQuery" contours "$((2 * points))" "$repeat" ;;
     scipy)

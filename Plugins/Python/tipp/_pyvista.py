@@ -71,9 +71,8 @@ class Accessor:
         result = self._dataset.copy(deep=False)
         points = np.asarray(self._dataset.points)
         with open_mesh(target, memory=memory, step=step, threads=threads) as mesh:
-            cells, _ = mesh.locate(points)
             names = [arrays] if isinstance(arrays, str) else arrays
-            values = mesh.interpolate(points, mesh.array_names if names is None else names)
+            cells, values = mesh._sample(points, names)  # pylint: disable=protected-access
         for name, array in values.items():
             if array.dtype.kind == "f":
                 array[cells < 0] = null

@@ -163,10 +163,14 @@ class ResidentMesh:
         array, or dict of arrays
             For one name its array, else a dict by name. Outside of the mesh NaN, or 0 in arrays of whole numbers.
         """
+        _, values = self._sample(points, arrays)
+        return values[arrays] if isinstance(arrays, str) else values
+
+    def _sample(self, points: ArrayLike, arrays: str | Iterable[str] | None) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        """The cells that hold points, and the arrays there, located once."""
         wanted = self._names if arrays is None else check.names(arrays, "arrays")
         check.require_arrays(wanted, self._names, "")
-        values = self._ask().interpolate(_points(points), wanted)
-        return values[arrays] if isinstance(arrays, str) else values
+        return self._ask().sample(_points(points), wanted)
 
     def neighbors(self, cells: ArrayLike) -> np.ndarray:
         """For each cell and each of its corners the cell across the opposite edge or face; -1: there is none."""

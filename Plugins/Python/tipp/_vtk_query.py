@@ -60,16 +60,17 @@ class MeshQuery:
         self._run(lambda: self._query.Locate(vtk_points(points).GetData(), cells, weights))
         return vtk_to_numpy(cells), vtk_to_numpy(weights)
 
-    def interpolate(self, points: np.ndarray, names: list[str]) -> dict[str, np.ndarray]:
-        values = vtkPointData()
+    def sample(self, points: np.ndarray, names: list[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        if not names:
+            return self.locate(points)[0], {}
+        values, cells = vtkPointData(), vtkIdTypeArray()
 
         def call() -> None:
             self._name(names)
-            self._query.Interpolate(vtk_points(points).GetData(), values)
+            self._query.Interpolate(vtk_points(points).GetData(), values, cells)
 
-        if names:
-            self._run(call)
-        return arrays_of(values)
+        self._run(call)
+        return vtk_to_numpy(cells), arrays_of(values)
 
     def neighbors(self, cells: np.ndarray) -> np.ndarray:
         found = vtkIdTypeArray()

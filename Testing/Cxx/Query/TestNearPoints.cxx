@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QueryTesting.h"
 
+#include "Locate/CellLocator.h"
+#include "Locate/CellPass.h"
 #include "Locate/NearCell.h"
 #include "Locate/PointGrid.h"
 
@@ -8,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 
@@ -137,6 +140,90 @@ TEST(NearPoints, AnswersCountInTheMemoryLimitWherePiecesLeaveRoom)
   }
   EXPECT_TRUE(pieces.take(300)); // has room beside the piece
   EXPECT_EQ(600U, pieces.bytes());
+}
+
+TEST(OnePass, LocatesAsLocatorsDoAlsoWhereCellsOverlap)
+{
+  SourceMesh overlapping = makeSource(latticeTriangles(12, 0.3));
+  const std::vector<std::int64_t> cells = overlapping.Cells;
+  for (std::size_t i = 0; i + 4 < cells.size(); i += 9) // triangles of corners of two
+  {
+    overlapping.Cells.insert(overlapping.Cells.end(), { cells[i], cells[i + 4], cells[i + 2] });
+    overlapping.Labels.push_back(7);
+  }
+  for (const SourceMesh& source : { makeSource(latticeTriangles(16, 0)), overlapping,
+         makeSource(latticeTetrahedra(4, 0)), makeSource(latticeTetrahedra(4, 0.3)) })
+  {
+    const MeshPart part = inMemory(source);
+    std::vector<Point3> points = pointsAround(source, 2000);
+    points.push_back({ std::numeric_limits<double>::quiet_NaN(), 0, 0 });
+    const AskedPoints asked = { points.data(), nullptr, std::int64_t(points.size()) };
+    const auto located = [&](const std::function<void(const TakeLocations&)>& locate)
+    {
+      std::vector<CellLocation> found(points.size());
+      locate(
+        [&found](const std::int64_t* indices, const CellLocation* at, std::int64_t count)
+        {
+          for (std::int64_t i = 0; i < count; ++i)
+          {
+            found[std::size_t(indices[i])] = at[i];
+          }
+        });
+      return found;
+    };
+    const CellLocator locator(part.Mesh, part.CellIds, 1);
+    const std::vector<CellLocation> expected = located([&](const TakeLocations& take)
+      { locatePoints(part.Mesh, part.CellIds, &locator, asked, 1, take); });
+    for (const int threads : { 1, 3 })
+    {
+      const std::vector<CellLocation> found = located([&](const TakeLocations& take)
+        { EXPECT_TRUE(locateInOnePass(part.Mesh, part.CellIds, asked, threads, take)); });
+      for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        ASSERT_EQ(expected[i].Cell, found[i].Cell) << i;
+        EXPECT_TRUE(std::equal(expected[i].Weights, expected[i].Weights + 4, found[i].Weights));
+      }
+    }
+  }
+}
+
+TEST(OnePass, GivesUpWhereThinCellsWouldTestTooManyPoints)
+{
+  SourceMesh fan;
+  fan.CellSize = 3;
+  const int count = 400; // long triangles around the origin, with boxes of a quarter of all
+  fan.Coordinates = { 0, 0 };
+  for (int i = 0; i < count; ++i)
+  {
+    const double angle = 6.283185307179586 * i / count;
+    fan.Coordinates.insert(fan.Coordinates.end(), { std::cos(angle), std::sin(angle) });
+    fan.Cells.insert(fan.Cells.end(), { 0, i + 1, (i + 1) % count + 1 });
+  }
+  std::vector<double> spatial;
+  for (std::size_t i = 0; i < fan.Coordinates.size(); i += 2)
+  {
+    spatial.insert(spatial.end(), { fan.Coordinates[i], fan.Coordinates[i + 1], 0 });
+  }
+  MeshPart part;
+  part.Mesh.Points = spatial.data();
+  part.Mesh.Ids = fan.Cells.data();
+  part.Mesh.Wide = true;
+  part.Mesh.Cells = count;
+  part.Mesh.PointCount = count + 1;
+  part.OwnedCells = count;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> at(-0.7, 0.7);
+  std::vector<Point3> points(20000);
+  for (Point3& p : points)
+  {
+    p = { at(random), at(random), 0 };
+  }
+  const AskedPoints asked = { points.data(), nullptr, std::int64_t(points.size()) };
+  EXPECT_FALSE(locateInOnePass(
+    part.Mesh, nullptr, asked, 1, [](const std::int64_t*, const CellLocation*, std::int64_t) {}));
+  const ResidentMesh mesh(part);
+  const MeshAnswer answer = mesh.answer(points.data(), std::int64_t(points.size()));
+  EXPECT_EQ(0, std::count(answer.Cells.begin(), answer.Cells.end(), -1));
 }
 
 TEST(PointGrid, NeverPassesOverABoxThatHoldsAPoint)

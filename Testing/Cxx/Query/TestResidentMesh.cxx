@@ -4,6 +4,7 @@
 #include "ExpectIOError.h"
 #include "Files/IOError.h"
 #include "Query/Around.h"
+#include "Query/Closest.h"
 
 #include <gtest/gtest.h>
 
@@ -178,10 +179,15 @@ TEST_F(ResidentMeshTest, DoesWithoutWhatDoesNotFitIntoTheLimit)
   const std::vector<Point3> points = pointsAround(source, 500);
   const ResidentMesh free(this->path());
   const MeshAnswer expected = answerOf(free, points);
+  closestTo(free, points.data(), std::int64_t(points.size())); // makes a locator
   ResidentOptions options;
-  options.MemoryLimit = free.pieces().bytes() - 1; // no locator
+  options.MemoryLimit = free.pieces().bytes() - 1;
   const ResidentMesh mesh(this->path(), options);
   expectEqual(expected, answerOf(mesh, points));
+  for (std::size_t i = 0; i < 8; ++i) // often enough to want a locator
+  {
+    EXPECT_EQ(expected.Cells[7 * i], mesh.answer(&points[7 * i], 1).Cells[0]);
+  }
   EXPECT_EQ(2U, starsOf(mesh, { 0 }).Starts.size()); // now without the arrays
   EXPECT_LE(mesh.pieces().bytes(), options.MemoryLimit);
   expectEqual(expected, answerOf(mesh, points));
