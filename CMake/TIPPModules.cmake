@@ -18,8 +18,9 @@ vtk_module_scan(
   WANT_BY_DEFAULT ON
   HIDE_MODULES_FROM_CACHE ON)
 
-# The libraries find each other wherever the installed tree is moved to.
+# The libraries find each other wherever the installed tree is moved to, and VTK where it was.
 set(CMAKE_INSTALL_RPATH "$ORIGIN")
+set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)
 vtk_module_build(
   MODULES ${tipp_modules}
   PACKAGE TIPP
@@ -31,4 +32,5 @@ vtk_module_build(
   LIBRARY_NAME_SUFFIX "${tipp_library_suffix}"
   VERSION "${PROJECT_VERSION}"
   SOVERSION "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
+unset(CMAKE_INSTALL_RPATH_USE_LINK_PATH)
 unset(CMAKE_INSTALL_RPATH)

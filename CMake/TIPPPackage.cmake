@@ -26,4 +26,5 @@ install(FILES LICENSE CITATION.cff CHANGELOG.md
 
 file(RELATIVE_PATH tipp_tool_to_libraries
   "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
-set_target_properties(tipp PROPERTIES INSTALL_RPATH "$ORIGIN/${tipp_tool_to_libraries}")
+set_target_properties(tipp PROPERTIES
+  INSTALL_RPATH "$ORIGIN/${tipp_tool_to_libraries}" INSTALL_RPATH_USE_LINK_PATH ON)

@@ -201,10 +201,8 @@ private:
     this->findBegun(partition.Number);
     const auto idOf = [&](Index v) { return PointId(partition.Ids[v]); };
     // First all that can be inserted, for this changes what the others cross.
-    for (std::size_t i = 0; i < this->Whole.size(); ++i)
+    for (const BegunPiece& piece : this->Whole)
     {
-      this->expectLater(i);
-      const BegunPiece& piece = this->Whole[i];
       if (this->follow(piece, true, idOf))
       {
         this->Of.Done[std::size_t(piece.Entry / 2)] = 1;
@@ -218,21 +216,6 @@ private:
     {
       this->follow(piece, false, idOf);
     }
-  }
-
-  /// Triangles at ends lie anywhere in memory, so they are prefetched.
-  void expectLater(std::size_t piece) const
-  {
-    const auto atEnds = [&](std::size_t ahead, const auto& expect)
-    {
-      const BegunPiece& later = this->Whole[std::min(piece + ahead, this->Whole.size() - 1)];
-      expect(later.From);
-      expect(later.To);
-    };
-    constexpr std::size_t steps[] = { 12, 8, 4 };
-    atEnds(steps[0], [this](Index v) { this->Mesh.expect(v); });
-    atEnds(steps[1], [this](Index v) { this->Mesh.expectNeighbours(v); });
-    atEnds(steps[2], [this](Index v) { this->Mesh.expectNextNeighbours(v); });
   }
 
   /// Pieces with an end in the partition; those with both are Whole, once each.

@@ -73,8 +73,10 @@ PieceEnds::PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pie
   }
   this->Starts.push_back(std::int64_t(this->Entries.size()));
   std::uint64_t ends = 0;
-  for (Word& word : this->Words)
+  for (std::size_t w = 0; w < this->Words.size(); ++w)
   {
+    Word& word = this->Words[w];
+    this->Marks[w % MarkWords] |= word.Bits;
     word.Before = ends;
     ends += bitsIn(word.Bits);
   }

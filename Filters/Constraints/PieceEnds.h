@@ -4,6 +4,7 @@
 
 #include "Constraints/Constraint.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -19,7 +20,8 @@ public:
 
   bool has(PointId id) const
   {
-    return (this->Words[std::size_t(id) / 64].Bits >> (std::size_t(id) % 64) & 1) != 0;
+    return this->mayHave(id) &&
+      (this->Words[std::size_t(id) / 64].Bits >> (std::size_t(id) % 64) & 1) != 0;
   }
 
   /// The position of an id, which must be an end, among all ends.
@@ -40,7 +42,7 @@ public:
   /// Prefetches what has(), expectVisit() and visit() will read; negative ids are ignored.
   void expect(PointId id) const
   {
-    if (id >= 0)
+    if (id >= 0 && this->mayHave(id))
     {
       __builtin_prefetch(&this->Words[std::size_t(id) / 64]);
     }
@@ -60,7 +62,16 @@ private:
     std::uint64_t Before = 0; ///< the number of bits in the words before
   };
 
-  std::vector<Word> Words;          ///< by id
+  /// False for most ids if there are few ends: then the words need not be fetched.
+  bool mayHave(PointId id) const
+  {
+    return (this->Marks[std::size_t(id) / 64 % MarkWords] >> (std::size_t(id) % 64) & 1) != 0;
+  }
+
+  static constexpr std::size_t MarkWords = 1024; ///< so few that they stay in the nearest cache
+
+  std::array<std::uint64_t, MarkWords> Marks{}; ///< the bits of all words, one above the other
+  std::vector<Word> Words;                      ///< by id
   std::vector<std::int64_t> Starts; ///< by rank, and the end
   std::vector<std::int64_t> Entries;
 };

@@ -32,7 +32,7 @@ struct ConstraintLines
 /// Each edge is on one rank that has a triangle of it, on the left of the constraint if there is
 /// one; an edge of several constraints is listed once for each. In the order of the segments as
 /// given. Collective.
-ConstraintLines findConstraintLines(
+VTKTIPPFILTERS_EXPORT ConstraintLines findConstraintLines(
   Communicator& ranks, const NamedSegments& segments, const DistributedTriangulation& mine);
 
 } // namespace tipp

@@ -195,36 +195,6 @@ public:
   /// A half-edge from the vertex.
   Index out(Index v) const { return this->Out[std::size_t(v)]; }
 
-  ///@{
-  /// Prefetches what lies around a used vertex, in three steps, each some time after the one
-  /// before: a triangle at it; that one's neighbours; and theirs.
-  void expect(Index v) const
-  {
-    __builtin_prefetch(this->Mesh->slots() + this->out(v));
-    __builtin_prefetch(&this->Kernel->Points[v]);
-  }
-  void expectNeighbours(Index v) const
-  {
-    const Index t = triangleOf(this->out(v));
-    for (Index i = 0; i < 3; ++i)
-    {
-      __builtin_prefetch(this->Mesh->slots() + triangleOf(this->twin(t + i)));
-      __builtin_prefetch(&this->Kernel->Points[this->apex(t + i)]);
-    }
-  }
-  void expectNextNeighbours(Index v) const
-  {
-    const Index t = triangleOf(this->out(v));
-    for (Index i = 0; i < 3; ++i)
-    {
-      const Index h = this->twin(t + i);
-      __builtin_prefetch(&this->Kernel->Points[this->apex(h)]);
-      __builtin_prefetch(this->Mesh->slots() + triangleOf(this->twin(next(h))));
-      __builtin_prefetch(this->Mesh->slots() + triangleOf(this->twin(previous(h))));
-    }
-  }
-  ///@}
-
   void join(Index h, Index g) { this->Mesh->link(h, g); }
   bool isFixed(Index h) const { return (this->Fixed[std::size_t(h / 8)] >> (h & 7) & 1) != 0; }
   void setFixed(Index h, bool isFixed)

@@ -134,6 +134,12 @@ Reply cutOut(const MeshAnswer& answer, std::size_t begin, std::size_t end, std::
   return reply;
 }
 
+/// Without keys one rank alone is asked.
+CellKey keyOf(const Reply& reply, std::size_t i)
+{
+  return reply.Keys.empty() ? noCellKey : reply.Keys[i];
+}
+
 /// Takes what a rank says of the points with the indices `asked`, where it is the best so far.
 void merge(const Reply& reply, const std::vector<std::int64_t>& asked, std::size_t corners,
   MeshAnswer& answer)
@@ -141,14 +147,15 @@ void merge(const Reply& reply, const std::vector<std::int64_t>& asked, std::size
   for (std::size_t i = 0; i < asked.size(); ++i)
   {
     const auto at = std::size_t(asked[i]);
+    const CellKey key = keyOf(reply, i);
     if (reply.Cells[i] < 0 ||
       (answer.Cells[at] >= 0 &&
-        std::tie(answer.Keys[at], answer.Cells[at]) <= std::tie(reply.Keys[i], reply.Cells[i])))
+        std::tie(answer.Keys[at], answer.Cells[at]) <= std::tie(key, reply.Cells[i])))
     {
       continue;
     }
     answer.Cells[at] = reply.Cells[i];
-    answer.Keys[at] = reply.Keys[i];
+    answer.Keys[at] = key;
     if (!reply.Weights.empty())
     {
       std::copy_n(
@@ -194,7 +201,8 @@ public:
       this->Begins.push_back(this->Received.size());
     }
     AnswerOptions wanted = options;
-    wanted.Keys = true;
+    // Of a stored mesh one rank alone is asked for a point.
+    wanted.Keys = options.Keys || !mesh.isStored();
     this->Found = this->Received.empty()
       ? this->emptyAnswer(0)
       : mesh.answer(this->Received.data(), std::int64_t(this->Received.size()), wanted);
@@ -258,7 +266,7 @@ std::vector<std::vector<char>> chooseRanks(const std::vector<std::vector<std::in
   forReplies(
     [&](std::size_t rank, std::size_t i, Best& so)
     {
-      const CellKey& key = replies[rank].Keys[i];
+      const CellKey key = keyOf(replies[rank], i);
       const std::int64_t cell = replies[rank].Cells[i];
       if (cell >= 0 && (so.Cell < 0 || std::tie(key, cell) < std::tie(so.Key, so.Cell)))
       {
@@ -323,7 +331,10 @@ StayingAnswer answerWhereCellsAre(Communicator& ranks, const ResidentMesh& mesh,
     { return values.begin() + std::ptrdiff_t(questions.begin(r)); };
     const MeshAnswer& found = questions.found();
     replies[rank].Cells.assign(at(found.Cells, rank), at(found.Cells, rank + 1));
-    replies[rank].Keys.assign(at(found.Keys, rank), at(found.Keys, rank + 1));
+    if (!found.Keys.empty())
+    {
+      replies[rank].Keys.assign(at(found.Keys, rank), at(found.Keys, rank + 1));
+    }
   }
   replies = ranks.allToAll(replies);
   const std::vector<std::vector<char>> chosen =

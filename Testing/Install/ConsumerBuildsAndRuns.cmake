@@ -2,7 +2,7 @@ cmake_minimum_required(VERSION 3.22)
 # Builds the example project against the package in PREFIX and runs its programs.
 file(REMOVE_RECURSE "${WORK}")
 foreach (command IN ITEMS
-    "-S;${SOURCE};-B;${WORK};-DCMAKE_PREFIX_PATH=${PREFIX};-DCMAKE_CXX_COMPILER=${CXX}"
+    "-S;${SOURCE};-B;${WORK};-DCMAKE_PREFIX_PATH=${PREFIX};-DCMAKE_CXX_COMPILER=${CXX};-DVTK_DIR=${VTK}"
     "--build;${WORK}")
   execute_process(COMMAND "${CMAKE_COMMAND}" ${command} COMMAND_ERROR_IS_FATAL ANY)
 endforeach ()

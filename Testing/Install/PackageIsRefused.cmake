@@ -6,7 +6,7 @@ file(WRITE "${WORK}/CMakeLists.txt"
   "find_package(${REQUEST} REQUIRED)\n")
 execute_process(
   COMMAND "${CMAKE_COMMAND}" -S "${WORK}" -B "${WORK}/build" "-DCMAKE_PREFIX_PATH=${PREFIX}"
-    "-DCMAKE_CXX_COMPILER=${CXX}"
+    "-DCMAKE_CXX_COMPILER=${CXX}" "-DVTK_DIR=${VTK}"
   RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
 # CMake wraps its messages.
 string(REGEX REPLACE "[ \n]+" " " output "${output}")

@@ -3,7 +3,7 @@
 #   --repeat R  runs of each; the fastest counts (3)
 #   --part P    only these rows
 #   --large     out of core also 500 million points, and 5 million segments: counted, for the disk holds
-#               the points alone (20 GB)
+#               the points alone (15 GB)
 repeat=3
 large=no
 part=all

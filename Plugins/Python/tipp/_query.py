@@ -166,7 +166,9 @@ class ResidentMesh:
         _, values = self._sample(points, arrays)
         return values[arrays] if isinstance(arrays, str) else values
 
-    def _sample(self, points: ArrayLike, arrays: str | Iterable[str] | None) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    def _sample(
+        self, points: ArrayLike, arrays: str | Iterable[str] | None
+    ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
         """The cells that hold points, and the arrays there, located once."""
         wanted = self._names if arrays is None else check.names(arrays, "arrays")
         check.require_arrays(wanted, self._names, "")
