@@ -9,19 +9,13 @@
 
 namespace tipp
 {
-namespace
-{
-
-/// Exact for all finite coordinates: three points are collinear if they are so in projection along
-/// each axis.
+/// Three points are collinear if they are so in projection along each axis.
 bool areCollinear(const Point3& a, const Point3& b, const Point3& c)
 {
   return orientation({ a.x, a.y }, { b.x, b.y }, { c.x, c.y }) == 0 &&
     orientation({ a.y, a.z }, { b.y, b.z }, { c.y, c.z }) == 0 &&
     orientation({ a.z, a.x }, { b.z, b.x }, { c.z, c.x }) == 0;
 }
-
-} // namespace
 
 bool DelaunayKernel3::triangulate(const Point3* points, std::size_t count, const Monitor& proceed)
 {

@@ -18,6 +18,9 @@
 namespace tipp
 {
 
+/// Whether points in space are collinear. Exact for all finite coordinates.
+bool areCollinear(const Point3& a, const Point3& b, const Point3& c);
+
 /// The Delaunay triangulation of points in space: incremental insertion (Bowyer 1981, Watson 1981)
 /// in biased randomised rounds, with a vertex at infinity, exact predicates, and ties broken by the
 /// points' lexicographic order. So the set of tetrahedra is unique, and none is flat.

@@ -115,7 +115,7 @@ public:
     {
       finished.Summary = this->Work.Mesh.Pieces[number];
       finished.Summary.Cells =
-        interior.Cells + std::int64_t(interior.InterfaceTriangles.size() + border.triangles());
+        interior.Cells + std::int64_t(interior.InterfaceCells.size() + border.cells());
       this->take(piece, border);
     }
     else

@@ -2,6 +2,7 @@
 #ifndef tippInputSurvey_h
 #define tippInputSurvey_h
 
+#include "OutOfCore/StreamSampler.h"
 #include "Points/PointStream.h"
 #include "Predicates/Points.h"
 #include "vtkTIPPFiltersModule.h"
@@ -14,11 +15,7 @@
 namespace tipp
 {
 
-struct SampledPoint
-{
-  std::int64_t Id; ///< its index in the stream
-  Point2 Position;
-};
+using SampledPoint = SampledPointOf<Point2>;
 
 /// The result of one pass over a stream.
 struct InputSurvey

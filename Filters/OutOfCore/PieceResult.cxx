@@ -68,10 +68,7 @@ void BorderSorter::add(const BoundaryTriangle& triangle)
   }
   this->findMet(triangle);
   const auto owner = static_cast<PartitionIndex>(this->Work.Plan.number(this->Met.front()));
-  BorderTriangles& border = this->Borders[owner];
-  border.Corners.push_back({ triangle[0].Id, triangle[1].Id, triangle[2].Id });
-  border.Borrowers.insert(border.Borrowers.end(), this->Met.begin() + 1, this->Met.end());
-  border.BorrowerEnds.push_back(border.Borrowers.size());
+  this->Borders[owner].add({ triangle[0].Id, triangle[1].Id, triangle[2].Id }, this->Met);
 }
 
 void append(BordersByOwner&& from, BordersByOwner& to)

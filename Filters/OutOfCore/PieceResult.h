@@ -51,16 +51,30 @@ struct PieceWork
   }
 };
 
-/// Triangles at the border of the piece that owns them, by indices among all spilled points.
-struct BorderTriangles
+/// Triangles (3 corners) or tetrahedra (4) at the border of the piece that owns them, by indices
+/// among all spilled points.
+template <std::size_t CornerCount>
+struct BorderCells
 {
-  std::vector<std::array<std::int64_t, 3>> Corners;
+  using Cell = std::array<std::int64_t, CornerCount>;
+
+  std::vector<Cell> Corners;
   std::vector<std::int32_t> Borrowers;     ///< numbers of pieces in the mesh, ascending for each
-  std::vector<std::uint64_t> BorrowerEnds; ///< of each triangle, in Borrowers
+  std::vector<std::uint64_t> BorrowerEnds; ///< of each cell, in Borrowers
+
+  /// `met`: the pieces that the cell meets, ascending; the first is its owner.
+  void add(const Cell& cell, const std::vector<std::int32_t>& met)
+  {
+    this->Corners.push_back(cell);
+    this->Borrowers.insert(this->Borrowers.end(), met.begin() + 1, met.end());
+    this->BorrowerEnds.push_back(this->Borrowers.size());
+  }
 };
 
-template <typename Archive>
-void serialize(Archive& archive, BorderTriangles& border)
+using BorderTriangles = BorderCells<3>;
+
+template <typename Archive, std::size_t CornerCount>
+void serialize(Archive& archive, BorderCells<CornerCount>& border)
 {
   archive(border.Corners, border.Borrowers, border.BorrowerEnds);
 }

@@ -73,6 +73,12 @@ public:
 
   const std::vector<SectionEntry>& table() const { return this->Table; }
   bool has(SectionKey key) const { return this->find(key) != nullptr; }
+  /// The section's size; 0 if it is not there.
+  std::uint64_t bytes(SectionKey key) const
+  {
+    const SectionEntry* const entry = this->find(key);
+    return entry ? entry->Size : 0;
+  }
   /// Throws IOError where the section is not there, or is damaged.
   Bytes read(SectionKey key) const;
   /// Reads all sections; throws IOError.

@@ -159,6 +159,23 @@ RunStatistics statisticsOf(const OutOfCoreStatistics& statistics, bool isCounted
   return run;
 }
 
+RunStatistics statisticsOf(const OutOfCoreStatistics3& statistics)
+{
+  RunStatistics run;
+  run.add("points", "Points", statistics.Points);
+  run.add("tetrahedra", "Tetrahedra", statistics.Tetrahedra);
+  run.add("duplicates", "DuplicatePoints", statistics.Duplicates);
+  run.add("rejected", "RejectedPoints", statistics.Rejected);
+  run.add("pieces", "Pieces", statistics.Pieces);
+  run.add("worker_vertices", "WorkerVertices", statistics.WorkerVertices);
+  run.add("boundary_bytes", "BoundaryBytes", std::int64_t(statistics.BoundaryBytes));
+  run.add("spilled_bytes", "SpilledBytes", std::int64_t(statistics.SpilledBytes));
+  run.add("mesh_bytes", "MeshBytes", std::int64_t(statistics.MeshBytes));
+  run.add("threads", "Threads", statistics.Threads);
+  run.Lists = { phasesOf(statistics.Phases, true, "Phase", "Seconds") };
+  return run;
+}
+
 RunStatistics statisticsOf(const DistributedTriangulation& mine)
 {
   const DistributedStatistics& statistics = mine.Statistics;

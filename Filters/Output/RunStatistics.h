@@ -5,6 +5,7 @@
 #include "Constraints/ResolveCrossings.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
+#include "OutOfCore3D/OutOfCoreTetrahedralization.h"
 #include "Triangulation/Triangulate.h"
 #include "Triangulation3D/Tetrahedralize.h"
 #include "vtkTIPPFiltersModule.h"
@@ -60,6 +61,7 @@ VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(
   const Tetrahedralization& mesh, std::int64_t points, std::int64_t tetrahedra);
 VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(
   const OutOfCoreStatistics& statistics, bool isCounted);
+VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(const OutOfCoreStatistics3& statistics);
 VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(const DistributedTriangulation& mine);
 ///@}
 

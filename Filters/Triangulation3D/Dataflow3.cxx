@@ -13,7 +13,13 @@ namespace
 
 using Index = DelaunayKernel3::Index;
 
-/// Sorts vertices by id, and removes repetitions.
+Circumball ballOf(const DelaunayKernel3& kernel, const std::array<Index, 4>& v)
+{
+  return { kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2]), kernel.point(v[3]) };
+}
+
+} // namespace
+
 void keepUnique(std::vector<Vertex3>& vertices)
 {
   std::sort(vertices.begin(), vertices.end(),
@@ -23,171 +29,170 @@ void keepUnique(std::vector<Vertex3>& vertices)
     vertices.end());
 }
 
-Circumball ballOf(const DelaunayKernel3& kernel, const std::array<Index, 4>& v)
+bool takeHullVertices(const std::array<Vertex3, 4>& corners, std::vector<Vertex3>& vertices)
 {
-  return { kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2]), kernel.point(v[3]) };
+  if (std::none_of(
+        corners.begin(), corners.end(), [](const Vertex3& v) { return v.isArtificial(); }))
+  {
+    return false;
+  }
+  std::copy_if(corners.begin(), corners.end(), std::back_inserter(vertices),
+    [](const Vertex3& v) { return !v.isArtificial(); });
+  return true;
 }
 
-} // namespace
-
-void FinalCells::add(const Vertex3& a, const Vertex3& b, const Vertex3& c, const Vertex3& d)
+void FinalCells::addInside(const std::array<std::int64_t, 4>& ids)
 {
-  if (!a.isArtificial() && !b.isArtificial() && !c.isArtificial() && !d.isArtificial())
+  this->Cells.push_back(
+    { std::int32_t(ids[0]), std::int32_t(ids[1]), std::int32_t(ids[2]), std::int32_t(ids[3]) });
+}
+
+void FinalCells::add(const std::array<Vertex3, 4>& corners)
+{
+  if (!takeHullVertices(corners, this->HullVertices))
   {
-    this->Cells.push_back({ a.Id, b.Id, c.Id, d.Id });
-    return;
-  }
-  for (const Vertex3& v : { a, b, c, d })
-  {
-    if (!v.isArtificial())
-    {
-      this->HullVertices.push_back(v);
-    }
+    this->addInside({ corners[0].Id, corners[1].Id, corners[2].Id, corners[3].Id });
   }
 }
 
-Vertex3 Worker3::vertex(PartitionIndex p, Index v) const
+Vertex3 Worker3::vertex(Index v) const
 {
-  const std::size_t own = this->Buckets.count(p);
   const std::size_t i = this->Kernel.pointIndex(v);
-  return i < own ? Vertex3{ this->Kernel.point(v),
-    this->Buckets.Ids[this->Buckets.Begins[std::size_t(p)] + i], p }
-                 : this->Others[i - own];
+  return i < this->Own.Count
+    ? Vertex3{ this->Kernel.point(v), this->Own.id(i), this->Own.Partition }
+    : this->Others[i - this->Own.Count];
 }
 
 /// The partition's own points first, so that they stand for points with the same coordinates.
-void Worker3::collect(PartitionIndex p)
+void Worker3::collect(const std::vector<VertexMessage3>& inbox)
 {
   this->Others.clear();
-  for (const VertexMessage3& message : this->Inboxes[std::size_t(p)].take())
+  for (const VertexMessage3& message : inbox)
   {
     std::copy_if(message.Vertices.begin(), message.Vertices.end(), std::back_inserter(this->Others),
-      [p](const Vertex3& v) { return v.Partition != p; });
+      [this](const Vertex3& v) { return v.Partition != this->Own.Partition; });
   }
   keepUnique(this->Others);
-  const auto first = this->Buckets.Points.begin();
-  this->Points.assign(first + std::ptrdiff_t(this->Buckets.Begins[std::size_t(p)]),
-    first + std::ptrdiff_t(this->Buckets.Begins[std::size_t(p) + 1]));
+  this->Points.assign(this->Own.Points, this->Own.Points + this->Own.Count);
   for (const Vertex3& v : this->Others)
   {
     this->Points.push_back(v.Position);
   }
 }
 
-void Worker3::triangulate(PartitionIndex p, FinalCells& final)
+SentMessages3 Worker3::triangulate(const PartitionPoints3& points,
+  const std::vector<VertexMessage3>& inbox, FinalCellConsumer3& final)
 {
-  this->collect(p);
+  this->Own = points;
+  this->collect(inbox);
   this->Kernel.triangulate(this->Points.data(), this->Points.size());
   this->VertexCount += this->Points.size();
-  this->Outgoing.assign(this->Order.later(p).size(), {});
+  this->Outgoing.assign(this->Order.later(points.Partition).size(), {});
   this->Ids.resize(this->Kernel.vertexEnd());
   for (Index v = 1; v < this->Kernel.vertexEnd(); ++v)
   {
-    this->Ids[v] = this->vertex(p, v).Id;
+    this->Ids[v] = this->vertex(v).Id;
   }
   this->Kernel.forEach(
     [&](Index cell)
     {
       if (!this->Kernel.isInfinite(cell))
       {
-        this->route(p, cell, final);
+        this->route(cell, final);
       }
     });
-  this->send(p);
-  const std::size_t own = this->Buckets.count(p);
-  const std::int32_t* const ids = &this->Buckets.Ids[this->Buckets.Begins[std::size_t(p)]];
+  this->takeDuplicates();
+  return this->send();
+}
+
+void Worker3::takeDuplicates()
+{
   for (const DelaunayKernel3::Duplicate& duplicate : this->Kernel.duplicates())
   {
-    if (duplicate.Point < own)
+    if (duplicate.Point < this->Own.Count)
     {
       this->Duplicates.push_back(
-        { ids[duplicate.Point], ids[this->Kernel.pointIndex(duplicate.Vertex)] });
+        { this->Own.id(duplicate.Point), this->Own.id(this->Kernel.pointIndex(duplicate.Vertex)) });
     }
   }
 }
 
-void Worker3::route(PartitionIndex p, Index cell, FinalCells& final)
+void Worker3::route(Index cell, FinalCellConsumer3& final)
 {
   const std::array<Index, 4> v = this->Kernel.corners(cell);
-  const std::vector<Box3>& regions = this->Buckets.Regions;
-  if (!Circumball::isSurelyInside(this->Kernel.point(v[0]), this->Kernel.point(v[1]),
-        this->Kernel.point(v[2]), this->Kernel.point(v[3]), regions[std::size_t(p)]))
+  const Box3& region = this->Regions[std::size_t(this->Own.Partition)];
+  if (Circumball::isSurelyInside(this->Kernel.point(v[0]), this->Kernel.point(v[1]),
+        this->Kernel.point(v[2]), this->Kernel.point(v[3]), region))
   {
-    const Circumball ball = ballOf(this->Kernel, v);
-    if (!ball.meets(regions[std::size_t(p)]))
-    {
-      return;
-    }
-    const PartitionOrder::Range later = this->Order.later(p);
-    const auto next = std::find_if(later.begin(), later.end(),
-      [&](PartitionIndex q) { return ball.meets(regions[std::size_t(q)]); });
-    if (next != later.end())
-    {
-      std::vector<Index>& corners = this->Outgoing[std::size_t(next - later.begin())];
-      corners.insert(corners.end(), v.begin(), v.end());
-      return;
-    }
-  }
-  const CellIds ids = { this->Ids[v[0]], this->Ids[v[1]], this->Ids[v[2]], this->Ids[v[3]] };
-  if (std::all_of(ids.begin(), ids.end(), [](std::int32_t id) { return id >= 0; }))
-  {
-    final.Cells.push_back(ids);
+    final.addInside({ this->Ids[v[0]], this->Ids[v[1]], this->Ids[v[2]], this->Ids[v[3]] });
     return;
   }
-  final.add(
-    this->vertex(p, v[0]), this->vertex(p, v[1]), this->vertex(p, v[2]), this->vertex(p, v[3]));
+  const Circumball ball = ballOf(this->Kernel, v);
+  if (!ball.meets(region))
+  {
+    return;
+  }
+  const PartitionOrder::Range later = this->Order.later(this->Own.Partition);
+  const auto next = std::find_if(later.begin(), later.end(),
+    [&](PartitionIndex q) { return ball.meets(this->Regions[std::size_t(q)]); });
+  if (next == later.end())
+  {
+    final.add({ this->vertex(v[0]), this->vertex(v[1]), this->vertex(v[2]), this->vertex(v[3]) });
+    return;
+  }
+  std::vector<Index>& corners = this->Outgoing[std::size_t(next - later.begin())];
+  corners.insert(corners.end(), v.begin(), v.end());
 }
 
-void Worker3::send(PartitionIndex p)
+SentMessages3 Worker3::send()
 {
-  const PartitionOrder::Range later = this->Order.later(p);
+  SentMessages3 sent;
+  const PartitionOrder::Range later = this->Order.later(this->Own.Partition);
   this->SentTo.assign(this->Kernel.vertexEnd(), 0);
   for (std::size_t i = 0; i < this->Outgoing.size(); ++i)
   {
-    VertexMessage3 message{ p, {} };
+    VertexMessage3 message{ this->Own.Partition, {} };
     for (const Index v : this->Outgoing[i])
     {
       if (this->SentTo[v] != i + 1)
       {
         this->SentTo[v] = static_cast<std::uint32_t>(i + 1);
-        message.Vertices.push_back(this->vertex(p, v));
+        message.Vertices.push_back(this->vertex(v));
       }
     }
     if (!message.Vertices.empty())
     {
-      this->Inboxes[std::size_t(later.begin()[i])].put(std::move(message));
+      sent.emplace_back(later.begin()[i], std::move(message));
     }
   }
+  return sent;
 }
 
-void sendInitialMesh(const InitialMesh3& mesh, const PartitionOrder& order,
-  std::vector<Inbox3>& inboxes, FinalCells& final)
+std::vector<VertexMessage3> sendInitialMesh(const InitialMesh3& mesh, const PartitionOrder& order)
 {
-  std::vector<VertexMessage3> messages(inboxes.size());
+  std::vector<VertexMessage3> messages(order.partitionCount());
   for (std::size_t cell = 0; cell < mesh.Cells.size(); ++cell)
   {
-    const auto& [a, b, c, d] = mesh.Cells[cell];
-    const auto& all = mesh.Vertices;
-    if (mesh.metBegin(cell) == mesh.metEnd(cell))
+    if (mesh.metBegin(cell) < mesh.metEnd(cell))
     {
-      final.add(all[a], all[b], all[c], all[d]);
-      continue;
+      const PartitionIndex* const met = mesh.Met.data();
+      const PartitionIndex to = order.first(met + mesh.metBegin(cell), met + mesh.metEnd(cell));
+      for (const std::uint32_t corner : mesh.Cells[cell])
+      {
+        messages[std::size_t(to)].Vertices.push_back(mesh.Vertices[corner]);
+      }
     }
-    const PartitionIndex* const met = mesh.Met.data();
-    const PartitionIndex to = order.first(met + mesh.metBegin(cell), met + mesh.metEnd(cell));
-    auto& vertices = messages[std::size_t(to)].Vertices;
-    vertices.insert(vertices.end(), { all[a], all[b], all[c], all[d] });
   }
-  for (std::size_t p = 0; p < messages.size(); ++p)
+  for (VertexMessage3& message : messages)
   {
-    keepUnique(messages[p].Vertices);
-    inboxes[p].put(std::move(messages[p]));
+    keepUnique(message.Vertices);
   }
+  return messages;
 }
 
-void repairHull(const std::vector<Vertex3>& artificial, FinalCells& final)
+void repairHull(
+  std::vector<Vertex3> vertices, const std::vector<Vertex3>& artificial, FinalCellConsumer3& final)
 {
-  std::vector<Vertex3>& vertices = final.HullVertices;
   keepUnique(vertices);
   std::vector<Point3> points;
   for (const Vertex3& v : vertices)
@@ -219,11 +224,10 @@ void repairHull(const std::vector<Vertex3>& artificial, FinalCells& final)
       };
       if (std::any_of(artificial.begin(), artificial.end(), isInConflict))
       {
-        const auto id = [&](Index corner) { return vertices[kernel.pointIndex(corner)].Id; };
-        final.Cells.push_back({ id(v[0]), id(v[1]), id(v[2]), id(v[3]) });
+        const auto vertex = [&](Index corner) { return vertices[kernel.pointIndex(corner)]; };
+        final.add({ vertex(v[0]), vertex(v[1]), vertex(v[2]), vertex(v[3]) });
       }
     });
-  vertices.clear();
 }
 
 } // namespace tipp

@@ -99,7 +99,7 @@ std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets)
         { return at == all.front() || at == all.back(); };
         if (isEnd(x, ticks[0]) || isEnd(y, ticks[1]) || isEnd(z, ticks[2]))
         {
-          vertices.push_back({ { x, y, z }, -1 - std::int32_t(vertices.size()), -1 });
+          vertices.push_back({ { x, y, z }, -1 - std::int64_t(vertices.size()), -1 });
         }
       }
     }

@@ -17,7 +17,7 @@ namespace tipp
 struct Vertex3
 {
   Point3 Position;
-  std::int32_t Id;          ///< the input point's id; negative for artificial points
+  std::int64_t Id;          ///< the input point's id; negative for artificial points
   PartitionIndex Partition; ///< the partition that contains it; -1 for artificial points
 
   bool isArtificial() const { return this->Id < 0; }

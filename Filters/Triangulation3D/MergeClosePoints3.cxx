@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation3D/MergeClosePoints3.h"
 
+#include "Triangulation3D/Tiling3.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,11 +13,6 @@ namespace tipp
 {
 namespace
 {
-
-bool isFinite(const Point3& p)
-{
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 /// Lists of kept points by the hash of their cell. Cells are at least twice as wide as the
 /// distance, so the points close to a position are in the cells within half a cell's width of it.

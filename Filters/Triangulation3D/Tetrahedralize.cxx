@@ -49,22 +49,15 @@ Survey surveyPoints(const Point3* points, std::size_t count)
   return survey;
 }
 
-/// A power of two that brings very small or very large coordinates near 1, so that the filters of
-/// predicates work; 1 if it is not needed, or if it would not be exact.
+/// moderateFactor(), or 1 if it would not be exact.
 double scaleOf(const Point3* points, std::size_t count, double largest)
 {
-  // Determinants have degree five in the coordinates, and their filter squares them.
-  constexpr int moderate = 24;
-  constexpr int largestShift = 1000;
-  if (largest == 0 || std::abs(std::ilogb(largest)) <= moderate)
-  {
-    return 1;
-  }
-  const double factor =
-    std::ldexp(1.0, std::clamp(-std::ilogb(largest), -largestShift, largestShift));
-  const auto isExact = [factor](double x) { return !std::isfinite(x) || x * factor / factor == x; };
-  const bool areExact = std::all_of(points, points + count,
-    [&](const Point3& p) { return isExact(p.x) && isExact(p.y) && isExact(p.z); });
+  const double factor = moderateFactor(largest);
+  const bool areExact = factor == 1 ||
+    std::all_of(points, points + count,
+      [factor](const Point3& p) {
+        return isExactTimes(p.x, factor) && isExactTimes(p.y, factor) && isExactTimes(p.z, factor);
+      });
   return areExact ? factor : 1;
 }
 
@@ -217,12 +210,16 @@ private:
     const PartitionOrder order(isUsed, initial.conflicts());
     std::vector<Inbox3> inboxes(order.partitionCount());
     FinalCells boundary;
-    sendInitialMesh(initial, order, inboxes, boundary);
+    std::vector<VertexMessage3> messages = sendInitialMesh(initial, order);
+    for (std::size_t p = 0; p < messages.size(); ++p)
+    {
+      inboxes[p].put(std::move(messages[p]));
+    }
     this->endPhase("initial mesh");
     this->work(buckets, order, inboxes, boundary);
     if (!this->Result.Aborted)
     {
-      repairHull(artificial, boundary);
+      repairHull(std::move(boundary.HullVertices), artificial, boundary);
       this->Cells.push_back(std::move(boundary.Cells));
       this->endPhase("hull");
       const bool hasCells = std::any_of(this->Cells.begin(), this->Cells.end(),
@@ -251,10 +248,15 @@ private:
       try
       {
         FinalCells& mine = made[std::size_t(omp_get_thread_num())];
-        Worker3 worker(buckets, order, inboxes);
+        Worker3 worker(buckets.Regions, order);
         for (PartitionIndex p = ready.take(); p >= 0; p = ready.take())
         {
-          worker.triangulate(p, mine);
+          SentMessages3 sent =
+            worker.triangulate(buckets.of(p), inboxes[std::size_t(p)].take(), mine);
+          for (auto& [to, message] : sent)
+          {
+            inboxes[std::size_t(to)].put(std::move(message));
+          }
           ready.finish(p);
           const std::lock_guard<std::mutex> lock(mutex);
           pointsDone += buckets.count(p);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -43,6 +44,16 @@ void PointBounds::include(const PointBounds& other)
     this->Box.Min[k] = std::min(this->Box.Min[k], other.Box.Min[k]);
     this->Box.Max[k] = std::max(this->Box.Max[k], other.Box.Max[k]);
   }
+}
+
+double moderateFactor(double largest)
+{
+  // Determinants have degree five in the coordinates, and their filter squares them.
+  constexpr int moderate = 24;
+  constexpr int largestShift = 1000;
+  return largest == 0 || std::abs(std::ilogb(largest)) <= moderate
+    ? 1
+    : std::ldexp(1.0, std::clamp(-std::ilogb(largest), -largestShift, largestShift));
 }
 
 Tiling3::Tiling3(std::vector<Point3> sample, int count)
@@ -99,6 +110,28 @@ PartitionIndex Tiling3::locate(const Point3& p) const
     node = coordinate(p, cut.Axis) < cut.Cut ? node + 1 : cut.Upper;
   }
   return this->Nodes[node].Partition;
+}
+
+std::vector<Box3> Tiling3::boxes(const Box3& domain) const
+{
+  std::vector<Box3> boxes(std::size_t(this->Count));
+  this->setBoxes(0, domain, boxes);
+  return boxes;
+}
+
+void Tiling3::setBoxes(std::size_t node, const Box3& box, std::vector<Box3>& boxes) const
+{
+  const Node& at = this->Nodes[node];
+  if (at.Axis < 0)
+  {
+    boxes[std::size_t(at.Partition)] = box;
+    return;
+  }
+  Box3 lower = box;
+  Box3 upper = box;
+  lower.Max[std::size_t(at.Axis)] = upper.Min[std::size_t(at.Axis)] = at.Cut;
+  this->setBoxes(node + 1, lower, boxes);
+  this->setBoxes(at.Upper, upper, boxes);
 }
 
 PointBuckets3 bucketPoints(

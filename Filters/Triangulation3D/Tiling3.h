@@ -5,12 +5,18 @@
 #include "Predicates/Points.h"
 #include "Triangulation/Tiling.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace tipp
 {
+
+inline bool isFinite(const Point3& p)
+{
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
 
 /// The smallest box of points. Without points Min is infinite.
 struct PointBounds
@@ -21,6 +27,15 @@ struct PointBounds
 
   Box3 Box;
 };
+
+/// A power of two that brings coordinates near 1 where the largest magnitude is very small or very
+/// large, so that the filters of predicates work; else 1.
+double moderateFactor(double largest);
+/// Whether multiplying by the factor is exact for a coordinate.
+inline bool isExactTimes(double x, double factor)
+{
+  return !std::isfinite(x) || x * factor / factor == x;
+}
 
 /// Partitions of space with about equally many points of a sample: a tree of cuts across the
 /// longest side of the sample's box. A point on a cut belongs to the upper side.
@@ -33,6 +48,17 @@ public:
   PartitionIndex size() const { return this->Count; }
   PartitionIndex locate(const Point3& p) const;
 
+  /// The closed boxes of all partitions, which fill `domain`.
+  std::vector<Box3> boxes(const Box3& domain) const;
+
+  /// Calls visit(partition) for those whose closed boxes may meet the box; those of the lower side
+  /// of a cut come first.
+  template <typename Visit>
+  void visitMet(const Box3& box, const Visit& visit) const
+  {
+    this->visitMet(0, box, visit);
+  }
+
 private:
   struct Node
   {
@@ -44,9 +70,44 @@ private:
 
   using Iterator = std::vector<Point3>::iterator;
   void cut(Iterator begin, Iterator end, int count);
+  void setBoxes(std::size_t node, const Box3& box, std::vector<Box3>& boxes) const;
+
+  template <typename Visit>
+  void visitMet(std::size_t at, const Box3& box, const Visit& visit) const
+  {
+    const Node& node = this->Nodes[at];
+    if (node.Axis < 0)
+    {
+      visit(node.Partition);
+      return;
+    }
+    if (box.Min[std::size_t(node.Axis)] <= node.Cut)
+    {
+      this->visitMet(at + 1, box, visit);
+    }
+    if (box.Max[std::size_t(node.Axis)] >= node.Cut)
+    {
+      this->visitMet(node.Upper, box, visit);
+    }
+  }
 
   std::vector<Node> Nodes;
   PartitionIndex Count = 0;
+};
+
+/// The points of a partition.
+struct PartitionPoints3
+{
+  PartitionIndex Partition = -1;
+  const Point3* Points = nullptr;
+  std::size_t Count = 0;
+  const std::int32_t* Ids = nullptr; ///< null: consecutive from First on
+  std::int64_t First = 0;
+
+  std::int64_t id(std::size_t i) const
+  {
+    return this->Ids ? this->Ids[i] : this->First + std::int64_t(i);
+  }
 };
 
 /// The points of each partition, in the input's order, and their ids.
@@ -60,6 +121,11 @@ struct PointBuckets3
   std::size_t count(PartitionIndex p) const
   {
     return this->Begins[std::size_t(p) + 1] - this->Begins[std::size_t(p)];
+  }
+  PartitionPoints3 of(PartitionIndex p) const
+  {
+    const std::size_t begin = this->Begins[std::size_t(p)];
+    return { p, this->Points.data() + begin, this->count(p), this->Ids.data() + begin, 0 };
   }
 };
 

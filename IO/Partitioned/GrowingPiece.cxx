@@ -58,28 +58,41 @@ void requireNarrowIds(
 }
 
 /// Calls visit(corners as positions in the piece, whether one of them is on the interface) for each
-/// triangle. `positions` has -1 - k for the k-th interface point.
-template <typename Visit>
-void forEachTriangle(
+/// cell. `positions` has -1 - k for the k-th interface point.
+template <int CellSize, typename Visit>
+void forEachCell(
   const InteriorContent& content, const std::vector<std::int32_t>& positions, const Visit& visit)
 {
   for (const TriangleRange& range : content.Triangles)
   {
     const std::int32_t* corner = range.Begin;
-    for (std::size_t t = 0; t < range.Triangles; ++t, corner += 3)
+    for (std::size_t t = 0; t < range.Triangles; ++t, corner += CellSize)
     {
-      const std::array<std::int32_t, 3> triangle = { positions[std::size_t(corner[0])],
-        positions[std::size_t(corner[1])], positions[std::size_t(corner[2])] };
-      visit(triangle, (triangle[0] | triangle[1] | triangle[2]) < 0);
+      CellCorners cell = { positions[std::size_t(corner[0])], positions[std::size_t(corner[1])],
+        positions[std::size_t(corner[2])], 0 };
+      if (CellSize == 4)
+      {
+        cell[3] = positions[std::size_t(corner[3])];
+      }
+      visit(cell, (cell[0] | cell[1] | cell[2] | cell[3]) < 0);
     }
   }
 }
 
-/// Writes the array `offsets` or `types` for `count` triangles from `first` on.
-void addShapes(
-  const PieceArray& array, std::int64_t first, std::int64_t count, ColumnWriter& column)
+template <typename Visit>
+void forEachCell(int cellSize, const InteriorContent& content,
+  const std::vector<std::int32_t>& positions, const Visit& visit)
+{
+  cellSize == 3 ? forEachCell<3>(content, positions, visit)
+                : forEachCell<4>(content, positions, visit);
+}
+
+/// Writes the array `offsets` or `types` for `count` cells from `first` on.
+void addShapes(const PieceArray& array, int cellSize, std::int64_t first, std::int64_t count,
+  ColumnWriter& column)
 {
   constexpr int vtkTriangle = 5;
+  constexpr int vtkTetra = 10;
   constexpr std::int64_t block = 4096;
   for (const std::int64_t end = first + count; first < end;)
   {
@@ -88,12 +101,12 @@ void addShapes(
     first += size;
     if (array.Role == PieceRole::Types)
     {
-      std::memset(to, vtkTriangle, std::size_t(size));
+      std::memset(to, cellSize == 3 ? vtkTriangle : vtkTetra, std::size_t(size));
       continue;
     }
     for (std::int64_t i = first - size; i < first; ++i, to += 4)
     {
-      const auto corners = std::int32_t(3 * (i + 1));
+      const auto corners = std::int32_t(cellSize * (i + 1));
       std::memcpy(to, &corners, 4);
     }
   }
@@ -130,8 +143,8 @@ void makeRoom(const PartitionedMesh& mesh, std::size_t number, PieceInterior& in
   const auto points = std::int64_t(interior.InterfacePoints.size());
   interior.Room = mesh.Pieces[number];
   interior.Room.Points = interior.OwnPoints + points / 2 + 256;
-  interior.Room.Cells =
-    interior.Cells + std::int64_t(interior.InterfaceTriangles.size()) + 2 * points + 256;
+  interior.Room.Cells = interior.Cells + std::int64_t(interior.InterfaceCells.size()) +
+    (mesh.CellSize == 3 ? 2 : 4) * points + 256;
   requireNarrowIds(mesh, number, interior.Room, "points");
 }
 
@@ -159,9 +172,9 @@ void addPoints(const PieceArray& array, const PointRowLayout& layout,
   }
 }
 
-void addInterior(const PieceArray& array, const PointRowLayout& layout,
-  const InteriorContent& content, const std::vector<std::int32_t>& positions,
-  std::int64_t triangles, ColumnWriter& column)
+void addInterior(const PieceArray& array, int cellSize, const PointRowLayout& layout,
+  const InteriorContent& content, const std::vector<std::int32_t>& positions, std::int64_t cells,
+  ColumnWriter& column)
 {
   if (array.ofPoints())
   {
@@ -169,18 +182,19 @@ void addInterior(const PieceArray& array, const PointRowLayout& layout,
   }
   else if (array.Role == PieceRole::Connectivity)
   {
-    forEachTriangle(content, positions,
-      [&](const std::array<std::int32_t, 3>& triangle, bool isOnInterface)
+    const std::size_t bytes = array.tupleBytes();
+    forEachCell(cellSize, content, positions,
+      [&](const CellCorners& cell, bool isOnInterface)
       {
         if (!isOnInterface)
         {
-          std::memcpy(column.extend(sizeof(triangle)), triangle.data(), sizeof(triangle));
+          std::memcpy(column.extend(bytes), cell.data(), bytes);
         }
       });
   }
   else
   {
-    addShapes(array, 0, triangles, column);
+    addShapes(array, cellSize, 0, cells, column);
   }
   column.endPart();
   column.flush();
@@ -207,8 +221,9 @@ void writeGroups(const std::vector<Item>& items, ColumnWriter& column,
   checksums.insert(checksums.end(), column.checksums().begin(), column.checksums().end());
 }
 
-void addBorder(const PieceArray& array, const PointRowLayout& layout, const OrderedBorder& border,
-  std::int64_t interiorCells, ColumnWriter& column, std::vector<std::uint64_t>& checksums)
+void addBorder(const PieceArray& array, int cellSize, const PointRowLayout& layout,
+  const OrderedBorder& border, std::int64_t interiorCells, ColumnWriter& column,
+  std::vector<std::uint64_t>& checksums)
 {
   const std::size_t tuple = array.tupleBytes();
   if (array.ofPoints())
@@ -223,7 +238,7 @@ void addBorder(const PieceArray& array, const PointRowLayout& layout, const Orde
     {
       array.Role == PieceRole::Connectivity
         ? static_cast<void>(std::memcpy(column.extend(tuple), cell.Points.data(), tuple))
-        : addShapes(array, interiorCells + i, 1, column);
+        : addShapes(array, cellSize, interiorCells + i, 1, column);
     });
 }
 
@@ -274,11 +289,9 @@ PieceInterior writeInterior(const PartitionedMesh& mesh, std::size_t number,
   interior.First = content.First;
   interior.OwnPoints = content.Points;
   const std::vector<std::int32_t> positions = orderPoints(content, layout, interior);
-  forEachTriangle(content, positions,
-    [&](const std::array<std::int32_t, 3>& triangle, bool isOnInterface)
-    {
-      isOnInterface ? interior.InterfaceTriangles.push_back(triangle)
-                    : static_cast<void>(++interior.Cells);
+  forEachCell(mesh.CellSize, content, positions,
+    [&](const CellCorners& cell, bool isOnInterface) {
+      isOnInterface ? interior.InterfaceCells.push_back(cell) : static_cast<void>(++interior.Cells);
     });
   if (mesh.Path.empty())
   {
@@ -301,7 +314,7 @@ PieceInterior writeInterior(const PartitionedMesh& mesh, std::size_t number,
       continue;
     }
     ColumnWriter column(output, file.Offsets[a], bufferBytes);
-    addInterior(array, layout, content, positions, interior.Cells, column);
+    addInterior(array, mesh.CellSize, layout, content, positions, interior.Cells, column);
     interior.Checksums.push_back(column.checksums()[0]);
   }
   output.startWriteback();
@@ -317,7 +330,7 @@ FinishedPiece writeBorder(const PartitionedMesh& mesh, std::size_t number,
     const PieceBorder::Mesh triangles = border.mesh();
     finished.Summary = mesh.Pieces[number];
     finished.Summary.Cells =
-      interior.Cells + std::int64_t(interior.InterfaceTriangles.size() + border.triangles());
+      interior.Cells + std::int64_t(interior.InterfaceCells.size() + border.cells());
     finished.TriangleSum =
       interior.TriangleSum + sumTriangles(triangles.triangles(), triangles.Rows.data(), layout);
     return finished;
@@ -348,7 +361,7 @@ FinishedPiece writeBorder(const PartitionedMesh& mesh, std::size_t number,
     checksums.push_back(interior.Checksums[a]);
     ColumnWriter column(output,
       file.Offsets[a] + std::uint64_t(interiorTuples(interior, array)) * tuple, bufferBytes / 16);
-    addBorder(array, layout, ordered, interior.Cells, column, checksums);
+    addBorder(array, mesh.CellSize, layout, ordered, interior.Cells, column, checksums);
   }
   summary.FileBytes = writeFrame(output, file, finished.Table);
   finished.Table.PointGroups = ordered.PointGroups;

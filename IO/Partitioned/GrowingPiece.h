@@ -16,10 +16,10 @@ namespace tipp
 {
 
 /// @file
-/// The file of a piece of triangles, written in two steps: the interior as soon as the piece's own
-/// points are triangulated, and the border once its neighbours are. `number` is the piece's index
-/// in the mesh. If the mesh has no path, no file is written: the triangles are only counted and
-/// hashed. All functions throw IOError.
+/// The file of a piece of triangles or tetrahedra, written in two steps: the interior as soon as
+/// the piece's own points are triangulated, and the border once its neighbours are. `number` is the
+/// piece's index in the mesh. If a mesh of triangles has no path, no file is written: they are only
+/// counted and hashed. All functions throw IOError.
 
 /// Suffix of the file that will replace a piece's file.
 constexpr const char* nextPieceSuffix = ".next";
@@ -31,7 +31,7 @@ struct InteriorContent
   std::int64_t Points = 0;
   const double* Rows = nullptr;
   const std::uint8_t* IsOnInterface = nullptr; ///< of each point
-  std::vector<TriangleRange> Triangles;        ///< all except the border's
+  std::vector<TriangleRange> Triangles;        ///< or tetrahedra; all except the border's
   /// Duplicates: maps a point to the one with the same coordinates that represents it.
   const std::unordered_map<std::int32_t, std::int32_t>* Representatives = nullptr;
   bool IsSummed = true; ///< whether to hash triangles for which there is no file

@@ -146,13 +146,13 @@ std::size_t PieceInterior::interfacePosition(std::int64_t point) const
   return std::size_t(found - this->InterfacePoints.begin());
 }
 
-void PieceBorder::addTriangle(
-  const std::array<std::int64_t, 3>& points, const std::vector<std::int32_t>& borrowers)
+void PieceBorder::addCell(const std::int64_t* points, const std::vector<std::int32_t>& borrowers)
 {
   this->Borrowers.insert(this->Borrowers.end(), borrowers.begin(), borrowers.end());
-  this->Triangles.push_back({ points, this->Borrowers.size() });
-  for (const std::int64_t point : points)
+  this->Cells.push_back({ {}, this->Borrowers.size() });
+  for (std::size_t i = 0; i < this->CellSize; ++i)
   {
+    const std::int64_t point = this->Cells.back().Points[i] = points[i];
     if (!this->Interior.owns(point) &&
       this->GhostPosition.emplace(point, std::int64_t(this->Ghosts.size())).second)
     {
@@ -180,10 +180,11 @@ PieceBorder::Mesh PieceBorder::mesh() const
 {
   Mesh mesh;
   std::unordered_map<std::int64_t, std::int32_t> known;
-  for (const Triangle& triangle : this->Triangles)
+  for (const Cell& cell : this->Cells)
   {
-    for (const std::int64_t point : triangle.Points)
+    for (std::size_t i = 0; i < 3; ++i)
     {
+      const std::int64_t point = cell.Points[i];
       const auto [found, isNew] = known.emplace(point, std::int32_t(known.size()));
       if (isNew)
       {
@@ -212,21 +213,21 @@ std::size_t OrderedBorder::index(std::int64_t point) const
     : this->Interior.InterfacePoints.size() + std::size_t(this->Of.GhostPosition.at(point));
 }
 
-/// A point's set of borrowers is the union of its triangles' sets.
+/// A point's set of borrowers is the union of its cells' sets.
 void OrderedBorder::uniteSets()
 {
   this->SetOf.assign(this->Interior.InterfacePoints.size() + this->Of.Ghosts.size(), 0);
   this->Sets.number({}); // the empty set gets number 0, and sorts first
   auto begin = this->Of.Borrowers.begin();
-  for (const PieceBorder::Triangle& triangle : this->Of.Triangles)
+  for (const PieceBorder::Cell& cell : this->Of.Cells)
   {
-    const auto end = this->Of.Borrowers.begin() + std::ptrdiff_t(triangle.BorrowerEnd);
+    const auto end = this->Of.Borrowers.begin() + std::ptrdiff_t(cell.BorrowerEnd);
     const int set = this->Sets.number({ begin, end });
     begin = end;
     this->CellSets.push_back(set);
-    for (const std::int64_t point : triangle.Points)
+    for (std::size_t i = 0; i < this->Of.CellSize; ++i)
     {
-      int& of = this->SetOf[this->index(point)];
+      int& of = this->SetOf[this->index(cell.Points[i])];
       of = this->Sets.unite(of, set);
     }
   }
@@ -275,28 +276,47 @@ void OrderedBorder::orderPoints()
   }
 }
 
-void OrderedBorder::addCell(int set, std::array<std::int32_t, 3> corners)
+/// Puts the corners into an order of the same orientation that depends on nothing else.
+void OrderedBorder::addCell(int set, CellCorners corners)
 {
-  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  if (this->Of.CellSize == 3)
+  {
+    std::rotate(
+      corners.begin(), std::min_element(corners.begin(), corners.end() - 1), corners.end() - 1);
+  }
+  else
+  {
+    bool isOdd = false;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      for (std::size_t j = i + 1; j < 4; ++j)
+      {
+        isOdd = isOdd != (corners[i] > corners[j]);
+      }
+    }
+    std::sort(corners.begin(), corners.end());
+    isOdd ? std::swap(corners[2], corners[3]) : void();
+  }
   this->Cells.push_back({ this->Ranks[std::size_t(set)], corners });
 }
 
 void OrderedBorder::addCells()
 {
-  for (std::array<std::int32_t, 3> corners : this->Interior.InterfaceTriangles)
+  for (CellCorners corners : this->Interior.InterfaceCells)
   {
-    for (std::int32_t& corner : corners)
+    for (std::size_t c = 0; c < this->Of.CellSize; ++c)
     {
+      std::int32_t& corner = corners[c];
       corner = corner < 0 ? this->Position[std::size_t(-1 - corner)] : corner;
     }
     this->addCell(0, corners);
   }
   for (std::size_t i = 0; i < this->CellSets.size(); ++i)
   {
-    std::array<std::int32_t, 3> corners{};
-    for (std::size_t c = 0; c < 3; ++c)
+    CellCorners corners{};
+    for (std::size_t c = 0; c < this->Of.CellSize; ++c)
     {
-      corners[c] = this->Position[this->index(this->Of.Triangles[i].Points[c])];
+      corners[c] = this->Position[this->index(this->Of.Cells[i].Points[c])];
     }
     this->addCell(this->CellSets[i], corners);
   }

@@ -40,7 +40,11 @@ void serialize(Archive& archive, PointRowLayout& layout)
   archive(layout.Words, layout.Z, layout.Attributes);
 }
 
-/// A range of triangles: three row indices each.
+/// The corners of a triangle or a tetrahedron; the fourth one of a triangle is 0.
+using CellCorners = std::array<std::int32_t, 4>;
+
+/// A range of triangles: three row indices each; of tetrahedra, four each, where the mesh has
+/// those.
 struct TriangleRange
 {
   const std::int32_t* Begin;
@@ -94,22 +98,22 @@ private:
 /// What is kept of a piece's interior from the time it is written until its border is.
 ///
 /// Points are identified by index among those of all pieces; a piece's own points have consecutive
-/// indices. *Interface* points are own points that triangles of the border use.
+/// indices. *Interface* points are own points that cells of the border use.
 struct VTKTIPPIO_EXPORT PieceInterior
 {
   std::int64_t First = 0; ///< index of the first own point
   std::int64_t OwnPoints = 0;
   PieceSummary Room;                         ///< counts that the file has room for
   std::int64_t Points = 0;                   ///< own points without those of the interface
-  std::int64_t Cells = 0;                    ///< triangles of these points alone
+  std::int64_t Cells = 0;                    ///< cells of these points alone
   std::uint64_t TriangleSum = 0;             ///< of hashes; only without a file
   Bounds Extent{};                           ///< of the own points
   std::vector<std::uint64_t> Checksums;      ///< of each array's first part
   std::vector<std::int64_t> InterfacePoints; ///< indices, ascending
   std::vector<double> InterfaceRows;
-  /// Triangles of own points alone with corners on the interface: positions in the piece, or -1 - k
-  /// for the k-th interface point.
-  std::vector<std::array<std::int32_t, 3>> InterfaceTriangles;
+  /// Cells of own points alone with corners on the interface: positions in the piece, or -1 - k for
+  /// the k-th interface point.
+  std::vector<CellCorners> InterfaceCells;
 
   bool owns(std::int64_t point) const
   {
@@ -128,29 +132,32 @@ template <typename Archive>
 void serialize(Archive& archive, PieceInterior& interior)
 {
   archive(interior.Room, interior.Points, interior.Cells, interior.TriangleSum, interior.Extent,
-    interior.Checksums, interior.InterfacePoints, interior.InterfaceRows,
-    interior.InterfaceTriangles);
+    interior.Checksums, interior.InterfacePoints, interior.InterfaceRows, interior.InterfaceCells);
 }
 
-/// The triangles that a piece owns at its border, and the other pieces' points that they use
-/// (ghosts).
+/// The cells that a piece owns at its border, and the other pieces' points that they use (ghosts).
 class VTKTIPPIO_EXPORT PieceBorder
 {
 public:
-  /// Both must outlive this.
-  PieceBorder(const PieceInterior& interior, const PointRowLayout& layout)
+  /// Both must outlive this. `cellSize`: 3 for triangles, 4 for tetrahedra.
+  PieceBorder(const PieceInterior& interior, const PointRowLayout& layout, std::size_t cellSize = 3)
     : Interior(interior)
     , Layout(layout)
+    , CellSize(cellSize)
   {
   }
 
-  /// Adds a triangle of points that the other pieces `borrowers`, ascending, borrow; the list may
-  /// be empty.
+  /// Adds a cell of points that the other pieces `borrowers`, ascending, borrow; the list may be
+  /// empty. There are `cellSize` points.
+  void addCell(const std::int64_t* points, const std::vector<std::int32_t>& borrowers);
   void addTriangle(
-    const std::array<std::int64_t, 3>& points, const std::vector<std::int32_t>& borrowers);
-  std::size_t triangles() const { return this->Triangles.size(); }
+    const std::array<std::int64_t, 3>& points, const std::vector<std::int32_t>& borrowers)
+  {
+    this->addCell(points.data(), borrowers);
+  }
+  std::size_t cells() const { return this->Cells.size(); }
 
-  /// The ghosts of the triangles so far. The caller must set their rows.
+  /// The ghosts of the cells so far. The caller must set their rows.
   const std::vector<std::int64_t>& ghosts() const { return this->Ghosts; }
   void setGhost(std::int64_t point, const double* row);
 
@@ -161,29 +168,31 @@ public:
 
     TriangleRange triangles() const { return { this->Corners.data(), this->Corners.size() / 3 }; }
   };
+  /// Of a border of triangles.
   Mesh mesh() const;
 
 private:
   friend class OrderedBorder;
-  struct Triangle
+  struct Cell
   {
-    std::array<std::int64_t, 3> Points;
-    std::uint64_t BorrowerEnd; ///< end of its range in Borrowers
+    std::array<std::int64_t, 4> Points; ///< the fourth one of a triangle is not used
+    std::uint64_t BorrowerEnd;          ///< end of its range in Borrowers
   };
 
   const double* rowOf(std::int64_t point) const;
 
   const PieceInterior& Interior;
   const PointRowLayout& Layout;
-  std::vector<Triangle> Triangles;
+  const std::size_t CellSize;
+  std::vector<Cell> Cells;
   std::vector<std::int32_t> Borrowers;
   std::vector<std::int64_t> Ghosts;                             ///< in the order of their rows
   std::unordered_map<std::int64_t, std::int64_t> GhostPosition; ///< in Ghosts, by point
   std::vector<double> GhostRows;
 };
 
-/// A border's points and triangles in the order of the piece's file: by the set of their borrowers,
-/// then points by global id and triangles by their corners.
+/// A border's points and cells in the order of the piece's file: by the set of their borrowers,
+/// then points by global id and cells by their corners.
 class OrderedBorder
 {
 public:
@@ -198,7 +207,7 @@ public:
   struct Cell
   {
     int Group;
-    std::array<std::int32_t, 3> Points; ///< positions in the piece, the lowest first
+    CellCorners Points; ///< positions in the piece, the lowest first
   };
 
   explicit OrderedBorder(const PieceBorder& border);
@@ -214,14 +223,14 @@ private:
   template <typename Item>
   std::vector<SharedGroup> groupsOf(const std::vector<Item>& items) const;
   void orderPoints();
-  void addCell(int set, std::array<std::int32_t, 3> corners);
+  void addCell(int set, CellCorners corners);
   void addCells();
 
   const PieceBorder& Of;
   const PieceInterior& Interior;
   SharingSets Sets;
   std::vector<int> SetOf;             ///< of each point
-  std::vector<int> CellSets;          ///< of each added triangle
+  std::vector<int> CellSets;          ///< of each added cell
   std::vector<int> Ranks;             ///< of sets, in lexicographic order
   std::vector<int> SetOfRank;         ///< the inverse
   std::vector<std::int32_t> Position; ///< in the piece, of each point

@@ -96,8 +96,9 @@ namespace
 class GeneratedPoints : public FilePoints
 {
 public:
-  explicit GeneratedPoints(std::int64_t count)
+  GeneratedPoints(std::int64_t count, bool inSpace)
     : Count(count)
+    , InSpace(inSpace)
   {
   }
 
@@ -105,9 +106,19 @@ public:
   {
     const auto count = std::size_t(std::min(std::int64_t(most), this->Count - this->At));
     block.XY.resize(2 * count);
-    for (double& coordinate : block.XY)
+    block.Columns.resize(this->InSpace ? 1 : 0);
+    for (std::vector<double>& z : block.Columns)
     {
-      coordinate = this->Numbers.uniform();
+      z.resize(count);
+    }
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      block.XY[2 * i] = this->Numbers.uniform();
+      block.XY[2 * i + 1] = this->Numbers.uniform();
+      for (std::vector<double>& z : block.Columns)
+      {
+        z[i] = this->Numbers.uniform();
+      }
     }
     this->At += std::int64_t(count);
     return count > 0;
@@ -123,17 +134,21 @@ public:
 
   void skip(std::int64_t points) override
   {
-    for (std::int64_t i = 0; i < 2 * points; ++i)
+    for (std::int64_t i = 0; i < (this->InSpace ? 3 : 2) * points; ++i)
     {
       this->Numbers.bits(); // one number per coordinate; cheap beside what is done with a point
     }
     this->At += points;
   }
 
-  std::vector<std::string> columns() const override { return {}; }
+  std::vector<std::string> columns() const override
+  {
+    return this->InSpace ? std::vector<std::string>{ "z" } : std::vector<std::string>();
+  }
 
 private:
-  std::int64_t Count;
+  const std::int64_t Count;
+  const bool InSpace;
   std::int64_t At = 0;
   Random Numbers{ 1 };
 };
@@ -154,9 +169,9 @@ std::int64_t generatedCount(const std::string& name)
   return error == std::errc() && stop == end && count > 0 && count <= most ? count : 0;
 }
 
-std::unique_ptr<FilePoints> streamUniformPoints(std::int64_t count)
+std::unique_ptr<FilePoints> streamUniformPoints(std::int64_t count, bool inSpace)
 {
-  return std::make_unique<GeneratedPoints>(count);
+  return std::make_unique<GeneratedPoints>(count, inSpace);
 }
 
 namespace
@@ -285,7 +300,7 @@ std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointO
   const std::int64_t generated = generatedCount(path);
   if (generated > 0)
   {
-    return streamUniformPoints(generated);
+    return streamUniformPoints(generated, options.InSpace);
   }
   const std::string extension = extensionOf(path);
   if (isLasExtension(extension))

@@ -49,7 +49,8 @@ std::unique_ptr<FilePoints> streamTextPoints(const std::string& path, const Poin
 /// Parses "uniform:COUNT", which stands for that many uniform points instead of a file; returns 0
 /// for other names.
 std::int64_t generatedCount(const std::string& name);
-std::unique_ptr<FilePoints> streamUniformPoints(std::int64_t count);
+/// `inSpace`: with a column z.
+std::unique_ptr<FilePoints> streamUniformPoints(std::int64_t count, bool inSpace);
 
 /// Reads the rows of an n x 2 or n x 3 array of float64 or float32 in order. Throws IOError.
 class NpyPointRows

@@ -67,7 +67,8 @@ public:
 /// Opens one or more files as one stream, in their order; all must have the same columns. In each
 /// pass .npy, .las and text files are read block by block, other formats as a whole. Opening a text
 /// file reads it once to find its numeric columns. The name "uniform:COUNT" stands for that many
-/// points, uniform in the unit square, which are generated block by block. Throws IOError.
+/// points, uniform in the unit square or (PointOptions::InSpace) cube, which are generated block by
+/// block. Throws IOError.
 VTKTIPPIO_EXPORT std::unique_ptr<PointStream> openPointStream(
   const std::vector<std::string>& paths, const PointOptions& options = {});
 

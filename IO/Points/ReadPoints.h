@@ -90,6 +90,8 @@ struct PointOptions
   LasSelection Las = {};
   Thinning Thin = {}; ///< applied to the points of all files together
   int Threads = 1;    ///< threads that decode LAS files; 0: OpenMP's default
+  /// Whether points that are generated have a column z.
+  bool InSpace = false;
   /// Names of the columns besides x and y to read, if the file has them; nullopt: all.
   std::optional<std::vector<std::string>> Columns = {};
 

@@ -2,7 +2,7 @@
 #include "Check/ConstraintChains.h"
 #include "Check/DelaunayChecker.h"
 #include "Check/PieceChecker.h"
-#include "Check/TetrahedraChecker.h"
+#include "Commands/CheckTetrahedra.h"
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Console/Process.h"
@@ -10,7 +10,6 @@
 #include "Constraints/ReadConstraintFile.h"
 #include "Files/IOError.h"
 #include "Meshes/MeshFiles.h"
-#include "Meshes/TetrahedronFiles.h"
 #include "Partitioned/NeighborIds.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/ReadPiece.h"
@@ -227,10 +226,6 @@ ConstraintChains findChains(const PartitionedMesh& mesh, const ConstraintTable& 
 CheckReport checkPartitioned(const CheckArguments& arguments)
 {
   const PartitionedMesh mesh = openPartitionedMesh(arguments.Mesh);
-  if (mesh.CellSize != 3)
-  {
-    throw IOError(arguments.Mesh, "holds tetrahedra; the check is of triangles.");
-  }
   verifyPvtu(mesh);
   CheckOptions options = arguments.Options;
   ConstraintChains chains;
@@ -280,7 +275,7 @@ With constraints, their edges need not be locally Delaunay, and the mesh may hav
 more points after the given ones; where constraints have polygons or holes, each edge of
 its boundary must be one of theirs or of the convex hull. Which triangles lie inside is not checked.
 Constraints may lie outside of such a mesh.
-Tetrahedra are checked likewise: facets for edges, spheres for circles.
+Tetrahedra are checked likewise, in memory: facets for edges, spheres for circles.
 
 Examples:
   tipp check points.npy triangles.npy
@@ -388,45 +383,12 @@ CheckReport check(const CheckArguments& arguments)
   return checkDelaunay(points.XY, mesh.Triangles, arguments.Options, mesh.Neighbors);
 }
 
-/// Checks tetrahedra, and prints the result.
-int runCheckTetrahedra(const CheckArguments& arguments)
-{
-  const PointTable points = readPoints(arguments.Points, arguments.Columns);
-  const std::size_t elevation = requireElevation(points, arguments.Points);
-  std::vector<double> xyz;
-  xyz.reserve(3 * points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    xyz.insert(
-      xyz.end(), { points.XY[2 * i], points.XY[2 * i + 1], points.Columns[elevation].Values[i] });
-  }
-  const StoredTetrahedra mesh = readTetrahedra(arguments.Mesh);
-  if (!mesh.XYZ.empty() &&
-    !std::equal(xyz.begin(), xyz.end(), mesh.XYZ.begin(), mesh.XYZ.end(), isSame))
-  {
-    throw IOError(arguments.Mesh,
-      fmt::format("its {} points are not the {} points of {}; check it against the points that it "
-                  "was made from.",
-        mesh.XYZ.size() / 3, points.size(), arguments.Points));
-  }
-  const TetrahedraReport report =
-    checkTetrahedra(xyz, mesh.Ids, arguments.Options.TieRule, mesh.Neighbors);
-  fmt::print("{} points ({} distinct), {} tetrahedra, {} hull facets, {} co-spherical ties: {}\n",
-    report.Points, report.DistinctPoints, report.Tetrahedra, report.HullFacets, report.Ties,
-    report.isCorrect() ? "correct" : "FAULTY");
-  for (const std::string& fault : report.faults())
-  {
-    fmt::print("  {}\n", fault);
-  }
-  return report.isCorrect() ? Success : Failure;
-}
-
 int runCheck(const CheckArguments& arguments)
 {
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(arguments.Mesh, ignored) && holdsTetrahedra(arguments.Mesh))
+  if (isOfTetrahedra(arguments.Mesh))
   {
-    return runCheckTetrahedra(arguments);
+    return runCheckTetrahedra(
+      arguments.Points, arguments.Mesh, arguments.Columns, arguments.Options.TieRule);
   }
   const CheckReport report = check(arguments);
   fmt::print("{} points ({} distinct), {} triangles, {} boundary edges, {} co-circular ties: {}\n",
@@ -451,7 +413,7 @@ void addCheckCommand(CLI::App& app, int& exitCode)
   command
     ->add_option("mesh", arguments->Mesh,
       "The triangles: .npy (m x 3 integers), .14, .grd, a VTK file or a partitioned mesh; or "
-      "tetrahedra: .npy (m x 4 integers) or .vtu")
+      "tetrahedra: .npy (m x 4 integers), .vtu or a partitioned mesh")
     ->required();
   addPointOptions(*command, arguments->Columns);
   command->add_flag("--tie-rule", arguments->Options.TieRule,

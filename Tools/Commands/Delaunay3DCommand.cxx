@@ -8,7 +8,9 @@
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
 #include "Meshes/TetrahedronFiles.h"
+#include "OutOfCore3D/OutOfCoreTetrahedralization.h"
 #include "Parallel/Stopwatch.h"
+#include "Points/PointStream.h"
 #include "Points/ReadPoints.h"
 #include "Triangulation3D/AlphaShape3.h"
 #include "Triangulation3D/Tetrahedralize.h"
@@ -16,6 +18,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <malloc.h>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,16 +31,20 @@ namespace
 constexpr const char* footer =
   R"(INPUT   as of 'tipp delaunay'; the third coordinate is the column z, Z or elevation, or
         the third one of a file without names.
+        uniform:COUNT stands for that many points, uniform in the unit cube (to .tipp).
 OUTPUT  .vtu (all points with their data) or .npy (m x 4 int64: point ids, counted
-        from 0).
+        from 0): all is in memory. Or .tipp, a partitioned mesh in a folder: points
+        and tetrahedra may be larger than memory, which --memory limits.
 
 Duplicates are merged, points that are not finite are left out. Ctrl-C ends the run
 with exit code 130 and no output. Seconds in the summary are those of the
-tetrahedralization alone; memory is in millions of bytes. All in memory, in one process.
+tetrahedralization alone, but of .tipp those of the whole run; memory is in millions of
+bytes. All in one process.
 
 Examples:
   tipp delaunay3d particles.npy -o mesh.vtu
   tipp delaunay3d cloud.las --class 2,5 -o tetrahedra.npy --threads 4
+  tipp delaunay3d uniform:50000000 -o mesh.tipp --memory 2G
 )";
 
 struct Delaunay3DArguments
@@ -50,6 +57,9 @@ struct Delaunay3DArguments
   bool MapDuplicates = false;
   bool Neighbors = false;
   std::string Statistics;
+  // Of a run out of core:
+  std::string Memory; ///< empty: not given
+  std::string Scratch;
 };
 
 std::vector<Point3> coordinatesOf(const PointTable& table, std::size_t elevation)
@@ -124,9 +134,8 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
   }
   if (!arguments.Statistics.empty())
   {
-    nlohmann::ordered_json json = { { "input", arguments.Inputs.front() },
-      { "output", arguments.Output }, { "tetrahedralize_seconds", seconds },
-      { "peak_memory_bytes", peakMemoryBytes() } };
+    nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output },
+      { "tetrahedralize_seconds", seconds }, { "peak_memory_bytes", peakMemoryBytes() } };
     json.update(jsonOf(statisticsOf(mesh, count, std::int64_t(mesh.cellCount()))));
     writeJson(arguments.Statistics, json);
   }
@@ -141,11 +150,82 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
   return Success;
 }
 
+OutOfCoreStatistics3 makeOutOfCore(const Delaunay3DArguments& arguments)
+{
+  // Large blocks go back to the system when they are freed, whatever was freed before.
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  PointOptions columns = arguments.Columns;
+  setThinningFile(columns, arguments.Scratch, arguments.Output);
+  const auto points = openPointStream(arguments.Inputs, columns);
+  OutOfCoreOptions3 options;
+  options.MemoryLimit =
+    arguments.Memory.empty() ? options.MemoryLimit : *parseMemorySize(arguments.Memory);
+  options.Threads = arguments.Threads;
+  options.MapDuplicates = arguments.MapDuplicates;
+  options.Scratch = arguments.Scratch;
+  const auto bar = std::make_unique<ProgressBar>("Tetrahedralizing");
+  options.Progress = progressOn(bar);
+  return tetrahedralizeOutOfCore(*points, arguments.Output, options);
+}
+
+int runDelaunay3DOutOfCore(const Delaunay3DArguments& arguments)
+{
+  requireApart(
+    { arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, arguments.Inputs);
+  if (!arguments.Statistics.empty())
+  {
+    const PendingFile writable(arguments.Statistics); // fails early if it cannot be written
+  }
+  const OutOfCoreStatistics3 made = makeOutOfCore(arguments);
+  if (made.Aborted)
+  {
+    return reportInterrupt();
+  }
+  const double seconds = totalSeconds(made.Phases);
+  if (!arguments.Statistics.empty())
+  {
+    nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output },
+      { "seconds", seconds }, { "peak_memory_bytes", peakMemoryBytes() } };
+    json.update(jsonOf(statisticsOf(made)));
+    writeJson(arguments.Statistics, json);
+  }
+  reportLeftOut(made.LeftOut, made.ThinnedOut);
+  fmt::print(
+    "{} points, {} tetrahedra, {} duplicates, {} rejected, {} pieces, {:.0f} MB, {:.3f} s, "
+    "{:.0f} points/s, peak memory {:.0f} MB\n",
+    made.Points, made.Tetrahedra, made.Duplicates, made.Rejected, made.Pieces,
+    double(made.MeshBytes) / 1e6, seconds, double(made.Points) / seconds,
+    double(peakMemoryBytes()) / 1e6);
+  return Success;
+}
+
 std::string checkTetrahedronFile(const std::string& path)
 {
   const std::string extension = extensionOf(path);
-  return extension == ".vtu" || extension == ".npy" ? ""
-                                                    : "'" + path + "' does not end in .vtu or .npy";
+  return extension == ".vtu" || extension == ".npy" || extension == ".tipp"
+    ? ""
+    : "'" + path + "' does not end in .vtu, .npy or .tipp";
+}
+
+/// Throws CLI::ValidationError for an option that the kind of output does not have.
+void requireFitting(const Delaunay3DArguments& arguments)
+{
+  const std::string extension = extensionOf(arguments.Output);
+  const bool isOutOfCore = extension == ".tipp";
+  const auto refuse = [](bool isMisplaced, const char* option, const char* need)
+  {
+    if (isMisplaced)
+    {
+      throw CLI::ValidationError(option, need);
+    }
+  };
+  refuse(arguments.Neighbors && extension != ".vtu", "--neighbors", "needs an output named .vtu");
+  refuse(arguments.MapDuplicates && extension == ".npy", "--map-duplicates",
+    "needs an output named .vtu or .tipp");
+  refuse(arguments.Partitions > 0 && isOutOfCore, "--partitions",
+    "is for outputs named .vtu or .npy; --memory decides for a .tipp");
+  refuse(!arguments.Memory.empty() && !isOutOfCore, "--memory", "needs an output named .tipp");
+  refuse(!arguments.Scratch.empty() && !isOutOfCore, "--scratch", "needs an output named .tipp");
 }
 
 } // namespace
@@ -173,17 +253,21 @@ void addDelaunay3DCommand(CLI::App& app, int& exitCode)
     "Add the cell array NeighborIds to .vtu: four ids a tetrahedron, those of the tetrahedra "
     "opposite its corners, -1 at the hull");
   command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
+  command
+    ->add_option("--memory", arguments->Memory,
+      "With a .tipp output: what the process may take, as 512M; without: 2G")
+    ->check(checkMemorySize);
+  command->add_option("--scratch", arguments->Scratch,
+    "With a .tipp output: a folder for temporary files; without: beside the output");
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]()
     {
-      if ((arguments->MapDuplicates || arguments->Neighbors) &&
-        extensionOf(arguments->Output) != ".vtu")
-      {
-        throw CLI::ValidationError(
-          arguments->Neighbors ? "--neighbors" : "--map-duplicates", "needs an output named .vtu");
-      }
-      exitCode = isIdleRank() ? Success : runDelaunay3D(*arguments);
+      requireFitting(*arguments);
+      arguments->Columns.InSpace = true;
+      exitCode = isIdleRank()                       ? Success
+        : extensionOf(arguments->Output) == ".tipp" ? runDelaunay3DOutOfCore(*arguments)
+                                                    : runDelaunay3D(*arguments);
     });
 }
 

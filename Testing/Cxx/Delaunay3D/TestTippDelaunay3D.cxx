@@ -70,6 +70,8 @@ TEST_F(TippDelaunay3D, NeighboursAndDuplicatesAreWritten)
     EXPECT_NE(std::string::npos, mesh.find(array)) << array;
   }
   const auto json = nlohmann::json::parse(contentOf(this->Folder.path("run.json")));
+  EXPECT_EQ(
+    std::vector<std::string>{ "points.csv" }, json["input"].get<std::vector<std::string>>());
   EXPECT_EQ(1000, json["points"].get<int>());
   const auto points = pointsInSpace("coarse", 1000);
   std::set<std::array<double, 3>> distinct;

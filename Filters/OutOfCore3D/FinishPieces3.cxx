@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OutOfCore3D/PieceRun3.h"
+
+#include "Files/IOError.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+enum SectionKind : std::uint32_t
+{
+  InterfaceSection,
+  InteriorSection,
+  FiguresSection,
+  HullSection,
+  BorderSection,
+  MessageSection
+};
+
+/// Adds the tetrahedra of the hull repair to borders.
+struct LateCells : public FinalCellConsumer3
+{
+  explicit LateCells(const PiecePlan3& plan)
+    : Sorter(plan)
+  {
+  }
+
+  void addInside(const std::array<std::int64_t, 4>&) override {}
+  void add(const std::array<Vertex3, 4>& corners) override
+  {
+    this->Sorter.add(corners, this->Sorter.findMet(corners), this->Borders);
+  }
+
+  BorderSorter3 Sorter;
+  BordersByOwner3 Borders;
+};
+
+void addCells(const BorderCells3& cells, PieceBorder& border)
+{
+  auto begin = cells.Borrowers.begin();
+  for (std::size_t i = 0; i < cells.Corners.size(); ++i)
+  {
+    const auto end = cells.Borrowers.begin() + std::ptrdiff_t(cells.BorrowerEnds.at(i));
+    border.addCell(cells.Corners[i].data(), { begin, end });
+    begin = end;
+  }
+}
+
+/// Sets the rows of the points of other pieces that a border's tetrahedra use.
+void setGhosts(const PieceWork3& work, const StoredResults3& results, PieceBorder& border)
+{
+  std::vector<std::int64_t> ghosts = border.ghosts();
+  std::sort(ghosts.begin(), ghosts.end());
+  PartitionIndex piece = -1;
+  PieceInterior owner;
+  for (const std::int64_t point : ghosts)
+  {
+    const PartitionIndex of = work.Plan.pieceOf(point);
+    if (of != piece)
+    {
+      piece = of;
+      owner = results[std::size_t(piece)]->readInterior(work, piece, false);
+    }
+    border.setGhost(point, owner.interfaceRow(point, work.Rows));
+  }
+}
+
+} // namespace
+
+std::uint64_t writeResult(const std::string& path, const PieceResult3& result)
+{
+  SectionFileWriter file(path);
+  const PieceInterior& interior = result.Interior;
+  file.add({ InterfaceSection, 0 }, packed(interior.InterfacePoints, interior.InterfaceRows));
+  file.add({ InteriorSection, 0 },
+    packed(interior.Room, interior.Points, interior.Cells, interior.Extent, interior.Checksums,
+      interior.InterfaceCells));
+  file.add({ FiguresSection, 0 }, packed(result.Figures));
+  file.add({ HullSection, 0 }, packed(result.HullVertices));
+  for (const auto& [owner, cells] : result.Borders)
+  {
+    file.add({ BorderSection, owner }, packed(cells));
+  }
+  for (const auto& [to, message] : result.Sent)
+  {
+    file.add({ MessageSection, to }, packed(message));
+  }
+  return file.finish();
+}
+
+std::int64_t StoredResult3::countSent(PartitionIndex to) const
+{
+  return std::int64_t(this->File.bytes({ MessageSection, to }) / sizeof(Vertex3));
+}
+
+VertexMessage3 StoredResult3::readMessage(PartitionIndex to) const
+{
+  return unpacked<VertexMessage3>(this->File.read({ MessageSection, to }));
+}
+
+bool StoredResult3::hasBorder(PartitionIndex owner) const
+{
+  return this->File.has({ BorderSection, owner });
+}
+
+BorderCells3 StoredResult3::readBorder(PartitionIndex owner) const
+{
+  return unpacked<BorderCells3>(this->File.read({ BorderSection, owner }));
+}
+
+std::vector<Vertex3> StoredResult3::readHullVertices() const
+{
+  return unpacked<std::vector<Vertex3>>(this->File.read({ HullSection, 0 }));
+}
+
+PieceFigures StoredResult3::readFigures() const
+{
+  return unpacked<PieceFigures>(this->File.read({ FiguresSection, 0 }));
+}
+
+PieceInterior StoredResult3::readInterior(
+  const PieceWork3& work, PartitionIndex piece, bool all) const
+{
+  PieceInterior interior;
+  interior.First = work.Plan.first(piece);
+  interior.OwnPoints = work.Plan.count(piece);
+  const Bytes points = this->File.read({ InterfaceSection, 0 });
+  LoadArchive first(points);
+  first(interior.InterfacePoints, interior.InterfaceRows);
+  if (all)
+  {
+    const Bytes rest = this->File.read({ InteriorSection, 0 });
+    LoadArchive second(rest);
+    second(interior.Room, interior.Points, interior.Cells, interior.Extent, interior.Checksums,
+      interior.InterfaceCells);
+  }
+  return interior;
+}
+
+std::vector<FinishedPiece> finishPieces(const PieceWork3& work, const StoredResults3& results,
+  std::uint64_t limit, int threads, const Report& report, PieceFigures& figures)
+{
+  std::vector<Vertex3> hull;
+  for (const auto& result : results)
+  {
+    figures.add(result->readFigures());
+    const std::vector<Vertex3> more = result->readHullVertices();
+    hull.insert(hull.end(), more.begin(), more.end());
+  }
+  const std::uint64_t bytes = MemoryPlan3::bytesOf(std::int64_t(hull.size()), 0, 0);
+  constexpr std::uint64_t always = std::uint64_t(64) << 20;
+  if (bytes > std::max(limit, always))
+  {
+    throw IOError("There are " + std::to_string(hull.size()) +
+      " points at the convex hull, which take " + std::to_string(bytes / 1000000 + 1) +
+      " MB; allow more memory.");
+  }
+  LateCells late(work.Plan);
+  repairHull(std::move(hull), work.Plan.artificial(), late);
+  std::vector<FinishedPiece> finished(results.size());
+  const bool isDone = forChunks(std::int64_t(results.size()), 1, threads, report,
+    [&](std::int64_t at, std::int64_t, int)
+    {
+      const auto piece = PartitionIndex(at);
+      const PieceInterior interior = results[std::size_t(at)]->readInterior(work, piece, true);
+      PieceBorder border(interior, work.Rows, 4);
+      for (const auto& result : results)
+      {
+        if (result->hasBorder(piece))
+        {
+          addCells(result->readBorder(piece), border);
+        }
+      }
+      const auto added = late.Borders.find(piece);
+      if (added != late.Borders.end())
+      {
+        addCells(added->second, border);
+      }
+      setGhosts(work, results, border);
+      const std::size_t number = work.Plan.number(piece);
+      finished[number] = writeBorder(work.Mesh, number, work.Rows, interior, border);
+    });
+  return isDone ? std::move(finished) : std::vector<FinishedPiece>();
+}
+
+} // namespace tipp

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OutOfCore3D/OutOfCoreTetrahedralization.h"
+
+#include "Files/IOError.h"
+#include "OutOfCore/FinishPieces.h"
+#include "OutOfCore/ScratchFiles.h"
+#include "OutOfCore3D/PieceRun3.h"
+#include "Parallel/ParallelFor.h"
+#include "Parallel/Stopwatch.h"
+
+#include <memory>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr const char* representativeName = "RepresentativePointId";
+
+/// The user has stopped the run.
+struct Aborted
+{
+};
+
+/// The hidden folder in which a new run works.
+PendingFolder openFolder(const std::string& path)
+{
+  if (canResume(path))
+  {
+    throw IOError(path,
+      "has been begun by a run of 'tipp delaunay', and its work is in " +
+        PendingFolder::lastingPath(path) + "; resume that one, or remove the folder.");
+  }
+  return PendingFolder::lasting(path, &replaceableMesh);
+}
+
+class Run
+{
+public:
+  Run(PointStream& points, const std::string& path, const OutOfCoreOptions3& options)
+    : Input(points)
+    , Path(path)
+    , Options(options)
+    , Threads(threadCount(options.Threads))
+    , Memory(options.MemoryLimit, options.PiecePoints, 3 + points.columns().size())
+    , Pending(openFolder(path))
+    , Scratch(this->Pending, options.Scratch)
+  {
+    this->Pending.keep(false);
+    this->Scratch.keep(false);
+    this->Statistics.Threads = this->Threads;
+  }
+
+  OutOfCoreStatistics3 run()
+  {
+    try
+    {
+      this->Scratch.clear();
+      this->prepare();
+      this->triangulate();
+      this->publish();
+    }
+    catch (const Aborted&)
+    {
+      this->Statistics.Aborted = true;
+    }
+    return std::move(this->Statistics);
+  }
+
+private:
+  bool proceed(double fraction) const
+  {
+    return !this->Options.Progress || this->Options.Progress(fraction);
+  }
+
+  void require(double fraction) const
+  {
+    if (!this->proceed(fraction))
+    {
+      throw Aborted();
+    }
+  }
+
+  void endPhase(const char* name)
+  {
+    this->Statistics.Phases.push_back({ name, this->Watch.restart() });
+  }
+
+  void prepare()
+  {
+    this->Plan = std::make_unique<PiecePlan3>(
+      this->Input, this->Memory, [this](std::int64_t) { this->require(0); });
+    const InputSurvey3& survey = this->Plan->survey();
+    this->Statistics.Points = survey.Points;
+    this->Statistics.Rejected = survey.Rejected;
+    this->Statistics.LeftOut = survey.LeftOut;
+    this->Statistics.ThinnedOut = survey.ThinnedOut;
+    this->describeColumns();
+    this->requireSpace();
+    this->Plan->divide(this->Memory, this->Rows.Words);
+    this->Statistics.Pieces = this->Plan->pieces();
+    this->describeMesh();
+    this->endPhase("survey");
+    this->Plan->spill(this->Input, this->Rows, this->Scratch.points(), this->Memory, this->Threads,
+      [&](std::int64_t done) { this->require(0.1 * double(done) / double(survey.Points)); });
+    this->Statistics.SpilledBytes = this->Plan->spilledBytes();
+    this->endPhase("spill");
+  }
+
+  void describeColumns()
+  {
+    const std::vector<std::string> columns = this->Input.columns();
+    this->Mesh.Path = this->Pending.temporaryPath();
+    this->Mesh.CellSize = 4;
+    this->Rows.Words = 3 + columns.size();
+    this->Rows.Z = int(2 + this->Plan->survey().Elevation);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+    {
+      if (i != this->Plan->survey().Elevation)
+      {
+        this->Mesh.Arrays.push_back({ columns[i], true, Scalar::Float64, 1, -1 });
+        this->Rows.Attributes.push_back(int(2 + i));
+      }
+    }
+    if (this->Options.MapDuplicates)
+    {
+      this->Mesh.Arrays.push_back({ representativeName, true, Scalar::Int64, 1, -1 });
+      this->Rows.Attributes.push_back(-1);
+    }
+  }
+
+  Bounds boundsOf(const Box3& box) const
+  {
+    const double factor = this->Plan->survey().Factor;
+    return { box.Min[0] / factor, box.Max[0] / factor, box.Min[1] / factor, box.Max[1] / factor,
+      box.Min[2] / factor, box.Max[2] / factor };
+  }
+
+  void describeMesh()
+  {
+    const PiecePlan3& plan = *this->Plan;
+    this->Mesh.Points = plan.survey().Points;
+    this->Mesh.Tiling = "delaunay:" + std::to_string(plan.pieces());
+    this->Mesh.Domain = this->boundsOf(plan.survey().Bounds);
+    this->Mesh.Pieces.resize(std::size_t(plan.pieces()));
+    for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
+    {
+      this->Mesh.Pieces[plan.number(piece)].Box = this->boundsOf(plan.boxes()[std::size_t(piece)]);
+    }
+  }
+
+  void requireSpace() const
+  {
+    const auto points = std::uint64_t(this->Plan->survey().finite());
+    // Of uniform points there are 6.77 tetrahedra a point.
+    constexpr std::uint64_t cells = 7 * (16 + 4 + 1 + 8);
+    constexpr std::uint64_t results = 100; // what pieces of 250,000 points leave for others
+    this->Scratch.requireSpace(this->Path,
+      points * (24 + 8 + 1 + 8 * this->Rows.Attributes.size() + cells),
+      points * (8 * this->Rows.Words + results));
+  }
+
+  void triangulate()
+  {
+    const PieceWork3 work{ *this->Plan, this->Rows, this->Mesh, this->Scratch.results() };
+    const double all = double(this->Plan->survey().finite());
+    StoredResults3 results;
+    if (!PieceRun3(work, this->Memory, this->Threads,
+          [&](std::int64_t done) { return this->proceed(0.1 + 0.75 * double(done) / all); })
+           .run(results))
+    {
+      throw Aborted();
+    }
+    this->endPhase("triangulate");
+    this->Finished = finishPieces(
+      work, results, this->Memory.PieceBytes, this->Threads,
+      [this](double done) { return this->proceed(0.85 + 0.08 * done); }, this->Statistics);
+    if (this->Finished.empty())
+    {
+      throw Aborted();
+    }
+    this->endPhase("borders");
+  }
+
+  void publish()
+  {
+    numberCells(this->Mesh, this->Finished,
+      [this](double done)
+      {
+        this->require(0.93 + 0.05 * done);
+        return true;
+      });
+    this->Statistics.Tetrahedra = this->Mesh.Cells;
+    for (std::size_t number = 0; number < this->Finished.size(); ++number)
+    {
+      syncToDisk(this->Mesh.piecePath(number));
+      this->require(0.98 + 0.02 * double(number) / double(this->Finished.size()));
+    }
+    this->Statistics.MeshBytes = publishPieces(this->Mesh, this->Finished).Bytes;
+    this->proceed(1); // too late to end it
+    this->Pending.commit();
+    this->endPhase("publish");
+  }
+
+  PointStream& Input;
+  const std::string Path;
+  const OutOfCoreOptions3& Options;
+  const int Threads;
+  const MemoryPlan3 Memory;
+  PendingFolder Pending;
+  ScratchFolder Scratch;
+  OutOfCoreStatistics3 Statistics;
+  std::unique_ptr<PiecePlan3> Plan;
+  PointRowLayout Rows;
+  PartitionedMesh Mesh;
+  std::vector<FinishedPiece> Finished;
+  Stopwatch Watch;
+};
+
+} // namespace
+
+OutOfCoreStatistics3 tetrahedralizeOutOfCore(
+  PointStream& points, const std::string& path, const OutOfCoreOptions3& options)
+{
+  return Run(points, path, options).run();
+}
+
+} // namespace tipp

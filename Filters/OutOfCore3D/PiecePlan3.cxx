@@ -1,0 +1,417 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OutOfCore3D/PiecePlan3.h"
+
+#include "Files/IOError.h"
+#include "Kernel3D/DelaunayKernel3.h"
+#include "Predicates/ExactPredicates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// Points of the initial mesh in each piece, besides those at the sides of its region.
+constexpr std::size_t initialPointsOfPiece = 48;
+
+/// The points of a block, times a factor.
+class BlockView3
+{
+public:
+  BlockView3(const PointBlock& block, std::size_t elevation, double factor)
+    : XY(block.XY.data())
+    , Z(block.Columns[elevation].data())
+    , Count(block.size())
+    , Factor(factor)
+  {
+  }
+
+  std::size_t size() const { return this->Count; }
+  Point3 operator[](std::size_t i) const
+  {
+    return { this->XY[2 * i] * this->Factor, this->XY[2 * i + 1] * this->Factor,
+      this->Z[i] * this->Factor };
+  }
+
+private:
+  const double* XY;
+  const double* Z;
+  std::size_t Count;
+  double Factor;
+};
+
+/// The dimension of the points that were added: see Tetrahedralization::Dimension.
+class DimensionTest
+{
+public:
+  int dimension() const { return this->Dimension; }
+
+  void add(const Point3& p)
+  {
+    const auto& s = this->Simplex;
+    const bool isIndependent = this->Dimension == -1 || (this->Dimension == 0 && !(p == s[0])) ||
+      (this->Dimension == 1 && !areCollinear(s[0], s[1], p)) ||
+      (this->Dimension == 2 && orientation3(s[0], s[1], s[2], p) != 0);
+    if (isIndependent)
+    {
+      this->Simplex[std::size_t(++this->Dimension)] = p;
+    }
+  }
+
+private:
+  std::array<Point3, 4> Simplex = {};
+  int Dimension = -1;
+};
+
+[[noreturn]] void throwChanged()
+{
+  throw IOError("The input has changed while it was read; start again.");
+}
+
+void requireDimension(int dimension)
+{
+  constexpr const char* reasons[] = { "There is no point with finite coordinates in the input",
+    "All finite points coincide", "All finite points are on one line",
+    "All finite points are in one plane, where 'tipp delaunay' makes triangles" };
+  if (dimension < 3)
+  {
+    throw IOError(std::string(reasons[dimension + 1]) + ": there are no tetrahedra to write.");
+  }
+}
+
+/// In the order of PointRowLayout.
+void writeRow(const PointBlock& block, std::size_t i, char* to)
+{
+  std::memcpy(to, &block.XY[2 * i], 16);
+  to += 16;
+  for (const std::vector<double>& column : block.Columns)
+  {
+    std::memcpy(to, &column[i], 8);
+    to += 8;
+  }
+  const std::int64_t id = block.First + std::int64_t(i);
+  std::memcpy(to, &id, 8);
+}
+
+} // namespace
+
+std::uint64_t MemoryPlan3::bytesOf(std::int64_t points, std::int64_t others, std::size_t words)
+{
+  // Coordinates twice; seven tetrahedra of the kernel and the piece; ids and tables of vertices.
+  constexpr std::uint64_t vertex = 2 * 24 + 7 * (33 + 16) + 32;
+  return std::uint64_t(points) * 8 * words + std::uint64_t(points + others) * vertex;
+}
+
+MemoryPlan3::MemoryPlan3(std::uint64_t limit, std::int64_t piecePoints, std::size_t words)
+{
+  // Two blocks of points, their labels and rows by piece.
+  const std::size_t perPoint = 2 * 8 * (words - 1) + 4 + 8 * words;
+  constexpr std::size_t mostPoints = std::size_t(1) << 22;
+  this->BlockPoints =
+    std::clamp<std::size_t>(std::size_t(limit / 5 * 2) / perPoint, 1 << 14, mostPoints);
+  this->SamplePoints =
+    std::clamp<std::size_t>(std::size_t(limit / 512), std::size_t(1) << 14, std::size_t(1) << 20);
+  this->PieceBytes = limit / 5 * 4;
+  // So many at the same time; never mind the threads, so that the pieces are the same for any
+  // number of them. Larger pieces would gain little.
+  constexpr std::uint64_t together = 4;
+  constexpr std::int64_t unit = 1024;
+  const std::uint64_t most = this->PieceBytes / together / bytesOf(unit, unit / 3, words) * unit;
+  this->PiecePoints = piecePoints > 0
+    ? piecePoints
+    : std::clamp<std::int64_t>(std::int64_t(most), 4096, std::int64_t(1) << 18);
+}
+
+PiecePlan3::PiecePlan3(PointStream& points, const MemoryPlan3& memory, const Progress& progress)
+{
+  InputSurvey3& survey = this->Survey;
+  survey.Elevation = findElevation(points.columns());
+  if (survey.Elevation == points.columns().size())
+  {
+    throw IOError("The input has no column z, Z or elevation, the third coordinate.");
+  }
+  StreamSampler<Point3> sampler(memory.SamplePoints, points.divisible());
+  PointBounds bounds;
+  DimensionTest dimension;
+  forEachBlock(points, memory.BlockPoints,
+    [&](PointBlock& block)
+    {
+      const BlockView3 view(block, survey.Elevation, 1);
+      sampler.add(block.First, view);
+      for (std::size_t i = 0; i < view.size(); ++i)
+      {
+        const Point3 p = view[i];
+        if (!isFinite(p))
+        {
+          ++survey.Rejected;
+          continue;
+        }
+        bounds.include(p);
+        dimension.dimension() < 3 ? dimension.add(p) : void();
+      }
+      survey.Points += std::int64_t(view.size());
+      progress(survey.Points);
+    });
+  survey.LeftOut = points.leftOut();
+  survey.ThinnedOut = points.thinnedOut();
+  survey.Dimension = dimension.dimension();
+  requireDimension(survey.Dimension);
+  survey.Bounds = bounds.Box;
+  this->Sample = sampler.take();
+  double largest = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    largest = std::max({ largest, std::fabs(bounds.Box.Min[k]), std::fabs(bounds.Box.Max[k]) });
+  }
+  this->findFactor(points, memory.BlockPoints, largest);
+}
+
+/// Sets the factor if it is exact for all points.
+void PiecePlan3::findFactor(PointStream& points, std::size_t blockPoints, double largest)
+{
+  double factor = moderateFactor(largest);
+  if (factor == 1)
+  {
+    return;
+  }
+  forEachBlock(points, blockPoints,
+    [&](PointBlock& block)
+    {
+      const auto isExact = [factor](double x) { return isExactTimes(x, factor); };
+      const std::vector<double>& z = block.Columns[this->Survey.Elevation];
+      const bool areExact = std::all_of(block.XY.begin(), block.XY.end(), isExact) &&
+        std::all_of(z.begin(), z.end(), isExact);
+      factor = areExact ? factor : 1;
+    });
+  this->Survey.Factor = factor;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    this->Survey.Bounds.Min[k] *= factor;
+    this->Survey.Bounds.Max[k] *= factor;
+  }
+  for (Sampled& p : this->Sample)
+  {
+    p.Position = { p.Position.x * factor, p.Position.y * factor, p.Position.z * factor };
+  }
+}
+
+void PiecePlan3::divide(const MemoryPlan3& memory, std::size_t words)
+{
+  const std::int64_t count = this->Survey.finite();
+  constexpr std::int64_t mostAlone = std::int64_t(1) << 26; // which indices of the kernel can name
+  const bool fits = count < mostAlone && MemoryPlan3::bytesOf(count, 0, words) <= memory.PieceBytes;
+  const double wanted = double(count) / double(memory.PiecePoints);
+  const double possible = double(this->Sample.size()) / 8;
+  constexpr double most = 1 << 14;
+  std::vector<Point3> sample;
+  for (const Sampled& p : this->Sample)
+  {
+    sample.push_back(p.Position);
+  }
+  this->Tiling =
+    Tiling3(std::move(sample), int(std::ceil(std::max(1.0, std::min({ wanted, possible, most })))));
+  if (this->pieces() > 1 && !this->samplePays() && fits)
+  {
+    this->Tiling = Tiling3({}, 1);
+  }
+  this->Boxes = this->Tiling.boxes(this->Survey.Bounds);
+  this->chooseInitialPoints();
+}
+
+/// Whether partitions pay, as far as the sample tells.
+bool PiecePlan3::samplePays() const
+{
+  std::vector<Point3> sample;
+  for (const Sampled& p : this->Sample)
+  {
+    sample.push_back(p.Position);
+  }
+  const PointBuckets3 buckets = bucketPoints(sample.data(), sample.size(), this->Tiling, 1, 1);
+  const std::vector<Vertex3> artificial = makeArtificialPoints(buckets);
+  return !artificial.empty() && InitialMesh3(buckets, artificial).partitionsPay();
+}
+
+/// Keeps a few sampled points of each piece.
+void PiecePlan3::chooseInitialPoints()
+{
+  std::vector<std::vector<Sampled>> sampled(std::size_t(this->pieces()));
+  for (const Sampled& p : this->Sample)
+  {
+    sampled[std::size_t(this->Tiling.locate(p.Position))].push_back(p);
+  }
+  std::vector<Sampled>().swap(this->Sample);
+  for (const std::vector<Sampled>& all : sampled)
+  {
+    const std::size_t wanted = std::min(all.size(), initialPointsOfPiece);
+    for (std::size_t i = 0; i < wanted; ++i)
+    {
+      this->Sample.push_back(all[(2 * i + 1) * all.size() / (2 * wanted)]);
+    }
+  }
+  std::sort(this->Sample.begin(), this->Sample.end(),
+    [](const Sampled& a, const Sampled& b) { return a.Id < b.Id; });
+}
+
+/// Which piece each point of a block is in, and what is known of the pieces.
+struct PiecePlan3::Labels
+{
+  explicit Labels(PiecePlan3& plan)
+    : Plan(plan)
+    , Pieces(std::size_t(plan.pieces()))
+  {
+    plan.Initial.assign(this->Pieces.size(), {});
+  }
+
+  void label(const PointBlock& block, int threads)
+  {
+    const BlockView3 view(block, this->Plan.Survey.Elevation, this->Plan.Survey.Factor);
+    this->Of.resize(view.size());
+    const auto count = std::ptrdiff_t(view.size());
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::ptrdiff_t i = 0; i < count; ++i)
+    {
+      const Point3 p = view[std::size_t(i)];
+      this->Of[std::size_t(i)] = isFinite(p) ? this->Plan.Tiling.locate(p) : -1;
+    }
+    const std::vector<Sampled>& sample = this->Plan.Sample;
+    for (std::size_t i = 0; i < view.size(); ++i)
+    {
+      const bool isSampled =
+        this->Next < sample.size() && sample[this->Next].Id == block.First + std::int64_t(i);
+      this->Next += isSampled ? 1 : 0;
+      if (this->Of[i] >= 0)
+      {
+        this->add(std::size_t(this->Of[i]), view[i], isSampled);
+      }
+    }
+    this->Points += std::int64_t(view.size());
+  }
+
+  void add(std::size_t piece, const Point3& p, bool isInitial)
+  {
+    SpilledPiece3& of = this->Pieces[piece];
+    const std::array<double, 3> at = { p.x, p.y, p.z };
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      if (at[k] < of.Region.Box.Min[k])
+      {
+        of.Extreme[2 * k] = of.Count;
+        of.ExtremePositions[2 * k] = p;
+      }
+      if (at[k] > of.Region.Box.Max[k])
+      {
+        of.Extreme[2 * k + 1] = of.Count;
+        of.ExtremePositions[2 * k + 1] = p;
+      }
+    }
+    of.Region.include(p);
+    if (isInitial)
+    {
+      this->Plan.Initial[piece].push_back({ of.Count, p });
+    }
+    ++of.Count;
+  }
+
+  PiecePlan3& Plan;
+  std::vector<SpilledPiece3> Pieces;
+  std::vector<PartitionIndex> Of; ///< of the block's points; -1: rejected
+  std::size_t Next = 0;           ///< of the sampled points
+  std::int64_t Points = 0;
+};
+
+void PiecePlan3::spill(PointStream& points, const PointRowLayout& rows, const std::string& file,
+  const MemoryPlan3& memory, int threads, const Progress& progress)
+{
+  Spill spill(file, 0, std::size_t(this->pieces()), 8 * rows.Words);
+  spill.protect();
+  Labels labels(*this);
+  forEachBlock(points, memory.BlockPoints,
+    [&](PointBlock& block)
+    {
+      labels.label(block, threads);
+      spill.add(
+        block.size(), threads, [&](std::size_t i) { return labels.Of[i]; },
+        [&](std::size_t i, char* to) { writeRow(block, i, to); });
+      progress(labels.Points);
+    });
+  this->Rows = std::make_unique<Spill>(
+    file, std::size_t(this->pieces()), 8 * rows.Words, std::vector<SpilledRows>{ spill.close() });
+  this->Starts = { 0 };
+  for (std::size_t piece = 0; piece < labels.Pieces.size(); ++piece)
+  {
+    const SpilledPiece3& of = labels.Pieces[piece];
+    const std::int64_t start = this->Starts.back();
+    std::vector<InitialPoint3>& initial = this->Initial[piece];
+    for (std::size_t i = 0; of.Count > 0 && i < of.Extreme.size(); ++i)
+    {
+      initial.push_back({ of.Extreme[i], of.ExtremePositions[i] });
+    }
+    for (InitialPoint3& p : initial)
+    {
+      p.Index += start;
+    }
+    this->Starts.push_back(start + of.Count);
+    this->Regions.push_back(of.Region.Box);
+  }
+  if (labels.Points != this->Survey.Points || this->Starts.back() != this->Survey.finite() ||
+    labels.Next != this->Sample.size())
+  {
+    throwChanged();
+  }
+  std::vector<Sampled>().swap(this->Sample);
+  this->Artificial =
+    this->pieces() > 1 ? makeArtificialPoints(this->initialBuckets()) : std::vector<Vertex3>();
+  if (this->pieces() > 1 && this->Artificial.empty())
+  {
+    throw IOError(
+      "The coordinates reach too far to be enclosed by 64-bit numbers; scale them down.");
+  }
+}
+
+PartitionIndex PiecePlan3::pieceOf(std::int64_t index) const
+{
+  return PartitionIndex(
+    std::upper_bound(this->Starts.begin(), this->Starts.end(), index) - this->Starts.begin() - 1);
+}
+
+/// The initial points alone, numbered one after the other.
+PointBuckets3 PiecePlan3::initialBuckets() const
+{
+  PointBuckets3 buckets;
+  buckets.Regions = this->Regions;
+  for (const std::vector<InitialPoint3>& initial : this->Initial)
+  {
+    buckets.Begins.push_back(buckets.Points.size());
+    for (const InitialPoint3& p : initial)
+    {
+      buckets.Ids.push_back(std::int32_t(buckets.Points.size()));
+      buckets.Points.push_back(p.Position);
+    }
+  }
+  buckets.Begins.push_back(buckets.Points.size());
+  return buckets;
+}
+
+InitialMesh3 PiecePlan3::initialMesh() const
+{
+  InitialMesh3 mesh(this->initialBuckets(), this->Artificial);
+  std::vector<std::int64_t> indices;
+  for (const std::vector<InitialPoint3>& initial : this->Initial)
+  {
+    for (const InitialPoint3& p : initial)
+    {
+      indices.push_back(p.Index);
+    }
+  }
+  for (Vertex3& v : mesh.Vertices)
+  {
+    v.Id = v.isArtificial() ? v.Id : indices[std::size_t(v.Id)];
+  }
+  return mesh;
+}
+
+} // namespace tipp

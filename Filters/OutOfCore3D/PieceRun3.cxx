@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OutOfCore3D/PieceRun3.h"
+
+#include "Engine/ReadyPartitions.h"
+#include "Files/IOError.h"
+#include "Parallel/ParallelFor.h"
+#include "Predicates/ExactPredicates.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <exception>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+
+namespace tipp
+{
+
+const std::vector<std::int32_t>& BorderSorter3::findMet(const std::array<Vertex3, 4>& corners)
+{
+  PointBounds bounds;
+  for (const Vertex3& v : corners)
+  {
+    bounds.include(v.Position);
+  }
+  this->Met.clear();
+  this->Plan.tiling().visitMet(bounds.Box,
+    [&](PartitionIndex piece)
+    {
+      if (tetrahedronMeetsBox(corners[0].Position, corners[1].Position, corners[2].Position,
+            corners[3].Position, this->Plan.boxes()[std::size_t(piece)]))
+      {
+        this->Met.push_back(std::int32_t(this->Plan.number(piece)));
+      }
+    });
+  std::sort(this->Met.begin(), this->Met.end());
+  if (this->Met.empty())
+  {
+    throw std::runtime_error("a tetrahedron lies outside of all pieces");
+  }
+  return this->Met;
+}
+
+void BorderSorter3::add(const std::array<Vertex3, 4>& corners, const std::vector<std::int32_t>& met,
+  BordersByOwner3& borders) const
+{
+  const auto owner = PartitionIndex(this->Plan.number(met.front()));
+  borders[owner].add({ corners[0].Id, corners[1].Id, corners[2].Id, corners[3].Id }, met);
+}
+
+/// Sorts the final tetrahedra of a piece.
+struct PieceRun3::Cells : public FinalCellConsumer3
+{
+  Cells(const PiecePlan3& plan, PartitionIndex piece)
+    : Piece(piece)
+    , Number(std::int32_t(plan.number(piece)))
+    , First(plan.first(piece))
+    , Sorter(plan)
+    , IsOnInterface(std::size_t(plan.count(piece)), 0)
+  {
+  }
+
+  void addInside(const std::array<std::int64_t, 4>& ids) override
+  {
+    for (const std::int64_t id : ids)
+    {
+      this->Interior.push_back(std::int32_t(id - this->First));
+    }
+  }
+
+  void add(const std::array<Vertex3, 4>& corners) override
+  {
+    const bool isHull = takeHullVertices(corners, this->HullVertices);
+    if (!isHull)
+    {
+      const std::vector<std::int32_t>& met = this->Sorter.findMet(corners);
+      const bool isOwn = met.size() == 1 && met.front() == this->Number &&
+        std::all_of(corners.begin(), corners.end(),
+          [this](const Vertex3& v) { return v.Partition == this->Piece; });
+      if (isOwn)
+      {
+        this->addInside({ corners[0].Id, corners[1].Id, corners[2].Id, corners[3].Id });
+        return;
+      }
+      this->Sorter.add(corners, met, this->Borders);
+    }
+    for (const Vertex3& v : corners)
+    {
+      this->markInterface(v);
+    }
+  }
+
+  void markInterface(const Vertex3& v)
+  {
+    if (v.Partition == this->Piece)
+    {
+      this->IsOnInterface[std::size_t(v.Id - this->First)] = 1;
+    }
+  }
+
+  const PartitionIndex Piece;
+  const std::int32_t Number;
+  const std::int64_t First;
+  BorderSorter3 Sorter;
+  std::vector<std::int32_t> Interior; ///< four own points each
+  std::vector<std::uint8_t> IsOnInterface;
+  std::vector<Vertex3> HullVertices;
+  BordersByOwner3 Borders;
+  SentMessages3 Sent;
+};
+
+PieceRun3::PieceRun3(const PieceWork3& work, const MemoryPlan3& memory, int threads,
+  std::function<bool(std::int64_t)> progress)
+  : Work(work)
+  , Memory(memory)
+  , Threads(threads)
+  , Progress(std::move(progress))
+{
+}
+
+bool PieceRun3::run(StoredResults3& results)
+{
+  const PiecePlan3& plan = this->Work.Plan;
+  results.resize(std::size_t(plan.pieces()));
+  std::vector<char> isUsed;
+  for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
+  {
+    isUsed.push_back(plan.count(piece) > 0 ? 1 : 0);
+  }
+  if (plan.pieces() == 1)
+  {
+    this->Initial.resize(1);
+    this->makePieces(results, PartitionOrder(isUsed, ConflictGraph(1)));
+    return !this->IsStopped;
+  }
+  const InitialMesh3 mesh = plan.initialMesh();
+  const PartitionOrder order(isUsed, mesh.conflicts());
+  this->Initial = sendInitialMesh(mesh, order);
+  this->makePieces(results, order);
+  return !this->IsStopped;
+}
+
+/// Each piece that has points has a share of the points of the sample, so all have points.
+void PieceRun3::makePieces(StoredResults3& results, const PartitionOrder& order)
+{
+  this->Order = &order;
+  this->Results = &results;
+  std::vector<char> isToDo;
+  for (const auto& result : results)
+  {
+    isToDo.push_back(result ? 0 : 1);
+  }
+  ReadyPartitions ready(order, ReadyPartitions::Waits::ForEarlier, isToDo);
+  for (PartitionIndex piece = 0; piece < this->Work.Plan.pieces(); ++piece)
+  {
+    if (isToDo[std::size_t(piece)] == 0)
+    {
+      this->PointsDone += this->Work.Plan.count(piece);
+      ready.finish(piece);
+    }
+  }
+#pragma omp parallel num_threads(this->Threads)
+  {
+    try
+    {
+      for (PartitionIndex piece = ready.take(); piece >= 0; piece = ready.take())
+      {
+        const std::uint64_t bytes = this->takeMemory(piece);
+        if (bytes == 0)
+        {
+          break;
+        }
+        this->make(piece);
+        ready.finish(piece);
+        const std::lock_guard<std::mutex> lock(this->Mutex);
+        this->LoadedBytes -= bytes;
+        if (!this->finish(piece))
+        {
+          ready.stop();
+        }
+      }
+    }
+    catch (...)
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      ready.stop(std::current_exception());
+      this->IsStopped = true;
+      this->Changed.notify_all();
+    }
+  }
+  if (ready.failure())
+  {
+    std::rethrow_exception(ready.failure());
+  }
+}
+
+/// Waits until there is memory for the piece, and returns how many bytes; 0 if the run was stopped.
+std::uint64_t PieceRun3::takeMemory(PartitionIndex piece)
+{
+  std::unique_lock<std::mutex> lock(this->Mutex);
+  std::int64_t others = std::int64_t(this->Initial[std::size_t(piece)].Vertices.size());
+  for (const auto& result : *this->Results)
+  {
+    others += result ? result->countSent(piece) : 0;
+  }
+  const std::int64_t points = this->Work.Plan.count(piece);
+  const std::uint64_t bytes = MemoryPlan3::bytesOf(points, others, this->Work.Rows.Words);
+  constexpr std::uint64_t always = std::uint64_t(64) << 20;
+  if (bytes > std::max(this->Memory.PieceBytes, always))
+  {
+    throw IOError("Spheres through these points are so large that a piece of " +
+      std::to_string(points) + " points needs " + std::to_string(others) +
+      " points of others, and " + std::to_string(bytes / 800000 + 1) +
+      " MB in all; allow more memory.");
+  }
+  this->Changed.wait(lock,
+    [&]
+    {
+      return this->IsStopped || this->LoadedBytes == 0 ||
+        this->LoadedBytes + bytes <= this->Memory.PieceBytes;
+    });
+  this->LoadedBytes += bytes;
+  return this->IsStopped ? 0 : bytes;
+}
+
+std::vector<VertexMessage3> PieceRun3::readInbox(PartitionIndex piece)
+{
+  std::vector<VertexMessage3> inbox;
+  inbox.push_back(std::move(this->Initial[std::size_t(piece)]));
+  for (std::size_t sender = 0; sender < this->Results->size(); ++sender)
+  {
+    const StoredResult3* result = nullptr;
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      result = (*this->Results)[sender].get();
+    }
+    if (result && result->countSent(piece) > 0)
+    {
+      inbox.push_back(result->readMessage(piece));
+    }
+  }
+  return inbox;
+}
+
+void PieceRun3::make(PartitionIndex piece)
+{
+  const PiecePlan3& plan = this->Work.Plan;
+  const auto count = std::size_t(plan.count(piece));
+  const std::size_t words = this->Work.Rows.Words;
+  const double factor = plan.survey().Factor;
+  const auto z = std::size_t(this->Work.Rows.Z);
+  Buffer<double> rows(count * words);
+  plan.read(piece, rows.data());
+  Cells cells(plan, piece);
+  cells.Interior.reserve(4 * 7 * count);
+  std::vector<Duplicate> duplicates;
+  PieceFigures figures;
+  {
+    std::vector<Point3> points(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const double* const row = rows.data() + i * words;
+      points[i] = { row[0] * factor, row[1] * factor, row[z] * factor };
+    }
+    Worker3 worker(plan.regions(), *this->Order);
+    const PartitionPoints3 own{ piece, points.data(), count, nullptr, plan.first(piece) };
+    cells.Sent = worker.triangulate(own, this->readInbox(piece), cells);
+    duplicates = worker.duplicates();
+    figures.WorkerVertices = std::int64_t(worker.vertexCount());
+  }
+  figures.Duplicates = std::int64_t(duplicates.size());
+  PieceResult3 result = this->write(piece, rows, cells, duplicates);
+  for (const auto& [to, message] : result.Sent)
+  {
+    figures.BoundaryBytes += message.Vertices.size() * sizeof(Vertex3);
+  }
+  result.Figures = figures;
+  writeResult(this->Work.resultPath(piece), result);
+  auto stored = std::make_unique<StoredResult3>(this->Work.resultPath(piece));
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  (*this->Results)[std::size_t(piece)] = std::move(stored);
+}
+
+/// Writes the interior's share of the piece's file.
+PieceResult3 PieceRun3::write(PartitionIndex piece, const Buffer<double>& rows, Cells& cells,
+  const std::vector<Duplicate>& duplicates)
+{
+  for (const auto& [to, message] : cells.Sent)
+  {
+    for (const Vertex3& v : message.Vertices)
+    {
+      cells.markInterface(v);
+    }
+  }
+  std::unordered_map<std::int32_t, std::int32_t> representatives;
+  for (const Duplicate& duplicate : duplicates)
+  {
+    representatives.emplace(std::int32_t(duplicate.Point - cells.First),
+      std::int32_t(duplicate.Representative - cells.First));
+  }
+  InteriorContent content;
+  content.First = cells.First;
+  content.Points = std::int64_t(cells.IsOnInterface.size());
+  content.Rows = rows.data();
+  content.IsOnInterface = cells.IsOnInterface.data();
+  content.Triangles = { { cells.Interior.data(), cells.Interior.size() / 4 } };
+  content.Representatives = &representatives;
+  PieceResult3 result;
+  result.Interior =
+    writeInterior(this->Work.Mesh, this->Work.Plan.number(piece), this->Work.Rows, content);
+  keepUnique(cells.HullVertices);
+  result.HullVertices = std::move(cells.HullVertices);
+  result.Borders = std::move(cells.Borders);
+  result.Sent = std::move(cells.Sent);
+  return result;
+}
+
+/// With the mutex. False if the run is to end.
+bool PieceRun3::finish(PartitionIndex piece)
+{
+  this->PointsDone += this->Work.Plan.count(piece);
+  this->IsStopped = this->IsStopped || !this->Progress(this->PointsDone);
+  this->Changed.notify_all();
+  return !this->IsStopped;
+}
+
+} // namespace tipp
