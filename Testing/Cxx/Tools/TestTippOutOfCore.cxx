@@ -59,6 +59,18 @@ protected:
     return count;
   }
 
+  /// What the process takes by itself; it depends on VTK's libraries.
+  double peakOfSmallRun() const
+  {
+    const std::string points = this->Folder.path("few.csv");
+    const std::string stats = this->Folder.path("few.json");
+    std::ofstream(points) << "x,y\n0,0\n1,0\n0,1\n1,2\n";
+    const Outcome made = runTipp(
+      this->Folder, { "delaunay", points, "-o", this->Folder.path("few.tipp"), "--stats", stats });
+    EXPECT_EQ(0, made.ExitCode) << made.Err;
+    return nlohmann::json::parse(contentOf(stats))["peak_memory_bytes"].get<double>();
+  }
+
   /// Runs and resumes, each killed when it has made a few files more, until one comes to its end.
   /// Returns the number of those killed.
   int killUntilDone(std::vector<std::string> more, std::mt19937& random) const
@@ -346,18 +358,6 @@ protected:
       const double x = double(random()) * 0x1p-31 - 1;
       file << x << "," << curve(x) << "\n";
     }
-  }
-
-  /// What the process takes by itself; it depends on VTK's libraries.
-  double peakOfSmallRun() const
-  {
-    const std::string points = this->Folder.path("few.csv");
-    const std::string stats = this->Folder.path("few.json");
-    std::ofstream(points) << "x,y\n0,0\n1,0\n0,1\n1,2\n";
-    const Outcome made = runTipp(
-      this->Folder, { "delaunay", points, "-o", this->Folder.path("few.tipp"), "--stats", stats });
-    EXPECT_EQ(0, made.ExitCode) << made.Err;
-    return nlohmann::json::parse(contentOf(stats))["peak_memory_bytes"].get<double>();
   }
 
   /// What Documentation/OutOfCore.md says of two threads.
