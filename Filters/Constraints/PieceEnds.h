@@ -72,7 +72,7 @@ private:
 
   std::array<std::uint64_t, MarkWords> Marks{}; ///< the bits of all words, one above the other
   std::vector<Word> Words;                      ///< by id
-  std::vector<std::int64_t> Starts; ///< by rank, and the end
+  std::vector<std::int64_t> Starts;             ///< by rank, and the end
   std::vector<std::int64_t> Entries;
 };
 
