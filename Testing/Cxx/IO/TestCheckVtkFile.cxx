@@ -208,7 +208,8 @@ TEST_F(CheckVtkFile, LegacyCellsThatDoNotFitTheirCountAreRefused)
 
 TEST_F(CheckVtkFile, WhatAReadersOwnReaderSaysIsAnError)
 {
-  this->expectRefusal("bad.vtk", changed(wholeLegacy, "FIELD", "FEILD"), "(Unrecognized keyword");
+  this->expectRefusal(
+    "bad.vtk", changed(wholeLegacy, "FIELD", "FEILD"), "(Unsupported point attribute");
 }
 
 TEST(PlainMessage, HasNoPlaceInTheSourceAndNoAddress)
