@@ -33,7 +33,7 @@ LIGHT = [
     (r"^sh Utilities/test\.sh build.*$", r"sh Utilities/test.sh format"),
     (r"^sh Utilities/(build\.sh paraview|paraview\.sh .*|package\.sh .*)$", r"sh -n Utilities/build.sh"),
     (r"^sh Utilities/test\.sh paraview$", r"sh Utilities/test.sh format"),
-    (r"^sh Utilities/benchmark\.sh.*$", r'for script in Utilities/benchmark.sh Utilities/benchmarks/*.sh; do sh -n "$script"; done'),
+    (r"^(\w+=\S+ )*sh Utilities/benchmark\.sh.*$", r'for script in Utilities/benchmark.sh Utilities/benchmarks/*.sh; do sh -n "$script"; done'),
     (r"^(cmake --build --preset \S+)$", r"\1 -- -n"),
     (r"^((?:xvfb-run -a )?ctest --preset .*)$", r"\1 -N --no-tests=ignore"),
 ]
