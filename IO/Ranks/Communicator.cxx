@@ -26,7 +26,9 @@ struct Head
 {
   std::uint64_t Size;
   MessageKind Kind;
-  std::uint32_t IsComplete; ///< the content is in the same message
+  std::uint32_t Run; ///< the number of the sender's run
+
+  bool isComplete() const { return this->Size <= LargestInHead; } ///< the content follows at once
 };
 
 } // namespace
@@ -107,8 +109,8 @@ void Communicator::sendTo(
 {
   const char* const content = memory->data() + stretch.Begin;
   const std::size_t size = stretch.Size;
-  const bool complete = size <= LargestInHead;
-  const Head head{ size, kind, complete };
+  const Head head{ size, kind, this->Run };
+  const bool complete = head.isComplete();
   this->Unsent.emplace_back();
   Outgoing& outgoing = this->Unsent.back();
   outgoing.Head = Bytes(sizeof(Head) + (complete ? size : 0));
@@ -157,45 +159,79 @@ bool Communicator::probe(Arrival& arrival)
 
 bool Communicator::receive(Message& message, const InParts* inParts)
 {
-  Arrival arrival;
-  if (!this->probe(arrival))
+  if (!this->Early.empty() && this->Early.front().Run <= this->Run)
   {
-    return false;
-  }
-  const std::size_t size = arrival.About.Size;
-  message.Source = arrival.Source;
-  message.Kind = arrival.About.Kind;
-  if (inParts && inParts->concerns(message))
-  {
-    this->receiveParts(arrival, inParts->Take);
+    message = std::move(this->Early.front().Content);
+    this->Early.pop_front();
+    if (inParts && inParts->concerns(message))
+    {
+      inParts->Take(message.Source, message.Content.data(), message.Content.size());
+    }
     return true;
   }
+  Arrival arrival;
+  while (this->probe(arrival))
+  {
+    message.Source = arrival.Source;
+    message.Kind = arrival.About.Kind;
+    if (arrival.About.Run > this->Run)
+    {
+      this->keepForItsRun(arrival);
+    }
+    else if (inParts && inParts->concerns(message))
+    {
+      this->receiveParts(arrival, inParts->Take);
+      return true;
+    }
+    else
+    {
+      message.Content = this->receiveContent(arrival);
+      return true;
+    }
+  }
+  return false;
+}
+
+Bytes Communicator::receiveContent(const Arrival& arrival)
+{
+  const std::size_t size = arrival.About.Size;
+  Bytes content;
   try
   {
-    message.Content = Bytes(size);
+    content = Bytes(size);
   }
   catch (...)
   {
     this->discardParts(arrival);
     throw;
   }
-  if (arrival.About.IsComplete)
+  if (arrival.About.isComplete())
   {
-    std::copy_n(arrival.First.data() + sizeof(Head), size, message.Content.data());
-    return true;
+    std::copy_n(arrival.First.data() + sizeof(Head), size, content.data());
+    return content;
   }
   for (std::size_t at = 0; at < size; at += LargestPart)
   {
     const std::size_t part = std::min(LargestPart, size - at);
-    this->Transport->receive(message.Content.data() + at, part, arrival.Source, PartTag);
+    this->Transport->receive(content.data() + at, part, arrival.Source, PartTag);
   }
-  return true;
+  return content;
+}
+
+/// A rank that has ended its run may have begun the next one while this rank has not.
+void Communicator::keepForItsRun(const Arrival& arrival)
+{
+  EarlyMessage early{ arrival.About.Run,
+    { arrival.Source, arrival.About.Kind, this->receiveContent(arrival) } };
+  const auto isLater = [&](const EarlyMessage& other) { return other.Run > early.Run; };
+  this->Early.insert(
+    std::find_if(this->Early.begin(), this->Early.end(), isLater), std::move(early));
 }
 
 /// Receives all parts, even if `takePart` fails.
 void Communicator::receiveParts(const Arrival& arrival, const TakePart& takePart)
 {
-  if (arrival.About.IsComplete)
+  if (arrival.About.isComplete())
   {
     takePart(arrival.Source, arrival.First.data() + sizeof(Head), arrival.About.Size);
     return;
@@ -227,28 +263,44 @@ void Communicator::receiveParts(const Arrival& arrival, const TakePart& takePart
   }
 }
 
-/// Receives the next message; returns whether it reports a failure. Other messages are discarded.
+/// Receives the next message; returns whether it reports a failure of this run. Other messages of
+/// this run are discarded.
 bool Communicator::receiveOfFailure(Message& message)
 {
+  const auto isOfFailure = [](MessageKind kind)
+  { return kind == MessageKind::Failure || kind == MessageKind::Shutdown; };
+  while (!this->Early.empty() && this->Early.front().Run <= this->Run)
+  {
+    message = std::move(this->Early.front().Content);
+    this->Early.pop_front();
+    if (isOfFailure(message.Kind))
+    {
+      return true;
+    }
+  }
   Arrival arrival;
   while (this->probe(arrival))
   {
-    message.Source = arrival.Source;
-    message.Kind = arrival.About.Kind;
-    if (message.Kind == MessageKind::Failure || message.Kind == MessageKind::Shutdown)
+    if (arrival.About.Run > this->Run)
     {
-      message.Content = Bytes(arrival.About.Size);
-      std::copy_n(arrival.First.data() + sizeof(Head), arrival.About.Size, message.Content.data());
+      this->keepForItsRun(arrival);
+    }
+    else if (isOfFailure(arrival.About.Kind))
+    {
+      message = { arrival.Source, arrival.About.Kind, this->receiveContent(arrival) };
       return true;
     }
-    this->discardParts(arrival);
+    else
+    {
+      this->discardParts(arrival);
+    }
   }
   return false;
 }
 
 void Communicator::discardParts(const Arrival& arrival)
 {
-  if (arrival.About.IsComplete)
+  if (arrival.About.isComplete())
   {
     return;
   }
@@ -406,7 +458,19 @@ void Communicator::partAfterFailure()
     Message message;
     this->receiveOfFailure(message) ? this->noteFailure(message) : this->pause();
   }
-  throw *this->Failure;
+  const RankFailure failure = *this->Failure;
+  this->Failure.reset();
+  this->Told = false;
+  this->HasParted.assign(this->HasParted.size(), 0);
+  this->Inbox.clear();
+  this->turnTogether(false);
+  throw RankFailure(failure);
+}
+
+void Communicator::turnTogether(bool together)
+{
+  this->IsTogether = together;
+  ++this->Run;
 }
 
 } // namespace tipp

@@ -21,8 +21,6 @@
 
 class vtkMultiProcessController;
 
-class vtkMultiProcessController;
-
 namespace tipp
 {
 
@@ -198,8 +196,8 @@ public:
     Bytes memory, const std::vector<Stretch>& contents, const TakePart& takePart);
 
   /// Runs `work` on every rank. If it throws on any rank, it ends on all ranks, every rank throws
-  /// the same RankFailure, and no message is left. A nested call just runs `work`; the outer call
-  /// handles failures. Collective.
+  /// the same RankFailure, and no message is left, so that the next call starts afresh. A nested
+  /// call just runs `work`; the outer call handles failures. Collective.
   template <typename Work>
   void together(Work&& work)
   {
@@ -208,13 +206,13 @@ public:
       work();
       return;
     }
-    this->IsTogether = true;
+    this->turnTogether(true);
     try
     {
       work();
       this->barrier(); // no rank leaves while another may still fail
       this->flush();
-      this->IsTogether = false;
+      this->turnTogether(false);
       return;
     }
     catch (const RankFailure& failure)
@@ -255,6 +253,13 @@ private:
   struct Outgoing;
   struct Arrival;
 
+  /// A message of a later run than this rank's.
+  struct EarlyMessage
+  {
+    std::uint32_t Run = 0;
+    Message Content;
+  };
+
   /// The receiver of message parts, and the ranks that they are awaited from.
   struct InParts
   {
@@ -280,6 +285,8 @@ private:
 
   bool probe(Arrival& arrival);
   bool receive(Message& message, const InParts* inParts);
+  Bytes receiveContent(const Arrival& arrival);
+  void keepForItsRun(const Arrival& arrival);
   void receiveParts(const Arrival& arrival, const TakePart& takePart);
   bool receiveOfFailure(Message& message);
   void discardParts(const Arrival& arrival);
@@ -294,6 +301,7 @@ private:
   void note(int rank, bool aborted, const std::string& reason);
   void noteFailure(const Message& message);
   [[noreturn]] void partAfterFailure();
+  void turnTogether(bool together);
   Bytes combine(Bytes mine, const std::function<Bytes(Bytes, const Bytes&)>& merge);
   template <typename Value, typename Operation>
   void allReduce(std::vector<Value>& values, const Operation& operation);
@@ -303,7 +311,9 @@ private:
   std::unique_ptr<RankTransport> Transport; ///< null: one rank
   int Rank = 0;
   int Size = 1;
+  std::uint32_t Run = 0; ///< how often together() has begun or ended
   std::deque<Message> Inbox;
+  std::deque<EarlyMessage> Early; ///< by run, then as received
   std::list<Outgoing> Unsent;
   std::map<MessageKind, Traffic> Sent;
   double SendingSeconds = 0;

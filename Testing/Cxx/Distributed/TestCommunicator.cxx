@@ -101,6 +101,36 @@ TEST(Communicator, AFailureLeavesNoLargeMessageBehind)
   }
 }
 
+/// A rank may be well ahead of one that has not heard of the last failure yet.
+TEST(Communicator, WorksOnAfterFailures)
+{
+  Communicator box(controller());
+  for (int run = 0; run < 200; ++run)
+  {
+    const int failing = run % box.size();
+    try
+    {
+      box.together(
+        [&]()
+        {
+          if (box.rank() == failing)
+          {
+            throw std::runtime_error(std::to_string(run));
+          }
+          box.wait(Note, failing); // which never comes
+        });
+      FAIL() << "nothing was thrown";
+    }
+    catch (const RankFailure& failure)
+    {
+      ASSERT_STREQ(std::to_string(run).c_str(), failure.what());
+    }
+    std::vector<std::int64_t> count = { 1 };
+    run % 2 == 0 ? box.sum(count) : box.together([&]() { box.sum(count); });
+    ASSERT_EQ(box.size(), count[0]);
+  }
+}
+
 TEST(Communicator, AFailureMayHaveALongReason)
 {
   Communicator box(controller());
