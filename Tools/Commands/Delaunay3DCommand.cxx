@@ -7,12 +7,14 @@
 #include "Files/InputFile.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
+#include "InMemory/TriangulatePoints.h"
 #include "Meshes/TetrahedronFiles.h"
 #include "OutOfCore3D/OutOfCoreTetrahedralization.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/PointStream.h"
 #include "Points/ReadPoints.h"
 #include "Triangulation3D/AlphaShape3.h"
+#include "Triangulation3D/CoplanarPoints.h"
 #include "Triangulation3D/Tetrahedralize.h"
 
 #include <CLI/CLI.hpp>
@@ -35,6 +37,9 @@ constexpr const char* footer =
 OUTPUT  .vtu (all points with their data) or .npy (m x 4 int64: point ids, counted
         from 0): all is in memory. Or .tipp, a partitioned mesh in a folder: points
         and tetrahedra may be larger than memory, which --memory limits.
+
+Points all in one plane make triangles (not to .tipp), and a warning: the Delaunay
+triangulation of their projection along the axis nearest to the plane's normal.
 
 Duplicates are merged, points that are not finite are left out. Ctrl-C ends the run
 with exit code 130 and no output. Seconds in the summary are those of the
@@ -85,7 +90,7 @@ PathState requireWritable(const Delaunay3DArguments& arguments)
 }
 
 bool write(const Delaunay3DArguments& arguments, PointTable&& table, const Tetrahedralization& mesh,
-  const PathState& before)
+  const Triangulation& triangles, const PathState& before)
 {
   MeshOptions options;
   options.Before = before;
@@ -94,6 +99,13 @@ bool write(const Delaunay3DArguments& arguments, PointTable&& table, const Tetra
   {
     const auto ids = representativeIds(mesh, table.size());
     options.Representatives.assign(ids.begin(), ids.end());
+  }
+  if (mesh.Dimension == 2)
+  {
+    table.Columns[requireElevation(table, arguments.Inputs.front())].Name = "z";
+    options.Neighbors = arguments.Neighbors;
+    return writeMesh(
+      arguments.Output, table, { triangles.Ids32.data(), triangles.triangleCount() }, options);
   }
   std::vector<std::int64_t> neighbors;
   if (arguments.Neighbors)
@@ -118,6 +130,7 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
     return reportInterrupt();
   }
   Tetrahedralization mesh;
+  Triangulation triangles; // of coplanar points
   const Stopwatch watch;
   {
     const auto bar = std::make_unique<ProgressBar>("Tetrahedralizing");
@@ -126,9 +139,15 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
     options.Threads = arguments.Threads;
     options.Progress = progressOn(bar);
     mesh = tetrahedralize(points.data(), points.size(), options);
+    if (!mesh.Aborted && mesh.Dimension == 2)
+    {
+      triangles = triangulateCoplanar(points.data(), points.size(), options, mesh);
+      mesh.Aborted = triangles.Aborted;
+    }
   }
   const double seconds = watch.seconds();
-  if (mesh.Aborted || isInterrupted() || !write(arguments, std::move(table), mesh, before))
+  if (mesh.Aborted || isInterrupted() ||
+    !write(arguments, std::move(table), mesh, triangles, before))
   {
     return reportInterrupt();
   }
@@ -137,11 +156,17 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
     nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output },
       { "tetrahedralize_seconds", seconds }, { "peak_memory_bytes", peakMemoryBytes() } };
     json.update(jsonOf(statisticsOf(mesh, count, std::int64_t(mesh.cellCount()))));
+    if (mesh.Dimension == 2)
+    {
+      json["triangles"] = triangles.triangleCount();
+    }
     writeJson(arguments.Statistics, json);
   }
-  fmt::print("{} points, {} tetrahedra, {} duplicates, {} rejected, {:.3f} s, {:.0f} points/s, "
+  const bool isFlat = mesh.Dimension == 2;
+  fmt::print("{} points, {} {}, {} duplicates, {} rejected, {:.3f} s, {:.0f} points/s, "
              "peak memory {:.0f} MB\n",
-    count, mesh.cellCount(), mesh.Duplicates.size(), mesh.Rejected.size(), seconds,
+    count, isFlat ? triangles.triangleCount() : mesh.cellCount(),
+    isFlat ? "triangles" : "tetrahedra", mesh.Duplicates.size(), mesh.Rejected.size(), seconds,
     seconds > 0 ? double(count) / seconds : 0.0, double(peakMemoryBytes()) / 1e6);
   for (const std::string& warning : warningsOf(mesh, count))
   {
@@ -162,6 +187,7 @@ OutOfCoreStatistics3 makeOutOfCore(const Delaunay3DArguments& arguments)
     arguments.Memory.empty() ? options.MemoryLimit : *parseMemorySize(arguments.Memory);
   options.Threads = arguments.Threads;
   options.MapDuplicates = arguments.MapDuplicates;
+  options.Neighbors = arguments.Neighbors;
   options.Scratch = arguments.Scratch;
   const auto bar = std::make_unique<ProgressBar>("Tetrahedralizing");
   options.Progress = progressOn(bar);
@@ -219,9 +245,9 @@ void requireFitting(const Delaunay3DArguments& arguments)
       throw CLI::ValidationError(option, need);
     }
   };
-  refuse(arguments.Neighbors && extension != ".vtu", "--neighbors", "needs an output named .vtu");
-  refuse(arguments.MapDuplicates && extension == ".npy", "--map-duplicates",
-    "needs an output named .vtu or .tipp");
+  constexpr const char* needsArrays = "needs an output named .vtu or .tipp";
+  refuse(arguments.Neighbors && extension == ".npy", "--neighbors", needsArrays);
+  refuse(arguments.MapDuplicates && extension == ".npy", "--map-duplicates", needsArrays);
   refuse(arguments.Partitions > 0 && isOutOfCore, "--partitions",
     "is for outputs named .vtu or .npy; --memory decides for a .tipp");
   refuse(!arguments.Memory.empty() && !isOutOfCore, "--memory", "needs an output named .tipp");
@@ -247,11 +273,11 @@ void addDelaunay3DCommand(CLI::App& app, int& exitCode)
     ->check(CLI::Range(0, 512))
     ->capture_default_str();
   command->add_flag("--map-duplicates", arguments->MapDuplicates,
-    "Add the point array RepresentativePointId to .vtu: the id of the vertex that stands for a "
+    "Add the point array RepresentativePointId: the id of the vertex that stands for a "
     "point, -1 for points that are not finite");
   command->add_flag("--neighbors", arguments->Neighbors,
-    "Add the cell array NeighborIds to .vtu: four ids a tetrahedron, those of the tetrahedra "
-    "opposite its corners, -1 at the hull");
+    "Add the cell array NeighborIds: four ids a tetrahedron, those of the tetrahedra opposite its "
+    "corners, -1 at the hull");
   command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
   command
     ->add_option("--memory", arguments->Memory,
