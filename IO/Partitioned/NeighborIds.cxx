@@ -154,8 +154,9 @@ void NeighborWriter::add(std::size_t number)
   }
 }
 
-/// A cell of part 0 has all its neighbours in its piece; so has a border cell across a facet with a
-/// point of part 0, or it has none there.
+/// Finds the border's facets whose neighbour may be in another piece. All neighbours of a cell of
+/// part 0 are in its piece. Across a facet with a point of part 0, a border cell's neighbour is in
+/// its piece too, if there is one.
 std::vector<NeighborWriter::OpenFacet> NeighborWriter::findOpenFacets(const PieceFile& file,
   const std::vector<std::int32_t>& corners, const std::vector<std::int32_t>& neighbors) const
 {

@@ -37,13 +37,13 @@ public:
   /// Cell ids must be consecutive, piece by piece.
   NeighborWriter(const PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces);
 
-  /// Adds a piece; each must be added once, by any thread. If neighbouring pieces are added one
-  /// soon after the other, few facets are kept. Throws IOError.
+  /// Adds a piece. Each piece must be added once, by any thread. If neighbouring pieces are added
+  /// soon after each other, few facets are in memory. Throws IOError.
   void add(std::size_t number);
   /// Call once all pieces are added: the facets that are still open are the hull's. Throws IOError.
   void finish();
 
-  /// The memory that add() needs for a piece of the mesh.
+  /// The memory that add() needs for a piece of the mesh, in bytes.
   static std::uint64_t bytesFor(const PartitionedMesh& mesh, const FinishedPiece& piece);
 
 private:
