@@ -78,10 +78,10 @@ StoredMesh read(const std::string& path, const std::vector<Point3>& points)
   return stored;
 }
 
-using Cells = std::vector<std::int64_t>; ///< four values each
+using FourEach = std::vector<std::int64_t>; ///< four values a tetrahedron
 
 /// Four ids a tetrahedron, from a map of all facets.
-Cells neighborsByFacets(const Cells& ids)
+FourEach neighborsByFacets(const FourEach& ids)
 {
   std::map<std::array<std::int64_t, 3>, std::vector<std::size_t>> facets;
   const auto facetOf = [&ids](std::size_t slot)
@@ -98,7 +98,7 @@ Cells neighborsByFacets(const Cells& ids)
   {
     facets[facetOf(slot)].push_back(slot);
   }
-  Cells neighbors;
+  FourEach neighbors;
   for (std::size_t slot = 0; slot < ids.size(); ++slot)
   {
     const std::vector<std::size_t>& both = facets.at(facetOf(slot));
@@ -309,8 +309,8 @@ TEST_F(OutOfCore3D, NeighboursAreThoseOfTheFacets)
       options.MemoryLimit = 1 << 20;
       options.Neighbors = true;
       tetrahedralizeOutOfCore(*streamOf(points), this->path("mesh.tipp"), options);
-      Cells ids;
-      Cells neighbors;
+      FourEach ids;
+      FourEach neighbors;
       const PartitionedMesh mesh = openPartitionedMesh(this->path("mesh.tipp"));
       for (std::size_t number = 0; number < mesh.Pieces.size(); ++number)
       {
