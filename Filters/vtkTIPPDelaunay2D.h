@@ -444,7 +444,7 @@ public:
   vtkTable* GetStatistics();
 
   /**
-   * Also that of the Transform.
+   * Includes the modification time of the Transform.
    */
   vtkMTimeType GetMTime() override;
 

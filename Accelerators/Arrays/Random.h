@@ -62,7 +62,7 @@ public:
     double y;
   };
 
-  /// Uniform in the unit disk without its centre; squared radius in `s`.
+  /// A uniform point of the unit disk without its centre; `s` gets its squared radius.
   Pair inDisk(double& s)
   {
     Pair p;

@@ -365,7 +365,8 @@ private:
   const int Threads;
   CellWalk& Walk;
   std::vector<signed char> Turns;
-  std::vector<std::int64_t> Border; ///< as 3 * triangle + the corner opposite to the edge
+  std::vector<std::int64_t>
+    Border; ///< border edges, as 3 * triangle + the corner opposite to the edge
 };
 
 CellWalk::CellWalk(const SimplexMesh& mesh, int threads)

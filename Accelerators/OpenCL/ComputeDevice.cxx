@@ -101,7 +101,7 @@ std::string firstLine(const std::string& text)
   return begin == std::string::npos ? "" : text.substr(begin, text.find('\n', begin) - begin);
 }
 
-/// The OpenCL devices of all installed drivers, and those of them that are open.
+/// The OpenCL devices of all installed drivers, and the ones opened so far.
 class Drivers
 {
 public:

@@ -24,9 +24,9 @@ typedef struct
 typedef struct
 {
   int dimension;
-  int axes;        // of a tree
-  int children;    // of a tree's node; 0 for a grid
-  int3 counts;     // of a grid
+  int axes;        // for a tree
+  int children;    // children of a tree's inner node; 0 for a grid
+  int3 counts;     // for a grid
   global const double* cuts;
   global const int* nodes;
   global const double* middles;

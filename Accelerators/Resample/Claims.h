@@ -157,7 +157,7 @@ struct Claims
 {
   /// cell index per sample, the first axis fastest; -1: none
   std::unique_ptr<std::int32_t[]> Cells;
-  std::vector<BorderClaim> Border; ///< by ascending sample
+  std::vector<BorderClaim> Border; ///< sorted by sample
   ClaimStatistics Statistics;
   bool Aborted = false;
 };

@@ -38,7 +38,7 @@ Lattice latticeOf(const RasterGrid& grid);
 /// The values at pixels, NaN where there is no triangle.
 struct SampledBands
 {
-  std::vector<std::vector<double>> Values; ///< by band and sample
+  std::vector<std::vector<double>> Values; ///< values by band, then by sample
 };
 
 /// Samples all triangles of a mesh, which must not overlap, at all pixels. Returns false if

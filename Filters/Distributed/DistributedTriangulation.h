@@ -31,8 +31,8 @@ struct RankStatistics
   double ComputeSeconds = 0;
   double WaitSeconds = 0; ///< idle while partitions were triangulated
   double SendSeconds = 0;
-  double MasterSeconds = 0;    ///< as the master of the whole domain
-  double SubMasterSeconds = 0; ///< as the master of major partitions
+  double MasterSeconds = 0;    ///< time as the master of the whole domain
+  double SubMasterSeconds = 0; ///< time as the master of major partitions
   double CollectSeconds = 0;   ///< sending boundary triangles to their owners
   double TotalSeconds = 0;
 };
@@ -48,7 +48,8 @@ struct MasterStatistics
   /// For the whole domain: the processor time of the slowest rank between two barriers, summed over
   /// the barriers. It is a lower bound on the computing time with one processor per rank.
   double PathSeconds = 0;
-  std::vector<TriangulationStatistics::Stage> Stages; ///< by colour, or by start of a partition
+  std::vector<TriangulationStatistics::Stage>
+    Stages; ///< stages, one per colour or per start of a partition
 };
 
 /// Messages of one kind, summed over all ranks.
@@ -62,13 +63,13 @@ struct TrafficStatistics
 /// The statistics of all ranks.
 struct DistributedStatistics
 {
-  std::vector<RankStatistics> Ranks;     ///< by rank
+  std::vector<RankStatistics> Ranks;     ///< one entry per rank
   std::vector<MasterStatistics> Masters; ///< the first is the whole domain's
   std::vector<TrafficStatistics> Traffic;
   std::int64_t Partitions = 0;
   std::int64_t MajorPartitions = 0; ///< 0: one master
   int ThreadsPerRank = 0;
-  double Seconds = 0; ///< of the slowest rank
+  double Seconds = 0; ///< wall-clock time of the slowest rank
 };
 
 /// Gathers all ranks' statistics on all ranks. Collective.
@@ -99,7 +100,7 @@ struct DistributedTriangulation
 
   std::int64_t FirstTriangle = 0;    ///< index of this rank's first triangle among all ranks'
   std::vector<Duplicate> Duplicates; ///< found on this rank; global ids
-  std::vector<PointId> Rejected;     ///< of this rank's input; global ids
+  std::vector<PointId> Rejected;     ///< global ids of rejected points of this rank's input
 
   std::int64_t AllPoints = 0; ///< sum over all ranks
   std::int64_t AllTriangles = 0;

@@ -91,7 +91,7 @@ void formGroups(const std::vector<PartitionIndex>& active,
   const DistributedOptions& options, std::vector<double> load,
   std::vector<std::vector<std::int32_t>>& groups);
 
-/// The partitions that one master hands to workers, or to masters of their own.
+/// The partitions of one master: it assigns them to workers, or to sub-masters.
 struct Area
 {
   Tiling Boxes;                       ///< its partitions
@@ -130,7 +130,7 @@ void serialize(Archive& archive, Plan& plan)
   archive(plan.Areas, plan.Leaves, plan.Owners, plan.IsAlone);
 }
 
-/// What a plan depends on.
+/// The input of a plan.
 struct PlanInput
 {
   Box2 Domain{};

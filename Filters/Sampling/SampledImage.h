@@ -69,7 +69,7 @@ public:
   bool add(vtkPointSet* mesh, const Report& progress);
 
   const Lattice& lattice() const { return this->Grid; }
-  int dimension() const { return this->Dimension; } ///< of the cells; 0: no cells so far
+  int dimension() const { return this->Dimension; } ///< dimension of the cells; 0: no cells so far
   std::vector<Array>& arrays() { return this->Arrays; }
   const std::vector<Array>& arrays() const { return this->Arrays; }
   const SamplingStatistics& statistics() const { return this->Statistics; }
@@ -117,7 +117,7 @@ private:
   vtkNew<vtkCharArray> Mask;
   std::unique_ptr<CellKey[]> Keys;
   SamplingStatistics Statistics;
-  std::set<std::string> Names[2]; ///< of points and of cells
+  std::set<std::string> Names[2]; ///< names of point arrays and of cell arrays
   std::vector<std::string> Warnings;
 };
 

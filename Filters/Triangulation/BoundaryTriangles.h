@@ -34,7 +34,7 @@ public:
   }
 
 private:
-  std::vector<PartitionIndex> Members; ///< of all sets, concatenated
+  std::vector<PartitionIndex> Members; ///< partitions of all sets, concatenated
   std::vector<std::size_t> Ends;       ///< one past each set's last entry in Members
   std::unordered_multimap<std::uint64_t, std::uint32_t> ByHash; ///< numbers
   std::uint32_t Last = 0; ///< the number returned last, often repeated

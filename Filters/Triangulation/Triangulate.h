@@ -33,7 +33,7 @@ enum class Schedule
 /// Options of triangulate(). Only MaximumEdge and MakeEditor change the set of triangles.
 struct TriangulationOptions
 {
-  int Columns = 0; ///< with Rows, a grid of partitions; 0: a tiling chosen for the points
+  int Columns = 0; ///< with Rows: a grid of partitions; 0: partitions are chosen automatically
   int Rows = 0;
   int InitialPointsPerPartition = 0; ///< 0: chosen automatically
   Schedule Order = Schedule::Dynamic;
@@ -90,7 +90,7 @@ struct Triangulation
 {
   Buffer<std::int32_t> Ids32; ///< used when every id fits
   Buffer<std::int64_t> Ids64;
-  std::vector<Duplicate> Duplicates; ///< by ascending Point
+  std::vector<Duplicate> Duplicates; ///< sorted by Point
   std::vector<PointId> Rejected;     ///< ids of points with NaN or infinite coordinates; ascending
   std::vector<TriangleBlock> Blocks; ///< cover most triangles, ascending; empty if unknown
   TriangulationStatistics Statistics;

@@ -68,7 +68,7 @@ void unmarkWorkFolder(const std::string& folder);
 /// Other files stay, since they are not ours.
 VTKTIPPIO_EXPORT void clearWorkFolder(const std::string& folder);
 
-/// As clearWorkFolder(), and removes the mark, and the folder if nothing else is left in it.
+/// Like clearWorkFolder(), but also removes the mark, and the folder itself if it is empty then.
 VTKTIPPIO_EXPORT void removeWorkFolder(const std::string& folder);
 
 } // namespace tipp

@@ -82,7 +82,7 @@ private:
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> File;
   const std::size_t BlockBytes;
   std::vector<char> Buffer;
-  std::size_t Begin = 0; ///< of the bytes that have not been returned
+  std::size_t Begin = 0; ///< start of the bytes that have not been returned
   std::size_t End = 0;
   std::int64_t Number = 0;
   std::int64_t Expected = 0;

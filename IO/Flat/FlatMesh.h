@@ -32,7 +32,7 @@ struct RawArray
 {
   std::string Name;
   std::string Path;
-  std::uint64_t Offset = 0; ///< of the first tuple from the file's start, in bytes
+  std::uint64_t Offset = 0; ///< offset of the first tuple from the file's start, in bytes
   Scalar Type = Scalar::Float64;
   int Components = 1;
   std::int64_t Tuples = 0;
@@ -53,7 +53,7 @@ struct FlatMesh
   std::vector<RawArray> PointData;
   std::vector<RawArray> CellData;
 
-  std::vector<double> Times; ///< of the time steps, ascending; empty for a static mesh
+  std::vector<double> Times; ///< times of the steps, ascending; empty for a static mesh
   /// Arrays that vary in time: one RawArray per time step for each of them.
   std::vector<std::vector<RawArray>> PointSeries;
   std::vector<std::vector<RawArray>> CellSeries;

@@ -406,7 +406,7 @@ private:
   ArrayFiles Files;
   std::int64_t M;
   int Threads;
-  std::int64_t Gap; ///< in tuples
+  std::int64_t Gap; ///< largest gap to read over, in tuples
   int Shift;        ///< a block is 2^Shift tuples
   HeldBlocks Held;  ///< blocks in the buffers
   LoadCounters Counts;

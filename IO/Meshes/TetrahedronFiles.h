@@ -38,8 +38,8 @@ struct StoredTetrahedra
 /// cell is one. Throws IOError.
 VTKTIPPIO_EXPORT bool holdsTetrahedra(const std::string& path);
 
-/// Reads tetrahedra from such a file. The ids are not checked. Throws IOError, also if the file has
-/// other cells.
+/// Reads tetrahedra from such a file. The ids are not checked. Throws IOError if the file cannot be
+/// read or has other cells.
 VTKTIPPIO_EXPORT StoredTetrahedra readTetrahedra(const std::string& path);
 
 } // namespace tipp

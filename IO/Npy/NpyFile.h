@@ -20,7 +20,7 @@ class InputFile;
 /// The dictionary at the start of an .npy file.
 struct NpyHeader
 {
-  std::string Descr; ///< as "<f8"
+  std::string Descr; ///< NumPy's name of the scalar type, such as "<f8"
   bool FortranOrder = false;
   std::vector<std::int64_t> Shape;
 };

@@ -30,7 +30,7 @@ struct InteriorContent
   std::int64_t First = 0; ///< index of the first own point among those of all pieces
   std::int64_t Points = 0;
   const double* Rows = nullptr;
-  const std::uint8_t* IsOnInterface = nullptr; ///< of each point
+  const std::uint8_t* IsOnInterface = nullptr; ///< by point: not 0 if it is on the interface
   std::vector<TriangleRange> Triangles;        ///< or tetrahedra; all except the border's
   /// Duplicates: maps a point to the one with the same coordinates that represents it.
   const std::unordered_map<std::int32_t, std::int32_t>* Representatives = nullptr;

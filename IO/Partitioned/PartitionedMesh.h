@@ -69,7 +69,7 @@ struct PartitionedMesh
   std::vector<double> Times;
   std::vector<StoredArray> Arrays; ///< point arrays first
   std::vector<PieceSummary> Pieces;
-  std::uint64_t PvtuBytes = 0; ///< of mesh.pvtu, once it is written
+  std::uint64_t PvtuBytes = 0; ///< size of mesh.pvtu, once it is written
   std::uint64_t PvtuChecksum = 0;
 
   std::string piecePath(std::size_t piece) const;

@@ -106,9 +106,9 @@ struct VTKTIPPIO_EXPORT PieceInterior
   PieceSummary Room;                         ///< counts that the file has room for
   std::int64_t Points = 0;                   ///< own points that are not on the interface
   std::int64_t Cells = 0;                    ///< cells with only such points
-  std::uint64_t TriangleSum = 0;             ///< of hashes; only without a file
-  Bounds Extent{};                           ///< of the own points
-  std::vector<std::uint64_t> Checksums;      ///< of each array's first part
+  std::uint64_t TriangleSum = 0;             ///< sum of hashTriangle(); only without a file
+  Bounds Extent{};                           ///< bounds of the own points
+  std::vector<std::uint64_t> Checksums;      ///< checksum of each array's first part
   std::vector<std::int64_t> InterfacePoints; ///< indices, ascending
   std::vector<double> InterfaceRows;
   /// Cells of own points alone with corners on the interface: positions in the piece, or -1 - k for
@@ -186,8 +186,9 @@ private:
   const std::size_t CellSize;
   std::vector<Cell> Cells;
   std::vector<std::int32_t> Borrowers;
-  std::vector<std::int64_t> Ghosts;                             ///< in the order of their rows
-  std::unordered_map<std::int64_t, std::int64_t> GhostPosition; ///< in Ghosts, by point
+  std::vector<std::int64_t> Ghosts; ///< indices of ghost points, in the order of their rows
+  std::unordered_map<std::int64_t, std::int64_t>
+    GhostPosition; ///< by point: its position in Ghosts
   std::vector<double> GhostRows;
 };
 
@@ -229,11 +230,11 @@ private:
   const PieceBorder& Of;
   const PieceInterior& Interior;
   SharingSets Sets;
-  std::vector<int> SetOf;             ///< of each point
-  std::vector<int> CellSets;          ///< of each added cell
-  std::vector<int> Ranks;             ///< of sets, in lexicographic order
+  std::vector<int> SetOf;             ///< by point: the number of its set
+  std::vector<int> CellSets;          ///< by added cell: the number of its set
+  std::vector<int> Ranks;             ///< by set: its position in lexicographic order
   std::vector<int> SetOfRank;         ///< the inverse
-  std::vector<std::int32_t> Position; ///< in the piece, of each point
+  std::vector<std::int32_t> Position; ///< by point: its position in the piece
 };
 
 } // namespace tipp

@@ -39,7 +39,7 @@ struct BorrowedGroup
 /// and, if borrowed cells are duplicated, the tuples of borrowed cells.
 struct PieceTable
 {
-  std::vector<std::uint64_t> Offsets; ///< in bytes, of each array's data in the piece's file
+  std::vector<std::uint64_t> Offsets; ///< offset in bytes of each array's data in the piece's file
   std::vector<SharedGroup> PointGroups;
   std::vector<SharedGroup> CellGroups;
   std::vector<BorrowedGroup> BorrowedPoints; ///< sorted by owner, then group
@@ -115,7 +115,7 @@ struct PieceLayout
   std::string Header; ///< the XML up to the first array's size
   std::vector<PieceArray> Arrays;
   std::vector<std::uint64_t> Offsets; ///< of each array's data; the 8 bytes before hold its size
-  std::uint64_t End = 0;              ///< of the last array, where the footer begins
+  std::uint64_t End = 0;              ///< end of the last array, where the footer begins
 };
 
 /// The text after the last array.

@@ -81,8 +81,8 @@ void writeOwners(const FlatMesh& mesh, const BoxTiling& tiling, const std::strin
   Communicator& ranks, int threads);
 
 /// Returns the chosen tiling of the mesh's domain. While a tree is built, `chunkCells` cells are in
-/// memory, with their coordinates twice. Collective. Throws IOError, also for more than mostPieces
-/// boxes.
+/// memory, with two copies of their coordinates. Collective. Throws IOError if reading fails or
+/// there are more than mostPieces boxes.
 BoxTiling makeTiling(const FlatMesh& mesh, const TilingChoice& choice, const LoaderOptions& loading,
   std::int64_t chunkCells, int threads, Communicator& ranks, const Box3& domain);
 

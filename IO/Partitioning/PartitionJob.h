@@ -126,7 +126,7 @@ struct PartitionJob
   std::optional<Spill> Cells; ///< cells that lie in one partition
   /// cells with borrowers: each followed by 4 bytes, the number of borrowers
   std::optional<Spill> SharedCells;
-  std::optional<Spill> Borrowers;     ///< of SharedCells, consecutively, 4 bytes each
+  std::optional<Spill> Borrowers;     ///< borrowers of SharedCells, consecutively, 4 bytes each
   std::optional<Spill> BorrowedCells; ///< if they are duplicated
   std::optional<Spill> GhostPoints;
   std::optional<Spill> Points;

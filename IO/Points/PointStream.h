@@ -21,7 +21,8 @@ struct PointBlock
 {
   std::int64_t First = 0; ///< id of the first point: its index in the stream
   std::vector<double> XY;
-  std::vector<std::vector<double>> Columns; ///< in the order of PointStream::columns()
+  std::vector<std::vector<double>>
+    Columns; ///< one vector per column, in the order of PointStream::columns()
 
   std::size_t size() const { return this->XY.size() / 2; }
 };
@@ -44,7 +45,7 @@ public:
   /// Limits the passes from the next rewind() on to points [first, end).
   virtual void limitTo(std::int64_t first, std::int64_t end) = 0;
 
-  /// Names of the columns beside x and y.
+  /// Names of the columns besides x and y.
   virtual std::vector<std::string> columns() const = 0;
 
   /// The number of points that the options rejected in the last complete pass, for example by their

@@ -84,9 +84,9 @@ class PointStream;
 
 struct PointOptions
 {
-  /// Which columns are x and y: a name as the file's header gives it, or a number counted from 0.
-  /// Empty: by the usual names (x, y; lon, lat; longitude, latitude; easting, northing), else the
-  /// first two.
+  /// Which columns are x and y: a name in the file's header, or a column index from 0. Empty:
+  /// columns with the usual names (x, y; lon, lat; longitude, latitude; easting, northing), else
+  /// the first two.
   std::string X;
   std::string Y;
   LasSelection Las = {};

@@ -61,7 +61,7 @@ struct RasterDescription
   std::string Crs;       ///< WKT, "EPSG:code" or any text that GDAL understands; may be empty
   double NoData = -9999; ///< value of a GeoTIFF's pixels without data
   bool Double = false;   ///< whether a GeoTIFF's values have 64 bits or 32
-  std::string Compression = "deflate"; ///< of a GeoTIFF: deflate, lzw, zstd or none
+  std::string Compression = "deflate"; ///< for a GeoTIFF: deflate, lzw, zstd or none
   bool CloudOptimized = false; ///< whether a GeoTIFF has overviews and the layout called COG
   int Threads = 1;             ///< threads that compress
   /// A GeoTIFF that may exceed this size, in bytes, is written as a BigTIFF.

@@ -27,8 +27,9 @@ namespace tipp
 struct SourceOptions
 {
   TilingChoice Tiling; ///< for a flat mesh; a partitioned one has its own
-  std::uint64_t MemoryLimit = std::uint64_t(2) << 30; ///< in bytes, without the pieces themselves
-  int Threads = 0;                                    ///< 0: OpenMP's default
+  std::uint64_t MemoryLimit = std::uint64_t(2)
+    << 30;         ///< in bytes, not counting the pieces themselves
+  int Threads = 0; ///< 0: OpenMP's default
 };
 
 /// A source of pieces: a partitioned mesh on disk, or a flat mesh that is partitioned as it is
@@ -99,7 +100,7 @@ private:
   SourceOptions Options;
   std::vector<RawArray> Arrays; ///< the data of Mesh.Arrays
   std::optional<BoxTiling> Tiling;
-  std::vector<std::int64_t> PointCounts; ///< of each piece
+  std::vector<std::int64_t> PointCounts; ///< number of points of each piece
 };
 
 /// An LRU cache of the pieces of one mesh.
