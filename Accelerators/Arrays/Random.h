@@ -56,6 +56,7 @@ public:
   /// In 0 .. bound - 1; the bias is below bound / 2^53.
   std::int64_t index(std::int64_t bound) { return std::int64_t(this->uniform() * double(bound)); }
 
+  /// Two random numbers, or the coordinates of a random point.
   struct Pair
   {
     double x;

@@ -27,7 +27,7 @@ struct AskedPoints
 {
   const Point3* Points = nullptr;
   const std::int64_t* Asked = nullptr;
-  std::int64_t Count = 0;
+  std::int64_t Count = 0; ///< number of points to locate
 
   std::int64_t index(std::int64_t i) const { return this->Asked ? this->Asked[i] : i; }
   const Point3& at(std::int64_t i) const { return this->Points[this->index(i)]; }

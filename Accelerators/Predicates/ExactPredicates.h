@@ -99,6 +99,7 @@ struct InCircleValue
   double lifts;
 };
 
+/// Evaluates the in-circle determinant of p and the triangle a, b, c without error control.
 inline InCircleValue inCircleValue(Point2 a, Point2 b, Point2 c, Point2 p)
 {
   const auto [ax, ay] = a - p;

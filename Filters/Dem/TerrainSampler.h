@@ -19,11 +19,12 @@ struct SimplexMesh;
 /// The points of the triangles to sample. Not owned.
 struct TerrainPoints
 {
-  const double* XYZ = nullptr; ///< x, y and elevation, interleaved
-  std::int64_t Count = 0;
+  const double* XYZ = nullptr;        ///< x, y and elevation, interleaved
+  std::int64_t Count = 0;             ///< number of points
   std::vector<const double*> Columns; ///< indexed by DemBand::Column
 };
 
+/// The settings of a raster: grid, bands and precision.
 struct TerrainSettings
 {
   RasterGrid Grid;

@@ -23,14 +23,14 @@ namespace tipp
 struct RankStatistics
 {
   std::int64_t InputPoints = 0;
-  std::int64_t OwnedPoints = 0;
+  std::int64_t OwnedPoints = 0; ///< points that this rank owns
   std::int64_t Triangles = 0;
-  std::int64_t Partitions = 0; ///< triangulated by this rank
-  std::int64_t WorkerVertices = 0;
-  double ExchangeSeconds = 0; ///< sending points to their owners
+  std::int64_t Partitions = 0;     ///< triangulated by this rank
+  std::int64_t WorkerVertices = 0; ///< vertices triangulated by this rank's workers
+  double ExchangeSeconds = 0;      ///< sending points to their owners
   double ComputeSeconds = 0;
-  double WaitSeconds = 0; ///< idle while partitions were triangulated
-  double SendSeconds = 0;
+  double WaitSeconds = 0;      ///< idle while partitions were triangulated
+  double SendSeconds = 0;      ///< time spent in sending messages
   double MasterSeconds = 0;    ///< time as the master of the whole domain
   double SubMasterSeconds = 0; ///< time as the master of major partitions
   double CollectSeconds = 0;   ///< sending boundary triangles to their owners
@@ -40,8 +40,8 @@ struct RankStatistics
 /// A master's statistics; without masters, those of the whole domain.
 struct MasterStatistics
 {
-  std::int32_t Area = 0; ///< 0: the whole domain; else its first major partition, from 1
-  std::int32_t Rank = 0;
+  std::int32_t Area = 0;        ///< 0: the whole domain; else its first major partition, from 1
+  std::int32_t Rank = 0;        ///< the master's rank
   std::int32_t GroupSize = 0;   ///< ranks that worked for it
   std::int64_t LargestMesh = 0; ///< maximum number of triangles in its inboxes
   double Seconds = 0;
@@ -55,7 +55,7 @@ struct MasterStatistics
 /// Messages of one kind, summed over all ranks.
 struct TrafficStatistics
 {
-  std::string Kind;
+  std::string Kind; ///< name of the message kind
   std::int64_t Messages = 0;
   std::int64_t Bytes = 0;
 };
@@ -79,9 +79,9 @@ DistributedStatistics gatherStatistics(
 /// Points with their global ids and data; the arrays have the same order.
 struct PointTuples
 {
-  Buffer<Point2> Positions;
-  Buffer<PointId> GlobalIds;
-  Buffer<char> Rows; ///< as RankPoints::PackRow wrote them
+  Buffer<Point2> Positions;  ///< coordinates, one per point
+  Buffer<PointId> GlobalIds; ///< the caller's ids, one per point
+  Buffer<char> Rows;         ///< as RankPoints::PackRow wrote them
   std::size_t size() const { return this->Positions.size(); }
 };
 
@@ -90,11 +90,11 @@ struct PointTuples
 /// point's index among all ranks' owned points, rank by rank; a global id is the caller's.
 struct DistributedTriangulation
 {
-  Buffer<std::int32_t> Ids32; ///< used if every index fits
-  Buffer<std::int64_t> Ids64;
-  PointTuples Owned; ///< includes points without triangles on this rank
-  PointTuples Foreign;
-  std::size_t RowSize = 0;
+  Buffer<std::int32_t> Ids32;           ///< used if every index fits
+  Buffer<std::int64_t> Ids64;           ///< used otherwise; one of the two is empty
+  PointTuples Owned;                    ///< includes points without triangles on this rank
+  PointTuples Foreign;                  ///< other ranks' points that this rank's triangles use
+  std::size_t RowSize = 0;              ///< bytes of data per point
   std::vector<std::int64_t> ForeignIds; ///< internal ids of Foreign; ascending
   std::vector<std::int64_t> FirstIds;   ///< first internal id of each rank, and the end
 

@@ -108,7 +108,7 @@ struct Area
 /// Which rank triangulates which partition. The first area is the whole domain's.
 struct VTKTIPPFILTERS_EXPORT Plan
 {
-  std::vector<Area> Areas;
+  std::vector<Area> Areas;          ///< the domain's area first, then those of major partitions
   Tiling Leaves;                    ///< all partitions that are triangulated, in one tiling
   std::vector<std::int32_t> Owners; ///< by leaf: the rank that owns its points
   bool IsAlone = false;             ///< one leaf: no initial mesh, no artificial points
@@ -133,11 +133,11 @@ void serialize(Archive& archive, Plan& plan)
 /// The input of a plan.
 struct PlanInput
 {
-  Box2 Domain{};
-  std::int64_t Points = 0;
-  std::vector<Point2> Sample;
-  int Ranks = 1;
-  int Threads = 1; ///< sum over all ranks
+  Box2 Domain{};              ///< bounds of all ranks' finite points
+  std::int64_t Points = 0;    ///< number of points of all ranks
+  std::vector<Point2> Sample; ///< evenly spaced points of all ranks
+  int Ranks = 1;              ///< number of ranks
+  int Threads = 1;            ///< sum over all ranks
 };
 
 /// The number of sample points that a plan needs.

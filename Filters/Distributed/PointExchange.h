@@ -77,9 +77,9 @@ private:
 /// A rank's input points. Does not own the memory.
 struct RankPoints
 {
-  PointsView Points;
+  PointsView Points;                  ///< coordinates of this rank's points
   const PointId* GlobalIds = nullptr; ///< null: consecutive ids from FirstId
-  PointId FirstId = 0;
+  PointId FirstId = 0;                ///< global id of the first point, if GlobalIds is null
   /// Data sent with each point: RowSize bytes, which PackRow(point index, to) writes.
   std::size_t RowSize = 0;
   std::function<void(std::size_t, char*)> PackRow;
@@ -97,7 +97,7 @@ struct OwnedPoints
   PointBuckets<Id> Buckets; ///< one bucket per leaf; empty for leaves of other owners
   Buffer<Point2> Positions;
   Buffer<PointId> GlobalIds;
-  Buffer<char> Rows;
+  Buffer<char> Rows;                  ///< data of the points, RowSize bytes each
   std::vector<std::int64_t> FirstIds; ///< first internal id of each rank, and the end
 
   std::size_t size() const { return this->Positions.size(); }

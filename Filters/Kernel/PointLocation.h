@@ -33,6 +33,7 @@ struct Corner
   }
 };
 
+/// The cross product a x b of the corners' vectors.
 inline double cross(const Corner& a, const Corner& b)
 {
   return a.X * b.Y - a.Y * b.X;
@@ -79,7 +80,7 @@ struct EdgePair
 /// A triangle in conflict with the point p that is being inserted.
 struct Location
 {
-  HalfEdgeMesh::Index Triangle;
+  HalfEdgeMesh::Index Triangle;  ///< the triangle's index in the mesh
   EdgePair Edges;                ///< two of its edges
   HalfEdgeMesh::Index LastOuter; ///< the twin of the third edge, from Stop to Start
   double LastCross;

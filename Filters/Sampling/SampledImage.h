@@ -30,13 +30,14 @@ struct SamplingSettings
 {
   std::function<bool(bool ofCells, const std::string& name)> Selected;
   std::vector<int> Axes = { 0, 1 }; ///< the two axes of the plane that triangles are sampled in
-  double NullValue = 0;
-  std::optional<double> NoData; ///< cells with such a corner yield no value
+  double NullValue = 0;             ///< value of samples outside of all cells
+  std::optional<double> NoData;     ///< cells with such a corner yield no value
   DeviceChoice Device;
   int Threads = 1;
   bool Merging = false; ///< several meshes are added, on this or other ranks
 };
 
+/// Counts and wall-clock times of sampling on this rank.
 struct SamplingStatistics
 {
   ClaimStatistics Claims;
@@ -139,11 +140,12 @@ void refuseTooLarge(const Lattice& local, const Lattice& wanted, bool exchanging
 /// valid samples.
 std::int64_t fillImage(SampledImage& samples, int threads, vtkImageData* image);
 
+/// The statistics of a run of the filter.
 struct SamplingReport
 {
   SamplingStatistics Statistics;
-  std::int64_t Samples = 0;
-  std::int64_t Hits = 0;
+  std::int64_t Samples = 0; ///< samples of this rank's output
+  std::int64_t Hits = 0;    ///< those of them that lie in a cell
   int Threads = 1;
   double ExchangeSeconds = 0;
   double OutputSeconds = 0;

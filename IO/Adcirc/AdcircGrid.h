@@ -105,7 +105,7 @@ bool writeAdcircGrid(const std::string& path, const PointTable& points, Triangle
 /// an interrupted run, is rejected.
 struct AdcircValues
 {
-  int Components = 1;
+  int Components = 1;        ///< values per node
   std::vector<double> Times; ///< times of the steps, in seconds
   std::vector<double>
     Values; ///< step by step, in the order of the grid's nodes; -99999 at dry nodes

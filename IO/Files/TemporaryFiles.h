@@ -39,6 +39,7 @@ VTKTIPPIO_EXPORT std::string shownPath(const std::string& path);
 /// Runs `move`, which moves an output to `path`; endTemporaryPaths() does not interrupt it.
 VTKTIPPIO_EXPORT void commitOutput(const std::string& path, const std::function<void()>& move);
 
+/// The result of endTemporaryPaths().
 struct EndedPaths
 {
   bool HasOutput = false; ///< an output outside of the registered paths was committed

@@ -43,6 +43,7 @@ private:
 
 /// Parses a whole field as a number, ignoring blanks and quotes around it.
 bool parseNumber(std::string_view field, double& value);
+/// Parses a whole field as an integer.
 bool parseInteger(std::string_view field, std::int64_t& value);
 
 /// The number in decimal with 17 digits, from which it can be restored.

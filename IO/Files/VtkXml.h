@@ -19,6 +19,7 @@ namespace tipp
 class XmlScanner
 {
 public:
+  /// An opening, closing or empty tag, with its attributes.
   struct Tag
   {
     enum Kind

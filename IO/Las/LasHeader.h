@@ -16,13 +16,13 @@ namespace tipp
 /// The header of a LAS file, version 1.0 to 1.4.
 struct LasHeader
 {
-  int Minor = 0;           ///< minor version: the file's version is 1.Minor
-  int Format = 0;          ///< point data record format, 0 to 10
-  bool Compressed = false; ///< LAZ
-  std::size_t RecordLength = 0;
+  int Minor = 0;                 ///< minor version: the file's version is 1.Minor
+  int Format = 0;                ///< point data record format, 0 to 10
+  bool Compressed = false;       ///< LAZ
+  std::size_t RecordLength = 0;  ///< bytes per point record
   std::uint64_t PointOffset = 0; ///< offset of the first record, in bytes
-  std::int64_t Points = 0;
-  std::array<double, 3> Scale{};
+  std::int64_t Points = 0;       ///< number of point records
+  std::array<double, 3> Scale{}; ///< a coordinate is its stored integer * Scale + Offset
   std::array<double, 3> Offset{};
   std::array<double, 6> Bounds{}; ///< xmin, xmax, ymin ... as the header states them
   /// WKT, "EPSG:code" or "EPSG:code+code"; empty if there is none or it is not understood.

@@ -62,8 +62,8 @@ std::vector<char> findActive(const std::int64_t* ids, std::size_t count, std::in
 /// Consecutive tuples that one read loads.
 struct Run
 {
-  std::int64_t First;
-  std::int64_t Size;
+  std::int64_t First; ///< index of the first tuple
+  std::int64_t Size;  ///< number of tuples
 };
 
 /// Returns the active blocks, of `block` tuples each, as runs within [low, high). Runs less than

@@ -27,6 +27,7 @@ VTKTIPPIO_EXPORT bool writeTetrahedra(const std::string& path, PointTable points
   const std::int32_t* ids, std::size_t tetrahedra, const std::vector<std::int64_t>& neighbors,
   const MeshOptions& options);
 
+/// Tetrahedra read from a file.
 struct StoredTetrahedra
 {
   std::vector<std::int64_t> Ids;       ///< four point ids each, as stored in the file

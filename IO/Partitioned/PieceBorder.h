@@ -21,8 +21,8 @@ namespace tipp
 /// The layout of points in rows of 8-byte words: x, y, further columns, and last the global id.
 struct PointRowLayout
 {
-  std::size_t Words = 3;
-  int Z = -1; ///< the word that is the third coordinate; -1: it is 0
+  std::size_t Words = 3; ///< words per row
+  int Z = -1;            ///< the word that is the third coordinate; -1: it is 0
   /// The word of each of the mesh's point arrays; -1: the representative's id.
   std::vector<int> Attributes;
 
@@ -47,8 +47,8 @@ using CellCorners = std::array<std::int32_t, 4>;
 /// those.
 struct TriangleRange
 {
-  const std::int32_t* Begin;
-  std::size_t Triangles;
+  const std::int32_t* Begin; ///< row indices of the corners
+  std::size_t Triangles;     ///< number of triangles, or tetrahedra
 };
 
 /// Returns a hash of a triangle's point ids that is independent of which corner comes first.
@@ -101,8 +101,8 @@ private:
 /// indices. *Interface* points are own points that cells of the border use.
 struct VTKTIPPIO_EXPORT PieceInterior
 {
-  std::int64_t First = 0; ///< index of the first own point
-  std::int64_t OwnPoints = 0;
+  std::int64_t First = 0;                    ///< index of the first own point
+  std::int64_t OwnPoints = 0;                ///< number of own points
   PieceSummary Room;                         ///< counts that the file has room for
   std::int64_t Points = 0;                   ///< own points that are not on the interface
   std::int64_t Cells = 0;                    ///< cells with only such points
@@ -110,7 +110,7 @@ struct VTKTIPPIO_EXPORT PieceInterior
   Bounds Extent{};                           ///< bounds of the own points
   std::vector<std::uint64_t> Checksums;      ///< checksum of each array's first part
   std::vector<std::int64_t> InterfacePoints; ///< indices, ascending
-  std::vector<double> InterfaceRows;
+  std::vector<double> InterfaceRows;         ///< rows of InterfacePoints, in their order
   /// Cells of own points alone with corners on the interface: positions in the piece, or -1 - k for
   /// the k-th interface point.
   std::vector<CellCorners> InterfaceCells;

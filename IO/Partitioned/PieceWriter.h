@@ -78,7 +78,7 @@ VTKTIPPIO_EXPORT extern const Replaceable replaceableMesh;
 /// A piece whose file is complete, with its summary and table except for what it borrows.
 struct FinishedPiece
 {
-  PieceSummary Summary;
+  PieceSummary Summary;          ///< the piece's entry in the index
   PieceTable Table;              ///< without checksums of arrays that are not written yet
   std::uint64_t TriangleSum = 0; ///< without a file: sum of hashTriangle()
 };
@@ -91,6 +91,7 @@ void serialize(Archive& archive, FinishedPiece& piece)
     table.HeaderBytes, table.HeaderChecksum, piece.TriangleSum);
 }
 
+/// The result of publishPieces().
 struct PublishedMesh
 {
   std::uint64_t Bytes = 0;       ///< size of all files

@@ -130,6 +130,7 @@ struct CellSource
     Read;
 };
 
+/// Options of buildTree().
 struct TreeOptions
 {
   /// The tree's dimension, 2 or 3. A quadtree uses only x and y of triangles in space.
@@ -143,6 +144,7 @@ struct TreeOptions
   int Threads = 0; ///< 0: OpenMP's default
 };
 
+/// The result of buildTree().
 struct PartitionTree
 {
   BoxTiling Tiling;

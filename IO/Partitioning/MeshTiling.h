@@ -35,6 +35,7 @@ struct TilingChoice
   VTKTIPPIO_EXPORT static std::optional<TilingChoice> parse(const std::string& text);
   /// The same; throws IOError for any other text.
   VTKTIPPIO_EXPORT static TilingChoice require(const std::string& text);
+  /// The inverse of parse(), for a mesh of this dimension.
   VTKTIPPIO_EXPORT std::string text(int dimension) const;
 };
 

@@ -21,6 +21,7 @@ class vtkMultiProcessController;
 namespace tipp
 {
 
+/// Options of partitionMesh() and the functions below.
 struct PartitionOptions
 {
   TilingChoice Tiling;
@@ -43,6 +44,7 @@ struct PartitionOptions
   std::function<bool(double)> Progress;
 };
 
+/// Statistics of a run. Counts and bytes are sums over all ranks.
 struct PartitionStatistics
 {
   struct Phase

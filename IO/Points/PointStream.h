@@ -20,7 +20,7 @@ namespace tipp
 struct PointBlock
 {
   std::int64_t First = 0; ///< id of the first point: its index in the stream
-  std::vector<double> XY;
+  std::vector<double> XY; ///< x and y of each point, interleaved
   std::vector<std::vector<double>>
     Columns; ///< one vector per column, in the order of PointStream::columns()
 

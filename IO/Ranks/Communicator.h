@@ -69,7 +69,7 @@ enum class MessageKind : std::uint32_t
 /// A received message.
 struct Message
 {
-  int Source = 0;
+  int Source = 0; ///< the rank that sent it
   MessageKind Kind = MessageKind::FirstFree;
   Bytes Content;
 };

@@ -24,6 +24,7 @@
 namespace tipp
 {
 
+/// Options of openPieceSource().
 struct SourceOptions
 {
   TilingChoice Tiling; ///< for a flat mesh; a partitioned one has its own
@@ -154,8 +155,8 @@ private:
 /// A cell of one of several pieces, by its index in the piece.
 struct CellOfPiece
 {
-  std::size_t Piece;
-  std::int64_t Cell;
+  std::size_t Piece; ///< index among the given pieces
+  std::int64_t Cell; ///< index of the cell within the piece
 };
 
 /// Builds one piece from cells of several pieces, with each point once, identified by its global
