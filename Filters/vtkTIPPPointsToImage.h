@@ -237,8 +237,7 @@ private:
   tipp::RasterGrid Grid(vtkPointSet* points) const;
   tipp::PointTable Table(vtkPointSet* points) const;
   std::unique_ptr<tipp::PointStream> Stream(vtkPointSet* points) const;
-  std::array<double, 4> PointBounds(vtkPointSet* points) const; // bounds of the points that
-                                                                // thinning keeps
+  std::array<double, 4> PointBounds(vtkPointSet* points) const; // after thinning
   void Constrain(vtkPolyData* lines, vtkPolyData* boundary, tipp::DemRequest& request) const;
   void Make(vtkInformationVector** inputs, vtkImageData* output);
 };

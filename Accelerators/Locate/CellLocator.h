@@ -97,8 +97,7 @@ private:
   CellWalk Walk;
   mutable std::once_flag Making; ///< guards building the tree
   mutable std::variant<BoxTree<2>, BoxTree<3>> Tree;
-  mutable std::atomic<int> Passes{ 0 }; ///< passes over all cells that were made instead of
-                                        ///< building the tree
+  mutable std::atomic<int> Passes{ 0 }; ///< passes made instead of building the tree
 };
 
 /// Calls `take` with the locations of the asked points that lie in a cell, from several threads, in

@@ -116,8 +116,7 @@ private:
   std::vector<DeviceDescription> Descriptions;
   std::vector<cl::Device> Devices;
   std::mutex Mutex;
-  std::vector<std::unique_ptr<ComputeDevice>> Opened; ///< two entries per device: as it is, and
-                                                      ///< with AsCard
+  std::vector<std::unique_ptr<ComputeDevice>> Opened; ///< per device: opened as it is, and AsCard
 };
 
 Drivers::Drivers()

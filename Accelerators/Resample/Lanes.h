@@ -377,7 +377,7 @@ private:
     }
   }
 
-  /// Makes the Normals the columns of the adjugate, and returns the determinant.
+  /// Sets Normals to the columns of the adjugate matrix. Returns the determinant.
   [[gnu::always_inline]] Lanes cofactors(const Lanes (&e)[D][D])
   {
     auto& n = this->Normals;

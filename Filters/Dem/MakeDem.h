@@ -25,8 +25,7 @@ struct DemRequest
 {
   RasterRequest Raster; ///< the pixel grid
   std::vector<std::string> Bands = { "elevation" };
-  double MaximumEdge = 0; ///< triangles with a longer edge are left out, in the points' unit of
-                          ///< length; 0: no limit
+  double MaximumEdge = 0; ///< longest edge of triangles, in the points' unit of length; 0: no limit
   int Threads = 0;        ///< 0: OpenMP's default
   DuplicateRule Duplicates = DuplicateRule::First; ///< which values coincident points get
   std::optional<TableConstraints> Constraints;     ///< breaklines and boundary

@@ -184,7 +184,7 @@ Survey surveyRanks(Communicator& ranks, PointsView points, int threads)
   survey.Bounds = verdict.Bounds;
   survey.IsCollinear = verdict.IsCollinear != 0;
 
-  // Either all ranks scale, or none.
+  // All ranks must scale, or none.
   const PointsView moderate = withModerateMagnitude(points, survey.Bounds);
   std::vector<std::int64_t> kept = { moderate.factor() == 1 };
   ranks.sum(kept);

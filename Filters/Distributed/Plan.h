@@ -66,7 +66,7 @@ struct DistributedOptions
   Masters Design = Masters::Auto;
   GridSize Major; ///< default: a tree with an automatic number of boxes
   Division MinorDivision = Division::Tree;
-  GridSize Minor;             ///< for Division::Grid; with one master, the partitions
+  GridSize Minor;             ///< for Division::Grid; with one master, the grid of all partitions
   std::int64_t Threshold = 0; ///< T, points per minor partition; 0: chosen automatically
   GroupSizes Groups = GroupSizes::Proportional;
   RankSchedule Order = RankSchedule::Dynamic;

@@ -107,8 +107,7 @@ public:
   std::vector<std::size_t> InteriorCounts; ///< number of interior triangles, by partition
   RankStatistics Statistics;
   std::vector<MasterStatistics> Masters; ///< statistics of the masters on this rank
-  bool PartitionsPay = true;             ///< the same on all ranks; if false, nothing was
-                                         ///< triangulated
+  bool PartitionsPay = true;             ///< the same on all ranks; false: nothing was done
 
 private:
   /// A thread's part of the result.

@@ -242,8 +242,7 @@ struct ConflictRows
 {
   std::vector<PartitionIndex> Partitions;
   std::vector<PartitionIndex> Counts;     ///< number of neighbours of each
-  std::vector<PartitionIndex> Neighbours; ///< neighbours of the first partition, then of the
-                                          ///< second, and so on
+  std::vector<PartitionIndex> Neighbours; ///< of all partitions, concatenated
 };
 
 ConflictRows readRows(LoadArchive& reader, std::size_t partitions)

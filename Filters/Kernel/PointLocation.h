@@ -12,7 +12,7 @@
 namespace tipp
 {
 
-/// The vector from a vertex to the point p that is being inserted; lanes x and y.
+/// The vector from a vertex to the point p that is being inserted, as lanes x and y.
 inline Pair towards(Pair p, const Point2* points, HalfEdgeMesh::Index vertex)
 {
   return p - pairAt(&points[HalfEdgeMesh::offset(vertex)].x);
@@ -51,8 +51,8 @@ struct EdgePair
   Pair StopX;
   Pair StopY;
   Pair StopLift;
-  Pair Cross; ///< start x stop Their twins. Not an array, which would prevent keeping the struct in
-              // registers.
+  Pair Cross; ///< start x stop
+  // The edges' twins. Not an array, which would prevent keeping the struct in registers.
   Index FirstOuter;
   Index SecondOuter;
   Index Start;

@@ -49,7 +49,7 @@ struct TriangulationOptions
   std::function<bool(double)> Progress;
 };
 
-/// A point with the coordinates of another, its representative. Both are input point ids.
+/// A point that coincides with another one, its representative. Both are input point ids.
 struct Duplicate
 {
   PointId Point;          ///< id of the duplicate

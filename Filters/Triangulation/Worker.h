@@ -105,8 +105,8 @@ public:
 
   std::size_t interiorCount() const { return this->InteriorCount; }
 
-  /// Points of the partition with the coordinates of another. The representative is the one with
-  /// the lowest id, unless it is an initial point, which other partitions know already.
+  /// The partition's duplicates: points that coincide with another point. The representative is the
+  /// one with the lowest id, unless it is an initial point, which other partitions know already.
   const std::vector<Duplicate>& duplicates() const { return this->Duplicates; }
   std::size_t vertexCount() const { return this->VertexCount; }
 

@@ -23,7 +23,7 @@ T valueAt(const char* record, std::size_t offset)
   return value;
 }
 
-/// Whether records are selected.
+/// Decides which records are selected.
 class RecordFilter
 {
 public:

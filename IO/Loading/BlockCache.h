@@ -107,7 +107,7 @@ public:
   bool isEmpty() const { return this->Used == 0; }
   std::int64_t used() const { return this->Used; } ///< tuples in use in the buffer
   std::int64_t room() const { return this->Room; } ///< capacity of the buffer in tuples
-  /// Only while no block is held: a buffer of another size does not keep its content.
+  /// Call it only while no block is held, since resizing the buffer discards its content.
   void setRoom(std::int64_t tuples) { this->Room = tuples; }
   void forget();
 

@@ -275,7 +275,7 @@ private:
   std::int64_t CellsAsRead = 0;           ///< borrowed cells
   std::vector<std::int64_t> PointIndices; ///< piece-local index of each point, as read
   std::vector<std::int64_t> NewPoints;    ///< global ids, ascending
-  std::vector<std::int64_t> CellIndices;  ///< among the borrowed ones, of the cells as read
+  std::vector<std::int64_t> CellIndices;  ///< index among the borrowed cells of each cell, as read
   std::vector<std::int64_t> CellIds;      ///< global ids, as read
 };
 

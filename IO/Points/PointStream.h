@@ -80,12 +80,12 @@ VTKTIPPIO_EXPORT void forEachBlock(
 
 /// Returns the points of a stream that thinning keeps, in their order. Of equally good points the
 /// first is kept; points that are not finite are all kept. The first pass reads the stream twice.
-/// Memory: one bit per point, and the squares. Throws IOError if the rule needs an elevation and
+/// Memory: one bit per point, plus the squares. Throws IOError if the rule needs an elevation and
 /// there is none.
 std::unique_ptr<PointStream> thinPoints(
   std::unique_ptr<PointStream> points, const Thinning& thinning);
 
-/// The points of a table as a stream, those that thinning keeps. Throws IOError as thinPoints().
+/// The points of a table that thinning keeps, as a stream. Throws IOError as thinPoints().
 VTKTIPPIO_EXPORT std::unique_ptr<PointStream> streamTable(
   PointTable table, const Thinning& thinning = {});
 

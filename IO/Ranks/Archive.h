@@ -125,7 +125,7 @@ private:
   }
   void save(const std::string& text) { this->array(text.data(), text.size()); }
 
-  Bytes Written; ///< allocated larger than Size
+  Bytes Written; ///< may be larger than Size, to avoid reallocation
   std::size_t Size = 0;
   std::function<void(const char*, std::size_t)> Sink;
 };

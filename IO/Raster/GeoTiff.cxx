@@ -198,8 +198,7 @@ std::vector<TiffField> TiledTiff::pixelFields() const
     tiffField(259, Type::Short, one(this->IsDeflated ? 8 : 1)),      // compression
     tiffField(262, Type::Short, one(1)),                             // 0 is black
     tiffField(277, Type::Short, one(int(bands))),                    // samples per pixel
-    tiffField(284, Type::Short, one(bands > 1 ? 2 : 1)),             // planar configuration: bands
-                                                                     // stored separately
+    tiffField(284, Type::Short, one(bands > 1 ? 2 : 1)),             // bands stored separately
     tiffField(322, Type::Short, one(int(RasterTileSize))),
     tiffField(323, Type::Short, one(int(RasterTileSize))),
     tiffField(339, Type::Short, repeated(3)), // floating-point numbers

@@ -108,7 +108,7 @@ private:
 class PieceCache
 {
 public:
-  /// Identifies what was read of a piece.
+  /// Identifies a cached piece, and what was read of it.
   struct Key
   {
     std::size_t Number;
