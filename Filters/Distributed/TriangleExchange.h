@@ -59,7 +59,7 @@ extern template void collect(Communicator&, OwnedPoints<std::int64_t>&,
 /// One layer of ghosts: other ranks' triangles that share a vertex with one of this rank's.
 struct GhostTriangles
 {
-  std::vector<IdTriangle> Triangles;  ///< by internal ids
+  std::vector<IdTriangle> Triangles;  ///< with internal ids
   std::vector<std::int64_t> Numbers;  ///< indices among all ranks' triangles
   std::vector<std::int64_t> PointIds; ///< internal ids of the points this rank lacks; ascending
   PointTuples Points;                 ///< the points of PointIds

@@ -332,7 +332,8 @@ private:
   const DistributedTriangulation& Mine;
   const GhostTriangles* Ghosts;
   const std::int64_t FirstOwn;
-  std::vector<std::int64_t> Indices; ///< of owned, then foreign points: index in the piece, or -1
+  std::vector<std::int64_t>
+    Indices; ///< index in the piece of each owned, then each foreign point; -1: not in it
   std::int64_t Count = 0;
 };
 

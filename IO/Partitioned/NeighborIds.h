@@ -90,7 +90,7 @@ private:
   std::vector<FinishedPiece>& Pieces;
   std::vector<std::int64_t> FirstCells; ///< global id of each piece's first cell
   std::mutex Mutex;
-  std::map<std::size_t, Border> Borders; ///< of pieces with open facets
+  std::map<std::size_t, Border> Borders; ///< borders of the pieces with open facets
   std::map<Facet, Waiting> Facets;
 };
 
