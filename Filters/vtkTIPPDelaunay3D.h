@@ -26,6 +26,23 @@
  * WorkerVertices (vertices of all partitions' triangulations together) and Threads, and of one
  * length PhaseName and PhaseSeconds (wall-clock seconds).
  *
+ * With a Controller of several ranks all of them update the filter together; they triangulate all
+ * their input points together, whichever rank holds which, into one exact triangulation, the same
+ * for every number of ranks. Coincident points of all ranks are merged. Each rank's output is a
+ * piece: its tetrahedra, each of which is on one rank, and the points that they use, with the point
+ * data that all ranks with points have. A piece does not depend on threads and partitions.
+ * "GlobalPointIds" are the input's global ids, or else count the points from the first rank on;
+ * "GlobalCellIds" are 0, 1, ... over all ranks. If ghost cells are asked for downstream, one layer
+ * comes, marked in vtkGhostType: other ranks' tetrahedra that share a point with the piece. Merged
+ * points are in no piece; with GenerateRepresentativeIds the field data has the arrays
+ * "DuplicatePointIds", "DuplicateRepresentativeIds" and "RejectedPointIds" (global ids) of those
+ * found on this rank. Port 1 has on every rank the same table: as field data, by rank,
+ * "RankComputeSeconds", "RankWaitSeconds", "RankSendSeconds", "RankOwnedPoints" and
+ * "RankTetrahedra"; "MessageKind", "MessageCount" and "MessageBytes". If any rank fails, all do,
+ * and the first one reports the error; also if it is upstream that fails on a rank, unless the
+ * application has executives of its own (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView
+ * has. Alpha, Tolerance, BoundingTriangulation and GenerateNeighborIds need a single rank.
+ *
  * An aborted run leaves both outputs empty. A failed one is reported as an error and leaves them
  * empty too.
  *
@@ -44,6 +61,7 @@
 #include "vtkTIPPFiltersModule.h" // For export macro
 #include "vtkUnstructuredGridAlgorithm.h"
 
+class vtkMultiProcessController;
 class vtkPointSet;
 class vtkTable;
 
@@ -146,7 +164,8 @@ public:
 
   ///@{
   /**
-   * The number of partitions, at most 512; 0 (the default) chooses.
+   * The number of partitions, at most 512; 0 (the default) chooses. On several ranks each has an
+   * equal share of them, rounded up.
    */
   vtkSetClampMacro(NumberOfPartitions, int, 0, 512);
   vtkGetMacro(NumberOfPartitions, int);
@@ -162,7 +181,26 @@ public:
 
   ///@{
   /**
-   * The merged and the rejected points of the last run.
+   * The ranks that triangulate together. The global controller by default; null, or a controller of
+   * one rank: this process alone.
+   */
+  virtual void SetController(vtkMultiProcessController*);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
+  ///@{
+  /**
+   * On several ranks: whether the first one's output has all tetrahedra, and the others' none. Off
+   * by default.
+   */
+  vtkSetMacro(GatherOnFirstRank, vtkTypeBool);
+  vtkGetMacro(GatherOnFirstRank, vtkTypeBool);
+  vtkBooleanMacro(GatherOnFirstRank, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * The merged and the rejected points of the last run, on all ranks together.
    */
   vtkGetMacro(NumberOfDuplicatePoints, vtkIdType);
   vtkGetMacro(NumberOfRejectedPoints, vtkIdType);
@@ -175,10 +213,12 @@ public:
 
 protected:
   vtkTIPPDelaunay3D();
-  ~vtkTIPPDelaunay3D() override = default;
+  ~vtkTIPPDelaunay3D() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  vtkExecutive* CreateDefaultExecutive() override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   double Alpha = 0;
@@ -193,6 +233,8 @@ protected:
   vtkTypeBool GenerateNeighborIds = 0;
   int NumberOfPartitions = 0;
   int NumberOfThreads = 0;
+  vtkMultiProcessController* Controller = nullptr;
+  vtkTypeBool GatherOnFirstRank = 0;
   vtkIdType NumberOfDuplicatePoints = 0;
   vtkIdType NumberOfRejectedPoints = 0;
 
@@ -200,6 +242,10 @@ private:
   vtkTIPPDelaunay3D(const vtkTIPPDelaunay3D&) = delete;
   void operator=(const vtkTIPPDelaunay3D&) = delete;
 
+  bool HasSeveralRanks() const;
+  bool ExecuteOnRanks(
+    vtkPointSet* input, bool wantsGhosts, vtkUnstructuredGrid* output, vtkTable* statistics);
+  const char* WhatNeedsOneRank();
   void Execute(vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics);
   tipp::Tetrahedralization Triangulate(
     const tipp::Point3* points, vtkIdType count, double diagonal);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Commands/Delaunay3DRuns.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Process.h"
@@ -25,42 +26,6 @@
 
 namespace tipp
 {
-namespace
-{
-
-constexpr const char* footer =
-  R"(INPUT   as of 'tipp delaunay'; the third coordinate is the column z, Z or elevation, or
-        the third one of a file without names.
-        uniform:COUNT stands for that many points, uniform in the unit cube (to .tipp).
-OUTPUT  .vtu (all points with their data) or .npy (m x 4 int64: point ids, counted
-        from 0): all is in memory. Or .tipp, a partitioned mesh in a folder: points
-        and tetrahedra may be larger than memory, which --memory limits.
-
-Duplicates are merged, points that are not finite are left out. Ctrl-C ends the run
-with exit code 130 and no output. Seconds in the summary are those of the
-tetrahedralization alone, but of .tipp those of the whole run; memory is in millions of
-bytes. All in one process.
-
-Examples:
-  tipp delaunay3d particles.npy -o mesh.vtu
-  tipp delaunay3d cloud.las --class 2,5 -o tetrahedra.npy --threads 4
-  tipp delaunay3d uniform:50000000 -o mesh.tipp --memory 2G
-)";
-
-struct Delaunay3DArguments
-{
-  std::vector<std::string> Inputs;
-  std::string Output;
-  PointOptions Columns;
-  int Threads = 0;
-  int Partitions = 0;
-  bool MapDuplicates = false;
-  bool Neighbors = false;
-  std::string Statistics;
-  // Of a run out of core:
-  std::string Memory; ///< empty: not given
-  std::string Scratch;
-};
 
 std::vector<Point3> coordinatesOf(const PointTable& table, std::size_t elevation)
 {
@@ -84,8 +49,8 @@ PathState requireWritable(const Delaunay3DArguments& arguments)
   return output.before();
 }
 
-bool write(const Delaunay3DArguments& arguments, PointTable&& table, const Tetrahedralization& mesh,
-  const PathState& before)
+bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
+  const Tetrahedralization& mesh, const PathState& before)
 {
   MeshOptions options;
   options.Before = before;
@@ -104,6 +69,48 @@ bool write(const Delaunay3DArguments& arguments, PointTable&& table, const Tetra
   return writeTetrahedra(
     arguments.Output, std::move(table), mesh.Ids.data(), mesh.cellCount(), neighbors, options);
 }
+
+void report(const Delaunay3DArguments& arguments, const Tetrahedralization& mesh,
+  std::int64_t points, double seconds, const nlohmann::ordered_json& figures,
+  const std::string& ranks)
+{
+  if (!arguments.Statistics.empty())
+  {
+    nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output },
+      { "tetrahedralize_seconds", seconds }, { "peak_memory_bytes", peakMemoryBytes() } };
+    json.update(figures);
+    writeJson(arguments.Statistics, json);
+  }
+  fmt::print("{} points, {} tetrahedra, {} duplicates, {} rejected, {:.3f} s, {:.0f} points/s, "
+             "peak memory {:.0f} MB{}\n",
+    points, mesh.cellCount(), mesh.Duplicates.size(), mesh.Rejected.size(), seconds,
+    seconds > 0 ? double(points) / seconds : 0.0, double(peakMemoryBytes()) / 1e6, ranks);
+}
+
+namespace
+{
+
+constexpr const char* footer =
+  R"(INPUT   as of 'tipp delaunay'; the third coordinate is the column z, Z or elevation, or
+        the third one of a file without names.
+        uniform:COUNT stands for that many points, uniform in the unit cube (to .tipp).
+OUTPUT  .vtu (all points with their data) or .npy (m x 4 int64: point ids, counted
+        from 0): all is in memory. Or .tipp, a partitioned mesh in a folder: points
+        and tetrahedra may be larger than memory, which --memory limits.
+
+Duplicates are merged, points that are not finite are left out. Ctrl-C ends the run
+with exit code 130 and no output. Seconds in the summary are those of the
+tetrahedralization alone, but of .tipp those of the whole run; memory is in millions of
+bytes. Under mpirun the points are spread over the ranks, each with its threads, and
+the first rank writes the output, the same as of one process; a .tipp is made by the
+first rank alone.
+
+Examples:
+  tipp delaunay3d particles.npy -o mesh.vtu
+  tipp delaunay3d cloud.las --class 2,5 -o tetrahedra.npy --threads 4
+  tipp delaunay3d uniform:50000000 -o mesh.tipp --memory 2G
+  mpirun -np 4 tipp delaunay3d particles.npy -o mesh.vtu --threads 2
+)";
 
 int runDelaunay3D(const Delaunay3DArguments& arguments)
 {
@@ -128,21 +135,12 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
     mesh = tetrahedralize(points.data(), points.size(), options);
   }
   const double seconds = watch.seconds();
-  if (mesh.Aborted || isInterrupted() || !write(arguments, std::move(table), mesh, before))
+  if (mesh.Aborted || isInterrupted() || !writeResult(arguments, std::move(table), mesh, before))
   {
     return reportInterrupt();
   }
-  if (!arguments.Statistics.empty())
-  {
-    nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output },
-      { "tetrahedralize_seconds", seconds }, { "peak_memory_bytes", peakMemoryBytes() } };
-    json.update(jsonOf(statisticsOf(mesh, count, std::int64_t(mesh.cellCount()))));
-    writeJson(arguments.Statistics, json);
-  }
-  fmt::print("{} points, {} tetrahedra, {} duplicates, {} rejected, {:.3f} s, {:.0f} points/s, "
-             "peak memory {:.0f} MB\n",
-    count, mesh.cellCount(), mesh.Duplicates.size(), mesh.Rejected.size(), seconds,
-    seconds > 0 ? double(count) / seconds : 0.0, double(peakMemoryBytes()) / 1e6);
+  report(arguments, mesh, count, seconds,
+    jsonOf(statisticsOf(mesh, count, std::int64_t(mesh.cellCount()))), "");
   for (const std::string& warning : warningsOf(mesh, count))
   {
     fmt::print(stderr, "tipp: warning: {}\n", warning);
@@ -233,8 +231,8 @@ void requireFitting(const Delaunay3DArguments& arguments)
 void addDelaunay3DCommand(CLI::App& app, int& exitCode)
 {
   auto arguments = std::make_shared<Delaunay3DArguments>();
-  CLI::App* const command = app.add_subcommand(
-    "delaunay3d", "Tetrahedralizes points: exact 3D Delaunay, on several threads");
+  CLI::App* const command =
+    app.add_subcommand("delaunay3d", "Tetrahedralizes points: exact 3D Delaunay, in parallel");
   command->add_option("input", arguments->Inputs, "The points, of one or more files")->required();
   command->add_option("-o,--output", arguments->Output, "The tetrahedra")
     ->required()
@@ -265,9 +263,14 @@ void addDelaunay3DCommand(CLI::App& app, int& exitCode)
     {
       requireFitting(*arguments);
       arguments->Columns.InSpace = true;
-      exitCode = isIdleRank()                       ? Success
-        : extensionOf(arguments->Output) == ".tipp" ? runDelaunay3DOutOfCore(*arguments)
-                                                    : runDelaunay3D(*arguments);
+      if (extensionOf(arguments->Output) == ".tipp")
+      {
+        exitCode = isIdleRank() ? Success : runDelaunay3DOutOfCore(*arguments);
+        return;
+      }
+      const MpiSession session;
+      exitCode = session.controller() ? runDelaunay3DOnRanks(*arguments, session.controller())
+                                      : runDelaunay3D(*arguments);
     });
 }
 
