@@ -20,8 +20,8 @@ using IdTriangle = IdCell<3>;
 using GhostTriangles = GhostCells<3, Point2>;
 
 /// The step after all partitions are done: sends boundary triangles to the rank that owns their
-/// vertex of lowest id, where the interior triangles are, and fetches the points of other ranks
-/// that these need. Collective.
+/// vertex of lowest id, adds them to its interior triangles, and fetches the points that they use
+/// from other ranks. Collective.
 template <typename Id>
 void collect(Communicator& ranks, OwnedPoints<Id>& points, const std::vector<IdTriangle>& kept,
   const std::vector<std::size_t>& interiorCounts, std::vector<Duplicate> duplicates,
