@@ -27,22 +27,23 @@
  * InitialPoints, WorkerVertices (vertices of all partitions' triangulations together) and Threads.
  * PhaseName and PhaseSeconds (wall-clock seconds) have one value for each phase.
  *
- * With a Controller of several ranks all of them update the filter together; they triangulate all
- * their input points together, whichever rank holds which, into one exact triangulation, the same
- * for every number of ranks. Coincident points of all ranks are merged. Each rank's output is a
- * piece: its tetrahedra, each of which is on one rank, and the points that they use, with the point
- * data that all ranks with points have. A piece does not depend on threads and partitions.
- * "GlobalPointIds" are the input's global ids, or else count the points from the first rank on;
- * "GlobalCellIds" are 0, 1, ... over all ranks. If ghost cells are asked for downstream, one layer
- * comes, marked in vtkGhostType: other ranks' tetrahedra that share a point with the piece. Merged
- * points are in no piece; with GenerateRepresentativeIds the field data has the arrays
- * "DuplicatePointIds", "DuplicateRepresentativeIds" and "RejectedPointIds" (global ids) of those
- * found on this rank. Port 1 has on every rank the same table: as field data, by rank,
+ * With a Controller of several ranks, all ranks must update the filter together. They triangulate
+ * the points of all ranks into one exact triangulation, which depends neither on the number of
+ * ranks nor on which rank holds which points. Coincident points of all ranks are merged. Each
+ * rank's output is a piece: its tetrahedra (each is on exactly one rank) and the points that they
+ * use, with those point arrays that every rank with points has. A piece depends neither on threads
+ * nor on partitions. "GlobalPointIds" holds the input's global ids; if it has none, points are
+ * numbered consecutively by rank. "GlobalCellIds" numbers the tetrahedra 0, 1, ... over all ranks.
+ * If ghost cells are requested downstream, one layer is added and marked in vtkGhostType: the
+ * tetrahedra of other ranks that share a point with the piece. Merged points are in no piece; with
+ * GenerateRepresentativeIds the field data has the arrays "DuplicatePointIds",
+ * "DuplicateRepresentativeIds" and "RejectedPointIds" (global ids) for the points found on this
+ * rank. Port 1 has the same table on every rank: its field data has, indexed by rank,
  * "RankComputeSeconds", "RankWaitSeconds", "RankSendSeconds", "RankOwnedPoints" and
- * "RankTetrahedra"; "MessageKind", "MessageCount" and "MessageBytes". If any rank fails, all do,
- * and the first one reports the error; also if it is upstream that fails on a rank, unless the
- * application has executives of its own (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView
- * has. Alpha, Tolerance, BoundingTriangulation and GenerateNeighborIds need a single rank.
+ * "RankTetrahedra"; "MessageKind", "MessageCount" and "MessageBytes". If one rank fails, all fail
+ * and the first rank reports the error. That includes failures upstream, unless the application
+ * sets its own default executive (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView does.
+ * Alpha, Tolerance, BoundingTriangulation and GenerateNeighborIds work on a single rank only.
  *
  * An aborted or failed run leaves both outputs empty. A failure is reported as an error.
  *
@@ -165,8 +166,8 @@ public:
 
   ///@{
   /**
-   * The number of partitions, at most 512. 0 (the default): chosen automatically. On several ranks each has an equal share
-   * of them, rounded up.
+   * The number of partitions, at most 512. 0 (the default): chosen automatically. On several ranks
+   * each has an equal share of them, rounded up.
    */
   vtkSetClampMacro(NumberOfPartitions, int, 0, 512);
   vtkGetMacro(NumberOfPartitions, int);

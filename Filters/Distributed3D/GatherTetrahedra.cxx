@@ -90,6 +90,7 @@ Tetrahedralization gatherTetrahedra(
     threads);
   all.Duplicates = gatherList(ranks, mine.Duplicates);
   all.Rejected = gatherList(ranks, mine.Rejected);
+  std::sort(all.Rejected.begin(), all.Rejected.end());
   std::sort(all.Duplicates.begin(), all.Duplicates.end(),
     [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
   return all;

@@ -83,6 +83,7 @@ RankRun3::RankRun3(
     this->AwaitedMessages +=
       !isOwn && std::find(to.begin(), to.end(), ranks.rank()) != to.end() ? 1 : 0;
   }
+  this->LeftToTake = this->LeftPartitions.load();
   this->Statistics.Partitions = std::int64_t(this->LeftPartitions);
 }
 
@@ -99,12 +100,29 @@ std::vector<std::int32_t> RankRun3::recipientsOf(PartitionIndex p) const
   return ranks;
 }
 
+/// As ReadyPartitions::take(), but sleeps longer: what comes from other ranks takes its time.
+PartitionIndex RankRun3::take()
+{
+  constexpr std::chrono::microseconds pause(300);
+  while (this->LeftToTake > 0 && !this->Ready.isStopped())
+  {
+    const PartitionIndex p = this->Ready.tryTake();
+    if (p >= 0)
+    {
+      --this->LeftToTake;
+      return p;
+    }
+    std::this_thread::sleep_for(pause);
+  }
+  return -1;
+}
+
 /// A worker thread's loop.
 void RankRun3::work(Cells& cells)
 {
   const ProcessorWatch watch;
   Worker3 worker(this->Points.Regions, this->Work.Order);
-  for (PartitionIndex p = this->Ready.take(); p >= 0; p = this->Ready.take())
+  for (PartitionIndex p = this->take(); p >= 0; p = this->take())
   {
     SentMessages3 sent = worker.triangulate(
       this->Points.of(p, this->FirstId), this->Inboxes[std::size_t(p)].take(), cells);
@@ -235,6 +253,11 @@ void RankRun3::run(std::vector<VertexMessage3> initial)
     }
   }
   std::vector<Cells> parts(std::size_t(this->Work.Threads), Cells(*this));
+  constexpr std::size_t cellsOfPoint = 7;
+  for (Cells& cells : parts)
+  {
+    cells.Inside.reserve(cellsOfPoint * this->Points.Points.size() / parts.size());
+  }
   const Stopwatch watch;
   {
     WorkerThreads threads(this->Ready);

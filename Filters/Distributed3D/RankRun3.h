@@ -57,6 +57,7 @@ public:
 private:
   struct Cells;
 
+  PartitionIndex take();
   void work(Cells& cells);
   std::vector<std::int32_t> recipientsOf(PartitionIndex p) const;
   void finish(PartitionIndex p, SentMessages3 sent);
@@ -80,6 +81,7 @@ private:
   std::vector<Inbox3> Inboxes;
   std::size_t AwaitedMessages = 0; ///< of other ranks' finished partitions
   std::atomic<std::size_t> LeftPartitions{ 0 };
+  std::atomic<std::size_t> LeftToTake{ 0 };
   std::atomic<std::size_t> PointsDone{ 0 };
   std::mutex Mutex; ///< for ToSend, and for results when a thread ends
   std::vector<Outgoing> ToSend;
