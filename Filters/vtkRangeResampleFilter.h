@@ -165,10 +165,9 @@ public:
 
   ///@{
   /**
-   * Whether the z of a surface is sampled too, as the point array "elevation", beside the other
-   * arrays. On by default. It is omitted if all points have the same z, if the input has an array
-   * of that name, if PointDataArraySelection disables it, or if the surface is not projected along
-   * z.
+   * Whether the z of a surface is sampled, too, as the point array "elevation". On by default. It
+   * is omitted if all points have the same z, if the input has an array of that name, if
+   * PointDataArraySelection disables it, or if the surface is not projected along z.
    */
   vtkSetMacro(SampleElevation, bool);
   vtkGetMacro(SampleElevation, bool);

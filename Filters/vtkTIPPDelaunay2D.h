@@ -135,8 +135,7 @@ public:
   {
     STAGES = 0,           ///< a barrier after each set of independent partitions
     DYNAMIC = 1,          ///< a partition starts as soon as all conflicting earlier ones are done
-    PRODUCER_CONSUMER = 2 ///< as STAGES; on several ranks without a barrier between the waves of a
-                          ///< stage
+    PRODUCER_CONSUMER = 2 ///< as STAGES; on several ranks without a barrier between waves
   };
 
   /**
@@ -444,7 +443,7 @@ public:
   vtkTable* GetStatistics();
 
   /**
-   * Also that of the Transform.
+   * Includes the modification time of the Transform.
    */
   vtkMTimeType GetMTime() override;
 

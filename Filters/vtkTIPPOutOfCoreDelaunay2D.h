@@ -245,7 +245,7 @@ public:
 
   ///@{
   /**
-   * Number of threads. Default 0: as many as OpenMP would take.
+   * Number of threads. Default 0: OpenMP's default.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
   vtkGetMacro(NumberOfThreads, int);

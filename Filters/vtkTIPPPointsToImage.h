@@ -149,9 +149,9 @@ public:
    */
   enum DuplicateType
   {
-    DUPLICATES_FIRST = 0,   ///< those of the first point
-    DUPLICATES_LOWEST = 1,  ///< those of the lowest
-    DUPLICATES_HIGHEST = 2, ///< those of the highest
+    DUPLICATES_FIRST = 0,   ///< the values of the first point
+    DUPLICATES_LOWEST = 1,  ///< the values of the lowest point
+    DUPLICATES_HIGHEST = 2, ///< the values of the highest point
     DUPLICATES_MEAN = 3     ///< the mean of each array
   };
 
@@ -237,8 +237,7 @@ private:
   tipp::RasterGrid Grid(vtkPointSet* points) const;
   tipp::PointTable Table(vtkPointSet* points) const;
   std::unique_ptr<tipp::PointStream> Stream(vtkPointSet* points) const;
-  std::array<double, 4> PointBounds(vtkPointSet* points) const; // bounds of the points that
-                                                                // thinning keeps
+  std::array<double, 4> PointBounds(vtkPointSet* points) const; // after thinning
   void Constrain(vtkPolyData* lines, vtkPolyData* boundary, tipp::DemRequest& request) const;
   void Make(vtkInformationVector** inputs, vtkImageData* output);
 };

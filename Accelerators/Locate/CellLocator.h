@@ -27,7 +27,7 @@ struct AskedPoints
 {
   const Point3* Points = nullptr;
   const std::int64_t* Asked = nullptr;
-  std::int64_t Count = 0;
+  std::int64_t Count = 0; ///< number of points to locate
 
   std::int64_t index(std::int64_t i) const { return this->Asked ? this->Asked[i] : i; }
   const Point3& at(std::int64_t i) const { return this->Points[this->index(i)]; }
@@ -97,8 +97,7 @@ private:
   CellWalk Walk;
   mutable std::once_flag Making; ///< guards building the tree
   mutable std::variant<BoxTree<2>, BoxTree<3>> Tree;
-  mutable std::atomic<int> Passes{ 0 }; ///< passes over all cells that were made instead of
-                                        ///< building the tree
+  mutable std::atomic<int> Passes{ 0 }; ///< passes made instead of building the tree
 };
 
 /// Calls `take` with the locations of the asked points that lie in a cell, from several threads, in

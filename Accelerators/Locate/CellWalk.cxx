@@ -219,8 +219,8 @@ private:
   /// Whether the border is a single loop without right turns.
   bool isBorderConvex() const
   {
-    std::vector<std::pair<std::int64_t, std::int64_t>> next; // from an edge's first point to its
-                                                             // second
+    std::vector<std::pair<std::int64_t, std::int64_t>>
+      next; // first point of an edge, and its second
     for (const std::int64_t edge : this->Border)
     {
       next.emplace_back(
@@ -248,7 +248,7 @@ private:
     return true;
   }
 
-  /// Whether a triangle meets an edge of the border, another triangle's, beyond common corners.
+  /// Whether a triangle meets a border edge of another triangle at more than common corners.
   bool borderMeetsCells() const
   {
     const std::vector<std::int64_t>& border = this->Border;
@@ -365,7 +365,8 @@ private:
   const int Threads;
   CellWalk& Walk;
   std::vector<signed char> Turns;
-  std::vector<std::int64_t> Border; ///< as 3 * triangle + the corner opposite to the edge
+  std::vector<std::int64_t>
+    Border; ///< border edges, as 3 * triangle + the corner opposite to the edge
 };
 
 CellWalk::CellWalk(const SimplexMesh& mesh, int threads)

@@ -120,8 +120,7 @@ CellWalk::Outcome CellWalk::walk(const Access& access, Point2 point, Position& a
   Corner a{};
   Corner b{};
   Corner c{};
-  int second = 1; // index of corner b minus that of corner a, modulo 3, where a, b, c are
-                  // counter-clockwise
+  int second = 1; // (index of b - index of a) modulo 3; a, b, c are counter-clockwise
   const auto start = [&]
   {
     second = at.IsClockwise ? 2 : 1;
@@ -139,8 +138,8 @@ CellWalk::Outcome CellWalk::walk(const Access& access, Point2 point, Position& a
     start();
   }
   constexpr int turned[5] = { 0, 1, 2, 0, 1 };
-  int apex = 0; // the corner that is a The corner opposite to the edge to cross next; -1: not known
-                // yet.
+  int apex = 0; // the corner that is a
+  // The corner opposite to the edge to cross next; -1: not known yet.
   int exit = isBeyond(b, c) ? 0 : -1;
   exit == 0 ? std::swap(b, c) : void();
   for (std::int64_t step = 0; step < MostSteps; ++step)

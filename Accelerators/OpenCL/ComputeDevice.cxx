@@ -101,7 +101,7 @@ std::string firstLine(const std::string& text)
   return begin == std::string::npos ? "" : text.substr(begin, text.find('\n', begin) - begin);
 }
 
-/// The OpenCL devices of all installed drivers, and those of them that are open.
+/// The OpenCL devices of all installed drivers, and the ones opened so far.
 class Drivers
 {
 public:
@@ -116,8 +116,7 @@ private:
   std::vector<DeviceDescription> Descriptions;
   std::vector<cl::Device> Devices;
   std::mutex Mutex;
-  std::vector<std::unique_ptr<ComputeDevice>> Opened; ///< two entries per device: as it is, and
-                                                      ///< with AsCard
+  std::vector<std::unique_ptr<ComputeDevice>> Opened; ///< per device: opened as it is, and AsCard
 };
 
 Drivers::Drivers()

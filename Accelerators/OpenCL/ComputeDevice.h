@@ -119,7 +119,7 @@ private:
   bool SharesHostMemory;
   mutable std::atomic<std::uint64_t> TransferNanoseconds{ 0 };
   std::mutex Mutex;
-  std::map<std::string, cl::Program> Programs; ///< by name and options
+  std::map<std::string, cl::Program> Programs; ///< built programs, by name and options
 };
 
 } // namespace tipp

@@ -19,10 +19,10 @@ namespace tipp
 /// owned.
 struct CellsView
 {
-  int Dimension; ///< coordinates per corner: 2 or 3
-  int Corners;   ///< per cell: 3 for triangles, 4 for tetrahedra (only in 3D)
-  const double* Coordinates;
-  std::size_t Cells;
+  int Dimension;             ///< coordinates per corner: 2 or 3
+  int Corners;               ///< per cell: 3 for triangles, 4 for tetrahedra (only in 3D)
+  const double* Coordinates; ///< Dimension numbers per corner, Corners per cell
+  std::size_t Cells;         ///< number of cells
 };
 
 /// For each cell the partitions that it shares a point with: the one of lowest index owns it, the
@@ -35,6 +35,7 @@ struct Membership
   std::vector<std::int32_t> Borrowers; ///< ascending for each cell
 };
 
+/// Options of classifyCells().
 struct ClassifyOptions
 {
   DeviceChoice Device;

@@ -157,7 +157,7 @@ bool Circumball::computeIntervals()
   }
   const double radius = std::sqrt(square(q));
   const double radiusError = errors[0] + errors[1] + errors[2] + 32.0 * Epsilon * radius;
-  // Squares of the radius and of similar distances stay finite; also false for NaN.
+  // Within this limit squares of the radius and of similar distances are finite. False for NaN.
   if (!(radius + radiusError <= 1e150))
   {
     return false;

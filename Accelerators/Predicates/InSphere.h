@@ -15,6 +15,7 @@ struct InSphereValue
   double lifts;
 };
 
+/// Evaluates the in-sphere determinant of p and the tetrahedron a, b, c, d without error control.
 inline InSphereValue inSphereValue(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& p)
 {

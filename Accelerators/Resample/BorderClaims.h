@@ -28,8 +28,8 @@ int moveRank(const Point3 (&corners)[4], Point3 sample);
 /// A sample on the border of a cell that does not claim it.
 struct Touch
 {
-  std::int64_t Sample;
-  std::int32_t Cell;
+  std::int64_t Sample; ///< index of the sample
+  std::int32_t Cell;   ///< index of the cell
 
   bool operator<(const Touch& other) const
   {

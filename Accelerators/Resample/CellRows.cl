@@ -186,7 +186,7 @@ typedef struct
   float4 notEnd;
   float certainty;
   Box box;
-  double3 size; // of the box
+  double3 size; // size of the box
   double3 error;
   int isSample; // the box has one sample, which is inside; the other fields are undefined
 } Cell;

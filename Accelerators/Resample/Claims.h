@@ -75,7 +75,7 @@ inline CellKey withRank(CellKey key, int rank)
 /// that claims it.
 struct BorderSample
 {
-  std::int64_t Sample;
+  std::int64_t Sample; ///< index of the sample
   CellKey Key;
 };
 
@@ -138,17 +138,17 @@ private:
 /// A sample on the mesh's border that its cell does not contain after the move by (e, e^2, e^3).
 struct BorderClaim
 {
-  std::int64_t Sample;
-  std::int32_t Cell;
+  std::int64_t Sample; ///< index of the sample
+  std::int32_t Cell;   ///< index of the cell
 };
 
 /// Statistics of the cells that the CPU's threads have visited; if an OpenCL device claims samples,
 /// these are only the cells that it leaves undecided.
 struct ClaimStatistics
 {
-  std::int64_t VisitedCells = 0; ///< cells whose boxes contain samples
-  std::int64_t Tests = 0;        ///< samples in these boxes
-  std::int64_t ExactTests = 0;
+  std::int64_t VisitedCells = 0;      ///< cells whose boxes contain samples
+  std::int64_t Tests = 0;             ///< samples in these boxes
+  std::int64_t ExactTests = 0;        ///< exact predicate evaluations
   std::int64_t OverlappingClaims = 0; ///< samples that a cell lost to an overlapping one
 };
 
@@ -157,9 +157,9 @@ struct Claims
 {
   /// cell index per sample, the first axis fastest; -1: none
   std::unique_ptr<std::int32_t[]> Cells;
-  std::vector<BorderClaim> Border; ///< by ascending sample
+  std::vector<BorderClaim> Border; ///< sorted by sample
   ClaimStatistics Statistics;
-  bool Aborted = false;
+  bool Aborted = false; ///< whether the report stopped the work; the claims are incomplete
 };
 
 /// Returns the cell of lowest CellKey at each sample: the one that contains it after a move by (e,

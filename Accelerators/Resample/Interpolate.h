@@ -20,11 +20,11 @@ struct Attribute
   /// Values per point or per cell, Components per tuple; not owned. Null: all samples get
   /// NullValue.
   const void* Values = nullptr;
-  void* Samples = nullptr; ///< Components per sample; not owned
-  Scalar Type = Scalar::Float64;
-  int Components = 1;
-  bool OfCells = false;
-  double NullValue = 0; ///< value of samples outside of all cells
+  void* Samples = nullptr;       ///< Components per sample; not owned
+  Scalar Type = Scalar::Float64; ///< type of Values and of Samples
+  int Components = 1;            ///< components per tuple
+  bool OfCells = false;          ///< whether Values are per cell; otherwise per point
+  double NullValue = 0;          ///< value of samples outside of all cells
 };
 
 /// Whether the array is interpolated linearly: a point array of floating-point numbers.
@@ -34,9 +34,10 @@ inline bool isInterpolated(const Attribute& attribute)
     (attribute.Type == Scalar::Float32 || attribute.Type == Scalar::Float64);
 }
 
+/// Options of interpolate() and sampleDirectly().
 struct InterpolationOptions
 {
-  int Threads = 1;
+  int Threads = 1; ///< OpenMP threads, at least 1
   /// Whether samples that no cell claims get NullValue; if false, they are left unchanged.
   bool FillUnclaimed = true;
   /// Whether floating-point point arrays have been sampled already.
@@ -58,12 +59,13 @@ VTKTIPPACCELERATORS_EXPORT bool interpolate(const SimplexMesh& mesh, const Sampl
   const std::int32_t* claims, const std::vector<Attribute>& attributes,
   const InterpolationOptions& options);
 
+/// The result of sampleDirectly().
 struct DirectResult
 {
   ClaimStatistics Statistics;
   double FinishSeconds = 0; ///< for null values and the mesh's border, after the main pass
   bool Overlapping = false; ///< cells overlap at samples: the sampled values are undefined
-  bool Aborted = false;
+  bool Aborted = false;     ///< whether Progress stopped the work
 };
 
 /// Does the work of claimSamples() and interpolate() in one pass, which reads each cell once. Works

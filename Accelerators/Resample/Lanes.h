@@ -303,7 +303,7 @@ struct alignas(32) GroupLanes
 
   LaneMask Ids[D + 1];
   Lanes Corners[D + 1][D];
-  Lanes Normals[D][D]; ///< of each corner but the first, along each axis
+  Lanes Normals[D][D]; ///< gradients of the weights of all corners but the first
   LaneMask Thin;       ///< where roundings would show in the Normals
 
 private:
@@ -352,7 +352,7 @@ private:
 
   [[gnu::always_inline]] void findNormals()
   {
-    Lanes edges[D][D]; // of each corner but the first, from that
+    Lanes edges[D][D]; // from the first corner to each of the others
     Lanes product = allLanes(1);
     for (int axis = 0; axis < D; ++axis)
     {
@@ -377,7 +377,7 @@ private:
     }
   }
 
-  /// Makes the Normals the columns of the adjugate, and returns the determinant.
+  /// Sets Normals to the columns of the adjugate matrix. Returns the determinant.
   [[gnu::always_inline]] Lanes cofactors(const Lanes (&e)[D][D])
   {
     auto& n = this->Normals;

@@ -16,9 +16,9 @@ namespace tipp
 /// parts of a lattice have the very same samples.
 struct Lattice
 {
-  std::array<double, 3> Min = {};
-  std::array<double, 3> Delta = { 1, 1, 1 };
-  std::array<int, 6> Extent = {};
+  std::array<double, 3> Min = {};            ///< coordinates of the sample with index (0, 0, 0)
+  std::array<double, 3> Delta = { 1, 1, 1 }; ///< spacing along x, y, z
+  std::array<int, 6> Extent = {};            ///< first and last index along x, y, z
 
   std::int64_t size(int axis) const
   {
@@ -56,8 +56,8 @@ struct IndexRange
 /// number before or on it.
 struct RowCrossing
 {
-  int Before;
-  int WithOn;
+  int Before; ///< number of samples strictly before the crossing
+  int WithOn; ///< number of samples before or on it
 };
 
 /// One axis of a lattice: the coordinates of its samples, and the position of other coordinates

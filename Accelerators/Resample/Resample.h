@@ -13,11 +13,12 @@
 namespace tipp
 {
 
+/// Options of resample().
 struct ResampleOptions
 {
   DeviceChoice Device = { tipp::Device::OpenMP, -1, "" };
   std::uint64_t DeviceMemory = 0; ///< limit of OpenCL device memory, in bytes; 0: half of it
-  int Threads = 1;
+  int Threads = 1;                ///< OpenMP threads, at least 1
   /// If the mesh is a part of a larger one: for each sample the key of the cell that claims it so
   /// far (noCellKey: none). Only samples that get a lower key are changed, and the cost depends on
   /// the part's own bounding box. Null: the mesh is complete, and samples that no cell claims get
@@ -30,6 +31,7 @@ struct ResampleOptions
   Report Progress;
 };
 
+/// The result of resample(): statistics, wall-clock times, and the device that was used.
 struct ResampleResult
 {
   ClaimStatistics Statistics;
@@ -39,8 +41,8 @@ struct ResampleResult
   double TransferSeconds = 0; ///< to and from an OpenCL device; not included in the others
   /// "OpenMP", or an OpenCL device's name; empty if a part has no samples.
   std::string Device;
-  std::string Warning; ///< why another device than the requested one was used; else empty
-  bool Aborted = false;
+  std::string Warning;  ///< why another device than the requested one was used; else empty
+  bool Aborted = false; ///< whether Progress stopped the work
 };
 
 /// Samples a mesh on a lattice: see claimSamples() and interpolate(). The attributes' sample arrays

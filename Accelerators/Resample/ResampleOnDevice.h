@@ -291,7 +291,7 @@ private:
   const cl::Buffer Counts;
   const cl::Buffer Large;
   const cl::Buffer Doubtful;
-  cl_int Length[2] = { 0, 0 }; ///< of the lists
+  cl_int Length[2] = { 0, 0 }; ///< lengths of the lists
   const OutputArray Lengths;
 };
 

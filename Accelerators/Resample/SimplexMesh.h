@@ -22,8 +22,8 @@ struct SimplexMesh
   bool Float = false;           ///< Points are float32, else float64
   const void* Ids = nullptr;    ///< three or four point indices per cell
   bool Wide = false;            ///< Ids are int64, else int32
-  std::int64_t Cells = 0;
-  std::int64_t PointCount = 0;
+  std::int64_t Cells = 0;       ///< number of cells
+  std::int64_t PointCount = 0;  ///< number of points
   /// one byte per cell, nonzero for cells that are ignored; may be null
   const unsigned char* Hidden = nullptr;
   /// 3 for tetrahedra. 2 for triangles, of which only the two coordinates along Axes are used.

@@ -414,8 +414,7 @@ private:
   Cut Cuts[4];
   Lanes RowError;
   Lanes LayerError;
-  float Certainty[laneCount]; ///< how close to midway between two samples a crossing must be to be
-                              ///< certain
+  float Certainty[laneCount]; ///< a crossing this close to midway between samples is certain
   float PerRows[laneCount];   ///< 1 / number of rows in a layer
   IndexRange Columns[laneCount];
   IndexRange Rows[laneCount];

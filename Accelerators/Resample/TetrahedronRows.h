@@ -208,7 +208,7 @@ private:
   {
     ++this->ExactTests;
     const int side = orientation3(face.A, face.B, face.C, { face.A.x, y, z });
-    // The move goes along y, then along z.
+    // The symbolic move goes along y first, then along z.
     const int ny = side == 0
       ? orientation({ face.A.z, face.A.x }, { face.B.z, face.B.x }, { face.C.z, face.C.x })
       : 0;

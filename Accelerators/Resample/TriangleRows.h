@@ -322,8 +322,7 @@ private:
   LaneMask LongIsLeft;
   Lanes X[3]; ///< the corners' coordinates, from the lowest corner to the highest
   Lanes Y[3];
-  Lanes Slopes[3]; ///< of the edge from the lowest to the highest corner, and of those below and
-                   ///< above the middle corner
+  Lanes Slopes[3]; ///< of the longest edge in v, and of those below and above the middle corner
   Lanes Error;
   Ranges Columns;
   Ranges Rows;

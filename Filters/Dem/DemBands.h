@@ -47,7 +47,7 @@ public:
 struct DemBands
 {
   std::vector<DemBand> Bands;
-  std::size_t Elevation = 0;
+  std::size_t Elevation = 0; ///< index of the elevation among the columns, if HasElevation
   bool HasElevation = false;
 
   std::vector<std::string> names() const;

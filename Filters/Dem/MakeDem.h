@@ -23,13 +23,12 @@ namespace tipp
 /// The parameters of a raster of points.
 struct DemRequest
 {
-  RasterRequest Raster;
+  RasterRequest Raster; ///< the pixel grid
   std::vector<std::string> Bands = { "elevation" };
-  double MaximumEdge = 0; ///< triangles with a longer edge are left out, in the points' unit of
-                          ///< length; 0: no limit
+  double MaximumEdge = 0; ///< longest edge of triangles, in the points' unit of length; 0: no limit
   int Threads = 0;        ///< 0: OpenMP's default
-  DuplicateRule Duplicates = DuplicateRule::First;
-  std::optional<TableConstraints> Constraints; ///< breaklines and boundary
+  DuplicateRule Duplicates = DuplicateRule::First; ///< which values coincident points get
+  std::optional<TableConstraints> Constraints;     ///< breaklines and boundary
 };
 
 /// Removes the heights of lines from a VTK file, which always has heights, if all of them are 0.
@@ -42,15 +41,16 @@ VTKTIPPFILTERS_EXPORT TerrainSettings makeTerrainSettings(
 /// Throws std::runtime_error if the pixels do not fit into this machine's memory.
 void requireMemory(const TerrainSettings& settings);
 
+/// Statistics of a raster of points.
 struct DemFigures
 {
   std::int64_t Points = 0; ///< including the points of the constraints
   std::int64_t Triangles = 0;
-  std::int64_t Duplicates = 0;
+  std::int64_t Duplicates = 0;           ///< points that coincide with an earlier one
   std::int64_t DisagreeingPositions = 0; ///< positions of several points with different elevations
   std::int64_t Rejected = 0;             ///< points that are not finite
   std::int64_t WithoutElevation = 0;     ///< points without elevation; triangles at them have none
-  bool Aborted = false;
+  bool Aborted = false;                  ///< whether the user stopped the run
 };
 
 /// Makes a raster from points in memory: triangulates them and samples the triangles, with the same
@@ -74,6 +74,7 @@ VTKTIPPFILTERS_EXPORT TileSource readFrom(const RasterGrid& grid, const SampledB
 /// Calls fillVoids(), and returns how many pixels of the first band had a value before.
 std::int64_t fillTile(const DemBands& bands, std::vector<std::vector<double>>& values);
 
+/// Returns a pointer to each vector's values, as RasterWriter::write() takes them.
 std::vector<const double*> pointersTo(const std::vector<std::vector<double>>& values);
 
 /// Writes all tiles; voids of `bands` are filled, see fillVoids(). Returns the number of pixels

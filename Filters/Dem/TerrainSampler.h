@@ -19,11 +19,12 @@ struct SimplexMesh;
 /// The points of the triangles to sample. Not owned.
 struct TerrainPoints
 {
-  const double* XYZ = nullptr; ///< x, y and elevation, interleaved
-  std::int64_t Count = 0;
+  const double* XYZ = nullptr;        ///< x, y and elevation, interleaved
+  std::int64_t Count = 0;             ///< number of points
   std::vector<const double*> Columns; ///< indexed by DemBand::Column
 };
 
+/// The settings of a raster: grid, bands and precision.
 struct TerrainSettings
 {
   RasterGrid Grid;
@@ -38,7 +39,7 @@ Lattice latticeOf(const RasterGrid& grid);
 /// The values at pixels, NaN where there is no triangle.
 struct SampledBands
 {
-  std::vector<std::vector<double>> Values; ///< by band and sample
+  std::vector<std::vector<double>> Values; ///< values by band, then by sample
 };
 
 /// Samples all triangles of a mesh, which must not overlap, at all pixels. Returns false if

@@ -26,7 +26,7 @@ namespace tipp
 struct RankPointData
 {
   const PointId* GlobalIds = nullptr; ///< null: consecutive ids from FirstId
-  PointId FirstId = 0;
+  PointId FirstId = 0;                ///< global id of the first point, if GlobalIds is null
   /// Data sent with each point: RowSize bytes, which PackRow(point index, to) writes.
   std::size_t RowSize = 0;
   std::function<void(std::size_t, char*)> PackRow;
@@ -41,9 +41,9 @@ struct RankPointData
 template <typename Position>
 struct PointTuplesOf
 {
-  Buffer<Position> Positions;
-  Buffer<PointId> GlobalIds;
-  Buffer<char> Rows; ///< as RankPointData::PackRow wrote them
+  Buffer<Position> Positions; ///< coordinates, one per point
+  Buffer<PointId> GlobalIds;  ///< the caller's ids, one per point
+  Buffer<char> Rows;          ///< as RankPointData::PackRow wrote them
   std::size_t size() const { return this->Positions.size(); }
 };
 

@@ -210,7 +210,7 @@ private:
   Buffer<Id>& Corners;
   const std::int64_t First; ///< internal id of the first own point
   const std::size_t Own;
-  std::vector<Point2> Positions; ///< of own points, then of other ranks' points
+  std::vector<Point2> Positions; ///< coordinates of own points, then of other ranks' points
 };
 
 } // namespace

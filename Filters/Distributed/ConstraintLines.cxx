@@ -123,7 +123,7 @@ private:
     }
     const auto isLess = [](const Question& a, const Question& b) { return a.key() < b.key(); };
     std::sort(left.begin(), left.end(), isLess);
-    std::vector<std::vector<char>> answers; // in the order of the questions
+    std::vector<std::vector<char>> answers; // by rank, in the order of its questions
     for (const std::vector<Question>& part : questions)
     {
       answers.emplace_back();

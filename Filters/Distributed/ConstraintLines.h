@@ -18,7 +18,7 @@ struct NamedSegments
 {
   const ConstraintSegments& Segments;
   const std::vector<std::int64_t>& Order; ///< by segment: its index in the given order
-  const std::vector<std::int64_t>& Cells; ///< by that index
+  const std::vector<std::int64_t>& Cells; ///< cell of the source, by index in the given order
 };
 
 /// A rank's share of the edges of all ranks' triangles that lie on constraints.

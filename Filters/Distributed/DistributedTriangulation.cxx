@@ -46,7 +46,7 @@ struct SentByKind
   Communicator::Traffic Sent;
 };
 
-/// What a rank tells the others.
+/// What a rank reports to the others for the statistics.
 struct OfOneRank
 {
   RankStatistics Own;
@@ -99,7 +99,7 @@ namespace
 struct Survey
 {
   PointsView Points;                  ///< this rank's, scaled to a moderate magnitude
-  Box2 Bounds{};                      ///< of all ranks' finite points
+  Box2 Bounds{};                      ///< bounds of all ranks' finite points
   std::vector<std::int64_t> Rejected; ///< indices of this rank's points that are not finite
   bool IsCollinear = false;           ///< all finite points on one line, or fewer than three
 };
@@ -184,7 +184,7 @@ Survey surveyRanks(Communicator& ranks, PointsView points, int threads)
   survey.Bounds = verdict.Bounds;
   survey.IsCollinear = verdict.IsCollinear != 0;
 
-  // Either all ranks scale, or none.
+  // All ranks must scale, or none.
   const PointsView moderate = withModerateMagnitude(points, survey.Bounds);
   std::vector<std::int64_t> kept = { moderate.factor() == 1 };
   ranks.sum(kept);

@@ -66,7 +66,7 @@ struct DistributedOptions
   Masters Design = Masters::Auto;
   GridSize Major; ///< default: a tree with an automatic number of boxes
   Division MinorDivision = Division::Tree;
-  GridSize Minor;             ///< for Division::Grid; with one master, the partitions
+  GridSize Minor;             ///< for Division::Grid; with one master, the grid of all partitions
   std::int64_t Threshold = 0; ///< T, points per minor partition; 0: chosen automatically
   GroupSizes Groups = GroupSizes::Proportional;
   RankSchedule Order = RankSchedule::Dynamic;
@@ -91,7 +91,7 @@ void formGroups(const std::vector<PartitionIndex>& active,
   const DistributedOptions& options, std::vector<double> load,
   std::vector<std::vector<std::int32_t>>& groups);
 
-/// The partitions that one master hands to workers, or to masters of their own.
+/// The partitions of one master: it assigns them to workers, or to sub-masters.
 struct Area
 {
   Tiling Boxes;                       ///< its partitions
@@ -108,7 +108,7 @@ struct Area
 /// Which rank triangulates which partition. The first area is the whole domain's.
 struct VTKTIPPFILTERS_EXPORT Plan
 {
-  std::vector<Area> Areas;
+  std::vector<Area> Areas;          ///< the domain's area first, then those of major partitions
   Tiling Leaves;                    ///< all partitions that are triangulated, in one tiling
   std::vector<std::int32_t> Owners; ///< by leaf: the rank that owns its points
   bool IsAlone = false;             ///< one leaf: no initial mesh, no artificial points
@@ -130,14 +130,14 @@ void serialize(Archive& archive, Plan& plan)
   archive(plan.Areas, plan.Leaves, plan.Owners, plan.IsAlone);
 }
 
-/// What a plan depends on.
+/// The input of a plan.
 struct PlanInput
 {
-  Box2 Domain{};
-  std::int64_t Points = 0;
-  std::vector<Point2> Sample;
-  int Ranks = 1;
-  int Threads = 1; ///< sum over all ranks
+  Box2 Domain{};              ///< bounds of all ranks' finite points
+  std::int64_t Points = 0;    ///< number of points of all ranks
+  std::vector<Point2> Sample; ///< evenly spaced points of all ranks
+  int Ranks = 1;              ///< number of ranks
+  int Threads = 1;            ///< sum over all ranks
 };
 
 /// The number of sample points that a plan needs.

@@ -45,9 +45,10 @@ struct PointLayout
     const std::vector<std::int64_t>& counts);
 
   std::int32_t Rank;
-  std::vector<std::vector<std::uint64_t>> Counts; ///< by source rank and leaf of this rank
-  std::vector<std::vector<std::size_t>> Firsts;   ///< index of the first of these points
-  std::vector<std::size_t> Starts;                ///< index of each leaf's first point, and the end
+  std::vector<std::vector<std::uint64_t>>
+    Counts; ///< number of points, by source rank and leaf of this rank
+  std::vector<std::vector<std::size_t>> Firsts; ///< index of the first of these points
+  std::vector<std::size_t> Starts;              ///< index of each leaf's first point, and the end
 };
 
 /// Copies what is received from another rank, part by part, to its position.
@@ -71,23 +72,23 @@ private:
     std::size_t Size;
   };
 
-  std::vector<Range> Left; ///< in reverse order
+  std::vector<Range> Left; ///< ranges still to fill, in reverse order
 };
 
 /// A rank's input points. Does not own the memory.
 struct RankPoints : RankPointData
 {
-  PointsView Points;
+  PointsView Points; ///< coordinates of this rank's points
 };
 
 /// The points of the leaves that a rank owns, ordered by leaf.
 template <typename Id>
 struct OwnedPoints
 {
-  PointBuckets<Id> Buckets; ///< of all leaves; empty for leaves of other owners
+  PointBuckets<Id> Buckets; ///< one bucket per leaf; empty for leaves of other owners
   Buffer<Point2> Positions;
   Buffer<PointId> GlobalIds;
-  Buffer<char> Rows;
+  Buffer<char> Rows;                  ///< data of the points, RowSize bytes each
   std::vector<std::int64_t> FirstIds; ///< first internal id of each rank, and the end
 
   std::size_t size() const { return this->Positions.size(); }
@@ -127,7 +128,7 @@ private:
   const std::size_t Leaves;
   const int Threads;
   Buffer<std::uint32_t> Labels;
-  std::vector<std::vector<std::size_t>> Counts; ///< by thread and leaf
+  std::vector<std::vector<std::size_t>> Counts; ///< number of points, by thread and leaf
 };
 
 extern template OwnedPoints<std::int32_t> PointExchange::exchange(

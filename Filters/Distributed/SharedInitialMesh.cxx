@@ -226,10 +226,10 @@ private:
   const std::vector<BoundaryVertex>& Artificial;
   const std::vector<char>& IsChosen;
   const int Threads;
-  std::vector<std::size_t> Begins; ///< of each partition's points in Initial
+  std::vector<std::size_t> Begins; ///< index of each partition's first point in Initial
   std::vector<std::size_t> Ends;
   std::vector<char> IsComplete; ///< by partition: all its initial points are inserted
-  Box2 Bounds{};                ///< of the chosen regions
+  Box2 Bounds{};                ///< bounds of the chosen regions
   bool IsAny = false;           ///< whether a chosen partition has points
   DelaunayKernel Kernel;
   BoundaryTriangles Mesh;
@@ -242,8 +242,7 @@ struct ConflictRows
 {
   std::vector<PartitionIndex> Partitions;
   std::vector<PartitionIndex> Counts;     ///< number of neighbours of each
-  std::vector<PartitionIndex> Neighbours; ///< neighbours of the first partition, then of the
-                                          ///< second, and so on
+  std::vector<PartitionIndex> Neighbours; ///< of all partitions, concatenated
 };
 
 ConflictRows readRows(LoadArchive& reader, std::size_t partitions)

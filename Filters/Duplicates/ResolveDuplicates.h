@@ -30,8 +30,8 @@ VTKTIPPFILTERS_EXPORT void requireElevation(
 /// A column of values, one for each point; it does not own them.
 struct ValueColumn
 {
-  double* Values;
-  std::size_t Stride;
+  double* Values;     ///< value of the first point
+  std::size_t Stride; ///< distance between the values of successive points, in doubles
 
   double& operator[](std::int64_t point) const
   {

@@ -110,8 +110,7 @@ std::size_t mostConflicts(std::size_t partitions)
 std::optional<ConflictGraph> findConflicts(
   const BoundaryTriangles& initialMesh, std::size_t partitions)
 {
-  constexpr std::size_t most = std::size_t(1) << 22; // number of pairs collected before they are
-                                                     // added
+  constexpr std::size_t most = std::size_t(1) << 22; // pairs collected before they are added
   const std::size_t limit = mostConflicts(partitions);
   const PartitionSets& sets = initialMesh.Sets;
   ConflictGraph conflicts(partitions);
@@ -208,8 +207,7 @@ void PartitionOrder::sortByUrgency(const std::vector<std::int32_t>& windows)
   {
     return; // one chain
   }
-  std::vector<std::int32_t> chains(this->Positions.size(), 0); // length of the longest chain from
-                                                               // each partition
+  std::vector<std::int32_t> chains(this->Positions.size(), 0); // longest chain from each partition
   for (auto p = this->Sequence.rbegin(); p != this->Sequence.rend(); ++p)
   {
     for (const PartitionIndex q : this->later(*p))

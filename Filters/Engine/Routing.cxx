@@ -142,7 +142,7 @@ template <typename VertexOf, typename Deliver>
 std::int64_t OutgoingTriangles::send(PartitionIndex sender, std::size_t recipients,
   const VertexOf& vertexOf, const Deliver& deliver, FinalTriangleConsumer& final)
 {
-  // A counting sort: Ends are the recipients' begins before the triangles are copied.
+  // A counting sort: until the triangles are copied, Ends has the start of each recipient's range.
   this->Ends.assign(recipients + 2, 0);
   for (const Triangle& triangle : this->Triangles)
   {

@@ -117,8 +117,8 @@ private:
   };
 
   std::vector<Triangle> Triangles;
-  std::vector<std::size_t> Ends;     ///< by recipient, in Sorted
-  std::vector<Corners> Sorted;       ///< by recipient
+  std::vector<std::size_t> Ends;     ///< by recipient: end of its triangles in Sorted
+  std::vector<Corners> Sorted;       ///< triangles, sorted by recipient
   std::vector<std::uint32_t> SentTo; ///< by vertex: the last recipient it was sent to
 };
 

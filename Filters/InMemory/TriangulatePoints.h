@@ -32,8 +32,8 @@ struct PointsRequest
   /// A point within this distance of a kept point of lower id is merged into it, in the points'
   /// unit of length; ignored with constraints. 0: only points with the same coordinates are merged.
   double Distance = 0;
-  const SourceConstraints* Source = nullptr; ///< null: none
-  CrossingRule Crossings = CrossingRule::Split;
+  const SourceConstraints* Source = nullptr;    ///< null: none
+  CrossingRule Crossings = CrossingRule::Split; ///< what to do with constraints that cross
 };
 
 /// Computes the triangulation that vtkTIPPDelaunay2D and Python return for points in memory. With

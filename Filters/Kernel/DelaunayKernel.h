@@ -120,7 +120,7 @@ private:
 
   HalfEdgeMesh Mesh;
   Uninitialised<Point2> Points;
-  Uninitialised<std::uint32_t> PointIndices; ///< by vertex
+  Uninitialised<std::uint32_t> PointIndices; ///< by vertex: the index of its point
   std::vector<Duplicate> Duplicates;
   std::uint32_t PointEnd = 0; ///< points inserted since clear()
   Index Pending = 1;          ///< first vertex not inserted yet: all points before it are collinear

@@ -111,7 +111,7 @@ inline unsigned signsOf(Pair a)
 #endif
 }
 
-/// The first lanes of both, or the second.
+/// Combines the first lanes of two pairs, or the second lanes.
 inline Pair low(Pair a, Pair b)
 {
   return __builtin_shufflevector(a, b, 0, 2);

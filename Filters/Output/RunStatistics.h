@@ -26,8 +26,8 @@ namespace tipp
 /// (Array); an empty name leaves them out there.
 struct Figures
 {
-  std::string Key;
-  std::string Array;
+  std::string Key;   ///< name in JSON and Python
+  std::string Array; ///< name in VTK tables
   std::variant<std::vector<bool>, std::vector<std::int64_t>, std::vector<std::uint64_t>,
     std::vector<double>, std::vector<std::string>>
     Values;
@@ -36,7 +36,7 @@ struct Figures
 /// The phases, stages or ranks of a run: columns of equal length.
 struct FigureList
 {
-  std::string Key;
+  std::string Key;      ///< name of the list in JSON and Python
   bool IsTable = false; ///< columns of the VTK table; else arrays of its field data
   std::vector<Figures> Columns;
 };

@@ -79,8 +79,7 @@ private:
 struct PieceMarks
 {
   const ConstraintSegments* Flags = nullptr; ///< marks them by the array ConstraintEdges
-  const ConstraintLines* Lines = nullptr;    ///< adds lines before the triangles, and the array
-                                             ///< ConstraintId
+  const ConstraintLines* Lines = nullptr;    ///< as lines, and the array ConstraintId
 };
 
 /// Fills `output` with a rank's triangles: the points that they use with their data, and global ids

@@ -289,7 +289,7 @@ private:
   int Rank;
   int Dimension = 0;
   std::vector<RankNote> Notes;
-  std::vector<std::vector<std::string>> Has; ///< by rank: the names of its arrays
+  std::vector<std::vector<std::string>> Has; ///< by rank: the names of the arrays that it has
 };
 
 } // namespace

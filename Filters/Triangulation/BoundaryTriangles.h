@@ -34,7 +34,7 @@ public:
   }
 
 private:
-  std::vector<PartitionIndex> Members; ///< of all sets, concatenated
+  std::vector<PartitionIndex> Members; ///< partitions of all sets, concatenated
   std::vector<std::size_t> Ends;       ///< one past each set's last entry in Members
   std::unordered_multimap<std::uint64_t, std::uint32_t> ByHash; ///< numbers
   std::uint32_t Last = 0; ///< the number returned last, often repeated
@@ -44,7 +44,7 @@ private:
 /// triangle that is not interior to one partition.
 struct BoundaryVertex
 {
-  Point2 Position;
+  Point2 Position;          ///< coordinates of the vertex
   std::int64_t Id;          ///< the input point's id; negative for artificial points
   PartitionIndex Partition; ///< the partition that contains it
   std::int32_t Padding = 0; ///< so that all bytes of a message are defined
@@ -75,8 +75,8 @@ struct BoundaryTriangles
   using Corners = std::array<std::uint32_t, 3>; ///< indices into Vertices
 
   std::vector<BoundaryVertex> Vertices; ///< each once; some may belong to no triangle
-  std::vector<Corners> Triangles;
-  std::vector<std::uint32_t> SetOf; ///< by triangle: its set's number in Sets
+  std::vector<Corners> Triangles;       ///< counter-clockwise
+  std::vector<std::uint32_t> SetOf;     ///< by triangle: its set's number in Sets
   PartitionSets Sets;
   /// The pairs of different sets of triangles with a common edge. Only triangulateVertices() fills
   /// it.

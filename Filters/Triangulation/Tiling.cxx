@@ -148,7 +148,7 @@ Tiling Tiling::refined(const std::vector<Tiling>& inner) const
 namespace
 {
 
-/// Without branches, so that compilers vectorise it.
+/// Branch-free, so that compilers vectorise it.
 inline void findCells(const CellGrid::Axis& columns, const CellGrid::Axis& rows,
   const Point2* points, std::size_t count, std::uint32_t* cells)
 {
@@ -250,7 +250,7 @@ void PartitionFinder::locate(
     const Point2* const block = points + begin;
     std::uint32_t* const found = partitions + begin;
     this->Cells.find(block, size, cells.data());
-    // Without branches; the few cells that lie in several boxes are processed below.
+    // Branch-free; the few points in cells that lie in several boxes are processed below.
     std::size_t openCount = 0;
     for (std::size_t i = 0; i < size; ++i)
     {

@@ -27,7 +27,7 @@ struct Octagon
   static constexpr Box2 All{ -Most, -Most, Most, Most };
 
   Box2 Box = Nothing;
-  Box2 Diagonals = Nothing; ///< of the points' diagonals()
+  Box2 Diagonals = Nothing; ///< bounds of the points' diagonals()
 
   static Point2 diagonals(Point2 p) { return { p.x + p.y, p.x - p.y }; }
 
@@ -49,9 +49,10 @@ public:
   {
     PartitionIndex Number;
     DelaunayKernel& Kernel;
-    const Id* Ids;          ///< by kernel vertex, from 1 on; -1 for those of other partitions
-    const char* IsBoundary; ///< by number of the kernel's triangle: not 0 if it is not interior
-    Octagon Interior;       ///< bounds of the interior triangles, in the kernel's coordinates
+    const Id* Ids; ///< by kernel vertex, from 1 on: the point's id; -1 for other partitions' points
+    const char*
+      IsBoundary;     ///< by the kernel's triangle number: not 0 if the triangle is not interior
+    Octagon Interior; ///< bounds of the interior triangles, in the kernel's coordinates
   };
 
   virtual ~PartitionEditor() = default;
@@ -104,8 +105,8 @@ public:
 
   std::size_t interiorCount() const { return this->InteriorCount; }
 
-  /// Points of the partition with the coordinates of another. The representative is the one with
-  /// the lowest id, unless it is an initial point, which other partitions know already.
+  /// The partition's duplicates: points that coincide with another point. The representative is the
+  /// one with the lowest id, unless it is an initial point, which other partitions know already.
   const std::vector<Duplicate>& duplicates() const { return this->Duplicates; }
   std::size_t vertexCount() const { return this->VertexCount; }
 
@@ -128,12 +129,12 @@ private:
   PooledKernel Pooled;
   DelaunayKernel& Kernel;
   std::vector<Id> Ids;                ///< ids of the partition's own points
-  std::vector<Id> VertexIds;          ///< by kernel vertex; -1 for ghosts
+  std::vector<Id> VertexIds;          ///< by kernel vertex: the point's id; -1 for ghosts
   std::vector<BoundaryVertex> Ghosts; ///< vertices from the inbox, except own points
   std::vector<Point2> GhostPoints;
   std::vector<std::int64_t> KnownIds; ///< ids of own points that other partitions know; sorted
-  std::vector<char> IsBoundary;       ///< by number of the kernel's triangle
-  Octagon Interior;                   ///< of the interior triangles, if there is an editor
+  std::vector<char> IsBoundary;       ///< by the kernel's triangle number
+  Octagon Interior;                   ///< bounds of the interior triangles, if there is an editor
   std::vector<DelaunayKernel::Index> Stack;
   std::vector<Duplicate> Duplicates;
   std::size_t InteriorCount = 0;

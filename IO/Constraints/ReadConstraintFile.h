@@ -51,7 +51,7 @@ ConstraintTable readPolyFile(const std::string& path);
 /// Lines and polygons of a VTK file. Throws IOError.
 ConstraintTable readVtkConstraints(const std::string& path);
 
-/// Reads the lines and polygons of all layers, by GDAL. Outer rings of polygons come out
+/// Reads the lines and polygons of all layers with GDAL. Outer rings of polygons become
 /// counter-clockwise, the others clockwise, whatever their orientation in the file; missing heights
 /// are NaN. Throws IOError.
 ConstraintTable readVectorFile(const std::string& path);

@@ -54,7 +54,7 @@ public:
     Chunk chunk = { ids, count, range.Low >> this->Shift << this->Shift, range.High, {} };
     const std::size_t blocks = std::size_t((range.High - chunk.Low) >> this->Shift) + 1;
     constexpr std::int64_t sparse = 128; // tuples read per tuple wanted
-    // then the scan for active blocks costs more than sorting the ids
+    // If true, scanning for active blocks costs more than sorting the ids.
     bool isSparse = blocks > count;
     if (!isSparse)
     {
@@ -406,14 +406,14 @@ private:
   ArrayFiles Files;
   std::int64_t M;
   int Threads;
-  std::int64_t Gap; ///< in tuples
+  std::int64_t Gap; ///< largest gap to read over, in tuples
   int Shift;        ///< a block is 2^Shift tuples
   HeldBlocks Held;  ///< blocks in the buffers
   LoadCounters Counts;
   TupleBuffers Buffers;
   std::int64_t Spent = 0;            ///< approximate number of bytes read
   RawVector<std::uint32_t> Sources;  ///< position of each of the chunk's tuples in the buffers
-  std::unique_ptr<TupleCache> Cache; ///< created by the first chunk of a few ids far apart
+  std::unique_ptr<TupleCache> Cache; ///< created for the first sparse chunk
   GroupedMoves Moves;
 };
 

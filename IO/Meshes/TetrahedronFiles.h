@@ -27,6 +27,7 @@ VTKTIPPIO_EXPORT bool writeTetrahedra(const std::string& path, PointTable points
   const std::int32_t* ids, std::size_t tetrahedra, const std::vector<std::int64_t>& neighbors,
   const MeshOptions& options);
 
+/// Tetrahedra read from a file.
 struct StoredTetrahedra
 {
   std::vector<std::int64_t> Ids;       ///< four point ids each, as stored in the file
@@ -38,8 +39,8 @@ struct StoredTetrahedra
 /// cell is one. Throws IOError.
 VTKTIPPIO_EXPORT bool holdsTetrahedra(const std::string& path);
 
-/// Reads tetrahedra from such a file. The ids are not checked. Throws IOError, also if the file has
-/// other cells.
+/// Reads tetrahedra from such a file. The ids are not checked. Throws IOError if the file cannot be
+/// read or has other cells.
 VTKTIPPIO_EXPORT StoredTetrahedra readTetrahedra(const std::string& path);
 
 } // namespace tipp

@@ -97,7 +97,7 @@ private:
     std::int64_t InOwner; ///< first tuple in the owner's array
     std::int64_t First;   ///< index among all borrowed tuples, as read
     std::int64_t Count;
-    std::size_t Part; ///< of the owner's arrays
+    std::size_t Part; ///< index of the part in the owner's arrays
   };
   struct Source
   {
@@ -273,9 +273,9 @@ private:
   std::vector<Source> Sources;
   std::int64_t PointsAsRead = 0;          ///< borrowed points, with repetitions
   std::int64_t CellsAsRead = 0;           ///< borrowed cells
-  std::vector<std::int64_t> PointIndices; ///< in the piece, of the points as read
+  std::vector<std::int64_t> PointIndices; ///< piece-local index of each point, as read
   std::vector<std::int64_t> NewPoints;    ///< global ids, ascending
-  std::vector<std::int64_t> CellIndices;  ///< among the borrowed ones, of the cells as read
+  std::vector<std::int64_t> CellIndices;  ///< index among the borrowed cells of each cell, as read
   std::vector<std::int64_t> CellIds;      ///< global ids, as read
 };
 

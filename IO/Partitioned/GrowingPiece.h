@@ -27,10 +27,10 @@ constexpr const char* nextPieceSuffix = ".next";
 /// A piece whose own points are triangulated. Points are identified by row, except for `First`.
 struct InteriorContent
 {
-  std::int64_t First = 0; ///< index of the first own point among those of all pieces
-  std::int64_t Points = 0;
-  const double* Rows = nullptr;
-  const std::uint8_t* IsOnInterface = nullptr; ///< of each point
+  std::int64_t First = 0;       ///< index of the first own point among those of all pieces
+  std::int64_t Points = 0;      ///< number of own points
+  const double* Rows = nullptr; ///< their rows, see PointRowLayout; not owned
+  const std::uint8_t* IsOnInterface = nullptr; ///< by point: not 0 if it is on the interface
   std::vector<TriangleRange> Triangles;        ///< or tetrahedra; all except the border's
   /// Duplicates: maps a point to the one with the same coordinates that represents it.
   const std::unordered_map<std::int32_t, std::int32_t>* Representatives = nullptr;

@@ -84,7 +84,7 @@ private:
   std::vector<FinishedPiece>& Pieces;
   std::vector<std::int64_t> FirstCells; ///< global id of each piece's first cell
   std::mutex Mutex;
-  std::map<std::size_t, Border> Borders; ///< of pieces with open edges
+  std::map<std::size_t, Border> Borders; ///< borders of the pieces with open edges
   std::map<Edge, Waiting> Edges;
 };
 

@@ -73,8 +73,8 @@ private:
 /// The cost of reading a piece.
 struct ReadCounters
 {
-  std::int64_t Reads = 0;
-  std::int64_t Bytes = 0;
+  std::int64_t Reads = 0; ///< read calls
+  std::int64_t Bytes = 0; ///< bytes read
 };
 
 /// A piece's open file, which is read part by part.

@@ -17,6 +17,7 @@ namespace tipp
 
 struct Piece;
 
+/// Options of readPiece().
 struct PieceOptions
 {
   bool Borrowed = true; ///< also read the borrowed cells, as ghosts
@@ -26,7 +27,7 @@ struct PieceOptions
   /// Returning false stops reading. Null selects all cells.
   using Choose = std::function<bool(const Piece& piece, std::int64_t first, std::int64_t count,
     const void* ids, bool wide, std::vector<std::int64_t>& chosen)>;
-  Choose Cells;
+  Choose Cells; ///< null: all cells
   /// For each of PartitionedMesh::Arrays whether to read it; empty: all.
   std::vector<bool> Wanted;
   int Step = 0; ///< the step to read of arrays that vary in time
@@ -39,26 +40,27 @@ struct PieceOptions
 /// their global ids; borrowed cells, and the points that only these use, come last.
 struct Piece
 {
+  /// A point or cell array of the piece.
   struct Attribute
   {
     StoredArray Description;
-    Buffer<char> Values;
+    Buffer<char> Values; ///< tuples in the order of the piece's points or cells
   };
 
   int CellSize = 3;
   Scalar PointType = Scalar::Float64;
   /// connectivity: std::int64_t if true, else std::int32_t; indices within the piece
   bool WideIds = false;
-  std::int64_t Points = 0;
+  std::int64_t Points = 0;      ///< all points, including those that only borrowed cells use
   std::int64_t OwnedPoints = 0; ///< the points before those that only borrowed cells use
-  std::int64_t Cells = 0;
-  std::int64_t OwnedCells = 0;
-  bool IsStopped = false;   ///< PieceOptions::Cells ended the reading; there are no cells
-  Buffer<char> Coordinates; ///< 3 per point
-  Buffer<char> PointIds;    ///< global ids, std::int64_t
-  Buffer<char> PointGhosts; ///< std::uint8_t; 1: another piece owns the point
-  Buffer<char> Connectivity;
-  Buffer<char> CellIds; ///< global ids, std::int64_t; cells from OwnedCells on are ghosts
+  std::int64_t Cells = 0;       ///< all cells, including borrowed ones
+  std::int64_t OwnedCells = 0;  ///< the cells before the borrowed ones
+  bool IsStopped = false;       ///< PieceOptions::Cells ended the reading; there are no cells
+  Buffer<char> Coordinates;     ///< 3 per point
+  Buffer<char> PointIds;        ///< global ids, std::int64_t
+  Buffer<char> PointGhosts;     ///< std::uint8_t; 1: another piece owns the point
+  Buffer<char> Connectivity;    ///< CellSize piece-local point indices per cell
+  Buffer<char> CellIds;         ///< global ids, std::int64_t; cells from OwnedCells on are ghosts
   std::vector<Attribute> Attributes;
   ReadCounters Counters;
 

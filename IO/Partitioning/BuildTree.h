@@ -115,7 +115,7 @@ private:
   int Threads;
   NodeCounts Counts;
   std::vector<std::uint8_t> Marked; // leaves to be split
-  std::vector<Visit> Visits;        // of cells to the marked leaves
+  std::vector<Visit> Visits;        // visits of cells to the marked leaves
 };
 
 /// A mesh's cells, which are read chunk by chunk and more than once.
@@ -123,13 +123,14 @@ struct CellSource
 {
   int Dimension;      ///< coordinates per corner: 2 or 3
   int Corners;        ///< 3 for triangles, 4 for tetrahedra
-  std::int64_t Cells; ///< of the whole mesh
+  std::int64_t Cells; ///< number of cells of the whole mesh
   /// Writes the corners' coordinates of `count` cells from index `first` on, cell after cell. Each
   /// rank calls it on the calling thread for its share of the cells; may throw.
   std::function<void(std::int64_t first, std::int64_t count, std::vector<double>& coordinates)>
     Read;
 };
 
+/// Options of buildTree().
 struct TreeOptions
 {
   /// The tree's dimension, 2 or 3. A quadtree uses only x and y of triangles in space.
@@ -143,6 +144,7 @@ struct TreeOptions
   int Threads = 0; ///< 0: OpenMP's default
 };
 
+/// The result of buildTree().
 struct PartitionTree
 {
   BoxTiling Tiling;

@@ -35,6 +35,7 @@ struct TilingChoice
   VTKTIPPIO_EXPORT static std::optional<TilingChoice> parse(const std::string& text);
   /// The same; throws IOError for any other text.
   VTKTIPPIO_EXPORT static TilingChoice require(const std::string& text);
+  /// The inverse of parse(), for a mesh of this dimension.
   VTKTIPPIO_EXPORT std::string text(int dimension) const;
 };
 
@@ -81,8 +82,8 @@ void writeOwners(const FlatMesh& mesh, const BoxTiling& tiling, const std::strin
   Communicator& ranks, int threads);
 
 /// Returns the chosen tiling of the mesh's domain. While a tree is built, `chunkCells` cells are in
-/// memory, with their coordinates twice. Collective. Throws IOError, also for more than mostPieces
-/// boxes.
+/// memory, with two copies of their coordinates. Collective. Throws IOError if reading fails or
+/// there are more than mostPieces boxes.
 BoxTiling makeTiling(const FlatMesh& mesh, const TilingChoice& choice, const LoaderOptions& loading,
   std::int64_t chunkCells, int threads, Communicator& ranks, const Box3& domain);
 

@@ -21,6 +21,7 @@ class vtkMultiProcessController;
 namespace tipp
 {
 
+/// Options of partitionMesh() and the functions below.
 struct PartitionOptions
 {
   TilingChoice Tiling;
@@ -43,6 +44,7 @@ struct PartitionOptions
   std::function<bool(double)> Progress;
 };
 
+/// Statistics of a run. Counts and bytes are sums over all ranks.
 struct PartitionStatistics
 {
   struct Phase
@@ -57,13 +59,13 @@ struct PartitionStatistics
   std::int64_t BorrowedCells = 0; ///< a cell counts once per borrower
   std::int64_t CopiedPoints = 0;  ///< ghost points stored in pieces
   std::uint64_t SpilledBytes = 0; ///< on all ranks
-  std::uint64_t MeshBytes = 0;    ///< of all files
+  std::uint64_t MeshBytes = 0;    ///< size of all files
   int Ranks = 1;
   int Threads = 1;
   std::string Loader; ///< the loader that was used
-  LoadCounters Loads; ///< of all ranks
+  LoadCounters Loads; ///< sum over all ranks
   std::vector<Phase> Phases;
-  bool Aborted = false; ///< by Progress; nothing was written
+  bool Aborted = false; ///< whether Progress aborted the run; then nothing was written
 };
 
 /// A new mesh may replace a partitioned mesh.

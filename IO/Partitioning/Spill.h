@@ -31,7 +31,7 @@ struct SpilledRows
 
   std::vector<std::int64_t> Counts;     ///< rows per key
   std::vector<std::uint64_t> Checksums; ///< per key; empty: not protected
-  std::vector<File> Files;              ///< by rank
+  std::vector<File> Files;              ///< one file per rank
 };
 
 template <typename Archive>

@@ -15,13 +15,14 @@ namespace tipp
 /// Points read from a file: x and y interleaved, and the other numeric columns by name.
 struct PointTable
 {
+  /// A named column of numbers.
   struct Column
   {
     std::string Name;
     std::vector<double> Values; ///< one per point
   };
 
-  std::vector<double> XY;
+  std::vector<double> XY; ///< x and y of each point, interleaved
   std::vector<Column> Columns;
   std::int64_t LeftOut = 0;    ///< points that the options rejected
   std::int64_t ThinnedOut = 0; ///< points that thinning removed

@@ -71,8 +71,8 @@ struct Thinning
     Nearest ///< to the centre of the square
   };
 
-  double Cell = 0; ///< 0: all points are kept
-  Rule Keep = Rule::Nearest;
+  double Cell = 0;           ///< 0: all points are kept
+  Rule Keep = Rule::Nearest; ///< which point of a square is kept
   /// The beginning of the path of a temporary file for the squares, if they may not fit in memory;
   /// empty: they are kept in memory.
   std::string File;
@@ -82,13 +82,14 @@ struct Thinning
 
 class PointStream;
 
+/// Options of reading points.
 struct PointOptions
 {
-  /// Which columns are x and y: a name as the file's header gives it, or a number counted from 0.
-  /// Empty: by the usual names (x, y; lon, lat; longitude, latitude; easting, northing), else the
-  /// first two.
+  /// Which columns are x and y: a name in the file's header, or a column index from 0. Empty:
+  /// columns with the usual names (x, y; lon, lat; longitude, latitude; easting, northing), else
+  /// the first two.
   std::string X;
-  std::string Y;
+  std::string Y; ///< likewise
   LasSelection Las = {};
   Thinning Thin = {}; ///< applied to the points of all files together
   int Threads = 1;    ///< threads that decode LAS files; 0: OpenMP's default
@@ -123,6 +124,7 @@ VTKTIPPIO_EXPORT PointTable readAllPoints(PointStream& stream);
 VTKTIPPIO_EXPORT PointTable readPointsShare(
   const std::vector<std::string>& paths, const PointOptions& options, int part, int parts);
 
+/// The indices of the columns that are x and y.
 struct ColumnChoice
 {
   std::size_t X = 0;

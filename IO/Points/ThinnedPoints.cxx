@@ -314,7 +314,7 @@ private:
   bool IsDecided = false;
   std::int64_t Seen = 0;
   std::int64_t KeptCount = 0;
-  std::int64_t Points = 0; ///< of this pass so far
+  std::int64_t Points = 0; ///< points of this pass so far
 };
 
 } // namespace

@@ -293,8 +293,7 @@ void requireConversion(const RasterDescription& description, const std::string& 
 void convertGeoTiff(const std::string& from, const std::string& to,
   const RasterDescription& description, const std::string& path)
 {
-  constexpr std::int64_t cacheBytes = 16 << 20; // GDAL's default is a fraction of the machine's
-                                                // memory
+  constexpr std::int64_t cacheBytes = 16 << 20; // GDAL's default depends on the machine's memory
   gdal().GDALSetCacheMax64(cacheBytes);
   gdal().CPLErrorReset();
   OptionList options;

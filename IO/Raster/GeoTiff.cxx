@@ -27,7 +27,7 @@ namespace tipp
 namespace
 {
 
-/// Room for the header of a BigTIFF; that of a TIFF has half the size.
+/// Bytes reserved for the header: the size for a BigTIFF; a TIFF header takes half of it.
 constexpr std::uint64_t headerSize = 16;
 
 /// Applies TIFF's predictor 3, which makes floating-point tiles compress well: in each row the most
@@ -118,7 +118,8 @@ void appendWord(std::string& bytes, std::uint64_t value, bool isBig)
   isBig ? append(bytes, value) : append(bytes, std::uint32_t(value));
 }
 
-/// The directory at `at` in the file and, behind it, the values that do not fit into its entries.
+/// Returns the directory, to be written at offset `at`, followed by the values that do not fit into
+/// its entries.
 std::string directory(const std::vector<TiffField>& fields, std::uint64_t at, bool isBig)
 {
   const std::size_t word = isBig ? 8 : 4;
@@ -197,8 +198,7 @@ std::vector<TiffField> TiledTiff::pixelFields() const
     tiffField(259, Type::Short, one(this->IsDeflated ? 8 : 1)),      // compression
     tiffField(262, Type::Short, one(1)),                             // 0 is black
     tiffField(277, Type::Short, one(int(bands))),                    // samples per pixel
-    tiffField(284, Type::Short, one(bands > 1 ? 2 : 1)),             // planar configuration: bands
-                                                                     // stored separately
+    tiffField(284, Type::Short, one(bands > 1 ? 2 : 1)),             // bands stored separately
     tiffField(322, Type::Short, one(int(RasterTileSize))),
     tiffField(323, Type::Short, one(int(RasterTileSize))),
     tiffField(339, Type::Short, repeated(3)), // floating-point numbers
@@ -438,7 +438,7 @@ private:
   const std::string Path;
   const RasterDescription Description;
   PendingFile Pending;
-  std::unique_ptr<PendingFile> Plain; ///< only if converted
+  std::unique_ptr<PendingFile> Plain; ///< the uncompressed file, only if it is converted
   std::vector<TiffField> Fields;
   std::unique_ptr<TiledTiff> Tiff;
   std::mutex Mutex;                            ///< guards the members below

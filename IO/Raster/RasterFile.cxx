@@ -73,7 +73,7 @@ void RasterWriter::writeEncoded(std::int64_t, EncodedTile)
 namespace
 {
 
-/// Writes bands one after the other, each row by row from the south, after a header text.
+/// Writes a header text, then the bands one after another, each row by row from the south.
 class PlainWriter : public RasterWriter
 {
 public:

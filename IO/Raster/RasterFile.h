@@ -26,7 +26,7 @@ struct RasterGrid
   double South = 0;                       ///< border of the lowest row
   std::array<double, 2> Pixel = { 1, 1 }; ///< width and height
   std::int64_t Columns = 0;
-  std::int64_t Rows = 0;
+  std::int64_t Rows = 0;       ///< number of pixels along y
   std::optional<double> North; ///< border of the highest row, if given; otherwise it is computed
 
   double north() const
@@ -39,7 +39,7 @@ struct RasterGrid
 /// The pixel grid that a user requests.
 struct RasterRequest
 {
-  double Resolution = 0;
+  double Resolution = 0; ///< side of a pixel, in the units of the points
   /// xmin, xmax, ymin, ymax; nullopt: those of the points.
   std::optional<std::array<double, 4>> Bounds;
   /// Whether pixel borders are at multiples of the resolution; if not, the first pixel starts at
@@ -54,6 +54,7 @@ struct RasterRequest
 VTKTIPPIO_EXPORT RasterGrid makeRasterGrid(
   const RasterRequest& request, const std::array<double, 4>& pointBounds);
 
+/// What a raster file contains and how it is stored.
 struct RasterDescription
 {
   RasterGrid Grid;
@@ -61,7 +62,7 @@ struct RasterDescription
   std::string Crs;       ///< WKT, "EPSG:code" or any text that GDAL understands; may be empty
   double NoData = -9999; ///< value of a GeoTIFF's pixels without data
   bool Double = false;   ///< whether a GeoTIFF's values have 64 bits or 32
-  std::string Compression = "deflate"; ///< of a GeoTIFF: deflate, lzw, zstd or none
+  std::string Compression = "deflate"; ///< for a GeoTIFF: deflate, lzw, zstd or none
   bool CloudOptimized = false; ///< whether a GeoTIFF has overviews and the layout called COG
   int Threads = 1;             ///< threads that compress
   /// A GeoTIFF that may exceed this size, in bytes, is written as a BigTIFF.
@@ -71,8 +72,8 @@ struct RasterDescription
 /// A rectangle of pixels; columns count from the west, rows from the south.
 struct RasterWindow
 {
-  std::int64_t Column = 0;
-  std::int64_t Row = 0;
+  std::int64_t Column = 0; ///< first column
+  std::int64_t Row = 0;    ///< first row
   std::int64_t Columns = 0;
   std::int64_t Rows = 0;
 };
@@ -82,10 +83,10 @@ struct BandSums
 {
   double Least = std::numeric_limits<double>::infinity();
   double Most = -std::numeric_limits<double>::infinity();
-  double Mean = 0;
+  double Mean = 0;    ///< mean of the values
   double Squares = 0; ///< sum of squared differences from the mean
-  double Count = 0;
-  double Hidden = 0; ///< number of values that equal NoData
+  double Count = 0;   ///< number of values, without NaN
+  double Hidden = 0;  ///< number of values that equal NoData
 
   void add(double value);
   void add(const BandSums& other);
@@ -134,6 +135,7 @@ public:
 /// default. Tiles are numbered row by row from the north, in each row from the west.
 constexpr std::int64_t RasterTileSize = 256;
 
+/// The number of tiles that cover the grid.
 inline std::int64_t tileCount(const RasterGrid& grid)
 {
   const auto along = [](std::int64_t pixels)
@@ -174,6 +176,7 @@ VTKTIPPIO_EXPORT bool isGeoTiff(const std::string& path);
 std::unique_ptr<RasterWriter> createGeoTiff(
   const std::string& path, const RasterDescription& description, const PathState& before);
 
+/// The grid and the reference system of an existing raster.
 struct RasterInfo
 {
   RasterGrid Grid;

@@ -24,7 +24,7 @@ struct TiffField
     Double = 12,
     Long8 = 16
   };
-  std::uint16_t Tag = 0;
+  std::uint16_t Tag = 0; ///< the field's tag number
   Type Is = Type::Short;
   std::string Bytes; ///< the values, little-endian
 };

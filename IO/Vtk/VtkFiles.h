@@ -19,8 +19,8 @@ VTKTIPPIO_EXPORT std::string cellTypeName(int type);
 /// (.pvtp ...), .vtk, .ply, .stl, .obj.
 VTKTIPPIO_EXPORT bool isVtkFile(const std::string& path);
 
-/// Reads the points of such a file, as pointsOf() returns them. Throws IOError, also in a build
-/// without VTK.
+/// Reads the points of such a file as pointsOf() returns them. Throws IOError if reading fails, and
+/// always in a build without VTK.
 VTKTIPPIO_EXPORT PointTable readVtkPoints(const std::string& path);
 
 /// Converts a data set's points and numeric point data to a table with a column z; an array of

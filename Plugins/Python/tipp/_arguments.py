@@ -18,7 +18,7 @@ _MOST_THREADS = 4096
 
 def number(value: Any, name: str, *, at_least: float = -math.inf, finite: bool = True) -> float:
     """A real number. Without `finite` it may be infinite or NaN."""
-    if type(value) is float and at_least <= value and -math.inf < value < math.inf:  # quick for small calls
+    if type(value) is float and at_least <= value and -math.inf < value < math.inf:  # keeps small calls fast
         return value
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} is {_shown(value)}; give a number.")

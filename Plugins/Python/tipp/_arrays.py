@@ -93,7 +93,7 @@ def taken(values: ArrayLike, name: str) -> np.ndarray:
 
 def coordinates(points: ArrayLike) -> np.ndarray:
     if type(points) is np.ndarray and points.dtype is _DOUBLE and points.ndim == 2 and points.shape[1] in (2, 3):
-        return points  # the usual array, for small calls to be quick
+        return points  # the usual case, to keep small calls fast
     if isinstance(points, np.ma.MaskedArray) and points.dtype.kind in "iu":
         points = np.ma.MaskedArray(_as_doubles(points.data, points.mask), points.mask)
     array = taken(points, "points")

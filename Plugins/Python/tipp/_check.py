@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 _EPSILON = 2.0**-53
-_SMALLEST = 2.0**-1000  # below it products may have underflowed
+_SMALLEST = 2.0**-1000  # below this, products may have underflowed
 _BLOCK = 1 << 18  # rows
 
 

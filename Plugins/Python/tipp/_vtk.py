@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from vtkmodules.vtkCommonCore import vtkDataArray
 
 _BLOCK = 4096  # rows
-_SHARE = 64 * _BLOCK  # of a thread, at a time
+_SHARE = 64 * _BLOCK  # rows that a thread copies at a time
 _MOST_THREADS = 8
 _MADV_POPULATE_WRITE = 23  # Linux 5.14
 # By dtype.char; C has two names for integers of 64 bits.
@@ -140,7 +140,7 @@ def wrapped_like(result: vtkDataObject, source: Any) -> Any:
     return result
 
 
-# What the wheel needs besides.
+# Additional helpers for the wheel.
 
 _TYPES = {3: 5, 4: 10}  # VTK_TRIANGLE and VTK_TETRA, by their number of corners
 

@@ -65,7 +65,7 @@ def source_of(data: vtkPointSet, options: dict[str, Any]) -> tuple[vtkPolyData |
     source = vtkPolyData()
     has_points = len(constraints.corners) > 0
     if has_points:
-        # Ids mean the input's points, so that these come first.
+        # Ids refer to the input's points, so these come first.
         points = data.GetPoints()
         own = vtk_to_numpy(points.GetData()) if points is not None else np.zeros((0, 3))
         source.SetPoints(vtk_points(np.concatenate([own.astype(np.float64), constraints.corners])))

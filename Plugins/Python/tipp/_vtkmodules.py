@@ -19,12 +19,12 @@ _MODULES = ("vtkCommonCore", "vtkCommonDataModel", "vtkCommonExecutionModel", "u
 def root() -> str | None:
     """The package with VTK's modules: the one that PyVista uses if it is imported, since objects of the two cannot be
     mixed; otherwise the installed one; None without VTK."""
-    if importlib.util.find_spec("._run", __package__):  # built with VTK: the package's filters are of vtkmodules
+    if importlib.util.find_spec("._run", __package__):  # built with VTK: the package's filters use vtkmodules
         return "vtkmodules"
     mesh = getattr(sys.modules.get("pyvista"), "PolyData", None)
     if mesh is not None:
         packages = {base.__module__.split(".")[0] for base in mesh.__mro__}
-        return "cvista" if "cvista" in packages else "vtkmodules"  # cvista names some bases as vtkmodules does
+        return "cvista" if "cvista" in packages else "vtkmodules"  # cvista uses vtkmodules' names for some bases
     return next((name for name in _PACKAGES if importlib.util.find_spec(name)), None)
 
 
