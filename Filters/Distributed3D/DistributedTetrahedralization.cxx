@@ -2,6 +2,7 @@
 #include "Distributed3D/DistributedTetrahedralization.h"
 
 #include "Distributed3D/RankRun3.h"
+#include "Distributed3D/ShareInitialPoints3.h"
 #include "Kernel3D/DelaunayKernel3.h"
 #include "Parallel/ParallelFor.h"
 #include "Triangulation3D/InitialMesh3.h"
@@ -39,21 +40,6 @@ PartitionGroups chooseGroups(std::int64_t points, int ranks, int threads, int wa
   groups.Each = std::clamp(groups.Each, 1, std::max(1, most / ranks));
   groups.Each = std::max(groups.Each, int(points / ranks / largest));
   return groups;
-}
-
-/// What one rank tells the others of its partitions, in their order.
-struct InitialPoints3
-{
-  std::vector<Box3> Regions;
-  std::vector<std::int64_t> Chosen; ///< how many of Points each has
-  std::vector<Point3> Points;
-  std::vector<std::int64_t> Ids; ///< internal ids
-};
-
-template <typename Archive>
-void serialize(Archive& archive, InitialPoints3& initial)
-{
-  archive(initial.Regions, initial.Chosen, initial.Points, initial.Ids);
 }
 
 /// Adds the tetrahedra of the hull repair.
@@ -174,64 +160,6 @@ private:
 
   std::int64_t firstOwn() const { return this->Result.FirstIds[std::size_t(this->Ranks.rank())]; }
 
-  /// Chooses the initial points of this rank's partitions.
-  InitialPoints3 chooseInitial(const PointBuckets3& buckets)
-  {
-    constexpr std::size_t inAll = 8192; // the finer the mesh, the fewer partitions conflict
-    constexpr std::size_t share = 16;   // of a partition's points
-    const auto each = inAll / std::size_t(this->Tiling->size());
-    InitialPoints3 initial;
-    for (PartitionIndex p = 0; p < this->Tiling->size(); ++p)
-    {
-      if (this->Tiling->groupOf(p) != this->Ranks.rank())
-      {
-        continue;
-      }
-      const PartitionPoints3 points = buckets.of(p, this->firstOwn());
-      std::vector<std::size_t> chosen;
-      if (points.Count > 0)
-      {
-        chosen = chooseInitialPoints(points.Points, points.Count,
-          std::max(InitialMesh3::PointsOfPartition, std::min(each, points.Count / share)));
-      }
-      initial.Regions.push_back(buckets.Regions[std::size_t(p)]);
-      initial.Chosen.push_back(std::int64_t(chosen.size()));
-      for (const std::size_t i : chosen)
-      {
-        initial.Points.push_back(points.Points[i]);
-        initial.Ids.push_back(points.id(i));
-      }
-    }
-    this->InitialIds = initial.Ids;
-    std::sort(this->InitialIds.begin(), this->InitialIds.end());
-    return initial;
-  }
-
-  /// Gathers all ranks' initial points, and the regions of all partitions in `buckets`. Returns
-  /// them as buckets whose ids are indices into `ids`, the internal ids.
-  PointBuckets3 shareInitial(PointBuckets3& buckets, std::vector<std::int64_t>& ids)
-  {
-    PointBuckets3 all;
-    std::size_t next = 0;
-    for (const InitialPoints3& part : this->Ranks.allGather(this->chooseInitial(buckets)))
-    {
-      for (const std::int64_t chosen : part.Chosen)
-      {
-        all.Begins.push_back(next);
-        next += std::size_t(chosen);
-        this->IsUsed.push_back(chosen > 0 ? 1 : 0);
-      }
-      all.Regions.insert(all.Regions.end(), part.Regions.begin(), part.Regions.end());
-      all.Points.insert(all.Points.end(), part.Points.begin(), part.Points.end());
-      ids.insert(ids.end(), part.Ids.begin(), part.Ids.end());
-    }
-    all.Begins.push_back(next);
-    all.Ids.resize(all.Points.size());
-    std::iota(all.Ids.begin(), all.Ids.end(), 0);
-    buckets.Regions = all.Regions;
-    return all;
-  }
-
   /// Returns false, with nothing triangulated, if partitions do not pay or cannot be made.
   bool triangulatePartitions()
   {
@@ -244,7 +172,9 @@ private:
     PointBuckets3 buckets = bucketPoints(this->Result.Owned.Positions.data(),
       this->Result.Owned.size(), *this->Tiling, 1, this->Threads);
     std::vector<std::int64_t> ids;
-    const PointBuckets3 initial = this->shareInitial(buckets, ids);
+    const PointBuckets3 initial =
+      shareInitialPoints(this->Ranks, *this->Tiling, this->firstOwn(), buckets, ids);
+    buckets.Regions = initial.Regions;
     const std::vector<Vertex3> artificial =
       makeArtificialPoints(initial, this->Groups.ArePartitionsSlabs);
     if (artificial.empty())
@@ -260,7 +190,14 @@ private:
     {
       v.Id = v.isArtificial() ? v.Id : ids[std::size_t(v.Id)];
     }
-    const PartitionOrder order(this->IsUsed, mesh.conflicts());
+    std::sort(ids.begin(), ids.end());
+    this->InitialIds = std::move(ids);
+    std::vector<char> isUsed;
+    for (PartitionIndex p = 0; p < this->Tiling->size(); ++p)
+    {
+      isUsed.push_back(initial.count(p) > 0 ? 1 : 0);
+    }
+    const PartitionOrder order(isUsed, mesh.conflicts());
     const RankWork3 work{ *this->Tiling, order, this->Options, this->Threads };
     RankRun3 run(this->Ranks, work, buckets, this->firstOwn());
     run.Statistics = this->startedWith(run.Statistics);
@@ -455,13 +392,19 @@ private:
       fetchPoints(this->Ranks, mine.ForeignIds, mine.FirstIds, mine.Owned, mine.RowSize);
     mine.Ids =
       orderCells(std::move(this->Inside), mine.Owned.size() + mine.Foreign.size(), this->Threads);
-    for (Buffer<Point3>* positions : { &mine.Owned.Positions, &mine.Foreign.Positions })
+    if (this->Factor != 1)
     {
-      std::transform(positions->begin(), positions->end(), positions->begin(),
-        [this](const Point3& p) {
-          return Point3{ p.x / this->Factor, p.y / this->Factor, p.z / this->Factor };
-        });
+      this->restore(mine.Owned.Positions);
+      this->restore(mine.Foreign.Positions);
     }
+  }
+
+  void restore(Buffer<Point3>& positions) const
+  {
+    std::transform(positions.begin(), positions.end(), positions.begin(),
+      [this](const Point3& p) {
+        return Point3{ p.x / this->Factor, p.y / this->Factor, p.z / this->Factor };
+      });
   }
 
   void finish()
@@ -495,7 +438,7 @@ private:
   PartitionGroups Groups;
   std::unique_ptr<Tiling3> Tiling;
   std::vector<char> IsUsed;                 ///< by partition: whether it has points
-  std::vector<std::int64_t> InitialIds;     ///< of this rank's initial points; ascending
+  std::vector<std::int64_t> InitialIds;     ///< internal ids of all initial points; ascending
   std::vector<std::vector<CellIds>> Inside; ///< tetrahedra by indices of this rank's points
   std::vector<IdCell<4>> Kept;              ///< others, by internal ids
   std::vector<Duplicate> Duplicates;        ///< of this rank's points, by internal ids
