@@ -246,7 +246,10 @@ TEST(Distributed3D, RowsTravelWithTheirPoints)
     to[sizeof(value)] = 'x';
   };
   const auto mine = tetrahedralizeDistributed(ranks, points, with(1, 10));
-  EXPECT_EQ(ranks.size() > 1, mine.Foreign.size() > 0);
+  if (ranks.isFirst()) // whose ids are the lowest
+  {
+    EXPECT_EQ(ranks.size() > 1, mine.Foreign.size() > 0);
+  }
   for (const PointTuples3* tuples : { &mine.Owned, &mine.Foreign })
   {
     for (std::size_t i = 0; i < tuples->size(); ++i)
