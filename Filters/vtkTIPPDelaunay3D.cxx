@@ -6,6 +6,7 @@
 #include "InMemory/TriangulatePoints.h"
 #include "Output/FilterPipeline.h"
 #include "Output/RunStatistics.h"
+#include "Output/TetrahedronOutput.h"
 #include "Output/TriangleOutput.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
@@ -19,16 +20,17 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
-#include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -40,6 +42,7 @@
 #include <vector>
 
 vtkStandardNewMacro(vtkTIPPDelaunay3D);
+vtkCxxSetObjectMacro(vtkTIPPDelaunay3D, Controller, vtkMultiProcessController);
 
 namespace
 {
@@ -56,22 +59,6 @@ vtkSmartPointer<vtkPoints> withOctahedron(vtkPoints* points, double offset)
     corners[i][i / 2] += i % 2 == 0 ? -distance : distance;
   }
   return tipp::appendPoints(points, corners);
-}
-
-/// The coordinates as doubles: the points' own memory, or a copy in `copy`.
-const tipp::Point3* coordinatesOf(vtkPoints* points, std::vector<tipp::Point3>& copy)
-{
-  static_assert(sizeof(tipp::Point3) == 3 * sizeof(double), "a point is its coordinates");
-  if (auto* const doubles = vtkDoubleArray::SafeDownCast(points->GetData()))
-  {
-    return reinterpret_cast<const tipp::Point3*>(doubles->GetPointer(0));
-  }
-  copy.resize(std::size_t(points->GetNumberOfPoints()));
-  for (std::size_t i = 0; i < copy.size(); ++i)
-  {
-    points->GetPoint(vtkIdType(i), &copy[i].x);
-  }
-  return copy.data();
 }
 
 /// Cells of several types.
@@ -119,6 +106,12 @@ private:
 vtkTIPPDelaunay3D::vtkTIPPDelaunay3D()
 {
   this->SetNumberOfOutputPorts(2);
+  this->vtkTIPPDelaunay3D::SetController(vtkMultiProcessController::GetGlobalController());
+}
+
+vtkTIPPDelaunay3D::~vtkTIPPDelaunay3D()
+{
+  this->vtkTIPPDelaunay3D::SetController(nullptr);
 }
 
 vtkTable* vtkTIPPDelaunay3D::GetStatistics()
@@ -147,6 +140,16 @@ int vtkTIPPDelaunay3D::RequestData(
   const tipp::ThreadLimit limit(this->NumberOfThreads);
   const auto work = [&]
   {
+    tipp::requireFinite(this->Alpha, "Alpha");
+    tipp::requireFinite(this->Tolerance, "Tolerance");
+    tipp::requireFinite(this->Offset, "Offset");
+    if (this->HasSeveralRanks())
+    {
+      const bool wantsGhosts =
+        outputVector->GetInformationObject(0)->Get(
+          vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) > 0;
+      return this->ExecuteOnRanks(input, wantsGhosts, output, statistics);
+    }
     this->Execute(input, output, statistics);
     return true;
   };
@@ -160,9 +163,6 @@ void vtkTIPPDelaunay3D::Execute(
 {
   this->NumberOfDuplicatePoints = 0;
   this->NumberOfRejectedPoints = 0;
-  tipp::requireFinite(this->Alpha, "Alpha");
-  tipp::requireFinite(this->Tolerance, "Tolerance");
-  tipp::requireFinite(this->Offset, "Offset");
   tipp::checkPoints(input, "the input");
   vtkSmartPointer<vtkPoints> points = input->GetPoints();
   if (!points)
@@ -175,7 +175,7 @@ void vtkTIPPDelaunay3D::Execute(
   }
   const vtkIdType count = points->GetNumberOfPoints();
   std::vector<tipp::Point3> copy;
-  const tipp::Point3* const coordinates = coordinatesOf(points, copy);
+  const tipp::Point3* const coordinates = tipp::coordinatesOf(points, copy);
   tipp::Triangulation triangles; // of coplanar points
   tipp::Tetrahedralization mesh =
     this->Triangulate(coordinates, count, tipp::finiteBounds(points).diagonal(), triangles);
@@ -299,6 +299,8 @@ void vtkTIPPDelaunay3D::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "GenerateNeighborIds: " << onOff(this->GenerateNeighborIds);
   os << indent << "NumberOfPartitions: " << this->NumberOfPartitions << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "Controller: " << this->Controller << "\n";
+  os << indent << "GatherOnFirstRank: " << onOff(this->GatherOnFirstRank);
   os << indent << "NumberOfDuplicatePoints: " << this->NumberOfDuplicatePoints << "\n";
   os << indent << "NumberOfRejectedPoints: " << this->NumberOfRejectedPoints << "\n";
 }

@@ -32,6 +32,24 @@
  * InitialPoints, WorkerVertices (vertices of all partitions' triangulations together) and Threads.
  * PhaseName and PhaseSeconds (wall-clock seconds) have one value for each phase.
  *
+ * With a Controller of several ranks, all ranks must update the filter together. They triangulate
+ * the points of all ranks into one exact triangulation, which depends neither on the number of
+ * ranks nor on which rank holds which points. Coincident points of all ranks are merged. Each
+ * rank's output is a piece: its tetrahedra (each is on exactly one rank) and the points that they
+ * use, with those point arrays that every rank with points has. A piece depends neither on threads
+ * nor on partitions. "GlobalPointIds" holds the input's global ids; if it has none, points are
+ * numbered consecutively by rank. "GlobalCellIds" numbers the tetrahedra 0, 1, ... over all ranks.
+ * If ghost cells are requested downstream, one layer is added and marked in vtkGhostType: the
+ * tetrahedra of other ranks that share a point with the piece. Merged points are in no piece; with
+ * GenerateRepresentativeIds the field data has the arrays "DuplicatePointIds",
+ * "DuplicateRepresentativeIds" and "RejectedPointIds" (global ids) for the points found on this
+ * rank. Port 1 has the same table on every rank: its field data has, indexed by rank,
+ * "RankComputeSeconds", "RankWaitSeconds", "RankSendSeconds", "RankOwnedPoints" and
+ * "RankTetrahedra"; "MessageKind", "MessageCount" and "MessageBytes". If one rank fails, all fail
+ * and the first rank reports the error. That includes failures upstream, unless the application
+ * sets its own default executive (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView does.
+ * Alpha, Tolerance, BoundingTriangulation and GenerateNeighborIds work on a single rank only.
+ *
  * An aborted or failed run leaves both outputs empty. A failure is reported as an error.
  *
  * Differences from vtkDelaunay3D: Tolerance is 0 by default, and Offset has an effect only with
@@ -50,6 +68,7 @@
 #include "vtkTIPPFiltersModule.h" // For export macro
 #include "vtkUnstructuredGridAlgorithm.h"
 
+class vtkMultiProcessController;
 class vtkPointSet;
 class vtkTable;
 
@@ -153,7 +172,8 @@ public:
 
   ///@{
   /**
-   * The number of partitions, at most 512. 0 (the default): chosen automatically.
+   * The number of partitions, at most 512. 0 (the default): chosen automatically. On several ranks
+   * each has an equal share of them, rounded up.
    */
   vtkSetClampMacro(NumberOfPartitions, int, 0, 512);
   vtkGetMacro(NumberOfPartitions, int);
@@ -169,7 +189,26 @@ public:
 
   ///@{
   /**
-   * How many points the last run merged and rejected.
+   * The ranks that triangulate together. The global controller by default; null, or a controller of
+   * one rank: this process alone.
+   */
+  virtual void SetController(vtkMultiProcessController*);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
+  ///@{
+  /**
+   * On several ranks: whether the first one's output has all tetrahedra, and the others' none. Off
+   * by default.
+   */
+  vtkSetMacro(GatherOnFirstRank, vtkTypeBool);
+  vtkGetMacro(GatherOnFirstRank, vtkTypeBool);
+  vtkBooleanMacro(GatherOnFirstRank, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * How many points the last run merged and rejected, on all ranks together.
    */
   vtkGetMacro(NumberOfDuplicatePoints, vtkIdType);
   vtkGetMacro(NumberOfRejectedPoints, vtkIdType);
@@ -182,10 +221,12 @@ public:
 
 protected:
   vtkTIPPDelaunay3D();
-  ~vtkTIPPDelaunay3D() override = default;
+  ~vtkTIPPDelaunay3D() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  vtkExecutive* CreateDefaultExecutive() override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   double Alpha = 0;
@@ -200,6 +241,8 @@ protected:
   vtkTypeBool GenerateNeighborIds = 0;
   int NumberOfPartitions = 0;
   int NumberOfThreads = 0;
+  vtkMultiProcessController* Controller = nullptr;
+  vtkTypeBool GatherOnFirstRank = 0;
   vtkIdType NumberOfDuplicatePoints = 0;
   vtkIdType NumberOfRejectedPoints = 0;
 
@@ -207,6 +250,10 @@ private:
   vtkTIPPDelaunay3D(const vtkTIPPDelaunay3D&) = delete;
   void operator=(const vtkTIPPDelaunay3D&) = delete;
 
+  bool HasSeveralRanks() const;
+  bool ExecuteOnRanks(
+    vtkPointSet* input, bool wantsGhosts, vtkUnstructuredGrid* output, vtkTable* statistics);
+  const char* WhatNeedsOneRank();
   void Execute(vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics);
   tipp::Tetrahedralization Triangulate(
     const tipp::Point3* points, vtkIdType count, double diagonal, tipp::Triangulation& triangles);

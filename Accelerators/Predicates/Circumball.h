@@ -47,6 +47,11 @@ public:
   static bool isSurelyInside(
     const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Box3& box);
 
+  /// A quicker sufficient test: true only if the ball's diameter is below this one. Then it lies in
+  /// the interior of every box whose sides are that far from `a`.
+  static bool isSurelySmall(
+    const Point3& a, const Point3& b, const Point3& c, const Point3& d, double diameter);
+
 private:
   static double gap(double before, double behind)
   {

@@ -255,12 +255,10 @@ public:
 private:
   void numberPoints()
   {
-    std::vector<std::int64_t> counts(static_cast<std::size_t>(this->Ranks.size()), 0);
-    counts[std::size_t(this->Ranks.rank())] = std::int64_t(this->Input.Points.size());
-    this->Ranks.sum(counts);
-    this->Input.FirstId =
-      std::accumulate(counts.begin(), counts.begin() + this->Ranks.rank(), std::int64_t(0));
-    this->Result.AllPoints = std::accumulate(counts.begin(), counts.end(), std::int64_t(0));
+    const std::vector<std::int64_t> firsts =
+      firstIndices(this->Ranks, std::int64_t(this->Input.Points.size()));
+    this->Input.FirstId = firsts[std::size_t(this->Ranks.rank())];
+    this->Result.AllPoints = firsts.back();
   }
 
   PlanInput planInput(const Survey& survey)

@@ -4,12 +4,14 @@
 
 #include "Arrays/Buffer.h"
 #include "Constraints/ConstraintSegments.h"
+#include "Distributed/CellExchange.h"
 #include "Distributed/Plan.h"
 #include "Distributed/PointExchange.h"
 #include "Ranks/Communicator.h"
 #include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -76,14 +78,7 @@ struct DistributedStatistics
 DistributedStatistics gatherStatistics(
   Communicator& ranks, const RankStatistics& own, const std::vector<MasterStatistics>& masters);
 
-/// Points with their global ids and data; the arrays have the same order.
-struct PointTuples
-{
-  Buffer<Point2> Positions;  ///< coordinates, one per point
-  Buffer<PointId> GlobalIds; ///< the caller's ids, one per point
-  Buffer<char> Rows;         ///< as RankPoints::PackRow wrote them
-  std::size_t size() const { return this->Positions.size(); }
-};
+using PointTuples = PointTuplesOf<Point2>;
 
 /// A rank's part of a triangulation. Corners are local indices: of Owned, the rank's own points,
 /// and after them of Foreign, the other ranks' points that its triangles use. An internal id is a
@@ -109,6 +104,14 @@ struct DistributedTriangulation
   DistributedStatistics Statistics;
 
   std::size_t triangleCount() const { return (this->Ids32.size() + this->Ids64.size()) / 3; }
+
+  /// Calls visit(local index) for the corners of all triangles.
+  template <typename Visit>
+  void forEachCorner(const Visit& visit) const
+  {
+    std::for_each(this->Ids32.begin(), this->Ids32.end(), visit);
+    std::for_each(this->Ids64.begin(), this->Ids64.end(), visit);
+  }
 };
 
 /// Returns this rank's part of the Delaunay triangulation of all ranks' points: together the ranks

@@ -2,6 +2,7 @@
 #ifndef tippPointExchange_h
 #define tippPointExchange_h
 
+#include "Distributed/CellExchange.h"
 #include "Distributed/Plan.h"
 #include "Predicates/Points.h"
 #include "Ranks/Archive.h"
@@ -75,19 +76,9 @@ private:
 };
 
 /// A rank's input points. Does not own the memory.
-struct RankPoints
+struct RankPoints : RankPointData
 {
-  PointsView Points;                  ///< coordinates of this rank's points
-  const PointId* GlobalIds = nullptr; ///< null: consecutive ids from FirstId
-  PointId FirstId = 0;                ///< global id of the first point, if GlobalIds is null
-  /// Data sent with each point: RowSize bytes, which PackRow(point index, to) writes.
-  std::size_t RowSize = 0;
-  std::function<void(std::size_t, char*)> PackRow;
-
-  PointId globalId(std::size_t i) const
-  {
-    return this->GlobalIds ? this->GlobalIds[i] : this->FirstId + PointId(i);
-  }
+  PointsView Points; ///< coordinates of this rank's points
 };
 
 /// The points of the leaves that a rank owns, ordered by leaf.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/RankRun.h"
 
+#include "Engine/DoneMessage.h"
+#include "Engine/WorkerThreads.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/Tiling.h"
@@ -14,47 +16,6 @@ namespace tipp
 {
 namespace
 {
-
-/// Threads that are joined when the work ends, even by an exception.
-class WorkerThreads
-{
-public:
-  explicit WorkerThreads(ReadyPartitions& ready)
-    : Ready(ready)
-  {
-  }
-  ~WorkerThreads()
-  {
-    this->Ready.stop();
-    for (std::thread& thread : this->Threads)
-    {
-      thread.join();
-    }
-  }
-  WorkerThreads(const WorkerThreads&) = delete;
-  WorkerThreads& operator=(const WorkerThreads&) = delete;
-
-  template <typename Work>
-  void start(const Work& work)
-  {
-    this->Threads.emplace_back(
-      [this, work]()
-      {
-        try
-        {
-          work();
-        }
-        catch (...)
-        {
-          this->Ready.stop(std::current_exception());
-        }
-      });
-  }
-
-private:
-  ReadyPartitions& Ready;
-  std::vector<std::thread> Threads;
-};
 
 struct RegionEntry
 {
@@ -328,7 +289,7 @@ template <typename Id>
 void RankRun<Id>::receiveDone(const Message& message)
 {
   PartitionIndex sender = -1;
-  SentMessages sent = readDone(message.Content, this->Inboxes.size(), sender);
+  SentMessages sent = readDone<VertexMessage>(message.Content, this->Inboxes.size(), sender);
   const bool isGood = message.Kind == PartitionDoneMessage && this->AwaitedMessages > 0 &&
     this->ownerOf(sender) == message.Source &&
     std::all_of(sent.begin(), sent.end(),

@@ -13,45 +13,6 @@
 namespace tipp
 {
 
-Bytes writeDone(PartitionIndex sender, const SentMessages& sent,
-  const std::function<bool(PartitionIndex)>& isIncluded)
-{
-  SaveArchive writer;
-  writer(sender);
-  for (const auto& [to, message] : sent)
-  {
-    if (isIncluded(to))
-    {
-      writer(to, message);
-    }
-  }
-  return writer.take();
-}
-
-SentMessages readDone(const Bytes& bytes, std::size_t count, PartitionIndex& sender)
-{
-  LoadArchive reader(bytes);
-  const auto requirePartition = [count](PartitionIndex p)
-  {
-    if (p < 0 || std::size_t(p) >= count)
-    {
-      throw std::runtime_error("A message from another rank is damaged: no such partition.");
-    }
-  };
-  sender = reader.get<PartitionIndex>();
-  requirePartition(sender);
-  SentMessages sent;
-  while (reader.left() > 0)
-  {
-    const auto to = reader.get<PartitionIndex>();
-    requirePartition(to);
-    sent.emplace_back(to, VertexMessage{});
-    reader(sent.back().second);
-    requirePartition(sent.back().second.Sender == sender ? sender : -1);
-  }
-  return sent;
-}
-
 std::vector<BoundaryVertex> UniqueVertices::collect(const std::vector<VertexMessage>& messages)
 {
   std::size_t count = 0;

@@ -40,16 +40,6 @@ void serialize(Archive& archive, VertexMessage& message)
 /// All messages of a finished partition, each with its recipient.
 using SentMessages = std::vector<std::pair<PartitionIndex, VertexMessage>>;
 
-/// @name Serialisation of a finished partition's messages
-/// `writeDone` writes the messages whose recipient satisfies `isIncluded`. `readDone` returns the
-/// messages and sets `sender`; it throws std::runtime_error if a partition is not below `count`.
-///@{
-VTKTIPPFILTERS_EXPORT Bytes writeDone(PartitionIndex sender, const SentMessages& sent,
-  const std::function<bool(PartitionIndex)>& isIncluded);
-VTKTIPPFILTERS_EXPORT SentMessages readDone(
-  const Bytes& bytes, std::size_t count, PartitionIndex& sender);
-///@}
-
 /// Collects the vertices of several messages, each once.
 class UniqueVertices
 {

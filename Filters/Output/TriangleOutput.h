@@ -64,7 +64,7 @@ public:
   bool areDoubles() const { return this->Doubles; }
 
   /// Sets the ids and rows of `points`, which refer to this object and are valid while it exists.
-  void describe(RankPoints& points) const;
+  void describe(RankPointData& points) const;
 
 private:
   std::vector<Column> Columns;

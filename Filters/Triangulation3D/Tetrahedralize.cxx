@@ -21,46 +21,6 @@ namespace tipp
 namespace
 {
 
-struct Survey
-{
-  std::vector<PointId> Rejected;
-  double Largest = 0; ///< magnitude of a coordinate of the finite points
-};
-
-Survey surveyPoints(const Point3* points, std::size_t count)
-{
-  Survey survey;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const double largest =
-      std::max({ std::fabs(points[i].x), std::fabs(points[i].y), std::fabs(points[i].z) });
-    const double sum = points[i].x + points[i].y + points[i].z;
-    // The largest of NaN and a number may be either; a sum of finite numbers may overflow.
-    if (!std::isfinite(sum) &&
-      !(std::isfinite(points[i].x) && std::isfinite(points[i].y) && std::isfinite(points[i].z)))
-    {
-      survey.Rejected.push_back(PointId(i));
-    }
-    else
-    {
-      survey.Largest = std::max(survey.Largest, largest);
-    }
-  }
-  return survey;
-}
-
-/// moderateFactor(), or 1 if it would not be exact.
-double scaleOf(const Point3* points, std::size_t count, double largest)
-{
-  const double factor = moderateFactor(largest);
-  const bool areExact = factor == 1 ||
-    std::all_of(points, points + count,
-      [factor](const Point3& p) {
-        return isExactTimes(p.x, factor) && isExactTimes(p.y, factor) && isExactTimes(p.z, factor);
-      });
-  return areExact ? factor : 1;
-}
-
 /// One partition, in which threads share a mesh, is fastest. Where there are more points than its
 /// indices can name, or many threads, each of which has a table of vertices then, as many
 /// partitions as let all threads find work.
@@ -100,9 +60,10 @@ public:
 
   void run()
   {
-    Survey survey = surveyPoints(this->Points, this->Count);
+    PointSurvey3 survey = surveyPoints(this->Points, this->Count);
     this->Result.Rejected = std::move(survey.Rejected);
-    this->Factor = scaleOf(this->Points, this->Count, survey.Largest);
+    const double factor = moderateFactor(survey.Largest);
+    this->Factor = areExactTimes(this->Points, this->Count, factor) ? factor : 1;
     this->endPhase("survey");
     const int partitions = this->Options.Partitions > 0
       ? this->Options.Partitions
@@ -363,6 +324,14 @@ Tetrahedralization tetrahedralize(
   return result;
 }
 
+std::string describeDimension(int dimension)
+{
+  constexpr const char* reasons[] = { "there is no finite point", "all finite points coincide",
+    "all finite points are on one line",
+    "all finite points are in one plane: triangulate them with vtkTIPPDelaunay2D" };
+  return std::string("No tetrahedra: ") + reasons[dimension + 1] + ".";
+}
+
 std::vector<std::string> warningsOf(const Tetrahedralization& mesh, std::int64_t points)
 {
   std::vector<std::string> warnings;
@@ -374,10 +343,9 @@ std::vector<std::string> warningsOf(const Tetrahedralization& mesh, std::int64_t
   }
   if (mesh.Dimension < 3)
   {
-    constexpr const char* reasons[] = { "there is no finite point", "all finite points coincide",
-      "all finite points are on one line",
-      "all finite points are in one plane, so the cells are triangles" };
-    warnings.push_back(std::string("No tetrahedra: ") + reasons[mesh.Dimension + 1] + ".");
+    warnings.push_back(mesh.Dimension == 2
+        ? "No tetrahedra: all finite points are in one plane, so the cells are triangles."
+        : describeDimension(mesh.Dimension));
   }
   return warnings;
 }

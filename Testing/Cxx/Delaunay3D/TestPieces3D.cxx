@@ -241,7 +241,7 @@ TEST(BorderSorter3, TheOwnerIsTheFirstPieceMet)
     BordersByOwner3 borders;
     sorter.add(corners, expected, borders);
     ASSERT_EQ(1U, borders.size());
-    EXPECT_EQ(expected.front(), borders.begin()->first);
+    EXPECT_EQ(std::size_t(expected.front()), plan.number(borders.begin()->first));
     expected.erase(expected.begin());
     EXPECT_EQ(expected, borders.begin()->second.Borrowers);
     most = std::max(most, expected.size());

@@ -101,7 +101,7 @@ TEST_F(TippDelaunay3D, PointsInAPlaneMakeTrianglesAndAWarning)
     const Outcome outcome =
       this->run({ "delaunay3d", "points.csv", "-o", mesh, "--stats", "run.json" });
     EXPECT_NE(std::string::npos, outcome.Err.find("in one plane")) << outcome.Err;
-    EXPECT_NE(std::string::npos, outcome.Out.find("2 triangles, 1 duplicates")) << outcome.Out;
+    EXPECT_NE(std::string::npos, outcome.Out.find("1 duplicates")) << outcome.Out;
     const auto json = nlohmann::json::parse(contentOf(this->Folder.path("run.json")));
     EXPECT_EQ(2, json["triangles"].get<int>());
     const Outcome checked = this->run({ "check", "points.csv", mesh });
