@@ -449,6 +449,23 @@ void Cavity3::insert(TetrahedronMesh& mesh, Index first, Index end, std::vector<
   runWith(Instructions::Best, [&] { this->insertAll(mesh, first, end, found); });
 }
 
+/// Continues elsewhere in the territory: the tetrahedra here may be an island in it, which no walk
+/// leaves. Whatever becomes of a Start, no other thread changes it.
+void Cavity3::moveOn(const TetrahedronMesh& mesh)
+{
+  const std::vector<Index>& starts = *this->Within.Starts;
+  for (std::size_t i = 0; i < starts.size(); ++i)
+  {
+    const Index start = starts[this->NextStart++ % starts.size()];
+    const Index* const v = mesh.slots() + start;
+    if (mesh.marks()[start / 8] == TetrahedronMesh::Live && v[0] != 0 && this->isOwn(v))
+    {
+      this->Recent = start;
+      return;
+    }
+  }
+}
+
 void Cavity3::insertWithin(TetrahedronMesh& mesh, const Index* begin, const Index* end,
   std::vector<Index>& left, std::vector<Coincidence>& found)
 {
@@ -457,9 +474,16 @@ void Cavity3::insertWithin(TetrahedronMesh& mesh, const Index* begin, const Inde
     {
       for (const Index* vertex = begin; vertex != end; ++vertex)
       {
-        if (!this->insertOne(mesh, *vertex, found))
+        if (this->insertOne(mesh, *vertex, found))
         {
-          left.push_back(*vertex);
+          this->Failures = 0;
+          continue;
+        }
+        left.push_back(*vertex);
+        constexpr std::size_t patience = 4;
+        if (++this->Failures % patience == 0)
+        {
+          this->moveOn(mesh);
         }
       }
     });

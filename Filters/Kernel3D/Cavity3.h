@@ -21,6 +21,7 @@ struct Territory3
 {
   const std::uint8_t* Owners; ///< by vertex: the thread that owns it
   std::uint8_t Own;
+  const std::vector<TetrahedronMesh::Index>* Starts; ///< some of its finite tetrahedra
   std::atomic<std::uint64_t>* End; ///< one past the last tetrahedron of all threads, in slots
 };
 
@@ -45,12 +46,14 @@ public:
   /// position of an earlier one.
   void insert(TetrahedronMesh& mesh, Index first, Index end, std::vector<Coincidence>& found);
 
-  /// Continues at `start`, a finite tetrahedron; of the territory, if the next call is
-  /// insertWithin().
-  void continueAt(Index start, const Territory3& territory = {})
+  /// Continues at `start`, a finite tetrahedron.
+  void continueAt(Index start) { this->Recent = start; }
+  /// Enters a territory that has Starts, for insertWithin().
+  void enter(const Territory3& territory)
   {
-    this->Recent = start;
     this->Within = territory;
+    this->NextStart = 0;
+    this->Recent = territory.Starts->front();
   }
 
   /// Inserts vertices while other threads do so in territories of their own. Appends to `left`
@@ -86,6 +89,7 @@ private:
   bool isOwn(const Index* v) const;
   void makeRoom(TetrahedronMesh& mesh);
   bool takeRoom(TetrahedronMesh& mesh);
+  void moveOn(const TetrahedronMesh& mesh);
   unsigned conflictsAcross(const Index* slots, Index cell, const Point3& p, unsigned& certain);
   void makeCells(TetrahedronMesh& mesh, Index vertex);
   bool linkByEdges(TetrahedronMesh& mesh);
@@ -99,8 +103,10 @@ private:
 
   const Point3* Points = nullptr;
   KernelPredicates3 Predicates;
-  Territory3 Within = {}; ///< of insertWithin()
-  Index Recent = 0;       ///< a finite tetrahedron near the last insertion
+  Territory3 Within = {};    ///< of insertWithin()
+  std::size_t NextStart = 0; ///< of its Starts
+  std::size_t Failures = 0;  ///< vertices in a row that it could not insert
+  Index Recent = 0;          ///< a finite tetrahedron near the last insertion
   std::vector<Index> Removed;
   std::vector<Facet> Boundary;
   std::vector<Index> Free;           ///< unused indices below the mesh's end

@@ -98,30 +98,26 @@ void ParallelInsertion3::setOwners(const Tiling3& tiling, Index end, int threads
     });
 }
 
-/// Finds a finite tetrahedron in each territory, if there is one.
+/// Finds some finite tetrahedra in each territory, if it has any.
 void ParallelInsertion3::findStarts(std::size_t tiles)
 {
-  std::size_t missing = tiles;
   for (Worker& worker : this->Workers)
   {
-    worker.HasStart = false;
+    worker.Starts.clear();
   }
+  constexpr std::size_t perTile = 1024;
+  const std::size_t cells = this->Mesh.end() / 8;
+  const std::size_t step = std::max<std::size_t>(1, cells / (perTile * tiles));
   const Index* const slots = this->Mesh.slots();
-  for (Index cell = 0; cell < this->Mesh.end() && missing > 0; cell += 8)
+  for (std::size_t cell = 0; cell < cells; cell += step)
   {
-    const Index* const v = slots + cell;
-    if (this->Mesh.marks()[cell / 8] != TetrahedronMesh::Live || v[0] == 0)
+    const Index* const v = slots + 8 * cell;
+    if (this->Mesh.marks()[cell] == TetrahedronMesh::Live && v[0] != 0)
     {
-      continue;
-    }
-    const std::uint8_t owner = this->Owners[v[0]];
-    Worker& worker = this->Workers[owner];
-    if (!worker.HasStart && this->Owners[v[1]] == owner && this->Owners[v[2]] == owner &&
-      this->Owners[v[3]] == owner)
-    {
-      worker.Start = cell;
-      worker.HasStart = true;
-      --missing;
+      const std::uint8_t owner = this->Owners[v[0]];
+      const bool isOwn =
+        this->Owners[v[1]] == owner && this->Owners[v[2]] == owner && this->Owners[v[3]] == owner;
+      isOwn ? this->Workers[owner].Starts.push_back(Index(8 * cell)) : void();
     }
   }
 }
@@ -129,15 +125,15 @@ void ParallelInsertion3::findStarts(std::size_t tiles)
 void ParallelInsertion3::work(std::size_t tile, bool isCaller, const Monitor& proceed)
 {
   Worker& worker = this->Workers[tile];
-  if (!worker.HasStart)
+  if (worker.Starts.empty())
   {
     worker.Left = worker.Mine;
     return;
   }
-  worker.Opened.continueAt(
-    worker.Start, { this->Owners.data(), static_cast<std::uint8_t>(tile), &this->End });
+  worker.Opened.enter(
+    { this->Owners.data(), static_cast<std::uint8_t>(tile), &worker.Starts, &this->End });
   constexpr std::size_t block = 1 << 12;
-  constexpr std::size_t few = 256;
+  constexpr std::size_t few = 2048;
   const Index* const vertices = worker.Mine.data();
   const std::size_t count = worker.Mine.size();
   for (std::size_t first = 0; first < count && !this->IsStopped; first += block)

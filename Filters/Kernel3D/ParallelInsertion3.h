@@ -46,10 +46,9 @@ private:
   struct Worker
   {
     Cavity3 Opened;
-    Index Start = 0; ///< a tetrahedron of its territory
-    bool HasStart = false;
-    std::vector<Index> Mine; ///< vertices to insert
-    std::vector<Index> Left; ///< of these, those that are left
+    std::vector<Index> Starts; ///< some tetrahedra of its territory
+    std::vector<Index> Mine;   ///< vertices to insert
+    std::vector<Index> Left;   ///< of these, those that are left
     std::vector<Cavity3::Coincidence> Found;
   };
 
