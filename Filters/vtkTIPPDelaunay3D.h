@@ -19,8 +19,13 @@
  *
  * Coincident points are merged into the one of lowest id. Points with a NaN or infinite coordinate
  * are rejected, with one warning. If there is a merged or rejected point, the output has the point
- * array "RepresentativePointId" (see GenerateRepresentativeIds). With fewer than four distinct
- * points, or if all points are coplanar, the output has no cells and a warning is issued.
+ * array "RepresentativePointId" (see GenerateRepresentativeIds).
+ *
+ * Points all in one plane make triangles, and a warning: the exact 2D Delaunay triangulation of
+ * their projection along the axis in which the plane's normal is longest (of equal ones z, then y).
+ * If the plane is parallel to two axes, that is the plane's own Delaunay triangulation. Alpha and
+ * GenerateNeighborIds (three components then) apply to the triangles. Points all on one line, or
+ * fewer than three distinct points, make an output without cells and a warning.
  *
  * Output port 1, also returned by GetStatistics(), is a vtkTable whose field data has arrays of one
  * value each: Points, Tetrahedra (before Alpha), DuplicatePoints, RejectedPoints, Partitions,
@@ -71,6 +76,7 @@ namespace tipp
 {
 struct Point3;
 struct Tetrahedralization;
+struct Triangulation;
 }
 
 class VTKTIPPFILTERS_EXPORT vtkTIPPDelaunay3D : public vtkUnstructuredGridAlgorithm
@@ -250,9 +256,10 @@ private:
   const char* WhatNeedsOneRank();
   void Execute(vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics);
   tipp::Tetrahedralization Triangulate(
-    const tipp::Point3* points, vtkIdType count, double diagonal);
+    const tipp::Point3* points, vtkIdType count, double diagonal, tipp::Triangulation& triangles);
   void SetCells(tipp::Tetrahedralization& mesh, const tipp::Point3* points, vtkIdType count,
-    vtkUnstructuredGrid* output) const;
+    vtkUnstructuredGrid* output);
+  void SetTriangles(tipp::Triangulation& triangles, vtkUnstructuredGrid* output);
 };
 
 #endif

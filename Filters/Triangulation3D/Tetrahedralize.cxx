@@ -21,21 +21,24 @@ namespace tipp
 namespace
 {
 
-/// One partition for one thread, which is fastest; for several threads enough that all find work.
+/// One partition, in which threads share a mesh, is fastest. Where there are more points than its
+/// indices can name, or many threads, each of which has a table of vertices then, as many
+/// partitions as let all threads find work.
 int choosePartitionCount(std::size_t points, int threads)
 {
   constexpr std::size_t largest = std::size_t(1) << 25;
+  constexpr int mostSharing = 16;
   constexpr std::size_t smallest = 8192;
   constexpr std::size_t best = 65536;
   constexpr std::size_t perThread = 12;
   constexpr std::size_t most = 512;
+  if (points < largest && (threads <= mostSharing || points < 4 * smallest))
+  {
+    return 1;
+  }
   if (threads == 1)
   {
     return int(std::min(most, 1 + points / largest));
-  }
-  if (points < 4 * smallest)
-  {
-    return 1;
   }
   return int(std::min(
     most, std::max(points / best, std::min(points / smallest, perThread * std::size_t(threads)))));
@@ -101,8 +104,10 @@ private:
     const auto idOf = [&](std::uint32_t index)
     { return areReady ? static_cast<std::int32_t>(index) : copy.Ids[index]; };
     DelaunayKernel3 kernel;
-    this->Result.Aborted = !kernel.triangulate(areReady ? this->Points : copy.Points.data(), count,
-      [&](std::size_t inserted) { return this->report(double(inserted) / double(count)); });
+    this->Result.Aborted = !kernel.triangulate(
+      areReady ? this->Points : copy.Points.data(), count,
+      [&](std::size_t inserted) { return this->report(double(inserted) / double(count)); },
+      this->Threads);
     this->Result.Dimension = kernel.dimension();
     this->Result.Statistics.WorkerVertices = std::int64_t(count);
     for (const DelaunayKernel3::Duplicate& duplicate : kernel.duplicates())
@@ -110,19 +115,27 @@ private:
       this->Result.Duplicates.push_back(
         { idOf(duplicate.Point), idOf(kernel.pointIndex(duplicate.Vertex)) });
     }
-    std::size_t cells = 0;
-    kernel.forEach([&](DelaunayKernel3::Index t) { cells += kernel.isInfinite(t) ? 0 : 1; });
-    this->Cells.resize(1);
-    this->Cells[0].reserve(cells);
-    kernel.forEach(
-      [&](DelaunayKernel3::Index t)
+    const auto parts = std::size_t(this->Threads);
+    this->Cells.resize(parts);
+    parallelFor(this->Threads, this->Threads,
+      [&](std::int64_t thread)
       {
-        if (!kernel.isInfinite(t))
-        {
-          const auto [a, b, c, d] = kernel.corners(t);
-          this->Cells[0].push_back({ idOf(kernel.pointIndex(a)), idOf(kernel.pointIndex(b)),
-            idOf(kernel.pointIndex(c)), idOf(kernel.pointIndex(d)) });
-        }
+        const auto part = std::size_t(thread);
+        std::vector<CellIds>& made = this->Cells[part];
+        std::size_t cells = 0;
+        kernel.forEach(
+          part, parts, [&](DelaunayKernel3::Index t) { cells += kernel.isInfinite(t) ? 0 : 1; });
+        made.reserve(cells);
+        kernel.forEach(part, parts,
+          [&](DelaunayKernel3::Index t)
+          {
+            if (!kernel.isInfinite(t))
+            {
+              const auto [a, b, c, d] = kernel.corners(t);
+              made.push_back({ idOf(kernel.pointIndex(a)), idOf(kernel.pointIndex(b)),
+                idOf(kernel.pointIndex(c)), idOf(kernel.pointIndex(d)) });
+            }
+          });
       });
     this->endPhase("triangulation");
   }
@@ -330,7 +343,9 @@ std::vector<std::string> warningsOf(const Tetrahedralization& mesh, std::int64_t
   }
   if (mesh.Dimension < 3)
   {
-    warnings.push_back(describeDimension(mesh.Dimension));
+    warnings.push_back(mesh.Dimension == 2
+        ? "No tetrahedra: all finite points are in one plane, so the cells are triangles."
+        : describeDimension(mesh.Dimension));
   }
   return warnings;
 }

@@ -186,6 +186,13 @@ PointTable readPoints(const std::string& path, const PointOptions& options)
   {
     return readTextPoints(path, options);
   }
+  if (path.compare(0, 8, "uniform:") == 0)
+  {
+    throw IOError(path,
+      generatedCount(path) > 0
+        ? "stands for points that are never all in memory; name an output that ends in .tipp."
+        : "has no number of points after the colon, such as uniform:1000000.");
+  }
   if (!isAdcircFile(path) && !isVtkFile(path))
   {
     refuseKind(path,

@@ -8,12 +8,14 @@
 #include "Files/InputFile.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
+#include "InMemory/TriangulatePoints.h"
 #include "Meshes/TetrahedronFiles.h"
 #include "OutOfCore3D/OutOfCoreTetrahedralization.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/PointStream.h"
 #include "Points/ReadPoints.h"
 #include "Triangulation3D/AlphaShape3.h"
+#include "Triangulation3D/CoplanarPoints.h"
 #include "Triangulation3D/Tetrahedralize.h"
 
 #include <CLI/CLI.hpp>
@@ -98,6 +100,10 @@ OUTPUT  .vtu (all points with their data) or .npy (m x 4 int64: point ids, count
         from 0): all is in memory. Or .tipp, a partitioned mesh in a folder: points
         and tetrahedra may be larger than memory, which --memory limits.
 
+Points all in one plane make a warning and, in one process and not to .tipp, triangles:
+the Delaunay triangulation of their projection along the axis nearest to the plane's
+normal.
+
 Duplicates are merged, points that are not finite are left out. Ctrl-C ends the run
 with exit code 130 and no output. Seconds in the summary are those of the
 tetrahedralization alone, but of .tipp those of the whole run; memory is in millions of
@@ -112,6 +118,24 @@ Examples:
   mpirun -np 4 tipp delaunay3d particles.npy -o mesh.vtu --threads 2
 )";
 
+/// Those of coplanar points.
+bool writeTriangles(const Delaunay3DArguments& arguments, PointTable&& table,
+  const Tetrahedralization& mesh, const Triangulation& triangles, const PathState& before)
+{
+  MeshOptions options;
+  options.Before = before;
+  options.Aborted = isInterrupted;
+  options.Neighbors = arguments.Neighbors;
+  if (arguments.MapDuplicates)
+  {
+    const auto ids = representativeIds(mesh, table.size());
+    options.Representatives.assign(ids.begin(), ids.end());
+  }
+  table.Columns[requireElevation(table, arguments.Inputs.front())].Name = "z";
+  return writeMesh(
+    arguments.Output, table, { triangles.Ids32.data(), triangles.triangleCount() }, options);
+}
+
 int runDelaunay3D(const Delaunay3DArguments& arguments)
 {
   const PathState before = requireWritable(arguments);
@@ -125,6 +149,7 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
     return reportInterrupt();
   }
   Tetrahedralization mesh;
+  Triangulation triangles; // of coplanar points
   const Stopwatch watch;
   {
     const auto bar = std::make_unique<ProgressBar>("Tetrahedralizing");
@@ -133,14 +158,26 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
     options.Threads = arguments.Threads;
     options.Progress = progressOn(bar);
     mesh = tetrahedralize(points.data(), points.size(), options);
+    if (!mesh.Aborted && mesh.Dimension == 2)
+    {
+      triangles = triangulateCoplanar(points.data(), points.size(), options, mesh);
+      mesh.Aborted = triangles.Aborted;
+    }
   }
   const double seconds = watch.seconds();
-  if (mesh.Aborted || isInterrupted() || !writeResult(arguments, std::move(table), mesh, before))
+  if (mesh.Aborted || isInterrupted() ||
+    !(mesh.Dimension == 2 ? writeTriangles(arguments, std::move(table), mesh, triangles, before)
+                          : writeResult(arguments, std::move(table), mesh, before)))
   {
     return reportInterrupt();
   }
-  report(arguments, mesh, count, seconds,
-    jsonOf(statisticsOf(mesh, count, std::int64_t(mesh.cellCount()))), "");
+  nlohmann::ordered_json figures =
+    jsonOf(statisticsOf(mesh, count, std::int64_t(mesh.cellCount())));
+  if (mesh.Dimension == 2)
+  {
+    figures["triangles"] = triangles.triangleCount();
+  }
+  report(arguments, mesh, count, seconds, figures, "");
   for (const std::string& warning : warningsOf(mesh, count))
   {
     fmt::print(stderr, "tipp: warning: {}\n", warning);
@@ -160,6 +197,7 @@ OutOfCoreStatistics3 makeOutOfCore(const Delaunay3DArguments& arguments)
     arguments.Memory.empty() ? options.MemoryLimit : *parseMemorySize(arguments.Memory);
   options.Threads = arguments.Threads;
   options.MapDuplicates = arguments.MapDuplicates;
+  options.Neighbors = arguments.Neighbors;
   options.Scratch = arguments.Scratch;
   const auto bar = std::make_unique<ProgressBar>("Tetrahedralizing");
   options.Progress = progressOn(bar);
@@ -217,9 +255,9 @@ void requireFitting(const Delaunay3DArguments& arguments)
       throw CLI::ValidationError(option, need);
     }
   };
-  refuse(arguments.Neighbors && extension != ".vtu", "--neighbors", "needs an output named .vtu");
-  refuse(arguments.MapDuplicates && extension == ".npy", "--map-duplicates",
-    "needs an output named .vtu or .tipp");
+  constexpr const char* needsArrays = "needs an output named .vtu or .tipp";
+  refuse(arguments.Neighbors && extension == ".npy", "--neighbors", needsArrays);
+  refuse(arguments.MapDuplicates && extension == ".npy", "--map-duplicates", needsArrays);
   refuse(arguments.Partitions > 0 && isOutOfCore, "--partitions",
     "is for outputs named .vtu or .npy; --memory decides for a .tipp");
   refuse(!arguments.Memory.empty() && !isOutOfCore, "--memory", "needs an output named .tipp");
@@ -245,11 +283,11 @@ void addDelaunay3DCommand(CLI::App& app, int& exitCode)
     ->check(CLI::Range(0, 512))
     ->capture_default_str();
   command->add_flag("--map-duplicates", arguments->MapDuplicates,
-    "Add the point array RepresentativePointId to .vtu: the id of the vertex that stands for a "
+    "Add the point array RepresentativePointId: the id of the vertex that stands for a "
     "point, -1 for points that are not finite");
   command->add_flag("--neighbors", arguments->Neighbors,
-    "Add the cell array NeighborIds to .vtu: four ids a tetrahedron, those of the tetrahedra "
-    "opposite its corners, -1 at the hull");
+    "Add the cell array NeighborIds: four ids a tetrahedron, those of the tetrahedra opposite its "
+    "corners, -1 at the hull");
   command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
   command
     ->add_option("--memory", arguments->Memory,
