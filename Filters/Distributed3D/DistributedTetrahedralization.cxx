@@ -290,9 +290,11 @@ private:
     const ProcessorWatch watch;
     const auto& progress = this->Options.Progress;
     DelaunayKernel3 kernel;
-    const bool isDone = kernel.triangulate(points.data(), points.size(),
+    const bool isDone = kernel.triangulate(
+      points.data(), points.size(),
       [&](std::size_t inserted)
-      { return !progress || progress(double(inserted) / double(points.size())); });
+      { return !progress || progress(double(inserted) / double(points.size())); },
+      this->Threads);
     if (!isDone)
     {
       throw RankFailure(this->Ranks.rank(), true, "The run was stopped.");

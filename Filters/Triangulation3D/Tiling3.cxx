@@ -117,7 +117,7 @@ double Tiling3::shareBefore(int partition) const
 {
   const double groups = this->Groups.Count;
   const double rest = (1 + this->Groups.FirstLess) / groups;
-  const double first = std::max(rest - this->Groups.FirstLess, rest / 4);
+  const double first = std::max(rest - this->Groups.FirstLess, rest / 2);
   const double before = double(partition) / this->Groups.Each; // groups
   return before <= 1 ? before * first : first + (before - 1) * (1 - first) / (groups - 1);
 }
