@@ -29,10 +29,12 @@ PartitionGroups chooseGroups(std::int64_t points, int ranks, int threads, int wa
   constexpr double thick = 10; // distances between points
   constexpr int boxesOfThread = 12;
   constexpr int most = 512;
+  constexpr double hull = 5; // the first rank repairs it
   constexpr std::int64_t largest = std::int64_t(1) << 25;
   const double slabs = std::cbrt(double(points)) / thick;
   PartitionGroups groups;
   groups.Count = ranks;
+  groups.FirstLess = std::min(0.5, hull / std::cbrt(double(std::max<std::int64_t>(points, 1))));
   groups.AreSlabs = 2 * ranks <= slabs;
   groups.ArePartitionsSlabs = groups.AreSlabs && 2 * ranks * threads <= slabs && wanted == 0;
   groups.Each = wanted > 0 ? (wanted + ranks - 1) / ranks
@@ -288,9 +290,11 @@ private:
     const ProcessorWatch watch;
     const auto& progress = this->Options.Progress;
     DelaunayKernel3 kernel;
-    const bool isDone = kernel.triangulate(points.data(), points.size(),
+    const bool isDone = kernel.triangulate(
+      points.data(), points.size(),
       [&](std::size_t inserted)
-      { return !progress || progress(double(inserted) / double(points.size())); });
+      { return !progress || progress(double(inserted) / double(points.size())); },
+      this->Threads);
     if (!isDone)
     {
       throw RankFailure(this->Ranks.rank(), true, "The run was stopped.");
@@ -390,6 +394,7 @@ private:
     mine.Duplicates = std::move(this->Duplicates);
     mine.Foreign =
       fetchPoints(this->Ranks, mine.ForeignIds, mine.FirstIds, mine.Owned, mine.RowSize);
+    this->Ranks.flush(); // what others wait for
     mine.Ids =
       orderCells(std::move(this->Inside), mine.Owned.size() + mine.Foreign.size(), this->Threads);
     if (this->Factor != 1)

@@ -227,10 +227,13 @@ void repairHull(
       {
         return;
       }
+      const Circumball ball = ballOf(kernel, v);
       const auto isInConflict = [&](const Vertex3& z)
       {
-        return inSpherePerturbed(kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2]),
-          kernel.point(v[3]), z.Position);
+        const Point3& p = z.Position;
+        return ball.meets({ { p.x, p.y, p.z }, { p.x, p.y, p.z } }) &&
+          inSpherePerturbed(kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2]),
+            kernel.point(v[3]), z.Position);
       };
       if (std::any_of(artificial.begin(), artificial.end(), isInConflict))
       {

@@ -65,7 +65,7 @@ std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets, bool are
       domain.include({ box.Max[0], box.Max[1], box.Max[2] });
       const std::initializer_list<double> sides = { box.Max[0] - box.Min[0],
         box.Max[1] - box.Min[1], box.Max[2] - box.Min[2] };
-      margin += areSlabs ? std::min(sides) : std::max(sides);
+      margin += areSlabs ? std::min(sides) / 2 : std::max(sides);
       ++used;
     }
   }

@@ -30,7 +30,7 @@ std::vector<std::size_t> chooseInitialPoints(
 
 /// Artificial points on the sides of a box around the domain, its corners among them. Their
 /// distance from the domain and from each other is about the width of a partition: of its longest
-/// side or, for slabs, of its shortest. Empty if doubles cannot enclose the domain.
+/// side or, for slabs, half of its shortest. Empty if doubles cannot enclose the domain.
 std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets, bool areSlabs = false);
 
 /// The Delaunay triangulation of some points of each partition and the artificial points, and which

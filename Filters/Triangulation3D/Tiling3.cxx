@@ -87,7 +87,7 @@ double moderateFactor(double largest)
 }
 
 Tiling3::Tiling3(std::vector<Point3> sample, int count)
-  : Tiling3(std::move(sample), PartitionGroups{ 1, count, false, false })
+  : Tiling3(std::move(sample), PartitionGroups{ 1, std::max(count, 1) })
 {
 }
 
@@ -112,6 +112,16 @@ int Tiling3::axisFor(int count, const Box3& box)
   return isSlab ? this->SlabAxis : longest;
 }
 
+/// Which share of the sample the partitions before this one are to have.
+double Tiling3::shareBefore(int partition) const
+{
+  const double groups = this->Groups.Count;
+  const double rest = (1 + this->Groups.FirstLess) / groups;
+  const double first = std::max(rest - this->Groups.FirstLess, rest / 2);
+  const double before = double(partition) / this->Groups.Each; // groups
+  return before <= 1 ? before * first : first + (before - 1) * (1 - first) / (groups - 1);
+}
+
 void Tiling3::cut(Iterator begin, Iterator end, int first, int count)
 {
   const std::size_t self = this->Nodes.size();
@@ -123,7 +133,10 @@ void Tiling3::cut(Iterator begin, Iterator end, int first, int count)
   { return coordinate(p, axis) < coordinate(q, axis); };
   const int each = count > this->Groups.Each ? this->Groups.Each : 1;
   const int lower = count / each / 2 * each;
-  const Iterator middle = begin + (end - begin) * lower / std::max(count, 1);
+  const double before = this->shareBefore(first);
+  const Iterator middle = begin +
+    std::ptrdiff_t(double(end - begin) * (this->shareBefore(first + lower) - before) /
+      (this->shareBefore(first + count) - before));
   bool canCut = count > 1 && middle != end;
   double at = 0;
   if (canCut)

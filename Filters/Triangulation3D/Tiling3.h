@@ -51,6 +51,8 @@ struct PartitionGroups
 {
   int Count = 1;
   int Each = 1; ///< partitions of a group
+  /// By how much less the first group has than the others: a fraction of all points.
+  double FirstLess = 0;
   /// Whether the cuts between groups, or all cuts, are parallel: across the longest side of the
   /// sample's box.
   bool AreSlabs = false;
@@ -96,6 +98,7 @@ private:
   using Iterator = std::vector<Point3>::iterator;
   void cut(Iterator begin, Iterator end, int first, int count);
   int axisFor(int count, const Box3& box);
+  double shareBefore(int partition) const;
   void setBoxes(std::size_t node, const Box3& box, std::vector<Box3>& boxes) const;
 
   template <typename Visit>
