@@ -480,8 +480,9 @@ void Cavity3::insertWithin(TetrahedronMesh& mesh, const Index* begin, const Inde
           continue;
         }
         left.push_back(*vertex);
-        constexpr std::size_t patience = 4;
-        if (++this->Failures % patience == 0)
+        // The walk from elsewhere is long: less and less often.
+        constexpr std::size_t patience = 64;
+        if (++this->Failures >= patience && (this->Failures & (this->Failures - 1)) == 0)
         {
           this->moveOn(mesh);
         }
