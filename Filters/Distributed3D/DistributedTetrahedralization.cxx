@@ -29,7 +29,7 @@ PartitionGroups chooseGroups(std::int64_t points, int ranks, int threads, int wa
   constexpr double thick = 10; // distances between points
   constexpr int boxesOfThread = 12;
   constexpr int most = 512;
-  constexpr double hull = 5; // the first rank repairs it
+  constexpr double hull = 3; // the first rank repairs it
   constexpr std::int64_t largest = std::int64_t(1) << 25;
   const double slabs = std::cbrt(double(points)) / thick;
   PartitionGroups groups;
