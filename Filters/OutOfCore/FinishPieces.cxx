@@ -432,7 +432,7 @@ void linkCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, std::u
   std::uint64_t most = 1;
   for (const FinishedPiece& piece : pieces)
   {
-    most = std::max(most, NeighborWriter::bytesFor(piece));
+    most = std::max(most, NeighborWriter::bytesFor(mesh, piece));
   }
   NeighborWriter neighbors(mesh, pieces);
   forChunks(std::int64_t(pieces.size()), 1,
