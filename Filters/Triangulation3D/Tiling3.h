@@ -70,6 +70,13 @@ public:
   /// The same for groups. Which group has a point does not depend on how many partitions each has.
   Tiling3(std::vector<Point3> sample, const PartitionGroups& groups);
 
+  /// Saves and restores a tiling without groups.
+  template <typename Archive>
+  friend void serialize(Archive& archive, Tiling3& tiling)
+  {
+    archive(tiling.Nodes, tiling.Firsts, tiling.Count);
+  }
+
   PartitionIndex size() const { return this->Count; }
   /// The group of a partition; ascending.
   int groupOf(PartitionIndex p) const { return this->Firsts[std::size_t(p)] / this->Groups.Each; }
@@ -89,10 +96,10 @@ public:
 private:
   struct Node
   {
-    int Axis = -1; ///< -1: a partition
     double Cut = 0;
-    PartitionIndex Partition = 0;
     std::size_t Upper = 0; ///< the lower side's node follows this one
+    int Axis = -1;         ///< -1: a partition
+    PartitionIndex Partition = 0;
   };
 
   using Iterator = std::vector<Point3>::iterator;

@@ -105,16 +105,17 @@ the Delaunay triangulation of their projection along the axis nearest to the pla
 normal.
 
 Duplicates are merged, points that are not finite are left out. Ctrl-C ends the run
-with exit code 130 and no output. Seconds in the summary are those of the
-tetrahedralization alone, but of .tipp those of the whole run; memory is in millions of
-bytes. Under mpirun the points are spread over the ranks, each with its threads, and
-the first rank writes the output, the same as of one process; a .tipp is made by the
-first rank alone.
+with exit code 130 and no output; one to .tipp can be resumed with --resume. Seconds
+in the summary are those of the tetrahedralization alone, but of .tipp those of the
+whole run; memory is in millions of bytes. Under mpirun the points are spread over the
+ranks, each with its threads, and the first rank writes the output, the same as of one
+process; a .tipp is made by the first rank alone.
 
 Examples:
   tipp delaunay3d particles.npy -o mesh.vtu
   tipp delaunay3d cloud.las --class 2,5 -o tetrahedra.npy --threads 4
   tipp delaunay3d uniform:50000000 -o mesh.tipp --memory 2G
+  tipp delaunay3d uniform:50000000 -o mesh.tipp --memory 2G --resume
   mpirun -np 4 tipp delaunay3d particles.npy -o mesh.vtu --threads 2
 )";
 
@@ -198,9 +199,12 @@ OutOfCoreStatistics3 makeOutOfCore(const Delaunay3DArguments& arguments)
   options.Threads = arguments.Threads;
   options.MapDuplicates = arguments.MapDuplicates;
   options.Neighbors = arguments.Neighbors;
+  options.Resume = arguments.Resume;
   options.Scratch = arguments.Scratch;
-  const auto bar = std::make_unique<ProgressBar>("Tetrahedralizing");
+  const std::string title = "Tetrahedralizing";
+  auto bar = std::make_unique<ProgressBar>(title);
   options.Progress = progressOn(bar);
+  options.Warn = warnAbove(bar, title);
   return tetrahedralizeOutOfCore(*points, arguments.Output, options);
 }
 
@@ -215,7 +219,7 @@ int runDelaunay3DOutOfCore(const Delaunay3DArguments& arguments)
   const OutOfCoreStatistics3 made = makeOutOfCore(arguments);
   if (made.Aborted)
   {
-    return reportInterrupt();
+    return reportInterruptedRun(made.Kept);
   }
   const double seconds = totalSeconds(made.Phases);
   if (!arguments.Statistics.empty())
@@ -261,6 +265,7 @@ void requireFitting(const Delaunay3DArguments& arguments)
   refuse(arguments.Partitions > 0 && isOutOfCore, "--partitions",
     "is for outputs named .vtu or .npy; --memory decides for a .tipp");
   refuse(!arguments.Memory.empty() && !isOutOfCore, "--memory", "needs an output named .tipp");
+  refuse(arguments.Resume && !isOutOfCore, "--resume", "needs an output named .tipp");
   refuse(!arguments.Scratch.empty() && !isOutOfCore, "--scratch", "needs an output named .tipp");
 }
 
@@ -293,6 +298,8 @@ void addDelaunay3DCommand(CLI::App& app, int& exitCode)
     ->add_option("--memory", arguments->Memory,
       "With a .tipp output: what the process may take, as 512M; without: 2G")
     ->check(checkMemorySize);
+  command->add_flag("--resume", arguments->Resume,
+    "With a .tipp output: resume a run that was killed, was interrupted or has failed");
   command->add_option("--scratch", arguments->Scratch,
     "With a .tipp output: a folder for temporary files; without: beside the output");
   command->footer(footer);

@@ -270,7 +270,7 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
     ->check(CLI::IsMember({ "mesh", "count" }))
     ->capture_default_str();
   command->add_flag("--resume", arguments->Resume,
-    "With a .tipp output: goes on where a run that was killed, interrupted or failed has been");
+    "With a .tipp output: resume a run that was killed, was interrupted or has failed");
   command->add_option("--scratch", arguments->Scratch,
     "With a .tipp output: a folder for the spilled points; without: beside the output");
   command->footer(footer);

@@ -45,6 +45,13 @@ int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints
 /// must outlive the function.
 std::function<bool(double)> progressOn(const std::unique_ptr<ProgressBar>& bar);
 
+/// Prints a warning above a progress bar, which is made anew. The bar must outlive the function.
+std::function<void(const std::string&)> warnAbove(
+  std::unique_ptr<ProgressBar>& bar, const std::string& title);
+
+/// reportInterrupt() of a run out of core; `kept`: it can be resumed.
+int reportInterruptedRun(bool kept);
+
 /// Prints, on the first rank, which rank has failed and why. Returns Failure.
 int reportRankFailure(const RankFailure& failure, const Communicator& ranks);
 
