@@ -179,7 +179,7 @@ TEST_F(TippConstraints, CheckProvesThem)
   this->Folder.file("other.csv", "0,8\n");
   const Outcome lost = check({ "--constraints", "other.csv" });
   EXPECT_EQ(1, lost.ExitCode);
-  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are no chain of edges")) << lost.Out;
+  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are not chains of edges")) << lost.Out;
 }
 
 TEST_F(TippConstraints, CheckTakesAMeshThatIsCut)
@@ -208,7 +208,7 @@ TEST_F(TippConstraints, CheckTakesConstraintsOutsideOfAMeshThatIsCut)
     const Outcome good = outcome("lines.vtk");
     EXPECT_EQ(0, good.ExitCode) << mesh << good.Out << good.Err;
     EXPECT_NE(
-      std::string::npos, outcome("other.csv").Out.find("1 constraints are no chain of edges"))
+      std::string::npos, outcome("other.csv").Out.find("1 constraints are not chains of edges"))
       << "the second is crossed";
   }
 }
@@ -245,7 +245,7 @@ TEST_F(TippConstraints, PartitionedMeshesAreMadeAndProved)
   this->Folder.file("other.csv", "0,8\n");
   const Outcome lost = check("other.csv");
   EXPECT_EQ(1, lost.ExitCode);
-  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are no chain of edges")) << lost.Out;
+  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are not chains of edges")) << lost.Out;
 }
 
 TEST_F(TippConstraints, PartitionedMeshesAreCutToABoundary)
