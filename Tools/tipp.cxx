@@ -19,7 +19,7 @@
 namespace
 {
 
-// One sentence instead of CLI11's two lines.
+// Returns one sentence about wrong usage, instead of CLI11's two lines.
 std::string describeMisuse(const CLI::App* app, const CLI::Error& error)
 {
   const auto chosen = app->get_subcommands();
@@ -61,8 +61,8 @@ int run(int argc, char** argv)
   {
     if (tipp::startedRank() > 0)
     {
-      // All ranks have the same arguments, and only the first reports the error: mpirun would end
-      // it before it has, if another rank failed.
+      // All ranks have the same arguments, and only the first reports the error. The others must
+      // not fail, because mpirun could end the first rank before it has printed.
       return tipp::Success;
     }
     return app.exit(error) == 0 ? tipp::Success : tipp::Usage;
@@ -70,7 +70,7 @@ int run(int argc, char** argv)
   return exitCode;
 }
 
-/// Checks standard output, which may be lost, too, for example on a full disk.
+/// Throws if standard output could not be written, for example on a full disk.
 void requireWrittenOutput()
 {
   std::cout.flush();
@@ -85,7 +85,7 @@ void requireWrittenOutput()
 
 int main(int argc, char** argv)
 {
-  // VTK's errors are reported as our own messages.
+  // VTK's errors are printed as our own messages, so turn off VTK's.
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   tipp::reportReaderCrashes();
   tipp::watchForInterrupt(tipp::startedRank());

@@ -86,7 +86,7 @@ CheckedPiece readChecked(const PartitionedMesh& mesh, std::size_t number)
 struct InputSum
 {
   std::int64_t All = 0;
-  std::int64_t Points = 0; ///< with finite coordinates
+  std::int64_t Points = 0; ///< points with finite coordinates
   std::uint64_t Sum = 0;
 };
 
@@ -118,11 +118,11 @@ struct CheckArguments
   std::string Points;
   std::string Mesh;
   PointOptions Columns;
-  std::string Constraints; ///< a file; empty: none
+  std::string Constraints; ///< path of a file; empty: none
   CheckOptions Options;
 };
 
-/// Gives a table whose edges name points coordinates of its own.
+/// If the table's edges are ids of input points, reads these points' coordinates into the table.
 void takePositions(const CheckArguments& arguments, ConstraintTable& table)
 {
   if (!table.XY.empty())
@@ -158,8 +158,9 @@ void takePositions(const CheckArguments& arguments, ConstraintTable& table)
   }
 }
 
-/// The constraints' edges in the mesh, by global ids. Keeps the triangles beside constraints only;
-/// of a mesh that is cut all those at vertices on constraints, which tell what its border is there.
+/// Finds the constraints' edges in the mesh; returns them by global ids. Keeps in memory only
+/// triangles near constraints: those with an edge on one, or in a cut mesh all those at vertices on
+/// constraints, which show its border there.
 ConstraintChains findChains(const PartitionedMesh& mesh, const ConstraintTable& table, bool isCut)
 {
   const NearConstraints near(table.XY, table.Edges);
@@ -196,7 +197,7 @@ ConstraintChains findChains(const PartitionedMesh& mesh, const ConstraintTable& 
       }
     }
   }
-  // A point may be in several pieces: the one with its coordinates that comes first stands for it.
+  // A point may be in several pieces. The first one with its coordinates represents all.
   std::map<std::pair<double, double>, std::int64_t> positions;
   for (std::int64_t& corner : triangles)
   {
@@ -220,9 +221,9 @@ ConstraintChains findChains(const PartitionedMesh& mesh, const ConstraintTable& 
   return chains;
 }
 
-/// checkDelaunay() of a partitioned mesh and of points that are read block by block; one piece at a
-/// time is in memory, and what lies beside constraints. Throws IOError, also if the mesh's points
-/// are not these.
+/// Does the same as checkDelaunay() for a partitioned mesh and points that are read block by block.
+/// One piece at a time and the triangles near constraints are in memory. Throws IOError if a file
+/// cannot be read, or if the mesh was made from other points.
 CheckReport checkPartitioned(const CheckArguments& arguments)
 {
   const PartitionedMesh mesh = openPartitionedMesh(arguments.Mesh);
@@ -286,13 +287,13 @@ Examples:
   tipp check particles.npy tetrahedra.vtu --tie-rule
 )";
 
-// Here NaN equals NaN.
+// Compares numbers; NaN equals NaN here.
 bool isSame(double a, double b)
 {
   return a == b || (a != a && b != b);
 }
 
-// If the mesh stores points, they must equal these.
+// Throws IOError if the mesh stores points other than these.
 void requireSamePoints(
   const CheckArguments& arguments, const std::vector<double>& xy, const std::vector<double>& own)
 {
@@ -305,8 +306,8 @@ void requireSamePoints(
   }
 }
 
-/// The constraints' points as indices of the mesh's points: the first with equal coordinates, or
-/// -1.
+/// Returns the constraints as indices of the mesh's points: the first one with equal coordinates,
+/// or -1.
 std::vector<std::array<std::int64_t, 2>> constraintsAmong(
   const std::vector<double>& xy, const ConstraintTable& table)
 {
@@ -334,7 +335,7 @@ std::vector<std::array<std::int64_t, 2>> constraintsAmong(
   return constraints;
 }
 
-/// Checks a mesh whose first points are the input points.
+/// Checks a mesh with constraints, whose first points are the input points.
 CheckReport checkConstrained(
   const CheckArguments& arguments, const PointTable& points, const TriangleMesh& mesh)
 {
@@ -367,7 +368,7 @@ CheckReport checkConstrained(
 CheckReport check(const CheckArguments& arguments)
 {
   std::error_code ignored;
-  // No other kind of mesh is a folder; the error for a missing index is clear.
+  // Only a partitioned mesh is a folder. If its index is missing, the error message says so.
   if (isPartitionedMesh(arguments.Mesh) || std::filesystem::is_directory(arguments.Mesh, ignored))
   {
     return checkPartitioned(arguments);

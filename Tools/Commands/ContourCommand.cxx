@@ -54,7 +54,7 @@ struct ContourArguments
   std::string Crs;
 };
 
-/// The multiples of the interval in the array's range. Collective.
+/// Returns the multiples of the interval within the array's range. Collective.
 std::vector<double> levelsOf(
   Communicator& ranks, const ResidentMesh& mesh, const ContourArguments& arguments)
 {
@@ -65,7 +65,7 @@ std::vector<double> levelsOf(
     throw IOError("An interval of " + fmt::format("{}", arguments.Interval) +
       " would give more than 1000000 levels; give a larger one.");
   }
-  // Larger multiples are not all doubles.
+  // Beyond 2^53, doubles do not hold all multiples.
   if (std::max(std::fabs(low), std::fabs(high)) / arguments.Interval > 0x1p53 && low <= high)
   {
     throw IOError("An interval of " + fmt::format("{}", arguments.Interval) +
@@ -93,7 +93,8 @@ void write(const ContourArguments& arguments, const Contours& contours, const Pa
   pending.commit();
 }
 
-/// The ranks share the pieces, and the first one writes the file. Collective.
+/// Makes the contour lines of all pieces, which the ranks share. The first rank writes the file.
+/// Collective.
 void makeContours(const ContourArguments& arguments, Communicator& ranks)
 {
   PathState before;
@@ -102,7 +103,7 @@ void makeContours(const ContourArguments& arguments, Communicator& ranks)
     requireApart({ arguments.Output }, { arguments.Mesh.Path });
     before = PendingFile(arguments.Output).before(); // fails early if it cannot be written
   }
-  // A file that is not partitioned is in the memory of the first rank.
+  // Only the first rank reads a mesh that is not partitioned.
   const std::unique_ptr<ResidentMesh> mesh =
     ranks.isFirst() || isPartitionedMesh(arguments.Mesh.Path)
     ? openQueryMesh(arguments.Mesh)

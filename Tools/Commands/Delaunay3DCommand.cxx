@@ -118,7 +118,7 @@ Examples:
   mpirun -np 4 tipp delaunay3d particles.npy -o mesh.vtu --threads 2
 )";
 
-/// Those of coplanar points.
+/// Writes the triangles of coplanar points.
 bool writeTriangles(const Delaunay3DArguments& arguments, PointTable&& table,
   const Tetrahedralization& mesh, const Triangulation& triangles, const PathState& before)
 {
@@ -149,7 +149,7 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
     return reportInterrupt();
   }
   Tetrahedralization mesh;
-  Triangulation triangles; // of coplanar points
+  Triangulation triangles; // if the points are coplanar
   const Stopwatch watch;
   {
     const auto bar = std::make_unique<ProgressBar>("Tetrahedralizing");
@@ -187,7 +187,7 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
 
 OutOfCoreStatistics3 makeOutOfCore(const Delaunay3DArguments& arguments)
 {
-  // Large blocks go back to the system when they are freed, whatever was freed before.
+  // With this threshold, large blocks are always returned to the system when they are freed.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
   PointOptions columns = arguments.Columns;
   setThinningFile(columns, arguments.Scratch, arguments.Output);
@@ -243,7 +243,7 @@ std::string checkTetrahedronFile(const std::string& path)
     : "'" + path + "' does not end in .vtu, .npy or .tipp";
 }
 
-/// Throws CLI::ValidationError for an option that the kind of output does not have.
+/// Throws CLI::ValidationError for options that the kind of output does not support.
 void requireFitting(const Delaunay3DArguments& arguments)
 {
   const std::string extension = extensionOf(arguments.Output);

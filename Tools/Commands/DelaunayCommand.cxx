@@ -77,7 +77,7 @@ TriangulationOptions makeOptions(
   return options;
 }
 
-/// With constraints new points are appended, and `report` receives a line about them.
+/// If there are constraints, appends their new points, and sets `report` to a line about them.
 Triangulation triangulatePoints(
   const DelaunayArguments& arguments, PointTable& points, std::string& report)
 {

@@ -95,7 +95,8 @@ void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& s
   const ConstraintFigures& constraints, const std::vector<ProcessUsage>& ranks)
 {
   const bool isCounted = arguments.Sink == "count";
-  const bool hasConstraints = constraints.Constraints > 0; // not if the run was resumed
+  // The constraints are not read when a run is resumed.
+  const bool hasConstraints = constraints.Constraints > 0;
   if (!arguments.Statistics.empty())
   {
     RunStatistics all = statisticsOf(statistics, isCounted);
@@ -142,7 +143,7 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
         { arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, arguments.Inputs);
       if (!arguments.Statistics.empty())
       {
-        // fails early if the file cannot be written
+        // Throws here, before the computation, if the file cannot be written.
         const PendingFile writable(arguments.Statistics);
       }
     }

@@ -171,11 +171,12 @@ TrianglesView viewOf(const Triangulation& result)
                               : TrianglesView(result.Ids64.data(), result.triangleCount());
 }
 
-/// Boundaries are lists of nodes, which are there only where no point was left out.
+/// Warns if boundaries are lost: they are lists of nodes, and thinning has removed some of the
+/// nodes.
 void warnOfLostBoundaries(const DelaunayArguments& arguments)
 {
   const std::string boundaries = readAdcircFrame(arguments.Input).Boundaries;
-  constexpr std::ptrdiff_t linesOfNone = 4; // counts alone
+  constexpr std::ptrdiff_t linesOfNone = 4; // a grid without boundaries has only the counts
   if (std::count(boundaries.begin(), boundaries.end(), '\n') > linesOfNone)
   {
     fmt::print(stderr,
@@ -203,7 +204,7 @@ PointTable readPointsFor(const DelaunayArguments& arguments)
   requireElevation(arguments.Duplicates, names);
   if (extensionOf(arguments.Output) == ".npy")
   {
-    points.Columns.clear(); // only .vtp and .vtu keep them
+    points.Columns.clear(); // only .vtp and .vtu store the columns
   }
   return points;
 }

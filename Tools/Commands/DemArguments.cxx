@@ -32,7 +32,7 @@ RasterDescription describeRaster(const DemArguments& arguments, const std::strin
   }
   if (isGeoTiff(arguments.Output) && !description.Crs.empty())
   {
-    requireCrs(description.Crs); // before the work rather than after it
+    requireCrs(description.Crs); // fail before the computation rather than after it
   }
   return description;
 }

@@ -140,7 +140,7 @@ void addConstraintOptions(CLI::App& command, DemArguments& arguments)
     "A file of closed lines: pixels have values inside of them only");
 }
 
-/// Reads them.
+/// Reads the files of breaklines and boundary.
 void takeConstraints(DemArguments& arguments)
 {
   TableConstraints constraints;
@@ -148,7 +148,8 @@ void takeConstraints(DemArguments& arguments)
   if (!arguments.Breaklines.empty())
   {
     constraints.Lines = readConstraintFile(arguments.Breaklines);
-    constraints.Lines.PolygonBegin = constraints.Lines.Edges.size(); // polygons are lines, too
+    // Edges of polygons are breaklines, too.
+    constraints.Lines.PolygonBegin = constraints.Lines.Edges.size();
     constraints.Lines.Holes.clear();
     isVtkFile(arguments.Breaklines) ? dropPlainHeights(constraints.Lines) : void();
   }
@@ -216,7 +217,7 @@ void addValueOptions(CLI::App& command, DemArguments& arguments)
   command.add_flag("--cog", arguments.CloudOptimized, "A cloud optimized GeoTIFF, with overviews");
 }
 
-/// Options that would do nothing are refused.
+/// Throws CLI::ValidationError for options that would have no effect.
 void requireUseful(const CLI::App& command, const DemArguments& arguments)
 {
   for (const char* const name : { "--nodata", "--crs", "--type", "--compress", "--cog" })

@@ -79,7 +79,7 @@ bool writeContent(const FlattenArguments& arguments, const FlatContent& content)
 int runFlatten(const FlattenArguments& arguments)
 {
   {
-    // Checked before the work.
+    // Check the paths before the computation.
     std::vector<std::string> inputs = arguments.Values;
     inputs.push_back(arguments.Input);
     requireApart({ arguments.Output }, inputs);

@@ -43,7 +43,7 @@ struct Range
 {
   double Low = std::numeric_limits<double>::infinity();
   double High = -std::numeric_limits<double>::infinity();
-  std::int64_t Missing = 0; ///< values that are not finite
+  std::int64_t Missing = 0; ///< number of values that are not finite
 
   void add(double value)
   {
@@ -71,7 +71,7 @@ struct Summary
   Range X;
   Range Y;
   std::vector<Range> Columns;
-  /// The finite points, unless there are too many to search for duplicates.
+  /// The finite points, to find duplicates; empty if there are too many.
   std::vector<Point2> Compared;
 };
 
@@ -123,7 +123,7 @@ std::string duplicatesOf(std::vector<Point2>& points)
   return std::to_string(points.end() - end);
 }
 
-/// The nearest of 1, 2 or 5 times a power of ten.
+/// Returns the nearest number that is 1, 2 or 5 times a power of ten.
 double roundNumber(double value)
 {
   const double power = std::pow(10, std::floor(std::log10(value)));

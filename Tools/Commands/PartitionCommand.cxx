@@ -19,7 +19,7 @@ namespace tipp
 namespace
 {
 
-/// One line for the user.
+/// Returns the summary, one line.
 std::string summarize(const PartitionStatistics& statistics)
 {
   return fmt::format("{} cells, {} points, {} pieces, {} borrowed cells, {:.0f} MB, {:.3f} s, peak "
@@ -29,7 +29,7 @@ std::string summarize(const PartitionStatistics& statistics)
     double(peakMemoryBytes()) / 1e6);
 }
 
-/// Writes a JSON file; throws IOError.
+/// Writes a JSON file. Throws IOError.
 void writeReport(const std::string& path, const std::string& input, const std::string& output,
   const PartitionStatistics& statistics)
 {
@@ -125,7 +125,7 @@ int runPartition(const PartitionArguments& arguments)
   PartitionStatistics statistics;
   try
   {
-    // Checked before the work; a failure on one rank fails on all.
+    // Check the paths before the computation. A failure on one rank fails on all.
     Communicator(session.controller())
       .attempt(
         [&]

@@ -57,7 +57,7 @@ std::string checkClass(const std::string& text)
     : "'" + text + "' is not a class; give numbers from 0 to 255, as 2,9";
 }
 
-/// Nothing if the text is not CELL:RULE.
+/// Parses CELL:RULE; nullopt for other text.
 std::optional<Thinning> parseThinning(const std::string& text)
 {
   const std::map<std::string, Thinning::Rule> rules = { { "min", Thinning::Rule::Lowest },

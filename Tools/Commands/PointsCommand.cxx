@@ -22,15 +22,17 @@ namespace tipp
 namespace
 {
 
-/// Returns `count` points, x and y interleaved, distributed like those of a file: each is uniform
-/// in a triangle of the file's Delaunay triangulation; all triangles are equally likely, so that
-/// dense areas stay dense (the dissertation's chapter 3.3.3 enlarges its storm-surge meshes in this
-/// way). Throws IOError, and std::runtime_error if the file's points have no triangles.
+/// Returns `count` points, x and y of each, with about the same distribution as those of a file.
+/// Each is uniform in a triangle of the file's Delaunay triangulation, and all triangles are
+/// equally likely, so dense areas stay dense. The dissertation's chapter 3.3.3 enlarges its
+/// storm-surge meshes in this way. Throws IOError, and std::runtime_error if the file's points have
+/// no triangles.
 std::vector<double> pointsLike(const std::string& path, std::int64_t count, std::uint64_t seed)
 {
   const PointTable table = readPoints(path);
   TriangulationOptions options;
-  // the order of the triangles, and so the points, must be the same on every machine
+  // With several threads, the order of the triangles, and so the points, could depend on the
+  // machine.
   options.Threads = 1;
   const Triangulation mesh = triangulate(PointsView(table.XY.data(), table.size(), 2), options);
   const std::int64_t triangles = std::int64_t(mesh.triangleCount());
@@ -97,7 +99,7 @@ void runPoints(const PointsArguments& arguments)
 {
   const bool isLike = !arguments.Like.empty();
   requireApart({ arguments.Output }, { arguments.Like });
-  // fails early if the file cannot be written
+  // Throws here, before the computation, if the file cannot be written.
   const PathState before = PendingFile(arguments.Output).before();
   writePoints(arguments.Output,
     isLike ? pointsLike(arguments.Like, arguments.Count, arguments.Seed)

@@ -71,18 +71,18 @@ struct QueryArguments
   std::vector<std::string> Arrays;
   bool Weights = false;
   bool Closest = false;
-  std::string Descend; ///< an array; empty: no
+  std::string Descend; ///< name of an array; empty: not given
   ZoneArguments Zones;
   RegionArguments Region;
   PointOptions Reading;
 
-  /// Whether there are no points.
+  /// Returns whether the query is about the mesh alone, without points.
   bool isOfMesh() const { return !this->Zones.Path.empty() || !this->Region.Ids.empty(); }
 
   bool toNpy() const { return extensionOf(this->Output) == ".npy"; }
 };
 
-/// This rank's share of the points. Throws IOError if points in space have no z.
+/// Returns this rank's share of the points. Throws IOError if points in space have no column z.
 std::vector<Point3> readShare(const QueryArguments& arguments, bool inSpace, int rank, int ranks)
 {
   PointOptions reading = arguments.Reading;
@@ -107,7 +107,7 @@ std::vector<Point3> readShare(const QueryArguments& arguments, bool inSpace, int
   return points;
 }
 
-/// Calls work(value) with the value of a component at a point, in its type.
+/// Calls work(value) with component k of an array at a point, in the array's type.
 template <typename Work>
 void withValue(const MeshAnswer::Array& array, std::size_t point, std::size_t k, const Work& work)
 {
@@ -150,7 +150,7 @@ std::string headerLine(
   return line + "\n";
 }
 
-/// This rank's lines of a .csv file.
+/// Returns this rank's lines of a .csv file.
 std::string linesOf(const std::vector<Point3>& points, const MeshAnswer& answer, int corners,
   const ClosestLocations& closest)
 {
@@ -189,7 +189,7 @@ std::string linesOf(const std::vector<Point3>& points, const MeshAnswer& answer,
   return text;
 }
 
-/// This rank's rows of an .npy file, as bytes.
+/// Returns this rank's rows of an .npy file, as bytes.
 std::string rowsOf(const MeshAnswer& answer)
 {
   std::string bytes;
@@ -233,8 +233,8 @@ void write(const QueryArguments& arguments, const PathState& before, const std::
   pending.commit();
 }
 
-/// Answers --zones, --ids and --descend. The ranks share the pieces of a partitioned mesh; another
-/// mesh is asked by the first one alone.
+/// Answers --zones, --ids and --descend. If the mesh is partitioned, the ranks share its pieces;
+/// otherwise the first rank works alone.
 void answerTogether(const QueryArguments& arguments, Communicator& ranks)
 {
   const bool isShared = ranks.size() > 1 && isPartitionedMesh(arguments.Mesh.Path);
@@ -268,7 +268,7 @@ void answerTogether(const QueryArguments& arguments, Communicator& ranks)
   }
 }
 
-/// Answers all ranks' points and writes the file on the first rank. Collective.
+/// Answers all ranks' points, and writes the file on the first rank. Collective.
 void answerAll(const QueryArguments& arguments, Communicator& ranks)
 {
   PathState before;
@@ -291,7 +291,7 @@ void answerAll(const QueryArguments& arguments, Communicator& ranks)
   const int corners = mesh->mesh().CellSize;
   const std::vector<Point3> points = readShare(arguments, corners == 4, ranks.rank(), ranks.size());
   const auto count = std::int64_t(points.size());
-  // A file that is not partitioned is in the memory of every rank.
+  // If the mesh is not partitioned, every rank has read all of it.
   const MeshAnswer answer = mesh->isStored() && ranks.size() > 1
     ? answerOnRanks(ranks, *mesh, points.data(), count, options)
     : mesh->answer(points.data(), count, options);
@@ -311,14 +311,14 @@ void answerAll(const QueryArguments& arguments, Communicator& ranks)
   }
 }
 
-/// Collective.
+/// Runs the query on all ranks. Collective.
 void runQuery(const QueryArguments& arguments, Communicator& ranks)
 {
   arguments.isOfMesh() || !arguments.Descend.empty() ? answerTogether(arguments, ranks)
                                                      : answerAll(arguments, ranks);
 }
 
-/// Throws CLI::ValidationError unless the output's name and the options go together.
+/// Throws CLI::ValidationError unless the output's extension suits the options.
 void checkOutput(const QueryArguments& arguments)
 {
   const std::string extension = extensionOf(arguments.Output);

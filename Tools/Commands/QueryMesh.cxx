@@ -73,7 +73,8 @@ std::unique_ptr<ResidentMesh> openQueryMesh(const QueryMeshArguments& arguments)
 
 int runOnRanks(const std::function<void(Communicator&)>& work)
 {
-  // Large blocks, as of pieces, go back to the system when they are freed.
+  // With this threshold, large blocks, such as pieces, are returned to the system when they are
+  // freed.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
   const MpiSession session;
   try

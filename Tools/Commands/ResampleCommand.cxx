@@ -80,7 +80,7 @@ void configure(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
     filter->SetSamplingDimensions(1, 1, 1);
     filter->SetDelta(arguments.Delta.data());
   }
-  parseDeviceChoice(arguments.Device); // throws here what the filter would only report
+  parseDeviceChoice(arguments.Device); // throw here; the filter would only report an error
   filter->SetDeviceChoice(arguments.Device.c_str());
   filter->SetNumberOfThreads(arguments.Threads);
   const bool npy = extensionOf(arguments.Output) == ".npy";
@@ -106,7 +106,7 @@ void summarize(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
     figures->GetAbstractArray("Device")->GetVariantValue(0).ToString(), arguments.Output);
 }
 
-/// Replaces the filter's property names in a message by the command's options.
+/// Replaces the filter's property names in a message by the options of the command.
 std::string reasonOf(std::string message)
 {
   const std::vector<std::pair<std::string, std::string>> names = {
@@ -126,7 +126,7 @@ std::string reasonOf(std::string message)
   return "cannot be resampled: " + message;
 }
 
-/// Returns the state of the output's path before the work.
+/// Returns the state of the output's path before the computation.
 PathState sample(
   const ResampleArguments& arguments, vtkRangeResampleFilter* filter, Communicator& ranks)
 {
@@ -136,7 +136,7 @@ PathState sample(
     {
       if (ranks.isFirst())
       {
-        // Checked before the work.
+        // Check the paths before the computation.
         requireApart({ arguments.Output }, { arguments.Input });
         before = PendingFile(arguments.Output).before();
       }

@@ -45,7 +45,7 @@ RasterGrid gridOf(const std::string& path, vtkImageData* image)
   return grid;
 }
 
-/// The arrays with one component; NaN at samples that no cell contains.
+/// Returns the arrays with one component, NaN at samples that no cell contains.
 SampledBands bandsOf(vtkImageData* image, std::vector<std::string>& names)
 {
   vtkPointData* const data = image->GetPointData();
