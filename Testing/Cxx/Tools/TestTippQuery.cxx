@@ -17,7 +17,7 @@ namespace
 
 using Words = std::vector<std::string>;
 
-/// A square of two triangles, stored and as a file, with a height of x + 10 y.
+/// A square of two triangles with heights x + 10 y, partitioned and as a file.
 class TippQuery : public testing::Test
 {
 protected:
