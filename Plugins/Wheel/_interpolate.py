@@ -157,7 +157,7 @@ class LinearNDInterpolator:
                 points = (array - self._offset) / self._scale
             points = Delaunay(points, threads=threads)
         elif rescale:
-            raise ValueError("rescale goes with points, not with a Delaunay; scale its points.")
+            raise ValueError("rescale needs points, not a Delaunay; scale the points of the Delaunay.")
         self.tri = points
         array = np.asarray(values)
         if array.dtype.kind not in "fiubc" or array.ndim == 0:

@@ -323,7 +323,7 @@ def _simplices(mesh: Any, name: str, kinds: tuple[str, ...], wanted: str) -> Mes
         mesh = simplices_of(mesh)
     cells = np.asarray(mesh.cells)
     if cells.ndim != 2 or cells.shape[1] not in (3, 4) or cells.dtype.kind not in "iu":
-        raise RuntimeError("the mesh's cells are no (n, 3) triangles or (n, 4) tetrahedra of whole numbers.")
+        raise RuntimeError("the mesh's cells are not (n, 3) triangles or (n, 4) tetrahedra of whole numbers.")
     if len(cells) and not 0 <= cells.min() <= cells.max() < len(mesh.points):
         raise RuntimeError(f"the mesh's cells refer to points from {cells.min()} to {cells.max()}, but there are "
                            f"{len(mesh.points)} points; repair it or write it again.")

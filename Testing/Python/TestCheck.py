@@ -114,7 +114,7 @@ class Faulty(unittest.TestCase):
         self.assertEqual({}, self.faults(self.triangles[inside], boundary_free=True))
 
     def test_arguments_are_named(self):
-        with self.assertRaisesRegex(ValueError, "triangles are None"):
+        with self.assertRaisesRegex(ValueError, "triangles is None"):
             tipp.check(self.points)
         with self.assertRaisesRegex(ValueError, "triangles have the shape"):
             tipp.check(self.points, [[0, 1]])

@@ -57,7 +57,7 @@ def memory(value: Any, name: str) -> int:
     match = re.fullmatch(r"([0-9]+)([KMG]?)", value)
     size = int(match[1]) << {"": 0, "K": 10, "M": 20, "G": 30}[match[2]] if match and len(value) < 30 else 0
     if not 0 < size < 1 << 63:
-        raise ValueError(f"{name} is {_shown(value)}; it is a number of bytes, as 536870912 or '512M' or '2G'.")
+        raise ValueError(f"{name} is {_shown(value)}; give a number of bytes, such as 536870912, '512M' or '2G'.")
     return size
 
 

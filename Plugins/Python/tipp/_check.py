@@ -144,7 +144,7 @@ def check(
     if triangles is not None:
         own, neighbors = _triangles(triangles)
     if own is None:
-        raise ValueError("triangles are None, and points are no mesh; give the triangles.")
+        raise ValueError("triangles is None, and points is not a mesh; give the triangles.")
     pairs = np.empty((0, 2), np.int64) if edges is None else _ids(edges, "edges", 2)
     return _Checker(xy, own, neighbors, pairs).report(ties_matter, is_free)
 

@@ -31,7 +31,7 @@ def constraints_of(
     """Combines the constraints of all arguments, for `count` points. Returns None if there are none."""
     if edge_source is not None:
         if edges is not None or polygons is not None:
-            raise ValueError("edge_source does not go with edges and polygons; give one or the others.")
+            raise ValueError("edge_source cannot be combined with edges and polygons; give one or the others.")
         check.data_object(edge_source, "edge_source", ("vtkPolyData",), "a vtkPolyData")
         return None
     if edges is None and polygons is None:
@@ -67,14 +67,14 @@ def _polygons(polygons: Any) -> Iterable[Any]:
     if hasattr(polygons, "geom_type"):
         return [polygons]
     if isinstance(polygons, (str, bytes)) or not isinstance(polygons, Iterable):
-        raise TypeError("polygons are no list; give a list of polygons.")
+        raise TypeError("polygons is not a list; give a list of polygons.")
     return polygons
 
 
 def _require_ids(ids: np.ndarray, count: int, name: str) -> None:
     wrong = ids[(ids < 0) | (ids >= count)]
     if wrong.size > 0:
-        raise ValueError(f"{name}: there is no point {wrong.flat[0]}, for there are {count} points; ids count from 0.")
+        raise ValueError(f"{name}: there is no point {wrong.flat[0]}, because there are {count} points; ids count from 0.")
 
 
 def _edges(edges: ArrayLike, count: int) -> list[np.ndarray]:

@@ -170,7 +170,7 @@ def delaunay_2d(
     options["bound"] = check.flag(bound, "bound")
     if check.is_vtk_object(points):
         if point_data is not None:
-            raise ValueError("point_data goes with an array of points; a data set has its own.")
+            raise ValueError("point_data needs an array of points; a data set has its own.")
     _require_points(points)
     options["edge_source"], options["edges"], options["polygons"] = edge_source, edges, polygons
     options["crossings"] = check.choice(crossings, "crossings", _CROSSINGS)

@@ -267,8 +267,8 @@ def simplices_of(data: Any) -> Mesh:
     else:
         cells, kinds, is_uniform = None, set(), False
     if not is_uniform:
-        raise RuntimeError(f"the mesh is a {data.GetClassName()} with other cells than triangles alone or tetrahedra "
-                           "alone; make them so first, as by PyVista's triangulate().")
+        raise RuntimeError(f"the mesh is a {data.GetClassName()} whose cells are not only triangles or only tetrahedra; "
+                           "convert them first, for example by PyVista's triangulate().")
     corners = 4 if kinds == {10} else 3
     ids = vtk_to_numpy(cells.GetConnectivityArray()) if cells.GetNumberOfCells() else np.empty(0, np.int64)
     return Mesh(xyz_of(data), ids.reshape(-1, corners), arrays_of(data.GetPointData()), arrays_of(data.GetCellData()))

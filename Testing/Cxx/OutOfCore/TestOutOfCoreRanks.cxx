@@ -474,7 +474,7 @@ TEST_F(OutOfCoreRanks, SayWhichFolderIsNotShared)
     reason = failure.what();
   }
   fs::current_path(here);
-  EXPECT_EQ(0U, reason.find("shared: is not there on this rank")) << reason;
+  EXPECT_EQ(0U, reason.find("shared: does not exist on this rank")) << reason;
   if (this->isFirst())
   {
     EXPECT_TRUE(fs::is_empty(this->Folder->path("shared")));
