@@ -28,7 +28,8 @@ std::string describeMisuse(const CLI::App* app, const CLI::Error& error)
   if (chosen.empty())
   {
     const std::vector<std::string> words = app->remaining();
-    problem = words.empty() ? "a command is required" : "there is no '" + words.front() + "'";
+    problem =
+      words.empty() ? "a command is required" : "there is no command '" + words.front() + "'";
   }
   return fmt::format("{}: {}; see '{} --help'.\n", command, problem, command);
 }
@@ -40,7 +41,7 @@ int run(int argc, char** argv)
   app.set_version_flag("--version", "tipp " TIPP_VERSION);
   app.require_subcommand(1);
   app.failure_message(describeMisuse);
-  app.footer("'tipp COMMAND --help' tells a command's options, units and examples.\n");
+  app.footer("'tipp COMMAND --help' shows the options of a command, their units and examples.\n");
   tipp::addDelaunayCommand(app, exitCode);
   tipp::addDelaunay3DCommand(app, exitCode);
   tipp::addDemCommand(app, exitCode);

@@ -122,7 +122,7 @@ class OutOfCoreOnRanks(unittest.TestCase):
     def test_options_of_runs_in_memory_are_refused(self):
         run = self.run_tipp(1, "uniform:1000", "--masters", "multi")
         self.assertEqual(run.returncode, 2)
-        self.assertIn("do not go with an output named .tipp", run.stderr)
+        self.assertIn("cannot be combined with an output named .tipp", run.stderr)
 
 
 if __name__ == "__main__":

@@ -299,18 +299,18 @@ std::vector<std::string> CheckReport::faults() const
     const char* Text;
   };
   const Kind kinds[] = {
-    { this->BadIds, "triangles name a point that does not exist or is not finite" },
+    { this->BadIds, "triangles have a point that does not exist or is not finite" },
     { this->BadTurns, "triangles are clockwise or flat" },
     { this->BadEdges, "edges are in three or more triangles or twice in one direction" },
     { this->BadCircles, "edges are not locally Delaunay" },
-    { this->BadTies, "edges break a tie against the rule" },
+    { this->BadTies, "edges break a tie differently than the rule" },
     { this->UnusedPoints, "distinct points are in no triangle" },
-    { this->TwinVertices, "vertices lie where another vertex lies" },
+    { this->TwinVertices, "vertices have the coordinates of another vertex" },
     { this->BadHullEdges, "boundary edges are not in one convex chain" },
-    { this->LostConstraints, "constraints are no chain of edges" },
-    { this->OpenBoundary, "boundary edges are neither constraints nor of the convex hull" },
-    { this->BadNeighbors, "edges have triangles that name other neighbours" },
-    { this->EulerMismatch, "triangles too many (negative: too few) by Euler's count" },
+    { this->LostConstraints, "constraints are not chains of edges" },
+    { this->OpenBoundary, "boundary edges are neither constraints nor edges of the convex hull" },
+    { this->BadNeighbors, "edges have triangles that store wrong neighbours" },
+    { this->EulerMismatch, "more triangles (negative: fewer) than Euler's formula gives" },
   };
   std::vector<std::string> lines;
   for (const Kind& kind : kinds)

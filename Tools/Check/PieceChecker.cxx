@@ -76,8 +76,8 @@ void PieceChecker::checkTriangles(const CheckedPiece& piece)
   }
 }
 
-/// Counts the piece's own points, the distinct ones, and those that no triangle uses. No other piece
-/// is needed: a piece has all triangles at its own points, and owns all points with the same
+/// Counts the piece's own points, the distinct ones, and those that no triangle uses. No other
+/// piece is needed: a piece has all triangles at its own points, and owns all points with the same
 /// coordinates.
 void PieceChecker::checkPoints(const CheckedPiece& piece)
 {

@@ -349,17 +349,17 @@ std::vector<std::string> TetrahedraReport::faults() const
       lines.push_back(std::to_string(count) + " " + text);
     }
   };
-  add(this->BadIds, "tetrahedra with an id that is no finite point's");
-  add(this->BadTurns, "tetrahedra inverted or flat");
-  add(this->BadFacets, "facets of three or more tetrahedra, or of two on the same side");
-  add(this->BadSpheres, "interior facets with a point inside the sphere");
-  add(this->BadTies, "ties broken against the rule");
-  add(this->UnusedPoints, "points in no tetrahedron");
-  add(this->TwinVertices, "vertices with the coordinates of another");
-  add(this->BadHullEdges, "edges of the hull where it is not closed or not convex");
+  add(this->BadIds, "tetrahedra have a point that does not exist or is not finite");
+  add(this->BadTurns, "tetrahedra are inverted or flat");
+  add(this->BadFacets, "facets are in three or more tetrahedra, or in two on the same side");
+  add(this->BadSpheres, "interior facets are not locally Delaunay");
+  add(this->BadTies, "facets break a tie differently than the rule");
+  add(this->UnusedPoints, "distinct points are in no tetrahedron");
+  add(this->TwinVertices, "vertices have the coordinates of another vertex");
+  add(this->BadHullEdges, "hull edges are where the hull is not closed or not convex");
   add(this->EulerMismatch,
-    "vertices, edges, facets or tetrahedra too many or too few by Euler's formula");
-  add(this->BadNeighbors, "corners whose NeighborIds name another tetrahedron");
+    "is the difference from Euler's formula for vertices, edges, facets and tetrahedra");
+  add(this->BadNeighbors, "corners have a wrong tetrahedron in NeighborIds");
   return lines;
 }
 

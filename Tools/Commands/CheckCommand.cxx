@@ -265,18 +265,21 @@ CheckReport checkPartitioned(const CheckArguments& arguments)
 }
 
 constexpr const char* footer =
-  R"(Exact, and without a triangulation of its own: every edge in at most two
-triangles, all triangles counter-clockwise, every interior edge locally
-Delaunay, the boundary one convex chain, the number of triangles Euler's, every
-distinct point a vertex. Where the mesh has the cell array NeighborIds, the two
-triangles of every edge name each other. A partitioned mesh is read piece by
-piece and may be larger than memory. Exit code 0: no fault, 1: faults or a file that cannot
-be read, 2: wrong usage.
-With constraints, their edges need not be locally Delaunay, and the mesh may have
-more points after the given ones; where constraints have polygons or holes, each edge of
-its boundary must be one of theirs or of the convex hull. Which triangles lie inside is not checked.
-Constraints may lie outside of such a mesh.
-Tetrahedra are checked likewise, in memory: facets for edges, spheres for circles.
+  R"(The check is exact and computes no triangulation of its own. It requires: every edge is in
+at most two triangles, all triangles are counter-clockwise, every interior edge is locally
+Delaunay, the boundary is one convex chain, the number of triangles follows Euler's formula,
+and every distinct point is a vertex. If the mesh has the cell array NeighborIds, the two
+triangles of every edge must store each other. A partitioned mesh is read piece by piece
+and may be larger than memory. Exit codes: 0: no fault; 1: faults, or a file that cannot be
+read; 2: wrong usage.
+
+With --constraints, the constraints' edges need not be locally Delaunay, and the mesh may
+have more points after the given ones. With --cut, or if the constraints have polygons or
+holes, each boundary edge must be an edge of a constraint or of the convex hull, and
+constraints may lie outside of the mesh. Whether the right triangles were removed is not
+checked.
+
+Tetrahedra are checked in the same way, in memory.
 
 Examples:
   tipp check points.npy triangles.npy
@@ -418,16 +421,15 @@ void addCheckCommand(CLI::App& app, int& exitCode)
     ->required();
   addPointOptions(*command, arguments->Columns);
   command->add_flag("--tie-rule", arguments->Options.TieRule,
-    "Also check that ties between co-circular points are broken by the lexicographic order of the "
-    "points, which makes the triangulation unique");
+    "Also check that ties between co-circular points are broken by the points' lexicographic "
+    "order, which makes the triangulation unique");
   command->add_flag("--boundary-free", arguments->Options.BoundaryFree,
-    "The mesh has a boundary of its own: do not check the hull and Euler's count");
+    "The mesh need not fill the convex hull: do not check its boundary and Euler's formula");
   command->add_option("--constraints", arguments->Constraints,
-    "A file of segments that must be edges, as of 'tipp delaunay'; the mesh may have more points, "
-    "after "
-    "the given ones");
+    "The file of constraints that 'tipp delaunay' used; the mesh may have more points after the "
+    "given ones");
   command->add_flag("--cut", arguments->Options.IsCut,
-    "With --constraints: triangles outside of them are removed, as by --hole");
+    "With --constraints: the mesh lacks triangles outside of polygons or in holes");
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]() { exitCode = isIdleRank() ? Success : runCheck(*arguments); });

@@ -82,7 +82,7 @@ std::string summarize(const OutOfCoreStatistics& statistics, const std::vector<P
   const double seconds = totalSeconds(statistics.Phases);
   const std::string rejected =
     statistics.Rejected == 0 ? "" : fmt::format(", {} rejected", statistics.Rejected);
-  const std::string each = ranks.size() == 1 ? "" : " on a rank at most";
+  const std::string each = ranks.size() == 1 ? "" : " of the largest rank";
   return fmt::format("{} points, {} triangles, {}{}, {} pieces, {:.0f} MB, {:.3f} s, "
                      "{:.0f} points/s, peak memory {:.0f} MB{}",
     statistics.Points, statistics.Triangles,

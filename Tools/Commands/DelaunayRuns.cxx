@@ -112,7 +112,7 @@ namespace
 
 std::string describeLeftOut(std::int64_t notFinite)
 {
-  return notFinite > 0 ? fmt::format(", {} left out, since an end is not finite", notFinite) : "";
+  return notFinite > 0 ? fmt::format(", {} left out because an end is not finite", notFinite) : "";
 }
 
 std::string describe(const ResolvedConstraints& resolved, std::size_t constraints)
@@ -131,8 +131,8 @@ std::string describeSegments(const ConstraintFigures& figures)
 
 std::string describeAdded(std::int64_t points, const DelaunayArguments& arguments)
 {
-  return fmt::format("it adds {} points to those of {}, which an output named .npy does not hold; "
-                     "name it .vtp or .vtu.",
+  return fmt::format("it adds {} points to those of {}, which an .npy output does not store; name "
+                     "the output .vtp or .vtu.",
     points, arguments.Input);
 }
 
@@ -180,7 +180,7 @@ void warnOfLostBoundaries(const DelaunayArguments& arguments)
   if (std::count(boundaries.begin(), boundaries.end(), '\n') > linesOfNone)
   {
     fmt::print(stderr,
-      "tipp: warning: {} has none of the boundaries of {}, since --thin has left out some of its "
+      "tipp: warning: {} has none of the boundaries of {}, because --thin has left out some of its "
       "nodes.\n",
       arguments.Output, arguments.Input);
   }

@@ -59,8 +59,8 @@ void warnOfNoTriangles(std::int64_t triangles)
   if (triangles == 0)
   {
     fmt::print(stderr,
-      "tipp: warning: no triangles, since there are fewer than three distinct points or all lie on "
-      "one line.\n");
+      "tipp: warning: no triangles, because there are fewer than three distinct points or all lie "
+      "on one line.\n");
   }
 }
 
@@ -159,7 +159,7 @@ int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints
   bar.reset();
   return statistics.Aborted
     ? reportInterrupt(
-        statistics.Kept ? "the same command with --resume goes on" : "nothing was written")
+        statistics.Kept ? "to continue, run the same command with --resume" : "nothing was written")
     : Success;
 }
 

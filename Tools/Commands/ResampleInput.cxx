@@ -338,7 +338,7 @@ vtkSmartPointer<vtkDataSet> readMesh(const ResampleArguments& arguments, Communi
         {
           throw IOError(arguments.Input,
             std::string("holds a ") + mesh->GetClassName() +
-              ", which is a grid without points of its own; 'tipp flatten' makes a mesh of it.");
+              ", which stores no points; convert it with 'tipp flatten'.");
         }
         hideOtherShares(mesh, ranks);
       }

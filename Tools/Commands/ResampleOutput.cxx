@@ -86,7 +86,7 @@ void writeNpy(
   vtkDataArray* const array = image->GetPointData()->GetArray(name.c_str());
   if (!array)
   {
-    throw IOError(path, "has not been written: the mesh has no '" + name + "' in this range.");
+    throw IOError(path, "was not written: the mesh has no array '" + name + "' in this range.");
   }
   int dimensions[3];
   image->GetDimensions(dimensions);
@@ -115,7 +115,7 @@ void writeGeoTiff(const std::string& path, vtkImageData* image, const std::strin
   const SampledBands bands = bandsOf(image, description.Bands);
   if (bands.Values.empty())
   {
-    throw IOError(path, "would have no band; the mesh has no array of one component.");
+    throw IOError(path, "would have no band, because the mesh has no array with one component.");
   }
   description.Crs = crs;
   description.NoData = noData;

@@ -62,8 +62,9 @@ MpiSession::MpiSession()
   this->Controller->Initialize(nullptr, nullptr, 1);
   vtkMultiProcessController::SetGlobalController(this->Controller);
 #else
-  throw std::runtime_error("this tipp was built without MPI and cannot run on several ranks; start "
-                           "it without mpirun, or build it with -DTIPP_USE_MPI=ON.");
+  throw std::runtime_error(
+    "this tipp was built without MPI and cannot run on several ranks; start it "
+    "without mpirun, or build it with -DTIPP_USE_MPI=ON.");
 #endif
 }
 
@@ -110,9 +111,8 @@ extern "C" void onCrash(int signal)
   }
   print("tipp: ");
   print(path);
-  print(
-    ": cannot be read as a VTK file (VTK's reader crashed); check that it is whole and that its "
-    "extension is right.\n");
+  print(": cannot be read as a VTK file (VTK's reader crashed); check that it is complete and that "
+        "its extension is right.\n");
   _exit(Failure);
 }
 
@@ -199,11 +199,11 @@ void say(const char* what, const std::string& consequence)
   ending().lock(); // never released
   const EndedPaths paths = endTemporaryPaths();
   say(interrupted ? "interrupted"
-      : isOrphan  ? "ended, since mpirun has ended"
-      : isRank    ? "ended by SIGTERM, which mpirun sends to all ranks when one has ended"
+      : isOrphan  ? "ended because mpirun has ended"
+      : isRank    ? "ended by SIGTERM, which mpirun sends to all ranks when one of them ends"
                   : "ended by SIGTERM",
     paths.HasOutput   ? "the output was already written"
-      : paths.HasKept ? "the same command with --resume goes on"
+      : paths.HasKept ? "to continue, run the same command with --resume"
                       : "nothing was written");
   std::fflush(stderr);
   _exit(interrupted ? interruptedExitCode : 128 + SIGTERM);

@@ -119,7 +119,7 @@ def _as_doubles(integers: np.ndarray, mask: Any = False) -> np.ndarray:
 
 
 def attribute(name: str, values: ArrayLike, argument: str = "point_data") -> np.ndarray:
-    """An array with one value or row per point (or cell), converted by taken(), in C order."""
+    """Returns an array with one value or row per point (or cell), converted by taken(), in C order."""
     argument = f"{argument}['{name}']"
     array = taken(values, argument)
     if array.ndim not in (1, 2) or array.shape[-1:] == (0,) and array.ndim == 2:
@@ -128,7 +128,7 @@ def attribute(name: str, values: ArrayLike, argument: str = "point_data") -> np.
 
 
 def attributes(point_data: Mapping[str, ArrayLike] | None, points: int) -> dict[str, np.ndarray]:
-    """The arrays of `point_data`, checked."""
+    """Returns the arrays of `point_data` after checking them."""
     if point_data is not None and not isinstance(point_data, Mapping):
         raise TypeError("point_data is no mapping; give a dictionary of arrays by name.")
     result = {}

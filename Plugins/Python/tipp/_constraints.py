@@ -28,7 +28,7 @@ def constraints_of(
     edges: ArrayLike | None,
     polygons: Iterable[Any] | None,
 ) -> Constraints | None:
-    """Combines the constraints of all arguments, for `count` points; None if there are none."""
+    """Combines the constraints of all arguments, for `count` points. Returns None if there are none."""
     if edge_source is not None:
         if edges is not None or polygons is not None:
             raise ValueError("edge_source does not go with edges and polygons; give one or the others.")
@@ -58,7 +58,7 @@ def constraints_of(
 
 
 def rings_of(polygons: Any) -> Iterator[Any]:
-    """The rings of a list of polygons, each an array or a Shapely polygon, or of a single Shapely polygon."""
+    """Yields the rings of a list of polygons (arrays or Shapely polygons), or of a single Shapely polygon."""
     for polygon in _polygons(polygons):
         yield from _rings(polygon) if hasattr(polygon, "geom_type") else [polygon]
 
@@ -86,7 +86,7 @@ def _edges(edges: ArrayLike, count: int) -> list[np.ndarray]:
 
 
 def _rings(polygon: Any) -> Iterator[np.ndarray]:
-    """The rings of a Shapely polygon: outer rings counter-clockwise, inner ones clockwise."""
+    """Yields the rings of a Shapely polygon: outer rings counter-clockwise, inner ones clockwise."""
     if polygon.geom_type == "MultiPolygon":
         for part in polygon.geoms:
             yield from _rings(part)

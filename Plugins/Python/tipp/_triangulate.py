@@ -188,7 +188,7 @@ def _require_points(points: Any) -> None:
 
 
 def _options(tol: Any, max_edge: Any, partitions: Any, schedule: Any, threads: Any) -> dict[str, Any]:
-    """The checked options that delaunay() and delaunay_2d() share."""
+    """Checks and returns the options that delaunay() and delaunay_2d() share."""
     return {
         "tolerance": check.number(tol, "tol", at_least=0),
         "max_edge": check.number(max_edge, "max_edge", at_least=0),

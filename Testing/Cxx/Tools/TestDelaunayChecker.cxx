@@ -317,7 +317,7 @@ TEST_F(Spoiled, EveryErrorIsReported)
   report.BadTurns = 3;
   report.EulerMismatch = -2;
   EXPECT_EQ((std::vector<std::string>{ "3 triangles are clockwise or flat",
-              "-2 triangles too many (negative: too few) by Euler's count" }),
+              "-2 more triangles (negative: fewer) than Euler's formula gives" }),
     report.faults());
 }
 

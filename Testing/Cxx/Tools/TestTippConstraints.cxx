@@ -180,7 +180,7 @@ TEST_F(TippConstraints, CheckVerifiesThem)
   this->Folder.file("other.csv", "0,8\n");
   const Outcome lost = check({ "--constraints", "other.csv" });
   EXPECT_EQ(1, lost.ExitCode);
-  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are no chain of edges")) << lost.Out;
+  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are not chains of edges")) << lost.Out;
 }
 
 TEST_F(TippConstraints, CheckAcceptsAMeshThatIsCut)
@@ -209,7 +209,7 @@ TEST_F(TippConstraints, CheckAcceptsConstraintsOutsideAMeshThatIsCut)
     const Outcome good = outcome("lines.vtk");
     EXPECT_EQ(0, good.ExitCode) << mesh << good.Out << good.Err;
     EXPECT_NE(
-      std::string::npos, outcome("other.csv").Out.find("1 constraints are no chain of edges"))
+      std::string::npos, outcome("other.csv").Out.find("1 constraints are not chains of edges"))
       << "the second is crossed";
   }
 }
@@ -246,7 +246,7 @@ TEST_F(TippConstraints, PartitionedMeshesAreMadeAndChecked)
   this->Folder.file("other.csv", "0,8\n");
   const Outcome lost = check("other.csv");
   EXPECT_EQ(1, lost.ExitCode);
-  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are no chain of edges")) << lost.Out;
+  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are not chains of edges")) << lost.Out;
 }
 
 TEST_F(TippConstraints, PartitionedMeshesAreCutToABoundary)

@@ -127,7 +127,7 @@ TEST_F(TippOutOfCore, ChecksTheNeighborsThatAMeshNames)
   const Outcome refused =
     runTipp(this->Folder, { "delaunay", this->Points, "-o", ids, "--neighbors" });
   EXPECT_EQ(2, refused.ExitCode);
-  EXPECT_NE(std::string::npos, refused.Err.find("--neighbors: needs an output of cells"))
+  EXPECT_NE(std::string::npos, refused.Err.find("--neighbors: needs an output named"))
     << refused.Err;
 }
 

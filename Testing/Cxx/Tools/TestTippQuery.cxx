@@ -167,13 +167,13 @@ TEST_F(TippQuery, RefusesConflictingOptions)
     { "query", "asked.csv", "mesh.tipp", "-o", "out.npy", "--closest" }, "does not end in .csv");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--descend", "height" },
     "does not end in .vtp");
-  expect({ "query", "mesh.tipp", "-o", "ids.csv", "--ids", "cells" }, "give a region");
+  expect({ "query", "mesh.tipp", "-o", "ids.csv", "--ids", "cells" }, "--ids needs a region");
   expect({ "query", "mesh.tipp", "-o", "ids.csv", "--ids", "cells", "--bounds", "0", "1", "2", "3",
            "4" },
     "four numbers");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "ids.csv", "--ids", "cells", "--bounds", "0",
            "1", "0", "1" },
-    "give the mesh alone");
+    "give only the mesh");
 }
 
 TEST_F(TippQuery, RefusesInvalidQueries)
