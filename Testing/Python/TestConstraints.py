@@ -70,7 +70,7 @@ class Polygons(unittest.TestCase):
     def test_clockwise_is_a_hole(self):
         self.assertEqual(60, area(tipp.delaunay_2d(SQUARES, polygons=[INNER[::-1]])))
 
-    def test_coordinates_are_points_where_there_are_some(self):
+    def test_coordinates_of_points_refer_to_these_points(self):
         mesh = tipp.delaunay_2d(SQUARES, polygons=[SQUARES[INNER]])
         self.assertEqual(9, mesh.GetNumberOfPoints())
         self.assertEqual(4, area(mesh))
