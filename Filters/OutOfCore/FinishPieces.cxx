@@ -18,8 +18,8 @@ namespace tipp
 namespace
 {
 
-/// The segments near triangles. Looks them up by the bounding box of each run of `together`
-/// consecutive triangles.
+/// Reads the segments near the triangles, by the bounding box of each `together` consecutive
+/// triangles. `corners` are indices into `points`.
 ConstraintSegments readNear(const PieceSegments& segments, PointsView points,
   const std::int32_t* corners, std::size_t triangles, std::size_t together)
 {
@@ -87,7 +87,8 @@ private:
     return finished;
   }
 
-  /// `border`: the triangles that the piece owns.
+  /// Passes the border of a piece to the consumer, unless that was done earlier. `border`: the
+  /// triangles that the piece owns.
   void take(PartitionIndex piece, PieceBorder& border) const
   {
     if (!this->Work.takesBordersEarly())
@@ -105,7 +106,7 @@ private:
     return readInterior(this->Work, piece, *this->Results[std::size_t(piece)]);
   }
 
-  /// The triangles that replace those at artificial points belong to borders, too.
+  /// Makes the triangles that replace those at artificial points. They also belong to borders.
   void repairHull()
   {
     std::vector<BoundaryVertex> vertices;
@@ -118,8 +119,8 @@ private:
     tipp::repairHull(std::move(vertices), this->Work.Plan.Artificial, sorter);
   }
 
-  /// Inserts the constraints that are complete in no piece's interior: all triangles that they
-  /// cross, of interiors and borders, are retriangulated together.
+  /// Inserts the constraints that no piece's interior contains completely: retriangulates all
+  /// triangles that they cross, in interiors and borders, together.
   void constrain(int threads)
   {
     const PartitionIndex pieces = this->Work.Plan.pieces();
@@ -151,7 +152,7 @@ private:
     }
   }
 
-  /// The triangles that a piece owns at its border and constraints cross.
+  /// Returns the triangles that the piece owns at its border and that constraints cross.
   CrossedPart takeCrossedBorder(PartitionIndex piece) const
   {
     std::vector<CrossedPart::Corners> triangles;
@@ -177,7 +178,7 @@ private:
     return part;
   }
 
-  /// Whether triangles at the border stay, where there are constraints.
+  /// Returns for each triangle of a border whether it is kept although there are constraints.
   std::vector<char> findKept(const BorderTriangles& triangles) const
   {
     std::vector<char> isKept;
@@ -207,7 +208,7 @@ private:
     return isKept;
   }
 
-  /// Each once, ascending.
+  /// Returns the corners of the triangles, each once, ascending.
   static std::vector<std::int64_t> pointsOf(const std::vector<CrossedPart::Corners>& triangles)
   {
     std::vector<std::int64_t> points;
@@ -225,7 +226,8 @@ private:
     return points.empty() ? PointsView() : PointsView(&points.front().x, points.size(), 2);
   }
 
-  /// Visits what a piece owns at its border, from all results, and what was made since.
+  /// Visits the triangles that a piece owns at its border, from all results, and those made after
+  /// all pieces were done.
   template <typename Visit>
   void forEachBorder(PartitionIndex piece, const Visit& visit) const
   {
@@ -279,8 +281,8 @@ private:
   const PieceWork& Work;
   std::vector<std::unique_ptr<StoredResult>> Results; ///< of each piece
   PieceFigures Figures;
-  BordersByOwner Late;                        ///< triangles made when all pieces are done
-  std::vector<CrossedPart::Corners> Replaced; ///< triangles that constraints cross, ascending
+  BordersByOwner Late;                        ///< triangles made after all pieces were done
+  std::vector<CrossedPart::Corners> Replaced; ///< triangles that constraints cross; sorted
 };
 
 } // namespace

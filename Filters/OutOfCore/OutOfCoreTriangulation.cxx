@@ -17,7 +17,7 @@
 
 namespace tipp
 {
-/// The statistics of a whole mesh that do not depend on the process.
+/// The statistics of the whole mesh, without those of this process.
 template <typename Archive>
 void serialize(Archive& archive, OutOfCoreStatistics& statistics)
 {
@@ -29,7 +29,7 @@ void serialize(Archive& archive, OutOfCoreStatistics& statistics)
 namespace
 {
 
-/// The user has stopped the run.
+/// Thrown if the user has stopped the run.
 struct Aborted
 {
 };
@@ -100,7 +100,7 @@ private:
   {
     if (this->Ranks)
     {
-      Message message; // there is none but of a failure, which is thrown
+      Message message; // no message comes; poll() throws if a rank has failed
       this->Ranks->poll(message);
     }
     this->tell(fraction);
@@ -127,7 +127,7 @@ private:
     this->Statistics.Phases.push_back({ name, this->Watch.restart() });
   }
 
-  /// False if there is nothing to resume.
+  /// Returns false if there is nothing to resume.
   bool resume()
   {
     this->Statistics.Resumed = this->Record.resume(
@@ -166,7 +166,8 @@ private:
     requireElevation(this->Options.Duplicates, this->Input.columns());
     if (survey.Points == survey.Rejected)
     {
-      throw IOError("There is no point with finite coordinates in the input, so nothing to write.");
+      throw IOError(
+        "The input has no point with finite coordinates, so there is nothing to write.");
     }
     const std::vector<ConstraintSegment> segments =
       this->Options.Constraints ? this->Options.Constraints() : std::vector<ConstraintSegment>();
@@ -174,10 +175,10 @@ private:
     this->Setup.Plan =
       std::make_unique<PiecePlan>(survey, this->Options, *this->Memory, words, this->Threads);
     this->Setup.setConstraints(this->Scratch.points(), segments, this->Threads);
-    std::vector<SampledPoint>().swap(survey.Sample); // = {} would keep the memory
+    std::vector<SampledPoint>().swap(survey.Sample); // assigning {} would keep the memory
     if (this->Setup.Plan->HasLargeInterface)
     {
-      // Each piece is sent nearly all points of those before it.
+      // Each piece gets messages with nearly all points of the pieces before it.
       constexpr std::uint64_t sent = 32 / 2;
       constexpr std::uint64_t border = 64;
       this->requireSpace(sent * std::uint64_t(this->Setup.Plan->pieces()) + border, 0);
@@ -201,16 +202,17 @@ private:
     this->Statistics.Partitions = this->Setup.Plan->Partitions.size();
   }
 
-  /// `more`: bytes per point in the scratch folder beyond the usual; `others`: besides.
+  /// `more`: bytes per point in the scratch folder beyond the usual ones; `others`: additional
+  /// bytes there.
   void requireSpace(std::uint64_t more, std::uint64_t others) const
   {
     const auto points = std::uint64_t(this->Setup.Survey.Points - this->Setup.Survey.Rejected);
     const std::uint64_t cell =
       12 + 4 + 1 + 8 + (this->Options.Neighbors ? 24 : 0) + (this->Options.MarkConstraints ? 3 : 0);
-    // Borders and ids of cells included; two triangles a point at most.
+    // Includes borders and ids of cells. There are at most two triangles per point.
     const std::uint64_t stored =
       points * (24 + 8 + 1 + 8 * this->Setup.Rows.Attributes.size() + 2 * cell) / 50 * 51;
-    constexpr std::uint64_t results = 4; // of pieces of 30,000 points
+    constexpr std::uint64_t results = 4; // bytes per point for pieces of 30,000 points
     this->Scratch.requireSpace(this->Path, this->Options.CountOnly ? 0 : stored,
       points * (8 * this->Setup.Rows.Words + results + more) + others + this->Setup.takenBytes());
   }
@@ -342,7 +344,7 @@ private:
   {
     if (this->Options.Progress)
     {
-      this->Options.Progress(1); // too late to end it
+      this->Options.Progress(1); // too late to stop the run
     }
     this->Setup.Spilled.reset();
     this->Record.putInPlace();
@@ -350,7 +352,7 @@ private:
   }
 
   PointStream& Input;
-  Communicator* const Ranks; ///< null: this process alone
+  Communicator* const Ranks; ///< null: this process works alone
   const std::string Path;
   const OutOfCoreOptions& Options;
   const int Threads;

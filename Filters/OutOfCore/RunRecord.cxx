@@ -34,7 +34,8 @@ bool RunRecord::resume(bool resumes, int threads, const Load& begun, const Load&
     return true;
   }
   this->IsInPlace = this->Reached == Stage::Whole && holdsMesh(this->Path, this->Fingerprint);
-  if (this->IsInPlace && !isOurs) // what is left of that run is of no use
+  // The other run's mesh is already published, so its remains are useless.
+  if (this->IsInPlace && !isOurs)
   {
     this->keep(false);
     this->Reached = Stage::Begun;
@@ -55,15 +56,16 @@ void RunRecord::requireOurs(bool isOurs, bool resumes) const
   if (!isOurs)
   {
     throw IOError(this->Path,
-      resumes ? "was begun with another input, or with one that has been changed since, with other "
-                "options, or by another version of TIPP; give those, or remove " +
+      resumes
+        ? "was started with another or since changed input, with other options, or by another "
+          "version of TIPP; give those, or remove " +
           this->Pending.workPath() + " to start again."
-              : "has been begun by another run, and its work is in " + this->Pending.workPath() +
-          "; resume it, or remove that folder to start again.");
+        : "was started by another run, whose files are in " + this->Pending.workPath() +
+          "; resume that run, or remove the folder to start again.");
   }
 }
 
-/// The process that made the mesh has ended, and its files may have changed since.
+/// Verifies the mesh: the process that made it has ended, and its files may have changed since.
 void RunRecord::verifyWhole(int threads) const
 {
   try

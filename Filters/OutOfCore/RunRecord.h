@@ -30,16 +30,17 @@ public:
   {
   }
 
-  /// Reads the record of an earlier process and calls `begun` with what was given to
-  /// saveBegun(), or `whole` with what was given to saveWhole() or saveCounted(); verifies a whole
-  /// mesh. False if there is nothing to resume. Throws IOError if the record is damaged or of
-  /// another run, and if the mesh is not whole unless `resumes`; then the work is kept.
+  /// Reads the record of an earlier process, if there is one, and calls `begun` with what was given
+  /// to saveBegun(), or `whole` with what was given to saveWhole() or saveCounted(). Verifies a
+  /// complete mesh. Returns false if there is nothing to resume. Throws IOError if the record is
+  /// damaged or of another run and, unless `resumes`, if the mesh is not complete; the work is kept
+  /// then.
   bool resume(bool resumes, int threads, const Load& begun, const Load& whole);
 
   /// The points are spilled; from now on the work is kept.
   void saveBegun(const Save& save);
-  /// All files of the mesh are there. If the process ends, another only has to move the mesh to its
-  /// path; nothing else in the work folder is needed.
+  /// The mesh is complete. From now on only the mesh in the work folder is needed, and a resumed
+  /// run only has to move it to its path.
   void saveWhole(std::uint64_t fingerprint, const Save& save);
   /// The same for a run that makes no mesh.
   void saveCounted(const Save& save);
@@ -70,8 +71,8 @@ private:
   PendingFolder& Pending;
   ScratchFolder& Scratch;
   Stage Reached = Stage::Begun;
-  std::uint64_t Fingerprint = 0; ///< of a whole mesh
-  bool IsInPlace = false;        ///< the mesh is at Path
+  std::uint64_t Fingerprint = 0; ///< of the complete mesh, if there is one
+  bool IsInPlace = false;        ///< the mesh is already at Path
 };
 
 } // namespace tipp

@@ -47,7 +47,7 @@ std::vector<char> verifyPieces(const PartitionedMesh& mesh, const std::vector<St
 {
   std::vector<char> isDone(pieces.size(), 0);
   std::mutex mutex;
-  std::string damaged; // the first of them
+  std::string damaged; // path of the first damaged file
   int others = -1;
   const auto verify = [&](std::int64_t at, std::int64_t, int)
   {
@@ -91,7 +91,8 @@ FinishedPiece finishOnce(const std::string& path, const std::function<FinishedPi
     return readFinished(path);
   }
   FinishedPiece finished = finish();
-  // From now on the file may have another layout than the result says.
+  // The record must exist before the file is used further: the file may no longer have the layout
+  // that the result describes.
   writeCheckedFile(path, [&](SaveArchive& archive) { archive(finished); });
   return finished;
 }

@@ -105,7 +105,7 @@ private:
     this->Statistics.Phases.push_back({ name, this->Watch.restart() });
   }
 
-  /// False if there is nothing to resume.
+  /// Returns false if there is nothing to resume.
   bool resume()
   {
     this->Statistics.Resumed = this->Record.resume(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws points in space, triangulates them with several partitions and threads, and lets an exact
-// checker prove the result. Triangles of points in one plane are compared with the oracle. A case
-// is known by its number and the seed: 'fuzzDelaunay3D --seed S --case N' repeats one.
+// Draws points in space, triangulates them with several partitions and threads, and checks the
+// result with an exact checker; triangles of points in one plane are compared with the oracle. A
+// seed and a number identify a case: 'fuzzDelaunay3D --seed S --case N' repeats it.
 #include "Check/TetrahedraChecker.h"
 #include "Comparison.h"
 #include "DegeneratePoints.h"
@@ -45,7 +45,8 @@ Result resultOf(const std::vector<Point3>& points, int partitions, int threads)
   return result;
 }
 
-/// What is wrong with the lists of points that are no vertices; empty: nothing.
+/// Describes an error in the lists of duplicates and rejected points; an empty string if there is
+/// none.
 std::string faultOfLists(const Coordinates& xyz, const Tetrahedralization& mesh)
 {
   std::map<std::array<double, 3>, PointId> first;
@@ -59,7 +60,7 @@ std::string faultOfLists(const Coordinates& xyz, const Tetrahedralization& mesh)
       rejected.push_back(id);
       continue;
     }
-    // Adding 0 makes a positive zero of a negative one.
+    // Adding 0 turns -0 into +0.
     const auto [at, isNew] =
       first.emplace(std::array<double, 3>{ xyz[i] + 0.0, xyz[i + 1] + 0.0, xyz[i + 2] + 0.0 }, id);
     if (isNew)
@@ -80,7 +81,7 @@ std::string faultOfLists(const Coordinates& xyz, const Tetrahedralization& mesh)
                                               : "";
 }
 
-/// What is wrong with the triangles of points in one plane; empty: nothing.
+/// Describes an error in the triangles of points in one plane; an empty string if there is none.
 std::string faultOfTriangles(const std::vector<Point3>& points, const Triangulation& triangles)
 {
   const auto corner = [&](std::size_t i) { return points[std::size_t(triangles.Ids32[i])]; };
@@ -121,7 +122,7 @@ bool areEqual(const Ids& a, const Ids& b)
   return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
-/// Draws and checks one case; prints its points if it fails.
+/// Runs one case, and prints its points if it fails.
 bool passes(std::uint64_t seed, std::uint64_t number)
 {
   std::seed_seq both{ seed, number };

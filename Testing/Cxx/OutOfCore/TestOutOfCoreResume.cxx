@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run that was ended can be resumed, and makes the same files: triangles and tetrahedra.
+// An interrupted run can be resumed, and makes the same files: triangles and tetrahedra.
 #include "ResumeTesting.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using namespace tipp::test;
 
 TYPED_TEST_SUITE(OutOfCoreResume, Engines, );
 
-TYPED_TEST(OutOfCoreResume, MakesTheSameFilesWhereverItWasEnded)
+TYPED_TEST(OutOfCoreResume, MakesTheSameFilesAfterAnyInterruption)
 {
   for (const std::string& kind : TypeParam::kinds())
   {
@@ -39,7 +39,7 @@ TYPED_TEST(OutOfCoreResume, MakesTheSameFilesWhereverItWasEnded)
       {
         this->Options.Threads = 1 + (round + ended) % 3;
         this->Options.MemoryLimit = (round + ended) % 2 == 0 ? 1 : 1 << 20;
-        // More from run to run: verifying what earlier ones have written takes calls, too.
+        // Later runs need more calls, since they verify what earlier ones have written.
         int calls = int(random() % 60) + 2 * ended;
         this->Options.Progress = [&calls](double) { return calls-- > 0; };
         const auto statistics = this->run();
@@ -61,14 +61,14 @@ protected:
   {
     this->makePoints("uniform");
     this->Options.Progress = [](double fraction) { return fraction < 0.6; };
-    // With one thread, for where two have got to when they are told to end depends on the load.
+    // With one thread, the run always ends at the same step.
     this->Options.Threads = 1;
     ASSERT_TRUE(this->run().Kept);
     this->Options.Threads = 2;
     this->Options.Progress = {};
   }
 
-  /// Of the pieces that are done.
+  /// The paths of the finished pieces' results.
   std::vector<std::string> results() const
   {
     std::vector<std::string> paths;
@@ -88,9 +88,9 @@ protected:
 };
 TYPED_TEST_SUITE(OutOfCoreBegun, Engines, );
 
-TYPED_TEST(OutOfCoreBegun, RefusesToStartAgainWithoutBeingTold)
+TYPED_TEST(OutOfCoreBegun, IsResumedOnlyOnRequest)
 {
-  expectIOError(this->Folder.path("mesh.tipp"), "resume it", [this] { this->run(); });
+  expectIOError(this->Folder.path("mesh.tipp"), "resume that run", [this] { this->run(); });
   this->Options.Resume = true;
   EXPECT_TRUE(this->run().Resumed);
 }
@@ -99,7 +99,7 @@ TYPED_TEST(OutOfCoreBegun, RefusesAnInputThatHasChanged)
 {
   this->makePoints("uniform", 2500, 2);
   this->Options.Resume = true;
-  expectIOError(this->Folder.path("mesh.tipp"), "changed since", [this] { this->run(); });
+  expectIOError(this->Folder.path("mesh.tipp"), "since changed input", [this] { this->run(); });
 }
 
 TYPED_TEST(OutOfCoreBegun, RefusesOtherOptions)
@@ -153,7 +153,7 @@ TYPED_TEST(OutOfCoreBegun, MakesNoPieceAgainThatIsDone)
   EXPECT_GT(after.size(), before.size());
 }
 
-TYPED_TEST(OutOfCoreBegun, NamesADamagedPlan)
+TYPED_TEST(OutOfCoreBegun, ReportsADamagedPlan)
 {
   const std::string plan = this->Folder.path(".mesh.tipp.part/.plan");
   std::string content = contentOf(plan);
@@ -163,7 +163,7 @@ TYPED_TEST(OutOfCoreBegun, NamesADamagedPlan)
   expectIOError(plan, "is damaged", [this] { this->run(); });
 }
 
-TYPED_TEST(OutOfCoreBegun, NamesAMissingPlan)
+TYPED_TEST(OutOfCoreBegun, ReportsAMissingPlan)
 {
   const std::string plan = this->Folder.path(".mesh.tipp.part/.plan");
   fs::remove(plan);
@@ -176,7 +176,8 @@ template <typename Engine>
 class OutOfCoreDamaged : public OutOfCoreBegun<Engine>
 {
 protected:
-  /// Resumes, and expects a warning that names the file, and the files of an undisturbed run.
+  /// Resumes the run. Expects a warning that names the damaged file, and the files of an
+  /// uninterrupted run.
   void expectMadeAgain(const std::string& damaged)
   {
     std::vector<std::string> warnings;
@@ -204,7 +205,7 @@ protected:
 };
 TYPED_TEST_SUITE(OutOfCoreDamaged, Engines, );
 
-TYPED_TEST(OutOfCoreDamaged, MakesPiecesAgainThatHaveChanged)
+TYPED_TEST(OutOfCoreDamaged, RemakesChangedPieces)
 {
   for (const auto& piece : fs::directory_iterator(this->Pieces))
   {
@@ -213,7 +214,7 @@ TYPED_TEST(OutOfCoreDamaged, MakesPiecesAgainThatHaveChanged)
   this->expectMadeAgain(this->Pieces);
 }
 
-TYPED_TEST(OutOfCoreDamaged, MakesPiecesAgainThatAreCutShort)
+TYPED_TEST(OutOfCoreDamaged, RemakesTruncatedPieces)
 {
   for (const auto& piece : fs::directory_iterator(this->Pieces))
   {
@@ -222,13 +223,13 @@ TYPED_TEST(OutOfCoreDamaged, MakesPiecesAgainThatAreCutShort)
   this->expectMadeAgain(this->Pieces);
 }
 
-TYPED_TEST(OutOfCoreDamaged, MakesPiecesAgainThatAreMissing)
+TYPED_TEST(OutOfCoreDamaged, RemakesMissingPieces)
 {
   fs::remove_all(this->Pieces);
   this->expectMadeAgain(this->Pieces);
 }
 
-TYPED_TEST(OutOfCoreDamaged, MakesPiecesAgainWhoseResultsHaveChanged)
+TYPED_TEST(OutOfCoreDamaged, RemakesPiecesWithChangedResults)
 {
   for (const std::string& result : this->results())
   {
@@ -237,14 +238,14 @@ TYPED_TEST(OutOfCoreDamaged, MakesPiecesAgainWhoseResultsHaveChanged)
   this->expectMadeAgain(this->Results);
 }
 
-TYPED_TEST(OutOfCoreDamaged, MakesAgainTheOneThatIsDamagedAlone)
+TYPED_TEST(OutOfCoreDamaged, RemakesOnlyTheDamagedPiece)
 {
   const std::string result = this->results().front();
   this->change(result);
   this->expectMadeAgain(result + ": is damaged or missing; its piece is made again");
 }
 
-TYPED_TEST(OutOfCoreDamaged, LeavesNothingOfWhatIsAppendedToPieces)
+TYPED_TEST(OutOfCoreDamaged, RemovesBytesAppendedToPieces)
 {
   for (const auto& piece : fs::directory_iterator(this->Pieces))
   {
@@ -258,7 +259,7 @@ TYPED_TEST(OutOfCoreDamaged, LeavesNothingOfWhatIsAppendedToPieces)
   EXPECT_TRUE(resumed == this->files());
 }
 
-TYPED_TEST(OutOfCoreBegun, NamesSpilledPointsThatAreCutShort)
+TYPED_TEST(OutOfCoreBegun, ReportsTruncatedSpilledPoints)
 {
   const std::string points = this->Folder.path(".mesh.tipp.part/.points.0");
   fs::resize_file(points, fs::file_size(points) - 100);
@@ -266,7 +267,7 @@ TYPED_TEST(OutOfCoreBegun, NamesSpilledPointsThatAreCutShort)
   expectIOError(points, "shorter", [this] { this->run(); });
 }
 
-TYPED_TEST(OutOfCoreBegun, NamesSpilledPointsThatAreDamaged)
+TYPED_TEST(OutOfCoreBegun, ReportsDamagedSpilledPoints)
 {
   const std::string points = this->Folder.path(".mesh.tipp.part/.points.0");
   std::string content = contentOf(points);
@@ -280,7 +281,7 @@ TYPED_TEST(OutOfCoreBegun, NamesSpilledPointsThatAreDamaged)
   EXPECT_FALSE(fs::exists(this->Folder.path("mesh.tipp")));
 }
 
-TYPED_TEST(OutOfCoreBegun, LeavesAnOlderMeshUntilItIsWhole)
+TYPED_TEST(OutOfCoreBegun, KeepsAnOlderMeshUntilItIsComplete)
 {
   fs::create_directory(this->Folder.path("mesh.tipp"));
   this->Options.Resume = true;

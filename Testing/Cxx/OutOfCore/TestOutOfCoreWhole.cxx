@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 using namespace tipp;
 using namespace tipp::test;
 
-/// A run that was killed when its mesh was whole, but not in its place.
+/// A run that was killed after it finished its mesh, but before it renamed it to its final path.
 template <typename Engine>
 class OutOfCoreWhole : public OutOfCoreResume<Engine>
 {
@@ -63,7 +63,7 @@ protected:
 };
 TYPED_TEST_SUITE(OutOfCoreWhole, Engines, );
 
-TYPED_TEST(OutOfCoreWhole, IsPutInPlaceThoughItsPointsAreGone)
+TYPED_TEST(OutOfCoreWhole, IsRenamedEvenIfItsPointsAreMissing)
 {
   for (const char* name : { ".points.0", ".piece.0", ".piece.1.finished" })
   {
@@ -74,9 +74,9 @@ TYPED_TEST(OutOfCoreWhole, IsPutInPlaceThoughItsPointsAreGone)
   EXPECT_TRUE(this->Expected == this->files());
 }
 
-TYPED_TEST(OutOfCoreWhole, IsPutInPlaceWithoutBeingTold)
+TYPED_TEST(OutOfCoreWhole, IsRenamedWithoutARequestToResume)
 {
-  this->Options.Progress = [](double) { return false; }; // too late
+  this->Options.Progress = [](double) { return false; }; // no effect: only renaming is left
   this->expectTheSame(this->run());
   EXPECT_TRUE(this->Expected == this->files());
 }
@@ -86,18 +86,18 @@ TYPED_TEST(OutOfCoreWhole, IsRefusedForAnotherInput)
   this->makePoints("uniform", 2500, 2);
   expectIOError(this->Folder.path("mesh.tipp"), "another run", [this] { this->run(); });
   this->Options.Resume = true;
-  expectIOError(this->Folder.path("mesh.tipp"), "changed since", [this] { this->run(); });
+  expectIOError(this->Folder.path("mesh.tipp"), "since changed input", [this] { this->run(); });
   EXPECT_TRUE(this->Expected == filesOf(this->Part + "/mesh.tipp"));
 }
 
-TYPED_TEST(OutOfCoreWhole, IsRefusedWhereAFileOfItsMeshIsMissing)
+TYPED_TEST(OutOfCoreWhole, IsRefusedIfAFileIsMissing)
 {
   fs::remove(this->Part + "/mesh.tipp/pieces/000003.vtu");
   this->Options.Resume = true;
   expectIOError(this->Part + "/mesh.tipp", "is damaged", [this] { this->run(); });
 }
 
-TYPED_TEST(OutOfCoreWhole, IsRefusedWhereAnyOfItsFilesHasChanged)
+TYPED_TEST(OutOfCoreWhole, IsRefusedIfAFileHasChanged)
 {
   this->Options.Resume = true;
   const std::string mesh = this->Part + "/mesh.tipp/";
@@ -114,7 +114,7 @@ TYPED_TEST(OutOfCoreWhole, IsRefusedWhereAnyOfItsFilesHasChanged)
   EXPECT_TRUE(this->Expected == this->files());
 }
 
-TYPED_TEST(OutOfCoreWhole, IsLeftAloneWhereItTookAnotherMeshsPlace)
+TYPED_TEST(OutOfCoreWhole, IsKeptAfterItReplacedAnotherMesh)
 {
   this->publish();
   fs::remove_all(this->Part + "/mesh.tipp");
@@ -127,7 +127,7 @@ TYPED_TEST(OutOfCoreWhole, IsLeftAloneWhereItTookAnotherMeshsPlace)
   EXPECT_TRUE(this->Expected == this->files());
 }
 
-TYPED_TEST(OutOfCoreWhole, GivesWayToAnotherInputOnceItIsInPlace)
+TYPED_TEST(OutOfCoreWhole, MayBeReplacedByAnotherInputOnceRenamed)
 {
   this->publish();
   this->makePoints("uniform", 1000, 2);

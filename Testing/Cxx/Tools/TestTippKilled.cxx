@@ -28,24 +28,25 @@ protected:
   }
 };
 
-TEST_F(TippKilledTwentyTimes, EndsWithTheSameTriangles)
+TEST_F(TippKilledTwentyTimes, MakesTheSameTriangles)
 {
   this->makePoints("coast", "60000");
   this->expectTheSameBytes();
 }
 
-TEST_F(TippKilledTwentyTimes, EndsWithTheSameTetrahedra)
+TEST_F(TippKilledTwentyTimes, MakesTheSameTetrahedra)
 {
   this->Command = "delaunay3d";
   this->Points = "uniform:30000";
   this->expectTheSameBytes();
 }
 
-/// Kills runs before each call in turn that renames or removes something, and resumes them.
+/// Kills runs before the first call that renames or removes something, then before the second, and
+/// so on, and resumes each.
 class TippKilledAtACall : public TippOutOfCore
 {
 protected:
-  /// Calls check() after each resumed run.
+  /// Calls prepare() before each killed run, and check() after each resumed one.
   template <typename Prepare, typename Check>
   void killAtEachCall(
     const std::vector<std::string>& more, const Prepare& prepare, const Check& check) const
@@ -92,7 +93,7 @@ protected:
   }
 };
 
-TEST_F(TippKilledAtACall, LeavesNothingInTheMeshNorBesideIt)
+TEST_F(TippKilledAtACall, LeavesNoOtherFiles)
 {
   this->makePoints("coast", "20000");
   this->expectNothingLeft();
@@ -105,7 +106,7 @@ TEST_F(TippKilledAtACall, LeavesNothingOfTetrahedra)
   this->expectNothingLeft();
 }
 
-TEST_F(TippKilledAtACall, ReplacesAnOlderMeshOrLeavesIt)
+TEST_F(TippKilledAtACall, ReplacesAnOlderMeshOrKeepsIt)
 {
   this->makePoints("uniform", "100");
   ASSERT_EQ(0, this->run({}).ExitCode);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `tipp delaunay` with a partitioned mesh for output.
+// The command 'tipp delaunay' with a partitioned mesh as output.
 #include "TippOutOfCore.h"
 
 #include "vtkTIPPOutOfCoreDelaunay2D.h"
@@ -50,7 +50,7 @@ TEST_F(TippOutOfCore, ChecksTheNeighborsThatAMeshNames)
   const Outcome refused =
     runTipp(this->Folder, { "delaunay", this->Points, "-o", ids, "--neighbors" });
   EXPECT_EQ(2, refused.ExitCode);
-  EXPECT_NE(std::string::npos, refused.Err.find("--neighbors: needs an output of cells"))
+  EXPECT_NE(std::string::npos, refused.Err.find("--neighbors: needs an output named"))
     << refused.Err;
 }
 
@@ -92,7 +92,7 @@ TEST_F(TippOutOfCore, ResumesAfterInterrupt)
   EXPECT_EQ(0, runTipp(this->Folder, { "check", this->Points, this->Mesh }).ExitCode);
 }
 
-TEST_F(TippOutOfCore, MakesPiecesAgainThatAreDamagedBeforeItIsResumed)
+TEST_F(TippOutOfCore, RemakesPiecesThatAreDamagedBeforeItIsResumed)
 {
   this->makePoints("uniform", "100000");
   ASSERT_EQ(0, this->run({}).ExitCode);
@@ -114,7 +114,7 @@ TEST_F(TippOutOfCore, MakesPiecesAgainThatAreDamagedBeforeItIsResumed)
   EXPECT_TRUE(expected == filesOf(this->Mesh));
 }
 
-TEST_F(TippOutOfCore, CheckNamesTheFileOfAMeshThatIsDamaged)
+TEST_F(TippOutOfCore, CheckReportsTheDamagedFile)
 {
   this->makePoints("clustered", "10000");
   ASSERT_EQ(0, this->run({ "--neighbors" }).ExitCode);
@@ -130,11 +130,11 @@ TEST_F(TippOutOfCore, CheckNamesTheFileOfAMeshThatIsDamaged)
   }
 }
 
-TEST_F(TippOutOfCore, GoesOnAfterADiskThatIsFull)
+TEST_F(TippOutOfCore, ResumesAfterAFullDisk)
 {
   this->makePoints("uniform", "50000");
-  // A limit on the size of files stands for a full disk: first for the spilled points, then for
-  // pieces.
+  // A limit on the size of files simulates a full disk: first while points are spilled, then while
+  // pieces are written.
   for (const rlim_t most : { 100000, 1300000 })
   {
     rlimit before{};
@@ -154,12 +154,12 @@ TEST_F(TippOutOfCore, GoesOnAfterADiskThatIsFull)
   }
 }
 
-/// Points for which partitions do not pay: nearly all of them are on the rim, most of which is in a
-/// file.
+/// Points for which partitions do not pay: nearly all points are sent between pieces, mostly
+/// through a file.
 class TippLargeRim : public TippOutOfCore
 {
 protected:
-  /// y as it comes from x, which is -1 to 1.
+  /// Makes points (x, curve(x)) with x from -1 to 1.
   template <typename Curve>
   void makeCurve(int count, const Curve& curve)
   {
@@ -175,7 +175,7 @@ protected:
     }
   }
 
-  /// What Documentation/OutOfCore.md says of two threads.
+  /// Expects the memory bound that Documentation/OutOfCore.md gives for two threads.
   void expectSmall(double count) const
   {
     const Outcome made = this->run({ "--stats", this->Folder.path("run.json") });
@@ -183,7 +183,7 @@ protected:
     const auto json = nlohmann::json::parse(contentOf(this->Folder.path("run.json")));
     EXPECT_EQ(count, json["points"].get<double>());
     EXPECT_GT(json["boundary_bytes"], 0);
-    const double onTop = this->peakOfSmallRun() + 30e6; // for what two threads' kernels keep
+    const double onTop = this->peakOfSmallRun() + 30e6; // memory that two threads' kernels keep
     constexpr double perPoint = 300;
     EXPECT_LT(json["peak_memory_bytes"].get<double>(), 2 * 0x1p20 + onTop + perPoint * count);
     EXPECT_EQ(0, runTipp(this->Folder, { "check", this->Points, this->Mesh }).ExitCode);
@@ -209,7 +209,7 @@ TEST_F(TippLargeRim, OfALineAndAPointTakesLittleMemory)
   this->expectSmall(60000);
 }
 
-TEST_F(TippLargeRim, IsMadeAgainAfterKills)
+TEST_F(TippLargeRim, IsRemadeAfterKills)
 {
   this->makePoints("circle", "30000");
   ASSERT_EQ(0, this->run({}).ExitCode);
@@ -222,7 +222,7 @@ TEST_F(TippLargeRim, IsMadeAgainAfterKills)
   EXPECT_FALSE(std::filesystem::exists(this->Folder.path(".mesh.tipp.part")));
 }
 
-TEST_F(TippLargeRim, GoesOnAfterADiskThatIsFull)
+TEST_F(TippLargeRim, ResumesAfterAFullDisk)
 {
   this->makePoints("circle", "30000");
   const std::string scratch = this->Folder.path("scratch");
@@ -241,13 +241,13 @@ TEST_F(TippLargeRim, GoesOnAfterADiskThatIsFull)
   EXPECT_NE(std::string::npos, resumed.Out.find("30000 points")) << resumed.Out;
 }
 
-/// What Documentation/OutOfCore.md says of two threads.
+/// Expects the memory bound that Documentation/OutOfCore.md gives for two threads.
 class TippMemory : public TippOutOfCore
 {
 protected:
   void expectKept(const std::string& points, const std::string& sink, int limit) const
   {
-    const double onTop = this->peakOfSmallRun() + 30e6; // for what two threads' kernels keep
+    const double onTop = this->peakOfSmallRun() + 30e6; // memory that two threads' kernels keep
     const std::string report = this->Folder.path("run.json");
     const Outcome made = runTipp(this->Folder,
       { "delaunay", "uniform:" + points, "-o", this->Mesh, "--sink", sink, "--threads", "2",
@@ -269,7 +269,7 @@ TEST_F(TippMemory, IsWithinTheLimitForTwentyMillionPoints)
   this->expectKept("20000000", "count", 64);
 }
 
-TEST_F(TippOutOfCore, TellsTheTimeLeftOnATerminal)
+TEST_F(TippOutOfCore, ShowsTheTimeLeftOnATerminal)
 {
   const Outcome outcome = runTippOnTerminal(this->Folder,
     { "delaunay", "uniform:5000000", "-o", this->Mesh, "--sink", "count", "--threads", "1",
@@ -278,7 +278,7 @@ TEST_F(TippOutOfCore, TellsTheTimeLeftOnATerminal)
   EXPECT_NE(std::string::npos, outcome.Err.find(" s left")) << outcome.Err;
 }
 
-TEST_F(TippOutOfCore, NamesOptionsThatNeedSuchAnOutput)
+TEST_F(TippOutOfCore, ReportsOptionsThatNeedAPartitionedOutput)
 {
   this->makePoints("uniform", "100");
   for (const std::vector<std::string>& more :

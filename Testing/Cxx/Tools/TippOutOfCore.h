@@ -45,11 +45,11 @@ protected:
     return { this->Command, this->Points, "-o", this->Mesh, "--memory", "2M", "--threads", "2" };
   }
 
-  /// Of the hidden folder beside the mesh.
+  /// The number of files in the work folder, which is hidden beside the mesh.
   std::size_t workFiles() const
   {
     const std::string work = this->Folder.path(".mesh.tipp.part");
-    std::error_code ignored; // files come and go
+    std::error_code ignored; // files may disappear meanwhile
     std::size_t count = 0;
     for (std::filesystem::recursive_directory_iterator at(work, ignored), end; at != end;
          at.increment(ignored))
@@ -59,7 +59,7 @@ protected:
     return count;
   }
 
-  /// What the process takes by itself; it depends on VTK's libraries.
+  /// The peak memory of a run with four points. It depends on VTK's libraries.
   double peakOfSmallRun() const
   {
     const std::string points = this->Folder.path("few.csv");
@@ -71,8 +71,8 @@ protected:
     return nlohmann::json::parse(contentOf(stats))["peak_memory_bytes"].get<double>();
   }
 
-  /// Runs and resumes, each killed when it has made a few files more, until one comes to its end.
-  /// Returns the number of those killed.
+  /// Starts and resumes runs, and kills each after it has made a few more files, until a run
+  /// finishes. Returns the number of killed runs.
   int killUntilDone(std::vector<std::string> more, std::mt19937& random) const
   {
     std::vector<std::string> arguments = this->command();
