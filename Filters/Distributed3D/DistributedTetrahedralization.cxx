@@ -3,7 +3,7 @@
 
 #include "Distributed3D/RankRun3.h"
 #include "Distributed3D/ShareInitialPoints3.h"
-#include "Kernel3D/DelaunayKernel3.h"
+#include "Distributed3D/WholeTriangulation3.h"
 #include "Parallel/ParallelFor.h"
 #include "Triangulation3D/InitialMesh3.h"
 #include "Triangulation3D/OrderCells.h"
@@ -273,7 +273,21 @@ private:
     this->Figures.Partitions = 0;
     if (this->Ranks.isFirst())
     {
-      this->triangulateAll(points, duplicates);
+      const ProcessorWatch watch;
+      WholeTriangulation3 whole(points, this->Options, this->Threads);
+      if (whole.Aborted)
+      {
+        throw RankFailure(this->Ranks.rank(), true, "The run was stopped.");
+      }
+      this->Kept = std::move(whole.Cells);
+      for (const Duplicate& duplicate : whole.Duplicates)
+      {
+        duplicates[ownerOf(duplicate.Point, this->Result.FirstIds)].push_back(duplicate);
+      }
+      this->Result.Dimension = whole.Dimension;
+      this->Figures.Partitions = 1;
+      this->Figures.WorkerVertices = std::int64_t(points.size());
+      this->Figures.ComputeSeconds += watch.seconds();
     }
     this->Duplicates.clear();
     for (const std::vector<Duplicate>& part : this->Ranks.allToAll(duplicates))
@@ -282,42 +296,6 @@ private:
     }
     this->Result.Dimension = this->Ranks.broadcast(this->Result.Dimension);
     this->Result.Statistics.Partitions = 1;
-  }
-
-  /// The points' indices are internal ids.
-  void triangulateAll(const Buffer<Point3>& points, std::vector<std::vector<Duplicate>>& duplicates)
-  {
-    const ProcessorWatch watch;
-    const auto& progress = this->Options.Progress;
-    DelaunayKernel3 kernel;
-    const bool isDone = kernel.triangulate(
-      points.data(), points.size(),
-      [&](std::size_t inserted)
-      { return !progress || progress(double(inserted) / double(points.size())); },
-      this->Threads);
-    if (!isDone)
-    {
-      throw RankFailure(this->Ranks.rank(), true, "The run was stopped.");
-    }
-    kernel.forEach(
-      [&](DelaunayKernel3::Index cell)
-      {
-        if (!kernel.isInfinite(cell))
-        {
-          const auto [a, b, c, d] = kernel.corners(cell);
-          this->Kept.push_back({ kernel.pointIndex(a), kernel.pointIndex(b), kernel.pointIndex(c),
-            kernel.pointIndex(d) });
-        }
-      });
-    for (const DelaunayKernel3::Duplicate& duplicate : kernel.duplicates())
-    {
-      duplicates[ownerOf(duplicate.Point, this->Result.FirstIds)].push_back(
-        { duplicate.Point, kernel.pointIndex(duplicate.Vertex) });
-    }
-    this->Result.Dimension = kernel.dimension();
-    this->Figures.Partitions = 1;
-    this->Figures.WorkerVertices = std::int64_t(points.size());
-    this->Figures.ComputeSeconds += watch.seconds();
   }
 
   /// Vertices that came from another partition may bear the id of a duplicate: only those of the
@@ -364,7 +342,7 @@ private:
     }
   }
 
-  /// Brings each tetrahedron to its owner, and the points that it needs.
+  /// Brings each cell to its owner, and the points that it needs.
   void collect()
   {
     this->useRepresentatives();
@@ -395,8 +373,9 @@ private:
     mine.Foreign =
       fetchPoints(this->Ranks, mine.ForeignIds, mine.FirstIds, mine.Owned, mine.RowSize);
     this->Ranks.flush(); // what others wait for
-    mine.Ids =
-      orderCells(std::move(this->Inside), mine.Owned.size() + mine.Foreign.size(), this->Threads);
+    mine.Ids = mine.cellSize() == 3
+      ? orderTriangles(this->Inside.back())
+      : orderCells(std::move(this->Inside), mine.Owned.size() + mine.Foreign.size(), this->Threads);
     if (this->Factor != 1)
     {
       this->restore(mine.Owned.Positions);
@@ -424,7 +403,7 @@ private:
     this->Ranks.sum(sums);
     mine.AllDuplicates = sums[0];
     mine.AllRejected = sums[1];
-    this->Figures.Triangles = std::int64_t(mine.cellCount());
+    this->Figures.Triangles = mine.cellSize() == 3 ? 0 : std::int64_t(mine.cellCount());
     this->Figures.SendSeconds = this->Ranks.sendingSeconds();
     const std::int64_t partitions = mine.Statistics.Partitions;
     mine.Statistics = gatherStatistics(this->Ranks, this->Figures, {});
@@ -442,7 +421,6 @@ private:
   int Partitions = 0;            ///< asked for; 0: chosen
   PartitionGroups Groups;
   std::unique_ptr<Tiling3> Tiling;
-  std::vector<char> IsUsed;                 ///< by partition: whether it has points
   std::vector<std::int64_t> InitialIds;     ///< internal ids of all initial points; ascending
   std::vector<std::vector<CellIds>> Inside; ///< tetrahedra by indices of this rank's points
   std::vector<IdCell<4>> Kept;              ///< others, by internal ids

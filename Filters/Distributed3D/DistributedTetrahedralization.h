@@ -18,6 +18,7 @@
 namespace tipp
 {
 
+/// Triangles have their last corner twice.
 using GhostTetrahedra = GhostCells<4, Point3>;
 
 /// A rank's part of a triangulation in space. Corners are local indices: of Owned, the rank's own
@@ -26,11 +27,12 @@ using GhostTetrahedra = GhostCells<4, Point3>;
 ///
 /// A tetrahedron is on the rank that owns its vertex of lowest internal id. Tetrahedra are in the
 /// order of Tetrahedralization, but by local indices. So a part is the same for any threads and
-/// partitions.
+/// partitions. Coplanar points have triangles instead, those of triangulateCoplanar().
 struct DistributedTetrahedralization
 {
-  Buffer<std::int32_t> Ids; ///< four local indices each, so that orientation3() is positive
-  PointTuples3 Owned;       ///< includes points without tetrahedra on this rank
+  /// Local indices, cellSize() for each cell; orientation3() of a tetrahedron's is positive.
+  Buffer<std::int32_t> Ids;
+  PointTuples3 Owned; ///< includes points without tetrahedra on this rank
   PointTuples3 Foreign;
   std::size_t RowSize = 0;
   std::vector<std::int64_t> ForeignIds; ///< internal ids of Foreign; ascending
@@ -47,9 +49,11 @@ struct DistributedTetrahedralization
   std::int64_t AllRejected = 0;
   DistributedStatistics Statistics;
 
-  std::size_t cellCount() const { return this->Ids.size() / 4; }
+  /// Corners of a cell.
+  std::size_t cellSize() const { return this->Dimension == 2 ? 3 : 4; }
+  std::size_t cellCount() const { return this->Ids.size() / this->cellSize(); }
 
-  /// Calls visit(local index) for the corners of all tetrahedra.
+  /// Calls visit(local index) for the corners of all cells.
   template <typename Visit>
   void forEachCorner(const Visit& visit) const
   {
@@ -74,9 +78,10 @@ VTKTIPPFILTERS_EXPORT DistributedTetrahedralization gatherOnFirst(
 
 /// Returns all ranks' tetrahedra, duplicates and rejected points on the first rank, as
 /// tetrahedralize() does for points in the order of global ids, which must be 0, 1, ...; an empty
-/// triangulation on the others. Collective.
-VTKTIPPFILTERS_EXPORT Tetrahedralization gatherTetrahedra(
-  Communicator& ranks, const DistributedTetrahedralization& mine, int threads);
+/// triangulation on the others. `triangles`: those of coplanar points, as of triangulateCoplanar().
+/// Collective.
+VTKTIPPFILTERS_EXPORT Tetrahedralization gatherTetrahedra(Communicator& ranks,
+  const DistributedTetrahedralization& mine, int threads, Triangulation& triangles);
 
 } // namespace tipp
 

@@ -46,6 +46,10 @@ PathState requireWritable(const Delaunay3DArguments& arguments);
 bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
   const Tetrahedralization& mesh, const PathState& before);
 
+/// The same of coplanar points' triangles.
+bool writeTriangles(const Delaunay3DArguments& arguments, PointTable&& table,
+  const Tetrahedralization& mesh, const Triangulation& triangles, const PathState& before);
+
 /// Writes the file of statistics, if one is wanted, with `figures` of the run, and prints the
 /// summary; `ranks` ends it.
 void report(const Delaunay3DArguments& arguments, const Tetrahedralization& mesh,
