@@ -33,7 +33,7 @@ Box3 boxOf(const Box2& box)
 
 } // namespace
 
-/// The pieces that the triangle meets, by their numbers in the mesh, ascending.
+/// Finds the pieces that the triangle meets, as indices in the mesh, ascending.
 void BorderSorter::findMet(const BoundaryTriangle& triangle)
 {
   const Point2 a = triangle[0].Position;

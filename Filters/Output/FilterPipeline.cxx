@@ -88,7 +88,8 @@ int CollectivePipeline::ForwardUpstream(vtkInformation* request)
   const int own = this->Superclass::ForwardUpstream(request);
   vtkMultiProcessController* ranks =
     this->GetAlgorithm() && this->Controller ? this->Controller() : nullptr;
-  // A rank that fails before the data request will not reach this point again; the others will.
+  // A rank that fails before the data request does not reach this point in the data request; the
+  // others do.
   if (!ranks || ranks->GetNumberOfProcesses() < 2 || (own && !request->Has(REQUEST_DATA())))
   {
     return own;

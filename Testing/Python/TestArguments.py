@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every argument of every public function, given what it does not take: one sentence that names it."""
+"""Every argument of every public function gets invalid values: the error must be one sentence that names it."""
 import importlib.util
 import inspect
 import os
@@ -16,7 +16,7 @@ import tipp
 NAN, INF = float("nan"), float("inf")
 POINTS = np.random.default_rng(2).random((40, 2))
 
-# For each kind of argument what is of a wrong type, and what is of a right type and a wrong value.
+# For each kind of argument: values of a wrong type, and wrong values of a right type.
 NUMBER = ([None, "1", [1], {}, True, 1j], [NAN, INF, -INF, 10**400])
 IS_WHEEL = importlib.util.find_spec("tipp._core") is not None
 LENGTH = (NUMBER[0], NUMBER[1] + [-1])
@@ -32,7 +32,7 @@ DATA = ([None, "text", 3, {}, [], np.zeros((3, 3)), vtkTable(), vtkPolyData], []
 
 
 def several(wrong_types, wrong_values, good, count, fewer=None):
-    """A sequence of wrong length, and with one wrong value."""
+    """A sequence of wrong length, and one with a wrong value."""
     fewer = count - 1 if fewer is None else fewer
     types = [3, 1.5, True, "abc"[:count], {1: 2}, {1, 2}] + [[good] * (count - 1) + [w] for w in wrong_types]
     values = [[], [good] * fewer, [good] * (count + 1)] + [[w] + [good] * (count - 1) for w in wrong_values]
@@ -110,7 +110,7 @@ class Arguments(unittest.TestCase):
         self.output = os.path.join(self.folder.name, "out.tipp")
 
     def good(self, function):
-        """The arguments that a function needs."""
+        """The arguments that a function requires."""
         return {
             "delaunay": {"points": POINTS}, "delaunay_2d": {"points": POINTS},
             "delaunay_3d": {"points": np.c_[POINTS, POINTS[:, 0] * POINTS[:, 1]]},
@@ -129,7 +129,7 @@ class Arguments(unittest.TestCase):
     def test_wrong_types_and_values_are_refused_in_one_sentence_that_names_the_argument(self):
         for function, arguments in TABLE.items():
             if IS_WHEEL and function == "delaunay_3d":
-                continue  # it refuses all
+                continue  # no argument of this function can be valid
             for argument, (types, values) in arguments.items():
                 default = inspect.signature(getattr(tipp, function)).parameters[argument].default
                 wrong = [(TypeError, value) for value in types if value is not None or default is not None]
@@ -169,7 +169,7 @@ class Arguments(unittest.TestCase):
 
 
 class Messages(unittest.TestCase):
-    """What VTK says as an error is the exception's one sentence."""
+    """Errors of VTK become exceptions of one sentence."""
 
     @unittest.skipIf(IS_WHEEL, "the wheel takes no sentences from VTK")
     def test_places_in_the_source_and_addresses_are_left_out(self):
@@ -202,7 +202,7 @@ class Messages(unittest.TestCase):
 
 
 class Limits(unittest.TestCase):
-    """What is too large is an exception, and Python goes on."""
+    """Requests that are too large become exceptions, and Python continues."""
 
     def run_python(self, program):
         program = "import numpy as np, tipp\np = np.random.default_rng(1).random((3000, 2))\n" + program

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arrays of every type and layout: taken with their values, or refused in one sentence."""
+"""Arrays of every type and layout are used with their values, or refused in one sentence."""
 import os
 import tempfile
 import unittest
@@ -17,13 +17,13 @@ def random_points(columns=3):
 
 
 def stored(values):
-    """The values of a point array as the mesh has them."""
+    """The values of a point array in the mesh."""
     mesh = tipp.delaunay_2d(random_points(), point_data={"v": values})
     return tipp.as_array(mesh, "v")
 
 
 def coordinates(points):
-    """The coordinates as the mesh has them."""
+    """The coordinates in the mesh."""
     return vtk_to_numpy(tipp.delaunay_2d(points).GetPoints().GetData())
 
 

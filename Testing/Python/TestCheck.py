@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tipp.check finds no fault in what is correct, and every fault that is put in."""
+"""tipp.check finds no error in correct meshes, and finds each error that a test inserts."""
 import unittest
 
 import numpy as np
@@ -161,7 +161,7 @@ def _points(mesh):
 
 
 def _cells(mesh):
-    """Lines and triangles."""
+    """Constraints: lines and triangles."""
     if isinstance(mesh, tipp.Mesh):
         return mesh.lines, mesh.cells
     from vtkmodules.util.numpy_support import vtk_to_numpy

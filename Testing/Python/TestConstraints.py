@@ -8,7 +8,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import tipp
 
-# A square, and in it a smaller one with a point in the middle.
+# A square, and inside it a smaller square with a point in the middle.
 SQUARES = np.array([[0, 0], [8, 0], [8, 8], [0, 8], [3, 3], [5, 3], [5, 5], [3, 5], [4, 4.25]], float)
 INNER = [4, 5, 6, 7]
 

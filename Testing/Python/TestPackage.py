@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The functions of the package tipp, on NumPy arrays."""
+"""The functions of the package tipp on NumPy arrays."""
 import inspect
 import os
 import pathlib
@@ -37,7 +37,7 @@ def public():
 
 
 def memory_of(kind):
-    """Bytes of this process, by a name of Linux's."""
+    """Bytes of memory of this process, by the name that Linux gives the figure."""
     with open("/proc/self/status", encoding="ascii") as file:
         return next(int(line.split()[1]) * 1024 for line in file if line.startswith(kind + ":"))
 
@@ -87,7 +87,7 @@ class Delaunay(unittest.TestCase):
         p = random_points(2_000_000, 2)
         once = len(p) * 24
         with open("/proc/self/clear_refs", "w", encoding="ascii") as file:
-            file.write("5")  # the peak counts from here
+            file.write("5")  # resets the peak
         before = memory_of("VmRSS")
         points = tipp._vtk.vtk_points(p)
         self.assertLess(memory_of("VmHWM") - before, 1.2 * once)
@@ -392,7 +392,7 @@ class Package(unittest.TestCase):
             return subprocess.run([sys.executable, "-c", textwrap.dedent(program)], text=True, check=True,
                                   env={**os.environ, "PYTHONPATH": path}, capture_output=True).stdout.strip()
 
-    # What PyVista gives packages like this one to register with, before and since version 0.48.
+    # The functions with which packages like this one register in PyVista, before and since version 0.48.
     OLD = """
         class DataObject: pass
         class DataSet(DataObject): pass

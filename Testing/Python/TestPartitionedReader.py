@@ -11,7 +11,7 @@ from tipp import vtkPartitionedUnstructuredReader
 
 
 def write_flat(folder, n=20):
-    """A lattice of triangles, its points in random order, in the three lines of the documentation."""
+    """Writes a lattice of triangles with points in random order, by the three lines in the documentation."""
     x, y = np.meshgrid(np.arange(n), np.arange(n))
     number = np.random.default_rng(1).permutation(n * n).reshape(n, n)
     points = np.empty((n * n, 2))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""vtkTIPPPointsToImage as Python programs use it: of a package built with VTK, and of the wheel."""
+"""vtkTIPPPointsToImage as Python programs use it, from a package built with VTK and from the wheel."""
 import unittest
 
 import numpy as np

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tipp.open: meshes that answer queries."""
+"""tipp.open, which returns meshes for queries."""
 import importlib.util
 import pathlib
 import tempfile
@@ -119,7 +119,7 @@ class Query(unittest.TestCase):
             np.testing.assert_array_equal(ours.distances == 0, inside)
             apart = np.hypot(*(ours.points[:, :2] - self.asked).T)
             np.testing.assert_allclose(apart, ours.distances, atol=1e-12)
-            # No point of the border is nearer.
+            # No point of the border may be nearer.
             border = self.points[mesh.boundary()[0]]
             for point, distance in zip(self.asked[~inside], ours.distances[~inside]):
                 self.assertLessEqual(distance, np.hypot(*(border - point).T).min() + 1e-12)
@@ -159,7 +159,8 @@ class Query(unittest.TestCase):
             np.testing.assert_allclose(zones.minimum[:2], [0.2 - 1.4] * 2, atol=1e-12)
             np.testing.assert_allclose(zones.maximum[:2], [0.8 - 0.4] * 2, atol=1e-12)
             np.testing.assert_allclose(zones.mean[:2], zones.integral[:2] / zones.area[:2])
-            # Above -0.2 is what lies right of the line from (0.2, 0.2) to (0.8, 0.5): a triangle, 0.6 high at the end.
+            # The plane is above -0.2 to the right of the line from (0.2, 0.2) to (0.8, 0.5): in a triangle that is 0.6
+            # high at its end.
             self.assertAlmostEqual(zones.volume_above[0], 0.6 * 0.3 / 2 * 0.2)
             self.assertTrue(np.isnan(zones.mean[2]))
             self.assertEqual(zones.cells[2], 0)
@@ -284,7 +285,7 @@ class Query(unittest.TestCase):
         query.SetSourceConnection(shrink.GetOutputPort())
         cells, sizes = vtkIdTypeArray(), vtkIdTypeArray()
         self.assertEqual(query.Components(cells, sizes), 1)
-        self.assertEqual(sizes.GetNumberOfValues(), self.mesh.GetNumberOfCells())  # each cell by itself
+        self.assertEqual(sizes.GetNumberOfValues(), self.mesh.GetNumberOfCells())  # no two cells are connected
 
     def test_contours_of_a_plane_are_straight(self):
         with tipp.open(self.path) as mesh, tipp.open(self.mesh) as whole:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The benchmark of use cases runs without scipy and gdal, and says so.
+"""The benchmark of use cases must run without scipy and gdal, and report that they are missing.
 
 Usage: TestUseCases.py PROGRAM TIPP [unittest's options]
 """
@@ -24,7 +24,7 @@ specification.loader.exec_module(use_cases)
 
 
 def lines_of_input(name, path, width):
-    """What the benchmark prints where no peer is installed."""
+    """The output of the benchmark if no peer is installed."""
     printed = io.StringIO()
     with mock.patch.object(sys, "argv", [PROGRAM, TOOL, f"{name}={path}:{width}"]), \
             mock.patch("importlib.util.find_spec", return_value=None), \

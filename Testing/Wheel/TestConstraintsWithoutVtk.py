@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Constraints and rasters of the wheel in an environment with NumPy alone."""
+"""Constraints and rasters of the wheel, in an environment with only NumPy."""
 import importlib.util
 import os
 import tempfile
@@ -10,7 +10,7 @@ import numpy as np
 
 import tipp
 
-# A square, and in it a smaller one with a point in the middle.
+# A square, and inside it a smaller square with a point in the middle.
 SQUARES = np.array([[0, 0], [8, 0], [8, 8], [0, 8], [3, 3], [5, 3], [5, 5], [3, 5], [4, 4.25]], float)
 INNER = [4, 5, 6, 7]
 
@@ -156,7 +156,7 @@ class Rasters(unittest.TestCase):
 
 
 def exact_height(corners, x, y):
-    """The plane through three points, in rational numbers, if they contain (x, y)."""
+    """The height at (x, y) of the plane through three points, in rational numbers; None outside their triangle."""
     (ax, ay, az), (bx, by, bz), (cx, cy, cz) = [[Fraction(float(v)) for v in p] for p in corners]
     x, y = Fraction(x), Fraction(y)
     whole = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)

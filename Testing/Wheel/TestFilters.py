@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The wheel's VTK filters in pipelines of the VTK that is installed."""
+"""The wheel's VTK filters in pipelines of the installed VTK."""
 import os
 import tempfile
 import unittest

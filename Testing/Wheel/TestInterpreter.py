@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The wheel as a guest of Python: threads, forks, layouts of arrays, memory, progress, Ctrl-C, help."""
+"""The wheel inside Python: threads, forks, layouts of arrays, memory, progress, Ctrl-C, help."""
 import multiprocessing
 import os
 import pickle
@@ -25,7 +25,7 @@ def canonical(triangles):
 
 
 def resident():
-    """Bytes of this process in memory."""
+    """The resident memory of this process in bytes."""
     with open("/proc/self/statm", encoding="ascii") as file:
         return int(file.read().split()[1]) * resource.getpagesize()
 
@@ -75,7 +75,7 @@ class Interpreter(unittest.TestCase):
         expected = len(tipp.delaunay(points))
         context = multiprocessing.get_context("fork")
         queue = context.Queue()
-        # With one thread: GNU's OpenMP library cannot start threads in a child of a process that had some.
+        # With one thread, since GNU's OpenMP library cannot start threads in the child of a process that has used some.
         child = context.Process(target=lambda: queue.put(len(tipp.delaunay(points, threads=1))))
         child.start()
         self.assertEqual(expected, queue.get(timeout=60))

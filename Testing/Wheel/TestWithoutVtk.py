@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The wheel in an environment with NumPy alone."""
+"""The wheel in an environment with only NumPy."""
 import importlib.util
 import pathlib
 import tempfile

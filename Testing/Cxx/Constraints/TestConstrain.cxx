@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Many constraints among many points, beside CGAL's constrained triangulation.
+// Many constraints among many points, compared with CGAL's constrained triangulation.
 #include "Comparison.h"
 #include "ConstrainedOracle.h"
 
@@ -16,7 +16,8 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// Segments that do not cross: edges and longer ones of triangulations of every `step`-th point.
+/// Returns each `every`-th edge of the Delaunay triangulation of each `step`-th point. These
+/// segments do not cross, and many are long.
 std::vector<Constraint> sparseEdges(const Coordinates& xy, std::size_t step, std::size_t every)
 {
   Ids ids;
@@ -115,7 +116,7 @@ TEST(Constrain, TakesLongSegmentsAcrossEverything)
     xy, constraints, triangulateConstrained(view(xy), constraints, CrossingRule::Split, options)));
 }
 
-/// Triangles are left out when the constraints are in, and not before.
+/// Long triangles are removed after the constraints have been inserted, not before.
 TEST(Constrain, LeavesOutLongTrianglesAtTheEnd)
 {
   Coordinates xy = makePointSet("uniform", 2000);
@@ -141,7 +142,7 @@ TEST(Constrain, LeavesOutLongTrianglesAtTheEnd)
   EXPECT_TRUE(sameTriangles(xy, trianglesOf(some), expected));
 }
 
-/// The same bytes, not only the same triangles.
+/// The ids must be equal byte for byte, including the order of triangles.
 TEST(Constrain, OrdersTrianglesTheSameForAllThreads)
 {
   const Coordinates xy = makePointSet("clustered", 20000);
@@ -161,7 +162,7 @@ TEST(Constrain, NestedPolygonsThatTouchAtPoints)
   Coordinates xy = makePointSet("uniform", 4000);
   std::vector<Constraint> constraints;
   const std::int64_t first = 4000;
-  // Squares in each other, each with its corners on the middles of the sides of the one around it.
+  // Nested squares: the corners of each lie at the middles of the sides of the next larger one.
   double corners[4][2] = { { 0.1, 0.1 }, { 0.9, 0.1 }, { 0.9, 0.9 }, { 0.1, 0.9 } };
   for (std::int64_t depth = 0; depth < 6; ++depth)
   {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constraints between few points, each kind by itself.
+// Constraints between a few points; each test is about one kind.
 #include "Comparison.h"
 #include "ConstrainedOracle.h"
 
@@ -106,7 +106,7 @@ TEST(Constrain, RefusesAnIdThatNoPointHas)
   }
 }
 
-/// A star of segments at the first point, across two rings of points.
+/// Segments from the first point to all points of the outer ring, across the inner ring.
 TEST(Constrain, TakesAStarOfAThousandSegments)
 {
   constexpr int rays = 1000;
@@ -127,7 +127,8 @@ TEST(Constrain, TakesAStarOfAThousandSegments)
   EXPECT_TRUE(isConstrained(xy, constraints, run(xy, constraints)));
 }
 
-/// A comb whose long teeth the constraint passes between: edges that stick into its cavity.
+/// The constraint passes between the long teeth of two combs. Edges of the teeth end inside the
+/// cavity.
 TEST(Constrain, TakesEdgesThatStickIntoTheCavity)
 {
   Coordinates xy{ 0, 0, 100, 0 };
@@ -145,7 +146,7 @@ TEST(Constrain, TakesEdgesThatStickIntoTheCavity)
   EXPECT_TRUE(isConstrained(xy, constraints, run(xy, constraints)));
 }
 
-/// Segments along and across the lines of a lattice, through many of its points.
+/// Segments along, across and diagonal to the lines of a lattice, through many of its points.
 TEST(Constrain, TakesSegmentsThroughLatticePoints)
 {
   constexpr int side = 12;

@@ -53,7 +53,7 @@ vtkIdType idAt(vtkDataArray* ids, vtkIdType i)
   return static_cast<vtkIdTypeArray*>(ids)->GetValue(i);
 }
 
-/// This rank's share of the points with an array: the first rank has none if there are others.
+/// This rank's share of the points, with a point array. With several ranks, the first has none.
 vtkSmartPointer<vtkPolyData> shareOf(const std::vector<Point3>& points, bool withIds)
 {
   vtkNew<vtkPoints> own;
@@ -91,7 +91,7 @@ struct PieceCell
   std::int64_t IsGhost;
 };
 
-/// All ranks' cells on the first rank.
+/// Gathers the cells of all ranks on the first rank.
 std::vector<PieceCell> gatherCells(vtkUnstructuredGrid* mesh)
 {
   std::vector<PieceCell> cells;
@@ -145,7 +145,7 @@ void expectWhole(vtkUnstructuredGrid* mesh, const std::vector<Point3>& points)
   }
 }
 
-/// Gives Data, or fails.
+/// A source that outputs `Data`, or fails.
 class FailingSource : public vtkPolyDataAlgorithm
 {
 public:

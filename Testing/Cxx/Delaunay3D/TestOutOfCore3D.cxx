@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tetrahedra out of core: the same as in memory.
+// The out-of-core triangulation in space gives the same tetrahedra as the one in memory.
 #include "PointsInSpace.h"
 #include "RunTipp.h"
 
@@ -32,11 +32,11 @@ using namespace tipp::test;
 struct StoredMesh
 {
   std::vector<Tetrahedron> Cells;              ///< sorted
-  std::map<std::int64_t, std::int64_t> Points; ///< representatives
+  std::map<std::int64_t, std::int64_t> Points; ///< representative of each point
 };
 
-/// Reads all pieces, and expects points with their coordinates and data, tetrahedra of positive
-/// orientation, and consecutive cell ids.
+/// Reads all pieces. Checks that points have their coordinates and data, tetrahedra have positive
+/// orientation, and cell ids are consecutive.
 StoredMesh read(const std::string& path, const std::vector<Point3>& points)
 {
   const PartitionedMesh mesh = openPartitionedMesh(path);
@@ -78,9 +78,9 @@ StoredMesh read(const std::string& path, const std::vector<Point3>& points)
   return stored;
 }
 
-using FourEach = std::vector<std::int64_t>; ///< four values a tetrahedron
+using FourEach = std::vector<std::int64_t>; ///< four values per tetrahedron
 
-/// Four ids a tetrahedron, from a map of all facets.
+/// Four neighbour ids per tetrahedron, computed with a map of all facets.
 FourEach neighborsByFacets(const FourEach& ids)
 {
   std::map<std::array<std::int64_t, 3>, std::vector<std::size_t>> facets;
@@ -108,7 +108,7 @@ FourEach neighborsByFacets(const FourEach& ids)
   return neighbors;
 }
 
-/// The content of all files of a folder, by their names.
+/// The contents of all files in a folder, by relative path.
 std::map<std::string, std::string> filesOf(const std::string& folder)
 {
   std::map<std::string, std::string> files;
@@ -138,7 +138,7 @@ protected:
 
   std::string path(const std::string& name) const { return this->Folder.path(name); }
 
-  /// Expects what tetrahedralize() makes.
+  /// Expects the mesh of tetrahedralize().
   void expectSame(const std::vector<Point3>& points, const std::string& what) const
   {
     const Tetrahedralization mesh = tetrahedralize(points.data(), points.size());
@@ -151,7 +151,7 @@ protected:
     }
   }
 
-  /// The sentence of the error that a run ends with.
+  /// The error message of a run, or an empty string if it succeeds.
   std::string errorOf(const std::vector<Point3>& points, std::uint64_t memory = 1 << 20) const
   {
     try

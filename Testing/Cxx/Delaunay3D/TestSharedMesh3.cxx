@@ -40,7 +40,7 @@ TEST(SharedMesh3, EveryNumberOfThreadsMakesTheSame)
   {
     if (kind == "lines")
     {
-      continue; // of many points it has too many tetrahedra
+      continue; // too many tetrahedra, their number is quadratic
     }
     const auto points = pointsInSpace(kind, kind == "of many sizes" ? 20000 : 60000, 3);
     const Tetrahedralization one = meshOf(points, 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tipp delaunay3d, and tipp check of tetrahedra.
+// The commands 'tipp delaunay3d' and 'tipp check' for tetrahedra.
 #include "PointsInSpace.h"
 #include "RunTipp.h"
 
@@ -31,7 +31,7 @@ protected:
     }
   }
 
-  /// Runs it and expects success.
+  /// Runs the tool and expects success.
   Outcome run(const std::vector<std::string>& words) const
   {
     Outcome outcome = runTipp(this->Folder, words);

@@ -15,7 +15,8 @@ namespace
 class AttemptOnRanks : public testing::Test
 {
 protected:
-  /// How attempt() ends if the first rank's work and the last one's do this.
+  /// The result of attempt() in which the first rank runs `first` and the last rank `last`: the
+  /// error message, "aborted", or an empty string.
   template <typename First, typename Last>
   std::string outcome(const First& first, const Last& last)
   {

@@ -74,7 +74,7 @@ TEST(Communicator, AFailureEndsTheOthersWaiting)
           {
             throw std::runtime_error("no more ink");
           }
-          box.wait(Note, failing); // which never comes
+          box.wait(Note, failing); // a message that is never sent
         });
       FAIL() << "nothing was thrown";
     }
@@ -101,7 +101,7 @@ TEST(Communicator, AFailureLeavesNoLargeMessageBehind)
   }
 }
 
-/// A rank may be well ahead of one that has not heard of the last failure yet.
+/// One rank may start new work while another has not yet received the last failure.
 TEST(Communicator, WorksOnAfterFailures)
 {
   Communicator box(controller());
@@ -117,7 +117,7 @@ TEST(Communicator, WorksOnAfterFailures)
           {
             throw std::runtime_error(std::to_string(run));
           }
-          box.wait(Note, failing); // which never comes
+          box.wait(Note, failing); // a message that is never sent
         });
       FAIL() << "nothing was thrown";
     }
@@ -140,7 +140,7 @@ TEST(Communicator, AFailureMayHaveALongReason)
     {
       throw std::runtime_error(std::string(200'000, 'x'));
     }
-    box.wait(Note, 0); // which never comes
+    box.wait(Note, 0); // a message that is never sent
   };
   try
   {
@@ -198,7 +198,7 @@ TEST(Communicator, TellsWhatWasSentByKind)
   const auto sent = box.traffic().find(Note);
   if (box.size() == 1)
   {
-    EXPECT_EQ(sent, box.traffic().end()); // to oneself costs nothing
+    EXPECT_EQ(sent, box.traffic().end()); // messages of a rank to itself are not counted
   }
   else
   {

@@ -30,7 +30,8 @@ TEST(CommunicatorCollectives, AllToAllGivesEachRankItsOwn)
   box.barrier();
 }
 
-/// A stretch for each other rank, of bytes that tell who sent them, and room between them.
+/// A buffer with a range of bytes for each other rank, and gaps between them. The bytes are the
+/// sender's rank.
 struct InOneMemory
 {
   InOneMemory(const Communicator& box, std::size_t size)
@@ -77,7 +78,7 @@ TEST(CommunicatorCollectives, PartsThatComeWhileARankIsBehindAreNotLost)
   for (int i = 0; box.rank() == 0 && i < 100; ++i)
   {
     Message message;
-    EXPECT_FALSE(box.poll(message)); // what the others have sent is taken in
+    EXPECT_FALSE(box.poll(message)); // receives what other ranks have sent
     box.pause();
   }
   InOneMemory sent(box, size);

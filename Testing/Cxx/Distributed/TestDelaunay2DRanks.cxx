@@ -37,7 +37,8 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// Gives Data, or fails: early, when it is asked what it has, or when it is to give it.
+/// A source that outputs `Data`, or fails: in RequestInformation if `Early`, otherwise in
+/// RequestData.
 class FailingSource : public vtkPolyDataAlgorithm
 {
 public:
@@ -109,7 +110,7 @@ std::vector<PieceCell> cellsOf(vtkPolyData* mesh)
   return cells;
 }
 
-/// All ranks' cells, on rank 0.
+/// Gathers the cells of all ranks on rank 0.
 std::vector<std::vector<PieceCell>> gatherCells(vtkPolyData* mesh)
 {
   Communicator box(vtkMultiProcessController::GetGlobalController());
@@ -174,7 +175,7 @@ TEST(Delaunay2DRanks, PointsKeepTheirDataAndThirdCoordinate)
   filter->Update();
   if (ranks() == 1)
   {
-    return; // the input's own points
+    return; // the output has the input's own points
   }
   vtkPolyData* mesh = filter->GetOutput();
   vtkDataArray* ids = mesh->GetPointData()->GetGlobalIds();
@@ -341,7 +342,7 @@ TEST(Delaunay2DRanks, WhatFailsUpstreamOnOneRankFailsOnAll)
 TEST(CollectivePipeline, IsTheFiltersAndRunsAloneWithoutRanks)
 {
   vtkNew<FailingSource> source;
-  source->Fails = rank() == 0; // of the others nobody waits for it
+  source->Fails = rank() == 0; // other ranks do not wait for rank 0
   source->Data = shareAsData(makePointSet("uniform", 500), true);
   vtkNew<vtkTIPPDelaunay2D> filter;
   auto* const executive = dynamic_cast<CollectivePipeline*>(filter->GetExecutive());

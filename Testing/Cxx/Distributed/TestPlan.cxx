@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the domain is divided, and shared out among ranks.
+// How the domain is divided, and how its leaves are assigned to ranks.
 #include "../Schedule/ScheduleTesting.h"
 
 #include "Distributed/Plan.h"

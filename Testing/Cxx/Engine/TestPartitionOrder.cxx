@@ -11,8 +11,8 @@ using namespace tipp::test;
 
 using Partitions = std::vector<PartitionIndex>;
 
-/// A mesh of made-up triangles that meet these partitions; neighbours: pairs of triangles that have
-/// a common edge.
+/// An artificial mesh: triangle i meets the partitions `met[i]`. `neighbours` lists the pairs of
+/// triangles with a common edge.
 BoundaryTriangles meshOf(const std::vector<Partitions>& met,
   const std::vector<std::pair<std::size_t, std::size_t>>& neighbours)
 {
@@ -33,7 +33,7 @@ PartitionOrder orderOf(std::size_t partitions, const BoundaryTriangles& mesh)
   return PartitionOrder(std::vector<char>(partitions, 1), mesh);
 }
 
-/// A path of four, the middle of which has most conflicts, and one by itself.
+/// Four partitions in a path, whose middle ones have most conflicts, and one without conflicts.
 TEST(ConflictGraph, GivesDifferentColoursToWhatConflicts)
 {
   std::vector<ConflictGraph::Pair> pairs;
@@ -176,7 +176,7 @@ TEST(PartitionOrder, UniformPointsNeedFewColours)
   EXPECT_LE(scene.order().colourCount(), 12U);
 }
 
-/// One set of all partitions: there is no need to list all pairs.
+/// The partitions form one set, so that the conflicting pairs need not be listed.
 TEST(PartitionOrder, IsTotalWhereTooManyPartitionsConflict)
 {
   constexpr PartitionIndex count = 5000;

@@ -46,7 +46,7 @@ TEST(ReadyPartitions, HandOutOwnPartitionsThatAreLoadedAndWhoseEarlierOnesAreDon
   EXPECT_EQ(-1, ready.tryTake());
   ready.setLoaded(second);
   EXPECT_EQ(-1, ready.tryTake());
-  ready.finish(first); // another rank's
+  ready.finish(first); // a partition of another rank
   EXPECT_EQ(second, ready.tryTake());
   EXPECT_EQ(-1, ready.take());
 }
@@ -62,7 +62,7 @@ TEST(ReadyPartitions, OfThoseThatAreReadyTheLongestChainComesFirst)
   ReadyPartitions ready(order, ReadyPartitions::Waits::ForEarlier);
   EXPECT_EQ(0, ready.tryTake());
   ready.finish(0);
-  EXPECT_EQ(1, ready.tryTake()); // before 3, which was ready sooner
+  EXPECT_EQ(1, ready.tryTake()); // before 3, which was ready earlier
   EXPECT_EQ(3, ready.tryTake());
   EXPECT_EQ(-1, ready.tryTake());
 }

@@ -12,7 +12,7 @@ using namespace testing_delaunay;
 namespace
 {
 
-/// Two clumps and a few stray points: an alpha shape of triangles, lines and vertices.
+/// Two clusters and a few isolated points, whose alpha shape has triangles, lines and vertices.
 std::vector<Point> clumps()
 {
   auto points = randomPoints(120);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every input point is accounted for: a vertex, merged into one, or rejected.
+// Every input point is a vertex, merged into another point, or rejected.
 #include "Delaunay2DTesting.h"
 
 #include "vtkIdTypeArray.h"
@@ -138,7 +138,7 @@ TEST(Delaunay2DMerging, InputWithoutPointsObjectMakesAnEmptyOutput)
 
 TEST(Delaunay2DMerging, ToleranceIsAFractionOfTheDiagonal)
 {
-  // The diagonal is 5; 0.02 of it is 0.1.
+  // The diagonal's length is 5, so the tolerance 0.02 is a distance of 0.1.
   const auto input =
     dataset({ { 0, 0, 0 }, { 3, 0, 0 }, { 0, 4, 0 }, { 0.09, 0, 0 }, { 3, 0.11, 0 }, { 3, 4, 0 } });
   vtkNew<vtkTIPPDelaunay2D> delaunay;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What comes out of vtkTIPPDelaunay2D for the kinds of data that go in.
+// The output of vtkTIPPDelaunay2D for different kinds of input.
 #include "Delaunay2DTesting.h"
 
 #include "vtkCellData.h"
@@ -25,7 +25,7 @@ Cells reference(vtkPointSet* input)
   vtkNew<vtkDelaunay2D> delaunay;
   delaunay->SetInputData(input);
   delaunay->SetTolerance(0);
-  delaunay->SetOffset(1000); // or its border is not convex
+  delaunay->SetOffset(1000); // VTK's border is convex only with a large offset
   return trianglesOf(delaunay);
 }
 
@@ -201,7 +201,7 @@ TEST(Delaunay2DOutput, OrderOfThePointsDoesNotMatterOnALattice)
   EXPECT_EQ(forward, renumbered);
 }
 
-/// NeighborArray, by the edges' own account.
+/// The array is compared with VTK's GetCellEdgeNeighbors().
 TEST(Delaunay2DOutput, NeighborsAreTheTrianglesOppositeToEachCorner)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;

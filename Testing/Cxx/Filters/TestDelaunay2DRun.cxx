@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How vtkTIPPDelaunay2D runs in a pipeline: when, how far, how it ends, what it tells.
+// How vtkTIPPDelaunay2D runs in a pipeline: when it executes, its progress, abort, errors and
+// statistics.
 #include "Delaunay2DTesting.h"
 
 #include "vtkDoubleArray.h"
@@ -38,7 +39,7 @@ private:
   void hear() { ++this->Runs; }
 };
 
-/// Notes progress, and asks to stop when it has got so far.
+/// Records progress, and aborts the algorithm once progress reaches `stopAt`.
 class ProgressListener
 {
 public:
@@ -64,7 +65,7 @@ private:
   std::thread::id Owner = std::this_thread::get_id();
 };
 
-/// A transform that fails, as memory may.
+/// A transform that throws, for example because memory is exhausted.
 template <typename Exception>
 class FailingTransform : public vtkTransform
 {
@@ -156,7 +157,7 @@ TEST(Delaunay2DRun, AbortInMidRunLeavesBothOutputsEmpty)
   ProgressListener progress(delaunay, 0.2);
   delaunay->Update();
   EXPECT_GT(progress.Heard.back(), 0.1);
-  // VTK 9.3 and later report 1 after an aborted run, too.
+  // VTK 9.3 and later report progress 1 even after an aborted run.
   EXPECT_TRUE(std::none_of(progress.Heard.begin(), progress.Heard.end(),
     [](double fraction) { return fraction > 0.5 && fraction < 1; }));
   EXPECT_EQ(0, delaunay->GetOutput()->GetNumberOfPoints());
@@ -186,7 +187,7 @@ TEST(Delaunay2DRun, RunAfterAnAbortIsWhole)
     delaunay->RemoveAllObservers();
   }
   ASSERT_EQ(0, delaunay->GetOutput()->GetNumberOfCells());
-  delaunay->SetAbortExecute(0); // VTK 9.3 and later leave that to the caller
+  delaunay->SetAbortExecute(0); // VTK 9.3 and later do not reset it
   delaunay->Modified();
   EXPECT_EQ(expected, trianglesOf(delaunay));
 }

@@ -23,7 +23,7 @@ namespace
 using namespace testing_delaunay;
 using Ids = std::vector<vtkIdType>;
 
-/// Lines and polygons between the input's points.
+/// A source of lines and polygons between points of the input.
 vtkSmartPointer<vtkPolyData> sourceOf(
   const std::vector<Ids>& lines, const std::vector<Ids>& polygons)
 {
@@ -42,7 +42,7 @@ vtkSmartPointer<vtkPolyData> sourceOf(
   return source;
 }
 
-/// A square with its centre and, inside, a smaller square.
+/// A square with a centre point, and a smaller square inside it.
 const std::vector<Point> Squares{ { 0, 0, 0 }, { 8, 0, 0 }, { 8, 8, 8 }, { 0, 8, 8 }, { 3, 3, 0 },
   { 5, 3, 0 }, { 5, 5, 0 }, { 3, 5, 0 }, { 4, 4.25, 0 } };
 
@@ -107,7 +107,7 @@ protected:
 
   vtkNew<vtkTIPPDelaunay2D> Filter;
   Messages Heard{ this->Filter.Get() };
-  Messages OfPipeline{ this->Filter->GetExecutive() }; // so that they are not printed
+  Messages OfPipeline{ this->Filter->GetExecutive() }; // suppresses their printing
 };
 
 TEST_F(Source, PolylineIsAChainOfEdges)
@@ -138,7 +138,7 @@ TEST_F(Source, ClockwisePolygonIsAHole)
 
 TEST_F(Source, PolygonsNest)
 {
-  // An island in a lake in a country.
+  // A country with a lake, which has an island.
   std::vector<Point> points = Squares;
   points.insert(points.end(), { { 1, 1, 0 }, { 7, 1, 0 }, { 7, 7, 0 }, { 1, 7, 0 } });
   const auto source = sourceOf({}, { { 0, 1, 2, 3 }, { 12, 11, 10, 9 }, { 4, 5, 6, 7 } });

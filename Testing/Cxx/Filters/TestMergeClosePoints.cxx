@@ -77,7 +77,7 @@ TEST(MergeClosePoints, ResultIsThatOfComparingAllPairs)
 
 TEST(MergeClosePoints, PointsExactlyAsFarAsTheDistanceAreMerged)
 {
-  // Lattice points at every multiple of the distance: each second one goes.
+  // Points on a line at multiples of the distance: every second one is merged.
   std::vector<double> xy;
   for (int i = -20; i < 20; ++i)
   {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bounds, bounding points and views of a dataset's points.
+// Bounds, bounding points and views of a data set's points.
 #include "Projection/ProjectedPoints.h"
 
 #include "vtkFloatArray.h"

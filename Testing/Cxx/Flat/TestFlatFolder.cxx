@@ -93,7 +93,8 @@ TEST_F(FlatFolder, WithTimesHasArraysThatVary)
   EXPECT_EQ(2, mesh.PointSeries[1][0].Components);
 }
 
-// Two steps and two cells: an array of 2 x 2 varies in time.
+// There are two time steps and two cells: an array of shape (2, 2) is a series in time, not a
+// vector per cell.
 TEST_F(FlatFolder, TakesALeadingAxisOfTimeFirst)
 {
   this->Maker.writeSquare();

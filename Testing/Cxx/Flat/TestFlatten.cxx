@@ -42,7 +42,7 @@ protected:
     return openFlatMesh(this->out());
   }
 
-  /// Of a grid of two triangles.
+  /// Writes an ADCIRC grid of two triangles, and returns its path.
   std::string grid() const
   {
     return this->Folder.file(
@@ -184,7 +184,7 @@ TEST_F(Flatten, AnAdcircGridWithOneStepHasNoTimes)
 
 TEST_F(Flatten, AnAdcircGridWithStepsVariesInTime)
 {
-  // The second step gives two of the nodes alone.
+  // The second time step has values for two of the four nodes only.
   const std::string values = this->Folder.file(
     "fort.64", "title\n2 4 1 1 2\n10 1\n1 1 2\n2 3 4\n3 5 6\n4 7 8\n20 2 2 -9\n1 0 0\n3 1 1\n");
   const FlatMesh mesh = this->written(tipp::flattenAdcirc(this->grid(), { values }));

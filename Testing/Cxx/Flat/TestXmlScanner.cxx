@@ -8,7 +8,8 @@ namespace
 
 using Tag = tipp::XmlScanner::Tag;
 
-/// Tags as "+name", "-name" and "=name"; "!" at the end of a text that is not well formed.
+/// The tags of a text: "+name" opens, "-name" closes, "=name" is empty. A "!" at the end means that
+/// the text is not well formed.
 std::string outline(const std::string& text)
 {
   tipp::XmlScanner scanner(text);

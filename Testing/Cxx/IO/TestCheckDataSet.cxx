@@ -82,7 +82,7 @@ void expectRefusal(vtkDataSet* data, const std::string& words)
   tipp::test::expectIOError("the input", words, [&] { tipp::checkDataSet(data, "the input"); });
 }
 
-/// The bad ones, and what the message says.
+/// Invalid ids for a data set of four points, and how the message shows them.
 const CellIds badIds = { -1, 4, 4294967299, 999999999999,
   std::numeric_limits<vtkTypeInt64>::min() };
 
@@ -139,7 +139,7 @@ TEST(CheckDataSet, RefusesIdsInAllCellsOfASurface)
   }
 }
 
-/// VTK's GetCellType() crashes on these.
+/// VTK's GetCellType() crashes for these cells.
 TEST(CheckDataSet, RefusesCellsOfTooFewVertices)
 {
   using Set = void (vtkPolyData::*)(vtkCellArray*);

@@ -117,7 +117,7 @@ TEST_F(CheckVtkFile, ImagesLargerThanTheirFileAreRefused)
     "range.vti", changed(image, "99999\"", "99999999999\""), "no range of points");
 }
 
-/// Files as VTK's writer makes them.
+/// Files that VTK's writer makes.
 class CheckVtkFileData : public CheckVtkFile
 {
 protected:
@@ -143,7 +143,7 @@ protected:
     return { std::istreambuf_iterator<char>(file), {} };
   }
 
-  /// The text in the middle of the file's last array.
+  /// The index of a character in the middle of the file's last array.
   static std::size_t middle(const std::string& text, Kind kind)
   {
     return kind == Kind::Inline ? text.rfind("</DataArray>") - 20

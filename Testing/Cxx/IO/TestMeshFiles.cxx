@@ -129,7 +129,7 @@ TEST_F(MeshFiles, RepresentativesAreAPointArray)
 
 TEST_F(MeshFiles, NeighborsAreACellArray)
 {
-  // A strip of two triangles and one that only touches them.
+  // Two triangles with a common edge, and a third that touches them only at a vertex.
   const Ids strip = { 0, 1, 2, 2, 1, 3, 3, 4, 5 };
   const std::vector<std::int32_t> strip32(strip.begin(), strip.end());
   this->Points.XY.resize(12);

@@ -25,7 +25,7 @@ protected:
     return this->Folder.file("points.npy", npyBytes(header, data));
   }
 
-  // Reading the file fails with these words.
+  // Expects that reading the file fails with a message that contains `words`.
   void expectError(const std::string& path, const std::string& words) const
   {
     tipp::test::expectIOError(path, words, [&]() { readPoints(path); });

@@ -166,7 +166,7 @@ TEST_F(PendingFiles, RemovesWhatAKilledProcessHasLeft)
   EXPECT_FALSE(std::filesystem::exists(left));
 }
 
-/// Names that only look like those of temporary files.
+/// Files whose names look like those of temporary files, but are not.
 TEST_F(PendingFiles, LeavesFilesOfTheUser)
 {
   for (const char* name : { ".result.123456789.tmp", ".result.old.tmp", ".result.12-0123abcd.tmp" })

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Streams of text: TextFilePoints behind openPointStream().
+// Text files as streams: openPointStream() makes TextFilePoints for them.
 #include "Points/PointStream.h"
 
 #include "ExpectIOError.h"
@@ -14,7 +14,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// All points of the stream, read in blocks of a given size.
+/// All points of the stream, read in blocks of at most `most` points.
 PointTable collect(PointStream& stream, std::size_t most)
 {
   PointTable table;
@@ -38,7 +38,7 @@ PointTable collect(PointStream& stream, std::size_t most)
   return table;
 }
 
-/// NaN is equal to itself here.
+/// The table as text, in which NaN is equal to NaN.
 std::string textOf(const PointTable& table)
 {
   std::ostringstream text;

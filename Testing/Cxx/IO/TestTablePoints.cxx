@@ -21,7 +21,8 @@ PointTable tableOf(std::size_t points)
   return table;
 }
 
-/// All points of the stream, read in blocks of `most`; checks that blocks follow each other.
+/// All points of the stream, read in blocks of `most` points. Checks that the numbers of points
+/// continue from block to block.
 PointTable readAll(PointStream& stream, std::size_t most, std::int64_t first)
 {
   PointTable read;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What holds for every triangulation that the kernel makes, over many kinds of point sets.
+// Properties of every triangulation by the kernel, checked for many kinds of point sets.
 #include "KernelTesting.h"
 
 #include <algorithm>
@@ -58,7 +58,7 @@ TEST_P(Kernel, TwinsShareTheirVerticesTheOtherWayRound)
   }
 }
 
-/// Euler: a sphere of n vertices and the infinite one.
+/// Euler's formula for a sphere whose vertices are the n points and the infinite one.
 TEST_P(Kernel, TheNumberOfTrianglesIsEulers)
 {
   EXPECT_EQ(2 * this->vertexCount() - 2, this->Made.mesh().end() / 8);
@@ -78,7 +78,7 @@ TEST_P(Kernel, FiniteTrianglesAreCounterClockwise)
   }
 }
 
-/// Locally Delaunay everywhere is Delaunay.
+/// A triangulation is Delaunay if it is so at each edge.
 TEST_P(Kernel, NoNeighboursApexIsInATrianglesDisk)
 {
   const HalfEdgeMesh& mesh = this->Made.mesh();
@@ -94,7 +94,7 @@ TEST_P(Kernel, NoNeighboursApexIsInATrianglesDisk)
   }
 }
 
-/// Beyond a hull edge (u, w), seen from the infinite vertex, lies no vertex at all.
+/// A vertex beyond the hull edge (u, w) would be visible from the infinite vertex.
 TEST_P(Kernel, NoVertexLiesBeyondAHullEdge)
 {
   const HalfEdgeMesh& mesh = this->Made.mesh();

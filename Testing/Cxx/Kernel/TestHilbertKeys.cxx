@@ -13,7 +13,7 @@ using tipp::hilbertKey;
 
 constexpr std::uint32_t Side = 1U << 16;
 
-// The cells of a square whose side is a power of two, at the curve's start, by their keys.
+// The cells of the square at the curve's start, sorted by their keys. `side` is a power of two.
 std::vector<std::pair<int, int>> cellsByKey(std::uint32_t side)
 {
   std::vector<std::pair<int, int>> cells(std::size_t(side) * side, { -1, -1 });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The processor's better instructions change the speed alone.
+// AVX2 instructions change only the speed of insertion, not the mesh.
 #include "KernelTesting.h"
 
 #include "Kernel/Insertion.h"

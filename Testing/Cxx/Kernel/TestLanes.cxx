@@ -29,7 +29,7 @@ TEST(Lanes, TheBitsTellWhichLanesHold)
   EXPECT_EQ(3U, bitsOf(Pair{ 1, 1 } > zero));
 }
 
-/// The filters stand on it: what overflowed is undecided.
+/// The filters rely on this: after an overflow, no comparison decides.
 TEST(Lanes, AComparisonWithNaNFails)
 {
   const Pair nan{ std::nan(""), std::nan("") };

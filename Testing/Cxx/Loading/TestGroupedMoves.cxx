@@ -17,8 +17,8 @@ namespace
 
 using Groups = std::vector<std::size_t>;
 
-/// Tuples that tell their id, in one array of four bytes and one of three: a group is `inGroup` of
-/// them that follow each other, and what the buffers hold.
+/// Two arrays whose tuples hold their own id: one of 4 and one of 3 bytes per tuple. A group is a
+/// range of `inGroup` tuples, and the buffers hold one group at a time.
 class GroupSource
 {
 public:
@@ -48,8 +48,8 @@ public:
   tipp::TupleBuffers Buffers;
 };
 
-/// Moves the ids' tuples, group by group in the order that `arrange` makes of the wanted ones, and
-/// compares each with its id.
+/// Gathers the tuples of these ids, in the order of groups that `arrange` makes, and compares each
+/// tuple with its id.
 template <typename Arrange>
 void expectMoved(GroupSource& source, const std::vector<std::uint32_t>& ids, std::size_t groups,
   int threads, const Arrange& arrange)

@@ -24,7 +24,7 @@ using Ids = std::vector<std::int64_t>;
 
 constexpr std::int64_t tuples = 5000;
 
-/// Three arrays in two files, each tuple telling its own id.
+/// Three arrays in two files, whose tuples hold their own id.
 class Source
 {
 public:
@@ -65,7 +65,7 @@ const Source& source()
   return made;
 }
 
-/// Loads ids in chunks and compares each tuple with what its id demands.
+/// Loads ids in chunks and compares each tuple with its id.
 void expectRight(tipp::VertexLoader& loader, const Ids& ids, std::size_t chunk)
 {
   for (std::size_t first = 0; first < ids.size(); first += chunk)
@@ -88,7 +88,7 @@ void expectRight(tipp::VertexLoader& loader, const Ids& ids, std::size_t chunk)
   }
 }
 
-/// Ids of many patterns: random, ascending, the same, both ends, clusters far apart.
+/// Lists of ids: random, ascending, all equal, from both ends, in clusters that are far apart.
 std::vector<Ids> patterns()
 {
   std::mt19937_64 random(11);
@@ -125,7 +125,7 @@ std::vector<Case> cases()
   for (const Loader kind :
     { Loader::Direct, Loader::Fine, Loader::Lru, Loader::Mmap, Loader::Auto })
   {
-    // 1 vertex a segment, sizes around a power of two, half, all but one, all, more than all.
+    // M of 1, around a power of two, half of the tuples, one less than all, all, and more than all.
     for (const std::int64_t m : { 1, 2, 7, 100, 1023, 1024, 1025, 2500, 4999, 5000, 100000, 0 })
     {
       all.push_back({ kind, m });
@@ -134,7 +134,7 @@ std::vector<Case> cases()
   return all;
 }
 
-/// Tuples of one array, each its own id, in a file that can be cut off.
+/// An array whose tuples are their own ids, in a file that can be truncated.
 class OwnIds
 {
 public:
@@ -257,7 +257,8 @@ TEST(DirectLoader, ReadsEachActiveSegmentOnce)
   const auto loader = makeVertexLoader({ source().Arrays[0] }, options);
   std::vector<double> xyz(3 * 4);
   void* const out[] = { xyz.data() };
-  // From 100 on: segments 0, 3 and 4 of five; the last ends with the range.
+  // From tuple 100 on, the ids are in segments 0, 3 and 4 of five. The last segment ends with the
+  // range.
   const Ids ids{ 100, 4500, 3200, 150 };
   loader->load(ids.data(), ids.size(), out);
   EXPECT_EQ(3, loader->counters().Reads);
@@ -317,7 +318,7 @@ TEST(FineLoader, ReadsBlocksThatTheLastChunksHadOnlyOnce)
 {
   LoaderOptions options;
   options.Kind = Loader::Fine;
-  options.M = 4000; // not all, but more than the two chunks want
+  options.M = 4000; // fewer than all tuples, but more than both chunks need
   const auto loader = makeVertexLoader(source().Arrays, options);
   Ids ids(1500);
   std::iota(ids.begin(), ids.end(), 0);
@@ -353,7 +354,7 @@ TEST(FineLoader, FewIdsInSeveralPassesAreAllFound)
   options.M = 2;
   const auto loader = makeVertexLoader(source().Arrays, options);
   expectRight(*loader, { 4999, 3, 4999, 2500, 3, 1200, 0, 3 }, 8);
-  EXPECT_EQ(4, loader->counters().Passes); // 0 to 3 are read together, two at a time
+  EXPECT_EQ(4, loader->counters().Passes); // ids 0 and 3 are read together
 }
 
 TEST(FineLoader, KeepsFewFarIdsForTheNextChunks)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Run with OCL_ICD_VENDORS=/nonexistent, which makes this a machine without an OpenCL driver.
+// CTest sets OCL_ICD_VENDORS=/nonexistent, so that no OpenCL driver is found.
 #include "OpenCL/ComputeDevice.h"
 
 #include "ExpectAcceleratorError.h"

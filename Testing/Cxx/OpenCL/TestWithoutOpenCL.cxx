@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A build without OpenCL.
+// Tests of a build without OpenCL.
 #include "ExpectAcceleratorError.h"
 #include "OpenCL/Devices.h"
 

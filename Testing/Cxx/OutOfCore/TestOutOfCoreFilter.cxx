@@ -52,7 +52,7 @@ protected:
     (event == vtkCommand::ErrorEvent ? this->Errors : this->Warnings) += text;
   }
 
-  /// The error of an update, of which nothing comes.
+  /// The error message of an update that fails and has no output.
   std::string failure()
   {
     this->Filter->Update();
@@ -266,7 +266,7 @@ TEST_F(OutOfCoreFilter, InsertsConstraintsOfFiles)
   this->Filter->Update();
   EXPECT_EQ("", this->Errors);
   EXPECT_EQ(6, this->total("Constraints"));
-  EXPECT_EQ(1, this->total("CrossingPoints")); // the lines meet at the corners of the boundary
+  EXPECT_EQ(1, this->total("CrossingPoints")); // both lines cross at the boundary's corners
   vtkNew<vtkPartitionedUnstructuredReader> reader;
   reader->SetFileName(this->Filter->GetFileName());
   reader->Update();
@@ -285,7 +285,7 @@ TEST_F(OutOfCoreFilter, InsertsConstraintsOfFiles)
     area +=
       ((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1])) / 2;
   }
-  EXPECT_NEAR(0.75 * 0.36, area, 1e-12); // of the four parts one is a hole
+  EXPECT_NEAR(0.75 * 0.36, area, 1e-12); // one of the four parts is a hole
   vtkDataArray* const marks = mesh->GetCellData()->GetArray("ConstraintEdges");
   ASSERT_TRUE(marks);
   EXPECT_GT(marks->GetRange(-1)[1], 0);

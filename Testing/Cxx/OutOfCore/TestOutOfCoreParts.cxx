@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run begins with: checkpoints, survey, plan, spilled points.
+// The first steps of a run: checkpoints, survey, plan, spilled points.
 #include "OutOfCoreTesting.h"
 
 #include "ExpectIOError.h"
@@ -76,7 +76,7 @@ TEST(CheckedFile, DamagedAnywhereItIsRefused)
   EXPECT_THROW(readCheckedFile(path), IOError);
 }
 
-/// Sections {0, 3} and {2, 1}.
+/// Writes a file with two sections, {0, 3} and {2, 1}.
 void writeSections(const std::string& path)
 {
   SectionFileWriter file(path);
@@ -295,7 +295,7 @@ TEST(SpilledPoints, KeepsNoFileOpenThatOthersRead)
   ASSERT_TRUE(fs::exists(steps.Folder.path("spill.0")));
   for (const fs::directory_entry& open : fs::directory_iterator("/proc/self/fd"))
   {
-    std::error_code gone; // the iterator's own
+    std::error_code gone; // an entry may disappear while the folder is listed
     EXPECT_NE(fs::path(steps.Folder.path("spill.0")), fs::read_symlink(open.path(), gone));
   }
 }
@@ -307,7 +307,7 @@ TEST(SpilledPoints, ThoseOfOtherPiecesAreRefused)
   const SpilledPoints spilled = steps.spill(plan);
   SaveArchive out;
   spilled.save(out);
-  for (const std::size_t at : { 8, 16 }) // the first two of starts(), behind their number
+  for (const std::size_t at : { 8, 16 }) // the first two entries of starts(), after its length
   {
     Bytes bytes(out.size());
     std::copy_n(out.data(), bytes.size(), bytes.begin());

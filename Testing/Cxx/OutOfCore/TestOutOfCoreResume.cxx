@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run that was ended can go on, and makes the same files.
+// An interrupted run can be resumed, and makes the same files.
 #include "OutOfCoreTesting.h"
 
 #include "ExpectIOError.h"
@@ -57,7 +57,7 @@ TEST_P(OutOfCoreResume, MakesTheSameFilesWhereverItWasEnded)
     int ended = 0;
     do
     {
-      // More from run to run: verifying what earlier ones have written takes calls, too.
+      // Later runs need more calls, since they verify what earlier ones have written.
       int calls = int(random() % 60) + 2 * ended++;
       this->Options.Progress = [&calls](double) { return calls-- > 0; };
       statistics = this->run();
@@ -85,7 +85,7 @@ protected:
   {
     writePoints(this->Folder.path("points.npy"), makePointSet("uniform", 2500));
     this->Options.Progress = [](double fraction) { return fraction < 0.6; };
-    // With one thread, for where two have got to when they are told to end depends on the load.
+    // With one thread, the run always ends at the same step.
     this->Options.Threads = 1;
     ASSERT_TRUE(this->run().Kept);
     this->Options.Threads = 2;
@@ -136,7 +136,8 @@ TEST_F(OutOfCoreBegun, NamesAMissingPlan)
 class OutOfCoreDamaged : public OutOfCoreBegun
 {
 protected:
-  /// Resumes, and expects a warning that names the file, and the files of an undisturbed run.
+  /// Resumes the run. Expects a warning that names the damaged file, and the files of an
+  /// uninterrupted run.
   void expectMadeAgain(const std::string& damaged)
   {
     std::vector<std::string> warnings;
@@ -152,7 +153,7 @@ protected:
     EXPECT_EQ(1U, warnings.size());
   }
 
-  /// Of the pieces that were finished.
+  /// The paths of the finished pieces' results.
   std::vector<std::string> results() const
   {
     std::vector<std::string> paths;
@@ -265,7 +266,7 @@ TEST_F(OutOfCoreBegun, LeavesAnOlderMeshUntilItIsWhole)
   EXPECT_EQ(2500, openPartitionedMesh(this->Folder.path("mesh.tipp")).Points);
 }
 
-/// A run that was killed when its mesh was whole, but not in its place.
+/// A run that was killed after it finished its mesh, but before it renamed it to its final path.
 class OutOfCoreWhole : public OutOfCoreResume
 {
 protected:
@@ -327,7 +328,7 @@ TEST_F(OutOfCoreWhole, IsPutInPlaceThoughItsPointsAreGone)
 
 TEST_F(OutOfCoreWhole, IsPutInPlaceWithoutBeingTold)
 {
-  this->Options.Progress = [](double) { return false; }; // too late
+  this->Options.Progress = [](double) { return false; }; // no effect: only renaming is left
   this->expectTheSame(this->run());
   EXPECT_TRUE(this->Expected == this->files());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run makes of its input and options.
+// How a run handles its input and options.
 #include "OutOfCoreTesting.h"
 
 #include "Distributions/GeneratePoints.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pieces: the order in which they are triangulated, their results, and what other ranks need of
-// them.
+// Pieces: the order of their triangulation, their results, and the parts of these that other ranks
+// need.
 #include "OutOfCoreTesting.h"
 
 #include "OutOfCore/FinishPieces.h"
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using namespace tipp;
 using namespace tipp::test;
 
-/// Of partitions with random conflicts.
+/// The order of `count` partitions with random conflicts.
 PartitionOrder randomOrder(PartitionIndex count, std::mt19937& random)
 {
   std::vector<ConflictGraph::Pair> pairs;
@@ -160,7 +160,7 @@ TEST(RunSetup, ComesBackOnAnotherRank)
   EXPECT_EQ(run.Spilled->starts(), back.work().Points.starts());
 }
 
-/// Pieces of points, the triangles of which are counted.
+/// A run over pieces that only counts triangles.
 class PieceRuns : public testing::Test
 {
 protected:

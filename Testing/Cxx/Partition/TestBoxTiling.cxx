@@ -35,7 +35,8 @@ std::vector<std::int32_t> meeting(const BoxTiling& tiling, const Box3& box)
   return ids;
 }
 
-// Boxes of all sizes, many with borders on the tiling's, some beyond the domain.
+// Compares for boxes of all sizes. Many have borders on those of the tiling, and some are outside
+// the domain.
 void expectMeetingAsByBruteForce(const BoxTiling& tiling)
 {
   std::mt19937_64 engine(1);
@@ -214,7 +215,7 @@ TEST(BoxTiling, RefusesNodesThatAreNoTree)
   expectRefused({ 1, -1, -1, -1, -1, -1 });
   expectRefused({ 1, 0, -1, -1, -1 });
   expectRefused({ 1, 5, 5, -1, -1, -1, -1, -1, -1 });
-  // 25 levels below the root.
+  // The tree has 25 levels below the root.
   std::vector<std::int32_t> deep;
   for (std::int32_t level = 0; level < 25; ++level)
   {

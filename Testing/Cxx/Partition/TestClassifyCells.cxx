@@ -62,7 +62,7 @@ CellSet oneTriangle(double x0, double y0, double x1, double y1, double x2, doubl
 TEST(ClassifyCells, TheLowestPartitionMetOwnsAndTheOthersBorrow)
 {
   const BoxTiling tiling = BoxTiling::grid(2, { { 0, 0, 0 }, { 4, 4, 0 } }, { 2, 2, 1 });
-  // Across the lower two, into the upper right one, past the upper left one.
+  // The triangle meets the lower two boxes and the upper right one, but not the upper left one.
   const CellSet cells = oneTriangle(1, 1, 3, 1, 3, 2.5);
   const Membership result = classifyCells(cells.view(), tiling, threads(1));
   EXPECT_EQ(result.Owner, (std::vector<std::int32_t>{ 0 }));

@@ -21,7 +21,7 @@ using namespace tipp::test;
 namespace
 {
 
-/// A good mesh, to be damaged.
+/// A valid mesh, which each test damages.
 class DamagedMesh : public testing::Test
 {
 protected:
@@ -59,7 +59,7 @@ protected:
     expectIOError(this->path(name), words, [this] { this->readAll(); });
   }
 
-  /// Replaces a text in the index and gives it a right checksum.
+  /// Replaces a text in the index, and corrects the checksum.
   void editIndex(const std::string& from, const std::string& to) const
   {
     ForgedMesh forged(this->path());
@@ -69,7 +69,7 @@ protected:
     forged.write();
   }
 
-  /// The last id of the last piece that has such, in the good mesh, becomes another.
+  /// Replaces the last id of the first piece's array, and expects an error. Then restores the mesh.
   void expectIdIsRefused(PieceRole role, std::int64_t id) const
   {
     const ForgedMesh good(this->path());
@@ -141,7 +141,7 @@ TEST_F(DamagedMesh, HasChangedTables)
 
 TEST_F(DamagedMesh, HasSwappedPieces)
 {
-  // Made alike in size, so that sizes do not tell.
+  // The pieces must have equal sizes, so that their sizes do not reveal the exchange.
   const PartitionedMesh mesh = openPartitionedMesh(this->path());
   std::string first = contentOf(mesh.piecePath(0));
   std::string second = contentOf(mesh.piecePath(1));
@@ -152,11 +152,11 @@ TEST_F(DamagedMesh, HasSwappedPieces)
   this->expectRefused("pieces/000000.vtu", "does not have the checksum of piece 0");
 }
 
-/// A mesh with each way of borrowing.
+/// Meshes with borrowed cells by reference and with duplicated ones.
 class DamagedArrays : public DamagedMesh
 {
 protected:
-  /// Calls body() for a mesh of each kind.
+  /// Calls body() for each kind of mesh.
   template <typename Body>
   void forEachKind(const Body& body) const
   {

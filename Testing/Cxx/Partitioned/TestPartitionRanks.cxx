@@ -32,7 +32,7 @@ public:
   int Count = 0;
 };
 
-/// A folder that all ranks see.
+/// Tests in a folder that all ranks can read.
 class PartitionRanks : public testing::Test
 {
 protected:
@@ -77,7 +77,8 @@ protected:
     this->Controller->Barrier();
   }
 
-  /// The first rank's Progress stops the run at its call of that number.
+  /// Runs with a Progress that stops the first rank after `calls` calls. Returns whether the run
+  /// was aborted.
   bool isAborted(int calls)
   {
     PartitionOptions options;
@@ -181,7 +182,7 @@ TEST_F(PartitionRanks, AllStopWhenTheFirstIsTold)
 {
   this->write(makeSource(latticeTriangles(12, 0.3)));
   int calls = 0;
-  // In every phase, and at last too late.
+  // Stops in every phase. The last run ends before it is stopped.
   while (this->isAborted(calls))
   {
     this->Controller->Barrier();

@@ -49,7 +49,7 @@ TEST_F(PartitionedWriter, WritesAgainAfterAnAbort)
   EXPECT_EQ(0, this->Writer->Write());
   EXPECT_FALSE(std::filesystem::exists(this->Folder.path("mesh")));
   this->Writer->RemoveObserver(observer);
-  this->Writer->SetAbortExecute(0); // VTK 9.3 and later keep it
+  this->Writer->SetAbortExecute(0); // VTK 9.3 and later do not reset it
   EXPECT_EQ(1, this->Writer->Write());
   expectHolds(this->Folder.path("mesh"), this->Source);
 }

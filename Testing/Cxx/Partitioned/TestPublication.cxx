@@ -34,7 +34,7 @@ protected:
       openFlatMesh(this->Folder.path("flat")), this->Folder.path("mesh"), options);
   }
 
-  /// A finished mesh that was not put in its place.
+  /// The path of a finished mesh that could not be renamed, or an empty string.
   std::string finished() const
   {
     for (const fs::directory_entry& entry : fs::directory_iterator(this->Folder.path("")))
@@ -98,7 +98,7 @@ TEST_F(Publication, EndsAtTheFirstWishToStopWhereverItComes)
 TEST_F(Publication, AsksInEveryPhaseWhetherToGoOnHoweverLargeTheChunks)
 {
   writeFlat(makeSource(latticeTriangles(300, 0.3)), this->Folder.path("flat")); // 180,000 cells
-  std::map<double, int> calls; // by the fraction that was done
+  std::map<double, int> calls; // number of calls by the fraction that was done
   PartitionOptions options;
   options.Threads = 1;
   options.Tiling = *TilingChoice::parse("quadtree:20000");
@@ -196,7 +196,7 @@ TEST_F(Publication, LeavesAFolderThatAppearsMeanwhile)
   EXPECT_EQ("years of work", contentOf(notes));
   expectHolds(this->finished(), this->Source);
   fs::rename(this->Folder.path("mesh"), this->Folder.path("other"));
-  this->make(); // does not clear away the finished one
+  this->make(); // must not remove the finished mesh
   expectHolds(this->finished(), this->Source);
 }
 
@@ -291,7 +291,7 @@ TEST_F(Publication, TellsTheSameOfAUsersFolderEachTime)
   fs::remove(this->Folder.path(".mesh.part"));
   fs::create_directory(this->Folder.path(".mesh.part"));
   this->Folder.file(".mesh.part/notes.txt", "years of work");
-  for (int time = 0; time < 2; ++time) // the lock is released
+  for (int time = 0; time < 2; ++time) // the second time shows that the lock was released
   {
     expectIOError(this->Folder.path(".mesh.part"), "is there already with other files",
       [&] { PendingFolder::lasting(this->Folder.path("mesh"), nullptr); });

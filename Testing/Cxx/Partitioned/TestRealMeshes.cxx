@@ -28,7 +28,7 @@ using namespace tipp::test;
 namespace
 {
 
-/// Partitions a flat mesh and compares all owned cells and own points with the source.
+/// Partitions a flat mesh, and compares all owned cells and own points with the source.
 void expectSame(const std::string& flat, const std::string& output, const std::string& tiling)
 {
   const FlatMesh source = openFlatMesh(flat);
@@ -135,7 +135,8 @@ TEST(RealMeshes, TheBracketOfTetrahedraComesBack)
   expectSame(folder.path("flat"), folder.path("mesh"), "octree:20000");
 }
 
-/// Cells and points by their global ids, as vtkPartitionedUnstructuredReader gives them.
+/// Expects the source's cells and points, identified by global ids, from
+/// vtkPartitionedUnstructuredReader.
 void expectReaderGives(const std::string& path, const TetrahedralMesh& source)
 {
   vtkNew<vtkPartitionedUnstructuredReader> reader;

@@ -31,7 +31,7 @@ using namespace tipp::test;
 namespace
 {
 
-/// A source on the disk and partitioned meshes made of it.
+/// A flat mesh in files, and partitioned meshes made from it.
 class RoundTrip : public testing::Test
 {
 protected:
@@ -133,7 +133,7 @@ TEST_F(RoundTrip, KeepsTheLeavesOfAnOctree)
 
 TEST_F(RoundTrip, KeepsEmptyPieces)
 {
-  // Two squares far apart; the partitions between them have nothing.
+  // Two squares that are far apart; the partitions between them are empty.
   CellSet cells = latticeTriangles(2, 0);
   const std::size_t half = cells.Coordinates.size();
   for (std::size_t i = 0; i < half; ++i)

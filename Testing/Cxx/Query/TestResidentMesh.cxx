@@ -61,7 +61,7 @@ protected:
         options.Threads = threads;
         const ResidentMesh mesh(this->path(), options);
         expectEqual(expected, answerOf(mesh, points));
-        expectEqual(expected, answerOf(mesh, points)); // from memory
+        expectEqual(expected, answerOf(mesh, points)); // the second answer comes from memory
       }
     }
   }
@@ -130,7 +130,7 @@ TEST_F(ResidentMeshTest, AnswersDoNotDependOnTheOrderOfQueries)
   std::vector<Point3> points = pointsAround(source, 200);
   const ResidentMesh mesh(this->path());
   const MeshAnswer expected = answerOf(mesh, points);
-  for (std::size_t i = 0; i < points.size(); i += 5) // one by one
+  for (std::size_t i = 0; i < points.size(); i += 5) // one query per point
   {
     EXPECT_EQ(expected.Cells[i], mesh.answer(&points[i], 1).Cells[0]);
   }
@@ -179,16 +179,16 @@ TEST_F(ResidentMeshTest, DoesWithoutWhatDoesNotFitIntoTheLimit)
   const std::vector<Point3> points = pointsAround(source, 500);
   const ResidentMesh free(this->path());
   const MeshAnswer expected = answerOf(free, points);
-  closestTo(free, points.data(), std::int64_t(points.size())); // makes a locator
+  closestTo(free, points.data(), std::int64_t(points.size())); // this makes a locator
   ResidentOptions options;
   options.MemoryLimit = free.pieces().bytes() - 1;
   const ResidentMesh mesh(this->path(), options);
   expectEqual(expected, answerOf(mesh, points));
-  for (std::size_t i = 0; i < 8; ++i) // often enough to want a locator
+  for (std::size_t i = 0; i < 8; ++i) // so often that a locator would be made
   {
     EXPECT_EQ(expected.Cells[7 * i], mesh.answer(&points[7 * i], 1).Cells[0]);
   }
-  EXPECT_EQ(2U, starsOf(mesh, { 0 }).Starts.size()); // now without the arrays
+  EXPECT_EQ(2U, starsOf(mesh, { 0 }).Starts.size()); // loads the piece without its arrays
   EXPECT_LE(mesh.pieces().bytes(), options.MemoryLimit);
   expectEqual(expected, answerOf(mesh, points));
 }

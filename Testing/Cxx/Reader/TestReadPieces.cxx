@@ -18,7 +18,8 @@ using tipp::test::Content;
 using tipp::test::contentOf;
 using tipp::test::SmallMesh;
 
-/// A mesh, flat and stored both ways, in the plane or in space.
+/// A flat mesh in the plane or in space, and two partitioned ones: with and without duplicated
+/// cells.
 class ReadPieces : public testing::TestWithParam<int>
 {
 protected:
@@ -52,7 +53,7 @@ protected:
     return vtkUnstructuredGrid::SafeDownCast(reader->GetOutputDataObject(0));
   }
 
-  /// What an update gives, piece by piece.
+  /// Updates the reader, and returns the content of each piece.
   static std::vector<Content> piecesOf(vtkPartitionedUnstructuredReader* reader)
   {
     reader->Update();
@@ -66,7 +67,7 @@ protected:
     return pieces;
   }
 
-  /// Every cell and point of the mesh, as the source has them.
+  /// Expects every cell and point of the mesh, as in the source.
   void expectWhole(const Content& content) const
   {
     EXPECT_EQ(this->Mesh.pointCount(), content.Points.size());
@@ -176,7 +177,7 @@ TEST_P(ReadPieces, OfManyRequestsHaveEachCellOnce)
 TEST_P(ReadPieces, WithGhostLevelsHaveBorrowedCells)
 {
   const auto reader = this->reader("reference");
-  // The first partition owns all that it meets; the last one borrows.
+  // The first partition owns all cells that it meets, and so borrows none. The last one borrows.
   reader->UpdatePiece(5, 6, 1);
   int ghosts = 0;
   for (const auto& [id, cell] : contentOf(gridOf(reader)).Cells)

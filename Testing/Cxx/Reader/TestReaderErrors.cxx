@@ -121,7 +121,7 @@ TEST_F(ReaderErrors, CanReadFileTellsMeshesFromOthers)
   EXPECT_EQ(0, this->Reader->CanReadFile(nullptr));
 }
 
-/// The reader makes the types itself, but a damaged file is refused.
+/// The reader does not need the array of types, but a damaged array is still an error.
 TEST_F(ReaderErrors, APieceWhoseTypesHaveChanged)
 {
   const tipp::PartitionedMesh mesh = tipp::openPartitionedMesh(this->path("stored"));
@@ -161,7 +161,7 @@ TEST_F(ReaderErrors, StoppedAnywhereItGivesNothingAndNoError)
     for (stop.Calls = 1; isStopped && stop.Calls < 100; ++stop.Calls)
     {
       stop.Made = 0;
-      this->Reader->SetAbortExecute(0); // VTK 9.3 and later leave that to the caller
+      this->Reader->SetAbortExecute(0); // VTK 9.3 and later do not reset it
       this->Reader->Modified();
       this->Reader->Update();
       auto* const grid = vtkUnstructuredGrid::SafeDownCast(this->Reader->GetOutputDataObject(0));

@@ -16,7 +16,8 @@ using namespace tipp;
 namespace
 {
 
-/// The locations of points, by a locator or by one of the points.
+/// The locations of points, by a locator of the cells or by a pass over the cells with a locator of
+/// the points.
 std::vector<CellLocation> locate(const SimplexMesh& mesh, const std::int64_t* cellIds,
   const std::vector<Point3>& points, int threads, bool byLocator)
 {
@@ -34,7 +35,7 @@ std::vector<CellLocation> locate(const SimplexMesh& mesh, const std::int64_t* ce
   return locations;
 }
 
-/// The scene's points, the middles of its cells' edges, and points at random in a larger box.
+/// The scene's points, the middles of its edges, and random points in a larger box.
 std::vector<Point3> pointsToFind(const Scene& scene, int atRandom)
 {
   std::vector<Point3> points;
@@ -57,8 +58,8 @@ std::vector<Point3> pointsToFind(const Scene& scene, int atRandom)
   return points;
 }
 
-/// The cells that may answer a point: those after the first move that leads into some, or last
-/// those that hold it as closed sets.
+/// The cells that may be returned for a point: those of the first move after which any cell
+/// contains it, otherwise the closed cells that contain it.
 std::vector<int> expectedCells(const Scene& scene, const Point3& point)
 {
   const double sample[3] = { point.x, point.y, point.z };

@@ -13,8 +13,8 @@
 namespace
 {
 
-/// Each sample's cell against rationals: after the first move that puts it into any cell, else in
-/// a closed one; and none if there is none.
+/// Compares each sample's cell with rational arithmetic: the cell after the first move that leads
+/// into a cell, otherwise a closed cell that contains the sample, otherwise none.
 void expectExact(const Scene& scene, const tipp::Lattice& lattice)
 {
   const tipp::Claims claims = tipp::claimSamples(scene.mesh(), lattice, 2);

@@ -18,7 +18,7 @@
 namespace
 {
 
-/// Samples of a point array, a cell array and an array of whole numbers, and the mask.
+/// The samples of a point array, a cell array and an integer array, and the mask.
 struct FilledArrays
 {
   FilledArrays(const Scene& scene, const tipp::Lattice& lattice)
@@ -76,7 +76,7 @@ void expectAsInTwoWalks(const Scene& scene, const tipp::Lattice& lattice)
   EXPECT_EQ(result.Statistics.Tests, claims.Statistics.Tests) << scene.Name;
 }
 
-/// Lanes of tetrahedra whose boxes have one sample each tell nothing of rows.
+/// Whether the lanes have rows. Lanes of tetrahedra have none if each box has a single sample.
 template <typename Lanes>
 bool tellsRows(const Lanes& lanes)
 {
@@ -87,7 +87,8 @@ bool tellsRows(const Lanes& lanes)
   return true;
 }
 
-/// What lanes tell of the first rows of cells is what rows tell; returns for how many they do.
+/// Compares the first rows of cells in lanes with those of the scalar code. Returns the number of
+/// rows that the lanes could decide.
 template <typename Access, typename Lanes, typename Rows>
 int expectLanesLikeRows(const Scene& scene, Lanes lanes, Rows rows)
 {
@@ -231,14 +232,14 @@ TEST(TetrahedronLanes, TellTheSamplesOfBoxesThatHaveOneLikeRows)
       ++(open ? inside : outside);
     }
   }
-  EXPECT_EQ(inside, 5 * 5 * 5); // all that the mesh holds
+  EXPECT_EQ(inside, 5 * 5 * 5); // all samples inside the mesh
   EXPECT_GT(outside, inside);
 }
 
 TEST(BorderClaims, GiveEachTouchedSampleOneCellInAnyOrder)
 {
   const Scene scene = regularScene(2, 4);
-  const tipp::Lattice lattice = latticeOf(2, 5, 0, 1); // a sample on each corner
+  const tipp::Lattice lattice = latticeOf(2, 5, 0, 1); // each corner has a sample
   const tipp::LatticeAxes axes(scene.mesh(), lattice);
   std::vector<tipp::Touch> touches;
   for (std::int64_t i = 0; i < lattice.samples(); ++i)

@@ -100,7 +100,7 @@ TEST(Interpolation, InSliversGivesLinearFieldsBackExactly)
 {
   const Scene scene = sliverScene();
   tipp::Lattice lattice = latticeOf(2, 10, 0, 1);
-  // Samples at the corners of the flat triangles, and an ulp beside.
+  // The samples are at the corners of the flat triangles, or an ulp away from them.
   lattice.Delta[1] = lattice.Delta[0] / 3;
   expectLinear(scene, lattice);
   lattice.Min[1] = 0x1p-54;
@@ -205,7 +205,7 @@ TEST(Interpolation, TakesCellValuesFromTheParent)
   options.Parents = parents.data();
   tipp::resample(scene.mesh(), latticeOf(2, 5, 0, 1), { array }, options);
   EXPECT_EQ(samples[3], 44);  // below the diagonal
-  EXPECT_EQ(samples[15], 22); // above it
+  EXPECT_EQ(samples[15], 22); // above the diagonal
 }
 
 TEST(Interpolation, KeepsNaNToTheCellsThatHaveIt)

@@ -23,7 +23,7 @@
 namespace
 {
 
-/// What the filter warns of.
+/// The warnings of an update.
 std::string warningsOf(vtkRangeResampleFilter* filter)
 {
   vtkNew<tipp::test::MessageCounter> warnings;
@@ -175,7 +175,7 @@ TEST(RangeResampleArrays, HideCellsWithNoDataOnRequest)
   filter->Update();
   vtkDataArray* const samples = filter->GetOutput()->GetPointData()->GetArray("linear");
   EXPECT_FALSE(isValid(filter->GetOutput(), 0));
-  EXPECT_EQ(samples->GetTuple1(6), 0); // inside the cells of the dry corner
+  EXPECT_EQ(samples->GetTuple1(6), 0); // inside the cells at the dry corner
   EXPECT_TRUE(isValid(filter->GetOutput(), 12));
   EXPECT_LT(linearError(filter->GetOutput(), 2), 1e-13);
 }

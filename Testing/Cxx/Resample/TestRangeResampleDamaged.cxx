@@ -43,7 +43,7 @@ vtkIdType cellsAt(vtkUnstructuredGrid* grid, vtkIdType point)
   return cells->GetNumberOfIds();
 }
 
-/// The grid without the cells at a point.
+/// The grid without the cells that have this point.
 vtkSmartPointer<vtkUnstructuredGrid> without(vtkUnstructuredGrid* grid, vtkIdType point)
 {
   const auto rest = vtkSmartPointer<vtkUnstructuredGrid>::New();

@@ -173,7 +173,7 @@ TEST(RangeResampleRange, RangesWithoutSenseAreErrors)
   filter->SetInputData(square());
   filter->SetSamplingBounds(1, 0, 0, 1, 0, 0);
   EXPECT_NE(errorOf(filter).find("lower one first"), std::string::npos);
-  filter->SetSamplingBounds(-1e308, 1e308, 0, 1, 0, 0); // their difference is infinite
+  filter->SetSamplingBounds(-1e308, 1e308, 0, 1, 0, 0); // their difference overflows
   EXPECT_NE(errorOf(filter).find("give finite bounds"), std::string::npos);
   filter->SetSamplingBounds(0, 1, 0, 1, 0, 0);
   filter->SetSamplingDimensions(-1, 3, 1);

@@ -46,8 +46,7 @@ Sampled sampled(const Scene& scene, const tipp::Lattice& lattice, tipp::DeviceCh
 
 const tipp::DeviceChoice openMP{ tipp::Device::OpenMP, -1, "", false };
 
-/// Arrays of every kind at once: float64, float32 with three components, whole numbers, and numbers
-/// of cells.
+/// Arrays of all kinds: float64, float32 with three components, integers, and integers at cells.
 struct Kinds
 {
   std::vector<double> Double;
@@ -104,7 +103,8 @@ void expectNear(const Kinds& a, const Kinds& b)
   }
 }
 
-/// A device as it is, and treated as a graphics card, so that this code is tested without one.
+/// Each test runs with the device as it is, and with the device treated as a graphics card, so that
+/// no graphics card is needed.
 class ResampleOnDevice : public testing::TestWithParam<bool>
 {
 protected:
@@ -176,7 +176,7 @@ TEST_P(ResampleOnDevice, AgreesOnASmallRangeOfALargeMesh)
   expectAgreement(jitteredScene(3, 12, 5), latticeOf(3, 11, 0.4, 0.5));
 }
 
-/// Numbers of cells and integers are not for SampleOnDevice, so here are none.
+/// SampleOnDevice samples no integers and no cell arrays, so this test has none.
 TEST_P(ResampleOnDevice, SamplesArraysOfPointsWithSeveralComponentsLikeOpenMP)
 {
   for (const int dimension : { 2, 3 })
@@ -184,7 +184,7 @@ TEST_P(ResampleOnDevice, SamplesArraysOfPointsWithSeveralComponentsLikeOpenMP)
     const Scene scene = jitteredScene(dimension, 12, 4);
     const tipp::Lattice lattice = latticeOf(dimension, 31, -0.1, 1.1);
     Kinds kinds = Kinds::of(scene);
-    kinds.Double[5] = HUGE_VAL; // which the threads do
+    kinds.Double[5] = HUGE_VAL; // cells with this value are left to the threads
     const auto sampledOn = [&](const tipp::DeviceChoice& device)
     {
       Kinds samples = Kinds::sized(std::size_t(lattice.samples()), std::size_t(lattice.samples()));
@@ -196,7 +196,7 @@ TEST_P(ResampleOnDevice, SamplesArraysOfPointsWithSeveralComponentsLikeOpenMP)
       EXPECT_EQ(tipp::resample(scene.mesh(), lattice, attributes, options).Warning, "");
       for (double& value : samples.Double)
       {
-        value = std::isfinite(value) ? value : 1e6; // so that they can be compared
+        value = std::isfinite(value) ? value : 1e6; // NaN would not compare equal
       }
       return samples;
     };
@@ -305,7 +305,7 @@ TEST_P(ResampleOnDevice, PutsTilesTogetherToTheWhole)
   const Kinds values = Kinds::of(scene);
   Kinds whole = Kinds::sized(65 * 65, 65 * 65);
   std::vector<tipp::Attribute> points = values.into(whole);
-  points.pop_back(); // that of cells, which tiles number otherwise
+  points.pop_back(); // removes the cell array, since tiles number cells differently
   tipp::resample(scene.mesh(), lattice, points, {});
   Kinds tiled = Kinds::sized(65 * 65, 65 * 65);
   std::fill(tiled.Double.begin(), tiled.Double.end(), -7);
@@ -342,7 +342,7 @@ TEST_P(ResampleOnDevice, TellsItsTimesAndStopsOnRequest)
   EXPECT_GT(result.ClaimSeconds, 0);
   EXPECT_GT(result.InterpolationSeconds, 0);
   EXPECT_GT(result.TransferSeconds, 0);
-  for (const double until : { 0.1, 0.75 }) // during the claims and during the interpolation
+  for (const double until : { 0.1, 0.75 }) // during claims and during interpolation
   {
     double last = 0;
     options.Progress = [&](double done)

@@ -13,7 +13,7 @@
 namespace
 {
 
-/// The samples in the box of the scene's cells.
+/// The samples inside the bounding box of the scene's cells.
 std::set<std::int64_t> inBox(const Scene& scene, const tipp::Lattice& lattice)
 {
   double low[3] = { HUGE_VAL, HUGE_VAL, HUGE_VAL };

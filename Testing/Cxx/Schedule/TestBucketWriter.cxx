@@ -17,7 +17,8 @@ template <typename Id>
 class BucketWriterTest : public testing::Test
 {
 public:
-  /// Buckets one after another with one item between them that nobody writes.
+  /// Writes buckets of these sizes, in random order. The first begins at index `firstPlace`; after
+  /// each bucket one item stays unwritten.
   void distribute(const std::vector<std::size_t>& sizes, std::size_t firstPlace, unsigned seed)
   {
     std::vector<std::size_t> starts;

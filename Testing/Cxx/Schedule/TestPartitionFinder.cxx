@@ -13,7 +13,8 @@ namespace
 
 using namespace tipp;
 
-/// Random points, and such on and beside the boxes' corners and sides, inside the domain and out.
+/// Random points inside and outside the domain, and points on and next to the sides and corners of
+/// the boxes.
 std::vector<Point2> pointsAround(const Tiling& tiling)
 {
   std::mt19937_64 random(11);

@@ -17,7 +17,7 @@ class BucketsOf : public testing::Test
 
 TYPED_TEST_SUITE(BucketsOf, IdTypes, IdNames);
 
-/// Points of the unit square, some of which are not finite: a number that no batch divides.
+/// Points of the unit square, some of which are not finite. Their number is no multiple of a batch.
 Coordinates pointsWithHoles()
 {
   Coordinates xy = makePointSet("uniform", 5003);

@@ -32,7 +32,7 @@ TEST(PopulatePages, TakesNothingAndLessThanAPage)
 }
 
 #ifdef MADV_POPULATE_WRITE
-/// Of whole pages only: those at the ends belong to others as well.
+/// Only whole pages are committed: other data may lie in the pages at the ends.
 TEST(PopulatePages, ThePagesOfFreshMemoryAreThere)
 {
   const auto page = std::size_t(sysconf(_SC_PAGESIZE));
@@ -49,7 +49,7 @@ TEST(PopulatePages, ThePagesOfFreshMemoryAreThere)
   ASSERT_EQ(0, present());
   populatePages(static_cast<char*>(fresh) + 1, (count - 1) * page);
   const auto after = present();
-  const bool isKnown = madvise(fresh, page, MADV_POPULATE_WRITE) == 0; // Linux 5.14
+  const bool isKnown = madvise(fresh, page, MADV_POPULATE_WRITE) == 0; // since Linux 5.14
   EXPECT_EQ(isKnown ? std::ptrdiff_t(count) - 2 : 0, after);
   munmap(fresh, count * page);
 }

@@ -15,7 +15,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// In two lists, as two threads make them.
+/// The final triangles in two lists, as from two threads.
 template <typename Id>
 std::vector<std::vector<typename TriangleSink<Id>::FinalTriangle>> finalOnes(
   const std::vector<BoundaryTriangle>& triangles)
@@ -38,7 +38,7 @@ struct SinkRun
   {
   }
 
-  /// Made-up triangles, as a worker writes its interior ones.
+  /// Writes artificial triangles to a partition's buffer, as a worker writes its interior ones.
   void writeInterior(PartitionIndex p, std::size_t count)
   {
     for (std::size_t i = 0; i < count; ++i)
@@ -51,7 +51,7 @@ struct SinkRun
     this->Sink.setInteriorCount(p, count);
   }
 
-  /// Made-up triangles whose lowest vertices lie in all partitions with points.
+  /// Artificial triangles whose lowest vertices are spread over all partitions with points.
   std::vector<BoundaryTriangle> boundary(std::size_t count)
   {
     std::vector<BoundaryTriangle> triangles;
@@ -81,7 +81,7 @@ struct SinkRun
   Triangles Expected;
 };
 
-/// By the type of ids.
+/// Tests for both sizes of ids.
 template <typename Id>
 class SinkOf
   : public testing::Test
@@ -105,7 +105,7 @@ TEST(LongTriangles, AreToldAtAnyMagnitude)
 
 TYPED_TEST(SinkOf, InteriorAndBoundaryTrianglesAreAllThere)
 {
-  // There is room for 10, 0, 6 and 8 triangles.
+  // Each partition's buffer holds two triangles per point: 10, 0, 6 and 8.
   for (const std::size_t boundaryCount : { 0, 1, 2, 5, 9, 13 })
   {
     for (const auto& [first, third, last] : { std::tuple{ 0, 0, 0 }, { 3, 2, 5 }, { 10, 0, 0 },
@@ -159,7 +159,7 @@ TYPED_TEST(SinkOf, TheOrderDoesNotDependOnThatOfTheBoundary)
     }
     for (BoundaryTriangle& t : boundary)
     {
-      // The same triangle from another corner.
+      // The same triangle, starting at another corner.
       std::rotate(t.begin(), t.begin() + draw % 3, t.end());
     }
     const Buffer<TypeParam> ids = run.Sink.assemble(finalOnes<TypeParam>(boundary), 1 + draw % 3);
@@ -234,7 +234,7 @@ TYPED_TEST(SinkOf, DuplicatesOfDifferentPlacesAreKeptApart)
   EXPECT_EQ((Pairs{ { 5, 2 }, { 6, 1 }, { 8, 1 }, { 9, 2 } }), pairsOf(duplicates));
 }
 
-/// What is looked up quickly is looked up by a few digits of the id.
+/// Ids are looked up in a table by their low 14 bits, which are equal here.
 TYPED_TEST(SinkOf, IdsThatAreFarApartAreNotMixedUp)
 {
   const TypeParam apart = 1 << 14;

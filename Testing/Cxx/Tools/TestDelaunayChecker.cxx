@@ -29,7 +29,7 @@ Ids triangulate(const Coordinates& xy)
   return { result.Ids32.begin(), result.Ids32.end() };
 }
 
-// The options with which nothing is let pass.
+// Options under which every error is reported.
 CheckOptions strict()
 {
   CheckOptions options;
@@ -44,7 +44,7 @@ CheckOptions boundaryFree()
   return options;
 }
 
-// A correct triangulation to spoil.
+// A correct triangulation, into which tests insert errors.
 class Spoiled : public testing::Test
 {
 protected:
@@ -98,7 +98,7 @@ protected:
     FAIL() << "no such triangle";
   }
 
-  // Flips the first edge between two triangles that make a convex quadrilateral.
+  // Flips the first edge whose two triangles form a convex quadrilateral.
   void flipAnEdge()
   {
     for (std::size_t t = 0; t < this->Triangles.size(); t += 3)
@@ -117,7 +117,7 @@ protected:
     FAIL() << "no edge to flip";
   }
 
-  // The first triangle without, or with, an edge of the hull.
+  // The first triangle with an edge on the hull, or the first without.
   std::size_t findTriangle(bool onHull) const
   {
     for (std::size_t t = 0; t < this->Triangles.size(); t += 3)
@@ -317,7 +317,7 @@ TEST_F(Spoiled, EveryFaultIsNamed)
   report.BadTurns = 3;
   report.EulerMismatch = -2;
   EXPECT_EQ((std::vector<std::string>{ "3 triangles are clockwise or flat",
-              "-2 triangles too many (negative: too few) by Euler's count" }),
+              "-2 more triangles (negative: fewer) than Euler's formula gives" }),
     report.faults());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The check of meshes in pieces finds what the check of whole ones finds.
+// The check of a mesh in pieces finds the same errors as the check of a whole mesh.
 #include "Check/PieceChecker.h"
 
 #include "Triangulation/Triangulate.h"
@@ -39,7 +39,7 @@ Mesh makeMesh(std::size_t count, bool isLattice)
   return mesh;
 }
 
-/// Points belong to one of four columns; a triangle to the lowest of its points' columns.
+/// The column of a point, of four. A triangle belongs to the lowest column of its points.
 std::size_t columnOf(const Mesh& mesh, std::int64_t point)
 {
   return std::min<std::size_t>(3, std::size_t(mesh.XY[2 * std::size_t(point)] / 5));
@@ -184,10 +184,11 @@ TEST(PieceChecker, FindsAPointThatAnotherPieceHasElsewhere)
   EXPECT_FALSE(checker.finish().isCorrect());
 }
 
-/// The places of triangles in the mesh as their ids, and their neighbours from all pairs of edges.
+/// Pieces whose cell ids are the triangles' indices in the mesh, with neighbours computed from all
+/// edges.
 std::vector<CheckedPiece> piecesWithNeighbors(const Mesh& mesh)
 {
-  std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> cellOf; // by a directed edge
+  std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> cellOf; // left of an edge
   const auto edge = [&](std::size_t t, std::size_t i)
   {
     const std::int64_t* const ids = &mesh.Triangles[3 * t];

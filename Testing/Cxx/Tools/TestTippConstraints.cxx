@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tipp delaunay --constraints
+// The command 'tipp delaunay' with --constraints.
 #include "RunTipp.h"
 
 #include "Meshes/MeshFiles.h"
@@ -15,7 +15,7 @@ namespace
 using namespace tipp::test;
 using Words = std::vector<std::string>;
 
-/// A square, and in it a smaller one around a point.
+/// A square, and inside it a smaller square around a point.
 class TippConstraints : public testing::Test
 {
 protected:
@@ -64,7 +64,8 @@ TEST_F(TippConstraints, CrossingIsAddedAndTold)
 {
   const Outcome outcome = this->delaunay({ "-o", "mesh.vtp", "--constraints", "cross.csv" });
   ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
-  // The middle splits the first one too: it goes through two corners of the smaller square.
+  // The first line passes through two corners of the smaller square and the crossing: it has four
+  // edges.
   EXPECT_NE(std::string::npos, outcome.Out.find("2 constraints of 8 edges, 1 crossings"))
     << outcome.Out;
   const tipp::PointTable points = tipp::readPoints(this->Folder.path("mesh.vtp"));
@@ -117,7 +118,7 @@ TEST_F(TippConstraints, HolesAreRemovedBySeeds)
   EXPECT_EQ(1, this->delaunay(hole).ExitCode);
 }
 
-/// Whichever way round the lines go; an inner ring is a hole.
+/// Boundary lines may have any orientation. An inner ring is a hole.
 TEST_F(TippConstraints, BoundaryRemovesWhatIsOutside)
 {
   this->Folder.file("ring.csv",
@@ -127,7 +128,7 @@ TEST_F(TippConstraints, BoundaryRemovesWhatIsOutside)
   EXPECT_EQ(32, this->area("mesh.vtp"));
 }
 
-/// Only the smaller square is left, which no triangle joins to the boundary any more.
+/// Only the smaller square is left: the triangles between it and the boundary have long edges.
 TEST_F(TippConstraints, BoundaryGoesWithALongestEdge)
 {
   this->Folder.file("square.csv", "x1,y1,x2,y2\n1,1,7,1\n7,1,7,7\n7,7,1,7\n1,7,1,1\n");
@@ -179,7 +180,7 @@ TEST_F(TippConstraints, CheckProvesThem)
   this->Folder.file("other.csv", "0,8\n");
   const Outcome lost = check({ "--constraints", "other.csv" });
   EXPECT_EQ(1, lost.ExitCode);
-  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are no chain of edges")) << lost.Out;
+  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are not chains of edges")) << lost.Out;
 }
 
 TEST_F(TippConstraints, CheckTakesAMeshThatIsCut)
@@ -192,7 +193,7 @@ TEST_F(TippConstraints, CheckTakesAMeshThatIsCut)
   EXPECT_EQ(0, outcome.ExitCode) << outcome.Out << outcome.Err;
 }
 
-/// A line leaves the polygon, and another one lies outside of it.
+/// One line leaves the polygon, and another line is outside it.
 TEST_F(TippConstraints, CheckTakesConstraintsOutsideOfAMeshThatIsCut)
 {
   this->Folder.file("lines.vtk",
@@ -208,12 +209,12 @@ TEST_F(TippConstraints, CheckTakesConstraintsOutsideOfAMeshThatIsCut)
     const Outcome good = outcome("lines.vtk");
     EXPECT_EQ(0, good.ExitCode) << mesh << good.Out << good.Err;
     EXPECT_NE(
-      std::string::npos, outcome("other.csv").Out.find("1 constraints are no chain of edges"))
+      std::string::npos, outcome("other.csv").Out.find("1 constraints are not chains of edges"))
       << "the second is crossed";
   }
 }
 
-/// One rank works as several do.
+/// One rank uses the same code as several ranks.
 TEST_F(TippConstraints, AreInsertedOnRanks)
 {
   const Outcome outcome =
@@ -245,7 +246,7 @@ TEST_F(TippConstraints, PartitionedMeshesAreMadeAndProved)
   this->Folder.file("other.csv", "0,8\n");
   const Outcome lost = check("other.csv");
   EXPECT_EQ(1, lost.ExitCode);
-  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are no chain of edges")) << lost.Out;
+  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are not chains of edges")) << lost.Out;
 }
 
 TEST_F(TippConstraints, PartitionedMeshesAreCutToABoundary)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `tipp dem`: a raster of points.
+// The command 'tipp dem', which makes a raster from points.
 #include "TippDem.h"
 
 #include <gtest/gtest.h>
@@ -96,7 +96,7 @@ TEST_F(TippDem, MakesTheSameWherePixelsLieOnPoints)
   ASSERT_EQ(120U * 120, values.size());
   for (std::size_t i = 0; i < values.size(); ++i)
   {
-    ASSERT_EQ(double(i % 120 * (i / 120) % 17), values[i]); // the far border, too
+    ASSERT_EQ(double(i % 120 * (i / 120) % 17), values[i]); // also on the far border
   }
 }
 
@@ -259,7 +259,7 @@ TEST_F(TippDem, WarnsWhereNoPixelHasAValue)
 
 TEST_F(TippDem, LongTrianglesOverManyTilesAreTheSameForAnyMemory)
 {
-  // A row of points and one far away: slivers across most tiles.
+  // Points in a row and one point far away: thin triangles across most tiles.
   std::ofstream csv(this->Folder.path("points.csv"));
   csv << "x,y,z\n4000,3500,9\n";
   for (int i = 0; i < 4000; ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kinds of files that commands read and write.
+// File formats that commands read and write.
 #include "RunTipp.h"
 
 #include "Points/ReadPoints.h"
@@ -27,7 +27,7 @@ protected:
   }
   std::string content(const std::string& name) const { return contentOf(this->Folder.path(name)); }
 
-  /// With its standard input from a file.
+  /// Runs the tool with a file as standard input.
   int runWithInput(const std::string& input, const std::string& words) const
   {
     const std::string command = "cd '" + this->Folder.path("") + "' && " TIPP_EXECUTABLE " " +
@@ -141,7 +141,7 @@ TEST_F(TippFormats, NumbersMayHaveDecimalCommas)
     EXPECT_EQ(xy, points.XY) << text;
     EXPECT_EQ((std::vector<double>{ 7, 8.5 }), points.Columns.at(0).Values) << text;
   }
-  // Commas that part columns stay what they are.
+  // Commas that separate columns are not decimal commas.
   EXPECT_EQ((std::vector<double>{ 1, 5, 3, 4 }),
     tipp::readPoints(this->Folder.file("plain.txt", "1, 5, 2\n3, 4, 7\n")).XY);
 }

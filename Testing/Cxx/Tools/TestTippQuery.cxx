@@ -17,7 +17,7 @@ namespace
 
 using Words = std::vector<std::string>;
 
-/// A square of two triangles, stored and as a file, with a height of x + 10 y.
+/// A square of two triangles with heights x + 10 y, partitioned and as a file.
 class TippQuery : public testing::Test
 {
 protected:
@@ -167,13 +167,13 @@ TEST_F(TippQuery, RefusesOptionsThatDoNotGoTogether)
     { "query", "asked.csv", "mesh.tipp", "-o", "out.npy", "--closest" }, "does not end in .csv");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--descend", "height" },
     "does not end in .vtp");
-  expect({ "query", "mesh.tipp", "-o", "ids.csv", "--ids", "cells" }, "give a region");
+  expect({ "query", "mesh.tipp", "-o", "ids.csv", "--ids", "cells" }, "--ids needs a region");
   expect({ "query", "mesh.tipp", "-o", "ids.csv", "--ids", "cells", "--bounds", "0", "1", "2", "3",
            "4" },
     "four numbers");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "ids.csv", "--ids", "cells", "--bounds", "0",
            "1", "0", "1" },
-    "give the mesh alone");
+    "give only the mesh");
 }
 
 TEST_F(TippQuery, RefusesWhatItCannotAnswer)

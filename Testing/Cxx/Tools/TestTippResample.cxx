@@ -20,7 +20,7 @@ namespace
 
 using Words = std::vector<std::string>;
 
-/// A triangulation with the field z at its points, as a VTK file.
+/// A VTK file of a triangulation with the field z at its points.
 class TippMesh : public testing::Test
 {
 protected:
@@ -43,7 +43,7 @@ protected:
     return std::filesystem::exists(this->Folder.path(name));
   }
 
-  /// The .npy image of the range of a mesh.
+  /// The .npy image of a range of the mesh.
   std::string imageOf(const std::string& mesh) const
   {
     const Outcome outcome = this->run({ "resample", mesh, "-o", "image.npy", "--arrays", "height",
@@ -174,11 +174,11 @@ TEST_F(TippResample, RefusesAGridWithoutPointsOfItsOwn)
   EXPECT_NE(std::string::npos, outcome.Err.find("holds a vtkImageData")) << outcome.Err;
 }
 
-/// Files that crash or stop VTK's readers, or whose ids are those of no point.
+/// Files that crash or end VTK's readers, or with ids of points that do not exist.
 class TippDamagedFile : public testing::Test
 {
 protected:
-  /// All commands that read the mesh fail with one line that starts so.
+  /// Expects that all commands that read the mesh fail with one line that begins with `start`.
   void expectRefusal(const std::string& file, const std::string& start) const
   {
     for (const Words& words :
@@ -191,7 +191,7 @@ protected:
       EXPECT_EQ(0U, outcome.Err.find("tipp: " + file + ": " + start)) << words[0] << outcome.Err;
       EXPECT_EQ(outcome.Err.size() - 1, outcome.Err.find('\n')) << words[0] << outcome.Err;
     }
-    EXPECT_EQ(1U, this->Folder.fileCount() - 2); // beside what runTipp() keeps
+    EXPECT_EQ(1U, this->Folder.fileCount() - 2); // runTipp() keeps two files
   }
 
   static std::string surface(const std::string& components, const std::string& id)

@@ -27,7 +27,7 @@ std::int64_t heaviest(const std::vector<std::int64_t>& weights, const Starts& st
   return most;
 }
 
-// Over all ways to cut.
+// The smallest possible weight of the heaviest run, by a search of all divisions.
 std::int64_t best(const std::vector<std::int64_t>& weights, std::size_t begin, int ranks)
 {
   std::int64_t sum = 0;

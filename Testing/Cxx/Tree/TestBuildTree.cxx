@@ -42,7 +42,7 @@ void expectSameTree(const PartitionTree& expected, const PartitionTree& actual)
   EXPECT_EQ(expected.Cells, actual.Cells);
 }
 
-// Beside each other along the square's diagonal.
+// Slivers beside each other along the square's diagonal.
 CellSet slivers(std::size_t count)
 {
   CellSet cells;
@@ -107,7 +107,7 @@ TEST(BuildTree, TheOrderOfTheCellsChangesNothing)
   const CellSet cells = cellSoup(2, 3, 2000, 5);
   CellSet reversed = cells;
   std::reverse(reversed.Coordinates.begin(), reversed.Coordinates.end());
-  // Corners come back as (y, x); put each in order again.
+  // Each corner is now (y, x); exchanges the coordinates.
   for (std::size_t i = 0; i < reversed.Coordinates.size(); i += 2)
   {
     std::swap(reversed.Coordinates[i], reversed.Coordinates[i + 1]);
@@ -170,7 +170,7 @@ TEST(BuildTree, AMeshOfOneChunkIsReadOnce)
 
 TEST(BuildTree, ManyCellsAtOnePointAreNotSplitForEver)
 {
-  // All triangles meet the centre; none is shorter than a quarter of the square.
+  // All triangles have the centre as a corner, and are at least a quarter of the square long.
   CellSet cells;
   for (int i = 0; i < 500; ++i)
   {
@@ -205,8 +205,8 @@ TEST(BuildTree, TinyCellsAtOnePlaceEndAtTheGreatestDepth)
   EXPECT_EQ(buildTree(sourceOf(cells), cells.bounds(), shallow).Tiling.count(), 16);
 }
 
-// A lattice, one point of which is far away: its cells are as wide as the domain, and each other's
-// boxes never hold few of them.
+// A lattice with one point far away. The cells at this point are as wide as the domain, so no box
+// meets only a few of them.
 TEST(BuildTree, CellsThatOverlapEverywhereAreRefused)
 {
   const auto pointAt = [](int i, int j)

@@ -57,7 +57,7 @@ TEST(RefinementTree, RefusesAStructureThatIsNone)
     expectFailure([&] { RefinementTree::merged("0", broken, 4); }, "do not make a tree");
     expectFailure([&] { RefinementTree::merged(broken, "10000", 4); }, "do not make a tree");
   }
-  // Deeper than any tree.
+  // A structure that is deeper than any tree may be.
   expectFailure([]
     { RefinementTree::merged("0", std::string(100, '1') + std::string(301, '0'), 4); },
     "do not make a tree");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Run on several ranks: each builds the tree alone too and compares.
+// Each rank also builds the tree alone, and compares it with that of all ranks.
 #include "Partitioning/BuildTree.h"
 #include "Ranks/Communicator.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The same options give the same triangles in the same order.
+// Two runs with the same options give the same triangles in the same order.
 #include "Comparison.h"
 
 #include <algorithm>

@@ -54,7 +54,7 @@ TEST(Duplicates, TheRepresentativeIsTheLowestIdEvenIfACopyComesSortedFirst)
 
 TEST(Duplicates, CopiesOnTheBordersOfPartitionsMeet)
 {
-  // 8 x 8 partitions of [0, 8] x [0, 8]: every point lies on a border, and four times in the input.
+  // 8 x 8 partitions of [0, 8] x [0, 8]. Every point lies on a border, and occurs four times.
   Coordinates xy;
   for (int copy = 0; copy < 4; ++copy)
   {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Few points, flat ones, and points that are none.
+// Few points, almost collinear points, and points that are not finite.
 #include "Comparison.h"
 
 #include <cmath>
@@ -26,7 +26,7 @@ class FewPoints : public testing::TestWithParam<int>
 
 TEST_P(FewPoints, AreTriangulatedAsByCgal)
 {
-  // On a 4 x 4 lattice: with duplicates, ties and collinear points.
+  // Random points of a 4 x 4 lattice: duplicates, ties and collinear points.
   std::mt19937_64 random(static_cast<std::uint64_t>(GetParam()));
   for (int draw = 0; draw < 200; ++draw)
   {
@@ -92,7 +92,7 @@ TEST(SmallInputs, MixedExponentsAreTriangulatedAsByCgal)
   EXPECT_TRUE(matches(xy, triangulate(view(xy), withGrid(4, 4)), expected));
 }
 
-/// How a coordinate is drawn whose exponent is anywhere in the range of doubles.
+/// Functions that draw the coordinates of a point, with exponents from the whole range of doubles.
 struct WideCoordinate
 {
   std::string Name;
