@@ -217,7 +217,7 @@ SpilledPoints::SpilledPoints(
   }
   if (!isOurs)
   {
-    throw IOError(file, "has points of other pieces; start again.");
+    throw IOError(file, "has the points of other pieces; start again.");
   }
 }
 

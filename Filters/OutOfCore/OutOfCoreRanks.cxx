@@ -147,7 +147,7 @@ void requireSharedFolder(Communicator& ranks, const std::string& folder)
   if (firstLine(path) != expected)
   {
     throw IOError(std::filesystem::path(path).parent_path().string(),
-      "is not there on this rank, but all ranks work in it; name folders that all of them share.");
+      "does not exist on this rank, but all ranks use it; name folders that all ranks share.");
   }
   ranks.barrier(); // all ranks have read the file, so it can be removed
 }

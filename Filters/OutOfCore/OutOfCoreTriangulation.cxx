@@ -203,12 +203,11 @@ private:
     if (!isOurs)
     {
       throw IOError(this->Path,
-        this->Options.Resume
-          ? "was begun with another input, or with one that has been changed since, or with other "
-            "options; give those, or remove " +
+        this->Options.Resume ? "was started with another or since changed input, or with other "
+                               "options; give those, or remove " +
             this->Pending.workPath() + " to start again."
-          : "has been begun by another run, and its work is in " + this->Pending.workPath() +
-            "; resume it, or remove that folder to start again.");
+                             : "was started by another run, whose files are in " +
+            this->Pending.workPath() + "; resume that run, or remove the folder to start again.");
     }
   }
 
@@ -247,7 +246,8 @@ private:
     requireElevation(this->Options.Duplicates, this->Input.columns());
     if (survey.Points == survey.Rejected)
     {
-      throw IOError("There is no point with finite coordinates in the input, so nothing to write.");
+      throw IOError(
+        "The input has no point with finite coordinates, so there is nothing to write.");
     }
     const std::vector<ConstraintSegment> segments =
       this->Options.Constraints ? this->Options.Constraints() : std::vector<ConstraintSegment>();

@@ -111,8 +111,7 @@ PiecePlan::PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options,
   {
     if (!fits)
     {
-      throw IOError(
-        "The coordinates reach too far to be enclosed by 64-bit numbers; scale them down.");
+      throw IOError("The coordinates are too large for 64-bit numbers; scale them down.");
     }
     this->takeAlone(survey);
     return;
@@ -231,7 +230,8 @@ PiecePlan::PiecePlan(LoadArchive& archive)
   archive(this->IsAlone, this->Pieces, this->Inner, this->Initial);
   if (this->Inner.size() != std::size_t(this->Pieces.size()))
   {
-    throw std::runtime_error("The plan of a run is damaged: it has not one tiling a piece.");
+    throw std::runtime_error(
+      "The plan of a run is damaged: it does not have one tiling per piece.");
   }
   this->numberPartitions();
   if (!this->IsAlone)

@@ -53,7 +53,7 @@ void BorderSorter::findMet(const BoundaryTriangle& triangle)
   if (this->Met.empty())
   {
     throw std::runtime_error(
-      "Points lie outside of the bounds that were found at first: the input has changed meanwhile; "
+      "Points are outside of the bounds that the first pass found: the input has changed; "
       "start again.");
   }
 }

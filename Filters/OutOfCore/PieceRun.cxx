@@ -385,7 +385,8 @@ void PieceRun::receivePartition(const Message& message)
     std::any_of(
       sent.begin(), sent.end(), [&](const auto& to) { return rankOf(to.first) != this->rank(); }))
   {
-    throw std::runtime_error("A message from another rank is damaged: it is for another one.");
+    throw std::runtime_error(
+      "A message from another rank is damaged: it is for a partition of another rank.");
   }
   {
     const Lock lock(this->Mutex);

@@ -239,7 +239,7 @@ std::vector<std::string> warningsOf(
     const std::int64_t distinct = points - std::int64_t(triangulation.Duplicates.size()) - rejected;
     warnings.push_back("No triangles: of " + std::to_string(points) + " points, " +
       std::to_string(distinct) + " are finite and distinct" +
-      (distinct < 3          ? ", and it takes three."
+      (distinct < 3          ? ", but a triangle needs three."
           : longEdgesLeftOut ? ", and all triangles have edges that are too long, or all points "
                                "are on one line."
                              : ", and all are on one line."));

@@ -172,7 +172,7 @@ class Messages(unittest.TestCase):
     """Errors of VTK become exceptions of one sentence."""
 
     @unittest.skipIf(IS_WHEEL, "the wheel takes no sentences from VTK")
-    def test_places_in_the_source_and_addresses_are_left_out(self):
+    def test_source_positions_and_addresses_are_left_out(self):
         told = "ERROR: In /build/Filters/vtkThing.cxx, line 57\nvtkThing (0x55d0c8a0): the mesh\n has no cells.\n\n"
         self.assertEqual(tipp._run._first_sentence(told), "the mesh has no cells.")
         told = "vtkCompositeDataPipeline (0x1f): Input for algorithm vtkThing(0x55d0c8a0) is missing."
@@ -181,7 +181,7 @@ class Messages(unittest.TestCase):
                 "  Modified Time: 117\n")
         self.assertEqual(tipp._run._first_sentence(told), "Algorithm vtkThing returned failure.")
 
-    def test_a_temporary_file_is_named_as_the_output_that_it_is_for(self):
+    def test_messages_name_the_output_and_not_its_temporary_file(self):
         program = (
             "import resource, signal, numpy as np, tipp\n"
             "mesh = tipp.delaunay_2d(np.random.default_rng(1).random((3000, 2)))\n"
@@ -208,7 +208,7 @@ class Limits(unittest.TestCase):
         program = "import numpy as np, tipp\np = np.random.default_rng(1).random((3000, 2))\n" + program
         return subprocess.run([sys.executable, "-c", program], text=True, capture_output=True, timeout=250)
 
-    def test_an_image_larger_than_memory_tells_its_bytes(self):
+    def test_an_image_larger_than_memory_reports_its_bytes(self):
         for dimensions in ("(100000, 100000, 100)", "(10**9, 10**9, 1)"):
             done = self.run_python(f"tipp.resample(tipp.delaunay_2d(p), dimensions={dimensions})")
             self.assertRegex(done.stderr.splitlines()[-1], "^(RuntimeError|MemoryError): .* GB of memory, and this")
@@ -217,7 +217,7 @@ class Limits(unittest.TestCase):
         done = self.run_python("tipp.delaunay(p, partitions=(10**9, 10**9))")
         self.assertRegex(done.stderr.splitlines()[-1], "^RuntimeError: .*partitions are too many")
 
-    def test_more_threads_than_can_be_of_use_change_nothing(self):
+    def test_too_many_threads_change_nothing(self):
         done = self.run_python(
             "a = tipp.delaunay(p, threads=4096)\n"
             "assert (np.sort(a, axis=None) == np.sort(tipp.delaunay(p), axis=None)).all()\n"
@@ -225,7 +225,7 @@ class Limits(unittest.TestCase):
         self.assertEqual((done.stdout.strip(), done.returncode), ("90000", 0), done.stderr)
 
     @unittest.skipIf(IS_WHEEL, "the wheel has no VTK classes")
-    def test_more_threads_of_the_class_than_can_be_of_use_change_nothing(self):
+    def test_too_many_threads_of_the_class_change_nothing(self):
         done = self.run_python(
             "f = tipp.vtkRangeResampleFilter()\n"
             "f.SetInputDataObject(tipp.delaunay_2d(p))\n"
@@ -236,7 +236,7 @@ class Limits(unittest.TestCase):
         self.assertEqual((done.stdout.strip(), done.returncode), ("90000", 0), done.stderr)
 
     @unittest.skipIf(IS_WHEEL, "the wheel has no VTK classes")
-    def test_numbers_that_are_none_are_refused_by_the_class_too(self):
+    def test_nan_is_refused_by_the_class_too(self):
         for name, value in (("Alpha", "nan"), ("Offset", "nan"), ("Tolerance", "nan")):
             f = tipp.vtkTIPPDelaunay2D()
             f.SetInputData(tipp.delaunay_2d(POINTS))

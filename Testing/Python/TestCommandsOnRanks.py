@@ -165,7 +165,7 @@ class FirstRankAlone(Commands):
     def test_devices_are_listed_once(self):
         self.expect_once("devices")
 
-    def test_wrong_usage_is_told_once(self):
+    def test_wrong_usage_is_reported_once(self):
         run = self.run_tipp(3, "points", "--count", "many")
         self.assertEqual(run.returncode, 2)
         self.assertEqual(run.stderr.count("see 'tipp points --help'"), 1, run.stderr)

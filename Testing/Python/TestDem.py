@@ -89,7 +89,7 @@ class Dem(unittest.TestCase):
         np.testing.assert_allclose(bands, np.load(self.path("dem.npy"))[:, ::-1], rtol=1e-12)
         self.assertEqual(set(np.unique(bands[3])), {0.0, 1.0})
 
-    def test_equal_places_and_thinning_are_those_of_the_tool(self):
+    def test_duplicates_and_thinning_are_those_of_the_tool(self):
         self.points[:, :2] = np.round(self.points[:, :2])
         np.save(self.path("points.npy"), self.points)
         grids = []

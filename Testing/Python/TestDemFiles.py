@@ -128,7 +128,7 @@ class DemFiles(unittest.TestCase):
         self.expect_near(triangulation.interpolate({"method": "TIN"}, centres, strict=False), pixels)
 
     @needs("rasterio")
-    def test_a_raster_without_reference_system_has_its_place(self):
+    def test_a_raster_without_reference_system_keeps_its_position(self):
         import rasterio
 
         self.save_points(low=(-30, 1000))
@@ -139,7 +139,7 @@ class DemFiles(unittest.TestCase):
             self.assertEqual(raster.shape, (100, 100))
 
     @needs("rasterio")
-    def test_like_takes_the_very_transform_of_another_raster(self):
+    def test_like_uses_exactly_the_transform_of_another_raster(self):
         import rasterio
 
         points = self.save_points(low=(636000.1, -50), side=80)

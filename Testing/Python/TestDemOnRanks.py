@@ -94,7 +94,7 @@ class DemOnRanks(unittest.TestCase):
         self.make_points(3000)
         self.assertEqual(self.make(2, "shared.npy"), self.make(1, "alone.npy"))
 
-    def test_killed_ranks_are_followed_by_others(self):
+    def test_killed_runs_are_resumed(self):
         self.make_points(60000)
         (self.folder / "lines.csv").write_text("x1,y1,x2,y2\n5,5,90,93\n7,80,88.1,12\n")
         alone = self.make(1, "alone.npy", "--breaklines", "lines.csv")

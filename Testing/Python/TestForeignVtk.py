@@ -34,7 +34,7 @@ class ForeignVtk(unittest.TestCase):
         self.assertEqual(1, run.returncode, run.stderr)
         self.assertRegex(run.stderr.splitlines()[-1], "^ImportError: tipp needs the Python modules of VTK 9[.]")
 
-    def test_the_same_vtk_is_taken(self):
+    def test_the_same_vtk_is_accepted(self):
         self.assertEqual(0, import_tipp({}).returncode)
 
 

@@ -72,7 +72,7 @@ class Query(unittest.TestCase):
             for values in found:
                 np.testing.assert_array_equal(values, expected)
 
-    def test_sixteen_threads_ask_all_questions(self):
+    def test_sixteen_threads_run_all_queries(self):
         box = (0.2, 0.7, 0.1, 0.6)
         square = [(0.15, 0.2), (0.8, 0.25), (0.5, 0.9)]
         questions = [
@@ -221,7 +221,7 @@ class Query(unittest.TestCase):
 
             np.testing.assert_allclose(ordered(middles)[:, :2], ordered(expected)[:, :2], atol=1e-6)
 
-    def test_what_lies_around(self):
+    def test_neighbors_rings_boundary_and_components(self):
         triangles = tipp.delaunay(self.points)
         with tipp.open(self.path) as mesh:
             cells = np.arange(len(triangles))
@@ -247,7 +247,7 @@ class Query(unittest.TestCase):
             np.testing.assert_array_equal(labels, 0)
             np.testing.assert_array_equal(sizes, [len(triangles)])
 
-    def test_the_filter_takes_the_place_of_vtk_probe_filter(self):
+    def test_the_filter_can_replace_vtk_probe_filter(self):
         from vtkmodules.util.numpy_support import vtk_to_numpy
         from vtkmodules.vtkFiltersCore import vtkProbeFilter
 
@@ -275,7 +275,7 @@ class Query(unittest.TestCase):
             np.testing.assert_array_equal(cells >= 0, mask != 0)
             self.assertEqual(np.abs(vtk_to_numpy(ours.GetArray("height"))[mask == 0]).max(), 0)
 
-    def test_direct_questions_update_the_source(self):
+    def test_direct_queries_update_the_source(self):
         from vtkmodules.vtkCommonCore import vtkIdTypeArray
         from vtkmodules.vtkFiltersGeneral import vtkShrinkFilter
 

@@ -53,7 +53,7 @@ class Resample(unittest.TestCase):
         self.filter.Update()
         return self.filter.GetOutput()
 
-    def test_a_linear_field_comes_back_in_every_sample_of_clustered_points(self):
+    def test_a_linear_field_of_clustered_points_is_reproduced_in_every_sample(self):
         p = clustered(20000)
         image = self.run_filter(
             surface(p, f=1 + 2 * p[:, 0] - 3 * p[:, 1]), SamplingDimensions=(300, 200, 1)

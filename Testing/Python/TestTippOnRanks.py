@@ -70,7 +70,7 @@ class TippOnRanks(unittest.TestCase):
                         for i, p in enumerate(points))
         (self.folder / name).write_bytes(bytes(header) + body)
 
-    def test_statistics_tell_of_every_rank(self):
+    def test_statistics_have_every_rank(self):
         self.triangles(3, "--stats", "run.json", "--masters", "multi", "--major", "2x2", "--minor", "3x3")
         statistics = json.loads((self.folder / "run.json").read_text())
         self.assertEqual(len(statistics["ranks"]), 3)

@@ -49,7 +49,7 @@ class OutOfCoreOnRanks(unittest.TestCase):
         for ranks in (2, 3):
             self.assertEqual(self.make(ranks, "points.npy", "--memory", "1M"), alone)
 
-    def test_killed_ranks_are_followed_by_any_number(self):
+    def test_any_number_of_ranks_resumes_a_killed_run(self):
         self.make_points("coast", 200000)
         arguments = ("points.npy", "--memory", "2M", "--resume")
         alone = self.make(1, *arguments)
@@ -87,7 +87,7 @@ class OutOfCoreOnRanks(unittest.TestCase):
         # The limit for one process, plus what MPI needs.
         self.assertLess(max(memory), (32 << 20) + 70e6)
 
-    def test_a_full_disk_is_one_sentence_and_the_run_goes_on(self):
+    def test_a_full_disk_is_one_sentence_and_the_run_is_resumed(self):
         self.make_points("uniform", 400000)
         arguments = ("points.npy", "--partitions", "2x1")
         alone = self.make(1, *arguments)
@@ -106,7 +106,7 @@ class OutOfCoreOnRanks(unittest.TestCase):
         self.assertFalse(self.made.exists())
         self.assertEqual(self.make(3, *arguments, "--resume"), alone)
 
-    def test_an_interrupt_leaves_a_run_that_goes_on(self):
+    def test_an_interrupted_run_is_resumed(self):
         arguments = ("uniform:3000000", "--memory", "16M", "--sink", "count")
         alone = self.run_tipp(1, *arguments)
         run = subprocess.Popen(self.command(2, *arguments), cwd=self.folder, stdout=subprocess.DEVNULL,

@@ -74,7 +74,7 @@ class Constraints(unittest.TestCase):
         self.assertEqual(4, area(tipp.delaunay_2d(SQUARES, polygons=[INNER])))
         self.assertEqual(60, area(tipp.delaunay_2d(SQUARES, polygons=[INNER[::-1]])))
 
-    def test_coordinates_are_points_where_there_are_some_else_new_ones(self):
+    def test_coordinates_are_existing_or_new_points(self):
         mesh = tipp.delaunay_2d(SQUARES, polygons=[SQUARES[INNER]])
         self.assertEqual((9, 4), (len(mesh.points), area(mesh)))
         with self.assertWarnsRegex(RuntimeWarning, "1 point arrays of the input are left out"):
@@ -88,7 +88,7 @@ class Constraints(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "a polygon, has the corner 5, which is NaN"):
             tipp.delaunay_2d(points, polygons=[INNER])
 
-    def test_a_tolerance_does_not_go_with_constraints(self):
+    def test_a_tolerance_is_refused_with_constraints(self):
         with self.assertRaisesRegex(RuntimeError, "tol does not go with constraints"):
             tipp.delaunay_2d(SQUARES, edges=[[0, 1]], tol=0.1)
 

@@ -102,7 +102,7 @@ class Interpreter(unittest.TestCase):
         calls(int(os.environ.get("TIPP_SMALL_CALLS", "100000")))
         self.assertLess(resident() - before, 4 << 20)
 
-    def test_references_are_given_back(self):
+    def test_references_are_released(self):
         points = random_points(1000)
         triangles = tipp.delaunay(points)
         before = sys.getrefcount(points)
@@ -120,7 +120,7 @@ class Interpreter(unittest.TestCase):
         flat = tipp.Mesh(mesh.points, mesh.simplices)
         np.testing.assert_array_equal(flat.cells, pickle.loads(pickle.dumps(flat)).cells)
 
-    def test_a_progress_function_hears_of_the_run_and_can_stop_it(self):
+    def test_a_progress_function_is_called_and_can_stop_the_run(self):
         points = random_points(200_000)
         heard = []
         tipp.delaunay(points, progress_bar=heard.append)

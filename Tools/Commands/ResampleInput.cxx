@@ -343,7 +343,7 @@ vtkSmartPointer<vtkDataSet> readMesh(const ResampleArguments& arguments, Communi
         hideOtherShares(mesh, ranks);
       }
     });
-  // If a rank cannot read the mesh, readDataSet() throws on all ranks.
+  // If a rank cannot read the mesh, attempt() throws on all ranks.
   return mesh ? mesh : readFlat(arguments, ranks);
 }
 

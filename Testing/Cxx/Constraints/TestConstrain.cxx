@@ -48,7 +48,7 @@ class ConstrainedSets : public testing::TestWithParam<std::string>
 {
 };
 
-TEST_P(ConstrainedSets, AreTheOraclesForEveryDensity)
+TEST_P(ConstrainedSets, EqualTheOracleForEveryDensity)
 {
   const Coordinates xy = makePointSet(GetParam(), 3000);
   for (const std::size_t step : { 2, 7, 60, 500 })
@@ -80,7 +80,7 @@ TEST_P(ConstrainedSets, AreTheSameForPartitionsAndThreads)
   }
 }
 
-TEST_P(ConstrainedSets, HaveTheirCrossingsSplit)
+TEST_P(ConstrainedSets, AreSplitAtCrossings)
 {
   const Coordinates xy = makePointSet(GetParam(), 600);
   const std::size_t points = xy.size() / 2;
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(PointSets, ConstrainedSets,
     return name;
   });
 
-TEST(Constrain, TakesLongSegmentsAcrossEverything)
+TEST(Constrain, InsertsLongSegmentsAcrossTheDomain)
 {
   Coordinates xy = makePointSet("uniform", 30000);
   xy.insert(xy.end(), { -0.1, 0.3, 1.1, 0.7, -0.1, 0.31, 1.1, 0.72, -0.1, 0.9, 1.1, 0.9 });
@@ -117,7 +117,7 @@ TEST(Constrain, TakesLongSegmentsAcrossEverything)
 }
 
 /// Long triangles are removed after the constraints have been inserted, not before.
-TEST(Constrain, LeavesOutLongTrianglesAtTheEnd)
+TEST(Constrain, RemovesLongTrianglesAfterInsertingConstraints)
 {
   Coordinates xy = makePointSet("uniform", 2000);
   xy.insert(xy.end(), { -0.1, 0.3, 1.1, 0.7 });
@@ -157,7 +157,7 @@ TEST(Constrain, OrdersTrianglesTheSameForAllThreads)
     one.Mesh.Ids32.begin(), one.Mesh.Ids32.end(), four.Mesh.Ids32.begin(), four.Mesh.Ids32.end()));
 }
 
-TEST(Constrain, NestedPolygonsThatTouchAtPoints)
+TEST(Constrain, NestedPolygonsMayTouchAtPoints)
 {
   Coordinates xy = makePointSet("uniform", 4000);
   std::vector<Constraint> constraints;

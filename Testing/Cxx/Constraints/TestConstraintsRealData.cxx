@@ -80,13 +80,13 @@ void expectElementsBack(const AdcircMesh& mesh)
   EXPECT_TRUE(isConstrained(mesh.Nodes, edges, result));
 }
 
-TEST(RealConstraints, GiveBackEveryElementOfEC95d)
+TEST(RealConstraints, ReproduceEveryElementOfEC95d)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
   expectElementsBack(readAdcirc(path));
 }
 
-TEST(RealConstraints, GiveBackEveryElementOfInternalOverflow)
+TEST(RealConstraints, ReproduceEveryElementOfInternalOverflow)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/internal_overflow/internal_overflow.grd");
   expectElementsBack(readAdcirc(path));
@@ -152,7 +152,7 @@ TEST(RealConstraints, BoundariesCutGridsWithWeirs)
   }
 }
 
-TEST(RealConstraints, GiveBackEveryElementOfLacLeman)
+TEST(RealConstraints, ReproduceEveryElementOfLacLeman)
 {
   TIPP_REQUIRE_REAL_DATA(path, "constraints/lac-leman-v4.msh");
   expectElementsBack(readFreeFem(path).Mesh);

@@ -179,7 +179,7 @@ TEST_P(CrossedParts, AreRetriangulatedInTwoSteps)
   EXPECT_TRUE(sameTriangles(scene.XY, sorted(mesh), trianglesOf(scene.Whole.Mesh)));
 }
 
-TEST_P(CrossedParts, AreNamedAnew)
+TEST_P(CrossedParts, MayBeRenumbered)
 {
   const Scene scene(GetParam(), 3, 12);
   const ConstraintSegments segments(scene.Segments);
@@ -225,7 +225,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 /// Polygons, boundaries and holes keep the same triangles whether rays or walks across triangles
 /// decide.
-TEST(ConstraintSegments, KeepWhatIsKeptInMemory)
+TEST(ConstraintSegments, KeepTheSameTrianglesAsInMemory)
 {
   Coordinates xy = makePointSet("uniform", 400);
   std::vector<Constraint> constraints;

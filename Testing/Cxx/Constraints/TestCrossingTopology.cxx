@@ -77,7 +77,7 @@ void compareRandom(std::uint64_t side, int segments, std::uint64_t seed)
     << side << " " << segments << " " << seed;
 }
 
-TEST(CrossingTopology, OfRandomSegmentsIsThatOfExactCoordinates)
+TEST(CrossingTopology, OfRandomSegmentsEqualsExactCoordinates)
 {
   for (std::uint64_t seed = 0; seed < 10; ++seed)
   {
@@ -86,7 +86,7 @@ TEST(CrossingTopology, OfRandomSegmentsIsThatOfExactCoordinates)
 }
 
 /// In a small lattice, many segments cross at one point, overlap, or end on each other.
-TEST(CrossingTopology, OfSegmentsOfALatticeIsThatOfExactCoordinates)
+TEST(CrossingTopology, OfLatticeSegmentsEqualsExactCoordinates)
 {
   for (std::uint64_t seed = 0; seed < 60; ++seed)
   {

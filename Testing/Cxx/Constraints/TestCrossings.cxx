@@ -84,7 +84,7 @@ TEST(Crossings, BecomePoints)
   EXPECT_EQ(1, result.Constraints.Rounds);
 }
 
-TEST(Crossings, OfManyAtOnePlaceAreOnePoint)
+TEST(Crossings, OfManySegmentsAtOnePositionAreOnePoint)
 {
   Coordinates xy;
   std::vector<Constraint> constraints;
@@ -98,7 +98,7 @@ TEST(Crossings, OfManyAtOnePlaceAreOnePoint)
   EXPECT_EQ(1u, result.Constraints.Crossings.size());
 }
 
-TEST(Crossings, OfAnEdgeThatIsAConstraintAreFound)
+TEST(Crossings, WithADelaunayEdgeAreFound)
 {
   // The short segment is an edge of the Delaunay triangulation, and the other segment crosses it.
   const Coordinates xy{ 0, -1, 0, 1, -9, 0, 9, 0.5 };
@@ -124,7 +124,7 @@ TEST(Crossings, AreRefusedNamingTheFirst)
   }
 }
 
-TEST(Crossings, AreNotRefusedWhereThereAreNone)
+TEST(Crossings, AreNotReportedIfThereAreNone)
 {
   const Coordinates xy{ 0, 0, 4, 4, 0, 4, 2, 2 };
   const std::vector<Constraint> constraints{ { 0, 1 }, { 2, 3 } };

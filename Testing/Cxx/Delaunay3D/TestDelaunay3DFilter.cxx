@@ -147,7 +147,7 @@ TEST(Delaunay3DFilter, MapsDuplicatesAndRejectedPoints)
   EXPECT_EQ(3, ids->GetValue(3));
 }
 
-TEST(Delaunay3DFilter, NeighborIdsNameEachOther)
+TEST(Delaunay3DFilter, NeighborIdsAreMutual)
 {
   vtkNew<vtkTIPPDelaunay3D> delaunay;
   delaunay->SetInputData(dataset(randomPoints(100)));
@@ -173,7 +173,7 @@ TEST(Delaunay3DFilter, NeighborIdsNameEachOther)
   }
 }
 
-TEST(Delaunay3DFilter, AlphaShapeIsThatOfVtkDelaunay3D)
+TEST(Delaunay3DFilter, AlphaShapeEqualsVtkDelaunay3D)
 {
   const auto input = dataset(randomPoints(200));
   for (const double alpha : { 0.08, 0.12, 0.2 })

@@ -315,7 +315,7 @@ TEST(Delaunay3DRanks, StatisticsAreTheSameOnAllRanks)
   EXPECT_EQ(totals->GetArray("Tetrahedra")->GetTuple1(0), sum);
 }
 
-TEST(Delaunay3DRanks, WhatNeedsOneRankIsRefusedOnAll)
+TEST(Delaunay3DRanks, OptionsForOneRankAreRefusedOnAll)
 {
   for (int what = 0; what < 4; ++what)
   {
@@ -333,7 +333,7 @@ TEST(Delaunay3DRanks, WhatNeedsOneRankIsRefusedOnAll)
   }
 }
 
-TEST(Delaunay3DRanks, WhatFailsUpstreamOnOneRankFailsOnAll)
+TEST(Delaunay3DRanks, AnUpstreamFailureOnOneRankFailsOnAll)
 {
   vtkNew<FailingSource> source;
   source->Fails = rank() == ranks() - 1;
@@ -350,7 +350,7 @@ TEST(Delaunay3DRanks, WhatFailsUpstreamOnOneRankFailsOnAll)
   EXPECT_GT(filter->GetStatistics()->GetFieldData()->GetArray("Tetrahedra")->GetTuple1(0), 2500);
 }
 
-TEST(Delaunay3DRanks, WithoutAControllerARankIsAlone)
+TEST(Delaunay3DRanks, WithoutAControllerEachRankWorksAlone)
 {
   const auto points = pointsInSpace("uniform", 300, unsigned(rank()) + 1);
   vtkNew<vtkPoints> own;

@@ -191,7 +191,7 @@ TEST(Distributed3D, DuplicatesOnSeveralRanksAreMerged)
   }
 }
 
-TEST(Distributed3D, TheLowestGlobalIdRepresentsWhereverItIs)
+TEST(Distributed3D, TheLowestGlobalIdIsTheRepresentativeOnAnyRank)
 {
   Communicator ranks(vtkMultiProcessController::GetGlobalController());
   auto points = pointsInSpace("coarse", 2500);
@@ -224,7 +224,7 @@ TEST(Distributed3D, PointsThatAreNotFiniteAreRejected)
   }
 }
 
-TEST(Distributed3D, PointsWithoutTetrahedraAreToldByTheirDimension)
+TEST(Distributed3D, PointsWithoutTetrahedraReportTheirDimension)
 {
   std::vector<Point3> line;
   std::vector<Point3> plane;

@@ -184,7 +184,7 @@ TEST_F(OutOfCore3D, TetrahedraAreThoseInMemory)
   }
 }
 
-TEST_F(OutOfCore3D, PiecesAreMadeAndMostPointsAreSentNowhere)
+TEST_F(OutOfCore3D, MostPointsAreNotSentToOtherPieces)
 {
   const auto points = pointsInSpace("uniform", 20000);
   const OutOfCoreStatistics3 made = this->make(points, 2000, 2);
@@ -209,7 +209,7 @@ TEST_F(OutOfCore3D, FilesAreTheSameForAnyNumberOfThreads)
   }
 }
 
-TEST_F(OutOfCore3D, MemoryDecidesOnPieces)
+TEST_F(OutOfCore3D, TheMemoryLimitDecidesTheNumberOfPieces)
 {
   const auto points = pointsInSpace("uniform", 30000);
   EXPECT_EQ(1, this->make(points, 0, 2, 1 << 28).Pieces);
@@ -218,7 +218,7 @@ TEST_F(OutOfCore3D, MemoryDecidesOnPieces)
   this->expectSame(points, "little memory");
 }
 
-TEST_F(OutOfCore3D, SurfacesAreOnePieceWhereThereIsMemory)
+TEST_F(OutOfCore3D, SurfacesAreOnePieceIfMemoryAllows)
 {
   const auto points = pointsInSpace("sphere", 2500);
   EXPECT_EQ(1, this->make(points, 300, 2, 1 << 26).Pieces);
@@ -252,7 +252,7 @@ TEST_F(OutOfCore3D, PointsWithoutTetrahedraAreAnError)
   EXPECT_TRUE(filesOf(this->Folder.path("")).empty());
 }
 
-TEST_F(OutOfCore3D, ProgressEndsTheRunAndLeavesNothing)
+TEST_F(OutOfCore3D, AnAbortedRunLeavesNoFiles)
 {
   const auto points = pointsInSpace("uniform", 5000);
   for (const double end : { 0.0, 0.05, 0.3, 0.9, 0.97 })
@@ -296,7 +296,7 @@ TEST_F(OutOfCore3D, TheToolMakesChecksAndResamplesAMesh)
   EXPECT_TRUE(contentOf(this->path("pieces.npy")) == contentOf(this->path("whole.npy")));
 }
 
-TEST_F(OutOfCore3D, NeighboursAreThoseOfTheFacets)
+TEST_F(OutOfCore3D, NeighboursShareAFacet)
 {
   for (const std::string& kind : kindsOfPoints())
   {
@@ -326,7 +326,7 @@ TEST_F(OutOfCore3D, NeighboursAreThoseOfTheFacets)
   }
 }
 
-TEST_F(OutOfCore3D, TheToolWritesNeighboursThatTheCheckProves)
+TEST_F(OutOfCore3D, TheToolWritesNeighboursThatPassTheCheck)
 {
   EXPECT_EQ(0,
     runTipp(this->Folder,

@@ -249,7 +249,7 @@ TEST(BorderSorter3, TheOwnerIsTheFirstPieceMet)
   EXPECT_GT(most, 4U);
 }
 
-TEST(StoredResult3, ComesBackAsItWasWritten)
+TEST(StoredResult3, IsReadAsWritten)
 {
   const TemporaryFolder folder;
   const PlannedRun run(folder, pointsInSpace("uniform", 1000));
@@ -282,7 +282,7 @@ TEST(StoredResult3, ComesBackAsItWasWritten)
   EXPECT_EQ(10, message.Vertices[1].Id);
 }
 
-TEST(StoredResult3, DamagedAnywhereItIsRefused)
+TEST(StoredResult3, IsRefusedIfAnyByteIsDamaged)
 {
   const TemporaryFolder folder;
   const PlannedRun run(folder, pointsInSpace("uniform", 1000));
@@ -322,7 +322,7 @@ TEST(FinishPieces3, EveryTetrahedronHasOneOwner)
   EXPECT_GE(run.Figures.WorkerVertices, 3000);
 }
 
-TEST(FinishPieces3, EndsWhereItIsTold)
+TEST(FinishPieces3, StopsWhenAborted)
 {
   const TemporaryFolder folder;
   PlannedRun run(folder, pointsInSpace("uniform", 2000));

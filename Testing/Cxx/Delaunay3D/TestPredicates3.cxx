@@ -199,7 +199,7 @@ TEST(InSphere, ACornerIsOutside)
   }
 }
 
-TEST(Circumball, SurelySmallOnesReachNoFartherThanTheirDiameter)
+TEST(Circumball, SurelySmallBallsReachNoFartherThanTheirDiameter)
 {
   Hard hard(5);
   int small = 0;
@@ -229,7 +229,7 @@ TEST(Circumball, SurelySmallOnesReachNoFartherThanTheirDiameter)
   EXPECT_GT(small, 100);
 }
 
-TEST(Circumball, MeetsBoxesAsRationalsSay)
+TEST(Circumball, MeetsBoxesAsInRationals)
 {
   Hard hard(4);
   int meetings = 0;

@@ -66,7 +66,7 @@ TEST_F(TetrahedraCheckerTest, FindsARepeatedTetrahedron)
   EXPECT_GT(this->check().BadFacets, 0);
 }
 
-TEST_F(TetrahedraCheckerTest, FindsAnIdThatIsNoPoint)
+TEST_F(TetrahedraCheckerTest, FindsAnInvalidPointId)
 {
   this->Ids[5] = 125;
   EXPECT_EQ(1, this->check().BadIds);
@@ -90,7 +90,7 @@ TEST_F(TetrahedraCheckerTest, FindsAPointInsideASphere)
   EXPECT_EQ(0, report.BadTurns);
 }
 
-TEST_F(TetrahedraCheckerTest, FindsTiesBrokenAnotherWay)
+TEST_F(TetrahedraCheckerTest, FindsTiesThatBreakTheTieRule)
 {
   // Mirroring maps the lattice to itself, but not the tie rule.
   for (std::size_t i = 0; i < this->XYZ.size(); i += 3)

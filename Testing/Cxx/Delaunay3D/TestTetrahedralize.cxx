@@ -266,7 +266,7 @@ TEST(CoplanarPoints, OfATiltedPlaneAreFilled)
   EXPECT_EQ(ids.size(), trianglesOf(points).size());
 }
 
-TEST(CoplanarPoints, WhoseCoordinatesAreNotFiniteAreLeftOut)
+TEST(CoplanarPoints, ThatAreNotFiniteAreLeftOut)
 {
   std::vector<Point3> points = { { 0, 0, 1 }, { 1, 0, 1 }, { 0, 1, 1 },
     { 0.5, 0.5, std::numeric_limits<double>::infinity() }, { std::nan(""), 0, 1 } };
@@ -283,7 +283,7 @@ TEST(CoplanarPoints, ThatAreCloseAreMerged)
   EXPECT_EQ(1U, flat.triangleCount());
 }
 
-TEST(Tetrahedralize, StopsWhereProgressSaysSo)
+TEST(Tetrahedralize, StopsWhenProgressReturnsFalse)
 {
   const auto points = pointsInSpace("uniform", 20000);
   for (const int partitions : { 1, 12 })
@@ -317,7 +317,7 @@ TEST(Tetrahedralize, ClosePointsAreMerged)
   EXPECT_EQ(cellsOfCgal(points), sortedCells(mesh));
 }
 
-TEST(DelaunayKernel3, TakesAtMost45BytesATetrahedron)
+TEST(DelaunayKernel3, UsesAtMost45BytesPerTetrahedron)
 {
   const auto points = pointsInSpace("uniform", 50000);
   DelaunayKernel3 kernel;
@@ -327,7 +327,7 @@ TEST(DelaunayKernel3, TakesAtMost45BytesATetrahedron)
   EXPECT_LE(kernel.bytes(), 45 * finite);
 }
 
-TEST(DelaunayKernel3, NeighboursNameEachOther)
+TEST(DelaunayKernel3, NeighboursAreMutual)
 {
   const auto points = pointsInSpace("coarse", 300);
   DelaunayKernel3 kernel;

@@ -76,12 +76,12 @@ TEST_F(AttemptOnRanks, AbortTogether)
   EXPECT_EQ("aborted", this->outcome(nothing, abortWork));
 }
 
-TEST_F(AttemptOnRanks, TellOfAFailureRatherThanOfAnAbort)
+TEST_F(AttemptOnRanks, ReportAFailureRatherThanAnAbort)
 {
   EXPECT_EQ("no luck", this->outcome(abortWork, failWork));
 }
 
-TEST_F(AttemptOnRanks, GatherEverybodysBytesInOrder)
+TEST_F(AttemptOnRanks, GatherAllRanksBytesInOrder)
 {
   const std::vector<std::string> all =
     this->All.allGather(std::string(std::size_t(this->All.rank()), 'x'));
@@ -92,7 +92,7 @@ TEST_F(AttemptOnRanks, GatherEverybodysBytesInOrder)
   }
 }
 
-TEST_F(AttemptOnRanks, ShareNumbersOutWithoutGapOrOverlap)
+TEST_F(AttemptOnRanks, DivideARangeWithoutGapOrOverlap)
 {
   for (const std::int64_t count : { 0, 1, 2, 17, 1000 })
   {

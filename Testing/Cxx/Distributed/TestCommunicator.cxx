@@ -42,7 +42,7 @@ TEST(Communicator, MessagesOfARankArriveInOrder)
   box.barrier();
 }
 
-TEST(Communicator, LargeMessagesCross)
+TEST(Communicator, AllRanksMaySendLargeMessagesAtOnce)
 {
   Communicator box(controller());
   constexpr std::size_t size = 20'000'000;
@@ -60,7 +60,7 @@ TEST(Communicator, LargeMessagesCross)
   box.barrier();
 }
 
-TEST(Communicator, AFailureEndsTheOthersWaiting)
+TEST(Communicator, AFailureEndsTheWaitOfOtherRanks)
 {
   for (int failing = 0; failing < controller()->GetNumberOfProcesses(); ++failing)
   {
@@ -102,7 +102,7 @@ TEST(Communicator, AFailureLeavesNoLargeMessageBehind)
 }
 
 /// One rank may start new work while another has not yet received the last failure.
-TEST(Communicator, WorksOnAfterFailures)
+TEST(Communicator, WorksAfterFailures)
 {
   Communicator box(controller());
   for (int run = 0; run < 200; ++run)
@@ -153,7 +153,7 @@ TEST(Communicator, AFailureMayHaveALongReason)
   }
 }
 
-TEST(Communicator, WorkWithinWorkFailsOnceOnAllRanks)
+TEST(Communicator, NestedWorkFailsOnceOnAllRanks)
 {
   Communicator box(controller());
   const auto inner = [&]()
@@ -176,7 +176,7 @@ TEST(Communicator, WorkWithinWorkFailsOnceOnAllRanks)
   }
 }
 
-TEST(Communicator, OfSeveralFailuresAllRanksHearOfTheLowestRanks)
+TEST(Communicator, AllRanksReportTheFailureOfTheLowestRank)
 {
   Communicator box(controller());
   try
@@ -190,7 +190,7 @@ TEST(Communicator, OfSeveralFailuresAllRanksHearOfTheLowestRanks)
   }
 }
 
-TEST(Communicator, TellsWhatWasSentByKind)
+TEST(Communicator, CountsSentBytesByKind)
 {
   Communicator box(controller());
   box.post((box.rank() + 1) % box.size(), Note, filled(100, 'x'));

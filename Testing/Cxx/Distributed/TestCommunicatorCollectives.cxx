@@ -11,7 +11,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-TEST(CommunicatorCollectives, AllToAllGivesEachRankItsOwn)
+TEST(CommunicatorCollectives, AllToAllSendsEachRankItsOwnPart)
 {
   Communicator box(controller());
   std::vector<Bytes> contents;
@@ -48,7 +48,7 @@ struct InOneMemory
   std::vector<Communicator::Stretch> Contents;
 };
 
-TEST(CommunicatorCollectives, AllToAllInPartsHandsOnAllAndGivesTheMemoryBack)
+TEST(CommunicatorCollectives, AllToAllInPartsDeliversAllPartsAndReturnsTheMemory)
 {
   Communicator box(controller());
   for (const std::size_t size : { 0, 5, 70'000, 3'000'001 })
@@ -71,7 +71,7 @@ TEST(CommunicatorCollectives, AllToAllInPartsHandsOnAllAndGivesTheMemoryBack)
   box.barrier();
 }
 
-TEST(CommunicatorCollectives, PartsThatComeWhileARankIsBehindAreNotLost)
+TEST(CommunicatorCollectives, PartsForASlowRankAreNotLost)
 {
   Communicator box(controller());
   constexpr std::size_t size = 200'000;
@@ -92,7 +92,7 @@ TEST(CommunicatorCollectives, PartsThatComeWhileARankIsBehindAreNotLost)
   box.barrier();
 }
 
-TEST(CommunicatorCollectives, ATakerThatFailsEndsAllRanksAndLeavesNothingBehind)
+TEST(CommunicatorCollectives, AFailingReceiverEndsAllRanks)
 {
   constexpr std::size_t size = 5'000'000;
   for (int run = 0; run < 2; ++run)
@@ -117,7 +117,7 @@ TEST(CommunicatorCollectives, ATakerThatFailsEndsAllRanksAndLeavesNothingBehind)
   }
 }
 
-TEST(CommunicatorCollectives, GatherComesByRank)
+TEST(CommunicatorCollectives, GatherIsOrderedByRank)
 {
   Communicator box(controller());
   const std::vector<Bytes> all = box.gather(filled(std::size_t(box.rank()) + 1, 'g'));

@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(PointSets, ConstrainRanks,
   testing::Values("uniform", "clustered", "lattice", "duplicates", "cocircular", "tiny-1e-300",
     "one-far-away", "circle", "with-rejected"));
 
-TEST(ConstrainRanksTo, WhatPolygonsKeep)
+TEST(ConstrainRanksTo, PolygonsKeepTheTrianglesOfOneProcess)
 {
   Coordinates xy = makePointSet("uniform", 2000);
   std::vector<Constraint> constraints = randomConstraints(2000, 5);

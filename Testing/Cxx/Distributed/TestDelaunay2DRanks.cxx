@@ -191,7 +191,7 @@ TEST(Delaunay2DRanks, PointsKeepTheirDataAndThirdCoordinate)
   }
 }
 
-TEST(Delaunay2DRanks, GhostsAreTheOtherTrianglesAtAPiecesPoints)
+TEST(Delaunay2DRanks, GhostsAreOtherRanksTrianglesAtOwnPoints)
 {
   const Coordinates xy = makePointSet("clustered", 5000);
   vtkNew<vtkTIPPDelaunay2D> filter;
@@ -267,7 +267,7 @@ TEST(Delaunay2DRanks, StatisticsAreTheSameOnAllRanks)
   EXPECT_GT(filter->GetStatistics()->GetNumberOfRows(), 0);
 }
 
-TEST(Delaunay2DRanks, WhatNeedsOneRankIsRefusedOnAll)
+TEST(Delaunay2DRanks, OptionsForOneRankAreRefusedOnAll)
 {
   for (const bool wantsAlpha : { true, false })
   {
@@ -283,7 +283,7 @@ TEST(Delaunay2DRanks, WhatNeedsOneRankIsRefusedOnAll)
   }
 }
 
-TEST(Delaunay2DRanks, AGhostLayerAskedForByOneRankComesThere)
+TEST(Delaunay2DRanks, AGhostLayerIsMadeOnTheRankThatRequestsIt)
 {
   vtkNew<vtkTIPPDelaunay2D> filter;
   filter->SetPointsPerPartition(200);
@@ -321,7 +321,7 @@ TEST(Delaunay2DRanks, AMissingTransformFailsOnAll)
   expectNoOutput(filter);
 }
 
-TEST(Delaunay2DRanks, WhatFailsUpstreamOnOneRankFailsOnAll)
+TEST(Delaunay2DRanks, AnUpstreamFailureOnOneRankFailsOnAll)
 {
   for (const bool early : { true, false })
   {
@@ -339,7 +339,7 @@ TEST(Delaunay2DRanks, WhatFailsUpstreamOnOneRankFailsOnAll)
   }
 }
 
-TEST(CollectivePipeline, IsTheFiltersAndRunsAloneWithoutRanks)
+TEST(CollectivePipeline, BelongsToTheFilterAndRunsAloneWithoutAController)
 {
   vtkNew<FailingSource> source;
   source->Fails = rank() == 0; // other ranks do not wait for rank 0
@@ -386,7 +386,7 @@ TEST(Delaunay2DRanks, GlobalIdsBeyondAllDoublesStayExact)
   }
 }
 
-TEST(Delaunay2DRanks, WithoutAControllerARankIsAlone)
+TEST(Delaunay2DRanks, WithoutAControllerEachRankWorksAlone)
 {
   const Coordinates xy = makePointSet("uniform", 300, std::uint64_t(rank()) + 1);
   vtkNew<vtkPoints> points;

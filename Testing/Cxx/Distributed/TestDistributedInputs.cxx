@@ -157,7 +157,7 @@ TEST(DistributedInputs, GlobalIdsAreCountedOverRanksWhenNoneAreGiven)
   EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), std::ptrdiff_t(seen.size()));
 }
 
-TEST(GhostTriangles, AreTheOthersTrianglesAtOwnVerticesEachOnce)
+TEST(GhostTriangles, AreOtherRanksTrianglesAtOwnVerticesEachOnce)
 {
   const Coordinates xy = makePointSet("uniform", 3000);
   Communicator box(vtkMultiProcessController::GetGlobalController());
@@ -222,7 +222,7 @@ TEST_P(DistributedDesign, StoppingOneRankStopsAll)
   }
 }
 
-TEST_P(DistributedDesign, AFailureOnOneRankIsEveryRanks)
+TEST_P(DistributedDesign, AFailureOnOneRankFailsAll)
 {
   const Coordinates xy = makePointSet("uniform", 20000);
   const auto run = [&](bool fails)

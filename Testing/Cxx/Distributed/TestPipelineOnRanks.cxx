@@ -112,7 +112,7 @@ protected:
 
 } // namespace
 
-TEST_P(PipelineOnRanks, GivesTheImageOfOneProcessBitForBit)
+TEST_P(PipelineOnRanks, MakesTheImageOfOneProcessBitForBit)
 {
   Pipeline together(this->Path, this->Controller);
   Pipeline alone(this->Path, nullptr);

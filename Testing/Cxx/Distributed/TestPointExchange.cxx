@@ -119,7 +119,7 @@ TEST_P(PointExchangeOf, OwnersGetAllRanksPointsLeafByLeafInTheOrderOfRanks)
 
 INSTANTIATE_TEST_SUITE_P(Threads, PointExchangeOf, testing::Values(1, 3));
 
-TEST(PointReceiver, MoreOrFewerPointsThanTheirRankToldAreRefused)
+TEST(PointReceiver, RefusesAnotherNumberOfPointsThanAnnounced)
 {
   Communicator box(vtkMultiProcessController::GetGlobalController());
   const std::vector<std::int32_t> owners(1, 0);

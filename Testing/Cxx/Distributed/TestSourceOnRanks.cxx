@@ -155,7 +155,7 @@ vtkSmartPointer<vtkPolyData> allAsData(const Coordinates& xy)
   return data;
 }
 
-TEST(SourceOnRanks, InsertASourceAsOneRankDoes)
+TEST(SourceOnRanks, InsertTheSourceLikeOneRank)
 {
   const Coordinates xy = makePointSet("duplicates", 3000);
   for (const bool merges : { true, false })
@@ -205,7 +205,7 @@ TEST(SourceOnRanks, InsertASourceAsOneRankDoes)
   }
 }
 
-TEST(SourceOnRanks, MarksOfConstraintsComeWithGhosts)
+TEST(SourceOnRanks, GhostsHaveMarksOfConstraints)
 {
   const Coordinates xy = makePointSet("uniform", 3000);
   const TestSource source(xy, true);
@@ -258,7 +258,7 @@ std::vector<std::array<vtkIdType, 3>> linesOf(vtkPolyData* mesh, vtkDataArray* i
   return lines;
 }
 
-TEST(SourceOnRanks, LinesOfConstraintsAreThoseOfOneRank)
+TEST(SourceOnRanks, ListTheLinesThatOneRankLists)
 {
   const Coordinates xy = makePointSet("duplicates", 3000);
   const TestSource source(xy, false);
@@ -314,7 +314,7 @@ TEST(SourceOnRanks, LinesOfConstraintsAreThoseOfOneRank)
   }
 }
 
-TEST(SourceOnRanks, ComesToRanksWithoutPointsAndSource)
+TEST(SourceOnRanks, RanksMayHaveNoPointsOrNoSource)
 {
   const Coordinates xy = makePointSet("uniform", 2000);
   const int last = ranks() - 1;
@@ -356,7 +356,7 @@ TEST(SourceOnRanks, ComesToRanksWithoutPointsAndSource)
   }
 }
 
-TEST(SourceOnRanks, SourceThatNamesNoPointFailsOnAll)
+TEST(SourceOnRanks, AnInvalidPointIdInTheSourceFailsOnAll)
 {
   const Coordinates xy = makePointSet("uniform", 500);
   vtkNew<vtkCellArray> lines;

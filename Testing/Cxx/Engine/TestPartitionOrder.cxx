@@ -34,7 +34,7 @@ PartitionOrder orderOf(std::size_t partitions, const BoundaryTriangles& mesh)
 }
 
 /// Four partitions in a path, whose middle ones have most conflicts, and one without conflicts.
-TEST(ConflictGraph, GivesDifferentColoursToWhatConflicts)
+TEST(ConflictGraph, ConflictingPartitionsGetDifferentColours)
 {
   std::vector<ConflictGraph::Pair> pairs;
   for (const auto& [a, b] : { std::pair{ 0, 1 }, { 1, 2 }, { 2, 3 }, { 1, 2 } })
@@ -81,7 +81,7 @@ TEST(PartitionOrder, UnusedPartitionsAreNotInTheSequence)
   EXPECT_EQ((Partitions{ 0, 2 }), sequence);
 }
 
-TEST(PartitionOrder, NoPartitionsAreNoSequence)
+TEST(PartitionOrder, WithoutPartitionsTheSequenceIsEmpty)
 {
   const PartitionOrder order({ 0, 0 }, meshOf({ {} }, {}));
   EXPECT_TRUE(order.sequence().empty());
@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(PointSets, PartitionOrderOf,
     return name;
   });
 
-TEST(PartitionOrder, TheFirstOfASetIsTheOneThatComesFirst)
+TEST(PartitionOrder, TheFirstOfASetIsTheEarliestInTheSequence)
 {
   const DataflowScene scene("uniform", 900, 6, 6);
   const PartitionOrder order = scene.order();
@@ -177,7 +177,7 @@ TEST(PartitionOrder, UniformPointsNeedFewColours)
 }
 
 /// The partitions form one set, so that the conflicting pairs need not be listed.
-TEST(PartitionOrder, IsTotalWhereTooManyPartitionsConflict)
+TEST(PartitionOrder, IsTotalIfTooManyPartitionsConflict)
 {
   constexpr PartitionIndex count = 5000;
   Partitions all(count);

@@ -35,7 +35,7 @@ protected:
   }
 };
 
-TEST(ReadyPartitions, HandOutOwnPartitionsThatAreLoadedAndWhoseEarlierOnesAreDone)
+TEST(ReadyPartitions, OwnPartitionsAreReadyOnceLoadedAndEarlierOnesAreDone)
 {
   const PartitionOrder order = pairOrder();
   const PartitionIndex first = order.sequence()[0];
@@ -51,7 +51,7 @@ TEST(ReadyPartitions, HandOutOwnPartitionsThatAreLoadedAndWhoseEarlierOnesAreDon
   EXPECT_EQ(-1, ready.take());
 }
 
-TEST(ReadyPartitions, OfThoseThatAreReadyTheLongestChainComesFirst)
+TEST(ReadyPartitions, TheLongestChainComesFirst)
 {
   // 0, 1 and 2 conflict with each other, 3 with nothing.
   BoundaryTriangles mesh;
@@ -67,7 +67,7 @@ TEST(ReadyPartitions, OfThoseThatAreReadyTheLongestChainComesFirst)
   EXPECT_EQ(-1, ready.tryTake());
 }
 
-TEST(ReadyPartitions, HandOutWhatIsLoadedWhereNothingElseIsWaitedFor)
+TEST(ReadyPartitions, LoadedPartitionsAreReadyIfOnlyLoadingCounts)
 {
   const PartitionOrder order = pairOrder();
   ReadyPartitions ready(order, ReadyPartitions::Waits::ForLoad);

@@ -29,7 +29,7 @@ TEST(FinalBoundary, TrianglesBeginWithTheLowestIdAndKeepTheirOrientation)
   }
 }
 
-TEST(FinalBoundary, OfTrianglesAtArtificialPointsTheTrueCornersAreKept)
+TEST(FinalBoundary, KeepsTheTrueCornersOfTrianglesAtArtificialPoints)
 {
   Final final;
   final.add(triangleOf(9, -4, 7));

@@ -75,7 +75,7 @@ TEST_F(AlphaShapeTest, EdgesBetweenDroppedTrianglesAppearOnce)
   EXPECT_EQ((List{ 0, 1, 0, 2, 3, 4 }), list(shape.Lines));
 }
 
-TEST_F(AlphaShapeTest, WhatNothingCoversIsAVertex)
+TEST_F(AlphaShapeTest, UncoveredPointsAreVertices)
 {
   const auto shape = this->shape(0.1);
   EXPECT_TRUE(shape.Triangles.empty());
@@ -89,7 +89,7 @@ TEST_F(AlphaShapeTest, CoveredPointsAreNoVertices)
   EXPECT_EQ((List{ 0, 2, 3 }), list(shape.Vertices));
 }
 
-TEST_F(AlphaShapeTest, IdsOfEitherSizeGiveTheSame)
+TEST_F(AlphaShapeTest, IdsOfEitherSizeGiveTheSameShape)
 {
   const auto wide =
     alphaShape(triangles<std::int64_t>(), this->pointAt(), 0.6, std::vector<char>(5, 0));

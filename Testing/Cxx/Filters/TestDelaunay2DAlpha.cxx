@@ -61,7 +61,7 @@ TEST(Delaunay2DAlpha, CellsAreThoseOfVtkDelaunay2D)
   }
 }
 
-TEST(Delaunay2DAlpha, ARadiusInBetweenLeavesAllKindsOfCells)
+TEST(Delaunay2DAlpha, AMediumRadiusMakesAllKindsOfCells)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetInputData(dataset(clumps()));
@@ -72,7 +72,7 @@ TEST(Delaunay2DAlpha, ARadiusInBetweenLeavesAllKindsOfCells)
   EXPECT_FALSE(shape.Vertices.empty());
 }
 
-TEST(Delaunay2DAlpha, EachKindOfCellIsSwitchedByItself)
+TEST(Delaunay2DAlpha, EachFlagControlsOneKindOfCell)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetInputData(dataset(clumps()));

@@ -38,7 +38,7 @@ void expectNoTrianglesAndOneWarning(const std::vector<Point>& points)
 
 } // namespace
 
-TEST(Delaunay2DMerging, DuplicatesAreMappedToTheLowestIdAtTheirPlace)
+TEST(Delaunay2DMerging, DuplicatesAreMappedToTheLowestIdOfEqualPoints)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetInputData(
@@ -64,7 +64,7 @@ TEST(Delaunay2DMerging, NegativeZeroIsZero)
   EXPECT_EQ(1, delaunay->GetNumberOfDuplicatePoints());
 }
 
-TEST(Delaunay2DMerging, NothingMergedMakesNoArray)
+TEST(Delaunay2DMerging, ThereIsNoArrayIfNothingIsMerged)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetInputData(dataset(randomPoints(30)));

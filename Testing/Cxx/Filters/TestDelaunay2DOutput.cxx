@@ -46,7 +46,7 @@ std::vector<vtkIdType> cornersOf(vtkPolyData* mesh, vtkIdType cell)
 
 } // namespace
 
-TEST(Delaunay2DOutput, TrianglesAreThoseOfVtkDelaunay2D)
+TEST(Delaunay2DOutput, TrianglesEqualVtkDelaunay2D)
 {
   for (unsigned seed = 1; seed <= 5; ++seed)
   {
@@ -120,7 +120,7 @@ TEST(Delaunay2DOutput, ZIsIgnored)
   EXPECT_EQ(expected, triangulated(dataset(points)));
 }
 
-TEST(Delaunay2DOutput, FloatPointsAreTriangulatedAsTheyAre)
+TEST(Delaunay2DOutput, FloatPointsAreNotConverted)
 {
   const auto input = dataset(randomPoints(200), VTK_FLOAT);
   EXPECT_EQ(reference(input), triangulated(input));

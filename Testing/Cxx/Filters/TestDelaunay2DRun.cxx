@@ -104,7 +104,7 @@ double total(vtkTable* statistics, const char* name)
 
 } // namespace
 
-TEST(Delaunay2DRun, OnlyAChangeMakesItRunAgain)
+TEST(Delaunay2DRun, RunsAgainOnlyAfterAChange)
 {
   const auto input = dataset(randomPoints(50));
   vtkNew<vtkTIPPDelaunay2D> delaunay;
@@ -175,7 +175,7 @@ TEST(Delaunay2DRun, AbortWhileMergingLeavesTheOutputEmpty)
   EXPECT_EQ(0, delaunay->GetOutput()->GetNumberOfPoints());
 }
 
-TEST(Delaunay2DRun, RunAfterAnAbortIsWhole)
+TEST(Delaunay2DRun, RunAfterAnAbortIsComplete)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetInputData(dataset(randomPoints(1000)));
@@ -192,7 +192,7 @@ TEST(Delaunay2DRun, RunAfterAnAbortIsWhole)
   EXPECT_EQ(expected, trianglesOf(delaunay));
 }
 
-TEST(Delaunay2DRun, NumberOfThreadsIsNotLeftToTheCaller)
+TEST(Delaunay2DRun, DoesNotChangeTheCallersNumberOfThreads)
 {
   const int before = omp_get_max_threads();
   vtkNew<vtkTIPPDelaunay2D> delaunay;
@@ -249,7 +249,7 @@ TEST(Delaunay2DRun, PartitionsScheduleAndThreadsDoNotChangeTheTriangles)
   }
 }
 
-TEST(Delaunay2DRun, StatisticsTellTheTotals)
+TEST(Delaunay2DRun, StatisticsHaveTheTotals)
 {
   auto points = randomPoints(500);
   points.push_back(points.front());
@@ -265,7 +265,7 @@ TEST(Delaunay2DRun, StatisticsTellTheTotals)
   EXPECT_GE(total(statistics, "Threads"), 1);
 }
 
-TEST(Delaunay2DRun, StatisticsNameThePhasesAndTheirSeconds)
+TEST(Delaunay2DRun, StatisticsHaveThePhasesAndTheirSeconds)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetInputData(dataset(randomPoints(500)));
@@ -312,7 +312,7 @@ TEST(Delaunay2DRun, PropertiesHaveTheDefaultsOfVtkDelaunay2D)
   EXPECT_EQ(0, delaunay->GetTolerance());
 }
 
-TEST(Delaunay2DRun, PrintTellsEveryProperty)
+TEST(Delaunay2DRun, PrintShowsEveryProperty)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetNumberOfPartitions(6, 5);

@@ -145,7 +145,7 @@ TEST_F(Source, PolygonsNest)
   EXPECT_EQ(64 - 36 + 4, areaOf(this->run(dataset(points), source)));
 }
 
-TEST_F(Source, PolygonsThatShareAnEdgeAreBothKept)
+TEST_F(Source, PolygonsMayShareAnEdge)
 {
   const std::vector<Point> points{ { 0, 0, 0 }, { 2, 0, 0 }, { 2, 2, 0 }, { 0, 2, 0 }, { 4, 0, 0 },
     { 4, 2, 0 }, { 9, 9, 0 } };
@@ -177,7 +177,7 @@ TEST_F(Source, CrossingIsANewPointWithInterpolatedData)
   EXPECT_EQ(64, areaOf(mesh));
 }
 
-TEST_F(Source, CrossingIsAnErrorIfNotToBeSplit)
+TEST_F(Source, CrossingIsAnErrorUnlessSplit)
 {
   this->Filter->SplitCrossingsOff();
   this->run(dataset(Squares), sourceOf({ { 0, 2 }, { 5, 7 } }, {}));
@@ -185,7 +185,7 @@ TEST_F(Source, CrossingIsAnErrorIfNotToBeSplit)
   EXPECT_EQ(0, this->Filter->GetOutput()->GetNumberOfPolys());
 }
 
-TEST_F(Source, IdThatNoPointHasIsAnError)
+TEST_F(Source, InvalidPointIdIsAnError)
 {
   this->run(dataset(Squares), sourceOf({ { 0, 9 } }, {}));
   EXPECT_TRUE(
@@ -209,7 +209,7 @@ TEST_F(Source, LineWithAnEndThatIsNotFiniteIsLeftOutWithAWarning)
   EXPECT_TRUE(tells(this->Heard.Warnings, "2 edges of the source have an end"));
 }
 
-TEST_F(Source, PointsOfItsOwnAreMergedByCoordinates)
+TEST_F(Source, SourcePointsAreMergedByCoordinates)
 {
   const auto source = dataset({ { 8, 8, 99 }, { 4, 0, 1 }, { 0, 0, 5 } });
   source->SetLines(sourceOf({ { 2, 1, 0 } }, {})->GetLines());
@@ -283,7 +283,7 @@ TEST_F(Source, ToleranceIsRefused)
   EXPECT_TRUE(tells(this->Heard.Errors, "Tolerance does not go with a source"));
 }
 
-TEST_F(Source, RemovedSourceLeavesThePlainTriangulation)
+TEST_F(Source, WithoutItTheTriangulationIsPlainAgain)
 {
   this->run(dataset(Squares), sourceOf({}, { { 4, 5, 6, 7 } }));
   EXPECT_NE(nullptr, this->Filter->GetSource());

@@ -132,7 +132,7 @@ TEST(PointsToImage, IsTheSameWithinAMemoryLimit)
   EXPECT_FALSE(slopes.empty());
 }
 
-TEST(PointsToImage, HasAboutAPixelAPointUnlessItIsTold)
+TEST(PointsToImage, HasAboutOnePixelPerPointByDefault)
 {
   vtkNew<vtkTIPPPointsToImage> maker;
   maker->SetInputData(makePoints(2500));
@@ -143,7 +143,7 @@ TEST(PointsToImage, HasAboutAPixelAPointUnlessItIsTold)
   EXPECT_NEAR(50, size[1], 2);
 }
 
-TEST(PointsToImage, LinesShapeTheSurfaceAndABoundaryEndsIt)
+TEST(PointsToImage, BreaklinesShapeTheSurfaceAndABoundaryLimitsIt)
 {
   vtkNew<vtkPoints> corners;
   for (const double x : { 0.0, 10.0 })
@@ -199,7 +199,7 @@ TEST(PointsToImage, ThinsAndMergesPoints)
   EXPECT_LT(valuesOf(maker->GetOutput(), "elevation").at(0), 3);
 }
 
-TEST(PointsToImage, TellsWhatIsWrong)
+TEST(PointsToImage, ReportsErrors)
 {
   vtkNew<vtkTIPPPointsToImage> maker;
   const testing_delaunay::Messages messages(maker);

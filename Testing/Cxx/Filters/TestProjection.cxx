@@ -40,7 +40,7 @@ TEST(FiniteBounds, AreThoseOfAllFinitePoints)
   EXPECT_EQ(13, bounds.diagonal());
 }
 
-TEST(FiniteBounds, APointWithOneCoordinateThatIsNotFiniteDoesNotCount)
+TEST(FiniteBounds, IgnoreAPointWithACoordinateThatIsNotFinite)
 {
   const auto points = box();
   points->InsertNextPoint(100, 100, NaN);

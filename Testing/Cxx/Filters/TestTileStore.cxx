@@ -110,7 +110,7 @@ int setFromThreads(TileStore& store)
   return failures;
 }
 
-TEST_F(TileStores, TakeThreadsOfTwoProcessesForNoDeadlock)
+TEST_F(TileStores, ThreadsOfTwoProcessesCauseNoDeadlockError)
 {
   const pid_t child = fork();
   if (child == 0)
@@ -123,7 +123,7 @@ TEST_F(TileStores, TakeThreadsOfTwoProcessesForNoDeadlock)
   EXPECT_EQ(0, status);
 }
 
-TEST_F(TileStores, KeepNothingFinishedThatDoesNotFit)
+TEST_F(TileStores, TilesThatDoNotFitAreNotFinished)
 {
   TileStore store(this->Folder.path("pixels"), this->Grid, 1, true,
     [](const RasterWindow&, std::vector<std::vector<double>>&)

@@ -68,7 +68,7 @@ TEST(TriangulatePoints, MergesPointsWithinTheDistance)
     std::vector<std::int64_t>(ids.begin(), ids.end()));
 }
 
-TEST(TriangulatePoints, WarnsOfPointsThatAreNotFinite)
+TEST(TriangulatePoints, WarnsAboutPointsThatAreNotFinite)
 {
   std::vector<double> xy = squares;
   xy[8] = NAN;

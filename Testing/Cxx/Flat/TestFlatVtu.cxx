@@ -161,7 +161,7 @@ TEST_F(FlatVtu, WithoutCellsOpens)
   EXPECT_EQ(0, openFlatMesh(this->Path).Cells.Tuples);
 }
 
-TEST_F(FlatVtu, PassesOverStrings)
+TEST_F(FlatVtu, IgnoresStringArrays)
 {
   this->makeTriangles();
   vtkNew<vtkStringArray> names;
@@ -192,7 +192,7 @@ TEST_F(FlatVtu, OfTrianglesAndTetrahedraIsRefused)
   this->expectError("cell 2, vtkTetra");
 }
 
-TEST_F(FlatVtu, WithALongHeaderOpensWhereverTheDataBegin)
+TEST_F(FlatVtu, OpensWithALongHeader)
 {
   this->makeTriangles();
   this->Writer->Write();
@@ -235,7 +235,7 @@ TEST_F(FlatVtu, ThatIsNotRawAppendedNamesTheRemedy)
   this->expectError("little-endian");
 }
 
-TEST_F(FlatVtu, ThatIsCutOffAnywhereIsRefused)
+TEST_F(FlatVtu, ThatIsTruncatedAnywhereIsRefused)
 {
   this->makeTriangles();
   this->Writer->Write();

@@ -101,7 +101,7 @@ vtkSmartPointer<vtkUnstructuredGrid> quadAndTriangle()
 
 } // namespace
 
-TEST_F(Flatten, ADataSetKeepsItsNumbersAndTheCellsOrigin)
+TEST_F(Flatten, ADataSetKeepsItsArraysAndTheIdsOfDividedCells)
 {
   const auto grid = quadAndTriangle();
   const tipp::Flattened flattened = tipp::flattenDataSet(grid, "grid.vtu");
@@ -142,7 +142,7 @@ TEST_F(Flatten, GhostsAreLeftOutWithTheirMarks)
   EXPECT_THROW(arrayNamed(mesh.CellData, "vtkGhostType"), std::runtime_error);
 }
 
-TEST_F(Flatten, WritesNothingOverAnotherFolder)
+TEST_F(Flatten, DoesNotReplaceAnotherFolder)
 {
   std::filesystem::create_directory(this->out());
   this->Folder.file("flat/notes", "mine");
@@ -161,7 +161,7 @@ TEST_F(Flatten, LeavesNothingBehindWhenStopped)
   EXPECT_EQ(0U, this->Folder.fileCount());
 }
 
-TEST_F(Flatten, ArraysOfOneNameAreRefusedWithoutARest)
+TEST_F(Flatten, ArraysOfOneNameAreRefusedAndNothingIsLeft)
 {
   const auto grid = quadAndTriangle();
   tipp::Flattened flattened = tipp::flattenDataSet(grid, "grid.vtu");

@@ -217,7 +217,7 @@ TEST_F(SimplicesOf, AnImageFillIt)
   EXPECT_EQ(6, simplices.Cut.at("vtkVoxel"));
 }
 
-TEST_F(SimplicesOf, MixedDimensionsTellWhatIsLeftOut)
+TEST_F(SimplicesOf, OfMixedDimensionsReportTheCellsLeftOut)
 {
   this->insertUnitCube();
   this->insert(VTK_TRIANGLE, { 0, 1, 2 });
@@ -244,7 +244,7 @@ TEST_F(SimplicesOf, GhostCellsAreLeftOut)
   EXPECT_EQ(1, simplices.LeftOut.at("ghost cell"));
 }
 
-TEST_F(SimplicesOf, NothingWithAnAreaAreRefused)
+TEST_F(SimplicesOf, DataWithoutAreaAreRefused)
 {
   this->insertPoints({ { 0, 0, 0 }, { 1, 0, 0 } });
   this->insert(VTK_LINE, { 0, 1 });
@@ -252,7 +252,7 @@ TEST_F(SimplicesOf, NothingWithAnAreaAreRefused)
     "a.vtu", "no cells with an area", [&] { simplicesOf(this->Grid, "a.vtu"); });
 }
 
-TEST_F(SimplicesOf, CurvedCellsAreCutAlongTheirPointsOrRefused)
+TEST_F(SimplicesOf, OfCurvedCellsFollowTheirPointsOrAreRefused)
 {
   this->insertPoints(
     { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0.5, 0, 0 }, { 0.5, 0.5, 0 }, { 0, 0.5, 0 } });

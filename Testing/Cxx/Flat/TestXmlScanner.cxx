@@ -23,12 +23,12 @@ std::string outline(const std::string& text)
 
 } // namespace
 
-TEST(XmlScanner, NamesTagsInOrder)
+TEST(XmlScanner, FindsTagsInOrder)
 {
   EXPECT_EQ("+a=b-a", outline("<a> text <b/> more </a>"));
 }
 
-TEST(XmlScanner, PassesOverCommentsAndInstructions)
+TEST(XmlScanner, IgnoresCommentsAndInstructions)
 {
   EXPECT_EQ("+a-a", outline("<?xml version=\"1.0\"?><!-- <b> --><a><!----></a>"));
 }

@@ -88,14 +88,14 @@ const CellIds badIds = { -1, 4, 4294967299, 999999999999,
 
 } // namespace
 
-TEST(CheckDataSet, WholeDataSetsPass)
+TEST(CheckDataSet, ValidDataSetsPass)
 {
   EXPECT_NO_THROW(tipp::checkDataSet(twoTriangles(), "the input"));
   EXPECT_NO_THROW(tipp::checkDataSet(vtkNew<vtkUnstructuredGrid>(), "the input"));
   EXPECT_NO_THROW(tipp::checkDataSet(vtkNew<vtkPolyData>(), "the input"));
 }
 
-TEST(CheckDataSet, RefusesIdsOfPointsThatAreNotThere)
+TEST(CheckDataSet, RefusesInvalidPointIds)
 {
   for (const vtkTypeInt64 id : badIds)
   {
@@ -297,7 +297,7 @@ TEST(CheckDataSet, RefusesArraysOfTooFewValues)
   expectRefusal(ofCells, "its array 'heat' has 1 values for 2 cells");
 }
 
-TEST(CheckDataSet, LooksAgainAtADataSetThatWasModified)
+TEST(CheckDataSet, ChecksAModifiedDataSetAgain)
 {
   const auto grid = twoTriangles();
   EXPECT_NO_THROW(tipp::checkDataSet(grid, "the input"));

@@ -87,7 +87,7 @@ TEST_P(EveryDistribution, FirstThousandPointsAreTheSameEverywhere)
   EXPECT_EQ(GetParam().Value, XXH64(xy.data(), xy.size() * sizeof(double), 0));
 }
 
-TEST_P(EveryDistribution, HasExactlyAsManyFinitePointsAsAskedFor)
+TEST_P(EveryDistribution, HasExactlyTheRequestedNumberOfFinitePoints)
 {
   for (const std::int64_t count : { 0, 1, 2, 3, 10, 99, 12345 })
   {
@@ -221,7 +221,7 @@ TEST(GeneratePoints, NegativeAndAbsurdCountsAreRefused)
     generatePoints(Distribution::Uniform, std::int64_t(1) << 41, 0), std::invalid_argument);
 }
 
-TEST(GeneratePoints, UnknownNameIsNone)
+TEST(GeneratePoints, UnknownNameIsNoDistribution)
 {
   EXPECT_FALSE(tipp::distributionFromName("gaussian"));
 }

@@ -87,7 +87,7 @@ protected:
   TemporaryFolder Folder;
 };
 
-TEST_F(GeoTiff, IsABigTiffAboveTheBytesOfAClassicOne)
+TEST_F(GeoTiff, IsABigTiffIfLargerThanAClassicTiffMayBe)
 {
   const std::string classic = this->write();
   EXPECT_EQ(42, at<std::uint16_t>(classic, 2));
@@ -103,7 +103,7 @@ TEST_F(GeoTiff, IsABigTiffAboveTheBytesOfAClassicOne)
   EXPECT_EQ(classic.substr(16, 2 * 4 * 256 * 256), big.substr(16, 2 * 4 * 256 * 256));
 }
 
-TEST_F(GeoTiff, TilesMayBeEncodedBefore)
+TEST_F(GeoTiff, TilesMayBeEncodedInAdvance)
 {
   for (const char* const compression : { "none", "deflate" })
   {

@@ -191,7 +191,7 @@ protected:
   TemporaryFolder Folder;
 };
 
-TEST_F(Las, OfEveryVersionAndFormatIsRead)
+TEST_F(Las, EveryVersionAndFormatIsRead)
 {
   for (int minor = 0; minor <= 4; ++minor)
   {
@@ -261,7 +261,7 @@ TEST_F(Las, ClassesAndReturnsAreSelected)
   EXPECT_EQ((Values{ 3 }), xs(this->read(las, selection)));
 }
 
-TEST_F(Las, FilesAreOneStreamThatStartsAnywhere)
+TEST_F(Las, SeveralFilesAreOneStream)
 {
   LasText las(4, 7);
   constexpr int count = 40000;
@@ -289,7 +289,7 @@ TEST_F(Las, FilesAreOneStreamThatStartsAnywhere)
   EXPECT_EQ(2 * count - 2 * 13333, int(at));
 }
 
-TEST_F(Las, TellsTheReferenceSystem)
+TEST_F(Las, ReferenceSystemIsRead)
 {
   LasText keys(2, 0);
   keys.addRecord(34735, keysOf({ { 1024, 1 }, { 3072, 26910 }, { 4096, 5703 } }));
@@ -396,7 +396,7 @@ void expectSame(const PointTable& expected, const PointTable& points)
   }
 }
 
-TEST_F(Las, CompressedFilesHoldWhatUncompressedOnesDo)
+TEST_F(Las, CompressedFilesHaveTheSamePoints)
 {
   for (const int format : { 0, 1, 2, 3, 6, 7, 8 })
   {

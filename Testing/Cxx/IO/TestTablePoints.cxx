@@ -56,7 +56,7 @@ void expectRange(
 
 } // namespace
 
-TEST(TablePoints, ComeInBlocksAndAgainAfterRewind)
+TEST(TablePoints, AreReadInBlocksAndAgainAfterRewind)
 {
   const PointTable table = tableOf(100);
   const auto stream = streamTable(table);
@@ -68,7 +68,7 @@ TEST(TablePoints, ComeInBlocksAndAgainAfterRewind)
   }
 }
 
-TEST(TablePoints, ARangeOfThemKeepsTheirNumbers)
+TEST(TablePoints, ARangeKeepsThePointsNumbers)
 {
   const PointTable table = tableOf(100);
   const auto stream = streamTable(table);

@@ -44,7 +44,7 @@ TEST_P(Kernel, ATwinsTwinIsTheHalfEdgeItself)
   }
 }
 
-TEST_P(Kernel, TwinsShareTheirVerticesTheOtherWayRound)
+TEST_P(Kernel, TwinsHaveTheSameVerticesInReverseOrder)
 {
   const HalfEdgeMesh& mesh = this->Made.mesh();
   for (Index t = 0; t < mesh.end(); t += 8)
@@ -59,7 +59,7 @@ TEST_P(Kernel, TwinsShareTheirVerticesTheOtherWayRound)
 }
 
 /// Euler's formula for a sphere whose vertices are the n points and the infinite one.
-TEST_P(Kernel, TheNumberOfTrianglesIsEulers)
+TEST_P(Kernel, TheNumberOfTrianglesFollowsEuler)
 {
   EXPECT_EQ(2 * this->vertexCount() - 2, this->Made.mesh().end() / 8);
 }
@@ -118,7 +118,7 @@ TEST_P(Kernel, TheTrianglesAreCgals)
   EXPECT_TRUE(isDelaunay(this->Made, this->Points));
 }
 
-TEST_P(Kernel, AClearedKernelMakesTheSameInTheSamePlaces)
+TEST_P(Kernel, AClearedKernelMakesTheSameTrianglesInTheSameOrder)
 {
   DelaunayKernel used;
   insert(used, pointSet("spiral", 3000));

@@ -84,7 +84,7 @@ TEST(HalfEdgeMesh, ReservingMoreKeepsTheTriangles)
   }
 }
 
-TEST(HalfEdgeMesh, ReservingLessKeepsTheRoom)
+TEST(HalfEdgeMesh, ReservingLessKeepsTheCapacity)
 {
   HalfEdgeMesh mesh;
   mesh.reserve(100);

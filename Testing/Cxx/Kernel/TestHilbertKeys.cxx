@@ -27,7 +27,7 @@ std::vector<std::pair<int, int>> cellsByKey(std::uint32_t side)
   return cells;
 }
 
-TEST(HilbertKeys, NameEveryCellOfASquareOnce)
+TEST(HilbertKeys, AreUniqueForEachCellOfASquare)
 {
   for (const auto& cell : cellsByKey(256))
   {
@@ -35,7 +35,7 @@ TEST(HilbertKeys, NameEveryCellOfASquareOnce)
   }
 }
 
-TEST(HilbertKeys, SuccessiveOnesAreOfCellsSideBySide)
+TEST(HilbertKeys, SuccessiveKeysAreOfAdjacentCells)
 {
   const std::vector<std::pair<int, int>> cells = cellsByKey(256);
   for (std::size_t i = 1; i < cells.size(); ++i)

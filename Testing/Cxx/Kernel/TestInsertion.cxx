@@ -50,7 +50,7 @@ TEST(Insertion, CommonInstructionsGiveTheDelaunayTriangulation)
   EXPECT_TRUE(isDelaunay(kernel, points));
 }
 
-TEST(Insertion, DuplicatesAreToldWithEitherInstructions)
+TEST(Insertion, DuplicatesAreReportedWithEitherInstructions)
 {
   std::vector<Point2> points = pointSet("uniform", 500);
   const std::vector<Point2> copy = points;

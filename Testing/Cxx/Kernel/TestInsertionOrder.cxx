@@ -55,7 +55,7 @@ double wayLength(const std::vector<Point2>& points, const Order& order, std::siz
   return sum;
 }
 
-TEST(InsertionOrder, NamesEveryPointOnce)
+TEST(InsertionOrder, ContainsEveryPointOnce)
 {
   for (const std::size_t count : { 2, 3, 255, 256, 257, 5000, 8191, 8192 })
   {
@@ -177,12 +177,12 @@ TEST(InsertionOrder, NeighboursInEveryOfManyNestedClustersAreNear)
   }
 }
 
-TEST(InsertionOrder, PointsAtOnePlaceAllComeUp)
+TEST(InsertionOrder, ContainsAllCopiesOfAPoint)
 {
   EXPECT_TRUE(isPermutation(orderOf(std::vector<Point2>(1000, { 3, -4 })), 1000));
 }
 
-TEST(InsertionOrder, PointsOnAnAxisAllComeUp)
+TEST(InsertionOrder, ContainsAllPointsOnAnAxis)
 {
   std::vector<Point2> points;
   for (int i = 0; i < 1000; ++i)
@@ -192,7 +192,7 @@ TEST(InsertionOrder, PointsOnAnAxisAllComeUp)
   EXPECT_TRUE(isPermutation(orderOf(points), 1000));
 }
 
-TEST(InsertionOrder, AnExtentBeyondDoublesIsNoProblem)
+TEST(InsertionOrder, AcceptsAnExtentBeyondDoubles)
 {
   std::vector<Point2> points;
   for (int i = 0; i < 300; ++i)
@@ -202,7 +202,7 @@ TEST(InsertionOrder, AnExtentBeyondDoublesIsNoProblem)
   EXPECT_TRUE(isPermutation(orderOf(points), 300));
 }
 
-TEST(InsertionOrder, TheSmallestExtentIsNoProblem)
+TEST(InsertionOrder, AcceptsTheSmallestExtent)
 {
   std::vector<Point2> points;
   for (int i = 0; i < 300; ++i)

@@ -77,7 +77,7 @@ std::vector<Index> placesInTheMiddle(const DelaunayKernel& kernel, Index vertice
   return places;
 }
 
-TEST(KernelBatches, SeveralBatchesMakeWhatOneMakes)
+TEST(KernelBatches, SeveralBatchesGiveTheTrianglesOfOne)
 {
   const Points points = pointSet("uniform", 900);
   EXPECT_TRUE(batchesAreDelaunay(
@@ -87,7 +87,7 @@ TEST(KernelBatches, SeveralBatchesMakeWhatOneMakes)
 
 /// A worker inserts its own points first, and then vertices of others. The order of its interior
 /// triangles must not depend on the latter.
-TEST(KernelBatches, LaterBatchesLeaveOtherTrianglesInTheirPlaces)
+TEST(KernelBatches, LaterBatchesKeepTheOrderOfOtherTriangles)
 {
   const Points own = pointSet("uniform", 2000);
   DelaunayKernel alone;
@@ -104,7 +104,7 @@ TEST(KernelBatches, LaterBatchesLeaveOtherTrianglesInTheirPlaces)
   }
 }
 
-TEST(KernelBatches, PlacesCountOverAllBatches)
+TEST(KernelBatches, PointIndicesContinueOverAllBatches)
 {
   DelaunayKernel kernel;
   insert(kernel, triangle());
@@ -278,7 +278,7 @@ TEST(KernelBatches, PointsAFractionOfAnUlpOffALineAreTriangulated)
   EXPECT_TRUE(batchesAreDelaunay({ points }));
 }
 
-TEST(KernelBatches, DuplicatesAreFoundWhereDifferencesOverflow)
+TEST(KernelBatches, DuplicatesAreFoundIfDifferencesOverflow)
 {
   const double most = 1.7e308;
   const Points corners{ { -most, -most }, { most, -most }, { most, most }, { -most, most } };
@@ -289,7 +289,7 @@ TEST(KernelBatches, DuplicatesAreFoundWhereDifferencesOverflow)
   EXPECT_EQ(6, kernel.mesh().end() / 8);
 }
 
-TEST(KernelBatches, ReservedRoomIsEnoughForAllBatches)
+TEST(KernelBatches, ReservedMemoryIsEnoughForAllBatches)
 {
   DelaunayKernel kernel;
   kernel.reserve(1000);

@@ -20,7 +20,7 @@ TEST(Lanes, MagnitudeDropsTheSignOfEachLane)
   EXPECT_EQ(HUGE_VAL, b[1]);
 }
 
-TEST(Lanes, TheBitsTellWhichLanesHold)
+TEST(Lanes, TheBitsShowWhichComparisonsHold)
 {
   const Pair zero{ 0, 0 };
   EXPECT_EQ(0U, bitsOf(Pair{ -1, -1 } > zero));

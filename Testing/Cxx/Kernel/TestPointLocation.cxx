@@ -82,7 +82,7 @@ TEST_P(PointLocationTest, ATriangleInConflictIsFoundFromAnywhere)
   }
 }
 
-TEST_P(PointLocationTest, AVertexIsFoundWhereThePointIs)
+TEST_P(PointLocationTest, AVertexAtThePointIsFound)
 {
   for (std::size_t v = 1; v < this->Points.size(); v += 23)
   {
@@ -123,7 +123,7 @@ TEST_P(PointLocationTest, APointOutsideIsInConflictWithTheTriangleFound)
   }
 }
 
-TEST_P(PointLocationTest, TheTriangleItCameFromIsNotInConflict)
+TEST_P(PointLocationTest, TheLastVisitedTriangleIsNotInConflict)
 {
   std::size_t walked = 0;
   for (const Index target : this->Starts)
@@ -142,7 +142,7 @@ TEST_P(PointLocationTest, TheTriangleItCameFromIsNotInConflict)
   EXPECT_LT(0U, walked);
 }
 
-TEST_P(PointLocationTest, CornersEdgesAndNeighboursGoTogether)
+TEST_P(PointLocationTest, CornersEdgesAndNeighboursMatch)
 {
   const Point2 p = this->middle(this->Starts[1]);
   const HalfEdgeMesh& mesh = this->Made.mesh();

@@ -93,14 +93,14 @@ TEST(SweepKernel, MakesTheKernelsTriangles)
   EXPECT_TRUE(sameTriangles(asCoordinates(points), swept.Made, finiteTriangles(kernel)));
 }
 
-TEST(SweepKernel, KeepsAFrontOfAFewPointsForEachOnTheLine)
+TEST(SweepKernel, TheFrontGrowsWithTheSquareRootOfThePoints)
 {
   constexpr std::size_t count = 40000;
   const Swept swept = sweep(pointSet("uniform", count), 2000);
   EXPECT_LT(double(swept.Carried), 4 * std::sqrt(double(count)) * double(swept.Strips));
 }
 
-TEST(SweepKernel, NamesTheFirstPointOfAPlaceForItsDuplicates)
+TEST(SweepKernel, ReportsTheFirstOfEqualPointsAsRepresentative)
 {
   const std::vector<Point2> points = pointSet("duplicates", 3000);
   const Ids first = firstOfPlaces(points);
@@ -131,7 +131,7 @@ TEST(SweepKernel, WaitsForAPointOffTheLine)
   EXPECT_TRUE(sweep({ { 1, 2 } }, 10).Made.empty());
 }
 
-TEST(SweepStrips, HaveTheirPointsFromLeftToRight)
+TEST(SweepStrips, OrderPointsFromLeftToRight)
 {
   const std::vector<Point2> points = pointSet("clustered", 5000);
   const SweepStrips strips(points.data(), points.size(), 300);
@@ -154,7 +154,7 @@ TEST(SweepStrips, HaveTheirPointsFromLeftToRight)
   }
 }
 
-TEST(SweepStrips, PutPointsOfOneXIntoOneStrip)
+TEST(SweepStrips, PointsWithEqualXAreInOneStrip)
 {
   const std::vector<Point2> points = pointSet("lattice", 900);
   const SweepStrips strips(points.data(), points.size(), 10);

@@ -87,7 +87,7 @@ std::vector<std::uint32_t> randomIds(std::size_t count, std::size_t below)
 
 } // namespace
 
-TEST(GroupedMoves, BringTuplesToEveryPlaceThatWantsThem)
+TEST(GroupedMoves, CopyTuplesToEveryPositionThatNeedsThem)
 {
   GroupSource source(5, 300);
   for (const std::size_t count : { 1, 8191, 8192, 8193, 50000 })
@@ -96,14 +96,14 @@ TEST(GroupedMoves, BringTuplesToEveryPlaceThatWantsThem)
   }
 }
 
-TEST(GroupedMoves, TakeGroupsInAnyOrder)
+TEST(GroupedMoves, AcceptGroupsInAnyOrder)
 {
   GroupSource source(9, 100);
   expectMoved(source, randomIds(30000, 9 * 100), 9, 2,
     [](Groups& groups) { std::reverse(groups.begin(), groups.end()); });
 }
 
-TEST(GroupedMoves, LeaveIdsThatAreInOneGroupWhereTheyAre)
+TEST(GroupedMoves, KeepTheOrderOfIdsInOneGroup)
 {
   GroupSource source(4, 10000);
   std::vector<std::uint32_t> ids(40000);
@@ -111,13 +111,13 @@ TEST(GroupedMoves, LeaveIdsThatAreInOneGroupWhereTheyAre)
   expectMoved(source, ids, 4, 2, leave);
 }
 
-TEST(GroupedMoves, SortIntoMoreGroupsThanABlockOfShortPlacesHolds)
+TEST(GroupedMoves, SortIntoMoreGroupsThanABlockOfShortPositionsHolds)
 {
   GroupSource source(6000, 2);
   expectMoved(source, randomIds(200000, 6000 * 2), 6000, 3, leave);
 }
 
-TEST(GroupedMoves, TellWhichGroupsAreWanted)
+TEST(GroupedMoves, ListTheGroupsThatAreNeeded)
 {
   tipp::GroupedMoves moves;
   const std::vector<std::size_t> groupOf{ 7, 2, 7, 4 };

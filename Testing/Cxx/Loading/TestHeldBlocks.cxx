@@ -53,7 +53,7 @@ TEST(HeldBlocks, FindTuplesOfHeldBlocks)
   EXPECT_EQ(5U, places.finder()(13));
 }
 
-TEST(HeldBlocks, GiveOtherBlocksPlacesBehindThoseHeld)
+TEST(HeldBlocks, PutNewBlocksBehindHeldOnes)
 {
   HeldBlocks places = someHeld();
   EXPECT_EQ(Places({ 9, 8, 13, 4, 3, 2, 1, 0 }), found(places, { 17, 16, 21, 12, 11, 10, 9, 8 }));
@@ -70,7 +70,7 @@ TEST(HeldBlocks, ReadTheLastBlockUpToTheLastTuple)
   EXPECT_EQ((FirstsAndSizes{ { 28, 2 }, { 4, 4 } }), toRead(places));
 }
 
-TEST(HeldBlocks, RefuseWhatTheyHaveNoRoomFor)
+TEST(HeldBlocks, RefuseBlocksThatDoNotFit)
 {
   HeldBlocks places = someHeld();
   EXPECT_TRUE(found(places, Ids{ 0, 4, 16, 20, 24, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }).empty());
@@ -85,7 +85,7 @@ TEST(HeldBlocks, RefuseToReadMoreTuplesThanThereAreIds)
   EXPECT_FALSE(found(places, { 0, 1, 2, 3 }).empty());
 }
 
-TEST(HeldBlocks, RefuseIdsThatAreNoTuples)
+TEST(HeldBlocks, RefuseInvalidIds)
 {
   for (const std::int64_t id : { std::int64_t(-1), std::int64_t(30), INT64_MIN, INT64_MAX })
   {
@@ -103,7 +103,7 @@ TEST(HeldBlocks, LoseBlocksWhoseReadFailed)
   EXPECT_TRUE(found(places, { 0 }).empty()); // a block is not read for a single id
 }
 
-TEST(HeldBlocks, TellWhichActiveBlocksAreNotHeld)
+TEST(HeldBlocks, ListActiveBlocksThatAreNotHeld)
 {
   HeldBlocks places = someHeld();
   EXPECT_EQ(std::vector<char>({ 1, 0, 0, 0 }), places.missing({ 1, 0, 1, 0 }, 0));

@@ -184,7 +184,7 @@ Ids from(std::int64_t first, std::size_t count)
 
 } // namespace
 
-TEST_P(Loaders, GiveEveryTupleForAnyChunk)
+TEST_P(Loaders, LoadEveryTupleForAnyChunk)
 {
   for (const Ids& ids : patterns())
   {
@@ -201,7 +201,7 @@ TEST_P(Loaders, GiveEveryTupleForAnyChunk)
   }
 }
 
-TEST_P(Loaders, RefuseIdsThatAreNoTuples)
+TEST_P(Loaders, RefuseInvalidIds)
 {
   LoaderOptions options;
   options.Kind = GetParam().Kind;
@@ -231,7 +231,7 @@ TEST_P(Loaders, DoNothingForNoIds)
 INSTANTIATE_TEST_SUITE_P(Each, Loaders, testing::ValuesIn(cases()),
   [](const auto& info) { return testing::PrintToString(info.param); });
 
-TEST(Loader, GivesTheSameWithAnyNumberOfThreads)
+TEST(Loader, LoadsTheSameWithAnyNumberOfThreads)
 {
   std::mt19937_64 random(2);
   Ids ids(400000);
@@ -267,7 +267,7 @@ TEST(DirectLoader, ReadsEachActiveSegmentOnce)
   EXPECT_EQ(4 * 24, loader->counters().UsefulBytes);
 }
 
-TEST(DirectLoader, ReadsTheRangeAloneWhereItFits)
+TEST(DirectLoader, ReadsOnlyTheRangeIfItFits)
 {
   LoaderOptions options;
   options.Kind = Loader::Direct;
@@ -281,7 +281,7 @@ TEST(DirectLoader, ReadsTheRangeAloneWhereItFits)
   EXPECT_EQ(1000 * 24, loader->counters().Bytes);
 }
 
-TEST(FineLoader, ReadsLittleBesideWhatIsAsked)
+TEST(FineLoader, ReadsLittleMoreThanRequested)
 {
   LoaderOptions options;
   options.Kind = Loader::Fine;
@@ -296,7 +296,7 @@ TEST(FineLoader, ReadsLittleBesideWhatIsAsked)
   EXPECT_EQ(2 * 24, loader->counters().Bytes);
 }
 
-TEST(FineLoader, ReadsNothingTwiceForLongWhereAllFits)
+TEST(FineLoader, SoonReadsNothingTwiceIfAllFits)
 {
   LoaderOptions options;
   options.Kind = Loader::Fine;
@@ -314,7 +314,7 @@ TEST(FineLoader, ReadsNothingTwiceForLongWhereAllFits)
   EXPECT_GT(loader->counters().UsefulBytes, 100 * whole / 2);
 }
 
-TEST(FineLoader, ReadsBlocksThatTheLastChunksHadOnlyOnce)
+TEST(FineLoader, ReadsTheBlocksOfConsecutiveChunksOnce)
 {
   LoaderOptions options;
   options.Kind = Loader::Fine;
@@ -331,7 +331,7 @@ TEST(FineLoader, ReadsBlocksThatTheLastChunksHadOnlyOnce)
   EXPECT_EQ(once + 1024 * (24 + 1 + 10), loader->counters().Bytes);
 }
 
-TEST(FineLoader, IsRightWhereFewIdsFollowBlocksAndGroups)
+TEST(FineLoader, IsCorrectForFewIdsAfterBlocksAndGroups)
 {
   LoaderOptions options;
   options.Kind = Loader::Fine;
@@ -376,7 +376,7 @@ TEST(FineLoader, KeepsFewFarIdsForTheNextChunks)
   EXPECT_EQ(10, xyz[6]);
 }
 
-TEST(FineLoader, IsRightAgainAfterAReadThatFailed)
+TEST(FineLoader, IsCorrectAfterAFailedRead)
 {
   const OwnIds source(1000);
   const auto loader = source.fineLoader(64);
@@ -387,7 +387,7 @@ TEST(FineLoader, IsRightAgainAfterAReadThatFailed)
   EXPECT_EQ(ids, OwnIds::loaded(*loader, ids));
 }
 
-TEST(FineLoader, IsRightAgainAfterAReadForNeighboursThatFailed)
+TEST(FineLoader, IsCorrectAfterAFailedReadOfNeighbours)
 {
   const OwnIds source(1000);
   const auto loader = source.fineLoader(800);
@@ -398,7 +398,7 @@ TEST(FineLoader, IsRightAgainAfterAReadForNeighboursThatFailed)
   EXPECT_EQ(from(300, 300), OwnIds::loaded(*loader, from(300, 300)));
 }
 
-TEST(FineLoader, IsRightFromWhenAllStays)
+TEST(FineLoader, IsCorrectOnceAllTuplesAreKept)
 {
   const OwnIds source(300000);
   const auto loader = source.fineLoader(300000);
@@ -427,7 +427,7 @@ TEST(LruLoader, CountsAMissForEachBlockThatItReads)
   EXPECT_EQ(2 * 100 * (24 + 1 + 10), loader->counters().Bytes);
 }
 
-TEST(AutoLoader, MapsWhatFitsIntoHalfTheMemory)
+TEST(AutoLoader, MapsAFileThatFitsIntoHalfTheMemory)
 {
   LoaderOptions options;
   options.MemoryLimit = 2 * 24 * tuples;
@@ -457,7 +457,7 @@ TEST(MakeVertexLoader, RefusesArraysThatDiffer)
   EXPECT_THROW(makeVertexLoader({ source().Arrays[0], shorter }), std::invalid_argument);
 }
 
-TEST(MakeVertexLoader, NamesTheFileThatIsCutOffBehindItsBack)
+TEST(MakeVertexLoader, ReportsAFileThatIsTruncatedMeanwhile)
 {
   const tipp::test::TemporaryFolder folder;
   const std::string path = folder.file("data", std::string(8000, 'x'));
@@ -476,7 +476,7 @@ TEST(MakeVertexLoader, NamesTheFileThatIsCutOffBehindItsBack)
   }
 }
 
-TEST(LoaderNames, ComeBack)
+TEST(LoaderNames, AreParsedBack)
 {
   for (const Loader kind :
     { Loader::Auto, Loader::Direct, Loader::Fine, Loader::Lru, Loader::Mmap })

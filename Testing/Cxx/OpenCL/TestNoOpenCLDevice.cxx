@@ -16,7 +16,7 @@ TEST(NoOpenCLDevice, AutoIsOpenMP)
   EXPECT_EQ(tipp::ComputeDevice::open({}), nullptr);
 }
 
-TEST(NoOpenCLDevice, AskingForOneIsAnError)
+TEST(NoOpenCLDevice, RequestingADeviceIsAnError)
 {
   expectAcceleratorError([] { tipp::ComputeDevice::open(tipp::parseDeviceChoice("opencl")); },
     "This machine has no OpenCL device: install");

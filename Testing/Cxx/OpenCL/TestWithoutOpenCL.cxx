@@ -15,7 +15,7 @@ TEST(WithoutOpenCL, AutoIsOpenMP)
   EXPECT_FALSE(tipp::chooseDevice({}, tipp::listDevices()));
 }
 
-TEST(WithoutOpenCL, AskingForADeviceIsAnErrorThatTellsOfTheBuild)
+TEST(WithoutOpenCL, RequestingADeviceIsAnErrorThatNamesTheBuild)
 {
   expectAcceleratorError([]
     { tipp::chooseDevice(tipp::parseDeviceChoice("opencl"), tipp::listDevices()); },

@@ -41,7 +41,7 @@ protected:
   const std::string Mesh = Folder.path("mesh.tipp");
 };
 
-TEST_P(GridOfPieces, ChangesNothing)
+TEST_P(GridOfPieces, GivesTheSameFilesForAnyMemoryAndThreads)
 {
   const std::uint64_t bytes = this->run(Much).BoundaryBytes;
   EXPECT_GT(bytes, 0U);
@@ -56,7 +56,7 @@ TEST_P(GridOfPieces, ChangesNothing)
   }
 }
 
-TEST_P(GridOfPieces, IsThereAgainAfterARunThatWasEnded)
+TEST_P(GridOfPieces, GivesTheSameFilesAfterInterruptedRuns)
 {
   this->run(1);
   const auto expected = filesOf(this->Mesh);

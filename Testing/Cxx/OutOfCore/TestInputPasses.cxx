@@ -23,7 +23,7 @@ InputSurvey surveyOf(PointStream& points)
   return InputPasses(points, nullptr, { 1 << 14, 1 << 10, 2, [](std::int64_t) {} }).survey();
 }
 
-TEST(InputSurvey, IsTheSameHoweverTheInputIsDivided)
+TEST(InputSurvey, IsTheSameForAnyDivisionOfTheInput)
 {
   const TemporaryFolder folder;
   const std::vector<std::string> names{ folder.path("points.npy"), "uniform:3000" };
@@ -65,7 +65,7 @@ TEST(InputSurvey, IsTheSameHoweverTheInputIsDivided)
   }
 }
 
-TEST(InputSurvey, PartsOnDifferentLinesAreNotOnOne)
+TEST(InputSurvey, PartsOnDifferentLinesAreNotCollinear)
 {
   PartialSurvey a;
   a.Line = { { 0, 0 }, { 1, 1 } };

@@ -94,7 +94,7 @@ protected:
   OutOfCoreOptions Options;
 };
 
-TEST_P(NeighborIds, AreThoseOfTheEdgesForAllPiecesAndThreads)
+TEST_P(NeighborIds, EqualThoseOfTheEdgesForAllPiecesAndThreads)
 {
   const Coordinates xy = makePointSet(GetParam(), 1500);
   for (const std::int64_t points : { 0, 60, 400 })
@@ -123,14 +123,14 @@ INSTANTIATE_TEST_SUITE_P(PointSets, NeighborIds,
     return name;
   });
 
-TEST_F(NeighborIds, AreLeftOutUnlessAskedFor)
+TEST_F(NeighborIds, AreMadeOnlyOnRequest)
 {
   this->Options.Neighbors = false;
   this->triangulate(makePointSet("uniform", 500));
   EXPECT_EQ(-1, findNeighborIds(openPartitionedMesh(this->Mesh)));
 }
 
-TEST_F(NeighborIds, KeepToLittleMemory)
+TEST_F(NeighborIds, NeedLittleMemory)
 {
   const Coordinates xy = makePointSet("clustered", 20000);
   this->Options.MemoryLimit = 1 << 20;
@@ -138,7 +138,7 @@ TEST_F(NeighborIds, KeepToLittleMemory)
   EXPECT_EQ(neighborsByEdges(sourceOf(this->Mesh, xy).Cells), neighborsIn(this->Mesh));
 }
 
-TEST_F(NeighborIds, AreTheSameWhereverTheirWritingWasEnded)
+TEST_F(NeighborIds, AreTheSameAfterInterruptedRuns)
 {
   this->cutIntoPiecesOf(150);
   this->Options.MapDuplicates = true;
@@ -198,7 +198,7 @@ TEST_F(NeighborIdsOfDamagedPieces, AreNotMade)
   EXPECT_TRUE(fs::exists(this->Folder.path(".mesh.tipp.part/.points.0")));
 }
 
-TEST_F(NeighborIdsOfDamagedPieces, AreMadeOnceThePiecesAreMadeAgain)
+TEST_F(NeighborIdsOfDamagedPieces, AreMadeAfterThePiecesAreRemade)
 {
   this->resume();
   const auto expected = filesOf(this->Mesh);
@@ -223,7 +223,7 @@ void expectNeighbors(const Ids& corners)
   EXPECT_EQ(neighborsByEdges(corners), Ids(neighbors.begin(), neighbors.end()));
 }
 
-TEST(FindNeighbors, AreThoseOfTheEdgesInAnyOrder)
+TEST(FindNeighbors, EqualThoseOfTheEdgesInAnyOrder)
 {
   std::mt19937 random(1);
   for (const std::size_t count : { 3, 4, 5, 10, 1000 })

@@ -107,7 +107,7 @@ class OutOfCoreConstraints : public testing::TestWithParam<std::string>
 {
 };
 
-TEST_P(OutOfCoreConstraints, MakeTheTrianglesOfMemoryForAllPiecesAndThreads)
+TEST_P(OutOfCoreConstraints, GiveTheTrianglesMadeInMemoryForAllPiecesAndThreads)
 {
   const Coordinates xy = makePointSet(GetParam(), 2000);
   for (const int count : { 3, 60 })
@@ -135,7 +135,7 @@ class ConstrainedPieces : public testing::TestWithParam<std::string>
 {
 };
 
-TEST_P(ConstrainedPieces, OwnAndBorrowAsTheFormatSays)
+TEST_P(ConstrainedPieces, FollowTheFormat)
 {
   const Coordinates xy = makePointSet(GetParam(), 1200);
   TableConstraints constraints;
@@ -148,7 +148,7 @@ TEST_P(ConstrainedPieces, OwnAndBorrowAsTheFormatSays)
   expectBelongs(run.mesh(), sourceOf(run.mesh(), run.All.XY));
 }
 
-TEST_P(ConstrainedPieces, AreTheSameWhereverTheRunWasEnded)
+TEST_P(ConstrainedPieces, AreTheSameAfterInterruptedRuns)
 {
   const Coordinates xy = makePointSet(GetParam(), 2000);
   TableConstraints constraints;
@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(PointSets, OutOfCoreConstraints,
     return name;
   });
 
-TEST(OutOfCoreConstraint, MayBeNamedByIdsOfPoints)
+TEST(OutOfCoreConstraint, MayReferToPointIds)
 {
   const Coordinates xy = makePointSet("duplicates", 1500);
   TableConstraints constraints;
@@ -202,7 +202,7 @@ TEST(OutOfCoreConstraint, MayBeNamedByIdsOfPoints)
   EXPECT_TRUE(run.matches());
 }
 
-TEST(OutOfCoreConstraint, CutsAwayWhatIsOutsideOfPolygonsAndInHoles)
+TEST(OutOfCoreConstraint, RemovesTrianglesOutsidePolygonsAndInHoles)
 {
   const Coordinates xy = makePointSet("uniform", 3000);
   for (const bool hasInside : { true, false })
@@ -362,7 +362,7 @@ TEST(PieceSegments, AreReadByPieceAndNearBoxes)
 }
 
 /// Only the constraints of loaded pieces must fit into memory, not all constraints.
-TEST(OutOfCoreConstraint, MayTakeMoreThanTheMemory)
+TEST(OutOfCoreConstraint, MayExceedTheMemoryLimit)
 {
   const Coordinates xy = makePointSet("uniform", 20000);
   TableConstraints constraints;

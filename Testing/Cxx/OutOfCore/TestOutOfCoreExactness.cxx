@@ -58,7 +58,7 @@ class OutOfCorePieces : public testing::TestWithParam<std::string>
 {
 };
 
-TEST_P(OutOfCorePieces, OwnAndBorrowAsTheFormatSays)
+TEST_P(OutOfCorePieces, FollowTheFormat)
 {
   const Coordinates xy = makePointSet(GetParam(), 1200);
   const TemporaryFolder folder;

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using namespace tipp;
 using namespace tipp::test;
 
-TEST(CheckedFile, ComesBackAsItWasSaved)
+TEST(CheckedFile, IsReadAsSaved)
 {
   const TemporaryFolder folder;
   const std::vector<double> many(20000, 0.5);
@@ -53,7 +53,7 @@ TEST(CheckedFile, ComesBackAsItWasSaved)
   EXPECT_EQ(1U, folder.fileCount());
 }
 
-TEST(CheckedFile, DamagedAnywhereItIsRefused)
+TEST(CheckedFile, IsRefusedIfAnyByteIsDamaged)
 {
   const TemporaryFolder folder;
   const std::string path = folder.path("state");
@@ -85,7 +85,7 @@ void writeSections(const std::string& path)
   file.finish();
 }
 
-TEST(SectionFile, GivesBackEachSection)
+TEST(SectionFile, ReturnsEachSection)
 {
   const TemporaryFolder folder;
   writeSections(folder.path("file"));
@@ -97,7 +97,7 @@ TEST(SectionFile, GivesBackEachSection)
   expectIOError(folder.path("file"), "is damaged", [&] { file.read({ 1, 1 }); });
 }
 
-TEST(SectionFile, HasItsNameWhenItIsWhole)
+TEST(SectionFile, AppearsOnlyWhenComplete)
 {
   const TemporaryFolder folder;
   SectionFileWriter file(folder.path("file"));
@@ -108,7 +108,7 @@ TEST(SectionFile, HasItsNameWhenItIsWhole)
   EXPECT_EQ(1U, folder.fileCount());
 }
 
-TEST(SectionFile, DamagedAnywhereItIsRefused)
+TEST(SectionFile, IsRefusedIfAnyByteIsDamaged)
 {
   const TemporaryFolder folder;
   const std::string path = folder.path("file");
@@ -163,7 +163,7 @@ TEST(InputSurvey, SamplesTheSamePointsInBlocksOfAnySize)
   }
 }
 
-TEST(InputSurvey, TellsPointsOnOneLine)
+TEST(InputSurvey, DetectsPointsOnOneLine)
 {
   Coordinates xy;
   for (int i = 0; i < 3000; ++i)
@@ -213,7 +213,7 @@ TEST(PiecePlan, LessMemoryMakesMorePieces)
   EXPECT_GT(steps.plan().pieces(), few);
 }
 
-TEST(PiecePlan, KnowsWhereTheRimWillBeLarge)
+TEST(PiecePlan, PredictsALargeBoundary)
 {
   Steps circle(makePointSet("circle", 4000));
   EXPECT_TRUE(circle.plan().IsAlone);
@@ -226,7 +226,7 @@ TEST(PiecePlan, KnowsWhereTheRimWillBeLarge)
   EXPECT_FALSE(uniform.plan().HasLargeInterface);
 }
 
-TEST(PiecePlan, ComesBackFromAnArchive)
+TEST(PiecePlan, IsRestoredFromAnArchive)
 {
   const Coordinates xy = makePointSet("clustered", 4000);
   const PiecePlan plan = Steps(xy).plan();
@@ -287,7 +287,7 @@ TEST(SpilledPoints, RefuseAnInputThatHasChanged)
   }
 }
 
-TEST(SpilledPoints, KeepsNoFileOpenThatOthersRead)
+TEST(SpilledPoints, ClosesFilesThatOthersRead)
 {
   Steps steps(makePointSet("uniform", 4000));
   PiecePlan plan = steps.plan();
@@ -300,7 +300,7 @@ TEST(SpilledPoints, KeepsNoFileOpenThatOthersRead)
   }
 }
 
-TEST(SpilledPoints, ThoseOfOtherPiecesAreRefused)
+TEST(SpilledPoints, OfOtherPiecesAreRefused)
 {
   Steps steps(makePointSet("uniform", 4000));
   PiecePlan plan = steps.plan();
@@ -318,7 +318,7 @@ TEST(SpilledPoints, ThoseOfOtherPiecesAreRefused)
   }
 }
 
-TEST(SpilledPoints, DamagedAreRefusedPieceByPiece)
+TEST(SpilledPoints, AreRefusedPerPieceIfDamaged)
 {
   Steps steps(makePointSet("clustered", 4000));
   PiecePlan plan = steps.plan();

@@ -162,7 +162,7 @@ TEST_P(OutOfCoreRanks, MakeTheFilesOfOneProcess)
   }
 }
 
-TEST_P(OutOfCoreRanks, GoOnWhereAnyNumberOfRanksWasEnded)
+TEST_P(OutOfCoreRanks, ResumeRunsOfAnyNumberOfRanks)
 {
   this->makePoints(GetParam());
   this->runAlone();
@@ -253,7 +253,7 @@ TEST_F(OutOfCoreRanks, ReadTheirPartsOfTheInput)
   EXPECT_TRUE(expected == this->takeFiles());
 }
 
-TEST_F(OutOfCoreRanks, LeaveToTheFirstAnInputThatOthersDoNotSee)
+TEST_F(OutOfCoreRanks, OnlyTheFirstReadsAnInputThatOthersCannotSee)
 {
   this->makePoints("uniform", 5000);
   this->runAlone();
@@ -266,7 +266,7 @@ TEST_F(OutOfCoreRanks, LeaveToTheFirstAnInputThatOthersDoNotSee)
   EXPECT_TRUE(expected == this->takeFiles());
 }
 
-TEST_F(OutOfCoreRanks, LeaveToTheFirstAnInputThatIsNotToBeDivided)
+TEST_F(OutOfCoreRanks, OnlyTheFirstReadsAnInputThatCannotBeDivided)
 {
   const Coordinates xy = makePointSet("uniform", 5000);
   this->Points.replace(this->Points.size() - 3, 3, "xyz");
@@ -285,7 +285,7 @@ TEST_F(OutOfCoreRanks, LeaveToTheFirstAnInputThatIsNotToBeDivided)
   EXPECT_TRUE(expected == this->takeFiles());
 }
 
-TEST_F(OutOfCoreRanks, AllEndWhereThePartOfOneCannotBeRead)
+TEST_F(OutOfCoreRanks, AllEndIfOneCannotReadItsPart)
 {
   this->makePoints("uniform", 5000);
   this->runAlone();
@@ -301,7 +301,7 @@ TEST_F(OutOfCoreRanks, AllEndWhereThePartOfOneCannotBeRead)
   }
 }
 
-TEST_F(OutOfCoreRanks, FindTheFactorOfTheirPartsTogether)
+TEST_F(OutOfCoreRanks, FindACommonScaleFactor)
 {
   Coordinates xy = makePointSet("uniform", 5000);
   for (double& coordinate : xy)
@@ -318,7 +318,7 @@ TEST_F(OutOfCoreRanks, FindTheFactorOfTheirPartsTogether)
   EXPECT_TRUE(expected == this->takeFiles());
 }
 
-TEST_F(OutOfCoreRanks, LeaveToTheFirstWhatHasNoPartitions)
+TEST_F(OutOfCoreRanks, OnlyTheFirstTriangulatesIfPartitionsDoNotPay)
 {
   for (const char* const set : { "collinear", "parabola" })
   {
@@ -344,7 +344,7 @@ TEST_F(OutOfCoreRanks, CountTheTrianglesOfOneProcess)
 
 /// The first rank may finish the mesh and remove temporary files before a slow rank receives the
 /// message that the last pieces are done.
-TEST_F(OutOfCoreRanks, SlowOnesMayLearnOfPiecesWhenTheseAreGone)
+TEST_F(OutOfCoreRanks, SlowRanksMayFallBehindTheEndOfTheRun)
 {
   this->makePoints("uniform", 200); // two pieces, the second on the first rank
   this->runAlone();
@@ -364,7 +364,7 @@ TEST_F(OutOfCoreRanks, SlowOnesMayLearnOfPiecesWhenTheseAreGone)
   }
 }
 
-TEST_F(OutOfCoreRanks, AllEndWithTheReasonOfTheOneThatFails)
+TEST_F(OutOfCoreRanks, AllReportTheFailureOfOne)
 {
   this->makePoints("uniform", 60000);
   this->Options.PiecePoints = 1000;
@@ -441,12 +441,12 @@ TEST_F(OutOfCoreRanks, UpdateTheFilterTogether)
   }
 }
 
-TEST_F(OutOfCoreRanks, AllLearnThatTheInputIsMissing)
+TEST_F(OutOfCoreRanks, AllReportAMissingInput)
 {
   EXPECT_NE(std::string::npos, this->failure().find("points.npy: cannot be opened"));
 }
 
-TEST_F(OutOfCoreRanks, SayWhichFolderIsNotShared)
+TEST_F(OutOfCoreRanks, ReportAFolderThatIsNotShared)
 {
   if (this->isFirst())
   {
@@ -474,7 +474,7 @@ TEST_F(OutOfCoreRanks, SayWhichFolderIsNotShared)
     reason = failure.what();
   }
   fs::current_path(here);
-  EXPECT_EQ(0U, reason.find("shared: is not there on this rank")) << reason;
+  EXPECT_EQ(0U, reason.find("shared: does not exist on this rank")) << reason;
   if (this->isFirst())
   {
     EXPECT_TRUE(fs::is_empty(this->Folder->path("shared")));

@@ -41,7 +41,7 @@ protected:
   TemporaryFolder Folder;
 };
 
-TEST_P(OutOfCoreResume, MakesTheSameFilesWhereverItWasEnded)
+TEST_P(OutOfCoreResume, MakesTheSameFilesAfterAnyInterruption)
 {
   writePoints(this->Folder.path("points.npy"), makePointSet(GetParam(), 2500));
   this->run();
@@ -93,7 +93,7 @@ protected:
   }
 };
 
-TEST_F(OutOfCoreBegun, RefusesToStartAgainWithoutBeingTold)
+TEST_F(OutOfCoreBegun, IsResumedOnlyOnRequest)
 {
   expectIOError(this->Folder.path("mesh.tipp"), "resume it", [this] { this->run(); });
   this->Options.Resume = true;
@@ -114,7 +114,7 @@ TEST_F(OutOfCoreBegun, RefusesOtherOptions)
   expectIOError(this->Folder.path("mesh.tipp"), "other options", [this] { this->run(); });
 }
 
-TEST_F(OutOfCoreBegun, NamesADamagedPlan)
+TEST_F(OutOfCoreBegun, ReportsADamagedPlan)
 {
   const std::string plan = this->Folder.path(".mesh.tipp.part/.plan");
   std::string content = contentOf(plan);
@@ -124,7 +124,7 @@ TEST_F(OutOfCoreBegun, NamesADamagedPlan)
   expectIOError(plan, "is damaged", [this] { this->run(); });
 }
 
-TEST_F(OutOfCoreBegun, NamesAMissingPlan)
+TEST_F(OutOfCoreBegun, ReportsAMissingPlan)
 {
   const std::string plan = this->Folder.path(".mesh.tipp.part/.plan");
   fs::remove(plan);
@@ -182,7 +182,7 @@ protected:
   const std::string Results = Folder.path(".mesh.tipp.part/.piece.");
 };
 
-TEST_F(OutOfCoreDamaged, MakesPiecesAgainThatHaveChanged)
+TEST_F(OutOfCoreDamaged, RemakesChangedPieces)
 {
   for (const auto& piece : fs::directory_iterator(this->Pieces))
   {
@@ -191,7 +191,7 @@ TEST_F(OutOfCoreDamaged, MakesPiecesAgainThatHaveChanged)
   this->expectMadeAgain(this->Pieces);
 }
 
-TEST_F(OutOfCoreDamaged, MakesPiecesAgainThatAreCutShort)
+TEST_F(OutOfCoreDamaged, RemakesTruncatedPieces)
 {
   for (const auto& piece : fs::directory_iterator(this->Pieces))
   {
@@ -200,13 +200,13 @@ TEST_F(OutOfCoreDamaged, MakesPiecesAgainThatAreCutShort)
   this->expectMadeAgain(this->Pieces);
 }
 
-TEST_F(OutOfCoreDamaged, MakesPiecesAgainThatAreMissing)
+TEST_F(OutOfCoreDamaged, RemakesMissingPieces)
 {
   fs::remove_all(this->Pieces);
   this->expectMadeAgain(this->Pieces);
 }
 
-TEST_F(OutOfCoreDamaged, MakesPiecesAgainWhoseResultsHaveChanged)
+TEST_F(OutOfCoreDamaged, RemakesPiecesWithChangedResults)
 {
   for (const std::string& result : this->results())
   {
@@ -215,14 +215,14 @@ TEST_F(OutOfCoreDamaged, MakesPiecesAgainWhoseResultsHaveChanged)
   this->expectMadeAgain(this->Results);
 }
 
-TEST_F(OutOfCoreDamaged, MakesAgainTheOneThatIsDamagedAlone)
+TEST_F(OutOfCoreDamaged, RemakesOnlyTheDamagedPiece)
 {
   const std::string result = this->results().front();
   this->change(result);
   this->expectMadeAgain(result + ": is damaged or missing; its piece is made again");
 }
 
-TEST_F(OutOfCoreDamaged, LeavesNothingOfWhatIsAppendedToPieces)
+TEST_F(OutOfCoreDamaged, RemovesBytesAppendedToPieces)
 {
   for (const auto& piece : fs::directory_iterator(this->Pieces))
   {
@@ -236,7 +236,7 @@ TEST_F(OutOfCoreDamaged, LeavesNothingOfWhatIsAppendedToPieces)
   EXPECT_TRUE(resumed == this->files());
 }
 
-TEST_F(OutOfCoreBegun, NamesSpilledPointsThatAreCutShort)
+TEST_F(OutOfCoreBegun, ReportsTruncatedSpilledPoints)
 {
   const std::string points = this->Folder.path(".mesh.tipp.part/.points.0");
   fs::resize_file(points, fs::file_size(points) - 100);
@@ -244,7 +244,7 @@ TEST_F(OutOfCoreBegun, NamesSpilledPointsThatAreCutShort)
   expectIOError(points, "shorter", [this] { this->run(); });
 }
 
-TEST_F(OutOfCoreBegun, NamesSpilledPointsThatAreDamaged)
+TEST_F(OutOfCoreBegun, ReportsDamagedSpilledPoints)
 {
   const std::string points = this->Folder.path(".mesh.tipp.part/.points.0");
   std::string content = contentOf(points);
@@ -258,7 +258,7 @@ TEST_F(OutOfCoreBegun, NamesSpilledPointsThatAreDamaged)
   EXPECT_FALSE(fs::exists(this->Folder.path("mesh.tipp")));
 }
 
-TEST_F(OutOfCoreBegun, LeavesAnOlderMeshUntilItIsWhole)
+TEST_F(OutOfCoreBegun, KeepsAnOlderMeshUntilItIsComplete)
 {
   fs::create_directory(this->Folder.path("mesh.tipp"));
   this->Options.Resume = true;
@@ -315,7 +315,7 @@ protected:
   std::map<std::string, std::string> Expected;
 };
 
-TEST_F(OutOfCoreWhole, IsPutInPlaceThoughItsPointsAreGone)
+TEST_F(OutOfCoreWhole, IsRenamedEvenIfItsPointsAreMissing)
 {
   for (const char* name : { ".points.0", ".piece.0", ".piece.1.finished" })
   {
@@ -326,7 +326,7 @@ TEST_F(OutOfCoreWhole, IsPutInPlaceThoughItsPointsAreGone)
   EXPECT_TRUE(this->Expected == this->files());
 }
 
-TEST_F(OutOfCoreWhole, IsPutInPlaceWithoutBeingTold)
+TEST_F(OutOfCoreWhole, IsRenamedWithoutARequestToResume)
 {
   this->Options.Progress = [](double) { return false; }; // no effect: only renaming is left
   this->expectTheSame(this->run());
@@ -342,14 +342,14 @@ TEST_F(OutOfCoreWhole, IsRefusedForAnotherInput)
   EXPECT_TRUE(this->Expected == filesOf(this->Part + "/mesh.tipp"));
 }
 
-TEST_F(OutOfCoreWhole, IsRefusedWhereAFileOfItsMeshIsMissing)
+TEST_F(OutOfCoreWhole, IsRefusedIfAFileIsMissing)
 {
   fs::remove(this->Part + "/mesh.tipp/pieces/000003.vtu");
   this->Options.Resume = true;
   expectIOError(this->Part + "/mesh.tipp", "is damaged", [this] { this->run(); });
 }
 
-TEST_F(OutOfCoreWhole, IsRefusedWhereAnyOfItsFilesHasChanged)
+TEST_F(OutOfCoreWhole, IsRefusedIfAFileHasChanged)
 {
   this->Options.Resume = true;
   const std::string mesh = this->Part + "/mesh.tipp/";
@@ -366,7 +366,7 @@ TEST_F(OutOfCoreWhole, IsRefusedWhereAnyOfItsFilesHasChanged)
   EXPECT_TRUE(this->Expected == this->files());
 }
 
-TEST_F(OutOfCoreWhole, IsLeftAloneWhereItTookAnotherMeshsPlace)
+TEST_F(OutOfCoreWhole, IsKeptAfterItReplacedAnotherMesh)
 {
   this->publish();
   fs::remove_all(this->Part + "/mesh.tipp");
@@ -378,7 +378,7 @@ TEST_F(OutOfCoreWhole, IsLeftAloneWhereItTookAnotherMeshsPlace)
   EXPECT_TRUE(this->Expected == this->files());
 }
 
-TEST_F(OutOfCoreWhole, GivesWayToAnotherInputOnceItIsInPlace)
+TEST_F(OutOfCoreWhole, MayBeReplacedByAnotherInputOnceRenamed)
 {
   this->publish();
   const Coordinates xy = makePointSet("uniform", 1000, 2);

@@ -38,7 +38,7 @@ PartitionOrder randomOrder(PartitionIndex count, std::mt19937& random)
   return PartitionOrder(std::vector<char>(std::size_t(count), 1), conflicts);
 }
 
-TEST(BorderQueue, GivesABorderOnceAllPiecesThatConflictAreDone)
+TEST(BorderQueue, ABorderIsReadyOnceAllConflictingPiecesAreDone)
 {
   Steps steps(makePointSet("uniform", 4000));
   const PiecePlan plan = steps.plan();
@@ -80,7 +80,7 @@ TEST(BorderQueue, GivesABorderOnceAllPiecesThatConflictAreDone)
   }
 }
 
-TEST(BorderQueue, GivesNoneIfEveryPartitionConflictsWithEveryOther)
+TEST(BorderQueue, IsEmptyIfAllPartitionsConflict)
 {
   Steps steps(makePointSet("uniform", 4000));
   const PiecePlan plan = steps.plan();
@@ -111,7 +111,7 @@ TEST(PieceOrder, TriangulatesOnePieceAfterTheOther)
   EXPECT_EQ(order.sequence(), pieces);
 }
 
-TEST(PieceOrder, BeginsWithPiecesThatDoNotConflict)
+TEST(PieceOrder, StartsWithPiecesThatDoNotConflict)
 {
   Steps steps(makePointSet("uniform", 20000));
   PiecePlan plan = steps.plan();
@@ -132,7 +132,7 @@ TEST(PieceOrder, BeginsWithPiecesThatDoNotConflict)
   }
 }
 
-TEST(RunSetup, ComesBackOnAnotherRank)
+TEST(RunSetup, IsRestoredOnAnotherRank)
 {
   Steps steps(makePointSet("clustered", 4000));
   RunSetup run;
@@ -213,12 +213,12 @@ TEST_F(PieceRuns, LeaveAResultOfEveryPiece)
   this->expectAllTriangles();
 }
 
-TEST_F(PieceRuns, EndWhereTheyAreTold)
+TEST_F(PieceRuns, StopWhenAborted)
 {
   EXPECT_FALSE(this->run(this->None, [](std::int64_t done) { return done < 1000; }));
 }
 
-TEST_F(PieceRuns, GoOnFromAnyResults)
+TEST_F(PieceRuns, ResumeFromAnyResults)
 {
   ASSERT_TRUE(this->run(this->None));
   for (const std::size_t kept : { 2, 3, 5 })
@@ -238,7 +238,7 @@ TEST_F(PieceRuns, GoOnFromAnyResults)
   }
 }
 
-TEST_F(PieceRuns, GiveTheSameResultsAgain)
+TEST_F(PieceRuns, MakeTheSameResultsAgain)
 {
   ASSERT_TRUE(this->run(this->None));
   std::vector<std::string> results;

@@ -91,7 +91,7 @@ std::vector<std::int32_t> expectedNumbers(std::size_t key, std::size_t rows)
   return numbers;
 }
 
-TEST(Spill, GivesEachKeysRowsInTheOrderOfTheChunks)
+TEST(Spill, ReadsEachKeysRowsInTheOrderOfTheChunks)
 {
   const TemporaryFolder folder;
   const WrittenAlone written(folder, 4);
@@ -102,7 +102,7 @@ TEST(Spill, GivesEachKeysRowsInTheOrderOfTheChunks)
   }
 }
 
-TEST(Spill, GivesRowsABlockAtATime)
+TEST(Spill, ReadsRowsInBlocks)
 {
   const TemporaryFolder folder;
   const WrittenAlone written(folder, 4);
@@ -136,7 +136,7 @@ TEST(Spill, JoinsTheRowsOfRanksInTheirOrder)
   }
 }
 
-TEST(Spill, KeepsNothingForEachPairOfChunkAndKey)
+TEST(Spill, SavedStateDoesNotGrowWithChunksTimesKeys)
 {
   const TemporaryFolder folder;
   const std::size_t few = packed(WrittenAlone(folder, 10).Rows.content()).size();
@@ -144,7 +144,7 @@ TEST(Spill, KeepsNothingForEachPairOfChunkAndKey)
     few + 20 * sizeof(std::uint64_t), packed(WrittenAlone(folder, 30).Rows.content()).size());
 }
 
-TEST(Spill, NamesAListOfAChunkThatIsDamaged)
+TEST(Spill, ReportsADamagedList)
 {
   const TemporaryFolder folder;
   const WrittenAlone written(folder, 2);
@@ -157,7 +157,7 @@ TEST(Spill, NamesAListOfAChunkThatIsDamaged)
   EXPECT_EQ(expectedNumbers(3, 2 * chunkRows), numbersOf(written.Rows, 3));
 }
 
-TEST(Spill, RefusesWhatIsSavedOfOthers)
+TEST(Spill, RefusesTheStateOfAnotherSpill)
 {
   const TemporaryFolder folder;
   const SpilledRows saved = WrittenAlone(folder, 2).Rows.content();

@@ -168,7 +168,7 @@ TEST(BoxTiling, MoreCutsThanDoublesGiveFlatBoxes)
   expectMeetingAsByBruteForce(tiling);
 }
 
-TEST(BoxTiling, RefusesADomainThatIsNone)
+TEST(BoxTiling, RefusesAnInvalidDomain)
 {
   const Box3 inverted = { { 1, 0, 0 }, { 0, 1, 0 } };
   const Box3 infinite = { { 0, 0, 0 }, { HUGE_VAL, 1, 0 } };
@@ -201,7 +201,7 @@ TEST(BoxTiling, RefusesAGridOfNoOrTooManyBoxes)
   expectAcceleratorError([] { BoxTiling::grid(4, Square, { 1, 1, 1 }); }, "2 or 3 dimensions");
 }
 
-TEST(BoxTiling, RefusesNodesThatAreNoTree)
+TEST(BoxTiling, RefusesInvalidNodes)
 {
   const auto expectRefused = [](const std::vector<std::int32_t>& nodes)
   {

@@ -149,7 +149,7 @@ TEST(TriangleMeetsBox, ABoxWithinTheTriangleAndATriangleWithinTheBoxMeet)
     tipp::triangleMeetsBox({ -9, -9 }, { 9, -9 }, { 0, 9 }, { { -99, -99, 0 }, { 99, 99, 0 } }));
 }
 
-TEST(TriangleMeetsBox, SegmentsAndPointsAreTrianglesToo)
+TEST(TriangleMeetsBox, AcceptsSegmentsAndPoints)
 {
   const Box3 box = { { 1, 0, 0 }, { 2, 1, 0 } };
   EXPECT_TRUE(tipp::triangleMeetsBox({ 0, 1 }, { 1, 1 }, { 0.5, 1 }, box));
@@ -195,7 +195,7 @@ TEST(TetrahedronMeetsBox, TouchingAtOnePointCounts)
   EXPECT_FALSE(tipp::tetrahedronMeetsBox(O, x, y, z, { { 1, beyond, 1 }, { 2, 2, 2 } }));
 }
 
-TEST(TetrahedronMeetsBox, EdgesThatPassEachOtherAreApart)
+TEST(TetrahedronMeetsBox, EdgesThatPassEachOtherDoNotMeet)
 {
   // An edge that crosses the box's edge x = y = 1 at z = 0.5. Then it is moved outwards.
   const Box3 box = { { 0, 0, 0 }, { 1, 1, 1 } };

@@ -84,7 +84,7 @@ protected:
   TemporaryFolder Folder;
 };
 
-TEST_F(DamagedMesh, IsReadWhileItIsWhole)
+TEST_F(DamagedMesh, IsReadIfUndamaged)
 {
   this->readAll();
 }
@@ -101,7 +101,7 @@ TEST_F(DamagedMesh, LacksAPiece)
   this->expectRefused("pieces/000002.vtu", "missing");
 }
 
-TEST_F(DamagedMesh, LacksThePvtuOrHasHalfOfIt)
+TEST_F(DamagedMesh, LacksThePvtuOrAPartOfIt)
 {
   fs::resize_file(this->path("mesh.pvtu"), 10);
   this->expectRefused("mesh.pvtu", "10 bytes where the index says");
@@ -183,7 +183,7 @@ protected:
   }
 };
 
-TEST_F(DamagedArrays, AreRefusedByTheReaderWhicheverOfThemHasChanged)
+TEST_F(DamagedArrays, AreRefusedByTheReaderIfAnyHasChanged)
 {
   this->forEachKind(
     [this]
@@ -208,7 +208,7 @@ TEST_F(DamagedArrays, AreRefusedByTheReaderWhicheverOfThemHasChanged)
     });
 }
 
-TEST_F(DamagedArrays, AreFoundByteForByte)
+TEST_F(DamagedArrays, AreFoundByTheCheckForEachByte)
 {
   this->forEachKind(
     [this]
@@ -252,7 +252,7 @@ TEST_F(DamagedMesh, HasAHugeCount)
   this->expectRefused("index.json", "wrong ghost_points");
 }
 
-TEST_F(DamagedMesh, HasATableFarAway)
+TEST_F(DamagedMesh, HasATableBeyondTheFile)
 {
   this->editIndex("\"table\":[0,", "\"table\":[9223372036854775800,");
   this->expectRefused("index.json", "wrong table");
@@ -270,7 +270,7 @@ TEST_F(DamagedMesh, HasAnArrayLargerThanItsFile)
   this->expectRefused("tables.bin", "behind its file");
 }
 
-TEST_F(DamagedMesh, HasIdsOfNoPointOrCell)
+TEST_F(DamagedMesh, HasInvalidIds)
 {
   for (const bool duplicate : { false, true })
   {
@@ -290,7 +290,7 @@ TEST_F(DamagedMesh, HasIdsOfNoPointOrCell)
   }
 }
 
-TEST_F(DamagedMesh, IsNotThere)
+TEST_F(DamagedMesh, IsMissing)
 {
   expectIOError(this->path("other/index.json"), "cannot be opened",
     [this] { openPartitionedMesh(this->path("other/index.json")); });

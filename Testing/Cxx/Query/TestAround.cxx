@@ -307,7 +307,7 @@ TEST_F(Around, BoundaryHasEachEdgeWithOneTriangleOnce)
   }
 }
 
-TEST_F(Around, BordersThatTouchAtAPointFollowTheirOwnTriangles)
+TEST_F(Around, BordersThatTouchAtAPointAreSeparate)
 {
   // Two triangles that share only point 2.
   SourceMesh source;

@@ -167,22 +167,22 @@ void expectAsBruteForce(const SourceMesh& source)
 
 } // namespace
 
-TEST(Closest, TrianglesAreThoseOfBruteForceInRationals)
+TEST(Closest, TrianglesEqualBruteForceInRationals)
 {
   expectAsBruteForce(withHoles(makeSource(latticeTriangles(9, 0.3)), 3));
 }
 
-TEST(Closest, OfTrianglesThatAreAsNearTheLowestCounts)
+TEST(Closest, TheLowestOfEquallyNearTrianglesIsFound)
 {
   expectAsBruteForce(withHoles(makeSource(latticeTriangles(8, 0)), 2));
 }
 
-TEST(Closest, TetrahedraAreThoseOfBruteForceInRationals)
+TEST(Closest, TetrahedraEqualBruteForceInRationals)
 {
   expectAsBruteForce(withHoles(makeSource(latticeTetrahedra(3, 0.3)), 3));
 }
 
-TEST(Closest, OfTetrahedraThatAreAsNearTheLowestCounts)
+TEST(Closest, TheLowestOfEquallyNearTetrahedraIsFound)
 {
   expectAsBruteForce(withHoles(makeSource(latticeTetrahedra(3, 0)), 2));
 }
@@ -202,7 +202,7 @@ TEST(Closest, IsExactVeryNearTheBorder)
     });
 }
 
-TEST(Closest, OfNoMeshAndOfPointsThatAreNotFiniteIsNone)
+TEST(Closest, NothingIsFoundInAnEmptyMeshOrForPointsThatAreNotFinite)
 {
   const ResidentMesh empty{ MeshPart() };
   const Point3 points[2] = { { 0, 0, 0 }, { NAN, 0, 0 } };

@@ -46,7 +46,7 @@ std::vector<Point3> starts(int n)
 
 } // namespace
 
-TEST(Descent, FallsToAPointWithoutALowerNeighbor)
+TEST(Descent, EndsAtAPointWithoutALowerNeighbor)
 {
   const SourceMesh source = terrain(24, 0.3, hills);
   const ResidentMesh mesh(inMemory(source));
@@ -123,7 +123,7 @@ TEST(Descent, FollowsTheGradientInTriangles)
   EXPECT_LT(50, across);
 }
 
-TEST(Descent, OfAPlaneIsStraightAndThenAlongTheBorder)
+TEST(Descent, OnAPlaneIsStraightAndThenFollowsTheBorder)
 {
   const SourceMesh source = terrain(10, 0, [](double x, double y) { return 2 * x + y; });
   const ResidentMesh mesh(inMemory(source));

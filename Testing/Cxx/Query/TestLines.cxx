@@ -127,7 +127,7 @@ TEST(Contours, AroundAHillAreClosed)
   EXPECT_NEAR(3.14159265 * 0.09, area, 0.01); // counter-clockwise, since the higher side is inside
 }
 
-TEST(Contours, RefuseWhatHasNone)
+TEST(Contours, RefuseInvalidArraysAndLevelsAndTetrahedra)
 {
   const ResidentMesh triangles(inMemory(slope(0)));
   EXPECT_THROW(contoursOf(triangles, "label", 0, { 1 }), IOError);

@@ -98,7 +98,7 @@ TEST(NearPoints, AreAnsweredWithoutKeepingThePieces)
   }
 }
 
-TEST(NearPoints, PiecesStayInMemoryOnceTheyAreAskedOften)
+TEST(NearPoints, PiecesStayInMemoryIfTheyAreQueriedOften)
 {
   const SourceMesh source = makeSource(latticeTriangles(40, 0.3));
   const TemporaryFolder folder;
@@ -117,7 +117,7 @@ TEST(NearPoints, PiecesStayInMemoryOnceTheyAreAskedOften)
   EXPECT_EQ(loads, mesh.pieces().loads());
 }
 
-TEST(NearPoints, AnswersCountInTheMemoryLimitWherePiecesLeaveRoom)
+TEST(NearPoints, AnswersCountTowardsTheMemoryLimit)
 {
   ResidentPieces pieces(
     1000, [](std::size_t, const PieceNeeds&) { return std::uint64_t(600); },
@@ -142,7 +142,7 @@ TEST(NearPoints, AnswersCountInTheMemoryLimitWherePiecesLeaveRoom)
   EXPECT_EQ(600U, pieces.bytes());
 }
 
-TEST(OnePass, LocatesAsLocatorsDoAlsoWhereCellsOverlap)
+TEST(OnePass, LocatesLikeLocatorsEvenIfCellsOverlap)
 {
   SourceMesh overlapping = makeSource(latticeTriangles(12, 0.3));
   const std::vector<std::int64_t> cells = overlapping.Cells;
@@ -187,7 +187,7 @@ TEST(OnePass, LocatesAsLocatorsDoAlsoWhereCellsOverlap)
   }
 }
 
-TEST(OnePass, GivesUpWhereThinCellsWouldTestTooManyPoints)
+TEST(OnePass, GivesUpIfThinCellsWouldTestTooManyPoints)
 {
   SourceMesh fan;
   fan.CellSize = 3;
@@ -226,7 +226,7 @@ TEST(OnePass, GivesUpWhereThinCellsWouldTestTooManyPoints)
   EXPECT_EQ(0, std::count(answer.Cells.begin(), answer.Cells.end(), -1));
 }
 
-TEST(PointGrid, NeverPassesOverABoxThatHoldsAPoint)
+TEST(PointGrid, NeverMissesABoxThatContainsAPoint)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::mt19937 random(1);

@@ -243,7 +243,7 @@ TEST_F(QueryRanks, CellsWithoutIdsAreNumberedRankByRank)
   }
 }
 
-TEST_F(QueryRanks, TellWhatLiesAroundInAStoredMesh)
+TEST_F(QueryRanks, FindNeighborsInAStoredMesh)
 {
   for (const SourceMesh& source : { makeSource(latticeTriangles(10, 0.3)),
          makeSource(latticeTriangles(8, 0)), makeSource(latticeTetrahedra(3, 0.3)) })
@@ -253,7 +253,7 @@ TEST_F(QueryRanks, TellWhatLiesAroundInAStoredMesh)
   }
 }
 
-TEST_F(QueryRanks, TellWhatLiesAroundInPartsInMemory)
+TEST_F(QueryRanks, FindNeighborsInPartsInMemory)
 {
   const int holders = std::max(1, this->Ranks.size() - 1);
   for (const SourceMesh& source : { makeSource(latticeTriangles(10, 0.3)),
@@ -311,7 +311,7 @@ TEST_F(QueryRanks, ShareTheCellsOfZones)
     ResidentMesh(this->isLast() ? MeshPart() : inMemory(source, 0, this->Ranks.rank(), holders)));
 }
 
-TEST_F(QueryRanks, ShareWhatLiesInRegions)
+TEST_F(QueryRanks, ShareTheCellsAndPointsOfRegions)
 {
   const SourceMesh source = makeSource(latticeTriangles(12, 0));
   this->store(source, "grid:3x2");
@@ -332,7 +332,7 @@ TEST_F(QueryRanks, ShareWhatLiesInRegions)
     });
 }
 
-TEST_F(QueryRanks, FollowWaysDownFromRankToRank)
+TEST_F(QueryRanks, FollowDescentsFromRankToRank)
 {
   const SourceMesh source = makeSource(latticeTriangles(16, 0.3));
   const ResidentMesh whole(inMemory(source));
@@ -395,7 +395,7 @@ TEST_F(QueryRanks, AnswersMayStayWhereTheCellsAre)
   expectAsAlone(ResidentMesh(inMemory(source, 0, this->Ranks.rank(), this->Ranks.size())));
 }
 
-TEST_F(QueryRanks, TheFilterLeavesValuesOnOwnersAndSharesZonesAndWaysDown)
+TEST_F(QueryRanks, TheFilterLeavesValuesOnOwnersAndSharesZonesAndDescents)
 {
   const SourceMesh source = makeSource(latticeTriangles(10, 0.3));
   this->store(source, "grid:3x3");
@@ -435,7 +435,7 @@ TEST_F(QueryRanks, TheFilterLeavesValuesOnOwnersAndSharesZonesAndWaysDown)
   EXPECT_EQ(double(source.cells()), statistics->GetArray("Cells")->GetComponent(0, 0));
 }
 
-TEST_F(QueryRanks, TheFilterAsksAllRanksTogether)
+TEST_F(QueryRanks, TheFilterQueriesAllRanksTogether)
 {
   const SourceMesh source = makeSource(latticeTriangles(10, 0.3));
   this->store(source, "grid:3x3");
@@ -465,7 +465,7 @@ TEST_F(QueryRanks, TheFilterAsksAllRanksTogether)
   EXPECT_EQ(this->Ranks.isFirst() ? 40 : 0, border->GetNumberOfPoints());
 }
 
-TEST_F(QueryRanks, PartsWithoutIdsAndIdsThatNobodyHasAreRefused)
+TEST_F(QueryRanks, PartsWithoutIdsAndUnknownIdsAreRefused)
 {
   const SourceMesh source = makeSource(latticeTriangles(6, 0.3));
   const auto expectFailure = [](const MeshPart& part, std::int64_t id, const char* message)

@@ -172,7 +172,7 @@ TEST_F(ResidentMeshTest, PiecesStayInMemoryWithinTheLimit)
   }
 }
 
-TEST_F(ResidentMeshTest, DoesWithoutWhatDoesNotFitIntoTheLimit)
+TEST_F(ResidentMeshTest, WorksWithoutLocatorsThatExceedTheLimit)
 {
   const SourceMesh source = makeSource(latticeTriangles(20, 0.3));
   store(source, this->path(), "grid:1x1", false);
@@ -241,7 +241,7 @@ TEST_F(ResidentMeshTest, ThreadsShareOneMeshInLittleMemory)
   }
 }
 
-TEST_F(ResidentMeshTest, ReadsOnlyThePiecesThatPointsLieIn)
+TEST_F(ResidentMeshTest, ReadsOnlyThePiecesThatContainPoints)
 {
   store(makeSource(latticeTriangles(20, 0.3)), this->path(), "grid:4x4", true);
   const ResidentMesh mesh(this->path());
@@ -254,7 +254,7 @@ TEST_F(ResidentMeshTest, ReadsOnlyThePiecesThatPointsLieIn)
   EXPECT_EQ(1, mesh.pieces().loads());
 }
 
-TEST_F(ResidentMeshTest, TakesTheStepOfArraysThatVaryInTime)
+TEST_F(ResidentMeshTest, UsesTheTimeStepOfArraysThatVaryInTime)
 {
   SourceMesh source = makeSource(latticeTriangles(10, 0.3));
   addSeries(source, 3);
@@ -308,7 +308,7 @@ TEST_F(ResidentMeshTest, NamesADamagedPieceAndAnswersInTheOthers)
   EXPECT_LE(0, mesh.answer(&points[0], 1).Cells[0]);
 }
 
-TEST_F(ResidentMeshTest, AnEmptyMeshAndNoPointsAreFine)
+TEST_F(ResidentMeshTest, AcceptsAnEmptyMeshAndNoPoints)
 {
   const ResidentMesh empty{ MeshPart() };
   const Point3 point{ 0, 0, 0 };

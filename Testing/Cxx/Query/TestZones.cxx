@@ -263,7 +263,7 @@ TEST(Zones, AreTheSameBitForBitForAnyPieces)
   }
 }
 
-TEST(Zones, OnMeshEdgesTakeNothingOfTheTrianglesBeside)
+TEST(Zones, OnMeshEdgesLeaveOutAdjacentTriangles)
 {
   const SourceMesh source = wavy(8, 0);
   const ResidentMesh mesh(inMemory(source));
@@ -299,7 +299,7 @@ TEST(Zones, HaveTheExtremesOfTheirCorners)
   EXPECT_NEAR(0.9, found.High[1], 1e-6);
 }
 
-TEST(Zones, NearlyAlongMeshEdgesHaveTheirArea)
+TEST(Zones, NearlyOnMeshEdgesHaveTheExactArea)
 {
   const SourceMesh source = wavy(8, 0);
   const ResidentMesh mesh(inMemory(source));
@@ -333,7 +333,7 @@ TEST(Zones, NearlyAlongMeshEdgesHaveTheirArea)
   }
 }
 
-TEST(Zones, MayTurnEitherWay)
+TEST(Zones, MayHaveEitherOrientation)
 {
   const SourceMesh source = wavy(6, 0.3);
   const ResidentMesh mesh(inMemory(source));
@@ -404,7 +404,7 @@ TEST(Regions, HaveTheCellsAndPointsOfBruteForce)
   }
 }
 
-TEST(Regions, HoldPointsOnTheirBorder)
+TEST(Regions, ContainPointsOnTheirBorder)
 {
   const ZoneShape shape(
     { rectangle(0.25, 0.75, 0.25, 0.5), rectangle(0.375, 0.5, 0.375, 0.5, true) }, 0);

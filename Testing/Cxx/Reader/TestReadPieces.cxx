@@ -111,7 +111,7 @@ TEST_P(ReadPieces, MergedAreTheWholeMesh)
   }
 }
 
-TEST_P(ReadPieces, OfAFlatMeshAreThoseOfTheStoredOne)
+TEST_P(ReadPieces, OfAFlatMeshEqualThoseOfTheStoredMesh)
 {
   for (const int mode : { 0, 1 })
   {
@@ -133,7 +133,7 @@ TEST_P(ReadPieces, OfAFlatMeshAreThoseOfTheStoredOne)
   }
 }
 
-TEST_P(ReadPieces, OfATreeOverAFlatMeshAreThoseOfTheStoredOne)
+TEST_P(ReadPieces, OfATreeOverAFlatMeshEqualThoseOfTheStoredMesh)
 {
   const char* const tiling = GetParam() == 3 ? "quadtree:40" : "octree:200";
   tipp::PartitionOptions options;
@@ -208,7 +208,7 @@ TEST_P(ReadPieces, AreOfTheRequestedTime)
   }
 }
 
-TEST_P(ReadPieces, HaveTheSelectedArraysAlone)
+TEST_P(ReadPieces, HaveOnlyTheSelectedArrays)
 {
   for (const char* const form : forms)
   {
@@ -263,7 +263,7 @@ TEST_P(ReadPieces, AreTheSameFromTheCache)
   }
 }
 
-TEST_P(ReadPieces, AreThoseOfAFileThatHasChanged)
+TEST_P(ReadPieces, AreReadAgainIfTheFileHasChanged)
 {
   const auto reader = this->reader("flat");
   reader->SetCacheSize(100);
@@ -291,7 +291,7 @@ TEST_P(ReadPieces, AreTheSameForEveryNumberOfThreads)
   }
 }
 
-TEST_P(ReadPieces, ComeWithinASmallMemoryLimit)
+TEST_P(ReadPieces, AreReadWithinASmallMemoryLimit)
 {
   const auto reader = this->reader("flat");
   reader->SetMemoryLimit(1000);

@@ -155,7 +155,7 @@ std::vector<std::array<int, 6>> ranges()
 
 } // namespace
 
-TEST_P(ReadRange, GivesTheCellsOfABruteForceFilter)
+TEST_P(ReadRange, EqualsABruteForceFilter)
 {
   for (const auto& range : ranges())
   {
@@ -177,7 +177,7 @@ TEST_P(ReadRange, GivesTheCellsOfABruteForceFilter)
   }
 }
 
-TEST_P(ReadRange, GivesEachCellToOnePieceAlone)
+TEST_P(ReadRange, EachCellIsInOnePiece)
 {
   for (const auto& range : ranges())
   {

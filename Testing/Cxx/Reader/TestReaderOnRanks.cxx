@@ -53,7 +53,7 @@ protected:
 
 } // namespace
 
-TEST_F(ReaderOnRanks, EachCellIsOnOneOfThem)
+TEST_F(ReaderOnRanks, EachCellIsOnOneRank)
 {
   constexpr long long cells = 5 * 5 * 5 * 6;
   for (const char* const form : { "flat", "stored" })
@@ -72,7 +72,7 @@ TEST_F(ReaderOnRanks, EachCellIsOnOneOfThem)
   }
 }
 
-TEST_F(ReaderOnRanks, AnErrorOfOneIsAnErrorOfAll)
+TEST_F(ReaderOnRanks, AnErrorOnOneRankIsReportedOnAll)
 {
   if (this->Rank == 0)
   {
@@ -94,7 +94,7 @@ TEST_F(ReaderOnRanks, AnErrorOfOneIsAnErrorOfAll)
   EXPECT_NE(std::string::npos, errors->Text.find("000000.vtu")) << errors->Text;
 }
 
-TEST_F(ReaderOnRanks, AMissingMeshIsAnErrorOfAll)
+TEST_F(ReaderOnRanks, AMissingMeshIsReportedOnAll)
 {
   vtkNew<tipp::test::MessageCounter> errors;
   vtkNew<tipp::test::MessageCounter> others;

@@ -119,7 +119,7 @@ Scene moved(Scene scene, double factor, double by)
 
 } // namespace
 
-TEST(CellLocator, FindsTheCellsThatRationalsFind)
+TEST(CellLocator, FindsTheSameCellsAsRationals)
 {
   for (const Scene& scene : allScenes())
   {
@@ -127,7 +127,7 @@ TEST(CellLocator, FindsTheCellsThatRationalsFind)
   }
 }
 
-TEST(CellLocator, FindsThemFarFromTheOrigin)
+TEST(CellLocator, FindsCellsFarFromTheOrigin)
 {
   const Scene scene = moved(jitteredScene(2, 12, 3), 0x1p-10, 0x1p22);
   std::vector<Point3> points = pointsToFind(jitteredScene(2, 12, 3), 300);
@@ -138,7 +138,7 @@ TEST(CellLocator, FindsThemFarFromTheOrigin)
   expectAsOracle(scene, points);
 }
 
-TEST(CellLocator, FindsThemWhereSinglePrecisionOverflows)
+TEST(CellLocator, FindsCellsIfSinglePrecisionOverflows)
 {
   const Scene scene = moved(jitteredScene(2, 8, 5), 1e300, 0);
   std::vector<Point3> points = pointsToFind(jitteredScene(2, 8, 5), 100);
@@ -174,7 +174,7 @@ TEST(CellLocator, AnswersDoNotDependOnTheOrderOfCells)
   }
 }
 
-TEST(CellLocator, WeightsGiveThePointBack)
+TEST(CellLocator, WeightsReproduceThePoint)
 {
   for (const Scene& scene : allScenes())
   {
@@ -204,7 +204,7 @@ TEST(CellLocator, WeightsGiveThePointBack)
   }
 }
 
-TEST(CellLocator, CellsWithInfiniteOrHiddenCornersHoldNothing)
+TEST(CellLocator, CellsThatAreInfiniteOrHiddenContainNothing)
 {
   Scene scene = regularScene(2, 2);
   const std::vector<Point3> points = pointsToFind(scene, 200);
@@ -240,7 +240,7 @@ TEST(CellLocator, PointsThatAreNotFiniteAreOutside)
   }
 }
 
-TEST(CellLocator, AMeshWithoutCellsHoldsNothing)
+TEST(CellLocator, AMeshWithoutCellsContainsNothing)
 {
   Scene scene = regularScene(2, 2);
   scene.Ids.clear();
@@ -248,7 +248,7 @@ TEST(CellLocator, AMeshWithoutCellsHoldsNothing)
   EXPECT_TRUE(locate(scene.mesh(), nullptr, {}, 2, false).empty());
 }
 
-TEST(CellLocator, OfCopiesOfACellTheLowestIdCounts)
+TEST(CellLocator, TheLowestIdOfEqualCellsIsFound)
 {
   Scene scene = regularScene(2, 1);
   const std::vector<std::int64_t> ids = scene.Ids;

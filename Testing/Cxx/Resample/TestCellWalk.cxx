@@ -123,7 +123,7 @@ std::vector<std::int64_t> located(
 
 } // namespace
 
-TEST(CellWalk, IsUsableWhereNoTrianglesOverlap)
+TEST(CellWalk, IsUsableIfNoTrianglesOverlap)
 {
   Scene apart = jitteredScene(2, 9, 1);
   append(apart, jitteredScene(2, 9, 2), 1.5, 0, 1);
@@ -139,7 +139,7 @@ TEST(CellWalk, IsUsableWhereNoTrianglesOverlap)
   }
 }
 
-TEST(CellWalk, IsNotUsableWhereTrianglesOverlap)
+TEST(CellWalk, IsNotUsableIfTrianglesOverlap)
 {
   Scene overCorner = jitteredScene(2, 9, 1);
   append(overCorner, jitteredScene(2, 9, 2), 0.9, 0.9, 1);
@@ -158,7 +158,7 @@ TEST(CellWalk, IsNotUsableWhereTrianglesOverlap)
   }
 }
 
-TEST(CellWalk, FindsWhatTheCellsFindByThemselves)
+TEST(CellWalk, FindsTheSameCellsAsAPassOverAllCells)
 {
   Scene clusters = withHole(regularScene(2, 40), 0.4, 0.6, 0.2);
   append(clusters, jitteredScene(2, 30, 4), 0.3, 0.5, 0.1);
@@ -175,7 +175,7 @@ TEST(CellWalk, FindsWhatTheCellsFindByThemselves)
   }
 }
 
-TEST(CellWalk, KnowsWhatIsOutsideOfAConvexMesh)
+TEST(CellWalk, RecognizesPointsOutsideAConvexMesh)
 {
   const Scene hollow = withHole(jitteredScene(2, 20, 3), 0.5, 0.5, 0.3);
   const Scene notched = withHole(jitteredScene(2, 20, 3), 0, 0, 0.2);
@@ -201,7 +201,7 @@ TEST(CellWalk, KnowsWhatIsOutsideOfAConvexMesh)
   }
 }
 
-TEST(CellWalk, WeighsAsThinWeightsDoes)
+TEST(CellWalk, HasTheWeightsOfThinWeights)
 {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> anywhere(-1, 1);
@@ -224,7 +224,7 @@ TEST(CellWalk, WeighsAsThinWeightsDoes)
   }
 }
 
-TEST(CellWalk, GoesFromPointToPointInAFewSteps)
+TEST(CellWalk, NeedsFewStepsFromPointToPoint)
 {
   const Scene scene = jitteredScene(2, 200, 1);
   const SimplexMesh mesh = scene.mesh();

@@ -142,7 +142,7 @@ int expectLanesLikeRows(const Scene& scene, Lanes lanes, Rows rows)
 
 } // namespace
 
-TEST(DirectSampling, GivesTheBitsOfTwoWalksInThePlane)
+TEST(DirectSampling, EqualsClaimsAndInterpolationInThePlane)
 {
   for (const Scene& scene : planeScenes())
   {
@@ -151,7 +151,7 @@ TEST(DirectSampling, GivesTheBitsOfTwoWalksInThePlane)
   }
 }
 
-TEST(DirectSampling, GivesTheBitsOfTwoWalksInSpace)
+TEST(DirectSampling, EqualsClaimsAndInterpolationInSpace)
 {
   for (const Scene& scene : spaceScenes())
   {
@@ -160,7 +160,7 @@ TEST(DirectSampling, GivesTheBitsOfTwoWalksInSpace)
   }
 }
 
-TEST(DirectSampling, TellsThatCellsOverlap)
+TEST(DirectSampling, ReportsThatCellsOverlap)
 {
   const Scene scene = overlappingScene(20, 1);
   const tipp::Lattice lattice = latticeOf(2, 50, 0, 1);
@@ -169,7 +169,7 @@ TEST(DirectSampling, TellsThatCellsOverlap)
     tipp::sampleDirectly(scene.mesh(), lattice, sampled.Attributes, sampled.Options).Overlapping);
 }
 
-TEST(DirectSampling, StopsWhenAsked)
+TEST(DirectSampling, StopsWhenProgressReturnsFalse)
 {
   const Scene scene = jitteredScene(2, 100, 1);
   const tipp::Lattice lattice = latticeOf(2, 50, 0, 1);
@@ -179,7 +179,7 @@ TEST(DirectSampling, StopsWhenAsked)
     tipp::sampleDirectly(scene.mesh(), lattice, sampled.Attributes, sampled.Options).Aborted);
 }
 
-TEST(TriangleLanes, TellWhatRowsTell)
+TEST(TriangleLanes, EqualTheScalarCode)
 {
   const Scene scene = jitteredScene(2, 40, 5);
   const tipp::Lattice lattice = latticeOf(2, 90, -0.1, 1.2);
@@ -189,7 +189,7 @@ TEST(TriangleLanes, TellWhatRowsTell)
   EXPECT_GT(told, scene.cells() / 2);
 }
 
-TEST(TetrahedronLanes, TellWhatRowsTell)
+TEST(TetrahedronLanes, EqualTheScalarCode)
 {
   const Scene scene = jitteredScene(3, 8, 5);
   const tipp::Lattice lattice = latticeOf(3, 30, -0.1, 1.2);
@@ -199,7 +199,7 @@ TEST(TetrahedronLanes, TellWhatRowsTell)
   EXPECT_GT(told, scene.cells() / 2);
 }
 
-TEST(TetrahedronLanes, TellTheSamplesOfBoxesThatHaveOneLikeRows)
+TEST(TetrahedronLanes, SingleSamplesEqualTheScalarCode)
 {
   const Scene scene = jitteredScene(3, 12, 5);
   const tipp::LatticeAxes axes(scene.mesh(), latticeOf(3, 8, -0.1, 1.2));
@@ -236,7 +236,7 @@ TEST(TetrahedronLanes, TellTheSamplesOfBoxesThatHaveOneLikeRows)
   EXPECT_GT(outside, inside);
 }
 
-TEST(BorderClaims, GiveEachTouchedSampleOneCellInAnyOrder)
+TEST(BorderClaims, AssignEachTouchedSampleToOneCellInAnyOrder)
 {
   const Scene scene = regularScene(2, 4);
   const tipp::Lattice lattice = latticeOf(2, 5, 0, 1); // each corner has a sample
@@ -269,7 +269,7 @@ TEST(BorderClaims, GiveEachTouchedSampleOneCellInAnyOrder)
   }
 }
 
-TEST(OutsidePoints, AreThoseOfCellsBeyondASideOfASmallLattice)
+TEST(OutsidePoints, AreThePointsOfCellsBeyondASideOfASmallLattice)
 {
   using Access = tipp::SimplexAccess<2, double, std::int64_t>;
   const Scene scene = jitteredScene(2, 40, 5);
@@ -296,7 +296,7 @@ TEST(OutsidePoints, AreThoseOfCellsBeyondASideOfASmallLattice)
   expectAsInTwoWalks(scene, lattice);
 }
 
-TEST(OutsidePoints, AreNotLookedForWhereTheLatticeHoldsMost)
+TEST(OutsidePoints, AreNotUsedIfTheLatticeCoversMostOfTheMesh)
 {
   const Scene scene = jitteredScene(2, 40, 5);
   const tipp::LatticeAxes axes(scene.mesh(), latticeOf(2, 30, 0, 1));

@@ -272,7 +272,7 @@ TEST(RangeResampleCells, ReflexQuadsAreCutInside)
   EXPECT_TRUE(isValid(filter->GetOutput(), 13));  // at (0.75, 0.5)
 }
 
-TEST(RangeResampleCells, SlopesAndNoiseInZLoseNoSamples)
+TEST(RangeResampleCells, SteepAndNoisySurfacesLoseNoSamples)
 {
   Scene scene = jitteredScene(2, 8, 1);
   std::mt19937 random(1);
@@ -324,7 +324,7 @@ TEST(RangeResampleCells, ASurfaceInABoxRepeatsItsValuesAlongZ)
   }
 }
 
-TEST(RangeResampleCells, HiddenCellsAnswerNothingAndBorrowedOnesDoNoHarm)
+TEST(RangeResampleCells, HiddenCellsAreIgnoredAndDuplicatesAreNot)
 {
   const auto grid = gridOf(regularScene(2, 1));
   vtkNew<vtkUnsignedCharArray> ghosts;
@@ -338,7 +338,7 @@ TEST(RangeResampleCells, HiddenCellsAnswerNothingAndBorrowedOnesDoNoHarm)
   EXPECT_EQ(countValid(filter->GetOutput()), 15);
 }
 
-TEST(RangeResampleCells, HiddenCellsAndNoDataGoTogether)
+TEST(RangeResampleCells, HiddenCellsAndNoDataCanBeCombined)
 {
   const auto grid = gridOf(regularScene(2, 2)); // cells 0 and 1 are the lower left quarter
   vtkNew<vtkUnsignedCharArray> ghosts;

@@ -84,7 +84,7 @@ vtkSmartPointer<vtkUnstructuredGrid> hexahedra()
 
 } // namespace
 
-TEST(RangeResampleDamaged, IdsOfPointsThatAreNotThereAreAnError)
+TEST(RangeResampleDamaged, InvalidPointIdsAreAnError)
 {
   for (const vtkTypeInt64 id :
     { vtkTypeInt64(-1), vtkTypeInt64(4), vtkTypeInt64(4294967299), vtkTypeInt64(999999999999) })
@@ -209,7 +209,7 @@ TEST(RangeResampleDamaged, ARangeOutsideOfTheMeshIsAWarning)
   EXPECT_NE(said.Warnings.find("No sample lies in a cell of the mesh"), std::string::npos);
 }
 
-TEST(RangeResampleDamaged, AnUnknownArrayIsAnsweredWithTheNamesThereAre)
+TEST(RangeResampleDamaged, AnUnknownArrayIsAnErrorThatListsTheArrays)
 {
   const auto filter = unitFilter(2, 9);
   filter->SetInputData(gridOf(jitteredScene(2, 4, 1)));

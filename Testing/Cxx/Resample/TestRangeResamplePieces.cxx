@@ -44,7 +44,7 @@ void expectTheSame(const Scene& scene, int side, vtkRangeResampleFilter* filter)
 
 } // namespace
 
-TEST(RangeResamplePieces, Of16x16MakeTheImageOfOneMesh)
+TEST(RangeResamplePieces, GridOf16x16MakesTheImageOfOneMesh)
 {
   // In the regular scene, samples fall on corners and edges that pieces share.
   for (const Scene& scene : { jitteredScene(2, 48, 3), regularScene(2, 48), fanScene(97) })

@@ -123,7 +123,7 @@ TEST(RangeResampleRange, InputBoundsAreTheDefault)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 9);
 }
 
-TEST(RangeResampleRange, OutsideTheMeshAllIsMasked)
+TEST(RangeResampleRange, OutsideTheMeshAllSamplesAreMasked)
 {
   const auto filter = unitFilter(2, 9);
   filter->SetInputData(square());
@@ -134,7 +134,7 @@ TEST(RangeResampleRange, OutsideTheMeshAllIsMasked)
   EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("linear")->GetTuple1(3), -5);
 }
 
-TEST(RangeResampleRange, OneSampleALineAndAPlaneWork)
+TEST(RangeResampleRange, ASampleALineAndAPlaneAreValidRanges)
 {
   const auto filter = unitFilter(2, 1);
   filter->SetInputData(square());
@@ -167,7 +167,7 @@ TEST(RangeResampleRange, AnEmptyMeshMakesAMaskedImage)
   EXPECT_EQ(countValid(filter->GetOutput()), 0);
 }
 
-TEST(RangeResampleRange, RangesWithoutSenseAreErrors)
+TEST(RangeResampleRange, InvalidRangesAreErrors)
 {
   const auto filter = unitFilter(2, 3);
   filter->SetInputData(square());

@@ -115,7 +115,7 @@ TEST(RangeResampleRanks, InputBoundsAreThoseOfAllRanks)
   EXPECT_TRUE(sameArrays(alone(scene, 33), filter->GetOutput()));
 }
 
-TEST(RangeResampleRanks, ForInputBoundsWithDeltaEachReadsItsShareOnce)
+TEST(RangeResampleRanks, WithInputBoundsAndDeltaEachRankReadsItsShareOnce)
 {
   vtkNew<PieceSource> source;
   source->Cells = jitteredScene(2, 12, 3);
@@ -140,7 +140,7 @@ TEST(RangeResampleRanks, RanksWithoutCellsOrArraysTakePart)
   EXPECT_TRUE(sameArrays(alone(scene, 33), filter->GetOutput()));
 }
 
-TEST(RangeResampleRanks, ARankOutsideTheRangeBringsItsArrays)
+TEST(RangeResampleRanks, ARankOutsideTheRangeContributesItsArrays)
 {
   const auto grid = gridOf(jitteredScene(2, 4, 3));
   const int rank = controller()->GetLocalProcessId();
@@ -189,7 +189,7 @@ TEST(RangeResampleRanks, ArraysThatDifferInTypeAreNullWithAWarning)
   EXPECT_EQ(made->GetRange()[0], several ? 0 : 1);
 }
 
-TEST(RangeResampleRanks, ANameOfPointsHereAndCellsThereMakesAWarning)
+TEST(RangeResampleRanks, ANameForPointAndCellArraysMakesAWarning)
 {
   const auto grid = share(jitteredScene(2, 12, 3));
   const bool ofPoints = controller()->GetLocalProcessId() == 0;
@@ -272,7 +272,7 @@ TEST(RangeResampleRanks, AFailureOnOneEndsAll)
   EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("linear"), nullptr);
 }
 
-TEST(RangeResampleRanks, TheFirstCountsTheCellsOfAllThatAreNotFinite)
+TEST(RangeResampleRanks, TheFirstCountsCellsThatAreNotFiniteOnAllRanks)
 {
   const auto grid = share(jitteredScene(2, 4, 1));
   grid->GetPoints()->SetPoint(12, std::nan(""), 0.5, 0);

@@ -18,7 +18,7 @@ constexpr double dry = -99999;
 
 } // namespace
 
-TEST(RangeResampleRealMeshes, TheEastCoastsWaterIsAsVtkProbeFilterHasIt)
+TEST(RangeResampleRealMeshes, TheEastCoastsWaterEqualsVtkProbeFilter)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
   TIPP_REQUIRE_REAL_DATA(maximum, "adcirc/ec95d/maxele.63");

@@ -43,7 +43,7 @@ TEST(RangeResampleRun, ReadsPieceByPieceTheSameImage)
   }
 }
 
-TEST(RangeResampleRun, EndsIfAPieceFailsAndStartsAfresh)
+TEST(RangeResampleRun, FailsIfAPieceFailsAndThenWorksAgain)
 {
   const Scene scene = jitteredScene(2, 12, 3);
   vtkNew<PieceSource> source;
@@ -71,7 +71,7 @@ TEST(RangeResampleRun, EndsIfAPieceFailsAndStartsAfresh)
   EXPECT_TRUE(sameArrays(whole, filter->GetOutput()));
 }
 
-TEST(RangeResampleRun, ProgressOverMeshesAndPiecesIsOfTheWhole)
+TEST(RangeResampleRun, ProgressCoversAllMeshesAndPieces)
 {
   vtkNew<vtkPartitionedDataSet> parts;
   for (unsigned i = 0; i < 4; ++i)
@@ -101,7 +101,7 @@ TEST(RangeResampleRun, ProgressOverMeshesAndPiecesIsOfTheWhole)
   }
 }
 
-TEST(RangeResampleRun, UpdatesItsInputAtTheTimeThatIsAskedFor)
+TEST(RangeResampleRun, UpdatesItsInputAtTheRequestedTime)
 {
   vtkNew<PieceSource> source;
   source->Cells = jitteredScene(2, 4, 3);
@@ -114,7 +114,7 @@ TEST(RangeResampleRun, UpdatesItsInputAtTheTimeThatIsAskedFor)
   EXPECT_EQ(source->Time, 3.0);
 }
 
-TEST(RangeResampleRun, GivesTheSameBitsOnAnyThreads)
+TEST(RangeResampleRun, MakesTheSameBitsOnAnyNumberOfThreads)
 {
   for (const Scene& scene : { jitteredScene(2, 40, 3), jitteredScene(3, 8, 3) })
   {
@@ -134,7 +134,7 @@ TEST(RangeResampleRun, GivesTheSameBitsOnAnyThreads)
   }
 }
 
-TEST(RangeResampleRun, TellsWhatItDid)
+TEST(RangeResampleRun, HasStatistics)
 {
   const auto filter = unitFilter(2, 17);
   filter->SetInputData(gridOf(regularScene(2, 8)));

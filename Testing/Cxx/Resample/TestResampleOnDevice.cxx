@@ -150,14 +150,14 @@ TEST_P(ResampleOnDevice, InSpaceAgreesWithOpenMP)
   }
 }
 
-TEST_P(ResampleOnDevice, AgreesWhereBoxesHoldASampleAtMost)
+TEST_P(ResampleOnDevice, AgreesIfBoxesHaveAtMostOneSample)
 {
   const Scene scene = jitteredScene(3, 12, 5);
   expectAgreement(scene, latticeOf(3, 8, -0.1, 1.2));
   expectAgreement(scene, latticeOf(3, 7, 0, 1)); // on faces, edges and corners of the border
 }
 
-TEST_P(ResampleOnDevice, DoesCellsWhoseCornersAreLevelWithSamples)
+TEST_P(ResampleOnDevice, HandlesCellsWithCornersOnRowsOfSamples)
 {
   const Scene triangle = { "triangle", 2, { 0.25, 0.1, 0, 0.6, 0.3, 0, 0.3, 0.7, 0 }, { 0, 1, 2 } };
   const Scene tetrahedron = { "tetrahedron", 3,
@@ -217,7 +217,7 @@ TEST_P(ResampleOnDevice, AgreesWhereACellIsLarge)
   expectAgreement(jitteredScene(3, 2, 3), latticeOf(3, 61, 0.0013, 0.997));
 }
 
-TEST_P(ResampleOnDevice, TakesALargerMeshInPieces)
+TEST_P(ResampleOnDevice, DividesALargerMesh)
 {
   const Scene scene = jitteredScene(2, 60, 3);
   const tipp::Lattice lattice = latticeOf(2, 33, 0.0013, 0.997);
@@ -271,7 +271,7 @@ TEST_P(ResampleOnDevice, LeavesOutHiddenCells)
   EXPECT_NE(std::count(here.Double.begin(), here.Double.end(), -7), 0);
 }
 
-TEST_P(ResampleOnDevice, PutsPartsTogetherLikeOpenMP)
+TEST_P(ResampleOnDevice, CombinesPartsLikeOpenMP)
 {
   const Scene scene = overlappingScene(60, 2);
   const tipp::Lattice lattice = latticeOf(2, 65, -0.013, 1.017);
@@ -298,7 +298,7 @@ TEST_P(ResampleOnDevice, PutsPartsTogetherLikeOpenMP)
   expectNear(together(openMP), together(openCL));
 }
 
-TEST_P(ResampleOnDevice, PutsTilesTogetherToTheWhole)
+TEST_P(ResampleOnDevice, CombinesTilesToTheWholeImage)
 {
   const Scene scene = jitteredScene(2, 12, 2);
   const tipp::Lattice lattice = latticeOf(2, 65, -0.013, 1.017);
@@ -328,7 +328,7 @@ TEST_P(ResampleOnDevice, PutsTilesTogetherToTheWhole)
   expectNear(whole, tiled);
 }
 
-TEST_P(ResampleOnDevice, TellsItsTimesAndStopsOnRequest)
+TEST_P(ResampleOnDevice, ReportsItsTimesAndStopsOnRequest)
 {
   const Scene scene = jitteredScene(2, 60, 3);
   const tipp::Lattice lattice = latticeOf(2, 33, 0.0013, 0.997);
@@ -355,7 +355,7 @@ TEST_P(ResampleOnDevice, TellsItsTimesAndStopsOnRequest)
   }
 }
 
-TEST_P(ResampleOnDevice, WithoutMemoryForTheSamplesOpenMPDoesIt)
+TEST_P(ResampleOnDevice, WithoutDeviceMemoryForTheSamplesOpenMPIsUsed)
 {
   const Scene scene = jitteredScene(2, 8, 3);
   const Sampled result = sampled(scene, latticeOf(2, 65, 0, 1), openCL, 1000);

@@ -60,12 +60,12 @@ public:
 
 TYPED_TEST_SUITE(BucketWriterTest, IdTypes, IdNames);
 
-TYPED_TEST(BucketWriterTest, EachBucketHasItsItemsInOrderAndNothingBeside)
+TYPED_TEST(BucketWriterTest, WritesEachBucketInOrderAndNothingElse)
 {
   this->distribute({ 100, 1, 0, 64, 63, 65, 1000, 7 }, 0, 1);
 }
 
-TYPED_TEST(BucketWriterTest, BucketsMayBeginAnywhereInALine)
+TYPED_TEST(BucketWriterTest, BucketsMayBeginAnywhereInACacheLine)
 {
   for (std::size_t first = 1; first < 17; ++first)
   {

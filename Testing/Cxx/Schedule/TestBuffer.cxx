@@ -41,7 +41,7 @@ TEST(Buffer, WithoutElementsIsEmpty)
   EXPECT_EQ(nullptr, Buffer<int>(0).data());
 }
 
-TEST(Buffer, TruncatingKeepsTheFirst)
+TEST(Buffer, TruncatingKeepsTheFirstElements)
 {
   Buffer<int> buffer = counting(100);
   buffer.truncate(7);
@@ -62,7 +62,7 @@ TEST(Buffer, ReleasedMemoryIsFreedWithFree)
   }
 }
 
-TEST(Buffer, MovingHandsTheMemoryOver)
+TEST(Buffer, MovingTransfersTheMemory)
 {
   Buffer<int> buffer = counting(100);
   const int* const memory = buffer.data();

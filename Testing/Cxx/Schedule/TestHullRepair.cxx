@@ -62,7 +62,7 @@ class HullOf : public testing::TestWithParam<std::string>
 {
 };
 
-TEST_P(HullOf, IsCgalsOnceArtificialPointsAreGone)
+TEST_P(HullOf, IsCgalsWithoutArtificialPoints)
 {
   const Coordinates xy = makePointSet(GetParam(), 300);
   for (const int side : { 1, 3, 20, 100 })

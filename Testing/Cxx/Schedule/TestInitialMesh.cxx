@@ -96,7 +96,7 @@ TEST(ArtificialPoints, StandAsFarApartAsPartitionsAreWide)
   EXPECT_EQ(40U, points.size());
 }
 
-TEST(ArtificialPoints, ThereAreNoneWhereDoublesEnd)
+TEST(ArtificialPoints, ThereAreNoneIfCoordinatesWouldOverflow)
 {
   EXPECT_TRUE(
     makeArtificialPoints(Tiling::grid({ -1.7e308, -1.7e308, 1.7e308, 1.7e308 }, 4, 4)).empty());
@@ -121,7 +121,7 @@ Coordinates unevenPoints()
   return xy;
 }
 
-TYPED_TEST(InitialPoints, AreEquallyManyAPartitionAndFewerWhereThereAreFewer)
+TYPED_TEST(InitialPoints, AreEightPerPartitionOrAllIfThereAreFewer)
 {
   const Coordinates xy = unevenPoints();
   const Tiling tiling = Tiling::grid({ 0, 0, 1, 1 }, 2, 2);
@@ -169,7 +169,7 @@ TYPED_TEST(InitialPoints, AreSpreadOverTheInputsOrder)
   }
 }
 
-TYPED_TEST(InitialPoints, AmongThemAreTheOutmostOfEachPartition)
+TYPED_TEST(InitialPoints, IncludeTheOutermostPointsOfEachPartition)
 {
   const Coordinates xy = makePointSet("clustered", 2000);
   const Tiling tiling = Tiling::grid(test::boundsOf(xy), 3, 3);
@@ -242,7 +242,7 @@ TEST(InitialMesh, EveryPartitionHasTrianglesThatBelongToIt)
   }
 }
 
-TEST(InitialMesh, InitialPointsAtOnePlaceAreOneVertex)
+TEST(InitialMesh, EqualInitialPointsAreOneVertex)
 {
   const Tiling tiling = Tiling::grid({ 0, 0, 1, 1 }, 2, 2);
   std::vector<BoundaryVertex> vertices = makeArtificialPoints(tiling);

@@ -16,14 +16,14 @@ namespace
 
 using tipp::populatePages;
 
-TEST(PopulatePages, LeavesWhatIsThere)
+TEST(PopulatePages, KeepsTheContentOfMemory)
 {
   std::vector<char> memory(1000001, 'x');
   populatePages(memory.data() + 3, memory.size() - 3);
   EXPECT_EQ(std::ptrdiff_t(memory.size()), std::count(memory.begin(), memory.end(), 'x'));
 }
 
-TEST(PopulatePages, TakesNothingAndLessThanAPage)
+TEST(PopulatePages, AcceptsRangesSmallerThanAPage)
 {
   char memory[100] = {};
   populatePages(nullptr, 0);
@@ -33,7 +33,7 @@ TEST(PopulatePages, TakesNothingAndLessThanAPage)
 
 #ifdef MADV_POPULATE_WRITE
 /// Only whole pages are committed: other data may lie in the pages at the ends.
-TEST(PopulatePages, ThePagesOfFreshMemoryAreThere)
+TEST(PopulatePages, CommitsWholePagesOfFreshMemory)
 {
   const auto page = std::size_t(sysconf(_SC_PAGESIZE));
   constexpr std::size_t count = 64;

@@ -78,7 +78,7 @@ TEST(Tiling, AGridsBoxesAreEqual)
   }
 }
 
-TEST(Tiling, EveryPointIsInTheClosedBoxItIsFoundIn)
+TEST(Tiling, TheBoxFoundForAPointContainsIt)
 {
   const std::vector<Point2> points = somePoints(3000);
   for (const Tiling& tiling :
@@ -171,7 +171,7 @@ TEST(Tiling, BalancedBoxesHoldEquallyManyPointsOfTheSample)
   EXPECT_GE(131, *std::max_element(counts.begin(), counts.end()));
 }
 
-TEST(Tiling, AnIdenticalSampleEndsInNoMoreBoxesThanAskedFor)
+TEST(Tiling, EqualSamplePointsGiveNoMoreBoxesThanRequested)
 {
   const std::vector<Point2> sample(1000, Point2{ 0.25, 0.75 });
   const Tiling tiling = unitBalanced(sample, 16);

@@ -91,7 +91,7 @@ class SinkOf
 
 TYPED_TEST_SUITE(SinkOf, IdTypes, IdNames);
 
-TEST(LongTriangles, AreToldAtAnyMagnitude)
+TEST(LongTriangles, AreFoundAtAnyMagnitude)
 {
   for (const double unit : { 1e-300, 1.0, 1e300 })
   {
@@ -103,7 +103,7 @@ TEST(LongTriangles, AreToldAtAnyMagnitude)
   }
 }
 
-TYPED_TEST(SinkOf, InteriorAndBoundaryTrianglesAreAllThere)
+TYPED_TEST(SinkOf, HasAllInteriorAndBoundaryTriangles)
 {
   // Each partition's buffer holds two triangles per point: 10, 0, 6 and 8.
   for (const std::size_t boundaryCount : { 0, 1, 2, 5, 9, 13 })
@@ -120,7 +120,7 @@ TYPED_TEST(SinkOf, InteriorAndBoundaryTrianglesAreAllThere)
   }
 }
 
-TYPED_TEST(SinkOf, ThereIsRoomForTwoTrianglesAPoint)
+TYPED_TEST(SinkOf, ThereIsSpaceForTwoTrianglesPerPoint)
 {
   this->writeInterior(0, 10);
   this->writeInterior(2, 4);
@@ -128,7 +128,7 @@ TYPED_TEST(SinkOf, ThereIsRoomForTwoTrianglesAPoint)
   this->expectAll(this->Sink.assemble(finalOnes<TypeParam>(this->boundary(7)), 1));
 }
 
-TYPED_TEST(SinkOf, NothingIsEmpty)
+TYPED_TEST(SinkOf, WithoutTrianglesTheResultIsEmpty)
 {
   EXPECT_TRUE(this->Sink.assemble({}, 1).empty());
 }
@@ -142,7 +142,7 @@ TYPED_TEST(SinkOf, InteriorTrianglesStayWhereTheyAre)
 }
 
 /// Workers may add their triangles in any order.
-TYPED_TEST(SinkOf, TheOrderDoesNotDependOnThatOfTheBoundary)
+TYPED_TEST(SinkOf, TheOrderDoesNotDependOnTheOrderOfBoundaryTriangles)
 {
   std::mt19937_64 random(2);
   std::vector<TypeParam> expected;
@@ -197,7 +197,7 @@ Pairs pairsOf(const std::vector<Duplicate>& duplicates)
   return pairs;
 }
 
-TYPED_TEST(SinkOf, LowerDuplicatesTakeTheirRepresentativesPlace)
+TYPED_TEST(SinkOf, ALowerDuplicateReplacesItsRepresentative)
 {
   Buffer<TypeParam> ids = bufferOf<TypeParam>({ 1, 5, 9, 5, 7, 9 });
   std::vector<Duplicate> duplicates{ { 3, 5 } };
@@ -207,7 +207,7 @@ TYPED_TEST(SinkOf, LowerDuplicatesTakeTheirRepresentativesPlace)
   EXPECT_EQ((Pairs{ { 5, 3 } }), pairsOf(duplicates));
 }
 
-TYPED_TEST(SinkOf, TheLowestOfSeveralDuplicatesStandsForAll)
+TYPED_TEST(SinkOf, TheLowestOfSeveralDuplicatesRepresentsAll)
 {
   Buffer<TypeParam> ids = bufferOf<TypeParam>({ 8, 0, 1 });
   std::vector<Duplicate> duplicates{ { 6, 8 }, { 12, 8 }, { 2, 8 }, { 4, 8 } };
@@ -225,7 +225,7 @@ TYPED_TEST(SinkOf, HigherDuplicatesChangeNothing)
   EXPECT_EQ((Pairs{ { 4, 2 }, { 9, 1 } }), pairsOf(duplicates));
 }
 
-TYPED_TEST(SinkOf, DuplicatesOfDifferentPlacesAreKeptApart)
+TYPED_TEST(SinkOf, DuplicatesOfDifferentPointsAreIndependent)
 {
   Buffer<TypeParam> ids = bufferOf<TypeParam>({ 5, 6, 7 });
   std::vector<Duplicate> duplicates{ { 1, 6 }, { 2, 5 }, { 9, 5 }, { 8, 6 } };
@@ -235,7 +235,7 @@ TYPED_TEST(SinkOf, DuplicatesOfDifferentPlacesAreKeptApart)
 }
 
 /// Ids are looked up in a table by their low 14 bits, which are equal here.
-TYPED_TEST(SinkOf, IdsThatAreFarApartAreNotMixedUp)
+TYPED_TEST(SinkOf, IdsWithEqualLowBitsAreDistinguished)
 {
   const TypeParam apart = 1 << 14;
   Buffer<TypeParam> ids = bufferOf<TypeParam>({ 7, 7 + apart, 7 + 2 * apart });

@@ -390,7 +390,7 @@ TEST(Worker, AloneMakesAllTriangles)
   EXPECT_TRUE(sameTriangles(xy, sorted(std::move(made)), reference(xy).Mesh));
 }
 
-TEST(Worker, AloneTheLowestIdStandsForItsDuplicates)
+TEST(Worker, AloneTheLowestIdRepresentsItsDuplicates)
 {
   const Coordinates xy = makePointSet("duplicates", 600);
   const Tiling tiling = Tiling::grid(boundsOf(xy), 1, 1);
@@ -406,7 +406,7 @@ TEST(Worker, AloneTheLowestIdStandsForItsDuplicates)
 }
 
 /// Other partitions already have triangles at the initial point, so it stays the representative.
-TEST(Worker, AnInitialPointStandsForLowerDuplicates)
+TEST(Worker, AnInitialPointRepresentsLowerDuplicates)
 {
   const Coordinates xy{ 0.1, 0.1, 0.3, 0.2, 0.3, 0.2, 0.3, 0.2, 0.9, 0.3, 0.4, 0.9, 0.8, 0.8 };
   const Tiling tiling = Tiling::grid({ 0, 0, 1, 1 }, 2, 2);

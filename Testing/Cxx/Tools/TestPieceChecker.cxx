@@ -122,7 +122,7 @@ TEST(PieceChecker, AcceptsALatticeWithTheTieRule)
   expectAsWhole(makeMesh(300, true), true, options);
 }
 
-TEST(PieceChecker, FindsAMissingTriangleWhereverItIs)
+TEST(PieceChecker, FindsAnyMissingTriangle)
 {
   const Mesh mesh = makeMesh(300, false);
   for (std::size_t t = 0; t < mesh.count(); t += 7)
@@ -134,7 +134,7 @@ TEST(PieceChecker, FindsAMissingTriangleWhereverItIs)
   }
 }
 
-TEST(PieceChecker, FindsAClockwiseTriangleWhereverItIs)
+TEST(PieceChecker, FindsAnyClockwiseTriangle)
 {
   const Mesh mesh = makeMesh(300, false);
   for (std::size_t t = 0; t < mesh.count(); t += 7)
@@ -156,7 +156,7 @@ TEST(PieceChecker, FindsEdgesThatAreNotLocallyDelaunay)
   EXPECT_GT(checkInPieces(mesh).BadCircles, 0);
 }
 
-TEST(PieceChecker, FindsATriangleThatIsThereTwice)
+TEST(PieceChecker, FindsARepeatedTriangle)
 {
   Mesh mesh = makeMesh(300, false);
   for (std::size_t i = 0; i < 3; ++i)
@@ -166,7 +166,7 @@ TEST(PieceChecker, FindsATriangleThatIsThereTwice)
   EXPECT_GT(checkInPieces(mesh).BadEdges, 0);
 }
 
-TEST(PieceChecker, FindsAPointThatAnotherPieceHasElsewhere)
+TEST(PieceChecker, FindsAPointWithOtherCoordinatesInAnotherPiece)
 {
   const Mesh mesh = makeMesh(300, false);
   PieceChecker checker({});
@@ -243,7 +243,7 @@ TEST(PieceChecker, AcceptsTheNeighborsAcrossEachEdge)
   EXPECT_EQ(0, countBadNeighbors(piecesWithNeighbors(makeMesh(300, false))));
 }
 
-TEST(PieceChecker, FindsAWrongNeighborWhereverItIs)
+TEST(PieceChecker, FindsAnyWrongNeighbor)
 {
   const std::vector<CheckedPiece> pieces = piecesWithNeighbors(makeMesh(300, false));
   for (std::size_t p = 0; p < pieces.size(); ++p)

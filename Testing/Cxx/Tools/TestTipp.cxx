@@ -150,7 +150,7 @@ class TippTuning
 
 } // namespace
 
-TEST_F(Tipp, VersionIsTold)
+TEST_F(Tipp, VersionIsPrinted)
 {
   const Outcome outcome = this->run({ "--version" });
   EXPECT_EQ(0, outcome.ExitCode);
@@ -353,7 +353,7 @@ TEST_F(Tipp, CheckAsksForTheTieRuleOnlyOnRequest)
   EXPECT_EQ(1, this->run({ "check", "tie.14", "tie.14", "--tie-rule" }).ExitCode);
 }
 
-TEST_F(Tipp, CheckAllowsABoundaryOfItsOwnOnRequest)
+TEST_F(Tipp, CheckAllowsAnyBoundaryOnRequest)
 {
   this->Folder.file(
     "bent.14", "t\n2 4\n1 0 0 0\n2 2 0 0\n3 0.1 0.2 0\n4 0 2 0\n1 3 1 2 3\n2 3 1 3 4\n");

@@ -60,7 +60,7 @@ protected:
   const TemporaryFolder Folder;
 };
 
-TEST_F(TippConstraints, CrossingIsAddedAndTold)
+TEST_F(TippConstraints, CrossingIsAddedAndReported)
 {
   const Outcome outcome = this->delaunay({ "-o", "mesh.vtp", "--constraints", "cross.csv" });
   ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
@@ -129,7 +129,7 @@ TEST_F(TippConstraints, BoundaryRemovesWhatIsOutside)
 }
 
 /// Only the smaller square is left: the triangles between it and the boundary have long edges.
-TEST_F(TippConstraints, BoundaryGoesWithALongestEdge)
+TEST_F(TippConstraints, BoundaryCanBeCombinedWithALongestEdge)
 {
   this->Folder.file("square.csv", "x1,y1,x2,y2\n1,1,7,1\n7,1,7,7\n7,7,1,7\n1,7,1,1\n");
   const Outcome outcome =
@@ -138,7 +138,7 @@ TEST_F(TippConstraints, BoundaryGoesWithALongestEdge)
   EXPECT_EQ(4, this->area("mesh.vtp"));
 }
 
-TEST_F(TippConstraints, BoundaryGoesWithConstraints)
+TEST_F(TippConstraints, BoundaryCanBeCombinedWithConstraints)
 {
   this->Folder.file("square.csv", "x1,y1,x2,y2\n1,1,7,1\n7,1,7,7\n7,7,1,7\n1,7,1,1\n");
   const Outcome outcome =
@@ -157,7 +157,7 @@ TEST_F(TippConstraints, BoundaryMustBeClosed)
     << outcome.Err;
 }
 
-TEST_F(TippConstraints, OptionsThatDoNotGoTogetherAreUsageErrors)
+TEST_F(TippConstraints, ConflictingOptionsAreUsageErrors)
 {
   this->expectUsageError({ "-o", "mesh.vtp", "--constraints", "cross.csv", "--mark-constraints" },
     "an output named .tipp");
@@ -165,7 +165,7 @@ TEST_F(TippConstraints, OptionsThatDoNotGoTogetherAreUsageErrors)
   this->expectUsageError({ "-o", "mesh.vtp", "--hole", "1", "2" }, "needs --constraints");
 }
 
-TEST_F(TippConstraints, CheckProvesThem)
+TEST_F(TippConstraints, CheckVerifiesThem)
 {
   ASSERT_EQ(0, this->delaunay({ "-o", "mesh.vtp", "--constraints", "cross.csv" }).ExitCode);
   const auto check = [this](const Words& more)
@@ -183,7 +183,7 @@ TEST_F(TippConstraints, CheckProvesThem)
   EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are not chains of edges")) << lost.Out;
 }
 
-TEST_F(TippConstraints, CheckTakesAMeshThatIsCut)
+TEST_F(TippConstraints, CheckAcceptsAMeshThatIsCut)
 {
   this->Folder.file("square.poly",
     "4 2 0 0\n1 3 3\n2 5 3\n3 5 5\n4 3 5\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n1\n1 4 4\n");
@@ -194,7 +194,7 @@ TEST_F(TippConstraints, CheckTakesAMeshThatIsCut)
 }
 
 /// One line leaves the polygon, and another line is outside it.
-TEST_F(TippConstraints, CheckTakesConstraintsOutsideOfAMeshThatIsCut)
+TEST_F(TippConstraints, CheckAcceptsConstraintsOutsideAMeshThatIsCut)
 {
   this->Folder.file("lines.vtk",
     "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS 8 double\n0 0 0\n8 8 0\n1 1 "
@@ -227,7 +227,7 @@ TEST_F(TippConstraints, AreInsertedOnRanks)
   EXPECT_EQ(0, checked.ExitCode) << checked.Out << checked.Err;
 }
 
-TEST_F(TippConstraints, PartitionedMeshesAreMadeAndProved)
+TEST_F(TippConstraints, PartitionedMeshesAreMadeAndChecked)
 {
   const Outcome made = this->delaunay({ "-o", "mesh.tipp", "--memory", "1M", "--constraints",
     "cross.csv", "--neighbors", "--mark-constraints" });
@@ -261,7 +261,7 @@ TEST_F(TippConstraints, PartitionedMeshesAreCutToABoundary)
   EXPECT_EQ(0, outcome.ExitCode) << outcome.Out << outcome.Err;
 }
 
-TEST_F(TippConstraints, HolesByPointsGoWithPartitionedMeshesAndRanks)
+TEST_F(TippConstraints, HolesByPointsWorkWithPartitionedMeshesAndRanks)
 {
   this->Folder.file("square.poly",
     "4 2 0 0\n1 3 3\n2 5 3\n3 5 5\n4 3 5\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n1\n1 4 4\n");

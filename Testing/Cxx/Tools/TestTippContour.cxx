@@ -61,7 +61,7 @@ TEST_F(TippContour, WritesGeoPackages)
   EXPECT_EQ(0, constrained.ExitCode) << constrained.Err;
 }
 
-TEST_F(TippContour, RefusesWhatHasNoLines)
+TEST_F(TippContour, RefusesMeshesWithoutLines)
 {
   const auto expect =
     [this](const std::vector<std::string>& more, int exitCode, const std::string& message)

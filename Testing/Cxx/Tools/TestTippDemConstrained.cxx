@@ -44,7 +44,7 @@ TEST_F(TippDemBreaklines, OfGivenHeightShapeTheSurface)
   }
 }
 
-TEST_F(TippDemBreaklines, WithoutHeightTakeThatOfTheSurface)
+TEST_F(TippDemBreaklines, WithoutHeightTakeTheSurfacesHeight)
 {
   for (const double value : this->values({ "--breaklines", "soft.csv" }))
   {

@@ -57,7 +57,7 @@ protected:
   TemporaryFolder Folder;
 };
 
-TEST_F(TippDuplicates, APlaceHasTheChosenValues)
+TEST_F(TippDuplicates, EqualPointsHaveTheChosenValues)
 {
   this->Folder.file("points.csv",
     "x,y,z,intensity\n0,0,5,10\n4,0,1,1\n0,0,2,40\n0,4,1,1\n0,0,8,70\n4,4,1,1\n4,4,1,2\n");

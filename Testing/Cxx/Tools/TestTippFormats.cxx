@@ -90,7 +90,7 @@ TEST_F(TippFormats, AnAdcircGridOfOtherPointsHasDepthsAndNoBoundaries)
     << this->content("out.14");
 }
 
-TEST_F(TippFormats, AnAdcircGridHoldsNoPointThatIsNotFinite)
+TEST_F(TippFormats, AnAdcircGridCannotHavePointsThatAreNotFinite)
 {
   this->Folder.file("points.csv", "x,y,z\n0,0,1\n1,0,2\n0,1,0\nnan,1,1\n");
   const Outcome outcome = runTipp(this->Folder, { "delaunay", "points.csv", "-o", "out.14" });
@@ -99,7 +99,7 @@ TEST_F(TippFormats, AnAdcircGridHoldsNoPointThatIsNotFinite)
   EXPECT_FALSE(std::filesystem::exists(this->Folder.path("out.14")));
 }
 
-TEST_F(TippFormats, AnAdcircGridHoldsNoArrays)
+TEST_F(TippFormats, AnAdcircGridCannotHaveArrays)
 {
   this->Folder.file("points.csv", "x,y\n0,0\n1,0\n0,1\n");
   for (const std::string option : { "--neighbors", "--map-duplicates" })

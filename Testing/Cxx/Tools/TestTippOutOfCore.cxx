@@ -155,7 +155,7 @@ TEST_F(TippOutOfCore, ChecksAgainstTheRightPointsOnly)
   EXPECT_NE(std::string::npos, checked.Err.find("are not the 3000 points"));
 }
 
-TEST_F(TippOutOfCore, EndsWithTheSameBytesAfterTwentyKills)
+TEST_F(TippOutOfCore, MakesTheSameBytesAfterTwentyKills)
 {
   this->makePoints("coast", "60000");
   ASSERT_EQ(0, this->run({ "--neighbors" }).ExitCode);
@@ -206,7 +206,7 @@ protected:
   }
 };
 
-TEST_F(TippKilledAtACall, LeavesNothingInTheMeshNorBesideIt)
+TEST_F(TippKilledAtACall, LeavesNoOtherFiles)
 {
   this->makePoints("coast", "20000");
   ASSERT_EQ(0, this->run({}).ExitCode);
@@ -221,7 +221,7 @@ TEST_F(TippKilledAtACall, LeavesNothingInTheMeshNorBesideIt)
     });
 }
 
-TEST_F(TippKilledAtACall, ReplacesAnOlderMeshOrLeavesIt)
+TEST_F(TippKilledAtACall, ReplacesAnOlderMeshOrKeepsIt)
 {
   this->makePoints("uniform", "100");
   ASSERT_EQ(0, this->run({}).ExitCode);
@@ -278,7 +278,7 @@ TEST_F(TippOutOfCore, ResumesAfterInterrupt)
   EXPECT_EQ(0, runTipp(this->Folder, { "check", this->Points, this->Mesh }).ExitCode);
 }
 
-TEST_F(TippOutOfCore, MakesPiecesAgainThatAreDamagedBeforeItIsResumed)
+TEST_F(TippOutOfCore, RemakesPiecesThatAreDamagedBeforeItIsResumed)
 {
   this->makePoints("uniform", "100000");
   ASSERT_EQ(0, this->run({}).ExitCode);
@@ -300,7 +300,7 @@ TEST_F(TippOutOfCore, MakesPiecesAgainThatAreDamagedBeforeItIsResumed)
   EXPECT_TRUE(expected == filesOf(this->Mesh));
 }
 
-TEST_F(TippOutOfCore, CheckNamesTheFileOfAMeshThatIsDamaged)
+TEST_F(TippOutOfCore, CheckReportsTheDamagedFile)
 {
   this->makePoints("clustered", "10000");
   ASSERT_EQ(0, this->run({ "--neighbors" }).ExitCode);
@@ -316,7 +316,7 @@ TEST_F(TippOutOfCore, CheckNamesTheFileOfAMeshThatIsDamaged)
   }
 }
 
-TEST_F(TippOutOfCore, GoesOnAfterADiskThatIsFull)
+TEST_F(TippOutOfCore, ResumesAfterAFullDisk)
 {
   this->makePoints("uniform", "50000");
   // A limit on the size of files simulates a full disk: first while points are spilled, then while
@@ -395,7 +395,7 @@ TEST_F(TippLargeRim, OfALineAndAPointTakesLittleMemory)
   this->expectSmall(60000);
 }
 
-TEST_F(TippLargeRim, IsMadeAgainAfterKills)
+TEST_F(TippLargeRim, IsRemadeAfterKills)
 {
   this->makePoints("circle", "30000");
   ASSERT_EQ(0, this->run({}).ExitCode);
@@ -408,7 +408,7 @@ TEST_F(TippLargeRim, IsMadeAgainAfterKills)
   EXPECT_FALSE(std::filesystem::exists(this->Folder.path(".mesh.tipp.part")));
 }
 
-TEST_F(TippLargeRim, GoesOnAfterADiskThatIsFull)
+TEST_F(TippLargeRim, ResumesAfterAFullDisk)
 {
   this->makePoints("circle", "30000");
   const std::string scratch = this->Folder.path("scratch");
@@ -455,7 +455,7 @@ TEST_F(TippMemory, IsWithinTheLimitForTwentyMillionPoints)
   this->expectKept("20000000", "count", 64);
 }
 
-TEST_F(TippOutOfCore, TellsTheTimeLeftOnATerminal)
+TEST_F(TippOutOfCore, ShowsTheTimeLeftOnATerminal)
 {
   const Outcome outcome = runTippOnTerminal(this->Folder,
     { "delaunay", "uniform:5000000", "-o", this->Mesh, "--sink", "count", "--threads", "1",
@@ -464,7 +464,7 @@ TEST_F(TippOutOfCore, TellsTheTimeLeftOnATerminal)
   EXPECT_NE(std::string::npos, outcome.Err.find(" s left")) << outcome.Err;
 }
 
-TEST_F(TippOutOfCore, NamesOptionsThatNeedSuchAnOutput)
+TEST_F(TippOutOfCore, ReportsOptionsThatNeedAPartitionedOutput)
 {
   this->makePoints("uniform", "100");
   for (const std::vector<std::string>& more :

@@ -157,7 +157,7 @@ TEST_F(TippOutputs, PrintingToAFullDiskFails)
   }
 }
 
-TEST_F(TippOutputs, DeviceIsNoOutput)
+TEST_F(TippOutputs, ADeviceIsRefused)
 {
   fs::create_symlink("/dev/full", this->path("full.vtu"));
   this->expectRefused({ "delaunay", "points.npy", "-o", "full.vtu" }, "is not an ordinary file");
@@ -165,7 +165,7 @@ TEST_F(TippOutputs, DeviceIsNoOutput)
     { "delaunay", "points.npy", "-o", "a.npy", "--stats", "/dev/full" }, "is not an ordinary file");
 }
 
-TEST_F(TippOutputs, InputIsNoOutput)
+TEST_F(TippOutputs, AnInputIsRefused)
 {
   this->Folder.file("run.json", "old");
   fs::create_symlink("points.npy", this->path("link.npy"));
@@ -190,7 +190,7 @@ TEST_F(TippOutputs, InputIsNoOutput)
   this->expectRefused({ "partition", "flat", "-o", "x.tipp", "--stats", "flat/points.npy" }, also);
 }
 
-TEST_F(TippOutputs, FolderOfAnInputIsNoOutput)
+TEST_F(TippOutputs, TheFolderOfAnInputIsRefused)
 {
   const std::string holds = "holds an input";
   for (const char* const name : { "mesh.tipp", "mesh.tipp/", "./sub/../mesh.tipp" })
@@ -274,14 +274,14 @@ TEST_F(TippOutputs, MessagesNameTheOutputAndNotItsTemporaryFiles)
   EXPECT_EQ(std::string::npos, flatten.Err.find(".tmp")) << flatten.Err;
 }
 
-TEST_F(TippOutputs, FileInPlaceOfTheWorkFolderIsNamed)
+TEST_F(TippOutputs, AFileWithTheWorkFoldersNameIsReported)
 {
   this->Folder.file(".x.tipp.part", "mine");
   this->expectRefused(
     { "delaunay", "points.npy", "-o", "x.tipp" }, ".x.tipp.part: is a file where the work folder");
 }
 
-TEST_F(TippOutputs, UsersWorkFoldersAreLeftAlone)
+TEST_F(TippOutputs, UsersFoldersNamedLikeWorkFoldersAreKept)
 {
   fs::create_directory(this->path(".x.tipp.part"));
   this->Folder.file(".x.tipp.part/notes.txt", "mine");
@@ -293,7 +293,7 @@ TEST_F(TippOutputs, UsersWorkFoldersAreLeftAlone)
   EXPECT_EQ("mine", contentOf(this->path(".y.tipp.tmp.Ab3dEf/notes.txt")));
 }
 
-TEST_F(TippOutputs, UsersFilesInAMeshAreLeftAlone)
+TEST_F(TippOutputs, UsersFilesInAMeshAreKept)
 {
   this->Folder.file("mesh.tipp/notes.txt", "mine");
   this->expectRefused({ "partition", "flat", "-o", "mesh.tipp" }, "holds 'notes.txt'");
@@ -301,7 +301,7 @@ TEST_F(TippOutputs, UsersFilesInAMeshAreLeftAlone)
 }
 
 /// The file appears while the run waits for its input from a pipe.
-TEST_F(TippOutputs, FileThatAppearsDuringTheRunIsLeftAlone)
+TEST_F(TippOutputs, FileThatAppearsDuringTheRunIsKept)
 {
   for (const char* output : { "out.npy", "out.vtu", "out.vtp" })
   {

@@ -57,7 +57,7 @@ protected:
   TemporaryFolder Folder;
 };
 
-TEST_F(TippPartition, NamesTheFileThatItWasGiven)
+TEST_F(TippPartition, ReportsTheGivenFile)
 {
   // Big-endian doubles: a square with two coordinates of 1 and one of NaN.
   std::string doubles(12 * 8, '\0');
@@ -77,7 +77,7 @@ TEST_F(TippPartition, NamesTheFileThatItWasGiven)
     outcome.Err);
 }
 
-TEST_F(TippPartition, SaysWhatItMade)
+TEST_F(TippPartition, ReportsTheMesh)
 {
   const Outcome outcome = this->run({ "--stats", "run.json", "--threads", "2" });
   EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
@@ -93,7 +93,7 @@ TEST_F(TippPartition, SaysWhatItMade)
   EXPECT_EQ(5U, json["phases"].size());
 }
 
-TEST_F(TippPartition, TakesAVtkFile)
+TEST_F(TippPartition, AcceptsAVtkFile)
 {
   this->run({});
   const Outcome outcome = runTipp(
@@ -104,7 +104,7 @@ TEST_F(TippPartition, TakesAVtkFile)
   EXPECT_GT(again.Pieces.size(), 4U);
 }
 
-TEST_F(TippPartition, RefusesAFlatMeshWithArraysNamedAsItsOwn)
+TEST_F(TippPartition, RefusesAFlatMeshWithReservedArrayNames)
 {
   this->run({});
   const Outcome outcome =
@@ -176,7 +176,7 @@ int onSmallDisk(const std::string& where, const char* size, const Action& action
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST_F(TippPartition, SaysThatTheDiskIsTooSmallBeforeItBegins)
+TEST_F(TippPartition, ReportsATooSmallDiskBeforeItStarts)
 {
   const int result = onSmallDisk(this->Folder.path("disk"), "size=100k",
     [this]
@@ -192,7 +192,7 @@ TEST_F(TippPartition, SaysThatTheDiskIsTooSmallBeforeItBegins)
   EXPECT_EQ(0, result);
 }
 
-TEST_F(TippPartition, SaysThatTheDiskIsFullAndLeavesNothing)
+TEST_F(TippPartition, ReportsAFullDiskAndLeavesNoFiles)
 {
   // These cells cross all borders, so the mesh needs more space than the tool checks for in
   // advance.

@@ -178,7 +178,7 @@ TEST_F(TippSignals, TerminationRemovesTemporaryFiles)
   }
 }
 
-TEST_F(TippSignals, StateOfAnEarlierRunStaysWhereTheNextIsInterrupted)
+TEST_F(TippSignals, AnInterruptKeepsTheStateOfAnEarlierRun)
 {
   this->makePoints();
   const std::vector<std::string> arguments{ "delaunay", "points.npy", "-o", "out.tipp",

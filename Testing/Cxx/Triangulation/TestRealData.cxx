@@ -32,7 +32,7 @@ TriangulationOptions twoThreads()
   return options;
 }
 
-TEST(RealData, TheNodesOfEC95dGiveItsMeshBack)
+TEST(RealData, TheNodesOfEC95dGiveItsMesh)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
   const AdcircMesh mesh = readAdcirc(path);
@@ -45,7 +45,7 @@ TEST(RealData, TheNodesOfEC95dGiveItsMeshBack)
   EXPECT_EQ(std::vector<std::size_t>{ 58167 }, lackingElements(mesh, triangles));
 }
 
-TEST(RealData, TheNodesOfInternalOverflowGiveItsMeshBack)
+TEST(RealData, TheNodesOfInternalOverflowGiveItsMesh)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/internal_overflow/internal_overflow.grd");
   const AdcircMesh mesh = readAdcirc(path);

@@ -61,7 +61,7 @@ TEST(SmallInputs, AFlatTriangleOfOneUlpIsFound)
   EXPECT_EQ(canonical(0, 1, 2), trianglesOf(result).front());
 }
 
-TEST(SmallInputs, TheSmallestTriangleThereIsIsFound)
+TEST(SmallInputs, TheSmallestPossibleTriangleIsFound)
 {
   const double least = 4.9406564584124654e-324;
   const Coordinates xy{ 0, 0, least, 0, 0, least };
@@ -69,7 +69,7 @@ TEST(SmallInputs, TheSmallestTriangleThereIsIsFound)
   EXPECT_EQ(1u, triangulate(view(xy)).triangleCount());
 }
 
-TEST(SmallInputs, TheLargestTriangleThereIsIsFound)
+TEST(SmallInputs, TheLargestPossibleTriangleIsFound)
 {
   const double most = 1.7976931348623157e308;
   const Coordinates xy{ -most, -most, most, -most, 0, most };
@@ -204,7 +204,7 @@ TEST(SmallInputs, CollinearDuplicatesAreReported)
   EXPECT_TRUE(matches(xy, triangulate(view(xy)), reference(xy)));
 }
 
-TEST(SmallInputs, ZerosOfEitherSignAreTheSamePlace)
+TEST(SmallInputs, ZerosOfEitherSignAreEqual)
 {
   const Coordinates xy{ -0.0, 0.0, 1, 0, 0, 1, 0.0, -0.0, 1, -0.0 };
   const Triangulation result = triangulate(view(xy));
@@ -214,7 +214,7 @@ TEST(SmallInputs, ZerosOfEitherSignAreTheSamePlace)
   EXPECT_EQ(1u, result.triangleCount());
 }
 
-TEST(SmallInputs, PointsThatAreNotFiniteAreRejectedOneByOne)
+TEST(SmallInputs, EachPointThatIsNotFiniteIsRejected)
 {
   const double nan = std::nan("");
   const Coordinates xy{ nan, 0, 0, 0, HUGE_VAL, 1, 1, 0, 3, -HUGE_VAL, 0, 1, nan, nan };
@@ -224,7 +224,7 @@ TEST(SmallInputs, PointsThatAreNotFiniteAreRejectedOneByOne)
   EXPECT_EQ(canonical(1, 3, 5), trianglesOf(result).front());
 }
 
-TEST(SmallInputs, NothingButRejectedPointsHasNoTriangles)
+TEST(SmallInputs, RejectedPointsHaveNoTriangles)
 {
   const Coordinates xy(2000, std::nan(""));
   const Triangulation result = triangulate(view(xy));
@@ -232,7 +232,7 @@ TEST(SmallInputs, NothingButRejectedPointsHasNoTriangles)
   EXPECT_EQ(0u, result.triangleCount());
 }
 
-TEST(SmallInputs, MorePartitionsThanPointsAreFine)
+TEST(SmallInputs, AcceptsMorePartitionsThanPoints)
 {
   const Coordinates xy = makePointSet("uniform", 20);
   EXPECT_TRUE(matches(xy, triangulate(view(xy), withGrid(32, 32)), reference(xy)));

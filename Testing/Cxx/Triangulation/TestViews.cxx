@@ -10,7 +10,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-TEST(PointsView, SinglePrecisionIsTriangulatedAsItsDoubles)
+TEST(PointsView, SinglePrecisionIsTriangulatedLikeDoubles)
 {
   const Coordinates xy = makePointSet("uniform", 2000);
   const std::vector<float> floats(xy.begin(), xy.end());
