@@ -104,7 +104,7 @@ private:
   const std::vector<Box3>& Regions;
   const PartitionOrder& Order;
   PartitionPoints3 Own;
-  Box3 Beside; ///< around the own region; no later partition reaches into its interior
+  Box3 Beside; ///< contains the own region; no later region reaches into its interior
   DelaunayKernel3 Kernel;
   std::vector<Point3> Points;  ///< the partition's own, then those of Others
   std::vector<Vertex3> Others; ///< from the inbox

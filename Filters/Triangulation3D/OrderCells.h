@@ -20,14 +20,16 @@ using CellIds = std::array<std::int32_t, 4>;
 Buffer<std::int32_t> orderCells(
   std::vector<std::vector<CellIds>>&& parts, std::size_t points, int threads);
 
-/// Merges ranges of cells that are in this order each. `firsts`: the index of each range's first
-/// cell, and the end.
+/// Merges sorted ranges of cells into one; `ids` has four ids per cell, in the order of
+/// orderCells(). `firsts`: the index of each range's first cell, and at the end the number of
+/// cells.
 void mergeCells(Buffer<std::int32_t>& ids, std::vector<std::int64_t> firsts);
 
-/// Sorts triangles, three point ids each, by their ids, and rotates each so that its lowest id is
-/// first.
+/// Rotates triangles, three point ids each, so that the lowest id is first, and sorts them
+/// lexicographically.
 void orderTriangles(Buffer<std::int32_t>& ids);
-/// The same of the first three ids of cells.
+/// Does the same for triangles given as the first three ids of cells, and returns three ids per
+/// triangle.
 Buffer<std::int32_t> orderTriangles(const std::vector<CellIds>& cells);
 
 } // namespace tipp
