@@ -21,10 +21,10 @@
  * of a stored mesh those of its source, else indices. Several threads may call them at once.
  *
  * With a Controller of several ranks all must update the filter, or call Locate(), Interpolate(),
- * InterpolateOnOwners(), ZoneStatistics(), Descend() and the methods from Neighbors() to Profile(),
- * together. They share out the pieces of the stored
- * mesh, or each has a part of the source; every rank's points and ids are answered by all ranks'
- * cells. A rank may ask for nothing, or have no cells.
+ * InterpolateOnOwners(), ZoneStatistics(), Descend() and the methods from Neighbors() to Closest(),
+ * together. They share out the pieces of the stored mesh, or each has a part of the source; every
+ * rank's points and ids are answered by all ranks' cells. A rank may ask for nothing, or have no
+ * cells.
  *
  * @sa
  * vtkProbeFilter vtkRangeResampleFilter vtkPartitionedUnstructuredReader
@@ -240,18 +240,18 @@ public:
   /**
    * Finds the nearest location of the mesh to each point, its cell (-1: the mesh has none) and the
    * distance, 0 inside. Of cells that are as near the one with the lowest id counts. Triangles are
-   * measured in x and y. `locations` and `distances` may be null. On several ranks this and the
-   * regions below need a stored mesh; each rank asks by itself.
+   * measured in x and y. `locations` and `distances` may be null.
    */
   int Closest(vtkDataArray* points, vtkIdTypeArray* cells, vtkDoubleArray* locations = nullptr,
     vtkDoubleArray* distances = nullptr);
 
   ///@{
   /**
-   * The cells that have a point of a box, or of polygons over triangles, with their border, or
+   * The cells that have a point of a box, or of polygons, with their border, or
    * with `whole` that lie in it; or the mesh's points there. The box is that of GetBounds(); z
-   * counts for tetrahedra. The polygons are the polygons and closed lines of a data set; a cell
-   * array "IsHole" that is not 0 makes holes.
+   * counts for tetrahedra. Of polygons x and y count; over tetrahedra they are columns. They are
+   * the polygons and closed lines of a data set; a cell array "IsHole" that is not 0 makes holes.
+   * On several ranks each asks a stored mesh by itself.
    */
   int CellsInBox(const double box[6], bool whole, vtkIdTypeArray* cells);
   int CellsInPolygons(vtkPolyData* polygons, bool whole, vtkIdTypeArray* cells);
